@@ -1,0 +1,121 @@
+"""Kane's method for a leg, in the three speeds of its platform joint; knows no leg type.
+
+A leg reaches the platform through its joint alone, so its equations are written for the joint's velocity and projected
+to the six platform speeds with U = [1, -S(lever)] afterwards. A leg of axisymmetric bodies without spin is a set of
+points y_k with masses m_kl between them: its kinetic energy is 1/2 sum m_kl v_k . v_l (a rod: two end masses and a
+coupling). All points of a leg share one unit axis e and the gradient g of the actuator length by the joint position;
+their partial velocities by the joint's velocity are
+
+    D_k = along_k e g^T + across_k 1
+
+so e . e = 1 and e . e' = 0 are used here once, for every leg type. Time derivatives are inertial; vectors may be in any
+one frame, as long as all of them are.
+"""
+
+from dataclasses import dataclass
+
+import casadi as ca
+
+from .rotations import cross, dot, outer, skew
+
+
+@dataclass(frozen=True)
+class Point:
+    """A point of a leg: its partial velocity is `along e g^T + across 1`, with rates of the two factors."""
+
+    along: ca.SX | float = 0
+    across: ca.SX | float = 0
+    along_rate: ca.SX | float = 0
+    across_rate: ca.SX | float = 0
+
+
+@dataclass(frozen=True)
+class Leg:
+    """Points by name, and masses between pairs of them (each unordered pair once)."""
+
+    points: dict[str, Point]
+    masses: dict[tuple[str, str], ca.SX]
+
+    def pairs(self):
+        """(point k, point l, name of l, mass) with both orders of unequal pairs."""
+        for (first, second), mass in self.masses.items():
+            yield self.points[first], self.points[second], second, mass
+            if first != second:
+                yield self.points[second], self.points[first], first, mass
+
+    def total(self, weight):
+        """sum over ordered pairs of mass times `weight(k, l)`."""
+        return sum((mass * weight(k, l) for k, l, _, mass in self.pairs()), ca.SX(0))
+
+
+def inertia_forces(leg: Leg, axis, accelerations):
+    """Inertia force along the actuator coordinate, and the rest at the joint: f = g axial + joint (39)-(46).
+
+    `accelerations` holds the inertial acceleration of every point, less gravity: weight is included.
+    """
+    along = sum((mass * k.along * accelerations[l] for k, _, l, mass in leg.pairs()), ca.SX.zeros(3))
+    across = sum((mass * k.across * accelerations[l] for k, _, l, mass in leg.pairs()), ca.SX.zeros(3))
+    return dot(axis, along), across
+
+
+def joint_inertia(leg: Leg, axis, gradient):
+    """N = sum m_kl D_k^T D_l: mass matrix of the leg in the speeds of its joint, 3 x 3."""
+    both = leg.total(lambda k, l: k.along * l.along)
+    mixed = leg.total(lambda k, l: k.across * l.along)
+    alone = leg.total(lambda k, l: k.across * l.across)
+    half = (both / 2) * gradient + mixed * axis
+    square = outer(gradient, half) + outer(half, gradient) + alone * ca.SX.eye(3)
+    return ca.triu2symm(ca.triu(square))
+
+
+def joint_inertia_rate(leg: Leg, axis, axis_rate, gradient, gradient_rate):
+    """sum m_kl D_k^T D_l': Coriolis matrix of the leg in the speeds of its joint, 3 x 3."""
+    both = leg.total(lambda k, l: k.along * l.along)
+    both_rate = leg.total(lambda k, l: k.along * l.along_rate)
+    mixed = leg.total(lambda k, l: k.across * l.along)
+    along_across_rate = leg.total(lambda k, l: k.along * l.across_rate)
+    across_along_rate = leg.total(lambda k, l: k.across * l.along_rate)
+    alone_rate = leg.total(lambda k, l: k.across * l.across_rate)
+    return (
+        outer(both * gradient + mixed * axis, gradient_rate)
+        + outer(both_rate * gradient + across_along_rate * axis + mixed * axis_rate, gradient)
+        + outer(along_across_rate * gradient, axis)
+        + alone_rate * ca.SX.eye(3)
+    )
+
+
+def joint_base_inertia(leg: Leg, axis, gradient, positions):
+    """sum m_kl D_k^T Y_l with Y = [1, -S(y)]: inertia between joint and base speeds, 3 x 6.
+
+    `positions` are the points seen from the base origin.
+    """
+    along = leg.total(lambda k, l: k.along)
+    across = leg.total(lambda k, l: k.across)
+    along_moment = sum((mass * k.along * positions[l] for k, _, l, mass in leg.pairs()), ca.SX.zeros(3))
+    across_moment = sum((mass * k.across * positions[l] for k, _, l, mass in leg.pairs()), ca.SX.zeros(3))
+    row = ca.vertcat(along * axis, cross(along_moment, axis))
+    return outer(gradient, row) + ca.horzcat(across * ca.SX.eye(3), -skew(across_moment))
+
+
+def joint_base_inertia_rate(leg: Leg, axis, gradient, velocities):
+    """sum m_kl D_k^T Y_l', of which only the rotational half is not zero, 3 x 3.
+
+    `velocities` are the inertial rates of the points seen from the base origin.
+    """
+    along_moment = sum((mass * k.along * velocities[l] for k, _, l, mass in leg.pairs()), ca.SX.zeros(3))
+    across_moment = sum((mass * k.across * velocities[l] for k, _, l, mass in leg.pairs()), ca.SX.zeros(3))
+    return outer(gradient, cross(along_moment, axis)) - skew(across_moment)
+
+
+def kinetic_energy(leg: Leg, velocities):
+    """1/2 sum m_kl v_k . v_l for the inertial velocities of the points."""
+    return sum(
+        (mass * dot(velocities[first], velocities[second]) * (0.5 if first == second else 1)
+         for (first, second), mass in leg.masses.items()),
+        ca.SX(0),
+    )
+
+
+def partial_velocity(body_velocity, speeds):
+    """Partial velocities: derivative of a body's (angular) velocity by the generalised speeds."""
+    return ca.jacobian(body_velocity, speeds)

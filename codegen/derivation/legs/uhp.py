@@ -1,0 +1,336 @@
+"""The paper's leg, UHP: universal joint on the platform, rod, Hooke joint, prismatic actuator fixed to the base.
+
+Unknown at the platform joint: x, its vector from the base point. With n = x - (a.x) a and h = sqrt(s^2 - n.n), the
+assembly branch of (18) with the Hooke joint below the platform joint is d = a.x - h, and the rod direction (17) is
+u = (n + h a)/s. Everything here is in base coordinates unless a name ends in `_o`.
+"""
+
+import casadi as ca
+
+from .. import kane
+from ..rotations import cross, dot
+from ..stages import leg_stage
+from ..symbols import Symbol
+
+
+def _parameter(name, shape, unit, frame, meaning, equation=""):
+    return Symbol(name, "parameter", shape, unit, frame, meaning, equation, per_leg=True)
+
+
+PARAMETERS = [
+    _parameter("base_point", (3,), "m", "B", "point b of the actuator axis", "(14)"),
+    _parameter("actuator_axis", (3,), "1", "B", "unit vector a of the actuator, towards the platform", "(14)"),
+    _parameter("platform_point", (3,), "m", "P", "platform joint p", "(14)"),
+    _parameter("rod_length", (), "m", "-", "rod length s", "(17)"),
+    _parameter("rod_mass", (), "kg", "-", "rod mass m_s", "(27)-(29)"),
+    _parameter("rod_inertia", (), "kg m^2", "-", "transverse inertia J_s of the rod about its centre of mass", "(27)-(29)"),
+    _parameter("rod_com_fraction", (), "1", "-", "rod's centre of mass, from Hooke joint (0) to platform joint (1)"),
+    _parameter("mover_mass", (), "kg", "-", "mover mass m_d", "(24)-(26)"),
+    _parameter("mover_offset", (), "m", "-", "distance d* of the mover's centre of mass below the Hooke joint", "(24)-(26)"),
+    _parameter("rest_length", (), "m", "-", "actuator length d0 at which the leaf springs are relaxed", "(39)-(46)"),
+    _parameter("axial_stiffness", (), "N/m", "-", "axial stiffness k_e of the leaf springs", "(39)-(46)"),
+    _parameter("axial_damping", (), "N s/m", "-", "axial viscous damping c_e"),
+]
+
+_RIGID = kane.Point(along=1)
+_JOINT = kane.Point(across=1)
+
+
+def _leg(hooke_end_mass, rod_coupling, mover_mass) -> kane.Leg:
+    """Points and masses; the rod's platform-side end mass moves with the platform and is merged into the payload."""
+    return kane.Leg(
+        points={"hooke": _RIGID, "joint": _JOINT, "mover": _RIGID},
+        masses={
+            ("hooke", "hooke"): hooke_end_mass,
+            ("hooke", "joint"): rod_coupling,
+            ("mover", "mover"): mover_mass,
+        },
+    )
+
+
+@leg_stage
+def rod_ends(rod_mass, rod_inertia, rod_length, rod_com_fraction):
+    """rod without spin as two end masses and a coupling, exact."""
+    k = rod_com_fraction
+    transverse = rod_inertia / (rod_length * rod_length)
+    return {
+        "hooke_end_mass": rod_mass * (1 - k) * (1 - k) + transverse,
+        "platform_end_mass": rod_mass * k * k + transverse,
+        "rod_coupling": rod_mass * k * (1 - k) - transverse,
+    }
+
+
+@leg_stage
+def leg_closure(joint_vector, actuator_axis, rod_length):
+    """closure of the leg: actuator length and rod alignment."""
+    axial = dot(actuator_axis, joint_vector)
+    offset = joint_vector - axial * actuator_axis
+    squared_span = rod_length * rod_length - ca.sumsqr(offset)
+    span = ca.sqrt(squared_span)
+    return {
+        "radial_offset": offset,
+        "axial_span": span,
+        "axial_span_reciprocal": 1 / span,
+        "actuator_length": axial - span,
+        "rod_alignment": squared_span / (rod_length * rod_length),
+    }
+
+
+@leg_stage
+def length_gradient(radial_offset, axial_span_reciprocal, actuator_axis):
+    """gradient of the actuator length by the platform joint, u/(u.a)."""
+    return {"length_gradient": actuator_axis + radial_offset * axial_span_reciprocal}
+
+
+@leg_stage
+def leg_rates(joint_velocity, radial_offset, axial_span_reciprocal, actuator_axis):
+    """actuator velocity."""
+    axial = dot(actuator_axis, joint_velocity)
+    offset_rate = joint_velocity - axial * actuator_axis
+    span_rate = -dot(radial_offset, offset_rate) * axial_span_reciprocal
+    return {"radial_offset_rate": offset_rate, "axial_span_rate": span_rate, "actuator_velocity": axial - span_rate}
+
+
+@leg_stage
+def length_gradient_rate(radial_offset, radial_offset_rate, axial_span_rate, axial_span_reciprocal):
+    """rate of the gradient of the actuator length relative to the base."""
+    direction = radial_offset * axial_span_reciprocal
+    return {"length_gradient_rate": (radial_offset_rate - direction * axial_span_rate) * axial_span_reciprocal}
+
+
+@leg_stage
+def leg_accelerations(
+    joint_acceleration, radial_offset, radial_offset_rate, axial_span_rate, axial_span_reciprocal, actuator_axis,
+):
+    """actuator acceleration."""
+    axial = dot(actuator_axis, joint_acceleration)
+    # The radial offset is perpendicular to the axis, so the joint's axial acceleration drops out of n . n''.
+    curvature = ca.sumsqr(radial_offset_rate) + dot(radial_offset, joint_acceleration) + axial_span_rate * axial_span_rate
+    return {"actuator_acceleration": axial + curvature * axial_span_reciprocal}
+
+
+@leg_stage
+def leg_inertia_forces(
+    base_point, actuator_axis, platform_point, mover_mass, mover_offset, hooke_end_mass, rod_coupling,
+    actuator_length, actuator_velocity, actuator_acceleration,
+    base_origin_acceleration, base_field, base_rate, platform_origin_acceleration, platform_field,
+):
+    """inertia of the leg, less weight, at the actuator and at the platform joint."""
+    hooke = (
+        base_origin_acceleration
+        + base_field @ (base_point + actuator_length * actuator_axis)
+        + (2 * actuator_velocity) * cross(base_rate, actuator_axis)
+        + actuator_acceleration * actuator_axis
+    )
+    accelerations = {
+        "hooke": hooke,
+        "joint": platform_origin_acceleration + platform_field @ platform_point,
+        "mover": hooke - mover_offset * (base_field @ actuator_axis),
+    }
+    axial, joint = kane.inertia_forces(_leg(hooke_end_mass, rod_coupling, mover_mass), actuator_axis, accelerations)
+    return {"axial_inertia_force": axial, "joint_inertia_force": joint}
+
+
+@leg_stage
+def leg_inertia_b(actuator_axis, length_gradient, mover_mass, hooke_end_mass, rod_coupling):
+    """mass matrix of the leg in the speeds of its joint."""
+    return {"joint_inertia_b": kane.joint_inertia(_leg(hooke_end_mass, rod_coupling, mover_mass), actuator_axis, length_gradient)}
+
+
+@leg_stage
+def leg_inertia(
+    base_rotation, base_point, actuator_axis, mover_mass, mover_offset, hooke_end_mass, rod_coupling,
+    actuator_length, length_gradient_o, joint_position_o,
+):
+    """mass matrices of the leg in the speeds of its joint and of the base."""
+    leg = _leg(hooke_end_mass, rod_coupling, mover_mass)
+    axis = base_rotation @ actuator_axis
+    hooke = base_rotation @ base_point + actuator_length * axis
+    positions = {"hooke": hooke, "joint": joint_position_o, "mover": hooke - mover_offset * axis}
+    return {
+        "joint_inertia": kane.joint_inertia(leg, axis, length_gradient_o),
+        "joint_base_inertia": kane.joint_base_inertia(leg, axis, length_gradient_o, positions),
+    }
+
+
+@leg_stage
+def leg_inertia_rates(
+    base_rotation, base_velocity, base_point, actuator_axis, mover_mass, mover_offset, hooke_end_mass, rod_coupling,
+    actuator_length, actuator_velocity, length_gradient_o, length_gradient_rate_o, joint_velocity_o,
+):
+    """Coriolis matrices of the leg in the speeds of its joint and of the base."""
+    leg = _leg(hooke_end_mass, rod_coupling, mover_mass)
+    axis = base_rotation @ actuator_axis
+    axis_rate = cross(base_velocity[3:], axis)
+    hooke = cross(base_velocity[3:], base_rotation @ base_point) + actuator_length * axis_rate + actuator_velocity * axis
+    velocities = {"hooke": hooke, "joint": joint_velocity_o, "mover": hooke - mover_offset * axis_rate}
+    return {
+        "joint_inertia_rate":
+            kane.joint_inertia_rate(leg, axis, axis_rate, length_gradient_o, length_gradient_rate_o),
+        "joint_base_inertia_rate": kane.joint_base_inertia_rate(leg, axis, length_gradient_o, velocities),
+    }
+
+
+@leg_stage
+def leg_weight(base_rotation, gravity, actuator_axis, rod_mass, rod_com_fraction, mover_mass):
+    """weight of the leg: along the actuator coordinate and at the platform joint."""
+    along = mover_mass + rod_mass * (1 - rod_com_fraction)
+    return {
+        "axial_weight": along * dot(base_rotation @ actuator_axis, gravity),
+        "joint_weight_o": rod_mass * rod_com_fraction * gravity,
+    }
+
+
+@leg_stage
+def leg_energy(
+    base_rotation, base_position, base_velocity, platform_position, platform_rotation, platform_velocity, platform_point,
+    base_point, actuator_axis, actuator_length, actuator_velocity, rod_mass, rod_com_fraction, mover_mass, mover_offset,
+    hooke_end_mass, platform_end_mass, rod_coupling, gravity, rest_length, axial_stiffness,
+):
+    """kinetic and potential energy of the leg."""
+    axis = base_rotation @ actuator_axis
+    arm = base_rotation @ base_point + actuator_length * axis
+    lever = platform_rotation @ platform_point
+    hooke = base_position + arm
+    joint = platform_position + lever
+    mover = hooke - mover_offset * axis
+    hooke_velocity = base_velocity[:3] + cross(base_velocity[3:], arm) + actuator_velocity * axis
+    velocities = {
+        "hooke": hooke_velocity,
+        "joint": platform_velocity[:3] + cross(platform_velocity[3:], lever),
+        "mover": hooke_velocity - mover_offset * cross(base_velocity[3:], axis),
+    }
+    leg = _leg(hooke_end_mass, rod_coupling, mover_mass)
+    leg.masses["joint", "joint"] = platform_end_mass
+    rod_moment = rod_mass * ((1 - rod_com_fraction) * hooke + rod_com_fraction * joint)
+    extension = actuator_length - rest_length
+    return {
+        "leg_kinetic_energy": kane.kinetic_energy(leg, velocities),
+        "leg_potential_energy": axial_stiffness * extension * extension / 2 - dot(gravity, rod_moment + mover_mass * mover),
+    }
+
+
+@leg_stage
+def rod_direction(base_rotation, radial_offset, axial_span, actuator_axis, rod_length):
+    """rod direction."""
+    return {"rod_direction": base_rotation @ ((radial_offset + axial_span * actuator_axis) / rod_length)}
+
+
+@leg_stage
+def rod_and_joint_kinematics(
+    base_position, base_rotation, base_velocity, platform_position, platform_rotation, platform_velocity, platform_point,
+    base_point, actuator_axis, actuator_length, actuator_velocity, rod_direction, rod_length,
+):
+    """joints and joint rates."""
+    axis = base_rotation @ actuator_axis
+    arm = base_rotation @ base_point + actuator_length * axis
+    lever = platform_rotation @ platform_point
+    hooke_velocity = base_velocity[:3] + cross(base_velocity[3:], arm) + actuator_velocity * axis
+    joint_velocity = platform_velocity[:3] + cross(platform_velocity[3:], lever)
+    angular = cross(rod_direction, joint_velocity - hooke_velocity) / rod_length
+    return {
+        "hooke_joint_position": base_position + arm,
+        "platform_joint_position": platform_position + lever,
+        "hooke_joint_velocity": hooke_velocity,
+        "platform_joint_velocity": joint_velocity,
+        "rod_angular_velocity": angular,
+        "universal_joint_rate": platform_velocity[3:] - angular,
+    }
+
+
+@leg_stage
+def rod_and_mover_velocities(
+    base_rotation, base_velocity, actuator_axis, rod_com_fraction, mover_offset,
+    hooke_joint_position, platform_joint_position, hooke_joint_velocity, platform_joint_velocity,
+):
+    """position and velocity of rod and mover."""
+    k = rod_com_fraction
+    axis = base_rotation @ actuator_axis
+    return {
+        "rod_com_position": (1 - k) * hooke_joint_position + k * platform_joint_position,
+        "rod_com_velocity": (1 - k) * hooke_joint_velocity + k * platform_joint_velocity,
+        "mover_position": hooke_joint_position - mover_offset * axis,
+        "mover_velocity": hooke_joint_velocity - mover_offset * cross(base_velocity[3:], axis),
+    }
+
+
+@leg_stage
+def rod_and_mover_accelerations(
+    base_rotation, base_velocity, base_acceleration, platform_rotation, platform_velocity, platform_acceleration,
+    platform_point, base_point, actuator_axis, actuator_length, actuator_velocity, actuator_acceleration,
+    rod_direction, rod_angular_velocity, rod_length, rod_com_fraction, mover_offset,
+):
+    """acceleration of rod and mover."""
+    k = rod_com_fraction
+    rate, rate_derivative = base_velocity[3:], base_acceleration[3:]
+    axis = base_rotation @ actuator_axis
+    axis_rate = cross(rate, axis)
+    axis_acceleration = cross(rate_derivative, axis) + cross(rate, axis_rate)
+    point = base_rotation @ base_point
+    hooke = (
+        base_acceleration[:3] + cross(rate_derivative, point) + cross(rate, cross(rate, point))
+        + actuator_length * axis_acceleration + 2 * actuator_velocity * axis_rate + actuator_acceleration * axis
+    )
+    lever = platform_rotation @ platform_point
+    lever_rate = cross(platform_velocity[3:], lever)
+    joint = platform_acceleration[:3] + cross(platform_acceleration[3:], lever) + cross(platform_velocity[3:], lever_rate)
+    return {
+        # u x u'' is what is left of the derivative of w_s = u x u'.
+        "rod_angular_acceleration": cross(rod_direction, joint - hooke) / rod_length,
+        "rod_com_acceleration": (1 - k) * hooke + k * joint,
+        "mover_acceleration": hooke - mover_offset * axis_acceleration,
+    }
+
+
+@leg_stage
+def rod_and_mover_partial_velocities(
+    base_rotation, platform_rotation, platform_point, actuator_axis, jacobian_dp, rod_direction, rod_length, rod_com_fraction,
+):
+    """partial velocities of rod and mover by the six platform speeds."""
+    k = rod_com_fraction
+    speeds = ca.SX.sym("speeds", 6)
+    hooke = (base_rotation @ actuator_axis) * dot(jacobian_dp, speeds)
+    joint = speeds[:3] + cross(speeds[3:], platform_rotation @ platform_point)
+    angular = cross(rod_direction, joint - hooke) / rod_length
+    return {
+        "rod_partial_velocity": kane.partial_velocity((1 - k) * hooke + k * joint, speeds),
+        "rod_partial_angular_velocity": kane.partial_velocity(angular, speeds),
+        "mover_partial_velocity": kane.partial_velocity(hooke, speeds),
+    }
+
+
+@leg_stage
+def rod_and_mover_forces(
+    base_rotation, gravity, actuator_axis, actuator_force, passive_axial_force, rod_mass, rod_inertia, mover_mass,
+    rod_direction, rod_angular_acceleration, rod_com_acceleration, mover_acceleration,
+    rod_partial_velocity, rod_partial_angular_velocity, mover_partial_velocity,
+):
+    """generalised active and inertia forces of rod and mover."""
+    axial = (actuator_force - passive_axial_force) * (base_rotation @ actuator_axis)
+    # w_s has no component along u, so w_s x I w_s vanishes and I w_s' is J_s (w_s' - u u.w_s').
+    moment = rod_inertia * (rod_angular_acceleration - rod_direction * dot(rod_direction, rod_angular_acceleration))
+    return {
+        "rod_active_force": rod_partial_velocity.T @ (rod_mass * gravity),
+        "rod_inertia_force":
+            -(rod_partial_velocity.T @ (rod_mass * rod_com_acceleration) + rod_partial_angular_velocity.T @ moment),
+        "mover_active_force": mover_partial_velocity.T @ (mover_mass * gravity + axial),
+        "mover_inertia_force": -(mover_partial_velocity.T @ (mover_mass * mover_acceleration)),
+    }
+
+
+# What the table of functions asks of a leg type beyond its share of the dynamics: its own bodies and joints.
+JOINT_KINEMATICS = (rod_direction, rod_and_joint_kinematics)
+BODY_KINEMATICS = (rod_direction, rod_and_joint_kinematics, rod_and_mover_velocities, rod_and_mover_accelerations)
+PARTIAL_VELOCITIES = (rod_direction, rod_and_mover_partial_velocities)
+body_forces = rod_and_mover_forces
+
+LEG_KINEMATICS = (
+    "actuator_length", "actuator_velocity", "actuator_acceleration", "rod_direction", "hooke_joint_position",
+    "platform_joint_position", "universal_joint_rate",
+)
+BODY_OUTPUTS = (
+    "rod_angular_velocity", "rod_angular_acceleration", "rod_com_position", "rod_com_velocity", "rod_com_acceleration",
+    "mover_position", "mover_velocity", "mover_acceleration",
+)
+PARTIAL_OUTPUTS = ("rod_partial_velocity", "rod_partial_angular_velocity", "mover_partial_velocity")
+FORCE_OUTPUTS = ("rod_active_force", "rod_inertia_force", "mover_active_force", "mover_inertia_force")

@@ -1,0 +1,140 @@
+"""The graph file says what CasADi derived, the same each time, and mistakes in the derivation are named."""
+
+import json
+from dataclasses import replace
+from pathlib import Path
+
+import casadi as ca
+import numpy as np
+import pytest
+from derivation.__main__ import document, main
+from derivation.evaluate import evaluate, evaluate_graph, solve
+from derivation.export import DerivationError, build, export_graph, to_text
+from derivation.functions import Function, functions
+from derivation.legs import uhp
+from derivation.stages import Solve, leg_stage, platform_stage
+from derivation.symbols import DYNAMICS, INPUTS, LEG_COUNT, LEG_INTERFACE, MOTION, OUTPUTS, PLATFORM_PARAMETERS, Symbol
+from derivation.symbols import UHP_INTERMEDIATES
+
+from numeric import generator
+
+ALL = {
+    symbol.name: symbol
+    for symbol in [*INPUTS, *uhp.PARAMETERS, *PLATFORM_PARAMETERS, *MOTION, *LEG_INTERFACE, *UHP_INTERMEDIATES, *DYNAMICS,
+                   *OUTPUTS]
+}
+STAGES = {
+    step.name: step for function in functions(uhp) for step in function.steps if not isinstance(step, Solve)
+}
+COMMITTED = Path(__file__).parent.parent / "graphs" / "uhp.json"
+
+
+def casadi_value(stage, arguments: list[np.ndarray]) -> dict[str, np.ndarray]:
+    """The stage evaluated by CasADi's own virtual machine."""
+    values, flat = {}, []
+    for name, numbers in zip(stage.arguments, arguments, strict=True):
+        symbol = ALL[name]
+        rows, columns = (*symbol.shape, 1, 1)[:2]
+        count = LEG_COUNT if symbol.per_leg and not stage.over_legs else 1
+        matrices = [ca.SX.sym(f"{name}{k}", rows, columns) for k in range(count)]
+        values[name] = matrices if count > 1 else matrices[0]
+        flat += [(matrix, numbers.reshape(count, rows, columns)[k]) for k, matrix in enumerate(matrices)]
+    results = stage.derive(**values)
+    function = ca.Function("stage", [matrix for matrix, _ in flat], [ca.densify(ca.SX(r)) for r in results.values()])
+    outputs = function.call([number for _, number in flat])
+    return {name: np.array(output).flatten() for name, output in zip(results, outputs, strict=True)}
+
+
+@pytest.mark.parametrize("name", sorted(STAGES))
+def test_exported_nodes_equal_casadi(name):
+    stage = STAGES[name]
+    rng = generator(7)
+    sizes = [
+        int(np.prod(ALL[a].shape)) * (LEG_COUNT if ALL[a].per_leg and not stage.over_legs else 1) for a in stage.arguments
+    ]
+    # Rods long enough to reach whatever the joints' random places are.
+    scale = {"rod_length": 5}
+    arguments = [
+        rng.uniform(0.1, 0.3, size=size) * scale.get(a, 1) for a, size in zip(stage.arguments, sizes, strict=True)
+    ]
+    exported = evaluate_graph(export_graph(stage, ALL), [list(map(float, numbers)) for numbers in arguments])
+    for output, numbers in casadi_value(stage, arguments).items():
+        np.testing.assert_allclose(exported[output], numbers, rtol=1e-13, atol=1e-15)
+
+
+def test_deriving_again_gives_the_same_bytes():
+    first = to_text(document("uhp"))
+    assert first == to_text(document("uhp"))
+    assert first == COMMITTED.read_text(encoding="utf-8"), "run: cargo regen --derive"
+
+
+def test_file_is_json_with_exact_floats():
+    data = document("uhp")
+    assert json.loads(to_text(data)) == json.loads(json.dumps(data))
+
+
+def test_check_reports_and_writes_nothing(tmp_path, monkeypatch, capsys):
+    target = tmp_path / "uhp.json"
+    target.write_text("old")
+    monkeypatch.setattr("sys.argv", ["derivation", "--output", str(target), "--check"])
+    assert main() == 1
+    assert target.read_text() == "old"
+    assert "is not what the derivation gives" in capsys.readouterr().err
+
+
+def test_failed_derivation_leaves_the_file(tmp_path, monkeypatch, capsys):
+    target = tmp_path / "uhp.json"
+    target.write_text("old")
+    monkeypatch.setattr("sys.argv", ["derivation", "--output", str(target)])
+    broken = replace(uhp.length_gradient, derive=lambda **_: {"length_gradient": ca.SX.sym("g", 2)})
+    monkeypatch.setattr(uhp, "length_gradient", broken)
+    assert main() == 2
+    assert [path.name for path in tmp_path.iterdir()] == ["uhp.json"]
+    assert target.read_text() == "old"
+    assert "stage length_gradient: result length_gradient has shape (2, 1)" in capsys.readouterr().err
+
+
+def test_an_operation_without_a_name_is_refused():
+    @leg_stage
+    def turning(rod_length):
+        """a sine, which graphs do not have."""
+        return {"rod_alignment": ca.sin(rod_length)}
+
+    with pytest.raises(DerivationError, match="stage turning: CasADi operation number"):
+        export_graph(turning, ALL)
+
+
+@pytest.mark.parametrize("argument, result, message", [
+    ("nonsense", "rod_alignment", "stage odd: argument nonsense is not in the symbol table"),
+    ("rod_length", "nonsense", "stage odd: result nonsense is not in the symbol table"),
+])
+def test_unknown_names_are_refused(argument, result, message):
+    odd = replace(uhp.leg_closure, name="odd", arguments=(argument,), derive=lambda **kw: {result: ca.SX(1)})
+    with pytest.raises(DerivationError, match=message):
+        export_graph(odd, ALL)
+
+
+def test_unused_symbols_are_refused():
+    symbol = Symbol("lonely", "intermediate", (), "1", "-", "used by no one")
+
+    @platform_stage
+    def weight(payload_mass):
+        """something."""
+        return {"kinetic_energy": payload_mass}
+
+    symbols = [ALL["payload_mass"], ALL["kinetic_energy"], symbol]
+    with pytest.raises(DerivationError, match="symbols that nothing uses: lonely"):
+        build("one", symbols, [Function("one", "something", "", ("kinetic_energy",), (weight,))])
+
+
+def test_functions_ask_only_for_what_they_need():
+    rows = {row["name"]: row for row in document("uhp")["functions"]}
+    pose = ["base_position", "base_rotation", "platform_position", "platform_rotation"]
+    assert rows["jacobian_dp"]["inputs"] == pose
+    assert rows["mass_matrix_p"]["inputs"] == pose
+    assert "platform_acceleration" not in rows["forward_dynamics"]["inputs"]
+    assert "actuator_force" not in rows["inverse_dynamics"]["inputs"]
+
+
+def test_solve_pivots():
+    assert solve([0.0, 2.0, 1.0, 0.0], [4.0, 3.0]) == [3.0, 2.0]
