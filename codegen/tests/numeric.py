@@ -6,6 +6,8 @@ import numpy as np
 
 def value(expression, *at: tuple[ca.SX, object]) -> np.ndarray:
     """Value of an SX expression where each named symbol has the given number or array."""
+    if not at:
+        return np.array(ca.evalf(ca.SX(expression)))
     function = ca.Function("value", [symbol for symbol, _ in at], [ca.SX(expression)])
     return np.array(function(*(number for _, number in at)))
 

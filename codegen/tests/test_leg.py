@@ -30,11 +30,11 @@ def motion():
 def test_closure_puts_the_rod_between_the_joints():
     x = 0.2 * AXIS + np.array([0.05, 0.1, -0.03])
     leg = closure(ca.SX(x), ca.SX(AXIS), ca.SX(ROD))
-    length = float(value(leg["actuator_length"]))
+    length = value(leg["actuator_length"]).item()
     assert np.linalg.norm(x - length * AXIS) == pytest.approx(ROD, rel=1e-15)
     assert (x - length * AXIS) @ AXIS > 0, "the Hooke joint must be below the platform joint"
     cosine = (x - length * AXIS) @ AXIS / ROD
-    assert float(value(leg["rod_alignment"])) == pytest.approx(cosine**2, rel=1e-14)
+    assert value(leg["rod_alignment"]).item() == pytest.approx(cosine**2, rel=1e-14)
 
 
 def test_gradient_is_the_derivative_of_the_length():
