@@ -1,0 +1,334 @@
+//! Typed values out of a TOML document. Each value keeps its place in the text; what is wrong is noted, not thrown,
+//! so that one look at a file finds every mistake.
+
+use std::array;
+use std::ops::Range;
+
+use toml::Spanned;
+use toml::de::{DeString, DeTable, DeValue};
+
+use crate::checks::Fault;
+use crate::keys::{self, Key};
+use crate::refusal::Refusal;
+
+/// No quantity of a platform comes near this; products of a few such numbers still cannot overflow.
+const LARGEST: f64 = 1e30;
+
+/// What became of a key.
+#[derive(Clone)]
+pub(crate) enum Reading<T> {
+    /// It is not in the table.
+    Absent,
+    /// It is there, but a refusal has been noted.
+    Refused,
+    /// It is there and passed its checks.
+    Present(Spanned<T>),
+}
+
+impl<T> Reading<T> {
+    /// The value, if there is a good one.
+    pub fn present(self) -> Option<Spanned<T>> {
+        match self {
+            Self::Present(value) => Some(value),
+            Self::Absent | Self::Refused => None,
+        }
+    }
+}
+
+/// A table of the file with its place and its name in messages.
+pub(crate) struct Section<'d> {
+    /// As in "`rod_mass_kg` is missing in {title}".
+    pub title: String,
+    /// The table's header.
+    pub header: Range<usize>,
+    table: &'d DeTable<'d>,
+    allowed: Vec<&'static Key>,
+}
+
+impl<'d> Section<'d> {
+    /// A table in which the keys of `allowed` may stand; every other key is refused here.
+    pub fn new(
+        title: impl Into<String>,
+        header: Range<usize>,
+        table: &'d DeTable<'d>,
+        allowed: &[&[&'static Key]],
+        refusals: &mut Vec<Refusal>,
+    ) -> Self {
+        let section = Self { title: title.into(), header, table, allowed: allowed.concat() };
+        section.refuse_unknown(refusals);
+        section
+    }
+
+    /// Where the key itself stands.
+    pub fn key_span(&self, key: &Key) -> Option<Range<usize>> {
+        self.table.get_key_value(key.name).map(|(name, _)| name.span())
+    }
+
+    /// Refuses every key that is not allowed: it stands in the wrong table, is misspelt, or means nothing.
+    fn refuse_unknown(&self, refusals: &mut Vec<Refusal>) {
+        for name in self.unknown() {
+            let written = name.get_ref().as_ref();
+            let home = keys::TABLES.iter().find(|(_, keys)| keys.iter().any(|key| key.name == written));
+            let help = match (home, self.meant_by(written)) {
+                (Some((table, _)), _) => format!("`{written}` belongs in {table}"),
+                (None, Some(nearest)) => format!("did you mean `{nearest}`?"),
+                (None, None) => {
+                    let names: Vec<&str> = self.allowed.iter().map(|key| key.name).collect();
+                    format!("keys known here: {}", names.join(", "))
+                }
+            };
+            let what = format!("unknown key `{written}` in {}", self.title);
+            refusals.push(Refusal::new(name.span(), "unknown key", what, help));
+        }
+    }
+
+    fn unknown(&self) -> impl Iterator<Item = &'d Spanned<DeString<'d>>> {
+        self.table.keys().filter(|name| self.allowed.iter().all(|key| key.name != name.get_ref().as_ref()))
+    }
+
+    /// The allowed key that an unknown one seems to stand for.
+    fn meant_by(&self, written: &str) -> Option<&'static str> {
+        nearest(written, self.allowed.iter().map(|key| key.name))
+    }
+
+    /// Whether an unknown key has already been taken for this one, so that its absence needs no second refusal.
+    pub fn has_misspelt(&self, key: &Key) -> bool {
+        self.unknown().any(|name| self.meant_by(name.get_ref()) == Some(key.name))
+    }
+
+    /// Reads a key that may be absent.
+    pub fn read<T: FromToml, U>(
+        &self,
+        key: &Key,
+        check: impl Fn(T, &Key) -> Result<U, Fault>,
+        refusals: &mut Vec<Refusal>,
+    ) -> Reading<U> {
+        let Some(value) = self.table.get(key.name) else {
+            return Reading::Absent;
+        };
+        let checked = T::from_toml(value, key).and_then(|raw| {
+            check(raw, key).map_err(|fault| Refusal::new(value.span(), fault.label, fault.what, fault.help))
+        });
+        match checked {
+            Ok(good) => Reading::Present(Spanned::new(value.span(), good)),
+            Err(refusal) => {
+                refusals.push(refusal);
+                Reading::Refused
+            }
+        }
+    }
+
+    /// Reads a key that must be there.
+    pub fn require<T: FromToml, U>(
+        &self,
+        key: &Key,
+        check: impl Fn(T, &Key) -> Result<U, Fault>,
+        refusals: &mut Vec<Refusal>,
+    ) -> Option<Spanned<U>> {
+        let reading = self.read(key, check, refusals);
+        if matches!(reading, Reading::Absent) && !self.has_misspelt(key) {
+            refusals.push(self.missing(key));
+        }
+        reading.present()
+    }
+
+    /// The refusal for an absent key.
+    pub fn missing(&self, key: &Key) -> Refusal {
+        let what = format!("`{}` is missing in {}", key.name, self.title);
+        Refusal::new(self.header.clone(), format!("no `{}` here", key.name), what, key.remedy())
+    }
+
+    /// The table under `key`, if it is there.
+    pub fn section(
+        &self,
+        key: &Key,
+        allowed: &[&[&'static Key]],
+        refusals: &mut Vec<Refusal>,
+    ) -> Option<Section<'d>> {
+        let value = self.table.get(key.name)?;
+        match value.get_ref() {
+            DeValue::Table(table) => {
+                Some(Section::new(format!("[{}]", key.name), value.span(), table, allowed, refusals))
+            }
+            other => {
+                refusals.push(wrong_type(value.span(), key, "a table", other));
+                None
+            }
+        }
+    }
+
+    /// The table under `key`, which must be there.
+    pub fn require_section(
+        &self,
+        key: &Key,
+        allowed: &[&[&'static Key]],
+        refusals: &mut Vec<Refusal>,
+    ) -> Option<Section<'d>> {
+        if self.key_span(key).is_none() && !self.has_misspelt(key) {
+            refusals.push(self.missing_section(key));
+        }
+        self.section(key, allowed, refusals)
+    }
+
+    /// The refusal for an absent table.
+    pub fn missing_section(&self, key: &Key) -> Refusal {
+        Refusal::new(
+            self.header.clone(),
+            format!("no [{}] in this file", key.name),
+            format!("[{}] is missing", key.name),
+            format!("add the table [{}]; docs/platform-file.md lists its keys", key.name),
+        )
+    }
+
+    /// The tables of the array of tables under `key`, if it is there; their title is `[[key]]`.
+    pub fn sections(
+        &self,
+        key: &Key,
+        allowed: &[&[&'static Key]],
+        refusals: &mut Vec<Refusal>,
+    ) -> Option<Vec<Section<'d>>> {
+        let value = self.table.get(key.name)?;
+        let DeValue::Array(entries) = value.get_ref() else {
+            refusals.push(wrong_type(value.span(), key, "an array of tables", value.get_ref()));
+            return None;
+        };
+        let mut sections = Vec::new();
+        for entry in entries.iter() {
+            match entry.get_ref() {
+                DeValue::Table(table) => {
+                    let title = format!("[[{}]]", key.name);
+                    sections.push(Section::new(title, entry.span(), table, allowed, refusals));
+                }
+                other => refusals.push(wrong_type(entry.span(), key, "a table", other)),
+            }
+        }
+        Some(sections)
+    }
+}
+
+/// The name most like `written`, if one is near enough to be a slip of the hand.
+pub(crate) fn nearest<'n>(written: &str, names: impl IntoIterator<Item = &'n str>) -> Option<&'n str> {
+    names
+        .into_iter()
+        .map(|name| (strsim::jaro_winkler(&written.to_lowercase(), name), name))
+        .filter(|(likeness, _)| *likeness > 0.85)
+        .max_by(|one, other| one.0.total_cmp(&other.0))
+        .map(|(_, name)| name)
+}
+
+/// A type that can stand in the file.
+pub(crate) trait FromToml: Sized {
+    /// One of it, in words.
+    fn one() -> String;
+    /// Several of it, in words.
+    fn several() -> String;
+    /// Reads it; a refusal points at the innermost value that is wrong.
+    fn from_toml(value: &Spanned<DeValue<'_>>, key: &Key) -> Result<Self, Refusal>;
+}
+
+impl FromToml for String {
+    fn one() -> String {
+        "a text in quotes".into()
+    }
+
+    fn several() -> String {
+        "texts in quotes".into()
+    }
+
+    fn from_toml(value: &Spanned<DeValue<'_>>, key: &Key) -> Result<Self, Refusal> {
+        match value.get_ref() {
+            DeValue::String(text) => Ok(text.to_string()),
+            other => Err(wrong_type(value.span(), key, &Self::one(), other)),
+        }
+    }
+}
+
+impl FromToml for i64 {
+    fn one() -> String {
+        "a whole number".into()
+    }
+
+    fn several() -> String {
+        "whole numbers".into()
+    }
+
+    fn from_toml(value: &Spanned<DeValue<'_>>, key: &Key) -> Result<Self, Refusal> {
+        let DeValue::Integer(digits) = value.get_ref() else {
+            return Err(wrong_type(value.span(), key, &Self::one(), value.get_ref()));
+        };
+        Self::from_str_radix(digits.as_str(), digits.radix()).map_err(|_| {
+            let what = format!("`{}` needs a whole number of ordinary size", key.name);
+            Refusal::new(value.span(), "too large", what, key.remedy())
+        })
+    }
+}
+
+impl FromToml for f64 {
+    fn one() -> String {
+        "a number".into()
+    }
+
+    fn several() -> String {
+        "numbers".into()
+    }
+
+    fn from_toml(value: &Spanned<DeValue<'_>>, key: &Key) -> Result<Self, Refusal> {
+        let number: Option<f64> = match value.get_ref() {
+            DeValue::Float(digits) => digits.as_str().parse().ok(),
+            DeValue::Integer(digits) if digits.radix() == 10 => digits.as_str().parse().ok(),
+            DeValue::Integer(digits) => {
+                i64::from_str_radix(digits.as_str(), digits.radix()).ok().map(|number| number as f64)
+            }
+            other => return Err(wrong_type(value.span(), key, &Self::one(), other)),
+        };
+        match number {
+            Some(number) if number.abs() <= LARGEST => Ok(number),
+            _ => {
+                let what = format!("`{}` needs finite numbers, none beyond {LARGEST:e}", key.name);
+                Err(Refusal::new(value.span(), "not such a number", what, key.remedy()))
+            }
+        }
+    }
+}
+
+impl<T: FromToml, const N: usize> FromToml for [T; N] {
+    fn one() -> String {
+        format!("an array of {N} {}", T::several())
+    }
+
+    fn several() -> String {
+        format!("arrays of {N} {}", T::several())
+    }
+
+    fn from_toml(value: &Spanned<DeValue<'_>>, key: &Key) -> Result<Self, Refusal> {
+        let DeValue::Array(entries) = value.get_ref() else {
+            return Err(wrong_type(value.span(), key, &Self::one(), value.get_ref()));
+        };
+        if entries.len() != N {
+            let found = format!("an array of {}", entries.len());
+            return Err(unexpected(value.span(), key, &Self::one(), &found));
+        }
+        let read = entries.iter().map(|entry| T::from_toml(entry, key)).collect::<Result<Vec<T>, _>>()?;
+        let mut read = read.into_iter();
+        // The length was compared above, so no entry is short.
+        Ok(array::from_fn(|_| read.next().expect("N entries")))
+    }
+}
+
+fn wrong_type(at: Range<usize>, key: &Key, expected: &str, found: &DeValue<'_>) -> Refusal {
+    let found = match found {
+        DeValue::String(_) => "a text in quotes",
+        DeValue::Integer(_) => "a whole number",
+        DeValue::Float(_) => "a decimal number",
+        DeValue::Boolean(_) => "true or false",
+        DeValue::Datetime(_) => "a date or time",
+        DeValue::Array(_) => "an array",
+        DeValue::Table(_) => "a table",
+    };
+    unexpected(at, key, expected, found)
+}
+
+fn unexpected(at: Range<usize>, key: &Key, expected: &str, found: &str) -> Refusal {
+    let what = format!("`{}` needs {expected}, found {found}", key.name);
+    Refusal::new(at, format!("found {found}"), what, key.remedy())
+}

@@ -1,0 +1,234 @@
+//! What valid files become: Table 1, layouts, overrides, defaults, cleaned-up rounding, JSON.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use dyn_platform::{PARAMETERS, Platform};
+
+fn workspace() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
+}
+
+fn uhp_2016_text() -> String {
+    fs::read_to_string(workspace().join("platforms/uhp_2016.toml")).expect("the default platform")
+}
+
+fn resolved(text: &str) -> Platform {
+    Platform::from_toml("edited.toml", text).unwrap_or_else(|error| panic!("{error}: {:?}", error.refusals()))
+}
+
+/// The default platform with one text replaced by another.
+fn uhp_2016_with(good: &str, other: &str) -> Platform {
+    let text = uhp_2016_text();
+    assert!(text.contains(good), "{good:?} is not in the default platform");
+    resolved(&text.replacen(good, other, 1))
+}
+
+fn platform_files() -> Vec<PathBuf> {
+    let mut files = vec![workspace().join("platforms/uhp_2016.toml")];
+    for entry in fs::read_dir(workspace().join("tests/platforms")).expect("the test platforms") {
+        let path = entry.expect("a folder entry").path();
+        if path.extension().is_some_and(|extension| extension == "toml") {
+            files.push(path);
+        }
+    }
+    files.sort();
+    files
+}
+
+/// Radius times cosine and sine, typed from GNU bc (20 digits, rounded to 16), not from this crate.
+/// Base joints: 0.180 m at -43, 43, 77, 163, 197, 283 degrees; platform joints: 0.120 m at -15, 15, 105, 135, 225, 255.
+#[test]
+fn leg_coordinates_of_table_1() {
+    let base = [
+        [0.131_643_666_291_450_7, -0.122_759_704_811_249_7, 0.0],
+        [0.131_643_666_291_450_7, 0.122_759_704_811_249_7, 0.0],
+        [0.040_491_189_781_895_7, 0.175_386_611_661_342_3, 0.0],
+        [-0.172_134_856_073_346_4, 0.052_626_906_850_092_6, 0.0],
+        [-0.172_134_856_073_346_4, -0.052_626_906_850_092_6, 0.0],
+        [0.040_491_189_781_895_7, -0.175_386_611_661_342_3, 0.0],
+    ];
+    let platform = [
+        [0.115_911_099_154_688_2, -0.031_058_285_412_302_5, 0.0],
+        [0.115_911_099_154_688_2, 0.031_058_285_412_302_5, 0.0],
+        [-0.031_058_285_412_302_5, 0.115_911_099_154_688_2, 0.0],
+        [-0.084_852_813_742_385_7, 0.084_852_813_742_385_7, 0.0],
+        [-0.084_852_813_742_385_7, -0.084_852_813_742_385_7, 0.0],
+        [-0.031_058_285_412_302_5, -0.115_911_099_154_688_2, 0.0],
+    ];
+    let uhp = resolved(&uhp_2016_text()).parameters;
+    for leg in 0..6 {
+        for axis in 0..3 {
+            for (point, typed) in [(uhp.base_point, base), (uhp.platform_point, platform)] {
+                let difference = (point[leg][axis] - typed[leg][axis]).abs();
+                assert!(difference < 1e-16, "leg {}: {:?}", leg + 1, point[leg]);
+            }
+        }
+    }
+}
+
+/// The layout closes Table 1: joints 0.09304 m off the axes, actuators 0.19821 m long at home.
+#[test]
+fn home_of_table_1() {
+    let platform = resolved(&uhp_2016_text());
+    let (home, uhp) = (platform.home, platform.parameters);
+    assert_eq!(home.position, [0.0, 0.0, 0.382]);
+    for leg in 0..6 {
+        let [x, y, _]: [f64; 3] =
+            std::array::from_fn(|axis| uhp.platform_point[leg][axis] - uhp.base_point[leg][axis]);
+        let across = x.hypot(y);
+        let length = home.position[2] - (uhp.rod_length[leg].powi(2) - across.powi(2)).sqrt();
+        assert!((across - 0.09304).abs() < 5e-6, "leg {}: {across}", leg + 1);
+        assert!((length - 0.19821).abs() < 5e-6, "leg {}: {length}", leg + 1);
+    }
+}
+
+#[test]
+fn other_numbers_of_table_1() {
+    let platform = resolved(&uhp_2016_text());
+    let expected: [(&str, &[f64]); 14] = [
+        ("actuator_axis", &[0., 0., 1., 0., 0., 1., 0., 0., 1., 0., 0., 1., 0., 0., 1., 0., 0., 1.]),
+        ("rod_length", &[0.206; 6]),
+        ("rod_mass", &[1.024; 6]),
+        ("rod_com_fraction", &[0.5; 6]),
+        ("mover_mass", &[0.611; 6]),
+        ("mover_offset", &[0.05; 6]),
+        ("rest_length", &[0.198; 6]),
+        ("axial_stiffness", &[21_555.9; 6]),
+        ("axial_damping", &[0.0; 6]),
+        ("payload_mass", &[6.092]),
+        ("payload_com", &[0.0, 0.0, 0.031]),
+        ("payload_inertia", &[0.025, 0.0, 0.0, 0.0, 0.025, 0.0, 0.0, 0.0, 0.035]),
+        ("gravity", &[0.0, 0.0, -9.81]),
+        // 1.024 * 0.206^2 / 12
+        ("rod_inertia", &[0.003_621_205_333_333_333_3; 6]),
+    ];
+    for (name, numbers) in expected {
+        assert_eq!(platform.parameter(name).as_deref(), Some(numbers), "{name}");
+    }
+    assert_eq!(platform.parameter("rod_colour"), None);
+}
+
+/// Mirror images across the x axis stay exact, so that later stages can share their numbers.
+#[test]
+fn circular_layouts_are_exactly_symmetric() {
+    let uhp = resolved(&uhp_2016_text()).parameters;
+    for points in [uhp.base_point, uhp.platform_point] {
+        for (one, other) in [(0, 1), (2, 5), (3, 4)] {
+            let [x, y, z] = points[one];
+            assert_eq!(points[other], [x, -y, z]);
+        }
+    }
+}
+
+#[test]
+fn every_platform_file_is_valid_and_named_after_itself() {
+    let files = platform_files();
+    assert!(files.len() >= 9, "{files:?}");
+    for path in files {
+        let platform =
+            Platform::from_file(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
+        assert_eq!(path.file_stem().and_then(|stem| stem.to_str()), Some(platform.name.as_str()));
+    }
+}
+
+/// The JSON holds each parameter of the table under its name, in its shape, and nothing else; it reads back the same.
+#[test]
+fn json_agrees_with_the_table_of_parameters() {
+    for path in platform_files() {
+        let platform = Platform::from_file(&path).expect("a valid file");
+        let text = serde_json::to_string(&platform).expect("plain numbers");
+        assert_eq!(serde_json::from_str::<Platform>(&text).expect("its own JSON"), platform);
+
+        let json: serde_json::Value = serde_json::from_str(&text).expect("JSON");
+        assert_eq!((&json["version"], &json["leg_type"]), (&1.into(), &"uhp".into()));
+        let parameters = json["parameters"].as_object().expect("an object");
+        assert_eq!(parameters.len(), PARAMETERS.len());
+        for info in PARAMETERS {
+            let mut numbers = Vec::new();
+            flatten(&parameters[info.name], info.shape, &mut numbers);
+            assert_eq!(platform.parameter(info.name), Some(numbers), "{}", info.name);
+        }
+    }
+}
+
+fn flatten(value: &serde_json::Value, shape: &[usize], numbers: &mut Vec<f64>) {
+    match shape {
+        [] => numbers.push(value.as_f64().expect("a number")),
+        [length, inner @ ..] => {
+            let entries = value.as_array().expect("an array");
+            assert_eq!(entries.len(), *length);
+            entries.iter().for_each(|entry| flatten(entry, inner, numbers));
+        }
+    }
+}
+
+#[test]
+fn json_of_another_version_is_refused() {
+    let text = serde_json::to_string(&resolved(&uhp_2016_text())).expect("plain numbers");
+    let error =
+        serde_json::from_str::<Platform>(&text.replacen("\"version\":1", "\"version\":2", 1)).unwrap_err();
+    assert!(error.to_string().contains("version 2"), "{error}");
+}
+
+#[test]
+fn a_leg_overrides_what_all_legs_share() {
+    let leg_3 = "[[leg]]\nnumber = 3\nrod_mass_kg = 2.0\nactuator_axis = [0.0, -0.28, 0.96]\n[payload]";
+    let parameters = uhp_2016_with("[payload]", leg_3).parameters;
+    assert_eq!(parameters.rod_mass, [1.024, 1.024, 2.0, 1.024, 1.024, 1.024]);
+    assert_eq!(parameters.actuator_axis[2], [0.0, -0.28, 0.96]);
+    assert_eq!(parameters.actuator_axis[1], [0.0, 0.0, 1.0]);
+    // The default follows each leg's own mass.
+    assert_eq!(parameters.rod_inertia[2], 2.0 * 0.206_f64.powi(2) / 12.0);
+    assert_eq!(parameters.rod_inertia[1], 1.024 * 0.206_f64.powi(2) / 12.0);
+}
+
+#[test]
+fn legs_go_by_their_numbers_not_by_their_order() {
+    let path = workspace().join("tests/platforms/everything.toml");
+    let platform = Platform::from_file(path).expect("a valid file");
+    assert_eq!(platform.parameters.base_point[0], [0.193, -0.156, -0.004]);
+    assert_eq!(platform.parameters.rod_length, [0.28, 0.31, 0.26, 0.3, 0.33, 0.29]);
+    assert_eq!(platform.home.rotation[0], [0.872, 0.48, 0.096]);
+}
+
+#[test]
+fn whole_numbers_are_numbers() {
+    let parameters = uhp_2016_with("6.092 ", "6 ").parameters;
+    assert_eq!(parameters.payload_mass, 6.0);
+    assert_eq!(uhp_2016_with("6.092 ", "0x10 ").parameters.payload_mass, 16.0);
+}
+
+/// What is right to 1e-9 is taken, and then made right to the last digit.
+#[test]
+fn rounding_in_the_file_is_removed() {
+    // Nothing to remove: the digits stay as they were typed.
+    let exact =
+        Platform::from_file(workspace().join("tests/platforms/everything.toml")).expect("a valid file");
+    assert_eq!(exact.parameters.actuator_axis[5], [0.096, 0.36, 0.928]);
+    assert_eq!(exact.home.rotation[2], [-0.2112, 0.192, 0.9584]);
+
+    let norm = |vector: [f64; 3]| vector.iter().map(|x| x * x).sum::<f64>().sqrt();
+
+    let axis = "actuator_axis = [0.1000000000, 0.2000000000, 0.9746794345]";
+    let axis = uhp_2016_with("actuator_axis = [0.0, 0.0, 1.0]", axis).parameters.actuator_axis[0];
+    assert!((norm(axis) - 1.0).abs() < 3e-16, "{axis:?}");
+    assert!((axis[2] - 0.9746794345).abs() < 1e-9);
+
+    let rotation = "0.382]\nrotation = [[0.9950041653, -0.0998334166, 0], [0.0998334166, 0.9950041653, 0], [0, 0, 1]]\n#";
+    let rotation = uhp_2016_with("0.382]", rotation).home.rotation;
+    for row in rotation {
+        assert!((norm(row) - 1.0).abs() < 3e-16, "{rotation:?}");
+    }
+    assert!((rotation[0][0] - 0.9950041653).abs() < 1e-9);
+
+    let skew = uhp_2016_with("[0.025, 0.0, 0.0]", "[0.025, 1e-13, 0.0]").parameters.payload_inertia;
+    assert_eq!((skew[0][1], skew[1][0]), (1e-13, 1e-13));
+}
+
+/// A flat plate: the largest moment equals the sum of the others, which a body just may.
+#[test]
+fn a_flat_body_is_a_body() {
+    let parameters = uhp_2016_with("0.035]", "0.05]").parameters;
+    assert_eq!(parameters.payload_inertia[2][2], 0.05);
+}
