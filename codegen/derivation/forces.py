@@ -9,7 +9,7 @@ import casadi as ca
 
 from .matrices import project
 from .payload import mass_matrix
-from .rotations import cross, levers_cross
+from .rotations import cross, levers_cross, symmetric
 from .stages import leg_stage, platform_stage
 
 
@@ -87,7 +87,7 @@ def platform_mass_matrix(
     """mass matrix in base coordinates."""
     payload = mass_matrix(relative_rotation, merged_mass, merged_moment, merged_second_moment)
     legs = project(platform_lever, joint_inertia_b)
-    return {"platform_mass_matrix": ca.triu2symm(ca.triu(payload + legs))}
+    return {"platform_mass_matrix": symmetric(payload + legs)}
 
 
 @platform_stage

@@ -65,7 +65,7 @@ def functions(leg) -> list[Function]:
         Function(
             "generalised_forces", "generalised active and inertia force of every body", "(39)-(46)",
             ("payload_active_force", "payload_inertia_force", *leg.FORCE_OUTPUTS),
-            (*bodies, matrices.joint_in_o, matrices.jacobian_rows, *partials, forces.passive_axial_force,
+            (*bodies, matrices.joint_in_o, matrices.jacobian_rows, forces.passive_axial_force,
              payload.payload_forces, leg.body_forces),
         ),
         Function("jacobian_dp", "actuator Jacobian of the platform", "(32)", ("jacobian_dp",), jacobians),

@@ -16,7 +16,7 @@ from dataclasses import dataclass
 
 import casadi as ca
 
-from .rotations import cross, dot, outer, skew
+from .rotations import cross, dot, outer, skew, symmetric
 
 
 @dataclass(frozen=True)
@@ -65,7 +65,7 @@ def joint_inertia(leg: Leg, axis, gradient):
     alone = leg.total(lambda k, l: k.across * l.across)
     half = (both / 2) * gradient + mixed * axis
     square = outer(gradient, half) + outer(half, gradient) + alone * ca.SX.eye(3)
-    return ca.triu2symm(ca.triu(square))
+    return symmetric(square)
 
 
 def joint_inertia_rate(leg: Leg, axis, axis_rate, gradient, gradient_rate):
@@ -119,3 +119,8 @@ def kinetic_energy(leg: Leg, velocities):
 def partial_velocity(body_velocity, speeds):
     """Partial velocities: derivative of a body's (angular) velocity by the generalised speeds."""
     return ca.jacobian(body_velocity, speeds)
+
+
+def generalised_force(velocity, speeds, force):
+    """J^T f with the partial velocities J of `velocity`, by reverse automatic differentiation: J is not formed."""
+    return ca.jtimes(velocity, speeds, force, True)

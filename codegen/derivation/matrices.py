@@ -11,7 +11,7 @@ Coriolis counterparts P, Q of each leg:
 import casadi as ca
 
 from . import payload
-from .rotations import cross, skew
+from .rotations import cross, skew, symmetric
 from .stages import leg_stage, platform_stage
 
 
@@ -20,8 +20,8 @@ def project(levers, joint_matrices):
     total = ca.SX.zeros(6, 6)
     for lever, matrix in zip(levers, joint_matrices, strict=True):
         mixed = -(matrix @ skew(lever))
-        total += ca.blockcat([[matrix, mixed], [mixed.T, ca.triu2symm(ca.triu(skew(lever) @ mixed))]])
-    return ca.triu2symm(ca.triu(total))
+        total += ca.blockcat([[matrix, mixed], [mixed.T, symmetric(skew(lever) @ mixed)]])
+    return symmetric(total)
 
 
 def project_rows(levers, joint_rows):
@@ -78,7 +78,7 @@ def legs_mass_matrix(platform_lever_o, joint_inertia):
 def mass_matrix_p(platform_rotation, merged_mass, merged_moment, merged_second_moment, legs_mass_matrix):
     """mass matrix of the platform."""
     rigid = payload.mass_matrix(platform_rotation, merged_mass, merged_moment, merged_second_moment)
-    return {"mass_matrix_p": ca.triu2symm(ca.triu(rigid + legs_mass_matrix))}
+    return {"mass_matrix_p": symmetric(rigid + legs_mass_matrix)}
 
 
 @platform_stage
@@ -139,7 +139,7 @@ def _stiffness(left, right, stiffness):
 def stiffness_matrices(jacobian_dp, jacobian_db, axial_stiffness):
     """linearised stiffness matrices for small twists, preload left out as in the paper."""
     return {
-        "stiffness_matrix_p": ca.triu2symm(ca.triu(_stiffness(jacobian_dp, jacobian_dp, axial_stiffness))),
+        "stiffness_matrix_p": symmetric(_stiffness(jacobian_dp, jacobian_dp, axial_stiffness)),
         "stiffness_matrix_b": _stiffness(jacobian_dp, jacobian_db, axial_stiffness),
     }
 

@@ -41,33 +41,42 @@ def payload_kinematics(
     }
 
 
+def _com_velocity(speeds, platform_rotation, payload_com):
+    return speeds[:3] + cross(speeds[3:], platform_rotation @ payload_com)
+
+
 @platform_stage
 def payload_partial_velocities(platform_rotation, payload_com):
     """partial velocities of the payload by the six platform speeds."""
     speeds = ca.SX.sym("speeds", 6)
-    velocity = speeds[:3] + cross(speeds[3:], platform_rotation @ payload_com)
     return {
-        "payload_partial_velocity": kane.partial_velocity(velocity, speeds),
+        "payload_partial_velocity":
+            kane.partial_velocity(_com_velocity(speeds, platform_rotation, payload_com), speeds),
         "payload_partial_angular_velocity": kane.partial_velocity(speeds[3:], speeds),
     }
 
 
 @platform_stage
 def payload_forces(
-    platform_rotation, platform_velocity, platform_acceleration, external_wrench, gravity, payload_mass, payload_inertia,
-    payload_com_acceleration, payload_partial_velocity, payload_partial_angular_velocity,
+    platform_rotation, platform_velocity, platform_acceleration, external_wrench, gravity, payload_mass, payload_com,
+    payload_inertia, payload_com_acceleration,
 ):
     """generalised active and inertia force of the payload."""
     inertia = platform_rotation @ symmetric(payload_inertia) @ platform_rotation.T
     rate = platform_velocity[3:]
     moment = inertia @ platform_acceleration[3:] + cross(rate, inertia @ rate)
+
+    speeds = ca.SX.sym("speeds", 6)
+    com_velocity = _com_velocity(speeds, platform_rotation, payload_com)
+
+    def project(force, moment):
+        return (
+            kane.generalised_force(com_velocity, speeds, force) + kane.generalised_force(speeds[3:], speeds, moment)
+        )
+
     return {
-        "payload_active_force":
-            payload_partial_velocity.T @ (payload_mass * gravity + external_wrench[:3])
-            + payload_partial_angular_velocity.T @ external_wrench[3:],
-        "payload_inertia_force":
-            -(payload_partial_velocity.T @ (payload_mass * payload_com_acceleration)
-              + payload_partial_angular_velocity.T @ moment),
+        "payload_active_force": project(payload_mass * gravity + external_wrench[:3], external_wrench[3:]),
+        "payload_inertia_force": -project(payload_mass * payload_com_acceleration, moment),
     }
 
 

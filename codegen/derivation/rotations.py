@@ -25,7 +25,8 @@ def outer(a: ca.SX, b: ca.SX) -> ca.SX:
 
 def symmetric(matrix: ca.SX) -> ca.SX:
     """The symmetric matrix whose upper triangle is that of `matrix`."""
-    return ca.triu2symm(ca.triu(matrix))
+    size = matrix.shape[0]
+    return ca.blockcat([[matrix[min(i, j), max(i, j)] for j in range(size)] for i in range(size)])
 
 
 def acceleration_field(rate: ca.SX, rate_derivative: ca.SX) -> ca.SX:

@@ -282,39 +282,57 @@ def rod_and_mover_accelerations(
     }
 
 
+def _velocities(speeds, base_rotation, platform_rotation, platform_point, actuator_axis, jacobian_dp, rod_direction,
+                rod_length, rod_com_fraction):
+    """Velocity and angular velocity of the rod, velocity of the mover, as far as the platform speeds cause them."""
+    k = rod_com_fraction
+    hooke = (base_rotation @ actuator_axis) * dot(jacobian_dp, speeds)
+    joint = speeds[:3] + cross(speeds[3:], platform_rotation @ platform_point)
+    angular = cross(rod_direction, joint - hooke) / rod_length
+    return (1 - k) * hooke + k * joint, angular, hooke
+
+
 @leg_stage
 def rod_and_mover_partial_velocities(
     base_rotation, platform_rotation, platform_point, actuator_axis, jacobian_dp, rod_direction, rod_length, rod_com_fraction,
 ):
     """partial velocities of rod and mover by the six platform speeds."""
-    k = rod_com_fraction
     speeds = ca.SX.sym("speeds", 6)
-    hooke = (base_rotation @ actuator_axis) * dot(jacobian_dp, speeds)
-    joint = speeds[:3] + cross(speeds[3:], platform_rotation @ platform_point)
-    angular = cross(rod_direction, joint - hooke) / rod_length
+    rod, angular, mover = _velocities(
+        speeds, base_rotation, platform_rotation, platform_point, actuator_axis, jacobian_dp, rod_direction, rod_length,
+        rod_com_fraction,
+    )
     return {
-        "rod_partial_velocity": kane.partial_velocity((1 - k) * hooke + k * joint, speeds),
+        "rod_partial_velocity": kane.partial_velocity(rod, speeds),
         "rod_partial_angular_velocity": kane.partial_velocity(angular, speeds),
-        "mover_partial_velocity": kane.partial_velocity(hooke, speeds),
+        "mover_partial_velocity": kane.partial_velocity(mover, speeds),
     }
 
 
 @leg_stage
 def rod_and_mover_forces(
-    base_rotation, gravity, actuator_axis, actuator_force, passive_axial_force, rod_mass, rod_inertia, mover_mass,
+    base_rotation, platform_rotation, platform_point, gravity, actuator_axis, jacobian_dp, actuator_force,
+    passive_axial_force, rod_mass, rod_inertia, rod_length, rod_com_fraction, mover_mass,
     rod_direction, rod_angular_acceleration, rod_com_acceleration, mover_acceleration,
-    rod_partial_velocity, rod_partial_angular_velocity, mover_partial_velocity,
 ):
     """generalised active and inertia forces of rod and mover."""
+    speeds = ca.SX.sym("speeds", 6)
+    rod, angular, mover = _velocities(
+        speeds, base_rotation, platform_rotation, platform_point, actuator_axis, jacobian_dp, rod_direction, rod_length,
+        rod_com_fraction,
+    )
+
+    def project(velocity, force):
+        return kane.generalised_force(velocity, speeds, force)
+
     axial = (actuator_force - passive_axial_force) * (base_rotation @ actuator_axis)
-    # w_s has no component along u, so w_s x I w_s vanishes and I w_s' is J_s (w_s' - u u.w_s').
-    moment = rod_inertia * (rod_angular_acceleration - rod_direction * dot(rod_direction, rod_angular_acceleration))
+    # Without spin w_s and w_s' are perpendicular to the rod: (1 - u u^T) leaves them, and w_s x I w_s vanishes.
+    moment = rod_inertia * rod_angular_acceleration
     return {
-        "rod_active_force": rod_partial_velocity.T @ (rod_mass * gravity),
-        "rod_inertia_force":
-            -(rod_partial_velocity.T @ (rod_mass * rod_com_acceleration) + rod_partial_angular_velocity.T @ moment),
-        "mover_active_force": mover_partial_velocity.T @ (mover_mass * gravity + axial),
-        "mover_inertia_force": -(mover_partial_velocity.T @ (mover_mass * mover_acceleration)),
+        "rod_active_force": project(rod, rod_mass * gravity),
+        "rod_inertia_force": -(project(rod, rod_mass * rod_com_acceleration) + project(angular, moment)),
+        "mover_active_force": project(mover, mover_mass * gravity + axial),
+        "mover_inertia_force": -project(mover, mover_mass * mover_acceleration),
     }
 
 

@@ -1,0 +1,162 @@
+//! Generated code and hand-written reference against vectors that Pinocchio and MuJoCo agreed on (see
+//! `tests/engines/README.md`): nothing of this workspace's mechanics is in them.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use dyn_gen::graph::Environment;
+use dyn_tests::compare::{Scale, deviation, within};
+use dyn_tests::compiled::{self, Model, baked};
+use dyn_tests::tolerance::tolerance;
+use dyn_tests::vectors::{self, Vectors};
+use dyn_tests::{platforms, reference};
+
+/// Outputs of the engines that no generated function has yet.
+const ENGINES_ONLY: [&str; 1] = ["base_wrench"];
+
+/// Outputs that need a definition beyond what an engine knows: the factorisation of the velocity terms.
+const OURS_ONLY: [&str; 2] = ["coriolis_matrix_p", "coriolis_matrix_b"];
+
+#[derive(Default)]
+struct Comparison {
+    worst: BTreeMap<String, f64>,
+    failures: Vec<String>,
+}
+
+impl Comparison {
+    fn add(&mut self, label: &str, output: &str, values: &[f64], expected: &[f64], scale: Scale) {
+        let found = deviation(values, expected, scale);
+        if !within(found, tolerance(output)) {
+            self.failures.push(format!("{label}, {output} deviates by {found:.1e}"));
+        }
+        let worst = self.worst.entry(output.into()).or_default();
+        *worst = worst.max(found);
+    }
+
+    fn add_model<M: Model>(&mut self, model: &M, vectors: &Vectors, label: &str) {
+        for (number, (state, expected)) in vectors.cases.iter().enumerate() {
+            for (function, output, values) in compiled::outputs(model, state) {
+                if let Some(expected) = expected.get(&output) {
+                    let scale = scale(vectors, &output);
+                    self.add(&format!("{label}, case {number}: {function}"), &output, &values, expected, scale);
+                }
+            }
+        }
+    }
+
+    fn finish(self) {
+        for (output, worst) in &self.worst {
+            println!("{output:36} {worst:8.1e}  (tolerance {:.0e})", tolerance(output));
+        }
+        let failures = self.failures;
+        assert!(failures.is_empty(), "{} failures:\n{}", failures.len(), failures[..failures.len().min(20)].join("\n"));
+    }
+}
+
+fn scale(vectors: &Vectors, output: &str) -> Scale {
+    Scale::of(vectors.cases.iter().filter_map(|(_, expected)| expected.get(output)).map(Vec::as_slice))
+}
+
+fn all() -> Vec<Vectors> {
+    vectors::files().iter().map(vectors::read).collect()
+}
+
+#[test]
+fn model_with_run_time_parameters() {
+    let mut comparison = Comparison::default();
+    for vectors in all() {
+        let label = format!("run time, {}", vectors.platform.name);
+        comparison.add_model(&compiled::at_run_time(&vectors.platform), &vectors, &label);
+    }
+    comparison.finish();
+}
+
+#[test]
+fn baked_models() {
+    let mut comparison = Comparison::default();
+    for vectors in all() {
+        let label = vectors.platform.name.clone();
+        match label.as_str() {
+            "uhp_2016" => comparison.add_model(&dyn_runtime::models::Uhp2016, &vectors, &label),
+            "tilted_axes" => comparison.add_model(&baked::tilted_axes::TiltedAxes, &vectors, &label),
+            "unequal_legs" => comparison.add_model(&baked::unequal_legs::UnequalLegs, &vectors, &label),
+            "long_thin" => comparison.add_model(&baked::long_thin::LongThin, &vectors, &label),
+            "everything" => comparison.add_model(&baked::everything::Everything, &vectors, &label),
+            _ => {}
+        }
+    }
+    comparison.finish();
+}
+
+#[test]
+fn hand_written_reference() {
+    let mut comparison = Comparison::default();
+    for vectors in all() {
+        let parameters = reference::parameters(&vectors.platform);
+        for (number, (state, expected)) in vectors.cases.iter().enumerate() {
+            let state = reference::state(state);
+            for (output, expected) in expected.iter().filter(|(name, _)| !ENGINES_ONLY.contains(&name.as_str())) {
+                let label = format!("{}, case {number}", vectors.platform.name);
+                let values = reference::output(&parameters, &state, output);
+                comparison.add(&label, output, &values, expected, scale(&vectors, output));
+            }
+        }
+    }
+    comparison.finish();
+}
+
+/// C_p v_p - C_b v_b is what the engines call velocity terms: bias without gravity, springs and dampers.
+#[test]
+fn coriolis_matrices_give_the_engines_velocity_terms() {
+    for vectors in all() {
+        let model = compiled::at_run_time(&vectors.platform);
+        for (state, expected) in &vectors.cases {
+            let matrices: Environment = compiled::call(&model, "coriolis_matrices", state);
+            let product = |matrix: &str, velocity: &str| -> Vec<f64> {
+                let row = |row: &[f64]| row.iter().zip(&state[velocity]).map(|(c, v)| c * v).sum();
+                matrices[matrix].chunks(6).map(row).collect()
+            };
+            let platform = product("coriolis_matrix_p", "platform_velocity");
+            let base = product("coriolis_matrix_b", "base_velocity");
+            let passive = |k: usize| ["gravity_force", "spring_force", "damping_force"].iter().map(|name| expected[*name][k]).sum::<f64>();
+            let ours: Vec<f64> = (0..6).map(|k| platform[k] - base[k] + passive(k)).collect();
+            let found = deviation(&ours, &expected["bias"], Scale::own());
+            assert!(within(found, tolerance("bias")), "{}: {found:.1e}", vectors.platform.name);
+        }
+    }
+}
+
+#[test]
+fn vectors_cover_every_output_and_at_least_six_platforms_of_twenty_states() {
+    let all = all();
+    assert!(all.len() >= 6, "only {} platforms", all.len());
+    let generated: BTreeSet<String> = platforms::graph_file()
+        .program
+        .functions
+        .iter()
+        .flat_map(|function| function.outputs.clone())
+        .filter(|output| !OURS_ONLY.contains(&output.as_str()))
+        .collect();
+    for vectors in &all {
+        assert!(vectors.cases.len() >= 20, "{}: only {} states", vectors.platform.name, vectors.cases.len());
+        let covered: BTreeSet<String> = vectors
+            .cases
+            .iter()
+            .flat_map(|(_, outputs)| outputs.keys().cloned())
+            .filter(|output| !ENGINES_ONLY.contains(&output.as_str()))
+            .collect();
+        assert_eq!(covered, generated, "{}", vectors.platform.name);
+    }
+}
+
+/// The vectors' platforms are today's platform files: after a change the vectors must be made again.
+#[test]
+fn vectors_belong_to_the_platform_files() {
+    for vectors in all() {
+        let name = &vectors.platform.name;
+        assert_eq!(
+            vectors.platform,
+            platforms::platform(name),
+            "tests/vectors/{name}.json was made for other numbers: run `cargo xtask vectors --write`"
+        );
+    }
+}

@@ -1,0 +1,144 @@
+//! Would the agreement tests notice a wrong operation? Every operation of the committed graphs is changed in turn (result
+//! with the other sign, an operand dropped, a constant 0.1 % larger), and the functions that use it are compared with the
+//! reference again. At least 99 % of the changes must be caught; the rest is listed with the reason why it cannot be.
+
+use std::collections::BTreeMap;
+
+use dyn_gen::graph::{Environment, Graph, Node, NodeId, Op, Program, Step};
+use dyn_gen::sample::Kind;
+use dyn_gen::sampled_states;
+use dyn_tests::compare::{Scale, deviation, within};
+use dyn_tests::tolerance::tolerance;
+use dyn_tests::{platforms, reference};
+
+const CAUGHT: f64 = 0.99;
+
+/// Changes that no comparison can see: graph, change of a node, reason.
+const SURVIVORS: &[(&str, &str)] = &[];
+
+/// A change of one node.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+enum Change {
+    OtherSign,
+    FirstOperandDropped,
+    SecondOperandDropped,
+    OperationDropped,
+    ConstantLarger,
+}
+
+fn changes(node: Node) -> &'static [Change] {
+    use Change::*;
+    match node {
+        // Exact zeros are structure, such as the base's angular acceleration in the bias; 0.1 % of zero is no change.
+        Node::Constant(value) if value == 0.0 => &[],
+        Node::Constant(_) => &[ConstantLarger],
+        Node::Input { .. } | Node::Solution { .. } => &[],
+        Node::Unary(..) => &[OtherSign, OperationDropped],
+        Node::Binary(..) => &[OtherSign, FirstOperandDropped, SecondOperandDropped],
+    }
+}
+
+/// The graph with node `id` changed.
+fn mutate(graph: &Graph, id: usize, change: Change) -> Graph {
+    let mut mutant = graph.clone();
+    let node = &mut mutant.nodes[id];
+    let users = match (change, *node) {
+        (Change::ConstantLarger, Node::Constant(value)) => {
+            *node = Node::Constant(value * 1.001);
+            return mutant;
+        }
+        (Change::OtherSign, Node::Unary(Op::Neg, operand)) => operand,
+        (Change::OtherSign, Node::Binary(Op::Sub, a, b)) => {
+            *node = Node::Binary(Op::Sub, b, a);
+            return mutant;
+        }
+        (Change::OtherSign, _) => return with_negation_after(mutant, id),
+        (Change::OperationDropped, Node::Unary(_, operand)) => operand,
+        (Change::FirstOperandDropped, Node::Binary(_, _, b)) => b,
+        (Change::SecondOperandDropped, Node::Binary(_, a, _)) => a,
+        (change, node) => panic!("{change:?} does not fit {node:?}"),
+    };
+    mutant.replace_uses(NodeId(id as u32), users);
+    mutant
+}
+
+/// Everything that used node `id` uses its negation instead.
+fn with_negation_after(mut graph: Graph, id: usize) -> Graph {
+    let shift = |node: NodeId| if node.index() >= id { NodeId(node.0 + 1) } else { node };
+    for node in &mut graph.nodes[id + 1..] {
+        *node = match *node {
+            Node::Unary(op, a) => Node::Unary(op, shift(a)),
+            Node::Binary(op, a, b) => Node::Binary(op, shift(a), shift(b)),
+            other => other,
+        };
+    }
+    graph.outputs.iter_mut().flat_map(|output| &mut output.nodes).for_each(|node| *node = shift(*node));
+    graph.nodes.insert(id + 1, Node::Unary(Op::Neg, NodeId(id as u32)));
+    graph.section_of.insert(id + 1, graph.section_of[id]);
+    graph
+}
+
+/// A state with parameters, and the reference's outputs.
+struct Case {
+    environment: Environment,
+    expected: Environment,
+}
+
+fn cases(program: &Program) -> Vec<Case> {
+    let mut cases = Vec::new();
+    for name in ["everything", "unequal_legs", "tilted_gravity_damped"] {
+        let platform = platforms::platform(name);
+        let numbers = reference::parameters(&platform);
+        for mut state in sampled_states(program, &platform, &[(Kind::Large, 2)], platforms::SEED).unwrap() {
+            let expected = reference::outputs(&numbers, &reference::state(&state));
+            state.extend(platforms::parameters(&platform));
+            cases.push(Case { environment: state, expected });
+        }
+    }
+    cases
+}
+
+/// Whether some output of some function that calls graph number `graph` deviates.
+fn is_caught(program: &Program, graph: usize, cases: &[Case]) -> bool {
+    let calls = |step: &Step| matches!(step, Step::Call { graph: called, .. } if *called == graph);
+    program.functions.iter().filter(|function| function.steps.iter().any(calls)).any(|function| {
+        cases.iter().any(|case| {
+            let known = program.evaluate(function, &case.environment).expect("a complete environment");
+            function.outputs.iter().any(|output| {
+                let found = deviation(&known[output], &case.expected[output], Scale::own());
+                !within(found, tolerance(output))
+            })
+        })
+    })
+}
+
+#[test]
+fn changed_operations_are_caught() {
+    let program = platforms::graph_file().program;
+    let cases = cases(&program);
+    let unchanged = (0..program.graphs.len()).find(|&graph| is_caught(&program, graph, &cases));
+    assert_eq!(unchanged, None, "the unchanged graphs must agree, or everything counts as caught");
+
+    let mut total = 0;
+    let mut survivors: BTreeMap<String, usize> = BTreeMap::new();
+    let mut mutant = program.clone();
+    for (number, graph) in program.graphs.iter().enumerate() {
+        for (id, node) in graph.nodes.iter().enumerate() {
+            for change in changes(*node) {
+                total += 1;
+                mutant.graphs[number] = mutate(graph, id, *change);
+                if !is_caught(&mutant, number, &cases) {
+                    *survivors.entry(format!("{}: node {id} {node:?} {change:?}", graph.name)).or_default() += 1;
+                }
+            }
+        }
+        mutant.graphs[number] = graph.clone();
+    }
+    let caught = 1.0 - survivors.len() as f64 / total as f64;
+    println!("{total} changes, {:.3} % caught, {} survivors:", 100.0 * caught, survivors.len());
+    for survivor in survivors.keys() {
+        println!("  {survivor}");
+    }
+    let _ = SURVIVORS;
+    assert!(caught >= CAUGHT, "only {:.3} % of the changes are caught", 100.0 * caught);
+}

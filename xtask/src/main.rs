@@ -1,0 +1,89 @@
+//! The workspace's own commands: orchestration only, each step is a command one can also type.
+
+mod runner;
+mod steps;
+#[cfg(test)]
+mod tests;
+mod vectors;
+mod workspace;
+
+use std::process::ExitCode;
+
+use clap::{Args, Parser, Subcommand};
+
+use crate::runner::Failure;
+use crate::steps::{BENCH, RUN, Step, TEST};
+
+/// Everything this workspace does, one command each.
+///
+/// Nothing needs setting up: Python environments are made under `target/` on first use. A step that fails names the
+/// command that repeats it alone.
+#[derive(Parser)]
+#[command(name = "cargo xtask", bin_name = "cargo xtask")]
+struct CommandLine {
+    #[command(subcommand)]
+    command: Task,
+}
+
+#[derive(Subcommand)]
+enum Task {
+    /// Derive, regenerate, check, and print a summary of the platform of the paper
+    ///
+    /// Where Python or the network is missing it says so and goes on with the committed graph.
+    Run(Selection),
+    /// Check everything: format, lints, freshness of derived files, Python and Rust tests, documentation
+    ///
+    /// Needs Python 3.11 or later and, the first time, the network.
+    Test(Selection),
+    /// Measure: criterion benchmarks of generated code beside the hand-written reference
+    ///
+    /// Close other programs first, and compare figures of one and the same run only. The report lies in
+    /// `target/criterion/report/index.html`.
+    Bench {
+        /// Measure only what contains this text
+        filter: Option<String>,
+    },
+    /// Recompute the test vectors of the multibody engines and compare with the committed ones (long)
+    ///
+    /// Pinocchio and MuJoCo are installed from `tests/engines/requirements.lock` into an environment of their own.
+    Vectors(vectors::Options),
+}
+
+/// Which steps of a task.
+#[derive(Args)]
+struct Selection {
+    /// Start at this step
+    #[arg(long, value_name = "STEP", conflicts_with = "only")]
+    from: Option<String>,
+    /// Do this step alone
+    #[arg(long, value_name = "STEP")]
+    only: Option<String>,
+    /// List the steps, their reasons and commands, and do nothing
+    #[arg(long)]
+    list: bool,
+}
+
+fn main() -> ExitCode {
+    let result = match CommandLine::parse().command {
+        Task::Run(selection) => perform("run", RUN, &selection),
+        Task::Test(selection) => perform("test", TEST, &selection),
+        Task::Bench { filter } => runner::bench(&BENCH, filter.as_deref()),
+        Task::Vectors(options) => vectors::compare_or_write(&options),
+    };
+    match result {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(failure) => {
+            eprintln!("{failure}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+fn perform(task: &str, steps: &[Step], selection: &Selection) -> Result<(), Failure> {
+    let chosen = steps::select(steps, selection.from.as_deref(), selection.only.as_deref())?;
+    if selection.list {
+        runner::list(chosen);
+        return Ok(());
+    }
+    runner::run(task, chosen)
+}

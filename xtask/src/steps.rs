@@ -1,0 +1,145 @@
+//! The steps of `run` and `test`: what, why, and the command. A new step is a new row.
+
+use crate::runner::Failure;
+
+/// One row.
+pub struct Step {
+    /// For `--only` and `--from`.
+    pub name: &'static str,
+    /// What one knows after it.
+    pub why: &'static str,
+    /// What does it.
+    pub action: Action,
+}
+
+/// What does a step.
+#[derive(Clone, Copy)]
+pub enum Action {
+    /// `cargo ARGUMENTS`.
+    Cargo(&'static [&'static str]),
+    /// The same, with a rustup component that not every machine has.
+    CargoWith {
+        /// Arguments of cargo.
+        arguments: &'static [&'static str],
+        /// The component.
+        component: &'static str,
+    },
+    /// `cargo ARGUMENTS` whose tests are counted; none at all is a failure.
+    CargoTests(&'static [&'static str]),
+    /// `cargo ARGUMENTS` with warnings of rustdoc denied.
+    Documentation(&'static [&'static str]),
+    /// `cargo ARGUMENTS`, for a machine without operating system where the toolchain has that target.
+    NoStd(&'static [&'static str]),
+    /// `python ARGUMENTS` in `codegen/`, in the derivation's environment.
+    Derivation(&'static [&'static str]),
+}
+
+/// The README's `Run`.
+pub const RUN: &[Step] = &[
+    Step {
+        name: "generate",
+        why: "CasADi derives the equations, dyn-gen turns them into Rust",
+        action: Action::Cargo(&[
+            "run",
+            "--release",
+            "--package",
+            "dyn-gen",
+            "--",
+            "regen",
+            "--derive",
+            "--fallback",
+        ]),
+    },
+    Step {
+        name: "summary",
+        why: "the paper's platform in figures, checked against independent numerics",
+        action: Action::Cargo(&[
+            "run",
+            "--release",
+            "--package",
+            "dyn-gen",
+            "--",
+            "summary",
+            "platforms/uhp_2016.toml",
+        ]),
+    },
+    Step {
+        name: "first-call",
+        why: "the generated functions, called from a program of 40 lines",
+        action: Action::Cargo(&["run", "--release", "--package", "dyn-runtime", "--example", "first_call"]),
+    },
+];
+
+/// The README's `Test`. Quick checks first; the tests last, so that their figures stand at the end of the output.
+pub const TEST: &[Step] = &[
+    Step {
+        name: "format",
+        why: "the sources are formatted",
+        action: Action::CargoWith { arguments: &["fmt", "--all", "--check"], component: "rustfmt" },
+    },
+    Step {
+        name: "lints",
+        why: "no warning of rustc or clippy",
+        action: Action::CargoWith {
+            arguments: &["clippy", "--workspace", "--all-targets", "--", "--deny", "warnings"],
+            component: "clippy",
+        },
+    },
+    Step {
+        name: "derivation",
+        why: "the committed graph is what CasADi derives today, byte for byte",
+        action: Action::Cargo(&["run", "--package", "dyn-gen", "--", "derive", "--check"]),
+    },
+    Step {
+        name: "regeneration",
+        why: "the committed Rust is what dyn-gen makes of graph and platform, byte for byte",
+        action: Action::Cargo(&["run", "--package", "dyn-gen", "--", "regen", "--check"]),
+    },
+    Step {
+        name: "python-tests",
+        why: "the derivation's own tests",
+        action: Action::Derivation(&["-m", "pytest", "tests", "--quiet", "-p", "no:cacheprovider"]),
+    },
+    Step {
+        name: "no-std",
+        why: "dyn-runtime needs neither operating system nor allocator",
+        action: Action::NoStd(&["build", "--package", "dyn-runtime", "--no-default-features"]),
+    },
+    Step {
+        name: "documentation",
+        why: "every link in the documentation leads somewhere",
+        action: Action::Documentation(&["doc", "--workspace", "--no-deps"]),
+    },
+    Step {
+        name: "benchmarks",
+        why: "the benchmarks compile",
+        action: Action::Cargo(&["bench", "--workspace", "--no-run"]),
+    },
+    Step {
+        name: "tests",
+        why: "agreement with reference and engines, physics, passes, printer, bad input, examples in the documentation",
+        action: Action::CargoTests(&["test", "--workspace"]),
+    },
+];
+
+/// `cargo xtask bench`.
+pub const BENCH: Step = Step {
+    name: "bench",
+    why: "generated code beside the hand-written reference, on the same states",
+    action: Action::Cargo(&["bench", "--package", "dyn-benches"]),
+};
+
+/// The steps that `--from` or `--only` leave.
+pub fn select<'a>(steps: &'a [Step], from: Option<&str>, only: Option<&str>) -> Result<&'a [Step], Failure> {
+    let position = |name: &str| {
+        steps.iter().position(|step| step.name == name).ok_or_else(|| {
+            let names: Vec<_> = steps.iter().map(|step| step.name).collect();
+            Failure::new(format!("no step is called `{name}`"), format!("steps: {}", names.join(", ")))
+        })
+    };
+    match (from, only) {
+        (_, Some(name)) => position(name).map(|index| &steps[index..=index]),
+        (Some(name), None) => position(name).map(|index| &steps[index..]),
+        (None, None) => Ok(steps),
+    }
+}
