@@ -7,7 +7,6 @@ along the actuators must balance: one 6 x 6 solve, no mass matrix.
 
 import casadi as ca
 
-from .matrices import project
 from .payload import mass_matrix
 from .rotations import cross, levers_cross, symmetric
 from .stages import leg_stage, platform_stage
@@ -82,12 +81,14 @@ def residual_wrench(jacobian_row, net_axial_force, remaining_wrench):
 
 @platform_stage
 def platform_mass_matrix(
-    relative_rotation, merged_mass, merged_moment, merged_second_moment, platform_lever, joint_inertia_b,
+    relative_rotation, merged_mass, merged_moment, merged_second_moment, inertia_weights, inertia_rows,
 ):
     """mass matrix in base coordinates."""
-    payload = mass_matrix(relative_rotation, merged_mass, merged_moment, merged_second_moment)
-    legs = project(platform_lever, joint_inertia_b)
-    return {"platform_mass_matrix": symmetric(payload + legs)}
+    total = mass_matrix(relative_rotation, merged_mass, merged_moment, merged_second_moment)
+    for weights, rows in zip(inertia_weights, inertia_rows, strict=True):
+        for k in range(weights.shape[0]):
+            total += rows[k, :].T @ (weights[k] * rows[k, :])
+    return {"platform_mass_matrix": symmetric(total)}
 
 
 @platform_stage

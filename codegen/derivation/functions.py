@@ -116,7 +116,7 @@ def functions(leg) -> list[Function]:
             "forward_dynamics", "platform acceleration for given actuator forces", "(49)",
             ("forward_dynamics",),
             (*gradient, *merged, *rates, motion.base_acceleration_field, motion.trial_platform_field, *leg_forces,
-             *reaction, forces.net_axial_force, forces.residual_wrench, leg.leg_inertia_b, forces.platform_mass_matrix,
+             *reaction, forces.net_axial_force, forces.residual_wrench, leg.leg_inertia_squares, forces.platform_mass_matrix,
              Solve("acceleration_correction", "platform_mass_matrix", "residual_wrench", symmetric_positive_definite=True),
              forces.platform_acceleration),
         ),

@@ -68,6 +68,16 @@ def joint_inertia(leg: Leg, axis, gradient):
     return symmetric(square)
 
 
+def joint_inertia_squares(leg: Leg, axis, gradient):
+    """N as sum of weighted squares w v v^T, from which a 6 x 6 matrix takes fewer operations: [(w, v), ...].
+
+    For legs without inertia of their own across (sum m_kl across_k across_l = 0).
+    """
+    both = leg.total(lambda k, l: k.along * l.along)
+    mixed = leg.total(lambda k, l: k.across * l.along)
+    return [(both, gradient + (mixed / both) * axis), (-(mixed * mixed) / both, axis)]
+
+
 def joint_inertia_rate(leg: Leg, axis, axis_rate, gradient, gradient_rate):
     """sum m_kl D_k^T D_l': Coriolis matrix of the leg in the speeds of its joint, 3 x 3."""
     both = leg.total(lambda k, l: k.along * l.along)

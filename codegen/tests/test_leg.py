@@ -146,3 +146,11 @@ def test_rod_ends_carry_the_rods_inertia():
 def test_skew_is_the_cross_product():
     a, b = generator(4).normal(size=(2, 3))
     np.testing.assert_allclose(value(skew(ca.SX(a)) @ ca.SX(b))[:, 0], np.cross(a, b), rtol=1e-15)
+
+
+def test_squares_add_up_to_the_joint_inertia():
+    rng = generator(5)
+    axis, gradient = ca.SX(AXIS), ca.SX(rng.normal(size=3))
+    leg = uhp._leg(ca.SX(0.9), ca.SX(0.2), ca.SX(0.6))
+    squares = sum(weight * v @ v.T for weight, v in kane.joint_inertia_squares(leg, axis, gradient))
+    np.testing.assert_allclose(value(squares), value(kane.joint_inertia(leg, axis, gradient)), rtol=1e-14, atol=1e-14)

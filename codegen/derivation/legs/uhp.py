@@ -132,9 +132,17 @@ def leg_inertia_forces(
 
 
 @leg_stage
-def leg_inertia_b(actuator_axis, length_gradient, mover_mass, hooke_end_mass, rod_coupling):
-    """mass matrix of the leg in the speeds of its joint."""
-    return {"joint_inertia_b": kane.joint_inertia(_leg(hooke_end_mass, rod_coupling, mover_mass), actuator_axis, length_gradient)}
+def leg_inertia_squares(
+    actuator_axis, platform_lever, jacobian_row, mover_mass, hooke_end_mass, rod_coupling,
+):
+    """mass matrix of the leg in the platform speeds, as weighted squares."""
+    leg = _leg(hooke_end_mass, rod_coupling, mover_mass)
+    axis_row = ca.vertcat(actuator_axis, cross(platform_lever, actuator_axis))
+    squares = kane.joint_inertia_squares(leg, axis_row, jacobian_row)
+    return {
+        "inertia_weights": ca.vertcat(*(weight for weight, _ in squares)),
+        "inertia_rows": ca.horzcat(*(row for _, row in squares)).T,
+    }
 
 
 @leg_stage
