@@ -1,0 +1,62 @@
+//! Subcommands: one file each.
+
+mod derive;
+mod files;
+mod generate;
+mod progress;
+mod regen;
+mod resolve;
+mod summary;
+
+use clap::{Parser, Subcommand};
+
+/// What a command has to say besides errors.
+pub enum Outcome {
+    /// It did what was asked.
+    Done,
+    /// It compared, and something differs.
+    Differs,
+}
+
+/// Turns the derived equations of a parallel platform and the numbers of a platform file into flat Rust.
+#[derive(Parser)]
+#[command(version, after_help = EXAMPLES)]
+pub struct Arguments {
+    #[command(subcommand)]
+    command: Command,
+}
+
+const EXAMPLES: &str = "\
+Examples:
+  dyn-gen generate my_platform.toml -o src/my_platform.rs   a model of your own platform
+  dyn-gen summary my_platform.toml                          what the generator makes of it
+  dyn-gen regen                                             the models of this repository, again
+  dyn-gen regen --check                                     are they up to date?
+
+Nothing is written when anything is refused; a file is replaced as a whole or not at all.
+Exit codes: 0 done, 1 refused or different, 2 wrong usage.";
+
+#[derive(Subcommand)]
+enum Command {
+    /// Write the model of one platform, all its numbers baked in
+    Generate(generate::Generate),
+    /// Write the models committed in this repository (dyn-runtime/src/generated) again
+    Regen(regen::Regen),
+    /// Derive the equations with CasADi and write the graph file (codegen/graphs/uhp.json)
+    Derive(derive::Derive),
+    /// Print the resolved numbers of a platform as JSON
+    Resolve(resolve::Resolve),
+    /// Print what a platform is and what the generator makes of it
+    Summary(summary::Summary),
+}
+
+/// Does what the command line says.
+pub fn run(arguments: Arguments) -> miette::Result<Outcome> {
+    match arguments.command {
+        Command::Generate(generate) => generate.run(),
+        Command::Regen(regen) => regen.run(),
+        Command::Derive(derive) => derive.run(),
+        Command::Resolve(resolve) => resolve.run(),
+        Command::Summary(summary) => summary.run(),
+    }
+}

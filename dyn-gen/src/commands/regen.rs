@@ -1,0 +1,99 @@
+//! `dyn-gen regen`: everything generated in this repository.
+
+use std::path::Path;
+
+use clap::Args;
+use dyn_gen::emit::RuntimePath;
+use dyn_gen::{GraphFile, Numbers, Options, generate, kernels};
+use dyn_platform::Platform;
+use miette::Result;
+
+use super::Outcome;
+use super::derive::{DeriveError, derive};
+use super::files::{GENERATED, GRAPH, NewFile, PLATFORM, read_graph, repository, write_all};
+
+/// The command that the files name and that a failed check recommends.
+const COMMAND: &str = "cargo regen";
+
+/// Arguments of `regen`.
+#[derive(Args)]
+pub struct Regen {
+    /// Derive the equations first (needs Python 3.11 or later; makes its own environment under target/)
+    #[arg(long)]
+    derive: bool,
+    /// With --derive: where Python or the network is missing, say so and go on with the committed graph
+    #[arg(long, requires = "derive")]
+    fallback: bool,
+    /// Compare only: exit code 1 if a file is not up to date
+    #[arg(long)]
+    check: bool,
+}
+
+impl Regen {
+    /// Generates everything, then writes or compares.
+    pub fn run(self) -> Result<Outcome> {
+        let root = repository()?;
+        let mut files = Vec::new();
+        let graph = match self.derived(&root)? {
+            Some(derived) => {
+                files.push(NewFile { path: root.join(GRAPH), text: derived.text });
+                derived.graph
+            }
+            None => read_graph(&root.join(GRAPH))?,
+        };
+        files.extend(generated_files(&root, &graph)?);
+        files.retain(|file| !file.is_current());
+        let shown =
+            |file: &NewFile| file.path.strip_prefix(&root).unwrap_or(&file.path).display().to_string();
+        let changed: Vec<String> = files.iter().map(shown).collect();
+        if files.is_empty() {
+            eprintln!("everything generated is up to date");
+        } else if self.check {
+            let command = if self.derive { format!("{COMMAND} --derive") } else { COMMAND.into() };
+            eprintln!("not up to date: {}\nrun `{command}`", changed.join(", "));
+            return Ok(Outcome::Differs);
+        } else {
+            write_all(&files)?;
+            eprintln!("wrote {}", changed.join(", "));
+        }
+        Ok(Outcome::Done)
+    }
+
+    fn derived(&self, root: &Path) -> Result<Option<super::derive::Derived>> {
+        if !self.derive {
+            return Ok(None);
+        }
+        match derive(root) {
+            Ok(derived) => Ok(Some(derived)),
+            Err(report) => match report.downcast_ref::<DeriveError>() {
+                Some(error) if self.fallback && error.is_environment_missing() => {
+                    eprintln!("{error}: going on with the committed graph");
+                    Ok(None)
+                }
+                _ => Err(report),
+            },
+        }
+    }
+}
+
+/// Every generated file of the runtime crate.
+fn generated_files(root: &Path, graph: &GraphFile) -> Result<Vec<NewFile>> {
+    let platform = Platform::from_file(root.join(PLATFORM))?;
+    let options = |model: &str| Options {
+        model: model.into(),
+        runtime: RuntimePath::inside(),
+        functions: None,
+        command: COMMAND.into(),
+    };
+    let family = graph.program.name.as_str();
+    let texts = [
+        ("kernels", kernels(graph, COMMAND)?),
+        (&platform.name, generate(graph, Numbers::Baked(&platform), &options(&platform.name))?.source),
+        (family, generate(graph, Numbers::AtRunTime, &options(family))?.source),
+    ];
+    let file = |(name, text): (&str, String)| NewFile {
+        path: root.join(GENERATED).join(format!("{name}.rs")),
+        text,
+    };
+    Ok(texts.into_iter().map(file).collect())
+}

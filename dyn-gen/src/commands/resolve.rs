@@ -1,0 +1,26 @@
+//! `dyn-gen resolve`
+
+use std::path::PathBuf;
+
+use clap::Args;
+use dyn_platform::Platform;
+use miette::{IntoDiagnostic, Result};
+
+use super::Outcome;
+
+/// Arguments of `resolve`.
+#[derive(Args)]
+pub struct Resolve {
+    /// Platform file
+    #[arg(value_name = "PLATFORM.toml")]
+    platform: PathBuf,
+}
+
+impl Resolve {
+    /// Prints the JSON.
+    pub fn run(self) -> Result<Outcome> {
+        let platform = Platform::from_file(&self.platform)?;
+        println!("{}", serde_json::to_string_pretty(&platform).into_diagnostic()?);
+        Ok(Outcome::Done)
+    }
+}

@@ -1,0 +1,172 @@
+//! `dyn-gen summary`: what a platform is and what the generator makes of it.
+
+use std::path::PathBuf;
+
+use clap::Args;
+use dyn_gen::evidence::{self, Agreement, KINDS};
+use dyn_gen::graph::Environment;
+use dyn_gen::sample::Pose;
+use dyn_gen::{GeneratedFunction, GraphFile, Numbers, optimise, state_at};
+use dyn_platform::Platform;
+use miette::{IntoDiagnostic, Result};
+use serde::Serialize;
+
+use super::Outcome;
+use super::progress::with_progress;
+
+/// States of each kind at which results are compared.
+const STATES: usize = 100;
+/// Their seed; another than that of the states by which pivots were chosen.
+const SEED: u64 = 2016;
+/// Vertical acceleration of the platform in the sample motion, m/s^2.
+const SAMPLE_ACCELERATION: f64 = 1.0;
+
+/// Arguments of `summary`.
+#[derive(Args)]
+pub struct Summary {
+    /// Platform file
+    #[arg(value_name = "PLATFORM.toml")]
+    platform: PathBuf,
+    /// Machine-readable
+    #[arg(long)]
+    json: bool,
+}
+
+/// Everything the summary says.
+#[derive(Serialize)]
+struct Report {
+    platform: String,
+    leg_type: &'static str,
+    mobility: i64,
+    /// m
+    actuator_length_at_home: Vec<f64>,
+    /// kg, kg m, kg m^2; row-major, O
+    mass_matrix_p_at_home: Vec<f64>,
+    /// N, at home, base at rest, platform accelerating upwards by 1 m/s^2
+    sample_actuator_force: Vec<f64>,
+    operations: Vec<Operations>,
+    evidence: Evidence,
+}
+
+#[derive(Serialize)]
+struct Operations {
+    function: String,
+    derived: usize,
+    /// After each pass, in order.
+    after: Vec<(&'static str, usize)>,
+}
+
+#[derive(Serialize)]
+struct Evidence {
+    states_of_each_kind: usize,
+    seed: u64,
+    outputs: Vec<Agreement>,
+}
+
+impl Summary {
+    /// Prints the summary.
+    pub fn run(self) -> Result<Outcome> {
+        let platform = Platform::from_file(&self.platform)?;
+        let file = GraphFile::uhp()?;
+        let report = with_progress("comparing with the hand-written dynamics", || report(&file, &platform))?;
+        if self.json {
+            println!("{}", serde_json::to_string_pretty(&report).into_diagnostic()?);
+        } else {
+            print!("{}", report.text());
+        }
+        Ok(Outcome::Done)
+    }
+}
+
+fn report(file: &GraphFile, platform: &Platform) -> Result<Report> {
+    let functions = optimise(&file.program, Numbers::Baked(platform), None)?;
+    let mut state = state_at(&Pose { position: platform.home.position, rotation: platform.home.rotation });
+    state.insert("platform_acceleration".into(), vec![0.0, 0.0, SAMPLE_ACCELERATION, 0.0, 0.0, 0.0]);
+    let operations = functions.iter().map(|function| Operations {
+        function: function.graph.name.clone(),
+        derived: function.before.total(),
+        after: function.passes.iter().map(|pass| (pass.name, pass.after.total())).collect(),
+    });
+    Ok(Report {
+        platform: platform.name.clone(),
+        leg_type: platform.leg_type.name(),
+        mobility: mobility(file.program.leg_count),
+        actuator_length_at_home: output(&functions, "actuator_length", &state)?,
+        mass_matrix_p_at_home: output(&functions, "mass_matrix_p", &state)?,
+        sample_actuator_force: output(&functions, "inverse_dynamics", &state)?,
+        operations: operations.collect(),
+        evidence: Evidence {
+            states_of_each_kind: STATES,
+            seed: SEED,
+            outputs: evidence::compare(&file.program, platform, &functions, STATES, SEED)?,
+        },
+    })
+}
+
+/// Mobility by (1): F = 6 (n - m - 1) + sum f, with two links per leg between base and platform (n = 14 for six
+/// legs), and per leg a slider (f = 1), a Hooke joint (2) and the platform's universal joint with its three rotations (3):
+/// m = 18, sum f = 36.
+fn mobility(legs: usize) -> i64 {
+    let legs = legs as i64;
+    let (bodies, joints, freedoms) = (2 + 2 * legs, 3 * legs, (1 + 2 + 3) * legs);
+    6 * (bodies - joints - 1) + freedoms
+}
+
+/// An output of whichever function has it first.
+fn output(functions: &[GeneratedFunction], name: &str, state: &Environment) -> Result<Vec<f64>> {
+    let has = |function: &&GeneratedFunction| {
+        function.graph.outputs.iter().any(|output| output.symbol.name == name)
+    };
+    let function =
+        functions.iter().find(has).ok_or_else(|| miette::miette!("the graph file has no output `{name}`"))?;
+    let mut outputs = function.graph.evaluate(state).into_diagnostic()?;
+    Ok(outputs.remove(name).unwrap_or_default())
+}
+
+impl Report {
+    fn text(&self) -> String {
+        let mut lines = vec![
+            format!("Platform {} (legs {}), mobility (1): {}", self.platform, self.leg_type, self.mobility),
+            String::new(),
+            format!("actuator lengths at home [m]       {}", numbers(&self.actuator_length_at_home, 5)),
+            format!("actuator forces at home [N]        {}", numbers(&self.sample_actuator_force, 3)),
+            format!("  (base at rest, platform accelerating upwards by {SAMPLE_ACCELERATION} m/s^2)"),
+            "mass matrix M_p at home [kg, kg m, kg m^2]".into(),
+        ];
+        lines.extend(self.mass_matrix_p_at_home.chunks(6).map(|row| format!("  {}", numbers(row, 5))));
+        lines.extend([String::new(), "Operations (+ - * / sqrt) as derived and after each pass".into()]);
+        if let Some(first) = self.operations.first() {
+            let passes: String = first.after.iter().map(|(pass, _)| format!("{pass:>9}")).collect();
+            lines.push(format!("  {:<20}{:>9}{passes}", "function", "derived"));
+        }
+        for row in &self.operations {
+            let counts: String = row.after.iter().map(|(_, count)| format!("{count:>9}")).collect();
+            lines.push(format!("  {:<20}{:>9}{counts}", row.function, row.derived));
+        }
+        let Evidence { states_of_each_kind, seed, outputs } = &self.evidence;
+        lines.extend([
+            String::new(),
+            "Agreement with the hand-written dynamics: largest relative error of each array".into(),
+            format!("  ({states_of_each_kind} states of each kind, seed {seed})"),
+        ]);
+        let kinds: String = KINDS.iter().map(|(_, name)| format!("{name:>11}")).collect();
+        lines.push(format!("  {:<20}{:<34}{kinds}", "function", "output"));
+        for row in outputs {
+            let errors: String = row.worst.iter().map(|error| format!("{error:>11.1e}")).collect();
+            lines.push(format!("  {:<20}{:<34}{errors}", row.function, row.output));
+        }
+        let worst = outputs.iter().max_by(|a, b| a.overall().total_cmp(&b.overall()));
+        if let Some(worst) = worst {
+            lines.push(format!("  largest: {:.1e} ({}, {})", worst.overall(), worst.function, worst.output));
+        }
+        lines.push(String::new());
+        lines.join("\n")
+    }
+}
+
+fn numbers(values: &[f64], decimals: usize) -> String {
+    // No minus sign on what rounds to zero.
+    let half = 0.5 * 0.1_f64.powi(decimals as i32);
+    let shown = |value: &f64| if value.abs() < half { 0.0 } else { *value };
+    values.iter().map(|value| format!("{:>10.decimals$}", shown(value))).collect()
+}

@@ -1,0 +1,41 @@
+//! A graph as a free function.
+
+use proc_macro2::TokenStream;
+use quote::{format_ident, quote};
+
+use super::EmitError;
+use super::body::{Body, body};
+use super::names::PARAMETERS;
+use super::print::{parse, source_with_comments};
+use super::signature::Signature;
+use crate::graph::Graph;
+
+/// Source of one function: signature and flat body.
+///
+/// Names it expects in scope: `sqrt`, `solve_general`, and `Parameters` where the graph still has parameters.
+pub fn function(graph: &Graph, with_parameters: bool) -> Result<String, EmitError> {
+    let signature = Signature::of(graph);
+    let name = signature.identifier()?;
+    let documentation = signature.documentation();
+    let arguments = signature.arguments()?;
+    let parameters = format_ident!("{PARAMETERS}");
+    let parameters = with_parameters.then(|| quote!(#parameters: &Parameters,));
+    // Every model has the same signatures: what its numbers make unnecessary stays an argument.
+    let allow = allow(quote!(unused_variables));
+    let mut item: syn::ItemFn = parse(
+        &graph.name,
+        quote! {
+            #documentation
+            #allow
+            pub fn #name(#parameters #(#arguments),*) {}
+        },
+    )?;
+    let Body { statements, comments } = body(graph)?;
+    item.block.stmts = statements;
+    Ok(source_with_comments(item, &comments))
+}
+
+/// Lints made for code that people write: whatever a caller's crate turns on, generated items stay silent.
+pub(super) fn allow(and: TokenStream) -> TokenStream {
+    quote!(#[allow(clippy::all, clippy::pedantic, #and)])
+}

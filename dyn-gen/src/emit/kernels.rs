@@ -1,0 +1,35 @@
+//! The file of kernel traits: one per function, implemented by every model.
+
+use quote::quote;
+
+use super::function::allow;
+use super::names::type_name;
+use super::print::source;
+use super::signature::Signature;
+use super::{EmitError, Header};
+
+/// Text of the file.
+pub fn kernels_file(header: &Header, signatures: &[Signature]) -> Result<String, EmitError> {
+    let mut text = header.text();
+    for signature in signatures {
+        let kernel = type_name(&signature.name)?;
+        let function = signature.identifier()?;
+        let documentation = signature.documentation();
+        let arguments = signature.arguments()?;
+        let allow = allow(quote!());
+        let title = super::signature::documentation(&[format!("A model that has `{}`.", signature.name)]);
+        text.push('\n');
+        text.push_str(&source(
+            &signature.name,
+            quote! {
+                #title
+                #allow
+                pub trait #kernel {
+                    #documentation
+                    fn #function(&self, #(#arguments),*);
+                }
+            },
+        )?);
+    }
+    Ok(text)
+}

@@ -1,0 +1,144 @@
+//! The file of one model: a type that implements the kernel traits, parameters if any remain, the functions.
+
+use proc_macro2::TokenStream;
+use quote::{format_ident, quote};
+
+use super::function::allow;
+use super::names::{PARAMETERS, identifier, type_name};
+use super::print::source;
+use super::signature::{Signature, array_type, documentation, symbol_line};
+use super::{EmitError, Header, RuntimePath};
+use crate::graph::Symbol;
+
+/// A model to print. It is baked when it has no parameters.
+pub struct Model<'a> {
+    /// Name of the platform or family, e.g. `uhp_2016`; the type is called `Uhp2016`.
+    pub name: &'a str,
+    /// Where the runtime crate is, seen from the generated file.
+    pub runtime: &'a RuntimePath,
+    /// What stays a run-time number, in the order of the fields.
+    pub parameters: &'a [Symbol],
+    /// What callers see of each function.
+    pub signatures: &'a [Signature],
+    /// Source of each function, as printed by [`super::function`].
+    pub functions: &'a [String],
+}
+
+/// Text of the model's file.
+pub fn model_file(header: &Header, model: &Model) -> Result<String, EmitError> {
+    let mut text = header.text();
+    for item in items(model)? {
+        text.push('\n');
+        text.push_str(&source(model.name, item)?);
+    }
+    for function in model.functions {
+        text.push('\n');
+        text.push_str(function);
+    }
+    Ok(text)
+}
+
+/// Everything before the functions, one item after another.
+fn items(model: &Model) -> Result<Vec<TokenStream>, EmitError> {
+    let runtime = model.runtime.tokens();
+    let name = type_name(model.name)?;
+    let mut items = vec![quote! {
+        #[allow(unused_imports)]
+        use #runtime::float::sqrt;
+        #[allow(unused_imports)]
+        use #runtime::solve::solve_general;
+    }];
+    if model.parameters.is_empty() {
+        let title = documentation(&[format!("The platform `{}`, every number baked in.", model.name)]);
+        items.push(quote! {
+            #title
+            #[derive(Clone, Copy, Debug, Default, PartialEq)]
+            pub struct #name;
+        });
+    } else {
+        items.extend(parameters(model)?);
+        let title =
+            documentation(&[format!("The model `{}`, physical numbers given at run time.", model.name)]);
+        items.push(quote! {
+            #title
+            #[derive(Clone, Copy, Debug, PartialEq)]
+            pub struct #name {
+                /// The physical numbers.
+                pub parameters: Parameters,
+            }
+        });
+    }
+    for signature in model.signatures {
+        items.push(implementation(model, signature)?);
+    }
+    Ok(items)
+}
+
+/// The struct of run-time numbers and its constructor.
+fn parameters(model: &Model) -> Result<[TokenStream; 2], EmitError> {
+    let mut fields = TokenStream::new();
+    let mut zeros = TokenStream::new();
+    let mut fills = TokenStream::new();
+    for symbol in model.parameters {
+        let field = identifier(model.name, &symbol.name)?;
+        let line = documentation(&[symbol_line(symbol)]);
+        let array = array_type(&symbol.shape);
+        let zero = symbol.shape.iter().rev().fold(quote!(0.0), |element, length| {
+            let length = proc_macro2::Literal::usize_unsuffixed(*length);
+            quote!([#element; #length])
+        });
+        let flat = match symbol.shape.len() {
+            0 => quote!(core::slice::from_mut(&mut parameters.#field)),
+            1 => quote!(&mut parameters.#field),
+            nested => {
+                let first = quote!(parameters.#field);
+                (1..nested).fold(first, |array, _| quote!(#array.as_flattened_mut()))
+            }
+        };
+        let name = &symbol.name;
+        fields.extend(quote!(#line pub #field: #array,));
+        zeros.extend(quote!(#field: #zero,));
+        fills.extend(quote!(fill(#name, #flat);));
+    }
+    let structure = quote! {
+        /// Physical numbers of a platform; of a quantity that legs have, the leg is the first dimension.
+        #[derive(Clone, Copy, Debug, PartialEq)]
+        pub struct Parameters {
+            #fields
+        }
+    };
+    let constructor = quote! {
+        impl Parameters {
+            /// Parameters filled field by field: `fill(name, values)` gets the name of each field and its elements,
+            /// row-major, to be written.
+            pub fn from_fn(mut fill: impl FnMut(&str, &mut [f64])) -> Self {
+                let mut parameters = Parameters { #zeros };
+                #fills
+                parameters
+            }
+        }
+    };
+    Ok([structure, constructor])
+}
+
+/// The kernel trait of one function, by a call of the free function.
+fn implementation(model: &Model, signature: &Signature) -> Result<TokenStream, EmitError> {
+    let runtime = model.runtime.tokens();
+    let model_name = type_name(model.name)?;
+    let kernel = type_name(&signature.name)?;
+    let function = signature.identifier()?;
+    let arguments = signature.arguments()?;
+    let names = signature.argument_names()?;
+    let allow = allow(quote!(unused_qualifications));
+    let field = format_ident!("{PARAMETERS}");
+    let parameters = (!model.parameters.is_empty()).then(|| quote!(&self.#field,));
+    // `self::`: an output may have the function's name.
+    Ok(quote! {
+        #allow
+        impl #runtime::kernels::#kernel for #model_name {
+            fn #function(&self, #(#arguments),*) {
+                self::#function(#parameters #(#names),*);
+            }
+        }
+    })
+}

@@ -1,0 +1,80 @@
+//! Names in generated code: checked identifiers, type names, temporaries.
+
+use proc_macro2::{Ident, Span};
+use quote::format_ident;
+
+use super::EmitError;
+
+/// Argument through which run-time parameters reach a function.
+pub const PARAMETERS: &str = "parameters";
+/// The imported square root.
+pub const SQRT: &str = "sqrt";
+/// The imported pivoted linear solver.
+pub const SOLVE_GENERAL: &str = "solve_general";
+
+/// `name` as an identifier of `function`, refused when it is not one or would hide a name the printer uses itself.
+pub fn identifier(function: &str, name: &str) -> Result<Ident, EmitError> {
+    let refuse = |reason| Err(EmitError::Name { function: function.into(), name: name.into(), reason });
+    if syn::parse_str::<Ident>(name).is_err() {
+        return refuse("it is not an identifier of Rust");
+    }
+    if [PARAMETERS, SQRT, SOLVE_GENERAL].contains(&name) {
+        return refuse("the generated code uses it itself");
+    }
+    if is_temporary(name) {
+        return refuse("names like `t12` are temporaries");
+    }
+    Ok(Ident::new(name, Span::call_site()))
+}
+
+/// Name of the temporary with this number.
+pub fn temporary(number: u32) -> Ident {
+    format_ident!("t{number}")
+}
+
+fn is_temporary(name: &str) -> bool {
+    name.strip_prefix('t')
+        .is_some_and(|digits| !digits.is_empty() && digits.bytes().all(|b| b.is_ascii_digit()))
+}
+
+/// `inverse_dynamics` as the type name `InverseDynamics`; digits keep their place: `uhp_2016` is `Uhp2016`.
+pub fn camel_case(name: &str) -> String {
+    name.split('_')
+        .flat_map(|word| {
+            let mut letters = word.chars();
+            letters.next().map(|first| first.to_uppercase().chain(letters).collect::<String>())
+        })
+        .collect()
+}
+
+/// The type named after `name`.
+pub fn type_name(name: &str) -> Result<Ident, EmitError> {
+    let camel = camel_case(name);
+    syn::parse_str::<Ident>(&camel).map_err(|_| EmitError::Name {
+        function: name.into(),
+        name: camel.clone(),
+        reason: "it is not an identifier of Rust",
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn type_names_keep_digits_and_drop_underscores() {
+        assert_eq!(camel_case("inverse_dynamics"), "InverseDynamics");
+        assert_eq!(camel_case("uhp_2016"), "Uhp2016");
+        assert_eq!(camel_case("bias"), "Bias");
+    }
+
+    #[test]
+    fn names_that_would_hide_others_are_refused() {
+        for name in ["t1", "t123", "parameters", "sqrt", "solve_general", "fn", "2b", "a-b", "", "self"] {
+            assert!(identifier("f", name).is_err(), "{name} was accepted");
+        }
+        for name in ["t", "torque", "t1a", "time_2"] {
+            assert!(identifier("f", name).is_ok(), "{name} was refused");
+        }
+    }
+}

@@ -1,0 +1,127 @@
+//! Which values get a name and which are written where they are used.
+
+use crate::graph::{Graph, Node, NodeId, Op};
+
+/// Where a value of the graph appears in the source.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Place {
+    /// No output needs it.
+    Unused,
+    /// A literal, an element of an argument or of a solution: written wherever it is used.
+    Leaf,
+    /// Used once, and short enough to stand in the expression that uses it.
+    Inline,
+    /// `let t12 = ...;`
+    Temporary,
+}
+
+/// Expressions are inlined up to this many characters, so that a statement stays on one line.
+const WIDTH: u32 = 76;
+/// Characters of a temporary such as `t1234`.
+const TEMPORARY: u32 = 5;
+
+/// The place of every node. Inlining never crosses a section, so section comments stay true, and never changes the
+/// tree of an expression, so results stay bit-identical.
+pub fn place(graph: &Graph) -> Vec<Place> {
+    let uses = uses(graph);
+    let mut width = vec![0; graph.nodes.len()];
+    let mut places = vec![Place::Unused; graph.nodes.len()];
+    for (index, node) in graph.nodes.iter().enumerate() {
+        if uses[index].count == 0 {
+            continue;
+        }
+        let section = graph.section_of[index];
+        let mut total = own_width(graph, node);
+        places[index] = match node {
+            Node::Constant(_) | Node::Input { .. } | Node::Solution { .. } => Place::Leaf,
+            Node::Unary(..) | Node::Binary(..) => Place::Temporary,
+        };
+        let mut operands = operands(node);
+        operands.sort_by_key(|operand| width[operand.0 as usize]);
+        // Until it is inlined, an operand counts as the temporary it otherwise is.
+        let is_leaf = |operand: &NodeId| places[operand.0 as usize] == Place::Leaf;
+        let as_leaf = |operand: &NodeId| if is_leaf(operand) { width[operand.0 as usize] } else { TEMPORARY };
+        total += operands.iter().map(as_leaf).sum::<u32>();
+        let candidates: Vec<usize> = operands.iter().filter(|o| !is_leaf(o)).map(|o| o.0 as usize).collect();
+        for operand in candidates {
+            let wider = total - TEMPORARY + width[operand] + 2;
+            if uses[operand].inlinable && graph.section_of[operand] == section && wider <= WIDTH {
+                places[operand] = Place::Inline;
+                total = wider;
+            }
+        }
+        width[index] = total;
+    }
+    for NodeId(index) in graph.outputs.iter().flat_map(|output| &output.nodes) {
+        let index = *index as usize;
+        if places[index] == Place::Temporary && uses[index].inlinable {
+            places[index] = Place::Inline;
+        }
+    }
+    places
+}
+
+/// Operands of a node, in order; a square appears twice.
+pub fn operands(node: &Node) -> Vec<NodeId> {
+    match *node {
+        Node::Constant(_) | Node::Input { .. } | Node::Solution { .. } => Vec::new(),
+        Node::Unary(_, a) => vec![a],
+        Node::Binary(_, a, b) => vec![a, b],
+    }
+}
+
+#[derive(Clone, Copy, Default)]
+struct Uses {
+    count: u32,
+    inlinable: bool,
+}
+
+/// How often the outputs need each node. A value is inlinable when exactly one operation or output uses it.
+fn uses(graph: &Graph) -> Vec<Uses> {
+    let mut uses = vec![Uses::default(); graph.nodes.len()];
+    let mut solved = vec![false; graph.solves.len()];
+    let add = |uses: &mut Vec<Uses>, id: NodeId, inlinable: bool| {
+        let entry = &mut uses[id.0 as usize];
+        entry.count += 1;
+        entry.inlinable = inlinable && entry.count == 1;
+    };
+    for node in graph.outputs.iter().flat_map(|output| &output.nodes) {
+        add(&mut uses, *node, true);
+    }
+    for (index, node) in graph.nodes.iter().enumerate().rev() {
+        if uses[index].count == 0 {
+            continue;
+        }
+        for operand in operands(node) {
+            add(&mut uses, operand, true);
+        }
+        if let Node::Solution { solve, .. } = *node {
+            let solve = solve as usize;
+            if !std::mem::replace(&mut solved[solve], true) {
+                let solve = &graph.solves[solve];
+                for operand in solve.matrix.iter().chain(&solve.right_hand_side) {
+                    add(&mut uses, *operand, false);
+                }
+            }
+        }
+    }
+    uses
+}
+
+/// Characters a node adds to its operands'.
+fn own_width(graph: &Graph, node: &Node) -> u32 {
+    let characters = match *node {
+        Node::Constant(value) => format!("{value:?}").len(),
+        Node::Input { input, .. } => {
+            let symbol = &graph.inputs[input as usize];
+            symbol.name.len()
+                + 3 * symbol.shape.len()
+                + if symbol.parameter { "parameters.".len() } else { 0 }
+        }
+        Node::Solution { solve, .. } => graph.solves[solve as usize].name.len() + 3,
+        Node::Unary(Op::Sqrt, _) => "sqrt()".len(),
+        Node::Unary(..) => "-".len(),
+        Node::Binary(..) => " + ".len(),
+    };
+    characters as u32
+}

@@ -1,0 +1,71 @@
+//! Operation counts: the figure by which passes are judged.
+
+use std::fmt;
+
+use super::{Graph, Node, Op};
+
+/// Live operations of a graph by kind.
+#[derive(Clone, Copy, PartialEq, Eq, Default, Debug)]
+pub struct OperationCount {
+    /// Additions and subtractions.
+    pub additions: usize,
+    /// Multiplications.
+    pub multiplications: usize,
+    /// Divisions.
+    pub divisions: usize,
+    /// Square roots.
+    pub square_roots: usize,
+    /// Sign changes; not part of [`total`](Self::total).
+    pub negations: usize,
+    /// Linear systems still to be solved as one operation; not part of [`total`](Self::total).
+    pub solves: usize,
+}
+
+impl OperationCount {
+    /// Additions, multiplications, divisions and square roots; sign changes ride along with additions and are not counted.
+    pub fn total(&self) -> usize {
+        self.additions + self.multiplications + self.divisions + self.square_roots
+    }
+}
+
+impl fmt::Display for OperationCount {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(
+            f,
+            "{} ({} add, {} mul, {} div, {} sqrt; {} neg, {} solve)",
+            self.total(),
+            self.additions,
+            self.multiplications,
+            self.divisions,
+            self.square_roots,
+            self.negations,
+            self.solves
+        )
+    }
+}
+
+impl Graph {
+    /// Counts the operations that the outputs need.
+    pub fn operation_count(&self) -> OperationCount {
+        let mut count = OperationCount::default();
+        let mut solve_needed = vec![false; self.solves.len()];
+        for (node, live) in self.nodes.iter().zip(self.live()) {
+            if !live {
+                continue;
+            }
+            match *node {
+                Node::Constant(_) | Node::Input { .. } => {}
+                Node::Unary(op, _) | Node::Binary(op, _, _) => match op {
+                    Op::Add | Op::Sub => count.additions += 1,
+                    Op::Mul => count.multiplications += 1,
+                    Op::Div => count.divisions += 1,
+                    Op::Sqrt => count.square_roots += 1,
+                    Op::Neg => count.negations += 1,
+                },
+                Node::Solution { solve, .. } => solve_needed[solve as usize] = true,
+            }
+        }
+        count.solves = solve_needed.iter().filter(|needed| **needed).count();
+        count
+    }
+}

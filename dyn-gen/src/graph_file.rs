@@ -1,0 +1,58 @@
+//! A graph file: its program, its name, and the hash by which generated files refer to it.
+
+use sha2::{Digest, Sha256};
+
+use crate::graph::{FormatError, Program};
+
+/// A graph file that was read and checked.
+#[derive(Clone, PartialEq, Debug)]
+pub struct GraphFile {
+    /// File name without folders, e.g. `uhp.json`.
+    pub name: String,
+    /// Hash of the file's bytes, hexadecimal.
+    pub sha256: String,
+    /// What it holds.
+    pub program: Program,
+}
+
+impl GraphFile {
+    /// Reads the text of a graph file called `name`.
+    ///
+    /// # Errors
+    /// Anything that is not a graph file of this version, with the place in it.
+    pub fn from_json(name: &str, text: &str) -> Result<GraphFile, FormatError> {
+        Ok(GraphFile {
+            name: name.into(),
+            sha256: sha256(text.as_bytes()),
+            program: Program::from_json(text)?,
+        })
+    }
+
+    /// The 6-UHP mechanism as this crate was built with it (`codegen/graphs/uhp.json`).
+    ///
+    /// # Errors
+    /// As [`GraphFile::from_json`]; a test shows that there are none.
+    pub fn uhp() -> Result<GraphFile, FormatError> {
+        GraphFile::from_json("uhp.json", include_str!("../../codegen/graphs/uhp.json"))
+    }
+}
+
+/// SHA-256 of `bytes`, hexadecimal.
+pub fn sha256(bytes: &[u8]) -> String {
+    Sha256::digest(bytes).iter().map(|byte| format!("{byte:02x}")).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_built_in_graph_is_a_graph() {
+        assert_eq!(GraphFile::uhp().unwrap().program.name, "uhp");
+    }
+
+    #[test]
+    fn the_hash_is_sha256() {
+        assert_eq!(sha256(b"abc"), "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
+    }
+}

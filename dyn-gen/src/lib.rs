@@ -1,0 +1,29 @@
+//! From a graph file and a platform's numbers to flat Rust.
+//!
+//! [`generate`] is the pipeline; the modules are its stages:
+//!
+//! | module | does |
+//! |-|-|
+//! | [`graph`] | reads the graph file, composes one expression graph per function, gives graphs their meaning in numbers |
+//! | [`passes`] | bakes numbers in and makes graphs smaller |
+//! | [`sample`] | states of the mechanism, by which pivot orders are chosen and results compared |
+//! | [`emit`] | prints graphs as Rust |
+//! | [`evidence`] | compares what will be printed with the hand-written dynamics |
+//!
+//! Nothing here reads or writes files; the command line tool `dyn-gen` does.
+
+pub mod emit;
+pub mod evidence;
+mod generate;
+pub mod graph;
+mod graph_file;
+mod parallel;
+pub mod passes;
+pub mod sample;
+mod workspace;
+
+pub use generate::{
+    GenerateError, Generated, GeneratedFunction, Numbers, Options, generate, kernels, optimise,
+};
+pub use graph_file::{GraphFile, sha256};
+pub use workspace::{sampled_states, state_at};

@@ -1,0 +1,135 @@
+//! Passes: graph in, graph out, the same function in fewer operations.
+//!
+//! [`PASSES`] is the pipeline in order. An exact pass keeps every bit of every output, up to the sign of zeros, wherever all
+//! intermediate values are finite; a rounding pass keeps them up to rounding errors. Passes know no Rust and no mechanics.
+
+mod bake;
+mod expand;
+mod fold;
+mod invert;
+mod linear;
+mod merge;
+mod pivot;
+mod prune;
+mod rewrite;
+mod settle;
+mod share;
+mod simplify;
+
+use crate::graph::{Environment, Graph, OperationCount};
+
+pub use pivot::PivotOrder;
+
+/// Whether a pass keeps the bits.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Exactness {
+    /// Same bits up to the sign of zeros, where all intermediate values are finite.
+    Exact,
+    /// Same value up to rounding.
+    Rounding,
+}
+
+/// What passes know besides the graph.
+#[derive(Clone, Debug, Default)]
+pub struct Context {
+    /// Values of the parameters to bake in; parameters that are not here stay inputs.
+    pub parameters: Environment,
+    /// States of the mechanism over its workspace, every state input of the graph, from which pivot orders are chosen.
+    pub states: Vec<Environment>,
+}
+
+/// A row of [`PASSES`].
+pub struct Pass {
+    /// The verb, also its file.
+    pub name: &'static str,
+    /// Whether it keeps the bits.
+    pub exactness: Exactness,
+    /// What holds afterwards.
+    pub after: &'static str,
+    /// Does it; what it decided goes into the list.
+    pub run: fn(&Graph, &Context, &mut Vec<PivotOrder>) -> Graph,
+}
+
+use Exactness::{Exact, Rounding};
+
+/// Every pass, in the order in which they run.
+pub const PASSES: [Pass; 8] = [
+    Pass {
+        name: "bake",
+        exactness: Exact,
+        after: "no node reads a baked parameter; no operation has only constant operands, unless its value is not finite",
+        run: |graph, context, _| bake::bake(graph, context),
+    },
+    Pass {
+        name: "simplify",
+        exactness: Exact,
+        after: "no operation has an operand that makes it trivial; negations stand only before roots, solves and outputs",
+        run: |graph, _, _| simplify::simplify(graph),
+    },
+    Pass {
+        name: "share",
+        exactness: Exact,
+        after: "no two nodes are equal or opposite by their operands",
+        run: |graph, _, _| share::share(graph),
+    },
+    Pass {
+        name: "expand",
+        exactness: Rounding,
+        after: "no symmetric positive definite solve is left, nor, given states, a general one free of parameters",
+        run: expand::expand,
+    },
+    Pass {
+        name: "invert",
+        exactness: Rounding,
+        after: "no two divisions have the same divisor, and no divisor is constant",
+        run: |graph, _, _| invert::invert(graph),
+    },
+    Pass {
+        name: "merge",
+        exactness: Rounding,
+        after: "in sums of weighted nodes no pair of terms is formed twice where forming it once is cheaper",
+        run: |graph, _, _| merge::merge(graph),
+    },
+    Pass {
+        name: "settle",
+        exactness: Exact,
+        after: "no negation is left that a difference or a constant used nowhere else could take up",
+        run: |graph, _, _| settle::settle(graph),
+    },
+    Pass {
+        name: "prune",
+        exactness: Exact,
+        after: "every node and solve is needed by an output, and every parameter among the inputs is read",
+        run: |graph, _, _| prune::prune(graph),
+    },
+];
+
+/// What a pass did.
+#[derive(Clone, PartialEq, Debug)]
+pub struct PassReport {
+    /// The pass.
+    pub name: &'static str,
+    /// Whether it keeps the bits.
+    pub exactness: Exactness,
+    /// Operations before it.
+    pub before: OperationCount,
+    /// Operations after it.
+    pub after: OperationCount,
+    /// Linear systems it expanded.
+    pub pivot_orders: Vec<PivotOrder>,
+}
+
+/// Runs every pass in order.
+pub fn run_passes(graph: &Graph, context: &Context) -> (Graph, Vec<PassReport>) {
+    let mut graph = graph.clone();
+    let mut before = graph.operation_count();
+    let mut reports = Vec::with_capacity(PASSES.len());
+    for pass in &PASSES {
+        let mut pivot_orders = Vec::new();
+        graph = (pass.run)(&graph, context, &mut pivot_orders);
+        let after = graph.operation_count();
+        reports.push(PassReport { name: pass.name, exactness: pass.exactness, before, after, pivot_orders });
+        before = after;
+    }
+    (graph, reports)
+}

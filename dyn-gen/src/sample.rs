@@ -1,0 +1,166 @@
+//! Seeded states of the mechanism over its workspace, the same on every machine: only `+ - * /` and square roots.
+//!
+//! Passes choose pivot orders by them and tests compare models on them. Say the seed when you report a result.
+
+use rand_pcg::Pcg64Mcg;
+use rand_pcg::rand_core::{Rng, SeedableRng};
+
+use crate::graph::Environment;
+
+/// A position and a row-major rotation.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Pose {
+    /// m
+    pub position: [f64; 3],
+    /// To the frame the position is in.
+    pub rotation: [[f64; 3]; 3],
+}
+
+/// Where a platform can be.
+pub struct Workspace<'a> {
+    /// The platform's home pose relative to the base.
+    pub home: Pose,
+    /// For a platform pose relative to the base, the smallest (u.a)^2 over the legs: 1 for a rod along its actuator, 0 for one
+    /// perpendicular to it, negative out of reach.
+    pub alignment: &'a dyn Fn(&Pose) -> f64,
+}
+
+/// How far from rest states are.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Kind {
+    /// At home, everything at rest, no load.
+    Home,
+    /// Millimetres and hundredths of a radian from home, base nearly level, moderate rates.
+    Random,
+    /// Base turned up to 1.2 rad, platform anywhere with u.a above 0.4, several m/s and rad/s.
+    Large,
+    /// As large, with a leg at u.a between 0.1 and 0.2.
+    NearEdge,
+}
+
+/// `count` states of a kind: every state input of the contract by name, flat.
+pub fn states(workspace: &Workspace<'_>, kind: Kind, count: usize, seed: u64) -> Vec<Environment> {
+    let mut source = Source(Pcg64Mcg::seed_from_u64(seed));
+    (0..count).map(|_| source.state(workspace, kind)).collect()
+}
+
+/// Random numbers.
+struct Source(Pcg64Mcg);
+
+impl Source {
+    /// Uniform in (-1, 1).
+    fn symmetric(&mut self) -> f64 {
+        (self.0.next_u64() >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
+    }
+
+    fn array<const N: usize>(&mut self, size: f64) -> [f64; N] {
+        std::array::from_fn(|_| size * self.symmetric())
+    }
+
+    /// A vector in the ball of this radius.
+    fn ball(&mut self, radius: f64) -> [f64; 3] {
+        loop {
+            let v: [f64; 3] = self.array(1.0);
+            if dot(v, v) <= 1.0 {
+                return v.map(|x| radius * x);
+            }
+        }
+    }
+
+    fn state(&mut self, workspace: &Workspace<'_>, kind: Kind) -> Environment {
+        // Half-angle tangents: 0.68 is 1.2 rad.
+        let (turn, reach, speed, acceleration, force) = match kind {
+            Kind::Home => (0.0, 0.0, 0.0, 0.0, 0.0),
+            Kind::Random => (0.1, 0.1, 0.3, 3.0, 20.0),
+            Kind::Large | Kind::NearEdge => (0.68, 1.0, 4.0, 30.0, 100.0),
+        };
+        let base = Pose { position: self.array(reach), rotation: rotation(self.ball(turn)) };
+        let relative = self.relative_pose(workspace, kind);
+        let turned = apply(base.rotation, relative.position);
+        let platform_position: [f64; 3] = std::array::from_fn(|k| base.position[k] + turned[k]);
+        let platform_rotation = product(base.rotation, relative.rotation);
+
+        let mut state = Environment::new();
+        let mut put = |name: &str, values: &[f64]| drop(state.insert(name.to_owned(), values.to_vec()));
+        put("base_position", &base.position);
+        put("base_rotation", base.rotation.as_flattened());
+        put("base_velocity", &self.array::<6>(speed));
+        put("base_acceleration", &self.array::<6>(acceleration));
+        put("platform_position", &platform_position);
+        put("platform_rotation", platform_rotation.as_flattened());
+        put("platform_velocity", &self.array::<6>(speed));
+        put("platform_acceleration", &self.array::<6>(acceleration));
+        put("actuator_force", &self.array::<6>(force));
+        put("external_wrench", &self.array::<6>(0.1 * force));
+        state
+    }
+
+    /// A platform pose relative to the base, within reach.
+    fn relative_pose(&mut self, workspace: &Workspace<'_>, kind: Kind) -> Pose {
+        let least = match kind {
+            Kind::Home => return workspace.home,
+            Kind::Random => return displaced(workspace.home, self.ball(0.005), self.ball(0.02), 1.0),
+            Kind::Large => 0.4 + 0.5 * self.symmetric().abs(),
+            Kind::NearEdge => 0.1 + 0.1 * self.symmetric().abs(),
+        };
+        // A ray from home, followed to the pose where a leg's u.a falls to `least`. It may not do so in any direction (or
+        // home itself may be worse): try others, and settle for home in the end.
+        for _ in 0..100 {
+            let (direction, axis) = (self.ball(0.3), self.ball(0.6));
+            let within = |t: f64| {
+                (workspace.alignment)(&displaced(workspace.home, direction, axis, t)) >= least * least
+            };
+            if let Some(t) = last_within(within) {
+                return displaced(workspace.home, direction, axis, t);
+            }
+        }
+        workspace.home
+    }
+}
+
+/// The largest t up to the first place where `within` fails, or none if it fails at 0 or never.
+fn last_within(within: impl Fn(f64) -> bool) -> Option<f64> {
+    const STEPS: u32 = 64;
+    let first_outside = (0..=STEPS).map(|k| f64::from(k) / 16.0).find(|t| !within(*t))?;
+    let (mut inside, mut outside) = (first_outside - 1.0 / 16.0, first_outside);
+    if inside < 0.0 {
+        return None;
+    }
+    for _ in 0..50 {
+        let middle = 0.5 * (inside + outside);
+        if within(middle) { inside = middle } else { outside = middle }
+    }
+    Some(inside)
+}
+
+/// `home` moved by t * direction and turned by the rotation of half-angle tangent t * axis.
+fn displaced(home: Pose, direction: [f64; 3], axis: [f64; 3], t: f64) -> Pose {
+    Pose {
+        position: std::array::from_fn(|k| home.position[k] + t * direction[k]),
+        rotation: product(rotation(axis.map(|x| t * x)), home.rotation),
+    }
+}
+
+/// The rotation matrix of the normalised quaternion (1, v).
+fn rotation(v: [f64; 3]) -> [[f64; 3]; 3] {
+    let norm = (1.0 + dot(v, v)).sqrt();
+    let (w, [x, y, z]) = (1.0 / norm, v.map(|component| component / norm));
+    [
+        [1.0 - 2.0 * (y * y + z * z), 2.0 * (x * y - w * z), 2.0 * (x * z + w * y)],
+        [2.0 * (x * y + w * z), 1.0 - 2.0 * (x * x + z * z), 2.0 * (y * z - w * x)],
+        [2.0 * (x * z - w * y), 2.0 * (y * z + w * x), 1.0 - 2.0 * (x * x + y * y)],
+    ]
+}
+
+fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+fn apply(matrix: [[f64; 3]; 3], v: [f64; 3]) -> [f64; 3] {
+    matrix.map(|row| dot(row, v))
+}
+
+fn product(a: [[f64; 3]; 3], b: [[f64; 3]; 3]) -> [[f64; 3]; 3] {
+    let column = |j: usize| [b[0][j], b[1][j], b[2][j]];
+    a.map(|row| std::array::from_fn(|j| dot(row, column(j))))
+}

@@ -1,0 +1,148 @@
+//! Why a checked call gives no answer.
+
+use core::error;
+use core::fmt;
+
+/// An argument of a checked call.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[non_exhaustive]
+pub enum Input {
+    /// Position of the base's origin.
+    BasePosition,
+    /// Rotation of the base.
+    BaseRotation,
+    /// Twist of the base.
+    BaseVelocity,
+    /// Acceleration of the base.
+    BaseAcceleration,
+    /// Position of the platform's origin.
+    PlatformPosition,
+    /// Rotation of the platform.
+    PlatformRotation,
+    /// Twist of the platform.
+    PlatformVelocity,
+    /// Acceleration of the platform.
+    PlatformAcceleration,
+    /// Forces of the six actuators.
+    ActuatorForce,
+    /// External wrench on the payload.
+    ExternalWrench,
+}
+
+/// Why a checked call gives no answer. Legs are indices 0 to 5; the messages number them 1 to 6 as well.
+#[derive(Clone, Copy, PartialEq, Debug)]
+#[non_exhaustive]
+pub enum Error {
+    /// An element of an input is NaN or infinite.
+    NonFinite {
+        /// The input.
+        input: Input,
+    },
+    /// A rotation matrix is not a rotation.
+    NotARotation {
+        /// [`Input::BaseRotation`] or [`Input::PlatformRotation`].
+        input: Input,
+        /// What is wrong with it.
+        defect: NotARotation,
+    },
+    /// The platform joint of this leg is farther from the actuator's axis than the rod is long.
+    OutOfReach {
+        /// Index of the first such leg, 0 to 5.
+        leg: usize,
+    },
+    /// The rod of this leg is perpendicular to its actuator, or so nearly that the leg cannot be driven:
+    /// `(u.a)^2` is below [`MIN_ROD_ALIGNMENT`](crate::MIN_ROD_ALIGNMENT).
+    RodPerpendicular {
+        /// Index of the first such leg, 0 to 5.
+        leg: usize,
+    },
+    /// The six legs together cannot hold every wrench: J_dp is singular, or so nearly that no digit of the
+    /// forces would mean anything.
+    SingularJacobian {
+        /// As [`jacobian_reciprocal_condition`](crate::jacobian_reciprocal_condition) gives it, below
+        /// [`MIN_RECIPROCAL_CONDITION`](crate::MIN_RECIPROCAL_CONDITION).
+        reciprocal_condition: f64,
+    },
+    /// Every input is finite, yet the result is not: numbers too large to compute with, or a model whose
+    /// parameters are not physical.
+    NonFiniteResult,
+}
+
+/// How far a matrix is from being a rotation.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct NotARotation {
+    /// Largest element of `|R^T R - 1|`, 0 for a rotation; NaN if an element of R is not finite.
+    pub deviation: f64,
+    /// Determinant of R, +1 for a rotation, -1 for a reflection.
+    pub determinant: f64,
+}
+
+impl Input {
+    /// The input in words.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::BasePosition => "position of the base",
+            Self::BaseRotation => "rotation of the base",
+            Self::BaseVelocity => "velocity of the base",
+            Self::BaseAcceleration => "acceleration of the base",
+            Self::PlatformPosition => "position of the platform",
+            Self::PlatformRotation => "rotation of the platform",
+            Self::PlatformVelocity => "velocity of the platform",
+            Self::PlatformAcceleration => "acceleration of the platform",
+            Self::ActuatorForce => "actuator forces",
+            Self::ExternalWrench => "external wrench",
+        }
+    }
+}
+
+impl fmt::Display for Input {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name())
+    }
+}
+
+impl fmt::Display for Error {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match *self {
+            Self::NonFinite { input } => {
+                write!(f, "{input}: NaN or infinite element; keep the previous value or stop the controller")
+            }
+            Self::NotARotation { input, defect } => write!(f, "{input}: {defect}"),
+            Self::OutOfReach { leg } => write!(
+                f,
+                "leg {} (index {leg}) is out of reach: its platform joint is farther from the actuator's axis than \
+                 the rod is long; bring the platform nearer to its home, and check that positions are in metres",
+                leg + 1
+            ),
+            Self::RodPerpendicular { leg } => write!(
+                f,
+                "leg {} (index {leg}): the rod is perpendicular to the actuator, which then cannot drive it; bring \
+                 the platform nearer to its home",
+                leg + 1
+            ),
+            Self::SingularJacobian { reciprocal_condition } => write!(
+                f,
+                "the Jacobian J_dp is singular (reciprocal condition number {reciprocal_condition:.1e}): no actuator \
+                 forces hold every wrench in this pose; bring the platform nearer to its home"
+            ),
+            Self::NonFiniteResult => f.write_str(
+                "the result is not finite although every input is: check units and the model's parameters",
+            ),
+        }
+    }
+}
+
+impl fmt::Display for NotARotation {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(
+            f,
+            "not a rotation matrix: R^T R differs from 1 by {:.1e} and det R is {:.3}; orthonormalise it (for example \
+             through a unit quaternion) and check that its columns are the body's axes",
+            self.deviation, self.determinant
+        )
+    }
+}
+
+impl error::Error for NotARotation {}
+
+impl error::Error for Error {}

@@ -1,0 +1,72 @@
+//! Forward dynamics: the platform's acceleration under given actuator forces.
+
+use nalgebra::Vector6;
+
+use crate::check::{finite, finite_result};
+use crate::error::{Error, Input};
+use crate::hexapod::{Hexapod, States};
+use crate::kernels;
+use crate::state::{Acceleration, BaseMotion, PlatformState, Wrench};
+
+impl<M: kernels::RodAlignment> Hexapod<M> {
+    /// v_p' under `actuator_force_n` (N, along the actuators' axes on the movers): the solution of
+    /// `M_p v_p' = J_dp^T F + W_ext + M_b v_b' - bias` (49). Depends on poses and velocities of both bodies,
+    /// the base's acceleration, actuator forces and external wrench.
+    ///
+    /// # Errors
+    /// See [`Hexapod`].
+    ///
+    /// ```
+    /// use dyn_runtime::nalgebra::Vector3;
+    /// use dyn_runtime::{Acceleration, BaseMotion, Hexapod, PlatformState, Pose, Wrench, models::Uhp2016};
+    ///
+    /// let hexapod = Hexapod::new(Uhp2016);
+    /// let base = BaseMotion::at_rest(Pose::identity());
+    /// let home = Pose::from_paper_angles(Vector3::new(0.0, 0.0, 0.382), [0.0; 3]);
+    /// let platform = PlatformState::at_rest(home);
+    ///
+    /// // Forces for 0.5 m/s^2 upwards give 0.5 m/s^2 upwards.
+    /// let wanted = Acceleration { linear_m_s2: Vector3::new(0.0, 0.0, 0.5), ..Acceleration::zero() };
+    /// let forces = hexapod.inverse_dynamics(&base, &platform, &wanted, &Wrench::zero())?;
+    /// let acceleration = hexapod.forward_dynamics(&base, &platform, &forces, &Wrench::zero())?;
+    /// assert!((acceleration.linear_m_s2.z - 0.5).abs() < 1e-12);
+    /// # Ok::<(), dyn_runtime::Error>(())
+    /// ```
+    pub fn forward_dynamics(
+        &self,
+        base: &BaseMotion,
+        platform: &PlatformState,
+        actuator_force_n: &Vector6<f64>,
+        external_wrench: &Wrench,
+    ) -> Result<Acceleration, Error>
+    where
+        M: kernels::ForwardDynamics,
+    {
+        let base_acceleration = finite(Input::BaseAcceleration, base.acceleration.to_array())?;
+        let actuator_force = finite(Input::ActuatorForce, (*actuator_force_n).into())?;
+        let external_wrench = finite(Input::ExternalWrench, external_wrench.to_array())?;
+        let States {
+            base_position,
+            base_rotation,
+            base_velocity,
+            platform_position,
+            platform_rotation,
+            platform_velocity,
+        } = self.states(base, platform)?;
+        let mut forward_dynamics = [0.0; 6];
+        self.model.forward_dynamics(
+            &base_position,
+            &base_rotation,
+            &base_velocity,
+            &base_acceleration,
+            &platform_position,
+            &platform_rotation,
+            &platform_velocity,
+            &actuator_force,
+            &external_wrench,
+            &mut forward_dynamics,
+        );
+        finite_result(&[&forward_dynamics])?;
+        Ok(Acceleration::from_array(&forward_dynamics))
+    }
+}

@@ -1,0 +1,83 @@
+//! Inverse dynamics: actuator forces for a wanted acceleration.
+
+use nalgebra::Vector6;
+
+use crate::check::{finite, finite_result, invertible};
+use crate::error::{Error, Input};
+use crate::hexapod::{Hexapod, States};
+use crate::kernels;
+use crate::state::{Acceleration, BaseMotion, PlatformState, Wrench};
+
+impl<M: kernels::RodAlignment> Hexapod<M> {
+    /// F, N, along the actuators' axes on the movers, that gives the platform `platform_acceleration`: the
+    /// solution of `J_dp^T F = M_p v_p' + bias - W_ext - M_b v_b'` (49). Depends on poses, velocities and
+    /// accelerations of both bodies and on the external wrench.
+    ///
+    /// # Errors
+    /// See [`Hexapod`]; besides, [`Error::SingularJacobian`]. That check evaluates J_dp and its condition in
+    /// every call, which costs about as much as the forces themselves.
+    ///
+    /// ```
+    /// use dyn_runtime::nalgebra::{Vector3, Vector6};
+    /// use dyn_runtime::{Acceleration, BaseMotion, Hexapod, PlatformState, Pose, Wrench, models::Uhp2016};
+    ///
+    /// let hexapod = Hexapod::new(Uhp2016);
+    /// let base = BaseMotion::at_rest(Pose::identity());
+    /// let home = Pose::from_paper_angles(Vector3::new(0.0, 0.0, 0.382), [0.0; 3]);
+    /// let platform = PlatformState::at_rest(home);
+    ///
+    /// // The actuators stand upright at home, so their forces together carry springs and weight.
+    /// let forces = hexapod.inverse_dynamics(&base, &platform, &Acceleration::zero(), &Wrench::zero())?;
+    /// let passive = hexapod.passive_forces(&base, &platform)?;
+    /// assert!((forces.sum() - (passive.spring_force[2] + passive.gravity_force[2])).abs() < 1e-9);
+    /// # Ok::<(), dyn_runtime::Error>(())
+    /// ```
+    pub fn inverse_dynamics(
+        &self,
+        base: &BaseMotion,
+        platform: &PlatformState,
+        platform_acceleration: &Acceleration,
+        external_wrench: &Wrench,
+    ) -> Result<Vector6<f64>, Error>
+    where
+        M: kernels::InverseDynamics + kernels::JacobianDp,
+    {
+        let base_acceleration = finite(Input::BaseAcceleration, base.acceleration.to_array())?;
+        let platform_acceleration = finite(Input::PlatformAcceleration, platform_acceleration.to_array())?;
+        let external_wrench = finite(Input::ExternalWrench, external_wrench.to_array())?;
+        let States {
+            base_position,
+            base_rotation,
+            base_velocity,
+            platform_position,
+            platform_rotation,
+            platform_velocity,
+        } = self.states(base, platform)?;
+
+        let mut jacobian_dp = [[0.0; 6]; 6];
+        self.model.jacobian_dp(
+            &base_position,
+            &base_rotation,
+            &platform_position,
+            &platform_rotation,
+            &mut jacobian_dp,
+        );
+        invertible(&jacobian_dp)?;
+
+        let mut inverse_dynamics = [0.0; 6];
+        self.model.inverse_dynamics(
+            &base_position,
+            &base_rotation,
+            &base_velocity,
+            &base_acceleration,
+            &platform_position,
+            &platform_rotation,
+            &platform_velocity,
+            &platform_acceleration,
+            &external_wrench,
+            &mut inverse_dynamics,
+        );
+        finite_result(&[&inverse_dynamics])?;
+        Ok(inverse_dynamics.into())
+    }
+}

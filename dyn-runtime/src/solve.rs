@@ -1,0 +1,130 @@
+//! Small dense linear systems: bounded work, no allocation, no panic.
+//!
+//! Gaussian elimination with scaled partial pivoting. Scaling is implicit (it only chooses the pivot), so
+//! rows in newtons beside rows in newton metres do not disturb the choice. Growth stays below 2^(N-1), 32 for
+//! six unknowns.
+
+use core::mem;
+
+/// One row of the system `coefficients * x = right`, K right-hand sides at once.
+#[derive(Clone, Copy)]
+struct Row<const N: usize, const K: usize> {
+    coefficients: [f64; N],
+    right: [f64; K],
+    /// Largest coefficient of the row as given; the pivot is the one largest relative to it.
+    scale: f64,
+}
+
+/// Solves `matrix * x = right_hand_side`; `matrix` is row-major.
+///
+/// A singular matrix gives huge or non-finite numbers, non-finite entries give non-finite numbers: whoever
+/// cannot exclude them asks [`reciprocal_condition`].
+///
+/// ```
+/// // The first pivot is zero: rows are exchanged.
+/// let x = dyn_runtime::solve::solve_general(&[[0.0, 2.0], [4.0, 0.0]], &[6.0, 4.0]);
+/// assert_eq!(x, [1.0, 3.0]);
+/// ```
+pub fn solve_general<const N: usize>(matrix: &[[f64; N]; N], right_hand_side: &[f64; N]) -> [f64; N] {
+    solve_columns(matrix, &right_hand_side.map(|element| [element])).map(|[element]| element)
+}
+
+/// Reciprocal condition number in the 1-norm, `1 / (|A| |A^-1|)`, from the explicit inverse: 1 for the
+/// identity, towards 0 for matrices near a singular one, 0 where the inverse does not exist or an entry is
+/// not finite.
+///
+/// ```
+/// assert_eq!(dyn_runtime::solve::reciprocal_condition(&[[1.0, 0.0], [0.0, 0.25]]), 0.25);
+/// ```
+pub fn reciprocal_condition<const N: usize>(matrix: &[[f64; N]; N]) -> f64 {
+    let mut identity = [[0.0; N]; N];
+    for (i, row) in identity.iter_mut().enumerate() {
+        row[i] = 1.0;
+    }
+    let condition = one_norm(matrix) * one_norm(&solve_columns(matrix, &identity));
+    // Rounding can leave the condition number of a perfect matrix just below 1.
+    if condition.is_finite() && condition > 0.0 { (1.0 / condition).min(1.0) } else { 0.0 }
+}
+
+/// Largest column sum of absolute values; NaN if an entry is NaN.
+fn one_norm<const N: usize>(matrix: &[[f64; N]; N]) -> f64 {
+    let mut sums = [0.0; N];
+    for row in matrix {
+        for (sum, element) in sums.iter_mut().zip(row) {
+            *sum += element.abs();
+        }
+    }
+    // `f64::max` would drop a NaN.
+    sums.into_iter().fold(0.0, |largest, sum| if sum <= largest { largest } else { sum })
+}
+
+/// Solves for the K columns of `right` at once.
+fn solve_columns<const N: usize, const K: usize>(
+    matrix: &[[f64; N]; N],
+    right: &[[f64; K]; N],
+) -> [[f64; K]; N] {
+    let mut rows = [Row { coefficients: [0.0; N], right: [0.0; K], scale: 0.0 }; N];
+    for (row, (coefficients, right)) in rows.iter_mut().zip(matrix.iter().zip(right)) {
+        let scale = coefficients.iter().fold(0.0, |largest: f64, element| largest.max(element.abs()));
+        *row = Row { coefficients: *coefficients, right: *right, scale };
+    }
+
+    let mut remaining = rows.as_mut_slice();
+    for column in 0..N {
+        let Some((pivot, below)) = mem::take(&mut remaining).split_first_mut() else { break };
+        exchange_for_largest(pivot, below, column);
+        for row in below.iter_mut() {
+            row.subtract(pivot, column);
+        }
+        remaining = below;
+    }
+
+    let mut solution = [[0.0; K]; N];
+    for (i, row) in rows.iter().enumerate().rev() {
+        let mut sum = row.right;
+        for (coefficient, known) in row.coefficients.iter().zip(&solution).skip(i + 1) {
+            for (sum, known) in sum.iter_mut().zip(known) {
+                *sum -= coefficient * known;
+            }
+        }
+        solution[i] = sum.map(|sum| sum / row.coefficients[i]);
+    }
+    solution
+}
+
+/// Puts the row with the relatively largest coefficient in `column` into the pivot's place.
+fn exchange_for_largest<const N: usize, const K: usize>(
+    pivot: &mut Row<N, K>,
+    below: &mut [Row<N, K>],
+    column: usize,
+) {
+    let mut largest = pivot.relative_size(column);
+    let mut chosen = None;
+    for row in below {
+        let size = row.relative_size(column);
+        if size > largest {
+            largest = size;
+            chosen = Some(row);
+        }
+    }
+    if let Some(row) = chosen {
+        mem::swap(pivot, row);
+    }
+}
+
+impl<const N: usize, const K: usize> Row<N, K> {
+    fn relative_size(&self, column: usize) -> f64 {
+        self.coefficients[column].abs() / self.scale
+    }
+
+    /// Eliminates `column` from this row with the help of the pivot row.
+    fn subtract(&mut self, pivot: &Self, column: usize) {
+        let factor = self.coefficients[column] / pivot.coefficients[column];
+        for (element, pivot) in self.coefficients.iter_mut().zip(&pivot.coefficients).skip(column + 1) {
+            *element -= factor * pivot;
+        }
+        for (element, pivot) in self.right.iter_mut().zip(&pivot.right) {
+            *element -= factor * pivot;
+        }
+    }
+}

@@ -1,0 +1,188 @@
+//! States of base and platform. Everything is in SI units and in the axes of the inertial frame O.
+//!
+//! Both bodies are described at the origin of their frame: B for the base, P (the centre of the circle of
+//! platform joints, not the payload's centre of mass) for the platform.
+
+use nalgebra::{Matrix3, Rotation3, UnitQuaternion, Vector3, Vector6};
+
+use crate::angles;
+use crate::arrays;
+use crate::check::rotation_defect;
+use crate::error::NotARotation;
+
+/// Position and orientation of a body frame.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Pose {
+    /// Origin of the body frame, m, O.
+    pub position_m: Vector3<f64>,
+    /// Coordinates in the body frame to coordinates in O.
+    pub rotation: Rotation3<f64>,
+}
+
+/// Velocity of a body frame: `[r'; w]`.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Twist {
+    /// Velocity of the frame's origin, m/s, O.
+    pub linear_m_s: Vector3<f64>,
+    /// Angular velocity, rad/s, O. Not the rates of Euler angles: [`angles::angular_velocity`] converts
+    /// those.
+    pub angular_rad_s: Vector3<f64>,
+}
+
+/// Acceleration of a body frame: `[r''; w']`, the time derivative of its [`Twist`] in O.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Acceleration {
+    /// Acceleration of the frame's origin, m/s^2, O: an accelerometer's reading there, turned into O, plus
+    /// the vector of gravity.
+    pub linear_m_s2: Vector3<f64>,
+    /// Angular acceleration, rad/s^2, O. From Euler angles: [`angles::angular_acceleration`].
+    pub angular_rad_s2: Vector3<f64>,
+}
+
+/// External force and moment on the payload, at the payload's centre of mass.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Wrench {
+    /// Force F_D, N, O.
+    pub force_n: Vector3<f64>,
+    /// Moment M_D about the payload's centre of mass, N m, O.
+    pub moment_n_m: Vector3<f64>,
+}
+
+/// How the base moves; it drives the equations as a given motion.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct BaseMotion {
+    /// Pose of B.
+    pub pose: Pose,
+    /// Velocity of B, v_b.
+    pub velocity: Twist,
+    /// Acceleration of B, v_b'. Only functions with accelerations or forces depend on it.
+    pub acceleration: Acceleration,
+}
+
+/// Where the platform is and how fast it moves.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct PlatformState {
+    /// Pose of P.
+    pub pose: Pose,
+    /// Velocity of P, v_p.
+    pub velocity: Twist,
+}
+
+impl Pose {
+    /// The frame O itself.
+    pub fn identity() -> Self {
+        Self { position_m: Vector3::zeros(), rotation: Rotation3::identity() }
+    }
+
+    /// From a position (m, O) and the paper's angles (rad), `R = Rz(c3) Ry(c2) Rx(c1)` (2): alpha, beta,
+    /// gamma of the base or psi, theta, phi of the platform.
+    ///
+    /// ```
+    /// use dyn_runtime::{Pose, nalgebra::Vector3};
+    /// use std::f64::consts::FRAC_PI_2;
+    ///
+    /// let pose = Pose::from_paper_angles(Vector3::zeros(), [0.0, 0.0, FRAC_PI_2]);
+    /// let x_axis_in_o = pose.rotation * Vector3::x();
+    /// assert!((x_axis_in_o - Vector3::y()).norm() < 1e-15);
+    /// ```
+    pub fn from_paper_angles(position_m: Vector3<f64>, angles_rad: [f64; 3]) -> Self {
+        Self { position_m, rotation: angles::rotation(angles_rad) }
+    }
+
+    /// From a position (m, O) and the unit quaternion that rotates the body frame's coordinates into O.
+    pub fn from_unit_quaternion(position_m: Vector3<f64>, quaternion: &UnitQuaternion<f64>) -> Self {
+        Self { position_m, rotation: quaternion.to_rotation_matrix() }
+    }
+
+    /// From a position (m, O) and a rotation matrix whose columns are the body frame's axes in O.
+    ///
+    /// # Errors
+    /// If the matrix is not finite, not orthonormal within
+    /// [`MAX_ROTATION_DEVIATION`](crate::MAX_ROTATION_DEVIATION), or a reflection; the error says how far off
+    /// it is.
+    pub fn from_rotation_matrix(
+        position_m: Vector3<f64>,
+        matrix: &Matrix3<f64>,
+    ) -> Result<Self, NotARotation> {
+        match rotation_defect(matrix) {
+            None => Ok(Self { position_m, rotation: Rotation3::from_matrix_unchecked(*matrix) }),
+            Some(defect) => Err(defect),
+        }
+    }
+
+    /// The pose in O of a body whose pose relative to this one is `relative`: base and home give the
+    /// platform.
+    pub fn compose(&self, relative: &Self) -> Self {
+        Self {
+            position_m: self.position_m + self.rotation * relative.position_m,
+            rotation: self.rotation * relative.rotation,
+        }
+    }
+}
+
+impl Twist {
+    /// At rest.
+    pub fn zero() -> Self {
+        Self { linear_m_s: Vector3::zeros(), angular_rad_s: Vector3::zeros() }
+    }
+
+    /// `[r'; w]`, as the 6x6 matrices of the equations take it.
+    pub fn to_vector(&self) -> Vector6<f64> {
+        Vector6::from(self.to_array())
+    }
+
+    pub(crate) fn to_array(self) -> [f64; 6] {
+        arrays::stacked(&self.linear_m_s, &self.angular_rad_s)
+    }
+}
+
+impl Acceleration {
+    /// No acceleration.
+    pub fn zero() -> Self {
+        Self { linear_m_s2: Vector3::zeros(), angular_rad_s2: Vector3::zeros() }
+    }
+
+    /// `[r''; w']`, as the 6x6 matrices of the equations take it.
+    pub fn to_vector(&self) -> Vector6<f64> {
+        Vector6::from(self.to_array())
+    }
+
+    pub(crate) fn to_array(self) -> [f64; 6] {
+        arrays::stacked(&self.linear_m_s2, &self.angular_rad_s2)
+    }
+
+    pub(crate) fn from_array(array: &[f64; 6]) -> Self {
+        let (linear_m_s2, angular_rad_s2) = arrays::halves(array);
+        Self { linear_m_s2, angular_rad_s2 }
+    }
+}
+
+impl Wrench {
+    /// No load.
+    pub fn zero() -> Self {
+        Self { force_n: Vector3::zeros(), moment_n_m: Vector3::zeros() }
+    }
+
+    /// `[F_D; M_D]`, still at the payload's centre of mass: not yet the W_ext of the equation of motion.
+    pub fn to_vector(&self) -> Vector6<f64> {
+        Vector6::from(self.to_array())
+    }
+
+    pub(crate) fn to_array(self) -> [f64; 6] {
+        arrays::stacked(&self.force_n, &self.moment_n_m)
+    }
+}
+
+impl BaseMotion {
+    /// A base that stands still.
+    pub fn at_rest(pose: Pose) -> Self {
+        Self { pose, velocity: Twist::zero(), acceleration: Acceleration::zero() }
+    }
+}
+
+impl PlatformState {
+    /// A platform that stands still.
+    pub fn at_rest(pose: Pose) -> Self {
+        Self { pose, velocity: Twist::zero() }
+    }
+}

@@ -1,0 +1,135 @@
+//! Poses from three representations, rotations that are refused, and rates of the paper's angles.
+
+use dyn_runtime::nalgebra::{Matrix3, Rotation3, UnitQuaternion, Vector3};
+use dyn_runtime::{MAX_ROTATION_DEVIATION, Pose, angles};
+use rand::{RngExt, SeedableRng};
+use rand_pcg::Pcg64;
+
+fn random_angles(random: &mut Pcg64) -> [f64; 3] {
+    [random.random_range(-3.1..3.1), random.random_range(-1.5..1.5), random.random_range(-3.1..3.1)]
+}
+
+#[test]
+fn three_representations_give_one_pose() {
+    let mut random = Pcg64::seed_from_u64(5);
+    let position = Vector3::new(0.1, -0.2, 0.3);
+    for _ in 0..1_000 {
+        let [c1, c2, c3] = random_angles(&mut random);
+        let from_angles = Pose::from_paper_angles(position, [c1, c2, c3]);
+        // Three turns about fixed axes, first x, last z: another library's trigonometry and order of
+        // products.
+        let quaternion = UnitQuaternion::from_axis_angle(&Vector3::z_axis(), c3)
+            * UnitQuaternion::from_axis_angle(&Vector3::y_axis(), c2)
+            * UnitQuaternion::from_axis_angle(&Vector3::x_axis(), c1);
+        let from_quaternion = Pose::from_unit_quaternion(position, &quaternion);
+        let matrix = Rotation3::from_axis_angle(&Vector3::z_axis(), c3)
+            * Rotation3::from_axis_angle(&Vector3::y_axis(), c2)
+            * Rotation3::from_axis_angle(&Vector3::x_axis(), c1);
+        let from_matrix = Pose::from_rotation_matrix(position, matrix.matrix()).expect("a rotation");
+        for pose in [from_quaternion, from_matrix] {
+            assert_eq!(pose.position_m, position);
+            assert!((pose.rotation.matrix() - from_angles.rotation.matrix()).amax() < 2e-15);
+        }
+    }
+}
+
+#[test]
+fn composing_poses_transforms_points() {
+    let base = Pose::from_paper_angles(Vector3::new(1.0, 2.0, 3.0), [0.3, -0.4, 0.5]);
+    let home = Pose::from_paper_angles(Vector3::new(0.0, 0.1, 0.4), [-0.1, 0.2, 0.7]);
+    let platform = base.compose(&home);
+    let point = Vector3::new(0.2, -0.3, 0.1);
+    let in_b = home.position_m + home.rotation * point;
+    let in_o = base.position_m + base.rotation * in_b;
+    assert!((platform.position_m + platform.rotation * point - in_o).amax() < 1e-15);
+    assert_eq!(base.compose(&Pose::identity()), base);
+}
+
+#[test]
+fn what_is_not_a_rotation_is_refused_with_its_distance() {
+    let refused =
+        |matrix: Matrix3<f64>| Pose::from_rotation_matrix(Vector3::zeros(), &matrix).expect_err("refused");
+    let rotation = *angles::rotation([0.2, 0.3, 0.4]).matrix();
+
+    let stretched = refused(rotation * 1.001);
+    assert!((stretched.deviation - 0.002001).abs() < 1e-12);
+    assert!((stretched.determinant - 1.003003001).abs() < 1e-12);
+
+    let reflected = refused(-rotation);
+    assert!(reflected.deviation < 1e-15);
+    assert!((reflected.determinant + 1.0).abs() < 1e-15);
+
+    let mut with_nan = rotation;
+    with_nan[(1, 2)] = f64::NAN;
+    assert!(refused(with_nan).deviation.is_nan());
+    let mut with_infinity = rotation;
+    with_infinity[(0, 0)] = f64::INFINITY;
+    assert!(refused(with_infinity).deviation.is_nan());
+
+    assert!(refused(Matrix3::zeros()).deviation == 1.0);
+    assert!(stretched.to_string().contains("differs from 1 by 2.0e-3"), "{stretched}");
+}
+
+/// What single precision leaves of a rotation passes; the threshold is where it is documented.
+#[test]
+fn single_precision_passes() {
+    let mut random = Pcg64::seed_from_u64(6);
+    for _ in 0..1_000 {
+        let rounded = angles::rotation(random_angles(&mut random)).matrix().map(|x| f64::from(x as f32));
+        assert!(Pose::from_rotation_matrix(Vector3::zeros(), &rounded).is_ok());
+    }
+    let at = |deviation: f64| Matrix3::identity() * (1.0 + deviation).sqrt();
+    assert!(Pose::from_rotation_matrix(Vector3::zeros(), &at(0.999 * MAX_ROTATION_DEVIATION)).is_ok());
+    assert!(Pose::from_rotation_matrix(Vector3::zeros(), &at(1.001 * MAX_ROTATION_DEVIATION)).is_err());
+}
+
+/// Angles that change with constant second derivatives.
+fn angles_at(t: f64, angles: [f64; 3], rates: [f64; 3], second: [f64; 3]) -> [f64; 3] {
+    std::array::from_fn(|k| angles[k] + t * rates[k] + 0.5 * t * t * second[k])
+}
+
+#[test]
+fn angular_velocity_is_the_derivative_of_the_rotation() {
+    let mut random = Pcg64::seed_from_u64(7);
+    for _ in 0..200 {
+        let angles = random_angles(&mut random);
+        let rates: [f64; 3] = std::array::from_fn(|_| random.random_range(-2.0..2.0));
+        let rotation_at = |t| *angles::rotation(angles_at(t, angles, rates, [0.0; 3])).matrix();
+        let h = 1e-5;
+        let skew = (rotation_at(h) - rotation_at(-h)) / (2.0 * h) * rotation_at(0.0).transpose();
+        let expected = Vector3::new(skew[(2, 1)], skew[(0, 2)], skew[(1, 0)]);
+        assert!((angles::angular_velocity(angles, rates) - expected).amax() < 1e-8);
+    }
+}
+
+#[test]
+fn angular_acceleration_is_the_derivative_of_the_angular_velocity() {
+    let mut random = Pcg64::seed_from_u64(8);
+    for _ in 0..200 {
+        let angles = random_angles(&mut random);
+        let rates: [f64; 3] = std::array::from_fn(|_| random.random_range(-2.0..2.0));
+        let second: [f64; 3] = std::array::from_fn(|_| random.random_range(-2.0..2.0));
+        let velocity_at = |t: f64| {
+            let rates_then = std::array::from_fn(|k| rates[k] + t * second[k]);
+            angles::angular_velocity(angles_at(t, angles, rates, second), rates_then)
+        };
+        let h = 1e-5;
+        let expected = (velocity_at(h) - velocity_at(-h)) / (2.0 * h);
+        assert!((angles::angular_acceleration(angles, rates, second) - expected).amax() < 1e-7);
+    }
+}
+
+#[test]
+fn rates_of_the_angles_come_back() {
+    let mut random = Pcg64::seed_from_u64(9);
+    for _ in 0..1_000 {
+        let angles = random_angles(&mut random);
+        let rates: [f64; 3] = std::array::from_fn(|_| random.random_range(-2.0..2.0));
+        let back = angles::angle_rates(angles, angles::angular_velocity(angles, rates));
+        // Near c2 = +-pi/2 rounding errors grow by 1/cos c2, at most 14 here.
+        assert!(back.iter().zip(rates).all(|(back, rate)| (back - rate).abs() < 1e-13));
+    }
+    // Rates and angular velocity differ as soon as the body is turned.
+    let w = angles::angular_velocity([0.0, 0.5, 0.0], [1.0, 0.0, 0.0]);
+    assert!((w - Vector3::new(0.5_f64.cos(), 0.0, -0.5_f64.sin())).amax() < 1e-15);
+}

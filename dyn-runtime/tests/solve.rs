@@ -1,0 +1,135 @@
+//! Linear systems against nalgebra, in bad orders, near singular and not finite; condition numbers of known
+//! matrices.
+
+use dyn_runtime::jacobian_reciprocal_condition;
+use dyn_runtime::nalgebra::{Matrix6, Rotation3, Vector3, Vector6};
+use dyn_runtime::solve::{reciprocal_condition, solve_general};
+use rand::{RngExt, SeedableRng};
+use rand_pcg::Pcg64;
+
+fn random_matrix(random: &mut Pcg64) -> [[f64; 6]; 6] {
+    std::array::from_fn(|_| std::array::from_fn(|_| random.random_range(-1.0..1.0)))
+}
+
+fn to_nalgebra(rows: &[[f64; 6]; 6]) -> Matrix6<f64> {
+    Matrix6::from_fn(|r, c| rows[r][c])
+}
+
+/// Largest residual relative to what rounding alone explains, `|A| |x| eps`.
+fn residual_in_roundings(rows: &[[f64; 6]; 6], x: &[f64; 6], right_hand_side: &[f64; 6]) -> f64 {
+    let (matrix, x) = (to_nalgebra(rows), Vector6::from(*x));
+    let residual = matrix * x - Vector6::from(*right_hand_side);
+    residual.component_div(&(matrix.abs() * x.abs())).amax() / f64::EPSILON
+}
+
+#[test]
+fn agrees_with_nalgebra_on_random_matrices() {
+    let mut random = Pcg64::seed_from_u64(3);
+    for _ in 0..2_000 {
+        let matrix = random_matrix(&mut random);
+        let right_hand_side: [f64; 6] = std::array::from_fn(|_| random.random_range(-1.0..1.0));
+        let x = solve_general(&matrix, &right_hand_side);
+        assert!(residual_in_roundings(&matrix, &x, &right_hand_side) < 50.0);
+        let peer = to_nalgebra(&matrix).lu().solve(&Vector6::from(right_hand_side)).expect("regular");
+        let allowed = 1e-14 / reciprocal_condition(&matrix) * peer.amax();
+        assert!((Vector6::from(x) - peer).amax() <= allowed);
+    }
+}
+
+/// Zeros or tiny numbers on the diagonal, rows of very different size: elimination in the given order would
+/// fail or lose all digits.
+#[test]
+fn any_order_of_rows_and_units_will_do() {
+    let mut random = Pcg64::seed_from_u64(4);
+    for case in 0..2_000 {
+        let mut matrix = random_matrix(&mut random);
+        for (i, row) in matrix.iter_mut().enumerate() {
+            row[i] = if case % 2 == 0 { 0.0 } else { 1e-17 };
+            let unit = 10_f64.powi(random.random_range(-12..12));
+            row.iter_mut().for_each(|element| *element *= unit);
+        }
+        let exact: [f64; 6] = std::array::from_fn(|_| random.random_range(-1.0..1.0));
+        let right_hand_side: [f64; 6] = (to_nalgebra(&matrix) * Vector6::from(exact)).into();
+        let x = solve_general(&matrix, &right_hand_side);
+        assert!(residual_in_roundings(&matrix, &x, &right_hand_side) < 50.0, "case {case}");
+    }
+}
+
+#[test]
+fn solves_permutations_exactly() {
+    let right_hand_side = [1.0, 2.0, 3.0, 4.0, 5.0, 6.0];
+    let mut matrix = [[0.0; 6]; 6];
+    for (i, column) in [3, 5, 0, 2, 1, 4].into_iter().enumerate() {
+        matrix[i][column] = 2.0;
+    }
+    assert_eq!(solve_general(&matrix, &right_hand_side), [1.5, 2.5, 2.0, 0.5, 3.0, 1.0]);
+}
+
+#[test]
+fn singular_and_non_finite_systems_end_without_numbers() {
+    let without_solution = [
+        [[0.0; 3]; 3],
+        [[1.0, 2.0, 3.0], [2.0, 4.0, 6.0], [1.0, 0.0, 0.0]],
+        [[1.0, 0.0, 2.0], [3.0, 0.0, 4.0], [5.0, 0.0, 1.0]],
+        [[f64::NAN, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
+        [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, f64::NAN, 1.0]],
+    ];
+    for matrix in without_solution {
+        assert!(solve_general(&matrix, &[1.0; 3]).iter().any(|x| !x.is_finite()), "{matrix:?}");
+        assert_eq!(reciprocal_condition(&matrix), 0.0, "{matrix:?}");
+    }
+    let infinite = [[f64::INFINITY, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, f64::NEG_INFINITY]];
+    assert_eq!(reciprocal_condition(&infinite), 0.0);
+}
+
+#[test]
+fn condition_numbers_of_known_matrices() {
+    let identity: [[f64; 6]; 6] = Matrix6::identity().into();
+    assert_eq!(reciprocal_condition(&identity), 1.0);
+    // Hilbert matrix of order 6: column sum 49/20, and 11 865 420 of its integer inverse.
+    let hilbert: [[f64; 6]; 6] = std::array::from_fn(|r| std::array::from_fn(|c| 1.0 / (r + c + 1) as f64));
+    assert!((1.0 / reciprocal_condition(&hilbert) / 29_070_279.0 - 1.0).abs() < 1e-8);
+    // [[1, 1], [1, 1 + e]]: (2 + e)^2 / e.
+    let e = 1e-6;
+    let nearly_singular = [[1.0, 1.0], [1.0, 1.0 + e]];
+    assert!((reciprocal_condition(&nearly_singular) * (2.0 + e).powi(2) / e - 1.0).abs() < 1e-9);
+    // A small pivot alone says nothing about the condition.
+    assert!(reciprocal_condition(&[[1e-15, 1.0], [1.0, 0.0]]) > 0.99);
+}
+
+/// Three pairs of rods between two circles of `radius`, `twist` apart in angle; each row over its `u.a`.
+fn jacobian(radius: f64, inclinations: [f64; 6], twist: f64) -> [[f64; 6]; 6] {
+    std::array::from_fn(|leg| {
+        let side = if leg % 2 == 0 { 1.0 } else { -1.0 };
+        let centre = std::f64::consts::TAU / 3.0 * (leg / 2) as f64;
+        let about_z = |angle: f64| Rotation3::from_axis_angle(&Vector3::z_axis(), angle);
+        let joint = about_z(centre + side * 0.2) * Vector3::new(radius, 0.0, 0.0);
+        let foot = about_z(centre + side * (0.2 + twist)) * Vector3::new(radius, 0.0, 0.0);
+        let rod = (joint - foot + Vector3::new(0.0, 0.0, radius)).normalize() / inclinations[leg];
+        let moment = joint.cross(&rod);
+        [rod.x, rod.y, rod.z, moment.x, moment.y, moment.z]
+    })
+}
+
+#[test]
+fn condition_of_a_jacobian_is_a_property_of_the_pose() {
+    let condition = jacobian_reciprocal_condition(&jacobian(0.1, [1.0; 6], 0.6));
+    assert!(condition > 0.02, "{condition}");
+    let close = |other: f64| (other / condition - 1.0).abs() < 1e-12;
+    // Neither the size of the platform nor the unit of length matters ...
+    assert!(close(jacobian_reciprocal_condition(&jacobian(100.0, [1.0; 6], 0.6))));
+    // ... nor how inclined the actuators are to the rods ...
+    assert!(close(jacobian_reciprocal_condition(&jacobian(0.1, [1.0, 0.5, 0.1, 0.02, -1.0, 0.7], 0.6))));
+    // ... but rods that all stand upright cannot hold a horizontal force,
+    assert_eq!(jacobian_reciprocal_condition(&jacobian(0.1, [1.0; 6], 0.0)), 0.0);
+    // and nearly upright ones hardly.
+    let nearly = jacobian_reciprocal_condition(&jacobian(0.1, [1.0; 6], 1e-9));
+    assert!((1e-12..1e-8).contains(&nearly), "{nearly}");
+}
+
+#[test]
+fn a_jacobian_without_rods_or_arms_is_singular() {
+    assert_eq!(jacobian_reciprocal_condition(&[[0.0; 6]; 6]), 0.0);
+    assert_eq!(jacobian_reciprocal_condition(&[[1.0, 0.0, 0.0, 0.0, 0.0, 0.0]; 6]), 0.0);
+    assert_eq!(jacobian_reciprocal_condition(&[[f64::NAN; 6]; 6]), 0.0);
+}
