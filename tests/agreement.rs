@@ -23,14 +23,17 @@ impl Comparison {
     fn add<M: Model>(&mut self, model: &M, platform: &dyn_platform::Platform, label: &str) {
         let parameters = reference::parameters(platform);
         let states = platforms::states(&graph_file(), platform, STATES_OF_EACH_KIND);
-        let expected: Vec<Environment> =
-            states.iter().map(|(_, state)| reference::outputs(&parameters, &reference::state(state))).collect();
+        let expected: Vec<Environment> = states
+            .iter()
+            .map(|(_, state)| reference::outputs(&parameters, &reference::state(state)))
+            .collect();
         for ((kind, state), outputs) in states.iter().zip(&expected) {
             for (function, output, values) in compiled::outputs(model, state) {
                 let scale = Scale::of(expected.iter().map(|outputs| outputs[&output].as_slice()));
                 let found = deviation(&values, &outputs[&output], scale);
                 if !within(found, tolerance(&output)) {
-                    self.failures.push(format!("{label}, {kind:?}: {function}, {output} deviates by {found:.1e}"));
+                    self.failures
+                        .push(format!("{label}, {kind:?}: {function}, {output} deviates by {found:.1e}"));
                 }
                 let worst = self.worst.entry(output).or_default();
                 *worst = worst.max(found);
@@ -43,7 +46,12 @@ impl Comparison {
             println!("{output:36} {worst:8.1e}  (tolerance {:.0e})", tolerance(output));
         }
         let failures = self.failures;
-        assert!(failures.is_empty(), "{} failures with seed {SEED}:\n{}", failures.len(), failures[..failures.len().min(20)].join("\n"));
+        assert!(
+            failures.is_empty(),
+            "{} failures with seed {SEED}:\n{}",
+            failures.len(),
+            failures[..failures.len().min(20)].join("\n")
+        );
     }
 }
 
@@ -77,15 +85,20 @@ fn baked_graphs_of_the_other_platforms() {
         let parameters = reference::parameters(&platform);
         let functions = dyn_gen::optimise(&file.program, dyn_gen::Numbers::Baked(&platform), None).unwrap();
         let states = platforms::states(&file, &platform, 10);
-        let expected: Vec<Environment> =
-            states.iter().map(|(_, state)| reference::outputs(&parameters, &reference::state(state))).collect();
+        let expected: Vec<Environment> = states
+            .iter()
+            .map(|(_, state)| reference::outputs(&parameters, &reference::state(state)))
+            .collect();
         for ((kind, state), outputs) in states.iter().zip(&expected) {
             for function in &functions {
                 for (output, values) in function.graph.evaluate(state).unwrap() {
                     let scale = Scale::of(expected.iter().map(|outputs| outputs[&output].as_slice()));
                     let found = deviation(&values, &outputs[&output], scale);
                     if !within(found, tolerance(&output)) {
-                        failures.push(format!("{name}, {kind:?}: {}, {output}: {found:.1e}", function.graph.name));
+                        failures.push(format!(
+                            "{name}, {kind:?}: {}, {output}: {found:.1e}",
+                            function.graph.name
+                        ));
                     }
                 }
             }
@@ -97,8 +110,13 @@ fn baked_graphs_of_the_other_platforms() {
 #[test]
 fn the_reference_has_every_generated_output_and_no_other() {
     let file = graph_file();
-    let generated: std::collections::BTreeSet<&str> =
-        file.program.functions.iter().flat_map(|function| function.outputs.iter().map(String::as_str)).collect();
-    let reference: std::collections::BTreeSet<&str> = dyn_reference::outputs::OUTPUTS.iter().map(|output| output.name).collect();
+    let generated: std::collections::BTreeSet<&str> = file
+        .program
+        .functions
+        .iter()
+        .flat_map(|function| function.outputs.iter().map(String::as_str))
+        .collect();
+    let reference: std::collections::BTreeSet<&str> =
+        dyn_reference::outputs::OUTPUTS.iter().map(|output| output.name).collect();
     assert_eq!(generated, reference);
 }

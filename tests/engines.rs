@@ -37,7 +37,13 @@ impl Comparison {
             for (function, output, values) in compiled::outputs(model, state) {
                 if let Some(expected) = expected.get(&output) {
                     let scale = scale(vectors, &output);
-                    self.add(&format!("{label}, case {number}: {function}"), &output, &values, expected, scale);
+                    self.add(
+                        &format!("{label}, case {number}: {function}"),
+                        &output,
+                        &values,
+                        expected,
+                        scale,
+                    );
                 }
             }
         }
@@ -48,7 +54,12 @@ impl Comparison {
             println!("{output:36} {worst:8.1e}  (tolerance {:.0e})", tolerance(output));
         }
         let failures = self.failures;
-        assert!(failures.is_empty(), "{} failures:\n{}", failures.len(), failures[..failures.len().min(20)].join("\n"));
+        assert!(
+            failures.is_empty(),
+            "{} failures:\n{}",
+            failures.len(),
+            failures[..failures.len().min(20)].join("\n")
+        );
     }
 }
 
@@ -94,7 +105,9 @@ fn hand_written_reference() {
         let parameters = reference::parameters(&vectors.platform);
         for (number, (state, expected)) in vectors.cases.iter().enumerate() {
             let state = reference::state(state);
-            for (output, expected) in expected.iter().filter(|(name, _)| !ENGINES_ONLY.contains(&name.as_str())) {
+            for (output, expected) in
+                expected.iter().filter(|(name, _)| !ENGINES_ONLY.contains(&name.as_str()))
+            {
                 let label = format!("{}, case {number}", vectors.platform.name);
                 let values = reference::output(&parameters, &state, output);
                 comparison.add(&label, output, &values, expected, scale(&vectors, output));
@@ -117,7 +130,12 @@ fn coriolis_matrices_give_the_engines_velocity_terms() {
             };
             let platform = product("coriolis_matrix_p", "platform_velocity");
             let base = product("coriolis_matrix_b", "base_velocity");
-            let passive = |k: usize| ["gravity_force", "spring_force", "damping_force"].iter().map(|name| expected[*name][k]).sum::<f64>();
+            let passive = |k: usize| {
+                ["gravity_force", "spring_force", "damping_force"]
+                    .iter()
+                    .map(|name| expected[*name][k])
+                    .sum::<f64>()
+            };
             let ours: Vec<f64> = (0..6).map(|k| platform[k] - base[k] + passive(k)).collect();
             let found = deviation(&ours, &expected["bias"], Scale::own());
             assert!(within(found, tolerance("bias")), "{}: {found:.1e}", vectors.platform.name);

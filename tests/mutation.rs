@@ -2,8 +2,6 @@
 //! with the other sign, an operand dropped, a constant 0.1 % larger), and the functions that use it are compared with the
 //! reference again. At least 99 % of the changes must be caught; the rest is listed with the reason why it cannot be.
 
-use std::collections::BTreeMap;
-
 use dyn_gen::graph::{Environment, Graph, Node, NodeId, Op, Program, Step};
 use dyn_gen::sample::Kind;
 use dyn_gen::sampled_states;
@@ -13,8 +11,11 @@ use dyn_tests::{platforms, reference};
 
 const CAUGHT: f64 = 0.99;
 
-/// Changes that no comparison can see: graph, change of a node, reason.
-const SURVIVORS: &[(&str, &str)] = &[];
+/// Changes that leave the outputs as they are, so that no comparison can see them: graph, change, how many nodes, reason.
+const EQUIVALENT: &[(&str, Change, usize, &str)] = &[
+    ("leg_energy", Change::OtherSign, 4, "velocity components that enter the kinetic energy squared only"),
+    ("total_energy", Change::OtherSign, 3, "velocity components that enter the kinetic energy squared only"),
+];
 
 /// A change of one node.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -86,7 +87,7 @@ struct Case {
 
 fn cases(program: &Program) -> Vec<Case> {
     let mut cases = Vec::new();
-    for name in ["everything", "unequal_legs", "tilted_gravity_damped"] {
+    for name in ["everything", "tilted_axes", "unequal_legs", "tilted_gravity_damped"] {
         let platform = platforms::platform(name);
         let numbers = reference::parameters(&platform);
         for mut state in sampled_states(program, &platform, &[(Kind::Large, 2)], platforms::SEED).unwrap() {
@@ -120,25 +121,34 @@ fn changed_operations_are_caught() {
     assert_eq!(unchanged, None, "the unchanged graphs must agree, or everything counts as caught");
 
     let mut total = 0;
-    let mut survivors: BTreeMap<String, usize> = BTreeMap::new();
+    let mut survivors = Vec::new();
     let mut mutant = program.clone();
     for (number, graph) in program.graphs.iter().enumerate() {
         for (id, node) in graph.nodes.iter().enumerate() {
-            for change in changes(*node) {
+            for &change in changes(*node) {
                 total += 1;
-                mutant.graphs[number] = mutate(graph, id, *change);
+                mutant.graphs[number] = mutate(graph, id, change);
                 if !is_caught(&mutant, number, &cases) {
-                    *survivors.entry(format!("{}: node {id} {node:?} {change:?}", graph.name)).or_default() += 1;
+                    survivors.push((graph.name.as_str(), change, id, *node));
                 }
             }
         }
         mutant.graphs[number] = graph.clone();
     }
     let caught = 1.0 - survivors.len() as f64 / total as f64;
-    println!("{total} changes, {:.3} % caught, {} survivors:", 100.0 * caught, survivors.len());
-    for survivor in survivors.keys() {
-        println!("  {survivor}");
+    println!("{total} changes, {:.3} % caught, {} survive:", 100.0 * caught, survivors.len());
+    let mut unexplained = Vec::new();
+    for (graph, change, id, node) in &survivors {
+        let reason = EQUIVALENT.iter().find(|row| (row.0, row.1) == (*graph, *change)).map(|row| row.3);
+        println!("  {graph}, node {id} {node:?}, {change:?}: {}", reason.unwrap_or("NO REASON KNOWN"));
+        if reason.is_none() {
+            unexplained.push(format!("{graph}, node {id} {node:?}, {change:?}"));
+        }
     }
-    let _ = SURVIVORS;
     assert!(caught >= CAUGHT, "only {:.3} % of the changes are caught", 100.0 * caught);
+    assert!(unexplained.is_empty(), "survivors without a reason:\n{}", unexplained.join("\n"));
+    for (graph, change, expected, reason) in EQUIVALENT {
+        let found = survivors.iter().filter(|survivor| (survivor.0, survivor.1) == (*graph, *change)).count();
+        assert_eq!(found, *expected, "{graph}, {change:?} ({reason})");
+    }
 }

@@ -122,6 +122,13 @@ fn wrong_usage_is_code_two() {
 }
 
 #[test]
+fn what_is_committed_is_what_regen_writes() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
+    let result = dyn_gen(&root, &["regen", "--check"]);
+    assert_eq!(code(&result), 0, "{}", said(&result));
+}
+
+#[test]
 fn check_reports_and_only_regen_writes() {
     let repository = repository();
     let generated = repository.path().join("dyn-runtime/src/generated");

@@ -27,7 +27,9 @@ pub fn outputs<M: Model>(model: &M, state: &Environment) -> Vec<(String, String,
     FUNCTIONS
         .iter()
         .flat_map(|function| {
-            call(model, function, state).into_iter().map(|(output, values)| (function.to_string(), output, values))
+            call(model, function, state)
+                .into_iter()
+                .map(|(output, values)| (function.to_string(), output, values))
         })
         .collect()
 }

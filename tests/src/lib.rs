@@ -6,3 +6,8 @@ pub mod platforms;
 pub mod reference;
 pub mod tolerance;
 pub mod vectors;
+
+/// The README's example, compiled and run.
+#[cfg(doctest)]
+#[doc = include_str!("../../README.md")]
+pub struct Readme;

@@ -17,7 +17,10 @@ pub fn state(state: &Environment) -> State {
 /// An output by name, flat and row-major.
 pub fn output(parameters: &Parameters, state: &State, name: &str) -> Vec<f64> {
     let mut values = Vec::new();
-    assert!(dyn_reference::outputs::output(parameters, state, name, &mut values), "the reference has no output `{name}`");
+    assert!(
+        dyn_reference::outputs::output(parameters, state, name, &mut values),
+        "the reference has no output `{name}`"
+    );
     values
 }
 

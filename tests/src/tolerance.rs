@@ -12,13 +12,11 @@ pub struct Tolerance {
 }
 
 /// Tolerances that differ from [`DEFAULT`].
-pub const TOLERANCES: &[Tolerance] = &[
-    Tolerance {
-        outputs: &["inverse_dynamics"],
-        relative: 1e-11,
-        reason: "rounding errors are multiplied by the condition number of J_dp, up to some hundreds near the edge",
-    },
-];
+pub const TOLERANCES: &[Tolerance] = &[Tolerance {
+    outputs: &["inverse_dynamics"],
+    relative: 1e-11,
+    reason: "rounding errors are multiplied by the condition number of J_dp, up to some hundreds near the edge",
+}];
 
 /// Matrices, Jacobians, bias, accelerations, kinematics, energies: sums of a few hundred products.
 pub const DEFAULT: Tolerance = Tolerance {

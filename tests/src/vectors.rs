@@ -1,4 +1,4 @@
-//! Reads test vectors: a resolved platform, states and outputs by name (format: `docs/test-vectors.md`).
+//! Reads test vectors: a resolved platform, states and outputs by name (format: `tests/engines/README.md`).
 
 use std::path::PathBuf;
 
@@ -21,8 +21,10 @@ pub struct Vectors {
 pub fn files() -> Vec<PathBuf> {
     let folder = root().join("tests/vectors");
     let entries = std::fs::read_dir(&folder).unwrap_or_else(|error| panic!("{}: {error}", folder.display()));
-    let mut files: Vec<PathBuf> =
-        entries.map(|entry| entry.expect("a readable folder").path()).filter(|path| path.extension().is_some_and(|e| e == "json")).collect();
+    let mut files: Vec<PathBuf> = entries
+        .map(|entry| entry.expect("a readable folder").path())
+        .filter(|path| path.extension().is_some_and(|e| e == "json"))
+        .collect();
     files.sort();
     files
 }
@@ -30,10 +32,14 @@ pub fn files() -> Vec<PathBuf> {
 /// Reads a file.
 pub fn read(path: &PathBuf) -> Vectors {
     let text = std::fs::read_to_string(path).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
-    let file: Value = serde_json::from_str(&text).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
+    let file: Value =
+        serde_json::from_str(&text).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
     assert_eq!(file["version"], 1, "{}: version", path.display());
     let cases = file["cases"].as_array().expect("cases").iter().map(case).collect();
-    Vectors { platform: serde_json::from_value(file["platform"].clone()).expect("a resolved platform"), cases }
+    Vectors {
+        platform: serde_json::from_value(file["platform"].clone()).expect("a resolved platform"),
+        cases,
+    }
 }
 
 fn case(case: &Value) -> (Environment, Environment) {
