@@ -1,17 +1,18 @@
 //! The hand-written dynamics, by name.
 
+use dyn_gen::evidence;
 use dyn_gen::graph::Environment;
 use dyn_platform::Platform;
 use dyn_reference::{Parameters, State};
 
 /// Parameters of the reference for a platform.
 pub fn parameters(platform: &Platform) -> Parameters {
-    Parameters::from_arrays(|name| platform.parameter(name)).expect("platforms have every parameter")
+    evidence::reference_parameters(platform).expect("platforms have every parameter")
 }
 
 /// A state of the reference.
 pub fn state(state: &Environment) -> State {
-    State::from_arrays(|name| state.get(name).cloned()).expect("sampled states are complete")
+    evidence::reference_state(state).expect("sampled states are complete")
 }
 
 /// An output by name, flat and row-major.

@@ -1,7 +1,7 @@
 //! The order in which a general linear system is eliminated when nothing can pivot at run time.
 
 /// An order of pivots for one linear system, and how it does over the sampled states.
-#[derive(Clone, PartialEq, Debug)]
+#[derive(Clone, PartialEq, Debug, serde::Serialize)]
 pub struct PivotOrder {
     /// Name of the solution.
     pub solve: String,
