@@ -31,6 +31,14 @@ def evaluate_graph(graph: dict, arguments: list[list[float]]) -> dict[str, list[
     return {output["symbol"]: [values[node] for node in output["nodes"]] for output in graph["outputs"]}
 
 
+def dot(a, b) -> float:
+    """a . b from first to last. The built-in sum rounds differently from Python 3.12 on."""
+    total = 0.0
+    for x, y in zip(a, b, strict=True):
+        total += x * y
+    return total
+
+
 def solve(matrix: list[float], right_hand_side: list[float]) -> list[float]:
     """Gaussian elimination with partial pivoting."""
     n = len(right_hand_side)
@@ -44,8 +52,7 @@ def solve(matrix: list[float], right_hand_side: list[float]) -> list[float]:
                 rows[row][column] -= factor * rows[k][column]
     solution = [0.0] * n
     for k in reversed(range(n)):
-        known = sum(rows[k][column] * solution[column] for column in range(k + 1, n))
-        solution[k] = (rows[k][n] - known) / rows[k][k]
+        solution[k] = (rows[k][n] - dot(rows[k][k + 1:n], solution[k + 1:])) / rows[k][k]
     return solution
 
 

@@ -6,6 +6,7 @@ from + - * / and square roots of Python floats alone, so they are the same on ev
 
 from math import sqrt
 
+from .evaluate import dot
 from .symbols import LEG_COUNT
 
 
@@ -19,7 +20,7 @@ def _vary(value: float, start: int) -> list[float]:
 
 
 def _multiply(a, b):
-    return [[sum(a[i][k] * b[k][j] for k in range(3)) for j in range(len(b[0]))] for i in range(3)]
+    return [[dot(a[i], [row[j] for row in b]) for j in range(len(b[0]))] for i in range(3)]
 
 
 def _rotation(x: float, y: float, z: float):
@@ -33,7 +34,7 @@ def _rotation(x: float, y: float, z: float):
 
 
 def _unit(vector):
-    norm = sqrt(sum(component * component for component in vector))
+    norm = sqrt(dot(vector, vector))
     return [component / norm for component in vector]
 
 

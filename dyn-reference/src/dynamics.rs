@@ -7,8 +7,8 @@
 //! ```
 //!
 //! This is (49) without its linearisation of the springs. Inverse and forward dynamics do not form `C_p` and
-//! `C_b`: they sum the power of each body's active and inertia forces, so that [`equation_of_motion`] and
-//! [`generalised_forces`](crate::generalised_forces) are independent ways to the same numbers.
+//! `C_b`: they sum every body's active and inertia forces on its partial velocities, so that [`equation_of_motion`],
+//! with its matrices, is another way to the same numbers.
 
 use nalgebra::{Matrix6, Vector6};
 

@@ -15,7 +15,7 @@ use crate::leg::{LegAcceleration, LegGeometry, LegVelocity, leg_geometries, leg_
 use crate::matrices::{payload_inertia, rod_inertia};
 use crate::parameters::{Leg, Parameters};
 use crate::partial_velocities::{LegPartials, PayloadPartials};
-use crate::state::{RigidBodyMotion, State, angular, linear, stack};
+use crate::state::{RigidBodyMotion, State, angular, linear};
 
 /// Force at a body's centre of mass and moment, N and N m, in O.
 struct Wrench {
@@ -75,18 +75,11 @@ impl LegForces {
         }
     }
 
-    /// The leg's generalised force without forming its partial velocities: with the velocities of the rod's
-    /// ends, `r_s' = (1 - k) hooke' + k joint'` and `w_s = u x (joint' - hooke') / s`, the rod's force and
-    /// moment have the power of one force at each end; of the platform's speeds the Hooke joint and the mover
-    /// see `a d'`, the platform joint all.
-    fn project(&self, leg: &Leg, geometry: &LegGeometry) -> Vector6<f64> {
-        let k = leg.rod_com_fraction;
-        let rod = self.rod_active + self.rod_inertia.force;
-        let couple = self.rod_inertia.moment.cross(&geometry.direction) / leg.rod_length_m;
-        let at_hooke = (1.0 - k) * rod - couple;
-        let at_joint = k * rod + couple;
-        let along = geometry.axis.dot(&(at_hooke + self.mover_active + self.mover_inertia));
-        stack(&at_joint, &geometry.platform_arm.cross(&at_joint)) + geometry.jacobian_dp().transpose() * along
+    /// The leg's generalised force: every body's forces on its partial velocities (33)-(38).
+    fn project(&self, partials: &LegPartials) -> Vector6<f64> {
+        partials.rod.tr_mul(&(self.rod_active + self.rod_inertia.force))
+            + partials.rod_angular.tr_mul(&self.rod_inertia.moment)
+            + partials.mover.tr_mul(&(self.mover_active + self.mover_inertia))
     }
 }
 
@@ -149,24 +142,22 @@ pub fn generalised_forces(parameters: &Parameters, state: &State) -> Generalised
     }
 }
 
-/// Sum of all generalised forces, by the power of every body's forces instead of its partial velocities.
+/// Sum of all generalised forces, active and inertia.
 pub(crate) fn total_generalised_force(
     parameters: &Parameters,
     state: &State,
     geometries: &[LegGeometry; 6],
 ) -> Vector6<f64> {
     let State { base, platform, .. } = state;
-    let active = payload_active(parameters, state);
-    let inertia = payload_inertia_wrench(parameters, platform);
-    let force = active.force + inertia.force;
-    let arm = platform.rotation * parameters.payload.com_m;
-    let mut total = stack(&force, &(active.moment + inertia.moment + arm.cross(&force)));
+    let payload = PayloadPartials::new(parameters, platform);
+    let mut total = project_payload(&payload, &payload_active(parameters, state))
+        + project_payload(&payload, &payload_inertia_wrench(parameters, platform));
     for (i, (leg, geometry)) in parameters.legs.iter().zip(geometries).enumerate() {
         let velocity = LegVelocity::new(leg, geometry, base, platform);
         let gravity = &parameters.gravity_m_s2;
         let forces =
             LegForces::new(leg, gravity, state.actuator_force_n[i], geometry, &velocity, base, platform);
-        total += forces.project(leg, geometry);
+        total += forces.project(&LegPartials::by_platform(leg, geometry));
     }
     total
 }

@@ -12,7 +12,7 @@ use std::process::ExitCode;
 use clap::{Args, Parser, Subcommand};
 
 use crate::runner::Failure;
-use crate::steps::{BENCH, RUN, Step, TEST};
+use crate::steps::{RUN, Step, TEST};
 
 /// Everything this workspace does, one command each.
 ///
@@ -37,8 +37,8 @@ enum Task {
     Test(Selection),
     /// Measure: criterion benchmarks of generated code beside the hand-written reference
     ///
-    /// Close other programs first, and compare figures of one and the same run only. The report lies in
-    /// `target/criterion/report/index.html`.
+    /// Close other programs first, and compare figures of one and the same run only. Prints the table of ratios; criterion's
+    /// report lies in `target/criterion/report/index.html`.
     Bench {
         /// Measure only what contains this text
         filter: Option<String>,
@@ -67,7 +67,7 @@ fn main() -> ExitCode {
     let result = match CommandLine::parse().command {
         Task::Run(selection) => perform("run", RUN, &selection),
         Task::Test(selection) => perform("test", TEST, &selection),
-        Task::Bench { filter } => runner::bench(&BENCH, filter.as_deref()),
+        Task::Bench { filter } => runner::bench(filter.as_deref()),
         Task::Vectors(options) => vectors::compare_or_write(&options),
     };
     match result {

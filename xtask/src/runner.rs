@@ -77,17 +77,17 @@ pub fn list(steps: &[Step]) {
     }
 }
 
-/// Runs the benchmarks, all or those that contain `filter`.
-pub fn bench(step: &Step, filter: Option<&str>) -> Result<(), Failure> {
-    let Action::Cargo(arguments) = step.action else { unreachable!("benchmarks are run by cargo") };
-    println!("{}\nOne run's figures compare with each other, not with another run's.\n", step.why);
+/// Runs the benchmarks, all or those that contain `filter`, and prints their ratios.
+pub fn bench(filter: Option<&str>) -> Result<(), Failure> {
+    println!("One run's figures compare with each other, not with another run's.\n");
     let _ = io::stdout().flush();
-    let mut command = workspace::cargo();
-    command.args(arguments);
+    let mut measure = workspace::cargo();
+    measure.args(["bench", "--package", "dyn-benches"]);
     if let Some(filter) = filter {
-        command.args(["--", filter]);
+        measure.args(["--", filter]);
     }
-    succeed(&mut command)?;
+    succeed(&mut measure)?;
+    succeed(workspace::cargo().args(["run", "--release", "--package", "dyn-benches", "--bin", "ratios"]))?;
     let report = dyn_python::target_directory(&workspace::root()).join("criterion/report/index.html");
     println!("\nreport: {}", report.display());
     Ok(())

@@ -116,18 +116,25 @@ pub const TEST: &[Step] = &[
         action: Action::Cargo(&["bench", "--workspace", "--no-run"]),
     },
     Step {
+        name: "instruction-counts",
+        why: "no function executes more instructions than its budget (needs valgrind, else says so)",
+        action: Action::Cargo(&[
+            "run",
+            "--release",
+            "--package",
+            "dyn-benches",
+            "--bin",
+            "instruction_counts",
+            "--",
+            "--check",
+        ]),
+    },
+    Step {
         name: "tests",
         why: "agreement with reference and engines, physics, passes, printer, bad input, examples in the documentation",
         action: Action::CargoTests(&["test", "--workspace"]),
     },
 ];
-
-/// `cargo xtask bench`.
-pub const BENCH: Step = Step {
-    name: "bench",
-    why: "generated code beside the hand-written reference, on the same states",
-    action: Action::Cargo(&["bench", "--package", "dyn-benches"]),
-};
 
 /// The steps that `--from` or `--only` leave.
 pub fn select<'a>(steps: &'a [Step], from: Option<&str>, only: Option<&str>) -> Result<&'a [Step], Failure> {

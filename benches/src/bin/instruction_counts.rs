@@ -1,0 +1,158 @@
+//! Counts instructions per call under callgrind and compares them with the committed budget.
+
+use std::process::ExitCode;
+
+use clap::Parser;
+use dyn_benches::budget::{Budget, SLACK};
+use dyn_benches::cases::{FUNCTIONS, IMPLEMENTATIONS};
+use dyn_benches::counts::{CountError, Counts, Workload, count_all, run};
+use dyn_benches::{CODEGEN, table};
+
+/// Instructions per call of each function by each implementation, counted by callgrind
+///
+/// Unlike times they repeat, however busy the machine. Build with --release.
+#[derive(Parser)]
+struct Arguments {
+    /// Fail if a count exceeds `benches/instruction_budget.json`; pass without counting where there is no valgrind
+    #[arg(long, conflicts_with_all = ["write", "json"])]
+    check: bool,
+    /// Write `benches/instruction_budget.json`, which never raises the reference's counts for the same compiler
+    #[arg(long)]
+    write: bool,
+    /// Print JSON in the budget's format instead of tables
+    #[arg(long)]
+    json: bool,
+    /// What runs under callgrind, with the states on standard input
+    #[arg(long, hide = true, num_args = 2, value_names = ["FUNCTION", "IMPLEMENTATION"])]
+    workload: Option<Vec<String>>,
+    /// How often the workload goes through the states
+    #[arg(long, hide = true, default_value_t = 1)]
+    passes: usize,
+}
+
+fn main() -> ExitCode {
+    let arguments = Arguments::parse();
+    let result = match arguments.workload.as_deref() {
+        Some([function, implementation]) => {
+            run(&Workload { function, implementation, passes: arguments.passes })
+        }
+        _ => count(&arguments),
+    };
+    match result {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(CountError::NoValgrind) if arguments.check => {
+            println!("skipped: counting instructions needs valgrind, which is not installed");
+            ExitCode::SUCCESS
+        }
+        Err(CountError::NoValgrind) => {
+            eprintln!("error: counting instructions needs valgrind\n help: install the package valgrind");
+            ExitCode::FAILURE
+        }
+        Err(CountError::Failed(reason)) => {
+            eprintln!("error: {reason}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+fn count(arguments: &Arguments) -> Result<(), CountError> {
+    if cfg!(debug_assertions) {
+        return failed("counts of an unoptimised build say nothing\n help: cargo run --release");
+    }
+    if arguments.check {
+        return check();
+    }
+    let counted = counted()?;
+    if arguments.json {
+        println!("{}", json(&counted)?);
+    } else {
+        print(&counted.instructions_per_call);
+    }
+    if arguments.write {
+        // A budget that cannot be read is replaced.
+        let before = Budget::committed().unwrap_or_else(|_| counted.clone());
+        let path = Budget::path();
+        let written = std::fs::write(&path, json(&before.lowered(counted))? + "\n");
+        return written.or_else(|error| failed(format!("{}: {error}", path.display())));
+    }
+    Ok(())
+}
+
+fn check() -> Result<(), CountError> {
+    let budget = Budget::committed().map_err(CountError::Failed)?;
+    if budget.codegen != CODEGEN {
+        println!("skipped: the budget holds for  {}", budget.codegen);
+        println!("         this program is       {CODEGEN}");
+        return Ok(());
+    }
+    let counts = counted()?.instructions_per_call;
+    print(&counts);
+    judge(&budget, &counts)
+}
+
+fn counted() -> Result<Budget, CountError> {
+    let instructions_per_call = count_all(
+        |Workload { function, implementation, passes }| {
+            let passes = passes.to_string();
+            ["--workload", function, implementation, "--passes", &passes].map(str::to_owned).into()
+        },
+        |function, implementation| eprintln!("counting {function} by {implementation}"),
+    )?;
+    Ok(Budget { codegen: CODEGEN.into(), instructions_per_call })
+}
+
+fn failed<T>(reason: impl Into<String>) -> Result<T, CountError> {
+    Err(CountError::Failed(reason.into()))
+}
+
+fn print(counts: &Counts) {
+    println!("instructions per call, {CODEGEN}\n{}", as_table(counts));
+}
+
+fn json(budget: &Budget) -> Result<String, CountError> {
+    serde_json::to_string_pretty(budget).map_err(|error| CountError::Failed(error.to_string()))
+}
+
+fn as_table(counts: &Counts) -> String {
+    let heading: Vec<&str> =
+        ["function"].into_iter().chain(IMPLEMENTATIONS).chain(["reference/generated"]).collect();
+    let rows: Vec<Vec<String>> = FUNCTIONS
+        .iter()
+        .map(|&function| {
+            let count = |implementation: &str| counts[function][implementation];
+            let [baked, runtime, reference] = IMPLEMENTATIONS.map(count);
+            let ratio = reference as f64 / baked as f64;
+            vec![
+                function.to_owned(),
+                baked.to_string(),
+                runtime.to_string(),
+                reference.to_string(),
+                format!("{ratio:.2}"),
+            ]
+        })
+        .collect();
+    table::text(&heading, &rows, 1)
+}
+
+/// Fails with every case beyond its budget.
+fn judge(budget: &Budget, counts: &Counts) -> Result<(), CountError> {
+    let comparisons = budget.compare(counts);
+    let beyond: Vec<String> = comparisons
+        .iter()
+        .filter(|case| !case.holds())
+        .map(|case| {
+            let granted = case.granted.map_or("none".to_owned(), |granted| granted.to_string());
+            format!("  {} by {}: {}, budget {granted}", case.function, case.implementation, case.counted)
+        })
+        .collect();
+    if beyond.is_empty() {
+        println!("all {} counts are within the budget and {:.0} %", comparisons.len(), 100.0 * SLACK);
+        return Ok(());
+    }
+    failed(format!(
+        "more instructions per call than the budget and {:.0} %:\n{}\n help: where that is meant, \
+         cargo run --release --package dyn-benches --bin instruction_counts -- --write",
+        100.0 * SLACK,
+        beyond.join("\n")
+    ))
+}

@@ -1,0 +1,27 @@
+//! Generated code beside the hand-written reference: what is measured, and how. `docs/benchmarks.md` tells how to
+//! read the figures.
+//!
+//! | module | holds |
+//! |-|-|
+//! | [`states`] | the states that every implementation gets |
+//! | [`output`] | results that differ in type, read alike |
+//! | [`call`] | one call of one function by one implementation; the loops around it |
+//! | [`cases`] | the table of functions and implementations |
+//! | [`counts`] | instructions per call, by callgrind |
+//! | [`budget`] | counts that may not grow |
+//! | [`ratios`] | ratios from criterion's results |
+//! | [`table`] | text tables |
+//!
+//! `benches/dynamics.rs` measures times, `instruction_counts` counts, `ratios` sums up.
+
+pub mod budget;
+pub mod call;
+pub mod cases;
+pub mod counts;
+pub mod output;
+pub mod ratios;
+pub mod states;
+pub mod table;
+
+/// Compiler, target, optimisation, target features and flags of this build.
+pub const CODEGEN: &str = env!("DYN_BENCHES_CODEGEN");
