@@ -142,10 +142,12 @@ fn inverse_of_forward_dynamics() {
 /// Forces of the sampled motion, there and back, relative to themselves.
 #[test]
 fn forces_of_a_motion_come_back() {
-    let law = Law { name: "inverse(forward(inverse(v_p'))) = inverse(v_p')", tolerance: 1e-11, reason: SOLVING };
+    let law =
+        Law { name: "inverse(forward(inverse(v_p'))) = inverse(v_p')", tolerance: 1e-11, reason: SOLVING };
     law.holds(|subject, state| {
         let force = subject.vector("inverse_dynamics", state);
-        let acceleration = subject.vector("forward_dynamics", &state.with("actuator_force", force.as_slice()));
+        let acceleration =
+            subject.vector("forward_dynamics", &state.with("actuator_force", force.as_slice()));
         let again = state.with("platform_acceleration", acceleration.as_slice());
         difference(subject.vector("inverse_dynamics", &again), force)
     });

@@ -1,6 +1,7 @@
 //! What the tests share: platforms, states, compiled models by name, the hand-written reference by name, tolerances.
 
 pub mod compare;
+pub mod comparison;
 pub mod compiled;
 pub mod platforms;
 pub mod reference;
