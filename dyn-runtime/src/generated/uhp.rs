@@ -3,7 +3,7 @@
 //
 // Dynamics of any `uhp` platform, all numbers given at run time.
 //
-// graph     uhp.json, sha256 f739c8f17c247a336e744566e7062828225f0902ad05c552acc598e68726a20a
+// graph     uhp.json, sha256 0e4e475ca31637bc149a623313f14fd264b4c785631b6b9e71c3463a5aa9d2e6
 //           derived by CasADi 3.8.2
 //
 // operations (+ - * / sqrt; a change of sign is not counted)
