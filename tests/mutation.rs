@@ -31,7 +31,7 @@ fn changes(node: Node) -> &'static [Change] {
     use Change::*;
     match node {
         // Exact zeros are structure, such as the base's angular acceleration in the bias; 0.1 % of zero is no change.
-        Node::Constant(value) if value == 0.0 => &[],
+        Node::Constant(0.0) => &[],
         Node::Constant(_) => &[ConstantLarger],
         Node::Input { .. } | Node::Solution { .. } => &[],
         Node::Unary(..) => &[OtherSign, OperationDropped],
