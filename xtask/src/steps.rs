@@ -113,7 +113,7 @@ pub const TEST: &[Step] = &[
     Step {
         name: "benchmarks",
         why: "the benchmarks compile",
-        action: Action::Cargo(&["bench", "--workspace", "--no-run"]),
+        action: Action::Cargo(&["bench", "--package", "dyn-benches", "--no-run"]),
     },
     Step {
         name: "instruction-counts",
