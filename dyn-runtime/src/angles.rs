@@ -7,7 +7,13 @@
 
 use nalgebra::{Matrix3, Rotation3, Vector3};
 
-use crate::float::sin_cos;
+use crate::error::GimbalLock;
+use crate::float::{atan2, sin_cos, sqrt};
+
+/// Least `|cos c2|` at which [`angle_rates`] answers: `c2` farther than 1e-6 rad from `+-pi/2`.
+///
+/// Nearer, an error of the angles of 1e-6 rad changes the rates by as much as they are.
+pub const MIN_COS_C2: f64 = 1e-6;
 
 /// `R = Rz(c3) Ry(c2) Rx(c1)` (2): body coordinates to coordinates in the frame that the angles refer to, O
 /// for base and platform.
@@ -20,6 +26,35 @@ pub fn rotation(angles: [f64; 3]) -> Rotation3<f64> {
         -s2,     c2 * s1,                c2 * c1,
     );
     Rotation3::from_matrix_unchecked(matrix)
+}
+
+/// Angles, rad, of a rotation from body coordinates to O: the inverse of [`rotation`]. `c1` and `c3` lie in
+/// `[-pi, pi]`, `c2` in `[-pi/2, pi/2]`.
+///
+/// At gimbal lock, `c2 = +-pi/2`, the rotation depends on `c1 -+ c3` only; there, `|cos c2|` at most 1e-15,
+/// `c3` is 0. Near it `c1` and `c3` are uncertain by the matrix's errors over `|cos c2|`, each for itself, but
+/// they belong together: everywhere [`rotation`] gives the same matrix back, to about 1e-15. The angles of a
+/// motion through the lock jump.
+///
+/// Elements that are not finite make angles that are not.
+///
+/// ```
+/// use dyn_runtime::angles;
+///
+/// let [c1, c2, c3] = angles::from_rotation(&angles::rotation([0.1, -0.2, 0.3]));
+/// assert!((c1 - 0.1).abs() < 1e-15 && (c2 + 0.2).abs() < 1e-15 && (c3 - 0.3).abs() < 1e-15);
+/// ```
+pub fn from_rotation(rotation: &Rotation3<f64>) -> [f64; 3] {
+    let r = rotation.matrix();
+    // An arc tangent keeps its digits near +-pi/2, where an arc sine loses half of them.
+    let cos_c2 = sqrt(r[(0, 0)] * r[(0, 0)] + r[(1, 0)] * r[(1, 0)]);
+    let c2 = atan2(-r[(2, 0)], cos_c2);
+    let c3 = if cos_c2 <= 1e-15 { 0.0 } else { atan2(r[(1, 0)], r[(0, 0)]) };
+    // Rz(c3)^T R = Ry(c2) Rx(c1), whose second row is [0, cos c1, -sin c1]: the c1 that goes with this c3.
+    let (sin_c3, cos_c3) = sin_cos(c3);
+    let sin_c1 = sin_c3 * r[(0, 2)] - cos_c3 * r[(1, 2)];
+    let cos_c1 = cos_c3 * r[(1, 1)] - sin_c3 * r[(0, 1)];
+    [atan2(sin_c1, cos_c1), c2, c3]
 }
 
 /// Angular velocity `w`, rad/s, O axes, from angles (rad) and their rates (rad/s):
@@ -58,12 +93,17 @@ pub fn angular_acceleration(angles: [f64; 3], rates: [f64; 3], second_derivative
 /// c3' = wz + sin c2 c1'
 /// ```
 ///
-/// At `c2 = +-pi/2` the angles are singular (a motion may have no finite rates); near it the rates are huge.
-pub fn angle_rates(angles: [f64; 3], angular_velocity_rad_s: Vector3<f64>) -> [f64; 3] {
+/// # Errors
+/// [`GimbalLock`] if `|cos c2|` is below [`MIN_COS_C2`], or `c2` not finite: most motions have no finite
+/// rates there. Other elements that are not finite make rates that are not.
+pub fn angle_rates(angles: [f64; 3], angular_velocity_rad_s: Vector3<f64>) -> Result<[f64; 3], GimbalLock> {
     let [_, (s2, c2), (s3, c3)] = angles.map(sin_cos);
+    if c2.is_nan() || c2.abs() < MIN_COS_C2 {
+        return Err(GimbalLock { cos_c2: c2 });
+    }
     let w = angular_velocity_rad_s;
     let rate_1 = (c3 * w.x + s3 * w.y) / c2;
-    [rate_1, c3 * w.y - s3 * w.x, w.z + s2 * rate_1]
+    Ok([rate_1, c3 * w.y - s3 * w.x, w.z + s2 * rate_1])
 }
 
 /// The matrix of [`angular_velocity`].

@@ -2,19 +2,35 @@
 
 use nalgebra::{Rotation3, SMatrix, SVector, Vector3};
 
+/// What a checked call returns for an output of a generated function: the same numbers with their meaning.
+pub(crate) trait FromRows<Rows> {
+    fn from_rows(rows: &Rows) -> Self;
+}
+
+impl FromRows<f64> for f64 {
+    fn from_rows(number: &f64) -> Self {
+        *number
+    }
+}
+
+impl<const N: usize> FromRows<[f64; N]> for SVector<f64, N> {
+    fn from_rows(elements: &[f64; N]) -> Self {
+        Self::from(*elements)
+    }
+}
+
 /// Row-major rows to a matrix.
-pub(crate) fn matrix<const R: usize, const C: usize>(rows: &[[f64; C]; R]) -> SMatrix<f64, R, C> {
-    SMatrix::<f64, C, R>::from(*rows).transpose()
+impl<const R: usize, const C: usize> FromRows<[[f64; C]; R]> for SMatrix<f64, R, C> {
+    fn from_rows(rows: &[[f64; C]; R]) -> Self {
+        SMatrix::<f64, C, R>::from(*rows).transpose()
+    }
 }
 
-/// Row-major rows to a matrix, for each leg.
-pub(crate) fn matrices<const R: usize, const C: usize>(legs: &[[[f64; C]; R]; 6]) -> [SMatrix<f64, R, C>; 6] {
-    legs.map(|rows| matrix(&rows))
-}
-
-/// A vector for each leg.
-pub(crate) fn vectors<const N: usize>(legs: &[[f64; N]; 6]) -> [SVector<f64, N>; 6] {
-    legs.map(SVector::from)
+/// One for each leg.
+impl<T: FromRows<Rows>, Rows> FromRows<[Rows; 6]> for [T; 6] {
+    fn from_rows(legs: &[Rows; 6]) -> Self {
+        legs.each_ref().map(T::from_rows)
+    }
 }
 
 /// Row-major elements of a rotation.

@@ -1,8 +1,8 @@
 //! Kinetic and potential energy.
 
-use crate::check::finite_result;
 use crate::error::Error;
-use crate::hexapod::{Hexapod, States};
+use crate::evaluate::evaluate;
+use crate::hexapod::Hexapod;
 use crate::kernels;
 use crate::state::{BaseMotion, PlatformState};
 
@@ -27,27 +27,11 @@ impl<M: kernels::RodAlignment> Hexapod<M> {
     where
         M: kernels::Energy,
     {
-        let States {
-            base_position,
-            base_rotation,
-            base_velocity,
-            platform_position,
-            platform_rotation,
-            platform_velocity,
-        } = self.states(base, platform)?;
-        let mut kinetic_energy = 0.0;
-        let mut potential_energy = 0.0;
-        self.model.energy(
-            &base_position,
-            &base_rotation,
-            &base_velocity,
-            &platform_position,
-            &platform_rotation,
-            &platform_velocity,
-            &mut kinetic_energy,
-            &mut potential_energy,
-        );
-        finite_result(&[&kinetic_energy, &potential_energy])?;
-        Ok(Energy { kinetic_j: kinetic_energy, potential_j: potential_energy })
+        let (b, p) = self.states(base, platform)?;
+        evaluate!(self.model.energy(
+            b.position, b.rotation, b.velocity, p.position, p.rotation, p.velocity
+        ) -> Energy {
+            kinetic_j, potential_j,
+        })
     }
 }

@@ -2,10 +2,9 @@
 
 use nalgebra::{Matrix6, Vector6};
 
-use crate::arrays::matrix;
-use crate::check::finite_result;
 use crate::error::Error;
-use crate::hexapod::{Hexapod, States};
+use crate::evaluate::evaluate;
+use crate::hexapod::Hexapod;
 use crate::kernels;
 use crate::state::{BaseMotion, PlatformState};
 
@@ -36,13 +35,13 @@ pub struct EquationOfMotion {
     pub stiffness_matrix_b: Matrix6<f64>,
     /// J_db, as [`Hexapod::jacobian_db`] gives it.
     pub jacobian_db: Matrix6<f64>,
-    /// G, N and N m, as in [`PassiveForces`](crate::PassiveForces).
+    /// G, N and N m, O, as in [`PassiveForces`](crate::PassiveForces).
     pub gravity_force: Vector6<f64>,
-    /// `J_dp^T k_e (d - d0)`, N and N m.
+    /// `J_dp^T k_e (d - d0)`, N and N m, O.
     pub spring_force: Vector6<f64>,
-    /// `J_dp^T c_e d'`, N and N m.
+    /// `J_dp^T c_e d'`, N and N m, O.
     pub damping_force: Vector6<f64>,
-    /// As [`Hexapod::bias`] gives it, N and N m.
+    /// As [`Hexapod::bias`] gives it, N and N m, O.
     pub bias: Vector6<f64>,
 }
 
@@ -60,62 +59,13 @@ impl<M: kernels::RodAlignment> Hexapod<M> {
     where
         M: kernels::EquationOfMotion,
     {
-        let States {
-            base_position,
-            base_rotation,
-            base_velocity,
-            platform_position,
-            platform_rotation,
-            platform_velocity,
-        } = self.states(base, platform)?;
-        let mut mass_matrix_p = [[0.0; 6]; 6];
-        let mut coriolis_matrix_p = [[0.0; 6]; 6];
-        let mut stiffness_matrix_p = [[0.0; 6]; 6];
-        let mut jacobian_dp = [[0.0; 6]; 6];
-        let mut mass_matrix_b = [[0.0; 6]; 6];
-        let mut coriolis_matrix_b = [[0.0; 6]; 6];
-        let mut stiffness_matrix_b = [[0.0; 6]; 6];
-        let mut jacobian_db = [[0.0; 6]; 6];
-        let mut gravity_force = [0.0; 6];
-        let mut spring_force = [0.0; 6];
-        let mut damping_force = [0.0; 6];
-        let mut bias = [0.0; 6];
-        self.model.equation_of_motion(
-            &base_position,
-            &base_rotation,
-            &base_velocity,
-            &platform_position,
-            &platform_rotation,
-            &platform_velocity,
-            &mut mass_matrix_p,
-            &mut coriolis_matrix_p,
-            &mut stiffness_matrix_p,
-            &mut jacobian_dp,
-            &mut mass_matrix_b,
-            &mut coriolis_matrix_b,
-            &mut stiffness_matrix_b,
-            &mut jacobian_db,
-            &mut gravity_force,
-            &mut spring_force,
-            &mut damping_force,
-            &mut bias,
-        );
-        finite_result(&[&mass_matrix_p, &coriolis_matrix_p, &stiffness_matrix_p, &jacobian_dp])?;
-        finite_result(&[&mass_matrix_b, &coriolis_matrix_b, &stiffness_matrix_b, &jacobian_db])?;
-        finite_result(&[&gravity_force, &spring_force, &damping_force, &bias])?;
-        Ok(EquationOfMotion {
-            mass_matrix_p: matrix(&mass_matrix_p),
-            coriolis_matrix_p: matrix(&coriolis_matrix_p),
-            stiffness_matrix_p: matrix(&stiffness_matrix_p),
-            jacobian_dp: matrix(&jacobian_dp),
-            mass_matrix_b: matrix(&mass_matrix_b),
-            coriolis_matrix_b: matrix(&coriolis_matrix_b),
-            stiffness_matrix_b: matrix(&stiffness_matrix_b),
-            jacobian_db: matrix(&jacobian_db),
-            gravity_force: gravity_force.into(),
-            spring_force: spring_force.into(),
-            damping_force: damping_force.into(),
-            bias: bias.into(),
+        let (b, p) = self.states(base, platform)?;
+        evaluate!(self.model.equation_of_motion(
+            b.position, b.rotation, b.velocity, p.position, p.rotation, p.velocity
+        ) -> EquationOfMotion {
+            mass_matrix_p, coriolis_matrix_p, stiffness_matrix_p, jacobian_dp, mass_matrix_b,
+            coriolis_matrix_b, stiffness_matrix_b, jacobian_db, gravity_force, spring_force, damping_force,
+            bias,
         })
     }
 }

@@ -45,6 +45,12 @@ pub enum Error {
         /// What is wrong with it.
         defect: NotARotation,
     },
+    /// The model's parameters are not those of a mechanism: `(u.a)^2` of this leg is NaN or infinite although
+    /// base and platform are near each other. A rod length is 0, or a number of the geometry is not finite.
+    InvalidModel {
+        /// Index of the first such leg, 0 to 5.
+        leg: usize,
+    },
     /// The platform joint of this leg is farther from the actuator's axis than the rod is long.
     OutOfReach {
         /// Index of the first such leg, 0 to 5.
@@ -75,6 +81,13 @@ pub struct NotARotation {
     pub deviation: f64,
     /// Determinant of R, +1 for a rotation, -1 for a reflection.
     pub determinant: f64,
+}
+
+/// Angles too near `c2 = +-pi/2`, where the paper's angles have no rates.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct GimbalLock {
+    /// `cos c2`, of a magnitude below [`MIN_COS_C2`](crate::angles::MIN_COS_C2); NaN if `c2` is not finite.
+    pub cos_c2: f64,
 }
 
 impl Input {
@@ -108,6 +121,12 @@ impl fmt::Display for Error {
                 write!(f, "{input}: NaN or infinite element; keep the previous value or stop the controller")
             }
             Self::NotARotation { input, defect } => write!(f, "{input}: {defect}"),
+            Self::InvalidModel { leg } => write!(
+                f,
+                "the model's parameters are not those of a mechanism: leg {} (index {leg}) has no finite alignment of \
+                 rod and actuator; check that every parameter is filled in and that no rod length is 0",
+                leg + 1
+            ),
             Self::OutOfReach { leg } => write!(
                 f,
                 "leg {} (index {leg}) is out of reach: its platform joint is farther from the actuator's axis than \
@@ -143,6 +162,19 @@ impl fmt::Display for NotARotation {
     }
 }
 
+impl fmt::Display for GimbalLock {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(
+            f,
+            "the angles have no rates: cos c2 is {:.1e}, too near gimbal lock (or c2 is not finite); go on with the \
+             angular velocity instead",
+            self.cos_c2
+        )
+    }
+}
+
 impl error::Error for NotARotation {}
+
+impl error::Error for GimbalLock {}
 
 impl error::Error for Error {}

@@ -1,45 +1,45 @@
 //! Generalised forces: per body as in Kane's equations, and collected as they stand in the equation of
 //! motion.
-//!
-//! All are six numbers that go with the platform speeds `[r_p'; w_p]`: a force (N) and a moment about P's
-//! origin (N m), O axes.
 
 use nalgebra::Vector6;
 
-use crate::arrays::vectors;
-use crate::check::{finite, finite_result};
+use crate::check::finite;
 use crate::error::{Error, Input};
-use crate::hexapod::{Hexapod, States};
+use crate::evaluate::evaluate;
+use crate::hexapod::Hexapod;
 use crate::kernels;
 use crate::state::{Acceleration, BaseMotion, PlatformState, Wrench};
 
 /// Active and inertia forces of every body (39)-(46). Their sum vanishes exactly where the equation of motion
 /// holds.
+///
+/// Each is six numbers that go with the platform speeds `[r_p'; w_p]`: a force (N) and a moment about P's
+/// origin (N m), O axes.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct GeneralisedForces {
-    /// Payload: gravity and external wrench (39).
+    /// Payload: gravity and external wrench (39), N and N m, O.
     pub payload_active_force: Vector6<f64>,
-    /// Payload: `-(J^T m a + J_w^T (I w' + w x I w))`.
+    /// Payload: `-(J^T m a + J_w^T (I w' + w x I w))`, N and N m, O.
     pub payload_inertia_force: Vector6<f64>,
-    /// Each rod: gravity.
+    /// Each rod: gravity, N and N m, O.
     pub rod_active_force: [Vector6<f64>; 6],
-    /// Each rod: as for the payload.
+    /// Each rod: as for the payload, N and N m, O.
     pub rod_inertia_force: [Vector6<f64>; 6],
-    /// Each mover: gravity, and along its axis `F - k_e (d - d0) - c_e d'`.
+    /// Each mover: gravity, and along its axis `F - k_e (d - d0) - c_e d'`, N and N m, O.
     pub mover_active_force: [Vector6<f64>; 6],
-    /// Each mover: `-J^T m a`.
+    /// Each mover: `-J^T m a`, N and N m, O.
     pub mover_inertia_force: [Vector6<f64>; 6],
 }
 
 /// Forces that neither acceleration nor actuators make, with the signs they have on the left side of the
-/// equation of motion.
+/// equation of motion: force (N) and moment about P's origin (N m), O axes.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct PassiveForces {
-    /// G, minus the weight of payload, rods and movers: what holds them up.
+    /// G, minus the weight of payload, rods and movers: what holds them up; N and N m, O.
     pub gravity_force: Vector6<f64>,
-    /// `J_dp^T k_e (d - d0)`.
+    /// `J_dp^T k_e (d - d0)`, N and N m, O.
     pub spring_force: Vector6<f64>,
-    /// `J_dp^T c_e d'`.
+    /// `J_dp^T c_e d'`, N and N m, O.
     pub damping_force: Vector6<f64>,
 }
 
@@ -65,47 +65,14 @@ impl<M: kernels::RodAlignment> Hexapod<M> {
         let platform_acceleration = finite(Input::PlatformAcceleration, platform_acceleration.to_array())?;
         let actuator_force = finite(Input::ActuatorForce, (*actuator_force_n).into())?;
         let external_wrench = finite(Input::ExternalWrench, external_wrench.to_array())?;
-        let States {
-            base_position,
-            base_rotation,
-            base_velocity,
-            platform_position,
-            platform_rotation,
-            platform_velocity,
-        } = self.states(base, platform)?;
-        let mut payload_active_force = [0.0; 6];
-        let mut payload_inertia_force = [0.0; 6];
-        let mut rod_active_force = [[0.0; 6]; 6];
-        let mut rod_inertia_force = [[0.0; 6]; 6];
-        let mut mover_active_force = [[0.0; 6]; 6];
-        let mut mover_inertia_force = [[0.0; 6]; 6];
-        self.model.generalised_forces(
-            &base_position,
-            &base_rotation,
-            &base_velocity,
-            &base_acceleration,
-            &platform_position,
-            &platform_rotation,
-            &platform_velocity,
-            &platform_acceleration,
-            &actuator_force,
-            &external_wrench,
-            &mut payload_active_force,
-            &mut payload_inertia_force,
-            &mut rod_active_force,
-            &mut rod_inertia_force,
-            &mut mover_active_force,
-            &mut mover_inertia_force,
-        );
-        finite_result(&[&payload_active_force, &payload_inertia_force])?;
-        finite_result(&[&rod_active_force, &rod_inertia_force, &mover_active_force, &mover_inertia_force])?;
-        Ok(GeneralisedForces {
-            payload_active_force: payload_active_force.into(),
-            payload_inertia_force: payload_inertia_force.into(),
-            rod_active_force: vectors(&rod_active_force),
-            rod_inertia_force: vectors(&rod_inertia_force),
-            mover_active_force: vectors(&mover_active_force),
-            mover_inertia_force: vectors(&mover_inertia_force),
+        let (b, p) = self.states(base, platform)?;
+        evaluate!(self.model.generalised_forces(
+            b.position, b.rotation, b.velocity, base_acceleration,
+            p.position, p.rotation, p.velocity, platform_acceleration,
+            actuator_force, external_wrench,
+        ) -> GeneralisedForces {
+            payload_active_force, payload_inertia_force, rod_active_force, rod_inertia_force,
+            mover_active_force, mover_inertia_force,
         })
     }
 
@@ -129,33 +96,11 @@ impl<M: kernels::RodAlignment> Hexapod<M> {
     where
         M: kernels::PassiveForces,
     {
-        let States {
-            base_position,
-            base_rotation,
-            base_velocity,
-            platform_position,
-            platform_rotation,
-            platform_velocity,
-        } = self.states(base, platform)?;
-        let mut gravity_force = [0.0; 6];
-        let mut spring_force = [0.0; 6];
-        let mut damping_force = [0.0; 6];
-        self.model.passive_forces(
-            &base_position,
-            &base_rotation,
-            &base_velocity,
-            &platform_position,
-            &platform_rotation,
-            &platform_velocity,
-            &mut gravity_force,
-            &mut spring_force,
-            &mut damping_force,
-        );
-        finite_result(&[&gravity_force, &spring_force, &damping_force])?;
-        Ok(PassiveForces {
-            gravity_force: gravity_force.into(),
-            spring_force: spring_force.into(),
-            damping_force: damping_force.into(),
+        let (b, p) = self.states(base, platform)?;
+        evaluate!(self.model.passive_forces(
+            b.position, b.rotation, b.velocity, p.position, p.rotation, p.velocity
+        ) -> PassiveForces {
+            gravity_force, spring_force, damping_force,
         })
     }
 
@@ -168,25 +113,9 @@ impl<M: kernels::RodAlignment> Hexapod<M> {
     where
         M: kernels::Bias,
     {
-        let States {
-            base_position,
-            base_rotation,
-            base_velocity,
-            platform_position,
-            platform_rotation,
-            platform_velocity,
-        } = self.states(base, platform)?;
-        let mut bias = [0.0; 6];
-        self.model.bias(
-            &base_position,
-            &base_rotation,
-            &base_velocity,
-            &platform_position,
-            &platform_rotation,
-            &platform_velocity,
-            &mut bias,
-        );
-        finite_result(&[&bias])?;
-        Ok(bias.into())
+        let (b, p) = self.states(base, platform)?;
+        evaluate!(self.model.bias(
+            b.position, b.rotation, b.velocity, p.position, p.rotation, p.velocity
+        ) -> bias)
     }
 }

@@ -2,9 +2,10 @@
 
 use nalgebra::Vector6;
 
-use crate::check::{finite, finite_result};
+use crate::check::finite;
 use crate::error::{Error, Input};
-use crate::hexapod::{Hexapod, States};
+use crate::evaluate::evaluate;
+use crate::hexapod::Hexapod;
 use crate::kernels;
 use crate::state::{Acceleration, BaseMotion, PlatformState, Wrench};
 
@@ -45,28 +46,11 @@ impl<M: kernels::RodAlignment> Hexapod<M> {
         let base_acceleration = finite(Input::BaseAcceleration, base.acceleration.to_array())?;
         let actuator_force = finite(Input::ActuatorForce, (*actuator_force_n).into())?;
         let external_wrench = finite(Input::ExternalWrench, external_wrench.to_array())?;
-        let States {
-            base_position,
-            base_rotation,
-            base_velocity,
-            platform_position,
-            platform_rotation,
-            platform_velocity,
-        } = self.states(base, platform)?;
-        let mut forward_dynamics = [0.0; 6];
-        self.model.forward_dynamics(
-            &base_position,
-            &base_rotation,
-            &base_velocity,
-            &base_acceleration,
-            &platform_position,
-            &platform_rotation,
-            &platform_velocity,
-            &actuator_force,
-            &external_wrench,
-            &mut forward_dynamics,
-        );
-        finite_result(&[&forward_dynamics])?;
-        Ok(Acceleration::from_array(&forward_dynamics))
+        let (b, p) = self.states(base, platform)?;
+        evaluate!(self.model.forward_dynamics(
+            b.position, b.rotation, b.velocity, base_acceleration,
+            p.position, p.rotation, p.velocity,
+            actuator_force, external_wrench,
+        ) -> acceleration)
     }
 }

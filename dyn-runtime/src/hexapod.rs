@@ -12,6 +12,8 @@ use crate::state::{BaseMotion, PlatformState, Pose};
 /// on (each method says so), and returns its whole result by value or an [`Error`]; nothing is half-written.
 /// Every call refuses
 ///
+/// - models whose parameters give a leg no finite alignment, such as a rod without length or a point left at
+///   NaN: [`Error::InvalidModel`];
 /// - inputs that it depends on and that are not finite: [`Error::NonFinite`];
 /// - matrices that are not rotations, beyond [`MAX_ROTATION_DEVIATION`](crate::MAX_ROTATION_DEVIATION):
 ///   [`Error::NotARotation`];
@@ -24,6 +26,14 @@ use crate::state::{BaseMotion, PlatformState, Pose};
 /// [`Error::SingularJacobian`] as well; forward dynamics inverts M_p, which is positive definite in every
 /// pose. Not checked: stroke, rate and force limits, and whether numbers are in SI units.
 ///
+/// # What a model must contain
+///
+/// A model may be generated with some of the functions only. Every call checks reach, so all methods need
+/// `rod_alignment` ([`RodAlignment`]). Each needs the function of its own name besides ([`bias`](Self::bias)
+/// needs [`Bias`](crate::kernels::Bias), and so on), and [`inverse_dynamics`](Self::inverse_dynamics) also
+/// `jacobian_dp`. So a controller by inverse dynamics takes `rod_alignment,jacobian_dp,inverse_dynamics`. A
+/// function that is missing shows when compiling, as a trait that is not implemented.
+///
 /// Unchecked, the same functions are the traits in [`kernels`](crate::kernels), on plain arrays: NaN or
 /// infinities come out where a call here would refuse.
 #[derive(Clone, Copy, Debug)]
@@ -32,22 +42,17 @@ pub struct Hexapod<M> {
     pub model: M,
 }
 
-/// Poses as generated functions take them.
-pub(crate) struct Poses {
-    pub base_position: [f64; 3],
-    pub base_rotation: [[f64; 3]; 3],
-    pub platform_position: [f64; 3],
-    pub platform_rotation: [[f64; 3]; 3],
+/// A body's pose as generated functions take it.
+pub(crate) struct PoseArrays {
+    pub position: [f64; 3],
+    pub rotation: [[f64; 3]; 3],
 }
 
-/// Poses and velocities as generated functions take them.
-pub(crate) struct States {
-    pub base_position: [f64; 3],
-    pub base_rotation: [[f64; 3]; 3],
-    pub base_velocity: [f64; 6],
-    pub platform_position: [f64; 3],
-    pub platform_rotation: [[f64; 3]; 3],
-    pub platform_velocity: [f64; 6],
+/// A body's pose and velocity as generated functions take them.
+pub(crate) struct StateArrays {
+    pub position: [f64; 3],
+    pub rotation: [[f64; 3]; 3],
+    pub velocity: [f64; 6],
 }
 
 impl<M> Hexapod<M> {
@@ -58,59 +63,68 @@ impl<M> Hexapod<M> {
 }
 
 impl<M: RodAlignment> Hexapod<M> {
-    /// `(u.a)^2` of the poses, whatever its value.
-    pub(crate) fn alignment_at(&self, poses: &Poses) -> [f64; 6] {
+    /// `(u.a)^2` at these poses, whatever its value.
+    pub(crate) fn alignment_at(&self, base: &PoseArrays, platform: &PoseArrays) -> Result<[f64; 6], Error> {
         let mut rod_alignment = [0.0; 6];
         self.model.rod_alignment(
-            &poses.base_position,
-            &poses.base_rotation,
-            &poses.platform_position,
-            &poses.platform_rotation,
+            &base.position,
+            &base.rotation,
+            &platform.position,
+            &platform.rotation,
             &mut rod_alignment,
         );
-        rod_alignment
+        check::mechanism(&rod_alignment, &base.position, &platform.position)?;
+        Ok(rod_alignment)
     }
 
-    /// Finite poses in reach of every leg.
-    pub(crate) fn poses(&self, base: &BaseMotion, platform: &PlatformState) -> Result<Poses, Error> {
-        let poses = Poses::checked(&base.pose, &platform.pose)?;
-        check::reach(&self.alignment_at(&poses))?;
-        Ok(poses)
+    /// Finite poses of base and platform, in reach of every leg.
+    pub(crate) fn poses(
+        &self,
+        base: &BaseMotion,
+        platform: &PlatformState,
+    ) -> Result<(PoseArrays, PoseArrays), Error> {
+        let (base, platform) = checked_poses(base, platform)?;
+        check::reach(&self.alignment_at(&base, &platform)?)?;
+        Ok((base, platform))
     }
 
-    /// Finite poses in reach of every leg, and finite velocities.
-    pub(crate) fn states(&self, base: &BaseMotion, platform: &PlatformState) -> Result<States, Error> {
+    /// Finite poses and velocities of base and platform, in reach of every leg.
+    pub(crate) fn states(
+        &self,
+        base: &BaseMotion,
+        platform: &PlatformState,
+    ) -> Result<(StateArrays, StateArrays), Error> {
         let base_velocity = check::finite(Input::BaseVelocity, base.velocity.to_array())?;
         let platform_velocity = check::finite(Input::PlatformVelocity, platform.velocity.to_array())?;
-        let Poses { base_position, base_rotation, platform_position, platform_rotation } =
-            self.poses(base, platform)?;
-        Ok(States {
-            base_position,
-            base_rotation,
-            base_velocity,
-            platform_position,
-            platform_rotation,
-            platform_velocity,
-        })
+        let (base, platform) = self.poses(base, platform)?;
+        Ok((base.moving(base_velocity), platform.moving(platform_velocity)))
     }
 }
 
-impl Poses {
-    /// Finite, with rotations that are rotations; reach is not looked at.
-    pub(crate) fn checked(base: &Pose, platform: &Pose) -> Result<Self, Error> {
-        Ok(Self {
-            base_position: check::finite(Input::BasePosition, base.position_m.into())?,
-            base_rotation: checked_rotation(Input::BaseRotation, base)?,
-            platform_position: check::finite(Input::PlatformPosition, platform.position_m.into())?,
-            platform_rotation: checked_rotation(Input::PlatformRotation, platform)?,
-        })
+impl PoseArrays {
+    fn moving(self, velocity: [f64; 6]) -> StateArrays {
+        StateArrays { position: self.position, rotation: self.rotation, velocity }
     }
 }
 
-fn checked_rotation(input: Input, pose: &Pose) -> Result<[[f64; 3]; 3], Error> {
-    let rows = check::finite(input, rotation_rows(&pose.rotation))?;
+/// Finite poses of base and platform, with rotations that are rotations; reach is not looked at.
+pub(crate) fn checked_poses(
+    base: &BaseMotion,
+    platform: &PlatformState,
+) -> Result<(PoseArrays, PoseArrays), Error> {
+    Ok((
+        checked_pose(&base.pose, Input::BasePosition, Input::BaseRotation)?,
+        checked_pose(&platform.pose, Input::PlatformPosition, Input::PlatformRotation)?,
+    ))
+}
+
+fn checked_pose(pose: &Pose, position: Input, rotation: Input) -> Result<PoseArrays, Error> {
+    let arrays = PoseArrays {
+        position: check::finite(position, pose.position_m.into())?,
+        rotation: check::finite(rotation, rotation_rows(&pose.rotation))?,
+    };
     match check::rotation_defect(pose.rotation.matrix()) {
-        None => Ok(rows),
-        Some(defect) => Err(Error::NotARotation { input, defect }),
+        None => Ok(arrays),
+        Some(defect) => Err(Error::NotARotation { input: rotation, defect }),
     }
 }

@@ -2,9 +2,10 @@
 
 use nalgebra::Vector6;
 
-use crate::check::{finite, finite_result, invertible};
+use crate::check::{finite, invertible};
 use crate::error::{Error, Input};
-use crate::hexapod::{Hexapod, States};
+use crate::evaluate::evaluate;
+use crate::hexapod::Hexapod;
 use crate::kernels;
 use crate::state::{Acceleration, BaseMotion, PlatformState, Wrench};
 
@@ -45,39 +46,16 @@ impl<M: kernels::RodAlignment> Hexapod<M> {
         let base_acceleration = finite(Input::BaseAcceleration, base.acceleration.to_array())?;
         let platform_acceleration = finite(Input::PlatformAcceleration, platform_acceleration.to_array())?;
         let external_wrench = finite(Input::ExternalWrench, external_wrench.to_array())?;
-        let States {
-            base_position,
-            base_rotation,
-            base_velocity,
-            platform_position,
-            platform_rotation,
-            platform_velocity,
-        } = self.states(base, platform)?;
+        let (b, p) = self.states(base, platform)?;
 
         let mut jacobian_dp = [[0.0; 6]; 6];
-        self.model.jacobian_dp(
-            &base_position,
-            &base_rotation,
-            &platform_position,
-            &platform_rotation,
-            &mut jacobian_dp,
-        );
+        self.model.jacobian_dp(&b.position, &b.rotation, &p.position, &p.rotation, &mut jacobian_dp);
         invertible(&jacobian_dp)?;
 
-        let mut inverse_dynamics = [0.0; 6];
-        self.model.inverse_dynamics(
-            &base_position,
-            &base_rotation,
-            &base_velocity,
-            &base_acceleration,
-            &platform_position,
-            &platform_rotation,
-            &platform_velocity,
-            &platform_acceleration,
-            &external_wrench,
-            &mut inverse_dynamics,
-        );
-        finite_result(&[&inverse_dynamics])?;
-        Ok(inverse_dynamics.into())
+        evaluate!(self.model.inverse_dynamics(
+            b.position, b.rotation, b.velocity, base_acceleration,
+            p.position, p.rotation, p.velocity, platform_acceleration,
+            external_wrench,
+        ) -> forces)
     }
 }

@@ -33,11 +33,13 @@
 //!
 //! # Frames and units
 //!
-//! O is inertial, B fixed to the base, P fixed to the platform with its origin at the centre of the circle of
-//! platform joints. Everything that enters or leaves is in SI units and in O's axes. A [`Pose`] turns body
+//! O is inertial, B fixed to the base, P fixed to the platform with its origin at the centre of the circle
+//! of platform joints. Everything that enters or leaves is in SI units and in O's axes. A state's type says
+//! which body it describes and a field's name its unit; names carry no frame because there is only this
+//! one. What is measured in body axes is turned first: `pose.rotation * vector`. A [`Pose`] turns body
 //! coordinates into O; make it from the paper's angles, a unit quaternion or a rotation matrix. Speeds are
-//! `[r'; w]` with the angular velocity w, **never rates of Euler angles**; [`angles`] converts those. Gravity
-//! is a parameter of the model.
+//! `[r'; w]` with the angular velocity w, **never rates of Euler angles**; [`angles`] converts those.
+//! Gravity is a parameter of the model.
 //!
 //! # Which call
 //!
@@ -84,6 +86,7 @@ mod check;
 mod energy;
 mod equation_of_motion;
 mod error;
+mod evaluate;
 mod forces;
 mod forward_dynamics;
 #[rustfmt::skip]
@@ -103,7 +106,7 @@ pub use check::{
 };
 pub use energy::Energy;
 pub use equation_of_motion::EquationOfMotion;
-pub use error::{Error, Input, NotARotation};
+pub use error::{Error, GimbalLock, Input, NotARotation};
 pub use forces::{GeneralisedForces, PassiveForces};
 pub use generated::kernels;
 pub use hexapod::Hexapod;

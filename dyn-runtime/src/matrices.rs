@@ -5,10 +5,9 @@
 
 use nalgebra::Matrix6;
 
-use crate::arrays::matrix;
-use crate::check::finite_result;
 use crate::error::Error;
-use crate::hexapod::{Hexapod, Poses, States};
+use crate::evaluate::evaluate;
+use crate::hexapod::Hexapod;
 use crate::kernels;
 use crate::state::{BaseMotion, PlatformState};
 
@@ -49,68 +48,69 @@ pub struct Matrices {
     pub jacobian_db: Matrix6<f64>,
 }
 
-/// A method for a function with poses in and one 6x6 matrix out.
-macro_rules! matrix_of_poses {
-    ($(#[$documentation:meta])* $function:ident, $kernel:ident) => {
-        $(#[$documentation])*
-        ///
-        /// # Errors
-        /// See [`Hexapod`].
-        pub fn $function(&self, base: &BaseMotion, platform: &PlatformState) -> Result<Matrix6<f64>, Error>
-        where
-            M: kernels::$kernel,
-        {
-            let Poses { base_position, base_rotation, platform_position, platform_rotation } =
-                self.poses(base, platform)?;
-            let mut rows = [[0.0; 6]; 6];
-            self.model.$function(
-                &base_position,
-                &base_rotation,
-                &platform_position,
-                &platform_rotation,
-                &mut rows,
-            );
-            finite_result(&[&rows])?;
-            Ok(matrix(&rows))
-        }
-    };
-}
-
 impl<M: kernels::RodAlignment> Hexapod<M> {
-    matrix_of_poses! {
-        /// J_dp, of `d' = J_dp v_p - J_db v_b` (30), (32): a row per leg, `[u; (R_p p) x u]^T / (u.a)`; three
-        /// columns without unit, three in m. Depends on the poses.
-        jacobian_dp, JacobianDp
+    /// J_dp, of `d' = J_dp v_p - J_db v_b` (30), (32): a row per leg, `[u; (R_p p) x u]^T / (u.a)`; three
+    /// columns without unit, three in m. Depends on the poses.
+    ///
+    /// # Errors
+    /// See [`Hexapod`].
+    pub fn jacobian_dp(&self, base: &BaseMotion, platform: &PlatformState) -> Result<Matrix6<f64>, Error>
+    where
+        M: kernels::JacobianDp,
+    {
+        let (b, p) = self.poses(base, platform)?;
+        evaluate!(self.model.jacobian_dp(b.position, b.rotation, p.position, p.rotation) -> jacobian_dp)
     }
 
-    matrix_of_poses! {
-        /// J_db, of `d' = J_dp v_p - J_db v_b` (30), (31): a row per leg, `[u; (R_b b + d a) x u]^T / (u.a)`;
-        /// three columns without unit, three in m. Depends on the poses.
-        jacobian_db, JacobianDb
+    /// J_db, of `d' = J_dp v_p - J_db v_b` (30), (31): a row per leg, `[u; (R_b b + d a) x u]^T / (u.a)`;
+    /// three columns without unit, three in m. Depends on the poses.
+    ///
+    /// # Errors
+    /// See [`Hexapod`].
+    pub fn jacobian_db(&self, base: &BaseMotion, platform: &PlatformState) -> Result<Matrix6<f64>, Error>
+    where
+        M: kernels::JacobianDb,
+    {
+        let (b, p) = self.poses(base, platform)?;
+        evaluate!(self.model.jacobian_db(b.position, b.rotation, p.position, p.rotation) -> jacobian_db)
     }
 
-    matrix_of_poses! {
-        /// M_p, of payload, rods and movers, for the platform's acceleration in (49): kg, kg m, kg m^2;
-        /// symmetric and positive definite. Depends on the poses.
-        ///
-        /// ```
-        /// use dyn_runtime::nalgebra::Vector3;
-        /// use dyn_runtime::{BaseMotion, Hexapod, PlatformState, Pose, models::Uhp2016};
-        ///
-        /// let base = BaseMotion::at_rest(Pose::identity());
-        /// let home = Pose::from_paper_angles(Vector3::new(0.0, 0.0, 0.382), [0.0; 3]);
-        /// let mass_matrix_p = Hexapod::new(Uhp2016).mass_matrix_p(&base, &PlatformState::at_rest(home))?;
-        /// // Along the actuators, payload, rods and movers move as one: 6.092 + 6 (1.024 + 0.611) kg.
-        /// assert!((mass_matrix_p[(2, 2)] - 15.902).abs() < 1e-9);
-        /// # Ok::<(), dyn_runtime::Error>(())
-        /// ```
-        mass_matrix_p, MassMatrixP
+    /// M_p, of payload, rods and movers, for the platform's acceleration in (49): kg, kg m, kg m^2;
+    /// symmetric and positive definite. Depends on the poses.
+    ///
+    /// ```
+    /// use dyn_runtime::nalgebra::Vector3;
+    /// use dyn_runtime::{BaseMotion, Hexapod, PlatformState, Pose, models::Uhp2016};
+    ///
+    /// let base = BaseMotion::at_rest(Pose::identity());
+    /// let home = Pose::from_paper_angles(Vector3::new(0.0, 0.0, 0.382), [0.0; 3]);
+    /// let mass_matrix_p = Hexapod::new(Uhp2016).mass_matrix_p(&base, &PlatformState::at_rest(home))?;
+    /// // Along the actuators, payload, rods and movers move as one: 6.092 + 6 (1.024 + 0.611) kg.
+    /// assert!((mass_matrix_p[(2, 2)] - 15.902).abs() < 1e-9);
+    /// # Ok::<(), dyn_runtime::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// See [`Hexapod`].
+    pub fn mass_matrix_p(&self, base: &BaseMotion, platform: &PlatformState) -> Result<Matrix6<f64>, Error>
+    where
+        M: kernels::MassMatrixP,
+    {
+        let (b, p) = self.poses(base, platform)?;
+        evaluate!(self.model.mass_matrix_p(b.position, b.rotation, p.position, p.rotation) -> mass_matrix_p)
     }
 
-    matrix_of_poses! {
-        /// M_b, for the base's acceleration, on the right side of (49): kg, kg m, kg m^2; not symmetric.
-        /// Depends on the poses.
-        mass_matrix_b, MassMatrixB
+    /// M_b, for the base's acceleration, on the right side of (49): kg, kg m, kg m^2; not symmetric.
+    /// Depends on the poses.
+    ///
+    /// # Errors
+    /// See [`Hexapod`].
+    pub fn mass_matrix_b(&self, base: &BaseMotion, platform: &PlatformState) -> Result<Matrix6<f64>, Error>
+    where
+        M: kernels::MassMatrixB,
+    {
+        let (b, p) = self.poses(base, platform)?;
+        evaluate!(self.model.mass_matrix_b(b.position, b.rotation, p.position, p.rotation) -> mass_matrix_b)
     }
 
     /// C_p and C_b of (49). Depends on poses and velocities.
@@ -125,30 +125,11 @@ impl<M: kernels::RodAlignment> Hexapod<M> {
     where
         M: kernels::CoriolisMatrices,
     {
-        let States {
-            base_position,
-            base_rotation,
-            base_velocity,
-            platform_position,
-            platform_rotation,
-            platform_velocity,
-        } = self.states(base, platform)?;
-        let mut coriolis_matrix_p = [[0.0; 6]; 6];
-        let mut coriolis_matrix_b = [[0.0; 6]; 6];
-        self.model.coriolis_matrices(
-            &base_position,
-            &base_rotation,
-            &base_velocity,
-            &platform_position,
-            &platform_rotation,
-            &platform_velocity,
-            &mut coriolis_matrix_p,
-            &mut coriolis_matrix_b,
-        );
-        finite_result(&[&coriolis_matrix_p, &coriolis_matrix_b])?;
-        Ok(CoriolisMatrices {
-            coriolis_matrix_p: matrix(&coriolis_matrix_p),
-            coriolis_matrix_b: matrix(&coriolis_matrix_b),
+        let (b, p) = self.states(base, platform)?;
+        evaluate!(self.model.coriolis_matrices(
+            b.position, b.rotation, b.velocity, p.position, p.rotation, p.velocity
+        ) -> CoriolisMatrices {
+            coriolis_matrix_p, coriolis_matrix_b,
         })
     }
 
@@ -164,22 +145,11 @@ impl<M: kernels::RodAlignment> Hexapod<M> {
     where
         M: kernels::StiffnessMatrices,
     {
-        let Poses { base_position, base_rotation, platform_position, platform_rotation } =
-            self.poses(base, platform)?;
-        let mut stiffness_matrix_p = [[0.0; 6]; 6];
-        let mut stiffness_matrix_b = [[0.0; 6]; 6];
-        self.model.stiffness_matrices(
-            &base_position,
-            &base_rotation,
-            &platform_position,
-            &platform_rotation,
-            &mut stiffness_matrix_p,
-            &mut stiffness_matrix_b,
-        );
-        finite_result(&[&stiffness_matrix_p, &stiffness_matrix_b])?;
-        Ok(StiffnessMatrices {
-            stiffness_matrix_p: matrix(&stiffness_matrix_p),
-            stiffness_matrix_b: matrix(&stiffness_matrix_b),
+        let (b, p) = self.poses(base, platform)?;
+        evaluate!(self.model.stiffness_matrices(
+            b.position, b.rotation, p.position, p.rotation
+        ) -> StiffnessMatrices {
+            stiffness_matrix_p, stiffness_matrix_b,
         })
     }
 
@@ -191,43 +161,11 @@ impl<M: kernels::RodAlignment> Hexapod<M> {
     where
         M: kernels::Matrices,
     {
-        let States {
-            base_position,
-            base_rotation,
-            base_velocity,
-            platform_position,
-            platform_rotation,
-            platform_velocity,
-        } = self.states(base, platform)?;
-        let mut mass_matrix_p = [[0.0; 6]; 6];
-        let mut coriolis_matrix_p = [[0.0; 6]; 6];
-        let mut jacobian_dp = [[0.0; 6]; 6];
-        let mut mass_matrix_b = [[0.0; 6]; 6];
-        let mut coriolis_matrix_b = [[0.0; 6]; 6];
-        let mut jacobian_db = [[0.0; 6]; 6];
-        self.model.matrices(
-            &base_position,
-            &base_rotation,
-            &base_velocity,
-            &platform_position,
-            &platform_rotation,
-            &platform_velocity,
-            &mut mass_matrix_p,
-            &mut coriolis_matrix_p,
-            &mut jacobian_dp,
-            &mut mass_matrix_b,
-            &mut coriolis_matrix_b,
-            &mut jacobian_db,
-        );
-        finite_result(&[&mass_matrix_p, &coriolis_matrix_p, &jacobian_dp])?;
-        finite_result(&[&mass_matrix_b, &coriolis_matrix_b, &jacobian_db])?;
-        Ok(Matrices {
-            mass_matrix_p: matrix(&mass_matrix_p),
-            coriolis_matrix_p: matrix(&coriolis_matrix_p),
-            jacobian_dp: matrix(&jacobian_dp),
-            mass_matrix_b: matrix(&mass_matrix_b),
-            coriolis_matrix_b: matrix(&coriolis_matrix_b),
-            jacobian_db: matrix(&jacobian_db),
+        let (b, p) = self.states(base, platform)?;
+        evaluate!(self.model.matrices(
+            b.position, b.rotation, b.velocity, p.position, p.rotation, p.velocity
+        ) -> Matrices {
+            mass_matrix_p, coriolis_matrix_p, jacobian_dp, mass_matrix_b, coriolis_matrix_b, jacobian_db,
         })
     }
 }

@@ -6,30 +6,31 @@
 use nalgebra::{Matrix3, Rotation3, UnitQuaternion, Vector3, Vector6};
 
 use crate::angles;
-use crate::arrays;
+use crate::arrays::{self, FromRows};
 use crate::check::rotation_defect;
 use crate::error::NotARotation;
 
-/// Position and orientation of a body frame.
+/// Position and orientation of a body frame, B or P, in O.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Pose {
     /// Origin of the body frame, m, O.
     pub position_m: Vector3<f64>,
-    /// Coordinates in the body frame to coordinates in O.
+    /// Coordinates in the body frame to coordinates in O, without unit: `in_o = rotation * in_body`. Its
+    /// columns are the body's axes in O.
     pub rotation: Rotation3<f64>,
 }
 
-/// Velocity of a body frame: `[r'; w]`.
+/// Velocity of a body frame relative to O, in O axes: `[r'; w]`.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Twist {
     /// Velocity of the frame's origin, m/s, O.
     pub linear_m_s: Vector3<f64>,
-    /// Angular velocity, rad/s, O. Not the rates of Euler angles: [`angles::angular_velocity`] converts
-    /// those.
+    /// Angular velocity, rad/s, O. A gyroscope reads it in body axes: turn that with [`Pose::rotation`]. Not
+    /// the rates of Euler angles: [`angles::angular_velocity`] converts those.
     pub angular_rad_s: Vector3<f64>,
 }
 
-/// Acceleration of a body frame: `[r''; w']`, the time derivative of its [`Twist`] in O.
+/// Acceleration of a body frame relative to O, in O axes: `[r''; w']`, the time derivative of its [`Twist`].
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Acceleration {
     /// Acceleration of the frame's origin, m/s^2, O: an accelerometer's reading there, turned into O, plus
@@ -39,7 +40,7 @@ pub struct Acceleration {
     pub angular_rad_s2: Vector3<f64>,
 }
 
-/// External force and moment on the payload, at the payload's centre of mass.
+/// External force and moment on the payload, at the payload's centre of mass, in O axes.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Wrench {
     /// Force F_D, N, O.
@@ -48,23 +49,24 @@ pub struct Wrench {
     pub moment_n_m: Vector3<f64>,
 }
 
-/// How the base moves; it drives the equations as a given motion.
+/// How the base moves, in O; it drives the equations as a given motion.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct BaseMotion {
-    /// Pose of B.
+    /// Pose of B: its origin in m, O; B to O.
     pub pose: Pose,
-    /// Velocity of B, v_b.
+    /// Velocity of B, v_b: m/s and rad/s, O.
     pub velocity: Twist,
-    /// Acceleration of B, v_b'. Only functions with accelerations or forces depend on it.
+    /// Acceleration of B, v_b': m/s^2 and rad/s^2, O. Only functions with accelerations or forces depend on
+    /// it.
     pub acceleration: Acceleration,
 }
 
-/// Where the platform is and how fast it moves.
+/// Where the platform is and how fast it moves, in O (not relative to the base).
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct PlatformState {
-    /// Pose of P.
+    /// Pose of P: its origin in m, O; P to O.
     pub pose: Pose,
-    /// Velocity of P, v_p.
+    /// Velocity of P, v_p: m/s and rad/s, O.
     pub velocity: Twist,
 }
 
@@ -150,9 +152,11 @@ impl Acceleration {
     pub(crate) fn to_array(self) -> [f64; 6] {
         arrays::stacked(&self.linear_m_s2, &self.angular_rad_s2)
     }
+}
 
-    pub(crate) fn from_array(array: &[f64; 6]) -> Self {
-        let (linear_m_s2, angular_rad_s2) = arrays::halves(array);
+impl FromRows<[f64; 6]> for Acceleration {
+    fn from_rows(stacked: &[f64; 6]) -> Self {
+        let (linear_m_s2, angular_rad_s2) = arrays::halves(stacked);
         Self { linear_m_s2, angular_rad_s2 }
     }
 }

@@ -172,6 +172,29 @@ fn both_models_stand_behind_one_interface() {
     }
 }
 
+/// A name that the caller of `from_fn` forgets, or fills with what is no number.
+#[test]
+fn forgotten_geometry_is_not_called_out_of_reach() {
+    let forces = |parameters| {
+        Hexapod::new(Uhp { parameters }).inverse_dynamics(
+            &still_base(),
+            &PlatformState::at_rest(home()),
+            &Acceleration::zero(),
+            &Wrench::zero(),
+        )
+    };
+    assert!(forces(table_1()).is_ok());
+    let no_length = Parameters { rod_length: [0.0; 6], ..table_1() };
+    assert_eq!(forces(no_length), Err(Error::InvalidModel { leg: 0 }));
+    let mut no_axis = table_1();
+    no_axis.actuator_axis[3] = [f64::NAN; 3];
+    assert_eq!(forces(no_axis), Err(Error::InvalidModel { leg: 3 }));
+    let mut no_joint = table_1();
+    no_joint.platform_point[5][1] = f64::INFINITY;
+    assert_eq!(forces(no_joint), Err(Error::InvalidModel { leg: 5 }));
+    assert_eq!(forces(Parameters { payload_mass: f64::NAN, ..table_1() }), Err(Error::NonFiniteResult));
+}
+
 /// Sideways along x until a rod lies flat, and on.
 #[test]
 fn the_border_of_reach() {

@@ -1,7 +1,9 @@
-//! Poses from three representations, rotations that are refused, and rates of the paper's angles.
+//! Poses from three representations, rotations that are refused, the paper's angles and their rates.
+
+use std::f64::consts::{FRAC_PI_2, PI};
 
 use dyn_runtime::nalgebra::{Matrix3, Rotation3, UnitQuaternion, Vector3};
-use dyn_runtime::{MAX_ROTATION_DEVIATION, Pose, angles};
+use dyn_runtime::{MAX_ROTATION_DEVIATION, Pose, angles, angles::MIN_COS_C2};
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64;
 
@@ -125,11 +127,87 @@ fn rates_of_the_angles_come_back() {
     for _ in 0..1_000 {
         let angles = random_angles(&mut random);
         let rates: [f64; 3] = std::array::from_fn(|_| random.random_range(-2.0..2.0));
-        let back = angles::angle_rates(angles, angles::angular_velocity(angles, rates));
+        let back =
+            angles::angle_rates(angles, angles::angular_velocity(angles, rates)).expect("off the lock");
         // Near c2 = +-pi/2 rounding errors grow by 1/cos c2, at most 14 here.
         assert!(back.iter().zip(rates).all(|(back, rate)| (back - rate).abs() < 1e-13));
     }
     // Rates and angular velocity differ as soon as the body is turned.
     let w = angles::angular_velocity([0.0, 0.5, 0.0], [1.0, 0.0, 0.0]);
     assert!((w - Vector3::new(0.5_f64.cos(), 0.0, -0.5_f64.sin())).amax() < 1e-15);
+}
+
+#[test]
+fn no_rates_at_gimbal_lock() {
+    let w = Vector3::new(0.1, 0.2, 0.3);
+    for lock in [FRAC_PI_2, -FRAC_PI_2, 3.0 * FRAC_PI_2] {
+        let refused =
+            |distance: f64| angles::angle_rates([0.4, lock + distance, 0.5], w).expect_err("locked");
+        assert!(refused(0.0).cos_c2.abs() < 1e-15);
+        for distance in [0.99 * MIN_COS_C2, -0.99 * MIN_COS_C2] {
+            assert!((refused(distance).cos_c2.abs() / distance.abs() - 1.0).abs() < 1e-9);
+        }
+        let rates = angles::angle_rates([0.4, lock + 1.01 * MIN_COS_C2, 0.5], w).expect("off the lock");
+        assert!(rates.iter().all(|rate| rate.abs() < 1.0 / MIN_COS_C2), "{rates:?}");
+    }
+    assert!(angles::angle_rates([0.0, f64::NAN, 0.0], w).expect_err("no angle").cos_c2.is_nan());
+}
+
+#[test]
+fn angles_of_a_rotation_come_back() {
+    let mut random = Pcg64::seed_from_u64(20);
+    for _ in 0..10_000 {
+        let angles = random_angles(&mut random);
+        let back = angles::from_rotation(&angles::rotation(angles));
+        // Errors of c1 and c3 grow by 1/cos c2, at most 14 here.
+        assert!(
+            back.iter().zip(angles).all(|(back, angle)| (back - angle).abs() < 2e-14),
+            "{angles:?} {back:?}"
+        );
+    }
+    // All eight corners of the ranges, and the axes between them.
+    for c1 in [-PI, -FRAC_PI_2, 0.0, FRAC_PI_2, PI] {
+        for c3 in [-PI, -FRAC_PI_2, 0.0, FRAC_PI_2, PI] {
+            for c2 in [-1.5, 0.0, 1.5] {
+                let rotation = angles::rotation([c1, c2, c3]);
+                let again = angles::rotation(angles::from_rotation(&rotation));
+                assert!((again.matrix() - rotation.matrix()).amax() < 1e-15, "{c1} {c2} {c3}");
+            }
+        }
+    }
+    let mut with_nan = *angles::rotation([0.1, 0.2, 0.3]).matrix();
+    with_nan[(2, 0)] = f64::NAN;
+    assert!(angles::from_rotation(&Rotation3::from_matrix_unchecked(with_nan))[1].is_nan());
+}
+
+/// At the lock only c1 -+ c3 shows; near it the matrix comes back all the same.
+#[test]
+fn angles_at_gimbal_lock() {
+    for sign in [1.0, -1.0] {
+        let [c1, c2, c3] = angles::from_rotation(&angles::rotation([0.7, sign * FRAC_PI_2, 0.2]));
+        assert_eq!((c2, c3), (sign * FRAC_PI_2, 0.0));
+        assert!((c1 - (0.7 - sign * 0.2)).abs() < 1e-15);
+        // Exactly, without the rounding of cos(pi/2).
+        #[rustfmt::skip]
+        let exact = Matrix3::new(
+            0.0,   0.0, sign,
+            0.0,   1.0, 0.0,
+            -sign, 0.0, 0.0,
+        );
+        let exact = angles::from_rotation(&Rotation3::from_matrix_unchecked(exact));
+        assert_eq!(exact, [0.0, sign * FRAC_PI_2, 0.0]);
+
+        let mut random = Pcg64::seed_from_u64(21);
+        for exponent in 1..20 {
+            for _ in 0..100 {
+                let [c1, _, c3] = random_angles(&mut random);
+                let distance = random.random_range(-1.0..1.0) * 10_f64.powi(-exponent);
+                let rotation = angles::rotation([c1, sign * FRAC_PI_2 + distance, c3]);
+                let angles = angles::from_rotation(&rotation);
+                let again = angles::rotation(angles);
+                assert!((again.matrix() - rotation.matrix()).amax() < 3e-15, "{distance:e} {angles:?}");
+                assert!(angles[1].abs() <= FRAC_PI_2 && angles[0].abs() <= PI && angles[2].abs() <= PI);
+            }
+        }
+    }
 }

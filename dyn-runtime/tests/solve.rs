@@ -112,7 +112,7 @@ fn jacobian(radius: f64, inclinations: [f64; 6], twist: f64) -> [[f64; 6]; 6] {
 }
 
 #[test]
-fn condition_of_a_jacobian_is_a_property_of_the_pose() {
+fn condition_of_a_jacobian_depends_neither_on_size_nor_on_actuators() {
     let condition = jacobian_reciprocal_condition(&jacobian(0.1, [1.0; 6], 0.6));
     assert!(condition > 0.02, "{condition}");
     let close = |other: f64| (other / condition - 1.0).abs() < 1e-12;
@@ -125,6 +125,60 @@ fn condition_of_a_jacobian_is_a_property_of_the_pose() {
     // and nearly upright ones hardly.
     let nearly = jacobian_reciprocal_condition(&jacobian(0.1, [1.0; 6], 1e-9));
     assert!((1e-12..1e-8).contains(&nearly), "{nearly}");
+}
+
+/// Frames do count, as far as it is documented.
+#[test]
+fn condition_of_a_jacobian_belongs_to_its_reference_frames() {
+    let rods = jacobian(0.1, [1.0; 6], 0.6);
+    let condition = jacobian_reciprocal_condition(&rods);
+    // P's origin moved by n radii of the joint circle.
+    let from_afar = |n: f64| jacobian_reciprocal_condition(&about(&rods, Vector3::new(0.1 * n, 0.0, 0.0)));
+    assert!((0.5..1.5).contains(&(from_afar(0.3) / condition)), "{}", from_afar(0.3) / condition);
+    for n in [10.0, 1000.0] {
+        let ratio = from_afar(n) * n / condition;
+        assert!((0.5..2.0).contains(&ratio), "{ratio}");
+    }
+    // Everything turned in O.
+    for leaning in [0.6, 0.3, -0.9] {
+        let rods = jacobian(0.1, [1.0; 6], leaning);
+        let condition = jacobian_reciprocal_condition(&rods);
+        for k in 0..200 {
+            let axis = Vector3::new((f64::from(k) * 0.7).sin(), (f64::from(k) * 1.3).cos(), 0.4).normalize();
+            let turn = Rotation3::new(axis * (0.05 * f64::from(k)));
+            let turned = rods.map(|row| {
+                let [u, moment] = halves(row).map(|half| turn * half);
+                [u.x, u.y, u.z, moment.x, moment.y, moment.z]
+            });
+            let ratio = jacobian_reciprocal_condition(&turned) / condition;
+            assert!((0.5..2.0).contains(&ratio), "{ratio}");
+        }
+    }
+}
+
+/// Six rods towards one point cannot hold a moment about it, wherever it is.
+#[test]
+fn rods_that_meet_are_seen() {
+    let centre = Vector3::new(0.02, -0.03, 0.07);
+    let meeting = jacobian(0.1, [1.0; 6], 0.6).map(|row| {
+        let [u, _] = halves(row);
+        let moment = centre.cross(&u);
+        [u.x, u.y, u.z, moment.x, moment.y, moment.z]
+    });
+    assert!(jacobian_reciprocal_condition(&meeting) < 1e-15);
+}
+
+fn halves([a, b, c, d, e, f]: [f64; 6]) -> [Vector3<f64>; 2] {
+    [Vector3::new(a, b, c), Vector3::new(d, e, f)]
+}
+
+/// Moments about another point.
+fn about(rods: &[[f64; 6]; 6], origin: Vector3<f64>) -> [[f64; 6]; 6] {
+    rods.map(|row| {
+        let [u, moment] = halves(row);
+        let moment = moment - origin.cross(&u);
+        [u.x, u.y, u.z, moment.x, moment.y, moment.z]
+    })
 }
 
 #[test]
