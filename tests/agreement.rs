@@ -4,10 +4,10 @@
 use std::collections::BTreeSet;
 
 use dyn_gen::Numbers;
+use dyn_gen::deviation::Scale;
 use dyn_gen::graph::Environment;
 use dyn_gen::sample::Kind;
 use dyn_platform::Platform;
-use dyn_tests::compare::Scale;
 use dyn_tests::comparison::Comparison;
 use dyn_tests::compiled::{self, Model, baked};
 use dyn_tests::platforms::{self, graph_file};

@@ -3,11 +3,10 @@
 
 use std::collections::BTreeSet;
 
+use dyn_gen::deviation::{Scale, relative_error, within};
 use dyn_gen::graph::Environment;
-use dyn_tests::compare::{Scale, deviation, within};
 use dyn_tests::comparison::Comparison;
 use dyn_tests::compiled::{self, Model, baked};
-use dyn_tests::tolerance::tolerance;
 use dyn_tests::vectors::{self, Vectors};
 use dyn_tests::{platforms, reference};
 
@@ -104,8 +103,8 @@ fn coriolis_matrices_give_the_engines_velocity_terms() {
                     .sum::<f64>()
             };
             let ours: Vec<f64> = (0..6).map(|k| platform[k] - base[k] + passive(k)).collect();
-            let found = deviation(&ours, &expected["bias"], Scale::own());
-            assert!(within(found, tolerance("bias")), "{}: {found:.1e}", vectors.platform.name);
+            let found = relative_error(&ours, &expected["bias"], Scale::own());
+            assert!(within(found, "bias"), "{}: {found:.1e}", vectors.platform.name);
         }
     }
 }

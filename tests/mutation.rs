@@ -2,11 +2,10 @@
 //! with the other sign, an operand dropped, a constant 0.1 % larger), and the functions that use it are compared with the
 //! reference again. At least 99 % of the changes must be caught; the rest is listed with the reason why it cannot be.
 
+use dyn_gen::deviation::{Scale, relative_error, within};
 use dyn_gen::graph::{Environment, Graph, Node, NodeId, Op, Program, Step};
 use dyn_gen::sample::Kind;
 use dyn_gen::sampled_states;
-use dyn_tests::compare::{Scale, deviation, within};
-use dyn_tests::tolerance::tolerance;
 use dyn_tests::{platforms, reference};
 
 const CAUGHT: f64 = 0.99;
@@ -106,8 +105,8 @@ fn is_caught(program: &Program, graph: usize, cases: &[Case]) -> bool {
         cases.iter().any(|case| {
             let known = program.evaluate(function, &case.environment).expect("a complete environment");
             function.outputs.iter().any(|output| {
-                let found = deviation(&known[output], &case.expected[output], Scale::own());
-                !within(found, tolerance(output))
+                let found = relative_error(&known[output], &case.expected[output], Scale::own());
+                !within(found, output)
             })
         })
     })

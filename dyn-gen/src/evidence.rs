@@ -5,8 +5,10 @@ use dyn_platform::Platform;
 use dyn_reference::inputs::InputError;
 use dyn_reference::outputs;
 
-use crate::generate::{GenerateError, GeneratedFunction};
-use crate::graph::{Environment, EvaluationError, Program};
+use crate::deviation::{Scale, larger, relative_error, within};
+use crate::error::GenerateError;
+use crate::generate::GeneratedFunction;
+use crate::graph::{Environment, EvaluationError, Output, Program};
 use crate::sample::Kind;
 use crate::workspace::sampled_states;
 
@@ -22,7 +24,7 @@ pub struct Agreement {
     /// The output.
     pub output: String,
     /// For each of [`KINDS`], the largest deviation at any state, relative to the largest entry of the array at that
-    /// state. NaN where a deviation is not a number.
+    /// state (of a scalar: at all of these states). NaN where a deviation is not a number.
     pub worst: [f64; KINDS.len()],
 }
 
@@ -30,6 +32,11 @@ impl Agreement {
     /// The largest of all.
     pub fn overall(&self) -> f64 {
         self.worst.iter().fold(0.0, |most, &error| larger(most, error))
+    }
+
+    /// Whether every error is within the output's tolerance.
+    pub fn holds(&self) -> bool {
+        within(self.overall(), &self.output)
     }
 }
 
@@ -69,33 +76,60 @@ pub fn compare(
     seed: u64,
 ) -> Result<Vec<Agreement>, EvidenceError> {
     let parameters = reference_parameters(platform).map_err(EvidenceError::Reference)?;
-    let mut table: Vec<Agreement> = Vec::new();
+    let mut table: Vec<Agreement> = rows(functions)
+        .map(|(function, output)| Agreement {
+            function: function.graph.name.clone(),
+            output: output.symbol.name.clone(),
+            worst: [0.0; KINDS.len()],
+        })
+        .collect();
     for (column, (kind, _)) in KINDS.into_iter().enumerate() {
-        for state in sampled_states(program, platform, &[(kind, count)], seed)? {
-            let reference = reference_state(&state).map_err(EvidenceError::Reference)?;
-            let mut row = 0;
-            for function in functions {
-                let mut results = function.graph.evaluate(&state)?;
-                for output in &function.graph.outputs {
-                    let (function, name) = (&function.graph.name, &output.symbol.name);
-                    let mut expected = Vec::new();
-                    if !outputs::output(&parameters, &reference, name, &mut expected) {
-                        let (function, output) = (function.clone(), name.clone());
-                        return Err(EvidenceError::NoReference { function, output });
-                    }
-                    if row == table.len() {
-                        let (function, output) = (function.clone(), name.clone());
-                        table.push(Agreement { function, output, worst: [0.0; KINDS.len()] });
-                    }
-                    let found = results.remove(name).unwrap_or_default();
-                    let worst = &mut table[row].worst[column];
-                    *worst = larger(*worst, relative_error(&found, &expected));
-                    row += 1;
-                }
+        let states = sampled_states(program, platform, &[(kind, count)], seed)?;
+        let expected = states
+            .iter()
+            .map(|state| expected(&parameters, state, functions))
+            .collect::<Result<Vec<Environment>, _>>()?;
+        for (state, expected_here) in states.iter().zip(&expected) {
+            let found = functions.iter().map(|function| function.graph.evaluate(state));
+            let found = found.collect::<Result<Vec<Environment>, _>>()?;
+            let found = functions.iter().zip(&found).flat_map(|(function, values)| {
+                function.graph.outputs.iter().map(|output| &values[&output.symbol.name])
+            });
+            for (row, found) in table.iter_mut().zip(found) {
+                let scale = Scale::of(expected.iter().map(|values| values[&row.output].as_slice()));
+                let error = relative_error(found, &expected_here[&row.output], scale);
+                row.worst[column] = larger(row.worst[column], error);
             }
         }
     }
     Ok(table)
+}
+
+fn rows(functions: &[GeneratedFunction]) -> impl Iterator<Item = (&GeneratedFunction, &Output)> {
+    functions.iter().flat_map(|function| function.graph.outputs.iter().map(move |output| (function, output)))
+}
+
+/// The reference's value of every output.
+fn expected(
+    parameters: &dyn_reference::Parameters,
+    state: &Environment,
+    functions: &[GeneratedFunction],
+) -> Result<Environment, EvidenceError> {
+    let state = reference_state(state).map_err(EvidenceError::Reference)?;
+    let mut expected = Environment::new();
+    for (function, output) in rows(functions) {
+        let name = &output.symbol.name;
+        if expected.contains_key(name) {
+            continue;
+        }
+        let mut values = Vec::new();
+        if !outputs::output(parameters, &state, name, &mut values) {
+            let (function, output) = (function.graph.name.clone(), name.clone());
+            return Err(EvidenceError::NoReference { function, output });
+        }
+        expected.insert(name.clone(), values);
+    }
+    Ok(expected)
 }
 
 /// The reference's parameters of a platform.
@@ -112,34 +146,4 @@ pub fn reference_parameters(platform: &Platform) -> Result<dyn_reference::Parame
 /// If a part is missing.
 pub fn reference_state(state: &Environment) -> Result<dyn_reference::State, InputError> {
     dyn_reference::State::from_arrays(|name| state.get(name).cloned())
-}
-
-/// Largest deviation over the largest expected entry; infinite where only one of the arrays is zero.
-fn relative_error(found: &[f64], expected: &[f64]) -> f64 {
-    if found.len() != expected.len() {
-        return f64::INFINITY;
-    }
-    let largest = expected.iter().fold(0.0, |most, x| larger(most, x.abs()));
-    let deviation = found.iter().zip(expected).fold(0.0, |most, (x, y)| larger(most, (x - y).abs()));
-    if deviation == 0.0 { 0.0 } else { deviation / largest }
-}
-
-/// The larger number; NaN wins, so that a broken value cannot hide.
-fn larger(a: f64, b: f64) -> f64 {
-    if a >= b || a.is_nan() { a } else { b }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn errors_are_relative_to_the_largest_entry_and_broken_values_show() {
-        assert_eq!(relative_error(&[1.0, 4.0], &[1.5, 4.0]), 0.125);
-        assert_eq!(relative_error(&[0.0], &[0.0]), 0.0);
-        assert_eq!(relative_error(&[1.0], &[0.0]), f64::INFINITY);
-        assert_eq!(relative_error(&[1.0], &[1.0, 2.0]), f64::INFINITY);
-        assert!(relative_error(&[1.0, f64::NAN], &[1.0, 1.0]).is_nan());
-        assert!(relative_error(&[f64::NAN, 2.0], &[1.0, 1.0]).is_nan());
-    }
 }

@@ -2,11 +2,12 @@
 
 use dyn_platform::Platform;
 
-use crate::emit::{self, CountRow, EmitError, Header, Model, RuntimePath, Signature, Source};
+use crate::emit::{self, CountRow, Elimination, Header, Model, RuntimePath, Signature, Source};
+use crate::error::GenerateError;
 use crate::graph::{Function, Graph, OperationCount, Program, Symbol};
-use crate::passes::{Context, PassReport, run_passes};
+use crate::passes::{Context, PassReport, PivotOrder, run_passes};
 use crate::sample::Kind;
-use crate::workspace::{parameter, sampled_states};
+use crate::workspace::{parameters, sampled_states};
 use crate::{GraphFile, parallel, sha256};
 
 /// States over which pivot orders are chosen.
@@ -14,6 +15,10 @@ const PIVOT_STATES: [(Kind, usize); 4] =
     [(Kind::Home, 1), (Kind::Random, 10), (Kind::Large, 20), (Kind::NearEdge, 20)];
 /// Seed of those states.
 const PIVOT_SEED: u64 = 1;
+
+/// Largest [`PivotOrder::growth`] of an elimination that is printed: of the sixteen digits of a double four may be lost to the
+/// fixed order of the pivots. Sound platforms stay below 100.
+pub const MOST_GROWTH: f64 = 1e4;
 
 /// Where a model's physical numbers come from.
 #[derive(Clone, Copy, Debug)]
@@ -57,39 +62,26 @@ pub struct GeneratedFunction {
     pub graph: Graph,
 }
 
-/// Why nothing is generated.
-#[derive(Clone, PartialEq, Debug, thiserror::Error, miette::Diagnostic)]
-pub enum GenerateError {
-    /// The printer refuses a graph or a name.
-    #[error(transparent)]
-    Emit(#[from] EmitError),
-    /// A function that the graph file does not have.
-    #[error("the graph file has no function `{name}`")]
-    #[diagnostic(help("{known}"))]
-    UnknownFunction {
-        /// The name asked for.
-        name: String,
-        /// What there is.
-        known: String,
-    },
-    /// A parameter of the graph that the platform does not have.
-    #[error("the platform has no parameter `{name}`, but the graph reads it")]
-    #[diagnostic(help(
-        "the graph file and this dyn-gen belong to different versions: derive again with `cargo regen --derive`"
-    ))]
-    UnknownParameter {
-        /// Name of the parameter.
-        name: String,
-    },
-    /// The platform's legs are not the ones derived.
-    #[error("the platform has legs of type `{platform}`, the graph file derives `{graph}`")]
-    #[diagnostic(help("use the graph file of that leg type"))]
-    LegType {
-        /// The platform's.
-        platform: String,
-        /// The graph file's.
-        graph: String,
-    },
+impl GeneratedFunction {
+    /// The linear systems it solves in a fixed order of pivots.
+    pub fn pivot_orders(&self) -> impl Iterator<Item = &PivotOrder> {
+        self.passes.iter().flat_map(|pass| &pass.pivot_orders)
+    }
+
+    /// Refuses eliminations that lose too many digits; growth that is not a number is too much as well.
+    fn check_growth(&self) -> Result<(), GenerateError> {
+        let within = |order: &&PivotOrder| order.growth <= MOST_GROWTH;
+        match self.pivot_orders().find(|order| !within(order)) {
+            None => Ok(()),
+            Some(order) => Err(GenerateError::Growth {
+                function: self.graph.name.clone(),
+                solve: order.solve.clone(),
+                growth: order.growth,
+                states: order.states,
+                limit: MOST_GROWTH,
+            }),
+        }
+    }
 }
 
 /// Generates the file of one model.
@@ -118,7 +110,7 @@ pub fn generate(
         signatures: &signatures,
         functions: &sources,
     };
-    let source = emit::model_file(&header(file, numbers, options, &functions), &model)?;
+    let source = emit::model_file(&header(file, numbers, options, &functions)?, &model)?;
     Ok(Generated { source, functions })
 }
 
@@ -133,12 +125,14 @@ pub fn optimise(
 ) -> Result<Vec<GeneratedFunction>, GenerateError> {
     let chosen = choose(program, names)?;
     let context = context(program, numbers)?;
-    Ok(parallel::map(&chosen, |function| {
+    let functions = parallel::map(&chosen, |function| {
         let graph = program.flatten(function);
         let before = graph.operation_count();
         let (graph, passes) = run_passes(&graph, &context);
         GeneratedFunction { before, passes, graph }
-    }))
+    });
+    functions.iter().try_for_each(GeneratedFunction::check_growth)?;
+    Ok(functions)
 }
 
 /// Generates the file of kernel traits, one for every function of the graph file.
@@ -156,12 +150,16 @@ pub fn kernels(file: &GraphFile, command: &str) -> Result<String, GenerateError>
         platform: None,
         casadi: program.provenance.casadi.clone(),
         operations: Vec::new(),
+        eliminations: Vec::new(),
     };
     Ok(emit::kernels_file(&header, &signatures)?)
 }
 
 fn choose<'a>(program: &'a Program, names: Option<&[String]>) -> Result<Vec<&'a Function>, GenerateError> {
     let Some(names) = names else { return Ok(program.functions.iter().collect()) };
+    if let Some((_, name)) = names.iter().enumerate().find(|(k, name)| names[..*k].contains(name)) {
+        return Err(GenerateError::RepeatedFunction { name: name.clone() });
+    }
     let find = |name: &String| {
         program.function(name).ok_or_else(|| {
             let known: Vec<&str> = program.functions.iter().map(|function| function.name.as_str()).collect();
@@ -181,10 +179,7 @@ fn context(program: &Program, numbers: Numbers<'_>) -> Result<Context, GenerateE
         let (platform, graph) = (platform.leg_type.name().into(), program.name.clone());
         return Err(GenerateError::LegType { platform, graph });
     }
-    let parameters = program
-        .parameters()
-        .map(|symbol| Ok((symbol.name.clone(), parameter(platform, &symbol.name)?)))
-        .collect::<Result<_, GenerateError>>()?;
+    let parameters = parameters(program, platform)?;
     Ok(Context { parameters, states: sampled_states(program, platform, &PIVOT_STATES, PIVOT_SEED)? })
 }
 
@@ -193,11 +188,11 @@ fn header(
     numbers: Numbers<'_>,
     options: &Options,
     functions: &[GeneratedFunction],
-) -> Header {
+) -> Result<Header, GenerateError> {
     let (title, platform) = match numbers {
         Numbers::Baked(platform) => {
-            // Serialisation of plain numbers and names cannot fail; the hash is of the same JSON that `resolve` prints.
-            let resolved = serde_json::to_vec(platform).unwrap_or_default();
+            let resolved = serde_json::to_vec(platform)
+                .map_err(|error| GenerateError::Json { message: error.to_string() })?;
             let source = Source { name: platform.name.clone(), sha256: sha256(&resolved) };
             (format!("Dynamics of the platform `{}`, every number baked in.", platform.name), Some(source))
         }
@@ -211,12 +206,21 @@ fn header(
         before: function.before.total(),
         after: function.graph.operation_count().total(),
     };
-    Header {
+    let eliminations = functions.iter().flat_map(|function| {
+        function.pivot_orders().map(|order| Elimination {
+            function: function.graph.name.clone(),
+            solve: order.solve.clone(),
+            growth: order.growth,
+            states: order.states,
+        })
+    });
+    Ok(Header {
         title,
         command: options.command.clone(),
         graph: Source { name: file.name.clone(), sha256: file.sha256.clone() },
         platform,
         casadi: file.program.provenance.casadi.clone(),
         operations: functions.iter().map(count).collect(),
-    }
+        eliminations: eliminations.collect(),
+    })
 }

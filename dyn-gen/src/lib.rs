@@ -9,10 +9,13 @@
 //! | [`sample`] | states of the mechanism, by which pivot orders are chosen and results compared |
 //! | [`emit`] | prints graphs as Rust |
 //! | [`evidence`] | compares what will be printed with the hand-written dynamics |
+//! | [`deviation`] | how far arrays of numbers are apart |
 //!
 //! Nothing here reads or writes files; the command line tool `dyn-gen` does.
 
+pub mod deviation;
 pub mod emit;
+mod error;
 pub mod evidence;
 mod generate;
 pub mod graph;
@@ -20,10 +23,12 @@ mod graph_file;
 mod parallel;
 pub mod passes;
 pub mod sample;
+mod text;
 mod workspace;
 
+pub use error::GenerateError;
 pub use generate::{
-    GenerateError, Generated, GeneratedFunction, Numbers, Options, generate, kernels, optimise,
+    Generated, GeneratedFunction, MOST_GROWTH, Numbers, Options, generate, kernels, optimise,
 };
 pub use graph_file::{GraphFile, sha256};
 pub use workspace::{sampled_states, state_at};

@@ -23,6 +23,9 @@ pub struct Workspace<'a> {
     /// For a platform pose relative to the base, the smallest (u.a)^2 over the legs: 1 for a rod along its actuator, 0 for one
     /// perpendicular to it, negative out of reach.
     pub alignment: &'a dyn Fn(&Pose) -> f64,
+    /// For a platform pose relative to the base, the condition number of J_dp, moments over the radius of the platform
+    /// joints so that forces and moments compare. Anything that is not a number counts as infinite.
+    pub condition: &'a dyn Fn(&Pose) -> f64,
 }
 
 /// How far from rest states are.
@@ -30,16 +33,50 @@ pub struct Workspace<'a> {
 pub enum Kind {
     /// At home, everything at rest, no load.
     Home,
-    /// Millimetres and hundredths of a radian from home, base nearly level, moderate rates.
+    /// Up to 2 cm and 0.1 rad from home, less where legs do not reach that far; base nearly level, moderate rates.
     Random,
-    /// Base turned up to 1.2 rad, platform anywhere with u.a above 0.4, several m/s and rad/s.
+    /// Base turned up to 1.2 rad, platform where the least u.a is between 0.4 and 0.95 of that at home, several m/s and rad/s.
     Large,
     /// As large, with a leg at u.a between 0.1 and 0.2.
     NearEdge,
 }
 
+/// Condition of J_dp above which no [`Kind::Large`] or [`Kind::NearEdge`] state lies: actuator forces lose as many digits as
+/// it has, and what is left must still tell a wrong model from a rounded one.
+pub const LARGEST_CONDITION: f64 = 1e3;
+
+/// Rays from home tried for one pose.
+const RAYS: usize = 200;
+
+/// No pose of a kind was found within reach and away from singular poses.
+#[derive(Clone, Copy, PartialEq, Debug, thiserror::Error)]
+pub enum NoPose {
+    /// The legs keep or lose their reach as they are; no ray from home crosses the wanted band of u.a.
+    #[error(
+        "no pose with the wanted reach of the legs was found around home (u.a of the worst leg at home: {at_home:.3})"
+    )]
+    Reach {
+        /// Least u.a at home.
+        at_home: f64,
+    },
+    /// J_dp is nearly singular wherever it was looked at.
+    #[error("J_dp is singular or nearly so at every sampled pose (least condition number: {least:.1e})")]
+    Singular {
+        /// The least condition number met.
+        least: f64,
+    },
+}
+
 /// `count` states of a kind: every state input of the contract by name, flat.
-pub fn states(workspace: &Workspace<'_>, kind: Kind, count: usize, seed: u64) -> Vec<Environment> {
+///
+/// # Errors
+/// If poses of that kind cannot be found.
+pub fn states(
+    workspace: &Workspace<'_>,
+    kind: Kind,
+    count: usize,
+    seed: u64,
+) -> Result<Vec<Environment>, NoPose> {
     let mut source = Source(Pcg64Mcg::seed_from_u64(seed));
     (0..count).map(|_| source.state(workspace, kind)).collect()
 }
@@ -67,7 +104,7 @@ impl Source {
         }
     }
 
-    fn state(&mut self, workspace: &Workspace<'_>, kind: Kind) -> Environment {
+    fn state(&mut self, workspace: &Workspace<'_>, kind: Kind) -> Result<Environment, NoPose> {
         // Half-angle tangents: 0.68 is 1.2 rad.
         let (turn, reach, speed, acceleration, force) = match kind {
             Kind::Home => (0.0, 0.0, 0.0, 0.0, 0.0),
@@ -75,7 +112,7 @@ impl Source {
             Kind::Large | Kind::NearEdge => (0.68, 1.0, 4.0, 30.0, 100.0),
         };
         let base = Pose { position: self.array(reach), rotation: rotation(self.ball(turn)) };
-        let relative = self.relative_pose(workspace, kind);
+        let relative = self.relative_pose(workspace, kind)?;
         let turned = apply(base.rotation, relative.position);
         let platform_position: [f64; 3] = std::array::from_fn(|k| base.position[k] + turned[k]);
         let platform_rotation = product(base.rotation, relative.rotation);
@@ -92,40 +129,66 @@ impl Source {
         put("platform_acceleration", &self.array::<6>(acceleration));
         put("actuator_force", &self.array::<6>(force));
         put("external_wrench", &self.array::<6>(0.1 * force));
-        state
+        Ok(state)
     }
 
     /// A platform pose relative to the base, within reach.
-    fn relative_pose(&mut self, workspace: &Workspace<'_>, kind: Kind) -> Pose {
-        let least = match kind {
-            Kind::Home => return workspace.home,
-            Kind::Random => return displaced(workspace.home, self.ball(0.005), self.ball(0.02), 1.0),
-            Kind::Large => 0.4 + 0.5 * self.symmetric().abs(),
-            Kind::NearEdge => 0.1 + 0.1 * self.symmetric().abs(),
-        };
-        // A ray from home, followed to the pose where a leg's u.a falls to `least`. It may not do so in any direction (or
-        // home itself may be worse): try others, and settle for home in the end.
-        for _ in 0..100 {
-            let (direction, axis) = (self.ball(0.3), self.ball(0.6));
-            let within = |t: f64| {
-                (workspace.alignment)(&displaced(workspace.home, direction, axis, t)) >= least * least
-            };
-            if let Some(t) = last_within(within) {
-                return displaced(workspace.home, direction, axis, t);
+    fn relative_pose(&mut self, workspace: &Workspace<'_>, kind: Kind) -> Result<Pose, NoPose> {
+        let least = |pose: &Pose| (workspace.alignment)(pose);
+        let at_home = least(&workspace.home).sqrt();
+        match kind {
+            Kind::Home => Ok(workspace.home),
+            Kind::Random => {
+                let (direction, axis) = (self.ball(0.02), self.ball(0.05));
+                // Halved until it is as well within reach as large states are, which near home it is.
+                let mut near = (0..50).map(|k| displaced(workspace.home, direction, axis, 0.5_f64.powi(k)));
+                let wanted = 0.4 * at_home;
+                near.find(|pose| least(pose) >= wanted * wanted).ok_or(NoPose::Reach { at_home })
+            }
+            Kind::Large => {
+                let wanted = (0.4 + 0.55 * self.symmetric().abs()) * at_home;
+                self.pose_on_a_ray(workspace, wanted)
+            }
+            Kind::NearEdge => {
+                let wanted = 0.1 + 0.1 * self.symmetric().abs();
+                self.pose_on_a_ray(workspace, wanted)
             }
         }
-        workspace.home
+    }
+
+    /// A ray from home, followed to the pose where the least u.a falls to `wanted`. It may not do so in any direction, and
+    /// J_dp may be too near singular there: then others are tried.
+    fn pose_on_a_ray(&mut self, workspace: &Workspace<'_>, wanted: f64) -> Result<Pose, NoPose> {
+        let mut best_condition: Option<f64> = None;
+        for _ in 0..RAYS {
+            let (direction, axis) = (self.ball(0.3), self.ball(0.6));
+            let on_ray = |t: f64| displaced(workspace.home, direction, axis, t);
+            let Some(t) = last_within(|t| (workspace.alignment)(&on_ray(t)) >= wanted * wanted) else {
+                continue;
+            };
+            let pose = on_ray(t);
+            let condition = (workspace.condition)(&pose);
+            if condition <= LARGEST_CONDITION {
+                return Ok(pose);
+            }
+            let condition = if condition.is_nan() { f64::INFINITY } else { condition };
+            best_condition = Some(best_condition.map_or(condition, |best| best.min(condition)));
+        }
+        Err(match best_condition {
+            Some(least) => NoPose::Singular { least },
+            None => NoPose::Reach { at_home: (workspace.alignment)(&workspace.home).sqrt() },
+        })
     }
 }
 
-/// The largest t up to the first place where `within` fails, or none if it fails at 0 or never.
+/// The largest t up to the place where `within`, having held, first fails; none if it never holds or never fails.
 fn last_within(within: impl Fn(f64) -> bool) -> Option<f64> {
     const STEPS: u32 = 64;
-    let first_outside = (0..=STEPS).map(|k| f64::from(k) / 16.0).find(|t| !within(*t))?;
-    let (mut inside, mut outside) = (first_outside - 1.0 / 16.0, first_outside);
-    if inside < 0.0 {
-        return None;
-    }
+    const STEP: f64 = 1.0 / 16.0;
+    let mut places = (0..=STEPS).map(|k| STEP * f64::from(k)).skip_while(|t| !within(*t));
+    places.next()?;
+    let mut outside = places.find(|t| !within(*t))?;
+    let mut inside = outside - STEP;
     for _ in 0..50 {
         let middle = 0.5 * (inside + outside);
         if within(middle) { inside = middle } else { outside = middle }

@@ -1,56 +1,71 @@
-//! Sampled states of a platform, with the reach of its legs taken from the graph itself.
+//! Sampled states of a platform, with the reach of its legs and J_dp taken from the graph itself.
 
 use dyn_platform::Platform;
 
-use crate::generate::GenerateError;
-use crate::graph::{Environment, Evaluator, Program};
+use crate::error::GenerateError;
+use crate::graph::{Environment, Evaluator, Graph, Program, Role, solve_general};
 use crate::sample::{Kind, Pose, Workspace, states};
 
-/// The function of a graph file that tells how far a pose is from a leg's limit.
-const ALIGNMENT: &str = "rod_alignment";
+/// The function of a graph file that tells how far a pose is from a leg's limit, and its number of results.
+const ALIGNMENT: (&str, usize) = ("rod_alignment", 6);
+/// The function of a graph file that gives the matrix of the linear system of actuator forces, and its number of results.
+const JACOBIAN: (&str, usize) = ("jacobian_dp", 36);
 
 /// `count` states of every kind in `kinds` for `platform`, the same for the same seed.
 ///
 /// # Errors
-/// If the graph file has no function `rod_alignment` or the platform lacks a parameter.
+/// If the graph file lacks `rod_alignment` or `jacobian_dp`, if it and the platform differ in their parameters or it and
+/// sampled states in their inputs, or if poses of a kind cannot be found.
 pub fn sampled_states(
     program: &Program,
     platform: &Platform,
     kinds: &[(Kind, usize)],
     seed: u64,
 ) -> Result<Vec<Environment>, GenerateError> {
-    let function = program
-        .function(ALIGNMENT)
-        .ok_or_else(|| GenerateError::UnknownFunction { name: ALIGNMENT.into(), known: String::new() })?;
-    let graph = program.flatten(function);
-    let fixed = state_at(&pose_of(platform));
-    let fixed = graph
-        .inputs
-        .iter()
-        .map(|symbol| match fixed.get(&symbol.name) {
-            Some(values) => Ok(values.clone()),
-            None => parameter(platform, &symbol.name),
-        })
-        .collect::<Result<Vec<_>, _>>()?;
+    let parameters = parameters(program, platform)?;
+    let home = Pose { position: platform.home.position, rotation: platform.home.rotation };
+    check_inputs(program, &state_at(&home))?;
+    let legs = AtRest::new(program, ALIGNMENT, &parameters)?;
+    let jacobian = AtRest::new(program, JACOBIAN, &parameters)?;
     let alignment = |pose: &Pose| {
-        let inputs: Vec<&[f64]> = graph
-            .inputs
-            .iter()
-            .zip(&fixed)
-            .map(|(symbol, fixed)| match symbol.name.as_str() {
-                "platform_position" => &pose.position[..],
-                "platform_rotation" => pose.rotation.as_flattened(),
-                _ => fixed,
-            })
-            .collect();
-        let mut evaluator = Evaluator::new();
-        let values = evaluator.run(&graph, &inputs);
-        let legs = graph.outputs.iter().flat_map(|output| &output.nodes).map(|id| values[id.index()]);
         // Out of reach may also be NaN, which must not pass for aligned.
-        legs.fold(1.0, |least, value| if value >= least { least } else { value })
+        legs.at(pose).into_iter().fold(1.0, |least, value| if value >= least { least } else { value })
     };
-    let workspace = Workspace { home: pose_of(platform), alignment: &alignment };
-    Ok(kinds.iter().flat_map(|&(kind, count)| states(&workspace, kind, count, seed)).collect())
+    let radius = joint_radius(platform);
+    let condition = |pose: &Pose| {
+        let mut matrix = jacobian.at(pose);
+        for row in matrix.chunks_mut(6) {
+            row[3..].iter_mut().for_each(|moment| *moment /= radius);
+        }
+        condition(&matrix, 6)
+    };
+    let workspace = Workspace { home, alignment: &alignment, condition: &condition };
+    let mut all = Vec::new();
+    for &(kind, count) in kinds {
+        let sampled = states(&workspace, kind, count, seed);
+        let name = || platform.name.clone();
+        all.extend(sampled.map_err(|reason| GenerateError::NoPose { platform: name(), reason })?);
+    }
+    Ok(all)
+}
+
+/// Every parameter of `program` as the platform has it.
+///
+/// # Errors
+/// If the platform lacks one or has it in another size.
+pub fn parameters(program: &Program, platform: &Platform) -> Result<Environment, GenerateError> {
+    let value = |symbol: &crate::graph::Symbol| {
+        let name = symbol.name.clone();
+        let Some(values) = platform.parameter(&name) else {
+            return Err(GenerateError::UnknownParameter { name });
+        };
+        if values.len() != symbol.len() {
+            let (platform, graph) = (values.len(), symbol.shape.clone());
+            return Err(GenerateError::ParameterShape { name, platform, graph });
+        }
+        Ok((name, values))
+    };
+    program.parameters().map(value).collect()
 }
 
 /// The state at rest with the base at the origin and the platform at `pose`, no load.
@@ -77,12 +92,87 @@ pub fn state_at(pose: &Pose) -> Environment {
     state
 }
 
-/// Home of the platform relative to its base.
-fn pose_of(platform: &Platform) -> Pose {
-    Pose { position: platform.home.position, rotation: platform.home.rotation }
+/// Every input that the graph file declares must be part of `state`, in the same size.
+fn check_inputs(program: &Program, state: &Environment) -> Result<(), GenerateError> {
+    for declaration in program.symbols.iter().filter(|declaration| declaration.role == Role::Input) {
+        let symbol = &declaration.symbol;
+        let sampled = state.get(&symbol.name).map_or(0, Vec::len);
+        if sampled != symbol.len() {
+            let (name, graph) = (symbol.name.clone(), symbol.shape.clone());
+            return Err(GenerateError::InputShape { name, sampled, graph });
+        }
+    }
+    Ok(())
 }
 
-/// A parameter of the platform by name.
-pub fn parameter(platform: &Platform, name: &str) -> Result<Vec<f64>, GenerateError> {
-    platform.parameter(name).ok_or_else(|| GenerateError::UnknownParameter { name: name.into() })
+/// A function of the graph file with the base at the origin and everything at rest.
+struct AtRest<'a> {
+    graph: Graph,
+    parameters: &'a Environment,
+}
+
+impl AtRest<'_> {
+    fn new<'a>(
+        program: &Program,
+        (name, length): (&'static str, usize),
+        parameters: &'a Environment,
+    ) -> Result<AtRest<'a>, GenerateError> {
+        let refuse = |problem: String| Err(GenerateError::Sampling { name, problem });
+        let Some(function) = program.function(name) else { return refuse("is not in the graph file".into()) };
+        let graph = program.flatten(function);
+        let found: usize = graph.outputs.iter().map(|output| output.nodes.len()).sum();
+        if found != length {
+            return refuse(format!("gives {found} numbers instead of {length}"));
+        }
+        Ok(AtRest { graph, parameters })
+    }
+
+    /// All results at a pose of the platform, one after another.
+    fn at(&self, pose: &Pose) -> Vec<f64> {
+        let state = state_at(pose);
+        let inputs = self.graph.inputs.iter().map(|symbol| {
+            let values = state.get(&symbol.name).or_else(|| self.parameters.get(&symbol.name));
+            values.map_or(&[][..], Vec::as_slice)
+        });
+        let mut evaluator = Evaluator::new();
+        let values = evaluator.run(&self.graph, &inputs.collect::<Vec<_>>());
+        let results = self.graph.outputs.iter().flat_map(|output| &output.nodes);
+        results.map(|node| values[node.index()]).collect()
+    }
+}
+
+/// Root mean square distance of the platform joints from the platform's origin, m.
+fn joint_radius(platform: &Platform) -> f64 {
+    let points = platform.parameters.platform_point.as_flattened();
+    (points.iter().map(|x| x * x).sum::<f64>() / 6.0).sqrt()
+}
+
+/// |A| |A^-1| in the Frobenius norm, which is between the spectral condition number and n times it; not finite or NaN for a
+/// singular matrix (n x n, row-major).
+fn condition(matrix: &[f64], n: usize) -> f64 {
+    let square_sum = |values: &[f64]| values.iter().map(|x| x * x).sum::<f64>();
+    let mut pivots = Vec::new();
+    let inverse: f64 = (0..n)
+        .map(|k| {
+            let mut column = vec![0.0; n];
+            column[k] = 1.0;
+            solve_general(&mut matrix.to_vec(), &mut column, &mut pivots);
+            square_sum(&column)
+        })
+        .sum();
+    (square_sum(matrix) * inverse).sqrt()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::condition;
+
+    #[test]
+    fn the_condition_of_small_matrices() {
+        // |A|^2 = 1 + 1e6, |A^-1|^2 = 1 + 1e-6.
+        let diagonal = condition(&[1.0, 0.0, 0.0, 1e3], 2);
+        assert!((diagonal / (1e3 + 1e-3) - 1.0).abs() < 1e-12, "{diagonal}");
+        let singular = condition(&[1.0, 2.0, 2.0, 4.0], 2);
+        assert!(!singular.is_finite(), "{singular}");
+    }
 }

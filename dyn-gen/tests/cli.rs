@@ -1,49 +1,13 @@
 //! The command line: exit codes, what is written and what is left alone.
 
+mod common;
+
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::process::{Command, Output};
+
+use common::cli::{code, dyn_gen, dyn_gen_with, entries, repository, said};
 
 const PLATFORM: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../platforms/uhp_2016.toml");
-
-fn dyn_gen(folder: &Path, arguments: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_dyn-gen"))
-        .args(arguments)
-        .current_dir(folder)
-        .output()
-        .expect("dyn-gen runs")
-}
-
-fn code(output: &Output) -> i32 {
-    output.status.code().expect("an exit code")
-}
-
-fn said(output: &Output) -> String {
-    String::from_utf8_lossy(&output.stderr).into_owned()
-}
-
-/// Names of everything in a folder.
-fn entries(folder: &Path) -> Vec<String> {
-    let mut names: Vec<String> = fs::read_dir(folder)
-        .unwrap()
-        .map(|entry| entry.unwrap().file_name().into_string().unwrap())
-        .collect();
-    names.sort();
-    names
-}
-
-/// A folder with what `regen` reads and an empty place for what it writes.
-fn repository() -> tempfile::TempDir {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
-    let copy = tempfile::tempdir().unwrap();
-    for file in ["codegen/graphs/uhp.json", "platforms/uhp_2016.toml"] {
-        let target = copy.path().join(file);
-        fs::create_dir_all(target.parent().unwrap()).unwrap();
-        fs::copy(root.join(file), target).unwrap();
-    }
-    fs::create_dir_all(copy.path().join("dyn-runtime/src/generated")).unwrap();
-    copy
-}
 
 /// The platform file with one text replaced by another.
 fn altered_platform(folder: &Path, from: &str, to: &str) -> PathBuf {
@@ -51,6 +15,18 @@ fn altered_platform(folder: &Path, from: &str, to: &str) -> PathBuf {
     assert!(text.contains(from), "the platform file has no `{from}`");
     let path = folder.join("altered.toml");
     fs::write(&path, text.replacen(from, to, 1)).unwrap();
+    path
+}
+
+/// The default platform with the legs of each pair in one place.
+fn singular_platform(folder: &Path) -> PathBuf {
+    let text = fs::read_to_string(PLATFORM).unwrap();
+    let text = text.lines().map(|line| match line.split_once("pair_angle_rad = ") {
+        Some((which, _)) => format!("{which}pair_angle_rad = 0.0\n"),
+        None => format!("{line}\n"),
+    });
+    let path = folder.join("singular.toml");
+    fs::write(&path, text.collect::<String>()).unwrap();
     path
 }
 
@@ -85,10 +61,14 @@ fn a_refusal_writes_nothing_and_leaves_the_old_file() {
     fs::write(&old, "old").unwrap();
     let broken = altered_platform(folder.path(), "base_radius_m =", "base_radus_m =");
     let broken = broken.to_str().unwrap();
-    let cases: [(&[&str], &str); 6] = [
+    let coinciding = singular_platform(folder.path());
+    let coinciding = coinciding.to_str().unwrap();
+    let cases: [(&[&str], &str); 8] = [
         (&["generate", broken, "-o", "model.rs"], "base_radus_m"),
         (&["generate", "missing.toml", "-o", "model.rs"], "missing.toml"),
         (&["generate", PLATFORM, "-o", "model.rs", "--functions", "no_such"], "no_such"),
+        (&["generate", PLATFORM, "-o", "model.rs", "--functions", "bias,bias"], "twice"),
+        (&["generate", coinciding, "-o", "model.rs"], "singular"),
         (&["generate", PLATFORM, "-o", "model.rs", "--runtime-path", "a b"], "a b"),
         (&["generate", PLATFORM, "-o", "model.rs", "--model", "6uhp"], "6uhp"),
         (&["generate", PLATFORM, "-o", "model.rs", "--graph", broken], "refused"),
@@ -98,11 +78,11 @@ fn a_refusal_writes_nothing_and_leaves_the_old_file() {
         assert_eq!(code(&result), 1, "{arguments:?}: {}", said(&result));
         assert!(said(&result).contains(mention), "{arguments:?}: {}", said(&result));
         assert_eq!(fs::read_to_string(&old).unwrap(), "old");
-        assert_eq!(entries(folder.path()), ["altered.toml", "model.rs"]);
+        assert_eq!(entries(folder.path()), ["altered.toml", "model.rs", "singular.toml"]);
     }
     let result = dyn_gen(folder.path(), &["generate", PLATFORM, "-o", "no/such/folder.rs"]);
     assert_eq!(code(&result), 1, "{}", said(&result));
-    assert_eq!(entries(folder.path()), ["altered.toml", "model.rs"]);
+    assert_eq!(entries(folder.path()), ["altered.toml", "model.rs", "singular.toml"]);
 }
 
 #[test]
@@ -204,23 +184,12 @@ fn resolve_and_summary_print() {
 #[test]
 fn a_missing_python_stops_a_derivation_but_not_with_fallback() {
     let repository = repository();
-    fs::copy(
-        Path::new(env!("CARGO_MANIFEST_DIR")).join("../codegen/requirements.lock"),
-        repository.path().join("codegen/requirements.lock"),
-    )
-    .unwrap();
     let graph = repository.path().join("codegen/graphs/uhp.json");
     let before = fs::read(&graph).unwrap();
-    let without_python = |arguments: &[&str]| {
-        Command::new(env!("CARGO_BIN_EXE_dyn-gen"))
-            .args(arguments)
-            .current_dir(repository.path())
-            .env("PATH", "/nonexistent")
-            .env_remove("DYN_PYTHON")
-            .env("CARGO_TARGET_DIR", repository.path().join("target"))
-            .output()
-            .expect("dyn-gen runs")
-    };
+    let target = repository.path().join("target");
+    let variables =
+        [("PATH", "/nonexistent"), ("DYN_PYTHON", ""), ("CARGO_TARGET_DIR", target.to_str().unwrap())];
+    let without_python = |arguments: &[&str]| dyn_gen_with(repository.path(), arguments, &variables);
     let generated = repository.path().join("dyn-runtime/src/generated");
     for arguments in [&["derive"][..], &["derive", "--check"], &["regen", "--derive"]] {
         let result = without_python(arguments);

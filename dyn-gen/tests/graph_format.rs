@@ -202,6 +202,54 @@ fn samples_are_checked() {
     );
 }
 
+#[test]
+fn large_systems_are_refused() {
+    let wide = |n: usize| {
+        let nodes = (0..n).map(|k| k.to_string()).collect::<Vec<_>>().join(", ");
+        let inputs = (0..n).map(|k| format!("[\"input\", 0, {k}]")).collect::<Vec<_>>().join(", ");
+        let numbers = vec!["1.0"; n].join(", ");
+        let symbol = |name: &str, role: &str, per_leg: bool| {
+            format!(
+                r#"{{"name": "{name}", "role": "{role}", "per_leg": {per_leg}, "shape": [{n}], "unit": "", "frame": "", "meaning": "", "equation": ""}}"#
+            )
+        };
+        let symbols =
+            [symbol("x", "input", false), symbol("a", "intermediate", true), symbol("y", "output", false)];
+        format!(
+            r#"{{"format": "dyn-gen graph", "version": 1, "name": "wide", "leg_count": {n},
+            "provenance": {{"casadi": "", "derivation_sha256": ""}}, "symbols": [{symbols}],
+            "graphs": [{{"name": "row", "meaning": "", "inputs": ["x"], "outputs": [{{"symbol": "a", "nodes": [{nodes}]}}], "nodes": [{inputs}]}}],
+            "functions": [{{"name": "f", "meaning": "", "equation": "", "inputs": ["x"], "outputs": ["y"],
+              "steps": [{{"call": "row", "over": "legs"}}, {{"solve": "y", "matrix": "a", "right_hand_side": "x", "symmetric_positive_definite": true}}],
+              "sample_outputs": {{}}}}],
+            "sample": {{"x": [{numbers}]}}}}"#,
+            symbols = symbols.join(", ")
+        )
+    };
+    Program::from_json(&wide(12)).unwrap();
+    assert_eq!(
+        error(&wide(13)).to_string(),
+        "function `f`, step 1: `y` has 13 unknowns; at most 12 can be written out"
+    );
+}
+
+#[test]
+fn texts_that_would_leave_their_comment_are_refused() {
+    assert_eq!(
+        refused("\"casadi\": \"3.8.2\"", "\"casadi\": \"3.8.2\\nfn injected() {}\""),
+        "provenance: the text \"3.8.2\\nfn injected() {}\" has a character that cannot be printed"
+    );
+    for (from, to, place) in [
+        ("\"position\"", "\"a\\rb\"", "symbol `x`"),
+        ("\"N/m\"", "\"N\\u2028\"", "symbol `k`"),
+        ("\"one row\"", "\"one\\u0000row\"", "graph `leg`"),
+        ("\"solution\"", "\"\\u202e\"", "function `solved`"),
+    ] {
+        let error = refused(from, to);
+        assert!(error.starts_with(&format!("{place}: the text")), "{error}");
+    }
+}
+
 proptest! {
     #[test]
     fn damaged_files_never_panic(cuts in prop::collection::vec((0..SMALL.len(), 0..12_usize, "[\\[\\]{}\",:0-9a-z.e-]{0,6}"), 1..4)) {
@@ -223,7 +271,7 @@ fn flattened_functions_equal_their_steps_bit_for_bit() {
     let program = common::program();
     let platform = common::platform();
     let parameters = common::parameters(&program, &platform);
-    let mut states = common::sampled_states(&platform, &parameters, 3);
+    let mut states = dyn_gen::sampled_states(&program, &platform, &common::STATES, 3).unwrap();
     states.truncate(24);
     for function in &program.functions {
         let graph = program.flatten(function);

@@ -181,10 +181,26 @@ fn this_version(version: i64, key: &Key) -> Result<i64, Fault> {
     ))
 }
 
+/// Lower-case words that Rust keeps for itself, strict and reserved keywords of edition 2024.
+const KEYWORDS: [&str; 51] = [
+    "abstract", "as", "async", "await", "become", "box", "break", "const", "continue", "crate", "do", "dyn",
+    "else", "enum", "extern", "false", "final", "fn", "for", "gen", "if", "impl", "in", "let", "loop",
+    "macro", "match", "mod", "move", "mut", "override", "priv", "pub", "ref", "return", "self", "static",
+    "struct", "super", "trait", "true", "try", "type", "typeof", "unsafe", "unsized", "use", "virtual",
+    "where", "while", "yield",
+];
+
 /// Generated modules are called by the platform's name.
 fn identifier(name: String, key: &Key) -> Result<String, Fault> {
     let lower = |letter: char| letter.is_ascii_lowercase();
     let inside = |letter: char| lower(letter) || letter.is_ascii_digit() || letter == '_';
+    if KEYWORDS.contains(&name.as_str()) {
+        return Err(Fault::new(
+            "a keyword of Rust",
+            format!("`{}` is {name:?}, a keyword of Rust, which cannot name a generated module", key.name),
+            format!("choose another word, for example `{} = \"{name}_platform\"`", key.name),
+        ));
+    }
     if name.starts_with(lower) && name.chars().all(inside) {
         return Ok(name);
     }

@@ -2,8 +2,8 @@
 
 use std::collections::BTreeMap;
 
+use dyn_gen::deviation::{Scale, relative_error};
 use dyn_gen::graph::Environment;
-use dyn_tests::compare::{Scale, deviation};
 use dyn_tests::compiled::FUNCTIONS;
 use nalgebra::{Matrix6, SMatrix, Vector6};
 
@@ -177,7 +177,7 @@ fn functions_agree_on_common_outputs() {
         let worst = largest(outputs.map(|(name, values)| match found.get(&name) {
             Some(first) => {
                 repeated += 1;
-                deviation(&values, first, Scale::own())
+                relative_error(&values, first, Scale::own())
             }
             None => {
                 found.insert(name, values);

@@ -1,7 +1,7 @@
 //! Velocities are derivatives of positions, Jacobians of lengths, and rods stay rods.
 
+use dyn_gen::deviation::{Scale, relative_error};
 use dyn_gen::graph::Environment;
-use dyn_tests::compare::{Scale, deviation};
 use nalgebra::{Matrix6, Vector3, Vector6};
 
 use crate::law::{Law, difference, largest, unbalance};
@@ -16,7 +16,7 @@ fn rates_hold(law: &Law, rates: &[Rate]) {
         largest(rates.iter().map(|(function, quantity, rate)| {
             let along =
                 derivative(|t| subject.call(function, &after(state, t))[*quantity].clone(), TIME_STEP);
-            deviation(&subject.call(function, state)[*rate], &along, Scale::own())
+            relative_error(&subject.call(function, state)[*rate], &along, Scale::own())
         }))
     });
 }
@@ -62,7 +62,7 @@ fn rod_direction_turns_with_the_rod() {
         let u = subject.call("leg_kinematics", state).legs::<3, 1>("rod_direction");
         let w = subject.call("body_kinematics", state).legs::<3, 1>("rod_angular_velocity");
         let turning: Vec<f64> = (0..6).flat_map(|leg| w[leg].cross(&u[leg]).data.0[0]).collect();
-        deviation(&turning, &rate, Scale::own())
+        relative_error(&turning, &rate, Scale::own())
     });
 }
 
@@ -168,7 +168,7 @@ fn partial_velocities_are_derivatives_of_velocities() {
             let products: Vec<f64> = rows.map(|row| row.dot(&v_p)).collect();
             let expected: Vec<f64> =
                 moving[velocity].iter().zip(&carried[velocity]).map(|(a, b)| a - b).collect();
-            deviation(&products, &expected, Scale::own())
+            relative_error(&products, &expected, Scale::own())
         };
         let (_, w_p) = parts(v_p);
         let turning = partial.matrix::<3, 6>("payload_partial_angular_velocity") * v_p;

@@ -2,8 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use crate::compare::{Scale, deviation, within};
-use crate::tolerance::tolerance;
+use dyn_gen::deviation::{Scale, larger, relative_error, tolerance, within};
 
 /// Failures in words that are shown.
 const SHOWN: usize = 20;
@@ -18,12 +17,12 @@ pub struct Comparison {
 impl Comparison {
     /// Compares one array; `label` says what it comes from.
     pub fn add(&mut self, label: &str, output: &str, values: &[f64], expected: &[f64], scale: Scale) {
-        let found = deviation(values, expected, scale);
-        if !within(found, tolerance(output)) {
+        let found = relative_error(values, expected, scale);
+        if !within(found, output) {
             self.failures.push(format!("{label}, {output} deviates by {found:.1e}"));
         }
         let worst = self.worst.entry(output.into()).or_default();
-        *worst = worst.max(found);
+        *worst = larger(*worst, found);
     }
 
     /// Prints the largest deviation of every output.

@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use clap::Args;
+use dyn_gen::deviation::tolerance;
 use dyn_gen::evidence::{self, Agreement, KINDS};
 use dyn_gen::graph::Environment;
 use dyn_gen::passes::PivotOrder;
@@ -84,7 +85,17 @@ impl Summary {
         } else {
             print!("{}", report.text());
         }
-        Ok(Outcome::Done)
+        let beyond: Vec<&Agreement> = report.evidence.outputs.iter().filter(|row| !row.holds()).collect();
+        for row in &beyond {
+            eprintln!(
+                "{}, {}: relative error {:.1e} is beyond the tolerance {:.0e}",
+                row.function,
+                row.output,
+                row.overall(),
+                tolerance(&row.output)
+            );
+        }
+        Ok(if beyond.is_empty() { Outcome::Done } else { Outcome::Differs })
     }
 }
 

@@ -12,6 +12,7 @@ use super::print::comment_marker;
 use super::schedule::{Statement, Step, Value, schedule};
 use super::tree;
 use crate::graph::{Graph, NodeId, SolveKind};
+use crate::text::one_line;
 
 /// Comment above output elements that are constants or copies of inputs.
 const COPIED: &str = "constant and copied elements";
@@ -49,8 +50,7 @@ pub fn body(graph: &Graph) -> Result<Body, EmitError> {
             statements.push(tree::block(lines, &live));
         }
     }
-    let one_line = |name: &String| name.replace(|letter: char| letter.is_control(), " ");
-    let mut comments: Vec<String> = graph.sections.iter().map(one_line).collect();
+    let mut comments: Vec<String> = graph.sections.iter().map(|section| one_line(section)).collect();
     if let Some(unnamed) = comments.first_mut() {
         *unnamed = COPIED.into();
     }

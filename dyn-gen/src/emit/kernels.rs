@@ -3,13 +3,14 @@
 use quote::quote;
 
 use super::function::allow;
-use super::names::type_name;
+use super::names::{check_type_names, type_name};
 use super::print::source;
 use super::signature::Signature;
 use super::{EmitError, Header};
 
 /// Text of the file.
 pub fn kernels_file(header: &Header, signatures: &[Signature]) -> Result<String, EmitError> {
+    check_type_names(signatures.iter().map(|signature| signature.name.as_str()))?;
     let mut text = header.text();
     for signature in signatures {
         let kernel = type_name(&signature.name)?;

@@ -26,7 +26,7 @@ mod tree;
 
 pub use error::EmitError;
 pub use function::function;
-pub use header::{CountRow, Header, Source};
+pub use header::{CountRow, Elimination, Header, Source};
 pub use kernels::kernels_file;
 pub use model::{Model, model_file};
 pub use signature::Signature;

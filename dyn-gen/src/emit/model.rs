@@ -4,7 +4,7 @@ use proc_macro2::TokenStream;
 use quote::{format_ident, quote};
 
 use super::function::allow;
-use super::names::{PARAMETERS, identifier, type_name};
+use super::names::{PARAMETERS, check_type_names, identifier, type_name};
 use super::print::source;
 use super::signature::{Signature, array_type, documentation, symbol_line};
 use super::{EmitError, Header, RuntimePath};
@@ -26,6 +26,7 @@ pub struct Model<'a> {
 
 /// Text of the model's file.
 pub fn model_file(header: &Header, model: &Model) -> Result<String, EmitError> {
+    check_type_names(model.signatures.iter().map(|signature| signature.name.as_str()))?;
     let mut text = header.text();
     for item in items(model)? {
         text.push('\n');
@@ -42,6 +43,13 @@ pub fn model_file(header: &Header, model: &Model) -> Result<String, EmitError> {
 fn items(model: &Model) -> Result<Vec<TokenStream>, EmitError> {
     let runtime = model.runtime.tokens();
     let name = type_name(model.name)?;
+    if name == "Parameters" {
+        return Err(EmitError::Name {
+            function: model.name.into(),
+            name: name.to_string(),
+            reason: "the generated code uses it itself",
+        });
+    }
     let mut items = vec![quote! {
         #[allow(unused_imports)]
         use #runtime::float::sqrt;
@@ -77,13 +85,13 @@ fn items(model: &Model) -> Result<Vec<TokenStream>, EmitError> {
 /// The struct of run-time numbers and its constructor.
 fn parameters(model: &Model) -> Result<[TokenStream; 2], EmitError> {
     let mut fields = TokenStream::new();
-    let mut zeros = TokenStream::new();
+    let mut unfilled = TokenStream::new();
     let mut fills = TokenStream::new();
     for symbol in model.parameters {
         let field = identifier(model.name, &symbol.name)?;
         let line = documentation(&[symbol_line(symbol)]);
         let array = array_type(&symbol.shape);
-        let zero = symbol.shape.iter().rev().fold(quote!(0.0), |element, length| {
+        let nan = symbol.shape.iter().rev().fold(quote!(f64::NAN), |element, length| {
             let length = proc_macro2::Literal::usize_unsuffixed(*length);
             quote!([#element; #length])
         });
@@ -97,7 +105,7 @@ fn parameters(model: &Model) -> Result<[TokenStream; 2], EmitError> {
         };
         let name = &symbol.name;
         fields.extend(quote!(#line pub #field: #array,));
-        zeros.extend(quote!(#field: #zero,));
+        unfilled.extend(quote!(#field: #nan,));
         fills.extend(quote!(fill(#name, #flat);));
     }
     let structure = quote! {
@@ -110,9 +118,9 @@ fn parameters(model: &Model) -> Result<[TokenStream; 2], EmitError> {
     let constructor = quote! {
         impl Parameters {
             /// Parameters filled field by field: `fill(name, values)` gets the name of each field and its elements,
-            /// row-major, to be written.
+            /// row-major, to be written. What it leaves alone stays NaN, so that no result can come from it.
             pub fn from_fn(mut fill: impl FnMut(&str, &mut [f64])) -> Self {
-                let mut parameters = Parameters { #zeros };
+                let mut parameters = Parameters { #unfilled };
                 #fills
                 parameters
             }

@@ -1,5 +1,7 @@
 //! Names in generated code: checked identifiers, type names, temporaries.
 
+use std::collections::BTreeSet;
+
 use proc_macro2::{Ident, Span};
 use quote::format_ident;
 
@@ -57,6 +59,21 @@ pub fn type_name(name: &str) -> Result<Ident, EmitError> {
     })
 }
 
+/// Refuses functions whose types would have one name: `a_1` and `a1` are both `A1`.
+pub fn check_type_names<'a>(functions: impl Iterator<Item = &'a str>) -> Result<(), EmitError> {
+    let mut known = BTreeSet::new();
+    for function in functions {
+        if !known.insert(camel_case(function)) {
+            return Err(EmitError::Name {
+                function: function.into(),
+                name: camel_case(function),
+                reason: "two functions would have this type",
+            });
+        }
+    }
+    Ok(())
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -66,6 +83,16 @@ mod tests {
         assert_eq!(camel_case("inverse_dynamics"), "InverseDynamics");
         assert_eq!(camel_case("uhp_2016"), "Uhp2016");
         assert_eq!(camel_case("bias"), "Bias");
+    }
+
+    #[test]
+    fn functions_need_types_of_their_own() {
+        assert!(check_type_names(["a_1", "b_1"].into_iter()).is_ok());
+        let error = check_type_names(["a_1", "a1"].into_iter()).unwrap_err();
+        assert_eq!(
+            error.to_string(),
+            "function `a1`: `A1` cannot be used as a name in generated code: two functions would have this type"
+        );
     }
 
     #[test]

@@ -6,6 +6,7 @@ use quote::quote;
 use super::EmitError;
 use super::names::identifier;
 use crate::graph::{Function, Graph, Program, Symbol};
+use crate::text::one_line;
 
 /// What a caller sees of a function. Run-time parameters are not part of it: they belong to the model.
 #[derive(Clone, PartialEq, Debug)]
@@ -105,12 +106,12 @@ pub(super) fn array_type(shape: &[usize]) -> TokenStream {
     })
 }
 
-/// One `#[doc]` attribute per line.
+/// One `#[doc]` attribute per line, whatever the lines hold.
 pub(super) fn documentation(lines: &[String]) -> TokenStream {
     lines
         .iter()
         .map(|line| {
-            let line = if line.is_empty() { String::new() } else { format!(" {line}") };
+            let line = if line.is_empty() { String::new() } else { format!(" {}", one_line(line)) };
             quote!(#[doc = #line])
         })
         .collect()
@@ -155,12 +156,11 @@ pub(super) fn sentence(meaning: &str, equation: &str) -> String {
     }
 }
 
-/// `text` so that rustdoc shows it as it stands; one line.
+/// `text` so that rustdoc shows it as it stands.
 fn markdown(text: &str) -> String {
     text.chars().fold(String::with_capacity(text.len()), |mut escaped, letter| {
         match letter {
             '[' | ']' | '<' | '*' | '`' | '\\' => escaped.extend(['\\', letter]),
-            '\n' | '\r' => escaped.push(' '),
             letter => escaped.push(letter),
         }
         escaped

@@ -17,6 +17,9 @@ pub const FORMAT: &str = "dyn-gen graph";
 pub const VERSION: u64 = 1;
 /// Most elements an array may have: far above any mechanism, low enough that a damaged file cannot exhaust memory.
 pub const MOST_ELEMENTS: usize = 1 << 16;
+/// Most unknowns a linear system may have. Written out it takes some n^3 operations, and the search for an order of its pivots
+/// more.
+pub const MOST_UNKNOWNS: usize = 12;
 
 /// Why a graph file is refused.
 #[derive(Clone, PartialEq, Eq, Debug, thiserror::Error, miette::Diagnostic)]

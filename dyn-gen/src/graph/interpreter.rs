@@ -86,11 +86,6 @@ impl Evaluator {
         &self.values
     }
 
-    /// The values of the last [`run`](Self::run), by node.
-    pub fn values(&self) -> &[f64] {
-        &self.values
-    }
-
     fn solve(&mut self, graph: &Graph, index: usize) {
         let solve = &graph.solves[index];
         let start = self.solutions.len();

@@ -11,6 +11,7 @@ mod hasher;
 mod interpreter;
 mod ops;
 mod program;
+mod read_node;
 mod validate;
 
 pub use builder::Builder;

@@ -2,6 +2,7 @@
 
 use super::interpreter::{Environment, EvaluationError, Evaluator, lookup, solve_general, solve_symmetric};
 use super::{Graph, SolveKind, Symbol};
+use crate::deviation::{Scale, relative_error};
 
 /// What a symbol is to the functions.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, serde::Deserialize)]
@@ -201,12 +202,7 @@ impl Program {
         for function in &self.functions {
             let values = self.evaluate(function, &self.sample)?;
             for (name, expected) in &function.sample_outputs {
-                let scale = expected.iter().fold(0.0_f64, |scale, x| scale.max(x.abs()));
-                let deviation = values[name]
-                    .iter()
-                    .zip(expected)
-                    .fold(0.0_f64, |most, (x, y)| max_or_nan(most, (x - y).abs()));
-                let relative = if deviation == 0.0 { 0.0 } else { deviation / scale };
+                let relative = relative_error(&values[name], expected, Scale::own());
                 if relative > worst.0 || relative.is_nan() {
                     worst = (relative, format!("{}, {name}", function.name));
                 }
@@ -214,9 +210,4 @@ impl Program {
         }
         Ok(worst)
     }
-}
-
-/// The larger number; NaN wins, so that a broken value cannot hide.
-fn max_or_nan(a: f64, b: f64) -> f64 {
-    if a >= b || a.is_nan() { a } else { b }
 }

@@ -2,15 +2,13 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use serde_json::Number;
-
 use super::format::{
-    File, FileFunction, FileGraph, FileNode, FileSolve, FileStep, FileSymbol, FormatError, MOST_ELEMENTS,
+    File, FileFunction, FileGraph, FileSolve, FileStep, FileSymbol, FormatError, MOST_ELEMENTS, MOST_UNKNOWNS,
 };
 use super::interpreter::Environment;
-use super::{
-    Declaration, Function, Graph, Node, NodeId, OPS, Op, Output, Program, Role, SolveKind, Step, Symbol,
-};
+use super::read_node::read_node;
+use super::{Declaration, Function, Graph, NodeId, Output, Program, Role, SolveKind, Step, Symbol};
+use crate::text::is_unprintable;
 
 const REDERIVE: &str = "correct the derivation in codegen/ and derive again: `cargo regen --derive`";
 const MOST_LEGS: usize = 64;
@@ -29,6 +27,7 @@ pub(super) fn validate(file: File) -> Result<Program> {
         );
     }
     check_name("graph file", "program", &file.name)?;
+    check_text("provenance", &[&file.provenance.casadi, &file.provenance.derivation_sha256])?;
     let mut symbols = BTreeMap::new();
     let mut program = Program {
         name: file.name,
@@ -112,9 +111,18 @@ fn check_name(place: &str, what: &str, name: &str) -> Result<()> {
     refuse(place, format_args!("{what} name {name:?} is not of the form lower_case_1"))
 }
 
+/// Texts become comments, where a line break would begin code.
+fn check_text(place: &str, texts: &[&str]) -> Result<()> {
+    match texts.iter().find(|text| text.contains(is_unprintable)) {
+        None => Ok(()),
+        Some(text) => refuse(place, format_args!("the text {text:?} has a character that cannot be printed")),
+    }
+}
+
 fn declaration(file: FileSymbol, leg_count: usize) -> Result<Declaration> {
     let place = format!("symbol `{}`", file.name);
     check_name(&place, "symbol", &file.name)?;
+    check_text(&place, &[&file.unit, &file.frame, &file.meaning, &file.equation])?;
     let leg = file.per_leg.then_some(leg_count);
     let shape: Vec<usize> = leg.into_iter().chain(file.shape).collect();
     let length = shape.iter().try_fold(1_usize, |length, dimension| length.checked_mul(*dimension));
@@ -157,6 +165,7 @@ impl Scope<'_> {
     fn graph(&self, file: FileGraph, over_legs: bool) -> Result<Graph> {
         let place = format!("graph `{}`", file.name);
         check_name(&place, "graph", &file.name)?;
+        check_text(&place, &[&file.meaning])?;
         let inputs =
             file.inputs.iter().map(|name| self.seen(&place, name, over_legs)).collect::<Result<Vec<_>>>()?;
         if let Some(name) = repeated(&file.inputs) {
@@ -209,6 +218,7 @@ impl Scope<'_> {
     fn function(&self, file: FileFunction, graphs: &[Graph]) -> Result<Function> {
         let place = function_place(&file);
         check_name(&place, "function", &file.name)?;
+        check_text(&place, &[&file.meaning, &file.equation])?;
         for (names, role) in [(&file.inputs, Role::Input), (&file.outputs, Role::Output)] {
             if let Some(name) = repeated(names) {
                 return refuse(&place, format_args!("`{name}` listed twice"));
@@ -285,6 +295,11 @@ impl Scope<'_> {
             );
             return refuse(place, problem);
         }
+        if n > MOST_UNKNOWNS {
+            let problem =
+                format!("`{}` has {n} unknowns; at most {MOST_UNKNOWNS} can be written out", file.solve);
+            return refuse(place, problem);
+        }
         let kind = match file.symmetric_positive_definite {
             true => SolveKind::SymmetricPositiveDefinite,
             false => SolveKind::General,
@@ -323,62 +338,4 @@ impl Scope<'_> {
 
 fn repeated(names: &[String]) -> Option<&String> {
     names.iter().enumerate().find(|(index, name)| names[..*index].contains(name)).map(|(_, name)| name)
-}
-
-/// A node of a graph with these inputs, at this index.
-fn read_node(file: FileNode, index: usize, inputs: &[Symbol]) -> std::result::Result<Node, String> {
-    let FileNode { operation, operands } = file;
-    let arity = |expected: usize| match operands.len() {
-        got if got == expected => Ok(()),
-        got => Err(format!(
-            "`{operation}` takes {expected} operand{}, got {got}",
-            if expected == 1 { "" } else { "s" }
-        )),
-    };
-    let whole = |number: &Number| {
-        let value = number.as_u64().and_then(|value| u32::try_from(value).ok());
-        value.ok_or_else(|| format!("`{operation}` takes whole numbers as operands, got {number}"))
-    };
-    let operand = |number: &Number| {
-        let node = whole(number)?;
-        if (node as usize) < index {
-            Ok(NodeId(node))
-        } else {
-            Err(format!("reads node {node}, which is not before it"))
-        }
-    };
-    match operation.as_str() {
-        "const" => {
-            arity(1)?;
-            let value = operands[0].as_f64().filter(|value| value.is_finite());
-            value
-                .map(Node::Constant)
-                .ok_or_else(|| format!("constant {} is not a finite number", operands[0]))
-        }
-        "input" => {
-            arity(2)?;
-            let (input, element) = (whole(&operands[0])?, whole(&operands[1])?);
-            let Some(symbol) = inputs.get(input as usize) else {
-                return Err(format!("input {input} does not exist ({} inputs)", inputs.len()));
-            };
-            if element as usize >= symbol.len() {
-                let Symbol { name, shape, .. } = symbol;
-                return Err(format!("element {element} is outside `{name}` of shape {shape:?}"));
-            }
-            Ok(Node::Input { input, element })
-        }
-        name => {
-            let Some(op) = Op::from_name(name) else {
-                let known = OPS.map(|info| info.name).join(", ");
-                return Err(format!("unknown operation `{name}`; known: input, const, {known}"));
-            };
-            arity(op.info().arity)?;
-            let a = operand(&operands[0])?;
-            if op.info().arity == 1 {
-                Ok(Node::Unary(op, a))
-            } else {
-                Ok(Node::Binary(op, a, operand(&operands[1])?))
-            }
-        }
-    }
 }

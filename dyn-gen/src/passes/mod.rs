@@ -2,6 +2,13 @@
 //!
 //! [`PASSES`] is the pipeline in order. An exact pass keeps every bit of every output, up to the sign of zeros, wherever all
 //! intermediate values are finite; a rounding pass keeps them up to rounding errors. Passes know no Rust and no mechanics.
+//!
+//! Why not the sign of zeros: `x + 0`, `0 - x`, `x * 0` and `x - x` are what baked zeros leave behind, by the hundred, and each
+//! of them tells `0.0` from `-0.0` for some `x`. To keep that sign would be to keep those operations, and no result of the
+//! mechanics depends on it: `-0.0 == 0.0`, and nothing divides by a quantity that may be an exact zero at a regular pose. For
+//! the same reason exact passes may take a value that is not finite for a finite one (`0 * x` is `0` although `x` may be
+//! infinite): such values occur out of reach and at singular poses only, where no result means anything. Tests compare bits
+//! after adding `0.0`, which makes one zero of both.
 
 mod bake;
 mod expand;

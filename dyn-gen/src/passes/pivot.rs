@@ -10,7 +10,7 @@ pub struct PivotOrder {
     /// Column of each pivot.
     pub columns: Vec<usize>,
     /// Largest entry of |L| |U| over the largest of |A|, after row and column scaling, at the worst state: the factor by which
-    /// rounding errors of the factorisation exceed those of a stable one.
+    /// rounding errors of the factorisation exceed those of a stable one. Infinite where a pivot vanishes.
     pub growth: f64,
     /// The same for complete pivoting at each state, the least one can hope for.
     pub growth_of_complete_pivoting: f64,
@@ -57,11 +57,14 @@ impl Partial {
         let mut growth = self.growth;
         for (matrix, accumulated) in self.remaining.iter().zip(&self.accumulated) {
             let pivot = matrix[row * n + column].abs();
+            if pivot == 0.0 {
+                return f64::INFINITY;
+            }
             for &i in &rows {
                 let factor = if i == row { 1.0 } else { matrix[i * n + column].abs() / pivot };
                 for &j in &columns {
                     let sum = accumulated[i * n + j] + factor * matrix[row * n + j].abs();
-                    // NaN comes from a zero pivot, the worst of all.
+                    // NaN comes from numbers out of range, the worst of all.
                     if sum > growth || sum.is_nan() {
                         growth = if sum.is_nan() { f64::INFINITY } else { sum };
                     }
@@ -109,15 +112,29 @@ impl Partial {
 }
 
 /// The order of least growth over `matrices` (n x n each) that a beam search finds; among orders of about the same growth the
-/// one with the fewest operations. `constant(row, column)` is the entry's value if it is the same at all states. None if no
-/// matrix has numbers to judge by.
+/// one with the fewest operations. `constant(row, column)` is the entry's value if it is the same at all states. None without
+/// matrices to judge by. Growth is infinite where a matrix is singular: a zero pivot, a zero row or column, no numbers.
 pub fn choose_order(
     solve: &str,
     n: usize,
     matrices: &[Vec<f64>],
     constant: &dyn Fn(usize, usize) -> Option<f64>,
 ) -> Option<PivotOrder> {
-    let scaled = matrices.iter().filter_map(|matrix| equilibrated(matrix, n)).collect::<Vec<_>>();
+    let states = matrices.len();
+    if states == 0 {
+        return None;
+    }
+    let Some(scaled) = matrices.iter().map(|matrix| equilibrated(matrix, n)).collect::<Option<Vec<_>>>()
+    else {
+        return Some(PivotOrder {
+            solve: solve.to_owned(),
+            rows: (0..n).collect(),
+            columns: (0..n).collect(),
+            growth: f64::INFINITY,
+            growth_of_complete_pivoting: f64::INFINITY,
+            states,
+        });
+    };
     let entry = |k: usize| match constant(k / n, k % n) {
         Some(0.0) => Entry::Zero,
         Some(value) if value.abs() == 1.0 => Entry::One,
@@ -132,10 +149,6 @@ pub fn choose_order(
         operations: 0,
         remaining: scaled,
     };
-    let states = start.remaining.len();
-    if states == 0 {
-        return None;
-    }
     let growth_of_complete_pivoting =
         start.remaining.iter().map(|matrix| complete_pivoting(matrix, n)).fold(1.0, f64::max);
     let mut beam = vec![start];

@@ -1,16 +1,19 @@
-//! The committed graph file with the default platform, and states of it.
+//! The committed graph file, the default platform and the test platforms, and their reach by formula.
 #![allow(dead_code, reason = "each test binary uses its part")]
 
+pub mod cli;
 pub mod random;
 pub mod text;
 
 use std::path::{Path, PathBuf};
 
-use dyn_gen::graph::{Environment, Program};
-use dyn_gen::sample::{Kind, Pose, Workspace, states};
+use dyn_gen::graph::{Environment, Graph, Program};
+use dyn_gen::passes::{Context, PASSES, Pass};
+use dyn_gen::sample::{Kind, Pose};
 use dyn_platform::Platform;
 
-fn root() -> PathBuf {
+/// The root of the workspace.
+pub fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).parent().expect("the package lies in the workspace").to_owned()
 }
 
@@ -22,6 +25,16 @@ pub fn program() -> Program {
 
 pub fn platform() -> Platform {
     Platform::from_file(root().join("platforms/uhp_2016.toml")).unwrap()
+}
+
+/// The default platform and all test platforms.
+pub fn platforms() -> Vec<Platform> {
+    let folder = std::fs::read_dir(root().join("tests/platforms")).expect("the test platforms");
+    let mut files: Vec<PathBuf> = folder.map(|entry| entry.unwrap().path()).collect();
+    files.sort();
+    assert_eq!(files.len(), 8);
+    let others = files.into_iter().map(|file| Platform::from_file(file).unwrap());
+    std::iter::once(platform()).chain(others).collect()
 }
 
 /// All parameters of `platform` that `program` knows.
@@ -45,13 +58,16 @@ pub fn alignment(parameters: &Environment, pose: &Pose) -> f64 {
     (0..6).map(leg_alignment).fold(f64::INFINITY, f64::min)
 }
 
-/// States of every kind.
-pub fn sampled_states(platform: &Platform, parameters: &Environment, seed: u64) -> Vec<Environment> {
-    let alignment = |pose: &Pose| alignment(parameters, pose);
-    let home = Pose { position: platform.home.position, rotation: platform.home.rotation };
-    let workspace = Workspace { home, alignment: &alignment };
-    [(Kind::Home, 1), (Kind::Random, 16), (Kind::Large, 48), (Kind::NearEdge, 32)]
-        .into_iter()
-        .flat_map(|(kind, count)| states(&workspace, kind, count, seed))
-        .collect()
+/// Some states of every kind.
+pub const STATES: [(Kind, usize); 4] =
+    [(Kind::Home, 1), (Kind::Random, 16), (Kind::Large, 48), (Kind::NearEdge, 32)];
+
+/// The pass of this name.
+pub fn pass(name: &str) -> &'static Pass {
+    PASSES.iter().find(|pass| pass.name == name).expect("a pass of the table")
+}
+
+/// The graph after one pass.
+pub fn run(pass: &Pass, graph: &Graph, context: &Context) -> Graph {
+    (pass.run)(graph, context, &mut Vec::new())
 }

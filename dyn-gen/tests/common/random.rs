@@ -90,7 +90,8 @@ fn system(source: &mut Source, builder: &mut Builder, nodes: &[NodeId]) -> Vec<N
     (0..3).map(|element| builder.solution(solve, element)).collect()
 }
 
-/// For each node a first-order bound of the rounding error in its value; infinite after a solve. Passes that round may combine
+/// For each node a first-order bound of the rounding error in its value; infinite after a solve (the test `expand` is about
+/// those). Passes that round may combine
 /// constants, so these count as rounded too.
 pub fn error_bounds(graph: &Graph, values: &[f64]) -> Vec<f64> {
     const UNIT: f64 = f64::EPSILON;

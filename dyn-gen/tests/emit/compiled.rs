@@ -46,6 +46,7 @@ pub fn run(
         platform: None,
         casadi: "0.0.0".into(),
         operations: Vec::new(),
+        eliminations: Vec::new(),
     };
     let kernels = dyn_gen::emit::kernels_file(&header, &signatures).expect("printable traits");
     let folder = tempfile::tempdir().expect("a temporary folder");

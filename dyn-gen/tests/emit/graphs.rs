@@ -50,6 +50,7 @@ pub fn model(graphs: &[Graph], parameters: &[Symbol]) -> String {
                 after: graph.operation_count().total(),
             })
             .collect(),
+        eliminations: Vec::new(),
     };
     let functions: Vec<String> = graphs
         .iter()

@@ -100,9 +100,11 @@ fn a_model_file() {
 
         impl Parameters {
             /// Parameters filled field by field: `fill(name, values)` gets the name of each field and its elements,
-            /// row-major, to be written.
+            /// row-major, to be written. What it leaves alone stays NaN, so that no result can come from it.
             pub fn from_fn(mut fill: impl FnMut(&str, &mut [f64])) -> Self {
-                let mut parameters = Parameters { rod_length: [0.0; 6] };
+                let mut parameters = Parameters {
+                    rod_length: [f64::NAN; 6],
+                };
                 fill("rod_length", &mut parameters.rod_length);
                 parameters
             }

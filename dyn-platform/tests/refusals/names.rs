@@ -25,6 +25,26 @@ fn name_with_a_hyphen() {
 }
 
 #[test]
+fn name_that_is_a_keyword() {
+    check(
+        r#"name = "bench""#,
+        r#"name = "fn""#,
+        expect![[r#"
+        Error:
+          × `name` is "fn", a keyword of Rust, which cannot name a generated module
+           ╭─[bench.toml:2:8]
+         1 │ version = 1
+         2 │ name = "fn"
+           ·        ──┬─
+           ·          ╰── a keyword of Rust
+         3 │ leg_type = "uhp"
+           ╰────
+          help: choose another word, for example `name = "fn_platform"`
+    "#]],
+    );
+}
+
+#[test]
 fn leg_type_in_capitals() {
     check(
         r#"leg_type = "uhp""#,

@@ -71,25 +71,25 @@ pub struct Parameters {
 
 impl Parameters {
     /// Parameters filled field by field: `fill(name, values)` gets the name of each field and its elements,
-    /// row-major, to be written.
+    /// row-major, to be written. What it leaves alone stays NaN, so that no result can come from it.
     pub fn from_fn(mut fill: impl FnMut(&str, &mut [f64])) -> Self {
         let mut parameters = Parameters {
-            base_point: [[0.0; 3]; 6],
-            actuator_axis: [[0.0; 3]; 6],
-            platform_point: [[0.0; 3]; 6],
-            rod_length: [0.0; 6],
-            rod_mass: [0.0; 6],
-            rod_inertia: [0.0; 6],
-            rod_com_fraction: [0.0; 6],
-            mover_mass: [0.0; 6],
-            mover_offset: [0.0; 6],
-            rest_length: [0.0; 6],
-            axial_stiffness: [0.0; 6],
-            axial_damping: [0.0; 6],
-            payload_mass: 0.0,
-            payload_com: [0.0; 3],
-            payload_inertia: [[0.0; 3]; 3],
-            gravity: [0.0; 3],
+            base_point: [[f64::NAN; 3]; 6],
+            actuator_axis: [[f64::NAN; 3]; 6],
+            platform_point: [[f64::NAN; 3]; 6],
+            rod_length: [f64::NAN; 6],
+            rod_mass: [f64::NAN; 6],
+            rod_inertia: [f64::NAN; 6],
+            rod_com_fraction: [f64::NAN; 6],
+            mover_mass: [f64::NAN; 6],
+            mover_offset: [f64::NAN; 6],
+            rest_length: [f64::NAN; 6],
+            axial_stiffness: [f64::NAN; 6],
+            axial_damping: [f64::NAN; 6],
+            payload_mass: f64::NAN,
+            payload_com: [f64::NAN; 3],
+            payload_inertia: [[f64::NAN; 3]; 3],
+            gravity: [f64::NAN; 3],
         };
         fill("base_point", parameters.base_point.as_flattened_mut());
         fill("actuator_axis", parameters.actuator_axis.as_flattened_mut());

@@ -27,6 +27,9 @@
 // inverse_dynamics          2409        1234
 // forward_dynamics          3282        1640
 // energy                    1769         854
+//
+// linear systems: growth of rounding errors in a fixed order of pivots, at the worst state
+// inverse_dynamics, axial_reaction: 10.7 (51 states sampled)
 
 #[allow(unused_imports)]
 use crate::float::sqrt;
