@@ -1,0 +1,89 @@
+//! Subcommands.
+
+mod progress;
+mod run;
+mod tables;
+
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+use clap::{Parser, Subcommand};
+
+use run::{Options, scenario_file};
+
+/// How a command ended without an error of its own.
+pub enum Ending {
+    /// All was done.
+    Done,
+    /// An input was refused or something failed.
+    Refused,
+    /// The motion ended early; what came before was kept.
+    Stopped,
+}
+
+impl Ending {
+    /// 0, 1, 3; 2 is wrong usage, by clap.
+    pub fn exit_code(&self) -> ExitCode {
+        match self {
+            Self::Done => ExitCode::SUCCESS,
+            Self::Refused => ExitCode::from(1),
+            Self::Stopped => ExitCode::from(3),
+        }
+    }
+}
+
+/// Experiments with a parallel platform on a moving base, against an independent multibody engine.
+#[derive(Parser)]
+#[command(version, after_help = EXAMPLES)]
+pub struct Arguments {
+    #[command(subcommand)]
+    command: Command,
+}
+
+const EXAMPLES: &str = "\
+Examples:
+  dyn-sim reproduce                      the paper's experiment: its Table 4 and a report with every figure
+  dyn-sim reproduce --scenario large     the same where every term of the equations counts
+  dyn-sim run my_experiment.toml         your own scenario; scenarios/README.md describes the file
+  dyn-sim check my_experiment.toml       only look for mistakes in it
+
+Exit codes: 0 done, 1 refused or failed, 2 wrong usage, 3 the motion ended early and what came before was kept.";
+
+#[derive(Subcommand)]
+enum Command {
+    /// Repeat a published experiment: forces, both simulations, spectra, tables, report
+    Reproduce {
+        /// `published`, `large`, or a scenario file
+        #[arg(long, default_value = "published")]
+        scenario: String,
+        #[command(flatten)]
+        options: Options,
+    },
+    /// Run a scenario file
+    Run {
+        /// The scenario file
+        file: PathBuf,
+        #[command(flatten)]
+        options: Options,
+    },
+    /// Check a scenario file and run nothing
+    Check {
+        /// The scenario file
+        file: PathBuf,
+    },
+}
+
+/// Does what the command line says.
+pub fn run(arguments: Arguments) -> miette::Result<Ending> {
+    match arguments.command {
+        Command::Reproduce { scenario, options } => {
+            let command = format!("dyn-sim reproduce --scenario {scenario}");
+            run::run(&scenario_file(&scenario)?, &options, &command)
+        }
+        Command::Run { file, options } => {
+            let command = format!("dyn-sim run {}", file.display());
+            run::run(&file, &options, &command)
+        }
+        Command::Check { file } => run::check(&file),
+    }
+}

@@ -1,0 +1,196 @@
+//! The dynamics behind a simulation: generated models, with gravity or without.
+
+use dyn_platform::Platform;
+use dyn_runtime::models::{Parameters, Uhp, Uhp2016};
+use dyn_runtime::nalgebra::{Vector3, Vector6};
+use dyn_runtime::{Acceleration, BaseMotion, Error, Hexapod, PlatformState, Wrench, kernels};
+
+use crate::rotation::rows;
+
+/// The default platform file, whose model is compiled in.
+const DEFAULT_PLATFORM: &str = include_str!("../../platforms/uhp_2016.toml");
+
+/// What a simulation asks of a mechanism. Inputs and results in SI units and O axes.
+pub trait Mechanism {
+    /// v_p' under `actuator_force_n` (N, along the actuators' axes, on the movers).
+    ///
+    /// # Errors
+    /// Poses that the legs do not reach; see [`Hexapod`].
+    fn forward_dynamics(
+        &self,
+        base: &BaseMotion,
+        platform: &PlatformState,
+        actuator_force_n: &Vector6<f64>,
+    ) -> Result<Acceleration, Error>;
+
+    /// The same within an integration step that began at a state which [`forward_dynamics`](Self::forward_dynamics)
+    /// accepted: only what makes the result useless is refused.
+    ///
+    /// # Errors
+    /// As above.
+    fn forward_dynamics_within_step(
+        &self,
+        base: &BaseMotion,
+        platform: &PlatformState,
+        actuator_force_n: &Vector6<f64>,
+    ) -> Result<Acceleration, Error> {
+        self.forward_dynamics(base, platform, actuator_force_n)
+    }
+
+    /// The actuator forces (N) that give the platform `acceleration`.
+    ///
+    /// # Errors
+    /// Poses that the legs do not reach, singular poses; see [`Hexapod`].
+    fn inverse_dynamics(
+        &self,
+        base: &BaseMotion,
+        platform: &PlatformState,
+        acceleration: &Acceleration,
+    ) -> Result<Vector6<f64>, Error>;
+
+    /// d of each leg, m.
+    ///
+    /// # Errors
+    /// Poses that the legs do not reach; see [`Hexapod`].
+    fn actuator_length(&self, base: &BaseMotion, platform: &PlatformState) -> Result<Vector6<f64>, Error>;
+}
+
+/// The generated functions that a simulation uses.
+pub trait Functions:
+    kernels::RodAlignment
+    + kernels::LegKinematics
+    + kernels::JacobianDp
+    + kernels::InverseDynamics
+    + kernels::ForwardDynamics
+{
+}
+
+impl<M> Functions for M where
+    M: kernels::RodAlignment
+        + kernels::LegKinematics
+        + kernels::JacobianDp
+        + kernels::InverseDynamics
+        + kernels::ForwardDynamics
+{
+}
+
+/// A generated model under its own gravity, or under none.
+///
+/// Gravity enters the equations only through `r'' - g` of each body. So a model with gravity answers for a world
+/// without it when accelerations are seen from a frame that falls with g: g is added to those that go in and
+/// subtracted from those that come out. That is exact, and the baked model serves both worlds.
+#[derive(Clone, Debug)]
+pub struct Model<M> {
+    hexapod: Hexapod<M>,
+    fall: Vector3<f64>,
+}
+
+impl<M> Model<M> {
+    /// Under the gravity that is part of `model`.
+    pub fn with_gravity(model: M) -> Self {
+        Self { hexapod: Hexapod::new(model), fall: Vector3::zeros() }
+    }
+
+    /// Weightless; `gravity` (m/s^2, O) is what is part of `model`.
+    pub fn without_gravity(model: M, gravity: [f64; 3]) -> Self {
+        Self { hexapod: Hexapod::new(model), fall: gravity.into() }
+    }
+
+    fn seen_falling(&self, acceleration: &Acceleration, sign: f64) -> Acceleration {
+        Acceleration { linear_m_s2: acceleration.linear_m_s2 + self.fall * sign, ..*acceleration }
+    }
+
+    fn falling_base(&self, base: &BaseMotion) -> BaseMotion {
+        BaseMotion { acceleration: self.seen_falling(&base.acceleration, 1.0), ..*base }
+    }
+}
+
+impl<M: Functions> Mechanism for Model<M> {
+    fn forward_dynamics(
+        &self,
+        base: &BaseMotion,
+        platform: &PlatformState,
+        actuator_force_n: &Vector6<f64>,
+    ) -> Result<Acceleration, Error> {
+        let base = self.falling_base(base);
+        let acceleration =
+            self.hexapod.forward_dynamics(&base, platform, actuator_force_n, &Wrench::zero())?;
+        Ok(self.seen_falling(&acceleration, -1.0))
+    }
+
+    fn forward_dynamics_within_step(
+        &self,
+        base: &BaseMotion,
+        platform: &PlatformState,
+        actuator_force_n: &Vector6<f64>,
+    ) -> Result<Acceleration, Error> {
+        // Without the checks of inputs, which took a fifth of a simulation's time.
+        let mut acceleration = [0.0; 6];
+        let fallen = self.seen_falling(&base.acceleration, 1.0);
+        self.hexapod.model.forward_dynamics(
+            base.pose.position_m.as_ref(),
+            &rows(&base.pose.rotation),
+            base.velocity.to_vector().as_ref(),
+            fallen.to_vector().as_ref(),
+            platform.pose.position_m.as_ref(),
+            &rows(&platform.pose.rotation),
+            platform.velocity.to_vector().as_ref(),
+            actuator_force_n.as_ref(),
+            &[0.0; 6],
+            &mut acceleration,
+        );
+        let [x, y, z, rx, ry, rz] = acceleration;
+        if !(x + y + z + rx + ry + rz).is_finite() {
+            // The checked call knows why.
+            return self.forward_dynamics(base, platform, actuator_force_n);
+        }
+        Ok(Acceleration {
+            linear_m_s2: Vector3::new(x, y, z) - self.fall,
+            angular_rad_s2: Vector3::new(rx, ry, rz),
+        })
+    }
+
+    fn inverse_dynamics(
+        &self,
+        base: &BaseMotion,
+        platform: &PlatformState,
+        acceleration: &Acceleration,
+    ) -> Result<Vector6<f64>, Error> {
+        let base = self.falling_base(base);
+        let acceleration = self.seen_falling(acceleration, 1.0);
+        self.hexapod.inverse_dynamics(&base, platform, &acceleration, &Wrench::zero())
+    }
+
+    fn actuator_length(&self, base: &BaseMotion, platform: &PlatformState) -> Result<Vector6<f64>, Error> {
+        Ok(self.hexapod.leg_kinematics(base, platform, &Acceleration::zero())?.actuator_length_m)
+    }
+}
+
+/// The mechanism of a platform: the baked model where the numbers are those of the default platform, otherwise the
+/// model that takes its parameters at run time. Beside it, which of the two.
+pub fn of_platform(platform: &Platform, gravity_on: bool) -> (Box<dyn Mechanism>, &'static str) {
+    let is_default = Platform::from_toml("platforms/uhp_2016.toml", DEFAULT_PLATFORM)
+        .is_ok_and(|default| default.parameters == platform.parameters);
+    let gravity = platform.parameters.gravity;
+    let boxed = |model: Uhp| -> Box<dyn Mechanism> {
+        if gravity_on {
+            Box::new(Model::with_gravity(model))
+        } else {
+            Box::new(Model::without_gravity(model, gravity))
+        }
+    };
+    match (is_default, gravity_on) {
+        (true, true) => (Box::new(Model::with_gravity(Uhp2016)), "baked uhp_2016"),
+        (true, false) => (Box::new(Model::without_gravity(Uhp2016, gravity)), "baked uhp_2016"),
+        (false, _) => (boxed(run_time_model(platform)), "uhp with parameters at run time"),
+    }
+}
+
+/// The run-time-parameter model with a platform's numbers.
+pub fn run_time_model(platform: &Platform) -> Uhp {
+    let parameters = Parameters::from_fn(|name, values| {
+        let numbers = platform.parameter(name);
+        values.copy_from_slice(&numbers.expect("platforms have every parameter of the models"));
+    });
+    Uhp { parameters }
+}

@@ -1,0 +1,109 @@
+//! Motions that end early: time, leg and reason are told, and what came before is kept.
+
+use std::path::Path;
+use std::process::Command;
+
+use dyn_sim::experiment::{self, Experiment, Silent};
+use dyn_sim::scenario::Scenario;
+use dyn_sim::simulate::StopReason;
+
+fn run(tables: &str) -> Experiment {
+    let text = format!(
+        "version = 1\nname = \"stop\"\nplatform = \"uhp_2016.toml\"\ngravity = true\nduration_s = 0.5\nstep_s = 1e-3\n{tables}"
+    );
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../platforms");
+    let scenario = Scenario::from_toml("stop.toml", &text, &folder).expect("a valid scenario");
+    experiment::run(&scenario, None, "test", &mut Silent)
+}
+
+/// As long as the time of the stop says, and nothing but numbers.
+fn keeps_what_came_before(experiment: &Experiment) {
+    let stop = experiment.stop.as_ref().expect("a stop");
+    let series = &experiment.outcome.simulations[0];
+    let expected = (stop.time_s / 1e-3) as usize;
+    assert!(
+        series.len() >= expected.saturating_sub(1) && series.len() <= expected + 1,
+        "{} {stop}",
+        series.len()
+    );
+    assert!(series.acceleration.iter().flatten().all(|x| x.is_finite()));
+    assert_eq!(experiment.outcome.actuator_length_m.len(), series.len());
+    assert!(experiment.outcome.warnings.iter().any(|warning| *warning == stop.to_string()));
+}
+
+#[test]
+fn a_target_out_of_reach() {
+    let experiment = run("[target]\n[[target.harmonic]]\nfrequency_hz = 1.0\nlinear_m = [0.2, 0.0, 0.0]\n");
+    keeps_what_came_before(&experiment);
+    let stop = experiment.stop.expect("a stop").to_string();
+    assert!(stop.starts_with("the target motion stops at 0."), "{stop}");
+    assert!(
+        stop.contains("leg ") && stop.contains("perpendicular") || stop.contains("out of reach"),
+        "{stop}"
+    );
+}
+
+#[test]
+fn a_target_past_the_stroke() {
+    let experiment = run(
+        "[limits]\nactuator_length_m = [0.18, 0.21]\n[target]\n[[target.harmonic]]\nfrequency_hz = 1.0\nlinear_m = [0.0, 0.0, 0.03]\n",
+    );
+    keeps_what_came_before(&experiment);
+    let stop = experiment.stop.expect("a stop");
+    assert!(matches!(stop.reason, StopReason::Stroke { leg: 0, .. }), "{stop}");
+    assert_eq!(
+        stop.to_string(),
+        "the target motion stops at 0.064500 s: leg 1 (index 0) is at the end of its stroke: the actuator would be \
+         210.036 mm long, and may have 180.000 to 210.000 mm; reduce the motion, or change [limits]"
+    );
+}
+
+#[test]
+fn a_free_platform_pushed_too_far() {
+    for integrator in ["lie_rk4", "adaptive"] {
+        let experiment = run(&format!(
+            "integrator = \"{integrator}\"\n[free]\nactuator_force_n = [9000.0, 0.0, 0.0, 0.0, 0.0, 0.0]\n"
+        ));
+        keeps_what_came_before(&experiment);
+        let stop = experiment.stop.expect("a stop").to_string();
+        assert!(stop.starts_with("the simulation stops at 0.0"), "{integrator}: {stop}");
+        assert!(stop.contains("leg "), "{integrator}: {stop}");
+    }
+}
+
+/// Exit code 3, tables as JSON, the report kept.
+#[test]
+fn on_the_command_line() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let platform = Path::new(env!("CARGO_MANIFEST_DIR")).join("../platforms/uhp_2016.toml");
+    std::fs::copy(platform, folder.path().join("uhp_2016.toml")).expect("a copy");
+    let run = |name: &str, tables: &str, arguments: &[&str]| {
+        let file = folder.path().join(format!("{name}.toml"));
+        let text = format!(
+            "version = 1\nname = \"{name}\"\nplatform = \"uhp_2016.toml\"\ngravity = true\nduration_s = 0.2\nstep_s = 1e-3\n{tables}"
+        );
+        std::fs::write(&file, text).expect("a file");
+        let mut command = Command::new(env!("CARGO_BIN_EXE_dyn-sim"));
+        command.args([arguments[0]]).arg(&file).args(&arguments[1..]).current_dir(folder.path());
+        command.output().expect("dyn-sim runs")
+    };
+    let good = "[target]\n[[target.harmonic]]\nfrequency_hz = 5.0\nlinear_m = [0.01, 0.0, 0.0]\n";
+    let far = "[target]\n[[target.harmonic]]\nfrequency_hz = 5.0\nlinear_m = [0.2, 0.0, 0.0]\n";
+
+    let output = run("good", good, &["run", "--json", "--output", "report"]);
+    assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
+    let tables: serde_json::Value = serde_json::from_slice(&output.stdout).expect("JSON");
+    assert!(tables["amplitude_tables"][0]["error_percent"][0][0].as_f64().expect("a number") < 1e-4);
+    assert!(tables["amplitude_tables"][0]["error_percent"][0][1].is_null(), "no target, no error");
+    assert!(folder.path().join("report/index.html").is_file());
+
+    let output = run("far", far, &["run", "--output", "kept"]);
+    let said = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(3), "{said}");
+    assert!(said.contains("warning: the target motion stops at"), "{said}");
+    assert!(folder.path().join("kept/index.html").is_file());
+
+    let output = run("bad", "", &["check"]);
+    assert_eq!(output.status.code(), Some(1));
+    assert!(String::from_utf8_lossy(&output.stderr).contains("neither [target] nor [free]"));
+}
