@@ -3,7 +3,9 @@
 use dyn_platform::Platform;
 use dyn_runtime::models::{Parameters, Uhp, Uhp2016};
 use dyn_runtime::nalgebra::{Vector3, Vector6};
-use dyn_runtime::{Acceleration, BaseMotion, Error, Hexapod, PlatformState, Wrench, kernels};
+use dyn_runtime::{
+    Acceleration, BaseMotion, Error, Hexapod, MIN_ROD_ALIGNMENT, PlatformState, Wrench, kernels,
+};
 
 use crate::rotation::rows;
 
@@ -100,8 +102,57 @@ impl<M> Model<M> {
         Acceleration { linear_m_s2: acceleration.linear_m_s2 + self.fall * sign, ..*acceleration }
     }
 
+    /// Base's motion as `self.hexapod` is to see it.
     fn falling_base(&self, base: &BaseMotion) -> BaseMotion {
         BaseMotion { acceleration: self.seen_falling(&base.acceleration, 1.0), ..*base }
+    }
+}
+
+impl<M: Functions> Model<M> {
+    fn rod_alignment(&self, base: &BaseMotion, platform: &PlatformState) -> [f64; 6] {
+        let mut alignment = [0.0; 6];
+        self.hexapod.model.rod_alignment(
+            base.pose.position_m.as_ref(),
+            &rows(&base.pose.rotation),
+            platform.pose.position_m.as_ref(),
+            &rows(&platform.pose.rotation),
+            &mut alignment,
+        );
+        alignment
+    }
+
+    /// The unchecked function; where the legs do not reach or its result is not finite, the checked call, which knows
+    /// why. Checking every input took a fifth of a simulation's time, and a simulation makes its rotations itself.
+    fn forward_dynamics_if(
+        &self,
+        reached: bool,
+        base: &BaseMotion,
+        platform: &PlatformState,
+        actuator_force_n: &Vector6<f64>,
+    ) -> Result<Acceleration, Error> {
+        let base = self.falling_base(base);
+        let mut acceleration = [0.0; 6];
+        if reached {
+            self.hexapod.model.forward_dynamics(
+                base.pose.position_m.as_ref(),
+                &rows(&base.pose.rotation),
+                base.velocity.to_vector().as_ref(),
+                base.acceleration.to_vector().as_ref(),
+                platform.pose.position_m.as_ref(),
+                &rows(&platform.pose.rotation),
+                platform.velocity.to_vector().as_ref(),
+                actuator_force_n.as_ref(),
+                &[0.0; 6],
+                &mut acceleration,
+            );
+        }
+        let [x, y, z, rx, ry, rz] = acceleration;
+        let found = if reached && (x + y + z + rx + ry + rz).is_finite() {
+            Acceleration { linear_m_s2: Vector3::new(x, y, z), angular_rad_s2: Vector3::new(rx, ry, rz) }
+        } else {
+            self.hexapod.forward_dynamics(&base, platform, actuator_force_n, &Wrench::zero())?
+        };
+        Ok(self.seen_falling(&found, -1.0))
     }
 }
 
@@ -112,10 +163,9 @@ impl<M: Functions> Mechanism for Model<M> {
         platform: &PlatformState,
         actuator_force_n: &Vector6<f64>,
     ) -> Result<Acceleration, Error> {
-        let base = self.falling_base(base);
-        let acceleration =
-            self.hexapod.forward_dynamics(&base, platform, actuator_force_n, &Wrench::zero())?;
-        Ok(self.seen_falling(&acceleration, -1.0))
+        let reached =
+            self.rod_alignment(base, platform).iter().all(|alignment| *alignment >= MIN_ROD_ALIGNMENT);
+        self.forward_dynamics_if(reached, base, platform, actuator_force_n)
     }
 
     fn forward_dynamics_within_step(
@@ -124,30 +174,7 @@ impl<M: Functions> Mechanism for Model<M> {
         platform: &PlatformState,
         actuator_force_n: &Vector6<f64>,
     ) -> Result<Acceleration, Error> {
-        // Without the checks of inputs, which took a fifth of a simulation's time.
-        let mut acceleration = [0.0; 6];
-        let fallen = self.seen_falling(&base.acceleration, 1.0);
-        self.hexapod.model.forward_dynamics(
-            base.pose.position_m.as_ref(),
-            &rows(&base.pose.rotation),
-            base.velocity.to_vector().as_ref(),
-            fallen.to_vector().as_ref(),
-            platform.pose.position_m.as_ref(),
-            &rows(&platform.pose.rotation),
-            platform.velocity.to_vector().as_ref(),
-            actuator_force_n.as_ref(),
-            &[0.0; 6],
-            &mut acceleration,
-        );
-        let [x, y, z, rx, ry, rz] = acceleration;
-        if !(x + y + z + rx + ry + rz).is_finite() {
-            // The checked call knows why.
-            return self.forward_dynamics(base, platform, actuator_force_n);
-        }
-        Ok(Acceleration {
-            linear_m_s2: Vector3::new(x, y, z) - self.fall,
-            angular_rad_s2: Vector3::new(rx, ry, rz),
-        })
+        self.forward_dynamics_if(true, base, platform, actuator_force_n)
     }
 
     fn inverse_dynamics(
