@@ -170,7 +170,8 @@ fn quadratic_terms_left_out() {
 #[test]
 fn rod_mass_five_percent_low() {
     let change = |platform: &mut Platform| {
-        platform.parameters.rod_mass = platform.parameters.rod_mass.map(|m| 0.95 * m)
+        let rod_mass = platform.parameters.get_mut("rod_mass").expect("legs have rods");
+        rod_mass.iter_mut().for_each(|m| *m *= 0.95);
     };
     caught("m_s - 5 %", with_parameters(&scenario("large"), change));
 }

@@ -137,15 +137,17 @@ fn platform_section(outcome: &Outcome, drawing: &Svg) -> String {
         put!(html, "<th>{leg}</th>");
     }
     html += "</tr></thead>\n<tbody>\n";
-    let rows: [(&str, f64, &[f64; 6]); 6] = [
-        ("rod length, mm", 1e3, &parameters.rod_length),
-        ("rod mass, kg", 1.0, &parameters.rod_mass),
-        ("mover mass, kg", 1.0, &parameters.mover_mass),
-        ("actuator length at rest, mm", 1e3, &parameters.rest_length),
-        ("axial stiffness, N/mm", 1e-3, &parameters.axial_stiffness),
-        ("axial damping, N s/m", 1.0, &parameters.axial_damping),
+    let rows = [
+        ("rod length, mm", 1e3, "rod_length"),
+        ("rod mass, kg", 1.0, "rod_mass"),
+        ("mover mass, kg", 1.0, "mover_mass"),
+        ("actuator length at rest, mm", 1e3, "rest_length"),
+        ("axial stiffness, N/mm", 1e-3, "axial_stiffness"),
+        ("axial damping, N s/m", 1.0, "axial_damping"),
     ];
-    for (name, factor, values) in rows {
+    // Legs of other types lack some of these.
+    for (name, factor, values) in rows.map(|(name, factor, key)| (name, factor, parameters.get(key))) {
+        let Some(values) = values else { continue };
         put!(html, "<tr><td class=\"text\">{name}</td>");
         for value in values {
             put!(html, "<td>{}</td>", plain(factor * value));

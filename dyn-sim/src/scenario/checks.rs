@@ -2,13 +2,11 @@
 
 use std::path::Path;
 
-use dyn_platform::{Platform, Refusal};
+use dyn_platform::{FileError, Platform, Refusal, first_line};
 use toml::Spanned;
 
-use super::error::{FileError, refusal};
 use super::motions::Reader;
 use super::schema::{File, Limits, Spectrum};
-use super::syntax::first_line;
 use super::{Scenario, SpectrumRequest, Steering, VERSION};
 use crate::simulate::{Grid, Stroke};
 use crate::spectrum::Window;
@@ -25,7 +23,7 @@ pub(super) fn version(file: &File, refusals: &mut Vec<Refusal>) {
     if version != VERSION {
         let what = format!("the file has format version {version}, this reader knows version {VERSION} only");
         let help = "write `version = 1` and bring the file into the form of scenarios/README.md";
-        refusals.push(refusal(file.version.span(), format!("must be {VERSION}"), what, help));
+        refusals.push(Refusal::new(file.version.span(), format!("must be {VERSION}"), what, help));
     }
 }
 
@@ -48,13 +46,13 @@ pub(super) fn scenario(
         (Some(_), Some(free)) => {
             let help = "remove [target] to let the platform go, or [free] to steer it";
             let what = "the platform cannot follow [target] and be [free]";
-            reader.refusals.push(refusal(free.span(), "and [target] as well", what, help));
+            reader.refusals.push(Refusal::new(free.span(), "and [target] as well", what, help));
             None
         }
         (None, None) => {
             let help = "add [target] with its [[target.harmonic]] tables, or [free]";
             let what = "nothing says what the platform does";
-            reader.refusals.push(refusal(first_line(text), "neither [target] nor [free]", what, help));
+            reader.refusals.push(Refusal::new(first_line(text), "neither [target] nor [free]", what, help));
             None
         }
     };
@@ -86,7 +84,7 @@ fn name(name: &Spanned<String>, refusals: &mut Vec<Refusal>) {
     if written.is_empty() || !written.chars().all(allowed) {
         let what = format!("`name` is {written:?}, which cannot name a folder");
         let help = "use letters, digits, `_` and `-`: `name = \"my_experiment\"`";
-        refusals.push(refusal(name.span(), "cannot name a folder", what, help));
+        refusals.push(Refusal::new(name.span(), "cannot name a folder", what, help));
     }
 }
 
@@ -102,14 +100,14 @@ fn grid(file: &File, refusals: &mut Vec<Refusal>) -> Option<Grid> {
         let what =
             format!("{steps:.0} steps are more than {MOST_STEPS:.0}, the most that memory is made for");
         let help = "shorten `duration_s` or lengthen `step_s`";
-        refusals.push(refusal(file.step_s.span(), "too many steps", what, help));
+        refusals.push(Refusal::new(file.step_s.span(), "too many steps", what, help));
         return None;
     }
     let whole = steps.round();
     if whole < 1.0 || (steps - whole).abs() > 1e-6 {
         let what = format!("`duration_s` is {steps:.6} steps, not a whole number of them");
         let help = format!("choose a duration of {:e} s, or another step", whole.max(1.0) * step_s);
-        refusals.push(refusal(file.duration_s.span(), "not a whole number of steps", what, help));
+        refusals.push(Refusal::new(file.duration_s.span(), "not a whole number of steps", what, help));
         return None;
     }
     Some(Grid { step_s, steps: whole as usize })
@@ -122,7 +120,7 @@ fn stroke(limits: &Limits, refusals: &mut Vec<Refusal>) -> Option<Stroke> {
     }
     let what = format!("`actuator_length_m` must be [shortest, longest], but is [{shortest_m}, {longest_m}]");
     let help = "for example `actuator_length_m = [0.15, 0.25]`";
-    refusals.push(refusal(limits.actuator_length_m.span(), "not a range", what, help));
+    refusals.push(Refusal::new(limits.actuator_length_m.span(), "not a range", what, help));
     None
 }
 
@@ -145,7 +143,12 @@ fn spectrum(
         let f = positive("frequencies_hz", "frequencies_hz = [40.0, 100.0]", frequency, refusals);
         if f >= highest {
             let what = format!("{f} Hz is not below {highest} Hz, half the sampling rate");
-            refusals.push(refusal(frequency.span(), "too high", what, "shorten `step_s`, or leave it out"));
+            refusals.push(Refusal::new(
+                frequency.span(),
+                "too high",
+                what,
+                "shorten `step_s`, or leave it out",
+            ));
         }
         frequencies_hz.push(f);
     }
@@ -158,7 +161,7 @@ fn spectrum(
         } else {
             let end = grid.time(grid.steps);
             let what = format!("`start_s` is {} s, outside the duration of {end} s", start.get_ref());
-            refusals.push(refusal(start.span(), "outside", what, "for example `start_s = 0.1`"));
+            refusals.push(Refusal::new(start.span(), "outside", what, "for example `start_s = 0.1`"));
         }
     }
     let paper_percent = spectrum.paper_error_percent.as_ref().map(|rows| {
@@ -166,7 +169,7 @@ fn spectrum(
             let (rows_found, wanted) = (rows.get_ref().len(), frequencies_hz.len());
             let what = format!("`paper_error_percent` has {rows_found} rows for {wanted} frequencies");
             let help = "give one row of six numbers per entry of `frequencies_hz`";
-            refusals.push(refusal(rows.span(), "one row per frequency", what, help));
+            refusals.push(Refusal::new(rows.span(), "one row per frequency", what, help));
         }
         rows.get_ref().clone()
     });
@@ -181,7 +184,7 @@ pub(super) fn finite(key: &str, number: &Spanned<f64>, refusals: &mut Vec<Refusa
         return value;
     }
     let what = format!("`{key}` needs finite numbers, none beyond {LARGEST:e}");
-    refusals.push(refusal(
+    refusals.push(Refusal::new(
         number.span(),
         "not such a number",
         what,
@@ -197,6 +200,6 @@ pub(super) fn positive(key: &str, example: &str, number: &Spanned<f64>, refusals
         return value;
     }
     let what = format!("`{key}` must be positive and finite, but is {value}");
-    refusals.push(refusal(number.span(), "must be positive", what, format!("for example `{example}`")));
+    refusals.push(Refusal::new(number.span(), "must be positive", what, format!("for example `{example}`")));
     1.0
 }
