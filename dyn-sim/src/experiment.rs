@@ -73,14 +73,16 @@ pub fn run(
     let mut versions = vec![
         ("dyn-sim".to_owned(), env!("CARGO_PKG_VERSION").to_owned()),
         ("model".to_owned(), model.to_owned()),
-        ("integrator".to_owned(), integrator_name(scenario.integrator).to_owned()),
+        ("integrator".to_owned(), integrator_name(scenario)),
     ];
     let mut prototype_error = None;
     if let (Some(workspace), true, None) = (workspace, scenario.prototype, &stop) {
         match run_prototype(scenario, workspace, drive, start, &mut steps) {
             Ok(found) => {
                 versions.push(("virtual prototype".into(), found.series.label.clone()));
-                versions.push(("its integrator".into(), found.integrator));
+                let halved = if scenario.prototype_half_steps { 0.5 } else { 1.0 };
+                let step_ms = milliseconds(halved * scenario.grid.step_s);
+                versions.push(("its integrator".into(), format!("{}, {step_ms} ms", found.integrator)));
                 versions.push(("its closure residual".into(), format!("{:.1e} m", found.closure_residual)));
                 simulations.push(found.series);
             }
@@ -114,11 +116,20 @@ pub fn run(
     Experiment { outcome, stop, prototype_error }
 }
 
-fn integrator_name(integrator: Integrator) -> &'static str {
-    match integrator {
-        Integrator::LieRk4 => "Runge-Kutta-Munthe-Kaas, order 4",
-        Integrator::Adaptive => "Dormand-Prince 8(5,3) (ode_solvers), tolerance 1e-12",
+fn integrator_name(scenario: &Scenario) -> String {
+    match scenario.integrator {
+        Integrator::LieRk4 => {
+            format!("Runge-Kutta-Munthe-Kaas, order 4, {} ms", milliseconds(scenario.grid.step_s))
+        }
+        Integrator::Adaptive => {
+            format!("Dormand-Prince 8(5,3) (ode_solvers), tolerance {ADAPTIVE_TOLERANCE:e}")
+        }
     }
+}
+
+/// Without the noise of a decimal step in binary.
+fn milliseconds(step_s: f64) -> f64 {
+    (1e9 * step_s).round() / 1e6
 }
 
 /// Times steps and tells of them.
@@ -228,10 +239,15 @@ fn run_prototype(
     steps: &mut Steps,
 ) -> Result<prototype::Found, PrototypeError> {
     let environment = prototype::environment(workspace)?;
-    let (platform, gravity_on) = (&scenario.platform, scenario.gravity_on);
+    let task = prototype::Task {
+        platform: &scenario.platform,
+        gravity_on: scenario.gravity_on,
+        drive,
+        start,
+        half_steps: scenario.prototype_half_steps,
+    };
     steps.time("virtual prototype (Exudyn)", |progress| {
-        let tell = |fraction| progress.at(fraction);
-        prototype::run(&environment, workspace, platform, gravity_on, drive, start, tell)
+        prototype::run(&environment, workspace, &task, |fraction| progress.at(fraction))
     })
 }
 

@@ -68,6 +68,7 @@ pub(super) fn scenario(
         grid,
         integrator: file.integrator,
         prototype: file.prototype,
+        prototype_half_steps: file.prototype_half_steps,
         base,
         steering,
         stroke,

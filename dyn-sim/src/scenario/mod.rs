@@ -45,6 +45,8 @@ pub struct Scenario {
     pub integrator: Integrator,
     /// Whether the virtual prototype runs as well.
     pub prototype: bool,
+    /// Whether its steps are half as long.
+    pub prototype_half_steps: bool,
     /// Motion of the base.
     pub base: Motion,
     /// What the platform does.
