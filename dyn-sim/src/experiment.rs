@@ -18,6 +18,12 @@ use crate::spectrum::Plan;
 /// Relative and absolute tolerance of the adaptive reference.
 pub const ADAPTIVE_TOLERANCE: f64 = 1e-12;
 
+/// Name of the step in which dyn-sim itself simulates, among the seconds of an [`Outcome`].
+pub const SIMULATION: &str = "simulation by dyn-gen";
+
+/// Name of the step in which the virtual prototype runs.
+pub const PROTOTYPE: &str = "virtual prototype (Exudyn)";
+
 /// Who is told how far a long step is.
 pub trait Progress {
     /// A step begins.
@@ -59,14 +65,14 @@ pub fn run(
 ) -> Experiment {
     let (mechanism, model) = mechanism::of_platform(&scenario.platform, scenario.gravity_on);
     let mut steps = Steps { seconds: Vec::new(), progress };
-    let prepared = steps.time("excitation and actuator forces", |_| prepare(scenario, &*mechanism));
+    let prepared =
+        steps.time("excitation and actuator forces", |progress| prepare(scenario, &*mechanism, progress));
     let (drive, start) = (&prepared.drive, &prepared.start);
 
     let mut stop = prepared.stop;
     let mut simulations = Vec::new();
-    let own = steps.time("simulation by dyn-gen", |progress| {
-        own_simulation(scenario, &*mechanism, drive, start, progress)
-    });
+    let own =
+        steps.time(SIMULATION, |progress| own_simulation(scenario, &*mechanism, drive, start, progress));
     stop = stop.or(own.stop);
     simulations.push(own.series);
 
@@ -95,9 +101,10 @@ pub fn run(
         compared(scenario, &prepared.target, &simulations, &mut warnings)
     });
     warnings.extend(stop.as_ref().map(ToString::to_string));
-    warnings.extend(prototype_error.as_ref().map(|error| format!("no virtual prototype: {error}")));
+    warnings.extend(prototype_error.as_ref().map(PrototypeError::remark));
     let outcome = Outcome {
         scenario_name: scenario.name.clone(),
+        description: scenario.description.clone(),
         scenario_text: scenario.text.clone(),
         platform: scenario.platform.clone(),
         step_s: scenario.grid.step_s,
@@ -158,13 +165,18 @@ struct Prepared {
     stop: Option<Stop>,
 }
 
-fn prepare(scenario: &Scenario, mechanism: &dyn Mechanism) -> Prepared {
+fn prepare(scenario: &Scenario, mechanism: &dyn Mechanism, progress: &mut dyn Progress) -> Prepared {
     let grid = scenario.grid;
-    let base = simulate::sample(grid, &scenario.base);
+    // Three parts that take about the same time.
+    let mut tell = |part: f64, fraction: f64| progress.at((part + fraction) / 3.0);
+    let base = simulate::sample(grid, &scenario.base, |fraction| tell(0.0, fraction));
     match &scenario.steering {
         Steering::Target(motion) => {
-            let target = simulate::sample(grid, motion);
-            let (drive, stop) = simulate::forces_along(mechanism, grid, &base, &target, scenario.stroke);
+            let target = simulate::sample(grid, motion, |fraction| tell(1.0, fraction));
+            let (drive, stop) =
+                simulate::forces_along(mechanism, grid, &base, &target, scenario.stroke, |fraction| {
+                    tell(2.0, fraction)
+                });
             let samples = drive.base.len();
             let start = target[0].as_platform();
             let base = series("base", &drive, &base[..samples]);
@@ -209,7 +221,8 @@ fn own_simulation(
         Integrator::Adaptive => {
             let drive_at = |t: f64| drive_at(scenario, mechanism, t);
             let (grid, tolerance) = (drive.grid, ADAPTIVE_TOLERANCE);
-            simulate::simulate_adaptively(mechanism, grid, tolerance, start, scenario.stroke, drive_at)
+            let tell = |fraction| progress.at(fraction);
+            simulate::simulate_adaptively(mechanism, grid, tolerance, start, scenario.stroke, drive_at, tell)
         }
     }
 }
@@ -246,7 +259,7 @@ fn run_prototype(
         start,
         half_steps: scenario.prototype_half_steps,
     };
-    steps.time("virtual prototype (Exudyn)", |progress| {
+    steps.time(PROTOTYPE, |progress| {
         prototype::run(&environment, workspace, &task, |fraction| progress.at(fraction))
     })
 }

@@ -59,6 +59,16 @@ pub enum PrototypeError {
 }
 
 impl PrototypeError {
+    /// What a reader of the results has to know, in one line where the environment is missing.
+    pub fn remark(&self) -> String {
+        match self {
+            Self::Environment(error) if error.is_environment_missing() => {
+                format!("no virtual prototype, as with --no-prototype: {error}; {}", error.remedy())
+            }
+            error => format!("no virtual prototype: {error}"),
+        }
+    }
+
     /// Whether this machine merely lacks Python or the network, so that one may go on without the prototype.
     pub fn is_environment_missing(&self) -> bool {
         matches!(self, Self::Environment(error) if error.is_environment_missing())

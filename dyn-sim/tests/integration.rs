@@ -15,7 +15,7 @@ use common::{bases, distance, scenario, target};
 
 /// Base motion of the large experiment, forces zero, platform let go at home: everything nonlinear, nothing steered.
 fn let_go(scenario: &Scenario, grid: Grid) -> (Drive, PlatformState) {
-    let base = simulate::sample(grid, &scenario.base);
+    let base = simulate::sample(grid, &scenario.base, |_| ());
     let start = target(scenario).at(0.0).as_platform();
     let forces = vec![Vector6::zeros(); base.len()];
     (Drive { grid, base: bases(&base), actuator_force_n: forces }, start)
@@ -37,7 +37,7 @@ fn fourth_order_against_the_adaptive_reference() {
         let grid = Grid { step_s: 0.05, steps: 4 };
         let (_, start) = let_go(&scenario, grid);
         let drive_at = |t: f64| Ok((scenario.base.at(t).as_base(), Vector6::zeros()));
-        let run = simulate::simulate_adaptively(&*mechanism, grid, 1e-13, &start, None, drive_at);
+        let run = simulate::simulate_adaptively(&*mechanism, grid, 1e-13, &start, None, drive_at, |_| ());
         assert_eq!(run.stop, None);
         run.series.state(4)
     };

@@ -49,9 +49,10 @@ fn opening(outcome: &Outcome) -> String {
     let [start, end] = whole_run(outcome);
     let mut html = format!(
         "<header>\n<h1>Experiment \u{201c}{}\u{201d}: a parallel platform on a moving base</h1>\n\
-         <p class=\"headline\">{}</p>\n<p class=\"facts\">Platform {}, {} s in steps of {} ms",
+         <p class=\"headline\">{}</p>\n<p class=\"facts\">{}Platform {}, {} s in steps of {} ms",
         escape(&outcome.scenario_name),
         escape(&headline(outcome)),
+        description(outcome),
         escape(&outcome.platform.name),
         (1e6 * (end - start)).round() / 1e6,
         (1e9 * outcome.step_s).round() / 1e6,
@@ -69,6 +70,14 @@ fn opening(outcome: &Outcome) -> String {
         html += "</ul></div>\n";
     }
     html + "</header>\n"
+}
+
+/// The scenario's own words, with a line of their own.
+fn description(outcome: &Outcome) -> String {
+    match outcome.description.trim() {
+        "" => String::new(),
+        words => format!("{}.<br>", escape(words.trim_end_matches('.'))),
+    }
 }
 
 fn result(outcome: &Outcome) -> String {
