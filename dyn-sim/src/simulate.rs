@@ -44,13 +44,30 @@ pub struct Drive {
     pub actuator_force_n: Vec<Vector6<f64>>,
 }
 
-/// Lengths between which every actuator has to stay, m.
+/// Lengths between which each actuator has to stay, m; infinite where nothing limits it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Stroke {
     /// Shortest d.
-    pub shortest_m: f64,
+    pub shortest_m: [f64; 6],
     /// Longest d.
-    pub longest_m: f64,
+    pub longest_m: [f64; 6],
+}
+
+impl Stroke {
+    /// The first leg whose actuator length is not allowed.
+    fn left_by(&self, lengths: &Vector6<f64>) -> Option<usize> {
+        (0..6).find(|leg| !(self.shortest_m[*leg]..=self.longest_m[*leg]).contains(&lengths[*leg]))
+    }
+
+    /// What a leg may have, in words.
+    fn allowed(&self, leg: usize) -> String {
+        let (shortest, longest) = (self.shortest_m[leg], self.longest_m[leg]);
+        match (shortest.is_finite(), longest.is_finite()) {
+            (true, true) => format!("{:.3} to {:.3} mm", 1e3 * shortest, 1e3 * longest),
+            (true, false) => format!("{:.3} mm or more", 1e3 * shortest),
+            (false, _) => format!("{:.3} mm or less", 1e3 * longest),
+        }
+    }
 }
 
 /// Why a motion ended early. What was computed before it is kept.
@@ -94,12 +111,11 @@ impl fmt::Display for StopReason {
             Self::Dynamics(error) => error.fmt(f),
             Self::Stroke { leg, length_m, stroke } => write!(
                 f,
-                "leg {} (index {leg}) is at the end of its stroke: the actuator would be {:.3} mm long, and may have \
-                 {:.3} to {:.3} mm; reduce the motion, or change [limits]",
+                "leg {} (index {leg}) is past its stroke: the actuator would be {:.3} mm long, and may have {}; reduce \
+                 the motion, or change the limits in the platform file or the scenario",
                 leg + 1,
                 length_m * 1e3,
-                stroke.shortest_m * 1e3,
-                stroke.longest_m * 1e3,
+                stroke.allowed(*leg),
             ),
             Self::Solver(said) => write!(f, "the adaptive integrator gave up: {said}"),
         }
@@ -177,8 +193,7 @@ fn within_stroke(
 ) -> Result<(), StopReason> {
     let Some(stroke) = stroke else { return Ok(()) };
     let lengths = mechanism.actuator_length(base, platform).map_err(StopReason::Dynamics)?;
-    let outside = |d: &f64| !(stroke.shortest_m..=stroke.longest_m).contains(d);
-    match lengths.iter().position(outside) {
+    match stroke.left_by(&lengths) {
         Some(leg) => Err(StopReason::Stroke { leg, length_m: lengths[leg], stroke }),
         None => Ok(()),
     }

@@ -8,6 +8,7 @@ use toml::Spanned;
 use super::motions::Reader;
 use super::schema::{File, Limits, Spectrum};
 use super::{Scenario, SpectrumRequest, Steering, VERSION};
+use crate::mechanism;
 use crate::simulate::{Grid, Stroke};
 use crate::spectrum::Window;
 
@@ -36,8 +37,9 @@ pub(super) fn scenario(
     refusals: &mut Vec<Refusal>,
 ) -> Result<Option<Scenario>, FileError> {
     name(&file.name, refusals);
+    model(&file.platform, &platform, refusals);
     let grid = grid(&file, refusals);
-    let stroke = file.limits.as_ref().and_then(|limits| stroke(limits, refusals));
+    let stroke = stroke(&platform, file.limits.as_ref(), refusals);
     let mut reader = Reader { grid, folder, refusals, notes: Vec::new() };
     let base = reader.base(file.base.as_ref())?;
     let steering = match (&file.target, &file.free) {
@@ -78,6 +80,17 @@ pub(super) fn scenario(
     }))
 }
 
+/// Without a model there is nothing to simulate.
+fn model(written: &Spanned<String>, platform: &Platform, refusals: &mut Vec<Refusal>) {
+    if !mechanism::has_model(platform) {
+        let (name, legs) = (&platform.name, platform.leg_type.name());
+        let what =
+            format!("the platform `{name}` has legs of type `{legs}`, of which there is no generated model");
+        let help = "choose a platform with legs of type `uhp`";
+        refusals.push(Refusal::new(written.span(), "no model of its legs", what, help));
+    }
+}
+
 /// Names become folders.
 fn name(name: &Spanned<String>, refusals: &mut Vec<Refusal>) {
     let written = name.get_ref();
@@ -114,10 +127,23 @@ fn grid(file: &File, refusals: &mut Vec<Refusal>) -> Option<Grid> {
     Some(Grid { step_s, steps: whole as usize })
 }
 
-fn stroke(limits: &Limits, refusals: &mut Vec<Refusal>) -> Option<Stroke> {
+/// The platform's stroke, narrowed by the scenario's; none where nothing is limited.
+fn stroke(platform: &Platform, limits: Option<&Limits>, refusals: &mut Vec<Refusal>) -> Option<Stroke> {
+    let narrowed = limits.and_then(|limits| narrowed_stroke(limits, refusals));
+    let [shortest, longest] = narrowed.unwrap_or([f64::NEG_INFINITY, f64::INFINITY]);
+    let of_platform = &platform.limits;
+    let stroke = Stroke {
+        shortest_m: of_platform.minimum_length.map(|limit| limit.map_or(shortest, |m| m.max(shortest))),
+        longest_m: of_platform.maximum_length.map(|limit| limit.map_or(longest, |m| m.min(longest))),
+    };
+    let ends = stroke.shortest_m.iter().chain(&stroke.longest_m);
+    ends.copied().any(f64::is_finite).then_some(stroke)
+}
+
+fn narrowed_stroke(limits: &Limits, refusals: &mut Vec<Refusal>) -> Option<[f64; 2]> {
     let [shortest_m, longest_m] = *limits.actuator_length_m.get_ref();
     if shortest_m < longest_m && shortest_m.abs() < LARGEST && longest_m < LARGEST {
-        return Some(Stroke { shortest_m, longest_m });
+        return Some([shortest_m, longest_m]);
     }
     let what = format!("`actuator_length_m` must be [shortest, longest], but is [{shortest_m}, {longest_m}]");
     let help = "for example `actuator_length_m = [0.15, 0.25]`";

@@ -51,7 +51,7 @@ pub struct Scenario {
     pub base: Motion,
     /// What the platform does.
     pub steering: Steering,
-    /// Ends of the actuators' stroke.
+    /// Ends of the actuators' stroke, of the platform file and of the scenario.
     pub stroke: Option<Stroke>,
     /// What is compared at which frequencies.
     pub spectrum: SpectrumRequest,
