@@ -101,7 +101,7 @@ fn no_room() {
         command.args(["-c", &script, TOOL]).current_dir(bench.folder.path());
         command.output().expect("bash runs")
     };
-    refused(&limited(16), "cannot write");
+    refused(&limited(16), "raise the limit");
     assert_eq!(bench.entries(), ["outputs.toml", "uhp_2016.toml"], "nothing half-written");
 
     assert_eq!(bench.run(&["--no-prototype", "--output", "report"]).status.code(), Some(0));
