@@ -84,12 +84,13 @@ fn generated_files(root: &Path, graph: &GraphFile) -> Result<Vec<NewFile>> {
         runtime: RuntimePath::inside(),
         functions: None,
         command: COMMAND.into(),
+        evidence: None,
     };
     let family = graph.program.name.as_str();
     let texts = [
         ("kernels", kernels(graph, COMMAND)?),
-        (&platform.name, generate(graph, Numbers::Baked(&platform), &options(&platform.name))?.source),
-        (family, generate(graph, Numbers::AtRunTime, &options(family))?.source),
+        (&platform.name, generate(graph, &Numbers::baked(&platform), &options(&platform.name))?.source),
+        (family, generate(graph, &Numbers::at_run_time(), &options(family))?.source),
     ];
     let file = |(name, text): (&str, String)| NewFile {
         path: root.join(GENERATED).join(format!("{name}.rs")),
