@@ -8,9 +8,9 @@ use crate::evidence::{self, Evidence, Sampling};
 use crate::graph::{Function, Graph, OperationCount, Program, Symbol};
 use crate::passes::{Context, PassReport, PivotOrder, run_passes};
 use crate::sample::Kind;
-use crate::suggestion::nearest;
 use crate::workspace::{parameters, sampled_states};
 use crate::{GraphFile, Numbers, parallel, sha256};
+use dyn_platform::nearest;
 
 /// States over which pivot orders are chosen.
 const PIVOT_STATES: [(Kind, usize); 4] =

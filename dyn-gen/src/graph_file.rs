@@ -35,7 +35,7 @@ impl GraphFile {
     /// As [`GraphFile::from_json`]; a test shows that there are none.
     pub fn of(leg_type: LegType) -> Result<GraphFile, FormatError> {
         match leg_type {
-            LegType::Uhp => GraphFile::uhp(),
+            LegType::Uhp | LegType::Ups => GraphFile::uhp(),
         }
     }
 

@@ -10,6 +10,7 @@
 //! | [`emit`] | prints graphs as Rust |
 //! | [`evidence`] | compares what will be printed with the graph as derived and with hand-written dynamics, and asks laws of mechanics of it |
 //! | [`mod@explain`] | a platform in figures |
+//! | [`mod@vectors`] | inputs and outputs for whoever ports the equations |
 //! | [`deviation`] | how far arrays of numbers are apart |
 //!
 //! Nothing here reads or writes files; the command line tool `dyn-gen` does.
@@ -26,8 +27,8 @@ mod numbers;
 mod parallel;
 pub mod passes;
 pub mod sample;
-mod suggestion;
 mod text;
+pub mod vectors;
 mod workspace;
 
 pub use error::GenerateError;

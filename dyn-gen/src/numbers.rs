@@ -1,10 +1,9 @@
 //! Which of a model's physical numbers are baked in and which are given at run time.
 
-use dyn_platform::Platform;
+use dyn_platform::{Platform, nearest};
 
 use crate::error::GenerateError;
 use crate::graph::{Program, Symbol};
-use crate::suggestion::nearest;
 
 /// Where a model's physical numbers come from.
 #[derive(Clone, Debug)]

@@ -9,6 +9,7 @@ mod model;
 mod progress;
 mod regen;
 mod resolve;
+mod vectors;
 mod words;
 
 use clap::{Parser, Subcommand};
@@ -46,6 +47,8 @@ enum Command {
     Generate(generate::Generate),
     /// Print a platform in figures: what it is, how it moves, what the generator makes of it
     Explain(explain::Explain),
+    /// Write inputs and outputs of every function, to check a port against
+    Vectors(vectors::Vectors),
     /// Tell whether a file is what a platform gives
     Check(check::Check),
     /// Write the models committed in this repository (dyn-runtime/src/generated) again
@@ -65,5 +68,6 @@ pub fn run(arguments: Arguments) -> miette::Result<Outcome> {
         Command::Derive(derive) => derive.run(),
         Command::Resolve(resolve) => resolve.run(),
         Command::Explain(explain) => explain.run(),
+        Command::Vectors(vectors) => vectors.run(),
     }
 }

@@ -5,7 +5,7 @@ use nalgebra::{Matrix3, Vector3};
 use serde::Serialize;
 
 use crate::error::GenerateError;
-use crate::evidence::{Sampling, cases};
+use crate::evidence::{Case, Sampling};
 use crate::graph::{Environment, Program};
 use crate::sample::Pose;
 use crate::workspace::{jacobian_condition, parameters};
@@ -38,11 +38,12 @@ pub struct RelativePose {
 pub(super) fn conditioning(
     program: &Program,
     platform: &Platform,
+    cases: &[Case],
     sampling: Sampling,
 ) -> Result<Conditioning, GenerateError> {
     let condition = jacobian_condition(program, platform, &parameters(program, platform)?)?;
     let home = Pose { position: platform.home.position, rotation: platform.home.rotation };
-    let poses = cases(program, platform, sampling)?.into_iter().map(|case| relative(&case.environment));
+    let poses = cases.iter().map(|case| relative(&case.environment));
     let mut sampled: Vec<(f64, Pose)> = poses.map(|pose| (condition(&pose), pose)).collect();
     if sampled.is_empty() {
         sampled.push((condition(&home), home));

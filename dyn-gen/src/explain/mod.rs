@@ -1,6 +1,7 @@
 //! A platform in figures: what it is, how it stands and moves, and what the generator makes of it.
 
 mod conditioning;
+mod limits;
 mod modes;
 mod text;
 
@@ -8,6 +9,7 @@ use dyn_platform::Platform;
 use serde::Serialize;
 
 pub use conditioning::{Conditioning, RelativePose};
+pub use limits::{Margin, Margins};
 pub use modes::Mode;
 
 use crate::GraphFile;
@@ -50,6 +52,8 @@ pub struct Explanation {
     pub modes: Vec<Mode>,
     /// Of J_dp over the workspace.
     pub conditioning: Conditioning,
+    /// What the limits of the platform file leave; none where it has no limit of lengths or joint angles.
+    pub margins: Option<Margins>,
     /// Parameters that are constants of the code.
     pub baked: Vec<String>,
     /// Parameters that are arguments.
@@ -98,6 +102,7 @@ pub fn explain(
     let functions = optimise(program, numbers, names)?;
     let home = Home::new(program, platform)?;
     let accelerating = ("platform_acceleration", vec![0.0, 0.0, SAMPLE_ACCELERATION, 0.0, 0.0, 0.0]);
+    let cases = evidence::cases(program, platform, sampling)?;
     let holding_force = home.output("inverse_dynamics", None)?;
     let at_run_time: Vec<String> =
         numbers.run_time_parameters(program)?.into_iter().map(|symbol| symbol.name.clone()).collect();
@@ -114,7 +119,8 @@ pub fn explain(
         mass_matrix_p_at_home: home.output("mass_matrix_p", None)?,
         modes: modes::modes(&home, &holding_force)?,
         holding_force,
-        conditioning: conditioning::conditioning(program, platform, sampling)?,
+        conditioning: conditioning::conditioning(program, platform, &cases, sampling)?,
+        margins: limits::margins(&home, platform, &cases)?,
         baked: all.filter(|name| !at_run_time.contains(name)).collect(),
         at_run_time,
         operations: functions.iter().map(operations).collect(),

@@ -1,5 +1,7 @@
 //! The explanation for people.
 
+use dyn_platform::Limit;
+
 use super::{Elimination, Explanation, SAMPLE_ACCELERATION};
 
 impl Explanation {
@@ -52,6 +54,24 @@ impl Explanation {
             ),
             String::new(),
         ]);
+        if let Some(margins) = &self.margins {
+            lines.push("What limits leave, leg by leg: at home, at the worst sampled pose".into());
+            let legs = |limit: &Limit| {
+                limit
+                    .iter()
+                    .map(|left| left.map_or(format!("{:>10}", "-"), |left| format!("{left:>10.4}")))
+                    .collect::<String>()
+            };
+            for row in &margins.limits {
+                lines.push(format!("  {:<33}{}", row.limit, legs(&row.left_at_home)));
+                lines.push(format!("  {:<33}{}", "", legs(&row.left_at_worst)));
+            }
+            lines.push(format!(
+                "  {:.0} % of the sampled poses are within all of these limits",
+                100.0 * margins.share_of_poses_within
+            ));
+            lines.push(String::new());
+        }
         let list = |names: &[String]| if names.is_empty() { "none".into() } else { names.join(", ") };
         lines.push(format!("baked in        {}", list(&self.baked)));
         lines.push(format!("at run time     {}", list(&self.at_run_time)));
