@@ -13,8 +13,9 @@
 //! | [`mod@vectors`] | inputs and outputs for whoever ports the equations |
 //! | [`deviation`] | how far arrays of numbers are apart |
 //!
-//! Nothing here reads or writes files; the command line tool `dyn-gen` does.
+//! Only [`Build`], for build scripts, and [`output`] touch files; the command line tool `dyn-gen` does the rest.
 
+mod build_script;
 pub mod deviation;
 pub mod emit;
 mod error;
@@ -24,6 +25,7 @@ mod generate;
 pub mod graph;
 mod graph_file;
 mod numbers;
+pub mod output;
 mod parallel;
 pub mod passes;
 pub mod sample;
@@ -31,6 +33,7 @@ mod text;
 pub mod vectors;
 mod workspace;
 
+pub use build_script::{Build, BuildError};
 pub use error::GenerateError;
 pub use generate::{Generated, GeneratedFunction, MOST_GROWTH, Options, generate, kernels, optimise};
 pub use graph_file::{GraphFile, sha256};

@@ -4,10 +4,10 @@ use std::path::PathBuf;
 
 use clap::Args;
 use dyn_gen::GenerateError;
+use dyn_gen::output::{NewFile, write_all};
 use miette::{IntoDiagnostic, Result};
 
 use super::Outcome;
-use super::files::{NewFile, write_all};
 use super::model::ModelArguments;
 
 /// Arguments of `generate`.

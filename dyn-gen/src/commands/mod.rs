@@ -1,6 +1,7 @@
 //! Subcommands: one file each.
 
 mod check;
+mod completions;
 mod derive;
 mod explain;
 mod files;
@@ -49,6 +50,8 @@ enum Command {
     Explain(explain::Explain),
     /// Write inputs and outputs of every function, to check a port against
     Vectors(vectors::Vectors),
+    /// Print a script that completes this tool's commands in a shell
+    Completions(completions::Completions),
     /// Tell whether a file is what a platform gives
     Check(check::Check),
     /// Write the models committed in this repository (dyn-runtime/src/generated) again
@@ -68,6 +71,7 @@ pub fn run(arguments: Arguments) -> miette::Result<Outcome> {
         Command::Derive(derive) => derive.run(),
         Command::Resolve(resolve) => resolve.run(),
         Command::Explain(explain) => explain.run(),
+        Command::Completions(completions) => completions.run(),
         Command::Vectors(vectors) => vectors.run(),
     }
 }

@@ -4,13 +4,14 @@ use std::path::Path;
 
 use clap::Args;
 use dyn_gen::emit::RuntimePath;
+use dyn_gen::output::{NewFile, write_all};
 use dyn_gen::{GraphFile, Numbers, Options, generate, kernels};
 use dyn_platform::Platform;
 use miette::Result;
 
 use super::Outcome;
 use super::derive::{DeriveError, derive};
-use super::files::{GENERATED, GRAPH, NewFile, PLATFORM, read_graph, repository, write_all};
+use super::files::{GENERATED, GRAPH, PLATFORM, read_graph, repository};
 
 /// The command that the files name and that a failed check recommends.
 const COMMAND: &str = "cargo regen";

@@ -5,12 +5,13 @@ use std::path::PathBuf;
 use clap::Args;
 use dyn_gen::GraphFile;
 use dyn_gen::evidence::{Sampling, cases};
+use dyn_gen::output::{NewFile, write_all};
 use dyn_gen::vectors::{read_states, vectors};
 use dyn_platform::Platform;
 use miette::{IntoDiagnostic, Report, Result, WrapErr};
 
 use super::Outcome;
-use super::files::{NewFile, read, write_all};
+use super::files::read;
 
 /// Arguments of `vectors`.
 #[derive(Args)]
