@@ -3,7 +3,7 @@
 use quote::quote;
 
 use super::function::allow;
-use super::names::{check_type_names, type_name};
+use super::names::{check_type_names, type_identifier};
 use super::print::source;
 use super::signature::Signature;
 use super::{EmitError, Header};
@@ -13,7 +13,7 @@ pub fn kernels_file(header: &Header, signatures: &[Signature]) -> Result<String,
     check_type_names(signatures.iter().map(|signature| signature.name.as_str()))?;
     let mut text = header.text();
     for signature in signatures {
-        let kernel = type_name(&signature.name)?;
+        let kernel = type_identifier(&signature.name)?;
         let function = signature.identifier()?;
         let documentation = signature.documentation();
         let arguments = signature.arguments()?;

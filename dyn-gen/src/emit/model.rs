@@ -4,7 +4,7 @@ use proc_macro2::TokenStream;
 use quote::{format_ident, quote};
 
 use super::function::allow;
-use super::names::{PARAMETERS, check_type_names, identifier, type_name};
+use super::names::{PARAMETERS, check_type_names, identifier, type_identifier};
 use super::print::source;
 use super::signature::{Signature, array_type, documentation, symbol_line};
 use super::{EmitError, Header, RuntimePath};
@@ -42,7 +42,7 @@ pub fn model_file(header: &Header, model: &Model) -> Result<String, EmitError> {
 /// Everything before the functions, one item after another.
 fn items(model: &Model) -> Result<Vec<TokenStream>, EmitError> {
     let runtime = model.runtime.tokens();
-    let name = type_name(model.name)?;
+    let name = type_identifier(model.name)?;
     if name == "Parameters" {
         return Err(EmitError::Name {
             function: model.name.into(),
@@ -132,8 +132,8 @@ fn parameters(model: &Model) -> Result<[TokenStream; 2], EmitError> {
 /// The kernel trait of one function, by a call of the free function.
 fn implementation(model: &Model, signature: &Signature) -> Result<TokenStream, EmitError> {
     let runtime = model.runtime.tokens();
-    let model_name = type_name(model.name)?;
-    let kernel = type_name(&signature.name)?;
+    let model_name = type_identifier(model.name)?;
+    let kernel = type_identifier(&signature.name)?;
     let function = signature.identifier()?;
     let arguments = signature.arguments()?;
     let names = signature.argument_names()?;

@@ -47,6 +47,7 @@ pub fn run(
         casadi: "0.0.0".into(),
         operations: Vec::new(),
         eliminations: Vec::new(),
+        evidence: Vec::new(),
     };
     let kernels = dyn_gen::emit::kernels_file(&header, &signatures).expect("printable traits");
     let folder = tempfile::tempdir().expect("a temporary folder");
@@ -147,7 +148,7 @@ fn call(graph: &Graph, case: &[Vec<f64>]) -> String {
         );
         format!("model::TestModel {{ parameters: model::Parameters::from_fn({fill}) }}")
     };
-    let kernel: String = graph.name.split('_').map(|word| word[..1].to_uppercase() + &word[1..]).collect();
+    let kernel = dyn_gen::emit::type_name(&graph.name);
     let _ = writeln!(
         text,
         "        kernels::{kernel}::{}(&{model}, {});\n{prints}        println!();\n    }}",

@@ -51,6 +51,7 @@ pub fn model(graphs: &[Graph], parameters: &[Symbol]) -> String {
             })
             .collect(),
         eliminations: Vec::new(),
+        evidence: Vec::new(),
     };
     let functions: Vec<String> = graphs
         .iter()
