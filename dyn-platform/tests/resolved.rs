@@ -78,11 +78,11 @@ fn home_of_table_1() {
     let (home, uhp) = (platform.home, platform.parameters);
     assert_eq!(home.position, [0.0, 0.0, 0.382]);
     let rod_length = uhp.legs("rod_length").expect("a parameter of legs uhp");
-    for leg in 0..6 {
+    for (leg, rod_length) in rod_length.into_iter().enumerate() {
         let [x, y, _]: [f64; 3] =
             std::array::from_fn(|axis| uhp.platform_point[leg][axis] - uhp.base_point[leg][axis]);
         let across = x.hypot(y);
-        let length = home.position[2] - (rod_length[leg].powi(2) - across.powi(2)).sqrt();
+        let length = home.position[2] - (rod_length.powi(2) - across.powi(2)).sqrt();
         assert!((across - 0.09304).abs() < 5e-6, "leg {}: {across}", leg + 1);
         assert!((length - 0.19821).abs() < 5e-6, "leg {}: {length}", leg + 1);
     }

@@ -141,9 +141,9 @@ fn power(
         add(rod_mass[i], &bodies.rod_com_position_m[i], &bodies.rod_com_acceleration_m_s2[i]);
         add(mover_mass[i], &bodies.mover_position_m[i], &bodies.mover_acceleration_m_s2[i]);
     }
-    for i in 0..6 {
+    for (acceleration, inertia) in bodies.rod_angular_acceleration_rad_s2.iter().zip(rod_inertia) {
         // Without spin a rod's angular momentum is J_s w_s.
-        moment += bodies.rod_angular_acceleration_rad_s2[i] * rod_inertia[i];
+        moment += acceleration * inertia;
     }
     let rates = &legs.actuator_velocity_m_s;
     let damped: f64 = (0..6).map(|i| p.axial_damping[i] * rates[i] * rates[i]).sum();
