@@ -100,7 +100,11 @@ fn velocity_in_millimetres() {
 
 #[test]
 fn pair_angle_in_degrees() {
-    warned(UPS, "platform_pair_angle_rad = 1.7", "platform_pair_angle_rad = 5.0", expect![[r#"
+    warned(
+        UPS,
+        "platform_pair_angle_rad = 1.7",
+        "platform_pair_angle_rad = 5.0",
+        expect![[r#"
         Error:
           ⚠ `platform_pair_angle_rad` is 5, unusually large
             ╭─[bench.toml:13:27]
@@ -111,7 +115,8 @@ fn pair_angle_in_degrees() {
          14 │
             ╰────
           help: if that is in degrees, write 0.08727
-    "#]]);
+    "#]],
+    );
 }
 
 #[test]
