@@ -1,5 +1,5 @@
 //! The tables of keys: spelling, value, meaning and an example of each. Reading, messages and remedies are made from
-//! them. What a leg is made of stands in the table of its type, in [`legs`](crate::legs).
+//! them. What a leg is made of stands in the table of its type, in [`legs`].
 
 use crate::legs;
 use crate::platform::LegType;

@@ -59,4 +59,4 @@ pub use platform::{LegType, Platform, Pose, VERSION};
 pub use refusal::{FileError, Refusal};
 pub use schema::schema;
 pub use starter::{Starter, starter};
-pub use text::{first_line, nearest, read_text};
+pub use text::{first_line, nearest, read_text, utf8_text};

@@ -72,12 +72,12 @@ fn cubic_legs_are_perpendicular() {
         assert_eq!(parameters.base_point[one], parameters.base_point[other]);
         assert!(dot(axes[one], axes[other]).abs() < 1e-11);
     }
-    for leg in 0..6 {
+    for (leg, axis) in axes.into_iter().enumerate() {
         let between: Vector3 = std::array::from_fn(|k| {
             platform.home.position[k] + parameters.platform_point[leg][k] - parameters.base_point[leg][k]
         });
-        let along = dot(between, axes[leg]);
-        let across: Vector3 = std::array::from_fn(|k| between[k] - along * axes[leg][k]);
+        let along = dot(between, axis);
+        let across: Vector3 = std::array::from_fn(|k| between[k] - along * axis[k]);
         assert!(dot(across, across).sqrt() < 2e-9, "{across:?}");
         assert!((along - 0.32).abs() < 2e-9);
     }
