@@ -189,13 +189,13 @@ impl Evidence {
                 (&row.unoptimised, "the graph before optimisation"),
                 (&row.reference, "the hand-written dynamics"),
             ] {
-                if !row.accepts(worst) {
+                if !worst.is_allowed() {
                     failures.push(format!(
                         "function `{}`, output `{}`: differs from {other} by {:.1e} (tolerance {:.0e}) {}",
                         row.function,
                         row.output,
                         worst.error,
-                        row.tolerance,
+                        worst.tolerance,
                         place(worst)
                     ));
                 }
