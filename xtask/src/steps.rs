@@ -79,7 +79,7 @@ pub const RUN: &[Step] = &[
         ]),
     },
     Step {
-        name: "summary",
+        name: "explain",
         why: "the paper's platform in figures, checked against independent numerics",
         action: Action::Cargo(&[
             "run",
@@ -87,7 +87,7 @@ pub const RUN: &[Step] = &[
             "--package",
             "dyn-gen",
             "--",
-            "summary",
+            "explain",
             "platforms/uhp_2016.toml",
         ]),
     },

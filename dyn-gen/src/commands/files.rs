@@ -4,6 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use dyn_gen::GraphFile;
+use dyn_platform::Platform;
 use miette::{Diagnostic, IntoDiagnostic, Result, WrapErr};
 
 /// Graph file, seen from the root.
@@ -43,6 +44,15 @@ pub fn repository() -> Result<PathBuf> {
 /// The text of a file.
 pub fn read(path: &Path) -> Result<String> {
     fs::read_to_string(path).into_diagnostic().wrap_err_with(|| format!("cannot read {}", path.display()))
+}
+
+/// The platform file at `path`. Hints at what may be wrong with it are printed.
+pub fn read_platform(path: &Path) -> Result<Platform> {
+    let platform = Platform::from_file(path)?;
+    for warning in &platform.warnings {
+        eprintln!("{:?}", miette::Report::new(warning.clone()));
+    }
+    Ok(platform)
 }
 
 /// The graph file at `path`.

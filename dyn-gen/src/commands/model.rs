@@ -7,10 +7,9 @@ use clap::Args;
 use dyn_gen::emit::RuntimePath;
 use dyn_gen::evidence::Sampling;
 use dyn_gen::{Generated, GraphFile, Numbers, Options, generate};
-use dyn_platform::Platform;
 use miette::Result;
 
-use super::files::read_graph;
+use super::files::{read_graph, read_platform};
 use super::words::joined;
 
 /// Where generated code finds the runtime crate unless told otherwise.
@@ -49,7 +48,7 @@ pub struct ModelArguments {
 impl ModelArguments {
     /// The text of the file `output`, whose first lines name it.
     pub fn generate(&self, platform_file: &Path, output: &Path) -> Result<Generated> {
-        let platform = Platform::from_file(platform_file)?;
+        let platform = read_platform(platform_file)?;
         let graph = match &self.graph {
             Some(path) => read_graph(path)?,
             None => GraphFile::of(platform.leg_type)?,
