@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use dyn_gen::emit::RuntimePath;
+use dyn_gen::emit::{RuntimePath, Scalar};
 use dyn_gen::{GraphFile, Numbers, Options};
 use dyn_platform::Platform;
 use miette::Result;
@@ -46,6 +46,7 @@ impl Generate {
             command: self.command(),
             model: self.model.unwrap_or_else(|| platform.name.clone()),
             runtime: RuntimePath::new(&self.runtime_path).map_err(dyn_gen::GenerateError::from)?,
+            scalars: vec![Scalar::F64],
             functions: self.functions,
         };
         let generated = dyn_gen::generate(&graph, Numbers::Baked(&platform), &options)?;

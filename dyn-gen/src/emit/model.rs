@@ -4,11 +4,30 @@ use proc_macro2::TokenStream;
 use quote::{format_ident, quote};
 
 use super::function::allow;
-use super::names::{PARAMETERS, check_type_names, identifier, type_name};
+use super::names::{PARAMETERS, SCALAR, check_type_names, identifier, type_name};
 use super::print::source;
 use super::signature::{Signature, array_type, documentation, symbol_line};
 use super::{EmitError, Header, RuntimePath};
 use crate::graph::Symbol;
+
+/// A type of number that a model computes with.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Scalar {
+    /// Double precision.
+    F64,
+    /// Single precision.
+    F32,
+}
+
+impl Scalar {
+    /// The type's name in Rust.
+    pub fn name(self) -> &'static str {
+        match self {
+            Scalar::F64 => "f64",
+            Scalar::F32 => "f32",
+        }
+    }
+}
 
 /// A model to print. It is baked when it has no parameters.
 pub struct Model<'a> {
@@ -18,6 +37,9 @@ pub struct Model<'a> {
     pub runtime: &'a RuntimePath,
     /// What stays a run-time number, in the order of the fields.
     pub parameters: &'a [Symbol],
+    /// The types of number for which the model implements the kernel traits; its functions take any. Code for the first
+    /// is made in the crate that the file belongs to, once; for the others where a function is called.
+    pub scalars: &'a [Scalar],
     /// What callers see of each function.
     pub signatures: &'a [Signature],
     /// Source of each function, as printed by [`super::function`].
@@ -43,16 +65,17 @@ pub fn model_file(header: &Header, model: &Model) -> Result<String, EmitError> {
 fn items(model: &Model) -> Result<Vec<TokenStream>, EmitError> {
     let runtime = model.runtime.tokens();
     let name = type_name(model.name)?;
-    if name == "Parameters" {
+    if ["Parameters", "Scalar", SCALAR].iter().any(|taken| name == taken) {
         return Err(EmitError::Name {
             function: model.name.into(),
             name: name.to_string(),
             reason: "the generated code uses it itself",
         });
     }
+    let scalar = format_ident!("{SCALAR}");
     let mut items = vec![quote! {
         #[allow(unused_imports)]
-        use #runtime::float::sqrt;
+        use #runtime::float::{Scalar, sqrt};
         #[allow(unused_imports)]
         use #runtime::solve::solve_general;
     }];
@@ -70,28 +93,32 @@ fn items(model: &Model) -> Result<Vec<TokenStream>, EmitError> {
         items.push(quote! {
             #title
             #[derive(Clone, Copy, Debug, PartialEq)]
-            pub struct #name {
+            pub struct #name<#scalar = f64> {
                 /// The physical numbers.
-                pub parameters: Parameters,
+                pub parameters: Parameters<#scalar>,
             }
         });
     }
-    for signature in model.signatures {
-        items.push(implementation(model, signature)?);
+    for (place, &scalar) in model.scalars.iter().enumerate() {
+        let inline = (place > 0).then(|| quote!(#[inline]));
+        for signature in model.signatures {
+            items.push(implementation(model, signature, scalar, &inline)?);
+        }
     }
     Ok(items)
 }
 
 /// The struct of run-time numbers and its constructor.
 fn parameters(model: &Model) -> Result<[TokenStream; 2], EmitError> {
+    let scalar = format_ident!("{SCALAR}");
     let mut fields = TokenStream::new();
     let mut unfilled = TokenStream::new();
     let mut fills = TokenStream::new();
     for symbol in model.parameters {
         let field = identifier(model.name, &symbol.name)?;
         let line = documentation(&[symbol_line(symbol)]);
-        let array = array_type(&symbol.shape);
-        let nan = symbol.shape.iter().rev().fold(quote!(f64::NAN), |element, length| {
+        let array = array_type(&quote!(#scalar), &symbol.shape);
+        let nan = symbol.shape.iter().rev().fold(quote!(#scalar::constant(f64::NAN)), |element, length| {
             let length = proc_macro2::Literal::usize_unsuffixed(*length);
             quote!([#element; #length])
         });
@@ -111,15 +138,15 @@ fn parameters(model: &Model) -> Result<[TokenStream; 2], EmitError> {
     let structure = quote! {
         /// Physical numbers of a platform; of a quantity that legs have, the leg is the first dimension.
         #[derive(Clone, Copy, Debug, PartialEq)]
-        pub struct Parameters {
+        pub struct Parameters<#scalar = f64> {
             #fields
         }
     };
     let constructor = quote! {
-        impl Parameters {
+        impl<#scalar: Scalar> Parameters<#scalar> {
             /// Parameters filled field by field: `fill(name, values)` gets the name of each field and its elements,
             /// row-major, to be written. What it leaves alone stays NaN, so that no result can come from it.
-            pub fn from_fn(mut fill: impl FnMut(&str, &mut [f64])) -> Self {
+            pub fn from_fn(mut fill: impl FnMut(&str, &mut [#scalar])) -> Self {
                 let mut parameters = Parameters { #unfilled };
                 #fills
                 parameters
@@ -129,21 +156,31 @@ fn parameters(model: &Model) -> Result<[TokenStream; 2], EmitError> {
     Ok([structure, constructor])
 }
 
-/// The kernel trait of one function, by a call of the free function.
-fn implementation(model: &Model, signature: &Signature) -> Result<TokenStream, EmitError> {
+/// The kernel trait of one function for one type of number, by a call of the free function.
+fn implementation(
+    model: &Model,
+    signature: &Signature,
+    scalar: Scalar,
+    inline: &Option<TokenStream>,
+) -> Result<TokenStream, EmitError> {
     let runtime = model.runtime.tokens();
     let model_name = type_name(model.name)?;
     let kernel = type_name(&signature.name)?;
     let function = signature.identifier()?;
-    let arguments = signature.arguments()?;
+    let number = format_ident!("{}", scalar.name());
+    let arguments = signature.arguments(&quote!(#number))?;
     let names = signature.argument_names()?;
+    // The default of the traits and of the model's type.
+    let of_number = (scalar != Scalar::F64).then(|| quote!(<#number>));
+    let of_model = if model.parameters.is_empty() { None } else { of_number.clone() };
     let allow = allow(quote!(unused_qualifications));
     let field = format_ident!("{PARAMETERS}");
     let parameters = (!model.parameters.is_empty()).then(|| quote!(&self.#field,));
     // `self::`: an output may have the function's name.
     Ok(quote! {
         #allow
-        impl #runtime::kernels::#kernel for #model_name {
+        impl #runtime::kernels::#kernel #of_number for #model_name #of_model {
+            #inline
             fn #function(&self, #(#arguments),*) {
                 self::#function(#parameters #(#names),*);
             }
