@@ -103,6 +103,10 @@ pub fn generate(
     }
     stages.end("evidence");
     let parameters: Vec<Symbol> = numbers.run_time_parameters(program)?.into_iter().cloned().collect();
+    let defaults = numbers.platform().map(|platform| {
+        let value = |symbol: &Symbol| platform.parameter(&symbol.name).unwrap_or_default();
+        parameters.iter().map(value).collect::<Vec<_>>()
+    });
     let print = |function: &GeneratedFunction| emit::function(&function.graph, !parameters.is_empty());
     let sources = parallel::map(&functions, print).into_iter().collect::<Result<Vec<_>, _>>()?;
     let signatures: Vec<Signature> =
@@ -111,6 +115,7 @@ pub fn generate(
         name: &options.model,
         runtime: &options.runtime,
         parameters: &parameters,
+        defaults: defaults.as_deref(),
         signatures: &signatures,
         functions: &sources,
     };

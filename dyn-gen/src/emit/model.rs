@@ -6,6 +6,7 @@ use quote::{format_ident, quote};
 use super::function::allow;
 use super::names::{PARAMETERS, check_type_names, identifier, type_identifier};
 use super::print::source;
+use super::setters;
 use super::signature::{Signature, array_type, documentation, symbol_line};
 use super::{EmitError, Header, RuntimePath};
 use crate::graph::Symbol;
@@ -18,6 +19,8 @@ pub struct Model<'a> {
     pub runtime: &'a RuntimePath,
     /// What stays a run-time number, in the order of the fields.
     pub parameters: &'a [Symbol],
+    /// Their values until others are given, flat, in the same order; none for a model of any platform.
+    pub defaults: Option<&'a [Vec<f64>]>,
     /// What callers see of each function.
     pub signatures: &'a [Signature],
     /// Source of each function, as printed by [`super::function`].
@@ -75,6 +78,7 @@ fn items(model: &Model) -> Result<Vec<TokenStream>, EmitError> {
                 pub parameters: Parameters,
             }
         });
+        items.extend(setters::items(model)?);
     }
     for signature in model.signatures {
         items.push(implementation(model, signature)?);

@@ -54,9 +54,11 @@ pub fn run(
     let path = |name: &str| folder.path().join(name);
     std::fs::write(path("kernels.rs"), kernels).unwrap();
     std::fs::write(path("model.rs"), file).unwrap();
+    let checks = concat!(env!("CARGO_MANIFEST_DIR"), "/../dyn-runtime/src/parameter.rs");
+    std::fs::copy(checks, path("parameter.rs")).unwrap();
     let mut main = format!(
         "#![deny(warnings, missing_docs, unused_qualifications)]\n#![allow(dead_code)]\n//! Test.\n\
-         /// Traits.\n pub mod kernels;\n/// Model.\npub mod model;\n{RUNTIME}\nfn main() {{\n"
+         /// Traits.\n pub mod kernels;\n/// Parameters.\npub mod parameter;\n/// Model.\npub mod model;\n{RUNTIME}\nfn main() {{\n"
     );
     for (graph, cases) in graphs.iter().zip(cases) {
         for case in cases {

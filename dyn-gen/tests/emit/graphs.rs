@@ -62,6 +62,7 @@ pub fn model(graphs: &[Graph], parameters: &[Symbol]) -> String {
         name: "test_model",
         runtime: &RuntimePath::inside(),
         parameters,
+        defaults: None,
         signatures: &signatures,
         functions: &functions,
     };
