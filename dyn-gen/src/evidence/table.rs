@@ -30,19 +30,21 @@ impl Evidence {
                 worst.kind
             ));
         }
-        let width = self.laws.iter().map(|row| row.law.chars().count()).max().unwrap_or(0);
-        lines.push(format!("  {:<width$}{:>10}{:>11}   worst state", "law", "violation", "tolerance"));
-        for row in &self.laws {
-            let found = match &row.worst {
-                Some(worst) => {
-                    format!(
-                        "{:>10.1e}{:>11.0e}   {} ({})",
-                        worst.error, row.tolerance, worst.state, worst.kind
-                    )
-                }
-                None => "  not examined: it needs functions that are not generated".into(),
-            };
-            lines.push(format!("  {:<width$}{found}", row.law));
+        let examined: Vec<_> = self.laws.iter().filter_map(|row| Some((row, row.worst?))).collect();
+        let width = examined.iter().map(|(row, _)| row.law.chars().count()).max().unwrap_or(0);
+        if !examined.is_empty() {
+            lines.push(format!("  {:<width$}{:>10}{:>11}   worst state", "law", "violation", "tolerance"));
+        }
+        for (row, worst) in &examined {
+            lines.push(format!(
+                "  {:<width$}{:>10.1e}{:>11.0e}   {} ({})",
+                row.law, worst.error, row.tolerance, worst.state, worst.kind
+            ));
+        }
+        match self.laws.len() - examined.len() {
+            0 => {}
+            left => lines
+                .push(format!("  {left} laws take functions that are not generated and were not examined")),
         }
         lines.push(String::new());
         lines.join("\n")
