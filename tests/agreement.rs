@@ -83,7 +83,7 @@ fn baked_graphs_of_the_other_platforms() {
     let mut comparison = Comparison::default();
     for name in ["full_inertia", "no_gravity", "no_springs", "tilted_gravity_damped"] {
         let platform = platforms::platform(name);
-        let functions = dyn_gen::optimise(&file.program, Numbers::Baked(&platform), None).unwrap();
+        let functions = dyn_gen::optimise(&file.program, &Numbers::baked(&platform), None).unwrap();
         let states = platforms::states(&file, &platform, 10);
         let expected = expected(&platform, &states);
         for ((kind, state), outputs) in states.iter().zip(&expected) {
@@ -105,7 +105,7 @@ fn compiled_baked_models_give_the_interpreter_s_bits() {
     fn check<M: Model>(model: &M, name: &str) {
         let file = graph_file();
         let platform = platforms::platform(name);
-        let functions = dyn_gen::optimise(&file.program, Numbers::Baked(&platform), None).unwrap();
+        let functions = dyn_gen::optimise(&file.program, &Numbers::baked(&platform), None).unwrap();
         for (kind, state) in platforms::states(&file, &platform, 5) {
             for function in &functions {
                 let compiled = compiled::call(model, &function.graph.name, &state);

@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 use std::{env, error::Error, fs};
 
-use dyn_gen::emit::{RuntimePath, Scalar};
+use dyn_gen::emit::{RuntimePath, Scalar, type_name};
 use dyn_gen::graph::{Program, Symbol};
 use dyn_gen::{GraphFile, Numbers, Options, generate};
 use dyn_platform::Platform;
@@ -28,9 +28,10 @@ fn main() -> Result<(), Box<dyn Error>> {
             scalars: vec![Scalar::F64],
             functions: None,
             command: "cargo test -p dyn-tests".into(),
+            evidence: None,
         };
         let target = out.join(format!("{name}.rs"));
-        fs::write(&target, generate(&file, Numbers::Baked(&platform), &options)?.source)?;
+        fs::write(&target, generate(&file, &Numbers::baked(&platform), &options)?.source)?;
         writeln!(models, "#[path = {:?}]\n#[rustfmt::skip]\npub mod {name};", target)?;
     }
     fs::write(out.join("models.rs"), models)?;
@@ -44,7 +45,7 @@ fn by_name(program: &Program) -> Result<String, Box<dyn Error>> {
     let mut arms = String::new();
     for function in &program.functions {
         let name = &function.name;
-        let kernel = camel_case(name);
+        let kernel = type_name(name);
         writeln!(bounds, "    + dyn_runtime::kernels::{kernel}")?;
         writeln!(arms, "        {name:?} => {{")?;
         let mut arguments = String::new();
@@ -83,8 +84,4 @@ fn symbol<'a>(program: &'a Program, name: &str) -> &'a Symbol {
 
 fn array(symbol: &Symbol) -> String {
     symbol.shape.iter().rev().fold("f64".into(), |element, length| format!("[{element}; {length}]"))
-}
-
-fn camel_case(name: &str) -> String {
-    name.split('_').map(|word| word[..1].to_uppercase() + &word[1..]).collect()
 }

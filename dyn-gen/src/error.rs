@@ -1,6 +1,7 @@
 //! Why nothing is generated.
 
 use crate::emit::EmitError;
+use crate::evidence::{Evidence, EvidenceError};
 use crate::sample::NoPose;
 
 /// Why nothing is generated.
@@ -11,13 +12,30 @@ pub enum GenerateError {
     Emit(#[from] EmitError),
     /// A function that the graph file does not have.
     #[error("the graph file has no function `{name}`")]
-    #[diagnostic(help("{known}"))]
+    #[diagnostic(help("{help}"))]
     UnknownFunction {
         /// The name asked for.
         name: String,
-        /// What there is.
-        known: String,
+        /// The nearest, or what there is.
+        help: String,
     },
+    /// A parameter to be given at run time that the graph file does not have.
+    #[error("no parameter is called `{name}`")]
+    #[diagnostic(help("{help}"))]
+    UnknownParameterName {
+        /// The name asked for.
+        name: String,
+        /// The nearest, or what there is.
+        help: String,
+    },
+    /// Evidence against what would be printed.
+    #[error("{}", refused(.0))]
+    #[diagnostic(help("{FAULT}"))]
+    Refused(Box<Evidence>),
+    /// Nothing can be said for or against what would be printed.
+    #[error(transparent)]
+    #[diagnostic(transparent)]
+    Evidence(#[from] EvidenceError),
     /// A function asked for more than once.
     #[error("function `{name}` is asked for twice")]
     #[diagnostic(help("name every function once"))]
@@ -71,6 +89,15 @@ pub enum GenerateError {
         /// Shape in the graph.
         graph: Vec<usize>,
     },
+    /// An output that nothing in the graph file computes.
+    #[error("the graph file has no output `{output}`")]
+    #[diagnostic(help(
+        "the graph file and this dyn-gen belong to different versions: derive again with `cargo regen --derive`"
+    ))]
+    MissingOutput {
+        /// The output.
+        output: String,
+    },
     /// The platform's legs are not the ones derived.
     #[error("the platform has legs of type `{platform}`, the graph file derives `{graph}`")]
     #[diagnostic(help("use the graph file of that leg type"))]
@@ -119,6 +146,23 @@ pub enum GenerateError {
 /// What makes J_dp singular, and what to do.
 const LAYOUT: &str = "check the legs' layout: parallel or coinciding rods, or all rods through one line, cannot hold the \
                       platform; move the joints (in a circular layout, change the pair angles or radii) or the home pose";
+
+/// What evidence against a model tells.
+const FAULT: &str = "no platform file can cause this: the graph file was altered (derive it again with `cargo regen --derive`, \
+                     or leave out --graph), or dyn-gen is at fault; please report it with the platform file and this message";
+
+/// At most this many figures in a message; the table has all.
+const MOST_SHOWN: usize = 4;
+
+fn refused(evidence: &Evidence) -> String {
+    let failures = evidence.failures();
+    let more = failures.len().saturating_sub(MOST_SHOWN);
+    let mut lines: Vec<String> = failures.into_iter().take(MOST_SHOWN).collect();
+    if more > 0 {
+        lines.push(format!("and {more} more"));
+    }
+    format!("the evidence is against this model; nothing is written\n{}", lines.join("\n"))
+}
 
 fn remedy(reason: &NoPose) -> &'static str {
     match reason {

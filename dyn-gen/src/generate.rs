@@ -1,14 +1,16 @@
 //! The pipeline: flatten -> passes -> emit, function by function, then one file.
 
-use dyn_platform::Platform;
+use std::time::{Duration, Instant};
 
 use crate::emit::{self, CountRow, Elimination, Header, Model, RuntimePath, Scalar, Signature, Source};
 use crate::error::GenerateError;
+use crate::evidence::{self, Evidence, Sampling};
 use crate::graph::{Function, Graph, OperationCount, Program, Symbol};
 use crate::passes::{Context, PassReport, PivotOrder, run_passes};
 use crate::sample::Kind;
 use crate::workspace::{parameters, sampled_states};
-use crate::{GraphFile, parallel, sha256};
+use crate::{GraphFile, Numbers, parallel, sha256};
+use dyn_platform::nearest;
 
 /// States over which pivot orders are chosen.
 const PIVOT_STATES: [(Kind, usize); 4] =
@@ -19,15 +21,6 @@ const PIVOT_SEED: u64 = 1;
 /// Largest [`PivotOrder::growth`] of an elimination that is printed: of the sixteen digits of a double four may be lost to the
 /// fixed order of the pivots. Sound platforms stay below 100.
 pub const MOST_GROWTH: f64 = 1e4;
-
-/// Where a model's physical numbers come from.
-#[derive(Clone, Copy, Debug)]
-pub enum Numbers<'a> {
-    /// Baked into the code.
-    Baked(&'a Platform),
-    /// Fields of a struct, given at run time.
-    AtRunTime,
-}
 
 /// What to generate.
 #[derive(Clone, PartialEq, Eq, Debug)]
@@ -42,6 +35,8 @@ pub struct Options {
     pub functions: Option<Vec<String>>,
     /// The command that makes the file, for its first lines.
     pub command: String,
+    /// At which states the model is examined before it is printed; not at all when `None`.
+    pub evidence: Option<Sampling>,
 }
 
 /// A generated file and how it came about.
@@ -51,6 +46,10 @@ pub struct Generated {
     pub source: String,
     /// One entry per function.
     pub functions: Vec<GeneratedFunction>,
+    /// What was found, if it was looked for. It is within its tolerances, or nothing would have been generated.
+    pub evidence: Option<Evidence>,
+    /// How long each stage took.
+    pub timings: Vec<(&'static str, Duration)>,
 }
 
 /// A function on its way through the passes.
@@ -92,15 +91,24 @@ impl GeneratedFunction {
 /// See [`GenerateError`].
 pub fn generate(
     file: &GraphFile,
-    numbers: Numbers<'_>,
+    numbers: &Numbers<'_>,
     options: &Options,
 ) -> Result<Generated, GenerateError> {
     let program = &file.program;
+    let mut stages = Stages::start();
     let functions = optimise(program, numbers, options.functions.as_deref())?;
-    let parameters: Vec<Symbol> = match numbers {
-        Numbers::Baked(_) => Vec::new(),
-        Numbers::AtRunTime => program.parameters().cloned().collect(),
-    };
+    stages.end("optimise");
+    let examine = |sampling: Sampling| evidence::gather(program, numbers, &functions, sampling);
+    let evidence = options.evidence.map(examine).transpose()?;
+    if let Some(evidence) = evidence.as_ref().filter(|evidence| !evidence.holds()) {
+        return Err(GenerateError::Refused(Box::new(evidence.clone())));
+    }
+    stages.end("evidence");
+    let parameters: Vec<Symbol> = numbers.run_time_parameters(program)?.into_iter().cloned().collect();
+    let defaults = numbers.platform().map(|platform| {
+        let value = |symbol: &Symbol| platform.parameter(&symbol.name).unwrap_or_default();
+        parameters.iter().map(value).collect::<Vec<_>>()
+    });
     let print = |function: &GeneratedFunction| emit::function(&function.graph, !parameters.is_empty());
     let sources = parallel::map(&functions, print).into_iter().collect::<Result<Vec<_>, _>>()?;
     let signatures: Vec<Signature> =
@@ -110,11 +118,30 @@ pub fn generate(
         runtime: &options.runtime,
         parameters: &parameters,
         scalars: &options.scalars,
+        defaults: defaults.as_deref(),
         signatures: &signatures,
         functions: &sources,
     };
-    let source = emit::model_file(&header(file, numbers, options, &functions)?, &model)?;
-    Ok(Generated { source, functions })
+    let source = emit::model_file(&header(file, numbers, options, &functions, evidence.as_ref())?, &model)?;
+    stages.end("print");
+    Ok(Generated { source, functions, evidence, timings: stages.ended })
+}
+
+/// A clock for consecutive stages.
+struct Stages {
+    since: Instant,
+    ended: Vec<(&'static str, Duration)>,
+}
+
+impl Stages {
+    fn start() -> Stages {
+        Stages { since: Instant::now(), ended: Vec::new() }
+    }
+
+    fn end(&mut self, stage: &'static str) {
+        self.ended.push((stage, self.since.elapsed()));
+        self.since = Instant::now();
+    }
 }
 
 /// The graphs that [`generate`] prints, without printing them.
@@ -123,7 +150,7 @@ pub fn generate(
 /// See [`GenerateError`].
 pub fn optimise(
     program: &Program,
-    numbers: Numbers<'_>,
+    numbers: &Numbers<'_>,
     names: Option<&[String]>,
 ) -> Result<Vec<GeneratedFunction>, GenerateError> {
     let chosen = choose(program, names)?;
@@ -154,6 +181,7 @@ pub fn kernels(file: &GraphFile, command: &str) -> Result<String, GenerateError>
         casadi: program.provenance.casadi.clone(),
         operations: Vec::new(),
         eliminations: Vec::new(),
+        evidence: Vec::new(),
     };
     Ok(emit::kernels_file(&header, &signatures)?)
 }
@@ -166,40 +194,51 @@ fn choose<'a>(program: &'a Program, names: Option<&[String]>) -> Result<Vec<&'a 
     let find = |name: &String| {
         program.function(name).ok_or_else(|| {
             let known: Vec<&str> = program.functions.iter().map(|function| function.name.as_str()).collect();
-            GenerateError::UnknownFunction {
-                name: name.clone(),
-                known: format!("it has {}", known.join(", ")),
-            }
+            let help = match nearest(name, known.iter().copied()) {
+                Some(near) => format!("did you mean `{near}`?"),
+                None => format!("it has {}", known.join(", ")),
+            };
+            GenerateError::UnknownFunction { name: name.clone(), help }
         })
     };
     names.iter().map(find).collect()
 }
 
 /// What the passes need to know: the numbers to bake, and states by which to order eliminations.
-fn context(program: &Program, numbers: Numbers<'_>) -> Result<Context, GenerateError> {
-    let Numbers::Baked(platform) = numbers else { return Ok(Context::default()) };
+fn context(program: &Program, numbers: &Numbers<'_>) -> Result<Context, GenerateError> {
+    let Some(platform) = numbers.platform() else { return Ok(Context::default()) };
     if platform.leg_type.name() != program.name {
         let (platform, graph) = (platform.leg_type.name().into(), program.name.clone());
         return Err(GenerateError::LegType { platform, graph });
     }
-    let parameters = parameters(program, platform)?;
+    let mut parameters = parameters(program, platform)?;
+    for symbol in numbers.run_time_parameters(program)? {
+        parameters.remove(&symbol.name);
+    }
     Ok(Context { parameters, states: sampled_states(program, platform, &PIVOT_STATES, PIVOT_SEED)? })
 }
 
 fn header(
     file: &GraphFile,
-    numbers: Numbers<'_>,
+    numbers: &Numbers<'_>,
     options: &Options,
     functions: &[GeneratedFunction],
+    evidence: Option<&Evidence>,
 ) -> Result<Header, GenerateError> {
-    let (title, platform) = match numbers {
-        Numbers::Baked(platform) => {
+    let run_time = numbers.run_time_parameters(&file.program)?;
+    let run_time: Vec<&str> = run_time.iter().map(|symbol| symbol.name.as_str()).collect();
+    let (title, platform) = match numbers.platform() {
+        Some(platform) => {
             let resolved = serde_json::to_vec(platform)
                 .map_err(|error| GenerateError::Json { message: error.to_string() })?;
             let source = Source { name: platform.name.clone(), sha256: sha256(&resolved) };
-            (format!("Dynamics of the platform `{}`, every number baked in.", platform.name), Some(source))
+            let baked = match run_time[..] {
+                [] => "every number baked in".to_owned(),
+                _ => format!("given at run time: {}", run_time.join(", ")),
+            };
+            (format!("Dynamics of the platform `{}`, {baked}.", platform.name), Some(source))
         }
-        Numbers::AtRunTime => (
+        None => (
             format!("Dynamics of any `{}` platform, all numbers given at run time.", file.program.name),
             None,
         ),
@@ -225,5 +264,6 @@ fn header(
         casadi: file.program.provenance.casadi.clone(),
         operations: functions.iter().map(count).collect(),
         eliminations: eliminations.collect(),
+        evidence: evidence.map(Evidence::summary).unwrap_or_default(),
     })
 }

@@ -1,5 +1,6 @@
 //! A graph file: its program, its name, and the hash by which generated files refer to it.
 
+use dyn_platform::LegType;
 use sha2::{Digest, Sha256};
 
 use crate::graph::{FormatError, Program};
@@ -26,6 +27,16 @@ impl GraphFile {
             sha256: sha256(text.as_bytes()),
             program: Program::from_json(text)?,
         })
+    }
+
+    /// Platforms with legs of this type, as this crate was built with them.
+    ///
+    /// # Errors
+    /// As [`GraphFile::from_json`]; a test shows that there are none.
+    pub fn of(leg_type: LegType) -> Result<GraphFile, FormatError> {
+        match leg_type {
+            LegType::Uhp | LegType::Ups => GraphFile::uhp(),
+        }
     }
 
     /// The 6-UHP mechanism as this crate was built with it (`codegen/graphs/uhp.json`).

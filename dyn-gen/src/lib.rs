@@ -8,27 +8,34 @@
 //! | [`passes`] | bakes numbers in and makes graphs smaller |
 //! | [`sample`] | states of the mechanism, by which pivot orders are chosen and results compared |
 //! | [`emit`] | prints graphs as Rust |
-//! | [`evidence`] | compares what will be printed with the hand-written dynamics |
+//! | [`evidence`] | compares what will be printed with the graph as derived and with hand-written dynamics, and asks laws of mechanics of it |
+//! | [`mod@explain`] | a platform in figures |
+//! | [`mod@vectors`] | inputs and outputs for whoever ports the equations |
 //! | [`deviation`] | how far arrays of numbers are apart |
 //!
-//! Nothing here reads or writes files; the command line tool `dyn-gen` does.
+//! Only [`Build`], for build scripts, and [`output`] touch files; the command line tool `dyn-gen` does the rest.
 
+mod build_script;
 pub mod deviation;
 pub mod emit;
 mod error;
 pub mod evidence;
+pub mod explain;
 mod generate;
 pub mod graph;
 mod graph_file;
+mod numbers;
+pub mod output;
 mod parallel;
 pub mod passes;
 pub mod sample;
 mod text;
+pub mod vectors;
 mod workspace;
 
+pub use build_script::{Build, BuildError};
 pub use error::GenerateError;
-pub use generate::{
-    Generated, GeneratedFunction, MOST_GROWTH, Numbers, Options, generate, kernels, optimise,
-};
+pub use generate::{Generated, GeneratedFunction, MOST_GROWTH, Options, generate, kernels, optimise};
 pub use graph_file::{GraphFile, sha256};
+pub use numbers::Numbers;
 pub use workspace::{sampled_states, state_at};

@@ -2,6 +2,8 @@
 //!
 //! Passes choose pivot orders by them and tests compare models on them. Say the seed when you report a result.
 
+use std::fmt;
+
 use rand_pcg::Pcg64Mcg;
 use rand_pcg::rand_core::{Rng, SeedableRng};
 
@@ -29,7 +31,8 @@ pub struct Workspace<'a> {
 }
 
 /// How far from rest states are.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[derive(Clone, Copy, PartialEq, Eq, Debug, serde::Serialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Kind {
     /// At home, everything at rest, no load.
     Home,
@@ -39,6 +42,17 @@ pub enum Kind {
     Large,
     /// As large, with a leg at u.a between 0.1 and 0.2.
     NearEdge,
+}
+
+impl fmt::Display for Kind {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Kind::Home => "home",
+            Kind::Random => "near home",
+            Kind::Large => "large",
+            Kind::NearEdge => "near edge",
+        })
+    }
 }
 
 /// Condition of J_dp above which no [`Kind::Large`] or [`Kind::NearEdge`] state lies: actuator forces lose as many digits as

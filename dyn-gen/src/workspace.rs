@@ -1,9 +1,12 @@
 //! Sampled states of a platform, with the reach of its legs and J_dp taken from the graph itself.
 
+use std::cell::RefCell;
+
 use dyn_platform::Platform;
 
 use crate::error::GenerateError;
-use crate::graph::{Environment, Evaluator, Graph, Program, Role, solve_general};
+use crate::graph::{Environment, Evaluator, Graph, Program, Role, Symbol, solve_general};
+use crate::passes::{Context, PASSES};
 use crate::sample::{Kind, Pose, Workspace, states};
 
 /// The function of a graph file that tells how far a pose is from a leg's limit, and its number of results.
@@ -26,18 +29,10 @@ pub fn sampled_states(
     let home = Pose { position: platform.home.position, rotation: platform.home.rotation };
     check_inputs(program, &state_at(&home))?;
     let legs = AtRest::new(program, ALIGNMENT, &parameters)?;
-    let jacobian = AtRest::new(program, JACOBIAN, &parameters)?;
+    let condition = jacobian_condition(program, platform, &parameters)?;
     let alignment = |pose: &Pose| {
         // Out of reach may also be NaN, which must not pass for aligned.
         legs.at(pose).into_iter().fold(1.0, |least, value| if value >= least { least } else { value })
-    };
-    let radius = joint_radius(platform);
-    let condition = |pose: &Pose| {
-        let mut matrix = jacobian.at(pose);
-        for row in matrix.chunks_mut(6) {
-            row[3..].iter_mut().for_each(|moment| *moment /= radius);
-        }
-        condition(&matrix, 6)
     };
     let workspace = Workspace { home, alignment: &alignment, condition: &condition };
     let mut all = Vec::new();
@@ -49,12 +44,29 @@ pub fn sampled_states(
     Ok(all)
 }
 
+/// The condition number of J_dp at a pose of the platform relative to the base, moments over the radius of the platform joints.
+pub(crate) fn jacobian_condition(
+    program: &Program,
+    platform: &Platform,
+    parameters: &Environment,
+) -> Result<impl Fn(&Pose) -> f64 + use<>, GenerateError> {
+    let jacobian = AtRest::new(program, JACOBIAN, parameters)?;
+    let radius = joint_radius(platform);
+    Ok(move |pose: &Pose| {
+        let mut matrix = jacobian.at(pose);
+        for row in matrix.chunks_mut(6) {
+            row[3..].iter_mut().for_each(|moment| *moment /= radius);
+        }
+        condition(&matrix, 6)
+    })
+}
+
 /// Every parameter of `program` as the platform has it.
 ///
 /// # Errors
 /// If the platform lacks one or has it in another size.
 pub fn parameters(program: &Program, platform: &Platform) -> Result<Environment, GenerateError> {
-    let value = |symbol: &crate::graph::Symbol| {
+    let value = |symbol: &Symbol| {
         let name = symbol.name.clone();
         let Some(values) = platform.parameter(&name) else {
             return Err(GenerateError::UnknownParameter { name });
@@ -106,17 +118,21 @@ fn check_inputs(program: &Program, state: &Environment) -> Result<(), GenerateEr
 }
 
 /// A function of the graph file with the base at the origin and everything at rest.
-struct AtRest<'a> {
+pub(crate) struct AtRest {
     graph: Graph,
-    parameters: &'a Environment,
+    /// The inputs, but for the platform's pose.
+    inputs: Vec<Vec<f64>>,
+    /// Which inputs are the platform's position and rotation.
+    pose: [Option<usize>; 2],
+    evaluator: RefCell<Evaluator>,
 }
 
-impl AtRest<'_> {
-    fn new<'a>(
+impl AtRest {
+    pub(crate) fn new(
         program: &Program,
         (name, length): (&'static str, usize),
-        parameters: &'a Environment,
-    ) -> Result<AtRest<'a>, GenerateError> {
+        parameters: &Environment,
+    ) -> Result<AtRest, GenerateError> {
         let refuse = |problem: String| Err(GenerateError::Sampling { name, problem });
         let Some(function) = program.function(name) else { return refuse("is not in the graph file".into()) };
         let graph = program.flatten(function);
@@ -124,18 +140,31 @@ impl AtRest<'_> {
         if found != length {
             return refuse(format!("gives {found} numbers instead of {length}"));
         }
-        Ok(AtRest { graph, parameters })
+        // It is asked a hundred times for one pose on a ray: passes that keep every bit make it a third as long.
+        let context = Context { parameters: parameters.clone(), states: Vec::new() };
+        let exact = PASSES.iter().filter(|pass| ["bake", "simplify", "share", "prune"].contains(&pass.name));
+        let graph = exact.fold(graph, |graph, pass| (pass.run)(&graph, &context, &mut Vec::new()));
+        let state = state_at(&Pose { position: [0.0; 3], rotation: [[0.0; 3]; 3] });
+        let value = |symbol: &Symbol| {
+            let value = state.get(&symbol.name).or_else(|| parameters.get(&symbol.name));
+            value.cloned().unwrap_or_default()
+        };
+        let inputs = graph.inputs.iter().map(value).collect();
+        let position = |name: &str| graph.inputs.iter().position(|symbol| symbol.name == name);
+        let pose = ["platform_position", "platform_rotation"].map(position);
+        Ok(AtRest { graph, inputs, pose, evaluator: RefCell::default() })
     }
 
     /// All results at a pose of the platform, one after another.
-    fn at(&self, pose: &Pose) -> Vec<f64> {
-        let state = state_at(pose);
-        let inputs = self.graph.inputs.iter().map(|symbol| {
-            let values = state.get(&symbol.name).or_else(|| self.parameters.get(&symbol.name));
-            values.map_or(&[][..], Vec::as_slice)
-        });
-        let mut evaluator = Evaluator::new();
-        let values = evaluator.run(&self.graph, &inputs.collect::<Vec<_>>());
+    pub(crate) fn at(&self, pose: &Pose) -> Vec<f64> {
+        let mut inputs: Vec<&[f64]> = self.inputs.iter().map(Vec::as_slice).collect();
+        for (input, values) in self.pose.iter().zip([&pose.position[..], pose.rotation.as_flattened()]) {
+            if let Some(input) = input {
+                inputs[*input] = values;
+            }
+        }
+        let mut evaluator = self.evaluator.borrow_mut();
+        let values = evaluator.run(&self.graph, &inputs);
         let results = self.graph.outputs.iter().flat_map(|output| &output.nodes);
         results.map(|node| values[node.index()]).collect()
     }

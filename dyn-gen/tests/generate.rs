@@ -17,6 +17,7 @@ fn options(functions: &[&str]) -> Options {
         scalars: vec![Scalar::F64],
         functions: Some(functions.iter().map(|name| (*name).to_owned()).collect()),
         command: "cargo test\nfn injected() {}".into(),
+        evidence: None,
     }
 }
 
@@ -46,7 +47,7 @@ fn reshape(file: &mut Value, name: &str, shape: &[usize]) {
 }
 
 fn baked(file: &Value, functions: &[&str]) -> Result<Generated, GenerateError> {
-    generate(&read(file).unwrap(), Numbers::Baked(&common::platform()), &options(functions))
+    generate(&read(file).unwrap(), &Numbers::baked(&common::platform()), &options(functions))
 }
 
 fn refused(file: &Value) -> String {
@@ -70,7 +71,7 @@ fn coinciding_legs_are_refused() {
         ("platform_pair_angle_rad = 0.5235987755982988", "platform_pair_angle_rad = 0.0"),
     ]);
     let file = GraphFile::uhp().unwrap();
-    let error = generate(&file, Numbers::Baked(&platform), &options(&["inverse_dynamics"])).unwrap_err();
+    let error = generate(&file, &Numbers::baked(&platform), &options(&["inverse_dynamics"])).unwrap_err();
     let text = error.to_string();
     assert!(
         text.starts_with("platform `uhp_2016`: J_dp is singular or nearly so at every sampled pose"),
@@ -88,7 +89,7 @@ fn a_home_with_parallel_rods_is_refused() {
         ("platform_pair_angle_rad = 0.5235987755982988", "platform_pair_angle_rad = 1.5009831567151235"),
     ]);
     let file = GraphFile::uhp().unwrap();
-    let error = generate(&file, Numbers::Baked(&platform), &options(&["inverse_dynamics"])).unwrap_err();
+    let error = generate(&file, &Numbers::baked(&platform), &options(&["inverse_dynamics"])).unwrap_err();
     let GenerateError::Growth { growth: f64::INFINITY, states: 51, .. } = &error else { panic!("{error}") };
     assert_eq!(
         error.to_string(),
@@ -302,13 +303,13 @@ proptest! {
         let functions = file.program.functions.iter().filter(|function| function.outputs.len() < 3).collect::<Vec<_>>();
         let chosen = options(&[&functions[function % functions.len()].name]);
         let platform = common::platform();
-        for numbers in [Numbers::Baked(&platform), Numbers::AtRunTime] {
-            if let Ok(generated) = generate(&file, numbers, &chosen) {
+        for numbers in [Numbers::baked(&platform), Numbers::at_run_time()] {
+            if let Ok(generated) = generate(&file, &numbers, &chosen) {
                 let parsed = syn::parse_file(&generated.source).expect("a model parses");
                 prop_assert!(!parsed.items.iter().any(
                     |item| matches!(item, syn::Item::Fn(function) if function.sig.ident == "injected")
                 ));
-                if matches!(numbers, Numbers::Baked(_)) {
+                if numbers.platform().is_some() {
                     prop_assert!(!generated.source.contains("parameters."));
                 }
             }

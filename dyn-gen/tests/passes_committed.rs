@@ -130,7 +130,7 @@ fn eliminations_of_all_platforms_hardly_grow() {
     let program = common::program();
     for platform in common::platforms() {
         let names = program.functions.iter().map(|function| function.name.clone()).collect::<Vec<_>>();
-        let functions = optimise(&program, Numbers::Baked(&platform), Some(&names)).unwrap();
+        let functions = optimise(&program, &Numbers::baked(&platform), Some(&names)).unwrap();
         let orders: Vec<_> = functions.iter().flat_map(|function| function.pivot_orders()).collect();
         assert!(!orders.is_empty());
         for order in orders {
@@ -144,7 +144,7 @@ fn operation_counts_of_the_default_platform() {
     let program = common::program();
     let limits = [("inverse_dynamics", 1450), ("forward_dynamics", 1700), ("matrices", 4300)];
     let names = limits.map(|(name, _)| name.to_owned());
-    let functions = optimise(&program, Numbers::Baked(&common::platform()), Some(&names)).unwrap();
+    let functions = optimise(&program, &Numbers::baked(&common::platform()), Some(&names)).unwrap();
     for (function, (name, limit)) in functions.iter().zip(limits) {
         let count = function.graph.operation_count();
         assert_eq!(function.graph.name, name);

@@ -1,11 +1,11 @@
-//! What the numbers of a file may not be: bounds, unit vectors, rotations, inertia tensors, legs out of reach.
+//! What the numbers of a file may not be: bounds, unit vectors, rotations, inertia tensors.
+
+use std::f64::consts::{PI, TAU};
 
 use nalgebra::{Matrix3 as Matrix, Vector3 as Vector};
 
-use crate::keys::Key;
-use crate::legs::named;
+use crate::keys::{Key, Range, Value};
 use crate::parameters::{Matrix3, Vector3};
-use crate::platform::Pose;
 
 /// Unit vectors and rotations may miss their norm by this much and are then normalised; inertia tensors may miss
 /// symmetry and the triangle inequality by this much of their largest entry.
@@ -13,9 +13,6 @@ const TOLERANCE: f64 = 1e-9;
 
 /// Where the norm misses no more than this, rounding to doubles explains it and the numbers stay as they were typed.
 const ROUNDING: f64 = 4.0 * f64::EPSILON;
-
-/// A leg whose `u.a` (cosine between rod and actuator) at home is below this is refused: forces grow as its inverse.
-const SMALLEST_ALIGNMENT: f64 = 0.01;
 
 /// What is wrong with a value, still without its place in the file.
 #[derive(Debug)]
@@ -38,34 +35,41 @@ pub(crate) fn any<T>(value: T, _: &Key) -> Checked<T> {
     Ok(value)
 }
 
-pub(crate) fn positive(value: f64, key: &Key) -> Checked<f64> {
-    let what = || format!("`{}` must be positive, but is {value}", key.name);
-    if value > 0.0 { Ok(value) } else { Err(Fault::new("must be positive", what(), key.remedy())) }
-}
-
-pub(crate) fn not_negative(value: f64, key: &Key) -> Checked<f64> {
-    let what = || format!("`{}` must not be negative, but is {value}", key.name);
-    if value >= 0.0 { Ok(value) } else { Err(Fault::new("must not be negative", what(), key.remedy())) }
-}
-
-pub(crate) fn fraction(value: f64, key: &Key) -> Checked<f64> {
-    let what = || format!("`{}` must lie between 0 and 1, but is {value}", key.name);
-    let inside = (0.0..=1.0).contains(&value);
-    if inside { Ok(value) } else { Err(Fault::new("must lie between 0 and 1", what(), key.remedy())) }
-}
-
-/// An angle between two joints of a pair.
-pub(crate) fn pair_angle(value: f64, key: &Key) -> Checked<f64> {
-    if (0.0..std::f64::consts::TAU).contains(&value) {
+/// A number in the range of its key.
+pub(crate) fn number(value: f64, key: &Key) -> Checked<f64> {
+    let Value::Number(range) = key.value else { return Ok(value) };
+    let (inside, must) = match range {
+        Range::Any => (true, ""),
+        Range::Positive => (value > 0.0, "be positive"),
+        Range::NotNegative => (value >= 0.0, "not be negative"),
+        Range::Fraction => ((0.0..=1.0).contains(&value), "lie between 0 and 1"),
+        Range::PairAngle => ((0.0..TAU).contains(&value), "lie between 0 and 2 pi"),
+        Range::JointAngle => (value > 0.0 && value < PI, "lie between 0 and pi"),
+    };
+    if inside {
         return Ok(value);
     }
-    let what = format!("`{}` must lie between 0 and 2 pi rad, but is {value}", key.name);
-    let help = format!("give radians: {value} degrees would be {} rad", value.to_radians());
-    Err(Fault::new("must lie between 0 and 2 pi", what, help))
+    let is_angle = matches!(range, Range::PairAngle | Range::JointAngle);
+    let unit = if is_angle { " rad" } else { "" };
+    let what = format!("`{}` must {must}{unit}, but is {value}", key.name);
+    let help = if is_angle && value > 0.0 {
+        format!("give radians: {value} degrees would be {} rad", value.to_radians())
+    } else {
+        key.remedy()
+    };
+    Err(Fault::new(format!("must {must}"), what, help))
+}
+
+/// A vector, of length one if its key says so.
+pub(crate) fn vector(value: Vector3, key: &Key) -> Checked<Vector3> {
+    match key.value {
+        Value::UnitVector => unit_vector(value, key),
+        _ => Ok(value),
+    }
 }
 
 /// Accepts a unit vector and removes what rounding in the file left.
-pub(crate) fn unit_vector(value: Vector3, key: &Key) -> Checked<Vector3> {
+fn unit_vector(value: Vector3, key: &Key) -> Checked<Vector3> {
     let vector = Vector::from(value);
     let norm = vector.norm();
     if (norm - 1.0).abs() <= ROUNDING {
@@ -158,70 +162,10 @@ pub(crate) fn inertia(value: Matrix3, key: &Key) -> Checked<Matrix3> {
     Ok(to_rows(symmetric))
 }
 
-fn from_rows(rows: Matrix3) -> Matrix<f64> {
+pub(crate) fn from_rows(rows: Matrix3) -> Matrix<f64> {
     Matrix::from_fn(|i, j| rows[i][j])
 }
 
-fn to_rows(matrix: Matrix<f64>) -> Matrix3 {
+pub(crate) fn to_rows(matrix: Matrix<f64>) -> Matrix3 {
     std::array::from_fn(|i| std::array::from_fn(|j| matrix[(i, j)]))
-}
-
-/// A leg at home: how far its rod must reach, and whether it does.
-pub(crate) struct LegAtHome {
-    number: usize,
-    rod_length: f64,
-    /// From the actuator's axis to the platform joint, across the axis, m.
-    across: f64,
-}
-
-impl LegAtHome {
-    /// From `x = r_p + R p - b` with (18): the rod must span `n = x - (a.x) a`.
-    pub fn new(
-        number: usize,
-        home: &Pose,
-        base_point: Vector3,
-        platform_point: Vector3,
-        axis: Vector3,
-        rod_length: f64,
-    ) -> Self {
-        let axis = Vector::from(axis);
-        let joint = Vector::from(home.position) + from_rows(home.rotation) * Vector::from(platform_point);
-        let x = joint - Vector::from(base_point);
-        Self { number, rod_length, across: (x - axis * axis.dot(&x)).norm() }
-    }
-
-    /// `(u.a)^2 = 1 - n.n/s^2`, the squared cosine between rod and actuator; negative out of reach.
-    fn alignment_squared(&self) -> f64 {
-        1.0 - (self.across / self.rod_length).powi(2)
-    }
-}
-
-/// Refuses legs whose rod is too short at home, or so short that it stands across its actuator.
-pub(crate) fn reach(legs: &[LegAtHome]) -> Option<Fault> {
-    let faulty: Vec<&LegAtHome> =
-        legs.iter().filter(|leg| leg.alignment_squared() < SMALLEST_ALIGNMENT.powi(2)).collect();
-    let farthest = faulty.iter().max_by(|one, other| one.across.total_cmp(&other.across))?;
-    let numbers: Vec<usize> = faulty.iter().map(|leg| leg.number).collect();
-    let (number, across, rod_length) = (farthest.number, farthest.across, farthest.rod_length);
-    let (label, what) = if farthest.alignment_squared() < 0.0 {
-        let what = format!(
-            "the rod is too short to reach at home ({}): the platform joint of leg {number} is {across:.6} m \
-             off its actuator's axis, the rod is {rod_length} m long",
-            named(&numbers)
-        );
-        ("too short", what)
-    } else {
-        let what = format!(
-            "the rod is perpendicular to its actuator at home ({}): the platform joint of leg {number} is \
-             {across:.6} m off its actuator's axis, the rod is {rod_length} m long, so the actuator cannot push it",
-            named(&numbers)
-        );
-        ("only just reaches", what)
-    };
-    let needed = across / (1.0 - SMALLEST_ALIGNMENT.powi(2)).sqrt();
-    let help = format!(
-        "make it longer than {:.6} m, or move the joints, the axis or the home pose",
-        (needed * 1e6).ceil() / 1e6
-    );
-    Some(Fault::new(label, what, help))
 }

@@ -8,8 +8,11 @@ use toml::Spanned;
 use toml::de::{DeString, DeTable, DeValue};
 
 use crate::checks::Fault;
-use crate::keys::{self, Key};
+use crate::keys::{self, Home, Key};
+use crate::legs;
+use crate::platform::LegType;
 use crate::refusal::Refusal;
+use crate::text::nearest;
 
 /// No quantity of a platform comes near this; products of a few such numbers still cannot overflow.
 const LARGEST: f64 = 1e30;
@@ -43,20 +46,40 @@ pub(crate) struct Section<'d> {
     pub header: Range<usize>,
     table: &'d DeTable<'d>,
     allowed: Vec<&'static Key>,
+    /// How the legs of this file are built, once that is known.
+    leg_type: Option<LegType>,
 }
 
 impl<'d> Section<'d> {
-    /// A table in which the keys of `allowed` may stand; every other key is refused here.
-    pub fn new(
-        title: impl Into<String>,
+    /// The file itself. Its unknown keys are refused by [`Section::of_leg_type`].
+    pub fn file(header: Range<usize>, table: &'d DeTable<'d>) -> Self {
+        Self { title: "the file".into(), header, table, allowed: keys::FILE.to_vec(), leg_type: None }
+    }
+
+    /// The file whose legs are known to be of this type, or of no known one: tells where unknown keys belong.
+    pub fn of_leg_type(mut self, leg_type: Option<LegType>, refusals: &mut Vec<Refusal>) -> Self {
+        self.leg_type = leg_type;
+        self.refuse_unknown(refusals);
+        self
+    }
+
+    /// A table of this file in which the keys of `allowed` may stand; every other key is refused here.
+    fn inner(
+        &self,
+        title: String,
         header: Range<usize>,
         table: &'d DeTable<'d>,
-        allowed: &[&[&'static Key]],
+        allowed: &[&'static Key],
         refusals: &mut Vec<Refusal>,
     ) -> Self {
-        let section = Self { title: title.into(), header, table, allowed: allowed.concat() };
+        let section = Self { title, header, table, allowed: allowed.to_vec(), leg_type: self.leg_type };
         section.refuse_unknown(refusals);
         section
+    }
+
+    /// How the legs of this file are built, if that is known.
+    pub fn leg_type(&self) -> Option<LegType> {
+        self.leg_type
     }
 
     /// Where the key itself stands.
@@ -66,20 +89,34 @@ impl<'d> Section<'d> {
 
     /// Refuses every key that is not allowed: it stands in the wrong table, is misspelt, or means nothing.
     fn refuse_unknown(&self, refusals: &mut Vec<Refusal>) {
-        for name in self.unknown() {
-            let written = name.get_ref().as_ref();
-            let home = keys::TABLES.iter().find(|(_, keys)| keys.iter().any(|key| key.name == written));
-            let help = match (home, self.meant_by(written)) {
-                (Some((table, _)), _) => format!("`{written}` belongs in {table}"),
-                (None, Some(nearest)) => format!("did you mean `{nearest}`?"),
-                (None, None) => {
-                    let names: Vec<&str> = self.allowed.iter().map(|key| key.name).collect();
-                    format!("keys known here: {}", names.join(", "))
-                }
-            };
-            let what = format!("unknown key `{written}` in {}", self.title);
-            refusals.push(Refusal::new(name.span(), "unknown key", what, help));
-        }
+        refusals.extend(self.unknown().map(|name| self.unknown_key(name.span(), name.get_ref())));
+    }
+
+    fn unknown_key(&self, at: Range<usize>, written: &str) -> Refusal {
+        let what = format!("unknown key `{written}` in {}", self.title);
+        let help = match (keys::home_of(written, self.leg_type), self.meant_by(written)) {
+            (Some(Home::Table(table)), _) => format!("`{written}` belongs in {table}"),
+            (Some(Home::OtherLegType(other)), _) => return self.key_of_other_legs(at, written, other),
+            (None, Some(nearest)) => format!("did you mean `{nearest}`?"),
+            (None, None) => format!("keys known here: {}", listed(&self.allowed)),
+        };
+        Refusal::new(at, "unknown key", what, help)
+    }
+
+    fn key_of_other_legs(&self, at: Range<usize>, written: &str, other: LegType) -> Refusal {
+        let these = self.leg_type.map_or("others", LegType::name);
+        let what = format!(
+            "`{written}` belongs to legs of type {:?}, but the legs of this file are {these:?}",
+            other.name()
+        );
+        let own: Vec<&Key> =
+            legs::kinds(self.leg_type).flat_map(|kind| kind.shared()).map(|property| &property.key).collect();
+        let help = format!(
+            "remove it, or write `leg_type = {:?}`; legs {these:?} have {}",
+            other.name(),
+            listed(&own)
+        );
+        Refusal::new(at, format!("of legs {:?}", other.name()), what, help)
     }
 
     fn unknown(&self) -> impl Iterator<Item = &'d Spanned<DeString<'d>>> {
@@ -142,13 +179,13 @@ impl<'d> Section<'d> {
     pub fn section(
         &self,
         key: &Key,
-        allowed: &[&[&'static Key]],
+        allowed: &[&'static Key],
         refusals: &mut Vec<Refusal>,
     ) -> Option<Section<'d>> {
         let value = self.table.get(key.name)?;
         match value.get_ref() {
             DeValue::Table(table) => {
-                Some(Section::new(format!("[{}]", key.name), value.span(), table, allowed, refusals))
+                Some(self.inner(format!("[{}]", key.name), value.span(), table, allowed, refusals))
             }
             other => {
                 refusals.push(wrong_type(value.span(), key, "a table", other));
@@ -161,7 +198,7 @@ impl<'d> Section<'d> {
     pub fn require_section(
         &self,
         key: &Key,
-        allowed: &[&[&'static Key]],
+        allowed: &[&'static Key],
         refusals: &mut Vec<Refusal>,
     ) -> Option<Section<'d>> {
         if self.key_span(key).is_none() && !self.has_misspelt(key) {
@@ -180,11 +217,12 @@ impl<'d> Section<'d> {
         )
     }
 
-    /// The tables of the array of tables under `key`, if it is there; their title is `[[key]]`.
+    /// The tables of the array of tables under `key`, if it is there, each with this title at first.
     pub fn sections(
         &self,
+        title: &str,
         key: &Key,
-        allowed: &[&[&'static Key]],
+        allowed: &[&'static Key],
         refusals: &mut Vec<Refusal>,
     ) -> Option<Vec<Section<'d>>> {
         let value = self.table.get(key.name)?;
@@ -196,8 +234,7 @@ impl<'d> Section<'d> {
         for entry in entries.iter() {
             match entry.get_ref() {
                 DeValue::Table(table) => {
-                    let title = format!("[[{}]]", key.name);
-                    sections.push(Section::new(title, entry.span(), table, allowed, refusals));
+                    sections.push(self.inner(title.to_owned(), entry.span(), table, allowed, refusals));
                 }
                 other => refusals.push(wrong_type(entry.span(), key, "a table", other)),
             }
@@ -206,14 +243,9 @@ impl<'d> Section<'d> {
     }
 }
 
-/// The name most like `written`, if one is near enough to be a slip of the hand.
-pub(crate) fn nearest<'n>(written: &str, names: impl IntoIterator<Item = &'n str>) -> Option<&'n str> {
-    names
-        .into_iter()
-        .map(|name| (strsim::jaro_winkler(&written.to_lowercase(), name), name))
-        .filter(|(likeness, _)| *likeness > 0.85)
-        .max_by(|one, other| one.0.total_cmp(&other.0))
-        .map(|(_, name)| name)
+fn listed(keys: &[&Key]) -> String {
+    let names: Vec<&str> = keys.iter().map(|key| key.name).collect();
+    names.join(", ")
 }
 
 /// A type that can stand in the file.

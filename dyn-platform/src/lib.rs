@@ -1,10 +1,10 @@
 //! The only reader of platform files: schema, layouts, units, checks, resolved plain numbers.
 //!
 //! ```
-//! # fn main() -> Result<(), dyn_platform::PlatformError> {
+//! # fn main() -> Result<(), dyn_platform::FileError> {
 //! let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../platforms/uhp_2016.toml");
 //! let platform = dyn_platform::Platform::from_file(path)?;
-//! assert_eq!(platform.parameters.rod_length, [0.206; 6]);
+//! assert_eq!(platform.parameters.legs("rod_length"), Some([0.206; 6]));
 //! assert_eq!(platform.parameter("payload_mass"), Some(vec![6.092]));
 //! # Ok(())
 //! # }
@@ -14,25 +14,33 @@
 //!
 //! | module | holds |
 //! |-|-|
-//! | `schema` | the walk through a file, from text to resolved platform |
-//! | `legs` | the part of that walk about legs: common values, overrides, the default |
-//! | `keys` | the table of keys: spelling, meaning, example |
+//! | `reader` | the walk through a file, from text to resolved platform |
+//! | `keys` | the tables of keys: spelling, value, meaning, example |
+//! | `legs` | a module per leg type: what its legs are made of, what must hold at home |
+//! | `leg_tables` | the tables about legs in a file: common values, overrides, defaults |
+//! | `limits` | what actuators and joints may do |
 //! | `document` | typed values out of TOML, each with its place in the text |
-//! | `checks` | the physics that a file may not violate |
+//! | `checks` | what single numbers, vectors and tensors may not be |
 //! | `layout` | from circles to joint points |
-//! | `refusal` | what a mistake becomes |
-//! | `parameters`, `platform` | the resolved numbers |
+//! | `refusal`, `text` | what a mistake becomes; shared with other readers of text files |
+//! | `parameters`, `platform`, `nested` | the resolved numbers and their JSON |
 
 mod checks;
 mod document;
 mod keys;
 mod layout;
+mod leg_tables;
 mod legs;
+mod limits;
+mod nested;
 mod parameters;
 mod platform;
+mod reader;
 mod refusal;
-mod schema;
+mod text;
 
-pub use parameters::{Matrix3, PARAMETERS, ParameterInfo, Parameters, Vector3};
+pub use limits::{Limit, Limits};
+pub use parameters::{Matrix3, ParameterInfo, Parameters, Vector3};
 pub use platform::{LegType, Platform, Pose, VERSION};
-pub use refusal::{PlatformError, Refusal};
+pub use refusal::{FileError, Refusal};
+pub use text::{first_line, nearest, read_text};

@@ -1,12 +1,16 @@
 //! The resolved platform: plain numbers, and how they come from a file and go to JSON.
 
+use std::collections::BTreeMap;
 use std::path::Path;
 
 use serde::{Deserialize, Serialize};
 
-use crate::parameters::{Matrix3, PARAMETERS, Parameters, Vector3};
-use crate::refusal::{PlatformError, Refusal};
-use crate::schema;
+use crate::limits::Limits;
+use crate::nested::Nested;
+use crate::parameters::{Matrix3, Parameters, Vector3};
+use crate::reader;
+use crate::refusal::FileError;
+use crate::text::read_text;
 
 /// Version of the platform file format and of the resolved JSON.
 pub const VERSION: u32 = 1;
@@ -17,16 +21,20 @@ pub const VERSION: u32 = 1;
 pub enum LegType {
     /// Actuator fixed to the base (P), Hooke joint (H), rod, universal joint (U) on the platform.
     Uhp,
+    /// Universal joint (U) on the base, telescopic actuator (P), spherical joint (S) on the platform: the classical
+    /// Gough-Stewart leg.
+    Ups,
 }
 
 impl LegType {
     /// Every leg type.
-    pub const ALL: [Self; 1] = [Self::Uhp];
+    pub const ALL: [Self; 2] = [Self::Uhp, Self::Ups];
 
     /// Its name in platform files and in the JSON.
     pub fn name(self) -> &'static str {
         match self {
             Self::Uhp => "uhp",
+            Self::Ups => "ups",
         }
     }
 }
@@ -44,9 +52,10 @@ pub struct Pose {
 /// A platform file after all checks: layouts expanded, defaults filled in, per-leg values in place.
 ///
 /// Its JSON (through serde) is `{"version":1,"name":..,"leg_type":"uhp","home":{..},"parameters":{..}}`, with each
-/// parameter under its name in [`PARAMETERS`] and in its natural nesting.
+/// parameter of the leg type under its name ([`LegType::parameters`]) and in its natural nesting; where the file has
+/// limits, `"limits":{..}` follows.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(into = "Versioned", try_from = "Versioned")]
+#[serde(into = "Versioned<Parameters>", try_from = "Versioned<BTreeMap<String, Nested>>")]
 pub struct Platform {
     /// Short name, an identifier in lower case: generated modules are called so.
     pub name: String,
@@ -56,6 +65,8 @@ pub struct Platform {
     pub home: Pose,
     /// Every physical number.
     pub parameters: Parameters,
+    /// What actuators and joints may do, as far as the file tells.
+    pub limits: Limits,
 }
 
 impl Platform {
@@ -63,78 +74,62 @@ impl Platform {
     ///
     /// # Errors
     /// The file cannot be read, is not UTF-8, or holds mistakes; each mistake comes with line, caret and remedy.
-    pub fn from_file(path: impl AsRef<Path>) -> Result<Self, PlatformError> {
+    pub fn from_file(path: impl AsRef<Path>) -> Result<Self, FileError> {
         let path = path.as_ref();
-        let source_name = path.display().to_string();
-        let bytes = std::fs::read(path).map_err(|error| {
-            let refusal = Refusal {
-                what: format!("cannot read the platform file `{source_name}`: {error}"),
-                at: None,
-                label: String::new(),
-                help: "check the path and its permissions; platforms/uhp_2016.toml is an example".into(),
-            };
-            PlatformError::new(&source_name, "", vec![refusal])
-        })?;
-        let text = std::str::from_utf8(&bytes).map_err(|error| {
-            let start = error.valid_up_to();
-            let refusal = Refusal::new(
-                start..start + char::REPLACEMENT_CHARACTER.len_utf8(),
-                "not UTF-8 from here",
-                "the platform file is not UTF-8 text",
-                "save it as UTF-8, the only encoding TOML allows",
-            );
-            PlatformError::new(&source_name, String::from_utf8_lossy(&bytes), vec![refusal])
-        })?;
-        Self::from_toml(&source_name, text)
+        let help = "check the path and its permissions; platforms/uhp_2016.toml is an example";
+        let text = read_text(path, "platform", help)?;
+        Self::from_toml(&path.display().to_string(), &text)
     }
 
     /// Checks the text of a platform file; `source_name` stands for the file in messages.
     ///
     /// # Errors
     /// As [`Platform::from_file`].
-    pub fn from_toml(source_name: &str, text: &str) -> Result<Self, PlatformError> {
-        schema::read(text).map_err(|refusals| PlatformError::new(source_name, text, refusals))
+    pub fn from_toml(source_name: &str, text: &str) -> Result<Self, FileError> {
+        reader::read(text).map_err(|refusals| FileError::new(source_name, text, refusals))
     }
 
-    /// The parameter called `name`, flat and row-major; `None` for a name that is not in [`PARAMETERS`].
+    /// The parameter called `name`, flat and row-major; `None` if legs of this type have none of this name.
     pub fn parameter(&self, name: &str) -> Option<Vec<f64>> {
-        self.parameters.get(name)
+        self.parameters.get(name).map(<[f64]>::to_vec)
     }
 
     /// The names of all parameters, in their fixed order.
-    pub fn parameter_names() -> impl ExactSizeIterator<Item = &'static str> {
-        PARAMETERS.iter().map(|info| info.name)
+    pub fn parameter_names(&self) -> impl Iterator<Item = &'static str> {
+        self.leg_type.parameters().map(|info| info.name)
     }
 }
 
-/// The JSON form: a [`Platform`] behind its version.
+/// The JSON form of a [`Platform`], behind its version. `P` is the form of its parameters.
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-struct Versioned {
+struct Versioned<P> {
     version: u32,
     name: String,
     leg_type: LegType,
     home: Pose,
-    parameters: Parameters,
+    parameters: P,
+    #[serde(default, skip_serializing_if = "Limits::is_empty")]
+    limits: Limits,
 }
 
-impl From<Platform> for Versioned {
+impl From<Platform> for Versioned<Parameters> {
     fn from(platform: Platform) -> Self {
-        let Platform { name, leg_type, home, parameters } = platform;
-        Self { version: VERSION, name, leg_type, home, parameters }
+        let Platform { name, leg_type, home, parameters, limits } = platform;
+        Self { version: VERSION, name, leg_type, home, parameters, limits }
     }
 }
 
-impl TryFrom<Versioned> for Platform {
+impl TryFrom<Versioned<BTreeMap<String, Nested>>> for Platform {
     type Error = String;
 
-    fn try_from(versioned: Versioned) -> Result<Self, String> {
-        let Versioned { version, name, leg_type, home, parameters } = versioned;
+    fn try_from(versioned: Versioned<BTreeMap<String, Nested>>) -> Result<Self, String> {
+        let Versioned { version, name, leg_type, home, parameters, limits } = versioned;
         if version != VERSION {
             return Err(format!(
                 "resolved platform has version {version}, this reader knows version {VERSION}"
             ));
         }
-        Ok(Self { name, leg_type, home, parameters })
+        Ok(Self { name, leg_type, home, parameters: Parameters::from_nested(leg_type, parameters)?, limits })
     }
 }

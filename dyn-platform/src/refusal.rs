@@ -1,11 +1,12 @@
-//! Why a platform file was refused: what is wrong, where (file, line, caret), and what to do about it.
+//! Why a file was refused: what is wrong, where (file, line, caret), and what to do about it. Shared by every reader of
+//! text files in this workspace.
 
 use std::fmt;
 use std::ops::Range;
 
 use miette::{Diagnostic, LabeledSpan, NamedSource, SourceCode};
 
-/// One mistake in a platform file.
+/// One mistake in a file.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[error("{what}")]
 pub struct Refusal {
@@ -20,13 +21,19 @@ pub struct Refusal {
 }
 
 impl Refusal {
-    pub(crate) fn new(
+    /// A mistake at some bytes of the file.
+    pub fn new(
         at: Range<usize>,
         label: impl Into<String>,
         what: impl Into<String>,
         help: impl Into<String>,
     ) -> Self {
         Self { what: what.into(), at: Some(at), label: label.into(), help: help.into() }
+    }
+
+    /// A mistake that has no place in a text: there is none to be read.
+    pub fn without_place(what: impl Into<String>, help: impl Into<String>) -> Self {
+        Self { what: what.into(), at: None, label: String::new(), help: help.into() }
     }
 }
 
@@ -41,17 +48,18 @@ impl Diagnostic for Refusal {
     }
 }
 
-/// A refused platform file: every mistake found in it, in the order of the file.
+/// A refused file: every mistake found in it, in the order of the file.
 ///
 /// Rendered by `miette`, each mistake shows its file, line and caret, and the remedy as help.
 #[derive(Debug, thiserror::Error)]
-pub struct PlatformError {
+pub struct FileError {
     source_text: NamedSource<String>,
     refusals: Vec<Refusal>,
 }
 
-impl PlatformError {
-    pub(crate) fn new(source_name: &str, text: impl Into<String>, mut refusals: Vec<Refusal>) -> Self {
+impl FileError {
+    /// Of the file called `source_name` with this text; `refusals` must not be empty.
+    pub fn new(source_name: &str, text: impl Into<String>, mut refusals: Vec<Refusal>) -> Self {
         refusals.sort_by_key(|refusal| refusal.at.as_ref().map(|at| (at.start, at.end)));
         Self { source_text: NamedSource::new(source_name, text.into()), refusals }
     }
@@ -70,7 +78,7 @@ impl PlatformError {
     }
 }
 
-impl fmt::Display for PlatformError {
+impl fmt::Display for FileError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self.only() {
             Some(refusal) => refusal.fmt(f),
@@ -79,7 +87,7 @@ impl fmt::Display for PlatformError {
     }
 }
 
-impl Diagnostic for PlatformError {
+impl Diagnostic for FileError {
     fn help<'a>(&'a self) -> Option<Box<dyn fmt::Display + 'a>> {
         self.only().and_then(Diagnostic::help)
     }

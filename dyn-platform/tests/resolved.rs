@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use dyn_platform::{PARAMETERS, Platform};
+use dyn_platform::{LegType, Platform};
 
 fn workspace() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
@@ -22,6 +22,10 @@ fn uhp_2016_with(good: &str, other: &str) -> Platform {
     let text = uhp_2016_text();
     assert!(text.contains(good), "{good:?} is not in the default platform");
     resolved(&text.replacen(good, other, 1))
+}
+
+fn axes(platform: &Platform) -> [[f64; 3]; 6] {
+    platform.parameters.leg_vectors("actuator_axis").expect("a parameter of legs uhp")
 }
 
 fn platform_files() -> Vec<PathBuf> {
@@ -73,11 +77,12 @@ fn home_of_table_1() {
     let platform = resolved(&uhp_2016_text());
     let (home, uhp) = (platform.home, platform.parameters);
     assert_eq!(home.position, [0.0, 0.0, 0.382]);
+    let rod_length = uhp.legs("rod_length").expect("a parameter of legs uhp");
     for leg in 0..6 {
         let [x, y, _]: [f64; 3] =
             std::array::from_fn(|axis| uhp.platform_point[leg][axis] - uhp.base_point[leg][axis]);
         let across = x.hypot(y);
-        let length = home.position[2] - (uhp.rod_length[leg].powi(2) - across.powi(2)).sqrt();
+        let length = home.position[2] - (rod_length[leg].powi(2) - across.powi(2)).sqrt();
         assert!((across - 0.09304).abs() < 5e-6, "leg {}: {across}", leg + 1);
         assert!((length - 0.19821).abs() < 5e-6, "leg {}: {length}", leg + 1);
     }
@@ -141,10 +146,10 @@ fn json_agrees_with_the_table_of_parameters() {
         assert_eq!(serde_json::from_str::<Platform>(&text).expect("its own JSON"), platform);
 
         let json: serde_json::Value = serde_json::from_str(&text).expect("JSON");
-        assert_eq!((&json["version"], &json["leg_type"]), (&1.into(), &"uhp".into()));
+        assert_eq!((&json["version"], &json["leg_type"]), (&1.into(), &platform.leg_type.name().into()));
         let parameters = json["parameters"].as_object().expect("an object");
-        assert_eq!(parameters.len(), PARAMETERS.len());
-        for info in PARAMETERS {
+        assert_eq!(parameters.len(), platform.leg_type.parameters().count());
+        for info in platform.leg_type.parameters() {
             let mut numbers = Vec::new();
             flatten(&parameters[info.name], info.shape, &mut numbers);
             assert_eq!(platform.parameter(info.name), Some(numbers), "{}", info.name);
@@ -174,13 +179,15 @@ fn json_of_another_version_is_refused() {
 #[test]
 fn a_leg_overrides_what_all_legs_share() {
     let leg_3 = "[[leg]]\nnumber = 3\nrod_mass_kg = 2.0\nactuator_axis = [0.0, -0.28, 0.96]\n[payload]";
-    let parameters = uhp_2016_with("[payload]", leg_3).parameters;
-    assert_eq!(parameters.rod_mass, [1.024, 1.024, 2.0, 1.024, 1.024, 1.024]);
-    assert_eq!(parameters.actuator_axis[2], [0.0, -0.28, 0.96]);
-    assert_eq!(parameters.actuator_axis[1], [0.0, 0.0, 1.0]);
+    let platform = uhp_2016_with("[payload]", leg_3);
+    let parameters = &platform.parameters;
+    assert_eq!(parameters.legs("rod_mass"), Some([1.024, 1.024, 2.0, 1.024, 1.024, 1.024]));
+    let axes = axes(&platform);
+    assert_eq!((axes[2], axes[1]), ([0.0, -0.28, 0.96], [0.0, 0.0, 1.0]));
     // The default follows each leg's own mass.
-    assert_eq!(parameters.rod_inertia[2], 2.0 * 0.206_f64.powi(2) / 12.0);
-    assert_eq!(parameters.rod_inertia[1], 1.024 * 0.206_f64.powi(2) / 12.0);
+    let inertia = parameters.legs("rod_inertia").expect("a parameter of legs uhp");
+    assert_eq!(inertia[2], 2.0 * 0.206_f64.powi(2) / 12.0);
+    assert_eq!(inertia[1], 1.024 * 0.206_f64.powi(2) / 12.0);
 }
 
 #[test]
@@ -188,7 +195,7 @@ fn legs_go_by_their_numbers_not_by_their_order() {
     let path = workspace().join("tests/platforms/everything.toml");
     let platform = Platform::from_file(path).expect("a valid file");
     assert_eq!(platform.parameters.base_point[0], [0.193, -0.156, -0.004]);
-    assert_eq!(platform.parameters.rod_length, [0.28, 0.31, 0.26, 0.3, 0.33, 0.29]);
+    assert_eq!(platform.parameters.legs("rod_length"), Some([0.28, 0.31, 0.26, 0.3, 0.33, 0.29]));
     assert_eq!(platform.home.rotation[0], [0.872, 0.48, 0.096]);
 }
 
@@ -205,13 +212,14 @@ fn rounding_in_the_file_is_removed() {
     // Nothing to remove: the digits stay as they were typed.
     let exact =
         Platform::from_file(workspace().join("tests/platforms/everything.toml")).expect("a valid file");
-    assert_eq!(exact.parameters.actuator_axis[5], [0.096, 0.36, 0.928]);
+    assert_eq!(axes(&exact)[5], [0.096, 0.36, 0.928]);
     assert_eq!(exact.home.rotation[2], [-0.2112, 0.192, 0.9584]);
 
     let norm = |vector: [f64; 3]| vector.iter().map(|x| x * x).sum::<f64>().sqrt();
 
     let axis = "actuator_axis = [0.1000000000, 0.2000000000, 0.9746794345]";
-    let axis = uhp_2016_with("actuator_axis = [0.0, 0.0, 1.0]", axis).parameters.actuator_axis[0];
+    let axis = uhp_2016_with("actuator_axis = [0.0, 0.0, 1.0]", axis);
+    let axis = axes(&axis)[0];
     assert!((norm(axis) - 1.0).abs() < 3e-16, "{axis:?}");
     assert!((axis[2] - 0.9746794345).abs() < 1e-9);
 
@@ -231,4 +239,52 @@ fn rounding_in_the_file_is_removed() {
 fn a_flat_body_is_a_body() {
     let parameters = uhp_2016_with("0.035]", "0.05]").parameters;
     assert_eq!(parameters.payload_inertia[2][2], 0.05);
+}
+
+#[test]
+fn telescopic_legs() {
+    let path = workspace().join("tests/platforms/ups_everything.toml");
+    let platform = Platform::from_file(path).expect("a valid file");
+    assert_eq!(platform.leg_type, LegType::Ups);
+    assert_eq!(platform.parameters.base_point[3], [-0.35, 0.33, -0.01]);
+    assert_eq!(platform.parameter("lower_mass").map(|masses| masses.len()), Some(6));
+    assert_eq!(platform.parameter("rod_length"), None);
+    let names: Vec<&str> = platform.parameter_names().collect();
+    assert_eq!(names[..3], ["base_point", "platform_point", "lower_mass"]);
+}
+
+/// Limits of all legs, overridden by one; a limit that no leg has is absent, a file without limits says nothing of them.
+#[test]
+fn limits() {
+    let common = "[legs]\nminimum_length_m = 0.18\nmaximum_length_m = 0.22\nmaximum_force_n = 150";
+    let text = uhp_2016_text().replacen("[legs]", common, 1);
+    let leg_2 =
+        "[[leg]]\nnumber = 2\nmaximum_length_m = 0.23\nmaximum_hooke_joint_angle_rad = 0.3\n[payload]";
+    let platform = resolved(&text.replacen("[payload]", leg_2, 1));
+    let json = serde_json::to_value(&platform).expect("plain numbers");
+    let expected = serde_json::json!({
+        "minimum_length": [0.18, 0.18, 0.18, 0.18, 0.18, 0.18],
+        "maximum_length": [0.22, 0.23, 0.22, 0.22, 0.22, 0.22],
+        "maximum_force": [150.0, 150.0, 150.0, 150.0, 150.0, 150.0],
+        "maximum_hooke_joint_angle": [null, 0.3, null, null, null, null],
+    });
+    assert_eq!(json["limits"], expected);
+    assert_eq!(serde_json::from_value::<Platform>(json).expect("its own JSON"), platform);
+
+    let json = serde_json::to_value(resolved(&uhp_2016_text())).expect("plain numbers");
+    assert_eq!(json.get("limits"), None);
+}
+
+#[test]
+fn json_with_wrong_parameters_is_refused() {
+    let json = serde_json::to_value(resolved(&uhp_2016_text())).expect("plain numbers");
+    let refused = |change: &dyn Fn(&mut serde_json::Value), words: &str| {
+        let mut changed = json.clone();
+        change(&mut changed);
+        let error = serde_json::from_value::<Platform>(changed).expect_err("wrong parameters").to_string();
+        assert!(error.contains(words), "{error}");
+    };
+    refused(&|json| json["parameters"]["rod_mass"] = 1.0.into(), "`rod_mass` is not an array of shape [6]");
+    refused(&|json| json["parameters"]["rod_colour"] = 1.0.into(), "unknown parameter `rod_colour`");
+    refused(&|json| json["leg_type"] = "ups".into(), "parameter `lower_mass` is missing");
 }

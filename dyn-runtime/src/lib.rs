@@ -106,6 +106,7 @@ mod state;
 
 pub mod angles;
 pub mod float;
+pub mod parameter;
 pub mod solve;
 
 pub use check::{

@@ -31,7 +31,7 @@ pub enum AdaptiveError<E> {
 }
 
 /// States at the times `k step`, k = 0 to `steps`, from `start`; `acceleration(t, state)` drives it. Beside them, why
-/// there are fewer, if there are.
+/// there are fewer, if there are. `progress` hears fractions.
 ///
 /// `tolerance` is relative, and absolute in m, rad, m/s and rad/s.
 pub fn integrate<E>(
@@ -40,11 +40,13 @@ pub fn integrate<E>(
     steps: usize,
     tolerance: f64,
     acceleration: impl Fn(f64, &PlatformState) -> Result<Acceleration, E>,
+    mut progress: impl FnMut(f64),
 ) -> (Vec<PlatformState>, Option<AdaptiveError<E>>) {
     let failure = RefCell::new(None);
     let mut states = vec![*start];
     let mut y = to_state(start);
     for k in 0..steps {
+        progress(k as f64 / steps as f64);
         y[TIME] = step * k as f64;
         let system = Driven { acceleration: &acceleration, failure: &failure };
         let (largest, first) = (step, 0.0);

@@ -18,6 +18,12 @@ use crate::spectrum::Plan;
 /// Relative and absolute tolerance of the adaptive reference.
 pub const ADAPTIVE_TOLERANCE: f64 = 1e-12;
 
+/// Name of the step in which dyn-sim itself simulates, among the seconds of an [`Outcome`].
+pub const SIMULATION: &str = "simulation by dyn-gen";
+
+/// Name of the step in which the virtual prototype runs.
+pub const PROTOTYPE: &str = "virtual prototype (Exudyn)";
+
 /// Who is told how far a long step is.
 pub trait Progress {
     /// A step begins.
@@ -59,28 +65,30 @@ pub fn run(
 ) -> Experiment {
     let (mechanism, model) = mechanism::of_platform(&scenario.platform, scenario.gravity_on);
     let mut steps = Steps { seconds: Vec::new(), progress };
-    let prepared = steps.time("excitation and actuator forces", |_| prepare(scenario, &*mechanism));
+    let prepared =
+        steps.time("excitation and actuator forces", |progress| prepare(scenario, &*mechanism, progress));
     let (drive, start) = (&prepared.drive, &prepared.start);
 
     let mut stop = prepared.stop;
     let mut simulations = Vec::new();
-    let own = steps.time("simulation by dyn-gen", |progress| {
-        own_simulation(scenario, &*mechanism, drive, start, progress)
-    });
+    let own =
+        steps.time(SIMULATION, |progress| own_simulation(scenario, &*mechanism, drive, start, progress));
     stop = stop.or(own.stop);
     simulations.push(own.series);
 
     let mut versions = vec![
         ("dyn-sim".to_owned(), env!("CARGO_PKG_VERSION").to_owned()),
         ("model".to_owned(), model.to_owned()),
-        ("integrator".to_owned(), integrator_name(scenario.integrator).to_owned()),
+        ("integrator".to_owned(), integrator_name(scenario)),
     ];
     let mut prototype_error = None;
     if let (Some(workspace), true, None) = (workspace, scenario.prototype, &stop) {
         match run_prototype(scenario, workspace, drive, start, &mut steps) {
             Ok(found) => {
                 versions.push(("virtual prototype".into(), found.series.label.clone()));
-                versions.push(("its integrator".into(), found.integrator));
+                let halved = if scenario.prototype_half_steps { 0.5 } else { 1.0 };
+                let step_ms = milliseconds(halved * scenario.grid.step_s);
+                versions.push(("its integrator".into(), format!("{}, {step_ms} ms", found.integrator)));
                 versions.push(("its closure residual".into(), format!("{:.1e} m", found.closure_residual)));
                 simulations.push(found.series);
             }
@@ -93,9 +101,10 @@ pub fn run(
         compared(scenario, &prepared.target, &simulations, &mut warnings)
     });
     warnings.extend(stop.as_ref().map(ToString::to_string));
-    warnings.extend(prototype_error.as_ref().map(|error| format!("no virtual prototype: {error}")));
+    warnings.extend(prototype_error.as_ref().map(PrototypeError::remark));
     let outcome = Outcome {
         scenario_name: scenario.name.clone(),
+        description: scenario.description.clone(),
         scenario_text: scenario.text.clone(),
         platform: scenario.platform.clone(),
         step_s: scenario.grid.step_s,
@@ -114,11 +123,20 @@ pub fn run(
     Experiment { outcome, stop, prototype_error }
 }
 
-fn integrator_name(integrator: Integrator) -> &'static str {
-    match integrator {
-        Integrator::LieRk4 => "Runge-Kutta-Munthe-Kaas, order 4",
-        Integrator::Adaptive => "Dormand-Prince 8(5,3) (ode_solvers), tolerance 1e-12",
+fn integrator_name(scenario: &Scenario) -> String {
+    match scenario.integrator {
+        Integrator::LieRk4 => {
+            format!("Runge-Kutta-Munthe-Kaas, order 4, {} ms", milliseconds(scenario.grid.step_s))
+        }
+        Integrator::Adaptive => {
+            format!("Dormand-Prince 8(5,3) (ode_solvers), tolerance {ADAPTIVE_TOLERANCE:e}")
+        }
     }
+}
+
+/// Without the noise of a decimal step in binary.
+fn milliseconds(step_s: f64) -> f64 {
+    (1e9 * step_s).round() / 1e6
 }
 
 /// Times steps and tells of them.
@@ -147,13 +165,18 @@ struct Prepared {
     stop: Option<Stop>,
 }
 
-fn prepare(scenario: &Scenario, mechanism: &dyn Mechanism) -> Prepared {
+fn prepare(scenario: &Scenario, mechanism: &dyn Mechanism, progress: &mut dyn Progress) -> Prepared {
     let grid = scenario.grid;
-    let base = simulate::sample(grid, &scenario.base);
+    // Three parts that take about the same time.
+    let mut tell = |part: f64, fraction: f64| progress.at((part + fraction) / 3.0);
+    let base = simulate::sample(grid, &scenario.base, |fraction| tell(0.0, fraction));
     match &scenario.steering {
         Steering::Target(motion) => {
-            let target = simulate::sample(grid, motion);
-            let (drive, stop) = simulate::forces_along(mechanism, grid, &base, &target, scenario.stroke);
+            let target = simulate::sample(grid, motion, |fraction| tell(1.0, fraction));
+            let (drive, stop) =
+                simulate::forces_along(mechanism, grid, &base, &target, scenario.stroke, |fraction| {
+                    tell(2.0, fraction)
+                });
             let samples = drive.base.len();
             let start = target[0].as_platform();
             let base = series("base", &drive, &base[..samples]);
@@ -198,7 +221,8 @@ fn own_simulation(
         Integrator::Adaptive => {
             let drive_at = |t: f64| drive_at(scenario, mechanism, t);
             let (grid, tolerance) = (drive.grid, ADAPTIVE_TOLERANCE);
-            simulate::simulate_adaptively(mechanism, grid, tolerance, start, scenario.stroke, drive_at)
+            let tell = |fraction| progress.at(fraction);
+            simulate::simulate_adaptively(mechanism, grid, tolerance, start, scenario.stroke, drive_at, tell)
         }
     }
 }
@@ -228,10 +252,15 @@ fn run_prototype(
     steps: &mut Steps,
 ) -> Result<prototype::Found, PrototypeError> {
     let environment = prototype::environment(workspace)?;
-    let (platform, gravity_on) = (&scenario.platform, scenario.gravity_on);
-    steps.time("virtual prototype (Exudyn)", |progress| {
-        let tell = |fraction| progress.at(fraction);
-        prototype::run(&environment, workspace, platform, gravity_on, drive, start, tell)
+    let task = prototype::Task {
+        platform: &scenario.platform,
+        gravity_on: scenario.gravity_on,
+        drive,
+        start,
+        half_steps: scenario.prototype_half_steps,
+    };
+    steps.time(PROTOTYPE, |progress| {
+        prototype::run(&environment, workspace, &task, |fraction| progress.at(fraction))
     })
 }
 

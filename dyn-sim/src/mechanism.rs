@@ -1,6 +1,6 @@
 //! The dynamics behind a simulation: generated models, with gravity or without.
 
-use dyn_platform::Platform;
+use dyn_platform::{LegType, Platform};
 use dyn_runtime::models::{Parameters, Uhp, Uhp2016};
 use dyn_runtime::nalgebra::{Vector3, Vector6};
 use dyn_runtime::{
@@ -130,28 +130,31 @@ impl<M: Functions> Model<M> {
         platform: &PlatformState,
         actuator_force_n: &Vector6<f64>,
     ) -> Result<Acceleration, Error> {
-        let base = self.falling_base(base);
-        let mut acceleration = [0.0; 6];
         if reached {
+            let (seen, mut found) = (self.seen_falling(&base.acceleration, 1.0), [0.0; 6]);
             self.hexapod.model.forward_dynamics(
                 base.pose.position_m.as_ref(),
                 &rows(&base.pose.rotation),
-                base.velocity.to_vector().as_ref(),
-                base.acceleration.to_vector().as_ref(),
+                &six(&base.velocity.linear_m_s, &base.velocity.angular_rad_s),
+                &six(&seen.linear_m_s2, &seen.angular_rad_s2),
                 platform.pose.position_m.as_ref(),
                 &rows(&platform.pose.rotation),
-                platform.velocity.to_vector().as_ref(),
+                &six(&platform.velocity.linear_m_s, &platform.velocity.angular_rad_s),
                 actuator_force_n.as_ref(),
                 &[0.0; 6],
-                &mut acceleration,
+                &mut found,
             );
+            let [x, y, z, rx, ry, rz] = found;
+            if (x + y + z + rx + ry + rz).is_finite() {
+                let found = Acceleration {
+                    linear_m_s2: Vector3::new(x, y, z),
+                    angular_rad_s2: Vector3::new(rx, ry, rz),
+                };
+                return Ok(self.seen_falling(&found, -1.0));
+            }
         }
-        let [x, y, z, rx, ry, rz] = acceleration;
-        let found = if reached && (x + y + z + rx + ry + rz).is_finite() {
-            Acceleration { linear_m_s2: Vector3::new(x, y, z), angular_rad_s2: Vector3::new(rx, ry, rz) }
-        } else {
-            self.hexapod.forward_dynamics(&base, platform, actuator_force_n, &Wrench::zero())?
-        };
+        let base = self.falling_base(base);
+        let found = self.hexapod.forward_dynamics(&base, platform, actuator_force_n, &Wrench::zero())?;
         Ok(self.seen_falling(&found, -1.0))
     }
 }
@@ -193,8 +196,21 @@ impl<M: Functions> Mechanism for Model<M> {
     }
 }
 
+/// A linear and an angular part, as generated functions have them.
+fn six(linear: &Vector3<f64>, angular: &Vector3<f64>) -> [f64; 6] {
+    [linear.x, linear.y, linear.z, angular.x, angular.y, angular.z]
+}
+
+/// Whether there is a generated model of a platform's legs.
+pub fn has_model(platform: &Platform) -> bool {
+    platform.leg_type == LegType::Uhp
+}
+
 /// The mechanism of a platform: the baked model where the numbers are those of the default platform, otherwise the
 /// model that takes its parameters at run time. Beside it, which of the two.
+///
+/// # Panics
+/// Without a model of the platform's legs: see [`has_model`].
 pub fn of_platform(platform: &Platform, gravity_on: bool) -> (Box<dyn Mechanism>, &'static str) {
     let is_default = Platform::from_toml("platforms/uhp_2016.toml", DEFAULT_PLATFORM)
         .is_ok_and(|default| default.parameters == platform.parameters);

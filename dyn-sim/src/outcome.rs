@@ -54,6 +54,8 @@ pub struct TimeErrors {
 pub struct Outcome {
     /// `name` of the scenario.
     pub scenario_name: String,
+    /// What the scenario file says of itself; may be empty.
+    pub description: String,
     /// The scenario file as read.
     pub scenario_text: String,
     /// The platform that was simulated.

@@ -59,6 +59,16 @@ pub enum PrototypeError {
 }
 
 impl PrototypeError {
+    /// What a reader of the results has to know, in one line where the environment is missing.
+    pub fn remark(&self) -> String {
+        match self {
+            Self::Environment(error) if error.is_environment_missing() => {
+                format!("no virtual prototype, as with --no-prototype: {error}; {}", error.remedy())
+            }
+            error => format!("no virtual prototype: {error}"),
+        }
+    }
+
     /// Whether this machine merely lacks Python or the network, so that one may go on without the prototype.
     pub fn is_environment_missing(&self) -> bool {
         matches!(self, Self::Environment(error) if error.is_environment_missing())
@@ -76,6 +86,22 @@ pub struct Found {
     pub integrator: String,
 }
 
+/// What the prototype is to do.
+#[derive(Clone, Copy, Debug)]
+pub struct Task<'a> {
+    /// The mechanism.
+    pub platform: &'a Platform,
+    /// Whether its gravity acts.
+    pub gravity_on: bool,
+    /// Base and forces.
+    pub drive: &'a Drive,
+    /// The platform's pose and velocity at the start.
+    pub start: &'a PlatformState,
+    /// Whether the engine's steps are half of the drive's: a quarter of its error. Its method takes base and forces at
+    /// the ends of its steps, so it needs no value that the drive does not have.
+    pub half_steps: bool,
+}
+
 #[derive(Serialize)]
 struct Input<'a> {
     version: u32,
@@ -86,6 +112,7 @@ struct Input<'a> {
     base: Base,
     actuator_force: Vec<[f64; 6]>,
     initial: Initial,
+    half_steps: bool,
 }
 
 #[derive(Serialize)]
@@ -130,22 +157,19 @@ pub fn environment(workspace: &Path) -> Result<Environment, PrototypeError> {
     Environment::prepare(&recipe).map_err(PrototypeError::Environment)
 }
 
-/// Runs the prototype on a drive from the platform's state `start`; `progress` hears fractions.
+/// Runs the prototype; `progress` hears fractions. `workspace` is the root of the repository.
 ///
 /// # Errors
 /// See [`PrototypeError`].
 pub fn run(
     environment: &Environment,
     workspace: &Path,
-    platform: &Platform,
-    gravity_on: bool,
-    drive: &Drive,
-    start: &PlatformState,
+    task: &Task,
     progress: impl FnMut(f64),
 ) -> Result<Found, PrototypeError> {
     let folder = tempfile::tempdir()?;
     let (input, output) = (folder.path().join("input.json"), folder.path().join("output.json"));
-    write_input(&input, platform, gravity_on, drive, start)?;
+    write_input(&input, task)?;
     let mut command = environment.command();
     command.args(["-m", "prototype"]).arg(&input).arg(&output).current_dir(workspace.join(FOLDER));
     let mut child = command.stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::piped()).spawn()?;
@@ -159,7 +183,7 @@ pub fn run(
     let text = std::fs::read_to_string(&output)?;
     let output: Output =
         serde_json::from_str(&text).map_err(|error| PrototypeError::Output(error.to_string()))?;
-    found(output, drive.grid.steps + 1)
+    found(output, task.drive.grid.steps + 1)
 }
 
 /// Passes progress on and keeps the last other lines.
@@ -180,14 +204,10 @@ fn listen(stderr: impl BufRead, mut progress: impl FnMut(f64)) -> io::Result<Str
     Ok(lines.join("\n"))
 }
 
-fn write_input(
-    path: &Path,
-    platform: &Platform,
-    gravity_on: bool,
-    drive: &Drive,
-    start: &PlatformState,
-) -> io::Result<()> {
-    let base = drive.base.iter().step_by(2);
+fn write_input(path: &Path, task: &Task) -> io::Result<()> {
+    let Task { platform, gravity_on, drive, start, half_steps } = *task;
+    let every = if half_steps { 1 } else { 2 };
+    let base = drive.base.iter().step_by(every);
     let input = Input {
         version: VERSION,
         platform,
@@ -200,12 +220,13 @@ fn write_input(
             velocity: base.clone().map(|b| b.velocity.to_vector().into()).collect(),
             acceleration: base.map(|b| b.acceleration.to_vector().into()).collect(),
         },
-        actuator_force: drive.actuator_force_n.iter().step_by(2).map(|force| (*force).into()).collect(),
+        actuator_force: drive.actuator_force_n.iter().step_by(every).map(|force| (*force).into()).collect(),
         initial: Initial {
             platform_position: start.pose.position_m.into(),
             platform_rotation: flat(&rows(&start.pose.rotation)),
             platform_velocity: start.velocity.to_vector().into(),
         },
+        half_steps,
     };
     let mut file = BufWriter::new(File::create(path)?);
     serde_json::to_writer(&mut file, &input)?;

@@ -45,6 +45,7 @@ const fn alternating_reciprocal_factorials(first: usize) -> [f64; TERMS] {
 }
 
 /// A polynomial and its derivative.
+#[inline]
 fn polynomial<const N: usize>(coefficients: &[f64; N], x: f64) -> (f64, f64) {
     let (mut value, mut derivative) = (0.0, 0.0);
     for coefficient in coefficients.iter().rev() {
@@ -55,6 +56,7 @@ fn polynomial<const N: usize>(coefficients: &[f64; N], x: f64) -> (f64, f64) {
 }
 
 /// `sin s/s` and a, for `square = s^2`.
+#[inline]
 fn sinc_and_a(square: f64) -> (f64, f64) {
     if square < SMALL {
         let few = |series: &[f64; TERMS]| {
@@ -92,6 +94,7 @@ pub fn cross_matrix(v: &Vector3<f64>) -> Matrix3<f64> {
 }
 
 /// `exp([phi]x)`: the rotation about `phi` by `|phi|` rad.
+#[inline]
 pub fn exponential(phi: &Vector3<f64>) -> Rotation3<f64> {
     let (sinc, a) = sinc_and_a(phi.norm_squared());
     let (x, y, z) = (phi.x, phi.y, phi.z);
@@ -134,12 +137,14 @@ pub fn angular_motion(
 
 /// The rate of the rotation vector `phi` under angular velocity `w`, up to the second commutator:
 /// `phi' = w - phi x w/2 + phi x (phi x w)/12`; what is left out is of fourth order in `phi`.
+#[inline]
 pub fn rotation_vector_rate(phi: &Vector3<f64>, w: &Vector3<f64>) -> Vector3<f64> {
     let once = phi.cross(w);
     w - once * 0.5 + phi.cross(&once) / 12.0
 }
 
 /// The rotation nearest to a product of rotations, for errors of rounding: one step of Newton's iteration squares them.
+#[inline]
 pub fn orthonormalised(rotation: &Rotation3<f64>) -> Rotation3<f64> {
     let matrix = rotation.matrix();
     Rotation3::from_matrix_unchecked((matrix * 3.0 - matrix * (matrix.transpose() * matrix)) * 0.5)

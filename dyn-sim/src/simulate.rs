@@ -44,13 +44,30 @@ pub struct Drive {
     pub actuator_force_n: Vec<Vector6<f64>>,
 }
 
-/// Lengths between which every actuator has to stay, m.
+/// Lengths between which each actuator has to stay, m; infinite where nothing limits it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Stroke {
     /// Shortest d.
-    pub shortest_m: f64,
+    pub shortest_m: [f64; 6],
     /// Longest d.
-    pub longest_m: f64,
+    pub longest_m: [f64; 6],
+}
+
+impl Stroke {
+    /// The first leg whose actuator length is not allowed.
+    fn left_by(&self, lengths: &Vector6<f64>) -> Option<usize> {
+        (0..6).find(|leg| !(self.shortest_m[*leg]..=self.longest_m[*leg]).contains(&lengths[*leg]))
+    }
+
+    /// What a leg may have, in words.
+    fn allowed(&self, leg: usize) -> String {
+        let (shortest, longest) = (self.shortest_m[leg], self.longest_m[leg]);
+        match (shortest.is_finite(), longest.is_finite()) {
+            (true, true) => format!("{:.3} to {:.3} mm", 1e3 * shortest, 1e3 * longest),
+            (true, false) => format!("{:.3} mm or more", 1e3 * shortest),
+            (false, _) => format!("{:.3} mm or less", 1e3 * longest),
+        }
+    }
 }
 
 /// Why a motion ended early. What was computed before it is kept.
@@ -94,12 +111,11 @@ impl fmt::Display for StopReason {
             Self::Dynamics(error) => error.fmt(f),
             Self::Stroke { leg, length_m, stroke } => write!(
                 f,
-                "leg {} (index {leg}) is at the end of its stroke: the actuator would be {:.3} mm long, and may have \
-                 {:.3} to {:.3} mm; reduce the motion, or change [limits]",
+                "leg {} (index {leg}) is past its stroke: the actuator would be {:.3} mm long, and may have {}; reduce \
+                 the motion, or change the limits in the platform file or the scenario",
                 leg + 1,
                 length_m * 1e3,
-                stroke.shortest_m * 1e3,
-                stroke.longest_m * 1e3,
+                stroke.allowed(*leg),
             ),
             Self::Solver(said) => write!(f, "the adaptive integrator gave up: {said}"),
         }
@@ -117,22 +133,36 @@ pub struct Run {
     pub stop: Option<Stop>,
 }
 
-/// The base's motion at every half step.
-pub fn sample(grid: Grid, motion: &Motion) -> Vec<BodyMotion> {
-    (0..=2 * grid.steps).map(|halves| motion.at(grid.half_step_time(halves))).collect()
+/// Progress is told once in so many steps.
+const TELL_EVERY: usize = 256;
+
+/// A motion at every half step; `progress` hears fractions.
+pub fn sample(grid: Grid, motion: &Motion, mut progress: impl FnMut(f64)) -> Vec<BodyMotion> {
+    let count = 2 * grid.steps + 1;
+    let at = |halves| {
+        if halves % TELL_EVERY == 0 {
+            progress(halves as f64 / count as f64);
+        }
+        motion.at(grid.half_step_time(halves))
+    };
+    (0..count).map(at).collect()
 }
 
 /// The forces that move the platform along `target` on a moving base; both at every half step. A target that the
-/// mechanism cannot follow gives a shorter drive and the reason.
+/// mechanism cannot follow gives a shorter drive and the reason. `progress` hears fractions.
 pub fn forces_along(
     mechanism: &dyn Mechanism,
     grid: Grid,
     base: &[BodyMotion],
     target: &[BodyMotion],
     stroke: Option<Stroke>,
+    mut progress: impl FnMut(f64),
 ) -> (Drive, Option<Stop>) {
     let mut drive = Drive { grid, base: Vec::new(), actuator_force_n: Vec::new() };
     for (halves, (base, target)) in base.iter().zip(target).enumerate() {
+        if halves % TELL_EVERY == 0 {
+            progress(halves as f64 / (2 * grid.steps + 1) as f64);
+        }
         let (base, platform) = (base.as_base(), target.as_platform());
         let force = within_stroke(mechanism, &base, &platform, stroke).and_then(|()| {
             mechanism.inverse_dynamics(&base, &platform, &target.acceleration).map_err(StopReason::Dynamics)
@@ -163,14 +193,13 @@ fn within_stroke(
 ) -> Result<(), StopReason> {
     let Some(stroke) = stroke else { return Ok(()) };
     let lengths = mechanism.actuator_length(base, platform).map_err(StopReason::Dynamics)?;
-    let outside = |d: &f64| !(stroke.shortest_m..=stroke.longest_m).contains(d);
-    match lengths.iter().position(outside) {
+    match stroke.left_by(&lengths) {
         Some(leg) => Err(StopReason::Stroke { leg, length_m: lengths[leg], stroke }),
         None => Ok(()),
     }
 }
 
-/// Simulates the platform by the fixed-step method of [`integrator`].
+/// Simulates the platform by the fixed-step method of [`integrator`]; `progress` hears fractions.
 pub fn simulate(
     mechanism: &dyn Mechanism,
     drive: &Drive,
@@ -204,14 +233,15 @@ pub fn simulate(
             Ok(next) => state = next,
             Err(reason) => return run.stopped(grid.time(k), reason),
         }
-        if k % 256 == 0 {
+        if k % TELL_EVERY == 0 {
             progress(k as f64 / grid.steps.max(1) as f64);
         }
     }
     run.finished()
 }
 
-/// Simulates by the adaptive reference, with base and forces at the times that the solver asks for.
+/// Simulates by the adaptive reference, with base and forces at the times that the solver asks for; `progress` hears
+/// fractions.
 pub fn simulate_adaptively(
     mechanism: &dyn Mechanism,
     grid: Grid,
@@ -219,13 +249,15 @@ pub fn simulate_adaptively(
     start: &PlatformState,
     stroke: Option<Stroke>,
     drive_at: impl Fn(f64) -> Result<(BaseMotion, Vector6<f64>), Error>,
+    progress: impl FnMut(f64),
 ) -> Run {
     let mut run = Recorder::new(grid.steps);
     let acceleration = |t: f64, state: &PlatformState| -> Result<Acceleration, Error> {
         let (base, force) = drive_at(t)?;
         mechanism.forward_dynamics(&base, state, &force)
     };
-    let (states, failure) = adaptive::integrate(start, grid.step_s, grid.steps, tolerance, acceleration);
+    let (states, failure) =
+        adaptive::integrate(start, grid.step_s, grid.steps, tolerance, acceleration, progress);
     for (k, state) in states.iter().enumerate() {
         let t = grid.time(k);
         let recorded = drive_at(t).map_err(StopReason::Dynamics).and_then(|(base, force)| {

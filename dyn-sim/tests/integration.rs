@@ -15,7 +15,7 @@ use common::{bases, distance, scenario, target};
 
 /// Base motion of the large experiment, forces zero, platform let go at home: everything nonlinear, nothing steered.
 fn let_go(scenario: &Scenario, grid: Grid) -> (Drive, PlatformState) {
-    let base = simulate::sample(grid, &scenario.base);
+    let base = simulate::sample(grid, &scenario.base, |_| ());
     let start = target(scenario).at(0.0).as_platform();
     let forces = vec![Vector6::zeros(); base.len()];
     (Drive { grid, base: bases(&base), actuator_force_n: forces }, start)
@@ -37,7 +37,7 @@ fn fourth_order_against_the_adaptive_reference() {
         let grid = Grid { step_s: 0.05, steps: 4 };
         let (_, start) = let_go(&scenario, grid);
         let drive_at = |t: f64| Ok((scenario.base.at(t).as_base(), Vector6::zeros()));
-        let run = simulate::simulate_adaptively(&*mechanism, grid, 1e-13, &start, None, drive_at);
+        let run = simulate::simulate_adaptively(&*mechanism, grid, 1e-13, &start, None, drive_at, |_| ());
         assert_eq!(run.stop, None);
         run.series.state(4)
     };
@@ -117,6 +117,9 @@ fn power(
     acceleration: &[f64; 6],
 ) -> f64 {
     let p = &scenario.platform.parameters;
+    let of_legs = |name: &str| p.legs(name).expect("a parameter of legs uhp");
+    let (rod_mass, rod_inertia, mover_mass) =
+        (of_legs("rod_mass"), of_legs("rod_inertia"), of_legs("mover_mass"));
     let (base, force) = (&drive.base[2 * k], &drive.actuator_force_n[2 * k]);
     let [x, y, z, rx, ry, rz] = *acceleration;
     let acceleration =
@@ -135,12 +138,12 @@ fn power(
     };
     add(p.payload_mass, &bodies.payload_com_position_m, &bodies.payload_com_acceleration_m_s2);
     for i in 0..6 {
-        add(p.rod_mass[i], &bodies.rod_com_position_m[i], &bodies.rod_com_acceleration_m_s2[i]);
-        add(p.mover_mass[i], &bodies.mover_position_m[i], &bodies.mover_acceleration_m_s2[i]);
+        add(rod_mass[i], &bodies.rod_com_position_m[i], &bodies.rod_com_acceleration_m_s2[i]);
+        add(mover_mass[i], &bodies.mover_position_m[i], &bodies.mover_acceleration_m_s2[i]);
     }
-    for i in 0..6 {
+    for (inertia, w_rate) in rod_inertia.iter().zip(&bodies.rod_angular_acceleration_rad_s2) {
         // Without spin a rod's angular momentum is J_s w_s.
-        moment += bodies.rod_angular_acceleration_rad_s2[i] * p.rod_inertia[i];
+        moment += w_rate * *inertia;
     }
     let rates = &legs.actuator_velocity_m_s;
     let damped: f64 = (0..6).map(|i| p.axial_damping[i] * rates[i] * rates[i]).sum();

@@ -23,9 +23,9 @@ const MARGIN: f64 = 50.0;
 fn error_of(scenario: &Scenario, model: &dyn Mechanism) -> f64 {
     let (truth, _) = mechanism::of_platform(&scenario.platform, scenario.gravity_on);
     let (grid, motion) = (scenario.grid, target(scenario));
-    let base = simulate::sample(grid, &scenario.base);
-    let wanted = simulate::sample(grid, motion);
-    let (drive, stop) = simulate::forces_along(model, grid, &base, &wanted, scenario.stroke);
+    let base = simulate::sample(grid, &scenario.base, |_| ());
+    let wanted = simulate::sample(grid, motion, |_| ());
+    let (drive, stop) = simulate::forces_along(model, grid, &base, &wanted, scenario.stroke, |_| ());
     assert_eq!(stop, None);
     // A wrong model may drive the legs anywhere: no limits.
     let run = simulate::simulate(&*truth, &drive, &wanted[0].as_platform(), None, |_| ());
@@ -170,7 +170,8 @@ fn quadratic_terms_left_out() {
 #[test]
 fn rod_mass_five_percent_low() {
     let change = |platform: &mut Platform| {
-        platform.parameters.rod_mass = platform.parameters.rod_mass.map(|m| 0.95 * m)
+        let rod_mass = platform.parameters.get_mut("rod_mass").expect("legs have rods");
+        rod_mass.iter_mut().for_each(|m| *m *= 0.95);
     };
     caught("m_s - 5 %", with_parameters(&scenario("large"), change));
 }

@@ -53,9 +53,37 @@ fn a_target_past_the_stroke() {
     assert!(matches!(stop.reason, StopReason::Stroke { leg: 0, .. }), "{stop}");
     assert_eq!(
         stop.to_string(),
-        "the target motion stops at 0.064500 s: leg 1 (index 0) is at the end of its stroke: the actuator would be \
-         210.036 mm long, and may have 180.000 to 210.000 mm; reduce the motion, or change [limits]"
+        "the target motion stops at 0.064500 s: leg 1 (index 0) is past its stroke: the actuator would be 210.036 mm \
+         long, and may have 180.000 to 210.000 mm; reduce the motion, or change the limits in the platform file or the \
+         scenario"
     );
+}
+
+/// The stroke of the platform file counts without a word in the scenario, which can only narrow it.
+#[test]
+fn a_target_past_the_stroke_of_the_platform_file() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let platform = Path::new(env!("CARGO_MANIFEST_DIR")).join("../platforms/uhp_2016.toml");
+    let text = std::fs::read_to_string(platform).expect("the default platform");
+    let limited = text.replace("\n[legs]", "\n[legs]\nminimum_length_m = 0.19");
+    assert_ne!(text, limited);
+    std::fs::write(folder.path().join("limited.toml"), limited).expect("a file");
+    let run = |limits: &str| {
+        let target = "[target]\n[[target.harmonic]]\nfrequency_hz = 1.0\nlinear_m = [0.0, 0.0, -0.03]\n";
+        let text = format!(
+            "version = 1\nname = \"stop\"\nplatform = \"limited.toml\"\ngravity = true\nduration_s = 0.5\nstep_s = 1e-3\n{limits}{target}"
+        );
+        let scenario = Scenario::from_toml("stop.toml", &text, folder.path()).expect("a valid scenario");
+        let experiment = experiment::run(&scenario, None, "test", &mut Silent);
+        keeps_what_came_before(&experiment);
+        experiment.stop.expect("a stop").to_string()
+    };
+    let stop = run("");
+    assert!(stop.contains("189.") && stop.contains("may have 190.000 mm or more;"), "{stop}");
+    let stop = run("[limits]\nactuator_length_m = [0.18, 0.21]\n");
+    assert!(stop.contains("may have 190.000 to 210.000 mm;"), "{stop}");
+    let stop = run("[limits]\nactuator_length_m = [0.195, 0.21]\n");
+    assert!(stop.contains("may have 195.000 to 210.000 mm;"), "{stop}");
 }
 
 #[test]

@@ -59,7 +59,8 @@ pub fn states(file: &GraphFile, platform: &Platform, count: usize) -> Vec<(Kind,
 
 /// Flat arrays of a platform's parameters by name.
 pub fn parameters(platform: &Platform) -> Environment {
-    Platform::parameter_names()
+    platform
+        .parameter_names()
         .map(|name| (name.to_owned(), platform.parameter(name).expect("a name from the list")))
         .collect()
 }

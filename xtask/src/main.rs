@@ -27,9 +27,10 @@ struct CommandLine {
 
 #[derive(Subcommand)]
 enum Task {
-    /// Derive, regenerate, check, and print a summary of the platform of the paper
+    /// Derive, regenerate, check, print the paper's platform in figures, and repeat the paper's experiment
     ///
-    /// Where Python or the network is missing it says so and goes on with the committed graph.
+    /// Where Python or the network is missing it says so and goes on with the committed graph and without the
+    /// virtual prototype.
     Run(Selection),
     /// Check everything: format, lints, freshness of derived files, Python and Rust tests, documentation
     ///

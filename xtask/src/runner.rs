@@ -115,10 +115,10 @@ fn perform(action: &Action) -> Result<String, Failure> {
                 succeed(&mut cargo).map(|()| remark)
             }
         }
-        Action::Derivation(arguments) => {
-            let environment = workspace::environment("derivation", "codegen/requirements.lock")?;
+        Action::Python { program, arguments } => {
+            let environment = workspace::environment(program.environment, program.lock_file)?;
             let mut python = environment.command();
-            succeed(python.args(arguments).current_dir(workspace::root().join("codegen")))
+            succeed(python.args(arguments).current_dir(workspace::root().join(program.folder)))
                 .map(|()| String::new())
         }
     }
@@ -212,8 +212,9 @@ pub fn command_line(action: &Action) -> String {
         Action::Documentation(arguments) => {
             format!("RUSTDOCFLAGS='--deny warnings' cargo {}", arguments.join(" "))
         }
-        Action::Derivation(arguments) => {
-            format!("(in codegen/, Python of target/python/derivation-*) python {}", arguments.join(" "))
+        Action::Python { program, arguments } => {
+            let (folder, environment) = (program.folder, program.environment);
+            format!("(in {folder}/, Python of target/python/{environment}-*) python {}", arguments.join(" "))
         }
     }
 }

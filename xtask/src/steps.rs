@@ -30,9 +30,35 @@ pub enum Action {
     Documentation(&'static [&'static str]),
     /// `cargo ARGUMENTS`, for a machine without operating system where the toolchain has that target.
     NoStd(&'static [&'static str]),
-    /// `python ARGUMENTS` in `codegen/`, in the derivation's environment.
-    Derivation(&'static [&'static str]),
+    /// `python ARGUMENTS` in a folder, in a Python environment of its own.
+    Python {
+        /// Where and with which packages.
+        program: &'static PythonProgram,
+        /// Arguments of python.
+        arguments: &'static [&'static str],
+    },
 }
+
+/// A Python program of this workspace.
+pub struct PythonProgram {
+    /// Name of its environment under `target/python/`.
+    pub environment: &'static str,
+    /// Folder to be in, from the root.
+    pub folder: &'static str,
+    /// Its pinned packages, from the root.
+    pub lock_file: &'static str,
+}
+
+/// The derivation by CasADi.
+const DERIVATION: PythonProgram =
+    PythonProgram { environment: "derivation", folder: "codegen", lock_file: "codegen/requirements.lock" };
+
+/// The mechanism in Exudyn.
+const PROTOTYPE: PythonProgram = PythonProgram {
+    environment: "prototype",
+    folder: "dyn-sim",
+    lock_file: "dyn-sim/prototype/requirements.lock",
+};
 
 /// The README's `Run`.
 pub const RUN: &[Step] = &[
@@ -68,6 +94,11 @@ pub const RUN: &[Step] = &[
         why: "the generated functions, called from a program of 40 lines",
         action: Action::Cargo(&["run", "--release", "--package", "dyn-runtime", "--example", "first_call"]),
     },
+    Step {
+        name: "experiment",
+        why: "the paper's experiment: our errors beside its Table 4, and a report with every curve",
+        action: Action::Cargo(&["run", "--release", "--package", "dyn-sim", "--", "reproduce"]),
+    },
 ];
 
 /// The README's `Test`. Quick checks first; the tests last, so that their figures stand at the end of the output.
@@ -98,7 +129,18 @@ pub const TEST: &[Step] = &[
     Step {
         name: "python-tests",
         why: "the derivation's own tests",
-        action: Action::Derivation(&["-m", "pytest", "tests", "--quiet", "-p", "no:cacheprovider"]),
+        action: Action::Python {
+            program: &DERIVATION,
+            arguments: &["-m", "pytest", "tests", "--quiet", "-p", "no:cacheprovider"],
+        },
+    },
+    Step {
+        name: "prototype-tests",
+        why: "the mechanism in Exudyn is the paper's: against other engines and hand calculation",
+        action: Action::Python {
+            program: &PROTOTYPE,
+            arguments: &["-m", "pytest", "prototype/tests", "--quiet", "-p", "no:cacheprovider"],
+        },
     },
     Step {
         name: "no-std",

@@ -70,8 +70,8 @@ fn names_of_steps_differ() {
 #[test]
 fn selection() {
     let names = |steps: &[Step]| steps.iter().map(|step| step.name).collect::<Vec<_>>();
-    assert_eq!(names(select(RUN, None, None).unwrap()), ["generate", "summary", "first-call"]);
-    assert_eq!(names(select(RUN, Some("summary"), None).unwrap()), ["summary", "first-call"]);
+    assert_eq!(names(select(RUN, None, None).unwrap()), ["generate", "summary", "first-call", "experiment"]);
+    assert_eq!(names(select(RUN, Some("first-call"), None).unwrap()), ["first-call", "experiment"]);
     assert_eq!(names(select(RUN, None, Some("summary")).unwrap()), ["summary"]);
     let message = select(RUN, Some("sumary"), None).err().unwrap().to_string();
     assert!(message.contains("`sumary`") && message.contains("generate, summary"), "{message}");

@@ -5,11 +5,12 @@ use std::path::Path;
 
 use clap::Args;
 use dyn_gen::GraphFile;
+use dyn_gen::output::{NewFile, write_all};
 use dyn_python::{Environment, Recipe, target_directory};
 use miette::{Diagnostic, IntoDiagnostic, Result, WrapErr};
 
 use super::Outcome;
-use super::files::{DERIVATION, GRAPH, LOCK_FILE, NewFile, repository, write_all};
+use super::files::{DERIVATION, GRAPH, LOCK_FILE, repository};
 use super::progress::with_progress;
 
 /// Arguments of `derive`.
@@ -52,7 +53,7 @@ pub enum DeriveError {
     /// No environment to run in.
     #[error("{0}")]
     #[diagnostic(help("{}", .0.remedy()))]
-    Environment(#[source] dyn_python::Error),
+    Environment(dyn_python::Error),
     /// The derivation ran and failed.
     #[error("the derivation failed ({status}); the committed graph is unchanged\n{output}")]
     #[diagnostic(help("to repeat it by hand: {command}"))]

@@ -1,7 +1,6 @@
-//! Where things are in the repository, and files written as a whole or not at all.
+//! Where things are in the repository, and what is read from files.
 
 use std::fs;
-use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use dyn_gen::GraphFile;
@@ -52,53 +51,4 @@ pub fn read_graph(path: &Path) -> Result<GraphFile> {
     GraphFile::from_json(&name, &read(path)?)
         .map_err(miette::Report::from)
         .wrap_err_with(|| format!("{} is refused", path.display()))
-}
-
-/// A file to be written.
-pub struct NewFile {
-    /// Where.
-    pub path: PathBuf,
-    /// What.
-    pub text: String,
-}
-
-impl NewFile {
-    /// Whether the file is already what it will be. An unreadable file is not.
-    pub fn is_current(&self) -> bool {
-        fs::read(&self.path).is_ok_and(|bytes| bytes == self.text.as_bytes())
-    }
-}
-
-/// Replaces every file by its new text: all texts are on disk before the first file is replaced, and each is replaced in
-/// one step, so an interruption leaves every file old or new and none half.
-pub fn write_all(files: &[NewFile]) -> Result<()> {
-    let prepared = files.iter().map(prepare).collect::<Result<Vec<_>>>()?;
-    for (temporary, file) in prepared.into_iter().zip(files) {
-        temporary
-            .persist(&file.path)
-            .into_diagnostic()
-            .wrap_err_with(|| format!("cannot replace {}", file.path.display()))?;
-    }
-    Ok(())
-}
-
-fn prepare(file: &NewFile) -> Result<tempfile::NamedTempFile> {
-    let folder = match file.path.parent() {
-        Some(folder) if folder != Path::new("") => folder,
-        _ => Path::new("."),
-    };
-    let write = || {
-        let mut temporary = tempfile::Builder::new().prefix(".dyn-gen-").tempfile_in(folder)?;
-        temporary.write_all(file.text.as_bytes())?;
-        temporary.as_file().sync_all()?;
-        // A temporary file is private; a source file is as readable as the one it replaces, or as any new one.
-        #[cfg(unix)]
-        {
-            use std::os::unix::fs::PermissionsExt;
-            let mode = fs::metadata(&file.path).map_or(0o644, |old| old.permissions().mode());
-            fs::set_permissions(temporary.path(), fs::Permissions::from_mode(mode))?;
-        }
-        Ok::<_, std::io::Error>(temporary)
-    };
-    write().into_diagnostic().wrap_err_with(|| format!("cannot write {}", file.path.display()))
 }

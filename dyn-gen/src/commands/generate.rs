@@ -3,16 +3,16 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use dyn_gen::emit::{RuntimePath, Scalar};
-use dyn_gen::{GraphFile, Numbers, Options};
-use dyn_platform::Platform;
-use miette::Result;
+use dyn_gen::GenerateError;
+use dyn_gen::output::{NewFile, write_all};
+use miette::{IntoDiagnostic, Result};
 
 use super::Outcome;
-use super::files::{NewFile, read_graph, write_all};
+use super::model::ModelArguments;
 
 /// Arguments of `generate`.
 #[derive(Args)]
+#[command(after_help = EXAMPLES)]
 pub struct Generate {
     /// Platform file
     #[arg(value_name = "PLATFORM.toml")]
@@ -20,58 +20,60 @@ pub struct Generate {
     /// File to write
     #[arg(short, long, value_name = "FILE.rs")]
     output: PathBuf,
-    /// Name of the model, whose type is its CamelCase [default: the platform's name]
+    #[command(flatten)]
+    pub model: ModelArguments,
+    /// Write everything that was found about the model as JSON too
+    #[arg(long, value_name = "FILE.json", conflicts_with = "no_evidence")]
+    evidence: Option<PathBuf>,
+    /// Print how long each stage took
     #[arg(long)]
-    model: Option<String>,
-    /// Where the generated code finds the runtime crate
-    #[arg(long, value_name = "PATH", default_value = "::dyn_runtime")]
-    runtime_path: String,
-    /// Functions to generate, separated by commas [default: all]
-    #[arg(long, value_delimiter = ',', value_name = "NAME,...")]
-    functions: Option<Vec<String>>,
-    /// Graph file [default: the one this tool was built with]
-    #[arg(long, value_name = "FILE.json")]
-    graph: Option<PathBuf>,
+    timings: bool,
 }
+
+const EXAMPLES: &str = "\
+Examples:
+  dyn-gen generate my_platform.toml -o src/my_platform.rs
+  dyn-gen generate my_platform.toml -o src/control.rs --functions inverse_dynamics,forward_dynamics
+  dyn-gen generate my_platform.toml -o src/my_platform.rs --runtime payload,gravity,legs.k_e
+  dyn-gen generate my_platform.toml -o src/my_platform.rs --evidence evidence.json
+
+The file needs the crate dyn-runtime and nothing else: add `mod my_platform;` and call
+`dyn_runtime::Hexapod::new(my_platform::MyPlatform)`. With --runtime the model has parameters:
+`my_platform::MyPlatform::default()` has the platform file's.
+
+Before it writes, generate compares the model with the equations as derived and with dynamics written by hand, at sampled
+states, and asks laws of mechanics of it. If anything is beyond its tolerance it writes nothing and ends with code 1.";
 
 impl Generate {
     /// Writes the model, if nothing stands against it.
     pub fn run(self) -> Result<Outcome> {
-        let platform = Platform::from_file(&self.platform)?;
-        let graph = match &self.graph {
-            Some(path) => read_graph(path)?,
-            None => GraphFile::uhp()?,
+        let generated = match self.model.generate(&self.platform, &self.output) {
+            Ok(generated) => generated,
+            Err(report) => {
+                if let Some(GenerateError::Refused(evidence)) = report.downcast_ref() {
+                    eprint!("{}", evidence.text());
+                }
+                return Err(report);
+            }
         };
-        let options = Options {
-            command: self.command(),
-            model: self.model.unwrap_or_else(|| platform.name.clone()),
-            runtime: RuntimePath::new(&self.runtime_path).map_err(dyn_gen::GenerateError::from)?,
-            scalars: vec![Scalar::F64],
-            functions: self.functions,
-        };
-        let generated = dyn_gen::generate(&graph, Numbers::Baked(&platform), &options)?;
-        let file = NewFile { path: self.output, text: generated.source };
-        write_all(std::slice::from_ref(&file))?;
-        eprintln!("wrote {}: {} functions", file.path.display(), generated.functions.len());
+        let mut files = vec![NewFile { path: self.output, text: generated.source }];
+        if let Some(evidence) = &generated.evidence {
+            print!("{}", evidence.text());
+            if let Some(path) = self.evidence {
+                let text = serde_json::to_string_pretty(evidence).into_diagnostic()? + "\n";
+                files.push(NewFile { path, text });
+            }
+        }
+        let started = std::time::Instant::now();
+        write_all(&files)?;
+        let wrote = ("write", started.elapsed());
+        if self.timings {
+            for (stage, time) in generated.timings.into_iter().chain([wrote]) {
+                println!("{stage:<10} {:>7.1} ms", 1e3 * time.as_secs_f64());
+            }
+        }
+        let path = files[0].path.display();
+        eprintln!("wrote {path}: {} functions", generated.functions.len());
         Ok(Outcome::Done)
-    }
-
-    /// The command as the file's first lines show it: names without folders, so that every machine writes the same.
-    fn command(&self) -> String {
-        let name = |path: &PathBuf| path.file_name().unwrap_or_default().to_string_lossy().into_owned();
-        let mut command = format!("dyn-gen generate {} -o {}", name(&self.platform), name(&self.output));
-        if let Some(model) = &self.model {
-            command += &format!(" --model {model}");
-        }
-        if self.runtime_path != "::dyn_runtime" {
-            command += &format!(" --runtime-path {}", self.runtime_path);
-        }
-        if let Some(functions) = &self.functions {
-            command += &format!(" --functions {}", functions.join(","));
-        }
-        if let Some(graph) = &self.graph {
-            command += &format!(" --graph {}", name(graph));
-        }
-        command
     }
 }

@@ -1,12 +1,17 @@
 //! Subcommands: one file each.
 
+mod check;
+mod completions;
 mod derive;
+mod explain;
 mod files;
 mod generate;
+mod model;
 mod progress;
 mod regen;
 mod resolve;
-mod summary;
+mod vectors;
+mod words;
 
 use clap::{Parser, Subcommand};
 
@@ -29,7 +34,8 @@ pub struct Arguments {
 const EXAMPLES: &str = "\
 Examples:
   dyn-gen generate my_platform.toml -o src/my_platform.rs   a model of your own platform
-  dyn-gen summary my_platform.toml                          what the generator makes of it
+  dyn-gen explain my_platform.toml                          the platform in figures
+  dyn-gen check my_platform.toml src/my_platform.rs         is the model up to date?
   dyn-gen regen                                             the models of this repository, again
   dyn-gen regen --check                                     are they up to date?
 
@@ -40,23 +46,32 @@ Exit codes: 0 done, 1 refused or different, 2 wrong usage.";
 enum Command {
     /// Write the model of one platform, all its numbers baked in
     Generate(generate::Generate),
+    /// Print a platform in figures: what it is, how it moves, what the generator makes of it
+    Explain(explain::Explain),
+    /// Write inputs and outputs of every function, to check a port against
+    Vectors(vectors::Vectors),
+    /// Print a script that completes this tool's commands in a shell
+    Completions(completions::Completions),
+    /// Tell whether a file is what a platform gives
+    Check(check::Check),
     /// Write the models committed in this repository (dyn-runtime/src/generated) again
     Regen(regen::Regen),
     /// Derive the equations with CasADi and write the graph file (codegen/graphs/uhp.json)
     Derive(derive::Derive),
     /// Print the resolved numbers of a platform as JSON
     Resolve(resolve::Resolve),
-    /// Print what a platform is and what the generator makes of it
-    Summary(summary::Summary),
 }
 
 /// Does what the command line says.
 pub fn run(arguments: Arguments) -> miette::Result<Outcome> {
     match arguments.command {
         Command::Generate(generate) => generate.run(),
+        Command::Check(check) => check.run(),
         Command::Regen(regen) => regen.run(),
         Command::Derive(derive) => derive.run(),
         Command::Resolve(resolve) => resolve.run(),
-        Command::Summary(summary) => summary.run(),
+        Command::Explain(explain) => explain.run(),
+        Command::Completions(completions) => completions.run(),
+        Command::Vectors(vectors) => vectors.run(),
     }
 }

@@ -4,13 +4,14 @@ use std::path::Path;
 
 use clap::Args;
 use dyn_gen::emit::{RuntimePath, Scalar};
+use dyn_gen::output::{NewFile, write_all};
 use dyn_gen::{GraphFile, Numbers, Options, generate, kernels};
 use dyn_platform::Platform;
 use miette::Result;
 
 use super::Outcome;
 use super::derive::{DeriveError, derive};
-use super::files::{GENERATED, GRAPH, NewFile, PLATFORM, read_graph, repository, write_all};
+use super::files::{GENERATED, GRAPH, PLATFORM, read_graph, repository};
 
 /// The command that the files name and that a failed check recommends.
 const COMMAND: &str = "cargo regen";
@@ -85,12 +86,13 @@ fn generated_files(root: &Path, graph: &GraphFile) -> Result<Vec<NewFile>> {
         scalars: vec![Scalar::F64, Scalar::F32],
         functions: None,
         command: COMMAND.into(),
+        evidence: None,
     };
     let family = graph.program.name.as_str();
     let texts = [
         ("kernels", kernels(graph, COMMAND)?),
-        (&platform.name, generate(graph, Numbers::Baked(&platform), &options(&platform.name))?.source),
-        (family, generate(graph, Numbers::AtRunTime, &options(family))?.source),
+        (&platform.name, generate(graph, &Numbers::baked(&platform), &options(&platform.name))?.source),
+        (family, generate(graph, &Numbers::at_run_time(), &options(family))?.source),
     ];
     let file = |(name, text): (&str, String)| NewFile {
         path: root.join(GENERATED).join(format!("{name}.rs")),

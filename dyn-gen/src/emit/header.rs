@@ -53,6 +53,8 @@ pub struct Header {
     pub operations: Vec<CountRow>,
     /// One row per linear system written out.
     pub eliminations: Vec<Elimination>,
+    /// What was found before the file was written, line by line; empty if it was not looked for.
+    pub evidence: Vec<String>,
 }
 
 impl Header {
@@ -97,6 +99,11 @@ impl Header {
                 let Elimination { function, solve, growth, states } = row;
                 line(format_args!("{function}, {solve}: {growth:.1} ({states} states sampled)"));
             }
+        }
+        if !self.evidence.is_empty() {
+            line(format_args!(""));
+            line(format_args!("evidence"));
+            self.evidence.iter().for_each(|row| line(format_args!("{row}")));
         }
         text
     }

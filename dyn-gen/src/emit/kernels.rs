@@ -3,7 +3,7 @@
 use quote::{format_ident, quote};
 
 use super::function::allow;
-use super::names::{SCALAR, check_type_names, type_name};
+use super::names::{SCALAR, check_type_names, type_identifier};
 use super::print::source;
 use super::signature::Signature;
 use super::{EmitError, Header};
@@ -14,7 +14,7 @@ pub fn kernels_file(header: &Header, signatures: &[Signature]) -> Result<String,
     let mut text = header.text();
     let scalar = format_ident!("{SCALAR}");
     for signature in signatures {
-        let kernel = type_name(&signature.name)?;
+        let kernel = type_identifier(&signature.name)?;
         let function = signature.identifier()?;
         let documentation = signature.documentation();
         let arguments = signature.arguments(&quote!(#scalar))?;

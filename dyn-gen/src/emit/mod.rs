@@ -7,6 +7,7 @@
 //! | `body`, `expression` | the inside: statements and section comments, expressions |
 //! | `placement`, `schedule`, `blocks` | which values get a name, in which order, in which block |
 //! | `function`, `model`, `kernels`, `header` | a free function; the files and their first lines |
+//! | `setters` | checked access to the parameters of a model |
 //! | `names`, `tree`, `print` | identifiers; pieces of syntax; syntax to text |
 
 mod blocks;
@@ -21,6 +22,7 @@ mod names;
 mod placement;
 mod print;
 mod schedule;
+mod setters;
 mod signature;
 mod tree;
 
@@ -29,6 +31,7 @@ pub use function::function;
 pub use header::{CountRow, Elimination, Header, Source};
 pub use kernels::kernels_file;
 pub use model::{Model, Scalar, model_file};
+pub use names::type_name;
 pub use signature::Signature;
 
 /// Where generated code finds the runtime crate.

@@ -1,11 +1,14 @@
 //! The file of one model: a type that implements the kernel traits, parameters if any remain, the functions.
 
+use std::str::FromStr;
+
 use proc_macro2::TokenStream;
 use quote::{format_ident, quote};
 
 use super::function::allow;
-use super::names::{PARAMETERS, SCALAR, check_type_names, identifier, type_name};
+use super::names::{PARAMETERS, SCALAR, check_type_names, identifier, type_identifier};
 use super::print::source;
+use super::setters;
 use super::signature::{Signature, array_type, documentation, symbol_line};
 use super::{EmitError, Header, RuntimePath};
 use crate::graph::Symbol;
@@ -29,6 +32,18 @@ impl Scalar {
     }
 }
 
+impl FromStr for Scalar {
+    type Err = EmitError;
+
+    fn from_str(name: &str) -> Result<Scalar, EmitError> {
+        let named = |scalar: &Scalar| scalar.name() == name;
+        [Scalar::F64, Scalar::F32]
+            .into_iter()
+            .find(named)
+            .ok_or_else(|| EmitError::Scalar { name: name.into() })
+    }
+}
+
 /// A model to print. It is baked when it has no parameters.
 pub struct Model<'a> {
     /// Name of the platform or family, e.g. `uhp_2016`; the type is called `Uhp2016`.
@@ -40,6 +55,8 @@ pub struct Model<'a> {
     /// The types of number for which the model implements the kernel traits; its functions take any. Code for the first
     /// is made in the crate that the file belongs to, once; for the others where a function is called.
     pub scalars: &'a [Scalar],
+    /// Their values until others are given, flat, in the same order; none for a model of any platform.
+    pub defaults: Option<&'a [Vec<f64>]>,
     /// What callers see of each function.
     pub signatures: &'a [Signature],
     /// Source of each function, as printed by [`super::function`].
@@ -64,7 +81,7 @@ pub fn model_file(header: &Header, model: &Model) -> Result<String, EmitError> {
 /// Everything before the functions, one item after another.
 fn items(model: &Model) -> Result<Vec<TokenStream>, EmitError> {
     let runtime = model.runtime.tokens();
-    let name = type_name(model.name)?;
+    let name = type_identifier(model.name)?;
     if ["Parameters", "Scalar", SCALAR].iter().any(|taken| name == taken) {
         return Err(EmitError::Name {
             function: model.name.into(),
@@ -98,8 +115,12 @@ fn items(model: &Model) -> Result<Vec<TokenStream>, EmitError> {
                 pub parameters: Parameters<#scalar>,
             }
         });
+        items.extend(setters::items(model)?);
     }
     for (place, &scalar) in model.scalars.iter().enumerate() {
+        if model.scalars[..place].contains(&scalar) {
+            continue;
+        }
         let inline = (place > 0).then(|| quote!(#[inline]));
         for signature in model.signatures {
             items.push(implementation(model, signature, scalar, &inline)?);
@@ -164,8 +185,8 @@ fn implementation(
     inline: &Option<TokenStream>,
 ) -> Result<TokenStream, EmitError> {
     let runtime = model.runtime.tokens();
-    let model_name = type_name(model.name)?;
-    let kernel = type_name(&signature.name)?;
+    let model_name = type_identifier(model.name)?;
+    let kernel = type_identifier(&signature.name)?;
     let function = signature.identifier()?;
     let number = format_ident!("{}", scalar.name());
     let arguments = signature.arguments(&quote!(#number))?;

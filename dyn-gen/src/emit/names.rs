@@ -44,7 +44,7 @@ fn is_temporary(name: &str) -> bool {
 }
 
 /// `inverse_dynamics` as the type name `InverseDynamics`; digits keep their place: `uhp_2016` is `Uhp2016`.
-pub fn camel_case(name: &str) -> String {
+pub fn type_name(name: &str) -> String {
     name.split('_')
         .flat_map(|word| {
             let mut letters = word.chars();
@@ -53,9 +53,9 @@ pub fn camel_case(name: &str) -> String {
         .collect()
 }
 
-/// The type named after `name`.
-pub fn type_name(name: &str) -> Result<Ident, EmitError> {
-    let camel = camel_case(name);
+/// The type named after `name`, if it is an identifier.
+pub fn type_identifier(name: &str) -> Result<Ident, EmitError> {
+    let camel = type_name(name);
     syn::parse_str::<Ident>(&camel).map_err(|_| EmitError::Name {
         function: name.into(),
         name: camel.clone(),
@@ -67,10 +67,10 @@ pub fn type_name(name: &str) -> Result<Ident, EmitError> {
 pub fn check_type_names<'a>(functions: impl Iterator<Item = &'a str>) -> Result<(), EmitError> {
     let mut known = BTreeSet::new();
     for function in functions {
-        if !known.insert(camel_case(function)) {
+        if !known.insert(type_name(function)) {
             return Err(EmitError::Name {
                 function: function.into(),
-                name: camel_case(function),
+                name: type_name(function),
                 reason: "two functions would have this type",
             });
         }
@@ -84,9 +84,9 @@ mod tests {
 
     #[test]
     fn type_names_keep_digits_and_drop_underscores() {
-        assert_eq!(camel_case("inverse_dynamics"), "InverseDynamics");
-        assert_eq!(camel_case("uhp_2016"), "Uhp2016");
-        assert_eq!(camel_case("bias"), "Bias");
+        assert_eq!(type_name("inverse_dynamics"), "InverseDynamics");
+        assert_eq!(type_name("uhp_2016"), "Uhp2016");
+        assert_eq!(type_name("bias"), "Bias");
     }
 
     #[test]

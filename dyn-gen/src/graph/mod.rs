@@ -9,6 +9,7 @@ mod flatten;
 pub mod format;
 mod hasher;
 mod interpreter;
+mod lanes;
 mod ops;
 mod program;
 mod read_node;
@@ -19,6 +20,7 @@ pub use count::OperationCount;
 pub use format::FormatError;
 pub(crate) use hasher::NodeHash;
 pub use interpreter::{Environment, EvaluationError, Evaluator, solve_general, solve_symmetric};
+pub use lanes::{Batch, LANES, LaneEvaluator, Number, Rates, Values};
 pub use ops::{OPS, Op, OpInfo};
 pub use program::{Declaration, Function, Program, Provenance, Role, Step};
 

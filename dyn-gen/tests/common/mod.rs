@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 use dyn_gen::graph::{Environment, Graph, Program};
 use dyn_gen::passes::{Context, PASSES, Pass};
 use dyn_gen::sample::{Kind, Pose};
-use dyn_platform::Platform;
+use dyn_platform::{LegType, Platform};
 
 /// The root of the workspace.
 pub fn root() -> PathBuf {
@@ -27,13 +27,14 @@ pub fn platform() -> Platform {
     Platform::from_file(root().join("platforms/uhp_2016.toml")).unwrap()
 }
 
-/// The default platform and all test platforms.
+/// The default platform and all test platforms with its leg type.
 pub fn platforms() -> Vec<Platform> {
     let folder = std::fs::read_dir(root().join("tests/platforms")).expect("the test platforms");
     let mut files: Vec<PathBuf> = folder.map(|entry| entry.unwrap().path()).collect();
     files.sort();
-    assert_eq!(files.len(), 8);
-    let others = files.into_iter().map(|file| Platform::from_file(file).unwrap());
+    let all = files.into_iter().map(|file| Platform::from_file(file).unwrap());
+    let others: Vec<_> = all.filter(|other| other.leg_type == LegType::Uhp).collect();
+    assert_eq!(others.len(), 8);
     std::iter::once(platform()).chain(others).collect()
 }
 

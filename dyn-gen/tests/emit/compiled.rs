@@ -72,15 +72,18 @@ pub fn run(
         casadi: "0.0.0".into(),
         operations: Vec::new(),
         eliminations: Vec::new(),
+        evidence: Vec::new(),
     };
     let kernels = dyn_gen::emit::kernels_file(&header, &signatures).expect("printable traits");
     let folder = tempfile::tempdir().expect("a temporary folder");
     let path = |name: &str| folder.path().join(name);
     std::fs::write(path("kernels.rs"), kernels).unwrap();
     std::fs::write(path("model.rs"), file).unwrap();
+    let checks = concat!(env!("CARGO_MANIFEST_DIR"), "/../dyn-runtime/src/parameter.rs");
+    std::fs::copy(checks, path("parameter.rs")).unwrap();
     let mut main = format!(
         "#![deny(warnings, missing_docs, unused_qualifications)]\n#![allow(dead_code)]\n//! Test.\n\
-         /// Traits.\n pub mod kernels;\n/// Model.\npub mod model;\n{RUNTIME}\nfn main() {{\n"
+         /// Traits.\n pub mod kernels;\n/// Parameters.\npub mod parameter;\n/// Model.\npub mod model;\n{RUNTIME}\nfn main() {{\n"
     );
     for (graph, cases) in graphs.iter().zip(cases) {
         for case in cases {
@@ -172,7 +175,7 @@ fn call(graph: &Graph, case: &[Vec<f64>]) -> String {
         );
         format!("model::TestModel {{ parameters: model::Parameters::from_fn({fill}) }}")
     };
-    let kernel: String = graph.name.split('_').map(|word| word[..1].to_uppercase() + &word[1..]).collect();
+    let kernel = dyn_gen::emit::type_name(&graph.name);
     let _ = writeln!(
         text,
         "        kernels::{kernel}::{}(&{model}, {});\n{prints}        println!();\n    }}",

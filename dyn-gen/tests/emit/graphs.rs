@@ -51,6 +51,7 @@ pub fn model(graphs: &[Graph], parameters: &[Symbol]) -> String {
             })
             .collect(),
         eliminations: Vec::new(),
+        evidence: Vec::new(),
     };
     let functions: Vec<String> = graphs
         .iter()
@@ -62,6 +63,7 @@ pub fn model(graphs: &[Graph], parameters: &[Symbol]) -> String {
         runtime: &RuntimePath::inside(),
         parameters,
         scalars: &[Scalar::F64, Scalar::F32],
+        defaults: None,
         signatures: &signatures,
         functions: &functions,
     };

@@ -34,7 +34,7 @@ fn not_utf8() {
            ·          ┬
            ·          ╰── not UTF-8 from here
            ╰────
-          help: save it as UTF-8, the only encoding TOML allows
+          help: save it as UTF-8
     "#]]
     .assert_eq(&shown);
 }

@@ -2,13 +2,15 @@
 //!
 //! The texts are snapshots; after a deliberate change, `UPDATE_EXPECT=1 cargo test -p dyn-platform` rewrites them.
 
-use dyn_platform::{Platform, PlatformError};
+use dyn_platform::{FileError, Platform};
 use expect_test::Expect;
 use miette::{GraphicalReportHandler, GraphicalTheme};
 
 mod file;
 mod keys;
+mod leg_types;
 mod legs;
+mod limits;
 mod names;
 mod numbers;
 mod tensors;
@@ -46,6 +48,38 @@ axial_damping_n_s_per_m = 2.0
 mass_kg = 6.0
 com_m = [0.0, 0.0, 0.03]
 inertia_kg_m2 = [[0.02, 0.0, 0.0], [0.0, 0.02, 0.0], [0.0, 0.0, 0.03]]
+"#;
+
+/// A valid file with legs of type `ups`.
+const UPS: &str = r#"version = 1
+name = "bench"
+leg_type = "ups"
+gravity_m_per_s2 = [0.0, 0.0, -9.81]
+
+[home]
+position_m = [0.0, 0.0, 0.7]
+
+[circular_layout]
+base_radius_m = 0.45
+platform_radius_m = 0.3
+base_pair_angle_rad = 0.4
+platform_pair_angle_rad = 1.7
+
+[legs]
+lower_mass_kg = 3.0
+lower_com_distance_m = 0.2
+lower_inertia_kg_m2 = 0.06
+upper_mass_kg = 1.5
+upper_com_distance_m = 0.18
+upper_inertia_kg_m2 = 0.02
+rest_length_m = 0.75
+axial_stiffness_n_per_m = 0.0
+axial_damping_n_s_per_m = 100.0
+
+[payload]
+mass_kg = 20.0
+com_m = [0.0, 0.0, 0.05]
+inertia_kg_m2 = [[0.9, 0.0, 0.0], [0.0, 0.9, 0.0], [0.0, 0.0, 1.5]]
 "#;
 
 const CIRCLES: &str = "
@@ -94,7 +128,7 @@ fn with(text: &str, good: &str, bad: &str) -> String {
     text.replacen(good, bad, 1)
 }
 
-fn rendered(error: &PlatformError) -> String {
+fn rendered(error: &FileError) -> String {
     let handler = GraphicalReportHandler::new_themed(GraphicalTheme::unicode_nocolor()).with_width(110);
     let mut text = String::from("Error:\n");
     handler.render_report(&mut text, error).expect("a String takes any text");
@@ -113,6 +147,11 @@ fn check(good: &str, bad: &str, expected: Expect) {
     check_text(&with(CIRCULAR, good, bad), expected);
 }
 
+/// One wrong place in the file with legs of type `ups`.
+fn check_ups(good: &str, bad: &str, expected: Expect) {
+    check_text(&with(UPS, good, bad), expected);
+}
+
 /// One wrong place in the free file.
 fn check_free(good: &str, bad: &str, expected: Expect) {
     check_text(&with(&free(), good, bad), expected);
@@ -120,7 +159,7 @@ fn check_free(good: &str, bad: &str, expected: Expect) {
 
 #[test]
 fn the_files_are_valid_before_they_are_spoilt() {
-    for text in [CIRCULAR.to_owned(), free()] {
+    for text in [CIRCULAR.to_owned(), free(), UPS.to_owned()] {
         Platform::from_toml("bench.toml", &text).expect("a valid file");
     }
 }

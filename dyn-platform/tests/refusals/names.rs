@@ -70,16 +70,16 @@ fn other_leg_type() {
         r#"leg_type = "uhp""#,
         r#"leg_type = "stewart""#,
         expect![[r#"
-        Error:
-          × `leg_type` "stewart" is unknown
-           ╭─[bench.toml:3:12]
-         2 │ name = "bench"
-         3 │ leg_type = "stewart"
-           ·            ────┬────
-           ·                ╰── unknown leg type
-         4 │ gravity_m_per_s2 = [0.0, 0.0, -9.81]
-           ╰────
-          help: leg types known here: uhp
-    "#]],
+            Error:
+              × `leg_type` "stewart" is unknown
+               ╭─[bench.toml:3:12]
+             2 │ name = "bench"
+             3 │ leg_type = "stewart"
+               ·            ────┬────
+               ·                ╰── unknown leg type
+             4 │ gravity_m_per_s2 = [0.0, 0.0, -9.81]
+               ╰────
+              help: leg types known here: uhp, ups
+        "#]],
     );
 }

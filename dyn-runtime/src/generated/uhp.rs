@@ -119,6 +119,373 @@ pub struct Uhp<T = f64> {
 }
 
 #[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl<T: Scalar + Into<f64>> Parameters<T> {
+    /// Sets `base_point`: 6x3, m, frame B: point b of the actuator axis, equation (14).
+    ///
+    /// # Errors
+    ///
+    /// If it is not finite; then it keeps its value.
+    pub fn set_base_point(
+        &mut self,
+        base_point: [[T; 3]; 6],
+    ) -> Result<&mut Self, crate::parameter::ParameterError> {
+        crate::parameter::check(
+            "base_point",
+            crate::parameter::Domain::Any,
+            base_point.as_flattened(),
+        )?;
+        self.base_point = base_point;
+        Ok(self)
+    }
+    /// Sets `actuator_axis`: 6x3, dimensionless, frame B: unit vector a of the actuator, towards the platform, equation (14).
+    ///
+    /// # Errors
+    ///
+    /// If it is not finite or a vector is not of length 1; then it keeps its value.
+    pub fn set_actuator_axis(
+        &mut self,
+        actuator_axis: [[T; 3]; 6],
+    ) -> Result<&mut Self, crate::parameter::ParameterError> {
+        crate::parameter::check(
+            "actuator_axis",
+            crate::parameter::Domain::UnitVectors,
+            actuator_axis.as_flattened(),
+        )?;
+        self.actuator_axis = actuator_axis;
+        Ok(self)
+    }
+    /// Sets `platform_point`: 6x3, m, frame P: platform joint p, equation (14).
+    ///
+    /// # Errors
+    ///
+    /// If it is not finite; then it keeps its value.
+    pub fn set_platform_point(
+        &mut self,
+        platform_point: [[T; 3]; 6],
+    ) -> Result<&mut Self, crate::parameter::ParameterError> {
+        crate::parameter::check(
+            "platform_point",
+            crate::parameter::Domain::Any,
+            platform_point.as_flattened(),
+        )?;
+        self.platform_point = platform_point;
+        Ok(self)
+    }
+    /// Sets `rod_length`: 6, m: rod length s, equation (17).
+    ///
+    /// # Errors
+    ///
+    /// If it is not finite or it is not positive; then it keeps its value.
+    pub fn set_rod_length(
+        &mut self,
+        rod_length: [T; 6],
+    ) -> Result<&mut Self, crate::parameter::ParameterError> {
+        crate::parameter::check(
+            "rod_length",
+            crate::parameter::Domain::Positive,
+            &rod_length,
+        )?;
+        self.rod_length = rod_length;
+        Ok(self)
+    }
+    /// Sets `rod_mass`: 6, kg: rod mass m_s, equation (27)-(29).
+    ///
+    /// # Errors
+    ///
+    /// If it is not finite or it is not positive; then it keeps its value.
+    pub fn set_rod_mass(
+        &mut self,
+        rod_mass: [T; 6],
+    ) -> Result<&mut Self, crate::parameter::ParameterError> {
+        crate::parameter::check(
+            "rod_mass",
+            crate::parameter::Domain::Positive,
+            &rod_mass,
+        )?;
+        self.rod_mass = rod_mass;
+        Ok(self)
+    }
+    /// Sets `rod_inertia`: 6, kg m^2: transverse inertia J_s of the rod about its centre of mass, equation (27)-(29).
+    ///
+    /// # Errors
+    ///
+    /// If it is not finite or it is not positive; then it keeps its value.
+    pub fn set_rod_inertia(
+        &mut self,
+        rod_inertia: [T; 6],
+    ) -> Result<&mut Self, crate::parameter::ParameterError> {
+        crate::parameter::check(
+            "rod_inertia",
+            crate::parameter::Domain::Positive,
+            &rod_inertia,
+        )?;
+        self.rod_inertia = rod_inertia;
+        Ok(self)
+    }
+    /// Sets `rod_com_fraction`: 6, dimensionless: rod's centre of mass, from Hooke joint (0) to platform joint (1).
+    ///
+    /// # Errors
+    ///
+    /// If it is not finite or it is not between 0 and 1; then it keeps its value.
+    pub fn set_rod_com_fraction(
+        &mut self,
+        rod_com_fraction: [T; 6],
+    ) -> Result<&mut Self, crate::parameter::ParameterError> {
+        crate::parameter::check(
+            "rod_com_fraction",
+            crate::parameter::Domain::Fraction,
+            &rod_com_fraction,
+        )?;
+        self.rod_com_fraction = rod_com_fraction;
+        Ok(self)
+    }
+    /// Sets `mover_mass`: 6, kg: mover mass m_d, equation (24)-(26).
+    ///
+    /// # Errors
+    ///
+    /// If it is not finite or it is not positive; then it keeps its value.
+    pub fn set_mover_mass(
+        &mut self,
+        mover_mass: [T; 6],
+    ) -> Result<&mut Self, crate::parameter::ParameterError> {
+        crate::parameter::check(
+            "mover_mass",
+            crate::parameter::Domain::Positive,
+            &mover_mass,
+        )?;
+        self.mover_mass = mover_mass;
+        Ok(self)
+    }
+    /// Sets `mover_offset`: 6, m: distance d\* of the mover's centre of mass below the Hooke joint, equation (24)-(26).
+    ///
+    /// # Errors
+    ///
+    /// If it is not finite; then it keeps its value.
+    pub fn set_mover_offset(
+        &mut self,
+        mover_offset: [T; 6],
+    ) -> Result<&mut Self, crate::parameter::ParameterError> {
+        crate::parameter::check(
+            "mover_offset",
+            crate::parameter::Domain::Any,
+            &mover_offset,
+        )?;
+        self.mover_offset = mover_offset;
+        Ok(self)
+    }
+    /// Sets `rest_length`: 6, m: actuator length d0 at which the leaf springs are relaxed, equation (39)-(46).
+    ///
+    /// # Errors
+    ///
+    /// If it is not finite; then it keeps its value.
+    pub fn set_rest_length(
+        &mut self,
+        rest_length: [T; 6],
+    ) -> Result<&mut Self, crate::parameter::ParameterError> {
+        crate::parameter::check(
+            "rest_length",
+            crate::parameter::Domain::Any,
+            &rest_length,
+        )?;
+        self.rest_length = rest_length;
+        Ok(self)
+    }
+    /// Sets `axial_stiffness`: 6, N/m: axial stiffness k_e of the leaf springs, equation (39)-(46).
+    ///
+    /// # Errors
+    ///
+    /// If it is not finite or it is negative; then it keeps its value.
+    pub fn set_axial_stiffness(
+        &mut self,
+        axial_stiffness: [T; 6],
+    ) -> Result<&mut Self, crate::parameter::ParameterError> {
+        crate::parameter::check(
+            "axial_stiffness",
+            crate::parameter::Domain::NotNegative,
+            &axial_stiffness,
+        )?;
+        self.axial_stiffness = axial_stiffness;
+        Ok(self)
+    }
+    /// Sets `axial_damping`: 6, N s/m: axial viscous damping c_e.
+    ///
+    /// # Errors
+    ///
+    /// If it is not finite or it is negative; then it keeps its value.
+    pub fn set_axial_damping(
+        &mut self,
+        axial_damping: [T; 6],
+    ) -> Result<&mut Self, crate::parameter::ParameterError> {
+        crate::parameter::check(
+            "axial_damping",
+            crate::parameter::Domain::NotNegative,
+            &axial_damping,
+        )?;
+        self.axial_damping = axial_damping;
+        Ok(self)
+    }
+    /// Sets `payload_mass`: scalar, kg: mass of platform and payload.
+    ///
+    /// # Errors
+    ///
+    /// If it is not finite or it is not positive; then it keeps its value.
+    pub fn set_payload_mass(
+        &mut self,
+        payload_mass: T,
+    ) -> Result<&mut Self, crate::parameter::ParameterError> {
+        crate::parameter::check(
+            "payload_mass",
+            crate::parameter::Domain::Positive,
+            core::slice::from_ref(&payload_mass),
+        )?;
+        self.payload_mass = payload_mass;
+        Ok(self)
+    }
+    /// Sets `payload_com`: 3, m, frame P: centre of mass of platform and payload.
+    ///
+    /// # Errors
+    ///
+    /// If it is not finite; then it keeps its value.
+    pub fn set_payload_com(
+        &mut self,
+        payload_com: [T; 3],
+    ) -> Result<&mut Self, crate::parameter::ParameterError> {
+        crate::parameter::check(
+            "payload_com",
+            crate::parameter::Domain::Any,
+            &payload_com,
+        )?;
+        self.payload_com = payload_com;
+        Ok(self)
+    }
+    /// Sets `payload_inertia`: 3x3, kg m^2, frame P: inertia about the payload's centre of mass (upper triangle is read).
+    ///
+    /// # Errors
+    ///
+    /// If it is not finite or no body has this tensor; then it keeps its value.
+    pub fn set_payload_inertia(
+        &mut self,
+        payload_inertia: [[T; 3]; 3],
+    ) -> Result<&mut Self, crate::parameter::ParameterError> {
+        crate::parameter::check(
+            "payload_inertia",
+            crate::parameter::Domain::Inertia,
+            payload_inertia.as_flattened(),
+        )?;
+        self.payload_inertia = payload_inertia;
+        Ok(self)
+    }
+    /// Sets `gravity`: 3, m/s^2, frame O: acceleration of gravity.
+    ///
+    /// # Errors
+    ///
+    /// If it is not finite; then it keeps its value.
+    pub fn set_gravity(
+        &mut self,
+        gravity: [T; 3],
+    ) -> Result<&mut Self, crate::parameter::ParameterError> {
+        crate::parameter::check("gravity", crate::parameter::Domain::Any, &gravity)?;
+        self.gravity = gravity;
+        Ok(self)
+    }
+    /// Checks all parameters as their setters do, however they got their values.
+    ///
+    /// # Errors
+    ///
+    /// The first that is refused.
+    pub fn check(&self) -> Result<(), crate::parameter::ParameterError> {
+        crate::parameter::check(
+            "base_point",
+            crate::parameter::Domain::Any,
+            self.base_point.as_flattened(),
+        )?;
+        crate::parameter::check(
+            "actuator_axis",
+            crate::parameter::Domain::UnitVectors,
+            self.actuator_axis.as_flattened(),
+        )?;
+        crate::parameter::check(
+            "platform_point",
+            crate::parameter::Domain::Any,
+            self.platform_point.as_flattened(),
+        )?;
+        crate::parameter::check(
+            "rod_length",
+            crate::parameter::Domain::Positive,
+            &self.rod_length,
+        )?;
+        crate::parameter::check(
+            "rod_mass",
+            crate::parameter::Domain::Positive,
+            &self.rod_mass,
+        )?;
+        crate::parameter::check(
+            "rod_inertia",
+            crate::parameter::Domain::Positive,
+            &self.rod_inertia,
+        )?;
+        crate::parameter::check(
+            "rod_com_fraction",
+            crate::parameter::Domain::Fraction,
+            &self.rod_com_fraction,
+        )?;
+        crate::parameter::check(
+            "mover_mass",
+            crate::parameter::Domain::Positive,
+            &self.mover_mass,
+        )?;
+        crate::parameter::check(
+            "mover_offset",
+            crate::parameter::Domain::Any,
+            &self.mover_offset,
+        )?;
+        crate::parameter::check(
+            "rest_length",
+            crate::parameter::Domain::Any,
+            &self.rest_length,
+        )?;
+        crate::parameter::check(
+            "axial_stiffness",
+            crate::parameter::Domain::NotNegative,
+            &self.axial_stiffness,
+        )?;
+        crate::parameter::check(
+            "axial_damping",
+            crate::parameter::Domain::NotNegative,
+            &self.axial_damping,
+        )?;
+        crate::parameter::check(
+            "payload_mass",
+            crate::parameter::Domain::Positive,
+            core::slice::from_ref(&self.payload_mass),
+        )?;
+        crate::parameter::check(
+            "payload_com",
+            crate::parameter::Domain::Any,
+            &self.payload_com,
+        )?;
+        crate::parameter::check(
+            "payload_inertia",
+            crate::parameter::Domain::Inertia,
+            self.payload_inertia.as_flattened(),
+        )?;
+        crate::parameter::check(
+            "gravity",
+            crate::parameter::Domain::Any,
+            &self.gravity,
+        )?;
+        Ok(())
+    }
+}
+
+impl<T> Uhp<T> {
+    /// The model with these parameters.
+    pub fn new(parameters: Parameters<T>) -> Self {
+        Uhp { parameters }
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
 impl crate::kernels::RodAlignment for Uhp {
     fn rod_alignment(
         &self,

@@ -2,7 +2,6 @@
 
 mod progress;
 mod run;
-mod tables;
 
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -73,15 +72,18 @@ enum Command {
     },
 }
 
+/// What one types in the repository.
+const TOOL: &str = "cargo run --release -p dyn-sim --";
+
 /// Does what the command line says.
 pub fn run(arguments: Arguments) -> miette::Result<Ending> {
     match arguments.command {
         Command::Reproduce { scenario, options } => {
-            let command = format!("dyn-sim reproduce --scenario {scenario}");
+            let command = format!("{TOOL} reproduce --scenario {scenario}");
             run::run(&scenario_file(&scenario)?, &options, &command)
         }
         Command::Run { file, options } => {
-            let command = format!("dyn-sim run {}", file.display());
+            let command = format!("{TOOL} run {}", file.display());
             run::run(&file, &options, &command)
         }
         Command::Check { file } => run::check(&file),

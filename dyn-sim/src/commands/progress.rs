@@ -1,6 +1,8 @@
 //! Progress bars on standard error; lines where nobody watches a terminal.
 
 use dyn_sim::experiment::Progress;
+use std::time::Duration;
+
 use indicatif::{ProgressBar, ProgressStyle};
 
 const PARTS: u64 = 1000;
@@ -19,6 +21,8 @@ impl Progress for Bars {
         if let Ok(style) = ProgressStyle::with_template("{msg:32} {bar:30} {percent:>3} % {elapsed}") {
             bar.set_style(style);
         }
+        // The elapsed time runs even where nothing is told for a while.
+        bar.enable_steady_tick(Duration::from_millis(200));
         self.bar = Some(bar);
     }
 

@@ -7,12 +7,13 @@ use std::time::Instant;
 use clap::Args;
 use dyn_python::target_directory;
 use dyn_sim::experiment::{self, Experiment, Progress};
-use dyn_sim::report::{terminal_table, write_report};
+use dyn_sim::outcome::Outcome;
+use dyn_sim::report::{tables_json, terminal_table, write_report, write_tables};
 use dyn_sim::scenario::Scenario;
 use miette::{Diagnostic, IntoDiagnostic, Report, Result, WrapErr};
 
+use super::Ending;
 use super::progress::Bars;
-use super::{Ending, tables};
 
 /// What the root of the repository has.
 const SIGN: &str = "scenarios/published.toml";
@@ -87,31 +88,48 @@ pub fn run(file: &Path, options: &Options, command: &str) -> Result<Ending> {
     }
 
     let folder = options.output.clone().unwrap_or_else(|| default_folder(root.as_deref(), &scenario.name));
+    let started = Instant::now();
     let written = write_outputs(&scenario, &experiment, &folder, &mut bars)?;
-    let mut text = if options.json {
-        format!("{:#}\n", tables::json(&experiment.outcome))
-    } else {
-        terminal_table(&experiment.outcome)
-    };
-    if let (Some(written), false) = (written, options.json) {
-        text += &format!("report: {}\n", written.display());
-    }
-    print(&text)?;
+    let writing_s = started.elapsed().as_secs_f64();
     for warning in &experiment.outcome.warnings {
         eprintln!("warning: {warning}");
+    }
+    if options.json {
+        print(&format!("{:#}\n", tables_json(&experiment.outcome)))?;
+    } else {
+        let mut text = terminal_table(&experiment.outcome) + &times(&experiment.outcome, writing_s);
+        if let Some(written) = written {
+            text += &format!("report: {}\n", written.display());
+        }
+        print(&text)?;
     }
     if experiment.stop.is_some() {
         return Ok(Ending::Stopped);
     }
     match experiment.prototype_error {
-        // Python or the network is missing: everything else was done, and the warning tells.
+        // Without Python or the network everything else was done, and a warning has told.
         Some(error) if !error.is_environment_missing() => Err(Report::new(error)),
-        Some(error) => {
-            eprintln!("{:?}", Report::new(error));
-            Ok(Ending::Done)
-        }
-        None => Ok(Ending::Done),
+        _ => Ok(Ending::Done),
     }
+}
+
+/// How long it took, in one line.
+fn times(outcome: &Outcome, writing_s: f64) -> String {
+    let of = |name: &str| outcome.seconds.iter().find(|(step, _)| step == name).map(|(_, seconds)| *seconds);
+    let total: f64 = writing_s + outcome.seconds.iter().map(|(_, seconds)| seconds).sum::<f64>();
+    let prototype = of(experiment::PROTOTYPE);
+    let mut text = format!("time: {:.2} s", total - prototype.unwrap_or(0.0));
+    if prototype.is_some() {
+        text += &format!(" by dyn-sim itself, {total:.2} s with the virtual prototype");
+    }
+    let simulated_s = outcome.simulations.first().and_then(|series| series.time_s.last().copied());
+    if let (Some(simulation), Some(simulated_s)) = (of(experiment::SIMULATION), simulated_s)
+        && simulated_s > 0.0
+    {
+        let (per_second_ms, step_ms) = (1e3 * simulation / simulated_s, 1e3 * outcome.step_s);
+        text += &format!("; {per_second_ms:.1} ms per simulated second in steps of {step_ms:.3} ms");
+    }
+    text + "\n"
 }
 
 /// Prints to standard output; a reader that has heard enough (`| head`) is no error.
@@ -137,21 +155,15 @@ fn write_outputs(
     progress: &mut dyn Progress,
 ) -> Result<Option<PathBuf>> {
     let outputs = scenario.outputs;
-    let mut written = None;
     if outputs.report {
         progress.begin("report");
         let started = Instant::now();
-        let files = write_report(&experiment.outcome, folder)?;
+        let files = write_report(&experiment.outcome, folder, outputs.json)?;
         progress.end(started.elapsed().as_secs_f64());
-        written = Some(files.html);
+        return Ok(Some(files.html));
     }
     if outputs.json {
-        let path = folder.join("tables.json");
-        std::fs::create_dir_all(folder)
-            .and_then(|()| std::fs::write(&path, format!("{:#}\n", tables::json(&experiment.outcome))))
-            .into_diagnostic()
-            .wrap_err_with(|| format!("cannot write {}", path.display()))?;
-        written.get_or_insert(path);
+        return Ok(Some(write_tables(&experiment.outcome, folder)?));
     }
-    Ok(written)
+    Ok(None)
 }

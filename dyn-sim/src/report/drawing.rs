@@ -33,11 +33,14 @@ impl Assembly {
         let parameters = &platform.parameters;
         let home = |point: Point| add(platform.home.position, 1.0, rotate(platform.home.rotation, point));
         let platform_joint = parameters.platform_point.map(home);
+        let uhp = parameters.leg_vectors("actuator_axis").zip(parameters.legs("rod_length"));
         let along = |leg: usize, share: f64| {
-            let (start, axis) = (parameters.base_point[leg], parameters.actuator_axis[leg]);
+            let start = parameters.base_point[leg];
+            // Legs without an axis of their own stretch between their joints: the Hooke joint is on the base.
+            let Some((axes, rod_lengths)) = uhp else { return start };
             let to_joint = add(platform_joint[leg], -1.0, start);
-            let length = actuator_length(to_joint, axis, parameters.rod_length[leg]);
-            add(start, share * length, axis)
+            let length = actuator_length(to_joint, axes[leg], rod_lengths[leg]);
+            add(start, share * length, axes[leg])
         };
         Self {
             base_point: parameters.base_point,

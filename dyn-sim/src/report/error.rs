@@ -58,6 +58,9 @@ impl Diagnostic for ReportError {
                     io::ErrorKind::StorageFull | io::ErrorKind::QuotaExceeded => {
                         "the disk is full: free some space or choose a folder on another disk"
                     }
+                    io::ErrorKind::FileTooLarge => {
+                        "files may not become that large here: raise the limit (`ulimit -f`) or choose another disk"
+                    }
                     io::ErrorKind::PermissionDenied | io::ErrorKind::ReadOnlyFilesystem => {
                         "choose a folder that you may write to"
                     }

@@ -86,6 +86,7 @@ pub(crate) fn outcome() -> Outcome {
     };
     Outcome {
         scenario_name: "published".into(),
+        description: "An example for tests".into(),
         scenario_text: "name = \"published\"\nplatform = \"uhp_2016.toml\"\nduration_s = 0.2 # < 1 & more\n"
             .into(),
         platform: platform(),

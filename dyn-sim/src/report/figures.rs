@@ -203,7 +203,7 @@ fn actuator_lengths(outcome: &Outcome, analysis: &Analysis) -> Option<Figure> {
         name: "actuator_length".into(),
         title: "Actuator lengths".into(),
         caption: format!(
-            "Length of each actuator about its mean, which stands in the panel. {}",
+            "Length of each actuator less its mean, which stands above the curve. {}",
             window_words(outcome, window)
         ),
         x_label: "time, s",

@@ -12,7 +12,7 @@ pub(super) const MARKER: &str = "<meta name=\"generator\" content=\"dyn-sim\">";
 /// What a report holds at its top; anything else is the user's and is not overwritten.
 const OWN_ENTRIES: [&str; 4] = [MARKER_FILE, "csv", "svg", TABLES];
 /// The tables for programs, which a scenario may ask for without a report.
-const TABLES: &str = "tables.json";
+pub(super) const TABLES: &str = "tables.json";
 
 /// A folder under construction beside its destination. Dropped before [`StagedFolder::publish`], it is removed.
 pub(super) struct StagedFolder {

@@ -5,6 +5,7 @@
 //! | `analysis` | differences from the target, spectra, the window worth a close look |
 //! | `curves` | CSV files |
 //! | `table` | Table 4, for the page and for the screen, and the headline |
+//! | `json` | tables for other programs |
 //! | `figures` | which figures there are |
 //! | `figure` | how a figure is laid out |
 //! | `axis`, `decimate`, `svg` | ticks and labels, thinning, shapes |
@@ -27,11 +28,13 @@ mod example;
 mod figure;
 mod figures;
 mod folder;
+mod json;
 mod page;
 mod svg;
 mod table;
 
 pub use error::ReportError;
+pub use json::tables_json;
 pub use table::terminal_table;
 
 /// Where everything went.
@@ -45,16 +48,18 @@ pub struct ReportFiles {
     pub csv: Vec<PathBuf>,
     /// Figures.
     pub svg: Vec<PathBuf>,
+    /// Tables for other programs, if wanted.
+    pub tables: Option<PathBuf>,
 }
 
 /// Writes the report to `folder`, which appears under that name when it is complete.
 ///
-/// Folders that lead to it are created; an earlier report there is replaced.
+/// Folders that lead to it are created; an earlier report there is replaced. `with_tables` adds `tables.json`.
 ///
 /// # Errors
 /// Something else stands there, the folder cannot be written to, or the disk is full. Then nothing of the new report
 /// stays, and an earlier one is untouched.
-pub fn write_report(outcome: &Outcome, folder: &Path) -> Result<ReportFiles, ReportError> {
+pub fn write_report(outcome: &Outcome, folder: &Path, with_tables: bool) -> Result<ReportFiles, ReportError> {
     let staged = folder::StagedFolder::new(folder)?;
     let analysis = analysis::Analysis::new(outcome);
 
@@ -75,9 +80,25 @@ pub fn write_report(outcome: &Outcome, folder: &Path) -> Result<ReportFiles, Rep
         svg.push(staged.write(&path, |out| out.write_all(drawing.file().as_bytes()))?);
     }
 
+    let tables = if with_tables { Some(stage_tables(&staged, outcome)?) } else { None };
     let page = page::page(outcome, &platform, &drawn, &files);
     let html = staged.write(folder::MARKER_FILE, |out| out.write_all(page.as_bytes()))?;
-    Ok(ReportFiles { folder: staged.publish()?, html, csv, svg })
+    Ok(ReportFiles { folder: staged.publish()?, html, csv, svg, tables })
+}
+
+/// Writes `tables.json` alone to `folder`, as [`write_report`] does, and says where it is.
+///
+/// # Errors
+/// As [`write_report`].
+pub fn write_tables(outcome: &Outcome, folder: &Path) -> Result<PathBuf, ReportError> {
+    let staged = folder::StagedFolder::new(folder)?;
+    let tables = stage_tables(&staged, outcome)?;
+    staged.publish()?;
+    Ok(tables)
+}
+
+fn stage_tables(staged: &folder::StagedFolder, outcome: &Outcome) -> Result<PathBuf, ReportError> {
+    staged.write(folder::TABLES, |out| writeln!(out, "{:#}", tables_json(outcome)))
 }
 
 #[cfg(test)]

@@ -49,9 +49,10 @@ fn opening(outcome: &Outcome) -> String {
     let [start, end] = whole_run(outcome);
     let mut html = format!(
         "<header>\n<h1>Experiment \u{201c}{}\u{201d}: a parallel platform on a moving base</h1>\n\
-         <p class=\"headline\">{}</p>\n<p class=\"facts\">Platform {}, {} s in steps of {} ms",
+         <p class=\"headline\">{}</p>\n<p class=\"facts\">{}Platform {}, {} s in steps of {} ms",
         escape(&outcome.scenario_name),
         escape(&headline(outcome)),
+        description(outcome),
         escape(&outcome.platform.name),
         (1e6 * (end - start)).round() / 1e6,
         (1e9 * outcome.step_s).round() / 1e6,
@@ -69,6 +70,14 @@ fn opening(outcome: &Outcome) -> String {
         html += "</ul></div>\n";
     }
     html + "</header>\n"
+}
+
+/// The scenario's own words, with a line of their own.
+fn description(outcome: &Outcome) -> String {
+    match outcome.description.trim() {
+        "" => String::new(),
+        words => format!("{}.<br>", escape(words.trim_end_matches('.'))),
+    }
 }
 
 fn result(outcome: &Outcome) -> String {
@@ -137,15 +146,17 @@ fn platform_section(outcome: &Outcome, drawing: &Svg) -> String {
         put!(html, "<th>{leg}</th>");
     }
     html += "</tr></thead>\n<tbody>\n";
-    let rows: [(&str, f64, &[f64; 6]); 6] = [
-        ("rod length, mm", 1e3, &parameters.rod_length),
-        ("rod mass, kg", 1.0, &parameters.rod_mass),
-        ("mover mass, kg", 1.0, &parameters.mover_mass),
-        ("actuator length at rest, mm", 1e3, &parameters.rest_length),
-        ("axial stiffness, N/mm", 1e-3, &parameters.axial_stiffness),
-        ("axial damping, N s/m", 1.0, &parameters.axial_damping),
+    let rows = [
+        ("rod length, mm", 1e3, "rod_length"),
+        ("rod mass, kg", 1.0, "rod_mass"),
+        ("mover mass, kg", 1.0, "mover_mass"),
+        ("actuator length at rest, mm", 1e3, "rest_length"),
+        ("axial stiffness, N/mm", 1e-3, "axial_stiffness"),
+        ("axial damping, N s/m", 1.0, "axial_damping"),
     ];
-    for (name, factor, values) in rows {
+    // Legs of other types lack some of these.
+    for (name, factor, values) in rows.map(|(name, factor, key)| (name, factor, parameters.get(key))) {
+        let Some(values) = values else { continue };
         put!(html, "<tr><td class=\"text\">{name}</td>");
         for value in values {
             put!(html, "<td>{}</td>", plain(factor * value));

@@ -197,18 +197,20 @@ pub fn terminal_table(outcome: &Outcome) -> String {
     let groups = groups(&outcome.amplitude_tables);
     let mut text = String::new();
     if !groups.is_empty() {
-        let labels = groups.iter().flat_map(|group| &group.rows).map(|row| row.label.chars().count());
-        let width = labels.max().unwrap_or(0);
+        let rows = || groups.iter().flat_map(|group| &group.rows);
+        let width = rows().map(|row| row.label.chars().count()).max().unwrap_or(0);
+        let widest = rows().flat_map(|row| &row.cells).map(|cell| cell.chars().count()).max().unwrap_or(0);
+        let column = 2 + widest.max(5);
         text += title(&outcome.amplitude_tables);
         text += "\n\n";
-        text += &format!("{:>7}  {:width$}", "Hz", "");
-        text += &COMPONENTS.map(|component| format!("{component:>9}")).concat();
+        text += &format!("{:>5}  {:width$}", "Hz", "");
+        text += &COMPONENTS.map(|component| format!("{component:>column$}")).concat();
         for group in &groups {
             text.push('\n');
             for (number, row) in group.rows.iter().enumerate() {
                 let frequency = if number == 0 { group.frequency_hz.to_string() } else { String::new() };
-                text += &format!("\n{frequency:>7}  {:width$}", row.label);
-                text += &row.cells.each_ref().map(|cell| format!("{cell:>9}")).concat();
+                text += &format!("\n{frequency:>5}  {:width$}", row.label);
+                text += &row.cells.each_ref().map(|cell| format!("{cell:>column$}")).concat();
             }
         }
         text += "\n\n";
@@ -240,19 +242,19 @@ mod tests {
         expect![[r#"
             Table 4: relative error of the platform’s acceleration (complex amplitudes), %
 
-                 Hz                      Ax       Ay       Az      Arx      Ary      Arz
+               Hz                       Ax        Ay        Az       Arx       Ary       Arz
 
-                 40  dyn-gen       3.0·10⁻⁸ 6.0·10⁻⁸ 9.0·10⁻⁸ 1.2·10⁻⁷ 1.5·10⁻⁷ 1.8·10⁻⁷
-                     Exudyn 1.13.8  0.00022  0.00044  0.00066  0.00088   0.0011   0.0013
-                     paper             0.25     1.80     2.07     1.80     5.15     2.98
+               40  dyn-gen        3.0·10⁻⁸  6.0·10⁻⁸  9.0·10⁻⁸  1.2·10⁻⁷  1.5·10⁻⁷  1.8·10⁻⁷
+                   Exudyn 1.13.8   0.00022   0.00044   0.00066   0.00088    0.0011    0.0013
+                   paper              0.25      1.80      2.07      1.80      5.15      2.98
 
-                100  dyn-gen       6.0·10⁻⁸ 1.2·10⁻⁷ 1.8·10⁻⁷ 2.4·10⁻⁷ 3.0·10⁻⁷ 3.6·10⁻⁷
-                     Exudyn 1.13.8  0.00044  0.00088   0.0013   0.0018   0.0022   0.0026
-                     paper             0.70     4.62     2.38     2.53     5.40     2.80
+              100  dyn-gen        6.0·10⁻⁸  1.2·10⁻⁷  1.8·10⁻⁷  2.4·10⁻⁷  3.0·10⁻⁷  3.6·10⁻⁷
+                   Exudyn 1.13.8   0.00044   0.00088    0.0013    0.0018    0.0022    0.0026
+                   paper              0.70      4.62      2.38      2.53      5.40      2.80
 
-                200  dyn-gen       9.0·10⁻⁸ 1.8·10⁻⁷ 2.7·10⁻⁷ 3.6·10⁻⁷ 4.5·10⁻⁷ 5.4·10⁻⁷
-                     Exudyn 1.13.8  0.00066   0.0013   0.0020   0.0026   0.0033   0.0040
-                     paper             1.08     2.75     2.07     3.12     5.12     2.27
+              200  dyn-gen        9.0·10⁻⁸  1.8·10⁻⁷  2.7·10⁻⁷  3.6·10⁻⁷  4.5·10⁻⁷  5.4·10⁻⁷
+                   Exudyn 1.13.8   0.00066    0.0013    0.0020    0.0026    0.0033    0.0040
+                   paper              1.08      2.75      2.07      3.12      5.12      2.27
 
             The largest cell of Table 4 is 0.0040 % (Arz at 200 Hz, Exudyn 1.13.8); the paper’s largest is 5.40 % (Ary at 100 Hz), 1400 times as much.
         "#]].assert_eq(&terminal_table(&outcome));

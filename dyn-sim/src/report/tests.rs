@@ -9,7 +9,7 @@ use super::*;
 fn the_page_shows_every_cell_and_needs_nothing_else() {
     let parent = tempfile::tempdir().expect("temporary folder");
     let outcome = example::outcome();
-    let files = write_report(&outcome, &parent.path().join("reports/published")).expect("written");
+    let files = write_report(&outcome, &parent.path().join("reports/published"), false).expect("written");
     let page = fs::read_to_string(&files.html).expect("readable");
 
     let groups = table::groups(&outcome.amplitude_tables);
@@ -36,7 +36,7 @@ fn the_page_shows_every_cell_and_needs_nothing_else() {
 #[test]
 fn every_file_that_is_named_is_there() {
     let parent = tempfile::tempdir().expect("temporary folder");
-    let files = write_report(&example::outcome(), &parent.path().join("report")).expect("written");
+    let files = write_report(&example::outcome(), &parent.path().join("report"), false).expect("written");
     let page = fs::read_to_string(&files.html).expect("readable");
     for path in files.csv.iter().chain(&files.svg) {
         assert!(path.is_file(), "{}", path.display());
@@ -57,12 +57,12 @@ fn an_unwritable_folder_leaves_nothing() {
     let blocking = parent.path().join("file");
     fs::write(&blocking, "not a folder").expect("writable");
     let error =
-        write_report(&example::outcome(), &blocking.join("report")).expect_err("a file is in the way");
+        write_report(&example::outcome(), &blocking.join("report"), false).expect_err("a file is in the way");
     assert!(matches!(error, ReportError::Folder { .. }), "{error:?}");
     assert!(error.to_string().contains(&blocking.display().to_string()), "{error}");
     assert_eq!(fs::read_dir(parent.path()).expect("readable").count(), 1);
 
-    let error = write_report(&example::outcome(), &blocking).expect_err("a file is in the way");
+    let error = write_report(&example::outcome(), &blocking, false).expect_err("a file is in the way");
     assert!(matches!(error, ReportError::Occupied { .. }), "{error:?}");
     assert_eq!(fs::read_to_string(&blocking).expect("readable"), "not a folder");
 }
@@ -70,7 +70,8 @@ fn an_unwritable_folder_leaves_nothing() {
 #[test]
 fn a_read_only_file_system_is_named() {
     if Path::new("/proc/self").exists() {
-        let error = write_report(&example::outcome(), Path::new("/proc/report")).expect_err("not writable");
+        let error =
+            write_report(&example::outcome(), Path::new("/proc/report"), false).expect_err("not writable");
         assert!(error.to_string().contains("`/proc/report`"), "{error}");
     }
 }
@@ -89,7 +90,7 @@ fn a_run_that_stopped_early_or_had_no_target_is_still_shown() {
     }
     outcome.amplitude_tables[1].error_percent.clear();
     outcome.amplitude_tables[1].amplitude.clear();
-    let files = write_report(&outcome, &parent.path().join("stopped")).expect("written");
+    let files = write_report(&outcome, &parent.path().join("stopped"), false).expect("written");
     let page = fs::read_to_string(files.html).expect("readable");
     assert!(page.contains("Exudyn 1.13.8 did not run to the end"));
 
@@ -98,12 +99,12 @@ fn a_run_that_stopped_early_or_had_no_target_is_still_shown() {
     outcome.time_errors.clear();
     outcome.actuator_force_n.clear();
     outcome.simulations.truncate(1);
-    let files = write_report(&outcome, &parent.path().join("free")).expect("written");
+    let files = write_report(&outcome, &parent.path().join("free"), false).expect("written");
     let page = fs::read_to_string(files.html).expect("readable");
     assert!(page.contains("Free motion of the platform, simulated by dyn-gen."));
 
     outcome.simulations.clear();
     outcome.base = crate::outcome::Series::default();
     outcome.actuator_length_m.clear();
-    write_report(&outcome, &parent.path().join("nothing")).expect("written");
+    write_report(&outcome, &parent.path().join("nothing"), false).expect("written");
 }

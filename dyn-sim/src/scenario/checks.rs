@@ -2,14 +2,13 @@
 
 use std::path::Path;
 
-use dyn_platform::{Platform, Refusal};
+use dyn_platform::{FileError, Platform, Refusal, first_line};
 use toml::Spanned;
 
-use super::error::{FileError, refusal};
 use super::motions::Reader;
 use super::schema::{File, Limits, Spectrum};
-use super::syntax::first_line;
 use super::{Scenario, SpectrumRequest, Steering, VERSION};
+use crate::mechanism;
 use crate::simulate::{Grid, Stroke};
 use crate::spectrum::Window;
 
@@ -25,7 +24,7 @@ pub(super) fn version(file: &File, refusals: &mut Vec<Refusal>) {
     if version != VERSION {
         let what = format!("the file has format version {version}, this reader knows version {VERSION} only");
         let help = "write `version = 1` and bring the file into the form of scenarios/README.md";
-        refusals.push(refusal(file.version.span(), format!("must be {VERSION}"), what, help));
+        refusals.push(Refusal::new(file.version.span(), format!("must be {VERSION}"), what, help));
     }
 }
 
@@ -38,8 +37,9 @@ pub(super) fn scenario(
     refusals: &mut Vec<Refusal>,
 ) -> Result<Option<Scenario>, FileError> {
     name(&file.name, refusals);
+    model(&file.platform, &platform, refusals);
     let grid = grid(&file, refusals);
-    let stroke = file.limits.as_ref().and_then(|limits| stroke(limits, refusals));
+    let stroke = stroke(&platform, file.limits.as_ref(), refusals);
     let mut reader = Reader { grid, folder, refusals, notes: Vec::new() };
     let base = reader.base(file.base.as_ref())?;
     let steering = match (&file.target, &file.free) {
@@ -48,13 +48,13 @@ pub(super) fn scenario(
         (Some(_), Some(free)) => {
             let help = "remove [target] to let the platform go, or [free] to steer it";
             let what = "the platform cannot follow [target] and be [free]";
-            reader.refusals.push(refusal(free.span(), "and [target] as well", what, help));
+            reader.refusals.push(Refusal::new(free.span(), "and [target] as well", what, help));
             None
         }
         (None, None) => {
             let help = "add [target] with its [[target.harmonic]] tables, or [free]";
             let what = "nothing says what the platform does";
-            reader.refusals.push(refusal(first_line(text), "neither [target] nor [free]", what, help));
+            reader.refusals.push(Refusal::new(first_line(text), "neither [target] nor [free]", what, help));
             None
         }
     };
@@ -70,6 +70,7 @@ pub(super) fn scenario(
         grid,
         integrator: file.integrator,
         prototype: file.prototype,
+        prototype_half_steps: file.prototype_half_steps,
         base,
         steering,
         stroke,
@@ -79,6 +80,17 @@ pub(super) fn scenario(
     }))
 }
 
+/// Without a model there is nothing to simulate.
+fn model(written: &Spanned<String>, platform: &Platform, refusals: &mut Vec<Refusal>) {
+    if !mechanism::has_model(platform) {
+        let (name, legs) = (&platform.name, platform.leg_type.name());
+        let what =
+            format!("the platform `{name}` has legs of type `{legs}`, of which there is no generated model");
+        let help = "choose a platform with legs of type `uhp`";
+        refusals.push(Refusal::new(written.span(), "no model of its legs", what, help));
+    }
+}
+
 /// Names become folders.
 fn name(name: &Spanned<String>, refusals: &mut Vec<Refusal>) {
     let written = name.get_ref();
@@ -86,7 +98,7 @@ fn name(name: &Spanned<String>, refusals: &mut Vec<Refusal>) {
     if written.is_empty() || !written.chars().all(allowed) {
         let what = format!("`name` is {written:?}, which cannot name a folder");
         let help = "use letters, digits, `_` and `-`: `name = \"my_experiment\"`";
-        refusals.push(refusal(name.span(), "cannot name a folder", what, help));
+        refusals.push(Refusal::new(name.span(), "cannot name a folder", what, help));
     }
 }
 
@@ -102,27 +114,40 @@ fn grid(file: &File, refusals: &mut Vec<Refusal>) -> Option<Grid> {
         let what =
             format!("{steps:.0} steps are more than {MOST_STEPS:.0}, the most that memory is made for");
         let help = "shorten `duration_s` or lengthen `step_s`";
-        refusals.push(refusal(file.step_s.span(), "too many steps", what, help));
+        refusals.push(Refusal::new(file.step_s.span(), "too many steps", what, help));
         return None;
     }
     let whole = steps.round();
     if whole < 1.0 || (steps - whole).abs() > 1e-6 {
         let what = format!("`duration_s` is {steps:.6} steps, not a whole number of them");
         let help = format!("choose a duration of {:e} s, or another step", whole.max(1.0) * step_s);
-        refusals.push(refusal(file.duration_s.span(), "not a whole number of steps", what, help));
+        refusals.push(Refusal::new(file.duration_s.span(), "not a whole number of steps", what, help));
         return None;
     }
     Some(Grid { step_s, steps: whole as usize })
 }
 
-fn stroke(limits: &Limits, refusals: &mut Vec<Refusal>) -> Option<Stroke> {
+/// The platform's stroke, narrowed by the scenario's; none where nothing is limited.
+fn stroke(platform: &Platform, limits: Option<&Limits>, refusals: &mut Vec<Refusal>) -> Option<Stroke> {
+    let narrowed = limits.and_then(|limits| narrowed_stroke(limits, refusals));
+    let [shortest, longest] = narrowed.unwrap_or([f64::NEG_INFINITY, f64::INFINITY]);
+    let of_platform = &platform.limits;
+    let stroke = Stroke {
+        shortest_m: of_platform.minimum_length.map(|limit| limit.map_or(shortest, |m| m.max(shortest))),
+        longest_m: of_platform.maximum_length.map(|limit| limit.map_or(longest, |m| m.min(longest))),
+    };
+    let ends = stroke.shortest_m.iter().chain(&stroke.longest_m);
+    ends.copied().any(f64::is_finite).then_some(stroke)
+}
+
+fn narrowed_stroke(limits: &Limits, refusals: &mut Vec<Refusal>) -> Option<[f64; 2]> {
     let [shortest_m, longest_m] = *limits.actuator_length_m.get_ref();
     if shortest_m < longest_m && shortest_m.abs() < LARGEST && longest_m < LARGEST {
-        return Some(Stroke { shortest_m, longest_m });
+        return Some([shortest_m, longest_m]);
     }
     let what = format!("`actuator_length_m` must be [shortest, longest], but is [{shortest_m}, {longest_m}]");
     let help = "for example `actuator_length_m = [0.15, 0.25]`";
-    refusals.push(refusal(limits.actuator_length_m.span(), "not a range", what, help));
+    refusals.push(Refusal::new(limits.actuator_length_m.span(), "not a range", what, help));
     None
 }
 
@@ -145,7 +170,12 @@ fn spectrum(
         let f = positive("frequencies_hz", "frequencies_hz = [40.0, 100.0]", frequency, refusals);
         if f >= highest {
             let what = format!("{f} Hz is not below {highest} Hz, half the sampling rate");
-            refusals.push(refusal(frequency.span(), "too high", what, "shorten `step_s`, or leave it out"));
+            refusals.push(Refusal::new(
+                frequency.span(),
+                "too high",
+                what,
+                "shorten `step_s`, or leave it out",
+            ));
         }
         frequencies_hz.push(f);
     }
@@ -158,7 +188,7 @@ fn spectrum(
         } else {
             let end = grid.time(grid.steps);
             let what = format!("`start_s` is {} s, outside the duration of {end} s", start.get_ref());
-            refusals.push(refusal(start.span(), "outside", what, "for example `start_s = 0.1`"));
+            refusals.push(Refusal::new(start.span(), "outside", what, "for example `start_s = 0.1`"));
         }
     }
     let paper_percent = spectrum.paper_error_percent.as_ref().map(|rows| {
@@ -166,7 +196,7 @@ fn spectrum(
             let (rows_found, wanted) = (rows.get_ref().len(), frequencies_hz.len());
             let what = format!("`paper_error_percent` has {rows_found} rows for {wanted} frequencies");
             let help = "give one row of six numbers per entry of `frequencies_hz`";
-            refusals.push(refusal(rows.span(), "one row per frequency", what, help));
+            refusals.push(Refusal::new(rows.span(), "one row per frequency", what, help));
         }
         rows.get_ref().clone()
     });
@@ -181,7 +211,7 @@ pub(super) fn finite(key: &str, number: &Spanned<f64>, refusals: &mut Vec<Refusa
         return value;
     }
     let what = format!("`{key}` needs finite numbers, none beyond {LARGEST:e}");
-    refusals.push(refusal(
+    refusals.push(Refusal::new(
         number.span(),
         "not such a number",
         what,
@@ -197,6 +227,6 @@ pub(super) fn positive(key: &str, example: &str, number: &Spanned<f64>, refusals
         return value;
     }
     let what = format!("`{key}` must be positive and finite, but is {value}");
-    refusals.push(refusal(number.span(), "must be positive", what, format!("for example `{example}`")));
+    refusals.push(Refusal::new(number.span(), "must be positive", what, format!("for example `{example}`")));
     1.0
 }

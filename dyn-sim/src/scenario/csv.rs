@@ -11,7 +11,6 @@ use std::ops::Range;
 
 use dyn_platform::Refusal;
 
-use super::error::refusal;
 use crate::measured::{LEAST_SAMPLES, Record};
 
 /// Time and six accelerations.
@@ -59,7 +58,7 @@ pub(super) fn read(text: &str) -> Result<Record, Vec<Refusal>> {
     if refusals.is_empty() && rows.len() < LEAST_SAMPLES {
         let what = format!("{} samples are too few for a motion", rows.len());
         let end = text.trim_end().len();
-        refusals.push(refusal(
+        refusals.push(Refusal::new(
             end..end,
             "the file ends here",
             what,
@@ -81,7 +80,7 @@ fn count(content: &str, span: Range<usize>) -> Result<(), Refusal> {
         return Ok(());
     }
     let what = format!("a line has {found} columns instead of {COLUMNS}");
-    Err(refusal(span, format!("{found} columns"), what, EXAMPLE))
+    Err(Refusal::new(span, format!("{found} columns"), what, EXAMPLE))
 }
 
 fn row(content: &str, span: Range<usize>) -> Result<[f64; COLUMNS], Refusal> {
@@ -93,10 +92,20 @@ fn row(content: &str, span: Range<usize>) -> Result<[f64; COLUMNS], Refusal> {
             Ok(number) if number.is_finite() => number,
             Ok(_) => {
                 let help = "repair or cut the record there; missing samples cannot be guessed";
-                return Err(refusal(span, "not finite", format!("`{field}` is not a finite number"), help));
+                return Err(Refusal::new(
+                    span,
+                    "not finite",
+                    format!("`{field}` is not a finite number"),
+                    help,
+                ));
             }
             Err(_) => {
-                return Err(refusal(span, "not a number", format!("`{field}` is not a number"), EXAMPLE));
+                return Err(Refusal::new(
+                    span,
+                    "not a number",
+                    format!("`{field}` is not a number"),
+                    EXAMPLE,
+                ));
             }
         };
     }
@@ -137,7 +146,7 @@ fn uneven_times(rows: &[(Range<usize>, [f64; COLUMNS])]) -> Vec<Refusal> {
         } else {
             continue;
         };
-        refusals.push(refusal(at.clone(), label, what, help));
+        refusals.push(Refusal::new(at.clone(), label, what, help));
     }
     refusals
 }

@@ -12,11 +12,11 @@ mod syntax;
 
 use std::path::Path;
 
-use dyn_platform::{Platform, Refusal};
+use dyn_platform::{FileError, Platform, Refusal, read_text};
 use dyn_runtime::PlatformState;
 use dyn_runtime::nalgebra::Vector6;
 
-pub use error::{FileError, ScenarioError};
+pub use error::ScenarioError;
 pub use schema::{Integrator, Outputs};
 
 use crate::motion::Motion;
@@ -45,11 +45,13 @@ pub struct Scenario {
     pub integrator: Integrator,
     /// Whether the virtual prototype runs as well.
     pub prototype: bool,
+    /// Whether its steps are half as long.
+    pub prototype_half_steps: bool,
     /// Motion of the base.
     pub base: Motion,
     /// What the platform does.
     pub steering: Steering,
-    /// Ends of the actuators' stroke.
+    /// Ends of the actuators' stroke, of the platform file and of the scenario.
     pub stroke: Option<Stroke>,
     /// What is compared at which frequencies.
     pub spectrum: SpectrumRequest,
@@ -90,7 +92,7 @@ impl Scenario {
     pub fn from_file(path: impl AsRef<Path>) -> Result<Self, ScenarioError> {
         let path = path.as_ref();
         let help = "check the path and its permissions; scenarios/published.toml is an example";
-        let text = read(path, "scenario", help)?;
+        let text = read_text(path, "scenario", help).map_err(ScenarioError::File)?;
         Self::from_toml(&path.display().to_string(), &text, path.parent().unwrap_or(Path::new("")))
     }
 
@@ -100,38 +102,26 @@ impl Scenario {
     /// # Errors
     /// As [`Scenario::from_file`].
     pub fn from_toml(source_name: &str, text: &str, folder: &Path) -> Result<Self, ScenarioError> {
-        let refused = |refusals| FileError::new(source_name, text, refusals);
+        let refused = |refusals| ScenarioError::File(FileError::new(source_name, text, refusals));
         let file: schema::File =
             toml::from_str(text).map_err(|error| refused(vec![syntax::refusal(&error, text)]))?;
         let mut refusals = Vec::new();
         checks::version(&file, &mut refusals);
         if !refusals.is_empty() {
             // Another version may mean other things: say nothing about them.
-            return Err(refused(refusals).into());
+            return Err(refused(refusals));
         }
         let platform_path = folder.join(file.platform.get_ref());
         if !platform_path.is_file() {
             let what = format!("there is no platform file {}", platform_path.display());
             let help = "give its path, counted from the folder of the scenario file";
-            refusals.push(error::refusal(file.platform.span(), "no such file", what, help));
-            return Err(refused(refusals).into());
+            refusals.push(Refusal::new(file.platform.span(), "no such file", what, help));
+            return Err(refused(refusals));
         }
-        let platform = Platform::from_file(&platform_path)?;
-        match checks::scenario(file, text, platform, folder, &mut refusals)? {
+        let platform = Platform::from_file(&platform_path).map_err(ScenarioError::Platform)?;
+        match checks::scenario(file, text, platform, folder, &mut refusals).map_err(ScenarioError::File)? {
             Some(scenario) if refusals.is_empty() => Ok(scenario),
-            _ => Err(refused(refusals).into()),
+            _ => Err(refused(refusals)),
         }
     }
-}
-
-/// The text of a file.
-fn read(path: &Path, kind: &str, help: &str) -> Result<String, FileError> {
-    let name = path.display().to_string();
-    let refused = |what: String| {
-        let refusal = Refusal { what, at: None, label: String::new(), help: help.into() };
-        FileError::new(&name, "", vec![refusal])
-    };
-    let bytes = std::fs::read(path)
-        .map_err(|error| refused(format!("cannot read the {kind} file `{name}`: {error}")))?;
-    String::from_utf8(bytes).map_err(|_| refused(format!("the {kind} file `{name}` is not UTF-8 text")))
 }

@@ -3,15 +3,14 @@
 use std::ops::Range;
 use std::path::Path;
 
-use dyn_platform::{Platform, Refusal};
+use dyn_platform::{FileError, Platform, Refusal, read_text};
 use dyn_runtime::nalgebra::{Vector3, Vector6};
 use dyn_runtime::{PlatformState, Pose, Twist};
 use toml::Spanned;
 
 use super::checks::{finite, positive};
-use super::error::{FileError, refusal};
 use super::schema::{Body, Free, RawHarmonic, RelativeTo, Target};
-use super::{Steering, csv, read};
+use super::{Steering, csv};
 use crate::excitation::Harmonic;
 use crate::measured::Measured;
 use crate::motion::{Angular, Motion};
@@ -102,7 +101,7 @@ impl Reader<'_> {
             (Some(csv), _) => {
                 let what = format!("[{table}] has both a measured motion and harmonics");
                 let help = format!("remove `csv`, or the [[{table}.harmonic]] tables");
-                self.refusals.push(refusal(csv.span(), "and [[harmonic]] as well", what, help));
+                self.refusals.push(Refusal::new(csv.span(), "and [[harmonic]] as well", what, help));
                 Ok(Motion::still(mean))
             }
             (None, _) => Ok(self.harmonic(table, span, harmonics, mean)),
@@ -112,7 +111,7 @@ impl Reader<'_> {
     fn measured(&mut self, table: &str, csv: &Spanned<String>, mean: Pose) -> Result<Motion, FileError> {
         let path = self.folder.join(csv.get_ref());
         let help = "give its path, counted from the folder of the scenario file";
-        let text = read(&path, "motion", help)?;
+        let text = read_text(&path, "motion", help)?;
         let name = path.display().to_string();
         let record = csv::read(&text).map_err(|refusals| FileError::new(&name, text.as_str(), refusals))?;
         let duration = self.grid.map_or(0.0, |grid| grid.time(grid.steps));
@@ -122,7 +121,7 @@ impl Reader<'_> {
                 "the measured motion ends after {:.6} s, the scenario after {duration} s",
                 record.duration_s()
             );
-            self.refusals.push(refusal(
+            self.refusals.push(Refusal::new(
                 csv.span(),
                 "too short",
                 what,
@@ -190,12 +189,12 @@ impl Reader<'_> {
             );
             let help =
                 "give `rotation_rad`, amplitudes of the rotation vector, instead of `angular_rad_per_s2`";
-            self.refusals.push(refusal(span.clone(), "turns too far", what, help));
+            self.refusals.push(Refusal::new(span.clone(), "turns too far", what, help));
         }
         if !small.is_empty() && !large.is_empty() {
             let what = format!("[{table}] mixes `angular_rad_per_s2` and `rotation_rad`");
             let help = "give all its harmonics in one of the two ways";
-            self.refusals.push(refusal(span, "mixed", what, help));
+            self.refusals.push(Refusal::new(span, "mixed", what, help));
         }
         let angular = if small.is_empty() { Angular::RotationVector(large) } else { Angular::Small(small) };
         Motion::Harmonic { mean, linear, angular }
@@ -203,7 +202,7 @@ impl Reader<'_> {
 
     fn twice(&mut self, at: Range<usize>, one: &str, other: &str) {
         let what = format!("a harmonic gives both `{one}` and `{other}`");
-        self.refusals.push(refusal(at, "given twice", what, format!("remove `{one}` or `{other}`")));
+        self.refusals.push(Refusal::new(at, "given twice", what, format!("remove `{one}` or `{other}`")));
     }
 
     fn frequency(&mut self, frequency: &Spanned<f64>) -> f64 {
@@ -213,7 +212,7 @@ impl Reader<'_> {
         {
             let what = format!("{f} Hz has {:.1} steps per period, too few", 1.0 / (f * grid.step_s));
             let help = format!("choose `step_s` of at most {:.2e}", 1.0 / (f * LEAST_STEPS_PER_PERIOD));
-            self.refusals.push(refusal(frequency.span(), "too fast for the step", what, help));
+            self.refusals.push(Refusal::new(frequency.span(), "too fast for the step", what, help));
         }
         f
     }

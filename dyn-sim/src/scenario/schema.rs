@@ -21,6 +21,8 @@ pub(super) struct File {
     pub integrator: Integrator,
     #[serde(default)]
     pub prototype: bool,
+    #[serde(default)]
+    pub prototype_half_steps: bool,
     pub base: Option<Spanned<Body>>,
     pub target: Option<Spanned<Target>>,
     pub free: Option<Spanned<Free>>,

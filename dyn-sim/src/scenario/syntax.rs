@@ -1,10 +1,6 @@
 //! Mistakes that serde finds: no TOML, unknown and missing keys, wrong types.
 
-use std::ops::Range;
-
-use dyn_platform::Refusal;
-
-use super::error::refusal as new;
+use dyn_platform::{Refusal, first_line, nearest};
 
 /// Keys with an example of each: remedies are made from it.
 const EXAMPLES: &[(&str, &str)] = &[
@@ -39,33 +35,33 @@ pub(super) fn refusal(error: &toml::de::Error, text: &str) -> Refusal {
     let quoted: Vec<&str> = message.split('`').skip(1).step_by(2).collect();
     if text.trim().is_empty() {
         let help = format!("start from a copy of scenarios/published.toml; {DESCRIBED}");
-        return new(at, "no key in this file", "the scenario file is empty", help);
+        return Refusal::new(at, "no key in this file", "the scenario file is empty", help);
     }
     match quoted.as_slice() {
         [key, known @ ..] if message.starts_with("unknown field") => {
-            let help = match nearest(key, known) {
+            let help = match nearest(key, known.iter().copied()) {
                 Some(meant) => format!("did you mean `{meant}`?"),
                 None => format!("keys known here: {}", known.join(", ")),
             };
-            new(at, "unknown key", format!("unknown key `{key}`"), help)
+            Refusal::new(at, "unknown key", format!("unknown key `{key}`"), help)
         }
         [value, known @ ..] if message.starts_with("unknown variant") => {
-            let help = match nearest(value, known) {
+            let help = match nearest(value, known.iter().copied()) {
                 Some(meant) => format!("did you mean {meant:?}?"),
                 None => format!("known here: {}", known.join(", ")),
             };
-            new(at, "unknown", format!("{value:?} is unknown here"), help)
+            Refusal::new(at, "unknown", format!("{value:?} is unknown here"), help)
         }
         [key] if message.starts_with("missing field") => {
             // A missing key has no place of its own: serde gives the table's, or the whole file's.
             let at = at.start..at.start + first_line(&text[at.start..]).end;
-            new(at, format!("no `{key}` here"), format!("`{key}` is missing"), remedy(key))
+            Refusal::new(at, format!("no `{key}` here"), format!("`{key}` is missing"), remedy(key))
         }
         _ if message.starts_with("invalid") => {
             let key = key_before(text, at.start);
-            new(at, "not so", format!("`{key}`: {message}"), remedy(key))
+            Refusal::new(at, "not so", format!("`{key}`: {message}"), remedy(key))
         }
-        _ => new(
+        _ => Refusal::new(
             at,
             "here",
             format!("this is not TOML: {message}"),
@@ -87,18 +83,4 @@ fn key_before(text: &str, place: usize) -> &str {
     let Some(equals) = before.rfind('=') else { return "the file" };
     let line = before[..equals].rfind('\n').map_or(0, |end| end + 1);
     before[line..equals].trim()
-}
-
-fn nearest<'n>(written: &str, names: &[&'n str]) -> Option<&'n str> {
-    names
-        .iter()
-        .map(|name| (strsim::jaro_winkler(&written.to_lowercase(), name), *name))
-        .filter(|(likeness, _)| *likeness > 0.85)
-        .max_by(|one, other| one.0.total_cmp(&other.0))
-        .map(|(_, name)| name)
-}
-
-/// The first line, to point at a text as a whole.
-pub(super) fn first_line(text: &str) -> Range<usize> {
-    0..text.find(['\r', '\n']).unwrap_or(text.len())
 }

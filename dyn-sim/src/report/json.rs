@@ -1,10 +1,11 @@
 //! Tables as JSON, for other programs.
 
-use dyn_sim::outcome::Outcome;
 use serde_json::{Value, json};
 
+use crate::outcome::Outcome;
+
 /// Amplitude tables and errors in the time domain. Cells without a target are null.
-pub fn json(outcome: &Outcome) -> Value {
+pub fn tables_json(outcome: &Outcome) -> Value {
     let tables = outcome.amplitude_tables.iter().map(|table| {
         json!({
             "simulation": table.label,

@@ -1,19 +1,20 @@
 //! From the text of a platform file to the resolved platform: which tables and keys there are, in what order they are
 //! read, and what may be left out.
 
-use std::ops::Range;
-
 use toml::Spanned;
 use toml::de::DeTable;
 
-use crate::checks::{self, Fault, LegAtHome};
-use crate::document::{Reading, Section, nearest};
+use crate::checks::{self, Fault};
+use crate::document::{Reading, Section};
 use crate::keys::{self, Key};
 use crate::layout;
-use crate::legs::{LegProperties, Legs};
+use crate::leg_tables::LegTables;
+use crate::legs::{self, JointPoints, Leg, Place};
+use crate::limits::PlacedLimits;
 use crate::parameters::{Matrix3, Parameters, Vector3};
 use crate::platform::{LegType, Platform, Pose, VERSION};
 use crate::refusal::Refusal;
+use crate::text::{first_line, nearest};
 
 const IDENTITY: Matrix3 = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
 
@@ -25,71 +26,81 @@ pub(crate) fn read(text: &str) -> Result<Platform, Vec<Refusal>> {
         return Err(vec![empty(text)]);
     }
     let mut refusals = Vec::new();
-    let file = Section::new("the file", first_line(text), table, &[keys::FILE], &mut refusals);
+    let file = Section::file(first_line(text), table);
     let mut of_version = Vec::new();
     if file.require(&keys::VERSION, this_version, &mut of_version).is_none() && !of_version.is_empty() {
         // Another version may mean other keys: say nothing about them.
         return Err(of_version);
     }
-    match platform(&file, &mut refusals) {
+    match platform(file, &mut refusals) {
         Some(platform) if refusals.is_empty() => Ok(platform),
         _ => Err(refusals),
     }
 }
 
-fn platform(file: &Section, refusals: &mut Vec<Refusal>) -> Option<Platform> {
+fn platform(file: Section, refusals: &mut Vec<Refusal>) -> Option<Platform> {
+    let leg_type = file.require(&keys::LEG_TYPE, leg_type, refusals).map(Spanned::into_inner);
+    let file = &file.of_leg_type(leg_type, refusals);
     let name = file.require(&keys::NAME, identifier, refusals);
     // For people who read the file; nothing computes with them.
     file.read(&keys::DESCRIPTION, checks::any::<String>, refusals);
     file.read(&keys::SOURCE, checks::any::<String>, refusals);
-    let leg_type = file.require(&keys::LEG_TYPE, leg_type, refusals);
-    let gravity = file.require(&keys::GRAVITY, checks::any, refusals);
+    let gravity = file.require(&keys::GRAVITY, checks::vector, refusals);
     let home = file
-        .require_section(&keys::HOME, &[keys::IN_HOME], refusals)
+        .require_section(&keys::HOME, keys::IN_HOME, refusals)
         .and_then(|section| home(&section, refusals));
     let payload = file
-        .require_section(&keys::PAYLOAD, &[keys::IN_PAYLOAD], refusals)
+        .require_section(&keys::PAYLOAD, keys::IN_PAYLOAD, refusals)
         .and_then(|section| payload(&section, refusals));
     let free_layout = file.key_span(&keys::CIRCULAR_LAYOUT).is_none();
     let misspelt = file.has_misspelt(&keys::CIRCULAR_LAYOUT) || file.has_misspelt(&keys::LEG);
     if free_layout && file.key_span(&keys::LEG).is_none() && !misspelt {
         refusals.push(no_layout(file));
     }
-    let legs = Legs::find(file, free_layout, refusals);
-    let points =
-        if free_layout { free_points(&legs, refusals) } else { circular_points(file, &legs, refusals) };
-    let properties = legs.properties(refusals);
+    let tables = LegTables::find(file, free_layout, refusals);
+    let points = if free_layout {
+        free_points(&tables, leg_type, refusals)
+    } else {
+        circular_points(file, &tables, refusals)
+    };
+    let limits = PlacedLimits::read(&tables, refusals);
 
-    let (home, points, properties) = (home?, points?, properties?);
-    refusals.extend(out_of_reach(&home, &points, &properties));
-    let payload = payload?;
+    let (kind, leg_type) = (legs::kind(leg_type?), leg_type?);
+    let legs = tables.legs(kind, home.as_ref(), points.as_ref(), refusals)?;
+    let unfit = (kind.at_home)(&legs);
+    if unfit.is_empty() {
+        limits.refuse_home_outside(&legs.each_ref().map(kind.geometry), refusals);
+    }
+    refusals.extend(unfit);
+    let (payload, gravity) = (payload?, gravity?.into_inner());
     Some(Platform {
         name: name?.into_inner(),
-        leg_type: leg_type?.into_inner(),
-        home,
-        parameters: Parameters {
-            base_point: points.base,
-            actuator_axis: properties.actuator_axis,
-            platform_point: points.platform,
-            rod_length: properties.rod_length.map(Spanned::into_inner),
-            rod_mass: properties.rod_mass,
-            rod_inertia: properties.rod_inertia,
-            rod_com_fraction: properties.rod_com_fraction,
-            mover_mass: properties.mover_mass,
-            mover_offset: properties.mover_offset,
-            rest_length: properties.rest_length,
-            axial_stiffness: properties.axial_stiffness,
-            axial_damping: properties.axial_damping,
-            payload_mass: payload.mass,
-            payload_com: payload.com,
-            payload_inertia: payload.inertia,
-            gravity: gravity?.into_inner(),
-        },
+        leg_type,
+        home: home?,
+        parameters: parameters(leg_type, &legs, payload, gravity),
+        limits: limits.limits(),
     })
 }
 
+fn parameters(leg_type: LegType, legs: &[Leg; 6], payload: Payload, gravity: Vector3) -> Parameters {
+    let mut parameters = Parameters::zero(leg_type);
+    for property in legs::kind(leg_type).properties {
+        let name = property.parameter.name;
+        let place = parameters.get_mut(name).expect("every parameter of the leg type has a place");
+        let width = place.len() / 6;
+        for (numbers, leg) in place.chunks_mut(width).zip(legs) {
+            numbers.copy_from_slice(leg.value(name).get_ref());
+        }
+    }
+    parameters.payload_mass = payload.mass;
+    parameters.payload_com = payload.com;
+    parameters.payload_inertia = payload.inertia;
+    parameters.gravity = gravity;
+    parameters
+}
+
 fn home(home: &Section, refusals: &mut Vec<Refusal>) -> Option<Pose> {
-    let position = home.require(&keys::POSITION, checks::any, refusals);
+    let position = home.require(&keys::POSITION, checks::vector, refusals);
     let rotation = match home.read(&keys::ROTATION, checks::rotation, refusals) {
         Reading::Absent => Some(IDENTITY),
         reading => reading.present().map(Spanned::into_inner),
@@ -104,27 +115,31 @@ struct Payload {
 }
 
 fn payload(payload: &Section, refusals: &mut Vec<Refusal>) -> Option<Payload> {
-    let mass = payload.require(&keys::PAYLOAD_MASS, checks::positive, refusals);
-    let com = payload.require(&keys::PAYLOAD_COM, checks::any, refusals);
+    let mass = payload.require(&keys::PAYLOAD_MASS, checks::number, refusals);
+    let com = payload.require(&keys::PAYLOAD_COM, checks::vector, refusals);
     let inertia = payload.require(&keys::PAYLOAD_INERTIA, checks::inertia, refusals);
     Some(Payload { mass: mass?.into_inner(), com: com?.into_inner(), inertia: inertia?.into_inner() })
 }
 
-/// The joints of all six legs.
-struct JointPoints {
-    base: [Vector3; 6],
-    platform: [Vector3; 6],
-}
-
-fn free_points(legs: &Legs, refusals: &mut Vec<Refusal>) -> Option<JointPoints> {
-    let base = legs.points(&keys::BASE_POINT, refusals);
-    let platform = legs.points(&keys::PLATFORM_POINT, refusals);
+fn free_points(
+    tables: &LegTables,
+    leg_type: Option<LegType>,
+    refusals: &mut Vec<Refusal>,
+) -> Option<JointPoints> {
+    let (mut base, mut platform) = (None, None);
+    for property in legs::kind(leg_type?).joints() {
+        let points = tables.points(property, refusals);
+        match property.place {
+            Place::BaseJoint => base = points,
+            _ => platform = points,
+        }
+    }
     Some(JointPoints { base: base?, platform: platform? })
 }
 
-fn circular_points(file: &Section, legs: &Legs, refusals: &mut Vec<Refusal>) -> Option<JointPoints> {
-    let circles = file.section(&keys::CIRCULAR_LAYOUT, &[keys::IN_CIRCULAR_LAYOUT], refusals)?;
-    if let Some(at) = legs.any_point() {
+fn circular_points(file: &Section, tables: &LegTables, refusals: &mut Vec<Refusal>) -> Option<JointPoints> {
+    let circles = file.section(&keys::CIRCULAR_LAYOUT, keys::IN_CIRCULAR_LAYOUT, refusals)?;
+    if let Some(at) = tables.any_point(file.leg_type()) {
         refusals.push(Refusal::new(
             at,
             "a point, although [circular_layout] is given",
@@ -132,38 +147,17 @@ fn circular_points(file: &Section, legs: &Legs, refusals: &mut Vec<Refusal>) -> 
             "remove [circular_layout] and give the points of all six legs, or remove the points",
         ));
     }
-    let base_radius = circles.require(&keys::BASE_RADIUS, checks::positive, refusals);
-    let platform_radius = circles.require(&keys::PLATFORM_RADIUS, checks::positive, refusals);
-    let base_angle = circles.require(&keys::BASE_PAIR_ANGLE, checks::pair_angle, refusals);
-    let platform_angle = circles.require(&keys::PLATFORM_PAIR_ANGLE, checks::pair_angle, refusals);
-    Some(JointPoints {
-        base: layout::circle(base_radius?.into_inner(), base_angle?.into_inner()),
-        platform: layout::circle(platform_radius?.into_inner(), platform_angle?.into_inner()),
-    })
-}
-
-/// Refuses rods that do not reach at home; legs that share one `rod_length_m` share one refusal.
-fn out_of_reach(home: &Pose, points: &JointPoints, properties: &LegProperties) -> Vec<Refusal> {
-    let mut places: Vec<(Range<usize>, Vec<LegAtHome>)> = Vec::new();
-    for (leg, rod_length) in properties.rod_length.iter().enumerate() {
-        let at_home = LegAtHome::new(
-            leg + 1,
-            home,
-            points.base[leg],
-            points.platform[leg],
-            properties.actuator_axis[leg],
-            *rod_length.get_ref(),
-        );
-        match places.iter_mut().find(|(span, _)| *span == rod_length.span()) {
-            Some((_, legs)) => legs.push(at_home),
-            None => places.push((rod_length.span(), vec![at_home])),
-        }
-    }
-    let refusal = |(at, legs): (Range<usize>, Vec<LegAtHome>)| {
-        let fault = checks::reach(&legs)?;
-        Some(Refusal::new(at, fault.label, fault.what, fault.help))
+    let mut read = |key: &Key| circles.require(key, checks::number, refusals);
+    let (base_radius, platform_radius) = (read(&keys::BASE_RADIUS), read(&keys::PLATFORM_RADIUS));
+    let (base_angle, platform_angle) = (read(&keys::BASE_PAIR_ANGLE), read(&keys::PLATFORM_PAIR_ANGLE));
+    let circle = |radius: Spanned<f64>, angle: Spanned<f64>| {
+        let at = radius.span();
+        layout::circle(radius.into_inner(), angle.into_inner()).map(|point| Spanned::new(at.clone(), point))
     };
-    places.into_iter().filter_map(refusal).collect()
+    Some(JointPoints {
+        base: circle(base_radius?, base_angle?),
+        platform: circle(platform_radius?, platform_angle?),
+    })
 }
 
 fn this_version(version: i64, key: &Key) -> Result<i64, Fault> {
@@ -248,9 +242,4 @@ fn no_layout(file: &Section) -> Refusal {
         "there is no layout: nothing says where the joints are",
         "give [circular_layout], or six [[leg]] tables with `base_point_m` and `platform_point_m`",
     )
-}
-
-/// The first line, to point at the file as a whole.
-fn first_line(text: &str) -> Range<usize> {
-    0..text.find(['\r', '\n']).unwrap_or(text.len())
 }

@@ -1,4 +1,5 @@
-//! The legs of a file: what they have in common, what each has of its own, and the default of what neither gives.
+//! The tables about legs in a file: what all legs have in common, what each has of its own, and the default of what
+//! neither gives.
 
 use std::array;
 use std::ops::Range;
@@ -6,13 +7,15 @@ use std::ops::Range;
 use toml::Spanned;
 
 use crate::checks::{self, Fault};
-use crate::document::{FromToml, Reading, Section};
-use crate::keys::{self, Key};
+use crate::document::{Reading, Section};
+use crate::keys::{self, Key, Value};
+use crate::legs::{JointPoints, Leg, LegKind, Place, Property, named};
 use crate::parameters::Vector3;
+use crate::platform::{LegType, Pose};
 use crate::refusal::Refusal;
 
 /// The tables about legs: `[legs]`, and each `[[leg]]` in the place of its number.
-pub(crate) struct Legs<'d> {
+pub(crate) struct LegTables<'d> {
     common: Option<Section<'d>>,
     tables: [Option<Section<'d>>; 6],
     /// Where to point when all legs lack something: `[legs]`, else the first `[[leg]]`, else the top of the file.
@@ -21,26 +24,13 @@ pub(crate) struct Legs<'d> {
     refused: [bool; 6],
 }
 
-/// What is known of each leg beside its joints. Only the rod's length is needed again with its place.
-pub(crate) struct LegProperties {
-    pub actuator_axis: [Vector3; 6],
-    pub rod_length: [Spanned<f64>; 6],
-    pub rod_mass: [f64; 6],
-    pub rod_inertia: [f64; 6],
-    pub rod_com_fraction: [f64; 6],
-    pub mover_mass: [f64; 6],
-    pub mover_offset: [f64; 6],
-    pub rest_length: [f64; 6],
-    pub axial_stiffness: [f64; 6],
-    pub axial_damping: [f64; 6],
-}
-
-impl<'d> Legs<'d> {
+impl<'d> LegTables<'d> {
     /// Finds the tables. In a free layout each leg needs its own, since no other place holds its joints.
     pub fn find(file: &Section<'d>, free_layout: bool, refusals: &mut Vec<Refusal>) -> Self {
-        let common = file.section(&keys::LEGS, &[keys::IN_LEGS], refusals);
-        let entries =
-            file.sections(&keys::LEG, &[keys::ONLY_IN_LEG, keys::IN_LEGS], refusals).unwrap_or_default();
+        let shared = keys::in_legs(file.leg_type());
+        let common = file.section(&keys::LEGS, &shared, refusals);
+        let in_leg = [keys::only_in_leg(file.leg_type()), shared].concat();
+        let entries = file.sections("[[leg]]", &keys::LEG, &in_leg, refusals).unwrap_or_default();
         let first = common.as_ref().or(entries.first()).unwrap_or(file);
         let header = first.header.clone();
         let last_header = entries.last().unwrap_or(file).header.clone();
@@ -90,68 +80,79 @@ impl<'d> Legs<'d> {
         Self { common, tables, header, refused }
     }
 
-    /// A joint point of each leg in a free layout.
-    pub fn points(&self, key: &Key, refusals: &mut Vec<Refusal>) -> Option<[Vector3; 6]> {
-        all(self.tables.each_ref().map(|table| {
-            let point = table.as_ref()?.require(key, checks::any, refusals)?;
-            Some(point.into_inner())
-        }))
+    /// A joint of each leg in a free layout.
+    pub fn points(&self, property: &Property, refusals: &mut Vec<Refusal>) -> Option<[Spanned<Vector3>; 6]> {
+        all(self
+            .tables
+            .each_ref()
+            .map(|table| table.as_ref()?.require(&property.key, checks::vector, refusals)))
     }
 
     /// The first joint point of a leg, if any is given.
-    pub fn any_point(&self) -> Option<Range<usize>> {
-        let points = [&keys::BASE_POINT, &keys::PLATFORM_POINT];
-        self.tables
-            .iter()
-            .flatten()
-            .flat_map(|table| points.map(|key| table.key_span(key)))
-            .flatten()
-            .min_by_key(|span| span.start)
+    pub fn any_point(&self, leg_type: Option<LegType>) -> Option<Range<usize>> {
+        let points = keys::only_in_leg(leg_type).into_iter().filter(|key| key.name != keys::LEG_NUMBER.name);
+        let spans =
+            points.flat_map(|key| self.tables.iter().flatten().filter_map(|table| table.key_span(key)));
+        spans.min_by_key(|span| span.start)
     }
 
-    /// Everything about the legs that a layout does not give.
-    pub fn properties(&self, refusals: &mut Vec<Refusal>) -> Option<LegProperties> {
-        let actuator_axis = self.require(&keys::ACTUATOR_AXIS, checks::unit_vector, refusals);
-        let rod_length = self.require(&keys::ROD_LENGTH, checks::positive, refusals);
-        let rod_mass = self.require(&keys::ROD_MASS, checks::positive, refusals);
-        let rod_inertia = self.read(&keys::ROD_INERTIA, checks::positive, refusals);
-        let rod_com_fraction = self.require(&keys::ROD_COM_FRACTION, checks::fraction, refusals);
-        let mover_mass = self.require(&keys::MOVER_MASS, checks::positive, refusals);
-        let mover_offset = self.require(&keys::MOVER_OFFSET, checks::any, refusals);
-        let rest_length = self.require(&keys::REST_LENGTH, checks::any, refusals);
-        let axial_stiffness = self.require(&keys::AXIAL_STIFFNESS, checks::not_negative, refusals);
-        let axial_damping = self.require(&keys::AXIAL_DAMPING, checks::not_negative, refusals);
+    /// The legs with everything that they are made of; nothing if something is missing or was refused.
+    pub fn legs<'p>(
+        &self,
+        kind: &LegKind,
+        home: Option<&'p Pose>,
+        points: Option<&JointPoints>,
+        refusals: &mut Vec<Refusal>,
+    ) -> Option<[Leg<'p>; 6]> {
+        let readings: Vec<(&Property, [Reading<Vec<f64>>; 6])> = kind
+            .shared()
+            .map(|property| {
+                let must = matches!(property.place, Place::Legs);
+                let key = &property.key;
+                (property, if must { self.require(key, refusals) } else { self.read(key, refusals) })
+            })
+            .collect();
+        let (home, points) = (home?, points?);
+        let leg = |leg: usize| {
+            let mut made = Leg { number: leg + 1, home, values: Vec::new() };
+            for property in kind.properties {
+                let reading = readings.iter().find(|(read, _)| read.key.name == property.key.name);
+                let value = match (&property.place, reading.map(|(_, legs)| legs[leg].clone())) {
+                    (Place::BaseJoint, _) => flat(&points.base[leg]),
+                    (Place::PlatformJoint, _) => flat(&points.platform[leg]),
+                    (_, Some(Reading::Present(value))) => value,
+                    (Place::LegsOr(default), Some(Reading::Absent)) => {
+                        Spanned::new(0..0, vec![default(&made)])
+                    }
+                    _ => return None,
+                };
+                made.values.push((property.parameter.name, value));
+            }
+            Some(made)
+        };
+        all(array::from_fn(leg))
+    }
 
-        let (rod_length, rod_mass) = (rod_length?, values(rod_mass?));
-        let rod_inertia = array::from_fn(|leg| match &rod_inertia[leg] {
-            Reading::Present(inertia) => *inertia.get_ref(),
-            // The slender uniform rod. (A refused value never gets further than this: the file is refused.)
-            Reading::Absent | Reading::Refused => rod_mass[leg] * rod_length[leg].get_ref().powi(2) / 12.0,
-        });
-        Some(LegProperties {
-            actuator_axis: values(actuator_axis?),
-            rod_length,
-            rod_mass,
-            rod_inertia,
-            rod_com_fraction: values(rod_com_fraction?),
-            mover_mass: values(mover_mass?),
-            mover_offset: values(mover_offset?),
-            rest_length: values(rest_length?),
-            axial_stiffness: values(axial_stiffness?),
-            axial_damping: values(axial_damping?),
-        })
+    /// A number of each leg that has one, its own or that of `[legs]`.
+    pub fn optional(&self, key: &Key, refusals: &mut Vec<Refusal>) -> [Option<Spanned<f64>>; 6] {
+        let first = |value: Spanned<Vec<f64>>| Spanned::new(value.span(), value.get_ref()[0]);
+        self.read(key, refusals).map(|reading| reading.present().map(first))
     }
 
     /// A property of each leg: its own value where its table has one, else that of `[legs]`.
-    fn read<T: FromToml + Clone>(
-        &self,
-        key: &Key,
-        check: impl Fn(T, &Key) -> Result<T, Fault>,
-        refusals: &mut Vec<Refusal>,
-    ) -> [Reading<T>; 6] {
-        let mut read = |section: &Option<Section>| match section {
-            Some(section) => section.read(key, &check, refusals),
-            None => Reading::Absent,
+    fn read(&self, key: &Key, refusals: &mut Vec<Refusal>) -> [Reading<Vec<f64>>; 6] {
+        let mut read = |section: &Option<Section>| match (section, key.value) {
+            (None, _) => Reading::Absent,
+            (Some(section), Value::Vector | Value::UnitVector) => section.read(
+                key,
+                |value, key| checks::vector(value, key).map(|vector| vector.to_vec()),
+                refusals,
+            ),
+            (Some(section), _) => section.read(
+                key,
+                |value, key| checks::number(value, key).map(|number| vec![number]),
+                refusals,
+            ),
         };
         let common = read(&self.common);
         self.tables.each_ref().map(|table| match read(table) {
@@ -161,13 +162,8 @@ impl<'d> Legs<'d> {
     }
 
     /// A property that each leg must have, from its own table or from `[legs]`.
-    fn require<T: FromToml + Clone>(
-        &self,
-        key: &Key,
-        check: impl Fn(T, &Key) -> Result<T, Fault>,
-        refusals: &mut Vec<Refusal>,
-    ) -> Option<[Spanned<T>; 6]> {
-        let readings = self.read(key, check, refusals);
+    fn require(&self, key: &Key, refusals: &mut Vec<Refusal>) -> [Reading<Vec<f64>>; 6] {
+        let readings = self.read(key, refusals);
         let lacking: Vec<usize> =
             (0..6).filter(|&leg| matches!(readings[leg], Reading::Absent) && !self.refused[leg]).collect();
         let misspelt_for_all = self.common.as_ref().is_some_and(|common| common.has_misspelt(key));
@@ -186,19 +182,7 @@ impl<'d> Legs<'d> {
             let tables = lacking.into_iter().filter_map(|leg| self.tables[leg].as_ref());
             refusals.extend(tables.filter(|table| !table.has_misspelt(key)).map(|table| table.missing(key)));
         }
-        all(readings.map(Reading::present))
-    }
-}
-
-/// "leg 4", "legs 1, 2 and 5".
-pub(crate) fn named(numbers: &[usize]) -> String {
-    match numbers {
-        [] => "no leg".into(),
-        [number] => format!("leg {number}"),
-        [others @ .., last] => {
-            let others: Vec<String> = others.iter().map(usize::to_string).collect();
-            format!("legs {} and {last}", others.join(", "))
-        }
+        readings
     }
 }
 
@@ -213,8 +197,8 @@ fn leg_number(number: i64, key: &Key) -> Result<usize, Fault> {
     }
 }
 
-fn values<T>(spanned: [Spanned<T>; 6]) -> [T; 6] {
-    spanned.map(Spanned::into_inner)
+fn flat(point: &Spanned<Vector3>) -> Spanned<Vec<f64>> {
+    Spanned::new(point.span(), point.get_ref().to_vec())
 }
 
 /// All six, or nothing if one is absent.
