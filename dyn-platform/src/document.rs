@@ -8,11 +8,13 @@ use toml::Spanned;
 use toml::de::{DeString, DeTable, DeValue};
 
 use crate::checks::Fault;
+use crate::findings::Findings;
 use crate::keys::{self, Home, Key};
 use crate::legs;
 use crate::platform::LegType;
 use crate::refusal::Refusal;
 use crate::text::nearest;
+use crate::units;
 
 /// No quantity of a platform comes near this; products of a few such numbers still cannot overflow.
 const LARGEST: f64 = 1e30;
@@ -57,9 +59,9 @@ impl<'d> Section<'d> {
     }
 
     /// The file whose legs are known to be of this type, or of no known one: tells where unknown keys belong.
-    pub fn of_leg_type(mut self, leg_type: Option<LegType>, refusals: &mut Vec<Refusal>) -> Self {
+    pub fn of_leg_type(mut self, leg_type: Option<LegType>, findings: &mut Findings) -> Self {
         self.leg_type = leg_type;
-        self.refuse_unknown(refusals);
+        self.refuse_unknown(findings);
         self
     }
 
@@ -70,10 +72,10 @@ impl<'d> Section<'d> {
         header: Range<usize>,
         table: &'d DeTable<'d>,
         allowed: &[&'static Key],
-        refusals: &mut Vec<Refusal>,
+        findings: &mut Findings,
     ) -> Self {
         let section = Self { title, header, table, allowed: allowed.to_vec(), leg_type: self.leg_type };
-        section.refuse_unknown(refusals);
+        section.refuse_unknown(findings);
         section
     }
 
@@ -88,8 +90,8 @@ impl<'d> Section<'d> {
     }
 
     /// Refuses every key that is not allowed: it stands in the wrong table, is misspelt, or means nothing.
-    fn refuse_unknown(&self, refusals: &mut Vec<Refusal>) {
-        refusals.extend(self.unknown().map(|name| self.unknown_key(name.span(), name.get_ref())));
+    fn refuse_unknown(&self, findings: &mut Findings) {
+        findings.refuse_all(self.unknown().map(|name| self.unknown_key(name.span(), name.get_ref())));
     }
 
     fn unknown_key(&self, at: Range<usize>, written: &str) -> Refusal {
@@ -138,18 +140,23 @@ impl<'d> Section<'d> {
         &self,
         key: &Key,
         check: impl Fn(T, &Key) -> Result<U, Fault>,
-        refusals: &mut Vec<Refusal>,
+        findings: &mut Findings,
     ) -> Reading<U> {
         let Some(value) = self.table.get(key.name) else {
             return Reading::Absent;
         };
         let checked = T::from_toml(value, key).and_then(|raw| {
-            check(raw, key).map_err(|fault| Refusal::new(value.span(), fault.label, fault.what, fault.help))
+            let hint = units::too_large(&raw.numbers(), value.span(), key);
+            let fault = |fault: Fault| Refusal::new(value.span(), fault.label, fault.what, fault.help);
+            check(raw, key).map(|good| (good, hint)).map_err(fault)
         });
         match checked {
-            Ok(good) => Reading::Present(Spanned::new(value.span(), good)),
+            Ok((good, hint)) => {
+                hint.into_iter().for_each(|hint| findings.hint(hint));
+                Reading::Present(Spanned::new(value.span(), good))
+            }
             Err(refusal) => {
-                refusals.push(refusal);
+                findings.refuse(refusal);
                 Reading::Refused
             }
         }
@@ -160,11 +167,11 @@ impl<'d> Section<'d> {
         &self,
         key: &Key,
         check: impl Fn(T, &Key) -> Result<U, Fault>,
-        refusals: &mut Vec<Refusal>,
+        findings: &mut Findings,
     ) -> Option<Spanned<U>> {
-        let reading = self.read(key, check, refusals);
+        let reading = self.read(key, check, findings);
         if matches!(reading, Reading::Absent) && !self.has_misspelt(key) {
-            refusals.push(self.missing(key));
+            findings.refuse(self.missing(key));
         }
         reading.present()
     }
@@ -180,15 +187,15 @@ impl<'d> Section<'d> {
         &self,
         key: &Key,
         allowed: &[&'static Key],
-        refusals: &mut Vec<Refusal>,
+        findings: &mut Findings,
     ) -> Option<Section<'d>> {
         let value = self.table.get(key.name)?;
         match value.get_ref() {
             DeValue::Table(table) => {
-                Some(self.inner(format!("[{}]", key.name), value.span(), table, allowed, refusals))
+                Some(self.inner(format!("[{}]", key.name), value.span(), table, allowed, findings))
             }
             other => {
-                refusals.push(wrong_type(value.span(), key, "a table", other));
+                findings.refuse(wrong_type(value.span(), key, "a table", other));
                 None
             }
         }
@@ -199,12 +206,12 @@ impl<'d> Section<'d> {
         &self,
         key: &Key,
         allowed: &[&'static Key],
-        refusals: &mut Vec<Refusal>,
+        findings: &mut Findings,
     ) -> Option<Section<'d>> {
         if self.key_span(key).is_none() && !self.has_misspelt(key) {
-            refusals.push(self.missing_section(key));
+            findings.refuse(self.missing_section(key));
         }
-        self.section(key, allowed, refusals)
+        self.section(key, allowed, findings)
     }
 
     /// The refusal for an absent table.
@@ -223,20 +230,20 @@ impl<'d> Section<'d> {
         title: &str,
         key: &Key,
         allowed: &[&'static Key],
-        refusals: &mut Vec<Refusal>,
+        findings: &mut Findings,
     ) -> Option<Vec<Section<'d>>> {
         let value = self.table.get(key.name)?;
         let DeValue::Array(entries) = value.get_ref() else {
-            refusals.push(wrong_type(value.span(), key, "an array of tables", value.get_ref()));
+            findings.refuse(wrong_type(value.span(), key, "an array of tables", value.get_ref()));
             return None;
         };
         let mut sections = Vec::new();
         for entry in entries.iter() {
             match entry.get_ref() {
                 DeValue::Table(table) => {
-                    sections.push(self.inner(title.to_owned(), entry.span(), table, allowed, refusals));
+                    sections.push(self.inner(title.to_owned(), entry.span(), table, allowed, findings));
                 }
-                other => refusals.push(wrong_type(entry.span(), key, "a table", other)),
+                other => findings.refuse(wrong_type(entry.span(), key, "a table", other)),
             }
         }
         Some(sections)
@@ -250,6 +257,10 @@ fn listed(keys: &[&Key]) -> String {
 
 /// A type that can stand in the file.
 pub(crate) trait FromToml: Sized {
+    /// The numbers in it.
+    fn numbers(&self) -> Vec<f64> {
+        Vec::new()
+    }
     /// One of it, in words.
     fn one() -> String;
     /// Several of it, in words.
@@ -296,6 +307,10 @@ impl FromToml for i64 {
 }
 
 impl FromToml for f64 {
+    fn numbers(&self) -> Vec<f64> {
+        vec![*self]
+    }
+
     fn one() -> String {
         "a number".into()
     }
@@ -324,6 +339,10 @@ impl FromToml for f64 {
 }
 
 impl<T: FromToml, const N: usize> FromToml for [T; N] {
+    fn numbers(&self) -> Vec<f64> {
+        self.iter().flat_map(T::numbers).collect()
+    }
+
     fn one() -> String {
         format!("an array of {N} {}", T::several())
     }

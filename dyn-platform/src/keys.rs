@@ -79,7 +79,10 @@ macro_rules! keys {
 }
 
 keys! {
-    VERSION = "version", Value::Version, "the version of the file format", "version = 1";
+    VERSION = "version", Value::Version,
+        "the version of the file format (a draft without one must first be brought into the form of \
+         docs/platform-file.md)",
+        "version = 1";
     NAME = "name", Value::Name, "a short name in lower case", r#"name = "my_platform""#;
     DESCRIPTION = "description", Value::Text, "a sentence for people", r#"description = "test bench""#;
     SOURCE = "source", Value::Text, "the origin of the numbers", r#"source = "measured""#;
@@ -143,6 +146,20 @@ keys! {
     PAYLOAD_INERTIA = "inertia_kg_m2", Value::Inertia,
         "the inertia about the centre of mass in platform axes, kg m^2",
         "inertia_kg_m2 = [[0.02, 0.0, 0.0], [0.0, 0.02, 0.0], [0.0, 0.0, 0.03]]";
+    PART = "part", Value::Tables, "one table per rigid part of the payload", "[[payload.part]]";
+}
+
+keys! {
+    PART_NAME = "name", Value::Text, "a name for people", r#"name = "camera""#;
+    PART_MASS = "mass_kg", Value::Number(Range::Positive), "the mass of the part, kg", "mass_kg = 1.2";
+    PART_COM = "com_m", Value::Vector,
+        "the part's centre of mass in platform axes, m", "com_m = [0.0, 0.05, 0.03]";
+    PART_INERTIA = "inertia_kg_m2", Value::Inertia,
+        "the part's inertia about its own centre of mass in its own axes, kg m^2",
+        "inertia_kg_m2 = [[0.002, 0.0, 0.0], [0.0, 0.002, 0.0], [0.0, 0.0, 0.003]]";
+    PART_ROTATION = "rotation", Value::Rotation,
+        "the rotation from the part's axes to platform axes, row by row",
+        "rotation = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]";
 }
 
 /// Keys of the file itself.
@@ -168,14 +185,18 @@ pub(crate) const IN_CIRCULAR_LAYOUT: &[&Key] =
     &[&BASE_RADIUS, &PLATFORM_RADIUS, &BASE_PAIR_ANGLE, &PLATFORM_PAIR_ANGLE];
 
 /// Keys of `[payload]`.
-pub(crate) const IN_PAYLOAD: &[&Key] = &[&PAYLOAD_MASS, &PAYLOAD_COM, &PAYLOAD_INERTIA];
+pub(crate) const IN_PAYLOAD: &[&Key] = &[&PAYLOAD_MASS, &PAYLOAD_COM, &PAYLOAD_INERTIA, &PART];
+
+/// Keys of `[[payload.part]]`.
+pub(crate) const IN_PART: &[&Key] = &[&PART_NAME, &PART_MASS, &PART_COM, &PART_INERTIA, &PART_ROTATION];
 
 /// Every table with its keys, but for those about legs.
-const TABLES: [(&str, &[&Key]); 4] = [
+const TABLES: [(&str, &[&Key]); 5] = [
     ("the part of the file before the first table", FILE),
     ("[home]", IN_HOME),
     ("[circular_layout]", IN_CIRCULAR_LAYOUT),
     ("[payload]", IN_PAYLOAD),
+    ("[[payload.part]]", IN_PART),
 ];
 
 /// Keys of `[legs]`, which may stand in `[[leg]]` too: the leg type's own, then limits. Of every leg type where it is

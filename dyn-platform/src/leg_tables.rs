@@ -8,8 +8,9 @@ use toml::Spanned;
 
 use crate::checks::{self, Fault};
 use crate::document::{Reading, Section};
+use crate::findings::Findings;
 use crate::keys::{self, Key, Value};
-use crate::legs::{JointPoints, Leg, LegKind, Place, Property, named};
+use crate::legs::{Layout, Leg, LegKind, Place, Property, named};
 use crate::parameters::Vector3;
 use crate::platform::{LegType, Pose};
 use crate::refusal::Refusal;
@@ -26,11 +27,11 @@ pub(crate) struct LegTables<'d> {
 
 impl<'d> LegTables<'d> {
     /// Finds the tables. In a free layout each leg needs its own, since no other place holds its joints.
-    pub fn find(file: &Section<'d>, free_layout: bool, refusals: &mut Vec<Refusal>) -> Self {
+    pub fn find(file: &Section<'d>, free_layout: bool, findings: &mut Findings) -> Self {
         let shared = keys::in_legs(file.leg_type());
-        let common = file.section(&keys::LEGS, &shared, refusals);
+        let common = file.section(&keys::LEGS, &shared, findings);
         let in_leg = [keys::only_in_leg(file.leg_type()), shared].concat();
-        let entries = file.sections("[[leg]]", &keys::LEG, &in_leg, refusals).unwrap_or_default();
+        let entries = file.sections("[[leg]]", &keys::LEG, &in_leg, findings).unwrap_or_default();
         let first = common.as_ref().or(entries.first()).unwrap_or(file);
         let header = first.header.clone();
         let last_header = entries.last().unwrap_or(file).header.clone();
@@ -38,14 +39,14 @@ impl<'d> LegTables<'d> {
         let mut tables: [Option<Section>; 6] = Default::default();
         let mut all_numbered = true;
         for mut table in entries {
-            let Some(number) = table.require(&keys::LEG_NUMBER, leg_number, refusals) else {
+            let Some(number) = table.require(&keys::LEG_NUMBER, leg_number, findings) else {
                 all_numbered = false;
                 continue;
             };
             let place = &mut tables[*number.get_ref() - 1];
             if place.is_some() {
                 all_numbered = false;
-                refusals.push(Refusal::new(
+                findings.refuse(Refusal::new(
                     number.span(),
                     "given a second time",
                     format!("leg {} is given twice", number.get_ref()),
@@ -63,7 +64,7 @@ impl<'d> LegTables<'d> {
         if free_layout && all_numbered && (1..6).contains(&missing.len()) && !file.has_misspelt(&keys::LEG) {
             let (is_or_are, table) =
                 if missing.len() == 1 { ("is", "a [[leg]] table") } else { ("are", "[[leg]] tables") };
-            refusals.push(Refusal::new(
+            findings.refuse(Refusal::new(
                 last_header,
                 format!("{} of 6 legs are given, the last one here", 6 - missing.len()),
                 format!("{} {is_or_are} missing: a platform has six legs", named(&missing)),
@@ -73,7 +74,7 @@ impl<'d> LegTables<'d> {
         let refused = array::from_fn(|leg| tables[leg].is_none() && (free_layout || !all_numbered));
         if common.is_none() && !free_layout && tables.iter().all(Option::is_none) {
             if file.key_span(&keys::LEGS).is_none() && !file.has_misspelt(&keys::LEGS) {
-                refusals.push(file.missing_section(&keys::LEGS));
+                findings.refuse(file.missing_section(&keys::LEGS));
             }
             return Self { common, tables, header, refused: [true; 6] };
         }
@@ -81,11 +82,11 @@ impl<'d> LegTables<'d> {
     }
 
     /// A joint of each leg in a free layout.
-    pub fn points(&self, property: &Property, refusals: &mut Vec<Refusal>) -> Option<[Spanned<Vector3>; 6]> {
+    pub fn points(&self, property: &Property, findings: &mut Findings) -> Option<[Spanned<Vector3>; 6]> {
         all(self
             .tables
             .each_ref()
-            .map(|table| table.as_ref()?.require(&property.key, checks::vector, refusals)))
+            .map(|table| table.as_ref()?.require(&property.key, checks::vector, findings)))
     }
 
     /// The first joint point of a leg, if any is given.
@@ -101,25 +102,25 @@ impl<'d> LegTables<'d> {
         &self,
         kind: &LegKind,
         home: Option<&'p Pose>,
-        points: Option<&JointPoints>,
-        refusals: &mut Vec<Refusal>,
+        layout: Option<&Layout>,
+        findings: &mut Findings,
     ) -> Option<[Leg<'p>; 6]> {
         let readings: Vec<(&Property, [Reading<Vec<f64>>; 6])> = kind
             .shared()
             .map(|property| {
                 let must = matches!(property.place, Place::Legs);
                 let key = &property.key;
-                (property, if must { self.require(key, refusals) } else { self.read(key, refusals) })
+                (property, if must { self.require(key, findings) } else { self.read(key, findings) })
             })
             .collect();
-        let (home, points) = (home?, points?);
+        let (home, layout) = (home?, layout?);
         let leg = |leg: usize| {
             let mut made = Leg { number: leg + 1, home, values: Vec::new() };
             for property in kind.properties {
                 let reading = readings.iter().find(|(read, _)| read.key.name == property.key.name);
                 let value = match (&property.place, reading.map(|(_, legs)| legs[leg].clone())) {
-                    (Place::BaseJoint, _) => flat(&points.base[leg]),
-                    (Place::PlatformJoint, _) => flat(&points.platform[leg]),
+                    (Place::BaseJoint, _) => flat(&layout.base[leg]),
+                    (Place::PlatformJoint, _) => flat(&layout.platform[leg]),
                     (_, Some(Reading::Present(value))) => value,
                     (Place::LegsOr(default), Some(Reading::Absent)) => {
                         Spanned::new(0..0, vec![default(&made)])
@@ -134,24 +135,24 @@ impl<'d> LegTables<'d> {
     }
 
     /// A number of each leg that has one, its own or that of `[legs]`.
-    pub fn optional(&self, key: &Key, refusals: &mut Vec<Refusal>) -> [Option<Spanned<f64>>; 6] {
+    pub fn optional(&self, key: &Key, findings: &mut Findings) -> [Option<Spanned<f64>>; 6] {
         let first = |value: Spanned<Vec<f64>>| Spanned::new(value.span(), value.get_ref()[0]);
-        self.read(key, refusals).map(|reading| reading.present().map(first))
+        self.read(key, findings).map(|reading| reading.present().map(first))
     }
 
     /// A property of each leg: its own value where its table has one, else that of `[legs]`.
-    fn read(&self, key: &Key, refusals: &mut Vec<Refusal>) -> [Reading<Vec<f64>>; 6] {
+    fn read(&self, key: &Key, findings: &mut Findings) -> [Reading<Vec<f64>>; 6] {
         let mut read = |section: &Option<Section>| match (section, key.value) {
             (None, _) => Reading::Absent,
             (Some(section), Value::Vector | Value::UnitVector) => section.read(
                 key,
                 |value, key| checks::vector(value, key).map(|vector| vector.to_vec()),
-                refusals,
+                findings,
             ),
             (Some(section), _) => section.read(
                 key,
                 |value, key| checks::number(value, key).map(|number| vec![number]),
-                refusals,
+                findings,
             ),
         };
         let common = read(&self.common);
@@ -162,15 +163,15 @@ impl<'d> LegTables<'d> {
     }
 
     /// A property that each leg must have, from its own table or from `[legs]`.
-    fn require(&self, key: &Key, refusals: &mut Vec<Refusal>) -> [Reading<Vec<f64>>; 6] {
-        let readings = self.read(key, refusals);
+    fn require(&self, key: &Key, findings: &mut Findings) -> [Reading<Vec<f64>>; 6] {
+        let readings = self.read(key, findings);
         let lacking: Vec<usize> =
             (0..6).filter(|&leg| matches!(readings[leg], Reading::Absent) && !self.refused[leg]).collect();
         let misspelt_for_all = self.common.as_ref().is_some_and(|common| common.has_misspelt(key));
         if lacking.len() == 6 || lacking.iter().any(|&leg| self.tables[leg].is_none()) {
             let misspelt = self.tables.iter().flatten().any(|table| table.has_misspelt(key));
             if !misspelt_for_all && !misspelt {
-                refusals.push(Refusal::new(
+                findings.refuse(Refusal::new(
                     self.header.clone(),
                     format!("no `{}` here", key.name),
                     format!("`{}` is missing: neither [legs] nor every leg has it", key.name),
@@ -180,7 +181,8 @@ impl<'d> LegTables<'d> {
         } else if !misspelt_for_all {
             // Some legs have a value of their own, so that the places of the mistake are the others.
             let tables = lacking.into_iter().filter_map(|leg| self.tables[leg].as_ref());
-            refusals.extend(tables.filter(|table| !table.has_misspelt(key)).map(|table| table.missing(key)));
+            findings
+                .refuse_all(tables.filter(|table| !table.has_misspelt(key)).map(|table| table.missing(key)));
         }
         readings
     }

@@ -5,6 +5,7 @@ use std::ops::Range;
 use serde::{Deserialize, Serialize};
 use toml::Spanned;
 
+use crate::findings::Findings;
 use crate::keys::{self, Key};
 use crate::leg_tables::LegTables;
 use crate::legs::{Geometry, named};
@@ -74,8 +75,8 @@ pub(crate) struct PlacedLimits {
 
 impl PlacedLimits {
     /// Reads all limits and refuses what contradicts itself.
-    pub fn read(tables: &LegTables, refusals: &mut Vec<Refusal>) -> Self {
-        let mut read = |key: &Key| tables.optional(key, refusals);
+    pub fn read(tables: &LegTables, findings: &mut Findings) -> Self {
+        let mut read = |key: &Key| tables.optional(key, findings);
         let (minimum_length, maximum_length) = (read(&keys::MINIMUM_LENGTH), read(&keys::MAXIMUM_LENGTH));
         let mut value = |key: &Key| plain(&read(key));
         let limits = Limits {
@@ -88,7 +89,7 @@ impl PlacedLimits {
             maximum_platform_joint_angle: value(&keys::MAXIMUM_PLATFORM_JOINT_ANGLE),
         };
         let placed = Self { minimum_length, maximum_length, limits };
-        placed.refuse_strokes(refusals);
+        placed.refuse_strokes(findings);
         placed
     }
 
@@ -98,7 +99,7 @@ impl PlacedLimits {
     }
 
     /// A stroke must have a length.
-    fn refuse_strokes(&self, refusals: &mut Vec<Refusal>) {
+    fn refuse_strokes(&self, findings: &mut Findings) {
         let faulty = |leg: usize| {
             let (shortest, longest) = (self.limits.minimum_length[leg]?, self.limits.maximum_length[leg]?);
             (shortest >= longest).then_some((shortest, longest))
@@ -121,12 +122,12 @@ impl PlacedLimits {
                 ("shorter than the shortest", what)
             };
             let help = "make `maximum_length_m` larger than `minimum_length_m`";
-            refusals.push(Refusal::new(at, label, what, help));
+            findings.refuse(Refusal::new(at, label, what, help));
         }
     }
 
     /// The stroke must hold the actuator's length at home.
-    pub fn refuse_home_outside(&self, home: &[Geometry; 6], refusals: &mut Vec<Refusal>) {
+    pub fn refuse_home_outside(&self, home: &[Geometry; 6], findings: &mut Findings) {
         let is_stroke = |leg: usize| {
             let (shortest, longest) = (self.limits.minimum_length[leg], self.limits.maximum_length[leg]);
             // A stroke that is none has its own refusal.
@@ -150,7 +151,7 @@ impl PlacedLimits {
                     legs.iter().map(|leg| end.inwards * length(leg - 1)).fold(f64::INFINITY, f64::min);
                 let needed = end.inwards * (farthest * 1e6).floor() / 1e6;
                 let help = format!("{} {needed:.6} m, or move the home pose", end.change);
-                refusals.push(Refusal::new(at, end.label, what, help));
+                findings.refuse(Refusal::new(at, end.label, what, help));
             }
         }
     }

@@ -5,6 +5,7 @@ use std::path::Path;
 
 use serde::{Deserialize, Serialize};
 
+use crate::findings::Warning;
 use crate::limits::Limits;
 use crate::nested::Nested;
 use crate::parameters::{Matrix3, Parameters, Vector3};
@@ -67,6 +68,8 @@ pub struct Platform {
     pub parameters: Parameters,
     /// What actuators and joints may do, as far as the file tells.
     pub limits: Limits,
+    /// What looks odd in the file but may be meant, for people to read; not part of the JSON.
+    pub warnings: Vec<Warning>,
 }
 
 impl Platform {
@@ -86,7 +89,10 @@ impl Platform {
     /// # Errors
     /// As [`Platform::from_file`].
     pub fn from_toml(source_name: &str, text: &str) -> Result<Self, FileError> {
-        reader::read(text).map_err(|refusals| FileError::new(source_name, text, refusals))
+        let (mut platform, hints) =
+            reader::read(text).map_err(|refusals| FileError::new(source_name, text, refusals))?;
+        platform.warnings = Warning::all(source_name, text, hints);
+        Ok(platform)
     }
 
     /// The parameter called `name`, flat and row-major; `None` if legs of this type have none of this name.
@@ -115,7 +121,7 @@ struct Versioned<P> {
 
 impl From<Platform> for Versioned<Parameters> {
     fn from(platform: Platform) -> Self {
-        let Platform { name, leg_type, home, parameters, limits } = platform;
+        let Platform { name, leg_type, home, parameters, limits, warnings: _ } = platform;
         Self { version: VERSION, name, leg_type, home, parameters, limits }
     }
 }
@@ -130,6 +136,7 @@ impl TryFrom<Versioned<BTreeMap<String, Nested>>> for Platform {
                 "resolved platform has version {version}, this reader knows version {VERSION}"
             ));
         }
-        Ok(Self { name, leg_type, home, parameters: Parameters::from_nested(leg_type, parameters)?, limits })
+        let parameters = Parameters::from_nested(leg_type, parameters)?;
+        Ok(Self { name, leg_type, home, parameters, limits, warnings: Vec::new() })
     }
 }

@@ -4,85 +4,103 @@
 use toml::Spanned;
 use toml::de::DeTable;
 
+use crate::assembly;
 use crate::checks::{self, Fault};
 use crate::document::{Reading, Section};
+use crate::findings::Findings;
 use crate::keys::{self, Key};
 use crate::layout;
 use crate::leg_tables::LegTables;
-use crate::legs::{self, JointPoints, Leg, Place};
+use crate::legs::{self, Layout, Leg, Place};
 use crate::limits::PlacedLimits;
 use crate::parameters::{Matrix3, Parameters, Vector3};
-use crate::platform::{LegType, Platform, Pose, VERSION};
+use crate::payload::{Body, payload};
+use crate::platform::{LegType, Platform, Pose};
 use crate::refusal::Refusal;
 use crate::text::{first_line, nearest};
+use crate::units;
+use crate::versions;
 
 const IDENTITY: Matrix3 = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
 
-/// Reads the whole file or returns every mistake in it.
-pub(crate) fn read(text: &str) -> Result<Platform, Vec<Refusal>> {
+/// Reads the whole file, with hints at what looks odd in it, or returns every mistake in it.
+pub(crate) fn read(text: &str) -> Result<(Platform, Vec<Refusal>), Vec<Refusal>> {
     let document = DeTable::parse(text).map_err(|error| vec![syntax(&error, text)])?;
     let table = document.get_ref();
     if table.is_empty() {
         return Err(vec![empty(text)]);
     }
-    let mut refusals = Vec::new();
     let file = Section::file(first_line(text), table);
-    let mut of_version = Vec::new();
-    if file.require(&keys::VERSION, this_version, &mut of_version).is_none() && !of_version.is_empty() {
+    let mut of_version = Findings::default();
+    if file.require(&keys::VERSION, versions::today, &mut of_version).is_none() && !of_version.is_clean() {
         // Another version may mean other keys: say nothing about them.
-        return Err(of_version);
+        return Err(of_version.into_refusals());
     }
-    match platform(file, &mut refusals) {
-        Some(platform) if refusals.is_empty() => Ok(platform),
-        _ => Err(refusals),
+    let mut findings = Findings::default();
+    match platform(file, &mut findings) {
+        Some(platform) if findings.is_clean() => Ok((platform, findings.into_hints())),
+        _ => Err(findings.into_refusals()),
     }
 }
 
-fn platform(file: Section, refusals: &mut Vec<Refusal>) -> Option<Platform> {
-    let leg_type = file.require(&keys::LEG_TYPE, leg_type, refusals).map(Spanned::into_inner);
-    let file = &file.of_leg_type(leg_type, refusals);
-    let name = file.require(&keys::NAME, identifier, refusals);
+fn platform(file: Section, findings: &mut Findings) -> Option<Platform> {
+    let leg_type = file.require(&keys::LEG_TYPE, leg_type, findings).map(Spanned::into_inner);
+    let file = &file.of_leg_type(leg_type, findings);
+    let name = file.require(&keys::NAME, identifier, findings);
     // For people who read the file; nothing computes with them.
-    file.read(&keys::DESCRIPTION, checks::any::<String>, refusals);
-    file.read(&keys::SOURCE, checks::any::<String>, refusals);
-    let gravity = file.require(&keys::GRAVITY, checks::vector, refusals);
+    file.read(&keys::DESCRIPTION, checks::any::<String>, findings);
+    file.read(&keys::SOURCE, checks::any::<String>, findings);
+    let gravity = file.require(&keys::GRAVITY, checks::vector, findings);
     let home = file
-        .require_section(&keys::HOME, keys::IN_HOME, refusals)
-        .and_then(|section| home(&section, refusals));
+        .require_section(&keys::HOME, keys::IN_HOME, findings)
+        .and_then(|section| home(&section, findings));
     let payload = file
-        .require_section(&keys::PAYLOAD, keys::IN_PAYLOAD, refusals)
-        .and_then(|section| payload(&section, refusals));
+        .require_section(&keys::PAYLOAD, keys::IN_PAYLOAD, findings)
+        .and_then(|section| payload(&section, findings));
     let free_layout = file.key_span(&keys::CIRCULAR_LAYOUT).is_none();
     let misspelt = file.has_misspelt(&keys::CIRCULAR_LAYOUT) || file.has_misspelt(&keys::LEG);
     if free_layout && file.key_span(&keys::LEG).is_none() && !misspelt {
-        refusals.push(no_layout(file));
+        findings.refuse(no_layout(file));
     }
-    let tables = LegTables::find(file, free_layout, refusals);
-    let points = if free_layout {
-        free_points(&tables, leg_type, refusals)
+    let tables = LegTables::find(file, free_layout, findings);
+    let layout = if free_layout {
+        free_layout_of(&tables, leg_type, home.as_ref(), findings)
     } else {
-        circular_points(file, &tables, refusals)
+        circular_layout_of(file, &tables, findings)
     };
-    let limits = PlacedLimits::read(&tables, refusals);
+    let limits = PlacedLimits::read(&tables, findings);
 
     let (kind, leg_type) = (legs::kind(leg_type?), leg_type?);
-    let legs = tables.legs(kind, home.as_ref(), points.as_ref(), refusals)?;
+    let pose = home.as_ref().map(Spanned::get_ref);
+    let legs = tables.legs(kind, pose, layout.as_ref(), findings)?;
+    findings.begin_assembly();
     let unfit = (kind.at_home)(&legs);
     if unfit.is_empty() {
-        limits.refuse_home_outside(&legs.each_ref().map(kind.geometry), refusals);
+        let at_home = legs.each_ref().map(kind.geometry);
+        limits.refuse_home_outside(&at_home, findings);
+        if let Some(Layout { remedy, .. }) = &layout {
+            assembly::refuse_loose(&legs, &at_home, remedy.span(), remedy.get_ref(), findings);
+        }
     }
-    refusals.extend(unfit);
+    // A leg that does not fit has no size with which to compare its bodies.
+    let hints = if unfit.is_empty() { units::of_legs(kind, &legs) } else { Vec::new() };
+    hints.into_iter().for_each(|hint| findings.hint(hint));
+    findings.refuse_all(unfit);
     let (payload, gravity) = (payload?, gravity?.into_inner());
+    for hint in payload.bodies.iter().flat_map(|body| units::of_payload(&body.mass, &body.trace, &legs)) {
+        findings.hint(hint);
+    }
     Some(Platform {
         name: name?.into_inner(),
         leg_type,
-        home: home?,
-        parameters: parameters(leg_type, &legs, payload, gravity),
+        home: *pose?,
+        parameters: parameters(leg_type, &legs, &payload.whole, gravity),
         limits: limits.limits(),
+        warnings: Vec::new(),
     })
 }
 
-fn parameters(leg_type: LegType, legs: &[Leg; 6], payload: Payload, gravity: Vector3) -> Parameters {
+fn parameters(leg_type: LegType, legs: &[Leg; 6], payload: &Body, gravity: Vector3) -> Parameters {
     let mut parameters = Parameters::zero(leg_type);
     for property in legs::kind(leg_type).properties {
         let name = property.parameter.name;
@@ -99,80 +117,66 @@ fn parameters(leg_type: LegType, legs: &[Leg; 6], payload: Payload, gravity: Vec
     parameters
 }
 
-fn home(home: &Section, refusals: &mut Vec<Refusal>) -> Option<Pose> {
-    let position = home.require(&keys::POSITION, checks::vector, refusals);
-    let rotation = match home.read(&keys::ROTATION, checks::rotation, refusals) {
+/// The home pose, at the place of its position.
+fn home(home: &Section, findings: &mut Findings) -> Option<Spanned<Pose>> {
+    let position = home.require(&keys::POSITION, checks::vector, findings);
+    let rotation = match home.read(&keys::ROTATION, checks::rotation, findings) {
         Reading::Absent => Some(IDENTITY),
         reading => reading.present().map(Spanned::into_inner),
     };
-    Some(Pose { position: position?.into_inner(), rotation: rotation? })
+    let position = position?;
+    let at = position.span();
+    Some(Spanned::new(at, Pose { position: position.into_inner(), rotation: rotation? }))
 }
 
-struct Payload {
-    mass: f64,
-    com: Vector3,
-    inertia: Matrix3,
-}
-
-fn payload(payload: &Section, refusals: &mut Vec<Refusal>) -> Option<Payload> {
-    let mass = payload.require(&keys::PAYLOAD_MASS, checks::number, refusals);
-    let com = payload.require(&keys::PAYLOAD_COM, checks::vector, refusals);
-    let inertia = payload.require(&keys::PAYLOAD_INERTIA, checks::inertia, refusals);
-    Some(Payload { mass: mass?.into_inner(), com: com?.into_inner(), inertia: inertia?.into_inner() })
-}
-
-fn free_points(
+fn free_layout_of(
     tables: &LegTables,
     leg_type: Option<LegType>,
-    refusals: &mut Vec<Refusal>,
-) -> Option<JointPoints> {
+    home: Option<&Spanned<Pose>>,
+    findings: &mut Findings,
+) -> Option<Layout> {
     let (mut base, mut platform) = (None, None);
     for property in legs::kind(leg_type?).joints() {
-        let points = tables.points(property, refusals);
+        let points = tables.points(property, findings);
         match property.place {
             Place::BaseJoint => base = points,
             _ => platform = points,
         }
     }
-    Some(JointPoints { base: base?, platform: platform? })
+    let remedy = Spanned::new(home?.span(), "move the joints of these legs, or the home pose".into());
+    Some(Layout { base: base?, platform: platform?, remedy })
 }
 
-fn circular_points(file: &Section, tables: &LegTables, refusals: &mut Vec<Refusal>) -> Option<JointPoints> {
-    let circles = file.section(&keys::CIRCULAR_LAYOUT, keys::IN_CIRCULAR_LAYOUT, refusals)?;
+fn circular_layout_of(file: &Section, tables: &LegTables, findings: &mut Findings) -> Option<Layout> {
+    let circles = file.section(&keys::CIRCULAR_LAYOUT, keys::IN_CIRCULAR_LAYOUT, findings)?;
     if let Some(at) = tables.any_point(file.leg_type()) {
-        refusals.push(Refusal::new(
+        findings.refuse(Refusal::new(
             at,
             "a point, although [circular_layout] is given",
             "two layouts: both [circular_layout] and a [[leg]] say where joints are",
             "remove [circular_layout] and give the points of all six legs, or remove the points",
         ));
     }
-    let mut read = |key: &Key| circles.require(key, checks::number, refusals);
+    let mut read = |key: &Key| circles.require(key, checks::number, findings);
     let (base_radius, platform_radius) = (read(&keys::BASE_RADIUS), read(&keys::PLATFORM_RADIUS));
     let (base_angle, platform_angle) = (read(&keys::BASE_PAIR_ANGLE), read(&keys::PLATFORM_PAIR_ANGLE));
-    let circle = |radius: Spanned<f64>, angle: Spanned<f64>| {
-        let at = radius.span();
-        layout::circle(radius.into_inner(), angle.into_inner()).map(|point| Spanned::new(at.clone(), point))
+    let (base_angle, platform_angle) = (base_angle?, platform_angle?);
+    let remedy = if (base_angle.get_ref() - platform_angle.get_ref()).abs() < 1e-3 {
+        "make `base_pair_angle_rad` and `platform_pair_angle_rad` differ: with equal ones every leg is in a plane with \
+         the z axis"
+    } else {
+        "change a radius, a pair angle or the home pose"
     };
-    Some(JointPoints {
-        base: circle(base_radius?, base_angle?),
-        platform: circle(platform_radius?, platform_angle?),
+    let remedy = Spanned::new(platform_angle.span(), remedy.into());
+    let circle = |radius: Spanned<f64>, angle: f64| {
+        let at = radius.span();
+        layout::circle(radius.into_inner(), angle).map(|point| Spanned::new(at.clone(), point))
+    };
+    Some(Layout {
+        base: circle(base_radius?, base_angle.into_inner()),
+        platform: circle(platform_radius?, platform_angle.into_inner()),
+        remedy,
     })
-}
-
-fn this_version(version: i64, key: &Key) -> Result<i64, Fault> {
-    if version == i64::from(VERSION) {
-        return Ok(version);
-    }
-    Err(Fault::new(
-        format!("must be {VERSION}"),
-        format!("the file has format version {version}, this reader knows version {VERSION} only"),
-        format!(
-            "write `{}` and bring the file into the form of docs/platform-file.md, or use the reader that knows \
-             version {version}",
-            key.example
-        ),
-    ))
 }
 
 /// Lower-case words that Rust keeps for itself, strict and reserved keywords of edition 2024.

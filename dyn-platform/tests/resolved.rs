@@ -78,11 +78,11 @@ fn home_of_table_1() {
     let (home, uhp) = (platform.home, platform.parameters);
     assert_eq!(home.position, [0.0, 0.0, 0.382]);
     let rod_length = uhp.legs("rod_length").expect("a parameter of legs uhp");
-    for leg in 0..6 {
+    for (leg, rod_length) in rod_length.into_iter().enumerate() {
         let [x, y, _]: [f64; 3] =
             std::array::from_fn(|axis| uhp.platform_point[leg][axis] - uhp.base_point[leg][axis]);
         let across = x.hypot(y);
-        let length = home.position[2] - (rod_length[leg].powi(2) - across.powi(2)).sqrt();
+        let length = home.position[2] - (rod_length.powi(2) - across.powi(2)).sqrt();
         assert!((across - 0.09304).abs() < 5e-6, "leg {}: {across}", leg + 1);
         assert!((length - 0.19821).abs() < 5e-6, "leg {}: {length}", leg + 1);
     }
@@ -287,4 +287,46 @@ fn json_with_wrong_parameters_is_refused() {
     refused(&|json| json["parameters"]["rod_mass"] = 1.0.into(), "`rod_mass` is not an array of shape [6]");
     refused(&|json| json["parameters"]["rod_colour"] = 1.0.into(), "unknown parameter `rod_colour`");
     refused(&|json| json["leg_type"] = "ups".into(), "parameter `lower_mass` is missing");
+}
+
+/// Two small parts beside a third, which is turned by 90 degrees; calculated by hand.
+#[test]
+fn parts_of_a_payload_are_summed() {
+    let text = uhp_2016_text();
+    let start = text.find("[payload]").expect("a payload");
+    let parts = "
+        [[payload.part]]
+        name = \"middle\"
+        mass_kg = 2.0
+        com_m = [0.0, 0.0, 0.1]
+        inertia_kg_m2 = [[0.01, 0.0, 0.0], [0.0, 0.02, 0.0], [0.0, 0.0, 0.025]]
+        rotation = [[0.0, -1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]]
+        [[payload.part]]
+        mass_kg = 1.0
+        com_m = [0.0, 0.3, 0.1]
+        inertia_kg_m2 = [[1e-3, 0.0, 0.0], [0.0, 1e-3, 0.0], [0.0, 0.0, 1e-3]]
+        [[payload.part]]
+        mass_kg = 1.0
+        com_m = [0.2, -0.3, 0.1]
+        inertia_kg_m2 = [[1e-3, 0.0, 0.0], [0.0, 1e-3, 0.0], [0.0, 0.0, 1e-3]]
+    ";
+    let parameters = resolved(&(text[..start].to_owned() + parts)).parameters;
+    assert_eq!(parameters.payload_mass, 4.0);
+    let near = |found: &[f64], typed: &[f64]| {
+        assert!(
+            found.iter().zip(typed).all(|(a, b)| (a - b).abs() < 1e-15),
+            "{found:?} instead of {typed:?}"
+        );
+    };
+    near(&parameters.payload_com, &[0.05, 0.0, 0.1]);
+    // From the middle (-0.05, 0), the second (-0.05, 0.3) and the third (0.15, -0.3), all in the plane z = 0.1:
+    // xx: 0.02 + 2e-3 + 2 * 0.09, yy: 0.01 + 2e-3 + 2 * 0.0025 + 0.0025 + 0.0225, xy: -(-0.015 - 0.045).
+    near(parameters.payload_inertia.as_flattened(), &[0.202, 0.06, 0.0, 0.06, 0.042, 0.0, 0.0, 0.0, 0.237]);
+}
+
+#[test]
+fn committed_files_give_no_warning() {
+    for path in platform_files() {
+        assert_eq!(Platform::from_file(&path).expect("a valid file").warnings, [], "{}", path.display());
+    }
 }

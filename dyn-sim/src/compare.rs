@@ -39,22 +39,28 @@ pub fn amplitude_table(
 }
 
 /// Errors in the time domain over the samples that both have.
-pub fn time_errors(target: &Series, simulated: &Series) -> TimeErrors {
+pub fn time_errors(reference: &Series, simulated: &Series) -> TimeErrors {
     let part = |a: &[f64; 6], kind: usize| [a[3 * kind], a[3 * kind + 1], a[3 * kind + 2]];
     let difference = |a: [f64; 3], b: [f64; 3]| finite(norm(std::array::from_fn(|i| a[i] - b[i])));
-    let relative = |kind: usize| {
+    // Largest error and largest value of the linear or the angular acceleration.
+    let error_and_size = |kind: usize| {
         let mut error = 0.0_f64;
         let mut size = 0.0_f64;
-        for (wanted, found) in target.acceleration.iter().zip(&simulated.acceleration) {
+        for (wanted, found) in reference.acceleration.iter().zip(&simulated.acceleration) {
             error = error.max(difference(part(wanted, kind), part(found, kind)));
             size = size.max(norm(part(wanted, kind)));
         }
-        if size > 0.0 { error / size } else { 0.0 }
+        (error, size)
     };
-    let positions = target.position_m.iter().zip(&simulated.position_m);
+    let parts = [error_and_size(0), error_and_size(1)];
+    let relative = parts.into_iter().filter(|(_, size)| *size > 0.0).map(|(error, size)| error / size);
+    let positions = reference.position_m.iter().zip(&simulated.position_m);
     TimeErrors {
         label: simulated.label.clone(),
-        acceleration_relative: relative(0).max(relative(1)),
+        reference: reference.label.clone(),
+        acceleration_relative: relative.reduce(f64::max).unwrap_or(f64::NAN),
+        linear_m_s2: parts[0].0,
+        angular_rad_s2: parts[1].0,
         position_m: positions.map(|(wanted, found)| difference(*wanted, *found)).fold(0.0, f64::max),
     }
 }
@@ -92,5 +98,16 @@ mod tests {
         broken.position_m[0][2] = f64::NAN;
         let errors = time_errors(&target, &broken);
         assert_eq!((errors.acceleration_relative, errors.position_m), (f64::INFINITY, f64::INFINITY));
+    }
+
+    /// Nothing is relative to a body at rest: an error there must not pass for none.
+    #[test]
+    fn a_target_at_rest() {
+        let still = Series { acceleration: vec![[0.0; 6]], position_m: vec![[0.0; 3]], ..Series::default() };
+        let mut moved = still.clone();
+        moved.acceleration[0] = [0.0, 3.0, 4.0, 0.0, 0.0, 2.0];
+        let errors = time_errors(&still, &moved);
+        assert!(errors.acceleration_relative.is_nan());
+        assert_eq!((errors.linear_m_s2, errors.angular_rad_s2, errors.position_m), (5.0, 2.0, 0.0));
     }
 }

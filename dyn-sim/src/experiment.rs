@@ -271,7 +271,9 @@ fn compared(
     warnings: &mut Vec<String>,
 ) -> (Vec<crate::outcome::AmplitudeTable>, Vec<crate::outcome::TimeErrors>) {
     if target.is_empty() {
-        return (Vec::new(), Vec::new());
+        // The independent engine is then compared with dyn-gen itself.
+        let others = simulations.iter().skip(1);
+        return (Vec::new(), others.map(|series| compare::time_errors(&simulations[0], series)).collect());
     }
     let time_errors = simulations.iter().map(|series| compare::time_errors(target, series)).collect();
     let request = &scenario.spectrum;
@@ -284,7 +286,13 @@ fn compared(
     warnings.extend(plan.warning.clone());
     let paper = request.paper_percent.as_deref();
     let table = |series| compare::amplitude_table(&plan, frequencies, target, series, paper);
-    (simulations.iter().map(table).collect(), time_errors)
+    let tables: Vec<_> = simulations.iter().map(table).collect();
+    if tables.iter().flat_map(|table| table.error_percent.iter().flatten()).all(|error| error.is_nan()) {
+        let named: Vec<String> = frequencies.iter().map(f64::to_string).collect();
+        warnings.push(format!("the target does not move at {} Hz: no table of amplitudes", named.join(", ")));
+        return (Vec::new(), time_errors);
+    }
+    (tables, time_errors)
 }
 
 fn actuator_lengths(mechanism: &dyn Mechanism, drive: &Drive, series: &Series) -> Vec<[f64; 6]> {

@@ -37,15 +37,22 @@ pub struct AmplitudeTable {
     pub paper_percent: Option<Vec<[f64; 6]>>,
 }
 
-/// How far a simulation strays from the target in the time domain.
+/// How far a simulation strays in the time domain from the target or, without one, from dyn-gen's own simulation.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TimeErrors {
     /// Which simulation.
     pub label: String,
-    /// Largest error of the acceleration relative to the target's largest acceleration; the larger of the linear and
-    /// the angular part, each relative to its own.
+    /// What it is measured against: "target" or another simulation's label.
+    pub reference: String,
+    /// Largest error of the acceleration relative to the reference's largest acceleration; the larger of the linear and
+    /// the angular part, each relative to its own. A part that the reference does not have does not count; NaN where it
+    /// has neither.
     pub acceleration_relative: f64,
-    /// Largest distance between simulated and target position, m.
+    /// Largest error of the linear acceleration, m/s^2.
+    pub linear_m_s2: f64,
+    /// Largest error of the angular acceleration, rad/s^2.
+    pub angular_rad_s2: f64,
+    /// Largest distance between both positions, m.
     pub position_m: f64,
 }
 

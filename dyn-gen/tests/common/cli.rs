@@ -29,6 +29,11 @@ pub fn said(output: &Output) -> String {
     String::from_utf8_lossy(&output.stderr).into_owned()
 }
 
+/// The same on one line, without the frames and line breaks of messages.
+pub fn words(output: &Output) -> String {
+    said(output).replace(['│', '\n'], " ").split_whitespace().collect::<Vec<_>>().join(" ")
+}
+
 /// Names of everything in a folder.
 pub fn entries(folder: &Path) -> Vec<String> {
     let mut names: Vec<String> = fs::read_dir(folder)

@@ -2,6 +2,7 @@
 #![allow(dead_code, reason = "each test binary uses its part")]
 
 pub mod cli;
+pub mod platforms;
 pub mod random;
 pub mod text;
 

@@ -58,6 +58,17 @@ pub(crate) struct LegKind {
     pub at_home: fn(&[Leg; 6]) -> Vec<Refusal>,
     /// Where a leg stands at home, once nothing is wrong there.
     pub geometry: fn(&Leg) -> Geometry,
+    /// About how long a leg is at home, m.
+    pub size: fn(&Leg) -> f64,
+    /// The moving bodies of a leg.
+    pub bodies: &'static [Body],
+}
+
+/// A moving body of a leg, by the names of its parameters.
+pub(crate) struct Body {
+    pub mass: &'static str,
+    /// Transverse, about the body's own centre of mass.
+    pub inertia: Option<&'static str>,
 }
 
 /// A leg at home.
@@ -65,6 +76,8 @@ pub(crate) struct LegKind {
 pub(crate) struct Geometry {
     /// Length d of the actuator, m.
     pub actuator_length: f64,
+    /// Along the force that the leg exerts on its platform joint, B, of any length.
+    pub line_of_force: Vector<f64>,
 }
 
 impl LegKind {
@@ -73,6 +86,12 @@ impl LegKind {
         self.properties
             .iter()
             .filter(|property| matches!(property.place, Place::BaseJoint | Place::PlatformJoint))
+    }
+
+    /// The key of a parameter.
+    pub fn key(&self, parameter: &str) -> &'static Key {
+        let property = self.properties.iter().find(|property| property.parameter.name == parameter);
+        &property.unwrap_or_else(|| panic!("no leg property {parameter}: a wrong name in a table")).key
     }
 
     /// What `[legs]` and `[[leg]]` give.
@@ -132,11 +151,14 @@ impl Leg<'_> {
         self.value(parameter).span()
     }
 
+    /// From the platform's origin to the joint on the platform: `R p`, m, B.
+    pub fn platform_arm(&self) -> Vector<f64> {
+        from_rows(self.home.rotation) * self.vector("platform_point")
+    }
+
     /// From the joint on the base to the joint on the platform with the platform at home: `r_p + R p - b`, m, B.
     pub fn between_joints(&self) -> Vector<f64> {
-        let platform_joint =
-            Vector::from(self.home.position) + from_rows(self.home.rotation) * self.vector("platform_point");
-        platform_joint - self.vector("base_point")
+        Vector::from(self.home.position) + self.platform_arm() - self.vector("base_point")
     }
 }
 
@@ -165,8 +187,12 @@ pub(crate) fn named(numbers: &[usize]) -> String {
     }
 }
 
-/// Both joints of each leg, with their places in the file.
-pub(crate) struct JointPoints {
+/// Where the joints are.
+pub(crate) struct Layout {
+    /// The joint of each leg on the base, with its place in the file.
     pub base: [Spanned<Vector3>; 6],
+    /// The joint of each leg on the platform, with its place in the file.
     pub platform: [Spanned<Vector3>; 6],
+    /// What to change in the file when the joints as a whole make no platform, and where.
+    pub remedy: Spanned<String>,
 }

@@ -4,7 +4,7 @@
 use std::ops::Range as Span;
 
 use super::common::{AXIAL_DAMPING, AXIAL_STIFFNESS, REST_LENGTH};
-use super::{Geometry, Leg, LegKind, Place, Property, by_place, named};
+use super::{Body, Geometry, Leg, LegKind, Place, Property, by_place, named};
 use crate::keys::{Key, Range, Value};
 use crate::platform::LegType;
 use crate::refusal::Refusal;
@@ -12,8 +12,17 @@ use crate::refusal::Refusal;
 /// A leg whose `u.a` (cosine between rod and actuator) at home is below this is refused: forces grow as its inverse.
 const SMALLEST_ALIGNMENT: f64 = 0.01;
 
-pub(super) const KIND: LegKind =
-    LegKind { leg_type: LegType::Uhp, properties: PROPERTIES, at_home, geometry };
+pub(super) const KIND: LegKind = LegKind {
+    leg_type: LegType::Uhp,
+    properties: PROPERTIES,
+    at_home,
+    geometry,
+    size: |leg| leg.scalar("rod_length"),
+    bodies: &[
+        Body { mass: "rod_mass", inertia: Some("rod_inertia") },
+        Body { mass: "mover_mass", inertia: None },
+    ],
+};
 
 const PROPERTIES: &[Property] = &[
     Property::new(
@@ -136,10 +145,12 @@ fn alignment_squared(leg: &Leg) -> f64 {
     1.0 - (across(leg) / leg.scalar("rod_length")).powi(2)
 }
 
-/// (18): `d = a.x - sqrt(s^2 - n.n)`, the Hooke joint below the platform joint.
+/// (18): `d = a.x - h`, `h = sqrt(s^2 - n.n)`, the Hooke joint below the platform joint; the rod is `n + h a`.
 fn geometry(leg: &Leg) -> Geometry {
     let (x, a, s) = (leg.between_joints(), leg.vector("actuator_axis"), leg.scalar("rod_length"));
-    Geometry { actuator_length: a.dot(&x) - (s * s - across(leg).powi(2)).sqrt() }
+    let n = x - a * a.dot(&x);
+    let h = (s * s - n.norm_squared()).sqrt();
+    Geometry { actuator_length: a.dot(&x) - h, line_of_force: n + a * h }
 }
 
 /// Refuses rods that do not reach at home; legs that share one `rod_length_m` share one refusal.

@@ -2,7 +2,7 @@
 //! spherical joint (S) on the platform. Its two parts, lower and upper, have mass and transverse inertia.
 
 use super::common::{AXIAL_DAMPING, AXIAL_STIFFNESS, REST_LENGTH};
-use super::{Geometry, Leg, LegKind, Place, Property, by_place, named};
+use super::{Body, Geometry, Leg, LegKind, Place, Property, by_place, named};
 use crate::keys::{Key, Range, Value};
 use crate::platform::LegType;
 use crate::refusal::Refusal;
@@ -10,8 +10,17 @@ use crate::refusal::Refusal;
 /// Joints nearer than this fraction of the lengths involved coincide: rounding alone gives such a leg its direction.
 const COINCIDENT: f64 = 1e-9;
 
-pub(super) const KIND: LegKind =
-    LegKind { leg_type: LegType::Ups, properties: PROPERTIES, at_home, geometry };
+pub(super) const KIND: LegKind = LegKind {
+    leg_type: LegType::Ups,
+    properties: PROPERTIES,
+    at_home,
+    geometry,
+    size: |leg| leg.between_joints().norm(),
+    bodies: &[
+        Body { mass: "lower_mass", inertia: Some("lower_inertia") },
+        Body { mass: "upper_mass", inertia: Some("upper_inertia") },
+    ],
+};
 
 const PROPERTIES: &[Property] = &[
     Property::new(
@@ -109,7 +118,8 @@ const PROPERTIES: &[Property] = &[
 
 /// The actuator's length is the distance of the joints.
 fn geometry(leg: &Leg) -> Geometry {
-    Geometry { actuator_length: leg.between_joints().norm() }
+    let between = leg.between_joints();
+    Geometry { actuator_length: between.norm(), line_of_force: between }
 }
 
 /// Refuses legs whose joints coincide at home: they have no direction.

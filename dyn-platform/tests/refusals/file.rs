@@ -1,4 +1,4 @@
-//! The file as a whole: unreadable, empty, of another version, with several mistakes.
+//! The file as a whole: unreadable, empty, with several mistakes.
 
 use std::fs;
 
@@ -107,64 +107,6 @@ fn key_given_twice() {
          21 │ rod_inertia_kg_m2 = 0.005
             ╰────
           help: mend the syntax; https://toml.io describes it, platforms/uhp_2016.toml is an example
-    "#]],
-    );
-}
-
-#[test]
-fn other_version() {
-    check(
-        "version = 1",
-        "version = 2",
-        expect![[r#"
-        Error:
-          × the file has format version 2, this reader knows version 1 only
-           ╭─[bench.toml:1:11]
-         1 │ version = 2
-           ·           ┬
-           ·           ╰── must be 1
-         2 │ name = "bench"
-           ╰────
-          help: write `version = 1` and bring the file into the form of docs/platform-file.md, or use the reader
-                that knows version 2
-    "#]],
-    );
-}
-
-#[test]
-fn version_missing() {
-    check(
-        "version = 1\n",
-        "",
-        expect![[r#"
-        Error:
-          × `version` is missing in the file
-           ╭─[bench.toml:1:1]
-         1 │ name = "bench"
-           · ───────┬──────
-           ·        ╰── no `version` here
-         2 │ leg_type = "uhp"
-           ╰────
-          help: give the version of the file format, for example `version = 1`
-    "#]],
-    );
-}
-
-#[test]
-fn version_in_quotes() {
-    check(
-        "version = 1",
-        r#"version = "1""#,
-        expect![[r#"
-        Error:
-          × `version` needs a whole number, found a text in quotes
-           ╭─[bench.toml:1:11]
-         1 │ version = "1"
-           ·           ─┬─
-           ·            ╰── found a text in quotes
-         2 │ name = "bench"
-           ╰────
-          help: give the version of the file format, for example `version = 1`
     "#]],
     );
 }

@@ -2,19 +2,24 @@
 //!
 //! The texts are snapshots; after a deliberate change, `UPDATE_EXPECT=1 cargo test -p dyn-platform` rewrites them.
 
-use dyn_platform::{FileError, Platform};
+use dyn_platform::Platform;
 use expect_test::Expect;
-use miette::{GraphicalReportHandler, GraphicalTheme};
+use miette::{Diagnostic, GraphicalReportHandler, GraphicalTheme};
 
 mod file;
 mod keys;
 mod leg_types;
 mod legs;
 mod limits;
+mod loose;
+mod missing;
 mod names;
 mod numbers;
+mod payload;
 mod tensors;
 mod types;
+mod versions;
+mod warnings;
 
 /// A valid file with a circular layout.
 const CIRCULAR: &str = r#"version = 1
@@ -128,7 +133,7 @@ fn with(text: &str, good: &str, bad: &str) -> String {
     text.replacen(good, bad, 1)
 }
 
-fn rendered(error: &FileError) -> String {
+fn rendered(error: &dyn Diagnostic) -> String {
     let handler = GraphicalReportHandler::new_themed(GraphicalTheme::unicode_nocolor()).with_width(110);
     let mut text = String::from("Error:\n");
     handler.render_report(&mut text, error).expect("a String takes any text");

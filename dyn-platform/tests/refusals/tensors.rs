@@ -145,3 +145,25 @@ fn inertia_of_no_body() {
         "#]],
     );
 }
+
+#[test]
+fn zero_inertia() {
+    let (good, bad) =
+        ("[[0.02, 0.0, 0.0], [0.0, 0.02, 0.0], [0.0, 0.0, 0.03]]", "[[0, 0, 0], [0, 0, 0], [0, 0, 0]]");
+    check(
+        good,
+        bad,
+        expect![[r#"
+        Error:
+          × `inertia_kg_m2` is not positive definite: its principal moments are 0.0000e0, 0.0000e0 and 0.0000e0 kg
+          │ m^2
+            ╭─[bench.toml:31:17]
+         30 │ com_m = [0.0, 0.0, 0.03]
+         31 │ inertia_kg_m2 = [[0, 0, 0], [0, 0, 0], [0, 0, 0]]
+            ·                 ────────────────┬────────────────
+            ·                                 ╰── not positive definite
+            ╰────
+          help: check the signs and sizes off the diagonal; every principal moment must be positive
+    "#]],
+    );
+}

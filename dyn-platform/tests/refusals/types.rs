@@ -2,7 +2,7 @@
 
 use expect_test::expect;
 
-use crate::check;
+use crate::{CIRCLES, CIRCULAR, check, check_text, with};
 
 #[test]
 fn number_in_quotes() {
@@ -244,6 +244,46 @@ fn fraction_of_a_leg_number() {
          30 │ [payload]
             ╰────
           help: give the number of the leg, 1 to 6, for example `number = 1`
+    "#]],
+    );
+}
+
+#[test]
+fn leg_number_beyond_all_size() {
+    check(
+        "[payload]",
+        "[[leg]]\nnumber = 99999999999999999999\n[payload]",
+        expect![[r#"
+        Error:
+          × `number` needs a whole number of ordinary size
+            ╭─[bench.toml:29:10]
+         28 │ [[leg]]
+         29 │ number = 99999999999999999999
+            ·          ──────────┬─────────
+            ·                    ╰── too large
+         30 │ [payload]
+            ╰────
+          help: give the number of the leg, 1 to 6, for example `number = 1`
+    "#]],
+    );
+}
+
+#[test]
+fn number_for_a_layout() {
+    let text = with(CIRCULAR, CIRCLES, "");
+    check_text(
+        &with(&text, "[home]", "circular_layout = 0.2\n[home]"),
+        expect![[r#"
+        Error:
+          × `circular_layout` needs a table, found a decimal number
+           ╭─[bench.toml:6:19]
+         5 │
+         6 │ circular_layout = 0.2
+           ·                   ─┬─
+           ·                    ╰── found a decimal number
+         7 │ [home]
+           ╰────
+          help: give the table of the joint circles, for example `[circular_layout]`
     "#]],
     );
 }

@@ -32,6 +32,17 @@ pub(crate) fn platform() -> dyn_platform::Platform {
     dyn_platform::Platform::from_file(path).expect("the default platform")
 }
 
+fn time_errors(label: &str, relative: f64, position_m: f64) -> TimeErrors {
+    TimeErrors {
+        label: label.into(),
+        reference: "target".into(),
+        acceleration_relative: relative,
+        linear_m_s2: 1e-2 * relative,
+        angular_rad_s2: 1e-1 * relative,
+        position_m,
+    }
+}
+
 /// Harmonics of the amplitudes, each relative error `error` too large.
 fn series(label: &str, amplitudes: &[[f64; 6]; 3], error: f64, height_m: f64) -> Series {
     let time_s: Vec<f64> = (0..=STEPS).map(|k| k as f64 * STEP_S).collect();
@@ -100,10 +111,7 @@ pub(crate) fn outcome() -> Outcome {
         ],
         target,
         amplitude_tables: vec![table("dyn-gen", 3e-10), table("Exudyn 1.13.8", 2.2e-6)],
-        time_errors: vec![
-            TimeErrors { label: "dyn-gen".into(), acceleration_relative: 6e-9, position_m: 2e-15 },
-            TimeErrors { label: "Exudyn 1.13.8".into(), acceleration_relative: 3.2e-5, position_m: 4.1e-11 },
-        ],
+        time_errors: vec![time_errors("dyn-gen", 6e-9, 2e-15), time_errors("Exudyn 1.13.8", 3.2e-5, 4.1e-11)],
         versions: vec![("dyn-sim".into(), "0.1.0".into()), ("Exudyn".into(), "1.13.8".into())],
         seconds: vec![("inverse dynamics".into(), 0.012), ("virtual prototype, Exudyn".into(), 3.41)],
         warnings: vec!["the record is 0.2 s: 8 periods of 40 Hz".into()],

@@ -19,7 +19,10 @@ pub fn tables_json(outcome: &Outcome) -> Value {
     let errors = outcome.time_errors.iter().map(|errors| {
         json!({
             "simulation": errors.label,
+            "reference": errors.reference,
             "acceleration_relative": errors.acceleration_relative,
+            "linear_m_s2": errors.linear_m_s2,
+            "angular_rad_s2": errors.angular_rad_s2,
             "position_m": errors.position_m,
         })
     });

@@ -7,7 +7,7 @@ use super::curves::{COMPONENTS, CurveFile};
 use super::figure::Figure;
 use super::folder::MARKER;
 use super::svg::{Svg, escape};
-use super::table::{groups, headline, length, plain, significant, title};
+use super::table::{groups, headline, length, percent, plain, reference, significant, title};
 use crate::outcome::{AmplitudeTable, Outcome};
 
 const STYLE: &str = include_str!("page.css");
@@ -113,15 +113,22 @@ fn result(outcome: &Outcome) -> String {
         }
     }
     if !outcome.time_errors.is_empty() {
-        html += "<h2>Errors in the time domain</h2>\n<table>\n<thead><tr><th class=\"text\"></th>\
-                 <th>largest error of the acceleration,<br>relative to its largest value</th>\
-                 <th>largest error<br>of the position</th></tr></thead>\n<tbody>\n";
+        put!(
+            html,
+            "<h2>Errors in the time domain</h2>\n<p>Largest differences from {}.</p>\n<table>\n\
+             <thead><tr><th class=\"text\"></th><th>acceleration,<br>relative to its largest value</th>\
+             <th>linear<br><span class=\"unit\">m/s²</span></th><th>angular<br><span class=\"unit\">rad/s²</span></th>\
+             <th>position</th></tr></thead>\n<tbody>\n",
+            escape(&reference(&outcome.time_errors[0]))
+        );
         for error in &outcome.time_errors {
             put!(
                 html,
-                "<tr><td class=\"text\">{}</td><td>{}</td><td>{}</td></tr>\n",
+                "<tr><td class=\"text\">{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>\n",
                 escape(&error.label),
-                significant(error.acceleration_relative, 2),
+                percent(error.acceleration_relative),
+                significant(error.linear_m_s2, 2),
+                significant(error.angular_rad_s2, 2),
                 length(error.position_m)
             );
         }

@@ -2,7 +2,7 @@
 
 use super::axis::power_of_ten;
 use super::curves::COMPONENTS;
-use crate::outcome::{AmplitudeTable, Outcome};
+use crate::outcome::{AmplitudeTable, Outcome, TimeErrors};
 
 /// All rows of one frequency.
 pub(super) struct Group {
@@ -145,21 +145,10 @@ pub(super) fn headline(outcome: &Outcome) -> String {
             theirs.frequency_hz,
         );
     }
-    // Written so that an error that is not a number is the worst.
-    let worst_in_time = outcome
-        .time_errors
-        .iter()
-        .max_by(|a, b| a.acceleration_relative.abs().total_cmp(&b.acceleration_relative.abs()));
+    let worst_in_time =
+        outcome.time_errors.iter().max_by(|a, b| a.linear_m_s2.abs().total_cmp(&b.linear_m_s2.abs()));
     if let Some(worst) = worst_in_time {
-        if !worst.acceleration_relative.is_finite() {
-            return format!("{} came to accelerations that are not numbers.", worst.label);
-        }
-        return format!(
-            "{} strays from the target by at most {} of the largest acceleration and by {}.",
-            worst.label,
-            significant(worst.acceleration_relative, 2),
-            length(worst.position_m)
-        );
+        return strays(worst);
     }
     if let Some((table, ours)) = worst {
         return format!(
@@ -175,6 +164,29 @@ pub(super) fn headline(outcome: &Outcome) -> String {
         [] => "No simulation came to a result.".into(),
         labels => format!("Free motion of the platform, simulated by {}.", labels.join(" and ")),
     }
+}
+
+/// One simulation's errors in the time domain, as a sentence.
+fn strays(errors: &TimeErrors) -> String {
+    let TimeErrors { label, acceleration_relative, linear_m_s2, angular_rad_s2, position_m, .. } = errors;
+    if !(linear_m_s2.is_finite() && angular_rad_s2.is_finite()) {
+        return format!("{label} came to accelerations that are not numbers.");
+    }
+    let acceleration = if acceleration_relative.is_nan() {
+        format!("{} m/s², {} rad/s²", significant(*linear_m_s2, 2), significant(*angular_rad_s2, 2))
+    } else {
+        format!("{} of the largest acceleration", significant(*acceleration_relative, 2))
+    };
+    format!(
+        "{label} strays from {} by at most {acceleration} and by {}.",
+        reference(errors),
+        length(*position_m)
+    )
+}
+
+/// What errors in the time domain are measured against, in words.
+pub(super) fn reference(errors: &TimeErrors) -> String {
+    if errors.reference == "target" { "the target".into() } else { errors.reference.clone() }
 }
 
 /// "Table 4" where the paper's stands beside ours.
@@ -268,7 +280,12 @@ mod tests {
             terminal_table(&outcome),
             "Exudyn 1.13.8 strays from the target by at most 3.2·10⁻⁵ of the largest acceleration and by 41 pm.\n"
         );
-        outcome.time_errors[0].acceleration_relative = f64::NAN;
+        outcome.time_errors[1].acceleration_relative = f64::NAN;
+        assert_eq!(
+            headline(&outcome),
+            "Exudyn 1.13.8 strays from the target by at most 3.2·10⁻⁷ m/s², 3.2·10⁻⁶ rad/s² and by 41 pm."
+        );
+        outcome.time_errors[0].linear_m_s2 = f64::INFINITY;
         assert_eq!(headline(&outcome), "dyn-gen came to accelerations that are not numbers.");
         outcome.time_errors.clear();
         assert_eq!(

@@ -12,7 +12,7 @@ mod syntax;
 
 use std::path::Path;
 
-use dyn_platform::{FileError, Platform, Refusal, read_text};
+use dyn_platform::{FileError, LegType, Platform, Refusal, read_text};
 use dyn_runtime::PlatformState;
 use dyn_runtime::nalgebra::Vector6;
 
@@ -119,6 +119,12 @@ impl Scenario {
             return Err(refused(refusals));
         }
         let platform = Platform::from_file(&platform_path).map_err(ScenarioError::Platform)?;
+        if platform.leg_type != LegType::Uhp {
+            let what = format!("a platform with legs {:?} cannot be simulated", platform.leg_type.name());
+            let help = format!("give a platform with legs {:?}", LegType::Uhp.name());
+            refusals.push(Refusal::new(file.platform.span(), "other legs", what, help));
+            return Err(refused(refusals));
+        }
         match checks::scenario(file, text, platform, folder, &mut refusals).map_err(ScenarioError::File)? {
             Some(scenario) if refusals.is_empty() => Ok(scenario),
             _ => Err(refused(refusals)),

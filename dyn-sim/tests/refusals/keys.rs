@@ -187,3 +187,23 @@ fn no_such_file() {
     assert!(text.contains("cannot read the scenario file `nowhere.toml`"), "{text}");
     assert!(text.contains("scenarios/published.toml is an example"), "{text}");
 }
+
+#[test]
+fn other_legs() {
+    check(
+        r#"platform = "uhp_2016.toml""#,
+        r#"platform = "../tests/platforms/ups_regular.toml""#,
+        expect![[r#"
+            Error:
+              × a platform with legs "ups" cannot be simulated
+               ╭─[bench.toml:3:12]
+             2 │ name = "bench"
+             3 │ platform = "../tests/platforms/ups_regular.toml"
+               ·            ──────────────────┬──────────────────
+               ·                              ╰── other legs
+             4 │ gravity = true
+               ╰────
+              help: give a platform with legs "uhp"
+        "#]],
+    );
+}
