@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 use std::{env, error::Error, fs};
 
-use dyn_gen::emit::{RuntimePath, type_name};
+use dyn_gen::emit::{RuntimePath, Scalar, type_name};
 use dyn_gen::graph::{Program, Symbol};
 use dyn_gen::{GraphFile, Numbers, Options, generate};
 use dyn_platform::Platform;
@@ -25,6 +25,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         let options = Options {
             model: name.into(),
             runtime: RuntimePath::new("::dyn_runtime")?,
+            scalars: vec![Scalar::F64],
             functions: None,
             command: "cargo test -p dyn-tests".into(),
             evidence: None,

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use dyn_platform::{FileError, Platform};
 
-use crate::emit::RuntimePath;
+use crate::emit::{RuntimePath, Scalar};
 use crate::error::GenerateError;
 use crate::evidence::Sampling;
 use crate::generate::{Options, generate};
@@ -35,6 +35,7 @@ pub struct Build {
     platform: PathBuf,
     model: Option<String>,
     runtime: Vec<String>,
+    scalars: Vec<Scalar>,
     functions: Option<Vec<String>>,
     evidence: Option<Sampling>,
 }
@@ -71,6 +72,7 @@ impl Build {
             platform: platform.into(),
             model: None,
             runtime: Vec::new(),
+            scalars: vec![Scalar::F64],
             functions: None,
             evidence: Some(Sampling { states: STATES, ..Sampling::default() }),
         }
@@ -85,6 +87,12 @@ impl Build {
     /// Numbers given at run time, as in [`Numbers::with_run_time`]. Otherwise all are baked in.
     pub fn runtime(mut self, names: impl IntoIterator<Item = impl Into<String>>) -> Build {
         self.runtime.extend(names.into_iter().map(Into::into));
+        self
+    }
+
+    /// The types of number that the model computes with. Otherwise f64.
+    pub fn scalars(mut self, scalars: impl IntoIterator<Item = Scalar>) -> Build {
+        self.scalars = scalars.into_iter().collect();
         self
     }
 
@@ -132,6 +140,7 @@ impl Build {
         let options = Options {
             model: self.model.clone().unwrap_or_else(|| platform.name.clone()),
             runtime: RuntimePath::new("::dyn_runtime").map_err(GenerateError::from)?,
+            scalars: self.scalars.clone(),
             functions: self.functions.clone(),
             command: "cargo build (dyn_gen::Build in build.rs)".into(),
             evidence: self.evidence,

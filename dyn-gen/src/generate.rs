@@ -2,7 +2,7 @@
 
 use std::time::{Duration, Instant};
 
-use crate::emit::{self, CountRow, Elimination, Header, Model, RuntimePath, Signature, Source};
+use crate::emit::{self, CountRow, Elimination, Header, Model, RuntimePath, Scalar, Signature, Source};
 use crate::error::GenerateError;
 use crate::evidence::{self, Evidence, Sampling};
 use crate::graph::{Function, Graph, OperationCount, Program, Symbol};
@@ -29,6 +29,8 @@ pub struct Options {
     pub model: String,
     /// Where generated code finds the runtime crate.
     pub runtime: RuntimePath,
+    /// The types of number for which the model implements the kernel traits, see [`Model::scalars`].
+    pub scalars: Vec<Scalar>,
     /// Which functions; all when `None`.
     pub functions: Option<Vec<String>>,
     /// The command that makes the file, for its first lines.
@@ -115,6 +117,7 @@ pub fn generate(
         name: &options.model,
         runtime: &options.runtime,
         parameters: &parameters,
+        scalars: &options.scalars,
         defaults: defaults.as_deref(),
         signatures: &signatures,
         functions: &sources,

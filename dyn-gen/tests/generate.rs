@@ -3,7 +3,7 @@
 
 mod common;
 
-use dyn_gen::emit::RuntimePath;
+use dyn_gen::emit::{RuntimePath, Scalar};
 use dyn_gen::graph::FormatError;
 use dyn_gen::{GenerateError, Generated, GraphFile, Numbers, Options, generate, kernels};
 use dyn_platform::Platform;
@@ -14,6 +14,7 @@ fn options(functions: &[&str]) -> Options {
     Options {
         model: "model".into(),
         runtime: RuntimePath::inside(),
+        scalars: vec![Scalar::F64],
         functions: Some(functions.iter().map(|name| (*name).to_owned()).collect()),
         command: "cargo test\nfn injected() {}".into(),
         evidence: None,

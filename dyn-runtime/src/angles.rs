@@ -9,15 +9,14 @@ use nalgebra::{Matrix3, Rotation3, Vector3};
 
 use crate::error::GimbalLock;
 use crate::float::{atan2, sin_cos, sqrt};
+use crate::real::Real;
 
-/// Least `|cos c2|` at which [`angle_rates`] answers: `c2` farther than 1e-6 rad from `+-pi/2`.
-///
-/// Nearer, an error of the angles of 1e-6 rad changes the rates by as much as they are.
-pub const MIN_COS_C2: f64 = 1e-6;
+/// [`Real::MIN_COS_C2`] of `f64`.
+pub const MIN_COS_C2: f64 = <f64 as Real>::MIN_COS_C2;
 
 /// `R = Rz(c3) Ry(c2) Rx(c1)` (2): body coordinates to coordinates in the frame that the angles refer to, O
 /// for base and platform.
-pub fn rotation(angles: [f64; 3]) -> Rotation3<f64> {
+pub fn rotation<T: Real>(angles: [T; 3]) -> Rotation3<T> {
     let [(s1, c1), (s2, c2), (s3, c3)] = angles.map(sin_cos);
     #[rustfmt::skip]
     let matrix = Matrix3::new(
@@ -31,7 +30,7 @@ pub fn rotation(angles: [f64; 3]) -> Rotation3<f64> {
 /// Angles, rad, of a rotation from body coordinates to O: the inverse of [`rotation`]. `c1` and `c3` lie in
 /// `[-pi, pi]`, `c2` in `[-pi/2, pi/2]`.
 ///
-/// At gimbal lock, `c2 = +-pi/2`, the rotation depends on `c1 -+ c3` only; there, `|cos c2|` at most 1e-15,
+/// At gimbal lock, `c2 = +-pi/2`, the rotation depends on `c1 -+ c3` only; there, `|cos c2|` at most [`Real::LOCKED_COS_C2`],
 /// `c3` is 0. Near it `c1` and `c3` are uncertain by the matrix's errors over `|cos c2|`, each for itself, but
 /// they belong together: everywhere [`rotation`] gives the same matrix back, to about 1e-15. The angles of a
 /// motion through the lock jump.
@@ -41,15 +40,15 @@ pub fn rotation(angles: [f64; 3]) -> Rotation3<f64> {
 /// ```
 /// use dyn_runtime::angles;
 ///
-/// let [c1, c2, c3] = angles::from_rotation(&angles::rotation([0.1, -0.2, 0.3]));
+/// let [c1, c2, c3] = angles::from_rotation(&angles::rotation([0.1_f64, -0.2, 0.3]));
 /// assert!((c1 - 0.1).abs() < 1e-15 && (c2 + 0.2).abs() < 1e-15 && (c3 - 0.3).abs() < 1e-15);
 /// ```
-pub fn from_rotation(rotation: &Rotation3<f64>) -> [f64; 3] {
+pub fn from_rotation<T: Real>(rotation: &Rotation3<T>) -> [T; 3] {
     let r = rotation.matrix();
     // An arc tangent keeps its digits near +-pi/2, where an arc sine loses half of them.
     let cos_c2 = sqrt(r[(0, 0)] * r[(0, 0)] + r[(1, 0)] * r[(1, 0)]);
     let c2 = atan2(-r[(2, 0)], cos_c2);
-    let c3 = if cos_c2 <= 1e-15 { 0.0 } else { atan2(r[(1, 0)], r[(0, 0)]) };
+    let c3 = if cos_c2 <= T::LOCKED_COS_C2 { T::zero() } else { atan2(r[(1, 0)], r[(0, 0)]) };
     // Rz(c3)^T R = Ry(c2) Rx(c1), whose second row is [0, cos c1, -sin c1]: the c1 that goes with this c3.
     let (sin_c3, cos_c3) = sin_cos(c3);
     let sin_c1 = sin_c3 * r[(0, 2)] - cos_c3 * r[(1, 2)];
@@ -66,20 +65,25 @@ pub fn from_rotation(rotation: &Rotation3<f64>) -> [f64; 3] {
 /// ```
 ///
 /// Its inverse is [`angle_rates`].
-pub fn angular_velocity(angles: [f64; 3], rates: [f64; 3]) -> Vector3<f64> {
+pub fn angular_velocity<T: Real>(angles: [T; 3], rates: [T; 3]) -> Vector3<T> {
     rate_matrix(angles) * Vector3::from(rates)
 }
 
 /// Angular acceleration `w'`, rad/s^2, O axes, from angles (rad), rates (rad/s) and second derivatives
 /// (rad/s^2): the time derivative of [`angular_velocity`].
-pub fn angular_acceleration(angles: [f64; 3], rates: [f64; 3], second_derivatives: [f64; 3]) -> Vector3<f64> {
+pub fn angular_acceleration<T: Real>(
+    angles: [T; 3],
+    rates: [T; 3],
+    second_derivatives: [T; 3],
+) -> Vector3<T> {
+    let zero = T::zero();
     let [_, (s2, c2), (s3, c3)] = angles.map(sin_cos);
     let [_, r2, r3] = rates;
     #[rustfmt::skip]
     let rate_matrix_derivative = Matrix3::new(
-        -s3 * c2 * r3 - c3 * s2 * r2, -c3 * r3, 0.0,
-         c3 * c2 * r3 - s3 * s2 * r2, -s3 * r3, 0.0,
-        -c2 * r2,                      0.0,     0.0,
+        -s3 * c2 * r3 - c3 * s2 * r2, -c3 * r3, zero,
+         c3 * c2 * r3 - s3 * s2 * r2, -s3 * r3, zero,
+        -c2 * r2,                      zero,     zero,
     );
     rate_matrix(angles) * Vector3::from(second_derivatives) + rate_matrix_derivative * Vector3::from(rates)
 }
@@ -94,12 +98,15 @@ pub fn angular_acceleration(angles: [f64; 3], rates: [f64; 3], second_derivative
 /// ```
 ///
 /// # Errors
-/// [`GimbalLock`] if `|cos c2|` is below [`MIN_COS_C2`], or `c2` not finite: most motions have no finite
+/// [`GimbalLock`] if `|cos c2|` is below [`Real::MIN_COS_C2`], or `c2` not finite: most motions have no finite
 /// rates there. Other elements that are not finite make rates that are not.
-pub fn angle_rates(angles: [f64; 3], angular_velocity_rad_s: Vector3<f64>) -> Result<[f64; 3], GimbalLock> {
+pub fn angle_rates<T: Real>(
+    angles: [T; 3],
+    angular_velocity_rad_s: Vector3<T>,
+) -> Result<[T; 3], GimbalLock> {
     let [_, (s2, c2), (s3, c3)] = angles.map(sin_cos);
-    if c2.is_nan() || c2.abs() < MIN_COS_C2 {
-        return Err(GimbalLock { cos_c2: c2 });
+    if !c2.is_finite() || c2.abs() < T::MIN_COS_C2 {
+        return Err(GimbalLock { cos_c2: c2.to_f64() });
     }
     let w = angular_velocity_rad_s;
     let rate_1 = (c3 * w.x + s3 * w.y) / c2;
@@ -107,13 +114,14 @@ pub fn angle_rates(angles: [f64; 3], angular_velocity_rad_s: Vector3<f64>) -> Re
 }
 
 /// The matrix of [`angular_velocity`].
-fn rate_matrix(angles: [f64; 3]) -> Matrix3<f64> {
+fn rate_matrix<T: Real>(angles: [T; 3]) -> Matrix3<T> {
     let [_, (s2, c2), (s3, c3)] = angles.map(sin_cos);
+    let (zero, one) = (T::zero(), T::one());
     #[rustfmt::skip]
     let matrix = Matrix3::new(
-        c3 * c2, -s3, 0.0,
-        s3 * c2,  c3, 0.0,
-        -s2,     0.0, 1.0,
+        c3 * c2,  -s3, zero,
+        s3 * c2,   c3, zero,
+        -s2,     zero,  one,
     );
     matrix
 }

@@ -1,35 +1,21 @@
-//! What a checked call refuses, and the thresholds.
+//! What a checked call refuses. The thresholds stand with the types of number, in [`Real`].
 
 use nalgebra::Matrix3;
 
 use crate::arrays::AllFinite;
 use crate::error::{Error, Input, NotARotation};
 use crate::float::sqrt;
+use crate::real::Real;
 use crate::solve::reciprocal_condition;
 
-/// Largest element of `|R^T R - 1|` that passes as a rotation.
-///
-/// Ten times the rounding of single precision, so that a matrix measured or stored in f32 passes; results are
-/// wrong by about as much as the matrix is. More is a matrix integrated without care, or not a rotation at
-/// all.
-pub const MAX_ROTATION_DEVIATION: f64 = 1e-6;
+/// [`Real::MAX_ROTATION_DEVIATION`] of `f64`.
+pub const MAX_ROTATION_DEVIATION: f64 = <f64 as Real>::MAX_ROTATION_DEVIATION;
 
-/// Least `(u.a)^2` of a leg: the rod within 0.57 degrees of perpendicular to its actuator.
-///
-/// There the rod carries a hundred times the actuator's force, the actuator moves a hundred times as fast as
-/// the platform joint, and relative errors of the geometry grow ten thousand times, rounding errors to about
-/// 1e-12. Mechanisms stop long before; so this refuses nothing but numerical nonsense.
-pub const MIN_ROD_ALIGNMENT: f64 = 1e-4;
+/// [`Real::MIN_ROD_ALIGNMENT`] of `f64`.
+pub const MIN_ROD_ALIGNMENT: f64 = <f64 as Real>::MIN_ROD_ALIGNMENT;
 
-/// Least [`jacobian_reciprocal_condition`] for which forces are computed.
-///
-/// Below, an error of the pose of a millionth of the platform's size changes the forces by as much as they
-/// are, and of sixteen digits ten are left. The paper's platform at home stands ten thousand times above.
-pub const MIN_RECIPROCAL_CONDITION: f64 = 1e-6;
-
-/// Platform and base farther apart than this along an axis of O are out of any leg's reach; far above it, the
-/// squares of distances are infinite.
-const OVERFLOWING_DISTANCE_M: f64 = 1e100;
+/// [`Real::MIN_RECIPROCAL_CONDITION`] of `f64`.
+pub const MIN_RECIPROCAL_CONDITION: f64 = <f64 as Real>::MIN_RECIPROCAL_CONDITION;
 
 /// How well the six legs hold any wrench, from J_dp: 1 at best, 0 where there is one that they cannot hold.
 ///
@@ -45,14 +31,14 @@ const OVERFLOWING_DISTANCE_M: f64 = 1e100;
 /// changes the number, for usual poses by less than a factor of 2.
 ///
 /// `jacobian` is row-major: a row per leg, three translational columns, then three rotational.
-pub fn jacobian_reciprocal_condition(jacobian: &[[f64; 6]; 6]) -> f64 {
+pub fn jacobian_reciprocal_condition<T: Real>(jacobian: &[[T; 6]; 6]) -> T {
     // Loops, not `map` with a closure: that keeps a bounds check in the compiled code, hence a panic.
     //
     // Why moments are not taken about a point that the six rods define, such as the one nearest to their
     // lines: J_dp alone has no other length than its moments, and rods that meet in one point, which cannot
     // hold a moment, would pass unseen.
     let mut scaled = *jacobian;
-    let mut arms_squared = 0.0;
+    let mut arms_squared = T::zero();
     for row in &mut scaled {
         let [x, y, z, ..] = *row;
         let length = sqrt(x * x + y * y + z * z);
@@ -62,7 +48,7 @@ pub fn jacobian_reciprocal_condition(jacobian: &[[f64; 6]; 6]) -> f64 {
         let [.., x, y, z] = *row;
         arms_squared += x * x + y * y + z * z;
     }
-    let characteristic_length = sqrt(arms_squared / 6.0);
+    let characteristic_length = sqrt(arms_squared / T::constant(6.0));
     for [.., x, y, z] in &mut scaled {
         for moment in [x, y, z] {
             *moment /= characteristic_length;
@@ -72,20 +58,24 @@ pub fn jacobian_reciprocal_condition(jacobian: &[[f64; 6]; 6]) -> f64 {
 }
 
 /// `None` for a rotation.
-pub(crate) fn rotation_defect(matrix: &Matrix3<f64>) -> Option<NotARotation> {
-    let columns: [[f64; 3]; 3] = (*matrix).into();
+pub(crate) fn rotation_defect<T: Real>(matrix: &Matrix3<T>) -> Option<NotARotation> {
+    let columns: [[T; 3]; 3] = (*matrix).into();
     let deviation = if columns.all_finite() {
         (matrix.transpose() * matrix - Matrix3::identity()).amax()
     } else {
-        f64::NAN
+        T::constant(f64::NAN)
     };
     let determinant = matrix.determinant();
-    let is_rotation = deviation <= MAX_ROTATION_DEVIATION && determinant > 0.0;
-    if is_rotation { None } else { Some(NotARotation { deviation, determinant }) }
+    let is_rotation = deviation <= T::MAX_ROTATION_DEVIATION && determinant > T::zero();
+    if is_rotation {
+        None
+    } else {
+        Some(NotARotation { deviation: deviation.to_f64(), determinant: determinant.to_f64() })
+    }
 }
 
 /// Passes an input on if all its elements are finite.
-pub(crate) fn finite<T: AllFinite>(input: Input, array: T) -> Result<T, Error> {
+pub(crate) fn finite<Array: AllFinite>(input: Input, array: Array) -> Result<Array, Error> {
     if array.all_finite() { Ok(array) } else { Err(Error::NonFinite { input }) }
 }
 
@@ -98,13 +88,13 @@ pub(crate) fn finite_result(outputs: &[&dyn AllFinite]) -> Result<(), Error> {
 ///
 /// With finite poses it is `1 - n.n/s^2`, and this is finite unless a parameter is not, a rod has no length,
 /// or a square overflows.
-pub(crate) fn mechanism(
-    rod_alignment: &[f64; 6],
-    base_position: &[f64; 3],
-    platform_position: &[f64; 3],
+pub(crate) fn mechanism<T: Real>(
+    rod_alignment: &[T; 6],
+    base_position: &[T; 3],
+    platform_position: &[T; 3],
 ) -> Result<(), Error> {
     let squares_overflow =
-        base_position.iter().zip(platform_position).any(|(b, p)| (b - p).abs() > OVERFLOWING_DISTANCE_M);
+        base_position.iter().zip(platform_position).any(|(b, p)| (*b - *p).abs() > T::OVERFLOWING_DISTANCE_M);
     match rod_alignment.iter().position(|alignment| !alignment.is_finite()) {
         Some(leg) if !squares_overflow => Err(Error::InvalidModel { leg }),
         _ => Ok(()),
@@ -112,13 +102,13 @@ pub(crate) fn mechanism(
 }
 
 /// Every leg reaches the platform and stands well enough to drive it; `rod_alignment[i] = (u_i.a_i)^2`.
-pub(crate) fn reach(rod_alignment: &[f64; 6]) -> Result<(), Error> {
+pub(crate) fn reach<T: Real>(rod_alignment: &[T; 6]) -> Result<(), Error> {
     for (leg, alignment) in rod_alignment.iter().copied().enumerate() {
         // Poses so far apart that the distance overflows give NaN.
-        if alignment < 0.0 || alignment.is_nan() {
+        if alignment < T::zero() || !alignment.is_finite() {
             return Err(Error::OutOfReach { leg });
         }
-        if alignment < MIN_ROD_ALIGNMENT {
+        if alignment < T::MIN_ROD_ALIGNMENT {
             return Err(Error::RodPerpendicular { leg });
         }
     }
@@ -126,11 +116,11 @@ pub(crate) fn reach(rod_alignment: &[f64; 6]) -> Result<(), Error> {
 }
 
 /// J_dp can be inverted.
-pub(crate) fn invertible(jacobian_dp: &[[f64; 6]; 6]) -> Result<(), Error> {
+pub(crate) fn invertible<T: Real>(jacobian_dp: &[[T; 6]; 6]) -> Result<(), Error> {
     let reciprocal_condition = jacobian_reciprocal_condition(jacobian_dp);
-    if reciprocal_condition >= MIN_RECIPROCAL_CONDITION {
+    if reciprocal_condition >= T::MIN_RECIPROCAL_CONDITION {
         Ok(())
     } else {
-        Err(Error::SingularJacobian { reciprocal_condition })
+        Err(Error::SingularJacobian { reciprocal_condition: reciprocal_condition.to_f64() })
     }
 }

@@ -4,18 +4,19 @@ use crate::error::Error;
 use crate::evaluate::evaluate;
 use crate::hexapod::Hexapod;
 use crate::kernels;
+use crate::real::Real;
 use crate::state::{BaseMotion, PlatformState};
 
 /// Energy of payload, rods, movers and springs.
 #[derive(Clone, Copy, PartialEq, Debug)]
-pub struct Energy {
+pub struct Energy<T = f64> {
     /// T, J, of the motion in O.
-    pub kinetic_j: f64,
+    pub kinetic_j: T,
     /// V, J: gravity, by absolute height over O's origin along g, and springs.
-    pub potential_j: f64,
+    pub potential_j: T,
 }
 
-impl<M: kernels::RodAlignment> Hexapod<M> {
+impl<M: kernels::RodAlignment<T>, T: Real> Hexapod<M, T> {
     /// T and V. Depends on poses and velocities.
     ///
     /// Without actuator forces, dampers and external wrench, and with the base at rest, `T + V` is constant
@@ -23,9 +24,9 @@ impl<M: kernels::RodAlignment> Hexapod<M> {
     ///
     /// # Errors
     /// See [`Hexapod`].
-    pub fn energy(&self, base: &BaseMotion, platform: &PlatformState) -> Result<Energy, Error>
+    pub fn energy(&self, base: &BaseMotion<T>, platform: &PlatformState<T>) -> Result<Energy<T>, Error>
     where
-        M: kernels::Energy,
+        M: kernels::Energy<T>,
     {
         let (b, p) = self.states(base, platform)?;
         evaluate!(self.model.energy(

@@ -57,7 +57,7 @@ pub enum Error {
         leg: usize,
     },
     /// The rod of this leg is perpendicular to its actuator, or so nearly that the leg cannot be driven:
-    /// `(u.a)^2` is below [`MIN_ROD_ALIGNMENT`](crate::MIN_ROD_ALIGNMENT).
+    /// `(u.a)^2` is below [`Real::MIN_ROD_ALIGNMENT`](crate::Real::MIN_ROD_ALIGNMENT).
     RodPerpendicular {
         /// Index of the first such leg, 0 to 5.
         leg: usize,
@@ -66,7 +66,7 @@ pub enum Error {
     /// forces would mean anything.
     SingularJacobian {
         /// As [`jacobian_reciprocal_condition`](crate::jacobian_reciprocal_condition) gives it, below
-        /// [`MIN_RECIPROCAL_CONDITION`](crate::MIN_RECIPROCAL_CONDITION).
+        /// [`Real::MIN_RECIPROCAL_CONDITION`](crate::Real::MIN_RECIPROCAL_CONDITION).
         reciprocal_condition: f64,
     },
     /// Every input is finite, yet the result is not: numbers too large to compute with, or a model whose
@@ -86,7 +86,7 @@ pub struct NotARotation {
 /// Angles too near `c2 = +-pi/2`, where the paper's angles have no rates.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct GimbalLock {
-    /// `cos c2`, of a magnitude below [`MIN_COS_C2`](crate::angles::MIN_COS_C2); NaN if `c2` is not finite.
+    /// `cos c2`, of a magnitude below [`Real::MIN_COS_C2`](crate::Real::MIN_COS_C2); NaN if `c2` is not finite.
     pub cos_c2: f64,
 }
 

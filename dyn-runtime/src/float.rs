@@ -1,29 +1,83 @@
-//! The elementary functions that `core` lacks. Generated code calls [`sqrt`].
+//! The numbers that generated functions compute with, and the elementary functions that `core` lacks.
 //!
 //! A square root is correctly rounded everywhere, so the fastest one at hand is used. Trigonometric functions
 //! differ by one unit in the last place between C libraries: they come from libm on every host, so that a
 //! pose made from angles, or angles from a pose, have the same bits everywhere.
 
-/// Square root; NaN below zero.
-#[cfg(feature = "std")]
-#[inline(always)]
-pub fn sqrt(x: f64) -> f64 {
-    x.sqrt()
+use core::ops::{Add, Div, Mul, Neg, Sub};
+
+use crate::real::Real;
+use crate::solve;
+
+/// A number, or several side by side (SIMD lanes): all that a generated function needs.
+///
+/// No comparison and no branch: what a function does never depends on its numbers, so every lane does the
+/// same. The one exception, a linear system whose pivots are chosen by size, is a single operation here, and
+/// lanes solve it each for itself.
+pub trait Scalar:
+    Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Div<Output = Self> + Neg<Output = Self>
+{
+    /// The number nearest to `value`, in every lane.
+    fn constant(value: f64) -> Self;
+
+    /// Square root, correctly rounded; NaN below zero.
+    fn square_root(self) -> Self;
+
+    /// Solves `matrix * x = right_hand_side` with pivoting; `matrix` is row-major. See
+    /// [`solve::solve_general`].
+    fn solve_general<const N: usize>(matrix: &[[Self; N]; N], right_hand_side: &[Self; N]) -> [Self; N];
+}
+
+impl Scalar for f64 {
+    #[inline(always)]
+    fn constant(value: f64) -> Self {
+        value
+    }
+
+    #[inline(always)]
+    fn square_root(self) -> Self {
+        #[cfg(feature = "std")]
+        return self.sqrt();
+        #[cfg(not(feature = "std"))]
+        return libm::sqrt(self);
+    }
+
+    fn solve_general<const N: usize>(matrix: &[[Self; N]; N], right_hand_side: &[Self; N]) -> [Self; N] {
+        solve::by_elimination(matrix, right_hand_side)
+    }
+}
+
+impl Scalar for f32 {
+    #[inline(always)]
+    fn constant(value: f64) -> Self {
+        value as f32
+    }
+
+    #[inline(always)]
+    fn square_root(self) -> Self {
+        #[cfg(feature = "std")]
+        return self.sqrt();
+        #[cfg(not(feature = "std"))]
+        return libm::sqrtf(self);
+    }
+
+    fn solve_general<const N: usize>(matrix: &[[Self; N]; N], right_hand_side: &[Self; N]) -> [Self; N] {
+        solve::by_elimination(matrix, right_hand_side)
+    }
 }
 
 /// Square root; NaN below zero.
-#[cfg(not(feature = "std"))]
 #[inline(always)]
-pub fn sqrt(x: f64) -> f64 {
-    libm::sqrt(x)
+pub fn sqrt<T: Scalar>(x: T) -> T {
+    x.square_root()
 }
 
 /// Sine and cosine of an angle in radians, in this order.
-pub fn sin_cos(angle: f64) -> (f64, f64) {
-    libm::sincos(angle)
+pub fn sin_cos<T: Real>(angle: T) -> (T, T) {
+    angle.sine_cosine()
 }
 
 /// Angle of the point (x, y) in radians, `-pi` to `pi`; 0 for y = 0 and x = 0.
-pub fn atan2(y: f64, x: f64) -> f64 {
-    libm::atan2(y, x)
+pub fn atan2<T: Real>(y: T, x: T) -> T {
+    y.arc_tangent(x)
 }

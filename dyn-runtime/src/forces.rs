@@ -8,6 +8,7 @@ use crate::error::{Error, Input};
 use crate::evaluate::evaluate;
 use crate::hexapod::Hexapod;
 use crate::kernels;
+use crate::real::Real;
 use crate::state::{Acceleration, BaseMotion, PlatformState, Wrench};
 
 /// Active and inertia forces of every body (39)-(46). Their sum vanishes exactly where the equation of motion
@@ -16,34 +17,34 @@ use crate::state::{Acceleration, BaseMotion, PlatformState, Wrench};
 /// Each is six numbers that go with the platform speeds `[r_p'; w_p]`: a force (N) and a moment about P's
 /// origin (N m), O axes.
 #[derive(Clone, Copy, PartialEq, Debug)]
-pub struct GeneralisedForces {
+pub struct GeneralisedForces<T = f64> {
     /// Payload: gravity and external wrench (39), N and N m, O.
-    pub payload_active_force: Vector6<f64>,
+    pub payload_active_force: Vector6<T>,
     /// Payload: `-(J^T m a + J_w^T (I w' + w x I w))`, N and N m, O.
-    pub payload_inertia_force: Vector6<f64>,
+    pub payload_inertia_force: Vector6<T>,
     /// Each rod: gravity, N and N m, O.
-    pub rod_active_force: [Vector6<f64>; 6],
+    pub rod_active_force: [Vector6<T>; 6],
     /// Each rod: as for the payload, N and N m, O.
-    pub rod_inertia_force: [Vector6<f64>; 6],
+    pub rod_inertia_force: [Vector6<T>; 6],
     /// Each mover: gravity, and along its axis `F - k_e (d - d0) - c_e d'`, N and N m, O.
-    pub mover_active_force: [Vector6<f64>; 6],
+    pub mover_active_force: [Vector6<T>; 6],
     /// Each mover: `-J^T m a`, N and N m, O.
-    pub mover_inertia_force: [Vector6<f64>; 6],
+    pub mover_inertia_force: [Vector6<T>; 6],
 }
 
 /// Forces that neither acceleration nor actuators make, with the signs they have on the left side of the
 /// equation of motion: force (N) and moment about P's origin (N m), O axes.
 #[derive(Clone, Copy, PartialEq, Debug)]
-pub struct PassiveForces {
+pub struct PassiveForces<T = f64> {
     /// G, minus the weight of payload, rods and movers: what holds them up; N and N m, O.
-    pub gravity_force: Vector6<f64>,
+    pub gravity_force: Vector6<T>,
     /// `J_dp^T k_e (d - d0)`, N and N m, O.
-    pub spring_force: Vector6<f64>,
+    pub spring_force: Vector6<T>,
     /// `J_dp^T c_e d'`, N and N m, O.
-    pub damping_force: Vector6<f64>,
+    pub damping_force: Vector6<T>,
 }
 
-impl<M: kernels::RodAlignment> Hexapod<M> {
+impl<M: kernels::RodAlignment<T>, T: Real> Hexapod<M, T> {
     /// Active and inertia forces, body by body (39)-(46). `actuator_force_n` along the actuators' axes, on
     /// the movers, N. Depends on everything: poses, velocities and accelerations of both bodies, actuator
     /// forces, external wrench.
@@ -52,14 +53,14 @@ impl<M: kernels::RodAlignment> Hexapod<M> {
     /// See [`Hexapod`].
     pub fn generalised_forces(
         &self,
-        base: &BaseMotion,
-        platform: &PlatformState,
-        platform_acceleration: &Acceleration,
-        actuator_force_n: &Vector6<f64>,
-        external_wrench: &Wrench,
-    ) -> Result<GeneralisedForces, Error>
+        base: &BaseMotion<T>,
+        platform: &PlatformState<T>,
+        platform_acceleration: &Acceleration<T>,
+        actuator_force_n: &Vector6<T>,
+        external_wrench: &Wrench<T>,
+    ) -> Result<GeneralisedForces<T>, Error>
     where
-        M: kernels::GeneralisedForces,
+        M: kernels::GeneralisedForces<T>,
     {
         let base_acceleration = finite(Input::BaseAcceleration, base.acceleration.to_array())?;
         let platform_acceleration = finite(Input::PlatformAcceleration, platform_acceleration.to_array())?;
@@ -92,9 +93,13 @@ impl<M: kernels::RodAlignment> Hexapod<M> {
     /// assert!((passive.spring_force[2] - 26.96).abs() < 5e-3);
     /// # Ok::<(), dyn_runtime::Error>(())
     /// ```
-    pub fn passive_forces(&self, base: &BaseMotion, platform: &PlatformState) -> Result<PassiveForces, Error>
+    pub fn passive_forces(
+        &self,
+        base: &BaseMotion<T>,
+        platform: &PlatformState<T>,
+    ) -> Result<PassiveForces<T>, Error>
     where
-        M: kernels::PassiveForces,
+        M: kernels::PassiveForces<T>,
     {
         let (b, p) = self.states(base, platform)?;
         evaluate!(self.model.passive_forces(
@@ -109,9 +114,9 @@ impl<M: kernels::RodAlignment> Hexapod<M> {
     ///
     /// # Errors
     /// See [`Hexapod`].
-    pub fn bias(&self, base: &BaseMotion, platform: &PlatformState) -> Result<Vector6<f64>, Error>
+    pub fn bias(&self, base: &BaseMotion<T>, platform: &PlatformState<T>) -> Result<Vector6<T>, Error>
     where
-        M: kernels::Bias,
+        M: kernels::Bias<T>,
     {
         let (b, p) = self.states(base, platform)?;
         evaluate!(self.model.bias(

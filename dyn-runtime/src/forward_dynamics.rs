@@ -7,9 +7,10 @@ use crate::error::{Error, Input};
 use crate::evaluate::evaluate;
 use crate::hexapod::Hexapod;
 use crate::kernels;
+use crate::real::Real;
 use crate::state::{Acceleration, BaseMotion, PlatformState, Wrench};
 
-impl<M: kernels::RodAlignment> Hexapod<M> {
+impl<M: kernels::RodAlignment<T>, T: Real> Hexapod<M, T> {
     /// v_p' under `actuator_force_n` (N, along the actuators' axes on the movers): the solution of
     /// `M_p v_p' = J_dp^T F + W_ext + M_b v_b' - bias` (49). Depends on poses and velocities of both bodies,
     /// the base's acceleration, actuator forces and external wrench.
@@ -35,13 +36,13 @@ impl<M: kernels::RodAlignment> Hexapod<M> {
     /// ```
     pub fn forward_dynamics(
         &self,
-        base: &BaseMotion,
-        platform: &PlatformState,
-        actuator_force_n: &Vector6<f64>,
-        external_wrench: &Wrench,
-    ) -> Result<Acceleration, Error>
+        base: &BaseMotion<T>,
+        platform: &PlatformState<T>,
+        actuator_force_n: &Vector6<T>,
+        external_wrench: &Wrench<T>,
+    ) -> Result<Acceleration<T>, Error>
     where
-        M: kernels::ForwardDynamics,
+        M: kernels::ForwardDynamics<T>,
     {
         let base_acceleration = finite(Input::BaseAcceleration, base.acceleration.to_array())?;
         let actuator_force = finite(Input::ActuatorForce, (*actuator_force_n).into())?;

@@ -1,9 +1,12 @@
 //! The model behind checked calls; the calls themselves stand in one file per service.
 
+use core::marker::PhantomData;
+
 use crate::arrays::rotation_rows;
 use crate::check;
 use crate::error::{Error, Input};
 use crate::kernels::RodAlignment;
+use crate::real::Real;
 use crate::state::{BaseMotion, PlatformState, Pose};
 
 /// A hexapod: a model ([`models`](crate::models), or your own generated one) with checked, typed calls.
@@ -15,10 +18,10 @@ use crate::state::{BaseMotion, PlatformState, Pose};
 /// - models whose parameters give a leg no finite alignment, such as a rod without length or a point left at
 ///   NaN: [`Error::InvalidModel`];
 /// - inputs that it depends on and that are not finite: [`Error::NonFinite`];
-/// - matrices that are not rotations, beyond [`MAX_ROTATION_DEVIATION`](crate::MAX_ROTATION_DEVIATION):
+/// - matrices that are not rotations, beyond [`Real::MAX_ROTATION_DEVIATION`]:
 ///   [`Error::NotARotation`];
 /// - poses out of a leg's reach: [`Error::OutOfReach`];
-/// - rods perpendicular to their actuators, below [`MIN_ROD_ALIGNMENT`](crate::MIN_ROD_ALIGNMENT):
+/// - rods perpendicular to their actuators, below [`Real::MIN_ROD_ALIGNMENT`]:
 ///   [`Error::RodPerpendicular`];
 /// - results that are not finite: [`Error::NonFiniteResult`].
 ///
@@ -36,36 +39,68 @@ use crate::state::{BaseMotion, PlatformState, Pose};
 ///
 /// Unchecked, the same functions are the traits in [`kernels`](crate::kernels), on plain arrays: NaN or
 /// infinities come out where a call here would refuse.
+///
+/// # Precision
+///
+/// `T` is the number type of states and results, `f64` or `f32`. [`new`](Self::new) makes a hexapod in double precision,
+/// [`single_precision`](Hexapod::single_precision) one in single precision, whose model must implement the
+/// kernel traits for `f32`: the committed ones do, your own with `--scalar f32` (or both, `--scalar f64,f32`).
 #[derive(Clone, Copy, Debug)]
-pub struct Hexapod<M> {
+pub struct Hexapod<M, T = f64> {
     /// The generated functions, with their parameters if those are given at run time.
     pub model: M,
+    number: PhantomData<T>,
 }
 
 /// A body's pose as generated functions take it.
-pub(crate) struct PoseArrays {
-    pub position: [f64; 3],
-    pub rotation: [[f64; 3]; 3],
+pub(crate) struct PoseArrays<T> {
+    pub position: [T; 3],
+    pub rotation: [[T; 3]; 3],
 }
 
 /// A body's pose and velocity as generated functions take them.
-pub(crate) struct StateArrays {
-    pub position: [f64; 3],
-    pub rotation: [[f64; 3]; 3],
-    pub velocity: [f64; 6],
+pub(crate) struct StateArrays<T> {
+    pub position: [T; 3],
+    pub rotation: [[T; 3]; 3],
+    pub velocity: [T; 6],
 }
 
 impl<M> Hexapod<M> {
-    /// A hexapod of this model.
+    /// A hexapod of this model, in double precision.
     pub fn new(model: M) -> Self {
-        Self { model }
+        Self { model, number: PhantomData }
     }
 }
 
-impl<M: RodAlignment> Hexapod<M> {
+impl<M> Hexapod<M, f32> {
+    /// A hexapod of this model, in single precision.
+    ///
+    /// ```
+    /// use dyn_runtime::{Acceleration, BaseMotion, Hexapod, PlatformState, Pose, Wrench};
+    /// use dyn_runtime::{models::Uhp2016, nalgebra::Vector3};
+    ///
+    /// let hexapod = Hexapod::single_precision(Uhp2016);
+    /// let base = BaseMotion::at_rest(Pose::identity());
+    /// let home = Pose::from_paper_angles(Vector3::new(0.0, 0.0, 0.382), [0.0; 3]);
+    /// let platform = PlatformState::at_rest(home);
+    /// let forces = hexapod.inverse_dynamics(&base, &platform, &Acceleration::zero(), &Wrench::zero())?;
+    /// let first: f32 = forces[0];
+    /// assert!((first - 30.5).abs() < 0.1);
+    /// # Ok::<(), dyn_runtime::Error>(())
+    /// ```
+    pub fn single_precision(model: M) -> Self {
+        Self { model, number: PhantomData }
+    }
+}
+
+impl<M: RodAlignment<T>, T: Real> Hexapod<M, T> {
     /// `(u.a)^2` at these poses, whatever its value.
-    pub(crate) fn alignment_at(&self, base: &PoseArrays, platform: &PoseArrays) -> Result<[f64; 6], Error> {
-        let mut rod_alignment = [0.0; 6];
+    pub(crate) fn alignment_at(
+        &self,
+        base: &PoseArrays<T>,
+        platform: &PoseArrays<T>,
+    ) -> Result<[T; 6], Error> {
+        let mut rod_alignment = [T::zero(); 6];
         self.model.rod_alignment(
             &base.position,
             &base.rotation,
@@ -80,9 +115,9 @@ impl<M: RodAlignment> Hexapod<M> {
     /// Finite poses of base and platform, in reach of every leg.
     pub(crate) fn poses(
         &self,
-        base: &BaseMotion,
-        platform: &PlatformState,
-    ) -> Result<(PoseArrays, PoseArrays), Error> {
+        base: &BaseMotion<T>,
+        platform: &PlatformState<T>,
+    ) -> Result<(PoseArrays<T>, PoseArrays<T>), Error> {
         let (base, platform) = checked_poses(base, platform)?;
         check::reach(&self.alignment_at(&base, &platform)?)?;
         Ok((base, platform))
@@ -91,9 +126,9 @@ impl<M: RodAlignment> Hexapod<M> {
     /// Finite poses and velocities of base and platform, in reach of every leg.
     pub(crate) fn states(
         &self,
-        base: &BaseMotion,
-        platform: &PlatformState,
-    ) -> Result<(StateArrays, StateArrays), Error> {
+        base: &BaseMotion<T>,
+        platform: &PlatformState<T>,
+    ) -> Result<(StateArrays<T>, StateArrays<T>), Error> {
         let base_velocity = check::finite(Input::BaseVelocity, base.velocity.to_array())?;
         let platform_velocity = check::finite(Input::PlatformVelocity, platform.velocity.to_array())?;
         let (base, platform) = self.poses(base, platform)?;
@@ -101,24 +136,24 @@ impl<M: RodAlignment> Hexapod<M> {
     }
 }
 
-impl PoseArrays {
-    fn moving(self, velocity: [f64; 6]) -> StateArrays {
+impl<T> PoseArrays<T> {
+    fn moving(self, velocity: [T; 6]) -> StateArrays<T> {
         StateArrays { position: self.position, rotation: self.rotation, velocity }
     }
 }
 
 /// Finite poses of base and platform, with rotations that are rotations; reach is not looked at.
-pub(crate) fn checked_poses(
-    base: &BaseMotion,
-    platform: &PlatformState,
-) -> Result<(PoseArrays, PoseArrays), Error> {
+pub(crate) fn checked_poses<T: Real>(
+    base: &BaseMotion<T>,
+    platform: &PlatformState<T>,
+) -> Result<(PoseArrays<T>, PoseArrays<T>), Error> {
     Ok((
         checked_pose(&base.pose, Input::BasePosition, Input::BaseRotation)?,
         checked_pose(&platform.pose, Input::PlatformPosition, Input::PlatformRotation)?,
     ))
 }
 
-fn checked_pose(pose: &Pose, position: Input, rotation: Input) -> Result<PoseArrays, Error> {
+fn checked_pose<T: Real>(pose: &Pose<T>, position: Input, rotation: Input) -> Result<PoseArrays<T>, Error> {
     let arrays = PoseArrays {
         position: check::finite(position, pose.position_m.into())?,
         rotation: check::finite(rotation, rotation_rows(&pose.rotation))?,

@@ -7,9 +7,10 @@ use crate::error::{Error, Input};
 use crate::evaluate::evaluate;
 use crate::hexapod::Hexapod;
 use crate::kernels;
+use crate::real::Real;
 use crate::state::{Acceleration, BaseMotion, PlatformState, Wrench};
 
-impl<M: kernels::RodAlignment> Hexapod<M> {
+impl<M: kernels::RodAlignment<T>, T: Real> Hexapod<M, T> {
     /// F, N, along the actuators' axes on the movers, that gives the platform `platform_acceleration`: the
     /// solution of `J_dp^T F = M_p v_p' + bias - W_ext - M_b v_b'` (49). Depends on poses, velocities and
     /// accelerations of both bodies and on the external wrench.
@@ -35,20 +36,20 @@ impl<M: kernels::RodAlignment> Hexapod<M> {
     /// ```
     pub fn inverse_dynamics(
         &self,
-        base: &BaseMotion,
-        platform: &PlatformState,
-        platform_acceleration: &Acceleration,
-        external_wrench: &Wrench,
-    ) -> Result<Vector6<f64>, Error>
+        base: &BaseMotion<T>,
+        platform: &PlatformState<T>,
+        platform_acceleration: &Acceleration<T>,
+        external_wrench: &Wrench<T>,
+    ) -> Result<Vector6<T>, Error>
     where
-        M: kernels::InverseDynamics + kernels::JacobianDp,
+        M: kernels::InverseDynamics<T> + kernels::JacobianDp<T>,
     {
         let base_acceleration = finite(Input::BaseAcceleration, base.acceleration.to_array())?;
         let platform_acceleration = finite(Input::PlatformAcceleration, platform_acceleration.to_array())?;
         let external_wrench = finite(Input::ExternalWrench, external_wrench.to_array())?;
         let (b, p) = self.states(base, platform)?;
 
-        let mut jacobian_dp = [[0.0; 6]; 6];
+        let mut jacobian_dp = [[T::zero(); 6]; 6];
         self.model.jacobian_dp(&b.position, &b.rotation, &p.position, &p.rotation, &mut jacobian_dp);
         invertible(&jacobian_dp)?;
 

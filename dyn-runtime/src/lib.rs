@@ -69,6 +69,12 @@
 //! perpendicular to its actuator and (inverse dynamics) at a singular Jacobian, and near a singular one
 //! finite forces without meaning.
 //!
+//! # Precision
+//!
+//! Everything is in `f64` unless said otherwise: a hexapod made by [`Hexapod::single_precision`] takes and
+//! returns `f32`, refuses at the thresholds of `f32` (see [`Real`]), and knows its forces to about five
+//! digits. Generated free functions take any [`float::Scalar`].
+//!
 //! # Feature `std`
 //!
 //! Off by default. With it, square roots come from `std` instead of libm; results keep their bits.
@@ -95,6 +101,7 @@ mod hexapod;
 mod inverse_dynamics;
 mod kinematics;
 mod matrices;
+mod real;
 mod state;
 
 pub mod angles;
@@ -113,6 +120,7 @@ pub use generated::kernels;
 pub use hexapod::Hexapod;
 pub use kinematics::{BodyKinematics, LegKinematics, PartialVelocities};
 pub use matrices::{CoriolisMatrices, Matrices, StiffnessMatrices};
+pub use real::Real;
 pub use state::{Acceleration, BaseMotion, PlatformState, Pose, Twist, Wrench};
 
 /// The committed models, generated from `platforms/uhp_2016.toml`.

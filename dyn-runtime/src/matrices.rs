@@ -9,54 +9,55 @@ use crate::error::Error;
 use crate::evaluate::evaluate;
 use crate::hexapod::Hexapod;
 use crate::kernels;
+use crate::real::Real;
 use crate::state::{BaseMotion, PlatformState};
 
 /// Velocity terms in their natural factorisation: `C_p v_p - C_b v_b` are the exact velocity terms of (49),
 /// and `M_p' - 2 C_p` is skew-symmetric.
 #[derive(Clone, Copy, PartialEq, Debug)]
-pub struct CoriolisMatrices {
+pub struct CoriolisMatrices<T = f64> {
     /// C_p, N per m/s or rad/s (forces) and N m (moments).
-    pub coriolis_matrix_p: Matrix6<f64>,
+    pub coriolis_matrix_p: Matrix6<T>,
     /// C_b, likewise.
-    pub coriolis_matrix_b: Matrix6<f64>,
+    pub coriolis_matrix_b: Matrix6<T>,
 }
 
 /// The paper's stiffnesses for small displacements of platform and base. They leave out the preload's share,
 /// so they are not the tangent stiffness of the equation of motion.
 #[derive(Clone, Copy, PartialEq, Debug)]
-pub struct StiffnessMatrices {
+pub struct StiffnessMatrices<T = f64> {
     /// `K_p = J_dp^T k_e J_dp`, N/m, N and N m.
-    pub stiffness_matrix_p: Matrix6<f64>,
+    pub stiffness_matrix_p: Matrix6<T>,
     /// `K_b = J_dp^T k_e J_db`, likewise.
-    pub stiffness_matrix_b: Matrix6<f64>,
+    pub stiffness_matrix_b: Matrix6<T>,
 }
 
 /// Masses, velocity terms and Jacobians from one shared evaluation.
 #[derive(Clone, Copy, PartialEq, Debug)]
-pub struct Matrices {
+pub struct Matrices<T = f64> {
     /// M_p, as [`Hexapod::mass_matrix_p`] gives it.
-    pub mass_matrix_p: Matrix6<f64>,
+    pub mass_matrix_p: Matrix6<T>,
     /// C_p, as in [`CoriolisMatrices`].
-    pub coriolis_matrix_p: Matrix6<f64>,
+    pub coriolis_matrix_p: Matrix6<T>,
     /// J_dp, as [`Hexapod::jacobian_dp`] gives it.
-    pub jacobian_dp: Matrix6<f64>,
+    pub jacobian_dp: Matrix6<T>,
     /// M_b, as [`Hexapod::mass_matrix_b`] gives it.
-    pub mass_matrix_b: Matrix6<f64>,
+    pub mass_matrix_b: Matrix6<T>,
     /// C_b, as in [`CoriolisMatrices`].
-    pub coriolis_matrix_b: Matrix6<f64>,
+    pub coriolis_matrix_b: Matrix6<T>,
     /// J_db, as [`Hexapod::jacobian_db`] gives it.
-    pub jacobian_db: Matrix6<f64>,
+    pub jacobian_db: Matrix6<T>,
 }
 
-impl<M: kernels::RodAlignment> Hexapod<M> {
+impl<M: kernels::RodAlignment<T>, T: Real> Hexapod<M, T> {
     /// J_dp, of `d' = J_dp v_p - J_db v_b` (30), (32): a row per leg, `[u; (R_p p) x u]^T / (u.a)`; three
     /// columns without unit, three in m. Depends on the poses.
     ///
     /// # Errors
     /// See [`Hexapod`].
-    pub fn jacobian_dp(&self, base: &BaseMotion, platform: &PlatformState) -> Result<Matrix6<f64>, Error>
+    pub fn jacobian_dp(&self, base: &BaseMotion<T>, platform: &PlatformState<T>) -> Result<Matrix6<T>, Error>
     where
-        M: kernels::JacobianDp,
+        M: kernels::JacobianDp<T>,
     {
         let (b, p) = self.poses(base, platform)?;
         evaluate!(self.model.jacobian_dp(b.position, b.rotation, p.position, p.rotation) -> jacobian_dp)
@@ -67,9 +68,9 @@ impl<M: kernels::RodAlignment> Hexapod<M> {
     ///
     /// # Errors
     /// See [`Hexapod`].
-    pub fn jacobian_db(&self, base: &BaseMotion, platform: &PlatformState) -> Result<Matrix6<f64>, Error>
+    pub fn jacobian_db(&self, base: &BaseMotion<T>, platform: &PlatformState<T>) -> Result<Matrix6<T>, Error>
     where
-        M: kernels::JacobianDb,
+        M: kernels::JacobianDb<T>,
     {
         let (b, p) = self.poses(base, platform)?;
         evaluate!(self.model.jacobian_db(b.position, b.rotation, p.position, p.rotation) -> jacobian_db)
@@ -92,9 +93,13 @@ impl<M: kernels::RodAlignment> Hexapod<M> {
     ///
     /// # Errors
     /// See [`Hexapod`].
-    pub fn mass_matrix_p(&self, base: &BaseMotion, platform: &PlatformState) -> Result<Matrix6<f64>, Error>
+    pub fn mass_matrix_p(
+        &self,
+        base: &BaseMotion<T>,
+        platform: &PlatformState<T>,
+    ) -> Result<Matrix6<T>, Error>
     where
-        M: kernels::MassMatrixP,
+        M: kernels::MassMatrixP<T>,
     {
         let (b, p) = self.poses(base, platform)?;
         evaluate!(self.model.mass_matrix_p(b.position, b.rotation, p.position, p.rotation) -> mass_matrix_p)
@@ -105,9 +110,13 @@ impl<M: kernels::RodAlignment> Hexapod<M> {
     ///
     /// # Errors
     /// See [`Hexapod`].
-    pub fn mass_matrix_b(&self, base: &BaseMotion, platform: &PlatformState) -> Result<Matrix6<f64>, Error>
+    pub fn mass_matrix_b(
+        &self,
+        base: &BaseMotion<T>,
+        platform: &PlatformState<T>,
+    ) -> Result<Matrix6<T>, Error>
     where
-        M: kernels::MassMatrixB,
+        M: kernels::MassMatrixB<T>,
     {
         let (b, p) = self.poses(base, platform)?;
         evaluate!(self.model.mass_matrix_b(b.position, b.rotation, p.position, p.rotation) -> mass_matrix_b)
@@ -119,11 +128,11 @@ impl<M: kernels::RodAlignment> Hexapod<M> {
     /// See [`Hexapod`].
     pub fn coriolis_matrices(
         &self,
-        base: &BaseMotion,
-        platform: &PlatformState,
-    ) -> Result<CoriolisMatrices, Error>
+        base: &BaseMotion<T>,
+        platform: &PlatformState<T>,
+    ) -> Result<CoriolisMatrices<T>, Error>
     where
-        M: kernels::CoriolisMatrices,
+        M: kernels::CoriolisMatrices<T>,
     {
         let (b, p) = self.states(base, platform)?;
         evaluate!(self.model.coriolis_matrices(
@@ -139,11 +148,11 @@ impl<M: kernels::RodAlignment> Hexapod<M> {
     /// See [`Hexapod`].
     pub fn stiffness_matrices(
         &self,
-        base: &BaseMotion,
-        platform: &PlatformState,
-    ) -> Result<StiffnessMatrices, Error>
+        base: &BaseMotion<T>,
+        platform: &PlatformState<T>,
+    ) -> Result<StiffnessMatrices<T>, Error>
     where
-        M: kernels::StiffnessMatrices,
+        M: kernels::StiffnessMatrices<T>,
     {
         let (b, p) = self.poses(base, platform)?;
         evaluate!(self.model.stiffness_matrices(
@@ -157,9 +166,9 @@ impl<M: kernels::RodAlignment> Hexapod<M> {
     ///
     /// # Errors
     /// See [`Hexapod`].
-    pub fn matrices(&self, base: &BaseMotion, platform: &PlatformState) -> Result<Matrices, Error>
+    pub fn matrices(&self, base: &BaseMotion<T>, platform: &PlatformState<T>) -> Result<Matrices<T>, Error>
     where
-        M: kernels::Matrices,
+        M: kernels::Matrices<T>,
     {
         let (b, p) = self.states(base, platform)?;
         evaluate!(self.model.matrices(

@@ -6,13 +6,16 @@
 
 use core::mem;
 
+use crate::float::Scalar;
+use crate::real::Real;
+
 /// One row of the system `coefficients * x = right`, K right-hand sides at once.
 #[derive(Clone, Copy)]
-struct Row<const N: usize, const K: usize> {
-    coefficients: [f64; N],
-    right: [f64; K],
+struct Row<T, const N: usize, const K: usize> {
+    coefficients: [T; N],
+    right: [T; K],
     /// Largest coefficient of the row as given; the pivot is the one largest relative to it.
-    scale: f64,
+    scale: T,
 }
 
 /// Solves `matrix * x = right_hand_side`; `matrix` is row-major.
@@ -25,7 +28,15 @@ struct Row<const N: usize, const K: usize> {
 /// let x = dyn_runtime::solve::solve_general(&[[0.0, 2.0], [4.0, 0.0]], &[6.0, 4.0]);
 /// assert_eq!(x, [1.0, 3.0]);
 /// ```
-pub fn solve_general<const N: usize>(matrix: &[[f64; N]; N], right_hand_side: &[f64; N]) -> [f64; N] {
+pub fn solve_general<T: Scalar, const N: usize>(matrix: &[[T; N]; N], right_hand_side: &[T; N]) -> [T; N] {
+    T::solve_general(matrix, right_hand_side)
+}
+
+/// [`Scalar::solve_general`] of a single number.
+pub(crate) fn by_elimination<T: Real, const N: usize>(
+    matrix: &[[T; N]; N],
+    right_hand_side: &[T; N],
+) -> [T; N] {
     solve_columns(matrix, &right_hand_side.map(|element| [element])).map(|[element]| element)
 }
 
@@ -36,36 +47,40 @@ pub fn solve_general<const N: usize>(matrix: &[[f64; N]; N], right_hand_side: &[
 /// ```
 /// assert_eq!(dyn_runtime::solve::reciprocal_condition(&[[1.0, 0.0], [0.0, 0.25]]), 0.25);
 /// ```
-pub fn reciprocal_condition<const N: usize>(matrix: &[[f64; N]; N]) -> f64 {
-    let mut identity = [[0.0; N]; N];
+pub fn reciprocal_condition<T: Real, const N: usize>(matrix: &[[T; N]; N]) -> T {
+    let mut identity = [[T::zero(); N]; N];
     for (i, row) in identity.iter_mut().enumerate() {
-        row[i] = 1.0;
+        row[i] = T::one();
     }
     let condition = one_norm(matrix) * one_norm(&solve_columns(matrix, &identity));
     // Rounding can leave the condition number of a perfect matrix just below 1.
-    if condition.is_finite() && condition > 0.0 { (1.0 / condition).min(1.0) } else { 0.0 }
+    if condition.is_finite() && condition > T::zero() {
+        (T::one() / condition).min(T::one())
+    } else {
+        T::zero()
+    }
 }
 
 /// Largest column sum of absolute values; NaN if an entry is NaN.
-fn one_norm<const N: usize>(matrix: &[[f64; N]; N]) -> f64 {
-    let mut sums = [0.0; N];
+fn one_norm<T: Real, const N: usize>(matrix: &[[T; N]; N]) -> T {
+    let mut sums = [T::zero(); N];
     for row in matrix {
         for (sum, element) in sums.iter_mut().zip(row) {
             *sum += element.abs();
         }
     }
-    // `f64::max` would drop a NaN.
-    sums.into_iter().fold(0.0, |largest, sum| if sum <= largest { largest } else { sum })
+    // `max` would drop a NaN.
+    sums.into_iter().fold(T::zero(), |largest, sum| if sum <= largest { largest } else { sum })
 }
 
 /// Solves for the K columns of `right` at once.
-fn solve_columns<const N: usize, const K: usize>(
-    matrix: &[[f64; N]; N],
-    right: &[[f64; K]; N],
-) -> [[f64; K]; N] {
-    let mut rows = [Row { coefficients: [0.0; N], right: [0.0; K], scale: 0.0 }; N];
+fn solve_columns<T: Real, const N: usize, const K: usize>(
+    matrix: &[[T; N]; N],
+    right: &[[T; K]; N],
+) -> [[T; K]; N] {
+    let mut rows = [Row { coefficients: [T::zero(); N], right: [T::zero(); K], scale: T::zero() }; N];
     for (row, (coefficients, right)) in rows.iter_mut().zip(matrix.iter().zip(right)) {
-        let scale = coefficients.iter().fold(0.0, |largest: f64, element| largest.max(element.abs()));
+        let scale = coefficients.iter().fold(T::zero(), |largest: T, element| largest.max(element.abs()));
         *row = Row { coefficients: *coefficients, right: *right, scale };
     }
 
@@ -79,12 +94,12 @@ fn solve_columns<const N: usize, const K: usize>(
         remaining = below;
     }
 
-    let mut solution = [[0.0; K]; N];
+    let mut solution = [[T::zero(); K]; N];
     for (i, row) in rows.iter().enumerate().rev() {
         let mut sum = row.right;
         for (coefficient, known) in row.coefficients.iter().zip(&solution).skip(i + 1) {
             for (sum, known) in sum.iter_mut().zip(known) {
-                *sum -= coefficient * known;
+                *sum -= *coefficient * *known;
             }
         }
         solution[i] = sum.map(|sum| sum / row.coefficients[i]);
@@ -93,9 +108,9 @@ fn solve_columns<const N: usize, const K: usize>(
 }
 
 /// Puts the row with the relatively largest coefficient in `column` into the pivot's place.
-fn exchange_for_largest<const N: usize, const K: usize>(
-    pivot: &mut Row<N, K>,
-    below: &mut [Row<N, K>],
+fn exchange_for_largest<T: Real, const N: usize, const K: usize>(
+    pivot: &mut Row<T, N, K>,
+    below: &mut [Row<T, N, K>],
     column: usize,
 ) {
     let mut largest = pivot.relative_size(column);
@@ -112,8 +127,8 @@ fn exchange_for_largest<const N: usize, const K: usize>(
     }
 }
 
-impl<const N: usize, const K: usize> Row<N, K> {
-    fn relative_size(&self, column: usize) -> f64 {
+impl<T: Real, const N: usize, const K: usize> Row<T, N, K> {
+    fn relative_size(&self, column: usize) -> T {
         self.coefficients[column].abs() / self.scale
     }
 
@@ -121,10 +136,10 @@ impl<const N: usize, const K: usize> Row<N, K> {
     fn subtract(&mut self, pivot: &Self, column: usize) {
         let factor = self.coefficients[column] / pivot.coefficients[column];
         for (element, pivot) in self.coefficients.iter_mut().zip(&pivot.coefficients).skip(column + 1) {
-            *element -= factor * pivot;
+            *element -= factor * *pivot;
         }
         for (element, pivot) in self.right.iter_mut().zip(&pivot.right) {
-            *element -= factor * pivot;
+            *element -= factor * *pivot;
         }
     }
 }

@@ -9,68 +9,69 @@ use crate::angles;
 use crate::arrays::{self, FromRows};
 use crate::check::rotation_defect;
 use crate::error::NotARotation;
+use crate::real::Real;
 
 /// Position and orientation of a body frame, B or P, in O.
 #[derive(Clone, Copy, PartialEq, Debug)]
-pub struct Pose {
+pub struct Pose<T: Real = f64> {
     /// Origin of the body frame, m, O.
-    pub position_m: Vector3<f64>,
+    pub position_m: Vector3<T>,
     /// Coordinates in the body frame to coordinates in O, without unit: `in_o = rotation * in_body`. Its
     /// columns are the body's axes in O.
-    pub rotation: Rotation3<f64>,
+    pub rotation: Rotation3<T>,
 }
 
 /// Velocity of a body frame relative to O, in O axes: `[r'; w]`.
 #[derive(Clone, Copy, PartialEq, Debug)]
-pub struct Twist {
+pub struct Twist<T = f64> {
     /// Velocity of the frame's origin, m/s, O.
-    pub linear_m_s: Vector3<f64>,
+    pub linear_m_s: Vector3<T>,
     /// Angular velocity, rad/s, O. A gyroscope reads it in body axes: turn that with [`Pose::rotation`]. Not
     /// the rates of Euler angles: [`angles::angular_velocity`] converts those.
-    pub angular_rad_s: Vector3<f64>,
+    pub angular_rad_s: Vector3<T>,
 }
 
 /// Acceleration of a body frame relative to O, in O axes: `[r''; w']`, the time derivative of its [`Twist`].
 #[derive(Clone, Copy, PartialEq, Debug)]
-pub struct Acceleration {
+pub struct Acceleration<T = f64> {
     /// Acceleration of the frame's origin, m/s^2, O: an accelerometer's reading there, turned into O, plus
     /// the vector of gravity.
-    pub linear_m_s2: Vector3<f64>,
+    pub linear_m_s2: Vector3<T>,
     /// Angular acceleration, rad/s^2, O. From Euler angles: [`angles::angular_acceleration`].
-    pub angular_rad_s2: Vector3<f64>,
+    pub angular_rad_s2: Vector3<T>,
 }
 
 /// External force and moment on the payload, at the payload's centre of mass, in O axes.
 #[derive(Clone, Copy, PartialEq, Debug)]
-pub struct Wrench {
+pub struct Wrench<T = f64> {
     /// Force F_D, N, O.
-    pub force_n: Vector3<f64>,
+    pub force_n: Vector3<T>,
     /// Moment M_D about the payload's centre of mass, N m, O.
-    pub moment_n_m: Vector3<f64>,
+    pub moment_n_m: Vector3<T>,
 }
 
 /// How the base moves, in O; it drives the equations as a given motion.
 #[derive(Clone, Copy, PartialEq, Debug)]
-pub struct BaseMotion {
+pub struct BaseMotion<T: Real = f64> {
     /// Pose of B: its origin in m, O; B to O.
-    pub pose: Pose,
+    pub pose: Pose<T>,
     /// Velocity of B, v_b: m/s and rad/s, O.
-    pub velocity: Twist,
+    pub velocity: Twist<T>,
     /// Acceleration of B, v_b': m/s^2 and rad/s^2, O. Only functions with accelerations or forces depend on
     /// it.
-    pub acceleration: Acceleration,
+    pub acceleration: Acceleration<T>,
 }
 
 /// Where the platform is and how fast it moves, in O (not relative to the base).
 #[derive(Clone, Copy, PartialEq, Debug)]
-pub struct PlatformState {
+pub struct PlatformState<T: Real = f64> {
     /// Pose of P: its origin in m, O; P to O.
-    pub pose: Pose,
+    pub pose: Pose<T>,
     /// Velocity of P, v_p: m/s and rad/s, O.
-    pub velocity: Twist,
+    pub velocity: Twist<T>,
 }
 
-impl Pose {
+impl<T: Real> Pose<T> {
     /// The frame O itself.
     pub fn identity() -> Self {
         Self { position_m: Vector3::zeros(), rotation: Rotation3::identity() }
@@ -87,12 +88,12 @@ impl Pose {
     /// let x_axis_in_o = pose.rotation * Vector3::x();
     /// assert!((x_axis_in_o - Vector3::y()).norm() < 1e-15);
     /// ```
-    pub fn from_paper_angles(position_m: Vector3<f64>, angles_rad: [f64; 3]) -> Self {
+    pub fn from_paper_angles(position_m: Vector3<T>, angles_rad: [T; 3]) -> Self {
         Self { position_m, rotation: angles::rotation(angles_rad) }
     }
 
     /// From a position (m, O) and the unit quaternion that rotates the body frame's coordinates into O.
-    pub fn from_unit_quaternion(position_m: Vector3<f64>, quaternion: &UnitQuaternion<f64>) -> Self {
+    pub fn from_unit_quaternion(position_m: Vector3<T>, quaternion: &UnitQuaternion<T>) -> Self {
         Self { position_m, rotation: quaternion.to_rotation_matrix() }
     }
 
@@ -100,12 +101,9 @@ impl Pose {
     ///
     /// # Errors
     /// If the matrix is not finite, not orthonormal within
-    /// [`MAX_ROTATION_DEVIATION`](crate::MAX_ROTATION_DEVIATION), or a reflection; the error says how far off
+    /// [`Real::MAX_ROTATION_DEVIATION`], or a reflection; the error says how far off
     /// it is.
-    pub fn from_rotation_matrix(
-        position_m: Vector3<f64>,
-        matrix: &Matrix3<f64>,
-    ) -> Result<Self, NotARotation> {
+    pub fn from_rotation_matrix(position_m: Vector3<T>, matrix: &Matrix3<T>) -> Result<Self, NotARotation> {
         match rotation_defect(matrix) {
             None => Ok(Self { position_m, rotation: Rotation3::from_matrix_unchecked(*matrix) }),
             Some(defect) => Err(defect),
@@ -122,71 +120,71 @@ impl Pose {
     }
 }
 
-impl Twist {
+impl<T: Real> Twist<T> {
     /// At rest.
     pub fn zero() -> Self {
         Self { linear_m_s: Vector3::zeros(), angular_rad_s: Vector3::zeros() }
     }
 
     /// `[r'; w]`, as the 6x6 matrices of the equations take it.
-    pub fn to_vector(&self) -> Vector6<f64> {
+    pub fn to_vector(&self) -> Vector6<T> {
         Vector6::from(self.to_array())
     }
 
-    pub(crate) fn to_array(self) -> [f64; 6] {
+    pub(crate) fn to_array(self) -> [T; 6] {
         arrays::stacked(&self.linear_m_s, &self.angular_rad_s)
     }
 }
 
-impl Acceleration {
+impl<T: Real> Acceleration<T> {
     /// No acceleration.
     pub fn zero() -> Self {
         Self { linear_m_s2: Vector3::zeros(), angular_rad_s2: Vector3::zeros() }
     }
 
     /// `[r''; w']`, as the 6x6 matrices of the equations take it.
-    pub fn to_vector(&self) -> Vector6<f64> {
+    pub fn to_vector(&self) -> Vector6<T> {
         Vector6::from(self.to_array())
     }
 
-    pub(crate) fn to_array(self) -> [f64; 6] {
+    pub(crate) fn to_array(self) -> [T; 6] {
         arrays::stacked(&self.linear_m_s2, &self.angular_rad_s2)
     }
 }
 
-impl FromRows<[f64; 6]> for Acceleration {
-    fn from_rows(stacked: &[f64; 6]) -> Self {
+impl<T: Real> FromRows<[T; 6]> for Acceleration<T> {
+    fn from_rows(stacked: &[T; 6]) -> Self {
         let (linear_m_s2, angular_rad_s2) = arrays::halves(stacked);
         Self { linear_m_s2, angular_rad_s2 }
     }
 }
 
-impl Wrench {
+impl<T: Real> Wrench<T> {
     /// No load.
     pub fn zero() -> Self {
         Self { force_n: Vector3::zeros(), moment_n_m: Vector3::zeros() }
     }
 
     /// `[F_D; M_D]`, still at the payload's centre of mass: not yet the W_ext of the equation of motion.
-    pub fn to_vector(&self) -> Vector6<f64> {
+    pub fn to_vector(&self) -> Vector6<T> {
         Vector6::from(self.to_array())
     }
 
-    pub(crate) fn to_array(self) -> [f64; 6] {
+    pub(crate) fn to_array(self) -> [T; 6] {
         arrays::stacked(&self.force_n, &self.moment_n_m)
     }
 }
 
-impl BaseMotion {
+impl<T: Real> BaseMotion<T> {
     /// A base that stands still.
-    pub fn at_rest(pose: Pose) -> Self {
+    pub fn at_rest(pose: Pose<T>) -> Self {
         Self { pose, velocity: Twist::zero(), acceleration: Acceleration::zero() }
     }
 }
 
-impl PlatformState {
+impl<T: Real> PlatformState<T> {
     /// A platform that stands still.
-    pub fn at_rest(pose: Pose) -> Self {
+    pub fn at_rest(pose: Pose<T>) -> Self {
         Self { pose, velocity: Twist::zero() }
     }
 }

@@ -344,7 +344,7 @@ impl Write for Line {
 
 #[test]
 fn messages_ask_for_no_memory() {
-    let defect = Pose::from_rotation_matrix(Vector3::zeros(), &Matrix3::zeros()).expect_err("refused");
+    let defect = Pose::from_rotation_matrix(Vector3::zeros(), &Matrix3::<f64>::zeros()).expect_err("refused");
     let errors = [
         Error::NonFinite { input: Input::BaseVelocity },
         Error::NotARotation { input: Input::BaseRotation, defect },

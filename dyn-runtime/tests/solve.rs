@@ -90,7 +90,7 @@ fn condition_numbers_of_known_matrices() {
     let hilbert: [[f64; 6]; 6] = std::array::from_fn(|r| std::array::from_fn(|c| 1.0 / (r + c + 1) as f64));
     assert!((1.0 / reciprocal_condition(&hilbert) / 29_070_279.0 - 1.0).abs() < 1e-8);
     // [[1, 1], [1, 1 + e]]: (2 + e)^2 / e.
-    let e = 1e-6;
+    let e: f64 = 1e-6;
     let nearly_singular = [[1.0, 1.0], [1.0, 1.0 + e]];
     assert!((reciprocal_condition(&nearly_singular) * (2.0 + e).powi(2) / e - 1.0).abs() < 1e-9);
     // A small pivot alone says nothing about the condition.

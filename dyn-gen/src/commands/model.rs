@@ -4,7 +4,7 @@
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use dyn_gen::emit::RuntimePath;
+use dyn_gen::emit::{RuntimePath, Scalar};
 use dyn_gen::evidence::Sampling;
 use dyn_gen::{Generated, GraphFile, Numbers, Options, generate};
 use miette::Result;
@@ -28,6 +28,10 @@ pub struct ModelArguments {
     /// the groups payload, legs, gravity, all [default: none]
     #[arg(long, value_delimiter = ',', value_name = "NAME,...")]
     runtime: Vec<String>,
+    /// Numbers that the model computes with, f64 or f32 or both; the first is compiled with the file, others where they are
+    /// called
+    #[arg(long, value_delimiter = ',', value_name = "NUMBER,...", default_value = "f64")]
+    scalar: Vec<Scalar>,
     /// Where the generated code finds the runtime crate
     #[arg(long, value_name = "PATH", default_value = RUNTIME_PATH)]
     runtime_path: String,
@@ -57,6 +61,7 @@ impl ModelArguments {
             command: joined(&self.command(&file_name(platform_file), &file_name(output), file_name)),
             model: self.model.clone().unwrap_or_else(|| platform.name.clone()),
             runtime: RuntimePath::new(&self.runtime_path).map_err(dyn_gen::GenerateError::from)?,
+            scalars: self.scalar.clone(),
             functions: self.functions.clone(),
             evidence: (!self.no_evidence).then_some(Sampling { states: self.states, seed: self.seed }),
         };
@@ -74,6 +79,8 @@ impl ModelArguments {
         option("model", self.model.clone());
         option("functions", self.functions.as_ref().map(|names| names.join(",")));
         option("runtime", (!self.runtime.is_empty()).then(|| self.runtime.join(",")));
+        let scalars: Vec<&str> = self.scalar.iter().map(|scalar| scalar.name()).collect();
+        option("scalar", (self.scalar != [Scalar::F64]).then(|| scalars.join(",")));
         option("runtime-path", (self.runtime_path != RUNTIME_PATH).then(|| self.runtime_path.clone()));
         option("states", (self.states != sampling.states).then(|| self.states.to_string()));
         option("seed", (self.seed != sampling.seed).then(|| self.seed.to_string()));

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use clap::Args;
-use dyn_gen::emit::RuntimePath;
+use dyn_gen::emit::{RuntimePath, Scalar};
 use dyn_gen::output::{NewFile, write_all};
 use dyn_gen::{GraphFile, Numbers, Options, generate, kernels};
 use dyn_platform::Platform;
@@ -83,6 +83,7 @@ fn generated_files(root: &Path, graph: &GraphFile) -> Result<Vec<NewFile>> {
     let options = |model: &str| Options {
         model: model.into(),
         runtime: RuntimePath::inside(),
+        scalars: vec![Scalar::F64, Scalar::F32],
         functions: None,
         command: COMMAND.into(),
         evidence: None,

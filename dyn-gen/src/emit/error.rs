@@ -41,6 +41,12 @@ pub enum EmitError {
         /// What was given.
         path: String,
     },
+    /// A type of number that models cannot have.
+    #[error("`{name}` is not a type of number; f64 and f32 are")]
+    Scalar {
+        /// What was given.
+        name: String,
+    },
     /// The printed tokens are not Rust: a fault of the generator.
     #[error("`{item}`: the generated source does not parse ({message}); this is a fault of dyn-gen")]
     Unparsable {

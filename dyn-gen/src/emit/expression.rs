@@ -7,7 +7,7 @@ use quote::format_ident;
 use syn::{BinOp, Expr};
 
 use super::EmitError;
-use super::names::{PARAMETERS, SQRT, identifier, temporary};
+use super::names::{CONSTANT, PARAMETERS, SQRT, identifier, temporary};
 use super::placement::Place;
 use super::schedule::{Statement, Step, Value};
 use super::signature::Signature;
@@ -22,6 +22,7 @@ pub struct Expressions<'a> {
     parameters: Ident,
     outputs: Vec<Ident>,
     names: HashMap<Value, Ident>,
+    constant: Ident,
     sqrt: Ident,
 }
 
@@ -57,8 +58,8 @@ impl<'a> Expressions<'a> {
             };
             names.insert(value, name);
         }
-        let (parameters, sqrt) = (format_ident!("{PARAMETERS}"), format_ident!("{SQRT}"));
-        Ok(Expressions { graph, places, inputs, parameters, outputs, names, sqrt })
+        let [parameters, constant, sqrt] = [PARAMETERS, CONSTANT, SQRT].map(|name| format_ident!("{name}"));
+        Ok(Expressions { graph, places, inputs, parameters, outputs, names, constant, sqrt })
     }
 
     /// The name of a value that has one.
@@ -89,8 +90,7 @@ impl<'a> Expressions<'a> {
                 let function = self.graph.name.clone();
                 return Err(EmitError::NonFiniteConstant { function, node: id.0, value });
             }
-            Node::Constant(value) if value.is_sign_negative() => tree::negative(tree::number(-value)),
-            Node::Constant(value) => tree::number(value),
+            Node::Constant(value) => tree::call(&self.constant, [tree::number(value)]),
             Node::Input { input, element } => {
                 let name = &self.inputs[input as usize];
                 let symbol = &self.graph.inputs[input as usize];

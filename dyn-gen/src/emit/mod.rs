@@ -30,7 +30,7 @@ pub use error::EmitError;
 pub use function::function;
 pub use header::{CountRow, Elimination, Header, Source};
 pub use kernels::kernels_file;
-pub use model::{Model, model_file};
+pub use model::{Model, Scalar, model_file};
 pub use names::type_name;
 pub use signature::Signature;
 

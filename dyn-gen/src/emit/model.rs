@@ -1,15 +1,48 @@
 //! The file of one model: a type that implements the kernel traits, parameters if any remain, the functions.
 
+use std::str::FromStr;
+
 use proc_macro2::TokenStream;
 use quote::{format_ident, quote};
 
 use super::function::allow;
-use super::names::{PARAMETERS, check_type_names, identifier, type_identifier};
+use super::names::{PARAMETERS, SCALAR, check_type_names, identifier, type_identifier};
 use super::print::source;
 use super::setters;
 use super::signature::{Signature, array_type, documentation, symbol_line};
 use super::{EmitError, Header, RuntimePath};
 use crate::graph::Symbol;
+
+/// A type of number that a model computes with.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Scalar {
+    /// Double precision.
+    F64,
+    /// Single precision.
+    F32,
+}
+
+impl Scalar {
+    /// The type's name in Rust.
+    pub fn name(self) -> &'static str {
+        match self {
+            Scalar::F64 => "f64",
+            Scalar::F32 => "f32",
+        }
+    }
+}
+
+impl FromStr for Scalar {
+    type Err = EmitError;
+
+    fn from_str(name: &str) -> Result<Scalar, EmitError> {
+        let named = |scalar: &Scalar| scalar.name() == name;
+        [Scalar::F64, Scalar::F32]
+            .into_iter()
+            .find(named)
+            .ok_or_else(|| EmitError::Scalar { name: name.into() })
+    }
+}
 
 /// A model to print. It is baked when it has no parameters.
 pub struct Model<'a> {
@@ -19,6 +52,9 @@ pub struct Model<'a> {
     pub runtime: &'a RuntimePath,
     /// What stays a run-time number, in the order of the fields.
     pub parameters: &'a [Symbol],
+    /// The types of number for which the model implements the kernel traits; its functions take any. Code for the first
+    /// is made in the crate that the file belongs to, once; for the others where a function is called.
+    pub scalars: &'a [Scalar],
     /// Their values until others are given, flat, in the same order; none for a model of any platform.
     pub defaults: Option<&'a [Vec<f64>]>,
     /// What callers see of each function.
@@ -46,16 +82,17 @@ pub fn model_file(header: &Header, model: &Model) -> Result<String, EmitError> {
 fn items(model: &Model) -> Result<Vec<TokenStream>, EmitError> {
     let runtime = model.runtime.tokens();
     let name = type_identifier(model.name)?;
-    if name == "Parameters" {
+    if ["Parameters", "Scalar", SCALAR].iter().any(|taken| name == taken) {
         return Err(EmitError::Name {
             function: model.name.into(),
             name: name.to_string(),
             reason: "the generated code uses it itself",
         });
     }
+    let scalar = format_ident!("{SCALAR}");
     let mut items = vec![quote! {
         #[allow(unused_imports)]
-        use #runtime::float::sqrt;
+        use #runtime::float::{Scalar, sqrt};
         #[allow(unused_imports)]
         use #runtime::solve::solve_general;
     }];
@@ -73,29 +110,36 @@ fn items(model: &Model) -> Result<Vec<TokenStream>, EmitError> {
         items.push(quote! {
             #title
             #[derive(Clone, Copy, Debug, PartialEq)]
-            pub struct #name {
+            pub struct #name<#scalar = f64> {
                 /// The physical numbers.
-                pub parameters: Parameters,
+                pub parameters: Parameters<#scalar>,
             }
         });
         items.extend(setters::items(model)?);
     }
-    for signature in model.signatures {
-        items.push(implementation(model, signature)?);
+    for (place, &scalar) in model.scalars.iter().enumerate() {
+        if model.scalars[..place].contains(&scalar) {
+            continue;
+        }
+        let inline = (place > 0).then(|| quote!(#[inline]));
+        for signature in model.signatures {
+            items.push(implementation(model, signature, scalar, &inline)?);
+        }
     }
     Ok(items)
 }
 
 /// The struct of run-time numbers and its constructor.
 fn parameters(model: &Model) -> Result<[TokenStream; 2], EmitError> {
+    let scalar = format_ident!("{SCALAR}");
     let mut fields = TokenStream::new();
     let mut unfilled = TokenStream::new();
     let mut fills = TokenStream::new();
     for symbol in model.parameters {
         let field = identifier(model.name, &symbol.name)?;
         let line = documentation(&[symbol_line(symbol)]);
-        let array = array_type(&symbol.shape);
-        let nan = symbol.shape.iter().rev().fold(quote!(f64::NAN), |element, length| {
+        let array = array_type(&quote!(#scalar), &symbol.shape);
+        let nan = symbol.shape.iter().rev().fold(quote!(#scalar::constant(f64::NAN)), |element, length| {
             let length = proc_macro2::Literal::usize_unsuffixed(*length);
             quote!([#element; #length])
         });
@@ -115,15 +159,15 @@ fn parameters(model: &Model) -> Result<[TokenStream; 2], EmitError> {
     let structure = quote! {
         /// Physical numbers of a platform; of a quantity that legs have, the leg is the first dimension.
         #[derive(Clone, Copy, Debug, PartialEq)]
-        pub struct Parameters {
+        pub struct Parameters<#scalar = f64> {
             #fields
         }
     };
     let constructor = quote! {
-        impl Parameters {
+        impl<#scalar: Scalar> Parameters<#scalar> {
             /// Parameters filled field by field: `fill(name, values)` gets the name of each field and its elements,
             /// row-major, to be written. What it leaves alone stays NaN, so that no result can come from it.
-            pub fn from_fn(mut fill: impl FnMut(&str, &mut [f64])) -> Self {
+            pub fn from_fn(mut fill: impl FnMut(&str, &mut [#scalar])) -> Self {
                 let mut parameters = Parameters { #unfilled };
                 #fills
                 parameters
@@ -133,21 +177,31 @@ fn parameters(model: &Model) -> Result<[TokenStream; 2], EmitError> {
     Ok([structure, constructor])
 }
 
-/// The kernel trait of one function, by a call of the free function.
-fn implementation(model: &Model, signature: &Signature) -> Result<TokenStream, EmitError> {
+/// The kernel trait of one function for one type of number, by a call of the free function.
+fn implementation(
+    model: &Model,
+    signature: &Signature,
+    scalar: Scalar,
+    inline: &Option<TokenStream>,
+) -> Result<TokenStream, EmitError> {
     let runtime = model.runtime.tokens();
     let model_name = type_identifier(model.name)?;
     let kernel = type_identifier(&signature.name)?;
     let function = signature.identifier()?;
-    let arguments = signature.arguments()?;
+    let number = format_ident!("{}", scalar.name());
+    let arguments = signature.arguments(&quote!(#number))?;
     let names = signature.argument_names()?;
+    // The default of the traits and of the model's type.
+    let of_number = (scalar != Scalar::F64).then(|| quote!(<#number>));
+    let of_model = if model.parameters.is_empty() { None } else { of_number.clone() };
     let allow = allow(quote!(unused_qualifications));
     let field = format_ident!("{PARAMETERS}");
     let parameters = (!model.parameters.is_empty()).then(|| quote!(&self.#field,));
     // `self::`: an output may have the function's name.
     Ok(quote! {
         #allow
-        impl #runtime::kernels::#kernel for #model_name {
+        impl #runtime::kernels::#kernel #of_number for #model_name #of_model {
+            #inline
             fn #function(&self, #(#arguments),*) {
                 self::#function(#parameters #(#names),*);
             }

@@ -9,6 +9,10 @@ use super::EmitError;
 
 /// Argument through which run-time parameters reach a function.
 pub const PARAMETERS: &str = "parameters";
+/// The scalar that a generated function computes with.
+pub const SCALAR: &str = "T";
+/// What a function calls the conversion of a literal to its scalar.
+pub const CONSTANT: &str = "c";
 /// The imported square root.
 pub const SQRT: &str = "sqrt";
 /// The imported pivoted linear solver.
@@ -20,7 +24,7 @@ pub fn identifier(function: &str, name: &str) -> Result<Ident, EmitError> {
     if syn::parse_str::<Ident>(name).is_err() {
         return refuse("it is not an identifier of Rust");
     }
-    if [PARAMETERS, SQRT, SOLVE_GENERAL].contains(&name) {
+    if [PARAMETERS, CONSTANT, SQRT, SOLVE_GENERAL].contains(&name) {
         return refuse("the generated code uses it itself");
     }
     if is_temporary(name) {
@@ -97,7 +101,8 @@ mod tests {
 
     #[test]
     fn names_that_would_hide_others_are_refused() {
-        for name in ["t1", "t123", "parameters", "sqrt", "solve_general", "fn", "2b", "a-b", "", "self"] {
+        for name in ["t1", "t123", "parameters", "c", "sqrt", "solve_general", "fn", "2b", "a-b", "", "self"]
+        {
             assert!(identifier("f", name).is_err(), "{name} was accepted");
         }
         for name in ["t", "torque", "t1a", "time_2"] {

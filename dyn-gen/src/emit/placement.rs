@@ -111,7 +111,7 @@ fn uses(graph: &Graph) -> Vec<Uses> {
 /// Characters a node adds to its operands'.
 fn own_width(graph: &Graph, node: &Node) -> u32 {
     let characters = match *node {
-        Node::Constant(value) => format!("{value:?}").len(),
+        Node::Constant(value) => format!("c({value:?})").len(),
         Node::Input { input, .. } => {
             let symbol = &graph.inputs[input as usize];
             symbol.name.len()

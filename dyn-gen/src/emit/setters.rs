@@ -4,7 +4,7 @@ use proc_macro2::{Literal, TokenStream};
 use quote::{format_ident, quote};
 
 use super::function::allow;
-use super::names::{identifier, type_identifier};
+use super::names::{SCALAR, identifier, type_identifier};
 use super::signature::{array_type, documentation, symbol_line};
 use super::{EmitError, model::Model};
 use crate::graph::Symbol;
@@ -36,6 +36,7 @@ const DOMAINS: [(&str, &str, &[&str]); 5] = [
 pub fn items(model: &Model) -> Result<Vec<TokenStream>, EmitError> {
     let runtime = model.runtime.tokens();
     let name = type_identifier(model.name)?;
+    let scalar = format_ident!("{SCALAR}");
     let allow = allow(quote!(unused_qualifications));
     let mut setters = TokenStream::new();
     let mut checks = TokenStream::new();
@@ -56,7 +57,7 @@ pub fn items(model: &Model) -> Result<Vec<TokenStream>, EmitError> {
                 None => "If it is not finite; then it keeps its value.".into(),
             },
         ]);
-        let array = array_type(&symbol.shape);
+        let array = array_type(&quote!(#scalar), &symbol.shape);
         let given = flat(&quote!(#field), symbol);
         let own = flat(&quote!(self.#field), symbol);
         setters.extend(quote! {
@@ -73,7 +74,7 @@ pub fn items(model: &Model) -> Result<Vec<TokenStream>, EmitError> {
     let mut items = vec![
         quote! {
             #allow
-            impl Parameters {
+            impl<#scalar: Scalar + Into<f64>> Parameters<#scalar> {
                 #setters
 
                 /// Checks all parameters as their setters do, however they got their values.
@@ -88,9 +89,9 @@ pub fn items(model: &Model) -> Result<Vec<TokenStream>, EmitError> {
             }
         },
         quote! {
-            impl #name {
+            impl<#scalar> #name<#scalar> {
                 /// The model with these parameters.
-                pub fn new(parameters: Parameters) -> Self {
+                pub fn new(parameters: Parameters<#scalar>) -> Self {
                     #name { parameters }
                 }
             }
@@ -106,7 +107,7 @@ pub fn items(model: &Model) -> Result<Vec<TokenStream>, EmitError> {
         let title = documentation(&["The numbers of the platform file.".into()]);
         items.push(quote! {
             #allow
-            impl Default for Parameters {
+            impl<#scalar: Scalar> Default for Parameters<#scalar> {
                 #title
                 fn default() -> Self {
                     Parameters { #fields }
@@ -114,7 +115,7 @@ pub fn items(model: &Model) -> Result<Vec<TokenStream>, EmitError> {
             }
         });
         items.push(quote! {
-            impl Default for #name {
+            impl<#scalar: Scalar> Default for #name<#scalar> {
                 #title
                 fn default() -> Self {
                     #name::new(Parameters::default())
@@ -146,6 +147,10 @@ fn nested(shape: &[usize], values: &mut std::slice::Iter<f64>) -> TokenStream {
 }
 
 fn number(value: f64) -> TokenStream {
-    let magnitude = Literal::f64_unsuffixed(value.abs());
-    if value.is_sign_negative() { quote!(-#magnitude) } else { quote!(#magnitude) }
+    let (scalar, magnitude) = (format_ident!("{SCALAR}"), Literal::f64_unsuffixed(value.abs()));
+    if value.is_sign_negative() {
+        quote!(#scalar::constant(-#magnitude))
+    } else {
+        quote!(#scalar::constant(#magnitude))
+    }
 }

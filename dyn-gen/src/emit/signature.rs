@@ -72,16 +72,16 @@ impl Signature {
         names.iter().map(|name| identifier(&self.name, name)).collect()
     }
 
-    /// `name: &[[f64; 3]; 3], ..., name: &mut [f64; 6]`.
-    pub(super) fn arguments(&self) -> Result<Vec<TokenStream>, EmitError> {
+    /// `name: &[[f64; 3]; 3], ..., name: &mut [f64; 6]` with this type of number.
+    pub(super) fn arguments(&self, scalar: &TokenStream) -> Result<Vec<TokenStream>, EmitError> {
         let names = self.argument_names()?;
         let (inputs, outputs) = names.split_at(self.inputs.len());
         let inputs = inputs.iter().zip(&self.inputs).map(|(name, symbol)| {
-            let array = array_type(&symbol.shape);
+            let array = array_type(scalar, &symbol.shape);
             if symbol.shape.is_empty() { quote!(#name: #array) } else { quote!(#name: &#array) }
         });
         let outputs = outputs.iter().zip(&self.outputs).map(|(name, symbol)| {
-            let array = array_type(&symbol.shape);
+            let array = array_type(scalar, &symbol.shape);
             quote!(#name: &mut #array)
         });
         Ok(inputs.chain(outputs).collect())
@@ -98,9 +98,9 @@ impl Signature {
     }
 }
 
-/// `[[f64; 3]; 6]` for the shape 6x3, `f64` for a scalar.
-pub(super) fn array_type(shape: &[usize]) -> TokenStream {
-    shape.iter().rev().fold(quote!(f64), |element, &length| {
+/// `[[T; 3]; 6]` for the shape 6x3, `T` for a scalar.
+pub(super) fn array_type(scalar: &TokenStream, shape: &[usize]) -> TokenStream {
+    shape.iter().rev().fold(scalar.clone(), |element, &length| {
         let length = Literal::usize_unsuffixed(length);
         quote!([#element; #length])
     })
@@ -173,8 +173,8 @@ mod tests {
 
     #[test]
     fn the_leg_is_the_outer_dimension() {
-        assert_eq!(array_type(&[6, 3]).to_string(), quote!([[f64; 3]; 6]).to_string());
-        assert_eq!(array_type(&[]).to_string(), "f64");
+        assert_eq!(array_type(&quote!(T), &[6, 3]).to_string(), quote!([[T; 3]; 6]).to_string());
+        assert_eq!(array_type(&quote!(f32), &[]).to_string(), "f32");
     }
 
     #[test]

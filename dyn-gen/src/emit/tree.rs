@@ -32,9 +32,10 @@ pub fn index(array: Expr, index: usize) -> Expr {
     })
 }
 
-/// A non-negative finite number with the fewest digits that read back as the same number.
+/// A finite number with the fewest digits that read back as the same number.
 pub fn number(value: f64) -> Expr {
-    literal(Lit::Float(LitFloat::new(&format!("{value:?}"), Span::call_site())))
+    let magnitude = literal(Lit::Float(LitFloat::new(&format!("{:?}", value.abs()), Span::call_site())));
+    if value.is_sign_negative() { negative(magnitude) } else { magnitude }
 }
 
 fn literal(lit: Lit) -> Expr {

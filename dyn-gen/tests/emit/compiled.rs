@@ -7,10 +7,35 @@ use dyn_gen::graph::{Evaluator, Graph, Symbol};
 
 /// The runtime crate as generated code sees it.
 const RUNTIME: &str = "
-mod float { pub fn sqrt(x: f64) -> f64 { x.sqrt() } }
+mod float {
+    use std::ops::{Add, Div, Mul, Neg, Sub};
+    pub trait Scalar:
+        Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Div<Output = Self> + Neg<Output = Self>
+    {
+        fn constant(value: f64) -> Self;
+        fn square_root(self) -> Self;
+        fn solve<const N: usize>(matrix: &[[Self; N]; N], rhs: &[Self; N]) -> [Self; N];
+    }
+    impl Scalar for f64 {
+        fn constant(value: f64) -> f64 { value }
+        fn square_root(self) -> f64 { self.sqrt() }
+        fn solve<const N: usize>(matrix: &[[f64; N]; N], rhs: &[f64; N]) -> [f64; N] {
+            crate::solve::by_elimination(matrix, rhs)
+        }
+    }
+    impl Scalar for f32 {
+        fn constant(value: f64) -> f32 { value as f32 }
+        fn square_root(self) -> f32 { self.sqrt() }
+        fn solve<const N: usize>(_: &[[f32; N]; N], _: &[f32; N]) -> [f32; N] { unimplemented!() }
+    }
+    pub fn sqrt<T: Scalar>(x: T) -> T { x.square_root() }
+}
 mod solve {
+    pub fn solve_general<T: crate::float::Scalar, const N: usize>(matrix: &[[T; N]; N], rhs: &[T; N]) -> [T; N] {
+        T::solve(matrix, rhs)
+    }
     /// Gauss-Jordan with row exchanges; exact for the small integers the tests use.
-    pub fn solve_general<const N: usize>(matrix: &[[f64; N]; N], rhs: &[f64; N]) -> [f64; N] {
+    pub fn by_elimination<const N: usize>(matrix: &[[f64; N]; N], rhs: &[f64; N]) -> [f64; N] {
         let (mut a, mut x) = (*matrix, *rhs);
         for k in 0..N {
             let pivot = (k..N).max_by(|&i, &j| a[i][k].abs().total_cmp(&a[j][k].abs())).unwrap();

@@ -1,6 +1,6 @@
 //! Graphs made by hand and at random, and the files around them.
 
-use dyn_gen::emit::{CountRow, Header, Model, RuntimePath, Signature, Source, function, model_file};
+use dyn_gen::emit::{CountRow, Header, Model, RuntimePath, Scalar, Signature, Source, function, model_file};
 use dyn_gen::graph::{Builder, Graph, Node, NodeId, Op, Output, Symbol};
 use rand_pcg::Pcg64Mcg;
 use rand_pcg::rand_core::{Rng, SeedableRng};
@@ -62,6 +62,7 @@ pub fn model(graphs: &[Graph], parameters: &[Symbol]) -> String {
         name: "test_model",
         runtime: &RuntimePath::inside(),
         parameters,
+        scalars: &[Scalar::F64, Scalar::F32],
         defaults: None,
         signatures: &signatures,
         functions: &functions,

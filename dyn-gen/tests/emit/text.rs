@@ -48,17 +48,18 @@ fn a_small_function() {
         ///
         /// - `rod_direction`: 3, dimensionless, frame O: rod direction, equation (17).
         #[allow(clippy::all, clippy::pedantic, unused_variables)]
-        pub fn rod_direction(
-            parameters: &Parameters,
-            platform_position: &[f64; 3],
-            rod_direction: &mut [f64; 3],
+        pub fn rod_direction<T: Scalar>(
+            parameters: &Parameters<T>,
+            platform_position: &[T; 3],
+            rod_direction: &mut [T; 3],
         ) {
+            let c = T::constant;
             // leg 3: squared length
             let t1 = platform_position[2] * platform_position[2];
             let t2 = platform_position[1] * platform_position[1] + t1;
             let t3 = platform_position[0] * platform_position[0] + t2;
             // leg 3: rod direction
-            let t4 = -0.75 - parameters.rod_length[2] / sqrt(t3);
+            let t4 = c(-0.75) - parameters.rod_length[2] / sqrt(t3);
             rod_direction[0] = platform_position[0] * t4;
             rod_direction[1] = platform_position[1] * t4;
             // constant and copied elements
@@ -87,23 +88,23 @@ fn a_model_file() {
         // rod_direction           7          10
 
         #[allow(unused_imports)]
-        use crate::float::sqrt;
+        use crate::float::{Scalar, sqrt};
         #[allow(unused_imports)]
         use crate::solve::solve_general;
 
         /// Physical numbers of a platform; of a quantity that legs have, the leg is the first dimension.
         #[derive(Clone, Copy, Debug, PartialEq)]
-        pub struct Parameters {
+        pub struct Parameters<T = f64> {
             /// 6, m, frame O: rod length.
-            pub rod_length: [f64; 6],
+            pub rod_length: [T; 6],
         }
 
-        impl Parameters {
+        impl<T: Scalar> Parameters<T> {
             /// Parameters filled field by field: `fill(name, values)` gets the name of each field and its elements,
             /// row-major, to be written. What it leaves alone stays NaN, so that no result can come from it.
-            pub fn from_fn(mut fill: impl FnMut(&str, &mut [f64])) -> Self {
+            pub fn from_fn(mut fill: impl FnMut(&str, &mut [T])) -> Self {
                 let mut parameters = Parameters {
-                    rod_length: [f64::NAN; 6],
+                    rod_length: [T::constant(f64::NAN); 6],
                 };
                 fill("rod_length", &mut parameters.rod_length);
                 parameters
@@ -112,14 +113,22 @@ fn a_model_file() {
 
         /// The model `test_model`, physical numbers given at run time.
         #[derive(Clone, Copy, Debug, PartialEq)]
-        pub struct TestModel {
+        pub struct TestModel<T = f64> {
             /// The physical numbers.
-            pub parameters: Parameters,
+            pub parameters: Parameters<T>,
         }
 
         #[allow(clippy::all, clippy::pedantic, unused_qualifications)]
         impl crate::kernels::RodDirection for TestModel {
             fn rod_direction(&self, platform_position: &[f64; 3], rod_direction: &mut [f64; 3]) {
+                self::rod_direction(&self.parameters, platform_position, rod_direction);
+            }
+        }
+
+        #[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+        impl crate::kernels::RodDirection<f32> for TestModel<f32> {
+            #[inline]
+            fn rod_direction(&self, platform_position: &[f32; 3], rod_direction: &mut [f32; 3]) {
                 self::rod_direction(&self.parameters, platform_position, rod_direction);
             }
         }

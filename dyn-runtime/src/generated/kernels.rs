@@ -8,7 +8,7 @@
 
 /// A model that has `rod_alignment`.
 #[allow(clippy::all, clippy::pedantic)]
-pub trait RodAlignment {
+pub trait RodAlignment<T = f64> {
     /// Squared cosine between each rod and its actuator axis, equation (18).
     ///
     /// Inputs:
@@ -23,17 +23,17 @@ pub trait RodAlignment {
     /// - `rod_alignment`: 6, dimensionless: squared cosine between rod and actuator axis; negative out of reach, equation (18).
     fn rod_alignment(
         &self,
-        base_position: &[f64; 3],
-        base_rotation: &[[f64; 3]; 3],
-        platform_position: &[f64; 3],
-        platform_rotation: &[[f64; 3]; 3],
-        rod_alignment: &mut [f64; 6],
+        base_position: &[T; 3],
+        base_rotation: &[[T; 3]; 3],
+        platform_position: &[T; 3],
+        platform_rotation: &[[T; 3]; 3],
+        rod_alignment: &mut [T; 6],
     );
 }
 
 /// A model that has `leg_kinematics`.
 #[allow(clippy::all, clippy::pedantic)]
-pub trait LegKinematics {
+pub trait LegKinematics<T = f64> {
     /// Actuator lengths, rates and accelerations, rods and joints, equation (14)-(18), (22), (23), (30).
     ///
     /// Inputs:
@@ -58,27 +58,27 @@ pub trait LegKinematics {
     /// - `universal_joint_rate`: 6x3, rad/s, frame O: platform's angular velocity relative to the rod, w_p - w_s, equation (23).
     fn leg_kinematics(
         &self,
-        base_position: &[f64; 3],
-        base_rotation: &[[f64; 3]; 3],
-        base_velocity: &[f64; 6],
-        base_acceleration: &[f64; 6],
-        platform_position: &[f64; 3],
-        platform_rotation: &[[f64; 3]; 3],
-        platform_velocity: &[f64; 6],
-        platform_acceleration: &[f64; 6],
-        actuator_length: &mut [f64; 6],
-        actuator_velocity: &mut [f64; 6],
-        actuator_acceleration: &mut [f64; 6],
-        rod_direction: &mut [[f64; 3]; 6],
-        hooke_joint_position: &mut [[f64; 3]; 6],
-        platform_joint_position: &mut [[f64; 3]; 6],
-        universal_joint_rate: &mut [[f64; 3]; 6],
+        base_position: &[T; 3],
+        base_rotation: &[[T; 3]; 3],
+        base_velocity: &[T; 6],
+        base_acceleration: &[T; 6],
+        platform_position: &[T; 3],
+        platform_rotation: &[[T; 3]; 3],
+        platform_velocity: &[T; 6],
+        platform_acceleration: &[T; 6],
+        actuator_length: &mut [T; 6],
+        actuator_velocity: &mut [T; 6],
+        actuator_acceleration: &mut [T; 6],
+        rod_direction: &mut [[T; 3]; 6],
+        hooke_joint_position: &mut [[T; 3]; 6],
+        platform_joint_position: &mut [[T; 3]; 6],
+        universal_joint_rate: &mut [[T; 3]; 6],
     );
 }
 
 /// A model that has `body_kinematics`.
 #[allow(clippy::all, clippy::pedantic)]
-pub trait BodyKinematics {
+pub trait BodyKinematics<T = f64> {
     /// Position, velocity and acceleration of every body, equation (11)-(13), (22), (24)-(29).
     ///
     /// Inputs:
@@ -107,31 +107,31 @@ pub trait BodyKinematics {
     /// - `mover_acceleration`: 6x3, m/s^2, frame O: acceleration of the mover, equation (24)-(26).
     fn body_kinematics(
         &self,
-        base_position: &[f64; 3],
-        base_rotation: &[[f64; 3]; 3],
-        base_velocity: &[f64; 6],
-        base_acceleration: &[f64; 6],
-        platform_position: &[f64; 3],
-        platform_rotation: &[[f64; 3]; 3],
-        platform_velocity: &[f64; 6],
-        platform_acceleration: &[f64; 6],
-        payload_com_position: &mut [f64; 3],
-        payload_com_velocity: &mut [f64; 3],
-        payload_com_acceleration: &mut [f64; 3],
-        rod_angular_velocity: &mut [[f64; 3]; 6],
-        rod_angular_acceleration: &mut [[f64; 3]; 6],
-        rod_com_position: &mut [[f64; 3]; 6],
-        rod_com_velocity: &mut [[f64; 3]; 6],
-        rod_com_acceleration: &mut [[f64; 3]; 6],
-        mover_position: &mut [[f64; 3]; 6],
-        mover_velocity: &mut [[f64; 3]; 6],
-        mover_acceleration: &mut [[f64; 3]; 6],
+        base_position: &[T; 3],
+        base_rotation: &[[T; 3]; 3],
+        base_velocity: &[T; 6],
+        base_acceleration: &[T; 6],
+        platform_position: &[T; 3],
+        platform_rotation: &[[T; 3]; 3],
+        platform_velocity: &[T; 6],
+        platform_acceleration: &[T; 6],
+        payload_com_position: &mut [T; 3],
+        payload_com_velocity: &mut [T; 3],
+        payload_com_acceleration: &mut [T; 3],
+        rod_angular_velocity: &mut [[T; 3]; 6],
+        rod_angular_acceleration: &mut [[T; 3]; 6],
+        rod_com_position: &mut [[T; 3]; 6],
+        rod_com_velocity: &mut [[T; 3]; 6],
+        rod_com_acceleration: &mut [[T; 3]; 6],
+        mover_position: &mut [[T; 3]; 6],
+        mover_velocity: &mut [[T; 3]; 6],
+        mover_acceleration: &mut [[T; 3]; 6],
     );
 }
 
 /// A model that has `partial_velocities`.
 #[allow(clippy::all, clippy::pedantic)]
-pub trait PartialVelocities {
+pub trait PartialVelocities<T = f64> {
     /// Partial velocities and partial angular velocities of every body, equation (33)-(38).
     ///
     /// Inputs:
@@ -150,21 +150,21 @@ pub trait PartialVelocities {
     /// - `mover_partial_velocity`: 6x3x6, 1, m, frame O: partial velocities of the mover, equation (33)-(38).
     fn partial_velocities(
         &self,
-        base_position: &[f64; 3],
-        base_rotation: &[[f64; 3]; 3],
-        platform_position: &[f64; 3],
-        platform_rotation: &[[f64; 3]; 3],
-        payload_partial_velocity: &mut [[f64; 6]; 3],
-        payload_partial_angular_velocity: &mut [[f64; 6]; 3],
-        rod_partial_velocity: &mut [[[f64; 6]; 3]; 6],
-        rod_partial_angular_velocity: &mut [[[f64; 6]; 3]; 6],
-        mover_partial_velocity: &mut [[[f64; 6]; 3]; 6],
+        base_position: &[T; 3],
+        base_rotation: &[[T; 3]; 3],
+        platform_position: &[T; 3],
+        platform_rotation: &[[T; 3]; 3],
+        payload_partial_velocity: &mut [[T; 6]; 3],
+        payload_partial_angular_velocity: &mut [[T; 6]; 3],
+        rod_partial_velocity: &mut [[[T; 6]; 3]; 6],
+        rod_partial_angular_velocity: &mut [[[T; 6]; 3]; 6],
+        mover_partial_velocity: &mut [[[T; 6]; 3]; 6],
     );
 }
 
 /// A model that has `generalised_forces`.
 #[allow(clippy::all, clippy::pedantic)]
-pub trait GeneralisedForces {
+pub trait GeneralisedForces<T = f64> {
     /// Generalised active and inertia force of every body, equation (39)-(46).
     ///
     /// Inputs:
@@ -190,28 +190,28 @@ pub trait GeneralisedForces {
     /// - `mover_inertia_force`: 6x6, N, N m, frame O: generalised inertia force of the mover, equation (39)-(46).
     fn generalised_forces(
         &self,
-        base_position: &[f64; 3],
-        base_rotation: &[[f64; 3]; 3],
-        base_velocity: &[f64; 6],
-        base_acceleration: &[f64; 6],
-        platform_position: &[f64; 3],
-        platform_rotation: &[[f64; 3]; 3],
-        platform_velocity: &[f64; 6],
-        platform_acceleration: &[f64; 6],
-        actuator_force: &[f64; 6],
-        external_wrench: &[f64; 6],
-        payload_active_force: &mut [f64; 6],
-        payload_inertia_force: &mut [f64; 6],
-        rod_active_force: &mut [[f64; 6]; 6],
-        rod_inertia_force: &mut [[f64; 6]; 6],
-        mover_active_force: &mut [[f64; 6]; 6],
-        mover_inertia_force: &mut [[f64; 6]; 6],
+        base_position: &[T; 3],
+        base_rotation: &[[T; 3]; 3],
+        base_velocity: &[T; 6],
+        base_acceleration: &[T; 6],
+        platform_position: &[T; 3],
+        platform_rotation: &[[T; 3]; 3],
+        platform_velocity: &[T; 6],
+        platform_acceleration: &[T; 6],
+        actuator_force: &[T; 6],
+        external_wrench: &[T; 6],
+        payload_active_force: &mut [T; 6],
+        payload_inertia_force: &mut [T; 6],
+        rod_active_force: &mut [[T; 6]; 6],
+        rod_inertia_force: &mut [[T; 6]; 6],
+        mover_active_force: &mut [[T; 6]; 6],
+        mover_inertia_force: &mut [[T; 6]; 6],
     );
 }
 
 /// A model that has `jacobian_dp`.
 #[allow(clippy::all, clippy::pedantic)]
-pub trait JacobianDp {
+pub trait JacobianDp<T = f64> {
     /// Actuator Jacobian of the platform, equation (32).
     ///
     /// Inputs:
@@ -226,17 +226,17 @@ pub trait JacobianDp {
     /// - `jacobian_dp`: 6x6, 1, m, frame O: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b, equation (32).
     fn jacobian_dp(
         &self,
-        base_position: &[f64; 3],
-        base_rotation: &[[f64; 3]; 3],
-        platform_position: &[f64; 3],
-        platform_rotation: &[[f64; 3]; 3],
-        jacobian_dp: &mut [[f64; 6]; 6],
+        base_position: &[T; 3],
+        base_rotation: &[[T; 3]; 3],
+        platform_position: &[T; 3],
+        platform_rotation: &[[T; 3]; 3],
+        jacobian_dp: &mut [[T; 6]; 6],
     );
 }
 
 /// A model that has `jacobian_db`.
 #[allow(clippy::all, clippy::pedantic)]
-pub trait JacobianDb {
+pub trait JacobianDb<T = f64> {
     /// Actuator Jacobian of the base, equation (31).
     ///
     /// Inputs:
@@ -251,17 +251,17 @@ pub trait JacobianDb {
     /// - `jacobian_db`: 6x6, 1, m, frame O: actuator Jacobian of the base, equation (31).
     fn jacobian_db(
         &self,
-        base_position: &[f64; 3],
-        base_rotation: &[[f64; 3]; 3],
-        platform_position: &[f64; 3],
-        platform_rotation: &[[f64; 3]; 3],
-        jacobian_db: &mut [[f64; 6]; 6],
+        base_position: &[T; 3],
+        base_rotation: &[[T; 3]; 3],
+        platform_position: &[T; 3],
+        platform_rotation: &[[T; 3]; 3],
+        jacobian_db: &mut [[T; 6]; 6],
     );
 }
 
 /// A model that has `mass_matrix_p`.
 #[allow(clippy::all, clippy::pedantic)]
-pub trait MassMatrixP {
+pub trait MassMatrixP<T = f64> {
     /// Mass matrix of the platform, equation (49).
     ///
     /// Inputs:
@@ -276,17 +276,17 @@ pub trait MassMatrixP {
     /// - `mass_matrix_p`: 6x6, kg, kg m, kg m^2, frame O: mass matrix M_p of the platform, equation (49).
     fn mass_matrix_p(
         &self,
-        base_position: &[f64; 3],
-        base_rotation: &[[f64; 3]; 3],
-        platform_position: &[f64; 3],
-        platform_rotation: &[[f64; 3]; 3],
-        mass_matrix_p: &mut [[f64; 6]; 6],
+        base_position: &[T; 3],
+        base_rotation: &[[T; 3]; 3],
+        platform_position: &[T; 3],
+        platform_rotation: &[[T; 3]; 3],
+        mass_matrix_p: &mut [[T; 6]; 6],
     );
 }
 
 /// A model that has `mass_matrix_b`.
 #[allow(clippy::all, clippy::pedantic)]
-pub trait MassMatrixB {
+pub trait MassMatrixB<T = f64> {
     /// Mass matrix that couples the base acceleration, equation (49).
     ///
     /// Inputs:
@@ -301,17 +301,17 @@ pub trait MassMatrixB {
     /// - `mass_matrix_b`: 6x6, kg, kg m, kg m^2, frame O: mass matrix M_b that couples the base acceleration, equation (49).
     fn mass_matrix_b(
         &self,
-        base_position: &[f64; 3],
-        base_rotation: &[[f64; 3]; 3],
-        platform_position: &[f64; 3],
-        platform_rotation: &[[f64; 3]; 3],
-        mass_matrix_b: &mut [[f64; 6]; 6],
+        base_position: &[T; 3],
+        base_rotation: &[[T; 3]; 3],
+        platform_position: &[T; 3],
+        platform_rotation: &[[T; 3]; 3],
+        mass_matrix_b: &mut [[T; 6]; 6],
     );
 }
 
 /// A model that has `coriolis_matrices`.
 #[allow(clippy::all, clippy::pedantic)]
-pub trait CoriolisMatrices {
+pub trait CoriolisMatrices<T = f64> {
     /// Coriolis matrices C_p and C_b, equation (49).
     ///
     /// Inputs:
@@ -329,20 +329,20 @@ pub trait CoriolisMatrices {
     /// - `coriolis_matrix_b`: 6x6, kg/s, kg m/s, kg m^2/s, frame O: Coriolis matrix C_b, natural factorisation, equation (49).
     fn coriolis_matrices(
         &self,
-        base_position: &[f64; 3],
-        base_rotation: &[[f64; 3]; 3],
-        base_velocity: &[f64; 6],
-        platform_position: &[f64; 3],
-        platform_rotation: &[[f64; 3]; 3],
-        platform_velocity: &[f64; 6],
-        coriolis_matrix_p: &mut [[f64; 6]; 6],
-        coriolis_matrix_b: &mut [[f64; 6]; 6],
+        base_position: &[T; 3],
+        base_rotation: &[[T; 3]; 3],
+        base_velocity: &[T; 6],
+        platform_position: &[T; 3],
+        platform_rotation: &[[T; 3]; 3],
+        platform_velocity: &[T; 6],
+        coriolis_matrix_p: &mut [[T; 6]; 6],
+        coriolis_matrix_b: &mut [[T; 6]; 6],
     );
 }
 
 /// A model that has `stiffness_matrices`.
 #[allow(clippy::all, clippy::pedantic)]
-pub trait StiffnessMatrices {
+pub trait StiffnessMatrices<T = f64> {
     /// Linearised stiffness matrices K_p and K_b, equation (49).
     ///
     /// Inputs:
@@ -358,18 +358,18 @@ pub trait StiffnessMatrices {
     /// - `stiffness_matrix_b`: 6x6, N/m, N, N m, frame O: linearised stiffness K_b = J_dp^T k_e J_db, equation (49).
     fn stiffness_matrices(
         &self,
-        base_position: &[f64; 3],
-        base_rotation: &[[f64; 3]; 3],
-        platform_position: &[f64; 3],
-        platform_rotation: &[[f64; 3]; 3],
-        stiffness_matrix_p: &mut [[f64; 6]; 6],
-        stiffness_matrix_b: &mut [[f64; 6]; 6],
+        base_position: &[T; 3],
+        base_rotation: &[[T; 3]; 3],
+        platform_position: &[T; 3],
+        platform_rotation: &[[T; 3]; 3],
+        stiffness_matrix_p: &mut [[T; 6]; 6],
+        stiffness_matrix_b: &mut [[T; 6]; 6],
     );
 }
 
 /// A model that has `matrices`.
 #[allow(clippy::all, clippy::pedantic)]
-pub trait Matrices {
+pub trait Matrices<T = f64> {
     /// Mass matrices, Coriolis matrices and actuator Jacobians in one call, equation (31), (32), (49).
     ///
     /// Inputs:
@@ -391,24 +391,24 @@ pub trait Matrices {
     /// - `jacobian_db`: 6x6, 1, m, frame O: actuator Jacobian of the base, equation (31).
     fn matrices(
         &self,
-        base_position: &[f64; 3],
-        base_rotation: &[[f64; 3]; 3],
-        base_velocity: &[f64; 6],
-        platform_position: &[f64; 3],
-        platform_rotation: &[[f64; 3]; 3],
-        platform_velocity: &[f64; 6],
-        mass_matrix_p: &mut [[f64; 6]; 6],
-        coriolis_matrix_p: &mut [[f64; 6]; 6],
-        jacobian_dp: &mut [[f64; 6]; 6],
-        mass_matrix_b: &mut [[f64; 6]; 6],
-        coriolis_matrix_b: &mut [[f64; 6]; 6],
-        jacobian_db: &mut [[f64; 6]; 6],
+        base_position: &[T; 3],
+        base_rotation: &[[T; 3]; 3],
+        base_velocity: &[T; 6],
+        platform_position: &[T; 3],
+        platform_rotation: &[[T; 3]; 3],
+        platform_velocity: &[T; 6],
+        mass_matrix_p: &mut [[T; 6]; 6],
+        coriolis_matrix_p: &mut [[T; 6]; 6],
+        jacobian_dp: &mut [[T; 6]; 6],
+        mass_matrix_b: &mut [[T; 6]; 6],
+        coriolis_matrix_b: &mut [[T; 6]; 6],
+        jacobian_db: &mut [[T; 6]; 6],
     );
 }
 
 /// A model that has `passive_forces`.
 #[allow(clippy::all, clippy::pedantic)]
-pub trait PassiveForces {
+pub trait PassiveForces<T = f64> {
     /// Generalised gravity, spring and damping forces, equation (40), (41).
     ///
     /// Inputs:
@@ -427,21 +427,21 @@ pub trait PassiveForces {
     /// - `damping_force`: 6, N, N m, frame O: generalised damping force J_dp^T c_e d', left side, equation (39)-(46).
     fn passive_forces(
         &self,
-        base_position: &[f64; 3],
-        base_rotation: &[[f64; 3]; 3],
-        base_velocity: &[f64; 6],
-        platform_position: &[f64; 3],
-        platform_rotation: &[[f64; 3]; 3],
-        platform_velocity: &[f64; 6],
-        gravity_force: &mut [f64; 6],
-        spring_force: &mut [f64; 6],
-        damping_force: &mut [f64; 6],
+        base_position: &[T; 3],
+        base_rotation: &[[T; 3]; 3],
+        base_velocity: &[T; 6],
+        platform_position: &[T; 3],
+        platform_rotation: &[[T; 3]; 3],
+        platform_velocity: &[T; 6],
+        gravity_force: &mut [T; 6],
+        spring_force: &mut [T; 6],
+        damping_force: &mut [T; 6],
     );
 }
 
 /// A model that has `bias`.
 #[allow(clippy::all, clippy::pedantic)]
-pub trait Bias {
+pub trait Bias<T = f64> {
     /// Velocity terms, gravity, springs and dampers without forming matrices, equation (49).
     ///
     /// Inputs:
@@ -458,19 +458,19 @@ pub trait Bias {
     /// - `bias`: 6, N, N m, frame O: C_p v_p - C_b v_b + gravity, spring and damping force, equation (49).
     fn bias(
         &self,
-        base_position: &[f64; 3],
-        base_rotation: &[[f64; 3]; 3],
-        base_velocity: &[f64; 6],
-        platform_position: &[f64; 3],
-        platform_rotation: &[[f64; 3]; 3],
-        platform_velocity: &[f64; 6],
-        bias: &mut [f64; 6],
+        base_position: &[T; 3],
+        base_rotation: &[[T; 3]; 3],
+        base_velocity: &[T; 6],
+        platform_position: &[T; 3],
+        platform_rotation: &[[T; 3]; 3],
+        platform_velocity: &[T; 6],
+        bias: &mut [T; 6],
     );
 }
 
 /// A model that has `equation_of_motion`.
 #[allow(clippy::all, clippy::pedantic)]
-pub trait EquationOfMotion {
+pub trait EquationOfMotion<T = f64> {
     /// The whole of (49) in one call, equation (49).
     ///
     /// Inputs:
@@ -498,30 +498,30 @@ pub trait EquationOfMotion {
     /// - `bias`: 6, N, N m, frame O: C_p v_p - C_b v_b + gravity, spring and damping force, equation (49).
     fn equation_of_motion(
         &self,
-        base_position: &[f64; 3],
-        base_rotation: &[[f64; 3]; 3],
-        base_velocity: &[f64; 6],
-        platform_position: &[f64; 3],
-        platform_rotation: &[[f64; 3]; 3],
-        platform_velocity: &[f64; 6],
-        mass_matrix_p: &mut [[f64; 6]; 6],
-        coriolis_matrix_p: &mut [[f64; 6]; 6],
-        stiffness_matrix_p: &mut [[f64; 6]; 6],
-        jacobian_dp: &mut [[f64; 6]; 6],
-        mass_matrix_b: &mut [[f64; 6]; 6],
-        coriolis_matrix_b: &mut [[f64; 6]; 6],
-        stiffness_matrix_b: &mut [[f64; 6]; 6],
-        jacobian_db: &mut [[f64; 6]; 6],
-        gravity_force: &mut [f64; 6],
-        spring_force: &mut [f64; 6],
-        damping_force: &mut [f64; 6],
-        bias: &mut [f64; 6],
+        base_position: &[T; 3],
+        base_rotation: &[[T; 3]; 3],
+        base_velocity: &[T; 6],
+        platform_position: &[T; 3],
+        platform_rotation: &[[T; 3]; 3],
+        platform_velocity: &[T; 6],
+        mass_matrix_p: &mut [[T; 6]; 6],
+        coriolis_matrix_p: &mut [[T; 6]; 6],
+        stiffness_matrix_p: &mut [[T; 6]; 6],
+        jacobian_dp: &mut [[T; 6]; 6],
+        mass_matrix_b: &mut [[T; 6]; 6],
+        coriolis_matrix_b: &mut [[T; 6]; 6],
+        stiffness_matrix_b: &mut [[T; 6]; 6],
+        jacobian_db: &mut [[T; 6]; 6],
+        gravity_force: &mut [T; 6],
+        spring_force: &mut [T; 6],
+        damping_force: &mut [T; 6],
+        bias: &mut [T; 6],
     );
 }
 
 /// A model that has `inverse_dynamics`.
 #[allow(clippy::all, clippy::pedantic)]
-pub trait InverseDynamics {
+pub trait InverseDynamics<T = f64> {
     /// Actuator forces for a given platform acceleration, equation (49).
     ///
     /// Inputs:
@@ -541,22 +541,22 @@ pub trait InverseDynamics {
     /// - `inverse_dynamics`: 6, N: actuator forces F, equation (49).
     fn inverse_dynamics(
         &self,
-        base_position: &[f64; 3],
-        base_rotation: &[[f64; 3]; 3],
-        base_velocity: &[f64; 6],
-        base_acceleration: &[f64; 6],
-        platform_position: &[f64; 3],
-        platform_rotation: &[[f64; 3]; 3],
-        platform_velocity: &[f64; 6],
-        platform_acceleration: &[f64; 6],
-        external_wrench: &[f64; 6],
-        inverse_dynamics: &mut [f64; 6],
+        base_position: &[T; 3],
+        base_rotation: &[[T; 3]; 3],
+        base_velocity: &[T; 6],
+        base_acceleration: &[T; 6],
+        platform_position: &[T; 3],
+        platform_rotation: &[[T; 3]; 3],
+        platform_velocity: &[T; 6],
+        platform_acceleration: &[T; 6],
+        external_wrench: &[T; 6],
+        inverse_dynamics: &mut [T; 6],
     );
 }
 
 /// A model that has `forward_dynamics`.
 #[allow(clippy::all, clippy::pedantic)]
-pub trait ForwardDynamics {
+pub trait ForwardDynamics<T = f64> {
     /// Platform acceleration for given actuator forces, equation (49).
     ///
     /// Inputs:
@@ -576,22 +576,22 @@ pub trait ForwardDynamics {
     /// - `forward_dynamics`: 6, m/s^2, rad/s^2, frame O: platform acceleration v_p', equation (49).
     fn forward_dynamics(
         &self,
-        base_position: &[f64; 3],
-        base_rotation: &[[f64; 3]; 3],
-        base_velocity: &[f64; 6],
-        base_acceleration: &[f64; 6],
-        platform_position: &[f64; 3],
-        platform_rotation: &[[f64; 3]; 3],
-        platform_velocity: &[f64; 6],
-        actuator_force: &[f64; 6],
-        external_wrench: &[f64; 6],
-        forward_dynamics: &mut [f64; 6],
+        base_position: &[T; 3],
+        base_rotation: &[[T; 3]; 3],
+        base_velocity: &[T; 6],
+        base_acceleration: &[T; 6],
+        platform_position: &[T; 3],
+        platform_rotation: &[[T; 3]; 3],
+        platform_velocity: &[T; 6],
+        actuator_force: &[T; 6],
+        external_wrench: &[T; 6],
+        forward_dynamics: &mut [T; 6],
     );
 }
 
 /// A model that has `energy`.
 #[allow(clippy::all, clippy::pedantic)]
-pub trait Energy {
+pub trait Energy<T = f64> {
     /// Kinetic and potential energy.
     ///
     /// Inputs:
@@ -609,13 +609,13 @@ pub trait Energy {
     /// - `potential_energy`: scalar, J: potential energy of gravity and springs.
     fn energy(
         &self,
-        base_position: &[f64; 3],
-        base_rotation: &[[f64; 3]; 3],
-        base_velocity: &[f64; 6],
-        platform_position: &[f64; 3],
-        platform_rotation: &[[f64; 3]; 3],
-        platform_velocity: &[f64; 6],
-        kinetic_energy: &mut f64,
-        potential_energy: &mut f64,
+        base_position: &[T; 3],
+        base_rotation: &[[T; 3]; 3],
+        base_velocity: &[T; 6],
+        platform_position: &[T; 3],
+        platform_rotation: &[[T; 3]; 3],
+        platform_velocity: &[T; 6],
+        kinetic_energy: &mut T,
+        potential_energy: &mut T,
     );
 }

@@ -28,68 +28,68 @@
 // energy                    1769        1745
 
 #[allow(unused_imports)]
-use crate::float::sqrt;
+use crate::float::{Scalar, sqrt};
 #[allow(unused_imports)]
 use crate::solve::solve_general;
 
 /// Physical numbers of a platform; of a quantity that legs have, the leg is the first dimension.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Parameters {
+pub struct Parameters<T = f64> {
     /// 6x3, m, frame B: point b of the actuator axis, equation (14).
-    pub base_point: [[f64; 3]; 6],
+    pub base_point: [[T; 3]; 6],
     /// 6x3, dimensionless, frame B: unit vector a of the actuator, towards the platform, equation (14).
-    pub actuator_axis: [[f64; 3]; 6],
+    pub actuator_axis: [[T; 3]; 6],
     /// 6x3, m, frame P: platform joint p, equation (14).
-    pub platform_point: [[f64; 3]; 6],
+    pub platform_point: [[T; 3]; 6],
     /// 6, m: rod length s, equation (17).
-    pub rod_length: [f64; 6],
+    pub rod_length: [T; 6],
     /// 6, kg: rod mass m_s, equation (27)-(29).
-    pub rod_mass: [f64; 6],
+    pub rod_mass: [T; 6],
     /// 6, kg m^2: transverse inertia J_s of the rod about its centre of mass, equation (27)-(29).
-    pub rod_inertia: [f64; 6],
+    pub rod_inertia: [T; 6],
     /// 6, dimensionless: rod's centre of mass, from Hooke joint (0) to platform joint (1).
-    pub rod_com_fraction: [f64; 6],
+    pub rod_com_fraction: [T; 6],
     /// 6, kg: mover mass m_d, equation (24)-(26).
-    pub mover_mass: [f64; 6],
+    pub mover_mass: [T; 6],
     /// 6, m: distance d\* of the mover's centre of mass below the Hooke joint, equation (24)-(26).
-    pub mover_offset: [f64; 6],
+    pub mover_offset: [T; 6],
     /// 6, m: actuator length d0 at which the leaf springs are relaxed, equation (39)-(46).
-    pub rest_length: [f64; 6],
+    pub rest_length: [T; 6],
     /// 6, N/m: axial stiffness k_e of the leaf springs, equation (39)-(46).
-    pub axial_stiffness: [f64; 6],
+    pub axial_stiffness: [T; 6],
     /// 6, N s/m: axial viscous damping c_e.
-    pub axial_damping: [f64; 6],
+    pub axial_damping: [T; 6],
     /// scalar, kg: mass of platform and payload.
-    pub payload_mass: f64,
+    pub payload_mass: T,
     /// 3, m, frame P: centre of mass of platform and payload.
-    pub payload_com: [f64; 3],
+    pub payload_com: [T; 3],
     /// 3x3, kg m^2, frame P: inertia about the payload's centre of mass (upper triangle is read).
-    pub payload_inertia: [[f64; 3]; 3],
+    pub payload_inertia: [[T; 3]; 3],
     /// 3, m/s^2, frame O: acceleration of gravity.
-    pub gravity: [f64; 3],
+    pub gravity: [T; 3],
 }
 
-impl Parameters {
+impl<T: Scalar> Parameters<T> {
     /// Parameters filled field by field: `fill(name, values)` gets the name of each field and its elements,
     /// row-major, to be written. What it leaves alone stays NaN, so that no result can come from it.
-    pub fn from_fn(mut fill: impl FnMut(&str, &mut [f64])) -> Self {
+    pub fn from_fn(mut fill: impl FnMut(&str, &mut [T])) -> Self {
         let mut parameters = Parameters {
-            base_point: [[f64::NAN; 3]; 6],
-            actuator_axis: [[f64::NAN; 3]; 6],
-            platform_point: [[f64::NAN; 3]; 6],
-            rod_length: [f64::NAN; 6],
-            rod_mass: [f64::NAN; 6],
-            rod_inertia: [f64::NAN; 6],
-            rod_com_fraction: [f64::NAN; 6],
-            mover_mass: [f64::NAN; 6],
-            mover_offset: [f64::NAN; 6],
-            rest_length: [f64::NAN; 6],
-            axial_stiffness: [f64::NAN; 6],
-            axial_damping: [f64::NAN; 6],
-            payload_mass: f64::NAN,
-            payload_com: [f64::NAN; 3],
-            payload_inertia: [[f64::NAN; 3]; 3],
-            gravity: [f64::NAN; 3],
+            base_point: [[T::constant(f64::NAN); 3]; 6],
+            actuator_axis: [[T::constant(f64::NAN); 3]; 6],
+            platform_point: [[T::constant(f64::NAN); 3]; 6],
+            rod_length: [T::constant(f64::NAN); 6],
+            rod_mass: [T::constant(f64::NAN); 6],
+            rod_inertia: [T::constant(f64::NAN); 6],
+            rod_com_fraction: [T::constant(f64::NAN); 6],
+            mover_mass: [T::constant(f64::NAN); 6],
+            mover_offset: [T::constant(f64::NAN); 6],
+            rest_length: [T::constant(f64::NAN); 6],
+            axial_stiffness: [T::constant(f64::NAN); 6],
+            axial_damping: [T::constant(f64::NAN); 6],
+            payload_mass: T::constant(f64::NAN),
+            payload_com: [T::constant(f64::NAN); 3],
+            payload_inertia: [[T::constant(f64::NAN); 3]; 3],
+            gravity: [T::constant(f64::NAN); 3],
         };
         fill("base_point", parameters.base_point.as_flattened_mut());
         fill("actuator_axis", parameters.actuator_axis.as_flattened_mut());
@@ -113,13 +113,13 @@ impl Parameters {
 
 /// The model `uhp`, physical numbers given at run time.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Uhp {
+pub struct Uhp<T = f64> {
     /// The physical numbers.
-    pub parameters: Parameters,
+    pub parameters: Parameters<T>,
 }
 
 #[allow(clippy::all, clippy::pedantic, unused_qualifications)]
-impl Parameters {
+impl<T: Scalar + Into<f64>> Parameters<T> {
     /// Sets `base_point`: 6x3, m, frame B: point b of the actuator axis, equation (14).
     ///
     /// # Errors
@@ -127,7 +127,7 @@ impl Parameters {
     /// If it is not finite; then it keeps its value.
     pub fn set_base_point(
         &mut self,
-        base_point: [[f64; 3]; 6],
+        base_point: [[T; 3]; 6],
     ) -> Result<&mut Self, crate::parameter::ParameterError> {
         crate::parameter::check(
             "base_point",
@@ -144,7 +144,7 @@ impl Parameters {
     /// If it is not finite or a vector is not of length 1; then it keeps its value.
     pub fn set_actuator_axis(
         &mut self,
-        actuator_axis: [[f64; 3]; 6],
+        actuator_axis: [[T; 3]; 6],
     ) -> Result<&mut Self, crate::parameter::ParameterError> {
         crate::parameter::check(
             "actuator_axis",
@@ -161,7 +161,7 @@ impl Parameters {
     /// If it is not finite; then it keeps its value.
     pub fn set_platform_point(
         &mut self,
-        platform_point: [[f64; 3]; 6],
+        platform_point: [[T; 3]; 6],
     ) -> Result<&mut Self, crate::parameter::ParameterError> {
         crate::parameter::check(
             "platform_point",
@@ -178,7 +178,7 @@ impl Parameters {
     /// If it is not finite or it is not positive; then it keeps its value.
     pub fn set_rod_length(
         &mut self,
-        rod_length: [f64; 6],
+        rod_length: [T; 6],
     ) -> Result<&mut Self, crate::parameter::ParameterError> {
         crate::parameter::check(
             "rod_length",
@@ -195,7 +195,7 @@ impl Parameters {
     /// If it is not finite or it is not positive; then it keeps its value.
     pub fn set_rod_mass(
         &mut self,
-        rod_mass: [f64; 6],
+        rod_mass: [T; 6],
     ) -> Result<&mut Self, crate::parameter::ParameterError> {
         crate::parameter::check(
             "rod_mass",
@@ -212,7 +212,7 @@ impl Parameters {
     /// If it is not finite or it is not positive; then it keeps its value.
     pub fn set_rod_inertia(
         &mut self,
-        rod_inertia: [f64; 6],
+        rod_inertia: [T; 6],
     ) -> Result<&mut Self, crate::parameter::ParameterError> {
         crate::parameter::check(
             "rod_inertia",
@@ -229,7 +229,7 @@ impl Parameters {
     /// If it is not finite or it is not between 0 and 1; then it keeps its value.
     pub fn set_rod_com_fraction(
         &mut self,
-        rod_com_fraction: [f64; 6],
+        rod_com_fraction: [T; 6],
     ) -> Result<&mut Self, crate::parameter::ParameterError> {
         crate::parameter::check(
             "rod_com_fraction",
@@ -246,7 +246,7 @@ impl Parameters {
     /// If it is not finite or it is not positive; then it keeps its value.
     pub fn set_mover_mass(
         &mut self,
-        mover_mass: [f64; 6],
+        mover_mass: [T; 6],
     ) -> Result<&mut Self, crate::parameter::ParameterError> {
         crate::parameter::check(
             "mover_mass",
@@ -263,7 +263,7 @@ impl Parameters {
     /// If it is not finite; then it keeps its value.
     pub fn set_mover_offset(
         &mut self,
-        mover_offset: [f64; 6],
+        mover_offset: [T; 6],
     ) -> Result<&mut Self, crate::parameter::ParameterError> {
         crate::parameter::check(
             "mover_offset",
@@ -280,7 +280,7 @@ impl Parameters {
     /// If it is not finite; then it keeps its value.
     pub fn set_rest_length(
         &mut self,
-        rest_length: [f64; 6],
+        rest_length: [T; 6],
     ) -> Result<&mut Self, crate::parameter::ParameterError> {
         crate::parameter::check(
             "rest_length",
@@ -297,7 +297,7 @@ impl Parameters {
     /// If it is not finite or it is negative; then it keeps its value.
     pub fn set_axial_stiffness(
         &mut self,
-        axial_stiffness: [f64; 6],
+        axial_stiffness: [T; 6],
     ) -> Result<&mut Self, crate::parameter::ParameterError> {
         crate::parameter::check(
             "axial_stiffness",
@@ -314,7 +314,7 @@ impl Parameters {
     /// If it is not finite or it is negative; then it keeps its value.
     pub fn set_axial_damping(
         &mut self,
-        axial_damping: [f64; 6],
+        axial_damping: [T; 6],
     ) -> Result<&mut Self, crate::parameter::ParameterError> {
         crate::parameter::check(
             "axial_damping",
@@ -331,7 +331,7 @@ impl Parameters {
     /// If it is not finite or it is not positive; then it keeps its value.
     pub fn set_payload_mass(
         &mut self,
-        payload_mass: f64,
+        payload_mass: T,
     ) -> Result<&mut Self, crate::parameter::ParameterError> {
         crate::parameter::check(
             "payload_mass",
@@ -348,7 +348,7 @@ impl Parameters {
     /// If it is not finite; then it keeps its value.
     pub fn set_payload_com(
         &mut self,
-        payload_com: [f64; 3],
+        payload_com: [T; 3],
     ) -> Result<&mut Self, crate::parameter::ParameterError> {
         crate::parameter::check(
             "payload_com",
@@ -365,7 +365,7 @@ impl Parameters {
     /// If it is not finite or no body has this tensor; then it keeps its value.
     pub fn set_payload_inertia(
         &mut self,
-        payload_inertia: [[f64; 3]; 3],
+        payload_inertia: [[T; 3]; 3],
     ) -> Result<&mut Self, crate::parameter::ParameterError> {
         crate::parameter::check(
             "payload_inertia",
@@ -382,7 +382,7 @@ impl Parameters {
     /// If it is not finite; then it keeps its value.
     pub fn set_gravity(
         &mut self,
-        gravity: [f64; 3],
+        gravity: [T; 3],
     ) -> Result<&mut Self, crate::parameter::ParameterError> {
         crate::parameter::check("gravity", crate::parameter::Domain::Any, &gravity)?;
         self.gravity = gravity;
@@ -478,9 +478,9 @@ impl Parameters {
     }
 }
 
-impl Uhp {
+impl<T> Uhp<T> {
     /// The model with these parameters.
-    pub fn new(parameters: Parameters) -> Self {
+    pub fn new(parameters: Parameters<T>) -> Self {
         Uhp { parameters }
     }
 }
@@ -1027,6 +1027,566 @@ impl crate::kernels::Energy for Uhp {
     }
 }
 
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::RodAlignment<f32> for Uhp<f32> {
+    #[inline]
+    fn rod_alignment(
+        &self,
+        base_position: &[f32; 3],
+        base_rotation: &[[f32; 3]; 3],
+        platform_position: &[f32; 3],
+        platform_rotation: &[[f32; 3]; 3],
+        rod_alignment: &mut [f32; 6],
+    ) {
+        self::rod_alignment(
+            &self.parameters,
+            base_position,
+            base_rotation,
+            platform_position,
+            platform_rotation,
+            rod_alignment,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::LegKinematics<f32> for Uhp<f32> {
+    #[inline]
+    fn leg_kinematics(
+        &self,
+        base_position: &[f32; 3],
+        base_rotation: &[[f32; 3]; 3],
+        base_velocity: &[f32; 6],
+        base_acceleration: &[f32; 6],
+        platform_position: &[f32; 3],
+        platform_rotation: &[[f32; 3]; 3],
+        platform_velocity: &[f32; 6],
+        platform_acceleration: &[f32; 6],
+        actuator_length: &mut [f32; 6],
+        actuator_velocity: &mut [f32; 6],
+        actuator_acceleration: &mut [f32; 6],
+        rod_direction: &mut [[f32; 3]; 6],
+        hooke_joint_position: &mut [[f32; 3]; 6],
+        platform_joint_position: &mut [[f32; 3]; 6],
+        universal_joint_rate: &mut [[f32; 3]; 6],
+    ) {
+        self::leg_kinematics(
+            &self.parameters,
+            base_position,
+            base_rotation,
+            base_velocity,
+            base_acceleration,
+            platform_position,
+            platform_rotation,
+            platform_velocity,
+            platform_acceleration,
+            actuator_length,
+            actuator_velocity,
+            actuator_acceleration,
+            rod_direction,
+            hooke_joint_position,
+            platform_joint_position,
+            universal_joint_rate,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::BodyKinematics<f32> for Uhp<f32> {
+    #[inline]
+    fn body_kinematics(
+        &self,
+        base_position: &[f32; 3],
+        base_rotation: &[[f32; 3]; 3],
+        base_velocity: &[f32; 6],
+        base_acceleration: &[f32; 6],
+        platform_position: &[f32; 3],
+        platform_rotation: &[[f32; 3]; 3],
+        platform_velocity: &[f32; 6],
+        platform_acceleration: &[f32; 6],
+        payload_com_position: &mut [f32; 3],
+        payload_com_velocity: &mut [f32; 3],
+        payload_com_acceleration: &mut [f32; 3],
+        rod_angular_velocity: &mut [[f32; 3]; 6],
+        rod_angular_acceleration: &mut [[f32; 3]; 6],
+        rod_com_position: &mut [[f32; 3]; 6],
+        rod_com_velocity: &mut [[f32; 3]; 6],
+        rod_com_acceleration: &mut [[f32; 3]; 6],
+        mover_position: &mut [[f32; 3]; 6],
+        mover_velocity: &mut [[f32; 3]; 6],
+        mover_acceleration: &mut [[f32; 3]; 6],
+    ) {
+        self::body_kinematics(
+            &self.parameters,
+            base_position,
+            base_rotation,
+            base_velocity,
+            base_acceleration,
+            platform_position,
+            platform_rotation,
+            platform_velocity,
+            platform_acceleration,
+            payload_com_position,
+            payload_com_velocity,
+            payload_com_acceleration,
+            rod_angular_velocity,
+            rod_angular_acceleration,
+            rod_com_position,
+            rod_com_velocity,
+            rod_com_acceleration,
+            mover_position,
+            mover_velocity,
+            mover_acceleration,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::PartialVelocities<f32> for Uhp<f32> {
+    #[inline]
+    fn partial_velocities(
+        &self,
+        base_position: &[f32; 3],
+        base_rotation: &[[f32; 3]; 3],
+        platform_position: &[f32; 3],
+        platform_rotation: &[[f32; 3]; 3],
+        payload_partial_velocity: &mut [[f32; 6]; 3],
+        payload_partial_angular_velocity: &mut [[f32; 6]; 3],
+        rod_partial_velocity: &mut [[[f32; 6]; 3]; 6],
+        rod_partial_angular_velocity: &mut [[[f32; 6]; 3]; 6],
+        mover_partial_velocity: &mut [[[f32; 6]; 3]; 6],
+    ) {
+        self::partial_velocities(
+            &self.parameters,
+            base_position,
+            base_rotation,
+            platform_position,
+            platform_rotation,
+            payload_partial_velocity,
+            payload_partial_angular_velocity,
+            rod_partial_velocity,
+            rod_partial_angular_velocity,
+            mover_partial_velocity,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::GeneralisedForces<f32> for Uhp<f32> {
+    #[inline]
+    fn generalised_forces(
+        &self,
+        base_position: &[f32; 3],
+        base_rotation: &[[f32; 3]; 3],
+        base_velocity: &[f32; 6],
+        base_acceleration: &[f32; 6],
+        platform_position: &[f32; 3],
+        platform_rotation: &[[f32; 3]; 3],
+        platform_velocity: &[f32; 6],
+        platform_acceleration: &[f32; 6],
+        actuator_force: &[f32; 6],
+        external_wrench: &[f32; 6],
+        payload_active_force: &mut [f32; 6],
+        payload_inertia_force: &mut [f32; 6],
+        rod_active_force: &mut [[f32; 6]; 6],
+        rod_inertia_force: &mut [[f32; 6]; 6],
+        mover_active_force: &mut [[f32; 6]; 6],
+        mover_inertia_force: &mut [[f32; 6]; 6],
+    ) {
+        self::generalised_forces(
+            &self.parameters,
+            base_position,
+            base_rotation,
+            base_velocity,
+            base_acceleration,
+            platform_position,
+            platform_rotation,
+            platform_velocity,
+            platform_acceleration,
+            actuator_force,
+            external_wrench,
+            payload_active_force,
+            payload_inertia_force,
+            rod_active_force,
+            rod_inertia_force,
+            mover_active_force,
+            mover_inertia_force,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::JacobianDp<f32> for Uhp<f32> {
+    #[inline]
+    fn jacobian_dp(
+        &self,
+        base_position: &[f32; 3],
+        base_rotation: &[[f32; 3]; 3],
+        platform_position: &[f32; 3],
+        platform_rotation: &[[f32; 3]; 3],
+        jacobian_dp: &mut [[f32; 6]; 6],
+    ) {
+        self::jacobian_dp(
+            &self.parameters,
+            base_position,
+            base_rotation,
+            platform_position,
+            platform_rotation,
+            jacobian_dp,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::JacobianDb<f32> for Uhp<f32> {
+    #[inline]
+    fn jacobian_db(
+        &self,
+        base_position: &[f32; 3],
+        base_rotation: &[[f32; 3]; 3],
+        platform_position: &[f32; 3],
+        platform_rotation: &[[f32; 3]; 3],
+        jacobian_db: &mut [[f32; 6]; 6],
+    ) {
+        self::jacobian_db(
+            &self.parameters,
+            base_position,
+            base_rotation,
+            platform_position,
+            platform_rotation,
+            jacobian_db,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::MassMatrixP<f32> for Uhp<f32> {
+    #[inline]
+    fn mass_matrix_p(
+        &self,
+        base_position: &[f32; 3],
+        base_rotation: &[[f32; 3]; 3],
+        platform_position: &[f32; 3],
+        platform_rotation: &[[f32; 3]; 3],
+        mass_matrix_p: &mut [[f32; 6]; 6],
+    ) {
+        self::mass_matrix_p(
+            &self.parameters,
+            base_position,
+            base_rotation,
+            platform_position,
+            platform_rotation,
+            mass_matrix_p,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::MassMatrixB<f32> for Uhp<f32> {
+    #[inline]
+    fn mass_matrix_b(
+        &self,
+        base_position: &[f32; 3],
+        base_rotation: &[[f32; 3]; 3],
+        platform_position: &[f32; 3],
+        platform_rotation: &[[f32; 3]; 3],
+        mass_matrix_b: &mut [[f32; 6]; 6],
+    ) {
+        self::mass_matrix_b(
+            &self.parameters,
+            base_position,
+            base_rotation,
+            platform_position,
+            platform_rotation,
+            mass_matrix_b,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::CoriolisMatrices<f32> for Uhp<f32> {
+    #[inline]
+    fn coriolis_matrices(
+        &self,
+        base_position: &[f32; 3],
+        base_rotation: &[[f32; 3]; 3],
+        base_velocity: &[f32; 6],
+        platform_position: &[f32; 3],
+        platform_rotation: &[[f32; 3]; 3],
+        platform_velocity: &[f32; 6],
+        coriolis_matrix_p: &mut [[f32; 6]; 6],
+        coriolis_matrix_b: &mut [[f32; 6]; 6],
+    ) {
+        self::coriolis_matrices(
+            &self.parameters,
+            base_position,
+            base_rotation,
+            base_velocity,
+            platform_position,
+            platform_rotation,
+            platform_velocity,
+            coriolis_matrix_p,
+            coriolis_matrix_b,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::StiffnessMatrices<f32> for Uhp<f32> {
+    #[inline]
+    fn stiffness_matrices(
+        &self,
+        base_position: &[f32; 3],
+        base_rotation: &[[f32; 3]; 3],
+        platform_position: &[f32; 3],
+        platform_rotation: &[[f32; 3]; 3],
+        stiffness_matrix_p: &mut [[f32; 6]; 6],
+        stiffness_matrix_b: &mut [[f32; 6]; 6],
+    ) {
+        self::stiffness_matrices(
+            &self.parameters,
+            base_position,
+            base_rotation,
+            platform_position,
+            platform_rotation,
+            stiffness_matrix_p,
+            stiffness_matrix_b,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::Matrices<f32> for Uhp<f32> {
+    #[inline]
+    fn matrices(
+        &self,
+        base_position: &[f32; 3],
+        base_rotation: &[[f32; 3]; 3],
+        base_velocity: &[f32; 6],
+        platform_position: &[f32; 3],
+        platform_rotation: &[[f32; 3]; 3],
+        platform_velocity: &[f32; 6],
+        mass_matrix_p: &mut [[f32; 6]; 6],
+        coriolis_matrix_p: &mut [[f32; 6]; 6],
+        jacobian_dp: &mut [[f32; 6]; 6],
+        mass_matrix_b: &mut [[f32; 6]; 6],
+        coriolis_matrix_b: &mut [[f32; 6]; 6],
+        jacobian_db: &mut [[f32; 6]; 6],
+    ) {
+        self::matrices(
+            &self.parameters,
+            base_position,
+            base_rotation,
+            base_velocity,
+            platform_position,
+            platform_rotation,
+            platform_velocity,
+            mass_matrix_p,
+            coriolis_matrix_p,
+            jacobian_dp,
+            mass_matrix_b,
+            coriolis_matrix_b,
+            jacobian_db,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::PassiveForces<f32> for Uhp<f32> {
+    #[inline]
+    fn passive_forces(
+        &self,
+        base_position: &[f32; 3],
+        base_rotation: &[[f32; 3]; 3],
+        base_velocity: &[f32; 6],
+        platform_position: &[f32; 3],
+        platform_rotation: &[[f32; 3]; 3],
+        platform_velocity: &[f32; 6],
+        gravity_force: &mut [f32; 6],
+        spring_force: &mut [f32; 6],
+        damping_force: &mut [f32; 6],
+    ) {
+        self::passive_forces(
+            &self.parameters,
+            base_position,
+            base_rotation,
+            base_velocity,
+            platform_position,
+            platform_rotation,
+            platform_velocity,
+            gravity_force,
+            spring_force,
+            damping_force,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::Bias<f32> for Uhp<f32> {
+    #[inline]
+    fn bias(
+        &self,
+        base_position: &[f32; 3],
+        base_rotation: &[[f32; 3]; 3],
+        base_velocity: &[f32; 6],
+        platform_position: &[f32; 3],
+        platform_rotation: &[[f32; 3]; 3],
+        platform_velocity: &[f32; 6],
+        bias: &mut [f32; 6],
+    ) {
+        self::bias(
+            &self.parameters,
+            base_position,
+            base_rotation,
+            base_velocity,
+            platform_position,
+            platform_rotation,
+            platform_velocity,
+            bias,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::EquationOfMotion<f32> for Uhp<f32> {
+    #[inline]
+    fn equation_of_motion(
+        &self,
+        base_position: &[f32; 3],
+        base_rotation: &[[f32; 3]; 3],
+        base_velocity: &[f32; 6],
+        platform_position: &[f32; 3],
+        platform_rotation: &[[f32; 3]; 3],
+        platform_velocity: &[f32; 6],
+        mass_matrix_p: &mut [[f32; 6]; 6],
+        coriolis_matrix_p: &mut [[f32; 6]; 6],
+        stiffness_matrix_p: &mut [[f32; 6]; 6],
+        jacobian_dp: &mut [[f32; 6]; 6],
+        mass_matrix_b: &mut [[f32; 6]; 6],
+        coriolis_matrix_b: &mut [[f32; 6]; 6],
+        stiffness_matrix_b: &mut [[f32; 6]; 6],
+        jacobian_db: &mut [[f32; 6]; 6],
+        gravity_force: &mut [f32; 6],
+        spring_force: &mut [f32; 6],
+        damping_force: &mut [f32; 6],
+        bias: &mut [f32; 6],
+    ) {
+        self::equation_of_motion(
+            &self.parameters,
+            base_position,
+            base_rotation,
+            base_velocity,
+            platform_position,
+            platform_rotation,
+            platform_velocity,
+            mass_matrix_p,
+            coriolis_matrix_p,
+            stiffness_matrix_p,
+            jacobian_dp,
+            mass_matrix_b,
+            coriolis_matrix_b,
+            stiffness_matrix_b,
+            jacobian_db,
+            gravity_force,
+            spring_force,
+            damping_force,
+            bias,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::InverseDynamics<f32> for Uhp<f32> {
+    #[inline]
+    fn inverse_dynamics(
+        &self,
+        base_position: &[f32; 3],
+        base_rotation: &[[f32; 3]; 3],
+        base_velocity: &[f32; 6],
+        base_acceleration: &[f32; 6],
+        platform_position: &[f32; 3],
+        platform_rotation: &[[f32; 3]; 3],
+        platform_velocity: &[f32; 6],
+        platform_acceleration: &[f32; 6],
+        external_wrench: &[f32; 6],
+        inverse_dynamics: &mut [f32; 6],
+    ) {
+        self::inverse_dynamics(
+            &self.parameters,
+            base_position,
+            base_rotation,
+            base_velocity,
+            base_acceleration,
+            platform_position,
+            platform_rotation,
+            platform_velocity,
+            platform_acceleration,
+            external_wrench,
+            inverse_dynamics,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::ForwardDynamics<f32> for Uhp<f32> {
+    #[inline]
+    fn forward_dynamics(
+        &self,
+        base_position: &[f32; 3],
+        base_rotation: &[[f32; 3]; 3],
+        base_velocity: &[f32; 6],
+        base_acceleration: &[f32; 6],
+        platform_position: &[f32; 3],
+        platform_rotation: &[[f32; 3]; 3],
+        platform_velocity: &[f32; 6],
+        actuator_force: &[f32; 6],
+        external_wrench: &[f32; 6],
+        forward_dynamics: &mut [f32; 6],
+    ) {
+        self::forward_dynamics(
+            &self.parameters,
+            base_position,
+            base_rotation,
+            base_velocity,
+            base_acceleration,
+            platform_position,
+            platform_rotation,
+            platform_velocity,
+            actuator_force,
+            external_wrench,
+            forward_dynamics,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::Energy<f32> for Uhp<f32> {
+    #[inline]
+    fn energy(
+        &self,
+        base_position: &[f32; 3],
+        base_rotation: &[[f32; 3]; 3],
+        base_velocity: &[f32; 6],
+        platform_position: &[f32; 3],
+        platform_rotation: &[[f32; 3]; 3],
+        platform_velocity: &[f32; 6],
+        kinetic_energy: &mut f32,
+        potential_energy: &mut f32,
+    ) {
+        self::energy(
+            &self.parameters,
+            base_position,
+            base_rotation,
+            base_velocity,
+            platform_position,
+            platform_rotation,
+            platform_velocity,
+            kinetic_energy,
+            potential_energy,
+        );
+    }
+}
+
 /// Squared cosine between each rod and its actuator axis, equation (18).
 ///
 /// Inputs:
@@ -1040,13 +1600,13 @@ impl crate::kernels::Energy for Uhp {
 ///
 /// - `rod_alignment`: 6, dimensionless: squared cosine between rod and actuator axis; negative out of reach, equation (18).
 #[allow(clippy::all, clippy::pedantic, unused_variables)]
-pub fn rod_alignment(
-    parameters: &Parameters,
-    base_position: &[f64; 3],
-    base_rotation: &[[f64; 3]; 3],
-    platform_position: &[f64; 3],
-    platform_rotation: &[[f64; 3]; 3],
-    rod_alignment: &mut [f64; 6],
+pub fn rod_alignment<T: Scalar>(
+    parameters: &Parameters<T>,
+    base_position: &[T; 3],
+    base_rotation: &[[T; 3]; 3],
+    platform_position: &[T; 3],
+    platform_rotation: &[[T; 3]; 3],
+    rod_alignment: &mut [T; 6],
 ) {
     // rotation of the platform seen from the base
     let t1 = base_rotation[1][0] * platform_rotation[1][0];
@@ -1267,24 +1827,25 @@ pub fn rod_alignment(
 /// - `platform_joint_position`: 6x3, m, frame O: platform joint, equation (14).
 /// - `universal_joint_rate`: 6x3, rad/s, frame O: platform's angular velocity relative to the rod, w_p - w_s, equation (23).
 #[allow(clippy::all, clippy::pedantic, unused_variables)]
-pub fn leg_kinematics(
-    parameters: &Parameters,
-    base_position: &[f64; 3],
-    base_rotation: &[[f64; 3]; 3],
-    base_velocity: &[f64; 6],
-    base_acceleration: &[f64; 6],
-    platform_position: &[f64; 3],
-    platform_rotation: &[[f64; 3]; 3],
-    platform_velocity: &[f64; 6],
-    platform_acceleration: &[f64; 6],
-    actuator_length: &mut [f64; 6],
-    actuator_velocity: &mut [f64; 6],
-    actuator_acceleration: &mut [f64; 6],
-    rod_direction: &mut [[f64; 3]; 6],
-    hooke_joint_position: &mut [[f64; 3]; 6],
-    platform_joint_position: &mut [[f64; 3]; 6],
-    universal_joint_rate: &mut [[f64; 3]; 6],
+pub fn leg_kinematics<T: Scalar>(
+    parameters: &Parameters<T>,
+    base_position: &[T; 3],
+    base_rotation: &[[T; 3]; 3],
+    base_velocity: &[T; 6],
+    base_acceleration: &[T; 6],
+    platform_position: &[T; 3],
+    platform_rotation: &[[T; 3]; 3],
+    platform_velocity: &[T; 6],
+    platform_acceleration: &[T; 6],
+    actuator_length: &mut [T; 6],
+    actuator_velocity: &mut [T; 6],
+    actuator_acceleration: &mut [T; 6],
+    rod_direction: &mut [[T; 3]; 6],
+    hooke_joint_position: &mut [[T; 3]; 6],
+    platform_joint_position: &mut [[T; 3]; 6],
+    universal_joint_rate: &mut [[T; 3]; 6],
 ) {
+    let c = T::constant;
     // rotation of the platform seen from the base
     let t1 = base_rotation[1][0] * platform_rotation[1][0];
     let t2 = base_rotation[0][0] * platform_rotation[0][0] + t1;
@@ -1418,7 +1979,7 @@ pub fn leg_kinematics(
     let t115 = parameters.rod_length[0] * parameters.rod_length[0] - t112 * t112;
     let t116 = sqrt(t115 - t113 * t113 - t114 * t114);
     // leg 1: reciprocal of that extent
-    let t117 = 1.0 / t116;
+    let t117 = c(1.0) / t116;
     // leg 1: actuator length d
     let t118 = t111 - t116;
     actuator_length[0] = t118;
@@ -1433,7 +1994,7 @@ pub fn leg_kinematics(
     let t125 = parameters.rod_length[1] * parameters.rod_length[1] - t122 * t122;
     let t126 = sqrt(t125 - t123 * t123 - t124 * t124);
     // leg 2: reciprocal of that extent
-    let t127 = 1.0 / t126;
+    let t127 = c(1.0) / t126;
     // leg 2: actuator length d
     let t128 = t121 - t126;
     actuator_length[1] = t128;
@@ -1448,7 +2009,7 @@ pub fn leg_kinematics(
     let t135 = parameters.rod_length[2] * parameters.rod_length[2] - t132 * t132;
     let t136 = sqrt(t135 - t133 * t133 - t134 * t134);
     // leg 3: reciprocal of that extent
-    let t137 = 1.0 / t136;
+    let t137 = c(1.0) / t136;
     // leg 3: actuator length d
     let t138 = t131 - t136;
     actuator_length[2] = t138;
@@ -1463,7 +2024,7 @@ pub fn leg_kinematics(
     let t145 = parameters.rod_length[3] * parameters.rod_length[3] - t142 * t142;
     let t146 = sqrt(t145 - t143 * t143 - t144 * t144);
     // leg 4: reciprocal of that extent
-    let t147 = 1.0 / t146;
+    let t147 = c(1.0) / t146;
     // leg 4: actuator length d
     let t148 = t141 - t146;
     actuator_length[3] = t148;
@@ -1478,7 +2039,7 @@ pub fn leg_kinematics(
     let t155 = parameters.rod_length[4] * parameters.rod_length[4] - t152 * t152;
     let t156 = sqrt(t155 - t153 * t153 - t154 * t154);
     // leg 5: reciprocal of that extent
-    let t157 = 1.0 / t156;
+    let t157 = c(1.0) / t156;
     // leg 5: actuator length d
     let t158 = t151 - t156;
     actuator_length[4] = t158;
@@ -1493,7 +2054,7 @@ pub fn leg_kinematics(
     let t165 = parameters.rod_length[5] * parameters.rod_length[5] - t162 * t162;
     let t166 = sqrt(t165 - t163 * t163 - t164 * t164);
     // leg 6: reciprocal of that extent
-    let t167 = 1.0 / t166;
+    let t167 = c(1.0) / t166;
     // leg 6: actuator length d
     let t168 = t161 - t166;
     actuator_length[5] = t168;
@@ -1740,14 +2301,14 @@ pub fn leg_kinematics(
     let t369 = base_rotation[2][2] * platform_acceleration[5];
     // acceleration of the platform origin relative to the base
     let t370 = t32 * t336 - (t354 + (t352 + (t350 - (t318 + (t314 + t316)))));
-    let t371 = t36 * t340 - (t34 * t338 + t370);
-    let t372 = t371 + 2.0 * (t174 * t201 - t177 * t198);
+    let t371 = c(2.0) * (t174 * t201 - t177 * t198);
+    let t372 = t36 * t340 - (t34 * t338 + t370) + t371;
     let t373 = t32 * t341 + (t357 + (t356 + (t355 - (t321 + (t319 + t320)))));
-    let t374 = t36 * t345 + (t34 * t343 - t373);
-    let t375 = t374 - 2.0 * (t177 * t195 - t171 * t201);
+    let t374 = c(2.0) * (t177 * t195 - t171 * t201);
+    let t375 = t36 * t345 + (t34 * t343 - t373) - t374;
     let t376 = t32 * t346 - (t360 + (t359 + (t358 - (t324 + (t322 + t323)))));
-    let t377 = t36 * t348 - (t34 * t347 - t376);
-    let t378 = t377 - 2.0 * (t171 * t198 - t174 * t195);
+    let t377 = c(2.0) * (t171 * t198 - t174 * t195);
+    let t378 = t36 * t348 - (t34 * t347 - t376) - t377;
     // second derivative of the relative rotation
     let t379 = t187 * t189;
     let t380 = t171 * t189 - (t177 * t187 - (t366 + (t365 - (t330 - t364))));
@@ -1873,7 +2434,7 @@ pub fn leg_kinematics(
     let t483 = parameters.actuator_axis[5][0] * t453 + t482;
     actuator_acceleration[5] = t481 - (parameters.actuator_axis[5][2] * t459 - t483);
     // leg 1: rod direction u, from the Hooke joint to the platform joint
-    let t484 = 1.0 / parameters.rod_length[0];
+    let t484 = c(1.0) / parameters.rod_length[0];
     let t485 = t484 * (t114 + parameters.actuator_axis[0][2] * t116);
     let t486 = (t112 + parameters.actuator_axis[0][0] * t116) * t484;
     let t487 = t484 * (t113 + parameters.actuator_axis[0][1] * t116);
@@ -1887,7 +2448,7 @@ pub fn leg_kinematics(
     let t493 = base_rotation[2][2] * t485 + t492;
     rod_direction[0][2] = t493;
     // leg 2: rod direction u, from the Hooke joint to the platform joint
-    let t494 = 1.0 / parameters.rod_length[1];
+    let t494 = c(1.0) / parameters.rod_length[1];
     let t495 = t494 * (t124 + parameters.actuator_axis[1][2] * t126);
     let t496 = (t122 + parameters.actuator_axis[1][0] * t126) * t494;
     let t497 = t494 * (t123 + parameters.actuator_axis[1][1] * t126);
@@ -1901,7 +2462,7 @@ pub fn leg_kinematics(
     let t503 = base_rotation[2][2] * t495 + t502;
     rod_direction[1][2] = t503;
     // leg 3: rod direction u, from the Hooke joint to the platform joint
-    let t504 = 1.0 / parameters.rod_length[2];
+    let t504 = c(1.0) / parameters.rod_length[2];
     let t505 = t504 * (t134 + parameters.actuator_axis[2][2] * t136);
     let t506 = (t132 + parameters.actuator_axis[2][0] * t136) * t504;
     let t507 = t504 * (t133 + parameters.actuator_axis[2][1] * t136);
@@ -1915,7 +2476,7 @@ pub fn leg_kinematics(
     let t513 = base_rotation[2][2] * t505 + t512;
     rod_direction[2][2] = t513;
     // leg 4: rod direction u, from the Hooke joint to the platform joint
-    let t514 = 1.0 / parameters.rod_length[3];
+    let t514 = c(1.0) / parameters.rod_length[3];
     let t515 = t514 * (t144 + parameters.actuator_axis[3][2] * t146);
     let t516 = (t142 + parameters.actuator_axis[3][0] * t146) * t514;
     let t517 = t514 * (t143 + parameters.actuator_axis[3][1] * t146);
@@ -1929,7 +2490,7 @@ pub fn leg_kinematics(
     let t523 = base_rotation[2][2] * t515 + t522;
     rod_direction[3][2] = t523;
     // leg 5: rod direction u, from the Hooke joint to the platform joint
-    let t524 = 1.0 / parameters.rod_length[4];
+    let t524 = c(1.0) / parameters.rod_length[4];
     let t525 = t524 * (t154 + parameters.actuator_axis[4][2] * t156);
     let t526 = (t152 + parameters.actuator_axis[4][0] * t156) * t524;
     let t527 = t524 * (t153 + parameters.actuator_axis[4][1] * t156);
@@ -1943,7 +2504,7 @@ pub fn leg_kinematics(
     let t533 = base_rotation[2][2] * t525 + t532;
     rod_direction[4][2] = t533;
     // leg 6: rod direction u, from the Hooke joint to the platform joint
-    let t534 = 1.0 / parameters.rod_length[5];
+    let t534 = c(1.0) / parameters.rod_length[5];
     let t535 = t534 * (t164 + parameters.actuator_axis[5][2] * t166);
     let t536 = (t162 + parameters.actuator_axis[5][0] * t166) * t534;
     let t537 = t534 * (t163 + parameters.actuator_axis[5][1] * t166);
@@ -2381,28 +2942,29 @@ pub fn leg_kinematics(
 /// - `mover_velocity`: 6x3, m/s, frame O: velocity of the mover, equation (24)-(26).
 /// - `mover_acceleration`: 6x3, m/s^2, frame O: acceleration of the mover, equation (24)-(26).
 #[allow(clippy::all, clippy::pedantic, unused_variables)]
-pub fn body_kinematics(
-    parameters: &Parameters,
-    base_position: &[f64; 3],
-    base_rotation: &[[f64; 3]; 3],
-    base_velocity: &[f64; 6],
-    base_acceleration: &[f64; 6],
-    platform_position: &[f64; 3],
-    platform_rotation: &[[f64; 3]; 3],
-    platform_velocity: &[f64; 6],
-    platform_acceleration: &[f64; 6],
-    payload_com_position: &mut [f64; 3],
-    payload_com_velocity: &mut [f64; 3],
-    payload_com_acceleration: &mut [f64; 3],
-    rod_angular_velocity: &mut [[f64; 3]; 6],
-    rod_angular_acceleration: &mut [[f64; 3]; 6],
-    rod_com_position: &mut [[f64; 3]; 6],
-    rod_com_velocity: &mut [[f64; 3]; 6],
-    rod_com_acceleration: &mut [[f64; 3]; 6],
-    mover_position: &mut [[f64; 3]; 6],
-    mover_velocity: &mut [[f64; 3]; 6],
-    mover_acceleration: &mut [[f64; 3]; 6],
+pub fn body_kinematics<T: Scalar>(
+    parameters: &Parameters<T>,
+    base_position: &[T; 3],
+    base_rotation: &[[T; 3]; 3],
+    base_velocity: &[T; 6],
+    base_acceleration: &[T; 6],
+    platform_position: &[T; 3],
+    platform_rotation: &[[T; 3]; 3],
+    platform_velocity: &[T; 6],
+    platform_acceleration: &[T; 6],
+    payload_com_position: &mut [T; 3],
+    payload_com_velocity: &mut [T; 3],
+    payload_com_acceleration: &mut [T; 3],
+    rod_angular_velocity: &mut [[T; 3]; 6],
+    rod_angular_acceleration: &mut [[T; 3]; 6],
+    rod_com_position: &mut [[T; 3]; 6],
+    rod_com_velocity: &mut [[T; 3]; 6],
+    rod_com_acceleration: &mut [[T; 3]; 6],
+    mover_position: &mut [[T; 3]; 6],
+    mover_velocity: &mut [[T; 3]; 6],
+    mover_acceleration: &mut [[T; 3]; 6],
 ) {
+    let c = T::constant;
     let (
         t128,
         t138,
@@ -2720,7 +3282,7 @@ pub fn body_kinematics(
         let t115 = t112 * t112 + t113 * t113 + t114 * t114;
         let t116 = sqrt(parameters.rod_length[0] * parameters.rod_length[0] - t115);
         // leg 1: reciprocal of that extent
-        let t117 = 1.0 / t116;
+        let t117 = c(1.0) / t116;
         // leg 1: actuator length d
         let t118 = t111 + t116;
         // leg 2: offset of the platform joint from the actuator axis
@@ -2734,7 +3296,7 @@ pub fn body_kinematics(
         let t125 = t122 * t122 + t123 * t123 + t124 * t124;
         let t126 = sqrt(parameters.rod_length[1] * parameters.rod_length[1] - t125);
         // leg 2: reciprocal of that extent
-        let t127 = 1.0 / t126;
+        let t127 = c(1.0) / t126;
         // leg 2: actuator length d
         let t128 = t121 + t126;
         // leg 3: offset of the platform joint from the actuator axis
@@ -2748,7 +3310,7 @@ pub fn body_kinematics(
         let t135 = t132 * t132 + t133 * t133 + t134 * t134;
         let t136 = sqrt(parameters.rod_length[2] * parameters.rod_length[2] - t135);
         // leg 3: reciprocal of that extent
-        let t137 = 1.0 / t136;
+        let t137 = c(1.0) / t136;
         // leg 3: actuator length d
         let t138 = t131 + t136;
         // leg 4: offset of the platform joint from the actuator axis
@@ -2762,7 +3324,7 @@ pub fn body_kinematics(
         let t145 = t142 * t142 + t143 * t143 + t144 * t144;
         let t146 = sqrt(parameters.rod_length[3] * parameters.rod_length[3] - t145);
         // leg 4: reciprocal of that extent
-        let t147 = 1.0 / t146;
+        let t147 = c(1.0) / t146;
         // leg 4: actuator length d
         let t148 = t141 + t146;
         // leg 5: offset of the platform joint from the actuator axis
@@ -2776,7 +3338,7 @@ pub fn body_kinematics(
         let t155 = t152 * t152 + t153 * t153 + t154 * t154;
         let t156 = sqrt(parameters.rod_length[4] * parameters.rod_length[4] - t155);
         // leg 5: reciprocal of that extent
-        let t157 = 1.0 / t156;
+        let t157 = c(1.0) / t156;
         // leg 5: actuator length d
         let t158 = t151 + t156;
         // leg 6: offset of the platform joint from the actuator axis
@@ -2790,7 +3352,7 @@ pub fn body_kinematics(
         let t165 = t162 * t162 + t163 * t163 + t164 * t164;
         let t166 = sqrt(parameters.rod_length[5] * parameters.rod_length[5] - t165);
         // leg 6: reciprocal of that extent
-        let t167 = 1.0 / t166;
+        let t167 = c(1.0) / t166;
         // leg 6: actuator length d
         let t168 = t161 + t166;
         // angular velocity of the base
@@ -3024,11 +3586,11 @@ pub fn body_kinematics(
         let t363 = t362 + base_rotation[2][2] * platform_acceleration[5];
         // acceleration of the platform origin relative to the base
         let t364 = t317 - t350 + (t32 * t333 + t34 * t335 - t36 * t337);
-        let t365 = t364 - (t174 * t201 - t177 * t198) * 2.0;
+        let t365 = t364 - (t174 * t201 - t177 * t198) * c(2.0);
         let t366 = t319 - t352 - (t32 * t338 - t34 * t340 - t36 * t342);
-        let t367 = t366 - 2.0 * (t177 * t195 - t171 * t201);
+        let t367 = t366 - c(2.0) * (t177 * t195 - t171 * t201);
         let t368 = t321 - t354 + (t32 * t343 - t34 * t344 + t36 * t345);
-        let t369 = t368 - 2.0 * (t171 * t198 - t174 * t195);
+        let t369 = t368 - c(2.0) * (t171 * t198 - t174 * t195);
         // second derivative of the relative rotation
         let t370 = t187 * t188;
         let t371 = t330 - t363 - (t171 * t188 - t174 * t187);
@@ -3160,7 +3722,7 @@ pub fn body_kinematics(
         let t485 = t308 * t308 + t309 * t309 + t310 * t310 + t484;
         let t486 = t483 - t167 * (t485 + t311 * t311);
         // leg 1: rod direction u, from the Hooke joint to the platform joint
-        let t487 = 1.0 / parameters.rod_length[0];
+        let t487 = c(1.0) / parameters.rod_length[0];
         let t488 = (t112 - parameters.actuator_axis[0][0] * t116) * t487;
         let t489 = t487 * (t113 - parameters.actuator_axis[0][1] * t116);
         let t490 = base_rotation[0][0] * t488 + base_rotation[0][1] * t489;
@@ -3171,7 +3733,7 @@ pub fn body_kinematics(
         let t495 = base_rotation[2][0] * t488 + base_rotation[2][1] * t489;
         let t496 = t495 + base_rotation[2][2] * t491;
         // leg 2: rod direction u, from the Hooke joint to the platform joint
-        let t497 = 1.0 / parameters.rod_length[1];
+        let t497 = c(1.0) / parameters.rod_length[1];
         let t498 = (t122 - parameters.actuator_axis[1][0] * t126) * t497;
         let t499 = t497 * (t123 - parameters.actuator_axis[1][1] * t126);
         let t500 = base_rotation[0][0] * t498 + base_rotation[0][1] * t499;
@@ -3182,7 +3744,7 @@ pub fn body_kinematics(
         let t505 = base_rotation[2][0] * t498 + base_rotation[2][1] * t499;
         let t506 = t505 + base_rotation[2][2] * t501;
         // leg 3: rod direction u, from the Hooke joint to the platform joint
-        let t507 = 1.0 / parameters.rod_length[2];
+        let t507 = c(1.0) / parameters.rod_length[2];
         let t508 = (t132 - parameters.actuator_axis[2][0] * t136) * t507;
         let t509 = t507 * (t133 - parameters.actuator_axis[2][1] * t136);
         let t510 = base_rotation[0][0] * t508 + base_rotation[0][1] * t509;
@@ -3193,7 +3755,7 @@ pub fn body_kinematics(
         let t515 = base_rotation[2][0] * t508 + base_rotation[2][1] * t509;
         let t516 = t515 + base_rotation[2][2] * t511;
         // leg 4: rod direction u, from the Hooke joint to the platform joint
-        let t517 = 1.0 / parameters.rod_length[3];
+        let t517 = c(1.0) / parameters.rod_length[3];
         let t518 = (t142 - parameters.actuator_axis[3][0] * t146) * t517;
         let t519 = t517 * (t143 - parameters.actuator_axis[3][1] * t146);
         let t520 = base_rotation[0][0] * t518 + base_rotation[0][1] * t519;
@@ -3204,7 +3766,7 @@ pub fn body_kinematics(
         let t525 = base_rotation[2][0] * t518 + base_rotation[2][1] * t519;
         let t526 = t525 + base_rotation[2][2] * t521;
         // leg 5: rod direction u, from the Hooke joint to the platform joint
-        let t527 = 1.0 / parameters.rod_length[4];
+        let t527 = c(1.0) / parameters.rod_length[4];
         let t528 = (t152 - parameters.actuator_axis[4][0] * t156) * t527;
         let t529 = t527 * (t153 - parameters.actuator_axis[4][1] * t156);
         let t530 = base_rotation[0][0] * t528 + base_rotation[0][1] * t529;
@@ -3215,7 +3777,7 @@ pub fn body_kinematics(
         let t535 = base_rotation[2][0] * t528 + base_rotation[2][1] * t529;
         let t536 = t535 + base_rotation[2][2] * t531;
         // leg 6: rod direction u, from the Hooke joint to the platform joint
-        let t537 = 1.0 / parameters.rod_length[5];
+        let t537 = c(1.0) / parameters.rod_length[5];
         let t538 = (t162 - parameters.actuator_axis[5][0] * t166) * t537;
         let t539 = t537 * (t163 - parameters.actuator_axis[5][1] * t166);
         let t540 = base_rotation[0][0] * t538 + base_rotation[0][1] * t539;
@@ -3598,7 +4160,7 @@ pub fn body_kinematics(
         rod_angular_velocity[5][1] = t537 * (t546 * t852 - t542 * t850);
         rod_angular_velocity[5][2] = t537 * (t542 * t851 - t544 * t852);
         // leg 1: centre of mass of the rod
-        let t853 = parameters.rod_com_fraction[0] - 1.0;
+        let t853 = parameters.rod_com_fraction[0] - c(1.0);
         rod_com_position[0][0] = parameters.rod_com_fraction[0] * t574 - t554 * t853;
         rod_com_position[0][1] = parameters.rod_com_fraction[0] * t578 - t562 * t853;
         rod_com_position[0][2] = parameters.rod_com_fraction[0] * t582 - t570 * t853;
@@ -3610,7 +4172,7 @@ pub fn body_kinematics(
         mover_velocity[0][1] = t586 - parameters.mover_offset[0] * t855;
         mover_velocity[0][2] = t588 - parameters.mover_offset[0] * t856;
         // leg 2: centre of mass of the rod
-        let t857 = parameters.rod_com_fraction[1] - 1.0;
+        let t857 = parameters.rod_com_fraction[1] - c(1.0);
         rod_com_position[1][0] = parameters.rod_com_fraction[1] * t625 - t605 * t857;
         rod_com_position[1][1] = parameters.rod_com_fraction[1] * t629 - t613 * t857;
         rod_com_position[1][2] = parameters.rod_com_fraction[1] * t633 - t621 * t857;
@@ -3622,7 +4184,7 @@ pub fn body_kinematics(
         mover_velocity[1][1] = t637 - parameters.mover_offset[1] * t859;
         mover_velocity[1][2] = t639 - parameters.mover_offset[1] * t860;
         // leg 3: centre of mass of the rod
-        let t861 = parameters.rod_com_fraction[2] - 1.0;
+        let t861 = parameters.rod_com_fraction[2] - c(1.0);
         rod_com_position[2][0] = parameters.rod_com_fraction[2] * t676 - t656 * t861;
         rod_com_position[2][1] = parameters.rod_com_fraction[2] * t680 - t664 * t861;
         rod_com_position[2][2] = parameters.rod_com_fraction[2] * t684 - t672 * t861;
@@ -3634,7 +4196,7 @@ pub fn body_kinematics(
         mover_velocity[2][1] = t688 - parameters.mover_offset[2] * t863;
         mover_velocity[2][2] = t690 - parameters.mover_offset[2] * t864;
         // leg 4: centre of mass of the rod
-        let t865 = parameters.rod_com_fraction[3] - 1.0;
+        let t865 = parameters.rod_com_fraction[3] - c(1.0);
         rod_com_position[3][0] = parameters.rod_com_fraction[3] * t727 - t707 * t865;
         rod_com_position[3][1] = parameters.rod_com_fraction[3] * t731 - t715 * t865;
         rod_com_position[3][2] = parameters.rod_com_fraction[3] * t735 - t723 * t865;
@@ -3646,7 +4208,7 @@ pub fn body_kinematics(
         mover_velocity[3][1] = t739 - parameters.mover_offset[3] * t867;
         mover_velocity[3][2] = t741 - parameters.mover_offset[3] * t868;
         // leg 5: centre of mass of the rod
-        let t869 = parameters.rod_com_fraction[4] - 1.0;
+        let t869 = parameters.rod_com_fraction[4] - c(1.0);
         rod_com_position[4][0] = parameters.rod_com_fraction[4] * t778 - t758 * t869;
         rod_com_position[4][1] = parameters.rod_com_fraction[4] * t782 - t766 * t869;
         rod_com_position[4][2] = parameters.rod_com_fraction[4] * t786 - t774 * t869;
@@ -3658,7 +4220,7 @@ pub fn body_kinematics(
         mover_velocity[4][1] = t790 - parameters.mover_offset[4] * t871;
         mover_velocity[4][2] = t792 - parameters.mover_offset[4] * t872;
         // leg 6: centre of mass of the rod
-        let t873 = parameters.rod_com_fraction[5] - 1.0;
+        let t873 = parameters.rod_com_fraction[5] - c(1.0);
         rod_com_position[5][0] = parameters.rod_com_fraction[5] * t829 - t809 * t873;
         rod_com_position[5][1] = parameters.rod_com_fraction[5] * t833 - t817 * t873;
         rod_com_position[5][2] = parameters.rod_com_fraction[5] * t837 - t825 * t873;
@@ -3680,7 +4242,7 @@ pub fn body_kinematics(
         let t884 = base_velocity[4] * t565 - base_velocity[5] * t557;
         let t885 = base_velocity[3] * t883 - base_velocity[4] * t884;
         let t886 = base_acceleration[2] + t882 + t885 - t118 * t881;
-        let t887 = t272 * 2.0;
+        let t887 = t272 * c(2.0);
         let t888 = t886 - t856 * t887 - t456 * t568;
         let t889 = platform_acceleration[5] * t573 - platform_acceleration[3] * t581;
         let t890 = platform_velocity[5] * t589 - platform_velocity[3] * t593;
@@ -3904,7 +4466,7 @@ pub fn body_kinematics(
         let t918 = base_velocity[4] * t616 - base_velocity[5] * t608;
         let t919 = base_velocity[3] * t917 - base_velocity[4] * t918;
         let t920 = base_acceleration[2] + t916 + t919 - t128 * t915;
-        let t921 = t280 * 2.0;
+        let t921 = t280 * c(2.0);
         let t922 = t920 - t860 * t921 - t462 * t619;
         let t923 = platform_acceleration[5] * t624 - platform_acceleration[3] * t632;
         let t924 = platform_velocity[5] * t640 - platform_velocity[3] * t644;
@@ -3942,7 +4504,7 @@ pub fn body_kinematics(
         let t952 = base_velocity[4] * t667 - base_velocity[5] * t659;
         let t953 = base_velocity[3] * t951 - base_velocity[4] * t952;
         let t954 = base_acceleration[2] + t950 + t953 - t138 * t949;
-        let t955 = t288 * 2.0;
+        let t955 = t288 * c(2.0);
         let t956 = t954 - t864 * t955 - t468 * t670;
         let t957 = platform_acceleration[5] * t675 - platform_acceleration[3] * t683;
         let t958 = platform_velocity[5] * t691 - platform_velocity[3] * t695;
@@ -3980,7 +4542,7 @@ pub fn body_kinematics(
         let t986 = base_velocity[4] * t718 - base_velocity[5] * t710;
         let t987 = base_velocity[3] * t985 - base_velocity[4] * t986;
         let t988 = base_acceleration[2] + t984 + t987 - t148 * t983;
-        let t989 = t296 * 2.0;
+        let t989 = t296 * c(2.0);
         let t990 = t988 - t868 * t989 - t474 * t721;
         let t991 = platform_acceleration[5] * t726 - platform_acceleration[3] * t734;
         let t992 = platform_velocity[5] * t742 - platform_velocity[3] * t746;
@@ -4018,7 +4580,7 @@ pub fn body_kinematics(
         let t1020 = base_velocity[4] * t769 - base_velocity[5] * t761;
         let t1021 = base_velocity[3] * t1019 - base_velocity[4] * t1020;
         let t1022 = base_acceleration[2] + t1018 + t1021 - t158 * t1017;
-        let t1023 = t304 * 2.0;
+        let t1023 = t304 * c(2.0);
         let t1024 = t1022 - t872 * t1023 - t480 * t772;
         let t1025 = platform_acceleration[5] * t777 - platform_acceleration[3] * t785;
         let t1026 = platform_velocity[5] * t793 - platform_velocity[3] * t797;
@@ -4056,7 +4618,7 @@ pub fn body_kinematics(
         let t1054 = base_velocity[4] * t820 - base_velocity[5] * t812;
         let t1055 = base_velocity[3] * t1053 - base_velocity[4] * t1054;
         let t1056 = base_acceleration[2] + t1052 + t1055 - t168 * t1051;
-        let t1057 = t312 * 2.0;
+        let t1057 = t312 * c(2.0);
         let t1058 = t1056 - t876 * t1057 - t486 * t823;
         let t1059 = platform_acceleration[5] * t828 - platform_acceleration[3] * t836;
         let t1060 = platform_velocity[5] * t844 - platform_velocity[3] * t848;
@@ -4237,18 +4799,19 @@ pub fn body_kinematics(
 /// - `rod_partial_angular_velocity`: 6x3x6, 1/m, 1, frame O: partial angular velocities of the rod, equation (33)-(38).
 /// - `mover_partial_velocity`: 6x3x6, 1, m, frame O: partial velocities of the mover, equation (33)-(38).
 #[allow(clippy::all, clippy::pedantic, unused_variables)]
-pub fn partial_velocities(
-    parameters: &Parameters,
-    base_position: &[f64; 3],
-    base_rotation: &[[f64; 3]; 3],
-    platform_position: &[f64; 3],
-    platform_rotation: &[[f64; 3]; 3],
-    payload_partial_velocity: &mut [[f64; 6]; 3],
-    payload_partial_angular_velocity: &mut [[f64; 6]; 3],
-    rod_partial_velocity: &mut [[[f64; 6]; 3]; 6],
-    rod_partial_angular_velocity: &mut [[[f64; 6]; 3]; 6],
-    mover_partial_velocity: &mut [[[f64; 6]; 3]; 6],
+pub fn partial_velocities<T: Scalar>(
+    parameters: &Parameters<T>,
+    base_position: &[T; 3],
+    base_rotation: &[[T; 3]; 3],
+    platform_position: &[T; 3],
+    platform_rotation: &[[T; 3]; 3],
+    payload_partial_velocity: &mut [[T; 6]; 3],
+    payload_partial_angular_velocity: &mut [[T; 6]; 3],
+    rod_partial_velocity: &mut [[[T; 6]; 3]; 6],
+    rod_partial_angular_velocity: &mut [[[T; 6]; 3]; 6],
+    mover_partial_velocity: &mut [[[T; 6]; 3]; 6],
 ) {
+    let c = T::constant;
     // rotation of the platform seen from the base
     let t1 = base_rotation[1][0] * platform_rotation[1][0];
     let t2 = base_rotation[0][0] * platform_rotation[0][0] + t1;
@@ -4436,7 +4999,7 @@ pub fn partial_velocities(
     let t169 = t166 * t166 + t167 * t167 + t168 * t168;
     let t170 = sqrt(parameters.rod_length[0] * parameters.rod_length[0] - t169);
     // leg 1: reciprocal of that extent
-    let t171 = 1.0 / t170;
+    let t171 = c(1.0) / t170;
     // leg 2: offset of the platform joint from the actuator axis
     let t172 = parameters.actuator_axis[1][1] * t77;
     let t173 = parameters.actuator_axis[1][0] * t76 + t172;
@@ -4448,7 +5011,7 @@ pub fn partial_velocities(
     let t178 = t175 * t175 + t176 * t176 + t177 * t177;
     let t179 = sqrt(parameters.rod_length[1] * parameters.rod_length[1] - t178);
     // leg 2: reciprocal of that extent
-    let t180 = 1.0 / t179;
+    let t180 = c(1.0) / t179;
     // leg 3: offset of the platform joint from the actuator axis
     let t181 = parameters.actuator_axis[2][1] * t98;
     let t182 = parameters.actuator_axis[2][0] * t97 + t181;
@@ -4460,7 +5023,7 @@ pub fn partial_velocities(
     let t187 = t184 * t184 + t185 * t185 + t186 * t186;
     let t188 = sqrt(parameters.rod_length[2] * parameters.rod_length[2] - t187);
     // leg 3: reciprocal of that extent
-    let t189 = 1.0 / t188;
+    let t189 = c(1.0) / t188;
     // leg 4: offset of the platform joint from the actuator axis
     let t190 = parameters.actuator_axis[3][1] * t119;
     let t191 = parameters.actuator_axis[3][0] * t118 + t190;
@@ -4472,7 +5035,7 @@ pub fn partial_velocities(
     let t196 = t193 * t193 + t194 * t194 + t195 * t195;
     let t197 = sqrt(parameters.rod_length[3] * parameters.rod_length[3] - t196);
     // leg 4: reciprocal of that extent
-    let t198 = 1.0 / t197;
+    let t198 = c(1.0) / t197;
     // leg 5: offset of the platform joint from the actuator axis
     let t199 = parameters.actuator_axis[4][1] * t140;
     let t200 = parameters.actuator_axis[4][0] * t139 + t199;
@@ -4484,7 +5047,7 @@ pub fn partial_velocities(
     let t205 = t202 * t202 + t203 * t203 + t204 * t204;
     let t206 = sqrt(parameters.rod_length[4] * parameters.rod_length[4] - t205);
     // leg 5: reciprocal of that extent
-    let t207 = 1.0 / t206;
+    let t207 = c(1.0) / t206;
     // leg 6: offset of the platform joint from the actuator axis
     let t208 = parameters.actuator_axis[5][1] * t161;
     let t209 = parameters.actuator_axis[5][0] * t160 + t208;
@@ -4496,7 +5059,7 @@ pub fn partial_velocities(
     let t214 = t211 * t211 + t212 * t212 + t213 * t213;
     let t215 = sqrt(parameters.rod_length[5] * parameters.rod_length[5] - t214);
     // leg 6: reciprocal of that extent
-    let t216 = 1.0 / t215;
+    let t216 = c(1.0) / t215;
     // leg 1: gradient of the actuator length by the platform joint
     let t217 = parameters.actuator_axis[0][0] - t166 * t171;
     let t218 = parameters.actuator_axis[0][1] - t167 * t171;
@@ -4588,7 +5151,7 @@ pub fn partial_velocities(
     let t287 = t159 * t266 - t153 * t270;
     let t288 = t153 * t268 - t156 * t266;
     // leg 1: rod direction u, from the Hooke joint to the platform joint
-    let t289 = 1.0 / parameters.rod_length[0];
+    let t289 = c(1.0) / parameters.rod_length[0];
     let t290 = (t166 - parameters.actuator_axis[0][0] * t170) * t289;
     let t291 = t289 * (t167 - parameters.actuator_axis[0][1] * t170);
     let t292 = base_rotation[0][0] * t290 + base_rotation[0][1] * t291;
@@ -4599,7 +5162,7 @@ pub fn partial_velocities(
     let t297 = base_rotation[2][0] * t290 + base_rotation[2][1] * t291;
     let t298 = t297 + base_rotation[2][2] * t293;
     // leg 2: rod direction u, from the Hooke joint to the platform joint
-    let t299 = 1.0 / parameters.rod_length[1];
+    let t299 = c(1.0) / parameters.rod_length[1];
     let t300 = (t175 - parameters.actuator_axis[1][0] * t179) * t299;
     let t301 = t299 * (t176 - parameters.actuator_axis[1][1] * t179);
     let t302 = base_rotation[0][0] * t300 + base_rotation[0][1] * t301;
@@ -4610,7 +5173,7 @@ pub fn partial_velocities(
     let t307 = base_rotation[2][0] * t300 + base_rotation[2][1] * t301;
     let t308 = t307 + base_rotation[2][2] * t303;
     // leg 3: rod direction u, from the Hooke joint to the platform joint
-    let t309 = 1.0 / parameters.rod_length[2];
+    let t309 = c(1.0) / parameters.rod_length[2];
     let t310 = (t184 - parameters.actuator_axis[2][0] * t188) * t309;
     let t311 = t309 * (t185 - parameters.actuator_axis[2][1] * t188);
     let t312 = base_rotation[0][0] * t310 + base_rotation[0][1] * t311;
@@ -4621,7 +5184,7 @@ pub fn partial_velocities(
     let t317 = base_rotation[2][0] * t310 + base_rotation[2][1] * t311;
     let t318 = t317 + base_rotation[2][2] * t313;
     // leg 4: rod direction u, from the Hooke joint to the platform joint
-    let t319 = 1.0 / parameters.rod_length[3];
+    let t319 = c(1.0) / parameters.rod_length[3];
     let t320 = (t193 - parameters.actuator_axis[3][0] * t197) * t319;
     let t321 = t319 * (t194 - parameters.actuator_axis[3][1] * t197);
     let t322 = base_rotation[0][0] * t320 + base_rotation[0][1] * t321;
@@ -4632,7 +5195,7 @@ pub fn partial_velocities(
     let t327 = base_rotation[2][0] * t320 + base_rotation[2][1] * t321;
     let t328 = t327 + base_rotation[2][2] * t323;
     // leg 5: rod direction u, from the Hooke joint to the platform joint
-    let t329 = 1.0 / parameters.rod_length[4];
+    let t329 = c(1.0) / parameters.rod_length[4];
     let t330 = (t202 - parameters.actuator_axis[4][0] * t206) * t329;
     let t331 = t329 * (t203 - parameters.actuator_axis[4][1] * t206);
     let t332 = base_rotation[0][0] * t330 + base_rotation[0][1] * t331;
@@ -4643,7 +5206,7 @@ pub fn partial_velocities(
     let t337 = base_rotation[2][0] * t330 + base_rotation[2][1] * t331;
     let t338 = t337 + base_rotation[2][2] * t333;
     // leg 6: rod direction u, from the Hooke joint to the platform joint
-    let t339 = 1.0 / parameters.rod_length[5];
+    let t339 = c(1.0) / parameters.rod_length[5];
     let t340 = (t211 - parameters.actuator_axis[5][0] * t215) * t339;
     let t341 = t339 * (t212 - parameters.actuator_axis[5][1] * t215);
     let t342 = base_rotation[0][0] * t340 + base_rotation[0][1] * t341;
@@ -4699,7 +5262,7 @@ pub fn partial_velocities(
     mover_partial_velocity[0][2][4] = t374;
     let t375 = t273 * t369;
     mover_partial_velocity[0][2][5] = t375;
-    let t376 = parameters.rod_com_fraction[0] - 1.0;
+    let t376 = parameters.rod_com_fraction[0] - c(1.0);
     rod_partial_velocity[0][0][0] = parameters.rod_com_fraction[0] - t376 * t352;
     rod_partial_velocity[0][0][1] = -(t376 * t353);
     rod_partial_velocity[0][0][2] = -(t376 * t354);
@@ -4723,9 +5286,9 @@ pub fn partial_velocities(
     rod_partial_velocity[0][2][5] = -(t376 * t375);
     // leg 1: partial angular velocities of the rod
     rod_partial_angular_velocity[0][0][0] = t289 * (t296 * t370 - t298 * t361);
-    let t380 = 1.0 - t362;
+    let t380 = c(1.0) - t362;
     rod_partial_angular_velocity[0][0][1] = t289 * (t296 * t371 + t298 * t380);
-    let t381 = 1.0 - t372;
+    let t381 = c(1.0) - t372;
     rod_partial_angular_velocity[0][0][2] = -(t289 * (t296 * t381 + t298 * t363));
     let t382 = t51 - t373;
     let t383 = t54 + t364;
@@ -4734,7 +5297,7 @@ pub fn partial_velocities(
     rod_partial_angular_velocity[0][0][4] = t289 * (t296 * t384 - t298 * t365);
     let t385 = t48 - t366;
     rod_partial_angular_velocity[0][0][5] = t289 * (t296 * t375 + t298 * t385);
-    let t386 = 1.0 - t352;
+    let t386 = c(1.0) - t352;
     rod_partial_angular_velocity[0][1][0] = -(t289 * (t298 * t386 + t294 * t370));
     rod_partial_angular_velocity[0][1][1] = t289 * (t298 * t353 - t294 * t371);
     rod_partial_angular_velocity[0][1][2] = t289 * (t298 * t354 + t294 * t381);
@@ -4795,7 +5358,7 @@ pub fn partial_velocities(
     mover_partial_velocity[1][2][4] = t414;
     let t415 = t276 * t409;
     mover_partial_velocity[1][2][5] = t415;
-    let t416 = parameters.rod_com_fraction[1] - 1.0;
+    let t416 = parameters.rod_com_fraction[1] - c(1.0);
     rod_partial_velocity[1][0][0] = parameters.rod_com_fraction[1] - t416 * t392;
     rod_partial_velocity[1][0][1] = -(t416 * t393);
     rod_partial_velocity[1][0][2] = -(t416 * t394);
@@ -4819,9 +5382,9 @@ pub fn partial_velocities(
     rod_partial_velocity[1][2][5] = -(t416 * t415);
     // leg 2: partial angular velocities of the rod
     rod_partial_angular_velocity[1][0][0] = t299 * (t306 * t410 - t308 * t401);
-    let t420 = 1.0 - t402;
+    let t420 = c(1.0) - t402;
     rod_partial_angular_velocity[1][0][1] = t299 * (t306 * t411 + t308 * t420);
-    let t421 = 1.0 - t412;
+    let t421 = c(1.0) - t412;
     rod_partial_angular_velocity[1][0][2] = -(t299 * (t306 * t421 + t308 * t403));
     let t422 = t72 - t413;
     let t423 = t75 + t404;
@@ -4830,7 +5393,7 @@ pub fn partial_velocities(
     rod_partial_angular_velocity[1][0][4] = t299 * (t306 * t424 - t308 * t405);
     let t425 = t69 - t406;
     rod_partial_angular_velocity[1][0][5] = t299 * (t306 * t415 + t308 * t425);
-    let t426 = 1.0 - t392;
+    let t426 = c(1.0) - t392;
     rod_partial_angular_velocity[1][1][0] = -(t299 * (t308 * t426 + t304 * t410));
     rod_partial_angular_velocity[1][1][1] = t299 * (t308 * t393 - t304 * t411);
     rod_partial_angular_velocity[1][1][2] = t299 * (t308 * t394 + t304 * t421);
@@ -4891,7 +5454,7 @@ pub fn partial_velocities(
     mover_partial_velocity[2][2][4] = t454;
     let t455 = t279 * t449;
     mover_partial_velocity[2][2][5] = t455;
-    let t456 = parameters.rod_com_fraction[2] - 1.0;
+    let t456 = parameters.rod_com_fraction[2] - c(1.0);
     rod_partial_velocity[2][0][0] = parameters.rod_com_fraction[2] - t456 * t432;
     rod_partial_velocity[2][0][1] = -(t456 * t433);
     rod_partial_velocity[2][0][2] = -(t456 * t434);
@@ -4915,9 +5478,9 @@ pub fn partial_velocities(
     rod_partial_velocity[2][2][5] = -(t456 * t455);
     // leg 3: partial angular velocities of the rod
     rod_partial_angular_velocity[2][0][0] = t309 * (t316 * t450 - t318 * t441);
-    let t460 = 1.0 - t442;
+    let t460 = c(1.0) - t442;
     rod_partial_angular_velocity[2][0][1] = t309 * (t316 * t451 + t318 * t460);
-    let t461 = 1.0 - t452;
+    let t461 = c(1.0) - t452;
     rod_partial_angular_velocity[2][0][2] = -(t309 * (t316 * t461 + t318 * t443));
     let t462 = t93 - t453;
     let t463 = t96 + t444;
@@ -4926,7 +5489,7 @@ pub fn partial_velocities(
     rod_partial_angular_velocity[2][0][4] = t309 * (t316 * t464 - t318 * t445);
     let t465 = t90 - t446;
     rod_partial_angular_velocity[2][0][5] = t309 * (t316 * t455 + t318 * t465);
-    let t466 = 1.0 - t432;
+    let t466 = c(1.0) - t432;
     rod_partial_angular_velocity[2][1][0] = -(t309 * (t318 * t466 + t314 * t450));
     rod_partial_angular_velocity[2][1][1] = t309 * (t318 * t433 - t314 * t451);
     rod_partial_angular_velocity[2][1][2] = t309 * (t318 * t434 + t314 * t461);
@@ -4987,7 +5550,7 @@ pub fn partial_velocities(
     mover_partial_velocity[3][2][4] = t494;
     let t495 = t282 * t489;
     mover_partial_velocity[3][2][5] = t495;
-    let t496 = parameters.rod_com_fraction[3] - 1.0;
+    let t496 = parameters.rod_com_fraction[3] - c(1.0);
     rod_partial_velocity[3][0][0] = parameters.rod_com_fraction[3] - t496 * t472;
     rod_partial_velocity[3][0][1] = -(t496 * t473);
     rod_partial_velocity[3][0][2] = -(t496 * t474);
@@ -5011,9 +5574,9 @@ pub fn partial_velocities(
     rod_partial_velocity[3][2][5] = -(t496 * t495);
     // leg 4: partial angular velocities of the rod
     rod_partial_angular_velocity[3][0][0] = t319 * (t326 * t490 - t328 * t481);
-    let t500 = 1.0 - t482;
+    let t500 = c(1.0) - t482;
     rod_partial_angular_velocity[3][0][1] = t319 * (t326 * t491 + t328 * t500);
-    let t501 = 1.0 - t492;
+    let t501 = c(1.0) - t492;
     rod_partial_angular_velocity[3][0][2] = -(t319 * (t326 * t501 + t328 * t483));
     let t502 = t114 - t493;
     let t503 = t117 + t484;
@@ -5022,7 +5585,7 @@ pub fn partial_velocities(
     rod_partial_angular_velocity[3][0][4] = t319 * (t326 * t504 - t328 * t485);
     let t505 = t111 - t486;
     rod_partial_angular_velocity[3][0][5] = t319 * (t326 * t495 + t328 * t505);
-    let t506 = 1.0 - t472;
+    let t506 = c(1.0) - t472;
     rod_partial_angular_velocity[3][1][0] = -(t319 * (t328 * t506 + t324 * t490));
     rod_partial_angular_velocity[3][1][1] = t319 * (t328 * t473 - t324 * t491);
     rod_partial_angular_velocity[3][1][2] = t319 * (t328 * t474 + t324 * t501);
@@ -5083,7 +5646,7 @@ pub fn partial_velocities(
     mover_partial_velocity[4][2][4] = t534;
     let t535 = t285 * t529;
     mover_partial_velocity[4][2][5] = t535;
-    let t536 = parameters.rod_com_fraction[4] - 1.0;
+    let t536 = parameters.rod_com_fraction[4] - c(1.0);
     rod_partial_velocity[4][0][0] = parameters.rod_com_fraction[4] - t536 * t512;
     rod_partial_velocity[4][0][1] = -(t536 * t513);
     rod_partial_velocity[4][0][2] = -(t536 * t514);
@@ -5107,9 +5670,9 @@ pub fn partial_velocities(
     rod_partial_velocity[4][2][5] = -(t536 * t535);
     // leg 5: partial angular velocities of the rod
     rod_partial_angular_velocity[4][0][0] = t329 * (t336 * t530 - t338 * t521);
-    let t540 = 1.0 - t522;
+    let t540 = c(1.0) - t522;
     rod_partial_angular_velocity[4][0][1] = t329 * (t336 * t531 + t338 * t540);
-    let t541 = 1.0 - t532;
+    let t541 = c(1.0) - t532;
     rod_partial_angular_velocity[4][0][2] = -(t329 * (t336 * t541 + t338 * t523));
     let t542 = t135 - t533;
     let t543 = t138 + t524;
@@ -5118,7 +5681,7 @@ pub fn partial_velocities(
     rod_partial_angular_velocity[4][0][4] = t329 * (t336 * t544 - t338 * t525);
     let t545 = t132 - t526;
     rod_partial_angular_velocity[4][0][5] = t329 * (t336 * t535 + t338 * t545);
-    let t546 = 1.0 - t512;
+    let t546 = c(1.0) - t512;
     rod_partial_angular_velocity[4][1][0] = -(t329 * (t338 * t546 + t334 * t530));
     rod_partial_angular_velocity[4][1][1] = t329 * (t338 * t513 - t334 * t531);
     rod_partial_angular_velocity[4][1][2] = t329 * (t338 * t514 + t334 * t541);
@@ -5179,7 +5742,7 @@ pub fn partial_velocities(
     mover_partial_velocity[5][2][4] = t574;
     let t575 = t288 * t569;
     mover_partial_velocity[5][2][5] = t575;
-    let t576 = parameters.rod_com_fraction[5] - 1.0;
+    let t576 = parameters.rod_com_fraction[5] - c(1.0);
     rod_partial_velocity[5][0][0] = parameters.rod_com_fraction[5] - t576 * t552;
     rod_partial_velocity[5][0][1] = -(t576 * t553);
     rod_partial_velocity[5][0][2] = -(t576 * t554);
@@ -5203,9 +5766,9 @@ pub fn partial_velocities(
     rod_partial_velocity[5][2][5] = -(t576 * t575);
     // leg 6: partial angular velocities of the rod
     rod_partial_angular_velocity[5][0][0] = t339 * (t346 * t570 - t348 * t561);
-    let t580 = 1.0 - t562;
+    let t580 = c(1.0) - t562;
     rod_partial_angular_velocity[5][0][1] = t339 * (t346 * t571 + t348 * t580);
-    let t581 = 1.0 - t572;
+    let t581 = c(1.0) - t572;
     rod_partial_angular_velocity[5][0][2] = -(t339 * (t346 * t581 + t348 * t563));
     let t582 = t156 - t573;
     let t583 = t159 + t564;
@@ -5214,7 +5777,7 @@ pub fn partial_velocities(
     rod_partial_angular_velocity[5][0][4] = t339 * (t346 * t584 - t348 * t565);
     let t585 = t153 - t566;
     rod_partial_angular_velocity[5][0][5] = t339 * (t346 * t575 + t348 * t585);
-    let t586 = 1.0 - t552;
+    let t586 = c(1.0) - t552;
     rod_partial_angular_velocity[5][1][0] = -(t339 * (t348 * t586 + t344 * t570));
     rod_partial_angular_velocity[5][1][1] = t339 * (t348 * t553 - t344 * t571);
     rod_partial_angular_velocity[5][1][2] = t339 * (t348 * t554 + t344 * t581);
@@ -5246,36 +5809,36 @@ pub fn partial_velocities(
     payload_partial_velocity[1][5] = t597;
     payload_partial_velocity[2][4] = -t597;
     // constant and copied elements
-    payload_partial_velocity[0][0] = 1.0;
-    payload_partial_velocity[0][1] = 0.0;
-    payload_partial_velocity[0][2] = 0.0;
-    payload_partial_velocity[0][3] = 0.0;
-    payload_partial_velocity[1][0] = 0.0;
-    payload_partial_velocity[1][1] = 1.0;
-    payload_partial_velocity[1][2] = 0.0;
-    payload_partial_velocity[1][4] = 0.0;
-    payload_partial_velocity[2][0] = 0.0;
-    payload_partial_velocity[2][1] = 0.0;
-    payload_partial_velocity[2][2] = 1.0;
-    payload_partial_velocity[2][5] = 0.0;
-    payload_partial_angular_velocity[0][0] = 0.0;
-    payload_partial_angular_velocity[0][1] = 0.0;
-    payload_partial_angular_velocity[0][2] = 0.0;
-    payload_partial_angular_velocity[0][3] = 1.0;
-    payload_partial_angular_velocity[0][4] = 0.0;
-    payload_partial_angular_velocity[0][5] = 0.0;
-    payload_partial_angular_velocity[1][0] = 0.0;
-    payload_partial_angular_velocity[1][1] = 0.0;
-    payload_partial_angular_velocity[1][2] = 0.0;
-    payload_partial_angular_velocity[1][3] = 0.0;
-    payload_partial_angular_velocity[1][4] = 1.0;
-    payload_partial_angular_velocity[1][5] = 0.0;
-    payload_partial_angular_velocity[2][0] = 0.0;
-    payload_partial_angular_velocity[2][1] = 0.0;
-    payload_partial_angular_velocity[2][2] = 0.0;
-    payload_partial_angular_velocity[2][3] = 0.0;
-    payload_partial_angular_velocity[2][4] = 0.0;
-    payload_partial_angular_velocity[2][5] = 1.0;
+    payload_partial_velocity[0][0] = c(1.0);
+    payload_partial_velocity[0][1] = c(0.0);
+    payload_partial_velocity[0][2] = c(0.0);
+    payload_partial_velocity[0][3] = c(0.0);
+    payload_partial_velocity[1][0] = c(0.0);
+    payload_partial_velocity[1][1] = c(1.0);
+    payload_partial_velocity[1][2] = c(0.0);
+    payload_partial_velocity[1][4] = c(0.0);
+    payload_partial_velocity[2][0] = c(0.0);
+    payload_partial_velocity[2][1] = c(0.0);
+    payload_partial_velocity[2][2] = c(1.0);
+    payload_partial_velocity[2][5] = c(0.0);
+    payload_partial_angular_velocity[0][0] = c(0.0);
+    payload_partial_angular_velocity[0][1] = c(0.0);
+    payload_partial_angular_velocity[0][2] = c(0.0);
+    payload_partial_angular_velocity[0][3] = c(1.0);
+    payload_partial_angular_velocity[0][4] = c(0.0);
+    payload_partial_angular_velocity[0][5] = c(0.0);
+    payload_partial_angular_velocity[1][0] = c(0.0);
+    payload_partial_angular_velocity[1][1] = c(0.0);
+    payload_partial_angular_velocity[1][2] = c(0.0);
+    payload_partial_angular_velocity[1][3] = c(0.0);
+    payload_partial_angular_velocity[1][4] = c(1.0);
+    payload_partial_angular_velocity[1][5] = c(0.0);
+    payload_partial_angular_velocity[2][0] = c(0.0);
+    payload_partial_angular_velocity[2][1] = c(0.0);
+    payload_partial_angular_velocity[2][2] = c(0.0);
+    payload_partial_angular_velocity[2][3] = c(0.0);
+    payload_partial_angular_velocity[2][4] = c(0.0);
+    payload_partial_angular_velocity[2][5] = c(1.0);
 }
 
 /// Generalised active and inertia force of every body, equation (39)-(46).
@@ -5302,25 +5865,26 @@ pub fn partial_velocities(
 /// - `mover_active_force`: 6x6, N, N m, frame O: generalised active force of the mover: gravity, actuator, spring, damper, equation (39)-(46).
 /// - `mover_inertia_force`: 6x6, N, N m, frame O: generalised inertia force of the mover, equation (39)-(46).
 #[allow(clippy::all, clippy::pedantic, unused_variables)]
-pub fn generalised_forces(
-    parameters: &Parameters,
-    base_position: &[f64; 3],
-    base_rotation: &[[f64; 3]; 3],
-    base_velocity: &[f64; 6],
-    base_acceleration: &[f64; 6],
-    platform_position: &[f64; 3],
-    platform_rotation: &[[f64; 3]; 3],
-    platform_velocity: &[f64; 6],
-    platform_acceleration: &[f64; 6],
-    actuator_force: &[f64; 6],
-    external_wrench: &[f64; 6],
-    payload_active_force: &mut [f64; 6],
-    payload_inertia_force: &mut [f64; 6],
-    rod_active_force: &mut [[f64; 6]; 6],
-    rod_inertia_force: &mut [[f64; 6]; 6],
-    mover_active_force: &mut [[f64; 6]; 6],
-    mover_inertia_force: &mut [[f64; 6]; 6],
+pub fn generalised_forces<T: Scalar>(
+    parameters: &Parameters<T>,
+    base_position: &[T; 3],
+    base_rotation: &[[T; 3]; 3],
+    base_velocity: &[T; 6],
+    base_acceleration: &[T; 6],
+    platform_position: &[T; 3],
+    platform_rotation: &[[T; 3]; 3],
+    platform_velocity: &[T; 6],
+    platform_acceleration: &[T; 6],
+    actuator_force: &[T; 6],
+    external_wrench: &[T; 6],
+    payload_active_force: &mut [T; 6],
+    payload_inertia_force: &mut [T; 6],
+    rod_active_force: &mut [[T; 6]; 6],
+    rod_inertia_force: &mut [[T; 6]; 6],
+    mover_active_force: &mut [[T; 6]; 6],
+    mover_inertia_force: &mut [[T; 6]; 6],
 ) {
+    let c = T::constant;
     let (
         t118,
         t128,
@@ -5603,7 +6167,7 @@ pub fn generalised_forces(
         let t115 = t112 * t112 + t113 * t113 + t114 * t114;
         let t116 = sqrt(parameters.rod_length[0] * parameters.rod_length[0] - t115);
         // leg 1: reciprocal of that extent
-        let t117 = 1.0 / t116;
+        let t117 = c(1.0) / t116;
         // leg 1: actuator length d
         let t118 = t111 + t116;
         // leg 2: offset of the platform joint from the actuator axis
@@ -5617,7 +6181,7 @@ pub fn generalised_forces(
         let t125 = t122 * t122 + t123 * t123 + t124 * t124;
         let t126 = sqrt(parameters.rod_length[1] * parameters.rod_length[1] - t125);
         // leg 2: reciprocal of that extent
-        let t127 = 1.0 / t126;
+        let t127 = c(1.0) / t126;
         // leg 2: actuator length d
         let t128 = t121 + t126;
         // leg 3: offset of the platform joint from the actuator axis
@@ -5631,7 +6195,7 @@ pub fn generalised_forces(
         let t135 = t132 * t132 + t133 * t133 + t134 * t134;
         let t136 = sqrt(parameters.rod_length[2] * parameters.rod_length[2] - t135);
         // leg 3: reciprocal of that extent
-        let t137 = 1.0 / t136;
+        let t137 = c(1.0) / t136;
         // leg 3: actuator length d
         let t138 = t131 + t136;
         // leg 4: offset of the platform joint from the actuator axis
@@ -5645,7 +6209,7 @@ pub fn generalised_forces(
         let t145 = t142 * t142 + t143 * t143 + t144 * t144;
         let t146 = sqrt(parameters.rod_length[3] * parameters.rod_length[3] - t145);
         // leg 4: reciprocal of that extent
-        let t147 = 1.0 / t146;
+        let t147 = c(1.0) / t146;
         // leg 4: actuator length d
         let t148 = t141 + t146;
         // leg 5: offset of the platform joint from the actuator axis
@@ -5659,7 +6223,7 @@ pub fn generalised_forces(
         let t155 = t152 * t152 + t153 * t153 + t154 * t154;
         let t156 = sqrt(parameters.rod_length[4] * parameters.rod_length[4] - t155);
         // leg 5: reciprocal of that extent
-        let t157 = 1.0 / t156;
+        let t157 = c(1.0) / t156;
         // leg 5: actuator length d
         let t158 = t151 + t156;
         // leg 6: offset of the platform joint from the actuator axis
@@ -5673,7 +6237,7 @@ pub fn generalised_forces(
         let t165 = t162 * t162 + t163 * t163 + t164 * t164;
         let t166 = sqrt(parameters.rod_length[5] * parameters.rod_length[5] - t165);
         // leg 6: reciprocal of that extent
-        let t167 = 1.0 / t166;
+        let t167 = c(1.0) / t166;
         // leg 6: actuator length d
         let t168 = t161 + t166;
         // leg 1: gradient of the actuator length by the platform joint
@@ -5931,11 +6495,11 @@ pub fn generalised_forces(
         let t381 = t380 + base_rotation[2][2] * platform_acceleration[5];
         // acceleration of the platform origin relative to the base
         let t382 = t335 - t368 + (t32 * t351 + t34 * t353 - t36 * t355);
-        let t383 = t382 - (t192 * t219 - t195 * t216) * 2.0;
+        let t383 = t382 - (t192 * t219 - t195 * t216) * c(2.0);
         let t384 = t337 - t370 - (t32 * t356 - t34 * t358 - t36 * t360);
-        let t385 = t384 - 2.0 * (t195 * t213 - t189 * t219);
+        let t385 = t384 - c(2.0) * (t195 * t213 - t189 * t219);
         let t386 = t339 - t372 + (t32 * t361 - t34 * t362 + t36 * t363);
-        let t387 = t386 - 2.0 * (t189 * t216 - t192 * t213);
+        let t387 = t386 - c(2.0) * (t189 * t216 - t192 * t213);
         // second derivative of the relative rotation
         let t388 = t205 * t206;
         let t389 = t348 - t381 - (t189 * t206 - t192 * t205);
@@ -6067,7 +6631,7 @@ pub fn generalised_forces(
         let t503 = t326 * t326 + t327 * t327 + t328 * t328 + t502;
         let t504 = t501 - t167 * (t503 + t329 * t329);
         // leg 1: rod direction u, from the Hooke joint to the platform joint
-        let t505 = 1.0 / parameters.rod_length[0];
+        let t505 = c(1.0) / parameters.rod_length[0];
         let t506 = (t112 - parameters.actuator_axis[0][0] * t116) * t505;
         let t507 = t505 * (t113 - parameters.actuator_axis[0][1] * t116);
         let t508 = base_rotation[0][0] * t506 + base_rotation[0][1] * t507;
@@ -6078,7 +6642,7 @@ pub fn generalised_forces(
         let t513 = base_rotation[2][0] * t506 + base_rotation[2][1] * t507;
         let t514 = t513 + base_rotation[2][2] * t509;
         // leg 2: rod direction u, from the Hooke joint to the platform joint
-        let t515 = 1.0 / parameters.rod_length[1];
+        let t515 = c(1.0) / parameters.rod_length[1];
         let t516 = (t122 - parameters.actuator_axis[1][0] * t126) * t515;
         let t517 = t515 * (t123 - parameters.actuator_axis[1][1] * t126);
         let t518 = base_rotation[0][0] * t516 + base_rotation[0][1] * t517;
@@ -6089,7 +6653,7 @@ pub fn generalised_forces(
         let t523 = base_rotation[2][0] * t516 + base_rotation[2][1] * t517;
         let t524 = t523 + base_rotation[2][2] * t519;
         // leg 3: rod direction u, from the Hooke joint to the platform joint
-        let t525 = 1.0 / parameters.rod_length[2];
+        let t525 = c(1.0) / parameters.rod_length[2];
         let t526 = (t132 - parameters.actuator_axis[2][0] * t136) * t525;
         let t527 = t525 * (t133 - parameters.actuator_axis[2][1] * t136);
         let t528 = base_rotation[0][0] * t526 + base_rotation[0][1] * t527;
@@ -6100,7 +6664,7 @@ pub fn generalised_forces(
         let t533 = base_rotation[2][0] * t526 + base_rotation[2][1] * t527;
         let t534 = t533 + base_rotation[2][2] * t529;
         // leg 4: rod direction u, from the Hooke joint to the platform joint
-        let t535 = 1.0 / parameters.rod_length[3];
+        let t535 = c(1.0) / parameters.rod_length[3];
         let t536 = (t142 - parameters.actuator_axis[3][0] * t146) * t535;
         let t537 = t535 * (t143 - parameters.actuator_axis[3][1] * t146);
         let t538 = base_rotation[0][0] * t536 + base_rotation[0][1] * t537;
@@ -6111,7 +6675,7 @@ pub fn generalised_forces(
         let t543 = base_rotation[2][0] * t536 + base_rotation[2][1] * t537;
         let t544 = t543 + base_rotation[2][2] * t539;
         // leg 5: rod direction u, from the Hooke joint to the platform joint
-        let t545 = 1.0 / parameters.rod_length[4];
+        let t545 = c(1.0) / parameters.rod_length[4];
         let t546 = (t152 - parameters.actuator_axis[4][0] * t156) * t545;
         let t547 = t545 * (t153 - parameters.actuator_axis[4][1] * t156);
         let t548 = base_rotation[0][0] * t546 + base_rotation[0][1] * t547;
@@ -6122,7 +6686,7 @@ pub fn generalised_forces(
         let t553 = base_rotation[2][0] * t546 + base_rotation[2][1] * t547;
         let t554 = t553 + base_rotation[2][2] * t549;
         // leg 6: rod direction u, from the Hooke joint to the platform joint
-        let t555 = 1.0 / parameters.rod_length[5];
+        let t555 = c(1.0) / parameters.rod_length[5];
         let t556 = (t162 - parameters.actuator_axis[5][0] * t166) * t555;
         let t557 = t555 * (t163 - parameters.actuator_axis[5][1] * t166);
         let t558 = base_rotation[0][0] * t556 + base_rotation[0][1] * t557;
@@ -6343,7 +6907,7 @@ pub fn generalised_forces(
         let t754 = base_velocity[4] * t579 - base_velocity[5] * t573;
         let t755 = base_velocity[3] * t753 - base_velocity[4] * t754;
         let t756 = base_acceleration[2] + t752 + t755 - t118 * t751;
-        let t757 = t290 * 2.0;
+        let t757 = t290 * c(2.0);
         let t758 = base_velocity[3] * t576 - base_velocity[4] * t570;
         let t759 = t756 - t757 * t758 - t474 * t582;
         let t760 = platform_acceleration[5] * t585 - platform_acceleration[3] * t591;
@@ -6372,7 +6936,7 @@ pub fn generalised_forces(
         let t783 = t505 * (t514 * t782 - t510 * t770);
         let t784 = t505 * (t510 * t771 - t512 * t782);
         // leg 1: acceleration of the rod's centre of mass
-        let t785 = parameters.rod_com_fraction[0] - 1.0;
+        let t785 = parameters.rod_com_fraction[0] - c(1.0);
         let t786 = t781 * t785 - parameters.rod_com_fraction[0] * t775;
         let t787 = t769 * t785 - parameters.rod_com_fraction[0] * t762;
         let t788 = t759 * t785 - parameters.rod_com_fraction[0] * t747;
@@ -6393,7 +6957,7 @@ pub fn generalised_forces(
         let t801 = base_velocity[4] * t609 - base_velocity[5] * t603;
         let t802 = base_velocity[3] * t800 - base_velocity[4] * t801;
         let t803 = base_acceleration[2] + t799 + t802 - t128 * t798;
-        let t804 = t298 * 2.0;
+        let t804 = t298 * c(2.0);
         let t805 = base_velocity[3] * t606 - base_velocity[4] * t600;
         let t806 = t803 - t804 * t805 - t480 * t612;
         let t807 = platform_acceleration[5] * t615 - platform_acceleration[3] * t621;
@@ -6422,7 +6986,7 @@ pub fn generalised_forces(
         let t830 = t515 * (t524 * t829 - t520 * t817);
         let t831 = t515 * (t520 * t818 - t522 * t829);
         // leg 2: acceleration of the rod's centre of mass
-        let t832 = parameters.rod_com_fraction[1] - 1.0;
+        let t832 = parameters.rod_com_fraction[1] - c(1.0);
         let t833 = t828 * t832 - parameters.rod_com_fraction[1] * t822;
         let t834 = t816 * t832 - parameters.rod_com_fraction[1] * t809;
         let t835 = t806 * t832 - parameters.rod_com_fraction[1] * t794;
@@ -6443,7 +7007,7 @@ pub fn generalised_forces(
         let t848 = base_velocity[4] * t639 - base_velocity[5] * t633;
         let t849 = base_velocity[3] * t847 - base_velocity[4] * t848;
         let t850 = base_acceleration[2] + t846 + t849 - t138 * t845;
-        let t851 = t306 * 2.0;
+        let t851 = t306 * c(2.0);
         let t852 = base_velocity[3] * t636 - base_velocity[4] * t630;
         let t853 = t850 - t851 * t852 - t486 * t642;
         let t854 = platform_acceleration[5] * t645 - platform_acceleration[3] * t651;
@@ -6472,7 +7036,7 @@ pub fn generalised_forces(
         let t877 = t525 * (t534 * t876 - t530 * t864);
         let t878 = t525 * (t530 * t865 - t532 * t876);
         // leg 3: acceleration of the rod's centre of mass
-        let t879 = parameters.rod_com_fraction[2] - 1.0;
+        let t879 = parameters.rod_com_fraction[2] - c(1.0);
         let t880 = t875 * t879 - parameters.rod_com_fraction[2] * t869;
         let t881 = t863 * t879 - parameters.rod_com_fraction[2] * t856;
         let t882 = t853 * t879 - parameters.rod_com_fraction[2] * t841;
@@ -6493,7 +7057,7 @@ pub fn generalised_forces(
         let t895 = base_velocity[4] * t669 - base_velocity[5] * t663;
         let t896 = base_velocity[3] * t894 - base_velocity[4] * t895;
         let t897 = base_acceleration[2] + t893 + t896 - t148 * t892;
-        let t898 = t314 * 2.0;
+        let t898 = t314 * c(2.0);
         let t899 = base_velocity[3] * t666 - base_velocity[4] * t660;
         let t900 = t897 - t898 * t899 - t492 * t672;
         let t901 = platform_acceleration[5] * t675 - platform_acceleration[3] * t681;
@@ -6522,7 +7086,7 @@ pub fn generalised_forces(
         let t924 = t535 * (t544 * t923 - t540 * t911);
         let t925 = t535 * (t540 * t912 - t542 * t923);
         // leg 4: acceleration of the rod's centre of mass
-        let t926 = parameters.rod_com_fraction[3] - 1.0;
+        let t926 = parameters.rod_com_fraction[3] - c(1.0);
         let t927 = t922 * t926 - parameters.rod_com_fraction[3] * t916;
         let t928 = t910 * t926 - parameters.rod_com_fraction[3] * t903;
         let t929 = t900 * t926 - parameters.rod_com_fraction[3] * t888;
@@ -6543,7 +7107,7 @@ pub fn generalised_forces(
         let t942 = base_velocity[4] * t699 - base_velocity[5] * t693;
         let t943 = base_velocity[3] * t941 - base_velocity[4] * t942;
         let t944 = base_acceleration[2] + t940 + t943 - t158 * t939;
-        let t945 = t322 * 2.0;
+        let t945 = t322 * c(2.0);
         let t946 = base_velocity[3] * t696 - base_velocity[4] * t690;
         let t947 = t944 - t945 * t946 - t498 * t702;
         let t948 = platform_acceleration[5] * t705 - platform_acceleration[3] * t711;
@@ -6572,7 +7136,7 @@ pub fn generalised_forces(
         let t971 = t545 * (t554 * t970 - t550 * t958);
         let t972 = t545 * (t550 * t959 - t552 * t970);
         // leg 5: acceleration of the rod's centre of mass
-        let t973 = parameters.rod_com_fraction[4] - 1.0;
+        let t973 = parameters.rod_com_fraction[4] - c(1.0);
         let t974 = t969 * t973 - parameters.rod_com_fraction[4] * t963;
         let t975 = t957 * t973 - parameters.rod_com_fraction[4] * t950;
         let t976 = t947 * t973 - parameters.rod_com_fraction[4] * t935;
@@ -6744,7 +7308,7 @@ pub fn generalised_forces(
         let t989 = base_velocity[4] * t729 - base_velocity[5] * t723;
         let t990 = base_velocity[3] * t988 - base_velocity[4] * t989;
         let t991 = base_acceleration[2] + t987 + t990 - t168 * t986;
-        let t992 = t330 * 2.0;
+        let t992 = t330 * c(2.0);
         let t993 = base_velocity[3] * t726 - base_velocity[4] * t720;
         let t994 = t991 - t992 * t993 - t504 * t732;
         let t995 = platform_acceleration[5] * t735 - platform_acceleration[3] * t741;
@@ -6773,7 +7337,7 @@ pub fn generalised_forces(
         let t1018 = t555 * (t564 * t1017 - t560 * t1005);
         let t1019 = t555 * (t560 * t1006 - t562 * t1017);
         // leg 6: acceleration of the rod's centre of mass
-        let t1020 = parameters.rod_com_fraction[5] - 1.0;
+        let t1020 = parameters.rod_com_fraction[5] - c(1.0);
         let t1021 = t1016 * t1020 - parameters.rod_com_fraction[5] * t1010;
         let t1022 = t1004 * t1020 - parameters.rod_com_fraction[5] * t997;
         let t1023 = t994 * t1020 - parameters.rod_com_fraction[5] * t982;
@@ -7357,14 +7921,15 @@ pub fn generalised_forces(
 ///
 /// - `jacobian_dp`: 6x6, 1, m, frame O: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b, equation (32).
 #[allow(clippy::all, clippy::pedantic, unused_variables)]
-pub fn jacobian_dp(
-    parameters: &Parameters,
-    base_position: &[f64; 3],
-    base_rotation: &[[f64; 3]; 3],
-    platform_position: &[f64; 3],
-    platform_rotation: &[[f64; 3]; 3],
-    jacobian_dp: &mut [[f64; 6]; 6],
+pub fn jacobian_dp<T: Scalar>(
+    parameters: &Parameters<T>,
+    base_position: &[T; 3],
+    base_rotation: &[[T; 3]; 3],
+    platform_position: &[T; 3],
+    platform_rotation: &[[T; 3]; 3],
+    jacobian_dp: &mut [[T; 6]; 6],
 ) {
+    let c = T::constant;
     // rotation of the platform seen from the base
     let t1 = base_rotation[1][0] * platform_rotation[1][0];
     let t2 = base_rotation[0][0] * platform_rotation[0][0] + t1;
@@ -7552,7 +8117,7 @@ pub fn jacobian_dp(
     let t169 = t166 * t166 + t167 * t167 + t168 * t168;
     let t170 = sqrt(parameters.rod_length[0] * parameters.rod_length[0] - t169);
     // leg 1: reciprocal of that extent
-    let t171 = 1.0 / t170;
+    let t171 = c(1.0) / t170;
     // leg 2: offset of the platform joint from the actuator axis
     let t172 = parameters.actuator_axis[1][1] * t77;
     let t173 = parameters.actuator_axis[1][0] * t76 + t172;
@@ -7564,7 +8129,7 @@ pub fn jacobian_dp(
     let t178 = t175 * t175 + t176 * t176 + t177 * t177;
     let t179 = sqrt(parameters.rod_length[1] * parameters.rod_length[1] - t178);
     // leg 2: reciprocal of that extent
-    let t180 = 1.0 / t179;
+    let t180 = c(1.0) / t179;
     // leg 3: offset of the platform joint from the actuator axis
     let t181 = parameters.actuator_axis[2][1] * t98;
     let t182 = parameters.actuator_axis[2][0] * t97 + t181;
@@ -7576,7 +8141,7 @@ pub fn jacobian_dp(
     let t187 = t184 * t184 + t185 * t185 + t186 * t186;
     let t188 = sqrt(parameters.rod_length[2] * parameters.rod_length[2] - t187);
     // leg 3: reciprocal of that extent
-    let t189 = 1.0 / t188;
+    let t189 = c(1.0) / t188;
     // leg 4: offset of the platform joint from the actuator axis
     let t190 = parameters.actuator_axis[3][1] * t119;
     let t191 = parameters.actuator_axis[3][0] * t118 + t190;
@@ -7588,7 +8153,7 @@ pub fn jacobian_dp(
     let t196 = t193 * t193 + t194 * t194 + t195 * t195;
     let t197 = sqrt(parameters.rod_length[3] * parameters.rod_length[3] - t196);
     // leg 4: reciprocal of that extent
-    let t198 = 1.0 / t197;
+    let t198 = c(1.0) / t197;
     // leg 5: offset of the platform joint from the actuator axis
     let t199 = parameters.actuator_axis[4][1] * t140;
     let t200 = parameters.actuator_axis[4][0] * t139 + t199;
@@ -7600,7 +8165,7 @@ pub fn jacobian_dp(
     let t205 = t202 * t202 + t203 * t203 + t204 * t204;
     let t206 = sqrt(parameters.rod_length[4] * parameters.rod_length[4] - t205);
     // leg 5: reciprocal of that extent
-    let t207 = 1.0 / t206;
+    let t207 = c(1.0) / t206;
     // leg 6: offset of the platform joint from the actuator axis
     let t208 = parameters.actuator_axis[5][1] * t161;
     let t209 = parameters.actuator_axis[5][0] * t160 + t208;
@@ -7612,7 +8177,7 @@ pub fn jacobian_dp(
     let t214 = t211 * t211 + t212 * t212 + t213 * t213;
     let t215 = sqrt(parameters.rod_length[5] * parameters.rod_length[5] - t214);
     // leg 6: reciprocal of that extent
-    let t216 = 1.0 / t215;
+    let t216 = c(1.0) / t215;
     // leg 1: gradient of the actuator length by the platform joint
     let t217 = parameters.actuator_axis[0][0] - t166 * t171;
     let t218 = parameters.actuator_axis[0][1] - t167 * t171;
@@ -7736,14 +8301,15 @@ pub fn jacobian_dp(
 ///
 /// - `jacobian_db`: 6x6, 1, m, frame O: actuator Jacobian of the base, equation (31).
 #[allow(clippy::all, clippy::pedantic, unused_variables)]
-pub fn jacobian_db(
-    parameters: &Parameters,
-    base_position: &[f64; 3],
-    base_rotation: &[[f64; 3]; 3],
-    platform_position: &[f64; 3],
-    platform_rotation: &[[f64; 3]; 3],
-    jacobian_db: &mut [[f64; 6]; 6],
+pub fn jacobian_db<T: Scalar>(
+    parameters: &Parameters<T>,
+    base_position: &[T; 3],
+    base_rotation: &[[T; 3]; 3],
+    platform_position: &[T; 3],
+    platform_rotation: &[[T; 3]; 3],
+    jacobian_db: &mut [[T; 6]; 6],
 ) {
+    let c = T::constant;
     // rotation of the platform seen from the base
     let t1 = base_rotation[1][0] * platform_rotation[1][0];
     let t2 = base_rotation[0][0] * platform_rotation[0][0] + t1;
@@ -7931,7 +8497,7 @@ pub fn jacobian_db(
     let t169 = t166 * t166 + t167 * t167 + t168 * t168;
     let t170 = sqrt(parameters.rod_length[0] * parameters.rod_length[0] - t169);
     // leg 1: reciprocal of that extent
-    let t171 = 1.0 / t170;
+    let t171 = c(1.0) / t170;
     // leg 2: offset of the platform joint from the actuator axis
     let t172 = parameters.actuator_axis[1][1] * t77;
     let t173 = parameters.actuator_axis[1][0] * t76 + t172;
@@ -7943,7 +8509,7 @@ pub fn jacobian_db(
     let t178 = t175 * t175 + t176 * t176 + t177 * t177;
     let t179 = sqrt(parameters.rod_length[1] * parameters.rod_length[1] - t178);
     // leg 2: reciprocal of that extent
-    let t180 = 1.0 / t179;
+    let t180 = c(1.0) / t179;
     // leg 3: offset of the platform joint from the actuator axis
     let t181 = parameters.actuator_axis[2][1] * t98;
     let t182 = parameters.actuator_axis[2][0] * t97 + t181;
@@ -7955,7 +8521,7 @@ pub fn jacobian_db(
     let t187 = t184 * t184 + t185 * t185 + t186 * t186;
     let t188 = sqrt(parameters.rod_length[2] * parameters.rod_length[2] - t187);
     // leg 3: reciprocal of that extent
-    let t189 = 1.0 / t188;
+    let t189 = c(1.0) / t188;
     // leg 4: offset of the platform joint from the actuator axis
     let t190 = parameters.actuator_axis[3][1] * t119;
     let t191 = parameters.actuator_axis[3][0] * t118 + t190;
@@ -7967,7 +8533,7 @@ pub fn jacobian_db(
     let t196 = t193 * t193 + t194 * t194 + t195 * t195;
     let t197 = sqrt(parameters.rod_length[3] * parameters.rod_length[3] - t196);
     // leg 4: reciprocal of that extent
-    let t198 = 1.0 / t197;
+    let t198 = c(1.0) / t197;
     // leg 5: offset of the platform joint from the actuator axis
     let t199 = parameters.actuator_axis[4][1] * t140;
     let t200 = parameters.actuator_axis[4][0] * t139 + t199;
@@ -7979,7 +8545,7 @@ pub fn jacobian_db(
     let t205 = t202 * t202 + t203 * t203 + t204 * t204;
     let t206 = sqrt(parameters.rod_length[4] * parameters.rod_length[4] - t205);
     // leg 5: reciprocal of that extent
-    let t207 = 1.0 / t206;
+    let t207 = c(1.0) / t206;
     // leg 6: offset of the platform joint from the actuator axis
     let t208 = parameters.actuator_axis[5][1] * t161;
     let t209 = parameters.actuator_axis[5][0] * t160 + t208;
@@ -7991,7 +8557,7 @@ pub fn jacobian_db(
     let t214 = t211 * t211 + t212 * t212 + t213 * t213;
     let t215 = sqrt(parameters.rod_length[5] * parameters.rod_length[5] - t214);
     // leg 6: reciprocal of that extent
-    let t216 = 1.0 / t215;
+    let t216 = c(1.0) / t215;
     // leg 1: gradient of the actuator length by the platform joint
     let t217 = parameters.actuator_axis[0][0] - t166 * t171;
     let t218 = parameters.actuator_axis[0][1] - t167 * t171;
@@ -8139,14 +8705,15 @@ pub fn jacobian_db(
 ///
 /// - `mass_matrix_p`: 6x6, kg, kg m, kg m^2, frame O: mass matrix M_p of the platform, equation (49).
 #[allow(clippy::all, clippy::pedantic, unused_variables)]
-pub fn mass_matrix_p(
-    parameters: &Parameters,
-    base_position: &[f64; 3],
-    base_rotation: &[[f64; 3]; 3],
-    platform_position: &[f64; 3],
-    platform_rotation: &[[f64; 3]; 3],
-    mass_matrix_p: &mut [[f64; 6]; 6],
+pub fn mass_matrix_p<T: Scalar>(
+    parameters: &Parameters<T>,
+    base_position: &[T; 3],
+    base_rotation: &[[T; 3]; 3],
+    platform_position: &[T; 3],
+    platform_rotation: &[[T; 3]; 3],
+    mass_matrix_p: &mut [[T; 6]; 6],
 ) {
+    let c = T::constant;
     // rotation of the platform seen from the base
     let t1 = base_rotation[1][0] * platform_rotation[1][0];
     let t2 = base_rotation[0][0] * platform_rotation[0][0] + t1;
@@ -8334,7 +8901,7 @@ pub fn mass_matrix_p(
     let t169 = parameters.rod_length[0] * parameters.rod_length[0];
     let t170 = sqrt(t169 - (t166 * t166 + t167 * t167 + t168 * t168));
     // leg 1: reciprocal of that extent
-    let t171 = 1.0 / t170;
+    let t171 = c(1.0) / t170;
     // leg 2: offset of the platform joint from the actuator axis
     let t172 = parameters.actuator_axis[1][1] * t77;
     let t173 = parameters.actuator_axis[1][0] * t76 + t172;
@@ -8346,7 +8913,7 @@ pub fn mass_matrix_p(
     let t178 = parameters.rod_length[1] * parameters.rod_length[1];
     let t179 = sqrt(t178 - (t175 * t175 + t176 * t176 + t177 * t177));
     // leg 2: reciprocal of that extent
-    let t180 = 1.0 / t179;
+    let t180 = c(1.0) / t179;
     // leg 3: offset of the platform joint from the actuator axis
     let t181 = parameters.actuator_axis[2][1] * t98;
     let t182 = parameters.actuator_axis[2][0] * t97 + t181;
@@ -8358,7 +8925,7 @@ pub fn mass_matrix_p(
     let t187 = parameters.rod_length[2] * parameters.rod_length[2];
     let t188 = sqrt(t187 - (t184 * t184 + t185 * t185 + t186 * t186));
     // leg 3: reciprocal of that extent
-    let t189 = 1.0 / t188;
+    let t189 = c(1.0) / t188;
     // leg 4: offset of the platform joint from the actuator axis
     let t190 = parameters.actuator_axis[3][1] * t119;
     let t191 = parameters.actuator_axis[3][0] * t118 + t190;
@@ -8370,7 +8937,7 @@ pub fn mass_matrix_p(
     let t196 = parameters.rod_length[3] * parameters.rod_length[3];
     let t197 = sqrt(t196 - (t193 * t193 + t194 * t194 + t195 * t195));
     // leg 4: reciprocal of that extent
-    let t198 = 1.0 / t197;
+    let t198 = c(1.0) / t197;
     // leg 5: offset of the platform joint from the actuator axis
     let t199 = parameters.actuator_axis[4][1] * t140;
     let t200 = parameters.actuator_axis[4][0] * t139 + t199;
@@ -8382,7 +8949,7 @@ pub fn mass_matrix_p(
     let t205 = parameters.rod_length[4] * parameters.rod_length[4];
     let t206 = sqrt(t205 - (t202 * t202 + t203 * t203 + t204 * t204));
     // leg 5: reciprocal of that extent
-    let t207 = 1.0 / t206;
+    let t207 = c(1.0) / t206;
     // leg 6: offset of the platform joint from the actuator axis
     let t208 = parameters.actuator_axis[5][1] * t161;
     let t209 = parameters.actuator_axis[5][0] * t160 + t208;
@@ -8394,7 +8961,7 @@ pub fn mass_matrix_p(
     let t214 = parameters.rod_length[5] * parameters.rod_length[5];
     let t215 = sqrt(t214 - (t211 * t211 + t212 * t212 + t213 * t213));
     // leg 6: reciprocal of that extent
-    let t216 = 1.0 / t215;
+    let t216 = c(1.0) / t215;
     // leg 1: gradient of the actuator length by the platform joint
     let t217 = parameters.actuator_axis[0][0] - t166 * t171;
     let t218 = parameters.actuator_axis[0][1] - t167 * t171;
@@ -8462,7 +9029,7 @@ pub fn mass_matrix_p(
     let t269 = base_rotation[2][0] * t232 + base_rotation[2][1] * t233;
     let t270 = t269 + base_rotation[2][2] * t234;
     // leg 1: rod's end mass at the Hooke joint
-    let t271 = parameters.rod_com_fraction[0] - 1.0;
+    let t271 = parameters.rod_com_fraction[0] - c(1.0);
     let t272 = parameters.rod_inertia[0] / t169;
     let t273 = t271 * (parameters.rod_mass[0] * t271) + t272;
     // leg 1: leg mass that moves with the platform joint
@@ -8471,7 +9038,7 @@ pub fn mass_matrix_p(
     // leg 1: rod's inertial coupling between its ends
     let t276 = t272 + t271 * t274;
     // leg 2: rod's end mass at the Hooke joint
-    let t277 = parameters.rod_com_fraction[1] - 1.0;
+    let t277 = parameters.rod_com_fraction[1] - c(1.0);
     let t278 = parameters.rod_inertia[1] / t178;
     let t279 = t277 * (parameters.rod_mass[1] * t277) + t278;
     // leg 2: leg mass that moves with the platform joint
@@ -8480,7 +9047,7 @@ pub fn mass_matrix_p(
     // leg 2: rod's inertial coupling between its ends
     let t282 = t278 + t277 * t280;
     // leg 3: rod's end mass at the Hooke joint
-    let t283 = parameters.rod_com_fraction[2] - 1.0;
+    let t283 = parameters.rod_com_fraction[2] - c(1.0);
     let t284 = parameters.rod_inertia[2] / t187;
     let t285 = t283 * (parameters.rod_mass[2] * t283) + t284;
     // leg 3: leg mass that moves with the platform joint
@@ -8489,7 +9056,7 @@ pub fn mass_matrix_p(
     // leg 3: rod's inertial coupling between its ends
     let t288 = t284 + t283 * t286;
     // leg 4: rod's end mass at the Hooke joint
-    let t289 = parameters.rod_com_fraction[3] - 1.0;
+    let t289 = parameters.rod_com_fraction[3] - c(1.0);
     let t290 = parameters.rod_inertia[3] / t196;
     let t291 = t289 * (parameters.rod_mass[3] * t289) + t290;
     // leg 4: leg mass that moves with the platform joint
@@ -8498,7 +9065,7 @@ pub fn mass_matrix_p(
     // leg 4: rod's inertial coupling between its ends
     let t294 = t290 + t289 * t292;
     // leg 5: rod's end mass at the Hooke joint
-    let t295 = parameters.rod_com_fraction[4] - 1.0;
+    let t295 = parameters.rod_com_fraction[4] - c(1.0);
     let t296 = parameters.rod_inertia[4] / t205;
     let t297 = t295 * (parameters.rod_mass[4] * t295) + t296;
     // leg 5: leg mass that moves with the platform joint
@@ -8507,7 +9074,7 @@ pub fn mass_matrix_p(
     // leg 5: rod's inertial coupling between its ends
     let t300 = t296 + t295 * t298;
     // leg 6: rod's end mass at the Hooke joint
-    let t301 = parameters.rod_com_fraction[5] - 1.0;
+    let t301 = parameters.rod_com_fraction[5] - c(1.0);
     let t302 = parameters.rod_inertia[5] / t214;
     let t303 = t301 * (parameters.rod_mass[5] * t301) + t302;
     // leg 6: leg mass that moves with the platform joint
@@ -8542,7 +9109,7 @@ pub fn mass_matrix_p(
     let t329 = t328 + parameters.platform_point[5][2] * t305;
     // second moment of payload and platform-side leg ends
     let t330 = parameters.payload_inertia[0][0] + parameters.payload_inertia[1][1];
-    let t331 = (parameters.payload_inertia[2][2] + t330) * 0.5;
+    let t331 = (parameters.payload_inertia[2][2] + t330) * c(0.5);
     let t332 = parameters.payload_inertia[0][0] - t331;
     let t333 = parameters.payload_com[0] * parameters.payload_com[0];
     let t334 = t275
@@ -8637,12 +9204,12 @@ pub fn mass_matrix_p(
         * (parameters.platform_point[5][2] * parameters.platform_point[5][2]);
     let t388 = t384 - t385 - t386 - t387;
     // leg 1: mass matrix of the leg in the speeds of its joint
-    let t389 = 0.5 * (parameters.mover_mass[0] + t273);
+    let t389 = c(0.5) * (parameters.mover_mass[0] + t273);
     let t390 = base_rotation[0][1] * parameters.actuator_axis[0][1];
     let t391 = base_rotation[0][0] * parameters.actuator_axis[0][0] + t390;
     let t392 = t276 * (t391 + base_rotation[0][2] * parameters.actuator_axis[0][2]);
     let t393 = t236 * t389 - t392;
-    let t394 = 2.0 * (t236 * t393);
+    let t394 = c(2.0) * (t236 * t393);
     let t395 = base_rotation[1][1] * parameters.actuator_axis[0][1];
     let t396 = base_rotation[1][0] * parameters.actuator_axis[0][0] + t395;
     let t397 = t276 * (t396 + base_rotation[1][2] * parameters.actuator_axis[0][2]);
@@ -8653,16 +9220,16 @@ pub fn mass_matrix_p(
     let t402 = t276 * (t401 + base_rotation[2][2] * parameters.actuator_axis[0][2]);
     let t403 = t240 * t389 - t402;
     let t404 = t236 * t403 + t240 * t393;
-    let t405 = 2.0 * (t238 * t398);
+    let t405 = c(2.0) * (t238 * t398);
     let t406 = t238 * t403 + t240 * t398;
-    let t407 = 2.0 * (t240 * t403);
+    let t407 = c(2.0) * (t240 * t403);
     // leg 2: mass matrix of the leg in the speeds of its joint
-    let t408 = 0.5 * (parameters.mover_mass[1] + t279);
+    let t408 = c(0.5) * (parameters.mover_mass[1] + t279);
     let t409 = base_rotation[0][1] * parameters.actuator_axis[1][1];
     let t410 = base_rotation[0][0] * parameters.actuator_axis[1][0] + t409;
     let t411 = t282 * (t410 + base_rotation[0][2] * parameters.actuator_axis[1][2]);
     let t412 = t242 * t408 - t411;
-    let t413 = 2.0 * (t242 * t412);
+    let t413 = c(2.0) * (t242 * t412);
     let t414 = base_rotation[1][1] * parameters.actuator_axis[1][1];
     let t415 = base_rotation[1][0] * parameters.actuator_axis[1][0] + t414;
     let t416 = t282 * (t415 + base_rotation[1][2] * parameters.actuator_axis[1][2]);
@@ -8673,16 +9240,16 @@ pub fn mass_matrix_p(
     let t421 = t282 * (t420 + base_rotation[2][2] * parameters.actuator_axis[1][2]);
     let t422 = t246 * t408 - t421;
     let t423 = t242 * t422 + t246 * t412;
-    let t424 = 2.0 * (t244 * t417);
+    let t424 = c(2.0) * (t244 * t417);
     let t425 = t244 * t422 + t246 * t417;
-    let t426 = 2.0 * (t246 * t422);
+    let t426 = c(2.0) * (t246 * t422);
     // leg 3: mass matrix of the leg in the speeds of its joint
-    let t427 = 0.5 * (parameters.mover_mass[2] + t285);
+    let t427 = c(0.5) * (parameters.mover_mass[2] + t285);
     let t428 = base_rotation[0][1] * parameters.actuator_axis[2][1];
     let t429 = base_rotation[0][0] * parameters.actuator_axis[2][0] + t428;
     let t430 = t288 * (t429 + base_rotation[0][2] * parameters.actuator_axis[2][2]);
     let t431 = t248 * t427 - t430;
-    let t432 = 2.0 * (t248 * t431);
+    let t432 = c(2.0) * (t248 * t431);
     let t433 = base_rotation[1][1] * parameters.actuator_axis[2][1];
     let t434 = base_rotation[1][0] * parameters.actuator_axis[2][0] + t433;
     let t435 = t288 * (t434 + base_rotation[1][2] * parameters.actuator_axis[2][2]);
@@ -8693,16 +9260,16 @@ pub fn mass_matrix_p(
     let t440 = t288 * (t439 + base_rotation[2][2] * parameters.actuator_axis[2][2]);
     let t441 = t252 * t427 - t440;
     let t442 = t248 * t441 + t252 * t431;
-    let t443 = 2.0 * (t250 * t436);
+    let t443 = c(2.0) * (t250 * t436);
     let t444 = t250 * t441 + t252 * t436;
-    let t445 = 2.0 * (t252 * t441);
+    let t445 = c(2.0) * (t252 * t441);
     // leg 4: mass matrix of the leg in the speeds of its joint
-    let t446 = 0.5 * (parameters.mover_mass[3] + t291);
+    let t446 = c(0.5) * (parameters.mover_mass[3] + t291);
     let t447 = base_rotation[0][1] * parameters.actuator_axis[3][1];
     let t448 = base_rotation[0][0] * parameters.actuator_axis[3][0] + t447;
     let t449 = t294 * (t448 + base_rotation[0][2] * parameters.actuator_axis[3][2]);
     let t450 = t254 * t446 - t449;
-    let t451 = 2.0 * (t254 * t450);
+    let t451 = c(2.0) * (t254 * t450);
     let t452 = base_rotation[1][1] * parameters.actuator_axis[3][1];
     let t453 = base_rotation[1][0] * parameters.actuator_axis[3][0] + t452;
     let t454 = t294 * (t453 + base_rotation[1][2] * parameters.actuator_axis[3][2]);
@@ -8713,16 +9280,16 @@ pub fn mass_matrix_p(
     let t459 = t294 * (t458 + base_rotation[2][2] * parameters.actuator_axis[3][2]);
     let t460 = t258 * t446 - t459;
     let t461 = t254 * t460 + t258 * t450;
-    let t462 = 2.0 * (t256 * t455);
+    let t462 = c(2.0) * (t256 * t455);
     let t463 = t256 * t460 + t258 * t455;
-    let t464 = 2.0 * (t258 * t460);
+    let t464 = c(2.0) * (t258 * t460);
     // leg 5: mass matrix of the leg in the speeds of its joint
-    let t465 = 0.5 * (parameters.mover_mass[4] + t297);
+    let t465 = c(0.5) * (parameters.mover_mass[4] + t297);
     let t466 = base_rotation[0][1] * parameters.actuator_axis[4][1];
     let t467 = base_rotation[0][0] * parameters.actuator_axis[4][0] + t466;
     let t468 = t300 * (t467 + base_rotation[0][2] * parameters.actuator_axis[4][2]);
     let t469 = t260 * t465 - t468;
-    let t470 = 2.0 * (t260 * t469);
+    let t470 = c(2.0) * (t260 * t469);
     let t471 = base_rotation[1][1] * parameters.actuator_axis[4][1];
     let t472 = base_rotation[1][0] * parameters.actuator_axis[4][0] + t471;
     let t473 = t300 * (t472 + base_rotation[1][2] * parameters.actuator_axis[4][2]);
@@ -8733,16 +9300,16 @@ pub fn mass_matrix_p(
     let t478 = t300 * (t477 + base_rotation[2][2] * parameters.actuator_axis[4][2]);
     let t479 = t264 * t465 - t478;
     let t480 = t260 * t479 + t264 * t469;
-    let t481 = 2.0 * (t262 * t474);
+    let t481 = c(2.0) * (t262 * t474);
     let t482 = t262 * t479 + t264 * t474;
-    let t483 = 2.0 * (t264 * t479);
+    let t483 = c(2.0) * (t264 * t479);
     // leg 6: mass matrix of the leg in the speeds of its joint
-    let t484 = 0.5 * (parameters.mover_mass[5] + t303);
+    let t484 = c(0.5) * (parameters.mover_mass[5] + t303);
     let t485 = base_rotation[0][1] * parameters.actuator_axis[5][1];
     let t486 = base_rotation[0][0] * parameters.actuator_axis[5][0] + t485;
     let t487 = t306 * (t486 + base_rotation[0][2] * parameters.actuator_axis[5][2]);
     let t488 = t266 * t484 - t487;
-    let t489 = 2.0 * (t266 * t488);
+    let t489 = c(2.0) * (t266 * t488);
     let t490 = base_rotation[1][1] * parameters.actuator_axis[5][1];
     let t491 = base_rotation[1][0] * parameters.actuator_axis[5][0] + t490;
     let t492 = t306 * (t491 + base_rotation[1][2] * parameters.actuator_axis[5][2]);
@@ -8753,9 +9320,9 @@ pub fn mass_matrix_p(
     let t497 = t306 * (t496 + base_rotation[2][2] * parameters.actuator_axis[5][2]);
     let t498 = t270 * t484 - t497;
     let t499 = t266 * t498 + t270 * t488;
-    let t500 = 2.0 * (t268 * t493);
+    let t500 = c(2.0) * (t268 * t493);
     let t501 = t268 * t498 + t270 * t493;
-    let t502 = 2.0 * (t270 * t498);
+    let t502 = c(2.0) * (t270 * t498);
     // mass matrix of the legs
     let t503 = t489 + (t470 + (t451 + (t432 + (t394 + t413))));
     let t504 = t48 * t404 - t54 * t394;
@@ -8960,14 +9527,15 @@ pub fn mass_matrix_p(
 ///
 /// - `mass_matrix_b`: 6x6, kg, kg m, kg m^2, frame O: mass matrix M_b that couples the base acceleration, equation (49).
 #[allow(clippy::all, clippy::pedantic, unused_variables)]
-pub fn mass_matrix_b(
-    parameters: &Parameters,
-    base_position: &[f64; 3],
-    base_rotation: &[[f64; 3]; 3],
-    platform_position: &[f64; 3],
-    platform_rotation: &[[f64; 3]; 3],
-    mass_matrix_b: &mut [[f64; 6]; 6],
+pub fn mass_matrix_b<T: Scalar>(
+    parameters: &Parameters<T>,
+    base_position: &[T; 3],
+    base_rotation: &[[T; 3]; 3],
+    platform_position: &[T; 3],
+    platform_rotation: &[[T; 3]; 3],
+    mass_matrix_b: &mut [[T; 6]; 6],
 ) {
+    let c = T::constant;
     // rotation of the platform seen from the base
     let t1 = base_rotation[1][0] * platform_rotation[1][0];
     let t2 = base_rotation[0][0] * platform_rotation[0][0] + t1;
@@ -9155,7 +9723,7 @@ pub fn mass_matrix_b(
     let t169 = parameters.rod_length[0] * parameters.rod_length[0];
     let t170 = sqrt(t169 - t166 * t166 - t167 * t167 - t168 * t168);
     // leg 1: reciprocal of that extent
-    let t171 = 1.0 / t170;
+    let t171 = c(1.0) / t170;
     // leg 1: actuator length d
     let t172 = t165 - t170;
     // leg 2: offset of the platform joint from the actuator axis
@@ -9169,7 +9737,7 @@ pub fn mass_matrix_b(
     let t179 = parameters.rod_length[1] * parameters.rod_length[1];
     let t180 = sqrt(t179 - t176 * t176 - t177 * t177 - t178 * t178);
     // leg 2: reciprocal of that extent
-    let t181 = 1.0 / t180;
+    let t181 = c(1.0) / t180;
     // leg 2: actuator length d
     let t182 = t175 - t180;
     // leg 3: offset of the platform joint from the actuator axis
@@ -9183,7 +9751,7 @@ pub fn mass_matrix_b(
     let t189 = parameters.rod_length[2] * parameters.rod_length[2];
     let t190 = sqrt(t189 - t186 * t186 - t187 * t187 - t188 * t188);
     // leg 3: reciprocal of that extent
-    let t191 = 1.0 / t190;
+    let t191 = c(1.0) / t190;
     // leg 3: actuator length d
     let t192 = t185 - t190;
     // leg 4: offset of the platform joint from the actuator axis
@@ -9197,7 +9765,7 @@ pub fn mass_matrix_b(
     let t199 = parameters.rod_length[3] * parameters.rod_length[3];
     let t200 = sqrt(t199 - t196 * t196 - t197 * t197 - t198 * t198);
     // leg 4: reciprocal of that extent
-    let t201 = 1.0 / t200;
+    let t201 = c(1.0) / t200;
     // leg 4: actuator length d
     let t202 = t195 - t200;
     // leg 5: offset of the platform joint from the actuator axis
@@ -9211,7 +9779,7 @@ pub fn mass_matrix_b(
     let t209 = parameters.rod_length[4] * parameters.rod_length[4];
     let t210 = sqrt(t209 - t206 * t206 - t207 * t207 - t208 * t208);
     // leg 5: reciprocal of that extent
-    let t211 = 1.0 / t210;
+    let t211 = c(1.0) / t210;
     // leg 5: actuator length d
     let t212 = t205 - t210;
     // leg 6: offset of the platform joint from the actuator axis
@@ -9225,7 +9793,7 @@ pub fn mass_matrix_b(
     let t219 = parameters.rod_length[5] * parameters.rod_length[5];
     let t220 = sqrt(t219 - t216 * t216 - t217 * t217 - t218 * t218);
     // leg 6: reciprocal of that extent
-    let t221 = 1.0 / t220;
+    let t221 = c(1.0) / t220;
     // leg 6: actuator length d
     let t222 = t215 - t220;
     // leg 1: gradient of the actuator length by the platform joint
@@ -9319,7 +9887,7 @@ pub fn mass_matrix_b(
     let t293 = base_rotation[2][0] * t238 + base_rotation[2][1] * t239;
     let t294 = base_rotation[2][2] * t240 + t293;
     // leg 1: rod's end mass at the Hooke joint
-    let t295 = parameters.rod_com_fraction[0] - 1.0;
+    let t295 = parameters.rod_com_fraction[0] - c(1.0);
     let t296 = parameters.rod_inertia[0] / t169;
     let t297 = t295 * (parameters.rod_mass[0] * t295) + t296;
     // leg 1: leg mass that moves with the platform joint
@@ -9327,7 +9895,7 @@ pub fn mass_matrix_b(
     // leg 1: rod's inertial coupling between its ends
     let t299 = t296 + t295 * t298;
     // leg 2: rod's end mass at the Hooke joint
-    let t300 = parameters.rod_com_fraction[1] - 1.0;
+    let t300 = parameters.rod_com_fraction[1] - c(1.0);
     let t301 = parameters.rod_inertia[1] / t179;
     let t302 = t300 * (parameters.rod_mass[1] * t300) + t301;
     // leg 2: leg mass that moves with the platform joint
@@ -9335,7 +9903,7 @@ pub fn mass_matrix_b(
     // leg 2: rod's inertial coupling between its ends
     let t304 = t301 + t300 * t303;
     // leg 3: rod's end mass at the Hooke joint
-    let t305 = parameters.rod_com_fraction[2] - 1.0;
+    let t305 = parameters.rod_com_fraction[2] - c(1.0);
     let t306 = parameters.rod_inertia[2] / t189;
     let t307 = t305 * (parameters.rod_mass[2] * t305) + t306;
     // leg 3: leg mass that moves with the platform joint
@@ -9343,7 +9911,7 @@ pub fn mass_matrix_b(
     // leg 3: rod's inertial coupling between its ends
     let t309 = t306 + t305 * t308;
     // leg 4: rod's end mass at the Hooke joint
-    let t310 = parameters.rod_com_fraction[3] - 1.0;
+    let t310 = parameters.rod_com_fraction[3] - c(1.0);
     let t311 = parameters.rod_inertia[3] / t199;
     let t312 = t310 * (parameters.rod_mass[3] * t310) + t311;
     // leg 4: leg mass that moves with the platform joint
@@ -9351,7 +9919,7 @@ pub fn mass_matrix_b(
     // leg 4: rod's inertial coupling between its ends
     let t314 = t311 + t310 * t313;
     // leg 5: rod's end mass at the Hooke joint
-    let t315 = parameters.rod_com_fraction[4] - 1.0;
+    let t315 = parameters.rod_com_fraction[4] - c(1.0);
     let t316 = parameters.rod_inertia[4] / t209;
     let t317 = t315 * (parameters.rod_mass[4] * t315) + t316;
     // leg 5: leg mass that moves with the platform joint
@@ -9359,7 +9927,7 @@ pub fn mass_matrix_b(
     // leg 5: rod's inertial coupling between its ends
     let t319 = t316 + t315 * t318;
     // leg 6: rod's end mass at the Hooke joint
-    let t320 = parameters.rod_com_fraction[5] - 1.0;
+    let t320 = parameters.rod_com_fraction[5] - c(1.0);
     let t321 = parameters.rod_inertia[5] / t219;
     let t322 = t320 * (parameters.rod_mass[5] * t320) + t321;
     // leg 6: leg mass that moves with the platform joint
@@ -9371,9 +9939,9 @@ pub fn mass_matrix_b(
     let t326 = base_rotation[0][1] * parameters.actuator_axis[0][1];
     let t327 = base_rotation[0][0] * parameters.actuator_axis[0][0] + t326;
     let t328 = base_rotation[0][2] * parameters.actuator_axis[0][2] + t327;
-    let t329 = 0.5 * t325;
+    let t329 = c(0.5) * t325;
     let t330 = t245 * t329 - t299 * t328;
-    let t331 = 2.0 * (t245 * t330);
+    let t331 = c(2.0) * (t245 * t330);
     let t332 = base_rotation[1][1] * parameters.actuator_axis[0][1];
     let t333 = base_rotation[1][0] * parameters.actuator_axis[0][0] + t332;
     let t334 = base_rotation[1][2] * parameters.actuator_axis[0][2] + t333;
@@ -9384,9 +9952,9 @@ pub fn mass_matrix_b(
     let t339 = base_rotation[2][2] * parameters.actuator_axis[0][2] + t338;
     let t340 = t249 * t329 - t299 * t339;
     let t341 = t245 * t340 + t249 * t330;
-    let t342 = 2.0 * (t247 * t335);
+    let t342 = c(2.0) * (t247 * t335);
     let t343 = t247 * t340 + t249 * t335;
-    let t344 = 2.0 * (t249 * t340);
+    let t344 = c(2.0) * (t249 * t340);
     // leg 1: leg inertia between joint and base speeds
     let t345 = t299 - t325;
     let t346 = t328 * t345;
@@ -9439,9 +10007,9 @@ pub fn mass_matrix_b(
     let t392 = base_rotation[0][1] * parameters.actuator_axis[1][1];
     let t393 = base_rotation[0][0] * parameters.actuator_axis[1][0] + t392;
     let t394 = base_rotation[0][2] * parameters.actuator_axis[1][2] + t393;
-    let t395 = 0.5 * t391;
+    let t395 = c(0.5) * t391;
     let t396 = t254 * t395 - t304 * t394;
-    let t397 = 2.0 * (t254 * t396);
+    let t397 = c(2.0) * (t254 * t396);
     let t398 = base_rotation[1][1] * parameters.actuator_axis[1][1];
     let t399 = base_rotation[1][0] * parameters.actuator_axis[1][0] + t398;
     let t400 = base_rotation[1][2] * parameters.actuator_axis[1][2] + t399;
@@ -9452,9 +10020,9 @@ pub fn mass_matrix_b(
     let t405 = base_rotation[2][2] * parameters.actuator_axis[1][2] + t404;
     let t406 = t258 * t395 - t304 * t405;
     let t407 = t254 * t406 + t258 * t396;
-    let t408 = 2.0 * (t256 * t401);
+    let t408 = c(2.0) * (t256 * t401);
     let t409 = t256 * t406 + t258 * t401;
-    let t410 = 2.0 * (t258 * t406);
+    let t410 = c(2.0) * (t258 * t406);
     // leg 2: leg inertia between joint and base speeds
     let t411 = t304 - t391;
     let t412 = t394 * t411;
@@ -9507,9 +10075,9 @@ pub fn mass_matrix_b(
     let t458 = base_rotation[0][1] * parameters.actuator_axis[2][1];
     let t459 = base_rotation[0][0] * parameters.actuator_axis[2][0] + t458;
     let t460 = base_rotation[0][2] * parameters.actuator_axis[2][2] + t459;
-    let t461 = 0.5 * t457;
+    let t461 = c(0.5) * t457;
     let t462 = t263 * t461 - t309 * t460;
-    let t463 = 2.0 * (t263 * t462);
+    let t463 = c(2.0) * (t263 * t462);
     let t464 = base_rotation[1][1] * parameters.actuator_axis[2][1];
     let t465 = base_rotation[1][0] * parameters.actuator_axis[2][0] + t464;
     let t466 = base_rotation[1][2] * parameters.actuator_axis[2][2] + t465;
@@ -9520,9 +10088,9 @@ pub fn mass_matrix_b(
     let t471 = base_rotation[2][2] * parameters.actuator_axis[2][2] + t470;
     let t472 = t267 * t461 - t309 * t471;
     let t473 = t263 * t472 + t267 * t462;
-    let t474 = 2.0 * (t265 * t467);
+    let t474 = c(2.0) * (t265 * t467);
     let t475 = t265 * t472 + t267 * t467;
-    let t476 = 2.0 * (t267 * t472);
+    let t476 = c(2.0) * (t267 * t472);
     // leg 3: leg inertia between joint and base speeds
     let t477 = t309 - t457;
     let t478 = t460 * t477;
@@ -9575,9 +10143,9 @@ pub fn mass_matrix_b(
     let t524 = base_rotation[0][1] * parameters.actuator_axis[3][1];
     let t525 = base_rotation[0][0] * parameters.actuator_axis[3][0] + t524;
     let t526 = base_rotation[0][2] * parameters.actuator_axis[3][2] + t525;
-    let t527 = 0.5 * t523;
+    let t527 = c(0.5) * t523;
     let t528 = t272 * t527 - t314 * t526;
-    let t529 = 2.0 * (t272 * t528);
+    let t529 = c(2.0) * (t272 * t528);
     let t530 = base_rotation[1][1] * parameters.actuator_axis[3][1];
     let t531 = base_rotation[1][0] * parameters.actuator_axis[3][0] + t530;
     let t532 = base_rotation[1][2] * parameters.actuator_axis[3][2] + t531;
@@ -9588,9 +10156,9 @@ pub fn mass_matrix_b(
     let t537 = base_rotation[2][2] * parameters.actuator_axis[3][2] + t536;
     let t538 = t276 * t527 - t314 * t537;
     let t539 = t272 * t538 + t276 * t528;
-    let t540 = 2.0 * (t274 * t533);
+    let t540 = c(2.0) * (t274 * t533);
     let t541 = t274 * t538 + t276 * t533;
-    let t542 = 2.0 * (t276 * t538);
+    let t542 = c(2.0) * (t276 * t538);
     // leg 4: leg inertia between joint and base speeds
     let t543 = t314 - t523;
     let t544 = t526 * t543;
@@ -9643,9 +10211,9 @@ pub fn mass_matrix_b(
     let t590 = base_rotation[0][1] * parameters.actuator_axis[4][1];
     let t591 = base_rotation[0][0] * parameters.actuator_axis[4][0] + t590;
     let t592 = base_rotation[0][2] * parameters.actuator_axis[4][2] + t591;
-    let t593 = 0.5 * t589;
+    let t593 = c(0.5) * t589;
     let t594 = t281 * t593 - t319 * t592;
-    let t595 = 2.0 * (t281 * t594);
+    let t595 = c(2.0) * (t281 * t594);
     let t596 = base_rotation[1][1] * parameters.actuator_axis[4][1];
     let t597 = base_rotation[1][0] * parameters.actuator_axis[4][0] + t596;
     let t598 = base_rotation[1][2] * parameters.actuator_axis[4][2] + t597;
@@ -9656,9 +10224,9 @@ pub fn mass_matrix_b(
     let t603 = base_rotation[2][2] * parameters.actuator_axis[4][2] + t602;
     let t604 = t285 * t593 - t319 * t603;
     let t605 = t281 * t604 + t285 * t594;
-    let t606 = 2.0 * (t283 * t599);
+    let t606 = c(2.0) * (t283 * t599);
     let t607 = t283 * t604 + t285 * t599;
-    let t608 = 2.0 * (t285 * t604);
+    let t608 = c(2.0) * (t285 * t604);
     // leg 5: leg inertia between joint and base speeds
     let t609 = t319 - t589;
     let t610 = t592 * t609;
@@ -9711,9 +10279,9 @@ pub fn mass_matrix_b(
     let t656 = base_rotation[0][1] * parameters.actuator_axis[5][1];
     let t657 = base_rotation[0][0] * parameters.actuator_axis[5][0] + t656;
     let t658 = base_rotation[0][2] * parameters.actuator_axis[5][2] + t657;
-    let t659 = 0.5 * t655;
+    let t659 = c(0.5) * t655;
     let t660 = t290 * t659 - t324 * t658;
-    let t661 = 2.0 * (t290 * t660);
+    let t661 = c(2.0) * (t290 * t660);
     let t662 = base_rotation[1][1] * parameters.actuator_axis[5][1];
     let t663 = base_rotation[1][0] * parameters.actuator_axis[5][0] + t662;
     let t664 = base_rotation[1][2] * parameters.actuator_axis[5][2] + t663;
@@ -9724,9 +10292,9 @@ pub fn mass_matrix_b(
     let t669 = base_rotation[2][2] * parameters.actuator_axis[5][2] + t668;
     let t670 = t294 * t659 - t324 * t669;
     let t671 = t290 * t670 + t294 * t660;
-    let t672 = 2.0 * (t292 * t665);
+    let t672 = c(2.0) * (t292 * t665);
     let t673 = t292 * t670 + t294 * t665;
-    let t674 = 2.0 * (t294 * t670);
+    let t674 = c(2.0) * (t294 * t670);
     // leg 6: leg inertia between joint and base speeds
     let t675 = t324 - t655;
     let t676 = t658 * t675;
@@ -10041,17 +10609,18 @@ pub fn mass_matrix_b(
 /// - `coriolis_matrix_p`: 6x6, kg/s, kg m/s, kg m^2/s, frame O: Coriolis matrix C_p, natural factorisation, equation (49).
 /// - `coriolis_matrix_b`: 6x6, kg/s, kg m/s, kg m^2/s, frame O: Coriolis matrix C_b, natural factorisation, equation (49).
 #[allow(clippy::all, clippy::pedantic, unused_variables)]
-pub fn coriolis_matrices(
-    parameters: &Parameters,
-    base_position: &[f64; 3],
-    base_rotation: &[[f64; 3]; 3],
-    base_velocity: &[f64; 6],
-    platform_position: &[f64; 3],
-    platform_rotation: &[[f64; 3]; 3],
-    platform_velocity: &[f64; 6],
-    coriolis_matrix_p: &mut [[f64; 6]; 6],
-    coriolis_matrix_b: &mut [[f64; 6]; 6],
+pub fn coriolis_matrices<T: Scalar>(
+    parameters: &Parameters<T>,
+    base_position: &[T; 3],
+    base_rotation: &[[T; 3]; 3],
+    base_velocity: &[T; 6],
+    platform_position: &[T; 3],
+    platform_rotation: &[[T; 3]; 3],
+    platform_velocity: &[T; 6],
+    coriolis_matrix_p: &mut [[T; 6]; 6],
+    coriolis_matrix_b: &mut [[T; 6]; 6],
 ) {
+    let c = T::constant;
     let (
         t28,
         t29,
@@ -10472,7 +11041,7 @@ pub fn coriolis_matrices(
         let t169 = parameters.rod_length[0] * parameters.rod_length[0];
         let t170 = sqrt(t169 - t166 * t166 - t167 * t167 - t168 * t168);
         // leg 1: reciprocal of that extent
-        let t171 = 1.0 / t170;
+        let t171 = c(1.0) / t170;
         // leg 1: actuator length d
         let t172 = t165 - t170;
         // leg 2: offset of the platform joint from the actuator axis
@@ -10486,7 +11055,7 @@ pub fn coriolis_matrices(
         let t179 = parameters.rod_length[1] * parameters.rod_length[1];
         let t180 = sqrt(t179 - t176 * t176 - t177 * t177 - t178 * t178);
         // leg 2: reciprocal of that extent
-        let t181 = 1.0 / t180;
+        let t181 = c(1.0) / t180;
         // leg 2: actuator length d
         let t182 = t175 - t180;
         // leg 3: offset of the platform joint from the actuator axis
@@ -10500,7 +11069,7 @@ pub fn coriolis_matrices(
         let t189 = parameters.rod_length[2] * parameters.rod_length[2];
         let t190 = sqrt(t189 - t186 * t186 - t187 * t187 - t188 * t188);
         // leg 3: reciprocal of that extent
-        let t191 = 1.0 / t190;
+        let t191 = c(1.0) / t190;
         // leg 3: actuator length d
         let t192 = t185 - t190;
         // leg 4: offset of the platform joint from the actuator axis
@@ -10514,7 +11083,7 @@ pub fn coriolis_matrices(
         let t199 = parameters.rod_length[3] * parameters.rod_length[3];
         let t200 = sqrt(t199 - t196 * t196 - t197 * t197 - t198 * t198);
         // leg 4: reciprocal of that extent
-        let t201 = 1.0 / t200;
+        let t201 = c(1.0) / t200;
         // leg 4: actuator length d
         let t202 = t195 - t200;
         // leg 5: offset of the platform joint from the actuator axis
@@ -10528,7 +11097,7 @@ pub fn coriolis_matrices(
         let t209 = parameters.rod_length[4] * parameters.rod_length[4];
         let t210 = sqrt(t209 - t206 * t206 - t207 * t207 - t208 * t208);
         // leg 5: reciprocal of that extent
-        let t211 = 1.0 / t210;
+        let t211 = c(1.0) / t210;
         // leg 5: actuator length d
         let t212 = t205 - t210;
         // leg 6: offset of the platform joint from the actuator axis
@@ -10542,7 +11111,7 @@ pub fn coriolis_matrices(
         let t219 = parameters.rod_length[5] * parameters.rod_length[5];
         let t220 = sqrt(t219 - t216 * t216 - t217 * t217 - t218 * t218);
         // leg 6: reciprocal of that extent
-        let t221 = 1.0 / t220;
+        let t221 = c(1.0) / t220;
         // leg 6: actuator length d
         let t222 = t215 - t220;
         // leg 1: gradient of the actuator length by the platform joint
@@ -10630,7 +11199,7 @@ pub fn coriolis_matrices(
         let t293 = base_rotation[2][0] * t254 + base_rotation[2][1] * t256;
         let t294 = base_rotation[2][2] * t258 + t293;
         // leg 1: rod's end mass at the Hooke joint
-        let t295 = parameters.rod_com_fraction[0] - 1.0;
+        let t295 = parameters.rod_com_fraction[0] - c(1.0);
         let t296 = parameters.rod_inertia[0] / t169;
         let t297 = t295 * (parameters.rod_mass[0] * t295) + t296;
         // leg 1: leg mass that moves with the platform joint
@@ -10639,7 +11208,7 @@ pub fn coriolis_matrices(
         // leg 1: rod's inertial coupling between its ends
         let t300 = t296 + t295 * t298;
         // leg 2: rod's end mass at the Hooke joint
-        let t301 = parameters.rod_com_fraction[1] - 1.0;
+        let t301 = parameters.rod_com_fraction[1] - c(1.0);
         let t302 = parameters.rod_inertia[1] / t179;
         let t303 = t301 * (parameters.rod_mass[1] * t301) + t302;
         // leg 2: leg mass that moves with the platform joint
@@ -10648,7 +11217,7 @@ pub fn coriolis_matrices(
         // leg 2: rod's inertial coupling between its ends
         let t306 = t302 + t301 * t304;
         // leg 3: rod's end mass at the Hooke joint
-        let t307 = parameters.rod_com_fraction[2] - 1.0;
+        let t307 = parameters.rod_com_fraction[2] - c(1.0);
         let t308 = parameters.rod_inertia[2] / t189;
         let t309 = t307 * (parameters.rod_mass[2] * t307) + t308;
         // leg 3: leg mass that moves with the platform joint
@@ -10657,7 +11226,7 @@ pub fn coriolis_matrices(
         // leg 3: rod's inertial coupling between its ends
         let t312 = t308 + t307 * t310;
         // leg 4: rod's end mass at the Hooke joint
-        let t313 = parameters.rod_com_fraction[3] - 1.0;
+        let t313 = parameters.rod_com_fraction[3] - c(1.0);
         let t314 = parameters.rod_inertia[3] / t199;
         let t315 = t313 * (parameters.rod_mass[3] * t313) + t314;
         // leg 4: leg mass that moves with the platform joint
@@ -10666,7 +11235,7 @@ pub fn coriolis_matrices(
         // leg 4: rod's inertial coupling between its ends
         let t318 = t314 + t313 * t316;
         // leg 5: rod's end mass at the Hooke joint
-        let t319 = parameters.rod_com_fraction[4] - 1.0;
+        let t319 = parameters.rod_com_fraction[4] - c(1.0);
         let t320 = parameters.rod_inertia[4] / t209;
         let t321 = t319 * (parameters.rod_mass[4] * t319) + t320;
         // leg 5: leg mass that moves with the platform joint
@@ -10675,7 +11244,7 @@ pub fn coriolis_matrices(
         // leg 5: rod's inertial coupling between its ends
         let t324 = t320 + t319 * t322;
         // leg 6: rod's end mass at the Hooke joint
-        let t325 = parameters.rod_com_fraction[5] - 1.0;
+        let t325 = parameters.rod_com_fraction[5] - c(1.0);
         let t326 = parameters.rod_inertia[5] / t219;
         let t327 = t325 * (parameters.rod_mass[5] * t325) + t326;
         // leg 6: leg mass that moves with the platform joint
@@ -10707,7 +11276,7 @@ pub fn coriolis_matrices(
         let t351 = parameters.platform_point[5][2] * t329 + t350;
         // second moment of payload and platform-side leg ends
         let t352 = parameters.payload_inertia[0][0] + parameters.payload_inertia[1][1];
-        let t353 = 0.5 * (parameters.payload_inertia[2][2] + t352);
+        let t353 = c(0.5) * (parameters.payload_inertia[2][2] + t352);
         let t354 = t329
             * (parameters.platform_point[5][0] * parameters.platform_point[5][0]);
         let t355 = t323
@@ -10807,9 +11376,9 @@ pub fn coriolis_matrices(
         let t413 = base_rotation[0][0] * parameters.actuator_axis[0][0] + t412;
         let t414 = base_rotation[0][2] * parameters.actuator_axis[0][2] + t413;
         let t415 = t300 * t414;
-        let t416 = 0.5 * t411;
+        let t416 = c(0.5) * t411;
         let t417 = t260 * t416 - t415;
-        let t418 = 2.0 * (t260 * t417);
+        let t418 = c(2.0) * (t260 * t417);
         let t419 = base_rotation[1][1] * parameters.actuator_axis[0][1];
         let t420 = base_rotation[1][0] * parameters.actuator_axis[0][0] + t419;
         let t421 = base_rotation[1][2] * parameters.actuator_axis[0][2] + t420;
@@ -10822,9 +11391,9 @@ pub fn coriolis_matrices(
         let t428 = t300 * t427;
         let t429 = t264 * t416 - t428;
         let t430 = t260 * t429 + t264 * t417;
-        let t431 = 2.0 * (t262 * t423);
+        let t431 = c(2.0) * (t262 * t423);
         let t432 = t262 * t429 + t264 * t423;
-        let t433 = 2.0 * (t264 * t429);
+        let t433 = c(2.0) * (t264 * t429);
         // leg 1: leg inertia between joint and base speeds
         let t434 = base_rotation[1][1] * parameters.base_point[0][1];
         let t435 = base_rotation[1][0] * parameters.base_point[0][0] + t434;
@@ -10841,9 +11410,9 @@ pub fn coriolis_matrices(
         let t445 = base_rotation[0][0] * parameters.actuator_axis[1][0] + t444;
         let t446 = base_rotation[0][2] * parameters.actuator_axis[1][2] + t445;
         let t447 = t306 * t446;
-        let t448 = 0.5 * t443;
+        let t448 = c(0.5) * t443;
         let t449 = t266 * t448 - t447;
-        let t450 = 2.0 * (t266 * t449);
+        let t450 = c(2.0) * (t266 * t449);
         let t451 = base_rotation[1][1] * parameters.actuator_axis[1][1];
         let t452 = base_rotation[1][0] * parameters.actuator_axis[1][0] + t451;
         let t453 = base_rotation[1][2] * parameters.actuator_axis[1][2] + t452;
@@ -10856,9 +11425,9 @@ pub fn coriolis_matrices(
         let t460 = t306 * t459;
         let t461 = t270 * t448 - t460;
         let t462 = t266 * t461 + t270 * t449;
-        let t463 = 2.0 * (t268 * t455);
+        let t463 = c(2.0) * (t268 * t455);
         let t464 = t268 * t461 + t270 * t455;
-        let t465 = 2.0 * (t270 * t461);
+        let t465 = c(2.0) * (t270 * t461);
         // leg 2: leg inertia between joint and base speeds
         let t466 = base_rotation[1][1] * parameters.base_point[1][1];
         let t467 = base_rotation[1][0] * parameters.base_point[1][0] + t466;
@@ -10875,9 +11444,9 @@ pub fn coriolis_matrices(
         let t477 = base_rotation[0][0] * parameters.actuator_axis[2][0] + t476;
         let t478 = base_rotation[0][2] * parameters.actuator_axis[2][2] + t477;
         let t479 = t312 * t478;
-        let t480 = 0.5 * t475;
+        let t480 = c(0.5) * t475;
         let t481 = t272 * t480 - t479;
-        let t482 = 2.0 * (t272 * t481);
+        let t482 = c(2.0) * (t272 * t481);
         let t483 = base_rotation[1][1] * parameters.actuator_axis[2][1];
         let t484 = base_rotation[1][0] * parameters.actuator_axis[2][0] + t483;
         let t485 = base_rotation[1][2] * parameters.actuator_axis[2][2] + t484;
@@ -10890,9 +11459,9 @@ pub fn coriolis_matrices(
         let t492 = t312 * t491;
         let t493 = t276 * t480 - t492;
         let t494 = t272 * t493 + t276 * t481;
-        let t495 = 2.0 * (t274 * t487);
+        let t495 = c(2.0) * (t274 * t487);
         let t496 = t274 * t493 + t276 * t487;
-        let t497 = 2.0 * (t276 * t493);
+        let t497 = c(2.0) * (t276 * t493);
         // leg 3: leg inertia between joint and base speeds
         let t498 = base_rotation[1][1] * parameters.base_point[2][1];
         let t499 = base_rotation[1][0] * parameters.base_point[2][0] + t498;
@@ -10909,9 +11478,9 @@ pub fn coriolis_matrices(
         let t509 = base_rotation[0][0] * parameters.actuator_axis[3][0] + t508;
         let t510 = base_rotation[0][2] * parameters.actuator_axis[3][2] + t509;
         let t511 = t318 * t510;
-        let t512 = 0.5 * t507;
+        let t512 = c(0.5) * t507;
         let t513 = t278 * t512 - t511;
-        let t514 = 2.0 * (t278 * t513);
+        let t514 = c(2.0) * (t278 * t513);
         let t515 = base_rotation[1][1] * parameters.actuator_axis[3][1];
         let t516 = base_rotation[1][0] * parameters.actuator_axis[3][0] + t515;
         let t517 = base_rotation[1][2] * parameters.actuator_axis[3][2] + t516;
@@ -10924,9 +11493,9 @@ pub fn coriolis_matrices(
         let t524 = t318 * t523;
         let t525 = t282 * t512 - t524;
         let t526 = t278 * t525 + t282 * t513;
-        let t527 = 2.0 * (t280 * t519);
+        let t527 = c(2.0) * (t280 * t519);
         let t528 = t280 * t525 + t282 * t519;
-        let t529 = 2.0 * (t282 * t525);
+        let t529 = c(2.0) * (t282 * t525);
         // leg 4: leg inertia between joint and base speeds
         let t530 = base_rotation[1][1] * parameters.base_point[3][1];
         let t531 = base_rotation[1][0] * parameters.base_point[3][0] + t530;
@@ -10943,9 +11512,9 @@ pub fn coriolis_matrices(
         let t541 = base_rotation[0][0] * parameters.actuator_axis[4][0] + t540;
         let t542 = base_rotation[0][2] * parameters.actuator_axis[4][2] + t541;
         let t543 = t324 * t542;
-        let t544 = 0.5 * t539;
+        let t544 = c(0.5) * t539;
         let t545 = t284 * t544 - t543;
-        let t546 = 2.0 * (t284 * t545);
+        let t546 = c(2.0) * (t284 * t545);
         let t547 = base_rotation[1][1] * parameters.actuator_axis[4][1];
         let t548 = base_rotation[1][0] * parameters.actuator_axis[4][0] + t547;
         let t549 = base_rotation[1][2] * parameters.actuator_axis[4][2] + t548;
@@ -10958,9 +11527,9 @@ pub fn coriolis_matrices(
         let t556 = t324 * t555;
         let t557 = t288 * t544 - t556;
         let t558 = t284 * t557 + t288 * t545;
-        let t559 = 2.0 * (t286 * t551);
+        let t559 = c(2.0) * (t286 * t551);
         let t560 = t286 * t557 + t288 * t551;
-        let t561 = 2.0 * (t288 * t557);
+        let t561 = c(2.0) * (t288 * t557);
         // leg 5: leg inertia between joint and base speeds
         let t562 = base_rotation[1][1] * parameters.base_point[4][1];
         let t563 = base_rotation[1][0] * parameters.base_point[4][0] + t562;
@@ -10977,9 +11546,9 @@ pub fn coriolis_matrices(
         let t573 = base_rotation[0][0] * parameters.actuator_axis[5][0] + t572;
         let t574 = base_rotation[0][2] * parameters.actuator_axis[5][2] + t573;
         let t575 = t330 * t574;
-        let t576 = 0.5 * t571;
+        let t576 = c(0.5) * t571;
         let t577 = t290 * t576 - t575;
-        let t578 = 2.0 * (t290 * t577);
+        let t578 = c(2.0) * (t290 * t577);
         let t579 = base_rotation[1][1] * parameters.actuator_axis[5][1];
         let t580 = base_rotation[1][0] * parameters.actuator_axis[5][0] + t579;
         let t581 = base_rotation[1][2] * parameters.actuator_axis[5][2] + t580;
@@ -10992,9 +11561,9 @@ pub fn coriolis_matrices(
         let t588 = t330 * t587;
         let t589 = t294 * t576 - t588;
         let t590 = t290 * t589 + t294 * t577;
-        let t591 = 2.0 * (t292 * t583);
+        let t591 = c(2.0) * (t292 * t583);
         let t592 = t292 * t589 + t294 * t583;
-        let t593 = 2.0 * (t294 * t589);
+        let t593 = c(2.0) * (t294 * t589);
         // leg 6: leg inertia between joint and base speeds
         let t594 = base_rotation[1][1] * parameters.base_point[5][1];
         let t595 = base_rotation[1][0] * parameters.base_point[5][0] + t594;
@@ -12314,15 +12883,16 @@ pub fn coriolis_matrices(
 /// - `stiffness_matrix_p`: 6x6, N/m, N, N m, frame O: linearised stiffness K_p = J_dp^T k_e J_dp, equation (49).
 /// - `stiffness_matrix_b`: 6x6, N/m, N, N m, frame O: linearised stiffness K_b = J_dp^T k_e J_db, equation (49).
 #[allow(clippy::all, clippy::pedantic, unused_variables)]
-pub fn stiffness_matrices(
-    parameters: &Parameters,
-    base_position: &[f64; 3],
-    base_rotation: &[[f64; 3]; 3],
-    platform_position: &[f64; 3],
-    platform_rotation: &[[f64; 3]; 3],
-    stiffness_matrix_p: &mut [[f64; 6]; 6],
-    stiffness_matrix_b: &mut [[f64; 6]; 6],
+pub fn stiffness_matrices<T: Scalar>(
+    parameters: &Parameters<T>,
+    base_position: &[T; 3],
+    base_rotation: &[[T; 3]; 3],
+    platform_position: &[T; 3],
+    platform_rotation: &[[T; 3]; 3],
+    stiffness_matrix_p: &mut [[T; 6]; 6],
+    stiffness_matrix_b: &mut [[T; 6]; 6],
 ) {
+    let c = T::constant;
     // rotation of the platform seen from the base
     let t1 = base_rotation[1][0] * platform_rotation[1][0];
     let t2 = base_rotation[0][0] * platform_rotation[0][0] + t1;
@@ -12510,7 +13080,7 @@ pub fn stiffness_matrices(
     let t169 = t166 * t166 + t167 * t167 + t168 * t168;
     let t170 = sqrt(parameters.rod_length[0] * parameters.rod_length[0] - t169);
     // leg 1: reciprocal of that extent
-    let t171 = 1.0 / t170;
+    let t171 = c(1.0) / t170;
     // leg 2: offset of the platform joint from the actuator axis
     let t172 = parameters.actuator_axis[1][1] * t77;
     let t173 = parameters.actuator_axis[1][0] * t76 + t172;
@@ -12522,7 +13092,7 @@ pub fn stiffness_matrices(
     let t178 = t175 * t175 + t176 * t176 + t177 * t177;
     let t179 = sqrt(parameters.rod_length[1] * parameters.rod_length[1] - t178);
     // leg 2: reciprocal of that extent
-    let t180 = 1.0 / t179;
+    let t180 = c(1.0) / t179;
     // leg 3: offset of the platform joint from the actuator axis
     let t181 = parameters.actuator_axis[2][1] * t98;
     let t182 = parameters.actuator_axis[2][0] * t97 + t181;
@@ -12534,7 +13104,7 @@ pub fn stiffness_matrices(
     let t187 = t184 * t184 + t185 * t185 + t186 * t186;
     let t188 = sqrt(parameters.rod_length[2] * parameters.rod_length[2] - t187);
     // leg 3: reciprocal of that extent
-    let t189 = 1.0 / t188;
+    let t189 = c(1.0) / t188;
     // leg 4: offset of the platform joint from the actuator axis
     let t190 = parameters.actuator_axis[3][1] * t119;
     let t191 = parameters.actuator_axis[3][0] * t118 + t190;
@@ -12546,7 +13116,7 @@ pub fn stiffness_matrices(
     let t196 = t193 * t193 + t194 * t194 + t195 * t195;
     let t197 = sqrt(parameters.rod_length[3] * parameters.rod_length[3] - t196);
     // leg 4: reciprocal of that extent
-    let t198 = 1.0 / t197;
+    let t198 = c(1.0) / t197;
     // leg 5: offset of the platform joint from the actuator axis
     let t199 = parameters.actuator_axis[4][1] * t140;
     let t200 = parameters.actuator_axis[4][0] * t139 + t199;
@@ -12558,7 +13128,7 @@ pub fn stiffness_matrices(
     let t205 = t202 * t202 + t203 * t203 + t204 * t204;
     let t206 = sqrt(parameters.rod_length[4] * parameters.rod_length[4] - t205);
     // leg 5: reciprocal of that extent
-    let t207 = 1.0 / t206;
+    let t207 = c(1.0) / t206;
     // leg 6: offset of the platform joint from the actuator axis
     let t208 = parameters.actuator_axis[5][1] * t161;
     let t209 = parameters.actuator_axis[5][0] * t160 + t208;
@@ -12570,7 +13140,7 @@ pub fn stiffness_matrices(
     let t214 = t211 * t211 + t212 * t212 + t213 * t213;
     let t215 = sqrt(parameters.rod_length[5] * parameters.rod_length[5] - t214);
     // leg 6: reciprocal of that extent
-    let t216 = 1.0 / t215;
+    let t216 = c(1.0) / t215;
     // leg 1: gradient of the actuator length by the platform joint
     let t217 = parameters.actuator_axis[0][0] - t166 * t171;
     let t218 = parameters.actuator_axis[0][1] - t167 * t171;
@@ -12928,21 +13498,22 @@ pub fn stiffness_matrices(
 /// - `coriolis_matrix_b`: 6x6, kg/s, kg m/s, kg m^2/s, frame O: Coriolis matrix C_b, natural factorisation, equation (49).
 /// - `jacobian_db`: 6x6, 1, m, frame O: actuator Jacobian of the base, equation (31).
 #[allow(clippy::all, clippy::pedantic, unused_variables)]
-pub fn matrices(
-    parameters: &Parameters,
-    base_position: &[f64; 3],
-    base_rotation: &[[f64; 3]; 3],
-    base_velocity: &[f64; 6],
-    platform_position: &[f64; 3],
-    platform_rotation: &[[f64; 3]; 3],
-    platform_velocity: &[f64; 6],
-    mass_matrix_p: &mut [[f64; 6]; 6],
-    coriolis_matrix_p: &mut [[f64; 6]; 6],
-    jacobian_dp: &mut [[f64; 6]; 6],
-    mass_matrix_b: &mut [[f64; 6]; 6],
-    coriolis_matrix_b: &mut [[f64; 6]; 6],
-    jacobian_db: &mut [[f64; 6]; 6],
+pub fn matrices<T: Scalar>(
+    parameters: &Parameters<T>,
+    base_position: &[T; 3],
+    base_rotation: &[[T; 3]; 3],
+    base_velocity: &[T; 6],
+    platform_position: &[T; 3],
+    platform_rotation: &[[T; 3]; 3],
+    platform_velocity: &[T; 6],
+    mass_matrix_p: &mut [[T; 6]; 6],
+    coriolis_matrix_p: &mut [[T; 6]; 6],
+    jacobian_dp: &mut [[T; 6]; 6],
+    mass_matrix_b: &mut [[T; 6]; 6],
+    coriolis_matrix_b: &mut [[T; 6]; 6],
+    jacobian_db: &mut [[T; 6]; 6],
 ) {
+    let c = T::constant;
     let (
         t3,
         t6,
@@ -13515,7 +14086,7 @@ pub fn matrices(
         let t169 = parameters.rod_length[0] * parameters.rod_length[0];
         let t170 = sqrt(t169 - t166 * t166 - t167 * t167 - t168 * t168);
         // leg 1: reciprocal of that extent
-        let t171 = 1.0 / t170;
+        let t171 = c(1.0) / t170;
         // leg 1: actuator length d
         let t172 = t165 - t170;
         // leg 2: offset of the platform joint from the actuator axis
@@ -13529,7 +14100,7 @@ pub fn matrices(
         let t179 = parameters.rod_length[1] * parameters.rod_length[1];
         let t180 = sqrt(t179 - t176 * t176 - t177 * t177 - t178 * t178);
         // leg 2: reciprocal of that extent
-        let t181 = 1.0 / t180;
+        let t181 = c(1.0) / t180;
         // leg 2: actuator length d
         let t182 = t175 - t180;
         // leg 3: offset of the platform joint from the actuator axis
@@ -13543,7 +14114,7 @@ pub fn matrices(
         let t189 = parameters.rod_length[2] * parameters.rod_length[2];
         let t190 = sqrt(t189 - t186 * t186 - t187 * t187 - t188 * t188);
         // leg 3: reciprocal of that extent
-        let t191 = 1.0 / t190;
+        let t191 = c(1.0) / t190;
         // leg 3: actuator length d
         let t192 = t185 - t190;
         // leg 4: offset of the platform joint from the actuator axis
@@ -13557,7 +14128,7 @@ pub fn matrices(
         let t199 = parameters.rod_length[3] * parameters.rod_length[3];
         let t200 = sqrt(t199 - t196 * t196 - t197 * t197 - t198 * t198);
         // leg 4: reciprocal of that extent
-        let t201 = 1.0 / t200;
+        let t201 = c(1.0) / t200;
         // leg 4: actuator length d
         let t202 = t195 - t200;
         // leg 5: offset of the platform joint from the actuator axis
@@ -13571,7 +14142,7 @@ pub fn matrices(
         let t209 = parameters.rod_length[4] * parameters.rod_length[4];
         let t210 = sqrt(t209 - t206 * t206 - t207 * t207 - t208 * t208);
         // leg 5: reciprocal of that extent
-        let t211 = 1.0 / t210;
+        let t211 = c(1.0) / t210;
         // leg 5: actuator length d
         let t212 = t205 - t210;
         // leg 6: offset of the platform joint from the actuator axis
@@ -13585,7 +14156,7 @@ pub fn matrices(
         let t219 = parameters.rod_length[5] * parameters.rod_length[5];
         let t220 = sqrt(t219 - t216 * t216 - t217 * t217 - t218 * t218);
         // leg 6: reciprocal of that extent
-        let t221 = 1.0 / t220;
+        let t221 = c(1.0) / t220;
         // leg 6: actuator length d
         let t222 = t215 - t220;
         // leg 1: gradient of the actuator length by the platform joint
@@ -13733,7 +14304,7 @@ pub fn matrices(
         jacobian_dp[5][2] = t312;
         jacobian_db[5][2] = t312;
         // leg 1: rod's end mass at the Hooke joint
-        let t313 = parameters.rod_com_fraction[0] - 1.0;
+        let t313 = parameters.rod_com_fraction[0] - c(1.0);
         let t314 = parameters.rod_inertia[0] / t169;
         let t315 = t313 * (parameters.rod_mass[0] * t313) + t314;
         // leg 1: leg mass that moves with the platform joint
@@ -13742,7 +14313,7 @@ pub fn matrices(
         // leg 1: rod's inertial coupling between its ends
         let t318 = t314 + t313 * t316;
         // leg 2: rod's end mass at the Hooke joint
-        let t319 = parameters.rod_com_fraction[1] - 1.0;
+        let t319 = parameters.rod_com_fraction[1] - c(1.0);
         let t320 = parameters.rod_inertia[1] / t179;
         let t321 = t319 * (parameters.rod_mass[1] * t319) + t320;
         // leg 2: leg mass that moves with the platform joint
@@ -13751,7 +14322,7 @@ pub fn matrices(
         // leg 2: rod's inertial coupling between its ends
         let t324 = t320 + t319 * t322;
         // leg 3: rod's end mass at the Hooke joint
-        let t325 = parameters.rod_com_fraction[2] - 1.0;
+        let t325 = parameters.rod_com_fraction[2] - c(1.0);
         let t326 = parameters.rod_inertia[2] / t189;
         let t327 = t325 * (parameters.rod_mass[2] * t325) + t326;
         // leg 3: leg mass that moves with the platform joint
@@ -13760,7 +14331,7 @@ pub fn matrices(
         // leg 3: rod's inertial coupling between its ends
         let t330 = t326 + t325 * t328;
         // leg 4: rod's end mass at the Hooke joint
-        let t331 = parameters.rod_com_fraction[3] - 1.0;
+        let t331 = parameters.rod_com_fraction[3] - c(1.0);
         let t332 = parameters.rod_inertia[3] / t199;
         let t333 = t331 * (parameters.rod_mass[3] * t331) + t332;
         // leg 4: leg mass that moves with the platform joint
@@ -13769,7 +14340,7 @@ pub fn matrices(
         // leg 4: rod's inertial coupling between its ends
         let t336 = t332 + t331 * t334;
         // leg 5: rod's end mass at the Hooke joint
-        let t337 = parameters.rod_com_fraction[4] - 1.0;
+        let t337 = parameters.rod_com_fraction[4] - c(1.0);
         let t338 = parameters.rod_inertia[4] / t209;
         let t339 = t337 * (parameters.rod_mass[4] * t337) + t338;
         // leg 5: leg mass that moves with the platform joint
@@ -13778,7 +14349,7 @@ pub fn matrices(
         // leg 5: rod's inertial coupling between its ends
         let t342 = t338 + t337 * t340;
         // leg 6: rod's end mass at the Hooke joint
-        let t343 = parameters.rod_com_fraction[5] - 1.0;
+        let t343 = parameters.rod_com_fraction[5] - c(1.0);
         let t344 = parameters.rod_inertia[5] / t219;
         let t345 = t343 * (parameters.rod_mass[5] * t343) + t344;
         // leg 6: leg mass that moves with the platform joint
@@ -13813,7 +14384,7 @@ pub fn matrices(
         let t371 = parameters.platform_point[5][2] * t347 + t370;
         // second moment of payload and platform-side leg ends
         let t372 = parameters.payload_inertia[0][0] + parameters.payload_inertia[1][1];
-        let t373 = 0.5 * (parameters.payload_inertia[2][2] + t372);
+        let t373 = c(0.5) * (parameters.payload_inertia[2][2] + t372);
         let t374 = t347
             * (parameters.platform_point[5][0] * parameters.platform_point[5][0]);
         let t375 = t341
@@ -13913,9 +14484,9 @@ pub fn matrices(
         let t433 = base_rotation[0][0] * parameters.actuator_axis[0][0] + t432;
         let t434 = base_rotation[0][2] * parameters.actuator_axis[0][2] + t433;
         let t435 = t318 * t434;
-        let t436 = 0.5 * t431;
+        let t436 = c(0.5) * t431;
         let t437 = t263 * t436 - t435;
-        let t438 = 2.0 * (t263 * t437);
+        let t438 = c(2.0) * (t263 * t437);
         let t439 = base_rotation[1][1] * parameters.actuator_axis[0][1];
         let t440 = base_rotation[1][0] * parameters.actuator_axis[0][0] + t439;
         let t441 = base_rotation[1][2] * parameters.actuator_axis[0][2] + t440;
@@ -13928,9 +14499,9 @@ pub fn matrices(
         let t448 = t318 * t447;
         let t449 = t267 * t436 - t448;
         let t450 = t263 * t449 + t267 * t437;
-        let t451 = 2.0 * (t265 * t443);
+        let t451 = c(2.0) * (t265 * t443);
         let t452 = t265 * t449 + t267 * t443;
-        let t453 = 2.0 * (t267 * t449);
+        let t453 = c(2.0) * (t267 * t449);
         // leg 1: leg inertia between joint and base speeds
         let t454 = t318 - t431;
         let t455 = t434 * t454;
@@ -13984,9 +14555,9 @@ pub fn matrices(
         let t502 = base_rotation[0][0] * parameters.actuator_axis[1][0] + t501;
         let t503 = base_rotation[0][2] * parameters.actuator_axis[1][2] + t502;
         let t504 = t324 * t503;
-        let t505 = 0.5 * t500;
+        let t505 = c(0.5) * t500;
         let t506 = t272 * t505 - t504;
-        let t507 = 2.0 * (t272 * t506);
+        let t507 = c(2.0) * (t272 * t506);
         let t508 = base_rotation[1][1] * parameters.actuator_axis[1][1];
         let t509 = base_rotation[1][0] * parameters.actuator_axis[1][0] + t508;
         let t510 = base_rotation[1][2] * parameters.actuator_axis[1][2] + t509;
@@ -13999,9 +14570,9 @@ pub fn matrices(
         let t517 = t324 * t516;
         let t518 = t276 * t505 - t517;
         let t519 = t272 * t518 + t276 * t506;
-        let t520 = 2.0 * (t274 * t512);
+        let t520 = c(2.0) * (t274 * t512);
         let t521 = t274 * t518 + t276 * t512;
-        let t522 = 2.0 * (t276 * t518);
+        let t522 = c(2.0) * (t276 * t518);
         // leg 2: leg inertia between joint and base speeds
         let t523 = t324 - t500;
         let t524 = t503 * t523;
@@ -14055,9 +14626,9 @@ pub fn matrices(
         let t571 = base_rotation[0][0] * parameters.actuator_axis[2][0] + t570;
         let t572 = base_rotation[0][2] * parameters.actuator_axis[2][2] + t571;
         let t573 = t330 * t572;
-        let t574 = 0.5 * t569;
+        let t574 = c(0.5) * t569;
         let t575 = t281 * t574 - t573;
-        let t576 = 2.0 * (t281 * t575);
+        let t576 = c(2.0) * (t281 * t575);
         let t577 = base_rotation[1][1] * parameters.actuator_axis[2][1];
         let t578 = base_rotation[1][0] * parameters.actuator_axis[2][0] + t577;
         let t579 = base_rotation[1][2] * parameters.actuator_axis[2][2] + t578;
@@ -14070,9 +14641,9 @@ pub fn matrices(
         let t586 = t330 * t585;
         let t587 = t285 * t574 - t586;
         let t588 = t281 * t587 + t285 * t575;
-        let t589 = 2.0 * (t283 * t581);
+        let t589 = c(2.0) * (t283 * t581);
         let t590 = t283 * t587 + t285 * t581;
-        let t591 = 2.0 * (t285 * t587);
+        let t591 = c(2.0) * (t285 * t587);
         // leg 3: leg inertia between joint and base speeds
         let t592 = t330 - t569;
         let t593 = t572 * t592;
@@ -14126,9 +14697,9 @@ pub fn matrices(
         let t640 = base_rotation[0][0] * parameters.actuator_axis[3][0] + t639;
         let t641 = base_rotation[0][2] * parameters.actuator_axis[3][2] + t640;
         let t642 = t336 * t641;
-        let t643 = 0.5 * t638;
+        let t643 = c(0.5) * t638;
         let t644 = t290 * t643 - t642;
-        let t645 = 2.0 * (t290 * t644);
+        let t645 = c(2.0) * (t290 * t644);
         let t646 = base_rotation[1][1] * parameters.actuator_axis[3][1];
         let t647 = base_rotation[1][0] * parameters.actuator_axis[3][0] + t646;
         let t648 = base_rotation[1][2] * parameters.actuator_axis[3][2] + t647;
@@ -14141,9 +14712,9 @@ pub fn matrices(
         let t655 = t336 * t654;
         let t656 = t294 * t643 - t655;
         let t657 = t290 * t656 + t294 * t644;
-        let t658 = 2.0 * (t292 * t650);
+        let t658 = c(2.0) * (t292 * t650);
         let t659 = t292 * t656 + t294 * t650;
-        let t660 = 2.0 * (t294 * t656);
+        let t660 = c(2.0) * (t294 * t656);
         // leg 4: leg inertia between joint and base speeds
         let t661 = t336 - t638;
         let t662 = t641 * t661;
@@ -14197,9 +14768,9 @@ pub fn matrices(
         let t709 = base_rotation[0][0] * parameters.actuator_axis[4][0] + t708;
         let t710 = base_rotation[0][2] * parameters.actuator_axis[4][2] + t709;
         let t711 = t342 * t710;
-        let t712 = 0.5 * t707;
+        let t712 = c(0.5) * t707;
         let t713 = t299 * t712 - t711;
-        let t714 = 2.0 * (t299 * t713);
+        let t714 = c(2.0) * (t299 * t713);
         let t715 = base_rotation[1][1] * parameters.actuator_axis[4][1];
         let t716 = base_rotation[1][0] * parameters.actuator_axis[4][0] + t715;
         let t717 = base_rotation[1][2] * parameters.actuator_axis[4][2] + t716;
@@ -14212,9 +14783,9 @@ pub fn matrices(
         let t724 = t342 * t723;
         let t725 = t303 * t712 - t724;
         let t726 = t299 * t725 + t303 * t713;
-        let t727 = 2.0 * (t301 * t719);
+        let t727 = c(2.0) * (t301 * t719);
         let t728 = t301 * t725 + t303 * t719;
-        let t729 = 2.0 * (t303 * t725);
+        let t729 = c(2.0) * (t303 * t725);
         // leg 5: leg inertia between joint and base speeds
         let t730 = t342 - t707;
         let t731 = t710 * t730;
@@ -14268,9 +14839,9 @@ pub fn matrices(
         let t778 = base_rotation[0][0] * parameters.actuator_axis[5][0] + t777;
         let t779 = base_rotation[0][2] * parameters.actuator_axis[5][2] + t778;
         let t780 = t348 * t779;
-        let t781 = 0.5 * t776;
+        let t781 = c(0.5) * t776;
         let t782 = t308 * t781 - t780;
-        let t783 = 2.0 * (t308 * t782);
+        let t783 = c(2.0) * (t308 * t782);
         let t784 = base_rotation[1][1] * parameters.actuator_axis[5][1];
         let t785 = base_rotation[1][0] * parameters.actuator_axis[5][0] + t784;
         let t786 = base_rotation[1][2] * parameters.actuator_axis[5][2] + t785;
@@ -14283,9 +14854,9 @@ pub fn matrices(
         let t793 = t348 * t792;
         let t794 = t312 * t781 - t793;
         let t795 = t308 * t794 + t312 * t782;
-        let t796 = 2.0 * (t310 * t788);
+        let t796 = c(2.0) * (t310 * t788);
         let t797 = t310 * t794 + t312 * t788;
-        let t798 = 2.0 * (t312 * t794);
+        let t798 = c(2.0) * (t312 * t794);
         // leg 6: leg inertia between joint and base speeds
         let t799 = t348 - t776;
         let t800 = t779 * t799;
@@ -16276,18 +16847,19 @@ pub fn matrices(
 /// - `spring_force`: 6, N, N m, frame O: generalised spring force J_dp^T k_e (d - d0), left side, equation (39)-(46).
 /// - `damping_force`: 6, N, N m, frame O: generalised damping force J_dp^T c_e d', left side, equation (39)-(46).
 #[allow(clippy::all, clippy::pedantic, unused_variables)]
-pub fn passive_forces(
-    parameters: &Parameters,
-    base_position: &[f64; 3],
-    base_rotation: &[[f64; 3]; 3],
-    base_velocity: &[f64; 6],
-    platform_position: &[f64; 3],
-    platform_rotation: &[[f64; 3]; 3],
-    platform_velocity: &[f64; 6],
-    gravity_force: &mut [f64; 6],
-    spring_force: &mut [f64; 6],
-    damping_force: &mut [f64; 6],
+pub fn passive_forces<T: Scalar>(
+    parameters: &Parameters<T>,
+    base_position: &[T; 3],
+    base_rotation: &[[T; 3]; 3],
+    base_velocity: &[T; 6],
+    platform_position: &[T; 3],
+    platform_rotation: &[[T; 3]; 3],
+    platform_velocity: &[T; 6],
+    gravity_force: &mut [T; 6],
+    spring_force: &mut [T; 6],
+    damping_force: &mut [T; 6],
 ) {
+    let c = T::constant;
     // rotation of the platform seen from the base
     let t1 = base_rotation[1][0] * platform_rotation[1][0];
     let t2 = base_rotation[0][0] * platform_rotation[0][0] + t1;
@@ -16475,7 +17047,7 @@ pub fn passive_forces(
     let t169 = t166 * t166 + t167 * t167 + t168 * t168;
     let t170 = sqrt(parameters.rod_length[0] * parameters.rod_length[0] - t169);
     // leg 1: reciprocal of that extent
-    let t171 = 1.0 / t170;
+    let t171 = c(1.0) / t170;
     // leg 1: actuator length d
     let t172 = t165 + t170;
     // leg 2: offset of the platform joint from the actuator axis
@@ -16489,7 +17061,7 @@ pub fn passive_forces(
     let t179 = t176 * t176 + t177 * t177 + t178 * t178;
     let t180 = sqrt(parameters.rod_length[1] * parameters.rod_length[1] - t179);
     // leg 2: reciprocal of that extent
-    let t181 = 1.0 / t180;
+    let t181 = c(1.0) / t180;
     // leg 2: actuator length d
     let t182 = t175 + t180;
     // leg 3: offset of the platform joint from the actuator axis
@@ -16503,7 +17075,7 @@ pub fn passive_forces(
     let t189 = t186 * t186 + t187 * t187 + t188 * t188;
     let t190 = sqrt(parameters.rod_length[2] * parameters.rod_length[2] - t189);
     // leg 3: reciprocal of that extent
-    let t191 = 1.0 / t190;
+    let t191 = c(1.0) / t190;
     // leg 3: actuator length d
     let t192 = t185 + t190;
     // leg 4: offset of the platform joint from the actuator axis
@@ -16517,7 +17089,7 @@ pub fn passive_forces(
     let t199 = t196 * t196 + t197 * t197 + t198 * t198;
     let t200 = sqrt(parameters.rod_length[3] * parameters.rod_length[3] - t199);
     // leg 4: reciprocal of that extent
-    let t201 = 1.0 / t200;
+    let t201 = c(1.0) / t200;
     // leg 4: actuator length d
     let t202 = t195 + t200;
     // leg 5: offset of the platform joint from the actuator axis
@@ -16531,7 +17103,7 @@ pub fn passive_forces(
     let t209 = t206 * t206 + t207 * t207 + t208 * t208;
     let t210 = sqrt(parameters.rod_length[4] * parameters.rod_length[4] - t209);
     // leg 5: reciprocal of that extent
-    let t211 = 1.0 / t210;
+    let t211 = c(1.0) / t210;
     // leg 5: actuator length d
     let t212 = t205 + t210;
     // leg 6: offset of the platform joint from the actuator axis
@@ -16545,7 +17117,7 @@ pub fn passive_forces(
     let t219 = t216 * t216 + t217 * t217 + t218 * t218;
     let t220 = sqrt(parameters.rod_length[5] * parameters.rod_length[5] - t219);
     // leg 6: reciprocal of that extent
-    let t221 = 1.0 / t220;
+    let t221 = c(1.0) / t220;
     // leg 6: actuator length d
     let t222 = t215 + t220;
     // leg 1: gradient of the actuator length by the platform joint
@@ -16812,7 +17384,7 @@ pub fn passive_forces(
     // leg 6: actuator velocity d'
     let t438 = t433 - t437;
     // leg 1: weight of the leg along the actuator
-    let t439 = parameters.rod_mass[0] * (parameters.rod_com_fraction[0] - 1.0);
+    let t439 = parameters.rod_mass[0] * (parameters.rod_com_fraction[0] - c(1.0));
     let t440 = base_rotation[0][1] * parameters.actuator_axis[0][1];
     let t441 = base_rotation[0][0] * parameters.actuator_axis[0][0] + t440;
     let t442 = t441 + base_rotation[0][2] * parameters.actuator_axis[0][2];
@@ -16831,7 +17403,7 @@ pub fn passive_forces(
     let t454 = parameters.gravity[1] * t452;
     let t455 = parameters.gravity[2] * t452;
     // leg 2: weight of the leg along the actuator
-    let t456 = parameters.rod_mass[1] * (parameters.rod_com_fraction[1] - 1.0);
+    let t456 = parameters.rod_mass[1] * (parameters.rod_com_fraction[1] - c(1.0));
     let t457 = base_rotation[0][1] * parameters.actuator_axis[1][1];
     let t458 = base_rotation[0][0] * parameters.actuator_axis[1][0] + t457;
     let t459 = t458 + base_rotation[0][2] * parameters.actuator_axis[1][2];
@@ -16850,7 +17422,7 @@ pub fn passive_forces(
     let t471 = parameters.gravity[1] * t469;
     let t472 = parameters.gravity[2] * t469;
     // leg 3: weight of the leg along the actuator
-    let t473 = parameters.rod_mass[2] * (parameters.rod_com_fraction[2] - 1.0);
+    let t473 = parameters.rod_mass[2] * (parameters.rod_com_fraction[2] - c(1.0));
     let t474 = base_rotation[0][1] * parameters.actuator_axis[2][1];
     let t475 = base_rotation[0][0] * parameters.actuator_axis[2][0] + t474;
     let t476 = t475 + base_rotation[0][2] * parameters.actuator_axis[2][2];
@@ -16869,7 +17441,7 @@ pub fn passive_forces(
     let t488 = parameters.gravity[1] * t486;
     let t489 = parameters.gravity[2] * t486;
     // leg 4: weight of the leg along the actuator
-    let t490 = parameters.rod_mass[3] * (parameters.rod_com_fraction[3] - 1.0);
+    let t490 = parameters.rod_mass[3] * (parameters.rod_com_fraction[3] - c(1.0));
     let t491 = base_rotation[0][1] * parameters.actuator_axis[3][1];
     let t492 = base_rotation[0][0] * parameters.actuator_axis[3][0] + t491;
     let t493 = t492 + base_rotation[0][2] * parameters.actuator_axis[3][2];
@@ -16888,7 +17460,7 @@ pub fn passive_forces(
     let t505 = parameters.gravity[1] * t503;
     let t506 = parameters.gravity[2] * t503;
     // leg 5: weight of the leg along the actuator
-    let t507 = parameters.rod_mass[4] * (parameters.rod_com_fraction[4] - 1.0);
+    let t507 = parameters.rod_mass[4] * (parameters.rod_com_fraction[4] - c(1.0));
     let t508 = base_rotation[0][1] * parameters.actuator_axis[4][1];
     let t509 = base_rotation[0][0] * parameters.actuator_axis[4][0] + t508;
     let t510 = t509 + base_rotation[0][2] * parameters.actuator_axis[4][2];
@@ -16907,7 +17479,7 @@ pub fn passive_forces(
     let t522 = parameters.gravity[1] * t520;
     let t523 = parameters.gravity[2] * t520;
     // leg 6: weight of the leg along the actuator
-    let t524 = parameters.rod_mass[5] * (parameters.rod_com_fraction[5] - 1.0);
+    let t524 = parameters.rod_mass[5] * (parameters.rod_com_fraction[5] - c(1.0));
     let t525 = base_rotation[0][1] * parameters.actuator_axis[5][1];
     let t526 = base_rotation[0][0] * parameters.actuator_axis[5][0] + t525;
     let t527 = t526 + base_rotation[0][2] * parameters.actuator_axis[5][2];
@@ -17026,16 +17598,17 @@ pub fn passive_forces(
 ///
 /// - `bias`: 6, N, N m, frame O: C_p v_p - C_b v_b + gravity, spring and damping force, equation (49).
 #[allow(clippy::all, clippy::pedantic, unused_variables)]
-pub fn bias(
-    parameters: &Parameters,
-    base_position: &[f64; 3],
-    base_rotation: &[[f64; 3]; 3],
-    base_velocity: &[f64; 6],
-    platform_position: &[f64; 3],
-    platform_rotation: &[[f64; 3]; 3],
-    platform_velocity: &[f64; 6],
-    bias: &mut [f64; 6],
+pub fn bias<T: Scalar>(
+    parameters: &Parameters<T>,
+    base_position: &[T; 3],
+    base_rotation: &[[T; 3]; 3],
+    base_velocity: &[T; 6],
+    platform_position: &[T; 3],
+    platform_rotation: &[[T; 3]; 3],
+    platform_velocity: &[T; 6],
+    bias: &mut [T; 6],
 ) {
+    let c = T::constant;
     let (
         t3,
         t6,
@@ -17234,7 +17807,7 @@ pub fn bias(
         let t115 = parameters.rod_length[0] * parameters.rod_length[0];
         let t116 = sqrt(t115 - (t112 * t112 + t113 * t113 + t114 * t114));
         // leg 1: reciprocal of that extent
-        let t117 = 1.0 / t116;
+        let t117 = c(1.0) / t116;
         // leg 1: actuator length d
         let t118 = t111 + t116;
         // leg 2: offset of the platform joint from the actuator axis
@@ -17248,7 +17821,7 @@ pub fn bias(
         let t125 = parameters.rod_length[1] * parameters.rod_length[1];
         let t126 = sqrt(t125 - (t122 * t122 + t123 * t123 + t124 * t124));
         // leg 2: reciprocal of that extent
-        let t127 = 1.0 / t126;
+        let t127 = c(1.0) / t126;
         // leg 2: actuator length d
         let t128 = t121 + t126;
         // leg 3: offset of the platform joint from the actuator axis
@@ -17262,7 +17835,7 @@ pub fn bias(
         let t135 = parameters.rod_length[2] * parameters.rod_length[2];
         let t136 = sqrt(t135 - (t132 * t132 + t133 * t133 + t134 * t134));
         // leg 3: reciprocal of that extent
-        let t137 = 1.0 / t136;
+        let t137 = c(1.0) / t136;
         // leg 3: actuator length d
         let t138 = t131 + t136;
         // leg 4: offset of the platform joint from the actuator axis
@@ -17276,7 +17849,7 @@ pub fn bias(
         let t145 = parameters.rod_length[3] * parameters.rod_length[3];
         let t146 = sqrt(t145 - (t142 * t142 + t143 * t143 + t144 * t144));
         // leg 4: reciprocal of that extent
-        let t147 = 1.0 / t146;
+        let t147 = c(1.0) / t146;
         // leg 4: actuator length d
         let t148 = t141 + t146;
         // leg 5: offset of the platform joint from the actuator axis
@@ -17290,7 +17863,7 @@ pub fn bias(
         let t155 = parameters.rod_length[4] * parameters.rod_length[4];
         let t156 = sqrt(t155 - (t152 * t152 + t153 * t153 + t154 * t154));
         // leg 5: reciprocal of that extent
-        let t157 = 1.0 / t156;
+        let t157 = c(1.0) / t156;
         // leg 5: actuator length d
         let t158 = t151 + t156;
         // leg 6: offset of the platform joint from the actuator axis
@@ -17304,7 +17877,7 @@ pub fn bias(
         let t165 = parameters.rod_length[5] * parameters.rod_length[5];
         let t166 = sqrt(t165 - (t162 * t162 + t163 * t163 + t164 * t164));
         // leg 6: reciprocal of that extent
-        let t167 = 1.0 / t166;
+        let t167 = c(1.0) / t166;
         // leg 6: actuator length d
         let t168 = t161 + t166;
         // leg 1: gradient of the actuator length by the platform joint
@@ -17332,7 +17905,7 @@ pub fn bias(
         let t185 = parameters.actuator_axis[5][1] - t163 * t167;
         let t186 = parameters.actuator_axis[5][2] - t164 * t167;
         // leg 1: rod's end mass at the Hooke joint
-        let t187 = parameters.rod_com_fraction[0] - 1.0;
+        let t187 = parameters.rod_com_fraction[0] - c(1.0);
         let t188 = parameters.rod_inertia[0] / t115;
         let t189 = t187 * (parameters.rod_mass[0] * t187) + t188;
         // leg 1: leg mass that moves with the platform joint
@@ -17341,7 +17914,7 @@ pub fn bias(
         // leg 1: rod's inertial coupling between its ends
         let t192 = t188 + t187 * t190;
         // leg 2: rod's end mass at the Hooke joint
-        let t193 = parameters.rod_com_fraction[1] - 1.0;
+        let t193 = parameters.rod_com_fraction[1] - c(1.0);
         let t194 = parameters.rod_inertia[1] / t125;
         let t195 = t193 * (parameters.rod_mass[1] * t193) + t194;
         // leg 2: leg mass that moves with the platform joint
@@ -17350,7 +17923,7 @@ pub fn bias(
         // leg 2: rod's inertial coupling between its ends
         let t198 = t194 + t193 * t196;
         // leg 3: rod's end mass at the Hooke joint
-        let t199 = parameters.rod_com_fraction[2] - 1.0;
+        let t199 = parameters.rod_com_fraction[2] - c(1.0);
         let t200 = parameters.rod_inertia[2] / t135;
         let t201 = t199 * (parameters.rod_mass[2] * t199) + t200;
         // leg 3: leg mass that moves with the platform joint
@@ -17359,7 +17932,7 @@ pub fn bias(
         // leg 3: rod's inertial coupling between its ends
         let t204 = t200 + t199 * t202;
         // leg 4: rod's end mass at the Hooke joint
-        let t205 = parameters.rod_com_fraction[3] - 1.0;
+        let t205 = parameters.rod_com_fraction[3] - c(1.0);
         let t206 = parameters.rod_inertia[3] / t145;
         let t207 = t205 * (parameters.rod_mass[3] * t205) + t206;
         // leg 4: leg mass that moves with the platform joint
@@ -17368,7 +17941,7 @@ pub fn bias(
         // leg 4: rod's inertial coupling between its ends
         let t210 = t206 + t205 * t208;
         // leg 5: rod's end mass at the Hooke joint
-        let t211 = parameters.rod_com_fraction[4] - 1.0;
+        let t211 = parameters.rod_com_fraction[4] - c(1.0);
         let t212 = parameters.rod_inertia[4] / t155;
         let t213 = t211 * (parameters.rod_mass[4] * t211) + t212;
         // leg 5: leg mass that moves with the platform joint
@@ -17377,7 +17950,7 @@ pub fn bias(
         // leg 5: rod's inertial coupling between its ends
         let t216 = t212 + t211 * t214;
         // leg 6: rod's end mass at the Hooke joint
-        let t217 = parameters.rod_com_fraction[5] - 1.0;
+        let t217 = parameters.rod_com_fraction[5] - c(1.0);
         let t218 = parameters.rod_inertia[5] / t165;
         let t219 = t217 * (parameters.rod_mass[5] * t217) + t218;
         // leg 6: leg mass that moves with the platform joint
@@ -17412,7 +17985,7 @@ pub fn bias(
         let t245 = t244 + parameters.platform_point[5][2] * t221;
         // second moment of payload and platform-side leg ends
         let t246 = parameters.payload_inertia[0][0] + parameters.payload_inertia[1][1];
-        let t247 = (parameters.payload_inertia[2][2] + t246) * 0.5;
+        let t247 = (parameters.payload_inertia[2][2] + t246) * c(0.5);
         let t248 = parameters.payload_inertia[0][0] - t247;
         let t249 = parameters.payload_com[0] * parameters.payload_com[0];
         let t250 = t191
@@ -17720,11 +18293,11 @@ pub fn bias(
         let t484 = t9 * t471 + t18 * t477 - t27 * t481;
         // acceleration of the platform origin relative to the base
         let t485 = t32 * t460 - t34 * t461 - t36 * t462;
-        let t486 = t485 - 2.0 * (t310 * t337 - t313 * t334);
+        let t486 = t485 - c(2.0) * (t310 * t337 - t313 * t334);
         let t487 = t32 * t461 - t34 * t464 + t36 * t465;
-        let t488 = t487 + 2.0 * (t313 * t331 - t307 * t337);
+        let t488 = t487 + c(2.0) * (t313 * t331 - t307 * t337);
         let t489 = t32 * t462 + t34 * t465 - t36 * t466;
-        let t490 = t489 + 2.0 * (t307 * t334 - t310 * t331);
+        let t490 = t489 + c(2.0) * (t307 * t334 - t310 * t331);
         // second derivative of the relative rotation
         let t491 = t323 * t324;
         let t492 = t307 * t324 - t310 * t323;
@@ -17860,7 +18433,7 @@ pub fn bias(
         let t609 = parameters.base_point[0][1] - parameters.actuator_axis[0][1] * t118;
         let t610 = parameters.base_point[0][2] - parameters.actuator_axis[0][2] * t118;
         let t611 = t451 + (t460 * t608 - t461 * t609 - t462 * t610);
-        let t612 = 2.0 * t408;
+        let t612 = c(2.0) * t408;
         let t613 = parameters.actuator_axis[0][1] * t313;
         let t614 = t611 + t612 * (parameters.actuator_axis[0][2] * t310 - t613);
         let t615 = t614 + parameters.actuator_axis[0][0] * t577;
@@ -17906,7 +18479,7 @@ pub fn bias(
         let t653 = parameters.base_point[1][1] - parameters.actuator_axis[1][1] * t128;
         let t654 = parameters.base_point[1][2] - parameters.actuator_axis[1][2] * t128;
         let t655 = t451 + (t460 * t652 - t461 * t653 - t462 * t654);
-        let t656 = 2.0 * t416;
+        let t656 = c(2.0) * t416;
         let t657 = parameters.actuator_axis[1][1] * t313;
         let t658 = t655 + t656 * (parameters.actuator_axis[1][2] * t310 - t657);
         let t659 = t658 + parameters.actuator_axis[1][0] * t583;
@@ -17952,7 +18525,7 @@ pub fn bias(
         let t697 = parameters.base_point[2][1] - parameters.actuator_axis[2][1] * t138;
         let t698 = parameters.base_point[2][2] - parameters.actuator_axis[2][2] * t138;
         let t699 = t451 + (t460 * t696 - t461 * t697 - t462 * t698);
-        let t700 = 2.0 * t424;
+        let t700 = c(2.0) * t424;
         let t701 = parameters.actuator_axis[2][1] * t313;
         let t702 = t699 + t700 * (parameters.actuator_axis[2][2] * t310 - t701);
         let t703 = t702 + parameters.actuator_axis[2][0] * t589;
@@ -17998,7 +18571,7 @@ pub fn bias(
         let t741 = parameters.base_point[3][1] - parameters.actuator_axis[3][1] * t148;
         let t742 = parameters.base_point[3][2] - parameters.actuator_axis[3][2] * t148;
         let t743 = t451 + (t460 * t740 - t461 * t741 - t462 * t742);
-        let t744 = 2.0 * t432;
+        let t744 = c(2.0) * t432;
         let t745 = parameters.actuator_axis[3][1] * t313;
         let t746 = t743 + t744 * (parameters.actuator_axis[3][2] * t310 - t745);
         let t747 = t746 + parameters.actuator_axis[3][0] * t595;
@@ -18044,7 +18617,7 @@ pub fn bias(
         let t785 = parameters.base_point[4][1] - parameters.actuator_axis[4][1] * t158;
         let t786 = parameters.base_point[4][2] - parameters.actuator_axis[4][2] * t158;
         let t787 = t451 + (t460 * t784 - t461 * t785 - t462 * t786);
-        let t788 = 2.0 * t440;
+        let t788 = c(2.0) * t440;
         let t789 = parameters.actuator_axis[4][1] * t313;
         let t790 = t787 + t788 * (parameters.actuator_axis[4][2] * t310 - t789);
         let t791 = t790 + parameters.actuator_axis[4][0] * t601;
@@ -18090,7 +18663,7 @@ pub fn bias(
         let t829 = parameters.base_point[5][1] - parameters.actuator_axis[5][1] * t168;
         let t830 = parameters.base_point[5][2] - parameters.actuator_axis[5][2] * t168;
         let t831 = t451 + (t460 * t828 - t461 * t829 - t462 * t830);
-        let t832 = 2.0 * t448;
+        let t832 = c(2.0) * t448;
         let t833 = parameters.actuator_axis[5][1] * t313;
         let t834 = t831 + t832 * (parameters.actuator_axis[5][2] * t310 - t833);
         let t835 = t834 + parameters.actuator_axis[5][0] * t607;
@@ -18383,27 +18956,28 @@ pub fn bias(
 /// - `damping_force`: 6, N, N m, frame O: generalised damping force J_dp^T c_e d', left side, equation (39)-(46).
 /// - `bias`: 6, N, N m, frame O: C_p v_p - C_b v_b + gravity, spring and damping force, equation (49).
 #[allow(clippy::all, clippy::pedantic, unused_variables)]
-pub fn equation_of_motion(
-    parameters: &Parameters,
-    base_position: &[f64; 3],
-    base_rotation: &[[f64; 3]; 3],
-    base_velocity: &[f64; 6],
-    platform_position: &[f64; 3],
-    platform_rotation: &[[f64; 3]; 3],
-    platform_velocity: &[f64; 6],
-    mass_matrix_p: &mut [[f64; 6]; 6],
-    coriolis_matrix_p: &mut [[f64; 6]; 6],
-    stiffness_matrix_p: &mut [[f64; 6]; 6],
-    jacobian_dp: &mut [[f64; 6]; 6],
-    mass_matrix_b: &mut [[f64; 6]; 6],
-    coriolis_matrix_b: &mut [[f64; 6]; 6],
-    stiffness_matrix_b: &mut [[f64; 6]; 6],
-    jacobian_db: &mut [[f64; 6]; 6],
-    gravity_force: &mut [f64; 6],
-    spring_force: &mut [f64; 6],
-    damping_force: &mut [f64; 6],
-    bias: &mut [f64; 6],
+pub fn equation_of_motion<T: Scalar>(
+    parameters: &Parameters<T>,
+    base_position: &[T; 3],
+    base_rotation: &[[T; 3]; 3],
+    base_velocity: &[T; 6],
+    platform_position: &[T; 3],
+    platform_rotation: &[[T; 3]; 3],
+    platform_velocity: &[T; 6],
+    mass_matrix_p: &mut [[T; 6]; 6],
+    coriolis_matrix_p: &mut [[T; 6]; 6],
+    stiffness_matrix_p: &mut [[T; 6]; 6],
+    jacobian_dp: &mut [[T; 6]; 6],
+    mass_matrix_b: &mut [[T; 6]; 6],
+    coriolis_matrix_b: &mut [[T; 6]; 6],
+    stiffness_matrix_b: &mut [[T; 6]; 6],
+    jacobian_db: &mut [[T; 6]; 6],
+    gravity_force: &mut [T; 6],
+    spring_force: &mut [T; 6],
+    damping_force: &mut [T; 6],
+    bias: &mut [T; 6],
 ) {
+    let c = T::constant;
     let (
         t3,
         t6,
@@ -18985,7 +19559,7 @@ pub fn equation_of_motion(
         let t169 = parameters.rod_length[0] * parameters.rod_length[0];
         let t170 = sqrt(t169 - t166 * t166 - t167 * t167 - t168 * t168);
         // leg 1: reciprocal of that extent
-        let t171 = 1.0 / t170;
+        let t171 = c(1.0) / t170;
         // leg 1: actuator length d
         let t172 = t165 - t170;
         // leg 2: offset of the platform joint from the actuator axis
@@ -18999,7 +19573,7 @@ pub fn equation_of_motion(
         let t179 = parameters.rod_length[1] * parameters.rod_length[1];
         let t180 = sqrt(t179 - t176 * t176 - t177 * t177 - t178 * t178);
         // leg 2: reciprocal of that extent
-        let t181 = 1.0 / t180;
+        let t181 = c(1.0) / t180;
         // leg 2: actuator length d
         let t182 = t175 - t180;
         // leg 3: offset of the platform joint from the actuator axis
@@ -19013,7 +19587,7 @@ pub fn equation_of_motion(
         let t189 = parameters.rod_length[2] * parameters.rod_length[2];
         let t190 = sqrt(t189 - t186 * t186 - t187 * t187 - t188 * t188);
         // leg 3: reciprocal of that extent
-        let t191 = 1.0 / t190;
+        let t191 = c(1.0) / t190;
         // leg 3: actuator length d
         let t192 = t185 - t190;
         // leg 4: offset of the platform joint from the actuator axis
@@ -19027,7 +19601,7 @@ pub fn equation_of_motion(
         let t199 = parameters.rod_length[3] * parameters.rod_length[3];
         let t200 = sqrt(t199 - t196 * t196 - t197 * t197 - t198 * t198);
         // leg 4: reciprocal of that extent
-        let t201 = 1.0 / t200;
+        let t201 = c(1.0) / t200;
         // leg 4: actuator length d
         let t202 = t195 - t200;
         // leg 5: offset of the platform joint from the actuator axis
@@ -19041,7 +19615,7 @@ pub fn equation_of_motion(
         let t209 = parameters.rod_length[4] * parameters.rod_length[4];
         let t210 = sqrt(t209 - t206 * t206 - t207 * t207 - t208 * t208);
         // leg 5: reciprocal of that extent
-        let t211 = 1.0 / t210;
+        let t211 = c(1.0) / t210;
         // leg 5: actuator length d
         let t212 = t205 - t210;
         // leg 6: offset of the platform joint from the actuator axis
@@ -19055,7 +19629,7 @@ pub fn equation_of_motion(
         let t219 = parameters.rod_length[5] * parameters.rod_length[5];
         let t220 = sqrt(t219 - t216 * t216 - t217 * t217 - t218 * t218);
         // leg 6: reciprocal of that extent
-        let t221 = 1.0 / t220;
+        let t221 = c(1.0) / t220;
         // leg 6: actuator length d
         let t222 = t215 - t220;
         // leg 1: gradient of the actuator length by the platform joint
@@ -19287,7 +19861,7 @@ pub fn equation_of_motion(
         jacobian_db[5][4] = -t347;
         jacobian_db[5][5] = -t348;
         // leg 1: rod's end mass at the Hooke joint
-        let t349 = parameters.rod_com_fraction[0] - 1.0;
+        let t349 = parameters.rod_com_fraction[0] - c(1.0);
         let t350 = parameters.rod_mass[0] * t349;
         let t351 = parameters.rod_inertia[0] / t169;
         let t352 = t349 * t350 + t351;
@@ -19297,7 +19871,7 @@ pub fn equation_of_motion(
         // leg 1: rod's inertial coupling between its ends
         let t355 = t351 + t349 * t353;
         // leg 2: rod's end mass at the Hooke joint
-        let t356 = parameters.rod_com_fraction[1] - 1.0;
+        let t356 = parameters.rod_com_fraction[1] - c(1.0);
         let t357 = parameters.rod_mass[1] * t356;
         let t358 = parameters.rod_inertia[1] / t179;
         let t359 = t356 * t357 + t358;
@@ -19307,7 +19881,7 @@ pub fn equation_of_motion(
         // leg 2: rod's inertial coupling between its ends
         let t362 = t358 + t356 * t360;
         // leg 3: rod's end mass at the Hooke joint
-        let t363 = parameters.rod_com_fraction[2] - 1.0;
+        let t363 = parameters.rod_com_fraction[2] - c(1.0);
         let t364 = parameters.rod_mass[2] * t363;
         let t365 = parameters.rod_inertia[2] / t189;
         let t366 = t363 * t364 + t365;
@@ -19317,7 +19891,7 @@ pub fn equation_of_motion(
         // leg 3: rod's inertial coupling between its ends
         let t369 = t365 + t363 * t367;
         // leg 4: rod's end mass at the Hooke joint
-        let t370 = parameters.rod_com_fraction[3] - 1.0;
+        let t370 = parameters.rod_com_fraction[3] - c(1.0);
         let t371 = parameters.rod_mass[3] * t370;
         let t372 = parameters.rod_inertia[3] / t199;
         let t373 = t370 * t371 + t372;
@@ -19327,7 +19901,7 @@ pub fn equation_of_motion(
         // leg 4: rod's inertial coupling between its ends
         let t376 = t372 + t370 * t374;
         // leg 5: rod's end mass at the Hooke joint
-        let t377 = parameters.rod_com_fraction[4] - 1.0;
+        let t377 = parameters.rod_com_fraction[4] - c(1.0);
         let t378 = parameters.rod_mass[4] * t377;
         let t379 = parameters.rod_inertia[4] / t209;
         let t380 = t377 * t378 + t379;
@@ -19337,7 +19911,7 @@ pub fn equation_of_motion(
         // leg 5: rod's inertial coupling between its ends
         let t383 = t379 + t377 * t381;
         // leg 6: rod's end mass at the Hooke joint
-        let t384 = parameters.rod_com_fraction[5] - 1.0;
+        let t384 = parameters.rod_com_fraction[5] - c(1.0);
         let t385 = parameters.rod_mass[5] * t384;
         let t386 = parameters.rod_inertia[5] / t219;
         let t387 = t384 * t385 + t386;
@@ -19373,7 +19947,7 @@ pub fn equation_of_motion(
         let t413 = parameters.platform_point[5][2] * t389 + t412;
         // second moment of payload and platform-side leg ends
         let t414 = parameters.payload_inertia[0][0] + parameters.payload_inertia[1][1];
-        let t415 = 0.5 * (parameters.payload_inertia[2][2] + t414);
+        let t415 = c(0.5) * (parameters.payload_inertia[2][2] + t414);
         let t416 = t389
             * (parameters.platform_point[5][0] * parameters.platform_point[5][0]);
         let t417 = t382
@@ -19473,9 +20047,9 @@ pub fn equation_of_motion(
         let t475 = base_rotation[0][0] * parameters.actuator_axis[0][0] + t474;
         let t476 = base_rotation[0][2] * parameters.actuator_axis[0][2] + t475;
         let t477 = t355 * t476;
-        let t478 = 0.5 * t473;
+        let t478 = c(0.5) * t473;
         let t479 = t263 * t478 - t477;
-        let t480 = 2.0 * (t263 * t479);
+        let t480 = c(2.0) * (t263 * t479);
         let t481 = base_rotation[1][1] * parameters.actuator_axis[0][1];
         let t482 = base_rotation[1][0] * parameters.actuator_axis[0][0] + t481;
         let t483 = base_rotation[1][2] * parameters.actuator_axis[0][2] + t482;
@@ -19488,9 +20062,9 @@ pub fn equation_of_motion(
         let t490 = t355 * t489;
         let t491 = t267 * t478 - t490;
         let t492 = t263 * t491 + t267 * t479;
-        let t493 = 2.0 * (t265 * t485);
+        let t493 = c(2.0) * (t265 * t485);
         let t494 = t265 * t491 + t267 * t485;
-        let t495 = 2.0 * (t267 * t491);
+        let t495 = c(2.0) * (t267 * t491);
         // leg 1: leg inertia between joint and base speeds
         let t496 = t355 - t473;
         let t497 = t476 * t496;
@@ -19544,9 +20118,9 @@ pub fn equation_of_motion(
         let t544 = base_rotation[0][0] * parameters.actuator_axis[1][0] + t543;
         let t545 = base_rotation[0][2] * parameters.actuator_axis[1][2] + t544;
         let t546 = t362 * t545;
-        let t547 = 0.5 * t542;
+        let t547 = c(0.5) * t542;
         let t548 = t272 * t547 - t546;
-        let t549 = 2.0 * (t272 * t548);
+        let t549 = c(2.0) * (t272 * t548);
         let t550 = base_rotation[1][1] * parameters.actuator_axis[1][1];
         let t551 = base_rotation[1][0] * parameters.actuator_axis[1][0] + t550;
         let t552 = base_rotation[1][2] * parameters.actuator_axis[1][2] + t551;
@@ -19559,9 +20133,9 @@ pub fn equation_of_motion(
         let t559 = t362 * t558;
         let t560 = t276 * t547 - t559;
         let t561 = t272 * t560 + t276 * t548;
-        let t562 = 2.0 * (t274 * t554);
+        let t562 = c(2.0) * (t274 * t554);
         let t563 = t274 * t560 + t276 * t554;
-        let t564 = 2.0 * (t276 * t560);
+        let t564 = c(2.0) * (t276 * t560);
         // leg 2: leg inertia between joint and base speeds
         let t565 = t362 - t542;
         let t566 = t545 * t565;
@@ -19615,9 +20189,9 @@ pub fn equation_of_motion(
         let t613 = base_rotation[0][0] * parameters.actuator_axis[2][0] + t612;
         let t614 = base_rotation[0][2] * parameters.actuator_axis[2][2] + t613;
         let t615 = t369 * t614;
-        let t616 = 0.5 * t611;
+        let t616 = c(0.5) * t611;
         let t617 = t281 * t616 - t615;
-        let t618 = 2.0 * (t281 * t617);
+        let t618 = c(2.0) * (t281 * t617);
         let t619 = base_rotation[1][1] * parameters.actuator_axis[2][1];
         let t620 = base_rotation[1][0] * parameters.actuator_axis[2][0] + t619;
         let t621 = base_rotation[1][2] * parameters.actuator_axis[2][2] + t620;
@@ -19630,9 +20204,9 @@ pub fn equation_of_motion(
         let t628 = t369 * t627;
         let t629 = t285 * t616 - t628;
         let t630 = t281 * t629 + t285 * t617;
-        let t631 = 2.0 * (t283 * t623);
+        let t631 = c(2.0) * (t283 * t623);
         let t632 = t283 * t629 + t285 * t623;
-        let t633 = 2.0 * (t285 * t629);
+        let t633 = c(2.0) * (t285 * t629);
         // leg 3: leg inertia between joint and base speeds
         let t634 = t369 - t611;
         let t635 = t614 * t634;
@@ -19686,9 +20260,9 @@ pub fn equation_of_motion(
         let t682 = base_rotation[0][0] * parameters.actuator_axis[3][0] + t681;
         let t683 = base_rotation[0][2] * parameters.actuator_axis[3][2] + t682;
         let t684 = t376 * t683;
-        let t685 = 0.5 * t680;
+        let t685 = c(0.5) * t680;
         let t686 = t290 * t685 - t684;
-        let t687 = 2.0 * (t290 * t686);
+        let t687 = c(2.0) * (t290 * t686);
         let t688 = base_rotation[1][1] * parameters.actuator_axis[3][1];
         let t689 = base_rotation[1][0] * parameters.actuator_axis[3][0] + t688;
         let t690 = base_rotation[1][2] * parameters.actuator_axis[3][2] + t689;
@@ -19701,9 +20275,9 @@ pub fn equation_of_motion(
         let t697 = t376 * t696;
         let t698 = t294 * t685 - t697;
         let t699 = t290 * t698 + t294 * t686;
-        let t700 = 2.0 * (t292 * t692);
+        let t700 = c(2.0) * (t292 * t692);
         let t701 = t292 * t698 + t294 * t692;
-        let t702 = 2.0 * (t294 * t698);
+        let t702 = c(2.0) * (t294 * t698);
         // leg 4: leg inertia between joint and base speeds
         let t703 = t376 - t680;
         let t704 = t683 * t703;
@@ -19757,9 +20331,9 @@ pub fn equation_of_motion(
         let t751 = base_rotation[0][0] * parameters.actuator_axis[4][0] + t750;
         let t752 = base_rotation[0][2] * parameters.actuator_axis[4][2] + t751;
         let t753 = t383 * t752;
-        let t754 = 0.5 * t749;
+        let t754 = c(0.5) * t749;
         let t755 = t299 * t754 - t753;
-        let t756 = 2.0 * (t299 * t755);
+        let t756 = c(2.0) * (t299 * t755);
         let t757 = base_rotation[1][1] * parameters.actuator_axis[4][1];
         let t758 = base_rotation[1][0] * parameters.actuator_axis[4][0] + t757;
         let t759 = base_rotation[1][2] * parameters.actuator_axis[4][2] + t758;
@@ -19772,9 +20346,9 @@ pub fn equation_of_motion(
         let t766 = t383 * t765;
         let t767 = t303 * t754 - t766;
         let t768 = t299 * t767 + t303 * t755;
-        let t769 = 2.0 * (t301 * t761);
+        let t769 = c(2.0) * (t301 * t761);
         let t770 = t301 * t767 + t303 * t761;
-        let t771 = 2.0 * (t303 * t767);
+        let t771 = c(2.0) * (t303 * t767);
         // leg 5: leg inertia between joint and base speeds
         let t772 = t383 - t749;
         let t773 = t752 * t772;
@@ -19828,9 +20402,9 @@ pub fn equation_of_motion(
         let t820 = base_rotation[0][0] * parameters.actuator_axis[5][0] + t819;
         let t821 = base_rotation[0][2] * parameters.actuator_axis[5][2] + t820;
         let t822 = t390 * t821;
-        let t823 = 0.5 * t818;
+        let t823 = c(0.5) * t818;
         let t824 = t308 * t823 - t822;
-        let t825 = 2.0 * (t308 * t824);
+        let t825 = c(2.0) * (t308 * t824);
         let t826 = base_rotation[1][1] * parameters.actuator_axis[5][1];
         let t827 = base_rotation[1][0] * parameters.actuator_axis[5][0] + t826;
         let t828 = base_rotation[1][2] * parameters.actuator_axis[5][2] + t827;
@@ -19843,9 +20417,9 @@ pub fn equation_of_motion(
         let t835 = t390 * t834;
         let t836 = t312 * t823 - t835;
         let t837 = t308 * t836 + t312 * t824;
-        let t838 = 2.0 * (t310 * t830);
+        let t838 = c(2.0) * (t310 * t830);
         let t839 = t310 * t836 + t312 * t830;
-        let t840 = 2.0 * (t312 * t836);
+        let t840 = c(2.0) * (t312 * t836);
         // leg 6: leg inertia between joint and base speeds
         let t841 = t390 - t818;
         let t842 = t821 * t841;
@@ -22362,19 +22936,20 @@ pub fn equation_of_motion(
 ///
 /// - `inverse_dynamics`: 6, N: actuator forces F, equation (49).
 #[allow(clippy::all, clippy::pedantic, unused_variables)]
-pub fn inverse_dynamics(
-    parameters: &Parameters,
-    base_position: &[f64; 3],
-    base_rotation: &[[f64; 3]; 3],
-    base_velocity: &[f64; 6],
-    base_acceleration: &[f64; 6],
-    platform_position: &[f64; 3],
-    platform_rotation: &[[f64; 3]; 3],
-    platform_velocity: &[f64; 6],
-    platform_acceleration: &[f64; 6],
-    external_wrench: &[f64; 6],
-    inverse_dynamics: &mut [f64; 6],
+pub fn inverse_dynamics<T: Scalar>(
+    parameters: &Parameters<T>,
+    base_position: &[T; 3],
+    base_rotation: &[[T; 3]; 3],
+    base_velocity: &[T; 6],
+    base_acceleration: &[T; 6],
+    platform_position: &[T; 3],
+    platform_rotation: &[[T; 3]; 3],
+    platform_velocity: &[T; 6],
+    platform_acceleration: &[T; 6],
+    external_wrench: &[T; 6],
+    inverse_dynamics: &mut [T; 6],
 ) {
+    let c = T::constant;
     let (
         t3,
         t6,
@@ -22609,7 +23184,7 @@ pub fn inverse_dynamics(
         let t115 = parameters.rod_length[0] * parameters.rod_length[0];
         let t116 = sqrt(t115 - (t112 * t112 + t113 * t113 + t114 * t114));
         // leg 1: reciprocal of that extent
-        let t117 = 1.0 / t116;
+        let t117 = c(1.0) / t116;
         // leg 1: actuator length d
         let t118 = t111 + t116;
         // leg 2: offset of the platform joint from the actuator axis
@@ -22623,7 +23198,7 @@ pub fn inverse_dynamics(
         let t125 = parameters.rod_length[1] * parameters.rod_length[1];
         let t126 = sqrt(t125 - (t122 * t122 + t123 * t123 + t124 * t124));
         // leg 2: reciprocal of that extent
-        let t127 = 1.0 / t126;
+        let t127 = c(1.0) / t126;
         // leg 2: actuator length d
         let t128 = t121 + t126;
         // leg 3: offset of the platform joint from the actuator axis
@@ -22637,7 +23212,7 @@ pub fn inverse_dynamics(
         let t135 = parameters.rod_length[2] * parameters.rod_length[2];
         let t136 = sqrt(t135 - (t132 * t132 + t133 * t133 + t134 * t134));
         // leg 3: reciprocal of that extent
-        let t137 = 1.0 / t136;
+        let t137 = c(1.0) / t136;
         // leg 3: actuator length d
         let t138 = t131 + t136;
         // leg 4: offset of the platform joint from the actuator axis
@@ -22651,7 +23226,7 @@ pub fn inverse_dynamics(
         let t145 = parameters.rod_length[3] * parameters.rod_length[3];
         let t146 = sqrt(t145 - (t142 * t142 + t143 * t143 + t144 * t144));
         // leg 4: reciprocal of that extent
-        let t147 = 1.0 / t146;
+        let t147 = c(1.0) / t146;
         // leg 4: actuator length d
         let t148 = t141 + t146;
         // leg 5: offset of the platform joint from the actuator axis
@@ -22665,7 +23240,7 @@ pub fn inverse_dynamics(
         let t155 = parameters.rod_length[4] * parameters.rod_length[4];
         let t156 = sqrt(t155 - (t152 * t152 + t153 * t153 + t154 * t154));
         // leg 5: reciprocal of that extent
-        let t157 = 1.0 / t156;
+        let t157 = c(1.0) / t156;
         // leg 5: actuator length d
         let t158 = t151 + t156;
         // leg 6: offset of the platform joint from the actuator axis
@@ -22679,7 +23254,7 @@ pub fn inverse_dynamics(
         let t165 = parameters.rod_length[5] * parameters.rod_length[5];
         let t166 = sqrt(t165 - (t162 * t162 + t163 * t163 + t164 * t164));
         // leg 6: reciprocal of that extent
-        let t167 = 1.0 / t166;
+        let t167 = c(1.0) / t166;
         // leg 6: actuator length d
         let t168 = t161 + t166;
         // leg 1: gradient of the actuator length by the platform joint
@@ -22707,7 +23282,7 @@ pub fn inverse_dynamics(
         let t185 = parameters.actuator_axis[5][1] - t163 * t167;
         let t186 = parameters.actuator_axis[5][2] - t164 * t167;
         // leg 1: rod's end mass at the Hooke joint
-        let t187 = parameters.rod_com_fraction[0] - 1.0;
+        let t187 = parameters.rod_com_fraction[0] - c(1.0);
         let t188 = parameters.rod_inertia[0] / t115;
         let t189 = t187 * (parameters.rod_mass[0] * t187) + t188;
         // leg 1: leg mass that moves with the platform joint
@@ -22716,7 +23291,7 @@ pub fn inverse_dynamics(
         // leg 1: rod's inertial coupling between its ends
         let t192 = t188 + t187 * t190;
         // leg 2: rod's end mass at the Hooke joint
-        let t193 = parameters.rod_com_fraction[1] - 1.0;
+        let t193 = parameters.rod_com_fraction[1] - c(1.0);
         let t194 = parameters.rod_inertia[1] / t125;
         let t195 = t193 * (parameters.rod_mass[1] * t193) + t194;
         // leg 2: leg mass that moves with the platform joint
@@ -22725,7 +23300,7 @@ pub fn inverse_dynamics(
         // leg 2: rod's inertial coupling between its ends
         let t198 = t194 + t193 * t196;
         // leg 3: rod's end mass at the Hooke joint
-        let t199 = parameters.rod_com_fraction[2] - 1.0;
+        let t199 = parameters.rod_com_fraction[2] - c(1.0);
         let t200 = parameters.rod_inertia[2] / t135;
         let t201 = t199 * (parameters.rod_mass[2] * t199) + t200;
         // leg 3: leg mass that moves with the platform joint
@@ -22734,7 +23309,7 @@ pub fn inverse_dynamics(
         // leg 3: rod's inertial coupling between its ends
         let t204 = t200 + t199 * t202;
         // leg 4: rod's end mass at the Hooke joint
-        let t205 = parameters.rod_com_fraction[3] - 1.0;
+        let t205 = parameters.rod_com_fraction[3] - c(1.0);
         let t206 = parameters.rod_inertia[3] / t145;
         let t207 = t205 * (parameters.rod_mass[3] * t205) + t206;
         // leg 4: leg mass that moves with the platform joint
@@ -22743,7 +23318,7 @@ pub fn inverse_dynamics(
         // leg 4: rod's inertial coupling between its ends
         let t210 = t206 + t205 * t208;
         // leg 5: rod's end mass at the Hooke joint
-        let t211 = parameters.rod_com_fraction[4] - 1.0;
+        let t211 = parameters.rod_com_fraction[4] - c(1.0);
         let t212 = parameters.rod_inertia[4] / t155;
         let t213 = t211 * (parameters.rod_mass[4] * t211) + t212;
         // leg 5: leg mass that moves with the platform joint
@@ -22752,7 +23327,7 @@ pub fn inverse_dynamics(
         // leg 5: rod's inertial coupling between its ends
         let t216 = t212 + t211 * t214;
         // leg 6: rod's end mass at the Hooke joint
-        let t217 = parameters.rod_com_fraction[5] - 1.0;
+        let t217 = parameters.rod_com_fraction[5] - c(1.0);
         let t218 = parameters.rod_inertia[5] / t165;
         let t219 = t217 * (parameters.rod_mass[5] * t217) + t218;
         // leg 6: leg mass that moves with the platform joint
@@ -22787,7 +23362,7 @@ pub fn inverse_dynamics(
         let t245 = t244 + parameters.platform_point[5][2] * t221;
         // second moment of payload and platform-side leg ends
         let t246 = parameters.payload_inertia[0][0] + parameters.payload_inertia[1][1];
-        let t247 = (parameters.payload_inertia[2][2] + t246) * 0.5;
+        let t247 = (parameters.payload_inertia[2][2] + t246) * c(0.5);
         let t248 = parameters.payload_inertia[0][0] - t247;
         let t249 = parameters.payload_com[0] * parameters.payload_com[0];
         let t250 = t191
@@ -23137,11 +23712,11 @@ pub fn inverse_dynamics(
         let t523 = t9 * t518 - t18 * t519 + t27 * t520;
         // acceleration of the platform origin relative to the base
         let t524 = t453 - t486 + (t32 * t469 + t34 * t471 - t36 * t473);
-        let t525 = t524 - 2.0 * (t310 * t337 - t313 * t334);
+        let t525 = t524 - c(2.0) * (t310 * t337 - t313 * t334);
         let t526 = t455 - t488 - (t32 * t474 - t34 * t476 - t36 * t478);
-        let t527 = t526 - 2.0 * (t313 * t331 - t307 * t337);
+        let t527 = t526 - c(2.0) * (t313 * t331 - t307 * t337);
         let t528 = t457 - t490 + (t32 * t479 - t34 * t480 + t36 * t481);
-        let t529 = t528 - 2.0 * (t307 * t334 - t310 * t331);
+        let t529 = t528 - c(2.0) * (t307 * t334 - t310 * t331);
         // second derivative of the relative rotation
         let t530 = t323 * t324;
         let t531 = t466 - t499 - (t307 * t324 - t310 * t323);
@@ -23277,7 +23852,7 @@ pub fn inverse_dynamics(
         let t648 = parameters.base_point[0][1] - parameters.actuator_axis[0][1] * t118;
         let t649 = parameters.base_point[0][2] - parameters.actuator_axis[0][2] * t118;
         let t650 = t453 - (t469 * t647 + t471 * t648 - t473 * t649);
-        let t651 = 2.0 * t408;
+        let t651 = c(2.0) * t408;
         let t652 = parameters.actuator_axis[0][1] * t313;
         let t653 = t650 - t651 * (parameters.actuator_axis[0][2] * t310 - t652);
         let t654 = t653 - parameters.actuator_axis[0][0] * t616;
@@ -23323,7 +23898,7 @@ pub fn inverse_dynamics(
         let t692 = parameters.base_point[1][1] - parameters.actuator_axis[1][1] * t128;
         let t693 = parameters.base_point[1][2] - parameters.actuator_axis[1][2] * t128;
         let t694 = t453 - (t469 * t691 + t471 * t692 - t473 * t693);
-        let t695 = 2.0 * t416;
+        let t695 = c(2.0) * t416;
         let t696 = parameters.actuator_axis[1][1] * t313;
         let t697 = t694 - t695 * (parameters.actuator_axis[1][2] * t310 - t696);
         let t698 = t697 - parameters.actuator_axis[1][0] * t622;
@@ -23369,7 +23944,7 @@ pub fn inverse_dynamics(
         let t736 = parameters.base_point[2][1] - parameters.actuator_axis[2][1] * t138;
         let t737 = parameters.base_point[2][2] - parameters.actuator_axis[2][2] * t138;
         let t738 = t453 - (t469 * t735 + t471 * t736 - t473 * t737);
-        let t739 = 2.0 * t424;
+        let t739 = c(2.0) * t424;
         let t740 = parameters.actuator_axis[2][1] * t313;
         let t741 = t738 - t739 * (parameters.actuator_axis[2][2] * t310 - t740);
         let t742 = t741 - parameters.actuator_axis[2][0] * t628;
@@ -23415,7 +23990,7 @@ pub fn inverse_dynamics(
         let t780 = parameters.base_point[3][1] - parameters.actuator_axis[3][1] * t148;
         let t781 = parameters.base_point[3][2] - parameters.actuator_axis[3][2] * t148;
         let t782 = t453 - (t469 * t779 + t471 * t780 - t473 * t781);
-        let t783 = 2.0 * t432;
+        let t783 = c(2.0) * t432;
         let t784 = parameters.actuator_axis[3][1] * t313;
         let t785 = t782 - t783 * (parameters.actuator_axis[3][2] * t310 - t784);
         let t786 = t785 - parameters.actuator_axis[3][0] * t634;
@@ -23461,7 +24036,7 @@ pub fn inverse_dynamics(
         let t824 = parameters.base_point[4][1] - parameters.actuator_axis[4][1] * t158;
         let t825 = parameters.base_point[4][2] - parameters.actuator_axis[4][2] * t158;
         let t826 = t453 - (t469 * t823 + t471 * t824 - t473 * t825);
-        let t827 = 2.0 * t440;
+        let t827 = c(2.0) * t440;
         let t828 = parameters.actuator_axis[4][1] * t313;
         let t829 = t826 - t827 * (parameters.actuator_axis[4][2] * t310 - t828);
         let t830 = t829 - parameters.actuator_axis[4][0] * t640;
@@ -23507,7 +24082,7 @@ pub fn inverse_dynamics(
         let t868 = parameters.base_point[5][1] - parameters.actuator_axis[5][1] * t168;
         let t869 = parameters.base_point[5][2] - parameters.actuator_axis[5][2] * t168;
         let t870 = t453 - (t469 * t867 + t471 * t868 - t473 * t869);
-        let t871 = 2.0 * t448;
+        let t871 = c(2.0) * t448;
         let t872 = parameters.actuator_axis[5][1] * t313;
         let t873 = t870 - t871 * (parameters.actuator_axis[5][2] * t310 - t872);
         let t874 = t873 - parameters.actuator_axis[5][0] * t646;
@@ -23843,19 +24418,20 @@ pub fn inverse_dynamics(
 ///
 /// - `forward_dynamics`: 6, m/s^2, rad/s^2, frame O: platform acceleration v_p', equation (49).
 #[allow(clippy::all, clippy::pedantic, unused_variables)]
-pub fn forward_dynamics(
-    parameters: &Parameters,
-    base_position: &[f64; 3],
-    base_rotation: &[[f64; 3]; 3],
-    base_velocity: &[f64; 6],
-    base_acceleration: &[f64; 6],
-    platform_position: &[f64; 3],
-    platform_rotation: &[[f64; 3]; 3],
-    platform_velocity: &[f64; 6],
-    actuator_force: &[f64; 6],
-    external_wrench: &[f64; 6],
-    forward_dynamics: &mut [f64; 6],
+pub fn forward_dynamics<T: Scalar>(
+    parameters: &Parameters<T>,
+    base_position: &[T; 3],
+    base_rotation: &[[T; 3]; 3],
+    base_velocity: &[T; 6],
+    base_acceleration: &[T; 6],
+    platform_position: &[T; 3],
+    platform_rotation: &[[T; 3]; 3],
+    platform_velocity: &[T; 6],
+    actuator_force: &[T; 6],
+    external_wrench: &[T; 6],
+    forward_dynamics: &mut [T; 6],
 ) {
+    let c = T::constant;
     let (
         t3,
         t6,
@@ -24100,7 +24676,7 @@ pub fn forward_dynamics(
         let t115 = parameters.rod_length[0] * parameters.rod_length[0];
         let t116 = sqrt(t115 - (t112 * t112 + t113 * t113 + t114 * t114));
         // leg 1: reciprocal of that extent
-        let t117 = 1.0 / t116;
+        let t117 = c(1.0) / t116;
         // leg 1: actuator length d
         let t118 = t111 + t116;
         // leg 2: offset of the platform joint from the actuator axis
@@ -24114,7 +24690,7 @@ pub fn forward_dynamics(
         let t125 = parameters.rod_length[1] * parameters.rod_length[1];
         let t126 = sqrt(t125 - (t122 * t122 + t123 * t123 + t124 * t124));
         // leg 2: reciprocal of that extent
-        let t127 = 1.0 / t126;
+        let t127 = c(1.0) / t126;
         // leg 2: actuator length d
         let t128 = t121 + t126;
         // leg 3: offset of the platform joint from the actuator axis
@@ -24128,7 +24704,7 @@ pub fn forward_dynamics(
         let t135 = parameters.rod_length[2] * parameters.rod_length[2];
         let t136 = sqrt(t135 - (t132 * t132 + t133 * t133 + t134 * t134));
         // leg 3: reciprocal of that extent
-        let t137 = 1.0 / t136;
+        let t137 = c(1.0) / t136;
         // leg 3: actuator length d
         let t138 = t131 + t136;
         // leg 4: offset of the platform joint from the actuator axis
@@ -24142,7 +24718,7 @@ pub fn forward_dynamics(
         let t145 = parameters.rod_length[3] * parameters.rod_length[3];
         let t146 = sqrt(t145 - (t142 * t142 + t143 * t143 + t144 * t144));
         // leg 4: reciprocal of that extent
-        let t147 = 1.0 / t146;
+        let t147 = c(1.0) / t146;
         // leg 4: actuator length d
         let t148 = t141 + t146;
         // leg 5: offset of the platform joint from the actuator axis
@@ -24156,7 +24732,7 @@ pub fn forward_dynamics(
         let t155 = parameters.rod_length[4] * parameters.rod_length[4];
         let t156 = sqrt(t155 - (t152 * t152 + t153 * t153 + t154 * t154));
         // leg 5: reciprocal of that extent
-        let t157 = 1.0 / t156;
+        let t157 = c(1.0) / t156;
         // leg 5: actuator length d
         let t158 = t151 + t156;
         // leg 6: offset of the platform joint from the actuator axis
@@ -24170,7 +24746,7 @@ pub fn forward_dynamics(
         let t165 = parameters.rod_length[5] * parameters.rod_length[5];
         let t166 = sqrt(t165 - (t162 * t162 + t163 * t163 + t164 * t164));
         // leg 6: reciprocal of that extent
-        let t167 = 1.0 / t166;
+        let t167 = c(1.0) / t166;
         // leg 6: actuator length d
         let t168 = t161 + t166;
         // leg 1: gradient of the actuator length by the platform joint
@@ -24198,7 +24774,7 @@ pub fn forward_dynamics(
         let t185 = parameters.actuator_axis[5][1] - t163 * t167;
         let t186 = parameters.actuator_axis[5][2] - t164 * t167;
         // leg 1: rod's end mass at the Hooke joint
-        let t187 = parameters.rod_com_fraction[0] - 1.0;
+        let t187 = parameters.rod_com_fraction[0] - c(1.0);
         let t188 = parameters.rod_inertia[0] / t115;
         let t189 = t187 * (parameters.rod_mass[0] * t187) + t188;
         // leg 1: leg mass that moves with the platform joint
@@ -24207,7 +24783,7 @@ pub fn forward_dynamics(
         // leg 1: rod's inertial coupling between its ends
         let t192 = t188 + t187 * t190;
         // leg 2: rod's end mass at the Hooke joint
-        let t193 = parameters.rod_com_fraction[1] - 1.0;
+        let t193 = parameters.rod_com_fraction[1] - c(1.0);
         let t194 = parameters.rod_inertia[1] / t125;
         let t195 = t193 * (parameters.rod_mass[1] * t193) + t194;
         // leg 2: leg mass that moves with the platform joint
@@ -24216,7 +24792,7 @@ pub fn forward_dynamics(
         // leg 2: rod's inertial coupling between its ends
         let t198 = t194 + t193 * t196;
         // leg 3: rod's end mass at the Hooke joint
-        let t199 = parameters.rod_com_fraction[2] - 1.0;
+        let t199 = parameters.rod_com_fraction[2] - c(1.0);
         let t200 = parameters.rod_inertia[2] / t135;
         let t201 = t199 * (parameters.rod_mass[2] * t199) + t200;
         // leg 3: leg mass that moves with the platform joint
@@ -24225,7 +24801,7 @@ pub fn forward_dynamics(
         // leg 3: rod's inertial coupling between its ends
         let t204 = t200 + t199 * t202;
         // leg 4: rod's end mass at the Hooke joint
-        let t205 = parameters.rod_com_fraction[3] - 1.0;
+        let t205 = parameters.rod_com_fraction[3] - c(1.0);
         let t206 = parameters.rod_inertia[3] / t145;
         let t207 = t205 * (parameters.rod_mass[3] * t205) + t206;
         // leg 4: leg mass that moves with the platform joint
@@ -24234,7 +24810,7 @@ pub fn forward_dynamics(
         // leg 4: rod's inertial coupling between its ends
         let t210 = t206 + t205 * t208;
         // leg 5: rod's end mass at the Hooke joint
-        let t211 = parameters.rod_com_fraction[4] - 1.0;
+        let t211 = parameters.rod_com_fraction[4] - c(1.0);
         let t212 = parameters.rod_inertia[4] / t155;
         let t213 = t211 * (parameters.rod_mass[4] * t211) + t212;
         // leg 5: leg mass that moves with the platform joint
@@ -24243,7 +24819,7 @@ pub fn forward_dynamics(
         // leg 5: rod's inertial coupling between its ends
         let t216 = t212 + t211 * t214;
         // leg 6: rod's end mass at the Hooke joint
-        let t217 = parameters.rod_com_fraction[5] - 1.0;
+        let t217 = parameters.rod_com_fraction[5] - c(1.0);
         let t218 = parameters.rod_inertia[5] / t165;
         let t219 = t217 * (parameters.rod_mass[5] * t217) + t218;
         // leg 6: leg mass that moves with the platform joint
@@ -24278,7 +24854,7 @@ pub fn forward_dynamics(
         let t245 = t244 + parameters.platform_point[5][2] * t221;
         // second moment of payload and platform-side leg ends
         let t246 = parameters.payload_inertia[0][0] + parameters.payload_inertia[1][1];
-        let t247 = (parameters.payload_inertia[2][2] + t246) * 0.5;
+        let t247 = (parameters.payload_inertia[2][2] + t246) * c(0.5);
         let t248 = parameters.payload_inertia[0][0] - t247;
         let t249 = parameters.payload_com[0] * parameters.payload_com[0];
         let t250 = t191
@@ -24602,11 +25178,11 @@ pub fn forward_dynamics(
         let t499 = t9 * t486 + t18 * t492 - t27 * t496;
         // acceleration of the platform origin relative to the base
         let t500 = t453 + (t32 * t469 + t34 * t471 - t36 * t473);
-        let t501 = t500 - 2.0 * (t310 * t337 - t313 * t334);
+        let t501 = t500 - c(2.0) * (t310 * t337 - t313 * t334);
         let t502 = t455 - (t32 * t474 - t34 * t476 - t36 * t478);
-        let t503 = t502 - 2.0 * (t313 * t331 - t307 * t337);
+        let t503 = t502 - c(2.0) * (t313 * t331 - t307 * t337);
         let t504 = t457 + (t32 * t479 - t34 * t480 + t36 * t481);
-        let t505 = t504 - 2.0 * (t307 * t334 - t310 * t331);
+        let t505 = t504 - c(2.0) * (t307 * t334 - t310 * t331);
         // second derivative of the relative rotation
         let t506 = t323 * t324;
         let t507 = t466 - (t307 * t324 - t310 * t323);
@@ -24742,7 +25318,7 @@ pub fn forward_dynamics(
         let t624 = parameters.base_point[0][1] - parameters.actuator_axis[0][1] * t118;
         let t625 = parameters.base_point[0][2] - parameters.actuator_axis[0][2] * t118;
         let t626 = t453 - (t469 * t623 + t471 * t624 - t473 * t625);
-        let t627 = 2.0 * t408;
+        let t627 = c(2.0) * t408;
         let t628 = parameters.actuator_axis[0][1] * t313;
         let t629 = t626 - t627 * (parameters.actuator_axis[0][2] * t310 - t628);
         let t630 = t629 - parameters.actuator_axis[0][0] * t592;
@@ -24788,7 +25364,7 @@ pub fn forward_dynamics(
         let t668 = parameters.base_point[1][1] - parameters.actuator_axis[1][1] * t128;
         let t669 = parameters.base_point[1][2] - parameters.actuator_axis[1][2] * t128;
         let t670 = t453 - (t469 * t667 + t471 * t668 - t473 * t669);
-        let t671 = 2.0 * t416;
+        let t671 = c(2.0) * t416;
         let t672 = parameters.actuator_axis[1][1] * t313;
         let t673 = t670 - t671 * (parameters.actuator_axis[1][2] * t310 - t672);
         let t674 = t673 - parameters.actuator_axis[1][0] * t598;
@@ -24834,7 +25410,7 @@ pub fn forward_dynamics(
         let t712 = parameters.base_point[2][1] - parameters.actuator_axis[2][1] * t138;
         let t713 = parameters.base_point[2][2] - parameters.actuator_axis[2][2] * t138;
         let t714 = t453 - (t469 * t711 + t471 * t712 - t473 * t713);
-        let t715 = 2.0 * t424;
+        let t715 = c(2.0) * t424;
         let t716 = parameters.actuator_axis[2][1] * t313;
         let t717 = t714 - t715 * (parameters.actuator_axis[2][2] * t310 - t716);
         let t718 = t717 - parameters.actuator_axis[2][0] * t604;
@@ -24880,7 +25456,7 @@ pub fn forward_dynamics(
         let t756 = parameters.base_point[3][1] - parameters.actuator_axis[3][1] * t148;
         let t757 = parameters.base_point[3][2] - parameters.actuator_axis[3][2] * t148;
         let t758 = t453 - (t469 * t755 + t471 * t756 - t473 * t757);
-        let t759 = 2.0 * t432;
+        let t759 = c(2.0) * t432;
         let t760 = parameters.actuator_axis[3][1] * t313;
         let t761 = t758 - t759 * (parameters.actuator_axis[3][2] * t310 - t760);
         let t762 = t761 - parameters.actuator_axis[3][0] * t610;
@@ -24926,7 +25502,7 @@ pub fn forward_dynamics(
         let t800 = parameters.base_point[4][1] - parameters.actuator_axis[4][1] * t158;
         let t801 = parameters.base_point[4][2] - parameters.actuator_axis[4][2] * t158;
         let t802 = t453 - (t469 * t799 + t471 * t800 - t473 * t801);
-        let t803 = 2.0 * t440;
+        let t803 = c(2.0) * t440;
         let t804 = parameters.actuator_axis[4][1] * t313;
         let t805 = t802 - t803 * (parameters.actuator_axis[4][2] * t310 - t804);
         let t806 = t805 - parameters.actuator_axis[4][0] * t616;
@@ -24972,7 +25548,7 @@ pub fn forward_dynamics(
         let t844 = parameters.base_point[5][1] - parameters.actuator_axis[5][1] * t168;
         let t845 = parameters.base_point[5][2] - parameters.actuator_axis[5][2] * t168;
         let t846 = t453 - (t469 * t843 + t471 * t844 - t473 * t845);
-        let t847 = 2.0 * t448;
+        let t847 = c(2.0) * t448;
         let t848 = parameters.actuator_axis[5][1] * t313;
         let t849 = t846 - t847 * (parameters.actuator_axis[5][2] * t310 - t848);
         let t850 = t849 - parameters.actuator_axis[5][0] * t622;
@@ -25303,7 +25879,7 @@ pub fn forward_dynamics(
         let t1039 = t1021 + (t1038 + t913 * t1026 + t916 * t1027);
         // leg 1: weights of the squares that make the leg's mass matrix
         let t1040 = parameters.mover_mass[0] + t189;
-        let t1041 = 1.0 / t1040;
+        let t1041 = c(1.0) / t1040;
         let t1042 = t192 * t192 * t1041;
         // leg 1: the vectors that are squared, in the platform speeds
         let t1043 = t192 * t1041;
@@ -25321,7 +25897,7 @@ pub fn forward_dynamics(
         let t1055 = t901 - t1043 * t1054;
         // leg 2: weights of the squares that make the leg's mass matrix
         let t1056 = parameters.mover_mass[1] + t195;
-        let t1057 = 1.0 / t1056;
+        let t1057 = c(1.0) / t1056;
         let t1058 = t198 * t198 * t1057;
         // leg 2: the vectors that are squared, in the platform speeds
         let t1059 = t198 * t1057;
@@ -25339,7 +25915,7 @@ pub fn forward_dynamics(
         let t1071 = t904 - t1059 * t1070;
         // leg 3: weights of the squares that make the leg's mass matrix
         let t1072 = parameters.mover_mass[2] + t201;
-        let t1073 = 1.0 / t1072;
+        let t1073 = c(1.0) / t1072;
         let t1074 = t204 * t204 * t1073;
         // leg 3: the vectors that are squared, in the platform speeds
         let t1075 = t204 * t1073;
@@ -25357,7 +25933,7 @@ pub fn forward_dynamics(
         let t1087 = t907 - t1075 * t1086;
         // leg 4: weights of the squares that make the leg's mass matrix
         let t1088 = parameters.mover_mass[3] + t207;
-        let t1089 = 1.0 / t1088;
+        let t1089 = c(1.0) / t1088;
         let t1090 = t210 * t210 * t1089;
         // leg 4: the vectors that are squared, in the platform speeds
         let t1091 = t210 * t1089;
@@ -25375,7 +25951,7 @@ pub fn forward_dynamics(
         let t1103 = t910 - t1091 * t1102;
         // leg 5: weights of the squares that make the leg's mass matrix
         let t1104 = parameters.mover_mass[4] + t213;
-        let t1105 = 1.0 / t1104;
+        let t1105 = c(1.0) / t1104;
         let t1106 = t216 * t216 * t1105;
         // leg 5: the vectors that are squared, in the platform speeds
         let t1107 = t216 * t1105;
@@ -25393,7 +25969,7 @@ pub fn forward_dynamics(
         let t1119 = t913 - t1107 * t1118;
         // leg 6: weights of the squares that make the leg's mass matrix
         let t1120 = parameters.mover_mass[5] + t219;
-        let t1121 = 1.0 / t1120;
+        let t1121 = c(1.0) / t1120;
         let t1122 = t222 * t222 * t1121;
         // leg 6: the vectors that are squared, in the platform speeds
         let t1123 = t222 * t1121;
@@ -25613,19 +26189,19 @@ pub fn forward_dynamics(
         let t1330 = t1329 - t1103 * t1229 + t1102 * t1230 - t1119 * t1232;
         let t1331 = t1330 + t1118 * t1233 - t1135 * t1235 + t1134 * t1236;
         // acceleration that removes the residual wrench
-        let t1332 = 1.0 / t1145;
+        let t1332 = c(1.0) / t1145;
         let t1333 = t1237 * t1332;
         let t1334 = t1163 * t1332;
         let t1335 = t1031 - t1029 * t1334;
         let t1336 = t1268 - t1163 * t1333;
-        let t1337 = 1.0 / (t1243 - t1163 * t1334);
+        let t1337 = c(1.0) / (t1243 - t1163 * t1334);
         let t1338 = t1336 * t1337;
         let t1339 = t1181 * t1332;
         let t1340 = t1249 - t1163 * t1339;
         let t1341 = t1340 * t1337;
         let t1342 = t1033 - t1029 * t1339 - t1335 * t1341;
         let t1343 = t1292 - t1181 * t1333 - t1340 * t1338;
-        let t1344 = 1.0 / (t1274 - t1181 * t1339 - t1340 * t1341);
+        let t1344 = c(1.0) / (t1274 - t1181 * t1339 - t1340 * t1341);
         let t1345 = t1343 * t1344;
         let t1346 = t1039 - t1029 * t1333 - t1335 * t1338 - t1342 * t1345;
         let t1347 = t1199 * t1332;
@@ -25635,7 +26211,7 @@ pub fn forward_dynamics(
         let t1351 = t1350 * t1344;
         let t1352 = t1035 - t1029 * t1347 + t1335 * t1349 - t1342 * t1351;
         let t1353 = t1311 - t1199 * t1333 + t1348 * t1338 - t1350 * t1345;
-        let t1354 = 1.0 / (t1301 + t1199 * t1347 + t1348 * t1349 + t1350 * t1351);
+        let t1354 = c(1.0) / (t1301 + t1199 * t1347 + t1348 * t1349 + t1350 * t1351);
         let t1355 = t1353 * t1354;
         let t1356 = t1218 * t1332;
         let t1357 = t1261 - t1163 * t1356;
@@ -25649,10 +26225,10 @@ pub fn forward_dynamics(
         let t1365 = t1324 - t1218 * t1333 - t1357 * t1338 + t1359 * t1345;
         let t1366 = t1365 + t1362 * t1355;
         let t1367 = t1319 + t1218 * t1356 + t1357 * t1358 + t1359 * t1360;
-        let t1368 = 1.0 / (t1367 - t1362 * t1363);
+        let t1368 = c(1.0) / (t1367 - t1362 * t1363);
         let t1369 = t1366 * t1368;
         let t1370 = t1331 + t1237 * t1333 + t1336 * t1338 + t1343 * t1345;
-        let t1371 = 1.0 / (t1370 - t1353 * t1355 - t1366 * t1369);
+        let t1371 = c(1.0) / (t1370 - t1353 * t1355 - t1366 * t1369);
         let t1372 = (t1346 + t1352 * t1355 + t1364 * t1369) * t1371;
         let t1373 = t1364 * t1368 + t1369 * t1372;
         let t1374 = t1352 * t1354 + t1363 * t1373 + t1355 * t1372;
@@ -25696,17 +26272,18 @@ pub fn forward_dynamics(
 /// - `kinetic_energy`: scalar, J: kinetic energy of payload, rods and movers.
 /// - `potential_energy`: scalar, J: potential energy of gravity and springs.
 #[allow(clippy::all, clippy::pedantic, unused_variables)]
-pub fn energy(
-    parameters: &Parameters,
-    base_position: &[f64; 3],
-    base_rotation: &[[f64; 3]; 3],
-    base_velocity: &[f64; 6],
-    platform_position: &[f64; 3],
-    platform_rotation: &[[f64; 3]; 3],
-    platform_velocity: &[f64; 6],
-    kinetic_energy: &mut f64,
-    potential_energy: &mut f64,
+pub fn energy<T: Scalar>(
+    parameters: &Parameters<T>,
+    base_position: &[T; 3],
+    base_rotation: &[[T; 3]; 3],
+    base_velocity: &[T; 6],
+    platform_position: &[T; 3],
+    platform_rotation: &[[T; 3]; 3],
+    platform_velocity: &[T; 6],
+    kinetic_energy: &mut T,
+    potential_energy: &mut T,
 ) {
+    let c = T::constant;
     // rotation of the platform seen from the base
     let t1 = base_rotation[1][0] * platform_rotation[1][0];
     let t2 = base_rotation[0][0] * platform_rotation[0][0] + t1;
@@ -25840,7 +26417,7 @@ pub fn energy(
     let t115 = parameters.rod_length[0] * parameters.rod_length[0];
     let t116 = sqrt(t115 - t112 * t112 - t113 * t113 - t114 * t114);
     // leg 1: reciprocal of that extent
-    let t117 = 1.0 / t116;
+    let t117 = c(1.0) / t116;
     // leg 1: actuator length d
     let t118 = t111 - t116;
     // leg 2: offset of the platform joint from the actuator axis
@@ -25854,7 +26431,7 @@ pub fn energy(
     let t125 = parameters.rod_length[1] * parameters.rod_length[1];
     let t126 = sqrt(t125 - t122 * t122 - t123 * t123 - t124 * t124);
     // leg 2: reciprocal of that extent
-    let t127 = 1.0 / t126;
+    let t127 = c(1.0) / t126;
     // leg 2: actuator length d
     let t128 = t121 - t126;
     // leg 3: offset of the platform joint from the actuator axis
@@ -25868,7 +26445,7 @@ pub fn energy(
     let t135 = parameters.rod_length[2] * parameters.rod_length[2];
     let t136 = sqrt(t135 - t132 * t132 - t133 * t133 - t134 * t134);
     // leg 3: reciprocal of that extent
-    let t137 = 1.0 / t136;
+    let t137 = c(1.0) / t136;
     // leg 3: actuator length d
     let t138 = t131 - t136;
     // leg 4: offset of the platform joint from the actuator axis
@@ -25882,7 +26459,7 @@ pub fn energy(
     let t145 = parameters.rod_length[3] * parameters.rod_length[3];
     let t146 = sqrt(t145 - t142 * t142 - t143 * t143 - t144 * t144);
     // leg 4: reciprocal of that extent
-    let t147 = 1.0 / t146;
+    let t147 = c(1.0) / t146;
     // leg 4: actuator length d
     let t148 = t141 - t146;
     // leg 5: offset of the platform joint from the actuator axis
@@ -25896,7 +26473,7 @@ pub fn energy(
     let t155 = parameters.rod_length[4] * parameters.rod_length[4];
     let t156 = sqrt(t155 - t152 * t152 - t153 * t153 - t154 * t154);
     // leg 5: reciprocal of that extent
-    let t157 = 1.0 / t156;
+    let t157 = c(1.0) / t156;
     // leg 5: actuator length d
     let t158 = t151 - t156;
     // leg 6: offset of the platform joint from the actuator axis
@@ -25910,7 +26487,7 @@ pub fn energy(
     let t165 = parameters.rod_length[5] * parameters.rod_length[5];
     let t166 = sqrt(t165 - t162 * t162 - t163 * t163 - t164 * t164);
     // leg 6: reciprocal of that extent
-    let t167 = 1.0 / t166;
+    let t167 = c(1.0) / t166;
     // leg 6: actuator length d
     let t168 = t161 - t166;
     // angular velocity of the base
@@ -26087,7 +26664,7 @@ pub fn energy(
     // leg 6: actuator velocity d'
     let t312 = t307 + t311;
     // leg 1: rod's end mass at the Hooke joint
-    let t313 = parameters.rod_com_fraction[0] - 1.0;
+    let t313 = parameters.rod_com_fraction[0] - c(1.0);
     let t314 = parameters.rod_inertia[0] / t115;
     let t315 = t313 * (parameters.rod_mass[0] * t313) + t314;
     // leg 1: leg mass that moves with the platform joint
@@ -26096,7 +26673,7 @@ pub fn energy(
     // leg 1: rod's inertial coupling between its ends
     let t318 = t314 + t313 * t316;
     // leg 2: rod's end mass at the Hooke joint
-    let t319 = parameters.rod_com_fraction[1] - 1.0;
+    let t319 = parameters.rod_com_fraction[1] - c(1.0);
     let t320 = parameters.rod_inertia[1] / t125;
     let t321 = t319 * (parameters.rod_mass[1] * t319) + t320;
     // leg 2: leg mass that moves with the platform joint
@@ -26105,7 +26682,7 @@ pub fn energy(
     // leg 2: rod's inertial coupling between its ends
     let t324 = t320 + t319 * t322;
     // leg 3: rod's end mass at the Hooke joint
-    let t325 = parameters.rod_com_fraction[2] - 1.0;
+    let t325 = parameters.rod_com_fraction[2] - c(1.0);
     let t326 = parameters.rod_inertia[2] / t135;
     let t327 = t325 * (parameters.rod_mass[2] * t325) + t326;
     // leg 3: leg mass that moves with the platform joint
@@ -26114,7 +26691,7 @@ pub fn energy(
     // leg 3: rod's inertial coupling between its ends
     let t330 = t326 + t325 * t328;
     // leg 4: rod's end mass at the Hooke joint
-    let t331 = parameters.rod_com_fraction[3] - 1.0;
+    let t331 = parameters.rod_com_fraction[3] - c(1.0);
     let t332 = parameters.rod_inertia[3] / t145;
     let t333 = t331 * (parameters.rod_mass[3] * t331) + t332;
     // leg 4: leg mass that moves with the platform joint
@@ -26123,7 +26700,7 @@ pub fn energy(
     // leg 4: rod's inertial coupling between its ends
     let t336 = t332 + t331 * t334;
     // leg 5: rod's end mass at the Hooke joint
-    let t337 = parameters.rod_com_fraction[4] - 1.0;
+    let t337 = parameters.rod_com_fraction[4] - c(1.0);
     let t338 = parameters.rod_inertia[4] / t155;
     let t339 = t337 * (parameters.rod_mass[4] * t337) + t338;
     // leg 5: leg mass that moves with the platform joint
@@ -26132,7 +26709,7 @@ pub fn energy(
     // leg 5: rod's inertial coupling between its ends
     let t342 = t338 + t337 * t340;
     // leg 6: rod's end mass at the Hooke joint
-    let t343 = parameters.rod_com_fraction[5] - 1.0;
+    let t343 = parameters.rod_com_fraction[5] - c(1.0);
     let t344 = parameters.rod_inertia[5] / t165;
     let t345 = t343 * (parameters.rod_mass[5] * t343) + t344;
     // leg 6: leg mass that moves with the platform joint
@@ -26610,7 +27187,7 @@ pub fn energy(
     let t803 = t793 * (parameters.payload_inertia[1][2] * t790 + t799) + t802;
     let t804 = t470 + t471 + (t516 + t540) + (t541 + t586 + (t610 + t611));
     let t805 = t803 + (t376 + t400 + (t401 + t446)) + t804;
-    let t806 = 0.5 * (t656 + t680 + (t681 + t726) + t797 + t805);
+    let t806 = c(0.5) * (t656 + t680 + (t681 + t726) + t797 + t805);
     *kinetic_energy = t742 + (t672 + (t602 + (t532 + (t392 + t462)))) + t806;
     // potential energy of gravity and springs
     let t807 = parameters.gravity[1] * (platform_position[1] + t774);
@@ -26619,5 +27196,5 @@ pub fn energy(
     let t810 = t553 + (t548 + (t488 + (t483 + (t478 + (t418 + (t408 + t413))))));
     let t811 = t698 + (t693 + (t688 + (t628 + (t623 + (t618 + (t558 + t810))))));
     let t812 = parameters.payload_mass * t809 - (t768 + (t763 + (t758 + t811)));
-    *potential_energy = 0.5 * (t683 + t753 + (t403 + t473 + (t543 + t613))) - t812;
+    *potential_energy = c(0.5) * (t683 + t753 + (t403 + t473 + (t543 + t613))) - t812;
 }

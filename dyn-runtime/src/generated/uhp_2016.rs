@@ -32,7 +32,7 @@
 // inverse_dynamics, axial_reaction: 10.7 (51 states sampled)
 
 #[allow(unused_imports)]
-use crate::float::sqrt;
+use crate::float::{Scalar, sqrt};
 #[allow(unused_imports)]
 use crate::solve::solve_general;
 
@@ -564,6 +564,548 @@ impl crate::kernels::Energy for Uhp2016 {
     }
 }
 
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::RodAlignment<f32> for Uhp2016 {
+    #[inline]
+    fn rod_alignment(
+        &self,
+        base_position: &[f32; 3],
+        base_rotation: &[[f32; 3]; 3],
+        platform_position: &[f32; 3],
+        platform_rotation: &[[f32; 3]; 3],
+        rod_alignment: &mut [f32; 6],
+    ) {
+        self::rod_alignment(
+            base_position,
+            base_rotation,
+            platform_position,
+            platform_rotation,
+            rod_alignment,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::LegKinematics<f32> for Uhp2016 {
+    #[inline]
+    fn leg_kinematics(
+        &self,
+        base_position: &[f32; 3],
+        base_rotation: &[[f32; 3]; 3],
+        base_velocity: &[f32; 6],
+        base_acceleration: &[f32; 6],
+        platform_position: &[f32; 3],
+        platform_rotation: &[[f32; 3]; 3],
+        platform_velocity: &[f32; 6],
+        platform_acceleration: &[f32; 6],
+        actuator_length: &mut [f32; 6],
+        actuator_velocity: &mut [f32; 6],
+        actuator_acceleration: &mut [f32; 6],
+        rod_direction: &mut [[f32; 3]; 6],
+        hooke_joint_position: &mut [[f32; 3]; 6],
+        platform_joint_position: &mut [[f32; 3]; 6],
+        universal_joint_rate: &mut [[f32; 3]; 6],
+    ) {
+        self::leg_kinematics(
+            base_position,
+            base_rotation,
+            base_velocity,
+            base_acceleration,
+            platform_position,
+            platform_rotation,
+            platform_velocity,
+            platform_acceleration,
+            actuator_length,
+            actuator_velocity,
+            actuator_acceleration,
+            rod_direction,
+            hooke_joint_position,
+            platform_joint_position,
+            universal_joint_rate,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::BodyKinematics<f32> for Uhp2016 {
+    #[inline]
+    fn body_kinematics(
+        &self,
+        base_position: &[f32; 3],
+        base_rotation: &[[f32; 3]; 3],
+        base_velocity: &[f32; 6],
+        base_acceleration: &[f32; 6],
+        platform_position: &[f32; 3],
+        platform_rotation: &[[f32; 3]; 3],
+        platform_velocity: &[f32; 6],
+        platform_acceleration: &[f32; 6],
+        payload_com_position: &mut [f32; 3],
+        payload_com_velocity: &mut [f32; 3],
+        payload_com_acceleration: &mut [f32; 3],
+        rod_angular_velocity: &mut [[f32; 3]; 6],
+        rod_angular_acceleration: &mut [[f32; 3]; 6],
+        rod_com_position: &mut [[f32; 3]; 6],
+        rod_com_velocity: &mut [[f32; 3]; 6],
+        rod_com_acceleration: &mut [[f32; 3]; 6],
+        mover_position: &mut [[f32; 3]; 6],
+        mover_velocity: &mut [[f32; 3]; 6],
+        mover_acceleration: &mut [[f32; 3]; 6],
+    ) {
+        self::body_kinematics(
+            base_position,
+            base_rotation,
+            base_velocity,
+            base_acceleration,
+            platform_position,
+            platform_rotation,
+            platform_velocity,
+            platform_acceleration,
+            payload_com_position,
+            payload_com_velocity,
+            payload_com_acceleration,
+            rod_angular_velocity,
+            rod_angular_acceleration,
+            rod_com_position,
+            rod_com_velocity,
+            rod_com_acceleration,
+            mover_position,
+            mover_velocity,
+            mover_acceleration,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::PartialVelocities<f32> for Uhp2016 {
+    #[inline]
+    fn partial_velocities(
+        &self,
+        base_position: &[f32; 3],
+        base_rotation: &[[f32; 3]; 3],
+        platform_position: &[f32; 3],
+        platform_rotation: &[[f32; 3]; 3],
+        payload_partial_velocity: &mut [[f32; 6]; 3],
+        payload_partial_angular_velocity: &mut [[f32; 6]; 3],
+        rod_partial_velocity: &mut [[[f32; 6]; 3]; 6],
+        rod_partial_angular_velocity: &mut [[[f32; 6]; 3]; 6],
+        mover_partial_velocity: &mut [[[f32; 6]; 3]; 6],
+    ) {
+        self::partial_velocities(
+            base_position,
+            base_rotation,
+            platform_position,
+            platform_rotation,
+            payload_partial_velocity,
+            payload_partial_angular_velocity,
+            rod_partial_velocity,
+            rod_partial_angular_velocity,
+            mover_partial_velocity,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::GeneralisedForces<f32> for Uhp2016 {
+    #[inline]
+    fn generalised_forces(
+        &self,
+        base_position: &[f32; 3],
+        base_rotation: &[[f32; 3]; 3],
+        base_velocity: &[f32; 6],
+        base_acceleration: &[f32; 6],
+        platform_position: &[f32; 3],
+        platform_rotation: &[[f32; 3]; 3],
+        platform_velocity: &[f32; 6],
+        platform_acceleration: &[f32; 6],
+        actuator_force: &[f32; 6],
+        external_wrench: &[f32; 6],
+        payload_active_force: &mut [f32; 6],
+        payload_inertia_force: &mut [f32; 6],
+        rod_active_force: &mut [[f32; 6]; 6],
+        rod_inertia_force: &mut [[f32; 6]; 6],
+        mover_active_force: &mut [[f32; 6]; 6],
+        mover_inertia_force: &mut [[f32; 6]; 6],
+    ) {
+        self::generalised_forces(
+            base_position,
+            base_rotation,
+            base_velocity,
+            base_acceleration,
+            platform_position,
+            platform_rotation,
+            platform_velocity,
+            platform_acceleration,
+            actuator_force,
+            external_wrench,
+            payload_active_force,
+            payload_inertia_force,
+            rod_active_force,
+            rod_inertia_force,
+            mover_active_force,
+            mover_inertia_force,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::JacobianDp<f32> for Uhp2016 {
+    #[inline]
+    fn jacobian_dp(
+        &self,
+        base_position: &[f32; 3],
+        base_rotation: &[[f32; 3]; 3],
+        platform_position: &[f32; 3],
+        platform_rotation: &[[f32; 3]; 3],
+        jacobian_dp: &mut [[f32; 6]; 6],
+    ) {
+        self::jacobian_dp(
+            base_position,
+            base_rotation,
+            platform_position,
+            platform_rotation,
+            jacobian_dp,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::JacobianDb<f32> for Uhp2016 {
+    #[inline]
+    fn jacobian_db(
+        &self,
+        base_position: &[f32; 3],
+        base_rotation: &[[f32; 3]; 3],
+        platform_position: &[f32; 3],
+        platform_rotation: &[[f32; 3]; 3],
+        jacobian_db: &mut [[f32; 6]; 6],
+    ) {
+        self::jacobian_db(
+            base_position,
+            base_rotation,
+            platform_position,
+            platform_rotation,
+            jacobian_db,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::MassMatrixP<f32> for Uhp2016 {
+    #[inline]
+    fn mass_matrix_p(
+        &self,
+        base_position: &[f32; 3],
+        base_rotation: &[[f32; 3]; 3],
+        platform_position: &[f32; 3],
+        platform_rotation: &[[f32; 3]; 3],
+        mass_matrix_p: &mut [[f32; 6]; 6],
+    ) {
+        self::mass_matrix_p(
+            base_position,
+            base_rotation,
+            platform_position,
+            platform_rotation,
+            mass_matrix_p,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::MassMatrixB<f32> for Uhp2016 {
+    #[inline]
+    fn mass_matrix_b(
+        &self,
+        base_position: &[f32; 3],
+        base_rotation: &[[f32; 3]; 3],
+        platform_position: &[f32; 3],
+        platform_rotation: &[[f32; 3]; 3],
+        mass_matrix_b: &mut [[f32; 6]; 6],
+    ) {
+        self::mass_matrix_b(
+            base_position,
+            base_rotation,
+            platform_position,
+            platform_rotation,
+            mass_matrix_b,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::CoriolisMatrices<f32> for Uhp2016 {
+    #[inline]
+    fn coriolis_matrices(
+        &self,
+        base_position: &[f32; 3],
+        base_rotation: &[[f32; 3]; 3],
+        base_velocity: &[f32; 6],
+        platform_position: &[f32; 3],
+        platform_rotation: &[[f32; 3]; 3],
+        platform_velocity: &[f32; 6],
+        coriolis_matrix_p: &mut [[f32; 6]; 6],
+        coriolis_matrix_b: &mut [[f32; 6]; 6],
+    ) {
+        self::coriolis_matrices(
+            base_position,
+            base_rotation,
+            base_velocity,
+            platform_position,
+            platform_rotation,
+            platform_velocity,
+            coriolis_matrix_p,
+            coriolis_matrix_b,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::StiffnessMatrices<f32> for Uhp2016 {
+    #[inline]
+    fn stiffness_matrices(
+        &self,
+        base_position: &[f32; 3],
+        base_rotation: &[[f32; 3]; 3],
+        platform_position: &[f32; 3],
+        platform_rotation: &[[f32; 3]; 3],
+        stiffness_matrix_p: &mut [[f32; 6]; 6],
+        stiffness_matrix_b: &mut [[f32; 6]; 6],
+    ) {
+        self::stiffness_matrices(
+            base_position,
+            base_rotation,
+            platform_position,
+            platform_rotation,
+            stiffness_matrix_p,
+            stiffness_matrix_b,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::Matrices<f32> for Uhp2016 {
+    #[inline]
+    fn matrices(
+        &self,
+        base_position: &[f32; 3],
+        base_rotation: &[[f32; 3]; 3],
+        base_velocity: &[f32; 6],
+        platform_position: &[f32; 3],
+        platform_rotation: &[[f32; 3]; 3],
+        platform_velocity: &[f32; 6],
+        mass_matrix_p: &mut [[f32; 6]; 6],
+        coriolis_matrix_p: &mut [[f32; 6]; 6],
+        jacobian_dp: &mut [[f32; 6]; 6],
+        mass_matrix_b: &mut [[f32; 6]; 6],
+        coriolis_matrix_b: &mut [[f32; 6]; 6],
+        jacobian_db: &mut [[f32; 6]; 6],
+    ) {
+        self::matrices(
+            base_position,
+            base_rotation,
+            base_velocity,
+            platform_position,
+            platform_rotation,
+            platform_velocity,
+            mass_matrix_p,
+            coriolis_matrix_p,
+            jacobian_dp,
+            mass_matrix_b,
+            coriolis_matrix_b,
+            jacobian_db,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::PassiveForces<f32> for Uhp2016 {
+    #[inline]
+    fn passive_forces(
+        &self,
+        base_position: &[f32; 3],
+        base_rotation: &[[f32; 3]; 3],
+        base_velocity: &[f32; 6],
+        platform_position: &[f32; 3],
+        platform_rotation: &[[f32; 3]; 3],
+        platform_velocity: &[f32; 6],
+        gravity_force: &mut [f32; 6],
+        spring_force: &mut [f32; 6],
+        damping_force: &mut [f32; 6],
+    ) {
+        self::passive_forces(
+            base_position,
+            base_rotation,
+            base_velocity,
+            platform_position,
+            platform_rotation,
+            platform_velocity,
+            gravity_force,
+            spring_force,
+            damping_force,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::Bias<f32> for Uhp2016 {
+    #[inline]
+    fn bias(
+        &self,
+        base_position: &[f32; 3],
+        base_rotation: &[[f32; 3]; 3],
+        base_velocity: &[f32; 6],
+        platform_position: &[f32; 3],
+        platform_rotation: &[[f32; 3]; 3],
+        platform_velocity: &[f32; 6],
+        bias: &mut [f32; 6],
+    ) {
+        self::bias(
+            base_position,
+            base_rotation,
+            base_velocity,
+            platform_position,
+            platform_rotation,
+            platform_velocity,
+            bias,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::EquationOfMotion<f32> for Uhp2016 {
+    #[inline]
+    fn equation_of_motion(
+        &self,
+        base_position: &[f32; 3],
+        base_rotation: &[[f32; 3]; 3],
+        base_velocity: &[f32; 6],
+        platform_position: &[f32; 3],
+        platform_rotation: &[[f32; 3]; 3],
+        platform_velocity: &[f32; 6],
+        mass_matrix_p: &mut [[f32; 6]; 6],
+        coriolis_matrix_p: &mut [[f32; 6]; 6],
+        stiffness_matrix_p: &mut [[f32; 6]; 6],
+        jacobian_dp: &mut [[f32; 6]; 6],
+        mass_matrix_b: &mut [[f32; 6]; 6],
+        coriolis_matrix_b: &mut [[f32; 6]; 6],
+        stiffness_matrix_b: &mut [[f32; 6]; 6],
+        jacobian_db: &mut [[f32; 6]; 6],
+        gravity_force: &mut [f32; 6],
+        spring_force: &mut [f32; 6],
+        damping_force: &mut [f32; 6],
+        bias: &mut [f32; 6],
+    ) {
+        self::equation_of_motion(
+            base_position,
+            base_rotation,
+            base_velocity,
+            platform_position,
+            platform_rotation,
+            platform_velocity,
+            mass_matrix_p,
+            coriolis_matrix_p,
+            stiffness_matrix_p,
+            jacobian_dp,
+            mass_matrix_b,
+            coriolis_matrix_b,
+            stiffness_matrix_b,
+            jacobian_db,
+            gravity_force,
+            spring_force,
+            damping_force,
+            bias,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::InverseDynamics<f32> for Uhp2016 {
+    #[inline]
+    fn inverse_dynamics(
+        &self,
+        base_position: &[f32; 3],
+        base_rotation: &[[f32; 3]; 3],
+        base_velocity: &[f32; 6],
+        base_acceleration: &[f32; 6],
+        platform_position: &[f32; 3],
+        platform_rotation: &[[f32; 3]; 3],
+        platform_velocity: &[f32; 6],
+        platform_acceleration: &[f32; 6],
+        external_wrench: &[f32; 6],
+        inverse_dynamics: &mut [f32; 6],
+    ) {
+        self::inverse_dynamics(
+            base_position,
+            base_rotation,
+            base_velocity,
+            base_acceleration,
+            platform_position,
+            platform_rotation,
+            platform_velocity,
+            platform_acceleration,
+            external_wrench,
+            inverse_dynamics,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::ForwardDynamics<f32> for Uhp2016 {
+    #[inline]
+    fn forward_dynamics(
+        &self,
+        base_position: &[f32; 3],
+        base_rotation: &[[f32; 3]; 3],
+        base_velocity: &[f32; 6],
+        base_acceleration: &[f32; 6],
+        platform_position: &[f32; 3],
+        platform_rotation: &[[f32; 3]; 3],
+        platform_velocity: &[f32; 6],
+        actuator_force: &[f32; 6],
+        external_wrench: &[f32; 6],
+        forward_dynamics: &mut [f32; 6],
+    ) {
+        self::forward_dynamics(
+            base_position,
+            base_rotation,
+            base_velocity,
+            base_acceleration,
+            platform_position,
+            platform_rotation,
+            platform_velocity,
+            actuator_force,
+            external_wrench,
+            forward_dynamics,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::Energy<f32> for Uhp2016 {
+    #[inline]
+    fn energy(
+        &self,
+        base_position: &[f32; 3],
+        base_rotation: &[[f32; 3]; 3],
+        base_velocity: &[f32; 6],
+        platform_position: &[f32; 3],
+        platform_rotation: &[[f32; 3]; 3],
+        platform_velocity: &[f32; 6],
+        kinetic_energy: &mut f32,
+        potential_energy: &mut f32,
+    ) {
+        self::energy(
+            base_position,
+            base_rotation,
+            base_velocity,
+            platform_position,
+            platform_rotation,
+            platform_velocity,
+            kinetic_energy,
+            potential_energy,
+        );
+    }
+}
+
 /// Squared cosine between each rod and its actuator axis, equation (18).
 ///
 /// Inputs:
@@ -577,13 +1119,14 @@ impl crate::kernels::Energy for Uhp2016 {
 ///
 /// - `rod_alignment`: 6, dimensionless: squared cosine between rod and actuator axis; negative out of reach, equation (18).
 #[allow(clippy::all, clippy::pedantic, unused_variables)]
-pub fn rod_alignment(
-    base_position: &[f64; 3],
-    base_rotation: &[[f64; 3]; 3],
-    platform_position: &[f64; 3],
-    platform_rotation: &[[f64; 3]; 3],
-    rod_alignment: &mut [f64; 6],
+pub fn rod_alignment<T: Scalar>(
+    base_position: &[T; 3],
+    base_rotation: &[[T; 3]; 3],
+    platform_position: &[T; 3],
+    platform_rotation: &[[T; 3]; 3],
+    rod_alignment: &mut [T; 6],
 ) {
+    let c = T::constant;
     // rotation of the platform seen from the base
     let t1 = base_rotation[1][0] * platform_rotation[1][0];
     let t2 = base_rotation[0][0] * platform_rotation[0][0] + t1;
@@ -606,28 +1149,28 @@ pub fn rod_alignment(
     let t18 = base_rotation[0][1] * t14 + base_rotation[1][1] * t15;
     let t19 = base_rotation[2][1] * t13 + t18;
     // leg 1: platform joint from the base point
-    let t20 = t17 + (0.1316436662914507 - 0.1159110991546882 * t3);
-    let t21 = 0.03105828541230249 * t6;
+    let t20 = t17 + (c(0.1316436662914507) - c(0.1159110991546882) * t3);
+    let t21 = c(0.03105828541230249) * t6;
     let t22 = t20 + t21;
-    let t23 = 0.12275970481124972 - 0.03105828541230249 * t12;
-    let t24 = t19 - 0.1159110991546882 * t9;
+    let t23 = c(0.12275970481124972) - c(0.03105828541230249) * t12;
+    let t24 = t19 - c(0.1159110991546882) * t9;
     let t25 = t23 - t24;
     // leg 2: platform joint from the base point
     let t26 = t20 - t21;
     let t27 = t23 + t24;
     // leg 3: platform joint from the base point
-    let t28 = t17 + (0.040491189781895726 + t3 * 0.031058285412302475);
-    let t29 = 0.1159110991546882 * t6;
+    let t28 = t17 + (c(0.040491189781895726) + t3 * c(0.031058285412302475));
+    let t29 = c(0.1159110991546882) * t6;
     let t30 = t28 - t29;
-    let t31 = 0.17538661166134234 - 0.1159110991546882 * t12;
-    let t32 = t19 + t9 * 0.031058285412302475;
+    let t31 = c(0.17538661166134234) - c(0.1159110991546882) * t12;
+    let t32 = t19 + t9 * c(0.031058285412302475);
     let t33 = t31 + t32;
     // leg 4: platform joint from the base point
-    let t34 = t17 - (0.17213485607334636 - t3 * 0.0848528137423857);
-    let t35 = 0.08485281374238571 * t6;
+    let t34 = t17 - (c(0.17213485607334636) - t3 * c(0.0848528137423857));
+    let t35 = c(0.08485281374238571) * t6;
     let t36 = t34 - t35;
-    let t37 = 0.052626906850092664 - 0.08485281374238571 * t12;
-    let t38 = t19 + t9 * 0.0848528137423857;
+    let t37 = c(0.052626906850092664) - c(0.08485281374238571) * t12;
+    let t38 = t19 + t9 * c(0.0848528137423857);
     let t39 = t37 + t38;
     // leg 5: platform joint from the base point
     let t40 = t34 + t35;
@@ -654,17 +1197,17 @@ pub fn rod_alignment(
     let t54 = t42 * t42;
     let t55 = t43 * t43;
     // leg 1: squared cosine between rod and actuator axis; negative out of reach
-    rod_alignment[0] = 1.0 - 23.564897728343862 * (t44 + t45);
+    rod_alignment[0] = c(1.0) - c(23.564897728343862) * (t44 + t45);
     // leg 2: squared cosine between rod and actuator axis; negative out of reach
-    rod_alignment[1] = 1.0 - 23.564897728343862 * (t46 + t47);
+    rod_alignment[1] = c(1.0) - c(23.564897728343862) * (t46 + t47);
     // leg 3: squared cosine between rod and actuator axis; negative out of reach
-    rod_alignment[2] = 1.0 - 23.564897728343862 * (t48 + t49);
+    rod_alignment[2] = c(1.0) - c(23.564897728343862) * (t48 + t49);
     // leg 4: squared cosine between rod and actuator axis; negative out of reach
-    rod_alignment[3] = 1.0 - 23.564897728343862 * (t50 + t51);
+    rod_alignment[3] = c(1.0) - c(23.564897728343862) * (t50 + t51);
     // leg 5: squared cosine between rod and actuator axis; negative out of reach
-    rod_alignment[4] = 1.0 - 23.564897728343862 * (t52 + t53);
+    rod_alignment[4] = c(1.0) - c(23.564897728343862) * (t52 + t53);
     // leg 6: squared cosine between rod and actuator axis; negative out of reach
-    rod_alignment[5] = 1.0 - 23.564897728343862 * (t54 + t55);
+    rod_alignment[5] = c(1.0) - c(23.564897728343862) * (t54 + t55);
 }
 
 /// Actuator lengths, rates and accelerations, rods and joints, equation (14)-(18), (22), (23), (30).
@@ -690,23 +1233,24 @@ pub fn rod_alignment(
 /// - `platform_joint_position`: 6x3, m, frame O: platform joint, equation (14).
 /// - `universal_joint_rate`: 6x3, rad/s, frame O: platform's angular velocity relative to the rod, w_p - w_s, equation (23).
 #[allow(clippy::all, clippy::pedantic, unused_variables)]
-pub fn leg_kinematics(
-    base_position: &[f64; 3],
-    base_rotation: &[[f64; 3]; 3],
-    base_velocity: &[f64; 6],
-    base_acceleration: &[f64; 6],
-    platform_position: &[f64; 3],
-    platform_rotation: &[[f64; 3]; 3],
-    platform_velocity: &[f64; 6],
-    platform_acceleration: &[f64; 6],
-    actuator_length: &mut [f64; 6],
-    actuator_velocity: &mut [f64; 6],
-    actuator_acceleration: &mut [f64; 6],
-    rod_direction: &mut [[f64; 3]; 6],
-    hooke_joint_position: &mut [[f64; 3]; 6],
-    platform_joint_position: &mut [[f64; 3]; 6],
-    universal_joint_rate: &mut [[f64; 3]; 6],
+pub fn leg_kinematics<T: Scalar>(
+    base_position: &[T; 3],
+    base_rotation: &[[T; 3]; 3],
+    base_velocity: &[T; 6],
+    base_acceleration: &[T; 6],
+    platform_position: &[T; 3],
+    platform_rotation: &[[T; 3]; 3],
+    platform_velocity: &[T; 6],
+    platform_acceleration: &[T; 6],
+    actuator_length: &mut [T; 6],
+    actuator_velocity: &mut [T; 6],
+    actuator_acceleration: &mut [T; 6],
+    rod_direction: &mut [[T; 3]; 6],
+    hooke_joint_position: &mut [[T; 3]; 6],
+    platform_joint_position: &mut [[T; 3]; 6],
+    universal_joint_rate: &mut [[T; 3]; 6],
 ) {
+    let c = T::constant;
     // rotation of the platform seen from the base
     let t1 = base_rotation[1][0] * platform_rotation[1][0];
     let t2 = base_rotation[0][0] * platform_rotation[0][0] + t1;
@@ -737,28 +1281,28 @@ pub fn leg_kinematics(
     let t26 = base_rotation[0][2] * t20 + base_rotation[1][2] * t21;
     let t27 = base_rotation[2][2] * t19 + t26;
     // leg 1: platform joint from the base point
-    let t28 = t23 + (0.1316436662914507 - 0.1159110991546882 * t3);
-    let t29 = 0.03105828541230249 * t6;
+    let t28 = t23 + (c(0.1316436662914507) - c(0.1159110991546882) * t3);
+    let t29 = c(0.03105828541230249) * t6;
     let t30 = t28 + t29;
-    let t31 = 0.12275970481124972 - 0.03105828541230249 * t12;
-    let t32 = t25 - 0.1159110991546882 * t9;
+    let t31 = c(0.12275970481124972) - c(0.03105828541230249) * t12;
+    let t32 = t25 - c(0.1159110991546882) * t9;
     let t33 = t31 - t32;
     // leg 2: platform joint from the base point
     let t34 = t28 - t29;
     let t35 = t31 + t32;
     // leg 3: platform joint from the base point
-    let t36 = t23 + (0.040491189781895726 + t3 * 0.031058285412302475);
-    let t37 = 0.1159110991546882 * t6;
+    let t36 = t23 + (c(0.040491189781895726) + t3 * c(0.031058285412302475));
+    let t37 = c(0.1159110991546882) * t6;
     let t38 = t36 - t37;
-    let t39 = 0.17538661166134234 - 0.1159110991546882 * t12;
-    let t40 = t25 + t9 * 0.031058285412302475;
+    let t39 = c(0.17538661166134234) - c(0.1159110991546882) * t12;
+    let t40 = t25 + t9 * c(0.031058285412302475);
     let t41 = t39 + t40;
     // leg 4: platform joint from the base point
-    let t42 = t23 - (0.17213485607334636 - t3 * 0.0848528137423857);
-    let t43 = 0.08485281374238571 * t6;
+    let t42 = t23 - (c(0.17213485607334636) - t3 * c(0.0848528137423857));
+    let t43 = c(0.08485281374238571) * t6;
     let t44 = t42 - t43;
-    let t45 = 0.052626906850092664 - 0.08485281374238571 * t12;
-    let t46 = t25 + t9 * 0.0848528137423857;
+    let t45 = c(0.052626906850092664) - c(0.08485281374238571) * t12;
+    let t46 = t25 + t9 * c(0.0848528137423857);
     let t47 = t45 + t46;
     // leg 5: platform joint from the base point
     let t48 = t42 + t43;
@@ -767,50 +1311,50 @@ pub fn leg_kinematics(
     let t50 = t36 + t37;
     let t51 = t39 - t40;
     // leg 1: extent of the rod along the actuator axis
-    let t52 = sqrt(0.042435999999999995 - t30 * t30 - t33 * t33);
+    let t52 = sqrt(c(0.042435999999999995) - t30 * t30 - t33 * t33);
     // leg 1: reciprocal of that extent
-    let t53 = 1.0 / t52;
+    let t53 = c(1.0) / t52;
     // leg 1: actuator length d
-    let t54 = t27 - 0.1159110991546882 * t15;
-    let t55 = 0.03105828541230249 * t18;
+    let t54 = t27 - c(0.1159110991546882) * t15;
+    let t55 = c(0.03105828541230249) * t18;
     let t56 = t54 + (t52 + t55);
     actuator_length[0] = -t56;
     // leg 2: extent of the rod along the actuator axis
-    let t57 = sqrt(0.042435999999999995 - t34 * t34 - t35 * t35);
+    let t57 = sqrt(c(0.042435999999999995) - t34 * t34 - t35 * t35);
     // leg 2: reciprocal of that extent
-    let t58 = 1.0 / t57;
+    let t58 = c(1.0) / t57;
     // leg 2: actuator length d
     let t59 = t54 - (t55 - t57);
     actuator_length[1] = -t59;
     // leg 3: extent of the rod along the actuator axis
-    let t60 = sqrt(0.042435999999999995 - t38 * t38 - t41 * t41);
+    let t60 = sqrt(c(0.042435999999999995) - t38 * t38 - t41 * t41);
     // leg 3: reciprocal of that extent
-    let t61 = 1.0 / t60;
+    let t61 = c(1.0) / t60;
     // leg 3: actuator length d
-    let t62 = t27 + t15 * 0.031058285412302475;
-    let t63 = 0.1159110991546882 * t18;
+    let t62 = t27 + t15 * c(0.031058285412302475);
+    let t63 = c(0.1159110991546882) * t18;
     let t64 = t62 + (t60 - t63);
     actuator_length[2] = -t64;
     // leg 4: extent of the rod along the actuator axis
-    let t65 = sqrt(0.042435999999999995 - t44 * t44 - t47 * t47);
+    let t65 = sqrt(c(0.042435999999999995) - t44 * t44 - t47 * t47);
     // leg 4: reciprocal of that extent
-    let t66 = 1.0 / t65;
+    let t66 = c(1.0) / t65;
     // leg 4: actuator length d
-    let t67 = t27 + t15 * 0.0848528137423857;
-    let t68 = 0.08485281374238571 * t18;
+    let t67 = t27 + t15 * c(0.0848528137423857);
+    let t68 = c(0.08485281374238571) * t18;
     let t69 = t67 + (t65 - t68);
     actuator_length[3] = -t69;
     // leg 5: extent of the rod along the actuator axis
-    let t70 = sqrt(0.042435999999999995 - t48 * t48 - t49 * t49);
+    let t70 = sqrt(c(0.042435999999999995) - t48 * t48 - t49 * t49);
     // leg 5: reciprocal of that extent
-    let t71 = 1.0 / t70;
+    let t71 = c(1.0) / t70;
     // leg 5: actuator length d
     let t72 = t67 + (t68 + t70);
     actuator_length[4] = -t72;
     // leg 6: extent of the rod along the actuator axis
-    let t73 = sqrt(0.042435999999999995 - t50 * t50 - t51 * t51);
+    let t73 = sqrt(c(0.042435999999999995) - t50 * t50 - t51 * t51);
     // leg 6: reciprocal of that extent
-    let t74 = 1.0 / t73;
+    let t74 = c(1.0) / t73;
     // leg 6: actuator length d
     let t75 = t62 + (t63 + t73);
     actuator_length[5] = -t75;
@@ -859,28 +1403,28 @@ pub fn leg_kinematics(
     let t113 = t9 * t94 - t3 * t95;
     let t114 = t12 * t94 - t6 * t95;
     // leg 1: velocity of the platform joint relative to the base
-    let t115 = t102 - 0.1159110991546882 * t109;
-    let t116 = 0.03105828541230249 * t110;
+    let t115 = t102 - c(0.1159110991546882) * t109;
+    let t116 = c(0.03105828541230249) * t110;
     let t117 = t115 + t116;
-    let t118 = t105 - 0.1159110991546882 * t111;
-    let t119 = 0.03105828541230249 * t112;
+    let t118 = t105 - c(0.1159110991546882) * t111;
+    let t119 = c(0.03105828541230249) * t112;
     let t120 = t118 + t119;
     // leg 2: velocity of the platform joint relative to the base
     let t121 = t115 - t116;
     let t122 = t118 - t119;
     // leg 3: velocity of the platform joint relative to the base
-    let t123 = t102 + 0.031058285412302475 * t109;
-    let t124 = 0.1159110991546882 * t110;
+    let t123 = t102 + c(0.031058285412302475) * t109;
+    let t124 = c(0.1159110991546882) * t110;
     let t125 = t123 - t124;
-    let t126 = t105 + 0.031058285412302475 * t111;
-    let t127 = 0.1159110991546882 * t112;
+    let t126 = t105 + c(0.031058285412302475) * t111;
+    let t127 = c(0.1159110991546882) * t112;
     let t128 = t126 - t127;
     // leg 4: velocity of the platform joint relative to the base
-    let t129 = t102 + 0.0848528137423857 * t109;
-    let t130 = 0.08485281374238571 * t110;
+    let t129 = t102 + c(0.0848528137423857) * t109;
+    let t130 = c(0.08485281374238571) * t110;
     let t131 = t129 - t130;
-    let t132 = t105 + 0.0848528137423857 * t111;
-    let t133 = 0.08485281374238571 * t112;
+    let t132 = t105 + c(0.0848528137423857) * t111;
+    let t133 = c(0.08485281374238571) * t112;
     let t134 = t132 - t133;
     // leg 5: velocity of the platform joint relative to the base
     let t135 = t129 + t130;
@@ -891,8 +1435,8 @@ pub fn leg_kinematics(
     // leg 1: rate of the rod's extent along the actuator axis
     let t139 = t53 * (t30 * t117 - t33 * t120);
     // leg 1: actuator velocity d'
-    let t140 = t108 - 0.1159110991546882 * t113;
-    let t141 = 0.03105828541230249 * t114;
+    let t140 = t108 - c(0.1159110991546882) * t113;
+    let t141 = c(0.03105828541230249) * t114;
     let t142 = t140 - (t139 - t141);
     actuator_velocity[0] = -t142;
     // leg 2: rate of the rod's extent along the actuator axis
@@ -903,15 +1447,15 @@ pub fn leg_kinematics(
     // leg 3: rate of the rod's extent along the actuator axis
     let t145 = t61 * (t38 * t125 + t41 * t128);
     // leg 3: actuator velocity d'
-    let t146 = t108 + 0.031058285412302475 * t113;
-    let t147 = 0.1159110991546882 * t114;
+    let t146 = t108 + c(0.031058285412302475) * t113;
+    let t147 = c(0.1159110991546882) * t114;
     let t148 = t146 - (t145 + t147);
     actuator_velocity[2] = -t148;
     // leg 4: rate of the rod's extent along the actuator axis
     let t149 = t66 * (t44 * t131 + t47 * t134);
     // leg 4: actuator velocity d'
-    let t150 = t108 + 0.0848528137423857 * t113;
-    let t151 = 0.08485281374238571 * t114;
+    let t150 = t108 + c(0.0848528137423857) * t113;
+    let t151 = c(0.08485281374238571) * t114;
     let t152 = t150 - (t149 + t151);
     actuator_velocity[3] = -t152;
     // leg 5: rate of the rod's extent along the actuator axis
@@ -927,7 +1471,7 @@ pub fn leg_kinematics(
     // acceleration of the base origin less gravity
     let t157 = base_rotation[0][0] * base_acceleration[0];
     let t158 = base_rotation[1][0] * base_acceleration[1];
-    let t159 = base_acceleration[2] + 9.81;
+    let t159 = base_acceleration[2] + c(9.81);
     let t160 = base_rotation[2][0] * t159;
     let t161 = base_rotation[0][1] * base_acceleration[0];
     let t162 = base_rotation[1][1] * base_acceleration[1];
@@ -964,7 +1508,7 @@ pub fn leg_kinematics(
     // acceleration of the platform origin less gravity
     let t191 = base_rotation[0][0] * platform_acceleration[0];
     let t192 = base_rotation[1][0] * platform_acceleration[1];
-    let t193 = platform_acceleration[2] + 9.81;
+    let t193 = platform_acceleration[2] + c(9.81);
     let t194 = base_rotation[2][0] * t193;
     let t195 = base_rotation[0][1] * platform_acceleration[0];
     let t196 = base_rotation[1][1] * platform_acceleration[1];
@@ -984,14 +1528,14 @@ pub fn leg_kinematics(
     let t209 = base_rotation[2][2] * platform_acceleration[5];
     // acceleration of the platform origin relative to the base
     let t210 = t23 * t178 - (t194 + (t192 + (t191 - (t160 + (t157 + t158)))));
-    let t211 = t27 * t182 - (t25 * t180 + t210);
-    let t212 = t211 + 2.0 * (t81 * t108 - t84 * t105);
+    let t211 = c(2.0) * (t81 * t108 - t84 * t105);
+    let t212 = t27 * t182 - (t25 * t180 + t210) + t211;
     let t213 = t23 * t183 + (t197 + (t196 + (t195 - (t163 + (t161 + t162)))));
-    let t214 = t27 * t187 + (t25 * t185 - t213);
-    let t215 = t214 - 2.0 * (t84 * t102 - t78 * t108);
+    let t214 = c(2.0) * (t84 * t102 - t78 * t108);
+    let t215 = t27 * t187 + (t25 * t185 - t213) - t214;
     let t216 = t23 * t188 - (t200 + (t199 + (t198 - (t166 + (t164 + t165)))));
-    let t217 = t27 * t190 - (t25 * t189 - t216);
-    let t218 = t217 - 2.0 * (t78 * t105 - t81 * t102);
+    let t217 = c(2.0) * (t78 * t105 - t81 * t102);
+    let t218 = t27 * t190 - (t25 * t189 - t216) - t217;
     // second derivative of the relative rotation
     let t219 = t94 * t96;
     let t220 = t78 * t96 - (t84 * t94 - (t206 + (t205 - (t172 - t204))));
@@ -1018,28 +1562,28 @@ pub fn leg_kinematics(
     let t241 = t15 * t238 - (t3 * t239 + t9 * t240);
     let t242 = t18 * t238 - (t6 * t239 + t12 * t240);
     // leg 1: acceleration of the platform joint relative to the base
-    let t243 = t212 + 0.1159110991546882 * t228;
-    let t244 = 0.03105828541230249 * t229;
+    let t243 = t212 + c(0.1159110991546882) * t228;
+    let t244 = c(0.03105828541230249) * t229;
     let t245 = t243 - t244;
-    let t246 = t215 - 0.1159110991546882 * t236;
-    let t247 = 0.03105828541230249 * t237;
+    let t246 = t215 - c(0.1159110991546882) * t236;
+    let t247 = c(0.03105828541230249) * t237;
     let t248 = t246 + t247;
     // leg 2: acceleration of the platform joint relative to the base
     let t249 = t243 + t244;
     let t250 = t246 - t247;
     // leg 3: acceleration of the platform joint relative to the base
-    let t251 = t212 - 0.031058285412302475 * t228;
-    let t252 = 0.1159110991546882 * t229;
+    let t251 = t212 - c(0.031058285412302475) * t228;
+    let t252 = c(0.1159110991546882) * t229;
     let t253 = t251 + t252;
-    let t254 = t215 + 0.031058285412302475 * t236;
-    let t255 = 0.1159110991546882 * t237;
+    let t254 = t215 + c(0.031058285412302475) * t236;
+    let t255 = c(0.1159110991546882) * t237;
     let t256 = t254 - t255;
     // leg 4: acceleration of the platform joint relative to the base
-    let t257 = t212 - 0.0848528137423857 * t228;
-    let t258 = 0.08485281374238571 * t229;
+    let t257 = t212 - c(0.0848528137423857) * t228;
+    let t258 = c(0.08485281374238571) * t229;
     let t259 = t257 + t258;
-    let t260 = t215 + 0.0848528137423857 * t236;
-    let t261 = 0.08485281374238571 * t237;
+    let t260 = t215 + c(0.0848528137423857) * t236;
+    let t261 = c(0.08485281374238571) * t237;
     let t262 = t260 - t261;
     // leg 5: acceleration of the platform joint relative to the base
     let t263 = t257 - t258;
@@ -1048,21 +1592,21 @@ pub fn leg_kinematics(
     let t265 = t251 - t252;
     let t266 = t254 + t255;
     // leg 1: actuator acceleration d''
-    let t267 = t218 + 0.1159110991546882 * t241;
-    let t268 = 0.03105828541230249 * t242;
+    let t267 = t218 + c(0.1159110991546882) * t241;
+    let t268 = c(0.03105828541230249) * t242;
     let t269 = t33 * t248 + (t30 * t245 - (t117 * t117 + t120 * t120));
     actuator_acceleration[0] = t53 * (t139 * t139 - t269) + t268 - t267;
     // leg 2: actuator acceleration d''
     let t270 = t35 * t250 - (t34 * t249 - (t121 * t121 + t122 * t122));
     actuator_acceleration[1] = t58 * (t143 * t143 + t270) - t268 - t267;
     // leg 3: actuator acceleration d''
-    let t271 = t218 - 0.031058285412302475 * t241;
-    let t272 = 0.1159110991546882 * t242;
+    let t271 = t218 - c(0.031058285412302475) * t241;
+    let t272 = c(0.1159110991546882) * t242;
     let t273 = t41 * t256 - (t38 * t253 - (t125 * t125 + t128 * t128));
     actuator_acceleration[2] = t61 * (t145 * t145 + t273) - t272 - t271;
     // leg 4: actuator acceleration d''
-    let t274 = t218 - 0.0848528137423857 * t241;
-    let t275 = 0.08485281374238571 * t242;
+    let t274 = t218 - c(0.0848528137423857) * t241;
+    let t275 = c(0.08485281374238571) * t242;
     let t276 = t47 * t262 - (t44 * t259 - (t131 * t131 + t134 * t134));
     actuator_acceleration[3] = t66 * (t149 * t149 + t276) - t275 - t274;
     // leg 5: actuator acceleration d''
@@ -1072,9 +1616,9 @@ pub fn leg_kinematics(
     let t278 = t51 * t266 + (t50 * t265 - (t137 * t137 + t138 * t138));
     actuator_acceleration[5] = t272 + t74 * (t155 * t155 - t278) - t271;
     // leg 1: rod direction u, from the Hooke joint to the platform joint
-    let t279 = t52 * 4.8543689320388355;
-    let t280 = t30 * 4.8543689320388355;
-    let t281 = t33 * 4.8543689320388355;
+    let t279 = t52 * c(4.8543689320388355);
+    let t280 = t30 * c(4.8543689320388355);
+    let t281 = t33 * c(4.8543689320388355);
     let t282 = base_rotation[0][0] * t280 - base_rotation[0][1] * t281;
     let t283 = base_rotation[0][2] * t279 - t282;
     rod_direction[0][0] = t283;
@@ -1085,9 +1629,9 @@ pub fn leg_kinematics(
     let t287 = base_rotation[2][2] * t279 - t286;
     rod_direction[0][2] = t287;
     // leg 2: rod direction u, from the Hooke joint to the platform joint
-    let t288 = t57 * 4.8543689320388355;
-    let t289 = t34 * 4.8543689320388355;
-    let t290 = t35 * 4.8543689320388355;
+    let t288 = t57 * c(4.8543689320388355);
+    let t289 = t34 * c(4.8543689320388355);
+    let t290 = t35 * c(4.8543689320388355);
     let t291 = base_rotation[0][0] * t289 + base_rotation[0][1] * t290;
     let t292 = base_rotation[0][2] * t288 - t291;
     rod_direction[1][0] = t292;
@@ -1098,9 +1642,9 @@ pub fn leg_kinematics(
     let t296 = base_rotation[2][2] * t288 - t295;
     rod_direction[1][2] = t296;
     // leg 3: rod direction u, from the Hooke joint to the platform joint
-    let t297 = t60 * 4.8543689320388355;
-    let t298 = t38 * 4.8543689320388355;
-    let t299 = t41 * 4.8543689320388355;
+    let t297 = t60 * c(4.8543689320388355);
+    let t298 = t38 * c(4.8543689320388355);
+    let t299 = t41 * c(4.8543689320388355);
     let t300 = base_rotation[0][0] * t298 + base_rotation[0][1] * t299;
     let t301 = base_rotation[0][2] * t297 - t300;
     rod_direction[2][0] = t301;
@@ -1111,9 +1655,9 @@ pub fn leg_kinematics(
     let t305 = base_rotation[2][2] * t297 - t304;
     rod_direction[2][2] = t305;
     // leg 4: rod direction u, from the Hooke joint to the platform joint
-    let t306 = t65 * 4.8543689320388355;
-    let t307 = t44 * 4.8543689320388355;
-    let t308 = t47 * 4.8543689320388355;
+    let t306 = t65 * c(4.8543689320388355);
+    let t307 = t44 * c(4.8543689320388355);
+    let t308 = t47 * c(4.8543689320388355);
     let t309 = base_rotation[0][0] * t307 + base_rotation[0][1] * t308;
     let t310 = base_rotation[0][2] * t306 - t309;
     rod_direction[3][0] = t310;
@@ -1124,9 +1668,9 @@ pub fn leg_kinematics(
     let t314 = base_rotation[2][2] * t306 - t313;
     rod_direction[3][2] = t314;
     // leg 5: rod direction u, from the Hooke joint to the platform joint
-    let t315 = t70 * 4.8543689320388355;
-    let t316 = t48 * 4.8543689320388355;
-    let t317 = t49 * 4.8543689320388355;
+    let t315 = t70 * c(4.8543689320388355);
+    let t316 = t48 * c(4.8543689320388355);
+    let t317 = t49 * c(4.8543689320388355);
     let t318 = base_rotation[0][0] * t316 - base_rotation[0][1] * t317;
     let t319 = base_rotation[0][2] * t315 - t318;
     rod_direction[4][0] = t319;
@@ -1137,9 +1681,9 @@ pub fn leg_kinematics(
     let t323 = base_rotation[2][2] * t315 - t322;
     rod_direction[4][2] = t323;
     // leg 6: rod direction u, from the Hooke joint to the platform joint
-    let t324 = t73 * 4.8543689320388355;
-    let t325 = t50 * 4.8543689320388355;
-    let t326 = t51 * 4.8543689320388355;
+    let t324 = t73 * c(4.8543689320388355);
+    let t325 = t50 * c(4.8543689320388355);
+    let t326 = t51 * c(4.8543689320388355);
     let t327 = base_rotation[0][0] * t325 - base_rotation[0][1] * t326;
     let t328 = base_rotation[0][2] * t324 - t327;
     rod_direction[5][0] = t328;
@@ -1150,27 +1694,27 @@ pub fn leg_kinematics(
     let t332 = base_rotation[2][2] * t324 - t331;
     rod_direction[5][2] = t332;
     // leg 1: Hooke joint
-    let t333 = base_rotation[0][0] * 0.1316436662914507;
-    let t334 = base_rotation[0][1] * 0.12275970481124972;
+    let t333 = base_rotation[0][0] * c(0.1316436662914507);
+    let t334 = base_rotation[0][1] * c(0.12275970481124972);
     let t335 = base_rotation[0][2] * t56 - (t333 - t334);
-    let t336 = base_rotation[1][0] * 0.1316436662914507;
-    let t337 = base_rotation[1][1] * 0.12275970481124972;
+    let t336 = base_rotation[1][0] * c(0.1316436662914507);
+    let t337 = base_rotation[1][1] * c(0.12275970481124972);
     let t338 = base_rotation[1][2] * t56 - (t336 - t337);
-    let t339 = base_rotation[2][0] * 0.1316436662914507;
-    let t340 = base_rotation[2][1] * 0.12275970481124972;
+    let t339 = base_rotation[2][0] * c(0.1316436662914507);
+    let t340 = base_rotation[2][1] * c(0.12275970481124972);
     let t341 = base_rotation[2][2] * t56 - (t339 - t340);
     hooke_joint_position[0][0] = base_position[0] - t335;
     hooke_joint_position[0][1] = base_position[1] - t338;
     hooke_joint_position[0][2] = base_position[2] - t341;
     // leg 1: platform joint
-    let t342 = platform_rotation[0][0] * 0.1159110991546882;
-    let t343 = platform_rotation[0][1] * 0.03105828541230249;
+    let t342 = platform_rotation[0][0] * c(0.1159110991546882);
+    let t343 = platform_rotation[0][1] * c(0.03105828541230249);
     let t344 = t342 - t343;
-    let t345 = platform_rotation[1][0] * 0.1159110991546882;
-    let t346 = platform_rotation[1][1] * 0.03105828541230249;
+    let t345 = platform_rotation[1][0] * c(0.1159110991546882);
+    let t346 = platform_rotation[1][1] * c(0.03105828541230249);
     let t347 = t345 - t346;
-    let t348 = platform_rotation[2][0] * 0.1159110991546882;
-    let t349 = platform_rotation[2][1] * 0.03105828541230249;
+    let t348 = platform_rotation[2][0] * c(0.1159110991546882);
+    let t349 = platform_rotation[2][1] * c(0.03105828541230249);
     let t350 = t348 - t349;
     platform_joint_position[0][0] = platform_position[0] + t344;
     platform_joint_position[0][1] = platform_position[1] + t347;
@@ -1244,27 +1788,27 @@ pub fn leg_kinematics(
     let t403 = t292 * t398;
     let t404 = t294 * t400;
     // leg 3: Hooke joint
-    let t405 = base_rotation[0][0] * 0.040491189781895726;
-    let t406 = base_rotation[0][1] * 0.17538661166134234;
+    let t405 = base_rotation[0][0] * c(0.040491189781895726);
+    let t406 = base_rotation[0][1] * c(0.17538661166134234);
     let t407 = base_rotation[0][2] * t64 - (t405 + t406);
-    let t408 = base_rotation[1][0] * 0.040491189781895726;
-    let t409 = base_rotation[1][1] * 0.17538661166134234;
+    let t408 = base_rotation[1][0] * c(0.040491189781895726);
+    let t409 = base_rotation[1][1] * c(0.17538661166134234);
     let t410 = base_rotation[1][2] * t64 - (t408 + t409);
-    let t411 = base_rotation[2][0] * 0.040491189781895726;
-    let t412 = base_rotation[2][1] * 0.17538661166134234;
+    let t411 = base_rotation[2][0] * c(0.040491189781895726);
+    let t412 = base_rotation[2][1] * c(0.17538661166134234);
     let t413 = base_rotation[2][2] * t64 - (t411 + t412);
     hooke_joint_position[2][0] = base_position[0] - t407;
     hooke_joint_position[2][1] = base_position[1] - t410;
     hooke_joint_position[2][2] = base_position[2] - t413;
     // leg 3: platform joint
-    let t414 = platform_rotation[0][0] * 0.031058285412302475;
-    let t415 = platform_rotation[0][1] * 0.1159110991546882;
+    let t414 = platform_rotation[0][0] * c(0.031058285412302475);
+    let t415 = platform_rotation[0][1] * c(0.1159110991546882);
     let t416 = t414 - t415;
-    let t417 = platform_rotation[1][0] * 0.031058285412302475;
-    let t418 = platform_rotation[1][1] * 0.1159110991546882;
+    let t417 = platform_rotation[1][0] * c(0.031058285412302475);
+    let t418 = platform_rotation[1][1] * c(0.1159110991546882);
     let t419 = t417 - t418;
-    let t420 = platform_rotation[2][0] * 0.031058285412302475;
-    let t421 = platform_rotation[2][1] * 0.1159110991546882;
+    let t420 = platform_rotation[2][0] * c(0.031058285412302475);
+    let t421 = platform_rotation[2][1] * c(0.1159110991546882);
     let t422 = t420 - t421;
     platform_joint_position[2][0] = platform_position[0] - t416;
     platform_joint_position[2][1] = platform_position[1] - t419;
@@ -1297,27 +1841,27 @@ pub fn leg_kinematics(
     let t445 = t301 * t440;
     let t446 = t303 * t442;
     // leg 4: Hooke joint
-    let t447 = base_rotation[0][0] * 0.17213485607334636;
-    let t448 = base_rotation[0][1] * 0.052626906850092664;
+    let t447 = base_rotation[0][0] * c(0.17213485607334636);
+    let t448 = base_rotation[0][1] * c(0.052626906850092664);
     let t449 = base_rotation[0][2] * t69 + (t447 - t448);
-    let t450 = base_rotation[1][0] * 0.17213485607334636;
-    let t451 = base_rotation[1][1] * 0.052626906850092664;
+    let t450 = base_rotation[1][0] * c(0.17213485607334636);
+    let t451 = base_rotation[1][1] * c(0.052626906850092664);
     let t452 = base_rotation[1][2] * t69 + (t450 - t451);
-    let t453 = base_rotation[2][0] * 0.17213485607334636;
-    let t454 = base_rotation[2][1] * 0.052626906850092664;
+    let t453 = base_rotation[2][0] * c(0.17213485607334636);
+    let t454 = base_rotation[2][1] * c(0.052626906850092664);
     let t455 = base_rotation[2][2] * t69 + (t453 - t454);
     hooke_joint_position[3][0] = base_position[0] - t449;
     hooke_joint_position[3][1] = base_position[1] - t452;
     hooke_joint_position[3][2] = base_position[2] - t455;
     // leg 4: platform joint
-    let t456 = platform_rotation[0][0] * 0.0848528137423857;
-    let t457 = platform_rotation[0][1] * 0.08485281374238571;
+    let t456 = platform_rotation[0][0] * c(0.0848528137423857);
+    let t457 = platform_rotation[0][1] * c(0.08485281374238571);
     let t458 = t456 - t457;
-    let t459 = platform_rotation[1][0] * 0.0848528137423857;
-    let t460 = platform_rotation[1][1] * 0.08485281374238571;
+    let t459 = platform_rotation[1][0] * c(0.0848528137423857);
+    let t460 = platform_rotation[1][1] * c(0.08485281374238571);
     let t461 = t459 - t460;
-    let t462 = platform_rotation[2][0] * 0.0848528137423857;
-    let t463 = platform_rotation[2][1] * 0.08485281374238571;
+    let t462 = platform_rotation[2][0] * c(0.0848528137423857);
+    let t463 = platform_rotation[2][1] * c(0.08485281374238571);
     let t464 = t462 - t463;
     platform_joint_position[3][0] = platform_position[0] - t458;
     platform_joint_position[3][1] = platform_position[1] - t461;
@@ -1433,46 +1977,46 @@ pub fn leg_kinematics(
     let t548 = t330 * t544;
     // leg 1: platform's angular velocity relative to the rod, w_p - w_s
     universal_joint_rate[0][0] = platform_velocity[3]
-        + 4.8543689320388355 * (t367 - t369);
+        + c(4.8543689320388355) * (t367 - t369);
     universal_joint_rate[0][1] = platform_velocity[4]
-        + 4.8543689320388355 * (t371 - t372);
+        + c(4.8543689320388355) * (t371 - t372);
     universal_joint_rate[0][2] = platform_velocity[5]
-        + 4.8543689320388355 * (t373 - t374);
+        + c(4.8543689320388355) * (t373 - t374);
     // leg 2: platform's angular velocity relative to the rod, w_p - w_s
     universal_joint_rate[1][0] = platform_velocity[3]
-        + 4.8543689320388355 * (t397 - t399);
+        + c(4.8543689320388355) * (t397 - t399);
     universal_joint_rate[1][1] = platform_velocity[4]
-        + 4.8543689320388355 * (t401 - t402);
+        + c(4.8543689320388355) * (t401 - t402);
     universal_joint_rate[1][2] = platform_velocity[5]
-        + 4.8543689320388355 * (t403 - t404);
+        + c(4.8543689320388355) * (t403 - t404);
     // leg 3: platform's angular velocity relative to the rod, w_p - w_s
     universal_joint_rate[2][0] = platform_velocity[3]
-        + 4.8543689320388355 * (t439 - t441);
+        + c(4.8543689320388355) * (t439 - t441);
     universal_joint_rate[2][1] = platform_velocity[4]
-        + 4.8543689320388355 * (t443 - t444);
+        + c(4.8543689320388355) * (t443 - t444);
     universal_joint_rate[2][2] = platform_velocity[5]
-        + 4.8543689320388355 * (t445 - t446);
+        + c(4.8543689320388355) * (t445 - t446);
     // leg 4: platform's angular velocity relative to the rod, w_p - w_s
     universal_joint_rate[3][0] = platform_velocity[3]
-        + 4.8543689320388355 * (t481 - t483);
+        + c(4.8543689320388355) * (t481 - t483);
     universal_joint_rate[3][1] = platform_velocity[4]
-        + 4.8543689320388355 * (t485 - t486);
+        + c(4.8543689320388355) * (t485 - t486);
     universal_joint_rate[3][2] = platform_velocity[5]
-        + 4.8543689320388355 * (t487 - t488);
+        + c(4.8543689320388355) * (t487 - t488);
     // leg 5: platform's angular velocity relative to the rod, w_p - w_s
     universal_joint_rate[4][0] = platform_velocity[3]
-        + 4.8543689320388355 * (t511 - t513);
+        + c(4.8543689320388355) * (t511 - t513);
     universal_joint_rate[4][1] = platform_velocity[4]
-        + 4.8543689320388355 * (t515 - t516);
+        + c(4.8543689320388355) * (t515 - t516);
     universal_joint_rate[4][2] = platform_velocity[5]
-        + 4.8543689320388355 * (t517 - t518);
+        + c(4.8543689320388355) * (t517 - t518);
     // leg 6: platform's angular velocity relative to the rod, w_p - w_s
     universal_joint_rate[5][0] = platform_velocity[3]
-        + 4.8543689320388355 * (t541 - t543);
+        + c(4.8543689320388355) * (t541 - t543);
     universal_joint_rate[5][1] = platform_velocity[4]
-        + 4.8543689320388355 * (t545 - t546);
+        + c(4.8543689320388355) * (t545 - t546);
     universal_joint_rate[5][2] = platform_velocity[5]
-        + 4.8543689320388355 * (t547 - t548);
+        + c(4.8543689320388355) * (t547 - t548);
 }
 
 /// Position, velocity and acceleration of every body, equation (11)-(13), (22), (24)-(29).
@@ -1502,27 +2046,28 @@ pub fn leg_kinematics(
 /// - `mover_velocity`: 6x3, m/s, frame O: velocity of the mover, equation (24)-(26).
 /// - `mover_acceleration`: 6x3, m/s^2, frame O: acceleration of the mover, equation (24)-(26).
 #[allow(clippy::all, clippy::pedantic, unused_variables)]
-pub fn body_kinematics(
-    base_position: &[f64; 3],
-    base_rotation: &[[f64; 3]; 3],
-    base_velocity: &[f64; 6],
-    base_acceleration: &[f64; 6],
-    platform_position: &[f64; 3],
-    platform_rotation: &[[f64; 3]; 3],
-    platform_velocity: &[f64; 6],
-    platform_acceleration: &[f64; 6],
-    payload_com_position: &mut [f64; 3],
-    payload_com_velocity: &mut [f64; 3],
-    payload_com_acceleration: &mut [f64; 3],
-    rod_angular_velocity: &mut [[f64; 3]; 6],
-    rod_angular_acceleration: &mut [[f64; 3]; 6],
-    rod_com_position: &mut [[f64; 3]; 6],
-    rod_com_velocity: &mut [[f64; 3]; 6],
-    rod_com_acceleration: &mut [[f64; 3]; 6],
-    mover_position: &mut [[f64; 3]; 6],
-    mover_velocity: &mut [[f64; 3]; 6],
-    mover_acceleration: &mut [[f64; 3]; 6],
+pub fn body_kinematics<T: Scalar>(
+    base_position: &[T; 3],
+    base_rotation: &[[T; 3]; 3],
+    base_velocity: &[T; 6],
+    base_acceleration: &[T; 6],
+    platform_position: &[T; 3],
+    platform_rotation: &[[T; 3]; 3],
+    platform_velocity: &[T; 6],
+    platform_acceleration: &[T; 6],
+    payload_com_position: &mut [T; 3],
+    payload_com_velocity: &mut [T; 3],
+    payload_com_acceleration: &mut [T; 3],
+    rod_angular_velocity: &mut [[T; 3]; 6],
+    rod_angular_acceleration: &mut [[T; 3]; 6],
+    rod_com_position: &mut [[T; 3]; 6],
+    rod_com_velocity: &mut [[T; 3]; 6],
+    rod_com_acceleration: &mut [[T; 3]; 6],
+    mover_position: &mut [[T; 3]; 6],
+    mover_velocity: &mut [[T; 3]; 6],
+    mover_acceleration: &mut [[T; 3]; 6],
 ) {
+    let c = T::constant;
     // rotation of the platform seen from the base
     let t1 = base_rotation[1][0] * platform_rotation[1][0];
     let t2 = base_rotation[0][0] * platform_rotation[0][0] + t1;
@@ -1553,28 +2098,28 @@ pub fn body_kinematics(
     let t26 = base_rotation[0][2] * t20 + base_rotation[1][2] * t21;
     let t27 = base_rotation[2][2] * t19 + t26;
     // leg 1: platform joint from the base point
-    let t28 = t23 + (0.1316436662914507 - 0.1159110991546882 * t3);
-    let t29 = 0.03105828541230249 * t6;
+    let t28 = t23 + (c(0.1316436662914507) - c(0.1159110991546882) * t3);
+    let t29 = c(0.03105828541230249) * t6;
     let t30 = t28 + t29;
-    let t31 = 0.12275970481124972 - 0.03105828541230249 * t12;
-    let t32 = t25 - 0.1159110991546882 * t9;
+    let t31 = c(0.12275970481124972) - c(0.03105828541230249) * t12;
+    let t32 = t25 - c(0.1159110991546882) * t9;
     let t33 = t31 - t32;
     // leg 2: platform joint from the base point
     let t34 = t28 - t29;
     let t35 = t31 + t32;
     // leg 3: platform joint from the base point
-    let t36 = t23 + (0.040491189781895726 + t3 * 0.031058285412302475);
-    let t37 = 0.1159110991546882 * t6;
+    let t36 = t23 + (c(0.040491189781895726) + t3 * c(0.031058285412302475));
+    let t37 = c(0.1159110991546882) * t6;
     let t38 = t36 - t37;
-    let t39 = 0.17538661166134234 - 0.1159110991546882 * t12;
-    let t40 = t25 + t9 * 0.031058285412302475;
+    let t39 = c(0.17538661166134234) - c(0.1159110991546882) * t12;
+    let t40 = t25 + t9 * c(0.031058285412302475);
     let t41 = t39 + t40;
     // leg 4: platform joint from the base point
-    let t42 = t23 - (0.17213485607334636 - t3 * 0.0848528137423857);
-    let t43 = 0.08485281374238571 * t6;
+    let t42 = t23 - (c(0.17213485607334636) - t3 * c(0.0848528137423857));
+    let t43 = c(0.08485281374238571) * t6;
     let t44 = t42 - t43;
-    let t45 = 0.052626906850092664 - 0.08485281374238571 * t12;
-    let t46 = t25 + t9 * 0.0848528137423857;
+    let t45 = c(0.052626906850092664) - c(0.08485281374238571) * t12;
+    let t46 = t25 + t9 * c(0.0848528137423857);
     let t47 = t45 + t46;
     // leg 5: platform joint from the base point
     let t48 = t42 + t43;
@@ -1583,45 +2128,45 @@ pub fn body_kinematics(
     let t50 = t36 + t37;
     let t51 = t39 - t40;
     // leg 1: extent of the rod along the actuator axis
-    let t52 = sqrt(0.042435999999999995 - t30 * t30 - t33 * t33);
+    let t52 = sqrt(c(0.042435999999999995) - t30 * t30 - t33 * t33);
     // leg 1: reciprocal of that extent
-    let t53 = 1.0 / t52;
+    let t53 = c(1.0) / t52;
     // leg 1: actuator length d
-    let t54 = t27 - 0.1159110991546882 * t15;
-    let t55 = 0.03105828541230249 * t18;
+    let t54 = t27 - c(0.1159110991546882) * t15;
+    let t55 = c(0.03105828541230249) * t18;
     let t56 = t54 + (t52 + t55);
     // leg 2: extent of the rod along the actuator axis
-    let t57 = sqrt(0.042435999999999995 - t34 * t34 - t35 * t35);
+    let t57 = sqrt(c(0.042435999999999995) - t34 * t34 - t35 * t35);
     // leg 2: reciprocal of that extent
-    let t58 = 1.0 / t57;
+    let t58 = c(1.0) / t57;
     // leg 2: actuator length d
     let t59 = t54 - (t55 - t57);
     // leg 3: extent of the rod along the actuator axis
-    let t60 = sqrt(0.042435999999999995 - t38 * t38 - t41 * t41);
+    let t60 = sqrt(c(0.042435999999999995) - t38 * t38 - t41 * t41);
     // leg 3: reciprocal of that extent
-    let t61 = 1.0 / t60;
+    let t61 = c(1.0) / t60;
     // leg 3: actuator length d
-    let t62 = t27 + t15 * 0.031058285412302475;
-    let t63 = 0.1159110991546882 * t18;
+    let t62 = t27 + t15 * c(0.031058285412302475);
+    let t63 = c(0.1159110991546882) * t18;
     let t64 = t62 + (t60 - t63);
     // leg 4: extent of the rod along the actuator axis
-    let t65 = sqrt(0.042435999999999995 - t44 * t44 - t47 * t47);
+    let t65 = sqrt(c(0.042435999999999995) - t44 * t44 - t47 * t47);
     // leg 4: reciprocal of that extent
-    let t66 = 1.0 / t65;
+    let t66 = c(1.0) / t65;
     // leg 4: actuator length d
-    let t67 = t27 + t15 * 0.0848528137423857;
-    let t68 = 0.08485281374238571 * t18;
+    let t67 = t27 + t15 * c(0.0848528137423857);
+    let t68 = c(0.08485281374238571) * t18;
     let t69 = t67 + (t65 - t68);
     // leg 5: extent of the rod along the actuator axis
-    let t70 = sqrt(0.042435999999999995 - t48 * t48 - t49 * t49);
+    let t70 = sqrt(c(0.042435999999999995) - t48 * t48 - t49 * t49);
     // leg 5: reciprocal of that extent
-    let t71 = 1.0 / t70;
+    let t71 = c(1.0) / t70;
     // leg 5: actuator length d
     let t72 = t67 + (t68 + t70);
     // leg 6: extent of the rod along the actuator axis
-    let t73 = sqrt(0.042435999999999995 - t50 * t50 - t51 * t51);
+    let t73 = sqrt(c(0.042435999999999995) - t50 * t50 - t51 * t51);
     // leg 6: reciprocal of that extent
-    let t74 = 1.0 / t73;
+    let t74 = c(1.0) / t73;
     // leg 6: actuator length d
     let t75 = t62 + (t63 + t73);
     // angular velocity of the base
@@ -1669,28 +2214,28 @@ pub fn body_kinematics(
     let t113 = t9 * t94 - t3 * t95;
     let t114 = t12 * t94 - t6 * t95;
     // leg 1: velocity of the platform joint relative to the base
-    let t115 = t102 - 0.1159110991546882 * t109;
-    let t116 = 0.03105828541230249 * t110;
+    let t115 = t102 - c(0.1159110991546882) * t109;
+    let t116 = c(0.03105828541230249) * t110;
     let t117 = t115 + t116;
-    let t118 = t105 - 0.1159110991546882 * t111;
-    let t119 = 0.03105828541230249 * t112;
+    let t118 = t105 - c(0.1159110991546882) * t111;
+    let t119 = c(0.03105828541230249) * t112;
     let t120 = t118 + t119;
     // leg 2: velocity of the platform joint relative to the base
     let t121 = t115 - t116;
     let t122 = t118 - t119;
     // leg 3: velocity of the platform joint relative to the base
-    let t123 = t102 + 0.031058285412302475 * t109;
-    let t124 = 0.1159110991546882 * t110;
+    let t123 = t102 + c(0.031058285412302475) * t109;
+    let t124 = c(0.1159110991546882) * t110;
     let t125 = t123 - t124;
-    let t126 = t105 + 0.031058285412302475 * t111;
-    let t127 = 0.1159110991546882 * t112;
+    let t126 = t105 + c(0.031058285412302475) * t111;
+    let t127 = c(0.1159110991546882) * t112;
     let t128 = t126 - t127;
     // leg 4: velocity of the platform joint relative to the base
-    let t129 = t102 + 0.0848528137423857 * t109;
-    let t130 = 0.08485281374238571 * t110;
+    let t129 = t102 + c(0.0848528137423857) * t109;
+    let t130 = c(0.08485281374238571) * t110;
     let t131 = t129 - t130;
-    let t132 = t105 + 0.0848528137423857 * t111;
-    let t133 = 0.08485281374238571 * t112;
+    let t132 = t105 + c(0.0848528137423857) * t111;
+    let t133 = c(0.08485281374238571) * t112;
     let t134 = t132 - t133;
     // leg 5: velocity of the platform joint relative to the base
     let t135 = t129 + t130;
@@ -1701,8 +2246,8 @@ pub fn body_kinematics(
     // leg 1: rate of the rod's extent along the actuator axis
     let t139 = t53 * (t30 * t117 - t33 * t120);
     // leg 1: actuator velocity d'
-    let t140 = t108 - 0.1159110991546882 * t113;
-    let t141 = 0.03105828541230249 * t114;
+    let t140 = t108 - c(0.1159110991546882) * t113;
+    let t141 = c(0.03105828541230249) * t114;
     let t142 = t140 - (t139 - t141);
     // leg 2: rate of the rod's extent along the actuator axis
     let t143 = t58 * (t34 * t121 + t35 * t122);
@@ -1711,14 +2256,14 @@ pub fn body_kinematics(
     // leg 3: rate of the rod's extent along the actuator axis
     let t145 = t61 * (t38 * t125 + t41 * t128);
     // leg 3: actuator velocity d'
-    let t146 = t108 + 0.031058285412302475 * t113;
-    let t147 = 0.1159110991546882 * t114;
+    let t146 = t108 + c(0.031058285412302475) * t113;
+    let t147 = c(0.1159110991546882) * t114;
     let t148 = t146 - (t145 + t147);
     // leg 4: rate of the rod's extent along the actuator axis
     let t149 = t66 * (t44 * t131 + t47 * t134);
     // leg 4: actuator velocity d'
-    let t150 = t108 + 0.0848528137423857 * t113;
-    let t151 = 0.08485281374238571 * t114;
+    let t150 = t108 + c(0.0848528137423857) * t113;
+    let t151 = c(0.08485281374238571) * t114;
     let t152 = t150 - (t149 + t151);
     // leg 5: rate of the rod's extent along the actuator axis
     let t153 = t71 * (t48 * t135 - t49 * t136);
@@ -1731,7 +2276,7 @@ pub fn body_kinematics(
     // acceleration of the base origin less gravity
     let t157 = base_rotation[0][0] * base_acceleration[0];
     let t158 = base_rotation[1][0] * base_acceleration[1];
-    let t159 = base_acceleration[2] + 9.81;
+    let t159 = base_acceleration[2] + c(9.81);
     let t160 = base_rotation[2][0] * t159;
     let t161 = base_rotation[0][1] * base_acceleration[0];
     let t162 = base_rotation[1][1] * base_acceleration[1];
@@ -1768,7 +2313,7 @@ pub fn body_kinematics(
     // acceleration of the platform origin less gravity
     let t191 = base_rotation[0][0] * platform_acceleration[0];
     let t192 = base_rotation[1][0] * platform_acceleration[1];
-    let t193 = platform_acceleration[2] + 9.81;
+    let t193 = platform_acceleration[2] + c(9.81);
     let t194 = base_rotation[2][0] * t193;
     let t195 = base_rotation[0][1] * platform_acceleration[0];
     let t196 = base_rotation[1][1] * platform_acceleration[1];
@@ -1788,14 +2333,14 @@ pub fn body_kinematics(
     let t209 = base_rotation[2][2] * platform_acceleration[5];
     // acceleration of the platform origin relative to the base
     let t210 = t23 * t178 - (t194 + (t192 + (t191 - (t160 + (t157 + t158)))));
-    let t211 = t27 * t182 - (t25 * t180 + t210);
-    let t212 = t211 + 2.0 * (t81 * t108 - t84 * t105);
+    let t211 = c(2.0) * (t81 * t108 - t84 * t105);
+    let t212 = t27 * t182 - (t25 * t180 + t210) + t211;
     let t213 = t23 * t183 + (t197 + (t196 + (t195 - (t163 + (t161 + t162)))));
-    let t214 = t27 * t187 + (t25 * t185 - t213);
-    let t215 = t214 - 2.0 * (t84 * t102 - t78 * t108);
+    let t214 = c(2.0) * (t84 * t102 - t78 * t108);
+    let t215 = t27 * t187 + (t25 * t185 - t213) - t214;
     let t216 = t23 * t188 - (t200 + (t199 + (t198 - (t166 + (t164 + t165)))));
-    let t217 = t27 * t190 - (t25 * t189 - t216);
-    let t218 = t217 - 2.0 * (t78 * t105 - t81 * t102);
+    let t217 = c(2.0) * (t78 * t105 - t81 * t102);
+    let t218 = t27 * t190 - (t25 * t189 - t216) - t217;
     // second derivative of the relative rotation
     let t219 = t94 * t96;
     let t220 = t78 * t96 - (t84 * t94 - (t206 + (t205 - (t172 - t204))));
@@ -1822,28 +2367,28 @@ pub fn body_kinematics(
     let t241 = t15 * t238 - (t3 * t239 + t9 * t240);
     let t242 = t18 * t238 - (t6 * t239 + t12 * t240);
     // leg 1: acceleration of the platform joint relative to the base
-    let t243 = t212 + 0.1159110991546882 * t228;
-    let t244 = 0.03105828541230249 * t229;
+    let t243 = t212 + c(0.1159110991546882) * t228;
+    let t244 = c(0.03105828541230249) * t229;
     let t245 = t243 - t244;
-    let t246 = t215 - 0.1159110991546882 * t236;
-    let t247 = 0.03105828541230249 * t237;
+    let t246 = t215 - c(0.1159110991546882) * t236;
+    let t247 = c(0.03105828541230249) * t237;
     let t248 = t246 + t247;
     // leg 2: acceleration of the platform joint relative to the base
     let t249 = t243 + t244;
     let t250 = t246 - t247;
     // leg 3: acceleration of the platform joint relative to the base
-    let t251 = t212 - 0.031058285412302475 * t228;
-    let t252 = 0.1159110991546882 * t229;
+    let t251 = t212 - c(0.031058285412302475) * t228;
+    let t252 = c(0.1159110991546882) * t229;
     let t253 = t251 + t252;
-    let t254 = t215 + 0.031058285412302475 * t236;
-    let t255 = 0.1159110991546882 * t237;
+    let t254 = t215 + c(0.031058285412302475) * t236;
+    let t255 = c(0.1159110991546882) * t237;
     let t256 = t254 - t255;
     // leg 4: acceleration of the platform joint relative to the base
-    let t257 = t212 - 0.0848528137423857 * t228;
-    let t258 = 0.08485281374238571 * t229;
+    let t257 = t212 - c(0.0848528137423857) * t228;
+    let t258 = c(0.08485281374238571) * t229;
     let t259 = t257 + t258;
-    let t260 = t215 + 0.0848528137423857 * t236;
-    let t261 = 0.08485281374238571 * t237;
+    let t260 = t215 + c(0.0848528137423857) * t236;
+    let t261 = c(0.08485281374238571) * t237;
     let t262 = t260 - t261;
     // leg 5: acceleration of the platform joint relative to the base
     let t263 = t257 - t258;
@@ -1852,21 +2397,21 @@ pub fn body_kinematics(
     let t265 = t251 - t252;
     let t266 = t254 + t255;
     // leg 1: actuator acceleration d''
-    let t267 = t218 + 0.1159110991546882 * t241;
-    let t268 = 0.03105828541230249 * t242;
+    let t267 = t218 + c(0.1159110991546882) * t241;
+    let t268 = c(0.03105828541230249) * t242;
     let t269 = t33 * t248 + (t30 * t245 - (t117 * t117 + t120 * t120));
     let t270 = t267 - (t53 * (t139 * t139 - t269) + t268);
     // leg 2: actuator acceleration d''
     let t271 = t35 * t250 - (t34 * t249 - (t121 * t121 + t122 * t122));
     let t272 = t267 + (t268 - t58 * (t143 * t143 + t271));
     // leg 3: actuator acceleration d''
-    let t273 = t218 - 0.031058285412302475 * t241;
-    let t274 = 0.1159110991546882 * t242;
+    let t273 = t218 - c(0.031058285412302475) * t241;
+    let t274 = c(0.1159110991546882) * t242;
     let t275 = t41 * t256 - (t38 * t253 - (t125 * t125 + t128 * t128));
     let t276 = t273 - (t61 * (t145 * t145 + t275) - t274);
     // leg 4: actuator acceleration d''
-    let t277 = t218 - 0.0848528137423857 * t241;
-    let t278 = 0.08485281374238571 * t242;
+    let t277 = t218 - c(0.0848528137423857) * t241;
+    let t278 = c(0.08485281374238571) * t242;
     let t279 = t47 * t262 - (t44 * t259 - (t131 * t131 + t134 * t134));
     let t280 = t277 - (t66 * (t149 * t149 + t279) - t278);
     // leg 5: actuator acceleration d''
@@ -1876,9 +2421,9 @@ pub fn body_kinematics(
     let t283 = t51 * t266 + (t50 * t265 - (t137 * t137 + t138 * t138));
     let t284 = t273 - (t274 + t74 * (t155 * t155 - t283));
     // leg 1: rod direction u, from the Hooke joint to the platform joint
-    let t285 = t52 * 4.8543689320388355;
-    let t286 = t30 * 4.8543689320388355;
-    let t287 = t33 * 4.8543689320388355;
+    let t285 = t52 * c(4.8543689320388355);
+    let t286 = t30 * c(4.8543689320388355);
+    let t287 = t33 * c(4.8543689320388355);
     let t288 = base_rotation[0][0] * t286 - base_rotation[0][1] * t287;
     let t289 = base_rotation[0][2] * t285 - t288;
     let t290 = base_rotation[1][0] * t286 - base_rotation[1][1] * t287;
@@ -1886,9 +2431,9 @@ pub fn body_kinematics(
     let t292 = base_rotation[2][0] * t286 - base_rotation[2][1] * t287;
     let t293 = base_rotation[2][2] * t285 - t292;
     // leg 2: rod direction u, from the Hooke joint to the platform joint
-    let t294 = t57 * 4.8543689320388355;
-    let t295 = t34 * 4.8543689320388355;
-    let t296 = t35 * 4.8543689320388355;
+    let t294 = t57 * c(4.8543689320388355);
+    let t295 = t34 * c(4.8543689320388355);
+    let t296 = t35 * c(4.8543689320388355);
     let t297 = base_rotation[0][0] * t295 + base_rotation[0][1] * t296;
     let t298 = base_rotation[0][2] * t294 - t297;
     let t299 = base_rotation[1][0] * t295 + base_rotation[1][1] * t296;
@@ -1896,9 +2441,9 @@ pub fn body_kinematics(
     let t301 = base_rotation[2][0] * t295 + base_rotation[2][1] * t296;
     let t302 = base_rotation[2][2] * t294 - t301;
     // leg 3: rod direction u, from the Hooke joint to the platform joint
-    let t303 = t60 * 4.8543689320388355;
-    let t304 = t38 * 4.8543689320388355;
-    let t305 = t41 * 4.8543689320388355;
+    let t303 = t60 * c(4.8543689320388355);
+    let t304 = t38 * c(4.8543689320388355);
+    let t305 = t41 * c(4.8543689320388355);
     let t306 = base_rotation[0][0] * t304 + base_rotation[0][1] * t305;
     let t307 = base_rotation[0][2] * t303 - t306;
     let t308 = base_rotation[1][0] * t304 + base_rotation[1][1] * t305;
@@ -1906,9 +2451,9 @@ pub fn body_kinematics(
     let t310 = base_rotation[2][0] * t304 + base_rotation[2][1] * t305;
     let t311 = base_rotation[2][2] * t303 - t310;
     // leg 4: rod direction u, from the Hooke joint to the platform joint
-    let t312 = t65 * 4.8543689320388355;
-    let t313 = t44 * 4.8543689320388355;
-    let t314 = t47 * 4.8543689320388355;
+    let t312 = t65 * c(4.8543689320388355);
+    let t313 = t44 * c(4.8543689320388355);
+    let t314 = t47 * c(4.8543689320388355);
     let t315 = base_rotation[0][0] * t313 + base_rotation[0][1] * t314;
     let t316 = base_rotation[0][2] * t312 - t315;
     let t317 = base_rotation[1][0] * t313 + base_rotation[1][1] * t314;
@@ -1916,9 +2461,9 @@ pub fn body_kinematics(
     let t319 = base_rotation[2][0] * t313 + base_rotation[2][1] * t314;
     let t320 = base_rotation[2][2] * t312 - t319;
     // leg 5: rod direction u, from the Hooke joint to the platform joint
-    let t321 = t70 * 4.8543689320388355;
-    let t322 = t48 * 4.8543689320388355;
-    let t323 = t49 * 4.8543689320388355;
+    let t321 = t70 * c(4.8543689320388355);
+    let t322 = t48 * c(4.8543689320388355);
+    let t323 = t49 * c(4.8543689320388355);
     let t324 = base_rotation[0][0] * t322 - base_rotation[0][1] * t323;
     let t325 = base_rotation[0][2] * t321 - t324;
     let t326 = base_rotation[1][0] * t322 - base_rotation[1][1] * t323;
@@ -1926,9 +2471,9 @@ pub fn body_kinematics(
     let t328 = base_rotation[2][0] * t322 - base_rotation[2][1] * t323;
     let t329 = base_rotation[2][2] * t321 - t328;
     // leg 6: rod direction u, from the Hooke joint to the platform joint
-    let t330 = t73 * 4.8543689320388355;
-    let t331 = t50 * 4.8543689320388355;
-    let t332 = t51 * 4.8543689320388355;
+    let t330 = t73 * c(4.8543689320388355);
+    let t331 = t50 * c(4.8543689320388355);
+    let t332 = t51 * c(4.8543689320388355);
     let t333 = base_rotation[0][0] * t331 - base_rotation[0][1] * t332;
     let t334 = base_rotation[0][2] * t330 - t333;
     let t335 = base_rotation[1][0] * t331 - base_rotation[1][1] * t332;
@@ -1936,30 +2481,30 @@ pub fn body_kinematics(
     let t337 = base_rotation[2][0] * t331 - base_rotation[2][1] * t332;
     let t338 = base_rotation[2][2] * t330 - t337;
     // leg 1: Hooke joint
-    let t339 = base_rotation[0][0] * 0.1316436662914507;
-    let t340 = base_rotation[0][1] * 0.12275970481124972;
+    let t339 = base_rotation[0][0] * c(0.1316436662914507);
+    let t340 = base_rotation[0][1] * c(0.12275970481124972);
     let t341 = t339 - t340;
     let t342 = t341 - base_rotation[0][2] * t56;
     let t343 = base_position[0] + t342;
-    let t344 = base_rotation[1][0] * 0.1316436662914507;
-    let t345 = base_rotation[1][1] * 0.12275970481124972;
+    let t344 = base_rotation[1][0] * c(0.1316436662914507);
+    let t345 = base_rotation[1][1] * c(0.12275970481124972);
     let t346 = t344 - t345;
     let t347 = t346 - base_rotation[1][2] * t56;
     let t348 = base_position[1] + t347;
-    let t349 = base_rotation[2][0] * 0.1316436662914507;
-    let t350 = base_rotation[2][1] * 0.12275970481124972;
+    let t349 = base_rotation[2][0] * c(0.1316436662914507);
+    let t350 = base_rotation[2][1] * c(0.12275970481124972);
     let t351 = t349 - t350;
     let t352 = t351 - base_rotation[2][2] * t56;
     let t353 = base_position[2] + t352;
     // leg 1: platform joint
-    let t354 = platform_rotation[0][0] * 0.1159110991546882;
-    let t355 = platform_rotation[0][1] * 0.03105828541230249;
+    let t354 = platform_rotation[0][0] * c(0.1159110991546882);
+    let t355 = platform_rotation[0][1] * c(0.03105828541230249);
     let t356 = t354 - t355;
-    let t357 = platform_rotation[1][0] * 0.1159110991546882;
-    let t358 = platform_rotation[1][1] * 0.03105828541230249;
+    let t357 = platform_rotation[1][0] * c(0.1159110991546882);
+    let t358 = platform_rotation[1][1] * c(0.03105828541230249);
     let t359 = t357 - t358;
-    let t360 = platform_rotation[2][0] * 0.1159110991546882;
-    let t361 = platform_rotation[2][1] * 0.03105828541230249;
+    let t360 = platform_rotation[2][0] * c(0.1159110991546882);
+    let t361 = platform_rotation[2][1] * c(0.03105828541230249);
     let t362 = t360 - t361;
     // leg 1: velocity of the Hooke joint
     let t363 = base_velocity[5] * t347 - (base_velocity[0] + base_velocity[4] * t352);
@@ -1978,10 +2523,10 @@ pub fn body_kinematics(
     // leg 1: angular velocity w_s of the rod, without spin
     let t375 = t368 + t374;
     let t376 = t366 + t372;
-    rod_angular_velocity[0][0] = 4.8543689320388355 * (t291 * t375 - t293 * t376);
+    rod_angular_velocity[0][0] = c(4.8543689320388355) * (t291 * t375 - t293 * t376);
     let t377 = t364 + t370;
-    rod_angular_velocity[0][1] = 4.8543689320388355 * (t293 * t377 - t289 * t375);
-    rod_angular_velocity[0][2] = 4.8543689320388355 * (t289 * t376 - t291 * t377);
+    rod_angular_velocity[0][1] = c(4.8543689320388355) * (t293 * t377 - t289 * t375);
+    rod_angular_velocity[0][2] = c(4.8543689320388355) * (t289 * t376 - t291 * t377);
     // leg 2: Hooke joint
     let t378 = t339 + t340;
     let t379 = t378 - base_rotation[0][2] * t59;
@@ -2013,35 +2558,35 @@ pub fn body_kinematics(
     // leg 2: angular velocity w_s of the rod, without spin
     let t402 = t395 + t401;
     let t403 = t393 + t399;
-    rod_angular_velocity[1][0] = 4.8543689320388355 * (t300 * t402 - t302 * t403);
+    rod_angular_velocity[1][0] = c(4.8543689320388355) * (t300 * t402 - t302 * t403);
     let t404 = t391 + t397;
-    rod_angular_velocity[1][1] = 4.8543689320388355 * (t302 * t404 - t298 * t402);
-    rod_angular_velocity[1][2] = 4.8543689320388355 * (t298 * t403 - t300 * t404);
+    rod_angular_velocity[1][1] = c(4.8543689320388355) * (t302 * t404 - t298 * t402);
+    rod_angular_velocity[1][2] = c(4.8543689320388355) * (t298 * t403 - t300 * t404);
     // leg 3: Hooke joint
-    let t405 = base_rotation[0][0] * 0.040491189781895726;
-    let t406 = base_rotation[0][1] * 0.17538661166134234;
+    let t405 = base_rotation[0][0] * c(0.040491189781895726);
+    let t406 = base_rotation[0][1] * c(0.17538661166134234);
     let t407 = t405 + t406;
     let t408 = t407 - base_rotation[0][2] * t64;
     let t409 = base_position[0] + t408;
-    let t410 = base_rotation[1][0] * 0.040491189781895726;
-    let t411 = base_rotation[1][1] * 0.17538661166134234;
+    let t410 = base_rotation[1][0] * c(0.040491189781895726);
+    let t411 = base_rotation[1][1] * c(0.17538661166134234);
     let t412 = t410 + t411;
     let t413 = t412 - base_rotation[1][2] * t64;
     let t414 = base_position[1] + t413;
-    let t415 = base_rotation[2][0] * 0.040491189781895726;
-    let t416 = base_rotation[2][1] * 0.17538661166134234;
+    let t415 = base_rotation[2][0] * c(0.040491189781895726);
+    let t416 = base_rotation[2][1] * c(0.17538661166134234);
     let t417 = t415 + t416;
     let t418 = t417 - base_rotation[2][2] * t64;
     let t419 = base_position[2] + t418;
     // leg 3: platform joint
-    let t420 = platform_rotation[0][0] * 0.031058285412302475;
-    let t421 = platform_rotation[0][1] * 0.1159110991546882;
+    let t420 = platform_rotation[0][0] * c(0.031058285412302475);
+    let t421 = platform_rotation[0][1] * c(0.1159110991546882);
     let t422 = t420 - t421;
-    let t423 = platform_rotation[1][0] * 0.031058285412302475;
-    let t424 = platform_rotation[1][1] * 0.1159110991546882;
+    let t423 = platform_rotation[1][0] * c(0.031058285412302475);
+    let t424 = platform_rotation[1][1] * c(0.1159110991546882);
     let t425 = t423 - t424;
-    let t426 = platform_rotation[2][0] * 0.031058285412302475;
-    let t427 = platform_rotation[2][1] * 0.1159110991546882;
+    let t426 = platform_rotation[2][0] * c(0.031058285412302475);
+    let t427 = platform_rotation[2][1] * c(0.1159110991546882);
     let t428 = t426 - t427;
     // leg 3: velocity of the Hooke joint
     let t429 = base_velocity[5] * t413 - (base_velocity[0] + base_velocity[4] * t418);
@@ -2060,35 +2605,35 @@ pub fn body_kinematics(
     // leg 3: angular velocity w_s of the rod, without spin
     let t441 = t434 + t440;
     let t442 = t432 + t438;
-    rod_angular_velocity[2][0] = 4.8543689320388355 * (t309 * t441 - t311 * t442);
+    rod_angular_velocity[2][0] = c(4.8543689320388355) * (t309 * t441 - t311 * t442);
     let t443 = t430 + t436;
-    rod_angular_velocity[2][1] = 4.8543689320388355 * (t311 * t443 - t307 * t441);
-    rod_angular_velocity[2][2] = 4.8543689320388355 * (t307 * t442 - t309 * t443);
+    rod_angular_velocity[2][1] = c(4.8543689320388355) * (t311 * t443 - t307 * t441);
+    rod_angular_velocity[2][2] = c(4.8543689320388355) * (t307 * t442 - t309 * t443);
     // leg 4: Hooke joint
-    let t444 = base_rotation[0][0] * 0.17213485607334636;
-    let t445 = base_rotation[0][1] * 0.052626906850092664;
+    let t444 = base_rotation[0][0] * c(0.17213485607334636);
+    let t445 = base_rotation[0][1] * c(0.052626906850092664);
     let t446 = t444 - t445;
     let t447 = t446 + base_rotation[0][2] * t69;
     let t448 = base_position[0] - t447;
-    let t449 = base_rotation[1][0] * 0.17213485607334636;
-    let t450 = base_rotation[1][1] * 0.052626906850092664;
+    let t449 = base_rotation[1][0] * c(0.17213485607334636);
+    let t450 = base_rotation[1][1] * c(0.052626906850092664);
     let t451 = t449 - t450;
     let t452 = t451 + base_rotation[1][2] * t69;
     let t453 = base_position[1] - t452;
-    let t454 = base_rotation[2][0] * 0.17213485607334636;
-    let t455 = base_rotation[2][1] * 0.052626906850092664;
+    let t454 = base_rotation[2][0] * c(0.17213485607334636);
+    let t455 = base_rotation[2][1] * c(0.052626906850092664);
     let t456 = t454 - t455;
     let t457 = t456 + base_rotation[2][2] * t69;
     let t458 = base_position[2] - t457;
     // leg 4: platform joint
-    let t459 = platform_rotation[0][0] * 0.0848528137423857;
-    let t460 = platform_rotation[0][1] * 0.08485281374238571;
+    let t459 = platform_rotation[0][0] * c(0.0848528137423857);
+    let t460 = platform_rotation[0][1] * c(0.08485281374238571);
     let t461 = t459 - t460;
-    let t462 = platform_rotation[1][0] * 0.0848528137423857;
-    let t463 = platform_rotation[1][1] * 0.08485281374238571;
+    let t462 = platform_rotation[1][0] * c(0.0848528137423857);
+    let t463 = platform_rotation[1][1] * c(0.08485281374238571);
     let t464 = t462 - t463;
-    let t465 = platform_rotation[2][0] * 0.0848528137423857;
-    let t466 = platform_rotation[2][1] * 0.08485281374238571;
+    let t465 = platform_rotation[2][0] * c(0.0848528137423857);
+    let t466 = platform_rotation[2][1] * c(0.08485281374238571);
     let t467 = t465 - t466;
     // leg 4: velocity of the Hooke joint
     let t468 = base_velocity[5] * t452 + (base_velocity[0] - base_velocity[4] * t457);
@@ -2107,10 +2652,10 @@ pub fn body_kinematics(
     // leg 4: angular velocity w_s of the rod, without spin
     let t480 = t473 + t479;
     let t481 = t471 + t477;
-    rod_angular_velocity[3][0] = 4.8543689320388355 * (t318 * t480 - t320 * t481);
+    rod_angular_velocity[3][0] = c(4.8543689320388355) * (t318 * t480 - t320 * t481);
     let t482 = t469 + t475;
-    rod_angular_velocity[3][1] = 4.8543689320388355 * (t320 * t482 - t316 * t480);
-    rod_angular_velocity[3][2] = 4.8543689320388355 * (t316 * t481 - t318 * t482);
+    rod_angular_velocity[3][1] = c(4.8543689320388355) * (t320 * t482 - t316 * t480);
+    rod_angular_velocity[3][2] = c(4.8543689320388355) * (t316 * t481 - t318 * t482);
     // leg 5: Hooke joint
     let t483 = t444 + t445;
     let t484 = t483 + base_rotation[0][2] * t72;
@@ -2142,10 +2687,10 @@ pub fn body_kinematics(
     // leg 5: angular velocity w_s of the rod, without spin
     let t507 = t500 + t506;
     let t508 = t498 + t504;
-    rod_angular_velocity[4][0] = 4.8543689320388355 * (t327 * t507 - t329 * t508);
+    rod_angular_velocity[4][0] = c(4.8543689320388355) * (t327 * t507 - t329 * t508);
     let t509 = t496 + t502;
-    rod_angular_velocity[4][1] = 4.8543689320388355 * (t329 * t509 - t325 * t507);
-    rod_angular_velocity[4][2] = 4.8543689320388355 * (t325 * t508 - t327 * t509);
+    rod_angular_velocity[4][1] = c(4.8543689320388355) * (t329 * t509 - t325 * t507);
+    rod_angular_velocity[4][2] = c(4.8543689320388355) * (t325 * t508 - t327 * t509);
     // leg 6: Hooke joint
     let t510 = t405 - t406;
     let t511 = t510 - base_rotation[0][2] * t75;
@@ -2177,34 +2722,34 @@ pub fn body_kinematics(
     // leg 6: angular velocity w_s of the rod, without spin
     let t534 = t527 + t533;
     let t535 = t525 + t531;
-    rod_angular_velocity[5][0] = 4.8543689320388355 * (t336 * t534 - t338 * t535);
+    rod_angular_velocity[5][0] = c(4.8543689320388355) * (t336 * t534 - t338 * t535);
     let t536 = t523 + t529;
-    rod_angular_velocity[5][1] = 4.8543689320388355 * (t338 * t536 - t334 * t534);
-    rod_angular_velocity[5][2] = 4.8543689320388355 * (t334 * t535 - t336 * t536);
+    rod_angular_velocity[5][1] = c(4.8543689320388355) * (t338 * t536 - t334 * t534);
+    rod_angular_velocity[5][2] = c(4.8543689320388355) * (t334 * t535 - t336 * t536);
     // leg 1: centre of mass of the rod
-    let t537 = platform_position[0] * 0.5;
-    let t538 = platform_position[1] * 0.5;
-    let t539 = platform_position[2] * 0.5;
-    rod_com_position[0][0] = t537 + 0.5 * (t343 + t356);
-    rod_com_position[0][1] = t538 + 0.5 * (t348 + t359);
-    rod_com_position[0][2] = t539 + 0.5 * (t353 + t362);
+    let t537 = platform_position[0] * c(0.5);
+    let t538 = platform_position[1] * c(0.5);
+    let t539 = platform_position[2] * c(0.5);
+    rod_com_position[0][0] = t537 + c(0.5) * (t343 + t356);
+    rod_com_position[0][1] = t538 + c(0.5) * (t348 + t359);
+    rod_com_position[0][2] = t539 + c(0.5) * (t353 + t362);
     // leg 1: centre of mass of the mover
-    let t540 = base_rotation[0][2] * 0.05;
-    let t541 = base_rotation[1][2] * 0.05;
-    let t542 = base_rotation[2][2] * 0.05;
+    let t540 = base_rotation[0][2] * c(0.05);
+    let t541 = base_rotation[1][2] * c(0.05);
+    let t542 = base_rotation[2][2] * c(0.05);
     mover_position[0][0] = t343 - t540;
     mover_position[0][1] = t348 - t541;
     mover_position[0][2] = t353 - t542;
     // leg 1: velocity of the mover
     let t543 = base_rotation[1][2] * base_velocity[5];
     let t544 = base_rotation[2][2] * base_velocity[4] - t543;
-    let t545 = 0.05 * t544;
+    let t545 = c(0.05) * t544;
     let t546 = base_rotation[2][2] * base_velocity[3];
     let t547 = base_rotation[0][2] * base_velocity[5] - t546;
-    let t548 = 0.05 * t547;
+    let t548 = c(0.05) * t547;
     let t549 = base_rotation[0][2] * base_velocity[4];
     let t550 = base_rotation[1][2] * base_velocity[3] - t549;
-    let t551 = 0.05 * t550;
+    let t551 = c(0.05) * t550;
     mover_velocity[0][0] = -(t364 + t545);
     mover_velocity[0][1] = -(t366 + t548);
     mover_velocity[0][2] = -(t368 + t551);
@@ -2215,7 +2760,7 @@ pub fn body_kinematics(
     let t555 = base_rotation[0][2] * base_acceleration[4];
     let t556 = base_rotation[1][2] * base_acceleration[3] - t555;
     let t557 = base_velocity[4] * t544 - (base_velocity[3] * t547 + t556);
-    let t558 = t142 * 2.0;
+    let t558 = t142 * c(2.0);
     let t559 = base_velocity[4] * t351 - base_velocity[5] * t346;
     let t560 = base_velocity[5] * t341 - base_velocity[3] * t351;
     let t561 = base_acceleration[2] + base_acceleration[3] * t346;
@@ -2245,14 +2790,17 @@ pub fn body_kinematics(
     let t585 = base_rotation[0][2] * t270 + t584;
     let t586 = t554 - t564;
     let t587 = t567 - t575;
-    rod_angular_acceleration[0][0] = (t291 * t586 - t293 * t587) * -4.8543689320388355;
+    rod_angular_acceleration[0][0] = (t291 * t586 - t293 * t587)
+        * c(-4.8543689320388355);
     let t588 = t578 - t585;
-    rod_angular_acceleration[0][1] = -4.8543689320388355 * (t293 * t588 - t289 * t586);
-    rod_angular_acceleration[0][2] = -4.8543689320388355 * (t289 * t587 - t291 * t588);
+    rod_angular_acceleration[0][1] = c(-4.8543689320388355)
+        * (t293 * t588 - t289 * t586);
+    rod_angular_acceleration[0][2] = c(-4.8543689320388355)
+        * (t289 * t587 - t291 * t588);
     // leg 1: acceleration of the mover
-    let t589 = 0.05 * t581;
-    let t590 = 0.05 * t570;
-    let t591 = 0.05 * t557;
+    let t589 = c(0.05) * t581;
+    let t590 = c(0.05) * t570;
+    let t591 = c(0.05) * t557;
     mover_acceleration[0][0] = t589 - t585;
     mover_acceleration[0][1] = t590 - t575;
     mover_acceleration[0][2] = t591 - t564;
@@ -2260,7 +2808,7 @@ pub fn body_kinematics(
     let t592 = platform_acceleration[2] + platform_acceleration[3] * t388;
     let t593 = platform_acceleration[4] * t387 - t592;
     let t594 = platform_velocity[4] * t396 - (platform_velocity[3] * t398 - t593);
-    let t595 = t144 * 2.0;
+    let t595 = t144 * c(2.0);
     let t596 = base_velocity[4] * t384 - base_velocity[5] * t381;
     let t597 = base_velocity[5] * t378 - base_velocity[3] * t384;
     let t598 = base_acceleration[2] + base_acceleration[3] * t381;
@@ -2284,15 +2832,18 @@ pub fn body_kinematics(
     let t616 = base_rotation[0][2] * t272 + t615;
     let t617 = t594 - t601;
     let t618 = t604 - t609;
-    rod_angular_acceleration[1][0] = -4.8543689320388355 * (t300 * t617 - t302 * t618);
+    rod_angular_acceleration[1][0] = c(-4.8543689320388355)
+        * (t300 * t617 - t302 * t618);
     let t619 = t612 - t616;
-    rod_angular_acceleration[1][1] = -4.8543689320388355 * (t302 * t619 - t298 * t617);
-    rod_angular_acceleration[1][2] = -4.8543689320388355 * (t298 * t618 - t300 * t619);
+    rod_angular_acceleration[1][1] = c(-4.8543689320388355)
+        * (t302 * t619 - t298 * t617);
+    rod_angular_acceleration[1][2] = c(-4.8543689320388355)
+        * (t298 * t618 - t300 * t619);
     // leg 3: angular acceleration of the rod
     let t620 = platform_acceleration[2] - platform_acceleration[3] * t425;
     let t621 = platform_acceleration[4] * t422 + t620;
     let t622 = platform_velocity[4] * t435 - (platform_velocity[3] * t437 - t621);
-    let t623 = t148 * 2.0;
+    let t623 = t148 * c(2.0);
     let t624 = base_velocity[4] * t417 - base_velocity[5] * t412;
     let t625 = base_velocity[5] * t407 - base_velocity[3] * t417;
     let t626 = base_acceleration[2] + base_acceleration[3] * t412;
@@ -2316,15 +2867,15 @@ pub fn body_kinematics(
     let t644 = base_rotation[0][2] * t276 + t643;
     let t645 = t622 + t629;
     let t646 = t632 + t637;
-    rod_angular_acceleration[2][0] = 4.8543689320388355 * (t309 * t645 - t311 * t646);
+    rod_angular_acceleration[2][0] = c(4.8543689320388355) * (t309 * t645 - t311 * t646);
     let t647 = t640 + t644;
-    rod_angular_acceleration[2][1] = 4.8543689320388355 * (t311 * t647 - t307 * t645);
-    rod_angular_acceleration[2][2] = 4.8543689320388355 * (t307 * t646 - t309 * t647);
+    rod_angular_acceleration[2][1] = c(4.8543689320388355) * (t311 * t647 - t307 * t645);
+    rod_angular_acceleration[2][2] = c(4.8543689320388355) * (t307 * t646 - t309 * t647);
     // leg 4: angular acceleration of the rod
     let t648 = platform_acceleration[2] - platform_acceleration[3] * t464;
     let t649 = platform_acceleration[4] * t461 + t648;
     let t650 = platform_velocity[4] * t474 - (platform_velocity[3] * t476 - t649);
-    let t651 = t152 * 2.0;
+    let t651 = t152 * c(2.0);
     let t652 = base_velocity[4] * t456 - base_velocity[5] * t451;
     let t653 = base_velocity[5] * t446 - base_velocity[3] * t456;
     let t654 = base_acceleration[2] - base_acceleration[3] * t451;
@@ -2348,15 +2899,15 @@ pub fn body_kinematics(
     let t672 = base_rotation[0][2] * t280 + t671;
     let t673 = t650 + t657;
     let t674 = t660 + t665;
-    rod_angular_acceleration[3][0] = 4.8543689320388355 * (t318 * t673 - t320 * t674);
+    rod_angular_acceleration[3][0] = c(4.8543689320388355) * (t318 * t673 - t320 * t674);
     let t675 = t668 + t672;
-    rod_angular_acceleration[3][1] = 4.8543689320388355 * (t320 * t675 - t316 * t673);
-    rod_angular_acceleration[3][2] = 4.8543689320388355 * (t316 * t674 - t318 * t675);
+    rod_angular_acceleration[3][1] = c(4.8543689320388355) * (t320 * t675 - t316 * t673);
+    rod_angular_acceleration[3][2] = c(4.8543689320388355) * (t316 * t674 - t318 * t675);
     // leg 5: angular acceleration of the rod
     let t676 = platform_acceleration[2] - platform_acceleration[3] * t493;
     let t677 = platform_acceleration[4] * t492 + t676;
     let t678 = platform_velocity[4] * t501 - (platform_velocity[3] * t503 - t677);
-    let t679 = t154 * 2.0;
+    let t679 = t154 * c(2.0);
     let t680 = base_velocity[4] * t489 - base_velocity[5] * t486;
     let t681 = base_velocity[5] * t483 - base_velocity[3] * t489;
     let t682 = base_acceleration[2] - base_acceleration[3] * t486;
@@ -2380,15 +2931,15 @@ pub fn body_kinematics(
     let t700 = base_rotation[0][2] * t282 + t699;
     let t701 = t678 + t685;
     let t702 = t688 + t693;
-    rod_angular_acceleration[4][0] = 4.8543689320388355 * (t327 * t701 - t329 * t702);
+    rod_angular_acceleration[4][0] = c(4.8543689320388355) * (t327 * t701 - t329 * t702);
     let t703 = t696 + t700;
-    rod_angular_acceleration[4][1] = 4.8543689320388355 * (t329 * t703 - t325 * t701);
-    rod_angular_acceleration[4][2] = 4.8543689320388355 * (t325 * t702 - t327 * t703);
+    rod_angular_acceleration[4][1] = c(4.8543689320388355) * (t329 * t703 - t325 * t701);
+    rod_angular_acceleration[4][2] = c(4.8543689320388355) * (t325 * t702 - t327 * t703);
     // leg 6: angular acceleration of the rod
     let t704 = platform_acceleration[2] - platform_acceleration[3] * t520;
     let t705 = platform_acceleration[4] * t519 + t704;
     let t706 = platform_velocity[4] * t528 - (platform_velocity[3] * t530 - t705);
-    let t707 = t156 * 2.0;
+    let t707 = t156 * c(2.0);
     let t708 = base_velocity[4] * t516 - base_velocity[5] * t513;
     let t709 = base_velocity[5] * t510 - base_velocity[3] * t516;
     let t710 = base_acceleration[2] + base_acceleration[3] * t513;
@@ -2412,14 +2963,14 @@ pub fn body_kinematics(
     let t728 = base_rotation[0][2] * t284 + t727;
     let t729 = t706 + t713;
     let t730 = t716 + t721;
-    rod_angular_acceleration[5][0] = 4.8543689320388355 * (t336 * t729 - t338 * t730);
+    rod_angular_acceleration[5][0] = c(4.8543689320388355) * (t336 * t729 - t338 * t730);
     let t731 = t724 + t728;
-    rod_angular_acceleration[5][1] = 4.8543689320388355 * (t338 * t731 - t334 * t729);
-    rod_angular_acceleration[5][2] = 4.8543689320388355 * (t334 * t730 - t336 * t731);
+    rod_angular_acceleration[5][1] = c(4.8543689320388355) * (t338 * t731 - t334 * t729);
+    rod_angular_acceleration[5][2] = c(4.8543689320388355) * (t334 * t730 - t336 * t731);
     // centre of mass of the payload
-    let t732 = platform_rotation[0][2] * 0.031;
-    let t733 = platform_rotation[1][2] * 0.031;
-    let t734 = platform_rotation[2][2] * 0.031;
+    let t732 = platform_rotation[0][2] * c(0.031);
+    let t733 = platform_rotation[1][2] * c(0.031);
+    let t734 = platform_rotation[2][2] * c(0.031);
     payload_com_position[0] = platform_position[0] + t732;
     payload_com_position[1] = platform_position[1] + t733;
     payload_com_position[2] = platform_position[2] + t734;
@@ -2444,73 +2995,73 @@ pub fn body_kinematics(
     payload_com_acceleration[2] = platform_velocity[3] * t736 - t743
         - platform_velocity[4] * t735;
     // leg 2: centre of mass of the rod
-    rod_com_position[1][0] = t537 + 0.5 * (t380 + t387);
-    rod_com_position[1][1] = t538 + 0.5 * (t383 + t388);
-    rod_com_position[1][2] = t539 + 0.5 * (t386 + t389);
+    rod_com_position[1][0] = t537 + c(0.5) * (t380 + t387);
+    rod_com_position[1][1] = t538 + c(0.5) * (t383 + t388);
+    rod_com_position[1][2] = t539 + c(0.5) * (t386 + t389);
     // leg 3: centre of mass of the rod
-    rod_com_position[2][0] = t537 + 0.5 * (t409 - t422);
-    rod_com_position[2][1] = t538 + 0.5 * (t414 - t425);
-    rod_com_position[2][2] = t539 + 0.5 * (t419 - t428);
+    rod_com_position[2][0] = t537 + c(0.5) * (t409 - t422);
+    rod_com_position[2][1] = t538 + c(0.5) * (t414 - t425);
+    rod_com_position[2][2] = t539 + c(0.5) * (t419 - t428);
     // leg 4: centre of mass of the rod
-    rod_com_position[3][0] = t537 + 0.5 * (t448 - t461);
-    rod_com_position[3][1] = t538 + 0.5 * (t453 - t464);
-    rod_com_position[3][2] = t539 + 0.5 * (t458 - t467);
+    rod_com_position[3][0] = t537 + c(0.5) * (t448 - t461);
+    rod_com_position[3][1] = t538 + c(0.5) * (t453 - t464);
+    rod_com_position[3][2] = t539 + c(0.5) * (t458 - t467);
     // leg 5: centre of mass of the rod
-    rod_com_position[4][0] = t537 + 0.5 * (t485 - t492);
-    rod_com_position[4][1] = t538 + 0.5 * (t488 - t493);
-    rod_com_position[4][2] = t539 + 0.5 * (t491 - t494);
+    rod_com_position[4][0] = t537 + c(0.5) * (t485 - t492);
+    rod_com_position[4][1] = t538 + c(0.5) * (t488 - t493);
+    rod_com_position[4][2] = t539 + c(0.5) * (t491 - t494);
     // leg 6: centre of mass of the rod
-    rod_com_position[5][0] = t537 + 0.5 * (t512 - t519);
-    rod_com_position[5][1] = t538 + 0.5 * (t515 - t520);
-    rod_com_position[5][2] = t539 + 0.5 * (t518 - t521);
+    rod_com_position[5][0] = t537 + c(0.5) * (t512 - t519);
+    rod_com_position[5][1] = t538 + c(0.5) * (t515 - t520);
+    rod_com_position[5][2] = t539 + c(0.5) * (t518 - t521);
     // leg 1: velocity of the rod's centre of mass
-    rod_com_velocity[0][0] = (t364 - t370) * -0.5;
-    rod_com_velocity[0][1] = -0.5 * (t366 - t372);
-    rod_com_velocity[0][2] = -0.5 * (t368 - t374);
+    rod_com_velocity[0][0] = (t364 - t370) * c(-0.5);
+    rod_com_velocity[0][1] = c(-0.5) * (t366 - t372);
+    rod_com_velocity[0][2] = c(-0.5) * (t368 - t374);
     // leg 2: velocity of the rod's centre of mass
-    rod_com_velocity[1][0] = -0.5 * (t391 - t397);
-    rod_com_velocity[1][1] = -0.5 * (t393 - t399);
-    rod_com_velocity[1][2] = -0.5 * (t395 - t401);
+    rod_com_velocity[1][0] = c(-0.5) * (t391 - t397);
+    rod_com_velocity[1][1] = c(-0.5) * (t393 - t399);
+    rod_com_velocity[1][2] = c(-0.5) * (t395 - t401);
     // leg 3: velocity of the rod's centre of mass
-    rod_com_velocity[2][0] = -0.5 * (t430 - t436);
-    rod_com_velocity[2][1] = -0.5 * (t432 - t438);
-    rod_com_velocity[2][2] = -0.5 * (t434 - t440);
+    rod_com_velocity[2][0] = c(-0.5) * (t430 - t436);
+    rod_com_velocity[2][1] = c(-0.5) * (t432 - t438);
+    rod_com_velocity[2][2] = c(-0.5) * (t434 - t440);
     // leg 4: velocity of the rod's centre of mass
-    rod_com_velocity[3][0] = -0.5 * (t469 - t475);
-    rod_com_velocity[3][1] = -0.5 * (t471 - t477);
-    rod_com_velocity[3][2] = -0.5 * (t473 - t479);
+    rod_com_velocity[3][0] = c(-0.5) * (t469 - t475);
+    rod_com_velocity[3][1] = c(-0.5) * (t471 - t477);
+    rod_com_velocity[3][2] = c(-0.5) * (t473 - t479);
     // leg 5: velocity of the rod's centre of mass
-    rod_com_velocity[4][0] = -0.5 * (t496 - t502);
-    rod_com_velocity[4][1] = -0.5 * (t498 - t504);
-    rod_com_velocity[4][2] = -0.5 * (t500 - t506);
+    rod_com_velocity[4][0] = c(-0.5) * (t496 - t502);
+    rod_com_velocity[4][1] = c(-0.5) * (t498 - t504);
+    rod_com_velocity[4][2] = c(-0.5) * (t500 - t506);
     // leg 6: velocity of the rod's centre of mass
-    rod_com_velocity[5][0] = -0.5 * (t523 - t529);
-    rod_com_velocity[5][1] = -0.5 * (t525 - t531);
-    rod_com_velocity[5][2] = -0.5 * (t527 - t533);
+    rod_com_velocity[5][0] = c(-0.5) * (t523 - t529);
+    rod_com_velocity[5][1] = c(-0.5) * (t525 - t531);
+    rod_com_velocity[5][2] = c(-0.5) * (t527 - t533);
     // leg 1: acceleration of the rod's centre of mass
-    rod_com_acceleration[0][0] = -0.5 * (t578 + t585);
-    rod_com_acceleration[0][1] = -0.5 * (t567 + t575);
-    rod_com_acceleration[0][2] = -0.5 * (t554 + t564);
+    rod_com_acceleration[0][0] = c(-0.5) * (t578 + t585);
+    rod_com_acceleration[0][1] = c(-0.5) * (t567 + t575);
+    rod_com_acceleration[0][2] = c(-0.5) * (t554 + t564);
     // leg 2: acceleration of the rod's centre of mass
-    rod_com_acceleration[1][0] = -0.5 * (t612 + t616);
-    rod_com_acceleration[1][1] = -0.5 * (t604 + t609);
-    rod_com_acceleration[1][2] = -0.5 * (t594 + t601);
+    rod_com_acceleration[1][0] = c(-0.5) * (t612 + t616);
+    rod_com_acceleration[1][1] = c(-0.5) * (t604 + t609);
+    rod_com_acceleration[1][2] = c(-0.5) * (t594 + t601);
     // leg 3: acceleration of the rod's centre of mass
-    rod_com_acceleration[2][0] = 0.5 * (t640 - t644);
-    rod_com_acceleration[2][1] = 0.5 * (t632 - t637);
-    rod_com_acceleration[2][2] = 0.5 * (t622 - t629);
+    rod_com_acceleration[2][0] = c(0.5) * (t640 - t644);
+    rod_com_acceleration[2][1] = c(0.5) * (t632 - t637);
+    rod_com_acceleration[2][2] = c(0.5) * (t622 - t629);
     // leg 4: acceleration of the rod's centre of mass
-    rod_com_acceleration[3][0] = 0.5 * (t668 - t672);
-    rod_com_acceleration[3][1] = 0.5 * (t660 - t665);
-    rod_com_acceleration[3][2] = 0.5 * (t650 - t657);
+    rod_com_acceleration[3][0] = c(0.5) * (t668 - t672);
+    rod_com_acceleration[3][1] = c(0.5) * (t660 - t665);
+    rod_com_acceleration[3][2] = c(0.5) * (t650 - t657);
     // leg 5: acceleration of the rod's centre of mass
-    rod_com_acceleration[4][0] = 0.5 * (t696 - t700);
-    rod_com_acceleration[4][1] = 0.5 * (t688 - t693);
-    rod_com_acceleration[4][2] = 0.5 * (t678 - t685);
+    rod_com_acceleration[4][0] = c(0.5) * (t696 - t700);
+    rod_com_acceleration[4][1] = c(0.5) * (t688 - t693);
+    rod_com_acceleration[4][2] = c(0.5) * (t678 - t685);
     // leg 6: acceleration of the rod's centre of mass
-    rod_com_acceleration[5][0] = 0.5 * (t724 - t728);
-    rod_com_acceleration[5][1] = 0.5 * (t716 - t721);
-    rod_com_acceleration[5][2] = 0.5 * (t706 - t713);
+    rod_com_acceleration[5][0] = c(0.5) * (t724 - t728);
+    rod_com_acceleration[5][1] = c(0.5) * (t716 - t721);
+    rod_com_acceleration[5][2] = c(0.5) * (t706 - t713);
     // leg 2: centre of mass of the mover
     mover_position[1][0] = t380 - t540;
     mover_position[1][1] = t383 - t541;
@@ -2590,17 +3141,18 @@ pub fn body_kinematics(
 /// - `rod_partial_angular_velocity`: 6x3x6, 1/m, 1, frame O: partial angular velocities of the rod, equation (33)-(38).
 /// - `mover_partial_velocity`: 6x3x6, 1, m, frame O: partial velocities of the mover, equation (33)-(38).
 #[allow(clippy::all, clippy::pedantic, unused_variables)]
-pub fn partial_velocities(
-    base_position: &[f64; 3],
-    base_rotation: &[[f64; 3]; 3],
-    platform_position: &[f64; 3],
-    platform_rotation: &[[f64; 3]; 3],
-    payload_partial_velocity: &mut [[f64; 6]; 3],
-    payload_partial_angular_velocity: &mut [[f64; 6]; 3],
-    rod_partial_velocity: &mut [[[f64; 6]; 3]; 6],
-    rod_partial_angular_velocity: &mut [[[f64; 6]; 3]; 6],
-    mover_partial_velocity: &mut [[[f64; 6]; 3]; 6],
+pub fn partial_velocities<T: Scalar>(
+    base_position: &[T; 3],
+    base_rotation: &[[T; 3]; 3],
+    platform_position: &[T; 3],
+    platform_rotation: &[[T; 3]; 3],
+    payload_partial_velocity: &mut [[T; 6]; 3],
+    payload_partial_angular_velocity: &mut [[T; 6]; 3],
+    rod_partial_velocity: &mut [[[T; 6]; 3]; 6],
+    rod_partial_angular_velocity: &mut [[[T; 6]; 3]; 6],
+    mover_partial_velocity: &mut [[[T; 6]; 3]; 6],
 ) {
+    let c = T::constant;
     // rotation of the platform seen from the base
     let t1 = base_rotation[1][0] * platform_rotation[1][0];
     let t2 = base_rotation[0][0] * platform_rotation[0][0] + t1;
@@ -2623,28 +3175,28 @@ pub fn partial_velocities(
     let t18 = base_rotation[0][1] * t14 + base_rotation[1][1] * t15;
     let t19 = base_rotation[2][1] * t13 + t18;
     // leg 1: platform joint from the base point
-    let t20 = t17 + (0.1316436662914507 - 0.1159110991546882 * t3);
-    let t21 = 0.03105828541230249 * t6;
+    let t20 = t17 + (c(0.1316436662914507) - c(0.1159110991546882) * t3);
+    let t21 = c(0.03105828541230249) * t6;
     let t22 = t20 + t21;
-    let t23 = 0.12275970481124972 - 0.03105828541230249 * t12;
-    let t24 = t19 - 0.1159110991546882 * t9;
+    let t23 = c(0.12275970481124972) - c(0.03105828541230249) * t12;
+    let t24 = t19 - c(0.1159110991546882) * t9;
     let t25 = t23 - t24;
     // leg 2: platform joint from the base point
     let t26 = t20 - t21;
     let t27 = t23 + t24;
     // leg 3: platform joint from the base point
-    let t28 = t17 + (0.040491189781895726 + t3 * 0.031058285412302475);
-    let t29 = 0.1159110991546882 * t6;
+    let t28 = t17 + (c(0.040491189781895726) + t3 * c(0.031058285412302475));
+    let t29 = c(0.1159110991546882) * t6;
     let t30 = t28 - t29;
-    let t31 = 0.17538661166134234 - 0.1159110991546882 * t12;
-    let t32 = t19 + t9 * 0.031058285412302475;
+    let t31 = c(0.17538661166134234) - c(0.1159110991546882) * t12;
+    let t32 = t19 + t9 * c(0.031058285412302475);
     let t33 = t31 + t32;
     // leg 4: platform joint from the base point
-    let t34 = t17 - (0.17213485607334636 - t3 * 0.0848528137423857);
-    let t35 = 0.08485281374238571 * t6;
+    let t34 = t17 - (c(0.17213485607334636) - t3 * c(0.0848528137423857));
+    let t35 = c(0.08485281374238571) * t6;
     let t36 = t34 - t35;
-    let t37 = 0.052626906850092664 - 0.08485281374238571 * t12;
-    let t38 = t19 + t9 * 0.0848528137423857;
+    let t37 = c(0.052626906850092664) - c(0.08485281374238571) * t12;
+    let t38 = t19 + t9 * c(0.0848528137423857);
     let t39 = t37 + t38;
     // leg 5: platform joint from the base point
     let t40 = t34 + t35;
@@ -2653,29 +3205,29 @@ pub fn partial_velocities(
     let t42 = t28 + t29;
     let t43 = t31 - t32;
     // leg 1: extent of the rod along the actuator axis
-    let t44 = sqrt(0.042435999999999995 - t22 * t22 - t25 * t25);
+    let t44 = sqrt(c(0.042435999999999995) - t22 * t22 - t25 * t25);
     // leg 1: reciprocal of that extent
-    let t45 = 1.0 / t44;
+    let t45 = c(1.0) / t44;
     // leg 2: extent of the rod along the actuator axis
-    let t46 = sqrt(0.042435999999999995 - t26 * t26 - t27 * t27);
+    let t46 = sqrt(c(0.042435999999999995) - t26 * t26 - t27 * t27);
     // leg 2: reciprocal of that extent
-    let t47 = 1.0 / t46;
+    let t47 = c(1.0) / t46;
     // leg 3: extent of the rod along the actuator axis
-    let t48 = sqrt(0.042435999999999995 - t30 * t30 - t33 * t33);
+    let t48 = sqrt(c(0.042435999999999995) - t30 * t30 - t33 * t33);
     // leg 3: reciprocal of that extent
-    let t49 = 1.0 / t48;
+    let t49 = c(1.0) / t48;
     // leg 4: extent of the rod along the actuator axis
-    let t50 = sqrt(0.042435999999999995 - t36 * t36 - t39 * t39);
+    let t50 = sqrt(c(0.042435999999999995) - t36 * t36 - t39 * t39);
     // leg 4: reciprocal of that extent
-    let t51 = 1.0 / t50;
+    let t51 = c(1.0) / t50;
     // leg 5: extent of the rod along the actuator axis
-    let t52 = sqrt(0.042435999999999995 - t40 * t40 - t41 * t41);
+    let t52 = sqrt(c(0.042435999999999995) - t40 * t40 - t41 * t41);
     // leg 5: reciprocal of that extent
-    let t53 = 1.0 / t52;
+    let t53 = c(1.0) / t52;
     // leg 6: extent of the rod along the actuator axis
-    let t54 = sqrt(0.042435999999999995 - t42 * t42 - t43 * t43);
+    let t54 = sqrt(c(0.042435999999999995) - t42 * t42 - t43 * t43);
     // leg 6: reciprocal of that extent
-    let t55 = 1.0 / t54;
+    let t55 = c(1.0) / t54;
     // leg 1: gradient of the actuator length by the platform joint
     let t56 = t22 * t45;
     let t57 = t25 * t45;
@@ -2695,14 +3247,14 @@ pub fn partial_velocities(
     let t66 = t42 * t55;
     let t67 = t43 * t55;
     // leg 1: platform joint from the platform origin
-    let t68 = platform_rotation[0][0] * 0.1159110991546882;
-    let t69 = platform_rotation[0][1] * 0.03105828541230249;
+    let t68 = platform_rotation[0][0] * c(0.1159110991546882);
+    let t69 = platform_rotation[0][1] * c(0.03105828541230249);
     let t70 = t68 - t69;
-    let t71 = platform_rotation[1][0] * 0.1159110991546882;
-    let t72 = platform_rotation[1][1] * 0.03105828541230249;
+    let t71 = platform_rotation[1][0] * c(0.1159110991546882);
+    let t72 = platform_rotation[1][1] * c(0.03105828541230249);
     let t73 = t71 - t72;
-    let t74 = platform_rotation[2][0] * 0.1159110991546882;
-    let t75 = platform_rotation[2][1] * 0.03105828541230249;
+    let t74 = platform_rotation[2][0] * c(0.1159110991546882);
+    let t75 = platform_rotation[2][1] * c(0.03105828541230249);
     let t76 = t74 - t75;
     // leg 1: gradient of the actuator length
     let t77 = base_rotation[0][2] - base_rotation[0][0] * t56;
@@ -2723,14 +3275,14 @@ pub fn partial_velocities(
     let t90 = base_rotation[2][2] - base_rotation[2][0] * t58;
     let t91 = base_rotation[2][1] * t59 - t90;
     // leg 3: platform joint from the platform origin
-    let t92 = platform_rotation[0][0] * 0.031058285412302475;
-    let t93 = platform_rotation[0][1] * 0.1159110991546882;
+    let t92 = platform_rotation[0][0] * c(0.031058285412302475);
+    let t93 = platform_rotation[0][1] * c(0.1159110991546882);
     let t94 = t92 - t93;
-    let t95 = platform_rotation[1][0] * 0.031058285412302475;
-    let t96 = platform_rotation[1][1] * 0.1159110991546882;
+    let t95 = platform_rotation[1][0] * c(0.031058285412302475);
+    let t96 = platform_rotation[1][1] * c(0.1159110991546882);
     let t97 = t95 - t96;
-    let t98 = platform_rotation[2][0] * 0.031058285412302475;
-    let t99 = platform_rotation[2][1] * 0.1159110991546882;
+    let t98 = platform_rotation[2][0] * c(0.031058285412302475);
+    let t99 = platform_rotation[2][1] * c(0.1159110991546882);
     let t100 = t98 - t99;
     // leg 3: gradient of the actuator length
     let t101 = base_rotation[0][2] - base_rotation[0][0] * t60;
@@ -2740,14 +3292,14 @@ pub fn partial_velocities(
     let t105 = base_rotation[2][2] - base_rotation[2][0] * t60;
     let t106 = base_rotation[2][1] * t61 - t105;
     // leg 4: platform joint from the platform origin
-    let t107 = platform_rotation[0][0] * 0.0848528137423857;
-    let t108 = platform_rotation[0][1] * 0.08485281374238571;
+    let t107 = platform_rotation[0][0] * c(0.0848528137423857);
+    let t108 = platform_rotation[0][1] * c(0.08485281374238571);
     let t109 = t107 - t108;
-    let t110 = platform_rotation[1][0] * 0.0848528137423857;
-    let t111 = platform_rotation[1][1] * 0.08485281374238571;
+    let t110 = platform_rotation[1][0] * c(0.0848528137423857);
+    let t111 = platform_rotation[1][1] * c(0.08485281374238571);
     let t112 = t110 - t111;
-    let t113 = platform_rotation[2][0] * 0.0848528137423857;
-    let t114 = platform_rotation[2][1] * 0.08485281374238571;
+    let t113 = platform_rotation[2][0] * c(0.0848528137423857);
+    let t114 = platform_rotation[2][1] * c(0.08485281374238571);
     let t115 = t113 - t114;
     // leg 4: gradient of the actuator length
     let t116 = base_rotation[0][2] - base_rotation[0][0] * t62;
@@ -2803,9 +3355,9 @@ pub fn partial_velocities(
     let t156 = t133 * t135 - t131 * t139;
     let t157 = t131 * t137 - t132 * t135;
     // leg 1: rod direction u, from the Hooke joint to the platform joint
-    let t158 = t44 * 4.8543689320388355;
-    let t159 = t22 * 4.8543689320388355;
-    let t160 = t25 * 4.8543689320388355;
+    let t158 = t44 * c(4.8543689320388355);
+    let t159 = t22 * c(4.8543689320388355);
+    let t160 = t25 * c(4.8543689320388355);
     let t161 = base_rotation[0][0] * t159 - base_rotation[0][1] * t160;
     let t162 = base_rotation[0][2] * t158 - t161;
     let t163 = base_rotation[1][0] * t159 - base_rotation[1][1] * t160;
@@ -2813,9 +3365,9 @@ pub fn partial_velocities(
     let t165 = base_rotation[2][0] * t159 - base_rotation[2][1] * t160;
     let t166 = base_rotation[2][2] * t158 - t165;
     // leg 2: rod direction u, from the Hooke joint to the platform joint
-    let t167 = t46 * 4.8543689320388355;
-    let t168 = t26 * 4.8543689320388355;
-    let t169 = t27 * 4.8543689320388355;
+    let t167 = t46 * c(4.8543689320388355);
+    let t168 = t26 * c(4.8543689320388355);
+    let t169 = t27 * c(4.8543689320388355);
     let t170 = base_rotation[0][0] * t168 + base_rotation[0][1] * t169;
     let t171 = base_rotation[0][2] * t167 - t170;
     let t172 = base_rotation[1][0] * t168 + base_rotation[1][1] * t169;
@@ -2823,9 +3375,9 @@ pub fn partial_velocities(
     let t174 = base_rotation[2][0] * t168 + base_rotation[2][1] * t169;
     let t175 = base_rotation[2][2] * t167 - t174;
     // leg 3: rod direction u, from the Hooke joint to the platform joint
-    let t176 = t48 * 4.8543689320388355;
-    let t177 = t30 * 4.8543689320388355;
-    let t178 = t33 * 4.8543689320388355;
+    let t176 = t48 * c(4.8543689320388355);
+    let t177 = t30 * c(4.8543689320388355);
+    let t178 = t33 * c(4.8543689320388355);
     let t179 = base_rotation[0][0] * t177 + base_rotation[0][1] * t178;
     let t180 = base_rotation[0][2] * t176 - t179;
     let t181 = base_rotation[1][0] * t177 + base_rotation[1][1] * t178;
@@ -2833,9 +3385,9 @@ pub fn partial_velocities(
     let t183 = base_rotation[2][0] * t177 + base_rotation[2][1] * t178;
     let t184 = base_rotation[2][2] * t176 - t183;
     // leg 4: rod direction u, from the Hooke joint to the platform joint
-    let t185 = t50 * 4.8543689320388355;
-    let t186 = t36 * 4.8543689320388355;
-    let t187 = t39 * 4.8543689320388355;
+    let t185 = t50 * c(4.8543689320388355);
+    let t186 = t36 * c(4.8543689320388355);
+    let t187 = t39 * c(4.8543689320388355);
     let t188 = base_rotation[0][0] * t186 + base_rotation[0][1] * t187;
     let t189 = base_rotation[0][2] * t185 - t188;
     let t190 = base_rotation[1][0] * t186 + base_rotation[1][1] * t187;
@@ -2843,9 +3395,9 @@ pub fn partial_velocities(
     let t192 = base_rotation[2][0] * t186 + base_rotation[2][1] * t187;
     let t193 = base_rotation[2][2] * t185 - t192;
     // leg 5: rod direction u, from the Hooke joint to the platform joint
-    let t194 = t52 * 4.8543689320388355;
-    let t195 = t40 * 4.8543689320388355;
-    let t196 = t41 * 4.8543689320388355;
+    let t194 = t52 * c(4.8543689320388355);
+    let t195 = t40 * c(4.8543689320388355);
+    let t196 = t41 * c(4.8543689320388355);
     let t197 = base_rotation[0][0] * t195 - base_rotation[0][1] * t196;
     let t198 = base_rotation[0][2] * t194 - t197;
     let t199 = base_rotation[1][0] * t195 - base_rotation[1][1] * t196;
@@ -2853,9 +3405,9 @@ pub fn partial_velocities(
     let t201 = base_rotation[2][0] * t195 - base_rotation[2][1] * t196;
     let t202 = base_rotation[2][2] * t194 - t201;
     // leg 6: rod direction u, from the Hooke joint to the platform joint
-    let t203 = t54 * 4.8543689320388355;
-    let t204 = t42 * 4.8543689320388355;
-    let t205 = t43 * 4.8543689320388355;
+    let t203 = t54 * c(4.8543689320388355);
+    let t204 = t42 * c(4.8543689320388355);
+    let t205 = t43 * c(4.8543689320388355);
     let t206 = base_rotation[0][0] * t204 - base_rotation[0][1] * t205;
     let t207 = base_rotation[0][2] * t203 - t206;
     let t208 = base_rotation[1][0] * t204 - base_rotation[1][1] * t205;
@@ -2899,72 +3451,72 @@ pub fn partial_velocities(
     mover_partial_velocity[0][2][4] = t228;
     let t229 = base_rotation[2][2] * t142;
     mover_partial_velocity[0][2][5] = t229;
-    rod_partial_velocity[0][0][0] = 0.5 + 0.5 * t212;
-    rod_partial_velocity[0][0][1] = 0.5 * t213;
-    rod_partial_velocity[0][0][2] = 0.5 * t214;
-    rod_partial_velocity[0][0][3] = 0.5 * t215;
-    let t230 = 0.5 * t76;
-    rod_partial_velocity[0][0][4] = t230 + 0.5 * t216;
-    let t231 = 0.5 * t73;
-    rod_partial_velocity[0][0][5] = 0.5 * t217 - t231;
-    rod_partial_velocity[0][1][0] = 0.5 * t218;
-    rod_partial_velocity[0][1][1] = 0.5 + 0.5 * t219;
-    rod_partial_velocity[0][1][2] = 0.5 * t220;
-    rod_partial_velocity[0][1][3] = 0.5 * t221 - t230;
-    rod_partial_velocity[0][1][4] = 0.5 * t222;
-    let t232 = 0.5 * t70;
-    rod_partial_velocity[0][1][5] = t232 + 0.5 * t223;
-    rod_partial_velocity[0][2][0] = 0.5 * t224;
-    rod_partial_velocity[0][2][1] = 0.5 * t225;
-    rod_partial_velocity[0][2][2] = 0.5 + 0.5 * t226;
-    rod_partial_velocity[0][2][3] = t231 + 0.5 * t227;
-    rod_partial_velocity[0][2][4] = 0.5 * t228 - t232;
-    rod_partial_velocity[0][2][5] = 0.5 * t229;
+    rod_partial_velocity[0][0][0] = c(0.5) + c(0.5) * t212;
+    rod_partial_velocity[0][0][1] = c(0.5) * t213;
+    rod_partial_velocity[0][0][2] = c(0.5) * t214;
+    rod_partial_velocity[0][0][3] = c(0.5) * t215;
+    let t230 = c(0.5) * t76;
+    rod_partial_velocity[0][0][4] = t230 + c(0.5) * t216;
+    let t231 = c(0.5) * t73;
+    rod_partial_velocity[0][0][5] = c(0.5) * t217 - t231;
+    rod_partial_velocity[0][1][0] = c(0.5) * t218;
+    rod_partial_velocity[0][1][1] = c(0.5) + c(0.5) * t219;
+    rod_partial_velocity[0][1][2] = c(0.5) * t220;
+    rod_partial_velocity[0][1][3] = c(0.5) * t221 - t230;
+    rod_partial_velocity[0][1][4] = c(0.5) * t222;
+    let t232 = c(0.5) * t70;
+    rod_partial_velocity[0][1][5] = t232 + c(0.5) * t223;
+    rod_partial_velocity[0][2][0] = c(0.5) * t224;
+    rod_partial_velocity[0][2][1] = c(0.5) * t225;
+    rod_partial_velocity[0][2][2] = c(0.5) + c(0.5) * t226;
+    rod_partial_velocity[0][2][3] = t231 + c(0.5) * t227;
+    rod_partial_velocity[0][2][4] = c(0.5) * t228 - t232;
+    rod_partial_velocity[0][2][5] = c(0.5) * t229;
     // leg 1: partial angular velocities of the rod
-    rod_partial_angular_velocity[0][0][0] = 4.8543689320388355
+    rod_partial_angular_velocity[0][0][0] = c(4.8543689320388355)
         * (t166 * t218 - t164 * t224);
-    let t233 = 1.0 - t219;
+    let t233 = c(1.0) - t219;
     rod_partial_angular_velocity[0][0][1] = (t164 * t225 + t166 * t233)
-        * -4.8543689320388355;
-    let t234 = 1.0 - t226;
-    rod_partial_angular_velocity[0][0][2] = 4.8543689320388355
+        * c(-4.8543689320388355);
+    let t234 = c(1.0) - t226;
+    rod_partial_angular_velocity[0][0][2] = c(4.8543689320388355)
         * (t164 * t234 + t166 * t220);
     let t235 = t73 - t227;
     let t236 = t76 + t221;
-    rod_partial_angular_velocity[0][0][3] = 4.8543689320388355
+    rod_partial_angular_velocity[0][0][3] = c(4.8543689320388355)
         * (t164 * t235 + t166 * t236);
     let t237 = t70 + t228;
-    rod_partial_angular_velocity[0][0][4] = 4.8543689320388355
+    rod_partial_angular_velocity[0][0][4] = c(4.8543689320388355)
         * (t166 * t222 - t164 * t237);
     let t238 = t70 - t223;
-    rod_partial_angular_velocity[0][0][5] = -4.8543689320388355
+    rod_partial_angular_velocity[0][0][5] = c(-4.8543689320388355)
         * (t164 * t229 + t166 * t238);
-    let t239 = 1.0 - t212;
-    rod_partial_angular_velocity[0][1][0] = 4.8543689320388355
+    let t239 = c(1.0) - t212;
+    rod_partial_angular_velocity[0][1][0] = c(4.8543689320388355)
         * (t166 * t239 + t162 * t224);
-    rod_partial_angular_velocity[0][1][1] = 4.8543689320388355
+    rod_partial_angular_velocity[0][1][1] = c(4.8543689320388355)
         * (t162 * t225 - t166 * t213);
-    rod_partial_angular_velocity[0][1][2] = -4.8543689320388355
+    rod_partial_angular_velocity[0][1][2] = c(-4.8543689320388355)
         * (t166 * t214 + t162 * t234);
-    rod_partial_angular_velocity[0][1][3] = -4.8543689320388355
+    rod_partial_angular_velocity[0][1][3] = c(-4.8543689320388355)
         * (t166 * t215 + t162 * t235);
     let t240 = t76 - t216;
-    rod_partial_angular_velocity[0][1][4] = 4.8543689320388355
+    rod_partial_angular_velocity[0][1][4] = c(4.8543689320388355)
         * (t166 * t240 + t162 * t237);
     let t241 = t73 + t217;
-    rod_partial_angular_velocity[0][1][5] = 4.8543689320388355
+    rod_partial_angular_velocity[0][1][5] = c(4.8543689320388355)
         * (t162 * t229 - t166 * t241);
-    rod_partial_angular_velocity[0][2][0] = -4.8543689320388355
+    rod_partial_angular_velocity[0][2][0] = c(-4.8543689320388355)
         * (t162 * t218 + t164 * t239);
-    rod_partial_angular_velocity[0][2][1] = 4.8543689320388355
+    rod_partial_angular_velocity[0][2][1] = c(4.8543689320388355)
         * (t162 * t233 + t164 * t213);
-    rod_partial_angular_velocity[0][2][2] = 4.8543689320388355
+    rod_partial_angular_velocity[0][2][2] = c(4.8543689320388355)
         * (t164 * t214 - t162 * t220);
-    rod_partial_angular_velocity[0][2][3] = 4.8543689320388355
+    rod_partial_angular_velocity[0][2][3] = c(4.8543689320388355)
         * (t164 * t215 - t162 * t236);
-    rod_partial_angular_velocity[0][2][4] = -4.8543689320388355
+    rod_partial_angular_velocity[0][2][4] = c(-4.8543689320388355)
         * (t162 * t222 + t164 * t240);
-    rod_partial_angular_velocity[0][2][5] = 4.8543689320388355
+    rod_partial_angular_velocity[0][2][5] = c(4.8543689320388355)
         * (t162 * t238 + t164 * t241);
     // leg 2: partial velocities of the rod's centre of mass
     let t242 = base_rotation[0][2] * t87;
@@ -2985,27 +3537,27 @@ pub fn partial_velocities(
     let t257 = base_rotation[2][2] * t143;
     let t258 = base_rotation[2][2] * t144;
     let t259 = base_rotation[2][2] * t145;
-    rod_partial_velocity[1][0][0] = 0.5 - 0.5 * t242;
-    rod_partial_velocity[1][0][1] = t243 * -0.5;
-    rod_partial_velocity[1][0][2] = -0.5 * t244;
-    rod_partial_velocity[1][0][3] = -0.5 * t245;
-    let t260 = 0.5 * t85;
-    rod_partial_velocity[1][0][4] = t260 - 0.5 * t246;
-    let t261 = 0.5 * t84;
-    rod_partial_velocity[1][0][5] = -0.5 * t247 - t261;
-    rod_partial_velocity[1][1][0] = -0.5 * t248;
-    rod_partial_velocity[1][1][1] = 0.5 - 0.5 * t249;
-    rod_partial_velocity[1][1][2] = -0.5 * t250;
-    rod_partial_velocity[1][1][3] = -0.5 * t251 - t260;
-    rod_partial_velocity[1][1][4] = -0.5 * t252;
-    let t262 = 0.5 * t83;
-    rod_partial_velocity[1][1][5] = t262 - 0.5 * t253;
-    rod_partial_velocity[1][2][0] = -0.5 * t254;
-    rod_partial_velocity[1][2][1] = -0.5 * t255;
-    rod_partial_velocity[1][2][2] = 0.5 - 0.5 * t256;
-    rod_partial_velocity[1][2][3] = t261 - 0.5 * t257;
-    rod_partial_velocity[1][2][4] = -0.5 * t258 - t262;
-    rod_partial_velocity[1][2][5] = -0.5 * t259;
+    rod_partial_velocity[1][0][0] = c(0.5) - c(0.5) * t242;
+    rod_partial_velocity[1][0][1] = t243 * c(-0.5);
+    rod_partial_velocity[1][0][2] = c(-0.5) * t244;
+    rod_partial_velocity[1][0][3] = c(-0.5) * t245;
+    let t260 = c(0.5) * t85;
+    rod_partial_velocity[1][0][4] = t260 - c(0.5) * t246;
+    let t261 = c(0.5) * t84;
+    rod_partial_velocity[1][0][5] = c(-0.5) * t247 - t261;
+    rod_partial_velocity[1][1][0] = c(-0.5) * t248;
+    rod_partial_velocity[1][1][1] = c(0.5) - c(0.5) * t249;
+    rod_partial_velocity[1][1][2] = c(-0.5) * t250;
+    rod_partial_velocity[1][1][3] = c(-0.5) * t251 - t260;
+    rod_partial_velocity[1][1][4] = c(-0.5) * t252;
+    let t262 = c(0.5) * t83;
+    rod_partial_velocity[1][1][5] = t262 - c(0.5) * t253;
+    rod_partial_velocity[1][2][0] = c(-0.5) * t254;
+    rod_partial_velocity[1][2][1] = c(-0.5) * t255;
+    rod_partial_velocity[1][2][2] = c(0.5) - c(0.5) * t256;
+    rod_partial_velocity[1][2][3] = t261 - c(0.5) * t257;
+    rod_partial_velocity[1][2][4] = c(-0.5) * t258 - t262;
+    rod_partial_velocity[1][2][5] = c(-0.5) * t259;
     mover_partial_velocity[1][0][0] = -t242;
     mover_partial_velocity[1][0][1] = -t243;
     mover_partial_velocity[1][0][2] = -t244;
@@ -3025,50 +3577,50 @@ pub fn partial_velocities(
     mover_partial_velocity[1][2][4] = -t258;
     mover_partial_velocity[1][2][5] = -t259;
     // leg 2: partial angular velocities of the rod
-    rod_partial_angular_velocity[1][0][0] = -4.8543689320388355
+    rod_partial_angular_velocity[1][0][0] = c(-4.8543689320388355)
         * (t175 * t248 - t173 * t254);
-    let t263 = 1.0 + t249;
-    rod_partial_angular_velocity[1][0][1] = 4.8543689320388355
+    let t263 = c(1.0) + t249;
+    rod_partial_angular_velocity[1][0][1] = c(4.8543689320388355)
         * (t173 * t255 - t175 * t263);
-    let t264 = 1.0 + t256;
-    rod_partial_angular_velocity[1][0][2] = 4.8543689320388355
+    let t264 = c(1.0) + t256;
+    rod_partial_angular_velocity[1][0][2] = c(4.8543689320388355)
         * (t173 * t264 - t175 * t250);
     let t265 = t84 + t257;
     let t266 = t85 - t251;
-    rod_partial_angular_velocity[1][0][3] = 4.8543689320388355
+    rod_partial_angular_velocity[1][0][3] = c(4.8543689320388355)
         * (t173 * t265 + t175 * t266);
     let t267 = t83 - t258;
-    rod_partial_angular_velocity[1][0][4] = -4.8543689320388355
+    rod_partial_angular_velocity[1][0][4] = c(-4.8543689320388355)
         * (t175 * t252 + t173 * t267);
     let t268 = t83 + t253;
-    rod_partial_angular_velocity[1][0][5] = 4.8543689320388355
+    rod_partial_angular_velocity[1][0][5] = c(4.8543689320388355)
         * (t173 * t259 - t175 * t268);
-    let t269 = 1.0 + t242;
-    rod_partial_angular_velocity[1][1][0] = 4.8543689320388355
+    let t269 = c(1.0) + t242;
+    rod_partial_angular_velocity[1][1][0] = c(4.8543689320388355)
         * (t175 * t269 - t171 * t254);
-    rod_partial_angular_velocity[1][1][1] = -4.8543689320388355
+    rod_partial_angular_velocity[1][1][1] = c(-4.8543689320388355)
         * (t171 * t255 - t175 * t243);
-    rod_partial_angular_velocity[1][1][2] = 4.8543689320388355
+    rod_partial_angular_velocity[1][1][2] = c(4.8543689320388355)
         * (t175 * t244 - t171 * t264);
-    rod_partial_angular_velocity[1][1][3] = 4.8543689320388355
+    rod_partial_angular_velocity[1][1][3] = c(4.8543689320388355)
         * (t175 * t245 - t171 * t265);
     let t270 = t85 + t246;
-    rod_partial_angular_velocity[1][1][4] = 4.8543689320388355
+    rod_partial_angular_velocity[1][1][4] = c(4.8543689320388355)
         * (t175 * t270 + t171 * t267);
     let t271 = t84 - t247;
-    rod_partial_angular_velocity[1][1][5] = -4.8543689320388355
+    rod_partial_angular_velocity[1][1][5] = c(-4.8543689320388355)
         * (t171 * t259 + t175 * t271);
-    rod_partial_angular_velocity[1][2][0] = 4.8543689320388355
+    rod_partial_angular_velocity[1][2][0] = c(4.8543689320388355)
         * (t171 * t248 - t173 * t269);
-    rod_partial_angular_velocity[1][2][1] = 4.8543689320388355
+    rod_partial_angular_velocity[1][2][1] = c(4.8543689320388355)
         * (t171 * t263 - t173 * t243);
-    rod_partial_angular_velocity[1][2][2] = -4.8543689320388355
+    rod_partial_angular_velocity[1][2][2] = c(-4.8543689320388355)
         * (t173 * t244 - t171 * t250);
-    rod_partial_angular_velocity[1][2][3] = -4.8543689320388355
+    rod_partial_angular_velocity[1][2][3] = c(-4.8543689320388355)
         * (t173 * t245 + t171 * t266);
-    rod_partial_angular_velocity[1][2][4] = 4.8543689320388355
+    rod_partial_angular_velocity[1][2][4] = c(4.8543689320388355)
         * (t171 * t252 - t173 * t270);
-    rod_partial_angular_velocity[1][2][5] = 4.8543689320388355
+    rod_partial_angular_velocity[1][2][5] = c(4.8543689320388355)
         * (t171 * t268 + t173 * t271);
     // leg 3: partial velocities of the rod's centre of mass
     let t272 = base_rotation[0][2] * t102;
@@ -3098,27 +3650,27 @@ pub fn partial_velocities(
     mover_partial_velocity[2][2][4] = t288;
     let t289 = base_rotation[2][2] * t148;
     mover_partial_velocity[2][2][5] = t289;
-    rod_partial_velocity[2][0][0] = 0.5 - 0.5 * t272;
-    rod_partial_velocity[2][0][1] = -0.5 * t273;
-    rod_partial_velocity[2][0][2] = -0.5 * t274;
-    rod_partial_velocity[2][0][3] = 0.5 * t275;
-    let t290 = 0.5 * t100;
-    rod_partial_velocity[2][0][4] = 0.5 * t276 - t290;
-    let t291 = 0.5 * t97;
-    rod_partial_velocity[2][0][5] = t291 + 0.5 * t277;
-    rod_partial_velocity[2][1][0] = -0.5 * t278;
-    rod_partial_velocity[2][1][1] = 0.5 - 0.5 * t279;
-    rod_partial_velocity[2][1][2] = -0.5 * t280;
-    rod_partial_velocity[2][1][3] = t290 + 0.5 * t281;
-    rod_partial_velocity[2][1][4] = 0.5 * t282;
-    let t292 = 0.5 * t94;
-    rod_partial_velocity[2][1][5] = 0.5 * t283 - t292;
-    rod_partial_velocity[2][2][0] = -0.5 * t284;
-    rod_partial_velocity[2][2][1] = -0.5 * t285;
-    rod_partial_velocity[2][2][2] = 0.5 - 0.5 * t286;
-    rod_partial_velocity[2][2][3] = 0.5 * t287 - t291;
-    rod_partial_velocity[2][2][4] = t292 + 0.5 * t288;
-    rod_partial_velocity[2][2][5] = 0.5 * t289;
+    rod_partial_velocity[2][0][0] = c(0.5) - c(0.5) * t272;
+    rod_partial_velocity[2][0][1] = c(-0.5) * t273;
+    rod_partial_velocity[2][0][2] = c(-0.5) * t274;
+    rod_partial_velocity[2][0][3] = c(0.5) * t275;
+    let t290 = c(0.5) * t100;
+    rod_partial_velocity[2][0][4] = c(0.5) * t276 - t290;
+    let t291 = c(0.5) * t97;
+    rod_partial_velocity[2][0][5] = t291 + c(0.5) * t277;
+    rod_partial_velocity[2][1][0] = c(-0.5) * t278;
+    rod_partial_velocity[2][1][1] = c(0.5) - c(0.5) * t279;
+    rod_partial_velocity[2][1][2] = c(-0.5) * t280;
+    rod_partial_velocity[2][1][3] = t290 + c(0.5) * t281;
+    rod_partial_velocity[2][1][4] = c(0.5) * t282;
+    let t292 = c(0.5) * t94;
+    rod_partial_velocity[2][1][5] = c(0.5) * t283 - t292;
+    rod_partial_velocity[2][2][0] = c(-0.5) * t284;
+    rod_partial_velocity[2][2][1] = c(-0.5) * t285;
+    rod_partial_velocity[2][2][2] = c(0.5) - c(0.5) * t286;
+    rod_partial_velocity[2][2][3] = c(0.5) * t287 - t291;
+    rod_partial_velocity[2][2][4] = t292 + c(0.5) * t288;
+    rod_partial_velocity[2][2][5] = c(0.5) * t289;
     mover_partial_velocity[2][0][0] = -t272;
     mover_partial_velocity[2][0][1] = -t273;
     mover_partial_velocity[2][0][2] = -t274;
@@ -3129,50 +3681,50 @@ pub fn partial_velocities(
     mover_partial_velocity[2][2][1] = -t285;
     mover_partial_velocity[2][2][2] = -t286;
     // leg 3: partial angular velocities of the rod
-    rod_partial_angular_velocity[2][0][0] = -4.8543689320388355
+    rod_partial_angular_velocity[2][0][0] = c(-4.8543689320388355)
         * (t184 * t278 - t182 * t284);
-    let t293 = 1.0 + t279;
-    rod_partial_angular_velocity[2][0][1] = 4.8543689320388355
+    let t293 = c(1.0) + t279;
+    rod_partial_angular_velocity[2][0][1] = c(4.8543689320388355)
         * (t182 * t285 - t184 * t293);
-    let t294 = 1.0 + t286;
-    rod_partial_angular_velocity[2][0][2] = 4.8543689320388355
+    let t294 = c(1.0) + t286;
+    rod_partial_angular_velocity[2][0][2] = c(4.8543689320388355)
         * (t182 * t294 - t184 * t280);
     let t295 = t97 + t287;
     let t296 = t100 - t281;
-    rod_partial_angular_velocity[2][0][3] = -4.8543689320388355
+    rod_partial_angular_velocity[2][0][3] = c(-4.8543689320388355)
         * (t182 * t295 + t184 * t296);
     let t297 = t94 - t288;
-    rod_partial_angular_velocity[2][0][4] = 4.8543689320388355
+    rod_partial_angular_velocity[2][0][4] = c(4.8543689320388355)
         * (t184 * t282 + t182 * t297);
     let t298 = t94 + t283;
-    rod_partial_angular_velocity[2][0][5] = -4.8543689320388355
+    rod_partial_angular_velocity[2][0][5] = c(-4.8543689320388355)
         * (t182 * t289 - t184 * t298);
-    let t299 = 1.0 + t272;
-    rod_partial_angular_velocity[2][1][0] = 4.8543689320388355
+    let t299 = c(1.0) + t272;
+    rod_partial_angular_velocity[2][1][0] = c(4.8543689320388355)
         * (t184 * t299 - t180 * t284);
-    rod_partial_angular_velocity[2][1][1] = -4.8543689320388355
+    rod_partial_angular_velocity[2][1][1] = c(-4.8543689320388355)
         * (t180 * t285 - t184 * t273);
-    rod_partial_angular_velocity[2][1][2] = 4.8543689320388355
+    rod_partial_angular_velocity[2][1][2] = c(4.8543689320388355)
         * (t184 * t274 - t180 * t294);
-    rod_partial_angular_velocity[2][1][3] = -4.8543689320388355
+    rod_partial_angular_velocity[2][1][3] = c(-4.8543689320388355)
         * (t184 * t275 - t180 * t295);
     let t300 = t100 + t276;
-    rod_partial_angular_velocity[2][1][4] = -4.8543689320388355
+    rod_partial_angular_velocity[2][1][4] = c(-4.8543689320388355)
         * (t184 * t300 + t180 * t297);
     let t301 = t97 - t277;
-    rod_partial_angular_velocity[2][1][5] = 4.8543689320388355
+    rod_partial_angular_velocity[2][1][5] = c(4.8543689320388355)
         * (t180 * t289 + t184 * t301);
-    rod_partial_angular_velocity[2][2][0] = 4.8543689320388355
+    rod_partial_angular_velocity[2][2][0] = c(4.8543689320388355)
         * (t180 * t278 - t182 * t299);
-    rod_partial_angular_velocity[2][2][1] = 4.8543689320388355
+    rod_partial_angular_velocity[2][2][1] = c(4.8543689320388355)
         * (t180 * t293 - t182 * t273);
-    rod_partial_angular_velocity[2][2][2] = -4.8543689320388355
+    rod_partial_angular_velocity[2][2][2] = c(-4.8543689320388355)
         * (t182 * t274 - t180 * t280);
-    rod_partial_angular_velocity[2][2][3] = 4.8543689320388355
+    rod_partial_angular_velocity[2][2][3] = c(4.8543689320388355)
         * (t182 * t275 + t180 * t296);
-    rod_partial_angular_velocity[2][2][4] = -4.8543689320388355
+    rod_partial_angular_velocity[2][2][4] = c(-4.8543689320388355)
         * (t180 * t282 - t182 * t300);
-    rod_partial_angular_velocity[2][2][5] = -4.8543689320388355
+    rod_partial_angular_velocity[2][2][5] = c(-4.8543689320388355)
         * (t180 * t298 + t182 * t301);
     // leg 4: partial velocities of the rod's centre of mass
     let t302 = base_rotation[0][2] * t117;
@@ -3202,27 +3754,27 @@ pub fn partial_velocities(
     mover_partial_velocity[3][2][4] = t318;
     let t319 = base_rotation[2][2] * t151;
     mover_partial_velocity[3][2][5] = t319;
-    rod_partial_velocity[3][0][0] = 0.5 - 0.5 * t302;
-    rod_partial_velocity[3][0][1] = -0.5 * t303;
-    rod_partial_velocity[3][0][2] = -0.5 * t304;
-    rod_partial_velocity[3][0][3] = 0.5 * t305;
-    let t320 = 0.5 * t115;
-    rod_partial_velocity[3][0][4] = 0.5 * t306 - t320;
-    let t321 = 0.5 * t112;
-    rod_partial_velocity[3][0][5] = t321 + 0.5 * t307;
-    rod_partial_velocity[3][1][0] = -0.5 * t308;
-    rod_partial_velocity[3][1][1] = 0.5 - 0.5 * t309;
-    rod_partial_velocity[3][1][2] = -0.5 * t310;
-    rod_partial_velocity[3][1][3] = t320 + 0.5 * t311;
-    rod_partial_velocity[3][1][4] = 0.5 * t312;
-    let t322 = 0.5 * t109;
-    rod_partial_velocity[3][1][5] = 0.5 * t313 - t322;
-    rod_partial_velocity[3][2][0] = -0.5 * t314;
-    rod_partial_velocity[3][2][1] = -0.5 * t315;
-    rod_partial_velocity[3][2][2] = 0.5 - 0.5 * t316;
-    rod_partial_velocity[3][2][3] = 0.5 * t317 - t321;
-    rod_partial_velocity[3][2][4] = t322 + 0.5 * t318;
-    rod_partial_velocity[3][2][5] = 0.5 * t319;
+    rod_partial_velocity[3][0][0] = c(0.5) - c(0.5) * t302;
+    rod_partial_velocity[3][0][1] = c(-0.5) * t303;
+    rod_partial_velocity[3][0][2] = c(-0.5) * t304;
+    rod_partial_velocity[3][0][3] = c(0.5) * t305;
+    let t320 = c(0.5) * t115;
+    rod_partial_velocity[3][0][4] = c(0.5) * t306 - t320;
+    let t321 = c(0.5) * t112;
+    rod_partial_velocity[3][0][5] = t321 + c(0.5) * t307;
+    rod_partial_velocity[3][1][0] = c(-0.5) * t308;
+    rod_partial_velocity[3][1][1] = c(0.5) - c(0.5) * t309;
+    rod_partial_velocity[3][1][2] = c(-0.5) * t310;
+    rod_partial_velocity[3][1][3] = t320 + c(0.5) * t311;
+    rod_partial_velocity[3][1][4] = c(0.5) * t312;
+    let t322 = c(0.5) * t109;
+    rod_partial_velocity[3][1][5] = c(0.5) * t313 - t322;
+    rod_partial_velocity[3][2][0] = c(-0.5) * t314;
+    rod_partial_velocity[3][2][1] = c(-0.5) * t315;
+    rod_partial_velocity[3][2][2] = c(0.5) - c(0.5) * t316;
+    rod_partial_velocity[3][2][3] = c(0.5) * t317 - t321;
+    rod_partial_velocity[3][2][4] = t322 + c(0.5) * t318;
+    rod_partial_velocity[3][2][5] = c(0.5) * t319;
     mover_partial_velocity[3][0][0] = -t302;
     mover_partial_velocity[3][0][1] = -t303;
     mover_partial_velocity[3][0][2] = -t304;
@@ -3233,50 +3785,50 @@ pub fn partial_velocities(
     mover_partial_velocity[3][2][1] = -t315;
     mover_partial_velocity[3][2][2] = -t316;
     // leg 4: partial angular velocities of the rod
-    rod_partial_angular_velocity[3][0][0] = -4.8543689320388355
+    rod_partial_angular_velocity[3][0][0] = c(-4.8543689320388355)
         * (t193 * t308 - t191 * t314);
-    let t323 = 1.0 + t309;
-    rod_partial_angular_velocity[3][0][1] = 4.8543689320388355
+    let t323 = c(1.0) + t309;
+    rod_partial_angular_velocity[3][0][1] = c(4.8543689320388355)
         * (t191 * t315 - t193 * t323);
-    let t324 = 1.0 + t316;
-    rod_partial_angular_velocity[3][0][2] = 4.8543689320388355
+    let t324 = c(1.0) + t316;
+    rod_partial_angular_velocity[3][0][2] = c(4.8543689320388355)
         * (t191 * t324 - t193 * t310);
     let t325 = t112 + t317;
     let t326 = t115 - t311;
-    rod_partial_angular_velocity[3][0][3] = -4.8543689320388355
+    rod_partial_angular_velocity[3][0][3] = c(-4.8543689320388355)
         * (t191 * t325 + t193 * t326);
     let t327 = t109 - t318;
-    rod_partial_angular_velocity[3][0][4] = 4.8543689320388355
+    rod_partial_angular_velocity[3][0][4] = c(4.8543689320388355)
         * (t193 * t312 + t191 * t327);
     let t328 = t109 + t313;
-    rod_partial_angular_velocity[3][0][5] = -4.8543689320388355
+    rod_partial_angular_velocity[3][0][5] = c(-4.8543689320388355)
         * (t191 * t319 - t193 * t328);
-    let t329 = 1.0 + t302;
-    rod_partial_angular_velocity[3][1][0] = 4.8543689320388355
+    let t329 = c(1.0) + t302;
+    rod_partial_angular_velocity[3][1][0] = c(4.8543689320388355)
         * (t193 * t329 - t189 * t314);
-    rod_partial_angular_velocity[3][1][1] = -4.8543689320388355
+    rod_partial_angular_velocity[3][1][1] = c(-4.8543689320388355)
         * (t189 * t315 - t193 * t303);
-    rod_partial_angular_velocity[3][1][2] = 4.8543689320388355
+    rod_partial_angular_velocity[3][1][2] = c(4.8543689320388355)
         * (t193 * t304 - t189 * t324);
-    rod_partial_angular_velocity[3][1][3] = -4.8543689320388355
+    rod_partial_angular_velocity[3][1][3] = c(-4.8543689320388355)
         * (t193 * t305 - t189 * t325);
     let t330 = t115 + t306;
-    rod_partial_angular_velocity[3][1][4] = -4.8543689320388355
+    rod_partial_angular_velocity[3][1][4] = c(-4.8543689320388355)
         * (t193 * t330 + t189 * t327);
     let t331 = t112 - t307;
-    rod_partial_angular_velocity[3][1][5] = 4.8543689320388355
+    rod_partial_angular_velocity[3][1][5] = c(4.8543689320388355)
         * (t189 * t319 + t193 * t331);
-    rod_partial_angular_velocity[3][2][0] = 4.8543689320388355
+    rod_partial_angular_velocity[3][2][0] = c(4.8543689320388355)
         * (t189 * t308 - t191 * t329);
-    rod_partial_angular_velocity[3][2][1] = 4.8543689320388355
+    rod_partial_angular_velocity[3][2][1] = c(4.8543689320388355)
         * (t189 * t323 - t191 * t303);
-    rod_partial_angular_velocity[3][2][2] = -4.8543689320388355
+    rod_partial_angular_velocity[3][2][2] = c(-4.8543689320388355)
         * (t191 * t304 - t189 * t310);
-    rod_partial_angular_velocity[3][2][3] = 4.8543689320388355
+    rod_partial_angular_velocity[3][2][3] = c(4.8543689320388355)
         * (t191 * t305 + t189 * t326);
-    rod_partial_angular_velocity[3][2][4] = -4.8543689320388355
+    rod_partial_angular_velocity[3][2][4] = c(-4.8543689320388355)
         * (t189 * t312 - t191 * t330);
-    rod_partial_angular_velocity[3][2][5] = -4.8543689320388355
+    rod_partial_angular_velocity[3][2][5] = c(-4.8543689320388355)
         * (t189 * t328 + t191 * t331);
     // leg 5: partial velocities of the rod's centre of mass
     let t332 = base_rotation[0][2] * t126;
@@ -3306,27 +3858,27 @@ pub fn partial_velocities(
     let t347 = base_rotation[2][2] * t152;
     let t348 = base_rotation[2][2] * t153;
     let t349 = base_rotation[2][2] * t154;
-    rod_partial_velocity[4][0][0] = 0.5 + 0.5 * t332;
-    rod_partial_velocity[4][0][1] = 0.5 * t333;
-    rod_partial_velocity[4][0][2] = 0.5 * t334;
-    rod_partial_velocity[4][0][3] = -0.5 * t335;
-    let t350 = 0.5 * t124;
-    rod_partial_velocity[4][0][4] = -0.5 * t336 - t350;
-    let t351 = 0.5 * t123;
-    rod_partial_velocity[4][0][5] = t351 - 0.5 * t337;
-    rod_partial_velocity[4][1][0] = 0.5 * t338;
-    rod_partial_velocity[4][1][1] = 0.5 + 0.5 * t339;
-    rod_partial_velocity[4][1][2] = 0.5 * t340;
-    rod_partial_velocity[4][1][3] = t350 - 0.5 * t341;
-    rod_partial_velocity[4][1][4] = -0.5 * t342;
-    let t352 = 0.5 * t122;
-    rod_partial_velocity[4][1][5] = -0.5 * t343 - t352;
-    rod_partial_velocity[4][2][0] = 0.5 * t344;
-    rod_partial_velocity[4][2][1] = 0.5 * t345;
-    rod_partial_velocity[4][2][2] = 0.5 + 0.5 * t346;
-    rod_partial_velocity[4][2][3] = -0.5 * t347 - t351;
-    rod_partial_velocity[4][2][4] = t352 - 0.5 * t348;
-    rod_partial_velocity[4][2][5] = -0.5 * t349;
+    rod_partial_velocity[4][0][0] = c(0.5) + c(0.5) * t332;
+    rod_partial_velocity[4][0][1] = c(0.5) * t333;
+    rod_partial_velocity[4][0][2] = c(0.5) * t334;
+    rod_partial_velocity[4][0][3] = c(-0.5) * t335;
+    let t350 = c(0.5) * t124;
+    rod_partial_velocity[4][0][4] = c(-0.5) * t336 - t350;
+    let t351 = c(0.5) * t123;
+    rod_partial_velocity[4][0][5] = t351 - c(0.5) * t337;
+    rod_partial_velocity[4][1][0] = c(0.5) * t338;
+    rod_partial_velocity[4][1][1] = c(0.5) + c(0.5) * t339;
+    rod_partial_velocity[4][1][2] = c(0.5) * t340;
+    rod_partial_velocity[4][1][3] = t350 - c(0.5) * t341;
+    rod_partial_velocity[4][1][4] = c(-0.5) * t342;
+    let t352 = c(0.5) * t122;
+    rod_partial_velocity[4][1][5] = c(-0.5) * t343 - t352;
+    rod_partial_velocity[4][2][0] = c(0.5) * t344;
+    rod_partial_velocity[4][2][1] = c(0.5) * t345;
+    rod_partial_velocity[4][2][2] = c(0.5) + c(0.5) * t346;
+    rod_partial_velocity[4][2][3] = c(-0.5) * t347 - t351;
+    rod_partial_velocity[4][2][4] = t352 - c(0.5) * t348;
+    rod_partial_velocity[4][2][5] = c(-0.5) * t349;
     mover_partial_velocity[4][0][3] = -t335;
     mover_partial_velocity[4][0][4] = -t336;
     mover_partial_velocity[4][0][5] = -t337;
@@ -3337,50 +3889,50 @@ pub fn partial_velocities(
     mover_partial_velocity[4][2][4] = -t348;
     mover_partial_velocity[4][2][5] = -t349;
     // leg 5: partial angular velocities of the rod
-    rod_partial_angular_velocity[4][0][0] = 4.8543689320388355
+    rod_partial_angular_velocity[4][0][0] = c(4.8543689320388355)
         * (t202 * t338 - t200 * t344);
-    let t353 = 1.0 - t339;
-    rod_partial_angular_velocity[4][0][1] = -4.8543689320388355
+    let t353 = c(1.0) - t339;
+    rod_partial_angular_velocity[4][0][1] = c(-4.8543689320388355)
         * (t200 * t345 + t202 * t353);
-    let t354 = 1.0 - t346;
-    rod_partial_angular_velocity[4][0][2] = 4.8543689320388355
+    let t354 = c(1.0) - t346;
+    rod_partial_angular_velocity[4][0][2] = c(4.8543689320388355)
         * (t200 * t354 + t202 * t340);
     let t355 = t123 - t347;
     let t356 = t124 + t341;
-    rod_partial_angular_velocity[4][0][3] = -4.8543689320388355
+    rod_partial_angular_velocity[4][0][3] = c(-4.8543689320388355)
         * (t200 * t355 + t202 * t356);
     let t357 = t122 + t348;
-    rod_partial_angular_velocity[4][0][4] = -4.8543689320388355
+    rod_partial_angular_velocity[4][0][4] = c(-4.8543689320388355)
         * (t202 * t342 - t200 * t357);
     let t358 = t122 - t343;
-    rod_partial_angular_velocity[4][0][5] = 4.8543689320388355
+    rod_partial_angular_velocity[4][0][5] = c(4.8543689320388355)
         * (t200 * t349 + t202 * t358);
-    let t359 = 1.0 - t332;
-    rod_partial_angular_velocity[4][1][0] = 4.8543689320388355
+    let t359 = c(1.0) - t332;
+    rod_partial_angular_velocity[4][1][0] = c(4.8543689320388355)
         * (t202 * t359 + t198 * t344);
-    rod_partial_angular_velocity[4][1][1] = 4.8543689320388355
+    rod_partial_angular_velocity[4][1][1] = c(4.8543689320388355)
         * (t198 * t345 - t202 * t333);
-    rod_partial_angular_velocity[4][1][2] = -4.8543689320388355
+    rod_partial_angular_velocity[4][1][2] = c(-4.8543689320388355)
         * (t202 * t334 + t198 * t354);
-    rod_partial_angular_velocity[4][1][3] = 4.8543689320388355
+    rod_partial_angular_velocity[4][1][3] = c(4.8543689320388355)
         * (t202 * t335 + t198 * t355);
     let t360 = t124 - t336;
-    rod_partial_angular_velocity[4][1][4] = -4.8543689320388355
+    rod_partial_angular_velocity[4][1][4] = c(-4.8543689320388355)
         * (t202 * t360 + t198 * t357);
     let t361 = t123 + t337;
-    rod_partial_angular_velocity[4][1][5] = -4.8543689320388355
+    rod_partial_angular_velocity[4][1][5] = c(-4.8543689320388355)
         * (t198 * t349 - t202 * t361);
-    rod_partial_angular_velocity[4][2][0] = -4.8543689320388355
+    rod_partial_angular_velocity[4][2][0] = c(-4.8543689320388355)
         * (t198 * t338 + t200 * t359);
-    rod_partial_angular_velocity[4][2][1] = 4.8543689320388355
+    rod_partial_angular_velocity[4][2][1] = c(4.8543689320388355)
         * (t198 * t353 + t200 * t333);
-    rod_partial_angular_velocity[4][2][2] = 4.8543689320388355
+    rod_partial_angular_velocity[4][2][2] = c(4.8543689320388355)
         * (t200 * t334 - t198 * t340);
-    rod_partial_angular_velocity[4][2][3] = -4.8543689320388355
+    rod_partial_angular_velocity[4][2][3] = c(-4.8543689320388355)
         * (t200 * t335 - t198 * t356);
-    rod_partial_angular_velocity[4][2][4] = 4.8543689320388355
+    rod_partial_angular_velocity[4][2][4] = c(4.8543689320388355)
         * (t198 * t342 + t200 * t360);
-    rod_partial_angular_velocity[4][2][5] = -4.8543689320388355
+    rod_partial_angular_velocity[4][2][5] = c(-4.8543689320388355)
         * (t198 * t358 + t200 * t361);
     // leg 6: partial velocities of the rod's centre of mass
     let t362 = base_rotation[0][2] * t135;
@@ -3410,27 +3962,27 @@ pub fn partial_velocities(
     let t377 = base_rotation[2][2] * t155;
     let t378 = base_rotation[2][2] * t156;
     let t379 = base_rotation[2][2] * t157;
-    rod_partial_velocity[5][0][0] = 0.5 + 0.5 * t362;
-    rod_partial_velocity[5][0][1] = 0.5 * t363;
-    rod_partial_velocity[5][0][2] = 0.5 * t364;
-    rod_partial_velocity[5][0][3] = -0.5 * t365;
-    let t380 = 0.5 * t133;
-    rod_partial_velocity[5][0][4] = -0.5 * t366 - t380;
-    let t381 = 0.5 * t132;
-    rod_partial_velocity[5][0][5] = t381 - 0.5 * t367;
-    rod_partial_velocity[5][1][0] = 0.5 * t368;
-    rod_partial_velocity[5][1][1] = 0.5 + 0.5 * t369;
-    rod_partial_velocity[5][1][2] = 0.5 * t370;
-    rod_partial_velocity[5][1][3] = t380 - 0.5 * t371;
-    rod_partial_velocity[5][1][4] = -0.5 * t372;
-    let t382 = 0.5 * t131;
-    rod_partial_velocity[5][1][5] = -0.5 * t373 - t382;
-    rod_partial_velocity[5][2][0] = 0.5 * t374;
-    rod_partial_velocity[5][2][1] = 0.5 * t375;
-    rod_partial_velocity[5][2][2] = 0.5 + 0.5 * t376;
-    rod_partial_velocity[5][2][3] = -0.5 * t377 - t381;
-    rod_partial_velocity[5][2][4] = t382 - 0.5 * t378;
-    rod_partial_velocity[5][2][5] = -0.5 * t379;
+    rod_partial_velocity[5][0][0] = c(0.5) + c(0.5) * t362;
+    rod_partial_velocity[5][0][1] = c(0.5) * t363;
+    rod_partial_velocity[5][0][2] = c(0.5) * t364;
+    rod_partial_velocity[5][0][3] = c(-0.5) * t365;
+    let t380 = c(0.5) * t133;
+    rod_partial_velocity[5][0][4] = c(-0.5) * t366 - t380;
+    let t381 = c(0.5) * t132;
+    rod_partial_velocity[5][0][5] = t381 - c(0.5) * t367;
+    rod_partial_velocity[5][1][0] = c(0.5) * t368;
+    rod_partial_velocity[5][1][1] = c(0.5) + c(0.5) * t369;
+    rod_partial_velocity[5][1][2] = c(0.5) * t370;
+    rod_partial_velocity[5][1][3] = t380 - c(0.5) * t371;
+    rod_partial_velocity[5][1][4] = c(-0.5) * t372;
+    let t382 = c(0.5) * t131;
+    rod_partial_velocity[5][1][5] = c(-0.5) * t373 - t382;
+    rod_partial_velocity[5][2][0] = c(0.5) * t374;
+    rod_partial_velocity[5][2][1] = c(0.5) * t375;
+    rod_partial_velocity[5][2][2] = c(0.5) + c(0.5) * t376;
+    rod_partial_velocity[5][2][3] = c(-0.5) * t377 - t381;
+    rod_partial_velocity[5][2][4] = t382 - c(0.5) * t378;
+    rod_partial_velocity[5][2][5] = c(-0.5) * t379;
     mover_partial_velocity[5][0][3] = -t365;
     mover_partial_velocity[5][0][4] = -t366;
     mover_partial_velocity[5][0][5] = -t367;
@@ -3441,92 +3993,92 @@ pub fn partial_velocities(
     mover_partial_velocity[5][2][4] = -t378;
     mover_partial_velocity[5][2][5] = -t379;
     // leg 6: partial angular velocities of the rod
-    rod_partial_angular_velocity[5][0][0] = 4.8543689320388355
+    rod_partial_angular_velocity[5][0][0] = c(4.8543689320388355)
         * (t211 * t368 - t209 * t374);
-    let t383 = 1.0 - t369;
-    rod_partial_angular_velocity[5][0][1] = -4.8543689320388355
+    let t383 = c(1.0) - t369;
+    rod_partial_angular_velocity[5][0][1] = c(-4.8543689320388355)
         * (t209 * t375 + t211 * t383);
-    let t384 = 1.0 - t376;
-    rod_partial_angular_velocity[5][0][2] = 4.8543689320388355
+    let t384 = c(1.0) - t376;
+    rod_partial_angular_velocity[5][0][2] = c(4.8543689320388355)
         * (t209 * t384 + t211 * t370);
     let t385 = t132 - t377;
     let t386 = t133 + t371;
-    rod_partial_angular_velocity[5][0][3] = -4.8543689320388355
+    rod_partial_angular_velocity[5][0][3] = c(-4.8543689320388355)
         * (t209 * t385 + t211 * t386);
     let t387 = t131 + t378;
-    rod_partial_angular_velocity[5][0][4] = -4.8543689320388355
+    rod_partial_angular_velocity[5][0][4] = c(-4.8543689320388355)
         * (t211 * t372 - t209 * t387);
     let t388 = t131 - t373;
-    rod_partial_angular_velocity[5][0][5] = 4.8543689320388355
+    rod_partial_angular_velocity[5][0][5] = c(4.8543689320388355)
         * (t209 * t379 + t211 * t388);
-    let t389 = 1.0 - t362;
-    rod_partial_angular_velocity[5][1][0] = 4.8543689320388355
+    let t389 = c(1.0) - t362;
+    rod_partial_angular_velocity[5][1][0] = c(4.8543689320388355)
         * (t211 * t389 + t207 * t374);
-    rod_partial_angular_velocity[5][1][1] = 4.8543689320388355
+    rod_partial_angular_velocity[5][1][1] = c(4.8543689320388355)
         * (t207 * t375 - t211 * t363);
-    rod_partial_angular_velocity[5][1][2] = -4.8543689320388355
+    rod_partial_angular_velocity[5][1][2] = c(-4.8543689320388355)
         * (t211 * t364 + t207 * t384);
-    rod_partial_angular_velocity[5][1][3] = 4.8543689320388355
+    rod_partial_angular_velocity[5][1][3] = c(4.8543689320388355)
         * (t211 * t365 + t207 * t385);
     let t390 = t133 - t366;
-    rod_partial_angular_velocity[5][1][4] = -4.8543689320388355
+    rod_partial_angular_velocity[5][1][4] = c(-4.8543689320388355)
         * (t211 * t390 + t207 * t387);
     let t391 = t132 + t367;
-    rod_partial_angular_velocity[5][1][5] = -4.8543689320388355
+    rod_partial_angular_velocity[5][1][5] = c(-4.8543689320388355)
         * (t207 * t379 - t211 * t391);
-    rod_partial_angular_velocity[5][2][0] = -4.8543689320388355
+    rod_partial_angular_velocity[5][2][0] = c(-4.8543689320388355)
         * (t207 * t368 + t209 * t389);
-    rod_partial_angular_velocity[5][2][1] = 4.8543689320388355
+    rod_partial_angular_velocity[5][2][1] = c(4.8543689320388355)
         * (t207 * t383 + t209 * t363);
-    rod_partial_angular_velocity[5][2][2] = 4.8543689320388355
+    rod_partial_angular_velocity[5][2][2] = c(4.8543689320388355)
         * (t209 * t364 - t207 * t370);
-    rod_partial_angular_velocity[5][2][3] = -4.8543689320388355
+    rod_partial_angular_velocity[5][2][3] = c(-4.8543689320388355)
         * (t209 * t365 - t207 * t386);
-    rod_partial_angular_velocity[5][2][4] = 4.8543689320388355
+    rod_partial_angular_velocity[5][2][4] = c(4.8543689320388355)
         * (t207 * t372 + t209 * t390);
-    rod_partial_angular_velocity[5][2][5] = -4.8543689320388355
+    rod_partial_angular_velocity[5][2][5] = c(-4.8543689320388355)
         * (t207 * t388 + t209 * t391);
     // partial velocities of the payload's centre of mass
-    let t392 = platform_rotation[2][2] * 0.031;
+    let t392 = platform_rotation[2][2] * c(0.031);
     payload_partial_velocity[0][4] = t392;
-    let t393 = platform_rotation[1][2] * 0.031;
+    let t393 = platform_rotation[1][2] * c(0.031);
     payload_partial_velocity[2][3] = t393;
     payload_partial_velocity[0][5] = -t393;
     payload_partial_velocity[1][3] = -t392;
-    let t394 = platform_rotation[0][2] * 0.031;
+    let t394 = platform_rotation[0][2] * c(0.031);
     payload_partial_velocity[1][5] = t394;
     payload_partial_velocity[2][4] = -t394;
     // constant and copied elements
-    payload_partial_velocity[0][0] = 1.0;
-    payload_partial_velocity[0][1] = 0.0;
-    payload_partial_velocity[0][2] = 0.0;
-    payload_partial_velocity[0][3] = 0.0;
-    payload_partial_velocity[1][0] = 0.0;
-    payload_partial_velocity[1][1] = 1.0;
-    payload_partial_velocity[1][2] = 0.0;
-    payload_partial_velocity[1][4] = 0.0;
-    payload_partial_velocity[2][0] = 0.0;
-    payload_partial_velocity[2][1] = 0.0;
-    payload_partial_velocity[2][2] = 1.0;
-    payload_partial_velocity[2][5] = 0.0;
-    payload_partial_angular_velocity[0][0] = 0.0;
-    payload_partial_angular_velocity[0][1] = 0.0;
-    payload_partial_angular_velocity[0][2] = 0.0;
-    payload_partial_angular_velocity[0][3] = 1.0;
-    payload_partial_angular_velocity[0][4] = 0.0;
-    payload_partial_angular_velocity[0][5] = 0.0;
-    payload_partial_angular_velocity[1][0] = 0.0;
-    payload_partial_angular_velocity[1][1] = 0.0;
-    payload_partial_angular_velocity[1][2] = 0.0;
-    payload_partial_angular_velocity[1][3] = 0.0;
-    payload_partial_angular_velocity[1][4] = 1.0;
-    payload_partial_angular_velocity[1][5] = 0.0;
-    payload_partial_angular_velocity[2][0] = 0.0;
-    payload_partial_angular_velocity[2][1] = 0.0;
-    payload_partial_angular_velocity[2][2] = 0.0;
-    payload_partial_angular_velocity[2][3] = 0.0;
-    payload_partial_angular_velocity[2][4] = 0.0;
-    payload_partial_angular_velocity[2][5] = 1.0;
+    payload_partial_velocity[0][0] = c(1.0);
+    payload_partial_velocity[0][1] = c(0.0);
+    payload_partial_velocity[0][2] = c(0.0);
+    payload_partial_velocity[0][3] = c(0.0);
+    payload_partial_velocity[1][0] = c(0.0);
+    payload_partial_velocity[1][1] = c(1.0);
+    payload_partial_velocity[1][2] = c(0.0);
+    payload_partial_velocity[1][4] = c(0.0);
+    payload_partial_velocity[2][0] = c(0.0);
+    payload_partial_velocity[2][1] = c(0.0);
+    payload_partial_velocity[2][2] = c(1.0);
+    payload_partial_velocity[2][5] = c(0.0);
+    payload_partial_angular_velocity[0][0] = c(0.0);
+    payload_partial_angular_velocity[0][1] = c(0.0);
+    payload_partial_angular_velocity[0][2] = c(0.0);
+    payload_partial_angular_velocity[0][3] = c(1.0);
+    payload_partial_angular_velocity[0][4] = c(0.0);
+    payload_partial_angular_velocity[0][5] = c(0.0);
+    payload_partial_angular_velocity[1][0] = c(0.0);
+    payload_partial_angular_velocity[1][1] = c(0.0);
+    payload_partial_angular_velocity[1][2] = c(0.0);
+    payload_partial_angular_velocity[1][3] = c(0.0);
+    payload_partial_angular_velocity[1][4] = c(1.0);
+    payload_partial_angular_velocity[1][5] = c(0.0);
+    payload_partial_angular_velocity[2][0] = c(0.0);
+    payload_partial_angular_velocity[2][1] = c(0.0);
+    payload_partial_angular_velocity[2][2] = c(0.0);
+    payload_partial_angular_velocity[2][3] = c(0.0);
+    payload_partial_angular_velocity[2][4] = c(0.0);
+    payload_partial_angular_velocity[2][5] = c(1.0);
 }
 
 /// Generalised active and inertia force of every body, equation (39)-(46).
@@ -3553,24 +4105,25 @@ pub fn partial_velocities(
 /// - `mover_active_force`: 6x6, N, N m, frame O: generalised active force of the mover: gravity, actuator, spring, damper, equation (39)-(46).
 /// - `mover_inertia_force`: 6x6, N, N m, frame O: generalised inertia force of the mover, equation (39)-(46).
 #[allow(clippy::all, clippy::pedantic, unused_variables)]
-pub fn generalised_forces(
-    base_position: &[f64; 3],
-    base_rotation: &[[f64; 3]; 3],
-    base_velocity: &[f64; 6],
-    base_acceleration: &[f64; 6],
-    platform_position: &[f64; 3],
-    platform_rotation: &[[f64; 3]; 3],
-    platform_velocity: &[f64; 6],
-    platform_acceleration: &[f64; 6],
-    actuator_force: &[f64; 6],
-    external_wrench: &[f64; 6],
-    payload_active_force: &mut [f64; 6],
-    payload_inertia_force: &mut [f64; 6],
-    rod_active_force: &mut [[f64; 6]; 6],
-    rod_inertia_force: &mut [[f64; 6]; 6],
-    mover_active_force: &mut [[f64; 6]; 6],
-    mover_inertia_force: &mut [[f64; 6]; 6],
+pub fn generalised_forces<T: Scalar>(
+    base_position: &[T; 3],
+    base_rotation: &[[T; 3]; 3],
+    base_velocity: &[T; 6],
+    base_acceleration: &[T; 6],
+    platform_position: &[T; 3],
+    platform_rotation: &[[T; 3]; 3],
+    platform_velocity: &[T; 6],
+    platform_acceleration: &[T; 6],
+    actuator_force: &[T; 6],
+    external_wrench: &[T; 6],
+    payload_active_force: &mut [T; 6],
+    payload_inertia_force: &mut [T; 6],
+    rod_active_force: &mut [[T; 6]; 6],
+    rod_inertia_force: &mut [[T; 6]; 6],
+    mover_active_force: &mut [[T; 6]; 6],
+    mover_inertia_force: &mut [[T; 6]; 6],
 ) {
+    let c = T::constant;
     let (
         t75,
         t334,
@@ -3587,6 +4140,9 @@ pub fn generalised_forces(
         t423,
         t424,
         t425,
+        t596,
+        t606,
+        t615,
         t623,
         t630,
         t632,
@@ -3630,9 +4186,9 @@ pub fn generalised_forces(
         t725,
         t726,
         t774,
-        t795,
         t796,
         t797,
+        t798,
     ) = {
         // rotation of the platform seen from the base
         let t1 = base_rotation[1][0] * platform_rotation[1][0];
@@ -3664,28 +4220,28 @@ pub fn generalised_forces(
         let t26 = base_rotation[0][2] * t20 + base_rotation[1][2] * t21;
         let t27 = base_rotation[2][2] * t19 + t26;
         // leg 1: platform joint from the base point
-        let t28 = t23 + (0.1316436662914507 - 0.1159110991546882 * t3);
-        let t29 = 0.03105828541230249 * t6;
+        let t28 = t23 + (c(0.1316436662914507) - c(0.1159110991546882) * t3);
+        let t29 = c(0.03105828541230249) * t6;
         let t30 = t28 + t29;
-        let t31 = 0.12275970481124972 - 0.03105828541230249 * t12;
-        let t32 = t25 - 0.1159110991546882 * t9;
+        let t31 = c(0.12275970481124972) - c(0.03105828541230249) * t12;
+        let t32 = t25 - c(0.1159110991546882) * t9;
         let t33 = t31 - t32;
         // leg 2: platform joint from the base point
         let t34 = t28 - t29;
         let t35 = t31 + t32;
         // leg 3: platform joint from the base point
-        let t36 = t23 + (0.040491189781895726 + t3 * 0.031058285412302475);
-        let t37 = 0.1159110991546882 * t6;
+        let t36 = t23 + (c(0.040491189781895726) + t3 * c(0.031058285412302475));
+        let t37 = c(0.1159110991546882) * t6;
         let t38 = t36 - t37;
-        let t39 = 0.17538661166134234 - 0.1159110991546882 * t12;
-        let t40 = t25 + t9 * 0.031058285412302475;
+        let t39 = c(0.17538661166134234) - c(0.1159110991546882) * t12;
+        let t40 = t25 + t9 * c(0.031058285412302475);
         let t41 = t39 + t40;
         // leg 4: platform joint from the base point
-        let t42 = t23 - (0.17213485607334636 - t3 * 0.0848528137423857);
-        let t43 = 0.08485281374238571 * t6;
+        let t42 = t23 - (c(0.17213485607334636) - t3 * c(0.0848528137423857));
+        let t43 = c(0.08485281374238571) * t6;
         let t44 = t42 - t43;
-        let t45 = 0.052626906850092664 - 0.08485281374238571 * t12;
-        let t46 = t25 + t9 * 0.0848528137423857;
+        let t45 = c(0.052626906850092664) - c(0.08485281374238571) * t12;
+        let t46 = t25 + t9 * c(0.0848528137423857);
         let t47 = t45 + t46;
         // leg 5: platform joint from the base point
         let t48 = t42 + t43;
@@ -3694,45 +4250,45 @@ pub fn generalised_forces(
         let t50 = t36 + t37;
         let t51 = t39 - t40;
         // leg 1: extent of the rod along the actuator axis
-        let t52 = sqrt(0.042435999999999995 - t30 * t30 - t33 * t33);
+        let t52 = sqrt(c(0.042435999999999995) - t30 * t30 - t33 * t33);
         // leg 1: reciprocal of that extent
-        let t53 = 1.0 / t52;
+        let t53 = c(1.0) / t52;
         // leg 1: actuator length d
-        let t54 = t27 - 0.1159110991546882 * t15;
-        let t55 = 0.03105828541230249 * t18;
+        let t54 = t27 - c(0.1159110991546882) * t15;
+        let t55 = c(0.03105828541230249) * t18;
         let t56 = t54 + (t52 + t55);
         // leg 2: extent of the rod along the actuator axis
-        let t57 = sqrt(0.042435999999999995 - t34 * t34 - t35 * t35);
+        let t57 = sqrt(c(0.042435999999999995) - t34 * t34 - t35 * t35);
         // leg 2: reciprocal of that extent
-        let t58 = 1.0 / t57;
+        let t58 = c(1.0) / t57;
         // leg 2: actuator length d
         let t59 = t54 - (t55 - t57);
         // leg 3: extent of the rod along the actuator axis
-        let t60 = sqrt(0.042435999999999995 - t38 * t38 - t41 * t41);
+        let t60 = sqrt(c(0.042435999999999995) - t38 * t38 - t41 * t41);
         // leg 3: reciprocal of that extent
-        let t61 = 1.0 / t60;
+        let t61 = c(1.0) / t60;
         // leg 3: actuator length d
-        let t62 = t27 + t15 * 0.031058285412302475;
-        let t63 = 0.1159110991546882 * t18;
+        let t62 = t27 + t15 * c(0.031058285412302475);
+        let t63 = c(0.1159110991546882) * t18;
         let t64 = t62 + (t60 - t63);
         // leg 4: extent of the rod along the actuator axis
-        let t65 = sqrt(0.042435999999999995 - t44 * t44 - t47 * t47);
+        let t65 = sqrt(c(0.042435999999999995) - t44 * t44 - t47 * t47);
         // leg 4: reciprocal of that extent
-        let t66 = 1.0 / t65;
+        let t66 = c(1.0) / t65;
         // leg 4: actuator length d
-        let t67 = t27 + t15 * 0.0848528137423857;
-        let t68 = 0.08485281374238571 * t18;
+        let t67 = t27 + t15 * c(0.0848528137423857);
+        let t68 = c(0.08485281374238571) * t18;
         let t69 = t67 + (t65 - t68);
         // leg 5: extent of the rod along the actuator axis
-        let t70 = sqrt(0.042435999999999995 - t48 * t48 - t49 * t49);
+        let t70 = sqrt(c(0.042435999999999995) - t48 * t48 - t49 * t49);
         // leg 5: reciprocal of that extent
-        let t71 = 1.0 / t70;
+        let t71 = c(1.0) / t70;
         // leg 5: actuator length d
         let t72 = t67 + (t68 + t70);
         // leg 6: extent of the rod along the actuator axis
-        let t73 = sqrt(0.042435999999999995 - t50 * t50 - t51 * t51);
+        let t73 = sqrt(c(0.042435999999999995) - t50 * t50 - t51 * t51);
         // leg 6: reciprocal of that extent
-        let t74 = 1.0 / t73;
+        let t74 = c(1.0) / t73;
         // leg 6: actuator length d
         let t75 = t62 + (t63 + t73);
         // leg 1: gradient of the actuator length by the platform joint
@@ -3798,28 +4354,28 @@ pub fn generalised_forces(
         let t125 = t9 * t106 - t3 * t107;
         let t126 = t12 * t106 - t6 * t107;
         // leg 1: velocity of the platform joint relative to the base
-        let t127 = t114 - 0.1159110991546882 * t121;
-        let t128 = 0.03105828541230249 * t122;
+        let t127 = t114 - c(0.1159110991546882) * t121;
+        let t128 = c(0.03105828541230249) * t122;
         let t129 = t127 + t128;
-        let t130 = t117 - 0.1159110991546882 * t123;
-        let t131 = 0.03105828541230249 * t124;
+        let t130 = t117 - c(0.1159110991546882) * t123;
+        let t131 = c(0.03105828541230249) * t124;
         let t132 = t130 + t131;
         // leg 2: velocity of the platform joint relative to the base
         let t133 = t127 - t128;
         let t134 = t130 - t131;
         // leg 3: velocity of the platform joint relative to the base
-        let t135 = t114 + 0.031058285412302475 * t121;
-        let t136 = 0.1159110991546882 * t122;
+        let t135 = t114 + c(0.031058285412302475) * t121;
+        let t136 = c(0.1159110991546882) * t122;
         let t137 = t135 - t136;
-        let t138 = t117 + 0.031058285412302475 * t123;
-        let t139 = 0.1159110991546882 * t124;
+        let t138 = t117 + c(0.031058285412302475) * t123;
+        let t139 = c(0.1159110991546882) * t124;
         let t140 = t138 - t139;
         // leg 4: velocity of the platform joint relative to the base
-        let t141 = t114 + 0.0848528137423857 * t121;
-        let t142 = 0.08485281374238571 * t122;
+        let t141 = t114 + c(0.0848528137423857) * t121;
+        let t142 = c(0.08485281374238571) * t122;
         let t143 = t141 - t142;
-        let t144 = t117 + 0.0848528137423857 * t123;
-        let t145 = 0.08485281374238571 * t124;
+        let t144 = t117 + c(0.0848528137423857) * t123;
+        let t145 = c(0.08485281374238571) * t124;
         let t146 = t144 - t145;
         // leg 5: velocity of the platform joint relative to the base
         let t147 = t141 + t142;
@@ -3842,7 +4398,7 @@ pub fn generalised_forces(
         // acceleration of the base origin less gravity
         let t157 = base_rotation[0][0] * base_acceleration[0];
         let t158 = base_rotation[1][0] * base_acceleration[1];
-        let t159 = base_acceleration[2] + 9.81;
+        let t159 = base_acceleration[2] + c(9.81);
         let t160 = base_rotation[2][0] * t159;
         let t161 = base_rotation[0][1] * base_acceleration[0];
         let t162 = base_rotation[1][1] * base_acceleration[1];
@@ -3879,7 +4435,7 @@ pub fn generalised_forces(
         // acceleration of the platform origin less gravity
         let t191 = base_rotation[0][0] * platform_acceleration[0];
         let t192 = base_rotation[1][0] * platform_acceleration[1];
-        let t193 = platform_acceleration[2] + 9.81;
+        let t193 = platform_acceleration[2] + c(9.81);
         let t194 = base_rotation[2][0] * t193;
         let t195 = base_rotation[0][1] * platform_acceleration[0];
         let t196 = base_rotation[1][1] * platform_acceleration[1];
@@ -3899,14 +4455,14 @@ pub fn generalised_forces(
         let t209 = base_rotation[2][2] * platform_acceleration[5];
         // acceleration of the platform origin relative to the base
         let t210 = t23 * t178 - (t194 + (t192 + (t191 - (t160 + (t157 + t158)))));
-        let t211 = t27 * t182 - (t25 * t180 + t210);
-        let t212 = t211 + 2.0 * (t93 * t120 - t96 * t117);
+        let t211 = c(2.0) * (t93 * t120 - t96 * t117);
+        let t212 = t27 * t182 - (t25 * t180 + t210) + t211;
         let t213 = t23 * t183 + (t197 + (t196 + (t195 - (t163 + (t161 + t162)))));
-        let t214 = t27 * t187 + (t25 * t185 - t213);
-        let t215 = t214 - 2.0 * (t96 * t114 - t90 * t120);
+        let t214 = c(2.0) * (t96 * t114 - t90 * t120);
+        let t215 = t27 * t187 + (t25 * t185 - t213) - t214;
         let t216 = t23 * t188 - (t200 + (t199 + (t198 - (t166 + (t164 + t165)))));
-        let t217 = t27 * t190 - (t25 * t189 - t216);
-        let t218 = t217 - 2.0 * (t90 * t117 - t93 * t114);
+        let t217 = c(2.0) * (t90 * t117 - t93 * t114);
+        let t218 = t27 * t190 - (t25 * t189 - t216) - t217;
         // second derivative of the relative rotation
         let t219 = t106 * t108;
         let t220 = t90 * t108 - (t96 * t106 - (t206 + (t205 - (t172 - t204))));
@@ -3933,28 +4489,28 @@ pub fn generalised_forces(
         let t241 = t15 * t238 - (t3 * t239 + t9 * t240);
         let t242 = t18 * t238 - (t6 * t239 + t12 * t240);
         // leg 1: acceleration of the platform joint relative to the base
-        let t243 = t212 + 0.1159110991546882 * t228;
-        let t244 = 0.03105828541230249 * t229;
+        let t243 = t212 + c(0.1159110991546882) * t228;
+        let t244 = c(0.03105828541230249) * t229;
         let t245 = t243 - t244;
-        let t246 = t215 - 0.1159110991546882 * t236;
-        let t247 = 0.03105828541230249 * t237;
+        let t246 = t215 - c(0.1159110991546882) * t236;
+        let t247 = c(0.03105828541230249) * t237;
         let t248 = t246 + t247;
         // leg 2: acceleration of the platform joint relative to the base
         let t249 = t243 + t244;
         let t250 = t246 - t247;
         // leg 3: acceleration of the platform joint relative to the base
-        let t251 = t212 - 0.031058285412302475 * t228;
-        let t252 = 0.1159110991546882 * t229;
+        let t251 = t212 - c(0.031058285412302475) * t228;
+        let t252 = c(0.1159110991546882) * t229;
         let t253 = t251 + t252;
-        let t254 = t215 + 0.031058285412302475 * t236;
-        let t255 = 0.1159110991546882 * t237;
+        let t254 = t215 + c(0.031058285412302475) * t236;
+        let t255 = c(0.1159110991546882) * t237;
         let t256 = t254 - t255;
         // leg 4: acceleration of the platform joint relative to the base
-        let t257 = t212 - 0.0848528137423857 * t228;
-        let t258 = 0.08485281374238571 * t229;
+        let t257 = t212 - c(0.0848528137423857) * t228;
+        let t258 = c(0.08485281374238571) * t229;
         let t259 = t257 + t258;
-        let t260 = t215 + 0.0848528137423857 * t236;
-        let t261 = 0.08485281374238571 * t237;
+        let t260 = t215 + c(0.0848528137423857) * t236;
+        let t261 = c(0.08485281374238571) * t237;
         let t262 = t260 - t261;
         // leg 5: acceleration of the platform joint relative to the base
         let t263 = t257 - t258;
@@ -3963,21 +4519,21 @@ pub fn generalised_forces(
         let t265 = t251 - t252;
         let t266 = t254 + t255;
         // leg 1: actuator acceleration d''
-        let t267 = t218 + 0.1159110991546882 * t241;
-        let t268 = 0.03105828541230249 * t242;
+        let t267 = t218 + c(0.1159110991546882) * t241;
+        let t268 = c(0.03105828541230249) * t242;
         let t269 = t33 * t248 + (t30 * t245 - (t129 * t129 + t132 * t132));
         let t270 = t267 - (t53 * (t151 * t151 - t269) + t268);
         // leg 2: actuator acceleration d''
         let t271 = t35 * t250 - (t34 * t249 - (t133 * t133 + t134 * t134));
         let t272 = t267 + (t268 - t58 * (t152 * t152 + t271));
         // leg 3: actuator acceleration d''
-        let t273 = t218 - 0.031058285412302475 * t241;
-        let t274 = 0.1159110991546882 * t242;
+        let t273 = t218 - c(0.031058285412302475) * t241;
+        let t274 = c(0.1159110991546882) * t242;
         let t275 = t41 * t256 - (t38 * t253 - (t137 * t137 + t140 * t140));
         let t276 = t273 - (t61 * (t153 * t153 + t275) - t274);
         // leg 4: actuator acceleration d''
-        let t277 = t218 - 0.0848528137423857 * t241;
-        let t278 = 0.08485281374238571 * t242;
+        let t277 = t218 - c(0.0848528137423857) * t241;
+        let t278 = c(0.08485281374238571) * t242;
         let t279 = t47 * t262 - (t44 * t259 - (t143 * t143 + t146 * t146));
         let t280 = t277 - (t66 * (t154 * t154 + t279) - t278);
         // leg 5: actuator acceleration d''
@@ -3987,9 +4543,9 @@ pub fn generalised_forces(
         let t283 = t51 * t266 + (t50 * t265 - (t149 * t149 + t150 * t150));
         let t284 = t273 - (t274 + t74 * (t156 * t156 - t283));
         // leg 1: rod direction u, from the Hooke joint to the platform joint
-        let t285 = t52 * 4.8543689320388355;
-        let t286 = t30 * 4.8543689320388355;
-        let t287 = t33 * 4.8543689320388355;
+        let t285 = t52 * c(4.8543689320388355);
+        let t286 = t30 * c(4.8543689320388355);
+        let t287 = t33 * c(4.8543689320388355);
         let t288 = base_rotation[0][0] * t286 - base_rotation[0][1] * t287;
         let t289 = base_rotation[0][2] * t285 - t288;
         let t290 = base_rotation[1][0] * t286 - base_rotation[1][1] * t287;
@@ -3997,9 +4553,9 @@ pub fn generalised_forces(
         let t292 = base_rotation[2][0] * t286 - base_rotation[2][1] * t287;
         let t293 = base_rotation[2][2] * t285 - t292;
         // leg 2: rod direction u, from the Hooke joint to the platform joint
-        let t294 = t57 * 4.8543689320388355;
-        let t295 = t34 * 4.8543689320388355;
-        let t296 = t35 * 4.8543689320388355;
+        let t294 = t57 * c(4.8543689320388355);
+        let t295 = t34 * c(4.8543689320388355);
+        let t296 = t35 * c(4.8543689320388355);
         let t297 = base_rotation[0][0] * t295 + base_rotation[0][1] * t296;
         let t298 = base_rotation[0][2] * t294 - t297;
         let t299 = base_rotation[1][0] * t295 + base_rotation[1][1] * t296;
@@ -4007,9 +4563,9 @@ pub fn generalised_forces(
         let t301 = base_rotation[2][0] * t295 + base_rotation[2][1] * t296;
         let t302 = base_rotation[2][2] * t294 - t301;
         // leg 3: rod direction u, from the Hooke joint to the platform joint
-        let t303 = t60 * 4.8543689320388355;
-        let t304 = t38 * 4.8543689320388355;
-        let t305 = t41 * 4.8543689320388355;
+        let t303 = t60 * c(4.8543689320388355);
+        let t304 = t38 * c(4.8543689320388355);
+        let t305 = t41 * c(4.8543689320388355);
         let t306 = base_rotation[0][0] * t304 + base_rotation[0][1] * t305;
         let t307 = base_rotation[0][2] * t303 - t306;
         let t308 = base_rotation[1][0] * t304 + base_rotation[1][1] * t305;
@@ -4017,9 +4573,9 @@ pub fn generalised_forces(
         let t310 = base_rotation[2][0] * t304 + base_rotation[2][1] * t305;
         let t311 = base_rotation[2][2] * t303 - t310;
         // leg 4: rod direction u, from the Hooke joint to the platform joint
-        let t312 = t65 * 4.8543689320388355;
-        let t313 = t44 * 4.8543689320388355;
-        let t314 = t47 * 4.8543689320388355;
+        let t312 = t65 * c(4.8543689320388355);
+        let t313 = t44 * c(4.8543689320388355);
+        let t314 = t47 * c(4.8543689320388355);
         let t315 = base_rotation[0][0] * t313 + base_rotation[0][1] * t314;
         let t316 = base_rotation[0][2] * t312 - t315;
         let t317 = base_rotation[1][0] * t313 + base_rotation[1][1] * t314;
@@ -4027,9 +4583,9 @@ pub fn generalised_forces(
         let t319 = base_rotation[2][0] * t313 + base_rotation[2][1] * t314;
         let t320 = base_rotation[2][2] * t312 - t319;
         // leg 5: rod direction u, from the Hooke joint to the platform joint
-        let t321 = t70 * 4.8543689320388355;
-        let t322 = t48 * 4.8543689320388355;
-        let t323 = t49 * 4.8543689320388355;
+        let t321 = t70 * c(4.8543689320388355);
+        let t322 = t48 * c(4.8543689320388355);
+        let t323 = t49 * c(4.8543689320388355);
         let t324 = base_rotation[0][0] * t322 - base_rotation[0][1] * t323;
         let t325 = base_rotation[0][2] * t321 - t324;
         let t326 = base_rotation[1][0] * t322 - base_rotation[1][1] * t323;
@@ -4037,9 +4593,9 @@ pub fn generalised_forces(
         let t328 = base_rotation[2][0] * t322 - base_rotation[2][1] * t323;
         let t329 = base_rotation[2][2] * t321 - t328;
         // leg 6: rod direction u, from the Hooke joint to the platform joint
-        let t330 = t73 * 4.8543689320388355;
-        let t331 = t50 * 4.8543689320388355;
-        let t332 = t51 * 4.8543689320388355;
+        let t330 = t73 * c(4.8543689320388355);
+        let t331 = t50 * c(4.8543689320388355);
+        let t332 = t51 * c(4.8543689320388355);
         let t333 = base_rotation[0][0] * t331 - base_rotation[0][1] * t332;
         let t334 = base_rotation[0][2] * t330 - t333;
         let t335 = base_rotation[1][0] * t331 - base_rotation[1][1] * t332;
@@ -4047,24 +4603,24 @@ pub fn generalised_forces(
         let t337 = base_rotation[2][0] * t331 - base_rotation[2][1] * t332;
         let t338 = base_rotation[2][2] * t330 - t337;
         // leg 1: Hooke joint
-        let t339 = base_rotation[0][0] * 0.1316436662914507;
-        let t340 = base_rotation[0][1] * 0.12275970481124972;
+        let t339 = base_rotation[0][0] * c(0.1316436662914507);
+        let t340 = base_rotation[0][1] * c(0.12275970481124972);
         let t341 = t339 - t340;
-        let t342 = base_rotation[1][0] * 0.1316436662914507;
-        let t343 = base_rotation[1][1] * 0.12275970481124972;
+        let t342 = base_rotation[1][0] * c(0.1316436662914507);
+        let t343 = base_rotation[1][1] * c(0.12275970481124972);
         let t344 = t342 - t343;
-        let t345 = base_rotation[2][0] * 0.1316436662914507;
-        let t346 = base_rotation[2][1] * 0.12275970481124972;
+        let t345 = base_rotation[2][0] * c(0.1316436662914507);
+        let t346 = base_rotation[2][1] * c(0.12275970481124972);
         let t347 = t345 - t346;
         // leg 1: platform joint
-        let t348 = platform_rotation[0][0] * 0.1159110991546882;
-        let t349 = platform_rotation[0][1] * 0.03105828541230249;
+        let t348 = platform_rotation[0][0] * c(0.1159110991546882);
+        let t349 = platform_rotation[0][1] * c(0.03105828541230249);
         let t350 = t348 - t349;
-        let t351 = platform_rotation[1][0] * 0.1159110991546882;
-        let t352 = platform_rotation[1][1] * 0.03105828541230249;
+        let t351 = platform_rotation[1][0] * c(0.1159110991546882);
+        let t352 = platform_rotation[1][1] * c(0.03105828541230249);
         let t353 = t351 - t352;
-        let t354 = platform_rotation[2][0] * 0.1159110991546882;
-        let t355 = platform_rotation[2][1] * 0.03105828541230249;
+        let t354 = platform_rotation[2][0] * c(0.1159110991546882);
+        let t355 = platform_rotation[2][1] * c(0.03105828541230249);
         let t356 = t354 - t355;
         // leg 1: velocity of the platform joint
         let t357 = platform_velocity[4] * t356 - platform_velocity[5] * t353;
@@ -4083,48 +4639,48 @@ pub fn generalised_forces(
         let t367 = platform_velocity[5] * t363 - platform_velocity[3] * t365;
         let t368 = platform_velocity[3] * t364 - platform_velocity[4] * t363;
         // leg 3: Hooke joint
-        let t369 = base_rotation[0][0] * 0.040491189781895726;
-        let t370 = base_rotation[0][1] * 0.17538661166134234;
+        let t369 = base_rotation[0][0] * c(0.040491189781895726);
+        let t370 = base_rotation[0][1] * c(0.17538661166134234);
         let t371 = t369 + t370;
-        let t372 = base_rotation[1][0] * 0.040491189781895726;
-        let t373 = base_rotation[1][1] * 0.17538661166134234;
+        let t372 = base_rotation[1][0] * c(0.040491189781895726);
+        let t373 = base_rotation[1][1] * c(0.17538661166134234);
         let t374 = t372 + t373;
-        let t375 = base_rotation[2][0] * 0.040491189781895726;
-        let t376 = base_rotation[2][1] * 0.17538661166134234;
+        let t375 = base_rotation[2][0] * c(0.040491189781895726);
+        let t376 = base_rotation[2][1] * c(0.17538661166134234);
         let t377 = t375 + t376;
         // leg 3: platform joint
-        let t378 = platform_rotation[0][0] * 0.031058285412302475;
-        let t379 = platform_rotation[0][1] * 0.1159110991546882;
+        let t378 = platform_rotation[0][0] * c(0.031058285412302475);
+        let t379 = platform_rotation[0][1] * c(0.1159110991546882);
         let t380 = t378 - t379;
-        let t381 = platform_rotation[1][0] * 0.031058285412302475;
-        let t382 = platform_rotation[1][1] * 0.1159110991546882;
+        let t381 = platform_rotation[1][0] * c(0.031058285412302475);
+        let t382 = platform_rotation[1][1] * c(0.1159110991546882);
         let t383 = t381 - t382;
-        let t384 = platform_rotation[2][0] * 0.031058285412302475;
-        let t385 = platform_rotation[2][1] * 0.1159110991546882;
+        let t384 = platform_rotation[2][0] * c(0.031058285412302475);
+        let t385 = platform_rotation[2][1] * c(0.1159110991546882);
         let t386 = t384 - t385;
         // leg 3: velocity of the platform joint
         let t387 = platform_velocity[4] * t386 - platform_velocity[5] * t383;
         let t388 = platform_velocity[5] * t380 - platform_velocity[3] * t386;
         let t389 = platform_velocity[3] * t383 - platform_velocity[4] * t380;
         // leg 4: Hooke joint
-        let t390 = base_rotation[0][0] * 0.17213485607334636;
-        let t391 = base_rotation[0][1] * 0.052626906850092664;
+        let t390 = base_rotation[0][0] * c(0.17213485607334636);
+        let t391 = base_rotation[0][1] * c(0.052626906850092664);
         let t392 = t390 - t391;
-        let t393 = base_rotation[1][0] * 0.17213485607334636;
-        let t394 = base_rotation[1][1] * 0.052626906850092664;
+        let t393 = base_rotation[1][0] * c(0.17213485607334636);
+        let t394 = base_rotation[1][1] * c(0.052626906850092664);
         let t395 = t393 - t394;
-        let t396 = base_rotation[2][0] * 0.17213485607334636;
-        let t397 = base_rotation[2][1] * 0.052626906850092664;
+        let t396 = base_rotation[2][0] * c(0.17213485607334636);
+        let t397 = base_rotation[2][1] * c(0.052626906850092664);
         let t398 = t396 - t397;
         // leg 4: platform joint
-        let t399 = platform_rotation[0][0] * 0.0848528137423857;
-        let t400 = platform_rotation[0][1] * 0.08485281374238571;
+        let t399 = platform_rotation[0][0] * c(0.0848528137423857);
+        let t400 = platform_rotation[0][1] * c(0.08485281374238571);
         let t401 = t399 - t400;
-        let t402 = platform_rotation[1][0] * 0.0848528137423857;
-        let t403 = platform_rotation[1][1] * 0.08485281374238571;
+        let t402 = platform_rotation[1][0] * c(0.0848528137423857);
+        let t403 = platform_rotation[1][1] * c(0.08485281374238571);
         let t404 = t402 - t403;
-        let t405 = platform_rotation[2][0] * 0.0848528137423857;
-        let t406 = platform_rotation[2][1] * 0.08485281374238571;
+        let t405 = platform_rotation[2][0] * c(0.0848528137423857);
+        let t406 = platform_rotation[2][1] * c(0.08485281374238571);
         let t407 = t405 - t406;
         // leg 4: velocity of the platform joint
         let t408 = platform_velocity[4] * t407 - platform_velocity[5] * t404;
@@ -4165,12 +4721,12 @@ pub fn generalised_forces(
         let t436 = base_rotation[0][2] * base_acceleration[4];
         let t437 = base_rotation[1][2] * base_acceleration[3] - t436;
         let t438 = base_velocity[4] * t435 - (base_velocity[3] * t433 + t437);
-        let t439 = t120 * 2.0;
-        let t440 = t439 - t125 * 0.2318221983093764;
-        let t441 = t126 * 0.06211657082460498;
+        let t439 = t120 * c(2.0);
+        let t440 = t439 - t125 * c(0.2318221983093764);
+        let t441 = t126 * c(0.06211657082460498);
         let t442 = base_rotation[0][2] * base_velocity[4];
         let t443 = base_rotation[1][2] * base_velocity[3] - t442;
-        let t444 = t440 + (t441 - t151 * 2.0);
+        let t444 = t440 + (t441 - t151 * c(2.0));
         let t445 = base_velocity[4] * t347 - base_velocity[5] * t344;
         let t446 = base_velocity[5] * t341 - base_velocity[3] * t347;
         let t447 = base_acceleration[2] + base_acceleration[3] * t344;
@@ -4211,7 +4767,7 @@ pub fn generalised_forces(
         let t481 = platform_acceleration[2] + platform_acceleration[3] * t364;
         let t482 = platform_acceleration[4] * t363 - t481;
         let t483 = platform_velocity[4] * t366 - (platform_velocity[3] * t367 - t482);
-        let t484 = t440 - (t441 + t152 * 2.0);
+        let t484 = t440 - (t441 + t152 * c(2.0));
         let t485 = base_velocity[4] * t362 - base_velocity[5] * t361;
         let t486 = base_velocity[5] * t360 - base_velocity[3] * t362;
         let t487 = base_acceleration[2] + base_acceleration[3] * t361;
@@ -4246,9 +4802,9 @@ pub fn generalised_forces(
         let t515 = platform_acceleration[2] - platform_acceleration[3] * t383;
         let t516 = platform_acceleration[4] * t380 + t515;
         let t517 = platform_velocity[4] * t387 - (platform_velocity[3] * t388 - t516);
-        let t518 = t439 + t125 * 0.06211657082460495;
-        let t519 = t126 * 0.2318221983093764;
-        let t520 = t518 - (t519 + t153 * 2.0);
+        let t518 = t439 + t125 * c(0.06211657082460495);
+        let t519 = t126 * c(0.2318221983093764);
+        let t520 = t518 - (t519 + t153 * c(2.0));
         let t521 = base_velocity[4] * t377 - base_velocity[5] * t374;
         let t522 = base_velocity[5] * t371 - base_velocity[3] * t377;
         let t523 = base_acceleration[2] + base_acceleration[3] * t374;
@@ -4283,9 +4839,9 @@ pub fn generalised_forces(
         let t551 = platform_acceleration[2] - platform_acceleration[3] * t404;
         let t552 = platform_acceleration[4] * t401 + t551;
         let t553 = platform_velocity[4] * t408 - (platform_velocity[3] * t409 - t552);
-        let t554 = t439 + t125 * 0.1697056274847714;
-        let t555 = t126 * 0.16970562748477142;
-        let t556 = t554 - (t555 + t154 * 2.0);
+        let t554 = t439 + t125 * c(0.1697056274847714);
+        let t555 = t126 * c(0.16970562748477142);
+        let t556 = t554 - (t555 + t154 * c(2.0));
         let t557 = base_velocity[4] * t398 - base_velocity[5] * t395;
         let t558 = base_velocity[5] * t392 - base_velocity[3] * t398;
         let t559 = base_acceleration[2] - base_acceleration[3] * t395;
@@ -4320,7 +4876,7 @@ pub fn generalised_forces(
         let t587 = platform_acceleration[2] - platform_acceleration[3] * t415;
         let t588 = platform_acceleration[4] * t414 + t587;
         let t589 = platform_velocity[4] * t417 - (platform_velocity[3] * t418 - t588);
-        let t590 = t554 + (t555 - t155 * 2.0);
+        let t590 = t554 + (t555 - t155 * c(2.0));
         let t591 = base_velocity[4] * t413 - base_velocity[5] * t412;
         let t592 = base_velocity[5] * t411 - base_velocity[3] * t413;
         let t593 = base_acceleration[2] - base_acceleration[3] * t412;
@@ -4355,7 +4911,7 @@ pub fn generalised_forces(
         let t621 = platform_acceleration[2] - platform_acceleration[3] * t424;
         let t622 = platform_acceleration[4] * t423 + t621;
         let t623 = platform_velocity[4] * t426 - (platform_velocity[3] * t427 - t622);
-        let t624 = t518 + (t519 - t156 * 2.0);
+        let t624 = t518 + (t519 - t156 * c(2.0));
         let t625 = base_velocity[4] * t422 - base_velocity[5] * t421;
         let t626 = base_velocity[5] * t420 - base_velocity[3] * t422;
         let t627 = base_acceleration[2] + base_acceleration[3] * t421;
@@ -4387,9 +4943,9 @@ pub fn generalised_forces(
         let t653 = t334 * t641;
         let t654 = t336 * t650;
         // centre of mass of the payload
-        let t655 = platform_rotation[0][2] * 0.031;
-        let t656 = platform_rotation[1][2] * 0.031;
-        let t657 = platform_rotation[2][2] * 0.031;
+        let t655 = platform_rotation[0][2] * c(0.031);
+        let t656 = platform_rotation[1][2] * c(0.031);
+        let t657 = platform_rotation[2][2] * c(0.031);
         // velocity of the payload's centre of mass
         let t658 = platform_velocity[4] * t657 - platform_velocity[5] * t656;
         let t659 = platform_velocity[5] * t655 - platform_velocity[3] * t657;
@@ -4474,7 +5030,7 @@ pub fn generalised_forces(
         let t725 = t425 * t704 - t423 * t708;
         let t726 = t423 * t706 - t424 * t704;
         // generalised active force of the payload: gravity, external wrench
-        let t727 = external_wrench[2] - 59.76252;
+        let t727 = external_wrench[2] - c(59.76252);
         payload_active_force[2] = t727;
         payload_active_force[3] = external_wrench[3] + t656 * t727
             - external_wrench[1] * t657;
@@ -4483,15 +5039,15 @@ pub fn generalised_forces(
         let t728 = external_wrench[5] + external_wrench[1] * t655;
         payload_active_force[5] = t728 - external_wrench[0] * t656;
         // generalised inertia force of the payload
-        let t729 = 6.092 * (t662 - t663 + (t664 - (platform_acceleration[0] + t661)));
+        let t729 = c(6.092) * (t662 - t663 + (t664 - (platform_acceleration[0] + t661)));
         payload_inertia_force[0] = t729;
-        let t730 = 6.092 * (t666 - t667 + (t668 - (platform_acceleration[1] + t665)));
+        let t730 = c(6.092) * (t666 - t667 + (t668 - (platform_acceleration[1] + t665)));
         payload_inertia_force[1] = t730;
-        let t731 = 6.092 * (t670 - t671 + (t672 - (platform_acceleration[2] + t669)));
+        let t731 = c(6.092) * (t670 - t671 + (t672 - (platform_acceleration[2] + t669)));
         payload_inertia_force[2] = t731;
-        let t732 = platform_rotation[1][2] * 0.035;
-        let t733 = platform_rotation[1][0] * 0.025;
-        let t734 = platform_rotation[1][1] * 0.025;
+        let t732 = platform_rotation[1][2] * c(0.035);
+        let t733 = platform_rotation[1][0] * c(0.025);
+        let t734 = platform_rotation[1][1] * c(0.025);
         let t735 = platform_rotation[2][0] * t733 + platform_rotation[2][1] * t734;
         let t736 = platform_rotation[2][2] * t732 + t735;
         let t737 = platform_rotation[0][0] * t733 + platform_rotation[0][1] * t734;
@@ -4500,9 +5056,9 @@ pub fn generalised_forces(
         let t740 = platform_rotation[1][2] * t732 + t739;
         let t741 = platform_velocity[3] * t738 + platform_velocity[4] * t740;
         let t742 = platform_velocity[5] * t736 + t741;
-        let t743 = platform_rotation[2][2] * 0.035;
-        let t744 = platform_rotation[2][0] * 0.025;
-        let t745 = platform_rotation[2][1] * 0.025;
+        let t743 = platform_rotation[2][2] * c(0.035);
+        let t744 = platform_rotation[2][0] * c(0.025);
+        let t745 = platform_rotation[2][1] * c(0.025);
         let t746 = platform_rotation[2][0] * t744 + platform_rotation[2][1] * t745;
         let t747 = platform_rotation[2][2] * t743 + t746;
         let t748 = platform_rotation[0][0] * t744 + platform_rotation[0][1] * t745;
@@ -4511,9 +5067,9 @@ pub fn generalised_forces(
         let t751 = platform_rotation[1][2] * t743 + t750;
         let t752 = platform_velocity[3] * t749 + platform_velocity[4] * t751;
         let t753 = platform_velocity[5] * t747 + t752;
-        let t754 = platform_rotation[0][2] * 0.035;
-        let t755 = platform_rotation[0][0] * 0.025;
-        let t756 = platform_rotation[0][1] * 0.025;
+        let t754 = platform_rotation[0][2] * c(0.035);
+        let t755 = platform_rotation[0][0] * c(0.025);
+        let t756 = platform_rotation[0][1] * c(0.025);
         let t757 = platform_rotation[2][0] * t755 + platform_rotation[2][1] * t756;
         let t758 = platform_rotation[2][2] * t754 + t757;
         let t759 = platform_rotation[1][0] * t755 + platform_rotation[1][1] * t756;
@@ -4538,23 +5094,23 @@ pub fn generalised_forces(
         payload_inertia_force[5] = platform_velocity[4] * t767
             - (platform_velocity[3] * t742 + t773);
         // leg 1: generalised active force of the rod: gravity
-        let t774 = base_rotation[2][2] * 5.0227200000000005;
+        let t774 = base_rotation[2][2] * c(5.0227200000000005);
         rod_active_force[0][0] = -(t674 * t774);
         rod_active_force[0][1] = -(t676 * t774);
-        rod_active_force[0][2] = -5.0227200000000005 - t678 * t774;
-        rod_active_force[0][3] = t353 * -5.0227200000000005 - t709 * t774;
-        rod_active_force[0][4] = t350 * 5.0227200000000005 - t710 * t774;
+        rod_active_force[0][2] = c(-5.0227200000000005) - t678 * t774;
+        rod_active_force[0][3] = t353 * c(-5.0227200000000005) - t709 * t774;
+        rod_active_force[0][4] = t350 * c(5.0227200000000005) - t710 * t774;
         rod_active_force[0][5] = -(t711 * t774);
         // leg 1: generalised inertia force of the rod
-        let t775 = (t477 - t478) * 0.08533333333333336;
-        let t776 = 0.08533333333333336 * (t479 - t480);
+        let t775 = (t477 - t478) * c(0.08533333333333336);
+        let t776 = c(0.08533333333333336) * (t479 - t480);
         let t777 = t293 * t775 - t291 * t776;
-        let t778 = (t468 + t475) * 0.256;
-        let t779 = 0.256 * (t431 + t450);
-        let t780 = 0.256 * (t455 + t463);
+        let t778 = (t468 + t475) * c(0.256);
+        let t779 = c(0.256) * (t431 + t450);
+        let t780 = c(0.256) * (t455 + t463);
         let t781 = base_rotation[2][2] * t779 + base_rotation[1][2] * t780;
         let t782 = base_rotation[0][2] * t778 + t781;
-        let t783 = 0.08533333333333336 * (t452 - t465);
+        let t783 = c(0.08533333333333336) * (t452 - t465);
         let t784 = t291 * t783 - t289 * t775;
         let t785 = t289 * t776 - t293 * t783;
         let t786 = base_rotation[0][2] * t777 + base_rotation[1][2] * t785;
@@ -4569,210 +5125,200 @@ pub fn generalised_forces(
         let t790 = t350 * t785 + (t711 * t782 + (t350 * t780 - t353 * t778));
         rod_inertia_force[0][5] = t790 - t353 * t777 - t711 * t787;
         // leg 1: generalised active force of the mover: gravity, actuator, spring, damper
-        let t791 = actuator_force[0] + 4268.068200000001 + 21555.9 * t56;
-        let t792 = base_rotation[2][2]
-            * (base_rotation[2][2] * t791 - 5.9939100000000005);
-        let t793 = t792 + base_rotation[1][2] * (base_rotation[1][2] * t791);
-        let t794 = base_rotation[0][2] * (base_rotation[0][2] * t791) + t793;
-        mover_active_force[0][0] = t674 * t794;
-        mover_active_force[0][1] = t676 * t794;
-        mover_active_force[0][2] = t678 * t794;
-        mover_active_force[0][3] = t709 * t794;
-        mover_active_force[0][4] = t710 * t794;
-        mover_active_force[0][5] = t711 * t794;
+        let t791 = actuator_force[0] + c(4268.068200000001) + c(21555.9) * t56;
+        let t792 = base_rotation[0][2] * (base_rotation[0][2] * t791);
+        let t793 = base_rotation[2][2] * t791 - c(5.9939100000000005);
+        let t794 = base_rotation[1][2] * (base_rotation[1][2] * t791);
+        let t795 = t792 + (base_rotation[2][2] * t793 + t794);
+        mover_active_force[0][0] = t674 * t795;
+        mover_active_force[0][1] = t676 * t795;
+        mover_active_force[0][2] = t678 * t795;
+        mover_active_force[0][3] = t709 * t795;
+        mover_active_force[0][4] = t710 * t795;
+        mover_active_force[0][5] = t711 * t795;
         // leg 1: generalised inertia force of the mover
-        let t795 = t438 * 0.03055;
-        let t796 = t458 * 0.03055;
-        let t797 = t471 * 0.03055;
-        let t798 = base_rotation[1][2] * (t796 - 0.611 * t463);
-        let t799 = base_rotation[2][2] * (t795 - 0.611 * t450) + t798;
-        let t800 = base_rotation[0][2] * (t797 - 0.611 * t475) + t799;
-        mover_inertia_force[0][0] = -(t674 * t800);
-        mover_inertia_force[0][1] = -(t676 * t800);
-        mover_inertia_force[0][2] = -(t678 * t800);
-        mover_inertia_force[0][3] = -(t709 * t800);
-        mover_inertia_force[0][4] = -(t710 * t800);
-        mover_inertia_force[0][5] = -(t711 * t800);
+        let t796 = t438 * c(0.03055);
+        let t797 = t458 * c(0.03055);
+        let t798 = t471 * c(0.03055);
+        let t799 = base_rotation[1][2] * (t797 - c(0.611) * t463);
+        let t800 = base_rotation[2][2] * (t796 - c(0.611) * t450) + t799;
+        let t801 = base_rotation[0][2] * (t798 - c(0.611) * t475) + t800;
+        mover_inertia_force[0][0] = -(t674 * t801);
+        mover_inertia_force[0][1] = -(t676 * t801);
+        mover_inertia_force[0][2] = -(t678 * t801);
+        mover_inertia_force[0][3] = -(t709 * t801);
+        mover_inertia_force[0][4] = -(t710 * t801);
+        mover_inertia_force[0][5] = -(t711 * t801);
         // leg 2: generalised inertia force of the rod
-        let t801 = 0.08533333333333336 * (t492 - t502);
-        let t802 = 0.08533333333333336 * (t511 - t512);
-        let t803 = t300 * t801 - t298 * t802;
-        let t804 = 0.08533333333333336 * (t513 - t514);
-        let t805 = t302 * t802 - t300 * t804;
-        let t806 = t298 * t804 - t302 * t801;
-        let t807 = base_rotation[0][2] * t805 + base_rotation[1][2] * t806;
-        let t808 = base_rotation[2][2] * t803 + t807;
-        let t809 = 0.256 * (t505 + t509);
-        let t810 = 0.256 * (t483 + t490);
-        let t811 = 0.256 * (t495 + t500);
-        let t812 = base_rotation[2][2] * t810 + base_rotation[1][2] * t811;
-        let t813 = base_rotation[0][2] * t809 + t812;
-        rod_inertia_force[1][0] = t680 * t808 + (t805 + (t809 - t680 * t813));
-        rod_inertia_force[1][1] = t682 * t808 - (t682 * t813 - (t811 + t806));
-        rod_inertia_force[1][2] = t684 * t808 - (t684 * t813 - (t810 + t803));
-        let t814 = t364 * t803 - (t712 * t813 - (t364 * t810 - t365 * t811));
-        rod_inertia_force[1][3] = t712 * t808 - (t365 * t806 - t814);
-        let t815 = t365 * t805 - (t713 * t813 - (t365 * t809 - t363 * t810));
-        rod_inertia_force[1][4] = t713 * t808 + t815 - t363 * t803;
-        let t816 = t363 * t806 - (t714 * t813 - (t363 * t811 - t364 * t809));
-        rod_inertia_force[1][5] = t714 * t808 - (t364 * t805 - t816);
+        let t802 = c(0.08533333333333336) * (t492 - t502);
+        let t803 = c(0.08533333333333336) * (t511 - t512);
+        let t804 = t300 * t802 - t298 * t803;
+        let t805 = c(0.08533333333333336) * (t513 - t514);
+        let t806 = t302 * t803 - t300 * t805;
+        let t807 = t298 * t805 - t302 * t802;
+        let t808 = base_rotation[0][2] * t806 + base_rotation[1][2] * t807;
+        let t809 = base_rotation[2][2] * t804 + t808;
+        let t810 = c(0.256) * (t505 + t509);
+        let t811 = c(0.256) * (t483 + t490);
+        let t812 = c(0.256) * (t495 + t500);
+        let t813 = base_rotation[2][2] * t811 + base_rotation[1][2] * t812;
+        let t814 = base_rotation[0][2] * t810 + t813;
+        rod_inertia_force[1][0] = t680 * t809 + (t806 + (t810 - t680 * t814));
+        rod_inertia_force[1][1] = t682 * t809 - (t682 * t814 - (t812 + t807));
+        rod_inertia_force[1][2] = t684 * t809 - (t684 * t814 - (t811 + t804));
+        let t815 = t364 * t804 - (t712 * t814 - (t364 * t811 - t365 * t812));
+        rod_inertia_force[1][3] = t712 * t809 - (t365 * t807 - t815);
+        let t816 = t365 * t806 - (t713 * t814 - (t365 * t810 - t363 * t811));
+        rod_inertia_force[1][4] = t713 * t809 + t816 - t363 * t804;
+        let t817 = t363 * t807 - (t714 * t814 - (t363 * t812 - t364 * t810));
+        rod_inertia_force[1][5] = t714 * t809 - (t364 * t806 - t817);
         // leg 2: generalised active force of the mover: gravity, actuator, spring, damper
-        let t817 = actuator_force[1] + 4268.068200000001 + 21555.9 * t59;
-        let t818 = base_rotation[2][2]
-            * (5.9939100000000005 - base_rotation[2][2] * t817);
-        let t819 = t818 - base_rotation[1][2] * (base_rotation[1][2] * t817);
-        let t820 = base_rotation[0][2] * (base_rotation[0][2] * t817) - t819;
-        mover_active_force[1][0] = -(t680 * t820);
-        mover_active_force[1][1] = -(t682 * t820);
-        mover_active_force[1][2] = -(t684 * t820);
-        mover_active_force[1][3] = -(t712 * t820);
-        mover_active_force[1][4] = -(t713 * t820);
-        mover_active_force[1][5] = -(t714 * t820);
+        let t818 = actuator_force[1] + c(4268.068200000001) + c(21555.9) * t59;
+        let t819 = base_rotation[0][2] * (base_rotation[0][2] * t818);
+        let t820 = c(5.9939100000000005) - base_rotation[2][2] * t818;
+        let t821 = base_rotation[1][2] * (base_rotation[1][2] * t818);
+        let t822 = t819 - (base_rotation[2][2] * t820 - t821);
+        mover_active_force[1][0] = -(t680 * t822);
+        mover_active_force[1][1] = -(t682 * t822);
+        mover_active_force[1][2] = -(t684 * t822);
+        mover_active_force[1][3] = -(t712 * t822);
+        mover_active_force[1][4] = -(t713 * t822);
+        mover_active_force[1][5] = -(t714 * t822);
         // leg 2: generalised inertia force of the mover
-        let t821 = base_rotation[1][2] * (t796 - 0.611 * t500);
-        let t822 = base_rotation[2][2] * (t795 - 0.611 * t490) + t821;
-        let t823 = base_rotation[0][2] * (t797 - 0.611 * t509) + t822;
-        mover_inertia_force[1][0] = t680 * t823;
-        mover_inertia_force[1][1] = t682 * t823;
-        mover_inertia_force[1][2] = t684 * t823;
-        mover_inertia_force[1][3] = t712 * t823;
-        mover_inertia_force[1][4] = t713 * t823;
-        mover_inertia_force[1][5] = t714 * t823;
+        let t823 = base_rotation[1][2] * (t797 - c(0.611) * t500);
+        let t824 = base_rotation[2][2] * (t796 - c(0.611) * t490) + t823;
+        let t825 = base_rotation[0][2] * (t798 - c(0.611) * t509) + t824;
+        mover_inertia_force[1][0] = t680 * t825;
+        mover_inertia_force[1][1] = t682 * t825;
+        mover_inertia_force[1][2] = t684 * t825;
+        mover_inertia_force[1][3] = t712 * t825;
+        mover_inertia_force[1][4] = t713 * t825;
+        mover_inertia_force[1][5] = t714 * t825;
         // leg 3: generalised inertia force of the rod
-        let t824 = 0.256 * (t541 - t545);
-        let t825 = 0.256 * (t517 - t526);
-        let t826 = 0.256 * (t531 - t536);
-        let t827 = base_rotation[2][2] * t825 + base_rotation[1][2] * t826;
-        let t828 = base_rotation[0][2] * t824 + t827;
-        let t829 = 0.08533333333333336 * (t547 - t548);
-        let t830 = 0.08533333333333336 * (t549 - t550);
-        let t831 = t311 * t829 - t309 * t830;
-        let t832 = 0.08533333333333336 * (t528 - t538);
-        let t833 = t309 * t832 - t307 * t829;
-        let t834 = t307 * t830 - t311 * t832;
-        let t835 = base_rotation[0][2] * t831 + base_rotation[1][2] * t834;
-        let t836 = base_rotation[2][2] * t833 + t835;
-        rod_inertia_force[2][0] = t686 * t828 - t824 - t831 - t686 * t836;
-        rod_inertia_force[2][1] = t688 * t828 - (t826 + t834) - t688 * t836;
-        rod_inertia_force[2][2] = t690 * t828 - (t825 + t833) - t690 * t836;
-        let t837 = t383 * t833 - (t715 * t828 - (t383 * t825 - t386 * t826));
-        rod_inertia_force[2][3] = t715 * t836 - (t386 * t834 - t837);
-        let t838 = t386 * t831 - (t716 * t828 - (t386 * t824 - t380 * t825));
-        rod_inertia_force[2][4] = t716 * t836 + t838 - t380 * t833;
-        let t839 = t380 * t834 - (t717 * t828 - (t380 * t826 - t383 * t824));
-        rod_inertia_force[2][5] = t717 * t836 - (t383 * t831 - t839);
+        let t826 = c(0.256) * (t541 - t545);
+        let t827 = c(0.256) * (t517 - t526);
+        let t828 = c(0.256) * (t531 - t536);
+        let t829 = base_rotation[2][2] * t827 + base_rotation[1][2] * t828;
+        let t830 = base_rotation[0][2] * t826 + t829;
+        let t831 = c(0.08533333333333336) * (t547 - t548);
+        let t832 = c(0.08533333333333336) * (t549 - t550);
+        let t833 = t311 * t831 - t309 * t832;
+        let t834 = c(0.08533333333333336) * (t528 - t538);
+        let t835 = t309 * t834 - t307 * t831;
+        let t836 = t307 * t832 - t311 * t834;
+        let t837 = base_rotation[0][2] * t833 + base_rotation[1][2] * t836;
+        let t838 = base_rotation[2][2] * t835 + t837;
+        rod_inertia_force[2][0] = t686 * t830 - t826 - t833 - t686 * t838;
+        rod_inertia_force[2][1] = t688 * t830 - (t828 + t836) - t688 * t838;
+        rod_inertia_force[2][2] = t690 * t830 - (t827 + t835) - t690 * t838;
+        let t839 = t383 * t835 - (t715 * t830 - (t383 * t827 - t386 * t828));
+        rod_inertia_force[2][3] = t715 * t838 - (t386 * t836 - t839);
+        let t840 = t386 * t833 - (t716 * t830 - (t386 * t826 - t380 * t827));
+        rod_inertia_force[2][4] = t716 * t838 + t840 - t380 * t835;
+        let t841 = t380 * t836 - (t717 * t830 - (t380 * t828 - t383 * t826));
+        rod_inertia_force[2][5] = t717 * t838 - (t383 * t833 - t841);
         // leg 3: generalised active force of the mover: gravity, actuator, spring, damper
-        let t840 = actuator_force[2] + 4268.068200000001 + 21555.9 * t64;
-        let t841 = base_rotation[2][2]
-            * (5.9939100000000005 - base_rotation[2][2] * t840);
-        let t842 = t841 - base_rotation[1][2] * (base_rotation[1][2] * t840);
-        let t843 = base_rotation[0][2] * (base_rotation[0][2] * t840) - t842;
-        mover_active_force[2][0] = -(t686 * t843);
-        mover_active_force[2][1] = -(t688 * t843);
-        mover_active_force[2][2] = -(t690 * t843);
-        mover_active_force[2][3] = t715 * t843;
-        mover_active_force[2][4] = t716 * t843;
-        mover_active_force[2][5] = t717 * t843;
+        let t842 = actuator_force[2] + c(4268.068200000001) + c(21555.9) * t64;
+        let t843 = base_rotation[0][2] * (base_rotation[0][2] * t842);
+        let t844 = c(5.9939100000000005) - base_rotation[2][2] * t842;
+        let t845 = base_rotation[1][2] * (base_rotation[1][2] * t842);
+        let t846 = t843 - (base_rotation[2][2] * t844 - t845);
+        mover_active_force[2][0] = -(t686 * t846);
+        mover_active_force[2][1] = -(t688 * t846);
+        mover_active_force[2][2] = -(t690 * t846);
+        mover_active_force[2][3] = t715 * t846;
+        mover_active_force[2][4] = t716 * t846;
+        mover_active_force[2][5] = t717 * t846;
         // leg 3: generalised inertia force of the mover
-        let t844 = base_rotation[1][2] * (t796 - 0.611 * t536);
-        let t845 = base_rotation[2][2] * (t795 - 0.611 * t526) + t844;
-        let t846 = base_rotation[0][2] * (t797 - 0.611 * t545) + t845;
-        mover_inertia_force[2][0] = t686 * t846;
-        mover_inertia_force[2][1] = t688 * t846;
-        mover_inertia_force[2][2] = t690 * t846;
-        mover_inertia_force[2][3] = -(t715 * t846);
-        mover_inertia_force[2][4] = -(t716 * t846);
-        mover_inertia_force[2][5] = -(t717 * t846);
+        let t847 = base_rotation[1][2] * (t797 - c(0.611) * t536);
+        let t848 = base_rotation[2][2] * (t796 - c(0.611) * t526) + t847;
+        let t849 = base_rotation[0][2] * (t798 - c(0.611) * t545) + t848;
+        mover_inertia_force[2][0] = t686 * t849;
+        mover_inertia_force[2][1] = t688 * t849;
+        mover_inertia_force[2][2] = t690 * t849;
+        mover_inertia_force[2][3] = -(t715 * t849);
+        mover_inertia_force[2][4] = -(t716 * t849);
+        mover_inertia_force[2][5] = -(t717 * t849);
         // leg 4: generalised inertia force of the rod
-        let t847 = 0.256 * (t577 - t581);
-        let t848 = 0.256 * (t553 - t562);
-        let t849 = 0.256 * (t567 - t572);
-        let t850 = base_rotation[2][2] * t848 + base_rotation[1][2] * t849;
-        let t851 = base_rotation[0][2] * t847 + t850;
-        let t852 = 0.08533333333333336 * (t583 - t584);
-        let t853 = 0.08533333333333336 * (t585 - t586);
-        let t854 = t320 * t852 - t318 * t853;
-        let t855 = 0.08533333333333336 * (t564 - t574);
-        let t856 = t318 * t855 - t316 * t852;
-        let t857 = t316 * t853 - t320 * t855;
-        let t858 = base_rotation[0][2] * t854 + base_rotation[1][2] * t857;
-        let t859 = base_rotation[2][2] * t856 + t858;
-        rod_inertia_force[3][0] = t692 * t851 - t847 - t854 - t692 * t859;
-        rod_inertia_force[3][1] = t694 * t851 - (t849 + t857) - t694 * t859;
-        rod_inertia_force[3][2] = t696 * t851 - (t848 + t856) - t696 * t859;
-        let t860 = t404 * t856 - (t718 * t851 - (t404 * t848 - t407 * t849));
-        rod_inertia_force[3][3] = t718 * t859 - (t407 * t857 - t860);
-        let t861 = t407 * t854 - (t719 * t851 - (t407 * t847 - t401 * t848));
-        rod_inertia_force[3][4] = t719 * t859 + t861 - t401 * t856;
-        let t862 = t401 * t857 - (t720 * t851 - (t401 * t849 - t404 * t847));
-        rod_inertia_force[3][5] = t720 * t859 - (t404 * t854 - t862);
+        let t850 = c(0.256) * (t577 - t581);
+        let t851 = c(0.256) * (t553 - t562);
+        let t852 = c(0.256) * (t567 - t572);
+        let t853 = base_rotation[2][2] * t851 + base_rotation[1][2] * t852;
+        let t854 = base_rotation[0][2] * t850 + t853;
+        let t855 = c(0.08533333333333336) * (t583 - t584);
+        let t856 = c(0.08533333333333336) * (t585 - t586);
+        let t857 = t320 * t855 - t318 * t856;
+        let t858 = c(0.08533333333333336) * (t564 - t574);
+        let t859 = t318 * t858 - t316 * t855;
+        let t860 = t316 * t856 - t320 * t858;
+        let t861 = base_rotation[0][2] * t857 + base_rotation[1][2] * t860;
+        let t862 = base_rotation[2][2] * t859 + t861;
+        rod_inertia_force[3][0] = t692 * t854 - t850 - t857 - t692 * t862;
+        rod_inertia_force[3][1] = t694 * t854 - (t852 + t860) - t694 * t862;
+        rod_inertia_force[3][2] = t696 * t854 - (t851 + t859) - t696 * t862;
+        let t863 = t404 * t859 - (t718 * t854 - (t404 * t851 - t407 * t852));
+        rod_inertia_force[3][3] = t718 * t862 - (t407 * t860 - t863);
+        let t864 = t407 * t857 - (t719 * t854 - (t407 * t850 - t401 * t851));
+        rod_inertia_force[3][4] = t719 * t862 + t864 - t401 * t859;
+        let t865 = t401 * t860 - (t720 * t854 - (t401 * t852 - t404 * t850));
+        rod_inertia_force[3][5] = t720 * t862 - (t404 * t857 - t865);
         // leg 4: generalised active force of the mover: gravity, actuator, spring, damper
-        let t863 = actuator_force[3] + 4268.068200000001 + 21555.9 * t69;
-        let t864 = base_rotation[2][2]
-            * (5.9939100000000005 - base_rotation[2][2] * t863);
-        let t865 = t864 - base_rotation[1][2] * (base_rotation[1][2] * t863);
-        let t866 = base_rotation[0][2] * (base_rotation[0][2] * t863) - t865;
-        mover_active_force[3][0] = -(t692 * t866);
-        mover_active_force[3][1] = -(t694 * t866);
-        mover_active_force[3][2] = -(t696 * t866);
-        mover_active_force[3][3] = t718 * t866;
-        mover_active_force[3][4] = t719 * t866;
-        mover_active_force[3][5] = t720 * t866;
+        let t866 = actuator_force[3] + c(4268.068200000001) + c(21555.9) * t69;
+        let t867 = base_rotation[0][2] * (base_rotation[0][2] * t866);
+        let t868 = c(5.9939100000000005) - base_rotation[2][2] * t866;
+        let t869 = base_rotation[1][2] * (base_rotation[1][2] * t866);
+        let t870 = t867 - (base_rotation[2][2] * t868 - t869);
+        mover_active_force[3][0] = -(t692 * t870);
+        mover_active_force[3][1] = -(t694 * t870);
+        mover_active_force[3][2] = -(t696 * t870);
+        mover_active_force[3][3] = t718 * t870;
+        mover_active_force[3][4] = t719 * t870;
+        mover_active_force[3][5] = t720 * t870;
         // leg 4: generalised inertia force of the mover
-        let t867 = base_rotation[1][2] * (t796 - 0.611 * t572);
-        let t868 = base_rotation[2][2] * (t795 - 0.611 * t562) + t867;
-        let t869 = base_rotation[0][2] * (t797 - 0.611 * t581) + t868;
-        mover_inertia_force[3][0] = t692 * t869;
-        mover_inertia_force[3][1] = t694 * t869;
-        mover_inertia_force[3][2] = t696 * t869;
-        mover_inertia_force[3][3] = -(t718 * t869);
-        mover_inertia_force[3][4] = -(t719 * t869);
-        mover_inertia_force[3][5] = -(t720 * t869);
+        let t871 = base_rotation[1][2] * (t797 - c(0.611) * t572);
+        let t872 = base_rotation[2][2] * (t796 - c(0.611) * t562) + t871;
+        let t873 = base_rotation[0][2] * (t798 - c(0.611) * t581) + t872;
+        mover_inertia_force[3][0] = t692 * t873;
+        mover_inertia_force[3][1] = t694 * t873;
+        mover_inertia_force[3][2] = t696 * t873;
+        mover_inertia_force[3][3] = -(t718 * t873);
+        mover_inertia_force[3][4] = -(t719 * t873);
+        mover_inertia_force[3][5] = -(t720 * t873);
         // leg 5: generalised inertia force of the rod
-        let t870 = 0.08533333333333336 * (t598 - t608);
-        let t871 = 0.08533333333333336 * (t617 - t618);
-        let t872 = t327 * t870 - t325 * t871;
-        let t873 = 0.08533333333333336 * (t619 - t620);
-        let t874 = t329 * t871 - t327 * t873;
-        let t875 = t325 * t873 - t329 * t870;
-        let t876 = base_rotation[0][2] * t874 + base_rotation[1][2] * t875;
-        let t877 = base_rotation[2][2] * t872 + t876;
-        let t878 = 0.256 * (t611 - t615);
-        let t879 = 0.256 * (t589 - t596);
-        let t880 = 0.256 * (t601 - t606);
-        let t881 = base_rotation[2][2] * t879 + base_rotation[1][2] * t880;
-        let t882 = base_rotation[0][2] * t878 + t881;
-        rod_inertia_force[4][0] = t698 * t877 - (t874 + (t878 + t698 * t882));
-        rod_inertia_force[4][1] = t700 * t877 - (t700 * t882 + (t880 + t875));
-        rod_inertia_force[4][2] = t702 * t877 - (t702 * t882 + (t879 + t872));
-        let t883 = t415 * t872 + (t721 * t882 + (t415 * t879 - t416 * t880));
-        rod_inertia_force[4][3] = t883 - t416 * t875 - t721 * t877;
-        let t884 = t416 * t874 + (t722 * t882 + (t416 * t878 - t414 * t879));
-        rod_inertia_force[4][4] = t884 - t722 * t877 - t414 * t872;
-        let t885 = t414 * t875 + (t723 * t882 + (t414 * t880 - t415 * t878));
-        rod_inertia_force[4][5] = t885 - t415 * t874 - t723 * t877;
+        let t874 = c(0.08533333333333336) * (t598 - t608);
+        let t875 = c(0.08533333333333336) * (t617 - t618);
+        let t876 = t327 * t874 - t325 * t875;
+        let t877 = c(0.08533333333333336) * (t619 - t620);
+        let t878 = t329 * t875 - t327 * t877;
+        let t879 = t325 * t877 - t329 * t874;
+        let t880 = base_rotation[0][2] * t878 + base_rotation[1][2] * t879;
+        let t881 = base_rotation[2][2] * t876 + t880;
+        let t882 = c(0.256) * (t611 - t615);
+        let t883 = c(0.256) * (t589 - t596);
+        let t884 = c(0.256) * (t601 - t606);
+        let t885 = base_rotation[2][2] * t883 + base_rotation[1][2] * t884;
+        let t886 = base_rotation[0][2] * t882 + t885;
+        rod_inertia_force[4][0] = t698 * t881 - (t878 + (t882 + t698 * t886));
+        rod_inertia_force[4][1] = t700 * t881 - (t700 * t886 + (t884 + t879));
+        rod_inertia_force[4][2] = t702 * t881 - (t702 * t886 + (t883 + t876));
+        let t887 = t415 * t876 + (t721 * t886 + (t415 * t883 - t416 * t884));
+        rod_inertia_force[4][3] = t887 - t416 * t879 - t721 * t881;
+        let t888 = t416 * t878 + (t722 * t886 + (t416 * t882 - t414 * t883));
+        rod_inertia_force[4][4] = t888 - t722 * t881 - t414 * t876;
+        let t889 = t414 * t879 + (t723 * t886 + (t414 * t884 - t415 * t882));
+        rod_inertia_force[4][5] = t889 - t415 * t878 - t723 * t881;
         // leg 5: generalised active force of the mover: gravity, actuator, spring, damper
-        let t886 = actuator_force[4] + 4268.068200000001 + 21555.9 * t72;
-        let t887 = base_rotation[2][2]
-            * (5.9939100000000005 - base_rotation[2][2] * t886);
-        let t888 = t887 - base_rotation[1][2] * (base_rotation[1][2] * t886);
-        let t889 = base_rotation[0][2] * (base_rotation[0][2] * t886) - t888;
-        mover_active_force[4][0] = t698 * t889;
-        mover_active_force[4][1] = t700 * t889;
-        mover_active_force[4][2] = t702 * t889;
-        mover_active_force[4][3] = -(t721 * t889);
-        mover_active_force[4][4] = -(t722 * t889);
-        mover_active_force[4][5] = -(t723 * t889);
-        // leg 5: generalised inertia force of the mover
-        let t890 = base_rotation[1][2] * (t796 - 0.611 * t606);
-        let t891 = base_rotation[2][2] * (t795 - 0.611 * t596) + t890;
-        let t892 = base_rotation[0][2] * (t797 - 0.611 * t615) + t891;
-        mover_inertia_force[4][0] = -(t698 * t892);
-        mover_inertia_force[4][1] = -(t700 * t892);
-        mover_inertia_force[4][2] = -(t702 * t892);
-        mover_inertia_force[4][3] = t721 * t892;
-        mover_inertia_force[4][4] = t722 * t892;
-        mover_inertia_force[4][5] = t723 * t892;
+        let t890 = actuator_force[4] + c(4268.068200000001) + c(21555.9) * t72;
+        let t891 = base_rotation[0][2] * (base_rotation[0][2] * t890);
+        let t892 = c(5.9939100000000005) - base_rotation[2][2] * t890;
+        let t893 = base_rotation[1][2] * (base_rotation[1][2] * t890);
+        let t894 = t891 - (base_rotation[2][2] * t892 - t893);
+        mover_active_force[4][0] = t698 * t894;
+        mover_active_force[4][1] = t700 * t894;
+        mover_active_force[4][2] = t702 * t894;
+        mover_active_force[4][3] = -(t721 * t894);
+        mover_active_force[4][4] = -(t722 * t894);
+        mover_active_force[4][5] = -(t723 * t894);
         (
             t75,
             t334,
@@ -4789,6 +5335,9 @@ pub fn generalised_forces(
             t423,
             t424,
             t425,
+            t596,
+            t606,
+            t615,
             t623,
             t630,
             t632,
@@ -4832,91 +5381,101 @@ pub fn generalised_forces(
             t725,
             t726,
             t774,
-            t795,
             t796,
             t797,
+            t798,
         )
     };
     {
+        // leg 5: generalised inertia force of the mover
+        let t895 = base_rotation[1][2] * (t797 - c(0.611) * t606);
+        let t896 = base_rotation[2][2] * (t796 - c(0.611) * t596) + t895;
+        let t897 = base_rotation[0][2] * (t798 - c(0.611) * t615) + t896;
+        mover_inertia_force[4][0] = -(t698 * t897);
+        mover_inertia_force[4][1] = -(t700 * t897);
+        mover_inertia_force[4][2] = -(t702 * t897);
+        mover_inertia_force[4][3] = t721 * t897;
+        mover_inertia_force[4][4] = t722 * t897;
+        mover_inertia_force[4][5] = t723 * t897;
         // leg 6: generalised inertia force of the rod
-        let t893 = 0.08533333333333336 * (t632 - t642);
-        let t894 = 0.08533333333333336 * (t651 - t652);
-        let t895 = t336 * t893 - t334 * t894;
-        let t896 = 0.08533333333333336 * (t653 - t654);
-        let t897 = t338 * t894 - t336 * t896;
-        let t898 = t334 * t896 - t338 * t893;
-        let t899 = base_rotation[0][2] * t897 + base_rotation[1][2] * t898;
-        let t900 = base_rotation[2][2] * t895 + t899;
-        let t901 = 0.256 * (t645 - t649);
-        let t902 = 0.256 * (t623 - t630);
-        let t903 = 0.256 * (t635 - t640);
-        let t904 = base_rotation[2][2] * t902 + base_rotation[1][2] * t903;
-        let t905 = base_rotation[0][2] * t901 + t904;
-        rod_inertia_force[5][0] = t704 * t900 - (t897 + (t901 + t704 * t905));
-        rod_inertia_force[5][1] = t706 * t900 - (t706 * t905 + (t903 + t898));
-        rod_inertia_force[5][2] = t708 * t900 - (t708 * t905 + (t902 + t895));
-        let t906 = t424 * t895 + (t724 * t905 + (t424 * t902 - t425 * t903));
-        rod_inertia_force[5][3] = t906 - t425 * t898 - t724 * t900;
-        let t907 = t425 * t897 + (t725 * t905 + (t425 * t901 - t423 * t902));
-        rod_inertia_force[5][4] = t907 - t725 * t900 - t423 * t895;
-        let t908 = t423 * t898 + (t726 * t905 + (t423 * t903 - t424 * t901));
-        rod_inertia_force[5][5] = t908 - t424 * t897 - t726 * t900;
+        let t898 = c(0.08533333333333336) * (t632 - t642);
+        let t899 = c(0.08533333333333336) * (t651 - t652);
+        let t900 = t336 * t898 - t334 * t899;
+        let t901 = c(0.08533333333333336) * (t653 - t654);
+        let t902 = t338 * t899 - t336 * t901;
+        let t903 = t334 * t901 - t338 * t898;
+        let t904 = base_rotation[0][2] * t902 + base_rotation[1][2] * t903;
+        let t905 = base_rotation[2][2] * t900 + t904;
+        let t906 = c(0.256) * (t645 - t649);
+        let t907 = c(0.256) * (t623 - t630);
+        let t908 = c(0.256) * (t635 - t640);
+        let t909 = base_rotation[2][2] * t907 + base_rotation[1][2] * t908;
+        let t910 = base_rotation[0][2] * t906 + t909;
+        rod_inertia_force[5][0] = t704 * t905 - (t902 + (t906 + t704 * t910));
+        rod_inertia_force[5][1] = t706 * t905 - (t706 * t910 + (t908 + t903));
+        rod_inertia_force[5][2] = t708 * t905 - (t708 * t910 + (t907 + t900));
+        let t911 = t424 * t900 + (t724 * t910 + (t424 * t907 - t425 * t908));
+        rod_inertia_force[5][3] = t911 - t425 * t903 - t724 * t905;
+        let t912 = t425 * t902 + (t725 * t910 + (t425 * t906 - t423 * t907));
+        rod_inertia_force[5][4] = t912 - t725 * t905 - t423 * t900;
+        let t913 = t423 * t903 + (t726 * t910 + (t423 * t908 - t424 * t906));
+        rod_inertia_force[5][5] = t913 - t424 * t902 - t726 * t905;
         // leg 6: generalised active force of the mover: gravity, actuator, spring, damper
-        let t909 = actuator_force[5] + 4268.068200000001 + 21555.9 * t75;
-        let t910 = base_rotation[2][2]
-            * (5.9939100000000005 - base_rotation[2][2] * t909);
-        let t911 = t910 - base_rotation[1][2] * (base_rotation[1][2] * t909);
-        let t912 = base_rotation[0][2] * (base_rotation[0][2] * t909) - t911;
-        mover_active_force[5][0] = t704 * t912;
-        mover_active_force[5][1] = t706 * t912;
-        mover_active_force[5][2] = t708 * t912;
-        mover_active_force[5][3] = -(t724 * t912);
-        mover_active_force[5][4] = -(t725 * t912);
-        mover_active_force[5][5] = -(t726 * t912);
+        let t914 = actuator_force[5] + c(4268.068200000001) + c(21555.9) * t75;
+        let t915 = base_rotation[0][2] * (base_rotation[0][2] * t914);
+        let t916 = c(5.9939100000000005) - base_rotation[2][2] * t914;
+        let t917 = base_rotation[1][2] * (base_rotation[1][2] * t914);
+        let t918 = t915 - (base_rotation[2][2] * t916 - t917);
+        mover_active_force[5][0] = t704 * t918;
+        mover_active_force[5][1] = t706 * t918;
+        mover_active_force[5][2] = t708 * t918;
+        mover_active_force[5][3] = -(t724 * t918);
+        mover_active_force[5][4] = -(t725 * t918);
+        mover_active_force[5][5] = -(t726 * t918);
         // leg 6: generalised inertia force of the mover
-        let t913 = base_rotation[1][2] * (t796 - 0.611 * t640);
-        let t914 = base_rotation[2][2] * (t795 - 0.611 * t630) + t913;
-        let t915 = base_rotation[0][2] * (t797 - 0.611 * t649) + t914;
-        mover_inertia_force[5][0] = -(t704 * t915);
-        mover_inertia_force[5][1] = -(t706 * t915);
-        mover_inertia_force[5][2] = -(t708 * t915);
-        mover_inertia_force[5][3] = t724 * t915;
-        mover_inertia_force[5][4] = t725 * t915;
-        mover_inertia_force[5][5] = t726 * t915;
+        let t919 = base_rotation[1][2] * (t797 - c(0.611) * t640);
+        let t920 = base_rotation[2][2] * (t796 - c(0.611) * t630) + t919;
+        let t921 = base_rotation[0][2] * (t798 - c(0.611) * t649) + t920;
+        mover_inertia_force[5][0] = -(t704 * t921);
+        mover_inertia_force[5][1] = -(t706 * t921);
+        mover_inertia_force[5][2] = -(t708 * t921);
+        mover_inertia_force[5][3] = t724 * t921;
+        mover_inertia_force[5][4] = t725 * t921;
+        mover_inertia_force[5][5] = t726 * t921;
         // leg 2: generalised active force of the rod: gravity
         rod_active_force[1][0] = t680 * t774;
         rod_active_force[1][1] = t682 * t774;
-        rod_active_force[1][2] = t684 * t774 - 5.0227200000000005;
-        rod_active_force[1][3] = t712 * t774 - t364 * 5.0227200000000005;
-        rod_active_force[1][4] = t713 * t774 + t363 * 5.0227200000000005;
+        rod_active_force[1][2] = t684 * t774 - c(5.0227200000000005);
+        rod_active_force[1][3] = t712 * t774 - t364 * c(5.0227200000000005);
+        rod_active_force[1][4] = t713 * t774 + t363 * c(5.0227200000000005);
         rod_active_force[1][5] = t714 * t774;
         // leg 3: generalised active force of the rod: gravity
         rod_active_force[2][0] = t686 * t774;
         rod_active_force[2][1] = t688 * t774;
-        rod_active_force[2][2] = t690 * t774 - 5.0227200000000005;
-        rod_active_force[2][3] = t383 * 5.0227200000000005 - t715 * t774;
-        rod_active_force[2][4] = t380 * -5.0227200000000005 - t716 * t774;
+        rod_active_force[2][2] = t690 * t774 - c(5.0227200000000005);
+        rod_active_force[2][3] = t383 * c(5.0227200000000005) - t715 * t774;
+        rod_active_force[2][4] = t380 * c(-5.0227200000000005) - t716 * t774;
         rod_active_force[2][5] = -(t717 * t774);
         // leg 4: generalised active force of the rod: gravity
         rod_active_force[3][0] = t692 * t774;
         rod_active_force[3][1] = t694 * t774;
-        rod_active_force[3][2] = t696 * t774 - 5.0227200000000005;
-        rod_active_force[3][3] = t404 * 5.0227200000000005 - t718 * t774;
-        rod_active_force[3][4] = t401 * -5.0227200000000005 - t719 * t774;
+        rod_active_force[3][2] = t696 * t774 - c(5.0227200000000005);
+        rod_active_force[3][3] = t404 * c(5.0227200000000005) - t718 * t774;
+        rod_active_force[3][4] = t401 * c(-5.0227200000000005) - t719 * t774;
         rod_active_force[3][5] = -(t720 * t774);
         // leg 5: generalised active force of the rod: gravity
         rod_active_force[4][0] = -(t698 * t774);
         rod_active_force[4][1] = -(t700 * t774);
-        rod_active_force[4][2] = -5.0227200000000005 - t702 * t774;
-        rod_active_force[4][3] = t721 * t774 + t415 * 5.0227200000000005;
-        rod_active_force[4][4] = t722 * t774 - t414 * 5.0227200000000005;
+        rod_active_force[4][2] = c(-5.0227200000000005) - t702 * t774;
+        rod_active_force[4][3] = t721 * t774 + t415 * c(5.0227200000000005);
+        rod_active_force[4][4] = t722 * t774 - t414 * c(5.0227200000000005);
         rod_active_force[4][5] = t723 * t774;
         // leg 6: generalised active force of the rod: gravity
         rod_active_force[5][0] = -(t704 * t774);
         rod_active_force[5][1] = -(t706 * t774);
-        rod_active_force[5][2] = -5.0227200000000005 - t708 * t774;
-        rod_active_force[5][3] = t724 * t774 + t424 * 5.0227200000000005;
-        rod_active_force[5][4] = t725 * t774 - t423 * 5.0227200000000005;
+        rod_active_force[5][2] = c(-5.0227200000000005) - t708 * t774;
+        rod_active_force[5][3] = t724 * t774 + t424 * c(5.0227200000000005);
+        rod_active_force[5][4] = t725 * t774 - t423 * c(5.0227200000000005);
         rod_active_force[5][5] = t726 * t774;
         // constant and copied elements
         payload_active_force[0] = external_wrench[0];
@@ -4937,13 +5496,14 @@ pub fn generalised_forces(
 ///
 /// - `jacobian_dp`: 6x6, 1, m, frame O: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b, equation (32).
 #[allow(clippy::all, clippy::pedantic, unused_variables)]
-pub fn jacobian_dp(
-    base_position: &[f64; 3],
-    base_rotation: &[[f64; 3]; 3],
-    platform_position: &[f64; 3],
-    platform_rotation: &[[f64; 3]; 3],
-    jacobian_dp: &mut [[f64; 6]; 6],
+pub fn jacobian_dp<T: Scalar>(
+    base_position: &[T; 3],
+    base_rotation: &[[T; 3]; 3],
+    platform_position: &[T; 3],
+    platform_rotation: &[[T; 3]; 3],
+    jacobian_dp: &mut [[T; 6]; 6],
 ) {
+    let c = T::constant;
     // rotation of the platform seen from the base
     let t1 = base_rotation[1][0] * platform_rotation[1][0];
     let t2 = base_rotation[0][0] * platform_rotation[0][0] + t1;
@@ -4966,28 +5526,28 @@ pub fn jacobian_dp(
     let t18 = base_rotation[0][1] * t14 + base_rotation[1][1] * t15;
     let t19 = base_rotation[2][1] * t13 + t18;
     // leg 1: platform joint from the base point
-    let t20 = t17 + (0.1316436662914507 - 0.1159110991546882 * t3);
-    let t21 = 0.03105828541230249 * t6;
+    let t20 = t17 + (c(0.1316436662914507) - c(0.1159110991546882) * t3);
+    let t21 = c(0.03105828541230249) * t6;
     let t22 = t20 + t21;
-    let t23 = 0.12275970481124972 - 0.03105828541230249 * t12;
-    let t24 = t19 - 0.1159110991546882 * t9;
+    let t23 = c(0.12275970481124972) - c(0.03105828541230249) * t12;
+    let t24 = t19 - c(0.1159110991546882) * t9;
     let t25 = t23 - t24;
     // leg 2: platform joint from the base point
     let t26 = t20 - t21;
     let t27 = t23 + t24;
     // leg 3: platform joint from the base point
-    let t28 = t17 + (0.040491189781895726 + t3 * 0.031058285412302475);
-    let t29 = 0.1159110991546882 * t6;
+    let t28 = t17 + (c(0.040491189781895726) + t3 * c(0.031058285412302475));
+    let t29 = c(0.1159110991546882) * t6;
     let t30 = t28 - t29;
-    let t31 = 0.17538661166134234 - 0.1159110991546882 * t12;
-    let t32 = t19 + t9 * 0.031058285412302475;
+    let t31 = c(0.17538661166134234) - c(0.1159110991546882) * t12;
+    let t32 = t19 + t9 * c(0.031058285412302475);
     let t33 = t31 + t32;
     // leg 4: platform joint from the base point
-    let t34 = t17 - (0.17213485607334636 - t3 * 0.0848528137423857);
-    let t35 = 0.08485281374238571 * t6;
+    let t34 = t17 - (c(0.17213485607334636) - t3 * c(0.0848528137423857));
+    let t35 = c(0.08485281374238571) * t6;
     let t36 = t34 - t35;
-    let t37 = 0.052626906850092664 - 0.08485281374238571 * t12;
-    let t38 = t19 + t9 * 0.0848528137423857;
+    let t37 = c(0.052626906850092664) - c(0.08485281374238571) * t12;
+    let t38 = t19 + t9 * c(0.0848528137423857);
     let t39 = t37 + t38;
     // leg 5: platform joint from the base point
     let t40 = t34 + t35;
@@ -4996,29 +5556,29 @@ pub fn jacobian_dp(
     let t42 = t28 + t29;
     let t43 = t31 - t32;
     // leg 1: extent of the rod along the actuator axis
-    let t44 = sqrt(0.042435999999999995 - t22 * t22 - t25 * t25);
+    let t44 = sqrt(c(0.042435999999999995) - t22 * t22 - t25 * t25);
     // leg 1: reciprocal of that extent
-    let t45 = 1.0 / t44;
+    let t45 = c(1.0) / t44;
     // leg 2: extent of the rod along the actuator axis
-    let t46 = sqrt(0.042435999999999995 - t26 * t26 - t27 * t27);
+    let t46 = sqrt(c(0.042435999999999995) - t26 * t26 - t27 * t27);
     // leg 2: reciprocal of that extent
-    let t47 = 1.0 / t46;
+    let t47 = c(1.0) / t46;
     // leg 3: extent of the rod along the actuator axis
-    let t48 = sqrt(0.042435999999999995 - t30 * t30 - t33 * t33);
+    let t48 = sqrt(c(0.042435999999999995) - t30 * t30 - t33 * t33);
     // leg 3: reciprocal of that extent
-    let t49 = 1.0 / t48;
+    let t49 = c(1.0) / t48;
     // leg 4: extent of the rod along the actuator axis
-    let t50 = sqrt(0.042435999999999995 - t36 * t36 - t39 * t39);
+    let t50 = sqrt(c(0.042435999999999995) - t36 * t36 - t39 * t39);
     // leg 4: reciprocal of that extent
-    let t51 = 1.0 / t50;
+    let t51 = c(1.0) / t50;
     // leg 5: extent of the rod along the actuator axis
-    let t52 = sqrt(0.042435999999999995 - t40 * t40 - t41 * t41);
+    let t52 = sqrt(c(0.042435999999999995) - t40 * t40 - t41 * t41);
     // leg 5: reciprocal of that extent
-    let t53 = 1.0 / t52;
+    let t53 = c(1.0) / t52;
     // leg 6: extent of the rod along the actuator axis
-    let t54 = sqrt(0.042435999999999995 - t42 * t42 - t43 * t43);
+    let t54 = sqrt(c(0.042435999999999995) - t42 * t42 - t43 * t43);
     // leg 6: reciprocal of that extent
-    let t55 = 1.0 / t54;
+    let t55 = c(1.0) / t54;
     // leg 1: gradient of the actuator length by the platform joint
     let t56 = t22 * t45;
     let t57 = t25 * t45;
@@ -5038,14 +5598,14 @@ pub fn jacobian_dp(
     let t66 = t42 * t55;
     let t67 = t43 * t55;
     // leg 1: platform joint from the platform origin
-    let t68 = platform_rotation[0][0] * 0.1159110991546882;
-    let t69 = platform_rotation[0][1] * 0.03105828541230249;
+    let t68 = platform_rotation[0][0] * c(0.1159110991546882);
+    let t69 = platform_rotation[0][1] * c(0.03105828541230249);
     let t70 = t68 - t69;
-    let t71 = platform_rotation[1][0] * 0.1159110991546882;
-    let t72 = platform_rotation[1][1] * 0.03105828541230249;
+    let t71 = platform_rotation[1][0] * c(0.1159110991546882);
+    let t72 = platform_rotation[1][1] * c(0.03105828541230249);
     let t73 = t71 - t72;
-    let t74 = platform_rotation[2][0] * 0.1159110991546882;
-    let t75 = platform_rotation[2][1] * 0.03105828541230249;
+    let t74 = platform_rotation[2][0] * c(0.1159110991546882);
+    let t75 = platform_rotation[2][1] * c(0.03105828541230249);
     let t76 = t74 - t75;
     // leg 1: gradient of the actuator length
     let t77 = base_rotation[0][2] - base_rotation[0][0] * t56;
@@ -5072,14 +5632,14 @@ pub fn jacobian_dp(
     jacobian_dp[1][1] = -t89;
     jacobian_dp[1][2] = -t91;
     // leg 3: platform joint from the platform origin
-    let t92 = platform_rotation[0][0] * 0.031058285412302475;
-    let t93 = platform_rotation[0][1] * 0.1159110991546882;
+    let t92 = platform_rotation[0][0] * c(0.031058285412302475);
+    let t93 = platform_rotation[0][1] * c(0.1159110991546882);
     let t94 = t92 - t93;
-    let t95 = platform_rotation[1][0] * 0.031058285412302475;
-    let t96 = platform_rotation[1][1] * 0.1159110991546882;
+    let t95 = platform_rotation[1][0] * c(0.031058285412302475);
+    let t96 = platform_rotation[1][1] * c(0.1159110991546882);
     let t97 = t95 - t96;
-    let t98 = platform_rotation[2][0] * 0.031058285412302475;
-    let t99 = platform_rotation[2][1] * 0.1159110991546882;
+    let t98 = platform_rotation[2][0] * c(0.031058285412302475);
+    let t99 = platform_rotation[2][1] * c(0.1159110991546882);
     let t100 = t98 - t99;
     // leg 3: gradient of the actuator length
     let t101 = base_rotation[0][2] - base_rotation[0][0] * t60;
@@ -5092,14 +5652,14 @@ pub fn jacobian_dp(
     jacobian_dp[2][1] = -t104;
     jacobian_dp[2][2] = -t106;
     // leg 4: platform joint from the platform origin
-    let t107 = platform_rotation[0][0] * 0.0848528137423857;
-    let t108 = platform_rotation[0][1] * 0.08485281374238571;
+    let t107 = platform_rotation[0][0] * c(0.0848528137423857);
+    let t108 = platform_rotation[0][1] * c(0.08485281374238571);
     let t109 = t107 - t108;
-    let t110 = platform_rotation[1][0] * 0.0848528137423857;
-    let t111 = platform_rotation[1][1] * 0.08485281374238571;
+    let t110 = platform_rotation[1][0] * c(0.0848528137423857);
+    let t111 = platform_rotation[1][1] * c(0.08485281374238571);
     let t112 = t110 - t111;
-    let t113 = platform_rotation[2][0] * 0.0848528137423857;
-    let t114 = platform_rotation[2][1] * 0.08485281374238571;
+    let t113 = platform_rotation[2][0] * c(0.0848528137423857);
+    let t114 = platform_rotation[2][1] * c(0.08485281374238571);
     let t115 = t113 - t114;
     // leg 4: gradient of the actuator length
     let t116 = base_rotation[0][2] - base_rotation[0][0] * t62;
@@ -5178,13 +5738,14 @@ pub fn jacobian_dp(
 ///
 /// - `jacobian_db`: 6x6, 1, m, frame O: actuator Jacobian of the base, equation (31).
 #[allow(clippy::all, clippy::pedantic, unused_variables)]
-pub fn jacobian_db(
-    base_position: &[f64; 3],
-    base_rotation: &[[f64; 3]; 3],
-    platform_position: &[f64; 3],
-    platform_rotation: &[[f64; 3]; 3],
-    jacobian_db: &mut [[f64; 6]; 6],
+pub fn jacobian_db<T: Scalar>(
+    base_position: &[T; 3],
+    base_rotation: &[[T; 3]; 3],
+    platform_position: &[T; 3],
+    platform_rotation: &[[T; 3]; 3],
+    jacobian_db: &mut [[T; 6]; 6],
 ) {
+    let c = T::constant;
     // rotation of the platform seen from the base
     let t1 = base_rotation[1][0] * platform_rotation[1][0];
     let t2 = base_rotation[0][0] * platform_rotation[0][0] + t1;
@@ -5207,28 +5768,28 @@ pub fn jacobian_db(
     let t18 = base_rotation[0][1] * t13 + base_rotation[1][1] * t14;
     let t19 = base_rotation[2][1] * t15 + t18;
     // leg 1: platform joint from the base point
-    let t20 = t17 + (0.1316436662914507 - 0.1159110991546882 * t3);
-    let t21 = 0.03105828541230249 * t6;
+    let t20 = t17 + (c(0.1316436662914507) - c(0.1159110991546882) * t3);
+    let t21 = c(0.03105828541230249) * t6;
     let t22 = t20 + t21;
-    let t23 = 0.12275970481124972 - 0.03105828541230249 * t12;
-    let t24 = t19 - 0.1159110991546882 * t9;
+    let t23 = c(0.12275970481124972) - c(0.03105828541230249) * t12;
+    let t24 = t19 - c(0.1159110991546882) * t9;
     let t25 = t23 - t24;
     // leg 2: platform joint from the base point
     let t26 = t20 - t21;
     let t27 = t23 + t24;
     // leg 3: platform joint from the base point
-    let t28 = t17 + (0.040491189781895726 + t3 * 0.031058285412302475);
-    let t29 = 0.1159110991546882 * t6;
+    let t28 = t17 + (c(0.040491189781895726) + t3 * c(0.031058285412302475));
+    let t29 = c(0.1159110991546882) * t6;
     let t30 = t28 - t29;
-    let t31 = 0.17538661166134234 - 0.1159110991546882 * t12;
-    let t32 = t19 + t9 * 0.031058285412302475;
+    let t31 = c(0.17538661166134234) - c(0.1159110991546882) * t12;
+    let t32 = t19 + t9 * c(0.031058285412302475);
     let t33 = t31 + t32;
     // leg 4: platform joint from the base point
-    let t34 = t17 - (0.17213485607334636 - t3 * 0.0848528137423857);
-    let t35 = 0.08485281374238571 * t6;
+    let t34 = t17 - (c(0.17213485607334636) - t3 * c(0.0848528137423857));
+    let t35 = c(0.08485281374238571) * t6;
     let t36 = t34 - t35;
-    let t37 = 0.052626906850092664 - 0.08485281374238571 * t12;
-    let t38 = t19 + t9 * 0.0848528137423857;
+    let t37 = c(0.052626906850092664) - c(0.08485281374238571) * t12;
+    let t38 = t19 + t9 * c(0.0848528137423857);
     let t39 = t37 + t38;
     // leg 5: platform joint from the base point
     let t40 = t34 + t35;
@@ -5237,29 +5798,29 @@ pub fn jacobian_db(
     let t42 = t28 + t29;
     let t43 = t31 - t32;
     // leg 1: extent of the rod along the actuator axis
-    let t44 = sqrt(0.042435999999999995 - t22 * t22 - t25 * t25);
+    let t44 = sqrt(c(0.042435999999999995) - t22 * t22 - t25 * t25);
     // leg 1: reciprocal of that extent
-    let t45 = 1.0 / t44;
+    let t45 = c(1.0) / t44;
     // leg 2: extent of the rod along the actuator axis
-    let t46 = sqrt(0.042435999999999995 - t26 * t26 - t27 * t27);
+    let t46 = sqrt(c(0.042435999999999995) - t26 * t26 - t27 * t27);
     // leg 2: reciprocal of that extent
-    let t47 = 1.0 / t46;
+    let t47 = c(1.0) / t46;
     // leg 3: extent of the rod along the actuator axis
-    let t48 = sqrt(0.042435999999999995 - t30 * t30 - t33 * t33);
+    let t48 = sqrt(c(0.042435999999999995) - t30 * t30 - t33 * t33);
     // leg 3: reciprocal of that extent
-    let t49 = 1.0 / t48;
+    let t49 = c(1.0) / t48;
     // leg 4: extent of the rod along the actuator axis
-    let t50 = sqrt(0.042435999999999995 - t36 * t36 - t39 * t39);
+    let t50 = sqrt(c(0.042435999999999995) - t36 * t36 - t39 * t39);
     // leg 4: reciprocal of that extent
-    let t51 = 1.0 / t50;
+    let t51 = c(1.0) / t50;
     // leg 5: extent of the rod along the actuator axis
-    let t52 = sqrt(0.042435999999999995 - t40 * t40 - t41 * t41);
+    let t52 = sqrt(c(0.042435999999999995) - t40 * t40 - t41 * t41);
     // leg 5: reciprocal of that extent
-    let t53 = 1.0 / t52;
+    let t53 = c(1.0) / t52;
     // leg 6: extent of the rod along the actuator axis
-    let t54 = sqrt(0.042435999999999995 - t42 * t42 - t43 * t43);
+    let t54 = sqrt(c(0.042435999999999995) - t42 * t42 - t43 * t43);
     // leg 6: reciprocal of that extent
-    let t55 = 1.0 / t54;
+    let t55 = c(1.0) / t54;
     // leg 1: gradient of the actuator length by the platform joint
     let t56 = t22 * t45;
     let t57 = t25 * t45;
@@ -5279,14 +5840,14 @@ pub fn jacobian_db(
     let t66 = t42 * t55;
     let t67 = t43 * t55;
     // leg 1: platform joint from the base origin
-    let t68 = t13 - platform_rotation[0][0] * 0.1159110991546882;
-    let t69 = platform_rotation[0][1] * 0.03105828541230249;
+    let t68 = t13 - platform_rotation[0][0] * c(0.1159110991546882);
+    let t69 = platform_rotation[0][1] * c(0.03105828541230249);
     let t70 = t68 + t69;
-    let t71 = t14 - platform_rotation[1][0] * 0.1159110991546882;
-    let t72 = platform_rotation[1][1] * 0.03105828541230249;
+    let t71 = t14 - platform_rotation[1][0] * c(0.1159110991546882);
+    let t72 = platform_rotation[1][1] * c(0.03105828541230249);
     let t73 = t71 + t72;
-    let t74 = t15 - platform_rotation[2][0] * 0.1159110991546882;
-    let t75 = platform_rotation[2][1] * 0.03105828541230249;
+    let t74 = t15 - platform_rotation[2][0] * c(0.1159110991546882);
+    let t75 = platform_rotation[2][1] * c(0.03105828541230249);
     let t76 = t74 + t75;
     // leg 1: gradient of the actuator length
     let t77 = base_rotation[0][2] - base_rotation[0][0] * t56;
@@ -5313,14 +5874,14 @@ pub fn jacobian_db(
     jacobian_db[1][1] = -t89;
     jacobian_db[1][2] = -t91;
     // leg 3: platform joint from the base origin
-    let t92 = t13 + platform_rotation[0][0] * 0.031058285412302475;
-    let t93 = platform_rotation[0][1] * 0.1159110991546882;
+    let t92 = t13 + platform_rotation[0][0] * c(0.031058285412302475);
+    let t93 = platform_rotation[0][1] * c(0.1159110991546882);
     let t94 = t92 - t93;
-    let t95 = t14 + platform_rotation[1][0] * 0.031058285412302475;
-    let t96 = platform_rotation[1][1] * 0.1159110991546882;
+    let t95 = t14 + platform_rotation[1][0] * c(0.031058285412302475);
+    let t96 = platform_rotation[1][1] * c(0.1159110991546882);
     let t97 = t95 - t96;
-    let t98 = t15 + platform_rotation[2][0] * 0.031058285412302475;
-    let t99 = platform_rotation[2][1] * 0.1159110991546882;
+    let t98 = t15 + platform_rotation[2][0] * c(0.031058285412302475);
+    let t99 = platform_rotation[2][1] * c(0.1159110991546882);
     let t100 = t98 - t99;
     // leg 3: gradient of the actuator length
     let t101 = base_rotation[0][2] - base_rotation[0][0] * t60;
@@ -5333,14 +5894,14 @@ pub fn jacobian_db(
     jacobian_db[2][1] = -t104;
     jacobian_db[2][2] = -t106;
     // leg 4: platform joint from the base origin
-    let t107 = t13 + platform_rotation[0][0] * 0.0848528137423857;
-    let t108 = platform_rotation[0][1] * 0.08485281374238571;
+    let t107 = t13 + platform_rotation[0][0] * c(0.0848528137423857);
+    let t108 = platform_rotation[0][1] * c(0.08485281374238571);
     let t109 = t107 - t108;
-    let t110 = t14 + platform_rotation[1][0] * 0.0848528137423857;
-    let t111 = platform_rotation[1][1] * 0.08485281374238571;
+    let t110 = t14 + platform_rotation[1][0] * c(0.0848528137423857);
+    let t111 = platform_rotation[1][1] * c(0.08485281374238571);
     let t112 = t110 - t111;
-    let t113 = t15 + platform_rotation[2][0] * 0.0848528137423857;
-    let t114 = platform_rotation[2][1] * 0.08485281374238571;
+    let t113 = t15 + platform_rotation[2][0] * c(0.0848528137423857);
+    let t114 = platform_rotation[2][1] * c(0.08485281374238571);
     let t115 = t113 - t114;
     // leg 4: gradient of the actuator length
     let t116 = base_rotation[0][2] - base_rotation[0][0] * t62;
@@ -5419,13 +5980,14 @@ pub fn jacobian_db(
 ///
 /// - `mass_matrix_p`: 6x6, kg, kg m, kg m^2, frame O: mass matrix M_p of the platform, equation (49).
 #[allow(clippy::all, clippy::pedantic, unused_variables)]
-pub fn mass_matrix_p(
-    base_position: &[f64; 3],
-    base_rotation: &[[f64; 3]; 3],
-    platform_position: &[f64; 3],
-    platform_rotation: &[[f64; 3]; 3],
-    mass_matrix_p: &mut [[f64; 6]; 6],
+pub fn mass_matrix_p<T: Scalar>(
+    base_position: &[T; 3],
+    base_rotation: &[[T; 3]; 3],
+    platform_position: &[T; 3],
+    platform_rotation: &[[T; 3]; 3],
+    mass_matrix_p: &mut [[T; 6]; 6],
 ) {
+    let c = T::constant;
     // rotation of the platform seen from the base
     let t1 = base_rotation[1][0] * platform_rotation[1][0];
     let t2 = base_rotation[0][0] * platform_rotation[0][0] + t1;
@@ -5448,28 +6010,28 @@ pub fn mass_matrix_p(
     let t18 = base_rotation[0][1] * t14 + base_rotation[1][1] * t15;
     let t19 = base_rotation[2][1] * t13 + t18;
     // leg 1: platform joint from the base point
-    let t20 = t17 + (0.1316436662914507 - 0.1159110991546882 * t3);
-    let t21 = 0.03105828541230249 * t6;
+    let t20 = t17 + (c(0.1316436662914507) - c(0.1159110991546882) * t3);
+    let t21 = c(0.03105828541230249) * t6;
     let t22 = t20 + t21;
-    let t23 = 0.12275970481124972 - 0.03105828541230249 * t12;
-    let t24 = t19 - 0.1159110991546882 * t9;
+    let t23 = c(0.12275970481124972) - c(0.03105828541230249) * t12;
+    let t24 = t19 - c(0.1159110991546882) * t9;
     let t25 = t23 - t24;
     // leg 2: platform joint from the base point
     let t26 = t20 - t21;
     let t27 = t23 + t24;
     // leg 3: platform joint from the base point
-    let t28 = t17 + (0.040491189781895726 + t3 * 0.031058285412302475);
-    let t29 = 0.1159110991546882 * t6;
+    let t28 = t17 + (c(0.040491189781895726) + t3 * c(0.031058285412302475));
+    let t29 = c(0.1159110991546882) * t6;
     let t30 = t28 - t29;
-    let t31 = 0.17538661166134234 - 0.1159110991546882 * t12;
-    let t32 = t19 + t9 * 0.031058285412302475;
+    let t31 = c(0.17538661166134234) - c(0.1159110991546882) * t12;
+    let t32 = t19 + t9 * c(0.031058285412302475);
     let t33 = t31 + t32;
     // leg 4: platform joint from the base point
-    let t34 = t17 - (0.17213485607334636 - t3 * 0.0848528137423857);
-    let t35 = 0.08485281374238571 * t6;
+    let t34 = t17 - (c(0.17213485607334636) - t3 * c(0.0848528137423857));
+    let t35 = c(0.08485281374238571) * t6;
     let t36 = t34 - t35;
-    let t37 = 0.052626906850092664 - 0.08485281374238571 * t12;
-    let t38 = t19 + t9 * 0.0848528137423857;
+    let t37 = c(0.052626906850092664) - c(0.08485281374238571) * t12;
+    let t38 = t19 + t9 * c(0.0848528137423857);
     let t39 = t37 + t38;
     // leg 5: platform joint from the base point
     let t40 = t34 + t35;
@@ -5478,29 +6040,29 @@ pub fn mass_matrix_p(
     let t42 = t28 + t29;
     let t43 = t31 - t32;
     // leg 1: extent of the rod along the actuator axis
-    let t44 = sqrt(0.042435999999999995 - t22 * t22 - t25 * t25);
+    let t44 = sqrt(c(0.042435999999999995) - t22 * t22 - t25 * t25);
     // leg 1: reciprocal of that extent
-    let t45 = 1.0 / t44;
+    let t45 = c(1.0) / t44;
     // leg 2: extent of the rod along the actuator axis
-    let t46 = sqrt(0.042435999999999995 - t26 * t26 - t27 * t27);
+    let t46 = sqrt(c(0.042435999999999995) - t26 * t26 - t27 * t27);
     // leg 2: reciprocal of that extent
-    let t47 = 1.0 / t46;
+    let t47 = c(1.0) / t46;
     // leg 3: extent of the rod along the actuator axis
-    let t48 = sqrt(0.042435999999999995 - t30 * t30 - t33 * t33);
+    let t48 = sqrt(c(0.042435999999999995) - t30 * t30 - t33 * t33);
     // leg 3: reciprocal of that extent
-    let t49 = 1.0 / t48;
+    let t49 = c(1.0) / t48;
     // leg 4: extent of the rod along the actuator axis
-    let t50 = sqrt(0.042435999999999995 - t36 * t36 - t39 * t39);
+    let t50 = sqrt(c(0.042435999999999995) - t36 * t36 - t39 * t39);
     // leg 4: reciprocal of that extent
-    let t51 = 1.0 / t50;
+    let t51 = c(1.0) / t50;
     // leg 5: extent of the rod along the actuator axis
-    let t52 = sqrt(0.042435999999999995 - t40 * t40 - t41 * t41);
+    let t52 = sqrt(c(0.042435999999999995) - t40 * t40 - t41 * t41);
     // leg 5: reciprocal of that extent
-    let t53 = 1.0 / t52;
+    let t53 = c(1.0) / t52;
     // leg 6: extent of the rod along the actuator axis
-    let t54 = sqrt(0.042435999999999995 - t42 * t42 - t43 * t43);
+    let t54 = sqrt(c(0.042435999999999995) - t42 * t42 - t43 * t43);
     // leg 6: reciprocal of that extent
-    let t55 = 1.0 / t54;
+    let t55 = c(1.0) / t54;
     // leg 1: gradient of the actuator length by the platform joint
     let t56 = t22 * t45;
     let t57 = t25 * t45;
@@ -5520,14 +6082,14 @@ pub fn mass_matrix_p(
     let t66 = t42 * t55;
     let t67 = t43 * t55;
     // leg 1: platform joint from the platform origin
-    let t68 = platform_rotation[0][0] * 0.1159110991546882;
-    let t69 = platform_rotation[0][1] * 0.03105828541230249;
+    let t68 = platform_rotation[0][0] * c(0.1159110991546882);
+    let t69 = platform_rotation[0][1] * c(0.03105828541230249);
     let t70 = t68 - t69;
-    let t71 = platform_rotation[1][0] * 0.1159110991546882;
-    let t72 = platform_rotation[1][1] * 0.03105828541230249;
+    let t71 = platform_rotation[1][0] * c(0.1159110991546882);
+    let t72 = platform_rotation[1][1] * c(0.03105828541230249);
     let t73 = t71 - t72;
-    let t74 = platform_rotation[2][0] * 0.1159110991546882;
-    let t75 = platform_rotation[2][1] * 0.03105828541230249;
+    let t74 = platform_rotation[2][0] * c(0.1159110991546882);
+    let t75 = platform_rotation[2][1] * c(0.03105828541230249);
     let t76 = t74 - t75;
     // leg 1: gradient of the actuator length
     let t77 = base_rotation[0][2] - base_rotation[0][0] * t56;
@@ -5548,14 +6110,14 @@ pub fn mass_matrix_p(
     let t90 = base_rotation[2][2] - base_rotation[2][0] * t58;
     let t91 = base_rotation[2][1] * t59 - t90;
     // leg 3: platform joint from the platform origin
-    let t92 = platform_rotation[0][0] * 0.031058285412302475;
-    let t93 = platform_rotation[0][1] * 0.1159110991546882;
+    let t92 = platform_rotation[0][0] * c(0.031058285412302475);
+    let t93 = platform_rotation[0][1] * c(0.1159110991546882);
     let t94 = t92 - t93;
-    let t95 = platform_rotation[1][0] * 0.031058285412302475;
-    let t96 = platform_rotation[1][1] * 0.1159110991546882;
+    let t95 = platform_rotation[1][0] * c(0.031058285412302475);
+    let t96 = platform_rotation[1][1] * c(0.1159110991546882);
     let t97 = t95 - t96;
-    let t98 = platform_rotation[2][0] * 0.031058285412302475;
-    let t99 = platform_rotation[2][1] * 0.1159110991546882;
+    let t98 = platform_rotation[2][0] * c(0.031058285412302475);
+    let t99 = platform_rotation[2][1] * c(0.1159110991546882);
     let t100 = t98 - t99;
     // leg 3: gradient of the actuator length
     let t101 = base_rotation[0][2] - base_rotation[0][0] * t60;
@@ -5565,14 +6127,14 @@ pub fn mass_matrix_p(
     let t105 = base_rotation[2][2] - base_rotation[2][0] * t60;
     let t106 = base_rotation[2][1] * t61 - t105;
     // leg 4: platform joint from the platform origin
-    let t107 = platform_rotation[0][0] * 0.0848528137423857;
-    let t108 = platform_rotation[0][1] * 0.08485281374238571;
+    let t107 = platform_rotation[0][0] * c(0.0848528137423857);
+    let t108 = platform_rotation[0][1] * c(0.08485281374238571);
     let t109 = t107 - t108;
-    let t110 = platform_rotation[1][0] * 0.0848528137423857;
-    let t111 = platform_rotation[1][1] * 0.08485281374238571;
+    let t110 = platform_rotation[1][0] * c(0.0848528137423857);
+    let t111 = platform_rotation[1][1] * c(0.08485281374238571);
     let t112 = t110 - t111;
-    let t113 = platform_rotation[2][0] * 0.0848528137423857;
-    let t114 = platform_rotation[2][1] * 0.08485281374238571;
+    let t113 = platform_rotation[2][0] * c(0.0848528137423857);
+    let t114 = platform_rotation[2][1] * c(0.08485281374238571);
     let t115 = t113 - t114;
     // leg 4: gradient of the actuator length
     let t116 = base_rotation[0][2] - base_rotation[0][0] * t62;
@@ -5604,68 +6166,68 @@ pub fn mass_matrix_p(
     let t138 = base_rotation[2][2] - base_rotation[2][0] * t66;
     let t139 = base_rotation[2][1] * t67 + t138;
     // leg 1: mass matrix of the leg in the speeds of its joint
-    let t140 = base_rotation[0][2] * 0.17066666666666666;
-    let t141 = t140 + t78 * 0.4761666666666667;
-    let t142 = 2.0 * (t78 * t141);
-    let t143 = base_rotation[1][2] * 0.17066666666666666;
-    let t144 = t143 + t80 * 0.4761666666666667;
+    let t140 = base_rotation[0][2] * c(0.17066666666666666);
+    let t141 = t140 + t78 * c(0.4761666666666667);
+    let t142 = c(2.0) * (t78 * t141);
+    let t143 = base_rotation[1][2] * c(0.17066666666666666);
+    let t144 = t143 + t80 * c(0.4761666666666667);
     let t145 = t78 * t144 + t80 * t141;
-    let t146 = base_rotation[2][2] * 0.17066666666666666;
-    let t147 = t146 + t82 * 0.4761666666666667;
+    let t146 = base_rotation[2][2] * c(0.17066666666666666);
+    let t147 = t146 + t82 * c(0.4761666666666667);
     let t148 = t78 * t147 + t82 * t141;
-    let t149 = 2.0 * (t80 * t144);
+    let t149 = c(2.0) * (t80 * t144);
     let t150 = t80 * t147 + t82 * t144;
-    let t151 = 2.0 * (t82 * t147);
+    let t151 = c(2.0) * (t82 * t147);
     // leg 2: mass matrix of the leg in the speeds of its joint
-    let t152 = t140 - t87 * 0.4761666666666667;
-    let t153 = 2.0 * (t87 * t152);
-    let t154 = t143 - t89 * 0.4761666666666667;
+    let t152 = t140 - t87 * c(0.4761666666666667);
+    let t153 = c(2.0) * (t87 * t152);
+    let t154 = t143 - t89 * c(0.4761666666666667);
     let t155 = t87 * t154 + t89 * t152;
-    let t156 = t146 - t91 * 0.4761666666666667;
+    let t156 = t146 - t91 * c(0.4761666666666667);
     let t157 = t87 * t156 + t91 * t152;
-    let t158 = 2.0 * (t89 * t154);
+    let t158 = c(2.0) * (t89 * t154);
     let t159 = t89 * t156 + t91 * t154;
-    let t160 = 2.0 * (t91 * t156);
+    let t160 = c(2.0) * (t91 * t156);
     // leg 3: mass matrix of the leg in the speeds of its joint
-    let t161 = t140 - t102 * 0.4761666666666667;
-    let t162 = 2.0 * (t102 * t161);
-    let t163 = t143 - t104 * 0.4761666666666667;
+    let t161 = t140 - t102 * c(0.4761666666666667);
+    let t162 = c(2.0) * (t102 * t161);
+    let t163 = t143 - t104 * c(0.4761666666666667);
     let t164 = t102 * t163 + t104 * t161;
-    let t165 = t146 - t106 * 0.4761666666666667;
+    let t165 = t146 - t106 * c(0.4761666666666667);
     let t166 = t102 * t165 + t106 * t161;
-    let t167 = 2.0 * (t104 * t163);
+    let t167 = c(2.0) * (t104 * t163);
     let t168 = t104 * t165 + t106 * t163;
-    let t169 = 2.0 * (t106 * t165);
+    let t169 = c(2.0) * (t106 * t165);
     // leg 4: mass matrix of the leg in the speeds of its joint
-    let t170 = t140 - t117 * 0.4761666666666667;
-    let t171 = 2.0 * (t117 * t170);
-    let t172 = t143 - t119 * 0.4761666666666667;
+    let t170 = t140 - t117 * c(0.4761666666666667);
+    let t171 = c(2.0) * (t117 * t170);
+    let t172 = t143 - t119 * c(0.4761666666666667);
     let t173 = t117 * t172 + t119 * t170;
-    let t174 = t146 - t121 * 0.4761666666666667;
+    let t174 = t146 - t121 * c(0.4761666666666667);
     let t175 = t117 * t174 + t121 * t170;
-    let t176 = 2.0 * (t119 * t172);
+    let t176 = c(2.0) * (t119 * t172);
     let t177 = t119 * t174 + t121 * t172;
-    let t178 = 2.0 * (t121 * t174);
+    let t178 = c(2.0) * (t121 * t174);
     // leg 5: mass matrix of the leg in the speeds of its joint
-    let t179 = t140 + t126 * 0.4761666666666667;
-    let t180 = 2.0 * (t126 * t179);
-    let t181 = t143 + t128 * 0.4761666666666667;
+    let t179 = t140 + t126 * c(0.4761666666666667);
+    let t180 = c(2.0) * (t126 * t179);
+    let t181 = t143 + t128 * c(0.4761666666666667);
     let t182 = t126 * t181 + t128 * t179;
-    let t183 = t146 + t130 * 0.4761666666666667;
+    let t183 = t146 + t130 * c(0.4761666666666667);
     let t184 = t126 * t183 + t130 * t179;
-    let t185 = 2.0 * (t128 * t181);
+    let t185 = c(2.0) * (t128 * t181);
     let t186 = t128 * t183 + t130 * t181;
-    let t187 = 2.0 * (t130 * t183);
+    let t187 = c(2.0) * (t130 * t183);
     // leg 6: mass matrix of the leg in the speeds of its joint
-    let t188 = t140 + t135 * 0.4761666666666667;
-    let t189 = 2.0 * (t135 * t188);
-    let t190 = t143 + t137 * 0.4761666666666667;
+    let t188 = t140 + t135 * c(0.4761666666666667);
+    let t189 = c(2.0) * (t135 * t188);
+    let t190 = t143 + t137 * c(0.4761666666666667);
     let t191 = t135 * t190 + t137 * t188;
-    let t192 = t146 + t139 * 0.4761666666666667;
+    let t192 = t146 + t139 * c(0.4761666666666667);
     let t193 = t135 * t192 + t139 * t188;
-    let t194 = 2.0 * (t137 * t190);
+    let t194 = c(2.0) * (t137 * t190);
     let t195 = t137 * t192 + t139 * t190;
-    let t196 = 2.0 * (t139 * t192);
+    let t196 = c(2.0) * (t139 * t192);
     // mass matrix of the legs
     let t197 = t70 * t148 - t76 * t142;
     let t198 = t83 * t157 - t85 * t153;
@@ -5825,84 +6387,83 @@ pub fn mass_matrix_p(
     mass_matrix_p[2][5] = t341;
     mass_matrix_p[5][2] = t341;
     // mass matrix M_p of the platform
-    mass_matrix_p[0][0] = t189
-        + (t180 - (t171 + (t162 + (t153 - (8.139999999999999 + t142)))));
-    let t342 = platform_rotation[2][0] * 2.2551405187698492e-17;
-    let t343 = t342 + platform_rotation[2][1] * 6.938893903907228e-18;
-    let t344 = t343 + platform_rotation[2][2] * 0.188852;
-    let t345 = t344 + (t202 + (t201 - (t200 + (t199 + (t197 - t198)))));
-    mass_matrix_p[0][4] = t345;
-    mass_matrix_p[4][0] = t345;
-    let t346 = platform_rotation[1][0] * 2.2551405187698492e-17;
-    let t347 = t346 + platform_rotation[1][1] * 6.938893903907228e-18;
-    let t348 = t347 + platform_rotation[1][2] * 0.188852;
-    let t349 = t208 + (t207 - (t206 + (t205 + (t203 - t204)))) - t348;
-    mass_matrix_p[0][5] = t349;
-    mass_matrix_p[5][0] = t349;
-    mass_matrix_p[1][1] = t194
-        + (t185 - (t176 + (t167 + (t158 - (8.139999999999999 + t149)))));
-    let t350 = t214 + (t213 - (t212 + (t211 + (t209 - t210)))) - t344;
-    mass_matrix_p[1][3] = t350;
-    mass_matrix_p[3][1] = t350;
-    let t351 = platform_rotation[0][0] * 2.2551405187698492e-17;
-    let t352 = t351 + platform_rotation[0][1] * 6.938893903907228e-18;
-    let t353 = t352 + platform_rotation[0][2] * 0.188852;
-    let t354 = t353 + (t220 + (t219 - (t218 + (t217 + (t215 - t216)))));
-    mass_matrix_p[1][5] = t354;
-    mass_matrix_p[5][1] = t354;
-    mass_matrix_p[2][2] = t196
-        + (t187 - (t178 + (t169 + (t160 - (8.139999999999999 + t151)))));
-    let t355 = t348 + (t226 + (t225 - (t224 + (t223 + (t221 - t222)))));
-    mass_matrix_p[2][3] = t355;
-    mass_matrix_p[3][2] = t355;
-    let t356 = t232 + (t231 - (t230 + (t229 + (t227 - t228)))) - t353;
-    mass_matrix_p[2][4] = t356;
-    mass_matrix_p[4][2] = t356;
-    let t357 = t237 - (t236 - (t235 + (t234 - (t233 + 0.07784561200000001))));
-    let t358 = t243 - (t242 - (t241 + (t240 - (t239 - (t238 - t357))))) - t244;
-    let t359 = platform_rotation[0][0] * 0.032245600000000006;
-    let t360 = t358 - platform_rotation[0][0] * t359;
-    let t361 = platform_rotation[0][1] * 0.032245600000000006;
-    let t362 = t360 - platform_rotation[0][1] * t361;
-    let t363 = platform_rotation[0][2] * 0.013354412;
-    mass_matrix_p[3][3] = t362 - platform_rotation[0][2] * t363;
-    let t364 = t264 + (t263 + (t259 + (t258 + (t254 + (t253 - (t248 + t249))))));
-    let t365 = t364 - t268 - t269 - t273 - t274;
-    let t366 = t365 - platform_rotation[1][0] * t359;
-    let t367 = t366 - platform_rotation[1][1] * t361;
-    let t368 = t367 - platform_rotation[1][2] * t363;
-    mass_matrix_p[3][4] = t368;
-    mass_matrix_p[4][3] = t368;
-    let t369 = t290 - (t287 - (t286 - (t283 - (t282 - (t279 - (t275 - t278))))));
-    let t370 = t295 - (t294 - (t291 + t369)) - t298;
-    let t371 = t370 - platform_rotation[2][0] * t359;
-    let t372 = t371 - platform_rotation[2][1] * t361;
-    let t373 = t372 - platform_rotation[2][2] * t363;
-    mass_matrix_p[3][5] = t373;
-    mass_matrix_p[5][3] = t373;
-    let t374 = t303 - (t302 - (t301 + (t300 - (t299 + 0.07784561200000001))));
-    let t375 = t309 - (t308 - (t307 + (t306 - (t305 - (t304 - t374))))) - t310;
-    let t376 = platform_rotation[1][0] * 0.032245600000000006;
-    let t377 = t375 - platform_rotation[1][0] * t376;
-    let t378 = platform_rotation[1][1] * 0.032245600000000006;
-    let t379 = t377 - platform_rotation[1][1] * t378;
-    let t380 = platform_rotation[1][2] * 0.013354412;
-    mass_matrix_p[4][4] = t379 - platform_rotation[1][2] * t380;
-    let t381 = t318 - (t317 - (t316 - (t315 - (t314 - (t313 - (t311 - t312))))));
-    let t382 = t321 - (t320 - (t319 + t381)) - t322;
-    let t383 = t382 - platform_rotation[2][0] * t376;
-    let t384 = t383 - platform_rotation[2][1] * t378;
-    let t385 = t384 - platform_rotation[2][2] * t380;
-    mass_matrix_p[4][5] = t385;
-    mass_matrix_p[5][4] = t385;
-    let t386 = platform_rotation[2][2] * (platform_rotation[2][2] * -0.013354412);
-    let t387 = platform_rotation[2][1]
-        * (platform_rotation[2][1] * 0.032245600000000006);
-    let t388 = platform_rotation[2][0]
-        * (platform_rotation[2][0] * 0.032245600000000006);
-    let t389 = t327 - (t326 - (t325 + (t324 - (t323 + 0.07784561200000001))));
-    let t390 = t334 - (t333 - (t332 - (t331 + (t330 - (t329 - (t328 - t389))))));
-    mass_matrix_p[5][5] = t386 - (t387 + (t388 + t390));
+    let t342 = t180 - (t171 + (t162 + (t153 - (c(8.139999999999999) + t142))));
+    mass_matrix_p[0][0] = t189 + t342;
+    let t343 = platform_rotation[2][0] * c(2.2551405187698492e-17);
+    let t344 = t343 + platform_rotation[2][1] * c(6.938893903907228e-18);
+    let t345 = t344 + platform_rotation[2][2] * c(0.188852);
+    let t346 = t345 + (t202 + (t201 - (t200 + (t199 + (t197 - t198)))));
+    mass_matrix_p[0][4] = t346;
+    mass_matrix_p[4][0] = t346;
+    let t347 = platform_rotation[1][0] * c(2.2551405187698492e-17);
+    let t348 = t347 + platform_rotation[1][1] * c(6.938893903907228e-18);
+    let t349 = t348 + platform_rotation[1][2] * c(0.188852);
+    let t350 = t208 + (t207 - (t206 + (t205 + (t203 - t204)))) - t349;
+    mass_matrix_p[0][5] = t350;
+    mass_matrix_p[5][0] = t350;
+    let t351 = t185 - (t176 + (t167 + (t158 - (c(8.139999999999999) + t149))));
+    mass_matrix_p[1][1] = t194 + t351;
+    let t352 = t214 + (t213 - (t212 + (t211 + (t209 - t210)))) - t345;
+    mass_matrix_p[1][3] = t352;
+    mass_matrix_p[3][1] = t352;
+    let t353 = platform_rotation[0][0] * c(2.2551405187698492e-17);
+    let t354 = t353 + platform_rotation[0][1] * c(6.938893903907228e-18);
+    let t355 = t354 + platform_rotation[0][2] * c(0.188852);
+    let t356 = t355 + (t220 + (t219 - (t218 + (t217 + (t215 - t216)))));
+    mass_matrix_p[1][5] = t356;
+    mass_matrix_p[5][1] = t356;
+    let t357 = t187 - (t178 + (t169 + (t160 - (c(8.139999999999999) + t151))));
+    mass_matrix_p[2][2] = t196 + t357;
+    let t358 = t349 + (t226 + (t225 - (t224 + (t223 + (t221 - t222)))));
+    mass_matrix_p[2][3] = t358;
+    mass_matrix_p[3][2] = t358;
+    let t359 = t232 + (t231 - (t230 + (t229 + (t227 - t228)))) - t355;
+    mass_matrix_p[2][4] = t359;
+    mass_matrix_p[4][2] = t359;
+    let t360 = t237 - (t236 - (t235 + (t234 - (t233 + c(0.07784561200000001)))));
+    let t361 = t243 - (t242 - (t241 + (t240 - (t239 - (t238 - t360))))) - t244;
+    let t362 = platform_rotation[0][0] * c(0.032245600000000006);
+    let t363 = t361 - platform_rotation[0][0] * t362;
+    let t364 = platform_rotation[0][1] * c(0.032245600000000006);
+    let t365 = t363 - platform_rotation[0][1] * t364;
+    let t366 = platform_rotation[0][2] * c(0.013354412);
+    mass_matrix_p[3][3] = t365 - platform_rotation[0][2] * t366;
+    let t367 = t264 + (t263 + (t259 + (t258 + (t254 + (t253 - (t248 + t249))))));
+    let t368 = t367 - t268 - t269 - t273 - t274;
+    let t369 = t368 - platform_rotation[1][0] * t362;
+    let t370 = t369 - platform_rotation[1][1] * t364;
+    let t371 = t370 - platform_rotation[1][2] * t366;
+    mass_matrix_p[3][4] = t371;
+    mass_matrix_p[4][3] = t371;
+    let t372 = t290 - (t287 - (t286 - (t283 - (t282 - (t279 - (t275 - t278))))));
+    let t373 = t295 - (t294 - (t291 + t372)) - t298;
+    let t374 = t373 - platform_rotation[2][0] * t362;
+    let t375 = t374 - platform_rotation[2][1] * t364;
+    let t376 = t375 - platform_rotation[2][2] * t366;
+    mass_matrix_p[3][5] = t376;
+    mass_matrix_p[5][3] = t376;
+    let t377 = t303 - (t302 - (t301 + (t300 - (t299 + c(0.07784561200000001)))));
+    let t378 = t309 - (t308 - (t307 + (t306 - (t305 - (t304 - t377))))) - t310;
+    let t379 = platform_rotation[1][0] * c(0.032245600000000006);
+    let t380 = t378 - platform_rotation[1][0] * t379;
+    let t381 = platform_rotation[1][1] * c(0.032245600000000006);
+    let t382 = t380 - platform_rotation[1][1] * t381;
+    let t383 = platform_rotation[1][2] * c(0.013354412);
+    mass_matrix_p[4][4] = t382 - platform_rotation[1][2] * t383;
+    let t384 = t318 - (t317 - (t316 - (t315 - (t314 - (t313 - (t311 - t312))))));
+    let t385 = t321 - (t320 - (t319 + t384)) - t322;
+    let t386 = t385 - platform_rotation[2][0] * t379;
+    let t387 = t386 - platform_rotation[2][1] * t381;
+    let t388 = t387 - platform_rotation[2][2] * t383;
+    mass_matrix_p[4][5] = t388;
+    mass_matrix_p[5][4] = t388;
+    let t389 = platform_rotation[2][2] * (platform_rotation[2][2] * c(-0.013354412));
+    let t390 = platform_rotation[2][1] * c(0.032245600000000006);
+    let t391 = platform_rotation[2][0] * c(0.032245600000000006);
+    let t392 = t327 - (t326 - (t325 + (t324 - (t323 + c(0.07784561200000001)))));
+    let t393 = t334 - (t333 - (t332 - (t331 + (t330 - (t329 - (t328 - t392))))));
+    let t394 = platform_rotation[2][0] * t391 + t393;
+    mass_matrix_p[5][5] = t389 - (platform_rotation[2][1] * t390 + t394);
 }
 
 /// Mass matrix that couples the base acceleration, equation (49).
@@ -5918,13 +6479,14 @@ pub fn mass_matrix_p(
 ///
 /// - `mass_matrix_b`: 6x6, kg, kg m, kg m^2, frame O: mass matrix M_b that couples the base acceleration, equation (49).
 #[allow(clippy::all, clippy::pedantic, unused_variables)]
-pub fn mass_matrix_b(
-    base_position: &[f64; 3],
-    base_rotation: &[[f64; 3]; 3],
-    platform_position: &[f64; 3],
-    platform_rotation: &[[f64; 3]; 3],
-    mass_matrix_b: &mut [[f64; 6]; 6],
+pub fn mass_matrix_b<T: Scalar>(
+    base_position: &[T; 3],
+    base_rotation: &[[T; 3]; 3],
+    platform_position: &[T; 3],
+    platform_rotation: &[[T; 3]; 3],
+    mass_matrix_b: &mut [[T; 6]; 6],
 ) {
+    let c = T::constant;
     // rotation of the platform seen from the base
     let t1 = base_rotation[1][0] * platform_rotation[1][0];
     let t2 = base_rotation[0][0] * platform_rotation[0][0] + t1;
@@ -5955,28 +6517,28 @@ pub fn mass_matrix_b(
     let t26 = base_rotation[0][2] * t19 + base_rotation[1][2] * t20;
     let t27 = base_rotation[2][2] * t21 + t26;
     // leg 1: platform joint from the base point
-    let t28 = t23 + (0.1316436662914507 - 0.1159110991546882 * t3);
-    let t29 = 0.03105828541230249 * t6;
+    let t28 = t23 + (c(0.1316436662914507) - c(0.1159110991546882) * t3);
+    let t29 = c(0.03105828541230249) * t6;
     let t30 = t28 + t29;
-    let t31 = 0.12275970481124972 - 0.03105828541230249 * t12;
-    let t32 = t25 - 0.1159110991546882 * t9;
+    let t31 = c(0.12275970481124972) - c(0.03105828541230249) * t12;
+    let t32 = t25 - c(0.1159110991546882) * t9;
     let t33 = t31 - t32;
     // leg 2: platform joint from the base point
     let t34 = t28 - t29;
     let t35 = t31 + t32;
     // leg 3: platform joint from the base point
-    let t36 = t23 + (0.040491189781895726 + t3 * 0.031058285412302475);
-    let t37 = 0.1159110991546882 * t6;
+    let t36 = t23 + (c(0.040491189781895726) + t3 * c(0.031058285412302475));
+    let t37 = c(0.1159110991546882) * t6;
     let t38 = t36 - t37;
-    let t39 = 0.17538661166134234 - 0.1159110991546882 * t12;
-    let t40 = t25 + t9 * 0.031058285412302475;
+    let t39 = c(0.17538661166134234) - c(0.1159110991546882) * t12;
+    let t40 = t25 + t9 * c(0.031058285412302475);
     let t41 = t39 + t40;
     // leg 4: platform joint from the base point
-    let t42 = t23 - (0.17213485607334636 - t3 * 0.0848528137423857);
-    let t43 = 0.08485281374238571 * t6;
+    let t42 = t23 - (c(0.17213485607334636) - t3 * c(0.0848528137423857));
+    let t43 = c(0.08485281374238571) * t6;
     let t44 = t42 - t43;
-    let t45 = 0.052626906850092664 - 0.08485281374238571 * t12;
-    let t46 = t25 + t9 * 0.0848528137423857;
+    let t45 = c(0.052626906850092664) - c(0.08485281374238571) * t12;
+    let t46 = t25 + t9 * c(0.0848528137423857);
     let t47 = t45 + t46;
     // leg 5: platform joint from the base point
     let t48 = t42 + t43;
@@ -5985,45 +6547,45 @@ pub fn mass_matrix_b(
     let t50 = t36 + t37;
     let t51 = t39 - t40;
     // leg 1: extent of the rod along the actuator axis
-    let t52 = sqrt(0.042435999999999995 - t30 * t30 - t33 * t33);
+    let t52 = sqrt(c(0.042435999999999995) - t30 * t30 - t33 * t33);
     // leg 1: reciprocal of that extent
-    let t53 = 1.0 / t52;
+    let t53 = c(1.0) / t52;
     // leg 1: actuator length d
-    let t54 = t27 - 0.1159110991546882 * t15;
-    let t55 = 0.03105828541230249 * t18;
+    let t54 = t27 - c(0.1159110991546882) * t15;
+    let t55 = c(0.03105828541230249) * t18;
     let t56 = t54 + (t52 + t55);
     // leg 2: extent of the rod along the actuator axis
-    let t57 = sqrt(0.042435999999999995 - t34 * t34 - t35 * t35);
+    let t57 = sqrt(c(0.042435999999999995) - t34 * t34 - t35 * t35);
     // leg 2: reciprocal of that extent
-    let t58 = 1.0 / t57;
+    let t58 = c(1.0) / t57;
     // leg 2: actuator length d
     let t59 = t54 - (t55 - t57);
     // leg 3: extent of the rod along the actuator axis
-    let t60 = sqrt(0.042435999999999995 - t38 * t38 - t41 * t41);
+    let t60 = sqrt(c(0.042435999999999995) - t38 * t38 - t41 * t41);
     // leg 3: reciprocal of that extent
-    let t61 = 1.0 / t60;
+    let t61 = c(1.0) / t60;
     // leg 3: actuator length d
-    let t62 = t27 + t15 * 0.031058285412302475;
-    let t63 = 0.1159110991546882 * t18;
+    let t62 = t27 + t15 * c(0.031058285412302475);
+    let t63 = c(0.1159110991546882) * t18;
     let t64 = t62 + (t60 - t63);
     // leg 4: extent of the rod along the actuator axis
-    let t65 = sqrt(0.042435999999999995 - t44 * t44 - t47 * t47);
+    let t65 = sqrt(c(0.042435999999999995) - t44 * t44 - t47 * t47);
     // leg 4: reciprocal of that extent
-    let t66 = 1.0 / t65;
+    let t66 = c(1.0) / t65;
     // leg 4: actuator length d
-    let t67 = t27 + t15 * 0.0848528137423857;
-    let t68 = 0.08485281374238571 * t18;
+    let t67 = t27 + t15 * c(0.0848528137423857);
+    let t68 = c(0.08485281374238571) * t18;
     let t69 = t67 + (t65 - t68);
     // leg 5: extent of the rod along the actuator axis
-    let t70 = sqrt(0.042435999999999995 - t48 * t48 - t49 * t49);
+    let t70 = sqrt(c(0.042435999999999995) - t48 * t48 - t49 * t49);
     // leg 5: reciprocal of that extent
-    let t71 = 1.0 / t70;
+    let t71 = c(1.0) / t70;
     // leg 5: actuator length d
     let t72 = t67 + (t68 + t70);
     // leg 6: extent of the rod along the actuator axis
-    let t73 = sqrt(0.042435999999999995 - t50 * t50 - t51 * t51);
+    let t73 = sqrt(c(0.042435999999999995) - t50 * t50 - t51 * t51);
     // leg 6: reciprocal of that extent
-    let t74 = 1.0 / t73;
+    let t74 = c(1.0) / t73;
     // leg 6: actuator length d
     let t75 = t62 + (t63 + t73);
     // leg 1: gradient of the actuator length by the platform joint
@@ -6045,14 +6607,14 @@ pub fn mass_matrix_b(
     let t86 = t50 * t74;
     let t87 = t51 * t74;
     // leg 1: platform joint from the platform origin
-    let t88 = platform_rotation[0][0] * 0.1159110991546882;
-    let t89 = platform_rotation[0][1] * 0.03105828541230249;
+    let t88 = platform_rotation[0][0] * c(0.1159110991546882);
+    let t89 = platform_rotation[0][1] * c(0.03105828541230249);
     let t90 = t88 - t89;
-    let t91 = platform_rotation[1][0] * 0.1159110991546882;
-    let t92 = platform_rotation[1][1] * 0.03105828541230249;
+    let t91 = platform_rotation[1][0] * c(0.1159110991546882);
+    let t92 = platform_rotation[1][1] * c(0.03105828541230249);
     let t93 = t91 - t92;
-    let t94 = platform_rotation[2][0] * 0.1159110991546882;
-    let t95 = platform_rotation[2][1] * 0.03105828541230249;
+    let t94 = platform_rotation[2][0] * c(0.1159110991546882);
+    let t95 = platform_rotation[2][1] * c(0.03105828541230249);
     let t96 = t94 - t95;
     // leg 1: gradient of the actuator length
     let t97 = base_rotation[0][2] - base_rotation[0][0] * t76;
@@ -6073,14 +6635,14 @@ pub fn mass_matrix_b(
     let t110 = base_rotation[2][2] - base_rotation[2][0] * t78;
     let t111 = base_rotation[2][1] * t79 - t110;
     // leg 3: platform joint from the platform origin
-    let t112 = platform_rotation[0][0] * 0.031058285412302475;
-    let t113 = platform_rotation[0][1] * 0.1159110991546882;
+    let t112 = platform_rotation[0][0] * c(0.031058285412302475);
+    let t113 = platform_rotation[0][1] * c(0.1159110991546882);
     let t114 = t112 - t113;
-    let t115 = platform_rotation[1][0] * 0.031058285412302475;
-    let t116 = platform_rotation[1][1] * 0.1159110991546882;
+    let t115 = platform_rotation[1][0] * c(0.031058285412302475);
+    let t116 = platform_rotation[1][1] * c(0.1159110991546882);
     let t117 = t115 - t116;
-    let t118 = platform_rotation[2][0] * 0.031058285412302475;
-    let t119 = platform_rotation[2][1] * 0.1159110991546882;
+    let t118 = platform_rotation[2][0] * c(0.031058285412302475);
+    let t119 = platform_rotation[2][1] * c(0.1159110991546882);
     let t120 = t118 - t119;
     // leg 3: gradient of the actuator length
     let t121 = base_rotation[0][2] - base_rotation[0][0] * t80;
@@ -6090,14 +6652,14 @@ pub fn mass_matrix_b(
     let t125 = base_rotation[2][2] - base_rotation[2][0] * t80;
     let t126 = base_rotation[2][1] * t81 - t125;
     // leg 4: platform joint from the platform origin
-    let t127 = platform_rotation[0][0] * 0.0848528137423857;
-    let t128 = platform_rotation[0][1] * 0.08485281374238571;
+    let t127 = platform_rotation[0][0] * c(0.0848528137423857);
+    let t128 = platform_rotation[0][1] * c(0.08485281374238571);
     let t129 = t127 - t128;
-    let t130 = platform_rotation[1][0] * 0.0848528137423857;
-    let t131 = platform_rotation[1][1] * 0.08485281374238571;
+    let t130 = platform_rotation[1][0] * c(0.0848528137423857);
+    let t131 = platform_rotation[1][1] * c(0.08485281374238571);
     let t132 = t130 - t131;
-    let t133 = platform_rotation[2][0] * 0.0848528137423857;
-    let t134 = platform_rotation[2][1] * 0.08485281374238571;
+    let t133 = platform_rotation[2][0] * c(0.0848528137423857);
+    let t134 = platform_rotation[2][1] * c(0.08485281374238571);
     let t135 = t133 - t134;
     // leg 4: gradient of the actuator length
     let t136 = base_rotation[0][2] - base_rotation[0][0] * t82;
@@ -6129,275 +6691,275 @@ pub fn mass_matrix_b(
     let t158 = base_rotation[2][2] - base_rotation[2][0] * t86;
     let t159 = base_rotation[2][1] * t87 + t158;
     // leg 1: mass matrix of the leg in the speeds of its joint
-    let t160 = base_rotation[0][2] * 0.17066666666666666;
-    let t161 = t160 + t98 * 0.4761666666666667;
-    let t162 = 2.0 * (t98 * t161);
-    let t163 = base_rotation[1][2] * 0.17066666666666666;
-    let t164 = t163 + t100 * 0.4761666666666667;
+    let t160 = base_rotation[0][2] * c(0.17066666666666666);
+    let t161 = t160 + t98 * c(0.4761666666666667);
+    let t162 = c(2.0) * (t98 * t161);
+    let t163 = base_rotation[1][2] * c(0.17066666666666666);
+    let t164 = t163 + t100 * c(0.4761666666666667);
     let t165 = t98 * t164 + t100 * t161;
-    let t166 = base_rotation[2][2] * 0.17066666666666666;
-    let t167 = t166 + t102 * 0.4761666666666667;
+    let t166 = base_rotation[2][2] * c(0.17066666666666666);
+    let t167 = t166 + t102 * c(0.4761666666666667);
     let t168 = t98 * t167 + t102 * t161;
-    let t169 = 2.0 * (t100 * t164);
+    let t169 = c(2.0) * (t100 * t164);
     let t170 = t100 * t167 + t102 * t164;
-    let t171 = 2.0 * (t102 * t167);
+    let t171 = c(2.0) * (t102 * t167);
     // leg 1: leg inertia between joint and base speeds
-    let t172 = base_rotation[0][2] * 1.123;
-    let t173 = 0.17066666666666666 + t98 * t172;
-    let t174 = base_rotation[1][2] * 1.123;
+    let t172 = base_rotation[0][2] * c(1.123);
+    let t173 = c(0.17066666666666666) + t98 * t172;
+    let t174 = base_rotation[1][2] * c(1.123);
     let t175 = t98 * t174;
-    let t176 = base_rotation[2][2] * 1.123;
+    let t176 = base_rotation[2][2] * c(1.123);
     let t177 = t98 * t176;
-    let t178 = base_rotation[1][0] * 0.1316436662914507;
-    let t179 = base_rotation[1][1] * 0.12275970481124972;
-    let t180 = base_rotation[1][2] * 0.03055 + t20 * 0.17066666666666666;
-    let t181 = base_rotation[2][0] * 0.1316436662914507;
-    let t182 = base_rotation[2][1] * 0.12275970481124972;
-    let t183 = base_rotation[2][2] * 0.03055 + t21 * 0.17066666666666666;
+    let t178 = base_rotation[1][0] * c(0.1316436662914507);
+    let t179 = base_rotation[1][1] * c(0.12275970481124972);
+    let t180 = base_rotation[1][2] * c(0.03055) + t20 * c(0.17066666666666666);
+    let t181 = base_rotation[2][0] * c(0.1316436662914507);
+    let t182 = base_rotation[2][1] * c(0.12275970481124972);
+    let t183 = base_rotation[2][2] * c(0.03055) + t21 * c(0.17066666666666666);
     let t184 = base_rotation[1][2] * t56 - (t178 - t179);
-    let t185 = t180 - (t93 * 0.17066666666666666 - t184 * 0.9523333333333334);
+    let t185 = t180 - (t93 * c(0.17066666666666666) - t184 * c(0.9523333333333334));
     let t186 = base_rotation[2][2] * t56 - (t181 - t182);
-    let t187 = t183 - (t96 * 0.17066666666666666 - 0.9523333333333334 * t186);
+    let t187 = t183 - (t96 * c(0.17066666666666666) - c(0.9523333333333334) * t186);
     let t188 = base_rotation[2][2] * t185 - base_rotation[1][2] * t187;
     let t189 = t98 * t188;
-    let t190 = base_rotation[0][0] * 0.1316436662914507;
-    let t191 = base_rotation[0][1] * 0.12275970481124972;
-    let t192 = base_rotation[0][2] * 0.03055 + t19 * 0.17066666666666666;
+    let t190 = base_rotation[0][0] * c(0.1316436662914507);
+    let t191 = base_rotation[0][1] * c(0.12275970481124972);
+    let t192 = base_rotation[0][2] * c(0.03055) + t19 * c(0.17066666666666666);
     let t193 = base_rotation[0][2] * t56 - (t190 - t191);
-    let t194 = t192 - (t90 * 0.17066666666666666 - 0.9523333333333334 * t193);
+    let t194 = t192 - (t90 * c(0.17066666666666666) - c(0.9523333333333334) * t193);
     let t195 = base_rotation[0][2] * t187 - base_rotation[2][2] * t194;
-    let t196 = 0.17066666666666666 * t186;
+    let t196 = c(0.17066666666666666) * t186;
     let t197 = t98 * t195 + t196;
     let t198 = base_rotation[1][2] * t194 - base_rotation[0][2] * t185;
-    let t199 = 0.17066666666666666 * t184;
+    let t199 = c(0.17066666666666666) * t184;
     let t200 = t98 * t198 - t199;
     let t201 = t100 * t172;
-    let t202 = 0.17066666666666666 + t100 * t174;
+    let t202 = c(0.17066666666666666) + t100 * t174;
     let t203 = t100 * t176;
     let t204 = t196 - t100 * t188;
     let t205 = t100 * t195;
-    let t206 = 0.17066666666666666 * t193;
+    let t206 = c(0.17066666666666666) * t193;
     let t207 = t100 * t198 + t206;
     let t208 = t102 * t172;
     let t209 = t102 * t174;
-    let t210 = 0.17066666666666666 + t102 * t176;
+    let t210 = c(0.17066666666666666) + t102 * t176;
     let t211 = t199 + t102 * t188;
     let t212 = t206 - t102 * t195;
     let t213 = t102 * t198;
     // leg 2: mass matrix of the leg in the speeds of its joint
-    let t214 = t160 - t107 * 0.4761666666666667;
-    let t215 = 2.0 * (t107 * t214);
-    let t216 = t163 - t109 * 0.4761666666666667;
+    let t214 = t160 - t107 * c(0.4761666666666667);
+    let t215 = c(2.0) * (t107 * t214);
+    let t216 = t163 - t109 * c(0.4761666666666667);
     let t217 = t107 * t216 + t109 * t214;
-    let t218 = t166 - t111 * 0.4761666666666667;
+    let t218 = t166 - t111 * c(0.4761666666666667);
     let t219 = t107 * t218 + t111 * t214;
-    let t220 = 2.0 * (t109 * t216);
+    let t220 = c(2.0) * (t109 * t216);
     let t221 = t109 * t218 + t111 * t216;
-    let t222 = 2.0 * (t111 * t218);
+    let t222 = c(2.0) * (t111 * t218);
     // leg 2: leg inertia between joint and base speeds
-    let t223 = 0.17066666666666666 - t107 * t172;
+    let t223 = c(0.17066666666666666) - t107 * t172;
     let t224 = t107 * t174;
     let t225 = t107 * t176;
     let t226 = base_rotation[1][2] * t59 - (t178 + t179);
-    let t227 = t180 - (t104 * 0.17066666666666666 - 0.9523333333333334 * t226);
+    let t227 = t180 - (t104 * c(0.17066666666666666) - c(0.9523333333333334) * t226);
     let t228 = base_rotation[2][2] * t59 - (t181 + t182);
-    let t229 = t183 - (t105 * 0.17066666666666666 - 0.9523333333333334 * t228);
+    let t229 = t183 - (t105 * c(0.17066666666666666) - c(0.9523333333333334) * t228);
     let t230 = base_rotation[2][2] * t227 - base_rotation[1][2] * t229;
     let t231 = t107 * t230;
     let t232 = base_rotation[0][2] * t59 - (t190 + t191);
-    let t233 = t192 - (t103 * 0.17066666666666666 - 0.9523333333333334 * t232);
+    let t233 = t192 - (t103 * c(0.17066666666666666) - c(0.9523333333333334) * t232);
     let t234 = base_rotation[0][2] * t229 - base_rotation[2][2] * t233;
-    let t235 = 0.17066666666666666 * t228;
+    let t235 = c(0.17066666666666666) * t228;
     let t236 = t107 * t234 - t235;
     let t237 = base_rotation[1][2] * t233 - base_rotation[0][2] * t227;
-    let t238 = 0.17066666666666666 * t226;
+    let t238 = c(0.17066666666666666) * t226;
     let t239 = t107 * t237 + t238;
     let t240 = t109 * t172;
-    let t241 = 0.17066666666666666 - t109 * t174;
+    let t241 = c(0.17066666666666666) - t109 * t174;
     let t242 = t109 * t176;
     let t243 = t235 + t109 * t230;
     let t244 = t109 * t234;
-    let t245 = 0.17066666666666666 * t232;
+    let t245 = c(0.17066666666666666) * t232;
     let t246 = t109 * t237 - t245;
     let t247 = t111 * t172;
     let t248 = t111 * t174;
-    let t249 = 0.17066666666666666 - t111 * t176;
+    let t249 = c(0.17066666666666666) - t111 * t176;
     let t250 = t238 - t111 * t230;
     let t251 = t245 + t111 * t234;
     let t252 = t111 * t237;
     // leg 3: mass matrix of the leg in the speeds of its joint
-    let t253 = t160 - t122 * 0.4761666666666667;
-    let t254 = 2.0 * (t122 * t253);
-    let t255 = t163 - t124 * 0.4761666666666667;
+    let t253 = t160 - t122 * c(0.4761666666666667);
+    let t254 = c(2.0) * (t122 * t253);
+    let t255 = t163 - t124 * c(0.4761666666666667);
     let t256 = t122 * t255 + t124 * t253;
-    let t257 = t166 - t126 * 0.4761666666666667;
+    let t257 = t166 - t126 * c(0.4761666666666667);
     let t258 = t122 * t257 + t126 * t253;
-    let t259 = 2.0 * (t124 * t255);
+    let t259 = c(2.0) * (t124 * t255);
     let t260 = t124 * t257 + t126 * t255;
-    let t261 = 2.0 * (t126 * t257);
+    let t261 = c(2.0) * (t126 * t257);
     // leg 3: leg inertia between joint and base speeds
-    let t262 = 0.17066666666666666 - t122 * t172;
+    let t262 = c(0.17066666666666666) - t122 * t172;
     let t263 = t122 * t174;
     let t264 = t122 * t176;
-    let t265 = base_rotation[1][0] * 0.040491189781895726;
-    let t266 = base_rotation[1][1] * 0.17538661166134234;
-    let t267 = base_rotation[2][0] * 0.040491189781895726;
-    let t268 = base_rotation[2][1] * 0.17538661166134234;
+    let t265 = base_rotation[1][0] * c(0.040491189781895726);
+    let t266 = base_rotation[1][1] * c(0.17538661166134234);
+    let t267 = base_rotation[2][0] * c(0.040491189781895726);
+    let t268 = base_rotation[2][1] * c(0.17538661166134234);
     let t269 = base_rotation[1][2] * t64 - (t265 + t266);
-    let t270 = t180 + (t117 * 0.17066666666666666 + 0.9523333333333334 * t269);
+    let t270 = t180 + (t117 * c(0.17066666666666666) + c(0.9523333333333334) * t269);
     let t271 = base_rotation[2][2] * t64 - (t267 + t268);
-    let t272 = t183 + (t120 * 0.17066666666666666 + 0.9523333333333334 * t271);
+    let t272 = t183 + (t120 * c(0.17066666666666666) + c(0.9523333333333334) * t271);
     let t273 = base_rotation[2][2] * t270 - base_rotation[1][2] * t272;
     let t274 = t122 * t273;
-    let t275 = base_rotation[0][0] * 0.040491189781895726;
-    let t276 = base_rotation[0][1] * 0.17538661166134234;
+    let t275 = base_rotation[0][0] * c(0.040491189781895726);
+    let t276 = base_rotation[0][1] * c(0.17538661166134234);
     let t277 = base_rotation[0][2] * t64 - (t275 + t276);
-    let t278 = t192 + (t114 * 0.17066666666666666 + 0.9523333333333334 * t277);
+    let t278 = t192 + (t114 * c(0.17066666666666666) + c(0.9523333333333334) * t277);
     let t279 = base_rotation[0][2] * t272 - base_rotation[2][2] * t278;
-    let t280 = 0.17066666666666666 * t271;
+    let t280 = c(0.17066666666666666) * t271;
     let t281 = t122 * t279 - t280;
     let t282 = base_rotation[1][2] * t278 - base_rotation[0][2] * t270;
-    let t283 = 0.17066666666666666 * t269;
+    let t283 = c(0.17066666666666666) * t269;
     let t284 = t122 * t282 + t283;
     let t285 = t124 * t172;
-    let t286 = 0.17066666666666666 - t124 * t174;
+    let t286 = c(0.17066666666666666) - t124 * t174;
     let t287 = t124 * t176;
     let t288 = t280 + t124 * t273;
     let t289 = t124 * t279;
-    let t290 = 0.17066666666666666 * t277;
+    let t290 = c(0.17066666666666666) * t277;
     let t291 = t124 * t282 - t290;
     let t292 = t126 * t172;
     let t293 = t126 * t174;
-    let t294 = 0.17066666666666666 - t126 * t176;
+    let t294 = c(0.17066666666666666) - t126 * t176;
     let t295 = t283 - t126 * t273;
     let t296 = t290 + t126 * t279;
     let t297 = t126 * t282;
     // leg 4: mass matrix of the leg in the speeds of its joint
-    let t298 = t160 - t137 * 0.4761666666666667;
-    let t299 = 2.0 * (t137 * t298);
-    let t300 = t163 - t139 * 0.4761666666666667;
+    let t298 = t160 - t137 * c(0.4761666666666667);
+    let t299 = c(2.0) * (t137 * t298);
+    let t300 = t163 - t139 * c(0.4761666666666667);
     let t301 = t137 * t300 + t139 * t298;
-    let t302 = t166 - t141 * 0.4761666666666667;
+    let t302 = t166 - t141 * c(0.4761666666666667);
     let t303 = t137 * t302 + t141 * t298;
-    let t304 = 2.0 * (t139 * t300);
+    let t304 = c(2.0) * (t139 * t300);
     let t305 = t139 * t302 + t141 * t300;
-    let t306 = 2.0 * (t141 * t302);
+    let t306 = c(2.0) * (t141 * t302);
     // leg 4: leg inertia between joint and base speeds
-    let t307 = 0.17066666666666666 - t137 * t172;
+    let t307 = c(0.17066666666666666) - t137 * t172;
     let t308 = t137 * t174;
     let t309 = t137 * t176;
-    let t310 = base_rotation[1][0] * 0.17213485607334636;
-    let t311 = base_rotation[1][1] * 0.052626906850092664;
-    let t312 = base_rotation[2][0] * 0.17213485607334636;
-    let t313 = base_rotation[2][1] * 0.052626906850092664;
+    let t310 = base_rotation[1][0] * c(0.17213485607334636);
+    let t311 = base_rotation[1][1] * c(0.052626906850092664);
+    let t312 = base_rotation[2][0] * c(0.17213485607334636);
+    let t313 = base_rotation[2][1] * c(0.052626906850092664);
     let t314 = base_rotation[1][2] * t69 + (t310 - t311);
-    let t315 = t180 + (t132 * 0.17066666666666666 + 0.9523333333333334 * t314);
+    let t315 = t180 + (t132 * c(0.17066666666666666) + c(0.9523333333333334) * t314);
     let t316 = base_rotation[2][2] * t69 + (t312 - t313);
-    let t317 = t183 + (t135 * 0.17066666666666666 + 0.9523333333333334 * t316);
+    let t317 = t183 + (t135 * c(0.17066666666666666) + c(0.9523333333333334) * t316);
     let t318 = base_rotation[2][2] * t315 - base_rotation[1][2] * t317;
     let t319 = t137 * t318;
-    let t320 = base_rotation[0][0] * 0.17213485607334636;
-    let t321 = base_rotation[0][1] * 0.052626906850092664;
+    let t320 = base_rotation[0][0] * c(0.17213485607334636);
+    let t321 = base_rotation[0][1] * c(0.052626906850092664);
     let t322 = base_rotation[0][2] * t69 + (t320 - t321);
-    let t323 = t192 + (t129 * 0.17066666666666666 + 0.9523333333333334 * t322);
+    let t323 = t192 + (t129 * c(0.17066666666666666) + c(0.9523333333333334) * t322);
     let t324 = base_rotation[0][2] * t317 - base_rotation[2][2] * t323;
-    let t325 = 0.17066666666666666 * t316;
+    let t325 = c(0.17066666666666666) * t316;
     let t326 = t137 * t324 - t325;
     let t327 = base_rotation[1][2] * t323 - base_rotation[0][2] * t315;
-    let t328 = 0.17066666666666666 * t314;
+    let t328 = c(0.17066666666666666) * t314;
     let t329 = t137 * t327 + t328;
     let t330 = t139 * t172;
-    let t331 = 0.17066666666666666 - t139 * t174;
+    let t331 = c(0.17066666666666666) - t139 * t174;
     let t332 = t139 * t176;
     let t333 = t325 + t139 * t318;
     let t334 = t139 * t324;
-    let t335 = 0.17066666666666666 * t322;
+    let t335 = c(0.17066666666666666) * t322;
     let t336 = t139 * t327 - t335;
     let t337 = t141 * t172;
     let t338 = t141 * t174;
-    let t339 = 0.17066666666666666 - t141 * t176;
+    let t339 = c(0.17066666666666666) - t141 * t176;
     let t340 = t328 - t141 * t318;
     let t341 = t335 + t141 * t324;
     let t342 = t141 * t327;
     // leg 5: mass matrix of the leg in the speeds of its joint
-    let t343 = t160 + t146 * 0.4761666666666667;
-    let t344 = 2.0 * (t146 * t343);
-    let t345 = t163 + t148 * 0.4761666666666667;
+    let t343 = t160 + t146 * c(0.4761666666666667);
+    let t344 = c(2.0) * (t146 * t343);
+    let t345 = t163 + t148 * c(0.4761666666666667);
     let t346 = t146 * t345 + t148 * t343;
-    let t347 = t166 + t150 * 0.4761666666666667;
+    let t347 = t166 + t150 * c(0.4761666666666667);
     let t348 = t146 * t347 + t150 * t343;
-    let t349 = 2.0 * (t148 * t345);
+    let t349 = c(2.0) * (t148 * t345);
     let t350 = t148 * t347 + t150 * t345;
-    let t351 = 2.0 * (t150 * t347);
+    let t351 = c(2.0) * (t150 * t347);
     // leg 5: leg inertia between joint and base speeds
-    let t352 = 0.17066666666666666 + t146 * t172;
+    let t352 = c(0.17066666666666666) + t146 * t172;
     let t353 = t146 * t174;
     let t354 = t146 * t176;
     let t355 = base_rotation[1][2] * t72 + (t310 + t311);
-    let t356 = t180 + (t143 * 0.17066666666666666 + 0.9523333333333334 * t355);
+    let t356 = t180 + (t143 * c(0.17066666666666666) + c(0.9523333333333334) * t355);
     let t357 = base_rotation[2][2] * t72 + (t312 + t313);
-    let t358 = t183 + (t144 * 0.17066666666666666 + 0.9523333333333334 * t357);
+    let t358 = t183 + (t144 * c(0.17066666666666666) + c(0.9523333333333334) * t357);
     let t359 = base_rotation[2][2] * t356 - base_rotation[1][2] * t358;
     let t360 = t146 * t359;
     let t361 = base_rotation[0][2] * t72 + (t320 + t321);
-    let t362 = t192 + (t142 * 0.17066666666666666 + 0.9523333333333334 * t361);
+    let t362 = t192 + (t142 * c(0.17066666666666666) + c(0.9523333333333334) * t361);
     let t363 = base_rotation[0][2] * t358 - base_rotation[2][2] * t362;
-    let t364 = 0.17066666666666666 * t357;
+    let t364 = c(0.17066666666666666) * t357;
     let t365 = t146 * t363 + t364;
     let t366 = base_rotation[1][2] * t362 - base_rotation[0][2] * t356;
-    let t367 = 0.17066666666666666 * t355;
+    let t367 = c(0.17066666666666666) * t355;
     let t368 = t146 * t366 - t367;
     let t369 = t148 * t172;
-    let t370 = 0.17066666666666666 + t148 * t174;
+    let t370 = c(0.17066666666666666) + t148 * t174;
     let t371 = t148 * t176;
     let t372 = t364 - t148 * t359;
     let t373 = t148 * t363;
-    let t374 = 0.17066666666666666 * t361;
+    let t374 = c(0.17066666666666666) * t361;
     let t375 = t148 * t366 + t374;
     let t376 = t150 * t172;
     let t377 = t150 * t174;
-    let t378 = 0.17066666666666666 + t150 * t176;
+    let t378 = c(0.17066666666666666) + t150 * t176;
     let t379 = t367 + t150 * t359;
     let t380 = t374 - t150 * t363;
     let t381 = t150 * t366;
     // leg 6: mass matrix of the leg in the speeds of its joint
-    let t382 = t160 + t155 * 0.4761666666666667;
-    let t383 = 2.0 * (t155 * t382);
-    let t384 = t163 + t157 * 0.4761666666666667;
+    let t382 = t160 + t155 * c(0.4761666666666667);
+    let t383 = c(2.0) * (t155 * t382);
+    let t384 = t163 + t157 * c(0.4761666666666667);
     let t385 = t155 * t384 + t157 * t382;
-    let t386 = t166 + t159 * 0.4761666666666667;
+    let t386 = t166 + t159 * c(0.4761666666666667);
     let t387 = t155 * t386 + t159 * t382;
-    let t388 = 2.0 * (t157 * t384);
+    let t388 = c(2.0) * (t157 * t384);
     let t389 = t157 * t386 + t159 * t384;
-    let t390 = 2.0 * (t159 * t386);
+    let t390 = c(2.0) * (t159 * t386);
     // leg 6: leg inertia between joint and base speeds
-    let t391 = 0.17066666666666666 + t155 * t172;
+    let t391 = c(0.17066666666666666) + t155 * t172;
     let t392 = t155 * t174;
     let t393 = t155 * t176;
     let t394 = base_rotation[1][2] * t75 - (t265 - t266);
-    let t395 = t180 + (t152 * 0.17066666666666666 + 0.9523333333333334 * t394);
+    let t395 = t180 + (t152 * c(0.17066666666666666) + c(0.9523333333333334) * t394);
     let t396 = base_rotation[2][2] * t75 - (t267 - t268);
-    let t397 = t183 + (t153 * 0.17066666666666666 + 0.9523333333333334 * t396);
+    let t397 = t183 + (t153 * c(0.17066666666666666) + c(0.9523333333333334) * t396);
     let t398 = base_rotation[2][2] * t395 - base_rotation[1][2] * t397;
     let t399 = t155 * t398;
     let t400 = base_rotation[0][2] * t75 - (t275 - t276);
-    let t401 = t192 + (t151 * 0.17066666666666666 + 0.9523333333333334 * t400);
+    let t401 = t192 + (t151 * c(0.17066666666666666) + c(0.9523333333333334) * t400);
     let t402 = base_rotation[0][2] * t397 - base_rotation[2][2] * t401;
-    let t403 = 0.17066666666666666 * t396;
+    let t403 = c(0.17066666666666666) * t396;
     let t404 = t155 * t402 + t403;
     let t405 = base_rotation[1][2] * t401 - base_rotation[0][2] * t395;
-    let t406 = 0.17066666666666666 * t394;
+    let t406 = c(0.17066666666666666) * t394;
     let t407 = t155 * t405 - t406;
     let t408 = t157 * t172;
-    let t409 = 0.17066666666666666 + t157 * t174;
+    let t409 = c(0.17066666666666666) + t157 * t174;
     let t410 = t157 * t176;
     let t411 = t403 - t157 * t398;
     let t412 = t157 * t402;
-    let t413 = 0.17066666666666666 * t400;
+    let t413 = c(0.17066666666666666) * t400;
     let t414 = t157 * t405 + t413;
     let t415 = t159 * t172;
     let t416 = t159 * t174;
-    let t417 = 0.17066666666666666 + t159 * t176;
+    let t417 = c(0.17066666666666666) + t159 * t176;
     let t418 = t406 + t159 * t398;
     let t419 = t413 - t159 * t402;
     let t420 = t159 * t405;
@@ -6668,16 +7230,17 @@ pub fn mass_matrix_b(
 /// - `coriolis_matrix_p`: 6x6, kg/s, kg m/s, kg m^2/s, frame O: Coriolis matrix C_p, natural factorisation, equation (49).
 /// - `coriolis_matrix_b`: 6x6, kg/s, kg m/s, kg m^2/s, frame O: Coriolis matrix C_b, natural factorisation, equation (49).
 #[allow(clippy::all, clippy::pedantic, unused_variables)]
-pub fn coriolis_matrices(
-    base_position: &[f64; 3],
-    base_rotation: &[[f64; 3]; 3],
-    base_velocity: &[f64; 6],
-    platform_position: &[f64; 3],
-    platform_rotation: &[[f64; 3]; 3],
-    platform_velocity: &[f64; 6],
-    coriolis_matrix_p: &mut [[f64; 6]; 6],
-    coriolis_matrix_b: &mut [[f64; 6]; 6],
+pub fn coriolis_matrices<T: Scalar>(
+    base_position: &[T; 3],
+    base_rotation: &[[T; 3]; 3],
+    base_velocity: &[T; 6],
+    platform_position: &[T; 3],
+    platform_rotation: &[[T; 3]; 3],
+    platform_velocity: &[T; 6],
+    coriolis_matrix_p: &mut [[T; 6]; 6],
+    coriolis_matrix_b: &mut [[T; 6]; 6],
 ) {
+    let c = T::constant;
     let (
         t19,
         t20,
@@ -6839,28 +7402,28 @@ pub fn coriolis_matrices(
         let t26 = base_rotation[0][2] * t19 + base_rotation[1][2] * t20;
         let t27 = base_rotation[2][2] * t21 + t26;
         // leg 1: platform joint from the base point
-        let t28 = t23 + (0.1316436662914507 - 0.1159110991546882 * t3);
-        let t29 = 0.03105828541230249 * t6;
+        let t28 = t23 + (c(0.1316436662914507) - c(0.1159110991546882) * t3);
+        let t29 = c(0.03105828541230249) * t6;
         let t30 = t28 + t29;
-        let t31 = 0.12275970481124972 - 0.03105828541230249 * t12;
-        let t32 = t25 - 0.1159110991546882 * t9;
+        let t31 = c(0.12275970481124972) - c(0.03105828541230249) * t12;
+        let t32 = t25 - c(0.1159110991546882) * t9;
         let t33 = t31 - t32;
         // leg 2: platform joint from the base point
         let t34 = t28 - t29;
         let t35 = t31 + t32;
         // leg 3: platform joint from the base point
-        let t36 = t23 + (0.040491189781895726 + t3 * 0.031058285412302475);
-        let t37 = 0.1159110991546882 * t6;
+        let t36 = t23 + (c(0.040491189781895726) + t3 * c(0.031058285412302475));
+        let t37 = c(0.1159110991546882) * t6;
         let t38 = t36 - t37;
-        let t39 = 0.17538661166134234 - 0.1159110991546882 * t12;
-        let t40 = t25 + t9 * 0.031058285412302475;
+        let t39 = c(0.17538661166134234) - c(0.1159110991546882) * t12;
+        let t40 = t25 + t9 * c(0.031058285412302475);
         let t41 = t39 + t40;
         // leg 4: platform joint from the base point
-        let t42 = t23 - (0.17213485607334636 - t3 * 0.0848528137423857);
-        let t43 = 0.08485281374238571 * t6;
+        let t42 = t23 - (c(0.17213485607334636) - t3 * c(0.0848528137423857));
+        let t43 = c(0.08485281374238571) * t6;
         let t44 = t42 - t43;
-        let t45 = 0.052626906850092664 - 0.08485281374238571 * t12;
-        let t46 = t25 + t9 * 0.0848528137423857;
+        let t45 = c(0.052626906850092664) - c(0.08485281374238571) * t12;
+        let t46 = t25 + t9 * c(0.0848528137423857);
         let t47 = t45 + t46;
         // leg 5: platform joint from the base point
         let t48 = t42 + t43;
@@ -6869,45 +7432,45 @@ pub fn coriolis_matrices(
         let t50 = t36 + t37;
         let t51 = t39 - t40;
         // leg 1: extent of the rod along the actuator axis
-        let t52 = sqrt(0.042435999999999995 - t30 * t30 - t33 * t33);
+        let t52 = sqrt(c(0.042435999999999995) - t30 * t30 - t33 * t33);
         // leg 1: reciprocal of that extent
-        let t53 = 1.0 / t52;
+        let t53 = c(1.0) / t52;
         // leg 1: actuator length d
-        let t54 = t27 - 0.1159110991546882 * t15;
-        let t55 = 0.03105828541230249 * t18;
+        let t54 = t27 - c(0.1159110991546882) * t15;
+        let t55 = c(0.03105828541230249) * t18;
         let t56 = t54 + (t52 + t55);
         // leg 2: extent of the rod along the actuator axis
-        let t57 = sqrt(0.042435999999999995 - t34 * t34 - t35 * t35);
+        let t57 = sqrt(c(0.042435999999999995) - t34 * t34 - t35 * t35);
         // leg 2: reciprocal of that extent
-        let t58 = 1.0 / t57;
+        let t58 = c(1.0) / t57;
         // leg 2: actuator length d
         let t59 = t54 - (t55 - t57);
         // leg 3: extent of the rod along the actuator axis
-        let t60 = sqrt(0.042435999999999995 - t38 * t38 - t41 * t41);
+        let t60 = sqrt(c(0.042435999999999995) - t38 * t38 - t41 * t41);
         // leg 3: reciprocal of that extent
-        let t61 = 1.0 / t60;
+        let t61 = c(1.0) / t60;
         // leg 3: actuator length d
-        let t62 = t27 + t15 * 0.031058285412302475;
-        let t63 = 0.1159110991546882 * t18;
+        let t62 = t27 + t15 * c(0.031058285412302475);
+        let t63 = c(0.1159110991546882) * t18;
         let t64 = t62 + (t60 - t63);
         // leg 4: extent of the rod along the actuator axis
-        let t65 = sqrt(0.042435999999999995 - t44 * t44 - t47 * t47);
+        let t65 = sqrt(c(0.042435999999999995) - t44 * t44 - t47 * t47);
         // leg 4: reciprocal of that extent
-        let t66 = 1.0 / t65;
+        let t66 = c(1.0) / t65;
         // leg 4: actuator length d
-        let t67 = t27 + t15 * 0.0848528137423857;
-        let t68 = 0.08485281374238571 * t18;
+        let t67 = t27 + t15 * c(0.0848528137423857);
+        let t68 = c(0.08485281374238571) * t18;
         let t69 = t67 + (t65 - t68);
         // leg 5: extent of the rod along the actuator axis
-        let t70 = sqrt(0.042435999999999995 - t48 * t48 - t49 * t49);
+        let t70 = sqrt(c(0.042435999999999995) - t48 * t48 - t49 * t49);
         // leg 5: reciprocal of that extent
-        let t71 = 1.0 / t70;
+        let t71 = c(1.0) / t70;
         // leg 5: actuator length d
         let t72 = t67 + (t68 + t70);
         // leg 6: extent of the rod along the actuator axis
-        let t73 = sqrt(0.042435999999999995 - t50 * t50 - t51 * t51);
+        let t73 = sqrt(c(0.042435999999999995) - t50 * t50 - t51 * t51);
         // leg 6: reciprocal of that extent
-        let t74 = 1.0 / t73;
+        let t74 = c(1.0) / t73;
         // leg 6: actuator length d
         let t75 = t62 + (t63 + t73);
         // leg 1: gradient of the actuator length by the platform joint
@@ -6929,14 +7492,14 @@ pub fn coriolis_matrices(
         let t86 = t50 * t74;
         let t87 = t51 * t74;
         // leg 1: platform joint from the platform origin
-        let t88 = platform_rotation[0][0] * 0.1159110991546882;
-        let t89 = platform_rotation[0][1] * 0.03105828541230249;
+        let t88 = platform_rotation[0][0] * c(0.1159110991546882);
+        let t89 = platform_rotation[0][1] * c(0.03105828541230249);
         let t90 = t88 - t89;
-        let t91 = platform_rotation[1][0] * 0.1159110991546882;
-        let t92 = platform_rotation[1][1] * 0.03105828541230249;
+        let t91 = platform_rotation[1][0] * c(0.1159110991546882);
+        let t92 = platform_rotation[1][1] * c(0.03105828541230249);
         let t93 = t91 - t92;
-        let t94 = platform_rotation[2][0] * 0.1159110991546882;
-        let t95 = platform_rotation[2][1] * 0.03105828541230249;
+        let t94 = platform_rotation[2][0] * c(0.1159110991546882);
+        let t95 = platform_rotation[2][1] * c(0.03105828541230249);
         let t96 = t94 - t95;
         // leg 1: gradient of the actuator length
         let t97 = base_rotation[0][2] - base_rotation[0][0] * t76;
@@ -6957,14 +7520,14 @@ pub fn coriolis_matrices(
         let t110 = base_rotation[2][2] - base_rotation[2][0] * t78;
         let t111 = base_rotation[2][1] * t79 - t110;
         // leg 3: platform joint from the platform origin
-        let t112 = platform_rotation[0][0] * 0.031058285412302475;
-        let t113 = platform_rotation[0][1] * 0.1159110991546882;
+        let t112 = platform_rotation[0][0] * c(0.031058285412302475);
+        let t113 = platform_rotation[0][1] * c(0.1159110991546882);
         let t114 = t112 - t113;
-        let t115 = platform_rotation[1][0] * 0.031058285412302475;
-        let t116 = platform_rotation[1][1] * 0.1159110991546882;
+        let t115 = platform_rotation[1][0] * c(0.031058285412302475);
+        let t116 = platform_rotation[1][1] * c(0.1159110991546882);
         let t117 = t115 - t116;
-        let t118 = platform_rotation[2][0] * 0.031058285412302475;
-        let t119 = platform_rotation[2][1] * 0.1159110991546882;
+        let t118 = platform_rotation[2][0] * c(0.031058285412302475);
+        let t119 = platform_rotation[2][1] * c(0.1159110991546882);
         let t120 = t118 - t119;
         // leg 3: gradient of the actuator length
         let t121 = base_rotation[0][2] - base_rotation[0][0] * t80;
@@ -6974,14 +7537,14 @@ pub fn coriolis_matrices(
         let t125 = base_rotation[2][2] - base_rotation[2][0] * t80;
         let t126 = base_rotation[2][1] * t81 - t125;
         // leg 4: platform joint from the platform origin
-        let t127 = platform_rotation[0][0] * 0.0848528137423857;
-        let t128 = platform_rotation[0][1] * 0.08485281374238571;
+        let t127 = platform_rotation[0][0] * c(0.0848528137423857);
+        let t128 = platform_rotation[0][1] * c(0.08485281374238571);
         let t129 = t127 - t128;
-        let t130 = platform_rotation[1][0] * 0.0848528137423857;
-        let t131 = platform_rotation[1][1] * 0.08485281374238571;
+        let t130 = platform_rotation[1][0] * c(0.0848528137423857);
+        let t131 = platform_rotation[1][1] * c(0.08485281374238571);
         let t132 = t130 - t131;
-        let t133 = platform_rotation[2][0] * 0.0848528137423857;
-        let t134 = platform_rotation[2][1] * 0.08485281374238571;
+        let t133 = platform_rotation[2][0] * c(0.0848528137423857);
+        let t134 = platform_rotation[2][1] * c(0.08485281374238571);
         let t135 = t133 - t134;
         // leg 4: gradient of the actuator length
         let t136 = base_rotation[0][2] - base_rotation[0][0] * t82;
@@ -7013,106 +7576,106 @@ pub fn coriolis_matrices(
         let t158 = base_rotation[2][2] - base_rotation[2][0] * t86;
         let t159 = base_rotation[2][1] * t87 + t158;
         // leg 1: mass matrix of the leg in the speeds of its joint
-        let t160 = base_rotation[0][2] * 0.17066666666666666;
-        let t161 = t160 + t98 * 0.4761666666666667;
-        let t162 = 2.0 * (t98 * t161);
-        let t163 = base_rotation[1][2] * 0.17066666666666666;
-        let t164 = t163 + t100 * 0.4761666666666667;
+        let t160 = base_rotation[0][2] * c(0.17066666666666666);
+        let t161 = t160 + t98 * c(0.4761666666666667);
+        let t162 = c(2.0) * (t98 * t161);
+        let t163 = base_rotation[1][2] * c(0.17066666666666666);
+        let t164 = t163 + t100 * c(0.4761666666666667);
         let t165 = t98 * t164 + t100 * t161;
-        let t166 = base_rotation[2][2] * 0.17066666666666666;
-        let t167 = t166 + t102 * 0.4761666666666667;
+        let t166 = base_rotation[2][2] * c(0.17066666666666666);
+        let t167 = t166 + t102 * c(0.4761666666666667);
         let t168 = t98 * t167 + t102 * t161;
-        let t169 = 2.0 * (t100 * t164);
+        let t169 = c(2.0) * (t100 * t164);
         let t170 = t100 * t167 + t102 * t164;
-        let t171 = 2.0 * (t102 * t167);
+        let t171 = c(2.0) * (t102 * t167);
         // leg 1: leg inertia between joint and base speeds
-        let t172 = base_rotation[1][0] * 0.1316436662914507;
-        let t173 = base_rotation[1][1] * 0.12275970481124972;
+        let t172 = base_rotation[1][0] * c(0.1316436662914507);
+        let t173 = base_rotation[1][1] * c(0.12275970481124972);
         let t174 = t172 - t173;
-        let t175 = base_rotation[2][0] * 0.1316436662914507;
-        let t176 = base_rotation[2][1] * 0.12275970481124972;
+        let t175 = base_rotation[2][0] * c(0.1316436662914507);
+        let t176 = base_rotation[2][1] * c(0.12275970481124972);
         let t177 = t175 - t176;
-        let t178 = base_rotation[0][0] * 0.1316436662914507;
-        let t179 = base_rotation[0][1] * 0.12275970481124972;
+        let t178 = base_rotation[0][0] * c(0.1316436662914507);
+        let t179 = base_rotation[0][1] * c(0.12275970481124972);
         let t180 = t178 - t179;
         // leg 2: mass matrix of the leg in the speeds of its joint
-        let t181 = t160 - t107 * 0.4761666666666667;
-        let t182 = 2.0 * (t107 * t181);
-        let t183 = t163 - t109 * 0.4761666666666667;
+        let t181 = t160 - t107 * c(0.4761666666666667);
+        let t182 = c(2.0) * (t107 * t181);
+        let t183 = t163 - t109 * c(0.4761666666666667);
         let t184 = t107 * t183 + t109 * t181;
-        let t185 = t166 - t111 * 0.4761666666666667;
+        let t185 = t166 - t111 * c(0.4761666666666667);
         let t186 = t107 * t185 + t111 * t181;
-        let t187 = 2.0 * (t109 * t183);
+        let t187 = c(2.0) * (t109 * t183);
         let t188 = t109 * t185 + t111 * t183;
-        let t189 = 2.0 * (t111 * t185);
+        let t189 = c(2.0) * (t111 * t185);
         // leg 2: leg inertia between joint and base speeds
         let t190 = t172 + t173;
         let t191 = t175 + t176;
         let t192 = t178 + t179;
         // leg 3: mass matrix of the leg in the speeds of its joint
-        let t193 = t160 - t122 * 0.4761666666666667;
-        let t194 = 2.0 * (t122 * t193);
-        let t195 = t163 - t124 * 0.4761666666666667;
+        let t193 = t160 - t122 * c(0.4761666666666667);
+        let t194 = c(2.0) * (t122 * t193);
+        let t195 = t163 - t124 * c(0.4761666666666667);
         let t196 = t122 * t195 + t124 * t193;
-        let t197 = t166 - t126 * 0.4761666666666667;
+        let t197 = t166 - t126 * c(0.4761666666666667);
         let t198 = t122 * t197 + t126 * t193;
-        let t199 = 2.0 * (t124 * t195);
+        let t199 = c(2.0) * (t124 * t195);
         let t200 = t124 * t197 + t126 * t195;
-        let t201 = 2.0 * (t126 * t197);
+        let t201 = c(2.0) * (t126 * t197);
         // leg 3: leg inertia between joint and base speeds
-        let t202 = base_rotation[1][0] * 0.040491189781895726;
-        let t203 = base_rotation[1][1] * 0.17538661166134234;
+        let t202 = base_rotation[1][0] * c(0.040491189781895726);
+        let t203 = base_rotation[1][1] * c(0.17538661166134234);
         let t204 = t202 + t203;
-        let t205 = base_rotation[2][0] * 0.040491189781895726;
-        let t206 = base_rotation[2][1] * 0.17538661166134234;
+        let t205 = base_rotation[2][0] * c(0.040491189781895726);
+        let t206 = base_rotation[2][1] * c(0.17538661166134234);
         let t207 = t205 + t206;
-        let t208 = base_rotation[0][0] * 0.040491189781895726;
-        let t209 = base_rotation[0][1] * 0.17538661166134234;
+        let t208 = base_rotation[0][0] * c(0.040491189781895726);
+        let t209 = base_rotation[0][1] * c(0.17538661166134234);
         let t210 = t208 + t209;
         // leg 4: mass matrix of the leg in the speeds of its joint
-        let t211 = t160 - t137 * 0.4761666666666667;
-        let t212 = 2.0 * (t137 * t211);
-        let t213 = t163 - t139 * 0.4761666666666667;
+        let t211 = t160 - t137 * c(0.4761666666666667);
+        let t212 = c(2.0) * (t137 * t211);
+        let t213 = t163 - t139 * c(0.4761666666666667);
         let t214 = t137 * t213 + t139 * t211;
-        let t215 = t166 - t141 * 0.4761666666666667;
+        let t215 = t166 - t141 * c(0.4761666666666667);
         let t216 = t137 * t215 + t141 * t211;
-        let t217 = 2.0 * (t139 * t213);
+        let t217 = c(2.0) * (t139 * t213);
         let t218 = t139 * t215 + t141 * t213;
-        let t219 = 2.0 * (t141 * t215);
+        let t219 = c(2.0) * (t141 * t215);
         // leg 4: leg inertia between joint and base speeds
-        let t220 = base_rotation[1][0] * 0.17213485607334636;
-        let t221 = base_rotation[1][1] * 0.052626906850092664;
+        let t220 = base_rotation[1][0] * c(0.17213485607334636);
+        let t221 = base_rotation[1][1] * c(0.052626906850092664);
         let t222 = t220 - t221;
-        let t223 = base_rotation[2][0] * 0.17213485607334636;
-        let t224 = base_rotation[2][1] * 0.052626906850092664;
+        let t223 = base_rotation[2][0] * c(0.17213485607334636);
+        let t224 = base_rotation[2][1] * c(0.052626906850092664);
         let t225 = t223 - t224;
-        let t226 = base_rotation[0][0] * 0.17213485607334636;
-        let t227 = base_rotation[0][1] * 0.052626906850092664;
+        let t226 = base_rotation[0][0] * c(0.17213485607334636);
+        let t227 = base_rotation[0][1] * c(0.052626906850092664);
         let t228 = t226 - t227;
         // leg 5: mass matrix of the leg in the speeds of its joint
-        let t229 = t160 + t146 * 0.4761666666666667;
-        let t230 = 2.0 * (t146 * t229);
-        let t231 = t163 + t148 * 0.4761666666666667;
+        let t229 = t160 + t146 * c(0.4761666666666667);
+        let t230 = c(2.0) * (t146 * t229);
+        let t231 = t163 + t148 * c(0.4761666666666667);
         let t232 = t146 * t231 + t148 * t229;
-        let t233 = t166 + t150 * 0.4761666666666667;
+        let t233 = t166 + t150 * c(0.4761666666666667);
         let t234 = t146 * t233 + t150 * t229;
-        let t235 = 2.0 * (t148 * t231);
+        let t235 = c(2.0) * (t148 * t231);
         let t236 = t148 * t233 + t150 * t231;
-        let t237 = 2.0 * (t150 * t233);
+        let t237 = c(2.0) * (t150 * t233);
         // leg 5: leg inertia between joint and base speeds
         let t238 = t220 + t221;
         let t239 = t223 + t224;
         let t240 = t226 + t227;
         // leg 6: mass matrix of the leg in the speeds of its joint
-        let t241 = t160 + t155 * 0.4761666666666667;
-        let t242 = 2.0 * (t155 * t241);
-        let t243 = t163 + t157 * 0.4761666666666667;
+        let t241 = t160 + t155 * c(0.4761666666666667);
+        let t242 = c(2.0) * (t155 * t241);
+        let t243 = t163 + t157 * c(0.4761666666666667);
         let t244 = t155 * t243 + t157 * t241;
-        let t245 = t166 + t159 * 0.4761666666666667;
+        let t245 = t166 + t159 * c(0.4761666666666667);
         let t246 = t155 * t245 + t159 * t241;
-        let t247 = 2.0 * (t157 * t243);
+        let t247 = c(2.0) * (t157 * t243);
         let t248 = t157 * t245 + t159 * t243;
-        let t249 = 2.0 * (t159 * t245);
+        let t249 = c(2.0) * (t159 * t245);
         // leg 6: leg inertia between joint and base speeds
         let t250 = t202 - t203;
         let t251 = t205 - t206;
@@ -7202,28 +7765,28 @@ pub fn coriolis_matrices(
         let t329 = t9 * t310 - t3 * t311;
         let t330 = t12 * t310 - t6 * t311;
         // leg 1: velocity of the platform joint relative to the base
-        let t331 = t318 - 0.1159110991546882 * t325;
-        let t332 = 0.03105828541230249 * t326;
+        let t331 = t318 - c(0.1159110991546882) * t325;
+        let t332 = c(0.03105828541230249) * t326;
         let t333 = t331 + t332;
-        let t334 = t321 - 0.1159110991546882 * t327;
-        let t335 = 0.03105828541230249 * t328;
+        let t334 = t321 - c(0.1159110991546882) * t327;
+        let t335 = c(0.03105828541230249) * t328;
         let t336 = t334 + t335;
         // leg 2: velocity of the platform joint relative to the base
         let t337 = t331 - t332;
         let t338 = t334 - t335;
         // leg 3: velocity of the platform joint relative to the base
-        let t339 = t318 + 0.031058285412302475 * t325;
-        let t340 = 0.1159110991546882 * t326;
+        let t339 = t318 + c(0.031058285412302475) * t325;
+        let t340 = c(0.1159110991546882) * t326;
         let t341 = t339 - t340;
-        let t342 = t321 + 0.031058285412302475 * t327;
-        let t343 = 0.1159110991546882 * t328;
+        let t342 = t321 + c(0.031058285412302475) * t327;
+        let t343 = c(0.1159110991546882) * t328;
         let t344 = t342 - t343;
         // leg 4: velocity of the platform joint relative to the base
-        let t345 = t318 + 0.0848528137423857 * t325;
-        let t346 = 0.08485281374238571 * t326;
+        let t345 = t318 + c(0.0848528137423857) * t325;
+        let t346 = c(0.08485281374238571) * t326;
         let t347 = t345 - t346;
-        let t348 = t321 + 0.0848528137423857 * t327;
-        let t349 = 0.08485281374238571 * t328;
+        let t348 = t321 + c(0.0848528137423857) * t327;
+        let t349 = c(0.08485281374238571) * t328;
         let t350 = t348 - t349;
         // leg 5: velocity of the platform joint relative to the base
         let t351 = t345 + t346;
@@ -7234,8 +7797,8 @@ pub fn coriolis_matrices(
         // leg 1: rate of the rod's extent along the actuator axis
         let t355 = t53 * (t30 * t333 - t33 * t336);
         // leg 1: actuator velocity d'
-        let t356 = t324 - 0.1159110991546882 * t329;
-        let t357 = 0.03105828541230249 * t330;
+        let t356 = t324 - c(0.1159110991546882) * t329;
+        let t357 = c(0.03105828541230249) * t330;
         let t358 = t356 - (t355 - t357);
         // leg 2: rate of the rod's extent along the actuator axis
         let t359 = t58 * (t34 * t337 + t35 * t338);
@@ -7244,14 +7807,14 @@ pub fn coriolis_matrices(
         // leg 3: rate of the rod's extent along the actuator axis
         let t361 = t61 * (t38 * t341 + t41 * t344);
         // leg 3: actuator velocity d'
-        let t362 = t324 + 0.031058285412302475 * t329;
-        let t363 = 0.1159110991546882 * t330;
+        let t362 = t324 + c(0.031058285412302475) * t329;
+        let t363 = c(0.1159110991546882) * t330;
         let t364 = t362 - (t361 + t363);
         // leg 4: rate of the rod's extent along the actuator axis
         let t365 = t66 * (t44 * t347 + t47 * t350);
         // leg 4: actuator velocity d'
-        let t366 = t324 + 0.0848528137423857 * t329;
-        let t367 = 0.08485281374238571 * t330;
+        let t366 = t324 + c(0.0848528137423857) * t329;
+        let t367 = c(0.08485281374238571) * t330;
         let t368 = t366 - (t365 + t367);
         // leg 5: rate of the rod's extent along the actuator axis
         let t369 = t71 * (t48 * t351 - t49 * t352);
@@ -7366,239 +7929,239 @@ pub fn coriolis_matrices(
         // leg 1: Coriolis matrix of the leg in the speeds of its joint
         let t457 = base_rotation[1][2] * base_velocity[5];
         let t458 = base_rotation[2][2] * base_velocity[4] - t457;
-        let t459 = 0.17066666666666666 * t458;
-        let t460 = t160 + t98 * 0.9523333333333334;
+        let t459 = c(0.17066666666666666) * t458;
+        let t460 = t160 + t98 * c(0.9523333333333334);
         let t461 = t392 * t460 + t98 * t459;
         let t462 = t394 * t460 + t100 * t459;
         let t463 = t396 * t460 + t102 * t459;
         let t464 = base_rotation[2][2] * base_velocity[3];
         let t465 = base_rotation[0][2] * base_velocity[5] - t464;
-        let t466 = 0.17066666666666666 * t465;
-        let t467 = t163 + t100 * 0.9523333333333334;
+        let t466 = c(0.17066666666666666) * t465;
+        let t467 = t163 + t100 * c(0.9523333333333334);
         let t468 = t392 * t467 + t98 * t466;
         let t469 = t394 * t467 + t100 * t466;
         let t470 = t396 * t467 + t102 * t466;
         let t471 = base_rotation[0][2] * base_velocity[4];
         let t472 = base_rotation[1][2] * base_velocity[3] - t471;
-        let t473 = 0.17066666666666666 * t472;
-        let t474 = t166 + t102 * 0.9523333333333334;
+        let t473 = c(0.17066666666666666) * t472;
+        let t474 = t166 + t102 * c(0.9523333333333334);
         let t475 = t392 * t474 + t98 * t473;
         let t476 = t394 * t474 + t100 * t473;
         let t477 = t396 * t474 + t102 * t473;
         // leg 1: Coriolis matrix between joint and base angular velocity
-        let t478 = 0.17066666666666666 * t314 + t465 * 0.03055;
-        let t479 = 0.17066666666666666 * t315 + t472 * 0.03055;
+        let t478 = c(0.17066666666666666) * t314 + t465 * c(0.03055);
+        let t479 = c(0.17066666666666666) * t315 + t472 * c(0.03055);
         let t480 = t56 * t465 - (base_velocity[5] * t180 - base_velocity[3] * t177);
         let t481 = base_rotation[1][2] * t358 + t480;
-        let t482 = t478 - (0.17066666666666666 * t386 - 0.9523333333333334 * t481);
+        let t482 = t478 - (c(0.17066666666666666) * t386 - c(0.9523333333333334) * t481);
         let t483 = t56 * t472 - (base_velocity[3] * t174 - base_velocity[4] * t180);
         let t484 = base_rotation[2][2] * t358 + t483;
-        let t485 = t479 - (0.17066666666666666 * t387 - 0.9523333333333334 * t484);
+        let t485 = t479 - (c(0.17066666666666666) * t387 - c(0.9523333333333334) * t484);
         let t486 = base_rotation[2][2] * t482 - base_rotation[1][2] * t485;
         let t487 = t98 * t486;
-        let t488 = 0.17066666666666666 * t313 + t458 * 0.03055;
+        let t488 = c(0.17066666666666666) * t313 + t458 * c(0.03055);
         let t489 = t56 * t458 - (base_velocity[4] * t177 - base_velocity[5] * t174);
         let t490 = base_rotation[0][2] * t358 + t489;
-        let t491 = t488 - (0.17066666666666666 * t385 - 0.9523333333333334 * t490);
+        let t491 = t488 - (c(0.17066666666666666) * t385 - c(0.9523333333333334) * t490);
         let t492 = base_rotation[0][2] * t485 - base_rotation[2][2] * t491;
-        let t493 = 0.17066666666666666 * t484;
+        let t493 = c(0.17066666666666666) * t484;
         let t494 = t98 * t492 + t493;
         let t495 = base_rotation[1][2] * t491 - base_rotation[0][2] * t482;
-        let t496 = 0.17066666666666666 * t481;
+        let t496 = c(0.17066666666666666) * t481;
         let t497 = t98 * t495 - t496;
         let t498 = t493 - t100 * t486;
         let t499 = t100 * t492;
-        let t500 = 0.17066666666666666 * t490;
+        let t500 = c(0.17066666666666666) * t490;
         let t501 = t100 * t495 + t500;
         let t502 = t496 + t102 * t486;
         let t503 = t500 - t102 * t492;
         let t504 = t102 * t495;
         // leg 2: Coriolis matrix of the leg in the speeds of its joint
-        let t505 = t160 - t107 * 0.9523333333333334;
+        let t505 = t160 - t107 * c(0.9523333333333334);
         let t506 = t404 * t505 + t107 * t459;
         let t507 = t406 * t505 + t109 * t459;
         let t508 = t408 * t505 + t111 * t459;
-        let t509 = t163 - t109 * 0.9523333333333334;
+        let t509 = t163 - t109 * c(0.9523333333333334);
         let t510 = t404 * t509 + t107 * t466;
         let t511 = t406 * t509 + t109 * t466;
         let t512 = t408 * t509 + t111 * t466;
-        let t513 = t166 - t111 * 0.9523333333333334;
+        let t513 = t166 - t111 * c(0.9523333333333334);
         let t514 = t404 * t513 + t107 * t473;
         let t515 = t406 * t513 + t109 * t473;
         let t516 = t408 * t513 + t111 * t473;
         // leg 2: Coriolis matrix between joint and base angular velocity
         let t517 = t59 * t465 - (base_velocity[5] * t192 - base_velocity[3] * t191);
         let t518 = base_rotation[1][2] * t360 + t517;
-        let t519 = t478 - (0.17066666666666666 * t398 - 0.9523333333333334 * t518);
+        let t519 = t478 - (c(0.17066666666666666) * t398 - c(0.9523333333333334) * t518);
         let t520 = t59 * t472 - (base_velocity[3] * t190 - base_velocity[4] * t192);
         let t521 = base_rotation[2][2] * t360 + t520;
-        let t522 = t479 - (0.17066666666666666 * t399 - 0.9523333333333334 * t521);
+        let t522 = t479 - (c(0.17066666666666666) * t399 - c(0.9523333333333334) * t521);
         let t523 = base_rotation[2][2] * t519 - base_rotation[1][2] * t522;
         let t524 = t107 * t523;
         let t525 = t59 * t458 - (base_velocity[4] * t191 - base_velocity[5] * t190);
         let t526 = base_rotation[0][2] * t360 + t525;
-        let t527 = t488 - (0.17066666666666666 * t397 - 0.9523333333333334 * t526);
+        let t527 = t488 - (c(0.17066666666666666) * t397 - c(0.9523333333333334) * t526);
         let t528 = base_rotation[0][2] * t522 - base_rotation[2][2] * t527;
-        let t529 = 0.17066666666666666 * t521;
+        let t529 = c(0.17066666666666666) * t521;
         let t530 = t107 * t528 - t529;
         let t531 = base_rotation[1][2] * t527 - base_rotation[0][2] * t519;
-        let t532 = 0.17066666666666666 * t518;
+        let t532 = c(0.17066666666666666) * t518;
         let t533 = t107 * t531 + t532;
         let t534 = t529 + t109 * t523;
         let t535 = t109 * t528;
-        let t536 = 0.17066666666666666 * t526;
+        let t536 = c(0.17066666666666666) * t526;
         let t537 = t109 * t531 - t536;
         let t538 = t532 - t111 * t523;
         let t539 = t536 + t111 * t528;
         let t540 = t111 * t531;
         // leg 3: Coriolis matrix of the leg in the speeds of its joint
-        let t541 = t160 - t122 * 0.9523333333333334;
+        let t541 = t160 - t122 * c(0.9523333333333334);
         let t542 = t416 * t541 + t122 * t459;
         let t543 = t418 * t541 + t124 * t459;
         let t544 = t420 * t541 + t126 * t459;
-        let t545 = t163 - t124 * 0.9523333333333334;
+        let t545 = t163 - t124 * c(0.9523333333333334);
         let t546 = t416 * t545 + t122 * t466;
         let t547 = t418 * t545 + t124 * t466;
         let t548 = t420 * t545 + t126 * t466;
-        let t549 = t166 - t126 * 0.9523333333333334;
+        let t549 = t166 - t126 * c(0.9523333333333334);
         let t550 = t416 * t549 + t122 * t473;
         let t551 = t418 * t549 + t124 * t473;
         let t552 = t420 * t549 + t126 * t473;
         // leg 3: Coriolis matrix between joint and base angular velocity
         let t553 = t64 * t465 - (base_velocity[5] * t210 - base_velocity[3] * t207);
         let t554 = base_rotation[1][2] * t364 + t553;
-        let t555 = t478 + (0.17066666666666666 * t410 + 0.9523333333333334 * t554);
+        let t555 = t478 + (c(0.17066666666666666) * t410 + c(0.9523333333333334) * t554);
         let t556 = t64 * t472 - (base_velocity[3] * t204 - base_velocity[4] * t210);
         let t557 = base_rotation[2][2] * t364 + t556;
-        let t558 = t479 + (0.17066666666666666 * t411 + 0.9523333333333334 * t557);
+        let t558 = t479 + (c(0.17066666666666666) * t411 + c(0.9523333333333334) * t557);
         let t559 = base_rotation[2][2] * t555 - base_rotation[1][2] * t558;
         let t560 = t122 * t559;
         let t561 = t64 * t458 - (base_velocity[4] * t207 - base_velocity[5] * t204);
         let t562 = base_rotation[0][2] * t364 + t561;
-        let t563 = t488 + (0.17066666666666666 * t409 + 0.9523333333333334 * t562);
+        let t563 = t488 + (c(0.17066666666666666) * t409 + c(0.9523333333333334) * t562);
         let t564 = base_rotation[0][2] * t558 - base_rotation[2][2] * t563;
-        let t565 = 0.17066666666666666 * t557;
+        let t565 = c(0.17066666666666666) * t557;
         let t566 = t122 * t564 - t565;
         let t567 = base_rotation[1][2] * t563 - base_rotation[0][2] * t555;
-        let t568 = 0.17066666666666666 * t554;
+        let t568 = c(0.17066666666666666) * t554;
         let t569 = t122 * t567 + t568;
         let t570 = t565 + t124 * t559;
         let t571 = t124 * t564;
-        let t572 = 0.17066666666666666 * t562;
+        let t572 = c(0.17066666666666666) * t562;
         let t573 = t124 * t567 - t572;
         let t574 = t568 - t126 * t559;
         let t575 = t572 + t126 * t564;
         let t576 = t126 * t567;
         // leg 4: Coriolis matrix of the leg in the speeds of its joint
-        let t577 = t160 - t137 * 0.9523333333333334;
+        let t577 = t160 - t137 * c(0.9523333333333334);
         let t578 = t428 * t577 + t137 * t459;
         let t579 = t430 * t577 + t139 * t459;
         let t580 = t432 * t577 + t141 * t459;
-        let t581 = t163 - t139 * 0.9523333333333334;
+        let t581 = t163 - t139 * c(0.9523333333333334);
         let t582 = t428 * t581 + t137 * t466;
         let t583 = t430 * t581 + t139 * t466;
         let t584 = t432 * t581 + t141 * t466;
-        let t585 = t166 - t141 * 0.9523333333333334;
+        let t585 = t166 - t141 * c(0.9523333333333334);
         let t586 = t428 * t585 + t137 * t473;
         let t587 = t430 * t585 + t139 * t473;
         let t588 = t432 * t585 + t141 * t473;
         // leg 4: Coriolis matrix between joint and base angular velocity
         let t589 = t69 * t465 + (base_velocity[5] * t228 - base_velocity[3] * t225);
         let t590 = base_rotation[1][2] * t368 + t589;
-        let t591 = t478 + (0.17066666666666666 * t422 + 0.9523333333333334 * t590);
+        let t591 = t478 + (c(0.17066666666666666) * t422 + c(0.9523333333333334) * t590);
         let t592 = t69 * t472 + (base_velocity[3] * t222 - base_velocity[4] * t228);
         let t593 = base_rotation[2][2] * t368 + t592;
-        let t594 = t479 + (0.17066666666666666 * t423 + 0.9523333333333334 * t593);
+        let t594 = t479 + (c(0.17066666666666666) * t423 + c(0.9523333333333334) * t593);
         let t595 = base_rotation[2][2] * t591 - base_rotation[1][2] * t594;
         let t596 = t137 * t595;
         let t597 = t69 * t458 + (base_velocity[4] * t225 - base_velocity[5] * t222);
         let t598 = base_rotation[0][2] * t368 + t597;
-        let t599 = t488 + (0.17066666666666666 * t421 + 0.9523333333333334 * t598);
+        let t599 = t488 + (c(0.17066666666666666) * t421 + c(0.9523333333333334) * t598);
         let t600 = base_rotation[0][2] * t594 - base_rotation[2][2] * t599;
-        let t601 = 0.17066666666666666 * t593;
+        let t601 = c(0.17066666666666666) * t593;
         let t602 = t137 * t600 - t601;
         let t603 = base_rotation[1][2] * t599 - base_rotation[0][2] * t591;
-        let t604 = 0.17066666666666666 * t590;
+        let t604 = c(0.17066666666666666) * t590;
         let t605 = t137 * t603 + t604;
         let t606 = t601 + t139 * t595;
         let t607 = t139 * t600;
-        let t608 = 0.17066666666666666 * t598;
+        let t608 = c(0.17066666666666666) * t598;
         let t609 = t139 * t603 - t608;
         let t610 = t604 - t141 * t595;
         let t611 = t608 + t141 * t600;
         let t612 = t141 * t603;
         // leg 5: Coriolis matrix of the leg in the speeds of its joint
-        let t613 = t160 + t146 * 0.9523333333333334;
+        let t613 = t160 + t146 * c(0.9523333333333334);
         let t614 = t440 * t613 + t146 * t459;
         let t615 = t442 * t613 + t148 * t459;
         let t616 = t444 * t613 + t150 * t459;
-        let t617 = t163 + t148 * 0.9523333333333334;
+        let t617 = t163 + t148 * c(0.9523333333333334);
         let t618 = t440 * t617 + t146 * t466;
         let t619 = t442 * t617 + t148 * t466;
         let t620 = t444 * t617 + t150 * t466;
-        let t621 = t166 + t150 * 0.9523333333333334;
+        let t621 = t166 + t150 * c(0.9523333333333334);
         let t622 = t440 * t621 + t146 * t473;
         let t623 = t442 * t621 + t148 * t473;
         let t624 = t444 * t621 + t150 * t473;
         // leg 5: Coriolis matrix between joint and base angular velocity
         let t625 = t72 * t465 + (base_velocity[5] * t240 - base_velocity[3] * t239);
         let t626 = base_rotation[1][2] * t370 + t625;
-        let t627 = t478 + (0.17066666666666666 * t434 + 0.9523333333333334 * t626);
+        let t627 = t478 + (c(0.17066666666666666) * t434 + c(0.9523333333333334) * t626);
         let t628 = t72 * t472 + (base_velocity[3] * t238 - base_velocity[4] * t240);
         let t629 = base_rotation[2][2] * t370 + t628;
-        let t630 = t479 + (0.17066666666666666 * t435 + 0.9523333333333334 * t629);
+        let t630 = t479 + (c(0.17066666666666666) * t435 + c(0.9523333333333334) * t629);
         let t631 = base_rotation[2][2] * t627 - base_rotation[1][2] * t630;
         let t632 = t146 * t631;
         let t633 = t72 * t458 + (base_velocity[4] * t239 - base_velocity[5] * t238);
         let t634 = base_rotation[0][2] * t370 + t633;
-        let t635 = t488 + (0.17066666666666666 * t433 + 0.9523333333333334 * t634);
+        let t635 = t488 + (c(0.17066666666666666) * t433 + c(0.9523333333333334) * t634);
         let t636 = base_rotation[0][2] * t630 - base_rotation[2][2] * t635;
-        let t637 = 0.17066666666666666 * t629;
+        let t637 = c(0.17066666666666666) * t629;
         let t638 = t146 * t636 + t637;
         let t639 = base_rotation[1][2] * t635 - base_rotation[0][2] * t627;
-        let t640 = 0.17066666666666666 * t626;
+        let t640 = c(0.17066666666666666) * t626;
         let t641 = t146 * t639 - t640;
         let t642 = t637 - t148 * t631;
         let t643 = t148 * t636;
-        let t644 = 0.17066666666666666 * t634;
+        let t644 = c(0.17066666666666666) * t634;
         let t645 = t148 * t639 + t644;
         let t646 = t640 + t150 * t631;
         let t647 = t644 - t150 * t636;
         let t648 = t150 * t639;
         // leg 6: Coriolis matrix of the leg in the speeds of its joint
-        let t649 = t160 + t155 * 0.9523333333333334;
+        let t649 = t160 + t155 * c(0.9523333333333334);
         let t650 = t452 * t649 + t155 * t459;
         let t651 = t454 * t649 + t157 * t459;
         let t652 = t456 * t649 + t159 * t459;
-        let t653 = t163 + t157 * 0.9523333333333334;
+        let t653 = t163 + t157 * c(0.9523333333333334);
         let t654 = t452 * t653 + t155 * t466;
         let t655 = t454 * t653 + t157 * t466;
         let t656 = t456 * t653 + t159 * t466;
-        let t657 = t166 + t159 * 0.9523333333333334;
+        let t657 = t166 + t159 * c(0.9523333333333334);
         let t658 = t452 * t657 + t155 * t473;
         let t659 = t454 * t657 + t157 * t473;
         let t660 = t456 * t657 + t159 * t473;
         // leg 6: Coriolis matrix between joint and base angular velocity
         let t661 = t75 * t465 - (base_velocity[5] * t252 - base_velocity[3] * t251);
         let t662 = base_rotation[1][2] * t372 + t661;
-        let t663 = t478 + (0.17066666666666666 * t446 + 0.9523333333333334 * t662);
+        let t663 = t478 + (c(0.17066666666666666) * t446 + c(0.9523333333333334) * t662);
         let t664 = t75 * t472 - (base_velocity[3] * t250 - base_velocity[4] * t252);
         let t665 = base_rotation[2][2] * t372 + t664;
-        let t666 = t479 + (0.17066666666666666 * t447 + 0.9523333333333334 * t665);
+        let t666 = t479 + (c(0.17066666666666666) * t447 + c(0.9523333333333334) * t665);
         let t667 = base_rotation[2][2] * t663 - base_rotation[1][2] * t666;
         let t668 = t155 * t667;
         let t669 = t75 * t458 - (base_velocity[4] * t251 - base_velocity[5] * t250);
         let t670 = base_rotation[0][2] * t372 + t669;
-        let t671 = t488 + (0.17066666666666666 * t445 + 0.9523333333333334 * t670);
+        let t671 = t488 + (c(0.17066666666666666) * t445 + c(0.9523333333333334) * t670);
         let t672 = base_rotation[0][2] * t666 - base_rotation[2][2] * t671;
-        let t673 = 0.17066666666666666 * t665;
+        let t673 = c(0.17066666666666666) * t665;
         let t674 = t155 * t672 + t673;
         let t675 = base_rotation[1][2] * t671 - base_rotation[0][2] * t663;
-        let t676 = 0.17066666666666666 * t662;
+        let t676 = c(0.17066666666666666) * t662;
         let t677 = t155 * t675 - t676;
         let t678 = t673 - t157 * t667;
         let t679 = t157 * t672;
-        let t680 = 0.17066666666666666 * t670;
+        let t680 = c(0.17066666666666666) * t670;
         let t681 = t157 * t675 + t680;
         let t682 = t676 + t159 * t667;
         let t683 = t680 - t159 * t672;
@@ -8004,17 +8567,17 @@ pub fn coriolis_matrices(
     };
     {
         // Coriolis matrix C_p, natural factorisation
-        let t912 = platform_rotation[1][0] * 2.2551405187698492e-17;
-        let t913 = t912 + platform_rotation[1][1] * 6.938893903907228e-18;
-        let t914 = t913 + platform_rotation[1][2] * 0.188852;
-        let t915 = platform_rotation[0][0] * 2.2551405187698492e-17;
-        let t916 = t915 + platform_rotation[0][1] * 6.938893903907228e-18;
-        let t917 = t916 + platform_rotation[0][2] * 0.188852;
+        let t912 = platform_rotation[1][0] * c(2.2551405187698492e-17);
+        let t913 = t912 + platform_rotation[1][1] * c(6.938893903907228e-18);
+        let t914 = t913 + platform_rotation[1][2] * c(0.188852);
+        let t915 = platform_rotation[0][0] * c(2.2551405187698492e-17);
+        let t916 = t915 + platform_rotation[0][1] * c(6.938893903907228e-18);
+        let t917 = t916 + platform_rotation[0][2] * c(0.188852);
         let t918 = platform_velocity[3] * t914 - platform_velocity[4] * t917;
         coriolis_matrix_p[0][4] = t918 - t731;
-        let t919 = platform_rotation[2][0] * 2.2551405187698492e-17;
-        let t920 = t919 + platform_rotation[2][1] * 6.938893903907228e-18;
-        let t921 = t920 + platform_rotation[2][2] * 0.188852;
+        let t919 = platform_rotation[2][0] * c(2.2551405187698492e-17);
+        let t920 = t919 + platform_rotation[2][1] * c(6.938893903907228e-18);
+        let t921 = t920 + platform_rotation[2][2] * c(0.188852);
         let t922 = platform_velocity[5] * t917 - platform_velocity[3] * t921;
         coriolis_matrix_p[0][5] = -(t744 + t922);
         coriolis_matrix_p[1][3] = -(t760 + t918);
@@ -8022,9 +8585,9 @@ pub fn coriolis_matrices(
         coriolis_matrix_p[1][5] = t923 - t798;
         coriolis_matrix_p[2][3] = t922 - t814;
         coriolis_matrix_p[2][4] = -(t827 + t923);
-        let t924 = platform_rotation[0][2] * 0.013354412;
-        let t925 = platform_rotation[0][0] * 0.032245600000000006;
-        let t926 = platform_rotation[0][1] * 0.032245600000000006;
+        let t924 = platform_rotation[0][2] * c(0.013354412);
+        let t925 = platform_rotation[0][0] * c(0.032245600000000006);
+        let t926 = platform_rotation[0][1] * c(0.032245600000000006);
         let t927 = platform_rotation[1][0] * t925 + platform_rotation[1][1] * t926;
         let t928 = platform_rotation[1][2] * t924 + t927;
         let t929 = platform_velocity[5] * t928;
@@ -8032,120 +8595,119 @@ pub fn coriolis_matrices(
         let t931 = platform_rotation[2][2] * t924 + t930;
         let t932 = platform_velocity[4] * t931;
         coriolis_matrix_p[3][3] = t858 + t929 - t932;
-        let t933 = platform_rotation[1][2] * 0.013354412;
-        let t934 = platform_rotation[1][1] * 0.032245600000000006;
-        let t935 = platform_rotation[1][0] * 0.032245600000000006;
-        let t936 = 0.0425 - platform_rotation[1][0] * t935;
+        let t933 = platform_rotation[1][2] * c(0.013354412);
+        let t934 = platform_rotation[1][1] * c(0.032245600000000006);
+        let t935 = platform_rotation[1][0] * c(0.032245600000000006);
+        let t936 = c(0.0425) - platform_rotation[1][0] * t935;
         let t937 = platform_rotation[1][1] * t934 - t936;
         let t938 = platform_rotation[1][2] * t933 + t937;
         let t939 = platform_rotation[2][0] * t935 + platform_rotation[2][1] * t934;
         let t940 = platform_rotation[2][2] * t933 + t939;
         coriolis_matrix_p[3][4] = t862 + platform_velocity[5] * t938
             - platform_velocity[4] * t940;
-        let t941 = platform_rotation[2][2] * (platform_rotation[2][2] * 0.013354412);
-        let t942 = platform_rotation[2][1]
-            * (platform_rotation[2][1] * 0.032245600000000006);
-        let t943 = platform_rotation[2][0]
-            * (platform_rotation[2][0] * 0.032245600000000006);
-        let t944 = t941 + (t942 - (0.0425 - t943));
+        let t941 = platform_rotation[2][2] * (platform_rotation[2][2] * c(0.013354412));
+        let t942 = platform_rotation[2][1] * c(0.032245600000000006);
+        let t943 = platform_rotation[2][0] * c(0.032245600000000006);
+        let t944 = c(0.0425) - platform_rotation[2][0] * t943;
+        let t945 = t941 + (platform_rotation[2][1] * t942 - t944);
         coriolis_matrix_p[3][5] = t866 + platform_velocity[5] * t940
-            - platform_velocity[4] * t944;
-        let t945 = 0.0425 - platform_rotation[0][0] * t925;
-        let t946 = platform_rotation[0][1] * t926 - t945;
-        let t947 = platform_rotation[0][2] * t924 + t946;
+            - platform_velocity[4] * t945;
+        let t946 = c(0.0425) - platform_rotation[0][0] * t925;
+        let t947 = platform_rotation[0][1] * t926 - t946;
+        let t948 = platform_rotation[0][2] * t924 + t947;
         coriolis_matrix_p[4][3] = platform_velocity[3] * t931
-            + (t878 - platform_velocity[5] * t947);
-        let t948 = platform_velocity[3] * t940;
-        coriolis_matrix_p[4][4] = t948 + (t882 - t929);
-        coriolis_matrix_p[4][5] = platform_velocity[3] * t944
+            + (t878 - platform_velocity[5] * t948);
+        let t949 = platform_velocity[3] * t940;
+        coriolis_matrix_p[4][4] = t949 + (t882 - t929);
+        coriolis_matrix_p[4][5] = platform_velocity[3] * t945
             + (t886 - platform_velocity[5] * t931);
-        coriolis_matrix_p[5][3] = t898 + platform_velocity[4] * t947
+        coriolis_matrix_p[5][3] = t898 + platform_velocity[4] * t948
             - platform_velocity[3] * t928;
         coriolis_matrix_p[5][4] = platform_velocity[4] * t928 - t902
             - platform_velocity[3] * t938;
-        coriolis_matrix_p[5][5] = t906 + t932 - t948;
+        coriolis_matrix_p[5][5] = t906 + t932 - t949;
         // Coriolis matrix C_b, natural factorisation
-        let t949 = t254 * t315;
-        let t950 = t718 - (t668 + (t632 - (t596 + (t560 - (t487 - t524)))));
-        let t951 = t255 * t314;
-        coriolis_matrix_b[0][3] = t949 - (t20 * t687 - (t21 * t686 - t950)) - t951;
-        let t952 = t731 - (t674 + (t638 - (t602 + (t566 - (t494 - t530)))));
-        let t953 = t255 * t313 - (t21 * t685 - (t19 * t687 - t952));
-        coriolis_matrix_b[0][4] = t953 - t253 * t315;
-        let t954 = t744 - (t677 + (t641 - (t605 + (t569 - (t497 - t533)))));
-        let t955 = t253 * t314 - (t19 * t686 - (t20 * t685 - t954));
-        coriolis_matrix_b[0][5] = t955 - t254 * t313;
-        let t956 = t760 + (t678 + (t642 + (t606 + (t570 + (t498 + t534)))));
-        let t957 = t269 * t315 - (t20 * t747 - (t21 * t746 - t956));
-        coriolis_matrix_b[1][3] = t957 - t270 * t314;
-        let t958 = t270 * t313;
-        let t959 = t949 - (t785 + (t679 + (t643 - (t607 + (t571 - (t499 - t535))))));
-        coriolis_matrix_b[1][4] = t958 - (t21 * t745 - (t19 * t747 - t959));
-        let t960 = t798 - (t681 + (t645 - (t609 + (t573 - (t501 - t537)))));
-        let t961 = t254 * t314 - (t19 * t746 - (t20 * t745 - t960));
-        coriolis_matrix_b[1][5] = t961 - t269 * t313;
-        let t962 = t814 - (t682 + (t646 + (t610 + (t574 + (t502 + t538)))));
-        let t963 = t270 * t315 - (t20 * t801 - (t21 * t800 - t962));
-        coriolis_matrix_b[2][3] = t963 - t282 * t314;
-        let t964 = t827 + (t683 + (t647 + (t611 + (t575 + (t503 + t539)))));
-        let t965 = t282 * t313 - (t21 * t799 - (t19 * t801 - t964));
-        coriolis_matrix_b[2][4] = t965 - t255 * t315;
-        let t966 = t951 - (t846 - (t684 + (t648 - (t612 + (t576 - (t504 - t540))))));
-        coriolis_matrix_b[2][5] = t20 * t799 - (t958 - t966) - t19 * t800;
-        let t967 = t274 * t315 + (t20 * t854 - (t858 - t21 * t851));
-        let t968 = t96 * t498 + (t93 * t502 + (t286 * t314 - t967));
-        let t969 = t105 * t534 + (t104 * t538 + t968) - t117 * t574;
-        let t970 = t969 - t120 * t570 - t132 * t610 - t135 * t606;
-        let t971 = t970 - t143 * t646 - t144 * t642 - t152 * t682;
-        coriolis_matrix_b[3][3] = t971 - t153 * t678;
-        let t972 = t286 * t313 - (t21 * t848 + (t862 + t19 * t854));
-        let t973 = t96 * t499 + (t93 * t503 + (t260 * t315 + t972));
-        let t974 = t117 * t575 + (t105 * t535 - (t104 * t539 + t973));
-        let t975 = t135 * t607 - (t132 * t611 - (t120 * t571 - t974));
-        let t976 = t152 * t683 + (t144 * t643 + (t143 * t647 - t975));
-        coriolis_matrix_b[3][4] = t153 * t679 + t976;
-        let t977 = t260 * t314 + (t19 * t851 + (t866 - t20 * t848));
-        let t978 = t96 * t501 - (t93 * t504 + (t274 * t313 + t977));
-        let t979 = t117 * t576 + (t105 * t537 - (t104 * t540 + t978));
-        let t980 = t135 * t609 - (t132 * t612 - (t120 * t573 - t979));
-        let t981 = t152 * t684 - (t144 * t645 - (t143 * t648 + t980));
-        coriolis_matrix_b[3][5] = t153 * t681 - t981;
-        let t982 = t277 * t315 - (t20 * t874 + (t878 + t21 * t871));
-        let t983 = t90 * t502 - (t96 * t487 + (t290 * t314 - t982));
-        let t984 = t120 * t560 - (t103 * t538 + (t105 * t524 + t983));
-        let t985 = t129 * t610 + (t135 * t596 + (t114 * t574 + t984));
-        let t986 = t153 * t668 - (t142 * t646 - (t144 * t632 - t985));
-        coriolis_matrix_b[4][3] = t151 * t682 - t986;
-        let t987 = t290 * t313 + (t21 * t869 - (t882 - t19 * t874));
-        let t988 = t90 * t503 + (t96 * t494 + (t264 * t315 - t987));
-        let t989 = t120 * t566 + (t103 * t539 - (t105 * t530 - t988));
-        let t990 = t135 * t602 - (t114 * t575 - t989) - t129 * t611;
-        let t991 = t990 - t144 * t638 - t142 * t647 - t153 * t674;
-        coriolis_matrix_b[4][4] = t991 - t151 * t683;
-        let t992 = t264 * t314 + (t19 * t871 - (t886 + t20 * t869));
-        let t993 = t90 * t504 - (t96 * t497 + (t277 * t313 - t992));
-        let t994 = t120 * t569 + (t103 * t540 - (t105 * t533 + t993));
-        let t995 = t129 * t612 - (t135 * t605 - (t114 * t576 - t994));
-        let t996 = t153 * t677 - (t142 * t648 - (t144 * t641 + t995));
-        coriolis_matrix_b[4][5] = t151 * t684 - t996;
-        let t997 = t281 * t315 - (t20 * t894 + (t898 + t21 * t892));
-        let t998 = t93 * t487 + (t90 * t498 + (t291 * t314 + t997));
-        let t999 = t114 * t570 + (t104 * t524 - (t103 * t534 + t998));
-        let t1000 = t132 * t596 - (t129 * t606 - (t117 * t560 - t999));
-        let t1001 = t151 * t678 + (t143 * t632 + (t142 * t642 - t1000));
-        coriolis_matrix_b[5][3] = t152 * t668 + t1001;
-        let t1002 = t291 * t313 + (t21 * t889 - (t902 + t19 * t894));
-        let t1003 = t93 * t494 - (t90 * t499 + (t268 * t315 + t1002));
-        let t1004 = t114 * t571 + (t104 * t530 - (t103 * t535 + t1003));
-        let t1005 = t132 * t602 - (t129 * t607 - (t117 * t566 - t1004));
-        let t1006 = t151 * t679 - (t143 * t638 - (t142 * t643 + t1005));
-        coriolis_matrix_b[5][4] = t152 * t674 - t1006;
-        let t1007 = t268 * t314 + (t19 * t892 - (t906 - t20 * t889));
-        let t1008 = t93 * t497 - (t90 * t501 + (t281 * t313 - t1007));
-        let t1009 = t114 * t573 + (t104 * t533 - (t103 * t537 + t1008));
-        let t1010 = t132 * t605 - (t129 * t609 - (t117 * t569 - t1009));
-        let t1011 = t151 * t681 - (t143 * t641 - (t142 * t645 + t1010));
-        coriolis_matrix_b[5][5] = t152 * t677 - t1011;
+        let t950 = t254 * t315;
+        let t951 = t718 - (t668 + (t632 - (t596 + (t560 - (t487 - t524)))));
+        let t952 = t255 * t314;
+        coriolis_matrix_b[0][3] = t950 - (t20 * t687 - (t21 * t686 - t951)) - t952;
+        let t953 = t731 - (t674 + (t638 - (t602 + (t566 - (t494 - t530)))));
+        let t954 = t255 * t313 - (t21 * t685 - (t19 * t687 - t953));
+        coriolis_matrix_b[0][4] = t954 - t253 * t315;
+        let t955 = t744 - (t677 + (t641 - (t605 + (t569 - (t497 - t533)))));
+        let t956 = t253 * t314 - (t19 * t686 - (t20 * t685 - t955));
+        coriolis_matrix_b[0][5] = t956 - t254 * t313;
+        let t957 = t760 + (t678 + (t642 + (t606 + (t570 + (t498 + t534)))));
+        let t958 = t269 * t315 - (t20 * t747 - (t21 * t746 - t957));
+        coriolis_matrix_b[1][3] = t958 - t270 * t314;
+        let t959 = t270 * t313;
+        let t960 = t950 - (t785 + (t679 + (t643 - (t607 + (t571 - (t499 - t535))))));
+        coriolis_matrix_b[1][4] = t959 - (t21 * t745 - (t19 * t747 - t960));
+        let t961 = t798 - (t681 + (t645 - (t609 + (t573 - (t501 - t537)))));
+        let t962 = t254 * t314 - (t19 * t746 - (t20 * t745 - t961));
+        coriolis_matrix_b[1][5] = t962 - t269 * t313;
+        let t963 = t814 - (t682 + (t646 + (t610 + (t574 + (t502 + t538)))));
+        let t964 = t270 * t315 - (t20 * t801 - (t21 * t800 - t963));
+        coriolis_matrix_b[2][3] = t964 - t282 * t314;
+        let t965 = t827 + (t683 + (t647 + (t611 + (t575 + (t503 + t539)))));
+        let t966 = t282 * t313 - (t21 * t799 - (t19 * t801 - t965));
+        coriolis_matrix_b[2][4] = t966 - t255 * t315;
+        let t967 = t952 - (t846 - (t684 + (t648 - (t612 + (t576 - (t504 - t540))))));
+        coriolis_matrix_b[2][5] = t20 * t799 - (t959 - t967) - t19 * t800;
+        let t968 = t274 * t315 + (t20 * t854 - (t858 - t21 * t851));
+        let t969 = t96 * t498 + (t93 * t502 + (t286 * t314 - t968));
+        let t970 = t105 * t534 + (t104 * t538 + t969) - t117 * t574;
+        let t971 = t970 - t120 * t570 - t132 * t610 - t135 * t606;
+        let t972 = t971 - t143 * t646 - t144 * t642 - t152 * t682;
+        coriolis_matrix_b[3][3] = t972 - t153 * t678;
+        let t973 = t286 * t313 - (t21 * t848 + (t862 + t19 * t854));
+        let t974 = t96 * t499 + (t93 * t503 + (t260 * t315 + t973));
+        let t975 = t117 * t575 + (t105 * t535 - (t104 * t539 + t974));
+        let t976 = t135 * t607 - (t132 * t611 - (t120 * t571 - t975));
+        let t977 = t152 * t683 + (t144 * t643 + (t143 * t647 - t976));
+        coriolis_matrix_b[3][4] = t153 * t679 + t977;
+        let t978 = t260 * t314 + (t19 * t851 + (t866 - t20 * t848));
+        let t979 = t96 * t501 - (t93 * t504 + (t274 * t313 + t978));
+        let t980 = t117 * t576 + (t105 * t537 - (t104 * t540 + t979));
+        let t981 = t135 * t609 - (t132 * t612 - (t120 * t573 - t980));
+        let t982 = t152 * t684 - (t144 * t645 - (t143 * t648 + t981));
+        coriolis_matrix_b[3][5] = t153 * t681 - t982;
+        let t983 = t277 * t315 - (t20 * t874 + (t878 + t21 * t871));
+        let t984 = t90 * t502 - (t96 * t487 + (t290 * t314 - t983));
+        let t985 = t120 * t560 - (t103 * t538 + (t105 * t524 + t984));
+        let t986 = t129 * t610 + (t135 * t596 + (t114 * t574 + t985));
+        let t987 = t153 * t668 - (t142 * t646 - (t144 * t632 - t986));
+        coriolis_matrix_b[4][3] = t151 * t682 - t987;
+        let t988 = t290 * t313 + (t21 * t869 - (t882 - t19 * t874));
+        let t989 = t90 * t503 + (t96 * t494 + (t264 * t315 - t988));
+        let t990 = t120 * t566 + (t103 * t539 - (t105 * t530 - t989));
+        let t991 = t135 * t602 - (t114 * t575 - t990) - t129 * t611;
+        let t992 = t991 - t144 * t638 - t142 * t647 - t153 * t674;
+        coriolis_matrix_b[4][4] = t992 - t151 * t683;
+        let t993 = t264 * t314 + (t19 * t871 - (t886 + t20 * t869));
+        let t994 = t90 * t504 - (t96 * t497 + (t277 * t313 - t993));
+        let t995 = t120 * t569 + (t103 * t540 - (t105 * t533 + t994));
+        let t996 = t129 * t612 - (t135 * t605 - (t114 * t576 - t995));
+        let t997 = t153 * t677 - (t142 * t648 - (t144 * t641 + t996));
+        coriolis_matrix_b[4][5] = t151 * t684 - t997;
+        let t998 = t281 * t315 - (t20 * t894 + (t898 + t21 * t892));
+        let t999 = t93 * t487 + (t90 * t498 + (t291 * t314 + t998));
+        let t1000 = t114 * t570 + (t104 * t524 - (t103 * t534 + t999));
+        let t1001 = t132 * t596 - (t129 * t606 - (t117 * t560 - t1000));
+        let t1002 = t151 * t678 + (t143 * t632 + (t142 * t642 - t1001));
+        coriolis_matrix_b[5][3] = t152 * t668 + t1002;
+        let t1003 = t291 * t313 + (t21 * t889 - (t902 + t19 * t894));
+        let t1004 = t93 * t494 - (t90 * t499 + (t268 * t315 + t1003));
+        let t1005 = t114 * t571 + (t104 * t530 - (t103 * t535 + t1004));
+        let t1006 = t132 * t602 - (t129 * t607 - (t117 * t566 - t1005));
+        let t1007 = t151 * t679 - (t143 * t638 - (t142 * t643 + t1006));
+        coriolis_matrix_b[5][4] = t152 * t674 - t1007;
+        let t1008 = t268 * t314 + (t19 * t892 - (t906 - t20 * t889));
+        let t1009 = t93 * t497 - (t90 * t501 + (t281 * t313 - t1008));
+        let t1010 = t114 * t573 + (t104 * t533 - (t103 * t537 + t1009));
+        let t1011 = t132 * t605 - (t129 * t609 - (t117 * t569 - t1010));
+        let t1012 = t151 * t681 - (t143 * t641 - (t142 * t645 + t1011));
+        coriolis_matrix_b[5][5] = t152 * t677 - t1012;
     }
 }
 
@@ -8163,14 +8725,15 @@ pub fn coriolis_matrices(
 /// - `stiffness_matrix_p`: 6x6, N/m, N, N m, frame O: linearised stiffness K_p = J_dp^T k_e J_dp, equation (49).
 /// - `stiffness_matrix_b`: 6x6, N/m, N, N m, frame O: linearised stiffness K_b = J_dp^T k_e J_db, equation (49).
 #[allow(clippy::all, clippy::pedantic, unused_variables)]
-pub fn stiffness_matrices(
-    base_position: &[f64; 3],
-    base_rotation: &[[f64; 3]; 3],
-    platform_position: &[f64; 3],
-    platform_rotation: &[[f64; 3]; 3],
-    stiffness_matrix_p: &mut [[f64; 6]; 6],
-    stiffness_matrix_b: &mut [[f64; 6]; 6],
+pub fn stiffness_matrices<T: Scalar>(
+    base_position: &[T; 3],
+    base_rotation: &[[T; 3]; 3],
+    platform_position: &[T; 3],
+    platform_rotation: &[[T; 3]; 3],
+    stiffness_matrix_p: &mut [[T; 6]; 6],
+    stiffness_matrix_b: &mut [[T; 6]; 6],
 ) {
+    let c = T::constant;
     // rotation of the platform seen from the base
     let t1 = base_rotation[1][0] * platform_rotation[1][0];
     let t2 = base_rotation[0][0] * platform_rotation[0][0] + t1;
@@ -8193,28 +8756,28 @@ pub fn stiffness_matrices(
     let t18 = base_rotation[0][1] * t13 + base_rotation[1][1] * t14;
     let t19 = base_rotation[2][1] * t15 + t18;
     // leg 1: platform joint from the base point
-    let t20 = t17 + (0.1316436662914507 - 0.1159110991546882 * t3);
-    let t21 = 0.03105828541230249 * t6;
+    let t20 = t17 + (c(0.1316436662914507) - c(0.1159110991546882) * t3);
+    let t21 = c(0.03105828541230249) * t6;
     let t22 = t20 + t21;
-    let t23 = 0.12275970481124972 - 0.03105828541230249 * t12;
-    let t24 = t19 - 0.1159110991546882 * t9;
+    let t23 = c(0.12275970481124972) - c(0.03105828541230249) * t12;
+    let t24 = t19 - c(0.1159110991546882) * t9;
     let t25 = t23 - t24;
     // leg 2: platform joint from the base point
     let t26 = t20 - t21;
     let t27 = t23 + t24;
     // leg 3: platform joint from the base point
-    let t28 = t17 + (0.040491189781895726 + t3 * 0.031058285412302475);
-    let t29 = 0.1159110991546882 * t6;
+    let t28 = t17 + (c(0.040491189781895726) + t3 * c(0.031058285412302475));
+    let t29 = c(0.1159110991546882) * t6;
     let t30 = t28 - t29;
-    let t31 = 0.17538661166134234 - 0.1159110991546882 * t12;
-    let t32 = t19 + t9 * 0.031058285412302475;
+    let t31 = c(0.17538661166134234) - c(0.1159110991546882) * t12;
+    let t32 = t19 + t9 * c(0.031058285412302475);
     let t33 = t31 + t32;
     // leg 4: platform joint from the base point
-    let t34 = t17 - (0.17213485607334636 - t3 * 0.0848528137423857);
-    let t35 = 0.08485281374238571 * t6;
+    let t34 = t17 - (c(0.17213485607334636) - t3 * c(0.0848528137423857));
+    let t35 = c(0.08485281374238571) * t6;
     let t36 = t34 - t35;
-    let t37 = 0.052626906850092664 - 0.08485281374238571 * t12;
-    let t38 = t19 + t9 * 0.0848528137423857;
+    let t37 = c(0.052626906850092664) - c(0.08485281374238571) * t12;
+    let t38 = t19 + t9 * c(0.0848528137423857);
     let t39 = t37 + t38;
     // leg 5: platform joint from the base point
     let t40 = t34 + t35;
@@ -8223,29 +8786,29 @@ pub fn stiffness_matrices(
     let t42 = t28 + t29;
     let t43 = t31 - t32;
     // leg 1: extent of the rod along the actuator axis
-    let t44 = sqrt(0.042435999999999995 - t22 * t22 - t25 * t25);
+    let t44 = sqrt(c(0.042435999999999995) - t22 * t22 - t25 * t25);
     // leg 1: reciprocal of that extent
-    let t45 = 1.0 / t44;
+    let t45 = c(1.0) / t44;
     // leg 2: extent of the rod along the actuator axis
-    let t46 = sqrt(0.042435999999999995 - t26 * t26 - t27 * t27);
+    let t46 = sqrt(c(0.042435999999999995) - t26 * t26 - t27 * t27);
     // leg 2: reciprocal of that extent
-    let t47 = 1.0 / t46;
+    let t47 = c(1.0) / t46;
     // leg 3: extent of the rod along the actuator axis
-    let t48 = sqrt(0.042435999999999995 - t30 * t30 - t33 * t33);
+    let t48 = sqrt(c(0.042435999999999995) - t30 * t30 - t33 * t33);
     // leg 3: reciprocal of that extent
-    let t49 = 1.0 / t48;
+    let t49 = c(1.0) / t48;
     // leg 4: extent of the rod along the actuator axis
-    let t50 = sqrt(0.042435999999999995 - t36 * t36 - t39 * t39);
+    let t50 = sqrt(c(0.042435999999999995) - t36 * t36 - t39 * t39);
     // leg 4: reciprocal of that extent
-    let t51 = 1.0 / t50;
+    let t51 = c(1.0) / t50;
     // leg 5: extent of the rod along the actuator axis
-    let t52 = sqrt(0.042435999999999995 - t40 * t40 - t41 * t41);
+    let t52 = sqrt(c(0.042435999999999995) - t40 * t40 - t41 * t41);
     // leg 5: reciprocal of that extent
-    let t53 = 1.0 / t52;
+    let t53 = c(1.0) / t52;
     // leg 6: extent of the rod along the actuator axis
-    let t54 = sqrt(0.042435999999999995 - t42 * t42 - t43 * t43);
+    let t54 = sqrt(c(0.042435999999999995) - t42 * t42 - t43 * t43);
     // leg 6: reciprocal of that extent
-    let t55 = 1.0 / t54;
+    let t55 = c(1.0) / t54;
     // leg 1: gradient of the actuator length by the platform joint
     let t56 = t22 * t45;
     let t57 = t25 * t45;
@@ -8265,14 +8828,14 @@ pub fn stiffness_matrices(
     let t66 = t42 * t55;
     let t67 = t43 * t55;
     // leg 1: platform joint from the platform origin
-    let t68 = platform_rotation[0][0] * 0.1159110991546882;
-    let t69 = platform_rotation[0][1] * 0.03105828541230249;
+    let t68 = platform_rotation[0][0] * c(0.1159110991546882);
+    let t69 = platform_rotation[0][1] * c(0.03105828541230249);
     let t70 = t68 - t69;
-    let t71 = platform_rotation[1][0] * 0.1159110991546882;
-    let t72 = platform_rotation[1][1] * 0.03105828541230249;
+    let t71 = platform_rotation[1][0] * c(0.1159110991546882);
+    let t72 = platform_rotation[1][1] * c(0.03105828541230249);
     let t73 = t71 - t72;
-    let t74 = platform_rotation[2][0] * 0.1159110991546882;
-    let t75 = platform_rotation[2][1] * 0.03105828541230249;
+    let t74 = platform_rotation[2][0] * c(0.1159110991546882);
+    let t75 = platform_rotation[2][1] * c(0.03105828541230249);
     let t76 = t74 - t75;
     // leg 1: platform joint from the base origin
     let t77 = t13 - t70;
@@ -8301,14 +8864,14 @@ pub fn stiffness_matrices(
     let t96 = base_rotation[2][2] - base_rotation[2][0] * t58;
     let t97 = base_rotation[2][1] * t59 - t96;
     // leg 3: platform joint from the platform origin
-    let t98 = platform_rotation[0][0] * 0.031058285412302475;
-    let t99 = platform_rotation[0][1] * 0.1159110991546882;
+    let t98 = platform_rotation[0][0] * c(0.031058285412302475);
+    let t99 = platform_rotation[0][1] * c(0.1159110991546882);
     let t100 = t98 - t99;
-    let t101 = platform_rotation[1][0] * 0.031058285412302475;
-    let t102 = platform_rotation[1][1] * 0.1159110991546882;
+    let t101 = platform_rotation[1][0] * c(0.031058285412302475);
+    let t102 = platform_rotation[1][1] * c(0.1159110991546882);
     let t103 = t101 - t102;
-    let t104 = platform_rotation[2][0] * 0.031058285412302475;
-    let t105 = platform_rotation[2][1] * 0.1159110991546882;
+    let t104 = platform_rotation[2][0] * c(0.031058285412302475);
+    let t105 = platform_rotation[2][1] * c(0.1159110991546882);
     let t106 = t104 - t105;
     // leg 3: platform joint from the base origin
     let t107 = t13 + t100;
@@ -8322,14 +8885,14 @@ pub fn stiffness_matrices(
     let t114 = base_rotation[2][2] - base_rotation[2][0] * t60;
     let t115 = base_rotation[2][1] * t61 - t114;
     // leg 4: platform joint from the platform origin
-    let t116 = platform_rotation[0][0] * 0.0848528137423857;
-    let t117 = platform_rotation[0][1] * 0.08485281374238571;
+    let t116 = platform_rotation[0][0] * c(0.0848528137423857);
+    let t117 = platform_rotation[0][1] * c(0.08485281374238571);
     let t118 = t116 - t117;
-    let t119 = platform_rotation[1][0] * 0.0848528137423857;
-    let t120 = platform_rotation[1][1] * 0.08485281374238571;
+    let t119 = platform_rotation[1][0] * c(0.0848528137423857);
+    let t120 = platform_rotation[1][1] * c(0.08485281374238571);
     let t121 = t119 - t120;
-    let t122 = platform_rotation[2][0] * 0.0848528137423857;
-    let t123 = platform_rotation[2][1] * 0.08485281374238571;
+    let t122 = platform_rotation[2][0] * c(0.0848528137423857);
+    let t123 = platform_rotation[2][1] * c(0.08485281374238571);
     let t124 = t122 - t123;
     // leg 4: platform joint from the base origin
     let t125 = t13 + t118;
@@ -8439,24 +9002,24 @@ pub fn stiffness_matrices(
     let t210 = t149 * t155;
     let t211 = t150 * t153;
     // linearised stiffness K_p = J_dp^T k_e J_dp
-    let t212 = 21555.9 * t81;
-    let t213 = 21555.9 * t93;
-    let t214 = 21555.9 * t111;
-    let t215 = 21555.9 * t129;
-    let t216 = 21555.9 * t141;
-    let t217 = 21555.9 * t153;
-    let t218 = 21555.9 * t83;
-    let t219 = 21555.9 * t95;
-    let t220 = 21555.9 * t113;
-    let t221 = 21555.9 * t131;
-    let t222 = 21555.9 * t143;
-    let t223 = 21555.9 * t155;
-    let t224 = 21555.9 * t85;
-    let t225 = 21555.9 * t97;
-    let t226 = 21555.9 * t115;
-    let t227 = 21555.9 * t133;
-    let t228 = 21555.9 * t145;
-    let t229 = 21555.9 * t157;
+    let t212 = c(21555.9) * t81;
+    let t213 = c(21555.9) * t93;
+    let t214 = c(21555.9) * t111;
+    let t215 = c(21555.9) * t129;
+    let t216 = c(21555.9) * t141;
+    let t217 = c(21555.9) * t153;
+    let t218 = c(21555.9) * t83;
+    let t219 = c(21555.9) * t95;
+    let t220 = c(21555.9) * t113;
+    let t221 = c(21555.9) * t131;
+    let t222 = c(21555.9) * t143;
+    let t223 = c(21555.9) * t155;
+    let t224 = c(21555.9) * t85;
+    let t225 = c(21555.9) * t97;
+    let t226 = c(21555.9) * t115;
+    let t227 = c(21555.9) * t133;
+    let t228 = c(21555.9) * t145;
+    let t229 = c(21555.9) * t157;
     let t230 = t129 * t215 + (t111 * t214 + (t81 * t212 + t93 * t213));
     let t231 = t153 * t217 + (t141 * t216 + t230);
     stiffness_matrix_p[0][0] = t231;
@@ -8471,33 +9034,33 @@ pub fn stiffness_matrices(
     stiffness_matrix_p[0][2] = t235;
     stiffness_matrix_p[2][0] = t235;
     stiffness_matrix_b[0][2] = t235;
-    let t236 = 21555.9 * t158;
-    let t237 = 21555.9 * t167;
-    let t238 = 21555.9 * t176;
-    let t239 = 21555.9 * t185;
+    let t236 = c(21555.9) * t158;
+    let t237 = c(21555.9) * t167;
+    let t238 = c(21555.9) * t176;
+    let t239 = c(21555.9) * t185;
     let t240 = t81 * t236 + t93 * t237 - t111 * t238 - t129 * t239;
-    let t241 = 21555.9 * t194;
-    let t242 = 21555.9 * t203;
+    let t241 = c(21555.9) * t194;
+    let t242 = c(21555.9) * t203;
     let t243 = t240 - t141 * t241 - t153 * t242;
     stiffness_matrix_p[0][3] = t243;
     stiffness_matrix_p[3][0] = t243;
-    let t244 = 21555.9 * t159;
-    let t245 = 21555.9 * t168;
-    let t246 = 21555.9 * t177;
-    let t247 = 21555.9 * t186;
+    let t244 = c(21555.9) * t159;
+    let t245 = c(21555.9) * t168;
+    let t246 = c(21555.9) * t177;
+    let t247 = c(21555.9) * t186;
     let t248 = t81 * t244 + t93 * t245 - t111 * t246 - t129 * t247;
-    let t249 = 21555.9 * t195;
-    let t250 = 21555.9 * t204;
+    let t249 = c(21555.9) * t195;
+    let t250 = c(21555.9) * t204;
     let t251 = t248 - t141 * t249 - t153 * t250;
     stiffness_matrix_p[0][4] = t251;
     stiffness_matrix_p[4][0] = t251;
-    let t252 = 21555.9 * t160;
-    let t253 = 21555.9 * t169;
-    let t254 = 21555.9 * t178;
-    let t255 = 21555.9 * t187;
+    let t252 = c(21555.9) * t160;
+    let t253 = c(21555.9) * t169;
+    let t254 = c(21555.9) * t178;
+    let t255 = c(21555.9) * t187;
     let t256 = t81 * t252 + t93 * t253 - t111 * t254 - t129 * t255;
-    let t257 = 21555.9 * t196;
-    let t258 = 21555.9 * t205;
+    let t257 = c(21555.9) * t196;
+    let t258 = c(21555.9) * t205;
     let t259 = t256 - t141 * t257 - t153 * t258;
     stiffness_matrix_p[0][5] = t259;
     stiffness_matrix_p[5][0] = t259;
@@ -8557,28 +9120,28 @@ pub fn stiffness_matrices(
     let t286 = t187 * t255 + (t178 * t254 + (t160 * t252 + t169 * t253));
     stiffness_matrix_p[5][5] = t205 * t258 + (t196 * t257 + t286);
     // linearised stiffness K_b = J_dp^T k_e J_db
-    let t287 = 21555.9 * (t206 - t207);
-    let t288 = 21555.9 * (t197 - t198);
-    let t289 = 21555.9 * (t188 - t189);
-    let t290 = 21555.9 * (t179 - t180);
-    let t291 = 21555.9 * (t161 - t162);
-    let t292 = 21555.9 * (t170 - t171);
+    let t287 = c(21555.9) * (t206 - t207);
+    let t288 = c(21555.9) * (t197 - t198);
+    let t289 = c(21555.9) * (t188 - t189);
+    let t290 = c(21555.9) * (t179 - t180);
+    let t291 = c(21555.9) * (t161 - t162);
+    let t292 = c(21555.9) * (t170 - t171);
     let t293 = t129 * t289 + (t111 * t290 + (t81 * t291 + t93 * t292));
     stiffness_matrix_b[0][3] = -(t153 * t287 + (t141 * t288 + t293));
-    let t294 = 21555.9 * (t208 - t209);
-    let t295 = 21555.9 * (t199 - t200);
-    let t296 = 21555.9 * (t190 - t191);
-    let t297 = 21555.9 * (t181 - t182);
-    let t298 = 21555.9 * (t163 - t164);
-    let t299 = 21555.9 * (t172 - t173);
+    let t294 = c(21555.9) * (t208 - t209);
+    let t295 = c(21555.9) * (t199 - t200);
+    let t296 = c(21555.9) * (t190 - t191);
+    let t297 = c(21555.9) * (t181 - t182);
+    let t298 = c(21555.9) * (t163 - t164);
+    let t299 = c(21555.9) * (t172 - t173);
     let t300 = t129 * t296 + (t111 * t297 + (t81 * t298 + t93 * t299));
     stiffness_matrix_b[0][4] = -(t153 * t294 + (t141 * t295 + t300));
-    let t301 = 21555.9 * (t210 - t211);
-    let t302 = 21555.9 * (t201 - t202);
-    let t303 = 21555.9 * (t192 - t193);
-    let t304 = 21555.9 * (t183 - t184);
-    let t305 = 21555.9 * (t165 - t166);
-    let t306 = 21555.9 * (t174 - t175);
+    let t301 = c(21555.9) * (t210 - t211);
+    let t302 = c(21555.9) * (t201 - t202);
+    let t303 = c(21555.9) * (t192 - t193);
+    let t304 = c(21555.9) * (t183 - t184);
+    let t305 = c(21555.9) * (t165 - t166);
+    let t306 = c(21555.9) * (t174 - t175);
     let t307 = t129 * t303 + (t111 * t304 + (t81 * t305 + t93 * t306));
     stiffness_matrix_b[0][5] = -(t153 * t301 + (t141 * t302 + t307));
     let t308 = t131 * t215 + (t113 * t214 + (t83 * t212 + t95 * t213));
@@ -8657,20 +9220,21 @@ pub fn stiffness_matrices(
 /// - `coriolis_matrix_b`: 6x6, kg/s, kg m/s, kg m^2/s, frame O: Coriolis matrix C_b, natural factorisation, equation (49).
 /// - `jacobian_db`: 6x6, 1, m, frame O: actuator Jacobian of the base, equation (31).
 #[allow(clippy::all, clippy::pedantic, unused_variables)]
-pub fn matrices(
-    base_position: &[f64; 3],
-    base_rotation: &[[f64; 3]; 3],
-    base_velocity: &[f64; 6],
-    platform_position: &[f64; 3],
-    platform_rotation: &[[f64; 3]; 3],
-    platform_velocity: &[f64; 6],
-    mass_matrix_p: &mut [[f64; 6]; 6],
-    coriolis_matrix_p: &mut [[f64; 6]; 6],
-    jacobian_dp: &mut [[f64; 6]; 6],
-    mass_matrix_b: &mut [[f64; 6]; 6],
-    coriolis_matrix_b: &mut [[f64; 6]; 6],
-    jacobian_db: &mut [[f64; 6]; 6],
+pub fn matrices<T: Scalar>(
+    base_position: &[T; 3],
+    base_rotation: &[[T; 3]; 3],
+    base_velocity: &[T; 6],
+    platform_position: &[T; 3],
+    platform_rotation: &[[T; 3]; 3],
+    platform_velocity: &[T; 6],
+    mass_matrix_p: &mut [[T; 6]; 6],
+    coriolis_matrix_p: &mut [[T; 6]; 6],
+    jacobian_dp: &mut [[T; 6]; 6],
+    mass_matrix_b: &mut [[T; 6]; 6],
+    coriolis_matrix_b: &mut [[T; 6]; 6],
+    jacobian_db: &mut [[T; 6]; 6],
 ) {
+    let c = T::constant;
     let (
         t19,
         t20,
@@ -8815,64 +9379,64 @@ pub fn matrices(
         t591,
         t596,
         t598,
-        t602,
-        t708,
+        t603,
         t709,
         t710,
-        t753,
-        t755,
-        t759,
-        t763,
-        t765,
-        t767,
-        t780,
+        t711,
+        t754,
+        t756,
+        t760,
+        t764,
+        t766,
+        t768,
         t781,
         t782,
-        t792,
+        t783,
         t793,
         t794,
-        t799,
-        t801,
-        t803,
+        t795,
+        t800,
+        t802,
         t804,
         t805,
         t806,
-        t811,
-        t813,
-        t815,
+        t807,
+        t812,
+        t814,
         t816,
         t817,
         t818,
-        t823,
-        t825,
-        t827,
+        t819,
+        t824,
+        t826,
         t828,
         t829,
         t830,
-        t835,
-        t837,
-        t839,
+        t831,
+        t836,
+        t838,
         t840,
         t841,
         t842,
-        t847,
-        t849,
-        t851,
-        t853,
+        t843,
+        t848,
+        t850,
+        t852,
         t854,
-        t856,
+        t855,
         t857,
         t858,
-        t860,
+        t859,
         t861,
-        t863,
+        t862,
         t864,
         t865,
-        t867,
+        t866,
         t868,
-        t870,
+        t869,
         t871,
         t872,
+        t873,
     ) = {
         // rotation of the platform seen from the base
         let t1 = base_rotation[1][0] * platform_rotation[1][0];
@@ -8904,28 +9468,28 @@ pub fn matrices(
         let t26 = base_rotation[0][2] * t19 + base_rotation[1][2] * t20;
         let t27 = base_rotation[2][2] * t21 + t26;
         // leg 1: platform joint from the base point
-        let t28 = t23 + (0.1316436662914507 - 0.1159110991546882 * t3);
-        let t29 = 0.03105828541230249 * t6;
+        let t28 = t23 + (c(0.1316436662914507) - c(0.1159110991546882) * t3);
+        let t29 = c(0.03105828541230249) * t6;
         let t30 = t28 + t29;
-        let t31 = 0.12275970481124972 - 0.03105828541230249 * t12;
-        let t32 = t25 - 0.1159110991546882 * t9;
+        let t31 = c(0.12275970481124972) - c(0.03105828541230249) * t12;
+        let t32 = t25 - c(0.1159110991546882) * t9;
         let t33 = t31 - t32;
         // leg 2: platform joint from the base point
         let t34 = t28 - t29;
         let t35 = t31 + t32;
         // leg 3: platform joint from the base point
-        let t36 = t23 + (0.040491189781895726 + t3 * 0.031058285412302475);
-        let t37 = 0.1159110991546882 * t6;
+        let t36 = t23 + (c(0.040491189781895726) + t3 * c(0.031058285412302475));
+        let t37 = c(0.1159110991546882) * t6;
         let t38 = t36 - t37;
-        let t39 = 0.17538661166134234 - 0.1159110991546882 * t12;
-        let t40 = t25 + t9 * 0.031058285412302475;
+        let t39 = c(0.17538661166134234) - c(0.1159110991546882) * t12;
+        let t40 = t25 + t9 * c(0.031058285412302475);
         let t41 = t39 + t40;
         // leg 4: platform joint from the base point
-        let t42 = t23 - (0.17213485607334636 - t3 * 0.0848528137423857);
-        let t43 = 0.08485281374238571 * t6;
+        let t42 = t23 - (c(0.17213485607334636) - t3 * c(0.0848528137423857));
+        let t43 = c(0.08485281374238571) * t6;
         let t44 = t42 - t43;
-        let t45 = 0.052626906850092664 - 0.08485281374238571 * t12;
-        let t46 = t25 + t9 * 0.0848528137423857;
+        let t45 = c(0.052626906850092664) - c(0.08485281374238571) * t12;
+        let t46 = t25 + t9 * c(0.0848528137423857);
         let t47 = t45 + t46;
         // leg 5: platform joint from the base point
         let t48 = t42 + t43;
@@ -8934,45 +9498,45 @@ pub fn matrices(
         let t50 = t36 + t37;
         let t51 = t39 - t40;
         // leg 1: extent of the rod along the actuator axis
-        let t52 = sqrt(0.042435999999999995 - t30 * t30 - t33 * t33);
+        let t52 = sqrt(c(0.042435999999999995) - t30 * t30 - t33 * t33);
         // leg 1: reciprocal of that extent
-        let t53 = 1.0 / t52;
+        let t53 = c(1.0) / t52;
         // leg 1: actuator length d
-        let t54 = t27 - 0.1159110991546882 * t15;
-        let t55 = 0.03105828541230249 * t18;
+        let t54 = t27 - c(0.1159110991546882) * t15;
+        let t55 = c(0.03105828541230249) * t18;
         let t56 = t54 + (t52 + t55);
         // leg 2: extent of the rod along the actuator axis
-        let t57 = sqrt(0.042435999999999995 - t34 * t34 - t35 * t35);
+        let t57 = sqrt(c(0.042435999999999995) - t34 * t34 - t35 * t35);
         // leg 2: reciprocal of that extent
-        let t58 = 1.0 / t57;
+        let t58 = c(1.0) / t57;
         // leg 2: actuator length d
         let t59 = t54 - (t55 - t57);
         // leg 3: extent of the rod along the actuator axis
-        let t60 = sqrt(0.042435999999999995 - t38 * t38 - t41 * t41);
+        let t60 = sqrt(c(0.042435999999999995) - t38 * t38 - t41 * t41);
         // leg 3: reciprocal of that extent
-        let t61 = 1.0 / t60;
+        let t61 = c(1.0) / t60;
         // leg 3: actuator length d
-        let t62 = t27 + t15 * 0.031058285412302475;
-        let t63 = 0.1159110991546882 * t18;
+        let t62 = t27 + t15 * c(0.031058285412302475);
+        let t63 = c(0.1159110991546882) * t18;
         let t64 = t62 + (t60 - t63);
         // leg 4: extent of the rod along the actuator axis
-        let t65 = sqrt(0.042435999999999995 - t44 * t44 - t47 * t47);
+        let t65 = sqrt(c(0.042435999999999995) - t44 * t44 - t47 * t47);
         // leg 4: reciprocal of that extent
-        let t66 = 1.0 / t65;
+        let t66 = c(1.0) / t65;
         // leg 4: actuator length d
-        let t67 = t27 + t15 * 0.0848528137423857;
-        let t68 = 0.08485281374238571 * t18;
+        let t67 = t27 + t15 * c(0.0848528137423857);
+        let t68 = c(0.08485281374238571) * t18;
         let t69 = t67 + (t65 - t68);
         // leg 5: extent of the rod along the actuator axis
-        let t70 = sqrt(0.042435999999999995 - t48 * t48 - t49 * t49);
+        let t70 = sqrt(c(0.042435999999999995) - t48 * t48 - t49 * t49);
         // leg 5: reciprocal of that extent
-        let t71 = 1.0 / t70;
+        let t71 = c(1.0) / t70;
         // leg 5: actuator length d
         let t72 = t67 + (t68 + t70);
         // leg 6: extent of the rod along the actuator axis
-        let t73 = sqrt(0.042435999999999995 - t50 * t50 - t51 * t51);
+        let t73 = sqrt(c(0.042435999999999995) - t50 * t50 - t51 * t51);
         // leg 6: reciprocal of that extent
-        let t74 = 1.0 / t73;
+        let t74 = c(1.0) / t73;
         // leg 6: actuator length d
         let t75 = t62 + (t63 + t73);
         // leg 1: gradient of the actuator length by the platform joint
@@ -8994,14 +9558,14 @@ pub fn matrices(
         let t86 = t50 * t74;
         let t87 = t51 * t74;
         // leg 1: platform joint from the platform origin
-        let t88 = platform_rotation[0][0] * 0.1159110991546882;
-        let t89 = platform_rotation[0][1] * 0.03105828541230249;
+        let t88 = platform_rotation[0][0] * c(0.1159110991546882);
+        let t89 = platform_rotation[0][1] * c(0.03105828541230249);
         let t90 = t88 - t89;
-        let t91 = platform_rotation[1][0] * 0.1159110991546882;
-        let t92 = platform_rotation[1][1] * 0.03105828541230249;
+        let t91 = platform_rotation[1][0] * c(0.1159110991546882);
+        let t92 = platform_rotation[1][1] * c(0.03105828541230249);
         let t93 = t91 - t92;
-        let t94 = platform_rotation[2][0] * 0.1159110991546882;
-        let t95 = platform_rotation[2][1] * 0.03105828541230249;
+        let t94 = platform_rotation[2][0] * c(0.1159110991546882);
+        let t95 = platform_rotation[2][1] * c(0.03105828541230249);
         let t96 = t94 - t95;
         // leg 1: platform joint from the base origin
         let t97 = t19 - t90;
@@ -9045,14 +9609,14 @@ pub fn matrices(
         jacobian_dp[1][2] = t120;
         jacobian_db[1][2] = t120;
         // leg 3: platform joint from the platform origin
-        let t121 = platform_rotation[0][0] * 0.031058285412302475;
-        let t122 = platform_rotation[0][1] * 0.1159110991546882;
+        let t121 = platform_rotation[0][0] * c(0.031058285412302475);
+        let t122 = platform_rotation[0][1] * c(0.1159110991546882);
         let t123 = t121 - t122;
-        let t124 = platform_rotation[1][0] * 0.031058285412302475;
-        let t125 = platform_rotation[1][1] * 0.1159110991546882;
+        let t124 = platform_rotation[1][0] * c(0.031058285412302475);
+        let t125 = platform_rotation[1][1] * c(0.1159110991546882);
         let t126 = t124 - t125;
-        let t127 = platform_rotation[2][0] * 0.031058285412302475;
-        let t128 = platform_rotation[2][1] * 0.1159110991546882;
+        let t127 = platform_rotation[2][0] * c(0.031058285412302475);
+        let t128 = platform_rotation[2][1] * c(0.1159110991546882);
         let t129 = t127 - t128;
         // leg 3: platform joint from the base origin
         let t130 = t19 + t123;
@@ -9075,14 +9639,14 @@ pub fn matrices(
         jacobian_dp[2][2] = t141;
         jacobian_db[2][2] = t141;
         // leg 4: platform joint from the platform origin
-        let t142 = platform_rotation[0][0] * 0.0848528137423857;
-        let t143 = platform_rotation[0][1] * 0.08485281374238571;
+        let t142 = platform_rotation[0][0] * c(0.0848528137423857);
+        let t143 = platform_rotation[0][1] * c(0.08485281374238571);
         let t144 = t142 - t143;
-        let t145 = platform_rotation[1][0] * 0.0848528137423857;
-        let t146 = platform_rotation[1][1] * 0.08485281374238571;
+        let t145 = platform_rotation[1][0] * c(0.0848528137423857);
+        let t146 = platform_rotation[1][1] * c(0.08485281374238571);
         let t147 = t145 - t146;
-        let t148 = platform_rotation[2][0] * 0.0848528137423857;
-        let t149 = platform_rotation[2][1] * 0.08485281374238571;
+        let t148 = platform_rotation[2][0] * c(0.0848528137423857);
+        let t149 = platform_rotation[2][1] * c(0.08485281374238571);
         let t150 = t148 - t149;
         // leg 4: platform joint from the base origin
         let t151 = t19 + t144;
@@ -9147,293 +9711,293 @@ pub fn matrices(
         jacobian_dp[5][2] = t186;
         jacobian_db[5][2] = t186;
         // leg 1: mass matrix of the leg in the speeds of its joint
-        let t187 = base_rotation[0][2] * 0.17066666666666666;
-        let t188 = t187 + t101 * 0.4761666666666667;
-        let t189 = 2.0 * (t101 * t188);
-        let t190 = base_rotation[1][2] * 0.17066666666666666;
-        let t191 = t190 + t103 * 0.4761666666666667;
+        let t187 = base_rotation[0][2] * c(0.17066666666666666);
+        let t188 = t187 + t101 * c(0.4761666666666667);
+        let t189 = c(2.0) * (t101 * t188);
+        let t190 = base_rotation[1][2] * c(0.17066666666666666);
+        let t191 = t190 + t103 * c(0.4761666666666667);
         let t192 = t101 * t191 + t103 * t188;
-        let t193 = base_rotation[2][2] * 0.17066666666666666;
-        let t194 = t193 + t105 * 0.4761666666666667;
+        let t193 = base_rotation[2][2] * c(0.17066666666666666);
+        let t194 = t193 + t105 * c(0.4761666666666667);
         let t195 = t101 * t194 + t105 * t188;
-        let t196 = 2.0 * (t103 * t191);
+        let t196 = c(2.0) * (t103 * t191);
         let t197 = t103 * t194 + t105 * t191;
-        let t198 = 2.0 * (t105 * t194);
+        let t198 = c(2.0) * (t105 * t194);
         // leg 1: leg inertia between joint and base speeds
-        let t199 = base_rotation[0][2] * 1.123;
-        let t200 = 0.17066666666666666 + t101 * t199;
-        let t201 = base_rotation[1][2] * 1.123;
+        let t199 = base_rotation[0][2] * c(1.123);
+        let t200 = c(0.17066666666666666) + t101 * t199;
+        let t201 = base_rotation[1][2] * c(1.123);
         let t202 = t101 * t201;
-        let t203 = base_rotation[2][2] * 1.123;
+        let t203 = base_rotation[2][2] * c(1.123);
         let t204 = t101 * t203;
-        let t205 = base_rotation[1][0] * 0.1316436662914507;
-        let t206 = base_rotation[1][1] * 0.12275970481124972;
+        let t205 = base_rotation[1][0] * c(0.1316436662914507);
+        let t206 = base_rotation[1][1] * c(0.12275970481124972);
         let t207 = t205 - t206;
-        let t208 = base_rotation[1][2] * 0.03055;
-        let t209 = base_rotation[2][0] * 0.1316436662914507;
-        let t210 = base_rotation[2][1] * 0.12275970481124972;
+        let t208 = base_rotation[1][2] * c(0.03055);
+        let t209 = base_rotation[2][0] * c(0.1316436662914507);
+        let t210 = base_rotation[2][1] * c(0.12275970481124972);
         let t211 = t209 - t210;
-        let t212 = base_rotation[2][2] * 0.03055;
+        let t212 = base_rotation[2][2] * c(0.03055);
         let t213 = t207 - base_rotation[1][2] * t56;
-        let t214 = t208 + t98 * 0.17066666666666666 - 0.9523333333333334 * t213;
+        let t214 = t208 + t98 * c(0.17066666666666666) - c(0.9523333333333334) * t213;
         let t215 = t211 - base_rotation[2][2] * t56;
-        let t216 = t212 + t99 * 0.17066666666666666 - 0.9523333333333334 * t215;
+        let t216 = t212 + t99 * c(0.17066666666666666) - c(0.9523333333333334) * t215;
         let t217 = base_rotation[2][2] * t214 - base_rotation[1][2] * t216;
         let t218 = t101 * t217;
-        let t219 = base_rotation[0][0] * 0.1316436662914507;
-        let t220 = base_rotation[0][1] * 0.12275970481124972;
+        let t219 = base_rotation[0][0] * c(0.1316436662914507);
+        let t220 = base_rotation[0][1] * c(0.12275970481124972);
         let t221 = t219 - t220;
-        let t222 = base_rotation[0][2] * 0.03055;
+        let t222 = base_rotation[0][2] * c(0.03055);
         let t223 = t221 - base_rotation[0][2] * t56;
-        let t224 = t222 + t97 * 0.17066666666666666 - 0.9523333333333334 * t223;
+        let t224 = t222 + t97 * c(0.17066666666666666) - c(0.9523333333333334) * t223;
         let t225 = base_rotation[0][2] * t216 - base_rotation[2][2] * t224;
-        let t226 = 0.17066666666666666 * t215;
+        let t226 = c(0.17066666666666666) * t215;
         let t227 = t101 * t225 - t226;
         let t228 = base_rotation[1][2] * t224 - base_rotation[0][2] * t214;
-        let t229 = 0.17066666666666666 * t213;
+        let t229 = c(0.17066666666666666) * t213;
         let t230 = t101 * t228 + t229;
         let t231 = t103 * t199;
-        let t232 = 0.17066666666666666 + t103 * t201;
+        let t232 = c(0.17066666666666666) + t103 * t201;
         let t233 = t103 * t203;
         let t234 = t226 + t103 * t217;
         let t235 = t103 * t225;
-        let t236 = 0.17066666666666666 * t223;
+        let t236 = c(0.17066666666666666) * t223;
         let t237 = t103 * t228 - t236;
         let t238 = t105 * t199;
         let t239 = t105 * t201;
-        let t240 = 0.17066666666666666 + t105 * t203;
+        let t240 = c(0.17066666666666666) + t105 * t203;
         let t241 = t229 - t105 * t217;
         let t242 = t236 + t105 * t225;
         let t243 = t105 * t228;
         // leg 2: mass matrix of the leg in the speeds of its joint
-        let t244 = t187 - t113 * 0.4761666666666667;
-        let t245 = 2.0 * (t113 * t244);
-        let t246 = t190 - t115 * 0.4761666666666667;
+        let t244 = t187 - t113 * c(0.4761666666666667);
+        let t245 = c(2.0) * (t113 * t244);
+        let t246 = t190 - t115 * c(0.4761666666666667);
         let t247 = t113 * t246 + t115 * t244;
-        let t248 = t193 - t117 * 0.4761666666666667;
+        let t248 = t193 - t117 * c(0.4761666666666667);
         let t249 = t113 * t248 + t117 * t244;
-        let t250 = 2.0 * (t115 * t246);
+        let t250 = c(2.0) * (t115 * t246);
         let t251 = t115 * t248 + t117 * t246;
-        let t252 = 2.0 * (t117 * t248);
+        let t252 = c(2.0) * (t117 * t248);
         // leg 2: leg inertia between joint and base speeds
-        let t253 = 0.17066666666666666 - t113 * t199;
+        let t253 = c(0.17066666666666666) - t113 * t199;
         let t254 = t113 * t201;
         let t255 = t113 * t203;
         let t256 = t205 + t206;
         let t257 = t209 + t210;
         let t258 = t256 - base_rotation[1][2] * t59;
-        let t259 = t208 + t110 * 0.17066666666666666 - 0.9523333333333334 * t258;
+        let t259 = t208 + t110 * c(0.17066666666666666) - c(0.9523333333333334) * t258;
         let t260 = t257 - base_rotation[2][2] * t59;
-        let t261 = t212 + t111 * 0.17066666666666666 - 0.9523333333333334 * t260;
+        let t261 = t212 + t111 * c(0.17066666666666666) - c(0.9523333333333334) * t260;
         let t262 = base_rotation[2][2] * t259 - base_rotation[1][2] * t261;
         let t263 = t113 * t262;
         let t264 = t219 + t220;
         let t265 = t264 - base_rotation[0][2] * t59;
-        let t266 = t222 + t109 * 0.17066666666666666 - 0.9523333333333334 * t265;
+        let t266 = t222 + t109 * c(0.17066666666666666) - c(0.9523333333333334) * t265;
         let t267 = base_rotation[0][2] * t261 - base_rotation[2][2] * t266;
-        let t268 = 0.17066666666666666 * t260;
+        let t268 = c(0.17066666666666666) * t260;
         let t269 = t113 * t267 + t268;
         let t270 = base_rotation[1][2] * t266 - base_rotation[0][2] * t259;
-        let t271 = 0.17066666666666666 * t258;
+        let t271 = c(0.17066666666666666) * t258;
         let t272 = t113 * t270 - t271;
         let t273 = t115 * t199;
-        let t274 = 0.17066666666666666 - t115 * t201;
+        let t274 = c(0.17066666666666666) - t115 * t201;
         let t275 = t115 * t203;
         let t276 = t268 - t115 * t262;
         let t277 = t115 * t267;
-        let t278 = 0.17066666666666666 * t265;
+        let t278 = c(0.17066666666666666) * t265;
         let t279 = t115 * t270 + t278;
         let t280 = t117 * t199;
         let t281 = t117 * t201;
-        let t282 = 0.17066666666666666 - t117 * t203;
+        let t282 = c(0.17066666666666666) - t117 * t203;
         let t283 = t271 + t117 * t262;
         let t284 = t278 - t117 * t267;
         let t285 = t117 * t270;
         // leg 3: mass matrix of the leg in the speeds of its joint
-        let t286 = t187 - t134 * 0.4761666666666667;
-        let t287 = 2.0 * (t134 * t286);
-        let t288 = t190 - t136 * 0.4761666666666667;
+        let t286 = t187 - t134 * c(0.4761666666666667);
+        let t287 = c(2.0) * (t134 * t286);
+        let t288 = t190 - t136 * c(0.4761666666666667);
         let t289 = t134 * t288 + t136 * t286;
-        let t290 = t193 - t138 * 0.4761666666666667;
+        let t290 = t193 - t138 * c(0.4761666666666667);
         let t291 = t134 * t290 + t138 * t286;
-        let t292 = 2.0 * (t136 * t288);
+        let t292 = c(2.0) * (t136 * t288);
         let t293 = t136 * t290 + t138 * t288;
-        let t294 = 2.0 * (t138 * t290);
+        let t294 = c(2.0) * (t138 * t290);
         // leg 3: leg inertia between joint and base speeds
-        let t295 = 0.17066666666666666 - t134 * t199;
+        let t295 = c(0.17066666666666666) - t134 * t199;
         let t296 = t134 * t201;
         let t297 = t134 * t203;
-        let t298 = base_rotation[1][0] * 0.040491189781895726;
-        let t299 = base_rotation[1][1] * 0.17538661166134234;
+        let t298 = base_rotation[1][0] * c(0.040491189781895726);
+        let t299 = base_rotation[1][1] * c(0.17538661166134234);
         let t300 = t298 + t299;
-        let t301 = base_rotation[2][0] * 0.040491189781895726;
-        let t302 = base_rotation[2][1] * 0.17538661166134234;
+        let t301 = base_rotation[2][0] * c(0.040491189781895726);
+        let t302 = base_rotation[2][1] * c(0.17538661166134234);
         let t303 = t301 + t302;
         let t304 = t300 - base_rotation[1][2] * t64;
-        let t305 = t208 + t131 * 0.17066666666666666 - 0.9523333333333334 * t304;
+        let t305 = t208 + t131 * c(0.17066666666666666) - c(0.9523333333333334) * t304;
         let t306 = t303 - base_rotation[2][2] * t64;
-        let t307 = t212 + t132 * 0.17066666666666666 - 0.9523333333333334 * t306;
+        let t307 = t212 + t132 * c(0.17066666666666666) - c(0.9523333333333334) * t306;
         let t308 = base_rotation[2][2] * t305 - base_rotation[1][2] * t307;
         let t309 = t134 * t308;
-        let t310 = base_rotation[0][0] * 0.040491189781895726;
-        let t311 = base_rotation[0][1] * 0.17538661166134234;
+        let t310 = base_rotation[0][0] * c(0.040491189781895726);
+        let t311 = base_rotation[0][1] * c(0.17538661166134234);
         let t312 = t310 + t311;
         let t313 = t312 - base_rotation[0][2] * t64;
-        let t314 = t222 + t130 * 0.17066666666666666 - 0.9523333333333334 * t313;
+        let t314 = t222 + t130 * c(0.17066666666666666) - c(0.9523333333333334) * t313;
         let t315 = base_rotation[0][2] * t307 - base_rotation[2][2] * t314;
-        let t316 = 0.17066666666666666 * t306;
+        let t316 = c(0.17066666666666666) * t306;
         let t317 = t134 * t315 + t316;
         let t318 = base_rotation[1][2] * t314 - base_rotation[0][2] * t305;
-        let t319 = 0.17066666666666666 * t304;
+        let t319 = c(0.17066666666666666) * t304;
         let t320 = t134 * t318 - t319;
         let t321 = t136 * t199;
-        let t322 = 0.17066666666666666 - t136 * t201;
+        let t322 = c(0.17066666666666666) - t136 * t201;
         let t323 = t136 * t203;
         let t324 = t316 - t136 * t308;
         let t325 = t136 * t315;
-        let t326 = 0.17066666666666666 * t313;
+        let t326 = c(0.17066666666666666) * t313;
         let t327 = t136 * t318 + t326;
         let t328 = t138 * t199;
         let t329 = t138 * t201;
-        let t330 = 0.17066666666666666 - t138 * t203;
+        let t330 = c(0.17066666666666666) - t138 * t203;
         let t331 = t319 + t138 * t308;
         let t332 = t326 - t138 * t315;
         let t333 = t138 * t318;
         // leg 4: mass matrix of the leg in the speeds of its joint
-        let t334 = t187 - t155 * 0.4761666666666667;
-        let t335 = 2.0 * (t155 * t334);
-        let t336 = t190 - t157 * 0.4761666666666667;
+        let t334 = t187 - t155 * c(0.4761666666666667);
+        let t335 = c(2.0) * (t155 * t334);
+        let t336 = t190 - t157 * c(0.4761666666666667);
         let t337 = t155 * t336 + t157 * t334;
-        let t338 = t193 - t159 * 0.4761666666666667;
+        let t338 = t193 - t159 * c(0.4761666666666667);
         let t339 = t155 * t338 + t159 * t334;
-        let t340 = 2.0 * (t157 * t336);
+        let t340 = c(2.0) * (t157 * t336);
         let t341 = t157 * t338 + t159 * t336;
-        let t342 = 2.0 * (t159 * t338);
+        let t342 = c(2.0) * (t159 * t338);
         // leg 4: leg inertia between joint and base speeds
-        let t343 = 0.17066666666666666 - t155 * t199;
+        let t343 = c(0.17066666666666666) - t155 * t199;
         let t344 = t155 * t201;
         let t345 = t155 * t203;
-        let t346 = base_rotation[1][0] * 0.17213485607334636;
-        let t347 = base_rotation[1][1] * 0.052626906850092664;
+        let t346 = base_rotation[1][0] * c(0.17213485607334636);
+        let t347 = base_rotation[1][1] * c(0.052626906850092664);
         let t348 = t346 - t347;
-        let t349 = base_rotation[2][0] * 0.17213485607334636;
-        let t350 = base_rotation[2][1] * 0.052626906850092664;
+        let t349 = base_rotation[2][0] * c(0.17213485607334636);
+        let t350 = base_rotation[2][1] * c(0.052626906850092664);
         let t351 = t349 - t350;
         let t352 = t348 + base_rotation[1][2] * t69;
-        let t353 = t208 + t152 * 0.17066666666666666 + 0.9523333333333334 * t352;
+        let t353 = t208 + t152 * c(0.17066666666666666) + c(0.9523333333333334) * t352;
         let t354 = t351 + base_rotation[2][2] * t69;
-        let t355 = t212 + t153 * 0.17066666666666666 + 0.9523333333333334 * t354;
+        let t355 = t212 + t153 * c(0.17066666666666666) + c(0.9523333333333334) * t354;
         let t356 = base_rotation[2][2] * t353 - base_rotation[1][2] * t355;
         let t357 = t155 * t356;
-        let t358 = base_rotation[0][0] * 0.17213485607334636;
-        let t359 = base_rotation[0][1] * 0.052626906850092664;
+        let t358 = base_rotation[0][0] * c(0.17213485607334636);
+        let t359 = base_rotation[0][1] * c(0.052626906850092664);
         let t360 = t358 - t359;
         let t361 = t360 + base_rotation[0][2] * t69;
-        let t362 = t222 + t151 * 0.17066666666666666 + 0.9523333333333334 * t361;
+        let t362 = t222 + t151 * c(0.17066666666666666) + c(0.9523333333333334) * t361;
         let t363 = base_rotation[0][2] * t355 - base_rotation[2][2] * t362;
-        let t364 = 0.17066666666666666 * t354;
+        let t364 = c(0.17066666666666666) * t354;
         let t365 = t155 * t363 - t364;
         let t366 = base_rotation[1][2] * t362 - base_rotation[0][2] * t353;
-        let t367 = 0.17066666666666666 * t352;
+        let t367 = c(0.17066666666666666) * t352;
         let t368 = t155 * t366 + t367;
         let t369 = t157 * t199;
-        let t370 = 0.17066666666666666 - t157 * t201;
+        let t370 = c(0.17066666666666666) - t157 * t201;
         let t371 = t157 * t203;
         let t372 = t364 + t157 * t356;
         let t373 = t157 * t363;
-        let t374 = 0.17066666666666666 * t361;
+        let t374 = c(0.17066666666666666) * t361;
         let t375 = t157 * t366 - t374;
         let t376 = t159 * t199;
         let t377 = t159 * t201;
-        let t378 = 0.17066666666666666 - t159 * t203;
+        let t378 = c(0.17066666666666666) - t159 * t203;
         let t379 = t367 - t159 * t356;
         let t380 = t374 + t159 * t363;
         let t381 = t159 * t366;
         // leg 5: mass matrix of the leg in the speeds of its joint
-        let t382 = t187 + t170 * 0.4761666666666667;
-        let t383 = 2.0 * (t170 * t382);
-        let t384 = t190 + t172 * 0.4761666666666667;
+        let t382 = t187 + t170 * c(0.4761666666666667);
+        let t383 = c(2.0) * (t170 * t382);
+        let t384 = t190 + t172 * c(0.4761666666666667);
         let t385 = t170 * t384 + t172 * t382;
-        let t386 = t193 + t174 * 0.4761666666666667;
+        let t386 = t193 + t174 * c(0.4761666666666667);
         let t387 = t170 * t386 + t174 * t382;
-        let t388 = 2.0 * (t172 * t384);
+        let t388 = c(2.0) * (t172 * t384);
         let t389 = t172 * t386 + t174 * t384;
-        let t390 = 2.0 * (t174 * t386);
+        let t390 = c(2.0) * (t174 * t386);
         // leg 5: leg inertia between joint and base speeds
-        let t391 = 0.17066666666666666 + t170 * t199;
+        let t391 = c(0.17066666666666666) + t170 * t199;
         let t392 = t170 * t201;
         let t393 = t170 * t203;
         let t394 = t346 + t347;
         let t395 = t349 + t350;
         let t396 = t394 + base_rotation[1][2] * t72;
-        let t397 = t208 + t167 * 0.17066666666666666 + 0.9523333333333334 * t396;
+        let t397 = t208 + t167 * c(0.17066666666666666) + c(0.9523333333333334) * t396;
         let t398 = t395 + base_rotation[2][2] * t72;
-        let t399 = t212 + t168 * 0.17066666666666666 + 0.9523333333333334 * t398;
+        let t399 = t212 + t168 * c(0.17066666666666666) + c(0.9523333333333334) * t398;
         let t400 = base_rotation[2][2] * t397 - base_rotation[1][2] * t399;
         let t401 = t170 * t400;
         let t402 = t358 + t359;
         let t403 = t402 + base_rotation[0][2] * t72;
-        let t404 = t222 + t166 * 0.17066666666666666 + 0.9523333333333334 * t403;
+        let t404 = t222 + t166 * c(0.17066666666666666) + c(0.9523333333333334) * t403;
         let t405 = base_rotation[0][2] * t399 - base_rotation[2][2] * t404;
-        let t406 = 0.17066666666666666 * t398;
+        let t406 = c(0.17066666666666666) * t398;
         let t407 = t170 * t405 + t406;
         let t408 = base_rotation[1][2] * t404 - base_rotation[0][2] * t397;
-        let t409 = 0.17066666666666666 * t396;
+        let t409 = c(0.17066666666666666) * t396;
         let t410 = t170 * t408 - t409;
         let t411 = t172 * t199;
-        let t412 = 0.17066666666666666 + t172 * t201;
+        let t412 = c(0.17066666666666666) + t172 * t201;
         let t413 = t172 * t203;
         let t414 = t406 - t172 * t400;
         let t415 = t172 * t405;
-        let t416 = 0.17066666666666666 * t403;
+        let t416 = c(0.17066666666666666) * t403;
         let t417 = t172 * t408 + t416;
         let t418 = t174 * t199;
         let t419 = t174 * t201;
-        let t420 = 0.17066666666666666 + t174 * t203;
+        let t420 = c(0.17066666666666666) + t174 * t203;
         let t421 = t409 + t174 * t400;
         let t422 = t416 - t174 * t405;
         let t423 = t174 * t408;
         // leg 6: mass matrix of the leg in the speeds of its joint
-        let t424 = t187 + t182 * 0.4761666666666667;
-        let t425 = 2.0 * (t182 * t424);
-        let t426 = t190 + t184 * 0.4761666666666667;
+        let t424 = t187 + t182 * c(0.4761666666666667);
+        let t425 = c(2.0) * (t182 * t424);
+        let t426 = t190 + t184 * c(0.4761666666666667);
         let t427 = t182 * t426 + t184 * t424;
-        let t428 = t193 + t186 * 0.4761666666666667;
+        let t428 = t193 + t186 * c(0.4761666666666667);
         let t429 = t182 * t428 + t186 * t424;
-        let t430 = 2.0 * (t184 * t426);
+        let t430 = c(2.0) * (t184 * t426);
         let t431 = t184 * t428 + t186 * t426;
-        let t432 = 2.0 * (t186 * t428);
+        let t432 = c(2.0) * (t186 * t428);
         // leg 6: leg inertia between joint and base speeds
-        let t433 = 0.17066666666666666 + t182 * t199;
+        let t433 = c(0.17066666666666666) + t182 * t199;
         let t434 = t182 * t201;
         let t435 = t182 * t203;
         let t436 = t298 - t299;
         let t437 = t301 - t302;
         let t438 = t436 - base_rotation[1][2] * t75;
-        let t439 = t208 + t179 * 0.17066666666666666 - 0.9523333333333334 * t438;
+        let t439 = t208 + t179 * c(0.17066666666666666) - c(0.9523333333333334) * t438;
         let t440 = t437 - base_rotation[2][2] * t75;
-        let t441 = t212 + t180 * 0.17066666666666666 - 0.9523333333333334 * t440;
+        let t441 = t212 + t180 * c(0.17066666666666666) - c(0.9523333333333334) * t440;
         let t442 = base_rotation[2][2] * t439 - base_rotation[1][2] * t441;
         let t443 = t182 * t442;
         let t444 = t310 - t311;
         let t445 = t444 - base_rotation[0][2] * t75;
-        let t446 = t222 + t178 * 0.17066666666666666 - 0.9523333333333334 * t445;
+        let t446 = t222 + t178 * c(0.17066666666666666) - c(0.9523333333333334) * t445;
         let t447 = base_rotation[0][2] * t441 - base_rotation[2][2] * t446;
-        let t448 = 0.17066666666666666 * t440;
+        let t448 = c(0.17066666666666666) * t440;
         let t449 = t182 * t447 - t448;
         let t450 = base_rotation[1][2] * t446 - base_rotation[0][2] * t439;
-        let t451 = 0.17066666666666666 * t438;
+        let t451 = c(0.17066666666666666) * t438;
         let t452 = t182 * t450 + t451;
         let t453 = t184 * t199;
-        let t454 = 0.17066666666666666 + t184 * t201;
+        let t454 = c(0.17066666666666666) + t184 * t201;
         let t455 = t184 * t203;
         let t456 = t448 + t184 * t442;
         let t457 = t184 * t447;
-        let t458 = 0.17066666666666666 * t445;
+        let t458 = c(0.17066666666666666) * t445;
         let t459 = t184 * t450 - t458;
         let t460 = t186 * t199;
         let t461 = t186 * t201;
-        let t462 = 0.17066666666666666 + t186 * t203;
+        let t462 = c(0.17066666666666666) + t186 * t203;
         let t463 = t451 - t186 * t442;
         let t464 = t458 + t186 * t447;
         let t465 = t186 * t450;
@@ -9559,410 +10123,409 @@ pub fn matrices(
         mass_matrix_p[1][4] = t573;
         mass_matrix_p[4][1] = t573;
         // mass matrix M_p of the platform
-        let t574 = platform_rotation[2][0] * 2.2551405187698492e-17;
-        let t575 = t574 + platform_rotation[2][1] * 6.938893903907228e-18;
-        let t576 = t575 + platform_rotation[2][2] * 0.188852;
-        let t577 = platform_rotation[1][0] * 2.2551405187698492e-17;
-        let t578 = t577 + platform_rotation[1][1] * 6.938893903907228e-18;
-        let t579 = t578 + platform_rotation[1][2] * 0.188852;
-        let t580 = platform_rotation[0][0] * 2.2551405187698492e-17;
-        let t581 = t580 + platform_rotation[0][1] * 6.938893903907228e-18;
-        let t582 = t581 + platform_rotation[0][2] * 0.188852;
-        let t583 = platform_rotation[0][2] * 0.013354412;
-        let t584 = platform_rotation[0][0] * 0.032245600000000006;
-        let t585 = platform_rotation[0][1] * 0.032245600000000006;
+        let t574 = platform_rotation[2][0] * c(2.2551405187698492e-17);
+        let t575 = t574 + platform_rotation[2][1] * c(6.938893903907228e-18);
+        let t576 = t575 + platform_rotation[2][2] * c(0.188852);
+        let t577 = platform_rotation[1][0] * c(2.2551405187698492e-17);
+        let t578 = t577 + platform_rotation[1][1] * c(6.938893903907228e-18);
+        let t579 = t578 + platform_rotation[1][2] * c(0.188852);
+        let t580 = platform_rotation[0][0] * c(2.2551405187698492e-17);
+        let t581 = t580 + platform_rotation[0][1] * c(6.938893903907228e-18);
+        let t582 = t581 + platform_rotation[0][2] * c(0.188852);
+        let t583 = platform_rotation[0][2] * c(0.013354412);
+        let t584 = platform_rotation[0][0] * c(0.032245600000000006);
+        let t585 = platform_rotation[0][1] * c(0.032245600000000006);
         let t586 = platform_rotation[0][0] * t584 + platform_rotation[0][1] * t585;
         let t587 = platform_rotation[0][2] * t583 + t586;
         let t588 = platform_rotation[1][0] * t584 + platform_rotation[1][1] * t585;
         let t589 = platform_rotation[1][2] * t583 + t588;
         let t590 = platform_rotation[2][0] * t584 + platform_rotation[2][1] * t585;
         let t591 = platform_rotation[2][2] * t583 + t590;
-        let t592 = platform_rotation[1][2] * 0.013354412;
-        let t593 = platform_rotation[1][0] * 0.032245600000000006;
-        let t594 = platform_rotation[1][1] * 0.032245600000000006;
+        let t592 = platform_rotation[1][2] * c(0.013354412);
+        let t593 = platform_rotation[1][0] * c(0.032245600000000006);
+        let t594 = platform_rotation[1][1] * c(0.032245600000000006);
         let t595 = platform_rotation[1][0] * t593 + platform_rotation[1][1] * t594;
         let t596 = platform_rotation[1][2] * t592 + t595;
         let t597 = platform_rotation[2][0] * t593 + platform_rotation[2][1] * t594;
         let t598 = platform_rotation[2][2] * t592 + t597;
-        let t599 = platform_rotation[2][2] * (platform_rotation[2][2] * 0.013354412);
-        let t600 = platform_rotation[2][0]
-            * (platform_rotation[2][0] * 0.032245600000000006);
-        let t601 = platform_rotation[2][1]
-            * (platform_rotation[2][1] * 0.032245600000000006);
-        let t602 = t599 + (t600 + t601);
-        mass_matrix_p[0][0] = 8.139999999999999 + t466;
-        let t603 = t489 + t576;
-        mass_matrix_p[0][4] = t603;
-        mass_matrix_p[4][0] = t603;
-        let t604 = t496 - t579;
-        mass_matrix_p[0][5] = t604;
-        mass_matrix_p[5][0] = t604;
-        mass_matrix_p[1][1] = 8.139999999999999 + t497;
-        let t605 = t505 - t576;
-        mass_matrix_p[1][3] = t605;
-        mass_matrix_p[3][1] = t605;
-        let t606 = t525 + t582;
-        mass_matrix_p[1][5] = t606;
-        mass_matrix_p[5][1] = t606;
-        mass_matrix_p[2][2] = 8.139999999999999 + t526;
-        let t607 = t533 + t579;
-        mass_matrix_p[2][3] = t607;
-        mass_matrix_p[3][2] = t607;
-        let t608 = t540 - t582;
-        mass_matrix_p[2][4] = t608;
-        mass_matrix_p[4][2] = t608;
-        mass_matrix_p[3][3] = 0.07784561200000001 - t551 - t587;
-        let t609 = -(t555 + t589);
-        mass_matrix_p[3][4] = t609;
-        mass_matrix_p[4][3] = t609;
-        let t610 = -(t559 + t591);
-        mass_matrix_p[3][5] = t610;
-        mass_matrix_p[5][3] = t610;
-        mass_matrix_p[4][4] = 0.07784561200000001 - t563 - t596;
-        let t611 = -(t567 + t598);
-        mass_matrix_p[4][5] = t611;
-        mass_matrix_p[5][4] = t611;
-        mass_matrix_p[5][5] = 0.07784561200000001 - t571 - t602;
+        let t599 = platform_rotation[2][2] * (platform_rotation[2][2] * c(0.013354412));
+        let t600 = platform_rotation[2][0] * c(0.032245600000000006);
+        let t601 = platform_rotation[2][1] * c(0.032245600000000006);
+        let t602 = platform_rotation[2][0] * t600 + platform_rotation[2][1] * t601;
+        let t603 = t599 + t602;
+        mass_matrix_p[0][0] = c(8.139999999999999) + t466;
+        let t604 = t489 + t576;
+        mass_matrix_p[0][4] = t604;
+        mass_matrix_p[4][0] = t604;
+        let t605 = t496 - t579;
+        mass_matrix_p[0][5] = t605;
+        mass_matrix_p[5][0] = t605;
+        mass_matrix_p[1][1] = c(8.139999999999999) + t497;
+        let t606 = t505 - t576;
+        mass_matrix_p[1][3] = t606;
+        mass_matrix_p[3][1] = t606;
+        let t607 = t525 + t582;
+        mass_matrix_p[1][5] = t607;
+        mass_matrix_p[5][1] = t607;
+        mass_matrix_p[2][2] = c(8.139999999999999) + t526;
+        let t608 = t533 + t579;
+        mass_matrix_p[2][3] = t608;
+        mass_matrix_p[3][2] = t608;
+        let t609 = t540 - t582;
+        mass_matrix_p[2][4] = t609;
+        mass_matrix_p[4][2] = t609;
+        mass_matrix_p[3][3] = c(0.07784561200000001) - t551 - t587;
+        let t610 = -(t555 + t589);
+        mass_matrix_p[3][4] = t610;
+        mass_matrix_p[4][3] = t610;
+        let t611 = -(t559 + t591);
+        mass_matrix_p[3][5] = t611;
+        mass_matrix_p[5][3] = t611;
+        mass_matrix_p[4][4] = c(0.07784561200000001) - t563 - t596;
+        let t612 = -(t567 + t598);
+        mass_matrix_p[4][5] = t612;
+        mass_matrix_p[5][4] = t612;
+        mass_matrix_p[5][5] = c(0.07784561200000001) - t571 - t603;
         // mass matrix M_b that couples the base acceleration
         mass_matrix_b[0][0] = t466 - (t433 + (t391 + (t343 + (t295 + (t200 + t253)))));
         mass_matrix_b[0][1] = t467 - (t434 + (t392 - (t344 + (t296 - (t202 - t254)))));
         mass_matrix_b[0][2] = t468 - (t435 + (t393 - (t345 + (t297 - (t204 - t255)))));
-        let t612 = t21 * t467;
-        let t613 = t612 - (t482 - (t443 + (t401 - (t357 + (t309 - (t218 - t263))))));
-        let t614 = t20 * t468;
-        mass_matrix_b[0][3] = t613 - t614;
-        let t615 = t489 + (t449 + (t407 - (t365 + (t317 - (t227 - t269)))));
-        mass_matrix_b[0][4] = t19 * t468 + t615 - t21 * t466;
-        let t616 = t496 + (t452 + (t410 - (t368 + (t320 - (t230 - t272)))));
-        mass_matrix_b[0][5] = t20 * t466 + t616 - t19 * t467;
+        let t613 = t21 * t467;
+        let t614 = t613 - (t482 - (t443 + (t401 - (t357 + (t309 - (t218 - t263))))));
+        let t615 = t20 * t468;
+        mass_matrix_b[0][3] = t614 - t615;
+        let t616 = t489 + (t449 + (t407 - (t365 + (t317 - (t227 - t269)))));
+        mass_matrix_b[0][4] = t19 * t468 + t616 - t21 * t466;
+        let t617 = t496 + (t452 + (t410 - (t368 + (t320 - (t230 - t272)))));
+        mass_matrix_b[0][5] = t20 * t466 + t617 - t19 * t467;
         mass_matrix_b[1][0] = t467 - (t453 + (t411 - (t369 + (t321 - (t231 - t273)))));
         mass_matrix_b[1][1] = t497 - (t454 + (t412 + (t370 + (t322 + (t232 + t274)))));
         mass_matrix_b[1][2] = t498 - (t455 + (t413 - (t371 + (t323 - (t233 - t275)))));
-        let t617 = t505 + (t456 - (t414 + (t372 - (t324 + (t234 + t276)))));
-        mass_matrix_b[1][3] = t21 * t497 + t617 - t20 * t498;
-        let t618 = t19 * t498;
-        let t619 = t612 + (t518 - (t457 + (t415 - (t373 + (t325 - (t235 - t277))))));
-        mass_matrix_b[1][4] = t618 - t619;
-        let t620 = t525 + (t459 + (t417 - (t375 + (t327 - (t237 - t279)))));
-        mass_matrix_b[1][5] = t20 * t467 + t620 - t19 * t497;
+        let t618 = t505 + (t456 - (t414 + (t372 - (t324 + (t234 + t276)))));
+        mass_matrix_b[1][3] = t21 * t497 + t618 - t20 * t498;
+        let t619 = t19 * t498;
+        let t620 = t613 + (t518 - (t457 + (t415 - (t373 + (t325 - (t235 - t277))))));
+        mass_matrix_b[1][4] = t619 - t620;
+        let t621 = t525 + (t459 + (t417 - (t375 + (t327 - (t237 - t279)))));
+        mass_matrix_b[1][5] = t20 * t467 + t621 - t19 * t497;
         mass_matrix_b[2][0] = t468 - (t460 + (t418 - (t376 + (t328 - (t238 - t280)))));
         mass_matrix_b[2][1] = t498 - (t461 + (t419 - (t377 + (t329 - (t239 - t281)))));
         mass_matrix_b[2][2] = t526 - (t462 + (t420 + (t378 + (t330 + (t240 + t282)))));
-        let t621 = t533 - (t463 - (t421 + (t379 - (t331 + (t241 + t283)))));
-        mass_matrix_b[2][3] = t21 * t498 + t621 - t20 * t526;
-        let t622 = t540 + (t464 - (t422 + (t380 - (t332 + (t242 + t284)))));
-        mass_matrix_b[2][4] = t19 * t526 + t622 - t21 * t468;
-        let t623 = t614 + (t547 + (t465 + (t423 - (t381 + (t333 - (t243 - t285))))));
-        mass_matrix_b[2][5] = t623 - t618;
-        let t624 = t107 * t280 + (t96 * t231 - (t482 + t93 * t238));
-        let t625 = t129 * t321 - (t126 * t328 + (t108 * t273 - t624));
-        let t626 = t164 * t418 + (t150 * t369 - (t147 * t376 - t625));
-        mass_matrix_b[3][0] = t176 * t460 - (t165 * t411 - t626) - t177 * t453;
-        let t627 = t107 * t281 + (t96 * t232 + (t505 - t93 * t239));
-        let t628 = t129 * t322 + (t126 * t329 - (t108 * t274 + t627));
-        let t629 = t164 * t419 - (t150 * t370 + (t147 * t377 + t628));
-        mass_matrix_b[3][1] = t176 * t461 - (t165 * t412 - t629) - t177 * t454;
-        let t630 = t107 * t282 - (t96 * t233 + (t533 - t93 * t240));
-        let t631 = t129 * t323 + (t126 * t330 - (t108 * t275 + t630));
-        let t632 = t164 * t420 + (t150 * t371 + (t147 * t378 + t631));
-        mass_matrix_b[3][2] = t176 * t462 - (t165 * t413 - t632) - t177 * t455;
-        let t633 = t93 * t241 + (t20 * t533 + (t551 - t21 * t505));
-        let t634 = t108 * t276 + (t107 * t283 + (t96 * t234 + t633));
-        let t635 = t147 * t379 - (t129 * t324 + (t126 * t331 - t634));
-        let t636 = t165 * t414 + (t164 * t421 + (t150 * t372 + t635));
-        mass_matrix_b[3][3] = t177 * t456 + (t176 * t463 - t636);
-        let t637 = t93 * t242 + (t21 * t482 - (t555 - t19 * t533));
-        let t638 = t108 * t277 + (t107 * t284 - (t96 * t235 - t637));
-        let t639 = t147 * t380 - (t129 * t325 + (t126 * t332 - t638));
-        let t640 = t165 * t415 + (t164 * t422 - (t150 * t373 - t639));
-        mass_matrix_b[3][4] = t177 * t457 - (t176 * t464 - t640);
-        let t641 = t93 * t243 - (t19 * t505 + (t559 + t20 * t482));
-        let t642 = t108 * t279 - (t107 * t285 + (t96 * t237 - t641));
-        let t643 = t147 * t381 - (t129 * t327 - (t126 * t333 + t642));
-        let t644 = t165 * t417 - (t164 * t423 + (t150 * t375 - t643));
-        mass_matrix_b[3][5] = t177 * t459 - (t176 * t465 - t644);
-        let t645 = t108 * t253 - (t90 * t238 + (t489 - t96 * t200));
-        let t646 = t123 * t328 + (t129 * t295 - (t106 * t280 + t645));
-        let t647 = t165 * t391 + (t144 * t376 + (t150 * t343 + t646));
-        mass_matrix_b[4][0] = t177 * t433 - (t163 * t418 - t647) - t175 * t460;
-        let t648 = t108 * t254 + (t90 * t239 - (t518 + t96 * t202));
-        let t649 = t123 * t329 - (t129 * t296 + (t106 * t281 - t648));
-        let t650 = t165 * t392 + (t144 * t377 - (t150 * t344 - t649));
-        mass_matrix_b[4][1] = t177 * t434 - (t163 * t419 - t650) - t175 * t461;
-        let t651 = t108 * t255 + (t90 * t240 + (t540 - t96 * t204));
-        let t652 = t123 * t330 + (t129 * t297 - (t106 * t282 + t651));
-        let t653 = t165 * t393 - (t144 * t378 + (t150 * t345 + t652));
-        mass_matrix_b[4][2] = t177 * t435 - (t163 * t420 - t653) - t175 * t462;
-        let t654 = t96 * t218 - (t20 * t540 + (t555 + t21 * t518));
-        let t655 = t106 * t283 - (t108 * t263 - (t90 * t241 + t654));
-        let t656 = t150 * t357 - (t123 * t331 - (t129 * t309 + t655));
-        let t657 = t163 * t421 - (t165 * t401 - (t144 * t379 + t656));
-        mass_matrix_b[4][3] = t657 - t177 * t443 - t175 * t463;
-        let t658 = t96 * t227 - (t21 * t489 + (t563 - t19 * t540));
-        let t659 = t106 * t284 + (t108 * t269 + (t90 * t242 - t658));
-        let t660 = t150 * t365 + (t123 * t332 + (t129 * t317 - t659));
-        let t661 = t163 * t422 + (t165 * t407 + (t144 * t380 - t660));
-        mass_matrix_b[4][4] = t175 * t464 - (t177 * t449 + t661);
-        let t662 = t96 * t230 + (t19 * t518 - (t567 - t20 * t489));
-        let t663 = t106 * t285 - (t108 * t272 + (t90 * t243 - t662));
-        let t664 = t150 * t368 - (t123 * t333 - (t129 * t320 + t663));
-        let t665 = t163 * t423 - (t165 * t410 + (t144 * t381 - t664));
-        mass_matrix_b[4][5] = t175 * t465 - (t177 * t452 - t665);
-        let t666 = t106 * t273 + (t93 * t200 + (t496 - t90 * t231));
-        let t667 = t126 * t295 + (t123 * t321 - (t107 * t253 + t666));
-        let t668 = t163 * t411 - (t147 * t343 + (t144 * t369 + t667));
-        mass_matrix_b[5][0] = t175 * t453 - (t164 * t391 - t668) - t176 * t433;
-        let t669 = t106 * t274 - (t93 * t202 + (t525 - t90 * t232));
-        let t670 = t126 * t296 + (t123 * t322 - (t107 * t254 + t669));
-        let t671 = t163 * t412 + (t147 * t344 + (t144 * t370 + t670));
-        mass_matrix_b[5][1] = t175 * t454 - (t164 * t392 - t671) - t176 * t434;
-        let t672 = t106 * t275 + (t93 * t204 + (t547 - t90 * t233));
-        let t673 = t126 * t297 - (t123 * t323 + (t107 * t255 - t672));
-        let t674 = t163 * t413 + (t147 * t345 - (t144 * t371 - t673));
-        mass_matrix_b[5][2] = t175 * t455 - (t164 * t393 - t674) - t176 * t435;
-        let t675 = t90 * t234 - (t20 * t547 + (t559 - t21 * t525));
-        let t676 = t107 * t263 + (t106 * t276 - (t93 * t218 - t675));
-        let t677 = t144 * t372 - (t126 * t309 + (t123 * t324 - t676));
-        let t678 = t164 * t401 + (t163 * t414 - (t147 * t357 - t677));
-        mass_matrix_b[5][3] = t176 * t443 - (t175 * t456 - t678);
-        let t679 = t90 * t235 - (t21 * t496 + (t567 - t19 * t547));
-        let t680 = t107 * t269 - (t106 * t277 + (t93 * t227 - t679));
-        let t681 = t144 * t373 - (t126 * t317 - (t123 * t325 + t680));
-        let t682 = t164 * t407 - (t163 * t415 + (t147 * t365 - t681));
-        mass_matrix_b[5][4] = t176 * t449 - (t175 * t457 - t682);
-        let t683 = t90 * t237 - (t19 * t525 + (t571 - t20 * t496));
-        let t684 = t107 * t272 - (t106 * t279 + (t93 * t230 - t683));
-        let t685 = t144 * t375 - (t126 * t320 - (t123 * t327 + t684));
-        let t686 = t164 * t410 - (t163 * t417 + (t147 * t368 - t685));
-        mass_matrix_b[5][5] = t176 * t452 - (t175 * t459 - t686);
+        let t622 = t533 - (t463 - (t421 + (t379 - (t331 + (t241 + t283)))));
+        mass_matrix_b[2][3] = t21 * t498 + t622 - t20 * t526;
+        let t623 = t540 + (t464 - (t422 + (t380 - (t332 + (t242 + t284)))));
+        mass_matrix_b[2][4] = t19 * t526 + t623 - t21 * t468;
+        let t624 = t615 + (t547 + (t465 + (t423 - (t381 + (t333 - (t243 - t285))))));
+        mass_matrix_b[2][5] = t624 - t619;
+        let t625 = t107 * t280 + (t96 * t231 - (t482 + t93 * t238));
+        let t626 = t129 * t321 - (t126 * t328 + (t108 * t273 - t625));
+        let t627 = t164 * t418 + (t150 * t369 - (t147 * t376 - t626));
+        mass_matrix_b[3][0] = t176 * t460 - (t165 * t411 - t627) - t177 * t453;
+        let t628 = t107 * t281 + (t96 * t232 + (t505 - t93 * t239));
+        let t629 = t129 * t322 + (t126 * t329 - (t108 * t274 + t628));
+        let t630 = t164 * t419 - (t150 * t370 + (t147 * t377 + t629));
+        mass_matrix_b[3][1] = t176 * t461 - (t165 * t412 - t630) - t177 * t454;
+        let t631 = t107 * t282 - (t96 * t233 + (t533 - t93 * t240));
+        let t632 = t129 * t323 + (t126 * t330 - (t108 * t275 + t631));
+        let t633 = t164 * t420 + (t150 * t371 + (t147 * t378 + t632));
+        mass_matrix_b[3][2] = t176 * t462 - (t165 * t413 - t633) - t177 * t455;
+        let t634 = t93 * t241 + (t20 * t533 + (t551 - t21 * t505));
+        let t635 = t108 * t276 + (t107 * t283 + (t96 * t234 + t634));
+        let t636 = t147 * t379 - (t129 * t324 + (t126 * t331 - t635));
+        let t637 = t165 * t414 + (t164 * t421 + (t150 * t372 + t636));
+        mass_matrix_b[3][3] = t177 * t456 + (t176 * t463 - t637);
+        let t638 = t93 * t242 + (t21 * t482 - (t555 - t19 * t533));
+        let t639 = t108 * t277 + (t107 * t284 - (t96 * t235 - t638));
+        let t640 = t147 * t380 - (t129 * t325 + (t126 * t332 - t639));
+        let t641 = t165 * t415 + (t164 * t422 - (t150 * t373 - t640));
+        mass_matrix_b[3][4] = t177 * t457 - (t176 * t464 - t641);
+        let t642 = t93 * t243 - (t19 * t505 + (t559 + t20 * t482));
+        let t643 = t108 * t279 - (t107 * t285 + (t96 * t237 - t642));
+        let t644 = t147 * t381 - (t129 * t327 - (t126 * t333 + t643));
+        let t645 = t165 * t417 - (t164 * t423 + (t150 * t375 - t644));
+        mass_matrix_b[3][5] = t177 * t459 - (t176 * t465 - t645);
+        let t646 = t108 * t253 - (t90 * t238 + (t489 - t96 * t200));
+        let t647 = t123 * t328 + (t129 * t295 - (t106 * t280 + t646));
+        let t648 = t165 * t391 + (t144 * t376 + (t150 * t343 + t647));
+        mass_matrix_b[4][0] = t177 * t433 - (t163 * t418 - t648) - t175 * t460;
+        let t649 = t108 * t254 + (t90 * t239 - (t518 + t96 * t202));
+        let t650 = t123 * t329 - (t129 * t296 + (t106 * t281 - t649));
+        let t651 = t165 * t392 + (t144 * t377 - (t150 * t344 - t650));
+        mass_matrix_b[4][1] = t177 * t434 - (t163 * t419 - t651) - t175 * t461;
+        let t652 = t108 * t255 + (t90 * t240 + (t540 - t96 * t204));
+        let t653 = t123 * t330 + (t129 * t297 - (t106 * t282 + t652));
+        let t654 = t165 * t393 - (t144 * t378 + (t150 * t345 + t653));
+        mass_matrix_b[4][2] = t177 * t435 - (t163 * t420 - t654) - t175 * t462;
+        let t655 = t96 * t218 - (t20 * t540 + (t555 + t21 * t518));
+        let t656 = t106 * t283 - (t108 * t263 - (t90 * t241 + t655));
+        let t657 = t150 * t357 - (t123 * t331 - (t129 * t309 + t656));
+        let t658 = t163 * t421 - (t165 * t401 - (t144 * t379 + t657));
+        mass_matrix_b[4][3] = t658 - t177 * t443 - t175 * t463;
+        let t659 = t96 * t227 - (t21 * t489 + (t563 - t19 * t540));
+        let t660 = t106 * t284 + (t108 * t269 + (t90 * t242 - t659));
+        let t661 = t150 * t365 + (t123 * t332 + (t129 * t317 - t660));
+        let t662 = t163 * t422 + (t165 * t407 + (t144 * t380 - t661));
+        mass_matrix_b[4][4] = t175 * t464 - (t177 * t449 + t662);
+        let t663 = t96 * t230 + (t19 * t518 - (t567 - t20 * t489));
+        let t664 = t106 * t285 - (t108 * t272 + (t90 * t243 - t663));
+        let t665 = t150 * t368 - (t123 * t333 - (t129 * t320 + t664));
+        let t666 = t163 * t423 - (t165 * t410 + (t144 * t381 - t665));
+        mass_matrix_b[4][5] = t175 * t465 - (t177 * t452 - t666);
+        let t667 = t106 * t273 + (t93 * t200 + (t496 - t90 * t231));
+        let t668 = t126 * t295 + (t123 * t321 - (t107 * t253 + t667));
+        let t669 = t163 * t411 - (t147 * t343 + (t144 * t369 + t668));
+        mass_matrix_b[5][0] = t175 * t453 - (t164 * t391 - t669) - t176 * t433;
+        let t670 = t106 * t274 - (t93 * t202 + (t525 - t90 * t232));
+        let t671 = t126 * t296 + (t123 * t322 - (t107 * t254 + t670));
+        let t672 = t163 * t412 + (t147 * t344 + (t144 * t370 + t671));
+        mass_matrix_b[5][1] = t175 * t454 - (t164 * t392 - t672) - t176 * t434;
+        let t673 = t106 * t275 + (t93 * t204 + (t547 - t90 * t233));
+        let t674 = t126 * t297 - (t123 * t323 + (t107 * t255 - t673));
+        let t675 = t163 * t413 + (t147 * t345 - (t144 * t371 - t674));
+        mass_matrix_b[5][2] = t175 * t455 - (t164 * t393 - t675) - t176 * t435;
+        let t676 = t90 * t234 - (t20 * t547 + (t559 - t21 * t525));
+        let t677 = t107 * t263 + (t106 * t276 - (t93 * t218 - t676));
+        let t678 = t144 * t372 - (t126 * t309 + (t123 * t324 - t677));
+        let t679 = t164 * t401 + (t163 * t414 - (t147 * t357 - t678));
+        mass_matrix_b[5][3] = t176 * t443 - (t175 * t456 - t679);
+        let t680 = t90 * t235 - (t21 * t496 + (t567 - t19 * t547));
+        let t681 = t107 * t269 - (t106 * t277 + (t93 * t227 - t680));
+        let t682 = t144 * t373 - (t126 * t317 - (t123 * t325 + t681));
+        let t683 = t164 * t407 - (t163 * t415 + (t147 * t365 - t682));
+        mass_matrix_b[5][4] = t176 * t449 - (t175 * t457 - t683);
+        let t684 = t90 * t237 - (t19 * t525 + (t571 - t20 * t496));
+        let t685 = t107 * t272 - (t106 * t279 + (t93 * t230 - t684));
+        let t686 = t144 * t375 - (t126 * t320 - (t123 * t327 + t685));
+        let t687 = t164 * t410 - (t163 * t417 + (t147 * t368 - t686));
+        mass_matrix_b[5][5] = t176 * t452 - (t175 * t459 - t687);
         // angular velocity of the base
-        let t687 = base_rotation[1][0] * base_velocity[4];
-        let t688 = base_rotation[0][0] * base_velocity[3] + t687;
-        let t689 = base_rotation[2][0] * base_velocity[5] + t688;
-        let t690 = base_rotation[1][1] * base_velocity[4];
-        let t691 = base_rotation[0][1] * base_velocity[3] + t690;
-        let t692 = base_rotation[2][1] * base_velocity[5] + t691;
-        let t693 = base_rotation[1][2] * base_velocity[4];
-        let t694 = base_rotation[0][2] * base_velocity[3] + t693;
-        let t695 = base_rotation[2][2] * base_velocity[5] + t694;
+        let t688 = base_rotation[1][0] * base_velocity[4];
+        let t689 = base_rotation[0][0] * base_velocity[3] + t688;
+        let t690 = base_rotation[2][0] * base_velocity[5] + t689;
+        let t691 = base_rotation[1][1] * base_velocity[4];
+        let t692 = base_rotation[0][1] * base_velocity[3] + t691;
+        let t693 = base_rotation[2][1] * base_velocity[5] + t692;
+        let t694 = base_rotation[1][2] * base_velocity[4];
+        let t695 = base_rotation[0][2] * base_velocity[3] + t694;
+        let t696 = base_rotation[2][2] * base_velocity[5] + t695;
         // angular velocity of the platform
-        let t696 = base_rotation[0][0] * platform_velocity[3];
-        let t697 = base_rotation[1][0] * platform_velocity[4];
-        let t698 = base_rotation[2][0] * platform_velocity[5];
-        let t699 = base_rotation[0][1] * platform_velocity[3];
-        let t700 = base_rotation[1][1] * platform_velocity[4];
-        let t701 = base_rotation[2][1] * platform_velocity[5];
-        let t702 = base_rotation[0][2] * platform_velocity[3];
-        let t703 = base_rotation[1][2] * platform_velocity[4];
-        let t704 = base_rotation[2][2] * platform_velocity[5];
+        let t697 = base_rotation[0][0] * platform_velocity[3];
+        let t698 = base_rotation[1][0] * platform_velocity[4];
+        let t699 = base_rotation[2][0] * platform_velocity[5];
+        let t700 = base_rotation[0][1] * platform_velocity[3];
+        let t701 = base_rotation[1][1] * platform_velocity[4];
+        let t702 = base_rotation[2][1] * platform_velocity[5];
+        let t703 = base_rotation[0][2] * platform_velocity[3];
+        let t704 = base_rotation[1][2] * platform_velocity[4];
+        let t705 = base_rotation[2][2] * platform_velocity[5];
         // angular velocity of the platform relative to the base
-        let t705 = t698 + (t697 - (t689 - t696));
-        let t706 = t701 + (t700 - (t692 - t699));
-        let t707 = t704 + (t703 - (t695 - t702));
+        let t706 = t699 + (t698 - (t690 - t697));
+        let t707 = t702 + (t701 - (t693 - t700));
+        let t708 = t705 + (t704 - (t696 - t703));
         // velocity of the platform origin relative to the base
-        let t708 = base_velocity[0] - platform_velocity[0];
-        let t709 = base_velocity[1] - platform_velocity[1];
-        let t710 = base_velocity[2] - platform_velocity[2];
-        let t711 = base_rotation[0][0] * t708 + base_rotation[1][0] * t709;
-        let t712 = t27 * t692 - (base_rotation[2][0] * t710 + t711);
-        let t713 = t25 * t695 - t712;
-        let t714 = base_rotation[0][1] * t708 + base_rotation[1][1] * t709;
-        let t715 = t23 * t695 - (base_rotation[2][1] * t710 + t714);
-        let t716 = t27 * t689 - t715;
-        let t717 = base_rotation[0][2] * t708 + base_rotation[1][2] * t709;
-        let t718 = t25 * t689 - (base_rotation[2][2] * t710 + t717);
-        let t719 = t23 * t692 - t718;
+        let t709 = base_velocity[0] - platform_velocity[0];
+        let t710 = base_velocity[1] - platform_velocity[1];
+        let t711 = base_velocity[2] - platform_velocity[2];
+        let t712 = base_rotation[0][0] * t709 + base_rotation[1][0] * t710;
+        let t713 = t27 * t693 - (base_rotation[2][0] * t711 + t712);
+        let t714 = t25 * t696 - t713;
+        let t715 = base_rotation[0][1] * t709 + base_rotation[1][1] * t710;
+        let t716 = t23 * t696 - (base_rotation[2][1] * t711 + t715);
+        let t717 = t27 * t690 - t716;
+        let t718 = base_rotation[0][2] * t709 + base_rotation[1][2] * t710;
+        let t719 = t25 * t690 - (base_rotation[2][2] * t711 + t718);
+        let t720 = t23 * t693 - t719;
         // rate of the relative rotation
-        let t720 = t15 * t706 - t9 * t707;
-        let t721 = t18 * t706 - t12 * t707;
-        let t722 = t3 * t707 - t15 * t705;
-        let t723 = t6 * t707 - t18 * t705;
-        let t724 = t9 * t705 - t3 * t706;
-        let t725 = t12 * t705 - t6 * t706;
+        let t721 = t15 * t707 - t9 * t708;
+        let t722 = t18 * t707 - t12 * t708;
+        let t723 = t3 * t708 - t15 * t706;
+        let t724 = t6 * t708 - t18 * t706;
+        let t725 = t9 * t706 - t3 * t707;
+        let t726 = t12 * t706 - t6 * t707;
         // leg 1: velocity of the platform joint relative to the base
-        let t726 = t713 - 0.1159110991546882 * t720;
-        let t727 = 0.03105828541230249 * t721;
-        let t728 = t726 + t727;
-        let t729 = t716 - 0.1159110991546882 * t722;
-        let t730 = 0.03105828541230249 * t723;
-        let t731 = t729 + t730;
+        let t727 = t714 - c(0.1159110991546882) * t721;
+        let t728 = c(0.03105828541230249) * t722;
+        let t729 = t727 + t728;
+        let t730 = t717 - c(0.1159110991546882) * t723;
+        let t731 = c(0.03105828541230249) * t724;
+        let t732 = t730 + t731;
         // leg 2: velocity of the platform joint relative to the base
-        let t732 = t726 - t727;
-        let t733 = t729 - t730;
+        let t733 = t727 - t728;
+        let t734 = t730 - t731;
         // leg 3: velocity of the platform joint relative to the base
-        let t734 = t713 + 0.031058285412302475 * t720;
-        let t735 = 0.1159110991546882 * t721;
-        let t736 = t734 - t735;
-        let t737 = t716 + 0.031058285412302475 * t722;
-        let t738 = 0.1159110991546882 * t723;
-        let t739 = t737 - t738;
+        let t735 = t714 + c(0.031058285412302475) * t721;
+        let t736 = c(0.1159110991546882) * t722;
+        let t737 = t735 - t736;
+        let t738 = t717 + c(0.031058285412302475) * t723;
+        let t739 = c(0.1159110991546882) * t724;
+        let t740 = t738 - t739;
         // leg 4: velocity of the platform joint relative to the base
-        let t740 = t713 + 0.0848528137423857 * t720;
-        let t741 = 0.08485281374238571 * t721;
-        let t742 = t740 - t741;
-        let t743 = t716 + 0.0848528137423857 * t722;
-        let t744 = 0.08485281374238571 * t723;
-        let t745 = t743 - t744;
+        let t741 = t714 + c(0.0848528137423857) * t721;
+        let t742 = c(0.08485281374238571) * t722;
+        let t743 = t741 - t742;
+        let t744 = t717 + c(0.0848528137423857) * t723;
+        let t745 = c(0.08485281374238571) * t724;
+        let t746 = t744 - t745;
         // leg 5: velocity of the platform joint relative to the base
-        let t746 = t740 + t741;
-        let t747 = t743 + t744;
+        let t747 = t741 + t742;
+        let t748 = t744 + t745;
         // leg 6: velocity of the platform joint relative to the base
-        let t748 = t734 + t735;
-        let t749 = t737 + t738;
+        let t749 = t735 + t736;
+        let t750 = t738 + t739;
         // leg 1: rate of the rod's extent along the actuator axis
-        let t750 = t53 * (t30 * t728 - t33 * t731);
+        let t751 = t53 * (t30 * t729 - t33 * t732);
         // leg 1: actuator velocity d'
-        let t751 = t719 - 0.1159110991546882 * t724;
-        let t752 = 0.03105828541230249 * t725;
-        let t753 = t751 - (t750 - t752);
+        let t752 = t720 - c(0.1159110991546882) * t725;
+        let t753 = c(0.03105828541230249) * t726;
+        let t754 = t752 - (t751 - t753);
         // leg 2: rate of the rod's extent along the actuator axis
-        let t754 = t58 * (t34 * t732 + t35 * t733);
+        let t755 = t58 * (t34 * t733 + t35 * t734);
         // leg 2: actuator velocity d'
-        let t755 = t751 - (t752 + t754);
+        let t756 = t752 - (t753 + t755);
         // leg 3: rate of the rod's extent along the actuator axis
-        let t756 = t61 * (t38 * t736 + t41 * t739);
+        let t757 = t61 * (t38 * t737 + t41 * t740);
         // leg 3: actuator velocity d'
-        let t757 = t719 + 0.031058285412302475 * t724;
-        let t758 = 0.1159110991546882 * t725;
-        let t759 = t757 - (t756 + t758);
+        let t758 = t720 + c(0.031058285412302475) * t725;
+        let t759 = c(0.1159110991546882) * t726;
+        let t760 = t758 - (t757 + t759);
         // leg 4: rate of the rod's extent along the actuator axis
-        let t760 = t66 * (t44 * t742 + t47 * t745);
+        let t761 = t66 * (t44 * t743 + t47 * t746);
         // leg 4: actuator velocity d'
-        let t761 = t719 + 0.0848528137423857 * t724;
-        let t762 = 0.08485281374238571 * t725;
-        let t763 = t761 - (t760 + t762);
+        let t762 = t720 + c(0.0848528137423857) * t725;
+        let t763 = c(0.08485281374238571) * t726;
+        let t764 = t762 - (t761 + t763);
         // leg 5: rate of the rod's extent along the actuator axis
-        let t764 = t71 * (t48 * t746 - t49 * t747);
+        let t765 = t71 * (t48 * t747 - t49 * t748);
         // leg 5: actuator velocity d'
-        let t765 = t761 + (t762 - t764);
+        let t766 = t762 + (t763 - t765);
         // leg 6: rate of the rod's extent along the actuator axis
-        let t766 = t74 * (t50 * t748 - t51 * t749);
+        let t767 = t74 * (t50 * t749 - t51 * t750);
         // leg 6: actuator velocity d'
-        let t767 = t757 + (t758 - t766);
+        let t768 = t758 + (t759 - t767);
         // leg 1: rate of that gradient relative to the base
-        let t768 = t53 * (t728 + t76 * t750);
-        let t769 = t53 * (t731 - t77 * t750);
+        let t769 = t53 * (t729 + t76 * t751);
+        let t770 = t53 * (t732 - t77 * t751);
         // leg 2: rate of that gradient relative to the base
-        let t770 = t58 * (t732 + t78 * t754);
-        let t771 = t58 * (t733 + t79 * t754);
+        let t771 = t58 * (t733 + t78 * t755);
+        let t772 = t58 * (t734 + t79 * t755);
         // leg 3: rate of that gradient relative to the base
-        let t772 = t61 * (t736 + t80 * t756);
-        let t773 = t61 * (t739 + t81 * t756);
+        let t773 = t61 * (t737 + t80 * t757);
+        let t774 = t61 * (t740 + t81 * t757);
         // leg 4: rate of that gradient relative to the base
-        let t774 = t66 * (t742 + t82 * t760);
-        let t775 = t66 * (t745 + t83 * t760);
+        let t775 = t66 * (t743 + t82 * t761);
+        let t776 = t66 * (t746 + t83 * t761);
         // leg 5: rate of that gradient relative to the base
-        let t776 = t71 * (t746 + t84 * t764);
-        let t777 = t71 * (t747 - t85 * t764);
+        let t777 = t71 * (t747 + t84 * t765);
+        let t778 = t71 * (t748 - t85 * t765);
         // leg 6: rate of that gradient relative to the base
-        let t778 = t74 * (t748 + t86 * t766);
-        let t779 = t74 * (t749 - t87 * t766);
+        let t779 = t74 * (t749 + t86 * t767);
+        let t780 = t74 * (t750 - t87 * t767);
         // leg 1: rate of the platform lever
-        let t780 = platform_velocity[4] * t96 - platform_velocity[5] * t93;
-        let t781 = platform_velocity[5] * t90 - platform_velocity[3] * t96;
-        let t782 = platform_velocity[3] * t93 - platform_velocity[4] * t90;
+        let t781 = platform_velocity[4] * t96 - platform_velocity[5] * t93;
+        let t782 = platform_velocity[5] * t90 - platform_velocity[3] * t96;
+        let t783 = platform_velocity[3] * t93 - platform_velocity[4] * t90;
         // leg 1: inertial rate of that gradient
-        let t783 = t77 * t689 + t76 * t692;
-        let t784 = t77 * t695 - (t692 - t768);
-        let t785 = t76 * t695 + (t689 + t769);
-        let t786 = base_rotation[0][0] * t784 + base_rotation[0][1] * t785;
-        let t787 = base_rotation[0][2] * t783 - t786;
-        let t788 = base_rotation[1][0] * t784 + base_rotation[1][1] * t785;
-        let t789 = base_rotation[1][2] * t783 - t788;
-        let t790 = base_rotation[2][0] * t784 + base_rotation[2][1] * t785;
-        let t791 = base_rotation[2][2] * t783 - t790;
+        let t784 = t77 * t690 + t76 * t693;
+        let t785 = t77 * t696 - (t693 - t769);
+        let t786 = t76 * t696 + (t690 + t770);
+        let t787 = base_rotation[0][0] * t785 + base_rotation[0][1] * t786;
+        let t788 = base_rotation[0][2] * t784 - t787;
+        let t789 = base_rotation[1][0] * t785 + base_rotation[1][1] * t786;
+        let t790 = base_rotation[1][2] * t784 - t789;
+        let t791 = base_rotation[2][0] * t785 + base_rotation[2][1] * t786;
+        let t792 = base_rotation[2][2] * t784 - t791;
         // leg 2: rate of the platform lever
-        let t792 = platform_velocity[4] * t108 - platform_velocity[5] * t107;
-        let t793 = platform_velocity[5] * t106 - platform_velocity[3] * t108;
-        let t794 = platform_velocity[3] * t107 - platform_velocity[4] * t106;
+        let t793 = platform_velocity[4] * t108 - platform_velocity[5] * t107;
+        let t794 = platform_velocity[5] * t106 - platform_velocity[3] * t108;
+        let t795 = platform_velocity[3] * t107 - platform_velocity[4] * t106;
         // leg 2: inertial rate of that gradient
-        let t795 = t79 * t689 - t78 * t692;
-        let t796 = t79 * t695 + (t692 - t770);
-        let t797 = t78 * t695 + (t689 + t771);
-        let t798 = base_rotation[0][0] * t796 - base_rotation[0][1] * t797;
-        let t799 = base_rotation[0][2] * t795 - t798;
-        let t800 = base_rotation[1][0] * t796 - base_rotation[1][1] * t797;
-        let t801 = base_rotation[1][2] * t795 - t800;
-        let t802 = base_rotation[2][0] * t796 - base_rotation[2][1] * t797;
-        let t803 = base_rotation[2][2] * t795 - t802;
+        let t796 = t79 * t690 - t78 * t693;
+        let t797 = t79 * t696 + (t693 - t771);
+        let t798 = t78 * t696 + (t690 + t772);
+        let t799 = base_rotation[0][0] * t797 - base_rotation[0][1] * t798;
+        let t800 = base_rotation[0][2] * t796 - t799;
+        let t801 = base_rotation[1][0] * t797 - base_rotation[1][1] * t798;
+        let t802 = base_rotation[1][2] * t796 - t801;
+        let t803 = base_rotation[2][0] * t797 - base_rotation[2][1] * t798;
+        let t804 = base_rotation[2][2] * t796 - t803;
         // leg 3: rate of the platform lever
-        let t804 = platform_velocity[4] * t129 - platform_velocity[5] * t126;
-        let t805 = platform_velocity[5] * t123 - platform_velocity[3] * t129;
-        let t806 = platform_velocity[3] * t126 - platform_velocity[4] * t123;
+        let t805 = platform_velocity[4] * t129 - platform_velocity[5] * t126;
+        let t806 = platform_velocity[5] * t123 - platform_velocity[3] * t129;
+        let t807 = platform_velocity[3] * t126 - platform_velocity[4] * t123;
         // leg 3: inertial rate of that gradient
-        let t807 = t81 * t689 - t80 * t692;
-        let t808 = t81 * t695 + (t692 - t772);
-        let t809 = t80 * t695 + (t689 + t773);
-        let t810 = base_rotation[0][0] * t808 - base_rotation[0][1] * t809;
-        let t811 = base_rotation[0][2] * t807 - t810;
-        let t812 = base_rotation[1][0] * t808 - base_rotation[1][1] * t809;
-        let t813 = base_rotation[1][2] * t807 - t812;
-        let t814 = base_rotation[2][0] * t808 - base_rotation[2][1] * t809;
-        let t815 = base_rotation[2][2] * t807 - t814;
+        let t808 = t81 * t690 - t80 * t693;
+        let t809 = t81 * t696 + (t693 - t773);
+        let t810 = t80 * t696 + (t690 + t774);
+        let t811 = base_rotation[0][0] * t809 - base_rotation[0][1] * t810;
+        let t812 = base_rotation[0][2] * t808 - t811;
+        let t813 = base_rotation[1][0] * t809 - base_rotation[1][1] * t810;
+        let t814 = base_rotation[1][2] * t808 - t813;
+        let t815 = base_rotation[2][0] * t809 - base_rotation[2][1] * t810;
+        let t816 = base_rotation[2][2] * t808 - t815;
         // leg 4: rate of the platform lever
-        let t816 = platform_velocity[4] * t150 - platform_velocity[5] * t147;
-        let t817 = platform_velocity[5] * t144 - platform_velocity[3] * t150;
-        let t818 = platform_velocity[3] * t147 - platform_velocity[4] * t144;
+        let t817 = platform_velocity[4] * t150 - platform_velocity[5] * t147;
+        let t818 = platform_velocity[5] * t144 - platform_velocity[3] * t150;
+        let t819 = platform_velocity[3] * t147 - platform_velocity[4] * t144;
         // leg 4: inertial rate of that gradient
-        let t819 = t83 * t689 - t82 * t692;
-        let t820 = t83 * t695 + (t692 - t774);
-        let t821 = t82 * t695 + (t689 + t775);
-        let t822 = base_rotation[0][0] * t820 - base_rotation[0][1] * t821;
-        let t823 = base_rotation[0][2] * t819 - t822;
-        let t824 = base_rotation[1][0] * t820 - base_rotation[1][1] * t821;
-        let t825 = base_rotation[1][2] * t819 - t824;
-        let t826 = base_rotation[2][0] * t820 - base_rotation[2][1] * t821;
-        let t827 = base_rotation[2][2] * t819 - t826;
+        let t820 = t83 * t690 - t82 * t693;
+        let t821 = t83 * t696 + (t693 - t775);
+        let t822 = t82 * t696 + (t690 + t776);
+        let t823 = base_rotation[0][0] * t821 - base_rotation[0][1] * t822;
+        let t824 = base_rotation[0][2] * t820 - t823;
+        let t825 = base_rotation[1][0] * t821 - base_rotation[1][1] * t822;
+        let t826 = base_rotation[1][2] * t820 - t825;
+        let t827 = base_rotation[2][0] * t821 - base_rotation[2][1] * t822;
+        let t828 = base_rotation[2][2] * t820 - t827;
         // leg 5: rate of the platform lever
-        let t828 = platform_velocity[4] * t165 - platform_velocity[5] * t164;
-        let t829 = platform_velocity[5] * t163 - platform_velocity[3] * t165;
-        let t830 = platform_velocity[3] * t164 - platform_velocity[4] * t163;
+        let t829 = platform_velocity[4] * t165 - platform_velocity[5] * t164;
+        let t830 = platform_velocity[5] * t163 - platform_velocity[3] * t165;
+        let t831 = platform_velocity[3] * t164 - platform_velocity[4] * t163;
         // leg 5: inertial rate of that gradient
-        let t831 = t85 * t689 + t84 * t692;
-        let t832 = t85 * t695 - (t692 - t776);
-        let t833 = t84 * t695 + (t689 + t777);
-        let t834 = base_rotation[0][0] * t832 + base_rotation[0][1] * t833;
-        let t835 = base_rotation[0][2] * t831 - t834;
-        let t836 = base_rotation[1][0] * t832 + base_rotation[1][1] * t833;
-        let t837 = base_rotation[1][2] * t831 - t836;
-        let t838 = base_rotation[2][0] * t832 + base_rotation[2][1] * t833;
-        let t839 = base_rotation[2][2] * t831 - t838;
+        let t832 = t85 * t690 + t84 * t693;
+        let t833 = t85 * t696 - (t693 - t777);
+        let t834 = t84 * t696 + (t690 + t778);
+        let t835 = base_rotation[0][0] * t833 + base_rotation[0][1] * t834;
+        let t836 = base_rotation[0][2] * t832 - t835;
+        let t837 = base_rotation[1][0] * t833 + base_rotation[1][1] * t834;
+        let t838 = base_rotation[1][2] * t832 - t837;
+        let t839 = base_rotation[2][0] * t833 + base_rotation[2][1] * t834;
+        let t840 = base_rotation[2][2] * t832 - t839;
         // leg 6: rate of the platform lever
-        let t840 = platform_velocity[4] * t177 - platform_velocity[5] * t176;
-        let t841 = platform_velocity[5] * t175 - platform_velocity[3] * t177;
-        let t842 = platform_velocity[3] * t176 - platform_velocity[4] * t175;
+        let t841 = platform_velocity[4] * t177 - platform_velocity[5] * t176;
+        let t842 = platform_velocity[5] * t175 - platform_velocity[3] * t177;
+        let t843 = platform_velocity[3] * t176 - platform_velocity[4] * t175;
         // leg 6: inertial rate of that gradient
-        let t843 = t87 * t689 + t86 * t692;
-        let t844 = t87 * t695 - (t692 - t778);
-        let t845 = t86 * t695 + (t689 + t779);
-        let t846 = base_rotation[0][0] * t844 + base_rotation[0][1] * t845;
-        let t847 = base_rotation[0][2] * t843 - t846;
-        let t848 = base_rotation[1][0] * t844 + base_rotation[1][1] * t845;
-        let t849 = base_rotation[1][2] * t843 - t848;
-        let t850 = base_rotation[2][0] * t844 + base_rotation[2][1] * t845;
-        let t851 = base_rotation[2][2] * t843 - t850;
+        let t844 = t87 * t690 + t86 * t693;
+        let t845 = t87 * t696 - (t693 - t779);
+        let t846 = t86 * t696 + (t690 + t780);
+        let t847 = base_rotation[0][0] * t845 + base_rotation[0][1] * t846;
+        let t848 = base_rotation[0][2] * t844 - t847;
+        let t849 = base_rotation[1][0] * t845 + base_rotation[1][1] * t846;
+        let t850 = base_rotation[1][2] * t844 - t849;
+        let t851 = base_rotation[2][0] * t845 + base_rotation[2][1] * t846;
+        let t852 = base_rotation[2][2] * t844 - t851;
         // leg 1: Coriolis matrix of the leg in the speeds of its joint
-        let t852 = base_rotation[1][2] * base_velocity[5];
-        let t853 = base_rotation[2][2] * base_velocity[4] - t852;
-        let t854 = 0.17066666666666666 * t853;
-        let t855 = t187 + t101 * 0.9523333333333334;
-        let t856 = t787 * t855 + t101 * t854;
-        let t857 = t789 * t855 + t103 * t854;
-        let t858 = t791 * t855 + t105 * t854;
-        let t859 = base_rotation[2][2] * base_velocity[3];
-        let t860 = base_rotation[0][2] * base_velocity[5] - t859;
-        let t861 = 0.17066666666666666 * t860;
-        let t862 = t190 + t103 * 0.9523333333333334;
-        let t863 = t787 * t862 + t101 * t861;
-        let t864 = t789 * t862 + t103 * t861;
-        let t865 = t791 * t862 + t105 * t861;
-        let t866 = base_rotation[0][2] * base_velocity[4];
-        let t867 = base_rotation[1][2] * base_velocity[3] - t866;
-        let t868 = 0.17066666666666666 * t867;
-        let t869 = t193 + t105 * 0.9523333333333334;
-        let t870 = t787 * t869 + t101 * t868;
-        let t871 = t789 * t869 + t103 * t868;
-        let t872 = t791 * t869 + t105 * t868;
+        let t853 = base_rotation[1][2] * base_velocity[5];
+        let t854 = base_rotation[2][2] * base_velocity[4] - t853;
+        let t855 = c(0.17066666666666666) * t854;
+        let t856 = t187 + t101 * c(0.9523333333333334);
+        let t857 = t788 * t856 + t101 * t855;
+        let t858 = t790 * t856 + t103 * t855;
+        let t859 = t792 * t856 + t105 * t855;
+        let t860 = base_rotation[2][2] * base_velocity[3];
+        let t861 = base_rotation[0][2] * base_velocity[5] - t860;
+        let t862 = c(0.17066666666666666) * t861;
+        let t863 = t190 + t103 * c(0.9523333333333334);
+        let t864 = t788 * t863 + t101 * t862;
+        let t865 = t790 * t863 + t103 * t862;
+        let t866 = t792 * t863 + t105 * t862;
+        let t867 = base_rotation[0][2] * base_velocity[4];
+        let t868 = base_rotation[1][2] * base_velocity[3] - t867;
+        let t869 = c(0.17066666666666666) * t868;
+        let t870 = t193 + t105 * c(0.9523333333333334);
+        let t871 = t788 * t870 + t101 * t869;
+        let t872 = t790 * t870 + t103 * t869;
+        let t873 = t792 * t870 + t105 * t869;
         (
             t19,
             t20,
@@ -10107,670 +10670,676 @@ pub fn matrices(
             t591,
             t596,
             t598,
-            t602,
-            t708,
+            t603,
             t709,
             t710,
-            t753,
-            t755,
-            t759,
-            t763,
-            t765,
-            t767,
-            t780,
+            t711,
+            t754,
+            t756,
+            t760,
+            t764,
+            t766,
+            t768,
             t781,
             t782,
-            t792,
+            t783,
             t793,
             t794,
-            t799,
-            t801,
-            t803,
+            t795,
+            t800,
+            t802,
             t804,
             t805,
             t806,
-            t811,
-            t813,
-            t815,
+            t807,
+            t812,
+            t814,
             t816,
             t817,
             t818,
-            t823,
-            t825,
-            t827,
+            t819,
+            t824,
+            t826,
             t828,
             t829,
             t830,
-            t835,
-            t837,
-            t839,
+            t831,
+            t836,
+            t838,
             t840,
             t841,
             t842,
-            t847,
-            t849,
-            t851,
-            t853,
+            t843,
+            t848,
+            t850,
+            t852,
             t854,
-            t856,
+            t855,
             t857,
             t858,
-            t860,
+            t859,
             t861,
-            t863,
+            t862,
             t864,
             t865,
-            t867,
+            t866,
             t868,
-            t870,
+            t869,
             t871,
             t872,
+            t873,
         )
     };
     {
         // leg 1: Coriolis matrix between joint and base angular velocity
-        let t873 = 0.17066666666666666 * t709 + 0.03055 * t860;
-        let t874 = 0.17066666666666666 * t710 + 0.03055 * t867;
-        let t875 = t56 * t860 - (base_velocity[5] * t221 - base_velocity[3] * t211);
-        let t876 = base_rotation[1][2] * t753 + t875;
-        let t877 = t873 - (0.17066666666666666 * t781 - 0.9523333333333334 * t876);
-        let t878 = t56 * t867 - (base_velocity[3] * t207 - base_velocity[4] * t221);
-        let t879 = base_rotation[2][2] * t753 + t878;
-        let t880 = t874 - (0.17066666666666666 * t782 - 0.9523333333333334 * t879);
-        let t881 = base_rotation[2][2] * t877 - base_rotation[1][2] * t880;
-        let t882 = t101 * t881;
-        let t883 = 0.17066666666666666 * t708 + 0.03055 * t853;
-        let t884 = t56 * t853 - (base_velocity[4] * t211 - base_velocity[5] * t207);
-        let t885 = base_rotation[0][2] * t753 + t884;
-        let t886 = t883 - (0.17066666666666666 * t780 - 0.9523333333333334 * t885);
-        let t887 = base_rotation[0][2] * t880 - base_rotation[2][2] * t886;
-        let t888 = 0.17066666666666666 * t879;
-        let t889 = t101 * t887 + t888;
-        let t890 = base_rotation[1][2] * t886 - base_rotation[0][2] * t877;
-        let t891 = 0.17066666666666666 * t876;
-        let t892 = t101 * t890 - t891;
-        let t893 = t888 - t103 * t881;
-        let t894 = t103 * t887;
-        let t895 = 0.17066666666666666 * t885;
-        let t896 = t103 * t890 + t895;
-        let t897 = t891 + t105 * t881;
-        let t898 = t895 - t105 * t887;
-        let t899 = t105 * t890;
+        let t874 = c(0.17066666666666666) * t710 + c(0.03055) * t861;
+        let t875 = c(0.17066666666666666) * t711 + c(0.03055) * t868;
+        let t876 = t56 * t861 - (base_velocity[5] * t221 - base_velocity[3] * t211);
+        let t877 = base_rotation[1][2] * t754 + t876;
+        let t878 = t874 - (c(0.17066666666666666) * t782 - c(0.9523333333333334) * t877);
+        let t879 = t56 * t868 - (base_velocity[3] * t207 - base_velocity[4] * t221);
+        let t880 = base_rotation[2][2] * t754 + t879;
+        let t881 = t875 - (c(0.17066666666666666) * t783 - c(0.9523333333333334) * t880);
+        let t882 = base_rotation[2][2] * t878 - base_rotation[1][2] * t881;
+        let t883 = t101 * t882;
+        let t884 = c(0.17066666666666666) * t709 + c(0.03055) * t854;
+        let t885 = t56 * t854 - (base_velocity[4] * t211 - base_velocity[5] * t207);
+        let t886 = base_rotation[0][2] * t754 + t885;
+        let t887 = t884 - (c(0.17066666666666666) * t781 - c(0.9523333333333334) * t886);
+        let t888 = base_rotation[0][2] * t881 - base_rotation[2][2] * t887;
+        let t889 = c(0.17066666666666666) * t880;
+        let t890 = t101 * t888 + t889;
+        let t891 = base_rotation[1][2] * t887 - base_rotation[0][2] * t878;
+        let t892 = c(0.17066666666666666) * t877;
+        let t893 = t101 * t891 - t892;
+        let t894 = t889 - t103 * t882;
+        let t895 = t103 * t888;
+        let t896 = c(0.17066666666666666) * t886;
+        let t897 = t103 * t891 + t896;
+        let t898 = t892 + t105 * t882;
+        let t899 = t896 - t105 * t888;
+        let t900 = t105 * t891;
         // leg 2: Coriolis matrix of the leg in the speeds of its joint
-        let t900 = t187 - t113 * 0.9523333333333334;
-        let t901 = t799 * t900 + t113 * t854;
-        let t902 = t801 * t900 + t115 * t854;
-        let t903 = t803 * t900 + t117 * t854;
-        let t904 = t190 - t115 * 0.9523333333333334;
-        let t905 = t799 * t904 + t113 * t861;
-        let t906 = t801 * t904 + t115 * t861;
-        let t907 = t803 * t904 + t117 * t861;
-        let t908 = t193 - t117 * 0.9523333333333334;
-        let t909 = t799 * t908 + t113 * t868;
-        let t910 = t801 * t908 + t115 * t868;
-        let t911 = t803 * t908 + t117 * t868;
+        let t901 = t187 - t113 * c(0.9523333333333334);
+        let t902 = t800 * t901 + t113 * t855;
+        let t903 = t802 * t901 + t115 * t855;
+        let t904 = t804 * t901 + t117 * t855;
+        let t905 = t190 - t115 * c(0.9523333333333334);
+        let t906 = t800 * t905 + t113 * t862;
+        let t907 = t802 * t905 + t115 * t862;
+        let t908 = t804 * t905 + t117 * t862;
+        let t909 = t193 - t117 * c(0.9523333333333334);
+        let t910 = t800 * t909 + t113 * t869;
+        let t911 = t802 * t909 + t115 * t869;
+        let t912 = t804 * t909 + t117 * t869;
         // leg 2: Coriolis matrix between joint and base angular velocity
-        let t912 = t59 * t860 - (base_velocity[5] * t264 - base_velocity[3] * t257);
-        let t913 = base_rotation[1][2] * t755 + t912;
-        let t914 = t873 - (0.17066666666666666 * t793 - 0.9523333333333334 * t913);
-        let t915 = t59 * t867 - (base_velocity[3] * t256 - base_velocity[4] * t264);
-        let t916 = base_rotation[2][2] * t755 + t915;
-        let t917 = t874 - (0.17066666666666666 * t794 - 0.9523333333333334 * t916);
-        let t918 = base_rotation[2][2] * t914 - base_rotation[1][2] * t917;
-        let t919 = t113 * t918;
-        let t920 = t59 * t853 - (base_velocity[4] * t257 - base_velocity[5] * t256);
-        let t921 = base_rotation[0][2] * t755 + t920;
-        let t922 = t883 - (0.17066666666666666 * t792 - 0.9523333333333334 * t921);
-        let t923 = base_rotation[0][2] * t917 - base_rotation[2][2] * t922;
-        let t924 = 0.17066666666666666 * t916;
-        let t925 = t113 * t923 - t924;
-        let t926 = base_rotation[1][2] * t922 - base_rotation[0][2] * t914;
-        let t927 = 0.17066666666666666 * t913;
-        let t928 = t113 * t926 + t927;
-        let t929 = t924 + t115 * t918;
-        let t930 = t115 * t923;
-        let t931 = 0.17066666666666666 * t921;
-        let t932 = t115 * t926 - t931;
-        let t933 = t927 - t117 * t918;
-        let t934 = t931 + t117 * t923;
-        let t935 = t117 * t926;
+        let t913 = t59 * t861 - (base_velocity[5] * t264 - base_velocity[3] * t257);
+        let t914 = base_rotation[1][2] * t756 + t913;
+        let t915 = t874 - (c(0.17066666666666666) * t794 - c(0.9523333333333334) * t914);
+        let t916 = t59 * t868 - (base_velocity[3] * t256 - base_velocity[4] * t264);
+        let t917 = base_rotation[2][2] * t756 + t916;
+        let t918 = t875 - (c(0.17066666666666666) * t795 - c(0.9523333333333334) * t917);
+        let t919 = base_rotation[2][2] * t915 - base_rotation[1][2] * t918;
+        let t920 = t113 * t919;
+        let t921 = t59 * t854 - (base_velocity[4] * t257 - base_velocity[5] * t256);
+        let t922 = base_rotation[0][2] * t756 + t921;
+        let t923 = t884 - (c(0.17066666666666666) * t793 - c(0.9523333333333334) * t922);
+        let t924 = base_rotation[0][2] * t918 - base_rotation[2][2] * t923;
+        let t925 = c(0.17066666666666666) * t917;
+        let t926 = t113 * t924 - t925;
+        let t927 = base_rotation[1][2] * t923 - base_rotation[0][2] * t915;
+        let t928 = c(0.17066666666666666) * t914;
+        let t929 = t113 * t927 + t928;
+        let t930 = t925 + t115 * t919;
+        let t931 = t115 * t924;
+        let t932 = c(0.17066666666666666) * t922;
+        let t933 = t115 * t927 - t932;
+        let t934 = t928 - t117 * t919;
+        let t935 = t932 + t117 * t924;
+        let t936 = t117 * t927;
         // leg 3: Coriolis matrix of the leg in the speeds of its joint
-        let t936 = t187 - t134 * 0.9523333333333334;
-        let t937 = t811 * t936 + t134 * t854;
-        let t938 = t813 * t936 + t136 * t854;
-        let t939 = t815 * t936 + t138 * t854;
-        let t940 = t190 - t136 * 0.9523333333333334;
-        let t941 = t811 * t940 + t134 * t861;
-        let t942 = t813 * t940 + t136 * t861;
-        let t943 = t815 * t940 + t138 * t861;
-        let t944 = t193 - t138 * 0.9523333333333334;
-        let t945 = t811 * t944 + t134 * t868;
-        let t946 = t813 * t944 + t136 * t868;
-        let t947 = t815 * t944 + t138 * t868;
+        let t937 = t187 - t134 * c(0.9523333333333334);
+        let t938 = t812 * t937 + t134 * t855;
+        let t939 = t814 * t937 + t136 * t855;
+        let t940 = t816 * t937 + t138 * t855;
+        let t941 = t190 - t136 * c(0.9523333333333334);
+        let t942 = t812 * t941 + t134 * t862;
+        let t943 = t814 * t941 + t136 * t862;
+        let t944 = t816 * t941 + t138 * t862;
+        let t945 = t193 - t138 * c(0.9523333333333334);
+        let t946 = t812 * t945 + t134 * t869;
+        let t947 = t814 * t945 + t136 * t869;
+        let t948 = t816 * t945 + t138 * t869;
         // leg 3: Coriolis matrix between joint and base angular velocity
-        let t948 = t64 * t860 - (base_velocity[5] * t312 - base_velocity[3] * t303);
-        let t949 = base_rotation[1][2] * t759 + t948;
-        let t950 = t873 + (0.17066666666666666 * t805 + 0.9523333333333334 * t949);
-        let t951 = t64 * t867 - (base_velocity[3] * t300 - base_velocity[4] * t312);
-        let t952 = base_rotation[2][2] * t759 + t951;
-        let t953 = t874 + (0.17066666666666666 * t806 + 0.9523333333333334 * t952);
-        let t954 = base_rotation[2][2] * t950 - base_rotation[1][2] * t953;
-        let t955 = t134 * t954;
-        let t956 = t64 * t853 - (base_velocity[4] * t303 - base_velocity[5] * t300);
-        let t957 = base_rotation[0][2] * t759 + t956;
-        let t958 = t883 + (0.17066666666666666 * t804 + 0.9523333333333334 * t957);
-        let t959 = base_rotation[0][2] * t953 - base_rotation[2][2] * t958;
-        let t960 = 0.17066666666666666 * t952;
-        let t961 = t134 * t959 - t960;
-        let t962 = base_rotation[1][2] * t958 - base_rotation[0][2] * t950;
-        let t963 = 0.17066666666666666 * t949;
-        let t964 = t134 * t962 + t963;
-        let t965 = t960 + t136 * t954;
-        let t966 = t136 * t959;
-        let t967 = 0.17066666666666666 * t957;
-        let t968 = t136 * t962 - t967;
-        let t969 = t963 - t138 * t954;
-        let t970 = t967 + t138 * t959;
-        let t971 = t138 * t962;
+        let t949 = t64 * t861 - (base_velocity[5] * t312 - base_velocity[3] * t303);
+        let t950 = base_rotation[1][2] * t760 + t949;
+        let t951 = t874 + (c(0.17066666666666666) * t806 + c(0.9523333333333334) * t950);
+        let t952 = t64 * t868 - (base_velocity[3] * t300 - base_velocity[4] * t312);
+        let t953 = base_rotation[2][2] * t760 + t952;
+        let t954 = t875 + (c(0.17066666666666666) * t807 + c(0.9523333333333334) * t953);
+        let t955 = base_rotation[2][2] * t951 - base_rotation[1][2] * t954;
+        let t956 = t134 * t955;
+        let t957 = t64 * t854 - (base_velocity[4] * t303 - base_velocity[5] * t300);
+        let t958 = base_rotation[0][2] * t760 + t957;
+        let t959 = t884 + (c(0.17066666666666666) * t805 + c(0.9523333333333334) * t958);
+        let t960 = base_rotation[0][2] * t954 - base_rotation[2][2] * t959;
+        let t961 = c(0.17066666666666666) * t953;
+        let t962 = t134 * t960 - t961;
+        let t963 = base_rotation[1][2] * t959 - base_rotation[0][2] * t951;
+        let t964 = c(0.17066666666666666) * t950;
+        let t965 = t134 * t963 + t964;
+        let t966 = t961 + t136 * t955;
+        let t967 = t136 * t960;
+        let t968 = c(0.17066666666666666) * t958;
+        let t969 = t136 * t963 - t968;
+        let t970 = t964 - t138 * t955;
+        let t971 = t968 + t138 * t960;
+        let t972 = t138 * t963;
         // leg 4: Coriolis matrix of the leg in the speeds of its joint
-        let t972 = t187 - t155 * 0.9523333333333334;
-        let t973 = t823 * t972 + t155 * t854;
-        let t974 = t825 * t972 + t157 * t854;
-        let t975 = t827 * t972 + t159 * t854;
-        let t976 = t190 - t157 * 0.9523333333333334;
-        let t977 = t823 * t976 + t155 * t861;
-        let t978 = t825 * t976 + t157 * t861;
-        let t979 = t827 * t976 + t159 * t861;
-        let t980 = t193 - t159 * 0.9523333333333334;
-        let t981 = t823 * t980 + t155 * t868;
-        let t982 = t825 * t980 + t157 * t868;
-        let t983 = t827 * t980 + t159 * t868;
+        let t973 = t187 - t155 * c(0.9523333333333334);
+        let t974 = t824 * t973 + t155 * t855;
+        let t975 = t826 * t973 + t157 * t855;
+        let t976 = t828 * t973 + t159 * t855;
+        let t977 = t190 - t157 * c(0.9523333333333334);
+        let t978 = t824 * t977 + t155 * t862;
+        let t979 = t826 * t977 + t157 * t862;
+        let t980 = t828 * t977 + t159 * t862;
+        let t981 = t193 - t159 * c(0.9523333333333334);
+        let t982 = t824 * t981 + t155 * t869;
+        let t983 = t826 * t981 + t157 * t869;
+        let t984 = t828 * t981 + t159 * t869;
         // leg 4: Coriolis matrix between joint and base angular velocity
-        let t984 = t69 * t860 + (base_velocity[5] * t360 - base_velocity[3] * t351);
-        let t985 = base_rotation[1][2] * t763 + t984;
-        let t986 = t873 + (0.17066666666666666 * t817 + 0.9523333333333334 * t985);
-        let t987 = t69 * t867 + (base_velocity[3] * t348 - base_velocity[4] * t360);
-        let t988 = base_rotation[2][2] * t763 + t987;
-        let t989 = t874 + (0.17066666666666666 * t818 + 0.9523333333333334 * t988);
-        let t990 = base_rotation[2][2] * t986 - base_rotation[1][2] * t989;
-        let t991 = t155 * t990;
-        let t992 = t69 * t853 + (base_velocity[4] * t351 - base_velocity[5] * t348);
-        let t993 = base_rotation[0][2] * t763 + t992;
-        let t994 = t883 + (0.17066666666666666 * t816 + 0.9523333333333334 * t993);
-        let t995 = base_rotation[0][2] * t989 - base_rotation[2][2] * t994;
-        let t996 = 0.17066666666666666 * t988;
-        let t997 = t155 * t995 - t996;
-        let t998 = base_rotation[1][2] * t994 - base_rotation[0][2] * t986;
-        let t999 = 0.17066666666666666 * t985;
-        let t1000 = t155 * t998 + t999;
-        let t1001 = t996 + t157 * t990;
-        let t1002 = t157 * t995;
-        let t1003 = 0.17066666666666666 * t993;
-        let t1004 = t157 * t998 - t1003;
-        let t1005 = t999 - t159 * t990;
-        let t1006 = t1003 + t159 * t995;
-        let t1007 = t159 * t998;
+        let t985 = t69 * t861 + (base_velocity[5] * t360 - base_velocity[3] * t351);
+        let t986 = base_rotation[1][2] * t764 + t985;
+        let t987 = t874 + (c(0.17066666666666666) * t818 + c(0.9523333333333334) * t986);
+        let t988 = t69 * t868 + (base_velocity[3] * t348 - base_velocity[4] * t360);
+        let t989 = base_rotation[2][2] * t764 + t988;
+        let t990 = t875 + (c(0.17066666666666666) * t819 + c(0.9523333333333334) * t989);
+        let t991 = base_rotation[2][2] * t987 - base_rotation[1][2] * t990;
+        let t992 = t155 * t991;
+        let t993 = t69 * t854 + (base_velocity[4] * t351 - base_velocity[5] * t348);
+        let t994 = base_rotation[0][2] * t764 + t993;
+        let t995 = t884 + (c(0.17066666666666666) * t817 + c(0.9523333333333334) * t994);
+        let t996 = base_rotation[0][2] * t990 - base_rotation[2][2] * t995;
+        let t997 = c(0.17066666666666666) * t989;
+        let t998 = t155 * t996 - t997;
+        let t999 = base_rotation[1][2] * t995 - base_rotation[0][2] * t987;
+        let t1000 = c(0.17066666666666666) * t986;
+        let t1001 = t155 * t999 + t1000;
+        let t1002 = t997 + t157 * t991;
+        let t1003 = t157 * t996;
+        let t1004 = c(0.17066666666666666) * t994;
+        let t1005 = t157 * t999 - t1004;
+        let t1006 = t1000 - t159 * t991;
+        let t1007 = t1004 + t159 * t996;
+        let t1008 = t159 * t999;
         // leg 5: Coriolis matrix of the leg in the speeds of its joint
-        let t1008 = t187 + t170 * 0.9523333333333334;
-        let t1009 = t835 * t1008 + t170 * t854;
-        let t1010 = t837 * t1008 + t172 * t854;
-        let t1011 = t839 * t1008 + t174 * t854;
-        let t1012 = t190 + t172 * 0.9523333333333334;
-        let t1013 = t835 * t1012 + t170 * t861;
-        let t1014 = t837 * t1012 + t172 * t861;
-        let t1015 = t839 * t1012 + t174 * t861;
-        let t1016 = t193 + t174 * 0.9523333333333334;
-        let t1017 = t835 * t1016 + t170 * t868;
-        let t1018 = t837 * t1016 + t172 * t868;
-        let t1019 = t839 * t1016 + t174 * t868;
+        let t1009 = t187 + t170 * c(0.9523333333333334);
+        let t1010 = t836 * t1009 + t170 * t855;
+        let t1011 = t838 * t1009 + t172 * t855;
+        let t1012 = t840 * t1009 + t174 * t855;
+        let t1013 = t190 + t172 * c(0.9523333333333334);
+        let t1014 = t836 * t1013 + t170 * t862;
+        let t1015 = t838 * t1013 + t172 * t862;
+        let t1016 = t840 * t1013 + t174 * t862;
+        let t1017 = t193 + t174 * c(0.9523333333333334);
+        let t1018 = t836 * t1017 + t170 * t869;
+        let t1019 = t838 * t1017 + t172 * t869;
+        let t1020 = t840 * t1017 + t174 * t869;
         // leg 5: Coriolis matrix between joint and base angular velocity
-        let t1020 = t72 * t860 + (base_velocity[5] * t402 - base_velocity[3] * t395);
-        let t1021 = base_rotation[1][2] * t765 + t1020;
-        let t1022 = t873 + (0.17066666666666666 * t829 + 0.9523333333333334 * t1021);
-        let t1023 = t72 * t867 + (base_velocity[3] * t394 - base_velocity[4] * t402);
-        let t1024 = base_rotation[2][2] * t765 + t1023;
-        let t1025 = t874 + (0.17066666666666666 * t830 + 0.9523333333333334 * t1024);
-        let t1026 = base_rotation[2][2] * t1022 - base_rotation[1][2] * t1025;
-        let t1027 = t170 * t1026;
-        let t1028 = t72 * t853 + (base_velocity[4] * t395 - base_velocity[5] * t394);
-        let t1029 = base_rotation[0][2] * t765 + t1028;
-        let t1030 = t883 + (0.17066666666666666 * t828 + 0.9523333333333334 * t1029);
-        let t1031 = base_rotation[0][2] * t1025 - base_rotation[2][2] * t1030;
-        let t1032 = 0.17066666666666666 * t1024;
-        let t1033 = t170 * t1031 + t1032;
-        let t1034 = base_rotation[1][2] * t1030 - base_rotation[0][2] * t1022;
-        let t1035 = 0.17066666666666666 * t1021;
-        let t1036 = t170 * t1034 - t1035;
-        let t1037 = t1032 - t172 * t1026;
-        let t1038 = t172 * t1031;
-        let t1039 = 0.17066666666666666 * t1029;
-        let t1040 = t172 * t1034 + t1039;
-        let t1041 = t1035 + t174 * t1026;
-        let t1042 = t1039 - t174 * t1031;
-        let t1043 = t174 * t1034;
+        let t1021 = t72 * t861 + (base_velocity[5] * t402 - base_velocity[3] * t395);
+        let t1022 = base_rotation[1][2] * t766 + t1021;
+        let t1023 = t874
+            + (c(0.17066666666666666) * t830 + c(0.9523333333333334) * t1022);
+        let t1024 = t72 * t868 + (base_velocity[3] * t394 - base_velocity[4] * t402);
+        let t1025 = base_rotation[2][2] * t766 + t1024;
+        let t1026 = t875
+            + (c(0.17066666666666666) * t831 + c(0.9523333333333334) * t1025);
+        let t1027 = base_rotation[2][2] * t1023 - base_rotation[1][2] * t1026;
+        let t1028 = t170 * t1027;
+        let t1029 = t72 * t854 + (base_velocity[4] * t395 - base_velocity[5] * t394);
+        let t1030 = base_rotation[0][2] * t766 + t1029;
+        let t1031 = t884
+            + (c(0.17066666666666666) * t829 + c(0.9523333333333334) * t1030);
+        let t1032 = base_rotation[0][2] * t1026 - base_rotation[2][2] * t1031;
+        let t1033 = c(0.17066666666666666) * t1025;
+        let t1034 = t170 * t1032 + t1033;
+        let t1035 = base_rotation[1][2] * t1031 - base_rotation[0][2] * t1023;
+        let t1036 = c(0.17066666666666666) * t1022;
+        let t1037 = t170 * t1035 - t1036;
+        let t1038 = t1033 - t172 * t1027;
+        let t1039 = t172 * t1032;
+        let t1040 = c(0.17066666666666666) * t1030;
+        let t1041 = t172 * t1035 + t1040;
+        let t1042 = t1036 + t174 * t1027;
+        let t1043 = t1040 - t174 * t1032;
+        let t1044 = t174 * t1035;
         // leg 6: Coriolis matrix of the leg in the speeds of its joint
-        let t1044 = t187 + t182 * 0.9523333333333334;
-        let t1045 = t847 * t1044 + t182 * t854;
-        let t1046 = t849 * t1044 + t184 * t854;
-        let t1047 = t851 * t1044 + t186 * t854;
-        let t1048 = t190 + t184 * 0.9523333333333334;
-        let t1049 = t847 * t1048 + t182 * t861;
-        let t1050 = t849 * t1048 + t184 * t861;
-        let t1051 = t851 * t1048 + t186 * t861;
-        let t1052 = t193 + t186 * 0.9523333333333334;
-        let t1053 = t847 * t1052 + t182 * t868;
-        let t1054 = t849 * t1052 + t184 * t868;
-        let t1055 = t851 * t1052 + t186 * t868;
+        let t1045 = t187 + t182 * c(0.9523333333333334);
+        let t1046 = t848 * t1045 + t182 * t855;
+        let t1047 = t850 * t1045 + t184 * t855;
+        let t1048 = t852 * t1045 + t186 * t855;
+        let t1049 = t190 + t184 * c(0.9523333333333334);
+        let t1050 = t848 * t1049 + t182 * t862;
+        let t1051 = t850 * t1049 + t184 * t862;
+        let t1052 = t852 * t1049 + t186 * t862;
+        let t1053 = t193 + t186 * c(0.9523333333333334);
+        let t1054 = t848 * t1053 + t182 * t869;
+        let t1055 = t850 * t1053 + t184 * t869;
+        let t1056 = t852 * t1053 + t186 * t869;
         // leg 6: Coriolis matrix between joint and base angular velocity
-        let t1056 = t75 * t860 - (base_velocity[5] * t444 - base_velocity[3] * t437);
-        let t1057 = base_rotation[1][2] * t767 + t1056;
-        let t1058 = t873 + (0.17066666666666666 * t841 + 0.9523333333333334 * t1057);
-        let t1059 = t75 * t867 - (base_velocity[3] * t436 - base_velocity[4] * t444);
-        let t1060 = base_rotation[2][2] * t767 + t1059;
-        let t1061 = t874 + (0.17066666666666666 * t842 + 0.9523333333333334 * t1060);
-        let t1062 = base_rotation[2][2] * t1058 - base_rotation[1][2] * t1061;
-        let t1063 = t182 * t1062;
-        let t1064 = t75 * t853 - (base_velocity[4] * t437 - base_velocity[5] * t436);
-        let t1065 = base_rotation[0][2] * t767 + t1064;
-        let t1066 = t883 + (0.17066666666666666 * t840 + 0.9523333333333334 * t1065);
-        let t1067 = base_rotation[0][2] * t1061 - base_rotation[2][2] * t1066;
-        let t1068 = 0.17066666666666666 * t1060;
-        let t1069 = t182 * t1067 + t1068;
-        let t1070 = base_rotation[1][2] * t1066 - base_rotation[0][2] * t1058;
-        let t1071 = 0.17066666666666666 * t1057;
-        let t1072 = t182 * t1070 - t1071;
-        let t1073 = t1068 - t184 * t1062;
-        let t1074 = t184 * t1067;
-        let t1075 = 0.17066666666666666 * t1065;
-        let t1076 = t184 * t1070 + t1075;
-        let t1077 = t1071 + t186 * t1062;
-        let t1078 = t1075 - t186 * t1067;
-        let t1079 = t186 * t1070;
+        let t1057 = t75 * t861 - (base_velocity[5] * t444 - base_velocity[3] * t437);
+        let t1058 = base_rotation[1][2] * t768 + t1057;
+        let t1059 = t874
+            + (c(0.17066666666666666) * t842 + c(0.9523333333333334) * t1058);
+        let t1060 = t75 * t868 - (base_velocity[3] * t436 - base_velocity[4] * t444);
+        let t1061 = base_rotation[2][2] * t768 + t1060;
+        let t1062 = t875
+            + (c(0.17066666666666666) * t843 + c(0.9523333333333334) * t1061);
+        let t1063 = base_rotation[2][2] * t1059 - base_rotation[1][2] * t1062;
+        let t1064 = t182 * t1063;
+        let t1065 = t75 * t854 - (base_velocity[4] * t437 - base_velocity[5] * t436);
+        let t1066 = base_rotation[0][2] * t768 + t1065;
+        let t1067 = t884
+            + (c(0.17066666666666666) * t841 + c(0.9523333333333334) * t1066);
+        let t1068 = base_rotation[0][2] * t1062 - base_rotation[2][2] * t1067;
+        let t1069 = c(0.17066666666666666) * t1061;
+        let t1070 = t182 * t1068 + t1069;
+        let t1071 = base_rotation[1][2] * t1067 - base_rotation[0][2] * t1059;
+        let t1072 = c(0.17066666666666666) * t1058;
+        let t1073 = t182 * t1071 - t1072;
+        let t1074 = t1069 - t184 * t1063;
+        let t1075 = t184 * t1068;
+        let t1076 = c(0.17066666666666666) * t1066;
+        let t1077 = t184 * t1071 + t1076;
+        let t1078 = t1072 + t186 * t1063;
+        let t1079 = t1076 - t186 * t1068;
+        let t1080 = t186 * t1071;
         // Coriolis matrix of the legs
-        let t1080 = t1045 + (t1009 - (t973 + (t937 - (t856 - t901))));
-        coriolis_matrix_p[0][0] = t1080;
-        coriolis_matrix_b[0][0] = t1080;
         let t1081 = t1046 + (t1010 - (t974 + (t938 - (t857 - t902))));
-        coriolis_matrix_p[0][1] = t1081;
-        coriolis_matrix_b[0][1] = t1081;
+        coriolis_matrix_p[0][0] = t1081;
+        coriolis_matrix_b[0][0] = t1081;
         let t1082 = t1047 + (t1011 - (t975 + (t939 - (t858 - t903))));
-        coriolis_matrix_p[0][2] = t1082;
-        coriolis_matrix_b[0][2] = t1082;
-        let t1083 = t429 * t841;
-        let t1084 = t427 * t842;
-        let t1085 = t177 * t1046;
-        let t1086 = t176 * t1047;
-        let t1087 = t1083 - (t1084 + (t1085 - t1086));
-        let t1088 = t387 * t829;
-        let t1089 = t385 * t830;
-        let t1090 = t165 * t1010;
-        let t1091 = t164 * t1011;
-        let t1092 = t1088 - (t1089 + (t1090 - t1091));
-        let t1093 = t339 * t817;
-        let t1094 = t337 * t818;
-        let t1095 = t150 * t974;
-        let t1096 = t147 * t975;
-        let t1097 = t1093 - (t1094 + (t1095 - t1096));
-        let t1098 = t291 * t805;
-        let t1099 = t289 * t806;
-        let t1100 = t129 * t938;
-        let t1101 = t126 * t939;
-        let t1102 = t1098 - (t1099 + (t1100 - t1101));
-        let t1103 = t195 * t781;
-        let t1104 = t192 * t782;
-        let t1105 = t96 * t857;
-        let t1106 = t93 * t858;
-        let t1107 = t1103 - (t1104 + (t1105 - t1106));
-        let t1108 = t249 * t793;
-        let t1109 = t247 * t794;
-        let t1110 = t108 * t902;
-        let t1111 = t107 * t903;
-        let t1112 = t1108 - (t1109 + (t1110 - t1111));
-        let t1113 = t1087 + (t1092 - (t1097 + (t1102 + (t1107 - t1112))));
-        let t1114 = t177 * t1045;
-        let t1115 = t425 * t842 - (t429 * t840 + (t175 * t1047 - t1114));
-        let t1116 = t165 * t1009;
-        let t1117 = t383 * t830 - (t387 * t828 + (t163 * t1011 - t1116));
-        let t1118 = t150 * t973;
-        let t1119 = t335 * t818 - (t339 * t816 + (t144 * t975 - t1118));
-        let t1120 = t129 * t937;
-        let t1121 = t287 * t806 - (t291 * t804 + (t123 * t939 - t1120));
-        let t1122 = t96 * t856;
-        let t1123 = t189 * t782 - (t195 * t780 + (t90 * t858 - t1122));
-        let t1124 = t108 * t901;
-        let t1125 = t245 * t794 - (t249 * t792 + (t106 * t903 - t1124));
-        let t1126 = t1115 + (t1117 - (t1119 + (t1121 + (t1123 - t1125))));
-        let t1127 = t176 * t1045;
-        let t1128 = t427 * t840 - (t425 * t841 + (t1127 - t175 * t1046));
-        let t1129 = t164 * t1009;
-        let t1130 = t385 * t828 - (t383 * t829 + (t1129 - t163 * t1010));
-        let t1131 = t147 * t973;
-        let t1132 = t337 * t816 - (t335 * t817 + (t1131 - t144 * t974));
-        let t1133 = t126 * t937;
-        let t1134 = t289 * t804 - (t287 * t805 + (t1133 - t123 * t938));
-        let t1135 = t93 * t856;
-        let t1136 = t192 * t780 - (t189 * t781 + (t1135 - t90 * t857));
-        let t1137 = t107 * t901;
-        let t1138 = t247 * t792 - (t245 * t793 + (t1137 - t106 * t902));
-        let t1139 = t1128 + (t1130 - (t1132 + (t1134 + (t1136 - t1138))));
-        let t1140 = t1049 + (t1013 - (t977 + (t941 - (t863 - t905))));
-        coriolis_matrix_p[1][0] = t1140;
-        coriolis_matrix_b[1][0] = t1140;
+        coriolis_matrix_p[0][1] = t1082;
+        coriolis_matrix_b[0][1] = t1082;
+        let t1083 = t1048 + (t1012 - (t976 + (t940 - (t859 - t904))));
+        coriolis_matrix_p[0][2] = t1083;
+        coriolis_matrix_b[0][2] = t1083;
+        let t1084 = t429 * t842;
+        let t1085 = t427 * t843;
+        let t1086 = t177 * t1047;
+        let t1087 = t176 * t1048;
+        let t1088 = t1084 - (t1085 + (t1086 - t1087));
+        let t1089 = t387 * t830;
+        let t1090 = t385 * t831;
+        let t1091 = t165 * t1011;
+        let t1092 = t164 * t1012;
+        let t1093 = t1089 - (t1090 + (t1091 - t1092));
+        let t1094 = t339 * t818;
+        let t1095 = t337 * t819;
+        let t1096 = t150 * t975;
+        let t1097 = t147 * t976;
+        let t1098 = t1094 - (t1095 + (t1096 - t1097));
+        let t1099 = t291 * t806;
+        let t1100 = t289 * t807;
+        let t1101 = t129 * t939;
+        let t1102 = t126 * t940;
+        let t1103 = t1099 - (t1100 + (t1101 - t1102));
+        let t1104 = t195 * t782;
+        let t1105 = t192 * t783;
+        let t1106 = t96 * t858;
+        let t1107 = t93 * t859;
+        let t1108 = t1104 - (t1105 + (t1106 - t1107));
+        let t1109 = t249 * t794;
+        let t1110 = t247 * t795;
+        let t1111 = t108 * t903;
+        let t1112 = t107 * t904;
+        let t1113 = t1109 - (t1110 + (t1111 - t1112));
+        let t1114 = t1088 + (t1093 - (t1098 + (t1103 + (t1108 - t1113))));
+        let t1115 = t177 * t1046;
+        let t1116 = t425 * t843 - (t429 * t841 + (t175 * t1048 - t1115));
+        let t1117 = t165 * t1010;
+        let t1118 = t383 * t831 - (t387 * t829 + (t163 * t1012 - t1117));
+        let t1119 = t150 * t974;
+        let t1120 = t335 * t819 - (t339 * t817 + (t144 * t976 - t1119));
+        let t1121 = t129 * t938;
+        let t1122 = t287 * t807 - (t291 * t805 + (t123 * t940 - t1121));
+        let t1123 = t96 * t857;
+        let t1124 = t189 * t783 - (t195 * t781 + (t90 * t859 - t1123));
+        let t1125 = t108 * t902;
+        let t1126 = t245 * t795 - (t249 * t793 + (t106 * t904 - t1125));
+        let t1127 = t1116 + (t1118 - (t1120 + (t1122 + (t1124 - t1126))));
+        let t1128 = t176 * t1046;
+        let t1129 = t427 * t841 - (t425 * t842 + (t1128 - t175 * t1047));
+        let t1130 = t164 * t1010;
+        let t1131 = t385 * t829 - (t383 * t830 + (t1130 - t163 * t1011));
+        let t1132 = t147 * t974;
+        let t1133 = t337 * t817 - (t335 * t818 + (t1132 - t144 * t975));
+        let t1134 = t126 * t938;
+        let t1135 = t289 * t805 - (t287 * t806 + (t1134 - t123 * t939));
+        let t1136 = t93 * t857;
+        let t1137 = t192 * t781 - (t189 * t782 + (t1136 - t90 * t858));
+        let t1138 = t107 * t902;
+        let t1139 = t247 * t793 - (t245 * t794 + (t1138 - t106 * t903));
+        let t1140 = t1129 + (t1131 - (t1133 + (t1135 + (t1137 - t1139))));
         let t1141 = t1050 + (t1014 - (t978 + (t942 - (t864 - t906))));
-        coriolis_matrix_p[1][1] = t1141;
-        coriolis_matrix_b[1][1] = t1141;
+        coriolis_matrix_p[1][0] = t1141;
+        coriolis_matrix_b[1][0] = t1141;
         let t1142 = t1051 + (t1015 - (t979 + (t943 - (t865 - t907))));
-        coriolis_matrix_p[1][2] = t1142;
-        coriolis_matrix_b[1][2] = t1142;
-        let t1143 = t177 * t1050;
-        let t1144 = t431 * t841 - (t430 * t842 + (t1143 - t176 * t1051));
-        let t1145 = t165 * t1014;
-        let t1146 = t389 * t829 - (t388 * t830 + (t1145 - t164 * t1015));
-        let t1147 = t150 * t978;
-        let t1148 = t341 * t817 - (t340 * t818 + (t1147 - t147 * t979));
-        let t1149 = t129 * t942;
-        let t1150 = t293 * t805 - (t292 * t806 + (t1149 - t126 * t943));
-        let t1151 = t96 * t864;
-        let t1152 = t197 * t781 - (t196 * t782 + (t1151 - t93 * t865));
-        let t1153 = t108 * t906;
-        let t1154 = t251 * t793 - (t250 * t794 + (t1153 - t107 * t907));
-        let t1155 = t1144 + (t1146 - (t1148 + (t1150 + (t1152 - t1154))));
-        let t1156 = t431 * t840;
-        let t1157 = t177 * t1049;
-        let t1158 = t175 * t1051;
-        let t1159 = t1156 - (t1157 + (t1084 - t1158));
-        let t1160 = t389 * t828;
-        let t1161 = t165 * t1013;
-        let t1162 = t163 * t1015;
-        let t1163 = t1160 - (t1161 + (t1089 - t1162));
-        let t1164 = t341 * t816;
-        let t1165 = t150 * t977;
-        let t1166 = t144 * t979;
-        let t1167 = t1164 - (t1165 + (t1094 - t1166));
-        let t1168 = t293 * t804;
-        let t1169 = t129 * t941;
-        let t1170 = t123 * t943;
-        let t1171 = t1168 - (t1169 + (t1099 - t1170));
-        let t1172 = t197 * t780;
-        let t1173 = t96 * t863;
-        let t1174 = t90 * t865;
-        let t1175 = t1172 - (t1173 + (t1104 - t1174));
-        let t1176 = t251 * t792;
-        let t1177 = t108 * t905;
-        let t1178 = t106 * t907;
-        let t1179 = t1176 - (t1177 + (t1109 - t1178));
-        let t1180 = t1159 + (t1163 - (t1167 + (t1171 + (t1175 - t1179))));
-        coriolis_matrix_p[1][4] = t1180;
-        let t1181 = t175 * t1050;
-        let t1182 = t430 * t840 - (t427 * t841 + (t176 * t1049 - t1181));
-        let t1183 = t163 * t1014;
-        let t1184 = t388 * t828 - (t385 * t829 + (t164 * t1013 - t1183));
-        let t1185 = t144 * t978;
-        let t1186 = t340 * t816 - (t337 * t817 + (t147 * t977 - t1185));
-        let t1187 = t123 * t942;
-        let t1188 = t292 * t804 - (t289 * t805 + (t126 * t941 - t1187));
-        let t1189 = t90 * t864;
-        let t1190 = t196 * t780 - (t192 * t781 + (t93 * t863 - t1189));
-        let t1191 = t106 * t906;
-        let t1192 = t250 * t792 - (t247 * t793 + (t107 * t905 - t1191));
-        let t1193 = t1182 + (t1184 - (t1186 + (t1188 + (t1190 - t1192))));
-        let t1194 = t1053 + (t1017 - (t981 + (t945 - (t870 - t909))));
-        coriolis_matrix_p[2][0] = t1194;
-        coriolis_matrix_b[2][0] = t1194;
+        coriolis_matrix_p[1][1] = t1142;
+        coriolis_matrix_b[1][1] = t1142;
+        let t1143 = t1052 + (t1016 - (t980 + (t944 - (t866 - t908))));
+        coriolis_matrix_p[1][2] = t1143;
+        coriolis_matrix_b[1][2] = t1143;
+        let t1144 = t177 * t1051;
+        let t1145 = t431 * t842 - (t430 * t843 + (t1144 - t176 * t1052));
+        let t1146 = t165 * t1015;
+        let t1147 = t389 * t830 - (t388 * t831 + (t1146 - t164 * t1016));
+        let t1148 = t150 * t979;
+        let t1149 = t341 * t818 - (t340 * t819 + (t1148 - t147 * t980));
+        let t1150 = t129 * t943;
+        let t1151 = t293 * t806 - (t292 * t807 + (t1150 - t126 * t944));
+        let t1152 = t96 * t865;
+        let t1153 = t197 * t782 - (t196 * t783 + (t1152 - t93 * t866));
+        let t1154 = t108 * t907;
+        let t1155 = t251 * t794 - (t250 * t795 + (t1154 - t107 * t908));
+        let t1156 = t1145 + (t1147 - (t1149 + (t1151 + (t1153 - t1155))));
+        let t1157 = t431 * t841;
+        let t1158 = t177 * t1050;
+        let t1159 = t175 * t1052;
+        let t1160 = t1157 - (t1158 + (t1085 - t1159));
+        let t1161 = t389 * t829;
+        let t1162 = t165 * t1014;
+        let t1163 = t163 * t1016;
+        let t1164 = t1161 - (t1162 + (t1090 - t1163));
+        let t1165 = t341 * t817;
+        let t1166 = t150 * t978;
+        let t1167 = t144 * t980;
+        let t1168 = t1165 - (t1166 + (t1095 - t1167));
+        let t1169 = t293 * t805;
+        let t1170 = t129 * t942;
+        let t1171 = t123 * t944;
+        let t1172 = t1169 - (t1170 + (t1100 - t1171));
+        let t1173 = t197 * t781;
+        let t1174 = t96 * t864;
+        let t1175 = t90 * t866;
+        let t1176 = t1173 - (t1174 + (t1105 - t1175));
+        let t1177 = t251 * t793;
+        let t1178 = t108 * t906;
+        let t1179 = t106 * t908;
+        let t1180 = t1177 - (t1178 + (t1110 - t1179));
+        let t1181 = t1160 + (t1164 - (t1168 + (t1172 + (t1176 - t1180))));
+        coriolis_matrix_p[1][4] = t1181;
+        let t1182 = t175 * t1051;
+        let t1183 = t430 * t841 - (t427 * t842 + (t176 * t1050 - t1182));
+        let t1184 = t163 * t1015;
+        let t1185 = t388 * t829 - (t385 * t830 + (t164 * t1014 - t1184));
+        let t1186 = t144 * t979;
+        let t1187 = t340 * t817 - (t337 * t818 + (t147 * t978 - t1186));
+        let t1188 = t123 * t943;
+        let t1189 = t292 * t805 - (t289 * t806 + (t126 * t942 - t1188));
+        let t1190 = t90 * t865;
+        let t1191 = t196 * t781 - (t192 * t782 + (t93 * t864 - t1190));
+        let t1192 = t106 * t907;
+        let t1193 = t250 * t793 - (t247 * t794 + (t107 * t906 - t1192));
+        let t1194 = t1183 + (t1185 - (t1187 + (t1189 + (t1191 - t1193))));
         let t1195 = t1054 + (t1018 - (t982 + (t946 - (t871 - t910))));
-        coriolis_matrix_p[2][1] = t1195;
-        coriolis_matrix_b[2][1] = t1195;
+        coriolis_matrix_p[2][0] = t1195;
+        coriolis_matrix_b[2][0] = t1195;
         let t1196 = t1055 + (t1019 - (t983 + (t947 - (t872 - t911))));
-        coriolis_matrix_p[2][2] = t1196;
-        coriolis_matrix_b[2][2] = t1196;
-        let t1197 = t176 * t1055;
-        let t1198 = t432 * t841 - (t431 * t842 + (t177 * t1054 - t1197));
-        let t1199 = t164 * t1019;
-        let t1200 = t390 * t829 - (t389 * t830 + (t165 * t1018 - t1199));
-        let t1201 = t147 * t983;
-        let t1202 = t342 * t817 - (t341 * t818 + (t150 * t982 - t1201));
-        let t1203 = t126 * t947;
-        let t1204 = t294 * t805 - (t293 * t806 + (t129 * t946 - t1203));
-        let t1205 = t93 * t872;
-        let t1206 = t198 * t781 - (t197 * t782 + (t96 * t871 - t1205));
-        let t1207 = t107 * t911;
-        let t1208 = t252 * t793 - (t251 * t794 + (t108 * t910 - t1207));
-        let t1209 = t1198 + (t1200 - (t1202 + (t1204 + (t1206 - t1208))));
-        let t1210 = t175 * t1055;
-        let t1211 = t429 * t842 - (t432 * t840 + (t1210 - t177 * t1053));
-        let t1212 = t163 * t1019;
-        let t1213 = t387 * t830 - (t390 * t828 + (t1212 - t165 * t1017));
-        let t1214 = t144 * t983;
-        let t1215 = t339 * t818 - (t342 * t816 + (t1214 - t150 * t981));
-        let t1216 = t123 * t947;
-        let t1217 = t291 * t806 - (t294 * t804 + (t1216 - t129 * t945));
-        let t1218 = t90 * t872;
-        let t1219 = t195 * t782 - (t198 * t780 + (t1218 - t96 * t870));
-        let t1220 = t106 * t911;
-        let t1221 = t249 * t794 - (t252 * t792 + (t1220 - t108 * t909));
-        let t1222 = t1211 + (t1213 - (t1215 + (t1217 + (t1219 - t1221))));
-        let t1223 = t175 * t1054;
-        let t1224 = t176 * t1053;
-        let t1225 = t1223 - (t1224 + (t1083 - t1156));
-        let t1226 = t163 * t1018;
-        let t1227 = t164 * t1017;
-        let t1228 = t1226 - (t1227 + (t1088 - t1160));
-        let t1229 = t144 * t982;
-        let t1230 = t147 * t981;
-        let t1231 = t1229 - (t1230 + (t1093 - t1164));
-        let t1232 = t123 * t946;
-        let t1233 = t126 * t945;
-        let t1234 = t1232 - (t1233 + (t1098 - t1168));
-        let t1235 = t90 * t871;
-        let t1236 = t93 * t870;
-        let t1237 = t1235 - (t1236 + (t1103 - t1172));
-        let t1238 = t106 * t910;
-        let t1239 = t107 * t909;
-        let t1240 = t1238 - (t1239 + (t1108 - t1176));
-        let t1241 = t1225 + (t1228 - (t1231 + (t1234 + (t1237 - t1240))));
-        let t1242 = t1239
-            - (t1236 + (t1157 + (t1161 - (t1165 + (t1169 + (t1173 - t1177))))));
-        let t1243 = t1224 + (t1227 - (t1230 + (t1233 - t1242)));
-        let t1244 = t93 * t871 + (t1143 + (t1145 - (t1147 + (t1149 + (t1151 - t1153)))));
-        let t1245 = t147 * t982 + (t126 * t946 - (t107 * t910 - t1244));
-        let t1246 = t176 * t1054 + (t164 * t1018 - t1245);
-        let t1247 = t96 * t865 + (t1197 + (t1199 - (t1201 + (t1203 + (t1205 - t1207)))));
-        let t1248 = t150 * t979 + (t129 * t943 - (t108 * t907 - t1247));
-        let t1249 = t177 * t1051 + (t165 * t1015 - t1248);
-        coriolis_matrix_p[3][2] = t1249;
-        coriolis_matrix_b[3][2] = t1249;
-        let t1250 = t107 * t1208 - (t108 * t1154 - (t96 * t1152 - t93 * t1206));
-        let t1251 = t150 * t1148 - (t126 * t1204 - (t129 * t1150 - t1250));
-        let t1252 = t164 * t1200 - (t165 * t1146 + (t147 * t1202 - t1251));
-        let t1253 = t176 * t1198 - (t177 * t1144 - t1252);
-        let t1254 = t107 * t1221 + (t108 * t1179 - (t96 * t1175 + t93 * t1219));
-        let t1255 = t150 * t1167 + (t126 * t1217 + (t129 * t1171 + t1254));
-        let t1256 = t164 * t1213 + (t165 * t1163 - (t147 * t1215 + t1255));
-        let t1257 = t176 * t1211 + (t177 * t1159 + t1256);
-        let t1258 = t107 * t1240 - (t108 * t1192 - (t96 * t1190 - t93 * t1237));
-        let t1259 = t150 * t1186 - (t126 * t1234 - (t129 * t1188 - t1258));
-        let t1260 = t164 * t1228 - (t165 * t1184 + (t147 * t1231 - t1259));
-        let t1261 = t176 * t1225 - (t177 * t1182 - t1260);
-        let t1262 = t90 * t870 + (t1114 + (t1116 - (t1118 + (t1120 + (t1122 - t1124)))));
-        let t1263 = t144 * t981 + (t123 * t945 - (t106 * t909 - t1262));
-        let t1264 = t175 * t1053 + (t163 * t1017 - t1263);
-        coriolis_matrix_p[4][0] = t1264;
-        coriolis_matrix_b[4][0] = t1264;
-        let t1265 = t1238
-            - (t1235 + (t1085 + (t1090 - (t1095 + (t1100 + (t1105 - t1110))))));
-        let t1266 = t1223 + (t1226 - (t1229 + (t1232 - t1265)));
-        coriolis_matrix_p[4][1] = t1266;
-        coriolis_matrix_b[4][1] = t1266;
-        let t1267 = t96 * t858 + (t1210 + (t1212 - (t1214 + (t1216 + (t1218 - t1220)))));
-        let t1268 = t150 * t975 + (t129 * t939 - (t108 * t903 - t1267));
-        let t1269 = t177 * t1047 + (t165 * t1011 - t1268);
-        let t1270 = t108 * t1112 - (t106 * t1208 - (t90 * t1206 - t96 * t1107));
-        let t1271 = t144 * t1202 - (t129 * t1102 - (t123 * t1204 - t1270));
-        let t1272 = t165 * t1092 - (t163 * t1200 + (t150 * t1097 - t1271));
-        let t1273 = t177 * t1087 - (t175 * t1198 - t1272);
-        let t1274 = t108 * t1125 - (t106 * t1221 - (t90 * t1219 - t96 * t1123));
-        let t1275 = t144 * t1215 - (t129 * t1121 - (t123 * t1217 - t1274));
-        let t1276 = t165 * t1117 - (t163 * t1213 + (t150 * t1119 - t1275));
-        let t1277 = t177 * t1115 - (t175 * t1211 - t1276);
-        let t1278 = t108 * t1138 - (t106 * t1240 - (t90 * t1237 - t96 * t1136));
-        let t1279 = t144 * t1231 - (t129 * t1134 - (t123 * t1234 - t1278));
-        let t1280 = t165 * t1130 - (t163 * t1228 + (t150 * t1132 - t1279));
-        let t1281 = t177 * t1128 - (t175 * t1225 - t1280);
-        let t1282 = t90 * t863 + (t1127 + (t1129 - (t1131 + (t1133 + (t1135 - t1137)))));
-        let t1283 = t144 * t977 + (t123 * t941 - (t106 * t905 - t1282));
-        let t1284 = t175 * t1049 + (t163 * t1013 - t1283);
-        let t1285 = t93 * t857 + (t1181 + (t1183 - (t1185 + (t1187 + (t1189 - t1191)))));
-        let t1286 = t147 * t974 + (t126 * t938 - (t107 * t902 - t1285));
-        let t1287 = t176 * t1046 + (t164 * t1010 - t1286);
-        coriolis_matrix_p[5][1] = t1287;
-        coriolis_matrix_b[5][1] = t1287;
-        let t1288 = t1178
-            - (t1174 + (t1086 + (t1091 - (t1096 + (t1101 + (t1106 - t1111))))));
-        let t1289 = t1158 + (t1162 - (t1166 + (t1170 - t1288)));
-        let t1290 = t106 * t1154 - (t107 * t1112 - (t93 * t1107 - t90 * t1152));
-        let t1291 = t147 * t1097 - (t123 * t1150 - (t126 * t1102 - t1290));
-        let t1292 = t163 * t1146 - (t164 * t1092 + (t144 * t1148 - t1291));
-        let t1293 = t175 * t1144 - (t176 * t1087 - t1292);
-        let t1294 = t106 * t1179 + (t107 * t1125 - (t93 * t1123 + t90 * t1175));
-        let t1295 = t147 * t1119 + (t123 * t1171 + (t126 * t1121 + t1294));
-        let t1296 = t163 * t1163 + (t164 * t1117 - (t144 * t1167 + t1295));
-        let t1297 = t175 * t1159 + (t176 * t1115 + t1296);
-        let t1298 = t106 * t1192 - (t107 * t1138 - (t93 * t1136 - t90 * t1190));
-        let t1299 = t147 * t1132 - (t123 * t1188 - (t126 * t1134 - t1298));
-        let t1300 = t163 * t1184 - (t164 * t1130 + (t144 * t1186 - t1299));
-        let t1301 = t175 * t1182 - (t176 * t1128 - t1300);
-        coriolis_matrix_p[0][3] = -t1113;
-        coriolis_matrix_p[2][5] = -t1241;
-        let t1302 = -t1243;
-        coriolis_matrix_p[3][0] = t1302;
-        coriolis_matrix_b[3][0] = t1302;
-        let t1303 = -t1246;
-        coriolis_matrix_p[3][1] = t1303;
-        coriolis_matrix_b[3][1] = t1303;
-        let t1304 = -t1269;
-        coriolis_matrix_p[4][2] = t1304;
-        coriolis_matrix_b[4][2] = t1304;
-        let t1305 = -t1284;
-        coriolis_matrix_p[5][0] = t1305;
-        coriolis_matrix_b[5][0] = t1305;
-        let t1306 = -t1289;
-        coriolis_matrix_p[5][2] = t1306;
-        coriolis_matrix_b[5][2] = t1306;
+        coriolis_matrix_p[2][1] = t1196;
+        coriolis_matrix_b[2][1] = t1196;
+        let t1197 = t1056 + (t1020 - (t984 + (t948 - (t873 - t912))));
+        coriolis_matrix_p[2][2] = t1197;
+        coriolis_matrix_b[2][2] = t1197;
+        let t1198 = t176 * t1056;
+        let t1199 = t432 * t842 - (t431 * t843 + (t177 * t1055 - t1198));
+        let t1200 = t164 * t1020;
+        let t1201 = t390 * t830 - (t389 * t831 + (t165 * t1019 - t1200));
+        let t1202 = t147 * t984;
+        let t1203 = t342 * t818 - (t341 * t819 + (t150 * t983 - t1202));
+        let t1204 = t126 * t948;
+        let t1205 = t294 * t806 - (t293 * t807 + (t129 * t947 - t1204));
+        let t1206 = t93 * t873;
+        let t1207 = t198 * t782 - (t197 * t783 + (t96 * t872 - t1206));
+        let t1208 = t107 * t912;
+        let t1209 = t252 * t794 - (t251 * t795 + (t108 * t911 - t1208));
+        let t1210 = t1199 + (t1201 - (t1203 + (t1205 + (t1207 - t1209))));
+        let t1211 = t175 * t1056;
+        let t1212 = t429 * t843 - (t432 * t841 + (t1211 - t177 * t1054));
+        let t1213 = t163 * t1020;
+        let t1214 = t387 * t831 - (t390 * t829 + (t1213 - t165 * t1018));
+        let t1215 = t144 * t984;
+        let t1216 = t339 * t819 - (t342 * t817 + (t1215 - t150 * t982));
+        let t1217 = t123 * t948;
+        let t1218 = t291 * t807 - (t294 * t805 + (t1217 - t129 * t946));
+        let t1219 = t90 * t873;
+        let t1220 = t195 * t783 - (t198 * t781 + (t1219 - t96 * t871));
+        let t1221 = t106 * t912;
+        let t1222 = t249 * t795 - (t252 * t793 + (t1221 - t108 * t910));
+        let t1223 = t1212 + (t1214 - (t1216 + (t1218 + (t1220 - t1222))));
+        let t1224 = t175 * t1055;
+        let t1225 = t176 * t1054;
+        let t1226 = t1224 - (t1225 + (t1084 - t1157));
+        let t1227 = t163 * t1019;
+        let t1228 = t164 * t1018;
+        let t1229 = t1227 - (t1228 + (t1089 - t1161));
+        let t1230 = t144 * t983;
+        let t1231 = t147 * t982;
+        let t1232 = t1230 - (t1231 + (t1094 - t1165));
+        let t1233 = t123 * t947;
+        let t1234 = t126 * t946;
+        let t1235 = t1233 - (t1234 + (t1099 - t1169));
+        let t1236 = t90 * t872;
+        let t1237 = t93 * t871;
+        let t1238 = t1236 - (t1237 + (t1104 - t1173));
+        let t1239 = t106 * t911;
+        let t1240 = t107 * t910;
+        let t1241 = t1239 - (t1240 + (t1109 - t1177));
+        let t1242 = t1226 + (t1229 - (t1232 + (t1235 + (t1238 - t1241))));
+        let t1243 = t1240
+            - (t1237 + (t1158 + (t1162 - (t1166 + (t1170 + (t1174 - t1178))))));
+        let t1244 = t1225 + (t1228 - (t1231 + (t1234 - t1243)));
+        let t1245 = t93 * t872 + (t1144 + (t1146 - (t1148 + (t1150 + (t1152 - t1154)))));
+        let t1246 = t147 * t983 + (t126 * t947 - (t107 * t911 - t1245));
+        let t1247 = t176 * t1055 + (t164 * t1019 - t1246);
+        let t1248 = t96 * t866 + (t1198 + (t1200 - (t1202 + (t1204 + (t1206 - t1208)))));
+        let t1249 = t150 * t980 + (t129 * t944 - (t108 * t908 - t1248));
+        let t1250 = t177 * t1052 + (t165 * t1016 - t1249);
+        coriolis_matrix_p[3][2] = t1250;
+        coriolis_matrix_b[3][2] = t1250;
+        let t1251 = t107 * t1209 - (t108 * t1155 - (t96 * t1153 - t93 * t1207));
+        let t1252 = t150 * t1149 - (t126 * t1205 - (t129 * t1151 - t1251));
+        let t1253 = t164 * t1201 - (t165 * t1147 + (t147 * t1203 - t1252));
+        let t1254 = t176 * t1199 - (t177 * t1145 - t1253);
+        let t1255 = t107 * t1222 + (t108 * t1180 - (t96 * t1176 + t93 * t1220));
+        let t1256 = t150 * t1168 + (t126 * t1218 + (t129 * t1172 + t1255));
+        let t1257 = t164 * t1214 + (t165 * t1164 - (t147 * t1216 + t1256));
+        let t1258 = t176 * t1212 + (t177 * t1160 + t1257);
+        let t1259 = t107 * t1241 - (t108 * t1193 - (t96 * t1191 - t93 * t1238));
+        let t1260 = t150 * t1187 - (t126 * t1235 - (t129 * t1189 - t1259));
+        let t1261 = t164 * t1229 - (t165 * t1185 + (t147 * t1232 - t1260));
+        let t1262 = t176 * t1226 - (t177 * t1183 - t1261);
+        let t1263 = t90 * t871 + (t1115 + (t1117 - (t1119 + (t1121 + (t1123 - t1125)))));
+        let t1264 = t144 * t982 + (t123 * t946 - (t106 * t910 - t1263));
+        let t1265 = t175 * t1054 + (t163 * t1018 - t1264);
+        coriolis_matrix_p[4][0] = t1265;
+        coriolis_matrix_b[4][0] = t1265;
+        let t1266 = t1239
+            - (t1236 + (t1086 + (t1091 - (t1096 + (t1101 + (t1106 - t1111))))));
+        let t1267 = t1224 + (t1227 - (t1230 + (t1233 - t1266)));
+        coriolis_matrix_p[4][1] = t1267;
+        coriolis_matrix_b[4][1] = t1267;
+        let t1268 = t96 * t859 + (t1211 + (t1213 - (t1215 + (t1217 + (t1219 - t1221)))));
+        let t1269 = t150 * t976 + (t129 * t940 - (t108 * t904 - t1268));
+        let t1270 = t177 * t1048 + (t165 * t1012 - t1269);
+        let t1271 = t108 * t1113 - (t106 * t1209 - (t90 * t1207 - t96 * t1108));
+        let t1272 = t144 * t1203 - (t129 * t1103 - (t123 * t1205 - t1271));
+        let t1273 = t165 * t1093 - (t163 * t1201 + (t150 * t1098 - t1272));
+        let t1274 = t177 * t1088 - (t175 * t1199 - t1273);
+        let t1275 = t108 * t1126 - (t106 * t1222 - (t90 * t1220 - t96 * t1124));
+        let t1276 = t144 * t1216 - (t129 * t1122 - (t123 * t1218 - t1275));
+        let t1277 = t165 * t1118 - (t163 * t1214 + (t150 * t1120 - t1276));
+        let t1278 = t177 * t1116 - (t175 * t1212 - t1277);
+        let t1279 = t108 * t1139 - (t106 * t1241 - (t90 * t1238 - t96 * t1137));
+        let t1280 = t144 * t1232 - (t129 * t1135 - (t123 * t1235 - t1279));
+        let t1281 = t165 * t1131 - (t163 * t1229 + (t150 * t1133 - t1280));
+        let t1282 = t177 * t1129 - (t175 * t1226 - t1281);
+        let t1283 = t90 * t864 + (t1128 + (t1130 - (t1132 + (t1134 + (t1136 - t1138)))));
+        let t1284 = t144 * t978 + (t123 * t942 - (t106 * t906 - t1283));
+        let t1285 = t175 * t1050 + (t163 * t1014 - t1284);
+        let t1286 = t93 * t858 + (t1182 + (t1184 - (t1186 + (t1188 + (t1190 - t1192)))));
+        let t1287 = t147 * t975 + (t126 * t939 - (t107 * t903 - t1286));
+        let t1288 = t176 * t1047 + (t164 * t1011 - t1287);
+        coriolis_matrix_p[5][1] = t1288;
+        coriolis_matrix_b[5][1] = t1288;
+        let t1289 = t1179
+            - (t1175 + (t1087 + (t1092 - (t1097 + (t1102 + (t1107 - t1112))))));
+        let t1290 = t1159 + (t1163 - (t1167 + (t1171 - t1289)));
+        let t1291 = t106 * t1155 - (t107 * t1113 - (t93 * t1108 - t90 * t1153));
+        let t1292 = t147 * t1098 - (t123 * t1151 - (t126 * t1103 - t1291));
+        let t1293 = t163 * t1147 - (t164 * t1093 + (t144 * t1149 - t1292));
+        let t1294 = t175 * t1145 - (t176 * t1088 - t1293);
+        let t1295 = t106 * t1180 + (t107 * t1126 - (t93 * t1124 + t90 * t1176));
+        let t1296 = t147 * t1120 + (t123 * t1172 + (t126 * t1122 + t1295));
+        let t1297 = t163 * t1164 + (t164 * t1118 - (t144 * t1168 + t1296));
+        let t1298 = t175 * t1160 + (t176 * t1116 + t1297);
+        let t1299 = t106 * t1193 - (t107 * t1139 - (t93 * t1137 - t90 * t1191));
+        let t1300 = t147 * t1133 - (t123 * t1189 - (t126 * t1135 - t1299));
+        let t1301 = t163 * t1185 - (t164 * t1131 + (t144 * t1187 - t1300));
+        let t1302 = t175 * t1183 - (t176 * t1129 - t1301);
+        coriolis_matrix_p[0][3] = -t1114;
+        coriolis_matrix_p[2][5] = -t1242;
+        let t1303 = -t1244;
+        coriolis_matrix_p[3][0] = t1303;
+        coriolis_matrix_b[3][0] = t1303;
+        let t1304 = -t1247;
+        coriolis_matrix_p[3][1] = t1304;
+        coriolis_matrix_b[3][1] = t1304;
+        let t1305 = -t1270;
+        coriolis_matrix_p[4][2] = t1305;
+        coriolis_matrix_b[4][2] = t1305;
+        let t1306 = -t1285;
+        coriolis_matrix_p[5][0] = t1306;
+        coriolis_matrix_b[5][0] = t1306;
+        let t1307 = -t1290;
+        coriolis_matrix_p[5][2] = t1307;
+        coriolis_matrix_b[5][2] = t1307;
         // Coriolis matrix C_p, natural factorisation
-        let t1307 = platform_velocity[3] * t579 - platform_velocity[4] * t582;
-        coriolis_matrix_p[0][4] = t1307 - t1126;
-        let t1308 = platform_velocity[5] * t582 - platform_velocity[3] * t576;
-        coriolis_matrix_p[0][5] = -(t1139 + t1308);
-        coriolis_matrix_p[1][3] = -(t1155 + t1307);
-        let t1309 = platform_velocity[4] * t576 - platform_velocity[5] * t579;
-        coriolis_matrix_p[1][5] = t1309 - t1193;
-        coriolis_matrix_p[2][3] = t1308 - t1209;
-        coriolis_matrix_p[2][4] = -(t1222 + t1309);
-        let t1310 = platform_velocity[5] * t589;
-        let t1311 = platform_velocity[4] * t591;
-        coriolis_matrix_p[3][3] = t1253 + t1310 - t1311;
-        let t1312 = 0.0425 - t596;
-        coriolis_matrix_p[3][4] = t1257 - platform_velocity[5] * t1312
+        let t1308 = platform_velocity[3] * t579 - platform_velocity[4] * t582;
+        coriolis_matrix_p[0][4] = t1308 - t1127;
+        let t1309 = platform_velocity[5] * t582 - platform_velocity[3] * t576;
+        coriolis_matrix_p[0][5] = -(t1140 + t1309);
+        coriolis_matrix_p[1][3] = -(t1156 + t1308);
+        let t1310 = platform_velocity[4] * t576 - platform_velocity[5] * t579;
+        coriolis_matrix_p[1][5] = t1310 - t1194;
+        coriolis_matrix_p[2][3] = t1309 - t1210;
+        coriolis_matrix_p[2][4] = -(t1223 + t1310);
+        let t1311 = platform_velocity[5] * t589;
+        let t1312 = platform_velocity[4] * t591;
+        coriolis_matrix_p[3][3] = t1254 + t1311 - t1312;
+        let t1313 = c(0.0425) - t596;
+        coriolis_matrix_p[3][4] = t1258 - platform_velocity[5] * t1313
             - platform_velocity[4] * t598;
-        let t1313 = 0.0425 - t602;
-        coriolis_matrix_p[3][5] = platform_velocity[4] * t1313
-            + (t1261 + platform_velocity[5] * t598);
-        let t1314 = 0.0425 - t587;
+        let t1314 = c(0.0425) - t603;
+        coriolis_matrix_p[3][5] = platform_velocity[4] * t1314
+            + (t1262 + platform_velocity[5] * t598);
+        let t1315 = c(0.0425) - t587;
         coriolis_matrix_p[4][3] = platform_velocity[3] * t591
-            + (t1273 + platform_velocity[5] * t1314);
-        let t1315 = platform_velocity[3] * t598;
-        coriolis_matrix_p[4][4] = t1315 + (t1277 - t1310);
-        coriolis_matrix_p[4][5] = t1281 - platform_velocity[5] * t591
-            - platform_velocity[3] * t1313;
-        coriolis_matrix_p[5][3] = t1293 - platform_velocity[4] * t1314
+            + (t1274 + platform_velocity[5] * t1315);
+        let t1316 = platform_velocity[3] * t598;
+        coriolis_matrix_p[4][4] = t1316 + (t1278 - t1311);
+        coriolis_matrix_p[4][5] = t1282 - platform_velocity[5] * t591
+            - platform_velocity[3] * t1314;
+        coriolis_matrix_p[5][3] = t1294 - platform_velocity[4] * t1315
             - platform_velocity[3] * t589;
-        coriolis_matrix_p[5][4] = platform_velocity[3] * t1312
-            - (t1297 - platform_velocity[4] * t589);
-        coriolis_matrix_p[5][5] = t1301 + t1311 - t1315;
+        coriolis_matrix_p[5][4] = platform_velocity[3] * t1313
+            - (t1298 - platform_velocity[4] * t589);
+        coriolis_matrix_p[5][5] = t1302 + t1312 - t1316;
         // Coriolis matrix C_b, natural factorisation
-        let t1316 = t467 * t710;
-        let t1317 = t1113 - (t1063 + (t1027 - (t991 + (t955 - (t882 - t919)))));
-        let t1318 = t468 * t709;
-        coriolis_matrix_b[0][3] = t1316 - (t20 * t1082 - (t21 * t1081 - t1317)) - t1318;
-        let t1319 = t1126 - (t1069 + (t1033 - (t997 + (t961 - (t889 - t925)))));
-        let t1320 = t468 * t708 - (t21 * t1080 - (t19 * t1082 - t1319));
-        coriolis_matrix_b[0][4] = t1320 - t466 * t710;
-        let t1321 = t1139 - (t1072 + (t1036 - (t1000 + (t964 - (t892 - t928)))));
-        let t1322 = t466 * t709 - (t19 * t1081 - (t20 * t1080 - t1321));
-        coriolis_matrix_b[0][5] = t1322 - t467 * t708;
-        let t1323 = t1155 + (t1073 + (t1037 + (t1001 + (t965 + (t893 + t929)))));
-        let t1324 = t497 * t710 - (t20 * t1142 - (t21 * t1141 - t1323));
-        coriolis_matrix_b[1][3] = t1324 - t498 * t709;
-        let t1325 = t498 * t708;
-        let t1326 = t1316
-            - (t1180 + (t1074 + (t1038 - (t1002 + (t966 - (t894 - t930))))));
-        coriolis_matrix_b[1][4] = t1325 - (t21 * t1140 - (t19 * t1142 - t1326));
-        let t1327 = t1193 - (t1076 + (t1040 - (t1004 + (t968 - (t896 - t932)))));
-        let t1328 = t467 * t709 - (t19 * t1141 - (t20 * t1140 - t1327));
-        coriolis_matrix_b[1][5] = t1328 - t497 * t708;
-        let t1329 = t1209 - (t1077 + (t1041 + (t1005 + (t969 + (t897 + t933)))));
-        let t1330 = t498 * t710 - (t20 * t1196 - (t21 * t1195 - t1329));
-        coriolis_matrix_b[2][3] = t1330 - t526 * t709;
-        let t1331 = t1222 + (t1078 + (t1042 + (t1006 + (t970 + (t898 + t934)))));
-        let t1332 = t526 * t708 - (t21 * t1194 - (t19 * t1196 - t1331));
-        coriolis_matrix_b[2][4] = t1332 - t468 * t710;
-        let t1333 = t1318
-            - (t1241 - (t1079 + (t1043 - (t1007 + (t971 - (t899 - t935))))));
-        coriolis_matrix_b[2][5] = t20 * t1194 - (t1325 - t1333) - t19 * t1195;
-        let t1334 = t505 * t710 - (t20 * t1249 - (t1253 - t21 * t1246));
-        let t1335 = t96 * t893 + (t93 * t897 - (t533 * t709 - t1334));
-        let t1336 = t108 * t929 + (t107 * t933 + t1335) - t126 * t969;
-        let t1337 = t1336 - t129 * t965 - t147 * t1005 - t150 * t1001;
-        let t1338 = t1337 - t164 * t1041 - t165 * t1037 - t176 * t1077;
-        coriolis_matrix_b[3][3] = t1338 - t177 * t1073;
-        let t1339 = t533 * t708 + (t21 * t1243 + (t1257 + t19 * t1249));
-        let t1340 = t96 * t894 + (t93 * t898 - (t482 * t710 + t1339));
-        let t1341 = t126 * t970 + (t108 * t930 - (t107 * t934 + t1340));
-        let t1342 = t150 * t1002 - (t147 * t1006 - (t129 * t966 - t1341));
-        let t1343 = t176 * t1078 + (t165 * t1038 + (t164 * t1042 - t1342));
-        coriolis_matrix_b[3][4] = t177 * t1074 + t1343;
-        let t1344 = t482 * t709 - (t19 * t1246 + (t1261 - t20 * t1243));
-        let t1345 = t96 * t896 - (t93 * t899 - (t505 * t708 + t1344));
-        let t1346 = t126 * t971 + (t108 * t932 - (t107 * t935 + t1345));
-        let t1347 = t150 * t1004 - (t147 * t1007 - (t129 * t968 - t1346));
-        let t1348 = t176 * t1079 - (t165 * t1040 - (t164 * t1043 + t1347));
-        coriolis_matrix_b[3][5] = t177 * t1076 - t1348;
-        let t1349 = t518 * t710 - (t20 * t1269 + (t1273 + t21 * t1266));
-        let t1350 = t90 * t897 - (t96 * t882 - (t540 * t709 + t1349));
-        let t1351 = t129 * t955 - (t106 * t933 + (t108 * t919 + t1350));
-        let t1352 = t144 * t1005 + (t150 * t991 + (t123 * t969 + t1351));
-        let t1353 = t177 * t1063 - (t163 * t1041 - (t165 * t1027 - t1352));
-        coriolis_matrix_b[4][3] = t175 * t1077 - t1353;
-        let t1354 = t540 * t708 - (t21 * t1264 - (t1277 - t19 * t1269));
-        let t1355 = t90 * t898 + (t96 * t889 - (t489 * t710 - t1354));
-        let t1356 = t129 * t961 + (t106 * t934 - (t108 * t925 - t1355));
-        let t1357 = t150 * t997 - (t123 * t970 - t1356) - t144 * t1006;
-        let t1358 = t1357 - t165 * t1033 - t163 * t1042 - t177 * t1069;
-        coriolis_matrix_b[4][4] = t1358 - t175 * t1078;
-        let t1359 = t489 * t709 - (t19 * t1266 - (t1281 + t20 * t1264));
-        let t1360 = t90 * t899 - (t96 * t892 + (t518 * t708 + t1359));
-        let t1361 = t129 * t964 + (t106 * t935 - (t108 * t928 + t1360));
-        let t1362 = t144 * t1007 - (t150 * t1000 - (t123 * t971 - t1361));
-        let t1363 = t177 * t1072 - (t163 * t1043 - (t165 * t1036 + t1362));
-        coriolis_matrix_b[4][5] = t175 * t1079 - t1363;
-        let t1364 = t525 * t710 + (t20 * t1289 + (t1293 + t21 * t1287));
-        let t1365 = t93 * t882 + (t90 * t893 + (t547 * t709 - t1364));
-        let t1366 = t123 * t965 + (t107 * t919 - (t106 * t929 + t1365));
-        let t1367 = t147 * t991 - (t144 * t1001 - (t126 * t955 - t1366));
-        let t1368 = t175 * t1073 + (t164 * t1027 + (t163 * t1037 - t1367));
-        coriolis_matrix_b[5][3] = t176 * t1063 + t1368;
-        let t1369 = t547 * t708 + (t21 * t1284 - (t1297 + t19 * t1289));
-        let t1370 = t93 * t889 - (t90 * t894 - (t496 * t710 - t1369));
-        let t1371 = t123 * t966 + (t107 * t925 - (t106 * t930 + t1370));
-        let t1372 = t147 * t997 - (t144 * t1002 - (t126 * t961 - t1371));
-        let t1373 = t175 * t1074 - (t164 * t1033 - (t163 * t1038 + t1372));
-        coriolis_matrix_b[5][4] = t176 * t1069 - t1373;
-        let t1374 = t496 * t709 - (t19 * t1287 - (t1301 - t20 * t1284));
-        let t1375 = t93 * t892 - (t90 * t896 - (t525 * t708 - t1374));
-        let t1376 = t123 * t968 + (t107 * t928 - (t106 * t932 + t1375));
-        let t1377 = t147 * t1000 - (t144 * t1004 - (t126 * t964 - t1376));
-        let t1378 = t175 * t1076 - (t164 * t1036 - (t163 * t1040 + t1377));
-        coriolis_matrix_b[5][5] = t176 * t1072 - t1378;
+        let t1317 = t467 * t711;
+        let t1318 = t1114 - (t1064 + (t1028 - (t992 + (t956 - (t883 - t920)))));
+        let t1319 = t468 * t710;
+        coriolis_matrix_b[0][3] = t1317 - (t20 * t1083 - (t21 * t1082 - t1318)) - t1319;
+        let t1320 = t1127 - (t1070 + (t1034 - (t998 + (t962 - (t890 - t926)))));
+        let t1321 = t468 * t709 - (t21 * t1081 - (t19 * t1083 - t1320));
+        coriolis_matrix_b[0][4] = t1321 - t466 * t711;
+        let t1322 = t1140 - (t1073 + (t1037 - (t1001 + (t965 - (t893 - t929)))));
+        let t1323 = t466 * t710 - (t19 * t1082 - (t20 * t1081 - t1322));
+        coriolis_matrix_b[0][5] = t1323 - t467 * t709;
+        let t1324 = t1156 + (t1074 + (t1038 + (t1002 + (t966 + (t894 + t930)))));
+        let t1325 = t497 * t711 - (t20 * t1143 - (t21 * t1142 - t1324));
+        coriolis_matrix_b[1][3] = t1325 - t498 * t710;
+        let t1326 = t498 * t709;
+        let t1327 = t1317
+            - (t1181 + (t1075 + (t1039 - (t1003 + (t967 - (t895 - t931))))));
+        coriolis_matrix_b[1][4] = t1326 - (t21 * t1141 - (t19 * t1143 - t1327));
+        let t1328 = t1194 - (t1077 + (t1041 - (t1005 + (t969 - (t897 - t933)))));
+        let t1329 = t467 * t710 - (t19 * t1142 - (t20 * t1141 - t1328));
+        coriolis_matrix_b[1][5] = t1329 - t497 * t709;
+        let t1330 = t1210 - (t1078 + (t1042 + (t1006 + (t970 + (t898 + t934)))));
+        let t1331 = t498 * t711 - (t20 * t1197 - (t21 * t1196 - t1330));
+        coriolis_matrix_b[2][3] = t1331 - t526 * t710;
+        let t1332 = t1223 + (t1079 + (t1043 + (t1007 + (t971 + (t899 + t935)))));
+        let t1333 = t526 * t709 - (t21 * t1195 - (t19 * t1197 - t1332));
+        coriolis_matrix_b[2][4] = t1333 - t468 * t711;
+        let t1334 = t1319
+            - (t1242 - (t1080 + (t1044 - (t1008 + (t972 - (t900 - t936))))));
+        coriolis_matrix_b[2][5] = t20 * t1195 - (t1326 - t1334) - t19 * t1196;
+        let t1335 = t505 * t711 - (t20 * t1250 - (t1254 - t21 * t1247));
+        let t1336 = t96 * t894 + (t93 * t898 - (t533 * t710 - t1335));
+        let t1337 = t108 * t930 + (t107 * t934 + t1336) - t126 * t970;
+        let t1338 = t1337 - t129 * t966 - t147 * t1006 - t150 * t1002;
+        let t1339 = t1338 - t164 * t1042 - t165 * t1038 - t176 * t1078;
+        coriolis_matrix_b[3][3] = t1339 - t177 * t1074;
+        let t1340 = t533 * t709 + (t21 * t1244 + (t1258 + t19 * t1250));
+        let t1341 = t96 * t895 + (t93 * t899 - (t482 * t711 + t1340));
+        let t1342 = t126 * t971 + (t108 * t931 - (t107 * t935 + t1341));
+        let t1343 = t150 * t1003 - (t147 * t1007 - (t129 * t967 - t1342));
+        let t1344 = t176 * t1079 + (t165 * t1039 + (t164 * t1043 - t1343));
+        coriolis_matrix_b[3][4] = t177 * t1075 + t1344;
+        let t1345 = t482 * t710 - (t19 * t1247 + (t1262 - t20 * t1244));
+        let t1346 = t96 * t897 - (t93 * t900 - (t505 * t709 + t1345));
+        let t1347 = t126 * t972 + (t108 * t933 - (t107 * t936 + t1346));
+        let t1348 = t150 * t1005 - (t147 * t1008 - (t129 * t969 - t1347));
+        let t1349 = t176 * t1080 - (t165 * t1041 - (t164 * t1044 + t1348));
+        coriolis_matrix_b[3][5] = t177 * t1077 - t1349;
+        let t1350 = t518 * t711 - (t20 * t1270 + (t1274 + t21 * t1267));
+        let t1351 = t90 * t898 - (t96 * t883 - (t540 * t710 + t1350));
+        let t1352 = t129 * t956 - (t106 * t934 + (t108 * t920 + t1351));
+        let t1353 = t144 * t1006 + (t150 * t992 + (t123 * t970 + t1352));
+        let t1354 = t177 * t1064 - (t163 * t1042 - (t165 * t1028 - t1353));
+        coriolis_matrix_b[4][3] = t175 * t1078 - t1354;
+        let t1355 = t540 * t709 - (t21 * t1265 - (t1278 - t19 * t1270));
+        let t1356 = t90 * t899 + (t96 * t890 - (t489 * t711 - t1355));
+        let t1357 = t129 * t962 + (t106 * t935 - (t108 * t926 - t1356));
+        let t1358 = t150 * t998 - (t123 * t971 - t1357) - t144 * t1007;
+        let t1359 = t1358 - t165 * t1034 - t163 * t1043 - t177 * t1070;
+        coriolis_matrix_b[4][4] = t1359 - t175 * t1079;
+        let t1360 = t489 * t710 - (t19 * t1267 - (t1282 + t20 * t1265));
+        let t1361 = t90 * t900 - (t96 * t893 + (t518 * t709 + t1360));
+        let t1362 = t129 * t965 + (t106 * t936 - (t108 * t929 + t1361));
+        let t1363 = t144 * t1008 - (t150 * t1001 - (t123 * t972 - t1362));
+        let t1364 = t177 * t1073 - (t163 * t1044 - (t165 * t1037 + t1363));
+        coriolis_matrix_b[4][5] = t175 * t1080 - t1364;
+        let t1365 = t525 * t711 + (t20 * t1290 + (t1294 + t21 * t1288));
+        let t1366 = t93 * t883 + (t90 * t894 + (t547 * t710 - t1365));
+        let t1367 = t123 * t966 + (t107 * t920 - (t106 * t930 + t1366));
+        let t1368 = t147 * t992 - (t144 * t1002 - (t126 * t956 - t1367));
+        let t1369 = t175 * t1074 + (t164 * t1028 + (t163 * t1038 - t1368));
+        coriolis_matrix_b[5][3] = t176 * t1064 + t1369;
+        let t1370 = t547 * t709 + (t21 * t1285 - (t1298 + t19 * t1290));
+        let t1371 = t93 * t890 - (t90 * t895 - (t496 * t711 - t1370));
+        let t1372 = t123 * t967 + (t107 * t926 - (t106 * t931 + t1371));
+        let t1373 = t147 * t998 - (t144 * t1003 - (t126 * t962 - t1372));
+        let t1374 = t175 * t1075 - (t164 * t1034 - (t163 * t1039 + t1373));
+        coriolis_matrix_b[5][4] = t176 * t1070 - t1374;
+        let t1375 = t496 * t710 - (t19 * t1288 - (t1302 - t20 * t1285));
+        let t1376 = t93 * t893 - (t90 * t897 - (t525 * t709 - t1375));
+        let t1377 = t123 * t969 + (t107 * t929 - (t106 * t933 + t1376));
+        let t1378 = t147 * t1001 - (t144 * t1005 - (t126 * t965 - t1377));
+        let t1379 = t175 * t1077 - (t164 * t1037 - (t163 * t1041 + t1378));
+        coriolis_matrix_b[5][5] = t176 * t1073 - t1379;
         // leg 1: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
         jacobian_dp[0][3] = t93 * t105 - t96 * t103;
         jacobian_dp[0][4] = t96 * t101 - t90 * t105;
@@ -10839,17 +11408,18 @@ pub fn matrices(
 /// - `spring_force`: 6, N, N m, frame O: generalised spring force J_dp^T k_e (d - d0), left side, equation (39)-(46).
 /// - `damping_force`: 6, N, N m, frame O: generalised damping force J_dp^T c_e d', left side, equation (39)-(46).
 #[allow(clippy::all, clippy::pedantic, unused_variables)]
-pub fn passive_forces(
-    base_position: &[f64; 3],
-    base_rotation: &[[f64; 3]; 3],
-    base_velocity: &[f64; 6],
-    platform_position: &[f64; 3],
-    platform_rotation: &[[f64; 3]; 3],
-    platform_velocity: &[f64; 6],
-    gravity_force: &mut [f64; 6],
-    spring_force: &mut [f64; 6],
-    damping_force: &mut [f64; 6],
+pub fn passive_forces<T: Scalar>(
+    base_position: &[T; 3],
+    base_rotation: &[[T; 3]; 3],
+    base_velocity: &[T; 6],
+    platform_position: &[T; 3],
+    platform_rotation: &[[T; 3]; 3],
+    platform_velocity: &[T; 6],
+    gravity_force: &mut [T; 6],
+    spring_force: &mut [T; 6],
+    damping_force: &mut [T; 6],
 ) {
+    let c = T::constant;
     // rotation of the platform seen from the base
     let t1 = base_rotation[1][0] * platform_rotation[1][0];
     let t2 = base_rotation[0][0] * platform_rotation[0][0] + t1;
@@ -10880,28 +11450,28 @@ pub fn passive_forces(
     let t26 = base_rotation[0][2] * t20 + base_rotation[1][2] * t21;
     let t27 = base_rotation[2][2] * t19 + t26;
     // leg 1: platform joint from the base point
-    let t28 = t23 + (0.1316436662914507 - 0.1159110991546882 * t3);
-    let t29 = 0.03105828541230249 * t6;
+    let t28 = t23 + (c(0.1316436662914507) - c(0.1159110991546882) * t3);
+    let t29 = c(0.03105828541230249) * t6;
     let t30 = t28 + t29;
-    let t31 = 0.12275970481124972 - 0.03105828541230249 * t12;
-    let t32 = t25 - 0.1159110991546882 * t9;
+    let t31 = c(0.12275970481124972) - c(0.03105828541230249) * t12;
+    let t32 = t25 - c(0.1159110991546882) * t9;
     let t33 = t31 - t32;
     // leg 2: platform joint from the base point
     let t34 = t28 - t29;
     let t35 = t31 + t32;
     // leg 3: platform joint from the base point
-    let t36 = t23 + (0.040491189781895726 + t3 * 0.031058285412302475);
-    let t37 = 0.1159110991546882 * t6;
+    let t36 = t23 + (c(0.040491189781895726) + t3 * c(0.031058285412302475));
+    let t37 = c(0.1159110991546882) * t6;
     let t38 = t36 - t37;
-    let t39 = 0.17538661166134234 - 0.1159110991546882 * t12;
-    let t40 = t25 + t9 * 0.031058285412302475;
+    let t39 = c(0.17538661166134234) - c(0.1159110991546882) * t12;
+    let t40 = t25 + t9 * c(0.031058285412302475);
     let t41 = t39 + t40;
     // leg 4: platform joint from the base point
-    let t42 = t23 - (0.17213485607334636 - t3 * 0.0848528137423857);
-    let t43 = 0.08485281374238571 * t6;
+    let t42 = t23 - (c(0.17213485607334636) - t3 * c(0.0848528137423857));
+    let t43 = c(0.08485281374238571) * t6;
     let t44 = t42 - t43;
-    let t45 = 0.052626906850092664 - 0.08485281374238571 * t12;
-    let t46 = t25 + t9 * 0.0848528137423857;
+    let t45 = c(0.052626906850092664) - c(0.08485281374238571) * t12;
+    let t46 = t25 + t9 * c(0.0848528137423857);
     let t47 = t45 + t46;
     // leg 5: platform joint from the base point
     let t48 = t42 + t43;
@@ -10910,29 +11480,29 @@ pub fn passive_forces(
     let t50 = t36 + t37;
     let t51 = t39 - t40;
     // leg 1: extent of the rod along the actuator axis
-    let t52 = sqrt(0.042435999999999995 - t30 * t30 - t33 * t33);
+    let t52 = sqrt(c(0.042435999999999995) - t30 * t30 - t33 * t33);
     // leg 1: reciprocal of that extent
-    let t53 = 1.0 / t52;
+    let t53 = c(1.0) / t52;
     // leg 2: extent of the rod along the actuator axis
-    let t54 = sqrt(0.042435999999999995 - t34 * t34 - t35 * t35);
+    let t54 = sqrt(c(0.042435999999999995) - t34 * t34 - t35 * t35);
     // leg 2: reciprocal of that extent
-    let t55 = 1.0 / t54;
+    let t55 = c(1.0) / t54;
     // leg 3: extent of the rod along the actuator axis
-    let t56 = sqrt(0.042435999999999995 - t38 * t38 - t41 * t41);
+    let t56 = sqrt(c(0.042435999999999995) - t38 * t38 - t41 * t41);
     // leg 3: reciprocal of that extent
-    let t57 = 1.0 / t56;
+    let t57 = c(1.0) / t56;
     // leg 4: extent of the rod along the actuator axis
-    let t58 = sqrt(0.042435999999999995 - t44 * t44 - t47 * t47);
+    let t58 = sqrt(c(0.042435999999999995) - t44 * t44 - t47 * t47);
     // leg 4: reciprocal of that extent
-    let t59 = 1.0 / t58;
+    let t59 = c(1.0) / t58;
     // leg 5: extent of the rod along the actuator axis
-    let t60 = sqrt(0.042435999999999995 - t48 * t48 - t49 * t49);
+    let t60 = sqrt(c(0.042435999999999995) - t48 * t48 - t49 * t49);
     // leg 5: reciprocal of that extent
-    let t61 = 1.0 / t60;
+    let t61 = c(1.0) / t60;
     // leg 6: extent of the rod along the actuator axis
-    let t62 = sqrt(0.042435999999999995 - t50 * t50 - t51 * t51);
+    let t62 = sqrt(c(0.042435999999999995) - t50 * t50 - t51 * t51);
     // leg 6: reciprocal of that extent
-    let t63 = 1.0 / t62;
+    let t63 = c(1.0) / t62;
     // leg 1: gradient of the actuator length by the platform joint
     let t64 = t30 * t53;
     let t65 = t33 * t53;
@@ -10952,14 +11522,14 @@ pub fn passive_forces(
     let t74 = t50 * t63;
     let t75 = t51 * t63;
     // leg 1: platform joint from the platform origin
-    let t76 = platform_rotation[0][0] * 0.1159110991546882;
-    let t77 = platform_rotation[0][1] * 0.03105828541230249;
+    let t76 = platform_rotation[0][0] * c(0.1159110991546882);
+    let t77 = platform_rotation[0][1] * c(0.03105828541230249);
     let t78 = t76 - t77;
-    let t79 = platform_rotation[1][0] * 0.1159110991546882;
-    let t80 = platform_rotation[1][1] * 0.03105828541230249;
+    let t79 = platform_rotation[1][0] * c(0.1159110991546882);
+    let t80 = platform_rotation[1][1] * c(0.03105828541230249);
     let t81 = t79 - t80;
-    let t82 = platform_rotation[2][0] * 0.1159110991546882;
-    let t83 = platform_rotation[2][1] * 0.03105828541230249;
+    let t82 = platform_rotation[2][0] * c(0.1159110991546882);
+    let t83 = platform_rotation[2][1] * c(0.03105828541230249);
     let t84 = t82 - t83;
     // leg 1: gradient of the actuator length
     let t85 = base_rotation[0][2] - base_rotation[0][0] * t64;
@@ -10980,14 +11550,14 @@ pub fn passive_forces(
     let t98 = base_rotation[2][2] - base_rotation[2][0] * t66;
     let t99 = base_rotation[2][1] * t67 - t98;
     // leg 3: platform joint from the platform origin
-    let t100 = platform_rotation[0][0] * 0.031058285412302475;
-    let t101 = platform_rotation[0][1] * 0.1159110991546882;
+    let t100 = platform_rotation[0][0] * c(0.031058285412302475);
+    let t101 = platform_rotation[0][1] * c(0.1159110991546882);
     let t102 = t100 - t101;
-    let t103 = platform_rotation[1][0] * 0.031058285412302475;
-    let t104 = platform_rotation[1][1] * 0.1159110991546882;
+    let t103 = platform_rotation[1][0] * c(0.031058285412302475);
+    let t104 = platform_rotation[1][1] * c(0.1159110991546882);
     let t105 = t103 - t104;
-    let t106 = platform_rotation[2][0] * 0.031058285412302475;
-    let t107 = platform_rotation[2][1] * 0.1159110991546882;
+    let t106 = platform_rotation[2][0] * c(0.031058285412302475);
+    let t107 = platform_rotation[2][1] * c(0.1159110991546882);
     let t108 = t106 - t107;
     // leg 3: gradient of the actuator length
     let t109 = base_rotation[0][2] - base_rotation[0][0] * t68;
@@ -10997,14 +11567,14 @@ pub fn passive_forces(
     let t113 = base_rotation[2][2] - base_rotation[2][0] * t68;
     let t114 = base_rotation[2][1] * t69 - t113;
     // leg 4: platform joint from the platform origin
-    let t115 = platform_rotation[0][0] * 0.0848528137423857;
-    let t116 = platform_rotation[0][1] * 0.08485281374238571;
+    let t115 = platform_rotation[0][0] * c(0.0848528137423857);
+    let t116 = platform_rotation[0][1] * c(0.08485281374238571);
     let t117 = t115 - t116;
-    let t118 = platform_rotation[1][0] * 0.0848528137423857;
-    let t119 = platform_rotation[1][1] * 0.08485281374238571;
+    let t118 = platform_rotation[1][0] * c(0.0848528137423857);
+    let t119 = platform_rotation[1][1] * c(0.08485281374238571);
     let t120 = t118 - t119;
-    let t121 = platform_rotation[2][0] * 0.0848528137423857;
-    let t122 = platform_rotation[2][1] * 0.08485281374238571;
+    let t121 = platform_rotation[2][0] * c(0.0848528137423857);
+    let t122 = platform_rotation[2][1] * c(0.08485281374238571);
     let t123 = t121 - t122;
     // leg 4: gradient of the actuator length
     let t124 = base_rotation[0][2] - base_rotation[0][0] * t70;
@@ -11060,22 +11630,22 @@ pub fn passive_forces(
     let t164 = t141 * t143 - t139 * t147;
     let t165 = t139 * t145 - t140 * t143;
     // leg 1: weight of the leg along the actuator
-    let t166 = base_rotation[2][2] * 11.016630000000001;
+    let t166 = base_rotation[2][2] * c(11.016630000000001);
     // generalised spring force J_dp^T k_e (d - d0), left side
-    let t167 = 4268.068200000001 + 21555.9 * t27;
-    let t168 = t167 + t15 * 1829.0787677494918;
-    let t169 = t18 * 1829.0787677494923;
-    let t170 = t168 - (t169 - 21555.9 * t58);
-    let t171 = t167 + t15 * 669.489294519051;
-    let t172 = t18 * 2498.5680622685436;
-    let t173 = t171 - (t172 - 21555.9 * t56);
-    let t174 = t167 - t15 * 2498.5680622685436;
-    let t175 = t18 * 669.4892945190512;
-    let t176 = t174 + (t175 + 21555.9 * t52);
-    let t177 = t174 - (t175 - 21555.9 * t54);
+    let t167 = c(4268.068200000001) + c(21555.9) * t27;
+    let t168 = t167 + t15 * c(1829.0787677494918);
+    let t169 = t18 * c(1829.0787677494923);
+    let t170 = t168 - (t169 - c(21555.9) * t58);
+    let t171 = t167 + t15 * c(669.489294519051);
+    let t172 = t18 * c(2498.5680622685436);
+    let t173 = t171 - (t172 - c(21555.9) * t56);
+    let t174 = t167 - t15 * c(2498.5680622685436);
+    let t175 = t18 * c(669.4892945190512);
+    let t176 = t174 + (t175 + c(21555.9) * t52);
+    let t177 = t174 - (t175 - c(21555.9) * t54);
     let t178 = t125 * t170 + (t110 * t173 - (t86 * t176 - t95 * t177));
-    let t179 = t168 + (t169 + 21555.9 * t60);
-    let t180 = t171 + (t172 + 21555.9 * t62);
+    let t179 = t168 + (t169 + c(21555.9) * t60);
+    let t180 = t171 + (t172 + c(21555.9) * t62);
     spring_force[0] = t178 - t134 * t179 - t143 * t180;
     let t181 = t127 * t170 + (t112 * t173 - (t88 * t176 - t97 * t177));
     spring_force[1] = t181 - t136 * t179 - t145 * t180;
@@ -11092,25 +11662,27 @@ pub fn passive_forces(
     gravity_force[0] = t143 * t166 + (t134 * t166 - t186);
     let t187 = t127 * t166 + (t112 * t166 - (t88 * t166 - t97 * t166));
     gravity_force[1] = t145 * t166 + (t136 * t166 - t187);
-    let t188 = t114 * t166 + (t99 * t166 - (t90 * t166 + 89.89884));
+    let t188 = t114 * t166 + (t99 * t166 - (t90 * t166 + c(89.89884)));
     gravity_force[2] = t147 * t166 + (t138 * t166 - (t129 * t166 + t188));
-    let t189 = t151 * t166 - (t148 * t166 + platform_rotation[1][2] * 1.85263812);
-    let t190 = t157 * t166 + (t154 * t166 - t189) - t160 * t166;
-    let t191 = 5.0227200000000005 * (t131 + t140 - (t81 + t92 - (t105 + t120)));
-    gravity_force[3] = t190 - t163 * t166 - t191;
-    let t192 = 5.0227200000000005 * (t130 + t139 - (t78 + t91 - (t102 + t117)));
-    let t193 = t152 * t166 - (t149 * t166 - platform_rotation[0][2] * 1.85263812);
-    let t194 = t161 * t166 - (t158 * t166 + (t155 * t166 - t193));
-    gravity_force[4] = t192 - (t164 * t166 + t194);
-    let t195 = t159 * t166 + (t156 * t166 + (t150 * t166 - t153 * t166));
-    gravity_force[5] = t195 - t162 * t166 - t165 * t166;
+    let t189 = t148 * t166 + platform_rotation[1][2] * c(1.85263812);
+    let t190 = t157 * t166 + (t154 * t166 - (t151 * t166 - t189));
+    let t191 = t190 - t160 * t166 - t163 * t166;
+    let t192 = t131 + t140 - (t81 + t92 - (t105 + t120));
+    gravity_force[3] = t191 - c(5.0227200000000005) * t192;
+    let t193 = t130 + t139 - (t78 + t91 - (t102 + t117));
+    let t194 = t149 * t166 - platform_rotation[0][2] * c(1.85263812);
+    let t195 = t158 * t166 + (t155 * t166 - (t152 * t166 - t194));
+    let t196 = t164 * t166 + (t161 * t166 - t195);
+    gravity_force[4] = c(5.0227200000000005) * t193 - t196;
+    let t197 = t159 * t166 + (t156 * t166 + (t150 * t166 - t153 * t166));
+    gravity_force[5] = t197 - t162 * t166 - t165 * t166;
     // constant and copied elements
-    damping_force[0] = 0.0;
-    damping_force[1] = 0.0;
-    damping_force[2] = 0.0;
-    damping_force[3] = 0.0;
-    damping_force[4] = 0.0;
-    damping_force[5] = 0.0;
+    damping_force[0] = c(0.0);
+    damping_force[1] = c(0.0);
+    damping_force[2] = c(0.0);
+    damping_force[3] = c(0.0);
+    damping_force[4] = c(0.0);
+    damping_force[5] = c(0.0);
 }
 
 /// Velocity terms, gravity, springs and dampers without forming matrices, equation (49).
@@ -11128,15 +11700,16 @@ pub fn passive_forces(
 ///
 /// - `bias`: 6, N, N m, frame O: C_p v_p - C_b v_b + gravity, spring and damping force, equation (49).
 #[allow(clippy::all, clippy::pedantic, unused_variables)]
-pub fn bias(
-    base_position: &[f64; 3],
-    base_rotation: &[[f64; 3]; 3],
-    base_velocity: &[f64; 6],
-    platform_position: &[f64; 3],
-    platform_rotation: &[[f64; 3]; 3],
-    platform_velocity: &[f64; 6],
-    bias: &mut [f64; 6],
+pub fn bias<T: Scalar>(
+    base_position: &[T; 3],
+    base_rotation: &[[T; 3]; 3],
+    base_velocity: &[T; 6],
+    platform_position: &[T; 3],
+    platform_rotation: &[[T; 3]; 3],
+    platform_velocity: &[T; 6],
+    bias: &mut [T; 6],
 ) {
+    let c = T::constant;
     // rotation of the platform seen from the base
     let t1 = base_rotation[1][0] * platform_rotation[1][0];
     let t2 = base_rotation[0][0] * platform_rotation[0][0] + t1;
@@ -11176,102 +11749,102 @@ pub fn bias(
     let t35 = base_rotation[0][2] * t29 + base_rotation[1][2] * t30;
     let t36 = base_rotation[2][2] * t28 + t35;
     // leg 1: platform joint from the platform origin
-    let t37 = 0.1159110991546882 * t3;
-    let t38 = 0.03105828541230249 * t6;
+    let t37 = c(0.1159110991546882) * t3;
+    let t38 = c(0.03105828541230249) * t6;
     let t39 = t37 - t38;
-    let t40 = 0.1159110991546882 * t12;
-    let t41 = 0.03105828541230249 * t15;
+    let t40 = c(0.1159110991546882) * t12;
+    let t41 = c(0.03105828541230249) * t15;
     let t42 = t40 - t41;
-    let t43 = 0.1159110991546882 * t21;
-    let t44 = 0.03105828541230249 * t24;
+    let t43 = c(0.1159110991546882) * t21;
+    let t44 = c(0.03105828541230249) * t24;
     let t45 = t43 - t44;
     // leg 1: platform joint from the base point
-    let t46 = 0.1316436662914507 + t32;
+    let t46 = c(0.1316436662914507) + t32;
     let t47 = t39 - t46;
-    let t48 = t42 + (0.12275970481124972 - t34);
+    let t48 = t42 + (c(0.12275970481124972) - t34);
     // leg 2: platform joint from the platform origin
     let t49 = t37 + t38;
     let t50 = t40 + t41;
     let t51 = t43 + t44;
     // leg 2: platform joint from the base point
     let t52 = t46 - t49;
-    let t53 = t50 - (0.12275970481124972 + t34);
+    let t53 = t50 - (c(0.12275970481124972) + t34);
     // leg 3: platform joint from the platform origin
-    let t54 = t3 * 0.031058285412302475;
-    let t55 = 0.1159110991546882 * t6;
+    let t54 = t3 * c(0.031058285412302475);
+    let t55 = c(0.1159110991546882) * t6;
     let t56 = t54 - t55;
-    let t57 = t12 * 0.031058285412302475;
-    let t58 = 0.1159110991546882 * t15;
+    let t57 = t12 * c(0.031058285412302475);
+    let t58 = c(0.1159110991546882) * t15;
     let t59 = t57 - t58;
-    let t60 = t21 * 0.031058285412302475;
-    let t61 = 0.1159110991546882 * t24;
+    let t60 = t21 * c(0.031058285412302475);
+    let t61 = c(0.1159110991546882) * t24;
     let t62 = t60 - t61;
     // leg 3: platform joint from the base point
-    let t63 = 0.040491189781895726 + t32;
+    let t63 = c(0.040491189781895726) + t32;
     let t64 = t56 + t63;
-    let t65 = t59 + (0.17538661166134234 + t34);
+    let t65 = t59 + (c(0.17538661166134234) + t34);
     // leg 4: platform joint from the platform origin
-    let t66 = t3 * 0.0848528137423857;
-    let t67 = 0.08485281374238571 * t6;
+    let t66 = t3 * c(0.0848528137423857);
+    let t67 = c(0.08485281374238571) * t6;
     let t68 = t66 - t67;
-    let t69 = t12 * 0.0848528137423857;
-    let t70 = 0.08485281374238571 * t15;
+    let t69 = t12 * c(0.0848528137423857);
+    let t70 = c(0.08485281374238571) * t15;
     let t71 = t69 - t70;
-    let t72 = t21 * 0.0848528137423857;
-    let t73 = 0.08485281374238571 * t24;
+    let t72 = t21 * c(0.0848528137423857);
+    let t73 = c(0.08485281374238571) * t24;
     let t74 = t72 - t73;
     // leg 4: platform joint from the base point
-    let t75 = t32 - 0.17213485607334636;
+    let t75 = t32 - c(0.17213485607334636);
     let t76 = t68 + t75;
-    let t77 = t71 + (0.052626906850092664 + t34);
+    let t77 = t71 + (c(0.052626906850092664) + t34);
     // leg 5: platform joint from the platform origin
     let t78 = t66 + t67;
     let t79 = t69 + t70;
     let t80 = t72 + t73;
     // leg 5: platform joint from the base point
     let t81 = t75 + t78;
-    let t82 = t79 - (0.052626906850092664 - t34);
+    let t82 = t79 - (c(0.052626906850092664) - t34);
     // leg 6: platform joint from the platform origin
     let t83 = t54 + t55;
     let t84 = t57 + t58;
     let t85 = t60 + t61;
     // leg 6: platform joint from the base point
     let t86 = t63 + t83;
-    let t87 = t84 - (0.17538661166134234 - t34);
+    let t87 = t84 - (c(0.17538661166134234) - t34);
     // leg 1: extent of the rod along the actuator axis
-    let t88 = sqrt(0.042435999999999995 - t47 * t47 - t48 * t48);
+    let t88 = sqrt(c(0.042435999999999995) - t47 * t47 - t48 * t48);
     // leg 1: reciprocal of that extent
-    let t89 = 1.0 / t88;
+    let t89 = c(1.0) / t88;
     // leg 1: actuator length d
     let t90 = t88 + (t36 - t45);
     // leg 2: extent of the rod along the actuator axis
-    let t91 = sqrt(0.042435999999999995 - t52 * t52 - t53 * t53);
+    let t91 = sqrt(c(0.042435999999999995) - t52 * t52 - t53 * t53);
     // leg 2: reciprocal of that extent
-    let t92 = 1.0 / t91;
+    let t92 = c(1.0) / t91;
     // leg 2: actuator length d
     let t93 = t91 + (t36 - t51);
     // leg 3: extent of the rod along the actuator axis
-    let t94 = sqrt(0.042435999999999995 - t64 * t64 - t65 * t65);
+    let t94 = sqrt(c(0.042435999999999995) - t64 * t64 - t65 * t65);
     // leg 3: reciprocal of that extent
-    let t95 = 1.0 / t94;
+    let t95 = c(1.0) / t94;
     // leg 3: actuator length d
     let t96 = t94 + (t36 + t62);
     // leg 4: extent of the rod along the actuator axis
-    let t97 = sqrt(0.042435999999999995 - t76 * t76 - t77 * t77);
+    let t97 = sqrt(c(0.042435999999999995) - t76 * t76 - t77 * t77);
     // leg 4: reciprocal of that extent
-    let t98 = 1.0 / t97;
+    let t98 = c(1.0) / t97;
     // leg 4: actuator length d
     let t99 = t97 + (t36 + t74);
     // leg 5: extent of the rod along the actuator axis
-    let t100 = sqrt(0.042435999999999995 - t81 * t81 - t82 * t82);
+    let t100 = sqrt(c(0.042435999999999995) - t81 * t81 - t82 * t82);
     // leg 5: reciprocal of that extent
-    let t101 = 1.0 / t100;
+    let t101 = c(1.0) / t100;
     // leg 5: actuator length d
     let t102 = t100 + (t36 + t80);
     // leg 6: extent of the rod along the actuator axis
-    let t103 = sqrt(0.042435999999999995 - t86 * t86 - t87 * t87);
+    let t103 = sqrt(c(0.042435999999999995) - t86 * t86 - t87 * t87);
     // leg 6: reciprocal of that extent
-    let t104 = 1.0 / t103;
+    let t104 = c(1.0) / t103;
     // leg 6: actuator length d
     let t105 = t103 + (t36 + t85);
     // leg 1: gradient of the actuator length by the platform joint
@@ -11337,28 +11910,28 @@ pub fn bias(
     let t155 = t12 * t136 - t3 * t137;
     let t156 = t15 * t136 - t6 * t137;
     // leg 1: velocity of the platform joint relative to the base
-    let t157 = t144 + 0.1159110991546882 * t151;
-    let t158 = 0.03105828541230249 * t152;
+    let t157 = t144 + c(0.1159110991546882) * t151;
+    let t158 = c(0.03105828541230249) * t152;
     let t159 = t157 - t158;
-    let t160 = t147 + 0.1159110991546882 * t153;
-    let t161 = 0.03105828541230249 * t154;
+    let t160 = t147 + c(0.1159110991546882) * t153;
+    let t161 = c(0.03105828541230249) * t154;
     let t162 = t160 - t161;
     // leg 2: velocity of the platform joint relative to the base
     let t163 = t157 + t158;
     let t164 = t160 + t161;
     // leg 3: velocity of the platform joint relative to the base
-    let t165 = t144 - 0.031058285412302475 * t151;
-    let t166 = 0.1159110991546882 * t152;
+    let t165 = t144 - c(0.031058285412302475) * t151;
+    let t166 = c(0.1159110991546882) * t152;
     let t167 = t165 + t166;
-    let t168 = t147 - 0.031058285412302475 * t153;
-    let t169 = 0.1159110991546882 * t154;
+    let t168 = t147 - c(0.031058285412302475) * t153;
+    let t169 = c(0.1159110991546882) * t154;
     let t170 = t168 + t169;
     // leg 4: velocity of the platform joint relative to the base
-    let t171 = t144 - 0.0848528137423857 * t151;
-    let t172 = 0.08485281374238571 * t152;
+    let t171 = t144 - c(0.0848528137423857) * t151;
+    let t172 = c(0.08485281374238571) * t152;
     let t173 = t171 + t172;
-    let t174 = t147 - 0.0848528137423857 * t153;
-    let t175 = 0.08485281374238571 * t154;
+    let t174 = t147 - c(0.0848528137423857) * t153;
+    let t175 = c(0.08485281374238571) * t154;
     let t176 = t174 + t175;
     // leg 5: velocity of the platform joint relative to the base
     let t177 = t171 - t172;
@@ -11409,9 +11982,9 @@ pub fn bias(
     let t213 = t27 * t210 - (t9 * t196 + t18 * t204);
     // acceleration of the platform origin relative to the base
     let t214 = t36 * t191 - (t32 * t189 - t34 * t190);
-    let t215 = t214 + 2.0 * (t123 * t150 - t126 * t147);
+    let t215 = t214 + c(2.0) * (t123 * t150 - t126 * t147);
     let t216 = t36 * t194 + (t32 * t190 - t34 * t193);
-    let t217 = t216 + 2.0 * (t126 * t144 - t120 * t150);
+    let t217 = t216 + c(2.0) * (t126 * t144 - t120 * t150);
     let t218 = t32 * t191;
     let t219 = t34 * t194;
     let t220 = t36 * t195;
@@ -11443,28 +12016,28 @@ pub fn bias(
     let t245 = t21 * t242 - (t3 * t243 + t12 * t244);
     let t246 = t24 * t242 - (t6 * t243 + t15 * t244);
     // leg 1: acceleration of the platform joint relative to the base
-    let t247 = t215 + 0.1159110991546882 * t232;
-    let t248 = 0.03105828541230249 * t233;
+    let t247 = t215 + c(0.1159110991546882) * t232;
+    let t248 = c(0.03105828541230249) * t233;
     let t249 = t247 - t248;
-    let t250 = t217 + 0.1159110991546882 * t240;
-    let t251 = 0.03105828541230249 * t241;
+    let t250 = t217 + c(0.1159110991546882) * t240;
+    let t251 = c(0.03105828541230249) * t241;
     let t252 = t250 - t251;
     // leg 2: acceleration of the platform joint relative to the base
     let t253 = t247 + t248;
     let t254 = t250 + t251;
     // leg 3: acceleration of the platform joint relative to the base
-    let t255 = t215 - 0.031058285412302475 * t232;
-    let t256 = 0.1159110991546882 * t233;
+    let t255 = t215 - c(0.031058285412302475) * t232;
+    let t256 = c(0.1159110991546882) * t233;
     let t257 = t255 + t256;
-    let t258 = t217 - 0.031058285412302475 * t240;
-    let t259 = 0.1159110991546882 * t241;
+    let t258 = t217 - c(0.031058285412302475) * t240;
+    let t259 = c(0.1159110991546882) * t241;
     let t260 = t258 + t259;
     // leg 4: acceleration of the platform joint relative to the base
-    let t261 = t215 - 0.0848528137423857 * t232;
-    let t262 = 0.08485281374238571 * t233;
+    let t261 = t215 - c(0.0848528137423857) * t232;
+    let t262 = c(0.08485281374238571) * t233;
     let t263 = t261 + t262;
-    let t264 = t217 - 0.0848528137423857 * t240;
-    let t265 = 0.08485281374238571 * t241;
+    let t264 = t217 - c(0.0848528137423857) * t240;
+    let t265 = c(0.08485281374238571) * t241;
     let t266 = t264 + t265;
     // leg 5: acceleration of the platform joint relative to the base
     let t267 = t261 - t262;
@@ -11492,212 +12065,220 @@ pub fn bias(
     let t282 = t104 * (t186 * t186 - t281);
     // leg 1: leg inertia less weight along the actuator
     let t283 = t90 * t191;
-    let t284 = 2.0 * t150;
-    let t285 = t284 + t155 * 0.2318221983093764;
-    let t286 = t156 * 0.06211657082460498;
-    let t287 = t285 - (t286 - 2.0 * t181);
+    let t284 = c(2.0) * t150;
+    let t285 = t284 + t155 * c(0.2318221983093764);
+    let t286 = t156 * c(0.06211657082460498);
+    let t287 = t285 - (t286 - c(2.0) * t181);
     let t288 = t123 * t287;
     let t289 = t90 * t194;
     let t290 = t120 * t287;
-    let t291 = t220 - (t219 + (t218 + base_rotation[2][2] * 9.81));
-    let t292 = t291 - 2.0 * (t221 - t222);
-    let t293 = 0.12275970481124972 * t194 - 0.03105828541230249 * t246;
-    let t294 = t292 - (0.1316436662914507 * t191 - 0.1159110991546882 * t245);
+    let t291 = t220 - (t219 + (t218 + base_rotation[2][2] * c(9.81)));
+    let t292 = t291 - c(2.0) * (t221 - t222);
+    let t293 = c(0.12275970481124972) * t194 - c(0.03105828541230249) * t246;
+    let t294 = t292 - (c(0.1316436662914507) * t191 - c(0.1159110991546882) * t245);
     let t295 = t294 + (t293 - (t272 + t90 * t195));
     // leg 1: remaining leg inertia less weight at the platform joint
-    let t296 = base_rotation[2][0] * 1.67424;
-    let t297 = t296 - t189 * 0.022467185713740918;
-    let t298 = t190 * 0.02095098962111995;
-    let t299 = t297 - t298 - 0.17066666666666666 * (t283 + t288);
-    let t300 = base_rotation[2][1] * 1.67424;
-    let t301 = t300 + t190 * 0.022467185713740918;
-    let t302 = t193 * 0.02095098962111995;
-    let t303 = t301 + t302 - 0.17066666666666666 * (t289 - t290);
+    let t296 = base_rotation[2][0] * c(1.67424);
+    let t297 = t296 - t189 * c(0.022467185713740918);
+    let t298 = t190 * c(0.02095098962111995);
+    let t299 = t297 - t298 - c(0.17066666666666666) * (t283 + t288);
+    let t300 = base_rotation[2][1] * c(1.67424);
+    let t301 = t300 + t190 * c(0.022467185713740918);
+    let t302 = t193 * c(0.02095098962111995);
+    let t303 = t301 + t302 - c(0.17066666666666666) * (t289 - t290);
     // leg 2: leg inertia less weight along the actuator
     let t304 = t93 * t191;
-    let t305 = t285 + (t286 - 2.0 * t182);
+    let t305 = t285 + (t286 - c(2.0) * t182);
     let t306 = t123 * t305;
     let t307 = t93 * t194;
     let t308 = t120 * t305;
     let t309 = t93 * t195 - (t294 - (t274 + t293));
     // leg 2: remaining leg inertia less weight at the platform joint
-    let t310 = t297 + t298 - 0.17066666666666666 * (t304 + t306);
-    let t311 = t301 - t302 - 0.17066666666666666 * (t307 - t308);
+    let t310 = t297 + t298 - c(0.17066666666666666) * (t304 + t306);
+    let t311 = t301 - t302 - c(0.17066666666666666) * (t307 - t308);
     // leg 3: leg inertia less weight along the actuator
     let t312 = t96 * t191;
-    let t313 = t284 - t155 * 0.06211657082460495;
-    let t314 = t156 * 0.2318221983093764;
-    let t315 = t313 + (t314 - 2.0 * t183);
+    let t313 = t284 - t155 * c(0.06211657082460495);
+    let t314 = t156 * c(0.2318221983093764);
+    let t315 = t313 + (t314 - c(2.0) * t183);
     let t316 = t123 * t315;
     let t317 = t96 * t194;
     let t318 = t120 * t315;
-    let t319 = 0.17538661166134234 * t194 - 0.1159110991546882 * t246;
-    let t320 = t292 - (0.040491189781895726 * t191 + 0.031058285412302475 * t245);
-    let t321 = t320 - (t319 + (t276 + t96 * t195));
+    let t319 = c(0.17538661166134234) * t194 - c(0.1159110991546882) * t246;
+    let t320 = c(0.040491189781895726) * t191 + c(0.031058285412302475) * t245;
+    let t321 = t292 - t320;
+    let t322 = t321 - (t319 + (t276 + t96 * t195));
     // leg 3: remaining leg inertia less weight at the platform joint
-    let t322 = t296 - t189 * 0.006910496389443537;
-    let t323 = t190 * 0.029932648390202425;
-    let t324 = t322 + t323 - 0.17066666666666666 * (t312 + t316);
-    let t325 = t300 + t190 * 0.006910496389443537;
-    let t326 = t193 * 0.029932648390202425;
-    let t327 = t325 - t326 - 0.17066666666666666 * (t317 - t318);
+    let t323 = t296 - t189 * c(0.006910496389443537);
+    let t324 = t190 * c(0.029932648390202425);
+    let t325 = t323 + t324 - c(0.17066666666666666) * (t312 + t316);
+    let t326 = t300 + t190 * c(0.006910496389443537);
+    let t327 = t193 * c(0.029932648390202425);
+    let t328 = t326 - t327 - c(0.17066666666666666) * (t317 - t318);
     // leg 4: leg inertia less weight along the actuator
-    let t328 = t99 * t191;
-    let t329 = t284 - t155 * 0.1697056274847714;
-    let t330 = t156 * 0.16970562748477142;
-    let t331 = t329 + (t330 - 2.0 * t184);
-    let t332 = t123 * t331;
-    let t333 = t99 * t194;
-    let t334 = t120 * t331;
-    let t335 = 0.052626906850092664 * t194 - 0.08485281374238571 * t246;
-    let t336 = t292 + (0.17213485607334636 * t191 - 0.0848528137423857 * t245);
-    let t337 = t336 - (t335 + (t278 + t99 * t195));
+    let t329 = t99 * t191;
+    let t330 = t284 - t155 * c(0.1697056274847714);
+    let t331 = t156 * c(0.16970562748477142);
+    let t332 = t330 + (t331 - c(2.0) * t184);
+    let t333 = t123 * t332;
+    let t334 = t99 * t194;
+    let t335 = t120 * t332;
+    let t336 = c(0.052626906850092664) * t194 - c(0.08485281374238571) * t246;
+    let t337 = t292 + (c(0.17213485607334636) * t191 - c(0.0848528137423857) * t245);
+    let t338 = t337 - (t336 + (t278 + t99 * t195));
     // leg 4: remaining leg inertia less weight at the platform joint
-    let t338 = t296 + t189 * 0.029377682103184446;
-    let t339 = t190 * 0.008981658769082482;
-    let t340 = t338 + t339 - 0.17066666666666666 * (t328 + t332);
-    let t341 = t300 - t190 * 0.029377682103184446;
-    let t342 = t193 * 0.008981658769082482;
-    let t343 = t341 - t342 - 0.17066666666666666 * (t333 - t334);
+    let t339 = t296 + t189 * c(0.029377682103184446);
+    let t340 = t190 * c(0.008981658769082482);
+    let t341 = t339 + t340 - c(0.17066666666666666) * (t329 + t333);
+    let t342 = t300 - t190 * c(0.029377682103184446);
+    let t343 = t193 * c(0.008981658769082482);
+    let t344 = t342 - t343 - c(0.17066666666666666) * (t334 - t335);
     // leg 5: leg inertia less weight along the actuator
-    let t344 = t102 * t191;
-    let t345 = t329 - (t330 + 2.0 * t185);
-    let t346 = t123 * t345;
-    let t347 = t102 * t194;
-    let t348 = t120 * t345;
-    let t349 = t102 * t195 - (t336 - (t280 - t335));
+    let t345 = t102 * t191;
+    let t346 = t330 - (t331 + c(2.0) * t185);
+    let t347 = t123 * t346;
+    let t348 = t102 * t194;
+    let t349 = t120 * t346;
+    let t350 = t102 * t195 - (t337 - (t280 - t336));
     // leg 5: remaining leg inertia less weight at the platform joint
-    let t350 = t338 - t339 - 0.17066666666666666 * (t344 + t346);
-    let t351 = t341 + t342 - 0.17066666666666666 * (t347 - t348);
+    let t351 = t339 - t340 - c(0.17066666666666666) * (t345 + t347);
+    let t352 = t342 + t343 - c(0.17066666666666666) * (t348 - t349);
     // leg 6: leg inertia less weight along the actuator
-    let t352 = t105 * t191;
-    let t353 = t313 - (t314 + 2.0 * t186);
-    let t354 = t123 * t353;
-    let t355 = t105 * t194;
-    let t356 = t120 * t353;
-    let t357 = t105 * t195 - (t320 - (t282 - t319));
+    let t353 = t105 * t191;
+    let t354 = t313 - (t314 + c(2.0) * t186);
+    let t355 = t123 * t354;
+    let t356 = t105 * t194;
+    let t357 = t120 * t354;
+    let t358 = t105 * t195 - (t321 - (t282 - t319));
     // leg 6: remaining leg inertia less weight at the platform joint
-    let t358 = t322 - t323 - 0.17066666666666666 * (t352 + t354);
-    let t359 = t325 + t326 - 0.17066666666666666 * (t355 - t356);
+    let t359 = t323 - t324 - c(0.17066666666666666) * (t353 + t355);
+    let t360 = t326 + t327 - c(0.17066666666666666) * (t356 - t357);
     // leg 1: row of the actuator Jacobian in base coordinates
-    let t360 = t42 - t45 * t107;
-    let t361 = t39 - t45 * t106;
-    let t362 = t39 * t107 - t42 * t106;
+    let t361 = t42 - t45 * t107;
+    let t362 = t39 - t45 * t106;
+    let t363 = t39 * t107 - t42 * t106;
     // leg 2: row of the actuator Jacobian in base coordinates
-    let t363 = t50 - t51 * t109;
-    let t364 = t49 + t51 * t108;
-    let t365 = t49 * t109 + t50 * t108;
+    let t364 = t50 - t51 * t109;
+    let t365 = t49 + t51 * t108;
+    let t366 = t49 * t109 + t50 * t108;
     // leg 3: row of the actuator Jacobian in base coordinates
-    let t366 = t59 + t62 * t111;
-    let t367 = t56 + t62 * t110;
-    let t368 = t56 * t111 - t59 * t110;
+    let t367 = t59 + t62 * t111;
+    let t368 = t56 + t62 * t110;
+    let t369 = t56 * t111 - t59 * t110;
     // leg 4: row of the actuator Jacobian in base coordinates
-    let t369 = t71 + t74 * t113;
-    let t370 = t68 + t74 * t112;
-    let t371 = t68 * t113 - t71 * t112;
+    let t370 = t71 + t74 * t113;
+    let t371 = t68 + t74 * t112;
+    let t372 = t68 * t113 - t71 * t112;
     // leg 5: row of the actuator Jacobian in base coordinates
-    let t372 = t79 + t80 * t115;
-    let t373 = t78 + t80 * t114;
-    let t374 = t78 * t115 - t79 * t114;
+    let t373 = t79 + t80 * t115;
+    let t374 = t78 + t80 * t114;
+    let t375 = t78 * t115 - t79 * t114;
     // leg 6: row of the actuator Jacobian in base coordinates
-    let t375 = t84 + t85 * t117;
-    let t376 = t83 + t85 * t116;
-    let t377 = t83 * t117 - t84 * t116;
+    let t376 = t84 + t85 * t117;
+    let t377 = t83 + t85 * t116;
+    let t378 = t83 * t117 - t84 * t116;
     // its first moments by platform coordinate
-    let t378 = t299 + t310;
-    let t379 = t324 + t358;
-    let t380 = t340 + t350;
-    let t381 = base_rotation[2][0] * 2.212292848913222e-16;
-    let t382 = t381 + 0.032245600000000006 * t201 + 0.1159110991546882 * t378;
-    let t383 = t382 - 0.031058285412302475 * t379 - 0.0848528137423857 * t380;
-    let t384 = base_rotation[2][0] * 6.807054919732991e-17;
-    let t385 = t384 + 0.032245600000000006 * t202;
-    let t386 = t385 - 0.03105828541230249 * (t299 - t310);
-    let t387 = t386 + 0.1159110991546882 * (t324 - t358);
-    let t388 = t387 + 0.08485281374238571 * (t340 - t350);
-    let t389 = base_rotation[2][0] * 1.85263812 + 0.013354412 * t203;
-    let t390 = t303 + t311;
-    let t391 = t327 + t359;
-    let t392 = t343 + t351;
-    let t393 = base_rotation[2][1] * 2.212292848913222e-16;
-    let t394 = t393 + 0.032245600000000006 * t207 + 0.1159110991546882 * t390;
-    let t395 = t394 - 0.031058285412302475 * t391 - 0.0848528137423857 * t392;
-    let t396 = base_rotation[2][1] * 6.807054919732991e-17;
-    let t397 = t396 + 0.032245600000000006 * t208;
-    let t398 = t397 - 0.03105828541230249 * (t303 - t311);
-    let t399 = t398 + 0.1159110991546882 * (t327 - t359);
-    let t400 = t399 + 0.08485281374238571 * (t343 - t351);
-    let t401 = base_rotation[2][1] * 1.85263812 + 0.013354412 * t209;
-    let t402 = t295 - t309;
-    let t403 = t321 - t357;
-    let t404 = t337 - t349;
-    let t405 = base_rotation[2][2] * 2.212292848913222e-16;
-    let t406 = t405 - 0.032245600000000006 * t211 - t402 * 0.019782160922400118;
-    let t407 = t406 + t403 * 0.005300614043699622 + t404 * 0.01448154687870049;
-    let t408 = base_rotation[2][2] * 6.807054919732991e-17;
-    let t409 = 0.005300614043699624 * (t295 + t309);
-    let t410 = t408 - 0.032245600000000006 * t212 + t409;
-    let t411 = t410 - 0.019782160922400118 * (t321 + t357);
-    let t412 = t411 - 0.014481546878700494 * (t337 + t349);
-    let t413 = base_rotation[2][2] * 1.85263812 - 0.013354412 * t213;
+    let t379 = t299 + t310;
+    let t380 = t325 + t359;
+    let t381 = t341 + t351;
+    let t382 = base_rotation[2][0] * c(2.212292848913222e-16);
+    let t383 = t382 + c(0.032245600000000006) * t201;
+    let t384 = t383 + c(0.1159110991546882) * t379;
+    let t385 = t384 - c(0.031058285412302475) * t380;
+    let t386 = t385 - c(0.0848528137423857) * t381;
+    let t387 = base_rotation[2][0] * c(6.807054919732991e-17);
+    let t388 = t387 + c(0.032245600000000006) * t202;
+    let t389 = t388 - c(0.03105828541230249) * (t299 - t310);
+    let t390 = t389 + c(0.1159110991546882) * (t325 - t359);
+    let t391 = t390 + c(0.08485281374238571) * (t341 - t351);
+    let t392 = base_rotation[2][0] * c(1.85263812) + c(0.013354412) * t203;
+    let t393 = t303 + t311;
+    let t394 = t328 + t360;
+    let t395 = t344 + t352;
+    let t396 = base_rotation[2][1] * c(2.212292848913222e-16);
+    let t397 = t396 + c(0.032245600000000006) * t207;
+    let t398 = t397 + c(0.1159110991546882) * t393;
+    let t399 = t398 - c(0.031058285412302475) * t394;
+    let t400 = t399 - c(0.0848528137423857) * t395;
+    let t401 = base_rotation[2][1] * c(6.807054919732991e-17);
+    let t402 = t401 + c(0.032245600000000006) * t208;
+    let t403 = t402 - c(0.03105828541230249) * (t303 - t311);
+    let t404 = t403 + c(0.1159110991546882) * (t328 - t360);
+    let t405 = t404 + c(0.08485281374238571) * (t344 - t352);
+    let t406 = base_rotation[2][1] * c(1.85263812) + c(0.013354412) * t209;
+    let t407 = t295 - t309;
+    let t408 = t322 - t358;
+    let t409 = t338 - t350;
+    let t410 = base_rotation[2][2] * c(2.212292848913222e-16);
+    let t411 = t410 - c(0.032245600000000006) * t211;
+    let t412 = t411 - t407 * c(0.019782160922400118);
+    let t413 = t412 + t408 * c(0.005300614043699622);
+    let t414 = t413 + t409 * c(0.01448154687870049);
+    let t415 = base_rotation[2][2] * c(6.807054919732991e-17);
+    let t416 = c(0.005300614043699624) * (t295 + t309);
+    let t417 = t415 - c(0.032245600000000006) * t212 + t416;
+    let t418 = t417 - c(0.019782160922400118) * (t322 + t358);
+    let t419 = t418 - c(0.014481546878700494) * (t338 + t350);
+    let t420 = base_rotation[2][2] * c(1.85263812) - c(0.013354412) * t213;
     // leg 1: force along the actuator that reaches the platform
-    let t414 = 4268.068200000001 - base_rotation[2][2] * 1.67424 - t195 * 0.03055;
-    let t415 = t414 + t211 * 0.019782160922400118;
-    let t416 = t212 * 0.005300614043699624;
-    let t417 = t415 + (21555.9 * t90 - t416 + t295 * 0.9523333333333334);
+    let t421 = c(4268.068200000001) - base_rotation[2][2] * c(1.67424);
+    let t422 = t421 - t195 * c(0.03055);
+    let t423 = t422 + t211 * c(0.019782160922400118);
+    let t424 = t212 * c(0.005300614043699624);
+    let t425 = t423 + (c(21555.9) * t90 - t424 + t295 * c(0.9523333333333334));
     // leg 2: force along the actuator that reaches the platform
-    let t418 = t415 + (t416 + 21555.9 * t93 - t309 * 0.9523333333333334);
+    let t426 = t423 + (t424 + c(21555.9) * t93 - t309 * c(0.9523333333333334));
     // leg 3: force along the actuator that reaches the platform
-    let t419 = t414 - t211 * 0.005300614043699622;
-    let t420 = t212 * 0.019782160922400118;
-    let t421 = t419 + (21555.9 * t96 + t420 + t321 * 0.9523333333333334);
+    let t427 = t422 - t211 * c(0.005300614043699622);
+    let t428 = t212 * c(0.019782160922400118);
+    let t429 = t427 + (c(21555.9) * t96 + t428 + t322 * c(0.9523333333333334));
     // leg 4: force along the actuator that reaches the platform
-    let t422 = t414 - t211 * 0.01448154687870049;
-    let t423 = t212 * 0.014481546878700494;
-    let t424 = t422 + (21555.9 * t99 + t423 + t337 * 0.9523333333333334);
+    let t430 = t422 - t211 * c(0.01448154687870049);
+    let t431 = t212 * c(0.014481546878700494);
+    let t432 = t430 + (c(21555.9) * t99 + t431 + t338 * c(0.9523333333333334));
     // leg 5: force along the actuator that reaches the platform
-    let t425 = t422 - (t423 - 21555.9 * t102 + t349 * 0.9523333333333334);
+    let t433 = t430 - (t431 - c(21555.9) * t102 + t350 * c(0.9523333333333334));
     // leg 6: force along the actuator that reaches the platform
-    let t426 = t419 - (t420 - 21555.9 * t105 + t357 * 0.9523333333333334);
+    let t434 = t427 - (t428 - c(21555.9) * t105 + t358 * c(0.9523333333333334));
     // C_p v_p - C_b v_b + gravity, spring and damping force
-    let t427 = base_rotation[2][0] * 79.8534 + 2.2551405187698492e-17 * t201;
-    let t428 = t378 + (t427 + 6.938893903907228e-18 * t202 + 0.188852 * t203);
-    let t429 = t108 * t418 - (t106 * t417 - (t380 + (t379 + t428)));
-    let t430 = t114 * t425 + (t112 * t424 + (t110 * t421 + t429));
-    let t431 = t116 * t426 + t430;
-    let t432 = base_rotation[2][1] * 79.8534 + 2.2551405187698492e-17 * t207;
-    let t433 = t390 + (t432 + 6.938893903907228e-18 * t208 + 0.188852 * t209);
-    let t434 = t109 * t418 + (t107 * t417 - (t392 + (t391 + t433)));
-    let t435 = t115 * t425 + (t113 * t424 + (t111 * t421 - t434));
-    let t436 = t117 * t426 + t435;
-    let t437 = base_rotation[0][0] * t431 + base_rotation[0][1] * t436;
-    let t438 = base_rotation[2][2] * 79.8534 - 2.2551405187698492e-17 * t211;
-    let t439 = t417 - (t438 - 6.938893903907228e-18 * t212 - 0.188852 * t213);
-    let t440 = t426 + (t425 + (t424 + (t421 + (t418 + t439))));
-    let t441 = t440 + 0.17066666666666666 * (t404 + (t402 + t403));
-    bias[0] = t437 - base_rotation[0][2] * t441;
-    let t442 = base_rotation[1][0] * t431 + base_rotation[1][1] * t436;
-    bias[1] = t442 - base_rotation[1][2] * t441;
-    let t443 = base_rotation[2][0] * t431 + base_rotation[2][1] * t436;
-    bias[2] = t443 - base_rotation[2][2] * t441;
-    let t444 = t24 * t400 - (t15 * t412 + (t12 * t407 - t21 * t395));
-    let t445 = t360 * t417 + (t27 * t401 - (t18 * t413 - t444));
-    let t446 = t369 * t424 + (t366 * t421 - (t363 * t418 + t445));
-    let t447 = t375 * t426 + (t372 * t425 + t446);
-    let t448 = t6 * t412 - (t24 * t388 + (t21 * t383 - t3 * t407));
-    let t449 = t361 * t417 - (t9 * t413 - (t27 * t389 - t448));
-    let t450 = t370 * t424 + (t367 * t421 - (t364 * t418 + t449));
-    let t451 = t376 * t426 + (t373 * t425 + t450);
-    let t452 = base_rotation[0][0] * t447 - base_rotation[0][1] * t451;
-    let t453 = t15 * t388 - (t6 * t400 + (t3 * t395 - t12 * t383));
-    let t454 = t362 * t417 + (t18 * t389 - (t9 * t401 - t453));
-    let t455 = t371 * t424 + (t368 * t421 + (t365 * t418 + t454));
-    let t456 = t377 * t426 + (t374 * t425 + t455);
-    bias[3] = t452 - base_rotation[0][2] * t456;
-    let t457 = base_rotation[1][0] * t447 - base_rotation[1][1] * t451;
-    bias[4] = t457 - base_rotation[1][2] * t456;
-    let t458 = base_rotation[2][0] * t447 - base_rotation[2][1] * t451;
-    bias[5] = t458 - base_rotation[2][2] * t456;
+    let t435 = base_rotation[2][0] * c(79.8534) + c(2.2551405187698492e-17) * t201;
+    let t436 = t435 + c(6.938893903907228e-18) * t202 + c(0.188852) * t203;
+    let t437 = t108 * t426 - (t106 * t425 - (t381 + (t380 + (t379 + t436))));
+    let t438 = t114 * t433 + (t112 * t432 + (t110 * t429 + t437));
+    let t439 = t116 * t434 + t438;
+    let t440 = base_rotation[2][1] * c(79.8534) + c(2.2551405187698492e-17) * t207;
+    let t441 = t440 + c(6.938893903907228e-18) * t208 + c(0.188852) * t209;
+    let t442 = t109 * t426 + (t107 * t425 - (t395 + (t394 + (t393 + t441))));
+    let t443 = t115 * t433 + (t113 * t432 + (t111 * t429 - t442));
+    let t444 = t117 * t434 + t443;
+    let t445 = base_rotation[0][0] * t439 + base_rotation[0][1] * t444;
+    let t446 = base_rotation[2][2] * c(79.8534) - c(2.2551405187698492e-17) * t211;
+    let t447 = t446 - c(6.938893903907228e-18) * t212 - c(0.188852) * t213;
+    let t448 = t434 + (t433 + (t432 + (t429 + (t426 + (t425 - t447)))));
+    let t449 = t448 + c(0.17066666666666666) * (t409 + (t407 + t408));
+    bias[0] = t445 - base_rotation[0][2] * t449;
+    let t450 = base_rotation[1][0] * t439 + base_rotation[1][1] * t444;
+    bias[1] = t450 - base_rotation[1][2] * t449;
+    let t451 = base_rotation[2][0] * t439 + base_rotation[2][1] * t444;
+    bias[2] = t451 - base_rotation[2][2] * t449;
+    let t452 = t24 * t405 - (t15 * t419 + (t12 * t414 - t21 * t400));
+    let t453 = t361 * t425 + (t27 * t406 - (t18 * t420 - t452));
+    let t454 = t370 * t432 + (t367 * t429 - (t364 * t426 + t453));
+    let t455 = t376 * t434 + (t373 * t433 + t454);
+    let t456 = t6 * t419 - (t24 * t391 + (t21 * t386 - t3 * t414));
+    let t457 = t362 * t425 - (t9 * t420 - (t27 * t392 - t456));
+    let t458 = t371 * t432 + (t368 * t429 - (t365 * t426 + t457));
+    let t459 = t377 * t434 + (t374 * t433 + t458);
+    let t460 = base_rotation[0][0] * t455 - base_rotation[0][1] * t459;
+    let t461 = t15 * t391 - (t6 * t405 + (t3 * t400 - t12 * t386));
+    let t462 = t363 * t425 + (t18 * t392 - (t9 * t406 - t461));
+    let t463 = t372 * t432 + (t369 * t429 + (t366 * t426 + t462));
+    let t464 = t378 * t434 + (t375 * t433 + t463);
+    bias[3] = t460 - base_rotation[0][2] * t464;
+    let t465 = base_rotation[1][0] * t455 - base_rotation[1][1] * t459;
+    bias[4] = t465 - base_rotation[1][2] * t464;
+    let t466 = base_rotation[2][0] * t455 - base_rotation[2][1] * t459;
+    bias[5] = t466 - base_rotation[2][2] * t464;
 }
 
 /// The whole of (49) in one call, equation (49).
@@ -11726,26 +12307,27 @@ pub fn bias(
 /// - `damping_force`: 6, N, N m, frame O: generalised damping force J_dp^T c_e d', left side, equation (39)-(46).
 /// - `bias`: 6, N, N m, frame O: C_p v_p - C_b v_b + gravity, spring and damping force, equation (49).
 #[allow(clippy::all, clippy::pedantic, unused_variables)]
-pub fn equation_of_motion(
-    base_position: &[f64; 3],
-    base_rotation: &[[f64; 3]; 3],
-    base_velocity: &[f64; 6],
-    platform_position: &[f64; 3],
-    platform_rotation: &[[f64; 3]; 3],
-    platform_velocity: &[f64; 6],
-    mass_matrix_p: &mut [[f64; 6]; 6],
-    coriolis_matrix_p: &mut [[f64; 6]; 6],
-    stiffness_matrix_p: &mut [[f64; 6]; 6],
-    jacobian_dp: &mut [[f64; 6]; 6],
-    mass_matrix_b: &mut [[f64; 6]; 6],
-    coriolis_matrix_b: &mut [[f64; 6]; 6],
-    stiffness_matrix_b: &mut [[f64; 6]; 6],
-    jacobian_db: &mut [[f64; 6]; 6],
-    gravity_force: &mut [f64; 6],
-    spring_force: &mut [f64; 6],
-    damping_force: &mut [f64; 6],
-    bias: &mut [f64; 6],
+pub fn equation_of_motion<T: Scalar>(
+    base_position: &[T; 3],
+    base_rotation: &[[T; 3]; 3],
+    base_velocity: &[T; 6],
+    platform_position: &[T; 3],
+    platform_rotation: &[[T; 3]; 3],
+    platform_velocity: &[T; 6],
+    mass_matrix_p: &mut [[T; 6]; 6],
+    coriolis_matrix_p: &mut [[T; 6]; 6],
+    stiffness_matrix_p: &mut [[T; 6]; 6],
+    jacobian_dp: &mut [[T; 6]; 6],
+    mass_matrix_b: &mut [[T; 6]; 6],
+    coriolis_matrix_b: &mut [[T; 6]; 6],
+    stiffness_matrix_b: &mut [[T; 6]; 6],
+    jacobian_db: &mut [[T; 6]; 6],
+    gravity_force: &mut [T; 6],
+    spring_force: &mut [T; 6],
+    damping_force: &mut [T; 6],
+    bias: &mut [T; 6],
 ) {
+    let c = T::constant;
     let (
         t19,
         t20,
@@ -11914,20 +12496,19 @@ pub fn equation_of_motion(
         t627,
         t632,
         t634,
-        t638,
-        t725,
-        t728,
-        t731,
-        t744,
+        t639,
+        t726,
+        t729,
+        t732,
         t745,
         t746,
-        t789,
-        t791,
-        t795,
-        t799,
-        t801,
-        t803,
-        t810,
+        t747,
+        t790,
+        t792,
+        t796,
+        t800,
+        t802,
+        t804,
         t811,
         t812,
         t813,
@@ -11936,24 +12517,25 @@ pub fn equation_of_motion(
         t816,
         t817,
         t818,
-        t823,
-        t825,
-        t827,
+        t819,
+        t824,
+        t826,
         t828,
         t829,
         t830,
-        t835,
-        t837,
-        t839,
+        t831,
+        t836,
+        t838,
         t840,
         t841,
         t842,
-        t847,
-        t849,
-        t851,
+        t843,
+        t848,
+        t850,
         t852,
         t853,
         t854,
+        t855,
     ) = {
         // rotation of the platform seen from the base
         let t1 = base_rotation[1][0] * platform_rotation[1][0];
@@ -11985,28 +12567,28 @@ pub fn equation_of_motion(
         let t26 = base_rotation[0][2] * t19 + base_rotation[1][2] * t20;
         let t27 = base_rotation[2][2] * t21 + t26;
         // leg 1: platform joint from the base point
-        let t28 = t23 + (0.1316436662914507 - 0.1159110991546882 * t3);
-        let t29 = 0.03105828541230249 * t6;
+        let t28 = t23 + (c(0.1316436662914507) - c(0.1159110991546882) * t3);
+        let t29 = c(0.03105828541230249) * t6;
         let t30 = t28 + t29;
-        let t31 = 0.12275970481124972 - 0.03105828541230249 * t12;
-        let t32 = t25 - 0.1159110991546882 * t9;
+        let t31 = c(0.12275970481124972) - c(0.03105828541230249) * t12;
+        let t32 = t25 - c(0.1159110991546882) * t9;
         let t33 = t31 - t32;
         // leg 2: platform joint from the base point
         let t34 = t28 - t29;
         let t35 = t31 + t32;
         // leg 3: platform joint from the base point
-        let t36 = t23 + (0.040491189781895726 + t3 * 0.031058285412302475);
-        let t37 = 0.1159110991546882 * t6;
+        let t36 = t23 + (c(0.040491189781895726) + t3 * c(0.031058285412302475));
+        let t37 = c(0.1159110991546882) * t6;
         let t38 = t36 - t37;
-        let t39 = 0.17538661166134234 - 0.1159110991546882 * t12;
-        let t40 = t25 + t9 * 0.031058285412302475;
+        let t39 = c(0.17538661166134234) - c(0.1159110991546882) * t12;
+        let t40 = t25 + t9 * c(0.031058285412302475);
         let t41 = t39 + t40;
         // leg 4: platform joint from the base point
-        let t42 = t23 - (0.17213485607334636 - t3 * 0.0848528137423857);
-        let t43 = 0.08485281374238571 * t6;
+        let t42 = t23 - (c(0.17213485607334636) - t3 * c(0.0848528137423857));
+        let t43 = c(0.08485281374238571) * t6;
         let t44 = t42 - t43;
-        let t45 = 0.052626906850092664 - 0.08485281374238571 * t12;
-        let t46 = t25 + t9 * 0.0848528137423857;
+        let t45 = c(0.052626906850092664) - c(0.08485281374238571) * t12;
+        let t46 = t25 + t9 * c(0.0848528137423857);
         let t47 = t45 + t46;
         // leg 5: platform joint from the base point
         let t48 = t42 + t43;
@@ -12015,45 +12597,45 @@ pub fn equation_of_motion(
         let t50 = t36 + t37;
         let t51 = t39 - t40;
         // leg 1: extent of the rod along the actuator axis
-        let t52 = sqrt(0.042435999999999995 - t30 * t30 - t33 * t33);
+        let t52 = sqrt(c(0.042435999999999995) - t30 * t30 - t33 * t33);
         // leg 1: reciprocal of that extent
-        let t53 = 1.0 / t52;
+        let t53 = c(1.0) / t52;
         // leg 1: actuator length d
-        let t54 = t27 - 0.1159110991546882 * t15;
-        let t55 = 0.03105828541230249 * t18;
+        let t54 = t27 - c(0.1159110991546882) * t15;
+        let t55 = c(0.03105828541230249) * t18;
         let t56 = t54 + (t52 + t55);
         // leg 2: extent of the rod along the actuator axis
-        let t57 = sqrt(0.042435999999999995 - t34 * t34 - t35 * t35);
+        let t57 = sqrt(c(0.042435999999999995) - t34 * t34 - t35 * t35);
         // leg 2: reciprocal of that extent
-        let t58 = 1.0 / t57;
+        let t58 = c(1.0) / t57;
         // leg 2: actuator length d
         let t59 = t54 - (t55 - t57);
         // leg 3: extent of the rod along the actuator axis
-        let t60 = sqrt(0.042435999999999995 - t38 * t38 - t41 * t41);
+        let t60 = sqrt(c(0.042435999999999995) - t38 * t38 - t41 * t41);
         // leg 3: reciprocal of that extent
-        let t61 = 1.0 / t60;
+        let t61 = c(1.0) / t60;
         // leg 3: actuator length d
-        let t62 = t27 + t15 * 0.031058285412302475;
-        let t63 = 0.1159110991546882 * t18;
+        let t62 = t27 + t15 * c(0.031058285412302475);
+        let t63 = c(0.1159110991546882) * t18;
         let t64 = t62 + (t60 - t63);
         // leg 4: extent of the rod along the actuator axis
-        let t65 = sqrt(0.042435999999999995 - t44 * t44 - t47 * t47);
+        let t65 = sqrt(c(0.042435999999999995) - t44 * t44 - t47 * t47);
         // leg 4: reciprocal of that extent
-        let t66 = 1.0 / t65;
+        let t66 = c(1.0) / t65;
         // leg 4: actuator length d
-        let t67 = t27 + t15 * 0.0848528137423857;
-        let t68 = 0.08485281374238571 * t18;
+        let t67 = t27 + t15 * c(0.0848528137423857);
+        let t68 = c(0.08485281374238571) * t18;
         let t69 = t67 + (t65 - t68);
         // leg 5: extent of the rod along the actuator axis
-        let t70 = sqrt(0.042435999999999995 - t48 * t48 - t49 * t49);
+        let t70 = sqrt(c(0.042435999999999995) - t48 * t48 - t49 * t49);
         // leg 5: reciprocal of that extent
-        let t71 = 1.0 / t70;
+        let t71 = c(1.0) / t70;
         // leg 5: actuator length d
         let t72 = t67 + (t68 + t70);
         // leg 6: extent of the rod along the actuator axis
-        let t73 = sqrt(0.042435999999999995 - t50 * t50 - t51 * t51);
+        let t73 = sqrt(c(0.042435999999999995) - t50 * t50 - t51 * t51);
         // leg 6: reciprocal of that extent
-        let t74 = 1.0 / t73;
+        let t74 = c(1.0) / t73;
         // leg 6: actuator length d
         let t75 = t62 + (t63 + t73);
         // leg 1: gradient of the actuator length by the platform joint
@@ -12075,14 +12657,14 @@ pub fn equation_of_motion(
         let t86 = t50 * t74;
         let t87 = t51 * t74;
         // leg 1: platform joint from the platform origin
-        let t88 = platform_rotation[0][0] * 0.1159110991546882;
-        let t89 = platform_rotation[0][1] * 0.03105828541230249;
+        let t88 = platform_rotation[0][0] * c(0.1159110991546882);
+        let t89 = platform_rotation[0][1] * c(0.03105828541230249);
         let t90 = t88 - t89;
-        let t91 = platform_rotation[1][0] * 0.1159110991546882;
-        let t92 = platform_rotation[1][1] * 0.03105828541230249;
+        let t91 = platform_rotation[1][0] * c(0.1159110991546882);
+        let t92 = platform_rotation[1][1] * c(0.03105828541230249);
         let t93 = t91 - t92;
-        let t94 = platform_rotation[2][0] * 0.1159110991546882;
-        let t95 = platform_rotation[2][1] * 0.03105828541230249;
+        let t94 = platform_rotation[2][0] * c(0.1159110991546882);
+        let t95 = platform_rotation[2][1] * c(0.03105828541230249);
         let t96 = t94 - t95;
         // leg 1: platform joint from the base origin
         let t97 = t19 - t90;
@@ -12126,14 +12708,14 @@ pub fn equation_of_motion(
         jacobian_dp[1][2] = t120;
         jacobian_db[1][2] = t120;
         // leg 3: platform joint from the platform origin
-        let t121 = platform_rotation[0][0] * 0.031058285412302475;
-        let t122 = platform_rotation[0][1] * 0.1159110991546882;
+        let t121 = platform_rotation[0][0] * c(0.031058285412302475);
+        let t122 = platform_rotation[0][1] * c(0.1159110991546882);
         let t123 = t121 - t122;
-        let t124 = platform_rotation[1][0] * 0.031058285412302475;
-        let t125 = platform_rotation[1][1] * 0.1159110991546882;
+        let t124 = platform_rotation[1][0] * c(0.031058285412302475);
+        let t125 = platform_rotation[1][1] * c(0.1159110991546882);
         let t126 = t124 - t125;
-        let t127 = platform_rotation[2][0] * 0.031058285412302475;
-        let t128 = platform_rotation[2][1] * 0.1159110991546882;
+        let t127 = platform_rotation[2][0] * c(0.031058285412302475);
+        let t128 = platform_rotation[2][1] * c(0.1159110991546882);
         let t129 = t127 - t128;
         // leg 3: platform joint from the base origin
         let t130 = t19 + t123;
@@ -12156,14 +12738,14 @@ pub fn equation_of_motion(
         jacobian_dp[2][2] = t141;
         jacobian_db[2][2] = t141;
         // leg 4: platform joint from the platform origin
-        let t142 = platform_rotation[0][0] * 0.0848528137423857;
-        let t143 = platform_rotation[0][1] * 0.08485281374238571;
+        let t142 = platform_rotation[0][0] * c(0.0848528137423857);
+        let t143 = platform_rotation[0][1] * c(0.08485281374238571);
         let t144 = t142 - t143;
-        let t145 = platform_rotation[1][0] * 0.0848528137423857;
-        let t146 = platform_rotation[1][1] * 0.08485281374238571;
+        let t145 = platform_rotation[1][0] * c(0.0848528137423857);
+        let t146 = platform_rotation[1][1] * c(0.08485281374238571);
         let t147 = t145 - t146;
-        let t148 = platform_rotation[2][0] * 0.0848528137423857;
-        let t149 = platform_rotation[2][1] * 0.08485281374238571;
+        let t148 = platform_rotation[2][0] * c(0.0848528137423857);
+        let t149 = platform_rotation[2][1] * c(0.08485281374238571);
         let t150 = t148 - t149;
         // leg 4: platform joint from the base origin
         let t151 = t19 + t144;
@@ -12312,293 +12894,293 @@ pub fn equation_of_motion(
         jacobian_db[5][4] = -t221;
         jacobian_db[5][5] = -t222;
         // leg 1: mass matrix of the leg in the speeds of its joint
-        let t223 = base_rotation[0][2] * 0.17066666666666666;
-        let t224 = t223 + t101 * 0.4761666666666667;
-        let t225 = 2.0 * (t101 * t224);
-        let t226 = base_rotation[1][2] * 0.17066666666666666;
-        let t227 = t226 + t103 * 0.4761666666666667;
+        let t223 = base_rotation[0][2] * c(0.17066666666666666);
+        let t224 = t223 + t101 * c(0.4761666666666667);
+        let t225 = c(2.0) * (t101 * t224);
+        let t226 = base_rotation[1][2] * c(0.17066666666666666);
+        let t227 = t226 + t103 * c(0.4761666666666667);
         let t228 = t101 * t227 + t103 * t224;
-        let t229 = base_rotation[2][2] * 0.17066666666666666;
-        let t230 = t229 + t105 * 0.4761666666666667;
+        let t229 = base_rotation[2][2] * c(0.17066666666666666);
+        let t230 = t229 + t105 * c(0.4761666666666667);
         let t231 = t101 * t230 + t105 * t224;
-        let t232 = 2.0 * (t103 * t227);
+        let t232 = c(2.0) * (t103 * t227);
         let t233 = t103 * t230 + t105 * t227;
-        let t234 = 2.0 * (t105 * t230);
+        let t234 = c(2.0) * (t105 * t230);
         // leg 1: leg inertia between joint and base speeds
-        let t235 = base_rotation[0][2] * 1.123;
-        let t236 = 0.17066666666666666 + t101 * t235;
-        let t237 = base_rotation[1][2] * 1.123;
+        let t235 = base_rotation[0][2] * c(1.123);
+        let t236 = c(0.17066666666666666) + t101 * t235;
+        let t237 = base_rotation[1][2] * c(1.123);
         let t238 = t101 * t237;
-        let t239 = base_rotation[2][2] * 1.123;
+        let t239 = base_rotation[2][2] * c(1.123);
         let t240 = t101 * t239;
-        let t241 = base_rotation[1][0] * 0.1316436662914507;
-        let t242 = base_rotation[1][1] * 0.12275970481124972;
+        let t241 = base_rotation[1][0] * c(0.1316436662914507);
+        let t242 = base_rotation[1][1] * c(0.12275970481124972);
         let t243 = t241 - t242;
-        let t244 = base_rotation[1][2] * 0.03055;
-        let t245 = base_rotation[2][0] * 0.1316436662914507;
-        let t246 = base_rotation[2][1] * 0.12275970481124972;
+        let t244 = base_rotation[1][2] * c(0.03055);
+        let t245 = base_rotation[2][0] * c(0.1316436662914507);
+        let t246 = base_rotation[2][1] * c(0.12275970481124972);
         let t247 = t245 - t246;
-        let t248 = base_rotation[2][2] * 0.03055;
+        let t248 = base_rotation[2][2] * c(0.03055);
         let t249 = t243 - base_rotation[1][2] * t56;
-        let t250 = t244 + t98 * 0.17066666666666666 - 0.9523333333333334 * t249;
+        let t250 = t244 + t98 * c(0.17066666666666666) - c(0.9523333333333334) * t249;
         let t251 = t247 - base_rotation[2][2] * t56;
-        let t252 = t248 + t99 * 0.17066666666666666 - 0.9523333333333334 * t251;
+        let t252 = t248 + t99 * c(0.17066666666666666) - c(0.9523333333333334) * t251;
         let t253 = base_rotation[2][2] * t250 - base_rotation[1][2] * t252;
         let t254 = t101 * t253;
-        let t255 = base_rotation[0][0] * 0.1316436662914507;
-        let t256 = base_rotation[0][1] * 0.12275970481124972;
+        let t255 = base_rotation[0][0] * c(0.1316436662914507);
+        let t256 = base_rotation[0][1] * c(0.12275970481124972);
         let t257 = t255 - t256;
-        let t258 = base_rotation[0][2] * 0.03055;
+        let t258 = base_rotation[0][2] * c(0.03055);
         let t259 = t257 - base_rotation[0][2] * t56;
-        let t260 = t258 + t97 * 0.17066666666666666 - 0.9523333333333334 * t259;
+        let t260 = t258 + t97 * c(0.17066666666666666) - c(0.9523333333333334) * t259;
         let t261 = base_rotation[0][2] * t252 - base_rotation[2][2] * t260;
-        let t262 = 0.17066666666666666 * t251;
+        let t262 = c(0.17066666666666666) * t251;
         let t263 = t101 * t261 - t262;
         let t264 = base_rotation[1][2] * t260 - base_rotation[0][2] * t250;
-        let t265 = 0.17066666666666666 * t249;
+        let t265 = c(0.17066666666666666) * t249;
         let t266 = t101 * t264 + t265;
         let t267 = t103 * t235;
-        let t268 = 0.17066666666666666 + t103 * t237;
+        let t268 = c(0.17066666666666666) + t103 * t237;
         let t269 = t103 * t239;
         let t270 = t262 + t103 * t253;
         let t271 = t103 * t261;
-        let t272 = 0.17066666666666666 * t259;
+        let t272 = c(0.17066666666666666) * t259;
         let t273 = t103 * t264 - t272;
         let t274 = t105 * t235;
         let t275 = t105 * t237;
-        let t276 = 0.17066666666666666 + t105 * t239;
+        let t276 = c(0.17066666666666666) + t105 * t239;
         let t277 = t265 - t105 * t253;
         let t278 = t272 + t105 * t261;
         let t279 = t105 * t264;
         // leg 2: mass matrix of the leg in the speeds of its joint
-        let t280 = t223 - t113 * 0.4761666666666667;
-        let t281 = 2.0 * (t113 * t280);
-        let t282 = t226 - t115 * 0.4761666666666667;
+        let t280 = t223 - t113 * c(0.4761666666666667);
+        let t281 = c(2.0) * (t113 * t280);
+        let t282 = t226 - t115 * c(0.4761666666666667);
         let t283 = t113 * t282 + t115 * t280;
-        let t284 = t229 - t117 * 0.4761666666666667;
+        let t284 = t229 - t117 * c(0.4761666666666667);
         let t285 = t113 * t284 + t117 * t280;
-        let t286 = 2.0 * (t115 * t282);
+        let t286 = c(2.0) * (t115 * t282);
         let t287 = t115 * t284 + t117 * t282;
-        let t288 = 2.0 * (t117 * t284);
+        let t288 = c(2.0) * (t117 * t284);
         // leg 2: leg inertia between joint and base speeds
-        let t289 = 0.17066666666666666 - t113 * t235;
+        let t289 = c(0.17066666666666666) - t113 * t235;
         let t290 = t113 * t237;
         let t291 = t113 * t239;
         let t292 = t241 + t242;
         let t293 = t245 + t246;
         let t294 = t292 - base_rotation[1][2] * t59;
-        let t295 = t244 + t110 * 0.17066666666666666 - 0.9523333333333334 * t294;
+        let t295 = t244 + t110 * c(0.17066666666666666) - c(0.9523333333333334) * t294;
         let t296 = t293 - base_rotation[2][2] * t59;
-        let t297 = t248 + t111 * 0.17066666666666666 - 0.9523333333333334 * t296;
+        let t297 = t248 + t111 * c(0.17066666666666666) - c(0.9523333333333334) * t296;
         let t298 = base_rotation[2][2] * t295 - base_rotation[1][2] * t297;
         let t299 = t113 * t298;
         let t300 = t255 + t256;
         let t301 = t300 - base_rotation[0][2] * t59;
-        let t302 = t258 + t109 * 0.17066666666666666 - 0.9523333333333334 * t301;
+        let t302 = t258 + t109 * c(0.17066666666666666) - c(0.9523333333333334) * t301;
         let t303 = base_rotation[0][2] * t297 - base_rotation[2][2] * t302;
-        let t304 = 0.17066666666666666 * t296;
+        let t304 = c(0.17066666666666666) * t296;
         let t305 = t113 * t303 + t304;
         let t306 = base_rotation[1][2] * t302 - base_rotation[0][2] * t295;
-        let t307 = 0.17066666666666666 * t294;
+        let t307 = c(0.17066666666666666) * t294;
         let t308 = t113 * t306 - t307;
         let t309 = t115 * t235;
-        let t310 = 0.17066666666666666 - t115 * t237;
+        let t310 = c(0.17066666666666666) - t115 * t237;
         let t311 = t115 * t239;
         let t312 = t304 - t115 * t298;
         let t313 = t115 * t303;
-        let t314 = 0.17066666666666666 * t301;
+        let t314 = c(0.17066666666666666) * t301;
         let t315 = t115 * t306 + t314;
         let t316 = t117 * t235;
         let t317 = t117 * t237;
-        let t318 = 0.17066666666666666 - t117 * t239;
+        let t318 = c(0.17066666666666666) - t117 * t239;
         let t319 = t307 + t117 * t298;
         let t320 = t314 - t117 * t303;
         let t321 = t117 * t306;
         // leg 3: mass matrix of the leg in the speeds of its joint
-        let t322 = t223 - t134 * 0.4761666666666667;
-        let t323 = 2.0 * (t134 * t322);
-        let t324 = t226 - t136 * 0.4761666666666667;
+        let t322 = t223 - t134 * c(0.4761666666666667);
+        let t323 = c(2.0) * (t134 * t322);
+        let t324 = t226 - t136 * c(0.4761666666666667);
         let t325 = t134 * t324 + t136 * t322;
-        let t326 = t229 - t138 * 0.4761666666666667;
+        let t326 = t229 - t138 * c(0.4761666666666667);
         let t327 = t134 * t326 + t138 * t322;
-        let t328 = 2.0 * (t136 * t324);
+        let t328 = c(2.0) * (t136 * t324);
         let t329 = t136 * t326 + t138 * t324;
-        let t330 = 2.0 * (t138 * t326);
+        let t330 = c(2.0) * (t138 * t326);
         // leg 3: leg inertia between joint and base speeds
-        let t331 = 0.17066666666666666 - t134 * t235;
+        let t331 = c(0.17066666666666666) - t134 * t235;
         let t332 = t134 * t237;
         let t333 = t134 * t239;
-        let t334 = base_rotation[1][0] * 0.040491189781895726;
-        let t335 = base_rotation[1][1] * 0.17538661166134234;
+        let t334 = base_rotation[1][0] * c(0.040491189781895726);
+        let t335 = base_rotation[1][1] * c(0.17538661166134234);
         let t336 = t334 + t335;
-        let t337 = base_rotation[2][0] * 0.040491189781895726;
-        let t338 = base_rotation[2][1] * 0.17538661166134234;
+        let t337 = base_rotation[2][0] * c(0.040491189781895726);
+        let t338 = base_rotation[2][1] * c(0.17538661166134234);
         let t339 = t337 + t338;
         let t340 = t336 - base_rotation[1][2] * t64;
-        let t341 = t244 + t131 * 0.17066666666666666 - 0.9523333333333334 * t340;
+        let t341 = t244 + t131 * c(0.17066666666666666) - c(0.9523333333333334) * t340;
         let t342 = t339 - base_rotation[2][2] * t64;
-        let t343 = t248 + t132 * 0.17066666666666666 - 0.9523333333333334 * t342;
+        let t343 = t248 + t132 * c(0.17066666666666666) - c(0.9523333333333334) * t342;
         let t344 = base_rotation[2][2] * t341 - base_rotation[1][2] * t343;
         let t345 = t134 * t344;
-        let t346 = base_rotation[0][0] * 0.040491189781895726;
-        let t347 = base_rotation[0][1] * 0.17538661166134234;
+        let t346 = base_rotation[0][0] * c(0.040491189781895726);
+        let t347 = base_rotation[0][1] * c(0.17538661166134234);
         let t348 = t346 + t347;
         let t349 = t348 - base_rotation[0][2] * t64;
-        let t350 = t258 + t130 * 0.17066666666666666 - 0.9523333333333334 * t349;
+        let t350 = t258 + t130 * c(0.17066666666666666) - c(0.9523333333333334) * t349;
         let t351 = base_rotation[0][2] * t343 - base_rotation[2][2] * t350;
-        let t352 = 0.17066666666666666 * t342;
+        let t352 = c(0.17066666666666666) * t342;
         let t353 = t134 * t351 + t352;
         let t354 = base_rotation[1][2] * t350 - base_rotation[0][2] * t341;
-        let t355 = 0.17066666666666666 * t340;
+        let t355 = c(0.17066666666666666) * t340;
         let t356 = t134 * t354 - t355;
         let t357 = t136 * t235;
-        let t358 = 0.17066666666666666 - t136 * t237;
+        let t358 = c(0.17066666666666666) - t136 * t237;
         let t359 = t136 * t239;
         let t360 = t352 - t136 * t344;
         let t361 = t136 * t351;
-        let t362 = 0.17066666666666666 * t349;
+        let t362 = c(0.17066666666666666) * t349;
         let t363 = t136 * t354 + t362;
         let t364 = t138 * t235;
         let t365 = t138 * t237;
-        let t366 = 0.17066666666666666 - t138 * t239;
+        let t366 = c(0.17066666666666666) - t138 * t239;
         let t367 = t355 + t138 * t344;
         let t368 = t362 - t138 * t351;
         let t369 = t138 * t354;
         // leg 4: mass matrix of the leg in the speeds of its joint
-        let t370 = t223 - t155 * 0.4761666666666667;
-        let t371 = 2.0 * (t155 * t370);
-        let t372 = t226 - t157 * 0.4761666666666667;
+        let t370 = t223 - t155 * c(0.4761666666666667);
+        let t371 = c(2.0) * (t155 * t370);
+        let t372 = t226 - t157 * c(0.4761666666666667);
         let t373 = t155 * t372 + t157 * t370;
-        let t374 = t229 - t159 * 0.4761666666666667;
+        let t374 = t229 - t159 * c(0.4761666666666667);
         let t375 = t155 * t374 + t159 * t370;
-        let t376 = 2.0 * (t157 * t372);
+        let t376 = c(2.0) * (t157 * t372);
         let t377 = t157 * t374 + t159 * t372;
-        let t378 = 2.0 * (t159 * t374);
+        let t378 = c(2.0) * (t159 * t374);
         // leg 4: leg inertia between joint and base speeds
-        let t379 = 0.17066666666666666 - t155 * t235;
+        let t379 = c(0.17066666666666666) - t155 * t235;
         let t380 = t155 * t237;
         let t381 = t155 * t239;
-        let t382 = base_rotation[1][0] * 0.17213485607334636;
-        let t383 = base_rotation[1][1] * 0.052626906850092664;
+        let t382 = base_rotation[1][0] * c(0.17213485607334636);
+        let t383 = base_rotation[1][1] * c(0.052626906850092664);
         let t384 = t382 - t383;
-        let t385 = base_rotation[2][0] * 0.17213485607334636;
-        let t386 = base_rotation[2][1] * 0.052626906850092664;
+        let t385 = base_rotation[2][0] * c(0.17213485607334636);
+        let t386 = base_rotation[2][1] * c(0.052626906850092664);
         let t387 = t385 - t386;
         let t388 = t384 + base_rotation[1][2] * t69;
-        let t389 = t244 + t152 * 0.17066666666666666 + 0.9523333333333334 * t388;
+        let t389 = t244 + t152 * c(0.17066666666666666) + c(0.9523333333333334) * t388;
         let t390 = t387 + base_rotation[2][2] * t69;
-        let t391 = t248 + t153 * 0.17066666666666666 + 0.9523333333333334 * t390;
+        let t391 = t248 + t153 * c(0.17066666666666666) + c(0.9523333333333334) * t390;
         let t392 = base_rotation[2][2] * t389 - base_rotation[1][2] * t391;
         let t393 = t155 * t392;
-        let t394 = base_rotation[0][0] * 0.17213485607334636;
-        let t395 = base_rotation[0][1] * 0.052626906850092664;
+        let t394 = base_rotation[0][0] * c(0.17213485607334636);
+        let t395 = base_rotation[0][1] * c(0.052626906850092664);
         let t396 = t394 - t395;
         let t397 = t396 + base_rotation[0][2] * t69;
-        let t398 = t258 + t151 * 0.17066666666666666 + 0.9523333333333334 * t397;
+        let t398 = t258 + t151 * c(0.17066666666666666) + c(0.9523333333333334) * t397;
         let t399 = base_rotation[0][2] * t391 - base_rotation[2][2] * t398;
-        let t400 = 0.17066666666666666 * t390;
+        let t400 = c(0.17066666666666666) * t390;
         let t401 = t155 * t399 - t400;
         let t402 = base_rotation[1][2] * t398 - base_rotation[0][2] * t389;
-        let t403 = 0.17066666666666666 * t388;
+        let t403 = c(0.17066666666666666) * t388;
         let t404 = t155 * t402 + t403;
         let t405 = t157 * t235;
-        let t406 = 0.17066666666666666 - t157 * t237;
+        let t406 = c(0.17066666666666666) - t157 * t237;
         let t407 = t157 * t239;
         let t408 = t400 + t157 * t392;
         let t409 = t157 * t399;
-        let t410 = 0.17066666666666666 * t397;
+        let t410 = c(0.17066666666666666) * t397;
         let t411 = t157 * t402 - t410;
         let t412 = t159 * t235;
         let t413 = t159 * t237;
-        let t414 = 0.17066666666666666 - t159 * t239;
+        let t414 = c(0.17066666666666666) - t159 * t239;
         let t415 = t403 - t159 * t392;
         let t416 = t410 + t159 * t399;
         let t417 = t159 * t402;
         // leg 5: mass matrix of the leg in the speeds of its joint
-        let t418 = t223 + t170 * 0.4761666666666667;
-        let t419 = 2.0 * (t170 * t418);
-        let t420 = t226 + t172 * 0.4761666666666667;
+        let t418 = t223 + t170 * c(0.4761666666666667);
+        let t419 = c(2.0) * (t170 * t418);
+        let t420 = t226 + t172 * c(0.4761666666666667);
         let t421 = t170 * t420 + t172 * t418;
-        let t422 = t229 + t174 * 0.4761666666666667;
+        let t422 = t229 + t174 * c(0.4761666666666667);
         let t423 = t170 * t422 + t174 * t418;
-        let t424 = 2.0 * (t172 * t420);
+        let t424 = c(2.0) * (t172 * t420);
         let t425 = t172 * t422 + t174 * t420;
-        let t426 = 2.0 * (t174 * t422);
+        let t426 = c(2.0) * (t174 * t422);
         // leg 5: leg inertia between joint and base speeds
-        let t427 = 0.17066666666666666 + t170 * t235;
+        let t427 = c(0.17066666666666666) + t170 * t235;
         let t428 = t170 * t237;
         let t429 = t170 * t239;
         let t430 = t382 + t383;
         let t431 = t385 + t386;
         let t432 = t430 + base_rotation[1][2] * t72;
-        let t433 = t244 + t167 * 0.17066666666666666 + 0.9523333333333334 * t432;
+        let t433 = t244 + t167 * c(0.17066666666666666) + c(0.9523333333333334) * t432;
         let t434 = t431 + base_rotation[2][2] * t72;
-        let t435 = t248 + t168 * 0.17066666666666666 + 0.9523333333333334 * t434;
+        let t435 = t248 + t168 * c(0.17066666666666666) + c(0.9523333333333334) * t434;
         let t436 = base_rotation[2][2] * t433 - base_rotation[1][2] * t435;
         let t437 = t170 * t436;
         let t438 = t394 + t395;
         let t439 = t438 + base_rotation[0][2] * t72;
-        let t440 = t258 + t166 * 0.17066666666666666 + 0.9523333333333334 * t439;
+        let t440 = t258 + t166 * c(0.17066666666666666) + c(0.9523333333333334) * t439;
         let t441 = base_rotation[0][2] * t435 - base_rotation[2][2] * t440;
-        let t442 = 0.17066666666666666 * t434;
+        let t442 = c(0.17066666666666666) * t434;
         let t443 = t170 * t441 + t442;
         let t444 = base_rotation[1][2] * t440 - base_rotation[0][2] * t433;
-        let t445 = 0.17066666666666666 * t432;
+        let t445 = c(0.17066666666666666) * t432;
         let t446 = t170 * t444 - t445;
         let t447 = t172 * t235;
-        let t448 = 0.17066666666666666 + t172 * t237;
+        let t448 = c(0.17066666666666666) + t172 * t237;
         let t449 = t172 * t239;
         let t450 = t442 - t172 * t436;
         let t451 = t172 * t441;
-        let t452 = 0.17066666666666666 * t439;
+        let t452 = c(0.17066666666666666) * t439;
         let t453 = t172 * t444 + t452;
         let t454 = t174 * t235;
         let t455 = t174 * t237;
-        let t456 = 0.17066666666666666 + t174 * t239;
+        let t456 = c(0.17066666666666666) + t174 * t239;
         let t457 = t445 + t174 * t436;
         let t458 = t452 - t174 * t441;
         let t459 = t174 * t444;
         // leg 6: mass matrix of the leg in the speeds of its joint
-        let t460 = t223 + t182 * 0.4761666666666667;
-        let t461 = 2.0 * (t182 * t460);
-        let t462 = t226 + t184 * 0.4761666666666667;
+        let t460 = t223 + t182 * c(0.4761666666666667);
+        let t461 = c(2.0) * (t182 * t460);
+        let t462 = t226 + t184 * c(0.4761666666666667);
         let t463 = t182 * t462 + t184 * t460;
-        let t464 = t229 + t186 * 0.4761666666666667;
+        let t464 = t229 + t186 * c(0.4761666666666667);
         let t465 = t182 * t464 + t186 * t460;
-        let t466 = 2.0 * (t184 * t462);
+        let t466 = c(2.0) * (t184 * t462);
         let t467 = t184 * t464 + t186 * t462;
-        let t468 = 2.0 * (t186 * t464);
+        let t468 = c(2.0) * (t186 * t464);
         // leg 6: leg inertia between joint and base speeds
-        let t469 = 0.17066666666666666 + t182 * t235;
+        let t469 = c(0.17066666666666666) + t182 * t235;
         let t470 = t182 * t237;
         let t471 = t182 * t239;
         let t472 = t334 - t335;
         let t473 = t337 - t338;
         let t474 = t472 - base_rotation[1][2] * t75;
-        let t475 = t244 + t179 * 0.17066666666666666 - 0.9523333333333334 * t474;
+        let t475 = t244 + t179 * c(0.17066666666666666) - c(0.9523333333333334) * t474;
         let t476 = t473 - base_rotation[2][2] * t75;
-        let t477 = t248 + t180 * 0.17066666666666666 - 0.9523333333333334 * t476;
+        let t477 = t248 + t180 * c(0.17066666666666666) - c(0.9523333333333334) * t476;
         let t478 = base_rotation[2][2] * t475 - base_rotation[1][2] * t477;
         let t479 = t182 * t478;
         let t480 = t346 - t347;
         let t481 = t480 - base_rotation[0][2] * t75;
-        let t482 = t258 + t178 * 0.17066666666666666 - 0.9523333333333334 * t481;
+        let t482 = t258 + t178 * c(0.17066666666666666) - c(0.9523333333333334) * t481;
         let t483 = base_rotation[0][2] * t477 - base_rotation[2][2] * t482;
-        let t484 = 0.17066666666666666 * t476;
+        let t484 = c(0.17066666666666666) * t476;
         let t485 = t182 * t483 - t484;
         let t486 = base_rotation[1][2] * t482 - base_rotation[0][2] * t475;
-        let t487 = 0.17066666666666666 * t474;
+        let t487 = c(0.17066666666666666) * t474;
         let t488 = t182 * t486 + t487;
         let t489 = t184 * t235;
-        let t490 = 0.17066666666666666 + t184 * t237;
+        let t490 = c(0.17066666666666666) + t184 * t237;
         let t491 = t184 * t239;
         let t492 = t484 + t184 * t478;
         let t493 = t184 * t483;
-        let t494 = 0.17066666666666666 * t481;
+        let t494 = c(0.17066666666666666) * t481;
         let t495 = t184 * t486 - t494;
         let t496 = t186 * t235;
         let t497 = t186 * t237;
-        let t498 = 0.17066666666666666 + t186 * t239;
+        let t498 = c(0.17066666666666666) + t186 * t239;
         let t499 = t487 - t186 * t478;
         let t500 = t494 + t186 * t483;
         let t501 = t186 * t486;
@@ -12724,350 +13306,349 @@ pub fn equation_of_motion(
         mass_matrix_p[1][4] = t609;
         mass_matrix_p[4][1] = t609;
         // mass matrix M_p of the platform
-        let t610 = platform_rotation[2][0] * 2.2551405187698492e-17;
-        let t611 = t610 + platform_rotation[2][1] * 6.938893903907228e-18;
-        let t612 = t611 + platform_rotation[2][2] * 0.188852;
-        let t613 = platform_rotation[1][0] * 2.2551405187698492e-17;
-        let t614 = t613 + platform_rotation[1][1] * 6.938893903907228e-18;
-        let t615 = t614 + platform_rotation[1][2] * 0.188852;
-        let t616 = platform_rotation[0][0] * 2.2551405187698492e-17;
-        let t617 = t616 + platform_rotation[0][1] * 6.938893903907228e-18;
-        let t618 = t617 + platform_rotation[0][2] * 0.188852;
-        let t619 = platform_rotation[0][2] * 0.013354412;
-        let t620 = platform_rotation[0][0] * 0.032245600000000006;
-        let t621 = platform_rotation[0][1] * 0.032245600000000006;
+        let t610 = platform_rotation[2][0] * c(2.2551405187698492e-17);
+        let t611 = t610 + platform_rotation[2][1] * c(6.938893903907228e-18);
+        let t612 = t611 + platform_rotation[2][2] * c(0.188852);
+        let t613 = platform_rotation[1][0] * c(2.2551405187698492e-17);
+        let t614 = t613 + platform_rotation[1][1] * c(6.938893903907228e-18);
+        let t615 = t614 + platform_rotation[1][2] * c(0.188852);
+        let t616 = platform_rotation[0][0] * c(2.2551405187698492e-17);
+        let t617 = t616 + platform_rotation[0][1] * c(6.938893903907228e-18);
+        let t618 = t617 + platform_rotation[0][2] * c(0.188852);
+        let t619 = platform_rotation[0][2] * c(0.013354412);
+        let t620 = platform_rotation[0][0] * c(0.032245600000000006);
+        let t621 = platform_rotation[0][1] * c(0.032245600000000006);
         let t622 = platform_rotation[0][0] * t620 + platform_rotation[0][1] * t621;
         let t623 = platform_rotation[0][2] * t619 + t622;
         let t624 = platform_rotation[1][0] * t620 + platform_rotation[1][1] * t621;
         let t625 = platform_rotation[1][2] * t619 + t624;
         let t626 = platform_rotation[2][0] * t620 + platform_rotation[2][1] * t621;
         let t627 = platform_rotation[2][2] * t619 + t626;
-        let t628 = platform_rotation[1][2] * 0.013354412;
-        let t629 = platform_rotation[1][0] * 0.032245600000000006;
-        let t630 = platform_rotation[1][1] * 0.032245600000000006;
+        let t628 = platform_rotation[1][2] * c(0.013354412);
+        let t629 = platform_rotation[1][0] * c(0.032245600000000006);
+        let t630 = platform_rotation[1][1] * c(0.032245600000000006);
         let t631 = platform_rotation[1][0] * t629 + platform_rotation[1][1] * t630;
         let t632 = platform_rotation[1][2] * t628 + t631;
         let t633 = platform_rotation[2][0] * t629 + platform_rotation[2][1] * t630;
         let t634 = platform_rotation[2][2] * t628 + t633;
-        let t635 = platform_rotation[2][2] * (platform_rotation[2][2] * 0.013354412);
-        let t636 = platform_rotation[2][0]
-            * (platform_rotation[2][0] * 0.032245600000000006);
-        let t637 = platform_rotation[2][1]
-            * (platform_rotation[2][1] * 0.032245600000000006);
-        let t638 = t635 + (t636 + t637);
-        mass_matrix_p[0][0] = 8.139999999999999 + t502;
-        let t639 = t525 + t612;
-        mass_matrix_p[0][4] = t639;
-        mass_matrix_p[4][0] = t639;
-        let t640 = t532 - t615;
-        mass_matrix_p[0][5] = t640;
-        mass_matrix_p[5][0] = t640;
-        mass_matrix_p[1][1] = 8.139999999999999 + t533;
-        let t641 = t541 - t612;
-        mass_matrix_p[1][3] = t641;
-        mass_matrix_p[3][1] = t641;
-        let t642 = t561 + t618;
-        mass_matrix_p[1][5] = t642;
-        mass_matrix_p[5][1] = t642;
-        mass_matrix_p[2][2] = 8.139999999999999 + t562;
-        let t643 = t569 + t615;
-        mass_matrix_p[2][3] = t643;
-        mass_matrix_p[3][2] = t643;
-        let t644 = t576 - t618;
-        mass_matrix_p[2][4] = t644;
-        mass_matrix_p[4][2] = t644;
-        mass_matrix_p[3][3] = 0.07784561200000001 - t587 - t623;
-        let t645 = -(t591 + t625);
-        mass_matrix_p[3][4] = t645;
-        mass_matrix_p[4][3] = t645;
-        let t646 = -(t595 + t627);
-        mass_matrix_p[3][5] = t646;
-        mass_matrix_p[5][3] = t646;
-        mass_matrix_p[4][4] = 0.07784561200000001 - t599 - t632;
-        let t647 = -(t603 + t634);
-        mass_matrix_p[4][5] = t647;
-        mass_matrix_p[5][4] = t647;
-        mass_matrix_p[5][5] = 0.07784561200000001 - t607 - t638;
+        let t635 = platform_rotation[2][2] * (platform_rotation[2][2] * c(0.013354412));
+        let t636 = platform_rotation[2][0] * c(0.032245600000000006);
+        let t637 = platform_rotation[2][1] * c(0.032245600000000006);
+        let t638 = platform_rotation[2][0] * t636 + platform_rotation[2][1] * t637;
+        let t639 = t635 + t638;
+        mass_matrix_p[0][0] = c(8.139999999999999) + t502;
+        let t640 = t525 + t612;
+        mass_matrix_p[0][4] = t640;
+        mass_matrix_p[4][0] = t640;
+        let t641 = t532 - t615;
+        mass_matrix_p[0][5] = t641;
+        mass_matrix_p[5][0] = t641;
+        mass_matrix_p[1][1] = c(8.139999999999999) + t533;
+        let t642 = t541 - t612;
+        mass_matrix_p[1][3] = t642;
+        mass_matrix_p[3][1] = t642;
+        let t643 = t561 + t618;
+        mass_matrix_p[1][5] = t643;
+        mass_matrix_p[5][1] = t643;
+        mass_matrix_p[2][2] = c(8.139999999999999) + t562;
+        let t644 = t569 + t615;
+        mass_matrix_p[2][3] = t644;
+        mass_matrix_p[3][2] = t644;
+        let t645 = t576 - t618;
+        mass_matrix_p[2][4] = t645;
+        mass_matrix_p[4][2] = t645;
+        mass_matrix_p[3][3] = c(0.07784561200000001) - t587 - t623;
+        let t646 = -(t591 + t625);
+        mass_matrix_p[3][4] = t646;
+        mass_matrix_p[4][3] = t646;
+        let t647 = -(t595 + t627);
+        mass_matrix_p[3][5] = t647;
+        mass_matrix_p[5][3] = t647;
+        mass_matrix_p[4][4] = c(0.07784561200000001) - t599 - t632;
+        let t648 = -(t603 + t634);
+        mass_matrix_p[4][5] = t648;
+        mass_matrix_p[5][4] = t648;
+        mass_matrix_p[5][5] = c(0.07784561200000001) - t607 - t639;
         // mass matrix M_b that couples the base acceleration
         mass_matrix_b[0][0] = t502 - (t469 + (t427 + (t379 + (t331 + (t236 + t289)))));
         mass_matrix_b[0][1] = t503 - (t470 + (t428 - (t380 + (t332 - (t238 - t290)))));
         mass_matrix_b[0][2] = t504 - (t471 + (t429 - (t381 + (t333 - (t240 - t291)))));
-        let t648 = t21 * t503;
-        let t649 = t648 - (t518 - (t479 + (t437 - (t393 + (t345 - (t254 - t299))))));
-        let t650 = t20 * t504;
-        mass_matrix_b[0][3] = t649 - t650;
-        let t651 = t525 + (t485 + (t443 - (t401 + (t353 - (t263 - t305)))));
-        mass_matrix_b[0][4] = t19 * t504 + t651 - t21 * t502;
-        let t652 = t532 + (t488 + (t446 - (t404 + (t356 - (t266 - t308)))));
-        mass_matrix_b[0][5] = t20 * t502 + t652 - t19 * t503;
+        let t649 = t21 * t503;
+        let t650 = t649 - (t518 - (t479 + (t437 - (t393 + (t345 - (t254 - t299))))));
+        let t651 = t20 * t504;
+        mass_matrix_b[0][3] = t650 - t651;
+        let t652 = t525 + (t485 + (t443 - (t401 + (t353 - (t263 - t305)))));
+        mass_matrix_b[0][4] = t19 * t504 + t652 - t21 * t502;
+        let t653 = t532 + (t488 + (t446 - (t404 + (t356 - (t266 - t308)))));
+        mass_matrix_b[0][5] = t20 * t502 + t653 - t19 * t503;
         mass_matrix_b[1][0] = t503 - (t489 + (t447 - (t405 + (t357 - (t267 - t309)))));
         mass_matrix_b[1][1] = t533 - (t490 + (t448 + (t406 + (t358 + (t268 + t310)))));
         mass_matrix_b[1][2] = t534 - (t491 + (t449 - (t407 + (t359 - (t269 - t311)))));
-        let t653 = t541 + (t492 - (t450 + (t408 - (t360 + (t270 + t312)))));
-        mass_matrix_b[1][3] = t21 * t533 + t653 - t20 * t534;
-        let t654 = t19 * t534;
-        let t655 = t648 + (t554 - (t493 + (t451 - (t409 + (t361 - (t271 - t313))))));
-        mass_matrix_b[1][4] = t654 - t655;
-        let t656 = t561 + (t495 + (t453 - (t411 + (t363 - (t273 - t315)))));
-        mass_matrix_b[1][5] = t20 * t503 + t656 - t19 * t533;
+        let t654 = t541 + (t492 - (t450 + (t408 - (t360 + (t270 + t312)))));
+        mass_matrix_b[1][3] = t21 * t533 + t654 - t20 * t534;
+        let t655 = t19 * t534;
+        let t656 = t649 + (t554 - (t493 + (t451 - (t409 + (t361 - (t271 - t313))))));
+        mass_matrix_b[1][4] = t655 - t656;
+        let t657 = t561 + (t495 + (t453 - (t411 + (t363 - (t273 - t315)))));
+        mass_matrix_b[1][5] = t20 * t503 + t657 - t19 * t533;
         mass_matrix_b[2][0] = t504 - (t496 + (t454 - (t412 + (t364 - (t274 - t316)))));
         mass_matrix_b[2][1] = t534 - (t497 + (t455 - (t413 + (t365 - (t275 - t317)))));
         mass_matrix_b[2][2] = t562 - (t498 + (t456 + (t414 + (t366 + (t276 + t318)))));
-        let t657 = t569 - (t499 - (t457 + (t415 - (t367 + (t277 + t319)))));
-        mass_matrix_b[2][3] = t21 * t534 + t657 - t20 * t562;
-        let t658 = t576 + (t500 - (t458 + (t416 - (t368 + (t278 + t320)))));
-        mass_matrix_b[2][4] = t19 * t562 + t658 - t21 * t504;
-        let t659 = t650 + (t583 + (t501 + (t459 - (t417 + (t369 - (t279 - t321))))));
-        mass_matrix_b[2][5] = t659 - t654;
-        let t660 = t107 * t316 + (t96 * t267 - (t518 + t93 * t274));
-        let t661 = t129 * t357 - (t126 * t364 + (t108 * t309 - t660));
-        let t662 = t164 * t454 + (t150 * t405 - (t147 * t412 - t661));
-        mass_matrix_b[3][0] = t176 * t496 - (t165 * t447 - t662) - t177 * t489;
-        let t663 = t107 * t317 + (t96 * t268 + (t541 - t93 * t275));
-        let t664 = t129 * t358 + (t126 * t365 - (t108 * t310 + t663));
-        let t665 = t164 * t455 - (t150 * t406 + (t147 * t413 + t664));
-        mass_matrix_b[3][1] = t176 * t497 - (t165 * t448 - t665) - t177 * t490;
-        let t666 = t107 * t318 - (t96 * t269 + (t569 - t93 * t276));
-        let t667 = t129 * t359 + (t126 * t366 - (t108 * t311 + t666));
-        let t668 = t164 * t456 + (t150 * t407 + (t147 * t414 + t667));
-        mass_matrix_b[3][2] = t176 * t498 - (t165 * t449 - t668) - t177 * t491;
-        let t669 = t93 * t277 + (t20 * t569 + (t587 - t21 * t541));
-        let t670 = t108 * t312 + (t107 * t319 + (t96 * t270 + t669));
-        let t671 = t147 * t415 - (t129 * t360 + (t126 * t367 - t670));
-        let t672 = t165 * t450 + (t164 * t457 + (t150 * t408 + t671));
-        mass_matrix_b[3][3] = t177 * t492 + (t176 * t499 - t672);
-        let t673 = t93 * t278 + (t21 * t518 - (t591 - t19 * t569));
-        let t674 = t108 * t313 + (t107 * t320 - (t96 * t271 - t673));
-        let t675 = t147 * t416 - (t129 * t361 + (t126 * t368 - t674));
-        let t676 = t165 * t451 + (t164 * t458 - (t150 * t409 - t675));
-        mass_matrix_b[3][4] = t177 * t493 - (t176 * t500 - t676);
-        let t677 = t93 * t279 - (t19 * t541 + (t595 + t20 * t518));
-        let t678 = t108 * t315 - (t107 * t321 + (t96 * t273 - t677));
-        let t679 = t147 * t417 - (t129 * t363 - (t126 * t369 + t678));
-        let t680 = t165 * t453 - (t164 * t459 + (t150 * t411 - t679));
-        mass_matrix_b[3][5] = t177 * t495 - (t176 * t501 - t680);
-        let t681 = t108 * t289 - (t90 * t274 + (t525 - t96 * t236));
-        let t682 = t123 * t364 + (t129 * t331 - (t106 * t316 + t681));
-        let t683 = t165 * t427 + (t144 * t412 + (t150 * t379 + t682));
-        mass_matrix_b[4][0] = t177 * t469 - (t163 * t454 - t683) - t175 * t496;
-        let t684 = t108 * t290 + (t90 * t275 - (t554 + t96 * t238));
-        let t685 = t123 * t365 - (t129 * t332 + (t106 * t317 - t684));
-        let t686 = t165 * t428 + (t144 * t413 - (t150 * t380 - t685));
-        mass_matrix_b[4][1] = t177 * t470 - (t163 * t455 - t686) - t175 * t497;
-        let t687 = t108 * t291 + (t90 * t276 + (t576 - t96 * t240));
-        let t688 = t123 * t366 + (t129 * t333 - (t106 * t318 + t687));
-        let t689 = t165 * t429 - (t144 * t414 + (t150 * t381 + t688));
-        mass_matrix_b[4][2] = t177 * t471 - (t163 * t456 - t689) - t175 * t498;
-        let t690 = t96 * t254 - (t20 * t576 + (t591 + t21 * t554));
-        let t691 = t106 * t319 - (t108 * t299 - (t90 * t277 + t690));
-        let t692 = t150 * t393 - (t123 * t367 - (t129 * t345 + t691));
-        let t693 = t163 * t457 - (t165 * t437 - (t144 * t415 + t692));
-        mass_matrix_b[4][3] = t693 - t177 * t479 - t175 * t499;
-        let t694 = t96 * t263 - (t21 * t525 + (t599 - t19 * t576));
-        let t695 = t106 * t320 + (t108 * t305 + (t90 * t278 - t694));
-        let t696 = t150 * t401 + (t123 * t368 + (t129 * t353 - t695));
-        let t697 = t163 * t458 + (t165 * t443 + (t144 * t416 - t696));
-        mass_matrix_b[4][4] = t175 * t500 - (t177 * t485 + t697);
-        let t698 = t96 * t266 + (t19 * t554 - (t603 - t20 * t525));
-        let t699 = t106 * t321 - (t108 * t308 + (t90 * t279 - t698));
-        let t700 = t150 * t404 - (t123 * t369 - (t129 * t356 + t699));
-        let t701 = t163 * t459 - (t165 * t446 + (t144 * t417 - t700));
-        mass_matrix_b[4][5] = t175 * t501 - (t177 * t488 - t701);
-        let t702 = t106 * t309 + (t93 * t236 + (t532 - t90 * t267));
-        let t703 = t126 * t331 + (t123 * t357 - (t107 * t289 + t702));
-        let t704 = t163 * t447 - (t147 * t379 + (t144 * t405 + t703));
-        mass_matrix_b[5][0] = t175 * t489 - (t164 * t427 - t704) - t176 * t469;
-        let t705 = t106 * t310 - (t93 * t238 + (t561 - t90 * t268));
-        let t706 = t126 * t332 + (t123 * t358 - (t107 * t290 + t705));
-        let t707 = t163 * t448 + (t147 * t380 + (t144 * t406 + t706));
-        mass_matrix_b[5][1] = t175 * t490 - (t164 * t428 - t707) - t176 * t470;
-        let t708 = t106 * t311 + (t93 * t240 + (t583 - t90 * t269));
-        let t709 = t126 * t333 - (t123 * t359 + (t107 * t291 - t708));
-        let t710 = t163 * t449 + (t147 * t381 - (t144 * t407 - t709));
-        mass_matrix_b[5][2] = t175 * t491 - (t164 * t429 - t710) - t176 * t471;
-        let t711 = t90 * t270 - (t20 * t583 + (t595 - t21 * t561));
-        let t712 = t107 * t299 + (t106 * t312 - (t93 * t254 - t711));
-        let t713 = t144 * t408 - (t126 * t345 + (t123 * t360 - t712));
-        let t714 = t164 * t437 + (t163 * t450 - (t147 * t393 - t713));
-        mass_matrix_b[5][3] = t176 * t479 - (t175 * t492 - t714);
-        let t715 = t90 * t271 - (t21 * t532 + (t603 - t19 * t583));
-        let t716 = t107 * t305 - (t106 * t313 + (t93 * t263 - t715));
-        let t717 = t144 * t409 - (t126 * t353 - (t123 * t361 + t716));
-        let t718 = t164 * t443 - (t163 * t451 + (t147 * t401 - t717));
-        mass_matrix_b[5][4] = t176 * t485 - (t175 * t493 - t718);
-        let t719 = t90 * t273 - (t19 * t561 + (t607 - t20 * t532));
-        let t720 = t107 * t308 - (t106 * t315 + (t93 * t266 - t719));
-        let t721 = t144 * t411 - (t126 * t356 - (t123 * t363 + t720));
-        let t722 = t164 * t446 - (t163 * t453 + (t147 * t404 - t721));
-        mass_matrix_b[5][5] = t176 * t488 - (t175 * t495 - t722);
+        let t658 = t569 - (t499 - (t457 + (t415 - (t367 + (t277 + t319)))));
+        mass_matrix_b[2][3] = t21 * t534 + t658 - t20 * t562;
+        let t659 = t576 + (t500 - (t458 + (t416 - (t368 + (t278 + t320)))));
+        mass_matrix_b[2][4] = t19 * t562 + t659 - t21 * t504;
+        let t660 = t651 + (t583 + (t501 + (t459 - (t417 + (t369 - (t279 - t321))))));
+        mass_matrix_b[2][5] = t660 - t655;
+        let t661 = t107 * t316 + (t96 * t267 - (t518 + t93 * t274));
+        let t662 = t129 * t357 - (t126 * t364 + (t108 * t309 - t661));
+        let t663 = t164 * t454 + (t150 * t405 - (t147 * t412 - t662));
+        mass_matrix_b[3][0] = t176 * t496 - (t165 * t447 - t663) - t177 * t489;
+        let t664 = t107 * t317 + (t96 * t268 + (t541 - t93 * t275));
+        let t665 = t129 * t358 + (t126 * t365 - (t108 * t310 + t664));
+        let t666 = t164 * t455 - (t150 * t406 + (t147 * t413 + t665));
+        mass_matrix_b[3][1] = t176 * t497 - (t165 * t448 - t666) - t177 * t490;
+        let t667 = t107 * t318 - (t96 * t269 + (t569 - t93 * t276));
+        let t668 = t129 * t359 + (t126 * t366 - (t108 * t311 + t667));
+        let t669 = t164 * t456 + (t150 * t407 + (t147 * t414 + t668));
+        mass_matrix_b[3][2] = t176 * t498 - (t165 * t449 - t669) - t177 * t491;
+        let t670 = t93 * t277 + (t20 * t569 + (t587 - t21 * t541));
+        let t671 = t108 * t312 + (t107 * t319 + (t96 * t270 + t670));
+        let t672 = t147 * t415 - (t129 * t360 + (t126 * t367 - t671));
+        let t673 = t165 * t450 + (t164 * t457 + (t150 * t408 + t672));
+        mass_matrix_b[3][3] = t177 * t492 + (t176 * t499 - t673);
+        let t674 = t93 * t278 + (t21 * t518 - (t591 - t19 * t569));
+        let t675 = t108 * t313 + (t107 * t320 - (t96 * t271 - t674));
+        let t676 = t147 * t416 - (t129 * t361 + (t126 * t368 - t675));
+        let t677 = t165 * t451 + (t164 * t458 - (t150 * t409 - t676));
+        mass_matrix_b[3][4] = t177 * t493 - (t176 * t500 - t677);
+        let t678 = t93 * t279 - (t19 * t541 + (t595 + t20 * t518));
+        let t679 = t108 * t315 - (t107 * t321 + (t96 * t273 - t678));
+        let t680 = t147 * t417 - (t129 * t363 - (t126 * t369 + t679));
+        let t681 = t165 * t453 - (t164 * t459 + (t150 * t411 - t680));
+        mass_matrix_b[3][5] = t177 * t495 - (t176 * t501 - t681);
+        let t682 = t108 * t289 - (t90 * t274 + (t525 - t96 * t236));
+        let t683 = t123 * t364 + (t129 * t331 - (t106 * t316 + t682));
+        let t684 = t165 * t427 + (t144 * t412 + (t150 * t379 + t683));
+        mass_matrix_b[4][0] = t177 * t469 - (t163 * t454 - t684) - t175 * t496;
+        let t685 = t108 * t290 + (t90 * t275 - (t554 + t96 * t238));
+        let t686 = t123 * t365 - (t129 * t332 + (t106 * t317 - t685));
+        let t687 = t165 * t428 + (t144 * t413 - (t150 * t380 - t686));
+        mass_matrix_b[4][1] = t177 * t470 - (t163 * t455 - t687) - t175 * t497;
+        let t688 = t108 * t291 + (t90 * t276 + (t576 - t96 * t240));
+        let t689 = t123 * t366 + (t129 * t333 - (t106 * t318 + t688));
+        let t690 = t165 * t429 - (t144 * t414 + (t150 * t381 + t689));
+        mass_matrix_b[4][2] = t177 * t471 - (t163 * t456 - t690) - t175 * t498;
+        let t691 = t96 * t254 - (t20 * t576 + (t591 + t21 * t554));
+        let t692 = t106 * t319 - (t108 * t299 - (t90 * t277 + t691));
+        let t693 = t150 * t393 - (t123 * t367 - (t129 * t345 + t692));
+        let t694 = t163 * t457 - (t165 * t437 - (t144 * t415 + t693));
+        mass_matrix_b[4][3] = t694 - t177 * t479 - t175 * t499;
+        let t695 = t96 * t263 - (t21 * t525 + (t599 - t19 * t576));
+        let t696 = t106 * t320 + (t108 * t305 + (t90 * t278 - t695));
+        let t697 = t150 * t401 + (t123 * t368 + (t129 * t353 - t696));
+        let t698 = t163 * t458 + (t165 * t443 + (t144 * t416 - t697));
+        mass_matrix_b[4][4] = t175 * t500 - (t177 * t485 + t698);
+        let t699 = t96 * t266 + (t19 * t554 - (t603 - t20 * t525));
+        let t700 = t106 * t321 - (t108 * t308 + (t90 * t279 - t699));
+        let t701 = t150 * t404 - (t123 * t369 - (t129 * t356 + t700));
+        let t702 = t163 * t459 - (t165 * t446 + (t144 * t417 - t701));
+        mass_matrix_b[4][5] = t175 * t501 - (t177 * t488 - t702);
+        let t703 = t106 * t309 + (t93 * t236 + (t532 - t90 * t267));
+        let t704 = t126 * t331 + (t123 * t357 - (t107 * t289 + t703));
+        let t705 = t163 * t447 - (t147 * t379 + (t144 * t405 + t704));
+        mass_matrix_b[5][0] = t175 * t489 - (t164 * t427 - t705) - t176 * t469;
+        let t706 = t106 * t310 - (t93 * t238 + (t561 - t90 * t268));
+        let t707 = t126 * t332 + (t123 * t358 - (t107 * t290 + t706));
+        let t708 = t163 * t448 + (t147 * t380 + (t144 * t406 + t707));
+        mass_matrix_b[5][1] = t175 * t490 - (t164 * t428 - t708) - t176 * t470;
+        let t709 = t106 * t311 + (t93 * t240 + (t583 - t90 * t269));
+        let t710 = t126 * t333 - (t123 * t359 + (t107 * t291 - t709));
+        let t711 = t163 * t449 + (t147 * t381 - (t144 * t407 - t710));
+        mass_matrix_b[5][2] = t175 * t491 - (t164 * t429 - t711) - t176 * t471;
+        let t712 = t90 * t270 - (t20 * t583 + (t595 - t21 * t561));
+        let t713 = t107 * t299 + (t106 * t312 - (t93 * t254 - t712));
+        let t714 = t144 * t408 - (t126 * t345 + (t123 * t360 - t713));
+        let t715 = t164 * t437 + (t163 * t450 - (t147 * t393 - t714));
+        mass_matrix_b[5][3] = t176 * t479 - (t175 * t492 - t715);
+        let t716 = t90 * t271 - (t21 * t532 + (t603 - t19 * t583));
+        let t717 = t107 * t305 - (t106 * t313 + (t93 * t263 - t716));
+        let t718 = t144 * t409 - (t126 * t353 - (t123 * t361 + t717));
+        let t719 = t164 * t443 - (t163 * t451 + (t147 * t401 - t718));
+        mass_matrix_b[5][4] = t176 * t485 - (t175 * t493 - t719);
+        let t720 = t90 * t273 - (t19 * t561 + (t607 - t20 * t532));
+        let t721 = t107 * t308 - (t106 * t315 + (t93 * t266 - t720));
+        let t722 = t144 * t411 - (t126 * t356 - (t123 * t363 + t721));
+        let t723 = t164 * t446 - (t163 * t453 + (t147 * t404 - t722));
+        mass_matrix_b[5][5] = t176 * t488 - (t175 * t495 - t723);
         // angular velocity of the base
-        let t723 = base_rotation[1][0] * base_velocity[4];
-        let t724 = base_rotation[0][0] * base_velocity[3] + t723;
-        let t725 = base_rotation[2][0] * base_velocity[5] + t724;
-        let t726 = base_rotation[1][1] * base_velocity[4];
-        let t727 = base_rotation[0][1] * base_velocity[3] + t726;
-        let t728 = base_rotation[2][1] * base_velocity[5] + t727;
-        let t729 = base_rotation[1][2] * base_velocity[4];
-        let t730 = base_rotation[0][2] * base_velocity[3] + t729;
-        let t731 = base_rotation[2][2] * base_velocity[5] + t730;
+        let t724 = base_rotation[1][0] * base_velocity[4];
+        let t725 = base_rotation[0][0] * base_velocity[3] + t724;
+        let t726 = base_rotation[2][0] * base_velocity[5] + t725;
+        let t727 = base_rotation[1][1] * base_velocity[4];
+        let t728 = base_rotation[0][1] * base_velocity[3] + t727;
+        let t729 = base_rotation[2][1] * base_velocity[5] + t728;
+        let t730 = base_rotation[1][2] * base_velocity[4];
+        let t731 = base_rotation[0][2] * base_velocity[3] + t730;
+        let t732 = base_rotation[2][2] * base_velocity[5] + t731;
         // angular velocity of the platform
-        let t732 = base_rotation[0][0] * platform_velocity[3];
-        let t733 = base_rotation[1][0] * platform_velocity[4];
-        let t734 = base_rotation[2][0] * platform_velocity[5];
-        let t735 = base_rotation[0][1] * platform_velocity[3];
-        let t736 = base_rotation[1][1] * platform_velocity[4];
-        let t737 = base_rotation[2][1] * platform_velocity[5];
-        let t738 = base_rotation[0][2] * platform_velocity[3];
-        let t739 = base_rotation[1][2] * platform_velocity[4];
-        let t740 = base_rotation[2][2] * platform_velocity[5];
+        let t733 = base_rotation[0][0] * platform_velocity[3];
+        let t734 = base_rotation[1][0] * platform_velocity[4];
+        let t735 = base_rotation[2][0] * platform_velocity[5];
+        let t736 = base_rotation[0][1] * platform_velocity[3];
+        let t737 = base_rotation[1][1] * platform_velocity[4];
+        let t738 = base_rotation[2][1] * platform_velocity[5];
+        let t739 = base_rotation[0][2] * platform_velocity[3];
+        let t740 = base_rotation[1][2] * platform_velocity[4];
+        let t741 = base_rotation[2][2] * platform_velocity[5];
         // angular velocity of the platform relative to the base
-        let t741 = t734 + (t733 - (t725 - t732));
-        let t742 = t737 + (t736 - (t728 - t735));
-        let t743 = t740 + (t739 - (t731 - t738));
+        let t742 = t735 + (t734 - (t726 - t733));
+        let t743 = t738 + (t737 - (t729 - t736));
+        let t744 = t741 + (t740 - (t732 - t739));
         // velocity of the platform origin relative to the base
-        let t744 = base_velocity[0] - platform_velocity[0];
-        let t745 = base_velocity[1] - platform_velocity[1];
-        let t746 = base_velocity[2] - platform_velocity[2];
-        let t747 = base_rotation[0][0] * t744 + base_rotation[1][0] * t745;
-        let t748 = t27 * t728 - (base_rotation[2][0] * t746 + t747);
-        let t749 = t25 * t731 - t748;
-        let t750 = base_rotation[0][1] * t744 + base_rotation[1][1] * t745;
-        let t751 = t23 * t731 - (base_rotation[2][1] * t746 + t750);
-        let t752 = t27 * t725 - t751;
-        let t753 = base_rotation[0][2] * t744 + base_rotation[1][2] * t745;
-        let t754 = t25 * t725 - (base_rotation[2][2] * t746 + t753);
-        let t755 = t23 * t728 - t754;
+        let t745 = base_velocity[0] - platform_velocity[0];
+        let t746 = base_velocity[1] - platform_velocity[1];
+        let t747 = base_velocity[2] - platform_velocity[2];
+        let t748 = base_rotation[0][0] * t745 + base_rotation[1][0] * t746;
+        let t749 = t27 * t729 - (base_rotation[2][0] * t747 + t748);
+        let t750 = t25 * t732 - t749;
+        let t751 = base_rotation[0][1] * t745 + base_rotation[1][1] * t746;
+        let t752 = t23 * t732 - (base_rotation[2][1] * t747 + t751);
+        let t753 = t27 * t726 - t752;
+        let t754 = base_rotation[0][2] * t745 + base_rotation[1][2] * t746;
+        let t755 = t25 * t726 - (base_rotation[2][2] * t747 + t754);
+        let t756 = t23 * t729 - t755;
         // rate of the relative rotation
-        let t756 = t15 * t742 - t9 * t743;
-        let t757 = t18 * t742 - t12 * t743;
-        let t758 = t3 * t743 - t15 * t741;
-        let t759 = t6 * t743 - t18 * t741;
-        let t760 = t9 * t741 - t3 * t742;
-        let t761 = t12 * t741 - t6 * t742;
+        let t757 = t15 * t743 - t9 * t744;
+        let t758 = t18 * t743 - t12 * t744;
+        let t759 = t3 * t744 - t15 * t742;
+        let t760 = t6 * t744 - t18 * t742;
+        let t761 = t9 * t742 - t3 * t743;
+        let t762 = t12 * t742 - t6 * t743;
         // leg 1: velocity of the platform joint relative to the base
-        let t762 = t749 - 0.1159110991546882 * t756;
-        let t763 = 0.03105828541230249 * t757;
-        let t764 = t762 + t763;
-        let t765 = t752 - 0.1159110991546882 * t758;
-        let t766 = 0.03105828541230249 * t759;
-        let t767 = t765 + t766;
+        let t763 = t750 - c(0.1159110991546882) * t757;
+        let t764 = c(0.03105828541230249) * t758;
+        let t765 = t763 + t764;
+        let t766 = t753 - c(0.1159110991546882) * t759;
+        let t767 = c(0.03105828541230249) * t760;
+        let t768 = t766 + t767;
         // leg 2: velocity of the platform joint relative to the base
-        let t768 = t762 - t763;
-        let t769 = t765 - t766;
+        let t769 = t763 - t764;
+        let t770 = t766 - t767;
         // leg 3: velocity of the platform joint relative to the base
-        let t770 = t749 + 0.031058285412302475 * t756;
-        let t771 = 0.1159110991546882 * t757;
-        let t772 = t770 - t771;
-        let t773 = t752 + 0.031058285412302475 * t758;
-        let t774 = 0.1159110991546882 * t759;
-        let t775 = t773 - t774;
+        let t771 = t750 + c(0.031058285412302475) * t757;
+        let t772 = c(0.1159110991546882) * t758;
+        let t773 = t771 - t772;
+        let t774 = t753 + c(0.031058285412302475) * t759;
+        let t775 = c(0.1159110991546882) * t760;
+        let t776 = t774 - t775;
         // leg 4: velocity of the platform joint relative to the base
-        let t776 = t749 + 0.0848528137423857 * t756;
-        let t777 = 0.08485281374238571 * t757;
-        let t778 = t776 - t777;
-        let t779 = t752 + 0.0848528137423857 * t758;
-        let t780 = 0.08485281374238571 * t759;
-        let t781 = t779 - t780;
+        let t777 = t750 + c(0.0848528137423857) * t757;
+        let t778 = c(0.08485281374238571) * t758;
+        let t779 = t777 - t778;
+        let t780 = t753 + c(0.0848528137423857) * t759;
+        let t781 = c(0.08485281374238571) * t760;
+        let t782 = t780 - t781;
         // leg 5: velocity of the platform joint relative to the base
-        let t782 = t776 + t777;
-        let t783 = t779 + t780;
+        let t783 = t777 + t778;
+        let t784 = t780 + t781;
         // leg 6: velocity of the platform joint relative to the base
-        let t784 = t770 + t771;
-        let t785 = t773 + t774;
+        let t785 = t771 + t772;
+        let t786 = t774 + t775;
         // leg 1: rate of the rod's extent along the actuator axis
-        let t786 = t53 * (t30 * t764 - t33 * t767);
+        let t787 = t53 * (t30 * t765 - t33 * t768);
         // leg 1: actuator velocity d'
-        let t787 = t755 - 0.1159110991546882 * t760;
-        let t788 = 0.03105828541230249 * t761;
-        let t789 = t787 - (t786 - t788);
+        let t788 = t756 - c(0.1159110991546882) * t761;
+        let t789 = c(0.03105828541230249) * t762;
+        let t790 = t788 - (t787 - t789);
         // leg 2: rate of the rod's extent along the actuator axis
-        let t790 = t58 * (t34 * t768 + t35 * t769);
+        let t791 = t58 * (t34 * t769 + t35 * t770);
         // leg 2: actuator velocity d'
-        let t791 = t787 - (t788 + t790);
+        let t792 = t788 - (t789 + t791);
         // leg 3: rate of the rod's extent along the actuator axis
-        let t792 = t61 * (t38 * t772 + t41 * t775);
+        let t793 = t61 * (t38 * t773 + t41 * t776);
         // leg 3: actuator velocity d'
-        let t793 = t755 + 0.031058285412302475 * t760;
-        let t794 = 0.1159110991546882 * t761;
-        let t795 = t793 - (t792 + t794);
+        let t794 = t756 + c(0.031058285412302475) * t761;
+        let t795 = c(0.1159110991546882) * t762;
+        let t796 = t794 - (t793 + t795);
         // leg 4: rate of the rod's extent along the actuator axis
-        let t796 = t66 * (t44 * t778 + t47 * t781);
+        let t797 = t66 * (t44 * t779 + t47 * t782);
         // leg 4: actuator velocity d'
-        let t797 = t755 + 0.0848528137423857 * t760;
-        let t798 = 0.08485281374238571 * t761;
-        let t799 = t797 - (t796 + t798);
+        let t798 = t756 + c(0.0848528137423857) * t761;
+        let t799 = c(0.08485281374238571) * t762;
+        let t800 = t798 - (t797 + t799);
         // leg 5: rate of the rod's extent along the actuator axis
-        let t800 = t71 * (t48 * t782 - t49 * t783);
+        let t801 = t71 * (t48 * t783 - t49 * t784);
         // leg 5: actuator velocity d'
-        let t801 = t797 + (t798 - t800);
+        let t802 = t798 + (t799 - t801);
         // leg 6: rate of the rod's extent along the actuator axis
-        let t802 = t74 * (t50 * t784 - t51 * t785);
+        let t803 = t74 * (t50 * t785 - t51 * t786);
         // leg 6: actuator velocity d'
-        let t803 = t793 + (t794 - t802);
+        let t804 = t794 + (t795 - t803);
         // leg 1: rate of that gradient relative to the base
-        let t804 = t53 * (t764 + t76 * t786);
-        let t805 = t53 * (t767 - t77 * t786);
+        let t805 = t53 * (t765 + t76 * t787);
+        let t806 = t53 * (t768 - t77 * t787);
         // leg 2: rate of that gradient relative to the base
-        let t806 = t58 * (t768 + t78 * t790);
-        let t807 = t58 * (t769 + t79 * t790);
+        let t807 = t58 * (t769 + t78 * t791);
+        let t808 = t58 * (t770 + t79 * t791);
         // leg 3: rate of that gradient relative to the base
-        let t808 = t61 * (t772 + t80 * t792);
-        let t809 = t61 * (t775 + t81 * t792);
+        let t809 = t61 * (t773 + t80 * t793);
+        let t810 = t61 * (t776 + t81 * t793);
         // leg 4: rate of that gradient relative to the base
-        let t810 = t66 * (t778 + t82 * t796);
-        let t811 = t66 * (t781 + t83 * t796);
+        let t811 = t66 * (t779 + t82 * t797);
+        let t812 = t66 * (t782 + t83 * t797);
         // leg 5: rate of that gradient relative to the base
-        let t812 = t71 * (t782 + t84 * t800);
-        let t813 = t71 * (t783 - t85 * t800);
+        let t813 = t71 * (t783 + t84 * t801);
+        let t814 = t71 * (t784 - t85 * t801);
         // leg 6: rate of that gradient relative to the base
-        let t814 = t74 * (t784 + t86 * t802);
-        let t815 = t74 * (t785 - t87 * t802);
+        let t815 = t74 * (t785 + t86 * t803);
+        let t816 = t74 * (t786 - t87 * t803);
         // leg 1: rate of the platform lever
-        let t816 = platform_velocity[4] * t96 - platform_velocity[5] * t93;
-        let t817 = platform_velocity[5] * t90 - platform_velocity[3] * t96;
-        let t818 = platform_velocity[3] * t93 - platform_velocity[4] * t90;
+        let t817 = platform_velocity[4] * t96 - platform_velocity[5] * t93;
+        let t818 = platform_velocity[5] * t90 - platform_velocity[3] * t96;
+        let t819 = platform_velocity[3] * t93 - platform_velocity[4] * t90;
         // leg 1: inertial rate of that gradient
-        let t819 = t77 * t725 + t76 * t728;
-        let t820 = t77 * t731 - (t728 - t804);
-        let t821 = t76 * t731 + (t725 + t805);
-        let t822 = base_rotation[0][0] * t820 + base_rotation[0][1] * t821;
-        let t823 = base_rotation[0][2] * t819 - t822;
-        let t824 = base_rotation[1][0] * t820 + base_rotation[1][1] * t821;
-        let t825 = base_rotation[1][2] * t819 - t824;
-        let t826 = base_rotation[2][0] * t820 + base_rotation[2][1] * t821;
-        let t827 = base_rotation[2][2] * t819 - t826;
+        let t820 = t77 * t726 + t76 * t729;
+        let t821 = t77 * t732 - (t729 - t805);
+        let t822 = t76 * t732 + (t726 + t806);
+        let t823 = base_rotation[0][0] * t821 + base_rotation[0][1] * t822;
+        let t824 = base_rotation[0][2] * t820 - t823;
+        let t825 = base_rotation[1][0] * t821 + base_rotation[1][1] * t822;
+        let t826 = base_rotation[1][2] * t820 - t825;
+        let t827 = base_rotation[2][0] * t821 + base_rotation[2][1] * t822;
+        let t828 = base_rotation[2][2] * t820 - t827;
         // leg 2: rate of the platform lever
-        let t828 = platform_velocity[4] * t108 - platform_velocity[5] * t107;
-        let t829 = platform_velocity[5] * t106 - platform_velocity[3] * t108;
-        let t830 = platform_velocity[3] * t107 - platform_velocity[4] * t106;
+        let t829 = platform_velocity[4] * t108 - platform_velocity[5] * t107;
+        let t830 = platform_velocity[5] * t106 - platform_velocity[3] * t108;
+        let t831 = platform_velocity[3] * t107 - platform_velocity[4] * t106;
         // leg 2: inertial rate of that gradient
-        let t831 = t79 * t725 - t78 * t728;
-        let t832 = t79 * t731 + (t728 - t806);
-        let t833 = t78 * t731 + (t725 + t807);
-        let t834 = base_rotation[0][0] * t832 - base_rotation[0][1] * t833;
-        let t835 = base_rotation[0][2] * t831 - t834;
-        let t836 = base_rotation[1][0] * t832 - base_rotation[1][1] * t833;
-        let t837 = base_rotation[1][2] * t831 - t836;
-        let t838 = base_rotation[2][0] * t832 - base_rotation[2][1] * t833;
-        let t839 = base_rotation[2][2] * t831 - t838;
+        let t832 = t79 * t726 - t78 * t729;
+        let t833 = t79 * t732 + (t729 - t807);
+        let t834 = t78 * t732 + (t726 + t808);
+        let t835 = base_rotation[0][0] * t833 - base_rotation[0][1] * t834;
+        let t836 = base_rotation[0][2] * t832 - t835;
+        let t837 = base_rotation[1][0] * t833 - base_rotation[1][1] * t834;
+        let t838 = base_rotation[1][2] * t832 - t837;
+        let t839 = base_rotation[2][0] * t833 - base_rotation[2][1] * t834;
+        let t840 = base_rotation[2][2] * t832 - t839;
         // leg 3: rate of the platform lever
-        let t840 = platform_velocity[4] * t129 - platform_velocity[5] * t126;
-        let t841 = platform_velocity[5] * t123 - platform_velocity[3] * t129;
-        let t842 = platform_velocity[3] * t126 - platform_velocity[4] * t123;
+        let t841 = platform_velocity[4] * t129 - platform_velocity[5] * t126;
+        let t842 = platform_velocity[5] * t123 - platform_velocity[3] * t129;
+        let t843 = platform_velocity[3] * t126 - platform_velocity[4] * t123;
         // leg 3: inertial rate of that gradient
-        let t843 = t81 * t725 - t80 * t728;
-        let t844 = t81 * t731 + (t728 - t808);
-        let t845 = t80 * t731 + (t725 + t809);
-        let t846 = base_rotation[0][0] * t844 - base_rotation[0][1] * t845;
-        let t847 = base_rotation[0][2] * t843 - t846;
-        let t848 = base_rotation[1][0] * t844 - base_rotation[1][1] * t845;
-        let t849 = base_rotation[1][2] * t843 - t848;
-        let t850 = base_rotation[2][0] * t844 - base_rotation[2][1] * t845;
-        let t851 = base_rotation[2][2] * t843 - t850;
+        let t844 = t81 * t726 - t80 * t729;
+        let t845 = t81 * t732 + (t729 - t809);
+        let t846 = t80 * t732 + (t726 + t810);
+        let t847 = base_rotation[0][0] * t845 - base_rotation[0][1] * t846;
+        let t848 = base_rotation[0][2] * t844 - t847;
+        let t849 = base_rotation[1][0] * t845 - base_rotation[1][1] * t846;
+        let t850 = base_rotation[1][2] * t844 - t849;
+        let t851 = base_rotation[2][0] * t845 - base_rotation[2][1] * t846;
+        let t852 = base_rotation[2][2] * t844 - t851;
         // leg 4: rate of the platform lever
-        let t852 = platform_velocity[4] * t150 - platform_velocity[5] * t147;
-        let t853 = platform_velocity[5] * t144 - platform_velocity[3] * t150;
-        let t854 = platform_velocity[3] * t147 - platform_velocity[4] * t144;
+        let t853 = platform_velocity[4] * t150 - platform_velocity[5] * t147;
+        let t854 = platform_velocity[5] * t144 - platform_velocity[3] * t150;
+        let t855 = platform_velocity[3] * t147 - platform_velocity[4] * t144;
         (
             t19,
             t20,
@@ -13236,20 +13817,19 @@ pub fn equation_of_motion(
             t627,
             t632,
             t634,
-            t638,
-            t725,
-            t728,
-            t731,
-            t744,
+            t639,
+            t726,
+            t729,
+            t732,
             t745,
             t746,
-            t789,
-            t791,
-            t795,
-            t799,
-            t801,
-            t803,
-            t810,
+            t747,
+            t790,
+            t792,
+            t796,
+            t800,
+            t802,
+            t804,
             t811,
             t812,
             t813,
@@ -13258,1026 +13838,1038 @@ pub fn equation_of_motion(
             t816,
             t817,
             t818,
-            t823,
-            t825,
-            t827,
+            t819,
+            t824,
+            t826,
             t828,
             t829,
             t830,
-            t835,
-            t837,
-            t839,
+            t831,
+            t836,
+            t838,
             t840,
             t841,
             t842,
-            t847,
-            t849,
-            t851,
+            t843,
+            t848,
+            t850,
             t852,
             t853,
             t854,
+            t855,
         )
     };
     {
         // leg 4: inertial rate of that gradient
-        let t855 = t83 * t725 - t82 * t728;
-        let t856 = t83 * t731 + (t728 - t810);
-        let t857 = t82 * t731 + (t725 + t811);
-        let t858 = base_rotation[0][0] * t856 - base_rotation[0][1] * t857;
-        let t859 = base_rotation[0][2] * t855 - t858;
-        let t860 = base_rotation[1][0] * t856 - base_rotation[1][1] * t857;
-        let t861 = base_rotation[1][2] * t855 - t860;
-        let t862 = base_rotation[2][0] * t856 - base_rotation[2][1] * t857;
-        let t863 = base_rotation[2][2] * t855 - t862;
+        let t856 = t83 * t726 - t82 * t729;
+        let t857 = t83 * t732 + (t729 - t811);
+        let t858 = t82 * t732 + (t726 + t812);
+        let t859 = base_rotation[0][0] * t857 - base_rotation[0][1] * t858;
+        let t860 = base_rotation[0][2] * t856 - t859;
+        let t861 = base_rotation[1][0] * t857 - base_rotation[1][1] * t858;
+        let t862 = base_rotation[1][2] * t856 - t861;
+        let t863 = base_rotation[2][0] * t857 - base_rotation[2][1] * t858;
+        let t864 = base_rotation[2][2] * t856 - t863;
         // leg 5: rate of the platform lever
-        let t864 = platform_velocity[4] * t165 - platform_velocity[5] * t164;
-        let t865 = platform_velocity[5] * t163 - platform_velocity[3] * t165;
-        let t866 = platform_velocity[3] * t164 - platform_velocity[4] * t163;
+        let t865 = platform_velocity[4] * t165 - platform_velocity[5] * t164;
+        let t866 = platform_velocity[5] * t163 - platform_velocity[3] * t165;
+        let t867 = platform_velocity[3] * t164 - platform_velocity[4] * t163;
         // leg 5: inertial rate of that gradient
-        let t867 = t85 * t725 + t84 * t728;
-        let t868 = t85 * t731 - (t728 - t812);
-        let t869 = t84 * t731 + (t725 + t813);
-        let t870 = base_rotation[0][0] * t868 + base_rotation[0][1] * t869;
-        let t871 = base_rotation[0][2] * t867 - t870;
-        let t872 = base_rotation[1][0] * t868 + base_rotation[1][1] * t869;
-        let t873 = base_rotation[1][2] * t867 - t872;
-        let t874 = base_rotation[2][0] * t868 + base_rotation[2][1] * t869;
-        let t875 = base_rotation[2][2] * t867 - t874;
+        let t868 = t85 * t726 + t84 * t729;
+        let t869 = t85 * t732 - (t729 - t813);
+        let t870 = t84 * t732 + (t726 + t814);
+        let t871 = base_rotation[0][0] * t869 + base_rotation[0][1] * t870;
+        let t872 = base_rotation[0][2] * t868 - t871;
+        let t873 = base_rotation[1][0] * t869 + base_rotation[1][1] * t870;
+        let t874 = base_rotation[1][2] * t868 - t873;
+        let t875 = base_rotation[2][0] * t869 + base_rotation[2][1] * t870;
+        let t876 = base_rotation[2][2] * t868 - t875;
         // leg 6: rate of the platform lever
-        let t876 = platform_velocity[4] * t177 - platform_velocity[5] * t176;
-        let t877 = platform_velocity[5] * t175 - platform_velocity[3] * t177;
-        let t878 = platform_velocity[3] * t176 - platform_velocity[4] * t175;
+        let t877 = platform_velocity[4] * t177 - platform_velocity[5] * t176;
+        let t878 = platform_velocity[5] * t175 - platform_velocity[3] * t177;
+        let t879 = platform_velocity[3] * t176 - platform_velocity[4] * t175;
         // leg 6: inertial rate of that gradient
-        let t879 = t87 * t725 + t86 * t728;
-        let t880 = t87 * t731 - (t728 - t814);
-        let t881 = t86 * t731 + (t725 + t815);
-        let t882 = base_rotation[0][0] * t880 + base_rotation[0][1] * t881;
-        let t883 = base_rotation[0][2] * t879 - t882;
-        let t884 = base_rotation[1][0] * t880 + base_rotation[1][1] * t881;
-        let t885 = base_rotation[1][2] * t879 - t884;
-        let t886 = base_rotation[2][0] * t880 + base_rotation[2][1] * t881;
-        let t887 = base_rotation[2][2] * t879 - t886;
+        let t880 = t87 * t726 + t86 * t729;
+        let t881 = t87 * t732 - (t729 - t815);
+        let t882 = t86 * t732 + (t726 + t816);
+        let t883 = base_rotation[0][0] * t881 + base_rotation[0][1] * t882;
+        let t884 = base_rotation[0][2] * t880 - t883;
+        let t885 = base_rotation[1][0] * t881 + base_rotation[1][1] * t882;
+        let t886 = base_rotation[1][2] * t880 - t885;
+        let t887 = base_rotation[2][0] * t881 + base_rotation[2][1] * t882;
+        let t888 = base_rotation[2][2] * t880 - t887;
         // leg 1: Coriolis matrix of the leg in the speeds of its joint
-        let t888 = base_rotation[1][2] * base_velocity[5];
-        let t889 = base_rotation[2][2] * base_velocity[4] - t888;
-        let t890 = 0.17066666666666666 * t889;
-        let t891 = t223 + t101 * 0.9523333333333334;
-        let t892 = t823 * t891 + t101 * t890;
-        let t893 = t825 * t891 + t103 * t890;
-        let t894 = t827 * t891 + t105 * t890;
-        let t895 = base_rotation[2][2] * base_velocity[3];
-        let t896 = base_rotation[0][2] * base_velocity[5] - t895;
-        let t897 = 0.17066666666666666 * t896;
-        let t898 = t226 + t103 * 0.9523333333333334;
-        let t899 = t823 * t898 + t101 * t897;
-        let t900 = t825 * t898 + t103 * t897;
-        let t901 = t827 * t898 + t105 * t897;
-        let t902 = base_rotation[0][2] * base_velocity[4];
-        let t903 = base_rotation[1][2] * base_velocity[3] - t902;
-        let t904 = 0.17066666666666666 * t903;
-        let t905 = t229 + t105 * 0.9523333333333334;
-        let t906 = t823 * t905 + t101 * t904;
-        let t907 = t825 * t905 + t103 * t904;
-        let t908 = t827 * t905 + t105 * t904;
+        let t889 = base_rotation[1][2] * base_velocity[5];
+        let t890 = base_rotation[2][2] * base_velocity[4] - t889;
+        let t891 = c(0.17066666666666666) * t890;
+        let t892 = t223 + t101 * c(0.9523333333333334);
+        let t893 = t824 * t892 + t101 * t891;
+        let t894 = t826 * t892 + t103 * t891;
+        let t895 = t828 * t892 + t105 * t891;
+        let t896 = base_rotation[2][2] * base_velocity[3];
+        let t897 = base_rotation[0][2] * base_velocity[5] - t896;
+        let t898 = c(0.17066666666666666) * t897;
+        let t899 = t226 + t103 * c(0.9523333333333334);
+        let t900 = t824 * t899 + t101 * t898;
+        let t901 = t826 * t899 + t103 * t898;
+        let t902 = t828 * t899 + t105 * t898;
+        let t903 = base_rotation[0][2] * base_velocity[4];
+        let t904 = base_rotation[1][2] * base_velocity[3] - t903;
+        let t905 = c(0.17066666666666666) * t904;
+        let t906 = t229 + t105 * c(0.9523333333333334);
+        let t907 = t824 * t906 + t101 * t905;
+        let t908 = t826 * t906 + t103 * t905;
+        let t909 = t828 * t906 + t105 * t905;
         // leg 1: Coriolis matrix between joint and base angular velocity
-        let t909 = 0.17066666666666666 * t745 + 0.03055 * t896;
-        let t910 = 0.17066666666666666 * t746 + 0.03055 * t903;
-        let t911 = t56 * t896 - (base_velocity[5] * t257 - base_velocity[3] * t247);
-        let t912 = base_rotation[1][2] * t789 + t911;
-        let t913 = t909 - (0.17066666666666666 * t817 - 0.9523333333333334 * t912);
-        let t914 = t56 * t903 - (base_velocity[3] * t243 - base_velocity[4] * t257);
-        let t915 = base_rotation[2][2] * t789 + t914;
-        let t916 = t910 - (0.17066666666666666 * t818 - 0.9523333333333334 * t915);
-        let t917 = base_rotation[2][2] * t913 - base_rotation[1][2] * t916;
-        let t918 = t101 * t917;
-        let t919 = 0.17066666666666666 * t744 + 0.03055 * t889;
-        let t920 = t56 * t889 - (base_velocity[4] * t247 - base_velocity[5] * t243);
-        let t921 = base_rotation[0][2] * t789 + t920;
-        let t922 = t919 - (0.17066666666666666 * t816 - 0.9523333333333334 * t921);
-        let t923 = base_rotation[0][2] * t916 - base_rotation[2][2] * t922;
-        let t924 = 0.17066666666666666 * t915;
-        let t925 = t101 * t923 + t924;
-        let t926 = base_rotation[1][2] * t922 - base_rotation[0][2] * t913;
-        let t927 = 0.17066666666666666 * t912;
-        let t928 = t101 * t926 - t927;
-        let t929 = t924 - t103 * t917;
-        let t930 = t103 * t923;
-        let t931 = 0.17066666666666666 * t921;
-        let t932 = t103 * t926 + t931;
-        let t933 = t927 + t105 * t917;
-        let t934 = t931 - t105 * t923;
-        let t935 = t105 * t926;
+        let t910 = c(0.17066666666666666) * t746 + c(0.03055) * t897;
+        let t911 = c(0.17066666666666666) * t747 + c(0.03055) * t904;
+        let t912 = t56 * t897 - (base_velocity[5] * t257 - base_velocity[3] * t247);
+        let t913 = base_rotation[1][2] * t790 + t912;
+        let t914 = t910 - (c(0.17066666666666666) * t818 - c(0.9523333333333334) * t913);
+        let t915 = t56 * t904 - (base_velocity[3] * t243 - base_velocity[4] * t257);
+        let t916 = base_rotation[2][2] * t790 + t915;
+        let t917 = t911 - (c(0.17066666666666666) * t819 - c(0.9523333333333334) * t916);
+        let t918 = base_rotation[2][2] * t914 - base_rotation[1][2] * t917;
+        let t919 = t101 * t918;
+        let t920 = c(0.17066666666666666) * t745 + c(0.03055) * t890;
+        let t921 = t56 * t890 - (base_velocity[4] * t247 - base_velocity[5] * t243);
+        let t922 = base_rotation[0][2] * t790 + t921;
+        let t923 = t920 - (c(0.17066666666666666) * t817 - c(0.9523333333333334) * t922);
+        let t924 = base_rotation[0][2] * t917 - base_rotation[2][2] * t923;
+        let t925 = c(0.17066666666666666) * t916;
+        let t926 = t101 * t924 + t925;
+        let t927 = base_rotation[1][2] * t923 - base_rotation[0][2] * t914;
+        let t928 = c(0.17066666666666666) * t913;
+        let t929 = t101 * t927 - t928;
+        let t930 = t925 - t103 * t918;
+        let t931 = t103 * t924;
+        let t932 = c(0.17066666666666666) * t922;
+        let t933 = t103 * t927 + t932;
+        let t934 = t928 + t105 * t918;
+        let t935 = t932 - t105 * t924;
+        let t936 = t105 * t927;
         // leg 2: Coriolis matrix of the leg in the speeds of its joint
-        let t936 = t223 - t113 * 0.9523333333333334;
-        let t937 = t835 * t936 + t113 * t890;
-        let t938 = t837 * t936 + t115 * t890;
-        let t939 = t839 * t936 + t117 * t890;
-        let t940 = t226 - t115 * 0.9523333333333334;
-        let t941 = t835 * t940 + t113 * t897;
-        let t942 = t837 * t940 + t115 * t897;
-        let t943 = t839 * t940 + t117 * t897;
-        let t944 = t229 - t117 * 0.9523333333333334;
-        let t945 = t835 * t944 + t113 * t904;
-        let t946 = t837 * t944 + t115 * t904;
-        let t947 = t839 * t944 + t117 * t904;
+        let t937 = t223 - t113 * c(0.9523333333333334);
+        let t938 = t836 * t937 + t113 * t891;
+        let t939 = t838 * t937 + t115 * t891;
+        let t940 = t840 * t937 + t117 * t891;
+        let t941 = t226 - t115 * c(0.9523333333333334);
+        let t942 = t836 * t941 + t113 * t898;
+        let t943 = t838 * t941 + t115 * t898;
+        let t944 = t840 * t941 + t117 * t898;
+        let t945 = t229 - t117 * c(0.9523333333333334);
+        let t946 = t836 * t945 + t113 * t905;
+        let t947 = t838 * t945 + t115 * t905;
+        let t948 = t840 * t945 + t117 * t905;
         // leg 2: Coriolis matrix between joint and base angular velocity
-        let t948 = t59 * t896 - (base_velocity[5] * t300 - base_velocity[3] * t293);
-        let t949 = base_rotation[1][2] * t791 + t948;
-        let t950 = t909 - (0.17066666666666666 * t829 - 0.9523333333333334 * t949);
-        let t951 = t59 * t903 - (base_velocity[3] * t292 - base_velocity[4] * t300);
-        let t952 = base_rotation[2][2] * t791 + t951;
-        let t953 = t910 - (0.17066666666666666 * t830 - 0.9523333333333334 * t952);
-        let t954 = base_rotation[2][2] * t950 - base_rotation[1][2] * t953;
-        let t955 = t113 * t954;
-        let t956 = t59 * t889 - (base_velocity[4] * t293 - base_velocity[5] * t292);
-        let t957 = base_rotation[0][2] * t791 + t956;
-        let t958 = t919 - (0.17066666666666666 * t828 - 0.9523333333333334 * t957);
-        let t959 = base_rotation[0][2] * t953 - base_rotation[2][2] * t958;
-        let t960 = 0.17066666666666666 * t952;
-        let t961 = t113 * t959 - t960;
-        let t962 = base_rotation[1][2] * t958 - base_rotation[0][2] * t950;
-        let t963 = 0.17066666666666666 * t949;
-        let t964 = t113 * t962 + t963;
-        let t965 = t960 + t115 * t954;
-        let t966 = t115 * t959;
-        let t967 = 0.17066666666666666 * t957;
-        let t968 = t115 * t962 - t967;
-        let t969 = t963 - t117 * t954;
-        let t970 = t967 + t117 * t959;
-        let t971 = t117 * t962;
+        let t949 = t59 * t897 - (base_velocity[5] * t300 - base_velocity[3] * t293);
+        let t950 = base_rotation[1][2] * t792 + t949;
+        let t951 = t910 - (c(0.17066666666666666) * t830 - c(0.9523333333333334) * t950);
+        let t952 = t59 * t904 - (base_velocity[3] * t292 - base_velocity[4] * t300);
+        let t953 = base_rotation[2][2] * t792 + t952;
+        let t954 = t911 - (c(0.17066666666666666) * t831 - c(0.9523333333333334) * t953);
+        let t955 = base_rotation[2][2] * t951 - base_rotation[1][2] * t954;
+        let t956 = t113 * t955;
+        let t957 = t59 * t890 - (base_velocity[4] * t293 - base_velocity[5] * t292);
+        let t958 = base_rotation[0][2] * t792 + t957;
+        let t959 = t920 - (c(0.17066666666666666) * t829 - c(0.9523333333333334) * t958);
+        let t960 = base_rotation[0][2] * t954 - base_rotation[2][2] * t959;
+        let t961 = c(0.17066666666666666) * t953;
+        let t962 = t113 * t960 - t961;
+        let t963 = base_rotation[1][2] * t959 - base_rotation[0][2] * t951;
+        let t964 = c(0.17066666666666666) * t950;
+        let t965 = t113 * t963 + t964;
+        let t966 = t961 + t115 * t955;
+        let t967 = t115 * t960;
+        let t968 = c(0.17066666666666666) * t958;
+        let t969 = t115 * t963 - t968;
+        let t970 = t964 - t117 * t955;
+        let t971 = t968 + t117 * t960;
+        let t972 = t117 * t963;
         // leg 3: Coriolis matrix of the leg in the speeds of its joint
-        let t972 = t223 - t134 * 0.9523333333333334;
-        let t973 = t847 * t972 + t134 * t890;
-        let t974 = t849 * t972 + t136 * t890;
-        let t975 = t851 * t972 + t138 * t890;
-        let t976 = t226 - t136 * 0.9523333333333334;
-        let t977 = t847 * t976 + t134 * t897;
-        let t978 = t849 * t976 + t136 * t897;
-        let t979 = t851 * t976 + t138 * t897;
-        let t980 = t229 - t138 * 0.9523333333333334;
-        let t981 = t847 * t980 + t134 * t904;
-        let t982 = t849 * t980 + t136 * t904;
-        let t983 = t851 * t980 + t138 * t904;
+        let t973 = t223 - t134 * c(0.9523333333333334);
+        let t974 = t848 * t973 + t134 * t891;
+        let t975 = t850 * t973 + t136 * t891;
+        let t976 = t852 * t973 + t138 * t891;
+        let t977 = t226 - t136 * c(0.9523333333333334);
+        let t978 = t848 * t977 + t134 * t898;
+        let t979 = t850 * t977 + t136 * t898;
+        let t980 = t852 * t977 + t138 * t898;
+        let t981 = t229 - t138 * c(0.9523333333333334);
+        let t982 = t848 * t981 + t134 * t905;
+        let t983 = t850 * t981 + t136 * t905;
+        let t984 = t852 * t981 + t138 * t905;
         // leg 3: Coriolis matrix between joint and base angular velocity
-        let t984 = t64 * t896 - (base_velocity[5] * t348 - base_velocity[3] * t339);
-        let t985 = base_rotation[1][2] * t795 + t984;
-        let t986 = t909 + (0.17066666666666666 * t841 + 0.9523333333333334 * t985);
-        let t987 = t64 * t903 - (base_velocity[3] * t336 - base_velocity[4] * t348);
-        let t988 = base_rotation[2][2] * t795 + t987;
-        let t989 = t910 + (0.17066666666666666 * t842 + 0.9523333333333334 * t988);
-        let t990 = base_rotation[2][2] * t986 - base_rotation[1][2] * t989;
-        let t991 = t134 * t990;
-        let t992 = t64 * t889 - (base_velocity[4] * t339 - base_velocity[5] * t336);
-        let t993 = base_rotation[0][2] * t795 + t992;
-        let t994 = t919 + (0.17066666666666666 * t840 + 0.9523333333333334 * t993);
-        let t995 = base_rotation[0][2] * t989 - base_rotation[2][2] * t994;
-        let t996 = 0.17066666666666666 * t988;
-        let t997 = t134 * t995 - t996;
-        let t998 = base_rotation[1][2] * t994 - base_rotation[0][2] * t986;
-        let t999 = 0.17066666666666666 * t985;
-        let t1000 = t134 * t998 + t999;
-        let t1001 = t996 + t136 * t990;
-        let t1002 = t136 * t995;
-        let t1003 = 0.17066666666666666 * t993;
-        let t1004 = t136 * t998 - t1003;
-        let t1005 = t999 - t138 * t990;
-        let t1006 = t1003 + t138 * t995;
-        let t1007 = t138 * t998;
+        let t985 = t64 * t897 - (base_velocity[5] * t348 - base_velocity[3] * t339);
+        let t986 = base_rotation[1][2] * t796 + t985;
+        let t987 = t910 + (c(0.17066666666666666) * t842 + c(0.9523333333333334) * t986);
+        let t988 = t64 * t904 - (base_velocity[3] * t336 - base_velocity[4] * t348);
+        let t989 = base_rotation[2][2] * t796 + t988;
+        let t990 = t911 + (c(0.17066666666666666) * t843 + c(0.9523333333333334) * t989);
+        let t991 = base_rotation[2][2] * t987 - base_rotation[1][2] * t990;
+        let t992 = t134 * t991;
+        let t993 = t64 * t890 - (base_velocity[4] * t339 - base_velocity[5] * t336);
+        let t994 = base_rotation[0][2] * t796 + t993;
+        let t995 = t920 + (c(0.17066666666666666) * t841 + c(0.9523333333333334) * t994);
+        let t996 = base_rotation[0][2] * t990 - base_rotation[2][2] * t995;
+        let t997 = c(0.17066666666666666) * t989;
+        let t998 = t134 * t996 - t997;
+        let t999 = base_rotation[1][2] * t995 - base_rotation[0][2] * t987;
+        let t1000 = c(0.17066666666666666) * t986;
+        let t1001 = t134 * t999 + t1000;
+        let t1002 = t997 + t136 * t991;
+        let t1003 = t136 * t996;
+        let t1004 = c(0.17066666666666666) * t994;
+        let t1005 = t136 * t999 - t1004;
+        let t1006 = t1000 - t138 * t991;
+        let t1007 = t1004 + t138 * t996;
+        let t1008 = t138 * t999;
         // leg 4: Coriolis matrix of the leg in the speeds of its joint
-        let t1008 = t223 - t155 * 0.9523333333333334;
-        let t1009 = t859 * t1008 + t155 * t890;
-        let t1010 = t861 * t1008 + t157 * t890;
-        let t1011 = t863 * t1008 + t159 * t890;
-        let t1012 = t226 - t157 * 0.9523333333333334;
-        let t1013 = t859 * t1012 + t155 * t897;
-        let t1014 = t861 * t1012 + t157 * t897;
-        let t1015 = t863 * t1012 + t159 * t897;
-        let t1016 = t229 - t159 * 0.9523333333333334;
-        let t1017 = t859 * t1016 + t155 * t904;
-        let t1018 = t861 * t1016 + t157 * t904;
-        let t1019 = t863 * t1016 + t159 * t904;
+        let t1009 = t223 - t155 * c(0.9523333333333334);
+        let t1010 = t860 * t1009 + t155 * t891;
+        let t1011 = t862 * t1009 + t157 * t891;
+        let t1012 = t864 * t1009 + t159 * t891;
+        let t1013 = t226 - t157 * c(0.9523333333333334);
+        let t1014 = t860 * t1013 + t155 * t898;
+        let t1015 = t862 * t1013 + t157 * t898;
+        let t1016 = t864 * t1013 + t159 * t898;
+        let t1017 = t229 - t159 * c(0.9523333333333334);
+        let t1018 = t860 * t1017 + t155 * t905;
+        let t1019 = t862 * t1017 + t157 * t905;
+        let t1020 = t864 * t1017 + t159 * t905;
         // leg 4: Coriolis matrix between joint and base angular velocity
-        let t1020 = t69 * t896 + (base_velocity[5] * t396 - base_velocity[3] * t387);
-        let t1021 = base_rotation[1][2] * t799 + t1020;
-        let t1022 = t909 + (0.17066666666666666 * t853 + 0.9523333333333334 * t1021);
-        let t1023 = t69 * t903 + (base_velocity[3] * t384 - base_velocity[4] * t396);
-        let t1024 = base_rotation[2][2] * t799 + t1023;
-        let t1025 = t910 + (0.17066666666666666 * t854 + 0.9523333333333334 * t1024);
-        let t1026 = base_rotation[2][2] * t1022 - base_rotation[1][2] * t1025;
-        let t1027 = t155 * t1026;
-        let t1028 = t69 * t889 + (base_velocity[4] * t387 - base_velocity[5] * t384);
-        let t1029 = base_rotation[0][2] * t799 + t1028;
-        let t1030 = t919 + (0.17066666666666666 * t852 + 0.9523333333333334 * t1029);
-        let t1031 = base_rotation[0][2] * t1025 - base_rotation[2][2] * t1030;
-        let t1032 = 0.17066666666666666 * t1024;
-        let t1033 = t155 * t1031 - t1032;
-        let t1034 = base_rotation[1][2] * t1030 - base_rotation[0][2] * t1022;
-        let t1035 = 0.17066666666666666 * t1021;
-        let t1036 = t155 * t1034 + t1035;
-        let t1037 = t1032 + t157 * t1026;
-        let t1038 = t157 * t1031;
-        let t1039 = 0.17066666666666666 * t1029;
-        let t1040 = t157 * t1034 - t1039;
-        let t1041 = t1035 - t159 * t1026;
-        let t1042 = t1039 + t159 * t1031;
-        let t1043 = t159 * t1034;
+        let t1021 = t69 * t897 + (base_velocity[5] * t396 - base_velocity[3] * t387);
+        let t1022 = base_rotation[1][2] * t800 + t1021;
+        let t1023 = t910
+            + (c(0.17066666666666666) * t854 + c(0.9523333333333334) * t1022);
+        let t1024 = t69 * t904 + (base_velocity[3] * t384 - base_velocity[4] * t396);
+        let t1025 = base_rotation[2][2] * t800 + t1024;
+        let t1026 = t911
+            + (c(0.17066666666666666) * t855 + c(0.9523333333333334) * t1025);
+        let t1027 = base_rotation[2][2] * t1023 - base_rotation[1][2] * t1026;
+        let t1028 = t155 * t1027;
+        let t1029 = t69 * t890 + (base_velocity[4] * t387 - base_velocity[5] * t384);
+        let t1030 = base_rotation[0][2] * t800 + t1029;
+        let t1031 = t920
+            + (c(0.17066666666666666) * t853 + c(0.9523333333333334) * t1030);
+        let t1032 = base_rotation[0][2] * t1026 - base_rotation[2][2] * t1031;
+        let t1033 = c(0.17066666666666666) * t1025;
+        let t1034 = t155 * t1032 - t1033;
+        let t1035 = base_rotation[1][2] * t1031 - base_rotation[0][2] * t1023;
+        let t1036 = c(0.17066666666666666) * t1022;
+        let t1037 = t155 * t1035 + t1036;
+        let t1038 = t1033 + t157 * t1027;
+        let t1039 = t157 * t1032;
+        let t1040 = c(0.17066666666666666) * t1030;
+        let t1041 = t157 * t1035 - t1040;
+        let t1042 = t1036 - t159 * t1027;
+        let t1043 = t1040 + t159 * t1032;
+        let t1044 = t159 * t1035;
         // leg 5: Coriolis matrix of the leg in the speeds of its joint
-        let t1044 = t223 + t170 * 0.9523333333333334;
-        let t1045 = t871 * t1044 + t170 * t890;
-        let t1046 = t873 * t1044 + t172 * t890;
-        let t1047 = t875 * t1044 + t174 * t890;
-        let t1048 = t226 + t172 * 0.9523333333333334;
-        let t1049 = t871 * t1048 + t170 * t897;
-        let t1050 = t873 * t1048 + t172 * t897;
-        let t1051 = t875 * t1048 + t174 * t897;
-        let t1052 = t229 + t174 * 0.9523333333333334;
-        let t1053 = t871 * t1052 + t170 * t904;
-        let t1054 = t873 * t1052 + t172 * t904;
-        let t1055 = t875 * t1052 + t174 * t904;
+        let t1045 = t223 + t170 * c(0.9523333333333334);
+        let t1046 = t872 * t1045 + t170 * t891;
+        let t1047 = t874 * t1045 + t172 * t891;
+        let t1048 = t876 * t1045 + t174 * t891;
+        let t1049 = t226 + t172 * c(0.9523333333333334);
+        let t1050 = t872 * t1049 + t170 * t898;
+        let t1051 = t874 * t1049 + t172 * t898;
+        let t1052 = t876 * t1049 + t174 * t898;
+        let t1053 = t229 + t174 * c(0.9523333333333334);
+        let t1054 = t872 * t1053 + t170 * t905;
+        let t1055 = t874 * t1053 + t172 * t905;
+        let t1056 = t876 * t1053 + t174 * t905;
         // leg 5: Coriolis matrix between joint and base angular velocity
-        let t1056 = t72 * t896 + (base_velocity[5] * t438 - base_velocity[3] * t431);
-        let t1057 = base_rotation[1][2] * t801 + t1056;
-        let t1058 = t909 + (0.17066666666666666 * t865 + 0.9523333333333334 * t1057);
-        let t1059 = t72 * t903 + (base_velocity[3] * t430 - base_velocity[4] * t438);
-        let t1060 = base_rotation[2][2] * t801 + t1059;
-        let t1061 = t910 + (0.17066666666666666 * t866 + 0.9523333333333334 * t1060);
-        let t1062 = base_rotation[2][2] * t1058 - base_rotation[1][2] * t1061;
-        let t1063 = t170 * t1062;
-        let t1064 = t72 * t889 + (base_velocity[4] * t431 - base_velocity[5] * t430);
-        let t1065 = base_rotation[0][2] * t801 + t1064;
-        let t1066 = t919 + (0.17066666666666666 * t864 + 0.9523333333333334 * t1065);
-        let t1067 = base_rotation[0][2] * t1061 - base_rotation[2][2] * t1066;
-        let t1068 = 0.17066666666666666 * t1060;
-        let t1069 = t170 * t1067 + t1068;
-        let t1070 = base_rotation[1][2] * t1066 - base_rotation[0][2] * t1058;
-        let t1071 = 0.17066666666666666 * t1057;
-        let t1072 = t170 * t1070 - t1071;
-        let t1073 = t1068 - t172 * t1062;
-        let t1074 = t172 * t1067;
-        let t1075 = 0.17066666666666666 * t1065;
-        let t1076 = t172 * t1070 + t1075;
-        let t1077 = t1071 + t174 * t1062;
-        let t1078 = t1075 - t174 * t1067;
-        let t1079 = t174 * t1070;
+        let t1057 = t72 * t897 + (base_velocity[5] * t438 - base_velocity[3] * t431);
+        let t1058 = base_rotation[1][2] * t802 + t1057;
+        let t1059 = t910
+            + (c(0.17066666666666666) * t866 + c(0.9523333333333334) * t1058);
+        let t1060 = t72 * t904 + (base_velocity[3] * t430 - base_velocity[4] * t438);
+        let t1061 = base_rotation[2][2] * t802 + t1060;
+        let t1062 = t911
+            + (c(0.17066666666666666) * t867 + c(0.9523333333333334) * t1061);
+        let t1063 = base_rotation[2][2] * t1059 - base_rotation[1][2] * t1062;
+        let t1064 = t170 * t1063;
+        let t1065 = t72 * t890 + (base_velocity[4] * t431 - base_velocity[5] * t430);
+        let t1066 = base_rotation[0][2] * t802 + t1065;
+        let t1067 = t920
+            + (c(0.17066666666666666) * t865 + c(0.9523333333333334) * t1066);
+        let t1068 = base_rotation[0][2] * t1062 - base_rotation[2][2] * t1067;
+        let t1069 = c(0.17066666666666666) * t1061;
+        let t1070 = t170 * t1068 + t1069;
+        let t1071 = base_rotation[1][2] * t1067 - base_rotation[0][2] * t1059;
+        let t1072 = c(0.17066666666666666) * t1058;
+        let t1073 = t170 * t1071 - t1072;
+        let t1074 = t1069 - t172 * t1063;
+        let t1075 = t172 * t1068;
+        let t1076 = c(0.17066666666666666) * t1066;
+        let t1077 = t172 * t1071 + t1076;
+        let t1078 = t1072 + t174 * t1063;
+        let t1079 = t1076 - t174 * t1068;
+        let t1080 = t174 * t1071;
         // leg 6: Coriolis matrix of the leg in the speeds of its joint
-        let t1080 = t223 + t182 * 0.9523333333333334;
-        let t1081 = t883 * t1080 + t182 * t890;
-        let t1082 = t885 * t1080 + t184 * t890;
-        let t1083 = t887 * t1080 + t186 * t890;
-        let t1084 = t226 + t184 * 0.9523333333333334;
-        let t1085 = t883 * t1084 + t182 * t897;
-        let t1086 = t885 * t1084 + t184 * t897;
-        let t1087 = t887 * t1084 + t186 * t897;
-        let t1088 = t229 + t186 * 0.9523333333333334;
-        let t1089 = t883 * t1088 + t182 * t904;
-        let t1090 = t885 * t1088 + t184 * t904;
-        let t1091 = t887 * t1088 + t186 * t904;
+        let t1081 = t223 + t182 * c(0.9523333333333334);
+        let t1082 = t884 * t1081 + t182 * t891;
+        let t1083 = t886 * t1081 + t184 * t891;
+        let t1084 = t888 * t1081 + t186 * t891;
+        let t1085 = t226 + t184 * c(0.9523333333333334);
+        let t1086 = t884 * t1085 + t182 * t898;
+        let t1087 = t886 * t1085 + t184 * t898;
+        let t1088 = t888 * t1085 + t186 * t898;
+        let t1089 = t229 + t186 * c(0.9523333333333334);
+        let t1090 = t884 * t1089 + t182 * t905;
+        let t1091 = t886 * t1089 + t184 * t905;
+        let t1092 = t888 * t1089 + t186 * t905;
         // leg 6: Coriolis matrix between joint and base angular velocity
-        let t1092 = t75 * t896 - (base_velocity[5] * t480 - base_velocity[3] * t473);
-        let t1093 = base_rotation[1][2] * t803 + t1092;
-        let t1094 = t909 + (0.17066666666666666 * t877 + 0.9523333333333334 * t1093);
-        let t1095 = t75 * t903 - (base_velocity[3] * t472 - base_velocity[4] * t480);
-        let t1096 = base_rotation[2][2] * t803 + t1095;
-        let t1097 = t910 + (0.17066666666666666 * t878 + 0.9523333333333334 * t1096);
-        let t1098 = base_rotation[2][2] * t1094 - base_rotation[1][2] * t1097;
-        let t1099 = t182 * t1098;
-        let t1100 = t75 * t889 - (base_velocity[4] * t473 - base_velocity[5] * t472);
-        let t1101 = base_rotation[0][2] * t803 + t1100;
-        let t1102 = t919 + (0.17066666666666666 * t876 + 0.9523333333333334 * t1101);
-        let t1103 = base_rotation[0][2] * t1097 - base_rotation[2][2] * t1102;
-        let t1104 = 0.17066666666666666 * t1096;
-        let t1105 = t182 * t1103 + t1104;
-        let t1106 = base_rotation[1][2] * t1102 - base_rotation[0][2] * t1094;
-        let t1107 = 0.17066666666666666 * t1093;
-        let t1108 = t182 * t1106 - t1107;
-        let t1109 = t1104 - t184 * t1098;
-        let t1110 = t184 * t1103;
-        let t1111 = 0.17066666666666666 * t1101;
-        let t1112 = t184 * t1106 + t1111;
-        let t1113 = t1107 + t186 * t1098;
-        let t1114 = t1111 - t186 * t1103;
-        let t1115 = t186 * t1106;
+        let t1093 = t75 * t897 - (base_velocity[5] * t480 - base_velocity[3] * t473);
+        let t1094 = base_rotation[1][2] * t804 + t1093;
+        let t1095 = t910
+            + (c(0.17066666666666666) * t878 + c(0.9523333333333334) * t1094);
+        let t1096 = t75 * t904 - (base_velocity[3] * t472 - base_velocity[4] * t480);
+        let t1097 = base_rotation[2][2] * t804 + t1096;
+        let t1098 = t911
+            + (c(0.17066666666666666) * t879 + c(0.9523333333333334) * t1097);
+        let t1099 = base_rotation[2][2] * t1095 - base_rotation[1][2] * t1098;
+        let t1100 = t182 * t1099;
+        let t1101 = t75 * t890 - (base_velocity[4] * t473 - base_velocity[5] * t472);
+        let t1102 = base_rotation[0][2] * t804 + t1101;
+        let t1103 = t920
+            + (c(0.17066666666666666) * t877 + c(0.9523333333333334) * t1102);
+        let t1104 = base_rotation[0][2] * t1098 - base_rotation[2][2] * t1103;
+        let t1105 = c(0.17066666666666666) * t1097;
+        let t1106 = t182 * t1104 + t1105;
+        let t1107 = base_rotation[1][2] * t1103 - base_rotation[0][2] * t1095;
+        let t1108 = c(0.17066666666666666) * t1094;
+        let t1109 = t182 * t1107 - t1108;
+        let t1110 = t1105 - t184 * t1099;
+        let t1111 = t184 * t1104;
+        let t1112 = c(0.17066666666666666) * t1102;
+        let t1113 = t184 * t1107 + t1112;
+        let t1114 = t1108 + t186 * t1099;
+        let t1115 = t1112 - t186 * t1104;
+        let t1116 = t186 * t1107;
         // Coriolis matrix of the legs
-        let t1116 = t1081 + (t1045 - (t1009 + (t973 - (t892 - t937))));
-        coriolis_matrix_p[0][0] = t1116;
-        coriolis_matrix_b[0][0] = t1116;
         let t1117 = t1082 + (t1046 - (t1010 + (t974 - (t893 - t938))));
-        coriolis_matrix_p[0][1] = t1117;
-        coriolis_matrix_b[0][1] = t1117;
+        coriolis_matrix_p[0][0] = t1117;
+        coriolis_matrix_b[0][0] = t1117;
         let t1118 = t1083 + (t1047 - (t1011 + (t975 - (t894 - t939))));
-        coriolis_matrix_p[0][2] = t1118;
-        coriolis_matrix_b[0][2] = t1118;
-        let t1119 = t465 * t877;
-        let t1120 = t463 * t878;
-        let t1121 = t177 * t1082;
-        let t1122 = t176 * t1083;
-        let t1123 = t1119 - (t1120 + (t1121 - t1122));
-        let t1124 = t423 * t865;
-        let t1125 = t421 * t866;
-        let t1126 = t165 * t1046;
-        let t1127 = t164 * t1047;
-        let t1128 = t1124 - (t1125 + (t1126 - t1127));
-        let t1129 = t375 * t853;
-        let t1130 = t373 * t854;
-        let t1131 = t150 * t1010;
-        let t1132 = t147 * t1011;
-        let t1133 = t1129 - (t1130 + (t1131 - t1132));
-        let t1134 = t327 * t841;
-        let t1135 = t325 * t842;
-        let t1136 = t129 * t974;
-        let t1137 = t126 * t975;
-        let t1138 = t1134 - (t1135 + (t1136 - t1137));
-        let t1139 = t231 * t817;
-        let t1140 = t228 * t818;
-        let t1141 = t96 * t893;
-        let t1142 = t93 * t894;
-        let t1143 = t1139 - (t1140 + (t1141 - t1142));
-        let t1144 = t285 * t829;
-        let t1145 = t283 * t830;
-        let t1146 = t108 * t938;
-        let t1147 = t107 * t939;
-        let t1148 = t1144 - (t1145 + (t1146 - t1147));
-        let t1149 = t1123 + (t1128 - (t1133 + (t1138 + (t1143 - t1148))));
-        let t1150 = t177 * t1081;
-        let t1151 = t461 * t878 - (t465 * t876 + (t175 * t1083 - t1150));
-        let t1152 = t165 * t1045;
-        let t1153 = t419 * t866 - (t423 * t864 + (t163 * t1047 - t1152));
-        let t1154 = t150 * t1009;
-        let t1155 = t371 * t854 - (t375 * t852 + (t144 * t1011 - t1154));
-        let t1156 = t129 * t973;
-        let t1157 = t323 * t842 - (t327 * t840 + (t123 * t975 - t1156));
-        let t1158 = t96 * t892;
-        let t1159 = t225 * t818 - (t231 * t816 + (t90 * t894 - t1158));
-        let t1160 = t108 * t937;
-        let t1161 = t281 * t830 - (t285 * t828 + (t106 * t939 - t1160));
-        let t1162 = t1151 + (t1153 - (t1155 + (t1157 + (t1159 - t1161))));
-        let t1163 = t176 * t1081;
-        let t1164 = t463 * t876 - (t461 * t877 + (t1163 - t175 * t1082));
-        let t1165 = t164 * t1045;
-        let t1166 = t421 * t864 - (t419 * t865 + (t1165 - t163 * t1046));
-        let t1167 = t147 * t1009;
-        let t1168 = t373 * t852 - (t371 * t853 + (t1167 - t144 * t1010));
-        let t1169 = t126 * t973;
-        let t1170 = t325 * t840 - (t323 * t841 + (t1169 - t123 * t974));
-        let t1171 = t93 * t892;
-        let t1172 = t228 * t816 - (t225 * t817 + (t1171 - t90 * t893));
-        let t1173 = t107 * t937;
-        let t1174 = t283 * t828 - (t281 * t829 + (t1173 - t106 * t938));
-        let t1175 = t1164 + (t1166 - (t1168 + (t1170 + (t1172 - t1174))));
-        let t1176 = t1085 + (t1049 - (t1013 + (t977 - (t899 - t941))));
-        coriolis_matrix_p[1][0] = t1176;
-        coriolis_matrix_b[1][0] = t1176;
+        coriolis_matrix_p[0][1] = t1118;
+        coriolis_matrix_b[0][1] = t1118;
+        let t1119 = t1084 + (t1048 - (t1012 + (t976 - (t895 - t940))));
+        coriolis_matrix_p[0][2] = t1119;
+        coriolis_matrix_b[0][2] = t1119;
+        let t1120 = t465 * t878;
+        let t1121 = t463 * t879;
+        let t1122 = t177 * t1083;
+        let t1123 = t176 * t1084;
+        let t1124 = t1120 - (t1121 + (t1122 - t1123));
+        let t1125 = t423 * t866;
+        let t1126 = t421 * t867;
+        let t1127 = t165 * t1047;
+        let t1128 = t164 * t1048;
+        let t1129 = t1125 - (t1126 + (t1127 - t1128));
+        let t1130 = t375 * t854;
+        let t1131 = t373 * t855;
+        let t1132 = t150 * t1011;
+        let t1133 = t147 * t1012;
+        let t1134 = t1130 - (t1131 + (t1132 - t1133));
+        let t1135 = t327 * t842;
+        let t1136 = t325 * t843;
+        let t1137 = t129 * t975;
+        let t1138 = t126 * t976;
+        let t1139 = t1135 - (t1136 + (t1137 - t1138));
+        let t1140 = t231 * t818;
+        let t1141 = t228 * t819;
+        let t1142 = t96 * t894;
+        let t1143 = t93 * t895;
+        let t1144 = t1140 - (t1141 + (t1142 - t1143));
+        let t1145 = t285 * t830;
+        let t1146 = t283 * t831;
+        let t1147 = t108 * t939;
+        let t1148 = t107 * t940;
+        let t1149 = t1145 - (t1146 + (t1147 - t1148));
+        let t1150 = t1124 + (t1129 - (t1134 + (t1139 + (t1144 - t1149))));
+        let t1151 = t177 * t1082;
+        let t1152 = t461 * t879 - (t465 * t877 + (t175 * t1084 - t1151));
+        let t1153 = t165 * t1046;
+        let t1154 = t419 * t867 - (t423 * t865 + (t163 * t1048 - t1153));
+        let t1155 = t150 * t1010;
+        let t1156 = t371 * t855 - (t375 * t853 + (t144 * t1012 - t1155));
+        let t1157 = t129 * t974;
+        let t1158 = t323 * t843 - (t327 * t841 + (t123 * t976 - t1157));
+        let t1159 = t96 * t893;
+        let t1160 = t225 * t819 - (t231 * t817 + (t90 * t895 - t1159));
+        let t1161 = t108 * t938;
+        let t1162 = t281 * t831 - (t285 * t829 + (t106 * t940 - t1161));
+        let t1163 = t1152 + (t1154 - (t1156 + (t1158 + (t1160 - t1162))));
+        let t1164 = t176 * t1082;
+        let t1165 = t463 * t877 - (t461 * t878 + (t1164 - t175 * t1083));
+        let t1166 = t164 * t1046;
+        let t1167 = t421 * t865 - (t419 * t866 + (t1166 - t163 * t1047));
+        let t1168 = t147 * t1010;
+        let t1169 = t373 * t853 - (t371 * t854 + (t1168 - t144 * t1011));
+        let t1170 = t126 * t974;
+        let t1171 = t325 * t841 - (t323 * t842 + (t1170 - t123 * t975));
+        let t1172 = t93 * t893;
+        let t1173 = t228 * t817 - (t225 * t818 + (t1172 - t90 * t894));
+        let t1174 = t107 * t938;
+        let t1175 = t283 * t829 - (t281 * t830 + (t1174 - t106 * t939));
+        let t1176 = t1165 + (t1167 - (t1169 + (t1171 + (t1173 - t1175))));
         let t1177 = t1086 + (t1050 - (t1014 + (t978 - (t900 - t942))));
-        coriolis_matrix_p[1][1] = t1177;
-        coriolis_matrix_b[1][1] = t1177;
+        coriolis_matrix_p[1][0] = t1177;
+        coriolis_matrix_b[1][0] = t1177;
         let t1178 = t1087 + (t1051 - (t1015 + (t979 - (t901 - t943))));
-        coriolis_matrix_p[1][2] = t1178;
-        coriolis_matrix_b[1][2] = t1178;
-        let t1179 = t177 * t1086;
-        let t1180 = t467 * t877 - (t466 * t878 + (t1179 - t176 * t1087));
-        let t1181 = t165 * t1050;
-        let t1182 = t425 * t865 - (t424 * t866 + (t1181 - t164 * t1051));
-        let t1183 = t150 * t1014;
-        let t1184 = t377 * t853 - (t376 * t854 + (t1183 - t147 * t1015));
-        let t1185 = t129 * t978;
-        let t1186 = t329 * t841 - (t328 * t842 + (t1185 - t126 * t979));
-        let t1187 = t96 * t900;
-        let t1188 = t233 * t817 - (t232 * t818 + (t1187 - t93 * t901));
-        let t1189 = t108 * t942;
-        let t1190 = t287 * t829 - (t286 * t830 + (t1189 - t107 * t943));
-        let t1191 = t1180 + (t1182 - (t1184 + (t1186 + (t1188 - t1190))));
-        let t1192 = t467 * t876;
-        let t1193 = t177 * t1085;
-        let t1194 = t175 * t1087;
-        let t1195 = t1192 - (t1193 + (t1120 - t1194));
-        let t1196 = t425 * t864;
-        let t1197 = t165 * t1049;
-        let t1198 = t163 * t1051;
-        let t1199 = t1196 - (t1197 + (t1125 - t1198));
-        let t1200 = t377 * t852;
-        let t1201 = t150 * t1013;
-        let t1202 = t144 * t1015;
-        let t1203 = t1200 - (t1201 + (t1130 - t1202));
-        let t1204 = t329 * t840;
-        let t1205 = t129 * t977;
-        let t1206 = t123 * t979;
-        let t1207 = t1204 - (t1205 + (t1135 - t1206));
-        let t1208 = t233 * t816;
-        let t1209 = t96 * t899;
-        let t1210 = t90 * t901;
-        let t1211 = t1208 - (t1209 + (t1140 - t1210));
-        let t1212 = t287 * t828;
-        let t1213 = t108 * t941;
-        let t1214 = t106 * t943;
-        let t1215 = t1212 - (t1213 + (t1145 - t1214));
-        let t1216 = t1195 + (t1199 - (t1203 + (t1207 + (t1211 - t1215))));
-        coriolis_matrix_p[1][4] = t1216;
-        let t1217 = t175 * t1086;
-        let t1218 = t466 * t876 - (t463 * t877 + (t176 * t1085 - t1217));
-        let t1219 = t163 * t1050;
-        let t1220 = t424 * t864 - (t421 * t865 + (t164 * t1049 - t1219));
-        let t1221 = t144 * t1014;
-        let t1222 = t376 * t852 - (t373 * t853 + (t147 * t1013 - t1221));
-        let t1223 = t123 * t978;
-        let t1224 = t328 * t840 - (t325 * t841 + (t126 * t977 - t1223));
-        let t1225 = t90 * t900;
-        let t1226 = t232 * t816 - (t228 * t817 + (t93 * t899 - t1225));
-        let t1227 = t106 * t942;
-        let t1228 = t286 * t828 - (t283 * t829 + (t107 * t941 - t1227));
-        let t1229 = t1218 + (t1220 - (t1222 + (t1224 + (t1226 - t1228))));
-        let t1230 = t1089 + (t1053 - (t1017 + (t981 - (t906 - t945))));
-        coriolis_matrix_p[2][0] = t1230;
-        coriolis_matrix_b[2][0] = t1230;
+        coriolis_matrix_p[1][1] = t1178;
+        coriolis_matrix_b[1][1] = t1178;
+        let t1179 = t1088 + (t1052 - (t1016 + (t980 - (t902 - t944))));
+        coriolis_matrix_p[1][2] = t1179;
+        coriolis_matrix_b[1][2] = t1179;
+        let t1180 = t177 * t1087;
+        let t1181 = t467 * t878 - (t466 * t879 + (t1180 - t176 * t1088));
+        let t1182 = t165 * t1051;
+        let t1183 = t425 * t866 - (t424 * t867 + (t1182 - t164 * t1052));
+        let t1184 = t150 * t1015;
+        let t1185 = t377 * t854 - (t376 * t855 + (t1184 - t147 * t1016));
+        let t1186 = t129 * t979;
+        let t1187 = t329 * t842 - (t328 * t843 + (t1186 - t126 * t980));
+        let t1188 = t96 * t901;
+        let t1189 = t233 * t818 - (t232 * t819 + (t1188 - t93 * t902));
+        let t1190 = t108 * t943;
+        let t1191 = t287 * t830 - (t286 * t831 + (t1190 - t107 * t944));
+        let t1192 = t1181 + (t1183 - (t1185 + (t1187 + (t1189 - t1191))));
+        let t1193 = t467 * t877;
+        let t1194 = t177 * t1086;
+        let t1195 = t175 * t1088;
+        let t1196 = t1193 - (t1194 + (t1121 - t1195));
+        let t1197 = t425 * t865;
+        let t1198 = t165 * t1050;
+        let t1199 = t163 * t1052;
+        let t1200 = t1197 - (t1198 + (t1126 - t1199));
+        let t1201 = t377 * t853;
+        let t1202 = t150 * t1014;
+        let t1203 = t144 * t1016;
+        let t1204 = t1201 - (t1202 + (t1131 - t1203));
+        let t1205 = t329 * t841;
+        let t1206 = t129 * t978;
+        let t1207 = t123 * t980;
+        let t1208 = t1205 - (t1206 + (t1136 - t1207));
+        let t1209 = t233 * t817;
+        let t1210 = t96 * t900;
+        let t1211 = t90 * t902;
+        let t1212 = t1209 - (t1210 + (t1141 - t1211));
+        let t1213 = t287 * t829;
+        let t1214 = t108 * t942;
+        let t1215 = t106 * t944;
+        let t1216 = t1213 - (t1214 + (t1146 - t1215));
+        let t1217 = t1196 + (t1200 - (t1204 + (t1208 + (t1212 - t1216))));
+        coriolis_matrix_p[1][4] = t1217;
+        let t1218 = t175 * t1087;
+        let t1219 = t466 * t877 - (t463 * t878 + (t176 * t1086 - t1218));
+        let t1220 = t163 * t1051;
+        let t1221 = t424 * t865 - (t421 * t866 + (t164 * t1050 - t1220));
+        let t1222 = t144 * t1015;
+        let t1223 = t376 * t853 - (t373 * t854 + (t147 * t1014 - t1222));
+        let t1224 = t123 * t979;
+        let t1225 = t328 * t841 - (t325 * t842 + (t126 * t978 - t1224));
+        let t1226 = t90 * t901;
+        let t1227 = t232 * t817 - (t228 * t818 + (t93 * t900 - t1226));
+        let t1228 = t106 * t943;
+        let t1229 = t286 * t829 - (t283 * t830 + (t107 * t942 - t1228));
+        let t1230 = t1219 + (t1221 - (t1223 + (t1225 + (t1227 - t1229))));
         let t1231 = t1090 + (t1054 - (t1018 + (t982 - (t907 - t946))));
-        coriolis_matrix_p[2][1] = t1231;
-        coriolis_matrix_b[2][1] = t1231;
+        coriolis_matrix_p[2][0] = t1231;
+        coriolis_matrix_b[2][0] = t1231;
         let t1232 = t1091 + (t1055 - (t1019 + (t983 - (t908 - t947))));
-        coriolis_matrix_p[2][2] = t1232;
-        coriolis_matrix_b[2][2] = t1232;
-        let t1233 = t176 * t1091;
-        let t1234 = t468 * t877 - (t467 * t878 + (t177 * t1090 - t1233));
-        let t1235 = t164 * t1055;
-        let t1236 = t426 * t865 - (t425 * t866 + (t165 * t1054 - t1235));
-        let t1237 = t147 * t1019;
-        let t1238 = t378 * t853 - (t377 * t854 + (t150 * t1018 - t1237));
-        let t1239 = t126 * t983;
-        let t1240 = t330 * t841 - (t329 * t842 + (t129 * t982 - t1239));
-        let t1241 = t93 * t908;
-        let t1242 = t234 * t817 - (t233 * t818 + (t96 * t907 - t1241));
-        let t1243 = t107 * t947;
-        let t1244 = t288 * t829 - (t287 * t830 + (t108 * t946 - t1243));
-        let t1245 = t1234 + (t1236 - (t1238 + (t1240 + (t1242 - t1244))));
-        let t1246 = t175 * t1091;
-        let t1247 = t465 * t878 - (t468 * t876 + (t1246 - t177 * t1089));
-        let t1248 = t163 * t1055;
-        let t1249 = t423 * t866 - (t426 * t864 + (t1248 - t165 * t1053));
-        let t1250 = t144 * t1019;
-        let t1251 = t375 * t854 - (t378 * t852 + (t1250 - t150 * t1017));
-        let t1252 = t123 * t983;
-        let t1253 = t327 * t842 - (t330 * t840 + (t1252 - t129 * t981));
-        let t1254 = t90 * t908;
-        let t1255 = t231 * t818 - (t234 * t816 + (t1254 - t96 * t906));
-        let t1256 = t106 * t947;
-        let t1257 = t285 * t830 - (t288 * t828 + (t1256 - t108 * t945));
-        let t1258 = t1247 + (t1249 - (t1251 + (t1253 + (t1255 - t1257))));
-        let t1259 = t175 * t1090;
-        let t1260 = t176 * t1089;
-        let t1261 = t1259 - (t1260 + (t1119 - t1192));
-        let t1262 = t163 * t1054;
-        let t1263 = t164 * t1053;
-        let t1264 = t1262 - (t1263 + (t1124 - t1196));
-        let t1265 = t144 * t1018;
-        let t1266 = t147 * t1017;
-        let t1267 = t1265 - (t1266 + (t1129 - t1200));
-        let t1268 = t123 * t982;
-        let t1269 = t126 * t981;
-        let t1270 = t1268 - (t1269 + (t1134 - t1204));
-        let t1271 = t90 * t907;
-        let t1272 = t93 * t906;
-        let t1273 = t1271 - (t1272 + (t1139 - t1208));
-        let t1274 = t106 * t946;
-        let t1275 = t107 * t945;
-        let t1276 = t1274 - (t1275 + (t1144 - t1212));
-        let t1277 = t1261 + (t1264 - (t1267 + (t1270 + (t1273 - t1276))));
-        let t1278 = t1275
-            - (t1272 + (t1193 + (t1197 - (t1201 + (t1205 + (t1209 - t1213))))));
-        let t1279 = t1260 + (t1263 - (t1266 + (t1269 - t1278)));
-        let t1280 = t93 * t907 + (t1179 + (t1181 - (t1183 + (t1185 + (t1187 - t1189)))));
-        let t1281 = t147 * t1018 + (t126 * t982 - (t107 * t946 - t1280));
-        let t1282 = t176 * t1090 + (t164 * t1054 - t1281);
-        let t1283 = t96 * t901 + (t1233 + (t1235 - (t1237 + (t1239 + (t1241 - t1243)))));
-        let t1284 = t150 * t1015 + (t129 * t979 - (t108 * t943 - t1283));
-        let t1285 = t177 * t1087 + (t165 * t1051 - t1284);
-        coriolis_matrix_p[3][2] = t1285;
-        coriolis_matrix_b[3][2] = t1285;
-        let t1286 = t107 * t1244 - (t108 * t1190 - (t96 * t1188 - t93 * t1242));
-        let t1287 = t150 * t1184 - (t126 * t1240 - (t129 * t1186 - t1286));
-        let t1288 = t164 * t1236 - (t165 * t1182 + (t147 * t1238 - t1287));
-        let t1289 = t176 * t1234 - (t177 * t1180 - t1288);
-        let t1290 = t107 * t1257 + (t108 * t1215 - (t96 * t1211 + t93 * t1255));
-        let t1291 = t150 * t1203 + (t126 * t1253 + (t129 * t1207 + t1290));
-        let t1292 = t164 * t1249 + (t165 * t1199 - (t147 * t1251 + t1291));
-        let t1293 = t176 * t1247 + (t177 * t1195 + t1292);
-        let t1294 = t107 * t1276 - (t108 * t1228 - (t96 * t1226 - t93 * t1273));
-        let t1295 = t150 * t1222 - (t126 * t1270 - (t129 * t1224 - t1294));
-        let t1296 = t164 * t1264 - (t165 * t1220 + (t147 * t1267 - t1295));
-        let t1297 = t176 * t1261 - (t177 * t1218 - t1296);
-        let t1298 = t90 * t906 + (t1150 + (t1152 - (t1154 + (t1156 + (t1158 - t1160)))));
-        let t1299 = t144 * t1017 + (t123 * t981 - (t106 * t945 - t1298));
-        let t1300 = t175 * t1089 + (t163 * t1053 - t1299);
-        coriolis_matrix_p[4][0] = t1300;
-        coriolis_matrix_b[4][0] = t1300;
-        let t1301 = t1274
-            - (t1271 + (t1121 + (t1126 - (t1131 + (t1136 + (t1141 - t1146))))));
-        let t1302 = t1259 + (t1262 - (t1265 + (t1268 - t1301)));
-        coriolis_matrix_p[4][1] = t1302;
-        coriolis_matrix_b[4][1] = t1302;
-        let t1303 = t96 * t894 + (t1246 + (t1248 - (t1250 + (t1252 + (t1254 - t1256)))));
-        let t1304 = t150 * t1011 + (t129 * t975 - (t108 * t939 - t1303));
-        let t1305 = t177 * t1083 + (t165 * t1047 - t1304);
-        let t1306 = t108 * t1148 - (t106 * t1244 - (t90 * t1242 - t96 * t1143));
-        let t1307 = t144 * t1238 - (t129 * t1138 - (t123 * t1240 - t1306));
-        let t1308 = t165 * t1128 - (t163 * t1236 + (t150 * t1133 - t1307));
-        let t1309 = t177 * t1123 - (t175 * t1234 - t1308);
-        let t1310 = t108 * t1161 - (t106 * t1257 - (t90 * t1255 - t96 * t1159));
-        let t1311 = t144 * t1251 - (t129 * t1157 - (t123 * t1253 - t1310));
-        let t1312 = t165 * t1153 - (t163 * t1249 + (t150 * t1155 - t1311));
-        let t1313 = t177 * t1151 - (t175 * t1247 - t1312);
-        let t1314 = t108 * t1174 - (t106 * t1276 - (t90 * t1273 - t96 * t1172));
-        let t1315 = t144 * t1267 - (t129 * t1170 - (t123 * t1270 - t1314));
-        let t1316 = t165 * t1166 - (t163 * t1264 + (t150 * t1168 - t1315));
-        let t1317 = t177 * t1164 - (t175 * t1261 - t1316);
-        let t1318 = t90 * t899 + (t1163 + (t1165 - (t1167 + (t1169 + (t1171 - t1173)))));
-        let t1319 = t144 * t1013 + (t123 * t977 - (t106 * t941 - t1318));
-        let t1320 = t175 * t1085 + (t163 * t1049 - t1319);
-        let t1321 = t93 * t893 + (t1217 + (t1219 - (t1221 + (t1223 + (t1225 - t1227)))));
-        let t1322 = t147 * t1010 + (t126 * t974 - (t107 * t938 - t1321));
-        let t1323 = t176 * t1082 + (t164 * t1046 - t1322);
-        coriolis_matrix_p[5][1] = t1323;
-        coriolis_matrix_b[5][1] = t1323;
-        let t1324 = t1214
-            - (t1210 + (t1122 + (t1127 - (t1132 + (t1137 + (t1142 - t1147))))));
-        let t1325 = t1194 + (t1198 - (t1202 + (t1206 - t1324)));
-        let t1326 = t106 * t1190 - (t107 * t1148 - (t93 * t1143 - t90 * t1188));
-        let t1327 = t147 * t1133 - (t123 * t1186 - (t126 * t1138 - t1326));
-        let t1328 = t163 * t1182 - (t164 * t1128 + (t144 * t1184 - t1327));
-        let t1329 = t175 * t1180 - (t176 * t1123 - t1328);
-        let t1330 = t106 * t1215 + (t107 * t1161 - (t93 * t1159 + t90 * t1211));
-        let t1331 = t147 * t1155 + (t123 * t1207 + (t126 * t1157 + t1330));
-        let t1332 = t163 * t1199 + (t164 * t1153 - (t144 * t1203 + t1331));
-        let t1333 = t175 * t1195 + (t176 * t1151 + t1332);
-        let t1334 = t106 * t1228 - (t107 * t1174 - (t93 * t1172 - t90 * t1226));
-        let t1335 = t147 * t1168 - (t123 * t1224 - (t126 * t1170 - t1334));
-        let t1336 = t163 * t1220 - (t164 * t1166 + (t144 * t1222 - t1335));
-        let t1337 = t175 * t1218 - (t176 * t1164 - t1336);
-        coriolis_matrix_p[0][3] = -t1149;
-        coriolis_matrix_p[2][5] = -t1277;
-        let t1338 = -t1279;
-        coriolis_matrix_p[3][0] = t1338;
-        coriolis_matrix_b[3][0] = t1338;
-        let t1339 = -t1282;
-        coriolis_matrix_p[3][1] = t1339;
-        coriolis_matrix_b[3][1] = t1339;
-        let t1340 = -t1305;
-        coriolis_matrix_p[4][2] = t1340;
-        coriolis_matrix_b[4][2] = t1340;
-        let t1341 = -t1320;
-        coriolis_matrix_p[5][0] = t1341;
-        coriolis_matrix_b[5][0] = t1341;
-        let t1342 = -t1325;
-        coriolis_matrix_p[5][2] = t1342;
-        coriolis_matrix_b[5][2] = t1342;
+        coriolis_matrix_p[2][1] = t1232;
+        coriolis_matrix_b[2][1] = t1232;
+        let t1233 = t1092 + (t1056 - (t1020 + (t984 - (t909 - t948))));
+        coriolis_matrix_p[2][2] = t1233;
+        coriolis_matrix_b[2][2] = t1233;
+        let t1234 = t176 * t1092;
+        let t1235 = t468 * t878 - (t467 * t879 + (t177 * t1091 - t1234));
+        let t1236 = t164 * t1056;
+        let t1237 = t426 * t866 - (t425 * t867 + (t165 * t1055 - t1236));
+        let t1238 = t147 * t1020;
+        let t1239 = t378 * t854 - (t377 * t855 + (t150 * t1019 - t1238));
+        let t1240 = t126 * t984;
+        let t1241 = t330 * t842 - (t329 * t843 + (t129 * t983 - t1240));
+        let t1242 = t93 * t909;
+        let t1243 = t234 * t818 - (t233 * t819 + (t96 * t908 - t1242));
+        let t1244 = t107 * t948;
+        let t1245 = t288 * t830 - (t287 * t831 + (t108 * t947 - t1244));
+        let t1246 = t1235 + (t1237 - (t1239 + (t1241 + (t1243 - t1245))));
+        let t1247 = t175 * t1092;
+        let t1248 = t465 * t879 - (t468 * t877 + (t1247 - t177 * t1090));
+        let t1249 = t163 * t1056;
+        let t1250 = t423 * t867 - (t426 * t865 + (t1249 - t165 * t1054));
+        let t1251 = t144 * t1020;
+        let t1252 = t375 * t855 - (t378 * t853 + (t1251 - t150 * t1018));
+        let t1253 = t123 * t984;
+        let t1254 = t327 * t843 - (t330 * t841 + (t1253 - t129 * t982));
+        let t1255 = t90 * t909;
+        let t1256 = t231 * t819 - (t234 * t817 + (t1255 - t96 * t907));
+        let t1257 = t106 * t948;
+        let t1258 = t285 * t831 - (t288 * t829 + (t1257 - t108 * t946));
+        let t1259 = t1248 + (t1250 - (t1252 + (t1254 + (t1256 - t1258))));
+        let t1260 = t175 * t1091;
+        let t1261 = t176 * t1090;
+        let t1262 = t1260 - (t1261 + (t1120 - t1193));
+        let t1263 = t163 * t1055;
+        let t1264 = t164 * t1054;
+        let t1265 = t1263 - (t1264 + (t1125 - t1197));
+        let t1266 = t144 * t1019;
+        let t1267 = t147 * t1018;
+        let t1268 = t1266 - (t1267 + (t1130 - t1201));
+        let t1269 = t123 * t983;
+        let t1270 = t126 * t982;
+        let t1271 = t1269 - (t1270 + (t1135 - t1205));
+        let t1272 = t90 * t908;
+        let t1273 = t93 * t907;
+        let t1274 = t1272 - (t1273 + (t1140 - t1209));
+        let t1275 = t106 * t947;
+        let t1276 = t107 * t946;
+        let t1277 = t1275 - (t1276 + (t1145 - t1213));
+        let t1278 = t1262 + (t1265 - (t1268 + (t1271 + (t1274 - t1277))));
+        let t1279 = t1276
+            - (t1273 + (t1194 + (t1198 - (t1202 + (t1206 + (t1210 - t1214))))));
+        let t1280 = t1261 + (t1264 - (t1267 + (t1270 - t1279)));
+        let t1281 = t93 * t908 + (t1180 + (t1182 - (t1184 + (t1186 + (t1188 - t1190)))));
+        let t1282 = t147 * t1019 + (t126 * t983 - (t107 * t947 - t1281));
+        let t1283 = t176 * t1091 + (t164 * t1055 - t1282);
+        let t1284 = t96 * t902 + (t1234 + (t1236 - (t1238 + (t1240 + (t1242 - t1244)))));
+        let t1285 = t150 * t1016 + (t129 * t980 - (t108 * t944 - t1284));
+        let t1286 = t177 * t1088 + (t165 * t1052 - t1285);
+        coriolis_matrix_p[3][2] = t1286;
+        coriolis_matrix_b[3][2] = t1286;
+        let t1287 = t107 * t1245 - (t108 * t1191 - (t96 * t1189 - t93 * t1243));
+        let t1288 = t150 * t1185 - (t126 * t1241 - (t129 * t1187 - t1287));
+        let t1289 = t164 * t1237 - (t165 * t1183 + (t147 * t1239 - t1288));
+        let t1290 = t176 * t1235 - (t177 * t1181 - t1289);
+        let t1291 = t107 * t1258 + (t108 * t1216 - (t96 * t1212 + t93 * t1256));
+        let t1292 = t150 * t1204 + (t126 * t1254 + (t129 * t1208 + t1291));
+        let t1293 = t164 * t1250 + (t165 * t1200 - (t147 * t1252 + t1292));
+        let t1294 = t176 * t1248 + (t177 * t1196 + t1293);
+        let t1295 = t107 * t1277 - (t108 * t1229 - (t96 * t1227 - t93 * t1274));
+        let t1296 = t150 * t1223 - (t126 * t1271 - (t129 * t1225 - t1295));
+        let t1297 = t164 * t1265 - (t165 * t1221 + (t147 * t1268 - t1296));
+        let t1298 = t176 * t1262 - (t177 * t1219 - t1297);
+        let t1299 = t90 * t907 + (t1151 + (t1153 - (t1155 + (t1157 + (t1159 - t1161)))));
+        let t1300 = t144 * t1018 + (t123 * t982 - (t106 * t946 - t1299));
+        let t1301 = t175 * t1090 + (t163 * t1054 - t1300);
+        coriolis_matrix_p[4][0] = t1301;
+        coriolis_matrix_b[4][0] = t1301;
+        let t1302 = t1275
+            - (t1272 + (t1122 + (t1127 - (t1132 + (t1137 + (t1142 - t1147))))));
+        let t1303 = t1260 + (t1263 - (t1266 + (t1269 - t1302)));
+        coriolis_matrix_p[4][1] = t1303;
+        coriolis_matrix_b[4][1] = t1303;
+        let t1304 = t96 * t895 + (t1247 + (t1249 - (t1251 + (t1253 + (t1255 - t1257)))));
+        let t1305 = t150 * t1012 + (t129 * t976 - (t108 * t940 - t1304));
+        let t1306 = t177 * t1084 + (t165 * t1048 - t1305);
+        let t1307 = t108 * t1149 - (t106 * t1245 - (t90 * t1243 - t96 * t1144));
+        let t1308 = t144 * t1239 - (t129 * t1139 - (t123 * t1241 - t1307));
+        let t1309 = t165 * t1129 - (t163 * t1237 + (t150 * t1134 - t1308));
+        let t1310 = t177 * t1124 - (t175 * t1235 - t1309);
+        let t1311 = t108 * t1162 - (t106 * t1258 - (t90 * t1256 - t96 * t1160));
+        let t1312 = t144 * t1252 - (t129 * t1158 - (t123 * t1254 - t1311));
+        let t1313 = t165 * t1154 - (t163 * t1250 + (t150 * t1156 - t1312));
+        let t1314 = t177 * t1152 - (t175 * t1248 - t1313);
+        let t1315 = t108 * t1175 - (t106 * t1277 - (t90 * t1274 - t96 * t1173));
+        let t1316 = t144 * t1268 - (t129 * t1171 - (t123 * t1271 - t1315));
+        let t1317 = t165 * t1167 - (t163 * t1265 + (t150 * t1169 - t1316));
+        let t1318 = t177 * t1165 - (t175 * t1262 - t1317);
+        let t1319 = t90 * t900 + (t1164 + (t1166 - (t1168 + (t1170 + (t1172 - t1174)))));
+        let t1320 = t144 * t1014 + (t123 * t978 - (t106 * t942 - t1319));
+        let t1321 = t175 * t1086 + (t163 * t1050 - t1320);
+        let t1322 = t93 * t894 + (t1218 + (t1220 - (t1222 + (t1224 + (t1226 - t1228)))));
+        let t1323 = t147 * t1011 + (t126 * t975 - (t107 * t939 - t1322));
+        let t1324 = t176 * t1083 + (t164 * t1047 - t1323);
+        coriolis_matrix_p[5][1] = t1324;
+        coriolis_matrix_b[5][1] = t1324;
+        let t1325 = t1215
+            - (t1211 + (t1123 + (t1128 - (t1133 + (t1138 + (t1143 - t1148))))));
+        let t1326 = t1195 + (t1199 - (t1203 + (t1207 - t1325)));
+        let t1327 = t106 * t1191 - (t107 * t1149 - (t93 * t1144 - t90 * t1189));
+        let t1328 = t147 * t1134 - (t123 * t1187 - (t126 * t1139 - t1327));
+        let t1329 = t163 * t1183 - (t164 * t1129 + (t144 * t1185 - t1328));
+        let t1330 = t175 * t1181 - (t176 * t1124 - t1329);
+        let t1331 = t106 * t1216 + (t107 * t1162 - (t93 * t1160 + t90 * t1212));
+        let t1332 = t147 * t1156 + (t123 * t1208 + (t126 * t1158 + t1331));
+        let t1333 = t163 * t1200 + (t164 * t1154 - (t144 * t1204 + t1332));
+        let t1334 = t175 * t1196 + (t176 * t1152 + t1333);
+        let t1335 = t106 * t1229 - (t107 * t1175 - (t93 * t1173 - t90 * t1227));
+        let t1336 = t147 * t1169 - (t123 * t1225 - (t126 * t1171 - t1335));
+        let t1337 = t163 * t1221 - (t164 * t1167 + (t144 * t1223 - t1336));
+        let t1338 = t175 * t1219 - (t176 * t1165 - t1337);
+        coriolis_matrix_p[0][3] = -t1150;
+        coriolis_matrix_p[2][5] = -t1278;
+        let t1339 = -t1280;
+        coriolis_matrix_p[3][0] = t1339;
+        coriolis_matrix_b[3][0] = t1339;
+        let t1340 = -t1283;
+        coriolis_matrix_p[3][1] = t1340;
+        coriolis_matrix_b[3][1] = t1340;
+        let t1341 = -t1306;
+        coriolis_matrix_p[4][2] = t1341;
+        coriolis_matrix_b[4][2] = t1341;
+        let t1342 = -t1321;
+        coriolis_matrix_p[5][0] = t1342;
+        coriolis_matrix_b[5][0] = t1342;
+        let t1343 = -t1326;
+        coriolis_matrix_p[5][2] = t1343;
+        coriolis_matrix_b[5][2] = t1343;
         // Coriolis matrix C_p, natural factorisation
-        let t1343 = platform_velocity[3] * t615 - platform_velocity[4] * t618;
-        let t1344 = t1162 - t1343;
-        let t1345 = platform_velocity[5] * t618 - platform_velocity[3] * t612;
-        let t1346 = t1175 + t1345;
-        let t1347 = t1191 + t1343;
-        let t1348 = platform_velocity[4] * t612 - platform_velocity[5] * t615;
-        let t1349 = t1229 - t1348;
-        let t1350 = t1245 - t1345;
-        let t1351 = t1258 + t1348;
-        let t1352 = platform_velocity[4] * t627;
-        let t1353 = platform_velocity[5] * t625;
-        let t1354 = t1352 - (t1289 + t1353);
-        let t1355 = 0.0425 - t632;
-        let t1356 = platform_velocity[4] * t634 - (t1293 - platform_velocity[5] * t1355);
-        let t1357 = 0.0425 - t638;
-        let t1358 = platform_velocity[4] * t1357 + (t1297 + platform_velocity[5] * t634);
-        coriolis_matrix_p[3][5] = t1358;
-        let t1359 = 0.0425 - t623;
-        let t1360 = platform_velocity[3] * t627 + (t1309 + platform_velocity[5] * t1359);
-        coriolis_matrix_p[4][3] = t1360;
-        let t1361 = platform_velocity[3] * t634;
-        let t1362 = t1361 + (t1313 - t1353);
-        coriolis_matrix_p[4][4] = t1362;
-        let t1363 = platform_velocity[3] * t1357 - (t1317 - platform_velocity[5] * t627);
-        let t1364 = platform_velocity[3] * t625 - (t1329 - platform_velocity[4] * t1359);
-        let t1365 = platform_velocity[3] * t1355 - (t1333 - platform_velocity[4] * t625);
-        coriolis_matrix_p[5][4] = t1365;
-        let t1366 = t1361 - (t1337 + t1352);
-        coriolis_matrix_p[0][4] = -t1344;
-        coriolis_matrix_p[0][5] = -t1346;
-        coriolis_matrix_p[1][3] = -t1347;
-        coriolis_matrix_p[1][5] = -t1349;
-        coriolis_matrix_p[2][3] = -t1350;
-        coriolis_matrix_p[2][4] = -t1351;
-        coriolis_matrix_p[3][3] = -t1354;
-        coriolis_matrix_p[3][4] = -t1356;
-        coriolis_matrix_p[4][5] = -t1363;
-        coriolis_matrix_p[5][3] = -t1364;
-        coriolis_matrix_p[5][5] = -t1366;
+        let t1344 = platform_velocity[3] * t615 - platform_velocity[4] * t618;
+        let t1345 = t1163 - t1344;
+        let t1346 = platform_velocity[5] * t618 - platform_velocity[3] * t612;
+        let t1347 = t1176 + t1346;
+        let t1348 = t1192 + t1344;
+        let t1349 = platform_velocity[4] * t612 - platform_velocity[5] * t615;
+        let t1350 = t1230 - t1349;
+        let t1351 = t1246 - t1346;
+        let t1352 = t1259 + t1349;
+        let t1353 = platform_velocity[4] * t627;
+        let t1354 = platform_velocity[5] * t625;
+        let t1355 = t1353 - (t1290 + t1354);
+        let t1356 = c(0.0425) - t632;
+        let t1357 = platform_velocity[4] * t634 - (t1294 - platform_velocity[5] * t1356);
+        let t1358 = c(0.0425) - t639;
+        let t1359 = platform_velocity[4] * t1358 + (t1298 + platform_velocity[5] * t634);
+        coriolis_matrix_p[3][5] = t1359;
+        let t1360 = c(0.0425) - t623;
+        let t1361 = platform_velocity[3] * t627 + (t1310 + platform_velocity[5] * t1360);
+        coriolis_matrix_p[4][3] = t1361;
+        let t1362 = platform_velocity[3] * t634;
+        let t1363 = t1362 + (t1314 - t1354);
+        coriolis_matrix_p[4][4] = t1363;
+        let t1364 = platform_velocity[3] * t1358 - (t1318 - platform_velocity[5] * t627);
+        let t1365 = platform_velocity[3] * t625 - (t1330 - platform_velocity[4] * t1360);
+        let t1366 = platform_velocity[3] * t1356 - (t1334 - platform_velocity[4] * t625);
+        coriolis_matrix_p[5][4] = t1366;
+        let t1367 = t1362 - (t1338 + t1353);
+        coriolis_matrix_p[0][4] = -t1345;
+        coriolis_matrix_p[0][5] = -t1347;
+        coriolis_matrix_p[1][3] = -t1348;
+        coriolis_matrix_p[1][5] = -t1350;
+        coriolis_matrix_p[2][3] = -t1351;
+        coriolis_matrix_p[2][4] = -t1352;
+        coriolis_matrix_p[3][3] = -t1355;
+        coriolis_matrix_p[3][4] = -t1357;
+        coriolis_matrix_p[4][5] = -t1364;
+        coriolis_matrix_p[5][3] = -t1365;
+        coriolis_matrix_p[5][5] = -t1367;
         // Coriolis matrix C_b, natural factorisation
-        let t1367 = t504 * t745;
-        let t1368 = t503 * t746;
-        let t1369 = t1149 - (t1099 + (t1063 - (t1027 + (t991 - (t918 - t955)))));
-        let t1370 = t1367 - (t1368 - (t20 * t1118 - (t21 * t1117 - t1369)));
-        let t1371 = t1162 - (t1105 + (t1069 - (t1033 + (t997 - (t925 - t961)))));
-        let t1372 = t504 * t744 - (t21 * t1116 - (t19 * t1118 - t1371));
-        let t1373 = t502 * t746 - t1372;
-        let t1374 = t1175 - (t1108 + (t1072 - (t1036 + (t1000 - (t928 - t964)))));
-        let t1375 = t502 * t745 - (t19 * t1117 - (t20 * t1116 - t1374));
-        let t1376 = t503 * t744 - t1375;
-        let t1377 = t1191 + (t1109 + (t1073 + (t1037 + (t1001 + (t929 + t965)))));
-        let t1378 = t533 * t746 - (t20 * t1178 - (t21 * t1177 - t1377));
-        let t1379 = t534 * t745 - t1378;
-        let t1380 = t534 * t744;
-        let t1381 = t1368
-            - (t1216 + (t1110 + (t1074 - (t1038 + (t1002 - (t930 - t966))))));
-        let t1382 = t1380 - (t21 * t1176 - (t19 * t1178 - t1381));
-        coriolis_matrix_b[1][4] = t1382;
-        let t1383 = t1229 - (t1112 + (t1076 - (t1040 + (t1004 - (t932 - t968)))));
-        let t1384 = t503 * t745 - (t19 * t1177 - (t20 * t1176 - t1383));
-        let t1385 = t533 * t744 - t1384;
-        let t1386 = t1245 - (t1113 + (t1077 + (t1041 + (t1005 + (t933 + t969)))));
-        let t1387 = t534 * t746 - (t20 * t1232 - (t21 * t1231 - t1386));
-        let t1388 = t562 * t745 - t1387;
-        let t1389 = t1258 + (t1114 + (t1078 + (t1042 + (t1006 + (t934 + t970)))));
-        let t1390 = t562 * t744 - (t21 * t1230 - (t19 * t1232 - t1389));
-        let t1391 = t504 * t746 - t1390;
-        let t1392 = t1367
-            - (t1277 - (t1115 + (t1079 - (t1043 + (t1007 - (t935 - t971))))));
-        let t1393 = t19 * t1231 - (t20 * t1230 - (t1380 - t1392));
-        let t1394 = t541 * t746 - (t20 * t1285 - (t1289 - t21 * t1282));
-        let t1395 = t96 * t929 + (t93 * t933 - (t569 * t745 - t1394));
-        let t1396 = t126 * t1005 - (t108 * t965 + (t107 * t969 + t1395));
-        let t1397 = t150 * t1037 + (t147 * t1041 + (t129 * t1001 + t1396));
-        let t1398 = t176 * t1113 + (t165 * t1073 + (t164 * t1077 + t1397));
-        let t1399 = t177 * t1109 + t1398;
-        let t1400 = t569 * t744 + (t21 * t1279 + (t1293 + t19 * t1285));
-        let t1401 = t96 * t930 + (t93 * t934 - (t518 * t746 + t1400));
-        let t1402 = t126 * t1006 + (t108 * t966 - (t107 * t970 + t1401));
-        let t1403 = t150 * t1038 - (t147 * t1042 - (t129 * t1002 - t1402));
-        let t1404 = t176 * t1114 + (t165 * t1074 + (t164 * t1078 - t1403));
-        let t1405 = t177 * t1110 + t1404;
-        coriolis_matrix_b[3][4] = t1405;
-        let t1406 = t518 * t745 - (t19 * t1282 + (t1297 - t20 * t1279));
-        let t1407 = t96 * t932 - (t93 * t935 - (t541 * t744 + t1406));
-        let t1408 = t126 * t1007 + (t108 * t968 - (t107 * t971 + t1407));
-        let t1409 = t150 * t1040 - (t147 * t1043 - (t129 * t1004 - t1408));
-        let t1410 = t176 * t1115 - (t165 * t1076 - (t164 * t1079 + t1409));
-        let t1411 = t177 * t1112 - t1410;
-        coriolis_matrix_b[3][5] = t1411;
-        let t1412 = t554 * t746 - (t20 * t1305 + (t1309 + t21 * t1302));
-        let t1413 = t90 * t933 - (t96 * t918 - (t576 * t745 + t1412));
-        let t1414 = t129 * t991 - (t106 * t969 + (t108 * t955 + t1413));
-        let t1415 = t144 * t1041 + (t150 * t1027 + (t123 * t1005 + t1414));
-        let t1416 = t177 * t1099 - (t163 * t1077 - (t165 * t1063 - t1415));
-        let t1417 = t175 * t1113 - t1416;
-        coriolis_matrix_b[4][3] = t1417;
-        let t1418 = t576 * t744 - (t21 * t1300 - (t1313 - t19 * t1305));
-        let t1419 = t90 * t934 + (t96 * t925 - (t525 * t746 - t1418));
-        let t1420 = t129 * t997 + (t106 * t970 - (t108 * t961 - t1419));
-        let t1421 = t144 * t1042 - (t150 * t1033 - (t123 * t1006 - t1420));
-        let t1422 = t177 * t1105 + (t163 * t1078 + (t165 * t1069 + t1421));
-        let t1423 = t175 * t1114 + t1422;
-        let t1424 = t525 * t745 - (t19 * t1302 - (t1317 + t20 * t1300));
-        let t1425 = t90 * t935 - (t96 * t928 + (t554 * t744 + t1424));
-        let t1426 = t129 * t1000 + (t106 * t971 - (t108 * t964 + t1425));
-        let t1427 = t144 * t1043 - (t150 * t1036 - (t123 * t1007 - t1426));
-        let t1428 = t177 * t1108 - (t163 * t1079 - (t165 * t1072 + t1427));
-        let t1429 = t175 * t1115 - t1428;
-        coriolis_matrix_b[4][5] = t1429;
-        let t1430 = t561 * t746 + (t20 * t1325 + (t1329 + t21 * t1323));
-        let t1431 = t93 * t918 + (t90 * t929 + (t583 * t745 - t1430));
-        let t1432 = t123 * t1001 + (t107 * t955 - (t106 * t965 + t1431));
-        let t1433 = t147 * t1027 - (t144 * t1037 - (t126 * t991 - t1432));
-        let t1434 = t175 * t1109 + (t164 * t1063 + (t163 * t1073 - t1433));
-        let t1435 = t176 * t1099 + t1434;
-        coriolis_matrix_b[5][3] = t1435;
-        let t1436 = t583 * t744 + (t21 * t1320 - (t1333 + t19 * t1325));
-        let t1437 = t93 * t925 - (t90 * t930 - (t532 * t746 - t1436));
-        let t1438 = t123 * t1002 + (t107 * t961 - (t106 * t966 + t1437));
-        let t1439 = t147 * t1033 - (t144 * t1038 - (t126 * t997 - t1438));
-        let t1440 = t175 * t1110 - (t164 * t1069 - (t163 * t1074 + t1439));
-        let t1441 = t176 * t1105 - t1440;
-        coriolis_matrix_b[5][4] = t1441;
-        let t1442 = t532 * t745 - (t19 * t1323 - (t1337 - t20 * t1320));
-        let t1443 = t93 * t928 - (t90 * t932 - (t561 * t744 - t1442));
-        let t1444 = t123 * t1004 + (t107 * t964 - (t106 * t968 + t1443));
-        let t1445 = t147 * t1036 - (t144 * t1040 - (t126 * t1000 - t1444));
-        let t1446 = t175 * t1112 - (t164 * t1072 - (t163 * t1076 + t1445));
-        let t1447 = t176 * t1108 - t1446;
-        coriolis_matrix_b[5][5] = t1447;
-        coriolis_matrix_b[0][3] = -t1370;
-        coriolis_matrix_b[0][4] = -t1373;
-        coriolis_matrix_b[0][5] = -t1376;
-        coriolis_matrix_b[1][3] = -t1379;
-        coriolis_matrix_b[1][5] = -t1385;
-        coriolis_matrix_b[2][3] = -t1388;
-        coriolis_matrix_b[2][4] = -t1391;
-        coriolis_matrix_b[2][5] = -t1393;
-        coriolis_matrix_b[3][3] = -t1399;
-        coriolis_matrix_b[4][4] = -t1423;
+        let t1368 = t504 * t746;
+        let t1369 = t503 * t747;
+        let t1370 = t1150 - (t1100 + (t1064 - (t1028 + (t992 - (t919 - t956)))));
+        let t1371 = t1368 - (t1369 - (t20 * t1119 - (t21 * t1118 - t1370)));
+        let t1372 = t1163 - (t1106 + (t1070 - (t1034 + (t998 - (t926 - t962)))));
+        let t1373 = t504 * t745 - (t21 * t1117 - (t19 * t1119 - t1372));
+        let t1374 = t502 * t747 - t1373;
+        let t1375 = t1176 - (t1109 + (t1073 - (t1037 + (t1001 - (t929 - t965)))));
+        let t1376 = t502 * t746 - (t19 * t1118 - (t20 * t1117 - t1375));
+        let t1377 = t503 * t745 - t1376;
+        let t1378 = t1192 + (t1110 + (t1074 + (t1038 + (t1002 + (t930 + t966)))));
+        let t1379 = t533 * t747 - (t20 * t1179 - (t21 * t1178 - t1378));
+        let t1380 = t534 * t746 - t1379;
+        let t1381 = t534 * t745;
+        let t1382 = t1369
+            - (t1217 + (t1111 + (t1075 - (t1039 + (t1003 - (t931 - t967))))));
+        let t1383 = t1381 - (t21 * t1177 - (t19 * t1179 - t1382));
+        coriolis_matrix_b[1][4] = t1383;
+        let t1384 = t1230 - (t1113 + (t1077 - (t1041 + (t1005 - (t933 - t969)))));
+        let t1385 = t503 * t746 - (t19 * t1178 - (t20 * t1177 - t1384));
+        let t1386 = t533 * t745 - t1385;
+        let t1387 = t1246 - (t1114 + (t1078 + (t1042 + (t1006 + (t934 + t970)))));
+        let t1388 = t534 * t747 - (t20 * t1233 - (t21 * t1232 - t1387));
+        let t1389 = t562 * t746 - t1388;
+        let t1390 = t1259 + (t1115 + (t1079 + (t1043 + (t1007 + (t935 + t971)))));
+        let t1391 = t562 * t745 - (t21 * t1231 - (t19 * t1233 - t1390));
+        let t1392 = t504 * t747 - t1391;
+        let t1393 = t1368
+            - (t1278 - (t1116 + (t1080 - (t1044 + (t1008 - (t936 - t972))))));
+        let t1394 = t19 * t1232 - (t20 * t1231 - (t1381 - t1393));
+        let t1395 = t541 * t747 - (t20 * t1286 - (t1290 - t21 * t1283));
+        let t1396 = t96 * t930 + (t93 * t934 - (t569 * t746 - t1395));
+        let t1397 = t126 * t1006 - (t108 * t966 + (t107 * t970 + t1396));
+        let t1398 = t150 * t1038 + (t147 * t1042 + (t129 * t1002 + t1397));
+        let t1399 = t176 * t1114 + (t165 * t1074 + (t164 * t1078 + t1398));
+        let t1400 = t177 * t1110 + t1399;
+        let t1401 = t569 * t745 + (t21 * t1280 + (t1294 + t19 * t1286));
+        let t1402 = t96 * t931 + (t93 * t935 - (t518 * t747 + t1401));
+        let t1403 = t126 * t1007 + (t108 * t967 - (t107 * t971 + t1402));
+        let t1404 = t150 * t1039 - (t147 * t1043 - (t129 * t1003 - t1403));
+        let t1405 = t176 * t1115 + (t165 * t1075 + (t164 * t1079 - t1404));
+        let t1406 = t177 * t1111 + t1405;
+        coriolis_matrix_b[3][4] = t1406;
+        let t1407 = t518 * t746 - (t19 * t1283 + (t1298 - t20 * t1280));
+        let t1408 = t96 * t933 - (t93 * t936 - (t541 * t745 + t1407));
+        let t1409 = t126 * t1008 + (t108 * t969 - (t107 * t972 + t1408));
+        let t1410 = t150 * t1041 - (t147 * t1044 - (t129 * t1005 - t1409));
+        let t1411 = t176 * t1116 - (t165 * t1077 - (t164 * t1080 + t1410));
+        let t1412 = t177 * t1113 - t1411;
+        coriolis_matrix_b[3][5] = t1412;
+        let t1413 = t554 * t747 - (t20 * t1306 + (t1310 + t21 * t1303));
+        let t1414 = t90 * t934 - (t96 * t919 - (t576 * t746 + t1413));
+        let t1415 = t129 * t992 - (t106 * t970 + (t108 * t956 + t1414));
+        let t1416 = t144 * t1042 + (t150 * t1028 + (t123 * t1006 + t1415));
+        let t1417 = t177 * t1100 - (t163 * t1078 - (t165 * t1064 - t1416));
+        let t1418 = t175 * t1114 - t1417;
+        coriolis_matrix_b[4][3] = t1418;
+        let t1419 = t576 * t745 - (t21 * t1301 - (t1314 - t19 * t1306));
+        let t1420 = t90 * t935 + (t96 * t926 - (t525 * t747 - t1419));
+        let t1421 = t129 * t998 + (t106 * t971 - (t108 * t962 - t1420));
+        let t1422 = t144 * t1043 - (t150 * t1034 - (t123 * t1007 - t1421));
+        let t1423 = t177 * t1106 + (t163 * t1079 + (t165 * t1070 + t1422));
+        let t1424 = t175 * t1115 + t1423;
+        let t1425 = t525 * t746 - (t19 * t1303 - (t1318 + t20 * t1301));
+        let t1426 = t90 * t936 - (t96 * t929 + (t554 * t745 + t1425));
+        let t1427 = t129 * t1001 + (t106 * t972 - (t108 * t965 + t1426));
+        let t1428 = t144 * t1044 - (t150 * t1037 - (t123 * t1008 - t1427));
+        let t1429 = t177 * t1109 - (t163 * t1080 - (t165 * t1073 + t1428));
+        let t1430 = t175 * t1116 - t1429;
+        coriolis_matrix_b[4][5] = t1430;
+        let t1431 = t561 * t747 + (t20 * t1326 + (t1330 + t21 * t1324));
+        let t1432 = t93 * t919 + (t90 * t930 + (t583 * t746 - t1431));
+        let t1433 = t123 * t1002 + (t107 * t956 - (t106 * t966 + t1432));
+        let t1434 = t147 * t1028 - (t144 * t1038 - (t126 * t992 - t1433));
+        let t1435 = t175 * t1110 + (t164 * t1064 + (t163 * t1074 - t1434));
+        let t1436 = t176 * t1100 + t1435;
+        coriolis_matrix_b[5][3] = t1436;
+        let t1437 = t583 * t745 + (t21 * t1321 - (t1334 + t19 * t1326));
+        let t1438 = t93 * t926 - (t90 * t931 - (t532 * t747 - t1437));
+        let t1439 = t123 * t1003 + (t107 * t962 - (t106 * t967 + t1438));
+        let t1440 = t147 * t1034 - (t144 * t1039 - (t126 * t998 - t1439));
+        let t1441 = t175 * t1111 - (t164 * t1070 - (t163 * t1075 + t1440));
+        let t1442 = t176 * t1106 - t1441;
+        coriolis_matrix_b[5][4] = t1442;
+        let t1443 = t532 * t746 - (t19 * t1324 - (t1338 - t20 * t1321));
+        let t1444 = t93 * t929 - (t90 * t933 - (t561 * t745 - t1443));
+        let t1445 = t123 * t1005 + (t107 * t965 - (t106 * t969 + t1444));
+        let t1446 = t147 * t1037 - (t144 * t1041 - (t126 * t1001 - t1445));
+        let t1447 = t175 * t1113 - (t164 * t1073 - (t163 * t1077 + t1446));
+        let t1448 = t176 * t1109 - t1447;
+        coriolis_matrix_b[5][5] = t1448;
+        coriolis_matrix_b[0][3] = -t1371;
+        coriolis_matrix_b[0][4] = -t1374;
+        coriolis_matrix_b[0][5] = -t1377;
+        coriolis_matrix_b[1][3] = -t1380;
+        coriolis_matrix_b[1][5] = -t1386;
+        coriolis_matrix_b[2][3] = -t1389;
+        coriolis_matrix_b[2][4] = -t1392;
+        coriolis_matrix_b[2][5] = -t1394;
+        coriolis_matrix_b[3][3] = -t1400;
+        coriolis_matrix_b[4][4] = -t1424;
         // linearised stiffness K_p = J_dp^T k_e J_dp
-        let t1448 = 21555.9 * t101;
-        let t1449 = 21555.9 * t113;
-        let t1450 = 21555.9 * t134;
-        let t1451 = 21555.9 * t155;
-        let t1452 = 21555.9 * t170;
-        let t1453 = 21555.9 * t182;
-        let t1454 = 21555.9 * t103;
-        let t1455 = 21555.9 * t115;
-        let t1456 = 21555.9 * t136;
-        let t1457 = 21555.9 * t157;
-        let t1458 = 21555.9 * t172;
-        let t1459 = 21555.9 * t184;
-        let t1460 = 21555.9 * t105;
-        let t1461 = 21555.9 * t117;
-        let t1462 = 21555.9 * t138;
-        let t1463 = 21555.9 * t159;
-        let t1464 = 21555.9 * t174;
-        let t1465 = 21555.9 * t186;
-        let t1466 = t155 * t1451 + (t134 * t1450 + (t101 * t1448 + t113 * t1449));
-        let t1467 = t182 * t1453 + (t170 * t1452 + t1466);
-        stiffness_matrix_p[0][0] = t1467;
-        stiffness_matrix_b[0][0] = t1467;
-        let t1468 = t155 * t1457 + (t134 * t1456 + (t101 * t1454 + t113 * t1455));
-        let t1469 = t182 * t1459 + (t170 * t1458 + t1468);
-        stiffness_matrix_p[0][1] = t1469;
-        stiffness_matrix_p[1][0] = t1469;
-        stiffness_matrix_b[0][1] = t1469;
-        let t1470 = t155 * t1463 + (t134 * t1462 + (t101 * t1460 + t113 * t1461));
-        let t1471 = t182 * t1465 + (t170 * t1464 + t1470);
-        stiffness_matrix_p[0][2] = t1471;
-        stiffness_matrix_p[2][0] = t1471;
-        stiffness_matrix_b[0][2] = t1471;
-        let t1472 = 21555.9 * t187;
-        let t1473 = 21555.9 * t193;
-        let t1474 = 21555.9 * t199;
-        let t1475 = 21555.9 * t205;
-        let t1476 = t101 * t1472 + t113 * t1473 - t134 * t1474 - t155 * t1475;
-        let t1477 = 21555.9 * t211;
-        let t1478 = 21555.9 * t217;
-        let t1479 = t1476 - t170 * t1477 - t182 * t1478;
-        stiffness_matrix_p[0][3] = t1479;
-        stiffness_matrix_p[3][0] = t1479;
-        let t1480 = 21555.9 * t188;
-        let t1481 = 21555.9 * t194;
-        let t1482 = 21555.9 * t200;
-        let t1483 = 21555.9 * t206;
-        let t1484 = t101 * t1480 + t113 * t1481 - t134 * t1482 - t155 * t1483;
-        let t1485 = 21555.9 * t212;
-        let t1486 = 21555.9 * t218;
-        let t1487 = t1484 - t170 * t1485 - t182 * t1486;
-        stiffness_matrix_p[0][4] = t1487;
-        stiffness_matrix_p[4][0] = t1487;
-        let t1488 = 21555.9 * t189;
-        let t1489 = 21555.9 * t195;
-        let t1490 = 21555.9 * t201;
-        let t1491 = 21555.9 * t207;
-        let t1492 = t101 * t1488 + t113 * t1489 - t134 * t1490 - t155 * t1491;
-        let t1493 = 21555.9 * t213;
-        let t1494 = 21555.9 * t219;
-        let t1495 = t1492 - t170 * t1493 - t182 * t1494;
-        stiffness_matrix_p[0][5] = t1495;
-        stiffness_matrix_p[5][0] = t1495;
-        let t1496 = t157 * t1457 + (t136 * t1456 + (t103 * t1454 + t115 * t1455));
-        let t1497 = t184 * t1459 + (t172 * t1458 + t1496);
-        stiffness_matrix_p[1][1] = t1497;
-        stiffness_matrix_b[1][1] = t1497;
-        let t1498 = t157 * t1463 + (t136 * t1462 + (t103 * t1460 + t115 * t1461));
-        let t1499 = t184 * t1465 + (t172 * t1464 + t1498);
-        stiffness_matrix_p[1][2] = t1499;
-        stiffness_matrix_p[2][1] = t1499;
-        stiffness_matrix_b[1][2] = t1499;
-        let t1500 = t103 * t1472 + t115 * t1473 - t136 * t1474 - t157 * t1475;
-        let t1501 = t1500 - t172 * t1477 - t184 * t1478;
-        stiffness_matrix_p[1][3] = t1501;
-        stiffness_matrix_p[3][1] = t1501;
-        let t1502 = t103 * t1480 + t115 * t1481 - t136 * t1482 - t157 * t1483;
-        let t1503 = t1502 - t172 * t1485 - t184 * t1486;
-        stiffness_matrix_p[1][4] = t1503;
-        stiffness_matrix_p[4][1] = t1503;
-        let t1504 = t103 * t1488 + t115 * t1489 - t136 * t1490 - t157 * t1491;
-        let t1505 = t1504 - t172 * t1493 - t184 * t1494;
-        stiffness_matrix_p[1][5] = t1505;
-        stiffness_matrix_p[5][1] = t1505;
-        let t1506 = t159 * t1463 + (t138 * t1462 + (t105 * t1460 + t117 * t1461));
-        let t1507 = t186 * t1465 + (t174 * t1464 + t1506);
-        stiffness_matrix_p[2][2] = t1507;
-        stiffness_matrix_b[2][2] = t1507;
-        let t1508 = t105 * t1472 + t117 * t1473 - t138 * t1474 - t159 * t1475;
-        let t1509 = t1508 - t174 * t1477 - t186 * t1478;
-        stiffness_matrix_p[2][3] = t1509;
-        stiffness_matrix_p[3][2] = t1509;
-        let t1510 = t105 * t1480 + t117 * t1481 - t138 * t1482 - t159 * t1483;
-        let t1511 = t1510 - t174 * t1485 - t186 * t1486;
-        stiffness_matrix_p[2][4] = t1511;
-        stiffness_matrix_p[4][2] = t1511;
-        let t1512 = t105 * t1488 + t117 * t1489 - t138 * t1490 - t159 * t1491;
-        let t1513 = t1512 - t174 * t1493 - t186 * t1494;
-        stiffness_matrix_p[2][5] = t1513;
-        stiffness_matrix_p[5][2] = t1513;
-        let t1514 = t205 * t1475 + (t199 * t1474 + (t187 * t1472 + t193 * t1473));
-        stiffness_matrix_p[3][3] = t217 * t1478 + (t211 * t1477 + t1514);
-        let t1515 = t205 * t1483 + (t199 * t1482 + (t187 * t1480 + t193 * t1481));
-        let t1516 = t217 * t1486 + (t211 * t1485 + t1515);
-        stiffness_matrix_p[3][4] = t1516;
-        stiffness_matrix_p[4][3] = t1516;
-        let t1517 = t205 * t1491 + (t199 * t1490 + (t187 * t1488 + t193 * t1489));
-        let t1518 = t217 * t1494 + (t211 * t1493 + t1517);
-        stiffness_matrix_p[3][5] = t1518;
-        stiffness_matrix_p[5][3] = t1518;
-        let t1519 = t206 * t1483 + (t200 * t1482 + (t188 * t1480 + t194 * t1481));
-        stiffness_matrix_p[4][4] = t218 * t1486 + (t212 * t1485 + t1519);
-        let t1520 = t206 * t1491 + (t200 * t1490 + (t188 * t1488 + t194 * t1489));
-        let t1521 = t218 * t1494 + (t212 * t1493 + t1520);
-        stiffness_matrix_p[4][5] = t1521;
-        stiffness_matrix_p[5][4] = t1521;
-        let t1522 = t207 * t1491 + (t201 * t1490 + (t189 * t1488 + t195 * t1489));
-        stiffness_matrix_p[5][5] = t219 * t1494 + (t213 * t1493 + t1522);
+        let t1449 = c(21555.9) * t101;
+        let t1450 = c(21555.9) * t113;
+        let t1451 = c(21555.9) * t134;
+        let t1452 = c(21555.9) * t155;
+        let t1453 = c(21555.9) * t170;
+        let t1454 = c(21555.9) * t182;
+        let t1455 = c(21555.9) * t103;
+        let t1456 = c(21555.9) * t115;
+        let t1457 = c(21555.9) * t136;
+        let t1458 = c(21555.9) * t157;
+        let t1459 = c(21555.9) * t172;
+        let t1460 = c(21555.9) * t184;
+        let t1461 = c(21555.9) * t105;
+        let t1462 = c(21555.9) * t117;
+        let t1463 = c(21555.9) * t138;
+        let t1464 = c(21555.9) * t159;
+        let t1465 = c(21555.9) * t174;
+        let t1466 = c(21555.9) * t186;
+        let t1467 = t155 * t1452 + (t134 * t1451 + (t101 * t1449 + t113 * t1450));
+        let t1468 = t182 * t1454 + (t170 * t1453 + t1467);
+        stiffness_matrix_p[0][0] = t1468;
+        stiffness_matrix_b[0][0] = t1468;
+        let t1469 = t155 * t1458 + (t134 * t1457 + (t101 * t1455 + t113 * t1456));
+        let t1470 = t182 * t1460 + (t170 * t1459 + t1469);
+        stiffness_matrix_p[0][1] = t1470;
+        stiffness_matrix_p[1][0] = t1470;
+        stiffness_matrix_b[0][1] = t1470;
+        let t1471 = t155 * t1464 + (t134 * t1463 + (t101 * t1461 + t113 * t1462));
+        let t1472 = t182 * t1466 + (t170 * t1465 + t1471);
+        stiffness_matrix_p[0][2] = t1472;
+        stiffness_matrix_p[2][0] = t1472;
+        stiffness_matrix_b[0][2] = t1472;
+        let t1473 = c(21555.9) * t187;
+        let t1474 = c(21555.9) * t193;
+        let t1475 = c(21555.9) * t199;
+        let t1476 = c(21555.9) * t205;
+        let t1477 = t101 * t1473 + t113 * t1474 - t134 * t1475 - t155 * t1476;
+        let t1478 = c(21555.9) * t211;
+        let t1479 = c(21555.9) * t217;
+        let t1480 = t1477 - t170 * t1478 - t182 * t1479;
+        stiffness_matrix_p[0][3] = t1480;
+        stiffness_matrix_p[3][0] = t1480;
+        let t1481 = c(21555.9) * t188;
+        let t1482 = c(21555.9) * t194;
+        let t1483 = c(21555.9) * t200;
+        let t1484 = c(21555.9) * t206;
+        let t1485 = t101 * t1481 + t113 * t1482 - t134 * t1483 - t155 * t1484;
+        let t1486 = c(21555.9) * t212;
+        let t1487 = c(21555.9) * t218;
+        let t1488 = t1485 - t170 * t1486 - t182 * t1487;
+        stiffness_matrix_p[0][4] = t1488;
+        stiffness_matrix_p[4][0] = t1488;
+        let t1489 = c(21555.9) * t189;
+        let t1490 = c(21555.9) * t195;
+        let t1491 = c(21555.9) * t201;
+        let t1492 = c(21555.9) * t207;
+        let t1493 = t101 * t1489 + t113 * t1490 - t134 * t1491 - t155 * t1492;
+        let t1494 = c(21555.9) * t213;
+        let t1495 = c(21555.9) * t219;
+        let t1496 = t1493 - t170 * t1494 - t182 * t1495;
+        stiffness_matrix_p[0][5] = t1496;
+        stiffness_matrix_p[5][0] = t1496;
+        let t1497 = t157 * t1458 + (t136 * t1457 + (t103 * t1455 + t115 * t1456));
+        let t1498 = t184 * t1460 + (t172 * t1459 + t1497);
+        stiffness_matrix_p[1][1] = t1498;
+        stiffness_matrix_b[1][1] = t1498;
+        let t1499 = t157 * t1464 + (t136 * t1463 + (t103 * t1461 + t115 * t1462));
+        let t1500 = t184 * t1466 + (t172 * t1465 + t1499);
+        stiffness_matrix_p[1][2] = t1500;
+        stiffness_matrix_p[2][1] = t1500;
+        stiffness_matrix_b[1][2] = t1500;
+        let t1501 = t103 * t1473 + t115 * t1474 - t136 * t1475 - t157 * t1476;
+        let t1502 = t1501 - t172 * t1478 - t184 * t1479;
+        stiffness_matrix_p[1][3] = t1502;
+        stiffness_matrix_p[3][1] = t1502;
+        let t1503 = t103 * t1481 + t115 * t1482 - t136 * t1483 - t157 * t1484;
+        let t1504 = t1503 - t172 * t1486 - t184 * t1487;
+        stiffness_matrix_p[1][4] = t1504;
+        stiffness_matrix_p[4][1] = t1504;
+        let t1505 = t103 * t1489 + t115 * t1490 - t136 * t1491 - t157 * t1492;
+        let t1506 = t1505 - t172 * t1494 - t184 * t1495;
+        stiffness_matrix_p[1][5] = t1506;
+        stiffness_matrix_p[5][1] = t1506;
+        let t1507 = t159 * t1464 + (t138 * t1463 + (t105 * t1461 + t117 * t1462));
+        let t1508 = t186 * t1466 + (t174 * t1465 + t1507);
+        stiffness_matrix_p[2][2] = t1508;
+        stiffness_matrix_b[2][2] = t1508;
+        let t1509 = t105 * t1473 + t117 * t1474 - t138 * t1475 - t159 * t1476;
+        let t1510 = t1509 - t174 * t1478 - t186 * t1479;
+        stiffness_matrix_p[2][3] = t1510;
+        stiffness_matrix_p[3][2] = t1510;
+        let t1511 = t105 * t1481 + t117 * t1482 - t138 * t1483 - t159 * t1484;
+        let t1512 = t1511 - t174 * t1486 - t186 * t1487;
+        stiffness_matrix_p[2][4] = t1512;
+        stiffness_matrix_p[4][2] = t1512;
+        let t1513 = t105 * t1489 + t117 * t1490 - t138 * t1491 - t159 * t1492;
+        let t1514 = t1513 - t174 * t1494 - t186 * t1495;
+        stiffness_matrix_p[2][5] = t1514;
+        stiffness_matrix_p[5][2] = t1514;
+        let t1515 = t205 * t1476 + (t199 * t1475 + (t187 * t1473 + t193 * t1474));
+        stiffness_matrix_p[3][3] = t217 * t1479 + (t211 * t1478 + t1515);
+        let t1516 = t205 * t1484 + (t199 * t1483 + (t187 * t1481 + t193 * t1482));
+        let t1517 = t217 * t1487 + (t211 * t1486 + t1516);
+        stiffness_matrix_p[3][4] = t1517;
+        stiffness_matrix_p[4][3] = t1517;
+        let t1518 = t205 * t1492 + (t199 * t1491 + (t187 * t1489 + t193 * t1490));
+        let t1519 = t217 * t1495 + (t211 * t1494 + t1518);
+        stiffness_matrix_p[3][5] = t1519;
+        stiffness_matrix_p[5][3] = t1519;
+        let t1520 = t206 * t1484 + (t200 * t1483 + (t188 * t1481 + t194 * t1482));
+        stiffness_matrix_p[4][4] = t218 * t1487 + (t212 * t1486 + t1520);
+        let t1521 = t206 * t1492 + (t200 * t1491 + (t188 * t1489 + t194 * t1490));
+        let t1522 = t218 * t1495 + (t212 * t1494 + t1521);
+        stiffness_matrix_p[4][5] = t1522;
+        stiffness_matrix_p[5][4] = t1522;
+        let t1523 = t207 * t1492 + (t201 * t1491 + (t189 * t1489 + t195 * t1490));
+        stiffness_matrix_p[5][5] = t219 * t1495 + (t213 * t1494 + t1523);
         // linearised stiffness K_b = J_dp^T k_e J_db
-        let t1523 = 21555.9 * t220;
-        let t1524 = 21555.9 * t214;
-        let t1525 = 21555.9 * t208;
-        let t1526 = 21555.9 * t202;
-        let t1527 = 21555.9 * t190;
-        let t1528 = 21555.9 * t196;
-        let t1529 = t155 * t1525 + (t134 * t1526 + (t101 * t1527 + t113 * t1528));
-        stiffness_matrix_b[0][3] = -(t182 * t1523 + (t170 * t1524 + t1529));
-        let t1530 = 21555.9 * t221;
-        let t1531 = 21555.9 * t215;
-        let t1532 = 21555.9 * t209;
-        let t1533 = 21555.9 * t203;
-        let t1534 = 21555.9 * t191;
-        let t1535 = 21555.9 * t197;
-        let t1536 = t155 * t1532 + (t134 * t1533 + (t101 * t1534 + t113 * t1535));
-        stiffness_matrix_b[0][4] = -(t182 * t1530 + (t170 * t1531 + t1536));
-        let t1537 = 21555.9 * t222;
-        let t1538 = 21555.9 * t216;
-        let t1539 = 21555.9 * t210;
-        let t1540 = 21555.9 * t204;
-        let t1541 = 21555.9 * t192;
-        let t1542 = 21555.9 * t198;
-        let t1543 = t155 * t1539 + (t134 * t1540 + (t101 * t1541 + t113 * t1542));
-        stiffness_matrix_b[0][5] = -(t182 * t1537 + (t170 * t1538 + t1543));
-        let t1544 = t157 * t1451 + (t136 * t1450 + (t103 * t1448 + t115 * t1449));
-        stiffness_matrix_b[1][0] = t184 * t1453 + (t172 * t1452 + t1544);
-        let t1545 = t157 * t1525 + (t136 * t1526 + (t103 * t1527 + t115 * t1528));
-        stiffness_matrix_b[1][3] = -(t184 * t1523 + (t172 * t1524 + t1545));
-        let t1546 = t157 * t1532 + (t136 * t1533 + (t103 * t1534 + t115 * t1535));
-        stiffness_matrix_b[1][4] = -(t184 * t1530 + (t172 * t1531 + t1546));
-        let t1547 = t157 * t1539 + (t136 * t1540 + (t103 * t1541 + t115 * t1542));
-        stiffness_matrix_b[1][5] = -(t184 * t1537 + (t172 * t1538 + t1547));
-        let t1548 = t159 * t1451 + (t138 * t1450 + (t105 * t1448 + t117 * t1449));
-        stiffness_matrix_b[2][0] = t186 * t1453 + (t174 * t1452 + t1548);
-        let t1549 = t159 * t1457 + (t138 * t1456 + (t105 * t1454 + t117 * t1455));
-        stiffness_matrix_b[2][1] = t186 * t1459 + (t174 * t1458 + t1549);
-        let t1550 = t159 * t1525 + (t138 * t1526 + (t105 * t1527 + t117 * t1528));
-        stiffness_matrix_b[2][3] = -(t186 * t1523 + (t174 * t1524 + t1550));
-        let t1551 = t159 * t1532 + (t138 * t1533 + (t105 * t1534 + t117 * t1535));
-        stiffness_matrix_b[2][4] = -(t186 * t1530 + (t174 * t1531 + t1551));
-        let t1552 = t159 * t1539 + (t138 * t1540 + (t105 * t1541 + t117 * t1542));
-        stiffness_matrix_b[2][5] = -(t186 * t1537 + (t174 * t1538 + t1552));
-        let t1553 = t187 * t1448 + t193 * t1449 - t199 * t1450 - t205 * t1451;
-        stiffness_matrix_b[3][0] = t1553 - t211 * t1452 - t217 * t1453;
-        let t1554 = t187 * t1454 + t193 * t1455 - t199 * t1456 - t205 * t1457;
-        stiffness_matrix_b[3][1] = t1554 - t211 * t1458 - t217 * t1459;
-        let t1555 = t187 * t1460 + t193 * t1461 - t199 * t1462 - t205 * t1463;
-        stiffness_matrix_b[3][2] = t1555 - t211 * t1464 - t217 * t1465;
-        let t1556 = t205 * t1525 + (t199 * t1526 - (t187 * t1527 + t193 * t1528));
-        stiffness_matrix_b[3][3] = t217 * t1523 + (t211 * t1524 + t1556);
-        let t1557 = t205 * t1532 + (t199 * t1533 - (t187 * t1534 + t193 * t1535));
-        stiffness_matrix_b[3][4] = t217 * t1530 + (t211 * t1531 + t1557);
-        let t1558 = t205 * t1539 + (t199 * t1540 - (t187 * t1541 + t193 * t1542));
-        stiffness_matrix_b[3][5] = t217 * t1537 + (t211 * t1538 + t1558);
-        let t1559 = t188 * t1448 + t194 * t1449 - t200 * t1450 - t206 * t1451;
-        stiffness_matrix_b[4][0] = t1559 - t212 * t1452 - t218 * t1453;
-        let t1560 = t188 * t1454 + t194 * t1455 - t200 * t1456 - t206 * t1457;
-        stiffness_matrix_b[4][1] = t1560 - t212 * t1458 - t218 * t1459;
-        let t1561 = t188 * t1460 + t194 * t1461 - t200 * t1462 - t206 * t1463;
-        stiffness_matrix_b[4][2] = t1561 - t212 * t1464 - t218 * t1465;
-        let t1562 = t206 * t1525 + (t200 * t1526 - (t188 * t1527 + t194 * t1528));
-        stiffness_matrix_b[4][3] = t218 * t1523 + (t212 * t1524 + t1562);
-        let t1563 = t206 * t1532 + (t200 * t1533 - (t188 * t1534 + t194 * t1535));
-        stiffness_matrix_b[4][4] = t218 * t1530 + (t212 * t1531 + t1563);
-        let t1564 = t206 * t1539 + (t200 * t1540 - (t188 * t1541 + t194 * t1542));
-        stiffness_matrix_b[4][5] = t218 * t1537 + (t212 * t1538 + t1564);
-        let t1565 = t189 * t1448 + t195 * t1449 - t201 * t1450 - t207 * t1451;
-        stiffness_matrix_b[5][0] = t1565 - t213 * t1452 - t219 * t1453;
-        let t1566 = t189 * t1454 + t195 * t1455 - t201 * t1456 - t207 * t1457;
-        stiffness_matrix_b[5][1] = t1566 - t213 * t1458 - t219 * t1459;
-        let t1567 = t189 * t1460 + t195 * t1461 - t201 * t1462 - t207 * t1463;
-        stiffness_matrix_b[5][2] = t1567 - t213 * t1464 - t219 * t1465;
-        let t1568 = t207 * t1525 + (t201 * t1526 - (t189 * t1527 + t195 * t1528));
-        stiffness_matrix_b[5][3] = t219 * t1523 + (t213 * t1524 + t1568);
-        let t1569 = t207 * t1532 + (t201 * t1533 - (t189 * t1534 + t195 * t1535));
-        stiffness_matrix_b[5][4] = t219 * t1530 + (t213 * t1531 + t1569);
-        let t1570 = t207 * t1539 + (t201 * t1540 - (t189 * t1541 + t195 * t1542));
-        stiffness_matrix_b[5][5] = t219 * t1537 + (t213 * t1538 + t1570);
+        let t1524 = c(21555.9) * t220;
+        let t1525 = c(21555.9) * t214;
+        let t1526 = c(21555.9) * t208;
+        let t1527 = c(21555.9) * t202;
+        let t1528 = c(21555.9) * t190;
+        let t1529 = c(21555.9) * t196;
+        let t1530 = t155 * t1526 + (t134 * t1527 + (t101 * t1528 + t113 * t1529));
+        stiffness_matrix_b[0][3] = -(t182 * t1524 + (t170 * t1525 + t1530));
+        let t1531 = c(21555.9) * t221;
+        let t1532 = c(21555.9) * t215;
+        let t1533 = c(21555.9) * t209;
+        let t1534 = c(21555.9) * t203;
+        let t1535 = c(21555.9) * t191;
+        let t1536 = c(21555.9) * t197;
+        let t1537 = t155 * t1533 + (t134 * t1534 + (t101 * t1535 + t113 * t1536));
+        stiffness_matrix_b[0][4] = -(t182 * t1531 + (t170 * t1532 + t1537));
+        let t1538 = c(21555.9) * t222;
+        let t1539 = c(21555.9) * t216;
+        let t1540 = c(21555.9) * t210;
+        let t1541 = c(21555.9) * t204;
+        let t1542 = c(21555.9) * t192;
+        let t1543 = c(21555.9) * t198;
+        let t1544 = t155 * t1540 + (t134 * t1541 + (t101 * t1542 + t113 * t1543));
+        stiffness_matrix_b[0][5] = -(t182 * t1538 + (t170 * t1539 + t1544));
+        let t1545 = t157 * t1452 + (t136 * t1451 + (t103 * t1449 + t115 * t1450));
+        stiffness_matrix_b[1][0] = t184 * t1454 + (t172 * t1453 + t1545);
+        let t1546 = t157 * t1526 + (t136 * t1527 + (t103 * t1528 + t115 * t1529));
+        stiffness_matrix_b[1][3] = -(t184 * t1524 + (t172 * t1525 + t1546));
+        let t1547 = t157 * t1533 + (t136 * t1534 + (t103 * t1535 + t115 * t1536));
+        stiffness_matrix_b[1][4] = -(t184 * t1531 + (t172 * t1532 + t1547));
+        let t1548 = t157 * t1540 + (t136 * t1541 + (t103 * t1542 + t115 * t1543));
+        stiffness_matrix_b[1][5] = -(t184 * t1538 + (t172 * t1539 + t1548));
+        let t1549 = t159 * t1452 + (t138 * t1451 + (t105 * t1449 + t117 * t1450));
+        stiffness_matrix_b[2][0] = t186 * t1454 + (t174 * t1453 + t1549);
+        let t1550 = t159 * t1458 + (t138 * t1457 + (t105 * t1455 + t117 * t1456));
+        stiffness_matrix_b[2][1] = t186 * t1460 + (t174 * t1459 + t1550);
+        let t1551 = t159 * t1526 + (t138 * t1527 + (t105 * t1528 + t117 * t1529));
+        stiffness_matrix_b[2][3] = -(t186 * t1524 + (t174 * t1525 + t1551));
+        let t1552 = t159 * t1533 + (t138 * t1534 + (t105 * t1535 + t117 * t1536));
+        stiffness_matrix_b[2][4] = -(t186 * t1531 + (t174 * t1532 + t1552));
+        let t1553 = t159 * t1540 + (t138 * t1541 + (t105 * t1542 + t117 * t1543));
+        stiffness_matrix_b[2][5] = -(t186 * t1538 + (t174 * t1539 + t1553));
+        let t1554 = t187 * t1449 + t193 * t1450 - t199 * t1451 - t205 * t1452;
+        stiffness_matrix_b[3][0] = t1554 - t211 * t1453 - t217 * t1454;
+        let t1555 = t187 * t1455 + t193 * t1456 - t199 * t1457 - t205 * t1458;
+        stiffness_matrix_b[3][1] = t1555 - t211 * t1459 - t217 * t1460;
+        let t1556 = t187 * t1461 + t193 * t1462 - t199 * t1463 - t205 * t1464;
+        stiffness_matrix_b[3][2] = t1556 - t211 * t1465 - t217 * t1466;
+        let t1557 = t205 * t1526 + (t199 * t1527 - (t187 * t1528 + t193 * t1529));
+        stiffness_matrix_b[3][3] = t217 * t1524 + (t211 * t1525 + t1557);
+        let t1558 = t205 * t1533 + (t199 * t1534 - (t187 * t1535 + t193 * t1536));
+        stiffness_matrix_b[3][4] = t217 * t1531 + (t211 * t1532 + t1558);
+        let t1559 = t205 * t1540 + (t199 * t1541 - (t187 * t1542 + t193 * t1543));
+        stiffness_matrix_b[3][5] = t217 * t1538 + (t211 * t1539 + t1559);
+        let t1560 = t188 * t1449 + t194 * t1450 - t200 * t1451 - t206 * t1452;
+        stiffness_matrix_b[4][0] = t1560 - t212 * t1453 - t218 * t1454;
+        let t1561 = t188 * t1455 + t194 * t1456 - t200 * t1457 - t206 * t1458;
+        stiffness_matrix_b[4][1] = t1561 - t212 * t1459 - t218 * t1460;
+        let t1562 = t188 * t1461 + t194 * t1462 - t200 * t1463 - t206 * t1464;
+        stiffness_matrix_b[4][2] = t1562 - t212 * t1465 - t218 * t1466;
+        let t1563 = t206 * t1526 + (t200 * t1527 - (t188 * t1528 + t194 * t1529));
+        stiffness_matrix_b[4][3] = t218 * t1524 + (t212 * t1525 + t1563);
+        let t1564 = t206 * t1533 + (t200 * t1534 - (t188 * t1535 + t194 * t1536));
+        stiffness_matrix_b[4][4] = t218 * t1531 + (t212 * t1532 + t1564);
+        let t1565 = t206 * t1540 + (t200 * t1541 - (t188 * t1542 + t194 * t1543));
+        stiffness_matrix_b[4][5] = t218 * t1538 + (t212 * t1539 + t1565);
+        let t1566 = t189 * t1449 + t195 * t1450 - t201 * t1451 - t207 * t1452;
+        stiffness_matrix_b[5][0] = t1566 - t213 * t1453 - t219 * t1454;
+        let t1567 = t189 * t1455 + t195 * t1456 - t201 * t1457 - t207 * t1458;
+        stiffness_matrix_b[5][1] = t1567 - t213 * t1459 - t219 * t1460;
+        let t1568 = t189 * t1461 + t195 * t1462 - t201 * t1463 - t207 * t1464;
+        stiffness_matrix_b[5][2] = t1568 - t213 * t1465 - t219 * t1466;
+        let t1569 = t207 * t1526 + (t201 * t1527 - (t189 * t1528 + t195 * t1529));
+        stiffness_matrix_b[5][3] = t219 * t1524 + (t213 * t1525 + t1569);
+        let t1570 = t207 * t1533 + (t201 * t1534 - (t189 * t1535 + t195 * t1536));
+        stiffness_matrix_b[5][4] = t219 * t1531 + (t213 * t1532 + t1570);
+        let t1571 = t207 * t1540 + (t201 * t1541 - (t189 * t1542 + t195 * t1543));
+        stiffness_matrix_b[5][5] = t219 * t1538 + (t213 * t1539 + t1571);
         // leg 1: weight of the leg along the actuator
-        let t1571 = base_rotation[2][2] * 11.016630000000001;
+        let t1572 = base_rotation[2][2] * c(11.016630000000001);
         // generalised spring force J_dp^T k_e (d - d0), left side
-        let t1572 = 4268.068200000001 + 21555.9 * t75;
-        let t1573 = 4268.068200000001 + 21555.9 * t72;
-        let t1574 = 4268.068200000001 + 21555.9 * t69;
-        let t1575 = 4268.068200000001 + 21555.9 * t64;
-        let t1576 = 4268.068200000001 + 21555.9 * t56;
-        let t1577 = 4268.068200000001 + 21555.9 * t59;
-        let t1578 = t155 * t1574 + (t134 * t1575 - (t101 * t1576 - t113 * t1577));
-        let t1579 = t182 * t1572 + (t170 * t1573 - t1578);
-        let t1580 = t157 * t1574 + (t136 * t1575 - (t103 * t1576 - t115 * t1577));
-        let t1581 = t184 * t1572 + (t172 * t1573 - t1580);
-        let t1582 = t159 * t1574 + (t138 * t1575 - (t105 * t1576 - t117 * t1577));
-        let t1583 = t186 * t1572 + (t174 * t1573 - t1582);
-        let t1584 = t205 * t1574 + (t199 * t1575 + (t187 * t1576 - t193 * t1577));
-        let t1585 = t217 * t1572 + (t211 * t1573 - t1584);
-        spring_force[3] = t1585;
-        let t1586 = t206 * t1574 + (t200 * t1575 + (t188 * t1576 - t194 * t1577));
-        let t1587 = t218 * t1572 + (t212 * t1573 - t1586);
-        spring_force[4] = t1587;
-        let t1588 = t207 * t1574 + (t201 * t1575 + (t189 * t1576 - t195 * t1577));
-        let t1589 = t219 * t1572 + (t213 * t1573 - t1588);
-        spring_force[5] = t1589;
-        spring_force[0] = -t1579;
-        spring_force[1] = -t1581;
-        spring_force[2] = -t1583;
+        let t1573 = c(4268.068200000001) + c(21555.9) * t75;
+        let t1574 = c(4268.068200000001) + c(21555.9) * t72;
+        let t1575 = c(4268.068200000001) + c(21555.9) * t69;
+        let t1576 = c(4268.068200000001) + c(21555.9) * t64;
+        let t1577 = c(4268.068200000001) + c(21555.9) * t56;
+        let t1578 = c(4268.068200000001) + c(21555.9) * t59;
+        let t1579 = t155 * t1575 + (t134 * t1576 - (t101 * t1577 - t113 * t1578));
+        let t1580 = t182 * t1573 + (t170 * t1574 - t1579);
+        let t1581 = t157 * t1575 + (t136 * t1576 - (t103 * t1577 - t115 * t1578));
+        let t1582 = t184 * t1573 + (t172 * t1574 - t1581);
+        let t1583 = t159 * t1575 + (t138 * t1576 - (t105 * t1577 - t117 * t1578));
+        let t1584 = t186 * t1573 + (t174 * t1574 - t1583);
+        let t1585 = t205 * t1575 + (t199 * t1576 + (t187 * t1577 - t193 * t1578));
+        let t1586 = t217 * t1573 + (t211 * t1574 - t1585);
+        spring_force[3] = t1586;
+        let t1587 = t206 * t1575 + (t200 * t1576 + (t188 * t1577 - t194 * t1578));
+        let t1588 = t218 * t1573 + (t212 * t1574 - t1587);
+        spring_force[4] = t1588;
+        let t1589 = t207 * t1575 + (t201 * t1576 + (t189 * t1577 - t195 * t1578));
+        let t1590 = t219 * t1573 + (t213 * t1574 - t1589);
+        spring_force[5] = t1590;
+        spring_force[0] = -t1580;
+        spring_force[1] = -t1582;
+        spring_force[2] = -t1584;
         // generalised gravity, left side of the equation of motion
-        let t1590 = t155 * t1571 + (t134 * t1571 - (t101 * t1571 - t113 * t1571));
-        let t1591 = t182 * t1571 + (t170 * t1571 - t1590);
-        gravity_force[0] = t1591;
-        let t1592 = t157 * t1571 + (t136 * t1571 - (t103 * t1571 - t115 * t1571));
-        let t1593 = t184 * t1571 + (t172 * t1571 - t1592);
-        gravity_force[1] = t1593;
-        let t1594 = t138 * t1571 + (t117 * t1571 - (t105 * t1571 + 89.89884));
-        let t1595 = t186 * t1571 + (t174 * t1571 - (t159 * t1571 + t1594));
-        gravity_force[2] = t1595;
-        let t1596 = t193 * t1571 - (t187 * t1571 + platform_rotation[1][2] * 1.85263812);
-        let t1597 = t211 * t1571 - (t205 * t1571 + (t199 * t1571 - t1596));
-        let t1598 = 5.0227200000000005 * (t164 + t176 - (t93 + t107 - (t126 + t147)));
-        let t1599 = t217 * t1571 + t1597 + t1598;
-        let t1600 = t194 * t1571 - (t188 * t1571 - platform_rotation[0][2] * 1.85263812);
-        let t1601 = t212 * t1571 - (t206 * t1571 + (t200 * t1571 - t1600));
-        let t1602 = 5.0227200000000005 * (t163 + t175 - (t90 + t106 - (t123 + t144)));
-        let t1603 = t218 * t1571 + t1601 - t1602;
-        let t1604 = t207 * t1571 + (t201 * t1571 + (t189 * t1571 - t195 * t1571));
-        let t1605 = t219 * t1571 + (t213 * t1571 - t1604);
-        gravity_force[3] = -t1599;
-        gravity_force[4] = -t1603;
-        gravity_force[5] = -t1605;
+        let t1591 = t155 * t1572 + (t134 * t1572 - (t101 * t1572 - t113 * t1572));
+        let t1592 = t182 * t1572 + (t170 * t1572 - t1591);
+        gravity_force[0] = t1592;
+        let t1593 = t157 * t1572 + (t136 * t1572 - (t103 * t1572 - t115 * t1572));
+        let t1594 = t184 * t1572 + (t172 * t1572 - t1593);
+        gravity_force[1] = t1594;
+        let t1595 = t138 * t1572 + (t117 * t1572 - (t105 * t1572 + c(89.89884)));
+        let t1596 = t186 * t1572 + (t174 * t1572 - (t159 * t1572 + t1595));
+        gravity_force[2] = t1596;
+        let t1597 = t187 * t1572 + platform_rotation[1][2] * c(1.85263812);
+        let t1598 = t205 * t1572 + (t199 * t1572 - (t193 * t1572 - t1597));
+        let t1599 = t217 * t1572 + (t211 * t1572 - t1598);
+        let t1600 = t164 + t176 - (t93 + t107 - (t126 + t147));
+        let t1601 = t1599 + c(5.0227200000000005) * t1600;
+        let t1602 = t188 * t1572 - platform_rotation[0][2] * c(1.85263812);
+        let t1603 = t206 * t1572 + (t200 * t1572 - (t194 * t1572 - t1602));
+        let t1604 = t218 * t1572 + (t212 * t1572 - t1603);
+        let t1605 = t163 + t175 - (t90 + t106 - (t123 + t144));
+        let t1606 = t1604 - c(5.0227200000000005) * t1605;
+        let t1607 = t207 * t1572 + (t201 * t1572 + (t189 * t1572 - t195 * t1572));
+        let t1608 = t219 * t1572 + (t213 * t1572 - t1607);
+        gravity_force[3] = -t1601;
+        gravity_force[4] = -t1606;
+        gravity_force[5] = -t1608;
         // C_p v_p - C_b v_b + gravity, spring and damping force
-        let t1606 = platform_velocity[0] * t1116 - (t1579 - t1591);
-        let t1607 = platform_velocity[2] * t1118
-            + (platform_velocity[1] * t1117 + t1606);
-        let t1608 = platform_velocity[4] * t1344
-            + (platform_velocity[3] * t1149 - t1607);
-        let t1609 = base_velocity[0] * t1116 + (platform_velocity[5] * t1346 + t1608);
-        let t1610 = base_velocity[2] * t1118 + (base_velocity[1] * t1117 + t1609);
-        let t1611 = base_velocity[4] * t1373 + (base_velocity[3] * t1370 - t1610);
-        bias[0] = base_velocity[5] * t1376 + t1611;
-        let t1612 = platform_velocity[0] * t1176 - (t1581 - t1593);
-        let t1613 = platform_velocity[2] * t1178
-            + (platform_velocity[1] * t1177 + t1612);
-        let t1614 = platform_velocity[4] * t1216
-            - (platform_velocity[3] * t1347 - t1613);
-        let t1615 = base_velocity[0] * t1176 + (platform_velocity[5] * t1349 - t1614);
-        let t1616 = base_velocity[2] * t1178 + (base_velocity[1] * t1177 + t1615);
-        let t1617 = base_velocity[4] * t1382 - (base_velocity[3] * t1379 - t1616);
-        bias[1] = base_velocity[5] * t1385 - t1617;
-        let t1618 = platform_velocity[0] * t1230 - (t1583 - t1595);
-        let t1619 = platform_velocity[2] * t1232
-            + (platform_velocity[1] * t1231 + t1618);
-        let t1620 = platform_velocity[4] * t1351
-            + (platform_velocity[3] * t1350 - t1619);
-        let t1621 = base_velocity[0] * t1230 + (platform_velocity[5] * t1277 + t1620);
-        let t1622 = base_velocity[2] * t1232 + (base_velocity[1] * t1231 + t1621);
-        let t1623 = base_velocity[4] * t1391 + (base_velocity[3] * t1388 - t1622);
-        bias[2] = base_velocity[5] * t1393 + t1623;
-        let t1624 = platform_velocity[0] * t1279 - (t1585 - t1599);
-        let t1625 = platform_velocity[2] * t1285
-            - (platform_velocity[1] * t1282 + t1624);
-        let t1626 = platform_velocity[4] * t1356
-            + (platform_velocity[3] * t1354 - t1625);
-        let t1627 = base_velocity[0] * t1279 + (platform_velocity[5] * t1358 - t1626);
-        let t1628 = base_velocity[2] * t1285 - (base_velocity[1] * t1282 + t1627);
-        let t1629 = base_velocity[3] * t1399 - t1628 - base_velocity[4] * t1405;
-        bias[3] = t1629 - base_velocity[5] * t1411;
-        let t1630 = platform_velocity[0] * t1300 + (t1587 - t1603);
-        let t1631 = platform_velocity[2] * t1305
-            - (platform_velocity[1] * t1302 + t1630);
-        let t1632 = platform_velocity[4] * t1362
-            + (platform_velocity[3] * t1360 - t1631);
-        let t1633 = base_velocity[0] * t1300 + (platform_velocity[5] * t1363 - t1632);
-        let t1634 = base_velocity[2] * t1305 - (base_velocity[1] * t1302 + t1633);
-        let t1635 = base_velocity[4] * t1423 - (base_velocity[3] * t1417 - t1634);
-        bias[4] = t1635 - base_velocity[5] * t1429;
-        let t1636 = platform_velocity[0] * t1320 - (t1589 - t1605);
-        let t1637 = platform_velocity[2] * t1325
-            - (platform_velocity[1] * t1323 - t1636);
-        let t1638 = platform_velocity[4] * t1365
-            - (platform_velocity[3] * t1364 + t1637);
-        let t1639 = base_velocity[0] * t1320 - (platform_velocity[5] * t1366 - t1638);
-        let t1640 = base_velocity[2] * t1325 - (base_velocity[1] * t1323 - t1639);
-        let t1641 = t1640 - base_velocity[3] * t1435 - base_velocity[4] * t1441;
-        bias[5] = t1641 - base_velocity[5] * t1447;
+        let t1609 = platform_velocity[0] * t1117 - (t1580 - t1592);
+        let t1610 = platform_velocity[2] * t1119
+            + (platform_velocity[1] * t1118 + t1609);
+        let t1611 = platform_velocity[4] * t1345
+            + (platform_velocity[3] * t1150 - t1610);
+        let t1612 = base_velocity[0] * t1117 + (platform_velocity[5] * t1347 + t1611);
+        let t1613 = base_velocity[2] * t1119 + (base_velocity[1] * t1118 + t1612);
+        let t1614 = base_velocity[4] * t1374 + (base_velocity[3] * t1371 - t1613);
+        bias[0] = base_velocity[5] * t1377 + t1614;
+        let t1615 = platform_velocity[0] * t1177 - (t1582 - t1594);
+        let t1616 = platform_velocity[2] * t1179
+            + (platform_velocity[1] * t1178 + t1615);
+        let t1617 = platform_velocity[4] * t1217
+            - (platform_velocity[3] * t1348 - t1616);
+        let t1618 = base_velocity[0] * t1177 + (platform_velocity[5] * t1350 - t1617);
+        let t1619 = base_velocity[2] * t1179 + (base_velocity[1] * t1178 + t1618);
+        let t1620 = base_velocity[4] * t1383 - (base_velocity[3] * t1380 - t1619);
+        bias[1] = base_velocity[5] * t1386 - t1620;
+        let t1621 = platform_velocity[0] * t1231 - (t1584 - t1596);
+        let t1622 = platform_velocity[2] * t1233
+            + (platform_velocity[1] * t1232 + t1621);
+        let t1623 = platform_velocity[4] * t1352
+            + (platform_velocity[3] * t1351 - t1622);
+        let t1624 = base_velocity[0] * t1231 + (platform_velocity[5] * t1278 + t1623);
+        let t1625 = base_velocity[2] * t1233 + (base_velocity[1] * t1232 + t1624);
+        let t1626 = base_velocity[4] * t1392 + (base_velocity[3] * t1389 - t1625);
+        bias[2] = base_velocity[5] * t1394 + t1626;
+        let t1627 = platform_velocity[0] * t1280 - (t1586 - t1601);
+        let t1628 = platform_velocity[2] * t1286
+            - (platform_velocity[1] * t1283 + t1627);
+        let t1629 = platform_velocity[4] * t1357
+            + (platform_velocity[3] * t1355 - t1628);
+        let t1630 = base_velocity[0] * t1280 + (platform_velocity[5] * t1359 - t1629);
+        let t1631 = base_velocity[2] * t1286 - (base_velocity[1] * t1283 + t1630);
+        let t1632 = base_velocity[3] * t1400 - t1631 - base_velocity[4] * t1406;
+        bias[3] = t1632 - base_velocity[5] * t1412;
+        let t1633 = platform_velocity[0] * t1301 + (t1588 - t1606);
+        let t1634 = platform_velocity[2] * t1306
+            - (platform_velocity[1] * t1303 + t1633);
+        let t1635 = platform_velocity[4] * t1363
+            + (platform_velocity[3] * t1361 - t1634);
+        let t1636 = base_velocity[0] * t1301 + (platform_velocity[5] * t1364 - t1635);
+        let t1637 = base_velocity[2] * t1306 - (base_velocity[1] * t1303 + t1636);
+        let t1638 = base_velocity[4] * t1424 - (base_velocity[3] * t1418 - t1637);
+        bias[4] = t1638 - base_velocity[5] * t1430;
+        let t1639 = platform_velocity[0] * t1321 - (t1590 - t1608);
+        let t1640 = platform_velocity[2] * t1326
+            - (platform_velocity[1] * t1324 - t1639);
+        let t1641 = platform_velocity[4] * t1366
+            - (platform_velocity[3] * t1365 + t1640);
+        let t1642 = base_velocity[0] * t1321 - (platform_velocity[5] * t1367 - t1641);
+        let t1643 = base_velocity[2] * t1326 - (base_velocity[1] * t1324 - t1642);
+        let t1644 = t1643 - base_velocity[3] * t1436 - base_velocity[4] * t1442;
+        bias[5] = t1644 - base_velocity[5] * t1448;
         // constant and copied elements
-        damping_force[0] = 0.0;
-        damping_force[1] = 0.0;
-        damping_force[2] = 0.0;
-        damping_force[3] = 0.0;
-        damping_force[4] = 0.0;
-        damping_force[5] = 0.0;
+        damping_force[0] = c(0.0);
+        damping_force[1] = c(0.0);
+        damping_force[2] = c(0.0);
+        damping_force[3] = c(0.0);
+        damping_force[4] = c(0.0);
+        damping_force[5] = c(0.0);
     }
 }
 
@@ -14299,18 +14891,19 @@ pub fn equation_of_motion(
 ///
 /// - `inverse_dynamics`: 6, N: actuator forces F, equation (49).
 #[allow(clippy::all, clippy::pedantic, unused_variables)]
-pub fn inverse_dynamics(
-    base_position: &[f64; 3],
-    base_rotation: &[[f64; 3]; 3],
-    base_velocity: &[f64; 6],
-    base_acceleration: &[f64; 6],
-    platform_position: &[f64; 3],
-    platform_rotation: &[[f64; 3]; 3],
-    platform_velocity: &[f64; 6],
-    platform_acceleration: &[f64; 6],
-    external_wrench: &[f64; 6],
-    inverse_dynamics: &mut [f64; 6],
+pub fn inverse_dynamics<T: Scalar>(
+    base_position: &[T; 3],
+    base_rotation: &[[T; 3]; 3],
+    base_velocity: &[T; 6],
+    base_acceleration: &[T; 6],
+    platform_position: &[T; 3],
+    platform_rotation: &[[T; 3]; 3],
+    platform_velocity: &[T; 6],
+    platform_acceleration: &[T; 6],
+    external_wrench: &[T; 6],
+    inverse_dynamics: &mut [T; 6],
 ) {
+    let c = T::constant;
     // rotation of the platform seen from the base
     let t1 = base_rotation[1][0] * platform_rotation[1][0];
     let t2 = base_rotation[0][0] * platform_rotation[0][0] + t1;
@@ -14350,102 +14943,102 @@ pub fn inverse_dynamics(
     let t35 = base_rotation[0][2] * t29 + base_rotation[1][2] * t30;
     let t36 = base_rotation[2][2] * t28 + t35;
     // leg 1: platform joint from the platform origin
-    let t37 = 0.1159110991546882 * t3;
-    let t38 = 0.03105828541230249 * t6;
+    let t37 = c(0.1159110991546882) * t3;
+    let t38 = c(0.03105828541230249) * t6;
     let t39 = t37 - t38;
-    let t40 = 0.1159110991546882 * t12;
-    let t41 = 0.03105828541230249 * t15;
+    let t40 = c(0.1159110991546882) * t12;
+    let t41 = c(0.03105828541230249) * t15;
     let t42 = t40 - t41;
-    let t43 = 0.1159110991546882 * t21;
-    let t44 = 0.03105828541230249 * t24;
+    let t43 = c(0.1159110991546882) * t21;
+    let t44 = c(0.03105828541230249) * t24;
     let t45 = t43 - t44;
     // leg 1: platform joint from the base point
-    let t46 = 0.1316436662914507 + t32;
+    let t46 = c(0.1316436662914507) + t32;
     let t47 = t39 - t46;
-    let t48 = t42 + (0.12275970481124972 - t34);
+    let t48 = t42 + (c(0.12275970481124972) - t34);
     // leg 2: platform joint from the platform origin
     let t49 = t37 + t38;
     let t50 = t40 + t41;
     let t51 = t43 + t44;
     // leg 2: platform joint from the base point
     let t52 = t46 - t49;
-    let t53 = t50 - (0.12275970481124972 + t34);
+    let t53 = t50 - (c(0.12275970481124972) + t34);
     // leg 3: platform joint from the platform origin
-    let t54 = t3 * 0.031058285412302475;
-    let t55 = 0.1159110991546882 * t6;
+    let t54 = t3 * c(0.031058285412302475);
+    let t55 = c(0.1159110991546882) * t6;
     let t56 = t54 - t55;
-    let t57 = t12 * 0.031058285412302475;
-    let t58 = 0.1159110991546882 * t15;
+    let t57 = t12 * c(0.031058285412302475);
+    let t58 = c(0.1159110991546882) * t15;
     let t59 = t57 - t58;
-    let t60 = t21 * 0.031058285412302475;
-    let t61 = 0.1159110991546882 * t24;
+    let t60 = t21 * c(0.031058285412302475);
+    let t61 = c(0.1159110991546882) * t24;
     let t62 = t60 - t61;
     // leg 3: platform joint from the base point
-    let t63 = 0.040491189781895726 + t32;
+    let t63 = c(0.040491189781895726) + t32;
     let t64 = t56 + t63;
-    let t65 = t59 + (0.17538661166134234 + t34);
+    let t65 = t59 + (c(0.17538661166134234) + t34);
     // leg 4: platform joint from the platform origin
-    let t66 = t3 * 0.0848528137423857;
-    let t67 = 0.08485281374238571 * t6;
+    let t66 = t3 * c(0.0848528137423857);
+    let t67 = c(0.08485281374238571) * t6;
     let t68 = t66 - t67;
-    let t69 = t12 * 0.0848528137423857;
-    let t70 = 0.08485281374238571 * t15;
+    let t69 = t12 * c(0.0848528137423857);
+    let t70 = c(0.08485281374238571) * t15;
     let t71 = t69 - t70;
-    let t72 = t21 * 0.0848528137423857;
-    let t73 = 0.08485281374238571 * t24;
+    let t72 = t21 * c(0.0848528137423857);
+    let t73 = c(0.08485281374238571) * t24;
     let t74 = t72 - t73;
     // leg 4: platform joint from the base point
-    let t75 = t32 - 0.17213485607334636;
+    let t75 = t32 - c(0.17213485607334636);
     let t76 = t68 + t75;
-    let t77 = t71 + (0.052626906850092664 + t34);
+    let t77 = t71 + (c(0.052626906850092664) + t34);
     // leg 5: platform joint from the platform origin
     let t78 = t66 + t67;
     let t79 = t69 + t70;
     let t80 = t72 + t73;
     // leg 5: platform joint from the base point
     let t81 = t75 + t78;
-    let t82 = t79 - (0.052626906850092664 - t34);
+    let t82 = t79 - (c(0.052626906850092664) - t34);
     // leg 6: platform joint from the platform origin
     let t83 = t54 + t55;
     let t84 = t57 + t58;
     let t85 = t60 + t61;
     // leg 6: platform joint from the base point
     let t86 = t63 + t83;
-    let t87 = t84 - (0.17538661166134234 - t34);
+    let t87 = t84 - (c(0.17538661166134234) - t34);
     // leg 1: extent of the rod along the actuator axis
-    let t88 = sqrt(0.042435999999999995 - t47 * t47 - t48 * t48);
+    let t88 = sqrt(c(0.042435999999999995) - t47 * t47 - t48 * t48);
     // leg 1: reciprocal of that extent
-    let t89 = 1.0 / t88;
+    let t89 = c(1.0) / t88;
     // leg 1: actuator length d
     let t90 = t88 + (t36 - t45);
     // leg 2: extent of the rod along the actuator axis
-    let t91 = sqrt(0.042435999999999995 - t52 * t52 - t53 * t53);
+    let t91 = sqrt(c(0.042435999999999995) - t52 * t52 - t53 * t53);
     // leg 2: reciprocal of that extent
-    let t92 = 1.0 / t91;
+    let t92 = c(1.0) / t91;
     // leg 2: actuator length d
     let t93 = t91 + (t36 - t51);
     // leg 3: extent of the rod along the actuator axis
-    let t94 = sqrt(0.042435999999999995 - t64 * t64 - t65 * t65);
+    let t94 = sqrt(c(0.042435999999999995) - t64 * t64 - t65 * t65);
     // leg 3: reciprocal of that extent
-    let t95 = 1.0 / t94;
+    let t95 = c(1.0) / t94;
     // leg 3: actuator length d
     let t96 = t94 + (t36 + t62);
     // leg 4: extent of the rod along the actuator axis
-    let t97 = sqrt(0.042435999999999995 - t76 * t76 - t77 * t77);
+    let t97 = sqrt(c(0.042435999999999995) - t76 * t76 - t77 * t77);
     // leg 4: reciprocal of that extent
-    let t98 = 1.0 / t97;
+    let t98 = c(1.0) / t97;
     // leg 4: actuator length d
     let t99 = t97 + (t36 + t74);
     // leg 5: extent of the rod along the actuator axis
-    let t100 = sqrt(0.042435999999999995 - t81 * t81 - t82 * t82);
+    let t100 = sqrt(c(0.042435999999999995) - t81 * t81 - t82 * t82);
     // leg 5: reciprocal of that extent
-    let t101 = 1.0 / t100;
+    let t101 = c(1.0) / t100;
     // leg 5: actuator length d
     let t102 = t100 + (t36 + t80);
     // leg 6: extent of the rod along the actuator axis
-    let t103 = sqrt(0.042435999999999995 - t86 * t86 - t87 * t87);
+    let t103 = sqrt(c(0.042435999999999995) - t86 * t86 - t87 * t87);
     // leg 6: reciprocal of that extent
-    let t104 = 1.0 / t103;
+    let t104 = c(1.0) / t103;
     // leg 6: actuator length d
     let t105 = t103 + (t36 + t85);
     // leg 1: gradient of the actuator length by the platform joint
@@ -14511,28 +15104,28 @@ pub fn inverse_dynamics(
     let t155 = t12 * t136 - t3 * t137;
     let t156 = t15 * t136 - t6 * t137;
     // leg 1: velocity of the platform joint relative to the base
-    let t157 = t144 + 0.1159110991546882 * t151;
-    let t158 = 0.03105828541230249 * t152;
+    let t157 = t144 + c(0.1159110991546882) * t151;
+    let t158 = c(0.03105828541230249) * t152;
     let t159 = t157 - t158;
-    let t160 = t147 + 0.1159110991546882 * t153;
-    let t161 = 0.03105828541230249 * t154;
+    let t160 = t147 + c(0.1159110991546882) * t153;
+    let t161 = c(0.03105828541230249) * t154;
     let t162 = t160 - t161;
     // leg 2: velocity of the platform joint relative to the base
     let t163 = t157 + t158;
     let t164 = t160 + t161;
     // leg 3: velocity of the platform joint relative to the base
-    let t165 = t144 - 0.031058285412302475 * t151;
-    let t166 = 0.1159110991546882 * t152;
+    let t165 = t144 - c(0.031058285412302475) * t151;
+    let t166 = c(0.1159110991546882) * t152;
     let t167 = t165 + t166;
-    let t168 = t147 - 0.031058285412302475 * t153;
-    let t169 = 0.1159110991546882 * t154;
+    let t168 = t147 - c(0.031058285412302475) * t153;
+    let t169 = c(0.1159110991546882) * t154;
     let t170 = t168 + t169;
     // leg 4: velocity of the platform joint relative to the base
-    let t171 = t144 - 0.0848528137423857 * t151;
-    let t172 = 0.08485281374238571 * t152;
+    let t171 = t144 - c(0.0848528137423857) * t151;
+    let t172 = c(0.08485281374238571) * t152;
     let t173 = t171 + t172;
-    let t174 = t147 - 0.0848528137423857 * t153;
-    let t175 = 0.08485281374238571 * t154;
+    let t174 = t147 - c(0.0848528137423857) * t153;
+    let t175 = c(0.08485281374238571) * t154;
     let t176 = t174 + t175;
     // leg 5: velocity of the platform joint relative to the base
     let t177 = t171 - t172;
@@ -14553,7 +15146,7 @@ pub fn inverse_dynamics(
     // leg 6: rate of the rod's extent along the actuator axis
     let t186 = t104 * (t86 * t179 + t87 * t180);
     // acceleration of the base origin less gravity
-    let t187 = base_acceleration[2] + 9.81;
+    let t187 = base_acceleration[2] + c(9.81);
     let t188 = base_rotation[1][0] * base_acceleration[1];
     let t189 = base_rotation[0][0] * base_acceleration[0] + t188;
     let t190 = base_rotation[2][0] * t187 + t189;
@@ -14587,7 +15180,7 @@ pub fn inverse_dynamics(
     let t216 = t196 + t213;
     let t217 = t203 + t211;
     // acceleration of the platform origin less gravity
-    let t218 = platform_acceleration[2] + 9.81;
+    let t218 = platform_acceleration[2] + c(9.81);
     let t219 = base_rotation[1][0] * platform_acceleration[1];
     let t220 = base_rotation[0][0] * platform_acceleration[0] + t219;
     let t221 = base_rotation[2][0] * t218 + t220;
@@ -14634,9 +15227,9 @@ pub fn inverse_dynamics(
     let t260 = t27 * t255 + (t9 * t256 - t18 * t257);
     // acceleration of the platform origin relative to the base
     let t261 = t36 * t209 - (t34 * t207 + (t32 * t205 + (t190 - t221)));
-    let t262 = t261 + 2.0 * (t123 * t150 - t126 * t147);
+    let t262 = t261 + c(2.0) * (t123 * t150 - t126 * t147);
     let t263 = t36 * t214 + (t34 * t212 - (t32 * t210 - (t193 - t224)));
-    let t264 = t263 - 2.0 * (t126 * t144 - t120 * t150);
+    let t264 = t263 - c(2.0) * (t126 * t144 - t120 * t150);
     let t265 = t32 * t215;
     let t266 = t34 * t216;
     let t267 = t36 * t217;
@@ -14668,28 +15261,28 @@ pub fn inverse_dynamics(
     let t292 = t21 * t289 - (t3 * t290 + t12 * t291);
     let t293 = t24 * t289 - (t6 * t290 + t15 * t291);
     // leg 1: acceleration of the platform joint relative to the base
-    let t294 = t262 + 0.1159110991546882 * t279;
-    let t295 = 0.03105828541230249 * t280;
+    let t294 = t262 + c(0.1159110991546882) * t279;
+    let t295 = c(0.03105828541230249) * t280;
     let t296 = t294 - t295;
-    let t297 = t264 - 0.1159110991546882 * t287;
-    let t298 = 0.03105828541230249 * t288;
+    let t297 = t264 - c(0.1159110991546882) * t287;
+    let t298 = c(0.03105828541230249) * t288;
     let t299 = t297 + t298;
     // leg 2: acceleration of the platform joint relative to the base
     let t300 = t294 + t295;
     let t301 = t297 - t298;
     // leg 3: acceleration of the platform joint relative to the base
-    let t302 = t262 - 0.031058285412302475 * t279;
-    let t303 = 0.1159110991546882 * t280;
+    let t302 = t262 - c(0.031058285412302475) * t279;
+    let t303 = c(0.1159110991546882) * t280;
     let t304 = t302 + t303;
-    let t305 = t264 + 0.031058285412302475 * t287;
-    let t306 = 0.1159110991546882 * t288;
+    let t305 = t264 + c(0.031058285412302475) * t287;
+    let t306 = c(0.1159110991546882) * t288;
     let t307 = t305 - t306;
     // leg 4: acceleration of the platform joint relative to the base
-    let t308 = t262 - 0.0848528137423857 * t279;
-    let t309 = 0.08485281374238571 * t280;
+    let t308 = t262 - c(0.0848528137423857) * t279;
+    let t309 = c(0.08485281374238571) * t280;
     let t310 = t308 + t309;
-    let t311 = t264 + 0.0848528137423857 * t287;
-    let t312 = 0.08485281374238571 * t288;
+    let t311 = t264 + c(0.0848528137423857) * t287;
+    let t312 = c(0.08485281374238571) * t288;
     let t313 = t311 - t312;
     // leg 5: acceleration of the platform joint relative to the base
     let t314 = t308 - t309;
@@ -14717,269 +15310,274 @@ pub fn inverse_dynamics(
     let t329 = t104 * (t186 * t186 + t328);
     // leg 1: leg inertia less weight along the actuator
     let t330 = t90 * t209;
-    let t331 = 2.0 * t150;
-    let t332 = t331 + t155 * 0.2318221983093764;
-    let t333 = t156 * 0.06211657082460498;
-    let t334 = t332 - (t333 - 2.0 * t181);
+    let t331 = c(2.0) * t150;
+    let t332 = t331 + t155 * c(0.2318221983093764);
+    let t333 = t156 * c(0.06211657082460498);
+    let t334 = t332 - (t333 - c(2.0) * t181);
     let t335 = t123 * t334;
     let t336 = t90 * t214;
     let t337 = t120 * t334;
-    let t338 = t267 - (t266 + (t227 - t265)) - 2.0 * (t268 - t269);
-    let t339 = 0.12275970481124972 * t216 - 0.03105828541230249 * t293;
-    let t340 = t338 + (0.1316436662914507 * t215 + 0.1159110991546882 * t292);
+    let t338 = t267 - (t266 + (t227 - t265)) - c(2.0) * (t268 - t269);
+    let t339 = c(0.12275970481124972) * t216 - c(0.03105828541230249) * t293;
+    let t340 = t338 + (c(0.1316436662914507) * t215 + c(0.1159110991546882) * t292);
     let t341 = t340 + (t339 - (t319 + t90 * t217));
     // leg 1: remaining leg inertia less weight at the platform joint
-    let t342 = 0.17066666666666666 * t190;
-    let t343 = t342 - t205 * 0.022467185713740918;
-    let t344 = t207 * 0.02095098962111995;
-    let t345 = t343 + t344 - 0.17066666666666666 * (t330 + t335);
-    let t346 = 0.17066666666666666 * t193;
-    let t347 = t346 + t210 * 0.022467185713740918;
-    let t348 = t212 * 0.02095098962111995;
-    let t349 = t347 + t348 + 0.17066666666666666 * (t336 + t337);
+    let t342 = c(0.17066666666666666) * t190;
+    let t343 = t342 - t205 * c(0.022467185713740918);
+    let t344 = t207 * c(0.02095098962111995);
+    let t345 = t343 + t344 - c(0.17066666666666666) * (t330 + t335);
+    let t346 = c(0.17066666666666666) * t193;
+    let t347 = t346 + t210 * c(0.022467185713740918);
+    let t348 = t212 * c(0.02095098962111995);
+    let t349 = t347 + t348 + c(0.17066666666666666) * (t336 + t337);
     // leg 2: leg inertia less weight along the actuator
     let t350 = t93 * t209;
-    let t351 = t332 + (t333 - 2.0 * t182);
+    let t351 = t332 + (t333 - c(2.0) * t182);
     let t352 = t123 * t351;
     let t353 = t93 * t214;
     let t354 = t120 * t351;
     let t355 = t93 * t217 - (t340 - (t321 + t339));
     // leg 2: remaining leg inertia less weight at the platform joint
-    let t356 = t343 - t344 - 0.17066666666666666 * (t350 + t352);
-    let t357 = t347 - t348 + 0.17066666666666666 * (t353 + t354);
+    let t356 = t343 - t344 - c(0.17066666666666666) * (t350 + t352);
+    let t357 = t347 - t348 + c(0.17066666666666666) * (t353 + t354);
     // leg 3: leg inertia less weight along the actuator
     let t358 = t96 * t209;
-    let t359 = t331 - t155 * 0.06211657082460495;
-    let t360 = t156 * 0.2318221983093764;
-    let t361 = t359 + (t360 - 2.0 * t183);
+    let t359 = t331 - t155 * c(0.06211657082460495);
+    let t360 = t156 * c(0.2318221983093764);
+    let t361 = t359 + (t360 - c(2.0) * t183);
     let t362 = t123 * t361;
     let t363 = t96 * t214;
     let t364 = t120 * t361;
-    let t365 = 0.17538661166134234 * t216 - 0.1159110991546882 * t293;
-    let t366 = t338 + (0.040491189781895726 * t215 - 0.031058285412302475 * t292);
-    let t367 = t366 - (t365 + (t323 + t96 * t217));
+    let t365 = c(0.17538661166134234) * t216 - c(0.1159110991546882) * t293;
+    let t366 = c(0.040491189781895726) * t215 - c(0.031058285412302475) * t292;
+    let t367 = t338 + t366;
+    let t368 = t367 - (t365 + (t323 + t96 * t217));
     // leg 3: remaining leg inertia less weight at the platform joint
-    let t368 = t342 - t205 * 0.006910496389443537;
-    let t369 = t207 * 0.029932648390202425;
-    let t370 = t368 - t369 - 0.17066666666666666 * (t358 + t362);
-    let t371 = t346 + t210 * 0.006910496389443537;
-    let t372 = t212 * 0.029932648390202425;
-    let t373 = t371 - t372 + 0.17066666666666666 * (t363 + t364);
+    let t369 = t342 - t205 * c(0.006910496389443537);
+    let t370 = t207 * c(0.029932648390202425);
+    let t371 = t369 - t370 - c(0.17066666666666666) * (t358 + t362);
+    let t372 = t346 + t210 * c(0.006910496389443537);
+    let t373 = t212 * c(0.029932648390202425);
+    let t374 = t372 - t373 + c(0.17066666666666666) * (t363 + t364);
     // leg 4: leg inertia less weight along the actuator
-    let t374 = t99 * t209;
-    let t375 = t331 - t155 * 0.1697056274847714;
-    let t376 = t156 * 0.16970562748477142;
-    let t377 = t375 + (t376 - 2.0 * t184);
-    let t378 = t123 * t377;
-    let t379 = t99 * t214;
-    let t380 = t120 * t377;
-    let t381 = 0.052626906850092664 * t216 - 0.08485281374238571 * t293;
-    let t382 = t338 - (0.17213485607334636 * t215 + 0.0848528137423857 * t292);
-    let t383 = t382 - (t381 + (t325 + t99 * t217));
+    let t375 = t99 * t209;
+    let t376 = t331 - t155 * c(0.1697056274847714);
+    let t377 = t156 * c(0.16970562748477142);
+    let t378 = t376 + (t377 - c(2.0) * t184);
+    let t379 = t123 * t378;
+    let t380 = t99 * t214;
+    let t381 = t120 * t378;
+    let t382 = c(0.052626906850092664) * t216 - c(0.08485281374238571) * t293;
+    let t383 = t338 - (c(0.17213485607334636) * t215 + c(0.0848528137423857) * t292);
+    let t384 = t383 - (t382 + (t325 + t99 * t217));
     // leg 4: remaining leg inertia less weight at the platform joint
-    let t384 = t342 + t205 * 0.029377682103184446;
-    let t385 = t207 * 0.008981658769082482;
-    let t386 = t384 - t385 - 0.17066666666666666 * (t374 + t378);
-    let t387 = t346 - t210 * 0.029377682103184446;
-    let t388 = t212 * 0.008981658769082482;
-    let t389 = t387 - t388 + 0.17066666666666666 * (t379 + t380);
+    let t385 = t342 + t205 * c(0.029377682103184446);
+    let t386 = t207 * c(0.008981658769082482);
+    let t387 = t385 - t386 - c(0.17066666666666666) * (t375 + t379);
+    let t388 = t346 - t210 * c(0.029377682103184446);
+    let t389 = t212 * c(0.008981658769082482);
+    let t390 = t388 - t389 + c(0.17066666666666666) * (t380 + t381);
     // leg 5: leg inertia less weight along the actuator
-    let t390 = t102 * t209;
-    let t391 = t375 - (t376 + 2.0 * t185);
-    let t392 = t123 * t391;
-    let t393 = t102 * t214;
-    let t394 = t120 * t391;
-    let t395 = t102 * t217 - (t382 - (t327 - t381));
+    let t391 = t102 * t209;
+    let t392 = t376 - (t377 + c(2.0) * t185);
+    let t393 = t123 * t392;
+    let t394 = t102 * t214;
+    let t395 = t120 * t392;
+    let t396 = t102 * t217 - (t383 - (t327 - t382));
     // leg 5: remaining leg inertia less weight at the platform joint
-    let t396 = t384 + t385 - 0.17066666666666666 * (t390 + t392);
-    let t397 = t387 + t388 + 0.17066666666666666 * (t393 + t394);
+    let t397 = t385 + t386 - c(0.17066666666666666) * (t391 + t393);
+    let t398 = t388 + t389 + c(0.17066666666666666) * (t394 + t395);
     // leg 6: leg inertia less weight along the actuator
-    let t398 = t105 * t209;
-    let t399 = t359 - (t360 + 2.0 * t186);
-    let t400 = t123 * t399;
-    let t401 = t105 * t214;
-    let t402 = t120 * t399;
-    let t403 = t105 * t217 - (t366 - (t329 - t365));
+    let t399 = t105 * t209;
+    let t400 = t359 - (t360 + c(2.0) * t186);
+    let t401 = t123 * t400;
+    let t402 = t105 * t214;
+    let t403 = t120 * t400;
+    let t404 = t105 * t217 - (t367 - (t329 - t365));
     // leg 6: remaining leg inertia less weight at the platform joint
-    let t404 = t368 + t369 - 0.17066666666666666 * (t398 + t400);
-    let t405 = t371 + t372 + 0.17066666666666666 * (t401 + t402);
+    let t405 = t369 + t370 - c(0.17066666666666666) * (t399 + t401);
+    let t406 = t372 + t373 + c(0.17066666666666666) * (t402 + t403);
     // leg 1: row of the actuator Jacobian in base coordinates
-    let t406 = t45 * t107;
-    let t407 = t45 * t106;
-    let t408 = t39 * t107;
-    let t409 = t42 * t106;
+    let t407 = t45 * t107;
+    let t408 = t45 * t106;
+    let t409 = t39 * t107;
+    let t410 = t42 * t106;
     // leg 2: row of the actuator Jacobian in base coordinates
-    let t410 = t51 * t109;
-    let t411 = t51 * t108;
-    let t412 = t49 * t109;
-    let t413 = t50 * t108;
+    let t411 = t51 * t109;
+    let t412 = t51 * t108;
+    let t413 = t49 * t109;
+    let t414 = t50 * t108;
     // leg 3: row of the actuator Jacobian in base coordinates
-    let t414 = t62 * t111;
-    let t415 = t62 * t110;
-    let t416 = t56 * t111;
-    let t417 = t59 * t110;
+    let t415 = t62 * t111;
+    let t416 = t62 * t110;
+    let t417 = t56 * t111;
+    let t418 = t59 * t110;
     // leg 4: row of the actuator Jacobian in base coordinates
-    let t418 = t71 + t74 * t113;
-    let t419 = t68 + t74 * t112;
-    let t420 = t68 * t113 - t71 * t112;
+    let t419 = t71 + t74 * t113;
+    let t420 = t68 + t74 * t112;
+    let t421 = t68 * t113 - t71 * t112;
     // leg 5: row of the actuator Jacobian in base coordinates
-    let t421 = t80 * t115;
-    let t422 = t80 * t114;
-    let t423 = t78 * t115;
-    let t424 = t79 * t114;
+    let t422 = t80 * t115;
+    let t423 = t80 * t114;
+    let t424 = t78 * t115;
+    let t425 = t79 * t114;
     // leg 6: row of the actuator Jacobian in base coordinates
-    let t425 = t85 * t117;
-    let t426 = t85 * t116;
-    let t427 = t83 * t117;
-    let t428 = t84 * t116;
+    let t426 = t85 * t117;
+    let t427 = t85 * t116;
+    let t428 = t83 * t117;
+    let t429 = t84 * t116;
     // its first moments by platform coordinate
-    let t429 = t345 + t356;
-    let t430 = t370 + t404;
-    let t431 = t386 + t396;
-    let t432 = 2.2551405187698492e-17 * t221 + 0.032245600000000006 * t244;
-    let t433 = t432 + 0.1159110991546882 * t429 - 0.031058285412302475 * t430;
-    let t434 = t433 - 0.0848528137423857 * t431;
-    let t435 = 6.938893903907228e-18 * t221 + 0.032245600000000006 * t245;
-    let t436 = t435 - 0.03105828541230249 * (t345 - t356);
-    let t437 = t436 + 0.1159110991546882 * (t370 - t404);
-    let t438 = t437 + 0.08485281374238571 * (t386 - t396);
-    let t439 = t349 + t357;
-    let t440 = t373 + t405;
-    let t441 = t389 + t397;
-    let t442 = 2.2551405187698492e-17 * t224 - 0.032245600000000006 * t252;
-    let t443 = t442 + 0.1159110991546882 * t439 - 0.031058285412302475 * t440;
-    let t444 = t443 - 0.0848528137423857 * t441;
-    let t445 = 6.938893903907228e-18 * t224 - 0.032245600000000006 * t253;
-    let t446 = t445 - 0.03105828541230249 * (t349 - t357);
-    let t447 = t446 + 0.1159110991546882 * (t373 - t405);
-    let t448 = t447 + 0.08485281374238571 * (t389 - t397);
-    let t449 = t341 - t355;
-    let t450 = t367 - t403;
-    let t451 = t383 - t395;
-    let t452 = 2.2551405187698492e-17 * t227 - 0.032245600000000006 * t258;
-    let t453 = t452 - t449 * 0.019782160922400118 + t450 * 0.005300614043699622;
-    let t454 = t453 + t451 * 0.01448154687870049;
-    let t455 = 6.938893903907228e-18 * t227 - 0.032245600000000006 * t259;
-    let t456 = t455 + 0.005300614043699624 * (t341 + t355);
-    let t457 = t456 - 0.019782160922400118 * (t367 + t403);
-    let t458 = t457 - 0.014481546878700494 * (t383 + t395);
+    let t430 = t345 + t356;
+    let t431 = t371 + t405;
+    let t432 = t387 + t397;
+    let t433 = c(2.2551405187698492e-17) * t221 + c(0.032245600000000006) * t244;
+    let t434 = t433 + c(0.1159110991546882) * t430;
+    let t435 = t434 - c(0.031058285412302475) * t431;
+    let t436 = t435 - c(0.0848528137423857) * t432;
+    let t437 = c(6.938893903907228e-18) * t221 + c(0.032245600000000006) * t245;
+    let t438 = t437 - c(0.03105828541230249) * (t345 - t356);
+    let t439 = t438 + c(0.1159110991546882) * (t371 - t405);
+    let t440 = t439 + c(0.08485281374238571) * (t387 - t397);
+    let t441 = t349 + t357;
+    let t442 = t374 + t406;
+    let t443 = t390 + t398;
+    let t444 = c(2.2551405187698492e-17) * t224 - c(0.032245600000000006) * t252;
+    let t445 = t444 + c(0.1159110991546882) * t441;
+    let t446 = t445 - c(0.031058285412302475) * t442;
+    let t447 = t446 - c(0.0848528137423857) * t443;
+    let t448 = c(6.938893903907228e-18) * t224 - c(0.032245600000000006) * t253;
+    let t449 = t448 - c(0.03105828541230249) * (t349 - t357);
+    let t450 = t449 + c(0.1159110991546882) * (t374 - t406);
+    let t451 = t450 + c(0.08485281374238571) * (t390 - t398);
+    let t452 = t341 - t355;
+    let t453 = t368 - t404;
+    let t454 = t384 - t396;
+    let t455 = c(2.2551405187698492e-17) * t227 - c(0.032245600000000006) * t258;
+    let t456 = t455 - t452 * c(0.019782160922400118);
+    let t457 = t456 + t453 * c(0.005300614043699622);
+    let t458 = t457 + t454 * c(0.01448154687870049);
+    let t459 = c(6.938893903907228e-18) * t227 - c(0.032245600000000006) * t259;
+    let t460 = t459 + c(0.005300614043699624) * (t341 + t355);
+    let t461 = t460 - c(0.019782160922400118) * (t368 + t404);
+    let t462 = t461 - c(0.014481546878700494) * (t384 + t396);
     // inertia less external wrench that the actuators must balance
-    let t459 = base_rotation[1][0] * external_wrench[1];
-    let t460 = base_rotation[0][0] * external_wrench[0] + t459;
-    let t461 = base_rotation[2][0] * external_wrench[2] + t460;
-    let t462 = base_rotation[1][1] * external_wrench[1];
-    let t463 = base_rotation[0][1] * external_wrench[0] + t462;
-    let t464 = base_rotation[2][1] * external_wrench[2] + t463;
-    let t465 = base_rotation[1][2] * external_wrench[1];
-    let t466 = base_rotation[0][2] * external_wrench[0] + t465;
-    let t467 = base_rotation[2][2] * external_wrench[2] + t466;
-    let t468 = 8.139999999999999 * t227 - 2.2551405187698492e-17 * t258;
-    let t469 = t467 - (t468 - 6.938893903907228e-18 * t259 - 0.188852 * t260);
-    let t470 = t469 + 0.17066666666666666 * (t451 + (t449 + t450));
-    let t471 = t12 * t454;
-    let t472 = t21 * t444;
-    let t473 = t15 * t458;
-    let t474 = t24 * t448;
-    let t475 = 0.188852 * t227 - 0.013354412 * t260 - 0.031 * t467;
-    let t476 = t18 * t475;
-    let t477 = 0.188852 * t224 - 0.013354412 * t254 - 0.031 * t464;
-    let t478 = t27 * t477;
-    let t479 = base_rotation[0][0] * external_wrench[3];
-    let t480 = base_rotation[1][0] * external_wrench[4];
-    let t481 = base_rotation[2][0] * external_wrench[5];
-    let t482 = t21 * t434;
-    let t483 = t3 * t454;
-    let t484 = t24 * t438;
-    let t485 = t6 * t458;
-    let t486 = 0.188852 * t221 + 0.013354412 * t246 - 0.031 * t461;
-    let t487 = t27 * t486;
-    let t488 = t9 * t475;
-    let t489 = base_rotation[0][1] * external_wrench[3];
-    let t490 = base_rotation[1][1] * external_wrench[4];
-    let t491 = base_rotation[2][1] * external_wrench[5];
-    let t492 = t3 * t444;
-    let t493 = t12 * t434;
-    let t494 = t6 * t448;
-    let t495 = t15 * t438;
-    let t496 = t9 * t477;
-    let t497 = t18 * t486;
-    let t498 = base_rotation[0][2] * external_wrench[3];
-    let t499 = base_rotation[1][2] * external_wrench[4];
-    let t500 = base_rotation[2][2] * external_wrench[5];
+    let t463 = base_rotation[1][0] * external_wrench[1];
+    let t464 = base_rotation[0][0] * external_wrench[0] + t463;
+    let t465 = base_rotation[2][0] * external_wrench[2] + t464;
+    let t466 = base_rotation[1][1] * external_wrench[1];
+    let t467 = base_rotation[0][1] * external_wrench[0] + t466;
+    let t468 = base_rotation[2][1] * external_wrench[2] + t467;
+    let t469 = base_rotation[1][2] * external_wrench[1];
+    let t470 = base_rotation[0][2] * external_wrench[0] + t469;
+    let t471 = base_rotation[2][2] * external_wrench[2] + t470;
+    let t472 = c(8.139999999999999) * t227 - c(2.2551405187698492e-17) * t258;
+    let t473 = t472 - c(6.938893903907228e-18) * t259 - c(0.188852) * t260;
+    let t474 = t471 - t473 + c(0.17066666666666666) * (t454 + (t452 + t453));
+    let t475 = t12 * t458;
+    let t476 = t21 * t447;
+    let t477 = t15 * t462;
+    let t478 = t24 * t451;
+    let t479 = c(0.188852) * t227 - c(0.013354412) * t260 - c(0.031) * t471;
+    let t480 = t18 * t479;
+    let t481 = c(0.188852) * t224 - c(0.013354412) * t254 - c(0.031) * t468;
+    let t482 = t27 * t481;
+    let t483 = base_rotation[0][0] * external_wrench[3];
+    let t484 = base_rotation[1][0] * external_wrench[4];
+    let t485 = base_rotation[2][0] * external_wrench[5];
+    let t486 = t21 * t436;
+    let t487 = t3 * t458;
+    let t488 = t24 * t440;
+    let t489 = t6 * t462;
+    let t490 = c(0.188852) * t221 + c(0.013354412) * t246 - c(0.031) * t465;
+    let t491 = t27 * t490;
+    let t492 = t9 * t479;
+    let t493 = base_rotation[0][1] * external_wrench[3];
+    let t494 = base_rotation[1][1] * external_wrench[4];
+    let t495 = base_rotation[2][1] * external_wrench[5];
+    let t496 = t3 * t447;
+    let t497 = t12 * t436;
+    let t498 = t6 * t451;
+    let t499 = t15 * t440;
+    let t500 = t9 * t481;
+    let t501 = t18 * t490;
+    let t502 = base_rotation[0][2] * external_wrench[3];
+    let t503 = base_rotation[1][2] * external_wrench[4];
+    let t504 = base_rotation[2][2] * external_wrench[5];
     // force along the actuator that balances the remaining wrench
-    let t501 = t490 + (t489 + (t488 - (t487 - (t485 - (t484 + (t482 - t483))))));
-    let t502 = t419 * t470 - (t491 + t501);
-    let t503 = 1.0 / (t419 + (t49 + t411));
-    let t504 = (t418 + (t50 - t410)) * t503;
-    let t505 = t480 + (t479 + (t478 - (t476 - (t474 - (t473 + (t471 - t472))))));
-    let t506 = t502 * t504 - (t418 * t470 + (t481 + t505));
-    let t507 = t422 + (t78 - t419);
-    let t508 = (t109 + t113) * t503;
-    let t509 = 1.0 / (t507 * t504 - (t421 + (t79 - t418)));
-    let t510 = (t507 * t508 + (t113 - t115)) * t509;
-    let t511 = 8.139999999999999 * t224 - 2.2551405187698492e-17 * t252;
-    let t512 = t439 + (t511 - 6.938893903907228e-18 * t253 - 0.188852 * t254);
-    let t513 = t502 * t508 - (t113 * t470 + (t464 - (t441 + (t440 + t512))));
-    let t514 = t506 * t510 - t513;
-    let t515 = t419 + (t39 - t407);
-    let t516 = t515 * t504 - (t418 + (t42 - t406));
-    let t517 = (t420 - (t412 + t413)) * t503;
-    let t518 = (t507 * t517 + (t424 + (t420 - t423))) * t509;
-    let t519 = 1.0 / (t516 * t510 - (t515 * t508 - (t107 + t113)));
-    let t520 = (t516 * t518 - (t515 * t517 - (t420 - (t408 - t409)))) * t519;
-    let t521 = t499 + (t498 + (t497 - (t496 - (t495 - (t494 + (t492 - t493))))));
-    let t522 = t506 * t518 - (t502 * t517 - (t420 * t470 - (t500 + t521)));
-    let t523 = t514 * t520 - t522;
-    let t524 = t426 + (t83 - t419);
-    let t525 = t524 * t504 - (t425 + (t84 - t418));
-    let t526 = t525 * t510 - (t524 * t508 + (t113 - t117));
-    let t527 = (t108 - t112) * t503;
-    let t528 = (t507 * t527 - (t112 - t114)) * t509;
-    let t529 = (t516 * t528 - (t515 * t527 + (t106 + t112))) * t519;
-    let t530 = t526 * t529 - (t525 * t528 - (t524 * t527 - (t112 - t116)));
-    let t531 = t525 * t518 - (t524 * t517 + (t428 + (t420 - t427)));
-    let t532 = 1.0 / (t526 * t520 - t531);
-    let t533 = t530 * t532;
-    let t534 = 8.139999999999999 * t221 + 2.2551405187698492e-17 * t244;
-    let t535 = t429 + (t534 + 6.938893903907228e-18 * t245 + 0.188852 * t246);
-    let t536 = t502 * t527 + (t112 * t470 + (t461 - (t431 + (t430 + t535))));
-    let t537 = t523 * t533 - (t514 * t529 - (t506 * t528 - t536));
-    let t538 = t419 - (t56 + t415);
-    let t539 = t538 * t504 - (t418 - (t59 + t414));
-    let t540 = t539 * t510 - (t538 * t508 + (t111 - t113));
-    let t541 = t539 * t518 - (t538 * t517 - (t420 - (t416 - t417)));
-    let t542 = t540 * t520 - t541;
-    let t543 = t540 * t529 - (t539 * t528 - (t538 * t527 - (t110 - t112)));
-    let t544 = t537 * (1.0 / (t542 * t533 - t543));
-    let t545 = t532 * (t523 - t542 * t544);
-    let t546 = t519 * (t540 * t544 - (t514 - t526 * t545));
-    let t547 = t509 * (t539 * t544 + (t525 * t545 - (t506 + t516 * t546)));
-    let t548 = t524 * t545 - (t515 * t546 + (t502 + t507 * t547));
-    let t549 = t503 * (t538 * t544 + t548);
+    let t505 = t494 + (t493 + (t492 - (t491 - (t489 - (t488 + (t486 - t487))))));
+    let t506 = t420 * t474 - (t495 + t505);
+    let t507 = c(1.0) / (t420 + (t49 + t412));
+    let t508 = (t419 + (t50 - t411)) * t507;
+    let t509 = t484 + (t483 + (t482 - (t480 - (t478 - (t477 + (t475 - t476))))));
+    let t510 = t506 * t508 - (t419 * t474 + (t485 + t509));
+    let t511 = t423 + (t78 - t420);
+    let t512 = (t109 + t113) * t507;
+    let t513 = c(1.0) / (t511 * t508 - (t422 + (t79 - t419)));
+    let t514 = (t511 * t512 + (t113 - t115)) * t513;
+    let t515 = c(8.139999999999999) * t224 - c(2.2551405187698492e-17) * t252;
+    let t516 = t515 - c(6.938893903907228e-18) * t253 - c(0.188852) * t254;
+    let t517 = t113 * t474 + (t468 - (t443 + (t442 + (t441 + t516))));
+    let t518 = t510 * t514 - (t506 * t512 - t517);
+    let t519 = t420 + (t39 - t408);
+    let t520 = t519 * t508 - (t419 + (t42 - t407));
+    let t521 = (t421 - (t413 + t414)) * t507;
+    let t522 = (t511 * t521 + (t425 + (t421 - t424))) * t513;
+    let t523 = c(1.0) / (t520 * t514 - (t519 * t512 - (t107 + t113)));
+    let t524 = (t520 * t522 - (t519 * t521 - (t421 - (t409 - t410)))) * t523;
+    let t525 = t503 + (t502 + (t501 - (t500 - (t499 - (t498 + (t496 - t497))))));
+    let t526 = t510 * t522 - (t506 * t521 - (t421 * t474 - (t504 + t525)));
+    let t527 = t518 * t524 - t526;
+    let t528 = t427 + (t83 - t420);
+    let t529 = t528 * t508 - (t426 + (t84 - t419));
+    let t530 = t529 * t514 - (t528 * t512 + (t113 - t117));
+    let t531 = (t108 - t112) * t507;
+    let t532 = (t511 * t531 - (t112 - t114)) * t513;
+    let t533 = (t520 * t532 - (t519 * t531 + (t106 + t112))) * t523;
+    let t534 = t530 * t533 - (t529 * t532 - (t528 * t531 - (t112 - t116)));
+    let t535 = t529 * t522 - (t528 * t521 + (t429 + (t421 - t428)));
+    let t536 = c(1.0) / (t530 * t524 - t535);
+    let t537 = t534 * t536;
+    let t538 = c(8.139999999999999) * t221 + c(2.2551405187698492e-17) * t244;
+    let t539 = t538 + c(6.938893903907228e-18) * t245 + c(0.188852) * t246;
+    let t540 = t112 * t474 + (t465 - (t432 + (t431 + (t430 + t539))));
+    let t541 = t518 * t533 - (t510 * t532 - (t506 * t531 + t540));
+    let t542 = t420 - (t56 + t416);
+    let t543 = t542 * t508 - (t419 - (t59 + t415));
+    let t544 = t543 * t514 - (t542 * t512 + (t111 - t113));
+    let t545 = t543 * t522 - (t542 * t521 - (t421 - (t417 - t418)));
+    let t546 = t544 * t524 - t545;
+    let t547 = t544 * t533 - (t543 * t532 - (t542 * t531 - (t110 - t112)));
+    let t548 = (t527 * t537 - t541) * (c(1.0) / (t546 * t537 - t547));
+    let t549 = t536 * (t527 - t546 * t548);
+    let t550 = t523 * (t544 * t548 - (t518 - t530 * t549));
+    let t551 = t513 * (t543 * t548 + (t529 * t549 - (t510 + t520 * t550)));
+    let t552 = t528 * t549 - (t519 * t550 + (t506 + t511 * t551));
+    let t553 = t507 * (t542 * t548 + t552);
     // leg 1: actuator forces F
-    let t550 = 4268.068200000001 - t217 * 0.03055 - 0.17066666666666666 * t227;
-    let t551 = t550 + t258 * 0.019782160922400118;
-    let t552 = t259 * 0.005300614043699624;
-    let t553 = t546 - (21555.9 * t90 - t552 + t341 * 0.9523333333333334);
-    inverse_dynamics[0] = t553 - t551;
+    let t554 = c(4268.068200000001) - t217 * c(0.03055);
+    let t555 = t554 - c(0.17066666666666666) * t227;
+    let t556 = t555 + t258 * c(0.019782160922400118);
+    let t557 = t259 * c(0.005300614043699624);
+    let t558 = t550 - (c(21555.9) * t90 - t557 + t341 * c(0.9523333333333334));
+    inverse_dynamics[0] = t558 - t556;
     // leg 2: actuator forces F
-    let t554 = t549 - (t552 + 21555.9 * t93 - t355 * 0.9523333333333334);
-    inverse_dynamics[1] = t554 - t551;
+    let t559 = t553 - (t557 + c(21555.9) * t93 - t355 * c(0.9523333333333334));
+    inverse_dynamics[1] = t559 - t556;
     // leg 3: actuator forces F
-    let t555 = t550 - t258 * 0.005300614043699622;
-    let t556 = t259 * 0.019782160922400118;
-    let t557 = t96 * -21555.9 - t556 - t367 * 0.9523333333333334 - t544;
-    inverse_dynamics[2] = t557 - t555;
+    let t560 = t555 - t258 * c(0.005300614043699622);
+    let t561 = t259 * c(0.019782160922400118);
+    let t562 = t96 * c(-21555.9) - t561 - t368 * c(0.9523333333333334) - t548;
+    inverse_dynamics[2] = t562 - t560;
     // leg 4: actuator forces F
-    let t558 = t547 - t259 * 0.014481546878700494;
-    let t559 = t550 - t258 * 0.01448154687870049;
-    let t560 = t544 - (t470 + (21555.9 * t99 + t383 * 0.9523333333333334));
-    inverse_dynamics[3] = t558 - (t549 + (t546 + (t545 - t560))) - t559;
+    let t563 = t551 - t259 * c(0.014481546878700494);
+    let t564 = t555 - t258 * c(0.01448154687870049);
+    let t565 = t548 - (t474 + (c(21555.9) * t99 + t384 * c(0.9523333333333334)));
+    inverse_dynamics[3] = t563 - (t553 + (t550 + (t549 - t565))) - t564;
     // leg 6: actuator forces F
-    let t561 = t545 + (t556 - 21555.9 * t105 + t403 * 0.9523333333333334);
-    inverse_dynamics[5] = t561 - t555;
+    let t566 = t549 + (t561 - c(21555.9) * t105 + t404 * c(0.9523333333333334));
+    inverse_dynamics[5] = t566 - t560;
     // leg 5: actuator forces F
-    inverse_dynamics[4] = t395 * 0.9523333333333334 - 21555.9 * t102 - t558 - t559;
+    inverse_dynamics[4] = t396 * c(0.9523333333333334) - c(21555.9) * t102 - t563 - t564;
 }
 
 /// Platform acceleration for given actuator forces, equation (49).
@@ -15000,18 +15598,19 @@ pub fn inverse_dynamics(
 ///
 /// - `forward_dynamics`: 6, m/s^2, rad/s^2, frame O: platform acceleration v_p', equation (49).
 #[allow(clippy::all, clippy::pedantic, unused_variables)]
-pub fn forward_dynamics(
-    base_position: &[f64; 3],
-    base_rotation: &[[f64; 3]; 3],
-    base_velocity: &[f64; 6],
-    base_acceleration: &[f64; 6],
-    platform_position: &[f64; 3],
-    platform_rotation: &[[f64; 3]; 3],
-    platform_velocity: &[f64; 6],
-    actuator_force: &[f64; 6],
-    external_wrench: &[f64; 6],
-    forward_dynamics: &mut [f64; 6],
+pub fn forward_dynamics<T: Scalar>(
+    base_position: &[T; 3],
+    base_rotation: &[[T; 3]; 3],
+    base_velocity: &[T; 6],
+    base_acceleration: &[T; 6],
+    platform_position: &[T; 3],
+    platform_rotation: &[[T; 3]; 3],
+    platform_velocity: &[T; 6],
+    actuator_force: &[T; 6],
+    external_wrench: &[T; 6],
+    forward_dynamics: &mut [T; 6],
 ) {
+    let c = T::constant;
     // rotation of the platform seen from the base
     let t1 = base_rotation[1][0] * platform_rotation[1][0];
     let t2 = base_rotation[0][0] * platform_rotation[0][0] + t1;
@@ -15051,102 +15650,102 @@ pub fn forward_dynamics(
     let t35 = base_rotation[0][2] * t29 + base_rotation[1][2] * t30;
     let t36 = base_rotation[2][2] * t28 + t35;
     // leg 1: platform joint from the platform origin
-    let t37 = 0.1159110991546882 * t3;
-    let t38 = 0.03105828541230249 * t6;
+    let t37 = c(0.1159110991546882) * t3;
+    let t38 = c(0.03105828541230249) * t6;
     let t39 = t37 - t38;
-    let t40 = 0.1159110991546882 * t12;
-    let t41 = 0.03105828541230249 * t15;
+    let t40 = c(0.1159110991546882) * t12;
+    let t41 = c(0.03105828541230249) * t15;
     let t42 = t40 - t41;
-    let t43 = 0.1159110991546882 * t21;
-    let t44 = 0.03105828541230249 * t24;
+    let t43 = c(0.1159110991546882) * t21;
+    let t44 = c(0.03105828541230249) * t24;
     let t45 = t43 - t44;
     // leg 1: platform joint from the base point
-    let t46 = 0.1316436662914507 + t32;
+    let t46 = c(0.1316436662914507) + t32;
     let t47 = t39 - t46;
-    let t48 = t42 + (0.12275970481124972 - t34);
+    let t48 = t42 + (c(0.12275970481124972) - t34);
     // leg 2: platform joint from the platform origin
     let t49 = t37 + t38;
     let t50 = t40 + t41;
     let t51 = t43 + t44;
     // leg 2: platform joint from the base point
     let t52 = t46 - t49;
-    let t53 = t50 - (0.12275970481124972 + t34);
+    let t53 = t50 - (c(0.12275970481124972) + t34);
     // leg 3: platform joint from the platform origin
-    let t54 = t3 * 0.031058285412302475;
-    let t55 = 0.1159110991546882 * t6;
+    let t54 = t3 * c(0.031058285412302475);
+    let t55 = c(0.1159110991546882) * t6;
     let t56 = t54 - t55;
-    let t57 = t12 * 0.031058285412302475;
-    let t58 = 0.1159110991546882 * t15;
+    let t57 = t12 * c(0.031058285412302475);
+    let t58 = c(0.1159110991546882) * t15;
     let t59 = t57 - t58;
-    let t60 = t21 * 0.031058285412302475;
-    let t61 = 0.1159110991546882 * t24;
+    let t60 = t21 * c(0.031058285412302475);
+    let t61 = c(0.1159110991546882) * t24;
     let t62 = t60 - t61;
     // leg 3: platform joint from the base point
-    let t63 = 0.040491189781895726 + t32;
+    let t63 = c(0.040491189781895726) + t32;
     let t64 = t56 + t63;
-    let t65 = t59 + (0.17538661166134234 + t34);
+    let t65 = t59 + (c(0.17538661166134234) + t34);
     // leg 4: platform joint from the platform origin
-    let t66 = t3 * 0.0848528137423857;
-    let t67 = 0.08485281374238571 * t6;
+    let t66 = t3 * c(0.0848528137423857);
+    let t67 = c(0.08485281374238571) * t6;
     let t68 = t66 - t67;
-    let t69 = t12 * 0.0848528137423857;
-    let t70 = 0.08485281374238571 * t15;
+    let t69 = t12 * c(0.0848528137423857);
+    let t70 = c(0.08485281374238571) * t15;
     let t71 = t69 - t70;
-    let t72 = t21 * 0.0848528137423857;
-    let t73 = 0.08485281374238571 * t24;
+    let t72 = t21 * c(0.0848528137423857);
+    let t73 = c(0.08485281374238571) * t24;
     let t74 = t72 - t73;
     // leg 4: platform joint from the base point
-    let t75 = t32 - 0.17213485607334636;
+    let t75 = t32 - c(0.17213485607334636);
     let t76 = t68 + t75;
-    let t77 = t71 + (0.052626906850092664 + t34);
+    let t77 = t71 + (c(0.052626906850092664) + t34);
     // leg 5: platform joint from the platform origin
     let t78 = t66 + t67;
     let t79 = t69 + t70;
     let t80 = t72 + t73;
     // leg 5: platform joint from the base point
     let t81 = t75 + t78;
-    let t82 = t79 - (0.052626906850092664 - t34);
+    let t82 = t79 - (c(0.052626906850092664) - t34);
     // leg 6: platform joint from the platform origin
     let t83 = t54 + t55;
     let t84 = t57 + t58;
     let t85 = t60 + t61;
     // leg 6: platform joint from the base point
     let t86 = t63 + t83;
-    let t87 = t84 - (0.17538661166134234 - t34);
+    let t87 = t84 - (c(0.17538661166134234) - t34);
     // leg 1: extent of the rod along the actuator axis
-    let t88 = sqrt(0.042435999999999995 - t47 * t47 - t48 * t48);
+    let t88 = sqrt(c(0.042435999999999995) - t47 * t47 - t48 * t48);
     // leg 1: reciprocal of that extent
-    let t89 = 1.0 / t88;
+    let t89 = c(1.0) / t88;
     // leg 1: actuator length d
     let t90 = t88 + (t36 - t45);
     // leg 2: extent of the rod along the actuator axis
-    let t91 = sqrt(0.042435999999999995 - t52 * t52 - t53 * t53);
+    let t91 = sqrt(c(0.042435999999999995) - t52 * t52 - t53 * t53);
     // leg 2: reciprocal of that extent
-    let t92 = 1.0 / t91;
+    let t92 = c(1.0) / t91;
     // leg 2: actuator length d
     let t93 = t91 + (t36 - t51);
     // leg 3: extent of the rod along the actuator axis
-    let t94 = sqrt(0.042435999999999995 - t64 * t64 - t65 * t65);
+    let t94 = sqrt(c(0.042435999999999995) - t64 * t64 - t65 * t65);
     // leg 3: reciprocal of that extent
-    let t95 = 1.0 / t94;
+    let t95 = c(1.0) / t94;
     // leg 3: actuator length d
     let t96 = t94 + (t36 + t62);
     // leg 4: extent of the rod along the actuator axis
-    let t97 = sqrt(0.042435999999999995 - t76 * t76 - t77 * t77);
+    let t97 = sqrt(c(0.042435999999999995) - t76 * t76 - t77 * t77);
     // leg 4: reciprocal of that extent
-    let t98 = 1.0 / t97;
+    let t98 = c(1.0) / t97;
     // leg 4: actuator length d
     let t99 = t97 + (t36 + t74);
     // leg 5: extent of the rod along the actuator axis
-    let t100 = sqrt(0.042435999999999995 - t81 * t81 - t82 * t82);
+    let t100 = sqrt(c(0.042435999999999995) - t81 * t81 - t82 * t82);
     // leg 5: reciprocal of that extent
-    let t101 = 1.0 / t100;
+    let t101 = c(1.0) / t100;
     // leg 5: actuator length d
     let t102 = t100 + (t36 + t80);
     // leg 6: extent of the rod along the actuator axis
-    let t103 = sqrt(0.042435999999999995 - t86 * t86 - t87 * t87);
+    let t103 = sqrt(c(0.042435999999999995) - t86 * t86 - t87 * t87);
     // leg 6: reciprocal of that extent
-    let t104 = 1.0 / t103;
+    let t104 = c(1.0) / t103;
     // leg 6: actuator length d
     let t105 = t103 + (t36 + t85);
     // leg 1: gradient of the actuator length by the platform joint
@@ -15212,28 +15811,28 @@ pub fn forward_dynamics(
     let t155 = t12 * t136 - t3 * t137;
     let t156 = t15 * t136 - t6 * t137;
     // leg 1: velocity of the platform joint relative to the base
-    let t157 = t144 + 0.1159110991546882 * t151;
-    let t158 = 0.03105828541230249 * t152;
+    let t157 = t144 + c(0.1159110991546882) * t151;
+    let t158 = c(0.03105828541230249) * t152;
     let t159 = t157 - t158;
-    let t160 = t147 + 0.1159110991546882 * t153;
-    let t161 = 0.03105828541230249 * t154;
+    let t160 = t147 + c(0.1159110991546882) * t153;
+    let t161 = c(0.03105828541230249) * t154;
     let t162 = t160 - t161;
     // leg 2: velocity of the platform joint relative to the base
     let t163 = t157 + t158;
     let t164 = t160 + t161;
     // leg 3: velocity of the platform joint relative to the base
-    let t165 = t144 - 0.031058285412302475 * t151;
-    let t166 = 0.1159110991546882 * t152;
+    let t165 = t144 - c(0.031058285412302475) * t151;
+    let t166 = c(0.1159110991546882) * t152;
     let t167 = t165 + t166;
-    let t168 = t147 - 0.031058285412302475 * t153;
-    let t169 = 0.1159110991546882 * t154;
+    let t168 = t147 - c(0.031058285412302475) * t153;
+    let t169 = c(0.1159110991546882) * t154;
     let t170 = t168 + t169;
     // leg 4: velocity of the platform joint relative to the base
-    let t171 = t144 - 0.0848528137423857 * t151;
-    let t172 = 0.08485281374238571 * t152;
+    let t171 = t144 - c(0.0848528137423857) * t151;
+    let t172 = c(0.08485281374238571) * t152;
     let t173 = t171 + t172;
-    let t174 = t147 - 0.0848528137423857 * t153;
-    let t175 = 0.08485281374238571 * t154;
+    let t174 = t147 - c(0.0848528137423857) * t153;
+    let t175 = c(0.08485281374238571) * t154;
     let t176 = t174 + t175;
     // leg 5: velocity of the platform joint relative to the base
     let t177 = t171 - t172;
@@ -15254,7 +15853,7 @@ pub fn forward_dynamics(
     // leg 6: rate of the rod's extent along the actuator axis
     let t186 = t104 * (t86 * t179 + t87 * t180);
     // acceleration of the base origin less gravity
-    let t187 = base_acceleration[2] + 9.81;
+    let t187 = base_acceleration[2] + c(9.81);
     let t188 = base_rotation[1][0] * base_acceleration[1];
     let t189 = base_rotation[0][0] * base_acceleration[0] + t188;
     let t190 = base_rotation[2][0] * t187 + t189;
@@ -15308,9 +15907,9 @@ pub fn forward_dynamics(
     let t235 = t27 * t232 - (t9 * t218 + t18 * t226);
     // acceleration of the platform origin relative to the base
     let t236 = t36 * t209 - (t34 * t207 + (t190 + t32 * t205));
-    let t237 = t236 + 2.0 * (t123 * t150 - t126 * t147);
+    let t237 = t236 + c(2.0) * (t123 * t150 - t126 * t147);
     let t238 = t36 * t214 + (t34 * t212 + (t193 - t32 * t210));
-    let t239 = t238 - 2.0 * (t126 * t144 - t120 * t150);
+    let t239 = t238 - c(2.0) * (t126 * t144 - t120 * t150);
     let t240 = t32 * t215;
     let t241 = t34 * t216;
     let t242 = t36 * t217;
@@ -15342,28 +15941,28 @@ pub fn forward_dynamics(
     let t267 = t21 * t264 - (t3 * t265 + t12 * t266);
     let t268 = t24 * t264 - (t6 * t265 + t15 * t266);
     // leg 1: acceleration of the platform joint relative to the base
-    let t269 = t237 + 0.1159110991546882 * t254;
-    let t270 = 0.03105828541230249 * t255;
+    let t269 = t237 + c(0.1159110991546882) * t254;
+    let t270 = c(0.03105828541230249) * t255;
     let t271 = t269 - t270;
-    let t272 = t239 - 0.1159110991546882 * t262;
-    let t273 = 0.03105828541230249 * t263;
+    let t272 = t239 - c(0.1159110991546882) * t262;
+    let t273 = c(0.03105828541230249) * t263;
     let t274 = t272 + t273;
     // leg 2: acceleration of the platform joint relative to the base
     let t275 = t269 + t270;
     let t276 = t272 - t273;
     // leg 3: acceleration of the platform joint relative to the base
-    let t277 = t237 - 0.031058285412302475 * t254;
-    let t278 = 0.1159110991546882 * t255;
+    let t277 = t237 - c(0.031058285412302475) * t254;
+    let t278 = c(0.1159110991546882) * t255;
     let t279 = t277 + t278;
-    let t280 = t239 + 0.031058285412302475 * t262;
-    let t281 = 0.1159110991546882 * t263;
+    let t280 = t239 + c(0.031058285412302475) * t262;
+    let t281 = c(0.1159110991546882) * t263;
     let t282 = t280 - t281;
     // leg 4: acceleration of the platform joint relative to the base
-    let t283 = t237 - 0.0848528137423857 * t254;
-    let t284 = 0.08485281374238571 * t255;
+    let t283 = t237 - c(0.0848528137423857) * t254;
+    let t284 = c(0.08485281374238571) * t255;
     let t285 = t283 + t284;
-    let t286 = t239 + 0.0848528137423857 * t262;
-    let t287 = 0.08485281374238571 * t263;
+    let t286 = t239 + c(0.0848528137423857) * t262;
+    let t287 = c(0.08485281374238571) * t263;
     let t288 = t286 - t287;
     // leg 5: acceleration of the platform joint relative to the base
     let t289 = t283 - t284;
@@ -15391,506 +15990,517 @@ pub fn forward_dynamics(
     let t304 = t104 * (t186 * t186 + t303);
     // leg 1: leg inertia less weight along the actuator
     let t305 = t90 * t209;
-    let t306 = 2.0 * t150;
-    let t307 = t306 + t155 * 0.2318221983093764;
-    let t308 = t156 * 0.06211657082460498;
-    let t309 = t307 - (t308 - 2.0 * t181);
+    let t306 = c(2.0) * t150;
+    let t307 = t306 + t155 * c(0.2318221983093764);
+    let t308 = t156 * c(0.06211657082460498);
+    let t309 = t307 - (t308 - c(2.0) * t181);
     let t310 = t123 * t309;
     let t311 = t90 * t214;
     let t312 = t120 * t309;
-    let t313 = t242 + (t240 - t241) - 2.0 * (t243 - t244);
-    let t314 = 0.12275970481124972 * t216 - 0.03105828541230249 * t268;
-    let t315 = t313 + (0.1316436662914507 * t215 + 0.1159110991546882 * t267);
+    let t313 = t242 + (t240 - t241) - c(2.0) * (t243 - t244);
+    let t314 = c(0.12275970481124972) * t216 - c(0.03105828541230249) * t268;
+    let t315 = t313 + (c(0.1316436662914507) * t215 + c(0.1159110991546882) * t267);
     let t316 = t315 + (t314 - (t294 + t90 * t217));
     // leg 1: remaining leg inertia less weight at the platform joint
-    let t317 = 0.17066666666666666 * t190;
-    let t318 = t317 - t205 * 0.022467185713740918;
-    let t319 = t207 * 0.02095098962111995;
-    let t320 = t318 + t319 - 0.17066666666666666 * (t305 + t310);
-    let t321 = 0.17066666666666666 * t193;
-    let t322 = t321 + t210 * 0.022467185713740918;
-    let t323 = t212 * 0.02095098962111995;
-    let t324 = t322 + t323 + 0.17066666666666666 * (t311 + t312);
+    let t317 = c(0.17066666666666666) * t190;
+    let t318 = t317 - t205 * c(0.022467185713740918);
+    let t319 = t207 * c(0.02095098962111995);
+    let t320 = t318 + t319 - c(0.17066666666666666) * (t305 + t310);
+    let t321 = c(0.17066666666666666) * t193;
+    let t322 = t321 + t210 * c(0.022467185713740918);
+    let t323 = t212 * c(0.02095098962111995);
+    let t324 = t322 + t323 + c(0.17066666666666666) * (t311 + t312);
     // leg 2: leg inertia less weight along the actuator
     let t325 = t93 * t209;
-    let t326 = t307 + (t308 - 2.0 * t182);
+    let t326 = t307 + (t308 - c(2.0) * t182);
     let t327 = t123 * t326;
     let t328 = t93 * t214;
     let t329 = t120 * t326;
     let t330 = t93 * t217 - (t315 - (t296 + t314));
     // leg 2: remaining leg inertia less weight at the platform joint
-    let t331 = t318 - t319 - 0.17066666666666666 * (t325 + t327);
-    let t332 = t322 - t323 + 0.17066666666666666 * (t328 + t329);
+    let t331 = t318 - t319 - c(0.17066666666666666) * (t325 + t327);
+    let t332 = t322 - t323 + c(0.17066666666666666) * (t328 + t329);
     // leg 3: leg inertia less weight along the actuator
     let t333 = t96 * t209;
-    let t334 = t306 - t155 * 0.06211657082460495;
-    let t335 = t156 * 0.2318221983093764;
-    let t336 = t334 + (t335 - 2.0 * t183);
+    let t334 = t306 - t155 * c(0.06211657082460495);
+    let t335 = t156 * c(0.2318221983093764);
+    let t336 = t334 + (t335 - c(2.0) * t183);
     let t337 = t123 * t336;
     let t338 = t96 * t214;
     let t339 = t120 * t336;
-    let t340 = 0.17538661166134234 * t216 - 0.1159110991546882 * t268;
-    let t341 = t313 + (0.040491189781895726 * t215 - 0.031058285412302475 * t267);
-    let t342 = t341 - (t340 + (t298 + t96 * t217));
+    let t340 = c(0.17538661166134234) * t216 - c(0.1159110991546882) * t268;
+    let t341 = c(0.040491189781895726) * t215 - c(0.031058285412302475) * t267;
+    let t342 = t313 + t341;
+    let t343 = t342 - (t340 + (t298 + t96 * t217));
     // leg 3: remaining leg inertia less weight at the platform joint
-    let t343 = t317 - t205 * 0.006910496389443537;
-    let t344 = t207 * 0.029932648390202425;
-    let t345 = t343 - t344 - 0.17066666666666666 * (t333 + t337);
-    let t346 = t321 + t210 * 0.006910496389443537;
-    let t347 = t212 * 0.029932648390202425;
-    let t348 = t346 - t347 + 0.17066666666666666 * (t338 + t339);
+    let t344 = t317 - t205 * c(0.006910496389443537);
+    let t345 = t207 * c(0.029932648390202425);
+    let t346 = t344 - t345 - c(0.17066666666666666) * (t333 + t337);
+    let t347 = t321 + t210 * c(0.006910496389443537);
+    let t348 = t212 * c(0.029932648390202425);
+    let t349 = t347 - t348 + c(0.17066666666666666) * (t338 + t339);
     // leg 4: leg inertia less weight along the actuator
-    let t349 = t99 * t209;
-    let t350 = t306 - t155 * 0.1697056274847714;
-    let t351 = t156 * 0.16970562748477142;
-    let t352 = t350 + (t351 - 2.0 * t184);
-    let t353 = t123 * t352;
-    let t354 = t99 * t214;
-    let t355 = t120 * t352;
-    let t356 = 0.052626906850092664 * t216 - 0.08485281374238571 * t268;
-    let t357 = t313 - (0.17213485607334636 * t215 + 0.0848528137423857 * t267);
-    let t358 = t357 - (t356 + (t300 + t99 * t217));
+    let t350 = t99 * t209;
+    let t351 = t306 - t155 * c(0.1697056274847714);
+    let t352 = t156 * c(0.16970562748477142);
+    let t353 = t351 + (t352 - c(2.0) * t184);
+    let t354 = t123 * t353;
+    let t355 = t99 * t214;
+    let t356 = t120 * t353;
+    let t357 = c(0.052626906850092664) * t216 - c(0.08485281374238571) * t268;
+    let t358 = t313 - (c(0.17213485607334636) * t215 + c(0.0848528137423857) * t267);
+    let t359 = t358 - (t357 + (t300 + t99 * t217));
     // leg 4: remaining leg inertia less weight at the platform joint
-    let t359 = t317 + t205 * 0.029377682103184446;
-    let t360 = t207 * 0.008981658769082482;
-    let t361 = t359 - t360 - 0.17066666666666666 * (t349 + t353);
-    let t362 = t321 - t210 * 0.029377682103184446;
-    let t363 = t212 * 0.008981658769082482;
-    let t364 = t362 - t363 + 0.17066666666666666 * (t354 + t355);
+    let t360 = t317 + t205 * c(0.029377682103184446);
+    let t361 = t207 * c(0.008981658769082482);
+    let t362 = t360 - t361 - c(0.17066666666666666) * (t350 + t354);
+    let t363 = t321 - t210 * c(0.029377682103184446);
+    let t364 = t212 * c(0.008981658769082482);
+    let t365 = t363 - t364 + c(0.17066666666666666) * (t355 + t356);
     // leg 5: leg inertia less weight along the actuator
-    let t365 = t102 * t209;
-    let t366 = t350 - (t351 + 2.0 * t185);
-    let t367 = t123 * t366;
-    let t368 = t102 * t214;
-    let t369 = t120 * t366;
-    let t370 = t102 * t217 - (t357 - (t302 - t356));
+    let t366 = t102 * t209;
+    let t367 = t351 - (t352 + c(2.0) * t185);
+    let t368 = t123 * t367;
+    let t369 = t102 * t214;
+    let t370 = t120 * t367;
+    let t371 = t102 * t217 - (t358 - (t302 - t357));
     // leg 5: remaining leg inertia less weight at the platform joint
-    let t371 = t359 + t360 - 0.17066666666666666 * (t365 + t367);
-    let t372 = t362 + t363 + 0.17066666666666666 * (t368 + t369);
+    let t372 = t360 + t361 - c(0.17066666666666666) * (t366 + t368);
+    let t373 = t363 + t364 + c(0.17066666666666666) * (t369 + t370);
     // leg 6: leg inertia less weight along the actuator
-    let t373 = t105 * t209;
-    let t374 = t334 - (t335 + 2.0 * t186);
-    let t375 = t123 * t374;
-    let t376 = t105 * t214;
-    let t377 = t120 * t374;
-    let t378 = t105 * t217 - (t341 - (t304 - t340));
+    let t374 = t105 * t209;
+    let t375 = t334 - (t335 + c(2.0) * t186);
+    let t376 = t123 * t375;
+    let t377 = t105 * t214;
+    let t378 = t120 * t375;
+    let t379 = t105 * t217 - (t342 - (t304 - t340));
     // leg 6: remaining leg inertia less weight at the platform joint
-    let t379 = t343 + t344 - 0.17066666666666666 * (t373 + t375);
-    let t380 = t346 + t347 + 0.17066666666666666 * (t376 + t377);
+    let t380 = t344 + t345 - c(0.17066666666666666) * (t374 + t376);
+    let t381 = t347 + t348 + c(0.17066666666666666) * (t377 + t378);
     // leg 1: row of the actuator Jacobian in base coordinates
-    let t381 = t42 - t45 * t107;
-    let t382 = t39 - t45 * t106;
-    let t383 = t39 * t107 - t42 * t106;
+    let t382 = t42 - t45 * t107;
+    let t383 = t39 - t45 * t106;
+    let t384 = t39 * t107 - t42 * t106;
     // leg 2: row of the actuator Jacobian in base coordinates
-    let t384 = t50 - t51 * t109;
-    let t385 = t49 + t51 * t108;
-    let t386 = t49 * t109 + t50 * t108;
+    let t385 = t50 - t51 * t109;
+    let t386 = t49 + t51 * t108;
+    let t387 = t49 * t109 + t50 * t108;
     // leg 3: row of the actuator Jacobian in base coordinates
-    let t387 = t59 + t62 * t111;
-    let t388 = t56 + t62 * t110;
-    let t389 = t56 * t111 - t59 * t110;
+    let t388 = t59 + t62 * t111;
+    let t389 = t56 + t62 * t110;
+    let t390 = t56 * t111 - t59 * t110;
     // leg 4: row of the actuator Jacobian in base coordinates
-    let t390 = t71 + t74 * t113;
-    let t391 = t68 + t74 * t112;
-    let t392 = t68 * t113 - t71 * t112;
+    let t391 = t71 + t74 * t113;
+    let t392 = t68 + t74 * t112;
+    let t393 = t68 * t113 - t71 * t112;
     // leg 5: row of the actuator Jacobian in base coordinates
-    let t393 = t79 + t80 * t115;
-    let t394 = t78 + t80 * t114;
-    let t395 = t78 * t115 - t79 * t114;
+    let t394 = t79 + t80 * t115;
+    let t395 = t78 + t80 * t114;
+    let t396 = t78 * t115 - t79 * t114;
     // leg 6: row of the actuator Jacobian in base coordinates
-    let t396 = t84 + t85 * t117;
-    let t397 = t83 + t85 * t116;
-    let t398 = t83 * t117 - t84 * t116;
+    let t397 = t84 + t85 * t117;
+    let t398 = t83 + t85 * t116;
+    let t399 = t83 * t117 - t84 * t116;
     // its first moments by platform coordinate
-    let t399 = t320 + t331;
-    let t400 = t345 + t379;
-    let t401 = t361 + t371;
-    let t402 = 0.032245600000000006 * t223 + 0.1159110991546882 * t399;
-    let t403 = t402 - 0.031058285412302475 * t400 - 0.0848528137423857 * t401;
-    let t404 = 0.032245600000000006 * t224 - 0.03105828541230249 * (t320 - t331);
-    let t405 = t404 + 0.1159110991546882 * (t345 - t379);
-    let t406 = t405 + 0.08485281374238571 * (t361 - t371);
-    let t407 = t324 + t332;
-    let t408 = t348 + t380;
-    let t409 = t364 + t372;
-    let t410 = 0.032245600000000006 * t229 + 0.1159110991546882 * t407;
-    let t411 = t410 - 0.031058285412302475 * t408 - 0.0848528137423857 * t409;
-    let t412 = 0.032245600000000006 * t230 - 0.03105828541230249 * (t324 - t332);
-    let t413 = t412 + 0.1159110991546882 * (t348 - t380);
-    let t414 = t413 + 0.08485281374238571 * (t364 - t372);
-    let t415 = t316 - t330;
-    let t416 = t342 - t378;
-    let t417 = t358 - t370;
-    let t418 = 0.032245600000000006 * t233 + t415 * 0.019782160922400118;
-    let t419 = t418 - t416 * 0.005300614043699622 - t417 * 0.01448154687870049;
-    let t420 = 0.032245600000000006 * t234 - 0.005300614043699624 * (t316 + t330);
-    let t421 = t420 + 0.019782160922400118 * (t342 + t378);
-    let t422 = t421 + 0.014481546878700494 * (t358 + t370);
+    let t400 = t320 + t331;
+    let t401 = t346 + t380;
+    let t402 = t362 + t372;
+    let t403 = c(0.032245600000000006) * t223 + c(0.1159110991546882) * t400;
+    let t404 = t403 - c(0.031058285412302475) * t401;
+    let t405 = t404 - c(0.0848528137423857) * t402;
+    let t406 = c(0.03105828541230249) * (t320 - t331);
+    let t407 = c(0.032245600000000006) * t224 - t406;
+    let t408 = t407 + c(0.1159110991546882) * (t346 - t380);
+    let t409 = t408 + c(0.08485281374238571) * (t362 - t372);
+    let t410 = t324 + t332;
+    let t411 = t349 + t381;
+    let t412 = t365 + t373;
+    let t413 = c(0.032245600000000006) * t229 + c(0.1159110991546882) * t410;
+    let t414 = t413 - c(0.031058285412302475) * t411;
+    let t415 = t414 - c(0.0848528137423857) * t412;
+    let t416 = c(0.03105828541230249) * (t324 - t332);
+    let t417 = c(0.032245600000000006) * t230 - t416;
+    let t418 = t417 + c(0.1159110991546882) * (t349 - t381);
+    let t419 = t418 + c(0.08485281374238571) * (t365 - t373);
+    let t420 = t316 - t330;
+    let t421 = t343 - t379;
+    let t422 = t359 - t371;
+    let t423 = c(0.032245600000000006) * t233 + t420 * c(0.019782160922400118);
+    let t424 = t423 - t421 * c(0.005300614043699622);
+    let t425 = t424 - t422 * c(0.01448154687870049);
+    let t426 = c(0.005300614043699624) * (t316 + t330);
+    let t427 = c(0.019782160922400118) * (t343 + t379);
+    let t428 = c(0.032245600000000006) * t234 - t426 + t427;
+    let t429 = t428 + c(0.014481546878700494) * (t359 + t371);
     // inertia less external wrench that the actuators must balance
-    let t423 = base_rotation[1][0] * external_wrench[1];
-    let t424 = base_rotation[0][0] * external_wrench[0] + t423;
-    let t425 = base_rotation[2][0] * external_wrench[2] + t424;
-    let t426 = base_rotation[1][1] * external_wrench[1];
-    let t427 = base_rotation[0][1] * external_wrench[0] + t426;
-    let t428 = base_rotation[2][1] * external_wrench[2] + t427;
-    let t429 = base_rotation[1][2] * external_wrench[1];
-    let t430 = base_rotation[0][2] * external_wrench[0] + t429;
-    let t431 = base_rotation[2][2] * external_wrench[2] + t430;
-    let t432 = t12 * t419;
-    let t433 = t21 * t411;
-    let t434 = t15 * t422;
-    let t435 = t24 * t414;
-    let t436 = 0.013354412 * t235 + 0.031 * t431;
-    let t437 = t18 * t436;
-    let t438 = 0.013354412 * t231 - 0.031 * t428;
-    let t439 = t27 * t438;
-    let t440 = base_rotation[0][0] * external_wrench[3];
-    let t441 = base_rotation[1][0] * external_wrench[4];
-    let t442 = base_rotation[2][0] * external_wrench[5];
-    let t443 = t21 * t403;
-    let t444 = t3 * t419;
-    let t445 = t24 * t406;
-    let t446 = t6 * t422;
-    let t447 = 0.013354412 * t225 - 0.031 * t425;
-    let t448 = t27 * t447;
-    let t449 = t9 * t436;
-    let t450 = base_rotation[0][1] * external_wrench[3];
-    let t451 = base_rotation[1][1] * external_wrench[4];
-    let t452 = base_rotation[2][1] * external_wrench[5];
-    let t453 = t3 * t411;
-    let t454 = t12 * t403;
-    let t455 = t6 * t414;
-    let t456 = t15 * t406;
-    let t457 = t9 * t438;
-    let t458 = t18 * t447;
-    let t459 = base_rotation[0][2] * external_wrench[3];
-    let t460 = base_rotation[1][2] * external_wrench[4];
-    let t461 = base_rotation[2][2] * external_wrench[5];
+    let t430 = base_rotation[1][0] * external_wrench[1];
+    let t431 = base_rotation[0][0] * external_wrench[0] + t430;
+    let t432 = base_rotation[2][0] * external_wrench[2] + t431;
+    let t433 = base_rotation[1][1] * external_wrench[1];
+    let t434 = base_rotation[0][1] * external_wrench[0] + t433;
+    let t435 = base_rotation[2][1] * external_wrench[2] + t434;
+    let t436 = base_rotation[1][2] * external_wrench[1];
+    let t437 = base_rotation[0][2] * external_wrench[0] + t436;
+    let t438 = base_rotation[2][2] * external_wrench[2] + t437;
+    let t439 = t12 * t425;
+    let t440 = t21 * t415;
+    let t441 = t15 * t429;
+    let t442 = t24 * t419;
+    let t443 = c(0.013354412) * t235 + c(0.031) * t438;
+    let t444 = t18 * t443;
+    let t445 = c(0.013354412) * t231 - c(0.031) * t435;
+    let t446 = t27 * t445;
+    let t447 = base_rotation[0][0] * external_wrench[3];
+    let t448 = base_rotation[1][0] * external_wrench[4];
+    let t449 = base_rotation[2][0] * external_wrench[5];
+    let t450 = t21 * t405;
+    let t451 = t3 * t425;
+    let t452 = t24 * t409;
+    let t453 = t6 * t429;
+    let t454 = c(0.013354412) * t225 - c(0.031) * t432;
+    let t455 = t27 * t454;
+    let t456 = t9 * t443;
+    let t457 = base_rotation[0][1] * external_wrench[3];
+    let t458 = base_rotation[1][1] * external_wrench[4];
+    let t459 = base_rotation[2][1] * external_wrench[5];
+    let t460 = t3 * t415;
+    let t461 = t12 * t405;
+    let t462 = t6 * t419;
+    let t463 = t15 * t409;
+    let t464 = t9 * t445;
+    let t465 = t18 * t454;
+    let t466 = base_rotation[0][2] * external_wrench[3];
+    let t467 = base_rotation[1][2] * external_wrench[4];
+    let t468 = base_rotation[2][2] * external_wrench[5];
     // leg 1: force along the actuator that reaches the platform
-    let t462 = 4268.068200000001 - t217 * 0.03055;
-    let t463 = t462 + t233 * 0.019782160922400118;
-    let t464 = t234 * 0.005300614043699624;
-    let t465 = actuator_force[0] + 21555.9 * t90 - t464;
-    let t466 = t463 + (t465 + t316 * 0.9523333333333334);
+    let t469 = c(4268.068200000001) - t217 * c(0.03055);
+    let t470 = t469 + t233 * c(0.019782160922400118);
+    let t471 = t234 * c(0.005300614043699624);
+    let t472 = actuator_force[0] + c(21555.9) * t90 - t471;
+    let t473 = t470 + (t472 + t316 * c(0.9523333333333334));
     // leg 2: force along the actuator that reaches the platform
-    let t467 = t464 + (actuator_force[1] + 21555.9 * t93);
-    let t468 = t463 + (t467 - t330 * 0.9523333333333334);
+    let t474 = t471 + (actuator_force[1] + c(21555.9) * t93);
+    let t475 = t470 + (t474 - t330 * c(0.9523333333333334));
     // leg 3: force along the actuator that reaches the platform
-    let t469 = t462 - t233 * 0.005300614043699622;
-    let t470 = t234 * 0.019782160922400118;
-    let t471 = actuator_force[2] + 21555.9 * t96 + t470;
-    let t472 = t469 + (t471 + t342 * 0.9523333333333334);
+    let t476 = t469 - t233 * c(0.005300614043699622);
+    let t477 = t234 * c(0.019782160922400118);
+    let t478 = actuator_force[2] + c(21555.9) * t96 + t477;
+    let t479 = t476 + (t478 + t343 * c(0.9523333333333334));
     // leg 4: force along the actuator that reaches the platform
-    let t473 = t462 - t233 * 0.01448154687870049;
-    let t474 = t234 * 0.014481546878700494;
-    let t475 = actuator_force[3] + 21555.9 * t99 + t474;
-    let t476 = t473 + (t475 + t358 * 0.9523333333333334);
+    let t480 = t469 - t233 * c(0.01448154687870049);
+    let t481 = t234 * c(0.014481546878700494);
+    let t482 = actuator_force[3] + c(21555.9) * t99 + t481;
+    let t483 = t480 + (t482 + t359 * c(0.9523333333333334));
     // leg 5: force along the actuator that reaches the platform
-    let t477 = t474 - (actuator_force[4] + 21555.9 * t102);
-    let t478 = t473 - (t477 + t370 * 0.9523333333333334);
+    let t484 = t481 - (actuator_force[4] + c(21555.9) * t102);
+    let t485 = t480 - (t484 + t371 * c(0.9523333333333334));
     // leg 6: force along the actuator that reaches the platform
-    let t479 = t470 - (actuator_force[5] + 21555.9 * t105);
-    let t480 = t469 - (t479 + t378 * 0.9523333333333334);
+    let t486 = t477 - (actuator_force[5] + c(21555.9) * t105);
+    let t487 = t476 - (t486 + t379 * c(0.9523333333333334));
     // wrench left at the trial acceleration
-    let t481 = 2.2551405187698492e-17 * t223 + 6.938893903907228e-18 * t224;
-    let t482 = t425 - (t401 + (t400 + (t399 + (t481 + 0.188852 * t225))));
-    let t483 = t110 * t472 + (t108 * t468 - (t106 * t466 + t482));
-    let t484 = t116 * t480 + (t114 * t478 + (t112 * t476 + t483));
-    let t485 = t107 * t466;
-    let t486 = t109 * t468;
-    let t487 = t111 * t472;
-    let t488 = t113 * t476;
-    let t489 = t115 * t478;
-    let t490 = t117 * t480;
-    let t491 = t381 * t466;
-    let t492 = t384 * t468;
-    let t493 = t387 * t472;
-    let t494 = t390 * t476;
-    let t495 = t393 * t478;
-    let t496 = t396 * t480;
-    let t497 = t382 * t466;
-    let t498 = t385 * t468;
-    let t499 = t388 * t472;
-    let t500 = t391 * t476;
-    let t501 = t394 * t478;
-    let t502 = t397 * t480;
-    let t503 = t383 * t466;
-    let t504 = t386 * t468;
-    let t505 = t389 * t472;
-    let t506 = t392 * t476;
-    let t507 = t395 * t478;
-    let t508 = t398 * t480;
+    let t488 = c(2.2551405187698492e-17) * t223 + c(6.938893903907228e-18) * t224;
+    let t489 = t432 - (t402 + (t401 + (t400 + (t488 + c(0.188852) * t225))));
+    let t490 = t110 * t479 + (t108 * t475 - (t106 * t473 + t489));
+    let t491 = t116 * t487 + (t114 * t485 + (t112 * t483 + t490));
+    let t492 = t107 * t473;
+    let t493 = t109 * t475;
+    let t494 = t111 * t479;
+    let t495 = t113 * t483;
+    let t496 = t115 * t485;
+    let t497 = t117 * t487;
+    let t498 = t382 * t473;
+    let t499 = t385 * t475;
+    let t500 = t388 * t479;
+    let t501 = t391 * t483;
+    let t502 = t394 * t485;
+    let t503 = t397 * t487;
+    let t504 = t383 * t473;
+    let t505 = t386 * t475;
+    let t506 = t389 * t479;
+    let t507 = t392 * t483;
+    let t508 = t395 * t485;
+    let t509 = t398 * t487;
+    let t510 = t384 * t473;
+    let t511 = t387 * t475;
+    let t512 = t390 * t479;
+    let t513 = t393 * t483;
+    let t514 = t396 * t485;
+    let t515 = t399 * t487;
     // leg 1: the vectors that are squared, in the platform speeds
-    let t509 = t381 + t42 * 0.1792089604480224;
-    let t510 = t382 + t39 * 0.1792089604480224;
+    let t516 = t382 + t42 * c(0.1792089604480224);
+    let t517 = t383 + t39 * c(0.1792089604480224);
     // leg 2: the vectors that are squared, in the platform speeds
-    let t511 = t384 + t50 * 0.1792089604480224;
-    let t512 = t385 + t49 * 0.1792089604480224;
+    let t518 = t385 + t50 * c(0.1792089604480224);
+    let t519 = t386 + t49 * c(0.1792089604480224);
     // leg 3: the vectors that are squared, in the platform speeds
-    let t513 = t387 + t59 * 0.1792089604480224;
-    let t514 = t388 + t56 * 0.1792089604480224;
+    let t520 = t388 + t59 * c(0.1792089604480224);
+    let t521 = t389 + t56 * c(0.1792089604480224);
     // leg 4: the vectors that are squared, in the platform speeds
-    let t515 = t390 + t71 * 0.1792089604480224;
-    let t516 = t391 + t68 * 0.1792089604480224;
+    let t522 = t391 + t71 * c(0.1792089604480224);
+    let t523 = t392 + t68 * c(0.1792089604480224);
     // leg 5: the vectors that are squared, in the platform speeds
-    let t517 = t393 + t79 * 0.1792089604480224;
-    let t518 = t394 + t78 * 0.1792089604480224;
+    let t524 = t394 + t79 * c(0.1792089604480224);
+    let t525 = t395 + t78 * c(0.1792089604480224);
     // leg 6: the vectors that are squared, in the platform speeds
-    let t519 = t396 + t84 * 0.1792089604480224;
-    let t520 = t397 + t83 * 0.1792089604480224;
+    let t526 = t397 + t84 * c(0.1792089604480224);
+    let t527 = t398 + t83 * c(0.1792089604480224);
     // mass matrix in base coordinates
-    let t521 = 8.139999999999999 + t106 * (t106 * 0.9523333333333334);
-    let t522 = t108 * (t108 * 0.9523333333333334) + t521;
-    let t523 = t110 * (t110 * 0.9523333333333334) + t522;
-    let t524 = t112 * (t112 * 0.9523333333333334) + t523;
-    let t525 = t114 * (t114 * 0.9523333333333334) + t524;
-    let t526 = t116 * (t116 * 0.9523333333333334) + t525;
-    let t527 = t117 * 0.9523333333333334;
-    let t528 = t115 * 0.9523333333333334;
-    let t529 = t113 * 0.9523333333333334;
-    let t530 = t111 * 0.9523333333333334;
-    let t531 = t107 * 0.9523333333333334;
-    let t532 = t109 * 0.9523333333333334;
-    let t533 = t112 * t529 + (t110 * t530 + (t106 * t531 - t108 * t532));
-    let t534 = t116 * t527 + (t114 * t528 + t533);
-    let t535 = 1.1230000000000002 * (t114 + t116 - (t106 - t108 - (t110 + t112)));
-    let t536 = t42 * 0.03058499591646249;
-    let t537 = t50 * 0.03058499591646249;
-    let t538 = t59 * 0.03058499591646249;
-    let t539 = t71 * 0.03058499591646249;
-    let t540 = t79 * 0.03058499591646249;
-    let t541 = 0.9523333333333334 * t519;
-    let t542 = 0.9523333333333334 * t517;
-    let t543 = 0.9523333333333334 * t515;
-    let t544 = 0.9523333333333334 * t513;
-    let t545 = 0.9523333333333334 * t509;
-    let t546 = 0.9523333333333334 * t511;
-    let t547 = t112 * t543 + (t110 * t544 + (t106 * t545 - t108 * t546));
-    let t548 = t116 * t541 + (t114 * t542 + t547);
-    let t549 = t84 * 0.03058499591646249;
-    let t550 = t21 * 2.2551405187698492e-17 + t24 * 6.938893903907228e-18;
-    let t551 = t550 + t27 * 0.188852;
-    let t552 = t39 * 0.03058499591646249;
-    let t553 = t49 * 0.03058499591646249;
-    let t554 = t56 * 0.03058499591646249;
-    let t555 = t68 * 0.03058499591646249;
-    let t556 = t78 * 0.03058499591646249;
-    let t557 = 0.9523333333333334 * t520;
-    let t558 = 0.9523333333333334 * t518;
-    let t559 = 0.9523333333333334 * t516;
-    let t560 = 0.9523333333333334 * t514;
-    let t561 = 0.9523333333333334 * t512;
-    let t562 = 0.9523333333333334 * t510;
-    let t563 = t110 * t560 - (t108 * t561 + (t551 - t106 * t562));
-    let t564 = t116 * t557 + (t114 * t558 + (t112 * t559 + t563));
-    let t565 = t83 * 0.03058499591646249;
-    let t566 = t12 * 2.2551405187698492e-17 + t15 * 6.938893903907228e-18;
-    let t567 = t566 + t18 * 0.188852;
-    let t568 = t398 * 0.9523333333333334;
-    let t569 = t395 * 0.9523333333333334;
-    let t570 = t392 * 0.9523333333333334;
-    let t571 = t389 * 0.9523333333333334;
-    let t572 = t386 * 0.9523333333333334;
-    let t573 = t383 * 0.9523333333333334;
-    let t574 = t110 * t571 + (t108 * t572 - (t106 * t573 - t567));
-    let t575 = t116 * t568 + (t114 * t569 + (t112 * t570 + t574));
-    let t576 = t107 * t531;
-    let t577 = t109 * t532;
-    let t578 = t111 * t530;
-    let t579 = t113 * t529;
-    let t580 = t115 * t528;
-    let t581 = t117 * t527;
-    let t582 = t107 * t545;
-    let t583 = t109 * t546;
-    let t584 = t111 * t544;
-    let t585 = t113 * t543;
-    let t586 = t115 * t542;
-    let t587 = t117 * t541;
-    let t588 = t107 * t562;
-    let t589 = t109 * t561;
-    let t590 = t111 * t560;
-    let t591 = t113 * t559;
-    let t592 = t115 * t558;
-    let t593 = t117 * t557;
-    let t594 = t3 * 2.2551405187698492e-17 + t6 * 6.938893903907228e-18;
-    let t595 = t594 + t9 * 0.188852;
-    let t596 = t107 * t573;
-    let t597 = t109 * t572;
-    let t598 = t111 * t571;
-    let t599 = t113 * t570;
-    let t600 = t115 * t569;
-    let t601 = t117 * t568;
-    let t602 = t3 * 0.032245600000000006;
-    let t603 = t3 * t602;
-    let t604 = t6 * 0.032245600000000006;
-    let t605 = t6 * t604;
-    let t606 = t9 * 0.013354412;
-    let t607 = t9 * t606;
-    let t608 = t509 * t545;
-    let t609 = t42 * t536;
-    let t610 = t511 * t546;
-    let t611 = t50 * t537;
-    let t612 = t513 * t544;
-    let t613 = t59 * t538;
-    let t614 = t515 * t543;
-    let t615 = t71 * t539;
-    let t616 = t517 * t542;
-    let t617 = t79 * t540;
-    let t618 = t519 * t541;
-    let t619 = t84 * t549;
-    let t620 = t509 * t562;
-    let t621 = t12 * t602;
-    let t622 = t15 * t604;
-    let t623 = t18 * t606;
-    let t624 = t42 * t552;
-    let t625 = t511 * t561;
-    let t626 = t50 * t553;
-    let t627 = t513 * t560;
-    let t628 = t59 * t554;
-    let t629 = t515 * t559;
-    let t630 = t71 * t555;
-    let t631 = t517 * t558;
-    let t632 = t79 * t556;
-    let t633 = t519 * t557;
-    let t634 = t84 * t565;
-    let t635 = t509 * t573;
-    let t636 = t21 * t602;
-    let t637 = t24 * t604;
-    let t638 = t27 * t606;
-    let t639 = t511 * t572;
-    let t640 = t513 * t571;
-    let t641 = t515 * t570;
-    let t642 = t517 * t569;
-    let t643 = t519 * t568;
-    let t644 = t12 * 0.032245600000000006;
-    let t645 = t12 * t644;
-    let t646 = t15 * 0.032245600000000006;
-    let t647 = t15 * t646;
-    let t648 = t18 * 0.013354412;
-    let t649 = t18 * t648;
-    let t650 = t510 * t562;
-    let t651 = t39 * t552;
-    let t652 = t512 * t561;
-    let t653 = t49 * t553;
-    let t654 = t514 * t560;
-    let t655 = t56 * t554;
-    let t656 = t516 * t559;
-    let t657 = t68 * t555;
-    let t658 = t518 * t558;
-    let t659 = t78 * t556;
-    let t660 = t520 * t557;
-    let t661 = t83 * t565;
-    let t662 = t510 * t573;
-    let t663 = t21 * t644;
-    let t664 = t24 * t646;
-    let t665 = t27 * t648;
-    let t666 = t512 * t572;
-    let t667 = t514 * t571;
-    let t668 = t516 * t570;
-    let t669 = t518 * t569;
-    let t670 = t520 * t568;
-    let t671 = t21 * (t21 * 0.032245600000000006);
-    let t672 = t24 * (t24 * 0.032245600000000006);
-    let t673 = t27 * (t27 * 0.013354412);
-    let t674 = t383 * t573;
-    let t675 = t386 * t572;
-    let t676 = t389 * t571;
-    let t677 = t392 * t570;
-    let t678 = t395 * t569;
-    let t679 = t398 * t568;
+    let t528 = c(8.139999999999999) + t106 * (t106 * c(0.9523333333333334));
+    let t529 = t108 * (t108 * c(0.9523333333333334)) + t528;
+    let t530 = t110 * (t110 * c(0.9523333333333334)) + t529;
+    let t531 = t112 * (t112 * c(0.9523333333333334)) + t530;
+    let t532 = t114 * (t114 * c(0.9523333333333334)) + t531;
+    let t533 = t116 * (t116 * c(0.9523333333333334)) + t532;
+    let t534 = t117 * c(0.9523333333333334);
+    let t535 = t115 * c(0.9523333333333334);
+    let t536 = t113 * c(0.9523333333333334);
+    let t537 = t111 * c(0.9523333333333334);
+    let t538 = t107 * c(0.9523333333333334);
+    let t539 = t109 * c(0.9523333333333334);
+    let t540 = t112 * t536 + (t110 * t537 + (t106 * t538 - t108 * t539));
+    let t541 = t116 * t534 + (t114 * t535 + t540);
+    let t542 = t114 + t116 - (t106 - t108 - (t110 + t112));
+    let t543 = c(1.1230000000000002) * t542;
+    let t544 = t42 * c(0.03058499591646249);
+    let t545 = t50 * c(0.03058499591646249);
+    let t546 = t59 * c(0.03058499591646249);
+    let t547 = t71 * c(0.03058499591646249);
+    let t548 = t79 * c(0.03058499591646249);
+    let t549 = c(0.9523333333333334) * t526;
+    let t550 = c(0.9523333333333334) * t524;
+    let t551 = c(0.9523333333333334) * t522;
+    let t552 = c(0.9523333333333334) * t520;
+    let t553 = c(0.9523333333333334) * t516;
+    let t554 = c(0.9523333333333334) * t518;
+    let t555 = t112 * t551 + (t110 * t552 + (t106 * t553 - t108 * t554));
+    let t556 = t116 * t549 + (t114 * t550 + t555);
+    let t557 = t84 * c(0.03058499591646249);
+    let t558 = t21 * c(2.2551405187698492e-17) + t24 * c(6.938893903907228e-18);
+    let t559 = t558 + t27 * c(0.188852);
+    let t560 = t39 * c(0.03058499591646249);
+    let t561 = t49 * c(0.03058499591646249);
+    let t562 = t56 * c(0.03058499591646249);
+    let t563 = t68 * c(0.03058499591646249);
+    let t564 = t78 * c(0.03058499591646249);
+    let t565 = c(0.9523333333333334) * t527;
+    let t566 = c(0.9523333333333334) * t525;
+    let t567 = c(0.9523333333333334) * t523;
+    let t568 = c(0.9523333333333334) * t521;
+    let t569 = c(0.9523333333333334) * t519;
+    let t570 = c(0.9523333333333334) * t517;
+    let t571 = t110 * t568 - (t108 * t569 + (t559 - t106 * t570));
+    let t572 = t116 * t565 + (t114 * t566 + (t112 * t567 + t571));
+    let t573 = t83 * c(0.03058499591646249);
+    let t574 = t12 * c(2.2551405187698492e-17) + t15 * c(6.938893903907228e-18);
+    let t575 = t574 + t18 * c(0.188852);
+    let t576 = t399 * c(0.9523333333333334);
+    let t577 = t396 * c(0.9523333333333334);
+    let t578 = t393 * c(0.9523333333333334);
+    let t579 = t390 * c(0.9523333333333334);
+    let t580 = t387 * c(0.9523333333333334);
+    let t581 = t384 * c(0.9523333333333334);
+    let t582 = t110 * t579 + (t108 * t580 - (t106 * t581 - t575));
+    let t583 = t116 * t576 + (t114 * t577 + (t112 * t578 + t582));
+    let t584 = t107 * t538;
+    let t585 = t109 * t539;
+    let t586 = t111 * t537;
+    let t587 = t113 * t536;
+    let t588 = t115 * t535;
+    let t589 = t117 * t534;
+    let t590 = t107 * t553;
+    let t591 = t109 * t554;
+    let t592 = t111 * t552;
+    let t593 = t113 * t551;
+    let t594 = t115 * t550;
+    let t595 = t117 * t549;
+    let t596 = t107 * t570;
+    let t597 = t109 * t569;
+    let t598 = t111 * t568;
+    let t599 = t113 * t567;
+    let t600 = t115 * t566;
+    let t601 = t117 * t565;
+    let t602 = t3 * c(2.2551405187698492e-17) + t6 * c(6.938893903907228e-18);
+    let t603 = t602 + t9 * c(0.188852);
+    let t604 = t107 * t581;
+    let t605 = t109 * t580;
+    let t606 = t111 * t579;
+    let t607 = t113 * t578;
+    let t608 = t115 * t577;
+    let t609 = t117 * t576;
+    let t610 = t3 * c(0.032245600000000006);
+    let t611 = t3 * t610;
+    let t612 = t6 * c(0.032245600000000006);
+    let t613 = t6 * t612;
+    let t614 = t9 * c(0.013354412);
+    let t615 = t9 * t614;
+    let t616 = t516 * t553;
+    let t617 = t42 * t544;
+    let t618 = t518 * t554;
+    let t619 = t50 * t545;
+    let t620 = t520 * t552;
+    let t621 = t59 * t546;
+    let t622 = t522 * t551;
+    let t623 = t71 * t547;
+    let t624 = t524 * t550;
+    let t625 = t79 * t548;
+    let t626 = t526 * t549;
+    let t627 = t84 * t557;
+    let t628 = t516 * t570;
+    let t629 = t12 * t610;
+    let t630 = t15 * t612;
+    let t631 = t18 * t614;
+    let t632 = t42 * t560;
+    let t633 = t518 * t569;
+    let t634 = t50 * t561;
+    let t635 = t520 * t568;
+    let t636 = t59 * t562;
+    let t637 = t522 * t567;
+    let t638 = t71 * t563;
+    let t639 = t524 * t566;
+    let t640 = t79 * t564;
+    let t641 = t526 * t565;
+    let t642 = t84 * t573;
+    let t643 = t516 * t581;
+    let t644 = t21 * t610;
+    let t645 = t24 * t612;
+    let t646 = t27 * t614;
+    let t647 = t518 * t580;
+    let t648 = t520 * t579;
+    let t649 = t522 * t578;
+    let t650 = t524 * t577;
+    let t651 = t526 * t576;
+    let t652 = t12 * c(0.032245600000000006);
+    let t653 = t12 * t652;
+    let t654 = t15 * c(0.032245600000000006);
+    let t655 = t15 * t654;
+    let t656 = t18 * c(0.013354412);
+    let t657 = t18 * t656;
+    let t658 = t517 * t570;
+    let t659 = t39 * t560;
+    let t660 = t519 * t569;
+    let t661 = t49 * t561;
+    let t662 = t521 * t568;
+    let t663 = t56 * t562;
+    let t664 = t523 * t567;
+    let t665 = t68 * t563;
+    let t666 = t525 * t566;
+    let t667 = t78 * t564;
+    let t668 = t527 * t565;
+    let t669 = t83 * t573;
+    let t670 = t517 * t581;
+    let t671 = t21 * t652;
+    let t672 = t24 * t654;
+    let t673 = t27 * t656;
+    let t674 = t519 * t580;
+    let t675 = t521 * t579;
+    let t676 = t523 * t578;
+    let t677 = t525 * t577;
+    let t678 = t527 * t576;
+    let t679 = t21 * (t21 * c(0.032245600000000006));
+    let t680 = t24 * (t24 * c(0.032245600000000006));
+    let t681 = t27 * (t27 * c(0.013354412));
+    let t682 = t384 * t581;
+    let t683 = t387 * t580;
+    let t684 = t390 * t579;
+    let t685 = t393 * t578;
+    let t686 = t396 * t577;
+    let t687 = t399 * t576;
     // acceleration that removes the residual wrench
-    let t680 = 1.0 / t526;
-    let t681 = t534 * t680;
-    let t682 = 2.2551405187698492e-17 * t229 + 6.938893903907228e-18 * t230;
-    let t683 = t485 + (t428 - (t409 + (t408 + (t407 + (t682 + 0.188852 * t231)))));
-    let t684 = t484 * t681 - (t490 + (t489 + (t488 + (t487 - (t486 + t683)))));
-    let t685 = t535 * t680;
-    let t686 = 1.1230000000000002 * (t115 + t117 - (t107 + t109 - (t111 + t113)));
-    let t687 = t534 * t685 - t686;
-    let t688 = t581 + (t580 + (t579 + (t578 + (t577 + (8.139999999999999 + t576)))));
-    let t689 = 1.0 / (t534 * t681 - t688);
-    let t690 = t687 * t689;
-    let t691 = 2.2551405187698492e-17 * t233 + 6.938893903907228e-18 * t234;
-    let t692 = t476 + (t472 + (t468 + (t466 + (t431 + (t691 + 0.188852 * t235)))));
-    let t693 = t684 * t690 - (t484 * t685 - (t480 + (t478 + t692)));
-    let t694 = t693 + 0.17066666666666666 * (t417 + (t415 + t416));
-    let t695 = t548 * t680;
-    let t696 = t587 + (t586 + (t585 + (t584 + (t583 - (t551 - t582)))));
-    let t697 = t534 * t695 - t696;
-    let t698 = t697 * t689;
-    let t699 = t567 + (t549 + (t540 + (t539 + (t538 - (t536 + t537)))));
-    let t700 = 1.1230000000000002 * (t517 + t519 - (t509 + t511 - (t513 + t515)));
-    let t701 = t687 * t698 - (t535 * t695 + t699) + t700;
-    let t702 = 1.0 / (t687 * t690 + (15.902 - t535 * t685));
-    let t703 = t701 * t702;
-    let t704 = t441 + (t440 + (t439 + (t437 + (t435 + (t434 + (t432 + t433))))));
-    let t705 = t496 + (t495 + (t494 + (t493 - (t492 + (t491 + (t442 + t704))))));
-    let t706 = t694 * t703 - (t684 * t698 - (t484 * t695 - t705));
-    let t707 = t564 * t680;
-    let t708 = t534 * t707 - (t593 + (t592 + (t591 + (t590 + (t588 + t589)))));
-    let t709 = t708 * t689;
-    let t710 = t595 + (t565 + (t556 + (t555 + (t554 - (t552 + t553)))));
-    let t711 = 1.1230000000000002 * (t518 + t520 - (t510 + t512 - (t514 + t516)));
-    let t712 = t687 * t709 - (t535 * t707 + t710) + t711;
-    let t713 = t712 * t702;
-    let t714 = t627 - (t626 - (t625 - (t624 - (t623 + (t622 + (t620 + t621))))));
-    let t715 = t634 - (t633 - (t632 - (t631 - (t630 - (t629 - (t628 - t714))))));
-    let t716 = t701 * t713 - (t697 * t709 - (t548 * t707 + t715));
-    let t717 = t609 - (t608 - (t607 + (t605 - (0.07784561200000001 - t603))));
-    let t718 = t616 - (t615 - (t614 - (t613 - (t612 - (t611 - (t610 - t717))))));
-    let t719 = t697 * t698 - (t548 * t695 + (t619 - (t618 - (t617 - t718))));
-    let t720 = 1.0 / (t701 * t703 - t719);
-    let t721 = t716 * t720;
-    let t722 = t451 + (t450 - (t449 + (t448 + (t446 + (t445 + (t443 + t444))))));
-    let t723 = t502 + (t501 + (t500 + (t499 - (t498 + (t497 - (t452 + t722))))));
-    let t724 = t694 * t713 - (t684 * t709 - (t484 * t707 - t723));
-    let t725 = t706 * t721 - t724;
-    let t726 = t575 * t680;
-    let t727 = t601 + (t600 + (t599 + (t598 - (t597 + (t595 + t596)))));
-    let t728 = t534 * t726 - t727;
-    let t729 = t728 * t689;
-    let t730 = 1.1230000000000002 * (t395 + t398 + (t383 + t386 + (t389 + t392)));
-    let t731 = t535 * t726 - t687 * t729 - t730;
-    let t732 = t731 * t702;
-    let t733 = t642 + (t641 + (t640 - (t639 - (t638 + (t637 - (t635 - t636))))));
-    let t734 = t701 * t732 + (t697 * t729 - (t548 * t726 - (t643 + t733)));
-    let t735 = t734 * t720;
-    let t736 = t669 + (t668 + (t667 - (t666 + (t665 + (t664 + (t662 + t663))))));
-    let t737 = t712 * t732 + (t708 * t729 - (t564 * t726 - (t670 + t736)));
-    let t738 = t716 * t735 - t737;
-    let t739 = t651 - (t650 - (t649 + (t647 - (0.07784561200000001 - t645))));
-    let t740 = t658 - (t657 - (t656 - (t655 - (t654 - (t653 - (t652 - t739))))));
-    let t741 = t708 * t709 - (t564 * t707 + (t661 - (t660 - (t659 - t740))));
-    let t742 = 1.0 / (t716 * t721 - (t712 * t713 - t741));
-    let t743 = t738 * t742;
-    let t744 = t460 + (t459 + (t458 - (t457 - (t456 - (t455 + (t453 - t454))))));
-    let t745 = t508 + (t507 + (t506 + (t505 + (t504 + (t503 + (t461 + t744))))));
-    let t746 = t694 * t732 + (t684 * t729 - (t484 * t726 - t745));
-    let t747 = t725 * t743 - (t706 * t735 - t746);
-    let t748 = t675 + (t674 - (t673 + (t672 - (0.07784561200000001 - t671))));
-    let t749 = t575 * t726 - (t679 + (t678 + (t677 + (t676 + t748))));
-    let t750 = t734 * t735 - (t731 * t732 - (t728 * t729 - t749));
-    let t751 = t747 * (1.0 / (t738 * t743 - t750));
-    let t752 = t725 * t742 - t743 * t751;
-    let t753 = t735 * t751 - (t706 * t720 - t721 * t752);
-    let t754 = t732 * t751 + (t713 * t752 - (t694 * t702 + t703 * t753));
-    let t755 = t709 * t752 - (t698 * t753 + (t684 * t689 + t690 * t754));
-    let t756 = t729 * t751 - t755;
-    let t757 = t695 * t753 + (t685 * t754 + (t484 * t680 - t681 * t756));
-    let t758 = t726 * t751 - (t707 * t752 - t757);
+    let t688 = c(1.0) / t533;
+    let t689 = t541 * t688;
+    let t690 = c(2.2551405187698492e-17) * t229 + c(6.938893903907228e-18) * t230;
+    let t691 = t435 - (t412 + (t411 + (t410 + (t690 + c(0.188852) * t231))));
+    let t692 = t497 + (t496 + (t495 + (t494 - (t493 + (t492 + t691)))));
+    let t693 = t491 * t689 - t692;
+    let t694 = t543 * t688;
+    let t695 = t115 + t117 - (t107 + t109 - (t111 + t113));
+    let t696 = t541 * t694 - c(1.1230000000000002) * t695;
+    let t697 = t588 + (t587 + (t586 + (t585 + (c(8.139999999999999) + t584))));
+    let t698 = c(1.0) / (t541 * t689 - (t589 + t697));
+    let t699 = t696 * t698;
+    let t700 = c(2.2551405187698492e-17) * t233 + c(6.938893903907228e-18) * t234;
+    let t701 = t479 + (t475 + (t473 + (t438 + (t700 + c(0.188852) * t235))));
+    let t702 = t693 * t699 - (t491 * t694 - (t487 + (t485 + (t483 + t701))));
+    let t703 = t702 + c(0.17066666666666666) * (t422 + (t420 + t421));
+    let t704 = t556 * t688;
+    let t705 = t595 + (t594 + (t593 + (t592 + (t591 - (t559 - t590)))));
+    let t706 = t541 * t704 - t705;
+    let t707 = t706 * t698;
+    let t708 = t575 + (t557 + (t548 + (t547 + (t546 - (t544 + t545)))));
+    let t709 = t696 * t707 - (t543 * t704 + t708);
+    let t710 = t524 + t526 - (t516 + t518 - (t520 + t522));
+    let t711 = t709 + c(1.1230000000000002) * t710;
+    let t712 = c(1.0) / (t696 * t699 + (c(15.902) - t543 * t694));
+    let t713 = t711 * t712;
+    let t714 = t448 + (t447 + (t446 + (t444 + (t442 + (t441 + (t439 + t440))))));
+    let t715 = t503 + (t502 + (t501 + (t500 - (t499 + (t498 + (t449 + t714))))));
+    let t716 = t703 * t713 - (t693 * t707 - (t491 * t704 - t715));
+    let t717 = t572 * t688;
+    let t718 = t541 * t717 - (t601 + (t600 + (t599 + (t598 + (t596 + t597)))));
+    let t719 = t718 * t698;
+    let t720 = t603 + (t573 + (t564 + (t563 + (t562 - (t560 + t561)))));
+    let t721 = t696 * t719 - (t543 * t717 + t720);
+    let t722 = t525 + t527 - (t517 + t519 - (t521 + t523));
+    let t723 = t721 + c(1.1230000000000002) * t722;
+    let t724 = t723 * t712;
+    let t725 = t635 - (t634 - (t633 - (t632 - (t631 + (t630 + (t628 + t629))))));
+    let t726 = t642 - (t641 - (t640 - (t639 - (t638 - (t637 - (t636 - t725))))));
+    let t727 = t711 * t724 - (t706 * t719 - (t556 * t717 + t726));
+    let t728 = t617 - (t616 - (t615 + (t613 - (c(0.07784561200000001) - t611))));
+    let t729 = t624 - (t623 - (t622 - (t621 - (t620 - (t619 - (t618 - t728))))));
+    let t730 = t706 * t707 - (t556 * t704 + (t627 - (t626 - (t625 - t729))));
+    let t731 = c(1.0) / (t711 * t713 - t730);
+    let t732 = t727 * t731;
+    let t733 = t458 + (t457 - (t456 + (t455 + (t453 + (t452 + (t450 + t451))))));
+    let t734 = t509 + (t508 + (t507 + (t506 - (t505 + (t504 - (t459 + t733))))));
+    let t735 = t703 * t724 - (t693 * t719 - (t491 * t717 - t734));
+    let t736 = t716 * t732 - t735;
+    let t737 = t583 * t688;
+    let t738 = t609 + (t608 + (t607 + (t606 - (t605 + (t603 + t604)))));
+    let t739 = t541 * t737 - t738;
+    let t740 = t739 * t698;
+    let t741 = t396 + t399 + (t384 + t387 + (t390 + t393));
+    let t742 = t543 * t737 - t696 * t740 - c(1.1230000000000002) * t741;
+    let t743 = t742 * t712;
+    let t744 = t650 + (t649 + (t648 - (t647 - (t646 + (t645 - (t643 - t644))))));
+    let t745 = t711 * t743 + (t706 * t740 - (t556 * t737 - (t651 + t744)));
+    let t746 = t745 * t731;
+    let t747 = t677 + (t676 + (t675 - (t674 + (t673 + (t672 + (t670 + t671))))));
+    let t748 = t723 * t743 + (t718 * t740 - (t572 * t737 - (t678 + t747)));
+    let t749 = t727 * t746 - t748;
+    let t750 = t659 - (t658 - (t657 + (t655 - (c(0.07784561200000001) - t653))));
+    let t751 = t666 - (t665 - (t664 - (t663 - (t662 - (t661 - (t660 - t750))))));
+    let t752 = t718 * t719 - (t572 * t717 + (t669 - (t668 - (t667 - t751))));
+    let t753 = c(1.0) / (t727 * t732 - (t723 * t724 - t752));
+    let t754 = t749 * t753;
+    let t755 = t467 + (t466 + (t465 - (t464 - (t463 - (t462 + (t460 - t461))))));
+    let t756 = t515 + (t514 + (t513 + (t512 + (t511 + (t510 + (t468 + t755))))));
+    let t757 = t703 * t743 + (t693 * t740 - (t491 * t737 - t756));
+    let t758 = t736 * t754 - (t716 * t746 - t757);
+    let t759 = t683 + (t682 - (t681 + (t680 - (c(0.07784561200000001) - t679))));
+    let t760 = t583 * t737 - (t687 + (t686 + (t685 + (t684 + t759))));
+    let t761 = t745 * t746 - (t742 * t743 - (t739 * t740 - t760));
+    let t762 = t758 * (c(1.0) / (t749 * t754 - t761));
+    let t763 = t736 * t753 - t754 * t762;
+    let t764 = t746 * t762 - (t716 * t731 - t732 * t763);
+    let t765 = t743 * t762 + (t724 * t763 - (t703 * t712 + t713 * t764));
+    let t766 = t719 * t763 - (t707 * t764 + (t693 * t698 + t699 * t765));
+    let t767 = t740 * t762 - t766;
+    let t768 = t704 * t764 + (t694 * t765 + (t491 * t688 - t689 * t767));
+    let t769 = t737 * t762 - (t717 * t763 - t768);
     // platform acceleration v_p'
-    let t759 = base_rotation[0][0] * t758 + base_rotation[0][1] * t756;
-    forward_dynamics[0] = -(base_rotation[0][2] * t754 + t759);
-    let t760 = base_rotation[1][0] * t758 + base_rotation[1][1] * t756;
-    forward_dynamics[1] = -(base_rotation[1][2] * t754 + t760);
-    let t761 = -9.81 - base_rotation[2][0] * t758 - base_rotation[2][1] * t756;
-    forward_dynamics[2] = t761 - base_rotation[2][2] * t754;
-    let t762 = base_rotation[0][0] * t753 + base_rotation[0][1] * t752;
-    forward_dynamics[3] = t762 - base_rotation[0][2] * t751;
-    let t763 = base_rotation[1][0] * t753 + base_rotation[1][1] * t752;
-    forward_dynamics[4] = t763 - base_rotation[1][2] * t751;
-    let t764 = base_rotation[2][0] * t753 + base_rotation[2][1] * t752;
-    forward_dynamics[5] = t764 - base_rotation[2][2] * t751;
+    let t770 = base_rotation[0][0] * t769 + base_rotation[0][1] * t767;
+    forward_dynamics[0] = -(base_rotation[0][2] * t765 + t770);
+    let t771 = base_rotation[1][0] * t769 + base_rotation[1][1] * t767;
+    forward_dynamics[1] = -(base_rotation[1][2] * t765 + t771);
+    let t772 = c(-9.81) - base_rotation[2][0] * t769 - base_rotation[2][1] * t767;
+    forward_dynamics[2] = t772 - base_rotation[2][2] * t765;
+    let t773 = base_rotation[0][0] * t764 + base_rotation[0][1] * t763;
+    forward_dynamics[3] = t773 - base_rotation[0][2] * t762;
+    let t774 = base_rotation[1][0] * t764 + base_rotation[1][1] * t763;
+    forward_dynamics[4] = t774 - base_rotation[1][2] * t762;
+    let t775 = base_rotation[2][0] * t764 + base_rotation[2][1] * t763;
+    forward_dynamics[5] = t775 - base_rotation[2][2] * t762;
 }
 
 /// Kinetic and potential energy.
@@ -15909,16 +16519,17 @@ pub fn forward_dynamics(
 /// - `kinetic_energy`: scalar, J: kinetic energy of payload, rods and movers.
 /// - `potential_energy`: scalar, J: potential energy of gravity and springs.
 #[allow(clippy::all, clippy::pedantic, unused_variables)]
-pub fn energy(
-    base_position: &[f64; 3],
-    base_rotation: &[[f64; 3]; 3],
-    base_velocity: &[f64; 6],
-    platform_position: &[f64; 3],
-    platform_rotation: &[[f64; 3]; 3],
-    platform_velocity: &[f64; 6],
-    kinetic_energy: &mut f64,
-    potential_energy: &mut f64,
+pub fn energy<T: Scalar>(
+    base_position: &[T; 3],
+    base_rotation: &[[T; 3]; 3],
+    base_velocity: &[T; 6],
+    platform_position: &[T; 3],
+    platform_rotation: &[[T; 3]; 3],
+    platform_velocity: &[T; 6],
+    kinetic_energy: &mut T,
+    potential_energy: &mut T,
 ) {
+    let c = T::constant;
     // rotation of the platform seen from the base
     let t1 = base_rotation[1][0] * platform_rotation[1][0];
     let t2 = base_rotation[0][0] * platform_rotation[0][0] + t1;
@@ -15949,28 +16560,28 @@ pub fn energy(
     let t26 = base_rotation[0][2] * t20 + base_rotation[1][2] * t21;
     let t27 = base_rotation[2][2] * t19 + t26;
     // leg 1: platform joint from the base point
-    let t28 = t23 + (0.1316436662914507 - 0.1159110991546882 * t3);
-    let t29 = 0.03105828541230249 * t6;
+    let t28 = t23 + (c(0.1316436662914507) - c(0.1159110991546882) * t3);
+    let t29 = c(0.03105828541230249) * t6;
     let t30 = t28 + t29;
-    let t31 = 0.12275970481124972 - 0.03105828541230249 * t12;
-    let t32 = t25 - 0.1159110991546882 * t9;
+    let t31 = c(0.12275970481124972) - c(0.03105828541230249) * t12;
+    let t32 = t25 - c(0.1159110991546882) * t9;
     let t33 = t31 - t32;
     // leg 2: platform joint from the base point
     let t34 = t28 - t29;
     let t35 = t31 + t32;
     // leg 3: platform joint from the base point
-    let t36 = t23 + (0.040491189781895726 + t3 * 0.031058285412302475);
-    let t37 = 0.1159110991546882 * t6;
+    let t36 = t23 + (c(0.040491189781895726) + t3 * c(0.031058285412302475));
+    let t37 = c(0.1159110991546882) * t6;
     let t38 = t36 - t37;
-    let t39 = 0.17538661166134234 - 0.1159110991546882 * t12;
-    let t40 = t25 + t9 * 0.031058285412302475;
+    let t39 = c(0.17538661166134234) - c(0.1159110991546882) * t12;
+    let t40 = t25 + t9 * c(0.031058285412302475);
     let t41 = t39 + t40;
     // leg 4: platform joint from the base point
-    let t42 = t23 - (0.17213485607334636 - t3 * 0.0848528137423857);
-    let t43 = 0.08485281374238571 * t6;
+    let t42 = t23 - (c(0.17213485607334636) - t3 * c(0.0848528137423857));
+    let t43 = c(0.08485281374238571) * t6;
     let t44 = t42 - t43;
-    let t45 = 0.052626906850092664 - 0.08485281374238571 * t12;
-    let t46 = t25 + t9 * 0.0848528137423857;
+    let t45 = c(0.052626906850092664) - c(0.08485281374238571) * t12;
+    let t46 = t25 + t9 * c(0.0848528137423857);
     let t47 = t45 + t46;
     // leg 5: platform joint from the base point
     let t48 = t42 + t43;
@@ -15979,45 +16590,45 @@ pub fn energy(
     let t50 = t36 + t37;
     let t51 = t39 - t40;
     // leg 1: extent of the rod along the actuator axis
-    let t52 = sqrt(0.042435999999999995 - t30 * t30 - t33 * t33);
+    let t52 = sqrt(c(0.042435999999999995) - t30 * t30 - t33 * t33);
     // leg 1: reciprocal of that extent
-    let t53 = 1.0 / t52;
+    let t53 = c(1.0) / t52;
     // leg 1: actuator length d
-    let t54 = t27 - 0.1159110991546882 * t15;
-    let t55 = 0.03105828541230249 * t18;
+    let t54 = t27 - c(0.1159110991546882) * t15;
+    let t55 = c(0.03105828541230249) * t18;
     let t56 = t54 + (t52 + t55);
     // leg 2: extent of the rod along the actuator axis
-    let t57 = sqrt(0.042435999999999995 - t34 * t34 - t35 * t35);
+    let t57 = sqrt(c(0.042435999999999995) - t34 * t34 - t35 * t35);
     // leg 2: reciprocal of that extent
-    let t58 = 1.0 / t57;
+    let t58 = c(1.0) / t57;
     // leg 2: actuator length d
     let t59 = t57 + (t54 - t55);
     // leg 3: extent of the rod along the actuator axis
-    let t60 = sqrt(0.042435999999999995 - t38 * t38 - t41 * t41);
+    let t60 = sqrt(c(0.042435999999999995) - t38 * t38 - t41 * t41);
     // leg 3: reciprocal of that extent
-    let t61 = 1.0 / t60;
+    let t61 = c(1.0) / t60;
     // leg 3: actuator length d
-    let t62 = t27 + t15 * 0.031058285412302475;
-    let t63 = 0.1159110991546882 * t18;
+    let t62 = t27 + t15 * c(0.031058285412302475);
+    let t63 = c(0.1159110991546882) * t18;
     let t64 = t62 + (t60 - t63);
     // leg 4: extent of the rod along the actuator axis
-    let t65 = sqrt(0.042435999999999995 - t44 * t44 - t47 * t47);
+    let t65 = sqrt(c(0.042435999999999995) - t44 * t44 - t47 * t47);
     // leg 4: reciprocal of that extent
-    let t66 = 1.0 / t65;
+    let t66 = c(1.0) / t65;
     // leg 4: actuator length d
-    let t67 = t27 + t15 * 0.0848528137423857;
-    let t68 = 0.08485281374238571 * t18;
+    let t67 = t27 + t15 * c(0.0848528137423857);
+    let t68 = c(0.08485281374238571) * t18;
     let t69 = t67 + (t65 - t68);
     // leg 5: extent of the rod along the actuator axis
-    let t70 = sqrt(0.042435999999999995 - t48 * t48 - t49 * t49);
+    let t70 = sqrt(c(0.042435999999999995) - t48 * t48 - t49 * t49);
     // leg 5: reciprocal of that extent
-    let t71 = 1.0 / t70;
+    let t71 = c(1.0) / t70;
     // leg 5: actuator length d
     let t72 = t70 + (t67 + t68);
     // leg 6: extent of the rod along the actuator axis
-    let t73 = sqrt(0.042435999999999995 - t50 * t50 - t51 * t51);
+    let t73 = sqrt(c(0.042435999999999995) - t50 * t50 - t51 * t51);
     // leg 6: reciprocal of that extent
-    let t74 = 1.0 / t73;
+    let t74 = c(1.0) / t73;
     // leg 6: actuator length d
     let t75 = t73 + (t62 + t63);
     // angular velocity of the base
@@ -16065,28 +16676,28 @@ pub fn energy(
     let t113 = t9 * t94 - t3 * t95;
     let t114 = t12 * t94 - t6 * t95;
     // leg 1: velocity of the platform joint relative to the base
-    let t115 = t102 - 0.1159110991546882 * t109;
-    let t116 = 0.03105828541230249 * t110;
+    let t115 = t102 - c(0.1159110991546882) * t109;
+    let t116 = c(0.03105828541230249) * t110;
     let t117 = t115 + t116;
-    let t118 = t105 - 0.1159110991546882 * t111;
-    let t119 = 0.03105828541230249 * t112;
+    let t118 = t105 - c(0.1159110991546882) * t111;
+    let t119 = c(0.03105828541230249) * t112;
     let t120 = t118 + t119;
     // leg 2: velocity of the platform joint relative to the base
     let t121 = t115 - t116;
     let t122 = t118 - t119;
     // leg 3: velocity of the platform joint relative to the base
-    let t123 = t102 + 0.031058285412302475 * t109;
-    let t124 = 0.1159110991546882 * t110;
+    let t123 = t102 + c(0.031058285412302475) * t109;
+    let t124 = c(0.1159110991546882) * t110;
     let t125 = t123 - t124;
-    let t126 = t105 + 0.031058285412302475 * t111;
-    let t127 = 0.1159110991546882 * t112;
+    let t126 = t105 + c(0.031058285412302475) * t111;
+    let t127 = c(0.1159110991546882) * t112;
     let t128 = t126 - t127;
     // leg 4: velocity of the platform joint relative to the base
-    let t129 = t102 + 0.0848528137423857 * t109;
-    let t130 = 0.08485281374238571 * t110;
+    let t129 = t102 + c(0.0848528137423857) * t109;
+    let t130 = c(0.08485281374238571) * t110;
     let t131 = t129 - t130;
-    let t132 = t105 + 0.0848528137423857 * t111;
-    let t133 = 0.08485281374238571 * t112;
+    let t132 = t105 + c(0.0848528137423857) * t111;
+    let t133 = c(0.08485281374238571) * t112;
     let t134 = t132 - t133;
     // leg 5: velocity of the platform joint relative to the base
     let t135 = t129 + t130;
@@ -16097,8 +16708,8 @@ pub fn energy(
     // leg 1: rate of the rod's extent along the actuator axis
     let t139 = t53 * (t30 * t117 - t33 * t120);
     // leg 1: actuator velocity d'
-    let t140 = t108 - 0.1159110991546882 * t113;
-    let t141 = 0.03105828541230249 * t114;
+    let t140 = t108 - c(0.1159110991546882) * t113;
+    let t141 = c(0.03105828541230249) * t114;
     let t142 = t140 - (t139 - t141);
     // leg 2: rate of the rod's extent along the actuator axis
     let t143 = t58 * (t34 * t121 + t35 * t122);
@@ -16107,14 +16718,14 @@ pub fn energy(
     // leg 3: rate of the rod's extent along the actuator axis
     let t145 = t61 * (t38 * t125 + t41 * t128);
     // leg 3: actuator velocity d'
-    let t146 = t108 + 0.031058285412302475 * t113;
-    let t147 = 0.1159110991546882 * t114;
+    let t146 = t108 + c(0.031058285412302475) * t113;
+    let t147 = c(0.1159110991546882) * t114;
     let t148 = t146 - (t145 + t147);
     // leg 4: rate of the rod's extent along the actuator axis
     let t149 = t66 * (t44 * t131 + t47 * t134);
     // leg 4: actuator velocity d'
-    let t150 = t108 + 0.0848528137423857 * t113;
-    let t151 = 0.08485281374238571 * t114;
+    let t150 = t108 + c(0.0848528137423857) * t113;
+    let t151 = c(0.08485281374238571) * t114;
     let t152 = t150 - (t149 + t151);
     // leg 5: rate of the rod's extent along the actuator axis
     let t153 = t71 * (t48 * t135 - t49 * t136);
@@ -16125,17 +16736,17 @@ pub fn energy(
     // leg 6: actuator velocity d'
     let t156 = t155 - (t146 + t147);
     // leg 1: kinetic energy of the leg
-    let t157 = base_rotation[2][0] * 0.1316436662914507;
-    let t158 = base_rotation[2][1] * 0.12275970481124972;
+    let t157 = base_rotation[2][0] * c(0.1316436662914507);
+    let t158 = base_rotation[2][1] * c(0.12275970481124972);
     let t159 = base_rotation[2][2] * t56 - (t157 - t158);
-    let t160 = base_rotation[1][0] * 0.1316436662914507;
-    let t161 = base_rotation[1][1] * 0.12275970481124972;
+    let t160 = base_rotation[1][0] * c(0.1316436662914507);
+    let t161 = base_rotation[1][1] * c(0.12275970481124972);
     let t162 = base_rotation[1][2] * t56 - (t160 - t161);
     let t163 = base_velocity[5] * t162 + (base_velocity[0] - base_velocity[4] * t159);
     let t164 = base_rotation[0][2] * t142 - t163;
     let t165 = t164 * t164;
-    let t166 = base_rotation[0][0] * 0.1316436662914507;
-    let t167 = base_rotation[0][1] * 0.12275970481124972;
+    let t166 = base_rotation[0][0] * c(0.1316436662914507);
+    let t167 = base_rotation[0][1] * c(0.12275970481124972);
     let t168 = base_rotation[0][2] * t56 - (t166 - t167);
     let t169 = base_velocity[3] * t159 + (base_velocity[1] - base_velocity[5] * t168);
     let t170 = base_rotation[1][2] * t142 - t169;
@@ -16143,17 +16754,17 @@ pub fn energy(
     let t172 = base_velocity[4] * t168 + (base_velocity[2] - base_velocity[3] * t162);
     let t173 = base_rotation[2][2] * t142 - t172;
     let t174 = t173 * t173;
-    let t175 = platform_rotation[2][0] * 0.1159110991546882;
-    let t176 = platform_rotation[2][1] * 0.03105828541230249;
+    let t175 = platform_rotation[2][0] * c(0.1159110991546882);
+    let t176 = platform_rotation[2][1] * c(0.03105828541230249);
     let t177 = t175 - t176;
-    let t178 = platform_rotation[1][0] * 0.1159110991546882;
-    let t179 = platform_rotation[1][1] * 0.03105828541230249;
+    let t178 = platform_rotation[1][0] * c(0.1159110991546882);
+    let t179 = platform_rotation[1][1] * c(0.03105828541230249);
     let t180 = t178 - t179;
     let t181 = platform_velocity[0] + platform_velocity[4] * t177;
     let t182 = platform_velocity[5] * t180 - t181;
     let t183 = t164 * t182;
-    let t184 = platform_rotation[0][0] * 0.1159110991546882;
-    let t185 = platform_rotation[0][1] * 0.03105828541230249;
+    let t184 = platform_rotation[0][0] * c(0.1159110991546882);
+    let t185 = platform_rotation[0][1] * c(0.03105828541230249);
     let t186 = t184 - t185;
     let t187 = platform_velocity[1] + platform_velocity[5] * t186;
     let t188 = platform_velocity[3] * t177 - t187;
@@ -16162,23 +16773,23 @@ pub fn energy(
     let t191 = platform_velocity[4] * t186 - t190;
     let t192 = t173 * t191;
     let t193 = base_rotation[1][2] * base_velocity[5];
-    let t194 = 0.05 * (base_rotation[2][2] * base_velocity[4] - t193);
+    let t194 = c(0.05) * (base_rotation[2][2] * base_velocity[4] - t193);
     let t195 = t164 + t194;
     let t196 = t195 * t195;
     let t197 = base_rotation[2][2] * base_velocity[3];
-    let t198 = 0.05 * (base_rotation[0][2] * base_velocity[5] - t197);
+    let t198 = c(0.05) * (base_rotation[0][2] * base_velocity[5] - t197);
     let t199 = t170 + t198;
     let t200 = t199 * t199;
     let t201 = base_rotation[0][2] * base_velocity[4];
-    let t202 = 0.05 * (base_rotation[1][2] * base_velocity[3] - t201);
+    let t202 = c(0.05) * (base_rotation[1][2] * base_velocity[3] - t201);
     let t203 = t173 + t202;
     let t204 = t203 * t203;
     let t205 = t182 * t182;
     let t206 = t188 * t188;
     let t207 = t191 * t191;
     // leg 1: potential energy of the leg
-    let t208 = 0.198 + t56;
-    let t209 = t208 * (21555.9 * t208);
+    let t208 = c(0.198) + t56;
+    let t209 = t208 * (c(21555.9) * t208);
     // leg 2: kinetic energy of the leg
     let t210 = base_rotation[2][2] * t59 - (t157 + t158);
     let t211 = base_rotation[1][2] * t59 - (t160 + t161);
@@ -16214,20 +16825,20 @@ pub fn energy(
     let t241 = t229 * t229;
     let t242 = t232 * t232;
     // leg 2: potential energy of the leg
-    let t243 = 0.198 + t59;
-    let t244 = t243 * (21555.9 * t243);
+    let t243 = c(0.198) + t59;
+    let t244 = t243 * (c(21555.9) * t243);
     // leg 3: kinetic energy of the leg
-    let t245 = base_rotation[2][0] * 0.040491189781895726;
-    let t246 = base_rotation[2][1] * 0.17538661166134234;
+    let t245 = base_rotation[2][0] * c(0.040491189781895726);
+    let t246 = base_rotation[2][1] * c(0.17538661166134234);
     let t247 = base_rotation[2][2] * t64 - (t245 + t246);
-    let t248 = base_rotation[1][0] * 0.040491189781895726;
-    let t249 = base_rotation[1][1] * 0.17538661166134234;
+    let t248 = base_rotation[1][0] * c(0.040491189781895726);
+    let t249 = base_rotation[1][1] * c(0.17538661166134234);
     let t250 = base_rotation[1][2] * t64 - (t248 + t249);
     let t251 = base_velocity[5] * t250 + (base_velocity[0] - base_velocity[4] * t247);
     let t252 = base_rotation[0][2] * t148 - t251;
     let t253 = t252 * t252;
-    let t254 = base_rotation[0][0] * 0.040491189781895726;
-    let t255 = base_rotation[0][1] * 0.17538661166134234;
+    let t254 = base_rotation[0][0] * c(0.040491189781895726);
+    let t255 = base_rotation[0][1] * c(0.17538661166134234);
     let t256 = base_rotation[0][2] * t64 - (t254 + t255);
     let t257 = base_velocity[3] * t247 + (base_velocity[1] - base_velocity[5] * t256);
     let t258 = base_rotation[1][2] * t148 - t257;
@@ -16235,17 +16846,17 @@ pub fn energy(
     let t260 = base_velocity[4] * t256 + (base_velocity[2] - base_velocity[3] * t250);
     let t261 = base_rotation[2][2] * t148 - t260;
     let t262 = t261 * t261;
-    let t263 = platform_rotation[2][0] * 0.031058285412302475;
-    let t264 = platform_rotation[2][1] * 0.1159110991546882;
+    let t263 = platform_rotation[2][0] * c(0.031058285412302475);
+    let t264 = platform_rotation[2][1] * c(0.1159110991546882);
     let t265 = t263 - t264;
-    let t266 = platform_rotation[1][0] * 0.031058285412302475;
-    let t267 = platform_rotation[1][1] * 0.1159110991546882;
+    let t266 = platform_rotation[1][0] * c(0.031058285412302475);
+    let t267 = platform_rotation[1][1] * c(0.1159110991546882);
     let t268 = t266 - t267;
     let t269 = platform_velocity[0] - platform_velocity[4] * t265;
     let t270 = platform_velocity[5] * t268 + t269;
     let t271 = t252 * t270;
-    let t272 = platform_rotation[0][0] * 0.031058285412302475;
-    let t273 = platform_rotation[0][1] * 0.1159110991546882;
+    let t272 = platform_rotation[0][0] * c(0.031058285412302475);
+    let t273 = platform_rotation[0][1] * c(0.1159110991546882);
     let t274 = t272 - t273;
     let t275 = platform_velocity[1] - platform_velocity[5] * t274;
     let t276 = platform_velocity[3] * t265 + t275;
@@ -16263,20 +16874,20 @@ pub fn energy(
     let t288 = t276 * t276;
     let t289 = t279 * t279;
     // leg 3: potential energy of the leg
-    let t290 = 0.198 + t64;
-    let t291 = t290 * (21555.9 * t290);
+    let t290 = c(0.198) + t64;
+    let t291 = t290 * (c(21555.9) * t290);
     // leg 4: kinetic energy of the leg
-    let t292 = base_rotation[2][0] * 0.17213485607334636;
-    let t293 = base_rotation[2][1] * 0.052626906850092664;
+    let t292 = base_rotation[2][0] * c(0.17213485607334636);
+    let t293 = base_rotation[2][1] * c(0.052626906850092664);
     let t294 = base_rotation[2][2] * t69 + (t292 - t293);
-    let t295 = base_rotation[1][0] * 0.17213485607334636;
-    let t296 = base_rotation[1][1] * 0.052626906850092664;
+    let t295 = base_rotation[1][0] * c(0.17213485607334636);
+    let t296 = base_rotation[1][1] * c(0.052626906850092664);
     let t297 = base_rotation[1][2] * t69 + (t295 - t296);
     let t298 = base_velocity[5] * t297 + (base_velocity[0] - base_velocity[4] * t294);
     let t299 = base_rotation[0][2] * t152 - t298;
     let t300 = t299 * t299;
-    let t301 = base_rotation[0][0] * 0.17213485607334636;
-    let t302 = base_rotation[0][1] * 0.052626906850092664;
+    let t301 = base_rotation[0][0] * c(0.17213485607334636);
+    let t302 = base_rotation[0][1] * c(0.052626906850092664);
     let t303 = base_rotation[0][2] * t69 + (t301 - t302);
     let t304 = base_velocity[3] * t294 + (base_velocity[1] - base_velocity[5] * t303);
     let t305 = base_rotation[1][2] * t152 - t304;
@@ -16284,17 +16895,17 @@ pub fn energy(
     let t307 = base_velocity[4] * t303 + (base_velocity[2] - base_velocity[3] * t297);
     let t308 = base_rotation[2][2] * t152 - t307;
     let t309 = t308 * t308;
-    let t310 = platform_rotation[2][0] * 0.0848528137423857;
-    let t311 = platform_rotation[2][1] * 0.08485281374238571;
+    let t310 = platform_rotation[2][0] * c(0.0848528137423857);
+    let t311 = platform_rotation[2][1] * c(0.08485281374238571);
     let t312 = t310 - t311;
-    let t313 = platform_rotation[1][0] * 0.0848528137423857;
-    let t314 = platform_rotation[1][1] * 0.08485281374238571;
+    let t313 = platform_rotation[1][0] * c(0.0848528137423857);
+    let t314 = platform_rotation[1][1] * c(0.08485281374238571);
     let t315 = t313 - t314;
     let t316 = platform_velocity[0] - platform_velocity[4] * t312;
     let t317 = platform_velocity[5] * t315 + t316;
     let t318 = t299 * t317;
-    let t319 = platform_rotation[0][0] * 0.0848528137423857;
-    let t320 = platform_rotation[0][1] * 0.08485281374238571;
+    let t319 = platform_rotation[0][0] * c(0.0848528137423857);
+    let t320 = platform_rotation[0][1] * c(0.08485281374238571);
     let t321 = t319 - t320;
     let t322 = platform_velocity[1] - platform_velocity[5] * t321;
     let t323 = platform_velocity[3] * t312 + t322;
@@ -16312,8 +16923,8 @@ pub fn energy(
     let t335 = t323 * t323;
     let t336 = t326 * t326;
     // leg 4: potential energy of the leg
-    let t337 = 0.198 + t69;
-    let t338 = t337 * (21555.9 * t337);
+    let t337 = c(0.198) + t69;
+    let t338 = t337 * (c(21555.9) * t337);
     // leg 5: kinetic energy of the leg
     let t339 = base_rotation[2][2] * t72 + (t292 + t293);
     let t340 = base_rotation[1][2] * t72 + (t295 + t296);
@@ -16349,8 +16960,8 @@ pub fn energy(
     let t370 = t358 * t358;
     let t371 = t361 * t361;
     // leg 5: potential energy of the leg
-    let t372 = 0.198 + t72;
-    let t373 = t372 * (21555.9 * t372);
+    let t372 = c(0.198) + t72;
+    let t373 = t372 * (c(21555.9) * t372);
     // leg 6: kinetic energy of the leg
     let t374 = base_rotation[2][2] * t75 - (t245 - t246);
     let t375 = base_rotation[1][2] * t75 - (t248 - t249);
@@ -16386,19 +16997,19 @@ pub fn energy(
     let t405 = t393 * t393;
     let t406 = t396 * t396;
     // leg 6: potential energy of the leg
-    let t407 = 0.198 + t75;
-    let t408 = t407 * (21555.9 * t407);
+    let t407 = c(0.198) + t75;
+    let t408 = t407 * (c(21555.9) * t407);
     // kinetic energy of payload, rods and movers
-    let t409 = platform_rotation[0][2] * 0.031;
-    let t410 = platform_rotation[1][2] * 0.031;
+    let t409 = platform_rotation[0][2] * c(0.031);
+    let t410 = platform_rotation[1][2] * c(0.031);
     let t411 = platform_velocity[2] + platform_velocity[3] * t410;
     let t412 = platform_velocity[4] * t409 - t411;
-    let t413 = platform_rotation[2][2] * 0.031;
+    let t413 = platform_rotation[2][2] * c(0.031);
     let t414 = platform_velocity[0] + platform_velocity[4] * t413;
     let t415 = platform_velocity[5] * t410 - t414;
     let t416 = platform_velocity[1] + platform_velocity[5] * t409;
     let t417 = platform_velocity[3] * t413 - t416;
-    let t418 = 3.046 * (t412 * t412 + (t415 * t415 + t417 * t417));
+    let t418 = c(3.046) * (t412 * t412 + (t415 * t415 + t417 * t417));
     let t419 = platform_rotation[1][2] * platform_velocity[4];
     let t420 = platform_rotation[0][2] * platform_velocity[3] + t419;
     let t421 = platform_rotation[2][2] * platform_velocity[5] + t420;
@@ -16408,27 +17019,28 @@ pub fn energy(
     let t425 = platform_rotation[1][1] * platform_velocity[4];
     let t426 = platform_rotation[0][1] * platform_velocity[3] + t425;
     let t427 = platform_rotation[2][1] * platform_velocity[5] + t426;
-    let t428 = t424 * (0.025 * t424) + t427 * (0.025 * t427);
-    let t429 = t418 + 0.5 * (t421 * (0.035 * t421) + t428);
+    let t428 = t424 * (c(0.025) * t424) + t427 * (c(0.025) * t427);
+    let t429 = t418 + c(0.5) * (t421 * (c(0.035) * t421) + t428);
     let t430 = t230 + t233 + (t271 + t277) + (t280 + t318 + (t324 + t327));
     let t431 = t394 + t397 + (t183 + t189 + (t192 - t226));
     let t432 = t430 - (t355 + t359 + (t362 + t390) + t431);
     let t433 = t237 + t239 + (t282 + t284) + (t286 + t329 + (t331 + t333));
     let t434 = t401 + t403 + (t196 + t200 + (t204 + t235));
-    let t435 = 0.3055 * (t433 + (t364 + t366 + (t368 + t399) + t434));
-    let t436 = t429 - 0.17066666666666666 * t432 + t435;
+    let t435 = c(0.3055) * (t433 + (t364 + t366 + (t368 + t399) + t434));
+    let t436 = t429 - c(0.17066666666666666) * t432 + t435;
     let t437 = t221 + t240 + (t241 + t242) + (t253 + t259 + (t262 + t287));
     let t438 = t288 + t289 + (t300 + t306) + (t309 + t334 + (t335 + t336));
     let t439 = t343 + t347 + (t350 + t369) + (t370 + t371 + (t378 + t382));
     let t440 = t165 + t171 + (t174 + t205) + (t206 + t207 + (t214 + t218));
     let t441 = t437 + t438 + (t439 + (t385 + t404 + (t405 + t406) + t440));
-    *kinetic_energy = t436 + 0.1706666666666667 * t441;
+    *kinetic_energy = t436 + c(0.1706666666666667) * t441;
     // potential energy of gravity and springs
-    let t442 = base_rotation[2][2] * 1.7981729999999998;
-    let t443 = base_position[2] * 66.09978000000001 - t442;
-    let t444 = t443 + platform_position[2] * 89.89884;
-    let t445 = 11.016630000000001 * (t339 + t374 + (t159 + t210 + (t247 + t294)));
-    let t446 = 5.0227200000000005 * (t351 + t386 - (t177 + t222 - (t265 + t312)));
-    let t447 = t444 + platform_rotation[2][2] * 1.85263812 - t445 - t446;
-    *potential_energy = t447 + 0.5 * (t373 + t408 + (t209 + t244 + (t291 + t338)));
+    let t442 = base_rotation[2][2] * c(1.7981729999999998);
+    let t443 = base_position[2] * c(66.09978000000001) - t442;
+    let t444 = t443 + platform_position[2] * c(89.89884);
+    let t445 = t444 + platform_rotation[2][2] * c(1.85263812);
+    let t446 = t339 + t374 + (t159 + t210 + (t247 + t294));
+    let t447 = t351 + t386 - (t177 + t222 - (t265 + t312));
+    let t448 = t445 - c(11.016630000000001) * t446 - c(5.0227200000000005) * t447;
+    *potential_energy = t448 + c(0.5) * (t373 + t408 + (t209 + t244 + (t291 + t338)));
 }
