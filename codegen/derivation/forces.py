@@ -7,7 +7,7 @@ along the actuators must balance: one 6 x 6 solve, no mass matrix.
 
 import casadi as ca
 
-from .payload import mass_matrix
+from .payload import mass_matrix, with_point_masses
 from .rotations import cross, levers_cross, symmetric
 from .stages import leg_stage, platform_stage
 
@@ -81,10 +81,14 @@ def residual_wrench(jacobian_row, net_axial_force, remaining_wrench):
 
 @platform_stage
 def platform_mass_matrix(
-    relative_rotation, merged_mass, merged_moment, merged_second_moment, inertia_weights, inertia_rows,
+    relative_rotation, merged_mass, merged_moment, merged_second_moment, inertia_weights, inertia_rows, joint_mass,
+    platform_point,
 ):
     """mass matrix in base coordinates."""
-    total = mass_matrix(relative_rotation, merged_mass, merged_moment, merged_second_moment)
+    mass, moment, second_moment = with_point_masses(
+        merged_mass, merged_moment, merged_second_moment, joint_mass, platform_point
+    )
+    total = mass_matrix(relative_rotation, mass, moment, second_moment)
     for weights, rows in zip(inertia_weights, inertia_rows, strict=True):
         for k in range(weights.shape[0]):
             total += rows[k, :].T @ (weights[k] * rows[k, :])
