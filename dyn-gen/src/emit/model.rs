@@ -137,7 +137,7 @@ fn parameters(model: &Model) -> Result<[TokenStream; 2], EmitError> {
 fn implementation(model: &Model, signature: &Signature) -> Result<TokenStream, EmitError> {
     let runtime = model.runtime.tokens();
     let model_name = type_identifier(model.name)?;
-    let kernel = type_identifier(&signature.name)?;
+    let kernel = signature.kernel()?;
     let function = signature.identifier()?;
     let arguments = signature.arguments()?;
     let names = signature.argument_names()?;

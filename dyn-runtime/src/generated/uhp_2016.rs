@@ -3,7 +3,7 @@
 //
 // Dynamics of the platform `uhp_2016`, every number baked in.
 //
-// graph     uhp.json, sha256 0e4e475ca31637bc149a623313f14fd264b4c785631b6b9e71c3463a5aa9d2e6
+// graph     uhp.json, sha256 fd9e07284c2a74bc0dd15904c2f8700b16c4191dfea56512309a2d82a66b1d2a
 //           derived by CasADi 3.8.2
 // platform  uhp_2016, sha256 of its resolved numbers b8134078fa1f34e5f609cc3dfb62aea03f363b944f89b1a9c1f48d524d56338e
 //
@@ -25,7 +25,7 @@
 // bias                      2386        1045
 // equation_of_motion        6434        5090
 // inverse_dynamics          2409        1234
-// forward_dynamics          3282        1640
+// forward_dynamics          3396        1640
 // energy                    1769         854
 //
 // linear systems: growth of rounding errors in a fixed order of pivots, at the worst state
@@ -78,7 +78,7 @@ impl crate::kernels::LegKinematics for Uhp2016 {
         rod_direction: &mut [[f64; 3]; 6],
         hooke_joint_position: &mut [[f64; 3]; 6],
         platform_joint_position: &mut [[f64; 3]; 6],
-        universal_joint_rate: &mut [[f64; 3]; 6],
+        platform_joint_rate: &mut [[f64; 3]; 6],
     ) {
         self::leg_kinematics(
             base_position,
@@ -95,13 +95,13 @@ impl crate::kernels::LegKinematics for Uhp2016 {
             rod_direction,
             hooke_joint_position,
             platform_joint_position,
-            universal_joint_rate,
+            platform_joint_rate,
         );
     }
 }
 
 #[allow(clippy::all, clippy::pedantic, unused_qualifications)]
-impl crate::kernels::BodyKinematics for Uhp2016 {
+impl crate::kernels::uhp::BodyKinematics for Uhp2016 {
     fn body_kinematics(
         &self,
         base_position: &[f64; 3],
@@ -149,7 +149,7 @@ impl crate::kernels::BodyKinematics for Uhp2016 {
 }
 
 #[allow(clippy::all, clippy::pedantic, unused_qualifications)]
-impl crate::kernels::PartialVelocities for Uhp2016 {
+impl crate::kernels::uhp::PartialVelocities for Uhp2016 {
     fn partial_velocities(
         &self,
         base_position: &[f64; 3],
@@ -177,7 +177,7 @@ impl crate::kernels::PartialVelocities for Uhp2016 {
 }
 
 #[allow(clippy::all, clippy::pedantic, unused_qualifications)]
-impl crate::kernels::GeneralisedForces for Uhp2016 {
+impl crate::kernels::uhp::GeneralisedForces for Uhp2016 {
     fn generalised_forces(
         &self,
         base_position: &[f64; 3],
@@ -564,7 +564,7 @@ impl crate::kernels::Energy for Uhp2016 {
     }
 }
 
-/// Squared cosine between each rod and its actuator axis, equation (18).
+/// Squared cosine between each rod and the line of its actuator's force, equation (18).
 ///
 /// Inputs:
 ///
@@ -575,7 +575,7 @@ impl crate::kernels::Energy for Uhp2016 {
 ///
 /// Outputs:
 ///
-/// - `rod_alignment`: 6, dimensionless: squared cosine between rod and actuator axis; negative out of reach, equation (18).
+/// - `rod_alignment`: 6, dimensionless: squared cosine between rod and line of the actuator's force; negative out of reach, equation (18).
 #[allow(clippy::all, clippy::pedantic, unused_variables)]
 pub fn rod_alignment(
     base_position: &[f64; 3],
@@ -653,17 +653,17 @@ pub fn rod_alignment(
     // leg 6: extent of the rod along the actuator axis
     let t54 = t42 * t42;
     let t55 = t43 * t43;
-    // leg 1: squared cosine between rod and actuator axis; negative out of reach
+    // leg 1: squared cosine between rod and line of the actuator's force; negative out of reach
     rod_alignment[0] = 1.0 - 23.564897728343862 * (t44 + t45);
-    // leg 2: squared cosine between rod and actuator axis; negative out of reach
+    // leg 2: squared cosine between rod and line of the actuator's force; negative out of reach
     rod_alignment[1] = 1.0 - 23.564897728343862 * (t46 + t47);
-    // leg 3: squared cosine between rod and actuator axis; negative out of reach
+    // leg 3: squared cosine between rod and line of the actuator's force; negative out of reach
     rod_alignment[2] = 1.0 - 23.564897728343862 * (t48 + t49);
-    // leg 4: squared cosine between rod and actuator axis; negative out of reach
+    // leg 4: squared cosine between rod and line of the actuator's force; negative out of reach
     rod_alignment[3] = 1.0 - 23.564897728343862 * (t50 + t51);
-    // leg 5: squared cosine between rod and actuator axis; negative out of reach
+    // leg 5: squared cosine between rod and line of the actuator's force; negative out of reach
     rod_alignment[4] = 1.0 - 23.564897728343862 * (t52 + t53);
-    // leg 6: squared cosine between rod and actuator axis; negative out of reach
+    // leg 6: squared cosine between rod and line of the actuator's force; negative out of reach
     rod_alignment[5] = 1.0 - 23.564897728343862 * (t54 + t55);
 }
 
@@ -688,7 +688,7 @@ pub fn rod_alignment(
 /// - `rod_direction`: 6x3, dimensionless, frame O: rod direction u, from the Hooke joint to the platform joint, equation (17).
 /// - `hooke_joint_position`: 6x3, m, frame O: Hooke joint, equation (14).
 /// - `platform_joint_position`: 6x3, m, frame O: platform joint, equation (14).
-/// - `universal_joint_rate`: 6x3, rad/s, frame O: platform's angular velocity relative to the rod, w_p - w_s, equation (23).
+/// - `platform_joint_rate`: 6x3, rad/s, frame O: platform's angular velocity relative to the rod, w_p - w_s, equation (23).
 #[allow(clippy::all, clippy::pedantic, unused_variables)]
 pub fn leg_kinematics(
     base_position: &[f64; 3],
@@ -705,7 +705,7 @@ pub fn leg_kinematics(
     rod_direction: &mut [[f64; 3]; 6],
     hooke_joint_position: &mut [[f64; 3]; 6],
     platform_joint_position: &mut [[f64; 3]; 6],
-    universal_joint_rate: &mut [[f64; 3]; 6],
+    platform_joint_rate: &mut [[f64; 3]; 6],
 ) {
     // rotation of the platform seen from the base
     let t1 = base_rotation[1][0] * platform_rotation[1][0];
@@ -1432,46 +1432,46 @@ pub fn leg_kinematics(
     let t547 = t328 * t542;
     let t548 = t330 * t544;
     // leg 1: platform's angular velocity relative to the rod, w_p - w_s
-    universal_joint_rate[0][0] = platform_velocity[3]
+    platform_joint_rate[0][0] = platform_velocity[3]
         + 4.8543689320388355 * (t367 - t369);
-    universal_joint_rate[0][1] = platform_velocity[4]
+    platform_joint_rate[0][1] = platform_velocity[4]
         + 4.8543689320388355 * (t371 - t372);
-    universal_joint_rate[0][2] = platform_velocity[5]
+    platform_joint_rate[0][2] = platform_velocity[5]
         + 4.8543689320388355 * (t373 - t374);
     // leg 2: platform's angular velocity relative to the rod, w_p - w_s
-    universal_joint_rate[1][0] = platform_velocity[3]
+    platform_joint_rate[1][0] = platform_velocity[3]
         + 4.8543689320388355 * (t397 - t399);
-    universal_joint_rate[1][1] = platform_velocity[4]
+    platform_joint_rate[1][1] = platform_velocity[4]
         + 4.8543689320388355 * (t401 - t402);
-    universal_joint_rate[1][2] = platform_velocity[5]
+    platform_joint_rate[1][2] = platform_velocity[5]
         + 4.8543689320388355 * (t403 - t404);
     // leg 3: platform's angular velocity relative to the rod, w_p - w_s
-    universal_joint_rate[2][0] = platform_velocity[3]
+    platform_joint_rate[2][0] = platform_velocity[3]
         + 4.8543689320388355 * (t439 - t441);
-    universal_joint_rate[2][1] = platform_velocity[4]
+    platform_joint_rate[2][1] = platform_velocity[4]
         + 4.8543689320388355 * (t443 - t444);
-    universal_joint_rate[2][2] = platform_velocity[5]
+    platform_joint_rate[2][2] = platform_velocity[5]
         + 4.8543689320388355 * (t445 - t446);
     // leg 4: platform's angular velocity relative to the rod, w_p - w_s
-    universal_joint_rate[3][0] = platform_velocity[3]
+    platform_joint_rate[3][0] = platform_velocity[3]
         + 4.8543689320388355 * (t481 - t483);
-    universal_joint_rate[3][1] = platform_velocity[4]
+    platform_joint_rate[3][1] = platform_velocity[4]
         + 4.8543689320388355 * (t485 - t486);
-    universal_joint_rate[3][2] = platform_velocity[5]
+    platform_joint_rate[3][2] = platform_velocity[5]
         + 4.8543689320388355 * (t487 - t488);
     // leg 5: platform's angular velocity relative to the rod, w_p - w_s
-    universal_joint_rate[4][0] = platform_velocity[3]
+    platform_joint_rate[4][0] = platform_velocity[3]
         + 4.8543689320388355 * (t511 - t513);
-    universal_joint_rate[4][1] = platform_velocity[4]
+    platform_joint_rate[4][1] = platform_velocity[4]
         + 4.8543689320388355 * (t515 - t516);
-    universal_joint_rate[4][2] = platform_velocity[5]
+    platform_joint_rate[4][2] = platform_velocity[5]
         + 4.8543689320388355 * (t517 - t518);
     // leg 6: platform's angular velocity relative to the rod, w_p - w_s
-    universal_joint_rate[5][0] = platform_velocity[3]
+    platform_joint_rate[5][0] = platform_velocity[3]
         + 4.8543689320388355 * (t541 - t543);
-    universal_joint_rate[5][1] = platform_velocity[4]
+    platform_joint_rate[5][1] = platform_velocity[4]
         + 4.8543689320388355 * (t545 - t546);
-    universal_joint_rate[5][2] = platform_velocity[5]
+    platform_joint_rate[5][2] = platform_velocity[5]
         + 4.8543689320388355 * (t547 - t548);
 }
 
@@ -3541,7 +3541,7 @@ pub fn partial_velocities(
 /// - `platform_rotation`: 3x3, dimensionless, frame P -> O: rotation of the platform, equation (2).
 /// - `platform_velocity`: 6, m/s, rad/s, frame O: platform velocity \[r_p'; w_p\], the generalised speeds.
 /// - `platform_acceleration`: 6, m/s^2, rad/s^2, frame O: platform acceleration \[r_p''; w_p'\].
-/// - `actuator_force`: 6, N: actuator force on the mover, along the actuator axis.
+/// - `actuator_force`: 6, N: actuator force along the actuator, positive to lengthen it.
 /// - `external_wrench`: 6, N, N m, frame O: external force and moment \[F_D; M_D\] at the payload's centre of mass.
 ///
 /// Outputs:
@@ -6718,96 +6718,96 @@ pub fn coriolis_matrices(
         t313,
         t314,
         t315,
+        t475,
+        t482,
+        t485,
+        t486,
         t487,
-        t494,
-        t497,
-        t498,
-        t499,
-        t501,
-        t502,
-        t503,
-        t504,
-        t524,
-        t530,
-        t533,
-        t534,
-        t535,
-        t537,
-        t538,
-        t539,
-        t540,
-        t560,
-        t566,
-        t569,
-        t570,
-        t571,
-        t573,
-        t574,
-        t575,
-        t576,
-        t596,
-        t602,
-        t605,
-        t606,
-        t607,
-        t609,
-        t610,
-        t611,
-        t612,
-        t632,
-        t638,
-        t641,
-        t642,
-        t643,
-        t645,
-        t646,
-        t647,
-        t648,
-        t668,
+        t489,
+        t490,
+        t491,
+        t492,
+        t512,
+        t518,
+        t521,
+        t522,
+        t523,
+        t525,
+        t526,
+        t527,
+        t528,
+        t548,
+        t554,
+        t557,
+        t558,
+        t559,
+        t561,
+        t562,
+        t563,
+        t564,
+        t584,
+        t590,
+        t593,
+        t594,
+        t595,
+        t597,
+        t598,
+        t599,
+        t600,
+        t620,
+        t626,
+        t629,
+        t630,
+        t631,
+        t633,
+        t634,
+        t635,
+        t636,
+        t656,
+        t662,
+        t665,
+        t666,
+        t667,
+        t669,
+        t670,
+        t671,
+        t672,
+        t673,
         t674,
-        t677,
-        t678,
-        t679,
-        t681,
-        t682,
-        t683,
-        t684,
-        t685,
-        t686,
-        t687,
-        t718,
-        t731,
-        t744,
-        t745,
-        t746,
-        t747,
-        t760,
-        t785,
-        t798,
-        t799,
-        t800,
-        t801,
-        t814,
-        t827,
+        t675,
+        t706,
+        t719,
+        t732,
+        t733,
+        t734,
+        t735,
+        t748,
+        t773,
+        t786,
+        t787,
+        t788,
+        t789,
+        t802,
+        t815,
+        t834,
+        t836,
+        t839,
+        t842,
         t846,
-        t848,
-        t851,
+        t850,
         t854,
-        t858,
+        t857,
+        t859,
         t862,
         t866,
-        t869,
-        t871,
+        t870,
         t874,
-        t878,
+        t877,
+        t880,
         t882,
         t886,
-        t889,
-        t892,
+        t890,
         t894,
-        t898,
-        t902,
-        t906,
     ) = {
         // rotation of the platform seen from the base
         let t1 = base_rotation[1][0] * platform_rotation[1][0];
@@ -7261,615 +7261,658 @@ pub fn coriolis_matrices(
         let t371 = t74 * (t50 * t353 - t51 * t354);
         // leg 6: actuator velocity d'
         let t372 = t362 + (t363 - t371);
-        // leg 1: rate of that gradient relative to the base
-        let t373 = t53 * (t333 + t76 * t355);
-        let t374 = t53 * (t336 - t77 * t355);
-        // leg 2: rate of that gradient relative to the base
-        let t375 = t58 * (t337 + t78 * t359);
-        let t376 = t58 * (t338 + t79 * t359);
-        // leg 3: rate of that gradient relative to the base
-        let t377 = t61 * (t341 + t80 * t361);
-        let t378 = t61 * (t344 + t81 * t361);
-        // leg 4: rate of that gradient relative to the base
-        let t379 = t66 * (t347 + t82 * t365);
-        let t380 = t66 * (t350 + t83 * t365);
-        // leg 5: rate of that gradient relative to the base
-        let t381 = t71 * (t351 + t84 * t369);
-        let t382 = t71 * (t352 - t85 * t369);
-        // leg 6: rate of that gradient relative to the base
-        let t383 = t74 * (t353 + t86 * t371);
-        let t384 = t74 * (t354 - t87 * t371);
-        // leg 1: rate of the platform lever
-        let t385 = platform_velocity[4] * t96 - platform_velocity[5] * t93;
-        let t386 = platform_velocity[5] * t90 - platform_velocity[3] * t96;
-        let t387 = platform_velocity[3] * t93 - platform_velocity[4] * t90;
         // leg 1: inertial rate of that gradient
-        let t388 = t77 * t294 + t76 * t297;
-        let t389 = t77 * t300 - (t297 - t373);
-        let t390 = t76 * t300 + (t294 + t374);
-        let t391 = base_rotation[0][0] * t389 + base_rotation[0][1] * t390;
-        let t392 = base_rotation[0][2] * t388 - t391;
-        let t393 = base_rotation[1][0] * t389 + base_rotation[1][1] * t390;
-        let t394 = base_rotation[1][2] * t388 - t393;
-        let t395 = base_rotation[2][0] * t389 + base_rotation[2][1] * t390;
-        let t396 = base_rotation[2][2] * t388 - t395;
-        // leg 2: rate of the platform lever
-        let t397 = platform_velocity[4] * t105 - platform_velocity[5] * t104;
-        let t398 = platform_velocity[5] * t103 - platform_velocity[3] * t105;
-        let t399 = platform_velocity[3] * t104 - platform_velocity[4] * t103;
+        let t373 = t77 * t294 + t76 * t297;
+        let t374 = t77 * t300 - (t297 - t53 * (t333 + t76 * t355));
+        let t375 = t76 * t300 + (t294 + t53 * (t336 - t77 * t355));
+        let t376 = base_rotation[0][0] * t374 + base_rotation[0][1] * t375;
+        let t377 = base_rotation[0][2] * t373 - t376;
+        let t378 = base_rotation[1][0] * t374 + base_rotation[1][1] * t375;
+        let t379 = base_rotation[1][2] * t373 - t378;
+        let t380 = base_rotation[2][0] * t374 + base_rotation[2][1] * t375;
+        let t381 = base_rotation[2][2] * t373 - t380;
         // leg 2: inertial rate of that gradient
-        let t400 = t79 * t294 - t78 * t297;
-        let t401 = t79 * t300 + (t297 - t375);
-        let t402 = t78 * t300 + (t294 + t376);
+        let t382 = t79 * t294 - t78 * t297;
+        let t383 = t79 * t300 + (t297 - t58 * (t337 + t78 * t359));
+        let t384 = t78 * t300 + (t294 + t58 * (t338 + t79 * t359));
+        let t385 = base_rotation[0][0] * t383 - base_rotation[0][1] * t384;
+        let t386 = base_rotation[0][2] * t382 - t385;
+        let t387 = base_rotation[1][0] * t383 - base_rotation[1][1] * t384;
+        let t388 = base_rotation[1][2] * t382 - t387;
+        let t389 = base_rotation[2][0] * t383 - base_rotation[2][1] * t384;
+        let t390 = base_rotation[2][2] * t382 - t389;
+        // leg 3: inertial rate of that gradient
+        let t391 = t81 * t294 - t80 * t297;
+        let t392 = t81 * t300 + (t297 - t61 * (t341 + t80 * t361));
+        let t393 = t80 * t300 + (t294 + t61 * (t344 + t81 * t361));
+        let t394 = base_rotation[0][0] * t392 - base_rotation[0][1] * t393;
+        let t395 = base_rotation[0][2] * t391 - t394;
+        let t396 = base_rotation[1][0] * t392 - base_rotation[1][1] * t393;
+        let t397 = base_rotation[1][2] * t391 - t396;
+        let t398 = base_rotation[2][0] * t392 - base_rotation[2][1] * t393;
+        let t399 = base_rotation[2][2] * t391 - t398;
+        // leg 4: inertial rate of that gradient
+        let t400 = t83 * t294 - t82 * t297;
+        let t401 = t83 * t300 + (t297 - t66 * (t347 + t82 * t365));
+        let t402 = t82 * t300 + (t294 + t66 * (t350 + t83 * t365));
         let t403 = base_rotation[0][0] * t401 - base_rotation[0][1] * t402;
         let t404 = base_rotation[0][2] * t400 - t403;
         let t405 = base_rotation[1][0] * t401 - base_rotation[1][1] * t402;
         let t406 = base_rotation[1][2] * t400 - t405;
         let t407 = base_rotation[2][0] * t401 - base_rotation[2][1] * t402;
         let t408 = base_rotation[2][2] * t400 - t407;
-        // leg 3: rate of the platform lever
-        let t409 = platform_velocity[4] * t120 - platform_velocity[5] * t117;
-        let t410 = platform_velocity[5] * t114 - platform_velocity[3] * t120;
-        let t411 = platform_velocity[3] * t117 - platform_velocity[4] * t114;
-        // leg 3: inertial rate of that gradient
-        let t412 = t81 * t294 - t80 * t297;
-        let t413 = t81 * t300 + (t297 - t377);
-        let t414 = t80 * t300 + (t294 + t378);
-        let t415 = base_rotation[0][0] * t413 - base_rotation[0][1] * t414;
-        let t416 = base_rotation[0][2] * t412 - t415;
-        let t417 = base_rotation[1][0] * t413 - base_rotation[1][1] * t414;
-        let t418 = base_rotation[1][2] * t412 - t417;
-        let t419 = base_rotation[2][0] * t413 - base_rotation[2][1] * t414;
-        let t420 = base_rotation[2][2] * t412 - t419;
-        // leg 4: rate of the platform lever
-        let t421 = platform_velocity[4] * t135 - platform_velocity[5] * t132;
-        let t422 = platform_velocity[5] * t129 - platform_velocity[3] * t135;
-        let t423 = platform_velocity[3] * t132 - platform_velocity[4] * t129;
-        // leg 4: inertial rate of that gradient
-        let t424 = t83 * t294 - t82 * t297;
-        let t425 = t83 * t300 + (t297 - t379);
-        let t426 = t82 * t300 + (t294 + t380);
-        let t427 = base_rotation[0][0] * t425 - base_rotation[0][1] * t426;
-        let t428 = base_rotation[0][2] * t424 - t427;
-        let t429 = base_rotation[1][0] * t425 - base_rotation[1][1] * t426;
-        let t430 = base_rotation[1][2] * t424 - t429;
-        let t431 = base_rotation[2][0] * t425 - base_rotation[2][1] * t426;
-        let t432 = base_rotation[2][2] * t424 - t431;
-        // leg 5: rate of the platform lever
-        let t433 = platform_velocity[4] * t144 - platform_velocity[5] * t143;
-        let t434 = platform_velocity[5] * t142 - platform_velocity[3] * t144;
-        let t435 = platform_velocity[3] * t143 - platform_velocity[4] * t142;
         // leg 5: inertial rate of that gradient
-        let t436 = t85 * t294 + t84 * t297;
-        let t437 = t85 * t300 - (t297 - t381);
-        let t438 = t84 * t300 + (t294 + t382);
-        let t439 = base_rotation[0][0] * t437 + base_rotation[0][1] * t438;
-        let t440 = base_rotation[0][2] * t436 - t439;
-        let t441 = base_rotation[1][0] * t437 + base_rotation[1][1] * t438;
-        let t442 = base_rotation[1][2] * t436 - t441;
-        let t443 = base_rotation[2][0] * t437 + base_rotation[2][1] * t438;
-        let t444 = base_rotation[2][2] * t436 - t443;
-        // leg 6: rate of the platform lever
-        let t445 = platform_velocity[4] * t153 - platform_velocity[5] * t152;
-        let t446 = platform_velocity[5] * t151 - platform_velocity[3] * t153;
-        let t447 = platform_velocity[3] * t152 - platform_velocity[4] * t151;
+        let t409 = t85 * t294 + t84 * t297;
+        let t410 = t85 * t300 - (t297 - t71 * (t351 + t84 * t369));
+        let t411 = t84 * t300 + (t294 + t71 * (t352 - t85 * t369));
+        let t412 = base_rotation[0][0] * t410 + base_rotation[0][1] * t411;
+        let t413 = base_rotation[0][2] * t409 - t412;
+        let t414 = base_rotation[1][0] * t410 + base_rotation[1][1] * t411;
+        let t415 = base_rotation[1][2] * t409 - t414;
+        let t416 = base_rotation[2][0] * t410 + base_rotation[2][1] * t411;
+        let t417 = base_rotation[2][2] * t409 - t416;
         // leg 6: inertial rate of that gradient
-        let t448 = t87 * t294 + t86 * t297;
-        let t449 = t87 * t300 - (t297 - t383);
-        let t450 = t86 * t300 + (t294 + t384);
-        let t451 = base_rotation[0][0] * t449 + base_rotation[0][1] * t450;
-        let t452 = base_rotation[0][2] * t448 - t451;
-        let t453 = base_rotation[1][0] * t449 + base_rotation[1][1] * t450;
-        let t454 = base_rotation[1][2] * t448 - t453;
-        let t455 = base_rotation[2][0] * t449 + base_rotation[2][1] * t450;
-        let t456 = base_rotation[2][2] * t448 - t455;
+        let t418 = t87 * t294 + t86 * t297;
+        let t419 = t87 * t300 - (t297 - t74 * (t353 + t86 * t371));
+        let t420 = t86 * t300 + (t294 + t74 * (t354 - t87 * t371));
+        let t421 = base_rotation[0][0] * t419 + base_rotation[0][1] * t420;
+        let t422 = base_rotation[0][2] * t418 - t421;
+        let t423 = base_rotation[1][0] * t419 + base_rotation[1][1] * t420;
+        let t424 = base_rotation[1][2] * t418 - t423;
+        let t425 = base_rotation[2][0] * t419 + base_rotation[2][1] * t420;
+        let t426 = base_rotation[2][2] * t418 - t425;
+        // leg 1: rate of the platform lever
+        let t427 = platform_velocity[4] * t96 - platform_velocity[5] * t93;
+        let t428 = platform_velocity[5] * t90 - platform_velocity[3] * t96;
+        let t429 = platform_velocity[3] * t93 - platform_velocity[4] * t90;
+        // leg 2: rate of the platform lever
+        let t430 = platform_velocity[4] * t105 - platform_velocity[5] * t104;
+        let t431 = platform_velocity[5] * t103 - platform_velocity[3] * t105;
+        let t432 = platform_velocity[3] * t104 - platform_velocity[4] * t103;
+        // leg 3: rate of the platform lever
+        let t433 = platform_velocity[4] * t120 - platform_velocity[5] * t117;
+        let t434 = platform_velocity[5] * t114 - platform_velocity[3] * t120;
+        let t435 = platform_velocity[3] * t117 - platform_velocity[4] * t114;
+        // leg 4: rate of the platform lever
+        let t436 = platform_velocity[4] * t135 - platform_velocity[5] * t132;
+        let t437 = platform_velocity[5] * t129 - platform_velocity[3] * t135;
+        let t438 = platform_velocity[3] * t132 - platform_velocity[4] * t129;
+        // leg 5: rate of the platform lever
+        let t439 = platform_velocity[4] * t144 - platform_velocity[5] * t143;
+        let t440 = platform_velocity[5] * t142 - platform_velocity[3] * t144;
+        let t441 = platform_velocity[3] * t143 - platform_velocity[4] * t142;
+        // leg 6: rate of the platform lever
+        let t442 = platform_velocity[4] * t153 - platform_velocity[5] * t152;
+        let t443 = platform_velocity[5] * t151 - platform_velocity[3] * t153;
+        let t444 = platform_velocity[3] * t152 - platform_velocity[4] * t151;
         // leg 1: Coriolis matrix of the leg in the speeds of its joint
-        let t457 = base_rotation[1][2] * base_velocity[5];
-        let t458 = base_rotation[2][2] * base_velocity[4] - t457;
-        let t459 = 0.17066666666666666 * t458;
-        let t460 = t160 + t98 * 0.9523333333333334;
-        let t461 = t392 * t460 + t98 * t459;
-        let t462 = t394 * t460 + t100 * t459;
-        let t463 = t396 * t460 + t102 * t459;
-        let t464 = base_rotation[2][2] * base_velocity[3];
-        let t465 = base_rotation[0][2] * base_velocity[5] - t464;
-        let t466 = 0.17066666666666666 * t465;
-        let t467 = t163 + t100 * 0.9523333333333334;
-        let t468 = t392 * t467 + t98 * t466;
-        let t469 = t394 * t467 + t100 * t466;
-        let t470 = t396 * t467 + t102 * t466;
-        let t471 = base_rotation[0][2] * base_velocity[4];
-        let t472 = base_rotation[1][2] * base_velocity[3] - t471;
-        let t473 = 0.17066666666666666 * t472;
-        let t474 = t166 + t102 * 0.9523333333333334;
-        let t475 = t392 * t474 + t98 * t473;
-        let t476 = t394 * t474 + t100 * t473;
-        let t477 = t396 * t474 + t102 * t473;
+        let t445 = base_rotation[1][2] * base_velocity[5];
+        let t446 = base_rotation[2][2] * base_velocity[4] - t445;
+        let t447 = 0.17066666666666666 * t446;
+        let t448 = t160 + t98 * 0.9523333333333334;
+        let t449 = t377 * t448 + t98 * t447;
+        let t450 = t379 * t448 + t100 * t447;
+        let t451 = t381 * t448 + t102 * t447;
+        let t452 = base_rotation[2][2] * base_velocity[3];
+        let t453 = base_rotation[0][2] * base_velocity[5] - t452;
+        let t454 = 0.17066666666666666 * t453;
+        let t455 = t163 + t100 * 0.9523333333333334;
+        let t456 = t377 * t455 + t98 * t454;
+        let t457 = t379 * t455 + t100 * t454;
+        let t458 = t381 * t455 + t102 * t454;
+        let t459 = base_rotation[0][2] * base_velocity[4];
+        let t460 = base_rotation[1][2] * base_velocity[3] - t459;
+        let t461 = 0.17066666666666666 * t460;
+        let t462 = t166 + t102 * 0.9523333333333334;
+        let t463 = t377 * t462 + t98 * t461;
+        let t464 = t379 * t462 + t100 * t461;
+        let t465 = t381 * t462 + t102 * t461;
         // leg 1: Coriolis matrix between joint and base angular velocity
-        let t478 = 0.17066666666666666 * t314 + t465 * 0.03055;
-        let t479 = 0.17066666666666666 * t315 + t472 * 0.03055;
-        let t480 = t56 * t465 - (base_velocity[5] * t180 - base_velocity[3] * t177);
-        let t481 = base_rotation[1][2] * t358 + t480;
-        let t482 = t478 - (0.17066666666666666 * t386 - 0.9523333333333334 * t481);
-        let t483 = t56 * t472 - (base_velocity[3] * t174 - base_velocity[4] * t180);
-        let t484 = base_rotation[2][2] * t358 + t483;
-        let t485 = t479 - (0.17066666666666666 * t387 - 0.9523333333333334 * t484);
-        let t486 = base_rotation[2][2] * t482 - base_rotation[1][2] * t485;
-        let t487 = t98 * t486;
-        let t488 = 0.17066666666666666 * t313 + t458 * 0.03055;
-        let t489 = t56 * t458 - (base_velocity[4] * t177 - base_velocity[5] * t174);
-        let t490 = base_rotation[0][2] * t358 + t489;
-        let t491 = t488 - (0.17066666666666666 * t385 - 0.9523333333333334 * t490);
-        let t492 = base_rotation[0][2] * t485 - base_rotation[2][2] * t491;
-        let t493 = 0.17066666666666666 * t484;
-        let t494 = t98 * t492 + t493;
-        let t495 = base_rotation[1][2] * t491 - base_rotation[0][2] * t482;
-        let t496 = 0.17066666666666666 * t481;
-        let t497 = t98 * t495 - t496;
-        let t498 = t493 - t100 * t486;
-        let t499 = t100 * t492;
-        let t500 = 0.17066666666666666 * t490;
-        let t501 = t100 * t495 + t500;
-        let t502 = t496 + t102 * t486;
-        let t503 = t500 - t102 * t492;
-        let t504 = t102 * t495;
+        let t466 = 0.17066666666666666 * t314 + t453 * 0.03055;
+        let t467 = 0.17066666666666666 * t315 + t460 * 0.03055;
+        let t468 = t56 * t453 - (base_velocity[5] * t180 - base_velocity[3] * t177);
+        let t469 = base_rotation[1][2] * t358 + t468;
+        let t470 = t466 - (0.17066666666666666 * t428 - 0.9523333333333334 * t469);
+        let t471 = t56 * t460 - (base_velocity[3] * t174 - base_velocity[4] * t180);
+        let t472 = base_rotation[2][2] * t358 + t471;
+        let t473 = t467 - (0.17066666666666666 * t429 - 0.9523333333333334 * t472);
+        let t474 = base_rotation[2][2] * t470 - base_rotation[1][2] * t473;
+        let t475 = t98 * t474;
+        let t476 = 0.17066666666666666 * t313 + t446 * 0.03055;
+        let t477 = t56 * t446 - (base_velocity[4] * t177 - base_velocity[5] * t174);
+        let t478 = base_rotation[0][2] * t358 + t477;
+        let t479 = t476 - (0.17066666666666666 * t427 - 0.9523333333333334 * t478);
+        let t480 = base_rotation[0][2] * t473 - base_rotation[2][2] * t479;
+        let t481 = 0.17066666666666666 * t472;
+        let t482 = t98 * t480 + t481;
+        let t483 = base_rotation[1][2] * t479 - base_rotation[0][2] * t470;
+        let t484 = 0.17066666666666666 * t469;
+        let t485 = t98 * t483 - t484;
+        let t486 = t481 - t100 * t474;
+        let t487 = t100 * t480;
+        let t488 = 0.17066666666666666 * t478;
+        let t489 = t100 * t483 + t488;
+        let t490 = t484 + t102 * t474;
+        let t491 = t488 - t102 * t480;
+        let t492 = t102 * t483;
         // leg 2: Coriolis matrix of the leg in the speeds of its joint
-        let t505 = t160 - t107 * 0.9523333333333334;
-        let t506 = t404 * t505 + t107 * t459;
-        let t507 = t406 * t505 + t109 * t459;
-        let t508 = t408 * t505 + t111 * t459;
-        let t509 = t163 - t109 * 0.9523333333333334;
-        let t510 = t404 * t509 + t107 * t466;
-        let t511 = t406 * t509 + t109 * t466;
-        let t512 = t408 * t509 + t111 * t466;
-        let t513 = t166 - t111 * 0.9523333333333334;
-        let t514 = t404 * t513 + t107 * t473;
-        let t515 = t406 * t513 + t109 * t473;
-        let t516 = t408 * t513 + t111 * t473;
+        let t493 = t160 - t107 * 0.9523333333333334;
+        let t494 = t386 * t493 + t107 * t447;
+        let t495 = t388 * t493 + t109 * t447;
+        let t496 = t390 * t493 + t111 * t447;
+        let t497 = t163 - t109 * 0.9523333333333334;
+        let t498 = t386 * t497 + t107 * t454;
+        let t499 = t388 * t497 + t109 * t454;
+        let t500 = t390 * t497 + t111 * t454;
+        let t501 = t166 - t111 * 0.9523333333333334;
+        let t502 = t386 * t501 + t107 * t461;
+        let t503 = t388 * t501 + t109 * t461;
+        let t504 = t390 * t501 + t111 * t461;
         // leg 2: Coriolis matrix between joint and base angular velocity
-        let t517 = t59 * t465 - (base_velocity[5] * t192 - base_velocity[3] * t191);
-        let t518 = base_rotation[1][2] * t360 + t517;
-        let t519 = t478 - (0.17066666666666666 * t398 - 0.9523333333333334 * t518);
-        let t520 = t59 * t472 - (base_velocity[3] * t190 - base_velocity[4] * t192);
-        let t521 = base_rotation[2][2] * t360 + t520;
-        let t522 = t479 - (0.17066666666666666 * t399 - 0.9523333333333334 * t521);
-        let t523 = base_rotation[2][2] * t519 - base_rotation[1][2] * t522;
-        let t524 = t107 * t523;
-        let t525 = t59 * t458 - (base_velocity[4] * t191 - base_velocity[5] * t190);
-        let t526 = base_rotation[0][2] * t360 + t525;
-        let t527 = t488 - (0.17066666666666666 * t397 - 0.9523333333333334 * t526);
-        let t528 = base_rotation[0][2] * t522 - base_rotation[2][2] * t527;
-        let t529 = 0.17066666666666666 * t521;
-        let t530 = t107 * t528 - t529;
-        let t531 = base_rotation[1][2] * t527 - base_rotation[0][2] * t519;
-        let t532 = 0.17066666666666666 * t518;
-        let t533 = t107 * t531 + t532;
-        let t534 = t529 + t109 * t523;
-        let t535 = t109 * t528;
-        let t536 = 0.17066666666666666 * t526;
-        let t537 = t109 * t531 - t536;
-        let t538 = t532 - t111 * t523;
-        let t539 = t536 + t111 * t528;
-        let t540 = t111 * t531;
+        let t505 = t59 * t453 - (base_velocity[5] * t192 - base_velocity[3] * t191);
+        let t506 = base_rotation[1][2] * t360 + t505;
+        let t507 = t466 - (0.17066666666666666 * t431 - 0.9523333333333334 * t506);
+        let t508 = t59 * t460 - (base_velocity[3] * t190 - base_velocity[4] * t192);
+        let t509 = base_rotation[2][2] * t360 + t508;
+        let t510 = t467 - (0.17066666666666666 * t432 - 0.9523333333333334 * t509);
+        let t511 = base_rotation[2][2] * t507 - base_rotation[1][2] * t510;
+        let t512 = t107 * t511;
+        let t513 = t59 * t446 - (base_velocity[4] * t191 - base_velocity[5] * t190);
+        let t514 = base_rotation[0][2] * t360 + t513;
+        let t515 = t476 - (0.17066666666666666 * t430 - 0.9523333333333334 * t514);
+        let t516 = base_rotation[0][2] * t510 - base_rotation[2][2] * t515;
+        let t517 = 0.17066666666666666 * t509;
+        let t518 = t107 * t516 - t517;
+        let t519 = base_rotation[1][2] * t515 - base_rotation[0][2] * t507;
+        let t520 = 0.17066666666666666 * t506;
+        let t521 = t107 * t519 + t520;
+        let t522 = t517 + t109 * t511;
+        let t523 = t109 * t516;
+        let t524 = 0.17066666666666666 * t514;
+        let t525 = t109 * t519 - t524;
+        let t526 = t520 - t111 * t511;
+        let t527 = t524 + t111 * t516;
+        let t528 = t111 * t519;
         // leg 3: Coriolis matrix of the leg in the speeds of its joint
-        let t541 = t160 - t122 * 0.9523333333333334;
-        let t542 = t416 * t541 + t122 * t459;
-        let t543 = t418 * t541 + t124 * t459;
-        let t544 = t420 * t541 + t126 * t459;
-        let t545 = t163 - t124 * 0.9523333333333334;
-        let t546 = t416 * t545 + t122 * t466;
-        let t547 = t418 * t545 + t124 * t466;
-        let t548 = t420 * t545 + t126 * t466;
-        let t549 = t166 - t126 * 0.9523333333333334;
-        let t550 = t416 * t549 + t122 * t473;
-        let t551 = t418 * t549 + t124 * t473;
-        let t552 = t420 * t549 + t126 * t473;
+        let t529 = t160 - t122 * 0.9523333333333334;
+        let t530 = t395 * t529 + t122 * t447;
+        let t531 = t397 * t529 + t124 * t447;
+        let t532 = t399 * t529 + t126 * t447;
+        let t533 = t163 - t124 * 0.9523333333333334;
+        let t534 = t395 * t533 + t122 * t454;
+        let t535 = t397 * t533 + t124 * t454;
+        let t536 = t399 * t533 + t126 * t454;
+        let t537 = t166 - t126 * 0.9523333333333334;
+        let t538 = t395 * t537 + t122 * t461;
+        let t539 = t397 * t537 + t124 * t461;
+        let t540 = t399 * t537 + t126 * t461;
         // leg 3: Coriolis matrix between joint and base angular velocity
-        let t553 = t64 * t465 - (base_velocity[5] * t210 - base_velocity[3] * t207);
-        let t554 = base_rotation[1][2] * t364 + t553;
-        let t555 = t478 + (0.17066666666666666 * t410 + 0.9523333333333334 * t554);
-        let t556 = t64 * t472 - (base_velocity[3] * t204 - base_velocity[4] * t210);
-        let t557 = base_rotation[2][2] * t364 + t556;
-        let t558 = t479 + (0.17066666666666666 * t411 + 0.9523333333333334 * t557);
-        let t559 = base_rotation[2][2] * t555 - base_rotation[1][2] * t558;
-        let t560 = t122 * t559;
-        let t561 = t64 * t458 - (base_velocity[4] * t207 - base_velocity[5] * t204);
-        let t562 = base_rotation[0][2] * t364 + t561;
-        let t563 = t488 + (0.17066666666666666 * t409 + 0.9523333333333334 * t562);
-        let t564 = base_rotation[0][2] * t558 - base_rotation[2][2] * t563;
-        let t565 = 0.17066666666666666 * t557;
-        let t566 = t122 * t564 - t565;
-        let t567 = base_rotation[1][2] * t563 - base_rotation[0][2] * t555;
-        let t568 = 0.17066666666666666 * t554;
-        let t569 = t122 * t567 + t568;
-        let t570 = t565 + t124 * t559;
-        let t571 = t124 * t564;
-        let t572 = 0.17066666666666666 * t562;
-        let t573 = t124 * t567 - t572;
-        let t574 = t568 - t126 * t559;
-        let t575 = t572 + t126 * t564;
-        let t576 = t126 * t567;
+        let t541 = t64 * t453 - (base_velocity[5] * t210 - base_velocity[3] * t207);
+        let t542 = base_rotation[1][2] * t364 + t541;
+        let t543 = t466 + (0.17066666666666666 * t434 + 0.9523333333333334 * t542);
+        let t544 = t64 * t460 - (base_velocity[3] * t204 - base_velocity[4] * t210);
+        let t545 = base_rotation[2][2] * t364 + t544;
+        let t546 = t467 + (0.17066666666666666 * t435 + 0.9523333333333334 * t545);
+        let t547 = base_rotation[2][2] * t543 - base_rotation[1][2] * t546;
+        let t548 = t122 * t547;
+        let t549 = t64 * t446 - (base_velocity[4] * t207 - base_velocity[5] * t204);
+        let t550 = base_rotation[0][2] * t364 + t549;
+        let t551 = t476 + (0.17066666666666666 * t433 + 0.9523333333333334 * t550);
+        let t552 = base_rotation[0][2] * t546 - base_rotation[2][2] * t551;
+        let t553 = 0.17066666666666666 * t545;
+        let t554 = t122 * t552 - t553;
+        let t555 = base_rotation[1][2] * t551 - base_rotation[0][2] * t543;
+        let t556 = 0.17066666666666666 * t542;
+        let t557 = t122 * t555 + t556;
+        let t558 = t553 + t124 * t547;
+        let t559 = t124 * t552;
+        let t560 = 0.17066666666666666 * t550;
+        let t561 = t124 * t555 - t560;
+        let t562 = t556 - t126 * t547;
+        let t563 = t560 + t126 * t552;
+        let t564 = t126 * t555;
         // leg 4: Coriolis matrix of the leg in the speeds of its joint
-        let t577 = t160 - t137 * 0.9523333333333334;
-        let t578 = t428 * t577 + t137 * t459;
-        let t579 = t430 * t577 + t139 * t459;
-        let t580 = t432 * t577 + t141 * t459;
-        let t581 = t163 - t139 * 0.9523333333333334;
-        let t582 = t428 * t581 + t137 * t466;
-        let t583 = t430 * t581 + t139 * t466;
-        let t584 = t432 * t581 + t141 * t466;
-        let t585 = t166 - t141 * 0.9523333333333334;
-        let t586 = t428 * t585 + t137 * t473;
-        let t587 = t430 * t585 + t139 * t473;
-        let t588 = t432 * t585 + t141 * t473;
+        let t565 = t160 - t137 * 0.9523333333333334;
+        let t566 = t404 * t565 + t137 * t447;
+        let t567 = t406 * t565 + t139 * t447;
+        let t568 = t408 * t565 + t141 * t447;
+        let t569 = t163 - t139 * 0.9523333333333334;
+        let t570 = t404 * t569 + t137 * t454;
+        let t571 = t406 * t569 + t139 * t454;
+        let t572 = t408 * t569 + t141 * t454;
+        let t573 = t166 - t141 * 0.9523333333333334;
+        let t574 = t404 * t573 + t137 * t461;
+        let t575 = t406 * t573 + t139 * t461;
+        let t576 = t408 * t573 + t141 * t461;
         // leg 4: Coriolis matrix between joint and base angular velocity
-        let t589 = t69 * t465 + (base_velocity[5] * t228 - base_velocity[3] * t225);
-        let t590 = base_rotation[1][2] * t368 + t589;
-        let t591 = t478 + (0.17066666666666666 * t422 + 0.9523333333333334 * t590);
-        let t592 = t69 * t472 + (base_velocity[3] * t222 - base_velocity[4] * t228);
-        let t593 = base_rotation[2][2] * t368 + t592;
-        let t594 = t479 + (0.17066666666666666 * t423 + 0.9523333333333334 * t593);
-        let t595 = base_rotation[2][2] * t591 - base_rotation[1][2] * t594;
-        let t596 = t137 * t595;
-        let t597 = t69 * t458 + (base_velocity[4] * t225 - base_velocity[5] * t222);
-        let t598 = base_rotation[0][2] * t368 + t597;
-        let t599 = t488 + (0.17066666666666666 * t421 + 0.9523333333333334 * t598);
-        let t600 = base_rotation[0][2] * t594 - base_rotation[2][2] * t599;
-        let t601 = 0.17066666666666666 * t593;
-        let t602 = t137 * t600 - t601;
-        let t603 = base_rotation[1][2] * t599 - base_rotation[0][2] * t591;
-        let t604 = 0.17066666666666666 * t590;
-        let t605 = t137 * t603 + t604;
-        let t606 = t601 + t139 * t595;
-        let t607 = t139 * t600;
-        let t608 = 0.17066666666666666 * t598;
-        let t609 = t139 * t603 - t608;
-        let t610 = t604 - t141 * t595;
-        let t611 = t608 + t141 * t600;
-        let t612 = t141 * t603;
+        let t577 = t69 * t453 + (base_velocity[5] * t228 - base_velocity[3] * t225);
+        let t578 = base_rotation[1][2] * t368 + t577;
+        let t579 = t466 + (0.17066666666666666 * t437 + 0.9523333333333334 * t578);
+        let t580 = t69 * t460 + (base_velocity[3] * t222 - base_velocity[4] * t228);
+        let t581 = base_rotation[2][2] * t368 + t580;
+        let t582 = t467 + (0.17066666666666666 * t438 + 0.9523333333333334 * t581);
+        let t583 = base_rotation[2][2] * t579 - base_rotation[1][2] * t582;
+        let t584 = t137 * t583;
+        let t585 = t69 * t446 + (base_velocity[4] * t225 - base_velocity[5] * t222);
+        let t586 = base_rotation[0][2] * t368 + t585;
+        let t587 = t476 + (0.17066666666666666 * t436 + 0.9523333333333334 * t586);
+        let t588 = base_rotation[0][2] * t582 - base_rotation[2][2] * t587;
+        let t589 = 0.17066666666666666 * t581;
+        let t590 = t137 * t588 - t589;
+        let t591 = base_rotation[1][2] * t587 - base_rotation[0][2] * t579;
+        let t592 = 0.17066666666666666 * t578;
+        let t593 = t137 * t591 + t592;
+        let t594 = t589 + t139 * t583;
+        let t595 = t139 * t588;
+        let t596 = 0.17066666666666666 * t586;
+        let t597 = t139 * t591 - t596;
+        let t598 = t592 - t141 * t583;
+        let t599 = t596 + t141 * t588;
+        let t600 = t141 * t591;
         // leg 5: Coriolis matrix of the leg in the speeds of its joint
-        let t613 = t160 + t146 * 0.9523333333333334;
-        let t614 = t440 * t613 + t146 * t459;
-        let t615 = t442 * t613 + t148 * t459;
-        let t616 = t444 * t613 + t150 * t459;
-        let t617 = t163 + t148 * 0.9523333333333334;
-        let t618 = t440 * t617 + t146 * t466;
-        let t619 = t442 * t617 + t148 * t466;
-        let t620 = t444 * t617 + t150 * t466;
-        let t621 = t166 + t150 * 0.9523333333333334;
-        let t622 = t440 * t621 + t146 * t473;
-        let t623 = t442 * t621 + t148 * t473;
-        let t624 = t444 * t621 + t150 * t473;
+        let t601 = t160 + t146 * 0.9523333333333334;
+        let t602 = t413 * t601 + t146 * t447;
+        let t603 = t415 * t601 + t148 * t447;
+        let t604 = t417 * t601 + t150 * t447;
+        let t605 = t163 + t148 * 0.9523333333333334;
+        let t606 = t413 * t605 + t146 * t454;
+        let t607 = t415 * t605 + t148 * t454;
+        let t608 = t417 * t605 + t150 * t454;
+        let t609 = t166 + t150 * 0.9523333333333334;
+        let t610 = t413 * t609 + t146 * t461;
+        let t611 = t415 * t609 + t148 * t461;
+        let t612 = t417 * t609 + t150 * t461;
         // leg 5: Coriolis matrix between joint and base angular velocity
-        let t625 = t72 * t465 + (base_velocity[5] * t240 - base_velocity[3] * t239);
-        let t626 = base_rotation[1][2] * t370 + t625;
-        let t627 = t478 + (0.17066666666666666 * t434 + 0.9523333333333334 * t626);
-        let t628 = t72 * t472 + (base_velocity[3] * t238 - base_velocity[4] * t240);
-        let t629 = base_rotation[2][2] * t370 + t628;
-        let t630 = t479 + (0.17066666666666666 * t435 + 0.9523333333333334 * t629);
-        let t631 = base_rotation[2][2] * t627 - base_rotation[1][2] * t630;
-        let t632 = t146 * t631;
-        let t633 = t72 * t458 + (base_velocity[4] * t239 - base_velocity[5] * t238);
-        let t634 = base_rotation[0][2] * t370 + t633;
-        let t635 = t488 + (0.17066666666666666 * t433 + 0.9523333333333334 * t634);
-        let t636 = base_rotation[0][2] * t630 - base_rotation[2][2] * t635;
-        let t637 = 0.17066666666666666 * t629;
-        let t638 = t146 * t636 + t637;
-        let t639 = base_rotation[1][2] * t635 - base_rotation[0][2] * t627;
-        let t640 = 0.17066666666666666 * t626;
-        let t641 = t146 * t639 - t640;
-        let t642 = t637 - t148 * t631;
-        let t643 = t148 * t636;
-        let t644 = 0.17066666666666666 * t634;
-        let t645 = t148 * t639 + t644;
-        let t646 = t640 + t150 * t631;
-        let t647 = t644 - t150 * t636;
-        let t648 = t150 * t639;
+        let t613 = t72 * t453 + (base_velocity[5] * t240 - base_velocity[3] * t239);
+        let t614 = base_rotation[1][2] * t370 + t613;
+        let t615 = t466 + (0.17066666666666666 * t440 + 0.9523333333333334 * t614);
+        let t616 = t72 * t460 + (base_velocity[3] * t238 - base_velocity[4] * t240);
+        let t617 = base_rotation[2][2] * t370 + t616;
+        let t618 = t467 + (0.17066666666666666 * t441 + 0.9523333333333334 * t617);
+        let t619 = base_rotation[2][2] * t615 - base_rotation[1][2] * t618;
+        let t620 = t146 * t619;
+        let t621 = t72 * t446 + (base_velocity[4] * t239 - base_velocity[5] * t238);
+        let t622 = base_rotation[0][2] * t370 + t621;
+        let t623 = t476 + (0.17066666666666666 * t439 + 0.9523333333333334 * t622);
+        let t624 = base_rotation[0][2] * t618 - base_rotation[2][2] * t623;
+        let t625 = 0.17066666666666666 * t617;
+        let t626 = t146 * t624 + t625;
+        let t627 = base_rotation[1][2] * t623 - base_rotation[0][2] * t615;
+        let t628 = 0.17066666666666666 * t614;
+        let t629 = t146 * t627 - t628;
+        let t630 = t625 - t148 * t619;
+        let t631 = t148 * t624;
+        let t632 = 0.17066666666666666 * t622;
+        let t633 = t148 * t627 + t632;
+        let t634 = t628 + t150 * t619;
+        let t635 = t632 - t150 * t624;
+        let t636 = t150 * t627;
         // leg 6: Coriolis matrix of the leg in the speeds of its joint
-        let t649 = t160 + t155 * 0.9523333333333334;
-        let t650 = t452 * t649 + t155 * t459;
-        let t651 = t454 * t649 + t157 * t459;
-        let t652 = t456 * t649 + t159 * t459;
-        let t653 = t163 + t157 * 0.9523333333333334;
-        let t654 = t452 * t653 + t155 * t466;
-        let t655 = t454 * t653 + t157 * t466;
-        let t656 = t456 * t653 + t159 * t466;
-        let t657 = t166 + t159 * 0.9523333333333334;
-        let t658 = t452 * t657 + t155 * t473;
-        let t659 = t454 * t657 + t157 * t473;
-        let t660 = t456 * t657 + t159 * t473;
+        let t637 = t160 + t155 * 0.9523333333333334;
+        let t638 = t422 * t637 + t155 * t447;
+        let t639 = t424 * t637 + t157 * t447;
+        let t640 = t426 * t637 + t159 * t447;
+        let t641 = t163 + t157 * 0.9523333333333334;
+        let t642 = t422 * t641 + t155 * t454;
+        let t643 = t424 * t641 + t157 * t454;
+        let t644 = t426 * t641 + t159 * t454;
+        let t645 = t166 + t159 * 0.9523333333333334;
+        let t646 = t422 * t645 + t155 * t461;
+        let t647 = t424 * t645 + t157 * t461;
+        let t648 = t426 * t645 + t159 * t461;
         // leg 6: Coriolis matrix between joint and base angular velocity
-        let t661 = t75 * t465 - (base_velocity[5] * t252 - base_velocity[3] * t251);
-        let t662 = base_rotation[1][2] * t372 + t661;
-        let t663 = t478 + (0.17066666666666666 * t446 + 0.9523333333333334 * t662);
-        let t664 = t75 * t472 - (base_velocity[3] * t250 - base_velocity[4] * t252);
-        let t665 = base_rotation[2][2] * t372 + t664;
-        let t666 = t479 + (0.17066666666666666 * t447 + 0.9523333333333334 * t665);
-        let t667 = base_rotation[2][2] * t663 - base_rotation[1][2] * t666;
-        let t668 = t155 * t667;
-        let t669 = t75 * t458 - (base_velocity[4] * t251 - base_velocity[5] * t250);
-        let t670 = base_rotation[0][2] * t372 + t669;
-        let t671 = t488 + (0.17066666666666666 * t445 + 0.9523333333333334 * t670);
-        let t672 = base_rotation[0][2] * t666 - base_rotation[2][2] * t671;
-        let t673 = 0.17066666666666666 * t665;
-        let t674 = t155 * t672 + t673;
-        let t675 = base_rotation[1][2] * t671 - base_rotation[0][2] * t663;
-        let t676 = 0.17066666666666666 * t662;
-        let t677 = t155 * t675 - t676;
-        let t678 = t673 - t157 * t667;
-        let t679 = t157 * t672;
-        let t680 = 0.17066666666666666 * t670;
-        let t681 = t157 * t675 + t680;
-        let t682 = t676 + t159 * t667;
-        let t683 = t680 - t159 * t672;
-        let t684 = t159 * t675;
+        let t649 = t75 * t453 - (base_velocity[5] * t252 - base_velocity[3] * t251);
+        let t650 = base_rotation[1][2] * t372 + t649;
+        let t651 = t466 + (0.17066666666666666 * t443 + 0.9523333333333334 * t650);
+        let t652 = t75 * t460 - (base_velocity[3] * t250 - base_velocity[4] * t252);
+        let t653 = base_rotation[2][2] * t372 + t652;
+        let t654 = t467 + (0.17066666666666666 * t444 + 0.9523333333333334 * t653);
+        let t655 = base_rotation[2][2] * t651 - base_rotation[1][2] * t654;
+        let t656 = t155 * t655;
+        let t657 = t75 * t446 - (base_velocity[4] * t251 - base_velocity[5] * t250);
+        let t658 = base_rotation[0][2] * t372 + t657;
+        let t659 = t476 + (0.17066666666666666 * t442 + 0.9523333333333334 * t658);
+        let t660 = base_rotation[0][2] * t654 - base_rotation[2][2] * t659;
+        let t661 = 0.17066666666666666 * t653;
+        let t662 = t155 * t660 + t661;
+        let t663 = base_rotation[1][2] * t659 - base_rotation[0][2] * t651;
+        let t664 = 0.17066666666666666 * t650;
+        let t665 = t155 * t663 - t664;
+        let t666 = t661 - t157 * t655;
+        let t667 = t157 * t660;
+        let t668 = 0.17066666666666666 * t658;
+        let t669 = t157 * t663 + t668;
+        let t670 = t664 + t159 * t655;
+        let t671 = t668 - t159 * t660;
+        let t672 = t159 * t663;
         // Coriolis matrix of the legs
-        let t685 = t650 + (t614 - (t578 + (t542 - (t461 - t506))));
-        coriolis_matrix_p[0][0] = t685;
-        coriolis_matrix_b[0][0] = t685;
-        let t686 = t651 + (t615 - (t579 + (t543 - (t462 - t507))));
-        coriolis_matrix_p[0][1] = t686;
-        coriolis_matrix_b[0][1] = t686;
-        let t687 = t652 + (t616 - (t580 + (t544 - (t463 - t508))));
-        coriolis_matrix_p[0][2] = t687;
-        coriolis_matrix_b[0][2] = t687;
-        let t688 = t246 * t446;
-        let t689 = t244 * t447;
-        let t690 = t153 * t651;
-        let t691 = t152 * t652;
-        let t692 = t688 - (t689 + (t690 - t691));
-        let t693 = t234 * t434;
-        let t694 = t232 * t435;
-        let t695 = t144 * t615;
-        let t696 = t143 * t616;
-        let t697 = t693 - (t694 + (t695 - t696));
-        let t698 = t216 * t422;
-        let t699 = t214 * t423;
-        let t700 = t135 * t579;
-        let t701 = t132 * t580;
-        let t702 = t698 - (t699 + (t700 - t701));
-        let t703 = t198 * t410;
-        let t704 = t196 * t411;
-        let t705 = t120 * t543;
-        let t706 = t117 * t544;
-        let t707 = t703 - (t704 + (t705 - t706));
-        let t708 = t168 * t386;
-        let t709 = t165 * t387;
-        let t710 = t96 * t462;
-        let t711 = t93 * t463;
-        let t712 = t708 - (t709 + (t710 - t711));
-        let t713 = t186 * t398;
-        let t714 = t184 * t399;
-        let t715 = t105 * t507;
-        let t716 = t104 * t508;
-        let t717 = t713 - (t714 + (t715 - t716));
-        let t718 = t692 + (t697 - (t702 + (t707 + (t712 - t717))));
-        let t719 = t153 * t650;
-        let t720 = t242 * t447 - (t246 * t445 + (t151 * t652 - t719));
-        let t721 = t144 * t614;
-        let t722 = t230 * t435 - (t234 * t433 + (t142 * t616 - t721));
-        let t723 = t135 * t578;
-        let t724 = t212 * t423 - (t216 * t421 + (t129 * t580 - t723));
-        let t725 = t120 * t542;
-        let t726 = t194 * t411 - (t198 * t409 + (t114 * t544 - t725));
-        let t727 = t96 * t461;
-        let t728 = t162 * t387 - (t168 * t385 + (t90 * t463 - t727));
-        let t729 = t105 * t506;
-        let t730 = t182 * t399 - (t186 * t397 + (t103 * t508 - t729));
-        let t731 = t720 + (t722 - (t724 + (t726 + (t728 - t730))));
-        let t732 = t152 * t650;
-        let t733 = t244 * t445 - (t242 * t446 + (t732 - t151 * t651));
-        let t734 = t143 * t614;
-        let t735 = t232 * t433 - (t230 * t434 + (t734 - t142 * t615));
-        let t736 = t132 * t578;
-        let t737 = t214 * t421 - (t212 * t422 + (t736 - t129 * t579));
-        let t738 = t117 * t542;
-        let t739 = t196 * t409 - (t194 * t410 + (t738 - t114 * t543));
-        let t740 = t93 * t461;
-        let t741 = t165 * t385 - (t162 * t386 + (t740 - t90 * t462));
-        let t742 = t104 * t506;
-        let t743 = t184 * t397 - (t182 * t398 + (t742 - t103 * t507));
-        let t744 = t733 + (t735 - (t737 + (t739 + (t741 - t743))));
-        let t745 = t654 + (t618 - (t582 + (t546 - (t468 - t510))));
-        coriolis_matrix_p[1][0] = t745;
-        coriolis_matrix_b[1][0] = t745;
-        let t746 = t655 + (t619 - (t583 + (t547 - (t469 - t511))));
-        coriolis_matrix_p[1][1] = t746;
-        coriolis_matrix_b[1][1] = t746;
-        let t747 = t656 + (t620 - (t584 + (t548 - (t470 - t512))));
-        coriolis_matrix_p[1][2] = t747;
-        coriolis_matrix_b[1][2] = t747;
-        let t748 = t153 * t655;
-        let t749 = t248 * t446 - (t247 * t447 + (t748 - t152 * t656));
-        let t750 = t144 * t619;
-        let t751 = t236 * t434 - (t235 * t435 + (t750 - t143 * t620));
-        let t752 = t135 * t583;
-        let t753 = t218 * t422 - (t217 * t423 + (t752 - t132 * t584));
-        let t754 = t120 * t547;
-        let t755 = t200 * t410 - (t199 * t411 + (t754 - t117 * t548));
-        let t756 = t96 * t469;
-        let t757 = t170 * t386 - (t169 * t387 + (t756 - t93 * t470));
-        let t758 = t105 * t511;
-        let t759 = t188 * t398 - (t187 * t399 + (t758 - t104 * t512));
-        let t760 = t749 + (t751 - (t753 + (t755 + (t757 - t759))));
-        let t761 = t248 * t445;
-        let t762 = t153 * t654;
-        let t763 = t151 * t656;
-        let t764 = t761 - (t762 + (t689 - t763));
-        let t765 = t236 * t433;
-        let t766 = t144 * t618;
-        let t767 = t142 * t620;
-        let t768 = t765 - (t766 + (t694 - t767));
-        let t769 = t218 * t421;
-        let t770 = t135 * t582;
-        let t771 = t129 * t584;
-        let t772 = t769 - (t770 + (t699 - t771));
-        let t773 = t200 * t409;
-        let t774 = t120 * t546;
-        let t775 = t114 * t548;
-        let t776 = t773 - (t774 + (t704 - t775));
-        let t777 = t170 * t385;
-        let t778 = t96 * t468;
-        let t779 = t90 * t470;
-        let t780 = t777 - (t778 + (t709 - t779));
-        let t781 = t188 * t397;
-        let t782 = t105 * t510;
-        let t783 = t103 * t512;
-        let t784 = t781 - (t782 + (t714 - t783));
-        let t785 = t764 + (t768 - (t772 + (t776 + (t780 - t784))));
-        coriolis_matrix_p[1][4] = t785;
-        let t786 = t151 * t655;
-        let t787 = t247 * t445 - (t244 * t446 + (t152 * t654 - t786));
-        let t788 = t142 * t619;
-        let t789 = t235 * t433 - (t232 * t434 + (t143 * t618 - t788));
-        let t790 = t129 * t583;
-        let t791 = t217 * t421 - (t214 * t422 + (t132 * t582 - t790));
-        let t792 = t114 * t547;
-        let t793 = t199 * t409 - (t196 * t410 + (t117 * t546 - t792));
-        let t794 = t90 * t469;
-        let t795 = t169 * t385 - (t165 * t386 + (t93 * t468 - t794));
-        let t796 = t103 * t511;
-        let t797 = t187 * t397 - (t184 * t398 + (t104 * t510 - t796));
-        let t798 = t787 + (t789 - (t791 + (t793 + (t795 - t797))));
-        let t799 = t658 + (t622 - (t586 + (t550 - (t475 - t514))));
-        coriolis_matrix_p[2][0] = t799;
-        coriolis_matrix_b[2][0] = t799;
-        let t800 = t659 + (t623 - (t587 + (t551 - (t476 - t515))));
-        coriolis_matrix_p[2][1] = t800;
-        coriolis_matrix_b[2][1] = t800;
-        let t801 = t660 + (t624 - (t588 + (t552 - (t477 - t516))));
-        coriolis_matrix_p[2][2] = t801;
-        coriolis_matrix_b[2][2] = t801;
-        let t802 = t152 * t660;
-        let t803 = t249 * t446 - (t248 * t447 + (t153 * t659 - t802));
-        let t804 = t143 * t624;
-        let t805 = t237 * t434 - (t236 * t435 + (t144 * t623 - t804));
-        let t806 = t132 * t588;
-        let t807 = t219 * t422 - (t218 * t423 + (t135 * t587 - t806));
-        let t808 = t117 * t552;
-        let t809 = t201 * t410 - (t200 * t411 + (t120 * t551 - t808));
-        let t810 = t93 * t477;
-        let t811 = t171 * t386 - (t170 * t387 + (t96 * t476 - t810));
-        let t812 = t104 * t516;
-        let t813 = t189 * t398 - (t188 * t399 + (t105 * t515 - t812));
-        let t814 = t803 + (t805 - (t807 + (t809 + (t811 - t813))));
-        let t815 = t151 * t660;
-        let t816 = t246 * t447 - (t249 * t445 + (t815 - t153 * t658));
-        let t817 = t142 * t624;
-        let t818 = t234 * t435 - (t237 * t433 + (t817 - t144 * t622));
-        let t819 = t129 * t588;
-        let t820 = t216 * t423 - (t219 * t421 + (t819 - t135 * t586));
-        let t821 = t114 * t552;
-        let t822 = t198 * t411 - (t201 * t409 + (t821 - t120 * t550));
-        let t823 = t90 * t477;
-        let t824 = t168 * t387 - (t171 * t385 + (t823 - t96 * t475));
-        let t825 = t103 * t516;
-        let t826 = t186 * t399 - (t189 * t397 + (t825 - t105 * t514));
-        let t827 = t816 + (t818 - (t820 + (t822 + (t824 - t826))));
-        let t828 = t151 * t659;
-        let t829 = t152 * t658;
-        let t830 = t828 - (t829 + (t688 - t761));
-        let t831 = t142 * t623;
-        let t832 = t143 * t622;
-        let t833 = t831 - (t832 + (t693 - t765));
-        let t834 = t129 * t587;
-        let t835 = t132 * t586;
-        let t836 = t834 - (t835 + (t698 - t769));
-        let t837 = t114 * t551;
-        let t838 = t117 * t550;
-        let t839 = t837 - (t838 + (t703 - t773));
-        let t840 = t90 * t476;
-        let t841 = t93 * t475;
-        let t842 = t840 - (t841 + (t708 - t777));
-        let t843 = t103 * t515;
-        let t844 = t104 * t514;
-        let t845 = t843 - (t844 + (t713 - t781));
-        let t846 = t830 + (t833 - (t836 + (t839 + (t842 - t845))));
-        let t847 = t844 - (t841 + (t762 + (t766 - (t770 + (t774 + (t778 - t782))))));
-        let t848 = t829 + (t832 - (t835 + (t838 - t847)));
-        let t849 = t93 * t476 + (t748 + (t750 - (t752 + (t754 + (t756 - t758)))));
-        let t850 = t132 * t587 + (t117 * t551 - (t104 * t515 - t849));
-        let t851 = t152 * t659 + (t143 * t623 - t850);
-        let t852 = t96 * t470 + (t802 + (t804 - (t806 + (t808 + (t810 - t812)))));
-        let t853 = t135 * t584 + (t120 * t548 - (t105 * t512 - t852));
-        let t854 = t153 * t656 + (t144 * t620 - t853);
-        coriolis_matrix_p[3][2] = t854;
-        coriolis_matrix_b[3][2] = t854;
-        let t855 = t104 * t813 - (t105 * t759 - (t96 * t757 - t93 * t811));
-        let t856 = t135 * t753 - (t117 * t809 - (t120 * t755 - t855));
-        let t857 = t143 * t805 - (t144 * t751 + (t132 * t807 - t856));
-        let t858 = t152 * t803 - (t153 * t749 - t857);
-        let t859 = t104 * t826 + (t105 * t784 - (t96 * t780 + t93 * t824));
-        let t860 = t135 * t772 + (t117 * t822 + (t120 * t776 + t859));
-        let t861 = t143 * t818 + (t144 * t768 - (t132 * t820 + t860));
-        let t862 = t152 * t816 + (t153 * t764 + t861);
-        let t863 = t104 * t845 - (t105 * t797 - (t96 * t795 - t93 * t842));
-        let t864 = t135 * t791 - (t117 * t839 - (t120 * t793 - t863));
-        let t865 = t143 * t833 - (t144 * t789 + (t132 * t836 - t864));
-        let t866 = t152 * t830 - (t153 * t787 - t865);
-        let t867 = t90 * t475 + (t719 + (t721 - (t723 + (t725 + (t727 - t729)))));
-        let t868 = t129 * t586 + (t114 * t550 - (t103 * t514 - t867));
-        let t869 = t151 * t658 + (t142 * t622 - t868);
-        coriolis_matrix_p[4][0] = t869;
-        coriolis_matrix_b[4][0] = t869;
-        let t870 = t843 - (t840 + (t690 + (t695 - (t700 + (t705 + (t710 - t715))))));
-        let t871 = t828 + (t831 - (t834 + (t837 - t870)));
-        coriolis_matrix_p[4][1] = t871;
-        coriolis_matrix_b[4][1] = t871;
-        let t872 = t96 * t463 + (t815 + (t817 - (t819 + (t821 + (t823 - t825)))));
-        let t873 = t135 * t580 + (t120 * t544 - (t105 * t508 - t872));
-        let t874 = t153 * t652 + (t144 * t616 - t873);
-        let t875 = t105 * t717 - (t103 * t813 - (t90 * t811 - t96 * t712));
-        let t876 = t129 * t807 - (t120 * t707 - (t114 * t809 - t875));
-        let t877 = t144 * t697 - (t142 * t805 + (t135 * t702 - t876));
-        let t878 = t153 * t692 - (t151 * t803 - t877);
-        let t879 = t105 * t730 - (t103 * t826 - (t90 * t824 - t96 * t728));
-        let t880 = t129 * t820 - (t120 * t726 - (t114 * t822 - t879));
-        let t881 = t144 * t722 - (t142 * t818 + (t135 * t724 - t880));
-        let t882 = t153 * t720 - (t151 * t816 - t881);
-        let t883 = t105 * t743 - (t103 * t845 - (t90 * t842 - t96 * t741));
-        let t884 = t129 * t836 - (t120 * t739 - (t114 * t839 - t883));
-        let t885 = t144 * t735 - (t142 * t833 + (t135 * t737 - t884));
-        let t886 = t153 * t733 - (t151 * t830 - t885);
-        let t887 = t90 * t468 + (t732 + (t734 - (t736 + (t738 + (t740 - t742)))));
-        let t888 = t129 * t582 + (t114 * t546 - (t103 * t510 - t887));
-        let t889 = t151 * t654 + (t142 * t618 - t888);
-        let t890 = t93 * t462 + (t786 + (t788 - (t790 + (t792 + (t794 - t796)))));
-        let t891 = t132 * t579 + (t117 * t543 - (t104 * t507 - t890));
-        let t892 = t152 * t651 + (t143 * t615 - t891);
-        coriolis_matrix_p[5][1] = t892;
-        coriolis_matrix_b[5][1] = t892;
-        let t893 = t783 - (t779 + (t691 + (t696 - (t701 + (t706 + (t711 - t716))))));
-        let t894 = t763 + (t767 - (t771 + (t775 - t893)));
-        let t895 = t103 * t759 - (t104 * t717 - (t93 * t712 - t90 * t757));
-        let t896 = t132 * t702 - (t114 * t755 - (t117 * t707 - t895));
-        let t897 = t142 * t751 - (t143 * t697 + (t129 * t753 - t896));
-        let t898 = t151 * t749 - (t152 * t692 - t897);
-        let t899 = t103 * t784 + (t104 * t730 - (t93 * t728 + t90 * t780));
-        let t900 = t132 * t724 + (t114 * t776 + (t117 * t726 + t899));
-        let t901 = t142 * t768 + (t143 * t722 - (t129 * t772 + t900));
-        let t902 = t151 * t764 + (t152 * t720 + t901);
-        let t903 = t103 * t797 - (t104 * t743 - (t93 * t741 - t90 * t795));
-        let t904 = t132 * t737 - (t114 * t793 - (t117 * t739 - t903));
-        let t905 = t142 * t789 - (t143 * t735 + (t129 * t791 - t904));
-        let t906 = t151 * t787 - (t152 * t733 - t905);
-        coriolis_matrix_p[0][3] = -t718;
-        coriolis_matrix_p[2][5] = -t846;
-        let t907 = -t848;
-        coriolis_matrix_p[3][0] = t907;
-        coriolis_matrix_b[3][0] = t907;
-        let t908 = -t851;
-        coriolis_matrix_p[3][1] = t908;
-        coriolis_matrix_b[3][1] = t908;
-        let t909 = -t874;
-        coriolis_matrix_p[4][2] = t909;
-        coriolis_matrix_b[4][2] = t909;
-        let t910 = -t889;
-        coriolis_matrix_p[5][0] = t910;
-        coriolis_matrix_b[5][0] = t910;
-        let t911 = -t894;
-        coriolis_matrix_p[5][2] = t911;
-        coriolis_matrix_b[5][2] = t911;
+        let t673 = t638 + (t602 - (t566 + (t530 - (t449 - t494))));
+        coriolis_matrix_p[0][0] = t673;
+        coriolis_matrix_b[0][0] = t673;
+        let t674 = t639 + (t603 - (t567 + (t531 - (t450 - t495))));
+        coriolis_matrix_p[0][1] = t674;
+        coriolis_matrix_b[0][1] = t674;
+        let t675 = t640 + (t604 - (t568 + (t532 - (t451 - t496))));
+        coriolis_matrix_p[0][2] = t675;
+        coriolis_matrix_b[0][2] = t675;
+        let t676 = t246 * t443;
+        let t677 = t244 * t444;
+        let t678 = t153 * t639;
+        let t679 = t152 * t640;
+        let t680 = t676 - (t677 + (t678 - t679));
+        let t681 = t234 * t440;
+        let t682 = t232 * t441;
+        let t683 = t144 * t603;
+        let t684 = t143 * t604;
+        let t685 = t681 - (t682 + (t683 - t684));
+        let t686 = t216 * t437;
+        let t687 = t214 * t438;
+        let t688 = t135 * t567;
+        let t689 = t132 * t568;
+        let t690 = t686 - (t687 + (t688 - t689));
+        let t691 = t198 * t434;
+        let t692 = t196 * t435;
+        let t693 = t120 * t531;
+        let t694 = t117 * t532;
+        let t695 = t691 - (t692 + (t693 - t694));
+        let t696 = t168 * t428;
+        let t697 = t165 * t429;
+        let t698 = t96 * t450;
+        let t699 = t93 * t451;
+        let t700 = t696 - (t697 + (t698 - t699));
+        let t701 = t186 * t431;
+        let t702 = t184 * t432;
+        let t703 = t105 * t495;
+        let t704 = t104 * t496;
+        let t705 = t701 - (t702 + (t703 - t704));
+        let t706 = t680 + (t685 - (t690 + (t695 + (t700 - t705))));
+        let t707 = t153 * t638;
+        let t708 = t242 * t444 - (t246 * t442 + (t151 * t640 - t707));
+        let t709 = t144 * t602;
+        let t710 = t230 * t441 - (t234 * t439 + (t142 * t604 - t709));
+        let t711 = t135 * t566;
+        let t712 = t212 * t438 - (t216 * t436 + (t129 * t568 - t711));
+        let t713 = t120 * t530;
+        let t714 = t194 * t435 - (t198 * t433 + (t114 * t532 - t713));
+        let t715 = t96 * t449;
+        let t716 = t162 * t429 - (t168 * t427 + (t90 * t451 - t715));
+        let t717 = t105 * t494;
+        let t718 = t182 * t432 - (t186 * t430 + (t103 * t496 - t717));
+        let t719 = t708 + (t710 - (t712 + (t714 + (t716 - t718))));
+        let t720 = t152 * t638;
+        let t721 = t244 * t442 - (t242 * t443 + (t720 - t151 * t639));
+        let t722 = t143 * t602;
+        let t723 = t232 * t439 - (t230 * t440 + (t722 - t142 * t603));
+        let t724 = t132 * t566;
+        let t725 = t214 * t436 - (t212 * t437 + (t724 - t129 * t567));
+        let t726 = t117 * t530;
+        let t727 = t196 * t433 - (t194 * t434 + (t726 - t114 * t531));
+        let t728 = t93 * t449;
+        let t729 = t165 * t427 - (t162 * t428 + (t728 - t90 * t450));
+        let t730 = t104 * t494;
+        let t731 = t184 * t430 - (t182 * t431 + (t730 - t103 * t495));
+        let t732 = t721 + (t723 - (t725 + (t727 + (t729 - t731))));
+        let t733 = t642 + (t606 - (t570 + (t534 - (t456 - t498))));
+        coriolis_matrix_p[1][0] = t733;
+        coriolis_matrix_b[1][0] = t733;
+        let t734 = t643 + (t607 - (t571 + (t535 - (t457 - t499))));
+        coriolis_matrix_p[1][1] = t734;
+        coriolis_matrix_b[1][1] = t734;
+        let t735 = t644 + (t608 - (t572 + (t536 - (t458 - t500))));
+        coriolis_matrix_p[1][2] = t735;
+        coriolis_matrix_b[1][2] = t735;
+        let t736 = t153 * t643;
+        let t737 = t248 * t443 - (t247 * t444 + (t736 - t152 * t644));
+        let t738 = t144 * t607;
+        let t739 = t236 * t440 - (t235 * t441 + (t738 - t143 * t608));
+        let t740 = t135 * t571;
+        let t741 = t218 * t437 - (t217 * t438 + (t740 - t132 * t572));
+        let t742 = t120 * t535;
+        let t743 = t200 * t434 - (t199 * t435 + (t742 - t117 * t536));
+        let t744 = t96 * t457;
+        let t745 = t170 * t428 - (t169 * t429 + (t744 - t93 * t458));
+        let t746 = t105 * t499;
+        let t747 = t188 * t431 - (t187 * t432 + (t746 - t104 * t500));
+        let t748 = t737 + (t739 - (t741 + (t743 + (t745 - t747))));
+        let t749 = t248 * t442;
+        let t750 = t153 * t642;
+        let t751 = t151 * t644;
+        let t752 = t749 - (t750 + (t677 - t751));
+        let t753 = t236 * t439;
+        let t754 = t144 * t606;
+        let t755 = t142 * t608;
+        let t756 = t753 - (t754 + (t682 - t755));
+        let t757 = t218 * t436;
+        let t758 = t135 * t570;
+        let t759 = t129 * t572;
+        let t760 = t757 - (t758 + (t687 - t759));
+        let t761 = t200 * t433;
+        let t762 = t120 * t534;
+        let t763 = t114 * t536;
+        let t764 = t761 - (t762 + (t692 - t763));
+        let t765 = t170 * t427;
+        let t766 = t96 * t456;
+        let t767 = t90 * t458;
+        let t768 = t765 - (t766 + (t697 - t767));
+        let t769 = t188 * t430;
+        let t770 = t105 * t498;
+        let t771 = t103 * t500;
+        let t772 = t769 - (t770 + (t702 - t771));
+        let t773 = t752 + (t756 - (t760 + (t764 + (t768 - t772))));
+        coriolis_matrix_p[1][4] = t773;
+        let t774 = t151 * t643;
+        let t775 = t247 * t442 - (t244 * t443 + (t152 * t642 - t774));
+        let t776 = t142 * t607;
+        let t777 = t235 * t439 - (t232 * t440 + (t143 * t606 - t776));
+        let t778 = t129 * t571;
+        let t779 = t217 * t436 - (t214 * t437 + (t132 * t570 - t778));
+        let t780 = t114 * t535;
+        let t781 = t199 * t433 - (t196 * t434 + (t117 * t534 - t780));
+        let t782 = t90 * t457;
+        let t783 = t169 * t427 - (t165 * t428 + (t93 * t456 - t782));
+        let t784 = t103 * t499;
+        let t785 = t187 * t430 - (t184 * t431 + (t104 * t498 - t784));
+        let t786 = t775 + (t777 - (t779 + (t781 + (t783 - t785))));
+        let t787 = t646 + (t610 - (t574 + (t538 - (t463 - t502))));
+        coriolis_matrix_p[2][0] = t787;
+        coriolis_matrix_b[2][0] = t787;
+        let t788 = t647 + (t611 - (t575 + (t539 - (t464 - t503))));
+        coriolis_matrix_p[2][1] = t788;
+        coriolis_matrix_b[2][1] = t788;
+        let t789 = t648 + (t612 - (t576 + (t540 - (t465 - t504))));
+        coriolis_matrix_p[2][2] = t789;
+        coriolis_matrix_b[2][2] = t789;
+        let t790 = t152 * t648;
+        let t791 = t249 * t443 - (t248 * t444 + (t153 * t647 - t790));
+        let t792 = t143 * t612;
+        let t793 = t237 * t440 - (t236 * t441 + (t144 * t611 - t792));
+        let t794 = t132 * t576;
+        let t795 = t219 * t437 - (t218 * t438 + (t135 * t575 - t794));
+        let t796 = t117 * t540;
+        let t797 = t201 * t434 - (t200 * t435 + (t120 * t539 - t796));
+        let t798 = t93 * t465;
+        let t799 = t171 * t428 - (t170 * t429 + (t96 * t464 - t798));
+        let t800 = t104 * t504;
+        let t801 = t189 * t431 - (t188 * t432 + (t105 * t503 - t800));
+        let t802 = t791 + (t793 - (t795 + (t797 + (t799 - t801))));
+        let t803 = t151 * t648;
+        let t804 = t246 * t444 - (t249 * t442 + (t803 - t153 * t646));
+        let t805 = t142 * t612;
+        let t806 = t234 * t441 - (t237 * t439 + (t805 - t144 * t610));
+        let t807 = t129 * t576;
+        let t808 = t216 * t438 - (t219 * t436 + (t807 - t135 * t574));
+        let t809 = t114 * t540;
+        let t810 = t198 * t435 - (t201 * t433 + (t809 - t120 * t538));
+        let t811 = t90 * t465;
+        let t812 = t168 * t429 - (t171 * t427 + (t811 - t96 * t463));
+        let t813 = t103 * t504;
+        let t814 = t186 * t432 - (t189 * t430 + (t813 - t105 * t502));
+        let t815 = t804 + (t806 - (t808 + (t810 + (t812 - t814))));
+        let t816 = t151 * t647;
+        let t817 = t152 * t646;
+        let t818 = t816 - (t817 + (t676 - t749));
+        let t819 = t142 * t611;
+        let t820 = t143 * t610;
+        let t821 = t819 - (t820 + (t681 - t753));
+        let t822 = t129 * t575;
+        let t823 = t132 * t574;
+        let t824 = t822 - (t823 + (t686 - t757));
+        let t825 = t114 * t539;
+        let t826 = t117 * t538;
+        let t827 = t825 - (t826 + (t691 - t761));
+        let t828 = t90 * t464;
+        let t829 = t93 * t463;
+        let t830 = t828 - (t829 + (t696 - t765));
+        let t831 = t103 * t503;
+        let t832 = t104 * t502;
+        let t833 = t831 - (t832 + (t701 - t769));
+        let t834 = t818 + (t821 - (t824 + (t827 + (t830 - t833))));
+        let t835 = t832 - (t829 + (t750 + (t754 - (t758 + (t762 + (t766 - t770))))));
+        let t836 = t817 + (t820 - (t823 + (t826 - t835)));
+        let t837 = t93 * t464 + (t736 + (t738 - (t740 + (t742 + (t744 - t746)))));
+        let t838 = t132 * t575 + (t117 * t539 - (t104 * t503 - t837));
+        let t839 = t152 * t647 + (t143 * t611 - t838);
+        let t840 = t96 * t458 + (t790 + (t792 - (t794 + (t796 + (t798 - t800)))));
+        let t841 = t135 * t572 + (t120 * t536 - (t105 * t500 - t840));
+        let t842 = t153 * t644 + (t144 * t608 - t841);
+        coriolis_matrix_p[3][2] = t842;
+        coriolis_matrix_b[3][2] = t842;
+        let t843 = t104 * t801 - (t105 * t747 - (t96 * t745 - t93 * t799));
+        let t844 = t135 * t741 - (t117 * t797 - (t120 * t743 - t843));
+        let t845 = t143 * t793 - (t144 * t739 + (t132 * t795 - t844));
+        let t846 = t152 * t791 - (t153 * t737 - t845);
+        let t847 = t104 * t814 + (t105 * t772 - (t96 * t768 + t93 * t812));
+        let t848 = t135 * t760 + (t117 * t810 + (t120 * t764 + t847));
+        let t849 = t143 * t806 + (t144 * t756 - (t132 * t808 + t848));
+        let t850 = t152 * t804 + (t153 * t752 + t849);
+        let t851 = t104 * t833 - (t105 * t785 - (t96 * t783 - t93 * t830));
+        let t852 = t135 * t779 - (t117 * t827 - (t120 * t781 - t851));
+        let t853 = t143 * t821 - (t144 * t777 + (t132 * t824 - t852));
+        let t854 = t152 * t818 - (t153 * t775 - t853);
+        let t855 = t90 * t463 + (t707 + (t709 - (t711 + (t713 + (t715 - t717)))));
+        let t856 = t129 * t574 + (t114 * t538 - (t103 * t502 - t855));
+        let t857 = t151 * t646 + (t142 * t610 - t856);
+        coriolis_matrix_p[4][0] = t857;
+        coriolis_matrix_b[4][0] = t857;
+        let t858 = t831 - (t828 + (t678 + (t683 - (t688 + (t693 + (t698 - t703))))));
+        let t859 = t816 + (t819 - (t822 + (t825 - t858)));
+        coriolis_matrix_p[4][1] = t859;
+        coriolis_matrix_b[4][1] = t859;
+        let t860 = t96 * t451 + (t803 + (t805 - (t807 + (t809 + (t811 - t813)))));
+        let t861 = t135 * t568 + (t120 * t532 - (t105 * t496 - t860));
+        let t862 = t153 * t640 + (t144 * t604 - t861);
+        let t863 = t105 * t705 - (t103 * t801 - (t90 * t799 - t96 * t700));
+        let t864 = t129 * t795 - (t120 * t695 - (t114 * t797 - t863));
+        let t865 = t144 * t685 - (t142 * t793 + (t135 * t690 - t864));
+        let t866 = t153 * t680 - (t151 * t791 - t865);
+        let t867 = t105 * t718 - (t103 * t814 - (t90 * t812 - t96 * t716));
+        let t868 = t129 * t808 - (t120 * t714 - (t114 * t810 - t867));
+        let t869 = t144 * t710 - (t142 * t806 + (t135 * t712 - t868));
+        let t870 = t153 * t708 - (t151 * t804 - t869);
+        let t871 = t105 * t731 - (t103 * t833 - (t90 * t830 - t96 * t729));
+        let t872 = t129 * t824 - (t120 * t727 - (t114 * t827 - t871));
+        let t873 = t144 * t723 - (t142 * t821 + (t135 * t725 - t872));
+        let t874 = t153 * t721 - (t151 * t818 - t873);
+        let t875 = t90 * t456 + (t720 + (t722 - (t724 + (t726 + (t728 - t730)))));
+        let t876 = t129 * t570 + (t114 * t534 - (t103 * t498 - t875));
+        let t877 = t151 * t642 + (t142 * t606 - t876);
+        let t878 = t93 * t450 + (t774 + (t776 - (t778 + (t780 + (t782 - t784)))));
+        let t879 = t132 * t567 + (t117 * t531 - (t104 * t495 - t878));
+        let t880 = t152 * t639 + (t143 * t603 - t879);
+        coriolis_matrix_p[5][1] = t880;
+        coriolis_matrix_b[5][1] = t880;
+        let t881 = t771 - (t767 + (t679 + (t684 - (t689 + (t694 + (t699 - t704))))));
+        let t882 = t751 + (t755 - (t759 + (t763 - t881)));
+        let t883 = t103 * t747 - (t104 * t705 - (t93 * t700 - t90 * t745));
+        let t884 = t132 * t690 - (t114 * t743 - (t117 * t695 - t883));
+        let t885 = t142 * t739 - (t143 * t685 + (t129 * t741 - t884));
+        let t886 = t151 * t737 - (t152 * t680 - t885);
+        let t887 = t103 * t772 + (t104 * t718 - (t93 * t716 + t90 * t768));
+        let t888 = t132 * t712 + (t114 * t764 + (t117 * t714 + t887));
+        let t889 = t142 * t756 + (t143 * t710 - (t129 * t760 + t888));
+        let t890 = t151 * t752 + (t152 * t708 + t889);
+        let t891 = t103 * t785 - (t104 * t731 - (t93 * t729 - t90 * t783));
+        let t892 = t132 * t725 - (t114 * t781 - (t117 * t727 - t891));
+        let t893 = t142 * t777 - (t143 * t723 + (t129 * t779 - t892));
+        let t894 = t151 * t775 - (t152 * t721 - t893);
+        coriolis_matrix_p[0][3] = -t706;
+        coriolis_matrix_p[2][5] = -t834;
+        let t895 = -t836;
+        coriolis_matrix_p[3][0] = t895;
+        coriolis_matrix_b[3][0] = t895;
+        let t896 = -t839;
+        coriolis_matrix_p[3][1] = t896;
+        coriolis_matrix_b[3][1] = t896;
+        let t897 = -t862;
+        coriolis_matrix_p[4][2] = t897;
+        coriolis_matrix_b[4][2] = t897;
+        let t898 = -t877;
+        coriolis_matrix_p[5][0] = t898;
+        coriolis_matrix_b[5][0] = t898;
+        let t899 = -t882;
+        coriolis_matrix_p[5][2] = t899;
+        coriolis_matrix_b[5][2] = t899;
+        // Coriolis matrix C_p, natural factorisation
+        let t900 = platform_rotation[1][0] * 2.2551405187698492e-17;
+        let t901 = t900 + platform_rotation[1][1] * 6.938893903907228e-18;
+        let t902 = t901 + platform_rotation[1][2] * 0.188852;
+        let t903 = platform_rotation[0][0] * 2.2551405187698492e-17;
+        let t904 = t903 + platform_rotation[0][1] * 6.938893903907228e-18;
+        let t905 = t904 + platform_rotation[0][2] * 0.188852;
+        let t906 = platform_velocity[3] * t902 - platform_velocity[4] * t905;
+        coriolis_matrix_p[0][4] = t906 - t719;
+        let t907 = platform_rotation[2][0] * 2.2551405187698492e-17;
+        let t908 = t907 + platform_rotation[2][1] * 6.938893903907228e-18;
+        let t909 = t908 + platform_rotation[2][2] * 0.188852;
+        let t910 = platform_velocity[5] * t905 - platform_velocity[3] * t909;
+        coriolis_matrix_p[0][5] = -(t732 + t910);
+        coriolis_matrix_p[1][3] = -(t748 + t906);
+        let t911 = platform_velocity[4] * t909 - platform_velocity[5] * t902;
+        coriolis_matrix_p[1][5] = t911 - t786;
+        coriolis_matrix_p[2][3] = t910 - t802;
+        coriolis_matrix_p[2][4] = -(t815 + t911);
+        let t912 = platform_rotation[0][2] * 0.013354412;
+        let t913 = platform_rotation[0][0] * 0.032245600000000006;
+        let t914 = platform_rotation[0][1] * 0.032245600000000006;
+        let t915 = platform_rotation[1][0] * t913 + platform_rotation[1][1] * t914;
+        let t916 = platform_rotation[1][2] * t912 + t915;
+        let t917 = platform_velocity[5] * t916;
+        let t918 = platform_rotation[2][0] * t913 + platform_rotation[2][1] * t914;
+        let t919 = platform_rotation[2][2] * t912 + t918;
+        let t920 = platform_velocity[4] * t919;
+        coriolis_matrix_p[3][3] = t846 + t917 - t920;
+        let t921 = platform_rotation[1][2] * 0.013354412;
+        let t922 = platform_rotation[1][1] * 0.032245600000000006;
+        let t923 = platform_rotation[1][0] * 0.032245600000000006;
+        let t924 = 0.0425 - platform_rotation[1][0] * t923;
+        let t925 = platform_rotation[1][1] * t922 - t924;
+        let t926 = platform_rotation[1][2] * t921 + t925;
+        let t927 = platform_rotation[2][0] * t923 + platform_rotation[2][1] * t922;
+        let t928 = platform_rotation[2][2] * t921 + t927;
+        coriolis_matrix_p[3][4] = t850 + platform_velocity[5] * t926
+            - platform_velocity[4] * t928;
+        let t929 = platform_rotation[2][2] * (platform_rotation[2][2] * 0.013354412);
+        let t930 = platform_rotation[2][1]
+            * (platform_rotation[2][1] * 0.032245600000000006);
+        let t931 = platform_rotation[2][0]
+            * (platform_rotation[2][0] * 0.032245600000000006);
+        let t932 = t929 + (t930 - (0.0425 - t931));
+        coriolis_matrix_p[3][5] = t854 + platform_velocity[5] * t928
+            - platform_velocity[4] * t932;
+        let t933 = 0.0425 - platform_rotation[0][0] * t913;
+        let t934 = platform_rotation[0][1] * t914 - t933;
+        let t935 = platform_rotation[0][2] * t912 + t934;
+        coriolis_matrix_p[4][3] = platform_velocity[3] * t919
+            + (t866 - platform_velocity[5] * t935);
+        let t936 = platform_velocity[3] * t928;
+        coriolis_matrix_p[4][4] = t936 + (t870 - t917);
+        coriolis_matrix_p[4][5] = platform_velocity[3] * t932
+            + (t874 - platform_velocity[5] * t919);
+        coriolis_matrix_p[5][3] = t886 + platform_velocity[4] * t935
+            - platform_velocity[3] * t916;
+        coriolis_matrix_p[5][4] = platform_velocity[4] * t916 - t890
+            - platform_velocity[3] * t926;
+        coriolis_matrix_p[5][5] = t894 + t920 - t936;
         (
             t19,
             t20,
@@ -7910,242 +7953,181 @@ pub fn coriolis_matrices(
             t313,
             t314,
             t315,
+            t475,
+            t482,
+            t485,
+            t486,
             t487,
-            t494,
-            t497,
-            t498,
-            t499,
-            t501,
-            t502,
-            t503,
-            t504,
-            t524,
-            t530,
-            t533,
-            t534,
-            t535,
-            t537,
-            t538,
-            t539,
-            t540,
-            t560,
-            t566,
-            t569,
-            t570,
-            t571,
-            t573,
-            t574,
-            t575,
-            t576,
-            t596,
-            t602,
-            t605,
-            t606,
-            t607,
-            t609,
-            t610,
-            t611,
-            t612,
-            t632,
-            t638,
-            t641,
-            t642,
-            t643,
-            t645,
-            t646,
-            t647,
-            t648,
-            t668,
+            t489,
+            t490,
+            t491,
+            t492,
+            t512,
+            t518,
+            t521,
+            t522,
+            t523,
+            t525,
+            t526,
+            t527,
+            t528,
+            t548,
+            t554,
+            t557,
+            t558,
+            t559,
+            t561,
+            t562,
+            t563,
+            t564,
+            t584,
+            t590,
+            t593,
+            t594,
+            t595,
+            t597,
+            t598,
+            t599,
+            t600,
+            t620,
+            t626,
+            t629,
+            t630,
+            t631,
+            t633,
+            t634,
+            t635,
+            t636,
+            t656,
+            t662,
+            t665,
+            t666,
+            t667,
+            t669,
+            t670,
+            t671,
+            t672,
+            t673,
             t674,
-            t677,
-            t678,
-            t679,
-            t681,
-            t682,
-            t683,
-            t684,
-            t685,
-            t686,
-            t687,
-            t718,
-            t731,
-            t744,
-            t745,
-            t746,
-            t747,
-            t760,
-            t785,
-            t798,
-            t799,
-            t800,
-            t801,
-            t814,
-            t827,
+            t675,
+            t706,
+            t719,
+            t732,
+            t733,
+            t734,
+            t735,
+            t748,
+            t773,
+            t786,
+            t787,
+            t788,
+            t789,
+            t802,
+            t815,
+            t834,
+            t836,
+            t839,
+            t842,
             t846,
-            t848,
-            t851,
+            t850,
             t854,
-            t858,
+            t857,
+            t859,
             t862,
             t866,
-            t869,
-            t871,
+            t870,
             t874,
-            t878,
+            t877,
+            t880,
             t882,
             t886,
-            t889,
-            t892,
+            t890,
             t894,
-            t898,
-            t902,
-            t906,
         )
     };
     {
-        // Coriolis matrix C_p, natural factorisation
-        let t912 = platform_rotation[1][0] * 2.2551405187698492e-17;
-        let t913 = t912 + platform_rotation[1][1] * 6.938893903907228e-18;
-        let t914 = t913 + platform_rotation[1][2] * 0.188852;
-        let t915 = platform_rotation[0][0] * 2.2551405187698492e-17;
-        let t916 = t915 + platform_rotation[0][1] * 6.938893903907228e-18;
-        let t917 = t916 + platform_rotation[0][2] * 0.188852;
-        let t918 = platform_velocity[3] * t914 - platform_velocity[4] * t917;
-        coriolis_matrix_p[0][4] = t918 - t731;
-        let t919 = platform_rotation[2][0] * 2.2551405187698492e-17;
-        let t920 = t919 + platform_rotation[2][1] * 6.938893903907228e-18;
-        let t921 = t920 + platform_rotation[2][2] * 0.188852;
-        let t922 = platform_velocity[5] * t917 - platform_velocity[3] * t921;
-        coriolis_matrix_p[0][5] = -(t744 + t922);
-        coriolis_matrix_p[1][3] = -(t760 + t918);
-        let t923 = platform_velocity[4] * t921 - platform_velocity[5] * t914;
-        coriolis_matrix_p[1][5] = t923 - t798;
-        coriolis_matrix_p[2][3] = t922 - t814;
-        coriolis_matrix_p[2][4] = -(t827 + t923);
-        let t924 = platform_rotation[0][2] * 0.013354412;
-        let t925 = platform_rotation[0][0] * 0.032245600000000006;
-        let t926 = platform_rotation[0][1] * 0.032245600000000006;
-        let t927 = platform_rotation[1][0] * t925 + platform_rotation[1][1] * t926;
-        let t928 = platform_rotation[1][2] * t924 + t927;
-        let t929 = platform_velocity[5] * t928;
-        let t930 = platform_rotation[2][0] * t925 + platform_rotation[2][1] * t926;
-        let t931 = platform_rotation[2][2] * t924 + t930;
-        let t932 = platform_velocity[4] * t931;
-        coriolis_matrix_p[3][3] = t858 + t929 - t932;
-        let t933 = platform_rotation[1][2] * 0.013354412;
-        let t934 = platform_rotation[1][1] * 0.032245600000000006;
-        let t935 = platform_rotation[1][0] * 0.032245600000000006;
-        let t936 = 0.0425 - platform_rotation[1][0] * t935;
-        let t937 = platform_rotation[1][1] * t934 - t936;
-        let t938 = platform_rotation[1][2] * t933 + t937;
-        let t939 = platform_rotation[2][0] * t935 + platform_rotation[2][1] * t934;
-        let t940 = platform_rotation[2][2] * t933 + t939;
-        coriolis_matrix_p[3][4] = t862 + platform_velocity[5] * t938
-            - platform_velocity[4] * t940;
-        let t941 = platform_rotation[2][2] * (platform_rotation[2][2] * 0.013354412);
-        let t942 = platform_rotation[2][1]
-            * (platform_rotation[2][1] * 0.032245600000000006);
-        let t943 = platform_rotation[2][0]
-            * (platform_rotation[2][0] * 0.032245600000000006);
-        let t944 = t941 + (t942 - (0.0425 - t943));
-        coriolis_matrix_p[3][5] = t866 + platform_velocity[5] * t940
-            - platform_velocity[4] * t944;
-        let t945 = 0.0425 - platform_rotation[0][0] * t925;
-        let t946 = platform_rotation[0][1] * t926 - t945;
-        let t947 = platform_rotation[0][2] * t924 + t946;
-        coriolis_matrix_p[4][3] = platform_velocity[3] * t931
-            + (t878 - platform_velocity[5] * t947);
-        let t948 = platform_velocity[3] * t940;
-        coriolis_matrix_p[4][4] = t948 + (t882 - t929);
-        coriolis_matrix_p[4][5] = platform_velocity[3] * t944
-            + (t886 - platform_velocity[5] * t931);
-        coriolis_matrix_p[5][3] = t898 + platform_velocity[4] * t947
-            - platform_velocity[3] * t928;
-        coriolis_matrix_p[5][4] = platform_velocity[4] * t928 - t902
-            - platform_velocity[3] * t938;
-        coriolis_matrix_p[5][5] = t906 + t932 - t948;
         // Coriolis matrix C_b, natural factorisation
-        let t949 = t254 * t315;
-        let t950 = t718 - (t668 + (t632 - (t596 + (t560 - (t487 - t524)))));
-        let t951 = t255 * t314;
-        coriolis_matrix_b[0][3] = t949 - (t20 * t687 - (t21 * t686 - t950)) - t951;
-        let t952 = t731 - (t674 + (t638 - (t602 + (t566 - (t494 - t530)))));
-        let t953 = t255 * t313 - (t21 * t685 - (t19 * t687 - t952));
-        coriolis_matrix_b[0][4] = t953 - t253 * t315;
-        let t954 = t744 - (t677 + (t641 - (t605 + (t569 - (t497 - t533)))));
-        let t955 = t253 * t314 - (t19 * t686 - (t20 * t685 - t954));
-        coriolis_matrix_b[0][5] = t955 - t254 * t313;
-        let t956 = t760 + (t678 + (t642 + (t606 + (t570 + (t498 + t534)))));
-        let t957 = t269 * t315 - (t20 * t747 - (t21 * t746 - t956));
-        coriolis_matrix_b[1][3] = t957 - t270 * t314;
-        let t958 = t270 * t313;
-        let t959 = t949 - (t785 + (t679 + (t643 - (t607 + (t571 - (t499 - t535))))));
-        coriolis_matrix_b[1][4] = t958 - (t21 * t745 - (t19 * t747 - t959));
-        let t960 = t798 - (t681 + (t645 - (t609 + (t573 - (t501 - t537)))));
-        let t961 = t254 * t314 - (t19 * t746 - (t20 * t745 - t960));
-        coriolis_matrix_b[1][5] = t961 - t269 * t313;
-        let t962 = t814 - (t682 + (t646 + (t610 + (t574 + (t502 + t538)))));
-        let t963 = t270 * t315 - (t20 * t801 - (t21 * t800 - t962));
-        coriolis_matrix_b[2][3] = t963 - t282 * t314;
-        let t964 = t827 + (t683 + (t647 + (t611 + (t575 + (t503 + t539)))));
-        let t965 = t282 * t313 - (t21 * t799 - (t19 * t801 - t964));
-        coriolis_matrix_b[2][4] = t965 - t255 * t315;
-        let t966 = t951 - (t846 - (t684 + (t648 - (t612 + (t576 - (t504 - t540))))));
-        coriolis_matrix_b[2][5] = t20 * t799 - (t958 - t966) - t19 * t800;
-        let t967 = t274 * t315 + (t20 * t854 - (t858 - t21 * t851));
-        let t968 = t96 * t498 + (t93 * t502 + (t286 * t314 - t967));
-        let t969 = t105 * t534 + (t104 * t538 + t968) - t117 * t574;
-        let t970 = t969 - t120 * t570 - t132 * t610 - t135 * t606;
-        let t971 = t970 - t143 * t646 - t144 * t642 - t152 * t682;
-        coriolis_matrix_b[3][3] = t971 - t153 * t678;
-        let t972 = t286 * t313 - (t21 * t848 + (t862 + t19 * t854));
-        let t973 = t96 * t499 + (t93 * t503 + (t260 * t315 + t972));
-        let t974 = t117 * t575 + (t105 * t535 - (t104 * t539 + t973));
-        let t975 = t135 * t607 - (t132 * t611 - (t120 * t571 - t974));
-        let t976 = t152 * t683 + (t144 * t643 + (t143 * t647 - t975));
-        coriolis_matrix_b[3][4] = t153 * t679 + t976;
-        let t977 = t260 * t314 + (t19 * t851 + (t866 - t20 * t848));
-        let t978 = t96 * t501 - (t93 * t504 + (t274 * t313 + t977));
-        let t979 = t117 * t576 + (t105 * t537 - (t104 * t540 + t978));
-        let t980 = t135 * t609 - (t132 * t612 - (t120 * t573 - t979));
-        let t981 = t152 * t684 - (t144 * t645 - (t143 * t648 + t980));
-        coriolis_matrix_b[3][5] = t153 * t681 - t981;
-        let t982 = t277 * t315 - (t20 * t874 + (t878 + t21 * t871));
-        let t983 = t90 * t502 - (t96 * t487 + (t290 * t314 - t982));
-        let t984 = t120 * t560 - (t103 * t538 + (t105 * t524 + t983));
-        let t985 = t129 * t610 + (t135 * t596 + (t114 * t574 + t984));
-        let t986 = t153 * t668 - (t142 * t646 - (t144 * t632 - t985));
-        coriolis_matrix_b[4][3] = t151 * t682 - t986;
-        let t987 = t290 * t313 + (t21 * t869 - (t882 - t19 * t874));
-        let t988 = t90 * t503 + (t96 * t494 + (t264 * t315 - t987));
-        let t989 = t120 * t566 + (t103 * t539 - (t105 * t530 - t988));
-        let t990 = t135 * t602 - (t114 * t575 - t989) - t129 * t611;
-        let t991 = t990 - t144 * t638 - t142 * t647 - t153 * t674;
-        coriolis_matrix_b[4][4] = t991 - t151 * t683;
-        let t992 = t264 * t314 + (t19 * t871 - (t886 + t20 * t869));
-        let t993 = t90 * t504 - (t96 * t497 + (t277 * t313 - t992));
-        let t994 = t120 * t569 + (t103 * t540 - (t105 * t533 + t993));
-        let t995 = t129 * t612 - (t135 * t605 - (t114 * t576 - t994));
-        let t996 = t153 * t677 - (t142 * t648 - (t144 * t641 + t995));
-        coriolis_matrix_b[4][5] = t151 * t684 - t996;
-        let t997 = t281 * t315 - (t20 * t894 + (t898 + t21 * t892));
-        let t998 = t93 * t487 + (t90 * t498 + (t291 * t314 + t997));
-        let t999 = t114 * t570 + (t104 * t524 - (t103 * t534 + t998));
-        let t1000 = t132 * t596 - (t129 * t606 - (t117 * t560 - t999));
-        let t1001 = t151 * t678 + (t143 * t632 + (t142 * t642 - t1000));
-        coriolis_matrix_b[5][3] = t152 * t668 + t1001;
-        let t1002 = t291 * t313 + (t21 * t889 - (t902 + t19 * t894));
-        let t1003 = t93 * t494 - (t90 * t499 + (t268 * t315 + t1002));
-        let t1004 = t114 * t571 + (t104 * t530 - (t103 * t535 + t1003));
-        let t1005 = t132 * t602 - (t129 * t607 - (t117 * t566 - t1004));
-        let t1006 = t151 * t679 - (t143 * t638 - (t142 * t643 + t1005));
-        coriolis_matrix_b[5][4] = t152 * t674 - t1006;
-        let t1007 = t268 * t314 + (t19 * t892 - (t906 - t20 * t889));
-        let t1008 = t93 * t497 - (t90 * t501 + (t281 * t313 - t1007));
-        let t1009 = t114 * t573 + (t104 * t533 - (t103 * t537 + t1008));
-        let t1010 = t132 * t605 - (t129 * t609 - (t117 * t569 - t1009));
-        let t1011 = t151 * t681 - (t143 * t641 - (t142 * t645 + t1010));
-        coriolis_matrix_b[5][5] = t152 * t677 - t1011;
+        let t937 = t254 * t315;
+        let t938 = t706 - (t656 + (t620 - (t584 + (t548 - (t475 - t512)))));
+        let t939 = t255 * t314;
+        coriolis_matrix_b[0][3] = t937 - (t20 * t675 - (t21 * t674 - t938)) - t939;
+        let t940 = t719 - (t662 + (t626 - (t590 + (t554 - (t482 - t518)))));
+        let t941 = t255 * t313 - (t21 * t673 - (t19 * t675 - t940));
+        coriolis_matrix_b[0][4] = t941 - t253 * t315;
+        let t942 = t732 - (t665 + (t629 - (t593 + (t557 - (t485 - t521)))));
+        let t943 = t253 * t314 - (t19 * t674 - (t20 * t673 - t942));
+        coriolis_matrix_b[0][5] = t943 - t254 * t313;
+        let t944 = t748 + (t666 + (t630 + (t594 + (t558 + (t486 + t522)))));
+        let t945 = t269 * t315 - (t20 * t735 - (t21 * t734 - t944));
+        coriolis_matrix_b[1][3] = t945 - t270 * t314;
+        let t946 = t270 * t313;
+        let t947 = t937 - (t773 + (t667 + (t631 - (t595 + (t559 - (t487 - t523))))));
+        coriolis_matrix_b[1][4] = t946 - (t21 * t733 - (t19 * t735 - t947));
+        let t948 = t786 - (t669 + (t633 - (t597 + (t561 - (t489 - t525)))));
+        let t949 = t254 * t314 - (t19 * t734 - (t20 * t733 - t948));
+        coriolis_matrix_b[1][5] = t949 - t269 * t313;
+        let t950 = t802 - (t670 + (t634 + (t598 + (t562 + (t490 + t526)))));
+        let t951 = t270 * t315 - (t20 * t789 - (t21 * t788 - t950));
+        coriolis_matrix_b[2][3] = t951 - t282 * t314;
+        let t952 = t815 + (t671 + (t635 + (t599 + (t563 + (t491 + t527)))));
+        let t953 = t282 * t313 - (t21 * t787 - (t19 * t789 - t952));
+        coriolis_matrix_b[2][4] = t953 - t255 * t315;
+        let t954 = t939 - (t834 - (t672 + (t636 - (t600 + (t564 - (t492 - t528))))));
+        coriolis_matrix_b[2][5] = t20 * t787 - (t946 - t954) - t19 * t788;
+        let t955 = t274 * t315 + (t20 * t842 - (t846 - t21 * t839));
+        let t956 = t96 * t486 + (t93 * t490 + (t286 * t314 - t955));
+        let t957 = t105 * t522 + (t104 * t526 + t956) - t117 * t562;
+        let t958 = t957 - t120 * t558 - t132 * t598 - t135 * t594;
+        let t959 = t958 - t143 * t634 - t144 * t630 - t152 * t670;
+        coriolis_matrix_b[3][3] = t959 - t153 * t666;
+        let t960 = t286 * t313 - (t21 * t836 + (t850 + t19 * t842));
+        let t961 = t96 * t487 + (t93 * t491 + (t260 * t315 + t960));
+        let t962 = t117 * t563 + (t105 * t523 - (t104 * t527 + t961));
+        let t963 = t135 * t595 - (t132 * t599 - (t120 * t559 - t962));
+        let t964 = t152 * t671 + (t144 * t631 + (t143 * t635 - t963));
+        coriolis_matrix_b[3][4] = t153 * t667 + t964;
+        let t965 = t260 * t314 + (t19 * t839 + (t854 - t20 * t836));
+        let t966 = t96 * t489 - (t93 * t492 + (t274 * t313 + t965));
+        let t967 = t117 * t564 + (t105 * t525 - (t104 * t528 + t966));
+        let t968 = t135 * t597 - (t132 * t600 - (t120 * t561 - t967));
+        let t969 = t152 * t672 - (t144 * t633 - (t143 * t636 + t968));
+        coriolis_matrix_b[3][5] = t153 * t669 - t969;
+        let t970 = t277 * t315 - (t20 * t862 + (t866 + t21 * t859));
+        let t971 = t90 * t490 - (t96 * t475 + (t290 * t314 - t970));
+        let t972 = t120 * t548 - (t103 * t526 + (t105 * t512 + t971));
+        let t973 = t129 * t598 + (t135 * t584 + (t114 * t562 + t972));
+        let t974 = t153 * t656 - (t142 * t634 - (t144 * t620 - t973));
+        coriolis_matrix_b[4][3] = t151 * t670 - t974;
+        let t975 = t290 * t313 + (t21 * t857 - (t870 - t19 * t862));
+        let t976 = t90 * t491 + (t96 * t482 + (t264 * t315 - t975));
+        let t977 = t120 * t554 + (t103 * t527 - (t105 * t518 - t976));
+        let t978 = t135 * t590 - (t114 * t563 - t977) - t129 * t599;
+        let t979 = t978 - t144 * t626 - t142 * t635 - t153 * t662;
+        coriolis_matrix_b[4][4] = t979 - t151 * t671;
+        let t980 = t264 * t314 + (t19 * t859 - (t874 + t20 * t857));
+        let t981 = t90 * t492 - (t96 * t485 + (t277 * t313 - t980));
+        let t982 = t120 * t557 + (t103 * t528 - (t105 * t521 + t981));
+        let t983 = t129 * t600 - (t135 * t593 - (t114 * t564 - t982));
+        let t984 = t153 * t665 - (t142 * t636 - (t144 * t629 + t983));
+        coriolis_matrix_b[4][5] = t151 * t672 - t984;
+        let t985 = t281 * t315 - (t20 * t882 + (t886 + t21 * t880));
+        let t986 = t93 * t475 + (t90 * t486 + (t291 * t314 + t985));
+        let t987 = t114 * t558 + (t104 * t512 - (t103 * t522 + t986));
+        let t988 = t132 * t584 - (t129 * t594 - (t117 * t548 - t987));
+        let t989 = t151 * t666 + (t143 * t620 + (t142 * t630 - t988));
+        coriolis_matrix_b[5][3] = t152 * t656 + t989;
+        let t990 = t291 * t313 + (t21 * t877 - (t890 + t19 * t882));
+        let t991 = t93 * t482 - (t90 * t487 + (t268 * t315 + t990));
+        let t992 = t114 * t559 + (t104 * t518 - (t103 * t523 + t991));
+        let t993 = t132 * t590 - (t129 * t595 - (t117 * t554 - t992));
+        let t994 = t151 * t667 - (t143 * t626 - (t142 * t631 + t993));
+        coriolis_matrix_b[5][4] = t152 * t662 - t994;
+        let t995 = t268 * t314 + (t19 * t880 - (t894 - t20 * t877));
+        let t996 = t93 * t485 - (t90 * t489 + (t281 * t313 - t995));
+        let t997 = t114 * t561 + (t104 * t521 - (t103 * t525 + t996));
+        let t998 = t132 * t593 - (t129 * t597 - (t117 * t557 - t997));
+        let t999 = t151 * t669 - (t143 * t629 - (t142 * t633 + t998));
+        coriolis_matrix_b[5][5] = t152 * t665 - t999;
     }
 }
 
@@ -8675,7 +8657,6 @@ pub fn matrices(
         t19,
         t20,
         t21,
-        t56,
         t59,
         t64,
         t69,
@@ -8744,9 +8725,6 @@ pub fn matrices(
         t196,
         t197,
         t198,
-        t207,
-        t211,
-        t221,
         t245,
         t247,
         t249,
@@ -8819,60 +8797,71 @@ pub fn matrices(
         t708,
         t709,
         t710,
-        t753,
         t755,
         t759,
         t763,
         t765,
         t767,
-        t780,
         t781,
-        t782,
+        t783,
+        t785,
+        t790,
         t792,
-        t793,
         t794,
         t799,
         t801,
         t803,
-        t804,
-        t805,
-        t806,
-        t811,
-        t813,
-        t815,
-        t816,
+        t808,
+        t810,
+        t812,
         t817,
-        t818,
+        t819,
+        t821,
+        t822,
         t823,
+        t824,
         t825,
+        t826,
         t827,
         t828,
         t829,
         t830,
+        t831,
+        t832,
+        t833,
+        t834,
         t835,
+        t836,
         t837,
+        t838,
         t839,
-        t840,
         t841,
         t842,
-        t847,
+        t844,
+        t845,
+        t846,
+        t848,
         t849,
         t851,
+        t852,
         t853,
-        t854,
+        t855,
         t856,
-        t857,
         t858,
+        t859,
         t860,
         t861,
-        t863,
-        t864,
-        t865,
-        t867,
-        t868,
+        t862,
         t870,
         t871,
-        t872,
+        t877,
+        t880,
+        t881,
+        t882,
+        t884,
+        t885,
+        t886,
+        t887,
     ) = {
         // rotation of the platform seen from the base
         let t1 = base_rotation[1][0] * platform_rotation[1][0];
@@ -9839,135 +9828,144 @@ pub fn matrices(
         let t766 = t74 * (t50 * t748 - t51 * t749);
         // leg 6: actuator velocity d'
         let t767 = t757 + (t758 - t766);
-        // leg 1: rate of that gradient relative to the base
-        let t768 = t53 * (t728 + t76 * t750);
-        let t769 = t53 * (t731 - t77 * t750);
-        // leg 2: rate of that gradient relative to the base
-        let t770 = t58 * (t732 + t78 * t754);
-        let t771 = t58 * (t733 + t79 * t754);
-        // leg 3: rate of that gradient relative to the base
-        let t772 = t61 * (t736 + t80 * t756);
-        let t773 = t61 * (t739 + t81 * t756);
-        // leg 4: rate of that gradient relative to the base
-        let t774 = t66 * (t742 + t82 * t760);
-        let t775 = t66 * (t745 + t83 * t760);
-        // leg 5: rate of that gradient relative to the base
-        let t776 = t71 * (t746 + t84 * t764);
-        let t777 = t71 * (t747 - t85 * t764);
-        // leg 6: rate of that gradient relative to the base
-        let t778 = t74 * (t748 + t86 * t766);
-        let t779 = t74 * (t749 - t87 * t766);
-        // leg 1: rate of the platform lever
-        let t780 = platform_velocity[4] * t96 - platform_velocity[5] * t93;
-        let t781 = platform_velocity[5] * t90 - platform_velocity[3] * t96;
-        let t782 = platform_velocity[3] * t93 - platform_velocity[4] * t90;
         // leg 1: inertial rate of that gradient
-        let t783 = t77 * t689 + t76 * t692;
-        let t784 = t77 * t695 - (t692 - t768);
-        let t785 = t76 * t695 + (t689 + t769);
-        let t786 = base_rotation[0][0] * t784 + base_rotation[0][1] * t785;
-        let t787 = base_rotation[0][2] * t783 - t786;
-        let t788 = base_rotation[1][0] * t784 + base_rotation[1][1] * t785;
-        let t789 = base_rotation[1][2] * t783 - t788;
-        let t790 = base_rotation[2][0] * t784 + base_rotation[2][1] * t785;
-        let t791 = base_rotation[2][2] * t783 - t790;
-        // leg 2: rate of the platform lever
-        let t792 = platform_velocity[4] * t108 - platform_velocity[5] * t107;
-        let t793 = platform_velocity[5] * t106 - platform_velocity[3] * t108;
-        let t794 = platform_velocity[3] * t107 - platform_velocity[4] * t106;
+        let t768 = t77 * t689 + t76 * t692;
+        let t769 = t77 * t695 - (t692 - t53 * (t728 + t76 * t750));
+        let t770 = t76 * t695 + (t689 + t53 * (t731 - t77 * t750));
+        let t771 = base_rotation[0][0] * t769 + base_rotation[0][1] * t770;
+        let t772 = base_rotation[0][2] * t768 - t771;
+        let t773 = base_rotation[1][0] * t769 + base_rotation[1][1] * t770;
+        let t774 = base_rotation[1][2] * t768 - t773;
+        let t775 = base_rotation[2][0] * t769 + base_rotation[2][1] * t770;
+        let t776 = base_rotation[2][2] * t768 - t775;
         // leg 2: inertial rate of that gradient
-        let t795 = t79 * t689 - t78 * t692;
-        let t796 = t79 * t695 + (t692 - t770);
-        let t797 = t78 * t695 + (t689 + t771);
+        let t777 = t79 * t689 - t78 * t692;
+        let t778 = t79 * t695 + (t692 - t58 * (t732 + t78 * t754));
+        let t779 = t78 * t695 + (t689 + t58 * (t733 + t79 * t754));
+        let t780 = base_rotation[0][0] * t778 - base_rotation[0][1] * t779;
+        let t781 = base_rotation[0][2] * t777 - t780;
+        let t782 = base_rotation[1][0] * t778 - base_rotation[1][1] * t779;
+        let t783 = base_rotation[1][2] * t777 - t782;
+        let t784 = base_rotation[2][0] * t778 - base_rotation[2][1] * t779;
+        let t785 = base_rotation[2][2] * t777 - t784;
+        // leg 3: inertial rate of that gradient
+        let t786 = t81 * t689 - t80 * t692;
+        let t787 = t81 * t695 + (t692 - t61 * (t736 + t80 * t756));
+        let t788 = t80 * t695 + (t689 + t61 * (t739 + t81 * t756));
+        let t789 = base_rotation[0][0] * t787 - base_rotation[0][1] * t788;
+        let t790 = base_rotation[0][2] * t786 - t789;
+        let t791 = base_rotation[1][0] * t787 - base_rotation[1][1] * t788;
+        let t792 = base_rotation[1][2] * t786 - t791;
+        let t793 = base_rotation[2][0] * t787 - base_rotation[2][1] * t788;
+        let t794 = base_rotation[2][2] * t786 - t793;
+        // leg 4: inertial rate of that gradient
+        let t795 = t83 * t689 - t82 * t692;
+        let t796 = t83 * t695 + (t692 - t66 * (t742 + t82 * t760));
+        let t797 = t82 * t695 + (t689 + t66 * (t745 + t83 * t760));
         let t798 = base_rotation[0][0] * t796 - base_rotation[0][1] * t797;
         let t799 = base_rotation[0][2] * t795 - t798;
         let t800 = base_rotation[1][0] * t796 - base_rotation[1][1] * t797;
         let t801 = base_rotation[1][2] * t795 - t800;
         let t802 = base_rotation[2][0] * t796 - base_rotation[2][1] * t797;
         let t803 = base_rotation[2][2] * t795 - t802;
-        // leg 3: rate of the platform lever
-        let t804 = platform_velocity[4] * t129 - platform_velocity[5] * t126;
-        let t805 = platform_velocity[5] * t123 - platform_velocity[3] * t129;
-        let t806 = platform_velocity[3] * t126 - platform_velocity[4] * t123;
-        // leg 3: inertial rate of that gradient
-        let t807 = t81 * t689 - t80 * t692;
-        let t808 = t81 * t695 + (t692 - t772);
-        let t809 = t80 * t695 + (t689 + t773);
-        let t810 = base_rotation[0][0] * t808 - base_rotation[0][1] * t809;
-        let t811 = base_rotation[0][2] * t807 - t810;
-        let t812 = base_rotation[1][0] * t808 - base_rotation[1][1] * t809;
-        let t813 = base_rotation[1][2] * t807 - t812;
-        let t814 = base_rotation[2][0] * t808 - base_rotation[2][1] * t809;
-        let t815 = base_rotation[2][2] * t807 - t814;
-        // leg 4: rate of the platform lever
-        let t816 = platform_velocity[4] * t150 - platform_velocity[5] * t147;
-        let t817 = platform_velocity[5] * t144 - platform_velocity[3] * t150;
-        let t818 = platform_velocity[3] * t147 - platform_velocity[4] * t144;
-        // leg 4: inertial rate of that gradient
-        let t819 = t83 * t689 - t82 * t692;
-        let t820 = t83 * t695 + (t692 - t774);
-        let t821 = t82 * t695 + (t689 + t775);
-        let t822 = base_rotation[0][0] * t820 - base_rotation[0][1] * t821;
-        let t823 = base_rotation[0][2] * t819 - t822;
-        let t824 = base_rotation[1][0] * t820 - base_rotation[1][1] * t821;
-        let t825 = base_rotation[1][2] * t819 - t824;
-        let t826 = base_rotation[2][0] * t820 - base_rotation[2][1] * t821;
-        let t827 = base_rotation[2][2] * t819 - t826;
-        // leg 5: rate of the platform lever
-        let t828 = platform_velocity[4] * t165 - platform_velocity[5] * t164;
-        let t829 = platform_velocity[5] * t163 - platform_velocity[3] * t165;
-        let t830 = platform_velocity[3] * t164 - platform_velocity[4] * t163;
         // leg 5: inertial rate of that gradient
-        let t831 = t85 * t689 + t84 * t692;
-        let t832 = t85 * t695 - (t692 - t776);
-        let t833 = t84 * t695 + (t689 + t777);
-        let t834 = base_rotation[0][0] * t832 + base_rotation[0][1] * t833;
-        let t835 = base_rotation[0][2] * t831 - t834;
-        let t836 = base_rotation[1][0] * t832 + base_rotation[1][1] * t833;
-        let t837 = base_rotation[1][2] * t831 - t836;
-        let t838 = base_rotation[2][0] * t832 + base_rotation[2][1] * t833;
-        let t839 = base_rotation[2][2] * t831 - t838;
-        // leg 6: rate of the platform lever
-        let t840 = platform_velocity[4] * t177 - platform_velocity[5] * t176;
-        let t841 = platform_velocity[5] * t175 - platform_velocity[3] * t177;
-        let t842 = platform_velocity[3] * t176 - platform_velocity[4] * t175;
+        let t804 = t85 * t689 + t84 * t692;
+        let t805 = t85 * t695 - (t692 - t71 * (t746 + t84 * t764));
+        let t806 = t84 * t695 + (t689 + t71 * (t747 - t85 * t764));
+        let t807 = base_rotation[0][0] * t805 + base_rotation[0][1] * t806;
+        let t808 = base_rotation[0][2] * t804 - t807;
+        let t809 = base_rotation[1][0] * t805 + base_rotation[1][1] * t806;
+        let t810 = base_rotation[1][2] * t804 - t809;
+        let t811 = base_rotation[2][0] * t805 + base_rotation[2][1] * t806;
+        let t812 = base_rotation[2][2] * t804 - t811;
         // leg 6: inertial rate of that gradient
-        let t843 = t87 * t689 + t86 * t692;
-        let t844 = t87 * t695 - (t692 - t778);
-        let t845 = t86 * t695 + (t689 + t779);
-        let t846 = base_rotation[0][0] * t844 + base_rotation[0][1] * t845;
-        let t847 = base_rotation[0][2] * t843 - t846;
-        let t848 = base_rotation[1][0] * t844 + base_rotation[1][1] * t845;
-        let t849 = base_rotation[1][2] * t843 - t848;
-        let t850 = base_rotation[2][0] * t844 + base_rotation[2][1] * t845;
-        let t851 = base_rotation[2][2] * t843 - t850;
+        let t813 = t87 * t689 + t86 * t692;
+        let t814 = t87 * t695 - (t692 - t74 * (t748 + t86 * t766));
+        let t815 = t86 * t695 + (t689 + t74 * (t749 - t87 * t766));
+        let t816 = base_rotation[0][0] * t814 + base_rotation[0][1] * t815;
+        let t817 = base_rotation[0][2] * t813 - t816;
+        let t818 = base_rotation[1][0] * t814 + base_rotation[1][1] * t815;
+        let t819 = base_rotation[1][2] * t813 - t818;
+        let t820 = base_rotation[2][0] * t814 + base_rotation[2][1] * t815;
+        let t821 = base_rotation[2][2] * t813 - t820;
+        // leg 1: rate of the platform lever
+        let t822 = platform_velocity[4] * t96 - platform_velocity[5] * t93;
+        let t823 = platform_velocity[5] * t90 - platform_velocity[3] * t96;
+        let t824 = platform_velocity[3] * t93 - platform_velocity[4] * t90;
+        // leg 2: rate of the platform lever
+        let t825 = platform_velocity[4] * t108 - platform_velocity[5] * t107;
+        let t826 = platform_velocity[5] * t106 - platform_velocity[3] * t108;
+        let t827 = platform_velocity[3] * t107 - platform_velocity[4] * t106;
+        // leg 3: rate of the platform lever
+        let t828 = platform_velocity[4] * t129 - platform_velocity[5] * t126;
+        let t829 = platform_velocity[5] * t123 - platform_velocity[3] * t129;
+        let t830 = platform_velocity[3] * t126 - platform_velocity[4] * t123;
+        // leg 4: rate of the platform lever
+        let t831 = platform_velocity[4] * t150 - platform_velocity[5] * t147;
+        let t832 = platform_velocity[5] * t144 - platform_velocity[3] * t150;
+        let t833 = platform_velocity[3] * t147 - platform_velocity[4] * t144;
+        // leg 5: rate of the platform lever
+        let t834 = platform_velocity[4] * t165 - platform_velocity[5] * t164;
+        let t835 = platform_velocity[5] * t163 - platform_velocity[3] * t165;
+        let t836 = platform_velocity[3] * t164 - platform_velocity[4] * t163;
+        // leg 6: rate of the platform lever
+        let t837 = platform_velocity[4] * t177 - platform_velocity[5] * t176;
+        let t838 = platform_velocity[5] * t175 - platform_velocity[3] * t177;
+        let t839 = platform_velocity[3] * t176 - platform_velocity[4] * t175;
         // leg 1: Coriolis matrix of the leg in the speeds of its joint
-        let t852 = base_rotation[1][2] * base_velocity[5];
-        let t853 = base_rotation[2][2] * base_velocity[4] - t852;
-        let t854 = 0.17066666666666666 * t853;
-        let t855 = t187 + t101 * 0.9523333333333334;
-        let t856 = t787 * t855 + t101 * t854;
-        let t857 = t789 * t855 + t103 * t854;
-        let t858 = t791 * t855 + t105 * t854;
-        let t859 = base_rotation[2][2] * base_velocity[3];
-        let t860 = base_rotation[0][2] * base_velocity[5] - t859;
-        let t861 = 0.17066666666666666 * t860;
-        let t862 = t190 + t103 * 0.9523333333333334;
-        let t863 = t787 * t862 + t101 * t861;
-        let t864 = t789 * t862 + t103 * t861;
-        let t865 = t791 * t862 + t105 * t861;
-        let t866 = base_rotation[0][2] * base_velocity[4];
-        let t867 = base_rotation[1][2] * base_velocity[3] - t866;
-        let t868 = 0.17066666666666666 * t867;
-        let t869 = t193 + t105 * 0.9523333333333334;
-        let t870 = t787 * t869 + t101 * t868;
-        let t871 = t789 * t869 + t103 * t868;
-        let t872 = t791 * t869 + t105 * t868;
+        let t840 = base_rotation[1][2] * base_velocity[5];
+        let t841 = base_rotation[2][2] * base_velocity[4] - t840;
+        let t842 = 0.17066666666666666 * t841;
+        let t843 = t187 + t101 * 0.9523333333333334;
+        let t844 = t772 * t843 + t101 * t842;
+        let t845 = t774 * t843 + t103 * t842;
+        let t846 = t776 * t843 + t105 * t842;
+        let t847 = base_rotation[2][2] * base_velocity[3];
+        let t848 = base_rotation[0][2] * base_velocity[5] - t847;
+        let t849 = 0.17066666666666666 * t848;
+        let t850 = t190 + t103 * 0.9523333333333334;
+        let t851 = t772 * t850 + t101 * t849;
+        let t852 = t774 * t850 + t103 * t849;
+        let t853 = t776 * t850 + t105 * t849;
+        let t854 = base_rotation[0][2] * base_velocity[4];
+        let t855 = base_rotation[1][2] * base_velocity[3] - t854;
+        let t856 = 0.17066666666666666 * t855;
+        let t857 = t193 + t105 * 0.9523333333333334;
+        let t858 = t772 * t857 + t101 * t856;
+        let t859 = t774 * t857 + t103 * t856;
+        let t860 = t776 * t857 + t105 * t856;
+        // leg 1: Coriolis matrix between joint and base angular velocity
+        let t861 = 0.17066666666666666 * t709 + 0.03055 * t848;
+        let t862 = 0.17066666666666666 * t710 + 0.03055 * t855;
+        let t863 = t56 * t848 - (base_velocity[5] * t221 - base_velocity[3] * t211);
+        let t864 = base_rotation[1][2] * t753 + t863;
+        let t865 = t861 - (0.17066666666666666 * t823 - 0.9523333333333334 * t864);
+        let t866 = t56 * t855 - (base_velocity[3] * t207 - base_velocity[4] * t221);
+        let t867 = base_rotation[2][2] * t753 + t866;
+        let t868 = t862 - (0.17066666666666666 * t824 - 0.9523333333333334 * t867);
+        let t869 = base_rotation[2][2] * t865 - base_rotation[1][2] * t868;
+        let t870 = t101 * t869;
+        let t871 = 0.17066666666666666 * t708 + 0.03055 * t841;
+        let t872 = t56 * t841 - (base_velocity[4] * t211 - base_velocity[5] * t207);
+        let t873 = base_rotation[0][2] * t753 + t872;
+        let t874 = t871 - (0.17066666666666666 * t822 - 0.9523333333333334 * t873);
+        let t875 = base_rotation[0][2] * t868 - base_rotation[2][2] * t874;
+        let t876 = 0.17066666666666666 * t867;
+        let t877 = t101 * t875 + t876;
+        let t878 = base_rotation[1][2] * t874 - base_rotation[0][2] * t865;
+        let t879 = 0.17066666666666666 * t864;
+        let t880 = t101 * t878 - t879;
+        let t881 = t876 - t103 * t869;
+        let t882 = t103 * t875;
+        let t883 = 0.17066666666666666 * t873;
+        let t884 = t103 * t878 + t883;
+        let t885 = t879 + t105 * t869;
+        let t886 = t883 - t105 * t875;
+        let t887 = t105 * t878;
         (
             t19,
             t20,
             t21,
-            t56,
             t59,
             t64,
             t69,
@@ -10036,9 +10034,6 @@ pub fn matrices(
             t196,
             t197,
             t198,
-            t207,
-            t211,
-            t221,
             t245,
             t247,
             t249,
@@ -10111,666 +10106,649 @@ pub fn matrices(
             t708,
             t709,
             t710,
-            t753,
             t755,
             t759,
             t763,
             t765,
             t767,
-            t780,
             t781,
-            t782,
+            t783,
+            t785,
+            t790,
             t792,
-            t793,
             t794,
             t799,
             t801,
             t803,
-            t804,
-            t805,
-            t806,
-            t811,
-            t813,
-            t815,
-            t816,
+            t808,
+            t810,
+            t812,
             t817,
-            t818,
+            t819,
+            t821,
+            t822,
             t823,
+            t824,
             t825,
+            t826,
             t827,
             t828,
             t829,
             t830,
+            t831,
+            t832,
+            t833,
+            t834,
             t835,
+            t836,
             t837,
+            t838,
             t839,
-            t840,
             t841,
             t842,
-            t847,
+            t844,
+            t845,
+            t846,
+            t848,
             t849,
             t851,
+            t852,
             t853,
-            t854,
+            t855,
             t856,
-            t857,
             t858,
+            t859,
             t860,
             t861,
-            t863,
-            t864,
-            t865,
-            t867,
-            t868,
+            t862,
             t870,
             t871,
-            t872,
+            t877,
+            t880,
+            t881,
+            t882,
+            t884,
+            t885,
+            t886,
+            t887,
         )
     };
     {
-        // leg 1: Coriolis matrix between joint and base angular velocity
-        let t873 = 0.17066666666666666 * t709 + 0.03055 * t860;
-        let t874 = 0.17066666666666666 * t710 + 0.03055 * t867;
-        let t875 = t56 * t860 - (base_velocity[5] * t221 - base_velocity[3] * t211);
-        let t876 = base_rotation[1][2] * t753 + t875;
-        let t877 = t873 - (0.17066666666666666 * t781 - 0.9523333333333334 * t876);
-        let t878 = t56 * t867 - (base_velocity[3] * t207 - base_velocity[4] * t221);
-        let t879 = base_rotation[2][2] * t753 + t878;
-        let t880 = t874 - (0.17066666666666666 * t782 - 0.9523333333333334 * t879);
-        let t881 = base_rotation[2][2] * t877 - base_rotation[1][2] * t880;
-        let t882 = t101 * t881;
-        let t883 = 0.17066666666666666 * t708 + 0.03055 * t853;
-        let t884 = t56 * t853 - (base_velocity[4] * t211 - base_velocity[5] * t207);
-        let t885 = base_rotation[0][2] * t753 + t884;
-        let t886 = t883 - (0.17066666666666666 * t780 - 0.9523333333333334 * t885);
-        let t887 = base_rotation[0][2] * t880 - base_rotation[2][2] * t886;
-        let t888 = 0.17066666666666666 * t879;
-        let t889 = t101 * t887 + t888;
-        let t890 = base_rotation[1][2] * t886 - base_rotation[0][2] * t877;
-        let t891 = 0.17066666666666666 * t876;
-        let t892 = t101 * t890 - t891;
-        let t893 = t888 - t103 * t881;
-        let t894 = t103 * t887;
-        let t895 = 0.17066666666666666 * t885;
-        let t896 = t103 * t890 + t895;
-        let t897 = t891 + t105 * t881;
-        let t898 = t895 - t105 * t887;
-        let t899 = t105 * t890;
         // leg 2: Coriolis matrix of the leg in the speeds of its joint
-        let t900 = t187 - t113 * 0.9523333333333334;
-        let t901 = t799 * t900 + t113 * t854;
-        let t902 = t801 * t900 + t115 * t854;
-        let t903 = t803 * t900 + t117 * t854;
-        let t904 = t190 - t115 * 0.9523333333333334;
-        let t905 = t799 * t904 + t113 * t861;
-        let t906 = t801 * t904 + t115 * t861;
-        let t907 = t803 * t904 + t117 * t861;
-        let t908 = t193 - t117 * 0.9523333333333334;
-        let t909 = t799 * t908 + t113 * t868;
-        let t910 = t801 * t908 + t115 * t868;
-        let t911 = t803 * t908 + t117 * t868;
+        let t888 = t187 - t113 * 0.9523333333333334;
+        let t889 = t781 * t888 + t113 * t842;
+        let t890 = t783 * t888 + t115 * t842;
+        let t891 = t785 * t888 + t117 * t842;
+        let t892 = t190 - t115 * 0.9523333333333334;
+        let t893 = t781 * t892 + t113 * t849;
+        let t894 = t783 * t892 + t115 * t849;
+        let t895 = t785 * t892 + t117 * t849;
+        let t896 = t193 - t117 * 0.9523333333333334;
+        let t897 = t781 * t896 + t113 * t856;
+        let t898 = t783 * t896 + t115 * t856;
+        let t899 = t785 * t896 + t117 * t856;
         // leg 2: Coriolis matrix between joint and base angular velocity
-        let t912 = t59 * t860 - (base_velocity[5] * t264 - base_velocity[3] * t257);
-        let t913 = base_rotation[1][2] * t755 + t912;
-        let t914 = t873 - (0.17066666666666666 * t793 - 0.9523333333333334 * t913);
-        let t915 = t59 * t867 - (base_velocity[3] * t256 - base_velocity[4] * t264);
-        let t916 = base_rotation[2][2] * t755 + t915;
-        let t917 = t874 - (0.17066666666666666 * t794 - 0.9523333333333334 * t916);
-        let t918 = base_rotation[2][2] * t914 - base_rotation[1][2] * t917;
-        let t919 = t113 * t918;
-        let t920 = t59 * t853 - (base_velocity[4] * t257 - base_velocity[5] * t256);
-        let t921 = base_rotation[0][2] * t755 + t920;
-        let t922 = t883 - (0.17066666666666666 * t792 - 0.9523333333333334 * t921);
-        let t923 = base_rotation[0][2] * t917 - base_rotation[2][2] * t922;
-        let t924 = 0.17066666666666666 * t916;
-        let t925 = t113 * t923 - t924;
-        let t926 = base_rotation[1][2] * t922 - base_rotation[0][2] * t914;
-        let t927 = 0.17066666666666666 * t913;
-        let t928 = t113 * t926 + t927;
-        let t929 = t924 + t115 * t918;
-        let t930 = t115 * t923;
-        let t931 = 0.17066666666666666 * t921;
-        let t932 = t115 * t926 - t931;
-        let t933 = t927 - t117 * t918;
-        let t934 = t931 + t117 * t923;
-        let t935 = t117 * t926;
+        let t900 = t59 * t848 - (base_velocity[5] * t264 - base_velocity[3] * t257);
+        let t901 = base_rotation[1][2] * t755 + t900;
+        let t902 = t861 - (0.17066666666666666 * t826 - 0.9523333333333334 * t901);
+        let t903 = t59 * t855 - (base_velocity[3] * t256 - base_velocity[4] * t264);
+        let t904 = base_rotation[2][2] * t755 + t903;
+        let t905 = t862 - (0.17066666666666666 * t827 - 0.9523333333333334 * t904);
+        let t906 = base_rotation[2][2] * t902 - base_rotation[1][2] * t905;
+        let t907 = t113 * t906;
+        let t908 = t59 * t841 - (base_velocity[4] * t257 - base_velocity[5] * t256);
+        let t909 = base_rotation[0][2] * t755 + t908;
+        let t910 = t871 - (0.17066666666666666 * t825 - 0.9523333333333334 * t909);
+        let t911 = base_rotation[0][2] * t905 - base_rotation[2][2] * t910;
+        let t912 = 0.17066666666666666 * t904;
+        let t913 = t113 * t911 - t912;
+        let t914 = base_rotation[1][2] * t910 - base_rotation[0][2] * t902;
+        let t915 = 0.17066666666666666 * t901;
+        let t916 = t113 * t914 + t915;
+        let t917 = t912 + t115 * t906;
+        let t918 = t115 * t911;
+        let t919 = 0.17066666666666666 * t909;
+        let t920 = t115 * t914 - t919;
+        let t921 = t915 - t117 * t906;
+        let t922 = t919 + t117 * t911;
+        let t923 = t117 * t914;
         // leg 3: Coriolis matrix of the leg in the speeds of its joint
-        let t936 = t187 - t134 * 0.9523333333333334;
-        let t937 = t811 * t936 + t134 * t854;
-        let t938 = t813 * t936 + t136 * t854;
-        let t939 = t815 * t936 + t138 * t854;
-        let t940 = t190 - t136 * 0.9523333333333334;
-        let t941 = t811 * t940 + t134 * t861;
-        let t942 = t813 * t940 + t136 * t861;
-        let t943 = t815 * t940 + t138 * t861;
-        let t944 = t193 - t138 * 0.9523333333333334;
-        let t945 = t811 * t944 + t134 * t868;
-        let t946 = t813 * t944 + t136 * t868;
-        let t947 = t815 * t944 + t138 * t868;
+        let t924 = t187 - t134 * 0.9523333333333334;
+        let t925 = t790 * t924 + t134 * t842;
+        let t926 = t792 * t924 + t136 * t842;
+        let t927 = t794 * t924 + t138 * t842;
+        let t928 = t190 - t136 * 0.9523333333333334;
+        let t929 = t790 * t928 + t134 * t849;
+        let t930 = t792 * t928 + t136 * t849;
+        let t931 = t794 * t928 + t138 * t849;
+        let t932 = t193 - t138 * 0.9523333333333334;
+        let t933 = t790 * t932 + t134 * t856;
+        let t934 = t792 * t932 + t136 * t856;
+        let t935 = t794 * t932 + t138 * t856;
         // leg 3: Coriolis matrix between joint and base angular velocity
-        let t948 = t64 * t860 - (base_velocity[5] * t312 - base_velocity[3] * t303);
-        let t949 = base_rotation[1][2] * t759 + t948;
-        let t950 = t873 + (0.17066666666666666 * t805 + 0.9523333333333334 * t949);
-        let t951 = t64 * t867 - (base_velocity[3] * t300 - base_velocity[4] * t312);
-        let t952 = base_rotation[2][2] * t759 + t951;
-        let t953 = t874 + (0.17066666666666666 * t806 + 0.9523333333333334 * t952);
-        let t954 = base_rotation[2][2] * t950 - base_rotation[1][2] * t953;
-        let t955 = t134 * t954;
-        let t956 = t64 * t853 - (base_velocity[4] * t303 - base_velocity[5] * t300);
-        let t957 = base_rotation[0][2] * t759 + t956;
-        let t958 = t883 + (0.17066666666666666 * t804 + 0.9523333333333334 * t957);
-        let t959 = base_rotation[0][2] * t953 - base_rotation[2][2] * t958;
-        let t960 = 0.17066666666666666 * t952;
-        let t961 = t134 * t959 - t960;
-        let t962 = base_rotation[1][2] * t958 - base_rotation[0][2] * t950;
-        let t963 = 0.17066666666666666 * t949;
-        let t964 = t134 * t962 + t963;
-        let t965 = t960 + t136 * t954;
-        let t966 = t136 * t959;
-        let t967 = 0.17066666666666666 * t957;
-        let t968 = t136 * t962 - t967;
-        let t969 = t963 - t138 * t954;
-        let t970 = t967 + t138 * t959;
-        let t971 = t138 * t962;
+        let t936 = t64 * t848 - (base_velocity[5] * t312 - base_velocity[3] * t303);
+        let t937 = base_rotation[1][2] * t759 + t936;
+        let t938 = t861 + (0.17066666666666666 * t829 + 0.9523333333333334 * t937);
+        let t939 = t64 * t855 - (base_velocity[3] * t300 - base_velocity[4] * t312);
+        let t940 = base_rotation[2][2] * t759 + t939;
+        let t941 = t862 + (0.17066666666666666 * t830 + 0.9523333333333334 * t940);
+        let t942 = base_rotation[2][2] * t938 - base_rotation[1][2] * t941;
+        let t943 = t134 * t942;
+        let t944 = t64 * t841 - (base_velocity[4] * t303 - base_velocity[5] * t300);
+        let t945 = base_rotation[0][2] * t759 + t944;
+        let t946 = t871 + (0.17066666666666666 * t828 + 0.9523333333333334 * t945);
+        let t947 = base_rotation[0][2] * t941 - base_rotation[2][2] * t946;
+        let t948 = 0.17066666666666666 * t940;
+        let t949 = t134 * t947 - t948;
+        let t950 = base_rotation[1][2] * t946 - base_rotation[0][2] * t938;
+        let t951 = 0.17066666666666666 * t937;
+        let t952 = t134 * t950 + t951;
+        let t953 = t948 + t136 * t942;
+        let t954 = t136 * t947;
+        let t955 = 0.17066666666666666 * t945;
+        let t956 = t136 * t950 - t955;
+        let t957 = t951 - t138 * t942;
+        let t958 = t955 + t138 * t947;
+        let t959 = t138 * t950;
         // leg 4: Coriolis matrix of the leg in the speeds of its joint
-        let t972 = t187 - t155 * 0.9523333333333334;
-        let t973 = t823 * t972 + t155 * t854;
-        let t974 = t825 * t972 + t157 * t854;
-        let t975 = t827 * t972 + t159 * t854;
-        let t976 = t190 - t157 * 0.9523333333333334;
-        let t977 = t823 * t976 + t155 * t861;
-        let t978 = t825 * t976 + t157 * t861;
-        let t979 = t827 * t976 + t159 * t861;
-        let t980 = t193 - t159 * 0.9523333333333334;
-        let t981 = t823 * t980 + t155 * t868;
-        let t982 = t825 * t980 + t157 * t868;
-        let t983 = t827 * t980 + t159 * t868;
+        let t960 = t187 - t155 * 0.9523333333333334;
+        let t961 = t799 * t960 + t155 * t842;
+        let t962 = t801 * t960 + t157 * t842;
+        let t963 = t803 * t960 + t159 * t842;
+        let t964 = t190 - t157 * 0.9523333333333334;
+        let t965 = t799 * t964 + t155 * t849;
+        let t966 = t801 * t964 + t157 * t849;
+        let t967 = t803 * t964 + t159 * t849;
+        let t968 = t193 - t159 * 0.9523333333333334;
+        let t969 = t799 * t968 + t155 * t856;
+        let t970 = t801 * t968 + t157 * t856;
+        let t971 = t803 * t968 + t159 * t856;
         // leg 4: Coriolis matrix between joint and base angular velocity
-        let t984 = t69 * t860 + (base_velocity[5] * t360 - base_velocity[3] * t351);
-        let t985 = base_rotation[1][2] * t763 + t984;
-        let t986 = t873 + (0.17066666666666666 * t817 + 0.9523333333333334 * t985);
-        let t987 = t69 * t867 + (base_velocity[3] * t348 - base_velocity[4] * t360);
-        let t988 = base_rotation[2][2] * t763 + t987;
-        let t989 = t874 + (0.17066666666666666 * t818 + 0.9523333333333334 * t988);
-        let t990 = base_rotation[2][2] * t986 - base_rotation[1][2] * t989;
-        let t991 = t155 * t990;
-        let t992 = t69 * t853 + (base_velocity[4] * t351 - base_velocity[5] * t348);
-        let t993 = base_rotation[0][2] * t763 + t992;
-        let t994 = t883 + (0.17066666666666666 * t816 + 0.9523333333333334 * t993);
-        let t995 = base_rotation[0][2] * t989 - base_rotation[2][2] * t994;
-        let t996 = 0.17066666666666666 * t988;
-        let t997 = t155 * t995 - t996;
-        let t998 = base_rotation[1][2] * t994 - base_rotation[0][2] * t986;
-        let t999 = 0.17066666666666666 * t985;
-        let t1000 = t155 * t998 + t999;
-        let t1001 = t996 + t157 * t990;
-        let t1002 = t157 * t995;
-        let t1003 = 0.17066666666666666 * t993;
-        let t1004 = t157 * t998 - t1003;
-        let t1005 = t999 - t159 * t990;
-        let t1006 = t1003 + t159 * t995;
-        let t1007 = t159 * t998;
+        let t972 = t69 * t848 + (base_velocity[5] * t360 - base_velocity[3] * t351);
+        let t973 = base_rotation[1][2] * t763 + t972;
+        let t974 = t861 + (0.17066666666666666 * t832 + 0.9523333333333334 * t973);
+        let t975 = t69 * t855 + (base_velocity[3] * t348 - base_velocity[4] * t360);
+        let t976 = base_rotation[2][2] * t763 + t975;
+        let t977 = t862 + (0.17066666666666666 * t833 + 0.9523333333333334 * t976);
+        let t978 = base_rotation[2][2] * t974 - base_rotation[1][2] * t977;
+        let t979 = t155 * t978;
+        let t980 = t69 * t841 + (base_velocity[4] * t351 - base_velocity[5] * t348);
+        let t981 = base_rotation[0][2] * t763 + t980;
+        let t982 = t871 + (0.17066666666666666 * t831 + 0.9523333333333334 * t981);
+        let t983 = base_rotation[0][2] * t977 - base_rotation[2][2] * t982;
+        let t984 = 0.17066666666666666 * t976;
+        let t985 = t155 * t983 - t984;
+        let t986 = base_rotation[1][2] * t982 - base_rotation[0][2] * t974;
+        let t987 = 0.17066666666666666 * t973;
+        let t988 = t155 * t986 + t987;
+        let t989 = t984 + t157 * t978;
+        let t990 = t157 * t983;
+        let t991 = 0.17066666666666666 * t981;
+        let t992 = t157 * t986 - t991;
+        let t993 = t987 - t159 * t978;
+        let t994 = t991 + t159 * t983;
+        let t995 = t159 * t986;
         // leg 5: Coriolis matrix of the leg in the speeds of its joint
-        let t1008 = t187 + t170 * 0.9523333333333334;
-        let t1009 = t835 * t1008 + t170 * t854;
-        let t1010 = t837 * t1008 + t172 * t854;
-        let t1011 = t839 * t1008 + t174 * t854;
-        let t1012 = t190 + t172 * 0.9523333333333334;
-        let t1013 = t835 * t1012 + t170 * t861;
-        let t1014 = t837 * t1012 + t172 * t861;
-        let t1015 = t839 * t1012 + t174 * t861;
-        let t1016 = t193 + t174 * 0.9523333333333334;
-        let t1017 = t835 * t1016 + t170 * t868;
-        let t1018 = t837 * t1016 + t172 * t868;
-        let t1019 = t839 * t1016 + t174 * t868;
+        let t996 = t187 + t170 * 0.9523333333333334;
+        let t997 = t808 * t996 + t170 * t842;
+        let t998 = t810 * t996 + t172 * t842;
+        let t999 = t812 * t996 + t174 * t842;
+        let t1000 = t190 + t172 * 0.9523333333333334;
+        let t1001 = t808 * t1000 + t170 * t849;
+        let t1002 = t810 * t1000 + t172 * t849;
+        let t1003 = t812 * t1000 + t174 * t849;
+        let t1004 = t193 + t174 * 0.9523333333333334;
+        let t1005 = t808 * t1004 + t170 * t856;
+        let t1006 = t810 * t1004 + t172 * t856;
+        let t1007 = t812 * t1004 + t174 * t856;
         // leg 5: Coriolis matrix between joint and base angular velocity
-        let t1020 = t72 * t860 + (base_velocity[5] * t402 - base_velocity[3] * t395);
-        let t1021 = base_rotation[1][2] * t765 + t1020;
-        let t1022 = t873 + (0.17066666666666666 * t829 + 0.9523333333333334 * t1021);
-        let t1023 = t72 * t867 + (base_velocity[3] * t394 - base_velocity[4] * t402);
-        let t1024 = base_rotation[2][2] * t765 + t1023;
-        let t1025 = t874 + (0.17066666666666666 * t830 + 0.9523333333333334 * t1024);
-        let t1026 = base_rotation[2][2] * t1022 - base_rotation[1][2] * t1025;
-        let t1027 = t170 * t1026;
-        let t1028 = t72 * t853 + (base_velocity[4] * t395 - base_velocity[5] * t394);
-        let t1029 = base_rotation[0][2] * t765 + t1028;
-        let t1030 = t883 + (0.17066666666666666 * t828 + 0.9523333333333334 * t1029);
-        let t1031 = base_rotation[0][2] * t1025 - base_rotation[2][2] * t1030;
-        let t1032 = 0.17066666666666666 * t1024;
-        let t1033 = t170 * t1031 + t1032;
-        let t1034 = base_rotation[1][2] * t1030 - base_rotation[0][2] * t1022;
-        let t1035 = 0.17066666666666666 * t1021;
-        let t1036 = t170 * t1034 - t1035;
-        let t1037 = t1032 - t172 * t1026;
-        let t1038 = t172 * t1031;
-        let t1039 = 0.17066666666666666 * t1029;
-        let t1040 = t172 * t1034 + t1039;
-        let t1041 = t1035 + t174 * t1026;
-        let t1042 = t1039 - t174 * t1031;
-        let t1043 = t174 * t1034;
+        let t1008 = t72 * t848 + (base_velocity[5] * t402 - base_velocity[3] * t395);
+        let t1009 = base_rotation[1][2] * t765 + t1008;
+        let t1010 = t861 + (0.17066666666666666 * t835 + 0.9523333333333334 * t1009);
+        let t1011 = t72 * t855 + (base_velocity[3] * t394 - base_velocity[4] * t402);
+        let t1012 = base_rotation[2][2] * t765 + t1011;
+        let t1013 = t862 + (0.17066666666666666 * t836 + 0.9523333333333334 * t1012);
+        let t1014 = base_rotation[2][2] * t1010 - base_rotation[1][2] * t1013;
+        let t1015 = t170 * t1014;
+        let t1016 = t72 * t841 + (base_velocity[4] * t395 - base_velocity[5] * t394);
+        let t1017 = base_rotation[0][2] * t765 + t1016;
+        let t1018 = t871 + (0.17066666666666666 * t834 + 0.9523333333333334 * t1017);
+        let t1019 = base_rotation[0][2] * t1013 - base_rotation[2][2] * t1018;
+        let t1020 = 0.17066666666666666 * t1012;
+        let t1021 = t170 * t1019 + t1020;
+        let t1022 = base_rotation[1][2] * t1018 - base_rotation[0][2] * t1010;
+        let t1023 = 0.17066666666666666 * t1009;
+        let t1024 = t170 * t1022 - t1023;
+        let t1025 = t1020 - t172 * t1014;
+        let t1026 = t172 * t1019;
+        let t1027 = 0.17066666666666666 * t1017;
+        let t1028 = t172 * t1022 + t1027;
+        let t1029 = t1023 + t174 * t1014;
+        let t1030 = t1027 - t174 * t1019;
+        let t1031 = t174 * t1022;
         // leg 6: Coriolis matrix of the leg in the speeds of its joint
-        let t1044 = t187 + t182 * 0.9523333333333334;
-        let t1045 = t847 * t1044 + t182 * t854;
-        let t1046 = t849 * t1044 + t184 * t854;
-        let t1047 = t851 * t1044 + t186 * t854;
-        let t1048 = t190 + t184 * 0.9523333333333334;
-        let t1049 = t847 * t1048 + t182 * t861;
-        let t1050 = t849 * t1048 + t184 * t861;
-        let t1051 = t851 * t1048 + t186 * t861;
-        let t1052 = t193 + t186 * 0.9523333333333334;
-        let t1053 = t847 * t1052 + t182 * t868;
-        let t1054 = t849 * t1052 + t184 * t868;
-        let t1055 = t851 * t1052 + t186 * t868;
+        let t1032 = t187 + t182 * 0.9523333333333334;
+        let t1033 = t817 * t1032 + t182 * t842;
+        let t1034 = t819 * t1032 + t184 * t842;
+        let t1035 = t821 * t1032 + t186 * t842;
+        let t1036 = t190 + t184 * 0.9523333333333334;
+        let t1037 = t817 * t1036 + t182 * t849;
+        let t1038 = t819 * t1036 + t184 * t849;
+        let t1039 = t821 * t1036 + t186 * t849;
+        let t1040 = t193 + t186 * 0.9523333333333334;
+        let t1041 = t817 * t1040 + t182 * t856;
+        let t1042 = t819 * t1040 + t184 * t856;
+        let t1043 = t821 * t1040 + t186 * t856;
         // leg 6: Coriolis matrix between joint and base angular velocity
-        let t1056 = t75 * t860 - (base_velocity[5] * t444 - base_velocity[3] * t437);
-        let t1057 = base_rotation[1][2] * t767 + t1056;
-        let t1058 = t873 + (0.17066666666666666 * t841 + 0.9523333333333334 * t1057);
-        let t1059 = t75 * t867 - (base_velocity[3] * t436 - base_velocity[4] * t444);
-        let t1060 = base_rotation[2][2] * t767 + t1059;
-        let t1061 = t874 + (0.17066666666666666 * t842 + 0.9523333333333334 * t1060);
-        let t1062 = base_rotation[2][2] * t1058 - base_rotation[1][2] * t1061;
-        let t1063 = t182 * t1062;
-        let t1064 = t75 * t853 - (base_velocity[4] * t437 - base_velocity[5] * t436);
-        let t1065 = base_rotation[0][2] * t767 + t1064;
-        let t1066 = t883 + (0.17066666666666666 * t840 + 0.9523333333333334 * t1065);
-        let t1067 = base_rotation[0][2] * t1061 - base_rotation[2][2] * t1066;
-        let t1068 = 0.17066666666666666 * t1060;
-        let t1069 = t182 * t1067 + t1068;
-        let t1070 = base_rotation[1][2] * t1066 - base_rotation[0][2] * t1058;
-        let t1071 = 0.17066666666666666 * t1057;
-        let t1072 = t182 * t1070 - t1071;
-        let t1073 = t1068 - t184 * t1062;
-        let t1074 = t184 * t1067;
-        let t1075 = 0.17066666666666666 * t1065;
-        let t1076 = t184 * t1070 + t1075;
-        let t1077 = t1071 + t186 * t1062;
-        let t1078 = t1075 - t186 * t1067;
-        let t1079 = t186 * t1070;
+        let t1044 = t75 * t848 - (base_velocity[5] * t444 - base_velocity[3] * t437);
+        let t1045 = base_rotation[1][2] * t767 + t1044;
+        let t1046 = t861 + (0.17066666666666666 * t838 + 0.9523333333333334 * t1045);
+        let t1047 = t75 * t855 - (base_velocity[3] * t436 - base_velocity[4] * t444);
+        let t1048 = base_rotation[2][2] * t767 + t1047;
+        let t1049 = t862 + (0.17066666666666666 * t839 + 0.9523333333333334 * t1048);
+        let t1050 = base_rotation[2][2] * t1046 - base_rotation[1][2] * t1049;
+        let t1051 = t182 * t1050;
+        let t1052 = t75 * t841 - (base_velocity[4] * t437 - base_velocity[5] * t436);
+        let t1053 = base_rotation[0][2] * t767 + t1052;
+        let t1054 = t871 + (0.17066666666666666 * t837 + 0.9523333333333334 * t1053);
+        let t1055 = base_rotation[0][2] * t1049 - base_rotation[2][2] * t1054;
+        let t1056 = 0.17066666666666666 * t1048;
+        let t1057 = t182 * t1055 + t1056;
+        let t1058 = base_rotation[1][2] * t1054 - base_rotation[0][2] * t1046;
+        let t1059 = 0.17066666666666666 * t1045;
+        let t1060 = t182 * t1058 - t1059;
+        let t1061 = t1056 - t184 * t1050;
+        let t1062 = t184 * t1055;
+        let t1063 = 0.17066666666666666 * t1053;
+        let t1064 = t184 * t1058 + t1063;
+        let t1065 = t1059 + t186 * t1050;
+        let t1066 = t1063 - t186 * t1055;
+        let t1067 = t186 * t1058;
         // Coriolis matrix of the legs
-        let t1080 = t1045 + (t1009 - (t973 + (t937 - (t856 - t901))));
-        coriolis_matrix_p[0][0] = t1080;
-        coriolis_matrix_b[0][0] = t1080;
-        let t1081 = t1046 + (t1010 - (t974 + (t938 - (t857 - t902))));
-        coriolis_matrix_p[0][1] = t1081;
-        coriolis_matrix_b[0][1] = t1081;
-        let t1082 = t1047 + (t1011 - (t975 + (t939 - (t858 - t903))));
-        coriolis_matrix_p[0][2] = t1082;
-        coriolis_matrix_b[0][2] = t1082;
-        let t1083 = t429 * t841;
-        let t1084 = t427 * t842;
-        let t1085 = t177 * t1046;
-        let t1086 = t176 * t1047;
-        let t1087 = t1083 - (t1084 + (t1085 - t1086));
-        let t1088 = t387 * t829;
-        let t1089 = t385 * t830;
-        let t1090 = t165 * t1010;
-        let t1091 = t164 * t1011;
-        let t1092 = t1088 - (t1089 + (t1090 - t1091));
-        let t1093 = t339 * t817;
-        let t1094 = t337 * t818;
-        let t1095 = t150 * t974;
-        let t1096 = t147 * t975;
-        let t1097 = t1093 - (t1094 + (t1095 - t1096));
-        let t1098 = t291 * t805;
-        let t1099 = t289 * t806;
-        let t1100 = t129 * t938;
-        let t1101 = t126 * t939;
-        let t1102 = t1098 - (t1099 + (t1100 - t1101));
-        let t1103 = t195 * t781;
-        let t1104 = t192 * t782;
-        let t1105 = t96 * t857;
-        let t1106 = t93 * t858;
-        let t1107 = t1103 - (t1104 + (t1105 - t1106));
-        let t1108 = t249 * t793;
-        let t1109 = t247 * t794;
-        let t1110 = t108 * t902;
-        let t1111 = t107 * t903;
-        let t1112 = t1108 - (t1109 + (t1110 - t1111));
-        let t1113 = t1087 + (t1092 - (t1097 + (t1102 + (t1107 - t1112))));
-        let t1114 = t177 * t1045;
-        let t1115 = t425 * t842 - (t429 * t840 + (t175 * t1047 - t1114));
-        let t1116 = t165 * t1009;
-        let t1117 = t383 * t830 - (t387 * t828 + (t163 * t1011 - t1116));
-        let t1118 = t150 * t973;
-        let t1119 = t335 * t818 - (t339 * t816 + (t144 * t975 - t1118));
-        let t1120 = t129 * t937;
-        let t1121 = t287 * t806 - (t291 * t804 + (t123 * t939 - t1120));
-        let t1122 = t96 * t856;
-        let t1123 = t189 * t782 - (t195 * t780 + (t90 * t858 - t1122));
-        let t1124 = t108 * t901;
-        let t1125 = t245 * t794 - (t249 * t792 + (t106 * t903 - t1124));
-        let t1126 = t1115 + (t1117 - (t1119 + (t1121 + (t1123 - t1125))));
-        let t1127 = t176 * t1045;
-        let t1128 = t427 * t840 - (t425 * t841 + (t1127 - t175 * t1046));
-        let t1129 = t164 * t1009;
-        let t1130 = t385 * t828 - (t383 * t829 + (t1129 - t163 * t1010));
-        let t1131 = t147 * t973;
-        let t1132 = t337 * t816 - (t335 * t817 + (t1131 - t144 * t974));
-        let t1133 = t126 * t937;
-        let t1134 = t289 * t804 - (t287 * t805 + (t1133 - t123 * t938));
-        let t1135 = t93 * t856;
-        let t1136 = t192 * t780 - (t189 * t781 + (t1135 - t90 * t857));
-        let t1137 = t107 * t901;
-        let t1138 = t247 * t792 - (t245 * t793 + (t1137 - t106 * t902));
-        let t1139 = t1128 + (t1130 - (t1132 + (t1134 + (t1136 - t1138))));
-        let t1140 = t1049 + (t1013 - (t977 + (t941 - (t863 - t905))));
-        coriolis_matrix_p[1][0] = t1140;
-        coriolis_matrix_b[1][0] = t1140;
-        let t1141 = t1050 + (t1014 - (t978 + (t942 - (t864 - t906))));
-        coriolis_matrix_p[1][1] = t1141;
-        coriolis_matrix_b[1][1] = t1141;
-        let t1142 = t1051 + (t1015 - (t979 + (t943 - (t865 - t907))));
-        coriolis_matrix_p[1][2] = t1142;
-        coriolis_matrix_b[1][2] = t1142;
-        let t1143 = t177 * t1050;
-        let t1144 = t431 * t841 - (t430 * t842 + (t1143 - t176 * t1051));
-        let t1145 = t165 * t1014;
-        let t1146 = t389 * t829 - (t388 * t830 + (t1145 - t164 * t1015));
-        let t1147 = t150 * t978;
-        let t1148 = t341 * t817 - (t340 * t818 + (t1147 - t147 * t979));
-        let t1149 = t129 * t942;
-        let t1150 = t293 * t805 - (t292 * t806 + (t1149 - t126 * t943));
-        let t1151 = t96 * t864;
-        let t1152 = t197 * t781 - (t196 * t782 + (t1151 - t93 * t865));
-        let t1153 = t108 * t906;
-        let t1154 = t251 * t793 - (t250 * t794 + (t1153 - t107 * t907));
-        let t1155 = t1144 + (t1146 - (t1148 + (t1150 + (t1152 - t1154))));
-        let t1156 = t431 * t840;
-        let t1157 = t177 * t1049;
-        let t1158 = t175 * t1051;
-        let t1159 = t1156 - (t1157 + (t1084 - t1158));
-        let t1160 = t389 * t828;
-        let t1161 = t165 * t1013;
-        let t1162 = t163 * t1015;
-        let t1163 = t1160 - (t1161 + (t1089 - t1162));
-        let t1164 = t341 * t816;
-        let t1165 = t150 * t977;
-        let t1166 = t144 * t979;
-        let t1167 = t1164 - (t1165 + (t1094 - t1166));
-        let t1168 = t293 * t804;
-        let t1169 = t129 * t941;
-        let t1170 = t123 * t943;
-        let t1171 = t1168 - (t1169 + (t1099 - t1170));
-        let t1172 = t197 * t780;
-        let t1173 = t96 * t863;
-        let t1174 = t90 * t865;
-        let t1175 = t1172 - (t1173 + (t1104 - t1174));
-        let t1176 = t251 * t792;
-        let t1177 = t108 * t905;
-        let t1178 = t106 * t907;
-        let t1179 = t1176 - (t1177 + (t1109 - t1178));
-        let t1180 = t1159 + (t1163 - (t1167 + (t1171 + (t1175 - t1179))));
-        coriolis_matrix_p[1][4] = t1180;
-        let t1181 = t175 * t1050;
-        let t1182 = t430 * t840 - (t427 * t841 + (t176 * t1049 - t1181));
-        let t1183 = t163 * t1014;
-        let t1184 = t388 * t828 - (t385 * t829 + (t164 * t1013 - t1183));
-        let t1185 = t144 * t978;
-        let t1186 = t340 * t816 - (t337 * t817 + (t147 * t977 - t1185));
-        let t1187 = t123 * t942;
-        let t1188 = t292 * t804 - (t289 * t805 + (t126 * t941 - t1187));
-        let t1189 = t90 * t864;
-        let t1190 = t196 * t780 - (t192 * t781 + (t93 * t863 - t1189));
-        let t1191 = t106 * t906;
-        let t1192 = t250 * t792 - (t247 * t793 + (t107 * t905 - t1191));
-        let t1193 = t1182 + (t1184 - (t1186 + (t1188 + (t1190 - t1192))));
-        let t1194 = t1053 + (t1017 - (t981 + (t945 - (t870 - t909))));
-        coriolis_matrix_p[2][0] = t1194;
-        coriolis_matrix_b[2][0] = t1194;
-        let t1195 = t1054 + (t1018 - (t982 + (t946 - (t871 - t910))));
-        coriolis_matrix_p[2][1] = t1195;
-        coriolis_matrix_b[2][1] = t1195;
-        let t1196 = t1055 + (t1019 - (t983 + (t947 - (t872 - t911))));
-        coriolis_matrix_p[2][2] = t1196;
-        coriolis_matrix_b[2][2] = t1196;
-        let t1197 = t176 * t1055;
-        let t1198 = t432 * t841 - (t431 * t842 + (t177 * t1054 - t1197));
-        let t1199 = t164 * t1019;
-        let t1200 = t390 * t829 - (t389 * t830 + (t165 * t1018 - t1199));
-        let t1201 = t147 * t983;
-        let t1202 = t342 * t817 - (t341 * t818 + (t150 * t982 - t1201));
-        let t1203 = t126 * t947;
-        let t1204 = t294 * t805 - (t293 * t806 + (t129 * t946 - t1203));
-        let t1205 = t93 * t872;
-        let t1206 = t198 * t781 - (t197 * t782 + (t96 * t871 - t1205));
-        let t1207 = t107 * t911;
-        let t1208 = t252 * t793 - (t251 * t794 + (t108 * t910 - t1207));
-        let t1209 = t1198 + (t1200 - (t1202 + (t1204 + (t1206 - t1208))));
-        let t1210 = t175 * t1055;
-        let t1211 = t429 * t842 - (t432 * t840 + (t1210 - t177 * t1053));
-        let t1212 = t163 * t1019;
-        let t1213 = t387 * t830 - (t390 * t828 + (t1212 - t165 * t1017));
-        let t1214 = t144 * t983;
-        let t1215 = t339 * t818 - (t342 * t816 + (t1214 - t150 * t981));
-        let t1216 = t123 * t947;
-        let t1217 = t291 * t806 - (t294 * t804 + (t1216 - t129 * t945));
-        let t1218 = t90 * t872;
-        let t1219 = t195 * t782 - (t198 * t780 + (t1218 - t96 * t870));
-        let t1220 = t106 * t911;
-        let t1221 = t249 * t794 - (t252 * t792 + (t1220 - t108 * t909));
-        let t1222 = t1211 + (t1213 - (t1215 + (t1217 + (t1219 - t1221))));
-        let t1223 = t175 * t1054;
-        let t1224 = t176 * t1053;
-        let t1225 = t1223 - (t1224 + (t1083 - t1156));
-        let t1226 = t163 * t1018;
-        let t1227 = t164 * t1017;
-        let t1228 = t1226 - (t1227 + (t1088 - t1160));
-        let t1229 = t144 * t982;
-        let t1230 = t147 * t981;
-        let t1231 = t1229 - (t1230 + (t1093 - t1164));
-        let t1232 = t123 * t946;
-        let t1233 = t126 * t945;
-        let t1234 = t1232 - (t1233 + (t1098 - t1168));
-        let t1235 = t90 * t871;
-        let t1236 = t93 * t870;
-        let t1237 = t1235 - (t1236 + (t1103 - t1172));
-        let t1238 = t106 * t910;
-        let t1239 = t107 * t909;
-        let t1240 = t1238 - (t1239 + (t1108 - t1176));
-        let t1241 = t1225 + (t1228 - (t1231 + (t1234 + (t1237 - t1240))));
-        let t1242 = t1239
-            - (t1236 + (t1157 + (t1161 - (t1165 + (t1169 + (t1173 - t1177))))));
-        let t1243 = t1224 + (t1227 - (t1230 + (t1233 - t1242)));
-        let t1244 = t93 * t871 + (t1143 + (t1145 - (t1147 + (t1149 + (t1151 - t1153)))));
-        let t1245 = t147 * t982 + (t126 * t946 - (t107 * t910 - t1244));
-        let t1246 = t176 * t1054 + (t164 * t1018 - t1245);
-        let t1247 = t96 * t865 + (t1197 + (t1199 - (t1201 + (t1203 + (t1205 - t1207)))));
-        let t1248 = t150 * t979 + (t129 * t943 - (t108 * t907 - t1247));
-        let t1249 = t177 * t1051 + (t165 * t1015 - t1248);
-        coriolis_matrix_p[3][2] = t1249;
-        coriolis_matrix_b[3][2] = t1249;
-        let t1250 = t107 * t1208 - (t108 * t1154 - (t96 * t1152 - t93 * t1206));
-        let t1251 = t150 * t1148 - (t126 * t1204 - (t129 * t1150 - t1250));
-        let t1252 = t164 * t1200 - (t165 * t1146 + (t147 * t1202 - t1251));
-        let t1253 = t176 * t1198 - (t177 * t1144 - t1252);
-        let t1254 = t107 * t1221 + (t108 * t1179 - (t96 * t1175 + t93 * t1219));
-        let t1255 = t150 * t1167 + (t126 * t1217 + (t129 * t1171 + t1254));
-        let t1256 = t164 * t1213 + (t165 * t1163 - (t147 * t1215 + t1255));
-        let t1257 = t176 * t1211 + (t177 * t1159 + t1256);
-        let t1258 = t107 * t1240 - (t108 * t1192 - (t96 * t1190 - t93 * t1237));
-        let t1259 = t150 * t1186 - (t126 * t1234 - (t129 * t1188 - t1258));
-        let t1260 = t164 * t1228 - (t165 * t1184 + (t147 * t1231 - t1259));
-        let t1261 = t176 * t1225 - (t177 * t1182 - t1260);
-        let t1262 = t90 * t870 + (t1114 + (t1116 - (t1118 + (t1120 + (t1122 - t1124)))));
-        let t1263 = t144 * t981 + (t123 * t945 - (t106 * t909 - t1262));
-        let t1264 = t175 * t1053 + (t163 * t1017 - t1263);
-        coriolis_matrix_p[4][0] = t1264;
-        coriolis_matrix_b[4][0] = t1264;
-        let t1265 = t1238
-            - (t1235 + (t1085 + (t1090 - (t1095 + (t1100 + (t1105 - t1110))))));
-        let t1266 = t1223 + (t1226 - (t1229 + (t1232 - t1265)));
-        coriolis_matrix_p[4][1] = t1266;
-        coriolis_matrix_b[4][1] = t1266;
-        let t1267 = t96 * t858 + (t1210 + (t1212 - (t1214 + (t1216 + (t1218 - t1220)))));
-        let t1268 = t150 * t975 + (t129 * t939 - (t108 * t903 - t1267));
-        let t1269 = t177 * t1047 + (t165 * t1011 - t1268);
-        let t1270 = t108 * t1112 - (t106 * t1208 - (t90 * t1206 - t96 * t1107));
-        let t1271 = t144 * t1202 - (t129 * t1102 - (t123 * t1204 - t1270));
-        let t1272 = t165 * t1092 - (t163 * t1200 + (t150 * t1097 - t1271));
-        let t1273 = t177 * t1087 - (t175 * t1198 - t1272);
-        let t1274 = t108 * t1125 - (t106 * t1221 - (t90 * t1219 - t96 * t1123));
-        let t1275 = t144 * t1215 - (t129 * t1121 - (t123 * t1217 - t1274));
-        let t1276 = t165 * t1117 - (t163 * t1213 + (t150 * t1119 - t1275));
-        let t1277 = t177 * t1115 - (t175 * t1211 - t1276);
-        let t1278 = t108 * t1138 - (t106 * t1240 - (t90 * t1237 - t96 * t1136));
-        let t1279 = t144 * t1231 - (t129 * t1134 - (t123 * t1234 - t1278));
-        let t1280 = t165 * t1130 - (t163 * t1228 + (t150 * t1132 - t1279));
-        let t1281 = t177 * t1128 - (t175 * t1225 - t1280);
-        let t1282 = t90 * t863 + (t1127 + (t1129 - (t1131 + (t1133 + (t1135 - t1137)))));
-        let t1283 = t144 * t977 + (t123 * t941 - (t106 * t905 - t1282));
-        let t1284 = t175 * t1049 + (t163 * t1013 - t1283);
-        let t1285 = t93 * t857 + (t1181 + (t1183 - (t1185 + (t1187 + (t1189 - t1191)))));
-        let t1286 = t147 * t974 + (t126 * t938 - (t107 * t902 - t1285));
-        let t1287 = t176 * t1046 + (t164 * t1010 - t1286);
-        coriolis_matrix_p[5][1] = t1287;
-        coriolis_matrix_b[5][1] = t1287;
-        let t1288 = t1178
-            - (t1174 + (t1086 + (t1091 - (t1096 + (t1101 + (t1106 - t1111))))));
-        let t1289 = t1158 + (t1162 - (t1166 + (t1170 - t1288)));
-        let t1290 = t106 * t1154 - (t107 * t1112 - (t93 * t1107 - t90 * t1152));
-        let t1291 = t147 * t1097 - (t123 * t1150 - (t126 * t1102 - t1290));
-        let t1292 = t163 * t1146 - (t164 * t1092 + (t144 * t1148 - t1291));
-        let t1293 = t175 * t1144 - (t176 * t1087 - t1292);
-        let t1294 = t106 * t1179 + (t107 * t1125 - (t93 * t1123 + t90 * t1175));
-        let t1295 = t147 * t1119 + (t123 * t1171 + (t126 * t1121 + t1294));
-        let t1296 = t163 * t1163 + (t164 * t1117 - (t144 * t1167 + t1295));
-        let t1297 = t175 * t1159 + (t176 * t1115 + t1296);
-        let t1298 = t106 * t1192 - (t107 * t1138 - (t93 * t1136 - t90 * t1190));
-        let t1299 = t147 * t1132 - (t123 * t1188 - (t126 * t1134 - t1298));
-        let t1300 = t163 * t1184 - (t164 * t1130 + (t144 * t1186 - t1299));
-        let t1301 = t175 * t1182 - (t176 * t1128 - t1300);
-        coriolis_matrix_p[0][3] = -t1113;
-        coriolis_matrix_p[2][5] = -t1241;
-        let t1302 = -t1243;
-        coriolis_matrix_p[3][0] = t1302;
-        coriolis_matrix_b[3][0] = t1302;
-        let t1303 = -t1246;
-        coriolis_matrix_p[3][1] = t1303;
-        coriolis_matrix_b[3][1] = t1303;
-        let t1304 = -t1269;
-        coriolis_matrix_p[4][2] = t1304;
-        coriolis_matrix_b[4][2] = t1304;
-        let t1305 = -t1284;
-        coriolis_matrix_p[5][0] = t1305;
-        coriolis_matrix_b[5][0] = t1305;
-        let t1306 = -t1289;
-        coriolis_matrix_p[5][2] = t1306;
-        coriolis_matrix_b[5][2] = t1306;
+        let t1068 = t1033 + (t997 - (t961 + (t925 - (t844 - t889))));
+        coriolis_matrix_p[0][0] = t1068;
+        coriolis_matrix_b[0][0] = t1068;
+        let t1069 = t1034 + (t998 - (t962 + (t926 - (t845 - t890))));
+        coriolis_matrix_p[0][1] = t1069;
+        coriolis_matrix_b[0][1] = t1069;
+        let t1070 = t1035 + (t999 - (t963 + (t927 - (t846 - t891))));
+        coriolis_matrix_p[0][2] = t1070;
+        coriolis_matrix_b[0][2] = t1070;
+        let t1071 = t429 * t838;
+        let t1072 = t427 * t839;
+        let t1073 = t177 * t1034;
+        let t1074 = t176 * t1035;
+        let t1075 = t1071 - (t1072 + (t1073 - t1074));
+        let t1076 = t387 * t835;
+        let t1077 = t385 * t836;
+        let t1078 = t165 * t998;
+        let t1079 = t164 * t999;
+        let t1080 = t1076 - (t1077 + (t1078 - t1079));
+        let t1081 = t339 * t832;
+        let t1082 = t337 * t833;
+        let t1083 = t150 * t962;
+        let t1084 = t147 * t963;
+        let t1085 = t1081 - (t1082 + (t1083 - t1084));
+        let t1086 = t291 * t829;
+        let t1087 = t289 * t830;
+        let t1088 = t129 * t926;
+        let t1089 = t126 * t927;
+        let t1090 = t1086 - (t1087 + (t1088 - t1089));
+        let t1091 = t195 * t823;
+        let t1092 = t192 * t824;
+        let t1093 = t96 * t845;
+        let t1094 = t93 * t846;
+        let t1095 = t1091 - (t1092 + (t1093 - t1094));
+        let t1096 = t249 * t826;
+        let t1097 = t247 * t827;
+        let t1098 = t108 * t890;
+        let t1099 = t107 * t891;
+        let t1100 = t1096 - (t1097 + (t1098 - t1099));
+        let t1101 = t1075 + (t1080 - (t1085 + (t1090 + (t1095 - t1100))));
+        let t1102 = t177 * t1033;
+        let t1103 = t425 * t839 - (t429 * t837 + (t175 * t1035 - t1102));
+        let t1104 = t165 * t997;
+        let t1105 = t383 * t836 - (t387 * t834 + (t163 * t999 - t1104));
+        let t1106 = t150 * t961;
+        let t1107 = t335 * t833 - (t339 * t831 + (t144 * t963 - t1106));
+        let t1108 = t129 * t925;
+        let t1109 = t287 * t830 - (t291 * t828 + (t123 * t927 - t1108));
+        let t1110 = t96 * t844;
+        let t1111 = t189 * t824 - (t195 * t822 + (t90 * t846 - t1110));
+        let t1112 = t108 * t889;
+        let t1113 = t245 * t827 - (t249 * t825 + (t106 * t891 - t1112));
+        let t1114 = t1103 + (t1105 - (t1107 + (t1109 + (t1111 - t1113))));
+        let t1115 = t176 * t1033;
+        let t1116 = t427 * t837 - (t425 * t838 + (t1115 - t175 * t1034));
+        let t1117 = t164 * t997;
+        let t1118 = t385 * t834 - (t383 * t835 + (t1117 - t163 * t998));
+        let t1119 = t147 * t961;
+        let t1120 = t337 * t831 - (t335 * t832 + (t1119 - t144 * t962));
+        let t1121 = t126 * t925;
+        let t1122 = t289 * t828 - (t287 * t829 + (t1121 - t123 * t926));
+        let t1123 = t93 * t844;
+        let t1124 = t192 * t822 - (t189 * t823 + (t1123 - t90 * t845));
+        let t1125 = t107 * t889;
+        let t1126 = t247 * t825 - (t245 * t826 + (t1125 - t106 * t890));
+        let t1127 = t1116 + (t1118 - (t1120 + (t1122 + (t1124 - t1126))));
+        let t1128 = t1037 + (t1001 - (t965 + (t929 - (t851 - t893))));
+        coriolis_matrix_p[1][0] = t1128;
+        coriolis_matrix_b[1][0] = t1128;
+        let t1129 = t1038 + (t1002 - (t966 + (t930 - (t852 - t894))));
+        coriolis_matrix_p[1][1] = t1129;
+        coriolis_matrix_b[1][1] = t1129;
+        let t1130 = t1039 + (t1003 - (t967 + (t931 - (t853 - t895))));
+        coriolis_matrix_p[1][2] = t1130;
+        coriolis_matrix_b[1][2] = t1130;
+        let t1131 = t177 * t1038;
+        let t1132 = t431 * t838 - (t430 * t839 + (t1131 - t176 * t1039));
+        let t1133 = t165 * t1002;
+        let t1134 = t389 * t835 - (t388 * t836 + (t1133 - t164 * t1003));
+        let t1135 = t150 * t966;
+        let t1136 = t341 * t832 - (t340 * t833 + (t1135 - t147 * t967));
+        let t1137 = t129 * t930;
+        let t1138 = t293 * t829 - (t292 * t830 + (t1137 - t126 * t931));
+        let t1139 = t96 * t852;
+        let t1140 = t197 * t823 - (t196 * t824 + (t1139 - t93 * t853));
+        let t1141 = t108 * t894;
+        let t1142 = t251 * t826 - (t250 * t827 + (t1141 - t107 * t895));
+        let t1143 = t1132 + (t1134 - (t1136 + (t1138 + (t1140 - t1142))));
+        let t1144 = t431 * t837;
+        let t1145 = t177 * t1037;
+        let t1146 = t175 * t1039;
+        let t1147 = t1144 - (t1145 + (t1072 - t1146));
+        let t1148 = t389 * t834;
+        let t1149 = t165 * t1001;
+        let t1150 = t163 * t1003;
+        let t1151 = t1148 - (t1149 + (t1077 - t1150));
+        let t1152 = t341 * t831;
+        let t1153 = t150 * t965;
+        let t1154 = t144 * t967;
+        let t1155 = t1152 - (t1153 + (t1082 - t1154));
+        let t1156 = t293 * t828;
+        let t1157 = t129 * t929;
+        let t1158 = t123 * t931;
+        let t1159 = t1156 - (t1157 + (t1087 - t1158));
+        let t1160 = t197 * t822;
+        let t1161 = t96 * t851;
+        let t1162 = t90 * t853;
+        let t1163 = t1160 - (t1161 + (t1092 - t1162));
+        let t1164 = t251 * t825;
+        let t1165 = t108 * t893;
+        let t1166 = t106 * t895;
+        let t1167 = t1164 - (t1165 + (t1097 - t1166));
+        let t1168 = t1147 + (t1151 - (t1155 + (t1159 + (t1163 - t1167))));
+        coriolis_matrix_p[1][4] = t1168;
+        let t1169 = t175 * t1038;
+        let t1170 = t430 * t837 - (t427 * t838 + (t176 * t1037 - t1169));
+        let t1171 = t163 * t1002;
+        let t1172 = t388 * t834 - (t385 * t835 + (t164 * t1001 - t1171));
+        let t1173 = t144 * t966;
+        let t1174 = t340 * t831 - (t337 * t832 + (t147 * t965 - t1173));
+        let t1175 = t123 * t930;
+        let t1176 = t292 * t828 - (t289 * t829 + (t126 * t929 - t1175));
+        let t1177 = t90 * t852;
+        let t1178 = t196 * t822 - (t192 * t823 + (t93 * t851 - t1177));
+        let t1179 = t106 * t894;
+        let t1180 = t250 * t825 - (t247 * t826 + (t107 * t893 - t1179));
+        let t1181 = t1170 + (t1172 - (t1174 + (t1176 + (t1178 - t1180))));
+        let t1182 = t1041 + (t1005 - (t969 + (t933 - (t858 - t897))));
+        coriolis_matrix_p[2][0] = t1182;
+        coriolis_matrix_b[2][0] = t1182;
+        let t1183 = t1042 + (t1006 - (t970 + (t934 - (t859 - t898))));
+        coriolis_matrix_p[2][1] = t1183;
+        coriolis_matrix_b[2][1] = t1183;
+        let t1184 = t1043 + (t1007 - (t971 + (t935 - (t860 - t899))));
+        coriolis_matrix_p[2][2] = t1184;
+        coriolis_matrix_b[2][2] = t1184;
+        let t1185 = t176 * t1043;
+        let t1186 = t432 * t838 - (t431 * t839 + (t177 * t1042 - t1185));
+        let t1187 = t164 * t1007;
+        let t1188 = t390 * t835 - (t389 * t836 + (t165 * t1006 - t1187));
+        let t1189 = t147 * t971;
+        let t1190 = t342 * t832 - (t341 * t833 + (t150 * t970 - t1189));
+        let t1191 = t126 * t935;
+        let t1192 = t294 * t829 - (t293 * t830 + (t129 * t934 - t1191));
+        let t1193 = t93 * t860;
+        let t1194 = t198 * t823 - (t197 * t824 + (t96 * t859 - t1193));
+        let t1195 = t107 * t899;
+        let t1196 = t252 * t826 - (t251 * t827 + (t108 * t898 - t1195));
+        let t1197 = t1186 + (t1188 - (t1190 + (t1192 + (t1194 - t1196))));
+        let t1198 = t175 * t1043;
+        let t1199 = t429 * t839 - (t432 * t837 + (t1198 - t177 * t1041));
+        let t1200 = t163 * t1007;
+        let t1201 = t387 * t836 - (t390 * t834 + (t1200 - t165 * t1005));
+        let t1202 = t144 * t971;
+        let t1203 = t339 * t833 - (t342 * t831 + (t1202 - t150 * t969));
+        let t1204 = t123 * t935;
+        let t1205 = t291 * t830 - (t294 * t828 + (t1204 - t129 * t933));
+        let t1206 = t90 * t860;
+        let t1207 = t195 * t824 - (t198 * t822 + (t1206 - t96 * t858));
+        let t1208 = t106 * t899;
+        let t1209 = t249 * t827 - (t252 * t825 + (t1208 - t108 * t897));
+        let t1210 = t1199 + (t1201 - (t1203 + (t1205 + (t1207 - t1209))));
+        let t1211 = t175 * t1042;
+        let t1212 = t176 * t1041;
+        let t1213 = t1211 - (t1212 + (t1071 - t1144));
+        let t1214 = t163 * t1006;
+        let t1215 = t164 * t1005;
+        let t1216 = t1214 - (t1215 + (t1076 - t1148));
+        let t1217 = t144 * t970;
+        let t1218 = t147 * t969;
+        let t1219 = t1217 - (t1218 + (t1081 - t1152));
+        let t1220 = t123 * t934;
+        let t1221 = t126 * t933;
+        let t1222 = t1220 - (t1221 + (t1086 - t1156));
+        let t1223 = t90 * t859;
+        let t1224 = t93 * t858;
+        let t1225 = t1223 - (t1224 + (t1091 - t1160));
+        let t1226 = t106 * t898;
+        let t1227 = t107 * t897;
+        let t1228 = t1226 - (t1227 + (t1096 - t1164));
+        let t1229 = t1213 + (t1216 - (t1219 + (t1222 + (t1225 - t1228))));
+        let t1230 = t1227
+            - (t1224 + (t1145 + (t1149 - (t1153 + (t1157 + (t1161 - t1165))))));
+        let t1231 = t1212 + (t1215 - (t1218 + (t1221 - t1230)));
+        let t1232 = t93 * t859 + (t1131 + (t1133 - (t1135 + (t1137 + (t1139 - t1141)))));
+        let t1233 = t147 * t970 + (t126 * t934 - (t107 * t898 - t1232));
+        let t1234 = t176 * t1042 + (t164 * t1006 - t1233);
+        let t1235 = t96 * t853 + (t1185 + (t1187 - (t1189 + (t1191 + (t1193 - t1195)))));
+        let t1236 = t150 * t967 + (t129 * t931 - (t108 * t895 - t1235));
+        let t1237 = t177 * t1039 + (t165 * t1003 - t1236);
+        coriolis_matrix_p[3][2] = t1237;
+        coriolis_matrix_b[3][2] = t1237;
+        let t1238 = t107 * t1196 - (t108 * t1142 - (t96 * t1140 - t93 * t1194));
+        let t1239 = t150 * t1136 - (t126 * t1192 - (t129 * t1138 - t1238));
+        let t1240 = t164 * t1188 - (t165 * t1134 + (t147 * t1190 - t1239));
+        let t1241 = t176 * t1186 - (t177 * t1132 - t1240);
+        let t1242 = t107 * t1209 + (t108 * t1167 - (t96 * t1163 + t93 * t1207));
+        let t1243 = t150 * t1155 + (t126 * t1205 + (t129 * t1159 + t1242));
+        let t1244 = t164 * t1201 + (t165 * t1151 - (t147 * t1203 + t1243));
+        let t1245 = t176 * t1199 + (t177 * t1147 + t1244);
+        let t1246 = t107 * t1228 - (t108 * t1180 - (t96 * t1178 - t93 * t1225));
+        let t1247 = t150 * t1174 - (t126 * t1222 - (t129 * t1176 - t1246));
+        let t1248 = t164 * t1216 - (t165 * t1172 + (t147 * t1219 - t1247));
+        let t1249 = t176 * t1213 - (t177 * t1170 - t1248);
+        let t1250 = t90 * t858 + (t1102 + (t1104 - (t1106 + (t1108 + (t1110 - t1112)))));
+        let t1251 = t144 * t969 + (t123 * t933 - (t106 * t897 - t1250));
+        let t1252 = t175 * t1041 + (t163 * t1005 - t1251);
+        coriolis_matrix_p[4][0] = t1252;
+        coriolis_matrix_b[4][0] = t1252;
+        let t1253 = t1226
+            - (t1223 + (t1073 + (t1078 - (t1083 + (t1088 + (t1093 - t1098))))));
+        let t1254 = t1211 + (t1214 - (t1217 + (t1220 - t1253)));
+        coriolis_matrix_p[4][1] = t1254;
+        coriolis_matrix_b[4][1] = t1254;
+        let t1255 = t96 * t846 + (t1198 + (t1200 - (t1202 + (t1204 + (t1206 - t1208)))));
+        let t1256 = t150 * t963 + (t129 * t927 - (t108 * t891 - t1255));
+        let t1257 = t177 * t1035 + (t165 * t999 - t1256);
+        let t1258 = t108 * t1100 - (t106 * t1196 - (t90 * t1194 - t96 * t1095));
+        let t1259 = t144 * t1190 - (t129 * t1090 - (t123 * t1192 - t1258));
+        let t1260 = t165 * t1080 - (t163 * t1188 + (t150 * t1085 - t1259));
+        let t1261 = t177 * t1075 - (t175 * t1186 - t1260);
+        let t1262 = t108 * t1113 - (t106 * t1209 - (t90 * t1207 - t96 * t1111));
+        let t1263 = t144 * t1203 - (t129 * t1109 - (t123 * t1205 - t1262));
+        let t1264 = t165 * t1105 - (t163 * t1201 + (t150 * t1107 - t1263));
+        let t1265 = t177 * t1103 - (t175 * t1199 - t1264);
+        let t1266 = t108 * t1126 - (t106 * t1228 - (t90 * t1225 - t96 * t1124));
+        let t1267 = t144 * t1219 - (t129 * t1122 - (t123 * t1222 - t1266));
+        let t1268 = t165 * t1118 - (t163 * t1216 + (t150 * t1120 - t1267));
+        let t1269 = t177 * t1116 - (t175 * t1213 - t1268);
+        let t1270 = t90 * t851 + (t1115 + (t1117 - (t1119 + (t1121 + (t1123 - t1125)))));
+        let t1271 = t144 * t965 + (t123 * t929 - (t106 * t893 - t1270));
+        let t1272 = t175 * t1037 + (t163 * t1001 - t1271);
+        let t1273 = t93 * t845 + (t1169 + (t1171 - (t1173 + (t1175 + (t1177 - t1179)))));
+        let t1274 = t147 * t962 + (t126 * t926 - (t107 * t890 - t1273));
+        let t1275 = t176 * t1034 + (t164 * t998 - t1274);
+        coriolis_matrix_p[5][1] = t1275;
+        coriolis_matrix_b[5][1] = t1275;
+        let t1276 = t1166
+            - (t1162 + (t1074 + (t1079 - (t1084 + (t1089 + (t1094 - t1099))))));
+        let t1277 = t1146 + (t1150 - (t1154 + (t1158 - t1276)));
+        let t1278 = t106 * t1142 - (t107 * t1100 - (t93 * t1095 - t90 * t1140));
+        let t1279 = t147 * t1085 - (t123 * t1138 - (t126 * t1090 - t1278));
+        let t1280 = t163 * t1134 - (t164 * t1080 + (t144 * t1136 - t1279));
+        let t1281 = t175 * t1132 - (t176 * t1075 - t1280);
+        let t1282 = t106 * t1167 + (t107 * t1113 - (t93 * t1111 + t90 * t1163));
+        let t1283 = t147 * t1107 + (t123 * t1159 + (t126 * t1109 + t1282));
+        let t1284 = t163 * t1151 + (t164 * t1105 - (t144 * t1155 + t1283));
+        let t1285 = t175 * t1147 + (t176 * t1103 + t1284);
+        let t1286 = t106 * t1180 - (t107 * t1126 - (t93 * t1124 - t90 * t1178));
+        let t1287 = t147 * t1120 - (t123 * t1176 - (t126 * t1122 - t1286));
+        let t1288 = t163 * t1172 - (t164 * t1118 + (t144 * t1174 - t1287));
+        let t1289 = t175 * t1170 - (t176 * t1116 - t1288);
+        coriolis_matrix_p[0][3] = -t1101;
+        coriolis_matrix_p[2][5] = -t1229;
+        let t1290 = -t1231;
+        coriolis_matrix_p[3][0] = t1290;
+        coriolis_matrix_b[3][0] = t1290;
+        let t1291 = -t1234;
+        coriolis_matrix_p[3][1] = t1291;
+        coriolis_matrix_b[3][1] = t1291;
+        let t1292 = -t1257;
+        coriolis_matrix_p[4][2] = t1292;
+        coriolis_matrix_b[4][2] = t1292;
+        let t1293 = -t1272;
+        coriolis_matrix_p[5][0] = t1293;
+        coriolis_matrix_b[5][0] = t1293;
+        let t1294 = -t1277;
+        coriolis_matrix_p[5][2] = t1294;
+        coriolis_matrix_b[5][2] = t1294;
         // Coriolis matrix C_p, natural factorisation
-        let t1307 = platform_velocity[3] * t579 - platform_velocity[4] * t582;
-        coriolis_matrix_p[0][4] = t1307 - t1126;
-        let t1308 = platform_velocity[5] * t582 - platform_velocity[3] * t576;
-        coriolis_matrix_p[0][5] = -(t1139 + t1308);
-        coriolis_matrix_p[1][3] = -(t1155 + t1307);
-        let t1309 = platform_velocity[4] * t576 - platform_velocity[5] * t579;
-        coriolis_matrix_p[1][5] = t1309 - t1193;
-        coriolis_matrix_p[2][3] = t1308 - t1209;
-        coriolis_matrix_p[2][4] = -(t1222 + t1309);
-        let t1310 = platform_velocity[5] * t589;
-        let t1311 = platform_velocity[4] * t591;
-        coriolis_matrix_p[3][3] = t1253 + t1310 - t1311;
-        let t1312 = 0.0425 - t596;
-        coriolis_matrix_p[3][4] = t1257 - platform_velocity[5] * t1312
+        let t1295 = platform_velocity[3] * t579 - platform_velocity[4] * t582;
+        coriolis_matrix_p[0][4] = t1295 - t1114;
+        let t1296 = platform_velocity[5] * t582 - platform_velocity[3] * t576;
+        coriolis_matrix_p[0][5] = -(t1127 + t1296);
+        coriolis_matrix_p[1][3] = -(t1143 + t1295);
+        let t1297 = platform_velocity[4] * t576 - platform_velocity[5] * t579;
+        coriolis_matrix_p[1][5] = t1297 - t1181;
+        coriolis_matrix_p[2][3] = t1296 - t1197;
+        coriolis_matrix_p[2][4] = -(t1210 + t1297);
+        let t1298 = platform_velocity[5] * t589;
+        let t1299 = platform_velocity[4] * t591;
+        coriolis_matrix_p[3][3] = t1241 + t1298 - t1299;
+        let t1300 = 0.0425 - t596;
+        coriolis_matrix_p[3][4] = t1245 - platform_velocity[5] * t1300
             - platform_velocity[4] * t598;
-        let t1313 = 0.0425 - t602;
-        coriolis_matrix_p[3][5] = platform_velocity[4] * t1313
-            + (t1261 + platform_velocity[5] * t598);
-        let t1314 = 0.0425 - t587;
+        let t1301 = 0.0425 - t602;
+        coriolis_matrix_p[3][5] = platform_velocity[4] * t1301
+            + (t1249 + platform_velocity[5] * t598);
+        let t1302 = 0.0425 - t587;
         coriolis_matrix_p[4][3] = platform_velocity[3] * t591
-            + (t1273 + platform_velocity[5] * t1314);
-        let t1315 = platform_velocity[3] * t598;
-        coriolis_matrix_p[4][4] = t1315 + (t1277 - t1310);
-        coriolis_matrix_p[4][5] = t1281 - platform_velocity[5] * t591
-            - platform_velocity[3] * t1313;
-        coriolis_matrix_p[5][3] = t1293 - platform_velocity[4] * t1314
+            + (t1261 + platform_velocity[5] * t1302);
+        let t1303 = platform_velocity[3] * t598;
+        coriolis_matrix_p[4][4] = t1303 + (t1265 - t1298);
+        coriolis_matrix_p[4][5] = t1269 - platform_velocity[5] * t591
+            - platform_velocity[3] * t1301;
+        coriolis_matrix_p[5][3] = t1281 - platform_velocity[4] * t1302
             - platform_velocity[3] * t589;
-        coriolis_matrix_p[5][4] = platform_velocity[3] * t1312
-            - (t1297 - platform_velocity[4] * t589);
-        coriolis_matrix_p[5][5] = t1301 + t1311 - t1315;
+        coriolis_matrix_p[5][4] = platform_velocity[3] * t1300
+            - (t1285 - platform_velocity[4] * t589);
+        coriolis_matrix_p[5][5] = t1289 + t1299 - t1303;
         // Coriolis matrix C_b, natural factorisation
-        let t1316 = t467 * t710;
-        let t1317 = t1113 - (t1063 + (t1027 - (t991 + (t955 - (t882 - t919)))));
-        let t1318 = t468 * t709;
-        coriolis_matrix_b[0][3] = t1316 - (t20 * t1082 - (t21 * t1081 - t1317)) - t1318;
-        let t1319 = t1126 - (t1069 + (t1033 - (t997 + (t961 - (t889 - t925)))));
-        let t1320 = t468 * t708 - (t21 * t1080 - (t19 * t1082 - t1319));
-        coriolis_matrix_b[0][4] = t1320 - t466 * t710;
-        let t1321 = t1139 - (t1072 + (t1036 - (t1000 + (t964 - (t892 - t928)))));
-        let t1322 = t466 * t709 - (t19 * t1081 - (t20 * t1080 - t1321));
-        coriolis_matrix_b[0][5] = t1322 - t467 * t708;
-        let t1323 = t1155 + (t1073 + (t1037 + (t1001 + (t965 + (t893 + t929)))));
-        let t1324 = t497 * t710 - (t20 * t1142 - (t21 * t1141 - t1323));
-        coriolis_matrix_b[1][3] = t1324 - t498 * t709;
-        let t1325 = t498 * t708;
-        let t1326 = t1316
-            - (t1180 + (t1074 + (t1038 - (t1002 + (t966 - (t894 - t930))))));
-        coriolis_matrix_b[1][4] = t1325 - (t21 * t1140 - (t19 * t1142 - t1326));
-        let t1327 = t1193 - (t1076 + (t1040 - (t1004 + (t968 - (t896 - t932)))));
-        let t1328 = t467 * t709 - (t19 * t1141 - (t20 * t1140 - t1327));
-        coriolis_matrix_b[1][5] = t1328 - t497 * t708;
-        let t1329 = t1209 - (t1077 + (t1041 + (t1005 + (t969 + (t897 + t933)))));
-        let t1330 = t498 * t710 - (t20 * t1196 - (t21 * t1195 - t1329));
-        coriolis_matrix_b[2][3] = t1330 - t526 * t709;
-        let t1331 = t1222 + (t1078 + (t1042 + (t1006 + (t970 + (t898 + t934)))));
-        let t1332 = t526 * t708 - (t21 * t1194 - (t19 * t1196 - t1331));
-        coriolis_matrix_b[2][4] = t1332 - t468 * t710;
-        let t1333 = t1318
-            - (t1241 - (t1079 + (t1043 - (t1007 + (t971 - (t899 - t935))))));
-        coriolis_matrix_b[2][5] = t20 * t1194 - (t1325 - t1333) - t19 * t1195;
-        let t1334 = t505 * t710 - (t20 * t1249 - (t1253 - t21 * t1246));
-        let t1335 = t96 * t893 + (t93 * t897 - (t533 * t709 - t1334));
-        let t1336 = t108 * t929 + (t107 * t933 + t1335) - t126 * t969;
-        let t1337 = t1336 - t129 * t965 - t147 * t1005 - t150 * t1001;
-        let t1338 = t1337 - t164 * t1041 - t165 * t1037 - t176 * t1077;
-        coriolis_matrix_b[3][3] = t1338 - t177 * t1073;
-        let t1339 = t533 * t708 + (t21 * t1243 + (t1257 + t19 * t1249));
-        let t1340 = t96 * t894 + (t93 * t898 - (t482 * t710 + t1339));
-        let t1341 = t126 * t970 + (t108 * t930 - (t107 * t934 + t1340));
-        let t1342 = t150 * t1002 - (t147 * t1006 - (t129 * t966 - t1341));
-        let t1343 = t176 * t1078 + (t165 * t1038 + (t164 * t1042 - t1342));
-        coriolis_matrix_b[3][4] = t177 * t1074 + t1343;
-        let t1344 = t482 * t709 - (t19 * t1246 + (t1261 - t20 * t1243));
-        let t1345 = t96 * t896 - (t93 * t899 - (t505 * t708 + t1344));
-        let t1346 = t126 * t971 + (t108 * t932 - (t107 * t935 + t1345));
-        let t1347 = t150 * t1004 - (t147 * t1007 - (t129 * t968 - t1346));
-        let t1348 = t176 * t1079 - (t165 * t1040 - (t164 * t1043 + t1347));
-        coriolis_matrix_b[3][5] = t177 * t1076 - t1348;
-        let t1349 = t518 * t710 - (t20 * t1269 + (t1273 + t21 * t1266));
-        let t1350 = t90 * t897 - (t96 * t882 - (t540 * t709 + t1349));
-        let t1351 = t129 * t955 - (t106 * t933 + (t108 * t919 + t1350));
-        let t1352 = t144 * t1005 + (t150 * t991 + (t123 * t969 + t1351));
-        let t1353 = t177 * t1063 - (t163 * t1041 - (t165 * t1027 - t1352));
-        coriolis_matrix_b[4][3] = t175 * t1077 - t1353;
-        let t1354 = t540 * t708 - (t21 * t1264 - (t1277 - t19 * t1269));
-        let t1355 = t90 * t898 + (t96 * t889 - (t489 * t710 - t1354));
-        let t1356 = t129 * t961 + (t106 * t934 - (t108 * t925 - t1355));
-        let t1357 = t150 * t997 - (t123 * t970 - t1356) - t144 * t1006;
-        let t1358 = t1357 - t165 * t1033 - t163 * t1042 - t177 * t1069;
-        coriolis_matrix_b[4][4] = t1358 - t175 * t1078;
-        let t1359 = t489 * t709 - (t19 * t1266 - (t1281 + t20 * t1264));
-        let t1360 = t90 * t899 - (t96 * t892 + (t518 * t708 + t1359));
-        let t1361 = t129 * t964 + (t106 * t935 - (t108 * t928 + t1360));
-        let t1362 = t144 * t1007 - (t150 * t1000 - (t123 * t971 - t1361));
-        let t1363 = t177 * t1072 - (t163 * t1043 - (t165 * t1036 + t1362));
-        coriolis_matrix_b[4][5] = t175 * t1079 - t1363;
-        let t1364 = t525 * t710 + (t20 * t1289 + (t1293 + t21 * t1287));
-        let t1365 = t93 * t882 + (t90 * t893 + (t547 * t709 - t1364));
-        let t1366 = t123 * t965 + (t107 * t919 - (t106 * t929 + t1365));
-        let t1367 = t147 * t991 - (t144 * t1001 - (t126 * t955 - t1366));
-        let t1368 = t175 * t1073 + (t164 * t1027 + (t163 * t1037 - t1367));
-        coriolis_matrix_b[5][3] = t176 * t1063 + t1368;
-        let t1369 = t547 * t708 + (t21 * t1284 - (t1297 + t19 * t1289));
-        let t1370 = t93 * t889 - (t90 * t894 - (t496 * t710 - t1369));
-        let t1371 = t123 * t966 + (t107 * t925 - (t106 * t930 + t1370));
-        let t1372 = t147 * t997 - (t144 * t1002 - (t126 * t961 - t1371));
-        let t1373 = t175 * t1074 - (t164 * t1033 - (t163 * t1038 + t1372));
-        coriolis_matrix_b[5][4] = t176 * t1069 - t1373;
-        let t1374 = t496 * t709 - (t19 * t1287 - (t1301 - t20 * t1284));
-        let t1375 = t93 * t892 - (t90 * t896 - (t525 * t708 - t1374));
-        let t1376 = t123 * t968 + (t107 * t928 - (t106 * t932 + t1375));
-        let t1377 = t147 * t1000 - (t144 * t1004 - (t126 * t964 - t1376));
-        let t1378 = t175 * t1076 - (t164 * t1036 - (t163 * t1040 + t1377));
-        coriolis_matrix_b[5][5] = t176 * t1072 - t1378;
+        let t1304 = t467 * t710;
+        let t1305 = t1101 - (t1051 + (t1015 - (t979 + (t943 - (t870 - t907)))));
+        let t1306 = t468 * t709;
+        coriolis_matrix_b[0][3] = t1304 - (t20 * t1070 - (t21 * t1069 - t1305)) - t1306;
+        let t1307 = t1114 - (t1057 + (t1021 - (t985 + (t949 - (t877 - t913)))));
+        let t1308 = t468 * t708 - (t21 * t1068 - (t19 * t1070 - t1307));
+        coriolis_matrix_b[0][4] = t1308 - t466 * t710;
+        let t1309 = t1127 - (t1060 + (t1024 - (t988 + (t952 - (t880 - t916)))));
+        let t1310 = t466 * t709 - (t19 * t1069 - (t20 * t1068 - t1309));
+        coriolis_matrix_b[0][5] = t1310 - t467 * t708;
+        let t1311 = t1143 + (t1061 + (t1025 + (t989 + (t953 + (t881 + t917)))));
+        let t1312 = t497 * t710 - (t20 * t1130 - (t21 * t1129 - t1311));
+        coriolis_matrix_b[1][3] = t1312 - t498 * t709;
+        let t1313 = t498 * t708;
+        let t1314 = t1304
+            - (t1168 + (t1062 + (t1026 - (t990 + (t954 - (t882 - t918))))));
+        coriolis_matrix_b[1][4] = t1313 - (t21 * t1128 - (t19 * t1130 - t1314));
+        let t1315 = t1181 - (t1064 + (t1028 - (t992 + (t956 - (t884 - t920)))));
+        let t1316 = t467 * t709 - (t19 * t1129 - (t20 * t1128 - t1315));
+        coriolis_matrix_b[1][5] = t1316 - t497 * t708;
+        let t1317 = t1197 - (t1065 + (t1029 + (t993 + (t957 + (t885 + t921)))));
+        let t1318 = t498 * t710 - (t20 * t1184 - (t21 * t1183 - t1317));
+        coriolis_matrix_b[2][3] = t1318 - t526 * t709;
+        let t1319 = t1210 + (t1066 + (t1030 + (t994 + (t958 + (t886 + t922)))));
+        let t1320 = t526 * t708 - (t21 * t1182 - (t19 * t1184 - t1319));
+        coriolis_matrix_b[2][4] = t1320 - t468 * t710;
+        let t1321 = t1306
+            - (t1229 - (t1067 + (t1031 - (t995 + (t959 - (t887 - t923))))));
+        coriolis_matrix_b[2][5] = t20 * t1182 - (t1313 - t1321) - t19 * t1183;
+        let t1322 = t505 * t710 - (t20 * t1237 - (t1241 - t21 * t1234));
+        let t1323 = t96 * t881 + (t93 * t885 - (t533 * t709 - t1322));
+        let t1324 = t108 * t917 + (t107 * t921 + t1323) - t126 * t957;
+        let t1325 = t1324 - t129 * t953 - t147 * t993 - t150 * t989;
+        let t1326 = t1325 - t164 * t1029 - t165 * t1025 - t176 * t1065;
+        coriolis_matrix_b[3][3] = t1326 - t177 * t1061;
+        let t1327 = t533 * t708 + (t21 * t1231 + (t1245 + t19 * t1237));
+        let t1328 = t96 * t882 + (t93 * t886 - (t482 * t710 + t1327));
+        let t1329 = t126 * t958 + (t108 * t918 - (t107 * t922 + t1328));
+        let t1330 = t150 * t990 - (t147 * t994 - (t129 * t954 - t1329));
+        let t1331 = t176 * t1066 + (t165 * t1026 + (t164 * t1030 - t1330));
+        coriolis_matrix_b[3][4] = t177 * t1062 + t1331;
+        let t1332 = t482 * t709 - (t19 * t1234 + (t1249 - t20 * t1231));
+        let t1333 = t96 * t884 - (t93 * t887 - (t505 * t708 + t1332));
+        let t1334 = t126 * t959 + (t108 * t920 - (t107 * t923 + t1333));
+        let t1335 = t150 * t992 - (t147 * t995 - (t129 * t956 - t1334));
+        let t1336 = t176 * t1067 - (t165 * t1028 - (t164 * t1031 + t1335));
+        coriolis_matrix_b[3][5] = t177 * t1064 - t1336;
+        let t1337 = t518 * t710 - (t20 * t1257 + (t1261 + t21 * t1254));
+        let t1338 = t90 * t885 - (t96 * t870 - (t540 * t709 + t1337));
+        let t1339 = t129 * t943 - (t106 * t921 + (t108 * t907 + t1338));
+        let t1340 = t144 * t993 + (t150 * t979 + (t123 * t957 + t1339));
+        let t1341 = t177 * t1051 - (t163 * t1029 - (t165 * t1015 - t1340));
+        coriolis_matrix_b[4][3] = t175 * t1065 - t1341;
+        let t1342 = t540 * t708 - (t21 * t1252 - (t1265 - t19 * t1257));
+        let t1343 = t90 * t886 + (t96 * t877 - (t489 * t710 - t1342));
+        let t1344 = t129 * t949 + (t106 * t922 - (t108 * t913 - t1343));
+        let t1345 = t150 * t985 - (t123 * t958 - t1344) - t144 * t994;
+        let t1346 = t1345 - t165 * t1021 - t163 * t1030 - t177 * t1057;
+        coriolis_matrix_b[4][4] = t1346 - t175 * t1066;
+        let t1347 = t489 * t709 - (t19 * t1254 - (t1269 + t20 * t1252));
+        let t1348 = t90 * t887 - (t96 * t880 + (t518 * t708 + t1347));
+        let t1349 = t129 * t952 + (t106 * t923 - (t108 * t916 + t1348));
+        let t1350 = t144 * t995 - (t150 * t988 - (t123 * t959 - t1349));
+        let t1351 = t177 * t1060 - (t163 * t1031 - (t165 * t1024 + t1350));
+        coriolis_matrix_b[4][5] = t175 * t1067 - t1351;
+        let t1352 = t525 * t710 + (t20 * t1277 + (t1281 + t21 * t1275));
+        let t1353 = t93 * t870 + (t90 * t881 + (t547 * t709 - t1352));
+        let t1354 = t123 * t953 + (t107 * t907 - (t106 * t917 + t1353));
+        let t1355 = t147 * t979 - (t144 * t989 - (t126 * t943 - t1354));
+        let t1356 = t175 * t1061 + (t164 * t1015 + (t163 * t1025 - t1355));
+        coriolis_matrix_b[5][3] = t176 * t1051 + t1356;
+        let t1357 = t547 * t708 + (t21 * t1272 - (t1285 + t19 * t1277));
+        let t1358 = t93 * t877 - (t90 * t882 - (t496 * t710 - t1357));
+        let t1359 = t123 * t954 + (t107 * t913 - (t106 * t918 + t1358));
+        let t1360 = t147 * t985 - (t144 * t990 - (t126 * t949 - t1359));
+        let t1361 = t175 * t1062 - (t164 * t1021 - (t163 * t1026 + t1360));
+        coriolis_matrix_b[5][4] = t176 * t1057 - t1361;
+        let t1362 = t496 * t709 - (t19 * t1275 - (t1289 - t20 * t1272));
+        let t1363 = t93 * t880 - (t90 * t884 - (t525 * t708 - t1362));
+        let t1364 = t123 * t956 + (t107 * t916 - (t106 * t920 + t1363));
+        let t1365 = t147 * t988 - (t144 * t992 - (t126 * t952 - t1364));
+        let t1366 = t175 * t1064 - (t164 * t1024 - (t163 * t1028 + t1365));
+        coriolis_matrix_b[5][5] = t176 * t1060 - t1366;
         // leg 1: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
         jacobian_dp[0][3] = t93 * t105 - t96 * t103;
         jacobian_dp[0][4] = t96 * t101 - t90 * t105;
@@ -11755,11 +11733,8 @@ pub fn equation_of_motion(
         t64,
         t69,
         t72,
+        t74,
         t75,
-        t82,
-        t83,
-        t84,
-        t85,
         t86,
         t87,
         t90,
@@ -11921,39 +11896,30 @@ pub fn equation_of_motion(
         t744,
         t745,
         t746,
+        t784,
+        t785,
         t789,
         t791,
         t795,
         t799,
         t801,
+        t802,
         t803,
+        t808,
         t810,
-        t811,
         t812,
-        t813,
-        t814,
-        t815,
-        t816,
         t817,
-        t818,
-        t823,
-        t825,
-        t827,
+        t819,
+        t821,
+        t826,
         t828,
-        t829,
         t830,
         t835,
         t837,
         t839,
-        t840,
-        t841,
-        t842,
-        t847,
-        t849,
-        t851,
-        t852,
-        t853,
-        t854,
+        t844,
+        t846,
+        t848,
     ) = {
         // rotation of the platform seen from the base
         let t1 = base_rotation[1][0] * platform_rotation[1][0];
@@ -13004,70 +12970,56 @@ pub fn equation_of_motion(
         let t802 = t74 * (t50 * t784 - t51 * t785);
         // leg 6: actuator velocity d'
         let t803 = t793 + (t794 - t802);
-        // leg 1: rate of that gradient relative to the base
-        let t804 = t53 * (t764 + t76 * t786);
-        let t805 = t53 * (t767 - t77 * t786);
-        // leg 2: rate of that gradient relative to the base
-        let t806 = t58 * (t768 + t78 * t790);
-        let t807 = t58 * (t769 + t79 * t790);
-        // leg 3: rate of that gradient relative to the base
-        let t808 = t61 * (t772 + t80 * t792);
-        let t809 = t61 * (t775 + t81 * t792);
-        // leg 4: rate of that gradient relative to the base
-        let t810 = t66 * (t778 + t82 * t796);
-        let t811 = t66 * (t781 + t83 * t796);
-        // leg 5: rate of that gradient relative to the base
-        let t812 = t71 * (t782 + t84 * t800);
-        let t813 = t71 * (t783 - t85 * t800);
-        // leg 6: rate of that gradient relative to the base
-        let t814 = t74 * (t784 + t86 * t802);
-        let t815 = t74 * (t785 - t87 * t802);
-        // leg 1: rate of the platform lever
-        let t816 = platform_velocity[4] * t96 - platform_velocity[5] * t93;
-        let t817 = platform_velocity[5] * t90 - platform_velocity[3] * t96;
-        let t818 = platform_velocity[3] * t93 - platform_velocity[4] * t90;
         // leg 1: inertial rate of that gradient
-        let t819 = t77 * t725 + t76 * t728;
-        let t820 = t77 * t731 - (t728 - t804);
-        let t821 = t76 * t731 + (t725 + t805);
-        let t822 = base_rotation[0][0] * t820 + base_rotation[0][1] * t821;
-        let t823 = base_rotation[0][2] * t819 - t822;
-        let t824 = base_rotation[1][0] * t820 + base_rotation[1][1] * t821;
-        let t825 = base_rotation[1][2] * t819 - t824;
-        let t826 = base_rotation[2][0] * t820 + base_rotation[2][1] * t821;
-        let t827 = base_rotation[2][2] * t819 - t826;
-        // leg 2: rate of the platform lever
-        let t828 = platform_velocity[4] * t108 - platform_velocity[5] * t107;
-        let t829 = platform_velocity[5] * t106 - platform_velocity[3] * t108;
-        let t830 = platform_velocity[3] * t107 - platform_velocity[4] * t106;
+        let t804 = t77 * t725 + t76 * t728;
+        let t805 = t77 * t731 - (t728 - t53 * (t764 + t76 * t786));
+        let t806 = t76 * t731 + (t725 + t53 * (t767 - t77 * t786));
+        let t807 = base_rotation[0][0] * t805 + base_rotation[0][1] * t806;
+        let t808 = base_rotation[0][2] * t804 - t807;
+        let t809 = base_rotation[1][0] * t805 + base_rotation[1][1] * t806;
+        let t810 = base_rotation[1][2] * t804 - t809;
+        let t811 = base_rotation[2][0] * t805 + base_rotation[2][1] * t806;
+        let t812 = base_rotation[2][2] * t804 - t811;
         // leg 2: inertial rate of that gradient
-        let t831 = t79 * t725 - t78 * t728;
-        let t832 = t79 * t731 + (t728 - t806);
-        let t833 = t78 * t731 + (t725 + t807);
+        let t813 = t79 * t725 - t78 * t728;
+        let t814 = t79 * t731 + (t728 - t58 * (t768 + t78 * t790));
+        let t815 = t78 * t731 + (t725 + t58 * (t769 + t79 * t790));
+        let t816 = base_rotation[0][0] * t814 - base_rotation[0][1] * t815;
+        let t817 = base_rotation[0][2] * t813 - t816;
+        let t818 = base_rotation[1][0] * t814 - base_rotation[1][1] * t815;
+        let t819 = base_rotation[1][2] * t813 - t818;
+        let t820 = base_rotation[2][0] * t814 - base_rotation[2][1] * t815;
+        let t821 = base_rotation[2][2] * t813 - t820;
+        // leg 3: inertial rate of that gradient
+        let t822 = t81 * t725 - t80 * t728;
+        let t823 = t81 * t731 + (t728 - t61 * (t772 + t80 * t792));
+        let t824 = t80 * t731 + (t725 + t61 * (t775 + t81 * t792));
+        let t825 = base_rotation[0][0] * t823 - base_rotation[0][1] * t824;
+        let t826 = base_rotation[0][2] * t822 - t825;
+        let t827 = base_rotation[1][0] * t823 - base_rotation[1][1] * t824;
+        let t828 = base_rotation[1][2] * t822 - t827;
+        let t829 = base_rotation[2][0] * t823 - base_rotation[2][1] * t824;
+        let t830 = base_rotation[2][2] * t822 - t829;
+        // leg 4: inertial rate of that gradient
+        let t831 = t83 * t725 - t82 * t728;
+        let t832 = t83 * t731 + (t728 - t66 * (t778 + t82 * t796));
+        let t833 = t82 * t731 + (t725 + t66 * (t781 + t83 * t796));
         let t834 = base_rotation[0][0] * t832 - base_rotation[0][1] * t833;
         let t835 = base_rotation[0][2] * t831 - t834;
         let t836 = base_rotation[1][0] * t832 - base_rotation[1][1] * t833;
         let t837 = base_rotation[1][2] * t831 - t836;
         let t838 = base_rotation[2][0] * t832 - base_rotation[2][1] * t833;
         let t839 = base_rotation[2][2] * t831 - t838;
-        // leg 3: rate of the platform lever
-        let t840 = platform_velocity[4] * t129 - platform_velocity[5] * t126;
-        let t841 = platform_velocity[5] * t123 - platform_velocity[3] * t129;
-        let t842 = platform_velocity[3] * t126 - platform_velocity[4] * t123;
-        // leg 3: inertial rate of that gradient
-        let t843 = t81 * t725 - t80 * t728;
-        let t844 = t81 * t731 + (t728 - t808);
-        let t845 = t80 * t731 + (t725 + t809);
-        let t846 = base_rotation[0][0] * t844 - base_rotation[0][1] * t845;
-        let t847 = base_rotation[0][2] * t843 - t846;
-        let t848 = base_rotation[1][0] * t844 - base_rotation[1][1] * t845;
-        let t849 = base_rotation[1][2] * t843 - t848;
-        let t850 = base_rotation[2][0] * t844 - base_rotation[2][1] * t845;
-        let t851 = base_rotation[2][2] * t843 - t850;
-        // leg 4: rate of the platform lever
-        let t852 = platform_velocity[4] * t150 - platform_velocity[5] * t147;
-        let t853 = platform_velocity[5] * t144 - platform_velocity[3] * t150;
-        let t854 = platform_velocity[3] * t147 - platform_velocity[4] * t144;
+        // leg 5: inertial rate of that gradient
+        let t840 = t85 * t725 + t84 * t728;
+        let t841 = t85 * t731 - (t728 - t71 * (t782 + t84 * t800));
+        let t842 = t84 * t731 + (t725 + t71 * (t783 - t85 * t800));
+        let t843 = base_rotation[0][0] * t841 + base_rotation[0][1] * t842;
+        let t844 = base_rotation[0][2] * t840 - t843;
+        let t845 = base_rotation[1][0] * t841 + base_rotation[1][1] * t842;
+        let t846 = base_rotation[1][2] * t840 - t845;
+        let t847 = base_rotation[2][0] * t841 + base_rotation[2][1] * t842;
+        let t848 = base_rotation[2][2] * t840 - t847;
         (
             t19,
             t20,
@@ -13077,11 +13029,8 @@ pub fn equation_of_motion(
             t64,
             t69,
             t72,
+            t74,
             t75,
-            t82,
-            t83,
-            t84,
-            t85,
             t86,
             t87,
             t90,
@@ -13243,1034 +13192,1021 @@ pub fn equation_of_motion(
             t744,
             t745,
             t746,
+            t784,
+            t785,
             t789,
             t791,
             t795,
             t799,
             t801,
+            t802,
             t803,
+            t808,
             t810,
-            t811,
             t812,
-            t813,
-            t814,
-            t815,
-            t816,
             t817,
-            t818,
-            t823,
-            t825,
-            t827,
+            t819,
+            t821,
+            t826,
             t828,
-            t829,
             t830,
             t835,
             t837,
             t839,
-            t840,
-            t841,
-            t842,
-            t847,
-            t849,
-            t851,
-            t852,
-            t853,
-            t854,
+            t844,
+            t846,
+            t848,
         )
     };
     {
-        // leg 4: inertial rate of that gradient
-        let t855 = t83 * t725 - t82 * t728;
-        let t856 = t83 * t731 + (t728 - t810);
-        let t857 = t82 * t731 + (t725 + t811);
-        let t858 = base_rotation[0][0] * t856 - base_rotation[0][1] * t857;
-        let t859 = base_rotation[0][2] * t855 - t858;
-        let t860 = base_rotation[1][0] * t856 - base_rotation[1][1] * t857;
-        let t861 = base_rotation[1][2] * t855 - t860;
-        let t862 = base_rotation[2][0] * t856 - base_rotation[2][1] * t857;
-        let t863 = base_rotation[2][2] * t855 - t862;
-        // leg 5: rate of the platform lever
-        let t864 = platform_velocity[4] * t165 - platform_velocity[5] * t164;
-        let t865 = platform_velocity[5] * t163 - platform_velocity[3] * t165;
-        let t866 = platform_velocity[3] * t164 - platform_velocity[4] * t163;
-        // leg 5: inertial rate of that gradient
-        let t867 = t85 * t725 + t84 * t728;
-        let t868 = t85 * t731 - (t728 - t812);
-        let t869 = t84 * t731 + (t725 + t813);
-        let t870 = base_rotation[0][0] * t868 + base_rotation[0][1] * t869;
-        let t871 = base_rotation[0][2] * t867 - t870;
-        let t872 = base_rotation[1][0] * t868 + base_rotation[1][1] * t869;
-        let t873 = base_rotation[1][2] * t867 - t872;
-        let t874 = base_rotation[2][0] * t868 + base_rotation[2][1] * t869;
-        let t875 = base_rotation[2][2] * t867 - t874;
-        // leg 6: rate of the platform lever
-        let t876 = platform_velocity[4] * t177 - platform_velocity[5] * t176;
-        let t877 = platform_velocity[5] * t175 - platform_velocity[3] * t177;
-        let t878 = platform_velocity[3] * t176 - platform_velocity[4] * t175;
         // leg 6: inertial rate of that gradient
-        let t879 = t87 * t725 + t86 * t728;
-        let t880 = t87 * t731 - (t728 - t814);
-        let t881 = t86 * t731 + (t725 + t815);
-        let t882 = base_rotation[0][0] * t880 + base_rotation[0][1] * t881;
-        let t883 = base_rotation[0][2] * t879 - t882;
-        let t884 = base_rotation[1][0] * t880 + base_rotation[1][1] * t881;
-        let t885 = base_rotation[1][2] * t879 - t884;
-        let t886 = base_rotation[2][0] * t880 + base_rotation[2][1] * t881;
-        let t887 = base_rotation[2][2] * t879 - t886;
+        let t849 = t87 * t725 + t86 * t728;
+        let t850 = t87 * t731 - (t728 - t74 * (t784 + t86 * t802));
+        let t851 = t86 * t731 + (t725 + t74 * (t785 - t87 * t802));
+        let t852 = base_rotation[0][0] * t850 + base_rotation[0][1] * t851;
+        let t853 = base_rotation[0][2] * t849 - t852;
+        let t854 = base_rotation[1][0] * t850 + base_rotation[1][1] * t851;
+        let t855 = base_rotation[1][2] * t849 - t854;
+        let t856 = base_rotation[2][0] * t850 + base_rotation[2][1] * t851;
+        let t857 = base_rotation[2][2] * t849 - t856;
+        // leg 1: rate of the platform lever
+        let t858 = platform_velocity[4] * t96 - platform_velocity[5] * t93;
+        let t859 = platform_velocity[5] * t90 - platform_velocity[3] * t96;
+        let t860 = platform_velocity[3] * t93 - platform_velocity[4] * t90;
+        // leg 2: rate of the platform lever
+        let t861 = platform_velocity[4] * t108 - platform_velocity[5] * t107;
+        let t862 = platform_velocity[5] * t106 - platform_velocity[3] * t108;
+        let t863 = platform_velocity[3] * t107 - platform_velocity[4] * t106;
+        // leg 3: rate of the platform lever
+        let t864 = platform_velocity[4] * t129 - platform_velocity[5] * t126;
+        let t865 = platform_velocity[5] * t123 - platform_velocity[3] * t129;
+        let t866 = platform_velocity[3] * t126 - platform_velocity[4] * t123;
+        // leg 4: rate of the platform lever
+        let t867 = platform_velocity[4] * t150 - platform_velocity[5] * t147;
+        let t868 = platform_velocity[5] * t144 - platform_velocity[3] * t150;
+        let t869 = platform_velocity[3] * t147 - platform_velocity[4] * t144;
+        // leg 5: rate of the platform lever
+        let t870 = platform_velocity[4] * t165 - platform_velocity[5] * t164;
+        let t871 = platform_velocity[5] * t163 - platform_velocity[3] * t165;
+        let t872 = platform_velocity[3] * t164 - platform_velocity[4] * t163;
+        // leg 6: rate of the platform lever
+        let t873 = platform_velocity[4] * t177 - platform_velocity[5] * t176;
+        let t874 = platform_velocity[5] * t175 - platform_velocity[3] * t177;
+        let t875 = platform_velocity[3] * t176 - platform_velocity[4] * t175;
         // leg 1: Coriolis matrix of the leg in the speeds of its joint
-        let t888 = base_rotation[1][2] * base_velocity[5];
-        let t889 = base_rotation[2][2] * base_velocity[4] - t888;
-        let t890 = 0.17066666666666666 * t889;
-        let t891 = t223 + t101 * 0.9523333333333334;
-        let t892 = t823 * t891 + t101 * t890;
-        let t893 = t825 * t891 + t103 * t890;
-        let t894 = t827 * t891 + t105 * t890;
-        let t895 = base_rotation[2][2] * base_velocity[3];
-        let t896 = base_rotation[0][2] * base_velocity[5] - t895;
-        let t897 = 0.17066666666666666 * t896;
-        let t898 = t226 + t103 * 0.9523333333333334;
-        let t899 = t823 * t898 + t101 * t897;
-        let t900 = t825 * t898 + t103 * t897;
-        let t901 = t827 * t898 + t105 * t897;
-        let t902 = base_rotation[0][2] * base_velocity[4];
-        let t903 = base_rotation[1][2] * base_velocity[3] - t902;
-        let t904 = 0.17066666666666666 * t903;
-        let t905 = t229 + t105 * 0.9523333333333334;
-        let t906 = t823 * t905 + t101 * t904;
-        let t907 = t825 * t905 + t103 * t904;
-        let t908 = t827 * t905 + t105 * t904;
+        let t876 = base_rotation[1][2] * base_velocity[5];
+        let t877 = base_rotation[2][2] * base_velocity[4] - t876;
+        let t878 = 0.17066666666666666 * t877;
+        let t879 = t223 + t101 * 0.9523333333333334;
+        let t880 = t808 * t879 + t101 * t878;
+        let t881 = t810 * t879 + t103 * t878;
+        let t882 = t812 * t879 + t105 * t878;
+        let t883 = base_rotation[2][2] * base_velocity[3];
+        let t884 = base_rotation[0][2] * base_velocity[5] - t883;
+        let t885 = 0.17066666666666666 * t884;
+        let t886 = t226 + t103 * 0.9523333333333334;
+        let t887 = t808 * t886 + t101 * t885;
+        let t888 = t810 * t886 + t103 * t885;
+        let t889 = t812 * t886 + t105 * t885;
+        let t890 = base_rotation[0][2] * base_velocity[4];
+        let t891 = base_rotation[1][2] * base_velocity[3] - t890;
+        let t892 = 0.17066666666666666 * t891;
+        let t893 = t229 + t105 * 0.9523333333333334;
+        let t894 = t808 * t893 + t101 * t892;
+        let t895 = t810 * t893 + t103 * t892;
+        let t896 = t812 * t893 + t105 * t892;
         // leg 1: Coriolis matrix between joint and base angular velocity
-        let t909 = 0.17066666666666666 * t745 + 0.03055 * t896;
-        let t910 = 0.17066666666666666 * t746 + 0.03055 * t903;
-        let t911 = t56 * t896 - (base_velocity[5] * t257 - base_velocity[3] * t247);
-        let t912 = base_rotation[1][2] * t789 + t911;
-        let t913 = t909 - (0.17066666666666666 * t817 - 0.9523333333333334 * t912);
-        let t914 = t56 * t903 - (base_velocity[3] * t243 - base_velocity[4] * t257);
-        let t915 = base_rotation[2][2] * t789 + t914;
-        let t916 = t910 - (0.17066666666666666 * t818 - 0.9523333333333334 * t915);
-        let t917 = base_rotation[2][2] * t913 - base_rotation[1][2] * t916;
-        let t918 = t101 * t917;
-        let t919 = 0.17066666666666666 * t744 + 0.03055 * t889;
-        let t920 = t56 * t889 - (base_velocity[4] * t247 - base_velocity[5] * t243);
-        let t921 = base_rotation[0][2] * t789 + t920;
-        let t922 = t919 - (0.17066666666666666 * t816 - 0.9523333333333334 * t921);
-        let t923 = base_rotation[0][2] * t916 - base_rotation[2][2] * t922;
-        let t924 = 0.17066666666666666 * t915;
-        let t925 = t101 * t923 + t924;
-        let t926 = base_rotation[1][2] * t922 - base_rotation[0][2] * t913;
-        let t927 = 0.17066666666666666 * t912;
-        let t928 = t101 * t926 - t927;
-        let t929 = t924 - t103 * t917;
-        let t930 = t103 * t923;
-        let t931 = 0.17066666666666666 * t921;
-        let t932 = t103 * t926 + t931;
-        let t933 = t927 + t105 * t917;
-        let t934 = t931 - t105 * t923;
-        let t935 = t105 * t926;
+        let t897 = 0.17066666666666666 * t745 + 0.03055 * t884;
+        let t898 = 0.17066666666666666 * t746 + 0.03055 * t891;
+        let t899 = t56 * t884 - (base_velocity[5] * t257 - base_velocity[3] * t247);
+        let t900 = base_rotation[1][2] * t789 + t899;
+        let t901 = t897 - (0.17066666666666666 * t859 - 0.9523333333333334 * t900);
+        let t902 = t56 * t891 - (base_velocity[3] * t243 - base_velocity[4] * t257);
+        let t903 = base_rotation[2][2] * t789 + t902;
+        let t904 = t898 - (0.17066666666666666 * t860 - 0.9523333333333334 * t903);
+        let t905 = base_rotation[2][2] * t901 - base_rotation[1][2] * t904;
+        let t906 = t101 * t905;
+        let t907 = 0.17066666666666666 * t744 + 0.03055 * t877;
+        let t908 = t56 * t877 - (base_velocity[4] * t247 - base_velocity[5] * t243);
+        let t909 = base_rotation[0][2] * t789 + t908;
+        let t910 = t907 - (0.17066666666666666 * t858 - 0.9523333333333334 * t909);
+        let t911 = base_rotation[0][2] * t904 - base_rotation[2][2] * t910;
+        let t912 = 0.17066666666666666 * t903;
+        let t913 = t101 * t911 + t912;
+        let t914 = base_rotation[1][2] * t910 - base_rotation[0][2] * t901;
+        let t915 = 0.17066666666666666 * t900;
+        let t916 = t101 * t914 - t915;
+        let t917 = t912 - t103 * t905;
+        let t918 = t103 * t911;
+        let t919 = 0.17066666666666666 * t909;
+        let t920 = t103 * t914 + t919;
+        let t921 = t915 + t105 * t905;
+        let t922 = t919 - t105 * t911;
+        let t923 = t105 * t914;
         // leg 2: Coriolis matrix of the leg in the speeds of its joint
-        let t936 = t223 - t113 * 0.9523333333333334;
-        let t937 = t835 * t936 + t113 * t890;
-        let t938 = t837 * t936 + t115 * t890;
-        let t939 = t839 * t936 + t117 * t890;
-        let t940 = t226 - t115 * 0.9523333333333334;
-        let t941 = t835 * t940 + t113 * t897;
-        let t942 = t837 * t940 + t115 * t897;
-        let t943 = t839 * t940 + t117 * t897;
-        let t944 = t229 - t117 * 0.9523333333333334;
-        let t945 = t835 * t944 + t113 * t904;
-        let t946 = t837 * t944 + t115 * t904;
-        let t947 = t839 * t944 + t117 * t904;
+        let t924 = t223 - t113 * 0.9523333333333334;
+        let t925 = t817 * t924 + t113 * t878;
+        let t926 = t819 * t924 + t115 * t878;
+        let t927 = t821 * t924 + t117 * t878;
+        let t928 = t226 - t115 * 0.9523333333333334;
+        let t929 = t817 * t928 + t113 * t885;
+        let t930 = t819 * t928 + t115 * t885;
+        let t931 = t821 * t928 + t117 * t885;
+        let t932 = t229 - t117 * 0.9523333333333334;
+        let t933 = t817 * t932 + t113 * t892;
+        let t934 = t819 * t932 + t115 * t892;
+        let t935 = t821 * t932 + t117 * t892;
         // leg 2: Coriolis matrix between joint and base angular velocity
-        let t948 = t59 * t896 - (base_velocity[5] * t300 - base_velocity[3] * t293);
-        let t949 = base_rotation[1][2] * t791 + t948;
-        let t950 = t909 - (0.17066666666666666 * t829 - 0.9523333333333334 * t949);
-        let t951 = t59 * t903 - (base_velocity[3] * t292 - base_velocity[4] * t300);
-        let t952 = base_rotation[2][2] * t791 + t951;
-        let t953 = t910 - (0.17066666666666666 * t830 - 0.9523333333333334 * t952);
-        let t954 = base_rotation[2][2] * t950 - base_rotation[1][2] * t953;
-        let t955 = t113 * t954;
-        let t956 = t59 * t889 - (base_velocity[4] * t293 - base_velocity[5] * t292);
-        let t957 = base_rotation[0][2] * t791 + t956;
-        let t958 = t919 - (0.17066666666666666 * t828 - 0.9523333333333334 * t957);
-        let t959 = base_rotation[0][2] * t953 - base_rotation[2][2] * t958;
-        let t960 = 0.17066666666666666 * t952;
-        let t961 = t113 * t959 - t960;
-        let t962 = base_rotation[1][2] * t958 - base_rotation[0][2] * t950;
-        let t963 = 0.17066666666666666 * t949;
-        let t964 = t113 * t962 + t963;
-        let t965 = t960 + t115 * t954;
-        let t966 = t115 * t959;
-        let t967 = 0.17066666666666666 * t957;
-        let t968 = t115 * t962 - t967;
-        let t969 = t963 - t117 * t954;
-        let t970 = t967 + t117 * t959;
-        let t971 = t117 * t962;
+        let t936 = t59 * t884 - (base_velocity[5] * t300 - base_velocity[3] * t293);
+        let t937 = base_rotation[1][2] * t791 + t936;
+        let t938 = t897 - (0.17066666666666666 * t862 - 0.9523333333333334 * t937);
+        let t939 = t59 * t891 - (base_velocity[3] * t292 - base_velocity[4] * t300);
+        let t940 = base_rotation[2][2] * t791 + t939;
+        let t941 = t898 - (0.17066666666666666 * t863 - 0.9523333333333334 * t940);
+        let t942 = base_rotation[2][2] * t938 - base_rotation[1][2] * t941;
+        let t943 = t113 * t942;
+        let t944 = t59 * t877 - (base_velocity[4] * t293 - base_velocity[5] * t292);
+        let t945 = base_rotation[0][2] * t791 + t944;
+        let t946 = t907 - (0.17066666666666666 * t861 - 0.9523333333333334 * t945);
+        let t947 = base_rotation[0][2] * t941 - base_rotation[2][2] * t946;
+        let t948 = 0.17066666666666666 * t940;
+        let t949 = t113 * t947 - t948;
+        let t950 = base_rotation[1][2] * t946 - base_rotation[0][2] * t938;
+        let t951 = 0.17066666666666666 * t937;
+        let t952 = t113 * t950 + t951;
+        let t953 = t948 + t115 * t942;
+        let t954 = t115 * t947;
+        let t955 = 0.17066666666666666 * t945;
+        let t956 = t115 * t950 - t955;
+        let t957 = t951 - t117 * t942;
+        let t958 = t955 + t117 * t947;
+        let t959 = t117 * t950;
         // leg 3: Coriolis matrix of the leg in the speeds of its joint
-        let t972 = t223 - t134 * 0.9523333333333334;
-        let t973 = t847 * t972 + t134 * t890;
-        let t974 = t849 * t972 + t136 * t890;
-        let t975 = t851 * t972 + t138 * t890;
-        let t976 = t226 - t136 * 0.9523333333333334;
-        let t977 = t847 * t976 + t134 * t897;
-        let t978 = t849 * t976 + t136 * t897;
-        let t979 = t851 * t976 + t138 * t897;
-        let t980 = t229 - t138 * 0.9523333333333334;
-        let t981 = t847 * t980 + t134 * t904;
-        let t982 = t849 * t980 + t136 * t904;
-        let t983 = t851 * t980 + t138 * t904;
+        let t960 = t223 - t134 * 0.9523333333333334;
+        let t961 = t826 * t960 + t134 * t878;
+        let t962 = t828 * t960 + t136 * t878;
+        let t963 = t830 * t960 + t138 * t878;
+        let t964 = t226 - t136 * 0.9523333333333334;
+        let t965 = t826 * t964 + t134 * t885;
+        let t966 = t828 * t964 + t136 * t885;
+        let t967 = t830 * t964 + t138 * t885;
+        let t968 = t229 - t138 * 0.9523333333333334;
+        let t969 = t826 * t968 + t134 * t892;
+        let t970 = t828 * t968 + t136 * t892;
+        let t971 = t830 * t968 + t138 * t892;
         // leg 3: Coriolis matrix between joint and base angular velocity
-        let t984 = t64 * t896 - (base_velocity[5] * t348 - base_velocity[3] * t339);
-        let t985 = base_rotation[1][2] * t795 + t984;
-        let t986 = t909 + (0.17066666666666666 * t841 + 0.9523333333333334 * t985);
-        let t987 = t64 * t903 - (base_velocity[3] * t336 - base_velocity[4] * t348);
-        let t988 = base_rotation[2][2] * t795 + t987;
-        let t989 = t910 + (0.17066666666666666 * t842 + 0.9523333333333334 * t988);
-        let t990 = base_rotation[2][2] * t986 - base_rotation[1][2] * t989;
-        let t991 = t134 * t990;
-        let t992 = t64 * t889 - (base_velocity[4] * t339 - base_velocity[5] * t336);
-        let t993 = base_rotation[0][2] * t795 + t992;
-        let t994 = t919 + (0.17066666666666666 * t840 + 0.9523333333333334 * t993);
-        let t995 = base_rotation[0][2] * t989 - base_rotation[2][2] * t994;
-        let t996 = 0.17066666666666666 * t988;
-        let t997 = t134 * t995 - t996;
-        let t998 = base_rotation[1][2] * t994 - base_rotation[0][2] * t986;
-        let t999 = 0.17066666666666666 * t985;
-        let t1000 = t134 * t998 + t999;
-        let t1001 = t996 + t136 * t990;
-        let t1002 = t136 * t995;
-        let t1003 = 0.17066666666666666 * t993;
-        let t1004 = t136 * t998 - t1003;
-        let t1005 = t999 - t138 * t990;
-        let t1006 = t1003 + t138 * t995;
-        let t1007 = t138 * t998;
+        let t972 = t64 * t884 - (base_velocity[5] * t348 - base_velocity[3] * t339);
+        let t973 = base_rotation[1][2] * t795 + t972;
+        let t974 = t897 + (0.17066666666666666 * t865 + 0.9523333333333334 * t973);
+        let t975 = t64 * t891 - (base_velocity[3] * t336 - base_velocity[4] * t348);
+        let t976 = base_rotation[2][2] * t795 + t975;
+        let t977 = t898 + (0.17066666666666666 * t866 + 0.9523333333333334 * t976);
+        let t978 = base_rotation[2][2] * t974 - base_rotation[1][2] * t977;
+        let t979 = t134 * t978;
+        let t980 = t64 * t877 - (base_velocity[4] * t339 - base_velocity[5] * t336);
+        let t981 = base_rotation[0][2] * t795 + t980;
+        let t982 = t907 + (0.17066666666666666 * t864 + 0.9523333333333334 * t981);
+        let t983 = base_rotation[0][2] * t977 - base_rotation[2][2] * t982;
+        let t984 = 0.17066666666666666 * t976;
+        let t985 = t134 * t983 - t984;
+        let t986 = base_rotation[1][2] * t982 - base_rotation[0][2] * t974;
+        let t987 = 0.17066666666666666 * t973;
+        let t988 = t134 * t986 + t987;
+        let t989 = t984 + t136 * t978;
+        let t990 = t136 * t983;
+        let t991 = 0.17066666666666666 * t981;
+        let t992 = t136 * t986 - t991;
+        let t993 = t987 - t138 * t978;
+        let t994 = t991 + t138 * t983;
+        let t995 = t138 * t986;
         // leg 4: Coriolis matrix of the leg in the speeds of its joint
-        let t1008 = t223 - t155 * 0.9523333333333334;
-        let t1009 = t859 * t1008 + t155 * t890;
-        let t1010 = t861 * t1008 + t157 * t890;
-        let t1011 = t863 * t1008 + t159 * t890;
-        let t1012 = t226 - t157 * 0.9523333333333334;
-        let t1013 = t859 * t1012 + t155 * t897;
-        let t1014 = t861 * t1012 + t157 * t897;
-        let t1015 = t863 * t1012 + t159 * t897;
-        let t1016 = t229 - t159 * 0.9523333333333334;
-        let t1017 = t859 * t1016 + t155 * t904;
-        let t1018 = t861 * t1016 + t157 * t904;
-        let t1019 = t863 * t1016 + t159 * t904;
+        let t996 = t223 - t155 * 0.9523333333333334;
+        let t997 = t835 * t996 + t155 * t878;
+        let t998 = t837 * t996 + t157 * t878;
+        let t999 = t839 * t996 + t159 * t878;
+        let t1000 = t226 - t157 * 0.9523333333333334;
+        let t1001 = t835 * t1000 + t155 * t885;
+        let t1002 = t837 * t1000 + t157 * t885;
+        let t1003 = t839 * t1000 + t159 * t885;
+        let t1004 = t229 - t159 * 0.9523333333333334;
+        let t1005 = t835 * t1004 + t155 * t892;
+        let t1006 = t837 * t1004 + t157 * t892;
+        let t1007 = t839 * t1004 + t159 * t892;
         // leg 4: Coriolis matrix between joint and base angular velocity
-        let t1020 = t69 * t896 + (base_velocity[5] * t396 - base_velocity[3] * t387);
-        let t1021 = base_rotation[1][2] * t799 + t1020;
-        let t1022 = t909 + (0.17066666666666666 * t853 + 0.9523333333333334 * t1021);
-        let t1023 = t69 * t903 + (base_velocity[3] * t384 - base_velocity[4] * t396);
-        let t1024 = base_rotation[2][2] * t799 + t1023;
-        let t1025 = t910 + (0.17066666666666666 * t854 + 0.9523333333333334 * t1024);
-        let t1026 = base_rotation[2][2] * t1022 - base_rotation[1][2] * t1025;
-        let t1027 = t155 * t1026;
-        let t1028 = t69 * t889 + (base_velocity[4] * t387 - base_velocity[5] * t384);
-        let t1029 = base_rotation[0][2] * t799 + t1028;
-        let t1030 = t919 + (0.17066666666666666 * t852 + 0.9523333333333334 * t1029);
-        let t1031 = base_rotation[0][2] * t1025 - base_rotation[2][2] * t1030;
-        let t1032 = 0.17066666666666666 * t1024;
-        let t1033 = t155 * t1031 - t1032;
-        let t1034 = base_rotation[1][2] * t1030 - base_rotation[0][2] * t1022;
-        let t1035 = 0.17066666666666666 * t1021;
-        let t1036 = t155 * t1034 + t1035;
-        let t1037 = t1032 + t157 * t1026;
-        let t1038 = t157 * t1031;
-        let t1039 = 0.17066666666666666 * t1029;
-        let t1040 = t157 * t1034 - t1039;
-        let t1041 = t1035 - t159 * t1026;
-        let t1042 = t1039 + t159 * t1031;
-        let t1043 = t159 * t1034;
+        let t1008 = t69 * t884 + (base_velocity[5] * t396 - base_velocity[3] * t387);
+        let t1009 = base_rotation[1][2] * t799 + t1008;
+        let t1010 = t897 + (0.17066666666666666 * t868 + 0.9523333333333334 * t1009);
+        let t1011 = t69 * t891 + (base_velocity[3] * t384 - base_velocity[4] * t396);
+        let t1012 = base_rotation[2][2] * t799 + t1011;
+        let t1013 = t898 + (0.17066666666666666 * t869 + 0.9523333333333334 * t1012);
+        let t1014 = base_rotation[2][2] * t1010 - base_rotation[1][2] * t1013;
+        let t1015 = t155 * t1014;
+        let t1016 = t69 * t877 + (base_velocity[4] * t387 - base_velocity[5] * t384);
+        let t1017 = base_rotation[0][2] * t799 + t1016;
+        let t1018 = t907 + (0.17066666666666666 * t867 + 0.9523333333333334 * t1017);
+        let t1019 = base_rotation[0][2] * t1013 - base_rotation[2][2] * t1018;
+        let t1020 = 0.17066666666666666 * t1012;
+        let t1021 = t155 * t1019 - t1020;
+        let t1022 = base_rotation[1][2] * t1018 - base_rotation[0][2] * t1010;
+        let t1023 = 0.17066666666666666 * t1009;
+        let t1024 = t155 * t1022 + t1023;
+        let t1025 = t1020 + t157 * t1014;
+        let t1026 = t157 * t1019;
+        let t1027 = 0.17066666666666666 * t1017;
+        let t1028 = t157 * t1022 - t1027;
+        let t1029 = t1023 - t159 * t1014;
+        let t1030 = t1027 + t159 * t1019;
+        let t1031 = t159 * t1022;
         // leg 5: Coriolis matrix of the leg in the speeds of its joint
-        let t1044 = t223 + t170 * 0.9523333333333334;
-        let t1045 = t871 * t1044 + t170 * t890;
-        let t1046 = t873 * t1044 + t172 * t890;
-        let t1047 = t875 * t1044 + t174 * t890;
-        let t1048 = t226 + t172 * 0.9523333333333334;
-        let t1049 = t871 * t1048 + t170 * t897;
-        let t1050 = t873 * t1048 + t172 * t897;
-        let t1051 = t875 * t1048 + t174 * t897;
-        let t1052 = t229 + t174 * 0.9523333333333334;
-        let t1053 = t871 * t1052 + t170 * t904;
-        let t1054 = t873 * t1052 + t172 * t904;
-        let t1055 = t875 * t1052 + t174 * t904;
+        let t1032 = t223 + t170 * 0.9523333333333334;
+        let t1033 = t844 * t1032 + t170 * t878;
+        let t1034 = t846 * t1032 + t172 * t878;
+        let t1035 = t848 * t1032 + t174 * t878;
+        let t1036 = t226 + t172 * 0.9523333333333334;
+        let t1037 = t844 * t1036 + t170 * t885;
+        let t1038 = t846 * t1036 + t172 * t885;
+        let t1039 = t848 * t1036 + t174 * t885;
+        let t1040 = t229 + t174 * 0.9523333333333334;
+        let t1041 = t844 * t1040 + t170 * t892;
+        let t1042 = t846 * t1040 + t172 * t892;
+        let t1043 = t848 * t1040 + t174 * t892;
         // leg 5: Coriolis matrix between joint and base angular velocity
-        let t1056 = t72 * t896 + (base_velocity[5] * t438 - base_velocity[3] * t431);
-        let t1057 = base_rotation[1][2] * t801 + t1056;
-        let t1058 = t909 + (0.17066666666666666 * t865 + 0.9523333333333334 * t1057);
-        let t1059 = t72 * t903 + (base_velocity[3] * t430 - base_velocity[4] * t438);
-        let t1060 = base_rotation[2][2] * t801 + t1059;
-        let t1061 = t910 + (0.17066666666666666 * t866 + 0.9523333333333334 * t1060);
-        let t1062 = base_rotation[2][2] * t1058 - base_rotation[1][2] * t1061;
-        let t1063 = t170 * t1062;
-        let t1064 = t72 * t889 + (base_velocity[4] * t431 - base_velocity[5] * t430);
-        let t1065 = base_rotation[0][2] * t801 + t1064;
-        let t1066 = t919 + (0.17066666666666666 * t864 + 0.9523333333333334 * t1065);
-        let t1067 = base_rotation[0][2] * t1061 - base_rotation[2][2] * t1066;
-        let t1068 = 0.17066666666666666 * t1060;
-        let t1069 = t170 * t1067 + t1068;
-        let t1070 = base_rotation[1][2] * t1066 - base_rotation[0][2] * t1058;
-        let t1071 = 0.17066666666666666 * t1057;
-        let t1072 = t170 * t1070 - t1071;
-        let t1073 = t1068 - t172 * t1062;
-        let t1074 = t172 * t1067;
-        let t1075 = 0.17066666666666666 * t1065;
-        let t1076 = t172 * t1070 + t1075;
-        let t1077 = t1071 + t174 * t1062;
-        let t1078 = t1075 - t174 * t1067;
-        let t1079 = t174 * t1070;
+        let t1044 = t72 * t884 + (base_velocity[5] * t438 - base_velocity[3] * t431);
+        let t1045 = base_rotation[1][2] * t801 + t1044;
+        let t1046 = t897 + (0.17066666666666666 * t871 + 0.9523333333333334 * t1045);
+        let t1047 = t72 * t891 + (base_velocity[3] * t430 - base_velocity[4] * t438);
+        let t1048 = base_rotation[2][2] * t801 + t1047;
+        let t1049 = t898 + (0.17066666666666666 * t872 + 0.9523333333333334 * t1048);
+        let t1050 = base_rotation[2][2] * t1046 - base_rotation[1][2] * t1049;
+        let t1051 = t170 * t1050;
+        let t1052 = t72 * t877 + (base_velocity[4] * t431 - base_velocity[5] * t430);
+        let t1053 = base_rotation[0][2] * t801 + t1052;
+        let t1054 = t907 + (0.17066666666666666 * t870 + 0.9523333333333334 * t1053);
+        let t1055 = base_rotation[0][2] * t1049 - base_rotation[2][2] * t1054;
+        let t1056 = 0.17066666666666666 * t1048;
+        let t1057 = t170 * t1055 + t1056;
+        let t1058 = base_rotation[1][2] * t1054 - base_rotation[0][2] * t1046;
+        let t1059 = 0.17066666666666666 * t1045;
+        let t1060 = t170 * t1058 - t1059;
+        let t1061 = t1056 - t172 * t1050;
+        let t1062 = t172 * t1055;
+        let t1063 = 0.17066666666666666 * t1053;
+        let t1064 = t172 * t1058 + t1063;
+        let t1065 = t1059 + t174 * t1050;
+        let t1066 = t1063 - t174 * t1055;
+        let t1067 = t174 * t1058;
         // leg 6: Coriolis matrix of the leg in the speeds of its joint
-        let t1080 = t223 + t182 * 0.9523333333333334;
-        let t1081 = t883 * t1080 + t182 * t890;
-        let t1082 = t885 * t1080 + t184 * t890;
-        let t1083 = t887 * t1080 + t186 * t890;
-        let t1084 = t226 + t184 * 0.9523333333333334;
-        let t1085 = t883 * t1084 + t182 * t897;
-        let t1086 = t885 * t1084 + t184 * t897;
-        let t1087 = t887 * t1084 + t186 * t897;
-        let t1088 = t229 + t186 * 0.9523333333333334;
-        let t1089 = t883 * t1088 + t182 * t904;
-        let t1090 = t885 * t1088 + t184 * t904;
-        let t1091 = t887 * t1088 + t186 * t904;
+        let t1068 = t223 + t182 * 0.9523333333333334;
+        let t1069 = t853 * t1068 + t182 * t878;
+        let t1070 = t855 * t1068 + t184 * t878;
+        let t1071 = t857 * t1068 + t186 * t878;
+        let t1072 = t226 + t184 * 0.9523333333333334;
+        let t1073 = t853 * t1072 + t182 * t885;
+        let t1074 = t855 * t1072 + t184 * t885;
+        let t1075 = t857 * t1072 + t186 * t885;
+        let t1076 = t229 + t186 * 0.9523333333333334;
+        let t1077 = t853 * t1076 + t182 * t892;
+        let t1078 = t855 * t1076 + t184 * t892;
+        let t1079 = t857 * t1076 + t186 * t892;
         // leg 6: Coriolis matrix between joint and base angular velocity
-        let t1092 = t75 * t896 - (base_velocity[5] * t480 - base_velocity[3] * t473);
-        let t1093 = base_rotation[1][2] * t803 + t1092;
-        let t1094 = t909 + (0.17066666666666666 * t877 + 0.9523333333333334 * t1093);
-        let t1095 = t75 * t903 - (base_velocity[3] * t472 - base_velocity[4] * t480);
-        let t1096 = base_rotation[2][2] * t803 + t1095;
-        let t1097 = t910 + (0.17066666666666666 * t878 + 0.9523333333333334 * t1096);
-        let t1098 = base_rotation[2][2] * t1094 - base_rotation[1][2] * t1097;
-        let t1099 = t182 * t1098;
-        let t1100 = t75 * t889 - (base_velocity[4] * t473 - base_velocity[5] * t472);
-        let t1101 = base_rotation[0][2] * t803 + t1100;
-        let t1102 = t919 + (0.17066666666666666 * t876 + 0.9523333333333334 * t1101);
-        let t1103 = base_rotation[0][2] * t1097 - base_rotation[2][2] * t1102;
-        let t1104 = 0.17066666666666666 * t1096;
-        let t1105 = t182 * t1103 + t1104;
-        let t1106 = base_rotation[1][2] * t1102 - base_rotation[0][2] * t1094;
-        let t1107 = 0.17066666666666666 * t1093;
-        let t1108 = t182 * t1106 - t1107;
-        let t1109 = t1104 - t184 * t1098;
-        let t1110 = t184 * t1103;
-        let t1111 = 0.17066666666666666 * t1101;
-        let t1112 = t184 * t1106 + t1111;
-        let t1113 = t1107 + t186 * t1098;
-        let t1114 = t1111 - t186 * t1103;
-        let t1115 = t186 * t1106;
+        let t1080 = t75 * t884 - (base_velocity[5] * t480 - base_velocity[3] * t473);
+        let t1081 = base_rotation[1][2] * t803 + t1080;
+        let t1082 = t897 + (0.17066666666666666 * t874 + 0.9523333333333334 * t1081);
+        let t1083 = t75 * t891 - (base_velocity[3] * t472 - base_velocity[4] * t480);
+        let t1084 = base_rotation[2][2] * t803 + t1083;
+        let t1085 = t898 + (0.17066666666666666 * t875 + 0.9523333333333334 * t1084);
+        let t1086 = base_rotation[2][2] * t1082 - base_rotation[1][2] * t1085;
+        let t1087 = t182 * t1086;
+        let t1088 = t75 * t877 - (base_velocity[4] * t473 - base_velocity[5] * t472);
+        let t1089 = base_rotation[0][2] * t803 + t1088;
+        let t1090 = t907 + (0.17066666666666666 * t873 + 0.9523333333333334 * t1089);
+        let t1091 = base_rotation[0][2] * t1085 - base_rotation[2][2] * t1090;
+        let t1092 = 0.17066666666666666 * t1084;
+        let t1093 = t182 * t1091 + t1092;
+        let t1094 = base_rotation[1][2] * t1090 - base_rotation[0][2] * t1082;
+        let t1095 = 0.17066666666666666 * t1081;
+        let t1096 = t182 * t1094 - t1095;
+        let t1097 = t1092 - t184 * t1086;
+        let t1098 = t184 * t1091;
+        let t1099 = 0.17066666666666666 * t1089;
+        let t1100 = t184 * t1094 + t1099;
+        let t1101 = t1095 + t186 * t1086;
+        let t1102 = t1099 - t186 * t1091;
+        let t1103 = t186 * t1094;
         // Coriolis matrix of the legs
-        let t1116 = t1081 + (t1045 - (t1009 + (t973 - (t892 - t937))));
-        coriolis_matrix_p[0][0] = t1116;
-        coriolis_matrix_b[0][0] = t1116;
-        let t1117 = t1082 + (t1046 - (t1010 + (t974 - (t893 - t938))));
-        coriolis_matrix_p[0][1] = t1117;
-        coriolis_matrix_b[0][1] = t1117;
-        let t1118 = t1083 + (t1047 - (t1011 + (t975 - (t894 - t939))));
-        coriolis_matrix_p[0][2] = t1118;
-        coriolis_matrix_b[0][2] = t1118;
-        let t1119 = t465 * t877;
-        let t1120 = t463 * t878;
-        let t1121 = t177 * t1082;
-        let t1122 = t176 * t1083;
-        let t1123 = t1119 - (t1120 + (t1121 - t1122));
-        let t1124 = t423 * t865;
-        let t1125 = t421 * t866;
-        let t1126 = t165 * t1046;
-        let t1127 = t164 * t1047;
-        let t1128 = t1124 - (t1125 + (t1126 - t1127));
-        let t1129 = t375 * t853;
-        let t1130 = t373 * t854;
-        let t1131 = t150 * t1010;
-        let t1132 = t147 * t1011;
-        let t1133 = t1129 - (t1130 + (t1131 - t1132));
-        let t1134 = t327 * t841;
-        let t1135 = t325 * t842;
-        let t1136 = t129 * t974;
-        let t1137 = t126 * t975;
-        let t1138 = t1134 - (t1135 + (t1136 - t1137));
-        let t1139 = t231 * t817;
-        let t1140 = t228 * t818;
-        let t1141 = t96 * t893;
-        let t1142 = t93 * t894;
-        let t1143 = t1139 - (t1140 + (t1141 - t1142));
-        let t1144 = t285 * t829;
-        let t1145 = t283 * t830;
-        let t1146 = t108 * t938;
-        let t1147 = t107 * t939;
-        let t1148 = t1144 - (t1145 + (t1146 - t1147));
-        let t1149 = t1123 + (t1128 - (t1133 + (t1138 + (t1143 - t1148))));
-        let t1150 = t177 * t1081;
-        let t1151 = t461 * t878 - (t465 * t876 + (t175 * t1083 - t1150));
-        let t1152 = t165 * t1045;
-        let t1153 = t419 * t866 - (t423 * t864 + (t163 * t1047 - t1152));
-        let t1154 = t150 * t1009;
-        let t1155 = t371 * t854 - (t375 * t852 + (t144 * t1011 - t1154));
-        let t1156 = t129 * t973;
-        let t1157 = t323 * t842 - (t327 * t840 + (t123 * t975 - t1156));
-        let t1158 = t96 * t892;
-        let t1159 = t225 * t818 - (t231 * t816 + (t90 * t894 - t1158));
-        let t1160 = t108 * t937;
-        let t1161 = t281 * t830 - (t285 * t828 + (t106 * t939 - t1160));
-        let t1162 = t1151 + (t1153 - (t1155 + (t1157 + (t1159 - t1161))));
-        let t1163 = t176 * t1081;
-        let t1164 = t463 * t876 - (t461 * t877 + (t1163 - t175 * t1082));
-        let t1165 = t164 * t1045;
-        let t1166 = t421 * t864 - (t419 * t865 + (t1165 - t163 * t1046));
-        let t1167 = t147 * t1009;
-        let t1168 = t373 * t852 - (t371 * t853 + (t1167 - t144 * t1010));
-        let t1169 = t126 * t973;
-        let t1170 = t325 * t840 - (t323 * t841 + (t1169 - t123 * t974));
-        let t1171 = t93 * t892;
-        let t1172 = t228 * t816 - (t225 * t817 + (t1171 - t90 * t893));
-        let t1173 = t107 * t937;
-        let t1174 = t283 * t828 - (t281 * t829 + (t1173 - t106 * t938));
-        let t1175 = t1164 + (t1166 - (t1168 + (t1170 + (t1172 - t1174))));
-        let t1176 = t1085 + (t1049 - (t1013 + (t977 - (t899 - t941))));
-        coriolis_matrix_p[1][0] = t1176;
-        coriolis_matrix_b[1][0] = t1176;
-        let t1177 = t1086 + (t1050 - (t1014 + (t978 - (t900 - t942))));
-        coriolis_matrix_p[1][1] = t1177;
-        coriolis_matrix_b[1][1] = t1177;
-        let t1178 = t1087 + (t1051 - (t1015 + (t979 - (t901 - t943))));
-        coriolis_matrix_p[1][2] = t1178;
-        coriolis_matrix_b[1][2] = t1178;
-        let t1179 = t177 * t1086;
-        let t1180 = t467 * t877 - (t466 * t878 + (t1179 - t176 * t1087));
-        let t1181 = t165 * t1050;
-        let t1182 = t425 * t865 - (t424 * t866 + (t1181 - t164 * t1051));
-        let t1183 = t150 * t1014;
-        let t1184 = t377 * t853 - (t376 * t854 + (t1183 - t147 * t1015));
-        let t1185 = t129 * t978;
-        let t1186 = t329 * t841 - (t328 * t842 + (t1185 - t126 * t979));
-        let t1187 = t96 * t900;
-        let t1188 = t233 * t817 - (t232 * t818 + (t1187 - t93 * t901));
-        let t1189 = t108 * t942;
-        let t1190 = t287 * t829 - (t286 * t830 + (t1189 - t107 * t943));
-        let t1191 = t1180 + (t1182 - (t1184 + (t1186 + (t1188 - t1190))));
-        let t1192 = t467 * t876;
-        let t1193 = t177 * t1085;
-        let t1194 = t175 * t1087;
-        let t1195 = t1192 - (t1193 + (t1120 - t1194));
-        let t1196 = t425 * t864;
-        let t1197 = t165 * t1049;
-        let t1198 = t163 * t1051;
-        let t1199 = t1196 - (t1197 + (t1125 - t1198));
-        let t1200 = t377 * t852;
-        let t1201 = t150 * t1013;
-        let t1202 = t144 * t1015;
-        let t1203 = t1200 - (t1201 + (t1130 - t1202));
-        let t1204 = t329 * t840;
-        let t1205 = t129 * t977;
-        let t1206 = t123 * t979;
-        let t1207 = t1204 - (t1205 + (t1135 - t1206));
-        let t1208 = t233 * t816;
-        let t1209 = t96 * t899;
-        let t1210 = t90 * t901;
-        let t1211 = t1208 - (t1209 + (t1140 - t1210));
-        let t1212 = t287 * t828;
-        let t1213 = t108 * t941;
-        let t1214 = t106 * t943;
-        let t1215 = t1212 - (t1213 + (t1145 - t1214));
-        let t1216 = t1195 + (t1199 - (t1203 + (t1207 + (t1211 - t1215))));
-        coriolis_matrix_p[1][4] = t1216;
-        let t1217 = t175 * t1086;
-        let t1218 = t466 * t876 - (t463 * t877 + (t176 * t1085 - t1217));
-        let t1219 = t163 * t1050;
-        let t1220 = t424 * t864 - (t421 * t865 + (t164 * t1049 - t1219));
-        let t1221 = t144 * t1014;
-        let t1222 = t376 * t852 - (t373 * t853 + (t147 * t1013 - t1221));
-        let t1223 = t123 * t978;
-        let t1224 = t328 * t840 - (t325 * t841 + (t126 * t977 - t1223));
-        let t1225 = t90 * t900;
-        let t1226 = t232 * t816 - (t228 * t817 + (t93 * t899 - t1225));
-        let t1227 = t106 * t942;
-        let t1228 = t286 * t828 - (t283 * t829 + (t107 * t941 - t1227));
-        let t1229 = t1218 + (t1220 - (t1222 + (t1224 + (t1226 - t1228))));
-        let t1230 = t1089 + (t1053 - (t1017 + (t981 - (t906 - t945))));
-        coriolis_matrix_p[2][0] = t1230;
-        coriolis_matrix_b[2][0] = t1230;
-        let t1231 = t1090 + (t1054 - (t1018 + (t982 - (t907 - t946))));
-        coriolis_matrix_p[2][1] = t1231;
-        coriolis_matrix_b[2][1] = t1231;
-        let t1232 = t1091 + (t1055 - (t1019 + (t983 - (t908 - t947))));
-        coriolis_matrix_p[2][2] = t1232;
-        coriolis_matrix_b[2][2] = t1232;
-        let t1233 = t176 * t1091;
-        let t1234 = t468 * t877 - (t467 * t878 + (t177 * t1090 - t1233));
-        let t1235 = t164 * t1055;
-        let t1236 = t426 * t865 - (t425 * t866 + (t165 * t1054 - t1235));
-        let t1237 = t147 * t1019;
-        let t1238 = t378 * t853 - (t377 * t854 + (t150 * t1018 - t1237));
-        let t1239 = t126 * t983;
-        let t1240 = t330 * t841 - (t329 * t842 + (t129 * t982 - t1239));
-        let t1241 = t93 * t908;
-        let t1242 = t234 * t817 - (t233 * t818 + (t96 * t907 - t1241));
-        let t1243 = t107 * t947;
-        let t1244 = t288 * t829 - (t287 * t830 + (t108 * t946 - t1243));
-        let t1245 = t1234 + (t1236 - (t1238 + (t1240 + (t1242 - t1244))));
-        let t1246 = t175 * t1091;
-        let t1247 = t465 * t878 - (t468 * t876 + (t1246 - t177 * t1089));
-        let t1248 = t163 * t1055;
-        let t1249 = t423 * t866 - (t426 * t864 + (t1248 - t165 * t1053));
-        let t1250 = t144 * t1019;
-        let t1251 = t375 * t854 - (t378 * t852 + (t1250 - t150 * t1017));
-        let t1252 = t123 * t983;
-        let t1253 = t327 * t842 - (t330 * t840 + (t1252 - t129 * t981));
-        let t1254 = t90 * t908;
-        let t1255 = t231 * t818 - (t234 * t816 + (t1254 - t96 * t906));
-        let t1256 = t106 * t947;
-        let t1257 = t285 * t830 - (t288 * t828 + (t1256 - t108 * t945));
-        let t1258 = t1247 + (t1249 - (t1251 + (t1253 + (t1255 - t1257))));
-        let t1259 = t175 * t1090;
-        let t1260 = t176 * t1089;
-        let t1261 = t1259 - (t1260 + (t1119 - t1192));
-        let t1262 = t163 * t1054;
-        let t1263 = t164 * t1053;
-        let t1264 = t1262 - (t1263 + (t1124 - t1196));
-        let t1265 = t144 * t1018;
-        let t1266 = t147 * t1017;
-        let t1267 = t1265 - (t1266 + (t1129 - t1200));
-        let t1268 = t123 * t982;
-        let t1269 = t126 * t981;
-        let t1270 = t1268 - (t1269 + (t1134 - t1204));
-        let t1271 = t90 * t907;
-        let t1272 = t93 * t906;
-        let t1273 = t1271 - (t1272 + (t1139 - t1208));
-        let t1274 = t106 * t946;
-        let t1275 = t107 * t945;
-        let t1276 = t1274 - (t1275 + (t1144 - t1212));
-        let t1277 = t1261 + (t1264 - (t1267 + (t1270 + (t1273 - t1276))));
-        let t1278 = t1275
-            - (t1272 + (t1193 + (t1197 - (t1201 + (t1205 + (t1209 - t1213))))));
-        let t1279 = t1260 + (t1263 - (t1266 + (t1269 - t1278)));
-        let t1280 = t93 * t907 + (t1179 + (t1181 - (t1183 + (t1185 + (t1187 - t1189)))));
-        let t1281 = t147 * t1018 + (t126 * t982 - (t107 * t946 - t1280));
-        let t1282 = t176 * t1090 + (t164 * t1054 - t1281);
-        let t1283 = t96 * t901 + (t1233 + (t1235 - (t1237 + (t1239 + (t1241 - t1243)))));
-        let t1284 = t150 * t1015 + (t129 * t979 - (t108 * t943 - t1283));
-        let t1285 = t177 * t1087 + (t165 * t1051 - t1284);
-        coriolis_matrix_p[3][2] = t1285;
-        coriolis_matrix_b[3][2] = t1285;
-        let t1286 = t107 * t1244 - (t108 * t1190 - (t96 * t1188 - t93 * t1242));
-        let t1287 = t150 * t1184 - (t126 * t1240 - (t129 * t1186 - t1286));
-        let t1288 = t164 * t1236 - (t165 * t1182 + (t147 * t1238 - t1287));
-        let t1289 = t176 * t1234 - (t177 * t1180 - t1288);
-        let t1290 = t107 * t1257 + (t108 * t1215 - (t96 * t1211 + t93 * t1255));
-        let t1291 = t150 * t1203 + (t126 * t1253 + (t129 * t1207 + t1290));
-        let t1292 = t164 * t1249 + (t165 * t1199 - (t147 * t1251 + t1291));
-        let t1293 = t176 * t1247 + (t177 * t1195 + t1292);
-        let t1294 = t107 * t1276 - (t108 * t1228 - (t96 * t1226 - t93 * t1273));
-        let t1295 = t150 * t1222 - (t126 * t1270 - (t129 * t1224 - t1294));
-        let t1296 = t164 * t1264 - (t165 * t1220 + (t147 * t1267 - t1295));
-        let t1297 = t176 * t1261 - (t177 * t1218 - t1296);
-        let t1298 = t90 * t906 + (t1150 + (t1152 - (t1154 + (t1156 + (t1158 - t1160)))));
-        let t1299 = t144 * t1017 + (t123 * t981 - (t106 * t945 - t1298));
-        let t1300 = t175 * t1089 + (t163 * t1053 - t1299);
-        coriolis_matrix_p[4][0] = t1300;
-        coriolis_matrix_b[4][0] = t1300;
-        let t1301 = t1274
-            - (t1271 + (t1121 + (t1126 - (t1131 + (t1136 + (t1141 - t1146))))));
-        let t1302 = t1259 + (t1262 - (t1265 + (t1268 - t1301)));
-        coriolis_matrix_p[4][1] = t1302;
-        coriolis_matrix_b[4][1] = t1302;
-        let t1303 = t96 * t894 + (t1246 + (t1248 - (t1250 + (t1252 + (t1254 - t1256)))));
-        let t1304 = t150 * t1011 + (t129 * t975 - (t108 * t939 - t1303));
-        let t1305 = t177 * t1083 + (t165 * t1047 - t1304);
-        let t1306 = t108 * t1148 - (t106 * t1244 - (t90 * t1242 - t96 * t1143));
-        let t1307 = t144 * t1238 - (t129 * t1138 - (t123 * t1240 - t1306));
-        let t1308 = t165 * t1128 - (t163 * t1236 + (t150 * t1133 - t1307));
-        let t1309 = t177 * t1123 - (t175 * t1234 - t1308);
-        let t1310 = t108 * t1161 - (t106 * t1257 - (t90 * t1255 - t96 * t1159));
-        let t1311 = t144 * t1251 - (t129 * t1157 - (t123 * t1253 - t1310));
-        let t1312 = t165 * t1153 - (t163 * t1249 + (t150 * t1155 - t1311));
-        let t1313 = t177 * t1151 - (t175 * t1247 - t1312);
-        let t1314 = t108 * t1174 - (t106 * t1276 - (t90 * t1273 - t96 * t1172));
-        let t1315 = t144 * t1267 - (t129 * t1170 - (t123 * t1270 - t1314));
-        let t1316 = t165 * t1166 - (t163 * t1264 + (t150 * t1168 - t1315));
-        let t1317 = t177 * t1164 - (t175 * t1261 - t1316);
-        let t1318 = t90 * t899 + (t1163 + (t1165 - (t1167 + (t1169 + (t1171 - t1173)))));
-        let t1319 = t144 * t1013 + (t123 * t977 - (t106 * t941 - t1318));
-        let t1320 = t175 * t1085 + (t163 * t1049 - t1319);
-        let t1321 = t93 * t893 + (t1217 + (t1219 - (t1221 + (t1223 + (t1225 - t1227)))));
-        let t1322 = t147 * t1010 + (t126 * t974 - (t107 * t938 - t1321));
-        let t1323 = t176 * t1082 + (t164 * t1046 - t1322);
-        coriolis_matrix_p[5][1] = t1323;
-        coriolis_matrix_b[5][1] = t1323;
-        let t1324 = t1214
-            - (t1210 + (t1122 + (t1127 - (t1132 + (t1137 + (t1142 - t1147))))));
-        let t1325 = t1194 + (t1198 - (t1202 + (t1206 - t1324)));
-        let t1326 = t106 * t1190 - (t107 * t1148 - (t93 * t1143 - t90 * t1188));
-        let t1327 = t147 * t1133 - (t123 * t1186 - (t126 * t1138 - t1326));
-        let t1328 = t163 * t1182 - (t164 * t1128 + (t144 * t1184 - t1327));
-        let t1329 = t175 * t1180 - (t176 * t1123 - t1328);
-        let t1330 = t106 * t1215 + (t107 * t1161 - (t93 * t1159 + t90 * t1211));
-        let t1331 = t147 * t1155 + (t123 * t1207 + (t126 * t1157 + t1330));
-        let t1332 = t163 * t1199 + (t164 * t1153 - (t144 * t1203 + t1331));
-        let t1333 = t175 * t1195 + (t176 * t1151 + t1332);
-        let t1334 = t106 * t1228 - (t107 * t1174 - (t93 * t1172 - t90 * t1226));
-        let t1335 = t147 * t1168 - (t123 * t1224 - (t126 * t1170 - t1334));
-        let t1336 = t163 * t1220 - (t164 * t1166 + (t144 * t1222 - t1335));
-        let t1337 = t175 * t1218 - (t176 * t1164 - t1336);
-        coriolis_matrix_p[0][3] = -t1149;
-        coriolis_matrix_p[2][5] = -t1277;
-        let t1338 = -t1279;
-        coriolis_matrix_p[3][0] = t1338;
-        coriolis_matrix_b[3][0] = t1338;
-        let t1339 = -t1282;
-        coriolis_matrix_p[3][1] = t1339;
-        coriolis_matrix_b[3][1] = t1339;
-        let t1340 = -t1305;
-        coriolis_matrix_p[4][2] = t1340;
-        coriolis_matrix_b[4][2] = t1340;
-        let t1341 = -t1320;
-        coriolis_matrix_p[5][0] = t1341;
-        coriolis_matrix_b[5][0] = t1341;
-        let t1342 = -t1325;
-        coriolis_matrix_p[5][2] = t1342;
-        coriolis_matrix_b[5][2] = t1342;
+        let t1104 = t1069 + (t1033 - (t997 + (t961 - (t880 - t925))));
+        coriolis_matrix_p[0][0] = t1104;
+        coriolis_matrix_b[0][0] = t1104;
+        let t1105 = t1070 + (t1034 - (t998 + (t962 - (t881 - t926))));
+        coriolis_matrix_p[0][1] = t1105;
+        coriolis_matrix_b[0][1] = t1105;
+        let t1106 = t1071 + (t1035 - (t999 + (t963 - (t882 - t927))));
+        coriolis_matrix_p[0][2] = t1106;
+        coriolis_matrix_b[0][2] = t1106;
+        let t1107 = t465 * t874;
+        let t1108 = t463 * t875;
+        let t1109 = t177 * t1070;
+        let t1110 = t176 * t1071;
+        let t1111 = t1107 - (t1108 + (t1109 - t1110));
+        let t1112 = t423 * t871;
+        let t1113 = t421 * t872;
+        let t1114 = t165 * t1034;
+        let t1115 = t164 * t1035;
+        let t1116 = t1112 - (t1113 + (t1114 - t1115));
+        let t1117 = t375 * t868;
+        let t1118 = t373 * t869;
+        let t1119 = t150 * t998;
+        let t1120 = t147 * t999;
+        let t1121 = t1117 - (t1118 + (t1119 - t1120));
+        let t1122 = t327 * t865;
+        let t1123 = t325 * t866;
+        let t1124 = t129 * t962;
+        let t1125 = t126 * t963;
+        let t1126 = t1122 - (t1123 + (t1124 - t1125));
+        let t1127 = t231 * t859;
+        let t1128 = t228 * t860;
+        let t1129 = t96 * t881;
+        let t1130 = t93 * t882;
+        let t1131 = t1127 - (t1128 + (t1129 - t1130));
+        let t1132 = t285 * t862;
+        let t1133 = t283 * t863;
+        let t1134 = t108 * t926;
+        let t1135 = t107 * t927;
+        let t1136 = t1132 - (t1133 + (t1134 - t1135));
+        let t1137 = t1111 + (t1116 - (t1121 + (t1126 + (t1131 - t1136))));
+        let t1138 = t177 * t1069;
+        let t1139 = t461 * t875 - (t465 * t873 + (t175 * t1071 - t1138));
+        let t1140 = t165 * t1033;
+        let t1141 = t419 * t872 - (t423 * t870 + (t163 * t1035 - t1140));
+        let t1142 = t150 * t997;
+        let t1143 = t371 * t869 - (t375 * t867 + (t144 * t999 - t1142));
+        let t1144 = t129 * t961;
+        let t1145 = t323 * t866 - (t327 * t864 + (t123 * t963 - t1144));
+        let t1146 = t96 * t880;
+        let t1147 = t225 * t860 - (t231 * t858 + (t90 * t882 - t1146));
+        let t1148 = t108 * t925;
+        let t1149 = t281 * t863 - (t285 * t861 + (t106 * t927 - t1148));
+        let t1150 = t1139 + (t1141 - (t1143 + (t1145 + (t1147 - t1149))));
+        let t1151 = t176 * t1069;
+        let t1152 = t463 * t873 - (t461 * t874 + (t1151 - t175 * t1070));
+        let t1153 = t164 * t1033;
+        let t1154 = t421 * t870 - (t419 * t871 + (t1153 - t163 * t1034));
+        let t1155 = t147 * t997;
+        let t1156 = t373 * t867 - (t371 * t868 + (t1155 - t144 * t998));
+        let t1157 = t126 * t961;
+        let t1158 = t325 * t864 - (t323 * t865 + (t1157 - t123 * t962));
+        let t1159 = t93 * t880;
+        let t1160 = t228 * t858 - (t225 * t859 + (t1159 - t90 * t881));
+        let t1161 = t107 * t925;
+        let t1162 = t283 * t861 - (t281 * t862 + (t1161 - t106 * t926));
+        let t1163 = t1152 + (t1154 - (t1156 + (t1158 + (t1160 - t1162))));
+        let t1164 = t1073 + (t1037 - (t1001 + (t965 - (t887 - t929))));
+        coriolis_matrix_p[1][0] = t1164;
+        coriolis_matrix_b[1][0] = t1164;
+        let t1165 = t1074 + (t1038 - (t1002 + (t966 - (t888 - t930))));
+        coriolis_matrix_p[1][1] = t1165;
+        coriolis_matrix_b[1][1] = t1165;
+        let t1166 = t1075 + (t1039 - (t1003 + (t967 - (t889 - t931))));
+        coriolis_matrix_p[1][2] = t1166;
+        coriolis_matrix_b[1][2] = t1166;
+        let t1167 = t177 * t1074;
+        let t1168 = t467 * t874 - (t466 * t875 + (t1167 - t176 * t1075));
+        let t1169 = t165 * t1038;
+        let t1170 = t425 * t871 - (t424 * t872 + (t1169 - t164 * t1039));
+        let t1171 = t150 * t1002;
+        let t1172 = t377 * t868 - (t376 * t869 + (t1171 - t147 * t1003));
+        let t1173 = t129 * t966;
+        let t1174 = t329 * t865 - (t328 * t866 + (t1173 - t126 * t967));
+        let t1175 = t96 * t888;
+        let t1176 = t233 * t859 - (t232 * t860 + (t1175 - t93 * t889));
+        let t1177 = t108 * t930;
+        let t1178 = t287 * t862 - (t286 * t863 + (t1177 - t107 * t931));
+        let t1179 = t1168 + (t1170 - (t1172 + (t1174 + (t1176 - t1178))));
+        let t1180 = t467 * t873;
+        let t1181 = t177 * t1073;
+        let t1182 = t175 * t1075;
+        let t1183 = t1180 - (t1181 + (t1108 - t1182));
+        let t1184 = t425 * t870;
+        let t1185 = t165 * t1037;
+        let t1186 = t163 * t1039;
+        let t1187 = t1184 - (t1185 + (t1113 - t1186));
+        let t1188 = t377 * t867;
+        let t1189 = t150 * t1001;
+        let t1190 = t144 * t1003;
+        let t1191 = t1188 - (t1189 + (t1118 - t1190));
+        let t1192 = t329 * t864;
+        let t1193 = t129 * t965;
+        let t1194 = t123 * t967;
+        let t1195 = t1192 - (t1193 + (t1123 - t1194));
+        let t1196 = t233 * t858;
+        let t1197 = t96 * t887;
+        let t1198 = t90 * t889;
+        let t1199 = t1196 - (t1197 + (t1128 - t1198));
+        let t1200 = t287 * t861;
+        let t1201 = t108 * t929;
+        let t1202 = t106 * t931;
+        let t1203 = t1200 - (t1201 + (t1133 - t1202));
+        let t1204 = t1183 + (t1187 - (t1191 + (t1195 + (t1199 - t1203))));
+        coriolis_matrix_p[1][4] = t1204;
+        let t1205 = t175 * t1074;
+        let t1206 = t466 * t873 - (t463 * t874 + (t176 * t1073 - t1205));
+        let t1207 = t163 * t1038;
+        let t1208 = t424 * t870 - (t421 * t871 + (t164 * t1037 - t1207));
+        let t1209 = t144 * t1002;
+        let t1210 = t376 * t867 - (t373 * t868 + (t147 * t1001 - t1209));
+        let t1211 = t123 * t966;
+        let t1212 = t328 * t864 - (t325 * t865 + (t126 * t965 - t1211));
+        let t1213 = t90 * t888;
+        let t1214 = t232 * t858 - (t228 * t859 + (t93 * t887 - t1213));
+        let t1215 = t106 * t930;
+        let t1216 = t286 * t861 - (t283 * t862 + (t107 * t929 - t1215));
+        let t1217 = t1206 + (t1208 - (t1210 + (t1212 + (t1214 - t1216))));
+        let t1218 = t1077 + (t1041 - (t1005 + (t969 - (t894 - t933))));
+        coriolis_matrix_p[2][0] = t1218;
+        coriolis_matrix_b[2][0] = t1218;
+        let t1219 = t1078 + (t1042 - (t1006 + (t970 - (t895 - t934))));
+        coriolis_matrix_p[2][1] = t1219;
+        coriolis_matrix_b[2][1] = t1219;
+        let t1220 = t1079 + (t1043 - (t1007 + (t971 - (t896 - t935))));
+        coriolis_matrix_p[2][2] = t1220;
+        coriolis_matrix_b[2][2] = t1220;
+        let t1221 = t176 * t1079;
+        let t1222 = t468 * t874 - (t467 * t875 + (t177 * t1078 - t1221));
+        let t1223 = t164 * t1043;
+        let t1224 = t426 * t871 - (t425 * t872 + (t165 * t1042 - t1223));
+        let t1225 = t147 * t1007;
+        let t1226 = t378 * t868 - (t377 * t869 + (t150 * t1006 - t1225));
+        let t1227 = t126 * t971;
+        let t1228 = t330 * t865 - (t329 * t866 + (t129 * t970 - t1227));
+        let t1229 = t93 * t896;
+        let t1230 = t234 * t859 - (t233 * t860 + (t96 * t895 - t1229));
+        let t1231 = t107 * t935;
+        let t1232 = t288 * t862 - (t287 * t863 + (t108 * t934 - t1231));
+        let t1233 = t1222 + (t1224 - (t1226 + (t1228 + (t1230 - t1232))));
+        let t1234 = t175 * t1079;
+        let t1235 = t465 * t875 - (t468 * t873 + (t1234 - t177 * t1077));
+        let t1236 = t163 * t1043;
+        let t1237 = t423 * t872 - (t426 * t870 + (t1236 - t165 * t1041));
+        let t1238 = t144 * t1007;
+        let t1239 = t375 * t869 - (t378 * t867 + (t1238 - t150 * t1005));
+        let t1240 = t123 * t971;
+        let t1241 = t327 * t866 - (t330 * t864 + (t1240 - t129 * t969));
+        let t1242 = t90 * t896;
+        let t1243 = t231 * t860 - (t234 * t858 + (t1242 - t96 * t894));
+        let t1244 = t106 * t935;
+        let t1245 = t285 * t863 - (t288 * t861 + (t1244 - t108 * t933));
+        let t1246 = t1235 + (t1237 - (t1239 + (t1241 + (t1243 - t1245))));
+        let t1247 = t175 * t1078;
+        let t1248 = t176 * t1077;
+        let t1249 = t1247 - (t1248 + (t1107 - t1180));
+        let t1250 = t163 * t1042;
+        let t1251 = t164 * t1041;
+        let t1252 = t1250 - (t1251 + (t1112 - t1184));
+        let t1253 = t144 * t1006;
+        let t1254 = t147 * t1005;
+        let t1255 = t1253 - (t1254 + (t1117 - t1188));
+        let t1256 = t123 * t970;
+        let t1257 = t126 * t969;
+        let t1258 = t1256 - (t1257 + (t1122 - t1192));
+        let t1259 = t90 * t895;
+        let t1260 = t93 * t894;
+        let t1261 = t1259 - (t1260 + (t1127 - t1196));
+        let t1262 = t106 * t934;
+        let t1263 = t107 * t933;
+        let t1264 = t1262 - (t1263 + (t1132 - t1200));
+        let t1265 = t1249 + (t1252 - (t1255 + (t1258 + (t1261 - t1264))));
+        let t1266 = t1263
+            - (t1260 + (t1181 + (t1185 - (t1189 + (t1193 + (t1197 - t1201))))));
+        let t1267 = t1248 + (t1251 - (t1254 + (t1257 - t1266)));
+        let t1268 = t93 * t895 + (t1167 + (t1169 - (t1171 + (t1173 + (t1175 - t1177)))));
+        let t1269 = t147 * t1006 + (t126 * t970 - (t107 * t934 - t1268));
+        let t1270 = t176 * t1078 + (t164 * t1042 - t1269);
+        let t1271 = t96 * t889 + (t1221 + (t1223 - (t1225 + (t1227 + (t1229 - t1231)))));
+        let t1272 = t150 * t1003 + (t129 * t967 - (t108 * t931 - t1271));
+        let t1273 = t177 * t1075 + (t165 * t1039 - t1272);
+        coriolis_matrix_p[3][2] = t1273;
+        coriolis_matrix_b[3][2] = t1273;
+        let t1274 = t107 * t1232 - (t108 * t1178 - (t96 * t1176 - t93 * t1230));
+        let t1275 = t150 * t1172 - (t126 * t1228 - (t129 * t1174 - t1274));
+        let t1276 = t164 * t1224 - (t165 * t1170 + (t147 * t1226 - t1275));
+        let t1277 = t176 * t1222 - (t177 * t1168 - t1276);
+        let t1278 = t107 * t1245 + (t108 * t1203 - (t96 * t1199 + t93 * t1243));
+        let t1279 = t150 * t1191 + (t126 * t1241 + (t129 * t1195 + t1278));
+        let t1280 = t164 * t1237 + (t165 * t1187 - (t147 * t1239 + t1279));
+        let t1281 = t176 * t1235 + (t177 * t1183 + t1280);
+        let t1282 = t107 * t1264 - (t108 * t1216 - (t96 * t1214 - t93 * t1261));
+        let t1283 = t150 * t1210 - (t126 * t1258 - (t129 * t1212 - t1282));
+        let t1284 = t164 * t1252 - (t165 * t1208 + (t147 * t1255 - t1283));
+        let t1285 = t176 * t1249 - (t177 * t1206 - t1284);
+        let t1286 = t90 * t894 + (t1138 + (t1140 - (t1142 + (t1144 + (t1146 - t1148)))));
+        let t1287 = t144 * t1005 + (t123 * t969 - (t106 * t933 - t1286));
+        let t1288 = t175 * t1077 + (t163 * t1041 - t1287);
+        coriolis_matrix_p[4][0] = t1288;
+        coriolis_matrix_b[4][0] = t1288;
+        let t1289 = t1262
+            - (t1259 + (t1109 + (t1114 - (t1119 + (t1124 + (t1129 - t1134))))));
+        let t1290 = t1247 + (t1250 - (t1253 + (t1256 - t1289)));
+        coriolis_matrix_p[4][1] = t1290;
+        coriolis_matrix_b[4][1] = t1290;
+        let t1291 = t96 * t882 + (t1234 + (t1236 - (t1238 + (t1240 + (t1242 - t1244)))));
+        let t1292 = t150 * t999 + (t129 * t963 - (t108 * t927 - t1291));
+        let t1293 = t177 * t1071 + (t165 * t1035 - t1292);
+        let t1294 = t108 * t1136 - (t106 * t1232 - (t90 * t1230 - t96 * t1131));
+        let t1295 = t144 * t1226 - (t129 * t1126 - (t123 * t1228 - t1294));
+        let t1296 = t165 * t1116 - (t163 * t1224 + (t150 * t1121 - t1295));
+        let t1297 = t177 * t1111 - (t175 * t1222 - t1296);
+        let t1298 = t108 * t1149 - (t106 * t1245 - (t90 * t1243 - t96 * t1147));
+        let t1299 = t144 * t1239 - (t129 * t1145 - (t123 * t1241 - t1298));
+        let t1300 = t165 * t1141 - (t163 * t1237 + (t150 * t1143 - t1299));
+        let t1301 = t177 * t1139 - (t175 * t1235 - t1300);
+        let t1302 = t108 * t1162 - (t106 * t1264 - (t90 * t1261 - t96 * t1160));
+        let t1303 = t144 * t1255 - (t129 * t1158 - (t123 * t1258 - t1302));
+        let t1304 = t165 * t1154 - (t163 * t1252 + (t150 * t1156 - t1303));
+        let t1305 = t177 * t1152 - (t175 * t1249 - t1304);
+        let t1306 = t90 * t887 + (t1151 + (t1153 - (t1155 + (t1157 + (t1159 - t1161)))));
+        let t1307 = t144 * t1001 + (t123 * t965 - (t106 * t929 - t1306));
+        let t1308 = t175 * t1073 + (t163 * t1037 - t1307);
+        let t1309 = t93 * t881 + (t1205 + (t1207 - (t1209 + (t1211 + (t1213 - t1215)))));
+        let t1310 = t147 * t998 + (t126 * t962 - (t107 * t926 - t1309));
+        let t1311 = t176 * t1070 + (t164 * t1034 - t1310);
+        coriolis_matrix_p[5][1] = t1311;
+        coriolis_matrix_b[5][1] = t1311;
+        let t1312 = t1202
+            - (t1198 + (t1110 + (t1115 - (t1120 + (t1125 + (t1130 - t1135))))));
+        let t1313 = t1182 + (t1186 - (t1190 + (t1194 - t1312)));
+        let t1314 = t106 * t1178 - (t107 * t1136 - (t93 * t1131 - t90 * t1176));
+        let t1315 = t147 * t1121 - (t123 * t1174 - (t126 * t1126 - t1314));
+        let t1316 = t163 * t1170 - (t164 * t1116 + (t144 * t1172 - t1315));
+        let t1317 = t175 * t1168 - (t176 * t1111 - t1316);
+        let t1318 = t106 * t1203 + (t107 * t1149 - (t93 * t1147 + t90 * t1199));
+        let t1319 = t147 * t1143 + (t123 * t1195 + (t126 * t1145 + t1318));
+        let t1320 = t163 * t1187 + (t164 * t1141 - (t144 * t1191 + t1319));
+        let t1321 = t175 * t1183 + (t176 * t1139 + t1320);
+        let t1322 = t106 * t1216 - (t107 * t1162 - (t93 * t1160 - t90 * t1214));
+        let t1323 = t147 * t1156 - (t123 * t1212 - (t126 * t1158 - t1322));
+        let t1324 = t163 * t1208 - (t164 * t1154 + (t144 * t1210 - t1323));
+        let t1325 = t175 * t1206 - (t176 * t1152 - t1324);
+        coriolis_matrix_p[0][3] = -t1137;
+        coriolis_matrix_p[2][5] = -t1265;
+        let t1326 = -t1267;
+        coriolis_matrix_p[3][0] = t1326;
+        coriolis_matrix_b[3][0] = t1326;
+        let t1327 = -t1270;
+        coriolis_matrix_p[3][1] = t1327;
+        coriolis_matrix_b[3][1] = t1327;
+        let t1328 = -t1293;
+        coriolis_matrix_p[4][2] = t1328;
+        coriolis_matrix_b[4][2] = t1328;
+        let t1329 = -t1308;
+        coriolis_matrix_p[5][0] = t1329;
+        coriolis_matrix_b[5][0] = t1329;
+        let t1330 = -t1313;
+        coriolis_matrix_p[5][2] = t1330;
+        coriolis_matrix_b[5][2] = t1330;
         // Coriolis matrix C_p, natural factorisation
-        let t1343 = platform_velocity[3] * t615 - platform_velocity[4] * t618;
-        let t1344 = t1162 - t1343;
-        let t1345 = platform_velocity[5] * t618 - platform_velocity[3] * t612;
-        let t1346 = t1175 + t1345;
-        let t1347 = t1191 + t1343;
-        let t1348 = platform_velocity[4] * t612 - platform_velocity[5] * t615;
-        let t1349 = t1229 - t1348;
-        let t1350 = t1245 - t1345;
-        let t1351 = t1258 + t1348;
-        let t1352 = platform_velocity[4] * t627;
-        let t1353 = platform_velocity[5] * t625;
-        let t1354 = t1352 - (t1289 + t1353);
-        let t1355 = 0.0425 - t632;
-        let t1356 = platform_velocity[4] * t634 - (t1293 - platform_velocity[5] * t1355);
-        let t1357 = 0.0425 - t638;
-        let t1358 = platform_velocity[4] * t1357 + (t1297 + platform_velocity[5] * t634);
-        coriolis_matrix_p[3][5] = t1358;
-        let t1359 = 0.0425 - t623;
-        let t1360 = platform_velocity[3] * t627 + (t1309 + platform_velocity[5] * t1359);
-        coriolis_matrix_p[4][3] = t1360;
-        let t1361 = platform_velocity[3] * t634;
-        let t1362 = t1361 + (t1313 - t1353);
-        coriolis_matrix_p[4][4] = t1362;
-        let t1363 = platform_velocity[3] * t1357 - (t1317 - platform_velocity[5] * t627);
-        let t1364 = platform_velocity[3] * t625 - (t1329 - platform_velocity[4] * t1359);
-        let t1365 = platform_velocity[3] * t1355 - (t1333 - platform_velocity[4] * t625);
-        coriolis_matrix_p[5][4] = t1365;
-        let t1366 = t1361 - (t1337 + t1352);
-        coriolis_matrix_p[0][4] = -t1344;
-        coriolis_matrix_p[0][5] = -t1346;
-        coriolis_matrix_p[1][3] = -t1347;
-        coriolis_matrix_p[1][5] = -t1349;
-        coriolis_matrix_p[2][3] = -t1350;
-        coriolis_matrix_p[2][4] = -t1351;
-        coriolis_matrix_p[3][3] = -t1354;
-        coriolis_matrix_p[3][4] = -t1356;
-        coriolis_matrix_p[4][5] = -t1363;
-        coriolis_matrix_p[5][3] = -t1364;
-        coriolis_matrix_p[5][5] = -t1366;
+        let t1331 = platform_velocity[3] * t615 - platform_velocity[4] * t618;
+        let t1332 = t1150 - t1331;
+        let t1333 = platform_velocity[5] * t618 - platform_velocity[3] * t612;
+        let t1334 = t1163 + t1333;
+        let t1335 = t1179 + t1331;
+        let t1336 = platform_velocity[4] * t612 - platform_velocity[5] * t615;
+        let t1337 = t1217 - t1336;
+        let t1338 = t1233 - t1333;
+        let t1339 = t1246 + t1336;
+        let t1340 = platform_velocity[4] * t627;
+        let t1341 = platform_velocity[5] * t625;
+        let t1342 = t1340 - (t1277 + t1341);
+        let t1343 = 0.0425 - t632;
+        let t1344 = platform_velocity[4] * t634 - (t1281 - platform_velocity[5] * t1343);
+        let t1345 = 0.0425 - t638;
+        let t1346 = platform_velocity[4] * t1345 + (t1285 + platform_velocity[5] * t634);
+        coriolis_matrix_p[3][5] = t1346;
+        let t1347 = 0.0425 - t623;
+        let t1348 = platform_velocity[3] * t627 + (t1297 + platform_velocity[5] * t1347);
+        coriolis_matrix_p[4][3] = t1348;
+        let t1349 = platform_velocity[3] * t634;
+        let t1350 = t1349 + (t1301 - t1341);
+        coriolis_matrix_p[4][4] = t1350;
+        let t1351 = platform_velocity[3] * t1345 - (t1305 - platform_velocity[5] * t627);
+        let t1352 = platform_velocity[3] * t625 - (t1317 - platform_velocity[4] * t1347);
+        let t1353 = platform_velocity[3] * t1343 - (t1321 - platform_velocity[4] * t625);
+        coriolis_matrix_p[5][4] = t1353;
+        let t1354 = t1349 - (t1325 + t1340);
+        coriolis_matrix_p[0][4] = -t1332;
+        coriolis_matrix_p[0][5] = -t1334;
+        coriolis_matrix_p[1][3] = -t1335;
+        coriolis_matrix_p[1][5] = -t1337;
+        coriolis_matrix_p[2][3] = -t1338;
+        coriolis_matrix_p[2][4] = -t1339;
+        coriolis_matrix_p[3][3] = -t1342;
+        coriolis_matrix_p[3][4] = -t1344;
+        coriolis_matrix_p[4][5] = -t1351;
+        coriolis_matrix_p[5][3] = -t1352;
+        coriolis_matrix_p[5][5] = -t1354;
         // Coriolis matrix C_b, natural factorisation
-        let t1367 = t504 * t745;
-        let t1368 = t503 * t746;
-        let t1369 = t1149 - (t1099 + (t1063 - (t1027 + (t991 - (t918 - t955)))));
-        let t1370 = t1367 - (t1368 - (t20 * t1118 - (t21 * t1117 - t1369)));
-        let t1371 = t1162 - (t1105 + (t1069 - (t1033 + (t997 - (t925 - t961)))));
-        let t1372 = t504 * t744 - (t21 * t1116 - (t19 * t1118 - t1371));
-        let t1373 = t502 * t746 - t1372;
-        let t1374 = t1175 - (t1108 + (t1072 - (t1036 + (t1000 - (t928 - t964)))));
-        let t1375 = t502 * t745 - (t19 * t1117 - (t20 * t1116 - t1374));
-        let t1376 = t503 * t744 - t1375;
-        let t1377 = t1191 + (t1109 + (t1073 + (t1037 + (t1001 + (t929 + t965)))));
-        let t1378 = t533 * t746 - (t20 * t1178 - (t21 * t1177 - t1377));
-        let t1379 = t534 * t745 - t1378;
-        let t1380 = t534 * t744;
-        let t1381 = t1368
-            - (t1216 + (t1110 + (t1074 - (t1038 + (t1002 - (t930 - t966))))));
-        let t1382 = t1380 - (t21 * t1176 - (t19 * t1178 - t1381));
-        coriolis_matrix_b[1][4] = t1382;
-        let t1383 = t1229 - (t1112 + (t1076 - (t1040 + (t1004 - (t932 - t968)))));
-        let t1384 = t503 * t745 - (t19 * t1177 - (t20 * t1176 - t1383));
-        let t1385 = t533 * t744 - t1384;
-        let t1386 = t1245 - (t1113 + (t1077 + (t1041 + (t1005 + (t933 + t969)))));
-        let t1387 = t534 * t746 - (t20 * t1232 - (t21 * t1231 - t1386));
-        let t1388 = t562 * t745 - t1387;
-        let t1389 = t1258 + (t1114 + (t1078 + (t1042 + (t1006 + (t934 + t970)))));
-        let t1390 = t562 * t744 - (t21 * t1230 - (t19 * t1232 - t1389));
-        let t1391 = t504 * t746 - t1390;
-        let t1392 = t1367
-            - (t1277 - (t1115 + (t1079 - (t1043 + (t1007 - (t935 - t971))))));
-        let t1393 = t19 * t1231 - (t20 * t1230 - (t1380 - t1392));
-        let t1394 = t541 * t746 - (t20 * t1285 - (t1289 - t21 * t1282));
-        let t1395 = t96 * t929 + (t93 * t933 - (t569 * t745 - t1394));
-        let t1396 = t126 * t1005 - (t108 * t965 + (t107 * t969 + t1395));
-        let t1397 = t150 * t1037 + (t147 * t1041 + (t129 * t1001 + t1396));
-        let t1398 = t176 * t1113 + (t165 * t1073 + (t164 * t1077 + t1397));
-        let t1399 = t177 * t1109 + t1398;
-        let t1400 = t569 * t744 + (t21 * t1279 + (t1293 + t19 * t1285));
-        let t1401 = t96 * t930 + (t93 * t934 - (t518 * t746 + t1400));
-        let t1402 = t126 * t1006 + (t108 * t966 - (t107 * t970 + t1401));
-        let t1403 = t150 * t1038 - (t147 * t1042 - (t129 * t1002 - t1402));
-        let t1404 = t176 * t1114 + (t165 * t1074 + (t164 * t1078 - t1403));
-        let t1405 = t177 * t1110 + t1404;
-        coriolis_matrix_b[3][4] = t1405;
-        let t1406 = t518 * t745 - (t19 * t1282 + (t1297 - t20 * t1279));
-        let t1407 = t96 * t932 - (t93 * t935 - (t541 * t744 + t1406));
-        let t1408 = t126 * t1007 + (t108 * t968 - (t107 * t971 + t1407));
-        let t1409 = t150 * t1040 - (t147 * t1043 - (t129 * t1004 - t1408));
-        let t1410 = t176 * t1115 - (t165 * t1076 - (t164 * t1079 + t1409));
-        let t1411 = t177 * t1112 - t1410;
-        coriolis_matrix_b[3][5] = t1411;
-        let t1412 = t554 * t746 - (t20 * t1305 + (t1309 + t21 * t1302));
-        let t1413 = t90 * t933 - (t96 * t918 - (t576 * t745 + t1412));
-        let t1414 = t129 * t991 - (t106 * t969 + (t108 * t955 + t1413));
-        let t1415 = t144 * t1041 + (t150 * t1027 + (t123 * t1005 + t1414));
-        let t1416 = t177 * t1099 - (t163 * t1077 - (t165 * t1063 - t1415));
-        let t1417 = t175 * t1113 - t1416;
-        coriolis_matrix_b[4][3] = t1417;
-        let t1418 = t576 * t744 - (t21 * t1300 - (t1313 - t19 * t1305));
-        let t1419 = t90 * t934 + (t96 * t925 - (t525 * t746 - t1418));
-        let t1420 = t129 * t997 + (t106 * t970 - (t108 * t961 - t1419));
-        let t1421 = t144 * t1042 - (t150 * t1033 - (t123 * t1006 - t1420));
-        let t1422 = t177 * t1105 + (t163 * t1078 + (t165 * t1069 + t1421));
-        let t1423 = t175 * t1114 + t1422;
-        let t1424 = t525 * t745 - (t19 * t1302 - (t1317 + t20 * t1300));
-        let t1425 = t90 * t935 - (t96 * t928 + (t554 * t744 + t1424));
-        let t1426 = t129 * t1000 + (t106 * t971 - (t108 * t964 + t1425));
-        let t1427 = t144 * t1043 - (t150 * t1036 - (t123 * t1007 - t1426));
-        let t1428 = t177 * t1108 - (t163 * t1079 - (t165 * t1072 + t1427));
-        let t1429 = t175 * t1115 - t1428;
-        coriolis_matrix_b[4][5] = t1429;
-        let t1430 = t561 * t746 + (t20 * t1325 + (t1329 + t21 * t1323));
-        let t1431 = t93 * t918 + (t90 * t929 + (t583 * t745 - t1430));
-        let t1432 = t123 * t1001 + (t107 * t955 - (t106 * t965 + t1431));
-        let t1433 = t147 * t1027 - (t144 * t1037 - (t126 * t991 - t1432));
-        let t1434 = t175 * t1109 + (t164 * t1063 + (t163 * t1073 - t1433));
-        let t1435 = t176 * t1099 + t1434;
-        coriolis_matrix_b[5][3] = t1435;
-        let t1436 = t583 * t744 + (t21 * t1320 - (t1333 + t19 * t1325));
-        let t1437 = t93 * t925 - (t90 * t930 - (t532 * t746 - t1436));
-        let t1438 = t123 * t1002 + (t107 * t961 - (t106 * t966 + t1437));
-        let t1439 = t147 * t1033 - (t144 * t1038 - (t126 * t997 - t1438));
-        let t1440 = t175 * t1110 - (t164 * t1069 - (t163 * t1074 + t1439));
-        let t1441 = t176 * t1105 - t1440;
-        coriolis_matrix_b[5][4] = t1441;
-        let t1442 = t532 * t745 - (t19 * t1323 - (t1337 - t20 * t1320));
-        let t1443 = t93 * t928 - (t90 * t932 - (t561 * t744 - t1442));
-        let t1444 = t123 * t1004 + (t107 * t964 - (t106 * t968 + t1443));
-        let t1445 = t147 * t1036 - (t144 * t1040 - (t126 * t1000 - t1444));
-        let t1446 = t175 * t1112 - (t164 * t1072 - (t163 * t1076 + t1445));
-        let t1447 = t176 * t1108 - t1446;
-        coriolis_matrix_b[5][5] = t1447;
-        coriolis_matrix_b[0][3] = -t1370;
-        coriolis_matrix_b[0][4] = -t1373;
-        coriolis_matrix_b[0][5] = -t1376;
-        coriolis_matrix_b[1][3] = -t1379;
-        coriolis_matrix_b[1][5] = -t1385;
-        coriolis_matrix_b[2][3] = -t1388;
-        coriolis_matrix_b[2][4] = -t1391;
-        coriolis_matrix_b[2][5] = -t1393;
-        coriolis_matrix_b[3][3] = -t1399;
-        coriolis_matrix_b[4][4] = -t1423;
+        let t1355 = t504 * t745;
+        let t1356 = t503 * t746;
+        let t1357 = t1137 - (t1087 + (t1051 - (t1015 + (t979 - (t906 - t943)))));
+        let t1358 = t1355 - (t1356 - (t20 * t1106 - (t21 * t1105 - t1357)));
+        let t1359 = t1150 - (t1093 + (t1057 - (t1021 + (t985 - (t913 - t949)))));
+        let t1360 = t504 * t744 - (t21 * t1104 - (t19 * t1106 - t1359));
+        let t1361 = t502 * t746 - t1360;
+        let t1362 = t1163 - (t1096 + (t1060 - (t1024 + (t988 - (t916 - t952)))));
+        let t1363 = t502 * t745 - (t19 * t1105 - (t20 * t1104 - t1362));
+        let t1364 = t503 * t744 - t1363;
+        let t1365 = t1179 + (t1097 + (t1061 + (t1025 + (t989 + (t917 + t953)))));
+        let t1366 = t533 * t746 - (t20 * t1166 - (t21 * t1165 - t1365));
+        let t1367 = t534 * t745 - t1366;
+        let t1368 = t534 * t744;
+        let t1369 = t1356
+            - (t1204 + (t1098 + (t1062 - (t1026 + (t990 - (t918 - t954))))));
+        let t1370 = t1368 - (t21 * t1164 - (t19 * t1166 - t1369));
+        coriolis_matrix_b[1][4] = t1370;
+        let t1371 = t1217 - (t1100 + (t1064 - (t1028 + (t992 - (t920 - t956)))));
+        let t1372 = t503 * t745 - (t19 * t1165 - (t20 * t1164 - t1371));
+        let t1373 = t533 * t744 - t1372;
+        let t1374 = t1233 - (t1101 + (t1065 + (t1029 + (t993 + (t921 + t957)))));
+        let t1375 = t534 * t746 - (t20 * t1220 - (t21 * t1219 - t1374));
+        let t1376 = t562 * t745 - t1375;
+        let t1377 = t1246 + (t1102 + (t1066 + (t1030 + (t994 + (t922 + t958)))));
+        let t1378 = t562 * t744 - (t21 * t1218 - (t19 * t1220 - t1377));
+        let t1379 = t504 * t746 - t1378;
+        let t1380 = t1355
+            - (t1265 - (t1103 + (t1067 - (t1031 + (t995 - (t923 - t959))))));
+        let t1381 = t19 * t1219 - (t20 * t1218 - (t1368 - t1380));
+        let t1382 = t541 * t746 - (t20 * t1273 - (t1277 - t21 * t1270));
+        let t1383 = t96 * t917 + (t93 * t921 - (t569 * t745 - t1382));
+        let t1384 = t126 * t993 - (t108 * t953 + (t107 * t957 + t1383));
+        let t1385 = t150 * t1025 + (t147 * t1029 + (t129 * t989 + t1384));
+        let t1386 = t176 * t1101 + (t165 * t1061 + (t164 * t1065 + t1385));
+        let t1387 = t177 * t1097 + t1386;
+        let t1388 = t569 * t744 + (t21 * t1267 + (t1281 + t19 * t1273));
+        let t1389 = t96 * t918 + (t93 * t922 - (t518 * t746 + t1388));
+        let t1390 = t126 * t994 + (t108 * t954 - (t107 * t958 + t1389));
+        let t1391 = t150 * t1026 - (t147 * t1030 - (t129 * t990 - t1390));
+        let t1392 = t176 * t1102 + (t165 * t1062 + (t164 * t1066 - t1391));
+        let t1393 = t177 * t1098 + t1392;
+        coriolis_matrix_b[3][4] = t1393;
+        let t1394 = t518 * t745 - (t19 * t1270 + (t1285 - t20 * t1267));
+        let t1395 = t96 * t920 - (t93 * t923 - (t541 * t744 + t1394));
+        let t1396 = t126 * t995 + (t108 * t956 - (t107 * t959 + t1395));
+        let t1397 = t150 * t1028 - (t147 * t1031 - (t129 * t992 - t1396));
+        let t1398 = t176 * t1103 - (t165 * t1064 - (t164 * t1067 + t1397));
+        let t1399 = t177 * t1100 - t1398;
+        coriolis_matrix_b[3][5] = t1399;
+        let t1400 = t554 * t746 - (t20 * t1293 + (t1297 + t21 * t1290));
+        let t1401 = t90 * t921 - (t96 * t906 - (t576 * t745 + t1400));
+        let t1402 = t129 * t979 - (t106 * t957 + (t108 * t943 + t1401));
+        let t1403 = t144 * t1029 + (t150 * t1015 + (t123 * t993 + t1402));
+        let t1404 = t177 * t1087 - (t163 * t1065 - (t165 * t1051 - t1403));
+        let t1405 = t175 * t1101 - t1404;
+        coriolis_matrix_b[4][3] = t1405;
+        let t1406 = t576 * t744 - (t21 * t1288 - (t1301 - t19 * t1293));
+        let t1407 = t90 * t922 + (t96 * t913 - (t525 * t746 - t1406));
+        let t1408 = t129 * t985 + (t106 * t958 - (t108 * t949 - t1407));
+        let t1409 = t144 * t1030 - (t150 * t1021 - (t123 * t994 - t1408));
+        let t1410 = t177 * t1093 + (t163 * t1066 + (t165 * t1057 + t1409));
+        let t1411 = t175 * t1102 + t1410;
+        let t1412 = t525 * t745 - (t19 * t1290 - (t1305 + t20 * t1288));
+        let t1413 = t90 * t923 - (t96 * t916 + (t554 * t744 + t1412));
+        let t1414 = t129 * t988 + (t106 * t959 - (t108 * t952 + t1413));
+        let t1415 = t144 * t1031 - (t150 * t1024 - (t123 * t995 - t1414));
+        let t1416 = t177 * t1096 - (t163 * t1067 - (t165 * t1060 + t1415));
+        let t1417 = t175 * t1103 - t1416;
+        coriolis_matrix_b[4][5] = t1417;
+        let t1418 = t561 * t746 + (t20 * t1313 + (t1317 + t21 * t1311));
+        let t1419 = t93 * t906 + (t90 * t917 + (t583 * t745 - t1418));
+        let t1420 = t123 * t989 + (t107 * t943 - (t106 * t953 + t1419));
+        let t1421 = t147 * t1015 - (t144 * t1025 - (t126 * t979 - t1420));
+        let t1422 = t175 * t1097 + (t164 * t1051 + (t163 * t1061 - t1421));
+        let t1423 = t176 * t1087 + t1422;
+        coriolis_matrix_b[5][3] = t1423;
+        let t1424 = t583 * t744 + (t21 * t1308 - (t1321 + t19 * t1313));
+        let t1425 = t93 * t913 - (t90 * t918 - (t532 * t746 - t1424));
+        let t1426 = t123 * t990 + (t107 * t949 - (t106 * t954 + t1425));
+        let t1427 = t147 * t1021 - (t144 * t1026 - (t126 * t985 - t1426));
+        let t1428 = t175 * t1098 - (t164 * t1057 - (t163 * t1062 + t1427));
+        let t1429 = t176 * t1093 - t1428;
+        coriolis_matrix_b[5][4] = t1429;
+        let t1430 = t532 * t745 - (t19 * t1311 - (t1325 - t20 * t1308));
+        let t1431 = t93 * t916 - (t90 * t920 - (t561 * t744 - t1430));
+        let t1432 = t123 * t992 + (t107 * t952 - (t106 * t956 + t1431));
+        let t1433 = t147 * t1024 - (t144 * t1028 - (t126 * t988 - t1432));
+        let t1434 = t175 * t1100 - (t164 * t1060 - (t163 * t1064 + t1433));
+        let t1435 = t176 * t1096 - t1434;
+        coriolis_matrix_b[5][5] = t1435;
+        coriolis_matrix_b[0][3] = -t1358;
+        coriolis_matrix_b[0][4] = -t1361;
+        coriolis_matrix_b[0][5] = -t1364;
+        coriolis_matrix_b[1][3] = -t1367;
+        coriolis_matrix_b[1][5] = -t1373;
+        coriolis_matrix_b[2][3] = -t1376;
+        coriolis_matrix_b[2][4] = -t1379;
+        coriolis_matrix_b[2][5] = -t1381;
+        coriolis_matrix_b[3][3] = -t1387;
+        coriolis_matrix_b[4][4] = -t1411;
         // linearised stiffness K_p = J_dp^T k_e J_dp
-        let t1448 = 21555.9 * t101;
-        let t1449 = 21555.9 * t113;
-        let t1450 = 21555.9 * t134;
-        let t1451 = 21555.9 * t155;
-        let t1452 = 21555.9 * t170;
-        let t1453 = 21555.9 * t182;
-        let t1454 = 21555.9 * t103;
-        let t1455 = 21555.9 * t115;
-        let t1456 = 21555.9 * t136;
-        let t1457 = 21555.9 * t157;
-        let t1458 = 21555.9 * t172;
-        let t1459 = 21555.9 * t184;
-        let t1460 = 21555.9 * t105;
-        let t1461 = 21555.9 * t117;
-        let t1462 = 21555.9 * t138;
-        let t1463 = 21555.9 * t159;
-        let t1464 = 21555.9 * t174;
-        let t1465 = 21555.9 * t186;
-        let t1466 = t155 * t1451 + (t134 * t1450 + (t101 * t1448 + t113 * t1449));
-        let t1467 = t182 * t1453 + (t170 * t1452 + t1466);
-        stiffness_matrix_p[0][0] = t1467;
-        stiffness_matrix_b[0][0] = t1467;
-        let t1468 = t155 * t1457 + (t134 * t1456 + (t101 * t1454 + t113 * t1455));
-        let t1469 = t182 * t1459 + (t170 * t1458 + t1468);
-        stiffness_matrix_p[0][1] = t1469;
-        stiffness_matrix_p[1][0] = t1469;
-        stiffness_matrix_b[0][1] = t1469;
-        let t1470 = t155 * t1463 + (t134 * t1462 + (t101 * t1460 + t113 * t1461));
-        let t1471 = t182 * t1465 + (t170 * t1464 + t1470);
-        stiffness_matrix_p[0][2] = t1471;
-        stiffness_matrix_p[2][0] = t1471;
-        stiffness_matrix_b[0][2] = t1471;
-        let t1472 = 21555.9 * t187;
-        let t1473 = 21555.9 * t193;
-        let t1474 = 21555.9 * t199;
-        let t1475 = 21555.9 * t205;
-        let t1476 = t101 * t1472 + t113 * t1473 - t134 * t1474 - t155 * t1475;
-        let t1477 = 21555.9 * t211;
-        let t1478 = 21555.9 * t217;
-        let t1479 = t1476 - t170 * t1477 - t182 * t1478;
-        stiffness_matrix_p[0][3] = t1479;
-        stiffness_matrix_p[3][0] = t1479;
-        let t1480 = 21555.9 * t188;
-        let t1481 = 21555.9 * t194;
-        let t1482 = 21555.9 * t200;
-        let t1483 = 21555.9 * t206;
-        let t1484 = t101 * t1480 + t113 * t1481 - t134 * t1482 - t155 * t1483;
-        let t1485 = 21555.9 * t212;
-        let t1486 = 21555.9 * t218;
-        let t1487 = t1484 - t170 * t1485 - t182 * t1486;
-        stiffness_matrix_p[0][4] = t1487;
-        stiffness_matrix_p[4][0] = t1487;
-        let t1488 = 21555.9 * t189;
-        let t1489 = 21555.9 * t195;
-        let t1490 = 21555.9 * t201;
-        let t1491 = 21555.9 * t207;
-        let t1492 = t101 * t1488 + t113 * t1489 - t134 * t1490 - t155 * t1491;
-        let t1493 = 21555.9 * t213;
-        let t1494 = 21555.9 * t219;
-        let t1495 = t1492 - t170 * t1493 - t182 * t1494;
-        stiffness_matrix_p[0][5] = t1495;
-        stiffness_matrix_p[5][0] = t1495;
-        let t1496 = t157 * t1457 + (t136 * t1456 + (t103 * t1454 + t115 * t1455));
-        let t1497 = t184 * t1459 + (t172 * t1458 + t1496);
-        stiffness_matrix_p[1][1] = t1497;
-        stiffness_matrix_b[1][1] = t1497;
-        let t1498 = t157 * t1463 + (t136 * t1462 + (t103 * t1460 + t115 * t1461));
-        let t1499 = t184 * t1465 + (t172 * t1464 + t1498);
-        stiffness_matrix_p[1][2] = t1499;
-        stiffness_matrix_p[2][1] = t1499;
-        stiffness_matrix_b[1][2] = t1499;
-        let t1500 = t103 * t1472 + t115 * t1473 - t136 * t1474 - t157 * t1475;
-        let t1501 = t1500 - t172 * t1477 - t184 * t1478;
-        stiffness_matrix_p[1][3] = t1501;
-        stiffness_matrix_p[3][1] = t1501;
-        let t1502 = t103 * t1480 + t115 * t1481 - t136 * t1482 - t157 * t1483;
-        let t1503 = t1502 - t172 * t1485 - t184 * t1486;
-        stiffness_matrix_p[1][4] = t1503;
-        stiffness_matrix_p[4][1] = t1503;
-        let t1504 = t103 * t1488 + t115 * t1489 - t136 * t1490 - t157 * t1491;
-        let t1505 = t1504 - t172 * t1493 - t184 * t1494;
-        stiffness_matrix_p[1][5] = t1505;
-        stiffness_matrix_p[5][1] = t1505;
-        let t1506 = t159 * t1463 + (t138 * t1462 + (t105 * t1460 + t117 * t1461));
-        let t1507 = t186 * t1465 + (t174 * t1464 + t1506);
-        stiffness_matrix_p[2][2] = t1507;
-        stiffness_matrix_b[2][2] = t1507;
-        let t1508 = t105 * t1472 + t117 * t1473 - t138 * t1474 - t159 * t1475;
-        let t1509 = t1508 - t174 * t1477 - t186 * t1478;
-        stiffness_matrix_p[2][3] = t1509;
-        stiffness_matrix_p[3][2] = t1509;
-        let t1510 = t105 * t1480 + t117 * t1481 - t138 * t1482 - t159 * t1483;
-        let t1511 = t1510 - t174 * t1485 - t186 * t1486;
-        stiffness_matrix_p[2][4] = t1511;
-        stiffness_matrix_p[4][2] = t1511;
-        let t1512 = t105 * t1488 + t117 * t1489 - t138 * t1490 - t159 * t1491;
-        let t1513 = t1512 - t174 * t1493 - t186 * t1494;
-        stiffness_matrix_p[2][5] = t1513;
-        stiffness_matrix_p[5][2] = t1513;
-        let t1514 = t205 * t1475 + (t199 * t1474 + (t187 * t1472 + t193 * t1473));
-        stiffness_matrix_p[3][3] = t217 * t1478 + (t211 * t1477 + t1514);
-        let t1515 = t205 * t1483 + (t199 * t1482 + (t187 * t1480 + t193 * t1481));
-        let t1516 = t217 * t1486 + (t211 * t1485 + t1515);
-        stiffness_matrix_p[3][4] = t1516;
-        stiffness_matrix_p[4][3] = t1516;
-        let t1517 = t205 * t1491 + (t199 * t1490 + (t187 * t1488 + t193 * t1489));
-        let t1518 = t217 * t1494 + (t211 * t1493 + t1517);
-        stiffness_matrix_p[3][5] = t1518;
-        stiffness_matrix_p[5][3] = t1518;
-        let t1519 = t206 * t1483 + (t200 * t1482 + (t188 * t1480 + t194 * t1481));
-        stiffness_matrix_p[4][4] = t218 * t1486 + (t212 * t1485 + t1519);
-        let t1520 = t206 * t1491 + (t200 * t1490 + (t188 * t1488 + t194 * t1489));
-        let t1521 = t218 * t1494 + (t212 * t1493 + t1520);
-        stiffness_matrix_p[4][5] = t1521;
-        stiffness_matrix_p[5][4] = t1521;
-        let t1522 = t207 * t1491 + (t201 * t1490 + (t189 * t1488 + t195 * t1489));
-        stiffness_matrix_p[5][5] = t219 * t1494 + (t213 * t1493 + t1522);
+        let t1436 = 21555.9 * t101;
+        let t1437 = 21555.9 * t113;
+        let t1438 = 21555.9 * t134;
+        let t1439 = 21555.9 * t155;
+        let t1440 = 21555.9 * t170;
+        let t1441 = 21555.9 * t182;
+        let t1442 = 21555.9 * t103;
+        let t1443 = 21555.9 * t115;
+        let t1444 = 21555.9 * t136;
+        let t1445 = 21555.9 * t157;
+        let t1446 = 21555.9 * t172;
+        let t1447 = 21555.9 * t184;
+        let t1448 = 21555.9 * t105;
+        let t1449 = 21555.9 * t117;
+        let t1450 = 21555.9 * t138;
+        let t1451 = 21555.9 * t159;
+        let t1452 = 21555.9 * t174;
+        let t1453 = 21555.9 * t186;
+        let t1454 = t155 * t1439 + (t134 * t1438 + (t101 * t1436 + t113 * t1437));
+        let t1455 = t182 * t1441 + (t170 * t1440 + t1454);
+        stiffness_matrix_p[0][0] = t1455;
+        stiffness_matrix_b[0][0] = t1455;
+        let t1456 = t155 * t1445 + (t134 * t1444 + (t101 * t1442 + t113 * t1443));
+        let t1457 = t182 * t1447 + (t170 * t1446 + t1456);
+        stiffness_matrix_p[0][1] = t1457;
+        stiffness_matrix_p[1][0] = t1457;
+        stiffness_matrix_b[0][1] = t1457;
+        let t1458 = t155 * t1451 + (t134 * t1450 + (t101 * t1448 + t113 * t1449));
+        let t1459 = t182 * t1453 + (t170 * t1452 + t1458);
+        stiffness_matrix_p[0][2] = t1459;
+        stiffness_matrix_p[2][0] = t1459;
+        stiffness_matrix_b[0][2] = t1459;
+        let t1460 = 21555.9 * t187;
+        let t1461 = 21555.9 * t193;
+        let t1462 = 21555.9 * t199;
+        let t1463 = 21555.9 * t205;
+        let t1464 = t101 * t1460 + t113 * t1461 - t134 * t1462 - t155 * t1463;
+        let t1465 = 21555.9 * t211;
+        let t1466 = 21555.9 * t217;
+        let t1467 = t1464 - t170 * t1465 - t182 * t1466;
+        stiffness_matrix_p[0][3] = t1467;
+        stiffness_matrix_p[3][0] = t1467;
+        let t1468 = 21555.9 * t188;
+        let t1469 = 21555.9 * t194;
+        let t1470 = 21555.9 * t200;
+        let t1471 = 21555.9 * t206;
+        let t1472 = t101 * t1468 + t113 * t1469 - t134 * t1470 - t155 * t1471;
+        let t1473 = 21555.9 * t212;
+        let t1474 = 21555.9 * t218;
+        let t1475 = t1472 - t170 * t1473 - t182 * t1474;
+        stiffness_matrix_p[0][4] = t1475;
+        stiffness_matrix_p[4][0] = t1475;
+        let t1476 = 21555.9 * t189;
+        let t1477 = 21555.9 * t195;
+        let t1478 = 21555.9 * t201;
+        let t1479 = 21555.9 * t207;
+        let t1480 = t101 * t1476 + t113 * t1477 - t134 * t1478 - t155 * t1479;
+        let t1481 = 21555.9 * t213;
+        let t1482 = 21555.9 * t219;
+        let t1483 = t1480 - t170 * t1481 - t182 * t1482;
+        stiffness_matrix_p[0][5] = t1483;
+        stiffness_matrix_p[5][0] = t1483;
+        let t1484 = t157 * t1445 + (t136 * t1444 + (t103 * t1442 + t115 * t1443));
+        let t1485 = t184 * t1447 + (t172 * t1446 + t1484);
+        stiffness_matrix_p[1][1] = t1485;
+        stiffness_matrix_b[1][1] = t1485;
+        let t1486 = t157 * t1451 + (t136 * t1450 + (t103 * t1448 + t115 * t1449));
+        let t1487 = t184 * t1453 + (t172 * t1452 + t1486);
+        stiffness_matrix_p[1][2] = t1487;
+        stiffness_matrix_p[2][1] = t1487;
+        stiffness_matrix_b[1][2] = t1487;
+        let t1488 = t103 * t1460 + t115 * t1461 - t136 * t1462 - t157 * t1463;
+        let t1489 = t1488 - t172 * t1465 - t184 * t1466;
+        stiffness_matrix_p[1][3] = t1489;
+        stiffness_matrix_p[3][1] = t1489;
+        let t1490 = t103 * t1468 + t115 * t1469 - t136 * t1470 - t157 * t1471;
+        let t1491 = t1490 - t172 * t1473 - t184 * t1474;
+        stiffness_matrix_p[1][4] = t1491;
+        stiffness_matrix_p[4][1] = t1491;
+        let t1492 = t103 * t1476 + t115 * t1477 - t136 * t1478 - t157 * t1479;
+        let t1493 = t1492 - t172 * t1481 - t184 * t1482;
+        stiffness_matrix_p[1][5] = t1493;
+        stiffness_matrix_p[5][1] = t1493;
+        let t1494 = t159 * t1451 + (t138 * t1450 + (t105 * t1448 + t117 * t1449));
+        let t1495 = t186 * t1453 + (t174 * t1452 + t1494);
+        stiffness_matrix_p[2][2] = t1495;
+        stiffness_matrix_b[2][2] = t1495;
+        let t1496 = t105 * t1460 + t117 * t1461 - t138 * t1462 - t159 * t1463;
+        let t1497 = t1496 - t174 * t1465 - t186 * t1466;
+        stiffness_matrix_p[2][3] = t1497;
+        stiffness_matrix_p[3][2] = t1497;
+        let t1498 = t105 * t1468 + t117 * t1469 - t138 * t1470 - t159 * t1471;
+        let t1499 = t1498 - t174 * t1473 - t186 * t1474;
+        stiffness_matrix_p[2][4] = t1499;
+        stiffness_matrix_p[4][2] = t1499;
+        let t1500 = t105 * t1476 + t117 * t1477 - t138 * t1478 - t159 * t1479;
+        let t1501 = t1500 - t174 * t1481 - t186 * t1482;
+        stiffness_matrix_p[2][5] = t1501;
+        stiffness_matrix_p[5][2] = t1501;
+        let t1502 = t205 * t1463 + (t199 * t1462 + (t187 * t1460 + t193 * t1461));
+        stiffness_matrix_p[3][3] = t217 * t1466 + (t211 * t1465 + t1502);
+        let t1503 = t205 * t1471 + (t199 * t1470 + (t187 * t1468 + t193 * t1469));
+        let t1504 = t217 * t1474 + (t211 * t1473 + t1503);
+        stiffness_matrix_p[3][4] = t1504;
+        stiffness_matrix_p[4][3] = t1504;
+        let t1505 = t205 * t1479 + (t199 * t1478 + (t187 * t1476 + t193 * t1477));
+        let t1506 = t217 * t1482 + (t211 * t1481 + t1505);
+        stiffness_matrix_p[3][5] = t1506;
+        stiffness_matrix_p[5][3] = t1506;
+        let t1507 = t206 * t1471 + (t200 * t1470 + (t188 * t1468 + t194 * t1469));
+        stiffness_matrix_p[4][4] = t218 * t1474 + (t212 * t1473 + t1507);
+        let t1508 = t206 * t1479 + (t200 * t1478 + (t188 * t1476 + t194 * t1477));
+        let t1509 = t218 * t1482 + (t212 * t1481 + t1508);
+        stiffness_matrix_p[4][5] = t1509;
+        stiffness_matrix_p[5][4] = t1509;
+        let t1510 = t207 * t1479 + (t201 * t1478 + (t189 * t1476 + t195 * t1477));
+        stiffness_matrix_p[5][5] = t219 * t1482 + (t213 * t1481 + t1510);
         // linearised stiffness K_b = J_dp^T k_e J_db
-        let t1523 = 21555.9 * t220;
-        let t1524 = 21555.9 * t214;
-        let t1525 = 21555.9 * t208;
-        let t1526 = 21555.9 * t202;
-        let t1527 = 21555.9 * t190;
-        let t1528 = 21555.9 * t196;
-        let t1529 = t155 * t1525 + (t134 * t1526 + (t101 * t1527 + t113 * t1528));
-        stiffness_matrix_b[0][3] = -(t182 * t1523 + (t170 * t1524 + t1529));
-        let t1530 = 21555.9 * t221;
-        let t1531 = 21555.9 * t215;
-        let t1532 = 21555.9 * t209;
-        let t1533 = 21555.9 * t203;
-        let t1534 = 21555.9 * t191;
-        let t1535 = 21555.9 * t197;
-        let t1536 = t155 * t1532 + (t134 * t1533 + (t101 * t1534 + t113 * t1535));
-        stiffness_matrix_b[0][4] = -(t182 * t1530 + (t170 * t1531 + t1536));
-        let t1537 = 21555.9 * t222;
-        let t1538 = 21555.9 * t216;
-        let t1539 = 21555.9 * t210;
-        let t1540 = 21555.9 * t204;
-        let t1541 = 21555.9 * t192;
-        let t1542 = 21555.9 * t198;
-        let t1543 = t155 * t1539 + (t134 * t1540 + (t101 * t1541 + t113 * t1542));
-        stiffness_matrix_b[0][5] = -(t182 * t1537 + (t170 * t1538 + t1543));
-        let t1544 = t157 * t1451 + (t136 * t1450 + (t103 * t1448 + t115 * t1449));
-        stiffness_matrix_b[1][0] = t184 * t1453 + (t172 * t1452 + t1544);
-        let t1545 = t157 * t1525 + (t136 * t1526 + (t103 * t1527 + t115 * t1528));
-        stiffness_matrix_b[1][3] = -(t184 * t1523 + (t172 * t1524 + t1545));
-        let t1546 = t157 * t1532 + (t136 * t1533 + (t103 * t1534 + t115 * t1535));
-        stiffness_matrix_b[1][4] = -(t184 * t1530 + (t172 * t1531 + t1546));
-        let t1547 = t157 * t1539 + (t136 * t1540 + (t103 * t1541 + t115 * t1542));
-        stiffness_matrix_b[1][5] = -(t184 * t1537 + (t172 * t1538 + t1547));
-        let t1548 = t159 * t1451 + (t138 * t1450 + (t105 * t1448 + t117 * t1449));
-        stiffness_matrix_b[2][0] = t186 * t1453 + (t174 * t1452 + t1548);
-        let t1549 = t159 * t1457 + (t138 * t1456 + (t105 * t1454 + t117 * t1455));
-        stiffness_matrix_b[2][1] = t186 * t1459 + (t174 * t1458 + t1549);
-        let t1550 = t159 * t1525 + (t138 * t1526 + (t105 * t1527 + t117 * t1528));
-        stiffness_matrix_b[2][3] = -(t186 * t1523 + (t174 * t1524 + t1550));
-        let t1551 = t159 * t1532 + (t138 * t1533 + (t105 * t1534 + t117 * t1535));
-        stiffness_matrix_b[2][4] = -(t186 * t1530 + (t174 * t1531 + t1551));
-        let t1552 = t159 * t1539 + (t138 * t1540 + (t105 * t1541 + t117 * t1542));
-        stiffness_matrix_b[2][5] = -(t186 * t1537 + (t174 * t1538 + t1552));
-        let t1553 = t187 * t1448 + t193 * t1449 - t199 * t1450 - t205 * t1451;
-        stiffness_matrix_b[3][0] = t1553 - t211 * t1452 - t217 * t1453;
-        let t1554 = t187 * t1454 + t193 * t1455 - t199 * t1456 - t205 * t1457;
-        stiffness_matrix_b[3][1] = t1554 - t211 * t1458 - t217 * t1459;
-        let t1555 = t187 * t1460 + t193 * t1461 - t199 * t1462 - t205 * t1463;
-        stiffness_matrix_b[3][2] = t1555 - t211 * t1464 - t217 * t1465;
-        let t1556 = t205 * t1525 + (t199 * t1526 - (t187 * t1527 + t193 * t1528));
-        stiffness_matrix_b[3][3] = t217 * t1523 + (t211 * t1524 + t1556);
-        let t1557 = t205 * t1532 + (t199 * t1533 - (t187 * t1534 + t193 * t1535));
-        stiffness_matrix_b[3][4] = t217 * t1530 + (t211 * t1531 + t1557);
-        let t1558 = t205 * t1539 + (t199 * t1540 - (t187 * t1541 + t193 * t1542));
-        stiffness_matrix_b[3][5] = t217 * t1537 + (t211 * t1538 + t1558);
-        let t1559 = t188 * t1448 + t194 * t1449 - t200 * t1450 - t206 * t1451;
-        stiffness_matrix_b[4][0] = t1559 - t212 * t1452 - t218 * t1453;
-        let t1560 = t188 * t1454 + t194 * t1455 - t200 * t1456 - t206 * t1457;
-        stiffness_matrix_b[4][1] = t1560 - t212 * t1458 - t218 * t1459;
-        let t1561 = t188 * t1460 + t194 * t1461 - t200 * t1462 - t206 * t1463;
-        stiffness_matrix_b[4][2] = t1561 - t212 * t1464 - t218 * t1465;
-        let t1562 = t206 * t1525 + (t200 * t1526 - (t188 * t1527 + t194 * t1528));
-        stiffness_matrix_b[4][3] = t218 * t1523 + (t212 * t1524 + t1562);
-        let t1563 = t206 * t1532 + (t200 * t1533 - (t188 * t1534 + t194 * t1535));
-        stiffness_matrix_b[4][4] = t218 * t1530 + (t212 * t1531 + t1563);
-        let t1564 = t206 * t1539 + (t200 * t1540 - (t188 * t1541 + t194 * t1542));
-        stiffness_matrix_b[4][5] = t218 * t1537 + (t212 * t1538 + t1564);
-        let t1565 = t189 * t1448 + t195 * t1449 - t201 * t1450 - t207 * t1451;
-        stiffness_matrix_b[5][0] = t1565 - t213 * t1452 - t219 * t1453;
-        let t1566 = t189 * t1454 + t195 * t1455 - t201 * t1456 - t207 * t1457;
-        stiffness_matrix_b[5][1] = t1566 - t213 * t1458 - t219 * t1459;
-        let t1567 = t189 * t1460 + t195 * t1461 - t201 * t1462 - t207 * t1463;
-        stiffness_matrix_b[5][2] = t1567 - t213 * t1464 - t219 * t1465;
-        let t1568 = t207 * t1525 + (t201 * t1526 - (t189 * t1527 + t195 * t1528));
-        stiffness_matrix_b[5][3] = t219 * t1523 + (t213 * t1524 + t1568);
-        let t1569 = t207 * t1532 + (t201 * t1533 - (t189 * t1534 + t195 * t1535));
-        stiffness_matrix_b[5][4] = t219 * t1530 + (t213 * t1531 + t1569);
-        let t1570 = t207 * t1539 + (t201 * t1540 - (t189 * t1541 + t195 * t1542));
-        stiffness_matrix_b[5][5] = t219 * t1537 + (t213 * t1538 + t1570);
+        let t1511 = 21555.9 * t220;
+        let t1512 = 21555.9 * t214;
+        let t1513 = 21555.9 * t208;
+        let t1514 = 21555.9 * t202;
+        let t1515 = 21555.9 * t190;
+        let t1516 = 21555.9 * t196;
+        let t1517 = t155 * t1513 + (t134 * t1514 + (t101 * t1515 + t113 * t1516));
+        stiffness_matrix_b[0][3] = -(t182 * t1511 + (t170 * t1512 + t1517));
+        let t1518 = 21555.9 * t221;
+        let t1519 = 21555.9 * t215;
+        let t1520 = 21555.9 * t209;
+        let t1521 = 21555.9 * t203;
+        let t1522 = 21555.9 * t191;
+        let t1523 = 21555.9 * t197;
+        let t1524 = t155 * t1520 + (t134 * t1521 + (t101 * t1522 + t113 * t1523));
+        stiffness_matrix_b[0][4] = -(t182 * t1518 + (t170 * t1519 + t1524));
+        let t1525 = 21555.9 * t222;
+        let t1526 = 21555.9 * t216;
+        let t1527 = 21555.9 * t210;
+        let t1528 = 21555.9 * t204;
+        let t1529 = 21555.9 * t192;
+        let t1530 = 21555.9 * t198;
+        let t1531 = t155 * t1527 + (t134 * t1528 + (t101 * t1529 + t113 * t1530));
+        stiffness_matrix_b[0][5] = -(t182 * t1525 + (t170 * t1526 + t1531));
+        let t1532 = t157 * t1439 + (t136 * t1438 + (t103 * t1436 + t115 * t1437));
+        stiffness_matrix_b[1][0] = t184 * t1441 + (t172 * t1440 + t1532);
+        let t1533 = t157 * t1513 + (t136 * t1514 + (t103 * t1515 + t115 * t1516));
+        stiffness_matrix_b[1][3] = -(t184 * t1511 + (t172 * t1512 + t1533));
+        let t1534 = t157 * t1520 + (t136 * t1521 + (t103 * t1522 + t115 * t1523));
+        stiffness_matrix_b[1][4] = -(t184 * t1518 + (t172 * t1519 + t1534));
+        let t1535 = t157 * t1527 + (t136 * t1528 + (t103 * t1529 + t115 * t1530));
+        stiffness_matrix_b[1][5] = -(t184 * t1525 + (t172 * t1526 + t1535));
+        let t1536 = t159 * t1439 + (t138 * t1438 + (t105 * t1436 + t117 * t1437));
+        stiffness_matrix_b[2][0] = t186 * t1441 + (t174 * t1440 + t1536);
+        let t1537 = t159 * t1445 + (t138 * t1444 + (t105 * t1442 + t117 * t1443));
+        stiffness_matrix_b[2][1] = t186 * t1447 + (t174 * t1446 + t1537);
+        let t1538 = t159 * t1513 + (t138 * t1514 + (t105 * t1515 + t117 * t1516));
+        stiffness_matrix_b[2][3] = -(t186 * t1511 + (t174 * t1512 + t1538));
+        let t1539 = t159 * t1520 + (t138 * t1521 + (t105 * t1522 + t117 * t1523));
+        stiffness_matrix_b[2][4] = -(t186 * t1518 + (t174 * t1519 + t1539));
+        let t1540 = t159 * t1527 + (t138 * t1528 + (t105 * t1529 + t117 * t1530));
+        stiffness_matrix_b[2][5] = -(t186 * t1525 + (t174 * t1526 + t1540));
+        let t1541 = t187 * t1436 + t193 * t1437 - t199 * t1438 - t205 * t1439;
+        stiffness_matrix_b[3][0] = t1541 - t211 * t1440 - t217 * t1441;
+        let t1542 = t187 * t1442 + t193 * t1443 - t199 * t1444 - t205 * t1445;
+        stiffness_matrix_b[3][1] = t1542 - t211 * t1446 - t217 * t1447;
+        let t1543 = t187 * t1448 + t193 * t1449 - t199 * t1450 - t205 * t1451;
+        stiffness_matrix_b[3][2] = t1543 - t211 * t1452 - t217 * t1453;
+        let t1544 = t205 * t1513 + (t199 * t1514 - (t187 * t1515 + t193 * t1516));
+        stiffness_matrix_b[3][3] = t217 * t1511 + (t211 * t1512 + t1544);
+        let t1545 = t205 * t1520 + (t199 * t1521 - (t187 * t1522 + t193 * t1523));
+        stiffness_matrix_b[3][4] = t217 * t1518 + (t211 * t1519 + t1545);
+        let t1546 = t205 * t1527 + (t199 * t1528 - (t187 * t1529 + t193 * t1530));
+        stiffness_matrix_b[3][5] = t217 * t1525 + (t211 * t1526 + t1546);
+        let t1547 = t188 * t1436 + t194 * t1437 - t200 * t1438 - t206 * t1439;
+        stiffness_matrix_b[4][0] = t1547 - t212 * t1440 - t218 * t1441;
+        let t1548 = t188 * t1442 + t194 * t1443 - t200 * t1444 - t206 * t1445;
+        stiffness_matrix_b[4][1] = t1548 - t212 * t1446 - t218 * t1447;
+        let t1549 = t188 * t1448 + t194 * t1449 - t200 * t1450 - t206 * t1451;
+        stiffness_matrix_b[4][2] = t1549 - t212 * t1452 - t218 * t1453;
+        let t1550 = t206 * t1513 + (t200 * t1514 - (t188 * t1515 + t194 * t1516));
+        stiffness_matrix_b[4][3] = t218 * t1511 + (t212 * t1512 + t1550);
+        let t1551 = t206 * t1520 + (t200 * t1521 - (t188 * t1522 + t194 * t1523));
+        stiffness_matrix_b[4][4] = t218 * t1518 + (t212 * t1519 + t1551);
+        let t1552 = t206 * t1527 + (t200 * t1528 - (t188 * t1529 + t194 * t1530));
+        stiffness_matrix_b[4][5] = t218 * t1525 + (t212 * t1526 + t1552);
+        let t1553 = t189 * t1436 + t195 * t1437 - t201 * t1438 - t207 * t1439;
+        stiffness_matrix_b[5][0] = t1553 - t213 * t1440 - t219 * t1441;
+        let t1554 = t189 * t1442 + t195 * t1443 - t201 * t1444 - t207 * t1445;
+        stiffness_matrix_b[5][1] = t1554 - t213 * t1446 - t219 * t1447;
+        let t1555 = t189 * t1448 + t195 * t1449 - t201 * t1450 - t207 * t1451;
+        stiffness_matrix_b[5][2] = t1555 - t213 * t1452 - t219 * t1453;
+        let t1556 = t207 * t1513 + (t201 * t1514 - (t189 * t1515 + t195 * t1516));
+        stiffness_matrix_b[5][3] = t219 * t1511 + (t213 * t1512 + t1556);
+        let t1557 = t207 * t1520 + (t201 * t1521 - (t189 * t1522 + t195 * t1523));
+        stiffness_matrix_b[5][4] = t219 * t1518 + (t213 * t1519 + t1557);
+        let t1558 = t207 * t1527 + (t201 * t1528 - (t189 * t1529 + t195 * t1530));
+        stiffness_matrix_b[5][5] = t219 * t1525 + (t213 * t1526 + t1558);
         // leg 1: weight of the leg along the actuator
-        let t1571 = base_rotation[2][2] * 11.016630000000001;
+        let t1559 = base_rotation[2][2] * 11.016630000000001;
         // generalised spring force J_dp^T k_e (d - d0), left side
-        let t1572 = 4268.068200000001 + 21555.9 * t75;
-        let t1573 = 4268.068200000001 + 21555.9 * t72;
-        let t1574 = 4268.068200000001 + 21555.9 * t69;
-        let t1575 = 4268.068200000001 + 21555.9 * t64;
-        let t1576 = 4268.068200000001 + 21555.9 * t56;
-        let t1577 = 4268.068200000001 + 21555.9 * t59;
-        let t1578 = t155 * t1574 + (t134 * t1575 - (t101 * t1576 - t113 * t1577));
-        let t1579 = t182 * t1572 + (t170 * t1573 - t1578);
-        let t1580 = t157 * t1574 + (t136 * t1575 - (t103 * t1576 - t115 * t1577));
-        let t1581 = t184 * t1572 + (t172 * t1573 - t1580);
-        let t1582 = t159 * t1574 + (t138 * t1575 - (t105 * t1576 - t117 * t1577));
-        let t1583 = t186 * t1572 + (t174 * t1573 - t1582);
-        let t1584 = t205 * t1574 + (t199 * t1575 + (t187 * t1576 - t193 * t1577));
-        let t1585 = t217 * t1572 + (t211 * t1573 - t1584);
-        spring_force[3] = t1585;
-        let t1586 = t206 * t1574 + (t200 * t1575 + (t188 * t1576 - t194 * t1577));
-        let t1587 = t218 * t1572 + (t212 * t1573 - t1586);
-        spring_force[4] = t1587;
-        let t1588 = t207 * t1574 + (t201 * t1575 + (t189 * t1576 - t195 * t1577));
-        let t1589 = t219 * t1572 + (t213 * t1573 - t1588);
-        spring_force[5] = t1589;
-        spring_force[0] = -t1579;
-        spring_force[1] = -t1581;
-        spring_force[2] = -t1583;
+        let t1560 = 4268.068200000001 + 21555.9 * t75;
+        let t1561 = 4268.068200000001 + 21555.9 * t72;
+        let t1562 = 4268.068200000001 + 21555.9 * t69;
+        let t1563 = 4268.068200000001 + 21555.9 * t64;
+        let t1564 = 4268.068200000001 + 21555.9 * t56;
+        let t1565 = 4268.068200000001 + 21555.9 * t59;
+        let t1566 = t155 * t1562 + (t134 * t1563 - (t101 * t1564 - t113 * t1565));
+        let t1567 = t182 * t1560 + (t170 * t1561 - t1566);
+        let t1568 = t157 * t1562 + (t136 * t1563 - (t103 * t1564 - t115 * t1565));
+        let t1569 = t184 * t1560 + (t172 * t1561 - t1568);
+        let t1570 = t159 * t1562 + (t138 * t1563 - (t105 * t1564 - t117 * t1565));
+        let t1571 = t186 * t1560 + (t174 * t1561 - t1570);
+        let t1572 = t205 * t1562 + (t199 * t1563 + (t187 * t1564 - t193 * t1565));
+        let t1573 = t217 * t1560 + (t211 * t1561 - t1572);
+        spring_force[3] = t1573;
+        let t1574 = t206 * t1562 + (t200 * t1563 + (t188 * t1564 - t194 * t1565));
+        let t1575 = t218 * t1560 + (t212 * t1561 - t1574);
+        spring_force[4] = t1575;
+        let t1576 = t207 * t1562 + (t201 * t1563 + (t189 * t1564 - t195 * t1565));
+        let t1577 = t219 * t1560 + (t213 * t1561 - t1576);
+        spring_force[5] = t1577;
+        spring_force[0] = -t1567;
+        spring_force[1] = -t1569;
+        spring_force[2] = -t1571;
         // generalised gravity, left side of the equation of motion
-        let t1590 = t155 * t1571 + (t134 * t1571 - (t101 * t1571 - t113 * t1571));
-        let t1591 = t182 * t1571 + (t170 * t1571 - t1590);
-        gravity_force[0] = t1591;
-        let t1592 = t157 * t1571 + (t136 * t1571 - (t103 * t1571 - t115 * t1571));
-        let t1593 = t184 * t1571 + (t172 * t1571 - t1592);
-        gravity_force[1] = t1593;
-        let t1594 = t138 * t1571 + (t117 * t1571 - (t105 * t1571 + 89.89884));
-        let t1595 = t186 * t1571 + (t174 * t1571 - (t159 * t1571 + t1594));
-        gravity_force[2] = t1595;
-        let t1596 = t193 * t1571 - (t187 * t1571 + platform_rotation[1][2] * 1.85263812);
-        let t1597 = t211 * t1571 - (t205 * t1571 + (t199 * t1571 - t1596));
-        let t1598 = 5.0227200000000005 * (t164 + t176 - (t93 + t107 - (t126 + t147)));
-        let t1599 = t217 * t1571 + t1597 + t1598;
-        let t1600 = t194 * t1571 - (t188 * t1571 - platform_rotation[0][2] * 1.85263812);
-        let t1601 = t212 * t1571 - (t206 * t1571 + (t200 * t1571 - t1600));
-        let t1602 = 5.0227200000000005 * (t163 + t175 - (t90 + t106 - (t123 + t144)));
-        let t1603 = t218 * t1571 + t1601 - t1602;
-        let t1604 = t207 * t1571 + (t201 * t1571 + (t189 * t1571 - t195 * t1571));
-        let t1605 = t219 * t1571 + (t213 * t1571 - t1604);
-        gravity_force[3] = -t1599;
-        gravity_force[4] = -t1603;
-        gravity_force[5] = -t1605;
+        let t1578 = t155 * t1559 + (t134 * t1559 - (t101 * t1559 - t113 * t1559));
+        let t1579 = t182 * t1559 + (t170 * t1559 - t1578);
+        gravity_force[0] = t1579;
+        let t1580 = t157 * t1559 + (t136 * t1559 - (t103 * t1559 - t115 * t1559));
+        let t1581 = t184 * t1559 + (t172 * t1559 - t1580);
+        gravity_force[1] = t1581;
+        let t1582 = t138 * t1559 + (t117 * t1559 - (t105 * t1559 + 89.89884));
+        let t1583 = t186 * t1559 + (t174 * t1559 - (t159 * t1559 + t1582));
+        gravity_force[2] = t1583;
+        let t1584 = t193 * t1559 - (t187 * t1559 + platform_rotation[1][2] * 1.85263812);
+        let t1585 = t211 * t1559 - (t205 * t1559 + (t199 * t1559 - t1584));
+        let t1586 = 5.0227200000000005 * (t164 + t176 - (t93 + t107 - (t126 + t147)));
+        let t1587 = t217 * t1559 + t1585 + t1586;
+        let t1588 = t194 * t1559 - (t188 * t1559 - platform_rotation[0][2] * 1.85263812);
+        let t1589 = t212 * t1559 - (t206 * t1559 + (t200 * t1559 - t1588));
+        let t1590 = 5.0227200000000005 * (t163 + t175 - (t90 + t106 - (t123 + t144)));
+        let t1591 = t218 * t1559 + t1589 - t1590;
+        let t1592 = t207 * t1559 + (t201 * t1559 + (t189 * t1559 - t195 * t1559));
+        let t1593 = t219 * t1559 + (t213 * t1559 - t1592);
+        gravity_force[3] = -t1587;
+        gravity_force[4] = -t1591;
+        gravity_force[5] = -t1593;
         // C_p v_p - C_b v_b + gravity, spring and damping force
-        let t1606 = platform_velocity[0] * t1116 - (t1579 - t1591);
-        let t1607 = platform_velocity[2] * t1118
-            + (platform_velocity[1] * t1117 + t1606);
-        let t1608 = platform_velocity[4] * t1344
-            + (platform_velocity[3] * t1149 - t1607);
-        let t1609 = base_velocity[0] * t1116 + (platform_velocity[5] * t1346 + t1608);
-        let t1610 = base_velocity[2] * t1118 + (base_velocity[1] * t1117 + t1609);
-        let t1611 = base_velocity[4] * t1373 + (base_velocity[3] * t1370 - t1610);
-        bias[0] = base_velocity[5] * t1376 + t1611;
-        let t1612 = platform_velocity[0] * t1176 - (t1581 - t1593);
-        let t1613 = platform_velocity[2] * t1178
-            + (platform_velocity[1] * t1177 + t1612);
-        let t1614 = platform_velocity[4] * t1216
-            - (platform_velocity[3] * t1347 - t1613);
-        let t1615 = base_velocity[0] * t1176 + (platform_velocity[5] * t1349 - t1614);
-        let t1616 = base_velocity[2] * t1178 + (base_velocity[1] * t1177 + t1615);
-        let t1617 = base_velocity[4] * t1382 - (base_velocity[3] * t1379 - t1616);
-        bias[1] = base_velocity[5] * t1385 - t1617;
-        let t1618 = platform_velocity[0] * t1230 - (t1583 - t1595);
-        let t1619 = platform_velocity[2] * t1232
-            + (platform_velocity[1] * t1231 + t1618);
-        let t1620 = platform_velocity[4] * t1351
-            + (platform_velocity[3] * t1350 - t1619);
-        let t1621 = base_velocity[0] * t1230 + (platform_velocity[5] * t1277 + t1620);
-        let t1622 = base_velocity[2] * t1232 + (base_velocity[1] * t1231 + t1621);
-        let t1623 = base_velocity[4] * t1391 + (base_velocity[3] * t1388 - t1622);
-        bias[2] = base_velocity[5] * t1393 + t1623;
-        let t1624 = platform_velocity[0] * t1279 - (t1585 - t1599);
-        let t1625 = platform_velocity[2] * t1285
-            - (platform_velocity[1] * t1282 + t1624);
-        let t1626 = platform_velocity[4] * t1356
-            + (platform_velocity[3] * t1354 - t1625);
-        let t1627 = base_velocity[0] * t1279 + (platform_velocity[5] * t1358 - t1626);
-        let t1628 = base_velocity[2] * t1285 - (base_velocity[1] * t1282 + t1627);
-        let t1629 = base_velocity[3] * t1399 - t1628 - base_velocity[4] * t1405;
-        bias[3] = t1629 - base_velocity[5] * t1411;
-        let t1630 = platform_velocity[0] * t1300 + (t1587 - t1603);
-        let t1631 = platform_velocity[2] * t1305
-            - (platform_velocity[1] * t1302 + t1630);
-        let t1632 = platform_velocity[4] * t1362
-            + (platform_velocity[3] * t1360 - t1631);
-        let t1633 = base_velocity[0] * t1300 + (platform_velocity[5] * t1363 - t1632);
-        let t1634 = base_velocity[2] * t1305 - (base_velocity[1] * t1302 + t1633);
-        let t1635 = base_velocity[4] * t1423 - (base_velocity[3] * t1417 - t1634);
-        bias[4] = t1635 - base_velocity[5] * t1429;
-        let t1636 = platform_velocity[0] * t1320 - (t1589 - t1605);
-        let t1637 = platform_velocity[2] * t1325
-            - (platform_velocity[1] * t1323 - t1636);
-        let t1638 = platform_velocity[4] * t1365
-            - (platform_velocity[3] * t1364 + t1637);
-        let t1639 = base_velocity[0] * t1320 - (platform_velocity[5] * t1366 - t1638);
-        let t1640 = base_velocity[2] * t1325 - (base_velocity[1] * t1323 - t1639);
-        let t1641 = t1640 - base_velocity[3] * t1435 - base_velocity[4] * t1441;
-        bias[5] = t1641 - base_velocity[5] * t1447;
+        let t1594 = platform_velocity[0] * t1104 - (t1567 - t1579);
+        let t1595 = platform_velocity[2] * t1106
+            + (platform_velocity[1] * t1105 + t1594);
+        let t1596 = platform_velocity[4] * t1332
+            + (platform_velocity[3] * t1137 - t1595);
+        let t1597 = base_velocity[0] * t1104 + (platform_velocity[5] * t1334 + t1596);
+        let t1598 = base_velocity[2] * t1106 + (base_velocity[1] * t1105 + t1597);
+        let t1599 = base_velocity[4] * t1361 + (base_velocity[3] * t1358 - t1598);
+        bias[0] = base_velocity[5] * t1364 + t1599;
+        let t1600 = platform_velocity[0] * t1164 - (t1569 - t1581);
+        let t1601 = platform_velocity[2] * t1166
+            + (platform_velocity[1] * t1165 + t1600);
+        let t1602 = platform_velocity[4] * t1204
+            - (platform_velocity[3] * t1335 - t1601);
+        let t1603 = base_velocity[0] * t1164 + (platform_velocity[5] * t1337 - t1602);
+        let t1604 = base_velocity[2] * t1166 + (base_velocity[1] * t1165 + t1603);
+        let t1605 = base_velocity[4] * t1370 - (base_velocity[3] * t1367 - t1604);
+        bias[1] = base_velocity[5] * t1373 - t1605;
+        let t1606 = platform_velocity[0] * t1218 - (t1571 - t1583);
+        let t1607 = platform_velocity[2] * t1220
+            + (platform_velocity[1] * t1219 + t1606);
+        let t1608 = platform_velocity[4] * t1339
+            + (platform_velocity[3] * t1338 - t1607);
+        let t1609 = base_velocity[0] * t1218 + (platform_velocity[5] * t1265 + t1608);
+        let t1610 = base_velocity[2] * t1220 + (base_velocity[1] * t1219 + t1609);
+        let t1611 = base_velocity[4] * t1379 + (base_velocity[3] * t1376 - t1610);
+        bias[2] = base_velocity[5] * t1381 + t1611;
+        let t1612 = platform_velocity[0] * t1267 - (t1573 - t1587);
+        let t1613 = platform_velocity[2] * t1273
+            - (platform_velocity[1] * t1270 + t1612);
+        let t1614 = platform_velocity[4] * t1344
+            + (platform_velocity[3] * t1342 - t1613);
+        let t1615 = base_velocity[0] * t1267 + (platform_velocity[5] * t1346 - t1614);
+        let t1616 = base_velocity[2] * t1273 - (base_velocity[1] * t1270 + t1615);
+        let t1617 = base_velocity[3] * t1387 - t1616 - base_velocity[4] * t1393;
+        bias[3] = t1617 - base_velocity[5] * t1399;
+        let t1618 = platform_velocity[0] * t1288 + (t1575 - t1591);
+        let t1619 = platform_velocity[2] * t1293
+            - (platform_velocity[1] * t1290 + t1618);
+        let t1620 = platform_velocity[4] * t1350
+            + (platform_velocity[3] * t1348 - t1619);
+        let t1621 = base_velocity[0] * t1288 + (platform_velocity[5] * t1351 - t1620);
+        let t1622 = base_velocity[2] * t1293 - (base_velocity[1] * t1290 + t1621);
+        let t1623 = base_velocity[4] * t1411 - (base_velocity[3] * t1405 - t1622);
+        bias[4] = t1623 - base_velocity[5] * t1417;
+        let t1624 = platform_velocity[0] * t1308 - (t1577 - t1593);
+        let t1625 = platform_velocity[2] * t1313
+            - (platform_velocity[1] * t1311 - t1624);
+        let t1626 = platform_velocity[4] * t1353
+            - (platform_velocity[3] * t1352 + t1625);
+        let t1627 = base_velocity[0] * t1308 - (platform_velocity[5] * t1354 - t1626);
+        let t1628 = base_velocity[2] * t1313 - (base_velocity[1] * t1311 - t1627);
+        let t1629 = t1628 - base_velocity[3] * t1423 - base_velocity[4] * t1429;
+        bias[5] = t1629 - base_velocity[5] * t1435;
         // constant and copied elements
         damping_force[0] = 0.0;
         damping_force[1] = 0.0;
@@ -14993,7 +14929,7 @@ pub fn inverse_dynamics(
 /// - `platform_position`: 3, m, frame O: centre of the platform's joint circle.
 /// - `platform_rotation`: 3x3, dimensionless, frame P -> O: rotation of the platform, equation (2).
 /// - `platform_velocity`: 6, m/s, rad/s, frame O: platform velocity \[r_p'; w_p\], the generalised speeds.
-/// - `actuator_force`: 6, N: actuator force on the mover, along the actuator axis.
+/// - `actuator_force`: 6, N: actuator force along the actuator, positive to lengthen it.
 /// - `external_wrench`: 6, N, N m, frame O: external force and moment \[F_D; M_D\] at the payload's centre of mass.
 ///
 /// Outputs:
@@ -15906,7 +15842,7 @@ pub fn forward_dynamics(
 ///
 /// Outputs:
 ///
-/// - `kinetic_energy`: scalar, J: kinetic energy of payload, rods and movers.
+/// - `kinetic_energy`: scalar, J: kinetic energy of all moving bodies.
 /// - `potential_energy`: scalar, J: potential energy of gravity and springs.
 #[allow(clippy::all, clippy::pedantic, unused_variables)]
 pub fn energy(
@@ -16388,7 +16324,7 @@ pub fn energy(
     // leg 6: potential energy of the leg
     let t407 = 0.198 + t75;
     let t408 = t407 * (21555.9 * t407);
-    // kinetic energy of payload, rods and movers
+    // kinetic energy of all moving bodies
     let t409 = platform_rotation[0][2] * 0.031;
     let t410 = platform_rotation[1][2] * 0.031;
     let t411 = platform_velocity[2] + platform_velocity[3] * t410;
