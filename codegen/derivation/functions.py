@@ -48,6 +48,7 @@ def functions(leg) -> list[Function]:
 
     leg_forces = (*acceleration, leg.leg_inertia_forces, forces.passive_axial_force, forces.jacobian_row)
     reaction = (forces.inertia_wrench, forces.remaining_wrench)
+    mass_matrix = forces.platform_mass_matrix_with_joint_masses if leg.JOINT_MASS else forces.platform_mass_matrix
     bodies = (*gradient, *rates, *fields, *acceleration, *leg.BODY_KINEMATICS, payload.payload_kinematics)
     partials = (*leg.PARTIAL_VELOCITIES, payload.payload_partial_velocities)
 
@@ -125,7 +126,7 @@ def functions(leg) -> list[Function]:
             "forward_dynamics", "platform acceleration for given actuator forces", "(49)",
             ("forward_dynamics",),
             (*gradient, *merged, *rates, motion.base_acceleration_field, motion.trial_platform_field, *leg_forces,
-             *reaction, forces.net_axial_force, forces.residual_wrench, leg.leg_inertia_squares, forces.platform_mass_matrix,
+             *reaction, forces.net_axial_force, forces.residual_wrench, leg.leg_inertia_squares, mass_matrix,
              Solve("acceleration_correction", "platform_mass_matrix", "residual_wrench", symmetric_positive_definite=True),
              forces.platform_acceleration),
         ),

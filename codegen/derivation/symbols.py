@@ -88,7 +88,6 @@ LEG_INTERFACE = table("intermediate", True, [
     ("platform_end_mass", (), "kg", "-", "leg mass that moves with the platform joint"),
     ("axial_inertia_force", (), "N", "-", "leg inertia less weight along the actuator"),
     ("joint_inertia_force", (3,), "N", "B", "remaining leg inertia less weight at the platform joint"),
-    ("joint_mass", (), "kg", "-", "leg inertia alike in all directions at the platform joint"),
     ("joint_inertia", (3, 3), "kg", "O", "mass matrix of the leg in the speeds of its joint"),
     ("joint_inertia_rate", (3, 3), "kg/s", "O", "Coriolis matrix of the leg in the speeds of its joint"),
     ("joint_base_inertia", (3, 6), "kg, kg m", "O", "leg inertia between joint and base speeds"),

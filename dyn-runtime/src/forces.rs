@@ -59,7 +59,7 @@ impl<M: kernels::RodAlignment> Hexapod<M> {
         external_wrench: &Wrench,
     ) -> Result<GeneralisedForces, Error>
     where
-        M: kernels::GeneralisedForces,
+        M: kernels::uhp::GeneralisedForces,
     {
         let base_acceleration = finite(Input::BaseAcceleration, base.acceleration.to_array())?;
         let platform_acceleration = finite(Input::PlatformAcceleration, platform_acceleration.to_array())?;

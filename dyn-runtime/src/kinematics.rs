@@ -25,7 +25,7 @@ pub struct LegKinematics {
     /// Centre of the universal joint between rod and platform, m, O.
     pub platform_joint_position_m: [Vector3<f64>; 6],
     /// Angular velocity of the platform relative to the rod, `w_p - w_s`, rad/s, O (23).
-    pub universal_joint_rate_rad_s: [Vector3<f64>; 6],
+    pub platform_joint_rate_rad_s: [Vector3<f64>; 6],
 }
 
 /// Motion of the moving bodies, vectors in O.
@@ -124,7 +124,7 @@ impl<M: kernels::RodAlignment> Hexapod<M> {
             p.position, p.rotation, p.velocity, platform_acceleration,
         ) -> LegKinematics {
             actuator_length_m, actuator_velocity_m_s, actuator_acceleration_m_s2, rod_direction,
-            hooke_joint_position_m, platform_joint_position_m, universal_joint_rate_rad_s,
+            hooke_joint_position_m, platform_joint_position_m, platform_joint_rate_rad_s,
         })
     }
 
@@ -140,7 +140,7 @@ impl<M: kernels::RodAlignment> Hexapod<M> {
         platform_acceleration: &Acceleration,
     ) -> Result<BodyKinematics, Error>
     where
-        M: kernels::BodyKinematics,
+        M: kernels::uhp::BodyKinematics,
     {
         let base_acceleration = finite(Input::BaseAcceleration, base.acceleration.to_array())?;
         let platform_acceleration = finite(Input::PlatformAcceleration, platform_acceleration.to_array())?;
@@ -167,7 +167,7 @@ impl<M: kernels::RodAlignment> Hexapod<M> {
         platform: &PlatformState,
     ) -> Result<PartialVelocities, Error>
     where
-        M: kernels::PartialVelocities,
+        M: kernels::uhp::PartialVelocities,
     {
         let (b, p) = self.poses(base, platform)?;
         evaluate!(self.model.partial_velocities(

@@ -173,7 +173,6 @@ def leg_inertia_squares(
     return {
         "inertia_weights": ca.vertcat(*(weight for weight, _ in squares)),
         "inertia_rows": ca.horzcat(*(row for _, row in squares)).T,
-        "joint_mass": kane.joint_mass(leg),
     }
 
 
@@ -378,6 +377,8 @@ def rod_and_mover_forces(
 
 # What the table of functions asks of a leg type beyond its share of the dynamics: its own bodies and joints.
 leg_masses = rod_ends
+# Whether `leg_inertia_squares` leaves a mass at the joint: all that moves with the joint alone is in `platform_end_mass`.
+JOINT_MASS = False
 JOINT_KINEMATICS = (rod_direction, rod_and_joint_kinematics)
 BODY_KINEMATICS = (rod_direction, rod_and_joint_kinematics, rod_and_mover_velocities, rod_and_mover_accelerations)
 PARTIAL_VELOCITIES = (rod_direction, rod_and_mover_partial_velocities)

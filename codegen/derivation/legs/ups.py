@@ -33,6 +33,7 @@ INTERMEDIATES = table("intermediate", True, [
     ("lower_moment", (), "kg m", "-", "first moment of the lower part about the base joint"),
     ("upper_moment", (), "kg m", "-", "first moment of the upper part about the platform joint"),
     ("turning_inertia", (), "kg m^2", "-", "inertia of both parts, each about its joint, that turns with the direction"),
+    ("joint_mass", (), "kg", "-", "leg inertia alike in all directions at the platform joint"),
     ("inertia_weights", (1,), "kg", "-", "weight of the square in the leg's mass matrix"),
     ("inertia_rows", (1, 6), "1, m", "B", "the vector that is squared, in the platform speeds"),
     ("base_joint_velocity", (3,), "m/s", "O", "velocity of the base joint"),
@@ -365,6 +366,8 @@ def part_forces(
 
 
 # What the table of functions asks of a leg type beyond its share of the dynamics: its own bodies and joints.
+# Whether `leg_inertia_squares` leaves a mass at the joint.
+JOINT_MASS = True
 JOINT_KINEMATICS = (rod_direction, leg_and_joint_kinematics)
 BODY_KINEMATICS = (rod_direction, leg_and_joint_kinematics, part_velocities, part_accelerations)
 PARTIAL_VELOCITIES = (rod_direction, part_partial_velocities)

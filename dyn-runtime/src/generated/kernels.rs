@@ -3,8 +3,8 @@
 //
 // What models can compute: one trait per function.
 //
-// graph     uhp.json, sha256 fd9e07284c2a74bc0dd15904c2f8700b16c4191dfea56512309a2d82a66b1d2a
-// graph     ups.json, sha256 c84c2eda1fd3a3430faa489679b57aa55e1c40ef256f9d120f433af004ef613b
+// graph     uhp.json, sha256 aff8910335dd6b05946ab24fdff2202bda856423bbeb0db3119b6a6f0fc3406a
+// graph     ups.json, sha256 bb43c4d9f7afe2dd55965187fb3af6224c5c45a248337dc589b822bea96d3574
 //           derived by CasADi 3.8.2
 
 /// A model that has `rod_alignment`.

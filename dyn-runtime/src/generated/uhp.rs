@@ -3,7 +3,7 @@
 //
 // Dynamics of any `uhp` platform, all numbers given at run time.
 //
-// graph     uhp.json, sha256 fd9e07284c2a74bc0dd15904c2f8700b16c4191dfea56512309a2d82a66b1d2a
+// graph     uhp.json, sha256 aff8910335dd6b05946ab24fdff2202bda856423bbeb0db3119b6a6f0fc3406a
 //           derived by CasADi 3.8.2
 //
 // operations (+ - * / sqrt; a change of sign is not counted)
@@ -24,7 +24,7 @@
 // bias                      2386        2376
 // equation_of_motion        6434        6428
 // inverse_dynamics          2409        2409
-// forward_dynamics          3396        3405
+// forward_dynamics          3282        3405
 // energy                    1769        1745
 
 #[allow(unused_imports)]

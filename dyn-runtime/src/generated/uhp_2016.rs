@@ -3,7 +3,7 @@
 //
 // Dynamics of the platform `uhp_2016`, every number baked in.
 //
-// graph     uhp.json, sha256 fd9e07284c2a74bc0dd15904c2f8700b16c4191dfea56512309a2d82a66b1d2a
+// graph     uhp.json, sha256 aff8910335dd6b05946ab24fdff2202bda856423bbeb0db3119b6a6f0fc3406a
 //           derived by CasADi 3.8.2
 // platform  uhp_2016, sha256 of its resolved numbers b8134078fa1f34e5f609cc3dfb62aea03f363b944f89b1a9c1f48d524d56338e
 //
@@ -25,7 +25,7 @@
 // bias                      2386        1045
 // equation_of_motion        6434        5090
 // inverse_dynamics          2409        1234
-// forward_dynamics          3396        1640
+// forward_dynamics          3282        1640
 // energy                    1769         854
 //
 // linear systems: growth of rounding errors in a fixed order of pivots, at the worst state

@@ -3,7 +3,7 @@
 //
 // Dynamics of any `ups` platform, all numbers given at run time.
 //
-// graph     ups.json, sha256 c84c2eda1fd3a3430faa489679b57aa55e1c40ef256f9d120f433af004ef613b
+// graph     ups.json, sha256 bb43c4d9f7afe2dd55965187fb3af6224c5c45a248337dc589b822bea96d3574
 //           derived by CasADi 3.8.2
 //
 // operations (+ - * / sqrt; a change of sign is not counted)
