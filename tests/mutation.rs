@@ -19,8 +19,10 @@ const EQUIVALENT: &[Equivalent] = &[
     ("total_energy", Change::OtherSign, 3, "velocity components that enter the kinetic energy squared only"),
 ];
 
-const EQUIVALENT_OF_UPS: &[Equivalent] =
-    &[("leg_energy", Change::OtherSign, 4, "velocity components that enter the kinetic energy squared only")];
+const EQUIVALENT_OF_UPS: &[Equivalent] = &[
+    ("leg_closure", Change::OtherSign, 3, "components of the direction that enter the alignment squared only"),
+    ("leg_energy", Change::OtherSign, 1, "velocity components that enter the kinetic energy squared only"),
+];
 
 /// A change of one node.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]

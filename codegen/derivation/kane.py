@@ -69,6 +69,8 @@ def joint_inertia(leg: Leg, axis, gradient):
     """N = sum m_kl D_k^T D_l: mass matrix of the leg in the speeds of its joint, 3 x 3."""
     both = leg.total(lambda k, l: k.along * l.along)
     mixed = leg.total(lambda k, l: k.across * l.along)
+    if axis is gradient:
+        return symmetric(outer((both + 2 * mixed) * axis, axis) + joint_mass(leg) * ca.SX.eye(3))
     half = (both / 2) * gradient + mixed * axis
     square = outer(gradient, half) + outer(half, gradient) + joint_mass(leg) * ca.SX.eye(3)
     return symmetric(square)
@@ -98,12 +100,15 @@ def joint_inertia_rate(leg: Leg, axis, axis_rate, gradient, gradient_rate):
     mixed = leg.total(lambda k, l: k.across * l.along)
     along_across_rate = leg.total(lambda k, l: k.along * l.across_rate)
     across_along_rate = leg.total(lambda k, l: k.across * l.along_rate)
-    alone_rate = leg.total(lambda k, l: k.across * l.across_rate)
+    alone_rate = leg.total(lambda k, l: k.across * l.across_rate) * ca.SX.eye(3)
+    if axis is gradient:
+        turning = (both_rate + along_across_rate + across_along_rate) * axis + mixed * axis_rate
+        return outer((both + mixed) * axis, axis_rate) + outer(turning, axis) + alone_rate
     return (
         outer(both * gradient + mixed * axis, gradient_rate)
         + outer(both_rate * gradient + across_along_rate * axis + mixed * axis_rate, gradient)
         + outer(along_across_rate * gradient, axis)
-        + alone_rate * ca.SX.eye(3)
+        + alone_rate
     )
 
 
