@@ -238,7 +238,7 @@ typedef struct dyn_leg_kinematics_result {
   // Centre of the joint between rod and platform, m.
   dyn_real platform_joint_position[6][3];
   // Angular velocity of the platform relative to the rod, w_p - w_s, rad/s.
-  dyn_real universal_joint_rate[6][3];
+  dyn_real platform_joint_rate[6][3];
 } dyn_leg_kinematics_result;
 
 // Velocity terms C_p v_p and C_b v_b as matrices; M_p' - 2 C_p is skew.

@@ -34,7 +34,7 @@ pub struct LegKinematics {
     /// Centre of the joint between rod and platform, m.
     pub platform_joint_position: [[Real; 3]; 6],
     /// Angular velocity of the platform relative to the rod, w_p - w_s, rad/s.
-    pub universal_joint_rate: [[Real; 3]; 6],
+    pub platform_joint_rate: [[Real; 3]; 6],
 }
 
 impl From<dyn_runtime::LegKinematics> for LegKinematics {
@@ -47,7 +47,7 @@ impl From<dyn_runtime::LegKinematics> for LegKinematics {
             rod_direction: per_leg(result.rod_direction),
             hooke_joint_position: per_leg(result.hooke_joint_position_m),
             platform_joint_position: per_leg(result.platform_joint_position_m),
-            universal_joint_rate: per_leg(result.universal_joint_rate_rad_s),
+            platform_joint_rate: per_leg(result.platform_joint_rate_rad_s),
         }
     }
 }

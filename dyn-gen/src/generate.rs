@@ -112,7 +112,7 @@ pub fn generate(
     let print = |function: &GeneratedFunction| emit::function(&function.graph, !parameters.is_empty());
     let sources = parallel::map(&functions, print).into_iter().collect::<Result<Vec<_>, _>>()?;
     let signatures: Vec<Signature> =
-        functions.iter().map(|function| Signature::of(&function.graph)).collect();
+        functions.iter().map(|function| Signature::of(&function.graph).within(program)).collect();
     let model = Model {
         name: &options.model,
         runtime: &options.runtime,
@@ -165,20 +165,26 @@ pub fn optimise(
     Ok(functions)
 }
 
-/// Generates the file of kernel traits, one for every function of the graph file.
+/// Generates the file of kernel traits, one for every function of the graph files. What all leg types have in common is
+/// taken from the first.
 ///
 /// # Errors
 /// See [`GenerateError`].
-pub fn kernels(file: &GraphFile, command: &str) -> Result<String, GenerateError> {
-    let program = &file.program;
-    let signatures: Vec<Signature> =
-        program.functions.iter().map(|function| Signature::of_function(program, function)).collect();
+pub fn kernels(files: &[GraphFile], command: &str) -> Result<String, GenerateError> {
+    let signatures: Vec<Signature> = files
+        .iter()
+        .enumerate()
+        .flat_map(|(number, GraphFile { program, .. })| {
+            let functions = program.functions.iter().filter(move |row| number == 0 || row.leg_specific);
+            functions.map(|function| Signature::of_function(program, function))
+        })
+        .collect();
     let header = Header {
-        title: "What every model can compute: one trait per function.".into(),
+        title: "What models can compute: one trait per function.".into(),
         command: command.into(),
-        graph: Source { name: file.name.clone(), sha256: file.sha256.clone() },
+        graphs: files.iter().map(source).collect(),
         platform: None,
-        casadi: program.provenance.casadi.clone(),
+        casadi: files.first().map(|file| file.program.provenance.casadi.clone()).unwrap_or_default(),
         operations: Vec::new(),
         eliminations: Vec::new(),
         evidence: Vec::new(),
@@ -216,6 +222,10 @@ fn context(program: &Program, numbers: &Numbers<'_>) -> Result<Context, Generate
         parameters.remove(&symbol.name);
     }
     Ok(Context { parameters, states: sampled_states(program, platform, &PIVOT_STATES, PIVOT_SEED)? })
+}
+
+fn source(file: &GraphFile) -> Source {
+    Source { name: file.name.clone(), sha256: file.sha256.clone() }
 }
 
 fn header(
@@ -259,7 +269,7 @@ fn header(
     Ok(Header {
         title,
         command: options.command.clone(),
-        graph: Source { name: file.name.clone(), sha256: file.sha256.clone() },
+        graphs: vec![source(file)],
         platform,
         casadi: file.program.provenance.casadi.clone(),
         operations: functions.iter().map(count).collect(),

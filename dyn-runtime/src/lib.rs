@@ -127,4 +127,5 @@ pub use state::{Acceleration, BaseMotion, PlatformState, Pose, Twist, Wrench};
 pub mod models {
     pub use crate::generated::uhp::{self, Parameters, Uhp};
     pub use crate::generated::uhp_2016::{self, Uhp2016};
+    pub use crate::generated::ups::{self, Ups};
 }

@@ -70,7 +70,7 @@ static const slot output_slots[] = {
     SLOT(out, mass_matrix_b), SLOT(out, bias), SLOT(out, inverse_dynamics), SLOT(out, forward_dynamics),
     SLOT(legs, actuator_length), SLOT(legs, actuator_velocity), SLOT(legs, actuator_acceleration),
     SLOT(legs, rod_direction), SLOT(legs, hooke_joint_position), SLOT(legs, platform_joint_position),
-    SLOT(legs, universal_joint_rate), SLOT(stiffness, stiffness_matrix_p), SLOT(stiffness, stiffness_matrix_b),
+    SLOT(legs, platform_joint_rate), SLOT(stiffness, stiffness_matrix_p), SLOT(stiffness, stiffness_matrix_b),
     SLOT(passive, gravity_force), SLOT(passive, spring_force), SLOT(passive, damping_force),
     SLOT(coriolis, coriolis_matrix_p), SLOT(coriolis, coriolis_matrix_b), SLOT(matrices, mass_matrix_p),
     SLOT(matrices, coriolis_matrix_p), SLOT(matrices, jacobian_dp), SLOT(matrices, mass_matrix_b),

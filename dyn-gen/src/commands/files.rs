@@ -4,11 +4,11 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use dyn_gen::GraphFile;
-use dyn_platform::Platform;
+use dyn_platform::{LegType, Platform};
 use miette::{Diagnostic, IntoDiagnostic, Result, WrapErr};
 
-/// Graph file, seen from the root.
-pub const GRAPH: &str = "codegen/graphs/uhp.json";
+/// Folder of the graph files, seen from the root.
+pub const GRAPHS: &str = "codegen/graphs";
 /// Folder of the derivation.
 pub const DERIVATION: &str = "codegen";
 /// Its pinned packages.
@@ -20,7 +20,7 @@ pub const GENERATED: &str = "dyn-runtime/src/generated";
 
 /// No repository around.
 #[derive(Debug, thiserror::Error, Diagnostic)]
-#[error("this is not inside the repository: no folder from {} upwards has {GRAPH}", start.display())]
+#[error("this is not inside the repository: no folder from {} upwards has {GRAPHS}", start.display())]
 #[diagnostic(help(
     "change into the repository; a model of your own platform needs none: `dyn-gen generate`"
 ))]
@@ -28,7 +28,7 @@ struct NoRepository {
     start: PathBuf,
 }
 
-/// The root of the repository: the folder that holds the graph file, searched upwards from the current folder and then
+/// The root of the repository: the folder that holds the graph files, searched upwards from the current folder and then
 /// from where this tool was built.
 pub fn repository() -> Result<PathBuf> {
     let start = std::env::current_dir().into_diagnostic().wrap_err("cannot tell the current folder")?;
@@ -36,7 +36,7 @@ pub fn repository() -> Result<PathBuf> {
     start
         .ancestors()
         .chain(built_in.ancestors())
-        .find(|folder| folder.join(GRAPH).is_file() && folder.join(GENERATED).is_dir())
+        .find(|folder| folder.join(GRAPHS).is_dir() && folder.join(GENERATED).is_dir())
         .map(Path::to_owned)
         .ok_or_else(|| NoRepository { start }.into())
 }
@@ -53,6 +53,11 @@ pub fn read_platform(path: &Path) -> Result<Platform> {
         eprintln!("{:?}", miette::Report::new(warning.clone()));
     }
     Ok(platform)
+}
+
+/// The graph file of a leg type, in the folder [`GRAPHS`].
+pub fn graph_name(leg_type: LegType) -> String {
+    format!("{}.json", leg_type.name())
 }
 
 /// The graph file at `path`.

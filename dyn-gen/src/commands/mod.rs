@@ -63,7 +63,7 @@ enum Command {
     Check(check::Check),
     /// Write the models committed in this repository (dyn-runtime/src/generated) again
     Regen(regen::Regen),
-    /// Derive the equations with CasADi and write the graph file (codegen/graphs/uhp.json)
+    /// Derive the equations with CasADi and write the graph files (codegen/graphs)
     Derive(derive::Derive),
     /// Print the resolved numbers of a platform as JSON
     Resolve(resolve::Resolve),

@@ -186,7 +186,7 @@ fn implementation(
 ) -> Result<TokenStream, EmitError> {
     let runtime = model.runtime.tokens();
     let model_name = type_identifier(model.name)?;
-    let kernel = type_identifier(&signature.name)?;
+    let kernel = signature.kernel()?;
     let function = signature.identifier()?;
     let number = format_ident!("{}", scalar.name());
     let arguments = signature.arguments(&quote!(#number))?;

@@ -78,7 +78,7 @@ pub const CALLS: &[Call] = &[
                 k.rod_direction,
                 k.hooke_joint_position_m,
                 k.platform_joint_position_m,
-                k.universal_joint_rate_rad_s,
+                k.platform_joint_rate_rad_s,
             ];
             Ok([flat(&lengths), flat(vectors.as_flattened())].concat())
         },
