@@ -1,0 +1,171 @@
+//! The border to C: the only module that follows pointers of callers.
+//!
+//! # What a caller must keep
+//!
+//! Every call takes pointers that are null or point to what their type says. A struct need only be as large as its first
+//! member, `struct_size`, while that member is not the struct's size in this library: then the rest is neither read
+//! nor written, and the call refuses. During a call no other thread writes what the call reads, or uses what it writes.
+//! Outputs may lie anywhere, over inputs as well: they are written when everything is computed.
+
+use core::mem::size_of;
+
+use dyn_runtime::Error;
+
+use crate::inputs::{Inputs, States};
+use crate::model::{Model, Platform, UhpParameters};
+use crate::real::Real;
+use crate::status::{Info, Refusal, Status};
+
+/// A struct that begins with its size.
+///
+/// # Safety
+/// The type is `repr(C)` and its first member is `struct_size: usize`.
+pub(crate) unsafe trait Structure: Sized {
+    /// The struct behind a caller's pointer has this size.
+    ///
+    /// # Safety
+    /// `pointer` is null or points to a `usize` that may be read.
+    unsafe fn check(pointer: *const Self) -> Result<(), Refusal> {
+        present(pointer)?;
+        // SAFETY: not null, aligned for `Self` and so for its first member, which the caller lets us read.
+        let struct_size = unsafe { pointer.cast::<usize>().read() };
+        if struct_size == size_of::<Self>() { Ok(()) } else { Err(Refusal::of(Status::WrongStructSize)) }
+    }
+}
+
+// SAFETY: `repr(C)`, first member `struct_size: usize`.
+unsafe impl Structure for Inputs {}
+// SAFETY: `repr(C)`, first member `struct_size: usize`.
+unsafe impl Structure for Info {}
+// SAFETY: `repr(C)`, first member `struct_size: usize`.
+unsafe impl Structure for Model {}
+// SAFETY: `repr(C)`, first member `struct_size: usize`.
+unsafe impl Structure for UhpParameters {}
+
+/// What a call writes: an array, or a struct that begins with its size.
+pub(crate) trait Output: Copy {
+    /// The caller's place for it is as large as it must be, as far as that can be told.
+    ///
+    /// # Safety
+    /// `pointer` is null or points to an array, or to a `usize` that may be read.
+    unsafe fn check(pointer: *const Self) -> Result<(), Refusal>;
+}
+
+impl<T: Copy, const N: usize> Output for [T; N] {
+    unsafe fn check(pointer: *const Self) -> Result<(), Refusal> {
+        present(pointer)
+    }
+}
+
+/// Neither null nor misaligned.
+fn present<T>(pointer: *const T) -> Result<(), Refusal> {
+    if pointer.is_null() || !pointer.is_aligned() { Err(Refusal::of(Status::NullPointer)) } else { Ok(()) }
+}
+
+/// The struct behind a caller's pointer.
+///
+/// # Safety
+/// As the module says.
+pub(crate) unsafe fn structure<'a, T: Structure>(pointer: *const T) -> Result<&'a T, Refusal> {
+    // SAFETY: the caller lets us read `struct_size`; once that is right, the whole struct is there.
+    unsafe {
+        T::check(pointer)?;
+        Ok(&*pointer)
+    }
+}
+
+/// The N numbers behind a caller's pointer.
+///
+/// # Safety
+/// As the module says.
+pub(crate) unsafe fn array<const N: usize>(first: *const Real) -> Result<[Real; N], Refusal> {
+    present(first)?;
+    // SAFETY: not null and aligned; the caller lets us read N numbers from there.
+    Ok(unsafe { first.cast::<[Real; N]>().read() })
+}
+
+/// Answers a call about a model: refuses bad pointers, computes, then writes output and details.
+///
+/// # Safety
+/// As the module says.
+pub(crate) unsafe fn answer<O: Output>(
+    model: *const Model,
+    inputs: *const Inputs,
+    output: *mut O,
+    info: *mut Info,
+    compute: impl FnOnce(&Platform, &States) -> Result<O, Error>,
+) -> Status {
+    // SAFETY: the caller keeps what the module says.
+    unsafe {
+        convert(output, info, || {
+            let platform = structure(model)?.platform()?;
+            Ok(compute(&platform, &structure(inputs)?.into())?)
+        })
+    }
+}
+
+/// Answers any call: refuses bad pointers to output and details, computes, then writes both.
+///
+/// # Safety
+/// As the module says.
+pub(crate) unsafe fn convert<O: Output>(
+    output: *mut O,
+    info: *mut Info,
+    compute: impl FnOnce() -> Result<O, Refusal>,
+) -> Status {
+    // SAFETY: the caller keeps what the module says: pointers that pass the checks point to a whole array or struct,
+    // and nobody else uses it.
+    unsafe {
+        if !info.is_null() {
+            if let Err(refusal) = Info::check(info) {
+                return refusal.status;
+            }
+        }
+        match O::check(output).and_then(|()| compute()) {
+            Ok(value) => {
+                output.write(value);
+                report(info, &Refusal::NO_DETAILS)
+            }
+            Err(refusal) => report(info, &refusal),
+        }
+    }
+}
+
+/// # Safety
+/// `info` is null or points to a whole [`Info`].
+unsafe fn report(info: *mut Info, refusal: &Refusal) -> Status {
+    if !info.is_null() {
+        // SAFETY: checked before, see the caller.
+        unsafe { info.write(refusal.info()) };
+    }
+    refusal.status
+}
+
+/// Declares that structs of outputs begin with their size.
+macro_rules! output_structures {
+    ($($structure:ty),+ $(,)?) => {$(
+        // SAFETY: `repr(C)`, first member `struct_size: usize`.
+        unsafe impl Structure for $structure {}
+
+        impl Output for $structure {
+            unsafe fn check(pointer: *const Self) -> Result<(), Refusal> {
+                // SAFETY: passed on to the caller.
+                unsafe { <Self as Structure>::check(pointer) }
+            }
+        }
+    )+};
+}
+
+use crate::outputs::{
+    CoriolisMatrices, Energy, EquationOfMotion, LegKinematics, Matrices, PassiveForces, StiffnessMatrices,
+};
+
+output_structures!(
+    CoriolisMatrices,
+    Energy,
+    EquationOfMotion,
+    LegKinematics,
+    Matrices,
+    PassiveForces,
+    StiffnessMatrices
+);
