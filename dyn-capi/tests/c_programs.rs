@@ -1,0 +1,53 @@
+//! C programs, compiled strictly, linked statically and dynamically, run.
+#![cfg(unix)]
+
+mod support;
+
+use std::fs;
+use std::process::Command;
+
+use support::{Link, compile, folder, records, succeed};
+
+const LINKS: [Link; 2] = [Link::Static, Link::Dynamic];
+
+#[test]
+fn first_call() {
+    let scratch = tempfile::tempdir().unwrap();
+    for link in LINKS {
+        let program = compile(&folder().join("examples/first_call.c"), link, scratch.path());
+        let output = succeed(&mut Command::new(program));
+        let text = String::from_utf8(output.stdout).unwrap();
+        assert!(text.starts_with("platform uhp_2016\n"), "{text}");
+    }
+}
+
+#[test]
+fn every_call_agrees_with_the_vectors_of_the_engines() {
+    let scratch = tempfile::tempdir().unwrap();
+    let file = scratch.path().join("vectors.txt");
+    let good = records();
+    // The comparison must be able to fail: one digit of one number.
+    let bad = scratch.path().join("broken.txt");
+    let (before, after) = good.split_once("output inverse_dynamics 7 0e0 ").expect("a record");
+    fs::write(&bad, format!("{before}output inverse_dynamics 7 0e0 1{after}")).unwrap();
+    fs::write(&file, good).unwrap();
+    for link in LINKS {
+        let program = compile(&folder().join("tests/c/vectors.c"), link, scratch.path());
+        let output = succeed(Command::new(&program).arg(&file));
+        let text = String::from_utf8(output.stdout).unwrap();
+        let arrays: usize = text.split(' ').next().and_then(|count| count.parse().ok()).expect("a count");
+        assert!(arrays > 1000, "{text}");
+        assert!(
+            !Command::new(&program).arg(&bad).output().unwrap().status.success(),
+            "a wrong number passes"
+        );
+    }
+}
+
+#[test]
+fn every_refusal() {
+    let scratch = tempfile::tempdir().unwrap();
+    for link in LINKS {
+        succeed(&mut Command::new(compile(&folder().join("tests/c/refusals.c"), link, scratch.path())));
+    }
+}
