@@ -19,6 +19,7 @@ mod baked {
 #[rustfmt::skip]
 mod baked {
     include!(concat!(env!("OUT_DIR"), "/baked.rs"));
+    pub(crate) const NAME: &core::ffi::CStr = include!(concat!(env!("OUT_DIR"), "/baked_name.rs"));
 }
 
 pub(crate) use baked::Baked;
