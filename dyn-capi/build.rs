@@ -37,7 +37,8 @@ mod own_platform {
             command: "cargo build -p dyn-capi --features own-platform".into(),
         };
         let graph = GraphFile::uhp().map_err(|error| error.to_string())?;
-        let source = generate(&graph, Numbers::Baked(&platform), &options).map_err(|error| error.to_string())?.source;
+        let source =
+            generate(&graph, Numbers::Baked(&platform), &options).map_err(|error| error.to_string())?.source;
         let folder = PathBuf::from(var_os("OUT_DIR").ok_or("cargo sets OUT_DIR")?);
         let write = |name: &str, text: &str| {
             std::fs::write(folder.join(name), text).map_err(|error| format!("{name}: {error}"))

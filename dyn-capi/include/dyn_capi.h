@@ -437,6 +437,9 @@ dyn_status dyn_energy(const struct dyn_model *model,
 // Name of the platform behind DYN_MODEL_KIND_BAKED, as in its platform file: a static string.
 const char *dyn_baked_platform_name(void);
 
+// Panics where `index` is too large, and calls itself: the search must find both, else it finds nothing.
+uint8_t dyn_control_case(size_t index);
+
 // Rotation matrix, body to O, from the unit quaternion [w, x, y, z] that turns body coordinates into O coordinates.
 //
 // DYN_STATUS_NON_FINITE, or DYN_STATUS_NOT_A_ROTATION (`info.value` is | |q|^2 - 1 |) if its norm is not 1.

@@ -1,6 +1,7 @@
 //! Which platform a call is about.
 
 use core::ffi::c_char;
+use core::marker::PhantomData;
 
 #[cfg(feature = "uhp")]
 use dyn_runtime::models;
@@ -91,23 +92,23 @@ pub struct UhpParameters {
 }
 
 /// A [`Model`] whose kind is known and whose parameters are there.
-pub(crate) enum Platform {
-    Baked,
+pub(crate) enum Platform<'a> {
+    Baked(PhantomData<&'a UhpParameters>),
     #[cfg(feature = "uhp")]
-    Uhp(models::Uhp),
+    Uhp(&'a UhpParameters),
 }
 
 /// Evaluates an expression with `hexapod` bound to the platform's [`Hexapod`](dyn_runtime::Hexapod).
 macro_rules! with_hexapod {
     ($platform:expr, |$hexapod:ident| $value:expr) => {
         match $platform {
-            $crate::model::Platform::Baked => {
+            $crate::model::Platform::Baked(_) => {
                 let $hexapod = dyn_runtime::Hexapod::new($crate::model::Baked);
                 $value
             }
             #[cfg(feature = "uhp")]
-            $crate::model::Platform::Uhp(model) => {
-                let $hexapod = dyn_runtime::Hexapod::new(*model);
+            $crate::model::Platform::Uhp(parameters) => {
+                let $hexapod = dyn_runtime::Hexapod::new(dyn_runtime::models::Uhp::from(*parameters));
                 $value
             }
         }
@@ -121,14 +122,13 @@ impl Model {
     ///
     /// # Safety
     /// Pointers are null or point to a `struct_size` and, if that is right, to the whole struct.
-    pub(crate) unsafe fn platform(&self) -> Result<Platform, Refusal> {
+    pub(crate) unsafe fn platform<'a>(&self) -> Result<Platform<'a>, Refusal> {
         match self.kind {
-            kind if kind == ModelKind::Baked as i32 => Ok(Platform::Baked),
+            kind if kind == ModelKind::Baked as i32 => Ok(Platform::Baked(PhantomData)),
             #[cfg(feature = "uhp")]
             kind if kind == ModelKind::Uhp as i32 => {
                 // SAFETY: passed on to the caller.
-                let parameters = unsafe { crate::pointers::structure(self.uhp)? };
-                Ok(Platform::Uhp(parameters.into()))
+                Ok(Platform::Uhp(unsafe { crate::pointers::structure(self.uhp)? }))
             }
             _ => Err(Refusal::of(Status::UnknownModel)),
         }

@@ -12,3 +12,17 @@ fn stop(_: &PanicInfo<'_>) -> ! {
         core::hint::spin_loop();
     }
 }
+
+/// Panics where `index` is too large, and calls itself: the search must find both, else it finds nothing.
+#[cfg(feature = "control-case")]
+#[unsafe(no_mangle)]
+pub extern "C" fn dyn_control_case(index: usize) -> u8 {
+    core::hint::black_box(b"panic")[index] + recursion(index)
+}
+
+/// Not a loop, because something remains to be done after the call.
+#[cfg(feature = "control-case")]
+#[inline(never)]
+fn recursion(index: usize) -> u8 {
+    if index == 0 { 0 } else { core::hint::black_box(recursion(core::hint::black_box(index) - 1)) }
+}

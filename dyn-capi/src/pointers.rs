@@ -93,7 +93,7 @@ pub(crate) unsafe fn answer<O: Output>(
     inputs: *const Inputs,
     output: *mut O,
     info: *mut Info,
-    compute: impl FnOnce(&Platform, &States) -> Result<O, Error>,
+    compute: impl FnOnce(&Platform<'_>, &States) -> Result<O, Error>,
 ) -> Status {
     // SAFETY: the caller keeps what the module says.
     unsafe {

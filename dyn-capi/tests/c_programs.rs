@@ -6,7 +6,7 @@ mod support;
 use std::fs;
 use std::process::Command;
 
-use support::{Link, compile, folder, records, succeed};
+use support::{Link, compile, compile_with, folder, records, succeed};
 
 const LINKS: [Link; 2] = [Link::Static, Link::Dynamic];
 
@@ -49,5 +49,17 @@ fn every_refusal() {
     let scratch = tempfile::tempdir().unwrap();
     for link in LINKS {
         succeed(&mut Command::new(compile(&folder().join("tests/c/refusals.c"), link, scratch.path())));
+    }
+}
+
+/// Against a stub of Simulink's header: it compiles, and what it computes is what the library computes.
+#[test]
+fn s_function() {
+    let scratch = tempfile::tempdir().unwrap();
+    let stub = folder().join("tests/simulink");
+    for link in LINKS {
+        let arguments = ["-I".as_ref(), stub.as_os_str()];
+        let source = folder().join("simulink/dyn_platform.c");
+        succeed(&mut Command::new(compile_with(&arguments, &source, link, scratch.path())));
     }
 }

@@ -1,5 +1,6 @@
 //! Compiling C against the library that this test was built with, and test vectors as C reads them.
 
+use std::ffi::OsStr;
 use std::fmt::Write;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -43,11 +44,19 @@ pub fn compiler() -> Command {
 /// # Panics
 /// With the compiler's messages.
 pub fn compile(source: &Path, link: Link, scratch: &Path) -> PathBuf {
+    compile_with(&[], source, link, scratch)
+}
+
+/// The same with more arguments for the compiler.
+///
+/// # Panics
+/// With the compiler's messages.
+pub fn compile_with(arguments: &[&OsStr], source: &Path, link: Link, scratch: &Path) -> PathBuf {
     let libraries = libraries();
     let name = source.file_stem().expect("a source has a name").to_string_lossy();
     let program = scratch.join(format!("{name}_{link:?}"));
     let mut command = compiler();
-    command.arg(source).arg("-o").arg(&program);
+    command.args(arguments).arg(source).arg("-o").arg(&program);
     match link {
         Link::Static => {
             command.arg(libraries.join("libdyn_capi.a")).args(["-lpthread", "-ldl"]);
