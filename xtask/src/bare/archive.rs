@@ -5,6 +5,7 @@
 //! is missing from it.
 
 use std::collections::{BTreeSet, HashMap};
+use std::ops::Range;
 
 use object::read::archive::ArchiveFile;
 use object::{Object, ObjectSection, ObjectSymbol, RelocationTarget, SectionIndex, SectionKind, SymbolIndex};
@@ -34,6 +35,8 @@ pub struct Section {
     /// What it refers to that is not in the library.
     pub externals: BTreeSet<String>,
 }
+
+use super::thumb;
 
 type Result<T> = std::result::Result<T, object::Error>;
 
@@ -114,6 +117,16 @@ impl Archive {
                 self.read_stack_sizes(file, &section, places)?;
             }
             let Some(&from) = places.get(&section.index()) else { continue };
+            if file.architecture() == Architecture::Arm && self.sections[from].is_code {
+                let relocated: BTreeSet<u64> = section.relocations().map(|(offset, _)| offset).collect();
+                // A call that needs no relocation stays within the section, which is one function.
+                if thumb::calls(section.data()?, &data_regions(file, section.index()))
+                    .iter()
+                    .any(|call| !relocated.contains(call))
+                {
+                    self.sections[from].references.insert(from);
+                }
+            }
             for (_, relocation) in section.relocations() {
                 let RelocationTarget::Symbol(symbol) = relocation.target() else { continue };
                 match self.place(file, symbol, places)? {
@@ -161,6 +174,22 @@ impl Archive {
         }
         Ok(())
     }
+}
+
+/// Where data lie within the code of a section: begin and end. ARM marks them by symbols `$d`, code by `$t`.
+fn data_regions(file: &object::File<'_>, section: SectionIndex) -> Vec<Range<u64>> {
+    let mut marks: Vec<(u64, bool)> = file
+        .symbols()
+        .filter(|symbol| symbol.section_index() == Some(section))
+        .filter_map(|symbol| match symbol.name() {
+            Ok(name) if name.starts_with("$d") => Some((symbol.address(), true)),
+            Ok(name) if name.starts_with("$t") => Some((symbol.address(), false)),
+            _ => None,
+        })
+        .collect();
+    marks.sort_unstable();
+    let ends = marks.iter().skip(1).map(|mark| mark.0).chain([u64::MAX]);
+    marks.iter().zip(ends).filter(|(mark, _)| mark.1).map(|(mark, end)| mark.0..end).collect()
 }
 
 /// An unsigned number: seven bits per byte, least significant first, the eighth bit set where another byte follows.

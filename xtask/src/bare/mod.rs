@@ -6,6 +6,7 @@
 //! | `toolchain` | a compiler that can build `core` for any target, unpacked under `target/` |
 //! | `build` | the library for one target |
 //! | `archive` | compiled functions, and what each refers to |
+//! | `thumb` | calls in the microcontroller's code |
 //! | `reach` | what a function can reach: code, stack, panics, recursion |
 //! | `wasm` | Node runs the module over the test vectors |
 
@@ -14,6 +15,7 @@ mod build;
 mod reach;
 #[cfg(test)]
 mod tests;
+mod thumb;
 mod toolchain;
 mod wasm;
 
