@@ -59,3 +59,19 @@ fn s_function() {
         succeed(&mut program(&compile_with(&arguments, &source, link, scratch.path())));
     }
 }
+
+/// The blocks of C in the chapter about control loops, one after another, and a cycle of what they make.
+#[test]
+fn documented_control_loop() {
+    let scratch = tempfile::tempdir().unwrap();
+    let chapter = fs::read_to_string(folder().join("../docs/control-loop.md")).unwrap();
+    let blocks: Vec<&str> =
+        chapter.split("```c\n").skip(1).filter_map(|text| text.split("```").next()).collect();
+    assert!(blocks.len() >= 4, "{} blocks", blocks.len());
+    let source = scratch.path().join("control_loop.c");
+    let main = fs::read_to_string(folder().join("tests/c/control_loop_main.c")).unwrap();
+    fs::write(&source, blocks.join("\n") + &main).unwrap();
+    for link in LINKS {
+        succeed(&mut program(&compile(&source, link, scratch.path())));
+    }
+}
