@@ -63,6 +63,9 @@ fn main() -> Result<(), Box<dyn Error>> {
     let mut platforms = Vec::new();
     for file in files {
         let vectors: Value = serde_json::from_str(&std::fs::read_to_string(file)?)?;
+        if vectors["platform"]["leg_type"] != "uhp" {
+            continue;
+        }
         let platform: Platform = serde_json::from_value(vectors["platform"].clone())?;
         platforms.push(run(&platform, vectors["cases"].as_array().ok_or("no cases")?, ModelKind::Uhp)?);
         if platform.name == "uhp_2016" {

@@ -50,8 +50,10 @@ enum dyn_status
   DYN_STATUS_NON_FINITE_RESULT = 10,
   // The angles have no rates: `info.value` is cos c2, of a magnitude below `info.limit`.
   DYN_STATUS_GIMBAL_LOCK = 11,
+  // A parameter is not physical: `info.input` and `info.leg` say which, `info.value` is what it is.
+  DYN_STATUS_INVALID_PARAMETER = 12,
   // A reason that this version of the interface has no status for.
-  DYN_STATUS_OTHER = 12,
+  DYN_STATUS_OTHER = 13,
 };
 #ifndef __cplusplus
 #if __STDC_VERSION__ >= 202311L
@@ -61,7 +63,7 @@ typedef int32_t dyn_status;
 #endif // __STDC_VERSION__ >= 202311L
 #endif // __cplusplus
 
-// An input of a call, as `info.input` names it.
+// An input of a call or a parameter of a model, as `info.input` names it.
 enum dyn_input
 #if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
   : int32_t
@@ -93,6 +95,38 @@ enum dyn_input
   DYN_INPUT_ANGLES = 10,
   // The quaternion of a conversion.
   DYN_INPUT_QUATERNION = 11,
+  // `base_point`
+  DYN_INPUT_BASE_POINT = 100,
+  // `actuator_axis`
+  DYN_INPUT_ACTUATOR_AXIS = 101,
+  // `platform_point`
+  DYN_INPUT_PLATFORM_POINT = 102,
+  // `rod_length`
+  DYN_INPUT_ROD_LENGTH = 103,
+  // `rod_mass`
+  DYN_INPUT_ROD_MASS = 104,
+  // `rod_inertia`
+  DYN_INPUT_ROD_INERTIA = 105,
+  // `rod_com_fraction`
+  DYN_INPUT_ROD_COM_FRACTION = 106,
+  // `mover_mass`
+  DYN_INPUT_MOVER_MASS = 107,
+  // `mover_offset`
+  DYN_INPUT_MOVER_OFFSET = 108,
+  // `rest_length`
+  DYN_INPUT_REST_LENGTH = 109,
+  // `axial_stiffness`
+  DYN_INPUT_AXIAL_STIFFNESS = 110,
+  // `axial_damping`
+  DYN_INPUT_AXIAL_DAMPING = 111,
+  // `payload_mass`
+  DYN_INPUT_PAYLOAD_MASS = 112,
+  // `payload_com`
+  DYN_INPUT_PAYLOAD_COM = 113,
+  // `payload_inertia`
+  DYN_INPUT_PAYLOAD_INERTIA = 114,
+  // `gravity`
+  DYN_INPUT_GRAVITY = 115,
 };
 #ifndef __cplusplus
 #if __STDC_VERSION__ >= 202311L
@@ -121,8 +155,15 @@ typedef int32_t dyn_model_kind;
 #endif // __STDC_VERSION__ >= 202311L
 #endif // __cplusplus
 
-// A physical number.
+#if !defined(DYN_F32)
+// A physical number: double precision, or with DYN_F32 defined single precision, as the library was built.
 typedef double dyn_real;
+#endif
+
+#if defined(DYN_F32)
+// A physical number: double precision, or with DYN_F32 defined single precision, as the library was built.
+typedef float dyn_real;
+#endif
 
 // Parameters of a platform with UHP legs. SI units; the first index of leg quantities is the leg.
 //
@@ -333,8 +374,6 @@ typedef struct dyn_energy_result {
   dyn_real potential_energy;
 } dyn_energy_result;
 
-
-
 #ifdef __cplusplus
 extern "C" {
 #endif // __cplusplus
@@ -433,6 +472,11 @@ dyn_status dyn_energy(const struct dyn_model *model,
                       const struct dyn_inputs *inputs,
                       struct dyn_energy_result *result,
                       struct dyn_info *info);
+
+// Checks that the parameters of a model are physical: once, before the first call. Calls do not look at them; they find
+// out what makes their own results impossible, and compute nonsense from the rest, such as a negative mass.
+dyn_status dyn_check_model(const struct dyn_model *model,
+                           struct dyn_info *info);
 
 // Name of the platform behind DYN_MODEL_KIND_BAKED, as in its platform file: a static string.
 const char *dyn_baked_platform_name(void);

@@ -1,8 +1,9 @@
 //! What goes into a call, and the runtime's states made of it.
 
 use dyn_runtime::nalgebra::{Matrix3, Rotation3, Vector3, Vector6};
+use dyn_runtime::{Acceleration, BaseMotion, PlatformState, Pose, Twist, Wrench};
 
-use crate::real::{Acceleration, BaseMotion, PlatformState, Pose, Real, Twist, Wrench};
+use crate::real::Real;
 
 /// Motion of base and platform, and loads. SI units, axes of the inertial frame O, arrays row-major.
 ///
@@ -37,11 +38,11 @@ pub struct Inputs {
 
 /// [`Inputs`] as the runtime takes them.
 pub(crate) struct States {
-    pub base: BaseMotion,
-    pub platform: PlatformState,
-    pub platform_acceleration: Acceleration,
+    pub base: BaseMotion<Real>,
+    pub platform: PlatformState<Real>,
+    pub platform_acceleration: Acceleration<Real>,
     pub actuator_force: Vector6<Real>,
-    pub external_wrench: Wrench,
+    pub external_wrench: Wrench<Real>,
 }
 
 impl From<&Inputs> for States {
@@ -63,7 +64,7 @@ impl From<&Inputs> for States {
     }
 }
 
-fn pose(position: &[Real; 3], rotation: &[[Real; 3]; 3]) -> Pose {
+fn pose(position: &[Real; 3], rotation: &[[Real; 3]; 3]) -> Pose<Real> {
     // Rows in, columns inside. Whether it is a rotation is for the runtime to check, which names the input.
     let matrix = Matrix3::from(*rotation).transpose();
     Pose { position_m: Vector3::from(*position), rotation: Rotation3::from_matrix_unchecked(matrix) }
@@ -73,17 +74,17 @@ fn halves([a, b, c, d, e, f]: &[Real; 6]) -> (Vector3<Real>, Vector3<Real>) {
     (Vector3::new(*a, *b, *c), Vector3::new(*d, *e, *f))
 }
 
-fn twist(stacked: &[Real; 6]) -> Twist {
+fn twist(stacked: &[Real; 6]) -> Twist<Real> {
     let (linear_m_s, angular_rad_s) = halves(stacked);
     Twist { linear_m_s, angular_rad_s }
 }
 
-fn acceleration(stacked: &[Real; 6]) -> Acceleration {
+fn acceleration(stacked: &[Real; 6]) -> Acceleration<Real> {
     let (linear_m_s2, angular_rad_s2) = halves(stacked);
     Acceleration { linear_m_s2, angular_rad_s2 }
 }
 
-fn wrench(stacked: &[Real; 6]) -> Wrench {
+fn wrench(stacked: &[Real; 6]) -> Wrench<Real> {
     let (force_n, moment_n_m) = halves(stacked);
     Wrench { force_n, moment_n_m }
 }

@@ -50,7 +50,7 @@ mod status;
 
 pub use dynamics::*;
 pub use inputs::Inputs;
-pub use model::{Model, ModelKind, UhpParameters, dyn_baked_platform_name};
+pub use model::{Model, ModelKind, UhpParameters, dyn_baked_platform_name, dyn_check_model};
 pub use outputs::{
     CoriolisMatrices, Energy, EquationOfMotion, LegKinematics, Matrices, PassiveForces, StiffnessMatrices,
 };

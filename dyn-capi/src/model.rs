@@ -6,8 +6,9 @@ use core::marker::PhantomData;
 #[cfg(feature = "uhp")]
 use dyn_runtime::models;
 
+use crate::pointers::{explain, structure};
 use crate::real::Real;
-use crate::status::{Refusal, Status};
+use crate::status::{Info, Refusal, Status};
 
 #[cfg(not(feature = "own-platform"))]
 mod baked {
@@ -103,12 +104,12 @@ macro_rules! with_hexapod {
     ($platform:expr, |$hexapod:ident| $value:expr) => {
         match $platform {
             $crate::model::Platform::Baked(_) => {
-                let $hexapod = dyn_runtime::Hexapod::new($crate::model::Baked);
+                let $hexapod = $crate::real::hexapod($crate::model::Baked);
                 $value
             }
             #[cfg(feature = "uhp")]
             $crate::model::Platform::Uhp(parameters) => {
-                let $hexapod = dyn_runtime::Hexapod::new(dyn_runtime::models::Uhp::from(*parameters));
+                let $hexapod = $crate::real::hexapod(dyn_runtime::models::Uhp::from(*parameters));
                 $value
             }
         }
@@ -128,7 +129,7 @@ impl Model {
             #[cfg(feature = "uhp")]
             kind if kind == ModelKind::Uhp as i32 => {
                 // SAFETY: passed on to the caller.
-                Ok(Platform::Uhp(unsafe { crate::pointers::structure(self.uhp)? }))
+                Ok(Platform::Uhp(unsafe { structure(self.uhp)? }))
             }
             _ => Err(Refusal::of(Status::UnknownModel)),
         }
@@ -136,7 +137,7 @@ impl Model {
 }
 
 #[cfg(feature = "uhp")]
-impl From<&UhpParameters> for models::Uhp {
+impl From<&UhpParameters> for models::Uhp<Real> {
     fn from(parameters: &UhpParameters) -> Self {
         let &UhpParameters {
             struct_size: _,
@@ -177,6 +178,20 @@ impl From<&UhpParameters> for models::Uhp {
                 gravity,
             },
         }
+    }
+}
+
+/// Checks that the parameters of a model are physical: once, before the first call. Calls do not look at them; they find
+/// out what makes their own results impossible, and compute nonsense from the rest, such as a negative mass.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn dyn_check_model(model: *const Model, info: *mut Info) -> Status {
+    // SAFETY: the caller keeps what the crate says.
+    unsafe {
+        explain(info, || match structure(model)?.platform()? {
+            Platform::Baked(_) => Ok(()),
+            #[cfg(feature = "uhp")]
+            Platform::Uhp(parameters) => Ok(models::Uhp::from(parameters).parameters.check()?),
+        })
     }
 }
 

@@ -37,8 +37,8 @@ pub struct LegKinematics {
     pub platform_joint_rate: [[Real; 3]; 6],
 }
 
-impl From<dyn_runtime::LegKinematics> for LegKinematics {
-    fn from(result: dyn_runtime::LegKinematics) -> Self {
+impl From<dyn_runtime::LegKinematics<Real>> for LegKinematics {
+    fn from(result: dyn_runtime::LegKinematics<Real>) -> Self {
         Self {
             struct_size: size_of::<Self>(),
             actuator_length: result.actuator_length_m.into(),
@@ -67,8 +67,8 @@ pub struct PassiveForces {
     pub damping_force: [Real; 6],
 }
 
-impl From<dyn_runtime::PassiveForces> for PassiveForces {
-    fn from(result: dyn_runtime::PassiveForces) -> Self {
+impl From<dyn_runtime::PassiveForces<Real>> for PassiveForces {
+    fn from(result: dyn_runtime::PassiveForces<Real>) -> Self {
         Self {
             struct_size: size_of::<Self>(),
             gravity_force: result.gravity_force.into(),
@@ -90,8 +90,8 @@ pub struct CoriolisMatrices {
     pub coriolis_matrix_b: [[Real; 6]; 6],
 }
 
-impl From<dyn_runtime::CoriolisMatrices> for CoriolisMatrices {
-    fn from(result: dyn_runtime::CoriolisMatrices) -> Self {
+impl From<dyn_runtime::CoriolisMatrices<Real>> for CoriolisMatrices {
+    fn from(result: dyn_runtime::CoriolisMatrices<Real>) -> Self {
         Self {
             struct_size: size_of::<Self>(),
             coriolis_matrix_p: rows(result.coriolis_matrix_p),
@@ -112,8 +112,8 @@ pub struct StiffnessMatrices {
     pub stiffness_matrix_b: [[Real; 6]; 6],
 }
 
-impl From<dyn_runtime::StiffnessMatrices> for StiffnessMatrices {
-    fn from(result: dyn_runtime::StiffnessMatrices) -> Self {
+impl From<dyn_runtime::StiffnessMatrices<Real>> for StiffnessMatrices {
+    fn from(result: dyn_runtime::StiffnessMatrices<Real>) -> Self {
         Self {
             struct_size: size_of::<Self>(),
             stiffness_matrix_p: rows(result.stiffness_matrix_p),
@@ -142,8 +142,8 @@ pub struct Matrices {
     pub jacobian_db: [[Real; 6]; 6],
 }
 
-impl From<dyn_runtime::Matrices> for Matrices {
-    fn from(result: dyn_runtime::Matrices) -> Self {
+impl From<dyn_runtime::Matrices<Real>> for Matrices {
+    fn from(result: dyn_runtime::Matrices<Real>) -> Self {
         Self {
             struct_size: size_of::<Self>(),
             mass_matrix_p: rows(result.mass_matrix_p),
@@ -189,8 +189,8 @@ pub struct EquationOfMotion {
     pub bias: [Real; 6],
 }
 
-impl From<dyn_runtime::EquationOfMotion> for EquationOfMotion {
-    fn from(result: dyn_runtime::EquationOfMotion) -> Self {
+impl From<dyn_runtime::EquationOfMotion<Real>> for EquationOfMotion {
+    fn from(result: dyn_runtime::EquationOfMotion<Real>) -> Self {
         Self {
             struct_size: size_of::<Self>(),
             mass_matrix_p: rows(result.mass_matrix_p),
@@ -221,8 +221,8 @@ pub struct Energy {
     pub potential_energy: Real,
 }
 
-impl From<dyn_runtime::Energy> for Energy {
-    fn from(result: dyn_runtime::Energy) -> Self {
+impl From<dyn_runtime::Energy<Real>> for Energy {
+    fn from(result: dyn_runtime::Energy<Real>) -> Self {
         Self {
             struct_size: size_of::<Self>(),
             kinetic_energy: result.kinetic_j,

@@ -104,7 +104,7 @@ pub(crate) unsafe fn answer<O: Output>(
     }
 }
 
-/// Answers any call: refuses bad pointers to output and details, computes, then writes both.
+/// Answers any call with an output: refuses a bad pointer to it, computes, then writes it and the details.
 ///
 /// # Safety
 /// As the module says.
@@ -113,32 +113,35 @@ pub(crate) unsafe fn convert<O: Output>(
     info: *mut Info,
     compute: impl FnOnce() -> Result<O, Refusal>,
 ) -> Status {
-    // SAFETY: the caller keeps what the module says: pointers that pass the checks point to a whole array or struct,
+    // SAFETY: the caller keeps what the module says: a pointer that passes the check points to a whole array or struct,
     // and nobody else uses it.
     unsafe {
-        if !info.is_null() {
-            if let Err(refusal) = Info::check(info) {
-                return refusal.status;
-            }
-        }
-        match O::check(output).and_then(|()| compute()) {
-            Ok(value) => {
-                output.write(value);
-                report(info, &Refusal::NO_DETAILS)
-            }
-            Err(refusal) => report(info, &refusal),
-        }
+        explain(info, || {
+            O::check(output)?;
+            output.write(compute()?);
+            Ok(())
+        })
     }
 }
 
+/// Does something and writes how it ended; where details have no place of their size, it is not even begun.
+///
 /// # Safety
-/// `info` is null or points to a whole [`Info`].
-unsafe fn report(info: *mut Info, refusal: &Refusal) -> Status {
-    if !info.is_null() {
-        // SAFETY: checked before, see the caller.
-        unsafe { info.write(refusal.info()) };
+/// As the module says.
+pub(crate) unsafe fn explain(info: *mut Info, act: impl FnOnce() -> Result<(), Refusal>) -> Status {
+    if info.is_null() {
+        return act().map_or_else(|refusal| refusal.status, |()| Status::Ok);
     }
-    refusal.status
+    // SAFETY: the caller keeps what the module says: a pointer that passes the check points to a whole struct, and
+    // nobody else uses it.
+    unsafe {
+        if let Err(refusal) = Info::check(info) {
+            return refusal.status;
+        }
+        let refusal = act().err().unwrap_or(Refusal::of(Status::Ok));
+        info.write(refusal.info());
+        refusal.status
+    }
 }
 
 /// Declares that structs of outputs begin with their size.

@@ -1,11 +1,23 @@
-//! The number type of the library, and the runtime's types made of it.
+//! The number type of the library.
 
-/// A physical number.
+use dyn_runtime::Hexapod;
+
+/// A physical number: double precision, or with DYN_F32 defined single precision, as the library was built.
+#[cfg(not(feature = "f32"))]
 pub type Real = f64;
 
-pub(crate) type Acceleration = dyn_runtime::Acceleration;
-pub(crate) type BaseMotion = dyn_runtime::BaseMotion;
-pub(crate) type PlatformState = dyn_runtime::PlatformState;
-pub(crate) type Pose = dyn_runtime::Pose;
-pub(crate) type Twist = dyn_runtime::Twist;
-pub(crate) type Wrench = dyn_runtime::Wrench;
+/// A physical number: double precision, or with DYN_F32 defined single precision, as the library was built.
+#[cfg(feature = "f32")]
+pub type Real = f32;
+
+/// A hexapod in the library's precision.
+#[cfg(not(feature = "f32"))]
+pub(crate) fn hexapod<M>(model: M) -> Hexapod<M, Real> {
+    Hexapod::new(model)
+}
+
+/// A hexapod in the library's precision.
+#[cfg(feature = "f32")]
+pub(crate) fn hexapod<M>(model: M) -> Hexapod<M, Real> {
+    Hexapod::single_precision(model)
+}

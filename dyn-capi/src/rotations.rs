@@ -8,7 +8,7 @@ use crate::real::Real;
 use crate::status::{Info, InputName, Refusal, Status};
 
 /// Largest `| |q|^2 - 1 |` that passes as a unit quaternion: as for rotation matrices.
-const MAX_QUATERNION_DEVIATION: Real = 1e-6;
+const MAX_QUATERNION_DEVIATION: Real = <Real as dyn_runtime::Real>::MAX_ROTATION_DEVIATION;
 
 /// Rotation matrix, body to O, from the unit quaternion [w, x, y, z] that turns body coordinates into O coordinates.
 ///
@@ -85,8 +85,8 @@ pub unsafe extern "C" fn dyn_angle_rates(
             let angles = finite(array(angles)?, InputName::Angles)?;
             let velocity = finite(array(angular_velocity)?, InputName::Angles)?;
             let rates = angles::angle_rates(angles, Vector3::from(velocity)).map_err(|lock| Refusal {
-                value: lock.cos_c2,
-                limit: angles::MIN_COS_C2,
+                value: lock.cos_c2 as Real,
+                limit: <Real as dyn_runtime::Real>::MIN_COS_C2,
                 ..Refusal::of_input(Status::GimbalLock, InputName::Angles)
             })?;
             finite_result(rates)

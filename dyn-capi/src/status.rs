@@ -3,6 +3,7 @@
 use core::ffi::c_char;
 use core::mem::size_of;
 
+use dyn_runtime::parameter::{ParameterError, ParameterProblem};
 use dyn_runtime::{Error, Input};
 
 use crate::real::Real;
@@ -37,11 +38,13 @@ pub enum Status {
     NonFiniteResult = 10,
     /// The angles have no rates: `info.value` is cos c2, of a magnitude below `info.limit`.
     GimbalLock = 11,
+    /// A parameter is not physical: `info.input` and `info.leg` say which, `info.value` is what it is.
+    InvalidParameter = 12,
     /// A reason that this version of the interface has no status for.
-    Other = 12,
+    Other = 13,
 }
 
-/// An input of a call, as `info.input` names it.
+/// An input of a call or a parameter of a model, as `info.input` names it.
 #[repr(i32)]
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum InputName {
@@ -71,6 +74,38 @@ pub enum InputName {
     Angles = 10,
     /// The quaternion of a conversion.
     Quaternion = 11,
+    /// `base_point`
+    BasePoint = 100,
+    /// `actuator_axis`
+    ActuatorAxis = 101,
+    /// `platform_point`
+    PlatformPoint = 102,
+    /// `rod_length`
+    RodLength = 103,
+    /// `rod_mass`
+    RodMass = 104,
+    /// `rod_inertia`
+    RodInertia = 105,
+    /// `rod_com_fraction`
+    RodComFraction = 106,
+    /// `mover_mass`
+    MoverMass = 107,
+    /// `mover_offset`
+    MoverOffset = 108,
+    /// `rest_length`
+    RestLength = 109,
+    /// `axial_stiffness`
+    AxialStiffness = 110,
+    /// `axial_damping`
+    AxialDamping = 111,
+    /// `payload_mass`
+    PayloadMass = 112,
+    /// `payload_com`
+    PayloadCom = 113,
+    /// `payload_inertia`
+    PayloadInertia = 114,
+    /// `gravity`
+    Gravity = 115,
 }
 
 /// Details of a status. Wherever a call takes a pointer to one, it may be null.
@@ -102,12 +137,9 @@ pub(crate) struct Refusal {
 }
 
 impl Refusal {
-    pub const NO_DETAILS: Self =
-        Self { status: Status::Ok, input: InputName::None, leg: -1, value: 0.0, limit: 0.0 };
-
     /// Without details.
     pub fn of(status: Status) -> Self {
-        Self { status, ..Self::NO_DETAILS }
+        Self { status, input: InputName::None, leg: -1, value: 0.0, limit: 0.0 }
     }
 
     /// Because of an input.
@@ -131,13 +163,40 @@ impl Refusal {
     }
 }
 
+impl From<ParameterError> for Refusal {
+    fn from(error: ParameterError) -> Self {
+        let value = match error.problem {
+            ParameterProblem::NotPositive(value)
+            | ParameterProblem::Negative(value)
+            | ParameterProblem::NotAFraction(value)
+            | ParameterProblem::NotAUnitVector(value) => value as Real,
+            _ => 0.0,
+        };
+        let row = INPUTS.iter().find(|(_, name)| name.to_bytes() == error.parameter.as_bytes());
+        let input = row.map_or(InputName::None, |(input, _)| *input);
+        // Of a quantity that legs have, the leg is the first dimension.
+        let leg = match input {
+            InputName::BasePoint | InputName::ActuatorAxis | InputName::PlatformPoint => {
+                error.element as i32 / 3
+            }
+            InputName::None
+            | InputName::PayloadMass
+            | InputName::PayloadCom
+            | InputName::PayloadInertia
+            | InputName::Gravity => -1,
+            _ => error.element as i32,
+        };
+        Self { leg, value, ..Self::of_input(Status::InvalidParameter, input) }
+    }
+}
+
 impl From<Error> for Refusal {
     fn from(error: Error) -> Self {
         match error {
             Error::NonFinite { input } => Self::of_input(Status::NonFinite, input.into()),
             Error::NotARotation { input, defect } => Self {
                 value: defect.deviation as Real,
-                limit: dyn_runtime::MAX_ROTATION_DEVIATION,
+                limit: <Real as dyn_runtime::Real>::MAX_ROTATION_DEVIATION,
                 ..Self::of_input(Status::NotARotation, input.into())
             },
             Error::InvalidModel { leg } => Self::of_leg(Status::InvalidModel, leg),
@@ -145,7 +204,7 @@ impl From<Error> for Refusal {
             Error::RodPerpendicular { leg } => Self::of_leg(Status::RodPerpendicular, leg),
             Error::SingularJacobian { reciprocal_condition } => Self {
                 value: reciprocal_condition as Real,
-                limit: dyn_runtime::MIN_RECIPROCAL_CONDITION,
+                limit: <Real as dyn_runtime::Real>::MIN_RECIPROCAL_CONDITION,
                 ..Self::of(Status::SingularJacobian)
             },
             Error::NonFiniteResult => Self::of(Status::NonFiniteResult),
@@ -206,6 +265,10 @@ const STATUSES: &[(Status, &core::ffi::CStr)] = &[
         c"the result is not finite although every input is: check units and the model's parameters",
     ),
     (Status::GimbalLock, c"the angles have no rates so near gimbal lock: go on with the angular velocity"),
+    (
+        Status::InvalidParameter,
+        c"a parameter is not physical: masses, lengths and inertias are positive, axes are unit vectors, numbers finite",
+    ),
     (Status::Other, c"refused for a reason that this version of the interface has no status for"),
 ];
 
@@ -230,6 +293,22 @@ const INPUTS: &[(InputName, &core::ffi::CStr)] = &[
     (InputName::ExternalWrench, c"external_wrench"),
     (InputName::Angles, c"angles"),
     (InputName::Quaternion, c"quaternion"),
+    (InputName::BasePoint, c"base_point"),
+    (InputName::ActuatorAxis, c"actuator_axis"),
+    (InputName::PlatformPoint, c"platform_point"),
+    (InputName::RodLength, c"rod_length"),
+    (InputName::RodMass, c"rod_mass"),
+    (InputName::RodInertia, c"rod_inertia"),
+    (InputName::RodComFraction, c"rod_com_fraction"),
+    (InputName::MoverMass, c"mover_mass"),
+    (InputName::MoverOffset, c"mover_offset"),
+    (InputName::RestLength, c"rest_length"),
+    (InputName::AxialStiffness, c"axial_stiffness"),
+    (InputName::AxialDamping, c"axial_damping"),
+    (InputName::PayloadMass, c"payload_mass"),
+    (InputName::PayloadCom, c"payload_com"),
+    (InputName::PayloadInertia, c"payload_inertia"),
+    (InputName::Gravity, c"gravity"),
 ];
 
 /// The name of an input: a static string, never null, also for numbers that are no input.

@@ -4,9 +4,8 @@
 mod support;
 
 use std::fs;
-use std::process::Command;
 
-use support::{Link, compile, compile_with, folder, records, succeed};
+use support::{Link, compile, compile_with, folder, program, records, succeed};
 
 const LINKS: [Link; 2] = [Link::Static, Link::Dynamic];
 
@@ -14,8 +13,8 @@ const LINKS: [Link; 2] = [Link::Static, Link::Dynamic];
 fn first_call() {
     let scratch = tempfile::tempdir().unwrap();
     for link in LINKS {
-        let program = compile(&folder().join("examples/first_call.c"), link, scratch.path());
-        let output = succeed(&mut Command::new(program));
+        let path = compile(&folder().join("examples/first_call.c"), link, scratch.path());
+        let output = succeed(&mut program(&path));
         let text = String::from_utf8(output.stdout).unwrap();
         assert!(text.starts_with("platform uhp_2016\n"), "{text}");
     }
@@ -32,15 +31,12 @@ fn every_call_agrees_with_the_vectors_of_the_engines() {
     fs::write(&bad, format!("{before}output inverse_dynamics 7 0e0 1{after}")).unwrap();
     fs::write(&file, good).unwrap();
     for link in LINKS {
-        let program = compile(&folder().join("tests/c/vectors.c"), link, scratch.path());
-        let output = succeed(Command::new(&program).arg(&file));
+        let path = compile(&folder().join("tests/c/vectors.c"), link, scratch.path());
+        let output = succeed(program(&path).arg(&file));
         let text = String::from_utf8(output.stdout).unwrap();
         let arrays: usize = text.split(' ').next().and_then(|count| count.parse().ok()).expect("a count");
         assert!(arrays > 1000, "{text}");
-        assert!(
-            !Command::new(&program).arg(&bad).output().unwrap().status.success(),
-            "a wrong number passes"
-        );
+        assert!(!program(&path).arg(&bad).output().unwrap().status.success(), "a wrong number passes");
     }
 }
 
@@ -48,7 +44,7 @@ fn every_call_agrees_with_the_vectors_of_the_engines() {
 fn every_refusal() {
     let scratch = tempfile::tempdir().unwrap();
     for link in LINKS {
-        succeed(&mut Command::new(compile(&folder().join("tests/c/refusals.c"), link, scratch.path())));
+        succeed(&mut program(&compile(&folder().join("tests/c/refusals.c"), link, scratch.path())));
     }
 }
 
@@ -60,6 +56,22 @@ fn s_function() {
     for link in LINKS {
         let arguments = ["-I".as_ref(), stub.as_os_str()];
         let source = folder().join("simulink/dyn_platform.c");
-        succeed(&mut Command::new(compile_with(&arguments, &source, link, scratch.path())));
+        succeed(&mut program(&compile_with(&arguments, &source, link, scratch.path())));
+    }
+}
+
+/// The blocks of C in the chapter about control loops, one after another, and a cycle of what they make.
+#[test]
+fn documented_control_loop() {
+    let scratch = tempfile::tempdir().unwrap();
+    let chapter = fs::read_to_string(folder().join("../docs/control-loop.md")).unwrap();
+    let blocks: Vec<&str> =
+        chapter.split("```c\n").skip(1).filter_map(|text| text.split("```").next()).collect();
+    assert!(blocks.len() >= 4, "{} blocks", blocks.len());
+    let source = scratch.path().join("control_loop.c");
+    let main = fs::read_to_string(folder().join("tests/c/control_loop_main.c")).unwrap();
+    fs::write(&source, blocks.join("\n") + &main).unwrap();
+    for link in LINKS {
+        succeed(&mut program(&compile(&source, link, scratch.path())));
     }
 }

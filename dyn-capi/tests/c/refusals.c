@@ -59,6 +59,8 @@ static void pointers(void)
     check(dyn_inverse_dynamics(&model, &home, NULL, NULL) == DYN_STATUS_NULL_POINTER, "no output");
     check(dyn_energy(&model, &home, NULL, NULL) == DYN_STATUS_NULL_POINTER, "no struct for the output");
     check(dyn_energy(&model, &home, &energy, NULL) == DYN_STATUS_OK, "energy");
+    check(dyn_check_model(&model, NULL) == DYN_STATUS_OK, "the baked model was checked when it was made");
+    check(dyn_check_model(NULL, NULL) == DYN_STATUS_NULL_POINTER, "no model to check");
     check(dyn_rotation_from_angles(NULL, &rotation, NULL) == DYN_STATUS_NULL_POINTER, "no angles");
     check(dyn_inverse_dynamics(&model, &home, (dyn_real(*)[6])((char *)&force + 1), NULL) == DYN_STATUS_NULL_POINTER,
           "an output that is not aligned");
@@ -133,7 +135,7 @@ static void singular(void)
     dyn_uhp_parameters parameters;
     dyn_model row = { .struct_size = sizeof row, .kind = DYN_MODEL_KIND_UHP };
     dyn_inputs pose = home;
-    dyn_info info;
+    dyn_info info = { .struct_size = sizeof info };
     int leg;
 
     memset(&parameters, 0, sizeof parameters);
@@ -146,6 +148,12 @@ static void singular(void)
         parameters.rod_mass[leg] = parameters.mover_mass[leg] = 1;
     }
     row.uhp = &parameters;
+    check(dyn_check_model(&row, &info) == DYN_STATUS_INVALID_PARAMETER, "rods without inertia");
+    check(info.input == DYN_INPUT_ROD_INERTIA && info.leg == 0 && info.value == 0, "which parameter");
+    parameters.actuator_axis[4][2] = 2;
+    check(dyn_check_model(&row, &info) == DYN_STATUS_INVALID_PARAMETER, "an axis of length 2");
+    check(info.input == DYN_INPUT_ACTUATOR_AXIS && info.leg == 4 && info.value == 2, "which leg");
+    parameters.actuator_axis[4][2] = 1;
     pose.platform_position[2] = 2;
     info = expect(DYN_STATUS_SINGULAR_JACOBIAN, &row, &pose, "legs in a row");
     check(info.value < info.limit && info.limit > 0, "how singular");

@@ -205,6 +205,9 @@ static int run(const char *path, const dyn_model *model)
         } else if (strcmp(kind, "input") == 0) {
             fill(input_slots, name, numbers, count);
         } else if (strcmp(kind, "case") == 0) {
+            if (dyn_check_model(model, &info) != DYN_STATUS_OK) {
+                fail("parameter", dyn_input_text(info.input));
+            }
             call_everything(model);
         } else if (strcmp(kind, "output") == 0 && count > 1) {
             compare(name, numbers, count);

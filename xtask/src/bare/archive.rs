@@ -8,7 +8,10 @@ use std::collections::{BTreeSet, HashMap};
 use std::ops::Range;
 
 use object::read::archive::ArchiveFile;
-use object::{Architecture, Object, ObjectSection, ObjectSymbol, RelocationTarget, SectionIndex, SectionKind, SymbolIndex};
+use object::{
+    Architecture, Object, ObjectSection, ObjectSymbol, RelocationTarget, SectionIndex, SectionKind,
+    SymbolIndex,
+};
 
 /// Sections of every object file of a library.
 #[derive(Debug, Default)]

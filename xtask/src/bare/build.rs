@@ -11,22 +11,26 @@ use crate::runner::{Failure, succeed};
 pub enum Precision {
     /// `f64`
     Double,
+    /// `f32`
+    Single,
 }
 
 impl Precision {
     /// Every one that the library has.
-    pub const ALL: [Self; 1] = [Self::Double];
+    pub const ALL: [Self; 2] = [Self::Double, Self::Single];
 
     /// As Rust calls it.
     pub fn name(self) -> &'static str {
         match self {
             Self::Double => "f64",
+            Self::Single => "f32",
         }
     }
 
     fn features(self) -> &'static [&'static str] {
         match self {
             Self::Double => &[],
+            Self::Single => &["f32"],
         }
     }
 }
