@@ -229,6 +229,56 @@ fn files_that_cannot_be_written_have_a_remedy() {
 }
 
 #[test]
+fn every_starter_can_be_explained_and_generated() {
+    let folder = tempfile::tempdir().unwrap();
+    for layout in ["paper", "free", "cubic"] {
+        let file = format!("{layout}.toml");
+        let result = dyn_gen(folder.path(), &["init", "--layout", layout, "-o", &file]);
+        assert_eq!(code(&result), 0, "{}", said(&result));
+        assert!(
+            said(&result).contains(&format!("dyn-gen generate {file} -o my_platform.rs")),
+            "{}",
+            said(&result)
+        );
+        let printed = dyn_gen(folder.path(), &["init", "--layout", layout]);
+        assert_eq!(
+            String::from_utf8_lossy(&printed.stdout),
+            fs::read_to_string(folder.path().join(&file)).unwrap()
+        );
+        for arguments in [
+            &["explain", &file, "--states", "30"][..],
+            &["generate", &file, "-o", "model.rs", "--states", "30", "--functions", "inverse_dynamics"],
+        ] {
+            let result = dyn_gen(folder.path(), arguments);
+            assert_eq!(
+                (code(&result), said(&result).contains("warning")),
+                (0, false),
+                "{layout}: {}",
+                said(&result)
+            );
+        }
+    }
+    let before = fs::read(folder.path().join("free.toml")).unwrap();
+    let again = dyn_gen(folder.path(), &["init", "-o", "free.toml"]);
+    assert_eq!(code(&again), 1);
+    assert!(words(&again).contains(
+        "free.toml exists already and stays as it is help: choose another name, or remove it first"
+    ));
+    assert_eq!(fs::read(folder.path().join("free.toml")).unwrap(), before);
+    assert_eq!(code(&dyn_gen(folder.path(), &["init", "--layout", "round"])), 2);
+}
+
+#[test]
+fn the_schema_is_json() {
+    let folder = tempfile::tempdir().unwrap();
+    let printed = dyn_gen(folder.path(), &["schema"]);
+    let schema: serde_json::Value = serde_json::from_slice(&printed.stdout).expect("JSON");
+    assert!(schema["properties"]["leg_type"].is_object(), "{schema:.300}");
+    assert_eq!(code(&dyn_gen(folder.path(), &["schema", "-o", "schema.json"])), 0);
+    assert_eq!(fs::read(folder.path().join("schema.json")).unwrap(), printed.stdout);
+}
+
+#[test]
 fn completions_know_the_commands() {
     let folder = tempfile::tempdir().unwrap();
     for shell in ["bash", "zsh", "fish", "powershell", "elvish"] {

@@ -21,7 +21,7 @@
 // hand-written dynamics to a relative error below 1e-12
 
 #[allow(unused_imports)]
-use ::dyn_runtime::float::sqrt;
+use ::dyn_runtime::float::{Scalar, sqrt};
 #[allow(unused_imports)]
 use ::dyn_runtime::solve::solve_general;
 
@@ -112,13 +112,14 @@ impl ::dyn_runtime::kernels::InverseDynamics for MyPlatform {
 ///
 /// - `rod_alignment`: 6, dimensionless: squared cosine between rod and actuator axis; negative out of reach, equation (18).
 #[allow(clippy::all, clippy::pedantic, unused_variables)]
-pub fn rod_alignment(
-    base_position: &[f64; 3],
-    base_rotation: &[[f64; 3]; 3],
-    platform_position: &[f64; 3],
-    platform_rotation: &[[f64; 3]; 3],
-    rod_alignment: &mut [f64; 6],
+pub fn rod_alignment<T: Scalar>(
+    base_position: &[T; 3],
+    base_rotation: &[[T; 3]; 3],
+    platform_position: &[T; 3],
+    platform_rotation: &[[T; 3]; 3],
+    rod_alignment: &mut [T; 6],
 ) {
+    let c = T::constant;
     // rotation of the platform seen from the base
     let t1 = base_rotation[1][0] * platform_rotation[1][0];
     let t2 = base_rotation[0][0] * platform_rotation[0][0] + t1;
@@ -141,28 +142,28 @@ pub fn rod_alignment(
     let t18 = base_rotation[0][1] * t14 + base_rotation[1][1] * t15;
     let t19 = base_rotation[2][1] * t13 + t18;
     // leg 1: platform joint from the base point
-    let t20 = t17 + (0.131644 - 0.115911 * t3);
-    let t21 = 0.031058 * t6;
+    let t20 = t17 + (c(0.131644) - c(0.115911) * t3);
+    let t21 = c(0.031058) * t6;
     let t22 = t20 + t21;
-    let t23 = 0.12276 - 0.031058 * t12;
-    let t24 = t19 - 0.115911 * t9;
+    let t23 = c(0.12276) - c(0.031058) * t12;
+    let t24 = t19 - c(0.115911) * t9;
     let t25 = t23 - t24;
     // leg 2: platform joint from the base point
     let t26 = t20 - t21;
     let t27 = t23 + t24;
     // leg 3: platform joint from the base point
-    let t28 = t17 + (0.040491 + 0.031058 * t3);
-    let t29 = 0.115911 * t6;
+    let t28 = t17 + (c(0.040491) + c(0.031058) * t3);
+    let t29 = c(0.115911) * t6;
     let t30 = t28 - t29;
-    let t31 = 0.175387 - 0.115911 * t12;
-    let t32 = t19 + 0.031058 * t9;
+    let t31 = c(0.175387) - c(0.115911) * t12;
+    let t32 = t19 + c(0.031058) * t9;
     let t33 = t31 + t32;
     // leg 4: platform joint from the base point
-    let t34 = t17 - (0.172135 - 0.084853 * t3);
-    let t35 = 0.084853 * t6;
+    let t34 = t17 - (c(0.172135) - c(0.084853) * t3);
+    let t35 = c(0.084853) * t6;
     let t36 = t34 - t35;
-    let t37 = 0.052627 - 0.084853 * t12;
-    let t38 = t19 + 0.084853 * t9;
+    let t37 = c(0.052627) - c(0.084853) * t12;
+    let t38 = t19 + c(0.084853) * t9;
     let t39 = t37 + t38;
     // leg 5: platform joint from the base point
     let t40 = t34 + t35;
@@ -189,17 +190,17 @@ pub fn rod_alignment(
     let t54 = t42 * t42;
     let t55 = t43 * t43;
     // leg 1: squared cosine between rod and actuator axis; negative out of reach
-    rod_alignment[0] = 1.0 - 23.564897728343862 * (t44 + t45);
+    rod_alignment[0] = c(1.0) - c(23.564897728343862) * (t44 + t45);
     // leg 2: squared cosine between rod and actuator axis; negative out of reach
-    rod_alignment[1] = 1.0 - 23.564897728343862 * (t46 + t47);
+    rod_alignment[1] = c(1.0) - c(23.564897728343862) * (t46 + t47);
     // leg 3: squared cosine between rod and actuator axis; negative out of reach
-    rod_alignment[2] = 1.0 - 23.564897728343862 * (t48 + t49);
+    rod_alignment[2] = c(1.0) - c(23.564897728343862) * (t48 + t49);
     // leg 4: squared cosine between rod and actuator axis; negative out of reach
-    rod_alignment[3] = 1.0 - 23.564897728343862 * (t50 + t51);
+    rod_alignment[3] = c(1.0) - c(23.564897728343862) * (t50 + t51);
     // leg 5: squared cosine between rod and actuator axis; negative out of reach
-    rod_alignment[4] = 1.0 - 23.564897728343862 * (t52 + t53);
+    rod_alignment[4] = c(1.0) - c(23.564897728343862) * (t52 + t53);
     // leg 6: squared cosine between rod and actuator axis; negative out of reach
-    rod_alignment[5] = 1.0 - 23.564897728343862 * (t54 + t55);
+    rod_alignment[5] = c(1.0) - c(23.564897728343862) * (t54 + t55);
 }
 
 /// Actuator Jacobian of the platform, equation (32).
@@ -215,13 +216,14 @@ pub fn rod_alignment(
 ///
 /// - `jacobian_dp`: 6x6, 1, m, frame O: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b, equation (32).
 #[allow(clippy::all, clippy::pedantic, unused_variables)]
-pub fn jacobian_dp(
-    base_position: &[f64; 3],
-    base_rotation: &[[f64; 3]; 3],
-    platform_position: &[f64; 3],
-    platform_rotation: &[[f64; 3]; 3],
-    jacobian_dp: &mut [[f64; 6]; 6],
+pub fn jacobian_dp<T: Scalar>(
+    base_position: &[T; 3],
+    base_rotation: &[[T; 3]; 3],
+    platform_position: &[T; 3],
+    platform_rotation: &[[T; 3]; 3],
+    jacobian_dp: &mut [[T; 6]; 6],
 ) {
+    let c = T::constant;
     // rotation of the platform seen from the base
     let t1 = base_rotation[1][0] * platform_rotation[1][0];
     let t2 = base_rotation[0][0] * platform_rotation[0][0] + t1;
@@ -244,28 +246,28 @@ pub fn jacobian_dp(
     let t18 = base_rotation[0][1] * t14 + base_rotation[1][1] * t15;
     let t19 = base_rotation[2][1] * t13 + t18;
     // leg 1: platform joint from the base point
-    let t20 = t17 + (0.131644 - 0.115911 * t3);
-    let t21 = 0.031058 * t6;
+    let t20 = t17 + (c(0.131644) - c(0.115911) * t3);
+    let t21 = c(0.031058) * t6;
     let t22 = t20 + t21;
-    let t23 = 0.12276 - 0.031058 * t12;
-    let t24 = t19 - 0.115911 * t9;
+    let t23 = c(0.12276) - c(0.031058) * t12;
+    let t24 = t19 - c(0.115911) * t9;
     let t25 = t23 - t24;
     // leg 2: platform joint from the base point
     let t26 = t20 - t21;
     let t27 = t23 + t24;
     // leg 3: platform joint from the base point
-    let t28 = t17 + (0.040491 + 0.031058 * t3);
-    let t29 = 0.115911 * t6;
+    let t28 = t17 + (c(0.040491) + c(0.031058) * t3);
+    let t29 = c(0.115911) * t6;
     let t30 = t28 - t29;
-    let t31 = 0.175387 - 0.115911 * t12;
-    let t32 = t19 + 0.031058 * t9;
+    let t31 = c(0.175387) - c(0.115911) * t12;
+    let t32 = t19 + c(0.031058) * t9;
     let t33 = t31 + t32;
     // leg 4: platform joint from the base point
-    let t34 = t17 - (0.172135 - 0.084853 * t3);
-    let t35 = 0.084853 * t6;
+    let t34 = t17 - (c(0.172135) - c(0.084853) * t3);
+    let t35 = c(0.084853) * t6;
     let t36 = t34 - t35;
-    let t37 = 0.052627 - 0.084853 * t12;
-    let t38 = t19 + 0.084853 * t9;
+    let t37 = c(0.052627) - c(0.084853) * t12;
+    let t38 = t19 + c(0.084853) * t9;
     let t39 = t37 + t38;
     // leg 5: platform joint from the base point
     let t40 = t34 + t35;
@@ -274,29 +276,29 @@ pub fn jacobian_dp(
     let t42 = t28 + t29;
     let t43 = t31 - t32;
     // leg 1: extent of the rod along the actuator axis
-    let t44 = sqrt(0.042435999999999995 - t22 * t22 - t25 * t25);
+    let t44 = sqrt(c(0.042435999999999995) - t22 * t22 - t25 * t25);
     // leg 1: reciprocal of that extent
-    let t45 = 1.0 / t44;
+    let t45 = c(1.0) / t44;
     // leg 2: extent of the rod along the actuator axis
-    let t46 = sqrt(0.042435999999999995 - t26 * t26 - t27 * t27);
+    let t46 = sqrt(c(0.042435999999999995) - t26 * t26 - t27 * t27);
     // leg 2: reciprocal of that extent
-    let t47 = 1.0 / t46;
+    let t47 = c(1.0) / t46;
     // leg 3: extent of the rod along the actuator axis
-    let t48 = sqrt(0.042435999999999995 - t30 * t30 - t33 * t33);
+    let t48 = sqrt(c(0.042435999999999995) - t30 * t30 - t33 * t33);
     // leg 3: reciprocal of that extent
-    let t49 = 1.0 / t48;
+    let t49 = c(1.0) / t48;
     // leg 4: extent of the rod along the actuator axis
-    let t50 = sqrt(0.042435999999999995 - t36 * t36 - t39 * t39);
+    let t50 = sqrt(c(0.042435999999999995) - t36 * t36 - t39 * t39);
     // leg 4: reciprocal of that extent
-    let t51 = 1.0 / t50;
+    let t51 = c(1.0) / t50;
     // leg 5: extent of the rod along the actuator axis
-    let t52 = sqrt(0.042435999999999995 - t40 * t40 - t41 * t41);
+    let t52 = sqrt(c(0.042435999999999995) - t40 * t40 - t41 * t41);
     // leg 5: reciprocal of that extent
-    let t53 = 1.0 / t52;
+    let t53 = c(1.0) / t52;
     // leg 6: extent of the rod along the actuator axis
-    let t54 = sqrt(0.042435999999999995 - t42 * t42 - t43 * t43);
+    let t54 = sqrt(c(0.042435999999999995) - t42 * t42 - t43 * t43);
     // leg 6: reciprocal of that extent
-    let t55 = 1.0 / t54;
+    let t55 = c(1.0) / t54;
     // leg 1: gradient of the actuator length by the platform joint
     let t56 = t22 * t45;
     let t57 = t25 * t45;
@@ -316,14 +318,14 @@ pub fn jacobian_dp(
     let t66 = t42 * t55;
     let t67 = t43 * t55;
     // leg 1: platform joint from the platform origin
-    let t68 = platform_rotation[0][0] * 0.115911;
-    let t69 = platform_rotation[0][1] * 0.031058;
+    let t68 = platform_rotation[0][0] * c(0.115911);
+    let t69 = platform_rotation[0][1] * c(0.031058);
     let t70 = t68 - t69;
-    let t71 = platform_rotation[1][0] * 0.115911;
-    let t72 = platform_rotation[1][1] * 0.031058;
+    let t71 = platform_rotation[1][0] * c(0.115911);
+    let t72 = platform_rotation[1][1] * c(0.031058);
     let t73 = t71 - t72;
-    let t74 = platform_rotation[2][0] * 0.115911;
-    let t75 = platform_rotation[2][1] * 0.031058;
+    let t74 = platform_rotation[2][0] * c(0.115911);
+    let t75 = platform_rotation[2][1] * c(0.031058);
     let t76 = t74 - t75;
     // leg 1: gradient of the actuator length
     let t77 = base_rotation[0][2] - base_rotation[0][0] * t56;
@@ -350,14 +352,14 @@ pub fn jacobian_dp(
     jacobian_dp[1][1] = -t89;
     jacobian_dp[1][2] = -t91;
     // leg 3: platform joint from the platform origin
-    let t92 = platform_rotation[0][0] * 0.031058;
-    let t93 = platform_rotation[0][1] * 0.115911;
+    let t92 = platform_rotation[0][0] * c(0.031058);
+    let t93 = platform_rotation[0][1] * c(0.115911);
     let t94 = t92 - t93;
-    let t95 = platform_rotation[1][0] * 0.031058;
-    let t96 = platform_rotation[1][1] * 0.115911;
+    let t95 = platform_rotation[1][0] * c(0.031058);
+    let t96 = platform_rotation[1][1] * c(0.115911);
     let t97 = t95 - t96;
-    let t98 = platform_rotation[2][0] * 0.031058;
-    let t99 = platform_rotation[2][1] * 0.115911;
+    let t98 = platform_rotation[2][0] * c(0.031058);
+    let t99 = platform_rotation[2][1] * c(0.115911);
     let t100 = t98 - t99;
     // leg 3: gradient of the actuator length
     let t101 = base_rotation[0][2] - base_rotation[0][0] * t60;
@@ -370,14 +372,14 @@ pub fn jacobian_dp(
     jacobian_dp[2][1] = -t104;
     jacobian_dp[2][2] = -t106;
     // leg 4: platform joint from the platform origin
-    let t107 = platform_rotation[0][0] * 0.084853;
-    let t108 = platform_rotation[0][1] * 0.084853;
+    let t107 = platform_rotation[0][0] * c(0.084853);
+    let t108 = platform_rotation[0][1] * c(0.084853);
     let t109 = t107 - t108;
-    let t110 = platform_rotation[1][0] * 0.084853;
-    let t111 = platform_rotation[1][1] * 0.084853;
+    let t110 = platform_rotation[1][0] * c(0.084853);
+    let t111 = platform_rotation[1][1] * c(0.084853);
     let t112 = t110 - t111;
-    let t113 = platform_rotation[2][0] * 0.084853;
-    let t114 = platform_rotation[2][1] * 0.084853;
+    let t113 = platform_rotation[2][0] * c(0.084853);
+    let t114 = platform_rotation[2][1] * c(0.084853);
     let t115 = t113 - t114;
     // leg 4: gradient of the actuator length
     let t116 = base_rotation[0][2] - base_rotation[0][0] * t62;
@@ -461,18 +463,19 @@ pub fn jacobian_dp(
 ///
 /// - `inverse_dynamics`: 6, N: actuator forces F, equation (49).
 #[allow(clippy::all, clippy::pedantic, unused_variables)]
-pub fn inverse_dynamics(
-    base_position: &[f64; 3],
-    base_rotation: &[[f64; 3]; 3],
-    base_velocity: &[f64; 6],
-    base_acceleration: &[f64; 6],
-    platform_position: &[f64; 3],
-    platform_rotation: &[[f64; 3]; 3],
-    platform_velocity: &[f64; 6],
-    platform_acceleration: &[f64; 6],
-    external_wrench: &[f64; 6],
-    inverse_dynamics: &mut [f64; 6],
+pub fn inverse_dynamics<T: Scalar>(
+    base_position: &[T; 3],
+    base_rotation: &[[T; 3]; 3],
+    base_velocity: &[T; 6],
+    base_acceleration: &[T; 6],
+    platform_position: &[T; 3],
+    platform_rotation: &[[T; 3]; 3],
+    platform_velocity: &[T; 6],
+    platform_acceleration: &[T; 6],
+    external_wrench: &[T; 6],
+    inverse_dynamics: &mut [T; 6],
 ) {
+    let c = T::constant;
     // rotation of the platform seen from the base
     let t1 = base_rotation[1][0] * platform_rotation[1][0];
     let t2 = base_rotation[0][0] * platform_rotation[0][0] + t1;
@@ -512,102 +515,102 @@ pub fn inverse_dynamics(
     let t35 = base_rotation[0][2] * t29 + base_rotation[1][2] * t30;
     let t36 = base_rotation[2][2] * t28 + t35;
     // leg 1: platform joint from the platform origin
-    let t37 = 0.115911 * t3;
-    let t38 = 0.031058 * t6;
+    let t37 = c(0.115911) * t3;
+    let t38 = c(0.031058) * t6;
     let t39 = t37 - t38;
-    let t40 = 0.115911 * t12;
-    let t41 = 0.031058 * t15;
+    let t40 = c(0.115911) * t12;
+    let t41 = c(0.031058) * t15;
     let t42 = t40 - t41;
-    let t43 = 0.115911 * t21;
-    let t44 = 0.031058 * t24;
+    let t43 = c(0.115911) * t21;
+    let t44 = c(0.031058) * t24;
     let t45 = t43 - t44;
     // leg 1: platform joint from the base point
-    let t46 = 0.131644 + t32;
+    let t46 = c(0.131644) + t32;
     let t47 = t39 - t46;
-    let t48 = t42 + (0.12276 - t34);
+    let t48 = t42 + (c(0.12276) - t34);
     // leg 2: platform joint from the platform origin
     let t49 = t37 + t38;
     let t50 = t40 + t41;
     let t51 = t43 + t44;
     // leg 2: platform joint from the base point
     let t52 = t46 - t49;
-    let t53 = t50 - (0.12276 + t34);
+    let t53 = t50 - (c(0.12276) + t34);
     // leg 3: platform joint from the platform origin
-    let t54 = 0.031058 * t3;
-    let t55 = 0.115911 * t6;
+    let t54 = c(0.031058) * t3;
+    let t55 = c(0.115911) * t6;
     let t56 = t54 - t55;
-    let t57 = 0.031058 * t12;
-    let t58 = 0.115911 * t15;
+    let t57 = c(0.031058) * t12;
+    let t58 = c(0.115911) * t15;
     let t59 = t57 - t58;
-    let t60 = 0.031058 * t21;
-    let t61 = 0.115911 * t24;
+    let t60 = c(0.031058) * t21;
+    let t61 = c(0.115911) * t24;
     let t62 = t60 - t61;
     // leg 3: platform joint from the base point
-    let t63 = 0.040491 + t32;
+    let t63 = c(0.040491) + t32;
     let t64 = t56 + t63;
-    let t65 = t59 + (0.175387 + t34);
+    let t65 = t59 + (c(0.175387) + t34);
     // leg 4: platform joint from the platform origin
-    let t66 = 0.084853 * t3;
-    let t67 = 0.084853 * t6;
+    let t66 = c(0.084853) * t3;
+    let t67 = c(0.084853) * t6;
     let t68 = t66 - t67;
-    let t69 = 0.084853 * t12;
-    let t70 = 0.084853 * t15;
+    let t69 = c(0.084853) * t12;
+    let t70 = c(0.084853) * t15;
     let t71 = t69 - t70;
-    let t72 = 0.084853 * t21;
-    let t73 = 0.084853 * t24;
+    let t72 = c(0.084853) * t21;
+    let t73 = c(0.084853) * t24;
     let t74 = t72 - t73;
     // leg 4: platform joint from the base point
-    let t75 = t32 - 0.172135;
+    let t75 = t32 - c(0.172135);
     let t76 = t68 + t75;
-    let t77 = t71 + (0.052627 + t34);
+    let t77 = t71 + (c(0.052627) + t34);
     // leg 5: platform joint from the platform origin
     let t78 = t66 + t67;
     let t79 = t69 + t70;
     let t80 = t72 + t73;
     // leg 5: platform joint from the base point
     let t81 = t75 + t78;
-    let t82 = t79 - (0.052627 - t34);
+    let t82 = t79 - (c(0.052627) - t34);
     // leg 6: platform joint from the platform origin
     let t83 = t54 + t55;
     let t84 = t57 + t58;
     let t85 = t60 + t61;
     // leg 6: platform joint from the base point
     let t86 = t63 + t83;
-    let t87 = t84 - (0.175387 - t34);
+    let t87 = t84 - (c(0.175387) - t34);
     // leg 1: extent of the rod along the actuator axis
-    let t88 = sqrt(0.042435999999999995 - t47 * t47 - t48 * t48);
+    let t88 = sqrt(c(0.042435999999999995) - t47 * t47 - t48 * t48);
     // leg 1: reciprocal of that extent
-    let t89 = 1.0 / t88;
+    let t89 = c(1.0) / t88;
     // leg 1: actuator length d
     let t90 = t88 + (t36 - t45);
     // leg 2: extent of the rod along the actuator axis
-    let t91 = sqrt(0.042435999999999995 - t52 * t52 - t53 * t53);
+    let t91 = sqrt(c(0.042435999999999995) - t52 * t52 - t53 * t53);
     // leg 2: reciprocal of that extent
-    let t92 = 1.0 / t91;
+    let t92 = c(1.0) / t91;
     // leg 2: actuator length d
     let t93 = t91 + (t36 - t51);
     // leg 3: extent of the rod along the actuator axis
-    let t94 = sqrt(0.042435999999999995 - t64 * t64 - t65 * t65);
+    let t94 = sqrt(c(0.042435999999999995) - t64 * t64 - t65 * t65);
     // leg 3: reciprocal of that extent
-    let t95 = 1.0 / t94;
+    let t95 = c(1.0) / t94;
     // leg 3: actuator length d
     let t96 = t94 + (t36 + t62);
     // leg 4: extent of the rod along the actuator axis
-    let t97 = sqrt(0.042435999999999995 - t76 * t76 - t77 * t77);
+    let t97 = sqrt(c(0.042435999999999995) - t76 * t76 - t77 * t77);
     // leg 4: reciprocal of that extent
-    let t98 = 1.0 / t97;
+    let t98 = c(1.0) / t97;
     // leg 4: actuator length d
     let t99 = t97 + (t36 + t74);
     // leg 5: extent of the rod along the actuator axis
-    let t100 = sqrt(0.042435999999999995 - t81 * t81 - t82 * t82);
+    let t100 = sqrt(c(0.042435999999999995) - t81 * t81 - t82 * t82);
     // leg 5: reciprocal of that extent
-    let t101 = 1.0 / t100;
+    let t101 = c(1.0) / t100;
     // leg 5: actuator length d
     let t102 = t100 + (t36 + t80);
     // leg 6: extent of the rod along the actuator axis
-    let t103 = sqrt(0.042435999999999995 - t86 * t86 - t87 * t87);
+    let t103 = sqrt(c(0.042435999999999995) - t86 * t86 - t87 * t87);
     // leg 6: reciprocal of that extent
-    let t104 = 1.0 / t103;
+    let t104 = c(1.0) / t103;
     // leg 6: actuator length d
     let t105 = t103 + (t36 + t85);
     // leg 1: gradient of the actuator length by the platform joint
@@ -673,28 +676,28 @@ pub fn inverse_dynamics(
     let t155 = t12 * t136 - t3 * t137;
     let t156 = t15 * t136 - t6 * t137;
     // leg 1: velocity of the platform joint relative to the base
-    let t157 = t144 + 0.115911 * t151;
-    let t158 = 0.031058 * t152;
+    let t157 = t144 + c(0.115911) * t151;
+    let t158 = c(0.031058) * t152;
     let t159 = t157 - t158;
-    let t160 = t147 + 0.115911 * t153;
-    let t161 = 0.031058 * t154;
+    let t160 = t147 + c(0.115911) * t153;
+    let t161 = c(0.031058) * t154;
     let t162 = t160 - t161;
     // leg 2: velocity of the platform joint relative to the base
     let t163 = t157 + t158;
     let t164 = t160 + t161;
     // leg 3: velocity of the platform joint relative to the base
-    let t165 = t144 - 0.031058 * t151;
-    let t166 = 0.115911 * t152;
+    let t165 = t144 - c(0.031058) * t151;
+    let t166 = c(0.115911) * t152;
     let t167 = t165 + t166;
-    let t168 = t147 - 0.031058 * t153;
-    let t169 = 0.115911 * t154;
+    let t168 = t147 - c(0.031058) * t153;
+    let t169 = c(0.115911) * t154;
     let t170 = t168 + t169;
     // leg 4: velocity of the platform joint relative to the base
-    let t171 = t144 - 0.084853 * t151;
-    let t172 = 0.084853 * t152;
+    let t171 = t144 - c(0.084853) * t151;
+    let t172 = c(0.084853) * t152;
     let t173 = t171 + t172;
-    let t174 = t147 - 0.084853 * t153;
-    let t175 = 0.084853 * t154;
+    let t174 = t147 - c(0.084853) * t153;
+    let t175 = c(0.084853) * t154;
     let t176 = t174 + t175;
     // leg 5: velocity of the platform joint relative to the base
     let t177 = t171 - t172;
@@ -715,7 +718,7 @@ pub fn inverse_dynamics(
     // leg 6: rate of the rod's extent along the actuator axis
     let t186 = t104 * (t86 * t179 + t87 * t180);
     // acceleration of the base origin less gravity
-    let t187 = base_acceleration[2] + 9.81;
+    let t187 = base_acceleration[2] + c(9.81);
     let t188 = base_rotation[1][0] * base_acceleration[1];
     let t189 = base_rotation[0][0] * base_acceleration[0] + t188;
     let t190 = base_rotation[2][0] * t187 + t189;
@@ -749,7 +752,7 @@ pub fn inverse_dynamics(
     let t216 = t196 + t213;
     let t217 = t203 + t211;
     // acceleration of the platform origin less gravity
-    let t218 = platform_acceleration[2] + 9.81;
+    let t218 = platform_acceleration[2] + c(9.81);
     let t219 = base_rotation[1][0] * platform_acceleration[1];
     let t220 = base_rotation[0][0] * platform_acceleration[0] + t219;
     let t221 = base_rotation[2][0] * t218 + t220;
@@ -800,9 +803,9 @@ pub fn inverse_dynamics(
     let t264 = t27 * t259 + (t9 * t260 - t18 * t261);
     // acceleration of the platform origin relative to the base
     let t265 = t36 * t209 - (t34 * t207 + (t32 * t205 + (t190 - t221)));
-    let t266 = t265 + 2.0 * (t123 * t150 - t126 * t147);
+    let t266 = t265 + c(2.0) * (t123 * t150 - t126 * t147);
     let t267 = t36 * t214 + (t34 * t212 - (t32 * t210 - (t193 - t224)));
-    let t268 = t267 - 2.0 * (t126 * t144 - t120 * t150);
+    let t268 = t267 - c(2.0) * (t126 * t144 - t120 * t150);
     let t269 = t32 * t215;
     let t270 = t34 * t216;
     let t271 = t36 * t217;
@@ -834,28 +837,28 @@ pub fn inverse_dynamics(
     let t296 = t21 * t293 - (t3 * t294 + t12 * t295);
     let t297 = t24 * t293 - (t6 * t294 + t15 * t295);
     // leg 1: acceleration of the platform joint relative to the base
-    let t298 = t266 + 0.115911 * t283;
-    let t299 = 0.031058 * t284;
+    let t298 = t266 + c(0.115911) * t283;
+    let t299 = c(0.031058) * t284;
     let t300 = t298 - t299;
-    let t301 = t268 - 0.115911 * t291;
-    let t302 = 0.031058 * t292;
+    let t301 = t268 - c(0.115911) * t291;
+    let t302 = c(0.031058) * t292;
     let t303 = t301 + t302;
     // leg 2: acceleration of the platform joint relative to the base
     let t304 = t298 + t299;
     let t305 = t301 - t302;
     // leg 3: acceleration of the platform joint relative to the base
-    let t306 = t266 - 0.031058 * t283;
-    let t307 = 0.115911 * t284;
+    let t306 = t266 - c(0.031058) * t283;
+    let t307 = c(0.115911) * t284;
     let t308 = t306 + t307;
-    let t309 = t268 + 0.031058 * t291;
-    let t310 = 0.115911 * t292;
+    let t309 = t268 + c(0.031058) * t291;
+    let t310 = c(0.115911) * t292;
     let t311 = t309 - t310;
     // leg 4: acceleration of the platform joint relative to the base
-    let t312 = t266 - 0.084853 * t283;
-    let t313 = 0.084853 * t284;
+    let t312 = t266 - c(0.084853) * t283;
+    let t313 = c(0.084853) * t284;
     let t314 = t312 + t313;
-    let t315 = t268 + 0.084853 * t291;
-    let t316 = 0.084853 * t292;
+    let t315 = t268 + c(0.084853) * t291;
+    let t316 = c(0.084853) * t292;
     let t317 = t315 - t316;
     // leg 5: acceleration of the platform joint relative to the base
     let t318 = t312 - t313;
@@ -883,92 +886,92 @@ pub fn inverse_dynamics(
     let t333 = t104 * (t186 * t186 + t332);
     // leg 1: leg inertia less weight along the actuator
     let t334 = t90 * t209;
-    let t335 = 2.0 * t150;
-    let t336 = t335 + t155 * 0.231822;
-    let t337 = t156 * 0.062116;
-    let t338 = t336 - (t337 - 2.0 * t181);
+    let t335 = c(2.0) * t150;
+    let t336 = t335 + t155 * c(0.231822);
+    let t337 = t156 * c(0.062116);
+    let t338 = t336 - (t337 - c(2.0) * t181);
     let t339 = t123 * t338;
     let t340 = t90 * t214;
     let t341 = t120 * t338;
-    let t342 = t271 - (t270 + (t227 - t269)) - 2.0 * (t272 - t273);
-    let t343 = 0.12276 * t216 - 0.031058 * t297;
-    let t344 = t342 + (0.131644 * t215 + 0.115911 * t296);
+    let t342 = t271 - (t270 + (t227 - t269)) - c(2.0) * (t272 - t273);
+    let t343 = c(0.12276) * t216 - c(0.031058) * t297;
+    let t344 = t342 + (c(0.131644) * t215 + c(0.115911) * t296);
     let t345 = t344 + (t343 - (t323 + t90 * t217));
     // leg 1: remaining leg inertia less weight at the platform joint
-    let t346 = 0.17066666666666666 * t190;
-    let t347 = t346 - t205 * 0.022467242666666668;
-    let t348 = t207 * 0.020951039999999997;
-    let t349 = t347 + t348 - 0.17066666666666666 * (t334 + t339);
-    let t350 = 0.17066666666666666 * t193;
-    let t351 = t350 + t210 * 0.022467242666666668;
-    let t352 = t212 * 0.020951039999999997;
-    let t353 = t351 + t352 + 0.17066666666666666 * (t340 + t341);
+    let t346 = c(0.17066666666666666) * t190;
+    let t347 = t346 - t205 * c(0.022467242666666668);
+    let t348 = t207 * c(0.020951039999999997);
+    let t349 = t347 + t348 - c(0.17066666666666666) * (t334 + t339);
+    let t350 = c(0.17066666666666666) * t193;
+    let t351 = t350 + t210 * c(0.022467242666666668);
+    let t352 = t212 * c(0.020951039999999997);
+    let t353 = t351 + t352 + c(0.17066666666666666) * (t340 + t341);
     // leg 2: leg inertia less weight along the actuator
     let t354 = t93 * t209;
-    let t355 = t336 + (t337 - 2.0 * t182);
+    let t355 = t336 + (t337 - c(2.0) * t182);
     let t356 = t123 * t355;
     let t357 = t93 * t214;
     let t358 = t120 * t355;
     let t359 = t93 * t217 - (t344 - (t325 + t343));
     // leg 2: remaining leg inertia less weight at the platform joint
-    let t360 = t347 - t348 - 0.17066666666666666 * (t354 + t356);
-    let t361 = t351 - t352 + 0.17066666666666666 * (t357 + t358);
+    let t360 = t347 - t348 - c(0.17066666666666666) * (t354 + t356);
+    let t361 = t351 - t352 + c(0.17066666666666666) * (t357 + t358);
     // leg 3: leg inertia less weight along the actuator
     let t362 = t96 * t209;
-    let t363 = t335 - t155 * 0.062116;
-    let t364 = t156 * 0.231822;
-    let t365 = t363 + (t364 - 2.0 * t183);
+    let t363 = t335 - t155 * c(0.062116);
+    let t364 = t156 * c(0.231822);
+    let t365 = t363 + (t364 - c(2.0) * t183);
     let t366 = t123 * t365;
     let t367 = t96 * t214;
     let t368 = t120 * t365;
-    let t369 = 0.175387 * t216 - 0.115911 * t297;
-    let t370 = t342 + (0.040491 * t215 - 0.031058 * t296);
+    let t369 = c(0.175387) * t216 - c(0.115911) * t297;
+    let t370 = t342 + (c(0.040491) * t215 - c(0.031058) * t296);
     let t371 = t370 - (t369 + (t327 + t96 * t217));
     // leg 3: remaining leg inertia less weight at the platform joint
-    let t372 = t346 - t205 * 0.006910464;
-    let t373 = t207 * 0.029932714666666662;
-    let t374 = t372 - t373 - 0.17066666666666666 * (t362 + t366);
-    let t375 = t350 + t210 * 0.006910464;
-    let t376 = t212 * 0.029932714666666662;
-    let t377 = t375 - t376 + 0.17066666666666666 * (t367 + t368);
+    let t372 = t346 - t205 * c(0.006910464);
+    let t373 = t207 * c(0.029932714666666662);
+    let t374 = t372 - t373 - c(0.17066666666666666) * (t362 + t366);
+    let t375 = t350 + t210 * c(0.006910464);
+    let t376 = t212 * c(0.029932714666666662);
+    let t377 = t375 - t376 + c(0.17066666666666666) * (t367 + t368);
     // leg 4: leg inertia less weight along the actuator
     let t378 = t99 * t209;
-    let t379 = t335 - t155 * 0.169706;
-    let t380 = t156 * 0.169706;
-    let t381 = t379 + (t380 - 2.0 * t184);
+    let t379 = t335 - t155 * c(0.169706);
+    let t380 = t156 * c(0.169706);
+    let t381 = t379 + (t380 - c(2.0) * t184);
     let t382 = t123 * t381;
     let t383 = t99 * t214;
     let t384 = t120 * t381;
-    let t385 = 0.052627 * t216 - 0.084853 * t297;
-    let t386 = t342 - (0.172135 * t215 + 0.084853 * t296);
+    let t385 = c(0.052627) * t216 - c(0.084853) * t297;
+    let t386 = t342 - (c(0.172135) * t215 + c(0.084853) * t296);
     let t387 = t386 - (t385 + (t329 + t99 * t217));
     // leg 4: remaining leg inertia less weight at the platform joint
-    let t388 = t346 + t205 * 0.029377706666666666;
-    let t389 = t207 * 0.008981674666666667;
-    let t390 = t388 - t389 - 0.17066666666666666 * (t378 + t382);
-    let t391 = t350 - t210 * 0.029377706666666666;
-    let t392 = t212 * 0.008981674666666667;
-    let t393 = t391 - t392 + 0.17066666666666666 * (t383 + t384);
+    let t388 = t346 + t205 * c(0.029377706666666666);
+    let t389 = t207 * c(0.008981674666666667);
+    let t390 = t388 - t389 - c(0.17066666666666666) * (t378 + t382);
+    let t391 = t350 - t210 * c(0.029377706666666666);
+    let t392 = t212 * c(0.008981674666666667);
+    let t393 = t391 - t392 + c(0.17066666666666666) * (t383 + t384);
     // leg 5: leg inertia less weight along the actuator
     let t394 = t102 * t209;
-    let t395 = t379 - (t380 + 2.0 * t185);
+    let t395 = t379 - (t380 + c(2.0) * t185);
     let t396 = t123 * t395;
     let t397 = t102 * t214;
     let t398 = t120 * t395;
     let t399 = t102 * t217 - (t386 - (t331 - t385));
     // leg 5: remaining leg inertia less weight at the platform joint
-    let t400 = t388 + t389 - 0.17066666666666666 * (t394 + t396);
-    let t401 = t391 + t392 + 0.17066666666666666 * (t397 + t398);
+    let t400 = t388 + t389 - c(0.17066666666666666) * (t394 + t396);
+    let t401 = t391 + t392 + c(0.17066666666666666) * (t397 + t398);
     // leg 6: leg inertia less weight along the actuator
     let t402 = t105 * t209;
-    let t403 = t363 - (t364 + 2.0 * t186);
+    let t403 = t363 - (t364 + c(2.0) * t186);
     let t404 = t123 * t403;
     let t405 = t105 * t214;
     let t406 = t120 * t403;
     let t407 = t105 * t217 - (t370 - (t333 - t369));
     // leg 6: remaining leg inertia less weight at the platform joint
-    let t408 = t372 + t373 - 0.17066666666666666 * (t402 + t404);
-    let t409 = t375 + t376 + 0.17066666666666666 * (t405 + t406);
+    let t408 = t372 + t373 - c(0.17066666666666666) * (t402 + t404);
+    let t409 = t375 + t376 + c(0.17066666666666666) * (t405 + t406);
     // leg 1: row of the actuator Jacobian in base coordinates
     let t410 = t45 * t107;
     let t411 = t45 * t106;
@@ -1001,145 +1004,148 @@ pub fn inverse_dynamics(
     // its first moments by platform coordinate
     let t433 = t349 + t360;
     let t434 = t374 + t408;
-    let t435 = 0.084853 * t390;
-    let t436 = t221 * 1.734723475976807e-18 - 0.03224559378363733 * t244 + t435;
-    let t437 = 0.084853 * t400;
-    let t438 = t436 + t437 - 0.115911 * t433 + 0.031058 * t434;
-    let t439 = t435 - t437 - 0.031058 * (t349 - t360);
-    let t440 = 0.03224559378363734 * (t247 - (t245 + t246));
-    let t441 = t439 + 0.115911 * (t374 - t408) + t440;
+    let t435 = t221 * c(1.734723475976807e-18) - c(0.03224559378363733) * t244;
+    let t436 = c(0.084853) * t390;
+    let t437 = c(0.084853) * t400;
+    let t438 = t435 + t436 + t437 - c(0.115911) * t433 + c(0.031058) * t434;
+    let t439 = t436 - t437 - c(0.031058) * (t349 - t360);
+    let t440 = c(0.03224559378363734) * (t247 - (t245 + t246));
+    let t441 = t439 + c(0.115911) * (t374 - t408) + t440;
     let t442 = t353 + t361;
     let t443 = t377 + t409;
-    let t444 = 0.084853 * t393;
-    let t445 = t224 * 1.734723475976807e-18 + 0.03224559378363733 * t254 + t444;
-    let t446 = 0.084853 * t401;
-    let t447 = t445 + t446 - 0.115911 * t442 + 0.031058 * t443;
-    let t448 = t444 - t446 - 0.031058 * (t353 - t361);
-    let t449 = 0.03224559378363734 * (t257 - (t255 - t256));
-    let t450 = t448 + 0.115911 * (t377 - t409) - t449;
+    let t444 = t224 * c(1.734723475976807e-18) + c(0.03224559378363733) * t254;
+    let t445 = c(0.084853) * t393;
+    let t446 = c(0.084853) * t401;
+    let t447 = t444 + t445 + t446 - c(0.115911) * t442 + c(0.031058) * t443;
+    let t448 = t445 - t446 - c(0.031058) * (t353 - t361);
+    let t449 = c(0.03224559378363734) * (t257 - (t255 - t256));
+    let t450 = t448 + c(0.115911) * (t377 - t409) - t449;
     let t451 = t345 - t359;
     let t452 = t371 - t407;
     let t453 = t387 - t399;
-    let t454 = t227 * 1.734723475976807e-18 + 0.03224559378363733 * t262;
-    let t455 = t454 + t451 * 0.019782143999999998 - t452 * 0.005300565333333333;
-    let t456 = t455 - t453 * 0.014481578666666666;
-    let t457 = 0.03224559378363734 * t263 - 0.005300565333333333 * (t345 + t359);
-    let t458 = t457 + 0.019782143999999998 * (t371 + t407);
-    let t459 = t458 + 0.014481578666666666 * (t387 + t399);
+    let t454 = t227 * c(1.734723475976807e-18) + c(0.03224559378363733) * t262;
+    let t455 = t454 + t451 * c(0.019782143999999998);
+    let t456 = t455 - t452 * c(0.005300565333333333);
+    let t457 = t456 - t453 * c(0.014481578666666666);
+    let t458 = c(0.005300565333333333) * (t345 + t359);
+    let t459 = c(0.019782143999999998) * (t371 + t407);
+    let t460 = c(0.03224559378363734) * t263 - t458 + t459;
+    let t461 = t460 + c(0.014481578666666666) * (t387 + t399);
     // inertia less external wrench that the actuators must balance
-    let t460 = base_rotation[1][0] * external_wrench[1];
-    let t461 = base_rotation[0][0] * external_wrench[0] + t460;
-    let t462 = base_rotation[2][0] * external_wrench[2] + t461;
-    let t463 = base_rotation[1][1] * external_wrench[1];
-    let t464 = base_rotation[0][1] * external_wrench[0] + t463;
-    let t465 = base_rotation[2][1] * external_wrench[2] + t464;
-    let t466 = base_rotation[1][2] * external_wrench[1];
-    let t467 = base_rotation[0][2] * external_wrench[0] + t466;
-    let t468 = base_rotation[2][2] * external_wrench[2] + t467;
-    let t469 = 8.139999999999999 * t227 + t262 * 1.734723475976807e-18;
-    let t470 = 0.17066666666666666 * (t453 + (t451 + t452));
-    let t471 = t468 - (t469 - 0.188852 * t264) + t470;
-    let t472 = t12 * t456;
-    let t473 = t21 * t447;
-    let t474 = t15 * t459;
-    let t475 = t24 * t450;
-    let t476 = 0.188852 * t227 - 0.013354412 * t264 - 0.031 * t468;
-    let t477 = t18 * t476;
-    let t478 = 0.188852 * t224 - 0.013354412 * t258 - 0.031 * t465;
-    let t479 = t27 * t478;
-    let t480 = base_rotation[0][0] * external_wrench[3];
-    let t481 = base_rotation[1][0] * external_wrench[4];
-    let t482 = base_rotation[2][0] * external_wrench[5];
-    let t483 = t21 * t438;
-    let t484 = t3 * t456;
-    let t485 = t24 * t441;
-    let t486 = t6 * t459;
-    let t487 = 0.188852 * t221 + 0.013354412 * t248 - 0.031 * t462;
-    let t488 = t27 * t487;
-    let t489 = t9 * t476;
-    let t490 = base_rotation[0][1] * external_wrench[3];
-    let t491 = base_rotation[1][1] * external_wrench[4];
-    let t492 = base_rotation[2][1] * external_wrench[5];
-    let t493 = t3 * t447;
-    let t494 = t12 * t438;
-    let t495 = t6 * t450;
-    let t496 = t15 * t441;
-    let t497 = t9 * t478;
-    let t498 = t18 * t487;
-    let t499 = base_rotation[0][2] * external_wrench[3];
-    let t500 = base_rotation[1][2] * external_wrench[4];
-    let t501 = base_rotation[2][2] * external_wrench[5];
+    let t462 = base_rotation[1][0] * external_wrench[1];
+    let t463 = base_rotation[0][0] * external_wrench[0] + t462;
+    let t464 = base_rotation[2][0] * external_wrench[2] + t463;
+    let t465 = base_rotation[1][1] * external_wrench[1];
+    let t466 = base_rotation[0][1] * external_wrench[0] + t465;
+    let t467 = base_rotation[2][1] * external_wrench[2] + t466;
+    let t468 = base_rotation[1][2] * external_wrench[1];
+    let t469 = base_rotation[0][2] * external_wrench[0] + t468;
+    let t470 = base_rotation[2][2] * external_wrench[2] + t469;
+    let t471 = c(8.139999999999999) * t227 + t262 * c(1.734723475976807e-18);
+    let t472 = c(0.17066666666666666) * (t453 + (t451 + t452));
+    let t473 = t470 - (t471 - c(0.188852) * t264) + t472;
+    let t474 = t12 * t457;
+    let t475 = t21 * t447;
+    let t476 = t15 * t461;
+    let t477 = t24 * t450;
+    let t478 = c(0.188852) * t227 - c(0.013354412) * t264 - c(0.031) * t470;
+    let t479 = t18 * t478;
+    let t480 = c(0.188852) * t224 - c(0.013354412) * t258 - c(0.031) * t467;
+    let t481 = t27 * t480;
+    let t482 = base_rotation[0][0] * external_wrench[3];
+    let t483 = base_rotation[1][0] * external_wrench[4];
+    let t484 = base_rotation[2][0] * external_wrench[5];
+    let t485 = t21 * t438;
+    let t486 = t3 * t457;
+    let t487 = t24 * t441;
+    let t488 = t6 * t461;
+    let t489 = c(0.188852) * t221 + c(0.013354412) * t248 - c(0.031) * t464;
+    let t490 = t27 * t489;
+    let t491 = t9 * t478;
+    let t492 = base_rotation[0][1] * external_wrench[3];
+    let t493 = base_rotation[1][1] * external_wrench[4];
+    let t494 = base_rotation[2][1] * external_wrench[5];
+    let t495 = t3 * t447;
+    let t496 = t12 * t438;
+    let t497 = t6 * t450;
+    let t498 = t15 * t441;
+    let t499 = t9 * t480;
+    let t500 = t18 * t489;
+    let t501 = base_rotation[0][2] * external_wrench[3];
+    let t502 = base_rotation[1][2] * external_wrench[4];
+    let t503 = base_rotation[2][2] * external_wrench[5];
     // force along the actuator that balances the remaining wrench
-    let t502 = t491 + (t490 + (t489 - (t488 + (t486 + (t485 - (t483 - t484))))));
-    let t503 = t423 * t471 - (t492 + t502);
-    let t504 = 1.0 / (t423 + (t49 + t415));
-    let t505 = (t422 + (t50 - t414)) * t504;
-    let t506 = t481 + (t480 + (t479 - (t477 - (t475 + (t474 + (t472 - t473))))));
-    let t507 = t503 * t505 - (t422 * t471 + (t482 + t506));
-    let t508 = t426 + (t78 - t423);
-    let t509 = (t109 + t113) * t504;
-    let t510 = 1.0 / (t508 * t505 - (t425 + (t79 - t422)));
-    let t511 = (t508 * t509 + (t113 - t115)) * t510;
-    let t512 = 8.139999999999999 * t224 + t254 * 1.734723475976807e-18;
-    let t513 = t465 - (t443 + (t442 + (t401 + (t393 + (t512 - 0.188852 * t258)))));
-    let t514 = t507 * t511 - (t503 * t509 - (t113 * t471 + t513));
-    let t515 = t423 + (t39 - t411);
-    let t516 = t515 * t505 - (t422 + (t42 - t410));
-    let t517 = (t424 - (t416 + t417)) * t504;
-    let t518 = (t508 * t517 + (t428 + (t424 - t427))) * t510;
-    let t519 = 1.0 / (t516 * t511 - (t515 * t509 - (t107 + t113)));
-    let t520 = (t516 * t518 - (t515 * t517 - (t424 - (t412 - t413)))) * t519;
-    let t521 = t500 + (t499 + (t498 - (t497 - (t496 - (t495 - (t493 - t494))))));
-    let t522 = t507 * t518 - (t503 * t517 - (t424 * t471 - (t501 + t521)));
-    let t523 = t514 * t520 - t522;
-    let t524 = t430 + (t83 - t423);
-    let t525 = t524 * t505 - (t429 + (t84 - t422));
-    let t526 = t525 * t511 - (t524 * t509 + (t113 - t117));
-    let t527 = (t108 - t112) * t504;
-    let t528 = (t508 * t527 - (t112 - t114)) * t510;
-    let t529 = (t516 * t528 - (t515 * t527 + (t106 + t112))) * t519;
-    let t530 = t526 * t529 - (t525 * t528 - (t524 * t527 - (t112 - t116)));
-    let t531 = t525 * t518 - (t524 * t517 + (t432 + (t424 - t431)));
-    let t532 = 1.0 / (t526 * t520 - t531);
-    let t533 = t530 * t532;
-    let t534 = 8.139999999999999 * t221 - t244 * 1.734723475976807e-18;
-    let t535 = t462 - (t434 + (t433 + (t400 + (t390 + (t534 + 0.188852 * t248)))));
-    let t536 = t507 * t528 - (t503 * t527 + (t112 * t471 + t535));
-    let t537 = t523 * t533 - (t514 * t529 - t536);
-    let t538 = t423 - (t56 + t419);
-    let t539 = t538 * t505 - (t422 - (t59 + t418));
-    let t540 = t539 * t511 - (t538 * t509 + (t111 - t113));
-    let t541 = t539 * t518 - (t538 * t517 - (t424 - (t420 - t421)));
-    let t542 = t540 * t520 - t541;
-    let t543 = t540 * t529 - (t539 * t528 - (t538 * t527 - (t110 - t112)));
-    let t544 = t537 * (1.0 / (t542 * t533 - t543));
-    let t545 = t532 * (t523 - t542 * t544);
-    let t546 = t519 * (t540 * t544 - (t514 - t526 * t545));
-    let t547 = t510 * (t539 * t544 + (t525 * t545 - (t507 + t516 * t546)));
-    let t548 = t524 * t545 - (t515 * t546 + (t503 + t508 * t547));
-    let t549 = t504 * (t538 * t544 + t548);
+    let t504 = t493 + (t492 + (t491 - (t490 + (t488 + (t487 - (t485 - t486))))));
+    let t505 = t423 * t473 - (t494 + t504);
+    let t506 = c(1.0) / (t423 + (t49 + t415));
+    let t507 = (t422 + (t50 - t414)) * t506;
+    let t508 = t483 + (t482 + (t481 - (t479 - (t477 + (t476 + (t474 - t475))))));
+    let t509 = t505 * t507 - (t422 * t473 + (t484 + t508));
+    let t510 = t426 + (t78 - t423);
+    let t511 = (t109 + t113) * t506;
+    let t512 = c(1.0) / (t510 * t507 - (t425 + (t79 - t422)));
+    let t513 = (t510 * t511 + (t113 - t115)) * t512;
+    let t514 = c(8.139999999999999) * t224 + t254 * c(1.734723475976807e-18);
+    let t515 = t443 + (t442 + (t401 + (t393 + (t514 - c(0.188852) * t258))));
+    let t516 = t509 * t513 - (t505 * t511 - (t113 * t473 + (t467 - t515)));
+    let t517 = t423 + (t39 - t411);
+    let t518 = t517 * t507 - (t422 + (t42 - t410));
+    let t519 = (t424 - (t416 + t417)) * t506;
+    let t520 = (t510 * t519 + (t428 + (t424 - t427))) * t512;
+    let t521 = c(1.0) / (t518 * t513 - (t517 * t511 - (t107 + t113)));
+    let t522 = (t518 * t520 - (t517 * t519 - (t424 - (t412 - t413)))) * t521;
+    let t523 = t502 + (t501 + (t500 - (t499 - (t498 - (t497 - (t495 - t496))))));
+    let t524 = t509 * t520 - (t505 * t519 - (t424 * t473 - (t503 + t523)));
+    let t525 = t516 * t522 - t524;
+    let t526 = t430 + (t83 - t423);
+    let t527 = t526 * t507 - (t429 + (t84 - t422));
+    let t528 = t527 * t513 - (t526 * t511 + (t113 - t117));
+    let t529 = (t108 - t112) * t506;
+    let t530 = (t510 * t529 - (t112 - t114)) * t512;
+    let t531 = (t518 * t530 - (t517 * t529 + (t106 + t112))) * t521;
+    let t532 = t528 * t531 - (t527 * t530 - (t526 * t529 - (t112 - t116)));
+    let t533 = t527 * t520 - (t526 * t519 + (t432 + (t424 - t431)));
+    let t534 = c(1.0) / (t528 * t522 - t533);
+    let t535 = t532 * t534;
+    let t536 = c(8.139999999999999) * t221 - t244 * c(1.734723475976807e-18);
+    let t537 = t434 + (t433 + (t400 + (t390 + (t536 + c(0.188852) * t248))));
+    let t538 = t509 * t530 - (t505 * t529 + (t112 * t473 + (t464 - t537)));
+    let t539 = t525 * t535 - (t516 * t531 - t538);
+    let t540 = t423 - (t56 + t419);
+    let t541 = t540 * t507 - (t422 - (t59 + t418));
+    let t542 = t541 * t513 - (t540 * t511 + (t111 - t113));
+    let t543 = t541 * t520 - (t540 * t519 - (t424 - (t420 - t421)));
+    let t544 = t542 * t522 - t543;
+    let t545 = t542 * t531 - (t541 * t530 - (t540 * t529 - (t110 - t112)));
+    let t546 = t539 * (c(1.0) / (t544 * t535 - t545));
+    let t547 = t534 * (t525 - t544 * t546);
+    let t548 = t521 * (t542 * t546 - (t516 - t528 * t547));
+    let t549 = t512 * (t541 * t546 + (t527 * t547 - (t509 + t518 * t548)));
+    let t550 = t526 * t547 - (t517 * t548 + (t505 + t510 * t549));
+    let t551 = t506 * (t540 * t546 + t550);
     // leg 1: actuator forces F
-    let t550 = 4268.068200000001 - t217 * 0.03055 - 0.17066666666666666 * t227;
-    let t551 = t550 + t262 * 0.019782143999999998;
-    let t552 = t263 * 0.005300565333333333;
-    let t553 = t546 - (21555.9 * t90 - t552 + t345 * 0.9523333333333334);
-    inverse_dynamics[0] = t553 - t551;
+    let t552 = c(4268.068200000001) - t217 * c(0.03055);
+    let t553 = t552 - c(0.17066666666666666) * t227;
+    let t554 = t553 + t262 * c(0.019782143999999998);
+    let t555 = t263 * c(0.005300565333333333);
+    let t556 = t548 - (c(21555.9) * t90 - t555 + t345 * c(0.9523333333333334));
+    inverse_dynamics[0] = t556 - t554;
     // leg 2: actuator forces F
-    let t554 = t549 - (t552 + 21555.9 * t93 - t359 * 0.9523333333333334);
-    inverse_dynamics[1] = t554 - t551;
+    let t557 = t551 - (t555 + c(21555.9) * t93 - t359 * c(0.9523333333333334));
+    inverse_dynamics[1] = t557 - t554;
     // leg 3: actuator forces F
-    let t555 = t550 - t262 * 0.005300565333333333;
-    let t556 = t263 * 0.019782143999999998;
-    let t557 = t96 * -21555.9 - t556 - t371 * 0.9523333333333334 - t544;
-    inverse_dynamics[2] = t557 - t555;
+    let t558 = t553 - t262 * c(0.005300565333333333);
+    let t559 = t263 * c(0.019782143999999998);
+    let t560 = t96 * c(-21555.9) - t559 - t371 * c(0.9523333333333334) - t546;
+    inverse_dynamics[2] = t560 - t558;
     // leg 4: actuator forces F
-    let t558 = t547 - t263 * 0.014481578666666666;
-    let t559 = t550 - t262 * 0.014481578666666666;
-    let t560 = t544 - (t471 + (21555.9 * t99 + t387 * 0.9523333333333334));
-    inverse_dynamics[3] = t558 - (t549 + (t546 + (t545 - t560))) - t559;
+    let t561 = t549 - t263 * c(0.014481578666666666);
+    let t562 = t553 - t262 * c(0.014481578666666666);
+    let t563 = t546 - (t473 + (c(21555.9) * t99 + t387 * c(0.9523333333333334)));
+    inverse_dynamics[3] = t561 - (t551 + (t548 + (t547 - t563))) - t562;
     // leg 6: actuator forces F
-    let t561 = t545 + (t556 - 21555.9 * t105 + t407 * 0.9523333333333334);
-    inverse_dynamics[5] = t561 - t555;
+    let t564 = t547 + (t559 - c(21555.9) * t105 + t407 * c(0.9523333333333334));
+    inverse_dynamics[5] = t564 - t558;
     // leg 5: actuator forces F
-    inverse_dynamics[4] = t399 * 0.9523333333333334 - 21555.9 * t102 - t558 - t559;
+    inverse_dynamics[4] = t399 * c(0.9523333333333334) - c(21555.9) * t102 - t561 - t562;
 }
