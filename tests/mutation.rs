@@ -20,7 +20,12 @@ const EQUIVALENT: &[Equivalent] = &[
 ];
 
 const EQUIVALENT_OF_UPS: &[Equivalent] = &[
-    ("leg_closure", Change::OtherSign, 3, "components of the direction that enter the alignment squared only"),
+    (
+        "leg_closure",
+        Change::OtherSign,
+        3,
+        "components of the direction that enter the alignment squared only",
+    ),
     ("leg_energy", Change::OtherSign, 1, "velocity components that enter the kinetic energy squared only"),
 ];
 
