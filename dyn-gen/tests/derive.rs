@@ -120,7 +120,11 @@ fn a_sound_derivation_replaces_the_graph() {
     let graph = place.path().join("codegen/graphs/uhp.json");
     let check = place.run(&["derive", "--check"]);
     assert_eq!(code(&check), 1, "{}", said(&check));
-    assert!(said(&check).contains("not what the derivation gives: codegen/graphs/uhp.json"), "{}", said(&check));
+    assert!(
+        said(&check).contains("not what the derivation gives: codegen/graphs/uhp.json"),
+        "{}",
+        said(&check)
+    );
     let derive = place.run(&["derive"]);
     assert_eq!(code(&derive), 0, "{}", said(&derive));
     assert!(fs::read_to_string(&graph).unwrap().contains("0.0.0"));
