@@ -231,7 +231,7 @@ fn files_that_cannot_be_written_have_a_remedy() {
 #[test]
 fn every_starter_can_be_explained_and_generated() {
     let folder = tempfile::tempdir().unwrap();
-    for layout in ["paper", "free", "cubic"] {
+    for layout in ["paper", "free", "cubic", "ups"] {
         let file = format!("{layout}.toml");
         let result = dyn_gen(folder.path(), &["init", "--layout", layout, "-o", &file]);
         assert_eq!(code(&result), 0, "{}", said(&result));

@@ -22,7 +22,7 @@ fn count(variable: &str, otherwise: usize) -> usize {
 #[test]
 fn whatever_the_numbers_the_printed_functions_are_right() {
     let (platforms, states) = (count("DYN_GEN_PLATFORMS", PLATFORMS), count("DYN_GEN_STATES", STATES));
-    for leg_type in [LegType::Uhp] {
+    for leg_type in LegType::ALL {
         let file = GraphFile::of(leg_type).unwrap();
         let mut worst_law = (0.0, "");
         let (mut examined, mut singular, mut worst) = (0, 0, (0.0, String::new()));

@@ -10,6 +10,7 @@ use miette::{IntoDiagnostic, Result};
 
 use super::Outcome;
 use super::files::read_platform;
+use super::model::states;
 use super::progress::with_progress;
 
 /// Arguments of `explain`.
@@ -29,7 +30,7 @@ pub struct Explain {
     #[arg(long, value_delimiter = ',', value_name = "NAME,...")]
     runtime: Vec<String>,
     /// States looked at
-    #[arg(long, value_name = "N", default_value_t = Sampling::default().states)]
+    #[arg(long, value_name = "N", default_value_t = Sampling::default().states, value_parser = states)]
     states: usize,
     /// Seed of those states
     #[arg(long, value_name = "S", default_value_t = Sampling::default().seed)]

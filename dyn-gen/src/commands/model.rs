@@ -36,7 +36,7 @@ pub struct ModelArguments {
     #[arg(long, value_name = "PATH", default_value = RUNTIME_PATH)]
     runtime_path: String,
     /// States at which the model is examined before it is written
-    #[arg(long, value_name = "N", default_value_t = Sampling::default().states)]
+    #[arg(long, value_name = "N", default_value_t = Sampling::default().states, value_parser = states)]
     states: usize,
     /// Seed of those states
     #[arg(long, value_name = "S", default_value_t = Sampling::default().seed)]
@@ -89,6 +89,16 @@ impl ModelArguments {
             words.push("--no-evidence".into());
         }
         words
+    }
+}
+
+/// Number of states to look at: all kinds of them, or figures could come from home alone, where much is zero.
+pub fn states(text: &str) -> std::result::Result<usize, String> {
+    const LEAST: usize = 4;
+    match text.parse() {
+        Ok(states) if states >= LEAST => Ok(states),
+        Ok(_) => Err(format!("give at least {LEAST}, one of each kind; `generate` has --no-evidence")),
+        Err(error) => Err(error.to_string()),
     }
 }
 

@@ -32,8 +32,8 @@ impl Agreement {
 /// The error that comes nearest to what is allowed, and where it occurs.
 #[derive(Clone, Copy, PartialEq, Debug, Serialize)]
 pub struct Worst {
-    /// Relative to the largest entry of the array at that state (of a scalar: at all states); NaN where a deviation is
-    /// not a number.
+    /// Relative to the largest entry of the array at that state, or a thousandth of that at all states (of a scalar: all of
+    /// that); NaN where a deviation is not a number.
     pub error: f64,
     /// The largest error allowed there.
     pub tolerance: f64,
@@ -117,7 +117,7 @@ impl<'a> Comparison<'a> {
             .map(|function| program.flatten(function))
             .collect();
         let scale = |name: &'a String| {
-            (name.as_str(), Scale::of(expected.iter().map(|values| values[name].as_slice())))
+            (name.as_str(), Scale::over(expected.iter().map(|values| values[name].as_slice())))
         };
         Comparison {
             functions,

@@ -10,7 +10,7 @@ use dyn_platform::Platform;
 
 use crate::compiled::{assert_same_bits, interpret, run};
 
-const FUNCTIONS: [&str; 3] = ["inverse_dynamics", "bias", "rod_alignment"];
+const FUNCTIONS: [&str; 3] = ["inverse_dynamics", "bias", "energy"];
 
 /// One flat array per input of each graph and state.
 fn inputs(graphs: &[Graph], states: &[Environment]) -> Vec<Vec<Vec<Vec<f64>>>> {

@@ -119,6 +119,47 @@ fn a_model_file() {
         }
 
         #[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+        impl<T: Scalar + Into<f64>> Parameters<T> {
+            /// Sets `rod_length`: 6, m, frame O: rod length.
+            ///
+            /// # Errors
+            ///
+            /// If it is not finite or it is not positive; then it keeps its value.
+            pub fn set_rod_length(
+                &mut self,
+                rod_length: [T; 6],
+            ) -> Result<&mut Self, crate::parameter::ParameterError> {
+                crate::parameter::check(
+                    "rod_length",
+                    crate::parameter::Domain::Positive,
+                    &rod_length,
+                )?;
+                self.rod_length = rod_length;
+                Ok(self)
+            }
+            /// Checks all parameters as their setters do, however they got their values.
+            ///
+            /// # Errors
+            ///
+            /// The first that is refused.
+            pub fn check(&self) -> Result<(), crate::parameter::ParameterError> {
+                crate::parameter::check(
+                    "rod_length",
+                    crate::parameter::Domain::Positive,
+                    &self.rod_length,
+                )?;
+                Ok(())
+            }
+        }
+
+        impl<T> TestModel<T> {
+            /// The model with these parameters.
+            pub fn new(parameters: Parameters<T>) -> Self {
+                TestModel { parameters }
+            }
+        }
+
+        #[allow(clippy::all, clippy::pedantic, unused_qualifications)]
         impl crate::kernels::RodDirection for TestModel {
             fn rod_direction(&self, platform_position: &[f64; 3], rod_direction: &mut [f64; 3]) {
                 self::rod_direction(&self.parameters, platform_position, rod_direction);
