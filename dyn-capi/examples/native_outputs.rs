@@ -7,11 +7,11 @@
 use std::error::Error;
 use std::mem::size_of;
 use std::path::Path;
-use std::ptr::null_mut;
+use std::ptr::{null, null_mut};
 
 use dyn_capi as capi;
-use dyn_capi::{Inputs, Model, ModelKind, Real, Status, UhpParameters};
-use dyn_platform::Platform;
+use dyn_capi::{Inputs, Model, ModelKind, Real, Status, UhpParameters, UpsParameters};
+use dyn_platform::{LegType, Platform};
 use serde_json::{Map, Value, json};
 
 /// Calls functions of the interface; name, whether the output is a struct, and its numbers.
@@ -63,13 +63,15 @@ fn main() -> Result<(), Box<dyn Error>> {
     let mut platforms = Vec::new();
     for file in files {
         let vectors: Value = serde_json::from_str(&std::fs::read_to_string(file)?)?;
-        if vectors["platform"]["leg_type"] != "uhp" {
-            continue;
-        }
         let platform: Platform = serde_json::from_value(vectors["platform"].clone())?;
-        platforms.push(run(&platform, vectors["cases"].as_array().ok_or("no cases")?, ModelKind::Uhp)?);
+        let cases = vectors["cases"].as_array().ok_or("no cases")?;
+        let kind = match platform.leg_type {
+            LegType::Uhp => ModelKind::Uhp,
+            LegType::Ups => ModelKind::Ups,
+        };
+        platforms.push(run(&platform, cases, kind)?);
         if platform.name == "uhp_2016" {
-            platforms.push(run(&platform, vectors["cases"].as_array().ok_or("no cases")?, ModelKind::Baked)?);
+            platforms.push(run(&platform, cases, ModelKind::Baked)?);
         }
     }
     println!("{}", json!({ "platforms": platforms }));
@@ -77,8 +79,16 @@ fn main() -> Result<(), Box<dyn Error>> {
 }
 
 fn run(platform: &Platform, cases: &[Value], kind: ModelKind) -> Result<Value, Box<dyn Error>> {
-    let parameters = parameters(platform)?;
-    let model = Model { struct_size: size_of::<Model>(), kind: kind as i32, uhp: &parameters };
+    let numbers = numbers_of(platform)?;
+    // Only the struct of the platform's leg type takes these numbers.
+    let uhp: Option<UhpParameters> = structure(&numbers).ok();
+    let ups: Option<UpsParameters> = structure(&numbers).ok();
+    let model = Model {
+        struct_size: size_of::<Model>(),
+        kind: kind as i32,
+        uhp: uhp.as_ref().map_or(null(), |parameters| parameters),
+        ups: ups.as_ref().map_or(null(), |parameters| parameters),
+    };
     let mut results = Vec::new();
     for case in cases {
         let inputs = inputs(case)?;
@@ -101,9 +111,7 @@ fn run(platform: &Platform, cases: &[Value], kind: ModelKind) -> Result<Value, B
         );
         results.push(json!({ "inputs": words(&inputs), "outputs": outputs }));
     }
-    Ok(
-        json!({ "name": platform.name, "kind": kind as i32, "parameters": words(&parameters), "cases": results }),
-    )
+    Ok(json!({ "name": platform.name, "kind": kind as i32, "parameters": numbers, "cases": results }))
 }
 
 /// The numbers of a struct after its size.
@@ -129,31 +137,13 @@ fn structure<T: Copy>(numbers: &[Real]) -> Result<T, Box<dyn Error>> {
     }
 }
 
-/// In the order of the struct.
-fn parameters(platform: &Platform) -> Result<UhpParameters, Box<dyn Error>> {
-    let names = [
-        "base_point",
-        "actuator_axis",
-        "platform_point",
-        "rod_length",
-        "rod_mass",
-        "rod_inertia",
-        "rod_com_fraction",
-        "mover_mass",
-        "mover_offset",
-        "rest_length",
-        "axial_stiffness",
-        "axial_damping",
-        "payload_mass",
-        "payload_com",
-        "payload_inertia",
-        "gravity",
-    ];
+/// The parameters in the order of the struct, which is that of the platform's own table.
+fn numbers_of(platform: &Platform) -> Result<Vec<Real>, Box<dyn Error>> {
     let mut numbers = Vec::new();
-    for name in names {
+    for name in platform.parameter_names() {
         numbers.extend(platform.parameter(name).ok_or(name)?);
     }
-    structure(&numbers)
+    Ok(numbers)
 }
 
 /// In the order of the struct.

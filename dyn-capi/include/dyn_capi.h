@@ -127,6 +127,18 @@ enum dyn_input
   DYN_INPUT_PAYLOAD_INERTIA = 114,
   // `gravity`
   DYN_INPUT_GRAVITY = 115,
+  // `lower_mass`
+  DYN_INPUT_LOWER_MASS = 116,
+  // `lower_com_distance`
+  DYN_INPUT_LOWER_COM_DISTANCE = 117,
+  // `lower_inertia`
+  DYN_INPUT_LOWER_INERTIA = 118,
+  // `upper_mass`
+  DYN_INPUT_UPPER_MASS = 119,
+  // `upper_com_distance`
+  DYN_INPUT_UPPER_COM_DISTANCE = 120,
+  // `upper_inertia`
+  DYN_INPUT_UPPER_INERTIA = 121,
 };
 #ifndef __cplusplus
 #if __STDC_VERSION__ >= 202311L
@@ -146,6 +158,9 @@ enum dyn_model_kind
   DYN_MODEL_KIND_BAKED = 0,
   // Any platform with UHP legs (actuator fixed to the base, Hooke joint, rod, universal joint), parameters at run time.
   DYN_MODEL_KIND_UHP = 1,
+  // Any platform with UPS legs (universal joint on the base, telescopic leg, spherical joint; Gough and Stewart's),
+  // parameters at run time.
+  DYN_MODEL_KIND_UPS = 2,
 };
 #ifndef __cplusplus
 #if __STDC_VERSION__ >= 202311L
@@ -205,6 +220,44 @@ typedef struct dyn_uhp_parameters {
   dyn_real gravity[3];
 } dyn_uhp_parameters;
 
+// Parameters of a platform with UPS legs. SI units; the first index of leg quantities is the leg.
+//
+// `dyn-gen resolve platform.toml` prints these numbers under these names.
+typedef struct dyn_ups_parameters {
+  // Set to sizeof(dyn_ups_parameters).
+  size_t struct_size;
+  // Universal joint b on the base, m, B.
+  dyn_real base_point[6][3];
+  // Platform joint p, m, P.
+  dyn_real platform_point[6][3];
+  // Mass of the lower part, kg.
+  dyn_real lower_mass[6];
+  // Distance of the lower part's centre of mass from the base joint, m.
+  dyn_real lower_com_distance[6];
+  // Transverse inertia of the lower part about its centre of mass, kg m^2.
+  dyn_real lower_inertia[6];
+  // Mass of the upper part, kg.
+  dyn_real upper_mass[6];
+  // Distance of the upper part's centre of mass from the platform joint, m.
+  dyn_real upper_com_distance[6];
+  // Transverse inertia of the upper part about its centre of mass, kg m^2.
+  dyn_real upper_inertia[6];
+  // Actuator length d0 at which the axial spring is relaxed, m.
+  dyn_real rest_length[6];
+  // Axial stiffness k_e, N/m.
+  dyn_real axial_stiffness[6];
+  // Axial viscous damping c_e, N s/m.
+  dyn_real axial_damping[6];
+  // Mass of platform and payload, kg.
+  dyn_real payload_mass;
+  // Centre of mass of platform and payload, m, P.
+  dyn_real payload_com[3];
+  // Inertia of platform and payload about their centre of mass, kg m^2, P; symmetric, the upper triangle is read.
+  dyn_real payload_inertia[3][3];
+  // Acceleration of gravity, m/s^2, O.
+  dyn_real gravity[3];
+} dyn_ups_parameters;
+
 // A platform: a kind, and the parameters of kinds that have them at run time.
 //
 // Holds no state and no resources; any number of threads may use one at the same time.
@@ -215,6 +268,8 @@ typedef struct dyn_model {
   int32_t kind;
   // For DYN_MODEL_KIND_UHP, else not looked at. The caller keeps it.
   const struct dyn_uhp_parameters *uhp;
+  // For DYN_MODEL_KIND_UPS, else not looked at. The caller keeps it.
+  const struct dyn_ups_parameters *ups;
 } dyn_model;
 
 // Motion of base and platform, and loads. SI units, axes of the inertial frame O, arrays row-major.
@@ -272,13 +327,13 @@ typedef struct dyn_leg_kinematics_result {
   dyn_real actuator_velocity[6];
   // d'', m/s^2.
   dyn_real actuator_acceleration[6];
-  // Unit vector u along the rod, from Hooke to platform joint.
+  // Unit vector u along the rod (UPS: the leg), towards the platform joint.
   dyn_real rod_direction[6][3];
-  // Centre of the Hooke joint between actuator and rod, m.
+  // Centre of the Hooke joint between actuator and rod (UPS: of the joint on the base), m.
   dyn_real hooke_joint_position[6][3];
   // Centre of the joint between rod and platform, m.
   dyn_real platform_joint_position[6][3];
-  // Angular velocity of the platform relative to the rod, w_p - w_s, rad/s.
+  // Angular velocity of the platform relative to the rod (UPS: leg), w_p - w_s, rad/s.
   dyn_real platform_joint_rate[6][3];
 } dyn_leg_kinematics_result;
 

@@ -19,7 +19,7 @@
 //! |-|-|
 //! | `real` | the number type |
 //! | `status` | status, details, both in words |
-//! | `model`, `inputs`, `outputs` | structs, and what the runtime makes of them |
+//! | `model`, `parameters`, `inputs`, `outputs` | structs, and what the runtime makes of them |
 //! | `pointers` | the border: the only module that follows pointers |
 //! | `dynamics` | the calls about a model, one row each |
 //! | `rotations` | the calls about rotations and angles |
@@ -43,6 +43,7 @@ mod model;
 mod outputs;
 #[cfg(all(feature = "panic-handler", not(feature = "std")))]
 mod panic;
+mod parameters;
 mod pointers;
 mod real;
 mod rotations;
@@ -50,10 +51,11 @@ mod status;
 
 pub use dynamics::*;
 pub use inputs::Inputs;
-pub use model::{Model, ModelKind, UhpParameters, dyn_baked_platform_name, dyn_check_model};
+pub use model::{Model, ModelKind, dyn_baked_platform_name, dyn_check_model};
 pub use outputs::{
     CoriolisMatrices, Energy, EquationOfMotion, LegKinematics, Matrices, PassiveForces, StiffnessMatrices,
 };
+pub use parameters::{UhpParameters, UpsParameters};
 pub use real::Real;
 pub use rotations::*;
 pub use status::{Info, InputName, Status, dyn_input_text, dyn_status_text};

@@ -3,11 +3,11 @@
 use core::ffi::c_char;
 use core::marker::PhantomData;
 
-#[cfg(feature = "uhp")]
+#[cfg(any(feature = "uhp", feature = "ups"))]
 use dyn_runtime::models;
 
+use crate::parameters::{UhpParameters, UpsParameters};
 use crate::pointers::{explain, structure};
-use crate::real::Real;
 use crate::status::{Info, Refusal, Status};
 
 #[cfg(not(feature = "own-platform"))]
@@ -34,6 +34,9 @@ pub enum ModelKind {
     Baked = 0,
     /// Any platform with UHP legs (actuator fixed to the base, Hooke joint, rod, universal joint), parameters at run time.
     Uhp = 1,
+    /// Any platform with UPS legs (universal joint on the base, telescopic leg, spherical joint; Gough and Stewart's),
+    /// parameters at run time.
+    Ups = 2,
 }
 
 /// A platform: a kind, and the parameters of kinds that have them at run time.
@@ -48,55 +51,17 @@ pub struct Model {
     pub kind: i32,
     /// For DYN_MODEL_KIND_UHP, else not looked at. The caller keeps it.
     pub uhp: *const UhpParameters,
-}
-
-/// Parameters of a platform with UHP legs. SI units; the first index of leg quantities is the leg.
-///
-/// `dyn-gen resolve platform.toml` prints these numbers under these names.
-#[repr(C)]
-#[derive(Clone, Copy, PartialEq, Debug)]
-pub struct UhpParameters {
-    /// Set to sizeof(dyn_uhp_parameters).
-    pub struct_size: usize,
-    /// Point b of the actuator's axis, m, B.
-    pub base_point: [[Real; 3]; 6],
-    /// Unit vector a of the actuator, towards the platform, B.
-    pub actuator_axis: [[Real; 3]; 6],
-    /// Platform joint p, m, P.
-    pub platform_point: [[Real; 3]; 6],
-    /// Rod length s, m.
-    pub rod_length: [Real; 6],
-    /// Rod mass m_s, kg.
-    pub rod_mass: [Real; 6],
-    /// Transverse inertia J_s of the rod about its centre of mass, kg m^2.
-    pub rod_inertia: [Real; 6],
-    /// The rod's centre of mass, from Hooke joint (0) to platform joint (1).
-    pub rod_com_fraction: [Real; 6],
-    /// Mover mass m_d, kg.
-    pub mover_mass: [Real; 6],
-    /// Distance of the mover's centre of mass below the Hooke joint, m.
-    pub mover_offset: [Real; 6],
-    /// Actuator length d0 at which the leaf springs are relaxed, m.
-    pub rest_length: [Real; 6],
-    /// Axial stiffness k_e of the leaf springs, N/m.
-    pub axial_stiffness: [Real; 6],
-    /// Axial viscous damping c_e, N s/m.
-    pub axial_damping: [Real; 6],
-    /// Mass of platform and payload, kg.
-    pub payload_mass: Real,
-    /// Centre of mass of platform and payload, m, P.
-    pub payload_com: [Real; 3],
-    /// Inertia of platform and payload about their centre of mass, kg m^2, P; symmetric, the upper triangle is read.
-    pub payload_inertia: [[Real; 3]; 3],
-    /// Acceleration of gravity, m/s^2, O.
-    pub gravity: [Real; 3],
+    /// For DYN_MODEL_KIND_UPS, else not looked at. The caller keeps it.
+    pub ups: *const UpsParameters,
 }
 
 /// A [`Model`] whose kind is known and whose parameters are there.
 pub(crate) enum Platform<'a> {
-    Baked(PhantomData<&'a UhpParameters>),
+    Baked(PhantomData<&'a ()>),
     #[cfg(feature = "uhp")]
     Uhp(&'a UhpParameters),
+    #[cfg(feature = "ups")]
+    Ups(&'a UpsParameters),
 }
 
 /// Evaluates an expression with `hexapod` bound to the platform's [`Hexapod`](dyn_runtime::Hexapod).
@@ -110,6 +75,11 @@ macro_rules! with_hexapod {
             #[cfg(feature = "uhp")]
             $crate::model::Platform::Uhp(parameters) => {
                 let $hexapod = $crate::real::hexapod(dyn_runtime::models::Uhp::from(*parameters));
+                $value
+            }
+            #[cfg(feature = "ups")]
+            $crate::model::Platform::Ups(parameters) => {
+                let $hexapod = $crate::real::hexapod(dyn_runtime::models::Ups::from(*parameters));
                 $value
             }
         }
@@ -131,52 +101,12 @@ impl Model {
                 // SAFETY: passed on to the caller.
                 Ok(Platform::Uhp(unsafe { structure(self.uhp)? }))
             }
+            #[cfg(feature = "ups")]
+            kind if kind == ModelKind::Ups as i32 => {
+                // SAFETY: passed on to the caller.
+                Ok(Platform::Ups(unsafe { structure(self.ups)? }))
+            }
             _ => Err(Refusal::of(Status::UnknownModel)),
-        }
-    }
-}
-
-#[cfg(feature = "uhp")]
-impl From<&UhpParameters> for models::Uhp<Real> {
-    fn from(parameters: &UhpParameters) -> Self {
-        let &UhpParameters {
-            struct_size: _,
-            base_point,
-            actuator_axis,
-            platform_point,
-            rod_length,
-            rod_mass,
-            rod_inertia,
-            rod_com_fraction,
-            mover_mass,
-            mover_offset,
-            rest_length,
-            axial_stiffness,
-            axial_damping,
-            payload_mass,
-            payload_com,
-            payload_inertia,
-            gravity,
-        } = parameters;
-        Self {
-            parameters: models::Parameters {
-                base_point,
-                actuator_axis,
-                platform_point,
-                rod_length,
-                rod_mass,
-                rod_inertia,
-                rod_com_fraction,
-                mover_mass,
-                mover_offset,
-                rest_length,
-                axial_stiffness,
-                axial_damping,
-                payload_mass,
-                payload_com,
-                payload_inertia,
-                gravity,
-            },
         }
     }
 }
@@ -191,6 +121,8 @@ pub unsafe extern "C" fn dyn_check_model(model: *const Model, info: *mut Info) -
             Platform::Baked(_) => Ok(()),
             #[cfg(feature = "uhp")]
             Platform::Uhp(parameters) => Ok(models::Uhp::from(parameters).parameters.check()?),
+            #[cfg(feature = "ups")]
+            Platform::Ups(parameters) => Ok(models::Ups::from(parameters).parameters.check()?),
         })
     }
 }

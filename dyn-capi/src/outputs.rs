@@ -27,13 +27,13 @@ pub struct LegKinematics {
     pub actuator_velocity: [Real; 6],
     /// d'', m/s^2.
     pub actuator_acceleration: [Real; 6],
-    /// Unit vector u along the rod, from Hooke to platform joint.
+    /// Unit vector u along the rod (UPS: the leg), towards the platform joint.
     pub rod_direction: [[Real; 3]; 6],
-    /// Centre of the Hooke joint between actuator and rod, m.
+    /// Centre of the Hooke joint between actuator and rod (UPS: of the joint on the base), m.
     pub hooke_joint_position: [[Real; 3]; 6],
     /// Centre of the joint between rod and platform, m.
     pub platform_joint_position: [[Real; 3]; 6],
-    /// Angular velocity of the platform relative to the rod, w_p - w_s, rad/s.
+    /// Angular velocity of the platform relative to the rod (UPS: leg), w_p - w_s, rad/s.
     pub platform_joint_rate: [[Real; 3]; 6],
 }
 

@@ -12,7 +12,8 @@ use core::mem::size_of;
 use dyn_runtime::Error;
 
 use crate::inputs::{Inputs, States};
-use crate::model::{Model, Platform, UhpParameters};
+use crate::model::{Model, Platform};
+use crate::parameters::{UhpParameters, UpsParameters};
 use crate::real::Real;
 use crate::status::{Info, Refusal, Status};
 
@@ -41,6 +42,8 @@ unsafe impl Structure for Info {}
 unsafe impl Structure for Model {}
 // SAFETY: `repr(C)`, first member `struct_size: usize`.
 unsafe impl Structure for UhpParameters {}
+// SAFETY: `repr(C)`, first member `struct_size: usize`.
+unsafe impl Structure for UpsParameters {}
 
 /// What a call writes: an array, or a struct that begins with its size.
 pub(crate) trait Output: Copy {

@@ -106,6 +106,18 @@ pub enum InputName {
     PayloadInertia = 114,
     /// `gravity`
     Gravity = 115,
+    /// `lower_mass`
+    LowerMass = 116,
+    /// `lower_com_distance`
+    LowerComDistance = 117,
+    /// `lower_inertia`
+    LowerInertia = 118,
+    /// `upper_mass`
+    UpperMass = 119,
+    /// `upper_com_distance`
+    UpperComDistance = 120,
+    /// `upper_inertia`
+    UpperInertia = 121,
 }
 
 /// Details of a status. Wherever a call takes a pointer to one, it may be null.
@@ -309,6 +321,12 @@ const INPUTS: &[(InputName, &core::ffi::CStr)] = &[
     (InputName::PayloadCom, c"payload_com"),
     (InputName::PayloadInertia, c"payload_inertia"),
     (InputName::Gravity, c"gravity"),
+    (InputName::LowerMass, c"lower_mass"),
+    (InputName::LowerComDistance, c"lower_com_distance"),
+    (InputName::LowerInertia, c"lower_inertia"),
+    (InputName::UpperMass, c"upper_mass"),
+    (InputName::UpperComDistance, c"upper_com_distance"),
+    (InputName::UpperInertia, c"upper_inertia"),
 ];
 
 /// The name of an input: a static string, never null, also for numbers that are no input.

@@ -6,6 +6,7 @@
  * A record is a line: what it is, a name, a count, as many numbers (row-major), separated by blanks.
  *
  *     platform  NAME 0          a platform begins; its name tells whether it is the baked one
+ *     leg_type  NAME 0          uhp or ups
  *     parameter NAME COUNT ...  one of its parameters
  *     input     NAME COUNT ...  a member of dyn_inputs
  *     case      -    0          all inputs are read: call everything
@@ -30,8 +31,9 @@ typedef struct slot {
 #define SLOT(place, member) { #member, (dyn_real *)&(place).member, (int)(sizeof(place).member / sizeof(dyn_real)) }
 
 static dyn_uhp_parameters parameters = { .struct_size = sizeof parameters };
+static dyn_ups_parameters ups_parameters = { .struct_size = sizeof ups_parameters };
 static dyn_inputs inputs = { .struct_size = sizeof inputs };
-static dyn_model at_run_time = { .struct_size = sizeof at_run_time, .kind = DYN_MODEL_KIND_UHP, .uhp = &parameters };
+static dyn_model at_run_time = { .struct_size = sizeof at_run_time, .uhp = &parameters, .ups = &ups_parameters };
 static dyn_model baked = { .struct_size = sizeof baked, .kind = DYN_MODEL_KIND_BAKED };
 static dyn_info info = { .struct_size = sizeof info };
 
@@ -41,7 +43,14 @@ static const slot parameter_slots[] = {
     SLOT(parameters, rod_com_fraction), SLOT(parameters, mover_mass), SLOT(parameters, mover_offset),
     SLOT(parameters, rest_length), SLOT(parameters, axial_stiffness), SLOT(parameters, axial_damping),
     SLOT(parameters, payload_mass), SLOT(parameters, payload_com), SLOT(parameters, payload_inertia),
-    SLOT(parameters, gravity), { 0, 0, 0 }
+    SLOT(parameters, gravity), SLOT(ups_parameters, base_point), SLOT(ups_parameters, platform_point),
+    SLOT(ups_parameters, lower_mass), SLOT(ups_parameters, lower_com_distance),
+    SLOT(ups_parameters, lower_inertia), SLOT(ups_parameters, upper_mass),
+    SLOT(ups_parameters, upper_com_distance), SLOT(ups_parameters, upper_inertia),
+    SLOT(ups_parameters, rest_length), SLOT(ups_parameters, axial_stiffness),
+    SLOT(ups_parameters, axial_damping), SLOT(ups_parameters, payload_mass),
+    SLOT(ups_parameters, payload_com), SLOT(ups_parameters, payload_inertia),
+    SLOT(ups_parameters, gravity), { 0, 0, 0 }
 };
 
 static const slot input_slots[] = {
@@ -200,6 +209,8 @@ static int run(const char *path, const dyn_model *model)
             ours = model != &baked || strcmp(name, dyn_baked_platform_name()) == 0;
         } else if (!ours) {
             continue;
+        } else if (strcmp(kind, "leg_type") == 0) {
+            at_run_time.kind = strcmp(name, "ups") == 0 ? DYN_MODEL_KIND_UPS : DYN_MODEL_KIND_UHP;
         } else if (strcmp(kind, "parameter") == 0) {
             fill(parameter_slots, name, numbers, count);
         } else if (strcmp(kind, "input") == 0) {

@@ -30,9 +30,11 @@ function putStructure(address, numbers) {
 }
 
 function putModel(kind) {
-  view.setUint32(MODEL, 12, true);
+  view.setUint32(MODEL, 16, true);
   view.setInt32(MODEL + 4, kind, true);
+  // The kind says which of the two pointers is followed.
   view.setUint32(MODEL + 8, PARAMETERS, true);
+  view.setUint32(MODEL + 12, PARAMETERS, true);
 }
 
 function call(name, { structure, numbers }) {

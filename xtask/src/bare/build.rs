@@ -75,7 +75,7 @@ impl Library<'_> {
     fn build(&self, kind: &str, features: &[&str], flags: &[&str]) -> Result<(), Failure> {
         let extra = features.iter().map(|feature| format!(", {feature}")).collect::<String>();
         let done = announce(&format!("library for {}{extra}", self.title()));
-        let features: Vec<&str> = ["uhp", "panic-handler"]
+        let features: Vec<&str> = ["uhp", "ups", "panic-handler"]
             .into_iter()
             .chain(self.precision.features().iter().chain(features).copied())
             .collect();
