@@ -28,65 +28,65 @@
 // energy                    1511        1487
 
 #[allow(unused_imports)]
-use crate::float::sqrt;
+use crate::float::{Scalar, sqrt};
 #[allow(unused_imports)]
 use crate::solve::solve_general;
 
 /// Physical numbers of a platform; of a quantity that legs have, the leg is the first dimension.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Parameters {
+pub struct Parameters<T = f64> {
     /// 6x3, m, frame B: universal joint b on the base, equation (14).
-    pub base_point: [[f64; 3]; 6],
+    pub base_point: [[T; 3]; 6],
     /// 6x3, m, frame P: platform joint p, equation (14).
-    pub platform_point: [[f64; 3]; 6],
+    pub platform_point: [[T; 3]; 6],
     /// 6, kg: mass m_l of the lower part.
-    pub lower_mass: [f64; 6],
+    pub lower_mass: [T; 6],
     /// 6, m: distance e_l of the lower part's centre of mass from the base joint.
-    pub lower_com_distance: [f64; 6],
+    pub lower_com_distance: [T; 6],
     /// 6, kg m^2: transverse inertia J_l of the lower part about its centre of mass.
-    pub lower_inertia: [f64; 6],
+    pub lower_inertia: [T; 6],
     /// 6, kg: mass m_u of the upper part.
-    pub upper_mass: [f64; 6],
+    pub upper_mass: [T; 6],
     /// 6, m: distance e_u of the upper part's centre of mass from the platform joint.
-    pub upper_com_distance: [f64; 6],
+    pub upper_com_distance: [T; 6],
     /// 6, kg m^2: transverse inertia J_u of the upper part about its centre of mass.
-    pub upper_inertia: [f64; 6],
+    pub upper_inertia: [T; 6],
     /// 6, m: actuator length d0 at which the axial spring is relaxed, equation (39)-(46).
-    pub rest_length: [f64; 6],
+    pub rest_length: [T; 6],
     /// 6, N/m: axial stiffness k_e, equation (39)-(46).
-    pub axial_stiffness: [f64; 6],
+    pub axial_stiffness: [T; 6],
     /// 6, N s/m: axial viscous damping c_e.
-    pub axial_damping: [f64; 6],
+    pub axial_damping: [T; 6],
     /// scalar, kg: mass of platform and payload.
-    pub payload_mass: f64,
+    pub payload_mass: T,
     /// 3, m, frame P: centre of mass of platform and payload.
-    pub payload_com: [f64; 3],
+    pub payload_com: [T; 3],
     /// 3x3, kg m^2, frame P: inertia about the payload's centre of mass (upper triangle is read).
-    pub payload_inertia: [[f64; 3]; 3],
+    pub payload_inertia: [[T; 3]; 3],
     /// 3, m/s^2, frame O: acceleration of gravity.
-    pub gravity: [f64; 3],
+    pub gravity: [T; 3],
 }
 
-impl Parameters {
+impl<T: Scalar> Parameters<T> {
     /// Parameters filled field by field: `fill(name, values)` gets the name of each field and its elements,
     /// row-major, to be written. What it leaves alone stays NaN, so that no result can come from it.
-    pub fn from_fn(mut fill: impl FnMut(&str, &mut [f64])) -> Self {
+    pub fn from_fn(mut fill: impl FnMut(&str, &mut [T])) -> Self {
         let mut parameters = Parameters {
-            base_point: [[f64::NAN; 3]; 6],
-            platform_point: [[f64::NAN; 3]; 6],
-            lower_mass: [f64::NAN; 6],
-            lower_com_distance: [f64::NAN; 6],
-            lower_inertia: [f64::NAN; 6],
-            upper_mass: [f64::NAN; 6],
-            upper_com_distance: [f64::NAN; 6],
-            upper_inertia: [f64::NAN; 6],
-            rest_length: [f64::NAN; 6],
-            axial_stiffness: [f64::NAN; 6],
-            axial_damping: [f64::NAN; 6],
-            payload_mass: f64::NAN,
-            payload_com: [f64::NAN; 3],
-            payload_inertia: [[f64::NAN; 3]; 3],
-            gravity: [f64::NAN; 3],
+            base_point: [[T::constant(f64::NAN); 3]; 6],
+            platform_point: [[T::constant(f64::NAN); 3]; 6],
+            lower_mass: [T::constant(f64::NAN); 6],
+            lower_com_distance: [T::constant(f64::NAN); 6],
+            lower_inertia: [T::constant(f64::NAN); 6],
+            upper_mass: [T::constant(f64::NAN); 6],
+            upper_com_distance: [T::constant(f64::NAN); 6],
+            upper_inertia: [T::constant(f64::NAN); 6],
+            rest_length: [T::constant(f64::NAN); 6],
+            axial_stiffness: [T::constant(f64::NAN); 6],
+            axial_damping: [T::constant(f64::NAN); 6],
+            payload_mass: T::constant(f64::NAN),
+            payload_com: [T::constant(f64::NAN); 3],
+            payload_inertia: [[T::constant(f64::NAN); 3]; 3],
+            gravity: [T::constant(f64::NAN); 3],
         };
         fill("base_point", parameters.base_point.as_flattened_mut());
         fill("platform_point", parameters.platform_point.as_flattened_mut());
@@ -109,13 +109,13 @@ impl Parameters {
 
 /// The model `ups`, physical numbers given at run time.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Ups {
+pub struct Ups<T = f64> {
     /// The physical numbers.
-    pub parameters: Parameters,
+    pub parameters: Parameters<T>,
 }
 
 #[allow(clippy::all, clippy::pedantic, unused_qualifications)]
-impl Parameters {
+impl<T: Scalar + Into<f64>> Parameters<T> {
     /// Sets `base_point`: 6x3, m, frame B: universal joint b on the base, equation (14).
     ///
     /// # Errors
@@ -123,7 +123,7 @@ impl Parameters {
     /// If it is not finite; then it keeps its value.
     pub fn set_base_point(
         &mut self,
-        base_point: [[f64; 3]; 6],
+        base_point: [[T; 3]; 6],
     ) -> Result<&mut Self, crate::parameter::ParameterError> {
         crate::parameter::check(
             "base_point",
@@ -140,7 +140,7 @@ impl Parameters {
     /// If it is not finite; then it keeps its value.
     pub fn set_platform_point(
         &mut self,
-        platform_point: [[f64; 3]; 6],
+        platform_point: [[T; 3]; 6],
     ) -> Result<&mut Self, crate::parameter::ParameterError> {
         crate::parameter::check(
             "platform_point",
@@ -157,7 +157,7 @@ impl Parameters {
     /// If it is not finite or it is not positive; then it keeps its value.
     pub fn set_lower_mass(
         &mut self,
-        lower_mass: [f64; 6],
+        lower_mass: [T; 6],
     ) -> Result<&mut Self, crate::parameter::ParameterError> {
         crate::parameter::check(
             "lower_mass",
@@ -174,7 +174,7 @@ impl Parameters {
     /// If it is not finite; then it keeps its value.
     pub fn set_lower_com_distance(
         &mut self,
-        lower_com_distance: [f64; 6],
+        lower_com_distance: [T; 6],
     ) -> Result<&mut Self, crate::parameter::ParameterError> {
         crate::parameter::check(
             "lower_com_distance",
@@ -191,7 +191,7 @@ impl Parameters {
     /// If it is not finite or it is not positive; then it keeps its value.
     pub fn set_lower_inertia(
         &mut self,
-        lower_inertia: [f64; 6],
+        lower_inertia: [T; 6],
     ) -> Result<&mut Self, crate::parameter::ParameterError> {
         crate::parameter::check(
             "lower_inertia",
@@ -208,7 +208,7 @@ impl Parameters {
     /// If it is not finite or it is not positive; then it keeps its value.
     pub fn set_upper_mass(
         &mut self,
-        upper_mass: [f64; 6],
+        upper_mass: [T; 6],
     ) -> Result<&mut Self, crate::parameter::ParameterError> {
         crate::parameter::check(
             "upper_mass",
@@ -225,7 +225,7 @@ impl Parameters {
     /// If it is not finite; then it keeps its value.
     pub fn set_upper_com_distance(
         &mut self,
-        upper_com_distance: [f64; 6],
+        upper_com_distance: [T; 6],
     ) -> Result<&mut Self, crate::parameter::ParameterError> {
         crate::parameter::check(
             "upper_com_distance",
@@ -242,7 +242,7 @@ impl Parameters {
     /// If it is not finite or it is not positive; then it keeps its value.
     pub fn set_upper_inertia(
         &mut self,
-        upper_inertia: [f64; 6],
+        upper_inertia: [T; 6],
     ) -> Result<&mut Self, crate::parameter::ParameterError> {
         crate::parameter::check(
             "upper_inertia",
@@ -259,7 +259,7 @@ impl Parameters {
     /// If it is not finite; then it keeps its value.
     pub fn set_rest_length(
         &mut self,
-        rest_length: [f64; 6],
+        rest_length: [T; 6],
     ) -> Result<&mut Self, crate::parameter::ParameterError> {
         crate::parameter::check(
             "rest_length",
@@ -276,7 +276,7 @@ impl Parameters {
     /// If it is not finite or it is negative; then it keeps its value.
     pub fn set_axial_stiffness(
         &mut self,
-        axial_stiffness: [f64; 6],
+        axial_stiffness: [T; 6],
     ) -> Result<&mut Self, crate::parameter::ParameterError> {
         crate::parameter::check(
             "axial_stiffness",
@@ -293,7 +293,7 @@ impl Parameters {
     /// If it is not finite or it is negative; then it keeps its value.
     pub fn set_axial_damping(
         &mut self,
-        axial_damping: [f64; 6],
+        axial_damping: [T; 6],
     ) -> Result<&mut Self, crate::parameter::ParameterError> {
         crate::parameter::check(
             "axial_damping",
@@ -310,7 +310,7 @@ impl Parameters {
     /// If it is not finite or it is not positive; then it keeps its value.
     pub fn set_payload_mass(
         &mut self,
-        payload_mass: f64,
+        payload_mass: T,
     ) -> Result<&mut Self, crate::parameter::ParameterError> {
         crate::parameter::check(
             "payload_mass",
@@ -327,7 +327,7 @@ impl Parameters {
     /// If it is not finite; then it keeps its value.
     pub fn set_payload_com(
         &mut self,
-        payload_com: [f64; 3],
+        payload_com: [T; 3],
     ) -> Result<&mut Self, crate::parameter::ParameterError> {
         crate::parameter::check(
             "payload_com",
@@ -344,7 +344,7 @@ impl Parameters {
     /// If it is not finite or no body has this tensor; then it keeps its value.
     pub fn set_payload_inertia(
         &mut self,
-        payload_inertia: [[f64; 3]; 3],
+        payload_inertia: [[T; 3]; 3],
     ) -> Result<&mut Self, crate::parameter::ParameterError> {
         crate::parameter::check(
             "payload_inertia",
@@ -361,7 +361,7 @@ impl Parameters {
     /// If it is not finite; then it keeps its value.
     pub fn set_gravity(
         &mut self,
-        gravity: [f64; 3],
+        gravity: [T; 3],
     ) -> Result<&mut Self, crate::parameter::ParameterError> {
         crate::parameter::check("gravity", crate::parameter::Domain::Any, &gravity)?;
         self.gravity = gravity;
@@ -452,9 +452,9 @@ impl Parameters {
     }
 }
 
-impl Ups {
+impl<T> Ups<T> {
     /// The model with these parameters.
-    pub fn new(parameters: Parameters) -> Self {
+    pub fn new(parameters: Parameters<T>) -> Self {
         Ups { parameters }
     }
 }
@@ -1001,6 +1001,566 @@ impl crate::kernels::Energy for Ups {
     }
 }
 
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::RodAlignment<f32> for Ups<f32> {
+    #[inline]
+    fn rod_alignment(
+        &self,
+        base_position: &[f32; 3],
+        base_rotation: &[[f32; 3]; 3],
+        platform_position: &[f32; 3],
+        platform_rotation: &[[f32; 3]; 3],
+        rod_alignment: &mut [f32; 6],
+    ) {
+        self::rod_alignment(
+            &self.parameters,
+            base_position,
+            base_rotation,
+            platform_position,
+            platform_rotation,
+            rod_alignment,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::LegKinematics<f32> for Ups<f32> {
+    #[inline]
+    fn leg_kinematics(
+        &self,
+        base_position: &[f32; 3],
+        base_rotation: &[[f32; 3]; 3],
+        base_velocity: &[f32; 6],
+        base_acceleration: &[f32; 6],
+        platform_position: &[f32; 3],
+        platform_rotation: &[[f32; 3]; 3],
+        platform_velocity: &[f32; 6],
+        platform_acceleration: &[f32; 6],
+        actuator_length: &mut [f32; 6],
+        actuator_velocity: &mut [f32; 6],
+        actuator_acceleration: &mut [f32; 6],
+        rod_direction: &mut [[f32; 3]; 6],
+        hooke_joint_position: &mut [[f32; 3]; 6],
+        platform_joint_position: &mut [[f32; 3]; 6],
+        platform_joint_rate: &mut [[f32; 3]; 6],
+    ) {
+        self::leg_kinematics(
+            &self.parameters,
+            base_position,
+            base_rotation,
+            base_velocity,
+            base_acceleration,
+            platform_position,
+            platform_rotation,
+            platform_velocity,
+            platform_acceleration,
+            actuator_length,
+            actuator_velocity,
+            actuator_acceleration,
+            rod_direction,
+            hooke_joint_position,
+            platform_joint_position,
+            platform_joint_rate,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::ups::BodyKinematics<f32> for Ups<f32> {
+    #[inline]
+    fn body_kinematics(
+        &self,
+        base_position: &[f32; 3],
+        base_rotation: &[[f32; 3]; 3],
+        base_velocity: &[f32; 6],
+        base_acceleration: &[f32; 6],
+        platform_position: &[f32; 3],
+        platform_rotation: &[[f32; 3]; 3],
+        platform_velocity: &[f32; 6],
+        platform_acceleration: &[f32; 6],
+        payload_com_position: &mut [f32; 3],
+        payload_com_velocity: &mut [f32; 3],
+        payload_com_acceleration: &mut [f32; 3],
+        leg_angular_velocity: &mut [[f32; 3]; 6],
+        leg_angular_acceleration: &mut [[f32; 3]; 6],
+        lower_com_position: &mut [[f32; 3]; 6],
+        lower_com_velocity: &mut [[f32; 3]; 6],
+        lower_com_acceleration: &mut [[f32; 3]; 6],
+        upper_com_position: &mut [[f32; 3]; 6],
+        upper_com_velocity: &mut [[f32; 3]; 6],
+        upper_com_acceleration: &mut [[f32; 3]; 6],
+    ) {
+        self::body_kinematics(
+            &self.parameters,
+            base_position,
+            base_rotation,
+            base_velocity,
+            base_acceleration,
+            platform_position,
+            platform_rotation,
+            platform_velocity,
+            platform_acceleration,
+            payload_com_position,
+            payload_com_velocity,
+            payload_com_acceleration,
+            leg_angular_velocity,
+            leg_angular_acceleration,
+            lower_com_position,
+            lower_com_velocity,
+            lower_com_acceleration,
+            upper_com_position,
+            upper_com_velocity,
+            upper_com_acceleration,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::ups::PartialVelocities<f32> for Ups<f32> {
+    #[inline]
+    fn partial_velocities(
+        &self,
+        base_position: &[f32; 3],
+        base_rotation: &[[f32; 3]; 3],
+        platform_position: &[f32; 3],
+        platform_rotation: &[[f32; 3]; 3],
+        payload_partial_velocity: &mut [[f32; 6]; 3],
+        payload_partial_angular_velocity: &mut [[f32; 6]; 3],
+        lower_partial_velocity: &mut [[[f32; 6]; 3]; 6],
+        upper_partial_velocity: &mut [[[f32; 6]; 3]; 6],
+        leg_partial_angular_velocity: &mut [[[f32; 6]; 3]; 6],
+    ) {
+        self::partial_velocities(
+            &self.parameters,
+            base_position,
+            base_rotation,
+            platform_position,
+            platform_rotation,
+            payload_partial_velocity,
+            payload_partial_angular_velocity,
+            lower_partial_velocity,
+            upper_partial_velocity,
+            leg_partial_angular_velocity,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::ups::GeneralisedForces<f32> for Ups<f32> {
+    #[inline]
+    fn generalised_forces(
+        &self,
+        base_position: &[f32; 3],
+        base_rotation: &[[f32; 3]; 3],
+        base_velocity: &[f32; 6],
+        base_acceleration: &[f32; 6],
+        platform_position: &[f32; 3],
+        platform_rotation: &[[f32; 3]; 3],
+        platform_velocity: &[f32; 6],
+        platform_acceleration: &[f32; 6],
+        actuator_force: &[f32; 6],
+        external_wrench: &[f32; 6],
+        payload_active_force: &mut [f32; 6],
+        payload_inertia_force: &mut [f32; 6],
+        lower_active_force: &mut [[f32; 6]; 6],
+        lower_inertia_force: &mut [[f32; 6]; 6],
+        upper_active_force: &mut [[f32; 6]; 6],
+        upper_inertia_force: &mut [[f32; 6]; 6],
+    ) {
+        self::generalised_forces(
+            &self.parameters,
+            base_position,
+            base_rotation,
+            base_velocity,
+            base_acceleration,
+            platform_position,
+            platform_rotation,
+            platform_velocity,
+            platform_acceleration,
+            actuator_force,
+            external_wrench,
+            payload_active_force,
+            payload_inertia_force,
+            lower_active_force,
+            lower_inertia_force,
+            upper_active_force,
+            upper_inertia_force,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::JacobianDp<f32> for Ups<f32> {
+    #[inline]
+    fn jacobian_dp(
+        &self,
+        base_position: &[f32; 3],
+        base_rotation: &[[f32; 3]; 3],
+        platform_position: &[f32; 3],
+        platform_rotation: &[[f32; 3]; 3],
+        jacobian_dp: &mut [[f32; 6]; 6],
+    ) {
+        self::jacobian_dp(
+            &self.parameters,
+            base_position,
+            base_rotation,
+            platform_position,
+            platform_rotation,
+            jacobian_dp,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::JacobianDb<f32> for Ups<f32> {
+    #[inline]
+    fn jacobian_db(
+        &self,
+        base_position: &[f32; 3],
+        base_rotation: &[[f32; 3]; 3],
+        platform_position: &[f32; 3],
+        platform_rotation: &[[f32; 3]; 3],
+        jacobian_db: &mut [[f32; 6]; 6],
+    ) {
+        self::jacobian_db(
+            &self.parameters,
+            base_position,
+            base_rotation,
+            platform_position,
+            platform_rotation,
+            jacobian_db,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::MassMatrixP<f32> for Ups<f32> {
+    #[inline]
+    fn mass_matrix_p(
+        &self,
+        base_position: &[f32; 3],
+        base_rotation: &[[f32; 3]; 3],
+        platform_position: &[f32; 3],
+        platform_rotation: &[[f32; 3]; 3],
+        mass_matrix_p: &mut [[f32; 6]; 6],
+    ) {
+        self::mass_matrix_p(
+            &self.parameters,
+            base_position,
+            base_rotation,
+            platform_position,
+            platform_rotation,
+            mass_matrix_p,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::MassMatrixB<f32> for Ups<f32> {
+    #[inline]
+    fn mass_matrix_b(
+        &self,
+        base_position: &[f32; 3],
+        base_rotation: &[[f32; 3]; 3],
+        platform_position: &[f32; 3],
+        platform_rotation: &[[f32; 3]; 3],
+        mass_matrix_b: &mut [[f32; 6]; 6],
+    ) {
+        self::mass_matrix_b(
+            &self.parameters,
+            base_position,
+            base_rotation,
+            platform_position,
+            platform_rotation,
+            mass_matrix_b,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::CoriolisMatrices<f32> for Ups<f32> {
+    #[inline]
+    fn coriolis_matrices(
+        &self,
+        base_position: &[f32; 3],
+        base_rotation: &[[f32; 3]; 3],
+        base_velocity: &[f32; 6],
+        platform_position: &[f32; 3],
+        platform_rotation: &[[f32; 3]; 3],
+        platform_velocity: &[f32; 6],
+        coriolis_matrix_p: &mut [[f32; 6]; 6],
+        coriolis_matrix_b: &mut [[f32; 6]; 6],
+    ) {
+        self::coriolis_matrices(
+            &self.parameters,
+            base_position,
+            base_rotation,
+            base_velocity,
+            platform_position,
+            platform_rotation,
+            platform_velocity,
+            coriolis_matrix_p,
+            coriolis_matrix_b,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::StiffnessMatrices<f32> for Ups<f32> {
+    #[inline]
+    fn stiffness_matrices(
+        &self,
+        base_position: &[f32; 3],
+        base_rotation: &[[f32; 3]; 3],
+        platform_position: &[f32; 3],
+        platform_rotation: &[[f32; 3]; 3],
+        stiffness_matrix_p: &mut [[f32; 6]; 6],
+        stiffness_matrix_b: &mut [[f32; 6]; 6],
+    ) {
+        self::stiffness_matrices(
+            &self.parameters,
+            base_position,
+            base_rotation,
+            platform_position,
+            platform_rotation,
+            stiffness_matrix_p,
+            stiffness_matrix_b,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::Matrices<f32> for Ups<f32> {
+    #[inline]
+    fn matrices(
+        &self,
+        base_position: &[f32; 3],
+        base_rotation: &[[f32; 3]; 3],
+        base_velocity: &[f32; 6],
+        platform_position: &[f32; 3],
+        platform_rotation: &[[f32; 3]; 3],
+        platform_velocity: &[f32; 6],
+        mass_matrix_p: &mut [[f32; 6]; 6],
+        coriolis_matrix_p: &mut [[f32; 6]; 6],
+        jacobian_dp: &mut [[f32; 6]; 6],
+        mass_matrix_b: &mut [[f32; 6]; 6],
+        coriolis_matrix_b: &mut [[f32; 6]; 6],
+        jacobian_db: &mut [[f32; 6]; 6],
+    ) {
+        self::matrices(
+            &self.parameters,
+            base_position,
+            base_rotation,
+            base_velocity,
+            platform_position,
+            platform_rotation,
+            platform_velocity,
+            mass_matrix_p,
+            coriolis_matrix_p,
+            jacobian_dp,
+            mass_matrix_b,
+            coriolis_matrix_b,
+            jacobian_db,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::PassiveForces<f32> for Ups<f32> {
+    #[inline]
+    fn passive_forces(
+        &self,
+        base_position: &[f32; 3],
+        base_rotation: &[[f32; 3]; 3],
+        base_velocity: &[f32; 6],
+        platform_position: &[f32; 3],
+        platform_rotation: &[[f32; 3]; 3],
+        platform_velocity: &[f32; 6],
+        gravity_force: &mut [f32; 6],
+        spring_force: &mut [f32; 6],
+        damping_force: &mut [f32; 6],
+    ) {
+        self::passive_forces(
+            &self.parameters,
+            base_position,
+            base_rotation,
+            base_velocity,
+            platform_position,
+            platform_rotation,
+            platform_velocity,
+            gravity_force,
+            spring_force,
+            damping_force,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::Bias<f32> for Ups<f32> {
+    #[inline]
+    fn bias(
+        &self,
+        base_position: &[f32; 3],
+        base_rotation: &[[f32; 3]; 3],
+        base_velocity: &[f32; 6],
+        platform_position: &[f32; 3],
+        platform_rotation: &[[f32; 3]; 3],
+        platform_velocity: &[f32; 6],
+        bias: &mut [f32; 6],
+    ) {
+        self::bias(
+            &self.parameters,
+            base_position,
+            base_rotation,
+            base_velocity,
+            platform_position,
+            platform_rotation,
+            platform_velocity,
+            bias,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::EquationOfMotion<f32> for Ups<f32> {
+    #[inline]
+    fn equation_of_motion(
+        &self,
+        base_position: &[f32; 3],
+        base_rotation: &[[f32; 3]; 3],
+        base_velocity: &[f32; 6],
+        platform_position: &[f32; 3],
+        platform_rotation: &[[f32; 3]; 3],
+        platform_velocity: &[f32; 6],
+        mass_matrix_p: &mut [[f32; 6]; 6],
+        coriolis_matrix_p: &mut [[f32; 6]; 6],
+        stiffness_matrix_p: &mut [[f32; 6]; 6],
+        jacobian_dp: &mut [[f32; 6]; 6],
+        mass_matrix_b: &mut [[f32; 6]; 6],
+        coriolis_matrix_b: &mut [[f32; 6]; 6],
+        stiffness_matrix_b: &mut [[f32; 6]; 6],
+        jacobian_db: &mut [[f32; 6]; 6],
+        gravity_force: &mut [f32; 6],
+        spring_force: &mut [f32; 6],
+        damping_force: &mut [f32; 6],
+        bias: &mut [f32; 6],
+    ) {
+        self::equation_of_motion(
+            &self.parameters,
+            base_position,
+            base_rotation,
+            base_velocity,
+            platform_position,
+            platform_rotation,
+            platform_velocity,
+            mass_matrix_p,
+            coriolis_matrix_p,
+            stiffness_matrix_p,
+            jacobian_dp,
+            mass_matrix_b,
+            coriolis_matrix_b,
+            stiffness_matrix_b,
+            jacobian_db,
+            gravity_force,
+            spring_force,
+            damping_force,
+            bias,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::InverseDynamics<f32> for Ups<f32> {
+    #[inline]
+    fn inverse_dynamics(
+        &self,
+        base_position: &[f32; 3],
+        base_rotation: &[[f32; 3]; 3],
+        base_velocity: &[f32; 6],
+        base_acceleration: &[f32; 6],
+        platform_position: &[f32; 3],
+        platform_rotation: &[[f32; 3]; 3],
+        platform_velocity: &[f32; 6],
+        platform_acceleration: &[f32; 6],
+        external_wrench: &[f32; 6],
+        inverse_dynamics: &mut [f32; 6],
+    ) {
+        self::inverse_dynamics(
+            &self.parameters,
+            base_position,
+            base_rotation,
+            base_velocity,
+            base_acceleration,
+            platform_position,
+            platform_rotation,
+            platform_velocity,
+            platform_acceleration,
+            external_wrench,
+            inverse_dynamics,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::ForwardDynamics<f32> for Ups<f32> {
+    #[inline]
+    fn forward_dynamics(
+        &self,
+        base_position: &[f32; 3],
+        base_rotation: &[[f32; 3]; 3],
+        base_velocity: &[f32; 6],
+        base_acceleration: &[f32; 6],
+        platform_position: &[f32; 3],
+        platform_rotation: &[[f32; 3]; 3],
+        platform_velocity: &[f32; 6],
+        actuator_force: &[f32; 6],
+        external_wrench: &[f32; 6],
+        forward_dynamics: &mut [f32; 6],
+    ) {
+        self::forward_dynamics(
+            &self.parameters,
+            base_position,
+            base_rotation,
+            base_velocity,
+            base_acceleration,
+            platform_position,
+            platform_rotation,
+            platform_velocity,
+            actuator_force,
+            external_wrench,
+            forward_dynamics,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::Energy<f32> for Ups<f32> {
+    #[inline]
+    fn energy(
+        &self,
+        base_position: &[f32; 3],
+        base_rotation: &[[f32; 3]; 3],
+        base_velocity: &[f32; 6],
+        platform_position: &[f32; 3],
+        platform_rotation: &[[f32; 3]; 3],
+        platform_velocity: &[f32; 6],
+        kinetic_energy: &mut f32,
+        potential_energy: &mut f32,
+    ) {
+        self::energy(
+            &self.parameters,
+            base_position,
+            base_rotation,
+            base_velocity,
+            platform_position,
+            platform_rotation,
+            platform_velocity,
+            kinetic_energy,
+            potential_energy,
+        );
+    }
+}
+
 /// Squared cosine between each rod and the line of its actuator's force, equation (18).
 ///
 /// Inputs:
@@ -1014,14 +1574,15 @@ impl crate::kernels::Energy for Ups {
 ///
 /// - `rod_alignment`: 6, dimensionless: squared cosine between rod and line of the actuator's force; negative out of reach, equation (18).
 #[allow(clippy::all, clippy::pedantic, unused_variables)]
-pub fn rod_alignment(
-    parameters: &Parameters,
-    base_position: &[f64; 3],
-    base_rotation: &[[f64; 3]; 3],
-    platform_position: &[f64; 3],
-    platform_rotation: &[[f64; 3]; 3],
-    rod_alignment: &mut [f64; 6],
+pub fn rod_alignment<T: Scalar>(
+    parameters: &Parameters<T>,
+    base_position: &[T; 3],
+    base_rotation: &[[T; 3]; 3],
+    platform_position: &[T; 3],
+    platform_rotation: &[[T; 3]; 3],
+    rod_alignment: &mut [T; 6],
 ) {
+    let c = T::constant;
     // rotation of the platform seen from the base
     let t1 = base_rotation[1][0] * platform_rotation[1][0];
     let t2 = base_rotation[0][0] * platform_rotation[0][0] + t1;
@@ -1147,7 +1708,7 @@ pub fn rod_alignment(
     // leg 1: actuator length d
     let t109 = sqrt(t46 * t46 + t47 * t47 + t48 * t48);
     // leg 1: squared cosine between rod and line of the actuator's force; negative out of reach
-    let t110 = 1.0 / t109;
+    let t110 = c(1.0) / t109;
     let t111 = t46 * t110;
     let t112 = t47 * t110;
     let t113 = t48 * t110;
@@ -1155,7 +1716,7 @@ pub fn rod_alignment(
     // leg 2: actuator length d
     let t114 = sqrt(t58 * t58 + t59 * t59 + t60 * t60);
     // leg 2: squared cosine between rod and line of the actuator's force; negative out of reach
-    let t115 = 1.0 / t114;
+    let t115 = c(1.0) / t114;
     let t116 = t58 * t115;
     let t117 = t59 * t115;
     let t118 = t60 * t115;
@@ -1163,7 +1724,7 @@ pub fn rod_alignment(
     // leg 3: actuator length d
     let t119 = sqrt(t70 * t70 + t71 * t71 + t72 * t72);
     // leg 3: squared cosine between rod and line of the actuator's force; negative out of reach
-    let t120 = 1.0 / t119;
+    let t120 = c(1.0) / t119;
     let t121 = t70 * t120;
     let t122 = t71 * t120;
     let t123 = t72 * t120;
@@ -1171,7 +1732,7 @@ pub fn rod_alignment(
     // leg 4: actuator length d
     let t124 = sqrt(t82 * t82 + t83 * t83 + t84 * t84);
     // leg 4: squared cosine between rod and line of the actuator's force; negative out of reach
-    let t125 = 1.0 / t124;
+    let t125 = c(1.0) / t124;
     let t126 = t82 * t125;
     let t127 = t83 * t125;
     let t128 = t84 * t125;
@@ -1179,7 +1740,7 @@ pub fn rod_alignment(
     // leg 5: actuator length d
     let t129 = sqrt(t94 * t94 + t95 * t95 + t96 * t96);
     // leg 5: squared cosine between rod and line of the actuator's force; negative out of reach
-    let t130 = 1.0 / t129;
+    let t130 = c(1.0) / t129;
     let t131 = t94 * t130;
     let t132 = t95 * t130;
     let t133 = t96 * t130;
@@ -1187,7 +1748,7 @@ pub fn rod_alignment(
     // leg 6: actuator length d
     let t134 = sqrt(t106 * t106 + t107 * t107 + t108 * t108);
     // leg 6: squared cosine between rod and line of the actuator's force; negative out of reach
-    let t135 = 1.0 / t134;
+    let t135 = c(1.0) / t134;
     let t136 = t106 * t135;
     let t137 = t107 * t135;
     let t138 = t108 * t135;
@@ -1217,24 +1778,25 @@ pub fn rod_alignment(
 /// - `platform_joint_position`: 6x3, m, frame O: platform joint, equation (14).
 /// - `platform_joint_rate`: 6x3, rad/s, frame O: platform's angular velocity relative to the rod, w_p - w_s, equation (23).
 #[allow(clippy::all, clippy::pedantic, unused_variables)]
-pub fn leg_kinematics(
-    parameters: &Parameters,
-    base_position: &[f64; 3],
-    base_rotation: &[[f64; 3]; 3],
-    base_velocity: &[f64; 6],
-    base_acceleration: &[f64; 6],
-    platform_position: &[f64; 3],
-    platform_rotation: &[[f64; 3]; 3],
-    platform_velocity: &[f64; 6],
-    platform_acceleration: &[f64; 6],
-    actuator_length: &mut [f64; 6],
-    actuator_velocity: &mut [f64; 6],
-    actuator_acceleration: &mut [f64; 6],
-    rod_direction: &mut [[f64; 3]; 6],
-    hooke_joint_position: &mut [[f64; 3]; 6],
-    platform_joint_position: &mut [[f64; 3]; 6],
-    platform_joint_rate: &mut [[f64; 3]; 6],
+pub fn leg_kinematics<T: Scalar>(
+    parameters: &Parameters<T>,
+    base_position: &[T; 3],
+    base_rotation: &[[T; 3]; 3],
+    base_velocity: &[T; 6],
+    base_acceleration: &[T; 6],
+    platform_position: &[T; 3],
+    platform_rotation: &[[T; 3]; 3],
+    platform_velocity: &[T; 6],
+    platform_acceleration: &[T; 6],
+    actuator_length: &mut [T; 6],
+    actuator_velocity: &mut [T; 6],
+    actuator_acceleration: &mut [T; 6],
+    rod_direction: &mut [[T; 3]; 6],
+    hooke_joint_position: &mut [[T; 3]; 6],
+    platform_joint_position: &mut [[T; 3]; 6],
+    platform_joint_rate: &mut [[T; 3]; 6],
 ) {
+    let c = T::constant;
     // rotation of the platform seen from the base
     let t1 = base_rotation[1][0] * platform_rotation[1][0];
     let t2 = base_rotation[0][0] * platform_rotation[0][0] + t1;
@@ -1361,32 +1923,32 @@ pub fn leg_kinematics(
     let t109 = sqrt(t48 * t48 + (t46 * t46 + t47 * t47));
     actuator_length[0] = t109;
     // leg 1: reciprocal of the actuator length
-    let t110 = 1.0 / t109;
+    let t110 = c(1.0) / t109;
     // leg 2: actuator length d
     let t111 = sqrt(t60 * t60 + (t58 * t58 + t59 * t59));
     actuator_length[1] = t111;
     // leg 2: reciprocal of the actuator length
-    let t112 = 1.0 / t111;
+    let t112 = c(1.0) / t111;
     // leg 3: actuator length d
     let t113 = sqrt(t72 * t72 + (t70 * t70 + t71 * t71));
     actuator_length[2] = t113;
     // leg 3: reciprocal of the actuator length
-    let t114 = 1.0 / t113;
+    let t114 = c(1.0) / t113;
     // leg 4: actuator length d
     let t115 = sqrt(t84 * t84 + (t82 * t82 + t83 * t83));
     actuator_length[3] = t115;
     // leg 4: reciprocal of the actuator length
-    let t116 = 1.0 / t115;
+    let t116 = c(1.0) / t115;
     // leg 5: actuator length d
     let t117 = sqrt(t96 * t96 + (t94 * t94 + t95 * t95));
     actuator_length[4] = t117;
     // leg 5: reciprocal of the actuator length
-    let t118 = 1.0 / t117;
+    let t118 = c(1.0) / t117;
     // leg 6: actuator length d
     let t119 = sqrt(t108 * t108 + (t106 * t106 + t107 * t107));
     actuator_length[5] = t119;
     // leg 6: reciprocal of the actuator length
-    let t120 = 1.0 / t119;
+    let t120 = c(1.0) / t119;
     // leg 1: gradient of the actuator length by the platform joint
     let t121 = t46 * t110;
     let t122 = t47 * t110;
@@ -2165,28 +2727,29 @@ pub fn leg_kinematics(
 /// - `upper_com_velocity`: 6x3, m/s, frame O: velocity of the upper part's centre of mass.
 /// - `upper_com_acceleration`: 6x3, m/s^2, frame O: acceleration of the upper part's centre of mass.
 #[allow(clippy::all, clippy::pedantic, unused_variables)]
-pub fn body_kinematics(
-    parameters: &Parameters,
-    base_position: &[f64; 3],
-    base_rotation: &[[f64; 3]; 3],
-    base_velocity: &[f64; 6],
-    base_acceleration: &[f64; 6],
-    platform_position: &[f64; 3],
-    platform_rotation: &[[f64; 3]; 3],
-    platform_velocity: &[f64; 6],
-    platform_acceleration: &[f64; 6],
-    payload_com_position: &mut [f64; 3],
-    payload_com_velocity: &mut [f64; 3],
-    payload_com_acceleration: &mut [f64; 3],
-    leg_angular_velocity: &mut [[f64; 3]; 6],
-    leg_angular_acceleration: &mut [[f64; 3]; 6],
-    lower_com_position: &mut [[f64; 3]; 6],
-    lower_com_velocity: &mut [[f64; 3]; 6],
-    lower_com_acceleration: &mut [[f64; 3]; 6],
-    upper_com_position: &mut [[f64; 3]; 6],
-    upper_com_velocity: &mut [[f64; 3]; 6],
-    upper_com_acceleration: &mut [[f64; 3]; 6],
+pub fn body_kinematics<T: Scalar>(
+    parameters: &Parameters<T>,
+    base_position: &[T; 3],
+    base_rotation: &[[T; 3]; 3],
+    base_velocity: &[T; 6],
+    base_acceleration: &[T; 6],
+    platform_position: &[T; 3],
+    platform_rotation: &[[T; 3]; 3],
+    platform_velocity: &[T; 6],
+    platform_acceleration: &[T; 6],
+    payload_com_position: &mut [T; 3],
+    payload_com_velocity: &mut [T; 3],
+    payload_com_acceleration: &mut [T; 3],
+    leg_angular_velocity: &mut [[T; 3]; 6],
+    leg_angular_acceleration: &mut [[T; 3]; 6],
+    lower_com_position: &mut [[T; 3]; 6],
+    lower_com_velocity: &mut [[T; 3]; 6],
+    lower_com_acceleration: &mut [[T; 3]; 6],
+    upper_com_position: &mut [[T; 3]; 6],
+    upper_com_velocity: &mut [[T; 3]; 6],
+    upper_com_acceleration: &mut [[T; 3]; 6],
 ) {
+    let c = T::constant;
     let (t793, t798, t801, t805, t808, t812, t815, t820, t823, t827, t830, t834) = {
         // rotation of the platform seen from the base
         let t1 = base_rotation[1][0] * platform_rotation[1][0];
@@ -2313,27 +2876,27 @@ pub fn body_kinematics(
         // leg 1: actuator length d
         let t109 = sqrt(t48 * t48 + (t46 * t46 + t47 * t47));
         // leg 1: reciprocal of the actuator length
-        let t110 = 1.0 / t109;
+        let t110 = c(1.0) / t109;
         // leg 2: actuator length d
         let t111 = sqrt(t60 * t60 + (t58 * t58 + t59 * t59));
         // leg 2: reciprocal of the actuator length
-        let t112 = 1.0 / t111;
+        let t112 = c(1.0) / t111;
         // leg 3: actuator length d
         let t113 = sqrt(t72 * t72 + (t70 * t70 + t71 * t71));
         // leg 3: reciprocal of the actuator length
-        let t114 = 1.0 / t113;
+        let t114 = c(1.0) / t113;
         // leg 4: actuator length d
         let t115 = sqrt(t84 * t84 + (t82 * t82 + t83 * t83));
         // leg 4: reciprocal of the actuator length
-        let t116 = 1.0 / t115;
+        let t116 = c(1.0) / t115;
         // leg 5: actuator length d
         let t117 = sqrt(t96 * t96 + (t94 * t94 + t95 * t95));
         // leg 5: reciprocal of the actuator length
-        let t118 = 1.0 / t117;
+        let t118 = c(1.0) / t117;
         // leg 6: actuator length d
         let t119 = sqrt(t108 * t108 + (t106 * t106 + t107 * t107));
         // leg 6: reciprocal of the actuator length
-        let t120 = 1.0 / t119;
+        let t120 = c(1.0) / t119;
         // leg 1: gradient of the actuator length by the platform joint
         let t121 = t46 * t110;
         let t122 = t47 * t110;
@@ -3000,7 +3563,7 @@ pub fn body_kinematics(
         let t706 = base_acceleration[2] + base_acceleration[3] * t492;
         let t707 = base_velocity[3] * t507 - (base_acceleration[4] * t489 - t706);
         let t708 = base_velocity[4] * t505 - t707;
-        let t709 = t235 * 2.0;
+        let t709 = t235 * c(2.0);
         let t710 = t110 * (t522 * t709 + (t355 * t456 + (t705 - t708)));
         let t711 = platform_acceleration[1] + platform_acceleration[5] * t498;
         let t712 = platform_acceleration[3] * t504 - t711;
@@ -3026,7 +3589,7 @@ pub fn body_kinematics(
         let t728 = base_acceleration[2] + base_acceleration[3] * t528;
         let t729 = base_velocity[3] * t543 - (base_acceleration[4] * t525 - t728);
         let t730 = base_velocity[4] * t541 - t729;
-        let t731 = t236 * 2.0;
+        let t731 = t236 * c(2.0);
         let t732 = t112 * (t558 * t731 + (t374 * t462 + (t727 - t730)));
         let t733 = platform_acceleration[1] + platform_acceleration[5] * t534;
         let t734 = platform_acceleration[3] * t540 - t733;
@@ -3052,7 +3615,7 @@ pub fn body_kinematics(
         let t750 = base_acceleration[2] + base_acceleration[3] * t564;
         let t751 = base_velocity[3] * t579 - (base_acceleration[4] * t561 - t750);
         let t752 = base_velocity[4] * t577 - t751;
-        let t753 = t237 * 2.0;
+        let t753 = t237 * c(2.0);
         let t754 = t114 * (t594 * t753 + (t393 * t468 + (t749 - t752)));
         let t755 = platform_acceleration[1] + platform_acceleration[5] * t570;
         let t756 = platform_acceleration[3] * t576 - t755;
@@ -3078,7 +3641,7 @@ pub fn body_kinematics(
         let t772 = base_acceleration[2] + base_acceleration[3] * t600;
         let t773 = base_velocity[3] * t615 - (base_acceleration[4] * t597 - t772);
         let t774 = base_velocity[4] * t613 - t773;
-        let t775 = t238 * 2.0;
+        let t775 = t238 * c(2.0);
         let t776 = t116 * (t630 * t775 + (t412 * t474 + (t771 - t774)));
         let t777 = platform_acceleration[1] + platform_acceleration[5] * t606;
         let t778 = platform_acceleration[3] * t612 - t777;
@@ -3104,7 +3667,7 @@ pub fn body_kinematics(
         let t794 = base_acceleration[2] + base_acceleration[3] * t636;
         let t795 = base_velocity[3] * t651 - (base_acceleration[4] * t633 - t794);
         let t796 = base_velocity[4] * t649 - t795;
-        let t797 = t239 * 2.0;
+        let t797 = t239 * c(2.0);
         let t798 = t118 * (t666 * t797 + (t431 * t480 + (t793 - t796)));
         let t799 = platform_acceleration[1] + platform_acceleration[5] * t642;
         let t800 = platform_acceleration[3] * t648 - t799;
@@ -3130,7 +3693,7 @@ pub fn body_kinematics(
         let t816 = base_acceleration[2] + base_acceleration[3] * t672;
         let t817 = base_velocity[3] * t687 - (base_acceleration[4] * t669 - t816);
         let t818 = base_velocity[4] * t685 - t817;
-        let t819 = t240 * 2.0;
+        let t819 = t240 * c(2.0);
         let t820 = t120 * (t702 * t819 + (t450 * t486 + (t815 - t818)));
         let t821 = platform_acceleration[1] + platform_acceleration[5] * t678;
         let t822 = platform_acceleration[3] * t684 - t821;
@@ -3409,18 +3972,19 @@ pub fn body_kinematics(
 /// - `upper_partial_velocity`: 6x3x6, 1, m, frame O: partial velocities of the upper part's centre of mass, equation (33)-(38).
 /// - `leg_partial_angular_velocity`: 6x3x6, 1/m, 1, frame O: partial angular velocities of the leg, equation (33)-(38).
 #[allow(clippy::all, clippy::pedantic, unused_variables)]
-pub fn partial_velocities(
-    parameters: &Parameters,
-    base_position: &[f64; 3],
-    base_rotation: &[[f64; 3]; 3],
-    platform_position: &[f64; 3],
-    platform_rotation: &[[f64; 3]; 3],
-    payload_partial_velocity: &mut [[f64; 6]; 3],
-    payload_partial_angular_velocity: &mut [[f64; 6]; 3],
-    lower_partial_velocity: &mut [[[f64; 6]; 3]; 6],
-    upper_partial_velocity: &mut [[[f64; 6]; 3]; 6],
-    leg_partial_angular_velocity: &mut [[[f64; 6]; 3]; 6],
+pub fn partial_velocities<T: Scalar>(
+    parameters: &Parameters<T>,
+    base_position: &[T; 3],
+    base_rotation: &[[T; 3]; 3],
+    platform_position: &[T; 3],
+    platform_rotation: &[[T; 3]; 3],
+    payload_partial_velocity: &mut [[T; 6]; 3],
+    payload_partial_angular_velocity: &mut [[T; 6]; 3],
+    lower_partial_velocity: &mut [[[T; 6]; 3]; 6],
+    upper_partial_velocity: &mut [[[T; 6]; 3]; 6],
+    leg_partial_angular_velocity: &mut [[[T; 6]; 3]; 6],
 ) {
+    let c = T::constant;
     // rotation of the platform seen from the base
     let t1 = base_rotation[1][0] * platform_rotation[1][0];
     let t2 = base_rotation[0][0] * platform_rotation[0][0] + t1;
@@ -3600,27 +4164,27 @@ pub fn partial_velocities(
     // leg 1: actuator length d
     let t163 = sqrt(t55 * t55 + t56 * t56 + t57 * t57);
     // leg 1: reciprocal of the actuator length
-    let t164 = 1.0 / t163;
+    let t164 = c(1.0) / t163;
     // leg 2: actuator length d
     let t165 = sqrt(t76 * t76 + t77 * t77 + t78 * t78);
     // leg 2: reciprocal of the actuator length
-    let t166 = 1.0 / t165;
+    let t166 = c(1.0) / t165;
     // leg 3: actuator length d
     let t167 = sqrt(t97 * t97 + t98 * t98 + t99 * t99);
     // leg 3: reciprocal of the actuator length
-    let t168 = 1.0 / t167;
+    let t168 = c(1.0) / t167;
     // leg 4: actuator length d
     let t169 = sqrt(t118 * t118 + t119 * t119 + t120 * t120);
     // leg 4: reciprocal of the actuator length
-    let t170 = 1.0 / t169;
+    let t170 = c(1.0) / t169;
     // leg 5: actuator length d
     let t171 = sqrt(t139 * t139 + t140 * t140 + t141 * t141);
     // leg 5: reciprocal of the actuator length
-    let t172 = 1.0 / t171;
+    let t172 = c(1.0) / t171;
     // leg 6: actuator length d
     let t173 = sqrt(t160 * t160 + t161 * t161 + t162 * t162);
     // leg 6: reciprocal of the actuator length
-    let t174 = 1.0 / t173;
+    let t174 = c(1.0) / t173;
     // leg 1: gradient of the actuator length by the platform joint
     let t175 = t55 * t164;
     let t176 = t56 * t164;
@@ -3748,18 +4312,18 @@ pub fn partial_velocities(
     let t281 = t156 * t224;
     let t282 = t280 - t281;
     // leg 1: partial velocities of the lower part's centre of mass
-    let t283 = t164 * (1.0 - t194 * t194);
+    let t283 = t164 * (c(1.0) - t194 * t194);
     let t284 = t164 * (t194 * t196);
     let t285 = t164 * (t194 * t198);
     let t286 = t164 * (t194 * t231);
     let t287 = t164 * (t54 - t194 * t234);
     let t288 = t164 * (t51 + t194 * t237);
-    let t289 = t164 * (1.0 - t196 * t196);
+    let t289 = t164 * (c(1.0) - t196 * t196);
     let t290 = t164 * (t196 * t198);
     let t291 = t164 * (t54 + t196 * t231);
     let t292 = t164 * (t196 * t234);
     let t293 = t164 * (t48 - t196 * t237);
-    let t294 = t164 * (1.0 - t198 * t198);
+    let t294 = t164 * (c(1.0) - t198 * t198);
     let t295 = t164 * (t51 - t198 * t231);
     let t296 = t164 * (t48 + t198 * t234);
     let t297 = t164 * (t198 * t237);
@@ -3785,7 +4349,7 @@ pub fn partial_velocities(
     lower_partial_velocity[0][2][4] = -(parameters.lower_com_distance[0] * t296);
     lower_partial_velocity[0][2][5] = -(parameters.lower_com_distance[0] * t297);
     // leg 1: partial velocities of the upper part's centre of mass
-    upper_partial_velocity[0][0][0] = 1.0 - parameters.upper_com_distance[0] * t283;
+    upper_partial_velocity[0][0][0] = c(1.0) - parameters.upper_com_distance[0] * t283;
     let t301 = parameters.upper_com_distance[0] * t284;
     upper_partial_velocity[0][0][1] = t301;
     upper_partial_velocity[0][1][0] = t301;
@@ -3795,14 +4359,14 @@ pub fn partial_velocities(
     upper_partial_velocity[0][0][3] = parameters.upper_com_distance[0] * t286;
     upper_partial_velocity[0][0][4] = t54 - parameters.upper_com_distance[0] * t287;
     upper_partial_velocity[0][0][5] = parameters.upper_com_distance[0] * t288 - t51;
-    upper_partial_velocity[0][1][1] = 1.0 - parameters.upper_com_distance[0] * t289;
+    upper_partial_velocity[0][1][1] = c(1.0) - parameters.upper_com_distance[0] * t289;
     let t303 = parameters.upper_com_distance[0] * t290;
     upper_partial_velocity[0][1][2] = t303;
     upper_partial_velocity[0][2][1] = t303;
     upper_partial_velocity[0][1][3] = parameters.upper_com_distance[0] * t291 - t54;
     upper_partial_velocity[0][1][4] = parameters.upper_com_distance[0] * t292;
     upper_partial_velocity[0][1][5] = t48 - parameters.upper_com_distance[0] * t293;
-    upper_partial_velocity[0][2][2] = 1.0 - parameters.upper_com_distance[0] * t294;
+    upper_partial_velocity[0][2][2] = c(1.0) - parameters.upper_com_distance[0] * t294;
     upper_partial_velocity[0][2][3] = t51 - parameters.upper_com_distance[0] * t295;
     upper_partial_velocity[0][2][4] = parameters.upper_com_distance[0] * t296 - t48;
     upper_partial_velocity[0][2][5] = parameters.upper_com_distance[0] * t297;
@@ -3829,18 +4393,18 @@ pub fn partial_velocities(
     leg_partial_angular_velocity[0][2][4] = t164 * t230;
     leg_partial_angular_velocity[0][2][5] = -(t164 * (t306 + t309));
     // leg 2: partial velocities of the lower part's centre of mass
-    let t310 = t166 * (1.0 - t200 * t200);
+    let t310 = t166 * (c(1.0) - t200 * t200);
     let t311 = t166 * (t200 * t202);
     let t312 = t166 * (t200 * t204);
     let t313 = t166 * (t200 * t240);
     let t314 = t166 * (t75 - t200 * t243);
     let t315 = t166 * (t72 + t200 * t246);
-    let t316 = t166 * (1.0 - t202 * t202);
+    let t316 = t166 * (c(1.0) - t202 * t202);
     let t317 = t166 * (t202 * t204);
     let t318 = t166 * (t75 + t202 * t240);
     let t319 = t166 * (t202 * t243);
     let t320 = t166 * (t69 - t202 * t246);
-    let t321 = t166 * (1.0 - t204 * t204);
+    let t321 = t166 * (c(1.0) - t204 * t204);
     let t322 = t166 * (t72 - t204 * t240);
     let t323 = t166 * (t69 + t204 * t243);
     let t324 = t166 * (t204 * t246);
@@ -3866,7 +4430,7 @@ pub fn partial_velocities(
     lower_partial_velocity[1][2][4] = -(parameters.lower_com_distance[1] * t323);
     lower_partial_velocity[1][2][5] = -(parameters.lower_com_distance[1] * t324);
     // leg 2: partial velocities of the upper part's centre of mass
-    upper_partial_velocity[1][0][0] = 1.0 - parameters.upper_com_distance[1] * t310;
+    upper_partial_velocity[1][0][0] = c(1.0) - parameters.upper_com_distance[1] * t310;
     let t328 = parameters.upper_com_distance[1] * t311;
     upper_partial_velocity[1][0][1] = t328;
     upper_partial_velocity[1][1][0] = t328;
@@ -3876,14 +4440,14 @@ pub fn partial_velocities(
     upper_partial_velocity[1][0][3] = parameters.upper_com_distance[1] * t313;
     upper_partial_velocity[1][0][4] = t75 - parameters.upper_com_distance[1] * t314;
     upper_partial_velocity[1][0][5] = parameters.upper_com_distance[1] * t315 - t72;
-    upper_partial_velocity[1][1][1] = 1.0 - parameters.upper_com_distance[1] * t316;
+    upper_partial_velocity[1][1][1] = c(1.0) - parameters.upper_com_distance[1] * t316;
     let t330 = parameters.upper_com_distance[1] * t317;
     upper_partial_velocity[1][1][2] = t330;
     upper_partial_velocity[1][2][1] = t330;
     upper_partial_velocity[1][1][3] = parameters.upper_com_distance[1] * t318 - t75;
     upper_partial_velocity[1][1][4] = parameters.upper_com_distance[1] * t319;
     upper_partial_velocity[1][1][5] = t69 - parameters.upper_com_distance[1] * t320;
-    upper_partial_velocity[1][2][2] = 1.0 - parameters.upper_com_distance[1] * t321;
+    upper_partial_velocity[1][2][2] = c(1.0) - parameters.upper_com_distance[1] * t321;
     upper_partial_velocity[1][2][3] = t72 - parameters.upper_com_distance[1] * t322;
     upper_partial_velocity[1][2][4] = parameters.upper_com_distance[1] * t323 - t69;
     upper_partial_velocity[1][2][5] = parameters.upper_com_distance[1] * t324;
@@ -3910,18 +4474,18 @@ pub fn partial_velocities(
     leg_partial_angular_velocity[1][2][4] = t166 * t239;
     leg_partial_angular_velocity[1][2][5] = -(t166 * (t333 + t336));
     // leg 3: partial velocities of the lower part's centre of mass
-    let t337 = t168 * (1.0 - t206 * t206);
+    let t337 = t168 * (c(1.0) - t206 * t206);
     let t338 = t168 * (t206 * t208);
     let t339 = t168 * (t206 * t210);
     let t340 = t168 * (t206 * t249);
     let t341 = t168 * (t96 - t206 * t252);
     let t342 = t168 * (t93 + t206 * t255);
-    let t343 = t168 * (1.0 - t208 * t208);
+    let t343 = t168 * (c(1.0) - t208 * t208);
     let t344 = t168 * (t208 * t210);
     let t345 = t168 * (t96 + t208 * t249);
     let t346 = t168 * (t208 * t252);
     let t347 = t168 * (t90 - t208 * t255);
-    let t348 = t168 * (1.0 - t210 * t210);
+    let t348 = t168 * (c(1.0) - t210 * t210);
     let t349 = t168 * (t93 - t210 * t249);
     let t350 = t168 * (t90 + t210 * t252);
     let t351 = t168 * (t210 * t255);
@@ -3947,7 +4511,7 @@ pub fn partial_velocities(
     lower_partial_velocity[2][2][4] = -(parameters.lower_com_distance[2] * t350);
     lower_partial_velocity[2][2][5] = -(parameters.lower_com_distance[2] * t351);
     // leg 3: partial velocities of the upper part's centre of mass
-    upper_partial_velocity[2][0][0] = 1.0 - parameters.upper_com_distance[2] * t337;
+    upper_partial_velocity[2][0][0] = c(1.0) - parameters.upper_com_distance[2] * t337;
     let t355 = parameters.upper_com_distance[2] * t338;
     upper_partial_velocity[2][0][1] = t355;
     upper_partial_velocity[2][1][0] = t355;
@@ -3957,14 +4521,14 @@ pub fn partial_velocities(
     upper_partial_velocity[2][0][3] = parameters.upper_com_distance[2] * t340;
     upper_partial_velocity[2][0][4] = t96 - parameters.upper_com_distance[2] * t341;
     upper_partial_velocity[2][0][5] = parameters.upper_com_distance[2] * t342 - t93;
-    upper_partial_velocity[2][1][1] = 1.0 - parameters.upper_com_distance[2] * t343;
+    upper_partial_velocity[2][1][1] = c(1.0) - parameters.upper_com_distance[2] * t343;
     let t357 = parameters.upper_com_distance[2] * t344;
     upper_partial_velocity[2][1][2] = t357;
     upper_partial_velocity[2][2][1] = t357;
     upper_partial_velocity[2][1][3] = parameters.upper_com_distance[2] * t345 - t96;
     upper_partial_velocity[2][1][4] = parameters.upper_com_distance[2] * t346;
     upper_partial_velocity[2][1][5] = t90 - parameters.upper_com_distance[2] * t347;
-    upper_partial_velocity[2][2][2] = 1.0 - parameters.upper_com_distance[2] * t348;
+    upper_partial_velocity[2][2][2] = c(1.0) - parameters.upper_com_distance[2] * t348;
     upper_partial_velocity[2][2][3] = t93 - parameters.upper_com_distance[2] * t349;
     upper_partial_velocity[2][2][4] = parameters.upper_com_distance[2] * t350 - t90;
     upper_partial_velocity[2][2][5] = parameters.upper_com_distance[2] * t351;
@@ -3991,18 +4555,18 @@ pub fn partial_velocities(
     leg_partial_angular_velocity[2][2][4] = t168 * t248;
     leg_partial_angular_velocity[2][2][5] = -(t168 * (t360 + t363));
     // leg 4: partial velocities of the lower part's centre of mass
-    let t364 = t170 * (1.0 - t212 * t212);
+    let t364 = t170 * (c(1.0) - t212 * t212);
     let t365 = t170 * (t212 * t214);
     let t366 = t170 * (t212 * t216);
     let t367 = t170 * (t212 * t258);
     let t368 = t170 * (t117 - t212 * t261);
     let t369 = t170 * (t114 + t212 * t264);
-    let t370 = t170 * (1.0 - t214 * t214);
+    let t370 = t170 * (c(1.0) - t214 * t214);
     let t371 = t170 * (t214 * t216);
     let t372 = t170 * (t117 + t214 * t258);
     let t373 = t170 * (t214 * t261);
     let t374 = t170 * (t111 - t214 * t264);
-    let t375 = t170 * (1.0 - t216 * t216);
+    let t375 = t170 * (c(1.0) - t216 * t216);
     let t376 = t170 * (t114 - t216 * t258);
     let t377 = t170 * (t111 + t216 * t261);
     let t378 = t170 * (t216 * t264);
@@ -4028,7 +4592,7 @@ pub fn partial_velocities(
     lower_partial_velocity[3][2][4] = -(parameters.lower_com_distance[3] * t377);
     lower_partial_velocity[3][2][5] = -(parameters.lower_com_distance[3] * t378);
     // leg 4: partial velocities of the upper part's centre of mass
-    upper_partial_velocity[3][0][0] = 1.0 - parameters.upper_com_distance[3] * t364;
+    upper_partial_velocity[3][0][0] = c(1.0) - parameters.upper_com_distance[3] * t364;
     let t382 = parameters.upper_com_distance[3] * t365;
     upper_partial_velocity[3][0][1] = t382;
     upper_partial_velocity[3][1][0] = t382;
@@ -4038,14 +4602,14 @@ pub fn partial_velocities(
     upper_partial_velocity[3][0][3] = parameters.upper_com_distance[3] * t367;
     upper_partial_velocity[3][0][4] = t117 - parameters.upper_com_distance[3] * t368;
     upper_partial_velocity[3][0][5] = parameters.upper_com_distance[3] * t369 - t114;
-    upper_partial_velocity[3][1][1] = 1.0 - parameters.upper_com_distance[3] * t370;
+    upper_partial_velocity[3][1][1] = c(1.0) - parameters.upper_com_distance[3] * t370;
     let t384 = parameters.upper_com_distance[3] * t371;
     upper_partial_velocity[3][1][2] = t384;
     upper_partial_velocity[3][2][1] = t384;
     upper_partial_velocity[3][1][3] = parameters.upper_com_distance[3] * t372 - t117;
     upper_partial_velocity[3][1][4] = parameters.upper_com_distance[3] * t373;
     upper_partial_velocity[3][1][5] = t111 - parameters.upper_com_distance[3] * t374;
-    upper_partial_velocity[3][2][2] = 1.0 - parameters.upper_com_distance[3] * t375;
+    upper_partial_velocity[3][2][2] = c(1.0) - parameters.upper_com_distance[3] * t375;
     upper_partial_velocity[3][2][3] = t114 - parameters.upper_com_distance[3] * t376;
     upper_partial_velocity[3][2][4] = parameters.upper_com_distance[3] * t377 - t111;
     upper_partial_velocity[3][2][5] = parameters.upper_com_distance[3] * t378;
@@ -4072,18 +4636,18 @@ pub fn partial_velocities(
     leg_partial_angular_velocity[3][2][4] = t170 * t257;
     leg_partial_angular_velocity[3][2][5] = -(t170 * (t387 + t390));
     // leg 5: partial velocities of the lower part's centre of mass
-    let t391 = t172 * (1.0 - t218 * t218);
+    let t391 = t172 * (c(1.0) - t218 * t218);
     let t392 = t172 * (t218 * t220);
     let t393 = t172 * (t218 * t222);
     let t394 = t172 * (t218 * t267);
     let t395 = t172 * (t138 - t218 * t270);
     let t396 = t172 * (t135 + t218 * t273);
-    let t397 = t172 * (1.0 - t220 * t220);
+    let t397 = t172 * (c(1.0) - t220 * t220);
     let t398 = t172 * (t220 * t222);
     let t399 = t172 * (t138 + t220 * t267);
     let t400 = t172 * (t220 * t270);
     let t401 = t172 * (t132 - t220 * t273);
-    let t402 = t172 * (1.0 - t222 * t222);
+    let t402 = t172 * (c(1.0) - t222 * t222);
     let t403 = t172 * (t135 - t222 * t267);
     let t404 = t172 * (t132 + t222 * t270);
     let t405 = t172 * (t222 * t273);
@@ -4109,7 +4673,7 @@ pub fn partial_velocities(
     lower_partial_velocity[4][2][4] = -(parameters.lower_com_distance[4] * t404);
     lower_partial_velocity[4][2][5] = -(parameters.lower_com_distance[4] * t405);
     // leg 5: partial velocities of the upper part's centre of mass
-    upper_partial_velocity[4][0][0] = 1.0 - parameters.upper_com_distance[4] * t391;
+    upper_partial_velocity[4][0][0] = c(1.0) - parameters.upper_com_distance[4] * t391;
     let t409 = parameters.upper_com_distance[4] * t392;
     upper_partial_velocity[4][0][1] = t409;
     upper_partial_velocity[4][1][0] = t409;
@@ -4119,14 +4683,14 @@ pub fn partial_velocities(
     upper_partial_velocity[4][0][3] = parameters.upper_com_distance[4] * t394;
     upper_partial_velocity[4][0][4] = t138 - parameters.upper_com_distance[4] * t395;
     upper_partial_velocity[4][0][5] = parameters.upper_com_distance[4] * t396 - t135;
-    upper_partial_velocity[4][1][1] = 1.0 - parameters.upper_com_distance[4] * t397;
+    upper_partial_velocity[4][1][1] = c(1.0) - parameters.upper_com_distance[4] * t397;
     let t411 = parameters.upper_com_distance[4] * t398;
     upper_partial_velocity[4][1][2] = t411;
     upper_partial_velocity[4][2][1] = t411;
     upper_partial_velocity[4][1][3] = parameters.upper_com_distance[4] * t399 - t138;
     upper_partial_velocity[4][1][4] = parameters.upper_com_distance[4] * t400;
     upper_partial_velocity[4][1][5] = t132 - parameters.upper_com_distance[4] * t401;
-    upper_partial_velocity[4][2][2] = 1.0 - parameters.upper_com_distance[4] * t402;
+    upper_partial_velocity[4][2][2] = c(1.0) - parameters.upper_com_distance[4] * t402;
     upper_partial_velocity[4][2][3] = t135 - parameters.upper_com_distance[4] * t403;
     upper_partial_velocity[4][2][4] = parameters.upper_com_distance[4] * t404 - t132;
     upper_partial_velocity[4][2][5] = parameters.upper_com_distance[4] * t405;
@@ -4153,18 +4717,18 @@ pub fn partial_velocities(
     leg_partial_angular_velocity[4][2][4] = t172 * t266;
     leg_partial_angular_velocity[4][2][5] = -(t172 * (t414 + t417));
     // leg 6: partial velocities of the lower part's centre of mass
-    let t418 = t174 * (1.0 - t224 * t224);
+    let t418 = t174 * (c(1.0) - t224 * t224);
     let t419 = t174 * (t224 * t226);
     let t420 = t174 * (t224 * t228);
     let t421 = t174 * (t224 * t276);
     let t422 = t174 * (t159 - t224 * t279);
     let t423 = t174 * (t156 + t224 * t282);
-    let t424 = t174 * (1.0 - t226 * t226);
+    let t424 = t174 * (c(1.0) - t226 * t226);
     let t425 = t174 * (t226 * t228);
     let t426 = t174 * (t159 + t226 * t276);
     let t427 = t174 * (t226 * t279);
     let t428 = t174 * (t153 - t226 * t282);
-    let t429 = t174 * (1.0 - t228 * t228);
+    let t429 = t174 * (c(1.0) - t228 * t228);
     let t430 = t174 * (t156 - t228 * t276);
     let t431 = t174 * (t153 + t228 * t279);
     let t432 = t174 * (t228 * t282);
@@ -4190,7 +4754,7 @@ pub fn partial_velocities(
     lower_partial_velocity[5][2][4] = -(parameters.lower_com_distance[5] * t431);
     lower_partial_velocity[5][2][5] = -(parameters.lower_com_distance[5] * t432);
     // leg 6: partial velocities of the upper part's centre of mass
-    upper_partial_velocity[5][0][0] = 1.0 - parameters.upper_com_distance[5] * t418;
+    upper_partial_velocity[5][0][0] = c(1.0) - parameters.upper_com_distance[5] * t418;
     let t436 = parameters.upper_com_distance[5] * t419;
     upper_partial_velocity[5][0][1] = t436;
     upper_partial_velocity[5][1][0] = t436;
@@ -4200,14 +4764,14 @@ pub fn partial_velocities(
     upper_partial_velocity[5][0][3] = parameters.upper_com_distance[5] * t421;
     upper_partial_velocity[5][0][4] = t159 - parameters.upper_com_distance[5] * t422;
     upper_partial_velocity[5][0][5] = parameters.upper_com_distance[5] * t423 - t156;
-    upper_partial_velocity[5][1][1] = 1.0 - parameters.upper_com_distance[5] * t424;
+    upper_partial_velocity[5][1][1] = c(1.0) - parameters.upper_com_distance[5] * t424;
     let t438 = parameters.upper_com_distance[5] * t425;
     upper_partial_velocity[5][1][2] = t438;
     upper_partial_velocity[5][2][1] = t438;
     upper_partial_velocity[5][1][3] = parameters.upper_com_distance[5] * t426 - t159;
     upper_partial_velocity[5][1][4] = parameters.upper_com_distance[5] * t427;
     upper_partial_velocity[5][1][5] = t153 - parameters.upper_com_distance[5] * t428;
-    upper_partial_velocity[5][2][2] = 1.0 - parameters.upper_com_distance[5] * t429;
+    upper_partial_velocity[5][2][2] = c(1.0) - parameters.upper_com_distance[5] * t429;
     upper_partial_velocity[5][2][3] = t156 - parameters.upper_com_distance[5] * t430;
     upper_partial_velocity[5][2][4] = parameters.upper_com_distance[5] * t431 - t153;
     upper_partial_velocity[5][2][5] = parameters.upper_com_distance[5] * t432;
@@ -4250,54 +4814,54 @@ pub fn partial_velocities(
     payload_partial_velocity[1][5] = t453;
     payload_partial_velocity[2][4] = -t453;
     // constant and copied elements
-    payload_partial_velocity[0][0] = 1.0;
-    payload_partial_velocity[0][1] = 0.0;
-    payload_partial_velocity[0][2] = 0.0;
-    payload_partial_velocity[0][3] = 0.0;
-    payload_partial_velocity[1][0] = 0.0;
-    payload_partial_velocity[1][1] = 1.0;
-    payload_partial_velocity[1][2] = 0.0;
-    payload_partial_velocity[1][4] = 0.0;
-    payload_partial_velocity[2][0] = 0.0;
-    payload_partial_velocity[2][1] = 0.0;
-    payload_partial_velocity[2][2] = 1.0;
-    payload_partial_velocity[2][5] = 0.0;
-    payload_partial_angular_velocity[0][0] = 0.0;
-    payload_partial_angular_velocity[0][1] = 0.0;
-    payload_partial_angular_velocity[0][2] = 0.0;
-    payload_partial_angular_velocity[0][3] = 1.0;
-    payload_partial_angular_velocity[0][4] = 0.0;
-    payload_partial_angular_velocity[0][5] = 0.0;
-    payload_partial_angular_velocity[1][0] = 0.0;
-    payload_partial_angular_velocity[1][1] = 0.0;
-    payload_partial_angular_velocity[1][2] = 0.0;
-    payload_partial_angular_velocity[1][3] = 0.0;
-    payload_partial_angular_velocity[1][4] = 1.0;
-    payload_partial_angular_velocity[1][5] = 0.0;
-    payload_partial_angular_velocity[2][0] = 0.0;
-    payload_partial_angular_velocity[2][1] = 0.0;
-    payload_partial_angular_velocity[2][2] = 0.0;
-    payload_partial_angular_velocity[2][3] = 0.0;
-    payload_partial_angular_velocity[2][4] = 0.0;
-    payload_partial_angular_velocity[2][5] = 1.0;
-    leg_partial_angular_velocity[0][0][0] = 0.0;
-    leg_partial_angular_velocity[0][1][1] = 0.0;
-    leg_partial_angular_velocity[0][2][2] = 0.0;
-    leg_partial_angular_velocity[1][0][0] = 0.0;
-    leg_partial_angular_velocity[1][1][1] = 0.0;
-    leg_partial_angular_velocity[1][2][2] = 0.0;
-    leg_partial_angular_velocity[2][0][0] = 0.0;
-    leg_partial_angular_velocity[2][1][1] = 0.0;
-    leg_partial_angular_velocity[2][2][2] = 0.0;
-    leg_partial_angular_velocity[3][0][0] = 0.0;
-    leg_partial_angular_velocity[3][1][1] = 0.0;
-    leg_partial_angular_velocity[3][2][2] = 0.0;
-    leg_partial_angular_velocity[4][0][0] = 0.0;
-    leg_partial_angular_velocity[4][1][1] = 0.0;
-    leg_partial_angular_velocity[4][2][2] = 0.0;
-    leg_partial_angular_velocity[5][0][0] = 0.0;
-    leg_partial_angular_velocity[5][1][1] = 0.0;
-    leg_partial_angular_velocity[5][2][2] = 0.0;
+    payload_partial_velocity[0][0] = c(1.0);
+    payload_partial_velocity[0][1] = c(0.0);
+    payload_partial_velocity[0][2] = c(0.0);
+    payload_partial_velocity[0][3] = c(0.0);
+    payload_partial_velocity[1][0] = c(0.0);
+    payload_partial_velocity[1][1] = c(1.0);
+    payload_partial_velocity[1][2] = c(0.0);
+    payload_partial_velocity[1][4] = c(0.0);
+    payload_partial_velocity[2][0] = c(0.0);
+    payload_partial_velocity[2][1] = c(0.0);
+    payload_partial_velocity[2][2] = c(1.0);
+    payload_partial_velocity[2][5] = c(0.0);
+    payload_partial_angular_velocity[0][0] = c(0.0);
+    payload_partial_angular_velocity[0][1] = c(0.0);
+    payload_partial_angular_velocity[0][2] = c(0.0);
+    payload_partial_angular_velocity[0][3] = c(1.0);
+    payload_partial_angular_velocity[0][4] = c(0.0);
+    payload_partial_angular_velocity[0][5] = c(0.0);
+    payload_partial_angular_velocity[1][0] = c(0.0);
+    payload_partial_angular_velocity[1][1] = c(0.0);
+    payload_partial_angular_velocity[1][2] = c(0.0);
+    payload_partial_angular_velocity[1][3] = c(0.0);
+    payload_partial_angular_velocity[1][4] = c(1.0);
+    payload_partial_angular_velocity[1][5] = c(0.0);
+    payload_partial_angular_velocity[2][0] = c(0.0);
+    payload_partial_angular_velocity[2][1] = c(0.0);
+    payload_partial_angular_velocity[2][2] = c(0.0);
+    payload_partial_angular_velocity[2][3] = c(0.0);
+    payload_partial_angular_velocity[2][4] = c(0.0);
+    payload_partial_angular_velocity[2][5] = c(1.0);
+    leg_partial_angular_velocity[0][0][0] = c(0.0);
+    leg_partial_angular_velocity[0][1][1] = c(0.0);
+    leg_partial_angular_velocity[0][2][2] = c(0.0);
+    leg_partial_angular_velocity[1][0][0] = c(0.0);
+    leg_partial_angular_velocity[1][1][1] = c(0.0);
+    leg_partial_angular_velocity[1][2][2] = c(0.0);
+    leg_partial_angular_velocity[2][0][0] = c(0.0);
+    leg_partial_angular_velocity[2][1][1] = c(0.0);
+    leg_partial_angular_velocity[2][2][2] = c(0.0);
+    leg_partial_angular_velocity[3][0][0] = c(0.0);
+    leg_partial_angular_velocity[3][1][1] = c(0.0);
+    leg_partial_angular_velocity[3][2][2] = c(0.0);
+    leg_partial_angular_velocity[4][0][0] = c(0.0);
+    leg_partial_angular_velocity[4][1][1] = c(0.0);
+    leg_partial_angular_velocity[4][2][2] = c(0.0);
+    leg_partial_angular_velocity[5][0][0] = c(0.0);
+    leg_partial_angular_velocity[5][1][1] = c(0.0);
+    leg_partial_angular_velocity[5][2][2] = c(0.0);
 }
 
 /// Generalised active and inertia force of every body, equation (39)-(46).
@@ -4324,25 +4888,26 @@ pub fn partial_velocities(
 /// - `upper_active_force`: 6x6, N, N m, frame O: generalised active force of the upper part: gravity, actuator, spring, damper, equation (39)-(46).
 /// - `upper_inertia_force`: 6x6, N, N m, frame O: generalised inertia force of the upper part, equation (39)-(46).
 #[allow(clippy::all, clippy::pedantic, unused_variables)]
-pub fn generalised_forces(
-    parameters: &Parameters,
-    base_position: &[f64; 3],
-    base_rotation: &[[f64; 3]; 3],
-    base_velocity: &[f64; 6],
-    base_acceleration: &[f64; 6],
-    platform_position: &[f64; 3],
-    platform_rotation: &[[f64; 3]; 3],
-    platform_velocity: &[f64; 6],
-    platform_acceleration: &[f64; 6],
-    actuator_force: &[f64; 6],
-    external_wrench: &[f64; 6],
-    payload_active_force: &mut [f64; 6],
-    payload_inertia_force: &mut [f64; 6],
-    lower_active_force: &mut [[f64; 6]; 6],
-    lower_inertia_force: &mut [[f64; 6]; 6],
-    upper_active_force: &mut [[f64; 6]; 6],
-    upper_inertia_force: &mut [[f64; 6]; 6],
+pub fn generalised_forces<T: Scalar>(
+    parameters: &Parameters<T>,
+    base_position: &[T; 3],
+    base_rotation: &[[T; 3]; 3],
+    base_velocity: &[T; 6],
+    base_acceleration: &[T; 6],
+    platform_position: &[T; 3],
+    platform_rotation: &[[T; 3]; 3],
+    platform_velocity: &[T; 6],
+    platform_acceleration: &[T; 6],
+    actuator_force: &[T; 6],
+    external_wrench: &[T; 6],
+    payload_active_force: &mut [T; 6],
+    payload_inertia_force: &mut [T; 6],
+    lower_active_force: &mut [[T; 6]; 6],
+    lower_inertia_force: &mut [[T; 6]; 6],
+    upper_active_force: &mut [[T; 6]; 6],
+    upper_inertia_force: &mut [[T; 6]; 6],
 ) {
+    let c = T::constant;
     let (
         t110,
         t112,
@@ -4593,27 +5158,27 @@ pub fn generalised_forces(
         // leg 1: actuator length d
         let t109 = sqrt(t48 * t48 + (t46 * t46 + t47 * t47));
         // leg 1: reciprocal of the actuator length
-        let t110 = 1.0 / t109;
+        let t110 = c(1.0) / t109;
         // leg 2: actuator length d
         let t111 = sqrt(t60 * t60 + (t58 * t58 + t59 * t59));
         // leg 2: reciprocal of the actuator length
-        let t112 = 1.0 / t111;
+        let t112 = c(1.0) / t111;
         // leg 3: actuator length d
         let t113 = sqrt(t72 * t72 + (t70 * t70 + t71 * t71));
         // leg 3: reciprocal of the actuator length
-        let t114 = 1.0 / t113;
+        let t114 = c(1.0) / t113;
         // leg 4: actuator length d
         let t115 = sqrt(t84 * t84 + (t82 * t82 + t83 * t83));
         // leg 4: reciprocal of the actuator length
-        let t116 = 1.0 / t115;
+        let t116 = c(1.0) / t115;
         // leg 5: actuator length d
         let t117 = sqrt(t96 * t96 + (t94 * t94 + t95 * t95));
         // leg 5: reciprocal of the actuator length
-        let t118 = 1.0 / t117;
+        let t118 = c(1.0) / t117;
         // leg 6: actuator length d
         let t119 = sqrt(t108 * t108 + (t106 * t106 + t107 * t107));
         // leg 6: reciprocal of the actuator length
-        let t120 = 1.0 / t119;
+        let t120 = c(1.0) / t119;
         // leg 1: gradient of the actuator length by the platform joint
         let t121 = t46 * t110;
         let t122 = t47 * t110;
@@ -5226,7 +5791,7 @@ pub fn generalised_forces(
         let t652 = base_acceleration[2] + base_acceleration[3] * t492;
         let t653 = base_velocity[3] * t506 - (base_acceleration[4] * t489 - t652);
         let t654 = base_velocity[4] * t505 - t653;
-        let t655 = t235 * 2.0;
+        let t655 = t235 * c(2.0);
         let t656 = t110 * (t513 * t655 + (t355 * t456 + (t651 - t654)));
         let t657 = platform_acceleration[1] + platform_acceleration[5] * t498;
         let t658 = platform_acceleration[3] * t504 - t657;
@@ -5260,7 +5825,7 @@ pub fn generalised_forces(
         let t683 = base_acceleration[2] + base_acceleration[3] * t519;
         let t684 = base_velocity[3] * t533 - (base_acceleration[4] * t516 - t683);
         let t685 = base_velocity[4] * t532 - t684;
-        let t686 = t236 * 2.0;
+        let t686 = t236 * c(2.0);
         let t687 = t112 * (t540 * t686 + (t374 * t462 + (t682 - t685)));
         let t688 = platform_acceleration[1] + platform_acceleration[5] * t525;
         let t689 = platform_acceleration[3] * t531 - t688;
@@ -5294,7 +5859,7 @@ pub fn generalised_forces(
         let t714 = base_acceleration[2] + base_acceleration[3] * t546;
         let t715 = base_velocity[3] * t560 - (base_acceleration[4] * t543 - t714);
         let t716 = base_velocity[4] * t559 - t715;
-        let t717 = t237 * 2.0;
+        let t717 = t237 * c(2.0);
         let t718 = t114 * (t567 * t717 + (t393 * t468 + (t713 - t716)));
         let t719 = platform_acceleration[1] + platform_acceleration[5] * t552;
         let t720 = platform_acceleration[3] * t558 - t719;
@@ -5328,7 +5893,7 @@ pub fn generalised_forces(
         let t745 = base_acceleration[2] + base_acceleration[3] * t573;
         let t746 = base_velocity[3] * t587 - (base_acceleration[4] * t570 - t745);
         let t747 = base_velocity[4] * t586 - t746;
-        let t748 = t238 * 2.0;
+        let t748 = t238 * c(2.0);
         let t749 = t116 * (t594 * t748 + (t412 * t474 + (t744 - t747)));
         let t750 = platform_acceleration[1] + platform_acceleration[5] * t579;
         let t751 = platform_acceleration[3] * t585 - t750;
@@ -5362,7 +5927,7 @@ pub fn generalised_forces(
         let t776 = base_acceleration[2] + base_acceleration[3] * t600;
         let t777 = base_velocity[3] * t614 - (base_acceleration[4] * t597 - t776);
         let t778 = base_velocity[4] * t613 - t777;
-        let t779 = t239 * 2.0;
+        let t779 = t239 * c(2.0);
         let t780 = t118 * (t621 * t779 + (t431 * t480 + (t775 - t778)));
         let t781 = platform_acceleration[1] + platform_acceleration[5] * t606;
         let t782 = platform_acceleration[3] * t612 - t781;
@@ -5396,7 +5961,7 @@ pub fn generalised_forces(
         let t807 = base_acceleration[2] + base_acceleration[3] * t627;
         let t808 = base_velocity[3] * t641 - (base_acceleration[4] * t624 - t807);
         let t809 = base_velocity[4] * t640 - t808;
-        let t810 = t240 * 2.0;
+        let t810 = t240 * c(2.0);
         let t811 = t120 * (t648 * t810 + (t450 * t486 + (t806 - t809)));
         let t812 = platform_acceleration[1] + platform_acceleration[5] * t633;
         let t813 = platform_acceleration[3] * t639 - t812;
@@ -6201,14 +6766,15 @@ pub fn generalised_forces(
 ///
 /// - `jacobian_dp`: 6x6, 1, m, frame O: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b, equation (32).
 #[allow(clippy::all, clippy::pedantic, unused_variables)]
-pub fn jacobian_dp(
-    parameters: &Parameters,
-    base_position: &[f64; 3],
-    base_rotation: &[[f64; 3]; 3],
-    platform_position: &[f64; 3],
-    platform_rotation: &[[f64; 3]; 3],
-    jacobian_dp: &mut [[f64; 6]; 6],
+pub fn jacobian_dp<T: Scalar>(
+    parameters: &Parameters<T>,
+    base_position: &[T; 3],
+    base_rotation: &[[T; 3]; 3],
+    platform_position: &[T; 3],
+    platform_rotation: &[[T; 3]; 3],
+    jacobian_dp: &mut [[T; 6]; 6],
 ) {
+    let c = T::constant;
     // rotation of the platform seen from the base
     let t1 = base_rotation[1][0] * platform_rotation[1][0];
     let t2 = base_rotation[0][0] * platform_rotation[0][0] + t1;
@@ -6388,27 +6954,27 @@ pub fn jacobian_dp(
     // leg 1: actuator length d
     let t163 = sqrt(t55 * t55 + t56 * t56 + t57 * t57);
     // leg 1: reciprocal of the actuator length
-    let t164 = 1.0 / t163;
+    let t164 = c(1.0) / t163;
     // leg 2: actuator length d
     let t165 = sqrt(t76 * t76 + t77 * t77 + t78 * t78);
     // leg 2: reciprocal of the actuator length
-    let t166 = 1.0 / t165;
+    let t166 = c(1.0) / t165;
     // leg 3: actuator length d
     let t167 = sqrt(t97 * t97 + t98 * t98 + t99 * t99);
     // leg 3: reciprocal of the actuator length
-    let t168 = 1.0 / t167;
+    let t168 = c(1.0) / t167;
     // leg 4: actuator length d
     let t169 = sqrt(t118 * t118 + t119 * t119 + t120 * t120);
     // leg 4: reciprocal of the actuator length
-    let t170 = 1.0 / t169;
+    let t170 = c(1.0) / t169;
     // leg 5: actuator length d
     let t171 = sqrt(t139 * t139 + t140 * t140 + t141 * t141);
     // leg 5: reciprocal of the actuator length
-    let t172 = 1.0 / t171;
+    let t172 = c(1.0) / t171;
     // leg 6: actuator length d
     let t173 = sqrt(t160 * t160 + t161 * t161 + t162 * t162);
     // leg 6: reciprocal of the actuator length
-    let t174 = 1.0 / t173;
+    let t174 = c(1.0) / t173;
     // leg 1: gradient of the actuator length by the platform joint
     let t175 = t55 * t164;
     let t176 = t56 * t164;
@@ -6532,14 +7098,15 @@ pub fn jacobian_dp(
 ///
 /// - `jacobian_db`: 6x6, 1, m, frame O: actuator Jacobian of the base, equation (31).
 #[allow(clippy::all, clippy::pedantic, unused_variables)]
-pub fn jacobian_db(
-    parameters: &Parameters,
-    base_position: &[f64; 3],
-    base_rotation: &[[f64; 3]; 3],
-    platform_position: &[f64; 3],
-    platform_rotation: &[[f64; 3]; 3],
-    jacobian_db: &mut [[f64; 6]; 6],
+pub fn jacobian_db<T: Scalar>(
+    parameters: &Parameters<T>,
+    base_position: &[T; 3],
+    base_rotation: &[[T; 3]; 3],
+    platform_position: &[T; 3],
+    platform_rotation: &[[T; 3]; 3],
+    jacobian_db: &mut [[T; 6]; 6],
 ) {
+    let c = T::constant;
     // rotation of the platform seen from the base
     let t1 = base_rotation[1][0] * platform_rotation[1][0];
     let t2 = base_rotation[0][0] * platform_rotation[0][0] + t1;
@@ -6719,27 +7286,27 @@ pub fn jacobian_db(
     // leg 1: actuator length d
     let t163 = sqrt(t55 * t55 + t56 * t56 + t57 * t57);
     // leg 1: reciprocal of the actuator length
-    let t164 = 1.0 / t163;
+    let t164 = c(1.0) / t163;
     // leg 2: actuator length d
     let t165 = sqrt(t76 * t76 + t77 * t77 + t78 * t78);
     // leg 2: reciprocal of the actuator length
-    let t166 = 1.0 / t165;
+    let t166 = c(1.0) / t165;
     // leg 3: actuator length d
     let t167 = sqrt(t97 * t97 + t98 * t98 + t99 * t99);
     // leg 3: reciprocal of the actuator length
-    let t168 = 1.0 / t167;
+    let t168 = c(1.0) / t167;
     // leg 4: actuator length d
     let t169 = sqrt(t118 * t118 + t119 * t119 + t120 * t120);
     // leg 4: reciprocal of the actuator length
-    let t170 = 1.0 / t169;
+    let t170 = c(1.0) / t169;
     // leg 5: actuator length d
     let t171 = sqrt(t139 * t139 + t140 * t140 + t141 * t141);
     // leg 5: reciprocal of the actuator length
-    let t172 = 1.0 / t171;
+    let t172 = c(1.0) / t171;
     // leg 6: actuator length d
     let t173 = sqrt(t160 * t160 + t161 * t161 + t162 * t162);
     // leg 6: reciprocal of the actuator length
-    let t174 = 1.0 / t173;
+    let t174 = c(1.0) / t173;
     // leg 1: gradient of the actuator length by the platform joint
     let t175 = t55 * t164;
     let t176 = t56 * t164;
@@ -6887,14 +7454,15 @@ pub fn jacobian_db(
 ///
 /// - `mass_matrix_p`: 6x6, kg, kg m, kg m^2, frame O: mass matrix M_p of the platform, equation (49).
 #[allow(clippy::all, clippy::pedantic, unused_variables)]
-pub fn mass_matrix_p(
-    parameters: &Parameters,
-    base_position: &[f64; 3],
-    base_rotation: &[[f64; 3]; 3],
-    platform_position: &[f64; 3],
-    platform_rotation: &[[f64; 3]; 3],
-    mass_matrix_p: &mut [[f64; 6]; 6],
+pub fn mass_matrix_p<T: Scalar>(
+    parameters: &Parameters<T>,
+    base_position: &[T; 3],
+    base_rotation: &[[T; 3]; 3],
+    platform_position: &[T; 3],
+    platform_rotation: &[[T; 3]; 3],
+    mass_matrix_p: &mut [[T; 6]; 6],
 ) {
+    let c = T::constant;
     // rotation of the platform seen from the base
     let t1 = base_rotation[1][0] * platform_rotation[1][0];
     let t2 = base_rotation[0][0] * platform_rotation[0][0] + t1;
@@ -7074,27 +7642,27 @@ pub fn mass_matrix_p(
     // leg 1: actuator length d
     let t163 = sqrt(t57 * t57 + (t55 * t55 + t56 * t56));
     // leg 1: reciprocal of the actuator length
-    let t164 = 1.0 / t163;
+    let t164 = c(1.0) / t163;
     // leg 2: actuator length d
     let t165 = sqrt(t78 * t78 + (t76 * t76 + t77 * t77));
     // leg 2: reciprocal of the actuator length
-    let t166 = 1.0 / t165;
+    let t166 = c(1.0) / t165;
     // leg 3: actuator length d
     let t167 = sqrt(t99 * t99 + (t97 * t97 + t98 * t98));
     // leg 3: reciprocal of the actuator length
-    let t168 = 1.0 / t167;
+    let t168 = c(1.0) / t167;
     // leg 4: actuator length d
     let t169 = sqrt(t120 * t120 + (t118 * t118 + t119 * t119));
     // leg 4: reciprocal of the actuator length
-    let t170 = 1.0 / t169;
+    let t170 = c(1.0) / t169;
     // leg 5: actuator length d
     let t171 = sqrt(t141 * t141 + (t139 * t139 + t140 * t140));
     // leg 5: reciprocal of the actuator length
-    let t172 = 1.0 / t171;
+    let t172 = c(1.0) / t171;
     // leg 6: actuator length d
     let t173 = sqrt(t162 * t162 + (t160 * t160 + t161 * t161));
     // leg 6: reciprocal of the actuator length
-    let t174 = 1.0 / t173;
+    let t174 = c(1.0) / t173;
     // leg 1: gradient of the actuator length by the platform joint
     let t175 = t55 * t164;
     let t176 = t56 * t164;
@@ -7245,7 +7813,7 @@ pub fn mass_matrix_p(
     let t289 = parameters.platform_point[0][0] * parameters.platform_point[0][0];
     let t290 = parameters.payload_com[0] * parameters.payload_com[0];
     let t291 = parameters.payload_inertia[0][0] + parameters.payload_inertia[1][1];
-    let t292 = 0.5 * (parameters.payload_inertia[2][2] + t291);
+    let t292 = c(0.5) * (parameters.payload_inertia[2][2] + t291);
     let t293 = parameters.payload_inertia[0][0] - t292;
     let t294 = parameters.payload_mass * t290 - t293;
     let t295 = parameters.upper_mass[0] * t289 + t294;
@@ -7327,7 +7895,7 @@ pub fn mass_matrix_p(
     let t371 = parameters.upper_mass[4] * t359 + t370;
     let t372 = parameters.upper_mass[5] * t358 + t371;
     // leg 1: mass matrix of the leg in the speeds of its joint
-    let t373 = t233 * (t164 * t164) - 2.0 * (t164 * t230);
+    let t373 = t233 * (t164 * t164) - c(2.0) * (t164 * t230);
     let t374 = t194 * t373;
     let t375 = t373 - t194 * t374;
     let t376 = t196 * t374;
@@ -7337,7 +7905,7 @@ pub fn mass_matrix_p(
     let t380 = t198 * t378;
     let t381 = t373 - t198 * (t198 * t373);
     // leg 2: mass matrix of the leg in the speeds of its joint
-    let t382 = t238 * (t166 * t166) - 2.0 * (t166 * t235);
+    let t382 = t238 * (t166 * t166) - c(2.0) * (t166 * t235);
     let t383 = t200 * t382;
     let t384 = t382 - t200 * t383;
     let t385 = t202 * t383;
@@ -7347,7 +7915,7 @@ pub fn mass_matrix_p(
     let t389 = t204 * t387;
     let t390 = t382 - t204 * (t204 * t382);
     // leg 3: mass matrix of the leg in the speeds of its joint
-    let t391 = t243 * (t168 * t168) - 2.0 * (t168 * t240);
+    let t391 = t243 * (t168 * t168) - c(2.0) * (t168 * t240);
     let t392 = t206 * t391;
     let t393 = t391 - t206 * t392;
     let t394 = t208 * t392;
@@ -7357,7 +7925,7 @@ pub fn mass_matrix_p(
     let t398 = t210 * t396;
     let t399 = t391 - t210 * (t210 * t391);
     // leg 4: mass matrix of the leg in the speeds of its joint
-    let t400 = t248 * (t170 * t170) - 2.0 * (t170 * t245);
+    let t400 = t248 * (t170 * t170) - c(2.0) * (t170 * t245);
     let t401 = t212 * t400;
     let t402 = t400 - t212 * t401;
     let t403 = t214 * t401;
@@ -7367,7 +7935,7 @@ pub fn mass_matrix_p(
     let t407 = t216 * t405;
     let t408 = t400 - t216 * (t216 * t400);
     // leg 5: mass matrix of the leg in the speeds of its joint
-    let t409 = t253 * (t172 * t172) - 2.0 * (t172 * t250);
+    let t409 = t253 * (t172 * t172) - c(2.0) * (t172 * t250);
     let t410 = t218 * t409;
     let t411 = t409 - t218 * t410;
     let t412 = t220 * t410;
@@ -7377,7 +7945,7 @@ pub fn mass_matrix_p(
     let t416 = t222 * t414;
     let t417 = t409 - t222 * (t222 * t409);
     // leg 6: mass matrix of the leg in the speeds of its joint
-    let t418 = t258 * (t174 * t174) - 2.0 * (t174 * t255);
+    let t418 = t258 * (t174 * t174) - c(2.0) * (t174 * t255);
     let t419 = t224 * t418;
     let t420 = t418 - t224 * t419;
     let t421 = t226 * t419;
@@ -7640,14 +8208,15 @@ pub fn mass_matrix_p(
 ///
 /// - `mass_matrix_b`: 6x6, kg, kg m, kg m^2, frame O: mass matrix M_b that couples the base acceleration, equation (49).
 #[allow(clippy::all, clippy::pedantic, unused_variables)]
-pub fn mass_matrix_b(
-    parameters: &Parameters,
-    base_position: &[f64; 3],
-    base_rotation: &[[f64; 3]; 3],
-    platform_position: &[f64; 3],
-    platform_rotation: &[[f64; 3]; 3],
-    mass_matrix_b: &mut [[f64; 6]; 6],
+pub fn mass_matrix_b<T: Scalar>(
+    parameters: &Parameters<T>,
+    base_position: &[T; 3],
+    base_rotation: &[[T; 3]; 3],
+    platform_position: &[T; 3],
+    platform_rotation: &[[T; 3]; 3],
+    mass_matrix_b: &mut [[T; 6]; 6],
 ) {
+    let c = T::constant;
     // rotation of the platform seen from the base
     let t1 = base_rotation[1][0] * platform_rotation[1][0];
     let t2 = base_rotation[0][0] * platform_rotation[0][0] + t1;
@@ -7827,27 +8396,27 @@ pub fn mass_matrix_b(
     // leg 1: actuator length d
     let t163 = sqrt(t57 * t57 + (t55 * t55 + t56 * t56));
     // leg 1: reciprocal of the actuator length
-    let t164 = 1.0 / t163;
+    let t164 = c(1.0) / t163;
     // leg 2: actuator length d
     let t165 = sqrt(t78 * t78 + (t76 * t76 + t77 * t77));
     // leg 2: reciprocal of the actuator length
-    let t166 = 1.0 / t165;
+    let t166 = c(1.0) / t165;
     // leg 3: actuator length d
     let t167 = sqrt(t99 * t99 + (t97 * t97 + t98 * t98));
     // leg 3: reciprocal of the actuator length
-    let t168 = 1.0 / t167;
+    let t168 = c(1.0) / t167;
     // leg 4: actuator length d
     let t169 = sqrt(t120 * t120 + (t118 * t118 + t119 * t119));
     // leg 4: reciprocal of the actuator length
-    let t170 = 1.0 / t169;
+    let t170 = c(1.0) / t169;
     // leg 5: actuator length d
     let t171 = sqrt(t141 * t141 + (t139 * t139 + t140 * t140));
     // leg 5: reciprocal of the actuator length
-    let t172 = 1.0 / t171;
+    let t172 = c(1.0) / t171;
     // leg 6: actuator length d
     let t173 = sqrt(t162 * t162 + (t160 * t160 + t161 * t161));
     // leg 6: reciprocal of the actuator length
-    let t174 = 1.0 / t173;
+    let t174 = c(1.0) / t173;
     // leg 1: gradient of the actuator length by the platform joint
     let t175 = t55 * t164;
     let t176 = t56 * t164;
@@ -7988,7 +8557,7 @@ pub fn mass_matrix_b(
     let t276 = parameters.upper_com_distance[5] * t273 + t275;
     // leg 1: mass matrix of the leg in the speeds of its joint
     let t277 = t164 * t248;
-    let t278 = t251 * (t164 * t164) - t277 * 2.0;
+    let t278 = t251 * (t164 * t164) - t277 * c(2.0);
     let t279 = t197 * t278;
     let t280 = t278 - t197 * t279;
     let t281 = t199 * t279;
@@ -8042,7 +8611,7 @@ pub fn mass_matrix_b(
     let t328 = t201 * t313;
     // leg 2: mass matrix of the leg in the speeds of its joint
     let t329 = t166 * t253;
-    let t330 = t256 * (t166 * t166) - 2.0 * t329;
+    let t330 = t256 * (t166 * t166) - c(2.0) * t329;
     let t331 = t206 * t330;
     let t332 = t330 - t206 * t331;
     let t333 = t208 * t331;
@@ -8096,7 +8665,7 @@ pub fn mass_matrix_b(
     let t380 = t210 * t365;
     // leg 3: mass matrix of the leg in the speeds of its joint
     let t381 = t168 * t258;
-    let t382 = t261 * (t168 * t168) - 2.0 * t381;
+    let t382 = t261 * (t168 * t168) - c(2.0) * t381;
     let t383 = t215 * t382;
     let t384 = t382 - t215 * t383;
     let t385 = t217 * t383;
@@ -8150,7 +8719,7 @@ pub fn mass_matrix_b(
     let t432 = t219 * t417;
     // leg 4: mass matrix of the leg in the speeds of its joint
     let t433 = t170 * t263;
-    let t434 = t266 * (t170 * t170) - 2.0 * t433;
+    let t434 = t266 * (t170 * t170) - c(2.0) * t433;
     let t435 = t224 * t434;
     let t436 = t434 - t224 * t435;
     let t437 = t226 * t435;
@@ -8204,7 +8773,7 @@ pub fn mass_matrix_b(
     let t484 = t228 * t469;
     // leg 5: mass matrix of the leg in the speeds of its joint
     let t485 = t172 * t268;
-    let t486 = t271 * (t172 * t172) - 2.0 * t485;
+    let t486 = t271 * (t172 * t172) - c(2.0) * t485;
     let t487 = t233 * t486;
     let t488 = t486 - t233 * t487;
     let t489 = t235 * t487;
@@ -8258,7 +8827,7 @@ pub fn mass_matrix_b(
     let t536 = t237 * t521;
     // leg 6: mass matrix of the leg in the speeds of its joint
     let t537 = t174 * t273;
-    let t538 = t276 * (t174 * t174) - 2.0 * t537;
+    let t538 = t276 * (t174 * t174) - c(2.0) * t537;
     let t539 = t242 * t538;
     let t540 = t538 - t242 * t539;
     let t541 = t244 * t539;
@@ -8577,17 +9146,18 @@ pub fn mass_matrix_b(
 /// - `coriolis_matrix_p`: 6x6, kg/s, kg m/s, kg m^2/s, frame O: Coriolis matrix C_p, natural factorisation, equation (49).
 /// - `coriolis_matrix_b`: 6x6, kg/s, kg m/s, kg m^2/s, frame O: Coriolis matrix C_b, natural factorisation, equation (49).
 #[allow(clippy::all, clippy::pedantic, unused_variables)]
-pub fn coriolis_matrices(
-    parameters: &Parameters,
-    base_position: &[f64; 3],
-    base_rotation: &[[f64; 3]; 3],
-    base_velocity: &[f64; 6],
-    platform_position: &[f64; 3],
-    platform_rotation: &[[f64; 3]; 3],
-    platform_velocity: &[f64; 6],
-    coriolis_matrix_p: &mut [[f64; 6]; 6],
-    coriolis_matrix_b: &mut [[f64; 6]; 6],
+pub fn coriolis_matrices<T: Scalar>(
+    parameters: &Parameters<T>,
+    base_position: &[T; 3],
+    base_rotation: &[[T; 3]; 3],
+    base_velocity: &[T; 6],
+    platform_position: &[T; 3],
+    platform_rotation: &[[T; 3]; 3],
+    platform_velocity: &[T; 6],
+    coriolis_matrix_p: &mut [[T; 6]; 6],
+    coriolis_matrix_b: &mut [[T; 6]; 6],
 ) {
+    let c = T::constant;
     let (
         t28,
         t29,
@@ -8980,27 +9550,27 @@ pub fn coriolis_matrices(
         // leg 1: actuator length d
         let t163 = sqrt(t57 * t57 + (t55 * t55 + t56 * t56));
         // leg 1: reciprocal of the actuator length
-        let t164 = 1.0 / t163;
+        let t164 = c(1.0) / t163;
         // leg 2: actuator length d
         let t165 = sqrt(t78 * t78 + (t76 * t76 + t77 * t77));
         // leg 2: reciprocal of the actuator length
-        let t166 = 1.0 / t165;
+        let t166 = c(1.0) / t165;
         // leg 3: actuator length d
         let t167 = sqrt(t99 * t99 + (t97 * t97 + t98 * t98));
         // leg 3: reciprocal of the actuator length
-        let t168 = 1.0 / t167;
+        let t168 = c(1.0) / t167;
         // leg 4: actuator length d
         let t169 = sqrt(t120 * t120 + (t118 * t118 + t119 * t119));
         // leg 4: reciprocal of the actuator length
-        let t170 = 1.0 / t169;
+        let t170 = c(1.0) / t169;
         // leg 5: actuator length d
         let t171 = sqrt(t141 * t141 + (t139 * t139 + t140 * t140));
         // leg 5: reciprocal of the actuator length
-        let t172 = 1.0 / t171;
+        let t172 = c(1.0) / t171;
         // leg 6: actuator length d
         let t173 = sqrt(t162 * t162 + (t160 * t160 + t161 * t161));
         // leg 6: reciprocal of the actuator length
-        let t174 = 1.0 / t173;
+        let t174 = c(1.0) / t173;
         // leg 1: gradient of the actuator length by the platform joint
         let t175 = t55 * t164;
         let t176 = t56 * t164;
@@ -9139,7 +9709,7 @@ pub fn coriolis_matrices(
         let t279 = parameters.platform_point[5][2] * parameters.upper_mass[5] + t278;
         // second moment of payload and platform-side leg ends
         let t280 = parameters.payload_inertia[0][0] + parameters.payload_inertia[1][1];
-        let t281 = 0.5 * (parameters.payload_inertia[2][2] + t280);
+        let t281 = c(0.5) * (parameters.payload_inertia[2][2] + t280);
         let t282 = parameters.platform_point[5][0] * parameters.platform_point[5][0];
         let t283 = parameters.platform_point[4][0] * parameters.platform_point[4][0];
         let t284 = parameters.platform_point[3][0] * parameters.platform_point[3][0];
@@ -9231,9 +9801,9 @@ pub fn coriolis_matrices(
         let t369 = t164 * t230;
         let t370 = t233 * (t164 * t164);
         let t371 = t370 - t369;
-        let t372 = t370 - 2.0 * t371;
+        let t372 = t370 - c(2.0) * t371;
         let t373 = t194 * t372;
-        let t374 = t370 - 2.0 * t369;
+        let t374 = t370 - c(2.0) * t369;
         let t375 = t194 * t373 + t374;
         let t376 = t196 * t373;
         let t377 = t198 * t373;
@@ -9257,9 +9827,9 @@ pub fn coriolis_matrices(
         let t393 = t166 * t235;
         let t394 = t238 * (t166 * t166);
         let t395 = t394 - t393;
-        let t396 = t394 - 2.0 * t395;
+        let t396 = t394 - c(2.0) * t395;
         let t397 = t200 * t396;
-        let t398 = t394 - 2.0 * t393;
+        let t398 = t394 - c(2.0) * t393;
         let t399 = t200 * t397 + t398;
         let t400 = t202 * t397;
         let t401 = t204 * t397;
@@ -9283,9 +9853,9 @@ pub fn coriolis_matrices(
         let t417 = t168 * t240;
         let t418 = t243 * (t168 * t168);
         let t419 = t418 - t417;
-        let t420 = t418 - 2.0 * t419;
+        let t420 = t418 - c(2.0) * t419;
         let t421 = t206 * t420;
-        let t422 = t418 - 2.0 * t417;
+        let t422 = t418 - c(2.0) * t417;
         let t423 = t206 * t421 + t422;
         let t424 = t208 * t421;
         let t425 = t210 * t421;
@@ -9309,9 +9879,9 @@ pub fn coriolis_matrices(
         let t441 = t170 * t245;
         let t442 = t248 * (t170 * t170);
         let t443 = t442 - t441;
-        let t444 = t442 - 2.0 * t443;
+        let t444 = t442 - c(2.0) * t443;
         let t445 = t212 * t444;
-        let t446 = t442 - 2.0 * t441;
+        let t446 = t442 - c(2.0) * t441;
         let t447 = t212 * t445 + t446;
         let t448 = t214 * t445;
         let t449 = t216 * t445;
@@ -9335,9 +9905,9 @@ pub fn coriolis_matrices(
         let t465 = t172 * t250;
         let t466 = t253 * (t172 * t172);
         let t467 = t466 - t465;
-        let t468 = t466 - 2.0 * t467;
+        let t468 = t466 - c(2.0) * t467;
         let t469 = t218 * t468;
-        let t470 = t466 - 2.0 * t465;
+        let t470 = t466 - c(2.0) * t465;
         let t471 = t218 * t469 + t470;
         let t472 = t220 * t469;
         let t473 = t222 * t469;
@@ -9361,9 +9931,9 @@ pub fn coriolis_matrices(
         let t489 = t174 * t255;
         let t490 = t258 * (t174 * t174);
         let t491 = t490 - t489;
-        let t492 = t490 - 2.0 * t491;
+        let t492 = t490 - c(2.0) * t491;
         let t493 = t224 * t492;
-        let t494 = t490 - 2.0 * t489;
+        let t494 = t490 - c(2.0) * t489;
         let t495 = t224 * t493 + t494;
         let t496 = t226 * t493;
         let t497 = t228 * t493;
@@ -10543,15 +11113,16 @@ pub fn coriolis_matrices(
 /// - `stiffness_matrix_p`: 6x6, N/m, N, N m, frame O: linearised stiffness K_p = J_dp^T k_e J_dp, equation (49).
 /// - `stiffness_matrix_b`: 6x6, N/m, N, N m, frame O: linearised stiffness K_b = J_dp^T k_e J_db, equation (49).
 #[allow(clippy::all, clippy::pedantic, unused_variables)]
-pub fn stiffness_matrices(
-    parameters: &Parameters,
-    base_position: &[f64; 3],
-    base_rotation: &[[f64; 3]; 3],
-    platform_position: &[f64; 3],
-    platform_rotation: &[[f64; 3]; 3],
-    stiffness_matrix_p: &mut [[f64; 6]; 6],
-    stiffness_matrix_b: &mut [[f64; 6]; 6],
+pub fn stiffness_matrices<T: Scalar>(
+    parameters: &Parameters<T>,
+    base_position: &[T; 3],
+    base_rotation: &[[T; 3]; 3],
+    platform_position: &[T; 3],
+    platform_rotation: &[[T; 3]; 3],
+    stiffness_matrix_p: &mut [[T; 6]; 6],
+    stiffness_matrix_b: &mut [[T; 6]; 6],
 ) {
+    let c = T::constant;
     // rotation of the platform seen from the base
     let t1 = base_rotation[1][0] * platform_rotation[1][0];
     let t2 = base_rotation[0][0] * platform_rotation[0][0] + t1;
@@ -10731,27 +11302,27 @@ pub fn stiffness_matrices(
     // leg 1: actuator length d
     let t163 = sqrt(t55 * t55 + t56 * t56 + t57 * t57);
     // leg 1: reciprocal of the actuator length
-    let t164 = 1.0 / t163;
+    let t164 = c(1.0) / t163;
     // leg 2: actuator length d
     let t165 = sqrt(t76 * t76 + t77 * t77 + t78 * t78);
     // leg 2: reciprocal of the actuator length
-    let t166 = 1.0 / t165;
+    let t166 = c(1.0) / t165;
     // leg 3: actuator length d
     let t167 = sqrt(t97 * t97 + t98 * t98 + t99 * t99);
     // leg 3: reciprocal of the actuator length
-    let t168 = 1.0 / t167;
+    let t168 = c(1.0) / t167;
     // leg 4: actuator length d
     let t169 = sqrt(t118 * t118 + t119 * t119 + t120 * t120);
     // leg 4: reciprocal of the actuator length
-    let t170 = 1.0 / t169;
+    let t170 = c(1.0) / t169;
     // leg 5: actuator length d
     let t171 = sqrt(t139 * t139 + t140 * t140 + t141 * t141);
     // leg 5: reciprocal of the actuator length
-    let t172 = 1.0 / t171;
+    let t172 = c(1.0) / t171;
     // leg 6: actuator length d
     let t173 = sqrt(t160 * t160 + t161 * t161 + t162 * t162);
     // leg 6: reciprocal of the actuator length
-    let t174 = 1.0 / t173;
+    let t174 = c(1.0) / t173;
     // leg 1: gradient of the actuator length by the platform joint
     let t175 = t55 * t164;
     let t176 = t56 * t164;
@@ -11109,21 +11680,22 @@ pub fn stiffness_matrices(
 /// - `coriolis_matrix_b`: 6x6, kg/s, kg m/s, kg m^2/s, frame O: Coriolis matrix C_b, natural factorisation, equation (49).
 /// - `jacobian_db`: 6x6, 1, m, frame O: actuator Jacobian of the base, equation (31).
 #[allow(clippy::all, clippy::pedantic, unused_variables)]
-pub fn matrices(
-    parameters: &Parameters,
-    base_position: &[f64; 3],
-    base_rotation: &[[f64; 3]; 3],
-    base_velocity: &[f64; 6],
-    platform_position: &[f64; 3],
-    platform_rotation: &[[f64; 3]; 3],
-    platform_velocity: &[f64; 6],
-    mass_matrix_p: &mut [[f64; 6]; 6],
-    coriolis_matrix_p: &mut [[f64; 6]; 6],
-    jacobian_dp: &mut [[f64; 6]; 6],
-    mass_matrix_b: &mut [[f64; 6]; 6],
-    coriolis_matrix_b: &mut [[f64; 6]; 6],
-    jacobian_db: &mut [[f64; 6]; 6],
+pub fn matrices<T: Scalar>(
+    parameters: &Parameters<T>,
+    base_position: &[T; 3],
+    base_rotation: &[[T; 3]; 3],
+    base_velocity: &[T; 6],
+    platform_position: &[T; 3],
+    platform_rotation: &[[T; 3]; 3],
+    platform_velocity: &[T; 6],
+    mass_matrix_p: &mut [[T; 6]; 6],
+    coriolis_matrix_p: &mut [[T; 6]; 6],
+    jacobian_dp: &mut [[T; 6]; 6],
+    mass_matrix_b: &mut [[T; 6]; 6],
+    coriolis_matrix_b: &mut [[T; 6]; 6],
+    jacobian_db: &mut [[T; 6]; 6],
 ) {
+    let c = T::constant;
     let (
         t3,
         t6,
@@ -11645,27 +12217,27 @@ pub fn matrices(
         // leg 1: actuator length d
         let t163 = sqrt(t57 * t57 + (t55 * t55 + t56 * t56));
         // leg 1: reciprocal of the actuator length
-        let t164 = 1.0 / t163;
+        let t164 = c(1.0) / t163;
         // leg 2: actuator length d
         let t165 = sqrt(t78 * t78 + (t76 * t76 + t77 * t77));
         // leg 2: reciprocal of the actuator length
-        let t166 = 1.0 / t165;
+        let t166 = c(1.0) / t165;
         // leg 3: actuator length d
         let t167 = sqrt(t99 * t99 + (t97 * t97 + t98 * t98));
         // leg 3: reciprocal of the actuator length
-        let t168 = 1.0 / t167;
+        let t168 = c(1.0) / t167;
         // leg 4: actuator length d
         let t169 = sqrt(t120 * t120 + (t118 * t118 + t119 * t119));
         // leg 4: reciprocal of the actuator length
-        let t170 = 1.0 / t169;
+        let t170 = c(1.0) / t169;
         // leg 5: actuator length d
         let t171 = sqrt(t141 * t141 + (t139 * t139 + t140 * t140));
         // leg 5: reciprocal of the actuator length
-        let t172 = 1.0 / t171;
+        let t172 = c(1.0) / t171;
         // leg 6: actuator length d
         let t173 = sqrt(t162 * t162 + (t160 * t160 + t161 * t161));
         // leg 6: reciprocal of the actuator length
-        let t174 = 1.0 / t173;
+        let t174 = c(1.0) / t173;
         // leg 1: gradient of the actuator length by the platform joint
         let t175 = t55 * t164;
         let t176 = t56 * t164;
@@ -11869,7 +12441,7 @@ pub fn matrices(
         let t301 = parameters.platform_point[5][2] * parameters.upper_mass[5] + t300;
         // second moment of payload and platform-side leg ends
         let t302 = parameters.payload_inertia[0][0] + parameters.payload_inertia[1][1];
-        let t303 = 0.5 * (parameters.payload_inertia[2][2] + t302);
+        let t303 = c(0.5) * (parameters.payload_inertia[2][2] + t302);
         let t304 = parameters.platform_point[5][0] * parameters.platform_point[5][0];
         let t305 = parameters.platform_point[4][0] * parameters.platform_point[4][0];
         let t306 = parameters.platform_point[3][0] * parameters.platform_point[3][0];
@@ -11961,9 +12533,9 @@ pub fn matrices(
         let t391 = t164 * t248;
         let t392 = t251 * (t164 * t164);
         let t393 = t392 - t391;
-        let t394 = t392 - 2.0 * t393;
+        let t394 = t392 - c(2.0) * t393;
         let t395 = t197 * t394;
-        let t396 = t392 - 2.0 * t391;
+        let t396 = t392 - c(2.0) * t391;
         let t397 = t197 * t395 + t396;
         let t398 = t199 * t395;
         let t399 = t201 * t395;
@@ -12018,9 +12590,9 @@ pub fn matrices(
         let t446 = t166 * t253;
         let t447 = t256 * (t166 * t166);
         let t448 = t447 - t446;
-        let t449 = t447 - 2.0 * t448;
+        let t449 = t447 - c(2.0) * t448;
         let t450 = t206 * t449;
-        let t451 = t447 - 2.0 * t446;
+        let t451 = t447 - c(2.0) * t446;
         let t452 = t206 * t450 + t451;
         let t453 = t208 * t450;
         let t454 = t210 * t450;
@@ -12075,9 +12647,9 @@ pub fn matrices(
         let t501 = t168 * t258;
         let t502 = t261 * (t168 * t168);
         let t503 = t502 - t501;
-        let t504 = t502 - 2.0 * t503;
+        let t504 = t502 - c(2.0) * t503;
         let t505 = t215 * t504;
-        let t506 = t502 - 2.0 * t501;
+        let t506 = t502 - c(2.0) * t501;
         let t507 = t215 * t505 + t506;
         let t508 = t217 * t505;
         let t509 = t219 * t505;
@@ -12132,9 +12704,9 @@ pub fn matrices(
         let t556 = t170 * t263;
         let t557 = t266 * (t170 * t170);
         let t558 = t557 - t556;
-        let t559 = t557 - 2.0 * t558;
+        let t559 = t557 - c(2.0) * t558;
         let t560 = t224 * t559;
-        let t561 = t557 - 2.0 * t556;
+        let t561 = t557 - c(2.0) * t556;
         let t562 = t224 * t560 + t561;
         let t563 = t226 * t560;
         let t564 = t228 * t560;
@@ -12189,9 +12761,9 @@ pub fn matrices(
         let t611 = t172 * t268;
         let t612 = t271 * (t172 * t172);
         let t613 = t612 - t611;
-        let t614 = t612 - 2.0 * t613;
+        let t614 = t612 - c(2.0) * t613;
         let t615 = t233 * t614;
-        let t616 = t612 - 2.0 * t611;
+        let t616 = t612 - c(2.0) * t611;
         let t617 = t233 * t615 + t616;
         let t618 = t235 * t615;
         let t619 = t237 * t615;
@@ -12246,9 +12818,9 @@ pub fn matrices(
         let t666 = t174 * t273;
         let t667 = t276 * (t174 * t174);
         let t668 = t667 - t666;
-        let t669 = t667 - 2.0 * t668;
+        let t669 = t667 - c(2.0) * t668;
         let t670 = t242 * t669;
-        let t671 = t667 - 2.0 * t666;
+        let t671 = t667 - c(2.0) * t666;
         let t672 = t242 * t670 + t671;
         let t673 = t244 * t670;
         let t674 = t246 * t670;
@@ -13877,18 +14449,19 @@ pub fn matrices(
 /// - `spring_force`: 6, N, N m, frame O: generalised spring force J_dp^T k_e (d - d0), left side, equation (39)-(46).
 /// - `damping_force`: 6, N, N m, frame O: generalised damping force J_dp^T c_e d', left side, equation (39)-(46).
 #[allow(clippy::all, clippy::pedantic, unused_variables)]
-pub fn passive_forces(
-    parameters: &Parameters,
-    base_position: &[f64; 3],
-    base_rotation: &[[f64; 3]; 3],
-    base_velocity: &[f64; 6],
-    platform_position: &[f64; 3],
-    platform_rotation: &[[f64; 3]; 3],
-    platform_velocity: &[f64; 6],
-    gravity_force: &mut [f64; 6],
-    spring_force: &mut [f64; 6],
-    damping_force: &mut [f64; 6],
+pub fn passive_forces<T: Scalar>(
+    parameters: &Parameters<T>,
+    base_position: &[T; 3],
+    base_rotation: &[[T; 3]; 3],
+    base_velocity: &[T; 6],
+    platform_position: &[T; 3],
+    platform_rotation: &[[T; 3]; 3],
+    platform_velocity: &[T; 6],
+    gravity_force: &mut [T; 6],
+    spring_force: &mut [T; 6],
+    damping_force: &mut [T; 6],
 ) {
+    let c = T::constant;
     // rotation of the platform seen from the base
     let t1 = base_rotation[1][0] * platform_rotation[1][0];
     let t2 = base_rotation[0][0] * platform_rotation[0][0] + t1;
@@ -14068,27 +14641,27 @@ pub fn passive_forces(
     // leg 1: actuator length d
     let t163 = sqrt(t55 * t55 + t56 * t56 + t57 * t57);
     // leg 1: reciprocal of the actuator length
-    let t164 = 1.0 / t163;
+    let t164 = c(1.0) / t163;
     // leg 2: actuator length d
     let t165 = sqrt(t76 * t76 + t77 * t77 + t78 * t78);
     // leg 2: reciprocal of the actuator length
-    let t166 = 1.0 / t165;
+    let t166 = c(1.0) / t165;
     // leg 3: actuator length d
     let t167 = sqrt(t97 * t97 + t98 * t98 + t99 * t99);
     // leg 3: reciprocal of the actuator length
-    let t168 = 1.0 / t167;
+    let t168 = c(1.0) / t167;
     // leg 4: actuator length d
     let t169 = sqrt(t118 * t118 + t119 * t119 + t120 * t120);
     // leg 4: reciprocal of the actuator length
-    let t170 = 1.0 / t169;
+    let t170 = c(1.0) / t169;
     // leg 5: actuator length d
     let t171 = sqrt(t139 * t139 + t140 * t140 + t141 * t141);
     // leg 5: reciprocal of the actuator length
-    let t172 = 1.0 / t171;
+    let t172 = c(1.0) / t171;
     // leg 6: actuator length d
     let t173 = sqrt(t160 * t160 + t161 * t161 + t162 * t162);
     // leg 6: reciprocal of the actuator length
-    let t174 = 1.0 / t173;
+    let t174 = c(1.0) / t173;
     // leg 1: gradient of the actuator length by the platform joint
     let t175 = t55 * t164;
     let t176 = t56 * t164;
@@ -14477,16 +15050,17 @@ pub fn passive_forces(
 ///
 /// - `bias`: 6, N, N m, frame O: C_p v_p - C_b v_b + gravity, spring and damping force, equation (49).
 #[allow(clippy::all, clippy::pedantic, unused_variables)]
-pub fn bias(
-    parameters: &Parameters,
-    base_position: &[f64; 3],
-    base_rotation: &[[f64; 3]; 3],
-    base_velocity: &[f64; 6],
-    platform_position: &[f64; 3],
-    platform_rotation: &[[f64; 3]; 3],
-    platform_velocity: &[f64; 6],
-    bias: &mut [f64; 6],
+pub fn bias<T: Scalar>(
+    parameters: &Parameters<T>,
+    base_position: &[T; 3],
+    base_rotation: &[[T; 3]; 3],
+    base_velocity: &[T; 6],
+    platform_position: &[T; 3],
+    platform_rotation: &[[T; 3]; 3],
+    platform_velocity: &[T; 6],
+    bias: &mut [T; 6],
 ) {
+    let c = T::constant;
     // rotation of the platform seen from the base
     let t1 = base_rotation[1][0] * platform_rotation[1][0];
     let t2 = base_rotation[0][0] * platform_rotation[0][0] + t1;
@@ -14612,27 +15186,27 @@ pub fn bias(
     // leg 1: actuator length d
     let t109 = sqrt(t48 * t48 + (t46 * t46 + t47 * t47));
     // leg 1: reciprocal of the actuator length
-    let t110 = 1.0 / t109;
+    let t110 = c(1.0) / t109;
     // leg 2: actuator length d
     let t111 = sqrt(t60 * t60 + (t58 * t58 + t59 * t59));
     // leg 2: reciprocal of the actuator length
-    let t112 = 1.0 / t111;
+    let t112 = c(1.0) / t111;
     // leg 3: actuator length d
     let t113 = sqrt(t72 * t72 + (t70 * t70 + t71 * t71));
     // leg 3: reciprocal of the actuator length
-    let t114 = 1.0 / t113;
+    let t114 = c(1.0) / t113;
     // leg 4: actuator length d
     let t115 = sqrt(t84 * t84 + (t82 * t82 + t83 * t83));
     // leg 4: reciprocal of the actuator length
-    let t116 = 1.0 / t115;
+    let t116 = c(1.0) / t115;
     // leg 5: actuator length d
     let t117 = sqrt(t96 * t96 + (t94 * t94 + t95 * t95));
     // leg 5: reciprocal of the actuator length
-    let t118 = 1.0 / t117;
+    let t118 = c(1.0) / t117;
     // leg 6: actuator length d
     let t119 = sqrt(t108 * t108 + (t106 * t106 + t107 * t107));
     // leg 6: reciprocal of the actuator length
-    let t120 = 1.0 / t119;
+    let t120 = c(1.0) / t119;
     // leg 1: gradient of the actuator length by the platform joint
     let t121 = t46 * t110;
     let t122 = t47 * t110;
@@ -14741,7 +15315,7 @@ pub fn bias(
     let t199 = parameters.platform_point[0][0] * parameters.platform_point[0][0];
     let t200 = parameters.payload_com[0] * parameters.payload_com[0];
     let t201 = parameters.payload_inertia[0][0] + parameters.payload_inertia[1][1];
-    let t202 = 0.5 * (parameters.payload_inertia[2][2] + t201);
+    let t202 = c(0.5) * (parameters.payload_inertia[2][2] + t201);
     let t203 = parameters.payload_inertia[0][0] - t202;
     let t204 = parameters.payload_mass * t200 - t203;
     let t205 = parameters.upper_mass[0] * t199 + t204;
@@ -15149,7 +15723,7 @@ pub fn bias(
     let t575 = t119 * (t402 * t402 + (t400 * t400 + t401 * t401));
     let t576 = t575 - (t138 * t574 - (t136 * t560 + t137 * t567));
     // leg 1: leg inertia less weight along the actuator
-    let t577 = 2.0 * t379;
+    let t577 = c(2.0) * t379;
     let t578 = t110 * (t385 * t577 + (t445 - t121 * t461));
     let t579 = t110 * t143;
     let t580 = t110 * t140;
@@ -15167,7 +15741,7 @@ pub fn bias(
     let t591 = t585 - t140 * t584;
     let t592 = t588 - t140 * t587;
     // leg 2: leg inertia less weight along the actuator
-    let t593 = 2.0 * t380;
+    let t593 = c(2.0) * t380;
     let t594 = t112 * (t388 * t593 + (t468 - t124 * t484));
     let t595 = t112 * t148;
     let t596 = t112 * t145;
@@ -15185,7 +15759,7 @@ pub fn bias(
     let t607 = t601 - t145 * t600;
     let t608 = t604 - t145 * t603;
     // leg 3: leg inertia less weight along the actuator
-    let t609 = 2.0 * t381;
+    let t609 = c(2.0) * t381;
     let t610 = t114 * (t391 * t609 + (t491 - t127 * t507));
     let t611 = t114 * t153;
     let t612 = t114 * t150;
@@ -15203,7 +15777,7 @@ pub fn bias(
     let t623 = t617 - t150 * t616;
     let t624 = t620 - t150 * t619;
     // leg 4: leg inertia less weight along the actuator
-    let t625 = 2.0 * t382;
+    let t625 = c(2.0) * t382;
     let t626 = t116 * (t394 * t625 + (t514 - t130 * t530));
     let t627 = t116 * t158;
     let t628 = t116 * t155;
@@ -15221,7 +15795,7 @@ pub fn bias(
     let t639 = t633 - t155 * t632;
     let t640 = t636 - t155 * t635;
     // leg 5: leg inertia less weight along the actuator
-    let t641 = 2.0 * t383;
+    let t641 = c(2.0) * t383;
     let t642 = t118 * (t397 * t641 + (t537 - t133 * t553));
     let t643 = t118 * t163;
     let t644 = t118 * t160;
@@ -15239,7 +15813,7 @@ pub fn bias(
     let t655 = t649 - t160 * t648;
     let t656 = t652 - t160 * t651;
     // leg 6: leg inertia less weight along the actuator
-    let t657 = 2.0 * t384;
+    let t657 = c(2.0) * t384;
     let t658 = t120 * (t400 * t657 + (t560 - t136 * t576));
     let t659 = t120 * t168;
     let t660 = t120 * t165;
@@ -15452,27 +16026,28 @@ pub fn bias(
 /// - `damping_force`: 6, N, N m, frame O: generalised damping force J_dp^T c_e d', left side, equation (39)-(46).
 /// - `bias`: 6, N, N m, frame O: C_p v_p - C_b v_b + gravity, spring and damping force, equation (49).
 #[allow(clippy::all, clippy::pedantic, unused_variables)]
-pub fn equation_of_motion(
-    parameters: &Parameters,
-    base_position: &[f64; 3],
-    base_rotation: &[[f64; 3]; 3],
-    base_velocity: &[f64; 6],
-    platform_position: &[f64; 3],
-    platform_rotation: &[[f64; 3]; 3],
-    platform_velocity: &[f64; 6],
-    mass_matrix_p: &mut [[f64; 6]; 6],
-    coriolis_matrix_p: &mut [[f64; 6]; 6],
-    stiffness_matrix_p: &mut [[f64; 6]; 6],
-    jacobian_dp: &mut [[f64; 6]; 6],
-    mass_matrix_b: &mut [[f64; 6]; 6],
-    coriolis_matrix_b: &mut [[f64; 6]; 6],
-    stiffness_matrix_b: &mut [[f64; 6]; 6],
-    jacobian_db: &mut [[f64; 6]; 6],
-    gravity_force: &mut [f64; 6],
-    spring_force: &mut [f64; 6],
-    damping_force: &mut [f64; 6],
-    bias: &mut [f64; 6],
+pub fn equation_of_motion<T: Scalar>(
+    parameters: &Parameters<T>,
+    base_position: &[T; 3],
+    base_rotation: &[[T; 3]; 3],
+    base_velocity: &[T; 6],
+    platform_position: &[T; 3],
+    platform_rotation: &[[T; 3]; 3],
+    platform_velocity: &[T; 6],
+    mass_matrix_p: &mut [[T; 6]; 6],
+    coriolis_matrix_p: &mut [[T; 6]; 6],
+    stiffness_matrix_p: &mut [[T; 6]; 6],
+    jacobian_dp: &mut [[T; 6]; 6],
+    mass_matrix_b: &mut [[T; 6]; 6],
+    coriolis_matrix_b: &mut [[T; 6]; 6],
+    stiffness_matrix_b: &mut [[T; 6]; 6],
+    jacobian_db: &mut [[T; 6]; 6],
+    gravity_force: &mut [T; 6],
+    spring_force: &mut [T; 6],
+    damping_force: &mut [T; 6],
+    bias: &mut [T; 6],
 ) {
+    let c = T::constant;
     let (
         t3,
         t6,
@@ -16025,27 +16600,27 @@ pub fn equation_of_motion(
         // leg 1: actuator length d
         let t163 = sqrt(t57 * t57 + (t55 * t55 + t56 * t56));
         // leg 1: reciprocal of the actuator length
-        let t164 = 1.0 / t163;
+        let t164 = c(1.0) / t163;
         // leg 2: actuator length d
         let t165 = sqrt(t78 * t78 + (t76 * t76 + t77 * t77));
         // leg 2: reciprocal of the actuator length
-        let t166 = 1.0 / t165;
+        let t166 = c(1.0) / t165;
         // leg 3: actuator length d
         let t167 = sqrt(t99 * t99 + (t97 * t97 + t98 * t98));
         // leg 3: reciprocal of the actuator length
-        let t168 = 1.0 / t167;
+        let t168 = c(1.0) / t167;
         // leg 4: actuator length d
         let t169 = sqrt(t120 * t120 + (t118 * t118 + t119 * t119));
         // leg 4: reciprocal of the actuator length
-        let t170 = 1.0 / t169;
+        let t170 = c(1.0) / t169;
         // leg 5: actuator length d
         let t171 = sqrt(t141 * t141 + (t139 * t139 + t140 * t140));
         // leg 5: reciprocal of the actuator length
-        let t172 = 1.0 / t171;
+        let t172 = c(1.0) / t171;
         // leg 6: actuator length d
         let t173 = sqrt(t162 * t162 + (t160 * t160 + t161 * t161));
         // leg 6: reciprocal of the actuator length
-        let t174 = 1.0 / t173;
+        let t174 = c(1.0) / t173;
         // leg 1: gradient of the actuator length by the platform joint
         let t175 = t55 * t164;
         let t176 = t56 * t164;
@@ -16333,7 +16908,7 @@ pub fn equation_of_motion(
         let t337 = parameters.platform_point[5][2] * parameters.upper_mass[5] + t336;
         // second moment of payload and platform-side leg ends
         let t338 = parameters.payload_inertia[0][0] + parameters.payload_inertia[1][1];
-        let t339 = 0.5 * (parameters.payload_inertia[2][2] + t338);
+        let t339 = c(0.5) * (parameters.payload_inertia[2][2] + t338);
         let t340 = parameters.platform_point[5][0] * parameters.platform_point[5][0];
         let t341 = parameters.platform_point[4][0] * parameters.platform_point[4][0];
         let t342 = parameters.platform_point[3][0] * parameters.platform_point[3][0];
@@ -16425,9 +17000,9 @@ pub fn equation_of_motion(
         let t427 = t164 * t284;
         let t428 = t287 * (t164 * t164);
         let t429 = t428 - t427;
-        let t430 = t428 - 2.0 * t429;
+        let t430 = t428 - c(2.0) * t429;
         let t431 = t197 * t430;
-        let t432 = t428 - 2.0 * t427;
+        let t432 = t428 - c(2.0) * t427;
         let t433 = t197 * t431 + t432;
         let t434 = t199 * t431;
         let t435 = t201 * t431;
@@ -16482,9 +17057,9 @@ pub fn equation_of_motion(
         let t482 = t166 * t289;
         let t483 = t292 * (t166 * t166);
         let t484 = t483 - t482;
-        let t485 = t483 - 2.0 * t484;
+        let t485 = t483 - c(2.0) * t484;
         let t486 = t206 * t485;
-        let t487 = t483 - 2.0 * t482;
+        let t487 = t483 - c(2.0) * t482;
         let t488 = t206 * t486 + t487;
         let t489 = t208 * t486;
         let t490 = t210 * t486;
@@ -16539,9 +17114,9 @@ pub fn equation_of_motion(
         let t537 = t168 * t294;
         let t538 = t297 * (t168 * t168);
         let t539 = t538 - t537;
-        let t540 = t538 - 2.0 * t539;
+        let t540 = t538 - c(2.0) * t539;
         let t541 = t215 * t540;
-        let t542 = t538 - 2.0 * t537;
+        let t542 = t538 - c(2.0) * t537;
         let t543 = t215 * t541 + t542;
         let t544 = t217 * t541;
         let t545 = t219 * t541;
@@ -16596,9 +17171,9 @@ pub fn equation_of_motion(
         let t592 = t170 * t299;
         let t593 = t302 * (t170 * t170);
         let t594 = t593 - t592;
-        let t595 = t593 - 2.0 * t594;
+        let t595 = t593 - c(2.0) * t594;
         let t596 = t224 * t595;
-        let t597 = t593 - 2.0 * t592;
+        let t597 = t593 - c(2.0) * t592;
         let t598 = t224 * t596 + t597;
         let t599 = t226 * t596;
         let t600 = t228 * t596;
@@ -16653,9 +17228,9 @@ pub fn equation_of_motion(
         let t647 = t172 * t304;
         let t648 = t307 * (t172 * t172);
         let t649 = t648 - t647;
-        let t650 = t648 - 2.0 * t649;
+        let t650 = t648 - c(2.0) * t649;
         let t651 = t233 * t650;
-        let t652 = t648 - 2.0 * t647;
+        let t652 = t648 - c(2.0) * t647;
         let t653 = t233 * t651 + t652;
         let t654 = t235 * t651;
         let t655 = t237 * t651;
@@ -16710,9 +17285,9 @@ pub fn equation_of_motion(
         let t702 = t174 * t309;
         let t703 = t312 * (t174 * t174);
         let t704 = t703 - t702;
-        let t705 = t703 - 2.0 * t704;
+        let t705 = t703 - c(2.0) * t704;
         let t706 = t242 * t705;
-        let t707 = t703 - 2.0 * t702;
+        let t707 = t703 - c(2.0) * t702;
         let t708 = t242 * t706 + t707;
         let t709 = t244 * t706;
         let t710 = t246 * t706;
@@ -18990,19 +19565,20 @@ pub fn equation_of_motion(
 ///
 /// - `inverse_dynamics`: 6, N: actuator forces F, equation (49).
 #[allow(clippy::all, clippy::pedantic, unused_variables)]
-pub fn inverse_dynamics(
-    parameters: &Parameters,
-    base_position: &[f64; 3],
-    base_rotation: &[[f64; 3]; 3],
-    base_velocity: &[f64; 6],
-    base_acceleration: &[f64; 6],
-    platform_position: &[f64; 3],
-    platform_rotation: &[[f64; 3]; 3],
-    platform_velocity: &[f64; 6],
-    platform_acceleration: &[f64; 6],
-    external_wrench: &[f64; 6],
-    inverse_dynamics: &mut [f64; 6],
+pub fn inverse_dynamics<T: Scalar>(
+    parameters: &Parameters<T>,
+    base_position: &[T; 3],
+    base_rotation: &[[T; 3]; 3],
+    base_velocity: &[T; 6],
+    base_acceleration: &[T; 6],
+    platform_position: &[T; 3],
+    platform_rotation: &[[T; 3]; 3],
+    platform_velocity: &[T; 6],
+    platform_acceleration: &[T; 6],
+    external_wrench: &[T; 6],
+    inverse_dynamics: &mut [T; 6],
 ) {
+    let c = T::constant;
     // rotation of the platform seen from the base
     let t1 = base_rotation[1][0] * platform_rotation[1][0];
     let t2 = base_rotation[0][0] * platform_rotation[0][0] + t1;
@@ -19128,27 +19704,27 @@ pub fn inverse_dynamics(
     // leg 1: actuator length d
     let t109 = sqrt(t48 * t48 + (t46 * t46 + t47 * t47));
     // leg 1: reciprocal of the actuator length
-    let t110 = 1.0 / t109;
+    let t110 = c(1.0) / t109;
     // leg 2: actuator length d
     let t111 = sqrt(t60 * t60 + (t58 * t58 + t59 * t59));
     // leg 2: reciprocal of the actuator length
-    let t112 = 1.0 / t111;
+    let t112 = c(1.0) / t111;
     // leg 3: actuator length d
     let t113 = sqrt(t72 * t72 + (t70 * t70 + t71 * t71));
     // leg 3: reciprocal of the actuator length
-    let t114 = 1.0 / t113;
+    let t114 = c(1.0) / t113;
     // leg 4: actuator length d
     let t115 = sqrt(t84 * t84 + (t82 * t82 + t83 * t83));
     // leg 4: reciprocal of the actuator length
-    let t116 = 1.0 / t115;
+    let t116 = c(1.0) / t115;
     // leg 5: actuator length d
     let t117 = sqrt(t96 * t96 + (t94 * t94 + t95 * t95));
     // leg 5: reciprocal of the actuator length
-    let t118 = 1.0 / t117;
+    let t118 = c(1.0) / t117;
     // leg 6: actuator length d
     let t119 = sqrt(t108 * t108 + (t106 * t106 + t107 * t107));
     // leg 6: reciprocal of the actuator length
-    let t120 = 1.0 / t119;
+    let t120 = c(1.0) / t119;
     // leg 1: gradient of the actuator length by the platform joint
     let t121 = t46 * t110;
     let t122 = t47 * t110;
@@ -19257,7 +19833,7 @@ pub fn inverse_dynamics(
     let t199 = parameters.platform_point[0][0] * parameters.platform_point[0][0];
     let t200 = parameters.payload_com[0] * parameters.payload_com[0];
     let t201 = parameters.payload_inertia[0][0] + parameters.payload_inertia[1][1];
-    let t202 = 0.5 * (parameters.payload_inertia[2][2] + t201);
+    let t202 = c(0.5) * (parameters.payload_inertia[2][2] + t201);
     let t203 = parameters.payload_inertia[0][0] - t202;
     let t204 = parameters.payload_mass * t200 - t203;
     let t205 = parameters.upper_mass[0] * t199 + t204;
@@ -19707,7 +20283,7 @@ pub fn inverse_dynamics(
     let t614 = t119 * (t402 * t402 + (t400 * t400 + t401 * t401));
     let t615 = t614 - (t138 * t613 - (t136 * t599 - t137 * t606));
     // leg 1: leg inertia less weight along the actuator
-    let t616 = 2.0 * t379;
+    let t616 = c(2.0) * t379;
     let t617 = t110 * (t385 * t616 + (t484 - t121 * t500));
     let t618 = t110 * t143;
     let t619 = t110 * t140;
@@ -19725,7 +20301,7 @@ pub fn inverse_dynamics(
     let t630 = t624 - t140 * t623;
     let t631 = t627 - t140 * t626;
     // leg 2: leg inertia less weight along the actuator
-    let t632 = 2.0 * t380;
+    let t632 = c(2.0) * t380;
     let t633 = t112 * (t388 * t632 + (t507 - t124 * t523));
     let t634 = t112 * t148;
     let t635 = t112 * t145;
@@ -19743,7 +20319,7 @@ pub fn inverse_dynamics(
     let t646 = t640 - t145 * t639;
     let t647 = t643 - t145 * t642;
     // leg 3: leg inertia less weight along the actuator
-    let t648 = 2.0 * t381;
+    let t648 = c(2.0) * t381;
     let t649 = t114 * (t391 * t648 + (t530 - t127 * t546));
     let t650 = t114 * t153;
     let t651 = t114 * t150;
@@ -19761,7 +20337,7 @@ pub fn inverse_dynamics(
     let t662 = t656 - t150 * t655;
     let t663 = t659 - t150 * t658;
     // leg 4: leg inertia less weight along the actuator
-    let t664 = 2.0 * t382;
+    let t664 = c(2.0) * t382;
     let t665 = t116 * (t394 * t664 + (t553 - t130 * t569));
     let t666 = t116 * t158;
     let t667 = t116 * t155;
@@ -19779,7 +20355,7 @@ pub fn inverse_dynamics(
     let t678 = t672 - t155 * t671;
     let t679 = t675 - t155 * t674;
     // leg 5: leg inertia less weight along the actuator
-    let t680 = 2.0 * t383;
+    let t680 = c(2.0) * t383;
     let t681 = t118 * (t397 * t680 + (t576 - t133 * t592));
     let t682 = t118 * t163;
     let t683 = t118 * t160;
@@ -19797,7 +20373,7 @@ pub fn inverse_dynamics(
     let t694 = t688 - t160 * t687;
     let t695 = t691 - t160 * t690;
     // leg 6: leg inertia less weight along the actuator
-    let t696 = 2.0 * t384;
+    let t696 = c(2.0) * t384;
     let t697 = t120 * (t400 * t696 + (t599 - t136 * t615));
     let t698 = t120 * t168;
     let t699 = t120 * t165;
@@ -20053,19 +20629,20 @@ pub fn inverse_dynamics(
 ///
 /// - `forward_dynamics`: 6, m/s^2, rad/s^2, frame O: platform acceleration v_p', equation (49).
 #[allow(clippy::all, clippy::pedantic, unused_variables)]
-pub fn forward_dynamics(
-    parameters: &Parameters,
-    base_position: &[f64; 3],
-    base_rotation: &[[f64; 3]; 3],
-    base_velocity: &[f64; 6],
-    base_acceleration: &[f64; 6],
-    platform_position: &[f64; 3],
-    platform_rotation: &[[f64; 3]; 3],
-    platform_velocity: &[f64; 6],
-    actuator_force: &[f64; 6],
-    external_wrench: &[f64; 6],
-    forward_dynamics: &mut [f64; 6],
+pub fn forward_dynamics<T: Scalar>(
+    parameters: &Parameters<T>,
+    base_position: &[T; 3],
+    base_rotation: &[[T; 3]; 3],
+    base_velocity: &[T; 6],
+    base_acceleration: &[T; 6],
+    platform_position: &[T; 3],
+    platform_rotation: &[[T; 3]; 3],
+    platform_velocity: &[T; 6],
+    actuator_force: &[T; 6],
+    external_wrench: &[T; 6],
+    forward_dynamics: &mut [T; 6],
 ) {
+    let c = T::constant;
     let (
         t3,
         t6,
@@ -20367,27 +20944,27 @@ pub fn forward_dynamics(
         // leg 1: actuator length d
         let t109 = sqrt(t48 * t48 + (t46 * t46 + t47 * t47));
         // leg 1: reciprocal of the actuator length
-        let t110 = 1.0 / t109;
+        let t110 = c(1.0) / t109;
         // leg 2: actuator length d
         let t111 = sqrt(t60 * t60 + (t58 * t58 + t59 * t59));
         // leg 2: reciprocal of the actuator length
-        let t112 = 1.0 / t111;
+        let t112 = c(1.0) / t111;
         // leg 3: actuator length d
         let t113 = sqrt(t72 * t72 + (t70 * t70 + t71 * t71));
         // leg 3: reciprocal of the actuator length
-        let t114 = 1.0 / t113;
+        let t114 = c(1.0) / t113;
         // leg 4: actuator length d
         let t115 = sqrt(t84 * t84 + (t82 * t82 + t83 * t83));
         // leg 4: reciprocal of the actuator length
-        let t116 = 1.0 / t115;
+        let t116 = c(1.0) / t115;
         // leg 5: actuator length d
         let t117 = sqrt(t96 * t96 + (t94 * t94 + t95 * t95));
         // leg 5: reciprocal of the actuator length
-        let t118 = 1.0 / t117;
+        let t118 = c(1.0) / t117;
         // leg 6: actuator length d
         let t119 = sqrt(t108 * t108 + (t106 * t106 + t107 * t107));
         // leg 6: reciprocal of the actuator length
-        let t120 = 1.0 / t119;
+        let t120 = c(1.0) / t119;
         // leg 1: gradient of the actuator length by the platform joint
         let t121 = t46 * t110;
         let t122 = t47 * t110;
@@ -20491,7 +21068,7 @@ pub fn forward_dynamics(
         let t195 = parameters.platform_point[5][0] * parameters.platform_point[5][0];
         let t196 = parameters.payload_com[0] * parameters.payload_com[0];
         let t197 = parameters.payload_inertia[0][0] + parameters.payload_inertia[1][1];
-        let t198 = 0.5 * (parameters.payload_inertia[2][2] + t197);
+        let t198 = c(0.5) * (parameters.payload_inertia[2][2] + t197);
         let t199 = parameters.payload_inertia[0][0] - t198;
         let t200 = parameters.payload_mass * t196 - t199;
         let t201 = parameters.upper_mass[0] * t190 + t200;
@@ -20916,7 +21493,7 @@ pub fn forward_dynamics(
         let t587 = t586 - (t138 * t585 - (t136 * t571 + t137 * t578));
         // leg 1: leg inertia less weight along the actuator
         let t588 = t110 * t140;
-        let t589 = 2.0 * t375;
+        let t589 = c(2.0) * t375;
         let t590 = t110 * (t381 * t589 + (t456 - t121 * t472));
         let t591 = t110 * t143;
         let t592 = t110 * t139;
@@ -20934,7 +21511,7 @@ pub fn forward_dynamics(
         let t603 = t599 - t140 * t598;
         // leg 2: leg inertia less weight along the actuator
         let t604 = t112 * t145;
-        let t605 = 2.0 * t376;
+        let t605 = c(2.0) * t376;
         let t606 = t112 * (t384 * t605 + (t479 - t124 * t495));
         let t607 = t112 * t148;
         let t608 = t112 * t144;
@@ -20952,7 +21529,7 @@ pub fn forward_dynamics(
         let t619 = t615 - t145 * t614;
         // leg 3: leg inertia less weight along the actuator
         let t620 = t114 * t150;
-        let t621 = 2.0 * t377;
+        let t621 = c(2.0) * t377;
         let t622 = t114 * (t387 * t621 + (t502 - t127 * t518));
         let t623 = t114 * t153;
         let t624 = t114 * t149;
@@ -20970,7 +21547,7 @@ pub fn forward_dynamics(
         let t635 = t631 - t150 * t630;
         // leg 4: leg inertia less weight along the actuator
         let t636 = t116 * t155;
-        let t637 = 2.0 * t378;
+        let t637 = c(2.0) * t378;
         let t638 = t116 * (t390 * t637 + (t525 - t130 * t541));
         let t639 = t116 * t158;
         let t640 = t116 * t154;
@@ -20988,7 +21565,7 @@ pub fn forward_dynamics(
         let t651 = t647 - t155 * t646;
         // leg 5: leg inertia less weight along the actuator
         let t652 = t118 * t160;
-        let t653 = 2.0 * t379;
+        let t653 = c(2.0) * t379;
         let t654 = t118 * (t393 * t653 + (t548 - t133 * t564));
         let t655 = t118 * t163;
         let t656 = t118 * t159;
@@ -21006,7 +21583,7 @@ pub fn forward_dynamics(
         let t667 = t663 - t160 * t662;
         // leg 6: leg inertia less weight along the actuator
         let t668 = t120 * t165;
-        let t669 = 2.0 * t380;
+        let t669 = c(2.0) * t380;
         let t670 = t120 * (t396 * t669 + (t571 - t136 * t587));
         let t671 = t120 * t168;
         let t672 = t120 * t164;
@@ -21259,17 +21836,17 @@ pub fn forward_dynamics(
         let t896 = t710 * t862;
         let t897 = t713 * t863;
         // leg 1: weight of the square in the leg's mass matrix
-        let t898 = t143 * (t110 * t110) - 2.0 * t588;
+        let t898 = t143 * (t110 * t110) - c(2.0) * t588;
         // leg 2: weight of the square in the leg's mass matrix
-        let t899 = t148 * (t112 * t112) - 2.0 * t604;
+        let t899 = t148 * (t112 * t112) - c(2.0) * t604;
         // leg 3: weight of the square in the leg's mass matrix
-        let t900 = t153 * (t114 * t114) - 2.0 * t620;
+        let t900 = t153 * (t114 * t114) - c(2.0) * t620;
         // leg 4: weight of the square in the leg's mass matrix
-        let t901 = t158 * (t116 * t116) - 2.0 * t636;
+        let t901 = t158 * (t116 * t116) - c(2.0) * t636;
         // leg 5: weight of the square in the leg's mass matrix
-        let t902 = t163 * (t118 * t118) - 2.0 * t652;
+        let t902 = t163 * (t118 * t118) - c(2.0) * t652;
         // leg 6: weight of the square in the leg's mass matrix
-        let t903 = t168 * (t120 * t120) - 2.0 * t668;
+        let t903 = t168 * (t120 * t120) - c(2.0) * t668;
         (
             t3,
             t6,
@@ -21646,7 +22223,7 @@ pub fn forward_dynamics(
         let t1098 = t710 * t965;
         let t1099 = t713 * t964;
         // acceleration that removes the residual wrench
-        let t1100 = 1.0 / t911;
+        let t1100 = c(1.0) / t911;
         let t1101 = t919 * t1100;
         let t1102 = t718 + (t717 + (t682 + (t666 + (t650 + (t634 + (t602 + t618))))));
         let t1103 = t872 + (t871 + (t870 + (t869 + (t868 + (t809 - (t719 + t1102))))));
@@ -21654,7 +22231,7 @@ pub fn forward_dynamics(
         let t1105 = t927 * t1100;
         let t1106 = t919 * t1105 - (t983 + (t982 + (t981 + (t980 + (t978 + t979)))));
         let t1107 = t977 + (t976 + (t975 + (t974 + (t973 - (t908 - t972)))));
-        let t1108 = 1.0 / (t919 * t1101 - t1107);
+        let t1108 = c(1.0) / (t919 * t1101 - t1107);
         let t1109 = t1106 * t1108;
         let t1110 = t721 + (t720 - (t683 + (t667 + (t651 + (t635 + (t603 + t619))))));
         let t1111 = t878 + (t877 + (t876 + (t875 + (t874 + (t812 + (t722 + t1110))))));
@@ -21666,7 +22243,7 @@ pub fn forward_dynamics(
         let t1117 = t1014 + (t1013 + (t1012 + (t1011 + (t1010 - (t963 - t1009)))));
         let t1118 = t1106 * t1116 - (t927 * t1113 - t1117);
         let t1119 = t1008 + (t1007 + (t1006 + (t1005 + (t1004 - (t908 - t1003)))));
-        let t1120 = 1.0 / (t1106 * t1109 - (t927 * t1105 - t1119));
+        let t1120 = c(1.0) / (t1106 * t1109 - (t927 * t1105 - t1119));
         let t1121 = t1118 * t1120;
         let t1122 = t832 + (t831 - (t830 - (t827 - (t824 - (t821 + (t815 - t818))))));
         let t1123 = t885 + (t884 + (t883 + (t882 + (t881 + (t880 + (t833 + t1122))))));
@@ -21683,7 +22260,7 @@ pub fn forward_dynamics(
         let t1133 = t1049
             + (t1048 + (t1047 + (t1046 + (t1045 + (t1043 - (t1033 - t1039))))));
         let t1134 = t1115 * t1116 - (t935 * t1113 - (t1051 + (t1050 + t1133)));
-        let t1135 = 1.0 / (t1118 * t1121 - t1134);
+        let t1135 = c(1.0) / (t1118 * t1121 - t1134);
         let t1136 = t1132 * t1135;
         let t1137 = t847 + (t846 - (t845 - (t844 - (t841 - (t840 + (t836 - t837))))));
         let t1138 = t891 + (t890 + (t889 + (t888 + (t887 + (t886 + (t848 + t1137))))));
@@ -21708,7 +22285,7 @@ pub fn forward_dynamics(
         let t1154 = t1079
             + (t1078 + (t1077 + (t1076 + (t1075 + (t1073 - (t1033 - t1071))))));
         let t1155 = t1126 * t1127 - (t962 * t1125 - (t1081 + (t1080 + t1154)));
-        let t1156 = 1.0 / (t1132 * t1136 - (t1129 * t1130 - t1155));
+        let t1156 = c(1.0) / (t1132 * t1136 - (t1129 * t1130 - t1155));
         let t1157 = t1153 * t1156;
         let t1158 = t856 + (t855 - (t854 - (t853 - (t852 - (t851 + (t849 - t850))))));
         let t1159 = t897 + (t896 + (t895 + (t894 + (t893 + (t892 + (t857 + t1158))))));
@@ -21716,7 +22293,7 @@ pub fn forward_dynamics(
         let t1161 = t1097
             + (t1096 + (t1095 + (t1094 + (t1093 + (t1092 - (t1033 - t1091))))));
         let t1162 = t1143 * t1144 - (t971 * t1141 - (t1099 + (t1098 + t1161)));
-        let t1163 = 1.0 / (t1153 * t1157 - (t1149 * t1150 - (t1146 * t1147 - t1162)));
+        let t1163 = c(1.0) / (t1153 * t1157 - (t1149 * t1150 - (t1146 * t1147 - t1162)));
         let t1164 = (t1140 * t1157 - (t1124 * t1150 - t1160)) * t1163;
         let t1165 = t1140 * t1156 - t1157 * t1164;
         let t1166 = t1150 * t1164 - (t1124 * t1135 - t1136 * t1165);
@@ -21760,17 +22337,18 @@ pub fn forward_dynamics(
 /// - `kinetic_energy`: scalar, J: kinetic energy of all moving bodies.
 /// - `potential_energy`: scalar, J: potential energy of gravity and springs.
 #[allow(clippy::all, clippy::pedantic, unused_variables)]
-pub fn energy(
-    parameters: &Parameters,
-    base_position: &[f64; 3],
-    base_rotation: &[[f64; 3]; 3],
-    base_velocity: &[f64; 6],
-    platform_position: &[f64; 3],
-    platform_rotation: &[[f64; 3]; 3],
-    platform_velocity: &[f64; 6],
-    kinetic_energy: &mut f64,
-    potential_energy: &mut f64,
+pub fn energy<T: Scalar>(
+    parameters: &Parameters<T>,
+    base_position: &[T; 3],
+    base_rotation: &[[T; 3]; 3],
+    base_velocity: &[T; 6],
+    platform_position: &[T; 3],
+    platform_rotation: &[[T; 3]; 3],
+    platform_velocity: &[T; 6],
+    kinetic_energy: &mut T,
+    potential_energy: &mut T,
 ) {
+    let c = T::constant;
     // rotation of the platform seen from the base
     let t1 = base_rotation[1][0] * platform_rotation[1][0];
     let t2 = base_rotation[0][0] * platform_rotation[0][0] + t1;
@@ -21896,27 +22474,27 @@ pub fn energy(
     // leg 1: actuator length d
     let t109 = sqrt(t48 * t48 + (t46 * t46 + t47 * t47));
     // leg 1: reciprocal of the actuator length
-    let t110 = 1.0 / t109;
+    let t110 = c(1.0) / t109;
     // leg 2: actuator length d
     let t111 = sqrt(t60 * t60 + (t58 * t58 + t59 * t59));
     // leg 2: reciprocal of the actuator length
-    let t112 = 1.0 / t111;
+    let t112 = c(1.0) / t111;
     // leg 3: actuator length d
     let t113 = sqrt(t72 * t72 + (t70 * t70 + t71 * t71));
     // leg 3: reciprocal of the actuator length
-    let t114 = 1.0 / t113;
+    let t114 = c(1.0) / t113;
     // leg 4: actuator length d
     let t115 = sqrt(t84 * t84 + (t82 * t82 + t83 * t83));
     // leg 4: reciprocal of the actuator length
-    let t116 = 1.0 / t115;
+    let t116 = c(1.0) / t115;
     // leg 5: actuator length d
     let t117 = sqrt(t96 * t96 + (t94 * t94 + t95 * t95));
     // leg 5: reciprocal of the actuator length
-    let t118 = 1.0 / t117;
+    let t118 = c(1.0) / t117;
     // leg 6: actuator length d
     let t119 = sqrt(t108 * t108 + (t106 * t106 + t107 * t107));
     // leg 6: reciprocal of the actuator length
-    let t120 = 1.0 / t119;
+    let t120 = c(1.0) / t119;
     // leg 1: gradient of the actuator length by the platform joint
     let t121 = t46 * t110;
     let t122 = t47 * t110;
@@ -22488,7 +23066,7 @@ pub fn energy(
     let t635 = t625 * (parameters.payload_inertia[1][2] * t622 + t631) + t634;
     let t636 = t366 + t368 + (t419 + t421) + (t423 + t474 + (t476 + t478));
     let t637 = t635 + (t309 + t311 + (t313 + t364)) + t636;
-    let t638 = 0.5 * (t529 + t531 + (t533 + t584) + t629 + t637);
+    let t638 = c(0.5) * (t529 + t531 + (t533 + t584) + t629 + t637);
     let t639 = t473 - (t472 - (t418 - (t417 - (t363 - (t362 + (t307 - t308))))));
     *kinetic_energy = t638 - (t583 - (t582 - (t528 - (t527 - t639))));
     // potential energy of gravity and springs
@@ -22498,5 +23076,5 @@ pub fn energy(
     let t643 = t432 + (t429 + (t380 + (t377 + (t374 + (t325 + (t319 + t322))))));
     let t644 = t545 + (t542 + (t539 + (t490 + (t487 + (t484 + (t435 + t643))))));
     let t645 = parameters.payload_mass * t642 + (t600 + (t597 + (t594 + t644)));
-    *potential_energy = 0.5 * (t535 + t590 + (t315 + t370 + (t425 + t480))) - t645;
+    *potential_energy = c(0.5) * (t535 + t590 + (t315 + t370 + (t425 + t480))) - t645;
 }
