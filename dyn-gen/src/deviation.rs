@@ -61,11 +61,18 @@ pub struct Tolerance {
 }
 
 /// Tolerances that differ from [`DEFAULT`].
-pub const TOLERANCES: &[Tolerance] = &[Tolerance {
-    outputs: &["inverse_dynamics"],
-    relative: 1e-11,
-    reason: "rounding errors are multiplied by the condition number of J_dp, up to 1000 near the edge",
-}];
+pub const TOLERANCES: &[Tolerance] = &[
+    Tolerance {
+        outputs: &["inverse_dynamics"],
+        relative: 1e-11,
+        reason: "rounding errors are multiplied by the condition number of J_dp, up to 1000 near the edge",
+    },
+    Tolerance {
+        outputs: &["lower_active_force", "upper_active_force"],
+        relative: 1e-10,
+        reason: "what the weight does along the leg falls out: legs that stand along gravity leave little of it",
+    },
+];
 
 /// Matrices, Jacobians, bias, accelerations, kinematics, energies.
 pub const DEFAULT: Tolerance = Tolerance {
@@ -106,7 +113,7 @@ mod tests {
     #[test]
     fn what_cancels_at_one_state_is_measured_by_the_run() {
         let run: [&[f64]; 2] = [&[1e-16, 2e-16], &[100.0, 50.0]];
-        assert_eq!(relative_error(&[2e-16, 2e-16], run[0], Scale::over(run)), 1e-15);
+        assert!((relative_error(&[2e-16, 2e-16], run[0], Scale::over(run)) / 1e-15 - 1.0).abs() < 1e-12);
         assert_eq!(relative_error(&[100.0, 51.0], run[1], Scale::over(run)), 0.01);
         let scalars: [&[f64]; 2] = [&[0.0], &[-8.0]];
         assert_eq!(relative_error(&[1.0], &[0.0], Scale::over(scalars)), 0.125);

@@ -15,6 +15,9 @@ pub const DERIVATION: &str = "codegen";
 pub const LOCK_FILE: &str = "codegen/requirements.lock";
 /// The platform whose model is committed.
 pub const PLATFORM: &str = "platforms/uhp_2016.toml";
+/// Platform and model of the example crate whose model is committed.
+pub const EXAMPLE: [&str; 2] =
+    ["examples/committed_model/my_platform.toml", "examples/committed_model/src/my_platform.rs"];
 /// Folder of the committed models.
 pub const GENERATED: &str = "dyn-runtime/src/generated";
 

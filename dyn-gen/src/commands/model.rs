@@ -7,6 +7,7 @@ use clap::Args;
 use dyn_gen::emit::{RuntimePath, Scalar};
 use dyn_gen::evidence::Sampling;
 use dyn_gen::{Generated, GraphFile, Numbers, Options, generate};
+use dyn_platform::Platform;
 use miette::Result;
 
 use super::files::{read_graph, read_platform};
@@ -57,6 +58,17 @@ impl ModelArguments {
             Some(path) => read_graph(path)?,
             None => GraphFile::of(platform.leg_type)?,
         };
+        self.generate_from(&graph, &platform, platform_file, output)
+    }
+
+    /// The same with this graph file and this platform.
+    pub fn generate_from(
+        &self,
+        graph: &GraphFile,
+        platform: &Platform,
+        platform_file: &Path,
+        output: &Path,
+    ) -> Result<Generated> {
         let options = Options {
             command: joined(&self.command(&file_name(platform_file), &file_name(output), file_name)),
             model: self.model.clone().unwrap_or_else(|| platform.name.clone()),
@@ -65,7 +77,7 @@ impl ModelArguments {
             functions: self.functions.clone(),
             evidence: (!self.no_evidence).then_some(Sampling { states: self.states, seed: self.seed }),
         };
-        Ok(generate(&graph, &Numbers::with_run_time(&platform, &self.runtime), &options)?)
+        Ok(generate(graph, &Numbers::with_run_time(platform, &self.runtime), &options)?)
     }
 
     /// The command that makes `output` from `platform`, word by word.

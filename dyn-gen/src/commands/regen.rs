@@ -10,8 +10,9 @@ use dyn_platform::{LegType, Platform};
 use miette::Result;
 
 use super::Outcome;
+use super::check::recorded;
 use super::derive::{DeriveError, Derived, derive};
-use super::files::{GENERATED, GRAPHS, PLATFORM, graph_name, read_graph, repository};
+use super::files::{EXAMPLE, GENERATED, GRAPHS, PLATFORM, graph_name, read, read_graph, repository};
 
 /// The command that the files name and that a failed check recommends.
 const COMMAND: &str = "cargo regen";
@@ -108,5 +109,22 @@ fn generated_files(root: &Path, graphs: &[GraphFile]) -> Result<Vec<NewFile>> {
         path: root.join(GENERATED).join(format!("{name}.rs")),
         text,
     };
-    Ok(texts.into_iter().map(file).collect())
+    let mut files: Vec<NewFile> = texts.into_iter().map(file).collect();
+    files.extend(example(root, graphs)?);
+    Ok(files)
+}
+
+/// The model of the example crate, with the options in its first lines; none in a repository without it.
+fn example(root: &Path, graphs: &[GraphFile]) -> Result<Option<NewFile>> {
+    let [platform_file, path] = EXAMPLE.map(|file| root.join(file));
+    if !platform_file.is_file() {
+        return Ok(None);
+    }
+    let platform = Platform::from_file(&platform_file)?;
+    let model = recorded(&read(&path)?).map_err(|reason| miette::miette!("{}: {reason}", path.display()))?;
+    let Some(graph) = graphs.iter().find(|graph| graph.program.name == platform.leg_type.name()) else {
+        return Ok(None);
+    };
+    let text = model.generate_from(graph, &platform, &platform_file, &path)?.source;
+    Ok(Some(NewFile { path, text }))
 }
