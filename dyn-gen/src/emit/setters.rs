@@ -37,7 +37,8 @@ pub fn items(model: &Model) -> Result<Vec<TokenStream>, EmitError> {
     let runtime = model.runtime.tokens();
     let name = type_identifier(model.name)?;
     let scalar = format_ident!("{SCALAR}");
-    let allow = allow(quote!(unused_qualifications));
+    // What a program does not use of a model is no fault of it.
+    let allow = allow(quote!(dead_code, unused_qualifications));
     let mut setters = TokenStream::new();
     let mut checks = TokenStream::new();
     for symbol in model.parameters {
@@ -89,6 +90,7 @@ pub fn items(model: &Model) -> Result<Vec<TokenStream>, EmitError> {
             }
         },
         quote! {
+            #allow
             impl<#scalar> #name<#scalar> {
                 /// The model with these parameters.
                 pub fn new(parameters: Parameters<#scalar>) -> Self {

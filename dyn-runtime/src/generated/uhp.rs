@@ -33,6 +33,7 @@ use crate::float::{Scalar, sqrt};
 use crate::solve::solve_general;
 
 /// Physical numbers of a platform; of a quantity that legs have, the leg is the first dimension.
+#[allow(dead_code)]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Parameters<T = f64> {
     /// 6x3, m, frame B: point b of the actuator axis, equation (14).
@@ -69,6 +70,7 @@ pub struct Parameters<T = f64> {
     pub gravity: [T; 3],
 }
 
+#[allow(dead_code)]
 impl<T: Scalar> Parameters<T> {
     /// Parameters filled field by field: `fill(name, values)` gets the name of each field and its elements,
     /// row-major, to be written. What it leaves alone stays NaN, so that no result can come from it.
@@ -118,7 +120,7 @@ pub struct Uhp<T = f64> {
     pub parameters: Parameters<T>,
 }
 
-#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+#[allow(clippy::all, clippy::pedantic, dead_code, unused_qualifications)]
 impl<T: Scalar + Into<f64>> Parameters<T> {
     /// Sets `base_point`: 6x3, m, frame B: point b of the actuator axis, equation (14).
     ///
@@ -478,6 +480,7 @@ impl<T: Scalar + Into<f64>> Parameters<T> {
     }
 }
 
+#[allow(clippy::all, clippy::pedantic, dead_code, unused_qualifications)]
 impl<T> Uhp<T> {
     /// The model with these parameters.
     pub fn new(parameters: Parameters<T>) -> Self {

@@ -33,6 +33,7 @@ use crate::float::{Scalar, sqrt};
 use crate::solve::solve_general;
 
 /// Physical numbers of a platform; of a quantity that legs have, the leg is the first dimension.
+#[allow(dead_code)]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Parameters<T = f64> {
     /// 6x3, m, frame B: universal joint b on the base, equation (14).
@@ -67,6 +68,7 @@ pub struct Parameters<T = f64> {
     pub gravity: [T; 3],
 }
 
+#[allow(dead_code)]
 impl<T: Scalar> Parameters<T> {
     /// Parameters filled field by field: `fill(name, values)` gets the name of each field and its elements,
     /// row-major, to be written. What it leaves alone stays NaN, so that no result can come from it.
@@ -114,7 +116,7 @@ pub struct Ups<T = f64> {
     pub parameters: Parameters<T>,
 }
 
-#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+#[allow(clippy::all, clippy::pedantic, dead_code, unused_qualifications)]
 impl<T: Scalar + Into<f64>> Parameters<T> {
     /// Sets `base_point`: 6x3, m, frame B: universal joint b on the base, equation (14).
     ///
@@ -452,6 +454,7 @@ impl<T: Scalar + Into<f64>> Parameters<T> {
     }
 }
 
+#[allow(clippy::all, clippy::pedantic, dead_code, unused_qualifications)]
 impl<T> Ups<T> {
     /// The model with these parameters.
     pub fn new(parameters: Parameters<T>) -> Self {

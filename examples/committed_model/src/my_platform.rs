@@ -3,7 +3,7 @@
 //
 // Dynamics of the platform `my_platform`, every number baked in.
 //
-// graph     uhp.json, sha256 0e4e475ca31637bc149a623313f14fd264b4c785631b6b9e71c3463a5aa9d2e6
+// graph     uhp.json, sha256 64598c63b0eef92949c7e47bb8307f621caaf18f73a9c7b4d4cbe2ee8d4f74b4
 //           derived by CasADi 3.8.2
 // platform  my_platform, sha256 of its resolved numbers 886f7852017ac711714d460253875c97521dd7a6f031f093de91b55faddbe2d3
 //
@@ -99,7 +99,7 @@ impl ::dyn_runtime::kernels::InverseDynamics for MyPlatform {
     }
 }
 
-/// Squared cosine between each rod and its actuator axis, equation (18).
+/// Squared cosine between each rod and the line of its actuator's force, equation (18).
 ///
 /// Inputs:
 ///
@@ -110,7 +110,7 @@ impl ::dyn_runtime::kernels::InverseDynamics for MyPlatform {
 ///
 /// Outputs:
 ///
-/// - `rod_alignment`: 6, dimensionless: squared cosine between rod and actuator axis; negative out of reach, equation (18).
+/// - `rod_alignment`: 6, dimensionless: squared cosine between rod and line of the actuator's force; negative out of reach, equation (18).
 #[allow(clippy::all, clippy::pedantic, unused_variables)]
 pub fn rod_alignment<T: Scalar>(
     base_position: &[T; 3],
@@ -189,17 +189,17 @@ pub fn rod_alignment<T: Scalar>(
     // leg 6: extent of the rod along the actuator axis
     let t54 = t42 * t42;
     let t55 = t43 * t43;
-    // leg 1: squared cosine between rod and actuator axis; negative out of reach
+    // leg 1: squared cosine between rod and line of the actuator's force; negative out of reach
     rod_alignment[0] = c(1.0) - c(23.564897728343862) * (t44 + t45);
-    // leg 2: squared cosine between rod and actuator axis; negative out of reach
+    // leg 2: squared cosine between rod and line of the actuator's force; negative out of reach
     rod_alignment[1] = c(1.0) - c(23.564897728343862) * (t46 + t47);
-    // leg 3: squared cosine between rod and actuator axis; negative out of reach
+    // leg 3: squared cosine between rod and line of the actuator's force; negative out of reach
     rod_alignment[2] = c(1.0) - c(23.564897728343862) * (t48 + t49);
-    // leg 4: squared cosine between rod and actuator axis; negative out of reach
+    // leg 4: squared cosine between rod and line of the actuator's force; negative out of reach
     rod_alignment[3] = c(1.0) - c(23.564897728343862) * (t50 + t51);
-    // leg 5: squared cosine between rod and actuator axis; negative out of reach
+    // leg 5: squared cosine between rod and line of the actuator's force; negative out of reach
     rod_alignment[4] = c(1.0) - c(23.564897728343862) * (t52 + t53);
-    // leg 6: squared cosine between rod and actuator axis; negative out of reach
+    // leg 6: squared cosine between rod and line of the actuator's force; negative out of reach
     rod_alignment[5] = c(1.0) - c(23.564897728343862) * (t54 + t55);
 }
 
