@@ -93,12 +93,14 @@ fn a_model_file() {
         use crate::solve::solve_general;
 
         /// Physical numbers of a platform; of a quantity that legs have, the leg is the first dimension.
+        #[allow(dead_code)]
         #[derive(Clone, Copy, Debug, PartialEq)]
         pub struct Parameters<T = f64> {
             /// 6, m, frame O: rod length.
             pub rod_length: [T; 6],
         }
 
+        #[allow(dead_code)]
         impl<T: Scalar> Parameters<T> {
             /// Parameters filled field by field: `fill(name, values)` gets the name of each field and its elements,
             /// row-major, to be written. What it leaves alone stays NaN, so that no result can come from it.
@@ -118,7 +120,7 @@ fn a_model_file() {
             pub parameters: Parameters<T>,
         }
 
-        #[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+        #[allow(clippy::all, clippy::pedantic, dead_code, unused_qualifications)]
         impl<T: Scalar + Into<f64>> Parameters<T> {
             /// Sets `rod_length`: 6, m, frame O: rod length.
             ///
@@ -152,6 +154,7 @@ fn a_model_file() {
             }
         }
 
+        #[allow(clippy::all, clippy::pedantic, dead_code, unused_qualifications)]
         impl<T> TestModel<T> {
             /// The model with these parameters.
             pub fn new(parameters: Parameters<T>) -> Self {
