@@ -61,18 +61,11 @@ pub struct Tolerance {
 }
 
 /// Tolerances that differ from [`DEFAULT`].
-pub const TOLERANCES: &[Tolerance] = &[
-    Tolerance {
-        outputs: &["inverse_dynamics"],
-        relative: 1e-11,
-        reason: "rounding errors are multiplied by the condition number of J_dp, up to 1000 near the edge",
-    },
-    Tolerance {
-        outputs: &["lower_active_force", "upper_active_force"],
-        relative: 1e-10,
-        reason: "what the weight does along the leg falls out: legs that stand along gravity leave little of it",
-    },
-];
+pub const TOLERANCES: &[Tolerance] = &[Tolerance {
+    outputs: &["inverse_dynamics"],
+    relative: 1e-11,
+    reason: "rounding errors are multiplied by the condition number of J_dp, up to 1000 near the edge",
+}];
 
 /// Matrices, Jacobians, bias, accelerations, kinematics, energies.
 pub const DEFAULT: Tolerance = Tolerance {

@@ -11,7 +11,7 @@ use dyn_gen::{GenerateError, GraphFile, Numbers, optimise};
 use dyn_platform::LegType;
 
 /// Platforms looked at unless `DYN_GEN_PLATFORMS` says otherwise.
-const PLATFORMS: usize = 60;
+const PLATFORMS: usize = 100;
 /// States of each unless `DYN_GEN_STATES` says otherwise.
 const STATES: usize = 5;
 

@@ -34,12 +34,14 @@ pub struct LegGeometry {
 
 impl LegGeometry {
     /// Row of `J_dp`: derivative of the actuator's velocity by `v_p` (32).
+    #[inline]
     pub fn jacobian_dp(&self) -> RowVector6<f64> {
         let u = &self.direction;
         stack(u, &self.platform_arm.cross(u)).transpose() / self.cosine
     }
 
     /// Row of `J_db`: minus the derivative of the actuator's velocity by `v_b` (31).
+    #[inline]
     pub fn jacobian_db(&self) -> RowVector6<f64> {
         let u = &self.direction;
         stack(u, &self.hooke_arm.cross(u)).transpose() / self.cosine
@@ -144,10 +146,12 @@ pub fn jacobian_db<L: LegType>(parameters: &Parameters<L>, state: &State) -> Mat
     jacobian_db_of(&leg_geometries(parameters, state))
 }
 
+#[inline]
 pub(crate) fn jacobian_dp_of(geometries: &[LegGeometry; 6]) -> Matrix6<f64> {
     Matrix6::from_rows(&geometries.map(|leg| leg.jacobian_dp()))
 }
 
+#[inline]
 pub(crate) fn jacobian_db_of(geometries: &[LegGeometry; 6]) -> Matrix6<f64> {
     Matrix6::from_rows(&geometries.map(|leg| leg.jacobian_db()))
 }

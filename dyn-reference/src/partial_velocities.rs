@@ -16,15 +16,18 @@ use crate::state::{RigidBodyMotion, State, stack};
 
 /// Velocity of a body's point at `arm` from the body's origin, as a matrix on the body's `[r'; w]`: `[1,
 /// -[arm]x]`.
+#[inline]
 pub(crate) fn point_partial(arm: &Vector3<f64>) -> Matrix3x6<f64> {
     blocks(&Matrix3::identity(), &-arm.cross_matrix())
 }
 
 /// Time derivative of [`point_partial`] for an arm that changes by `arm_rate`, 1/s.
+#[inline]
 pub(crate) fn point_partial_rate(arm_rate: &Vector3<f64>) -> Matrix3x6<f64> {
     blocks(&Matrix3::zeros(), &-arm_rate.cross_matrix())
 }
 
+#[inline]
 fn blocks(left: &Matrix3<f64>, right: &Matrix3<f64>) -> Matrix3x6<f64> {
     let mut joined = Matrix3x6::zeros();
     joined.fixed_columns_mut::<3>(0).copy_from(left);
@@ -77,6 +80,7 @@ pub struct LegPartials {
 
 /// Time derivative of `sign [u, arm x u]^T / (u . a)`, the rows (32) and (31), whose value is that of `partials`, by
 /// the quotient rule.
+#[inline]
 pub(crate) fn length_partial_rate(
     partials: &LegPartials,
     geometry: &LegGeometry,

@@ -25,31 +25,37 @@ impl RigidBodyMotion {
     }
 
     /// Velocity `r'` of the origin, m/s, in O.
+    #[inline]
     pub fn linear_velocity(&self) -> Vector3<f64> {
         linear(&self.velocity)
     }
 
     /// Angular velocity `w`, rad/s, in O.
+    #[inline]
     pub fn angular_velocity(&self) -> Vector3<f64> {
         angular(&self.velocity)
     }
 
     /// Acceleration `r''` of the origin, m/s^2, in O.
+    #[inline]
     pub fn linear_acceleration(&self) -> Vector3<f64> {
         linear(&self.acceleration)
     }
 
     /// Angular acceleration `w'`, rad/s^2, in O.
+    #[inline]
     pub fn angular_acceleration(&self) -> Vector3<f64> {
         angular(&self.acceleration)
     }
 
     /// Velocity of the body's point at `arm` (m, in O, from the origin), m/s, in O.
+    #[inline]
     pub fn point_velocity(&self, arm: &Vector3<f64>) -> Vector3<f64> {
         self.linear_velocity() + self.angular_velocity().cross(arm)
     }
 
     /// Acceleration of the body's point at `arm` (m, in O, from the origin), m/s^2, in O.
+    #[inline]
     pub fn point_acceleration(&self, arm: &Vector3<f64>) -> Vector3<f64> {
         let w = self.angular_velocity();
         self.linear_acceleration() + self.angular_acceleration().cross(arm) + w.cross(&w.cross(arm))
@@ -70,16 +76,19 @@ pub struct State {
 }
 
 /// The first three components of a speed, acceleration or wrench.
+#[inline]
 pub(crate) fn linear(v: &Vector6<f64>) -> Vector3<f64> {
     Vector3::new(v[0], v[1], v[2])
 }
 
 /// The last three components of a speed, acceleration or wrench.
+#[inline]
 pub(crate) fn angular(v: &Vector6<f64>) -> Vector3<f64> {
     Vector3::new(v[3], v[4], v[5])
 }
 
 /// A speed, acceleration or wrench from its two halves.
+#[inline]
 pub(crate) fn stack(linear: &Vector3<f64>, angular: &Vector3<f64>) -> Vector6<f64> {
     Vector6::new(linear.x, linear.y, linear.z, angular.x, angular.y, angular.z)
 }

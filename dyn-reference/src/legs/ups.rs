@@ -280,15 +280,15 @@ impl LegType for Leg {
         [acceleration.hooke + lower, acceleration.platform_joint + upper]
     }
 
-    /// The actuator pushes the parts apart.
+    /// The actuator pushes the parts apart. On the lower part, which moves across the leg only, it does no work: left out
+    /// there, since a force thousands of times the part's weight would leave nothing but its rounding.
     fn active_force(
         &self,
         gravity: &Vector3<f64>,
         axial_force: f64,
         geometry: &LegGeometry,
     ) -> [Vector3<f64>; 2] {
-        let apart = axial_force * geometry.axis;
-        [self.lower_mass_kg * gravity - apart, self.upper_mass_kg * gravity + apart]
+        [self.lower_mass_kg * gravity, self.upper_mass_kg * gravity + axial_force * geometry.axis]
     }
 
     fn partials_by_platform(&self, geometry: &LegGeometry) -> LegPartials {
