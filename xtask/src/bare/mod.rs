@@ -95,13 +95,13 @@ fn accept(library: &Library<'_>) -> Result<reach::Measured, Failure> {
     let title = library.title();
     let control = reach::measure(&title, &read(&library.archive(&["control-case"])?)?)?;
     let found = control.functions.iter().find(|function| function.name == "dyn_control_case");
-    if !found.is_some_and(|function| function.panic.is_some()) {
+    if found.is_none_or(|function| function.panic.is_none()) {
         return Err(Failure::new(
             format!("{title}: the search does not find the panic of dyn_control_case"),
             "",
         ));
     }
-    if library.calls_are_relocations() && !found.is_some_and(|function| function.recursion.is_some()) {
+    if library.calls_are_relocations() && found.is_none_or(|function| function.recursion.is_none()) {
         return Err(Failure::new(
             format!("{title}: the search does not find the recursion of dyn_control_case"),
             "",
