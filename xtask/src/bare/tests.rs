@@ -20,7 +20,8 @@ fn thumb_calls_are_found_among_instructions_and_data() {
         0x05, 0x0c, 0x02, 0xb0, 0x80, 0xbd,
     ];
     assert_eq!(calls(&code, &[]), [22]);
-    assert!(calls(&code, std::slice::from_ref(&(20..28))).is_empty());
+    let data = 20..28;
+    assert!(calls(&code, std::slice::from_ref(&data)).is_empty());
     // The second half of a longer instruction is no call: ldr.w pc, [r0], then beq.
     assert!(calls(&[0xd0, 0xf8, 0x00, 0xf0, 0x00, 0xd0], &[]).is_empty());
 }
