@@ -22,12 +22,14 @@
 //! | [`mod@matrices`] | `mass_matrix_p`, `mass_matrix_b`, `coriolis_matrices`, `stiffness_matrices`, `matrices` |
 //! | [`forces`] | `generalised_forces`, `passive_forces` |
 //! | [`dynamics`] | `bias`, `equation_of_motion`, `inverse_dynamics`, `forward_dynamics` |
+//! | [`control`] | `total_bias`, `passive_inverse_dynamics`, `base_wrench` |
 //! | [`mod@energy`] | `energy` |
 //! | [`inputs`], [`outputs`] | parameters, states and results by name, as flat row-major numbers |
 //!
 //! A leg whose rod cannot reach its platform joint yields NaN (see [`leg::rod_alignment`]).
 
 pub mod bodies;
+pub mod control;
 pub mod dynamics;
 pub mod energy;
 pub mod forces;
@@ -40,6 +42,7 @@ pub mod partial_velocities;
 pub mod state;
 
 pub use bodies::body_kinematics;
+pub use control::{base_wrench, passive_inverse_dynamics, total_bias};
 pub use dynamics::{bias, equation_of_motion, forward_dynamics, inverse_dynamics};
 pub use energy::energy;
 pub use forces::{generalised_forces, passive_forces};

@@ -52,6 +52,7 @@ fn home() -> (dyn_reference::Parameters, State) {
         platform: RigidBodyMotion { position_m: case.home_position, ..origin },
         actuator_force_n: Vector6::zeros(),
         external_wrench: Vector6::zeros(),
+        reference_velocity: Vector6::zeros(),
     };
     (case.parameters, state)
 }

@@ -61,8 +61,15 @@ pub fn reciprocal_condition<T: Real, const N: usize>(matrix: &[[T; N]; N]) -> T 
     }
 }
 
+/// `|det A|`, by the same elimination; NaN or 0 where an entry is not finite or A is singular.
+pub(crate) fn absolute_determinant<T: Real, const N: usize>(matrix: &[[T; N]; N]) -> T {
+    let rows = eliminated(matrix, &[[T::zero(); 0]; N]);
+    let pivots = rows.iter().enumerate().map(|(i, row)| row.coefficients[i]);
+    pivots.fold(T::one(), |product, pivot| product * pivot).abs()
+}
+
 /// Largest column sum of absolute values; NaN if an entry is NaN.
-fn one_norm<T: Real, const N: usize>(matrix: &[[T; N]; N]) -> T {
+pub(crate) fn one_norm<T: Real, const N: usize>(matrix: &[[T; N]; N]) -> T {
     let mut sums = [T::zero(); N];
     for row in matrix {
         for (sum, element) in sums.iter_mut().zip(row) {
@@ -78,6 +85,25 @@ fn solve_columns<T: Real, const N: usize, const K: usize>(
     matrix: &[[T; N]; N],
     right: &[[T; K]; N],
 ) -> [[T; K]; N] {
+    let rows = eliminated(matrix, right);
+    let mut solution = [[T::zero(); K]; N];
+    for (i, row) in rows.iter().enumerate().rev() {
+        let mut sum = row.right;
+        for (coefficient, known) in row.coefficients.iter().zip(&solution).skip(i + 1) {
+            for (sum, known) in sum.iter_mut().zip(known) {
+                *sum -= *coefficient * *known;
+            }
+        }
+        solution[i] = sum.map(|sum| sum / row.coefficients[i]);
+    }
+    solution
+}
+
+/// Rows in the order of their pivots, upper triangular; what stands below the diagonal is left over.
+fn eliminated<T: Real, const N: usize, const K: usize>(
+    matrix: &[[T; N]; N],
+    right: &[[T; K]; N],
+) -> [Row<T, N, K>; N] {
     let mut rows = [Row { coefficients: [T::zero(); N], right: [T::zero(); K], scale: T::zero() }; N];
     for (row, (coefficients, right)) in rows.iter_mut().zip(matrix.iter().zip(right)) {
         let scale = coefficients.iter().fold(T::zero(), |largest: T, element| largest.max(element.abs()));
@@ -93,18 +119,7 @@ fn solve_columns<T: Real, const N: usize, const K: usize>(
         }
         remaining = below;
     }
-
-    let mut solution = [[T::zero(); K]; N];
-    for (i, row) in rows.iter().enumerate().rev() {
-        let mut sum = row.right;
-        for (coefficient, known) in row.coefficients.iter().zip(&solution).skip(i + 1) {
-            for (sum, known) in sum.iter_mut().zip(known) {
-                *sum -= *coefficient * *known;
-            }
-        }
-        solution[i] = sum.map(|sum| sum / row.coefficients[i]);
-    }
-    solution
+    rows
 }
 
 /// Puts the row with the relatively largest coefficient in `column` into the pivot's place.
