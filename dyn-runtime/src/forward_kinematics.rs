@@ -14,7 +14,6 @@ use crate::error::{Error, Input};
 use crate::hexapod::{Hexapod, PoseArrays, checked_pose};
 use crate::kernels;
 use crate::real::Real;
-use crate::solve::by_elimination;
 use crate::state::{BaseMotion, PlatformState, Pose, Twist};
 
 /// Most Newton steps of one call.
@@ -98,7 +97,6 @@ impl<M: kernels::RodAlignment<T>, T: Real> Hexapod<M, T> {
             if iterations == MAX_ITERATIONS {
                 return Err(no_convergence(iterations, actuators.residual));
             }
-            check::invertible(&actuators.jacobian_dp)?;
             (pose, actuators) = self.step(&pose, &actuators, &lengths, iterations)?;
             iterations += 1;
         }
@@ -117,7 +115,7 @@ impl<M: kernels::RodAlignment<T>, T: Real> Hexapod<M, T> {
     where
         M: kernels::ActuatorGeometry<T>,
     {
-        let (linear, angular) = halves(&by_elimination(&actuators.jacobian_dp, &actuators.missing));
+        let (linear, angular) = halves(&check::twist_of_rates(&actuators.jacobian_dp, &actuators.missing)?);
         let turn = angular.norm();
         let most = T::constant(MAX_TURN_RAD);
         let mut share = if turn > most { most / turn } else { T::one() };
@@ -163,7 +161,8 @@ impl<M: kernels::RodAlignment<T>, T: Real> Hexapod<M, T> {
             *length = *wanted - *length;
             residual = residual.max(length.abs());
         }
-        check::finite_result(&[&missing, &jacobian_dp])?;
+        // In reach J_dp is finite; were it not, no step would come of it.
+        check::finite_result(&[&missing])?;
         Ok(Actuators { jacobian_dp, missing, residual })
     }
 
@@ -200,14 +199,13 @@ impl<M: kernels::RodAlignment<T>, T: Real> Hexapod<M, T> {
         let mut jacobian_db = jacobian_dp;
         self.model.jacobian_dp(&b.position, &b.rotation, &p.position, &p.rotation, &mut jacobian_dp);
         self.model.jacobian_db(&b.position, &b.rotation, &p.position, &p.rotation, &mut jacobian_db);
-        check::invertible(&jacobian_dp)?;
         let mut right = rates;
         for (sum, row) in right.iter_mut().zip(&jacobian_db) {
             for (entry, speed) in row.iter().zip(&base_velocity) {
                 *sum += *entry * *speed;
             }
         }
-        let velocity = by_elimination(&jacobian_dp, &right);
+        let velocity = check::twist_of_rates(&jacobian_dp, &right)?;
         check::finite_result(&[&velocity])?;
         Ok(Twist::from_rows(&velocity))
     }
