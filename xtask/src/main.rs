@@ -1,5 +1,6 @@
 //! The workspace's own commands: orchestration only, each step is a command one can also type.
 
+mod contract;
 mod runner;
 mod steps;
 #[cfg(test)]
@@ -48,6 +49,10 @@ enum Task {
     ///
     /// Pinocchio and MuJoCo are installed from `tests/engines/requirements.lock` into an environment of their own.
     Vectors(vectors::Options),
+    /// Show that no call of the runtime crate can panic, and the code and stack that each takes
+    ///
+    /// Needs binutils (nm, ar, objdump). The frame is that of the function alone: the deepest call adds those it calls.
+    Contract,
 }
 
 /// Which steps of a task.
@@ -70,6 +75,7 @@ fn main() -> ExitCode {
         Task::Test(selection) => perform("test", TEST, &selection),
         Task::Bench { filter } => runner::bench(filter.as_deref()),
         Task::Vectors(options) => vectors::compare_or_write(&options),
+        Task::Contract => contract::check(),
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,
