@@ -1,4 +1,4 @@
-//! Generated code against the hand-written reference: every output of every function, on the default platform and eight
+//! Generated code against the hand-written reference: every output of every function, on the default platform and ten
 //! others, at home, random, large and near-edge states; with parameters at run time and baked in.
 
 use std::collections::BTreeSet;
@@ -9,14 +9,14 @@ use dyn_gen::graph::Environment;
 use dyn_gen::sample::Kind;
 use dyn_platform::Platform;
 use dyn_tests::comparison::Comparison;
-use dyn_tests::compiled::{self, Model, baked};
+use dyn_tests::compiled::{self, Model};
 use dyn_tests::platforms::{self, graph_file};
 use dyn_tests::reference;
 
 const STATES_OF_EACH_KIND: usize = 50;
 
-fn add_model<M: Model>(comparison: &mut Comparison, model: &M, platform: &Platform, label: &str) {
-    let states = platforms::states(&graph_file(), platform, STATES_OF_EACH_KIND);
+fn add_model(comparison: &mut Comparison, model: &dyn Model, platform: &Platform, label: &str) {
+    let states = platforms::states(&graph_file(platform.leg_type), platform, STATES_OF_EACH_KIND);
     let expected = expected(platform, &states);
     for ((kind, state), outputs) in states.iter().zip(&expected) {
         for (function, output, values) in compiled::outputs(model, state) {
@@ -42,7 +42,7 @@ fn model_with_run_time_parameters_on_every_platform() {
     for platform in platforms::all() {
         add_model(
             &mut comparison,
-            &compiled::at_run_time(&platform),
+            &*compiled::at_run_time(&platform),
             &platform,
             &format!("run time, {}", platform.name),
         );
@@ -53,36 +53,19 @@ fn model_with_run_time_parameters_on_every_platform() {
 #[test]
 fn baked_models() {
     let mut comparison = Comparison::default();
-    add_model(&mut comparison, &dyn_runtime::models::Uhp2016, &platforms::platform("uhp_2016"), "uhp_2016");
-    add_model(
-        &mut comparison,
-        &baked::tilted_axes::TiltedAxes,
-        &platforms::platform("tilted_axes"),
-        "tilted_axes",
-    );
-    add_model(
-        &mut comparison,
-        &baked::unequal_legs::UnequalLegs,
-        &platforms::platform("unequal_legs"),
-        "unequal_legs",
-    );
-    add_model(&mut comparison, &baked::long_thin::LongThin, &platforms::platform("long_thin"), "long_thin");
-    add_model(
-        &mut comparison,
-        &baked::everything::Everything,
-        &platforms::platform("everything"),
-        "everything",
-    );
+    for (name, model) in compiled::BAKED {
+        add_model(&mut comparison, model, &platforms::platform(name), name);
+    }
     comparison.finish();
 }
 
 /// Interpreted final graphs of all platforms that are not compiled.
 #[test]
 fn baked_graphs_of_the_other_platforms() {
-    let file = graph_file();
     let mut comparison = Comparison::default();
-    for name in ["full_inertia", "no_gravity", "no_springs", "tilted_gravity_damped"] {
-        let platform = platforms::platform(name);
+    let is_baked = |platform: &Platform| compiled::BAKED.iter().any(|(name, _)| *name == platform.name);
+    for platform in platforms::all().into_iter().filter(|platform| !is_baked(platform)) {
+        let (name, file) = (&platform.name, graph_file(platform.leg_type));
         let functions = dyn_gen::optimise(&file.program, &Numbers::baked(&platform), None).unwrap();
         let states = platforms::states(&file, &platform, 10);
         let expected = expected(&platform, &states);
@@ -102,13 +85,13 @@ fn baked_graphs_of_the_other_platforms() {
 /// pivots in the runtime crate, the interpreter in its own way: they agree to rounding only.)
 #[test]
 fn compiled_baked_models_give_the_interpreter_s_bits() {
-    fn check<M: Model>(model: &M, name: &str) {
-        let file = graph_file();
+    for (name, model) in compiled::BAKED {
         let platform = platforms::platform(name);
+        let file = graph_file(platform.leg_type);
         let functions = dyn_gen::optimise(&file.program, &Numbers::baked(&platform), None).unwrap();
         for (kind, state) in platforms::states(&file, &platform, 5) {
             for function in &functions {
-                let compiled = compiled::call(model, &function.graph.name, &state);
+                let compiled = model.call(&function.graph.name, &state);
                 for (output, interpreted) in function.graph.evaluate(&state).unwrap() {
                     let same =
                         compiled[&output].iter().zip(&interpreted).all(|(a, b)| a.to_bits() == b.to_bits());
@@ -117,23 +100,16 @@ fn compiled_baked_models_give_the_interpreter_s_bits() {
             }
         }
     }
-    check(&dyn_runtime::models::Uhp2016, "uhp_2016");
-    check(&baked::tilted_axes::TiltedAxes, "tilted_axes");
-    check(&baked::unequal_legs::UnequalLegs, "unequal_legs");
-    check(&baked::long_thin::LongThin, "long_thin");
-    check(&baked::everything::Everything, "everything");
 }
 
 #[test]
 fn the_reference_has_every_generated_output_and_no_other() {
-    let file = graph_file();
-    let generated: BTreeSet<&str> = file
-        .program
-        .functions
-        .iter()
-        .flat_map(|function| function.outputs.iter().map(String::as_str))
-        .collect();
-    let reference: BTreeSet<&str> =
-        dyn_reference::outputs::OUTPUTS.iter().map(|output| output.name).collect();
-    assert_eq!(generated, reference);
+    for platform in platforms::all() {
+        let file = graph_file(platform.leg_type);
+        let functions = file.program.functions.iter();
+        let generated: BTreeSet<&str> =
+            functions.flat_map(|function| function.outputs.iter().map(String::as_str)).collect();
+        let reference: BTreeSet<&str> = reference::parameters(&platform).output_names().into_iter().collect();
+        assert_eq!(generated, reference, "{}", platform.name);
+    }
 }

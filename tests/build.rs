@@ -1,5 +1,5 @@
-//! Generates what the tests compile: four of the test platforms with their numbers baked in, and a function that calls any
-//! generated function by name, made from the table of functions so that none can be forgotten.
+//! Generates what the tests compile: some of the test platforms with their numbers baked in, and functions that call any
+//! generated function by name, made from the tables of functions so that none can be forgotten.
 
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
@@ -8,16 +8,18 @@ use std::{env, error::Error, fs};
 use dyn_gen::emit::{RuntimePath, Scalar, type_name};
 use dyn_gen::graph::{Program, Symbol};
 use dyn_gen::{GraphFile, Numbers, Options, generate};
-use dyn_platform::Platform;
+use dyn_platform::{LegType, Platform};
 
 /// Test platforms that are compiled with baked numbers, besides the default platform of the runtime crate.
-const BAKED: [&str; 4] = ["tilted_axes", "unequal_legs", "long_thin", "everything"];
+const BAKED: [&str; 6] =
+    ["tilted_axes", "unequal_legs", "long_thin", "everything", "ups_regular", "ups_everything"];
 
 fn main() -> Result<(), Box<dyn Error>> {
     let folder = Path::new(&env::var("CARGO_MANIFEST_DIR")?).join("platforms");
     let out = PathBuf::from(env::var("OUT_DIR")?);
-    let file = GraphFile::uhp()?;
     let mut models = String::new();
+    let mut by_name = String::new();
+    let mut baked = vec![(LegType::Uhp, "uhp_2016", "dyn_runtime::models::Uhp2016".to_owned())];
     for name in BAKED {
         let path = folder.join(format!("{name}.toml"));
         println!("cargo::rerun-if-changed={}", path.display());
@@ -31,22 +33,36 @@ fn main() -> Result<(), Box<dyn Error>> {
             evidence: None,
         };
         let target = out.join(format!("{name}.rs"));
+        let file = GraphFile::of(platform.leg_type)?;
         fs::write(&target, generate(&file, &Numbers::baked(&platform), &options)?.source)?;
         writeln!(models, "#[path = {:?}]\n#[rustfmt::skip]\npub mod {name};", target)?;
+        baked.push((platform.leg_type, name, format!("baked::{name}::{}", type_name(name))));
     }
+    for leg_type in LegType::ALL {
+        let program = GraphFile::of(leg_type)?.program;
+        by_name += &call(&program)?;
+        let at_run_time = format!("dyn_runtime::models::{}", type_name(leg_type.name()));
+        let of_type = baked.iter().filter(|(of, ..)| *of == leg_type).map(|(_, _, model)| model);
+        for model in of_type.chain([&at_run_time]) {
+            by_name += &implementation(leg_type, model);
+        }
+    }
+    by_name += &tables(&baked)?;
     fs::write(out.join("models.rs"), models)?;
-    fs::write(out.join("by_name.rs"), by_name(&file.program)?)?;
+    fs::write(out.join("by_name.rs"), by_name)?;
     Ok(())
 }
 
-/// A trait of all kernels, and a function that calls them by name.
-fn by_name(program: &Program) -> Result<String, Box<dyn Error>> {
-    let mut bounds = String::new();
+/// A function that calls the functions of one leg type by name.
+fn call(program: &Program) -> Result<String, Box<dyn Error>> {
+    let leg_type = &program.name;
+    let mut bounds = Vec::new();
     let mut arms = String::new();
     for function in &program.functions {
         let name = &function.name;
-        let kernel = type_name(name);
-        writeln!(bounds, "    + dyn_runtime::kernels::{kernel}")?;
+        let module = if function.leg_specific { format!("{leg_type}::") } else { String::new() };
+        let kernel = format!("dyn_runtime::kernels::{module}{}", type_name(name));
+        bounds.push(kernel.clone());
         writeln!(arms, "        {name:?} => {{")?;
         let mut arguments = String::new();
         for input in &function.inputs {
@@ -59,22 +75,39 @@ fn by_name(program: &Program) -> Result<String, Box<dyn Error>> {
             writeln!(arms, "            let mut out_{output}: {} = filled();", array(symbol))?;
             write!(arguments, "&mut out_{output}, ")?;
         }
-        writeln!(arms, "            dyn_runtime::kernels::{kernel}::{name}(model, {arguments});")?;
+        writeln!(arms, "            {kernel}::{name}(model, {arguments});")?;
         for output in &function.outputs {
             writeln!(arms, "            outputs.insert({output:?}.into(), flat(&out_{output}));")?;
         }
         writeln!(arms, "        }}")?;
     }
+    Ok(format!(
+        "fn call_{leg_type}<M: {}>(model: &M, function: &str, state: &Environment) -> Environment {{\n\
+         \x20   let mut outputs = Environment::new();\n    match function {{\n{arms}\
+         \x20       _ => panic!(\"there is no function `{{function}}`\"),\n    }}\n    outputs\n}}\n\n",
+        bounds.join(" + ")
+    ))
+}
+
+fn implementation(leg_type: LegType, model: &str) -> String {
+    let leg_type = leg_type.name();
+    format!(
+        "impl Model for {model} {{\n    fn call(&self, function: &str, state: &Environment) -> Environment {{\n\
+         \x20       call_{leg_type}(self, function, state)\n    }}\n}}\n\n"
+    )
+}
+
+/// Names of all functions, which every leg type has, and the models with baked numbers.
+fn tables(baked: &[(LegType, &str, String)]) -> Result<String, Box<dyn Error>> {
+    let program = GraphFile::uhp()?.program;
     let names: Vec<&str> = program.functions.iter().map(|function| function.name.as_str()).collect();
+    let rows: String = baked.iter().map(|(_, name, model)| format!("    ({name:?}, &{model}),\n")).collect();
     Ok(format!(
         "/// Every function of the table.\npub const FUNCTIONS: [&str; {}] = {names:?};\n\n\
-         /// A model with every function.\npub trait Model:\n    Sync\n{bounds}{{}}\n\n\
-         impl<M: Sync\n{bounds}> Model for M {{}}\n\n\
-         /// Outputs of a function of the table by name, flat and row-major.\n\
-         pub fn call<M: Model>(model: &M, function: &str, state: &Environment) -> Environment {{\n\
-         \x20   let mut outputs = Environment::new();\n    match function {{\n{arms}\
-         \x20       _ => panic!(\"there is no function `{{function}}`\"),\n    }}\n    outputs\n}}\n",
-        names.len()
+         /// Models with baked numbers, by the name of the platform.\n\
+         pub const BAKED: [(&str, &dyn Model); {}] = [\n{rows}];\n",
+        names.len(),
+        baked.len()
     ))
 }
 

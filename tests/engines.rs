@@ -6,7 +6,7 @@ use std::collections::BTreeSet;
 use dyn_gen::deviation::{Scale, relative_error, within};
 use dyn_gen::graph::Environment;
 use dyn_tests::comparison::Comparison;
-use dyn_tests::compiled::{self, Model, baked};
+use dyn_tests::compiled::{self, Model};
 use dyn_tests::vectors::{self, Vectors};
 use dyn_tests::{platforms, reference};
 
@@ -15,7 +15,7 @@ use dyn_tests::{platforms, reference};
 const OURS_ONLY: [&str; 4] =
     ["coriolis_matrix_p", "coriolis_matrix_b", "passive_inverse_dynamics", "total_bias"];
 
-fn add_model<M: Model>(comparison: &mut Comparison, model: &M, vectors: &Vectors, label: &str) {
+fn add_model(comparison: &mut Comparison, model: &dyn Model, vectors: &Vectors, label: &str) {
     for (number, (state, expected)) in vectors.cases.iter().enumerate() {
         for (function, output, values) in compiled::outputs(model, state) {
             if let Some(expected) = expected.get(&output) {
@@ -39,26 +39,19 @@ fn model_with_run_time_parameters() {
     let mut comparison = Comparison::default();
     for vectors in all() {
         let label = format!("run time, {}", vectors.platform.name);
-        add_model(&mut comparison, &compiled::at_run_time(&vectors.platform), &vectors, &label);
+        add_model(&mut comparison, &*compiled::at_run_time(&vectors.platform), &vectors, &label);
     }
     comparison.finish();
 }
 
+/// Models of the other platforms are compared with parameters at run time only.
 #[test]
 fn baked_models() {
     let mut comparison = Comparison::default();
-    for vectors in all() {
-        let label = vectors.platform.name.clone();
-        match label.as_str() {
-            "uhp_2016" => add_model(&mut comparison, &dyn_runtime::models::Uhp2016, &vectors, &label),
-            "tilted_axes" => add_model(&mut comparison, &baked::tilted_axes::TiltedAxes, &vectors, &label),
-            "unequal_legs" => add_model(&mut comparison, &baked::unequal_legs::UnequalLegs, &vectors, &label),
-            "long_thin" => add_model(&mut comparison, &baked::long_thin::LongThin, &vectors, &label),
-            "everything" => add_model(&mut comparison, &baked::everything::Everything, &vectors, &label),
-            // These are compared with parameters at run time.
-            "full_inertia" | "no_gravity" | "no_springs" | "tilted_gravity_damped" => {}
-            other => panic!("say how vectors of {other} are compared"),
-        }
+    let all = all();
+    for (name, model) in compiled::BAKED {
+        let vectors = all.iter().find(|vectors| vectors.platform.name == name);
+        add_model(&mut comparison, model, vectors.expect("vectors of every platform"), name);
     }
     comparison.finish();
 }
@@ -86,7 +79,7 @@ fn coriolis_matrices_give_the_engines_velocity_terms() {
     for vectors in all() {
         let model = compiled::at_run_time(&vectors.platform);
         for (state, expected) in &vectors.cases {
-            let matrices: Environment = compiled::call(&model, "coriolis_matrices", state);
+            let matrices: Environment = model.call("coriolis_matrices", state);
             let product = |matrix: &str, velocity: &str| -> Vec<f64> {
                 let row = |row: &[f64]| row.iter().zip(&state[velocity]).map(|(c, v)| c * v).sum();
                 matrices[matrix].chunks(6).map(row).collect()
@@ -112,14 +105,14 @@ fn vectors_cover_every_output_and_platform_with_twenty_states() {
     let names: BTreeSet<&str> = all.iter().map(|vectors| vectors.platform.name.as_str()).collect();
     let expected: BTreeSet<&str> = platforms::TEST_PLATFORMS.into_iter().chain(["uhp_2016"]).collect();
     assert_eq!(names, expected);
-    let generated: BTreeSet<String> = platforms::graph_file()
-        .program
-        .functions
-        .iter()
-        .flat_map(|function| function.outputs.clone())
-        .filter(|output| !OURS_ONLY.contains(&output.as_str()))
-        .collect();
     for vectors in &all {
+        let generated: BTreeSet<String> = platforms::graph_file(vectors.platform.leg_type)
+            .program
+            .functions
+            .iter()
+            .flat_map(|function| function.outputs.clone())
+            .filter(|output| !OURS_ONLY.contains(&output.as_str()))
+            .collect();
         assert!(vectors.cases.len() >= 20, "{}: only {} states", vectors.platform.name, vectors.cases.len());
         let covered: BTreeSet<String> =
             vectors.cases.iter().flat_map(|(_, outputs)| outputs.keys().cloned()).collect();

@@ -10,14 +10,20 @@
 //! | [`counts`] | instructions per call, by callgrind |
 //! | [`budget`] | counts that may not grow |
 //! | [`ratios`] | ratios from criterion's results |
+//! | [`bundle`] | everything that a controller asks of the model in a cycle |
+//! | [`control_loop`], [`machine`], [`loop_plot`] | the same in a loop at 10 kHz: times, circumstances, plot |
 //! | [`table`] | text tables |
 //!
-//! `benches/dynamics.rs` measures times, `instruction_counts` counts, `ratios` sums up.
+//! `benches/dynamics.rs` measures times, `instruction_counts` counts, `ratios` sums up, `control_loop` runs a loop.
 
 pub mod budget;
+pub mod bundle;
 pub mod call;
 pub mod cases;
+pub mod control_loop;
 pub mod counts;
+pub mod loop_plot;
+pub mod machine;
 pub mod output;
 pub mod ratios;
 pub mod states;

@@ -1,4 +1,4 @@
-"""Derives the equations and writes the graph file, or compares it with the one that is there."""
+"""Derives the equations of every leg type and writes the graph files, or compares them with those that are there."""
 
 import argparse
 import os
@@ -10,21 +10,18 @@ from .evaluate import evaluate
 from .export import DerivationError, build, to_text
 from .functions import functions
 from .legs import LEG_TYPES
-from .sample import uhp_sample
-from .symbols import DYNAMICS, INPUTS, LEG_INTERFACE, MOTION, OUTPUTS, PLATFORM_PARAMETERS, UHP_INTERMEDIATES
+from .sample import sample
+from .symbols import symbols_of
 
 
 def document(leg_type: str) -> dict:
     """The whole graph file of a leg type as plain data."""
     leg = LEG_TYPES[leg_type]
-    symbols = [
-        *INPUTS, *leg.PARAMETERS, *PLATFORM_PARAMETERS, *MOTION, *LEG_INTERFACE, *UHP_INTERMEDIATES, *DYNAMICS, *OUTPUTS,
-    ]
-    result = build(leg_type, symbols, functions(leg))
-    sample = uhp_sample()
+    result = build(leg_type, symbols_of(leg), functions(leg))
+    numbers = sample(leg_type)
     for function in result["functions"]:
-        function["sample_outputs"] = evaluate(result, function, sample)
-    result["sample"] = sample
+        function["sample_outputs"] = evaluate(result, function, numbers)
+    result["sample"] = numbers
     return result
 
 
@@ -43,22 +40,27 @@ def write_atomically(path: Path, text: str) -> None:
 
 def main() -> int:
     parser = argparse.ArgumentParser(prog="python -m derivation", description=__doc__)
-    parser.add_argument("--leg-type", choices=sorted(LEG_TYPES), default="uhp")
-    parser.add_argument("--output", type=Path, required=True, help="graph file")
-    parser.add_argument("--check", action="store_true", help="compare only; exit code 1 where the file differs")
+    parser.add_argument("--folder", type=Path, required=True, help="folder of the graph files, LEG_TYPE.json each")
+    parser.add_argument("--check", action="store_true", help="compare only; exit code 1 where a file differs")
     options = parser.parse_args()
     try:
-        text = to_text(document(options.leg_type))
+        # Everything is derived before anything is written.
+        texts = {options.folder / f"{leg_type}.json": to_text(document(leg_type)) for leg_type in LEG_TYPES}
     except DerivationError as error:
         print(f"derivation failed: {error}", file=sys.stderr)
         return 2
     if options.check:
-        same = options.output.exists() and options.output.read_text(encoding="utf-8") == text
-        if not same:
-            print(f"{options.output} is not what the derivation gives", file=sys.stderr)
-        return 0 if same else 1
-    write_atomically(options.output, text)
+        changed = [path for path, text in texts.items() if not _holds(path, text)]
+        for path in changed:
+            print(f"{path} is not what the derivation gives", file=sys.stderr)
+        return 1 if changed else 0
+    for path, text in texts.items():
+        write_atomically(path, text)
     return 0
+
+
+def _holds(path: Path, text: str) -> bool:
+    return path.exists() and path.read_text(encoding="utf-8") == text
 
 
 if __name__ == "__main__":

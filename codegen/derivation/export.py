@@ -162,20 +162,26 @@ def build(name: str, symbols: list[Symbol], functions: list[Function]) -> dict:
         raise DerivationError("the symbol table has a name twice")
     stages = {step.name: step for function in functions for step in function.steps if isinstance(step, Stage)}
     graphs = {stage.name: export_graph(stage, by_name) for stage in stages.values()}
-    rows, used = [], set()
+    rows, used, called = [], set(), set()
     for function in functions:
         needed = used_names(function, graphs)
         used |= needed
+        steps = _steps(function, graphs)
+        called |= {step["call"] for step in steps if "call" in step}
         rows.append({
             "name": function.name,
             "meaning": function.meaning,
             "equation": function.equation,
             "inputs": [symbol.name for symbol in symbols if symbol.role == "input" and symbol.name in needed],
             "outputs": list(function.outputs),
-            "steps": _steps(function, graphs),
+            "leg_specific": function.leg_specific,
+            "steps": steps,
         })
-    used |= {output["symbol"] for graph in graphs.values() for output in graph["outputs"]}
-    unused = [symbol.name for symbol in symbols if symbol.name not in used]
+    # A leg type need not use every stage that the table of functions offers: its file then lacks what they derive.
+    given = {name: {output["symbol"] for output in graph["outputs"]} for name, graph in graphs.items()}
+    used |= {symbol for name in called for symbol in given[name]}
+    spared = {symbol for name in given.keys() - called for symbol in given[name]} - used
+    unused = [symbol.name for symbol in symbols if symbol.name not in used | spared]
     if unused:
         raise DerivationError(f"symbols that nothing uses: {', '.join(unused)}")
     return {
@@ -189,9 +195,9 @@ def build(name: str, symbols: list[Symbol], functions: list[Function]) -> dict:
                 "name": symbol.name, "role": symbol.role, "per_leg": symbol.per_leg, "shape": list(symbol.shape),
                 "unit": symbol.unit, "frame": symbol.frame, "meaning": symbol.meaning, "equation": symbol.equation,
             }
-            for symbol in symbols
+            for symbol in symbols if symbol.name in used
         ],
-        "graphs": list(graphs.values()),
+        "graphs": [graph for name, graph in graphs.items() if name in called],
         "functions": rows,
     }
 

@@ -7,7 +7,7 @@ along the actuators must balance: one 6 x 6 solve, no mass matrix.
 
 import casadi as ca
 
-from .payload import mass_matrix
+from .payload import mass_matrix, with_point_masses
 from .rotations import cross, levers_cross, skew, symmetric
 from .stages import leg_stage, platform_stage
 
@@ -140,11 +140,29 @@ def platform_mass_matrix(
     relative_rotation, merged_mass, merged_moment, merged_second_moment, inertia_weights, inertia_rows,
 ):
     """mass matrix in base coordinates."""
-    total = mass_matrix(relative_rotation, merged_mass, merged_moment, merged_second_moment)
+    merged = mass_matrix(relative_rotation, merged_mass, merged_moment, merged_second_moment)
+    return {"platform_mass_matrix": _with_squares(merged, inertia_weights, inertia_rows)}
+
+
+@platform_stage
+def platform_mass_matrix_with_joint_masses(
+    relative_rotation, merged_mass, merged_moment, merged_second_moment, inertia_weights, inertia_rows, joint_mass,
+    platform_point,
+):
+    """mass matrix in base coordinates, of legs that leave a mass at the joint."""
+    mass, moment, second_moment = with_point_masses(
+        merged_mass, merged_moment, merged_second_moment, joint_mass, platform_point
+    )
+    merged = mass_matrix(relative_rotation, mass, moment, second_moment)
+    return {"platform_mass_matrix": _with_squares(merged, inertia_weights, inertia_rows)}
+
+
+def _with_squares(total, inertia_weights, inertia_rows):
+    """A mass matrix and the weighted squares of all legs."""
     for weights, rows in zip(inertia_weights, inertia_rows, strict=True):
         for k in range(weights.shape[0]):
             total += rows[k, :].T @ (weights[k] * rows[k, :])
-    return {"platform_mass_matrix": symmetric(total)}
+    return symmetric(total)
 
 
 @platform_stage

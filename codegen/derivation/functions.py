@@ -15,7 +15,14 @@ class Function:
     equation: str
     outputs: tuple[str, ...]
     steps: tuple[Stage | Solve, ...]
+    # Whether its outputs belong to one leg type; those of every other function are the same for all.
+    leg_specific: bool = False
 
+
+LEG_KINEMATICS = (
+    "actuator_length", "actuator_velocity", "actuator_acceleration", "rod_direction", "hooke_joint_position",
+    "platform_joint_position", "platform_joint_rate",
+)
 
 MATRICES = (
     "mass_matrix_p", "coriolis_matrix_p", "jacobian_dp", "mass_matrix_b", "coriolis_matrix_b", "jacobian_db",
@@ -30,46 +37,49 @@ def functions(leg) -> list[Function]:
     pose = (motion.relative_pose, motion.joint_pose, leg.leg_closure)
     gradient = (*pose, leg.length_gradient)
     jacobians = (*gradient, matrices.joint_in_o, matrices.jacobian_rows)
-    rates = (motion.relative_motion, motion.joint_motion, leg.leg_rates)
+    rates = (motion.relative_motion, motion.joint_motion, leg.leg_rates, leg.length_gradient_rate)
     acceleration = (motion.relative_acceleration, motion.joint_acceleration, leg.leg_accelerations)
     fields = (motion.base_acceleration_field, motion.platform_acceleration_field)
 
-    merged = (leg.rod_ends, payload.merged_payload)
+    merged = (leg.leg_masses, payload.merged_payload)
     mass = (*jacobians, *merged, leg.leg_inertia, matrices.legs_mass_matrix)
     coriolis = (
-        *rates, leg.length_gradient_rate, matrices.joint_rates_in_o, leg.leg_inertia_rates,
+        *rates, matrices.joint_rates_in_o, leg.leg_inertia_rates,
         matrices.legs_coriolis_matrix, matrices.coriolis_matrix_p, matrices.coriolis_matrix_b,
     )
-    passive = (leg.leg_weight, matrices.spring_and_damping_force, matrices.gravity_force)
+    passive = (leg.leg_masses, leg.leg_weight, matrices.spring_and_damping_force, matrices.gravity_force)
 
     leg_forces = (*acceleration, leg.leg_inertia_forces, forces.passive_axial_force, forces.jacobian_row)
     reaction = (forces.inertia_wrench, forces.remaining_wrench)
+    mass_matrix = forces.platform_mass_matrix_with_joint_masses if leg.JOINT_MASS else forces.platform_mass_matrix
     bodies = (*gradient, *rates, *fields, *acceleration, *leg.BODY_KINEMATICS, payload.payload_kinematics)
     partials = (*leg.PARTIAL_VELOCITIES, payload.payload_partial_velocities)
 
     return [
         Function(
-            "rod_alignment", "squared cosine between each rod and its actuator axis", "(18)",
+            "rod_alignment", "squared cosine between each rod and the line of its actuator's force", "(18)",
             ("rod_alignment",), pose,
         ),
         Function(
             "leg_kinematics", "actuator lengths, rates and accelerations, rods and joints", "(14)-(18), (22), (23), (30)",
-            leg.LEG_KINEMATICS, (*gradient, *rates, *fields, *acceleration, *leg.JOINT_KINEMATICS),
+            LEG_KINEMATICS, (*gradient, *rates, *fields, *acceleration, *leg.JOINT_KINEMATICS),
         ),
         Function(
             "body_kinematics", "position, velocity and acceleration of every body", "(11)-(13), (22), (24)-(29)",
             ("payload_com_position", "payload_com_velocity", "payload_com_acceleration", *leg.BODY_OUTPUTS), bodies,
+            leg_specific=True,
         ),
         Function(
             "partial_velocities", "partial velocities and partial angular velocities of every body", "(33)-(38)",
             ("payload_partial_velocity", "payload_partial_angular_velocity", *leg.PARTIAL_OUTPUTS),
-            (*jacobians, *partials),
+            (*jacobians, *partials), leg_specific=True,
         ),
         Function(
             "generalised_forces", "generalised active and inertia force of every body", "(39)-(46)",
             ("payload_active_force", "payload_inertia_force", *leg.FORCE_OUTPUTS),
             (*bodies, matrices.joint_in_o, matrices.jacobian_rows, forces.passive_axial_force,
              payload.payload_forces, leg.body_forces),
+            leg_specific=True,
         ),
         Function("jacobian_dp", "actuator Jacobian of the platform", "(32)", ("jacobian_dp",), jacobians),
         Function("jacobian_db", "actuator Jacobian of the base", "(31)", ("jacobian_db",), jacobians),
@@ -128,7 +138,7 @@ def functions(leg) -> list[Function]:
         Function(
             "passive_inverse_dynamics", "actuator forces at reference speeds and accelerations, for passivity-based control",
             "(49)", ("passive_inverse_dynamics",),
-            (*gradient, *merged, *rates, leg.length_gradient_rate, *fields, *acceleration, forces.reference_speeds,
+            (*gradient, *merged, *rates, *fields, *acceleration, forces.reference_speeds,
              leg.leg_reference_forces, forces.passive_axial_force, forces.jacobian_row, forces.inertia_wrench,
              forces.remaining_reference_wrench, forces.wrench_map, AXIAL_REACTION, forces.reference_actuator_forces),
         ),
@@ -140,13 +150,13 @@ def functions(leg) -> list[Function]:
             "forward_dynamics", "platform acceleration for given actuator forces", "(49)",
             ("forward_dynamics",),
             (*gradient, *merged, *rates, motion.base_acceleration_field, motion.trial_platform_field, *leg_forces,
-             *reaction, forces.net_axial_force, forces.residual_wrench, leg.leg_inertia_squares, forces.platform_mass_matrix,
+             *reaction, forces.net_axial_force, forces.residual_wrench, leg.leg_inertia_squares, mass_matrix,
              Solve("acceleration_correction", "platform_mass_matrix", "residual_wrench", symmetric_positive_definite=True),
              forces.platform_acceleration),
         ),
         Function(
             "energy", "kinetic and potential energy", "",
             ("kinetic_energy", "potential_energy"),
-            (*pose, *rates, leg.rod_ends, leg.leg_energy, payload.total_energy),
+            (*gradient, *rates, leg.leg_masses, leg.leg_energy, payload.total_energy),
         ),
     ]

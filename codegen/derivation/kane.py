@@ -2,14 +2,16 @@
 
 A leg reaches the platform through its joint alone, so its equations are written for the joint's velocity and projected
 to the six platform speeds with U = [1, -S(lever)] afterwards. A leg of axisymmetric bodies without spin is a set of
-points y_k with masses m_kl between them: its kinetic energy is 1/2 sum m_kl v_k . v_l (a rod: two end masses and a
-coupling). All points of a leg share one unit axis e and the gradient g of the actuator length by the joint position;
-their partial velocities by the joint's velocity are
+vectors y_k with masses m_kl between them: its kinetic energy is 1/2 sum m_kl v_k . v_l (a rod: two end masses and a
+coupling). A vector is a point of the leg or a direction that turns with it; between a point and a direction stands a
+first moment, between directions a moment of inertia. All of them share one unit axis e and the gradient g of the
+actuator length by the joint position; their partial velocities by the joint's velocity are
 
     D_k = along_k e g^T + across_k 1
 
-so e . e = 1 and e . e' = 0 are used here once, for every leg type. Time derivatives are inertial; vectors may be in any
-one frame, as long as all of them are.
+so e . e = 1 and e . e' = 0 are used here once, for every leg type. Where the actuator lies along the leg itself, axis
+and gradient are one vector: pass it twice. Time derivatives are inertial; vectors may be in any one frame, as long as
+all of them are.
 """
 
 from dataclasses import dataclass
@@ -21,17 +23,21 @@ from .rotations import cross, dot, outer, skew, symmetric
 
 @dataclass(frozen=True)
 class Point:
-    """A point of a leg: its partial velocity is `along e g^T + across 1`, with rates of the two factors."""
+    """A vector of a leg: its partial velocity is `along e g^T + across 1`, with rates of the two factors.
+
+    `translates` is 1 for a point, 0 for a direction: a translation of the whole leg leaves directions as they are.
+    """
 
     along: ca.SX | float = 0
     across: ca.SX | float = 0
     along_rate: ca.SX | float = 0
     across_rate: ca.SX | float = 0
+    translates: int = 1
 
 
 @dataclass(frozen=True)
 class Leg:
-    """Points by name, and masses between pairs of them (each unordered pair once)."""
+    """Points and directions by name, and masses between pairs of them (each unordered pair once)."""
 
     points: dict[str, Point]
     masses: dict[tuple[str, str], ca.SX]
@@ -51,7 +57,8 @@ class Leg:
 def inertia_forces(leg: Leg, axis, accelerations):
     """Inertia force along the actuator coordinate, and the rest at the joint: f = g axial + joint (39)-(46).
 
-    `accelerations` holds the inertial acceleration of every point, less gravity: weight is included.
+    `accelerations` holds the inertial acceleration of every point, less gravity: weight is included; of a direction, its
+    second inertial derivative.
     """
     along = sum((mass * k.along * accelerations[l] for k, _, l, mass in leg.pairs()), ca.SX.zeros(3))
     across = sum((mass * k.across * accelerations[l] for k, _, l, mass in leg.pairs()), ca.SX.zeros(3))
@@ -59,14 +66,15 @@ def inertia_forces(leg: Leg, axis, accelerations):
 
 
 def inertia_wrench(leg: Leg, positions, accelerations):
-    """Inertia force of the whole leg and its moment about the origin of `positions`."""
+    """Inertia force of the whole leg and its moment about the origin of `positions`, which of a direction is itself."""
     forces = {name: ca.SX.zeros(3) for name in leg.points}
     for (first, second), mass in leg.masses.items():
         forces[first] += mass * accelerations[second]
         if first != second:
             forces[second] += mass * accelerations[first]
     moment = sum((cross(positions[name], force) for name, force in forces.items()), ca.SX.zeros(3))
-    return sum(forces.values(), ca.SX.zeros(3)), moment
+    total = sum((leg.points[name].translates * force for name, force in forces.items()), ca.SX.zeros(3))
+    return total, moment
 
 
 def bilinear_accelerations(leg: Leg, axis, axis_rate, gradient, gradient_rate, speed, speed_rate):
@@ -86,20 +94,28 @@ def joint_inertia(leg: Leg, axis, gradient):
     """N = sum m_kl D_k^T D_l: mass matrix of the leg in the speeds of its joint, 3 x 3."""
     both = leg.total(lambda k, l: k.along * l.along)
     mixed = leg.total(lambda k, l: k.across * l.along)
-    alone = leg.total(lambda k, l: k.across * l.across)
+    if axis is gradient:
+        return symmetric(outer((both + 2 * mixed) * axis, axis) + joint_mass(leg) * ca.SX.eye(3))
     half = (both / 2) * gradient + mixed * axis
-    square = outer(gradient, half) + outer(half, gradient) + alone * ca.SX.eye(3)
+    square = outer(gradient, half) + outer(half, gradient) + joint_mass(leg) * ca.SX.eye(3)
     return symmetric(square)
 
 
 def joint_inertia_squares(leg: Leg, axis, gradient):
-    """N as sum of weighted squares w v v^T, from which a 6 x 6 matrix takes fewer operations: [(w, v), ...].
+    """N less `joint_mass` times 1 as sum of weighted squares w v v^T: [(w, v), ...].
 
-    For legs without inertia of their own across (sum m_kl across_k across_l = 0).
+    A 6 x 6 matrix takes fewer operations from squares, and from masses that merge into the platform's.
     """
     both = leg.total(lambda k, l: k.along * l.along)
     mixed = leg.total(lambda k, l: k.across * l.along)
+    if axis is gradient:
+        return [(both + 2 * mixed, gradient)]
     return [(both, gradient + (mixed / both) * axis), (-(mixed * mixed) / both, axis)]
+
+
+def joint_mass(leg: Leg):
+    """sum m_kl across_k across_l: the part of N that is alike in all directions, a mass at the platform joint."""
+    return leg.total(lambda k, l: k.across * l.across)
 
 
 def joint_inertia_rate(leg: Leg, axis, axis_rate, gradient, gradient_rate):
@@ -109,22 +125,25 @@ def joint_inertia_rate(leg: Leg, axis, axis_rate, gradient, gradient_rate):
     mixed = leg.total(lambda k, l: k.across * l.along)
     along_across_rate = leg.total(lambda k, l: k.along * l.across_rate)
     across_along_rate = leg.total(lambda k, l: k.across * l.along_rate)
-    alone_rate = leg.total(lambda k, l: k.across * l.across_rate)
+    alone_rate = leg.total(lambda k, l: k.across * l.across_rate) * ca.SX.eye(3)
+    if axis is gradient:
+        turning = (both_rate + along_across_rate + across_along_rate) * axis + mixed * axis_rate
+        return outer((both + mixed) * axis, axis_rate) + outer(turning, axis) + alone_rate
     return (
         outer(both * gradient + mixed * axis, gradient_rate)
         + outer(both_rate * gradient + across_along_rate * axis + mixed * axis_rate, gradient)
         + outer(along_across_rate * gradient, axis)
-        + alone_rate * ca.SX.eye(3)
+        + alone_rate
     )
 
 
 def joint_base_inertia(leg: Leg, axis, gradient, positions):
-    """sum m_kl D_k^T Y_l with Y = [1, -S(y)]: inertia between joint and base speeds, 3 x 6.
+    """sum m_kl D_k^T Y_l with Y = [translates, -S(y)]: inertia between joint and base speeds, 3 x 6.
 
-    `positions` are the points seen from the base origin.
+    `positions` are the points seen from the base origin, and the directions.
     """
-    along = leg.total(lambda k, l: k.along)
-    across = leg.total(lambda k, l: k.across)
+    along = leg.total(lambda k, l: k.along * l.translates)
+    across = leg.total(lambda k, l: k.across * l.translates)
     along_moment = sum((mass * k.along * positions[l] for k, _, l, mass in leg.pairs()), ca.SX.zeros(3))
     across_moment = sum((mass * k.across * positions[l] for k, _, l, mass in leg.pairs()), ca.SX.zeros(3))
     row = ca.vertcat(along * axis, cross(along_moment, axis))
@@ -134,7 +153,7 @@ def joint_base_inertia(leg: Leg, axis, gradient, positions):
 def joint_base_inertia_rate(leg: Leg, axis, gradient, velocities):
     """sum m_kl D_k^T Y_l', of which only the rotational half is not zero, 3 x 3.
 
-    `velocities` are the inertial rates of the points seen from the base origin.
+    `velocities` are the inertial rates of the points seen from the base origin, and of the directions.
     """
     along_moment = sum((mass * k.along * velocities[l] for k, _, l, mass in leg.pairs()), ca.SX.zeros(3))
     across_moment = sum((mass * k.across * velocities[l] for k, _, l, mass in leg.pairs()), ca.SX.zeros(3))
@@ -142,7 +161,7 @@ def joint_base_inertia_rate(leg: Leg, axis, gradient, velocities):
 
 
 def kinetic_energy(leg: Leg, velocities):
-    """1/2 sum m_kl v_k . v_l for the inertial velocities of the points."""
+    """1/2 sum m_kl v_k . v_l for the inertial velocities of the points and rates of the directions."""
     return sum(
         (mass * dot(velocities[first], velocities[second]) * (0.5 if first == second else 1)
          for (first, second), mass in leg.masses.items()),

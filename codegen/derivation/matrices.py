@@ -48,14 +48,14 @@ def joint_in_o(base_rotation, base_position, platform_position, platform_rotatio
 
 @leg_stage
 def joint_rates_in_o(
-    base_rotation, base_velocity, platform_velocity, base_rate, platform_lever_o, length_gradient, length_gradient_rate,
+    base_rotation, base_velocity, platform_velocity, platform_lever_o, length_gradient_rate,
 ):
     """rates of platform joint and length gradient in O."""
     lever_rate = cross(platform_velocity[3:], platform_lever_o)
     return {
         "platform_lever_rate_o": lever_rate,
         "joint_velocity_o": (platform_velocity[:3] - base_velocity[:3]) + lever_rate,
-        "length_gradient_rate_o": base_rotation @ (length_gradient_rate + cross(base_rate, length_gradient)),
+        "length_gradient_rate_o": base_rotation @ length_gradient_rate,
     }
 
 

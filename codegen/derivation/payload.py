@@ -17,13 +17,19 @@ def merged_payload(payload_mass, payload_com, payload_inertia, platform_end_mass
     inertia = symmetric(payload_inertia)
     central = ca.trace(inertia) / 2 * ca.SX.eye(3) - inertia
     second = central + payload_mass * outer(payload_com, payload_com)
-    first = payload_mass * payload_com
-    mass = payload_mass
-    for end_mass, point in zip(platform_end_mass, platform_point, strict=True):
-        mass += end_mass
-        first += end_mass * point
-        second += end_mass * outer(point, point)
-    return {"merged_mass": mass, "merged_moment": first, "merged_second_moment": symmetric(second)}
+    mass, first, second = with_point_masses(
+        payload_mass, payload_mass * payload_com, second, platform_end_mass, platform_point
+    )
+    return {"merged_mass": mass, "merged_moment": first, "merged_second_moment": second}
+
+
+def with_point_masses(mass, first, second, added, points):
+    """Mass, first and second moment of a body with further point masses on it."""
+    for point_mass, point in zip(added, points, strict=True):
+        mass = mass + point_mass
+        first = first + point_mass * point
+        second = second + point_mass * outer(point, point)
+    return mass, first, symmetric(second)
 
 
 @platform_stage

@@ -42,8 +42,37 @@ def _flat(rows) -> list[float]:
     return [value for row in rows for value in row]
 
 
-def uhp_sample() -> dict[str, list[float]]:
-    """Values for the UHP leg type, flat and row-major."""
+def _uhp_legs() -> dict[str, list[float]]:
+    tilt = zip(_spread(LEG_COUNT, 51, 0.1), _spread(LEG_COUNT, 61, 0.1))
+    return {
+        "actuator_axis": _flat(_unit((x, y, 1.0)) for x, y in tilt),
+        "rod_length": _vary(0.24, 131),
+        "rod_mass": _vary(1.0, 141),
+        "rod_inertia": _vary(0.004, 151),
+        "rod_com_fraction": _vary(0.5, 161),
+        "mover_mass": _vary(0.6, 171),
+        "mover_offset": _vary(0.05, 181),
+        "rest_length": _vary(0.2, 191),
+    }
+
+
+def _ups_legs() -> dict[str, list[float]]:
+    return {
+        "lower_mass": _vary(1.3, 131),
+        "lower_com_distance": _vary(0.12, 141),
+        "lower_inertia": _vary(0.006, 151),
+        "upper_mass": _vary(0.8, 161),
+        "upper_com_distance": _vary(0.14, 171),
+        "upper_inertia": _vary(0.004, 181),
+        "rest_length": _vary(0.4, 191),
+    }
+
+
+_LEGS = {"uhp": _uhp_legs, "ups": _ups_legs}
+
+
+def sample(leg_type: str) -> dict[str, list[float]]:
+    """Values for a leg type, flat and row-major."""
     base_rotation = _rotation(*_spread(3, 11, 0.4))
     base_position = _spread(3, 23)
     offset = _multiply(base_rotation, [[0.011], [-0.007], [0.385]])
@@ -51,7 +80,6 @@ def uhp_sample() -> dict[str, list[float]]:
     upper = [(0.116, 0.031), (0.116, -0.031), (-0.031, -0.116), (-0.085, -0.085), (-0.085, 0.085), (-0.031, 0.116)]
     lower = [(0.132, 0.123), (0.132, -0.123), (0.040, -0.176), (-0.172, -0.052), (-0.172, 0.052), (0.040, 0.176)]
     height = _spread(LEG_COUNT, 41, 0.01)
-    tilt = zip(_spread(LEG_COUNT, 51, 0.1), _spread(LEG_COUNT, 61, 0.1))
     return {
         "base_position": base_position,
         "base_rotation": _flat(base_rotation),
@@ -65,15 +93,8 @@ def uhp_sample() -> dict[str, list[float]]:
         "actuator_force": _spread(LEG_COUNT, 111, 23.0),
         "external_wrench": _spread(6, 121, 5.3),
         "base_point": _flat((x, y, z) for (x, y), z in zip(lower, height)),
-        "actuator_axis": _flat(_unit((x, y, 1.0)) for x, y in tilt),
         "platform_point": _flat((x, y, -z) for (x, y), z in zip(upper, height)),
-        "rod_length": _vary(0.24, 131),
-        "rod_mass": _vary(1.0, 141),
-        "rod_inertia": _vary(0.004, 151),
-        "rod_com_fraction": _vary(0.5, 161),
-        "mover_mass": _vary(0.6, 171),
-        "mover_offset": _vary(0.05, 181),
-        "rest_length": _vary(0.2, 191),
+        **_LEGS[leg_type](),
         "axial_stiffness": _vary(2.1e4, 201),
         "axial_damping": _vary(7.0, 211),
         "payload_mass": [6.1],

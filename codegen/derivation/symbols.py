@@ -23,9 +23,8 @@ class Symbol:
     per_leg: bool = False
 
 
-
-
-def _table(role: str, per_leg: bool, rows) -> list[Symbol]:
+def table(role: str, per_leg: bool, rows) -> list[Symbol]:
+    """Symbols from rows of name, shape, unit, frame, meaning and equation."""
     return [Symbol(row[0], role, row[1], *row[2:], per_leg=per_leg) for row in rows]
 
 
@@ -36,7 +35,7 @@ INERTIA_6 = "kg, kg m, kg m^2"
 CORIOLIS_6 = "kg/s, kg m/s, kg m^2/s"
 STIFFNESS_6 = "N/m, N, N m"
 
-INPUTS = _table("input", False, [
+INPUTS = table("input", False, [
     ("base_position", (3,), "m", "O", "origin of the base frame"),
     ("base_rotation", (3, 3), "1", "B -> O", "rotation of the base", "(2)"),
     ("base_velocity", (6,), TWIST, "O", "base velocity [r_b'; w_b], w_b the angular velocity"),
@@ -46,13 +45,13 @@ INPUTS = _table("input", False, [
     ("platform_velocity", (6,), TWIST, "O", "platform velocity [r_p'; w_p], the generalised speeds"),
     ("platform_acceleration", (6,), TWIST_RATE, "O", "platform acceleration [r_p''; w_p']"),
     ("reference_velocity", (6,), TWIST, "O", "reference velocity [r_r'; w_r] of the platform, for passivity-based control"),
-]) + _table("input", True, [
-    ("actuator_force", (), "N", "-", "actuator force on the mover, along the actuator axis"),
-]) + _table("input", False, [
+]) + table("input", True, [
+    ("actuator_force", (), "N", "-", "actuator force along the actuator, positive to lengthen it"),
+]) + table("input", False, [
     ("external_wrench", (6,), WRENCH, "O", "external force and moment [F_D; M_D] at the payload's centre of mass"),
 ])
 
-PLATFORM_PARAMETERS = _table("parameter", False, [
+PLATFORM_PARAMETERS = table("parameter", False, [
     ("payload_mass", (), "kg", "-", "mass of platform and payload"),
     ("payload_com", (3,), "m", "P", "centre of mass of platform and payload"),
     ("payload_inertia", (3, 3), "kg m^2", "P", "inertia about the payload's centre of mass (upper triangle is read)"),
@@ -60,7 +59,7 @@ PLATFORM_PARAMETERS = _table("parameter", False, [
 ])
 
 # Coordinates of the base frame keep the hot path short: actuators are fixed there.
-MOTION = _table("intermediate", False, [
+MOTION = table("intermediate", False, [
     ("relative_position", (3,), "m", "B", "platform origin seen from the base"),
     ("relative_rotation", (3, 3), "1", "P -> B", "rotation of the platform seen from the base"),
     ("base_rate", (3,), "rad/s", "B", "angular velocity of the base"),
@@ -76,7 +75,7 @@ MOTION = _table("intermediate", False, [
     ("platform_field", (3, 3), "1/s^2", "P -> B", "acceleration per platform coordinate of points of the platform"),
     ("relative_acceleration", (3,), "m/s^2", "B", "acceleration of the platform origin relative to the base"),
     ("rotation_acceleration", (3, 3), "1/s^2", "P -> B", "second derivative of the relative rotation"),
-]) + _table("intermediate", True, [
+]) + table("intermediate", True, [
     ("platform_lever", (3,), "m", "B", "platform joint from the platform origin"),
     ("joint_vector", (3,), "m", "B", "platform joint from the base point"),
     ("joint_velocity", (3,), "m/s", "B", "velocity of the platform joint relative to the base"),
@@ -84,16 +83,14 @@ MOTION = _table("intermediate", False, [
 ])
 
 # What every leg type provides; inertia without the end mass that moves with the platform joint.
-LEG_INTERFACE = _table("intermediate", True, [
+LEG_INTERFACE = table("intermediate", True, [
     ("length_gradient", (3,), "1", "B", "gradient of the actuator length by the platform joint"),
-    ("length_gradient_rate", (3,), "1/s", "B", "rate of that gradient relative to the base"),
+    ("length_gradient_rate", (3,), "1/s", "B", "inertial rate of that gradient"),
     ("platform_end_mass", (), "kg", "-", "leg mass that moves with the platform joint"),
     ("axial_inertia_force", (), "N", "-", "leg inertia less weight along the actuator"),
     ("joint_inertia_force", (3,), "N", "B", "remaining leg inertia less weight at the platform joint"),
     ("leg_inertia_force", (3,), "N", "B", "inertia less weight of the whole leg"),
     ("leg_inertia_moment", (3,), "N m", "B", "its moment about the base origin"),
-    ("inertia_weights", (2,), "kg", "-", "weights of the squares that make the leg's mass matrix"),
-    ("inertia_rows", (2, 6), "1, m", "B", "the vectors that are squared, in the platform speeds"),
     ("joint_inertia", (3, 3), "kg", "O", "mass matrix of the leg in the speeds of its joint"),
     ("joint_inertia_rate", (3, 3), "kg/s", "O", "Coriolis matrix of the leg in the speeds of its joint"),
     ("joint_base_inertia", (3, 6), "kg, kg m", "O", "leg inertia between joint and base speeds"),
@@ -104,19 +101,7 @@ LEG_INTERFACE = _table("intermediate", True, [
     ("leg_potential_energy", (), "J", "-", "potential energy of the leg"),
 ])
 
-UHP_INTERMEDIATES = _table("intermediate", True, [
-    ("radial_offset", (3,), "m", "B", "offset of the platform joint from the actuator axis"),
-    ("axial_span", (), "m", "-", "extent of the rod along the actuator axis"),
-    ("axial_span_reciprocal", (), "1/m", "-", "reciprocal of that extent"),
-    ("radial_offset_rate", (3,), "m/s", "B", "rate of the offset from the actuator axis"),
-    ("axial_span_rate", (), "m/s", "-", "rate of the rod's extent along the actuator axis"),
-    ("hooke_end_mass", (), "kg", "-", "rod's end mass at the Hooke joint"),
-    ("rod_coupling", (), "kg", "-", "rod's inertial coupling between its ends"),
-    ("hooke_joint_velocity", (3,), "m/s", "O", "velocity of the Hooke joint"),
-    ("platform_joint_velocity", (3,), "m/s", "O", "velocity of the platform joint"),
-])
-
-DYNAMICS = _table("intermediate", True, [
+DYNAMICS = table("intermediate", True, [
     ("passive_axial_force", (), "N", "-", "spring and damper force along the actuator"),
     ("jacobian_row", (6,), "1, m", "B", "row of the actuator Jacobian in base coordinates"),
     ("axial_reaction", (), "N", "-", "force along the actuator that balances the remaining wrench"),
@@ -127,7 +112,7 @@ DYNAMICS = _table("intermediate", True, [
     ("joint_velocity_o", (3,), "m/s", "O", "velocity of the platform joint less that of the base origin"),
     ("length_gradient_o", (3,), "1", "O", "gradient of the actuator length"),
     ("length_gradient_rate_o", (3,), "1/s", "O", "inertial rate of that gradient"),
-]) + _table("intermediate", False, [
+]) + table("intermediate", False, [
     ("merged_mass", (), "kg", "-", "mass of payload and platform-side leg ends"),
     ("merged_moment", (3,), "kg m", "P", "first moment of payload and platform-side leg ends"),
     ("merged_second_moment", (3, 3), "kg m^2", "P", "second moment of payload and platform-side leg ends"),
@@ -145,35 +130,20 @@ DYNAMICS = _table("intermediate", True, [
     ("legs_coriolis_matrix", (6, 6), CORIOLIS_6, "O", "Coriolis matrix of the legs"),
 ])
 
-OUTPUTS = _table("output", True, [
-    ("rod_alignment", (), "1", "-", "squared cosine between rod and actuator axis; negative out of reach", "(18)"),
+OUTPUTS = table("output", True, [
+    ("rod_alignment", (), "1", "-", "squared cosine between rod and line of the actuator's force; negative out of reach", "(18)"),
     ("actuator_length", (), "m", "-", "actuator length d", "(18)"),
     ("actuator_velocity", (), "m/s", "-", "actuator velocity d'", "(30)"),
     ("actuator_acceleration", (), "m/s^2", "-", "actuator acceleration d''", "(30)"),
     ("rod_direction", (3,), "1", "O", "rod direction u, from the Hooke joint to the platform joint", "(17)"),
     ("hooke_joint_position", (3,), "m", "O", "Hooke joint", "(14)"),
     ("platform_joint_position", (3,), "m", "O", "platform joint", "(14)"),
-    ("universal_joint_rate", (3,), "rad/s", "O", "platform's angular velocity relative to the rod, w_p - w_s", "(23)"),
-    ("rod_angular_velocity", (3,), "rad/s", "O", "angular velocity w_s of the rod, without spin", "(22)"),
-    ("rod_angular_acceleration", (3,), "rad/s^2", "O", "angular acceleration of the rod", "(22)"),
-    ("rod_com_position", (3,), "m", "O", "centre of mass of the rod", "(27)-(29)"),
-    ("rod_com_velocity", (3,), "m/s", "O", "velocity of the rod's centre of mass", "(27)-(29)"),
-    ("rod_com_acceleration", (3,), "m/s^2", "O", "acceleration of the rod's centre of mass", "(27)-(29)"),
-    ("mover_position", (3,), "m", "O", "centre of mass of the mover", "(24)-(26)"),
-    ("mover_velocity", (3,), "m/s", "O", "velocity of the mover", "(24)-(26)"),
-    ("mover_acceleration", (3,), "m/s^2", "O", "acceleration of the mover", "(24)-(26)"),
-    ("rod_partial_velocity", (3, 6), "1, m", "O", "partial velocities of the rod's centre of mass", "(33)-(38)"),
-    ("rod_partial_angular_velocity", (3, 6), "1/m, 1", "O", "partial angular velocities of the rod", "(33)-(38)"),
-    ("mover_partial_velocity", (3, 6), "1, m", "O", "partial velocities of the mover", "(33)-(38)"),
-    ("rod_active_force", (6,), WRENCH, "O", "generalised active force of the rod: gravity", "(39)-(46)"),
-    ("rod_inertia_force", (6,), WRENCH, "O", "generalised inertia force of the rod", "(39)-(46)"),
-    ("mover_active_force", (6,), WRENCH, "O", "generalised active force of the mover: gravity, actuator, spring, damper", "(39)-(46)"),
-    ("mover_inertia_force", (6,), WRENCH, "O", "generalised inertia force of the mover", "(39)-(46)"),
+    ("platform_joint_rate", (3,), "rad/s", "O", "platform's angular velocity relative to the rod, w_p - w_s", "(23)"),
     ("jacobian_dp", (6,), "1, m", "O", "actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b", "(32)"),
     ("jacobian_db", (6,), "1, m", "O", "actuator Jacobian of the base", "(31)"),
     ("inverse_dynamics", (), "N", "-", "actuator forces F", "(49)"),
     ("passive_inverse_dynamics", (), "N", "-", "actuator forces F at reference speeds", "(49)"),
-]) + _table("output", False, [
+]) + table("output", False, [
     ("payload_com_position", (3,), "m", "O", "centre of mass of the payload", "(11)-(13)"),
     ("payload_com_velocity", (3,), "m/s", "O", "velocity of the payload's centre of mass", "(11)-(13)"),
     ("payload_com_acceleration", (3,), "m/s^2", "O", "acceleration of the payload's centre of mass", "(11)-(13)"),
@@ -194,6 +164,14 @@ OUTPUTS = _table("output", True, [
     ("total_bias", (6,), WRENCH, "O", "bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext", "(49)"),
     ("forward_dynamics", (6,), TWIST_RATE, "O", "platform acceleration v_p'", "(49)"),
     ("base_wrench", (6,), WRENCH, "O", "wrench of the base on the mechanism, moments about the base origin"),
-    ("kinetic_energy", (), "J", "-", "kinetic energy of payload, rods and movers"),
+    ("kinetic_energy", (), "J", "-", "kinetic energy of all moving bodies"),
     ("potential_energy", (), "J", "-", "potential energy of gravity and springs"),
 ])
+
+
+def symbols_of(leg) -> list[Symbol]:
+    """Every symbol of a leg type (a module of `legs`)."""
+    return [
+        *INPUTS, *leg.PARAMETERS, *PLATFORM_PARAMETERS, *MOTION, *LEG_INTERFACE, *leg.INTERMEDIATES, *DYNAMICS,
+        *leg.OUTPUTS, *OUTPUTS,
+    ]

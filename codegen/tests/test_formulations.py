@@ -8,11 +8,12 @@ import numpy as np
 import pytest
 from derivation.__main__ import document
 from derivation.evaluate import evaluate
+from derivation.legs import LEG_TYPES
 
 
-@pytest.fixture(scope="module")
-def model():
-    data = document("uhp")
+@pytest.fixture(scope="module", params=LEG_TYPES)
+def model(request):
+    data = document(request.param)
     rows = {row["name"]: row for row in data["functions"]}
 
     def call(name, **changes):

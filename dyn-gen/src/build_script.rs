@@ -134,6 +134,9 @@ impl Build {
     /// See [`BuildError`]; then the file is as it was.
     pub fn write_to(&self, path: &Path) -> Result<(), BuildError> {
         let platform = Platform::from_file(&self.platform)?;
+        for warning in &platform.warnings {
+            println!("cargo::warning={warning}");
+        }
         let options = Options {
             model: self.model.clone().unwrap_or_else(|| platform.name.clone()),
             runtime: RuntimePath::new("::dyn_runtime").map_err(GenerateError::from)?,

@@ -117,8 +117,11 @@ pub fn generate(
         let all = program.function(&function.graph.name).map(|whole| whole.outputs.len());
         all == Some(function.graph.outputs.len())
     };
-    let signatures: Vec<Signature> =
-        functions.iter().filter(has_all).map(|function| Signature::of(&function.graph)).collect();
+    let signatures: Vec<Signature> = functions
+        .iter()
+        .filter(has_all)
+        .map(|function| Signature::of(&function.graph).within(program))
+        .collect();
     let model = Model {
         name: &options.model,
         runtime: &options.runtime,
@@ -171,20 +174,26 @@ pub fn optimise(
     Ok(functions)
 }
 
-/// Generates the file of kernel traits, one for every function of the graph file.
+/// Generates the file of kernel traits, one for every function of the graph files. What all leg types have in common is
+/// taken from the first.
 ///
 /// # Errors
 /// See [`GenerateError`].
-pub fn kernels(file: &GraphFile, command: &str) -> Result<String, GenerateError> {
-    let program = &file.program;
-    let signatures: Vec<Signature> =
-        program.functions.iter().map(|function| Signature::of_function(program, function)).collect();
+pub fn kernels(files: &[GraphFile], command: &str) -> Result<String, GenerateError> {
+    let signatures: Vec<Signature> = files
+        .iter()
+        .enumerate()
+        .flat_map(|(number, GraphFile { program, .. })| {
+            let functions = program.functions.iter().filter(move |row| number == 0 || row.leg_specific);
+            functions.map(|function| Signature::of_function(program, function))
+        })
+        .collect();
     let header = Header {
-        title: "What every model can compute: one trait per function.".into(),
+        title: "What models can compute: one trait per function.".into(),
         command: command.into(),
-        graph: Source { name: file.name.clone(), sha256: file.sha256.clone() },
+        graphs: files.iter().map(source).collect(),
         platform: None,
-        casadi: program.provenance.casadi.clone(),
+        casadi: files.first().map(|file| file.program.provenance.casadi.clone()).unwrap_or_default(),
         operations: Vec::new(),
         eliminations: Vec::new(),
         evidence: Vec::new(),
@@ -247,6 +256,10 @@ fn context(program: &Program, numbers: &Numbers<'_>) -> Result<Context, Generate
     Ok(Context { parameters, states: sampled_states(program, platform, &PIVOT_STATES, PIVOT_SEED)? })
 }
 
+fn source(file: &GraphFile) -> Source {
+    Source { name: file.name.clone(), sha256: file.sha256.clone() }
+}
+
 fn header(
     file: &GraphFile,
     numbers: &Numbers<'_>,
@@ -288,7 +301,7 @@ fn header(
     Ok(Header {
         title,
         command: options.command.clone(),
-        graph: Source { name: file.name.clone(), sha256: file.sha256.clone() },
+        graphs: vec![source(file)],
         platform,
         casadi: file.program.provenance.casadi.clone(),
         operations: functions.iter().map(count).collect(),

@@ -29,22 +29,24 @@ impl GraphFile {
         })
     }
 
-    /// Platforms with legs of this type, as this crate was built with them.
+    /// The mechanism with legs of this type as this crate was built with it (`codegen/graphs/<leg type>.json`).
     ///
     /// # Errors
     /// As [`GraphFile::from_json`]; a test shows that there are none.
     pub fn of(leg_type: LegType) -> Result<GraphFile, FormatError> {
-        match leg_type {
-            LegType::Uhp | LegType::Ups => GraphFile::uhp(),
-        }
+        let text = match leg_type {
+            LegType::Uhp => include_str!("../../codegen/graphs/uhp.json"),
+            LegType::Ups => include_str!("../../codegen/graphs/ups.json"),
+        };
+        GraphFile::from_json(&format!("{}.json", leg_type.name()), text)
     }
 
-    /// The 6-UHP mechanism as this crate was built with it (`codegen/graphs/uhp.json`).
+    /// The paper's mechanism, that with legs of type [`LegType::Uhp`].
     ///
     /// # Errors
-    /// As [`GraphFile::from_json`]; a test shows that there are none.
+    /// As [`GraphFile::of`].
     pub fn uhp() -> Result<GraphFile, FormatError> {
-        GraphFile::from_json("uhp.json", include_str!("../../codegen/graphs/uhp.json"))
+        GraphFile::of(LegType::Uhp)
     }
 }
 
@@ -58,8 +60,10 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_built_in_graph_is_a_graph() {
-        assert_eq!(GraphFile::uhp().unwrap().program.name, "uhp");
+    fn built_in_graphs_are_graphs_of_their_leg_types() {
+        for leg_type in LegType::ALL {
+            assert_eq!(GraphFile::of(leg_type).unwrap().program.name, leg_type.name());
+        }
     }
 
     #[test]

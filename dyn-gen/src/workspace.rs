@@ -2,7 +2,7 @@
 
 use std::cell::RefCell;
 
-use dyn_platform::Platform;
+use dyn_platform::{LegType, Platform};
 
 use crate::error::GenerateError;
 use crate::graph::{Environment, Evaluator, Graph, Program, Role, Symbol, solve_general};
@@ -30,9 +30,14 @@ pub fn sampled_states(
     check_inputs(program, &state_at(&home))?;
     let legs = AtRest::new(program, ALIGNMENT, &parameters)?;
     let condition = jacobian_condition(program, platform, &parameters)?;
+    let most = |pose: &Pose| match platform.leg_type {
+        LegType::Uhp => 1.0,
+        LegType::Ups => telescopic_reach(platform, pose),
+    };
     let alignment = |pose: &Pose| {
         // Out of reach may also be NaN, which must not pass for aligned.
-        legs.at(pose).into_iter().fold(1.0, |least, value| if value >= least { least } else { value })
+        let aligned = legs.at(pose).into_iter();
+        aligned.fold(most(pose), |least, value| if value >= least { least } else { value })
     };
     let workspace = Workspace { home, alignment: &alignment, condition: &condition };
     let mut all = Vec::new();
@@ -169,6 +174,28 @@ impl AtRest {
         let results = self.graph.outputs.iter().flat_map(|output| &output.nodes);
         results.map(|node| values[node.index()]).collect()
     }
+}
+
+/// Change of length, as a fraction of the length at home, that counts as a telescopic leg's reach.
+const STROKE: f64 = 0.6;
+
+/// What stands for (u.a)^2 where legs are telescopic and so aligned with their actuators wherever they are: for the leg whose
+/// length differs most from that at home, 1 at home, 0 at the end of its stroke, negative beyond.
+fn telescopic_reach(platform: &Platform, pose: &Pose) -> f64 {
+    let home = Pose { position: platform.home.position, rotation: platform.home.rotation };
+    let lengths = |pose: &Pose| -> [f64; 6] {
+        std::array::from_fn(|leg| {
+            let (p, b) = (platform.parameters.platform_point[leg], platform.parameters.base_point[leg]);
+            let span = |k: usize| {
+                let turned: f64 = (0..3).map(|j| pose.rotation[k][j] * p[j]).sum();
+                pose.position[k] + turned - b[k]
+            };
+            (0..3).map(|k| span(k) * span(k)).sum::<f64>().sqrt()
+        })
+    };
+    let changes =
+        lengths(pose).into_iter().zip(lengths(&home)).map(|(now, home)| (now / home - 1.0) / STROKE);
+    changes.map(|change| 1.0 - change * change).fold(1.0, f64::min)
 }
 
 /// Root mean square distance of the platform joints from the platform's origin, m.

@@ -127,7 +127,7 @@ fn check_reports_and_only_regen_writes() {
     assert!(entries(&generated).is_empty());
 
     assert_eq!(code(&dyn_gen(repository.path(), &["regen"])), 0);
-    assert_eq!(entries(&generated), ["kernels.rs", "uhp.rs", "uhp_2016.rs"]);
+    assert_eq!(entries(&generated), ["kernels.rs", "uhp.rs", "uhp_2016.rs", "ups.rs"]);
     assert_eq!(code(&check()), 0);
 
     let file = generated.join("uhp_2016.rs");
@@ -229,6 +229,56 @@ fn files_that_cannot_be_written_have_a_remedy() {
 }
 
 #[test]
+fn every_starter_can_be_explained_and_generated() {
+    let folder = tempfile::tempdir().unwrap();
+    for layout in ["paper", "free", "cubic", "ups"] {
+        let file = format!("{layout}.toml");
+        let result = dyn_gen(folder.path(), &["init", "--layout", layout, "-o", &file]);
+        assert_eq!(code(&result), 0, "{}", said(&result));
+        assert!(
+            said(&result).contains(&format!("dyn-gen generate {file} -o my_platform.rs")),
+            "{}",
+            said(&result)
+        );
+        let printed = dyn_gen(folder.path(), &["init", "--layout", layout]);
+        assert_eq!(
+            String::from_utf8_lossy(&printed.stdout),
+            fs::read_to_string(folder.path().join(&file)).unwrap()
+        );
+        for arguments in [
+            &["explain", &file, "--states", "30"][..],
+            &["generate", &file, "-o", "model.rs", "--states", "30", "--functions", "inverse_dynamics"],
+        ] {
+            let result = dyn_gen(folder.path(), arguments);
+            assert_eq!(
+                (code(&result), said(&result).contains("warning")),
+                (0, false),
+                "{layout}: {}",
+                said(&result)
+            );
+        }
+    }
+    let before = fs::read(folder.path().join("free.toml")).unwrap();
+    let again = dyn_gen(folder.path(), &["init", "-o", "free.toml"]);
+    assert_eq!(code(&again), 1);
+    assert!(words(&again).contains(
+        "free.toml exists already and stays as it is help: choose another name, or remove it first"
+    ));
+    assert_eq!(fs::read(folder.path().join("free.toml")).unwrap(), before);
+    assert_eq!(code(&dyn_gen(folder.path(), &["init", "--layout", "round"])), 2);
+}
+
+#[test]
+fn the_schema_is_json() {
+    let folder = tempfile::tempdir().unwrap();
+    let printed = dyn_gen(folder.path(), &["schema"]);
+    let schema: serde_json::Value = serde_json::from_slice(&printed.stdout).expect("JSON");
+    assert!(schema["properties"]["leg_type"].is_object(), "{schema:.300}");
+    assert_eq!(code(&dyn_gen(folder.path(), &["schema", "-o", "schema.json"])), 0);
+    assert_eq!(fs::read(folder.path().join("schema.json")).unwrap(), printed.stdout);
+}
+
+#[test]
 fn completions_know_the_commands() {
     let folder = tempfile::tempdir().unwrap();
     for shell in ["bash", "zsh", "fish", "powershell", "elvish"] {
@@ -261,6 +311,6 @@ fn a_missing_python_stops_a_derivation_but_not_with_fallback() {
     let notice =
         said(&result).lines().filter(|line| line.contains("going on with the committed graph")).count();
     assert_eq!(notice, 1, "{}", said(&result));
-    assert_eq!(entries(&generated).len(), 3);
+    assert_eq!(entries(&generated).len(), 4);
     assert_eq!(fs::read(&graph).unwrap(), before);
 }

@@ -9,7 +9,7 @@ use std::process::{Command, Output};
 
 use common::cli::{code, dyn_gen_with, entries, repository, said};
 
-/// A repository, and a Python whose derivation is the shell code `derivation` with the output file in `$last`.
+/// A repository, and a Python whose derivation is the shell code `derivation` with the output folder in `$last`.
 struct Place {
     repository: tempfile::TempDir,
 }
@@ -68,41 +68,41 @@ esac
                 assert!(words.contains(mention), "{arguments:?} does not say {mention}: {words}");
             }
             assert_eq!(fs::read(&graph).unwrap(), before, "{arguments:?} changed the graph");
-            assert_eq!(entries(graph.parent().unwrap()), ["uhp.json"]);
+            assert_eq!(entries(graph.parent().unwrap()), ["uhp.json", "ups.json"]);
             assert!(entries(&self.path().join("dyn-runtime/src/generated")).is_empty());
         }
     }
 }
 
-/// Shell code that writes the committed graph with one text replaced; the derivation runs in `codegen`.
+/// Shell code that writes the committed graphs with one text of the first replaced; the derivation runs in `codegen`.
 fn altered(from: &str, to: &str) -> String {
-    format!("sed 's/{from}/{to}/' graphs/uhp.json > \"$last\"")
+    format!("cp graphs/*.json \"$last\"; sed 's/{from}/{to}/' graphs/uhp.json > \"$last/uhp.json\"")
 }
 
 #[test]
 fn a_derivation_that_fails_is_shown_and_changes_nothing() {
-    let place = Place::new("echo '{' > \"$last\"; echo 'no such leg type' >&2; exit 3");
+    let place = Place::new("echo '{' > \"$last/uhp.json\"; echo 'no such leg type' >&2; exit 3");
     place.assert_refused(&[
-        "the derivation failed (exit status: 3); the committed graph is unchanged",
+        "the derivation failed (exit status: 3); the committed graphs are unchanged",
         "no such leg type",
-        "-m derivation --output graph.json",
+        "-m derivation --folder graphs",
     ]);
 }
 
 #[test]
 fn a_derivation_without_a_graph_changes_nothing() {
-    Place::new("exit 0").assert_refused(&["the derivation wrote no graph"]);
+    Place::new("exit 0").assert_refused(&["the derivation wrote no uhp.json"]);
 }
 
 #[test]
 fn a_derived_graph_that_is_refused_changes_nothing() {
     let place = Place::new(&altered("\"leg_count\": *6", "\"leg_count\": 0"));
     place.assert_refused(&[
-        "the derived graph is refused; the committed graph is unchanged",
+        "the derived uhp.json is refused; the committed graphs are unchanged",
         "leg_count is 0, expected 1 to 64",
     ]);
-    Place::new("head -c 1000 graphs/uhp.json > \"$last\"")
-        .assert_refused(&["the derived graph is refused", "EOF"]);
+    Place::new("cp graphs/*.json \"$last\"; head -c 1000 graphs/uhp.json > \"$last/uhp.json\"")
+        .assert_refused(&["the derived uhp.json is refused", "EOF"]);
 }
 
 #[test]
@@ -110,7 +110,7 @@ fn a_derived_graph_that_misses_its_own_sample_changes_nothing() {
     let place = Place::new(&altered("\"sub\"", "\"add\""));
     place.assert_refused(&[
         "does not give the derivation's own sample outputs",
-        "committed graph is unchanged",
+        "committed graphs are unchanged",
     ]);
 }
 
@@ -120,7 +120,11 @@ fn a_sound_derivation_replaces_the_graph() {
     let graph = place.path().join("codegen/graphs/uhp.json");
     let check = place.run(&["derive", "--check"]);
     assert_eq!(code(&check), 1, "{}", said(&check));
-    assert!(said(&check).contains("is not what the derivation gives"), "{}", said(&check));
+    assert!(
+        said(&check).contains("not what the derivation gives: codegen/graphs/uhp.json"),
+        "{}",
+        said(&check)
+    );
     let derive = place.run(&["derive"]);
     assert_eq!(code(&derive), 0, "{}", said(&derive));
     assert!(fs::read_to_string(&graph).unwrap().contains("0.0.0"));

@@ -40,7 +40,7 @@ fn frequencies_are_those_of_the_hand_written_dynamics() {
         let value = |pose: &Pose, name: &str| {
             let mut values = Vec::new();
             let state = reference_state(&state_at(pose)).unwrap();
-            assert!(dyn_reference::outputs::output(&parameters, &state, name, &mut values));
+            assert!(parameters.output(&state, name, &mut values));
             values
         };
         let home = Pose { position: platform.home.position, rotation: platform.home.rotation };

@@ -296,7 +296,7 @@ proptest! {
         let mut file = committed();
         edits.iter().for_each(|edit| apply(&mut file, edit));
         let Ok(file) = read(&file) else { return Ok(()) };
-        if let Ok(source) = kernels(&file, "cargo test") {
+        if let Ok(source) = kernels(std::slice::from_ref(&file), "cargo test") {
             syn::parse_file(&source).expect("kernels parse");
         }
         // Those with few results are printed fast.

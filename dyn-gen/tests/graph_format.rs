@@ -5,21 +5,7 @@ mod common;
 use dyn_gen::graph::{Environment, FormatError, Program};
 use proptest::prelude::*;
 
-const SMALL: &str = r#"{"format": "dyn-gen graph", "version": 1, "name": "small", "leg_count": 2,
- "provenance": {"casadi": "3.8.2", "derivation_sha256": "00"},
- "symbols": [
-  {"name": "x", "role": "input", "per_leg": false, "shape": [2], "unit": "m", "frame": "O", "meaning": "position", "equation": ""},
-  {"name": "k", "role": "parameter", "per_leg": true, "shape": [], "unit": "N/m", "frame": "-", "meaning": "stiffness", "equation": ""},
-  {"name": "a", "role": "intermediate", "per_leg": true, "shape": [2], "unit": "N", "frame": "O", "meaning": "matrix", "equation": ""},
-  {"name": "y", "role": "output", "per_leg": false, "shape": [2], "unit": "N", "frame": "O", "meaning": "result", "equation": "(2)"}],
- "graphs": [
-  {"name": "leg", "meaning": "one row", "inputs": ["x", "k"], "outputs": [{"symbol": "a", "nodes": [4, 5]}],
-   "nodes": [["input", 0, 0], ["input", 0, 1], ["input", 1, 0], ["const", 0.5], ["mul", 2, 0], ["add", 3, 1]]}],
- "functions": [
-  {"name": "solved", "meaning": "solution", "equation": "(2)", "inputs": ["x"], "outputs": ["y"],
-   "steps": [{"call": "leg", "over": "legs"}, {"solve": "y", "matrix": "a", "right_hand_side": "x", "symmetric_positive_definite": false}],
-   "sample_outputs": {"y": [0.5, 0.25]}}],
- "sample": {"x": [1.0, 2.0], "k": [3.0, 4.0]}}"#;
+const SMALL: &str = include_str!("common/small.json");
 
 fn error(text: &str) -> FormatError {
     Program::from_json(text).expect_err("a file to be refused")

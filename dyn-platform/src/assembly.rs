@@ -93,9 +93,9 @@ fn refuse_twins(
             && one.cross(&other).norm() <= SAME * one.norm() * other.norm()
     };
     let mut places: Vec<(Range<usize>, Vec<String>)> = Vec::new();
-    for second in 1..6 {
+    for (second, leg) in legs.iter().enumerate().skip(1) {
         let Some(first) = (0..second).find(|&first| twins(first, second)) else { continue };
-        let (at, pair) = (legs[second].span("platform_point"), format!("{} and {}", first + 1, second + 1));
+        let (at, pair) = (leg.span("platform_point"), format!("{} and {}", first + 1, second + 1));
         match places.iter_mut().find(|(place, _)| *place == at) {
             Some((_, pairs)) => pairs.push(pair),
             None => places.push((at, vec![pair])),

@@ -55,7 +55,7 @@ pub(crate) struct Section<'d> {
 impl<'d> Section<'d> {
     /// The file itself. Its unknown keys are refused by [`Section::of_leg_type`].
     pub fn file(header: Range<usize>, table: &'d DeTable<'d>) -> Self {
-        Self { title: "the file".into(), header, table, allowed: keys::FILE.to_vec(), leg_type: None }
+        Self { title: "the file".into(), header, table, allowed: keys::FILE.keys.to_vec(), leg_type: None }
     }
 
     /// The file whose legs are known to be of this type, or of no known one: tells where unknown keys belong.

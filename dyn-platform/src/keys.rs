@@ -1,5 +1,5 @@
 //! The tables of keys: spelling, value, meaning and an example of each. Reading, messages and remedies are made from
-//! them. What a leg is made of stands in the table of its type, in [`legs`](crate::legs).
+//! them. What a leg is made of stands in the table of its type, in [`legs`].
 
 use crate::legs;
 use crate::platform::LegType;
@@ -162,42 +162,60 @@ keys! {
         "rotation = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]";
 }
 
-/// Keys of the file itself.
-pub(crate) const FILE: &[&Key] = &[
-    &VERSION,
-    &NAME,
-    &DESCRIPTION,
-    &SOURCE,
-    &LEG_TYPE,
-    &GRAVITY,
-    &HOME,
-    &CIRCULAR_LAYOUT,
-    &LEGS,
-    &LEG,
-    &PAYLOAD,
-];
+/// A table of the file, but for those about legs.
+pub(crate) struct Table {
+    /// Where its keys stand, in messages.
+    pub title: &'static str,
+    pub keys: &'static [&'static Key],
+    /// Keys that must be there.
+    pub needed: &'static [&'static Key],
+}
 
-/// Keys of `[home]`.
-pub(crate) const IN_HOME: &[&Key] = &[&POSITION, &ROTATION];
+/// The file itself.
+pub(crate) const FILE: Table = Table {
+    title: "the part of the file before the first table",
+    keys: &[
+        &VERSION,
+        &NAME,
+        &DESCRIPTION,
+        &SOURCE,
+        &LEG_TYPE,
+        &GRAVITY,
+        &HOME,
+        &CIRCULAR_LAYOUT,
+        &LEGS,
+        &LEG,
+        &PAYLOAD,
+    ],
+    needed: &[&VERSION, &NAME, &LEG_TYPE, &GRAVITY, &HOME, &PAYLOAD],
+};
 
-/// Keys of `[circular_layout]`.
-pub(crate) const IN_CIRCULAR_LAYOUT: &[&Key] =
-    &[&BASE_RADIUS, &PLATFORM_RADIUS, &BASE_PAIR_ANGLE, &PLATFORM_PAIR_ANGLE];
+/// `[home]`.
+pub(crate) const IN_HOME: Table =
+    Table { title: "[home]", keys: &[&POSITION, &ROTATION], needed: &[&POSITION] };
 
-/// Keys of `[payload]`.
-pub(crate) const IN_PAYLOAD: &[&Key] = &[&PAYLOAD_MASS, &PAYLOAD_COM, &PAYLOAD_INERTIA, &PART];
+/// `[circular_layout]`.
+pub(crate) const IN_CIRCULAR_LAYOUT: Table =
+    Table { title: "[circular_layout]", keys: CIRCLES, needed: CIRCLES };
 
-/// Keys of `[[payload.part]]`.
-pub(crate) const IN_PART: &[&Key] = &[&PART_NAME, &PART_MASS, &PART_COM, &PART_INERTIA, &PART_ROTATION];
+const CIRCLES: &[&Key] = &[&BASE_RADIUS, &PLATFORM_RADIUS, &BASE_PAIR_ANGLE, &PLATFORM_PAIR_ANGLE];
 
-/// Every table with its keys, but for those about legs.
-const TABLES: [(&str, &[&Key]); 5] = [
-    ("the part of the file before the first table", FILE),
-    ("[home]", IN_HOME),
-    ("[circular_layout]", IN_CIRCULAR_LAYOUT),
-    ("[payload]", IN_PAYLOAD),
-    ("[[payload.part]]", IN_PART),
-];
+/// `[payload]`; what is needed is needed where there are no parts.
+pub(crate) const IN_PAYLOAD: Table = Table {
+    title: "[payload]",
+    keys: &[&PAYLOAD_MASS, &PAYLOAD_COM, &PAYLOAD_INERTIA, &PART],
+    needed: &[&PAYLOAD_MASS, &PAYLOAD_COM, &PAYLOAD_INERTIA],
+};
+
+/// `[[payload.part]]`.
+pub(crate) const IN_PART: Table = Table {
+    title: "[[payload.part]]",
+    keys: &[&PART_NAME, &PART_MASS, &PART_COM, &PART_INERTIA, &PART_ROTATION],
+    needed: &[&PART_MASS, &PART_COM, &PART_INERTIA],
+};
+
+/// Every table, but for those about legs.
+const TABLES: [&Table; 5] = [&FILE, &IN_HOME, &IN_CIRCULAR_LAYOUT, &IN_PAYLOAD, &IN_PART];
 
 /// Keys of `[legs]`, which may stand in `[[leg]]` too: the leg type's own, then limits. Of every leg type where it is
 /// not known which one it is.
@@ -223,8 +241,8 @@ pub(crate) enum Home {
 /// Where the key `written` belongs in a file with legs of this type, if anywhere.
 pub(crate) fn home_of(written: &str, leg_type: Option<LegType>) -> Option<Home> {
     let among = |keys: &[&Key]| keys.iter().any(|key| key.name == written);
-    if let Some((table, _)) = TABLES.iter().find(|(_, keys)| among(keys)) {
-        return Some(Home::Table(table));
+    if let Some(table) = TABLES.iter().find(|table| among(table.keys)) {
+        return Some(Home::Table(table.title));
     }
     if among(&in_legs(leg_type)) {
         return Some(Home::Table("[legs] or [[leg]]"));

@@ -24,6 +24,7 @@
 //! | `checks` | what single numbers, vectors and tensors may not be |
 //! | `assembly` | the platform at home as a whole: six legs must hold it |
 //! | `units` | hints at units that are probably wrong |
+//! | `schema`, `starter` | JSON schema for editors, files to start from |
 //! | `versions` | what to do with a file of another version |
 //! | `findings` | refusals and hints on their way out of the reader |
 //! | `layout` | from circles to joint points |
@@ -45,6 +46,8 @@ mod payload;
 mod platform;
 mod reader;
 mod refusal;
+mod schema;
+mod starter;
 mod text;
 mod units;
 mod versions;
@@ -54,4 +57,6 @@ pub use limits::{Limit, Limits};
 pub use parameters::{Matrix3, ParameterInfo, Parameters, Vector3};
 pub use platform::{LegType, Platform, Pose, VERSION};
 pub use refusal::{FileError, Refusal};
-pub use text::{first_line, nearest, read_text};
+pub use schema::schema;
+pub use starter::{Starter, starter};
+pub use text::{first_line, nearest, read_text, utf8_text};

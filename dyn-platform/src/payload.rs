@@ -72,7 +72,7 @@ pub(crate) fn payload(section: &Section, findings: &mut Findings) -> Option<Payl
             "remove the parts, or turn these numbers into a part of their own",
         ));
     }
-    let parts = section.sections("[[payload.part]]", &keys::PART, keys::IN_PART, findings)?;
+    let parts = section.sections("[[payload.part]]", &keys::PART, keys::IN_PART.keys, findings)?;
     if parts.is_empty() {
         let what = "the payload has no parts";
         let help = "give `mass_kg`, `com_m` and `inertia_kg_m2`, or add [[payload.part]] tables";

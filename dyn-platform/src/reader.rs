@@ -52,10 +52,10 @@ fn platform(file: Section, findings: &mut Findings) -> Option<Platform> {
     file.read(&keys::SOURCE, checks::any::<String>, findings);
     let gravity = file.require(&keys::GRAVITY, checks::vector, findings);
     let home = file
-        .require_section(&keys::HOME, keys::IN_HOME, findings)
+        .require_section(&keys::HOME, keys::IN_HOME.keys, findings)
         .and_then(|section| home(&section, findings));
     let payload = file
-        .require_section(&keys::PAYLOAD, keys::IN_PAYLOAD, findings)
+        .require_section(&keys::PAYLOAD, keys::IN_PAYLOAD.keys, findings)
         .and_then(|section| payload(&section, findings));
     let free_layout = file.key_span(&keys::CIRCULAR_LAYOUT).is_none();
     let misspelt = file.has_misspelt(&keys::CIRCULAR_LAYOUT) || file.has_misspelt(&keys::LEG);
@@ -148,7 +148,7 @@ fn free_layout_of(
 }
 
 fn circular_layout_of(file: &Section, tables: &LegTables, findings: &mut Findings) -> Option<Layout> {
-    let circles = file.section(&keys::CIRCULAR_LAYOUT, keys::IN_CIRCULAR_LAYOUT, findings)?;
+    let circles = file.section(&keys::CIRCULAR_LAYOUT, keys::IN_CIRCULAR_LAYOUT.keys, findings)?;
     if let Some(at) = tables.any_point(file.leg_type()) {
         findings.refuse(Refusal::new(
             at,

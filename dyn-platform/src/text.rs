@@ -17,6 +17,14 @@ pub fn read_text(path: &Path, kind: &str, help: &str) -> Result<String, FileErro
         let what = format!("cannot read the {kind} file `{source_name}`: {error}");
         FileError::new(&source_name, "", vec![Refusal::without_place(what, help)])
     })?;
+    utf8_text(&source_name, kind, bytes)
+}
+
+/// The text that these bytes of a file are.
+///
+/// # Errors
+/// They are not UTF-8; with the place of the first wrong byte.
+pub fn utf8_text(source_name: &str, kind: &str, bytes: Vec<u8>) -> Result<String, FileError> {
     String::from_utf8(bytes).map_err(|error| {
         let start = error.utf8_error().valid_up_to();
         let refusal = Refusal::new(
@@ -25,7 +33,7 @@ pub fn read_text(path: &Path, kind: &str, help: &str) -> Result<String, FileErro
             format!("the {kind} file is not UTF-8 text"),
             "save it as UTF-8",
         );
-        FileError::new(&source_name, String::from_utf8_lossy(error.as_bytes()), vec![refusal])
+        FileError::new(source_name, String::from_utf8_lossy(error.as_bytes()), vec![refusal])
     })
 }
 

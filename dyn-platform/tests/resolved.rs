@@ -299,7 +299,7 @@ fn parts_of_a_payload_are_summed() {
         name = \"middle\"
         mass_kg = 2.0
         com_m = [0.0, 0.0, 0.1]
-        inertia_kg_m2 = [[0.01, 0.0, 0.0], [0.0, 0.02, 0.0], [0.0, 0.0, 0.025]]
+        inertia_kg_m2 = [[0.01, 0.0, 0.003], [0.0, 0.02, 0.0], [0.003, 0.0, 0.025]]
         rotation = [[0.0, -1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]]
         [[payload.part]]
         mass_kg = 1.0
@@ -319,9 +319,13 @@ fn parts_of_a_payload_are_summed() {
         );
     };
     near(&parameters.payload_com, &[0.05, 0.0, 0.1]);
-    // From the middle (-0.05, 0), the second (-0.05, 0.3) and the third (0.15, -0.3), all in the plane z = 0.1:
+    // The turn takes x to y, hence yz: 0.003. From the common centre of mass the middle is at (-0.05, 0), the second part at
+    // (-0.05, 0.3) and the third at (0.15, -0.3), all in the plane z = 0.1, hence
     // xx: 0.02 + 2e-3 + 2 * 0.09, yy: 0.01 + 2e-3 + 2 * 0.0025 + 0.0025 + 0.0225, xy: -(-0.015 - 0.045).
-    near(parameters.payload_inertia.as_flattened(), &[0.202, 0.06, 0.0, 0.06, 0.042, 0.0, 0.0, 0.0, 0.237]);
+    near(
+        parameters.payload_inertia.as_flattened(),
+        &[0.202, 0.06, 0.0, 0.06, 0.042, 0.003, 0.0, 0.003, 0.237],
+    );
 }
 
 #[test]

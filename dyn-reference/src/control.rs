@@ -1,17 +1,18 @@
 //! What controllers need besides the equation of motion: forces at reference speeds, the bias on an accelerating
 //! base, the wrench of the base.
 
-use nalgebra::{Vector3, Vector6};
+use nalgebra::{Matrix3, Vector3, Vector6};
 
 use crate::bodies::body_kinematics;
 use crate::dynamics::bias;
 use crate::leg::{jacobian_dp, leg_geometries};
-use crate::matrices::{coriolis_matrices, mass_matrix_b, mass_matrix_p, payload_inertia, rod_inertia};
+use crate::legs::LegType;
+use crate::matrices::{coriolis_matrices, mass_matrix_b, mass_matrix_p, payload_inertia};
 use crate::parameters::Parameters;
 use crate::state::{State, angular, linear, stack};
 
 /// `bias - M_b v_b'`, N and N m: all of (49) but `M_p v_p'`, `J_dp^T F` and `W_ext`.
-pub fn total_bias(parameters: &Parameters, state: &State) -> Vector6<f64> {
+pub fn total_bias<L: LegType>(parameters: &Parameters<L>, state: &State) -> Vector6<f64> {
     bias(parameters, state) - mass_matrix_b(parameters, state) * state.base.acceleration
 }
 
@@ -19,7 +20,10 @@ pub fn total_bias(parameters: &Parameters, state: &State) -> Vector6<f64> {
 /// `J_dp^T F = M_p a_r + C_p v_r - C_b v_b - M_b v_b' + passive forces - W_ext`, formed with the matrices.
 ///
 /// `None` where `J_dp` is singular or a leg is out of reach.
-pub fn passive_inverse_dynamics(parameters: &Parameters, state: &State) -> Option<Vector6<f64>> {
+pub fn passive_inverse_dynamics<L: LegType>(
+    parameters: &Parameters<L>,
+    state: &State,
+) -> Option<Vector6<f64>> {
     let arm = state.platform.rotation * parameters.payload.com_m;
     let force = linear(&state.external_wrench);
     let external = stack(&force, &(angular(&state.external_wrench) + arm.cross(&force)));
@@ -32,9 +36,9 @@ pub fn passive_inverse_dynamics(parameters: &Parameters, state: &State) -> Optio
     force.iter().all(|component| component.is_finite()).then_some(force)
 }
 
-/// Wrench of the base on payload, rods and movers together, N and N m, in O, moments about `r_b`: the rate of
+/// Wrench of the base on payload and both bodies of every leg, N and N m, in O, moments about `r_b`: the rate of
 /// momentum of every body less its weight, less the external wrench.
-pub fn base_wrench(parameters: &Parameters, state: &State) -> Vector6<f64> {
+pub fn base_wrench<L: LegType>(parameters: &Parameters<L>, state: &State) -> Vector6<f64> {
     let bodies = body_kinematics(parameters, state);
     let geometries = leg_geometries(parameters, state);
     let State { base, platform, .. } = state;
@@ -52,18 +56,17 @@ pub fn base_wrench(parameters: &Parameters, state: &State) -> Vector6<f64> {
         inertia * platform.angular_acceleration() + w.cross(&(inertia * w)) - angular(&state.external_wrench),
     );
     for (i, leg) in parameters.legs.iter().enumerate() {
-        let inertia = rod_inertia(leg, &geometries[i]);
-        let w = bodies.rod_angular_velocity[i];
-        add(
-            weightless(leg.rod_mass_kg, bodies.rod_com_acceleration[i]),
-            bodies.rod_com_position[i],
-            inertia * bodies.rod_angular_acceleration[i] + w.cross(&(inertia * w)),
-        );
-        add(
-            weightless(leg.mover_mass_kg, bodies.mover_acceleration[i]),
-            bodies.mover_position[i],
-            Vector3::zeros(),
-        );
+        let (masses, inertias) = (leg.masses(), leg.inertias());
+        let u = geometries[i].direction;
+        let w = bodies.leg_angular_velocity[i];
+        for body in 0..2 {
+            let inertia = inertias[body] * (Matrix3::identity() - u * u.transpose());
+            add(
+                weightless(masses[body], bodies.com_acceleration[i][body]),
+                bodies.com_position[i][body],
+                inertia * bodies.leg_angular_acceleration[i] + w.cross(&(inertia * w)),
+            );
+        }
     }
     total
 }

@@ -14,6 +14,7 @@ use nalgebra::{Matrix6, Vector6};
 
 use crate::forces::{PassiveForces, passive_forces_of, total_generalised_force};
 use crate::leg::{jacobian_dp_of, leg_geometries, leg_velocities};
+use crate::legs::LegType;
 use crate::matrices::{Matrices, StiffnessMatrices, mass_matrix_p_of, matrices_of, stiffness_matrices_of};
 use crate::parameters::Parameters;
 use crate::state::State;
@@ -22,7 +23,7 @@ use crate::state::State;
 ///
 /// Computed as minus the total generalised force with `v_p'`, `v_b'`, `F` and the external wrench put to
 /// zero.
-pub fn bias(parameters: &Parameters, state: &State) -> Vector6<f64> {
+pub fn bias<L: LegType>(parameters: &Parameters<L>, state: &State) -> Vector6<f64> {
     let mut unforced = *state;
     unforced.base.acceleration = Vector6::zeros();
     unforced.platform.acceleration = Vector6::zeros();
@@ -62,7 +63,7 @@ pub struct EquationOfMotion {
 }
 
 /// Every term of the equation of motion (49), with the legs computed once.
-pub fn equation_of_motion(parameters: &Parameters, state: &State) -> EquationOfMotion {
+pub fn equation_of_motion<L: LegType>(parameters: &Parameters<L>, state: &State) -> EquationOfMotion {
     let State { base, platform, .. } = state;
     let geometries = leg_geometries(parameters, state);
     let velocities = leg_velocities(parameters, state, &geometries);
@@ -101,7 +102,7 @@ pub fn equation_of_motion(parameters: &Parameters, state: &State) -> EquationOfM
 /// wrench; `state.actuator_force_n` is not read.
 ///
 /// `None` where `J_dp` is singular or a leg is out of reach.
-pub fn inverse_dynamics(parameters: &Parameters, state: &State) -> Option<Vector6<f64>> {
+pub fn inverse_dynamics<L: LegType>(parameters: &Parameters<L>, state: &State) -> Option<Vector6<f64>> {
     let mut unactuated = *state;
     unactuated.actuator_force_n = Vector6::zeros();
     let geometries = leg_geometries(parameters, state);
@@ -114,7 +115,7 @@ pub fn inverse_dynamics(parameters: &Parameters, state: &State) -> Option<Vector
 /// and base motion; `state.platform.acceleration` is not read.
 ///
 /// `None` where `M_p` is not positive definite, as with a leg out of reach.
-pub fn forward_dynamics(parameters: &Parameters, state: &State) -> Option<Vector6<f64>> {
+pub fn forward_dynamics<L: LegType>(parameters: &Parameters<L>, state: &State) -> Option<Vector6<f64>> {
     let mut unaccelerated = *state;
     unaccelerated.platform.acceleration = Vector6::zeros();
     let geometries = leg_geometries(parameters, state);

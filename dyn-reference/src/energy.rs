@@ -1,10 +1,10 @@
-//! Kinetic and potential energy of payload, rods, movers and springs.
+//! Kinetic and potential energy of payload, legs' bodies and springs.
 
 use nalgebra::Vector3;
 
-use crate::bodies::{mover_arm, mover_velocity, rod_com};
 use crate::leg::{leg_geometries, leg_velocities};
-use crate::matrices::{payload_inertia, rod_inertia};
+use crate::legs::{LegType, transverse_inertia};
+use crate::matrices::payload_inertia;
 use crate::parameters::Parameters;
 use crate::state::State;
 
@@ -18,7 +18,7 @@ pub struct Energy {
 }
 
 /// Energy of all moving bodies in O, and of the springs.
-pub fn energy(parameters: &Parameters, state: &State) -> Energy {
+pub fn energy<L: LegType>(parameters: &Parameters<L>, state: &State) -> Energy {
     let State { base, platform, .. } = state;
     let gravity = &parameters.gravity_m_s2;
     let translation = |mass: f64, velocity: &Vector3<f64>| 0.5 * mass * velocity.norm_squared();
@@ -34,17 +34,17 @@ pub fn energy(parameters: &Parameters, state: &State) -> Energy {
     for i in 0..6 {
         let (leg, geometry, velocity) = (&parameters.legs[i], &geometries[i], &velocities[i]);
         let w_s = &velocity.rod_angular;
-        kinetic += translation(leg.rod_mass_kg, &rod_com(leg, &velocity.hooke, &velocity.platform_joint))
-            + 0.5 * w_s.dot(&(rod_inertia(leg, geometry) * w_s))
-            + translation(leg.mover_mass_kg, &mover_velocity(leg, geometry, velocity, base));
-
-        let hooke = base.position_m + geometry.hooke_arm;
-        let rod = rod_com(leg, &hooke, &(platform.position_m + geometry.platform_arm));
-        let mover = base.position_m + mover_arm(leg, geometry);
-        let extension = geometry.length - leg.rest_length_m;
-        potential += 0.5 * leg.axial_stiffness_n_m * extension * extension
-            - leg.rod_mass_kg * gravity.dot(&rod)
-            - leg.mover_mass_kg * gravity.dot(&mover);
+        let inertia = transverse_inertia(leg.turning_inertia(), geometry);
+        kinetic += 0.5 * w_s.dot(&(inertia * w_s));
+        let (masses, velocities) = (leg.masses(), leg.com_velocity(geometry, velocity, base));
+        let positions = leg.com_position(geometry, base, platform);
+        for body in 0..2 {
+            kinetic += translation(masses[body], &velocities[body]);
+            potential -= masses[body] * gravity.dot(&positions[body]);
+        }
+        let element = leg.axial_element();
+        let extension = geometry.length - element.rest_length_m;
+        potential += 0.5 * element.stiffness_n_m * extension * extension;
     }
     Energy { kinetic_energy: kinetic, potential_energy: potential }
 }

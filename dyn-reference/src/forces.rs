@@ -1,8 +1,8 @@
 //! Generalised forces of every body for the six platform speeds, (39)-(46), and the passive forces, in O
 //! coordinates.
 //!
-//! An active force is gravity on every body, the external wrench on the payload, and on the mover the forces
-//! along its axis: actuator, spring, damper. An inertia force is `-m r''` with the moment `-(I w' + w x I
+//! An active force is gravity on every body, the external wrench on the payload, and in a leg the forces along the
+//! actuator: actuator, spring, damper. An inertia force is `-m r''` with the moment `-(I w' + w x I
 //! w)`. Each is projected on its body's partial velocities. In (42) the external force appears a second time;
 //! it acts once, on the payload (39).
 
@@ -10,10 +10,10 @@ use core::array::from_fn;
 
 use nalgebra::{Vector3, Vector6};
 
-use crate::bodies::{mover_acceleration, rod_com};
-use crate::leg::{LegAcceleration, LegGeometry, LegVelocity, leg_geometries, leg_velocities};
-use crate::matrices::{payload_inertia, rod_inertia};
-use crate::parameters::{Leg, Parameters};
+use crate::leg::{LegGeometry, LegVelocity, leg_geometries, leg_velocities};
+use crate::legs::{LegType, transverse_inertia};
+use crate::matrices::payload_inertia;
+use crate::parameters::Parameters;
 use crate::partial_velocities::{LegPartials, PayloadPartials};
 use crate::state::{RigidBodyMotion, State, angular, linear};
 
@@ -24,7 +24,7 @@ struct Wrench {
 }
 
 /// Gravity and external wrench on the payload.
-fn payload_active(parameters: &Parameters, state: &State) -> Wrench {
+fn payload_active<L: LegType>(parameters: &Parameters<L>, state: &State) -> Wrench {
     Wrench {
         force: parameters.payload.mass_kg * parameters.gravity_m_s2 + linear(&state.external_wrench),
         moment: angular(&state.external_wrench),
@@ -32,7 +32,7 @@ fn payload_active(parameters: &Parameters, state: &State) -> Wrench {
 }
 
 /// Inertia force and moment of the payload.
-fn payload_inertia_wrench(parameters: &Parameters, platform: &RigidBodyMotion) -> Wrench {
+fn payload_inertia_wrench<L: LegType>(parameters: &Parameters<L>, platform: &RigidBodyMotion) -> Wrench {
     let acceleration = platform.point_acceleration(&(platform.rotation * parameters.payload.com_m));
     let inertia = payload_inertia(parameters, platform);
     let w = platform.angular_velocity();
@@ -44,15 +44,16 @@ fn payload_inertia_wrench(parameters: &Parameters, platform: &RigidBodyMotion) -
 
 /// Forces on one leg's bodies, N and N m, in O.
 struct LegForces {
-    rod_active: Vector3<f64>,
-    rod_inertia: Wrench,
-    mover_active: Vector3<f64>,
-    mover_inertia: Vector3<f64>,
+    active: [Vector3<f64>; 2],
+    /// `-m r''`.
+    inertia: [Vector3<f64>; 2],
+    /// `w_s'`, in rad/s^2: without spin `I w = J w`, so that the gyroscopic moment `w x I w` of (43) vanishes.
+    turning: Vector3<f64>,
 }
 
 impl LegForces {
-    fn new(
-        leg: &Leg,
+    fn new<L: LegType>(
+        leg: &L,
         gravity: &Vector3<f64>,
         actuator_force: f64,
         geometry: &LegGeometry,
@@ -60,32 +61,29 @@ impl LegForces {
         base: &RigidBodyMotion,
         platform: &RigidBodyMotion,
     ) -> Self {
-        let acceleration = LegAcceleration::new(leg, geometry, velocity, base, platform);
-        let rod_acceleration = rod_com(leg, &acceleration.hooke, &acceleration.platform_joint);
-        // Without spin I w = J_s w, so that the gyroscopic moment w x I w of (43) vanishes.
-        let rod_moment = rod_inertia(leg, geometry) * acceleration.rod_angular;
-        let axial =
-            actuator_force - spring_tension(leg, geometry) - leg.axial_damping_n_s_m * velocity.length_rate;
+        let acceleration = leg.acceleration(geometry, velocity, base, platform);
+        let element = leg.axial_element();
+        let axial = actuator_force - element.spring_tension(geometry) - element.damper_tension(velocity);
+        let [first, second] = leg.com_acceleration(geometry, velocity, &acceleration, base);
+        let [first_mass, second_mass] = leg.masses();
         Self {
-            rod_active: leg.rod_mass_kg * gravity,
-            rod_inertia: Wrench { force: -leg.rod_mass_kg * rod_acceleration, moment: -rod_moment },
-            mover_active: leg.mover_mass_kg * gravity + axial * geometry.axis,
-            mover_inertia: -leg.mover_mass_kg
-                * mover_acceleration(leg, geometry, velocity, &acceleration, base),
+            active: leg.active_force(gravity, axial, geometry),
+            inertia: [-first_mass * first, -second_mass * second],
+            turning: acceleration.rod_angular,
         }
     }
 
-    /// The leg's generalised force: every body's forces on its partial velocities (33)-(38).
-    fn project(&self, partials: &LegPartials) -> Vector6<f64> {
-        partials.rod.tr_mul(&(self.rod_active + self.rod_inertia.force))
-            + partials.rod_angular.tr_mul(&self.rod_inertia.moment)
-            + partials.mover.tr_mul(&(self.mover_active + self.mover_inertia))
+    /// `-I w_s'` for a transverse moment of inertia.
+    fn moment(&self, inertia: f64, geometry: &LegGeometry) -> Vector3<f64> {
+        -(transverse_inertia(inertia, geometry) * self.turning)
     }
-}
 
-/// `k_e (d - d_0)`, N.
-fn spring_tension(leg: &Leg, geometry: &LegGeometry) -> f64 {
-    leg.axial_stiffness_n_m * (geometry.length - leg.rest_length_m)
+    /// The leg's generalised force: every body's forces on its partial velocities (33)-(38).
+    fn project<L: LegType>(&self, leg: &L, geometry: &LegGeometry, partials: &LegPartials) -> Vector6<f64> {
+        partials.com[0].tr_mul(&(self.active[0] + self.inertia[0]))
+            + partials.angular.tr_mul(&self.moment(leg.turning_inertia(), geometry))
+            + partials.com[1].tr_mul(&(self.active[1] + self.inertia[1]))
+    }
 }
 
 fn project_payload(partials: &PayloadPartials, wrench: &Wrench) -> Vector6<f64> {
@@ -99,25 +97,20 @@ pub struct GeneralisedForces {
     pub payload_active_force: Vector6<f64>,
     /// Payload.
     pub payload_inertia_force: Vector6<f64>,
-    /// Rods: gravity.
-    pub rod_active_force: [Vector6<f64>; 6],
-    /// Rods.
-    pub rod_inertia_force: [Vector6<f64>; 6],
-    /// Movers: gravity, actuator, spring, damper.
-    pub mover_active_force: [Vector6<f64>; 6],
-    /// Movers.
-    pub mover_inertia_force: [Vector6<f64>; 6],
+    /// Both bodies of every leg: gravity, and on one or both actuator, spring, damper.
+    pub active_force: [[Vector6<f64>; 2]; 6],
+    /// Both bodies of every leg.
+    pub inertia_force: [[Vector6<f64>; 2]; 6],
 }
 
 /// Kane's active and inertia forces of every body, (39)-(46), at the state's accelerations and forces. Their
 /// total vanishes exactly when the equation of motion holds.
-pub fn generalised_forces(parameters: &Parameters, state: &State) -> GeneralisedForces {
+pub fn generalised_forces<L: LegType>(parameters: &Parameters<L>, state: &State) -> GeneralisedForces {
     let State { base, platform, .. } = state;
     let geometries = leg_geometries(parameters, state);
     let velocities = leg_velocities(parameters, state, &geometries);
     let payload = PayloadPartials::new(parameters, platform);
-    let partials: [LegPartials; 6] =
-        from_fn(|i| LegPartials::by_platform(&parameters.legs[i], &geometries[i]));
+    let partials: [LegPartials; 6] = from_fn(|i| parameters.legs[i].partials_by_platform(&geometries[i]));
     let forces: [LegForces; 6] = from_fn(|i| {
         LegForces::new(
             &parameters.legs[i],
@@ -132,19 +125,20 @@ pub fn generalised_forces(parameters: &Parameters, state: &State) -> Generalised
     GeneralisedForces {
         payload_active_force: project_payload(&payload, &payload_active(parameters, state)),
         payload_inertia_force: project_payload(&payload, &payload_inertia_wrench(parameters, platform)),
-        rod_active_force: from_fn(|i| partials[i].rod.tr_mul(&forces[i].rod_active)),
-        rod_inertia_force: from_fn(|i| {
-            partials[i].rod.tr_mul(&forces[i].rod_inertia.force)
-                + partials[i].rod_angular.tr_mul(&forces[i].rod_inertia.moment)
+        active_force: from_fn(|i| from_fn(|body| partials[i].com[body].tr_mul(&forces[i].active[body]))),
+        inertia_force: from_fn(|i| {
+            let inertias = parameters.legs[i].inertias();
+            from_fn(|body| {
+                let moment = forces[i].moment(inertias[body], &geometries[i]);
+                partials[i].com[body].tr_mul(&forces[i].inertia[body]) + partials[i].angular.tr_mul(&moment)
+            })
         }),
-        mover_active_force: from_fn(|i| partials[i].mover.tr_mul(&forces[i].mover_active)),
-        mover_inertia_force: from_fn(|i| partials[i].mover.tr_mul(&forces[i].mover_inertia)),
     }
 }
 
 /// Sum of all generalised forces, active and inertia.
-pub(crate) fn total_generalised_force(
-    parameters: &Parameters,
+pub(crate) fn total_generalised_force<L: LegType>(
+    parameters: &Parameters<L>,
     state: &State,
     geometries: &[LegGeometry; 6],
 ) -> Vector6<f64> {
@@ -153,11 +147,11 @@ pub(crate) fn total_generalised_force(
     let mut total = project_payload(&payload, &payload_active(parameters, state))
         + project_payload(&payload, &payload_inertia_wrench(parameters, platform));
     for (i, (leg, geometry)) in parameters.legs.iter().zip(geometries).enumerate() {
-        let velocity = LegVelocity::new(leg, geometry, base, platform);
+        let velocity = leg.velocity(geometry, base, platform);
         let gravity = &parameters.gravity_m_s2;
         let forces =
             LegForces::new(leg, gravity, state.actuator_force_n[i], geometry, &velocity, base, platform);
-        total += forces.project(&LegPartials::by_platform(leg, geometry));
+        total += forces.project(leg, geometry, &leg.partials_by_platform(geometry));
     }
     total
 }
@@ -166,7 +160,7 @@ pub(crate) fn total_generalised_force(
 /// of the equation of motion.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PassiveForces {
-    /// `-sum J_p^T m g` over payload, rods and movers.
+    /// `-sum J_p^T m g` over payload and legs' bodies.
     pub gravity_force: Vector6<f64>,
     /// `J_dp^T k_e (d - d_0)`.
     pub spring_force: Vector6<f64>,
@@ -175,14 +169,14 @@ pub struct PassiveForces {
 }
 
 /// Gravity, springs and dampers.
-pub fn passive_forces(parameters: &Parameters, state: &State) -> PassiveForces {
+pub fn passive_forces<L: LegType>(parameters: &Parameters<L>, state: &State) -> PassiveForces {
     let geometries = leg_geometries(parameters, state);
     let velocities = leg_velocities(parameters, state, &geometries);
     passive_forces_of(parameters, &state.platform, &geometries, &velocities)
 }
 
-pub(crate) fn passive_forces_of(
-    parameters: &Parameters,
+pub(crate) fn passive_forces_of<L: LegType>(
+    parameters: &Parameters<L>,
     platform: &RigidBodyMotion,
     geometries: &[LegGeometry; 6],
     velocities: &[LegVelocity; 6],
@@ -196,12 +190,13 @@ pub(crate) fn passive_forces_of(
     };
     for i in 0..6 {
         let (leg, geometry) = (&parameters.legs[i], &geometries[i]);
-        let partials = LegPartials::by_platform(leg, geometry);
-        let along = partials.length.transpose();
-        forces.gravity_force -= partials.rod.tr_mul(&(leg.rod_mass_kg * gravity))
-            + partials.mover.tr_mul(&(leg.mover_mass_kg * gravity));
-        forces.spring_force += along * spring_tension(leg, geometry);
-        forces.damping_force += along * (leg.axial_damping_n_s_m * velocities[i].length_rate);
+        let partials = leg.partials_by_platform(geometry);
+        let (along, element) = (partials.length.transpose(), leg.axial_element());
+        let [first, second] = leg.masses();
+        forces.gravity_force -=
+            partials.com[0].tr_mul(&(first * gravity)) + partials.com[1].tr_mul(&(second * gravity));
+        forces.spring_force += along * element.spring_tension(geometry);
+        forces.damping_force += along * element.damper_tension(&velocities[i]);
     }
     forces
 }

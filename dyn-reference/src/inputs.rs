@@ -6,28 +6,14 @@ use core::fmt;
 
 use nalgebra::{Matrix3, Vector3, Vector6};
 
-use crate::parameters::{Leg, Parameters, Payload};
+use crate::legs::LegType;
+use crate::parameters::{Parameters, Payload};
 use crate::state::{RigidBodyMotion, State};
 
-/// Names and shapes of the parameters; a leading 6 counts the legs, an empty shape is a scalar.
-pub const PARAMETERS: &[(&str, &[usize])] = &[
-    ("base_point", &[6, 3]),
-    ("actuator_axis", &[6, 3]),
-    ("platform_point", &[6, 3]),
-    ("rod_length", &[6]),
-    ("rod_mass", &[6]),
-    ("rod_inertia", &[6]),
-    ("rod_com_fraction", &[6]),
-    ("mover_mass", &[6]),
-    ("mover_offset", &[6]),
-    ("rest_length", &[6]),
-    ("axial_stiffness", &[6]),
-    ("axial_damping", &[6]),
-    ("payload_mass", &[]),
-    ("payload_com", &[3]),
-    ("payload_inertia", &[3, 3]),
-    ("gravity", &[3]),
-];
+/// Names and shapes of the parameters that every leg type has; those of its legs are in [`LegType::PARAMETERS`]. An
+/// empty shape is a scalar.
+pub const PARAMETERS: &[(&str, &[usize])] =
+    &[("payload_mass", &[]), ("payload_com", &[3]), ("payload_inertia", &[3, 3]), ("gravity", &[3])];
 
 /// Names and shapes of a state's parts.
 pub const STATE: &[(&str, &[usize])] = &[
@@ -67,7 +53,7 @@ impl fmt::Display for InputError {
 
 impl Error for InputError {}
 
-fn array<const N: usize>(
+pub(crate) fn array<const N: usize>(
     lookup: &mut impl FnMut(&str) -> Option<Vec<f64>>,
     name: &'static str,
 ) -> Result<[f64; N], InputError> {
@@ -76,48 +62,21 @@ fn array<const N: usize>(
     values.try_into().map_err(|_| InputError { name, expected: N, found })
 }
 
-impl Parameters {
-    /// Parameters from flat row-major arrays under the names of [`PARAMETERS`], in SI units. Of the payload's
-    /// inertia the upper triangle counts.
+impl<L: LegType> Parameters<L> {
+    /// Parameters from flat row-major arrays under the names of [`LegType::PARAMETERS`] and [`PARAMETERS`], in SI
+    /// units. Of the payload's inertia the upper triangle counts.
     ///
     /// # Errors
     /// A value is missing or has the wrong number of entries.
     pub fn from_arrays(mut lookup: impl FnMut(&str) -> Option<Vec<f64>>) -> Result<Self, InputError> {
         let lookup = &mut lookup;
-        let base_point = array::<18>(lookup, "base_point")?;
-        let actuator_axis = array::<18>(lookup, "actuator_axis")?;
-        let platform_point = array::<18>(lookup, "platform_point")?;
-        let rod_length = array::<6>(lookup, "rod_length")?;
-        let rod_mass = array::<6>(lookup, "rod_mass")?;
-        let rod_inertia = array::<6>(lookup, "rod_inertia")?;
-        let rod_com_fraction = array::<6>(lookup, "rod_com_fraction")?;
-        let mover_mass = array::<6>(lookup, "mover_mass")?;
-        let mover_offset = array::<6>(lookup, "mover_offset")?;
-        let rest_length = array::<6>(lookup, "rest_length")?;
-        let axial_stiffness = array::<6>(lookup, "axial_stiffness")?;
-        let axial_damping = array::<6>(lookup, "axial_damping")?;
+        let legs = L::from_arrays(lookup)?;
         let [payload_mass] = array::<1>(lookup, "payload_mass")?;
         let payload_com = array::<3>(lookup, "payload_com")?;
-        let inertia = array::<9>(lookup, "payload_inertia")?;
+        let [xx, xy, xz, _, yy, yz, _, _, zz] = array::<9>(lookup, "payload_inertia")?;
         let gravity = array::<3>(lookup, "gravity")?;
-
-        let row = |matrix: &[f64; 18], i: usize| Vector3::from_column_slice(&matrix[3 * i..3 * i + 3]);
-        let [xx, xy, xz, _, yy, yz, _, _, zz] = inertia;
         Ok(Self {
-            legs: core::array::from_fn(|i| Leg {
-                base_point_m: row(&base_point, i),
-                actuator_axis: row(&actuator_axis, i),
-                platform_point_m: row(&platform_point, i),
-                rod_length_m: rod_length[i],
-                rod_mass_kg: rod_mass[i],
-                rod_inertia_kg_m2: rod_inertia[i],
-                rod_com_fraction: rod_com_fraction[i],
-                mover_mass_kg: mover_mass[i],
-                mover_offset_m: mover_offset[i],
-                rest_length_m: rest_length[i],
-                axial_stiffness_n_m: axial_stiffness[i],
-                axial_damping_n_s_m: axial_damping[i],
-            }),
+            legs,
             payload: Payload {
                 mass_kg: payload_mass,
                 com_m: Vector3::from(payload_com),

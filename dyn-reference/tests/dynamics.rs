@@ -1,26 +1,25 @@
 //! The equation of motion as a whole: Hamilton's principle, balance of power, momentum, inverse against
 //! forward.
 
+#[macro_use]
 mod common;
 
-use common::{
-    DIFFERENCES, POSE_STEP, TIME_STEP, Worst, derivative, displaced, for_random_states, moved_state, twist,
-};
+use common::{DIFFERENCES, POSE_STEP, TIME_STEP, Worst, derivative, displaced, moved_state, twist};
 use dyn_reference::{
-    Parameters, State, body_kinematics, energy, equation_of_motion, forward_dynamics, generalised_forces,
-    inverse_dynamics, leg_kinematics, mass_matrix_b, mass_matrix_p, passive_forces,
+    LegType, Parameters, State, body_kinematics, energy, equation_of_motion, forward_dynamics,
+    generalised_forces, inverse_dynamics, leg_kinematics, mass_matrix_b, mass_matrix_p, passive_forces,
 };
 use nalgebra::{Matrix3, Vector1, Vector3, Vector6};
 
 /// The state with the acceleration that its forces give.
-fn solved(parameters: &Parameters, state: &State) -> State {
+fn solved<L: LegType>(parameters: &Parameters<L>, state: &State) -> State {
     let mut solved = *state;
     solved.platform.acceleration = forward_dynamics(parameters, state).unwrap();
     solved
 }
 
 /// `[F_D; M_D]` moved from the payload's centre of mass to `r_p`.
-fn wrench_at_origin(parameters: &Parameters, state: &State) -> Vector6<f64> {
+fn wrench_at_origin<L: LegType>(parameters: &Parameters<L>, state: &State) -> Vector6<f64> {
     let force: Vector3<f64> = state.external_wrench.fixed_rows::<3>(0).into();
     let moment: Vector3<f64> = state.external_wrench.fixed_rows::<3>(3).into();
     let arm = state.platform.rotation * parameters.payload.com_m;
@@ -31,14 +30,15 @@ fn wrench_at_origin(parameters: &Parameters, state: &State) -> Vector6<f64> {
 fn generalised_forces_vanish_at_the_forward_acceleration() {
     let mut bodies = Worst::new("total of generalised forces");
     let mut equation = Worst::new("M_p v_p' + bias = Jdp^T F + W_ext + M_b v_b'");
-    for_random_states(20, 200, |case, state| {
+    for_random_states!(20, 200, |case, state| {
         let parameters = &case.parameters;
         let state = solved(parameters, state);
         let f = generalised_forces(parameters, &state);
-        let legs = [f.rod_active_force, f.rod_inertia_force, f.mover_active_force, f.mover_inertia_force];
-        let total =
-            f.payload_active_force + f.payload_inertia_force + legs.iter().flatten().sum::<Vector6<f64>>();
-        let size = legs.iter().flatten().map(|force| force.norm()).fold(0.0, f64::max);
+        let legs = [f.active_force, f.inertia_force];
+        let total = f.payload_active_force
+            + f.payload_inertia_force
+            + legs.iter().flatten().flatten().sum::<Vector6<f64>>();
+        let size = legs.iter().flatten().flatten().map(|force| force.norm()).fold(0.0, f64::max);
         bodies.compare(&total, &Vector6::zeros(), size);
 
         let eom = equation_of_motion(parameters, &state);
@@ -57,7 +57,7 @@ fn generalised_forces_vanish_at_the_forward_acceleration() {
 fn inverse_undoes_forward_and_forward_undoes_inverse() {
     let mut force = Worst::new("inverse after forward");
     let mut acceleration = Worst::new("forward after inverse");
-    for_random_states(21, 200, |case, state| {
+    for_random_states!(21, 200, |case, state| {
         let parameters = &case.parameters;
         let found = inverse_dynamics(parameters, &solved(parameters, state)).unwrap();
         // Forces that act together with F, of which F is the remainder.
@@ -77,7 +77,7 @@ fn inverse_undoes_forward_and_forward_undoes_inverse() {
 #[test]
 fn every_force_enters_the_inverse_dynamics() {
     let mut difference = Worst::new("F is affine in the external wrench and in v_p'");
-    for_random_states(22, 50, |case, state| {
+    for_random_states!(22, 50, |case, state| {
         let parameters = &case.parameters;
         let eom = equation_of_motion(parameters, state);
         let force = inverse_dynamics(parameters, state).unwrap();
@@ -97,7 +97,7 @@ fn every_force_enters_the_inverse_dynamics() {
 #[test]
 fn motion_obeys_hamiltons_principle() {
     let mut worst = Worst::new("Hamilton's principle");
-    for_random_states(23, 60, |case, state| {
+    for_random_states!(23, 60, |case, state| {
         let parameters = &case.parameters;
         let state = solved(parameters, state);
         let momentum = |t: f64| {
@@ -130,7 +130,7 @@ fn motion_obeys_hamiltons_principle() {
 #[test]
 fn power_is_balanced() {
     let mut worst = Worst::new("power");
-    for_random_states(24, 100, |case, state| {
+    for_random_states!(24, 100, |case, state| {
         let parameters = &case.parameters;
         let state = solved(parameters, state);
         let rate = derivative(TIME_STEP, |t| {
@@ -154,7 +154,7 @@ fn power_is_balanced() {
 
 /// Wrench of the base on the mechanism, moments about `r_b`: rate of its momentum less gravity, `F_D` and
 /// `M_D`.
-fn base_wrench(parameters: &Parameters, state: &State) -> Vector6<f64> {
+fn base_wrench<L: LegType>(parameters: &Parameters<L>, state: &State) -> Vector6<f64> {
     let bodies = body_kinematics(parameters, state);
     let gravity = parameters.gravity_m_s2;
     let mut wrench = Vector6::zeros();
@@ -164,8 +164,9 @@ fn base_wrench(parameters: &Parameters, state: &State) -> Vector6<f64> {
     };
     add(parameters.payload.mass_kg, &bodies.payload_com_position, &bodies.payload_com_acceleration);
     for (i, leg) in parameters.legs.iter().enumerate() {
-        add(leg.rod_mass_kg, &bodies.rod_com_position[i], &bodies.rod_com_acceleration[i]);
-        add(leg.mover_mass_kg, &bodies.mover_position[i], &bodies.mover_acceleration[i]);
+        for (body, mass) in leg.masses().into_iter().enumerate() {
+            add(mass, &bodies.com_position[i][body], &bodies.com_acceleration[i][body]);
+        }
     }
     let rotation = state.platform.rotation;
     let inertia = rotation * parameters.payload.inertia_kg_m2 * rotation.transpose();
@@ -173,9 +174,9 @@ fn base_wrench(parameters: &Parameters, state: &State) -> Vector6<f64> {
     let mut moment = inertia * state.platform.angular_acceleration() + w.cross(&(inertia * w));
     let u = leg_kinematics(parameters, state).rod_direction;
     for (i, leg) in parameters.legs.iter().enumerate() {
-        let inertia = leg.rod_inertia_kg_m2 * (Matrix3::identity() - u[i] * u[i].transpose());
-        let w = bodies.rod_angular_velocity[i];
-        moment += inertia * bodies.rod_angular_acceleration[i] + w.cross(&(inertia * w));
+        let inertia = leg.turning_inertia() * (Matrix3::identity() - u[i] * u[i].transpose());
+        let w = bodies.leg_angular_velocity[i];
+        moment += inertia * bodies.leg_angular_acceleration[i] + w.cross(&(inertia * w));
     }
     let force: Vector3<f64> = state.external_wrench.fixed_rows::<3>(0).into();
     let external: Vector3<f64> = state.external_wrench.fixed_rows::<3>(3).into();
@@ -186,7 +187,7 @@ fn base_wrench(parameters: &Parameters, state: &State) -> Vector6<f64> {
 #[test]
 fn the_common_frame_does_not_matter() {
     let mut worst = Worst::new("inverse dynamics in a frame of constant rotation and velocity");
-    for_random_states(25, 50, |case, state| {
+    for_random_states!(25, 50, |case, state| {
         let mut parameters = case.parameters;
         let force = inverse_dynamics(&parameters, state).unwrap();
         let turn = nalgebra::Rotation3::new(Vector3::new(0.7, -1.1, 0.4)).into_inner();

@@ -1,8 +1,9 @@
 //! Closure of the legs, the home pose of Table 1, legs out of reach.
 
+#[allow(unused_macros, reason = "these tests are about one leg type each")]
 mod common;
 
-use common::{Worst, for_random_states, table_1};
+use common::{Worst, random_states, table_1, uhp_cases, ups_cases};
 use dyn_reference::{
     RigidBodyMotion, State, body_kinematics, forward_dynamics, inverse_dynamics, leg_kinematics,
     rod_alignment,
@@ -16,7 +17,7 @@ fn rods_keep_their_length_and_actuators_their_axis() {
     let mut alignment = Worst::new("rod_alignment = (u.a)^2");
     let mut spin = Worst::new("w_s.u = 0");
     let mut joint_rate = Worst::new("universal joint's rate");
-    for_random_states(1, 200, |case, state| {
+    random_states(1, 200, uhp_cases(), |case, state| {
         let legs = leg_kinematics(&case.parameters, state);
         let bodies = body_kinematics(&case.parameters, state);
         let aligned = rod_alignment(&case.parameters, state);
@@ -29,10 +30,10 @@ fn rods_keep_their_length_and_actuators_their_axis() {
             alignment.scalar(aligned[i], u.dot(&a).powi(2), 1.0);
             assert!(u.dot(&a) > 0.0, "the Hooke joint is below the platform joint");
 
-            let w_s = bodies.rod_angular_velocity[i];
+            let w_s = bodies.leg_angular_velocity[i];
             spin.compare(&Vector1::new(w_s.dot(&u)), &Vector1::zeros(), w_s.norm());
             let rate = state.platform.angular_velocity() - w_s;
-            joint_rate.compare(&legs.universal_joint_rate[i], &rate, w_s.norm());
+            joint_rate.compare(&legs.platform_joint_rate[i], &rate, w_s.norm());
         }
     });
     // Positions of about 2 m carry 4e-16 m of rounding each, 2e-15 of a rod; some ten operations.
@@ -42,6 +43,58 @@ fn rods_keep_their_length_and_actuators_their_axis() {
     alignment.within(5e-14);
     spin.within(1e-14);
     joint_rate.within(1e-15);
+}
+
+#[test]
+fn telescopic_legs_span_their_joints() {
+    let mut joints = Worst::new("joints of base and platform");
+    let mut span = Worst::new("d u from base joint to platform joint");
+    let mut spin = Worst::new("w_s.u = 0");
+    let mut joint_rate = Worst::new("platform joint's rate");
+    random_states(1, 200, ups_cases(), |case, state| {
+        let legs = leg_kinematics(&case.parameters, state);
+        let bodies = body_kinematics(&case.parameters, state);
+        let aligned = rod_alignment(&case.parameters, state);
+        for (i, leg) in case.parameters.legs.iter().enumerate() {
+            let (base, joint) = (legs.hooke_joint_position[i], legs.platform_joint_position[i]);
+            let (u, d) = (legs.rod_direction[i], legs.actuator_length[i]);
+            joints.compare(&base, &(state.base.position_m + state.base.rotation * leg.base_point_m), 1.0);
+            let expected = state.platform.position_m + state.platform.rotation * leg.platform_point_m;
+            joints.compare(&joint, &expected, 1.0);
+            span.compare(&(base + d * u), &joint, 1.0);
+            span.scalar(aligned[i], 1.0, 1.0);
+            assert!(d > 0.0);
+
+            let w_s = bodies.leg_angular_velocity[i];
+            spin.compare(&Vector1::new(w_s.dot(&u)), &Vector1::zeros(), w_s.norm());
+            let rate = state.platform.angular_velocity() - w_s;
+            joint_rate.compare(&legs.platform_joint_rate[i], &rate, w_s.norm());
+        }
+    });
+    // Coordinates of about 2 m: a few of their last places.
+    joints.within(2e-15);
+    span.within(4e-15);
+    spin.within(1e-14);
+    joint_rate.within(1e-15);
+}
+
+#[test]
+fn a_telescopic_leg_without_length_is_reported() {
+    let [case, _] = ups_cases();
+    let origin = RigidBodyMotion::at_rest(nalgebra::Vector3::zeros(), nalgebra::Matrix3::identity());
+    let zero = Vector6::zeros();
+    let state = State {
+        base: origin,
+        platform: origin,
+        actuator_force_n: zero,
+        external_wrench: zero,
+        reference_velocity: zero,
+    };
+    let mut parameters = case.parameters;
+    parameters.legs[2].platform_point_m = parameters.legs[2].base_point_m;
+    assert!(rod_alignment(&parameters, &state)[2].is_nan());
+    assert_eq!(inverse_dynamics(&parameters, &state), None);
+    assert_eq!(forward_dynamics(&parameters, &state), None);
 }
 
 fn home() -> (dyn_reference::Parameters, State) {

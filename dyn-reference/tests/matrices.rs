@@ -1,23 +1,23 @@
 //! Mass and Coriolis matrices against energy, against their definition, and against the rod's two ends.
 
+#[macro_use]
 mod common;
 
 use std::array::from_fn;
 
-use common::{DIFFERENCES, TIME_STEP, Worst, derivative, for_random_states, moved_state, unit};
-use dyn_reference::leg::{LegGeometry, LegVelocity};
+use common::{DIFFERENCES, TIME_STEP, Worst, derivative, moved_state, random_states, uhp_cases, unit};
 use dyn_reference::partial_velocities::LegPartials;
 use dyn_reference::{
-    Parameters, State, body_kinematics, coriolis_matrices, energy, equation_of_motion, generalised_forces,
-    jacobian_db, jacobian_dp, mass_matrix_b, mass_matrix_p, matrices, partial_velocities, passive_forces,
-    stiffness_matrices,
+    LegType, Parameters, State, body_kinematics, coriolis_matrices, energy, equation_of_motion,
+    generalised_forces, jacobian_db, jacobian_dp, mass_matrix_b, mass_matrix_p, matrices, partial_velocities,
+    passive_forces, stiffness_matrices,
 };
 use nalgebra::{Matrix3, Matrix3x6, Matrix6, Vector1, Vector6};
 
 #[test]
 fn mass_matrix_is_symmetric_positive_definite() {
     let mut symmetry = Worst::new("M_p symmetric");
-    for_random_states(10, 200, |case, state| {
+    for_random_states!(10, 200, |case, state| {
         let mass = mass_matrix_p(&case.parameters, state);
         symmetry.compare(&mass, &mass.transpose(), mass.norm());
         let smallest = mass.symmetric_eigenvalues().min();
@@ -33,7 +33,7 @@ fn mass_matrix_is_symmetric_positive_definite() {
 fn mass_matrices_are_derivatives_of_kinetic_energy() {
     let mut momentum = Worst::new("dT/dv_p = M_p v_p - M_b v_b");
     let mut quadratic = Worst::new("T = v_p M_p v_p / 2 over a base at rest");
-    for_random_states(11, 100, |case, state| {
+    for_random_states!(11, 100, |case, state| {
         let parameters = &case.parameters;
         let (m_p, m_b) = (mass_matrix_p(parameters, state), mass_matrix_b(parameters, state));
         let p = m_p * state.platform.velocity - m_b * state.base.velocity;
@@ -60,7 +60,7 @@ fn mass_matrices_are_derivatives_of_kinetic_energy() {
 #[test]
 fn coriolis_matrix_makes_the_mass_rate_skew() {
     let mut skew = Worst::new("M_p' - 2 C_p skew");
-    for_random_states(12, 100, |case, state| {
+    for_random_states!(12, 100, |case, state| {
         let coriolis = coriolis_matrices(&case.parameters, state).coriolis_matrix_p;
         let rate = derivative(TIME_STEP, |t| mass_matrix_p(&case.parameters, &moved_state(state, t)));
         let n = rate - 2.0 * coriolis;
@@ -69,26 +69,24 @@ fn coriolis_matrix_makes_the_mass_rate_skew() {
     skew.within(DIFFERENCES);
 }
 
-/// The same bodies' partial velocities: payload (or zero), rods, movers.
+/// The same bodies' partial velocities: payload (or zero), legs' bodies.
 struct Partials {
     payload: [Matrix3x6<f64>; 2],
-    rod: [Matrix3x6<f64>; 6],
-    rod_angular: [Matrix3x6<f64>; 6],
-    mover: [Matrix3x6<f64>; 6],
+    com: [[Matrix3x6<f64>; 2]; 6],
+    angular: [Matrix3x6<f64>; 6],
 }
 
-fn by_platform(parameters: &Parameters, state: &State) -> Partials {
+fn by_platform<L: LegType>(parameters: &Parameters<L>, state: &State) -> Partials {
     let partials = partial_velocities(parameters, state);
     Partials {
         payload: [partials.payload_partial_velocity, partials.payload_partial_angular_velocity],
-        rod: partials.rod_partial_velocity,
-        rod_angular: partials.rod_partial_angular_velocity,
-        mover: partials.mover_partial_velocity,
+        com: partials.com_partial_velocity,
+        angular: partials.leg_partial_angular_velocity,
     }
 }
 
 /// Partial velocities by `v_b`, from the velocities of all bodies at unit speeds.
-fn by_base(parameters: &Parameters, state: &State) -> Partials {
+fn by_base<L: LegType>(parameters: &Parameters<L>, state: &State) -> Partials {
     let columns: [_; 6] = from_fn(|j| {
         let mut speed = *state;
         speed.platform.velocity = Vector6::zeros();
@@ -97,11 +95,12 @@ fn by_base(parameters: &Parameters, state: &State) -> Partials {
     });
     Partials {
         payload: [Matrix3x6::zeros(); 2],
-        rod: from_fn(|i| Matrix3x6::from_columns(&from_fn::<_, 6, _>(|j| columns[j].rod_com_velocity[i]))),
-        rod_angular: from_fn(|i| {
-            Matrix3x6::from_columns(&from_fn::<_, 6, _>(|j| columns[j].rod_angular_velocity[i]))
+        com: from_fn(|i| {
+            from_fn(|body| Matrix3x6::from_columns(&from_fn::<_, 6, _>(|j| columns[j].com_velocity[i][body])))
         }),
-        mover: from_fn(|i| Matrix3x6::from_columns(&from_fn::<_, 6, _>(|j| columns[j].mover_velocity[i]))),
+        angular: from_fn(|i| {
+            Matrix3x6::from_columns(&from_fn::<_, 6, _>(|j| columns[j].leg_angular_velocity[i]))
+        }),
     }
 }
 
@@ -110,15 +109,14 @@ fn rates(state: &State, partials: impl Fn(&State) -> Partials) -> Partials {
     let at = |t| partials(&moved_state(state, t));
     Partials {
         payload: from_fn(|i| derivative(TIME_STEP, |t| at(t).payload[i])),
-        rod: from_fn(|i| derivative(TIME_STEP, |t| at(t).rod[i])),
-        rod_angular: from_fn(|i| derivative(TIME_STEP, |t| at(t).rod_angular[i])),
-        mover: from_fn(|i| derivative(TIME_STEP, |t| at(t).mover[i])),
+        com: from_fn(|i| from_fn(|body| derivative(TIME_STEP, |t| at(t).com[i][body]))),
+        angular: from_fn(|i| derivative(TIME_STEP, |t| at(t).angular[i])),
     }
 }
 
 /// `sum J^T m K' + J_w^T (I K_w' + [w]x I K_w)`, written out as the definition stands.
-fn natural(
-    parameters: &Parameters,
+fn natural<L: LegType>(
+    parameters: &Parameters<L>,
     state: &State,
     j: &Partials,
     k: &Partials,
@@ -130,13 +128,14 @@ fn natural(
     let mut sum = parameters.payload.mass_kg * j.payload[0].transpose() * k_rate.payload[0]
         + j.payload[1].transpose() * (inertia * k_rate.payload[1] + w * inertia * k.payload[1]);
     let u = dyn_reference::leg_kinematics(parameters, state).rod_direction;
-    let w_s = body_kinematics(parameters, state).rod_angular_velocity;
+    let w_s = body_kinematics(parameters, state).leg_angular_velocity;
     for (i, leg) in parameters.legs.iter().enumerate() {
-        let inertia = leg.rod_inertia_kg_m2 * (Matrix3::identity() - u[i] * u[i].transpose());
-        let angular = inertia * k_rate.rod_angular[i] + w_s[i].cross_matrix() * inertia * k.rod_angular[i];
-        sum += leg.rod_mass_kg * j.rod[i].transpose() * k_rate.rod[i]
-            + j.rod_angular[i].transpose() * angular
-            + leg.mover_mass_kg * j.mover[i].transpose() * k_rate.mover[i];
+        for (body, (mass, inertia)) in leg.masses().into_iter().zip(leg.inertias()).enumerate() {
+            let inertia = inertia * (Matrix3::identity() - u[i] * u[i].transpose());
+            let angular = inertia * k_rate.angular[i] + w_s[i].cross_matrix() * inertia * k.angular[i];
+            sum +=
+                mass * j.com[i][body].transpose() * k_rate.com[i][body] + j.angular[i].transpose() * angular;
+        }
     }
     sum
 }
@@ -145,7 +144,7 @@ fn natural(
 fn coriolis_matrices_are_the_natural_factorisation() {
     let mut of_platform = Worst::new("C_p against its definition");
     let mut of_base = Worst::new("C_b against its definition");
-    for_random_states(13, 20, |case, state| {
+    for_random_states!(13, 20, |case, state| {
         let parameters = &case.parameters;
         let found = coriolis_matrices(parameters, state);
         let j = by_platform(parameters, state);
@@ -164,12 +163,12 @@ fn matrices_agree_with_body_accelerations() {
     let mut velocity_terms = Worst::new("C_p v_p - C_b v_b against accelerations without v'");
     let mut inertia_terms = Worst::new("M_p v_p' - M_b v_b' + C_p v_p - C_b v_b against inertia forces");
     let mut bias = Worst::new("bias by matrices and by bodies");
-    for_random_states(14, 200, |case, state| {
+    for_random_states!(14, 200, |case, state| {
         let parameters = &case.parameters;
         let eom = equation_of_motion(parameters, state);
         let inertia = |s: &State| {
             let forces = generalised_forces(parameters, s);
-            let legs: Vector6<f64> = forces.rod_inertia_force.iter().chain(&forces.mover_inertia_force).sum();
+            let legs: Vector6<f64> = forces.inertia_force.iter().flatten().sum();
             forces.payload_inertia_force + legs
         };
         let mut unaccelerated = *state;
@@ -196,7 +195,7 @@ fn a_rod_without_spin_is_two_end_masses_and_a_coupling() {
     let mut mass_b = Worst::new("rods in M_b as two ends");
     let mut coriolis = Worst::new("rods in C_p as two ends");
     let mut coriolis_b = Worst::new("rods in C_b as two ends");
-    for_random_states(15, 100, |case, state| {
+    random_states(15, 100, uhp_cases(), |case, state| {
         let parameters = &case.parameters;
         let mut massless = case.parameters;
         for leg in &mut massless.legs {
@@ -206,12 +205,12 @@ fn a_rod_without_spin_is_two_end_masses_and_a_coupling() {
         let (with, without) = (matrices(parameters, state), matrices(&massless, state));
         let mut ends = [Matrix6::zeros(); 4];
         for leg in &parameters.legs {
-            let geometry = LegGeometry::new(leg, &state.base, &state.platform);
-            let velocity = LegVelocity::new(leg, &geometry, &state.base, &state.platform);
-            let j = LegPartials::by_platform(leg, &geometry);
-            let b = LegPartials::by_base(leg, &geometry);
-            let j_rate = j.rates_by_platform(leg, &geometry, &velocity, &state.platform);
-            let b_rate = b.rates_by_base(leg, &geometry, &velocity, &state.base);
+            let geometry = leg.geometry(&state.base, &state.platform);
+            let velocity = leg.velocity(&geometry, &state.base, &state.platform);
+            let j = leg.partials_by_platform(&geometry);
+            let b = leg.partials_by_base(&geometry);
+            let j_rate = leg.partial_rates_by_platform(&j, &geometry, &velocity, &state.platform);
+            let b_rate = leg.partial_rates_by_base(&b, &geometry, &velocity, &state.base);
             let (m, k) = (leg.rod_mass_kg, leg.rod_com_fraction);
             let turning = leg.rod_inertia_kg_m2 / (leg.rod_length_m * leg.rod_length_m);
             let product = |right: &LegPartials| {
@@ -242,7 +241,7 @@ fn a_rod_without_spin_is_two_end_masses_and_a_coupling() {
 fn stiffness_is_the_derivative_of_the_spring_force_without_preload() {
     let mut stiffness_p = Worst::new("K_p against differences of the spring force");
     let mut stiffness_b = Worst::new("K_b against differences of the spring force");
-    for_random_states(16, 40, |case, state| {
+    for_random_states!(16, 40, |case, state| {
         let mut parameters = case.parameters;
         let lengths = dyn_reference::leg_kinematics(&parameters, state).actuator_length;
         for (i, leg) in parameters.legs.iter_mut().enumerate() {
@@ -269,7 +268,7 @@ fn stiffness_is_the_derivative_of_the_spring_force_without_preload() {
 
 #[test]
 fn combined_functions_return_what_the_single_ones_do() {
-    for_random_states(17, 5, |case, state| {
+    for_random_states!(17, 5, |case, state| {
         let p = &case.parameters;
         let (all, eom) = (matrices(p, state), equation_of_motion(p, state));
         let coriolis = coriolis_matrices(p, state);

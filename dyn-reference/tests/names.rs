@@ -1,17 +1,23 @@
 //! Inputs and outputs by name.
 
+#[macro_use]
 mod common;
 
-use common::{for_random_states, table_1};
+use common::{random_states, table_1, uhp_cases};
 use dyn_reference::inputs::{InputError, PARAMETERS, STATE};
-use dyn_reference::outputs::{OUTPUTS, output};
-use dyn_reference::{Parameters, State, leg_kinematics, partial_velocities};
+use dyn_reference::outputs::{Output, output, outputs};
+use dyn_reference::{LegType, Mechanism, Parameters, State, leg_kinematics, partial_velocities, uhp, ups};
+
+fn outputs_of<L: LegType>(_: &Parameters<L>) -> impl Iterator<Item = &'static Output<L>> {
+    outputs::<L>()
+}
 
 #[test]
 fn outputs_have_unique_names_and_the_shapes_they_announce() {
-    for_random_states(30, 1, |case, state| {
-        for (i, row) in OUTPUTS.iter().enumerate() {
-            assert!(OUTPUTS[..i].iter().all(|earlier| earlier.name != row.name), "{} twice", row.name);
+    for_random_states!(30, 1, |case, state| {
+        let rows: Vec<_> = outputs_of(&case.parameters).collect();
+        for (i, row) in rows.iter().enumerate() {
+            assert!(rows[..i].iter().all(|earlier| earlier.name != row.name), "{} twice", row.name);
             let mut values = Vec::new();
             assert!(output(&case.parameters, state, row.name, &mut values));
             assert_eq!(values.len(), row.entries(), "{}", row.name);
@@ -25,11 +31,11 @@ fn outputs_have_unique_names_and_the_shapes_they_announce() {
 
 #[test]
 fn arrays_are_row_major_and_appended() {
-    for_random_states(31, 1, |case, state| {
+    random_states(31, 1, uhp_cases(), |case, state| {
         let mut values = vec![1.0];
         output(&case.parameters, state, "rod_partial_velocity", &mut values);
-        let expected = partial_velocities(&case.parameters, state).rod_partial_velocity;
-        assert_eq!(values[1 + 2 * 18 + 6 + 4], expected[2][(1, 4)]);
+        let expected = partial_velocities(&case.parameters, state).com_partial_velocity;
+        assert_eq!(values[1 + 2 * 18 + 6 + 4], expected[2][0][(1, 4)]);
         values.clear();
         output(&case.parameters, state, "hooke_joint_position", &mut values);
         assert_eq!(values[3 * 5 + 2], leg_kinematics(&case.parameters, state).hooke_joint_position[5].z);
@@ -48,8 +54,15 @@ fn results_without_a_solution_are_nan() {
     }
 }
 
+type Shape = (&'static str, &'static [usize]);
+
+/// The table of a leg type's parameters.
+fn parameters_of<L: LegType>() -> Vec<Shape> {
+    [L::PARAMETERS, PARAMETERS].concat()
+}
+
 /// Consecutive integers, so that every entry is known.
-fn counted(table: &[(&'static str, &[usize])], name: &str) -> Option<Vec<f64>> {
+fn counted(table: &[Shape], name: &str) -> Option<Vec<f64>> {
     let before: usize =
         table.iter().take_while(|row| row.0 != name).map(|row| row.1.iter().product::<usize>()).sum();
     let count: usize = table.iter().find(|row| row.0 == name)?.1.iter().product();
@@ -58,7 +71,8 @@ fn counted(table: &[(&'static str, &[usize])], name: &str) -> Option<Vec<f64>> {
 
 #[test]
 fn parameters_are_read_by_name() {
-    let parameters = Parameters::from_arrays(|name| counted(PARAMETERS, name)).unwrap();
+    let parameters =
+        Parameters::<uhp::Leg>::from_arrays(|name| counted(&parameters_of::<uhp::Leg>(), name)).unwrap();
     let leg = &parameters.legs[4];
     assert_eq!(leg.base_point_m.as_slice(), [12.0, 13.0, 14.0]);
     assert_eq!(leg.actuator_axis.as_slice(), [30.0, 31.0, 32.0]);
@@ -84,6 +98,29 @@ fn parameters_are_read_by_name() {
 }
 
 #[test]
+fn parameters_of_telescopic_legs_are_read_by_name() {
+    let read = |name: &str| counted(&parameters_of::<ups::Leg>(), name);
+    let parameters = Parameters::<ups::Leg>::from_arrays(read).unwrap();
+    let leg = &parameters.legs[4];
+    assert_eq!(leg.base_point_m.as_slice(), [12.0, 13.0, 14.0]);
+    assert_eq!(leg.platform_point_m.as_slice(), [30.0, 31.0, 32.0]);
+    let scalars = [
+        leg.lower_mass_kg,
+        leg.lower_com_distance_m,
+        leg.lower_inertia_kg_m2,
+        leg.upper_mass_kg,
+        leg.upper_com_distance_m,
+        leg.upper_inertia_kg_m2,
+        leg.rest_length_m,
+        leg.axial_stiffness_n_m,
+        leg.axial_damping_n_s_m,
+    ];
+    assert_eq!(scalars, std::array::from_fn(|i| 36.0 + 6.0 * i as f64 + 4.0));
+    assert_eq!(Mechanism::from_arrays("ups", read), Some(Ok(Mechanism::Ups(parameters))));
+    assert_eq!(Mechanism::from_arrays("rpr", read), None);
+}
+
+#[test]
 fn states_are_read_by_name() {
     let state = State::from_arrays(|name| counted(STATE, name)).unwrap();
     assert_eq!(state.base.position_m.z, 2.0);
@@ -100,7 +137,9 @@ fn states_are_read_by_name() {
 
 #[test]
 fn missing_and_misshapen_inputs_are_refused() {
-    let missing = Parameters::from_arrays(|name| counted(PARAMETERS, name).filter(|_| name != "rod_mass"));
+    let table = parameters_of::<uhp::Leg>();
+    let missing =
+        Parameters::<uhp::Leg>::from_arrays(|name| counted(&table, name).filter(|_| name != "rod_mass"));
     assert_eq!(missing, Err(InputError { name: "rod_mass", expected: 6, found: None }));
     let short = State::from_arrays(|name| match name {
         "base_rotation" => Some(vec![0.0; 8]),

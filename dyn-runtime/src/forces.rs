@@ -60,7 +60,7 @@ impl<M: kernels::RodAlignment<T>, T: Real> Hexapod<M, T> {
         external_wrench: &Wrench<T>,
     ) -> Result<GeneralisedForces<T>, Error>
     where
-        M: kernels::GeneralisedForces<T>,
+        M: kernels::uhp::GeneralisedForces<T>,
     {
         let base_acceleration = finite(Input::BaseAcceleration, base.acceleration.to_array())?;
         let platform_acceleration = finite(Input::PlatformAcceleration, platform_acceleration.to_array())?;

@@ -10,3 +10,5 @@ pub mod kernels;
 pub mod uhp;
 /// The paper's platform, every number baked in.
 pub mod uhp_2016;
+/// The model with legs of type `ups` and all parameters at run time.
+pub mod ups;

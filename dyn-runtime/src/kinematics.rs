@@ -26,7 +26,7 @@ pub struct LegKinematics<T = f64> {
     /// Centre of the universal joint between rod and platform, m, O.
     pub platform_joint_position_m: [Vector3<T>; 6],
     /// Angular velocity of the platform relative to the rod, `w_p - w_s`, rad/s, O (23).
-    pub universal_joint_rate_rad_s: [Vector3<T>; 6],
+    pub platform_joint_rate_rad_s: [Vector3<T>; 6],
 }
 
 /// Motion of the moving bodies, vectors in O.
@@ -129,7 +129,7 @@ impl<M: kernels::RodAlignment<T>, T: Real> Hexapod<M, T> {
             p.position, p.rotation, p.velocity, platform_acceleration,
         ) -> LegKinematics {
             actuator_length_m, actuator_velocity_m_s, actuator_acceleration_m_s2, rod_direction,
-            hooke_joint_position_m, platform_joint_position_m, universal_joint_rate_rad_s,
+            hooke_joint_position_m, platform_joint_position_m, platform_joint_rate_rad_s,
         })
     }
 
@@ -145,7 +145,7 @@ impl<M: kernels::RodAlignment<T>, T: Real> Hexapod<M, T> {
         platform_acceleration: &Acceleration<T>,
     ) -> Result<BodyKinematics<T>, Error>
     where
-        M: kernels::BodyKinematics<T>,
+        M: kernels::uhp::BodyKinematics<T>,
     {
         let base_acceleration = finite(Input::BaseAcceleration, base.acceleration.to_array())?;
         let platform_acceleration = finite(Input::PlatformAcceleration, platform_acceleration.to_array())?;
@@ -172,7 +172,7 @@ impl<M: kernels::RodAlignment<T>, T: Real> Hexapod<M, T> {
         platform: &PlatformState<T>,
     ) -> Result<PartialVelocities<T>, Error>
     where
-        M: kernels::PartialVelocities<T>,
+        M: kernels::uhp::PartialVelocities<T>,
     {
         let (b, p) = self.poses(base, platform)?;
         evaluate!(self.model.partial_velocities(

@@ -56,14 +56,15 @@
 //! | M, C, J together, or singly | [`Hexapod::matrices`], [`Hexapod::mass_matrix_p`], [`Hexapod::jacobian_dp`], ... |
 //! | velocity terms, gravity, springs, dampers | [`Hexapod::bias`], [`Hexapod::passive_forces`] |
 //! | actuator lengths and rates, joints | [`Hexapod::leg_kinematics`] |
-//! | every body by itself | [`Hexapod::body_kinematics`], [`Hexapod::partial_velocities`], [`Hexapod::generalised_forces`] |
+//! | every body by itself | [`Hexapod::body_kinematics`], [`Hexapod::partial_velocities`], [`Hexapod::generalised_forces`]; with legs `ups` [`Hexapod::ups_body_kinematics`] and so on |
 //! | how far a pose is from a leg's limit | [`Hexapod::rod_alignment`] |
 //! | energy | [`Hexapod::energy`] |
 //!
 //! # Models
 //!
 //! [`models::Uhp2016`] is the paper's platform with its numbers baked into the code; [`models::Uhp`] takes
-//! all parameters at run time. Both implement the traits in [`kernels`], one trait per function, as does what
+//! all parameters at run time, and so does [`models::Ups`] for platforms with classical Gough-Stewart legs, whose
+//! actuators lie along the legs. All implement the traits in [`kernels`], one trait per function, as does what
 //! the generator writes for your platform; [`Hexapod`] works with any of them.
 //!
 //! # What is checked, what is not
@@ -118,6 +119,7 @@ pub mod current;
 pub mod float;
 pub mod parameter;
 pub mod solve;
+pub mod ups;
 
 pub use base_reaction::BaseReaction;
 pub use check::{
@@ -142,4 +144,5 @@ pub use state::{Acceleration, BaseMotion, PlatformState, Pose, Twist, Wrench};
 pub mod models {
     pub use crate::generated::uhp::{self, Parameters, Uhp};
     pub use crate::generated::uhp_2016::{self, Uhp2016};
+    pub use crate::generated::ups::{self, Ups};
 }

@@ -74,22 +74,22 @@ fn the_counter_counts() {
     assert_eq!(requests(|| drop(black_box(Error::NonFiniteResult.to_string()))), 1);
 }
 
-/// The functions of a model, by the traits that the generator wrote.
+/// The functions of a model, by the file that the generator wrote.
 fn functions() -> Vec<&'static str> {
-    let traits = include_str!("../src/generated/kernels.rs");
-    traits.split("\n    fn ").skip(1).map(|text| text.split_once('(').expect("a signature").0).collect()
+    let model = include_str!("../src/generated/uhp.rs");
+    model.split("\npub fn ").skip(1).map(|text| text.split_once('(').expect("a signature").0).collect()
 }
 
 /// One trait that stands for those named.
 macro_rules! all_of {
-    ($($kernel:ident)*) => {
-        trait Complete: $(kernels::$kernel +)* {}
-        impl<M: $(kernels::$kernel +)*> Complete for M {}
+    ($($($kernel:ident)::+)*) => {
+        trait Complete: $(kernels::$($kernel)::+ +)* {}
+        impl<M: $(kernels::$($kernel)::+ +)*> Complete for M {}
     };
 }
 
 all_of! {
-    RodAlignment LegKinematics BodyKinematics PartialVelocities GeneralisedForces JacobianDp JacobianDb
+    RodAlignment LegKinematics uhp::BodyKinematics uhp::PartialVelocities uhp::GeneralisedForces JacobianDp JacobianDb
     MassMatrixP MassMatrixB CoriolisMatrices StiffnessMatrices Matrices PassiveForces Bias EquationOfMotion
     InverseDynamics ActuatorGeometry Control PassiveInverseDynamics BaseReaction ForwardDynamics Energy
 }

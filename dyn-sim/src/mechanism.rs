@@ -1,6 +1,6 @@
 //! The dynamics behind a simulation: generated models, with gravity or without.
 
-use dyn_platform::{LegType, Platform};
+use dyn_platform::Platform;
 use dyn_runtime::models::{Parameters, Uhp, Uhp2016};
 use dyn_runtime::nalgebra::{Vector3, Vector6};
 use dyn_runtime::{
@@ -201,16 +201,11 @@ fn six(linear: &Vector3<f64>, angular: &Vector3<f64>) -> [f64; 6] {
     [linear.x, linear.y, linear.z, angular.x, angular.y, angular.z]
 }
 
-/// Whether there is a generated model of a platform's legs.
-pub fn has_model(platform: &Platform) -> bool {
-    platform.leg_type == LegType::Uhp
-}
-
 /// The mechanism of a platform: the baked model where the numbers are those of the default platform, otherwise the
 /// model that takes its parameters at run time. Beside it, which of the two.
 ///
 /// # Panics
-/// Without a model of the platform's legs: see [`has_model`].
+/// If its legs are of a type of which there is no generated model; scenarios with such a platform are refused.
 pub fn of_platform(platform: &Platform, gravity_on: bool) -> (Box<dyn Mechanism>, &'static str) {
     let is_default = Platform::from_toml("platforms/uhp_2016.toml", DEFAULT_PLATFORM)
         .is_ok_and(|default| default.parameters == platform.parameters);

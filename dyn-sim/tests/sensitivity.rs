@@ -91,6 +91,28 @@ fn coriolis_as_printed(
     platform: &PlatformState,
     acceleration: &Acceleration,
 ) -> Result<Vector6<f64>, Error> {
+    coriolis_wrong_by(hexapod, base, platform, acceleration, |w_b, a| a - w_b.cross(a))
+}
+
+/// The term left out altogether.
+fn no_coriolis(
+    hexapod: &Hexapod<Uhp>,
+    base: &BaseMotion,
+    platform: &PlatformState,
+    acceleration: &Acceleration,
+) -> Result<Vector6<f64>, Error> {
+    coriolis_wrong_by(hexapod, base, platform, acceleration, |w_b, a| -w_b.cross(a))
+}
+
+/// 2 d' times `difference` of the base's angular velocity and an actuator's axis, in the accelerations of movers and
+/// rods.
+fn coriolis_wrong_by(
+    hexapod: &Hexapod<Uhp>,
+    base: &BaseMotion,
+    platform: &PlatformState,
+    acceleration: &Acceleration,
+    difference: fn(&Vector3<f64>, &Vector3<f64>) -> Vector3<f64>,
+) -> Result<Vector6<f64>, Error> {
     let p = &hexapod.model.parameters;
     let legs = hexapod.leg_kinematics(base, platform, acceleration)?;
     let partial = hexapod.partial_velocities(base, platform)?;
@@ -98,7 +120,7 @@ fn coriolis_as_printed(
     for i in 0..6 {
         let a = base.pose.rotation * Vector3::from(p.actuator_axis[i]);
         let rate = 2.0 * legs.actuator_velocity_m_s[i];
-        let difference = (a - base.velocity.angular_rad_s.cross(&a)) * rate;
+        let difference = difference(&base.velocity.angular_rad_s, &a) * rate;
         let hooke = p.rod_mass[i] * (1.0 - p.rod_com_fraction[i]);
         error += partial.mover_partial_velocity[i].transpose() * difference * p.mover_mass[i];
         error += partial.rod_partial_velocity[i].transpose() * difference * hooke;
@@ -116,27 +138,6 @@ fn no_quadratic_terms(
     let terms = hexapod.equation_of_motion(base, platform)?;
     let platform_part = terms.coriolis_matrix_p * platform.velocity.to_vector();
     Ok(terms.coriolis_matrix_b * base.velocity.to_vector() - platform_part)
-}
-
-/// The term left out altogether.
-fn no_coriolis(
-    hexapod: &Hexapod<Uhp>,
-    base: &BaseMotion,
-    platform: &PlatformState,
-    acceleration: &Acceleration,
-) -> Result<Vector6<f64>, Error> {
-    let p = &hexapod.model.parameters;
-    let legs = hexapod.leg_kinematics(base, platform, acceleration)?;
-    let partial = hexapod.partial_velocities(base, platform)?;
-    let mut error = Vector6::zeros();
-    for i in 0..6 {
-        let a = base.pose.rotation * Vector3::from(p.actuator_axis[i]);
-        let missing = base.velocity.angular_rad_s.cross(&a) * (-2.0 * legs.actuator_velocity_m_s[i]);
-        let hooke = p.rod_mass[i] * (1.0 - p.rod_com_fraction[i]);
-        error += partial.mover_partial_velocity[i].transpose() * missing * p.mover_mass[i];
-        error += partial.rod_partial_velocity[i].transpose() * missing * hooke;
-    }
-    Ok(error)
 }
 
 fn caught(what: &str, error: f64) {

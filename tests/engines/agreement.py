@@ -39,21 +39,22 @@ class Figure:
         return f"{self.value:.2g} ({self.where})"
 
 
-def cancelling_scales(parameters, outputs):
+def cancelling_scales(leg_type, parameters, outputs):
     """Least scale of the arrays that can cancel to nothing: {name: scale}.
 
-    A spring near its rest length: its force counts as if stretched by a hundredth of the rod's length.
+    A spring near its rest length: its force counts as if stretched by a hundredth of the leg's length.
     Potential energy near the height zero: it counts as if the whole weight stood one metre up, the size of
     the coordinates.
     """
-    stiff, length = np.max(parameters["axial_stiffness"]), np.max(parameters["rod_length"])
+    length, mass_of_legs = leg_type.scales(parameters)
+    stiff = np.max(parameters["axial_stiffness"])
     stretched = stiff * 0.01 * length
     carried = stretched * np.abs(outputs["jacobian_dp"]).max()
-    mass = parameters["payload_mass"] + np.sum(parameters["rod_mass"]) + np.sum(parameters["mover_mass"])
+    mass = parameters["payload_mass"] + mass_of_legs
     return {
         "spring_force": carried,
         "bias": carried,
-        "mover_active_force": carried,
+        f"{leg_type.DRIVEN}_active_force": carried,
         "inverse_dynamics": stretched,
         "forward_dynamics": carried * np.abs(np.linalg.inv(outputs["mass_matrix_p"])).max(),
         "potential_energy": mass * np.linalg.norm(parameters["gravity"]),
@@ -105,9 +106,8 @@ def _momentum(solution, outputs, where):
     m, state, about = solution.mechanism, solution.state, solution.state.base.pose.position
     wrench = outputs["base_wrench"] + _moved(state.external_wrench, outputs["payload_com_position"] - about)
     for name, body in m.description.bodies.items():
-        point = "payload_com" if name == "payload" else name.replace("rod_", "rod_com_")
         weight = np.concatenate([body.mass * m.description["gravity"], np.zeros(3)])
-        wrench = wrench + _moved(weight, m.position(point) - about)
+        wrench = wrench + _moved(weight, m.position(f"com_{name}") - about)
     rate = m.momentum_rate(solution.acceleration, about)
     return require("momentum rate", relative_difference(rate, wrench), MOMENTUM_LIMIT, where)
 
@@ -123,7 +123,7 @@ def _constrained_dynamics(solution, outputs, where):
     and v_b' the state's.
     """
     m, state, reduction = solution.mechanism, solution.state, solution.reduction
-    forces = m.wrench_forces("payload_com", state.external_wrench) + m.spring_forces() + m.damping_forces()
+    forces = m.wrench_forces("com_payload", state.external_wrench) + m.spring_forces() + m.damping_forces()
     forces[m.slide_speeds] += state.actuator_force
     # The massless base would leave the joint-space mass matrix singular wherever slides can undo its motion.
     m.set_base_inertia(10.0, 1.0)

@@ -1,18 +1,18 @@
 """The mechanism as plain data: bodies, joints and named points, for any engine to build from.
 
 This file holds no mechanics. It says which rigid bodies there are, where each joint sits and which points
-are watched; positions and rates are left to the engines.
+are watched; positions and rates are left to the engines. What a leg is made of is in a module per leg type
+(`uhp_leg.py`, `ups_leg.py`).
 
 Body frames
     base        frame B
     payload     frame P
-    mover_i     origin at the Hooke joint, z along the actuator axis, x along the Hooke joint's first axis
-    rod_i       origin at the Hooke joint; equal to mover_i's frame at zero Hooke angles, z along the rod
+    links       see the leg type's module
 Joints
     world -> base, world -> payload     free
-    base -> mover_i                     prismatic along mover z; coordinate d: the Hooke joint's way from b_i
-    mover_i -> rod_i                    Hooke: revolute about x, then about the turned y
-    rod_i -> payload                    spherical, closed numerically (reduction.py): rod_end_i on
+    base -> first link -> second link   prismatic along z ("slide", coordinate d), or Hooke ("hooke"): revolute
+                                        about x, then about the turned y
+    leg -> payload                      spherical, closed numerically (reduction.py): leg_end_i on
                                         platform_point_i
 """
 
@@ -49,26 +49,55 @@ class Point:
     position: np.ndarray
 
 
-class Description:
-    """One platform with a chosen first axis for each Hooke joint.
+@dataclass(frozen=True)
+class Link:
+    """A kind of leg body, what it is joined to (a kind, or the base) and the joint between them."""
 
-    `parameters`: the `parameters` object of a resolved platform file.
-    `hooke_axes`: [6][3], B coordinates; only the part across the actuator axis counts.
+    kind: str
+    parent: str
+    joint: str
+
+
+def along_z(distance):
+    return np.array([0.0, 0.0, distance])
+
+
+def slender(transverse):
+    """Inertia of a body without any about its z."""
+    return np.diag([transverse, transverse, 0.0])
+
+
+class Description:
+    """One platform with chosen mounts of the legs' first joints.
+
+    `leg`: module of the leg type. `parameters`: the `parameters` object of a resolved platform file.
+    `mounts`: [6][3] z axes of the first joints, B coordinates, unit vectors. `hooke_axes`: [6][3], first axes of the
+    Hooke joints, B coordinates; only the part across the mount counts.
     """
 
-    def __init__(self, parameters, hooke_axes):
-        self.parameters = {name: np.asarray(value, dtype=float) for name, value in parameters.items()}
-        self.hooke_axes = np.asarray(hooke_axes, dtype=float)
+    def __init__(self, leg, parameters, mounts, hooke_axes):
+        self.leg = leg
+        self.parameters = parameters
+        self.mounts, self.hooke_axes = mounts, hooke_axes
 
     def __getitem__(self, name):
         return self.parameters[name]
 
+    def links(self):
+        """(name, name of what it is joined to, joint, rotation, position) of every link, parents first."""
+        for i in LEGS:
+            for link in self.leg.LINKS:
+                if link.parent == "base":
+                    yield i, f"{link.kind}_{i}", "base", link.joint, self.rotations[i], self["base_point"][i]
+                else:
+                    parent = f"{link.parent}_{i}"
+                    yield i, f"{link.kind}_{i}", parent, link.joint, np.eye(3), np.zeros(3)
+
     @cached_property
-    def mover_rotations(self):
-        """[6] rotations, mover frame to B."""
+    def rotations(self):
+        """[6] rotations of the first links at zero coordinates, to B."""
         rotations = []
-        for axis, across in zip(self["actuator_axis"], self.hooke_axes):
-            z = axis / np.linalg.norm(axis)
+        for z, across in zip(self.mounts, self.hooke_axes):
             x = across - z * (z @ across)
             x = x / np.linalg.norm(x)
             rotations.append(np.column_stack([x, np.cross(z, x), z]))
@@ -79,32 +108,24 @@ class Description:
         """Bodies with mass. The base has none: its motion is prescribed."""
         bodies = {"payload": Body(float(self["payload_mass"]), self["payload_com"], self["payload_inertia"])}
         for i in LEGS:
-            bodies[f"mover_{i}"] = Body(self["mover_mass"][i], self.mover_com(i), np.zeros((3, 3)))
-            transverse = self["rod_inertia"][i]
-            bodies[f"rod_{i}"] = Body(
-                self["rod_mass"][i], self.rod_com(i), np.diag([transverse, transverse, 0.0])
-            )
+            for kind, body in self.leg.bodies(self.parameters, i).items():
+                bodies[f"{kind}_{i}"] = body
         return bodies
 
     @cached_property
     def points(self):
+        """Watched points; `com_NAME` is the centre of mass of a leg's body."""
         origin = np.zeros(3)
         points = {
             "base": Point("base", origin),
             "platform": Point("payload", origin),
-            "payload_com": Point("payload", self["payload_com"]),
+            "com_payload": Point("payload", self["payload_com"]),
         }
         for i in LEGS:
             points[f"base_point_{i}"] = Point("base", self["base_point"][i])
-            points[f"mover_{i}"] = Point(f"mover_{i}", self.mover_com(i))
-            points[f"hooke_{i}"] = Point(f"rod_{i}", origin)
-            points[f"rod_com_{i}"] = Point(f"rod_{i}", self.rod_com(i))
-            points[f"rod_end_{i}"] = Point(f"rod_{i}", np.array([0.0, 0.0, self["rod_length"][i]]))
             points[f"platform_point_{i}"] = Point("payload", self["platform_point"][i])
+            for name, point in self.leg.points(self.parameters, i).items():
+                points[f"{name}_{i}"] = point
+        for name, body in self.bodies.items():
+            points[f"com_{name}"] = Point(name, body.com)
         return points
-
-    def mover_com(self, i):
-        return np.array([0.0, 0.0, -self["mover_offset"][i]])
-
-    def rod_com(self, i):
-        return np.array([0.0, 0.0, self["rod_com_fraction"][i] * self["rod_length"][i]])

@@ -36,25 +36,24 @@ class MujocoMechanism:
         payload = self._add_body(spec.worldbody, "payload")
         payload.add_freejoint(name="payload")
         bodies = {"base": base, "payload": payload}
-        for i in LEGS:
-            bodies[f"mover_{i}"], bodies[f"rod_{i}"] = self._add_leg(base, i)
+        for i, name, parent, joint, rotation, position in description.links():
+            turn = np.zeros(4)
+            mujoco.mju_mat2Quat(turn, rotation.flatten())
+            bodies[name] = self._add_body(bodies[parent], name, pos=position, quat=turn)
+            if joint == "slide":
+                self._add_slide(bodies[name], i)
+            else:
+                bodies[name].add_joint(name=f"hooke_first_{i}", type=mujoco.mjtJoint.mjJNT_HINGE, axis=[1, 0, 0])
+                bodies[name].add_joint(name=f"hooke_second_{i}", type=mujoco.mjtJoint.mjJNT_HINGE, axis=[0, 1, 0])
         for name, point in description.points.items():
             bodies[point.body].add_site(name=name, pos=point.position)
         return spec.compile()
 
-    def _add_leg(self, base, i):
-        description = self.description
-        turn = np.zeros(4)
-        mujoco.mju_mat2Quat(turn, description.mover_rotations[i].flatten())
-        mover = self._add_body(base, f"mover_{i}", pos=description["base_point"][i], quat=turn)
-        slide = mover.add_joint(name=f"slide_{i}", type=mujoco.mjtJoint.mjJNT_SLIDE, axis=[0, 0, 1])
-        slide.springref = description["rest_length"][i]
-        slide.stiffness[0] = description["axial_stiffness"][i]
-        slide.damping[0] = description["axial_damping"][i]
-        rod = self._add_body(mover, f"rod_{i}")
-        rod.add_joint(name=f"hooke_first_{i}", type=mujoco.mjtJoint.mjJNT_HINGE, axis=[1, 0, 0])
-        rod.add_joint(name=f"hooke_second_{i}", type=mujoco.mjtJoint.mjJNT_HINGE, axis=[0, 1, 0])
-        return mover, rod
+    def _add_slide(self, body, i):
+        slide = body.add_joint(name=f"slide_{i}", type=mujoco.mjtJoint.mjJNT_SLIDE, axis=[0, 0, 1])
+        slide.springref = self.description["rest_length"][i]
+        slide.stiffness[0] = self.description["axial_stiffness"][i]
+        slide.damping[0] = self.description["axial_damping"][i]
 
     def _add_body(self, parent, name, **placement):
         body = parent.add_body(
@@ -109,8 +108,8 @@ class MujocoMechanism:
             mujoco.mju_mat2Quat(turn, pose.rotation.flatten())
             q[first : first + 3], q[first + 3 : first + 7] = pose.position, turn
         for i in LEGS:
-            first = self.model.jnt_qposadr[self.joints[f"slide_{i}"]]
-            q[first : first + 3] = legs[i]
+            for name, coordinate in zip(("slide", "hooke_first", "hooke_second"), legs[i]):
+                q[self.model.jnt_qposadr[self.joints[f"{name}_{i}"]]] = coordinate
         self.move(np.zeros(self.model.nv))
 
     def move(self, speeds):

@@ -29,31 +29,30 @@ class State:
     external_wrench: np.ndarray
 
 
-def hooke_axes(parameters, state, turn):
-    """[6][3] first Hooke axes in B, far from the joint's singularity (rod along the first axis).
+def describe(leg_type, parameters, state, turn):
+    """The mechanism with first Hooke axes far from the joints' singularity (leg along the first axis).
 
-    Across actuator axis and leg, so that the rod moves in the plane normal to it; then turned about the
-    actuator axis by `turn` [rad]. With a spinless rod the choice has no effect: the engines get different
-    turns.
+    Across mount and leg, so that the leg moves in the plane normal to it; then turned about the mount by `turn` [rad].
+    With spinless legs the choice has no effect: the engines get different turns.
     """
     base, platform = state.base.pose, state.platform.pose
-    axes = []
-    names = ("actuator_axis", "base_point", "platform_point")
-    for axis, start, end in zip(*(np.asarray(parameters[name]) for name in names)):
-        leg = base.rotation.T @ (platform.position + platform.rotation @ end - base.position) - start
+    ends = (platform.position - base.position + parameters["platform_point"] @ platform.rotation.T) @ base.rotation
+    legs = ends - parameters["base_point"]
+    mounts, axes = leg_type.mounts(parameters, legs), []
+    for axis, leg in zip(mounts, legs):
         across = np.cross(axis, leg)
         if np.linalg.norm(across) < 1e-6 * np.linalg.norm(leg):
             across = np.cross(axis, np.eye(3)[np.argmin(np.abs(axis))])
         axes.append(np.cos(turn) * across + np.sin(turn) * np.cross(axis, across))
-    return axes
+    return Description(leg_type, parameters, mounts, axes)
 
 
 class Solution:
     """One engine's mechanism at one state."""
 
-    def __init__(self, engine, parameters, state, turn):
-        self.state = state
-        self.mechanism = engine(Description(parameters, hooke_axes(parameters, state, turn)))
+    def __init__(self, engine, leg_type, parameters, state, turn):
+        self.state, self.leg = state, leg_type
+        self.mechanism = engine(describe(leg_type, parameters, state, turn))
         self.residual = close_loops(self.mechanism, state.base.pose, state.platform.pose)
         self.reduction = Reduction(self.mechanism, state.base.velocity, state.platform.velocity)
         self.acceleration = self.reduction.acceleration(state.base.acceleration, state.platform.acceleration)
@@ -67,15 +66,16 @@ class Solution:
 
     def kinematics(self):
         m, slides = self.mechanism, self.mechanism.slide_speeds
-        direction = np.array([m.rotation(f"rod_com_{i}")[:, 2] for i in LEGS])
-        axis = np.array([m.rotation(f"mover_{i}")[:, 2] for i in LEGS])
-        spinning = stack(m.velocity, "rod_com_{}")[:, 3:]
-        spinning_rate = stack(m.acceleration, "rod_com_{}")[:, 3:]
+        turning, prefix = self.leg.TURNING
+        direction = self.directions(turning)
+        axis = self.directions(self.leg.DRIVEN)
+        spinning = stack(m.velocity, f"com_{turning}_{{}}")[:, 3:]
+        spinning_rate = stack(m.acceleration, f"com_{turning}_{{}}")[:, 3:]
         rod_rate = without_spin(direction, spinning)
         spin = np.sum(spinning * direction, axis=1, keepdims=True)
         # Derivative of w - (w.u)u, with u' = w x u, hence w.u' = 0.
         rod_rate_rate = without_spin(direction, spinning_rate) - spin * np.cross(spinning, direction)
-        return {
+        result = {
             "actuator_length": m.slides(),
             "actuator_velocity": self.reduction.speeds[slides],
             "actuator_acceleration": self.acceleration[slides],
@@ -83,33 +83,36 @@ class Solution:
             "rod_direction": direction,
             "hooke_joint_position": stack(m.position, "hooke_{}"),
             "platform_joint_position": stack(m.position, "platform_point_{}"),
-            "universal_joint_rate": m.velocity("platform")[3:] - rod_rate,
-            "rod_angular_velocity": rod_rate,
-            "rod_angular_acceleration": rod_rate_rate,
-            "rod_com_position": stack(m.position, "rod_com_{}"),
-            "rod_com_velocity": stack(m.velocity, "rod_com_{}")[:, :3],
-            "rod_com_acceleration": stack(m.acceleration, "rod_com_{}")[:, :3],
-            "mover_position": stack(m.position, "mover_{}"),
-            "mover_velocity": stack(m.velocity, "mover_{}")[:, :3],
-            "mover_acceleration": stack(m.acceleration, "mover_{}")[:, :3],
-            "payload_com_position": m.position("payload_com"),
-            "payload_com_velocity": m.velocity("payload_com")[:3],
-            "payload_com_acceleration": m.acceleration("payload_com")[:3],
+            "platform_joint_rate": m.velocity("platform")[3:] - rod_rate,
+            f"{prefix}_angular_velocity": rod_rate,
+            f"{prefix}_angular_acceleration": rod_rate_rate,
         }
+        for body, name in self.leg.COM_OUTPUTS.items():
+            result[f"{name}_position"] = stack(m.position, f"com_{body}_{{}}")
+            result[f"{name}_velocity"] = stack(m.velocity, f"com_{body}_{{}}")[:, :3]
+            result[f"{name}_acceleration"] = stack(m.acceleration, f"com_{body}_{{}}")[:, :3]
+        result["payload_com_position"] = m.position("com_payload")
+        result["payload_com_velocity"] = m.velocity("com_payload")[:3]
+        result["payload_com_acceleration"] = m.acceleration("com_payload")[:3]
+        return result
+
+    def directions(self, body):
+        """[6][3] z axes of the legs' bodies of one kind, in O."""
+        return np.array([self.mechanism.rotation(f"com_{body}_{i}")[:, 2] for i in LEGS])
 
     def partial_velocities(self):
         m, basis = self.mechanism, self.reduction.platform_basis
-        payload = m.jacobian("payload_com") @ basis
-        rods = stack(m.jacobian, "rod_com_{}") @ basis
-        direction = np.array([m.rotation(f"rod_com_{i}")[:, 2] for i in LEGS])
-        # Each column is an angular velocity: the same projection as for the rod's.
-        turning = np.stack([without_spin(direction, rods[:, 3:, k]) for k in range(6)], axis=2)
+        payload = m.jacobian("com_payload") @ basis
+        partial = {body: stack(m.jacobian, f"com_{body}_{{}}") @ basis for body in self.leg.COM_OUTPUTS}
+        turning, prefix = self.leg.TURNING
+        direction, angular = self.directions(turning), partial[turning][:, 3:]
+        # Each column is an angular velocity: the same projection as for the leg's.
+        across = np.stack([without_spin(direction, angular[:, :, k]) for k in range(6)], axis=2)
         return {
             "payload_partial_velocity": payload[:3],
             "payload_partial_angular_velocity": payload[3:],
-            "rod_partial_velocity": rods[:, :3],
-            "rod_partial_angular_velocity": turning,
-            "mover_partial_velocity": stack(m.jacobian, "mover_{}")[:, :3] @ basis,
+            f"{prefix}_partial_angular_velocity": across,
+            **{f"{body}_partial_velocity": rows[:, :3] for body, rows in partial.items()},
         }
 
     def matrices(self):
@@ -129,7 +132,7 @@ class Solution:
     def forces(self):
         m, state, basis = self.mechanism, self.state, self.reduction.platform_basis
         springs, dampers = m.spring_forces(), m.damping_forces()
-        external = m.wrench_forces("payload_com", state.external_wrench)
+        external = m.wrench_forces("com_payload", state.external_wrench)
         drift = m.joint_forces(self.reduction.drift, gravity=True)
         needed = m.joint_forces(self.acceleration, gravity=True)
         bias = basis.T @ (drift - springs - dampers)
@@ -152,7 +155,7 @@ class Solution:
         """[6] whole wrench of the base on the mechanism, moments about r_b, at the state's accelerations.
 
         Virtual power of the base's speeds at fixed platform speeds; the slides' own share of it is given
-        back, because their forces also act between base and mover.
+        back, because their forces also act inside the legs, or between base and leg.
         """
         m, of_base, of_platform = self.mechanism, self.reduction.base_basis, self.reduction.platform_basis
         slides = m.slide_speeds
@@ -170,20 +173,20 @@ class Solution:
             inertia[body] = -basis.T @ m.joint_forces(self.acceleration, gravity=False)
         m.set_massive(m.description.bodies)
         m.move(self.reduction.speeds)
-        active["payload"] += basis.T @ m.wrench_forces("payload_com", state.external_wrench)
+        active["payload"] += basis.T @ m.wrench_forces("com_payload", state.external_wrench)
         passive = m.spring_forces() + m.damping_forces()
         for i, slide in enumerate(m.slide_speeds):
-            active[f"mover_{i}"] += basis[slide] * (state.actuator_force[i] + passive[slide])
+            active[f"{self.leg.DRIVEN}_{i}"] += basis[slide] * (state.actuator_force[i] + passive[slide])
         result = {"payload_active_force": active["payload"], "payload_inertia_force": inertia["payload"]}
-        for kind in ("rod", "mover"):
+        for kind in self.leg.COM_OUTPUTS:
             result[f"{kind}_active_force"] = np.array([active[f"{kind}_{i}"] for i in LEGS])
             result[f"{kind}_inertia_force"] = np.array([inertia[f"{kind}_{i}"] for i in LEGS])
         return result
 
 
 def without_spin(direction, angular):
-    """[6][3] the part of the rods' angular vectors across their axes.
+    """[6][3] the part of the legs' angular vectors across their axes.
 
-    A Hooke joint spins its rod, the model does not; without axial inertia no force depends on the spin.
+    A Hooke joint spins its leg, the model does not; without axial inertia no force depends on the spin.
     """
     return angular - np.sum(angular * direction, axis=1, keepdims=True) * direction

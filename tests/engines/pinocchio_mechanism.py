@@ -28,12 +28,16 @@ class PinocchioMechanism:
     def _add_joints(self):
         model, description, at_parent = self.model, self.description, pin.SE3.Identity()
         self.joints["base"] = model.addJoint(0, pin.JointModelFreeFlyer(), at_parent, "base")
-        for i in LEGS:
-            placement = pin.SE3(description.mover_rotations[i], description["base_point"][i])
-            mover = model.addJoint(self.joints["base"], pin.JointModelPZ(), placement, f"mover_{i}")
-            hooke = pin.JointModelUniversal(np.array([1.0, 0.0, 0.0]), np.array([0.0, 1.0, 0.0]))
-            self.joints[f"mover_{i}"] = mover
-            self.joints[f"rod_{i}"] = model.addJoint(mover, hooke, at_parent, f"rod_{i}")
+        self.slide_joints, self.hooke_joints = [], []
+        for _, name, parent, joint, rotation, position in description.links():
+            placement = pin.SE3(rotation, position)
+            if joint == "slide":
+                kind, joints = pin.JointModelPZ(), self.slide_joints
+            else:
+                kind = pin.JointModelUniversal(np.array([1.0, 0.0, 0.0]), np.array([0.0, 1.0, 0.0]))
+                joints = self.hooke_joints
+            self.joints[name] = model.addJoint(self.joints[parent], kind, placement, name)
+            joints.append(self.joints[name])
         self.joints["payload"] = model.addJoint(0, pin.JointModelFreeFlyer(), at_parent, "payload")
 
     def _add_frames(self):
@@ -50,12 +54,13 @@ class PinocchioMechanism:
     @property
     def slide_speeds(self):
         """[6] indices of the prismatic speeds d'."""
-        return np.array([self.model.idx_vs[self.joints[f"mover_{i}"]] for i in LEGS])
+        return np.array([self.model.idx_vs[joint] for joint in self.slide_joints])
 
     @property
     def leg_speeds(self):
         """[18] indices, per leg: prismatic, two Hooke speeds."""
-        return np.concatenate([[first, first + 1, first + 2] for first in self.slide_speeds])
+        hooke = [self.model.idx_vs[joint] for joint in self.hooke_joints]
+        return np.concatenate([[slide, first, first + 1] for slide, first in zip(self.slide_speeds, hooke)])
 
     def set_massive(self, names):
         """Gives the named bodies their mass and every other body none."""
@@ -79,8 +84,9 @@ class PinocchioMechanism:
             q[first : first + 3] = pose.position
             q[first + 3 : first + 7] = pin.Quaternion(pose.rotation).normalized().coeffs()
         for i in LEGS:
-            first = self.model.idx_qs[self.joints[f"mover_{i}"]]
-            q[first : first + 3] = legs[i]
+            q[self.model.idx_qs[self.slide_joints[i]]] = legs[i][0]
+            first = self.model.idx_qs[self.hooke_joints[i]]
+            q[first : first + 2] = legs[i][1:]
         self.q, self.speeds = q, np.zeros(self.model.nv)
         self._update_positions()
 
@@ -154,7 +160,7 @@ class PinocchioMechanism:
 
     def slides(self):
         """[6] prismatic coordinates d."""
-        return np.array([self.q[self.model.idx_qs[self.joints[f"mover_{i}"]]] for i in LEGS])
+        return np.array([self.q[self.model.idx_qs[joint]] for joint in self.slide_joints])
 
     def kinetic_energy(self):
         return pin.computeKineticEnergy(self.model, self.data, self.q, self.speeds)
@@ -174,7 +180,7 @@ class PinocchioMechanism:
     def constrained_acceleration(self, forces):
         """[nv] from Pinocchio's own constrained forward dynamics (mu = 0), base free.
 
-        Closures are 3D constraints between rods and payload, built and differentiated by Pinocchio itself.
+        Closures are 3D constraints between legs and payload, built and differentiated by Pinocchio itself.
         """
         models, datas = pin.StdVec_RigidConstraintModel(), pin.StdVec_RigidConstraintData()
         for constraint in self._closures():
@@ -188,7 +194,7 @@ class PinocchioMechanism:
 
     def _closures(self):
         for i in LEGS:
-            ends = [self.description.points[f"{name}_{i}"] for name in ("rod_end", "platform_point")]
+            ends = [self.description.points[f"{name}_{i}"] for name in ("leg_end", "platform_point")]
             sides = [
                 argument
                 for end in ends

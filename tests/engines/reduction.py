@@ -17,45 +17,45 @@ class ClosureError(Exception):
 
 
 def close_loops(mechanism, base, payload):
-    """Places the mechanism with every rod end on its platform point; returns the largest residual.
+    """Places the mechanism with every leg's end on its platform point; returns the largest residual.
 
     The residual counts in the largest coordinate, at least 1 m: rounding of coordinates bounds it.
 
-    Branch: Hooke joint below the platform joint along the actuator axis. Newton starts with each rod along
-    its actuator axis, aimed at the platform point's foot on that axis; the aim then moves to the point
-    itself in steps. A rod never turns past perpendicular on the way, so the branch is kept.
+    Branch: the leg's end above the Hooke joint along the mount of the first joint (UHP: the actuator axis). Newton
+    starts with each leg along its mount, aimed at the platform point's foot on that axis; the aim then moves to the
+    point itself in steps. A leg never turns past perpendicular on the way, so the branch is kept.
     """
     legs = np.zeros((6, 3))
     mechanism.place(base, payload, legs)
     targets = stack(mechanism.position, "platform_point_{}")
     starts = stack(mechanism.position, "base_point_{}")
-    axes = np.array([mechanism.rotation(f"mover_{i}")[:, 2] for i in LEGS])
+    axes = np.array([base.rotation @ mount for mount in mechanism.description.mounts])
     along = np.sum(axes * (targets - starts), axis=1)
     across = targets - starts - along[:, None] * axes
-    legs[:, 0] = along - mechanism.description["rod_length"]
+    legs[:, 0] = along + mechanism.description.leg.least_slides(mechanism.description.parameters)
     scale = max(1.0, np.abs(targets).max())
     for share in CONTINUATION:
         residual = _newton(mechanism, base, payload, legs, targets - (1.0 - share) * across)
         if residual > 1e-14 * scale:
             raise ClosureError(f"the loops do not close: {residual:.3g} m are left")
-    above = stack(mechanism.position, "rod_end_{}") - stack(mechanism.position, "hooke_{}")
+    above = stack(mechanism.position, "leg_end_{}") - stack(mechanism.position, "hooke_{}")
     if np.any(np.sum(above * axes, axis=1) <= 0.0):
         raise ClosureError("a Hooke joint lies above its platform joint")
     return residual / scale
 
 
 def _newton(mechanism, base, payload, legs, targets):
-    """Moves `legs` until the rod ends meet their targets as rounding allows; returns the residual [m]."""
+    """Moves `legs` until the legs' ends meet their targets as rounding allows; returns the residual [m]."""
     columns = mechanism.leg_speeds
     best, best_legs = np.inf, legs.copy()
     for _ in range(NEWTON_STEPS):
         mechanism.place(base, payload, legs)
-        error = stack(mechanism.position, "rod_end_{}") - targets
+        error = stack(mechanism.position, "leg_end_{}") - targets
         size = np.abs(error).max()
         if size >= best and best < 1e-13:
             break
         best, best_legs = size, legs.copy()
-        rates = np.vstack([mechanism.jacobian(f"rod_end_{i}")[:3, columns] for i in LEGS])
+        rates = np.vstack([mechanism.jacobian(f"leg_end_{i}")[:3, columns] for i in LEGS])
         step = np.linalg.solve(rates, error.ravel()).reshape(6, 3)
         # A step of less than half a radian cannot jump to another branch.
         legs -= step * min(1.0, 0.5 / max(np.abs(step[:, 1:]).max(), 1e-300))
@@ -82,7 +82,7 @@ class Reduction:
 
     @staticmethod
     def _rows(motion):
-        closures = [motion(f"rod_end_{i}")[:3] - motion(f"platform_point_{i}")[:3] for i in LEGS]
+        closures = [motion(f"leg_end_{i}")[:3] - motion(f"platform_point_{i}")[:3] for i in LEGS]
         return np.concatenate([motion("base"), motion("platform"), *closures])
 
     def acceleration(self, base_acceleration, platform_acceleration):

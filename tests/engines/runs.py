@@ -17,6 +17,7 @@ from agreement import (
     self_checks,
     worst,
 )
+from leg_types import leg_type_and_parameters
 from mujoco_mechanism import MujocoMechanism
 from outputs import Solution
 from pinocchio_mechanism import PinocchioMechanism
@@ -29,7 +30,7 @@ InputError = (FileError, SamplingError)
 # Partial velocities and per-body forces are half of a case's numbers: only every third case keeps them.
 BULKY_EVERY = 3
 BULKY = ("partial_velocity", "partial_angular_velocity", "active_force", "inertia_force")
-# First Hooke axis turned about the actuator axis, per engine [rad]: the rods' spin changes, not the results.
+# First Hooke axis turned about the mount, per engine [rad]: the legs' spin changes, not the results.
 PINOCCHIO_TURN, MUJOCO_TURN = 0.0, 0.4
 
 
@@ -70,7 +71,7 @@ def _check(platforms, options):
             figures.append(compare(state_arrays(fresh_state), state_arrays(state), CHECK_LIMIT, where))
             # At the committed state itself: its last digits are an input, not a result.
             fresh, _ = solve(platform, state, where, ENGINES_LIMIT)
-            scales = cancelling_scales(platform["parameters"], fresh)
+            scales = cancelling_scales(*leg_type_and_parameters(platform), fresh)
             figures.append(compare(_kept(fresh, index), outputs, CHECK_LIMIT, where, scales))
         found.append(worst(figures))
         _say(f"{path}: worst difference {found[-1]}")
@@ -106,18 +107,19 @@ def _acceptable(platform, sampler, draw, where, limit):
 
 def solve(platform, state, where, limit, acceptable=lambda outputs: True):
     """Both engines at one state: (Pinocchio's outputs, worst figure), or (None, None) if not acceptable."""
-    parameters = platform["parameters"]
+    leg_type, parameters = leg_type_and_parameters(platform)
     try:
-        solution = Solution(PinocchioMechanism, parameters, state, PINOCCHIO_TURN)
+        solution = Solution(PinocchioMechanism, leg_type, parameters, state, PINOCCHIO_TURN)
         outputs = solution.outputs()
         if not acceptable(outputs):
             return None, None
-        other = Solution(MujocoMechanism, parameters, state, MUJOCO_TURN)
+        other = Solution(MujocoMechanism, leg_type, parameters, state, MUJOCO_TURN)
     except (ClosureError, np.linalg.LinAlgError) as error:
         raise Disagreement(f"{where}: {error}") from error
     for side in (solution, other):
         require(f"closure residual of {side.mechanism.name}", side.residual, CLOSURE_LIMIT, where)
-    figure = compare(outputs, other.outputs(), limit, where, cancelling_scales(parameters, outputs))
+    scales = cancelling_scales(leg_type, parameters, outputs)
+    figure = compare(outputs, other.outputs(), limit, where, scales)
     return outputs, worst([figure, self_checks(solution, outputs, where)])
 
 

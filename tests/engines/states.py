@@ -7,7 +7,7 @@ Families, in turn (`FAMILIES`):
     edge        pushed along a random line until the worst leg has u.a = 0.1 ... 0.25
 
 Only sampling uses the reach of a leg: the distance of the platform joint from the actuator's line against
-the rod length. At u.a = 0.1 accelerations grow like (u.a)^-3 and rounding with them; closer to the edge the
+the rod length (UHP), the change of length against a stroke (UPS). At u.a = 0.1 accelerations grow like (u.a)^-3 and rounding with them; closer to the edge the
 engines' common figure would measure rounding, not agreement. Likewise, states with cond(J) above 1e3 (moments
 divided by the joint circle's radius, so that forces and moments compare) are drawn again: the 6x6 solve costs
 the actuator forces that factor.
@@ -16,6 +16,7 @@ the actuator forces that factor.
 import numpy as np
 
 from description import Pose
+from leg_types import leg_type_and_parameters
 from outputs import Motion, State
 
 FAMILIES = ("home", "workspace", "large", "edge", "workspace", "large", "edge", "home", "large", "workspace")
@@ -33,10 +34,11 @@ class Sampler:
         # The seed belongs to the platform's name, so that other platforms on the command line change nothing.
         self.random = np.random.default_rng([seed, *platform["name"].encode()])
         self.name = platform["name"]
-        self.parameters = {name: np.asarray(value) for name, value in platform["parameters"].items()}
+        self.leg_type, self.parameters = leg_type_and_parameters(platform)
         self.home = Pose(*(np.asarray(platform["home"][key]) for key in ("position", "rotation")))
         self.radius = np.linalg.norm(self.parameters["platform_point"], axis=1).max()
-        self.reach = self.parameters["rod_length"].min()
+        self.home_legs = self._legs(self.home)
+        self.reach = self.leg_type.step(self.parameters, self.home_legs)
         self.force = self.parameters["payload_mass"] * 10.0
         if self._least_alignment(self.home) < LEAST_ALIGNMENT:
             raise SamplingError(f"{self.name}: home is beyond a leg's reach, or nearly")
@@ -83,7 +85,7 @@ class Sampler:
         raise SamplingError(f"{self.name}: no reachable pose around home")
 
     def _direction(self):
-        """[6] a random direction: displacement over the rod length, rotation vector."""
+        """[6] a random direction: displacement over the workspace's step, rotation vector."""
         direction = self.random.standard_normal(6)
         return direction / np.linalg.norm(direction)
 
@@ -92,12 +94,13 @@ class Sampler:
         return Pose(self.home.position + amount * self.reach * direction[:3], turn @ self.home.rotation)
 
     def _least_alignment(self, pose):
-        """Least u.a of the legs; negative beyond reach."""
+        """Least u.a of the legs, or what stands for it in this leg type; negative beyond reach."""
+        return float(np.min(self.leg_type.reach(self.parameters, self._legs(pose), self.home_legs)))
+
+    def _legs(self, pose):
+        """[6][3] from base points to platform points, B coordinates."""
         p = self.parameters
-        leg = pose.position + p["platform_point"] @ pose.rotation.T - p["base_point"]
-        across = np.linalg.norm(np.cross(p["actuator_axis"], leg), axis=1)
-        squares = 1.0 - (across / p["rod_length"]) ** 2
-        return float(np.min(np.sign(squares) * np.sqrt(np.abs(squares))))
+        return pose.position + p["platform_point"] @ pose.rotation.T - p["base_point"]
 
     def _state(self, pose, base_turn, rate, rate_rate):
         random = self.random

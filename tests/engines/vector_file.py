@@ -7,27 +7,11 @@ import tempfile
 import numpy as np
 
 from description import Pose
+from leg_types import LEG_TYPES
 from outputs import Motion, State
 
 VERSION = 1
-PARAMETERS = {
-    "base_point": (6, 3),
-    "actuator_axis": (6, 3),
-    "platform_point": (6, 3),
-    "rod_length": (6,),
-    "rod_mass": (6,),
-    "rod_inertia": (6,),
-    "rod_com_fraction": (6,),
-    "mover_mass": (6,),
-    "mover_offset": (6,),
-    "rest_length": (6,),
-    "axial_stiffness": (6,),
-    "axial_damping": (6,),
-    "payload_mass": (),
-    "payload_com": (3,),
-    "payload_inertia": (3, 3),
-    "gravity": (3,),
-}
+PLATFORM_PARAMETERS = {"payload_mass": (), "payload_com": (3,), "payload_inertia": (3, 3), "gravity": (3,)}
 
 
 class FileError(Exception):
@@ -38,14 +22,15 @@ def read_platform(path):
     """A resolved platform file, as the object it holds, shapes checked."""
     platform = _read_json(path, "a resolved platform; make one with the example `resolve` of dyn-platform")
     try:
-        if platform["version"] != VERSION or platform["leg_type"] != "uhp":
-            raise FileError(f"{path}: needs version {VERSION} and leg_type uhp")
-        shapes = {name: np.shape(platform["parameters"][name]) for name in PARAMETERS}
+        if platform["version"] != VERSION or platform["leg_type"] not in LEG_TYPES:
+            raise FileError(f"{path}: needs version {VERSION} and a leg_type out of {', '.join(LEG_TYPES)}")
+        expected = {**LEG_TYPES[platform["leg_type"]].PARAMETERS, **PLATFORM_PARAMETERS}
+        shapes = {name: np.shape(platform["parameters"][name]) for name in expected}
         home = (np.shape(platform["home"]["position"]), np.shape(platform["home"]["rotation"]))
         platform["name"]
     except (KeyError, TypeError) as error:
         raise FileError(f"{path}: not a resolved platform: no {error}") from error
-    for name, shape in PARAMETERS.items():
+    for name, shape in expected.items():
         if shapes[name] != shape:
             raise FileError(f"{path}: {name} has shape {shapes[name]}, not {shape}")
     if home != ((3,), (3, 3)):

@@ -5,7 +5,7 @@ use nalgebra::{Matrix3, Vector1, Vector3, Vector6};
 
 use crate::law::{Law, unbalance};
 use crate::motion::{REASON, TIME_STEP, TOLERANCE, after, derivative};
-use crate::subject::{Subject, Values, parts};
+use crate::subject::{LegBodies, Subject, Values, parts};
 
 /// d/dt(T + V) = F.d' - sum c_e d'^2 + W_ext.v_p + w_B.v_b: what the actuators, the load and the moving base do is what the
 /// mechanism stores or the dampers lose. F is what the inverse dynamics asks for along the motion.
@@ -51,7 +51,7 @@ fn base_wrench(subject: &Subject, state: &Environment) -> Vector6<f64> {
         payload_position,
         bodies.vector("payload_com_acceleration"),
     );
-    for (body, place) in [("rod", "rod_com"), ("mover", "mover")] {
+    for (body, place) in subject.bodies().bodies {
         let positions = bodies.legs::<3, 1>(&format!("{place}_position"));
         let accelerations = bodies.legs::<3, 1>(&format!("{place}_acceleration"));
         let masses = parameters.vector::<6>(&format!("{body}_mass"));
@@ -63,7 +63,7 @@ fn base_wrench(subject: &Subject, state: &Environment) -> Vector6<f64> {
     wrench + stacked(Vector3::zeros(), angular_momentum_rate(subject, state)) - load
 }
 
-/// Sum over payload and rods of I w' + w × I w, each about its own centre of mass.
+/// Sum over payload and legs of I w' + w × I w, each about its own centre of mass.
 fn angular_momentum_rate(subject: &Subject, state: &Environment) -> Vector3<f64> {
     let rate = |inertia: Matrix3<f64>, w: Vector3<f64>, w_rate: Vector3<f64>| {
         inertia * w_rate + w.cross(&(inertia * w))
@@ -74,16 +74,18 @@ fn angular_momentum_rate(subject: &Subject, state: &Environment) -> Vector3<f64>
     let (_, w_p) = parts(state.vector("platform_velocity"));
     let (_, w_p_rate) = parts(state.vector("platform_acceleration"));
 
+    let LegBodies { turning, inertias, .. } = subject.bodies();
     let bodies = subject.call("body_kinematics", state);
     let directions = subject.call("leg_kinematics", state).legs::<3, 1>("rod_direction");
-    let (w, w_rate) =
-        (bodies.legs::<3, 1>("rod_angular_velocity"), bodies.legs::<3, 1>("rod_angular_acceleration"));
-    let transverse = subject.parameters.vector::<6>("rod_inertia");
-    let rods = (0..6).map(|leg| {
+    let (w, w_rate) = ["velocity", "acceleration"]
+        .map(|rate| bodies.legs::<3, 1>(&format!("{turning}_angular_{rate}")))
+        .into();
+    let transverse: Vector6<f64> = inertias.iter().map(|name| subject.parameters.vector::<6>(name)).sum();
+    let legs = (0..6).map(|leg| {
         let u = directions[leg];
         rate((Matrix3::identity() - u * u.transpose()) * transverse[leg], w[leg], w_rate[leg])
     });
-    rate(payload_inertia, w_p, w_p_rate) + rods.sum::<Vector3<f64>>()
+    rate(payload_inertia, w_p, w_p_rate) + legs.sum::<Vector3<f64>>()
 }
 
 fn stacked(linear: Vector3<f64>, angular: Vector3<f64>) -> Vector6<f64> {

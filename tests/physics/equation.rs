@@ -95,9 +95,10 @@ fn passive_forces_follow_from_lengths_and_partial_velocities() {
         let weighted = |jacobian: &str, mass: &str| -> SMatrix<f64, 3, 6> {
             partial.legs::<3, 6>(jacobian).iter().zip(parameter(mass).iter()).map(|(j, m)| j * *m).sum()
         };
-        let moving = payload
-            + weighted("rod_partial_velocity", "rod_mass")
-            + weighted("mover_partial_velocity", "mover_mass");
+        let bodies = subject.bodies().bodies.iter();
+        let moving = bodies.fold(payload, |sum, (body, _)| {
+            sum + weighted(&format!("{body}_partial_velocity"), &format!("{body}_mass"))
+        });
         let gravity = -moving.transpose() * parameters.vector::<3>("gravity");
 
         let forces = subject.call("passive_forces", state);
@@ -119,7 +120,7 @@ fn generalised_forces_vanish_along_inverse_dynamics() {
         let forces = subject.call("generalised_forces", &driven);
         let per_body: Vec<Vector6<f64>> =
             forces.values().flat_map(|values| values.chunks(6)).map(Vector6::from_row_slice).collect();
-        assert_eq!(per_body.len(), 2 * 13, "payload, six rods and six movers");
+        assert_eq!(per_body.len(), 2 * 13, "payload, two bodies of six legs");
         unbalance(&per_body)
     });
 }

@@ -78,7 +78,8 @@ fn common_translation_has_the_energy_of_the_total_mass() {
         let velocity = [v.as_slice(), &[0.0; 3]].concat();
         let together = state.with("base_velocity", &velocity).with("platform_velocity", &velocity);
         let sum = |name: &str| subject.parameters[name].iter().sum::<f64>();
-        let mass = sum("payload_mass") + sum("rod_mass") + sum("mover_mass");
+        let legs = subject.bodies().bodies.iter();
+        let mass = legs.fold(sum("payload_mass"), |mass, (body, _)| mass + sum(&format!("{body}_mass")));
         let energy = subject.call("energy", &together).scalar("kinetic_energy");
         (energy / (0.5 * mass * v.norm_squared()) - 1.0).abs()
     });

@@ -2,23 +2,32 @@
 
 use dyn_gen::deviation::{Scale, relative_error};
 use dyn_gen::graph::Environment;
+use dyn_platform::LegType;
 use nalgebra::{Matrix6, Vector3, Vector6};
 
 use crate::law::{Law, difference, largest, unbalance};
 use crate::motion::{REASON, TIME_STEP, TOLERANCE, after, derivative, gradient};
-use crate::subject::{Subject, Values, parts};
+use crate::subject::{LegBodies, Subject, Values, parts};
 
 /// Function, quantity, its rate.
 type Rate = (&'static str, &'static str, &'static str);
 
-fn rates_hold(law: &Law, rates: &[Rate]) {
+fn rates_hold(law: &Law, common: &[Rate], of_legs: impl Fn(&LegBodies) -> Vec<(String, String)>) {
     law.holds(|subject, state| {
-        largest(rates.iter().map(|(function, quantity, rate)| {
-            let along =
-                derivative(|t| subject.call(function, &after(state, t))[*quantity].clone(), TIME_STEP);
-            relative_error(&subject.call(function, state)[*rate], &along, Scale::own())
-        }))
+        let deviation = |function: &str, quantity: &str, rate: &str| {
+            let along = derivative(|t| subject.call(function, &after(state, t))[quantity].clone(), TIME_STEP);
+            relative_error(&subject.call(function, state)[rate], &along, Scale::own())
+        };
+        let common = common.iter().map(|(function, quantity, rate)| deviation(function, quantity, rate));
+        let of_legs = of_legs(subject.bodies());
+        let of_legs = of_legs.iter().map(|(quantity, rate)| deviation("body_kinematics", quantity, rate));
+        largest(common.chain(of_legs))
     });
+}
+
+/// Names of a quantity and its rate, of both bodies of a leg.
+fn of_bodies(legs: &LegBodies, quantity: &str, rate: &str) -> Vec<(String, String)> {
+    legs.bodies.iter().map(|(_, com)| (format!("{com}_{quantity}"), format!("{com}_{rate}"))).collect()
 }
 
 /// x' is the velocity of every body and actuator.
@@ -30,9 +39,8 @@ fn velocities_are_rates_of_positions() {
         &[
             ("leg_kinematics", "actuator_length", "actuator_velocity"),
             ("body_kinematics", "payload_com_position", "payload_com_velocity"),
-            ("body_kinematics", "rod_com_position", "rod_com_velocity"),
-            ("body_kinematics", "mover_position", "mover_velocity"),
         ],
+        |legs| of_bodies(legs, "position", "velocity"),
     );
 }
 
@@ -45,11 +53,19 @@ fn accelerations_are_rates_of_velocities() {
         &[
             ("leg_kinematics", "actuator_velocity", "actuator_acceleration"),
             ("body_kinematics", "payload_com_velocity", "payload_com_acceleration"),
-            ("body_kinematics", "rod_com_velocity", "rod_com_acceleration"),
-            ("body_kinematics", "mover_velocity", "mover_acceleration"),
-            ("body_kinematics", "rod_angular_velocity", "rod_angular_acceleration"),
         ],
+        |legs| {
+            let turning = ["velocity", "acceleration"].map(|rate| format!("{}_angular_{rate}", legs.turning));
+            let mut rates = of_bodies(legs, "velocity", "acceleration");
+            rates.push(turning.into());
+            rates
+        },
     );
+}
+
+fn angular_velocity(subject: &Subject, state: &Environment) -> [Vector3<f64>; 6] {
+    let name = format!("{}_angular_velocity", subject.bodies().turning);
+    subject.call("body_kinematics", state).legs::<3, 1>(&name)
 }
 
 /// u' = w_s × u: the rod turns with its angular velocity.
@@ -60,7 +76,7 @@ fn rod_direction_turns_with_the_rod() {
         let direction = |state: &Environment| subject.call("leg_kinematics", state)["rod_direction"].clone();
         let rate: Vec<f64> = derivative(|t| direction(&after(state, t)), TIME_STEP);
         let u = subject.call("leg_kinematics", state).legs::<3, 1>("rod_direction");
-        let w = subject.call("body_kinematics", state).legs::<3, 1>("rod_angular_velocity");
+        let w = angular_velocity(subject, state);
         let turning: Vec<f64> = (0..6).flat_map(|leg| w[leg].cross(&u[leg]).data.0[0]).collect();
         relative_error(&turning, &rate, Scale::own())
     });
@@ -76,8 +92,8 @@ fn rods_do_not_spin() {
     };
     law.holds(|subject, state| {
         let legs = subject.call("leg_kinematics", state);
-        let (u, joint) = (legs.legs::<3, 1>("rod_direction"), legs.legs::<3, 1>("universal_joint_rate"));
-        let w = subject.call("body_kinematics", state).legs::<3, 1>("rod_angular_velocity");
+        let (u, joint) = (legs.legs::<3, 1>("rod_direction"), legs.legs::<3, 1>("platform_joint_rate"));
+        let w = angular_velocity(subject, state);
         let (_, w_p) = parts(state.vector("platform_velocity"));
         largest((0..6).flat_map(|leg| {
             [w[leg].dot(&u[leg]).abs() / w[leg].norm(), difference(joint[leg], w_p - w[leg])]
@@ -85,12 +101,13 @@ fn rods_do_not_spin() {
     });
 }
 
-/// The loop closes (14), (17): Hooke joint r_b + R_b b + d a, platform joint r_p + R_p p, and s u from the one to the other
-/// with |u| = 1 and u.a > 0; the alignment is (u.a)^2.
+/// The loop closes (14), (17): platform joint r_p + R_p p, and a unit vector u from the Hooke joint to it. Of the paper's legs:
+/// Hooke joint r_b + R_b b + d a, the rod's length s between the joints, u.a > 0, and the alignment is (u.a)^2. Of telescopic
+/// legs: Hooke joint r_b + R_b b, d between the joints, alignment 1.
 #[test]
 fn legs_close() {
     let law = Law {
-        name: "s u spans Hooke and platform joint",
+        name: "u spans Hooke and platform joint",
         tolerance: 1e-13,
         reason: "a few rounded operations",
     };
@@ -98,22 +115,28 @@ fn legs_close() {
         let legs = subject.call("leg_kinematics", state);
         let [u, hooke, joint] = ["rod_direction", "hooke_joint_position", "platform_joint_position"]
             .map(|name| legs.legs::<3, 1>(name));
-        let [base_point, axis, platform_point] = ["base_point", "actuator_axis", "platform_point"]
-            .map(|name| subject.parameters.legs::<3, 1>(name));
+        let [base_point, platform_point] =
+            ["base_point", "platform_point"].map(|name| subject.parameters.legs::<3, 1>(name));
         let alignment = subject.vector("rod_alignment", state);
         let (r_b, r_p) = (state.vector::<3>("base_position"), state.vector::<3>("platform_position"));
         let (base, platform) =
             (state.matrix::<3, 3>("base_rotation"), state.matrix::<3, 3>("platform_rotation"));
         largest((0..6).flat_map(|leg| {
-            let length = subject.parameters["rod_length"][leg];
-            let a: Vector3<f64> = base * axis[leg];
-            assert!(u[leg].dot(&a) > 0.0, "the Hooke joint is below the platform joint");
             let d = legs["actuator_length"][leg];
+            let (span, cosine, slide): (f64, f64, Vector3<f64>) = match subject.leg_type {
+                LegType::Uhp => {
+                    let a: Vector3<f64> = base * subject.parameters.legs::<3, 1>("actuator_axis")[leg];
+                    (subject.parameters["rod_length"][leg], u[leg].dot(&a), a * d)
+                }
+                LegType::Ups => (d, 1.0, Vector3::zeros()),
+            };
+            assert!(cosine > 0.0, "the Hooke joint is below the platform joint");
+            assert!(span > 0.0, "joints are apart");
             [
-                (u[leg].dot(&a).powi(2) - alignment[leg]).abs(),
+                (cosine.powi(2) - alignment[leg]).abs(),
                 (u[leg].norm() - 1.0).abs(),
-                difference(joint[leg] - hooke[leg], u[leg] * length),
-                difference(hooke[leg], r_b + base * base_point[leg] + a * d),
+                difference(joint[leg] - hooke[leg], u[leg] * span),
+                difference(hooke[leg], r_b + base * base_point[leg] + slide),
                 difference(joint[leg], r_p + platform * platform_point[leg]),
             ]
         }))
@@ -172,12 +195,14 @@ fn partial_velocities_are_derivatives_of_velocities() {
         };
         let (_, w_p) = parts(v_p);
         let turning = partial.matrix::<3, 6>("payload_partial_angular_velocity") * v_p;
-        largest([
+        let LegBodies { turning: leg, bodies, .. } = subject.bodies();
+        let of_bodies =
+            bodies.map(|(body, com)| change(&format!("{com}_velocity"), &format!("{body}_partial_velocity")));
+        let of_payload = [
             difference(turning, w_p),
             change("payload_com_velocity", "payload_partial_velocity"),
-            change("rod_com_velocity", "rod_partial_velocity"),
-            change("rod_angular_velocity", "rod_partial_angular_velocity"),
-            change("mover_velocity", "mover_partial_velocity"),
-        ])
+            change(&format!("{leg}_angular_velocity"), &format!("{leg}_partial_angular_velocity")),
+        ];
+        largest(of_payload.into_iter().chain(of_bodies))
     });
 }

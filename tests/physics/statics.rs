@@ -2,14 +2,14 @@
 
 use dyn_gen::graph::Environment;
 use dyn_runtime::models::Uhp2016;
-use dyn_tests::compiled;
+use dyn_tests::compiled::Model;
 use dyn_tests::platforms::platform;
 use nalgebra::Vector6;
 
 use crate::kinematics::columns;
 use crate::law::{Law, difference, largest, unbalance};
 use crate::motion::{REASON, TOLERANCE, gradient};
-use crate::subject::{Subject, Values};
+use crate::subject::Values;
 
 /// The same pose at rest, without load.
 fn at_rest(state: &Environment) -> Environment {
@@ -61,7 +61,7 @@ fn stiffness_is_the_gradient_of_the_force_of_relaxed_springs() {
         Law { name: "K_p, K_b = d(spring_force)/dq where relaxed", tolerance: TOLERANCE, reason: REASON };
     law.holds(|subject, state| {
         let lengths = subject.call("leg_kinematics", state)["actuator_length"].clone();
-        let relaxed = Subject::at_run_time(&subject.label, subject.parameters.with("rest_length", &lengths));
+        let relaxed = subject.with(subject.parameters.with("rest_length", &lengths));
         let spring_force =
             |state: &Environment| relaxed.call("passive_forces", state)["spring_force"].clone();
         let stiffness = subject.call("stiffness_matrices", state);
@@ -105,7 +105,7 @@ fn default_platform_at_home_carries_its_weight_and_preload() {
     ] {
         state.insert(name.to_owned(), vec![0.0; 6]);
     }
-    let force = compiled::call(&Uhp2016, "inverse_dynamics", &state).vector::<6>("inverse_dynamics");
+    let force = Uhp2016.call("inverse_dynamics", &state).vector::<6>("inverse_dynamics");
     let excess = force.sum() - (WEIGHT + PRELOAD);
     println!(
         "{:76} {excess:8.1e} N (tolerance {ROUNDED:.0e} N)",
@@ -114,7 +114,7 @@ fn default_platform_at_home_carries_its_weight_and_preload() {
     assert!(excess.abs() < ROUNDED, "forces {force} add up to {} N", force.sum());
     let uneven = (force.max() - force.min()) / force.max();
     assert!(uneven < 1e-12, "the legs of a symmetric platform share alike: {force}");
-    let spring = compiled::call(&Uhp2016, "passive_forces", &state);
+    let spring = Uhp2016.call("passive_forces", &state);
     let preload = spring.vector::<6>("spring_force")[2];
     assert!((preload - PRELOAD).abs() < ROUNDED, "preload {preload} N along z");
 }

@@ -5,8 +5,8 @@ use std::sync::LazyLock;
 use dyn_gen::graph::Environment;
 use dyn_gen::sample::Kind;
 use dyn_gen::sampled_states;
-use dyn_runtime::models::{Parameters, Uhp, Uhp2016};
-use dyn_tests::compiled::{self, Model, baked};
+use dyn_platform::{LegType, Platform};
+use dyn_tests::compiled::{self, Model};
 use dyn_tests::platforms::{self, SEED, graph_file};
 use nalgebra::{SMatrix, SVector, Vector3};
 
@@ -15,33 +15,67 @@ const STATES_OF_EACH_PLATFORM: usize = 6;
 /// From a function's name and a state to outputs by name.
 type Call = dyn Fn(&str, &Environment) -> Environment + Send + Sync;
 
+/// What a leg is made of, by the names that outputs and parameters begin with.
+pub struct LegBodies {
+    /// What turns with the leg: `.._angular_velocity`, `.._partial_angular_velocity`.
+    pub turning: &'static str,
+    /// Both bodies: `.._mass`, `.._partial_velocity`; and their centres of mass: `.._position`, `.._velocity`.
+    pub bodies: [(&'static str, &'static str); 2],
+    /// Transverse moments of inertia, of bodies that turn with the leg.
+    pub inertias: &'static [&'static str],
+}
+
 /// A generated model.
 pub struct Subject {
     pub label: String,
+    pub leg_type: LegType,
     /// Its parameters by name, flat and row-major.
     pub parameters: Environment,
     call: Box<Call>,
 }
 
 impl Subject {
-    fn new(label: String, parameters: Environment, model: impl Model + Send + 'static) -> Subject {
+    /// A baked model of a test platform.
+    fn baked(platform: &Platform, model: &'static dyn Model) -> Subject {
         Subject {
-            label,
-            parameters,
-            call: Box::new(move |function, state| compiled::call(&model, function, state)),
+            label: format!("baked {}", platform.name),
+            leg_type: platform.leg_type,
+            parameters: platforms::parameters(platform),
+            call: Box::new(|function, state| model.call(function, state)),
         }
     }
 
-    /// A baked model of a test platform.
-    fn baked(name: &str, model: impl Model + Send + 'static) -> Subject {
-        Subject::new(format!("baked {name}"), platforms::parameters(&platforms::platform(name)), model)
+    /// The model with these parameters, given at run time.
+    pub fn at_run_time(label: &str, leg_type: LegType, parameters: Environment) -> Subject {
+        let read = |name: &str, values: &mut [f64]| values.copy_from_slice(&parameters[name]);
+        let model = compiled::with_parameters(leg_type, &read);
+        Subject {
+            label: format!("run time {label}"),
+            leg_type,
+            parameters,
+            call: Box::new(move |function, state| model.call(function, state)),
+        }
     }
 
-    /// The model with these parameters, given at run time.
-    pub fn at_run_time(label: &str, parameters: Environment) -> Subject {
-        let read = |name: &str, values: &mut [f64]| values.copy_from_slice(&parameters[name]);
-        let model = Uhp { parameters: Parameters::from_fn(read) };
-        Subject::new(format!("run time {label}"), parameters, model)
+    /// The same mechanism with other numbers, given at run time.
+    pub fn with(&self, parameters: Environment) -> Subject {
+        Subject::at_run_time(&self.label, self.leg_type, parameters)
+    }
+
+    /// What its legs are made of.
+    pub fn bodies(&self) -> &'static LegBodies {
+        match self.leg_type {
+            LegType::Uhp => &LegBodies {
+                turning: "rod",
+                bodies: [("rod", "rod_com"), ("mover", "mover")],
+                inertias: &["rod_inertia"],
+            },
+            LegType::Ups => &LegBodies {
+                turning: "leg",
+                bodies: [("lower", "lower_com"), ("upper", "upper_com")],
+                inertias: &["lower_inertia", "upper_inertia"],
+            },
+        }
     }
 
     /// A function's outputs by name.
@@ -103,25 +137,21 @@ pub fn parts(vector: SVector<f64, 6>) -> (Vector3<f64>, Vector3<f64>) {
 /// Every subject with its large states, seeded.
 pub fn cases() -> &'static [(Subject, Vec<Environment>)] {
     static CASES: LazyLock<Vec<(Subject, Vec<Environment>)>> = LazyLock::new(|| {
-        let file = graph_file();
-        let states = |name: &str| {
+        let with_states = |subject: Subject, platform: &Platform| {
             let kinds = [(Kind::Large, STATES_OF_EACH_PLATFORM)];
-            sampled_states(&file.program, &platforms::platform(name), &kinds, SEED)
-                .expect("the graph knows the platform")
+            let program = graph_file(platform.leg_type).program;
+            let states = sampled_states(&program, platform, &kinds, SEED);
+            (subject, states.expect("the graph knows the platform"))
         };
         let run_time = platforms::all().into_iter().map(|platform| {
-            let subject = Subject::at_run_time(&platform.name, platforms::parameters(&platform));
-            (subject, states(&platform.name))
+            let parameters = platforms::parameters(&platform);
+            with_states(Subject::at_run_time(&platform.name, platform.leg_type, parameters), &platform)
         });
-        run_time
-            .chain([
-                (Subject::baked("uhp_2016", Uhp2016), states("uhp_2016")),
-                (Subject::baked("tilted_axes", baked::tilted_axes::TiltedAxes), states("tilted_axes")),
-                (Subject::baked("unequal_legs", baked::unequal_legs::UnequalLegs), states("unequal_legs")),
-                (Subject::baked("long_thin", baked::long_thin::LongThin), states("long_thin")),
-                (Subject::baked("everything", baked::everything::Everything), states("everything")),
-            ])
-            .collect()
+        let baked = compiled::BAKED.map(|(name, model)| {
+            let platform = platforms::platform(name);
+            with_states(Subject::baked(&platform, model), &platform)
+        });
+        run_time.chain(baked).collect()
     });
     &CASES
 }

@@ -104,7 +104,7 @@ fn holds(
     deviation: impl Fn(&Subject, &Subject, &Environment) -> f64,
 ) {
     law.judge(at_run_time().flat_map(|(subject, states)| {
-        let changed = Subject::at_run_time("changed", change(&subject.parameters));
+        let changed = subject.with(change(&subject.parameters));
         let deviations = states.iter().map(|state| deviation(subject, &changed, state)).enumerate();
         deviations.map(|(k, found)| (format!("{}, state {k}", subject.label), found)).collect::<Vec<_>>()
     }));

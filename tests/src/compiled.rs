@@ -1,8 +1,8 @@
 //! Generated models as compiled code, every function callable by name.
 
 use dyn_gen::graph::Environment;
-use dyn_platform::Platform;
-use dyn_runtime::models::{Parameters, Uhp};
+use dyn_platform::{LegType, Platform};
+use dyn_runtime::models::{uhp, ups};
 
 include!(concat!(env!("OUT_DIR"), "/by_name.rs"));
 
@@ -13,21 +13,34 @@ pub mod baked {
     include!(concat!(env!("OUT_DIR"), "/models.rs"));
 }
 
+/// A model with every function.
+pub trait Model: Sync {
+    /// Outputs of a function of the table by name, flat and row-major.
+    fn call(&self, function: &str, state: &Environment) -> Environment;
+}
+
 /// The model with parameters at run time, for any platform.
-pub fn at_run_time(platform: &Platform) -> Uhp {
-    Uhp {
-        parameters: Parameters::from_fn(|name, values| {
-            values.copy_from_slice(&platform.parameter(name).expect("platforms have every parameter"));
-        }),
+pub fn at_run_time(platform: &Platform) -> Box<dyn Model + Send> {
+    with_parameters(platform.leg_type, &|name, values| {
+        values.copy_from_slice(&platform.parameter(name).expect("platforms have every parameter"));
+    })
+}
+
+/// The model of a leg type, its parameters filled by name.
+pub fn with_parameters(leg_type: LegType, fill: &dyn Fn(&str, &mut [f64])) -> Box<dyn Model + Send> {
+    match leg_type {
+        LegType::Uhp => Box::new(dyn_runtime::models::Uhp { parameters: uhp::Parameters::from_fn(fill) }),
+        LegType::Ups => Box::new(dyn_runtime::models::Ups { parameters: ups::Parameters::from_fn(fill) }),
     }
 }
 
-/// All outputs of all functions. Outputs that several functions give appear under `function/output`.
-pub fn outputs<M: Model>(model: &M, state: &Environment) -> Vec<(String, String, Vec<f64>)> {
+/// All outputs of all functions: function, output, values.
+pub fn outputs(model: &dyn Model, state: &Environment) -> Vec<(String, String, Vec<f64>)> {
     FUNCTIONS
         .iter()
         .flat_map(|function| {
-            call(model, function, state)
+            model
+                .call(function, state)
                 .into_iter()
                 .map(|(output, values)| (function.to_string(), output, values))
         })

@@ -10,3 +10,8 @@ pub mod vectors;
 #[cfg(doctest)]
 #[doc = include_str!("../../README.md")]
 pub struct Readme;
+
+/// The examples of the chapter about control loops, compiled and run; those in C are `dyn-capi`'s business.
+#[cfg(doctest)]
+#[doc = include_str!("../../docs/control-loop.md")]
+pub struct ControlLoop;

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use dyn_gen::graph::Environment;
 use dyn_gen::sample::Kind;
 use dyn_gen::{GraphFile, sampled_states};
-use dyn_platform::Platform;
+use dyn_platform::{LegType, Platform};
 
 /// Seed of all sampled states.
 pub const SEED: u64 = 2016;
@@ -14,7 +14,7 @@ pub const SEED: u64 = 2016;
 pub const KINDS: [Kind; 4] = [Kind::Home, Kind::Random, Kind::Large, Kind::NearEdge];
 
 /// Names of the test platforms, files in `tests/platforms`.
-pub const TEST_PLATFORMS: [&str; 8] = [
+pub const TEST_PLATFORMS: [&str; 10] = [
     "tilted_axes",
     "unequal_legs",
     "full_inertia",
@@ -23,6 +23,8 @@ pub const TEST_PLATFORMS: [&str; 8] = [
     "tilted_gravity_damped",
     "long_thin",
     "everything",
+    "ups_regular",
+    "ups_everything",
 ];
 
 /// The workspace's root folder.
@@ -41,9 +43,9 @@ pub fn all() -> Vec<Platform> {
     std::iter::once("uhp_2016").chain(TEST_PLATFORMS).map(platform).collect()
 }
 
-/// The graph file that is committed.
-pub fn graph_file() -> GraphFile {
-    GraphFile::uhp().expect("the committed graph file is checked by its own tests")
+/// The graph file of a leg type, as it is committed.
+pub fn graph_file(leg_type: LegType) -> GraphFile {
+    GraphFile::of(leg_type).expect("committed graph files are checked by their own tests")
 }
 
 /// `count` states of each kind, seeded.

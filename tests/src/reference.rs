@@ -3,10 +3,10 @@
 use dyn_gen::evidence;
 use dyn_gen::graph::Environment;
 use dyn_platform::Platform;
-use dyn_reference::{Parameters, State};
+use dyn_reference::{Mechanism, State};
 
 /// Parameters of the reference for a platform.
-pub fn parameters(platform: &Platform) -> Parameters {
+pub fn parameters(platform: &Platform) -> Mechanism {
     evidence::reference_parameters(platform).expect("platforms have every parameter")
 }
 
@@ -16,17 +16,14 @@ pub fn state(state: &Environment) -> State {
 }
 
 /// An output by name, flat and row-major.
-pub fn output(parameters: &Parameters, state: &State, name: &str) -> Vec<f64> {
+pub fn output(mechanism: &Mechanism, state: &State, name: &str) -> Vec<f64> {
     let mut values = Vec::new();
-    assert!(
-        dyn_reference::outputs::output(parameters, state, name, &mut values),
-        "the reference has no output `{name}`"
-    );
+    assert!(mechanism.output(state, name, &mut values), "the reference has no output `{name}`");
     values
 }
 
 /// Every output by name.
-pub fn outputs(parameters: &Parameters, state: &State) -> Environment {
-    let names = dyn_reference::outputs::OUTPUTS.iter().map(|row| row.name);
-    names.map(|name| (name.to_owned(), output(parameters, state, name))).collect()
+pub fn outputs(mechanism: &Mechanism, state: &State) -> Environment {
+    let names = mechanism.output_names().into_iter();
+    names.map(|name| (name.to_owned(), output(mechanism, state, name))).collect()
 }

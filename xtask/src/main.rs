@@ -1,5 +1,6 @@
 //! The workspace's own commands: orchestration only, each step is a command one can also type.
 
+mod bare;
 mod contract;
 mod runner;
 mod steps;
@@ -36,7 +37,13 @@ enum Task {
     /// Check everything: format, lints, freshness of derived files, Python and Rust tests, documentation
     ///
     /// Needs Python 3.11 or later and, the first time, the network.
-    Test(Selection),
+    Test {
+        #[command(flatten)]
+        selection: Selection,
+        /// Fetch the toolchain for the step `bare` first, which is skipped without it (155 MB, see `cargo xtask bare`)
+        #[arg(long)]
+        bare: bool,
+    },
     /// Measure: criterion benchmarks of generated code beside the hand-written reference
     ///
     /// Close other programs first, and compare figures of one and the same run only. Prints the table of ratios; criterion's
@@ -53,6 +60,12 @@ enum Task {
     ///
     /// Needs binutils (nm, ar, objdump). The frame is that of the function alone: the deepest call adds those it calls.
     Contract,
+    /// Build the C library without operating system, for this machine, a Cortex-M and WebAssembly, and look into it
+    ///
+    /// No exported function may reach a panic or call itself; code and stack are listed for each; the WebAssembly module
+    /// runs in Node over the test vectors, against the native library. The first time it unpacks Debian's `rustc-web`
+    /// (155 MB, nothing is installed) under `target/`; where that cannot be had it says so and does the rest.
+    Bare(bare::Options),
 }
 
 /// Which steps of a task.
@@ -72,10 +85,11 @@ struct Selection {
 fn main() -> ExitCode {
     let result = match CommandLine::parse().command {
         Task::Run(selection) => perform("run", RUN, &selection),
-        Task::Test(selection) => perform("test", TEST, &selection),
+        Task::Test { selection, bare } => fetched(bare).and_then(|()| perform("test", TEST, &selection)),
         Task::Bench { filter } => runner::bench(filter.as_deref()),
         Task::Vectors(options) => vectors::compare_or_write(&options),
         Task::Contract => contract::check(),
+        Task::Bare(options) => bare::bare(&options),
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,
@@ -84,6 +98,11 @@ fn main() -> ExitCode {
             ExitCode::FAILURE
         }
     }
+}
+
+/// The toolchain of the step `bare`, if it is wanted.
+fn fetched(wanted: bool) -> Result<(), Failure> {
+    if wanted { bare::fetch().map(drop) } else { Ok(()) }
 }
 
 fn perform(task: &str, steps: &[Step], selection: &Selection) -> Result<(), Failure> {

@@ -6,6 +6,7 @@ use std::path::Path;
 use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
+use crate::bare;
 use crate::steps::{Action, Step};
 use crate::workspace;
 
@@ -115,6 +116,7 @@ fn perform(action: &Action) -> Result<String, Failure> {
                 succeed(&mut cargo).map(|()| remark)
             }
         }
+        Action::Bare => bare::if_ready(),
         Action::Python { program, arguments } => {
             let environment = workspace::environment(program.environment, program.lock_file)?;
             let mut python = environment.command();
@@ -212,6 +214,7 @@ pub fn command_line(action: &Action) -> String {
         Action::Documentation(arguments) => {
             format!("RUSTDOCFLAGS='--deny warnings' cargo {}", arguments.join(" "))
         }
+        Action::Bare => "cargo xtask bare".into(),
         Action::Python { program, arguments } => {
             let (folder, environment) = (program.folder, program.environment);
             format!("(in {folder}/, Python of target/python/{environment}-*) python {}", arguments.join(" "))

@@ -30,6 +30,8 @@ pub enum Action {
     Documentation(&'static [&'static str]),
     /// `cargo ARGUMENTS`, for a machine without operating system where the toolchain has that target.
     NoStd(&'static [&'static str]),
+    /// What `cargo xtask bare` does, where its toolchain is there already.
+    Bare,
     /// `python ARGUMENTS` in a folder, in a Python environment of its own.
     Python {
         /// Where and with which packages.
@@ -77,7 +79,7 @@ pub const RUN: &[Step] = &[
         ]),
     },
     Step {
-        name: "summary",
+        name: "explain",
         why: "the paper's platform in figures, checked against independent numerics",
         action: Action::Cargo(&[
             "run",
@@ -85,7 +87,7 @@ pub const RUN: &[Step] = &[
             "--package",
             "dyn-gen",
             "--",
-            "summary",
+            "explain",
             "platforms/uhp_2016.toml",
         ]),
     },
@@ -146,6 +148,11 @@ pub const TEST: &[Step] = &[
         name: "no-std",
         why: "dyn-runtime needs neither operating system nor allocator",
         action: Action::NoStd(&["build", "--package", "dyn-runtime", "--no-default-features"]),
+    },
+    Step {
+        name: "bare",
+        why: "the C library for machines without operating system: no panic, no recursion, WebAssembly as native",
+        action: Action::Bare,
     },
     Step {
         name: "documentation",

@@ -70,11 +70,11 @@ fn names_of_steps_differ() {
 #[test]
 fn selection() {
     let names = |steps: &[Step]| steps.iter().map(|step| step.name).collect::<Vec<_>>();
-    assert_eq!(names(select(RUN, None, None).unwrap()), ["generate", "summary", "first-call", "experiment"]);
+    assert_eq!(names(select(RUN, None, None).unwrap()), ["generate", "explain", "first-call", "experiment"]);
     assert_eq!(names(select(RUN, Some("first-call"), None).unwrap()), ["first-call", "experiment"]);
-    assert_eq!(names(select(RUN, None, Some("summary")).unwrap()), ["summary"]);
-    let message = select(RUN, Some("sumary"), None).err().unwrap().to_string();
-    assert!(message.contains("`sumary`") && message.contains("generate, summary"), "{message}");
+    assert_eq!(names(select(RUN, None, Some("explain")).unwrap()), ["explain"]);
+    let message = select(RUN, Some("explian"), None).err().unwrap().to_string();
+    assert!(message.contains("`explian`") && message.contains("generate, explain"), "{message}");
 }
 
 #[test]

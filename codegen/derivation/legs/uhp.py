@@ -10,27 +10,55 @@ import casadi as ca
 from .. import kane
 from ..rotations import cross, dot
 from ..stages import leg_stage
-from ..symbols import Symbol
+from ..symbols import WRENCH, table
 
 
-def _parameter(name, shape, unit, frame, meaning, equation=""):
-    return Symbol(name, "parameter", shape, unit, frame, meaning, equation, per_leg=True)
+PARAMETERS = table("parameter", True, [
+    ("base_point", (3,), "m", "B", "point b of the actuator axis", "(14)"),
+    ("actuator_axis", (3,), "1", "B", "unit vector a of the actuator, towards the platform", "(14)"),
+    ("platform_point", (3,), "m", "P", "platform joint p", "(14)"),
+    ("rod_length", (), "m", "-", "rod length s", "(17)"),
+    ("rod_mass", (), "kg", "-", "rod mass m_s", "(27)-(29)"),
+    ("rod_inertia", (), "kg m^2", "-", "transverse inertia J_s of the rod about its centre of mass", "(27)-(29)"),
+    ("rod_com_fraction", (), "1", "-", "rod's centre of mass, from Hooke joint (0) to platform joint (1)"),
+    ("mover_mass", (), "kg", "-", "mover mass m_d", "(24)-(26)"),
+    ("mover_offset", (), "m", "-", "distance d* of the mover's centre of mass below the Hooke joint", "(24)-(26)"),
+    ("rest_length", (), "m", "-", "actuator length d0 at which the leaf springs are relaxed", "(39)-(46)"),
+    ("axial_stiffness", (), "N/m", "-", "axial stiffness k_e of the leaf springs", "(39)-(46)"),
+    ("axial_damping", (), "N s/m", "-", "axial viscous damping c_e"),
+])
 
+INTERMEDIATES = table("intermediate", True, [
+    ("radial_offset", (3,), "m", "B", "offset of the platform joint from the actuator axis"),
+    ("axial_span", (), "m", "-", "extent of the rod along the actuator axis"),
+    ("axial_span_reciprocal", (), "1/m", "-", "reciprocal of that extent"),
+    ("radial_offset_rate", (3,), "m/s", "B", "rate of the offset from the actuator axis"),
+    ("axial_span_rate", (), "m/s", "-", "rate of the rod's extent along the actuator axis"),
+    ("hooke_end_mass", (), "kg", "-", "rod's end mass at the Hooke joint"),
+    ("rod_coupling", (), "kg", "-", "rod's inertial coupling between its ends"),
+    ("inertia_weights", (2,), "kg", "-", "weights of the squares that make the leg's mass matrix"),
+    ("inertia_rows", (2, 6), "1, m", "B", "the vectors that are squared, in the platform speeds"),
+    ("hooke_joint_velocity", (3,), "m/s", "O", "velocity of the Hooke joint"),
+    ("platform_joint_velocity", (3,), "m/s", "O", "velocity of the platform joint"),
+])
 
-PARAMETERS = [
-    _parameter("base_point", (3,), "m", "B", "point b of the actuator axis", "(14)"),
-    _parameter("actuator_axis", (3,), "1", "B", "unit vector a of the actuator, towards the platform", "(14)"),
-    _parameter("platform_point", (3,), "m", "P", "platform joint p", "(14)"),
-    _parameter("rod_length", (), "m", "-", "rod length s", "(17)"),
-    _parameter("rod_mass", (), "kg", "-", "rod mass m_s", "(27)-(29)"),
-    _parameter("rod_inertia", (), "kg m^2", "-", "transverse inertia J_s of the rod about its centre of mass", "(27)-(29)"),
-    _parameter("rod_com_fraction", (), "1", "-", "rod's centre of mass, from Hooke joint (0) to platform joint (1)"),
-    _parameter("mover_mass", (), "kg", "-", "mover mass m_d", "(24)-(26)"),
-    _parameter("mover_offset", (), "m", "-", "distance d* of the mover's centre of mass below the Hooke joint", "(24)-(26)"),
-    _parameter("rest_length", (), "m", "-", "actuator length d0 at which the leaf springs are relaxed", "(39)-(46)"),
-    _parameter("axial_stiffness", (), "N/m", "-", "axial stiffness k_e of the leaf springs", "(39)-(46)"),
-    _parameter("axial_damping", (), "N s/m", "-", "axial viscous damping c_e"),
-]
+OUTPUTS = table("output", True, [
+    ("rod_angular_velocity", (3,), "rad/s", "O", "angular velocity w_s of the rod, without spin", "(22)"),
+    ("rod_angular_acceleration", (3,), "rad/s^2", "O", "angular acceleration of the rod", "(22)"),
+    ("rod_com_position", (3,), "m", "O", "centre of mass of the rod", "(27)-(29)"),
+    ("rod_com_velocity", (3,), "m/s", "O", "velocity of the rod's centre of mass", "(27)-(29)"),
+    ("rod_com_acceleration", (3,), "m/s^2", "O", "acceleration of the rod's centre of mass", "(27)-(29)"),
+    ("mover_position", (3,), "m", "O", "centre of mass of the mover", "(24)-(26)"),
+    ("mover_velocity", (3,), "m/s", "O", "velocity of the mover", "(24)-(26)"),
+    ("mover_acceleration", (3,), "m/s^2", "O", "acceleration of the mover", "(24)-(26)"),
+    ("rod_partial_velocity", (3, 6), "1, m", "O", "partial velocities of the rod's centre of mass", "(33)-(38)"),
+    ("rod_partial_angular_velocity", (3, 6), "1/m, 1", "O", "partial angular velocities of the rod", "(33)-(38)"),
+    ("mover_partial_velocity", (3, 6), "1, m", "O", "partial velocities of the mover", "(33)-(38)"),
+    ("rod_active_force", (6,), WRENCH, "O", "generalised active force of the rod: gravity", "(39)-(46)"),
+    ("rod_inertia_force", (6,), WRENCH, "O", "generalised inertia force of the rod", "(39)-(46)"),
+    ("mover_active_force", (6,), WRENCH, "O", "generalised active force of the mover: gravity, actuator, spring, damper", "(39)-(46)"),
+    ("mover_inertia_force", (6,), WRENCH, "O", "generalised inertia force of the mover", "(39)-(46)"),
+])
 
 _RIGID = kane.Point(along=1)
 _JOINT = kane.Point(across=1)
@@ -92,10 +120,13 @@ def leg_rates(joint_velocity, radial_offset, axial_span_reciprocal, actuator_axi
 
 
 @leg_stage
-def length_gradient_rate(radial_offset, radial_offset_rate, axial_span_rate, axial_span_reciprocal):
-    """rate of the gradient of the actuator length relative to the base."""
+def length_gradient_rate(
+    base_rate, length_gradient, radial_offset, radial_offset_rate, axial_span_rate, axial_span_reciprocal,
+):
+    """inertial rate of the gradient of the actuator length."""
     direction = radial_offset * axial_span_reciprocal
-    return {"length_gradient_rate": (radial_offset_rate - direction * axial_span_rate) * axial_span_reciprocal}
+    relative = (radial_offset_rate - direction * axial_span_rate) * axial_span_reciprocal
+    return {"length_gradient_rate": relative + cross(base_rate, length_gradient)}
 
 
 @leg_stage
@@ -157,7 +188,7 @@ def leg_reference_forces(
     )
     more = kane.bilinear_accelerations(
         leg, actuator_axis, cross(base_rate, actuator_axis),
-        length_gradient, length_gradient_rate + cross(base_rate, length_gradient),
+        length_gradient, length_gradient_rate,
         velocity_error + cross(rate_error, platform_lever), error_field @ platform_point,
     )
     accelerations = {name: acceleration + more[name] for name, acceleration in accelerations.items()}
@@ -293,7 +324,7 @@ def rod_and_joint_kinematics(
         "hooke_joint_velocity": hooke_velocity,
         "platform_joint_velocity": joint_velocity,
         "rod_angular_velocity": angular,
-        "universal_joint_rate": platform_velocity[3:] - angular,
+        "platform_joint_rate": platform_velocity[3:] - angular,
     }
 
 
@@ -396,15 +427,14 @@ def rod_and_mover_forces(
 
 
 # What the table of functions asks of a leg type beyond its share of the dynamics: its own bodies and joints.
+leg_masses = rod_ends
+# Whether `leg_inertia_squares` leaves a mass at the joint: all that moves with the joint alone is in `platform_end_mass`.
+JOINT_MASS = False
 JOINT_KINEMATICS = (rod_direction, rod_and_joint_kinematics)
 BODY_KINEMATICS = (rod_direction, rod_and_joint_kinematics, rod_and_mover_velocities, rod_and_mover_accelerations)
 PARTIAL_VELOCITIES = (rod_direction, rod_and_mover_partial_velocities)
 body_forces = rod_and_mover_forces
 
-LEG_KINEMATICS = (
-    "actuator_length", "actuator_velocity", "actuator_acceleration", "rod_direction", "hooke_joint_position",
-    "platform_joint_position", "universal_joint_rate",
-)
 BODY_OUTPUTS = (
     "rod_angular_velocity", "rod_angular_acceleration", "rod_com_position", "rod_com_velocity", "rod_com_acceleration",
     "mover_position", "mover_velocity", "mover_acceleration",

@@ -6,10 +6,11 @@ use clap::Args;
 use dyn_gen::evidence::Sampling;
 use dyn_gen::explain::explain;
 use dyn_gen::{GraphFile, Numbers};
-use dyn_platform::Platform;
 use miette::{IntoDiagnostic, Result};
 
 use super::Outcome;
+use super::files::read_platform;
+use super::model::states;
 use super::progress::with_progress;
 
 /// Arguments of `explain`.
@@ -29,7 +30,7 @@ pub struct Explain {
     #[arg(long, value_delimiter = ',', value_name = "NAME,...")]
     runtime: Vec<String>,
     /// States looked at
-    #[arg(long, value_name = "N", default_value_t = Sampling::default().states)]
+    #[arg(long, value_name = "N", default_value_t = Sampling::default().states, value_parser = states)]
     states: usize,
     /// Seed of those states
     #[arg(long, value_name = "S", default_value_t = Sampling::default().seed)]
@@ -47,7 +48,7 @@ Exit codes: 0 done, 1 refused, or the generated functions disagree with the hand
 impl Explain {
     /// Prints the explanation.
     pub fn run(self) -> Result<Outcome> {
-        let platform = Platform::from_file(&self.platform)?;
+        let platform = read_platform(&self.platform)?;
         let file = GraphFile::of(platform.leg_type)?;
         let numbers = Numbers::with_run_time(&platform, &self.runtime);
         let sampling = Sampling { states: self.states, seed: self.seed };

@@ -4,22 +4,26 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use dyn_gen::GraphFile;
+use dyn_platform::{LegType, Platform};
 use miette::{Diagnostic, IntoDiagnostic, Result, WrapErr};
 
-/// Graph file, seen from the root.
-pub const GRAPH: &str = "codegen/graphs/uhp.json";
+/// Folder of the graph files, seen from the root.
+pub const GRAPHS: &str = "codegen/graphs";
 /// Folder of the derivation.
 pub const DERIVATION: &str = "codegen";
 /// Its pinned packages.
 pub const LOCK_FILE: &str = "codegen/requirements.lock";
 /// The platform whose model is committed.
 pub const PLATFORM: &str = "platforms/uhp_2016.toml";
+/// Platform and model of the example crate whose model is committed.
+pub const EXAMPLE: [&str; 2] =
+    ["examples/committed_model/my_platform.toml", "examples/committed_model/src/my_platform.rs"];
 /// Folder of the committed models.
 pub const GENERATED: &str = "dyn-runtime/src/generated";
 
 /// No repository around.
 #[derive(Debug, thiserror::Error, Diagnostic)]
-#[error("this is not inside the repository: no folder from {} upwards has {GRAPH}", start.display())]
+#[error("this is not inside the repository: no folder from {} upwards has {GRAPHS}", start.display())]
 #[diagnostic(help(
     "change into the repository; a model of your own platform needs none: `dyn-gen generate`"
 ))]
@@ -27,7 +31,7 @@ struct NoRepository {
     start: PathBuf,
 }
 
-/// The root of the repository: the folder that holds the graph file, searched upwards from the current folder and then
+/// The root of the repository: the folder that holds the graph files, searched upwards from the current folder and then
 /// from where this tool was built.
 pub fn repository() -> Result<PathBuf> {
     let start = std::env::current_dir().into_diagnostic().wrap_err("cannot tell the current folder")?;
@@ -35,7 +39,7 @@ pub fn repository() -> Result<PathBuf> {
     start
         .ancestors()
         .chain(built_in.ancestors())
-        .find(|folder| folder.join(GRAPH).is_file() && folder.join(GENERATED).is_dir())
+        .find(|folder| folder.join(GRAPHS).is_dir() && folder.join(GENERATED).is_dir())
         .map(Path::to_owned)
         .ok_or_else(|| NoRepository { start }.into())
 }
@@ -43,6 +47,20 @@ pub fn repository() -> Result<PathBuf> {
 /// The text of a file.
 pub fn read(path: &Path) -> Result<String> {
     fs::read_to_string(path).into_diagnostic().wrap_err_with(|| format!("cannot read {}", path.display()))
+}
+
+/// The platform file at `path`. Hints at what may be wrong with it are printed.
+pub fn read_platform(path: &Path) -> Result<Platform> {
+    let platform = Platform::from_file(path)?;
+    for warning in &platform.warnings {
+        eprintln!("{:?}", miette::Report::new(warning.clone()));
+    }
+    Ok(platform)
+}
+
+/// The graph file of a leg type, in the folder [`GRAPHS`].
+pub fn graph_name(leg_type: LegType) -> String {
+    format!("{}.json", leg_type.name())
 }
 
 /// The graph file at `path`.

@@ -10,7 +10,7 @@ use dyn_gen::{Generated, GraphFile, Numbers, Options, generate};
 use dyn_platform::Platform;
 use miette::Result;
 
-use super::files::read_graph;
+use super::files::{read_graph, read_platform};
 use super::words::joined;
 
 /// Where generated code finds the runtime crate unless told otherwise.
@@ -38,7 +38,7 @@ pub struct ModelArguments {
     #[arg(long, value_name = "PATH", default_value = RUNTIME_PATH)]
     runtime_path: String,
     /// States at which the model is examined before it is written
-    #[arg(long, value_name = "N", default_value_t = Sampling::default().states)]
+    #[arg(long, value_name = "N", default_value_t = Sampling::default().states, value_parser = states)]
     states: usize,
     /// Seed of those states
     #[arg(long, value_name = "S", default_value_t = Sampling::default().seed)]
@@ -54,11 +54,22 @@ pub struct ModelArguments {
 impl ModelArguments {
     /// The text of the file `output`, whose first lines name it.
     pub fn generate(&self, platform_file: &Path, output: &Path) -> Result<Generated> {
-        let platform = Platform::from_file(platform_file)?;
+        let platform = read_platform(platform_file)?;
         let graph = match &self.graph {
             Some(path) => read_graph(path)?,
             None => GraphFile::of(platform.leg_type)?,
         };
+        self.generate_from(&graph, &platform, platform_file, output)
+    }
+
+    /// The same with this graph file and this platform.
+    pub fn generate_from(
+        &self,
+        graph: &GraphFile,
+        platform: &Platform,
+        platform_file: &Path,
+        output: &Path,
+    ) -> Result<Generated> {
         let options = Options {
             command: joined(&self.command(&file_name(platform_file), &file_name(output), file_name)),
             model: self.model.clone().unwrap_or_else(|| platform.name.clone()),
@@ -67,7 +78,7 @@ impl ModelArguments {
             functions: self.functions.clone(),
             evidence: (!self.no_evidence).then_some(Sampling { states: self.states, seed: self.seed }),
         };
-        Ok(generate(&graph, &Numbers::with_run_time(&platform, &self.runtime), &options)?)
+        Ok(generate(graph, &Numbers::with_run_time(platform, &self.runtime), &options)?)
     }
 
     /// The command that makes `output` from `platform`, word by word.
@@ -91,6 +102,16 @@ impl ModelArguments {
             words.push("--no-evidence".into());
         }
         words
+    }
+}
+
+/// Number of states to look at: all kinds of them, or figures could come from home alone, where much is zero.
+pub fn states(text: &str) -> std::result::Result<usize, String> {
+    const LEAST: usize = 4;
+    match text.parse() {
+        Ok(states) if states >= LEAST => Ok(states),
+        Ok(_) => Err(format!("give at least {LEAST}, one of each kind; `generate` has --no-evidence")),
+        Err(error) => Err(error.to_string()),
     }
 }
 

@@ -6,12 +6,13 @@ use clap::Args;
 use dyn_gen::emit::{RuntimePath, Scalar};
 use dyn_gen::output::{NewFile, write_all};
 use dyn_gen::{GraphFile, Numbers, Options, generate, kernels};
-use dyn_platform::Platform;
+use dyn_platform::{LegType, Platform};
 use miette::Result;
 
 use super::Outcome;
-use super::derive::{DeriveError, derive};
-use super::files::{GENERATED, GRAPH, PLATFORM, read_graph, repository};
+use super::check::recorded;
+use super::derive::{DeriveError, Derived, derive};
+use super::files::{EXAMPLE, GENERATED, GRAPHS, PLATFORM, graph_name, read, read_graph, repository};
 
 /// The command that the files name and that a failed check recommends.
 const COMMAND: &str = "cargo regen";
@@ -22,7 +23,7 @@ pub struct Regen {
     /// Derive the equations first (needs Python 3.11 or later; makes its own environment under target/)
     #[arg(long)]
     derive: bool,
-    /// With --derive: where Python or the network is missing, say so and go on with the committed graph
+    /// With --derive: where Python or the network is missing, say so and go on with the committed graphs
     #[arg(long, requires = "derive")]
     fallback: bool,
     /// Compare only: exit code 1 if a file is not up to date
@@ -35,14 +36,18 @@ impl Regen {
     pub fn run(self) -> Result<Outcome> {
         let root = repository()?;
         let mut files = Vec::new();
-        let graph = match self.derived(&root)? {
+        let graphs = match self.derived(&root)? {
             Some(derived) => {
-                files.push(NewFile { path: root.join(GRAPH), text: derived.text });
-                derived.graph
+                let graphs = derived.iter().map(|derived| derived.graph.clone()).collect();
+                files.extend(derived.into_iter().map(|derived| derived.file(&root)));
+                graphs
             }
-            None => read_graph(&root.join(GRAPH))?,
+            None => LegType::ALL
+                .into_iter()
+                .map(|leg_type| read_graph(&root.join(GRAPHS).join(graph_name(leg_type))))
+                .collect::<Result<Vec<GraphFile>>>()?,
         };
-        files.extend(generated_files(&root, &graph)?);
+        files.extend(generated_files(&root, &graphs)?);
         files.retain(|file| !file.is_current());
         let shown =
             |file: &NewFile| file.path.strip_prefix(&root).unwrap_or(&file.path).display().to_string();
@@ -60,7 +65,7 @@ impl Regen {
         Ok(Outcome::Done)
     }
 
-    fn derived(&self, root: &Path) -> Result<Option<super::derive::Derived>> {
+    fn derived(&self, root: &Path) -> Result<Option<Vec<Derived>>> {
         if !self.derive {
             return Ok(None);
         }
@@ -68,7 +73,7 @@ impl Regen {
             Ok(derived) => Ok(Some(derived)),
             Err(report) => match report.downcast_ref::<DeriveError>() {
                 Some(error) if self.fallback && error.is_environment_missing() => {
-                    eprintln!("{error}: going on with the committed graph");
+                    eprintln!("{error}: going on with the committed graphs");
                     Ok(None)
                 }
                 _ => Err(report),
@@ -77,26 +82,49 @@ impl Regen {
     }
 }
 
-/// Every generated file of the runtime crate.
-fn generated_files(root: &Path, graph: &GraphFile) -> Result<Vec<NewFile>> {
+/// Every generated file of the runtime crate: kernel traits, the default platform with its numbers baked in, and a model of
+/// every leg type with its numbers given at run time.
+fn generated_files(root: &Path, graphs: &[GraphFile]) -> Result<Vec<NewFile>> {
     let platform = Platform::from_file(root.join(PLATFORM))?;
-    let options = |model: &str| Options {
-        model: model.into(),
-        runtime: RuntimePath::inside(),
-        scalars: vec![Scalar::F64, Scalar::F32],
-        functions: None,
-        command: COMMAND.into(),
-        evidence: None,
+    let model = |graph: &GraphFile, name: &str, numbers: &Numbers| -> Result<(String, String)> {
+        let options = Options {
+            model: name.into(),
+            runtime: RuntimePath::inside(),
+            scalars: vec![Scalar::F64, Scalar::F32],
+            functions: None,
+            command: COMMAND.into(),
+            evidence: None,
+        };
+        Ok((name.to_owned(), generate(graph, numbers, &options)?.source))
     };
-    let family = graph.program.name.as_str();
-    let texts = [
-        ("kernels", kernels(graph, COMMAND)?),
-        (&platform.name, generate(graph, &Numbers::baked(&platform), &options(&platform.name))?.source),
-        (family, generate(graph, &Numbers::at_run_time(), &options(family))?.source),
-    ];
-    let file = |(name, text): (&str, String)| NewFile {
+    let mut texts = vec![("kernels".to_owned(), kernels(graphs, COMMAND)?)];
+    for graph in graphs {
+        let leg_type = graph.program.name.as_str();
+        texts.push(model(graph, leg_type, &Numbers::at_run_time())?);
+        if platform.leg_type.name() == leg_type {
+            texts.push(model(graph, &platform.name, &Numbers::baked(&platform))?);
+        }
+    }
+    let file = |(name, text): (String, String)| NewFile {
         path: root.join(GENERATED).join(format!("{name}.rs")),
         text,
     };
-    Ok(texts.into_iter().map(file).collect())
+    let mut files: Vec<NewFile> = texts.into_iter().map(file).collect();
+    files.extend(example(root, graphs)?);
+    Ok(files)
+}
+
+/// The model of the example crate, with the options in its first lines; none in a repository without it.
+fn example(root: &Path, graphs: &[GraphFile]) -> Result<Option<NewFile>> {
+    let [platform_file, path] = EXAMPLE.map(|file| root.join(file));
+    if !platform_file.is_file() {
+        return Ok(None);
+    }
+    let platform = Platform::from_file(&platform_file)?;
+    let model = recorded(&read(&path)?).map_err(|reason| miette::miette!("{}: {reason}", path.display()))?;
+    let Some(graph) = graphs.iter().find(|graph| graph.program.name == platform.leg_type.name()) else {
+        return Ok(None);
+    };
+    let text = model.generate_from(graph, &platform, &platform_file, &path)?.source;
+    Ok(Some(NewFile { path, text }))
 }

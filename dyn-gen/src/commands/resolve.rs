@@ -3,10 +3,10 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use dyn_platform::Platform;
 use miette::{IntoDiagnostic, Result};
 
 use super::Outcome;
+use super::files::read_platform;
 
 /// Arguments of `resolve`.
 #[derive(Args)]
@@ -19,7 +19,7 @@ pub struct Resolve {
 impl Resolve {
     /// Prints the JSON.
     pub fn run(self) -> Result<Outcome> {
-        let platform = Platform::from_file(&self.platform)?;
+        let platform = read_platform(&self.platform)?;
         println!("{}", serde_json::to_string_pretty(&platform).into_diagnostic()?);
         Ok(Outcome::Done)
     }

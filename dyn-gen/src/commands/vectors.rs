@@ -7,11 +7,10 @@ use dyn_gen::GraphFile;
 use dyn_gen::evidence::{Sampling, cases};
 use dyn_gen::output::{NewFile, write_all};
 use dyn_gen::vectors::{read_states, vectors};
-use dyn_platform::Platform;
 use miette::{IntoDiagnostic, Report, Result, WrapErr};
 
 use super::Outcome;
-use super::files::read;
+use super::files::{read, read_platform};
 
 /// Arguments of `vectors`.
 #[derive(Args)]
@@ -46,7 +45,7 @@ axes. docs/vectors.md describes the format and lists the outputs.";
 impl Vectors {
     /// Writes the vectors.
     pub fn run(self) -> Result<Outcome> {
-        let platform = Platform::from_file(&self.platform)?;
+        let platform = read_platform(&self.platform)?;
         let file = GraphFile::of(platform.leg_type)?;
         let states = match &self.states {
             Some(path) => {

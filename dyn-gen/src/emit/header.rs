@@ -43,8 +43,8 @@ pub struct Header {
     pub title: String,
     /// The command that makes the file.
     pub command: String,
-    /// The graph file.
-    pub graph: Source,
+    /// The graph files.
+    pub graphs: Vec<Source>,
     /// The platform, by the hash of its resolved numbers, where numbers are baked in.
     pub platform: Option<Source>,
     /// Version of CasADi that derived the graph.
@@ -73,7 +73,9 @@ impl Header {
         line(format_args!(""));
         line(format_args!("{}", self.title));
         line(format_args!(""));
-        line(format_args!("graph     {}, sha256 {}", self.graph.name, self.graph.sha256));
+        for graph in &self.graphs {
+            line(format_args!("graph     {}, sha256 {}", graph.name, graph.sha256));
+        }
         line(format_args!("          derived by CasADi {}", self.casadi));
         if let Some(platform) = &self.platform {
             line(format_args!(

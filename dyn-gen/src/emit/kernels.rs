@@ -1,37 +1,59 @@
-//! The file of kernel traits: one per function, implemented by every model.
+//! The file of kernel traits: one per function that all leg types have in common, and a module per leg type for the others.
 
+use std::collections::BTreeMap;
+
+use proc_macro2::TokenStream;
 use quote::{format_ident, quote};
 
 use super::function::allow;
-use super::names::{SCALAR, check_type_names, type_identifier};
+use super::names::{SCALAR, check_type_names, identifier, type_identifier};
 use super::print::source;
 use super::signature::Signature;
 use super::{EmitError, Header};
 
 /// Text of the file.
 pub fn kernels_file(header: &Header, signatures: &[Signature]) -> Result<String, EmitError> {
-    check_type_names(signatures.iter().map(|signature| signature.name.as_str()))?;
     let mut text = header.text();
-    let scalar = format_ident!("{SCALAR}");
+    let mut of_leg_types: BTreeMap<&str, Vec<&Signature>> = BTreeMap::new();
+    let mut common = Vec::new();
     for signature in signatures {
-        let kernel = type_identifier(&signature.name)?;
-        let function = signature.identifier()?;
-        let documentation = signature.documentation();
-        let arguments = signature.arguments(&quote!(#scalar))?;
-        let allow = allow(quote!());
-        let title = super::signature::documentation(&[format!("A model that has `{}`.", signature.name)]);
+        match &signature.leg_type {
+            None => common.push(signature),
+            Some(leg_type) => of_leg_types.entry(leg_type).or_default().push(signature),
+        }
+    }
+    check_type_names(common.iter().map(|signature| signature.name.as_str()))?;
+    for signature in common {
         text.push('\n');
-        text.push_str(&source(
-            &signature.name,
-            quote! {
-                #title
-                #allow
-                pub trait #kernel<#scalar = f64> {
-                    #documentation
-                    fn #function(&self, #(#arguments),*);
-                }
-            },
-        )?);
+        text.push_str(&source(&signature.name, kernel(signature)?)?);
+    }
+    for (leg_type, signatures) in of_leg_types {
+        check_type_names(signatures.iter().map(|signature| signature.name.as_str()))?;
+        let module = identifier(leg_type, leg_type)?;
+        let line = format!("Functions whose outputs belong to legs of type `{leg_type}`.");
+        let title = super::signature::documentation(&[line]);
+        let kernels = signatures.into_iter().map(kernel).collect::<Result<Vec<_>, _>>()?;
+        text.push('\n');
+        text.push_str(&source(leg_type, quote!(#title pub mod #module { #(#kernels)* }))?);
     }
     Ok(text)
+}
+
+/// The trait of one function.
+fn kernel(signature: &Signature) -> Result<TokenStream, EmitError> {
+    let kernel = type_identifier(&signature.name)?;
+    let function = signature.identifier()?;
+    let documentation = signature.documentation();
+    let scalar = format_ident!("{SCALAR}");
+    let arguments = signature.arguments(&quote!(#scalar))?;
+    let allow = allow(quote!());
+    let title = super::signature::documentation(&[format!("A model that has `{}`.", signature.name)]);
+    Ok(quote! {
+        #title
+        #allow
+        pub trait #kernel<#scalar = f64> {
+            #documentation
+            fn #function(&self, #(#arguments),*);
+        }
+    })
 }

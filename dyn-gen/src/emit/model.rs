@@ -158,12 +158,14 @@ fn parameters(model: &Model) -> Result<[TokenStream; 2], EmitError> {
     }
     let structure = quote! {
         /// Physical numbers of a platform; of a quantity that legs have, the leg is the first dimension.
+        #[allow(dead_code)]
         #[derive(Clone, Copy, Debug, PartialEq)]
         pub struct Parameters<#scalar = f64> {
             #fields
         }
     };
     let constructor = quote! {
+        #[allow(dead_code)]
         impl<#scalar: Scalar> Parameters<#scalar> {
             /// Parameters filled field by field: `fill(name, values)` gets the name of each field and its elements,
             /// row-major, to be written. What it leaves alone stays NaN, so that no result can come from it.
@@ -186,7 +188,7 @@ fn implementation(
 ) -> Result<TokenStream, EmitError> {
     let runtime = model.runtime.tokens();
     let model_name = type_identifier(model.name)?;
-    let kernel = type_identifier(&signature.name)?;
+    let kernel = signature.kernel()?;
     let function = signature.identifier()?;
     let number = format_ident!("{}", scalar.name());
     let arguments = signature.arguments(&quote!(#number))?;

@@ -37,7 +37,8 @@ pub fn items(model: &Model) -> Result<Vec<TokenStream>, EmitError> {
     let runtime = model.runtime.tokens();
     let name = type_identifier(model.name)?;
     let scalar = format_ident!("{SCALAR}");
-    let allow = allow(quote!(unused_qualifications));
+    // What a program does not use of a model is no fault of it.
+    let allow = allow(quote!(dead_code, unused_qualifications));
     let mut setters = TokenStream::new();
     let mut checks = TokenStream::new();
     for symbol in model.parameters {
@@ -89,6 +90,7 @@ pub fn items(model: &Model) -> Result<Vec<TokenStream>, EmitError> {
             }
         },
         quote! {
+            #allow
             impl<#scalar> #name<#scalar> {
                 /// The model with these parameters.
                 pub fn new(parameters: Parameters<#scalar>) -> Self {
@@ -105,23 +107,27 @@ pub fn items(model: &Model) -> Result<Vec<TokenStream>, EmitError> {
             fields.extend(quote!(#field: #value,));
         }
         let title = documentation(&["The numbers of the platform file.".into()]);
-        items.push(quote! {
-            #allow
-            impl<#scalar: Scalar> Default for Parameters<#scalar> {
-                #title
-                fn default() -> Self {
-                    Parameters { #fields }
+        // One for each type of number instead of one for any: a model with a single one needs no annotation.
+        for number in model.scalars.iter().map(|scalar| format_ident!("{}", scalar.name())) {
+            items.push(quote! {
+                #allow
+                impl Default for Parameters<#number> {
+                    #title
+                    fn default() -> Self {
+                        let c = <#number as Scalar>::constant;
+                        Parameters { #fields }
+                    }
                 }
-            }
-        });
-        items.push(quote! {
-            impl<#scalar: Scalar> Default for #name<#scalar> {
-                #title
-                fn default() -> Self {
-                    #name::new(Parameters::default())
+            });
+            items.push(quote! {
+                impl Default for #name<#number> {
+                    #title
+                    fn default() -> Self {
+                        #name::new(Parameters::default())
+                    }
                 }
-            }
-        });
+            });
+        }
     }
     Ok(items)
 }
@@ -147,10 +153,6 @@ fn nested(shape: &[usize], values: &mut std::slice::Iter<f64>) -> TokenStream {
 }
 
 fn number(value: f64) -> TokenStream {
-    let (scalar, magnitude) = (format_ident!("{SCALAR}"), Literal::f64_unsuffixed(value.abs()));
-    if value.is_sign_negative() {
-        quote!(#scalar::constant(-#magnitude))
-    } else {
-        quote!(#scalar::constant(#magnitude))
-    }
+    let magnitude = Literal::f64_unsuffixed(value.abs());
+    if value.is_sign_negative() { quote!(c(-#magnitude)) } else { quote!(c(#magnitude)) }
 }

@@ -4,7 +4,7 @@ use proc_macro2::{Ident, Literal, TokenStream};
 use quote::quote;
 
 use super::EmitError;
-use super::names::identifier;
+use super::names::{identifier, type_identifier};
 use crate::graph::{Function, Graph, Program, Symbol};
 use crate::text::one_line;
 
@@ -13,6 +13,8 @@ use crate::text::one_line;
 pub struct Signature {
     /// Name of the function.
     pub name: String,
+    /// The leg type, if its outputs belong to one.
+    pub leg_type: Option<String>,
     /// What it computes, one line.
     pub meaning: String,
     /// Equation number(s) in the source, or empty.
@@ -28,11 +30,18 @@ impl Signature {
     pub fn of(graph: &Graph) -> Signature {
         Signature {
             name: graph.name.clone(),
+            leg_type: None,
             meaning: graph.meaning.clone(),
             equation: graph.equation.clone(),
             inputs: graph.inputs.iter().filter(|symbol| !symbol.parameter).cloned().collect(),
             outputs: graph.outputs.iter().map(|output| output.symbol.clone()).collect(),
         }
+    }
+
+    /// The signature, with the leg type that the function of this name has in `program`.
+    pub fn within(self, program: &Program) -> Signature {
+        let leg_type = program.function(&self.name).and_then(|function| leg_type(program, function));
+        Signature { leg_type, ..self }
     }
 
     /// The signature of a function of `program`, without its body.
@@ -43,11 +52,24 @@ impl Signature {
         };
         Signature {
             name: function.name.clone(),
+            leg_type: leg_type(program, function),
             meaning: function.meaning.clone(),
             equation: function.equation.clone(),
             inputs: symbols(&function.inputs),
             outputs: symbols(&function.outputs),
         }
+    }
+
+    /// Name of its kernel trait, seen from the module of kernels.
+    pub(super) fn kernel(&self) -> Result<TokenStream, EmitError> {
+        let kernel = type_identifier(&self.name)?;
+        Ok(match &self.leg_type {
+            None => quote!(#kernel),
+            Some(leg_type) => {
+                let module = identifier(&self.name, leg_type)?;
+                quote!(#module::#kernel)
+            }
+        })
     }
 
     /// The function's name.
@@ -96,6 +118,10 @@ impl Signature {
         lines.extend(self.outputs.iter().map(argument_line));
         documentation(&lines)
     }
+}
+
+fn leg_type(program: &Program, function: &Function) -> Option<String> {
+    function.leg_specific.then(|| program.name.clone())
 }
 
 /// `[[T; 3]; 6]` for the shape 6x3, `T` for a scalar.

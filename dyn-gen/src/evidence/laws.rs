@@ -88,7 +88,7 @@ pub const LAWS: [Law; 7] = [
         name: "(T + V)' = F.d' + W_ext.v_p - D.v_p, base at rest",
         needs: &["kinetic_energy", "potential_energy", "jacobian_dp", "inverse_dynamics", "damping_force"],
         motion: Motion::BaseAtRest,
-        tolerance: 1e-9,
+        tolerance: 1e-8,
         reason: "forces have lost as many digits as the condition number of J_dp, up to 1000, has",
         violation: |at| {
             let speed = at.input::<6>("platform_velocity");
@@ -105,18 +105,20 @@ pub const LAWS: [Law; 7] = [
         tolerance: 1e-10,
         reason: "forces solve J_dp^T F = ... up to rounding, times the growth of the elimination",
         violation: |at| {
-            let platform = at.matrix("mass_matrix_p") * at.input::<6>("platform_acceleration");
+            let mass = at.matrix("mass_matrix_p");
+            let platform = mass * at.input::<6>("platform_acceleration");
             let base = at.matrix("mass_matrix_b") * at.input::<6>("base_acceleration");
             let driven = at.matrix("jacobian_dp").transpose() * at.vector("inverse_dynamics");
-            residual([platform, at.vector("bias"), -driven, -at.load(), -base])
+            // Relaxed springs without gravity leave forces that are nothing but rounding: 1 mm/s^2 is measured by at least.
+            residual([platform, at.vector("bias"), -driven, -at.load(), -base], 1e-3 * mass.amax())
         },
     },
     Law {
         name: "forward dynamics of the inverse dynamics' forces give v_p'",
         needs: &["inverse_dynamics", "forward_dynamics"],
         motion: Motion::Driven,
-        tolerance: 1e-9,
-        reason: "rounded forces, through J_dp^T and M_p^-1",
+        tolerance: 1e-7,
+        reason: "forces that have lost the digits of J_dp's condition, up to 1000, through M_p^-1 with a rod near its limit",
         violation: |at| {
             let wanted = at.input::<6>("platform_acceleration");
             let difference = (at.vector("forward_dynamics") - wanted).amax();
@@ -140,12 +142,13 @@ fn definiteness(matrix: &Matrix6<f64>) -> f64 {
 
 /// What is left of terms that should cancel, relative to the largest.
 fn balance<const N: usize>(terms: [f64; N]) -> f64 {
-    residual(terms.map(SVector::<f64, 1>::new))
+    residual(terms.map(SVector::<f64, 1>::new), 0.0)
 }
 
-fn residual<const N: usize, const D: usize>(terms: [SVector<f64, D>; N]) -> f64 {
+/// The same of vectors, relative to `least` at least.
+fn residual<const N: usize, const D: usize>(terms: [SVector<f64, D>; N], least: f64) -> f64 {
     let left = terms.iter().sum::<SVector<f64, D>>().amax();
-    if left == 0.0 { 0.0 } else { left / terms.iter().fold(0.0, |most, term| f64::max(most, term.amax())) }
+    if left == 0.0 { 0.0 } else { left / terms.iter().fold(least, |most, term| f64::max(most, term.amax())) }
 }
 
 /// A law and how well it holds.
@@ -164,7 +167,7 @@ pub struct LawRow {
 impl LawRow {
     /// Whether the violation is within the tolerance, or nothing was examined; NaN is not.
     pub fn holds(&self) -> bool {
-        self.worst.is_none_or(|worst| worst.error <= self.tolerance)
+        self.worst.is_none_or(|worst| worst.is_allowed())
     }
 }
 
@@ -231,7 +234,12 @@ impl<'a> Subject<'a> {
             }
             let violations = batch.iter().enumerate().map(|(lane, case)| {
                 let at = At { lanes: &lanes, environment: &case.environment, lane };
-                Worst { error: (law.violation)(&at), state: first + lane, kind: case.kind }
+                Worst {
+                    error: (law.violation)(&at),
+                    tolerance: law.tolerance,
+                    state: first + lane,
+                    kind: case.kind,
+                }
             });
             all.push(violations.reduce(Worst::or));
         }

@@ -129,7 +129,7 @@ pub fn gather(
     }
     let batches: Vec<&[Case]> = cases.chunks(crate::graph::LANES).collect();
     let names = comparison::output_names(functions);
-    let expected = parallel::map(&batches, |batch| oracle::expected(batch, &names));
+    let expected = parallel::map(&batches, |batch| oracle::expected(&program.name, batch, &names));
     let expected: Vec<Environment> =
         expected.into_iter().collect::<Result<Vec<_>, _>>().map_err(EvidenceError::from)?.concat();
     let comparison = comparison::Comparison::new(program, functions, &names, &expected);
@@ -189,13 +189,13 @@ impl Evidence {
                 (&row.unoptimised, "the graph before optimisation"),
                 (&row.reference, "the hand-written dynamics"),
             ] {
-                if !row.accepts(worst) {
+                if !worst.is_allowed() {
                     failures.push(format!(
                         "function `{}`, output `{}`: differs from {other} by {:.1e} (tolerance {:.0e}) {}",
                         row.function,
                         row.output,
                         worst.error,
-                        row.tolerance,
+                        worst.tolerance,
                         place(worst)
                     ));
                 }

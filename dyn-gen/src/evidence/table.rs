@@ -14,7 +14,7 @@ impl Evidence {
             format!("  {:<20}{:>9}{:>9}{:>11}   output, worst state", "function", "(a)", "(b)", "tolerance"),
         ];
         for rows in self.outputs.chunk_by(|one, other| one.function == other.function) {
-            let share = |row: &Agreement| overall(row).error / row.tolerance;
+            let share = |row: &Agreement| overall(row).share();
             // The row nearest to its tolerance, or the first that is no number.
             let nearest = rows.iter().max_by(|one, other| share(one).total_cmp(&share(other)));
             let Some(row) = rows.iter().find(|row| share(row).is_nan()).or(nearest) else { continue };
@@ -24,7 +24,7 @@ impl Evidence {
                 row.function,
                 row.unoptimised.error,
                 row.reference.error,
-                row.tolerance,
+                worst.tolerance,
                 row.output,
                 worst.state,
                 worst.kind

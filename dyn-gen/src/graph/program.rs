@@ -65,6 +65,8 @@ pub struct Function {
     pub inputs: Vec<String>,
     /// Symbols of role output, in signature order.
     pub outputs: Vec<String>,
+    /// Whether its outputs belong to this leg type; the signature of every other function is the same for all.
+    pub leg_specific: bool,
     /// In order of evaluation.
     pub steps: Vec<Step>,
     /// What the derivation computed for [`Program::sample`].

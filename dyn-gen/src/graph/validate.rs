@@ -271,8 +271,9 @@ impl Scope<'_> {
             }
             self.check_length(&format!("{place}, sample"), name, values)?;
         }
-        let FileFunction { name, meaning, equation, inputs, outputs, sample_outputs, .. } = file;
-        Ok(Function { name, meaning, equation, inputs, outputs, steps, sample_outputs })
+        let FileFunction { name, meaning, equation, inputs, outputs, leg_specific, sample_outputs, .. } =
+            file;
+        Ok(Function { name, meaning, equation, inputs, outputs, leg_specific, steps, sample_outputs })
     }
 
     fn solve(&self, place: &str, file: &FileSolve) -> Result<Step> {

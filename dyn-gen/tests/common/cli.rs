@@ -48,7 +48,12 @@ pub fn entries(folder: &Path) -> Vec<String> {
 pub fn repository() -> tempfile::TempDir {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
     let copy = tempfile::tempdir().unwrap();
-    for file in ["codegen/graphs/uhp.json", "codegen/requirements.lock", "platforms/uhp_2016.toml"] {
+    for file in [
+        "codegen/graphs/uhp.json",
+        "codegen/graphs/ups.json",
+        "codegen/requirements.lock",
+        "platforms/uhp_2016.toml",
+    ] {
         let target = copy.path().join(file);
         fs::create_dir_all(target.parent().unwrap()).unwrap();
         fs::copy(root.join(file), target).unwrap();

@@ -67,7 +67,7 @@ pub fn run(
     let header = dyn_gen::emit::Header {
         title: "Traits made for a test.".into(),
         command: "cargo test".into(),
-        graph: dyn_gen::emit::Source { name: "test.json".into(), sha256: "00".into() },
+        graphs: vec![dyn_gen::emit::Source { name: "test.json".into(), sha256: "00".into() }],
         platform: None,
         casadi: "0.0.0".into(),
         operations: Vec::new(),

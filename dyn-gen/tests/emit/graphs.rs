@@ -39,7 +39,7 @@ pub fn model(graphs: &[Graph], parameters: &[Symbol]) -> String {
     let header = Header {
         title: "Functions made for a test.".into(),
         command: "cargo test".into(),
-        graph: Source { name: "test.json".into(), sha256: "00".into() },
+        graphs: vec![Source { name: "test.json".into(), sha256: "00".into() }],
         platform: None,
         casadi: "0.0.0".into(),
         operations: graphs

@@ -4,4 +4,5 @@ mod bits;
 mod compiled;
 mod graphs;
 mod length;
+mod run_time;
 mod text;

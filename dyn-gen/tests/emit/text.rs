@@ -93,12 +93,14 @@ fn a_model_file() {
         use crate::solve::solve_general;
 
         /// Physical numbers of a platform; of a quantity that legs have, the leg is the first dimension.
+        #[allow(dead_code)]
         #[derive(Clone, Copy, Debug, PartialEq)]
         pub struct Parameters<T = f64> {
             /// 6, m, frame O: rod length.
             pub rod_length: [T; 6],
         }
 
+        #[allow(dead_code)]
         impl<T: Scalar> Parameters<T> {
             /// Parameters filled field by field: `fill(name, values)` gets the name of each field and its elements,
             /// row-major, to be written. What it leaves alone stays NaN, so that no result can come from it.
@@ -116,6 +118,48 @@ fn a_model_file() {
         pub struct TestModel<T = f64> {
             /// The physical numbers.
             pub parameters: Parameters<T>,
+        }
+
+        #[allow(clippy::all, clippy::pedantic, dead_code, unused_qualifications)]
+        impl<T: Scalar + Into<f64>> Parameters<T> {
+            /// Sets `rod_length`: 6, m, frame O: rod length.
+            ///
+            /// # Errors
+            ///
+            /// If it is not finite or it is not positive; then it keeps its value.
+            pub fn set_rod_length(
+                &mut self,
+                rod_length: [T; 6],
+            ) -> Result<&mut Self, crate::parameter::ParameterError> {
+                crate::parameter::check(
+                    "rod_length",
+                    crate::parameter::Domain::Positive,
+                    &rod_length,
+                )?;
+                self.rod_length = rod_length;
+                Ok(self)
+            }
+            /// Checks all parameters as their setters do, however they got their values.
+            ///
+            /// # Errors
+            ///
+            /// The first that is refused.
+            pub fn check(&self) -> Result<(), crate::parameter::ParameterError> {
+                crate::parameter::check(
+                    "rod_length",
+                    crate::parameter::Domain::Positive,
+                    &self.rod_length,
+                )?;
+                Ok(())
+            }
+        }
+
+        #[allow(clippy::all, clippy::pedantic, dead_code, unused_qualifications)]
+        impl<T> TestModel<T> {
+            /// The model with these parameters.
+            pub fn new(parameters: Parameters<T>) -> Self {
+                TestModel { parameters }
+            }
         }
 
         #[allow(clippy::all, clippy::pedantic, unused_qualifications)]

@@ -5,15 +5,15 @@
 use std::array::from_fn;
 use std::f64::consts::PI;
 
-use dyn_reference::{Leg, Parameters, Payload, RigidBodyMotion, State, rod_alignment};
+use dyn_reference::{LegType, Parameters, Payload, RigidBodyMotion, State, rod_alignment, uhp, ups};
 use nalgebra::{Matrix3, Rotation3, SMatrix, Vector3, Vector6};
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64;
 
 /// A platform with its home pose relative to the base.
-pub struct Case {
+pub struct Case<L = uhp::Leg> {
     pub name: &'static str,
-    pub parameters: Parameters,
+    pub parameters: Parameters<L>,
     pub home_position: Vector3<f64>,
     pub home_rotation: Matrix3<f64>,
 }
@@ -28,7 +28,7 @@ pub fn table_1() -> Case {
     let legs = from_fn(|i| {
         let centre = 120.0 * (i / 2) as f64;
         let side = if i % 2 == 0 { 1.0 } else { -1.0 };
-        Leg {
+        uhp::Leg {
             base_point_m: point(0.180, centre + side * 43.0),
             actuator_axis: Vector3::z(),
             platform_point_m: point(0.120, centre + side * 15.0),
@@ -88,8 +88,38 @@ pub fn ugly() -> Case {
     case
 }
 
-pub fn cases() -> [Case; 2] {
+/// Legs of the paper.
+pub fn uhp_cases() -> [Case; 2] {
     [table_1(), ugly()]
+}
+
+/// Gough-Stewart legs between the same joints: alike, and all different, with centres of mass beyond the leg's ends.
+pub fn ups_cases() -> [Case<ups::Leg>; 2] {
+    [(table_1(), "gough", 0.0), (ugly(), "ugly gough", 1.0)].map(|(case, name, spread)| {
+        let legs = from_fn(|i| {
+            let (leg, x) = (&case.parameters.legs[i], spread * i as f64);
+            ups::Leg {
+                base_point_m: leg.base_point_m,
+                platform_point_m: leg.platform_point_m,
+                lower_mass_kg: 1.3 + 0.2 * x,
+                lower_com_distance_m: 0.11 - 0.04 * x,
+                lower_inertia_kg_m2: 0.006 + 0.002 * x,
+                upper_mass_kg: 0.7 + 0.13 * x,
+                upper_com_distance_m: 0.15 + 0.06 * x,
+                upper_inertia_kg_m2: 0.004 + 0.001 * x,
+                rest_length_m: 0.39 + 0.01 * x,
+                axial_stiffness_n_m: leg.axial_stiffness_n_m,
+                axial_damping_n_s_m: leg.axial_damping_n_s_m,
+            }
+        });
+        let Parameters { payload, gravity_m_s2, .. } = case.parameters;
+        Case {
+            name,
+            parameters: Parameters { legs, payload, gravity_m_s2 },
+            home_position: case.home_position,
+            home_rotation: case.home_rotation,
+        }
+    })
 }
 
 pub fn random(seed: u64) -> Pcg64 {
@@ -103,7 +133,7 @@ pub fn vector<const N: usize>(random: &mut Pcg64, bound: f64) -> SMatrix<f64, N,
 /// A base turned by about 1 rad in any direction, the platform anywhere the legs reach without coming close
 /// to singular, both with velocities of several m/s and rad/s independent of each other, accelerations and
 /// forces to match.
-pub fn random_state(case: &Case, random: &mut Pcg64) -> State {
+pub fn random_state<L: LegType>(case: &Case<L>, random: &mut Pcg64) -> State {
     loop {
         let base_rotation = Rotation3::new(vector(random, 1.2)).into_inner();
         let base_position = vector(random, 1.0);
@@ -130,14 +160,27 @@ pub fn random_state(case: &Case, random: &mut Pcg64) -> State {
 }
 
 /// Runs `check` on `count` random states of each platform.
-pub fn for_random_states(seed: u64, count: usize, mut check: impl FnMut(&Case, &State)) {
-    for case in cases() {
+pub fn random_states<L: LegType>(
+    seed: u64,
+    count: usize,
+    cases: [Case<L>; 2],
+    mut check: impl FnMut(&Case<L>, &State),
+) {
+    for case in cases {
         let mut random = random(seed);
         for _ in 0..count {
             let state = random_state(&case, &mut random);
             check(&case, &state);
         }
     }
+}
+
+/// [`random_states`] of the platforms of every leg type. A macro, because one closure has one type of leg.
+macro_rules! for_random_states {
+    ($seed:expr, $count:expr, $check:expr $(,)?) => {{
+        $crate::common::random_states($seed, $count, $crate::common::uhp_cases(), $check);
+        $crate::common::random_states($seed, $count, $crate::common::ups_cases(), $check);
+    }};
 }
 
 /// The body `time` seconds later on a smooth motion through `now` with its velocity and acceleration.

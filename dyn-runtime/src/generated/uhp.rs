@@ -3,7 +3,7 @@
 //
 // Dynamics of any `uhp` platform, all numbers given at run time.
 //
-// graph     uhp.json, sha256 c0ba644a7baec83e1c503d82bf6c2b9fdeb1248d3d1f501aee99d3286ff379f4
+// graph     uhp.json, sha256 681cf4434cab11670af96653d8c96f220cec2462c26e5b794f5948e0a98ffee3
 //           derived by CasADi 3.8.2
 //
 // operations (+ - * / sqrt; a change of sign is not counted)
@@ -37,6 +37,7 @@ use crate::float::{Scalar, sqrt};
 use crate::solve::solve_general;
 
 /// Physical numbers of a platform; of a quantity that legs have, the leg is the first dimension.
+#[allow(dead_code)]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Parameters<T = f64> {
     /// 6x3, m, frame B: point b of the actuator axis, equation (14).
@@ -73,6 +74,7 @@ pub struct Parameters<T = f64> {
     pub gravity: [T; 3],
 }
 
+#[allow(dead_code)]
 impl<T: Scalar> Parameters<T> {
     /// Parameters filled field by field: `fill(name, values)` gets the name of each field and its elements,
     /// row-major, to be written. What it leaves alone stays NaN, so that no result can come from it.
@@ -122,7 +124,7 @@ pub struct Uhp<T = f64> {
     pub parameters: Parameters<T>,
 }
 
-#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+#[allow(clippy::all, clippy::pedantic, dead_code, unused_qualifications)]
 impl<T: Scalar + Into<f64>> Parameters<T> {
     /// Sets `base_point`: 6x3, m, frame B: point b of the actuator axis, equation (14).
     ///
@@ -482,6 +484,7 @@ impl<T: Scalar + Into<f64>> Parameters<T> {
     }
 }
 
+#[allow(clippy::all, clippy::pedantic, dead_code, unused_qualifications)]
 impl<T> Uhp<T> {
     /// The model with these parameters.
     pub fn new(parameters: Parameters<T>) -> Self {
@@ -528,7 +531,7 @@ impl crate::kernels::LegKinematics for Uhp {
         rod_direction: &mut [[f64; 3]; 6],
         hooke_joint_position: &mut [[f64; 3]; 6],
         platform_joint_position: &mut [[f64; 3]; 6],
-        universal_joint_rate: &mut [[f64; 3]; 6],
+        platform_joint_rate: &mut [[f64; 3]; 6],
     ) {
         self::leg_kinematics(
             &self.parameters,
@@ -546,13 +549,13 @@ impl crate::kernels::LegKinematics for Uhp {
             rod_direction,
             hooke_joint_position,
             platform_joint_position,
-            universal_joint_rate,
+            platform_joint_rate,
         );
     }
 }
 
 #[allow(clippy::all, clippy::pedantic, unused_qualifications)]
-impl crate::kernels::BodyKinematics for Uhp {
+impl crate::kernels::uhp::BodyKinematics for Uhp {
     fn body_kinematics(
         &self,
         base_position: &[f64; 3],
@@ -601,7 +604,7 @@ impl crate::kernels::BodyKinematics for Uhp {
 }
 
 #[allow(clippy::all, clippy::pedantic, unused_qualifications)]
-impl crate::kernels::PartialVelocities for Uhp {
+impl crate::kernels::uhp::PartialVelocities for Uhp {
     fn partial_velocities(
         &self,
         base_position: &[f64; 3],
@@ -630,7 +633,7 @@ impl crate::kernels::PartialVelocities for Uhp {
 }
 
 #[allow(clippy::all, clippy::pedantic, unused_qualifications)]
-impl crate::kernels::GeneralisedForces for Uhp {
+impl crate::kernels::uhp::GeneralisedForces for Uhp {
     fn generalised_forces(
         &self,
         base_position: &[f64; 3],
@@ -1202,7 +1205,7 @@ impl crate::kernels::LegKinematics<f32> for Uhp<f32> {
         rod_direction: &mut [[f32; 3]; 6],
         hooke_joint_position: &mut [[f32; 3]; 6],
         platform_joint_position: &mut [[f32; 3]; 6],
-        universal_joint_rate: &mut [[f32; 3]; 6],
+        platform_joint_rate: &mut [[f32; 3]; 6],
     ) {
         self::leg_kinematics(
             &self.parameters,
@@ -1220,13 +1223,13 @@ impl crate::kernels::LegKinematics<f32> for Uhp<f32> {
             rod_direction,
             hooke_joint_position,
             platform_joint_position,
-            universal_joint_rate,
+            platform_joint_rate,
         );
     }
 }
 
 #[allow(clippy::all, clippy::pedantic, unused_qualifications)]
-impl crate::kernels::BodyKinematics<f32> for Uhp<f32> {
+impl crate::kernels::uhp::BodyKinematics<f32> for Uhp<f32> {
     #[inline]
     fn body_kinematics(
         &self,
@@ -1276,7 +1279,7 @@ impl crate::kernels::BodyKinematics<f32> for Uhp<f32> {
 }
 
 #[allow(clippy::all, clippy::pedantic, unused_qualifications)]
-impl crate::kernels::PartialVelocities<f32> for Uhp<f32> {
+impl crate::kernels::uhp::PartialVelocities<f32> for Uhp<f32> {
     #[inline]
     fn partial_velocities(
         &self,
@@ -1306,7 +1309,7 @@ impl crate::kernels::PartialVelocities<f32> for Uhp<f32> {
 }
 
 #[allow(clippy::all, clippy::pedantic, unused_qualifications)]
-impl crate::kernels::GeneralisedForces<f32> for Uhp<f32> {
+impl crate::kernels::uhp::GeneralisedForces<f32> for Uhp<f32> {
     #[inline]
     fn generalised_forces(
         &self,
@@ -1855,7 +1858,7 @@ impl crate::kernels::Energy<f32> for Uhp<f32> {
     }
 }
 
-/// Squared cosine between each rod and its actuator axis, equation (18).
+/// Squared cosine between each rod and the line of its actuator's force, equation (18).
 ///
 /// Inputs:
 ///
@@ -1866,7 +1869,7 @@ impl crate::kernels::Energy<f32> for Uhp<f32> {
 ///
 /// Outputs:
 ///
-/// - `rod_alignment`: 6, dimensionless: squared cosine between rod and actuator axis; negative out of reach, equation (18).
+/// - `rod_alignment`: 6, dimensionless: squared cosine between rod and line of the actuator's force; negative out of reach, equation (18).
 #[allow(clippy::all, clippy::pedantic, unused_variables)]
 pub fn rod_alignment<T: Scalar>(
     parameters: &Parameters<T>,
@@ -2058,17 +2061,17 @@ pub fn rod_alignment<T: Scalar>(
     // leg 6: extent of the rod along the actuator axis
     let t155 = parameters.rod_length[5] * parameters.rod_length[5];
     let t156 = t155 - (t152 * t152 + t153 * t153 + t154 * t154);
-    // leg 1: squared cosine between rod and actuator axis; negative out of reach
+    // leg 1: squared cosine between rod and line of the actuator's force; negative out of reach
     rod_alignment[0] = t116 / t115;
-    // leg 2: squared cosine between rod and actuator axis; negative out of reach
+    // leg 2: squared cosine between rod and line of the actuator's force; negative out of reach
     rod_alignment[1] = t124 / t123;
-    // leg 3: squared cosine between rod and actuator axis; negative out of reach
+    // leg 3: squared cosine between rod and line of the actuator's force; negative out of reach
     rod_alignment[2] = t132 / t131;
-    // leg 4: squared cosine between rod and actuator axis; negative out of reach
+    // leg 4: squared cosine between rod and line of the actuator's force; negative out of reach
     rod_alignment[3] = t140 / t139;
-    // leg 5: squared cosine between rod and actuator axis; negative out of reach
+    // leg 5: squared cosine between rod and line of the actuator's force; negative out of reach
     rod_alignment[4] = t148 / t147;
-    // leg 6: squared cosine between rod and actuator axis; negative out of reach
+    // leg 6: squared cosine between rod and line of the actuator's force; negative out of reach
     rod_alignment[5] = t156 / t155;
 }
 
@@ -2093,7 +2096,7 @@ pub fn rod_alignment<T: Scalar>(
 /// - `rod_direction`: 6x3, dimensionless, frame O: rod direction u, from the Hooke joint to the platform joint, equation (17).
 /// - `hooke_joint_position`: 6x3, m, frame O: Hooke joint, equation (14).
 /// - `platform_joint_position`: 6x3, m, frame O: platform joint, equation (14).
-/// - `universal_joint_rate`: 6x3, rad/s, frame O: platform's angular velocity relative to the rod, w_p - w_s, equation (23).
+/// - `platform_joint_rate`: 6x3, rad/s, frame O: platform's angular velocity relative to the rod, w_p - w_s, equation (23).
 #[allow(clippy::all, clippy::pedantic, unused_variables)]
 pub fn leg_kinematics<T: Scalar>(
     parameters: &Parameters<T>,
@@ -2111,7 +2114,7 @@ pub fn leg_kinematics<T: Scalar>(
     rod_direction: &mut [[T; 3]; 6],
     hooke_joint_position: &mut [[T; 3]; 6],
     platform_joint_position: &mut [[T; 3]; 6],
-    universal_joint_rate: &mut [[T; 3]; 6],
+    platform_joint_rate: &mut [[T; 3]; 6],
 ) {
     let c = T::constant;
     // rotation of the platform seen from the base
@@ -3158,29 +3161,29 @@ pub fn leg_kinematics<T: Scalar>(
     let t848 = t534 * (t543 * t847 - t539 * t844);
     let t849 = t534 * (t539 * t845 - t541 * t847);
     // leg 1: platform's angular velocity relative to the rod, w_p - w_s
-    universal_joint_rate[0][0] = platform_velocity[3] + t591;
-    universal_joint_rate[0][1] = platform_velocity[4] + t593;
-    universal_joint_rate[0][2] = platform_velocity[5] + t594;
+    platform_joint_rate[0][0] = platform_velocity[3] + t591;
+    platform_joint_rate[0][1] = platform_velocity[4] + t593;
+    platform_joint_rate[0][2] = platform_velocity[5] + t594;
     // leg 2: platform's angular velocity relative to the rod, w_p - w_s
-    universal_joint_rate[1][0] = platform_velocity[3] + t642;
-    universal_joint_rate[1][1] = platform_velocity[4] + t644;
-    universal_joint_rate[1][2] = platform_velocity[5] + t645;
+    platform_joint_rate[1][0] = platform_velocity[3] + t642;
+    platform_joint_rate[1][1] = platform_velocity[4] + t644;
+    platform_joint_rate[1][2] = platform_velocity[5] + t645;
     // leg 3: platform's angular velocity relative to the rod, w_p - w_s
-    universal_joint_rate[2][0] = platform_velocity[3] + t693;
-    universal_joint_rate[2][1] = platform_velocity[4] + t695;
-    universal_joint_rate[2][2] = platform_velocity[5] + t696;
+    platform_joint_rate[2][0] = platform_velocity[3] + t693;
+    platform_joint_rate[2][1] = platform_velocity[4] + t695;
+    platform_joint_rate[2][2] = platform_velocity[5] + t696;
     // leg 4: platform's angular velocity relative to the rod, w_p - w_s
-    universal_joint_rate[3][0] = platform_velocity[3] + t744;
-    universal_joint_rate[3][1] = platform_velocity[4] + t746;
-    universal_joint_rate[3][2] = platform_velocity[5] + t747;
+    platform_joint_rate[3][0] = platform_velocity[3] + t744;
+    platform_joint_rate[3][1] = platform_velocity[4] + t746;
+    platform_joint_rate[3][2] = platform_velocity[5] + t747;
     // leg 5: platform's angular velocity relative to the rod, w_p - w_s
-    universal_joint_rate[4][0] = platform_velocity[3] + t795;
-    universal_joint_rate[4][1] = platform_velocity[4] + t797;
-    universal_joint_rate[4][2] = platform_velocity[5] + t798;
+    platform_joint_rate[4][0] = platform_velocity[3] + t795;
+    platform_joint_rate[4][1] = platform_velocity[4] + t797;
+    platform_joint_rate[4][2] = platform_velocity[5] + t798;
     // leg 6: platform's angular velocity relative to the rod, w_p - w_s
-    universal_joint_rate[5][0] = platform_velocity[3] + t846;
-    universal_joint_rate[5][1] = platform_velocity[4] + t848;
-    universal_joint_rate[5][2] = platform_velocity[5] + t849;
+    platform_joint_rate[5][0] = platform_velocity[3] + t846;
+    platform_joint_rate[5][1] = platform_velocity[4] + t848;
+    platform_joint_rate[5][2] = platform_velocity[5] + t849;
 }
 
 /// Position, velocity and acceleration of every body, equation (11)-(13), (22), (24)-(29).
@@ -6121,7 +6124,7 @@ pub fn partial_velocities<T: Scalar>(
 /// - `platform_rotation`: 3x3, dimensionless, frame P -> O: rotation of the platform, equation (2).
 /// - `platform_velocity`: 6, m/s, rad/s, frame O: platform velocity \[r_p'; w_p\], the generalised speeds.
 /// - `platform_acceleration`: 6, m/s^2, rad/s^2, frame O: platform acceleration \[r_p''; w_p'\].
-/// - `actuator_force`: 6, N: actuator force on the mover, along the actuator axis.
+/// - `actuator_force`: 6, N: actuator force along the actuator, positive to lengthen it.
 /// - `external_wrench`: 6, N, N m, frame O: external force and moment \[F_D; M_D\] at the payload's centre of mass.
 ///
 /// Outputs:
@@ -10957,15 +10960,11 @@ pub fn coriolis_matrices<T: Scalar>(
         t463,
         t464,
         t465,
-        t475,
         t478,
-        t479,
         t482,
         t485,
-        t486,
         t488,
         t491,
-        t492,
         t494,
         t495,
         t496,
@@ -11043,29 +11042,32 @@ pub fn coriolis_matrices<T: Scalar>(
         t769,
         t777,
         t785,
-        t804,
-        t805,
-        t806,
+        t817,
         t819,
-        t820,
         t821,
-        t834,
+        t826,
+        t828,
+        t830,
         t835,
-        t836,
         t837,
-        t838,
         t839,
-        t844,
+        t840,
+        t841,
+        t842,
         t846,
+        t847,
         t848,
-        t849,
-        t850,
-        t851,
         t852,
         t853,
         t854,
+        t855,
+        t856,
+        t857,
+        t858,
         t859,
+        t860,
         t861,
+        t862,
         t863,
         t864,
         t865,
@@ -11073,51 +11075,57 @@ pub fn coriolis_matrices<T: Scalar>(
         t867,
         t868,
         t869,
+        t870,
+        t871,
+        t872,
+        t873,
         t874,
-        t876,
-        t878,
+        t875,
         t879,
         t880,
         t881,
-        t882,
-        t883,
-        t884,
-        t889,
+        t885,
+        t886,
+        t887,
         t891,
+        t892,
         t893,
-        t897,
-        t898,
-        t899,
         t903,
-        t904,
-        t905,
-        t909,
         t910,
-        t911,
-        t921,
-        t928,
+        t913,
+        t914,
+        t915,
+        t917,
+        t918,
+        t919,
+        t920,
+        t924,
+        t925,
+        t926,
+        t930,
         t931,
         t932,
-        t933,
-        t935,
         t936,
         t937,
         t938,
-        t942,
-        t943,
-        t944,
         t948,
-        t949,
-        t950,
-        t954,
         t955,
-        t956,
+        t958,
+        t959,
+        t960,
+        t962,
+        t963,
+        t964,
+        t965,
         t966,
-        t973,
+        t969,
+        t970,
+        t971,
+        t972,
+        t975,
         t976,
         t977,
         t978,
-        t980,
         t981,
         t982,
         t983,
@@ -12055,102 +12063,98 @@ pub fn coriolis_matrices<T: Scalar>(
         let t784 = t221 * (t218 * t783 + (t216 * t781 + t217 * t782));
         // leg 6: actuator velocity d'
         let t785 = t780 + t784;
-        // leg 1: rate of that gradient relative to the base
-        let t786 = t171 * (t741 + t223 * t744);
-        let t787 = t171 * (t742 + t225 * t744);
-        let t788 = t171 * (t743 + t227 * t744);
-        // leg 2: rate of that gradient relative to the base
-        let t789 = t181 * (t749 + t229 * t752);
-        let t790 = t181 * (t750 + t231 * t752);
-        let t791 = t181 * (t751 + t233 * t752);
-        // leg 3: rate of that gradient relative to the base
-        let t792 = t191 * (t757 + t235 * t760);
-        let t793 = t191 * (t758 + t237 * t760);
-        let t794 = t191 * (t759 + t239 * t760);
-        // leg 4: rate of that gradient relative to the base
-        let t795 = t201 * (t765 + t241 * t768);
-        let t796 = t201 * (t766 + t243 * t768);
-        let t797 = t201 * (t767 + t245 * t768);
-        // leg 5: rate of that gradient relative to the base
-        let t798 = t211 * (t773 + t247 * t776);
-        let t799 = t211 * (t774 + t249 * t776);
-        let t800 = t211 * (t775 + t251 * t776);
-        // leg 6: rate of that gradient relative to the base
-        let t801 = t221 * (t781 + t253 * t784);
-        let t802 = t221 * (t782 + t255 * t784);
-        let t803 = t221 * (t783 + t257 * t784);
-        // leg 1: rate of the platform lever
-        let t804 = platform_velocity[4] * t54 - platform_velocity[5] * t51;
-        let t805 = platform_velocity[5] * t48 - platform_velocity[3] * t54;
-        let t806 = platform_velocity[3] * t51 - platform_velocity[4] * t48;
-        // leg 1: velocity of the platform joint less that of the base origin
-        let t807 = t663 - t804;
-        let t808 = t664 - t805;
-        let t809 = t665 - t806;
         // leg 1: inertial rate of that gradient
-        let t810 = t224 * t647 - (t788 + t226 * t644);
-        let t811 = t226 * t650 - (t786 + t228 * t647);
-        let t812 = t228 * t644 - (t787 + t224 * t650);
-        let t813 = base_rotation[0][0] * t811 + base_rotation[0][1] * t812;
-        let t814 = base_rotation[0][2] * t810 + t813;
-        let t815 = base_rotation[1][0] * t811 + base_rotation[1][1] * t812;
-        let t816 = base_rotation[1][2] * t810 + t815;
-        let t817 = base_rotation[2][0] * t811 + base_rotation[2][1] * t812;
-        let t818 = base_rotation[2][2] * t810 + t817;
-        // leg 2: rate of the platform lever
-        let t819 = platform_velocity[4] * t75 - platform_velocity[5] * t72;
-        let t820 = platform_velocity[5] * t69 - platform_velocity[3] * t75;
-        let t821 = platform_velocity[3] * t72 - platform_velocity[4] * t69;
-        // leg 2: velocity of the platform joint less that of the base origin
-        let t822 = t663 - t819;
-        let t823 = t664 - t820;
-        let t824 = t665 - t821;
+        let t786 = t224 * t647 - (t171 * (t743 + t227 * t744) + t226 * t644);
+        let t787 = t226 * t650 - (t171 * (t741 + t223 * t744) + t228 * t647);
+        let t788 = t228 * t644 - (t171 * (t742 + t225 * t744) + t224 * t650);
+        let t789 = base_rotation[0][0] * t787 + base_rotation[0][1] * t788;
+        let t790 = base_rotation[0][2] * t786 + t789;
+        let t791 = base_rotation[1][0] * t787 + base_rotation[1][1] * t788;
+        let t792 = base_rotation[1][2] * t786 + t791;
+        let t793 = base_rotation[2][0] * t787 + base_rotation[2][1] * t788;
+        let t794 = base_rotation[2][2] * t786 + t793;
         // leg 2: inertial rate of that gradient
-        let t825 = t230 * t647 - (t791 + t232 * t644);
-        let t826 = t232 * t650 - (t789 + t234 * t647);
-        let t827 = t234 * t644 - (t790 + t230 * t650);
-        let t828 = base_rotation[0][0] * t826 + base_rotation[0][1] * t827;
-        let t829 = base_rotation[0][2] * t825 + t828;
-        let t830 = base_rotation[1][0] * t826 + base_rotation[1][1] * t827;
-        let t831 = base_rotation[1][2] * t825 + t830;
-        let t832 = base_rotation[2][0] * t826 + base_rotation[2][1] * t827;
-        let t833 = base_rotation[2][2] * t825 + t832;
-        // leg 3: rate of the platform lever
-        let t834 = platform_velocity[4] * t96 - platform_velocity[5] * t93;
-        let t835 = platform_velocity[5] * t90 - platform_velocity[3] * t96;
-        let t836 = platform_velocity[3] * t93 - platform_velocity[4] * t90;
-        // leg 3: velocity of the platform joint less that of the base origin
-        let t837 = t663 - t834;
-        let t838 = t664 - t835;
-        let t839 = t665 - t836;
+        let t795 = t230 * t647 - (t181 * (t751 + t233 * t752) + t232 * t644);
+        let t796 = t232 * t650 - (t181 * (t749 + t229 * t752) + t234 * t647);
+        let t797 = t234 * t644 - (t181 * (t750 + t231 * t752) + t230 * t650);
+        let t798 = base_rotation[0][0] * t796 + base_rotation[0][1] * t797;
+        let t799 = base_rotation[0][2] * t795 + t798;
+        let t800 = base_rotation[1][0] * t796 + base_rotation[1][1] * t797;
+        let t801 = base_rotation[1][2] * t795 + t800;
+        let t802 = base_rotation[2][0] * t796 + base_rotation[2][1] * t797;
+        let t803 = base_rotation[2][2] * t795 + t802;
         // leg 3: inertial rate of that gradient
-        let t840 = t236 * t647 - (t794 + t238 * t644);
-        let t841 = t238 * t650 - (t792 + t240 * t647);
-        let t842 = t240 * t644 - (t793 + t236 * t650);
-        let t843 = base_rotation[0][0] * t841 + base_rotation[0][1] * t842;
-        let t844 = base_rotation[0][2] * t840 + t843;
-        let t845 = base_rotation[1][0] * t841 + base_rotation[1][1] * t842;
-        let t846 = base_rotation[1][2] * t840 + t845;
-        let t847 = base_rotation[2][0] * t841 + base_rotation[2][1] * t842;
-        let t848 = base_rotation[2][2] * t840 + t847;
-        // leg 4: rate of the platform lever
-        let t849 = platform_velocity[4] * t117 - platform_velocity[5] * t114;
-        let t850 = platform_velocity[5] * t111 - platform_velocity[3] * t117;
-        let t851 = platform_velocity[3] * t114 - platform_velocity[4] * t111;
-        // leg 4: velocity of the platform joint less that of the base origin
-        let t852 = t663 - t849;
-        let t853 = t664 - t850;
-        let t854 = t665 - t851;
+        let t804 = t236 * t647 - (t191 * (t759 + t239 * t760) + t238 * t644);
+        let t805 = t238 * t650 - (t191 * (t757 + t235 * t760) + t240 * t647);
+        let t806 = t240 * t644 - (t191 * (t758 + t237 * t760) + t236 * t650);
+        let t807 = base_rotation[0][0] * t805 + base_rotation[0][1] * t806;
+        let t808 = base_rotation[0][2] * t804 + t807;
+        let t809 = base_rotation[1][0] * t805 + base_rotation[1][1] * t806;
+        let t810 = base_rotation[1][2] * t804 + t809;
+        let t811 = base_rotation[2][0] * t805 + base_rotation[2][1] * t806;
+        let t812 = base_rotation[2][2] * t804 + t811;
         // leg 4: inertial rate of that gradient
-        let t855 = t242 * t647 - (t797 + t244 * t644);
-        let t856 = t244 * t650 - (t795 + t246 * t647);
-        let t857 = t246 * t644 - (t796 + t242 * t650);
-        let t858 = base_rotation[0][0] * t856 + base_rotation[0][1] * t857;
-        let t859 = base_rotation[0][2] * t855 + t858;
-        let t860 = base_rotation[1][0] * t856 + base_rotation[1][1] * t857;
-        let t861 = base_rotation[1][2] * t855 + t860;
-        let t862 = base_rotation[2][0] * t856 + base_rotation[2][1] * t857;
-        let t863 = base_rotation[2][2] * t855 + t862;
+        let t813 = t242 * t647 - (t201 * (t767 + t245 * t768) + t244 * t644);
+        let t814 = t244 * t650 - (t201 * (t765 + t241 * t768) + t246 * t647);
+        let t815 = t246 * t644 - (t201 * (t766 + t243 * t768) + t242 * t650);
+        let t816 = base_rotation[0][0] * t814 + base_rotation[0][1] * t815;
+        let t817 = base_rotation[0][2] * t813 + t816;
+        let t818 = base_rotation[1][0] * t814 + base_rotation[1][1] * t815;
+        let t819 = base_rotation[1][2] * t813 + t818;
+        let t820 = base_rotation[2][0] * t814 + base_rotation[2][1] * t815;
+        let t821 = base_rotation[2][2] * t813 + t820;
+        // leg 5: inertial rate of that gradient
+        let t822 = t248 * t647 - (t211 * (t775 + t251 * t776) + t250 * t644);
+        let t823 = t250 * t650 - (t211 * (t773 + t247 * t776) + t252 * t647);
+        let t824 = t252 * t644 - (t211 * (t774 + t249 * t776) + t248 * t650);
+        let t825 = base_rotation[0][0] * t823 + base_rotation[0][1] * t824;
+        let t826 = base_rotation[0][2] * t822 + t825;
+        let t827 = base_rotation[1][0] * t823 + base_rotation[1][1] * t824;
+        let t828 = base_rotation[1][2] * t822 + t827;
+        let t829 = base_rotation[2][0] * t823 + base_rotation[2][1] * t824;
+        let t830 = base_rotation[2][2] * t822 + t829;
+        // leg 6: inertial rate of that gradient
+        let t831 = t254 * t647 - (t221 * (t783 + t257 * t784) + t256 * t644);
+        let t832 = t256 * t650 - (t221 * (t781 + t253 * t784) + t258 * t647);
+        let t833 = t258 * t644 - (t221 * (t782 + t255 * t784) + t254 * t650);
+        let t834 = base_rotation[0][0] * t832 + base_rotation[0][1] * t833;
+        let t835 = base_rotation[0][2] * t831 + t834;
+        let t836 = base_rotation[1][0] * t832 + base_rotation[1][1] * t833;
+        let t837 = base_rotation[1][2] * t831 + t836;
+        let t838 = base_rotation[2][0] * t832 + base_rotation[2][1] * t833;
+        let t839 = base_rotation[2][2] * t831 + t838;
+        // leg 1: rate of the platform lever
+        let t840 = platform_velocity[4] * t54 - platform_velocity[5] * t51;
+        let t841 = platform_velocity[5] * t48 - platform_velocity[3] * t54;
+        let t842 = platform_velocity[3] * t51 - platform_velocity[4] * t48;
+        // leg 1: velocity of the platform joint less that of the base origin
+        let t843 = t663 - t840;
+        let t844 = t664 - t841;
+        let t845 = t665 - t842;
+        // leg 2: rate of the platform lever
+        let t846 = platform_velocity[4] * t75 - platform_velocity[5] * t72;
+        let t847 = platform_velocity[5] * t69 - platform_velocity[3] * t75;
+        let t848 = platform_velocity[3] * t72 - platform_velocity[4] * t69;
+        // leg 2: velocity of the platform joint less that of the base origin
+        let t849 = t663 - t846;
+        let t850 = t664 - t847;
+        let t851 = t665 - t848;
+        // leg 3: rate of the platform lever
+        let t852 = platform_velocity[4] * t96 - platform_velocity[5] * t93;
+        let t853 = platform_velocity[5] * t90 - platform_velocity[3] * t96;
+        let t854 = platform_velocity[3] * t93 - platform_velocity[4] * t90;
+        // leg 3: velocity of the platform joint less that of the base origin
+        let t855 = t663 - t852;
+        let t856 = t664 - t853;
+        let t857 = t665 - t854;
+        // leg 4: rate of the platform lever
+        let t858 = platform_velocity[4] * t117 - platform_velocity[5] * t114;
+        let t859 = platform_velocity[5] * t111 - platform_velocity[3] * t117;
+        let t860 = platform_velocity[3] * t114 - platform_velocity[4] * t111;
+        // leg 4: velocity of the platform joint less that of the base origin
+        let t861 = t663 - t858;
+        let t862 = t664 - t859;
+        let t863 = t665 - t860;
         // leg 5: rate of the platform lever
         let t864 = platform_velocity[4] * t138 - platform_velocity[5] * t135;
         let t865 = platform_velocity[5] * t132 - platform_velocity[3] * t138;
@@ -12159,128 +12163,127 @@ pub fn coriolis_matrices<T: Scalar>(
         let t867 = t663 - t864;
         let t868 = t664 - t865;
         let t869 = t665 - t866;
-        // leg 5: inertial rate of that gradient
-        let t870 = t248 * t647 - (t800 + t250 * t644);
-        let t871 = t250 * t650 - (t798 + t252 * t647);
-        let t872 = t252 * t644 - (t799 + t248 * t650);
-        let t873 = base_rotation[0][0] * t871 + base_rotation[0][1] * t872;
-        let t874 = base_rotation[0][2] * t870 + t873;
-        let t875 = base_rotation[1][0] * t871 + base_rotation[1][1] * t872;
-        let t876 = base_rotation[1][2] * t870 + t875;
-        let t877 = base_rotation[2][0] * t871 + base_rotation[2][1] * t872;
-        let t878 = base_rotation[2][2] * t870 + t877;
         // leg 6: rate of the platform lever
-        let t879 = platform_velocity[4] * t159 - platform_velocity[5] * t156;
-        let t880 = platform_velocity[5] * t153 - platform_velocity[3] * t159;
-        let t881 = platform_velocity[3] * t156 - platform_velocity[4] * t153;
+        let t870 = platform_velocity[4] * t159 - platform_velocity[5] * t156;
+        let t871 = platform_velocity[5] * t153 - platform_velocity[3] * t159;
+        let t872 = platform_velocity[3] * t156 - platform_velocity[4] * t153;
         // leg 6: velocity of the platform joint less that of the base origin
-        let t882 = t663 - t879;
-        let t883 = t664 - t880;
-        let t884 = t665 - t881;
-        // leg 6: inertial rate of that gradient
-        let t885 = t254 * t647 - (t803 + t256 * t644);
-        let t886 = t256 * t650 - (t801 + t258 * t647);
-        let t887 = t258 * t644 - (t802 + t254 * t650);
-        let t888 = base_rotation[0][0] * t886 + base_rotation[0][1] * t887;
-        let t889 = base_rotation[0][2] * t885 + t888;
-        let t890 = base_rotation[1][0] * t886 + base_rotation[1][1] * t887;
-        let t891 = base_rotation[1][2] * t885 + t890;
-        let t892 = base_rotation[2][0] * t886 + base_rotation[2][1] * t887;
-        let t893 = base_rotation[2][2] * t885 + t892;
+        let t873 = t663 - t870;
+        let t874 = t664 - t871;
+        let t875 = t665 - t872;
         // leg 1: Coriolis matrix of the leg in the speeds of its joint
-        let t894 = base_velocity[4] * t427 - base_velocity[5] * t421;
-        let t895 = t415 - t260 * t411;
-        let t896 = t300 * t894;
-        let t897 = t814 * t895 - t260 * t896;
-        let t898 = t816 * t895 - t262 * t896;
-        let t899 = t818 * t895 - t264 * t896;
-        let t900 = base_velocity[5] * t414 - base_velocity[3] * t427;
-        let t901 = t422 - t262 * t411;
-        let t902 = t300 * t900;
-        let t903 = t814 * t901 - t260 * t902;
-        let t904 = t816 * t901 - t262 * t902;
-        let t905 = t818 * t901 - t264 * t902;
-        let t906 = base_velocity[3] * t421 - base_velocity[4] * t414;
-        let t907 = t428 - t264 * t411;
-        let t908 = t300 * t906;
-        let t909 = t814 * t907 - t260 * t908;
-        let t910 = t816 * t907 - t262 * t908;
-        let t911 = t818 * t907 - t264 * t908;
+        let t876 = base_velocity[4] * t427 - base_velocity[5] * t421;
+        let t877 = t415 - t260 * t411;
+        let t878 = t300 * t876;
+        let t879 = t790 * t877 - t260 * t878;
+        let t880 = t792 * t877 - t262 * t878;
+        let t881 = t794 * t877 - t264 * t878;
+        let t882 = base_velocity[5] * t414 - base_velocity[3] * t427;
+        let t883 = t422 - t262 * t411;
+        let t884 = t300 * t882;
+        let t885 = t790 * t883 - t260 * t884;
+        let t886 = t792 * t883 - t262 * t884;
+        let t887 = t794 * t883 - t264 * t884;
+        let t888 = base_velocity[3] * t421 - base_velocity[4] * t414;
+        let t889 = t428 - t264 * t411;
+        let t890 = t300 * t888;
+        let t891 = t790 * t889 - t260 * t890;
+        let t892 = t792 * t889 - t262 * t890;
+        let t893 = t794 * t889 - t264 * t890;
         // leg 1: Coriolis matrix between joint and base angular velocity
-        let t912 = t172 * t900 + (base_velocity[5] * t442 - base_velocity[3] * t439);
-        let t913 = t421 * t745 + t912;
-        let t914 = parameters.mover_mass[0] * (t913 - parameters.mover_offset[0] * t900);
-        let t915 = t914 + (t297 * t913 + t300 * t808);
-        let t916 = t172 * t906 + (base_velocity[3] * t436 - base_velocity[4] * t442);
-        let t917 = t427 * t745 + t916;
-        let t918 = parameters.mover_mass[0] * (t917 - parameters.mover_offset[0] * t906);
-        let t919 = t918 + (t297 * t917 + t300 * t809);
-        let t920 = t427 * t915 - t421 * t919;
-        let t921 = t260 * t920;
-        let t922 = t172 * t894 + (base_velocity[4] * t439 - base_velocity[5] * t436);
-        let t923 = t414 * t745 + t922;
-        let t924 = parameters.mover_mass[0] * (t923 - parameters.mover_offset[0] * t894);
-        let t925 = t924 + (t297 * t923 + t300 * t807);
-        let t926 = t414 * t919 - t427 * t925;
-        let t927 = t300 * t917;
-        let t928 = t260 * t926 - t927;
-        let t929 = t421 * t925 - t414 * t915;
-        let t930 = t300 * t913;
-        let t931 = t260 * t929 + t930;
-        let t932 = t927 + t262 * t920;
-        let t933 = t262 * t926;
-        let t934 = t300 * t923;
-        let t935 = t262 * t929 - t934;
-        let t936 = t930 - t264 * t920;
-        let t937 = t934 + t264 * t926;
-        let t938 = t264 * t929;
+        let t894 = t172 * t882 + (base_velocity[5] * t442 - base_velocity[3] * t439);
+        let t895 = t421 * t745 + t894;
+        let t896 = parameters.mover_mass[0] * (t895 - parameters.mover_offset[0] * t882);
+        let t897 = t896 + (t297 * t895 + t300 * t844);
+        let t898 = t172 * t888 + (base_velocity[3] * t436 - base_velocity[4] * t442);
+        let t899 = t427 * t745 + t898;
+        let t900 = parameters.mover_mass[0] * (t899 - parameters.mover_offset[0] * t888);
+        let t901 = t900 + (t297 * t899 + t300 * t845);
+        let t902 = t427 * t897 - t421 * t901;
+        let t903 = t260 * t902;
+        let t904 = t172 * t876 + (base_velocity[4] * t439 - base_velocity[5] * t436);
+        let t905 = t414 * t745 + t904;
+        let t906 = parameters.mover_mass[0] * (t905 - parameters.mover_offset[0] * t876);
+        let t907 = t906 + (t297 * t905 + t300 * t843);
+        let t908 = t414 * t901 - t427 * t907;
+        let t909 = t300 * t899;
+        let t910 = t260 * t908 - t909;
+        let t911 = t421 * t907 - t414 * t897;
+        let t912 = t300 * t895;
+        let t913 = t260 * t911 + t912;
+        let t914 = t909 + t262 * t902;
+        let t915 = t262 * t908;
+        let t916 = t300 * t905;
+        let t917 = t262 * t911 - t916;
+        let t918 = t912 - t264 * t902;
+        let t919 = t916 + t264 * t908;
+        let t920 = t264 * t911;
         // leg 2: Coriolis matrix of the leg in the speeds of its joint
-        let t939 = base_velocity[4] * t459 - base_velocity[5] * t453;
-        let t940 = t447 - t266 * t443;
-        let t941 = t306 * t939;
-        let t942 = t829 * t940 - t266 * t941;
-        let t943 = t831 * t940 - t268 * t941;
-        let t944 = t833 * t940 - t270 * t941;
-        let t945 = base_velocity[5] * t446 - base_velocity[3] * t459;
-        let t946 = t454 - t268 * t443;
-        let t947 = t306 * t945;
-        let t948 = t829 * t946 - t266 * t947;
-        let t949 = t831 * t946 - t268 * t947;
-        let t950 = t833 * t946 - t270 * t947;
-        let t951 = base_velocity[3] * t453 - base_velocity[4] * t446;
-        let t952 = t460 - t270 * t443;
-        let t953 = t306 * t951;
-        let t954 = t829 * t952 - t266 * t953;
-        let t955 = t831 * t952 - t268 * t953;
-        let t956 = t833 * t952 - t270 * t953;
+        let t921 = base_velocity[4] * t459 - base_velocity[5] * t453;
+        let t922 = t447 - t266 * t443;
+        let t923 = t306 * t921;
+        let t924 = t799 * t922 - t266 * t923;
+        let t925 = t801 * t922 - t268 * t923;
+        let t926 = t803 * t922 - t270 * t923;
+        let t927 = base_velocity[5] * t446 - base_velocity[3] * t459;
+        let t928 = t454 - t268 * t443;
+        let t929 = t306 * t927;
+        let t930 = t799 * t928 - t266 * t929;
+        let t931 = t801 * t928 - t268 * t929;
+        let t932 = t803 * t928 - t270 * t929;
+        let t933 = base_velocity[3] * t453 - base_velocity[4] * t446;
+        let t934 = t460 - t270 * t443;
+        let t935 = t306 * t933;
+        let t936 = t799 * t934 - t266 * t935;
+        let t937 = t801 * t934 - t268 * t935;
+        let t938 = t803 * t934 - t270 * t935;
         // leg 2: Coriolis matrix between joint and base angular velocity
-        let t957 = t182 * t945 + (base_velocity[5] * t474 - base_velocity[3] * t471);
-        let t958 = t453 * t753 + t957;
-        let t959 = parameters.mover_mass[1] * (t958 - parameters.mover_offset[1] * t945);
-        let t960 = t959 + (t303 * t958 + t306 * t823);
-        let t961 = t182 * t951 + (base_velocity[3] * t468 - base_velocity[4] * t474);
-        let t962 = t459 * t753 + t961;
-        let t963 = parameters.mover_mass[1] * (t962 - parameters.mover_offset[1] * t951);
-        let t964 = t963 + (t303 * t962 + t306 * t824);
-        let t965 = t459 * t960 - t453 * t964;
-        let t966 = t266 * t965;
-        let t967 = t182 * t939 + (base_velocity[4] * t471 - base_velocity[5] * t468);
-        let t968 = t446 * t753 + t967;
-        let t969 = parameters.mover_mass[1] * (t968 - parameters.mover_offset[1] * t939);
-        let t970 = t969 + (t303 * t968 + t306 * t822);
-        let t971 = t446 * t964 - t459 * t970;
-        let t972 = t306 * t962;
-        let t973 = t266 * t971 - t972;
-        let t974 = t453 * t970 - t446 * t960;
-        let t975 = t306 * t958;
-        let t976 = t266 * t974 + t975;
-        let t977 = t972 + t268 * t965;
-        let t978 = t268 * t971;
-        let t979 = t306 * t968;
-        let t980 = t268 * t974 - t979;
-        let t981 = t975 - t270 * t965;
-        let t982 = t979 + t270 * t971;
-        let t983 = t270 * t974;
+        let t939 = t182 * t927 + (base_velocity[5] * t474 - base_velocity[3] * t471);
+        let t940 = t453 * t753 + t939;
+        let t941 = parameters.mover_mass[1] * (t940 - parameters.mover_offset[1] * t927);
+        let t942 = t941 + (t303 * t940 + t306 * t850);
+        let t943 = t182 * t933 + (base_velocity[3] * t468 - base_velocity[4] * t474);
+        let t944 = t459 * t753 + t943;
+        let t945 = parameters.mover_mass[1] * (t944 - parameters.mover_offset[1] * t933);
+        let t946 = t945 + (t303 * t944 + t306 * t851);
+        let t947 = t459 * t942 - t453 * t946;
+        let t948 = t266 * t947;
+        let t949 = t182 * t921 + (base_velocity[4] * t471 - base_velocity[5] * t468);
+        let t950 = t446 * t753 + t949;
+        let t951 = parameters.mover_mass[1] * (t950 - parameters.mover_offset[1] * t921);
+        let t952 = t951 + (t303 * t950 + t306 * t849);
+        let t953 = t446 * t946 - t459 * t952;
+        let t954 = t306 * t944;
+        let t955 = t266 * t953 - t954;
+        let t956 = t453 * t952 - t446 * t942;
+        let t957 = t306 * t940;
+        let t958 = t266 * t956 + t957;
+        let t959 = t954 + t268 * t947;
+        let t960 = t268 * t953;
+        let t961 = t306 * t950;
+        let t962 = t268 * t956 - t961;
+        let t963 = t957 - t270 * t947;
+        let t964 = t961 + t270 * t953;
+        let t965 = t270 * t956;
+        // leg 3: Coriolis matrix of the leg in the speeds of its joint
+        let t966 = base_velocity[4] * t491 - base_velocity[5] * t485;
+        let t967 = t479 - t272 * t475;
+        let t968 = t312 * t966;
+        let t969 = t808 * t967 - t272 * t968;
+        let t970 = t810 * t967 - t274 * t968;
+        let t971 = t812 * t967 - t276 * t968;
+        let t972 = base_velocity[5] * t478 - base_velocity[3] * t491;
+        let t973 = t486 - t274 * t475;
+        let t974 = t312 * t972;
+        let t975 = t808 * t973 - t272 * t974;
+        let t976 = t810 * t973 - t274 * t974;
+        let t977 = t812 * t973 - t276 * t974;
+        let t978 = base_velocity[3] * t485 - base_velocity[4] * t478;
+        let t979 = t492 - t276 * t475;
+        let t980 = t312 * t978;
+        let t981 = t808 * t979 - t272 * t980;
+        let t982 = t810 * t979 - t274 * t980;
+        let t983 = t812 * t979 - t276 * t980;
         (
             t28,
             t29,
@@ -12349,15 +12352,11 @@ pub fn coriolis_matrices<T: Scalar>(
             t463,
             t464,
             t465,
-            t475,
             t478,
-            t479,
             t482,
             t485,
-            t486,
             t488,
             t491,
-            t492,
             t494,
             t495,
             t496,
@@ -12435,29 +12434,32 @@ pub fn coriolis_matrices<T: Scalar>(
             t769,
             t777,
             t785,
-            t804,
-            t805,
-            t806,
+            t817,
             t819,
-            t820,
             t821,
-            t834,
+            t826,
+            t828,
+            t830,
             t835,
-            t836,
             t837,
-            t838,
             t839,
-            t844,
+            t840,
+            t841,
+            t842,
             t846,
+            t847,
             t848,
-            t849,
-            t850,
-            t851,
             t852,
             t853,
             t854,
+            t855,
+            t856,
+            t857,
+            t858,
             t859,
+            t860,
             t861,
+            t862,
             t863,
             t864,
             t865,
@@ -12465,675 +12467,659 @@ pub fn coriolis_matrices<T: Scalar>(
             t867,
             t868,
             t869,
+            t870,
+            t871,
+            t872,
+            t873,
             t874,
-            t876,
-            t878,
+            t875,
             t879,
             t880,
             t881,
-            t882,
-            t883,
-            t884,
-            t889,
+            t885,
+            t886,
+            t887,
             t891,
+            t892,
             t893,
-            t897,
-            t898,
-            t899,
             t903,
-            t904,
-            t905,
-            t909,
             t910,
-            t911,
-            t921,
-            t928,
+            t913,
+            t914,
+            t915,
+            t917,
+            t918,
+            t919,
+            t920,
+            t924,
+            t925,
+            t926,
+            t930,
             t931,
             t932,
-            t933,
-            t935,
             t936,
             t937,
             t938,
-            t942,
-            t943,
-            t944,
             t948,
-            t949,
-            t950,
-            t954,
             t955,
-            t956,
+            t958,
+            t959,
+            t960,
+            t962,
+            t963,
+            t964,
+            t965,
             t966,
-            t973,
+            t969,
+            t970,
+            t971,
+            t972,
+            t975,
             t976,
             t977,
             t978,
-            t980,
             t981,
             t982,
             t983,
         )
     };
     {
-        // leg 3: Coriolis matrix of the leg in the speeds of its joint
-        let t984 = base_velocity[4] * t491 - base_velocity[5] * t485;
-        let t985 = t479 - t272 * t475;
-        let t986 = t312 * t984;
-        let t987 = t844 * t985 - t272 * t986;
-        let t988 = t846 * t985 - t274 * t986;
-        let t989 = t848 * t985 - t276 * t986;
-        let t990 = base_velocity[5] * t478 - base_velocity[3] * t491;
-        let t991 = t486 - t274 * t475;
-        let t992 = t312 * t990;
-        let t993 = t844 * t991 - t272 * t992;
-        let t994 = t846 * t991 - t274 * t992;
-        let t995 = t848 * t991 - t276 * t992;
-        let t996 = base_velocity[3] * t485 - base_velocity[4] * t478;
-        let t997 = t492 - t276 * t475;
-        let t998 = t312 * t996;
-        let t999 = t844 * t997 - t272 * t998;
-        let t1000 = t846 * t997 - t274 * t998;
-        let t1001 = t848 * t997 - t276 * t998;
         // leg 3: Coriolis matrix between joint and base angular velocity
-        let t1002 = t192 * t990 + (base_velocity[5] * t506 - base_velocity[3] * t503);
-        let t1003 = t485 * t761 + t1002;
-        let t1004 = parameters.mover_mass[2]
-            * (t1003 - parameters.mover_offset[2] * t990);
-        let t1005 = t1004 + (t309 * t1003 + t312 * t838);
-        let t1006 = t192 * t996 + (base_velocity[3] * t500 - base_velocity[4] * t506);
-        let t1007 = t491 * t761 + t1006;
-        let t1008 = parameters.mover_mass[2]
-            * (t1007 - parameters.mover_offset[2] * t996);
-        let t1009 = t1008 + (t309 * t1007 + t312 * t839);
-        let t1010 = t491 * t1005 - t485 * t1009;
-        let t1011 = t272 * t1010;
-        let t1012 = t192 * t984 + (base_velocity[4] * t503 - base_velocity[5] * t500);
-        let t1013 = t478 * t761 + t1012;
-        let t1014 = parameters.mover_mass[2]
-            * (t1013 - parameters.mover_offset[2] * t984);
-        let t1015 = t1014 + (t309 * t1013 + t312 * t837);
-        let t1016 = t478 * t1009 - t491 * t1015;
-        let t1017 = t312 * t1007;
-        let t1018 = t272 * t1016 - t1017;
-        let t1019 = t485 * t1015 - t478 * t1005;
-        let t1020 = t312 * t1003;
-        let t1021 = t272 * t1019 + t1020;
-        let t1022 = t1017 + t274 * t1010;
-        let t1023 = t274 * t1016;
-        let t1024 = t312 * t1013;
-        let t1025 = t274 * t1019 - t1024;
-        let t1026 = t1020 - t276 * t1010;
-        let t1027 = t1024 + t276 * t1016;
-        let t1028 = t276 * t1019;
+        let t984 = t192 * t972 + (base_velocity[5] * t506 - base_velocity[3] * t503);
+        let t985 = t485 * t761 + t984;
+        let t986 = parameters.mover_mass[2] * (t985 - parameters.mover_offset[2] * t972);
+        let t987 = t986 + (t309 * t985 + t312 * t856);
+        let t988 = t192 * t978 + (base_velocity[3] * t500 - base_velocity[4] * t506);
+        let t989 = t491 * t761 + t988;
+        let t990 = parameters.mover_mass[2] * (t989 - parameters.mover_offset[2] * t978);
+        let t991 = t990 + (t309 * t989 + t312 * t857);
+        let t992 = t491 * t987 - t485 * t991;
+        let t993 = t272 * t992;
+        let t994 = t192 * t966 + (base_velocity[4] * t503 - base_velocity[5] * t500);
+        let t995 = t478 * t761 + t994;
+        let t996 = parameters.mover_mass[2] * (t995 - parameters.mover_offset[2] * t966);
+        let t997 = t996 + (t309 * t995 + t312 * t855);
+        let t998 = t478 * t991 - t491 * t997;
+        let t999 = t312 * t989;
+        let t1000 = t272 * t998 - t999;
+        let t1001 = t485 * t997 - t478 * t987;
+        let t1002 = t312 * t985;
+        let t1003 = t272 * t1001 + t1002;
+        let t1004 = t999 + t274 * t992;
+        let t1005 = t274 * t998;
+        let t1006 = t312 * t995;
+        let t1007 = t274 * t1001 - t1006;
+        let t1008 = t1002 - t276 * t992;
+        let t1009 = t1006 + t276 * t998;
+        let t1010 = t276 * t1001;
         // leg 4: Coriolis matrix of the leg in the speeds of its joint
-        let t1029 = base_velocity[4] * t523 - base_velocity[5] * t517;
-        let t1030 = t511 - t278 * t507;
-        let t1031 = t318 * t1029;
-        let t1032 = t859 * t1030 - t278 * t1031;
-        let t1033 = t861 * t1030 - t280 * t1031;
-        let t1034 = t863 * t1030 - t282 * t1031;
-        let t1035 = base_velocity[5] * t510 - base_velocity[3] * t523;
-        let t1036 = t518 - t280 * t507;
-        let t1037 = t318 * t1035;
-        let t1038 = t859 * t1036 - t278 * t1037;
-        let t1039 = t861 * t1036 - t280 * t1037;
-        let t1040 = t863 * t1036 - t282 * t1037;
-        let t1041 = base_velocity[3] * t517 - base_velocity[4] * t510;
-        let t1042 = t524 - t282 * t507;
-        let t1043 = t318 * t1041;
-        let t1044 = t859 * t1042 - t278 * t1043;
-        let t1045 = t861 * t1042 - t280 * t1043;
-        let t1046 = t863 * t1042 - t282 * t1043;
+        let t1011 = base_velocity[4] * t523 - base_velocity[5] * t517;
+        let t1012 = t511 - t278 * t507;
+        let t1013 = t318 * t1011;
+        let t1014 = t817 * t1012 - t278 * t1013;
+        let t1015 = t819 * t1012 - t280 * t1013;
+        let t1016 = t821 * t1012 - t282 * t1013;
+        let t1017 = base_velocity[5] * t510 - base_velocity[3] * t523;
+        let t1018 = t518 - t280 * t507;
+        let t1019 = t318 * t1017;
+        let t1020 = t817 * t1018 - t278 * t1019;
+        let t1021 = t819 * t1018 - t280 * t1019;
+        let t1022 = t821 * t1018 - t282 * t1019;
+        let t1023 = base_velocity[3] * t517 - base_velocity[4] * t510;
+        let t1024 = t524 - t282 * t507;
+        let t1025 = t318 * t1023;
+        let t1026 = t817 * t1024 - t278 * t1025;
+        let t1027 = t819 * t1024 - t280 * t1025;
+        let t1028 = t821 * t1024 - t282 * t1025;
         // leg 4: Coriolis matrix between joint and base angular velocity
-        let t1047 = t202 * t1035 + (base_velocity[5] * t538 - base_velocity[3] * t535);
-        let t1048 = t517 * t769 + t1047;
-        let t1049 = parameters.mover_mass[3]
-            * (t1048 - parameters.mover_offset[3] * t1035);
-        let t1050 = t1049 + (t315 * t1048 + t318 * t853);
-        let t1051 = t202 * t1041 + (base_velocity[3] * t532 - base_velocity[4] * t538);
-        let t1052 = t523 * t769 + t1051;
-        let t1053 = parameters.mover_mass[3]
-            * (t1052 - parameters.mover_offset[3] * t1041);
-        let t1054 = t1053 + (t315 * t1052 + t318 * t854);
-        let t1055 = t523 * t1050 - t517 * t1054;
-        let t1056 = t278 * t1055;
-        let t1057 = t202 * t1029 + (base_velocity[4] * t535 - base_velocity[5] * t532);
-        let t1058 = t510 * t769 + t1057;
-        let t1059 = parameters.mover_mass[3]
-            * (t1058 - parameters.mover_offset[3] * t1029);
-        let t1060 = t1059 + (t315 * t1058 + t318 * t852);
-        let t1061 = t510 * t1054 - t523 * t1060;
-        let t1062 = t318 * t1052;
-        let t1063 = t278 * t1061 - t1062;
-        let t1064 = t517 * t1060 - t510 * t1050;
-        let t1065 = t318 * t1048;
-        let t1066 = t278 * t1064 + t1065;
-        let t1067 = t1062 + t280 * t1055;
-        let t1068 = t280 * t1061;
-        let t1069 = t318 * t1058;
-        let t1070 = t280 * t1064 - t1069;
-        let t1071 = t1065 - t282 * t1055;
-        let t1072 = t1069 + t282 * t1061;
-        let t1073 = t282 * t1064;
+        let t1029 = t202 * t1017 + (base_velocity[5] * t538 - base_velocity[3] * t535);
+        let t1030 = t517 * t769 + t1029;
+        let t1031 = parameters.mover_mass[3]
+            * (t1030 - parameters.mover_offset[3] * t1017);
+        let t1032 = t1031 + (t315 * t1030 + t318 * t862);
+        let t1033 = t202 * t1023 + (base_velocity[3] * t532 - base_velocity[4] * t538);
+        let t1034 = t523 * t769 + t1033;
+        let t1035 = parameters.mover_mass[3]
+            * (t1034 - parameters.mover_offset[3] * t1023);
+        let t1036 = t1035 + (t315 * t1034 + t318 * t863);
+        let t1037 = t523 * t1032 - t517 * t1036;
+        let t1038 = t278 * t1037;
+        let t1039 = t202 * t1011 + (base_velocity[4] * t535 - base_velocity[5] * t532);
+        let t1040 = t510 * t769 + t1039;
+        let t1041 = parameters.mover_mass[3]
+            * (t1040 - parameters.mover_offset[3] * t1011);
+        let t1042 = t1041 + (t315 * t1040 + t318 * t861);
+        let t1043 = t510 * t1036 - t523 * t1042;
+        let t1044 = t318 * t1034;
+        let t1045 = t278 * t1043 - t1044;
+        let t1046 = t517 * t1042 - t510 * t1032;
+        let t1047 = t318 * t1030;
+        let t1048 = t278 * t1046 + t1047;
+        let t1049 = t1044 + t280 * t1037;
+        let t1050 = t280 * t1043;
+        let t1051 = t318 * t1040;
+        let t1052 = t280 * t1046 - t1051;
+        let t1053 = t1047 - t282 * t1037;
+        let t1054 = t1051 + t282 * t1043;
+        let t1055 = t282 * t1046;
         // leg 5: Coriolis matrix of the leg in the speeds of its joint
-        let t1074 = base_velocity[4] * t555 - base_velocity[5] * t549;
-        let t1075 = t543 - t284 * t539;
-        let t1076 = t324 * t1074;
-        let t1077 = t874 * t1075 - t284 * t1076;
-        let t1078 = t876 * t1075 - t286 * t1076;
-        let t1079 = t878 * t1075 - t288 * t1076;
-        let t1080 = base_velocity[5] * t542 - base_velocity[3] * t555;
-        let t1081 = t550 - t286 * t539;
-        let t1082 = t324 * t1080;
-        let t1083 = t874 * t1081 - t284 * t1082;
-        let t1084 = t876 * t1081 - t286 * t1082;
-        let t1085 = t878 * t1081 - t288 * t1082;
-        let t1086 = base_velocity[3] * t549 - base_velocity[4] * t542;
-        let t1087 = t556 - t288 * t539;
-        let t1088 = t324 * t1086;
-        let t1089 = t874 * t1087 - t284 * t1088;
-        let t1090 = t876 * t1087 - t286 * t1088;
-        let t1091 = t878 * t1087 - t288 * t1088;
+        let t1056 = base_velocity[4] * t555 - base_velocity[5] * t549;
+        let t1057 = t543 - t284 * t539;
+        let t1058 = t324 * t1056;
+        let t1059 = t826 * t1057 - t284 * t1058;
+        let t1060 = t828 * t1057 - t286 * t1058;
+        let t1061 = t830 * t1057 - t288 * t1058;
+        let t1062 = base_velocity[5] * t542 - base_velocity[3] * t555;
+        let t1063 = t550 - t286 * t539;
+        let t1064 = t324 * t1062;
+        let t1065 = t826 * t1063 - t284 * t1064;
+        let t1066 = t828 * t1063 - t286 * t1064;
+        let t1067 = t830 * t1063 - t288 * t1064;
+        let t1068 = base_velocity[3] * t549 - base_velocity[4] * t542;
+        let t1069 = t556 - t288 * t539;
+        let t1070 = t324 * t1068;
+        let t1071 = t826 * t1069 - t284 * t1070;
+        let t1072 = t828 * t1069 - t286 * t1070;
+        let t1073 = t830 * t1069 - t288 * t1070;
         // leg 5: Coriolis matrix between joint and base angular velocity
-        let t1092 = t212 * t1080 + (base_velocity[5] * t570 - base_velocity[3] * t567);
-        let t1093 = t549 * t777 + t1092;
-        let t1094 = parameters.mover_mass[4]
-            * (t1093 - parameters.mover_offset[4] * t1080);
-        let t1095 = t1094 + (t321 * t1093 + t324 * t868);
-        let t1096 = t212 * t1086 + (base_velocity[3] * t564 - base_velocity[4] * t570);
-        let t1097 = t555 * t777 + t1096;
-        let t1098 = parameters.mover_mass[4]
-            * (t1097 - parameters.mover_offset[4] * t1086);
-        let t1099 = t1098 + (t321 * t1097 + t324 * t869);
-        let t1100 = t555 * t1095 - t549 * t1099;
-        let t1101 = t284 * t1100;
-        let t1102 = t212 * t1074 + (base_velocity[4] * t567 - base_velocity[5] * t564);
-        let t1103 = t542 * t777 + t1102;
-        let t1104 = parameters.mover_mass[4]
-            * (t1103 - parameters.mover_offset[4] * t1074);
-        let t1105 = t1104 + (t321 * t1103 + t324 * t867);
-        let t1106 = t542 * t1099 - t555 * t1105;
-        let t1107 = t324 * t1097;
-        let t1108 = t284 * t1106 - t1107;
-        let t1109 = t549 * t1105 - t542 * t1095;
-        let t1110 = t324 * t1093;
-        let t1111 = t284 * t1109 + t1110;
-        let t1112 = t1107 + t286 * t1100;
-        let t1113 = t286 * t1106;
-        let t1114 = t324 * t1103;
-        let t1115 = t286 * t1109 - t1114;
-        let t1116 = t1110 - t288 * t1100;
-        let t1117 = t1114 + t288 * t1106;
-        let t1118 = t288 * t1109;
+        let t1074 = t212 * t1062 + (base_velocity[5] * t570 - base_velocity[3] * t567);
+        let t1075 = t549 * t777 + t1074;
+        let t1076 = parameters.mover_mass[4]
+            * (t1075 - parameters.mover_offset[4] * t1062);
+        let t1077 = t1076 + (t321 * t1075 + t324 * t868);
+        let t1078 = t212 * t1068 + (base_velocity[3] * t564 - base_velocity[4] * t570);
+        let t1079 = t555 * t777 + t1078;
+        let t1080 = parameters.mover_mass[4]
+            * (t1079 - parameters.mover_offset[4] * t1068);
+        let t1081 = t1080 + (t321 * t1079 + t324 * t869);
+        let t1082 = t555 * t1077 - t549 * t1081;
+        let t1083 = t284 * t1082;
+        let t1084 = t212 * t1056 + (base_velocity[4] * t567 - base_velocity[5] * t564);
+        let t1085 = t542 * t777 + t1084;
+        let t1086 = parameters.mover_mass[4]
+            * (t1085 - parameters.mover_offset[4] * t1056);
+        let t1087 = t1086 + (t321 * t1085 + t324 * t867);
+        let t1088 = t542 * t1081 - t555 * t1087;
+        let t1089 = t324 * t1079;
+        let t1090 = t284 * t1088 - t1089;
+        let t1091 = t549 * t1087 - t542 * t1077;
+        let t1092 = t324 * t1075;
+        let t1093 = t284 * t1091 + t1092;
+        let t1094 = t1089 + t286 * t1082;
+        let t1095 = t286 * t1088;
+        let t1096 = t324 * t1085;
+        let t1097 = t286 * t1091 - t1096;
+        let t1098 = t1092 - t288 * t1082;
+        let t1099 = t1096 + t288 * t1088;
+        let t1100 = t288 * t1091;
         // leg 6: Coriolis matrix of the leg in the speeds of its joint
-        let t1119 = base_velocity[4] * t587 - base_velocity[5] * t581;
-        let t1120 = t575 - t290 * t571;
-        let t1121 = t330 * t1119;
-        let t1122 = t889 * t1120 - t290 * t1121;
-        let t1123 = t891 * t1120 - t292 * t1121;
-        let t1124 = t893 * t1120 - t294 * t1121;
-        let t1125 = base_velocity[5] * t574 - base_velocity[3] * t587;
-        let t1126 = t582 - t292 * t571;
-        let t1127 = t330 * t1125;
-        let t1128 = t889 * t1126 - t290 * t1127;
-        let t1129 = t891 * t1126 - t292 * t1127;
-        let t1130 = t893 * t1126 - t294 * t1127;
-        let t1131 = base_velocity[3] * t581 - base_velocity[4] * t574;
-        let t1132 = t588 - t294 * t571;
-        let t1133 = t330 * t1131;
-        let t1134 = t889 * t1132 - t290 * t1133;
-        let t1135 = t891 * t1132 - t292 * t1133;
-        let t1136 = t893 * t1132 - t294 * t1133;
+        let t1101 = base_velocity[4] * t587 - base_velocity[5] * t581;
+        let t1102 = t575 - t290 * t571;
+        let t1103 = t330 * t1101;
+        let t1104 = t835 * t1102 - t290 * t1103;
+        let t1105 = t837 * t1102 - t292 * t1103;
+        let t1106 = t839 * t1102 - t294 * t1103;
+        let t1107 = base_velocity[5] * t574 - base_velocity[3] * t587;
+        let t1108 = t582 - t292 * t571;
+        let t1109 = t330 * t1107;
+        let t1110 = t835 * t1108 - t290 * t1109;
+        let t1111 = t837 * t1108 - t292 * t1109;
+        let t1112 = t839 * t1108 - t294 * t1109;
+        let t1113 = base_velocity[3] * t581 - base_velocity[4] * t574;
+        let t1114 = t588 - t294 * t571;
+        let t1115 = t330 * t1113;
+        let t1116 = t835 * t1114 - t290 * t1115;
+        let t1117 = t837 * t1114 - t292 * t1115;
+        let t1118 = t839 * t1114 - t294 * t1115;
         // leg 6: Coriolis matrix between joint and base angular velocity
-        let t1137 = t222 * t1125 + (base_velocity[5] * t602 - base_velocity[3] * t599);
-        let t1138 = t581 * t785 + t1137;
-        let t1139 = parameters.mover_mass[5]
-            * (t1138 - parameters.mover_offset[5] * t1125);
-        let t1140 = t1139 + (t327 * t1138 + t330 * t883);
-        let t1141 = t222 * t1131 + (base_velocity[3] * t596 - base_velocity[4] * t602);
-        let t1142 = t587 * t785 + t1141;
-        let t1143 = parameters.mover_mass[5]
-            * (t1142 - parameters.mover_offset[5] * t1131);
-        let t1144 = t1143 + (t327 * t1142 + t330 * t884);
-        let t1145 = t587 * t1140 - t581 * t1144;
-        let t1146 = t290 * t1145;
-        let t1147 = t222 * t1119 + (base_velocity[4] * t599 - base_velocity[5] * t596);
-        let t1148 = t574 * t785 + t1147;
-        let t1149 = parameters.mover_mass[5]
-            * (t1148 - parameters.mover_offset[5] * t1119);
-        let t1150 = t1149 + (t327 * t1148 + t330 * t882);
-        let t1151 = t574 * t1144 - t587 * t1150;
-        let t1152 = t330 * t1142;
-        let t1153 = t290 * t1151 - t1152;
-        let t1154 = t581 * t1150 - t574 * t1140;
-        let t1155 = t330 * t1138;
-        let t1156 = t290 * t1154 + t1155;
-        let t1157 = t1152 + t292 * t1145;
-        let t1158 = t292 * t1151;
-        let t1159 = t330 * t1148;
-        let t1160 = t292 * t1154 - t1159;
-        let t1161 = t1155 - t294 * t1145;
-        let t1162 = t1159 + t294 * t1151;
-        let t1163 = t294 * t1154;
+        let t1119 = t222 * t1107 + (base_velocity[5] * t602 - base_velocity[3] * t599);
+        let t1120 = t581 * t785 + t1119;
+        let t1121 = parameters.mover_mass[5]
+            * (t1120 - parameters.mover_offset[5] * t1107);
+        let t1122 = t1121 + (t327 * t1120 + t330 * t874);
+        let t1123 = t222 * t1113 + (base_velocity[3] * t596 - base_velocity[4] * t602);
+        let t1124 = t587 * t785 + t1123;
+        let t1125 = parameters.mover_mass[5]
+            * (t1124 - parameters.mover_offset[5] * t1113);
+        let t1126 = t1125 + (t327 * t1124 + t330 * t875);
+        let t1127 = t587 * t1122 - t581 * t1126;
+        let t1128 = t290 * t1127;
+        let t1129 = t222 * t1101 + (base_velocity[4] * t599 - base_velocity[5] * t596);
+        let t1130 = t574 * t785 + t1129;
+        let t1131 = parameters.mover_mass[5]
+            * (t1130 - parameters.mover_offset[5] * t1101);
+        let t1132 = t1131 + (t327 * t1130 + t330 * t873);
+        let t1133 = t574 * t1126 - t587 * t1132;
+        let t1134 = t330 * t1124;
+        let t1135 = t290 * t1133 - t1134;
+        let t1136 = t581 * t1132 - t574 * t1122;
+        let t1137 = t330 * t1120;
+        let t1138 = t290 * t1136 + t1137;
+        let t1139 = t1134 + t292 * t1127;
+        let t1140 = t292 * t1133;
+        let t1141 = t330 * t1130;
+        let t1142 = t292 * t1136 - t1141;
+        let t1143 = t1137 - t294 * t1127;
+        let t1144 = t1141 + t294 * t1133;
+        let t1145 = t294 * t1136;
         // Coriolis matrix of the legs
-        let t1164 = t1122 + (t1077 + (t1032 + (t987 + (t897 + t942))));
-        coriolis_matrix_p[0][0] = t1164;
-        coriolis_matrix_b[0][0] = t1164;
-        let t1165 = t1123 + (t1078 + (t1033 + (t988 + (t898 + t943))));
-        coriolis_matrix_p[0][1] = t1165;
-        coriolis_matrix_b[0][1] = t1165;
-        let t1166 = t1124 + (t1079 + (t1034 + (t989 + (t899 + t944))));
-        coriolis_matrix_p[0][2] = t1166;
-        coriolis_matrix_b[0][2] = t1166;
-        let t1167 = t590 * t880;
-        let t1168 = t584 * t881;
-        let t1169 = t159 * t1123;
-        let t1170 = t156 * t1124;
-        let t1171 = t1167 - (t1168 + (t1169 - t1170));
-        let t1172 = t558 * t865;
-        let t1173 = t552 * t866;
-        let t1174 = t138 * t1078;
-        let t1175 = t135 * t1079;
-        let t1176 = t1172 - (t1173 + (t1174 - t1175));
-        let t1177 = t526 * t850;
-        let t1178 = t520 * t851;
-        let t1179 = t117 * t1033;
-        let t1180 = t114 * t1034;
-        let t1181 = t1177 - (t1178 + (t1179 - t1180));
-        let t1182 = t494 * t835;
-        let t1183 = t488 * t836;
-        let t1184 = t96 * t988;
-        let t1185 = t93 * t989;
-        let t1186 = t1182 - (t1183 + (t1184 - t1185));
-        let t1187 = t430 * t805;
-        let t1188 = t424 * t806;
-        let t1189 = t54 * t898;
-        let t1190 = t51 * t899;
-        let t1191 = t1187 - (t1188 + (t1189 - t1190));
-        let t1192 = t462 * t820;
-        let t1193 = t456 * t821;
-        let t1194 = t75 * t943;
-        let t1195 = t72 * t944;
-        let t1196 = t1192 - (t1193 + (t1194 - t1195));
-        let t1197 = t1171 + (t1176 + (t1181 + (t1186 + (t1191 + t1196))));
-        coriolis_matrix_p[0][3] = t1197;
-        let t1198 = t159 * t1122;
-        let t1199 = t578 * t881 - (t590 * t879 + (t153 * t1124 - t1198));
-        let t1200 = t138 * t1077;
-        let t1201 = t546 * t866 - (t558 * t864 + (t132 * t1079 - t1200));
-        let t1202 = t117 * t1032;
-        let t1203 = t514 * t851 - (t526 * t849 + (t111 * t1034 - t1202));
-        let t1204 = t96 * t987;
-        let t1205 = t482 * t836 - (t494 * t834 + (t90 * t989 - t1204));
-        let t1206 = t54 * t897;
-        let t1207 = t418 * t806 - (t430 * t804 + (t48 * t899 - t1206));
-        let t1208 = t75 * t942;
-        let t1209 = t450 * t821 - (t462 * t819 + (t69 * t944 - t1208));
-        let t1210 = t1199 + (t1201 + (t1203 + (t1205 + (t1207 + t1209))));
-        let t1211 = t156 * t1122;
-        let t1212 = t584 * t879 - (t578 * t880 + (t1211 - t153 * t1123));
-        let t1213 = t135 * t1077;
-        let t1214 = t552 * t864 - (t546 * t865 + (t1213 - t132 * t1078));
-        let t1215 = t114 * t1032;
-        let t1216 = t520 * t849 - (t514 * t850 + (t1215 - t111 * t1033));
-        let t1217 = t93 * t987;
-        let t1218 = t488 * t834 - (t482 * t835 + (t1217 - t90 * t988));
-        let t1219 = t51 * t897;
-        let t1220 = t424 * t804 - (t418 * t805 + (t1219 - t48 * t898));
-        let t1221 = t72 * t942;
-        let t1222 = t456 * t819 - (t450 * t820 + (t1221 - t69 * t943));
-        let t1223 = t1212 + (t1214 + (t1216 + (t1218 + (t1220 + t1222))));
-        let t1224 = t1128 + (t1083 + (t1038 + (t993 + (t903 + t948))));
-        coriolis_matrix_p[1][0] = t1224;
-        coriolis_matrix_b[1][0] = t1224;
-        let t1225 = t1129 + (t1084 + (t1039 + (t994 + (t904 + t949))));
-        coriolis_matrix_p[1][1] = t1225;
-        coriolis_matrix_b[1][1] = t1225;
-        let t1226 = t1130 + (t1085 + (t1040 + (t995 + (t905 + t950))));
-        coriolis_matrix_p[1][2] = t1226;
-        coriolis_matrix_b[1][2] = t1226;
-        let t1227 = t159 * t1129;
-        let t1228 = t592 * t880 - (t591 * t881 + (t1227 - t156 * t1130));
-        let t1229 = t138 * t1084;
-        let t1230 = t560 * t865 - (t559 * t866 + (t1229 - t135 * t1085));
-        let t1231 = t117 * t1039;
-        let t1232 = t528 * t850 - (t527 * t851 + (t1231 - t114 * t1040));
-        let t1233 = t96 * t994;
-        let t1234 = t496 * t835 - (t495 * t836 + (t1233 - t93 * t995));
-        let t1235 = t54 * t904;
-        let t1236 = t432 * t805 - (t431 * t806 + (t1235 - t51 * t905));
-        let t1237 = t75 * t949;
-        let t1238 = t464 * t820 - (t463 * t821 + (t1237 - t72 * t950));
-        let t1239 = t1228 + (t1230 + (t1232 + (t1234 + (t1236 + t1238))));
-        let t1240 = t592 * t879;
-        let t1241 = t159 * t1128;
-        let t1242 = t153 * t1130;
-        let t1243 = t1240 - (t1241 + (t1168 - t1242));
-        let t1244 = t560 * t864;
-        let t1245 = t138 * t1083;
-        let t1246 = t132 * t1085;
-        let t1247 = t1244 - (t1245 + (t1173 - t1246));
-        let t1248 = t528 * t849;
-        let t1249 = t117 * t1038;
-        let t1250 = t111 * t1040;
-        let t1251 = t1248 - (t1249 + (t1178 - t1250));
-        let t1252 = t496 * t834;
-        let t1253 = t96 * t993;
-        let t1254 = t90 * t995;
-        let t1255 = t1252 - (t1253 + (t1183 - t1254));
-        let t1256 = t432 * t804;
-        let t1257 = t54 * t903;
-        let t1258 = t48 * t905;
-        let t1259 = t1256 - (t1257 + (t1188 - t1258));
-        let t1260 = t464 * t819;
-        let t1261 = t75 * t948;
-        let t1262 = t69 * t950;
-        let t1263 = t1260 - (t1261 + (t1193 - t1262));
-        let t1264 = t1243 + (t1247 + (t1251 + (t1255 + (t1259 + t1263))));
-        let t1265 = t153 * t1129;
-        let t1266 = t591 * t879 - (t584 * t880 + (t156 * t1128 - t1265));
-        let t1267 = t132 * t1084;
-        let t1268 = t559 * t864 - (t552 * t865 + (t135 * t1083 - t1267));
-        let t1269 = t111 * t1039;
-        let t1270 = t527 * t849 - (t520 * t850 + (t114 * t1038 - t1269));
-        let t1271 = t90 * t994;
-        let t1272 = t495 * t834 - (t488 * t835 + (t93 * t993 - t1271));
-        let t1273 = t48 * t904;
-        let t1274 = t431 * t804 - (t424 * t805 + (t51 * t903 - t1273));
-        let t1275 = t69 * t949;
-        let t1276 = t463 * t819 - (t456 * t820 + (t72 * t948 - t1275));
-        let t1277 = t1266 + (t1268 + (t1270 + (t1272 + (t1274 + t1276))));
-        let t1278 = t1134 + (t1089 + (t1044 + (t999 + (t909 + t954))));
-        coriolis_matrix_p[2][0] = t1278;
-        coriolis_matrix_b[2][0] = t1278;
-        let t1279 = t1135 + (t1090 + (t1045 + (t1000 + (t910 + t955))));
-        coriolis_matrix_p[2][1] = t1279;
-        coriolis_matrix_b[2][1] = t1279;
-        let t1280 = t1136 + (t1091 + (t1046 + (t1001 + (t911 + t956))));
-        coriolis_matrix_p[2][2] = t1280;
-        coriolis_matrix_b[2][2] = t1280;
-        let t1281 = t156 * t1136;
-        let t1282 = t593 * t880 - (t592 * t881 + (t159 * t1135 - t1281));
-        let t1283 = t135 * t1091;
-        let t1284 = t561 * t865 - (t560 * t866 + (t138 * t1090 - t1283));
-        let t1285 = t114 * t1046;
-        let t1286 = t529 * t850 - (t528 * t851 + (t117 * t1045 - t1285));
-        let t1287 = t93 * t1001;
-        let t1288 = t497 * t835 - (t496 * t836 + (t96 * t1000 - t1287));
-        let t1289 = t51 * t911;
-        let t1290 = t433 * t805 - (t432 * t806 + (t54 * t910 - t1289));
-        let t1291 = t72 * t956;
-        let t1292 = t465 * t820 - (t464 * t821 + (t75 * t955 - t1291));
-        let t1293 = t1282 + (t1284 + (t1286 + (t1288 + (t1290 + t1292))));
-        let t1294 = t153 * t1136;
-        let t1295 = t590 * t881 - (t593 * t879 + (t1294 - t159 * t1134));
-        let t1296 = t132 * t1091;
-        let t1297 = t558 * t866 - (t561 * t864 + (t1296 - t138 * t1089));
-        let t1298 = t111 * t1046;
-        let t1299 = t526 * t851 - (t529 * t849 + (t1298 - t117 * t1044));
-        let t1300 = t90 * t1001;
-        let t1301 = t494 * t836 - (t497 * t834 + (t1300 - t96 * t999));
-        let t1302 = t48 * t911;
-        let t1303 = t430 * t806 - (t433 * t804 + (t1302 - t54 * t909));
-        let t1304 = t69 * t956;
-        let t1305 = t462 * t821 - (t465 * t819 + (t1304 - t75 * t954));
-        let t1306 = t1295 + (t1297 + (t1299 + (t1301 + (t1303 + t1305))));
-        let t1307 = t153 * t1135;
-        let t1308 = t156 * t1134;
-        let t1309 = t1307 - (t1308 + (t1167 - t1240));
-        let t1310 = t132 * t1090;
-        let t1311 = t135 * t1089;
-        let t1312 = t1310 - (t1311 + (t1172 - t1244));
-        let t1313 = t111 * t1045;
-        let t1314 = t114 * t1044;
-        let t1315 = t1313 - (t1314 + (t1177 - t1248));
-        let t1316 = t90 * t1000;
-        let t1317 = t93 * t999;
-        let t1318 = t1316 - (t1317 + (t1182 - t1252));
-        let t1319 = t48 * t910;
-        let t1320 = t51 * t909;
-        let t1321 = t1319 - (t1320 + (t1187 - t1256));
-        let t1322 = t69 * t955;
-        let t1323 = t72 * t954;
-        let t1324 = t1322 - (t1323 + (t1192 - t1260));
-        let t1325 = t1309 + (t1312 + (t1315 + (t1318 + (t1321 + t1324))));
-        coriolis_matrix_p[2][5] = t1325;
-        let t1326 = t1323
-            + (t1320 - (t1241 + (t1245 + (t1249 + (t1253 + (t1257 + t1261))))));
-        let t1327 = t1308 + (t1311 + (t1314 + (t1317 + t1326)));
-        coriolis_matrix_p[3][0] = t1327;
-        coriolis_matrix_b[3][0] = t1327;
-        let t1328 = t51 * t910 - (t1227 + (t1229 + (t1231 + (t1233 + (t1235 + t1237)))));
-        let t1329 = t114 * t1045 + (t93 * t1000 + (t72 * t955 + t1328));
-        let t1330 = t156 * t1135 + (t135 * t1090 + t1329);
-        coriolis_matrix_p[3][1] = t1330;
-        coriolis_matrix_b[3][1] = t1330;
-        let t1331 = t54 * t905 - (t1281 + (t1283 + (t1285 + (t1287 + (t1289 + t1291)))));
-        let t1332 = t117 * t1040 + (t96 * t995 + (t75 * t950 + t1331));
-        let t1333 = t159 * t1130 + (t138 * t1085 + t1332);
-        let t1334 = t72 * t1292 - (t75 * t1238 + (t54 * t1236 - t51 * t1290));
-        let t1335 = t117 * t1232 - (t93 * t1288 - (t96 * t1234 - t1334));
-        let t1336 = t135 * t1284 - (t138 * t1230 - (t114 * t1286 - t1335));
-        let t1337 = t156 * t1282 - (t159 * t1228 - t1336);
-        let t1338 = t72 * t1305 + (t75 * t1263 + (t54 * t1259 + t51 * t1303));
-        let t1339 = t117 * t1251 + (t93 * t1301 + (t96 * t1255 + t1338));
-        let t1340 = t135 * t1297 + (t138 * t1247 + (t114 * t1299 + t1339));
-        let t1341 = t156 * t1295 + (t159 * t1243 + t1340);
-        let t1342 = t72 * t1324 - (t75 * t1276 + (t54 * t1274 - t51 * t1321));
-        let t1343 = t117 * t1270 - (t93 * t1318 - (t96 * t1272 - t1342));
-        let t1344 = t135 * t1312 - (t138 * t1268 - (t114 * t1315 - t1343));
-        let t1345 = t156 * t1309 - (t159 * t1266 - t1344);
-        let t1346 = t48 * t909 - (t1198 + (t1200 + (t1202 + (t1204 + (t1206 + t1208)))));
-        let t1347 = t111 * t1044 + (t90 * t999 + (t69 * t954 + t1346));
-        let t1348 = t153 * t1134 + (t132 * t1089 + t1347);
-        let t1349 = t1322
-            + (t1319 - (t1169 + (t1174 + (t1179 + (t1184 + (t1189 + t1194))))));
-        let t1350 = t1307 + (t1310 + (t1313 + (t1316 + t1349)));
-        let t1351 = t54 * t899 - (t1294 + (t1296 + (t1298 + (t1300 + (t1302 + t1304)))));
-        let t1352 = t117 * t1034 + (t96 * t989 + (t75 * t944 + t1351));
-        let t1353 = t159 * t1124 + (t138 * t1079 + t1352);
-        coriolis_matrix_p[4][2] = t1353;
-        coriolis_matrix_b[4][2] = t1353;
-        let t1354 = t75 * t1196 - (t69 * t1292 + (t48 * t1290 - t54 * t1191));
-        let t1355 = t111 * t1286 - (t96 * t1186 - (t90 * t1288 - t1354));
-        let t1356 = t138 * t1176 - (t132 * t1284 - (t117 * t1181 - t1355));
-        let t1357 = t159 * t1171 - (t153 * t1282 - t1356);
-        let t1358 = t75 * t1209 - (t69 * t1305 + (t48 * t1303 - t54 * t1207));
-        let t1359 = t111 * t1299 - (t96 * t1205 - (t90 * t1301 - t1358));
-        let t1360 = t138 * t1201 - (t132 * t1297 - (t117 * t1203 - t1359));
-        let t1361 = t159 * t1199 - (t153 * t1295 - t1360);
-        let t1362 = t75 * t1222 - (t69 * t1324 + (t48 * t1321 - t54 * t1220));
-        let t1363 = t111 * t1315 - (t96 * t1218 - (t90 * t1318 - t1362));
-        let t1364 = t138 * t1214 - (t132 * t1312 - (t117 * t1216 - t1363));
-        let t1365 = t159 * t1212 - (t153 * t1309 - t1364);
-        let t1366 = t48 * t903 - (t1211 + (t1213 + (t1215 + (t1217 + (t1219 + t1221)))));
-        let t1367 = t111 * t1038 + (t90 * t993 + (t69 * t948 + t1366));
-        let t1368 = t153 * t1128 + (t132 * t1083 + t1367);
-        coriolis_matrix_p[5][0] = t1368;
-        coriolis_matrix_b[5][0] = t1368;
-        let t1369 = t51 * t898 - (t1265 + (t1267 + (t1269 + (t1271 + (t1273 + t1275)))));
-        let t1370 = t114 * t1033 + (t93 * t988 + (t72 * t943 + t1369));
-        let t1371 = t156 * t1123 + (t135 * t1078 + t1370);
-        let t1372 = t1262
-            + (t1258 - (t1170 + (t1175 + (t1180 + (t1185 + (t1190 + t1195))))));
-        let t1373 = t1242 + (t1246 + (t1250 + (t1254 + t1372)));
-        coriolis_matrix_p[5][2] = t1373;
-        coriolis_matrix_b[5][2] = t1373;
-        let t1374 = t69 * t1238 - (t72 * t1196 + (t51 * t1191 - t48 * t1236));
-        let t1375 = t114 * t1181 - (t90 * t1234 - (t93 * t1186 - t1374));
-        let t1376 = t132 * t1230 - (t135 * t1176 - (t111 * t1232 - t1375));
-        let t1377 = t153 * t1228 - (t156 * t1171 - t1376);
-        let t1378 = t69 * t1263 + (t72 * t1209 + (t51 * t1207 + t48 * t1259));
-        let t1379 = t114 * t1203 + (t90 * t1255 + (t93 * t1205 + t1378));
-        let t1380 = t132 * t1247 + (t135 * t1201 + (t111 * t1251 + t1379));
-        let t1381 = t153 * t1243 + (t156 * t1199 + t1380);
-        let t1382 = t69 * t1276 - (t72 * t1222 + (t51 * t1220 - t48 * t1274));
-        let t1383 = t114 * t1216 - (t90 * t1272 - (t93 * t1218 - t1382));
-        let t1384 = t132 * t1268 - (t135 * t1214 - (t111 * t1270 - t1383));
-        let t1385 = t153 * t1266 - (t156 * t1212 - t1384);
-        coriolis_matrix_p[1][4] = -t1264;
-        let t1386 = -t1333;
-        coriolis_matrix_p[3][2] = t1386;
-        coriolis_matrix_b[3][2] = t1386;
-        let t1387 = -t1348;
-        coriolis_matrix_p[4][0] = t1387;
-        coriolis_matrix_b[4][0] = t1387;
-        let t1388 = -t1350;
-        coriolis_matrix_p[4][1] = t1388;
-        coriolis_matrix_b[4][1] = t1388;
-        let t1389 = -t1371;
-        coriolis_matrix_p[5][1] = t1389;
-        coriolis_matrix_b[5][1] = t1389;
+        let t1146 = t1104 + (t1059 + (t1014 + (t969 + (t879 + t924))));
+        coriolis_matrix_p[0][0] = t1146;
+        coriolis_matrix_b[0][0] = t1146;
+        let t1147 = t1105 + (t1060 + (t1015 + (t970 + (t880 + t925))));
+        coriolis_matrix_p[0][1] = t1147;
+        coriolis_matrix_b[0][1] = t1147;
+        let t1148 = t1106 + (t1061 + (t1016 + (t971 + (t881 + t926))));
+        coriolis_matrix_p[0][2] = t1148;
+        coriolis_matrix_b[0][2] = t1148;
+        let t1149 = t590 * t871;
+        let t1150 = t584 * t872;
+        let t1151 = t159 * t1105;
+        let t1152 = t156 * t1106;
+        let t1153 = t1149 - (t1150 + (t1151 - t1152));
+        let t1154 = t558 * t865;
+        let t1155 = t552 * t866;
+        let t1156 = t138 * t1060;
+        let t1157 = t135 * t1061;
+        let t1158 = t1154 - (t1155 + (t1156 - t1157));
+        let t1159 = t526 * t859;
+        let t1160 = t520 * t860;
+        let t1161 = t117 * t1015;
+        let t1162 = t114 * t1016;
+        let t1163 = t1159 - (t1160 + (t1161 - t1162));
+        let t1164 = t494 * t853;
+        let t1165 = t488 * t854;
+        let t1166 = t96 * t970;
+        let t1167 = t93 * t971;
+        let t1168 = t1164 - (t1165 + (t1166 - t1167));
+        let t1169 = t430 * t841;
+        let t1170 = t424 * t842;
+        let t1171 = t54 * t880;
+        let t1172 = t51 * t881;
+        let t1173 = t1169 - (t1170 + (t1171 - t1172));
+        let t1174 = t462 * t847;
+        let t1175 = t456 * t848;
+        let t1176 = t75 * t925;
+        let t1177 = t72 * t926;
+        let t1178 = t1174 - (t1175 + (t1176 - t1177));
+        let t1179 = t1153 + (t1158 + (t1163 + (t1168 + (t1173 + t1178))));
+        coriolis_matrix_p[0][3] = t1179;
+        let t1180 = t159 * t1104;
+        let t1181 = t578 * t872 - (t590 * t870 + (t153 * t1106 - t1180));
+        let t1182 = t138 * t1059;
+        let t1183 = t546 * t866 - (t558 * t864 + (t132 * t1061 - t1182));
+        let t1184 = t117 * t1014;
+        let t1185 = t514 * t860 - (t526 * t858 + (t111 * t1016 - t1184));
+        let t1186 = t96 * t969;
+        let t1187 = t482 * t854 - (t494 * t852 + (t90 * t971 - t1186));
+        let t1188 = t54 * t879;
+        let t1189 = t418 * t842 - (t430 * t840 + (t48 * t881 - t1188));
+        let t1190 = t75 * t924;
+        let t1191 = t450 * t848 - (t462 * t846 + (t69 * t926 - t1190));
+        let t1192 = t1181 + (t1183 + (t1185 + (t1187 + (t1189 + t1191))));
+        let t1193 = t156 * t1104;
+        let t1194 = t584 * t870 - (t578 * t871 + (t1193 - t153 * t1105));
+        let t1195 = t135 * t1059;
+        let t1196 = t552 * t864 - (t546 * t865 + (t1195 - t132 * t1060));
+        let t1197 = t114 * t1014;
+        let t1198 = t520 * t858 - (t514 * t859 + (t1197 - t111 * t1015));
+        let t1199 = t93 * t969;
+        let t1200 = t488 * t852 - (t482 * t853 + (t1199 - t90 * t970));
+        let t1201 = t51 * t879;
+        let t1202 = t424 * t840 - (t418 * t841 + (t1201 - t48 * t880));
+        let t1203 = t72 * t924;
+        let t1204 = t456 * t846 - (t450 * t847 + (t1203 - t69 * t925));
+        let t1205 = t1194 + (t1196 + (t1198 + (t1200 + (t1202 + t1204))));
+        let t1206 = t1110 + (t1065 + (t1020 + (t975 + (t885 + t930))));
+        coriolis_matrix_p[1][0] = t1206;
+        coriolis_matrix_b[1][0] = t1206;
+        let t1207 = t1111 + (t1066 + (t1021 + (t976 + (t886 + t931))));
+        coriolis_matrix_p[1][1] = t1207;
+        coriolis_matrix_b[1][1] = t1207;
+        let t1208 = t1112 + (t1067 + (t1022 + (t977 + (t887 + t932))));
+        coriolis_matrix_p[1][2] = t1208;
+        coriolis_matrix_b[1][2] = t1208;
+        let t1209 = t159 * t1111;
+        let t1210 = t592 * t871 - (t591 * t872 + (t1209 - t156 * t1112));
+        let t1211 = t138 * t1066;
+        let t1212 = t560 * t865 - (t559 * t866 + (t1211 - t135 * t1067));
+        let t1213 = t117 * t1021;
+        let t1214 = t528 * t859 - (t527 * t860 + (t1213 - t114 * t1022));
+        let t1215 = t96 * t976;
+        let t1216 = t496 * t853 - (t495 * t854 + (t1215 - t93 * t977));
+        let t1217 = t54 * t886;
+        let t1218 = t432 * t841 - (t431 * t842 + (t1217 - t51 * t887));
+        let t1219 = t75 * t931;
+        let t1220 = t464 * t847 - (t463 * t848 + (t1219 - t72 * t932));
+        let t1221 = t1210 + (t1212 + (t1214 + (t1216 + (t1218 + t1220))));
+        let t1222 = t592 * t870;
+        let t1223 = t159 * t1110;
+        let t1224 = t153 * t1112;
+        let t1225 = t1222 - (t1223 + (t1150 - t1224));
+        let t1226 = t560 * t864;
+        let t1227 = t138 * t1065;
+        let t1228 = t132 * t1067;
+        let t1229 = t1226 - (t1227 + (t1155 - t1228));
+        let t1230 = t528 * t858;
+        let t1231 = t117 * t1020;
+        let t1232 = t111 * t1022;
+        let t1233 = t1230 - (t1231 + (t1160 - t1232));
+        let t1234 = t496 * t852;
+        let t1235 = t96 * t975;
+        let t1236 = t90 * t977;
+        let t1237 = t1234 - (t1235 + (t1165 - t1236));
+        let t1238 = t432 * t840;
+        let t1239 = t54 * t885;
+        let t1240 = t48 * t887;
+        let t1241 = t1238 - (t1239 + (t1170 - t1240));
+        let t1242 = t464 * t846;
+        let t1243 = t75 * t930;
+        let t1244 = t69 * t932;
+        let t1245 = t1242 - (t1243 + (t1175 - t1244));
+        let t1246 = t1225 + (t1229 + (t1233 + (t1237 + (t1241 + t1245))));
+        let t1247 = t153 * t1111;
+        let t1248 = t591 * t870 - (t584 * t871 + (t156 * t1110 - t1247));
+        let t1249 = t132 * t1066;
+        let t1250 = t559 * t864 - (t552 * t865 + (t135 * t1065 - t1249));
+        let t1251 = t111 * t1021;
+        let t1252 = t527 * t858 - (t520 * t859 + (t114 * t1020 - t1251));
+        let t1253 = t90 * t976;
+        let t1254 = t495 * t852 - (t488 * t853 + (t93 * t975 - t1253));
+        let t1255 = t48 * t886;
+        let t1256 = t431 * t840 - (t424 * t841 + (t51 * t885 - t1255));
+        let t1257 = t69 * t931;
+        let t1258 = t463 * t846 - (t456 * t847 + (t72 * t930 - t1257));
+        let t1259 = t1248 + (t1250 + (t1252 + (t1254 + (t1256 + t1258))));
+        let t1260 = t1116 + (t1071 + (t1026 + (t981 + (t891 + t936))));
+        coriolis_matrix_p[2][0] = t1260;
+        coriolis_matrix_b[2][0] = t1260;
+        let t1261 = t1117 + (t1072 + (t1027 + (t982 + (t892 + t937))));
+        coriolis_matrix_p[2][1] = t1261;
+        coriolis_matrix_b[2][1] = t1261;
+        let t1262 = t1118 + (t1073 + (t1028 + (t983 + (t893 + t938))));
+        coriolis_matrix_p[2][2] = t1262;
+        coriolis_matrix_b[2][2] = t1262;
+        let t1263 = t156 * t1118;
+        let t1264 = t593 * t871 - (t592 * t872 + (t159 * t1117 - t1263));
+        let t1265 = t135 * t1073;
+        let t1266 = t561 * t865 - (t560 * t866 + (t138 * t1072 - t1265));
+        let t1267 = t114 * t1028;
+        let t1268 = t529 * t859 - (t528 * t860 + (t117 * t1027 - t1267));
+        let t1269 = t93 * t983;
+        let t1270 = t497 * t853 - (t496 * t854 + (t96 * t982 - t1269));
+        let t1271 = t51 * t893;
+        let t1272 = t433 * t841 - (t432 * t842 + (t54 * t892 - t1271));
+        let t1273 = t72 * t938;
+        let t1274 = t465 * t847 - (t464 * t848 + (t75 * t937 - t1273));
+        let t1275 = t1264 + (t1266 + (t1268 + (t1270 + (t1272 + t1274))));
+        let t1276 = t153 * t1118;
+        let t1277 = t590 * t872 - (t593 * t870 + (t1276 - t159 * t1116));
+        let t1278 = t132 * t1073;
+        let t1279 = t558 * t866 - (t561 * t864 + (t1278 - t138 * t1071));
+        let t1280 = t111 * t1028;
+        let t1281 = t526 * t860 - (t529 * t858 + (t1280 - t117 * t1026));
+        let t1282 = t90 * t983;
+        let t1283 = t494 * t854 - (t497 * t852 + (t1282 - t96 * t981));
+        let t1284 = t48 * t893;
+        let t1285 = t430 * t842 - (t433 * t840 + (t1284 - t54 * t891));
+        let t1286 = t69 * t938;
+        let t1287 = t462 * t848 - (t465 * t846 + (t1286 - t75 * t936));
+        let t1288 = t1277 + (t1279 + (t1281 + (t1283 + (t1285 + t1287))));
+        let t1289 = t153 * t1117;
+        let t1290 = t156 * t1116;
+        let t1291 = t1289 - (t1290 + (t1149 - t1222));
+        let t1292 = t132 * t1072;
+        let t1293 = t135 * t1071;
+        let t1294 = t1292 - (t1293 + (t1154 - t1226));
+        let t1295 = t111 * t1027;
+        let t1296 = t114 * t1026;
+        let t1297 = t1295 - (t1296 + (t1159 - t1230));
+        let t1298 = t90 * t982;
+        let t1299 = t93 * t981;
+        let t1300 = t1298 - (t1299 + (t1164 - t1234));
+        let t1301 = t48 * t892;
+        let t1302 = t51 * t891;
+        let t1303 = t1301 - (t1302 + (t1169 - t1238));
+        let t1304 = t69 * t937;
+        let t1305 = t72 * t936;
+        let t1306 = t1304 - (t1305 + (t1174 - t1242));
+        let t1307 = t1291 + (t1294 + (t1297 + (t1300 + (t1303 + t1306))));
+        coriolis_matrix_p[2][5] = t1307;
+        let t1308 = t1305
+            + (t1302 - (t1223 + (t1227 + (t1231 + (t1235 + (t1239 + t1243))))));
+        let t1309 = t1290 + (t1293 + (t1296 + (t1299 + t1308)));
+        coriolis_matrix_p[3][0] = t1309;
+        coriolis_matrix_b[3][0] = t1309;
+        let t1310 = t51 * t892 - (t1209 + (t1211 + (t1213 + (t1215 + (t1217 + t1219)))));
+        let t1311 = t114 * t1027 + (t93 * t982 + (t72 * t937 + t1310));
+        let t1312 = t156 * t1117 + (t135 * t1072 + t1311);
+        coriolis_matrix_p[3][1] = t1312;
+        coriolis_matrix_b[3][1] = t1312;
+        let t1313 = t54 * t887 - (t1263 + (t1265 + (t1267 + (t1269 + (t1271 + t1273)))));
+        let t1314 = t117 * t1022 + (t96 * t977 + (t75 * t932 + t1313));
+        let t1315 = t159 * t1112 + (t138 * t1067 + t1314);
+        let t1316 = t72 * t1274 - (t75 * t1220 + (t54 * t1218 - t51 * t1272));
+        let t1317 = t117 * t1214 - (t93 * t1270 - (t96 * t1216 - t1316));
+        let t1318 = t135 * t1266 - (t138 * t1212 - (t114 * t1268 - t1317));
+        let t1319 = t156 * t1264 - (t159 * t1210 - t1318);
+        let t1320 = t72 * t1287 + (t75 * t1245 + (t54 * t1241 + t51 * t1285));
+        let t1321 = t117 * t1233 + (t93 * t1283 + (t96 * t1237 + t1320));
+        let t1322 = t135 * t1279 + (t138 * t1229 + (t114 * t1281 + t1321));
+        let t1323 = t156 * t1277 + (t159 * t1225 + t1322);
+        let t1324 = t72 * t1306 - (t75 * t1258 + (t54 * t1256 - t51 * t1303));
+        let t1325 = t117 * t1252 - (t93 * t1300 - (t96 * t1254 - t1324));
+        let t1326 = t135 * t1294 - (t138 * t1250 - (t114 * t1297 - t1325));
+        let t1327 = t156 * t1291 - (t159 * t1248 - t1326);
+        let t1328 = t48 * t891 - (t1180 + (t1182 + (t1184 + (t1186 + (t1188 + t1190)))));
+        let t1329 = t111 * t1026 + (t90 * t981 + (t69 * t936 + t1328));
+        let t1330 = t153 * t1116 + (t132 * t1071 + t1329);
+        let t1331 = t1304
+            + (t1301 - (t1151 + (t1156 + (t1161 + (t1166 + (t1171 + t1176))))));
+        let t1332 = t1289 + (t1292 + (t1295 + (t1298 + t1331)));
+        let t1333 = t54 * t881 - (t1276 + (t1278 + (t1280 + (t1282 + (t1284 + t1286)))));
+        let t1334 = t117 * t1016 + (t96 * t971 + (t75 * t926 + t1333));
+        let t1335 = t159 * t1106 + (t138 * t1061 + t1334);
+        coriolis_matrix_p[4][2] = t1335;
+        coriolis_matrix_b[4][2] = t1335;
+        let t1336 = t75 * t1178 - (t69 * t1274 + (t48 * t1272 - t54 * t1173));
+        let t1337 = t111 * t1268 - (t96 * t1168 - (t90 * t1270 - t1336));
+        let t1338 = t138 * t1158 - (t132 * t1266 - (t117 * t1163 - t1337));
+        let t1339 = t159 * t1153 - (t153 * t1264 - t1338);
+        let t1340 = t75 * t1191 - (t69 * t1287 + (t48 * t1285 - t54 * t1189));
+        let t1341 = t111 * t1281 - (t96 * t1187 - (t90 * t1283 - t1340));
+        let t1342 = t138 * t1183 - (t132 * t1279 - (t117 * t1185 - t1341));
+        let t1343 = t159 * t1181 - (t153 * t1277 - t1342);
+        let t1344 = t75 * t1204 - (t69 * t1306 + (t48 * t1303 - t54 * t1202));
+        let t1345 = t111 * t1297 - (t96 * t1200 - (t90 * t1300 - t1344));
+        let t1346 = t138 * t1196 - (t132 * t1294 - (t117 * t1198 - t1345));
+        let t1347 = t159 * t1194 - (t153 * t1291 - t1346);
+        let t1348 = t48 * t885 - (t1193 + (t1195 + (t1197 + (t1199 + (t1201 + t1203)))));
+        let t1349 = t111 * t1020 + (t90 * t975 + (t69 * t930 + t1348));
+        let t1350 = t153 * t1110 + (t132 * t1065 + t1349);
+        coriolis_matrix_p[5][0] = t1350;
+        coriolis_matrix_b[5][0] = t1350;
+        let t1351 = t51 * t880 - (t1247 + (t1249 + (t1251 + (t1253 + (t1255 + t1257)))));
+        let t1352 = t114 * t1015 + (t93 * t970 + (t72 * t925 + t1351));
+        let t1353 = t156 * t1105 + (t135 * t1060 + t1352);
+        let t1354 = t1244
+            + (t1240 - (t1152 + (t1157 + (t1162 + (t1167 + (t1172 + t1177))))));
+        let t1355 = t1224 + (t1228 + (t1232 + (t1236 + t1354)));
+        coriolis_matrix_p[5][2] = t1355;
+        coriolis_matrix_b[5][2] = t1355;
+        let t1356 = t69 * t1220 - (t72 * t1178 + (t51 * t1173 - t48 * t1218));
+        let t1357 = t114 * t1163 - (t90 * t1216 - (t93 * t1168 - t1356));
+        let t1358 = t132 * t1212 - (t135 * t1158 - (t111 * t1214 - t1357));
+        let t1359 = t153 * t1210 - (t156 * t1153 - t1358);
+        let t1360 = t69 * t1245 + (t72 * t1191 + (t51 * t1189 + t48 * t1241));
+        let t1361 = t114 * t1185 + (t90 * t1237 + (t93 * t1187 + t1360));
+        let t1362 = t132 * t1229 + (t135 * t1183 + (t111 * t1233 + t1361));
+        let t1363 = t153 * t1225 + (t156 * t1181 + t1362);
+        let t1364 = t69 * t1258 - (t72 * t1204 + (t51 * t1202 - t48 * t1256));
+        let t1365 = t114 * t1198 - (t90 * t1254 - (t93 * t1200 - t1364));
+        let t1366 = t132 * t1250 - (t135 * t1196 - (t111 * t1252 - t1365));
+        let t1367 = t153 * t1248 - (t156 * t1194 - t1366);
+        coriolis_matrix_p[1][4] = -t1246;
+        let t1368 = -t1315;
+        coriolis_matrix_p[3][2] = t1368;
+        coriolis_matrix_b[3][2] = t1368;
+        let t1369 = -t1330;
+        coriolis_matrix_p[4][0] = t1369;
+        coriolis_matrix_b[4][0] = t1369;
+        let t1370 = -t1332;
+        coriolis_matrix_p[4][1] = t1370;
+        coriolis_matrix_b[4][1] = t1370;
+        let t1371 = -t1353;
+        coriolis_matrix_p[5][1] = t1371;
+        coriolis_matrix_b[5][1] = t1371;
         // Coriolis matrix C_p, natural factorisation
-        let t1390 = platform_rotation[1][0] * t337 + platform_rotation[1][1] * t344;
-        let t1391 = platform_rotation[1][2] * t351 + t1390;
-        let t1392 = platform_rotation[0][0] * t337 + platform_rotation[0][1] * t344;
-        let t1393 = platform_rotation[0][2] * t351 + t1392;
-        let t1394 = platform_velocity[3] * t1391 - platform_velocity[4] * t1393;
-        coriolis_matrix_p[0][4] = t1210 + t1394;
-        let t1395 = platform_rotation[2][0] * t337 + platform_rotation[2][1] * t344;
-        let t1396 = platform_rotation[2][2] * t351 + t1395;
-        let t1397 = platform_velocity[5] * t1393 - platform_velocity[3] * t1396;
-        coriolis_matrix_p[0][5] = t1223 - t1397;
-        coriolis_matrix_p[1][3] = t1239 - t1394;
-        let t1398 = platform_velocity[4] * t1396 - platform_velocity[5] * t1391;
-        coriolis_matrix_p[1][5] = t1277 + t1398;
-        coriolis_matrix_p[2][3] = t1293 + t1397;
-        coriolis_matrix_p[2][4] = t1306 - t1398;
-        let t1399 = platform_rotation[0][0] * t381 + platform_rotation[0][1] * t400;
-        let t1400 = platform_rotation[0][2] * t410 + t1399;
-        let t1401 = platform_rotation[0][0] * t363 + platform_rotation[0][1] * t372;
-        let t1402 = platform_rotation[0][2] * t381 + t1401;
-        let t1403 = platform_rotation[0][0] * t372 + platform_rotation[0][1] * t391;
-        let t1404 = platform_rotation[0][2] * t400 + t1403;
-        let t1405 = platform_rotation[1][0] * t1402 + platform_rotation[1][1] * t1404;
-        let t1406 = platform_rotation[1][2] * t1400 + t1405;
-        let t1407 = platform_velocity[5] * t1406;
-        let t1408 = platform_rotation[2][0] * t1402 + platform_rotation[2][1] * t1404;
-        let t1409 = platform_rotation[2][2] * t1400 + t1408;
-        let t1410 = platform_velocity[4] * t1409;
-        coriolis_matrix_p[3][3] = t1337 + t1407 - t1410;
-        let t1411 = platform_rotation[1][0] * t381 + platform_rotation[1][1] * t400;
-        let t1412 = platform_rotation[1][2] * t410 + t1411;
-        let t1413 = platform_rotation[1][0] * t372 + platform_rotation[1][1] * t391;
-        let t1414 = platform_rotation[1][2] * t400 + t1413;
-        let t1415 = platform_rotation[1][0] * t363 + platform_rotation[1][1] * t372;
-        let t1416 = platform_rotation[1][2] * t381 + t1415;
-        let t1417 = t353 - platform_rotation[1][0] * t1416;
-        let t1418 = platform_rotation[1][1] * t1414 - t1417;
-        let t1419 = platform_rotation[1][2] * t1412 + t1418;
-        let t1420 = platform_rotation[2][0] * t1416 + platform_rotation[2][1] * t1414;
-        let t1421 = platform_rotation[2][2] * t1412 + t1420;
-        coriolis_matrix_p[3][4] = t1341 + platform_velocity[5] * t1419
-            - platform_velocity[4] * t1421;
-        let t1422 = platform_rotation[2][0] * t381 + platform_rotation[2][1] * t400;
-        let t1423 = platform_rotation[2][2] * (platform_rotation[2][2] * t410 + t1422);
-        let t1424 = platform_rotation[2][0] * t372 + platform_rotation[2][1] * t391;
-        let t1425 = platform_rotation[2][1] * (platform_rotation[2][2] * t400 + t1424);
-        let t1426 = platform_rotation[2][0] * t363 + platform_rotation[2][1] * t372;
-        let t1427 = platform_rotation[2][0] * (platform_rotation[2][2] * t381 + t1426);
-        let t1428 = t1423 + (t1425 - (t353 - t1427));
-        coriolis_matrix_p[3][5] = t1345 + platform_velocity[5] * t1421
-            - platform_velocity[4] * t1428;
-        let t1429 = t353 - platform_rotation[0][0] * t1402;
-        let t1430 = platform_rotation[0][1] * t1404 - t1429;
-        let t1431 = platform_rotation[0][2] * t1400 + t1430;
-        coriolis_matrix_p[4][3] = platform_velocity[3] * t1409
-            + (t1357 - platform_velocity[5] * t1431);
-        let t1432 = platform_velocity[3] * t1421;
-        coriolis_matrix_p[4][4] = t1432 + (t1361 - t1407);
-        coriolis_matrix_p[4][5] = platform_velocity[3] * t1428
-            + (t1365 - platform_velocity[5] * t1409);
-        coriolis_matrix_p[5][3] = t1377 + platform_velocity[4] * t1431
-            - platform_velocity[3] * t1406;
-        coriolis_matrix_p[5][4] = platform_velocity[4] * t1406 - t1381
-            - platform_velocity[3] * t1419;
-        coriolis_matrix_p[5][5] = t1385 + t1410 - t1432;
+        let t1372 = platform_rotation[1][0] * t337 + platform_rotation[1][1] * t344;
+        let t1373 = platform_rotation[1][2] * t351 + t1372;
+        let t1374 = platform_rotation[0][0] * t337 + platform_rotation[0][1] * t344;
+        let t1375 = platform_rotation[0][2] * t351 + t1374;
+        let t1376 = platform_velocity[3] * t1373 - platform_velocity[4] * t1375;
+        coriolis_matrix_p[0][4] = t1192 + t1376;
+        let t1377 = platform_rotation[2][0] * t337 + platform_rotation[2][1] * t344;
+        let t1378 = platform_rotation[2][2] * t351 + t1377;
+        let t1379 = platform_velocity[5] * t1375 - platform_velocity[3] * t1378;
+        coriolis_matrix_p[0][5] = t1205 - t1379;
+        coriolis_matrix_p[1][3] = t1221 - t1376;
+        let t1380 = platform_velocity[4] * t1378 - platform_velocity[5] * t1373;
+        coriolis_matrix_p[1][5] = t1259 + t1380;
+        coriolis_matrix_p[2][3] = t1275 + t1379;
+        coriolis_matrix_p[2][4] = t1288 - t1380;
+        let t1381 = platform_rotation[0][0] * t381 + platform_rotation[0][1] * t400;
+        let t1382 = platform_rotation[0][2] * t410 + t1381;
+        let t1383 = platform_rotation[0][0] * t363 + platform_rotation[0][1] * t372;
+        let t1384 = platform_rotation[0][2] * t381 + t1383;
+        let t1385 = platform_rotation[0][0] * t372 + platform_rotation[0][1] * t391;
+        let t1386 = platform_rotation[0][2] * t400 + t1385;
+        let t1387 = platform_rotation[1][0] * t1384 + platform_rotation[1][1] * t1386;
+        let t1388 = platform_rotation[1][2] * t1382 + t1387;
+        let t1389 = platform_velocity[5] * t1388;
+        let t1390 = platform_rotation[2][0] * t1384 + platform_rotation[2][1] * t1386;
+        let t1391 = platform_rotation[2][2] * t1382 + t1390;
+        let t1392 = platform_velocity[4] * t1391;
+        coriolis_matrix_p[3][3] = t1319 + t1389 - t1392;
+        let t1393 = platform_rotation[1][0] * t381 + platform_rotation[1][1] * t400;
+        let t1394 = platform_rotation[1][2] * t410 + t1393;
+        let t1395 = platform_rotation[1][0] * t372 + platform_rotation[1][1] * t391;
+        let t1396 = platform_rotation[1][2] * t400 + t1395;
+        let t1397 = platform_rotation[1][0] * t363 + platform_rotation[1][1] * t372;
+        let t1398 = platform_rotation[1][2] * t381 + t1397;
+        let t1399 = t353 - platform_rotation[1][0] * t1398;
+        let t1400 = platform_rotation[1][1] * t1396 - t1399;
+        let t1401 = platform_rotation[1][2] * t1394 + t1400;
+        let t1402 = platform_rotation[2][0] * t1398 + platform_rotation[2][1] * t1396;
+        let t1403 = platform_rotation[2][2] * t1394 + t1402;
+        coriolis_matrix_p[3][4] = t1323 + platform_velocity[5] * t1401
+            - platform_velocity[4] * t1403;
+        let t1404 = platform_rotation[2][0] * t381 + platform_rotation[2][1] * t400;
+        let t1405 = platform_rotation[2][2] * (platform_rotation[2][2] * t410 + t1404);
+        let t1406 = platform_rotation[2][0] * t372 + platform_rotation[2][1] * t391;
+        let t1407 = platform_rotation[2][1] * (platform_rotation[2][2] * t400 + t1406);
+        let t1408 = platform_rotation[2][0] * t363 + platform_rotation[2][1] * t372;
+        let t1409 = platform_rotation[2][0] * (platform_rotation[2][2] * t381 + t1408);
+        let t1410 = t1405 + (t1407 - (t353 - t1409));
+        coriolis_matrix_p[3][5] = t1327 + platform_velocity[5] * t1403
+            - platform_velocity[4] * t1410;
+        let t1411 = t353 - platform_rotation[0][0] * t1384;
+        let t1412 = platform_rotation[0][1] * t1386 - t1411;
+        let t1413 = platform_rotation[0][2] * t1382 + t1412;
+        coriolis_matrix_p[4][3] = platform_velocity[3] * t1391
+            + (t1339 - platform_velocity[5] * t1413);
+        let t1414 = platform_velocity[3] * t1403;
+        coriolis_matrix_p[4][4] = t1414 + (t1343 - t1389);
+        coriolis_matrix_p[4][5] = platform_velocity[3] * t1410
+            + (t1347 - platform_velocity[5] * t1391);
+        coriolis_matrix_p[5][3] = t1359 + platform_velocity[4] * t1413
+            - platform_velocity[3] * t1388;
+        coriolis_matrix_p[5][4] = platform_velocity[4] * t1388 - t1363
+            - platform_velocity[3] * t1401;
+        coriolis_matrix_p[5][5] = t1367 + t1392 - t1414;
         // Coriolis matrix C_b, natural factorisation
-        let t1433 = t604 * t665;
-        let t1434 = t1197 - (t1146 + (t1101 + (t1056 + (t1011 + (t921 + t966)))));
-        let t1435 = t605 * t664;
-        coriolis_matrix_b[0][3] = t1433 - (t29 * t1166 - (t30 * t1165 + t1434)) - t1435;
-        let t1436 = t1210 - (t1153 + (t1108 + (t1063 + (t1018 + (t928 + t973)))));
-        let t1437 = t605 * t663 - (t30 * t1164 - (t28 * t1166 + t1436));
-        coriolis_matrix_b[0][4] = t1437 - t603 * t665;
-        let t1438 = t1223 - (t1156 + (t1111 + (t1066 + (t1021 + (t931 + t976)))));
-        let t1439 = t603 * t664 - (t28 * t1165 - (t29 * t1164 + t1438));
-        coriolis_matrix_b[0][5] = t1439 - t604 * t663;
-        let t1440 = t1239 - (t1157 + (t1112 + (t1067 + (t1022 + (t932 + t977)))));
-        let t1441 = t619 * t665 - (t29 * t1226 - (t30 * t1225 + t1440));
-        coriolis_matrix_b[1][3] = t1441 - t620 * t664;
-        let t1442 = t620 * t663;
-        let t1443 = t1433
-            + (t1264 + (t1158 + (t1113 + (t1068 + (t1023 + (t933 + t978))))));
-        coriolis_matrix_b[1][4] = t1442 - (t30 * t1224 - (t28 * t1226 - t1443));
-        let t1444 = t1277 - (t1160 + (t1115 + (t1070 + (t1025 + (t935 + t980)))));
-        let t1445 = t604 * t664 - (t28 * t1225 - (t29 * t1224 + t1444));
-        coriolis_matrix_b[1][5] = t1445 - t619 * t663;
-        let t1446 = t1293 + (t1161 + (t1116 + (t1071 + (t1026 + (t936 + t981)))));
-        let t1447 = t620 * t665 - (t29 * t1280 - (t30 * t1279 + t1446));
-        coriolis_matrix_b[2][3] = t1447 - t632 * t664;
-        let t1448 = t1306 - (t1162 + (t1117 + (t1072 + (t1027 + (t937 + t982)))));
-        let t1449 = t632 * t663 - (t30 * t1278 - (t28 * t1280 + t1448));
-        coriolis_matrix_b[2][4] = t1449 - t605 * t665;
-        let t1450 = t1435
-            + (t1325 - (t1163 + (t1118 + (t1073 + (t1028 + (t938 + t983))))));
-        coriolis_matrix_b[2][5] = t29 * t1278 - (t1442 - t1450) - t28 * t1279;
-        let t1451 = t624 * t665 + (t29 * t1333 + (t1337 + t30 * t1330));
-        let t1452 = t54 * t932 + (t51 * t936 - (t636 * t664 - t1451));
-        let t1453 = t93 * t1026 + (t75 * t977 + (t72 * t981 + t1452));
-        let t1454 = t117 * t1067 + (t114 * t1071 + (t96 * t1022 + t1453));
-        let t1455 = t156 * t1161 + (t138 * t1112 + (t135 * t1116 + t1454));
-        coriolis_matrix_b[3][3] = t159 * t1157 + t1455;
-        let t1456 = t636 * t663 - (t30 * t1327 - (t1341 - t28 * t1333));
-        let t1457 = t54 * t933 - (t51 * t937 - (t610 * t665 + t1456));
-        let t1458 = t93 * t1027 - (t75 * t978 - (t72 * t982 - t1457));
-        let t1459 = t117 * t1068 - (t114 * t1072 - (t96 * t1023 - t1458));
-        let t1460 = t156 * t1162 - (t138 * t1113 - (t135 * t1117 - t1459));
-        coriolis_matrix_b[3][4] = t159 * t1158 - t1460;
-        let t1461 = t610 * t664 + (t28 * t1330 - (t1345 + t29 * t1327));
-        let t1462 = t54 * t935 - (t51 * t938 + (t624 * t663 + t1461));
-        let t1463 = t93 * t1028 - (t75 * t980 - (t72 * t983 - t1462));
-        let t1464 = t117 * t1070 - (t114 * t1073 - (t96 * t1025 - t1463));
-        let t1465 = t156 * t1163 - (t138 * t1115 - (t135 * t1118 - t1464));
-        coriolis_matrix_b[3][5] = t159 * t1160 - t1465;
-        let t1466 = t627 * t665 - (t29 * t1353 - (t1357 - t30 * t1350));
-        let t1467 = t1466 - t640 * t664 - t54 * t921 - t48 * t936;
-        let t1468 = t1467 - t75 * t966 - t69 * t981 - t96 * t1011;
-        let t1469 = t1468 - t90 * t1026 - t117 * t1056 - t111 * t1071;
-        let t1470 = t1469 - t138 * t1101 - t132 * t1116 - t159 * t1146;
-        coriolis_matrix_b[4][3] = t1470 - t153 * t1161;
-        let t1471 = t640 * t663 + (t30 * t1348 + (t1361 + t28 * t1353));
-        let t1472 = t48 * t937 - (t54 * t928 + (t614 * t665 - t1471));
-        let t1473 = t96 * t1018 - (t69 * t982 - (t75 * t973 - t1472));
-        let t1474 = t111 * t1072 - (t117 * t1063 - (t90 * t1027 - t1473));
-        let t1475 = t159 * t1153 - (t132 * t1117 - (t138 * t1108 - t1474));
-        coriolis_matrix_b[4][4] = t153 * t1162 - t1475;
-        let t1476 = t614 * t664 + (t28 * t1350 + (t1365 - t29 * t1348));
-        let t1477 = t48 * t938 - (t54 * t931 + (t627 * t663 - t1476));
-        let t1478 = t96 * t1021 - (t69 * t983 - (t75 * t976 - t1477));
-        let t1479 = t111 * t1073 - (t117 * t1066 - (t90 * t1028 - t1478));
-        let t1480 = t159 * t1156 - (t132 * t1118 - (t138 * t1111 - t1479));
-        coriolis_matrix_b[4][5] = t153 * t1163 - t1480;
-        let t1481 = t631 * t665 - (t29 * t1373 - (t1377 - t30 * t1371));
-        let t1482 = t51 * t921 - (t48 * t932 - (t641 * t664 + t1481));
-        let t1483 = t90 * t1022 - (t72 * t966 - (t69 * t977 - t1482));
-        let t1484 = t114 * t1056 - (t111 * t1067 - (t93 * t1011 - t1483));
-        let t1485 = t153 * t1157 - (t135 * t1101 - (t132 * t1112 - t1484));
-        coriolis_matrix_b[5][3] = t156 * t1146 - t1485;
-        let t1486 = t641 * t663 + (t30 * t1368 + (t1381 - t28 * t1373));
-        let t1487 = t51 * t928 - (t48 * t933 + (t618 * t665 + t1486));
-        let t1488 = t90 * t1023 - (t72 * t973 - (t69 * t978 - t1487));
-        let t1489 = t114 * t1063 - (t111 * t1068 - (t93 * t1018 - t1488));
-        let t1490 = t153 * t1158 - (t135 * t1108 - (t132 * t1113 - t1489));
-        coriolis_matrix_b[5][4] = t156 * t1153 - t1490;
-        let t1491 = t618 * t664 + (t28 * t1371 + (t1385 + t29 * t1368));
-        let t1492 = t51 * t931 - (t48 * t935 + (t631 * t663 - t1491));
-        let t1493 = t90 * t1025 - (t72 * t976 - (t69 * t980 - t1492));
-        let t1494 = t114 * t1066 - (t111 * t1070 - (t93 * t1021 - t1493));
-        let t1495 = t153 * t1160 - (t135 * t1111 - (t132 * t1115 - t1494));
-        coriolis_matrix_b[5][5] = t156 * t1156 - t1495;
+        let t1415 = t604 * t665;
+        let t1416 = t1179 - (t1128 + (t1083 + (t1038 + (t993 + (t903 + t948)))));
+        let t1417 = t605 * t664;
+        coriolis_matrix_b[0][3] = t1415 - (t29 * t1148 - (t30 * t1147 + t1416)) - t1417;
+        let t1418 = t1192 - (t1135 + (t1090 + (t1045 + (t1000 + (t910 + t955)))));
+        let t1419 = t605 * t663 - (t30 * t1146 - (t28 * t1148 + t1418));
+        coriolis_matrix_b[0][4] = t1419 - t603 * t665;
+        let t1420 = t1205 - (t1138 + (t1093 + (t1048 + (t1003 + (t913 + t958)))));
+        let t1421 = t603 * t664 - (t28 * t1147 - (t29 * t1146 + t1420));
+        coriolis_matrix_b[0][5] = t1421 - t604 * t663;
+        let t1422 = t1221 - (t1139 + (t1094 + (t1049 + (t1004 + (t914 + t959)))));
+        let t1423 = t619 * t665 - (t29 * t1208 - (t30 * t1207 + t1422));
+        coriolis_matrix_b[1][3] = t1423 - t620 * t664;
+        let t1424 = t620 * t663;
+        let t1425 = t1415
+            + (t1246 + (t1140 + (t1095 + (t1050 + (t1005 + (t915 + t960))))));
+        coriolis_matrix_b[1][4] = t1424 - (t30 * t1206 - (t28 * t1208 - t1425));
+        let t1426 = t1259 - (t1142 + (t1097 + (t1052 + (t1007 + (t917 + t962)))));
+        let t1427 = t604 * t664 - (t28 * t1207 - (t29 * t1206 + t1426));
+        coriolis_matrix_b[1][5] = t1427 - t619 * t663;
+        let t1428 = t1275 + (t1143 + (t1098 + (t1053 + (t1008 + (t918 + t963)))));
+        let t1429 = t620 * t665 - (t29 * t1262 - (t30 * t1261 + t1428));
+        coriolis_matrix_b[2][3] = t1429 - t632 * t664;
+        let t1430 = t1288 - (t1144 + (t1099 + (t1054 + (t1009 + (t919 + t964)))));
+        let t1431 = t632 * t663 - (t30 * t1260 - (t28 * t1262 + t1430));
+        coriolis_matrix_b[2][4] = t1431 - t605 * t665;
+        let t1432 = t1417
+            + (t1307 - (t1145 + (t1100 + (t1055 + (t1010 + (t920 + t965))))));
+        coriolis_matrix_b[2][5] = t29 * t1260 - (t1424 - t1432) - t28 * t1261;
+        let t1433 = t624 * t665 + (t29 * t1315 + (t1319 + t30 * t1312));
+        let t1434 = t54 * t914 + (t51 * t918 - (t636 * t664 - t1433));
+        let t1435 = t93 * t1008 + (t75 * t959 + (t72 * t963 + t1434));
+        let t1436 = t117 * t1049 + (t114 * t1053 + (t96 * t1004 + t1435));
+        let t1437 = t156 * t1143 + (t138 * t1094 + (t135 * t1098 + t1436));
+        coriolis_matrix_b[3][3] = t159 * t1139 + t1437;
+        let t1438 = t636 * t663 - (t30 * t1309 - (t1323 - t28 * t1315));
+        let t1439 = t54 * t915 - (t51 * t919 - (t610 * t665 + t1438));
+        let t1440 = t93 * t1009 - (t75 * t960 - (t72 * t964 - t1439));
+        let t1441 = t117 * t1050 - (t114 * t1054 - (t96 * t1005 - t1440));
+        let t1442 = t156 * t1144 - (t138 * t1095 - (t135 * t1099 - t1441));
+        coriolis_matrix_b[3][4] = t159 * t1140 - t1442;
+        let t1443 = t610 * t664 + (t28 * t1312 - (t1327 + t29 * t1309));
+        let t1444 = t54 * t917 - (t51 * t920 + (t624 * t663 + t1443));
+        let t1445 = t93 * t1010 - (t75 * t962 - (t72 * t965 - t1444));
+        let t1446 = t117 * t1052 - (t114 * t1055 - (t96 * t1007 - t1445));
+        let t1447 = t156 * t1145 - (t138 * t1097 - (t135 * t1100 - t1446));
+        coriolis_matrix_b[3][5] = t159 * t1142 - t1447;
+        let t1448 = t627 * t665 - (t29 * t1335 - (t1339 - t30 * t1332));
+        let t1449 = t1448 - t640 * t664 - t54 * t903 - t48 * t918;
+        let t1450 = t1449 - t75 * t948 - t69 * t963 - t96 * t993;
+        let t1451 = t1450 - t90 * t1008 - t117 * t1038 - t111 * t1053;
+        let t1452 = t1451 - t138 * t1083 - t132 * t1098 - t159 * t1128;
+        coriolis_matrix_b[4][3] = t1452 - t153 * t1143;
+        let t1453 = t640 * t663 + (t30 * t1330 + (t1343 + t28 * t1335));
+        let t1454 = t48 * t919 - (t54 * t910 + (t614 * t665 - t1453));
+        let t1455 = t96 * t1000 - (t69 * t964 - (t75 * t955 - t1454));
+        let t1456 = t111 * t1054 - (t117 * t1045 - (t90 * t1009 - t1455));
+        let t1457 = t159 * t1135 - (t132 * t1099 - (t138 * t1090 - t1456));
+        coriolis_matrix_b[4][4] = t153 * t1144 - t1457;
+        let t1458 = t614 * t664 + (t28 * t1332 + (t1347 - t29 * t1330));
+        let t1459 = t48 * t920 - (t54 * t913 + (t627 * t663 - t1458));
+        let t1460 = t96 * t1003 - (t69 * t965 - (t75 * t958 - t1459));
+        let t1461 = t111 * t1055 - (t117 * t1048 - (t90 * t1010 - t1460));
+        let t1462 = t159 * t1138 - (t132 * t1100 - (t138 * t1093 - t1461));
+        coriolis_matrix_b[4][5] = t153 * t1145 - t1462;
+        let t1463 = t631 * t665 - (t29 * t1355 - (t1359 - t30 * t1353));
+        let t1464 = t51 * t903 - (t48 * t914 - (t641 * t664 + t1463));
+        let t1465 = t90 * t1004 - (t72 * t948 - (t69 * t959 - t1464));
+        let t1466 = t114 * t1038 - (t111 * t1049 - (t93 * t993 - t1465));
+        let t1467 = t153 * t1139 - (t135 * t1083 - (t132 * t1094 - t1466));
+        coriolis_matrix_b[5][3] = t156 * t1128 - t1467;
+        let t1468 = t641 * t663 + (t30 * t1350 + (t1363 - t28 * t1355));
+        let t1469 = t51 * t910 - (t48 * t915 + (t618 * t665 + t1468));
+        let t1470 = t90 * t1005 - (t72 * t955 - (t69 * t960 - t1469));
+        let t1471 = t114 * t1045 - (t111 * t1050 - (t93 * t1000 - t1470));
+        let t1472 = t153 * t1140 - (t135 * t1090 - (t132 * t1095 - t1471));
+        coriolis_matrix_b[5][4] = t156 * t1135 - t1472;
+        let t1473 = t618 * t664 + (t28 * t1353 + (t1367 + t29 * t1350));
+        let t1474 = t51 * t913 - (t48 * t917 + (t631 * t663 - t1473));
+        let t1475 = t90 * t1007 - (t72 * t958 - (t69 * t962 - t1474));
+        let t1476 = t114 * t1048 - (t111 * t1052 - (t93 * t1003 - t1475));
+        let t1477 = t153 * t1142 - (t135 * t1093 - (t132 * t1097 - t1476));
+        coriolis_matrix_b[5][5] = t156 * t1138 - t1477;
     }
 }
 
@@ -15682,96 +15668,96 @@ pub fn matrices<T: Scalar>(
         t1093,
         t1094,
         t1095,
-        t1351,
-        t1358,
-        t1361,
-        t1362,
-        t1363,
-        t1365,
-        t1366,
-        t1367,
-        t1368,
-        t1396,
-        t1403,
-        t1406,
-        t1407,
-        t1408,
-        t1410,
-        t1411,
-        t1412,
-        t1413,
-        t1441,
-        t1448,
-        t1451,
-        t1452,
-        t1453,
-        t1455,
-        t1456,
-        t1457,
-        t1458,
-        t1486,
-        t1493,
-        t1496,
-        t1497,
-        t1498,
-        t1500,
-        t1501,
-        t1502,
-        t1503,
-        t1531,
-        t1538,
-        t1541,
-        t1542,
-        t1543,
-        t1545,
-        t1546,
-        t1547,
-        t1548,
+        t1333,
+        t1340,
+        t1343,
+        t1344,
+        t1345,
+        t1347,
+        t1348,
+        t1349,
+        t1350,
+        t1378,
+        t1385,
+        t1388,
+        t1389,
+        t1390,
+        t1392,
+        t1393,
+        t1394,
+        t1395,
+        t1423,
+        t1430,
+        t1433,
+        t1434,
+        t1435,
+        t1437,
+        t1438,
+        t1439,
+        t1440,
+        t1468,
+        t1475,
+        t1478,
+        t1479,
+        t1480,
+        t1482,
+        t1483,
+        t1484,
+        t1485,
+        t1513,
+        t1520,
+        t1523,
+        t1524,
+        t1525,
+        t1527,
+        t1528,
+        t1529,
+        t1530,
+        t1558,
+        t1565,
+        t1568,
+        t1569,
+        t1570,
+        t1572,
+        t1573,
+        t1574,
+        t1575,
         t1576,
-        t1583,
-        t1586,
-        t1587,
-        t1588,
-        t1590,
-        t1591,
-        t1592,
-        t1593,
-        t1594,
-        t1595,
-        t1596,
-        t1627,
-        t1640,
-        t1653,
-        t1654,
-        t1655,
-        t1656,
-        t1669,
-        t1694,
-        t1707,
-        t1708,
-        t1709,
-        t1710,
-        t1723,
-        t1736,
-        t1755,
+        t1577,
+        t1578,
+        t1609,
+        t1622,
+        t1635,
+        t1636,
+        t1637,
+        t1638,
+        t1651,
+        t1676,
+        t1689,
+        t1690,
+        t1691,
+        t1692,
+        t1705,
+        t1718,
+        t1737,
+        t1739,
+        t1742,
+        t1745,
+        t1749,
+        t1753,
         t1757,
         t1760,
-        t1763,
-        t1767,
-        t1771,
-        t1775,
-        t1778,
+        t1762,
+        t1765,
+        t1769,
+        t1773,
+        t1777,
         t1780,
         t1783,
-        t1787,
-        t1791,
-        t1795,
-        t1798,
-        t1801,
-        t1803,
-        t1807,
-        t1811,
-        t1815,
+        t1785,
+        t1789,
+        t1793,
+        t1797,
     ) = {
         // mass matrix M_p of the platform
         let t952 = platform_rotation[2][0] * t357 + platform_rotation[2][1] * t364;
@@ -16128,102 +16114,98 @@ pub fn matrices<T: Scalar>(
         let t1214 = t221 * (t218 * t1213 + (t216 * t1211 + t217 * t1212));
         // leg 6: actuator velocity d'
         let t1215 = t1210 + t1214;
-        // leg 1: rate of that gradient relative to the base
-        let t1216 = t171 * (t1171 + t223 * t1174);
-        let t1217 = t171 * (t1172 + t225 * t1174);
-        let t1218 = t171 * (t1173 + t227 * t1174);
-        // leg 2: rate of that gradient relative to the base
-        let t1219 = t181 * (t1179 + t229 * t1182);
-        let t1220 = t181 * (t1180 + t231 * t1182);
-        let t1221 = t181 * (t1181 + t233 * t1182);
-        // leg 3: rate of that gradient relative to the base
-        let t1222 = t191 * (t1187 + t235 * t1190);
-        let t1223 = t191 * (t1188 + t237 * t1190);
-        let t1224 = t191 * (t1189 + t239 * t1190);
-        // leg 4: rate of that gradient relative to the base
-        let t1225 = t201 * (t1195 + t241 * t1198);
-        let t1226 = t201 * (t1196 + t243 * t1198);
-        let t1227 = t201 * (t1197 + t245 * t1198);
-        // leg 5: rate of that gradient relative to the base
-        let t1228 = t211 * (t1203 + t247 * t1206);
-        let t1229 = t211 * (t1204 + t249 * t1206);
-        let t1230 = t211 * (t1205 + t251 * t1206);
-        // leg 6: rate of that gradient relative to the base
-        let t1231 = t221 * (t1211 + t253 * t1214);
-        let t1232 = t221 * (t1212 + t255 * t1214);
-        let t1233 = t221 * (t1213 + t257 * t1214);
-        // leg 1: rate of the platform lever
-        let t1234 = platform_velocity[4] * t54 - platform_velocity[5] * t51;
-        let t1235 = platform_velocity[5] * t48 - platform_velocity[3] * t54;
-        let t1236 = platform_velocity[3] * t51 - platform_velocity[4] * t48;
-        // leg 1: velocity of the platform joint less that of the base origin
-        let t1237 = t1093 - t1234;
-        let t1238 = t1094 - t1235;
-        let t1239 = t1095 - t1236;
         // leg 1: inertial rate of that gradient
-        let t1240 = t224 * t1077 - (t1218 + t226 * t1074);
-        let t1241 = t226 * t1080 - (t1216 + t228 * t1077);
-        let t1242 = t228 * t1074 - (t1217 + t224 * t1080);
-        let t1243 = base_rotation[0][0] * t1241 + base_rotation[0][1] * t1242;
-        let t1244 = base_rotation[0][2] * t1240 + t1243;
-        let t1245 = base_rotation[1][0] * t1241 + base_rotation[1][1] * t1242;
-        let t1246 = base_rotation[1][2] * t1240 + t1245;
-        let t1247 = base_rotation[2][0] * t1241 + base_rotation[2][1] * t1242;
-        let t1248 = base_rotation[2][2] * t1240 + t1247;
-        // leg 2: rate of the platform lever
-        let t1249 = platform_velocity[4] * t75 - platform_velocity[5] * t72;
-        let t1250 = platform_velocity[5] * t69 - platform_velocity[3] * t75;
-        let t1251 = platform_velocity[3] * t72 - platform_velocity[4] * t69;
-        // leg 2: velocity of the platform joint less that of the base origin
-        let t1252 = t1093 - t1249;
-        let t1253 = t1094 - t1250;
-        let t1254 = t1095 - t1251;
+        let t1216 = t224 * t1077 - (t171 * (t1173 + t227 * t1174) + t226 * t1074);
+        let t1217 = t226 * t1080 - (t171 * (t1171 + t223 * t1174) + t228 * t1077);
+        let t1218 = t228 * t1074 - (t171 * (t1172 + t225 * t1174) + t224 * t1080);
+        let t1219 = base_rotation[0][0] * t1217 + base_rotation[0][1] * t1218;
+        let t1220 = base_rotation[0][2] * t1216 + t1219;
+        let t1221 = base_rotation[1][0] * t1217 + base_rotation[1][1] * t1218;
+        let t1222 = base_rotation[1][2] * t1216 + t1221;
+        let t1223 = base_rotation[2][0] * t1217 + base_rotation[2][1] * t1218;
+        let t1224 = base_rotation[2][2] * t1216 + t1223;
         // leg 2: inertial rate of that gradient
-        let t1255 = t230 * t1077 - (t1221 + t232 * t1074);
-        let t1256 = t232 * t1080 - (t1219 + t234 * t1077);
-        let t1257 = t234 * t1074 - (t1220 + t230 * t1080);
-        let t1258 = base_rotation[0][0] * t1256 + base_rotation[0][1] * t1257;
-        let t1259 = base_rotation[0][2] * t1255 + t1258;
-        let t1260 = base_rotation[1][0] * t1256 + base_rotation[1][1] * t1257;
-        let t1261 = base_rotation[1][2] * t1255 + t1260;
-        let t1262 = base_rotation[2][0] * t1256 + base_rotation[2][1] * t1257;
-        let t1263 = base_rotation[2][2] * t1255 + t1262;
-        // leg 3: rate of the platform lever
-        let t1264 = platform_velocity[4] * t96 - platform_velocity[5] * t93;
-        let t1265 = platform_velocity[5] * t90 - platform_velocity[3] * t96;
-        let t1266 = platform_velocity[3] * t93 - platform_velocity[4] * t90;
-        // leg 3: velocity of the platform joint less that of the base origin
-        let t1267 = t1093 - t1264;
-        let t1268 = t1094 - t1265;
-        let t1269 = t1095 - t1266;
+        let t1225 = t230 * t1077 - (t181 * (t1181 + t233 * t1182) + t232 * t1074);
+        let t1226 = t232 * t1080 - (t181 * (t1179 + t229 * t1182) + t234 * t1077);
+        let t1227 = t234 * t1074 - (t181 * (t1180 + t231 * t1182) + t230 * t1080);
+        let t1228 = base_rotation[0][0] * t1226 + base_rotation[0][1] * t1227;
+        let t1229 = base_rotation[0][2] * t1225 + t1228;
+        let t1230 = base_rotation[1][0] * t1226 + base_rotation[1][1] * t1227;
+        let t1231 = base_rotation[1][2] * t1225 + t1230;
+        let t1232 = base_rotation[2][0] * t1226 + base_rotation[2][1] * t1227;
+        let t1233 = base_rotation[2][2] * t1225 + t1232;
         // leg 3: inertial rate of that gradient
-        let t1270 = t236 * t1077 - (t1224 + t238 * t1074);
-        let t1271 = t238 * t1080 - (t1222 + t240 * t1077);
-        let t1272 = t240 * t1074 - (t1223 + t236 * t1080);
-        let t1273 = base_rotation[0][0] * t1271 + base_rotation[0][1] * t1272;
-        let t1274 = base_rotation[0][2] * t1270 + t1273;
-        let t1275 = base_rotation[1][0] * t1271 + base_rotation[1][1] * t1272;
-        let t1276 = base_rotation[1][2] * t1270 + t1275;
-        let t1277 = base_rotation[2][0] * t1271 + base_rotation[2][1] * t1272;
-        let t1278 = base_rotation[2][2] * t1270 + t1277;
-        // leg 4: rate of the platform lever
-        let t1279 = platform_velocity[4] * t117 - platform_velocity[5] * t114;
-        let t1280 = platform_velocity[5] * t111 - platform_velocity[3] * t117;
-        let t1281 = platform_velocity[3] * t114 - platform_velocity[4] * t111;
-        // leg 4: velocity of the platform joint less that of the base origin
-        let t1282 = t1093 - t1279;
-        let t1283 = t1094 - t1280;
-        let t1284 = t1095 - t1281;
+        let t1234 = t236 * t1077 - (t191 * (t1189 + t239 * t1190) + t238 * t1074);
+        let t1235 = t238 * t1080 - (t191 * (t1187 + t235 * t1190) + t240 * t1077);
+        let t1236 = t240 * t1074 - (t191 * (t1188 + t237 * t1190) + t236 * t1080);
+        let t1237 = base_rotation[0][0] * t1235 + base_rotation[0][1] * t1236;
+        let t1238 = base_rotation[0][2] * t1234 + t1237;
+        let t1239 = base_rotation[1][0] * t1235 + base_rotation[1][1] * t1236;
+        let t1240 = base_rotation[1][2] * t1234 + t1239;
+        let t1241 = base_rotation[2][0] * t1235 + base_rotation[2][1] * t1236;
+        let t1242 = base_rotation[2][2] * t1234 + t1241;
         // leg 4: inertial rate of that gradient
-        let t1285 = t242 * t1077 - (t1227 + t244 * t1074);
-        let t1286 = t244 * t1080 - (t1225 + t246 * t1077);
-        let t1287 = t246 * t1074 - (t1226 + t242 * t1080);
-        let t1288 = base_rotation[0][0] * t1286 + base_rotation[0][1] * t1287;
-        let t1289 = base_rotation[0][2] * t1285 + t1288;
-        let t1290 = base_rotation[1][0] * t1286 + base_rotation[1][1] * t1287;
-        let t1291 = base_rotation[1][2] * t1285 + t1290;
-        let t1292 = base_rotation[2][0] * t1286 + base_rotation[2][1] * t1287;
-        let t1293 = base_rotation[2][2] * t1285 + t1292;
+        let t1243 = t242 * t1077 - (t201 * (t1197 + t245 * t1198) + t244 * t1074);
+        let t1244 = t244 * t1080 - (t201 * (t1195 + t241 * t1198) + t246 * t1077);
+        let t1245 = t246 * t1074 - (t201 * (t1196 + t243 * t1198) + t242 * t1080);
+        let t1246 = base_rotation[0][0] * t1244 + base_rotation[0][1] * t1245;
+        let t1247 = base_rotation[0][2] * t1243 + t1246;
+        let t1248 = base_rotation[1][0] * t1244 + base_rotation[1][1] * t1245;
+        let t1249 = base_rotation[1][2] * t1243 + t1248;
+        let t1250 = base_rotation[2][0] * t1244 + base_rotation[2][1] * t1245;
+        let t1251 = base_rotation[2][2] * t1243 + t1250;
+        // leg 5: inertial rate of that gradient
+        let t1252 = t248 * t1077 - (t211 * (t1205 + t251 * t1206) + t250 * t1074);
+        let t1253 = t250 * t1080 - (t211 * (t1203 + t247 * t1206) + t252 * t1077);
+        let t1254 = t252 * t1074 - (t211 * (t1204 + t249 * t1206) + t248 * t1080);
+        let t1255 = base_rotation[0][0] * t1253 + base_rotation[0][1] * t1254;
+        let t1256 = base_rotation[0][2] * t1252 + t1255;
+        let t1257 = base_rotation[1][0] * t1253 + base_rotation[1][1] * t1254;
+        let t1258 = base_rotation[1][2] * t1252 + t1257;
+        let t1259 = base_rotation[2][0] * t1253 + base_rotation[2][1] * t1254;
+        let t1260 = base_rotation[2][2] * t1252 + t1259;
+        // leg 6: inertial rate of that gradient
+        let t1261 = t254 * t1077 - (t221 * (t1213 + t257 * t1214) + t256 * t1074);
+        let t1262 = t256 * t1080 - (t221 * (t1211 + t253 * t1214) + t258 * t1077);
+        let t1263 = t258 * t1074 - (t221 * (t1212 + t255 * t1214) + t254 * t1080);
+        let t1264 = base_rotation[0][0] * t1262 + base_rotation[0][1] * t1263;
+        let t1265 = base_rotation[0][2] * t1261 + t1264;
+        let t1266 = base_rotation[1][0] * t1262 + base_rotation[1][1] * t1263;
+        let t1267 = base_rotation[1][2] * t1261 + t1266;
+        let t1268 = base_rotation[2][0] * t1262 + base_rotation[2][1] * t1263;
+        let t1269 = base_rotation[2][2] * t1261 + t1268;
+        // leg 1: rate of the platform lever
+        let t1270 = platform_velocity[4] * t54 - platform_velocity[5] * t51;
+        let t1271 = platform_velocity[5] * t48 - platform_velocity[3] * t54;
+        let t1272 = platform_velocity[3] * t51 - platform_velocity[4] * t48;
+        // leg 1: velocity of the platform joint less that of the base origin
+        let t1273 = t1093 - t1270;
+        let t1274 = t1094 - t1271;
+        let t1275 = t1095 - t1272;
+        // leg 2: rate of the platform lever
+        let t1276 = platform_velocity[4] * t75 - platform_velocity[5] * t72;
+        let t1277 = platform_velocity[5] * t69 - platform_velocity[3] * t75;
+        let t1278 = platform_velocity[3] * t72 - platform_velocity[4] * t69;
+        // leg 2: velocity of the platform joint less that of the base origin
+        let t1279 = t1093 - t1276;
+        let t1280 = t1094 - t1277;
+        let t1281 = t1095 - t1278;
+        // leg 3: rate of the platform lever
+        let t1282 = platform_velocity[4] * t96 - platform_velocity[5] * t93;
+        let t1283 = platform_velocity[5] * t90 - platform_velocity[3] * t96;
+        let t1284 = platform_velocity[3] * t93 - platform_velocity[4] * t90;
+        // leg 3: velocity of the platform joint less that of the base origin
+        let t1285 = t1093 - t1282;
+        let t1286 = t1094 - t1283;
+        let t1287 = t1095 - t1284;
+        // leg 4: rate of the platform lever
+        let t1288 = platform_velocity[4] * t117 - platform_velocity[5] * t114;
+        let t1289 = platform_velocity[5] * t111 - platform_velocity[3] * t117;
+        let t1290 = platform_velocity[3] * t114 - platform_velocity[4] * t111;
+        // leg 4: velocity of the platform joint less that of the base origin
+        let t1291 = t1093 - t1288;
+        let t1292 = t1094 - t1289;
+        let t1293 = t1095 - t1290;
         // leg 5: rate of the platform lever
         let t1294 = platform_velocity[4] * t138 - platform_velocity[5] * t135;
         let t1295 = platform_velocity[5] * t132 - platform_velocity[3] * t138;
@@ -16232,821 +16214,801 @@ pub fn matrices<T: Scalar>(
         let t1297 = t1093 - t1294;
         let t1298 = t1094 - t1295;
         let t1299 = t1095 - t1296;
-        // leg 5: inertial rate of that gradient
-        let t1300 = t248 * t1077 - (t1230 + t250 * t1074);
-        let t1301 = t250 * t1080 - (t1228 + t252 * t1077);
-        let t1302 = t252 * t1074 - (t1229 + t248 * t1080);
-        let t1303 = base_rotation[0][0] * t1301 + base_rotation[0][1] * t1302;
-        let t1304 = base_rotation[0][2] * t1300 + t1303;
-        let t1305 = base_rotation[1][0] * t1301 + base_rotation[1][1] * t1302;
-        let t1306 = base_rotation[1][2] * t1300 + t1305;
-        let t1307 = base_rotation[2][0] * t1301 + base_rotation[2][1] * t1302;
-        let t1308 = base_rotation[2][2] * t1300 + t1307;
         // leg 6: rate of the platform lever
-        let t1309 = platform_velocity[4] * t159 - platform_velocity[5] * t156;
-        let t1310 = platform_velocity[5] * t153 - platform_velocity[3] * t159;
-        let t1311 = platform_velocity[3] * t156 - platform_velocity[4] * t153;
+        let t1300 = platform_velocity[4] * t159 - platform_velocity[5] * t156;
+        let t1301 = platform_velocity[5] * t153 - platform_velocity[3] * t159;
+        let t1302 = platform_velocity[3] * t156 - platform_velocity[4] * t153;
         // leg 6: velocity of the platform joint less that of the base origin
-        let t1312 = t1093 - t1309;
-        let t1313 = t1094 - t1310;
-        let t1314 = t1095 - t1311;
-        // leg 6: inertial rate of that gradient
-        let t1315 = t254 * t1077 - (t1233 + t256 * t1074);
-        let t1316 = t256 * t1080 - (t1231 + t258 * t1077);
-        let t1317 = t258 * t1074 - (t1232 + t254 * t1080);
-        let t1318 = base_rotation[0][0] * t1316 + base_rotation[0][1] * t1317;
-        let t1319 = base_rotation[0][2] * t1315 + t1318;
-        let t1320 = base_rotation[1][0] * t1316 + base_rotation[1][1] * t1317;
-        let t1321 = base_rotation[1][2] * t1315 + t1320;
-        let t1322 = base_rotation[2][0] * t1316 + base_rotation[2][1] * t1317;
-        let t1323 = base_rotation[2][2] * t1315 + t1322;
+        let t1303 = t1093 - t1300;
+        let t1304 = t1094 - t1301;
+        let t1305 = t1095 - t1302;
         // leg 1: Coriolis matrix of the leg in the speeds of its joint
-        let t1324 = base_velocity[4] * t447 - base_velocity[5] * t441;
-        let t1325 = t435 - t263 * t431;
-        let t1326 = t318 * t1324;
-        let t1327 = t1244 * t1325 - t263 * t1326;
-        let t1328 = t1246 * t1325 - t265 * t1326;
-        let t1329 = t1248 * t1325 - t267 * t1326;
-        let t1330 = base_velocity[5] * t434 - base_velocity[3] * t447;
-        let t1331 = t442 - t265 * t431;
-        let t1332 = t318 * t1330;
-        let t1333 = t1244 * t1331 - t263 * t1332;
-        let t1334 = t1246 * t1331 - t265 * t1332;
-        let t1335 = t1248 * t1331 - t267 * t1332;
-        let t1336 = base_velocity[3] * t441 - base_velocity[4] * t434;
-        let t1337 = t448 - t267 * t431;
-        let t1338 = t318 * t1336;
-        let t1339 = t1244 * t1337 - t263 * t1338;
-        let t1340 = t1246 * t1337 - t265 * t1338;
-        let t1341 = t1248 * t1337 - t267 * t1338;
+        let t1306 = base_velocity[4] * t447 - base_velocity[5] * t441;
+        let t1307 = t435 - t263 * t431;
+        let t1308 = t318 * t1306;
+        let t1309 = t1220 * t1307 - t263 * t1308;
+        let t1310 = t1222 * t1307 - t265 * t1308;
+        let t1311 = t1224 * t1307 - t267 * t1308;
+        let t1312 = base_velocity[5] * t434 - base_velocity[3] * t447;
+        let t1313 = t442 - t265 * t431;
+        let t1314 = t318 * t1312;
+        let t1315 = t1220 * t1313 - t263 * t1314;
+        let t1316 = t1222 * t1313 - t265 * t1314;
+        let t1317 = t1224 * t1313 - t267 * t1314;
+        let t1318 = base_velocity[3] * t441 - base_velocity[4] * t434;
+        let t1319 = t448 - t267 * t431;
+        let t1320 = t318 * t1318;
+        let t1321 = t1220 * t1319 - t263 * t1320;
+        let t1322 = t1222 * t1319 - t265 * t1320;
+        let t1323 = t1224 * t1319 - t267 * t1320;
         // leg 1: Coriolis matrix between joint and base angular velocity
-        let t1342 = t172 * t1330 + (base_velocity[5] * t477 - base_velocity[3] * t466);
-        let t1343 = t441 * t1175 + t1342;
-        let t1344 = parameters.mover_mass[0]
-            * (t1343 - parameters.mover_offset[0] * t1330);
-        let t1345 = t1344 + (t315 * t1343 + t318 * t1238);
-        let t1346 = t172 * t1336 + (base_velocity[3] * t463 - base_velocity[4] * t477);
-        let t1347 = t447 * t1175 + t1346;
-        let t1348 = parameters.mover_mass[0]
-            * (t1347 - parameters.mover_offset[0] * t1336);
-        let t1349 = t1348 + (t315 * t1347 + t318 * t1239);
-        let t1350 = t447 * t1345 - t441 * t1349;
-        let t1351 = t263 * t1350;
-        let t1352 = t172 * t1324 + (base_velocity[4] * t466 - base_velocity[5] * t463);
-        let t1353 = t434 * t1175 + t1352;
-        let t1354 = parameters.mover_mass[0]
-            * (t1353 - parameters.mover_offset[0] * t1324);
-        let t1355 = t1354 + (t315 * t1353 + t318 * t1237);
-        let t1356 = t434 * t1349 - t447 * t1355;
-        let t1357 = t318 * t1347;
-        let t1358 = t263 * t1356 - t1357;
-        let t1359 = t441 * t1355 - t434 * t1345;
-        let t1360 = t318 * t1343;
-        let t1361 = t263 * t1359 + t1360;
-        let t1362 = t1357 + t265 * t1350;
-        let t1363 = t265 * t1356;
-        let t1364 = t318 * t1353;
-        let t1365 = t265 * t1359 - t1364;
-        let t1366 = t1360 - t267 * t1350;
-        let t1367 = t1364 + t267 * t1356;
-        let t1368 = t267 * t1359;
+        let t1324 = t172 * t1312 + (base_velocity[5] * t477 - base_velocity[3] * t466);
+        let t1325 = t441 * t1175 + t1324;
+        let t1326 = parameters.mover_mass[0]
+            * (t1325 - parameters.mover_offset[0] * t1312);
+        let t1327 = t1326 + (t315 * t1325 + t318 * t1274);
+        let t1328 = t172 * t1318 + (base_velocity[3] * t463 - base_velocity[4] * t477);
+        let t1329 = t447 * t1175 + t1328;
+        let t1330 = parameters.mover_mass[0]
+            * (t1329 - parameters.mover_offset[0] * t1318);
+        let t1331 = t1330 + (t315 * t1329 + t318 * t1275);
+        let t1332 = t447 * t1327 - t441 * t1331;
+        let t1333 = t263 * t1332;
+        let t1334 = t172 * t1306 + (base_velocity[4] * t466 - base_velocity[5] * t463);
+        let t1335 = t434 * t1175 + t1334;
+        let t1336 = parameters.mover_mass[0]
+            * (t1335 - parameters.mover_offset[0] * t1306);
+        let t1337 = t1336 + (t315 * t1335 + t318 * t1273);
+        let t1338 = t434 * t1331 - t447 * t1337;
+        let t1339 = t318 * t1329;
+        let t1340 = t263 * t1338 - t1339;
+        let t1341 = t441 * t1337 - t434 * t1327;
+        let t1342 = t318 * t1325;
+        let t1343 = t263 * t1341 + t1342;
+        let t1344 = t1339 + t265 * t1332;
+        let t1345 = t265 * t1338;
+        let t1346 = t318 * t1335;
+        let t1347 = t265 * t1341 - t1346;
+        let t1348 = t1342 - t267 * t1332;
+        let t1349 = t1346 + t267 * t1338;
+        let t1350 = t267 * t1341;
         // leg 2: Coriolis matrix of the leg in the speeds of its joint
-        let t1369 = base_velocity[4] * t516 - base_velocity[5] * t510;
-        let t1370 = t504 - t272 * t500;
-        let t1371 = t324 * t1369;
-        let t1372 = t1259 * t1370 - t272 * t1371;
-        let t1373 = t1261 * t1370 - t274 * t1371;
-        let t1374 = t1263 * t1370 - t276 * t1371;
-        let t1375 = base_velocity[5] * t503 - base_velocity[3] * t516;
-        let t1376 = t511 - t274 * t500;
-        let t1377 = t324 * t1375;
-        let t1378 = t1259 * t1376 - t272 * t1377;
-        let t1379 = t1261 * t1376 - t274 * t1377;
-        let t1380 = t1263 * t1376 - t276 * t1377;
-        let t1381 = base_velocity[3] * t510 - base_velocity[4] * t503;
-        let t1382 = t517 - t276 * t500;
-        let t1383 = t324 * t1381;
-        let t1384 = t1259 * t1382 - t272 * t1383;
-        let t1385 = t1261 * t1382 - t274 * t1383;
-        let t1386 = t1263 * t1382 - t276 * t1383;
+        let t1351 = base_velocity[4] * t516 - base_velocity[5] * t510;
+        let t1352 = t504 - t272 * t500;
+        let t1353 = t324 * t1351;
+        let t1354 = t1229 * t1352 - t272 * t1353;
+        let t1355 = t1231 * t1352 - t274 * t1353;
+        let t1356 = t1233 * t1352 - t276 * t1353;
+        let t1357 = base_velocity[5] * t503 - base_velocity[3] * t516;
+        let t1358 = t511 - t274 * t500;
+        let t1359 = t324 * t1357;
+        let t1360 = t1229 * t1358 - t272 * t1359;
+        let t1361 = t1231 * t1358 - t274 * t1359;
+        let t1362 = t1233 * t1358 - t276 * t1359;
+        let t1363 = base_velocity[3] * t510 - base_velocity[4] * t503;
+        let t1364 = t517 - t276 * t500;
+        let t1365 = t324 * t1363;
+        let t1366 = t1229 * t1364 - t272 * t1365;
+        let t1367 = t1231 * t1364 - t274 * t1365;
+        let t1368 = t1233 * t1364 - t276 * t1365;
         // leg 2: Coriolis matrix between joint and base angular velocity
-        let t1387 = t182 * t1375 + (base_velocity[5] * t546 - base_velocity[3] * t535);
-        let t1388 = t510 * t1183 + t1387;
-        let t1389 = parameters.mover_mass[1]
-            * (t1388 - parameters.mover_offset[1] * t1375);
-        let t1390 = t1389 + (t321 * t1388 + t324 * t1253);
-        let t1391 = t182 * t1381 + (base_velocity[3] * t532 - base_velocity[4] * t546);
-        let t1392 = t516 * t1183 + t1391;
-        let t1393 = parameters.mover_mass[1]
-            * (t1392 - parameters.mover_offset[1] * t1381);
-        let t1394 = t1393 + (t321 * t1392 + t324 * t1254);
-        let t1395 = t516 * t1390 - t510 * t1394;
-        let t1396 = t272 * t1395;
-        let t1397 = t182 * t1369 + (base_velocity[4] * t535 - base_velocity[5] * t532);
-        let t1398 = t503 * t1183 + t1397;
-        let t1399 = parameters.mover_mass[1]
-            * (t1398 - parameters.mover_offset[1] * t1369);
-        let t1400 = t1399 + (t321 * t1398 + t324 * t1252);
-        let t1401 = t503 * t1394 - t516 * t1400;
-        let t1402 = t324 * t1392;
-        let t1403 = t272 * t1401 - t1402;
-        let t1404 = t510 * t1400 - t503 * t1390;
-        let t1405 = t324 * t1388;
-        let t1406 = t272 * t1404 + t1405;
-        let t1407 = t1402 + t274 * t1395;
-        let t1408 = t274 * t1401;
-        let t1409 = t324 * t1398;
-        let t1410 = t274 * t1404 - t1409;
-        let t1411 = t1405 - t276 * t1395;
-        let t1412 = t1409 + t276 * t1401;
-        let t1413 = t276 * t1404;
+        let t1369 = t182 * t1357 + (base_velocity[5] * t546 - base_velocity[3] * t535);
+        let t1370 = t510 * t1183 + t1369;
+        let t1371 = parameters.mover_mass[1]
+            * (t1370 - parameters.mover_offset[1] * t1357);
+        let t1372 = t1371 + (t321 * t1370 + t324 * t1280);
+        let t1373 = t182 * t1363 + (base_velocity[3] * t532 - base_velocity[4] * t546);
+        let t1374 = t516 * t1183 + t1373;
+        let t1375 = parameters.mover_mass[1]
+            * (t1374 - parameters.mover_offset[1] * t1363);
+        let t1376 = t1375 + (t321 * t1374 + t324 * t1281);
+        let t1377 = t516 * t1372 - t510 * t1376;
+        let t1378 = t272 * t1377;
+        let t1379 = t182 * t1351 + (base_velocity[4] * t535 - base_velocity[5] * t532);
+        let t1380 = t503 * t1183 + t1379;
+        let t1381 = parameters.mover_mass[1]
+            * (t1380 - parameters.mover_offset[1] * t1351);
+        let t1382 = t1381 + (t321 * t1380 + t324 * t1279);
+        let t1383 = t503 * t1376 - t516 * t1382;
+        let t1384 = t324 * t1374;
+        let t1385 = t272 * t1383 - t1384;
+        let t1386 = t510 * t1382 - t503 * t1372;
+        let t1387 = t324 * t1370;
+        let t1388 = t272 * t1386 + t1387;
+        let t1389 = t1384 + t274 * t1377;
+        let t1390 = t274 * t1383;
+        let t1391 = t324 * t1380;
+        let t1392 = t274 * t1386 - t1391;
+        let t1393 = t1387 - t276 * t1377;
+        let t1394 = t1391 + t276 * t1383;
+        let t1395 = t276 * t1386;
         // leg 3: Coriolis matrix of the leg in the speeds of its joint
-        let t1414 = base_velocity[4] * t585 - base_velocity[5] * t579;
-        let t1415 = t573 - t281 * t569;
-        let t1416 = t330 * t1414;
-        let t1417 = t1274 * t1415 - t281 * t1416;
-        let t1418 = t1276 * t1415 - t283 * t1416;
-        let t1419 = t1278 * t1415 - t285 * t1416;
-        let t1420 = base_velocity[5] * t572 - base_velocity[3] * t585;
-        let t1421 = t580 - t283 * t569;
-        let t1422 = t330 * t1420;
-        let t1423 = t1274 * t1421 - t281 * t1422;
-        let t1424 = t1276 * t1421 - t283 * t1422;
-        let t1425 = t1278 * t1421 - t285 * t1422;
-        let t1426 = base_velocity[3] * t579 - base_velocity[4] * t572;
-        let t1427 = t586 - t285 * t569;
-        let t1428 = t330 * t1426;
-        let t1429 = t1274 * t1427 - t281 * t1428;
-        let t1430 = t1276 * t1427 - t283 * t1428;
-        let t1431 = t1278 * t1427 - t285 * t1428;
+        let t1396 = base_velocity[4] * t585 - base_velocity[5] * t579;
+        let t1397 = t573 - t281 * t569;
+        let t1398 = t330 * t1396;
+        let t1399 = t1238 * t1397 - t281 * t1398;
+        let t1400 = t1240 * t1397 - t283 * t1398;
+        let t1401 = t1242 * t1397 - t285 * t1398;
+        let t1402 = base_velocity[5] * t572 - base_velocity[3] * t585;
+        let t1403 = t580 - t283 * t569;
+        let t1404 = t330 * t1402;
+        let t1405 = t1238 * t1403 - t281 * t1404;
+        let t1406 = t1240 * t1403 - t283 * t1404;
+        let t1407 = t1242 * t1403 - t285 * t1404;
+        let t1408 = base_velocity[3] * t579 - base_velocity[4] * t572;
+        let t1409 = t586 - t285 * t569;
+        let t1410 = t330 * t1408;
+        let t1411 = t1238 * t1409 - t281 * t1410;
+        let t1412 = t1240 * t1409 - t283 * t1410;
+        let t1413 = t1242 * t1409 - t285 * t1410;
         // leg 3: Coriolis matrix between joint and base angular velocity
-        let t1432 = t192 * t1420 + (base_velocity[5] * t615 - base_velocity[3] * t604);
-        let t1433 = t579 * t1191 + t1432;
-        let t1434 = parameters.mover_mass[2]
-            * (t1433 - parameters.mover_offset[2] * t1420);
-        let t1435 = t1434 + (t327 * t1433 + t330 * t1268);
-        let t1436 = t192 * t1426 + (base_velocity[3] * t601 - base_velocity[4] * t615);
-        let t1437 = t585 * t1191 + t1436;
-        let t1438 = parameters.mover_mass[2]
-            * (t1437 - parameters.mover_offset[2] * t1426);
-        let t1439 = t1438 + (t327 * t1437 + t330 * t1269);
-        let t1440 = t585 * t1435 - t579 * t1439;
-        let t1441 = t281 * t1440;
-        let t1442 = t192 * t1414 + (base_velocity[4] * t604 - base_velocity[5] * t601);
-        let t1443 = t572 * t1191 + t1442;
-        let t1444 = parameters.mover_mass[2]
-            * (t1443 - parameters.mover_offset[2] * t1414);
-        let t1445 = t1444 + (t327 * t1443 + t330 * t1267);
-        let t1446 = t572 * t1439 - t585 * t1445;
-        let t1447 = t330 * t1437;
-        let t1448 = t281 * t1446 - t1447;
-        let t1449 = t579 * t1445 - t572 * t1435;
-        let t1450 = t330 * t1433;
-        let t1451 = t281 * t1449 + t1450;
-        let t1452 = t1447 + t283 * t1440;
-        let t1453 = t283 * t1446;
-        let t1454 = t330 * t1443;
-        let t1455 = t283 * t1449 - t1454;
-        let t1456 = t1450 - t285 * t1440;
-        let t1457 = t1454 + t285 * t1446;
-        let t1458 = t285 * t1449;
+        let t1414 = t192 * t1402 + (base_velocity[5] * t615 - base_velocity[3] * t604);
+        let t1415 = t579 * t1191 + t1414;
+        let t1416 = parameters.mover_mass[2]
+            * (t1415 - parameters.mover_offset[2] * t1402);
+        let t1417 = t1416 + (t327 * t1415 + t330 * t1286);
+        let t1418 = t192 * t1408 + (base_velocity[3] * t601 - base_velocity[4] * t615);
+        let t1419 = t585 * t1191 + t1418;
+        let t1420 = parameters.mover_mass[2]
+            * (t1419 - parameters.mover_offset[2] * t1408);
+        let t1421 = t1420 + (t327 * t1419 + t330 * t1287);
+        let t1422 = t585 * t1417 - t579 * t1421;
+        let t1423 = t281 * t1422;
+        let t1424 = t192 * t1396 + (base_velocity[4] * t604 - base_velocity[5] * t601);
+        let t1425 = t572 * t1191 + t1424;
+        let t1426 = parameters.mover_mass[2]
+            * (t1425 - parameters.mover_offset[2] * t1396);
+        let t1427 = t1426 + (t327 * t1425 + t330 * t1285);
+        let t1428 = t572 * t1421 - t585 * t1427;
+        let t1429 = t330 * t1419;
+        let t1430 = t281 * t1428 - t1429;
+        let t1431 = t579 * t1427 - t572 * t1417;
+        let t1432 = t330 * t1415;
+        let t1433 = t281 * t1431 + t1432;
+        let t1434 = t1429 + t283 * t1422;
+        let t1435 = t283 * t1428;
+        let t1436 = t330 * t1425;
+        let t1437 = t283 * t1431 - t1436;
+        let t1438 = t1432 - t285 * t1422;
+        let t1439 = t1436 + t285 * t1428;
+        let t1440 = t285 * t1431;
         // leg 4: Coriolis matrix of the leg in the speeds of its joint
-        let t1459 = base_velocity[4] * t654 - base_velocity[5] * t648;
-        let t1460 = t642 - t290 * t638;
-        let t1461 = t336 * t1459;
-        let t1462 = t1289 * t1460 - t290 * t1461;
-        let t1463 = t1291 * t1460 - t292 * t1461;
-        let t1464 = t1293 * t1460 - t294 * t1461;
-        let t1465 = base_velocity[5] * t641 - base_velocity[3] * t654;
-        let t1466 = t649 - t292 * t638;
-        let t1467 = t336 * t1465;
-        let t1468 = t1289 * t1466 - t290 * t1467;
-        let t1469 = t1291 * t1466 - t292 * t1467;
-        let t1470 = t1293 * t1466 - t294 * t1467;
-        let t1471 = base_velocity[3] * t648 - base_velocity[4] * t641;
-        let t1472 = t655 - t294 * t638;
-        let t1473 = t336 * t1471;
-        let t1474 = t1289 * t1472 - t290 * t1473;
-        let t1475 = t1291 * t1472 - t292 * t1473;
-        let t1476 = t1293 * t1472 - t294 * t1473;
+        let t1441 = base_velocity[4] * t654 - base_velocity[5] * t648;
+        let t1442 = t642 - t290 * t638;
+        let t1443 = t336 * t1441;
+        let t1444 = t1247 * t1442 - t290 * t1443;
+        let t1445 = t1249 * t1442 - t292 * t1443;
+        let t1446 = t1251 * t1442 - t294 * t1443;
+        let t1447 = base_velocity[5] * t641 - base_velocity[3] * t654;
+        let t1448 = t649 - t292 * t638;
+        let t1449 = t336 * t1447;
+        let t1450 = t1247 * t1448 - t290 * t1449;
+        let t1451 = t1249 * t1448 - t292 * t1449;
+        let t1452 = t1251 * t1448 - t294 * t1449;
+        let t1453 = base_velocity[3] * t648 - base_velocity[4] * t641;
+        let t1454 = t655 - t294 * t638;
+        let t1455 = t336 * t1453;
+        let t1456 = t1247 * t1454 - t290 * t1455;
+        let t1457 = t1249 * t1454 - t292 * t1455;
+        let t1458 = t1251 * t1454 - t294 * t1455;
         // leg 4: Coriolis matrix between joint and base angular velocity
-        let t1477 = t202 * t1465 + (base_velocity[5] * t684 - base_velocity[3] * t673);
-        let t1478 = t648 * t1199 + t1477;
-        let t1479 = parameters.mover_mass[3]
-            * (t1478 - parameters.mover_offset[3] * t1465);
-        let t1480 = t1479 + (t333 * t1478 + t336 * t1283);
-        let t1481 = t202 * t1471 + (base_velocity[3] * t670 - base_velocity[4] * t684);
-        let t1482 = t654 * t1199 + t1481;
-        let t1483 = parameters.mover_mass[3]
-            * (t1482 - parameters.mover_offset[3] * t1471);
-        let t1484 = t1483 + (t333 * t1482 + t336 * t1284);
-        let t1485 = t654 * t1480 - t648 * t1484;
-        let t1486 = t290 * t1485;
-        let t1487 = t202 * t1459 + (base_velocity[4] * t673 - base_velocity[5] * t670);
-        let t1488 = t641 * t1199 + t1487;
-        let t1489 = parameters.mover_mass[3]
-            * (t1488 - parameters.mover_offset[3] * t1459);
-        let t1490 = t1489 + (t333 * t1488 + t336 * t1282);
-        let t1491 = t641 * t1484 - t654 * t1490;
-        let t1492 = t336 * t1482;
-        let t1493 = t290 * t1491 - t1492;
-        let t1494 = t648 * t1490 - t641 * t1480;
-        let t1495 = t336 * t1478;
-        let t1496 = t290 * t1494 + t1495;
-        let t1497 = t1492 + t292 * t1485;
-        let t1498 = t292 * t1491;
-        let t1499 = t336 * t1488;
-        let t1500 = t292 * t1494 - t1499;
-        let t1501 = t1495 - t294 * t1485;
-        let t1502 = t1499 + t294 * t1491;
-        let t1503 = t294 * t1494;
+        let t1459 = t202 * t1447 + (base_velocity[5] * t684 - base_velocity[3] * t673);
+        let t1460 = t648 * t1199 + t1459;
+        let t1461 = parameters.mover_mass[3]
+            * (t1460 - parameters.mover_offset[3] * t1447);
+        let t1462 = t1461 + (t333 * t1460 + t336 * t1292);
+        let t1463 = t202 * t1453 + (base_velocity[3] * t670 - base_velocity[4] * t684);
+        let t1464 = t654 * t1199 + t1463;
+        let t1465 = parameters.mover_mass[3]
+            * (t1464 - parameters.mover_offset[3] * t1453);
+        let t1466 = t1465 + (t333 * t1464 + t336 * t1293);
+        let t1467 = t654 * t1462 - t648 * t1466;
+        let t1468 = t290 * t1467;
+        let t1469 = t202 * t1441 + (base_velocity[4] * t673 - base_velocity[5] * t670);
+        let t1470 = t641 * t1199 + t1469;
+        let t1471 = parameters.mover_mass[3]
+            * (t1470 - parameters.mover_offset[3] * t1441);
+        let t1472 = t1471 + (t333 * t1470 + t336 * t1291);
+        let t1473 = t641 * t1466 - t654 * t1472;
+        let t1474 = t336 * t1464;
+        let t1475 = t290 * t1473 - t1474;
+        let t1476 = t648 * t1472 - t641 * t1462;
+        let t1477 = t336 * t1460;
+        let t1478 = t290 * t1476 + t1477;
+        let t1479 = t1474 + t292 * t1467;
+        let t1480 = t292 * t1473;
+        let t1481 = t336 * t1470;
+        let t1482 = t292 * t1476 - t1481;
+        let t1483 = t1477 - t294 * t1467;
+        let t1484 = t1481 + t294 * t1473;
+        let t1485 = t294 * t1476;
         // leg 5: Coriolis matrix of the leg in the speeds of its joint
-        let t1504 = base_velocity[4] * t723 - base_velocity[5] * t717;
-        let t1505 = t711 - t299 * t707;
-        let t1506 = t342 * t1504;
-        let t1507 = t1304 * t1505 - t299 * t1506;
-        let t1508 = t1306 * t1505 - t301 * t1506;
-        let t1509 = t1308 * t1505 - t303 * t1506;
-        let t1510 = base_velocity[5] * t710 - base_velocity[3] * t723;
-        let t1511 = t718 - t301 * t707;
-        let t1512 = t342 * t1510;
-        let t1513 = t1304 * t1511 - t299 * t1512;
-        let t1514 = t1306 * t1511 - t301 * t1512;
-        let t1515 = t1308 * t1511 - t303 * t1512;
-        let t1516 = base_velocity[3] * t717 - base_velocity[4] * t710;
-        let t1517 = t724 - t303 * t707;
-        let t1518 = t342 * t1516;
-        let t1519 = t1304 * t1517 - t299 * t1518;
-        let t1520 = t1306 * t1517 - t301 * t1518;
-        let t1521 = t1308 * t1517 - t303 * t1518;
+        let t1486 = base_velocity[4] * t723 - base_velocity[5] * t717;
+        let t1487 = t711 - t299 * t707;
+        let t1488 = t342 * t1486;
+        let t1489 = t1256 * t1487 - t299 * t1488;
+        let t1490 = t1258 * t1487 - t301 * t1488;
+        let t1491 = t1260 * t1487 - t303 * t1488;
+        let t1492 = base_velocity[5] * t710 - base_velocity[3] * t723;
+        let t1493 = t718 - t301 * t707;
+        let t1494 = t342 * t1492;
+        let t1495 = t1256 * t1493 - t299 * t1494;
+        let t1496 = t1258 * t1493 - t301 * t1494;
+        let t1497 = t1260 * t1493 - t303 * t1494;
+        let t1498 = base_velocity[3] * t717 - base_velocity[4] * t710;
+        let t1499 = t724 - t303 * t707;
+        let t1500 = t342 * t1498;
+        let t1501 = t1256 * t1499 - t299 * t1500;
+        let t1502 = t1258 * t1499 - t301 * t1500;
+        let t1503 = t1260 * t1499 - t303 * t1500;
         // leg 5: Coriolis matrix between joint and base angular velocity
-        let t1522 = t212 * t1510 + (base_velocity[5] * t753 - base_velocity[3] * t742);
-        let t1523 = t717 * t1207 + t1522;
-        let t1524 = parameters.mover_mass[4]
-            * (t1523 - parameters.mover_offset[4] * t1510);
-        let t1525 = t1524 + (t339 * t1523 + t342 * t1298);
-        let t1526 = t212 * t1516 + (base_velocity[3] * t739 - base_velocity[4] * t753);
-        let t1527 = t723 * t1207 + t1526;
-        let t1528 = parameters.mover_mass[4]
-            * (t1527 - parameters.mover_offset[4] * t1516);
-        let t1529 = t1528 + (t339 * t1527 + t342 * t1299);
-        let t1530 = t723 * t1525 - t717 * t1529;
-        let t1531 = t299 * t1530;
-        let t1532 = t212 * t1504 + (base_velocity[4] * t742 - base_velocity[5] * t739);
-        let t1533 = t710 * t1207 + t1532;
-        let t1534 = parameters.mover_mass[4]
-            * (t1533 - parameters.mover_offset[4] * t1504);
-        let t1535 = t1534 + (t339 * t1533 + t342 * t1297);
-        let t1536 = t710 * t1529 - t723 * t1535;
-        let t1537 = t342 * t1527;
-        let t1538 = t299 * t1536 - t1537;
-        let t1539 = t717 * t1535 - t710 * t1525;
-        let t1540 = t342 * t1523;
-        let t1541 = t299 * t1539 + t1540;
-        let t1542 = t1537 + t301 * t1530;
-        let t1543 = t301 * t1536;
-        let t1544 = t342 * t1533;
-        let t1545 = t301 * t1539 - t1544;
-        let t1546 = t1540 - t303 * t1530;
-        let t1547 = t1544 + t303 * t1536;
-        let t1548 = t303 * t1539;
+        let t1504 = t212 * t1492 + (base_velocity[5] * t753 - base_velocity[3] * t742);
+        let t1505 = t717 * t1207 + t1504;
+        let t1506 = parameters.mover_mass[4]
+            * (t1505 - parameters.mover_offset[4] * t1492);
+        let t1507 = t1506 + (t339 * t1505 + t342 * t1298);
+        let t1508 = t212 * t1498 + (base_velocity[3] * t739 - base_velocity[4] * t753);
+        let t1509 = t723 * t1207 + t1508;
+        let t1510 = parameters.mover_mass[4]
+            * (t1509 - parameters.mover_offset[4] * t1498);
+        let t1511 = t1510 + (t339 * t1509 + t342 * t1299);
+        let t1512 = t723 * t1507 - t717 * t1511;
+        let t1513 = t299 * t1512;
+        let t1514 = t212 * t1486 + (base_velocity[4] * t742 - base_velocity[5] * t739);
+        let t1515 = t710 * t1207 + t1514;
+        let t1516 = parameters.mover_mass[4]
+            * (t1515 - parameters.mover_offset[4] * t1486);
+        let t1517 = t1516 + (t339 * t1515 + t342 * t1297);
+        let t1518 = t710 * t1511 - t723 * t1517;
+        let t1519 = t342 * t1509;
+        let t1520 = t299 * t1518 - t1519;
+        let t1521 = t717 * t1517 - t710 * t1507;
+        let t1522 = t342 * t1505;
+        let t1523 = t299 * t1521 + t1522;
+        let t1524 = t1519 + t301 * t1512;
+        let t1525 = t301 * t1518;
+        let t1526 = t342 * t1515;
+        let t1527 = t301 * t1521 - t1526;
+        let t1528 = t1522 - t303 * t1512;
+        let t1529 = t1526 + t303 * t1518;
+        let t1530 = t303 * t1521;
         // leg 6: Coriolis matrix of the leg in the speeds of its joint
-        let t1549 = base_velocity[4] * t792 - base_velocity[5] * t786;
-        let t1550 = t780 - t308 * t776;
-        let t1551 = t348 * t1549;
-        let t1552 = t1319 * t1550 - t308 * t1551;
-        let t1553 = t1321 * t1550 - t310 * t1551;
-        let t1554 = t1323 * t1550 - t312 * t1551;
-        let t1555 = base_velocity[5] * t779 - base_velocity[3] * t792;
-        let t1556 = t787 - t310 * t776;
-        let t1557 = t348 * t1555;
-        let t1558 = t1319 * t1556 - t308 * t1557;
-        let t1559 = t1321 * t1556 - t310 * t1557;
-        let t1560 = t1323 * t1556 - t312 * t1557;
-        let t1561 = base_velocity[3] * t786 - base_velocity[4] * t779;
-        let t1562 = t793 - t312 * t776;
-        let t1563 = t348 * t1561;
-        let t1564 = t1319 * t1562 - t308 * t1563;
-        let t1565 = t1321 * t1562 - t310 * t1563;
-        let t1566 = t1323 * t1562 - t312 * t1563;
+        let t1531 = base_velocity[4] * t792 - base_velocity[5] * t786;
+        let t1532 = t780 - t308 * t776;
+        let t1533 = t348 * t1531;
+        let t1534 = t1265 * t1532 - t308 * t1533;
+        let t1535 = t1267 * t1532 - t310 * t1533;
+        let t1536 = t1269 * t1532 - t312 * t1533;
+        let t1537 = base_velocity[5] * t779 - base_velocity[3] * t792;
+        let t1538 = t787 - t310 * t776;
+        let t1539 = t348 * t1537;
+        let t1540 = t1265 * t1538 - t308 * t1539;
+        let t1541 = t1267 * t1538 - t310 * t1539;
+        let t1542 = t1269 * t1538 - t312 * t1539;
+        let t1543 = base_velocity[3] * t786 - base_velocity[4] * t779;
+        let t1544 = t793 - t312 * t776;
+        let t1545 = t348 * t1543;
+        let t1546 = t1265 * t1544 - t308 * t1545;
+        let t1547 = t1267 * t1544 - t310 * t1545;
+        let t1548 = t1269 * t1544 - t312 * t1545;
         // leg 6: Coriolis matrix between joint and base angular velocity
-        let t1567 = t222 * t1555 + (base_velocity[5] * t822 - base_velocity[3] * t811);
-        let t1568 = t786 * t1215 + t1567;
-        let t1569 = parameters.mover_mass[5]
-            * (t1568 - parameters.mover_offset[5] * t1555);
-        let t1570 = t1569 + (t345 * t1568 + t348 * t1313);
-        let t1571 = t222 * t1561 + (base_velocity[3] * t808 - base_velocity[4] * t822);
-        let t1572 = t792 * t1215 + t1571;
-        let t1573 = parameters.mover_mass[5]
-            * (t1572 - parameters.mover_offset[5] * t1561);
-        let t1574 = t1573 + (t345 * t1572 + t348 * t1314);
-        let t1575 = t792 * t1570 - t786 * t1574;
-        let t1576 = t308 * t1575;
-        let t1577 = t222 * t1549 + (base_velocity[4] * t811 - base_velocity[5] * t808);
-        let t1578 = t779 * t1215 + t1577;
-        let t1579 = parameters.mover_mass[5]
-            * (t1578 - parameters.mover_offset[5] * t1549);
-        let t1580 = t1579 + (t345 * t1578 + t348 * t1312);
-        let t1581 = t779 * t1574 - t792 * t1580;
-        let t1582 = t348 * t1572;
-        let t1583 = t308 * t1581 - t1582;
-        let t1584 = t786 * t1580 - t779 * t1570;
-        let t1585 = t348 * t1568;
-        let t1586 = t308 * t1584 + t1585;
-        let t1587 = t1582 + t310 * t1575;
-        let t1588 = t310 * t1581;
-        let t1589 = t348 * t1578;
-        let t1590 = t310 * t1584 - t1589;
-        let t1591 = t1585 - t312 * t1575;
-        let t1592 = t1589 + t312 * t1581;
-        let t1593 = t312 * t1584;
+        let t1549 = t222 * t1537 + (base_velocity[5] * t822 - base_velocity[3] * t811);
+        let t1550 = t786 * t1215 + t1549;
+        let t1551 = parameters.mover_mass[5]
+            * (t1550 - parameters.mover_offset[5] * t1537);
+        let t1552 = t1551 + (t345 * t1550 + t348 * t1304);
+        let t1553 = t222 * t1543 + (base_velocity[3] * t808 - base_velocity[4] * t822);
+        let t1554 = t792 * t1215 + t1553;
+        let t1555 = parameters.mover_mass[5]
+            * (t1554 - parameters.mover_offset[5] * t1543);
+        let t1556 = t1555 + (t345 * t1554 + t348 * t1305);
+        let t1557 = t792 * t1552 - t786 * t1556;
+        let t1558 = t308 * t1557;
+        let t1559 = t222 * t1531 + (base_velocity[4] * t811 - base_velocity[5] * t808);
+        let t1560 = t779 * t1215 + t1559;
+        let t1561 = parameters.mover_mass[5]
+            * (t1560 - parameters.mover_offset[5] * t1531);
+        let t1562 = t1561 + (t345 * t1560 + t348 * t1303);
+        let t1563 = t779 * t1556 - t792 * t1562;
+        let t1564 = t348 * t1554;
+        let t1565 = t308 * t1563 - t1564;
+        let t1566 = t786 * t1562 - t779 * t1552;
+        let t1567 = t348 * t1550;
+        let t1568 = t308 * t1566 + t1567;
+        let t1569 = t1564 + t310 * t1557;
+        let t1570 = t310 * t1563;
+        let t1571 = t348 * t1560;
+        let t1572 = t310 * t1566 - t1571;
+        let t1573 = t1567 - t312 * t1557;
+        let t1574 = t1571 + t312 * t1563;
+        let t1575 = t312 * t1566;
         // Coriolis matrix of the legs
-        let t1594 = t1552 + (t1507 + (t1462 + (t1417 + (t1327 + t1372))));
-        coriolis_matrix_p[0][0] = t1594;
-        coriolis_matrix_b[0][0] = t1594;
-        let t1595 = t1553 + (t1508 + (t1463 + (t1418 + (t1328 + t1373))));
-        coriolis_matrix_p[0][1] = t1595;
-        coriolis_matrix_b[0][1] = t1595;
-        let t1596 = t1554 + (t1509 + (t1464 + (t1419 + (t1329 + t1374))));
-        coriolis_matrix_p[0][2] = t1596;
-        coriolis_matrix_b[0][2] = t1596;
-        let t1597 = t795 * t1310;
-        let t1598 = t789 * t1311;
-        let t1599 = t159 * t1553;
-        let t1600 = t156 * t1554;
-        let t1601 = t1597 - (t1598 + (t1599 - t1600));
-        let t1602 = t726 * t1295;
-        let t1603 = t720 * t1296;
-        let t1604 = t138 * t1508;
-        let t1605 = t135 * t1509;
-        let t1606 = t1602 - (t1603 + (t1604 - t1605));
-        let t1607 = t657 * t1280;
-        let t1608 = t651 * t1281;
-        let t1609 = t117 * t1463;
-        let t1610 = t114 * t1464;
-        let t1611 = t1607 - (t1608 + (t1609 - t1610));
-        let t1612 = t588 * t1265;
-        let t1613 = t582 * t1266;
-        let t1614 = t96 * t1418;
-        let t1615 = t93 * t1419;
-        let t1616 = t1612 - (t1613 + (t1614 - t1615));
-        let t1617 = t450 * t1235;
-        let t1618 = t444 * t1236;
-        let t1619 = t54 * t1328;
-        let t1620 = t51 * t1329;
-        let t1621 = t1617 - (t1618 + (t1619 - t1620));
-        let t1622 = t519 * t1250;
-        let t1623 = t513 * t1251;
-        let t1624 = t75 * t1373;
-        let t1625 = t72 * t1374;
-        let t1626 = t1622 - (t1623 + (t1624 - t1625));
-        let t1627 = t1601 + (t1606 + (t1611 + (t1616 + (t1621 + t1626))));
-        coriolis_matrix_p[0][3] = t1627;
-        let t1628 = t159 * t1552;
-        let t1629 = t783 * t1311 - (t795 * t1309 + (t153 * t1554 - t1628));
-        let t1630 = t138 * t1507;
-        let t1631 = t714 * t1296 - (t726 * t1294 + (t132 * t1509 - t1630));
-        let t1632 = t117 * t1462;
-        let t1633 = t645 * t1281 - (t657 * t1279 + (t111 * t1464 - t1632));
-        let t1634 = t96 * t1417;
-        let t1635 = t576 * t1266 - (t588 * t1264 + (t90 * t1419 - t1634));
-        let t1636 = t54 * t1327;
-        let t1637 = t438 * t1236 - (t450 * t1234 + (t48 * t1329 - t1636));
-        let t1638 = t75 * t1372;
-        let t1639 = t507 * t1251 - (t519 * t1249 + (t69 * t1374 - t1638));
-        let t1640 = t1629 + (t1631 + (t1633 + (t1635 + (t1637 + t1639))));
-        let t1641 = t156 * t1552;
-        let t1642 = t789 * t1309 - (t783 * t1310 + (t1641 - t153 * t1553));
-        let t1643 = t135 * t1507;
-        let t1644 = t720 * t1294 - (t714 * t1295 + (t1643 - t132 * t1508));
-        let t1645 = t114 * t1462;
-        let t1646 = t651 * t1279 - (t645 * t1280 + (t1645 - t111 * t1463));
-        let t1647 = t93 * t1417;
-        let t1648 = t582 * t1264 - (t576 * t1265 + (t1647 - t90 * t1418));
-        let t1649 = t51 * t1327;
-        let t1650 = t444 * t1234 - (t438 * t1235 + (t1649 - t48 * t1328));
-        let t1651 = t72 * t1372;
-        let t1652 = t513 * t1249 - (t507 * t1250 + (t1651 - t69 * t1373));
-        let t1653 = t1642 + (t1644 + (t1646 + (t1648 + (t1650 + t1652))));
-        let t1654 = t1558 + (t1513 + (t1468 + (t1423 + (t1333 + t1378))));
-        coriolis_matrix_p[1][0] = t1654;
-        coriolis_matrix_b[1][0] = t1654;
-        let t1655 = t1559 + (t1514 + (t1469 + (t1424 + (t1334 + t1379))));
-        coriolis_matrix_p[1][1] = t1655;
-        coriolis_matrix_b[1][1] = t1655;
-        let t1656 = t1560 + (t1515 + (t1470 + (t1425 + (t1335 + t1380))));
-        coriolis_matrix_p[1][2] = t1656;
-        coriolis_matrix_b[1][2] = t1656;
-        let t1657 = t159 * t1559;
-        let t1658 = t797 * t1310 - (t796 * t1311 + (t1657 - t156 * t1560));
-        let t1659 = t138 * t1514;
-        let t1660 = t728 * t1295 - (t727 * t1296 + (t1659 - t135 * t1515));
-        let t1661 = t117 * t1469;
-        let t1662 = t659 * t1280 - (t658 * t1281 + (t1661 - t114 * t1470));
-        let t1663 = t96 * t1424;
-        let t1664 = t590 * t1265 - (t589 * t1266 + (t1663 - t93 * t1425));
-        let t1665 = t54 * t1334;
-        let t1666 = t452 * t1235 - (t451 * t1236 + (t1665 - t51 * t1335));
-        let t1667 = t75 * t1379;
-        let t1668 = t521 * t1250 - (t520 * t1251 + (t1667 - t72 * t1380));
-        let t1669 = t1658 + (t1660 + (t1662 + (t1664 + (t1666 + t1668))));
-        let t1670 = t797 * t1309;
-        let t1671 = t159 * t1558;
-        let t1672 = t153 * t1560;
-        let t1673 = t1670 - (t1671 + (t1598 - t1672));
-        let t1674 = t728 * t1294;
-        let t1675 = t138 * t1513;
-        let t1676 = t132 * t1515;
-        let t1677 = t1674 - (t1675 + (t1603 - t1676));
-        let t1678 = t659 * t1279;
-        let t1679 = t117 * t1468;
-        let t1680 = t111 * t1470;
-        let t1681 = t1678 - (t1679 + (t1608 - t1680));
-        let t1682 = t590 * t1264;
-        let t1683 = t96 * t1423;
-        let t1684 = t90 * t1425;
-        let t1685 = t1682 - (t1683 + (t1613 - t1684));
-        let t1686 = t452 * t1234;
-        let t1687 = t54 * t1333;
-        let t1688 = t48 * t1335;
-        let t1689 = t1686 - (t1687 + (t1618 - t1688));
-        let t1690 = t521 * t1249;
-        let t1691 = t75 * t1378;
-        let t1692 = t69 * t1380;
-        let t1693 = t1690 - (t1691 + (t1623 - t1692));
-        let t1694 = t1673 + (t1677 + (t1681 + (t1685 + (t1689 + t1693))));
-        let t1695 = t153 * t1559;
-        let t1696 = t796 * t1309 - (t789 * t1310 + (t156 * t1558 - t1695));
-        let t1697 = t132 * t1514;
-        let t1698 = t727 * t1294 - (t720 * t1295 + (t135 * t1513 - t1697));
-        let t1699 = t111 * t1469;
-        let t1700 = t658 * t1279 - (t651 * t1280 + (t114 * t1468 - t1699));
-        let t1701 = t90 * t1424;
-        let t1702 = t589 * t1264 - (t582 * t1265 + (t93 * t1423 - t1701));
-        let t1703 = t48 * t1334;
-        let t1704 = t451 * t1234 - (t444 * t1235 + (t51 * t1333 - t1703));
-        let t1705 = t69 * t1379;
-        let t1706 = t520 * t1249 - (t513 * t1250 + (t72 * t1378 - t1705));
-        let t1707 = t1696 + (t1698 + (t1700 + (t1702 + (t1704 + t1706))));
-        let t1708 = t1564 + (t1519 + (t1474 + (t1429 + (t1339 + t1384))));
-        coriolis_matrix_p[2][0] = t1708;
-        coriolis_matrix_b[2][0] = t1708;
-        let t1709 = t1565 + (t1520 + (t1475 + (t1430 + (t1340 + t1385))));
-        coriolis_matrix_p[2][1] = t1709;
-        coriolis_matrix_b[2][1] = t1709;
-        let t1710 = t1566 + (t1521 + (t1476 + (t1431 + (t1341 + t1386))));
-        coriolis_matrix_p[2][2] = t1710;
-        coriolis_matrix_b[2][2] = t1710;
-        let t1711 = t156 * t1566;
-        let t1712 = t798 * t1310 - (t797 * t1311 + (t159 * t1565 - t1711));
-        let t1713 = t135 * t1521;
-        let t1714 = t729 * t1295 - (t728 * t1296 + (t138 * t1520 - t1713));
-        let t1715 = t114 * t1476;
-        let t1716 = t660 * t1280 - (t659 * t1281 + (t117 * t1475 - t1715));
-        let t1717 = t93 * t1431;
-        let t1718 = t591 * t1265 - (t590 * t1266 + (t96 * t1430 - t1717));
-        let t1719 = t51 * t1341;
-        let t1720 = t453 * t1235 - (t452 * t1236 + (t54 * t1340 - t1719));
-        let t1721 = t72 * t1386;
-        let t1722 = t522 * t1250 - (t521 * t1251 + (t75 * t1385 - t1721));
-        let t1723 = t1712 + (t1714 + (t1716 + (t1718 + (t1720 + t1722))));
-        let t1724 = t153 * t1566;
-        let t1725 = t795 * t1311 - (t798 * t1309 + (t1724 - t159 * t1564));
-        let t1726 = t132 * t1521;
-        let t1727 = t726 * t1296 - (t729 * t1294 + (t1726 - t138 * t1519));
-        let t1728 = t111 * t1476;
-        let t1729 = t657 * t1281 - (t660 * t1279 + (t1728 - t117 * t1474));
-        let t1730 = t90 * t1431;
-        let t1731 = t588 * t1266 - (t591 * t1264 + (t1730 - t96 * t1429));
-        let t1732 = t48 * t1341;
-        let t1733 = t450 * t1236 - (t453 * t1234 + (t1732 - t54 * t1339));
-        let t1734 = t69 * t1386;
-        let t1735 = t519 * t1251 - (t522 * t1249 + (t1734 - t75 * t1384));
-        let t1736 = t1725 + (t1727 + (t1729 + (t1731 + (t1733 + t1735))));
-        let t1737 = t153 * t1565;
-        let t1738 = t156 * t1564;
-        let t1739 = t1737 - (t1738 + (t1597 - t1670));
-        let t1740 = t132 * t1520;
-        let t1741 = t135 * t1519;
-        let t1742 = t1740 - (t1741 + (t1602 - t1674));
-        let t1743 = t111 * t1475;
-        let t1744 = t114 * t1474;
-        let t1745 = t1743 - (t1744 + (t1607 - t1678));
-        let t1746 = t90 * t1430;
-        let t1747 = t93 * t1429;
-        let t1748 = t1746 - (t1747 + (t1612 - t1682));
-        let t1749 = t48 * t1340;
-        let t1750 = t51 * t1339;
-        let t1751 = t1749 - (t1750 + (t1617 - t1686));
-        let t1752 = t69 * t1385;
-        let t1753 = t72 * t1384;
-        let t1754 = t1752 - (t1753 + (t1622 - t1690));
-        let t1755 = t1739 + (t1742 + (t1745 + (t1748 + (t1751 + t1754))));
-        coriolis_matrix_p[2][5] = t1755;
-        let t1756 = t1753
-            + (t1750 - (t1671 + (t1675 + (t1679 + (t1683 + (t1687 + t1691))))));
-        let t1757 = t1738 + (t1741 + (t1744 + (t1747 + t1756)));
-        coriolis_matrix_p[3][0] = t1757;
-        coriolis_matrix_b[3][0] = t1757;
-        let t1758 = t51 * t1340
-            - (t1657 + (t1659 + (t1661 + (t1663 + (t1665 + t1667)))));
-        let t1759 = t114 * t1475 + (t93 * t1430 + (t72 * t1385 + t1758));
-        let t1760 = t156 * t1565 + (t135 * t1520 + t1759);
-        coriolis_matrix_p[3][1] = t1760;
-        coriolis_matrix_b[3][1] = t1760;
-        let t1761 = t54 * t1335
-            - (t1711 + (t1713 + (t1715 + (t1717 + (t1719 + t1721)))));
-        let t1762 = t117 * t1470 + (t96 * t1425 + (t75 * t1380 + t1761));
-        let t1763 = t159 * t1560 + (t138 * t1515 + t1762);
-        let t1764 = t72 * t1722 - (t75 * t1668 + (t54 * t1666 - t51 * t1720));
-        let t1765 = t117 * t1662 - (t93 * t1718 - (t96 * t1664 - t1764));
-        let t1766 = t135 * t1714 - (t138 * t1660 - (t114 * t1716 - t1765));
-        let t1767 = t156 * t1712 - (t159 * t1658 - t1766);
-        let t1768 = t72 * t1735 + (t75 * t1693 + (t54 * t1689 + t51 * t1733));
-        let t1769 = t117 * t1681 + (t93 * t1731 + (t96 * t1685 + t1768));
-        let t1770 = t135 * t1727 + (t138 * t1677 + (t114 * t1729 + t1769));
-        let t1771 = t156 * t1725 + (t159 * t1673 + t1770);
-        let t1772 = t72 * t1754 - (t75 * t1706 + (t54 * t1704 - t51 * t1751));
-        let t1773 = t117 * t1700 - (t93 * t1748 - (t96 * t1702 - t1772));
-        let t1774 = t135 * t1742 - (t138 * t1698 - (t114 * t1745 - t1773));
-        let t1775 = t156 * t1739 - (t159 * t1696 - t1774);
-        let t1776 = t48 * t1339
-            - (t1628 + (t1630 + (t1632 + (t1634 + (t1636 + t1638)))));
-        let t1777 = t111 * t1474 + (t90 * t1429 + (t69 * t1384 + t1776));
-        let t1778 = t153 * t1564 + (t132 * t1519 + t1777);
-        let t1779 = t1752
-            + (t1749 - (t1599 + (t1604 + (t1609 + (t1614 + (t1619 + t1624))))));
-        let t1780 = t1737 + (t1740 + (t1743 + (t1746 + t1779)));
-        let t1781 = t54 * t1329
-            - (t1724 + (t1726 + (t1728 + (t1730 + (t1732 + t1734)))));
-        let t1782 = t117 * t1464 + (t96 * t1419 + (t75 * t1374 + t1781));
-        let t1783 = t159 * t1554 + (t138 * t1509 + t1782);
-        coriolis_matrix_p[4][2] = t1783;
-        coriolis_matrix_b[4][2] = t1783;
-        let t1784 = t75 * t1626 - (t69 * t1722 + (t48 * t1720 - t54 * t1621));
-        let t1785 = t111 * t1716 - (t96 * t1616 - (t90 * t1718 - t1784));
-        let t1786 = t138 * t1606 - (t132 * t1714 - (t117 * t1611 - t1785));
-        let t1787 = t159 * t1601 - (t153 * t1712 - t1786);
-        let t1788 = t75 * t1639 - (t69 * t1735 + (t48 * t1733 - t54 * t1637));
-        let t1789 = t111 * t1729 - (t96 * t1635 - (t90 * t1731 - t1788));
-        let t1790 = t138 * t1631 - (t132 * t1727 - (t117 * t1633 - t1789));
-        let t1791 = t159 * t1629 - (t153 * t1725 - t1790);
-        let t1792 = t75 * t1652 - (t69 * t1754 + (t48 * t1751 - t54 * t1650));
-        let t1793 = t111 * t1745 - (t96 * t1648 - (t90 * t1748 - t1792));
-        let t1794 = t138 * t1644 - (t132 * t1742 - (t117 * t1646 - t1793));
-        let t1795 = t159 * t1642 - (t153 * t1739 - t1794);
-        let t1796 = t48 * t1333
-            - (t1641 + (t1643 + (t1645 + (t1647 + (t1649 + t1651)))));
-        let t1797 = t111 * t1468 + (t90 * t1423 + (t69 * t1378 + t1796));
-        let t1798 = t153 * t1558 + (t132 * t1513 + t1797);
-        coriolis_matrix_p[5][0] = t1798;
-        coriolis_matrix_b[5][0] = t1798;
-        let t1799 = t51 * t1328
-            - (t1695 + (t1697 + (t1699 + (t1701 + (t1703 + t1705)))));
-        let t1800 = t114 * t1463 + (t93 * t1418 + (t72 * t1373 + t1799));
-        let t1801 = t156 * t1553 + (t135 * t1508 + t1800);
-        let t1802 = t1692
-            + (t1688 - (t1600 + (t1605 + (t1610 + (t1615 + (t1620 + t1625))))));
-        let t1803 = t1672 + (t1676 + (t1680 + (t1684 + t1802)));
-        coriolis_matrix_p[5][2] = t1803;
-        coriolis_matrix_b[5][2] = t1803;
-        let t1804 = t69 * t1668 - (t72 * t1626 + (t51 * t1621 - t48 * t1666));
-        let t1805 = t114 * t1611 - (t90 * t1664 - (t93 * t1616 - t1804));
-        let t1806 = t132 * t1660 - (t135 * t1606 - (t111 * t1662 - t1805));
-        let t1807 = t153 * t1658 - (t156 * t1601 - t1806);
-        let t1808 = t69 * t1693 + (t72 * t1639 + (t51 * t1637 + t48 * t1689));
-        let t1809 = t114 * t1633 + (t90 * t1685 + (t93 * t1635 + t1808));
-        let t1810 = t132 * t1677 + (t135 * t1631 + (t111 * t1681 + t1809));
-        let t1811 = t153 * t1673 + (t156 * t1629 + t1810);
-        let t1812 = t69 * t1706 - (t72 * t1652 + (t51 * t1650 - t48 * t1704));
-        let t1813 = t114 * t1646 - (t90 * t1702 - (t93 * t1648 - t1812));
-        let t1814 = t132 * t1698 - (t135 * t1644 - (t111 * t1700 - t1813));
-        let t1815 = t153 * t1696 - (t156 * t1642 - t1814);
-        coriolis_matrix_p[1][4] = -t1694;
-        let t1816 = -t1763;
-        coriolis_matrix_p[3][2] = t1816;
-        coriolis_matrix_b[3][2] = t1816;
-        let t1817 = -t1778;
-        coriolis_matrix_p[4][0] = t1817;
-        coriolis_matrix_b[4][0] = t1817;
-        let t1818 = -t1780;
-        coriolis_matrix_p[4][1] = t1818;
-        coriolis_matrix_b[4][1] = t1818;
-        let t1819 = -t1801;
-        coriolis_matrix_p[5][1] = t1819;
-        coriolis_matrix_b[5][1] = t1819;
+        let t1576 = t1534 + (t1489 + (t1444 + (t1399 + (t1309 + t1354))));
+        coriolis_matrix_p[0][0] = t1576;
+        coriolis_matrix_b[0][0] = t1576;
+        let t1577 = t1535 + (t1490 + (t1445 + (t1400 + (t1310 + t1355))));
+        coriolis_matrix_p[0][1] = t1577;
+        coriolis_matrix_b[0][1] = t1577;
+        let t1578 = t1536 + (t1491 + (t1446 + (t1401 + (t1311 + t1356))));
+        coriolis_matrix_p[0][2] = t1578;
+        coriolis_matrix_b[0][2] = t1578;
+        let t1579 = t795 * t1301;
+        let t1580 = t789 * t1302;
+        let t1581 = t159 * t1535;
+        let t1582 = t156 * t1536;
+        let t1583 = t1579 - (t1580 + (t1581 - t1582));
+        let t1584 = t726 * t1295;
+        let t1585 = t720 * t1296;
+        let t1586 = t138 * t1490;
+        let t1587 = t135 * t1491;
+        let t1588 = t1584 - (t1585 + (t1586 - t1587));
+        let t1589 = t657 * t1289;
+        let t1590 = t651 * t1290;
+        let t1591 = t117 * t1445;
+        let t1592 = t114 * t1446;
+        let t1593 = t1589 - (t1590 + (t1591 - t1592));
+        let t1594 = t588 * t1283;
+        let t1595 = t582 * t1284;
+        let t1596 = t96 * t1400;
+        let t1597 = t93 * t1401;
+        let t1598 = t1594 - (t1595 + (t1596 - t1597));
+        let t1599 = t450 * t1271;
+        let t1600 = t444 * t1272;
+        let t1601 = t54 * t1310;
+        let t1602 = t51 * t1311;
+        let t1603 = t1599 - (t1600 + (t1601 - t1602));
+        let t1604 = t519 * t1277;
+        let t1605 = t513 * t1278;
+        let t1606 = t75 * t1355;
+        let t1607 = t72 * t1356;
+        let t1608 = t1604 - (t1605 + (t1606 - t1607));
+        let t1609 = t1583 + (t1588 + (t1593 + (t1598 + (t1603 + t1608))));
+        coriolis_matrix_p[0][3] = t1609;
+        let t1610 = t159 * t1534;
+        let t1611 = t783 * t1302 - (t795 * t1300 + (t153 * t1536 - t1610));
+        let t1612 = t138 * t1489;
+        let t1613 = t714 * t1296 - (t726 * t1294 + (t132 * t1491 - t1612));
+        let t1614 = t117 * t1444;
+        let t1615 = t645 * t1290 - (t657 * t1288 + (t111 * t1446 - t1614));
+        let t1616 = t96 * t1399;
+        let t1617 = t576 * t1284 - (t588 * t1282 + (t90 * t1401 - t1616));
+        let t1618 = t54 * t1309;
+        let t1619 = t438 * t1272 - (t450 * t1270 + (t48 * t1311 - t1618));
+        let t1620 = t75 * t1354;
+        let t1621 = t507 * t1278 - (t519 * t1276 + (t69 * t1356 - t1620));
+        let t1622 = t1611 + (t1613 + (t1615 + (t1617 + (t1619 + t1621))));
+        let t1623 = t156 * t1534;
+        let t1624 = t789 * t1300 - (t783 * t1301 + (t1623 - t153 * t1535));
+        let t1625 = t135 * t1489;
+        let t1626 = t720 * t1294 - (t714 * t1295 + (t1625 - t132 * t1490));
+        let t1627 = t114 * t1444;
+        let t1628 = t651 * t1288 - (t645 * t1289 + (t1627 - t111 * t1445));
+        let t1629 = t93 * t1399;
+        let t1630 = t582 * t1282 - (t576 * t1283 + (t1629 - t90 * t1400));
+        let t1631 = t51 * t1309;
+        let t1632 = t444 * t1270 - (t438 * t1271 + (t1631 - t48 * t1310));
+        let t1633 = t72 * t1354;
+        let t1634 = t513 * t1276 - (t507 * t1277 + (t1633 - t69 * t1355));
+        let t1635 = t1624 + (t1626 + (t1628 + (t1630 + (t1632 + t1634))));
+        let t1636 = t1540 + (t1495 + (t1450 + (t1405 + (t1315 + t1360))));
+        coriolis_matrix_p[1][0] = t1636;
+        coriolis_matrix_b[1][0] = t1636;
+        let t1637 = t1541 + (t1496 + (t1451 + (t1406 + (t1316 + t1361))));
+        coriolis_matrix_p[1][1] = t1637;
+        coriolis_matrix_b[1][1] = t1637;
+        let t1638 = t1542 + (t1497 + (t1452 + (t1407 + (t1317 + t1362))));
+        coriolis_matrix_p[1][2] = t1638;
+        coriolis_matrix_b[1][2] = t1638;
+        let t1639 = t159 * t1541;
+        let t1640 = t797 * t1301 - (t796 * t1302 + (t1639 - t156 * t1542));
+        let t1641 = t138 * t1496;
+        let t1642 = t728 * t1295 - (t727 * t1296 + (t1641 - t135 * t1497));
+        let t1643 = t117 * t1451;
+        let t1644 = t659 * t1289 - (t658 * t1290 + (t1643 - t114 * t1452));
+        let t1645 = t96 * t1406;
+        let t1646 = t590 * t1283 - (t589 * t1284 + (t1645 - t93 * t1407));
+        let t1647 = t54 * t1316;
+        let t1648 = t452 * t1271 - (t451 * t1272 + (t1647 - t51 * t1317));
+        let t1649 = t75 * t1361;
+        let t1650 = t521 * t1277 - (t520 * t1278 + (t1649 - t72 * t1362));
+        let t1651 = t1640 + (t1642 + (t1644 + (t1646 + (t1648 + t1650))));
+        let t1652 = t797 * t1300;
+        let t1653 = t159 * t1540;
+        let t1654 = t153 * t1542;
+        let t1655 = t1652 - (t1653 + (t1580 - t1654));
+        let t1656 = t728 * t1294;
+        let t1657 = t138 * t1495;
+        let t1658 = t132 * t1497;
+        let t1659 = t1656 - (t1657 + (t1585 - t1658));
+        let t1660 = t659 * t1288;
+        let t1661 = t117 * t1450;
+        let t1662 = t111 * t1452;
+        let t1663 = t1660 - (t1661 + (t1590 - t1662));
+        let t1664 = t590 * t1282;
+        let t1665 = t96 * t1405;
+        let t1666 = t90 * t1407;
+        let t1667 = t1664 - (t1665 + (t1595 - t1666));
+        let t1668 = t452 * t1270;
+        let t1669 = t54 * t1315;
+        let t1670 = t48 * t1317;
+        let t1671 = t1668 - (t1669 + (t1600 - t1670));
+        let t1672 = t521 * t1276;
+        let t1673 = t75 * t1360;
+        let t1674 = t69 * t1362;
+        let t1675 = t1672 - (t1673 + (t1605 - t1674));
+        let t1676 = t1655 + (t1659 + (t1663 + (t1667 + (t1671 + t1675))));
+        let t1677 = t153 * t1541;
+        let t1678 = t796 * t1300 - (t789 * t1301 + (t156 * t1540 - t1677));
+        let t1679 = t132 * t1496;
+        let t1680 = t727 * t1294 - (t720 * t1295 + (t135 * t1495 - t1679));
+        let t1681 = t111 * t1451;
+        let t1682 = t658 * t1288 - (t651 * t1289 + (t114 * t1450 - t1681));
+        let t1683 = t90 * t1406;
+        let t1684 = t589 * t1282 - (t582 * t1283 + (t93 * t1405 - t1683));
+        let t1685 = t48 * t1316;
+        let t1686 = t451 * t1270 - (t444 * t1271 + (t51 * t1315 - t1685));
+        let t1687 = t69 * t1361;
+        let t1688 = t520 * t1276 - (t513 * t1277 + (t72 * t1360 - t1687));
+        let t1689 = t1678 + (t1680 + (t1682 + (t1684 + (t1686 + t1688))));
+        let t1690 = t1546 + (t1501 + (t1456 + (t1411 + (t1321 + t1366))));
+        coriolis_matrix_p[2][0] = t1690;
+        coriolis_matrix_b[2][0] = t1690;
+        let t1691 = t1547 + (t1502 + (t1457 + (t1412 + (t1322 + t1367))));
+        coriolis_matrix_p[2][1] = t1691;
+        coriolis_matrix_b[2][1] = t1691;
+        let t1692 = t1548 + (t1503 + (t1458 + (t1413 + (t1323 + t1368))));
+        coriolis_matrix_p[2][2] = t1692;
+        coriolis_matrix_b[2][2] = t1692;
+        let t1693 = t156 * t1548;
+        let t1694 = t798 * t1301 - (t797 * t1302 + (t159 * t1547 - t1693));
+        let t1695 = t135 * t1503;
+        let t1696 = t729 * t1295 - (t728 * t1296 + (t138 * t1502 - t1695));
+        let t1697 = t114 * t1458;
+        let t1698 = t660 * t1289 - (t659 * t1290 + (t117 * t1457 - t1697));
+        let t1699 = t93 * t1413;
+        let t1700 = t591 * t1283 - (t590 * t1284 + (t96 * t1412 - t1699));
+        let t1701 = t51 * t1323;
+        let t1702 = t453 * t1271 - (t452 * t1272 + (t54 * t1322 - t1701));
+        let t1703 = t72 * t1368;
+        let t1704 = t522 * t1277 - (t521 * t1278 + (t75 * t1367 - t1703));
+        let t1705 = t1694 + (t1696 + (t1698 + (t1700 + (t1702 + t1704))));
+        let t1706 = t153 * t1548;
+        let t1707 = t795 * t1302 - (t798 * t1300 + (t1706 - t159 * t1546));
+        let t1708 = t132 * t1503;
+        let t1709 = t726 * t1296 - (t729 * t1294 + (t1708 - t138 * t1501));
+        let t1710 = t111 * t1458;
+        let t1711 = t657 * t1290 - (t660 * t1288 + (t1710 - t117 * t1456));
+        let t1712 = t90 * t1413;
+        let t1713 = t588 * t1284 - (t591 * t1282 + (t1712 - t96 * t1411));
+        let t1714 = t48 * t1323;
+        let t1715 = t450 * t1272 - (t453 * t1270 + (t1714 - t54 * t1321));
+        let t1716 = t69 * t1368;
+        let t1717 = t519 * t1278 - (t522 * t1276 + (t1716 - t75 * t1366));
+        let t1718 = t1707 + (t1709 + (t1711 + (t1713 + (t1715 + t1717))));
+        let t1719 = t153 * t1547;
+        let t1720 = t156 * t1546;
+        let t1721 = t1719 - (t1720 + (t1579 - t1652));
+        let t1722 = t132 * t1502;
+        let t1723 = t135 * t1501;
+        let t1724 = t1722 - (t1723 + (t1584 - t1656));
+        let t1725 = t111 * t1457;
+        let t1726 = t114 * t1456;
+        let t1727 = t1725 - (t1726 + (t1589 - t1660));
+        let t1728 = t90 * t1412;
+        let t1729 = t93 * t1411;
+        let t1730 = t1728 - (t1729 + (t1594 - t1664));
+        let t1731 = t48 * t1322;
+        let t1732 = t51 * t1321;
+        let t1733 = t1731 - (t1732 + (t1599 - t1668));
+        let t1734 = t69 * t1367;
+        let t1735 = t72 * t1366;
+        let t1736 = t1734 - (t1735 + (t1604 - t1672));
+        let t1737 = t1721 + (t1724 + (t1727 + (t1730 + (t1733 + t1736))));
+        coriolis_matrix_p[2][5] = t1737;
+        let t1738 = t1735
+            + (t1732 - (t1653 + (t1657 + (t1661 + (t1665 + (t1669 + t1673))))));
+        let t1739 = t1720 + (t1723 + (t1726 + (t1729 + t1738)));
+        coriolis_matrix_p[3][0] = t1739;
+        coriolis_matrix_b[3][0] = t1739;
+        let t1740 = t51 * t1322
+            - (t1639 + (t1641 + (t1643 + (t1645 + (t1647 + t1649)))));
+        let t1741 = t114 * t1457 + (t93 * t1412 + (t72 * t1367 + t1740));
+        let t1742 = t156 * t1547 + (t135 * t1502 + t1741);
+        coriolis_matrix_p[3][1] = t1742;
+        coriolis_matrix_b[3][1] = t1742;
+        let t1743 = t54 * t1317
+            - (t1693 + (t1695 + (t1697 + (t1699 + (t1701 + t1703)))));
+        let t1744 = t117 * t1452 + (t96 * t1407 + (t75 * t1362 + t1743));
+        let t1745 = t159 * t1542 + (t138 * t1497 + t1744);
+        let t1746 = t72 * t1704 - (t75 * t1650 + (t54 * t1648 - t51 * t1702));
+        let t1747 = t117 * t1644 - (t93 * t1700 - (t96 * t1646 - t1746));
+        let t1748 = t135 * t1696 - (t138 * t1642 - (t114 * t1698 - t1747));
+        let t1749 = t156 * t1694 - (t159 * t1640 - t1748);
+        let t1750 = t72 * t1717 + (t75 * t1675 + (t54 * t1671 + t51 * t1715));
+        let t1751 = t117 * t1663 + (t93 * t1713 + (t96 * t1667 + t1750));
+        let t1752 = t135 * t1709 + (t138 * t1659 + (t114 * t1711 + t1751));
+        let t1753 = t156 * t1707 + (t159 * t1655 + t1752);
+        let t1754 = t72 * t1736 - (t75 * t1688 + (t54 * t1686 - t51 * t1733));
+        let t1755 = t117 * t1682 - (t93 * t1730 - (t96 * t1684 - t1754));
+        let t1756 = t135 * t1724 - (t138 * t1680 - (t114 * t1727 - t1755));
+        let t1757 = t156 * t1721 - (t159 * t1678 - t1756);
+        let t1758 = t48 * t1321
+            - (t1610 + (t1612 + (t1614 + (t1616 + (t1618 + t1620)))));
+        let t1759 = t111 * t1456 + (t90 * t1411 + (t69 * t1366 + t1758));
+        let t1760 = t153 * t1546 + (t132 * t1501 + t1759);
+        let t1761 = t1734
+            + (t1731 - (t1581 + (t1586 + (t1591 + (t1596 + (t1601 + t1606))))));
+        let t1762 = t1719 + (t1722 + (t1725 + (t1728 + t1761)));
+        let t1763 = t54 * t1311
+            - (t1706 + (t1708 + (t1710 + (t1712 + (t1714 + t1716)))));
+        let t1764 = t117 * t1446 + (t96 * t1401 + (t75 * t1356 + t1763));
+        let t1765 = t159 * t1536 + (t138 * t1491 + t1764);
+        coriolis_matrix_p[4][2] = t1765;
+        coriolis_matrix_b[4][2] = t1765;
+        let t1766 = t75 * t1608 - (t69 * t1704 + (t48 * t1702 - t54 * t1603));
+        let t1767 = t111 * t1698 - (t96 * t1598 - (t90 * t1700 - t1766));
+        let t1768 = t138 * t1588 - (t132 * t1696 - (t117 * t1593 - t1767));
+        let t1769 = t159 * t1583 - (t153 * t1694 - t1768);
+        let t1770 = t75 * t1621 - (t69 * t1717 + (t48 * t1715 - t54 * t1619));
+        let t1771 = t111 * t1711 - (t96 * t1617 - (t90 * t1713 - t1770));
+        let t1772 = t138 * t1613 - (t132 * t1709 - (t117 * t1615 - t1771));
+        let t1773 = t159 * t1611 - (t153 * t1707 - t1772);
+        let t1774 = t75 * t1634 - (t69 * t1736 + (t48 * t1733 - t54 * t1632));
+        let t1775 = t111 * t1727 - (t96 * t1630 - (t90 * t1730 - t1774));
+        let t1776 = t138 * t1626 - (t132 * t1724 - (t117 * t1628 - t1775));
+        let t1777 = t159 * t1624 - (t153 * t1721 - t1776);
+        let t1778 = t48 * t1315
+            - (t1623 + (t1625 + (t1627 + (t1629 + (t1631 + t1633)))));
+        let t1779 = t111 * t1450 + (t90 * t1405 + (t69 * t1360 + t1778));
+        let t1780 = t153 * t1540 + (t132 * t1495 + t1779);
+        coriolis_matrix_p[5][0] = t1780;
+        coriolis_matrix_b[5][0] = t1780;
+        let t1781 = t51 * t1310
+            - (t1677 + (t1679 + (t1681 + (t1683 + (t1685 + t1687)))));
+        let t1782 = t114 * t1445 + (t93 * t1400 + (t72 * t1355 + t1781));
+        let t1783 = t156 * t1535 + (t135 * t1490 + t1782);
+        let t1784 = t1674
+            + (t1670 - (t1582 + (t1587 + (t1592 + (t1597 + (t1602 + t1607))))));
+        let t1785 = t1654 + (t1658 + (t1662 + (t1666 + t1784)));
+        coriolis_matrix_p[5][2] = t1785;
+        coriolis_matrix_b[5][2] = t1785;
+        let t1786 = t69 * t1650 - (t72 * t1608 + (t51 * t1603 - t48 * t1648));
+        let t1787 = t114 * t1593 - (t90 * t1646 - (t93 * t1598 - t1786));
+        let t1788 = t132 * t1642 - (t135 * t1588 - (t111 * t1644 - t1787));
+        let t1789 = t153 * t1640 - (t156 * t1583 - t1788);
+        let t1790 = t69 * t1675 + (t72 * t1621 + (t51 * t1619 + t48 * t1671));
+        let t1791 = t114 * t1615 + (t90 * t1667 + (t93 * t1617 + t1790));
+        let t1792 = t132 * t1659 + (t135 * t1613 + (t111 * t1663 + t1791));
+        let t1793 = t153 * t1655 + (t156 * t1611 + t1792);
+        let t1794 = t69 * t1688 - (t72 * t1634 + (t51 * t1632 - t48 * t1686));
+        let t1795 = t114 * t1628 - (t90 * t1684 - (t93 * t1630 - t1794));
+        let t1796 = t132 * t1680 - (t135 * t1626 - (t111 * t1682 - t1795));
+        let t1797 = t153 * t1678 - (t156 * t1624 - t1796);
+        coriolis_matrix_p[1][4] = -t1676;
+        let t1798 = -t1745;
+        coriolis_matrix_p[3][2] = t1798;
+        coriolis_matrix_b[3][2] = t1798;
+        let t1799 = -t1760;
+        coriolis_matrix_p[4][0] = t1799;
+        coriolis_matrix_b[4][0] = t1799;
+        let t1800 = -t1762;
+        coriolis_matrix_p[4][1] = t1800;
+        coriolis_matrix_b[4][1] = t1800;
+        let t1801 = -t1783;
+        coriolis_matrix_p[5][1] = t1801;
+        coriolis_matrix_b[5][1] = t1801;
         // Coriolis matrix C_p, natural factorisation
-        let t1820 = platform_velocity[3] * t955 - platform_velocity[4] * t957;
-        coriolis_matrix_p[0][4] = t1640 + t1820;
-        let t1821 = platform_velocity[5] * t957 - platform_velocity[3] * t953;
-        coriolis_matrix_p[0][5] = t1653 - t1821;
-        coriolis_matrix_p[1][3] = t1669 - t1820;
-        let t1822 = platform_velocity[4] * t953 - platform_velocity[5] * t955;
-        coriolis_matrix_p[1][5] = t1707 + t1822;
-        coriolis_matrix_p[2][3] = t1723 + t1821;
-        coriolis_matrix_p[2][4] = t1736 - t1822;
-        let t1823 = platform_velocity[5] * t967;
-        let t1824 = platform_velocity[4] * t969;
-        coriolis_matrix_p[3][3] = t1767 + t1823 - t1824;
-        let t1825 = t373 - t977;
-        coriolis_matrix_p[3][4] = t1771 - platform_velocity[5] * t1825
+        let t1802 = platform_velocity[3] * t955 - platform_velocity[4] * t957;
+        coriolis_matrix_p[0][4] = t1622 + t1802;
+        let t1803 = platform_velocity[5] * t957 - platform_velocity[3] * t953;
+        coriolis_matrix_p[0][5] = t1635 - t1803;
+        coriolis_matrix_p[1][3] = t1651 - t1802;
+        let t1804 = platform_velocity[4] * t953 - platform_velocity[5] * t955;
+        coriolis_matrix_p[1][5] = t1689 + t1804;
+        coriolis_matrix_p[2][3] = t1705 + t1803;
+        coriolis_matrix_p[2][4] = t1718 - t1804;
+        let t1805 = platform_velocity[5] * t967;
+        let t1806 = platform_velocity[4] * t969;
+        coriolis_matrix_p[3][3] = t1749 + t1805 - t1806;
+        let t1807 = t373 - t977;
+        coriolis_matrix_p[3][4] = t1753 - platform_velocity[5] * t1807
             - platform_velocity[4] * t979;
-        let t1826 = t373 - t986;
-        coriolis_matrix_p[3][5] = platform_velocity[4] * t1826
-            + (t1775 + platform_velocity[5] * t979);
-        let t1827 = t373 - t965;
+        let t1808 = t373 - t986;
+        coriolis_matrix_p[3][5] = platform_velocity[4] * t1808
+            + (t1757 + platform_velocity[5] * t979);
+        let t1809 = t373 - t965;
         coriolis_matrix_p[4][3] = platform_velocity[3] * t969
-            + (t1787 + platform_velocity[5] * t1827);
-        let t1828 = platform_velocity[3] * t979;
-        coriolis_matrix_p[4][4] = t1828 + (t1791 - t1823);
-        coriolis_matrix_p[4][5] = t1795 - platform_velocity[5] * t969
-            - platform_velocity[3] * t1826;
-        coriolis_matrix_p[5][3] = t1807 - platform_velocity[4] * t1827
+            + (t1769 + platform_velocity[5] * t1809);
+        let t1810 = platform_velocity[3] * t979;
+        coriolis_matrix_p[4][4] = t1810 + (t1773 - t1805);
+        coriolis_matrix_p[4][5] = t1777 - platform_velocity[5] * t969
+            - platform_velocity[3] * t1808;
+        coriolis_matrix_p[5][3] = t1789 - platform_velocity[4] * t1809
             - platform_velocity[3] * t967;
-        coriolis_matrix_p[5][4] = platform_velocity[3] * t1825
-            - (t1811 - platform_velocity[4] * t967);
-        coriolis_matrix_p[5][5] = t1815 + t1824 - t1828;
+        coriolis_matrix_p[5][4] = platform_velocity[3] * t1807
+            - (t1793 - platform_velocity[4] * t967);
+        coriolis_matrix_p[5][5] = t1797 + t1806 - t1810;
         (
             t1093,
             t1094,
             t1095,
-            t1351,
-            t1358,
-            t1361,
-            t1362,
-            t1363,
-            t1365,
-            t1366,
-            t1367,
-            t1368,
-            t1396,
-            t1403,
-            t1406,
-            t1407,
-            t1408,
-            t1410,
-            t1411,
-            t1412,
-            t1413,
-            t1441,
-            t1448,
-            t1451,
-            t1452,
-            t1453,
-            t1455,
-            t1456,
-            t1457,
-            t1458,
-            t1486,
-            t1493,
-            t1496,
-            t1497,
-            t1498,
-            t1500,
-            t1501,
-            t1502,
-            t1503,
-            t1531,
-            t1538,
-            t1541,
-            t1542,
-            t1543,
-            t1545,
-            t1546,
-            t1547,
-            t1548,
+            t1333,
+            t1340,
+            t1343,
+            t1344,
+            t1345,
+            t1347,
+            t1348,
+            t1349,
+            t1350,
+            t1378,
+            t1385,
+            t1388,
+            t1389,
+            t1390,
+            t1392,
+            t1393,
+            t1394,
+            t1395,
+            t1423,
+            t1430,
+            t1433,
+            t1434,
+            t1435,
+            t1437,
+            t1438,
+            t1439,
+            t1440,
+            t1468,
+            t1475,
+            t1478,
+            t1479,
+            t1480,
+            t1482,
+            t1483,
+            t1484,
+            t1485,
+            t1513,
+            t1520,
+            t1523,
+            t1524,
+            t1525,
+            t1527,
+            t1528,
+            t1529,
+            t1530,
+            t1558,
+            t1565,
+            t1568,
+            t1569,
+            t1570,
+            t1572,
+            t1573,
+            t1574,
+            t1575,
             t1576,
-            t1583,
-            t1586,
-            t1587,
-            t1588,
-            t1590,
-            t1591,
-            t1592,
-            t1593,
-            t1594,
-            t1595,
-            t1596,
-            t1627,
-            t1640,
-            t1653,
-            t1654,
-            t1655,
-            t1656,
-            t1669,
-            t1694,
-            t1707,
-            t1708,
-            t1709,
-            t1710,
-            t1723,
-            t1736,
-            t1755,
+            t1577,
+            t1578,
+            t1609,
+            t1622,
+            t1635,
+            t1636,
+            t1637,
+            t1638,
+            t1651,
+            t1676,
+            t1689,
+            t1690,
+            t1691,
+            t1692,
+            t1705,
+            t1718,
+            t1737,
+            t1739,
+            t1742,
+            t1745,
+            t1749,
+            t1753,
             t1757,
             t1760,
-            t1763,
-            t1767,
-            t1771,
-            t1775,
-            t1778,
+            t1762,
+            t1765,
+            t1769,
+            t1773,
+            t1777,
             t1780,
             t1783,
-            t1787,
-            t1791,
-            t1795,
-            t1798,
-            t1801,
-            t1803,
-            t1807,
-            t1811,
-            t1815,
+            t1785,
+            t1789,
+            t1793,
+            t1797,
         )
     };
     {
         // Coriolis matrix C_b, natural factorisation
-        let t1829 = t846 * t1095;
-        let t1830 = t1627 - (t1576 + (t1531 + (t1486 + (t1441 + (t1351 + t1396)))));
-        let t1831 = t847 * t1094;
-        coriolis_matrix_b[0][3] = t1829 - (t29 * t1596 - (t30 * t1595 + t1830)) - t1831;
-        let t1832 = t1640 - (t1583 + (t1538 + (t1493 + (t1448 + (t1358 + t1403)))));
-        let t1833 = t847 * t1093 - (t30 * t1594 - (t28 * t1596 + t1832));
-        coriolis_matrix_b[0][4] = t1833 - t845 * t1095;
-        let t1834 = t1653 - (t1586 + (t1541 + (t1496 + (t1451 + (t1361 + t1406)))));
-        let t1835 = t845 * t1094 - (t28 * t1595 - (t29 * t1594 + t1834));
-        coriolis_matrix_b[0][5] = t1835 - t846 * t1093;
-        let t1836 = t1669 - (t1587 + (t1542 + (t1497 + (t1452 + (t1362 + t1407)))));
-        let t1837 = t876 * t1095 - (t29 * t1656 - (t30 * t1655 + t1836));
-        coriolis_matrix_b[1][3] = t1837 - t877 * t1094;
-        let t1838 = t877 * t1093;
-        let t1839 = t1829
-            + (t1694 + (t1588 + (t1543 + (t1498 + (t1453 + (t1363 + t1408))))));
-        coriolis_matrix_b[1][4] = t1838 - (t30 * t1654 - (t28 * t1656 - t1839));
-        let t1840 = t1707 - (t1590 + (t1545 + (t1500 + (t1455 + (t1365 + t1410)))));
-        let t1841 = t846 * t1094 - (t28 * t1655 - (t29 * t1654 + t1840));
-        coriolis_matrix_b[1][5] = t1841 - t876 * t1093;
-        let t1842 = t1723 + (t1591 + (t1546 + (t1501 + (t1456 + (t1366 + t1411)))));
-        let t1843 = t877 * t1095 - (t29 * t1710 - (t30 * t1709 + t1842));
-        coriolis_matrix_b[2][3] = t1843 - t905 * t1094;
-        let t1844 = t1736 - (t1592 + (t1547 + (t1502 + (t1457 + (t1367 + t1412)))));
-        let t1845 = t905 * t1093 - (t30 * t1708 - (t28 * t1710 + t1844));
-        coriolis_matrix_b[2][4] = t1845 - t847 * t1095;
-        let t1846 = t1831
-            + (t1755 - (t1593 + (t1548 + (t1503 + (t1458 + (t1368 + t1413))))));
-        coriolis_matrix_b[2][5] = t29 * t1708 - (t1838 - t1846) - t28 * t1709;
-        let t1847 = t884 * t1095 - (t29 * t1763 + (t1767 + t30 * t1760));
-        let t1848 = t54 * t1362 + (t51 * t1366 + (t912 * t1094 - t1847));
-        let t1849 = t93 * t1456 + (t75 * t1407 + (t72 * t1411 + t1848));
-        let t1850 = t117 * t1497 + (t114 * t1501 + (t96 * t1452 + t1849));
-        let t1851 = t156 * t1591 + (t138 * t1542 + (t135 * t1546 + t1850));
-        coriolis_matrix_b[3][3] = t159 * t1587 + t1851;
-        let t1852 = t912 * t1093 + (t30 * t1757 - (t1771 - t28 * t1763));
-        let t1853 = t54 * t1363 - (t51 * t1367 + (t861 * t1095 + t1852));
-        let t1854 = t93 * t1457 - (t75 * t1408 - (t72 * t1412 - t1853));
-        let t1855 = t117 * t1498 - (t114 * t1502 - (t96 * t1453 - t1854));
-        let t1856 = t156 * t1592 - (t138 * t1543 - (t135 * t1547 - t1855));
-        coriolis_matrix_b[3][4] = t159 * t1588 - t1856;
-        let t1857 = t861 * t1094 - (t28 * t1760 - (t1775 + t29 * t1757));
-        let t1858 = t54 * t1365 - (t51 * t1368 - (t884 * t1093 + t1857));
-        let t1859 = t93 * t1458 - (t75 * t1410 - (t72 * t1413 - t1858));
-        let t1860 = t117 * t1500 - (t114 * t1503 - (t96 * t1455 - t1859));
-        let t1861 = t156 * t1593 - (t138 * t1545 - (t135 * t1548 - t1860));
-        coriolis_matrix_b[3][5] = t159 * t1590 - t1861;
-        let t1862 = t897 * t1095 - (t29 * t1783 - (t1787 - t30 * t1780));
-        let t1863 = t919 * t1094 + t1862 - t54 * t1351 - t48 * t1366;
-        let t1864 = t1863 - t75 * t1396 - t69 * t1411 - t96 * t1441;
-        let t1865 = t1864 - t90 * t1456 - t117 * t1486 - t111 * t1501;
-        let t1866 = t1865 - t138 * t1531 - t132 * t1546 - t159 * t1576;
-        coriolis_matrix_b[4][3] = t1866 - t153 * t1591;
-        let t1867 = t919 * t1093 - (t30 * t1778 + (t1791 + t28 * t1783));
-        let t1868 = t48 * t1367 - (t54 * t1358 - (t868 * t1095 - t1867));
-        let t1869 = t96 * t1448 - (t69 * t1412 - (t75 * t1403 - t1868));
-        let t1870 = t111 * t1502 - (t117 * t1493 - (t90 * t1457 - t1869));
-        let t1871 = t159 * t1583 - (t132 * t1547 - (t138 * t1538 - t1870));
-        coriolis_matrix_b[4][4] = t153 * t1592 - t1871;
-        let t1872 = t868 * t1094 - (t28 * t1780 + (t1795 - t29 * t1778));
-        let t1873 = t48 * t1368 - (t54 * t1361 + (t897 * t1093 + t1872));
-        let t1874 = t96 * t1451 - (t69 * t1413 - (t75 * t1406 - t1873));
-        let t1875 = t111 * t1503 - (t117 * t1496 - (t90 * t1458 - t1874));
-        let t1876 = t159 * t1586 - (t132 * t1548 - (t138 * t1541 - t1875));
-        coriolis_matrix_b[4][5] = t153 * t1593 - t1876;
-        let t1877 = t904 * t1095 + (t29 * t1803 - (t1807 - t30 * t1801));
-        let t1878 = t51 * t1351 - (t48 * t1362 - (t926 * t1094 - t1877));
-        let t1879 = t90 * t1452 - (t72 * t1396 - (t69 * t1407 - t1878));
-        let t1880 = t114 * t1486 - (t111 * t1497 - (t93 * t1441 - t1879));
-        let t1881 = t153 * t1587 - (t135 * t1531 - (t132 * t1542 - t1880));
-        coriolis_matrix_b[5][3] = t156 * t1576 - t1881;
-        let t1882 = t926 * t1093 + (t30 * t1798 + (t1811 - t28 * t1803));
-        let t1883 = t51 * t1358 - (t48 * t1363 - (t875 * t1095 - t1882));
-        let t1884 = t90 * t1453 - (t72 * t1403 - (t69 * t1408 - t1883));
-        let t1885 = t114 * t1493 - (t111 * t1498 - (t93 * t1448 - t1884));
-        let t1886 = t153 * t1588 - (t135 * t1538 - (t132 * t1543 - t1885));
-        coriolis_matrix_b[5][4] = t156 * t1583 - t1886;
-        let t1887 = t875 * t1094 - (t28 * t1801 + (t1815 + t29 * t1798));
-        let t1888 = t51 * t1361 - (t48 * t1365 - (t904 * t1093 - t1887));
-        let t1889 = t90 * t1455 - (t72 * t1406 - (t69 * t1410 - t1888));
-        let t1890 = t114 * t1496 - (t111 * t1500 - (t93 * t1451 - t1889));
-        let t1891 = t153 * t1590 - (t135 * t1541 - (t132 * t1545 - t1890));
-        coriolis_matrix_b[5][5] = t156 * t1586 - t1891;
+        let t1811 = t846 * t1095;
+        let t1812 = t1609 - (t1558 + (t1513 + (t1468 + (t1423 + (t1333 + t1378)))));
+        let t1813 = t847 * t1094;
+        coriolis_matrix_b[0][3] = t1811 - (t29 * t1578 - (t30 * t1577 + t1812)) - t1813;
+        let t1814 = t1622 - (t1565 + (t1520 + (t1475 + (t1430 + (t1340 + t1385)))));
+        let t1815 = t847 * t1093 - (t30 * t1576 - (t28 * t1578 + t1814));
+        coriolis_matrix_b[0][4] = t1815 - t845 * t1095;
+        let t1816 = t1635 - (t1568 + (t1523 + (t1478 + (t1433 + (t1343 + t1388)))));
+        let t1817 = t845 * t1094 - (t28 * t1577 - (t29 * t1576 + t1816));
+        coriolis_matrix_b[0][5] = t1817 - t846 * t1093;
+        let t1818 = t1651 - (t1569 + (t1524 + (t1479 + (t1434 + (t1344 + t1389)))));
+        let t1819 = t876 * t1095 - (t29 * t1638 - (t30 * t1637 + t1818));
+        coriolis_matrix_b[1][3] = t1819 - t877 * t1094;
+        let t1820 = t877 * t1093;
+        let t1821 = t1811
+            + (t1676 + (t1570 + (t1525 + (t1480 + (t1435 + (t1345 + t1390))))));
+        coriolis_matrix_b[1][4] = t1820 - (t30 * t1636 - (t28 * t1638 - t1821));
+        let t1822 = t1689 - (t1572 + (t1527 + (t1482 + (t1437 + (t1347 + t1392)))));
+        let t1823 = t846 * t1094 - (t28 * t1637 - (t29 * t1636 + t1822));
+        coriolis_matrix_b[1][5] = t1823 - t876 * t1093;
+        let t1824 = t1705 + (t1573 + (t1528 + (t1483 + (t1438 + (t1348 + t1393)))));
+        let t1825 = t877 * t1095 - (t29 * t1692 - (t30 * t1691 + t1824));
+        coriolis_matrix_b[2][3] = t1825 - t905 * t1094;
+        let t1826 = t1718 - (t1574 + (t1529 + (t1484 + (t1439 + (t1349 + t1394)))));
+        let t1827 = t905 * t1093 - (t30 * t1690 - (t28 * t1692 + t1826));
+        coriolis_matrix_b[2][4] = t1827 - t847 * t1095;
+        let t1828 = t1813
+            + (t1737 - (t1575 + (t1530 + (t1485 + (t1440 + (t1350 + t1395))))));
+        coriolis_matrix_b[2][5] = t29 * t1690 - (t1820 - t1828) - t28 * t1691;
+        let t1829 = t884 * t1095 - (t29 * t1745 + (t1749 + t30 * t1742));
+        let t1830 = t54 * t1344 + (t51 * t1348 + (t912 * t1094 - t1829));
+        let t1831 = t93 * t1438 + (t75 * t1389 + (t72 * t1393 + t1830));
+        let t1832 = t117 * t1479 + (t114 * t1483 + (t96 * t1434 + t1831));
+        let t1833 = t156 * t1573 + (t138 * t1524 + (t135 * t1528 + t1832));
+        coriolis_matrix_b[3][3] = t159 * t1569 + t1833;
+        let t1834 = t912 * t1093 + (t30 * t1739 - (t1753 - t28 * t1745));
+        let t1835 = t54 * t1345 - (t51 * t1349 + (t861 * t1095 + t1834));
+        let t1836 = t93 * t1439 - (t75 * t1390 - (t72 * t1394 - t1835));
+        let t1837 = t117 * t1480 - (t114 * t1484 - (t96 * t1435 - t1836));
+        let t1838 = t156 * t1574 - (t138 * t1525 - (t135 * t1529 - t1837));
+        coriolis_matrix_b[3][4] = t159 * t1570 - t1838;
+        let t1839 = t861 * t1094 - (t28 * t1742 - (t1757 + t29 * t1739));
+        let t1840 = t54 * t1347 - (t51 * t1350 - (t884 * t1093 + t1839));
+        let t1841 = t93 * t1440 - (t75 * t1392 - (t72 * t1395 - t1840));
+        let t1842 = t117 * t1482 - (t114 * t1485 - (t96 * t1437 - t1841));
+        let t1843 = t156 * t1575 - (t138 * t1527 - (t135 * t1530 - t1842));
+        coriolis_matrix_b[3][5] = t159 * t1572 - t1843;
+        let t1844 = t897 * t1095 - (t29 * t1765 - (t1769 - t30 * t1762));
+        let t1845 = t919 * t1094 + t1844 - t54 * t1333 - t48 * t1348;
+        let t1846 = t1845 - t75 * t1378 - t69 * t1393 - t96 * t1423;
+        let t1847 = t1846 - t90 * t1438 - t117 * t1468 - t111 * t1483;
+        let t1848 = t1847 - t138 * t1513 - t132 * t1528 - t159 * t1558;
+        coriolis_matrix_b[4][3] = t1848 - t153 * t1573;
+        let t1849 = t919 * t1093 - (t30 * t1760 + (t1773 + t28 * t1765));
+        let t1850 = t48 * t1349 - (t54 * t1340 - (t868 * t1095 - t1849));
+        let t1851 = t96 * t1430 - (t69 * t1394 - (t75 * t1385 - t1850));
+        let t1852 = t111 * t1484 - (t117 * t1475 - (t90 * t1439 - t1851));
+        let t1853 = t159 * t1565 - (t132 * t1529 - (t138 * t1520 - t1852));
+        coriolis_matrix_b[4][4] = t153 * t1574 - t1853;
+        let t1854 = t868 * t1094 - (t28 * t1762 + (t1777 - t29 * t1760));
+        let t1855 = t48 * t1350 - (t54 * t1343 + (t897 * t1093 + t1854));
+        let t1856 = t96 * t1433 - (t69 * t1395 - (t75 * t1388 - t1855));
+        let t1857 = t111 * t1485 - (t117 * t1478 - (t90 * t1440 - t1856));
+        let t1858 = t159 * t1568 - (t132 * t1530 - (t138 * t1523 - t1857));
+        coriolis_matrix_b[4][5] = t153 * t1575 - t1858;
+        let t1859 = t904 * t1095 + (t29 * t1785 - (t1789 - t30 * t1783));
+        let t1860 = t51 * t1333 - (t48 * t1344 - (t926 * t1094 - t1859));
+        let t1861 = t90 * t1434 - (t72 * t1378 - (t69 * t1389 - t1860));
+        let t1862 = t114 * t1468 - (t111 * t1479 - (t93 * t1423 - t1861));
+        let t1863 = t153 * t1569 - (t135 * t1513 - (t132 * t1524 - t1862));
+        coriolis_matrix_b[5][3] = t156 * t1558 - t1863;
+        let t1864 = t926 * t1093 + (t30 * t1780 + (t1793 - t28 * t1785));
+        let t1865 = t51 * t1340 - (t48 * t1345 - (t875 * t1095 - t1864));
+        let t1866 = t90 * t1435 - (t72 * t1385 - (t69 * t1390 - t1865));
+        let t1867 = t114 * t1475 - (t111 * t1480 - (t93 * t1430 - t1866));
+        let t1868 = t153 * t1570 - (t135 * t1520 - (t132 * t1525 - t1867));
+        coriolis_matrix_b[5][4] = t156 * t1565 - t1868;
+        let t1869 = t875 * t1094 - (t28 * t1783 + (t1797 + t29 * t1780));
+        let t1870 = t51 * t1343 - (t48 * t1347 - (t904 * t1093 - t1869));
+        let t1871 = t90 * t1437 - (t72 * t1388 - (t69 * t1392 - t1870));
+        let t1872 = t114 * t1478 - (t111 * t1482 - (t93 * t1433 - t1871));
+        let t1873 = t153 * t1572 - (t135 * t1523 - (t132 * t1527 - t1872));
+        coriolis_matrix_b[5][5] = t156 * t1568 - t1873;
         // leg 1: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
         jacobian_dp[0][3] = t51 * t267 - t54 * t265;
         jacobian_dp[0][4] = t54 * t263 - t48 * t267;
@@ -21164,132 +21126,132 @@ pub fn equation_of_motion<T: Scalar>(
         t1241,
         t1249,
         t1257,
-        t1276,
-        t1277,
-        t1278,
-        t1291,
-        t1292,
-        t1293,
-        t1306,
-        t1307,
-        t1308,
-        t1321,
-        t1322,
-        t1323,
+        t1312,
+        t1313,
+        t1314,
+        t1318,
+        t1319,
+        t1320,
+        t1324,
+        t1325,
+        t1326,
+        t1330,
+        t1331,
+        t1332,
         t1336,
         t1337,
         t1338,
+        t1342,
+        t1343,
+        t1344,
         t1351,
         t1352,
         t1353,
-        t1369,
-        t1370,
-        t1371,
+        t1357,
+        t1358,
+        t1359,
+        t1363,
+        t1364,
+        t1365,
         t1375,
-        t1376,
-        t1377,
-        t1381,
         t1382,
-        t1383,
-        t1393,
-        t1400,
+        t1385,
+        t1386,
+        t1387,
+        t1389,
+        t1390,
+        t1391,
+        t1392,
+        t1396,
+        t1397,
+        t1398,
+        t1402,
         t1403,
         t1404,
-        t1405,
-        t1407,
         t1408,
         t1409,
         t1410,
-        t1414,
-        t1415,
-        t1416,
         t1420,
-        t1421,
-        t1422,
-        t1426,
         t1427,
-        t1428,
-        t1438,
-        t1445,
+        t1430,
+        t1431,
+        t1432,
+        t1434,
+        t1435,
+        t1436,
+        t1437,
+        t1441,
+        t1442,
+        t1443,
+        t1447,
         t1448,
         t1449,
-        t1450,
-        t1452,
         t1453,
         t1454,
         t1455,
-        t1459,
-        t1460,
-        t1461,
         t1465,
-        t1466,
-        t1467,
-        t1471,
         t1472,
-        t1473,
-        t1483,
-        t1490,
+        t1475,
+        t1476,
+        t1477,
+        t1479,
+        t1480,
+        t1481,
+        t1482,
+        t1486,
+        t1487,
+        t1488,
+        t1492,
         t1493,
         t1494,
-        t1495,
-        t1497,
         t1498,
         t1499,
         t1500,
-        t1504,
-        t1505,
-        t1506,
         t1510,
-        t1511,
-        t1512,
-        t1516,
         t1517,
-        t1518,
-        t1528,
-        t1535,
+        t1520,
+        t1521,
+        t1522,
+        t1524,
+        t1525,
+        t1526,
+        t1527,
+        t1531,
+        t1532,
+        t1533,
+        t1537,
         t1538,
         t1539,
-        t1540,
-        t1542,
         t1543,
         t1544,
         t1545,
-        t1549,
-        t1550,
-        t1551,
         t1555,
-        t1556,
-        t1557,
-        t1561,
         t1562,
-        t1563,
-        t1573,
-        t1580,
+        t1565,
+        t1566,
+        t1567,
+        t1569,
+        t1570,
+        t1571,
+        t1572,
+        t1576,
+        t1577,
+        t1578,
+        t1582,
         t1583,
         t1584,
-        t1585,
-        t1587,
         t1588,
         t1589,
         t1590,
-        t1594,
-        t1595,
-        t1596,
         t1600,
-        t1601,
-        t1602,
-        t1606,
         t1607,
-        t1608,
-        t1618,
-        t1625,
-        t1628,
-        t1629,
-        t1630,
-        t1632,
-        t1633,
-        t1634,
-        t1635,
+        t1610,
+        t1611,
+        t1612,
+        t1614,
+        t1615,
+        t1616,
+        t1617,
     ) = {
         // mass matrix of the legs
         let t887 = t825 + (t756 + (t687 + (t618 + (t480 + t549))));
@@ -21766,102 +21728,98 @@ pub fn equation_of_motion<T: Scalar>(
         let t1256 = t221 * (t218 * t1255 + (t216 * t1253 + t217 * t1254));
         // leg 6: actuator velocity d'
         let t1257 = t1252 + t1256;
-        // leg 1: rate of that gradient relative to the base
-        let t1258 = t171 * (t1213 + t223 * t1216);
-        let t1259 = t171 * (t1214 + t225 * t1216);
-        let t1260 = t171 * (t1215 + t227 * t1216);
-        // leg 2: rate of that gradient relative to the base
-        let t1261 = t181 * (t1221 + t229 * t1224);
-        let t1262 = t181 * (t1222 + t231 * t1224);
-        let t1263 = t181 * (t1223 + t233 * t1224);
-        // leg 3: rate of that gradient relative to the base
-        let t1264 = t191 * (t1229 + t235 * t1232);
-        let t1265 = t191 * (t1230 + t237 * t1232);
-        let t1266 = t191 * (t1231 + t239 * t1232);
-        // leg 4: rate of that gradient relative to the base
-        let t1267 = t201 * (t1237 + t241 * t1240);
-        let t1268 = t201 * (t1238 + t243 * t1240);
-        let t1269 = t201 * (t1239 + t245 * t1240);
-        // leg 5: rate of that gradient relative to the base
-        let t1270 = t211 * (t1245 + t247 * t1248);
-        let t1271 = t211 * (t1246 + t249 * t1248);
-        let t1272 = t211 * (t1247 + t251 * t1248);
-        // leg 6: rate of that gradient relative to the base
-        let t1273 = t221 * (t1253 + t253 * t1256);
-        let t1274 = t221 * (t1254 + t255 * t1256);
-        let t1275 = t221 * (t1255 + t257 * t1256);
-        // leg 1: rate of the platform lever
-        let t1276 = platform_velocity[4] * t54 - platform_velocity[5] * t51;
-        let t1277 = platform_velocity[5] * t48 - platform_velocity[3] * t54;
-        let t1278 = platform_velocity[3] * t51 - platform_velocity[4] * t48;
-        // leg 1: velocity of the platform joint less that of the base origin
-        let t1279 = t1135 - t1276;
-        let t1280 = t1136 - t1277;
-        let t1281 = t1137 - t1278;
         // leg 1: inertial rate of that gradient
-        let t1282 = t224 * t1119 - (t1260 + t226 * t1116);
-        let t1283 = t226 * t1122 - (t1258 + t228 * t1119);
-        let t1284 = t228 * t1116 - (t1259 + t224 * t1122);
-        let t1285 = base_rotation[0][0] * t1283 + base_rotation[0][1] * t1284;
-        let t1286 = base_rotation[0][2] * t1282 + t1285;
-        let t1287 = base_rotation[1][0] * t1283 + base_rotation[1][1] * t1284;
-        let t1288 = base_rotation[1][2] * t1282 + t1287;
-        let t1289 = base_rotation[2][0] * t1283 + base_rotation[2][1] * t1284;
-        let t1290 = base_rotation[2][2] * t1282 + t1289;
-        // leg 2: rate of the platform lever
-        let t1291 = platform_velocity[4] * t75 - platform_velocity[5] * t72;
-        let t1292 = platform_velocity[5] * t69 - platform_velocity[3] * t75;
-        let t1293 = platform_velocity[3] * t72 - platform_velocity[4] * t69;
-        // leg 2: velocity of the platform joint less that of the base origin
-        let t1294 = t1135 - t1291;
-        let t1295 = t1136 - t1292;
-        let t1296 = t1137 - t1293;
+        let t1258 = t224 * t1119 - (t171 * (t1215 + t227 * t1216) + t226 * t1116);
+        let t1259 = t226 * t1122 - (t171 * (t1213 + t223 * t1216) + t228 * t1119);
+        let t1260 = t228 * t1116 - (t171 * (t1214 + t225 * t1216) + t224 * t1122);
+        let t1261 = base_rotation[0][0] * t1259 + base_rotation[0][1] * t1260;
+        let t1262 = base_rotation[0][2] * t1258 + t1261;
+        let t1263 = base_rotation[1][0] * t1259 + base_rotation[1][1] * t1260;
+        let t1264 = base_rotation[1][2] * t1258 + t1263;
+        let t1265 = base_rotation[2][0] * t1259 + base_rotation[2][1] * t1260;
+        let t1266 = base_rotation[2][2] * t1258 + t1265;
         // leg 2: inertial rate of that gradient
-        let t1297 = t230 * t1119 - (t1263 + t232 * t1116);
-        let t1298 = t232 * t1122 - (t1261 + t234 * t1119);
-        let t1299 = t234 * t1116 - (t1262 + t230 * t1122);
-        let t1300 = base_rotation[0][0] * t1298 + base_rotation[0][1] * t1299;
-        let t1301 = base_rotation[0][2] * t1297 + t1300;
-        let t1302 = base_rotation[1][0] * t1298 + base_rotation[1][1] * t1299;
-        let t1303 = base_rotation[1][2] * t1297 + t1302;
-        let t1304 = base_rotation[2][0] * t1298 + base_rotation[2][1] * t1299;
-        let t1305 = base_rotation[2][2] * t1297 + t1304;
-        // leg 3: rate of the platform lever
-        let t1306 = platform_velocity[4] * t96 - platform_velocity[5] * t93;
-        let t1307 = platform_velocity[5] * t90 - platform_velocity[3] * t96;
-        let t1308 = platform_velocity[3] * t93 - platform_velocity[4] * t90;
-        // leg 3: velocity of the platform joint less that of the base origin
-        let t1309 = t1135 - t1306;
-        let t1310 = t1136 - t1307;
-        let t1311 = t1137 - t1308;
+        let t1267 = t230 * t1119 - (t181 * (t1223 + t233 * t1224) + t232 * t1116);
+        let t1268 = t232 * t1122 - (t181 * (t1221 + t229 * t1224) + t234 * t1119);
+        let t1269 = t234 * t1116 - (t181 * (t1222 + t231 * t1224) + t230 * t1122);
+        let t1270 = base_rotation[0][0] * t1268 + base_rotation[0][1] * t1269;
+        let t1271 = base_rotation[0][2] * t1267 + t1270;
+        let t1272 = base_rotation[1][0] * t1268 + base_rotation[1][1] * t1269;
+        let t1273 = base_rotation[1][2] * t1267 + t1272;
+        let t1274 = base_rotation[2][0] * t1268 + base_rotation[2][1] * t1269;
+        let t1275 = base_rotation[2][2] * t1267 + t1274;
         // leg 3: inertial rate of that gradient
-        let t1312 = t236 * t1119 - (t1266 + t238 * t1116);
-        let t1313 = t238 * t1122 - (t1264 + t240 * t1119);
-        let t1314 = t240 * t1116 - (t1265 + t236 * t1122);
-        let t1315 = base_rotation[0][0] * t1313 + base_rotation[0][1] * t1314;
-        let t1316 = base_rotation[0][2] * t1312 + t1315;
-        let t1317 = base_rotation[1][0] * t1313 + base_rotation[1][1] * t1314;
-        let t1318 = base_rotation[1][2] * t1312 + t1317;
-        let t1319 = base_rotation[2][0] * t1313 + base_rotation[2][1] * t1314;
-        let t1320 = base_rotation[2][2] * t1312 + t1319;
-        // leg 4: rate of the platform lever
-        let t1321 = platform_velocity[4] * t117 - platform_velocity[5] * t114;
-        let t1322 = platform_velocity[5] * t111 - platform_velocity[3] * t117;
-        let t1323 = platform_velocity[3] * t114 - platform_velocity[4] * t111;
-        // leg 4: velocity of the platform joint less that of the base origin
-        let t1324 = t1135 - t1321;
-        let t1325 = t1136 - t1322;
-        let t1326 = t1137 - t1323;
+        let t1276 = t236 * t1119 - (t191 * (t1231 + t239 * t1232) + t238 * t1116);
+        let t1277 = t238 * t1122 - (t191 * (t1229 + t235 * t1232) + t240 * t1119);
+        let t1278 = t240 * t1116 - (t191 * (t1230 + t237 * t1232) + t236 * t1122);
+        let t1279 = base_rotation[0][0] * t1277 + base_rotation[0][1] * t1278;
+        let t1280 = base_rotation[0][2] * t1276 + t1279;
+        let t1281 = base_rotation[1][0] * t1277 + base_rotation[1][1] * t1278;
+        let t1282 = base_rotation[1][2] * t1276 + t1281;
+        let t1283 = base_rotation[2][0] * t1277 + base_rotation[2][1] * t1278;
+        let t1284 = base_rotation[2][2] * t1276 + t1283;
         // leg 4: inertial rate of that gradient
-        let t1327 = t242 * t1119 - (t1269 + t244 * t1116);
-        let t1328 = t244 * t1122 - (t1267 + t246 * t1119);
-        let t1329 = t246 * t1116 - (t1268 + t242 * t1122);
-        let t1330 = base_rotation[0][0] * t1328 + base_rotation[0][1] * t1329;
-        let t1331 = base_rotation[0][2] * t1327 + t1330;
-        let t1332 = base_rotation[1][0] * t1328 + base_rotation[1][1] * t1329;
-        let t1333 = base_rotation[1][2] * t1327 + t1332;
-        let t1334 = base_rotation[2][0] * t1328 + base_rotation[2][1] * t1329;
-        let t1335 = base_rotation[2][2] * t1327 + t1334;
+        let t1285 = t242 * t1119 - (t201 * (t1239 + t245 * t1240) + t244 * t1116);
+        let t1286 = t244 * t1122 - (t201 * (t1237 + t241 * t1240) + t246 * t1119);
+        let t1287 = t246 * t1116 - (t201 * (t1238 + t243 * t1240) + t242 * t1122);
+        let t1288 = base_rotation[0][0] * t1286 + base_rotation[0][1] * t1287;
+        let t1289 = base_rotation[0][2] * t1285 + t1288;
+        let t1290 = base_rotation[1][0] * t1286 + base_rotation[1][1] * t1287;
+        let t1291 = base_rotation[1][2] * t1285 + t1290;
+        let t1292 = base_rotation[2][0] * t1286 + base_rotation[2][1] * t1287;
+        let t1293 = base_rotation[2][2] * t1285 + t1292;
+        // leg 5: inertial rate of that gradient
+        let t1294 = t248 * t1119 - (t211 * (t1247 + t251 * t1248) + t250 * t1116);
+        let t1295 = t250 * t1122 - (t211 * (t1245 + t247 * t1248) + t252 * t1119);
+        let t1296 = t252 * t1116 - (t211 * (t1246 + t249 * t1248) + t248 * t1122);
+        let t1297 = base_rotation[0][0] * t1295 + base_rotation[0][1] * t1296;
+        let t1298 = base_rotation[0][2] * t1294 + t1297;
+        let t1299 = base_rotation[1][0] * t1295 + base_rotation[1][1] * t1296;
+        let t1300 = base_rotation[1][2] * t1294 + t1299;
+        let t1301 = base_rotation[2][0] * t1295 + base_rotation[2][1] * t1296;
+        let t1302 = base_rotation[2][2] * t1294 + t1301;
+        // leg 6: inertial rate of that gradient
+        let t1303 = t254 * t1119 - (t221 * (t1255 + t257 * t1256) + t256 * t1116);
+        let t1304 = t256 * t1122 - (t221 * (t1253 + t253 * t1256) + t258 * t1119);
+        let t1305 = t258 * t1116 - (t221 * (t1254 + t255 * t1256) + t254 * t1122);
+        let t1306 = base_rotation[0][0] * t1304 + base_rotation[0][1] * t1305;
+        let t1307 = base_rotation[0][2] * t1303 + t1306;
+        let t1308 = base_rotation[1][0] * t1304 + base_rotation[1][1] * t1305;
+        let t1309 = base_rotation[1][2] * t1303 + t1308;
+        let t1310 = base_rotation[2][0] * t1304 + base_rotation[2][1] * t1305;
+        let t1311 = base_rotation[2][2] * t1303 + t1310;
+        // leg 1: rate of the platform lever
+        let t1312 = platform_velocity[4] * t54 - platform_velocity[5] * t51;
+        let t1313 = platform_velocity[5] * t48 - platform_velocity[3] * t54;
+        let t1314 = platform_velocity[3] * t51 - platform_velocity[4] * t48;
+        // leg 1: velocity of the platform joint less that of the base origin
+        let t1315 = t1135 - t1312;
+        let t1316 = t1136 - t1313;
+        let t1317 = t1137 - t1314;
+        // leg 2: rate of the platform lever
+        let t1318 = platform_velocity[4] * t75 - platform_velocity[5] * t72;
+        let t1319 = platform_velocity[5] * t69 - platform_velocity[3] * t75;
+        let t1320 = platform_velocity[3] * t72 - platform_velocity[4] * t69;
+        // leg 2: velocity of the platform joint less that of the base origin
+        let t1321 = t1135 - t1318;
+        let t1322 = t1136 - t1319;
+        let t1323 = t1137 - t1320;
+        // leg 3: rate of the platform lever
+        let t1324 = platform_velocity[4] * t96 - platform_velocity[5] * t93;
+        let t1325 = platform_velocity[5] * t90 - platform_velocity[3] * t96;
+        let t1326 = platform_velocity[3] * t93 - platform_velocity[4] * t90;
+        // leg 3: velocity of the platform joint less that of the base origin
+        let t1327 = t1135 - t1324;
+        let t1328 = t1136 - t1325;
+        let t1329 = t1137 - t1326;
+        // leg 4: rate of the platform lever
+        let t1330 = platform_velocity[4] * t117 - platform_velocity[5] * t114;
+        let t1331 = platform_velocity[5] * t111 - platform_velocity[3] * t117;
+        let t1332 = platform_velocity[3] * t114 - platform_velocity[4] * t111;
+        // leg 4: velocity of the platform joint less that of the base origin
+        let t1333 = t1135 - t1330;
+        let t1334 = t1136 - t1331;
+        let t1335 = t1137 - t1332;
         // leg 5: rate of the platform lever
         let t1336 = platform_velocity[4] * t138 - platform_velocity[5] * t135;
         let t1337 = platform_velocity[5] * t132 - platform_velocity[3] * t138;
@@ -21870,334 +21828,314 @@ pub fn equation_of_motion<T: Scalar>(
         let t1339 = t1135 - t1336;
         let t1340 = t1136 - t1337;
         let t1341 = t1137 - t1338;
-        // leg 5: inertial rate of that gradient
-        let t1342 = t248 * t1119 - (t1272 + t250 * t1116);
-        let t1343 = t250 * t1122 - (t1270 + t252 * t1119);
-        let t1344 = t252 * t1116 - (t1271 + t248 * t1122);
-        let t1345 = base_rotation[0][0] * t1343 + base_rotation[0][1] * t1344;
-        let t1346 = base_rotation[0][2] * t1342 + t1345;
-        let t1347 = base_rotation[1][0] * t1343 + base_rotation[1][1] * t1344;
-        let t1348 = base_rotation[1][2] * t1342 + t1347;
-        let t1349 = base_rotation[2][0] * t1343 + base_rotation[2][1] * t1344;
-        let t1350 = base_rotation[2][2] * t1342 + t1349;
         // leg 6: rate of the platform lever
-        let t1351 = platform_velocity[4] * t159 - platform_velocity[5] * t156;
-        let t1352 = platform_velocity[5] * t153 - platform_velocity[3] * t159;
-        let t1353 = platform_velocity[3] * t156 - platform_velocity[4] * t153;
+        let t1342 = platform_velocity[4] * t159 - platform_velocity[5] * t156;
+        let t1343 = platform_velocity[5] * t153 - platform_velocity[3] * t159;
+        let t1344 = platform_velocity[3] * t156 - platform_velocity[4] * t153;
         // leg 6: velocity of the platform joint less that of the base origin
-        let t1354 = t1135 - t1351;
-        let t1355 = t1136 - t1352;
-        let t1356 = t1137 - t1353;
-        // leg 6: inertial rate of that gradient
-        let t1357 = t254 * t1119 - (t1275 + t256 * t1116);
-        let t1358 = t256 * t1122 - (t1273 + t258 * t1119);
-        let t1359 = t258 * t1116 - (t1274 + t254 * t1122);
-        let t1360 = base_rotation[0][0] * t1358 + base_rotation[0][1] * t1359;
-        let t1361 = base_rotation[0][2] * t1357 + t1360;
-        let t1362 = base_rotation[1][0] * t1358 + base_rotation[1][1] * t1359;
-        let t1363 = base_rotation[1][2] * t1357 + t1362;
-        let t1364 = base_rotation[2][0] * t1358 + base_rotation[2][1] * t1359;
-        let t1365 = base_rotation[2][2] * t1357 + t1364;
+        let t1345 = t1135 - t1342;
+        let t1346 = t1136 - t1343;
+        let t1347 = t1137 - t1344;
         // leg 1: Coriolis matrix of the leg in the speeds of its joint
-        let t1366 = base_velocity[4] * t489 - base_velocity[5] * t483;
-        let t1367 = t477 - t263 * t473;
-        let t1368 = t355 * t1366;
-        let t1369 = t1286 * t1367 - t263 * t1368;
-        let t1370 = t1288 * t1367 - t265 * t1368;
-        let t1371 = t1290 * t1367 - t267 * t1368;
-        let t1372 = base_velocity[5] * t476 - base_velocity[3] * t489;
-        let t1373 = t484 - t265 * t473;
-        let t1374 = t355 * t1372;
-        let t1375 = t1286 * t1373 - t263 * t1374;
-        let t1376 = t1288 * t1373 - t265 * t1374;
-        let t1377 = t1290 * t1373 - t267 * t1374;
-        let t1378 = base_velocity[3] * t483 - base_velocity[4] * t476;
-        let t1379 = t490 - t267 * t473;
-        let t1380 = t355 * t1378;
-        let t1381 = t1286 * t1379 - t263 * t1380;
-        let t1382 = t1288 * t1379 - t265 * t1380;
-        let t1383 = t1290 * t1379 - t267 * t1380;
+        let t1348 = base_velocity[4] * t489 - base_velocity[5] * t483;
+        let t1349 = t477 - t263 * t473;
+        let t1350 = t355 * t1348;
+        let t1351 = t1262 * t1349 - t263 * t1350;
+        let t1352 = t1264 * t1349 - t265 * t1350;
+        let t1353 = t1266 * t1349 - t267 * t1350;
+        let t1354 = base_velocity[5] * t476 - base_velocity[3] * t489;
+        let t1355 = t484 - t265 * t473;
+        let t1356 = t355 * t1354;
+        let t1357 = t1262 * t1355 - t263 * t1356;
+        let t1358 = t1264 * t1355 - t265 * t1356;
+        let t1359 = t1266 * t1355 - t267 * t1356;
+        let t1360 = base_velocity[3] * t483 - base_velocity[4] * t476;
+        let t1361 = t490 - t267 * t473;
+        let t1362 = t355 * t1360;
+        let t1363 = t1262 * t1361 - t263 * t1362;
+        let t1364 = t1264 * t1361 - t265 * t1362;
+        let t1365 = t1266 * t1361 - t267 * t1362;
         // leg 1: Coriolis matrix between joint and base angular velocity
-        let t1384 = t172 * t1372 + (base_velocity[5] * t519 - base_velocity[3] * t508);
-        let t1385 = t483 * t1217 + t1384;
-        let t1386 = parameters.mover_mass[0]
-            * (t1385 - parameters.mover_offset[0] * t1372);
-        let t1387 = t1386 + (t352 * t1385 + t355 * t1280);
-        let t1388 = t172 * t1378 + (base_velocity[3] * t505 - base_velocity[4] * t519);
-        let t1389 = t489 * t1217 + t1388;
-        let t1390 = parameters.mover_mass[0]
-            * (t1389 - parameters.mover_offset[0] * t1378);
-        let t1391 = t1390 + (t352 * t1389 + t355 * t1281);
-        let t1392 = t489 * t1387 - t483 * t1391;
-        let t1393 = t263 * t1392;
-        let t1394 = t172 * t1366 + (base_velocity[4] * t508 - base_velocity[5] * t505);
-        let t1395 = t476 * t1217 + t1394;
-        let t1396 = parameters.mover_mass[0]
-            * (t1395 - parameters.mover_offset[0] * t1366);
-        let t1397 = t1396 + (t352 * t1395 + t355 * t1279);
-        let t1398 = t476 * t1391 - t489 * t1397;
-        let t1399 = t355 * t1389;
-        let t1400 = t263 * t1398 - t1399;
-        let t1401 = t483 * t1397 - t476 * t1387;
-        let t1402 = t355 * t1385;
-        let t1403 = t263 * t1401 + t1402;
-        let t1404 = t1399 + t265 * t1392;
-        let t1405 = t265 * t1398;
-        let t1406 = t355 * t1395;
-        let t1407 = t265 * t1401 - t1406;
-        let t1408 = t1402 - t267 * t1392;
-        let t1409 = t1406 + t267 * t1398;
-        let t1410 = t267 * t1401;
+        let t1366 = t172 * t1354 + (base_velocity[5] * t519 - base_velocity[3] * t508);
+        let t1367 = t483 * t1217 + t1366;
+        let t1368 = parameters.mover_mass[0]
+            * (t1367 - parameters.mover_offset[0] * t1354);
+        let t1369 = t1368 + (t352 * t1367 + t355 * t1316);
+        let t1370 = t172 * t1360 + (base_velocity[3] * t505 - base_velocity[4] * t519);
+        let t1371 = t489 * t1217 + t1370;
+        let t1372 = parameters.mover_mass[0]
+            * (t1371 - parameters.mover_offset[0] * t1360);
+        let t1373 = t1372 + (t352 * t1371 + t355 * t1317);
+        let t1374 = t489 * t1369 - t483 * t1373;
+        let t1375 = t263 * t1374;
+        let t1376 = t172 * t1348 + (base_velocity[4] * t508 - base_velocity[5] * t505);
+        let t1377 = t476 * t1217 + t1376;
+        let t1378 = parameters.mover_mass[0]
+            * (t1377 - parameters.mover_offset[0] * t1348);
+        let t1379 = t1378 + (t352 * t1377 + t355 * t1315);
+        let t1380 = t476 * t1373 - t489 * t1379;
+        let t1381 = t355 * t1371;
+        let t1382 = t263 * t1380 - t1381;
+        let t1383 = t483 * t1379 - t476 * t1369;
+        let t1384 = t355 * t1367;
+        let t1385 = t263 * t1383 + t1384;
+        let t1386 = t1381 + t265 * t1374;
+        let t1387 = t265 * t1380;
+        let t1388 = t355 * t1377;
+        let t1389 = t265 * t1383 - t1388;
+        let t1390 = t1384 - t267 * t1374;
+        let t1391 = t1388 + t267 * t1380;
+        let t1392 = t267 * t1383;
         // leg 2: Coriolis matrix of the leg in the speeds of its joint
-        let t1411 = base_velocity[4] * t558 - base_velocity[5] * t552;
-        let t1412 = t546 - t272 * t542;
-        let t1413 = t362 * t1411;
-        let t1414 = t1301 * t1412 - t272 * t1413;
-        let t1415 = t1303 * t1412 - t274 * t1413;
-        let t1416 = t1305 * t1412 - t276 * t1413;
-        let t1417 = base_velocity[5] * t545 - base_velocity[3] * t558;
-        let t1418 = t553 - t274 * t542;
-        let t1419 = t362 * t1417;
-        let t1420 = t1301 * t1418 - t272 * t1419;
-        let t1421 = t1303 * t1418 - t274 * t1419;
-        let t1422 = t1305 * t1418 - t276 * t1419;
-        let t1423 = base_velocity[3] * t552 - base_velocity[4] * t545;
-        let t1424 = t559 - t276 * t542;
-        let t1425 = t362 * t1423;
-        let t1426 = t1301 * t1424 - t272 * t1425;
-        let t1427 = t1303 * t1424 - t274 * t1425;
-        let t1428 = t1305 * t1424 - t276 * t1425;
+        let t1393 = base_velocity[4] * t558 - base_velocity[5] * t552;
+        let t1394 = t546 - t272 * t542;
+        let t1395 = t362 * t1393;
+        let t1396 = t1271 * t1394 - t272 * t1395;
+        let t1397 = t1273 * t1394 - t274 * t1395;
+        let t1398 = t1275 * t1394 - t276 * t1395;
+        let t1399 = base_velocity[5] * t545 - base_velocity[3] * t558;
+        let t1400 = t553 - t274 * t542;
+        let t1401 = t362 * t1399;
+        let t1402 = t1271 * t1400 - t272 * t1401;
+        let t1403 = t1273 * t1400 - t274 * t1401;
+        let t1404 = t1275 * t1400 - t276 * t1401;
+        let t1405 = base_velocity[3] * t552 - base_velocity[4] * t545;
+        let t1406 = t559 - t276 * t542;
+        let t1407 = t362 * t1405;
+        let t1408 = t1271 * t1406 - t272 * t1407;
+        let t1409 = t1273 * t1406 - t274 * t1407;
+        let t1410 = t1275 * t1406 - t276 * t1407;
         // leg 2: Coriolis matrix between joint and base angular velocity
-        let t1429 = t182 * t1417 + (base_velocity[5] * t588 - base_velocity[3] * t577);
-        let t1430 = t552 * t1225 + t1429;
-        let t1431 = parameters.mover_mass[1]
-            * (t1430 - parameters.mover_offset[1] * t1417);
-        let t1432 = t1431 + (t359 * t1430 + t362 * t1295);
-        let t1433 = t182 * t1423 + (base_velocity[3] * t574 - base_velocity[4] * t588);
-        let t1434 = t558 * t1225 + t1433;
-        let t1435 = parameters.mover_mass[1]
-            * (t1434 - parameters.mover_offset[1] * t1423);
-        let t1436 = t1435 + (t359 * t1434 + t362 * t1296);
-        let t1437 = t558 * t1432 - t552 * t1436;
-        let t1438 = t272 * t1437;
-        let t1439 = t182 * t1411 + (base_velocity[4] * t577 - base_velocity[5] * t574);
-        let t1440 = t545 * t1225 + t1439;
-        let t1441 = parameters.mover_mass[1]
-            * (t1440 - parameters.mover_offset[1] * t1411);
-        let t1442 = t1441 + (t359 * t1440 + t362 * t1294);
-        let t1443 = t545 * t1436 - t558 * t1442;
-        let t1444 = t362 * t1434;
-        let t1445 = t272 * t1443 - t1444;
-        let t1446 = t552 * t1442 - t545 * t1432;
-        let t1447 = t362 * t1430;
-        let t1448 = t272 * t1446 + t1447;
-        let t1449 = t1444 + t274 * t1437;
-        let t1450 = t274 * t1443;
-        let t1451 = t362 * t1440;
-        let t1452 = t274 * t1446 - t1451;
-        let t1453 = t1447 - t276 * t1437;
-        let t1454 = t1451 + t276 * t1443;
-        let t1455 = t276 * t1446;
+        let t1411 = t182 * t1399 + (base_velocity[5] * t588 - base_velocity[3] * t577);
+        let t1412 = t552 * t1225 + t1411;
+        let t1413 = parameters.mover_mass[1]
+            * (t1412 - parameters.mover_offset[1] * t1399);
+        let t1414 = t1413 + (t359 * t1412 + t362 * t1322);
+        let t1415 = t182 * t1405 + (base_velocity[3] * t574 - base_velocity[4] * t588);
+        let t1416 = t558 * t1225 + t1415;
+        let t1417 = parameters.mover_mass[1]
+            * (t1416 - parameters.mover_offset[1] * t1405);
+        let t1418 = t1417 + (t359 * t1416 + t362 * t1323);
+        let t1419 = t558 * t1414 - t552 * t1418;
+        let t1420 = t272 * t1419;
+        let t1421 = t182 * t1393 + (base_velocity[4] * t577 - base_velocity[5] * t574);
+        let t1422 = t545 * t1225 + t1421;
+        let t1423 = parameters.mover_mass[1]
+            * (t1422 - parameters.mover_offset[1] * t1393);
+        let t1424 = t1423 + (t359 * t1422 + t362 * t1321);
+        let t1425 = t545 * t1418 - t558 * t1424;
+        let t1426 = t362 * t1416;
+        let t1427 = t272 * t1425 - t1426;
+        let t1428 = t552 * t1424 - t545 * t1414;
+        let t1429 = t362 * t1412;
+        let t1430 = t272 * t1428 + t1429;
+        let t1431 = t1426 + t274 * t1419;
+        let t1432 = t274 * t1425;
+        let t1433 = t362 * t1422;
+        let t1434 = t274 * t1428 - t1433;
+        let t1435 = t1429 - t276 * t1419;
+        let t1436 = t1433 + t276 * t1425;
+        let t1437 = t276 * t1428;
         // leg 3: Coriolis matrix of the leg in the speeds of its joint
-        let t1456 = base_velocity[4] * t627 - base_velocity[5] * t621;
-        let t1457 = t615 - t281 * t611;
-        let t1458 = t369 * t1456;
-        let t1459 = t1316 * t1457 - t281 * t1458;
-        let t1460 = t1318 * t1457 - t283 * t1458;
-        let t1461 = t1320 * t1457 - t285 * t1458;
-        let t1462 = base_velocity[5] * t614 - base_velocity[3] * t627;
-        let t1463 = t622 - t283 * t611;
-        let t1464 = t369 * t1462;
-        let t1465 = t1316 * t1463 - t281 * t1464;
-        let t1466 = t1318 * t1463 - t283 * t1464;
-        let t1467 = t1320 * t1463 - t285 * t1464;
-        let t1468 = base_velocity[3] * t621 - base_velocity[4] * t614;
-        let t1469 = t628 - t285 * t611;
-        let t1470 = t369 * t1468;
-        let t1471 = t1316 * t1469 - t281 * t1470;
-        let t1472 = t1318 * t1469 - t283 * t1470;
-        let t1473 = t1320 * t1469 - t285 * t1470;
+        let t1438 = base_velocity[4] * t627 - base_velocity[5] * t621;
+        let t1439 = t615 - t281 * t611;
+        let t1440 = t369 * t1438;
+        let t1441 = t1280 * t1439 - t281 * t1440;
+        let t1442 = t1282 * t1439 - t283 * t1440;
+        let t1443 = t1284 * t1439 - t285 * t1440;
+        let t1444 = base_velocity[5] * t614 - base_velocity[3] * t627;
+        let t1445 = t622 - t283 * t611;
+        let t1446 = t369 * t1444;
+        let t1447 = t1280 * t1445 - t281 * t1446;
+        let t1448 = t1282 * t1445 - t283 * t1446;
+        let t1449 = t1284 * t1445 - t285 * t1446;
+        let t1450 = base_velocity[3] * t621 - base_velocity[4] * t614;
+        let t1451 = t628 - t285 * t611;
+        let t1452 = t369 * t1450;
+        let t1453 = t1280 * t1451 - t281 * t1452;
+        let t1454 = t1282 * t1451 - t283 * t1452;
+        let t1455 = t1284 * t1451 - t285 * t1452;
         // leg 3: Coriolis matrix between joint and base angular velocity
-        let t1474 = t192 * t1462 + (base_velocity[5] * t657 - base_velocity[3] * t646);
-        let t1475 = t621 * t1233 + t1474;
-        let t1476 = parameters.mover_mass[2]
-            * (t1475 - parameters.mover_offset[2] * t1462);
-        let t1477 = t1476 + (t366 * t1475 + t369 * t1310);
-        let t1478 = t192 * t1468 + (base_velocity[3] * t643 - base_velocity[4] * t657);
-        let t1479 = t627 * t1233 + t1478;
-        let t1480 = parameters.mover_mass[2]
-            * (t1479 - parameters.mover_offset[2] * t1468);
-        let t1481 = t1480 + (t366 * t1479 + t369 * t1311);
-        let t1482 = t627 * t1477 - t621 * t1481;
-        let t1483 = t281 * t1482;
-        let t1484 = t192 * t1456 + (base_velocity[4] * t646 - base_velocity[5] * t643);
-        let t1485 = t614 * t1233 + t1484;
-        let t1486 = parameters.mover_mass[2]
-            * (t1485 - parameters.mover_offset[2] * t1456);
-        let t1487 = t1486 + (t366 * t1485 + t369 * t1309);
-        let t1488 = t614 * t1481 - t627 * t1487;
-        let t1489 = t369 * t1479;
-        let t1490 = t281 * t1488 - t1489;
-        let t1491 = t621 * t1487 - t614 * t1477;
-        let t1492 = t369 * t1475;
-        let t1493 = t281 * t1491 + t1492;
-        let t1494 = t1489 + t283 * t1482;
-        let t1495 = t283 * t1488;
-        let t1496 = t369 * t1485;
-        let t1497 = t283 * t1491 - t1496;
-        let t1498 = t1492 - t285 * t1482;
-        let t1499 = t1496 + t285 * t1488;
-        let t1500 = t285 * t1491;
+        let t1456 = t192 * t1444 + (base_velocity[5] * t657 - base_velocity[3] * t646);
+        let t1457 = t621 * t1233 + t1456;
+        let t1458 = parameters.mover_mass[2]
+            * (t1457 - parameters.mover_offset[2] * t1444);
+        let t1459 = t1458 + (t366 * t1457 + t369 * t1328);
+        let t1460 = t192 * t1450 + (base_velocity[3] * t643 - base_velocity[4] * t657);
+        let t1461 = t627 * t1233 + t1460;
+        let t1462 = parameters.mover_mass[2]
+            * (t1461 - parameters.mover_offset[2] * t1450);
+        let t1463 = t1462 + (t366 * t1461 + t369 * t1329);
+        let t1464 = t627 * t1459 - t621 * t1463;
+        let t1465 = t281 * t1464;
+        let t1466 = t192 * t1438 + (base_velocity[4] * t646 - base_velocity[5] * t643);
+        let t1467 = t614 * t1233 + t1466;
+        let t1468 = parameters.mover_mass[2]
+            * (t1467 - parameters.mover_offset[2] * t1438);
+        let t1469 = t1468 + (t366 * t1467 + t369 * t1327);
+        let t1470 = t614 * t1463 - t627 * t1469;
+        let t1471 = t369 * t1461;
+        let t1472 = t281 * t1470 - t1471;
+        let t1473 = t621 * t1469 - t614 * t1459;
+        let t1474 = t369 * t1457;
+        let t1475 = t281 * t1473 + t1474;
+        let t1476 = t1471 + t283 * t1464;
+        let t1477 = t283 * t1470;
+        let t1478 = t369 * t1467;
+        let t1479 = t283 * t1473 - t1478;
+        let t1480 = t1474 - t285 * t1464;
+        let t1481 = t1478 + t285 * t1470;
+        let t1482 = t285 * t1473;
         // leg 4: Coriolis matrix of the leg in the speeds of its joint
-        let t1501 = base_velocity[4] * t696 - base_velocity[5] * t690;
-        let t1502 = t684 - t290 * t680;
-        let t1503 = t376 * t1501;
-        let t1504 = t1331 * t1502 - t290 * t1503;
-        let t1505 = t1333 * t1502 - t292 * t1503;
-        let t1506 = t1335 * t1502 - t294 * t1503;
-        let t1507 = base_velocity[5] * t683 - base_velocity[3] * t696;
-        let t1508 = t691 - t292 * t680;
-        let t1509 = t376 * t1507;
-        let t1510 = t1331 * t1508 - t290 * t1509;
-        let t1511 = t1333 * t1508 - t292 * t1509;
-        let t1512 = t1335 * t1508 - t294 * t1509;
-        let t1513 = base_velocity[3] * t690 - base_velocity[4] * t683;
-        let t1514 = t697 - t294 * t680;
-        let t1515 = t376 * t1513;
-        let t1516 = t1331 * t1514 - t290 * t1515;
-        let t1517 = t1333 * t1514 - t292 * t1515;
-        let t1518 = t1335 * t1514 - t294 * t1515;
+        let t1483 = base_velocity[4] * t696 - base_velocity[5] * t690;
+        let t1484 = t684 - t290 * t680;
+        let t1485 = t376 * t1483;
+        let t1486 = t1289 * t1484 - t290 * t1485;
+        let t1487 = t1291 * t1484 - t292 * t1485;
+        let t1488 = t1293 * t1484 - t294 * t1485;
+        let t1489 = base_velocity[5] * t683 - base_velocity[3] * t696;
+        let t1490 = t691 - t292 * t680;
+        let t1491 = t376 * t1489;
+        let t1492 = t1289 * t1490 - t290 * t1491;
+        let t1493 = t1291 * t1490 - t292 * t1491;
+        let t1494 = t1293 * t1490 - t294 * t1491;
+        let t1495 = base_velocity[3] * t690 - base_velocity[4] * t683;
+        let t1496 = t697 - t294 * t680;
+        let t1497 = t376 * t1495;
+        let t1498 = t1289 * t1496 - t290 * t1497;
+        let t1499 = t1291 * t1496 - t292 * t1497;
+        let t1500 = t1293 * t1496 - t294 * t1497;
         // leg 4: Coriolis matrix between joint and base angular velocity
-        let t1519 = t202 * t1507 + (base_velocity[5] * t726 - base_velocity[3] * t715);
-        let t1520 = t690 * t1241 + t1519;
-        let t1521 = parameters.mover_mass[3]
-            * (t1520 - parameters.mover_offset[3] * t1507);
-        let t1522 = t1521 + (t373 * t1520 + t376 * t1325);
-        let t1523 = t202 * t1513 + (base_velocity[3] * t712 - base_velocity[4] * t726);
-        let t1524 = t696 * t1241 + t1523;
-        let t1525 = parameters.mover_mass[3]
-            * (t1524 - parameters.mover_offset[3] * t1513);
-        let t1526 = t1525 + (t373 * t1524 + t376 * t1326);
-        let t1527 = t696 * t1522 - t690 * t1526;
-        let t1528 = t290 * t1527;
-        let t1529 = t202 * t1501 + (base_velocity[4] * t715 - base_velocity[5] * t712);
-        let t1530 = t683 * t1241 + t1529;
-        let t1531 = parameters.mover_mass[3]
-            * (t1530 - parameters.mover_offset[3] * t1501);
-        let t1532 = t1531 + (t373 * t1530 + t376 * t1324);
-        let t1533 = t683 * t1526 - t696 * t1532;
-        let t1534 = t376 * t1524;
-        let t1535 = t290 * t1533 - t1534;
-        let t1536 = t690 * t1532 - t683 * t1522;
-        let t1537 = t376 * t1520;
-        let t1538 = t290 * t1536 + t1537;
-        let t1539 = t1534 + t292 * t1527;
-        let t1540 = t292 * t1533;
-        let t1541 = t376 * t1530;
-        let t1542 = t292 * t1536 - t1541;
-        let t1543 = t1537 - t294 * t1527;
-        let t1544 = t1541 + t294 * t1533;
-        let t1545 = t294 * t1536;
+        let t1501 = t202 * t1489 + (base_velocity[5] * t726 - base_velocity[3] * t715);
+        let t1502 = t690 * t1241 + t1501;
+        let t1503 = parameters.mover_mass[3]
+            * (t1502 - parameters.mover_offset[3] * t1489);
+        let t1504 = t1503 + (t373 * t1502 + t376 * t1334);
+        let t1505 = t202 * t1495 + (base_velocity[3] * t712 - base_velocity[4] * t726);
+        let t1506 = t696 * t1241 + t1505;
+        let t1507 = parameters.mover_mass[3]
+            * (t1506 - parameters.mover_offset[3] * t1495);
+        let t1508 = t1507 + (t373 * t1506 + t376 * t1335);
+        let t1509 = t696 * t1504 - t690 * t1508;
+        let t1510 = t290 * t1509;
+        let t1511 = t202 * t1483 + (base_velocity[4] * t715 - base_velocity[5] * t712);
+        let t1512 = t683 * t1241 + t1511;
+        let t1513 = parameters.mover_mass[3]
+            * (t1512 - parameters.mover_offset[3] * t1483);
+        let t1514 = t1513 + (t373 * t1512 + t376 * t1333);
+        let t1515 = t683 * t1508 - t696 * t1514;
+        let t1516 = t376 * t1506;
+        let t1517 = t290 * t1515 - t1516;
+        let t1518 = t690 * t1514 - t683 * t1504;
+        let t1519 = t376 * t1502;
+        let t1520 = t290 * t1518 + t1519;
+        let t1521 = t1516 + t292 * t1509;
+        let t1522 = t292 * t1515;
+        let t1523 = t376 * t1512;
+        let t1524 = t292 * t1518 - t1523;
+        let t1525 = t1519 - t294 * t1509;
+        let t1526 = t1523 + t294 * t1515;
+        let t1527 = t294 * t1518;
         // leg 5: Coriolis matrix of the leg in the speeds of its joint
-        let t1546 = base_velocity[4] * t765 - base_velocity[5] * t759;
-        let t1547 = t753 - t299 * t749;
-        let t1548 = t383 * t1546;
-        let t1549 = t1346 * t1547 - t299 * t1548;
-        let t1550 = t1348 * t1547 - t301 * t1548;
-        let t1551 = t1350 * t1547 - t303 * t1548;
-        let t1552 = base_velocity[5] * t752 - base_velocity[3] * t765;
-        let t1553 = t760 - t301 * t749;
-        let t1554 = t383 * t1552;
-        let t1555 = t1346 * t1553 - t299 * t1554;
-        let t1556 = t1348 * t1553 - t301 * t1554;
-        let t1557 = t1350 * t1553 - t303 * t1554;
-        let t1558 = base_velocity[3] * t759 - base_velocity[4] * t752;
-        let t1559 = t766 - t303 * t749;
-        let t1560 = t383 * t1558;
-        let t1561 = t1346 * t1559 - t299 * t1560;
-        let t1562 = t1348 * t1559 - t301 * t1560;
-        let t1563 = t1350 * t1559 - t303 * t1560;
+        let t1528 = base_velocity[4] * t765 - base_velocity[5] * t759;
+        let t1529 = t753 - t299 * t749;
+        let t1530 = t383 * t1528;
+        let t1531 = t1298 * t1529 - t299 * t1530;
+        let t1532 = t1300 * t1529 - t301 * t1530;
+        let t1533 = t1302 * t1529 - t303 * t1530;
+        let t1534 = base_velocity[5] * t752 - base_velocity[3] * t765;
+        let t1535 = t760 - t301 * t749;
+        let t1536 = t383 * t1534;
+        let t1537 = t1298 * t1535 - t299 * t1536;
+        let t1538 = t1300 * t1535 - t301 * t1536;
+        let t1539 = t1302 * t1535 - t303 * t1536;
+        let t1540 = base_velocity[3] * t759 - base_velocity[4] * t752;
+        let t1541 = t766 - t303 * t749;
+        let t1542 = t383 * t1540;
+        let t1543 = t1298 * t1541 - t299 * t1542;
+        let t1544 = t1300 * t1541 - t301 * t1542;
+        let t1545 = t1302 * t1541 - t303 * t1542;
         // leg 5: Coriolis matrix between joint and base angular velocity
-        let t1564 = t212 * t1552 + (base_velocity[5] * t795 - base_velocity[3] * t784);
-        let t1565 = t759 * t1249 + t1564;
-        let t1566 = parameters.mover_mass[4]
-            * (t1565 - parameters.mover_offset[4] * t1552);
-        let t1567 = t1566 + (t380 * t1565 + t383 * t1340);
-        let t1568 = t212 * t1558 + (base_velocity[3] * t781 - base_velocity[4] * t795);
-        let t1569 = t765 * t1249 + t1568;
-        let t1570 = parameters.mover_mass[4]
-            * (t1569 - parameters.mover_offset[4] * t1558);
-        let t1571 = t1570 + (t380 * t1569 + t383 * t1341);
-        let t1572 = t765 * t1567 - t759 * t1571;
-        let t1573 = t299 * t1572;
-        let t1574 = t212 * t1546 + (base_velocity[4] * t784 - base_velocity[5] * t781);
-        let t1575 = t752 * t1249 + t1574;
-        let t1576 = parameters.mover_mass[4]
-            * (t1575 - parameters.mover_offset[4] * t1546);
-        let t1577 = t1576 + (t380 * t1575 + t383 * t1339);
-        let t1578 = t752 * t1571 - t765 * t1577;
-        let t1579 = t383 * t1569;
-        let t1580 = t299 * t1578 - t1579;
-        let t1581 = t759 * t1577 - t752 * t1567;
-        let t1582 = t383 * t1565;
-        let t1583 = t299 * t1581 + t1582;
-        let t1584 = t1579 + t301 * t1572;
-        let t1585 = t301 * t1578;
-        let t1586 = t383 * t1575;
-        let t1587 = t301 * t1581 - t1586;
-        let t1588 = t1582 - t303 * t1572;
-        let t1589 = t1586 + t303 * t1578;
-        let t1590 = t303 * t1581;
+        let t1546 = t212 * t1534 + (base_velocity[5] * t795 - base_velocity[3] * t784);
+        let t1547 = t759 * t1249 + t1546;
+        let t1548 = parameters.mover_mass[4]
+            * (t1547 - parameters.mover_offset[4] * t1534);
+        let t1549 = t1548 + (t380 * t1547 + t383 * t1340);
+        let t1550 = t212 * t1540 + (base_velocity[3] * t781 - base_velocity[4] * t795);
+        let t1551 = t765 * t1249 + t1550;
+        let t1552 = parameters.mover_mass[4]
+            * (t1551 - parameters.mover_offset[4] * t1540);
+        let t1553 = t1552 + (t380 * t1551 + t383 * t1341);
+        let t1554 = t765 * t1549 - t759 * t1553;
+        let t1555 = t299 * t1554;
+        let t1556 = t212 * t1528 + (base_velocity[4] * t784 - base_velocity[5] * t781);
+        let t1557 = t752 * t1249 + t1556;
+        let t1558 = parameters.mover_mass[4]
+            * (t1557 - parameters.mover_offset[4] * t1528);
+        let t1559 = t1558 + (t380 * t1557 + t383 * t1339);
+        let t1560 = t752 * t1553 - t765 * t1559;
+        let t1561 = t383 * t1551;
+        let t1562 = t299 * t1560 - t1561;
+        let t1563 = t759 * t1559 - t752 * t1549;
+        let t1564 = t383 * t1547;
+        let t1565 = t299 * t1563 + t1564;
+        let t1566 = t1561 + t301 * t1554;
+        let t1567 = t301 * t1560;
+        let t1568 = t383 * t1557;
+        let t1569 = t301 * t1563 - t1568;
+        let t1570 = t1564 - t303 * t1554;
+        let t1571 = t1568 + t303 * t1560;
+        let t1572 = t303 * t1563;
         // leg 6: Coriolis matrix of the leg in the speeds of its joint
-        let t1591 = base_velocity[4] * t834 - base_velocity[5] * t828;
-        let t1592 = t822 - t308 * t818;
-        let t1593 = t390 * t1591;
-        let t1594 = t1361 * t1592 - t308 * t1593;
-        let t1595 = t1363 * t1592 - t310 * t1593;
-        let t1596 = t1365 * t1592 - t312 * t1593;
-        let t1597 = base_velocity[5] * t821 - base_velocity[3] * t834;
-        let t1598 = t829 - t310 * t818;
-        let t1599 = t390 * t1597;
-        let t1600 = t1361 * t1598 - t308 * t1599;
-        let t1601 = t1363 * t1598 - t310 * t1599;
-        let t1602 = t1365 * t1598 - t312 * t1599;
-        let t1603 = base_velocity[3] * t828 - base_velocity[4] * t821;
-        let t1604 = t835 - t312 * t818;
-        let t1605 = t390 * t1603;
-        let t1606 = t1361 * t1604 - t308 * t1605;
-        let t1607 = t1363 * t1604 - t310 * t1605;
-        let t1608 = t1365 * t1604 - t312 * t1605;
+        let t1573 = base_velocity[4] * t834 - base_velocity[5] * t828;
+        let t1574 = t822 - t308 * t818;
+        let t1575 = t390 * t1573;
+        let t1576 = t1307 * t1574 - t308 * t1575;
+        let t1577 = t1309 * t1574 - t310 * t1575;
+        let t1578 = t1311 * t1574 - t312 * t1575;
+        let t1579 = base_velocity[5] * t821 - base_velocity[3] * t834;
+        let t1580 = t829 - t310 * t818;
+        let t1581 = t390 * t1579;
+        let t1582 = t1307 * t1580 - t308 * t1581;
+        let t1583 = t1309 * t1580 - t310 * t1581;
+        let t1584 = t1311 * t1580 - t312 * t1581;
+        let t1585 = base_velocity[3] * t828 - base_velocity[4] * t821;
+        let t1586 = t835 - t312 * t818;
+        let t1587 = t390 * t1585;
+        let t1588 = t1307 * t1586 - t308 * t1587;
+        let t1589 = t1309 * t1586 - t310 * t1587;
+        let t1590 = t1311 * t1586 - t312 * t1587;
         // leg 6: Coriolis matrix between joint and base angular velocity
-        let t1609 = t222 * t1597 + (base_velocity[5] * t864 - base_velocity[3] * t853);
-        let t1610 = t828 * t1257 + t1609;
-        let t1611 = parameters.mover_mass[5]
-            * (t1610 - parameters.mover_offset[5] * t1597);
-        let t1612 = t1611 + (t387 * t1610 + t390 * t1355);
-        let t1613 = t222 * t1603 + (base_velocity[3] * t850 - base_velocity[4] * t864);
-        let t1614 = t834 * t1257 + t1613;
-        let t1615 = parameters.mover_mass[5]
-            * (t1614 - parameters.mover_offset[5] * t1603);
-        let t1616 = t1615 + (t387 * t1614 + t390 * t1356);
-        let t1617 = t834 * t1612 - t828 * t1616;
-        let t1618 = t308 * t1617;
-        let t1619 = t222 * t1591 + (base_velocity[4] * t853 - base_velocity[5] * t850);
-        let t1620 = t821 * t1257 + t1619;
-        let t1621 = parameters.mover_mass[5]
-            * (t1620 - parameters.mover_offset[5] * t1591);
-        let t1622 = t1621 + (t387 * t1620 + t390 * t1354);
-        let t1623 = t821 * t1616 - t834 * t1622;
-        let t1624 = t390 * t1614;
-        let t1625 = t308 * t1623 - t1624;
-        let t1626 = t828 * t1622 - t821 * t1612;
-        let t1627 = t390 * t1610;
-        let t1628 = t308 * t1626 + t1627;
-        let t1629 = t1624 + t310 * t1617;
-        let t1630 = t310 * t1623;
-        let t1631 = t390 * t1620;
-        let t1632 = t310 * t1626 - t1631;
-        let t1633 = t1627 - t312 * t1617;
-        let t1634 = t1631 + t312 * t1623;
-        let t1635 = t312 * t1626;
+        let t1591 = t222 * t1579 + (base_velocity[5] * t864 - base_velocity[3] * t853);
+        let t1592 = t828 * t1257 + t1591;
+        let t1593 = parameters.mover_mass[5]
+            * (t1592 - parameters.mover_offset[5] * t1579);
+        let t1594 = t1593 + (t387 * t1592 + t390 * t1346);
+        let t1595 = t222 * t1585 + (base_velocity[3] * t850 - base_velocity[4] * t864);
+        let t1596 = t834 * t1257 + t1595;
+        let t1597 = parameters.mover_mass[5]
+            * (t1596 - parameters.mover_offset[5] * t1585);
+        let t1598 = t1597 + (t387 * t1596 + t390 * t1347);
+        let t1599 = t834 * t1594 - t828 * t1598;
+        let t1600 = t308 * t1599;
+        let t1601 = t222 * t1573 + (base_velocity[4] * t853 - base_velocity[5] * t850);
+        let t1602 = t821 * t1257 + t1601;
+        let t1603 = parameters.mover_mass[5]
+            * (t1602 - parameters.mover_offset[5] * t1573);
+        let t1604 = t1603 + (t387 * t1602 + t390 * t1345);
+        let t1605 = t821 * t1598 - t834 * t1604;
+        let t1606 = t390 * t1596;
+        let t1607 = t308 * t1605 - t1606;
+        let t1608 = t828 * t1604 - t821 * t1594;
+        let t1609 = t390 * t1592;
+        let t1610 = t308 * t1608 + t1609;
+        let t1611 = t1606 + t310 * t1599;
+        let t1612 = t310 * t1605;
+        let t1613 = t390 * t1602;
+        let t1614 = t310 * t1608 - t1613;
+        let t1615 = t1609 - t312 * t1599;
+        let t1616 = t1613 + t312 * t1605;
+        let t1617 = t312 * t1608;
         (
             t887,
             t888,
@@ -22232,957 +22170,957 @@ pub fn equation_of_motion<T: Scalar>(
             t1241,
             t1249,
             t1257,
-            t1276,
-            t1277,
-            t1278,
-            t1291,
-            t1292,
-            t1293,
-            t1306,
-            t1307,
-            t1308,
-            t1321,
-            t1322,
-            t1323,
+            t1312,
+            t1313,
+            t1314,
+            t1318,
+            t1319,
+            t1320,
+            t1324,
+            t1325,
+            t1326,
+            t1330,
+            t1331,
+            t1332,
             t1336,
             t1337,
             t1338,
+            t1342,
+            t1343,
+            t1344,
             t1351,
             t1352,
             t1353,
-            t1369,
-            t1370,
-            t1371,
+            t1357,
+            t1358,
+            t1359,
+            t1363,
+            t1364,
+            t1365,
             t1375,
-            t1376,
-            t1377,
-            t1381,
             t1382,
-            t1383,
-            t1393,
-            t1400,
+            t1385,
+            t1386,
+            t1387,
+            t1389,
+            t1390,
+            t1391,
+            t1392,
+            t1396,
+            t1397,
+            t1398,
+            t1402,
             t1403,
             t1404,
-            t1405,
-            t1407,
             t1408,
             t1409,
             t1410,
-            t1414,
-            t1415,
-            t1416,
             t1420,
-            t1421,
-            t1422,
-            t1426,
             t1427,
-            t1428,
-            t1438,
-            t1445,
+            t1430,
+            t1431,
+            t1432,
+            t1434,
+            t1435,
+            t1436,
+            t1437,
+            t1441,
+            t1442,
+            t1443,
+            t1447,
             t1448,
             t1449,
-            t1450,
-            t1452,
             t1453,
             t1454,
             t1455,
-            t1459,
-            t1460,
-            t1461,
             t1465,
-            t1466,
-            t1467,
-            t1471,
             t1472,
-            t1473,
-            t1483,
-            t1490,
+            t1475,
+            t1476,
+            t1477,
+            t1479,
+            t1480,
+            t1481,
+            t1482,
+            t1486,
+            t1487,
+            t1488,
+            t1492,
             t1493,
             t1494,
-            t1495,
-            t1497,
             t1498,
             t1499,
             t1500,
-            t1504,
-            t1505,
-            t1506,
             t1510,
-            t1511,
-            t1512,
-            t1516,
             t1517,
-            t1518,
-            t1528,
-            t1535,
+            t1520,
+            t1521,
+            t1522,
+            t1524,
+            t1525,
+            t1526,
+            t1527,
+            t1531,
+            t1532,
+            t1533,
+            t1537,
             t1538,
             t1539,
-            t1540,
-            t1542,
             t1543,
             t1544,
             t1545,
-            t1549,
-            t1550,
-            t1551,
             t1555,
-            t1556,
-            t1557,
-            t1561,
             t1562,
-            t1563,
-            t1573,
-            t1580,
+            t1565,
+            t1566,
+            t1567,
+            t1569,
+            t1570,
+            t1571,
+            t1572,
+            t1576,
+            t1577,
+            t1578,
+            t1582,
             t1583,
             t1584,
-            t1585,
-            t1587,
             t1588,
             t1589,
             t1590,
-            t1594,
-            t1595,
-            t1596,
             t1600,
-            t1601,
-            t1602,
-            t1606,
             t1607,
-            t1608,
-            t1618,
-            t1625,
-            t1628,
-            t1629,
-            t1630,
-            t1632,
-            t1633,
-            t1634,
-            t1635,
+            t1610,
+            t1611,
+            t1612,
+            t1614,
+            t1615,
+            t1616,
+            t1617,
         )
     };
     {
         // Coriolis matrix of the legs
-        let t1636 = t1594 + (t1549 + (t1504 + (t1459 + (t1369 + t1414))));
-        coriolis_matrix_p[0][0] = t1636;
-        coriolis_matrix_b[0][0] = t1636;
-        let t1637 = t1595 + (t1550 + (t1505 + (t1460 + (t1370 + t1415))));
-        coriolis_matrix_p[0][1] = t1637;
-        coriolis_matrix_b[0][1] = t1637;
-        let t1638 = t1596 + (t1551 + (t1506 + (t1461 + (t1371 + t1416))));
-        coriolis_matrix_p[0][2] = t1638;
-        coriolis_matrix_b[0][2] = t1638;
-        let t1639 = t837 * t1352;
-        let t1640 = t831 * t1353;
-        let t1641 = t159 * t1595;
-        let t1642 = t156 * t1596;
-        let t1643 = t1639 - (t1640 + (t1641 - t1642));
-        let t1644 = t768 * t1337;
-        let t1645 = t762 * t1338;
-        let t1646 = t138 * t1550;
-        let t1647 = t135 * t1551;
-        let t1648 = t1644 - (t1645 + (t1646 - t1647));
-        let t1649 = t699 * t1322;
-        let t1650 = t693 * t1323;
-        let t1651 = t117 * t1505;
-        let t1652 = t114 * t1506;
-        let t1653 = t1649 - (t1650 + (t1651 - t1652));
-        let t1654 = t630 * t1307;
-        let t1655 = t624 * t1308;
-        let t1656 = t96 * t1460;
-        let t1657 = t93 * t1461;
-        let t1658 = t1654 - (t1655 + (t1656 - t1657));
-        let t1659 = t492 * t1277;
-        let t1660 = t486 * t1278;
-        let t1661 = t54 * t1370;
-        let t1662 = t51 * t1371;
-        let t1663 = t1659 - (t1660 + (t1661 - t1662));
-        let t1664 = t561 * t1292;
-        let t1665 = t555 * t1293;
-        let t1666 = t75 * t1415;
-        let t1667 = t72 * t1416;
-        let t1668 = t1664 - (t1665 + (t1666 - t1667));
-        let t1669 = t1643 + (t1648 + (t1653 + (t1658 + (t1663 + t1668))));
-        coriolis_matrix_p[0][3] = t1669;
-        let t1670 = t159 * t1594;
-        let t1671 = t825 * t1353 - (t837 * t1351 + (t153 * t1596 - t1670));
-        let t1672 = t138 * t1549;
-        let t1673 = t756 * t1338 - (t768 * t1336 + (t132 * t1551 - t1672));
-        let t1674 = t117 * t1504;
-        let t1675 = t687 * t1323 - (t699 * t1321 + (t111 * t1506 - t1674));
-        let t1676 = t96 * t1459;
-        let t1677 = t618 * t1308 - (t630 * t1306 + (t90 * t1461 - t1676));
-        let t1678 = t54 * t1369;
-        let t1679 = t480 * t1278 - (t492 * t1276 + (t48 * t1371 - t1678));
-        let t1680 = t75 * t1414;
-        let t1681 = t549 * t1293 - (t561 * t1291 + (t69 * t1416 - t1680));
-        let t1682 = t1671 + (t1673 + (t1675 + (t1677 + (t1679 + t1681))));
-        let t1683 = t156 * t1594;
-        let t1684 = t831 * t1351 - (t825 * t1352 + (t1683 - t153 * t1595));
-        let t1685 = t135 * t1549;
-        let t1686 = t762 * t1336 - (t756 * t1337 + (t1685 - t132 * t1550));
-        let t1687 = t114 * t1504;
-        let t1688 = t693 * t1321 - (t687 * t1322 + (t1687 - t111 * t1505));
-        let t1689 = t93 * t1459;
-        let t1690 = t624 * t1306 - (t618 * t1307 + (t1689 - t90 * t1460));
-        let t1691 = t51 * t1369;
-        let t1692 = t486 * t1276 - (t480 * t1277 + (t1691 - t48 * t1370));
-        let t1693 = t72 * t1414;
-        let t1694 = t555 * t1291 - (t549 * t1292 + (t1693 - t69 * t1415));
-        let t1695 = t1684 + (t1686 + (t1688 + (t1690 + (t1692 + t1694))));
-        let t1696 = t1600 + (t1555 + (t1510 + (t1465 + (t1375 + t1420))));
-        coriolis_matrix_p[1][0] = t1696;
-        coriolis_matrix_b[1][0] = t1696;
-        let t1697 = t1601 + (t1556 + (t1511 + (t1466 + (t1376 + t1421))));
-        coriolis_matrix_p[1][1] = t1697;
-        coriolis_matrix_b[1][1] = t1697;
-        let t1698 = t1602 + (t1557 + (t1512 + (t1467 + (t1377 + t1422))));
-        coriolis_matrix_p[1][2] = t1698;
-        coriolis_matrix_b[1][2] = t1698;
-        let t1699 = t159 * t1601;
-        let t1700 = t839 * t1352 - (t838 * t1353 + (t1699 - t156 * t1602));
-        let t1701 = t138 * t1556;
-        let t1702 = t770 * t1337 - (t769 * t1338 + (t1701 - t135 * t1557));
-        let t1703 = t117 * t1511;
-        let t1704 = t701 * t1322 - (t700 * t1323 + (t1703 - t114 * t1512));
-        let t1705 = t96 * t1466;
-        let t1706 = t632 * t1307 - (t631 * t1308 + (t1705 - t93 * t1467));
-        let t1707 = t54 * t1376;
-        let t1708 = t494 * t1277 - (t493 * t1278 + (t1707 - t51 * t1377));
-        let t1709 = t75 * t1421;
-        let t1710 = t563 * t1292 - (t562 * t1293 + (t1709 - t72 * t1422));
-        let t1711 = t1700 + (t1702 + (t1704 + (t1706 + (t1708 + t1710))));
-        let t1712 = t839 * t1351;
-        let t1713 = t159 * t1600;
-        let t1714 = t153 * t1602;
-        let t1715 = t1712 - (t1713 + (t1640 - t1714));
-        let t1716 = t770 * t1336;
-        let t1717 = t138 * t1555;
-        let t1718 = t132 * t1557;
-        let t1719 = t1716 - (t1717 + (t1645 - t1718));
-        let t1720 = t701 * t1321;
-        let t1721 = t117 * t1510;
-        let t1722 = t111 * t1512;
-        let t1723 = t1720 - (t1721 + (t1650 - t1722));
-        let t1724 = t632 * t1306;
-        let t1725 = t96 * t1465;
-        let t1726 = t90 * t1467;
-        let t1727 = t1724 - (t1725 + (t1655 - t1726));
-        let t1728 = t494 * t1276;
-        let t1729 = t54 * t1375;
-        let t1730 = t48 * t1377;
-        let t1731 = t1728 - (t1729 + (t1660 - t1730));
-        let t1732 = t563 * t1291;
-        let t1733 = t75 * t1420;
-        let t1734 = t69 * t1422;
-        let t1735 = t1732 - (t1733 + (t1665 - t1734));
-        let t1736 = t1715 + (t1719 + (t1723 + (t1727 + (t1731 + t1735))));
-        let t1737 = t153 * t1601;
-        let t1738 = t838 * t1351 - (t831 * t1352 + (t156 * t1600 - t1737));
-        let t1739 = t132 * t1556;
-        let t1740 = t769 * t1336 - (t762 * t1337 + (t135 * t1555 - t1739));
-        let t1741 = t111 * t1511;
-        let t1742 = t700 * t1321 - (t693 * t1322 + (t114 * t1510 - t1741));
-        let t1743 = t90 * t1466;
-        let t1744 = t631 * t1306 - (t624 * t1307 + (t93 * t1465 - t1743));
-        let t1745 = t48 * t1376;
-        let t1746 = t493 * t1276 - (t486 * t1277 + (t51 * t1375 - t1745));
-        let t1747 = t69 * t1421;
-        let t1748 = t562 * t1291 - (t555 * t1292 + (t72 * t1420 - t1747));
-        let t1749 = t1738 + (t1740 + (t1742 + (t1744 + (t1746 + t1748))));
-        let t1750 = t1606 + (t1561 + (t1516 + (t1471 + (t1381 + t1426))));
-        coriolis_matrix_p[2][0] = t1750;
-        coriolis_matrix_b[2][0] = t1750;
-        let t1751 = t1607 + (t1562 + (t1517 + (t1472 + (t1382 + t1427))));
-        coriolis_matrix_p[2][1] = t1751;
-        coriolis_matrix_b[2][1] = t1751;
-        let t1752 = t1608 + (t1563 + (t1518 + (t1473 + (t1383 + t1428))));
-        coriolis_matrix_p[2][2] = t1752;
-        coriolis_matrix_b[2][2] = t1752;
-        let t1753 = t156 * t1608;
-        let t1754 = t840 * t1352 - (t839 * t1353 + (t159 * t1607 - t1753));
-        let t1755 = t135 * t1563;
-        let t1756 = t771 * t1337 - (t770 * t1338 + (t138 * t1562 - t1755));
-        let t1757 = t114 * t1518;
-        let t1758 = t702 * t1322 - (t701 * t1323 + (t117 * t1517 - t1757));
-        let t1759 = t93 * t1473;
-        let t1760 = t633 * t1307 - (t632 * t1308 + (t96 * t1472 - t1759));
-        let t1761 = t51 * t1383;
-        let t1762 = t495 * t1277 - (t494 * t1278 + (t54 * t1382 - t1761));
-        let t1763 = t72 * t1428;
-        let t1764 = t564 * t1292 - (t563 * t1293 + (t75 * t1427 - t1763));
-        let t1765 = t1754 + (t1756 + (t1758 + (t1760 + (t1762 + t1764))));
-        let t1766 = t153 * t1608;
-        let t1767 = t837 * t1353 - (t840 * t1351 + (t1766 - t159 * t1606));
-        let t1768 = t132 * t1563;
-        let t1769 = t768 * t1338 - (t771 * t1336 + (t1768 - t138 * t1561));
-        let t1770 = t111 * t1518;
-        let t1771 = t699 * t1323 - (t702 * t1321 + (t1770 - t117 * t1516));
-        let t1772 = t90 * t1473;
-        let t1773 = t630 * t1308 - (t633 * t1306 + (t1772 - t96 * t1471));
-        let t1774 = t48 * t1383;
-        let t1775 = t492 * t1278 - (t495 * t1276 + (t1774 - t54 * t1381));
-        let t1776 = t69 * t1428;
-        let t1777 = t561 * t1293 - (t564 * t1291 + (t1776 - t75 * t1426));
-        let t1778 = t1767 + (t1769 + (t1771 + (t1773 + (t1775 + t1777))));
-        let t1779 = t153 * t1607;
-        let t1780 = t156 * t1606;
-        let t1781 = t1779 - (t1780 + (t1639 - t1712));
-        let t1782 = t132 * t1562;
-        let t1783 = t135 * t1561;
-        let t1784 = t1782 - (t1783 + (t1644 - t1716));
-        let t1785 = t111 * t1517;
-        let t1786 = t114 * t1516;
-        let t1787 = t1785 - (t1786 + (t1649 - t1720));
-        let t1788 = t90 * t1472;
-        let t1789 = t93 * t1471;
-        let t1790 = t1788 - (t1789 + (t1654 - t1724));
-        let t1791 = t48 * t1382;
-        let t1792 = t51 * t1381;
-        let t1793 = t1791 - (t1792 + (t1659 - t1728));
-        let t1794 = t69 * t1427;
-        let t1795 = t72 * t1426;
-        let t1796 = t1794 - (t1795 + (t1664 - t1732));
-        let t1797 = t1781 + (t1784 + (t1787 + (t1790 + (t1793 + t1796))));
-        coriolis_matrix_p[2][5] = t1797;
-        let t1798 = t1795
-            + (t1792 - (t1713 + (t1717 + (t1721 + (t1725 + (t1729 + t1733))))));
-        let t1799 = t1780 + (t1783 + (t1786 + (t1789 + t1798)));
-        coriolis_matrix_p[3][0] = t1799;
-        coriolis_matrix_b[3][0] = t1799;
-        let t1800 = t51 * t1382
-            - (t1699 + (t1701 + (t1703 + (t1705 + (t1707 + t1709)))));
-        let t1801 = t114 * t1517 + (t93 * t1472 + (t72 * t1427 + t1800));
-        let t1802 = t156 * t1607 + (t135 * t1562 + t1801);
-        coriolis_matrix_p[3][1] = t1802;
-        coriolis_matrix_b[3][1] = t1802;
-        let t1803 = t54 * t1377
-            - (t1753 + (t1755 + (t1757 + (t1759 + (t1761 + t1763)))));
-        let t1804 = t117 * t1512 + (t96 * t1467 + (t75 * t1422 + t1803));
-        let t1805 = t159 * t1602 + (t138 * t1557 + t1804);
-        let t1806 = t72 * t1764 - (t75 * t1710 + (t54 * t1708 - t51 * t1762));
-        let t1807 = t117 * t1704 - (t93 * t1760 - (t96 * t1706 - t1806));
-        let t1808 = t135 * t1756 - (t138 * t1702 - (t114 * t1758 - t1807));
-        let t1809 = t156 * t1754 - (t159 * t1700 - t1808);
-        let t1810 = t72 * t1777 + (t75 * t1735 + (t54 * t1731 + t51 * t1775));
-        let t1811 = t117 * t1723 + (t93 * t1773 + (t96 * t1727 + t1810));
-        let t1812 = t135 * t1769 + (t138 * t1719 + (t114 * t1771 + t1811));
-        let t1813 = t156 * t1767 + (t159 * t1715 + t1812);
-        let t1814 = t72 * t1796 - (t75 * t1748 + (t54 * t1746 - t51 * t1793));
-        let t1815 = t117 * t1742 - (t93 * t1790 - (t96 * t1744 - t1814));
-        let t1816 = t135 * t1784 - (t138 * t1740 - (t114 * t1787 - t1815));
-        let t1817 = t156 * t1781 - (t159 * t1738 - t1816);
-        let t1818 = t48 * t1381
-            - (t1670 + (t1672 + (t1674 + (t1676 + (t1678 + t1680)))));
-        let t1819 = t111 * t1516 + (t90 * t1471 + (t69 * t1426 + t1818));
-        let t1820 = t153 * t1606 + (t132 * t1561 + t1819);
-        let t1821 = t1794
-            + (t1791 - (t1641 + (t1646 + (t1651 + (t1656 + (t1661 + t1666))))));
-        let t1822 = t1779 + (t1782 + (t1785 + (t1788 + t1821)));
-        let t1823 = t54 * t1371
-            - (t1766 + (t1768 + (t1770 + (t1772 + (t1774 + t1776)))));
-        let t1824 = t117 * t1506 + (t96 * t1461 + (t75 * t1416 + t1823));
-        let t1825 = t159 * t1596 + (t138 * t1551 + t1824);
-        coriolis_matrix_p[4][2] = t1825;
-        coriolis_matrix_b[4][2] = t1825;
-        let t1826 = t75 * t1668 - (t69 * t1764 + (t48 * t1762 - t54 * t1663));
-        let t1827 = t111 * t1758 - (t96 * t1658 - (t90 * t1760 - t1826));
-        let t1828 = t138 * t1648 - (t132 * t1756 - (t117 * t1653 - t1827));
-        let t1829 = t159 * t1643 - (t153 * t1754 - t1828);
-        let t1830 = t75 * t1681 - (t69 * t1777 + (t48 * t1775 - t54 * t1679));
-        let t1831 = t111 * t1771 - (t96 * t1677 - (t90 * t1773 - t1830));
-        let t1832 = t138 * t1673 - (t132 * t1769 - (t117 * t1675 - t1831));
-        let t1833 = t159 * t1671 - (t153 * t1767 - t1832);
-        let t1834 = t75 * t1694 - (t69 * t1796 + (t48 * t1793 - t54 * t1692));
-        let t1835 = t111 * t1787 - (t96 * t1690 - (t90 * t1790 - t1834));
-        let t1836 = t138 * t1686 - (t132 * t1784 - (t117 * t1688 - t1835));
-        let t1837 = t159 * t1684 - (t153 * t1781 - t1836);
-        let t1838 = t48 * t1375
-            - (t1683 + (t1685 + (t1687 + (t1689 + (t1691 + t1693)))));
-        let t1839 = t111 * t1510 + (t90 * t1465 + (t69 * t1420 + t1838));
-        let t1840 = t153 * t1600 + (t132 * t1555 + t1839);
-        coriolis_matrix_p[5][0] = t1840;
-        coriolis_matrix_b[5][0] = t1840;
-        let t1841 = t51 * t1370
-            - (t1737 + (t1739 + (t1741 + (t1743 + (t1745 + t1747)))));
-        let t1842 = t114 * t1505 + (t93 * t1460 + (t72 * t1415 + t1841));
-        let t1843 = t156 * t1595 + (t135 * t1550 + t1842);
-        let t1844 = t1734
-            + (t1730 - (t1642 + (t1647 + (t1652 + (t1657 + (t1662 + t1667))))));
-        let t1845 = t1714 + (t1718 + (t1722 + (t1726 + t1844)));
-        coriolis_matrix_p[5][2] = t1845;
-        coriolis_matrix_b[5][2] = t1845;
-        let t1846 = t69 * t1710 - (t72 * t1668 + (t51 * t1663 - t48 * t1708));
-        let t1847 = t114 * t1653 - (t90 * t1706 - (t93 * t1658 - t1846));
-        let t1848 = t132 * t1702 - (t135 * t1648 - (t111 * t1704 - t1847));
-        let t1849 = t153 * t1700 - (t156 * t1643 - t1848);
-        let t1850 = t69 * t1735 + (t72 * t1681 + (t51 * t1679 + t48 * t1731));
-        let t1851 = t114 * t1675 + (t90 * t1727 + (t93 * t1677 + t1850));
-        let t1852 = t132 * t1719 + (t135 * t1673 + (t111 * t1723 + t1851));
-        let t1853 = t153 * t1715 + (t156 * t1671 + t1852);
-        let t1854 = t69 * t1748 - (t72 * t1694 + (t51 * t1692 - t48 * t1746));
-        let t1855 = t114 * t1688 - (t90 * t1744 - (t93 * t1690 - t1854));
-        let t1856 = t132 * t1740 - (t135 * t1686 - (t111 * t1742 - t1855));
-        let t1857 = t153 * t1738 - (t156 * t1684 - t1856);
-        coriolis_matrix_p[1][4] = -t1736;
-        let t1858 = -t1805;
-        coriolis_matrix_p[3][2] = t1858;
-        coriolis_matrix_b[3][2] = t1858;
-        let t1859 = -t1820;
-        coriolis_matrix_p[4][0] = t1859;
-        coriolis_matrix_b[4][0] = t1859;
-        let t1860 = -t1822;
-        coriolis_matrix_p[4][1] = t1860;
-        coriolis_matrix_b[4][1] = t1860;
-        let t1861 = -t1843;
-        coriolis_matrix_p[5][1] = t1861;
-        coriolis_matrix_b[5][1] = t1861;
+        let t1618 = t1576 + (t1531 + (t1486 + (t1441 + (t1351 + t1396))));
+        coriolis_matrix_p[0][0] = t1618;
+        coriolis_matrix_b[0][0] = t1618;
+        let t1619 = t1577 + (t1532 + (t1487 + (t1442 + (t1352 + t1397))));
+        coriolis_matrix_p[0][1] = t1619;
+        coriolis_matrix_b[0][1] = t1619;
+        let t1620 = t1578 + (t1533 + (t1488 + (t1443 + (t1353 + t1398))));
+        coriolis_matrix_p[0][2] = t1620;
+        coriolis_matrix_b[0][2] = t1620;
+        let t1621 = t837 * t1343;
+        let t1622 = t831 * t1344;
+        let t1623 = t159 * t1577;
+        let t1624 = t156 * t1578;
+        let t1625 = t1621 - (t1622 + (t1623 - t1624));
+        let t1626 = t768 * t1337;
+        let t1627 = t762 * t1338;
+        let t1628 = t138 * t1532;
+        let t1629 = t135 * t1533;
+        let t1630 = t1626 - (t1627 + (t1628 - t1629));
+        let t1631 = t699 * t1331;
+        let t1632 = t693 * t1332;
+        let t1633 = t117 * t1487;
+        let t1634 = t114 * t1488;
+        let t1635 = t1631 - (t1632 + (t1633 - t1634));
+        let t1636 = t630 * t1325;
+        let t1637 = t624 * t1326;
+        let t1638 = t96 * t1442;
+        let t1639 = t93 * t1443;
+        let t1640 = t1636 - (t1637 + (t1638 - t1639));
+        let t1641 = t492 * t1313;
+        let t1642 = t486 * t1314;
+        let t1643 = t54 * t1352;
+        let t1644 = t51 * t1353;
+        let t1645 = t1641 - (t1642 + (t1643 - t1644));
+        let t1646 = t561 * t1319;
+        let t1647 = t555 * t1320;
+        let t1648 = t75 * t1397;
+        let t1649 = t72 * t1398;
+        let t1650 = t1646 - (t1647 + (t1648 - t1649));
+        let t1651 = t1625 + (t1630 + (t1635 + (t1640 + (t1645 + t1650))));
+        coriolis_matrix_p[0][3] = t1651;
+        let t1652 = t159 * t1576;
+        let t1653 = t825 * t1344 - (t837 * t1342 + (t153 * t1578 - t1652));
+        let t1654 = t138 * t1531;
+        let t1655 = t756 * t1338 - (t768 * t1336 + (t132 * t1533 - t1654));
+        let t1656 = t117 * t1486;
+        let t1657 = t687 * t1332 - (t699 * t1330 + (t111 * t1488 - t1656));
+        let t1658 = t96 * t1441;
+        let t1659 = t618 * t1326 - (t630 * t1324 + (t90 * t1443 - t1658));
+        let t1660 = t54 * t1351;
+        let t1661 = t480 * t1314 - (t492 * t1312 + (t48 * t1353 - t1660));
+        let t1662 = t75 * t1396;
+        let t1663 = t549 * t1320 - (t561 * t1318 + (t69 * t1398 - t1662));
+        let t1664 = t1653 + (t1655 + (t1657 + (t1659 + (t1661 + t1663))));
+        let t1665 = t156 * t1576;
+        let t1666 = t831 * t1342 - (t825 * t1343 + (t1665 - t153 * t1577));
+        let t1667 = t135 * t1531;
+        let t1668 = t762 * t1336 - (t756 * t1337 + (t1667 - t132 * t1532));
+        let t1669 = t114 * t1486;
+        let t1670 = t693 * t1330 - (t687 * t1331 + (t1669 - t111 * t1487));
+        let t1671 = t93 * t1441;
+        let t1672 = t624 * t1324 - (t618 * t1325 + (t1671 - t90 * t1442));
+        let t1673 = t51 * t1351;
+        let t1674 = t486 * t1312 - (t480 * t1313 + (t1673 - t48 * t1352));
+        let t1675 = t72 * t1396;
+        let t1676 = t555 * t1318 - (t549 * t1319 + (t1675 - t69 * t1397));
+        let t1677 = t1666 + (t1668 + (t1670 + (t1672 + (t1674 + t1676))));
+        let t1678 = t1582 + (t1537 + (t1492 + (t1447 + (t1357 + t1402))));
+        coriolis_matrix_p[1][0] = t1678;
+        coriolis_matrix_b[1][0] = t1678;
+        let t1679 = t1583 + (t1538 + (t1493 + (t1448 + (t1358 + t1403))));
+        coriolis_matrix_p[1][1] = t1679;
+        coriolis_matrix_b[1][1] = t1679;
+        let t1680 = t1584 + (t1539 + (t1494 + (t1449 + (t1359 + t1404))));
+        coriolis_matrix_p[1][2] = t1680;
+        coriolis_matrix_b[1][2] = t1680;
+        let t1681 = t159 * t1583;
+        let t1682 = t839 * t1343 - (t838 * t1344 + (t1681 - t156 * t1584));
+        let t1683 = t138 * t1538;
+        let t1684 = t770 * t1337 - (t769 * t1338 + (t1683 - t135 * t1539));
+        let t1685 = t117 * t1493;
+        let t1686 = t701 * t1331 - (t700 * t1332 + (t1685 - t114 * t1494));
+        let t1687 = t96 * t1448;
+        let t1688 = t632 * t1325 - (t631 * t1326 + (t1687 - t93 * t1449));
+        let t1689 = t54 * t1358;
+        let t1690 = t494 * t1313 - (t493 * t1314 + (t1689 - t51 * t1359));
+        let t1691 = t75 * t1403;
+        let t1692 = t563 * t1319 - (t562 * t1320 + (t1691 - t72 * t1404));
+        let t1693 = t1682 + (t1684 + (t1686 + (t1688 + (t1690 + t1692))));
+        let t1694 = t839 * t1342;
+        let t1695 = t159 * t1582;
+        let t1696 = t153 * t1584;
+        let t1697 = t1694 - (t1695 + (t1622 - t1696));
+        let t1698 = t770 * t1336;
+        let t1699 = t138 * t1537;
+        let t1700 = t132 * t1539;
+        let t1701 = t1698 - (t1699 + (t1627 - t1700));
+        let t1702 = t701 * t1330;
+        let t1703 = t117 * t1492;
+        let t1704 = t111 * t1494;
+        let t1705 = t1702 - (t1703 + (t1632 - t1704));
+        let t1706 = t632 * t1324;
+        let t1707 = t96 * t1447;
+        let t1708 = t90 * t1449;
+        let t1709 = t1706 - (t1707 + (t1637 - t1708));
+        let t1710 = t494 * t1312;
+        let t1711 = t54 * t1357;
+        let t1712 = t48 * t1359;
+        let t1713 = t1710 - (t1711 + (t1642 - t1712));
+        let t1714 = t563 * t1318;
+        let t1715 = t75 * t1402;
+        let t1716 = t69 * t1404;
+        let t1717 = t1714 - (t1715 + (t1647 - t1716));
+        let t1718 = t1697 + (t1701 + (t1705 + (t1709 + (t1713 + t1717))));
+        let t1719 = t153 * t1583;
+        let t1720 = t838 * t1342 - (t831 * t1343 + (t156 * t1582 - t1719));
+        let t1721 = t132 * t1538;
+        let t1722 = t769 * t1336 - (t762 * t1337 + (t135 * t1537 - t1721));
+        let t1723 = t111 * t1493;
+        let t1724 = t700 * t1330 - (t693 * t1331 + (t114 * t1492 - t1723));
+        let t1725 = t90 * t1448;
+        let t1726 = t631 * t1324 - (t624 * t1325 + (t93 * t1447 - t1725));
+        let t1727 = t48 * t1358;
+        let t1728 = t493 * t1312 - (t486 * t1313 + (t51 * t1357 - t1727));
+        let t1729 = t69 * t1403;
+        let t1730 = t562 * t1318 - (t555 * t1319 + (t72 * t1402 - t1729));
+        let t1731 = t1720 + (t1722 + (t1724 + (t1726 + (t1728 + t1730))));
+        let t1732 = t1588 + (t1543 + (t1498 + (t1453 + (t1363 + t1408))));
+        coriolis_matrix_p[2][0] = t1732;
+        coriolis_matrix_b[2][0] = t1732;
+        let t1733 = t1589 + (t1544 + (t1499 + (t1454 + (t1364 + t1409))));
+        coriolis_matrix_p[2][1] = t1733;
+        coriolis_matrix_b[2][1] = t1733;
+        let t1734 = t1590 + (t1545 + (t1500 + (t1455 + (t1365 + t1410))));
+        coriolis_matrix_p[2][2] = t1734;
+        coriolis_matrix_b[2][2] = t1734;
+        let t1735 = t156 * t1590;
+        let t1736 = t840 * t1343 - (t839 * t1344 + (t159 * t1589 - t1735));
+        let t1737 = t135 * t1545;
+        let t1738 = t771 * t1337 - (t770 * t1338 + (t138 * t1544 - t1737));
+        let t1739 = t114 * t1500;
+        let t1740 = t702 * t1331 - (t701 * t1332 + (t117 * t1499 - t1739));
+        let t1741 = t93 * t1455;
+        let t1742 = t633 * t1325 - (t632 * t1326 + (t96 * t1454 - t1741));
+        let t1743 = t51 * t1365;
+        let t1744 = t495 * t1313 - (t494 * t1314 + (t54 * t1364 - t1743));
+        let t1745 = t72 * t1410;
+        let t1746 = t564 * t1319 - (t563 * t1320 + (t75 * t1409 - t1745));
+        let t1747 = t1736 + (t1738 + (t1740 + (t1742 + (t1744 + t1746))));
+        let t1748 = t153 * t1590;
+        let t1749 = t837 * t1344 - (t840 * t1342 + (t1748 - t159 * t1588));
+        let t1750 = t132 * t1545;
+        let t1751 = t768 * t1338 - (t771 * t1336 + (t1750 - t138 * t1543));
+        let t1752 = t111 * t1500;
+        let t1753 = t699 * t1332 - (t702 * t1330 + (t1752 - t117 * t1498));
+        let t1754 = t90 * t1455;
+        let t1755 = t630 * t1326 - (t633 * t1324 + (t1754 - t96 * t1453));
+        let t1756 = t48 * t1365;
+        let t1757 = t492 * t1314 - (t495 * t1312 + (t1756 - t54 * t1363));
+        let t1758 = t69 * t1410;
+        let t1759 = t561 * t1320 - (t564 * t1318 + (t1758 - t75 * t1408));
+        let t1760 = t1749 + (t1751 + (t1753 + (t1755 + (t1757 + t1759))));
+        let t1761 = t153 * t1589;
+        let t1762 = t156 * t1588;
+        let t1763 = t1761 - (t1762 + (t1621 - t1694));
+        let t1764 = t132 * t1544;
+        let t1765 = t135 * t1543;
+        let t1766 = t1764 - (t1765 + (t1626 - t1698));
+        let t1767 = t111 * t1499;
+        let t1768 = t114 * t1498;
+        let t1769 = t1767 - (t1768 + (t1631 - t1702));
+        let t1770 = t90 * t1454;
+        let t1771 = t93 * t1453;
+        let t1772 = t1770 - (t1771 + (t1636 - t1706));
+        let t1773 = t48 * t1364;
+        let t1774 = t51 * t1363;
+        let t1775 = t1773 - (t1774 + (t1641 - t1710));
+        let t1776 = t69 * t1409;
+        let t1777 = t72 * t1408;
+        let t1778 = t1776 - (t1777 + (t1646 - t1714));
+        let t1779 = t1763 + (t1766 + (t1769 + (t1772 + (t1775 + t1778))));
+        coriolis_matrix_p[2][5] = t1779;
+        let t1780 = t1777
+            + (t1774 - (t1695 + (t1699 + (t1703 + (t1707 + (t1711 + t1715))))));
+        let t1781 = t1762 + (t1765 + (t1768 + (t1771 + t1780)));
+        coriolis_matrix_p[3][0] = t1781;
+        coriolis_matrix_b[3][0] = t1781;
+        let t1782 = t51 * t1364
+            - (t1681 + (t1683 + (t1685 + (t1687 + (t1689 + t1691)))));
+        let t1783 = t114 * t1499 + (t93 * t1454 + (t72 * t1409 + t1782));
+        let t1784 = t156 * t1589 + (t135 * t1544 + t1783);
+        coriolis_matrix_p[3][1] = t1784;
+        coriolis_matrix_b[3][1] = t1784;
+        let t1785 = t54 * t1359
+            - (t1735 + (t1737 + (t1739 + (t1741 + (t1743 + t1745)))));
+        let t1786 = t117 * t1494 + (t96 * t1449 + (t75 * t1404 + t1785));
+        let t1787 = t159 * t1584 + (t138 * t1539 + t1786);
+        let t1788 = t72 * t1746 - (t75 * t1692 + (t54 * t1690 - t51 * t1744));
+        let t1789 = t117 * t1686 - (t93 * t1742 - (t96 * t1688 - t1788));
+        let t1790 = t135 * t1738 - (t138 * t1684 - (t114 * t1740 - t1789));
+        let t1791 = t156 * t1736 - (t159 * t1682 - t1790);
+        let t1792 = t72 * t1759 + (t75 * t1717 + (t54 * t1713 + t51 * t1757));
+        let t1793 = t117 * t1705 + (t93 * t1755 + (t96 * t1709 + t1792));
+        let t1794 = t135 * t1751 + (t138 * t1701 + (t114 * t1753 + t1793));
+        let t1795 = t156 * t1749 + (t159 * t1697 + t1794);
+        let t1796 = t72 * t1778 - (t75 * t1730 + (t54 * t1728 - t51 * t1775));
+        let t1797 = t117 * t1724 - (t93 * t1772 - (t96 * t1726 - t1796));
+        let t1798 = t135 * t1766 - (t138 * t1722 - (t114 * t1769 - t1797));
+        let t1799 = t156 * t1763 - (t159 * t1720 - t1798);
+        let t1800 = t48 * t1363
+            - (t1652 + (t1654 + (t1656 + (t1658 + (t1660 + t1662)))));
+        let t1801 = t111 * t1498 + (t90 * t1453 + (t69 * t1408 + t1800));
+        let t1802 = t153 * t1588 + (t132 * t1543 + t1801);
+        let t1803 = t1776
+            + (t1773 - (t1623 + (t1628 + (t1633 + (t1638 + (t1643 + t1648))))));
+        let t1804 = t1761 + (t1764 + (t1767 + (t1770 + t1803)));
+        let t1805 = t54 * t1353
+            - (t1748 + (t1750 + (t1752 + (t1754 + (t1756 + t1758)))));
+        let t1806 = t117 * t1488 + (t96 * t1443 + (t75 * t1398 + t1805));
+        let t1807 = t159 * t1578 + (t138 * t1533 + t1806);
+        coriolis_matrix_p[4][2] = t1807;
+        coriolis_matrix_b[4][2] = t1807;
+        let t1808 = t75 * t1650 - (t69 * t1746 + (t48 * t1744 - t54 * t1645));
+        let t1809 = t111 * t1740 - (t96 * t1640 - (t90 * t1742 - t1808));
+        let t1810 = t138 * t1630 - (t132 * t1738 - (t117 * t1635 - t1809));
+        let t1811 = t159 * t1625 - (t153 * t1736 - t1810);
+        let t1812 = t75 * t1663 - (t69 * t1759 + (t48 * t1757 - t54 * t1661));
+        let t1813 = t111 * t1753 - (t96 * t1659 - (t90 * t1755 - t1812));
+        let t1814 = t138 * t1655 - (t132 * t1751 - (t117 * t1657 - t1813));
+        let t1815 = t159 * t1653 - (t153 * t1749 - t1814);
+        let t1816 = t75 * t1676 - (t69 * t1778 + (t48 * t1775 - t54 * t1674));
+        let t1817 = t111 * t1769 - (t96 * t1672 - (t90 * t1772 - t1816));
+        let t1818 = t138 * t1668 - (t132 * t1766 - (t117 * t1670 - t1817));
+        let t1819 = t159 * t1666 - (t153 * t1763 - t1818);
+        let t1820 = t48 * t1357
+            - (t1665 + (t1667 + (t1669 + (t1671 + (t1673 + t1675)))));
+        let t1821 = t111 * t1492 + (t90 * t1447 + (t69 * t1402 + t1820));
+        let t1822 = t153 * t1582 + (t132 * t1537 + t1821);
+        coriolis_matrix_p[5][0] = t1822;
+        coriolis_matrix_b[5][0] = t1822;
+        let t1823 = t51 * t1352
+            - (t1719 + (t1721 + (t1723 + (t1725 + (t1727 + t1729)))));
+        let t1824 = t114 * t1487 + (t93 * t1442 + (t72 * t1397 + t1823));
+        let t1825 = t156 * t1577 + (t135 * t1532 + t1824);
+        let t1826 = t1716
+            + (t1712 - (t1624 + (t1629 + (t1634 + (t1639 + (t1644 + t1649))))));
+        let t1827 = t1696 + (t1700 + (t1704 + (t1708 + t1826)));
+        coriolis_matrix_p[5][2] = t1827;
+        coriolis_matrix_b[5][2] = t1827;
+        let t1828 = t69 * t1692 - (t72 * t1650 + (t51 * t1645 - t48 * t1690));
+        let t1829 = t114 * t1635 - (t90 * t1688 - (t93 * t1640 - t1828));
+        let t1830 = t132 * t1684 - (t135 * t1630 - (t111 * t1686 - t1829));
+        let t1831 = t153 * t1682 - (t156 * t1625 - t1830);
+        let t1832 = t69 * t1717 + (t72 * t1663 + (t51 * t1661 + t48 * t1713));
+        let t1833 = t114 * t1657 + (t90 * t1709 + (t93 * t1659 + t1832));
+        let t1834 = t132 * t1701 + (t135 * t1655 + (t111 * t1705 + t1833));
+        let t1835 = t153 * t1697 + (t156 * t1653 + t1834);
+        let t1836 = t69 * t1730 - (t72 * t1676 + (t51 * t1674 - t48 * t1728));
+        let t1837 = t114 * t1670 - (t90 * t1726 - (t93 * t1672 - t1836));
+        let t1838 = t132 * t1722 - (t135 * t1668 - (t111 * t1724 - t1837));
+        let t1839 = t153 * t1720 - (t156 * t1666 - t1838);
+        coriolis_matrix_p[1][4] = -t1718;
+        let t1840 = -t1787;
+        coriolis_matrix_p[3][2] = t1840;
+        coriolis_matrix_b[3][2] = t1840;
+        let t1841 = -t1802;
+        coriolis_matrix_p[4][0] = t1841;
+        coriolis_matrix_b[4][0] = t1841;
+        let t1842 = -t1804;
+        coriolis_matrix_p[4][1] = t1842;
+        coriolis_matrix_b[4][1] = t1842;
+        let t1843 = -t1825;
+        coriolis_matrix_p[5][1] = t1843;
+        coriolis_matrix_b[5][1] = t1843;
         // Coriolis matrix C_p, natural factorisation
-        let t1862 = platform_velocity[3] * t997 - platform_velocity[4] * t999;
-        let t1863 = t1682 + t1862;
-        coriolis_matrix_p[0][4] = t1863;
-        let t1864 = platform_velocity[5] * t999 - platform_velocity[3] * t995;
-        let t1865 = t1695 - t1864;
-        coriolis_matrix_p[0][5] = t1865;
-        let t1866 = t1711 - t1862;
-        coriolis_matrix_p[1][3] = t1866;
-        let t1867 = platform_velocity[4] * t995 - platform_velocity[5] * t997;
-        let t1868 = t1749 + t1867;
-        coriolis_matrix_p[1][5] = t1868;
-        let t1869 = t1765 + t1864;
-        coriolis_matrix_p[2][3] = t1869;
-        let t1870 = t1778 - t1867;
-        coriolis_matrix_p[2][4] = t1870;
-        let t1871 = platform_velocity[4] * t1011;
-        let t1872 = platform_velocity[5] * t1009;
-        let t1873 = t1871 - (t1809 + t1872);
-        let t1874 = t415 - t1019;
-        let t1875 = platform_velocity[4] * t1021
-            - (t1813 - platform_velocity[5] * t1874);
-        let t1876 = t415 - t1028;
-        let t1877 = platform_velocity[4] * t1876
-            + (t1817 + platform_velocity[5] * t1021);
-        coriolis_matrix_p[3][5] = t1877;
-        let t1878 = t415 - t1007;
-        let t1879 = platform_velocity[3] * t1011
-            + (t1829 + platform_velocity[5] * t1878);
-        coriolis_matrix_p[4][3] = t1879;
-        let t1880 = platform_velocity[3] * t1021;
-        let t1881 = t1880 + (t1833 - t1872);
-        coriolis_matrix_p[4][4] = t1881;
-        let t1882 = platform_velocity[3] * t1876
-            - (t1837 - platform_velocity[5] * t1011);
-        let t1883 = platform_velocity[3] * t1009
-            - (t1849 - platform_velocity[4] * t1878);
-        let t1884 = platform_velocity[3] * t1874
-            - (t1853 - platform_velocity[4] * t1009);
-        coriolis_matrix_p[5][4] = t1884;
-        let t1885 = t1880 - (t1857 + t1871);
-        coriolis_matrix_p[3][3] = -t1873;
-        coriolis_matrix_p[3][4] = -t1875;
-        coriolis_matrix_p[4][5] = -t1882;
-        coriolis_matrix_p[5][3] = -t1883;
-        coriolis_matrix_p[5][5] = -t1885;
+        let t1844 = platform_velocity[3] * t997 - platform_velocity[4] * t999;
+        let t1845 = t1664 + t1844;
+        coriolis_matrix_p[0][4] = t1845;
+        let t1846 = platform_velocity[5] * t999 - platform_velocity[3] * t995;
+        let t1847 = t1677 - t1846;
+        coriolis_matrix_p[0][5] = t1847;
+        let t1848 = t1693 - t1844;
+        coriolis_matrix_p[1][3] = t1848;
+        let t1849 = platform_velocity[4] * t995 - platform_velocity[5] * t997;
+        let t1850 = t1731 + t1849;
+        coriolis_matrix_p[1][5] = t1850;
+        let t1851 = t1747 + t1846;
+        coriolis_matrix_p[2][3] = t1851;
+        let t1852 = t1760 - t1849;
+        coriolis_matrix_p[2][4] = t1852;
+        let t1853 = platform_velocity[4] * t1011;
+        let t1854 = platform_velocity[5] * t1009;
+        let t1855 = t1853 - (t1791 + t1854);
+        let t1856 = t415 - t1019;
+        let t1857 = platform_velocity[4] * t1021
+            - (t1795 - platform_velocity[5] * t1856);
+        let t1858 = t415 - t1028;
+        let t1859 = platform_velocity[4] * t1858
+            + (t1799 + platform_velocity[5] * t1021);
+        coriolis_matrix_p[3][5] = t1859;
+        let t1860 = t415 - t1007;
+        let t1861 = platform_velocity[3] * t1011
+            + (t1811 + platform_velocity[5] * t1860);
+        coriolis_matrix_p[4][3] = t1861;
+        let t1862 = platform_velocity[3] * t1021;
+        let t1863 = t1862 + (t1815 - t1854);
+        coriolis_matrix_p[4][4] = t1863;
+        let t1864 = platform_velocity[3] * t1858
+            - (t1819 - platform_velocity[5] * t1011);
+        let t1865 = platform_velocity[3] * t1009
+            - (t1831 - platform_velocity[4] * t1860);
+        let t1866 = platform_velocity[3] * t1856
+            - (t1835 - platform_velocity[4] * t1009);
+        coriolis_matrix_p[5][4] = t1866;
+        let t1867 = t1862 - (t1839 + t1853);
+        coriolis_matrix_p[3][3] = -t1855;
+        coriolis_matrix_p[3][4] = -t1857;
+        coriolis_matrix_p[4][5] = -t1864;
+        coriolis_matrix_p[5][3] = -t1865;
+        coriolis_matrix_p[5][5] = -t1867;
         // Coriolis matrix C_b, natural factorisation
-        let t1886 = t889 * t1136;
-        let t1887 = t888 * t1137;
-        let t1888 = t1669 - (t1618 + (t1573 + (t1528 + (t1483 + (t1393 + t1438)))));
-        let t1889 = t1886 - (t1887 - (t29 * t1638 - (t30 * t1637 + t1888)));
-        let t1890 = t1682 - (t1625 + (t1580 + (t1535 + (t1490 + (t1400 + t1445)))));
-        let t1891 = t889 * t1135 - (t30 * t1636 - (t28 * t1638 + t1890));
-        let t1892 = t887 * t1137 - t1891;
-        let t1893 = t1695 - (t1628 + (t1583 + (t1538 + (t1493 + (t1403 + t1448)))));
-        let t1894 = t887 * t1136 - (t28 * t1637 - (t29 * t1636 + t1893));
-        let t1895 = t888 * t1135 - t1894;
-        let t1896 = t1711 - (t1629 + (t1584 + (t1539 + (t1494 + (t1404 + t1449)))));
-        let t1897 = t918 * t1137 - (t29 * t1698 - (t30 * t1697 + t1896));
-        let t1898 = t919 * t1136 - t1897;
-        let t1899 = t919 * t1135;
-        let t1900 = t1887
-            + (t1736 + (t1630 + (t1585 + (t1540 + (t1495 + (t1405 + t1450))))));
-        let t1901 = t1899 - (t30 * t1696 - (t28 * t1698 - t1900));
-        coriolis_matrix_b[1][4] = t1901;
-        let t1902 = t1749 - (t1632 + (t1587 + (t1542 + (t1497 + (t1407 + t1452)))));
-        let t1903 = t888 * t1136 - (t28 * t1697 - (t29 * t1696 + t1902));
-        let t1904 = t918 * t1135 - t1903;
-        let t1905 = t1765 + (t1633 + (t1588 + (t1543 + (t1498 + (t1408 + t1453)))));
-        let t1906 = t919 * t1137 - (t29 * t1752 - (t30 * t1751 + t1905));
-        let t1907 = t947 * t1136 - t1906;
-        let t1908 = t1778 - (t1634 + (t1589 + (t1544 + (t1499 + (t1409 + t1454)))));
-        let t1909 = t947 * t1135 - (t30 * t1750 - (t28 * t1752 + t1908));
-        let t1910 = t889 * t1137 - t1909;
-        let t1911 = t1886
-            + (t1797 - (t1635 + (t1590 + (t1545 + (t1500 + (t1410 + t1455))))));
-        let t1912 = t28 * t1751 - (t29 * t1750 - (t1899 - t1911));
-        let t1913 = t926 * t1137 - (t29 * t1805 + (t1809 + t30 * t1802));
-        let t1914 = t54 * t1404 + (t51 * t1408 + (t954 * t1136 - t1913));
-        let t1915 = t93 * t1498 + (t75 * t1449 + (t72 * t1453 + t1914));
-        let t1916 = t117 * t1539 + (t114 * t1543 + (t96 * t1494 + t1915));
-        let t1917 = t156 * t1633 + (t138 * t1584 + (t135 * t1588 + t1916));
-        let t1918 = t159 * t1629 + t1917;
-        coriolis_matrix_b[3][3] = t1918;
-        let t1919 = t954 * t1135 + (t30 * t1799 - (t1813 - t28 * t1805));
-        let t1920 = t54 * t1405 - (t51 * t1409 + (t903 * t1137 + t1919));
-        let t1921 = t93 * t1499 - (t75 * t1450 - (t72 * t1454 - t1920));
-        let t1922 = t117 * t1540 - (t114 * t1544 - (t96 * t1495 - t1921));
-        let t1923 = t156 * t1634 - (t138 * t1585 - (t135 * t1589 - t1922));
-        let t1924 = t159 * t1630 - t1923;
-        coriolis_matrix_b[3][4] = t1924;
-        let t1925 = t903 * t1136 - (t28 * t1802 - (t1817 + t29 * t1799));
-        let t1926 = t54 * t1407 - (t51 * t1410 - (t926 * t1135 + t1925));
-        let t1927 = t93 * t1500 - (t75 * t1452 - (t72 * t1455 - t1926));
-        let t1928 = t117 * t1542 - (t114 * t1545 - (t96 * t1497 - t1927));
-        let t1929 = t156 * t1635 - (t138 * t1587 - (t135 * t1590 - t1928));
-        let t1930 = t159 * t1632 - t1929;
-        coriolis_matrix_b[3][5] = t1930;
-        let t1931 = t939 * t1137 - (t29 * t1825 - (t1829 - t30 * t1822));
-        let t1932 = t48 * t1408 + (t54 * t1393 - (t961 * t1136 + t1931));
-        let t1933 = t96 * t1483 + (t69 * t1453 + (t75 * t1438 + t1932));
-        let t1934 = t111 * t1543 + (t117 * t1528 + (t90 * t1498 + t1933));
-        let t1935 = t159 * t1618 + (t132 * t1588 + (t138 * t1573 + t1934));
-        let t1936 = t153 * t1633 + t1935;
-        let t1937 = t961 * t1135 - (t30 * t1820 + (t1833 + t28 * t1825));
-        let t1938 = t48 * t1409 - (t54 * t1400 - (t910 * t1137 - t1937));
-        let t1939 = t96 * t1490 - (t69 * t1454 - (t75 * t1445 - t1938));
-        let t1940 = t111 * t1544 - (t117 * t1535 - (t90 * t1499 - t1939));
-        let t1941 = t159 * t1625 - (t132 * t1589 - (t138 * t1580 - t1940));
-        let t1942 = t153 * t1634 - t1941;
-        coriolis_matrix_b[4][4] = t1942;
-        let t1943 = t910 * t1136 - (t28 * t1822 + (t1837 - t29 * t1820));
-        let t1944 = t48 * t1410 - (t54 * t1403 + (t939 * t1135 + t1943));
-        let t1945 = t96 * t1493 - (t69 * t1455 - (t75 * t1448 - t1944));
-        let t1946 = t111 * t1545 - (t117 * t1538 - (t90 * t1500 - t1945));
-        let t1947 = t159 * t1628 - (t132 * t1590 - (t138 * t1583 - t1946));
-        let t1948 = t153 * t1635 - t1947;
-        coriolis_matrix_b[4][5] = t1948;
-        let t1949 = t946 * t1137 + (t29 * t1845 - (t1849 - t30 * t1843));
-        let t1950 = t51 * t1393 - (t48 * t1404 - (t968 * t1136 - t1949));
-        let t1951 = t90 * t1494 - (t72 * t1438 - (t69 * t1449 - t1950));
-        let t1952 = t114 * t1528 - (t111 * t1539 - (t93 * t1483 - t1951));
-        let t1953 = t153 * t1629 - (t135 * t1573 - (t132 * t1584 - t1952));
-        let t1954 = t156 * t1618 - t1953;
-        coriolis_matrix_b[5][3] = t1954;
-        let t1955 = t968 * t1135 + (t30 * t1840 + (t1853 - t28 * t1845));
-        let t1956 = t51 * t1400 - (t48 * t1405 - (t917 * t1137 - t1955));
-        let t1957 = t90 * t1495 - (t72 * t1445 - (t69 * t1450 - t1956));
-        let t1958 = t114 * t1535 - (t111 * t1540 - (t93 * t1490 - t1957));
-        let t1959 = t153 * t1630 - (t135 * t1580 - (t132 * t1585 - t1958));
-        let t1960 = t156 * t1625 - t1959;
-        coriolis_matrix_b[5][4] = t1960;
-        let t1961 = t917 * t1136 - (t28 * t1843 + (t1857 + t29 * t1840));
-        let t1962 = t51 * t1403 - (t48 * t1407 - (t946 * t1135 - t1961));
-        let t1963 = t90 * t1497 - (t72 * t1448 - (t69 * t1452 - t1962));
-        let t1964 = t114 * t1538 - (t111 * t1542 - (t93 * t1493 - t1963));
-        let t1965 = t153 * t1632 - (t135 * t1583 - (t132 * t1587 - t1964));
-        let t1966 = t156 * t1628 - t1965;
-        coriolis_matrix_b[5][5] = t1966;
-        coriolis_matrix_b[0][3] = -t1889;
-        coriolis_matrix_b[0][4] = -t1892;
-        coriolis_matrix_b[0][5] = -t1895;
-        coriolis_matrix_b[1][3] = -t1898;
-        coriolis_matrix_b[1][5] = -t1904;
-        coriolis_matrix_b[2][3] = -t1907;
-        coriolis_matrix_b[2][4] = -t1910;
-        coriolis_matrix_b[2][5] = -t1912;
-        coriolis_matrix_b[4][3] = -t1936;
+        let t1868 = t889 * t1136;
+        let t1869 = t888 * t1137;
+        let t1870 = t1651 - (t1600 + (t1555 + (t1510 + (t1465 + (t1375 + t1420)))));
+        let t1871 = t1868 - (t1869 - (t29 * t1620 - (t30 * t1619 + t1870)));
+        let t1872 = t1664 - (t1607 + (t1562 + (t1517 + (t1472 + (t1382 + t1427)))));
+        let t1873 = t889 * t1135 - (t30 * t1618 - (t28 * t1620 + t1872));
+        let t1874 = t887 * t1137 - t1873;
+        let t1875 = t1677 - (t1610 + (t1565 + (t1520 + (t1475 + (t1385 + t1430)))));
+        let t1876 = t887 * t1136 - (t28 * t1619 - (t29 * t1618 + t1875));
+        let t1877 = t888 * t1135 - t1876;
+        let t1878 = t1693 - (t1611 + (t1566 + (t1521 + (t1476 + (t1386 + t1431)))));
+        let t1879 = t918 * t1137 - (t29 * t1680 - (t30 * t1679 + t1878));
+        let t1880 = t919 * t1136 - t1879;
+        let t1881 = t919 * t1135;
+        let t1882 = t1869
+            + (t1718 + (t1612 + (t1567 + (t1522 + (t1477 + (t1387 + t1432))))));
+        let t1883 = t1881 - (t30 * t1678 - (t28 * t1680 - t1882));
+        coriolis_matrix_b[1][4] = t1883;
+        let t1884 = t1731 - (t1614 + (t1569 + (t1524 + (t1479 + (t1389 + t1434)))));
+        let t1885 = t888 * t1136 - (t28 * t1679 - (t29 * t1678 + t1884));
+        let t1886 = t918 * t1135 - t1885;
+        let t1887 = t1747 + (t1615 + (t1570 + (t1525 + (t1480 + (t1390 + t1435)))));
+        let t1888 = t919 * t1137 - (t29 * t1734 - (t30 * t1733 + t1887));
+        let t1889 = t947 * t1136 - t1888;
+        let t1890 = t1760 - (t1616 + (t1571 + (t1526 + (t1481 + (t1391 + t1436)))));
+        let t1891 = t947 * t1135 - (t30 * t1732 - (t28 * t1734 + t1890));
+        let t1892 = t889 * t1137 - t1891;
+        let t1893 = t1868
+            + (t1779 - (t1617 + (t1572 + (t1527 + (t1482 + (t1392 + t1437))))));
+        let t1894 = t28 * t1733 - (t29 * t1732 - (t1881 - t1893));
+        let t1895 = t926 * t1137 - (t29 * t1787 + (t1791 + t30 * t1784));
+        let t1896 = t54 * t1386 + (t51 * t1390 + (t954 * t1136 - t1895));
+        let t1897 = t93 * t1480 + (t75 * t1431 + (t72 * t1435 + t1896));
+        let t1898 = t117 * t1521 + (t114 * t1525 + (t96 * t1476 + t1897));
+        let t1899 = t156 * t1615 + (t138 * t1566 + (t135 * t1570 + t1898));
+        let t1900 = t159 * t1611 + t1899;
+        coriolis_matrix_b[3][3] = t1900;
+        let t1901 = t954 * t1135 + (t30 * t1781 - (t1795 - t28 * t1787));
+        let t1902 = t54 * t1387 - (t51 * t1391 + (t903 * t1137 + t1901));
+        let t1903 = t93 * t1481 - (t75 * t1432 - (t72 * t1436 - t1902));
+        let t1904 = t117 * t1522 - (t114 * t1526 - (t96 * t1477 - t1903));
+        let t1905 = t156 * t1616 - (t138 * t1567 - (t135 * t1571 - t1904));
+        let t1906 = t159 * t1612 - t1905;
+        coriolis_matrix_b[3][4] = t1906;
+        let t1907 = t903 * t1136 - (t28 * t1784 - (t1799 + t29 * t1781));
+        let t1908 = t54 * t1389 - (t51 * t1392 - (t926 * t1135 + t1907));
+        let t1909 = t93 * t1482 - (t75 * t1434 - (t72 * t1437 - t1908));
+        let t1910 = t117 * t1524 - (t114 * t1527 - (t96 * t1479 - t1909));
+        let t1911 = t156 * t1617 - (t138 * t1569 - (t135 * t1572 - t1910));
+        let t1912 = t159 * t1614 - t1911;
+        coriolis_matrix_b[3][5] = t1912;
+        let t1913 = t939 * t1137 - (t29 * t1807 - (t1811 - t30 * t1804));
+        let t1914 = t48 * t1390 + (t54 * t1375 - (t961 * t1136 + t1913));
+        let t1915 = t96 * t1465 + (t69 * t1435 + (t75 * t1420 + t1914));
+        let t1916 = t111 * t1525 + (t117 * t1510 + (t90 * t1480 + t1915));
+        let t1917 = t159 * t1600 + (t132 * t1570 + (t138 * t1555 + t1916));
+        let t1918 = t153 * t1615 + t1917;
+        let t1919 = t961 * t1135 - (t30 * t1802 + (t1815 + t28 * t1807));
+        let t1920 = t48 * t1391 - (t54 * t1382 - (t910 * t1137 - t1919));
+        let t1921 = t96 * t1472 - (t69 * t1436 - (t75 * t1427 - t1920));
+        let t1922 = t111 * t1526 - (t117 * t1517 - (t90 * t1481 - t1921));
+        let t1923 = t159 * t1607 - (t132 * t1571 - (t138 * t1562 - t1922));
+        let t1924 = t153 * t1616 - t1923;
+        coriolis_matrix_b[4][4] = t1924;
+        let t1925 = t910 * t1136 - (t28 * t1804 + (t1819 - t29 * t1802));
+        let t1926 = t48 * t1392 - (t54 * t1385 + (t939 * t1135 + t1925));
+        let t1927 = t96 * t1475 - (t69 * t1437 - (t75 * t1430 - t1926));
+        let t1928 = t111 * t1527 - (t117 * t1520 - (t90 * t1482 - t1927));
+        let t1929 = t159 * t1610 - (t132 * t1572 - (t138 * t1565 - t1928));
+        let t1930 = t153 * t1617 - t1929;
+        coriolis_matrix_b[4][5] = t1930;
+        let t1931 = t946 * t1137 + (t29 * t1827 - (t1831 - t30 * t1825));
+        let t1932 = t51 * t1375 - (t48 * t1386 - (t968 * t1136 - t1931));
+        let t1933 = t90 * t1476 - (t72 * t1420 - (t69 * t1431 - t1932));
+        let t1934 = t114 * t1510 - (t111 * t1521 - (t93 * t1465 - t1933));
+        let t1935 = t153 * t1611 - (t135 * t1555 - (t132 * t1566 - t1934));
+        let t1936 = t156 * t1600 - t1935;
+        coriolis_matrix_b[5][3] = t1936;
+        let t1937 = t968 * t1135 + (t30 * t1822 + (t1835 - t28 * t1827));
+        let t1938 = t51 * t1382 - (t48 * t1387 - (t917 * t1137 - t1937));
+        let t1939 = t90 * t1477 - (t72 * t1427 - (t69 * t1432 - t1938));
+        let t1940 = t114 * t1517 - (t111 * t1522 - (t93 * t1472 - t1939));
+        let t1941 = t153 * t1612 - (t135 * t1562 - (t132 * t1567 - t1940));
+        let t1942 = t156 * t1607 - t1941;
+        coriolis_matrix_b[5][4] = t1942;
+        let t1943 = t917 * t1136 - (t28 * t1825 + (t1839 + t29 * t1822));
+        let t1944 = t51 * t1385 - (t48 * t1389 - (t946 * t1135 - t1943));
+        let t1945 = t90 * t1479 - (t72 * t1430 - (t69 * t1434 - t1944));
+        let t1946 = t114 * t1520 - (t111 * t1524 - (t93 * t1475 - t1945));
+        let t1947 = t153 * t1614 - (t135 * t1565 - (t132 * t1569 - t1946));
+        let t1948 = t156 * t1610 - t1947;
+        coriolis_matrix_b[5][5] = t1948;
+        coriolis_matrix_b[0][3] = -t1871;
+        coriolis_matrix_b[0][4] = -t1874;
+        coriolis_matrix_b[0][5] = -t1877;
+        coriolis_matrix_b[1][3] = -t1880;
+        coriolis_matrix_b[1][5] = -t1886;
+        coriolis_matrix_b[2][3] = -t1889;
+        coriolis_matrix_b[2][4] = -t1892;
+        coriolis_matrix_b[2][5] = -t1894;
+        coriolis_matrix_b[4][3] = -t1918;
         // linearised stiffness K_p = J_dp^T k_e J_dp
-        let t1967 = parameters.axial_stiffness[0] * t263;
-        let t1968 = parameters.axial_stiffness[1] * t272;
-        let t1969 = parameters.axial_stiffness[2] * t281;
-        let t1970 = parameters.axial_stiffness[3] * t290;
-        let t1971 = parameters.axial_stiffness[4] * t299;
-        let t1972 = parameters.axial_stiffness[5] * t308;
-        let t1973 = parameters.axial_stiffness[0] * t265;
-        let t1974 = parameters.axial_stiffness[1] * t274;
-        let t1975 = parameters.axial_stiffness[2] * t283;
-        let t1976 = parameters.axial_stiffness[3] * t292;
-        let t1977 = parameters.axial_stiffness[4] * t301;
-        let t1978 = parameters.axial_stiffness[5] * t310;
-        let t1979 = parameters.axial_stiffness[0] * t267;
-        let t1980 = parameters.axial_stiffness[1] * t276;
-        let t1981 = parameters.axial_stiffness[2] * t285;
-        let t1982 = parameters.axial_stiffness[3] * t294;
-        let t1983 = parameters.axial_stiffness[4] * t303;
-        let t1984 = parameters.axial_stiffness[5] * t312;
-        let t1985 = t290 * t1970 + (t281 * t1969 + (t263 * t1967 + t272 * t1968));
-        let t1986 = t308 * t1972 + (t299 * t1971 + t1985);
-        stiffness_matrix_p[0][0] = t1986;
-        stiffness_matrix_b[0][0] = t1986;
-        let t1987 = t290 * t1976 + (t281 * t1975 + (t263 * t1973 + t272 * t1974));
-        let t1988 = t308 * t1978 + (t299 * t1977 + t1987);
-        stiffness_matrix_p[0][1] = t1988;
-        stiffness_matrix_p[1][0] = t1988;
-        stiffness_matrix_b[0][1] = t1988;
-        let t1989 = t290 * t1982 + (t281 * t1981 + (t263 * t1979 + t272 * t1980));
-        let t1990 = t308 * t1984 + (t299 * t1983 + t1989);
-        stiffness_matrix_p[0][2] = t1990;
-        stiffness_matrix_p[2][0] = t1990;
-        stiffness_matrix_b[0][2] = t1990;
-        let t1991 = parameters.axial_stiffness[5] * t343;
-        let t1992 = parameters.axial_stiffness[4] * t337;
-        let t1993 = parameters.axial_stiffness[3] * t331;
-        let t1994 = parameters.axial_stiffness[2] * t325;
-        let t1995 = parameters.axial_stiffness[0] * t313;
-        let t1996 = parameters.axial_stiffness[1] * t319;
-        let t1997 = t290 * t1993 + (t281 * t1994 + (t263 * t1995 + t272 * t1996));
-        let t1998 = t308 * t1991 + (t299 * t1992 + t1997);
-        stiffness_matrix_p[0][3] = t1998;
-        stiffness_matrix_p[3][0] = t1998;
-        let t1999 = parameters.axial_stiffness[5] * t344;
-        let t2000 = parameters.axial_stiffness[4] * t338;
-        let t2001 = parameters.axial_stiffness[3] * t332;
-        let t2002 = parameters.axial_stiffness[2] * t326;
-        let t2003 = parameters.axial_stiffness[0] * t314;
-        let t2004 = parameters.axial_stiffness[1] * t320;
-        let t2005 = t290 * t2001 + (t281 * t2002 + (t263 * t2003 + t272 * t2004));
-        let t2006 = t308 * t1999 + (t299 * t2000 + t2005);
-        stiffness_matrix_p[0][4] = t2006;
-        stiffness_matrix_p[4][0] = t2006;
-        let t2007 = parameters.axial_stiffness[5] * t345;
-        let t2008 = parameters.axial_stiffness[4] * t339;
-        let t2009 = parameters.axial_stiffness[3] * t333;
-        let t2010 = parameters.axial_stiffness[2] * t327;
-        let t2011 = parameters.axial_stiffness[0] * t315;
-        let t2012 = parameters.axial_stiffness[1] * t321;
-        let t2013 = t290 * t2009 + (t281 * t2010 + (t263 * t2011 + t272 * t2012));
-        let t2014 = t308 * t2007 + (t299 * t2008 + t2013);
-        stiffness_matrix_p[0][5] = t2014;
-        stiffness_matrix_p[5][0] = t2014;
-        let t2015 = t292 * t1976 + (t283 * t1975 + (t265 * t1973 + t274 * t1974));
-        let t2016 = t310 * t1978 + (t301 * t1977 + t2015);
-        stiffness_matrix_p[1][1] = t2016;
-        stiffness_matrix_b[1][1] = t2016;
-        let t2017 = t292 * t1982 + (t283 * t1981 + (t265 * t1979 + t274 * t1980));
-        let t2018 = t310 * t1984 + (t301 * t1983 + t2017);
-        stiffness_matrix_p[1][2] = t2018;
-        stiffness_matrix_p[2][1] = t2018;
-        stiffness_matrix_b[1][2] = t2018;
-        let t2019 = t292 * t1993 + (t283 * t1994 + (t265 * t1995 + t274 * t1996));
-        let t2020 = t310 * t1991 + (t301 * t1992 + t2019);
-        stiffness_matrix_p[1][3] = t2020;
-        stiffness_matrix_p[3][1] = t2020;
-        let t2021 = t292 * t2001 + (t283 * t2002 + (t265 * t2003 + t274 * t2004));
-        let t2022 = t310 * t1999 + (t301 * t2000 + t2021);
-        stiffness_matrix_p[1][4] = t2022;
-        stiffness_matrix_p[4][1] = t2022;
-        let t2023 = t292 * t2009 + (t283 * t2010 + (t265 * t2011 + t274 * t2012));
-        let t2024 = t310 * t2007 + (t301 * t2008 + t2023);
-        stiffness_matrix_p[1][5] = t2024;
-        stiffness_matrix_p[5][1] = t2024;
-        let t2025 = t294 * t1982 + (t285 * t1981 + (t267 * t1979 + t276 * t1980));
-        let t2026 = t312 * t1984 + (t303 * t1983 + t2025);
-        stiffness_matrix_p[2][2] = t2026;
-        stiffness_matrix_b[2][2] = t2026;
-        let t2027 = t294 * t1993 + (t285 * t1994 + (t267 * t1995 + t276 * t1996));
-        let t2028 = t312 * t1991 + (t303 * t1992 + t2027);
-        stiffness_matrix_p[2][3] = t2028;
-        stiffness_matrix_p[3][2] = t2028;
-        let t2029 = t294 * t2001 + (t285 * t2002 + (t267 * t2003 + t276 * t2004));
-        let t2030 = t312 * t1999 + (t303 * t2000 + t2029);
-        stiffness_matrix_p[2][4] = t2030;
-        stiffness_matrix_p[4][2] = t2030;
-        let t2031 = t294 * t2009 + (t285 * t2010 + (t267 * t2011 + t276 * t2012));
-        let t2032 = t312 * t2007 + (t303 * t2008 + t2031);
-        stiffness_matrix_p[2][5] = t2032;
-        stiffness_matrix_p[5][2] = t2032;
-        let t2033 = t331 * t1993 + (t325 * t1994 + (t313 * t1995 + t319 * t1996));
-        stiffness_matrix_p[3][3] = t343 * t1991 + (t337 * t1992 + t2033);
-        let t2034 = t331 * t2001 + (t325 * t2002 + (t313 * t2003 + t319 * t2004));
-        let t2035 = t343 * t1999 + (t337 * t2000 + t2034);
-        stiffness_matrix_p[3][4] = t2035;
-        stiffness_matrix_p[4][3] = t2035;
-        let t2036 = t331 * t2009 + (t325 * t2010 + (t313 * t2011 + t319 * t2012));
-        let t2037 = t343 * t2007 + (t337 * t2008 + t2036);
-        stiffness_matrix_p[3][5] = t2037;
-        stiffness_matrix_p[5][3] = t2037;
-        let t2038 = t332 * t2001 + (t326 * t2002 + (t314 * t2003 + t320 * t2004));
-        stiffness_matrix_p[4][4] = t344 * t1999 + (t338 * t2000 + t2038);
-        let t2039 = t332 * t2009 + (t326 * t2010 + (t314 * t2011 + t320 * t2012));
-        let t2040 = t344 * t2007 + (t338 * t2008 + t2039);
-        stiffness_matrix_p[4][5] = t2040;
-        stiffness_matrix_p[5][4] = t2040;
-        let t2041 = t333 * t2009 + (t327 * t2010 + (t315 * t2011 + t321 * t2012));
-        stiffness_matrix_p[5][5] = t345 * t2007 + (t339 * t2008 + t2041);
+        let t1949 = parameters.axial_stiffness[0] * t263;
+        let t1950 = parameters.axial_stiffness[1] * t272;
+        let t1951 = parameters.axial_stiffness[2] * t281;
+        let t1952 = parameters.axial_stiffness[3] * t290;
+        let t1953 = parameters.axial_stiffness[4] * t299;
+        let t1954 = parameters.axial_stiffness[5] * t308;
+        let t1955 = parameters.axial_stiffness[0] * t265;
+        let t1956 = parameters.axial_stiffness[1] * t274;
+        let t1957 = parameters.axial_stiffness[2] * t283;
+        let t1958 = parameters.axial_stiffness[3] * t292;
+        let t1959 = parameters.axial_stiffness[4] * t301;
+        let t1960 = parameters.axial_stiffness[5] * t310;
+        let t1961 = parameters.axial_stiffness[0] * t267;
+        let t1962 = parameters.axial_stiffness[1] * t276;
+        let t1963 = parameters.axial_stiffness[2] * t285;
+        let t1964 = parameters.axial_stiffness[3] * t294;
+        let t1965 = parameters.axial_stiffness[4] * t303;
+        let t1966 = parameters.axial_stiffness[5] * t312;
+        let t1967 = t290 * t1952 + (t281 * t1951 + (t263 * t1949 + t272 * t1950));
+        let t1968 = t308 * t1954 + (t299 * t1953 + t1967);
+        stiffness_matrix_p[0][0] = t1968;
+        stiffness_matrix_b[0][0] = t1968;
+        let t1969 = t290 * t1958 + (t281 * t1957 + (t263 * t1955 + t272 * t1956));
+        let t1970 = t308 * t1960 + (t299 * t1959 + t1969);
+        stiffness_matrix_p[0][1] = t1970;
+        stiffness_matrix_p[1][0] = t1970;
+        stiffness_matrix_b[0][1] = t1970;
+        let t1971 = t290 * t1964 + (t281 * t1963 + (t263 * t1961 + t272 * t1962));
+        let t1972 = t308 * t1966 + (t299 * t1965 + t1971);
+        stiffness_matrix_p[0][2] = t1972;
+        stiffness_matrix_p[2][0] = t1972;
+        stiffness_matrix_b[0][2] = t1972;
+        let t1973 = parameters.axial_stiffness[5] * t343;
+        let t1974 = parameters.axial_stiffness[4] * t337;
+        let t1975 = parameters.axial_stiffness[3] * t331;
+        let t1976 = parameters.axial_stiffness[2] * t325;
+        let t1977 = parameters.axial_stiffness[0] * t313;
+        let t1978 = parameters.axial_stiffness[1] * t319;
+        let t1979 = t290 * t1975 + (t281 * t1976 + (t263 * t1977 + t272 * t1978));
+        let t1980 = t308 * t1973 + (t299 * t1974 + t1979);
+        stiffness_matrix_p[0][3] = t1980;
+        stiffness_matrix_p[3][0] = t1980;
+        let t1981 = parameters.axial_stiffness[5] * t344;
+        let t1982 = parameters.axial_stiffness[4] * t338;
+        let t1983 = parameters.axial_stiffness[3] * t332;
+        let t1984 = parameters.axial_stiffness[2] * t326;
+        let t1985 = parameters.axial_stiffness[0] * t314;
+        let t1986 = parameters.axial_stiffness[1] * t320;
+        let t1987 = t290 * t1983 + (t281 * t1984 + (t263 * t1985 + t272 * t1986));
+        let t1988 = t308 * t1981 + (t299 * t1982 + t1987);
+        stiffness_matrix_p[0][4] = t1988;
+        stiffness_matrix_p[4][0] = t1988;
+        let t1989 = parameters.axial_stiffness[5] * t345;
+        let t1990 = parameters.axial_stiffness[4] * t339;
+        let t1991 = parameters.axial_stiffness[3] * t333;
+        let t1992 = parameters.axial_stiffness[2] * t327;
+        let t1993 = parameters.axial_stiffness[0] * t315;
+        let t1994 = parameters.axial_stiffness[1] * t321;
+        let t1995 = t290 * t1991 + (t281 * t1992 + (t263 * t1993 + t272 * t1994));
+        let t1996 = t308 * t1989 + (t299 * t1990 + t1995);
+        stiffness_matrix_p[0][5] = t1996;
+        stiffness_matrix_p[5][0] = t1996;
+        let t1997 = t292 * t1958 + (t283 * t1957 + (t265 * t1955 + t274 * t1956));
+        let t1998 = t310 * t1960 + (t301 * t1959 + t1997);
+        stiffness_matrix_p[1][1] = t1998;
+        stiffness_matrix_b[1][1] = t1998;
+        let t1999 = t292 * t1964 + (t283 * t1963 + (t265 * t1961 + t274 * t1962));
+        let t2000 = t310 * t1966 + (t301 * t1965 + t1999);
+        stiffness_matrix_p[1][2] = t2000;
+        stiffness_matrix_p[2][1] = t2000;
+        stiffness_matrix_b[1][2] = t2000;
+        let t2001 = t292 * t1975 + (t283 * t1976 + (t265 * t1977 + t274 * t1978));
+        let t2002 = t310 * t1973 + (t301 * t1974 + t2001);
+        stiffness_matrix_p[1][3] = t2002;
+        stiffness_matrix_p[3][1] = t2002;
+        let t2003 = t292 * t1983 + (t283 * t1984 + (t265 * t1985 + t274 * t1986));
+        let t2004 = t310 * t1981 + (t301 * t1982 + t2003);
+        stiffness_matrix_p[1][4] = t2004;
+        stiffness_matrix_p[4][1] = t2004;
+        let t2005 = t292 * t1991 + (t283 * t1992 + (t265 * t1993 + t274 * t1994));
+        let t2006 = t310 * t1989 + (t301 * t1990 + t2005);
+        stiffness_matrix_p[1][5] = t2006;
+        stiffness_matrix_p[5][1] = t2006;
+        let t2007 = t294 * t1964 + (t285 * t1963 + (t267 * t1961 + t276 * t1962));
+        let t2008 = t312 * t1966 + (t303 * t1965 + t2007);
+        stiffness_matrix_p[2][2] = t2008;
+        stiffness_matrix_b[2][2] = t2008;
+        let t2009 = t294 * t1975 + (t285 * t1976 + (t267 * t1977 + t276 * t1978));
+        let t2010 = t312 * t1973 + (t303 * t1974 + t2009);
+        stiffness_matrix_p[2][3] = t2010;
+        stiffness_matrix_p[3][2] = t2010;
+        let t2011 = t294 * t1983 + (t285 * t1984 + (t267 * t1985 + t276 * t1986));
+        let t2012 = t312 * t1981 + (t303 * t1982 + t2011);
+        stiffness_matrix_p[2][4] = t2012;
+        stiffness_matrix_p[4][2] = t2012;
+        let t2013 = t294 * t1991 + (t285 * t1992 + (t267 * t1993 + t276 * t1994));
+        let t2014 = t312 * t1989 + (t303 * t1990 + t2013);
+        stiffness_matrix_p[2][5] = t2014;
+        stiffness_matrix_p[5][2] = t2014;
+        let t2015 = t331 * t1975 + (t325 * t1976 + (t313 * t1977 + t319 * t1978));
+        stiffness_matrix_p[3][3] = t343 * t1973 + (t337 * t1974 + t2015);
+        let t2016 = t331 * t1983 + (t325 * t1984 + (t313 * t1985 + t319 * t1986));
+        let t2017 = t343 * t1981 + (t337 * t1982 + t2016);
+        stiffness_matrix_p[3][4] = t2017;
+        stiffness_matrix_p[4][3] = t2017;
+        let t2018 = t331 * t1991 + (t325 * t1992 + (t313 * t1993 + t319 * t1994));
+        let t2019 = t343 * t1989 + (t337 * t1990 + t2018);
+        stiffness_matrix_p[3][5] = t2019;
+        stiffness_matrix_p[5][3] = t2019;
+        let t2020 = t332 * t1983 + (t326 * t1984 + (t314 * t1985 + t320 * t1986));
+        stiffness_matrix_p[4][4] = t344 * t1981 + (t338 * t1982 + t2020);
+        let t2021 = t332 * t1991 + (t326 * t1992 + (t314 * t1993 + t320 * t1994));
+        let t2022 = t344 * t1989 + (t338 * t1990 + t2021);
+        stiffness_matrix_p[4][5] = t2022;
+        stiffness_matrix_p[5][4] = t2022;
+        let t2023 = t333 * t1991 + (t327 * t1992 + (t315 * t1993 + t321 * t1994));
+        stiffness_matrix_p[5][5] = t345 * t1989 + (t339 * t1990 + t2023);
         // linearised stiffness K_b = J_dp^T k_e J_db
-        let t2042 = parameters.axial_stiffness[5] * t346;
-        let t2043 = parameters.axial_stiffness[4] * t340;
-        let t2044 = parameters.axial_stiffness[3] * t334;
-        let t2045 = parameters.axial_stiffness[2] * t328;
-        let t2046 = parameters.axial_stiffness[0] * t316;
-        let t2047 = parameters.axial_stiffness[1] * t322;
-        let t2048 = t290 * t2044 + (t281 * t2045 + (t263 * t2046 + t272 * t2047));
-        stiffness_matrix_b[0][3] = -(t308 * t2042 + (t299 * t2043 + t2048));
-        let t2049 = parameters.axial_stiffness[5] * t347;
-        let t2050 = parameters.axial_stiffness[4] * t341;
-        let t2051 = parameters.axial_stiffness[3] * t335;
-        let t2052 = parameters.axial_stiffness[2] * t329;
-        let t2053 = parameters.axial_stiffness[0] * t317;
-        let t2054 = parameters.axial_stiffness[1] * t323;
-        let t2055 = t290 * t2051 + (t281 * t2052 + (t263 * t2053 + t272 * t2054));
-        stiffness_matrix_b[0][4] = -(t308 * t2049 + (t299 * t2050 + t2055));
-        let t2056 = parameters.axial_stiffness[5] * t348;
-        let t2057 = parameters.axial_stiffness[4] * t342;
-        let t2058 = parameters.axial_stiffness[3] * t336;
-        let t2059 = parameters.axial_stiffness[2] * t330;
-        let t2060 = parameters.axial_stiffness[0] * t318;
-        let t2061 = parameters.axial_stiffness[1] * t324;
-        let t2062 = t290 * t2058 + (t281 * t2059 + (t263 * t2060 + t272 * t2061));
-        stiffness_matrix_b[0][5] = -(t308 * t2056 + (t299 * t2057 + t2062));
-        let t2063 = t292 * t1970 + (t283 * t1969 + (t265 * t1967 + t274 * t1968));
-        stiffness_matrix_b[1][0] = t310 * t1972 + (t301 * t1971 + t2063);
-        let t2064 = t292 * t2044 + (t283 * t2045 + (t265 * t2046 + t274 * t2047));
-        stiffness_matrix_b[1][3] = -(t310 * t2042 + (t301 * t2043 + t2064));
-        let t2065 = t292 * t2051 + (t283 * t2052 + (t265 * t2053 + t274 * t2054));
-        stiffness_matrix_b[1][4] = -(t310 * t2049 + (t301 * t2050 + t2065));
-        let t2066 = t292 * t2058 + (t283 * t2059 + (t265 * t2060 + t274 * t2061));
-        stiffness_matrix_b[1][5] = -(t310 * t2056 + (t301 * t2057 + t2066));
-        let t2067 = t294 * t1970 + (t285 * t1969 + (t267 * t1967 + t276 * t1968));
-        stiffness_matrix_b[2][0] = t312 * t1972 + (t303 * t1971 + t2067);
-        let t2068 = t294 * t1976 + (t285 * t1975 + (t267 * t1973 + t276 * t1974));
-        stiffness_matrix_b[2][1] = t312 * t1978 + (t303 * t1977 + t2068);
-        let t2069 = t294 * t2044 + (t285 * t2045 + (t267 * t2046 + t276 * t2047));
-        stiffness_matrix_b[2][3] = -(t312 * t2042 + (t303 * t2043 + t2069));
-        let t2070 = t294 * t2051 + (t285 * t2052 + (t267 * t2053 + t276 * t2054));
-        stiffness_matrix_b[2][4] = -(t312 * t2049 + (t303 * t2050 + t2070));
-        let t2071 = t294 * t2058 + (t285 * t2059 + (t267 * t2060 + t276 * t2061));
-        stiffness_matrix_b[2][5] = -(t312 * t2056 + (t303 * t2057 + t2071));
-        let t2072 = t331 * t1970 + (t325 * t1969 + (t313 * t1967 + t319 * t1968));
-        stiffness_matrix_b[3][0] = t343 * t1972 + (t337 * t1971 + t2072);
-        let t2073 = t331 * t1976 + (t325 * t1975 + (t313 * t1973 + t319 * t1974));
-        stiffness_matrix_b[3][1] = t343 * t1978 + (t337 * t1977 + t2073);
-        let t2074 = t331 * t1982 + (t325 * t1981 + (t313 * t1979 + t319 * t1980));
-        stiffness_matrix_b[3][2] = t343 * t1984 + (t337 * t1983 + t2074);
-        let t2075 = t331 * t2044 + (t325 * t2045 + (t313 * t2046 + t319 * t2047));
-        stiffness_matrix_b[3][3] = -(t343 * t2042 + (t337 * t2043 + t2075));
-        let t2076 = t331 * t2051 + (t325 * t2052 + (t313 * t2053 + t319 * t2054));
-        stiffness_matrix_b[3][4] = -(t343 * t2049 + (t337 * t2050 + t2076));
-        let t2077 = t331 * t2058 + (t325 * t2059 + (t313 * t2060 + t319 * t2061));
-        stiffness_matrix_b[3][5] = -(t343 * t2056 + (t337 * t2057 + t2077));
-        let t2078 = t332 * t1970 + (t326 * t1969 + (t314 * t1967 + t320 * t1968));
-        stiffness_matrix_b[4][0] = t344 * t1972 + (t338 * t1971 + t2078);
-        let t2079 = t332 * t1976 + (t326 * t1975 + (t314 * t1973 + t320 * t1974));
-        stiffness_matrix_b[4][1] = t344 * t1978 + (t338 * t1977 + t2079);
-        let t2080 = t332 * t1982 + (t326 * t1981 + (t314 * t1979 + t320 * t1980));
-        stiffness_matrix_b[4][2] = t344 * t1984 + (t338 * t1983 + t2080);
-        let t2081 = t332 * t2044 + (t326 * t2045 + (t314 * t2046 + t320 * t2047));
-        stiffness_matrix_b[4][3] = -(t344 * t2042 + (t338 * t2043 + t2081));
-        let t2082 = t332 * t2051 + (t326 * t2052 + (t314 * t2053 + t320 * t2054));
-        stiffness_matrix_b[4][4] = -(t344 * t2049 + (t338 * t2050 + t2082));
-        let t2083 = t332 * t2058 + (t326 * t2059 + (t314 * t2060 + t320 * t2061));
-        stiffness_matrix_b[4][5] = -(t344 * t2056 + (t338 * t2057 + t2083));
-        let t2084 = t333 * t1970 + (t327 * t1969 + (t315 * t1967 + t321 * t1968));
-        stiffness_matrix_b[5][0] = t345 * t1972 + (t339 * t1971 + t2084);
-        let t2085 = t333 * t1976 + (t327 * t1975 + (t315 * t1973 + t321 * t1974));
-        stiffness_matrix_b[5][1] = t345 * t1978 + (t339 * t1977 + t2085);
-        let t2086 = t333 * t1982 + (t327 * t1981 + (t315 * t1979 + t321 * t1980));
-        stiffness_matrix_b[5][2] = t345 * t1984 + (t339 * t1983 + t2086);
-        let t2087 = t333 * t2044 + (t327 * t2045 + (t315 * t2046 + t321 * t2047));
-        stiffness_matrix_b[5][3] = -(t345 * t2042 + (t339 * t2043 + t2087));
-        let t2088 = t333 * t2051 + (t327 * t2052 + (t315 * t2053 + t321 * t2054));
-        stiffness_matrix_b[5][4] = -(t345 * t2049 + (t339 * t2050 + t2088));
-        let t2089 = t333 * t2058 + (t327 * t2059 + (t315 * t2060 + t321 * t2061));
-        stiffness_matrix_b[5][5] = -(t345 * t2056 + (t339 * t2057 + t2089));
+        let t2024 = parameters.axial_stiffness[5] * t346;
+        let t2025 = parameters.axial_stiffness[4] * t340;
+        let t2026 = parameters.axial_stiffness[3] * t334;
+        let t2027 = parameters.axial_stiffness[2] * t328;
+        let t2028 = parameters.axial_stiffness[0] * t316;
+        let t2029 = parameters.axial_stiffness[1] * t322;
+        let t2030 = t290 * t2026 + (t281 * t2027 + (t263 * t2028 + t272 * t2029));
+        stiffness_matrix_b[0][3] = -(t308 * t2024 + (t299 * t2025 + t2030));
+        let t2031 = parameters.axial_stiffness[5] * t347;
+        let t2032 = parameters.axial_stiffness[4] * t341;
+        let t2033 = parameters.axial_stiffness[3] * t335;
+        let t2034 = parameters.axial_stiffness[2] * t329;
+        let t2035 = parameters.axial_stiffness[0] * t317;
+        let t2036 = parameters.axial_stiffness[1] * t323;
+        let t2037 = t290 * t2033 + (t281 * t2034 + (t263 * t2035 + t272 * t2036));
+        stiffness_matrix_b[0][4] = -(t308 * t2031 + (t299 * t2032 + t2037));
+        let t2038 = parameters.axial_stiffness[5] * t348;
+        let t2039 = parameters.axial_stiffness[4] * t342;
+        let t2040 = parameters.axial_stiffness[3] * t336;
+        let t2041 = parameters.axial_stiffness[2] * t330;
+        let t2042 = parameters.axial_stiffness[0] * t318;
+        let t2043 = parameters.axial_stiffness[1] * t324;
+        let t2044 = t290 * t2040 + (t281 * t2041 + (t263 * t2042 + t272 * t2043));
+        stiffness_matrix_b[0][5] = -(t308 * t2038 + (t299 * t2039 + t2044));
+        let t2045 = t292 * t1952 + (t283 * t1951 + (t265 * t1949 + t274 * t1950));
+        stiffness_matrix_b[1][0] = t310 * t1954 + (t301 * t1953 + t2045);
+        let t2046 = t292 * t2026 + (t283 * t2027 + (t265 * t2028 + t274 * t2029));
+        stiffness_matrix_b[1][3] = -(t310 * t2024 + (t301 * t2025 + t2046));
+        let t2047 = t292 * t2033 + (t283 * t2034 + (t265 * t2035 + t274 * t2036));
+        stiffness_matrix_b[1][4] = -(t310 * t2031 + (t301 * t2032 + t2047));
+        let t2048 = t292 * t2040 + (t283 * t2041 + (t265 * t2042 + t274 * t2043));
+        stiffness_matrix_b[1][5] = -(t310 * t2038 + (t301 * t2039 + t2048));
+        let t2049 = t294 * t1952 + (t285 * t1951 + (t267 * t1949 + t276 * t1950));
+        stiffness_matrix_b[2][0] = t312 * t1954 + (t303 * t1953 + t2049);
+        let t2050 = t294 * t1958 + (t285 * t1957 + (t267 * t1955 + t276 * t1956));
+        stiffness_matrix_b[2][1] = t312 * t1960 + (t303 * t1959 + t2050);
+        let t2051 = t294 * t2026 + (t285 * t2027 + (t267 * t2028 + t276 * t2029));
+        stiffness_matrix_b[2][3] = -(t312 * t2024 + (t303 * t2025 + t2051));
+        let t2052 = t294 * t2033 + (t285 * t2034 + (t267 * t2035 + t276 * t2036));
+        stiffness_matrix_b[2][4] = -(t312 * t2031 + (t303 * t2032 + t2052));
+        let t2053 = t294 * t2040 + (t285 * t2041 + (t267 * t2042 + t276 * t2043));
+        stiffness_matrix_b[2][5] = -(t312 * t2038 + (t303 * t2039 + t2053));
+        let t2054 = t331 * t1952 + (t325 * t1951 + (t313 * t1949 + t319 * t1950));
+        stiffness_matrix_b[3][0] = t343 * t1954 + (t337 * t1953 + t2054);
+        let t2055 = t331 * t1958 + (t325 * t1957 + (t313 * t1955 + t319 * t1956));
+        stiffness_matrix_b[3][1] = t343 * t1960 + (t337 * t1959 + t2055);
+        let t2056 = t331 * t1964 + (t325 * t1963 + (t313 * t1961 + t319 * t1962));
+        stiffness_matrix_b[3][2] = t343 * t1966 + (t337 * t1965 + t2056);
+        let t2057 = t331 * t2026 + (t325 * t2027 + (t313 * t2028 + t319 * t2029));
+        stiffness_matrix_b[3][3] = -(t343 * t2024 + (t337 * t2025 + t2057));
+        let t2058 = t331 * t2033 + (t325 * t2034 + (t313 * t2035 + t319 * t2036));
+        stiffness_matrix_b[3][4] = -(t343 * t2031 + (t337 * t2032 + t2058));
+        let t2059 = t331 * t2040 + (t325 * t2041 + (t313 * t2042 + t319 * t2043));
+        stiffness_matrix_b[3][5] = -(t343 * t2038 + (t337 * t2039 + t2059));
+        let t2060 = t332 * t1952 + (t326 * t1951 + (t314 * t1949 + t320 * t1950));
+        stiffness_matrix_b[4][0] = t344 * t1954 + (t338 * t1953 + t2060);
+        let t2061 = t332 * t1958 + (t326 * t1957 + (t314 * t1955 + t320 * t1956));
+        stiffness_matrix_b[4][1] = t344 * t1960 + (t338 * t1959 + t2061);
+        let t2062 = t332 * t1964 + (t326 * t1963 + (t314 * t1961 + t320 * t1962));
+        stiffness_matrix_b[4][2] = t344 * t1966 + (t338 * t1965 + t2062);
+        let t2063 = t332 * t2026 + (t326 * t2027 + (t314 * t2028 + t320 * t2029));
+        stiffness_matrix_b[4][3] = -(t344 * t2024 + (t338 * t2025 + t2063));
+        let t2064 = t332 * t2033 + (t326 * t2034 + (t314 * t2035 + t320 * t2036));
+        stiffness_matrix_b[4][4] = -(t344 * t2031 + (t338 * t2032 + t2064));
+        let t2065 = t332 * t2040 + (t326 * t2041 + (t314 * t2042 + t320 * t2043));
+        stiffness_matrix_b[4][5] = -(t344 * t2038 + (t338 * t2039 + t2065));
+        let t2066 = t333 * t1952 + (t327 * t1951 + (t315 * t1949 + t321 * t1950));
+        stiffness_matrix_b[5][0] = t345 * t1954 + (t339 * t1953 + t2066);
+        let t2067 = t333 * t1958 + (t327 * t1957 + (t315 * t1955 + t321 * t1956));
+        stiffness_matrix_b[5][1] = t345 * t1960 + (t339 * t1959 + t2067);
+        let t2068 = t333 * t1964 + (t327 * t1963 + (t315 * t1961 + t321 * t1962));
+        stiffness_matrix_b[5][2] = t345 * t1966 + (t339 * t1965 + t2068);
+        let t2069 = t333 * t2026 + (t327 * t2027 + (t315 * t2028 + t321 * t2029));
+        stiffness_matrix_b[5][3] = -(t345 * t2024 + (t339 * t2025 + t2069));
+        let t2070 = t333 * t2033 + (t327 * t2034 + (t315 * t2035 + t321 * t2036));
+        stiffness_matrix_b[5][4] = -(t345 * t2031 + (t339 * t2032 + t2070));
+        let t2071 = t333 * t2040 + (t327 * t2041 + (t315 * t2042 + t321 * t2043));
+        stiffness_matrix_b[5][5] = -(t345 * t2038 + (t339 * t2039 + t2071));
         // leg 1: weight of the leg along the actuator
-        let t2090 = parameters.gravity[0] * t476 + parameters.gravity[1] * t483;
-        let t2091 = parameters.gravity[2] * t489 + t2090;
-        let t2092 = (parameters.mover_mass[0] - t350) * t2091;
+        let t2072 = parameters.gravity[0] * t476 + parameters.gravity[1] * t483;
+        let t2073 = parameters.gravity[2] * t489 + t2072;
+        let t2074 = (parameters.mover_mass[0] - t350) * t2073;
         // leg 1: remaining weight of the leg at the platform joint
-        let t2093 = parameters.gravity[0] * t353;
-        let t2094 = parameters.gravity[1] * t353;
-        let t2095 = parameters.gravity[2] * t353;
+        let t2075 = parameters.gravity[0] * t353;
+        let t2076 = parameters.gravity[1] * t353;
+        let t2077 = parameters.gravity[2] * t353;
         // leg 2: weight of the leg along the actuator
-        let t2096 = parameters.gravity[0] * t545 + parameters.gravity[1] * t552;
-        let t2097 = parameters.gravity[2] * t558 + t2096;
-        let t2098 = (parameters.mover_mass[1] - t357) * t2097;
+        let t2078 = parameters.gravity[0] * t545 + parameters.gravity[1] * t552;
+        let t2079 = parameters.gravity[2] * t558 + t2078;
+        let t2080 = (parameters.mover_mass[1] - t357) * t2079;
         // leg 2: remaining weight of the leg at the platform joint
-        let t2099 = parameters.gravity[0] * t360;
-        let t2100 = parameters.gravity[1] * t360;
-        let t2101 = parameters.gravity[2] * t360;
+        let t2081 = parameters.gravity[0] * t360;
+        let t2082 = parameters.gravity[1] * t360;
+        let t2083 = parameters.gravity[2] * t360;
         // leg 3: weight of the leg along the actuator
-        let t2102 = parameters.gravity[0] * t614 + parameters.gravity[1] * t621;
-        let t2103 = parameters.gravity[2] * t627 + t2102;
-        let t2104 = (parameters.mover_mass[2] - t364) * t2103;
+        let t2084 = parameters.gravity[0] * t614 + parameters.gravity[1] * t621;
+        let t2085 = parameters.gravity[2] * t627 + t2084;
+        let t2086 = (parameters.mover_mass[2] - t364) * t2085;
         // leg 3: remaining weight of the leg at the platform joint
-        let t2105 = parameters.gravity[0] * t367;
-        let t2106 = parameters.gravity[1] * t367;
-        let t2107 = parameters.gravity[2] * t367;
+        let t2087 = parameters.gravity[0] * t367;
+        let t2088 = parameters.gravity[1] * t367;
+        let t2089 = parameters.gravity[2] * t367;
         // leg 4: weight of the leg along the actuator
-        let t2108 = parameters.gravity[0] * t683 + parameters.gravity[1] * t690;
-        let t2109 = parameters.gravity[2] * t696 + t2108;
-        let t2110 = (parameters.mover_mass[3] - t371) * t2109;
+        let t2090 = parameters.gravity[0] * t683 + parameters.gravity[1] * t690;
+        let t2091 = parameters.gravity[2] * t696 + t2090;
+        let t2092 = (parameters.mover_mass[3] - t371) * t2091;
         // leg 4: remaining weight of the leg at the platform joint
-        let t2111 = parameters.gravity[0] * t374;
-        let t2112 = parameters.gravity[1] * t374;
-        let t2113 = parameters.gravity[2] * t374;
+        let t2093 = parameters.gravity[0] * t374;
+        let t2094 = parameters.gravity[1] * t374;
+        let t2095 = parameters.gravity[2] * t374;
         // leg 5: weight of the leg along the actuator
-        let t2114 = parameters.gravity[0] * t752 + parameters.gravity[1] * t759;
-        let t2115 = parameters.gravity[2] * t765 + t2114;
-        let t2116 = (parameters.mover_mass[4] - t378) * t2115;
+        let t2096 = parameters.gravity[0] * t752 + parameters.gravity[1] * t759;
+        let t2097 = parameters.gravity[2] * t765 + t2096;
+        let t2098 = (parameters.mover_mass[4] - t378) * t2097;
         // leg 5: remaining weight of the leg at the platform joint
-        let t2117 = parameters.gravity[0] * t381;
-        let t2118 = parameters.gravity[1] * t381;
-        let t2119 = parameters.gravity[2] * t381;
+        let t2099 = parameters.gravity[0] * t381;
+        let t2100 = parameters.gravity[1] * t381;
+        let t2101 = parameters.gravity[2] * t381;
         // leg 6: weight of the leg along the actuator
-        let t2120 = parameters.gravity[0] * t821 + parameters.gravity[1] * t828;
-        let t2121 = parameters.gravity[2] * t834 + t2120;
-        let t2122 = (parameters.mover_mass[5] - t385) * t2121;
+        let t2102 = parameters.gravity[0] * t821 + parameters.gravity[1] * t828;
+        let t2103 = parameters.gravity[2] * t834 + t2102;
+        let t2104 = (parameters.mover_mass[5] - t385) * t2103;
         // leg 6: remaining weight of the leg at the platform joint
-        let t2123 = parameters.gravity[0] * t388;
-        let t2124 = parameters.gravity[1] * t388;
-        let t2125 = parameters.gravity[2] * t388;
+        let t2105 = parameters.gravity[0] * t388;
+        let t2106 = parameters.gravity[1] * t388;
+        let t2107 = parameters.gravity[2] * t388;
         // generalised spring force J_dp^T k_e (d - d0), left side
-        let t2126 = parameters.axial_stiffness[5] * (parameters.rest_length[5] - t222);
-        let t2127 = parameters.axial_stiffness[4] * (parameters.rest_length[4] - t212);
-        let t2128 = parameters.axial_stiffness[3] * (parameters.rest_length[3] - t202);
-        let t2129 = parameters.axial_stiffness[2] * (parameters.rest_length[2] - t192);
-        let t2130 = parameters.axial_stiffness[0] * (parameters.rest_length[0] - t172);
-        let t2131 = parameters.axial_stiffness[1] * (parameters.rest_length[1] - t182);
+        let t2108 = parameters.axial_stiffness[5] * (parameters.rest_length[5] - t222);
+        let t2109 = parameters.axial_stiffness[4] * (parameters.rest_length[4] - t212);
+        let t2110 = parameters.axial_stiffness[3] * (parameters.rest_length[3] - t202);
+        let t2111 = parameters.axial_stiffness[2] * (parameters.rest_length[2] - t192);
+        let t2112 = parameters.axial_stiffness[0] * (parameters.rest_length[0] - t172);
+        let t2113 = parameters.axial_stiffness[1] * (parameters.rest_length[1] - t182);
+        let t2114 = t290 * t2110 + (t281 * t2111 + (t263 * t2112 + t272 * t2113));
+        let t2115 = t308 * t2108 + (t299 * t2109 + t2114);
+        let t2116 = t292 * t2110 + (t283 * t2111 + (t265 * t2112 + t274 * t2113));
+        let t2117 = t310 * t2108 + (t301 * t2109 + t2116);
+        let t2118 = t294 * t2110 + (t285 * t2111 + (t267 * t2112 + t276 * t2113));
+        let t2119 = t312 * t2108 + (t303 * t2109 + t2118);
+        let t2120 = t331 * t2110 + (t325 * t2111 + (t313 * t2112 + t319 * t2113));
+        let t2121 = t343 * t2108 + (t337 * t2109 + t2120);
+        let t2122 = t332 * t2110 + (t326 * t2111 + (t314 * t2112 + t320 * t2113));
+        let t2123 = t344 * t2108 + (t338 * t2109 + t2122);
+        let t2124 = t333 * t2110 + (t327 * t2111 + (t315 * t2112 + t321 * t2113));
+        let t2125 = t345 * t2108 + (t339 * t2109 + t2124);
+        spring_force[0] = -t2115;
+        spring_force[1] = -t2117;
+        spring_force[2] = -t2119;
+        spring_force[3] = -t2121;
+        spring_force[4] = -t2123;
+        spring_force[5] = -t2125;
+        // generalised damping force J_dp^T c_e d', left side
+        let t2126 = parameters.axial_damping[5] * t1257;
+        let t2127 = parameters.axial_damping[4] * t1249;
+        let t2128 = parameters.axial_damping[3] * t1241;
+        let t2129 = parameters.axial_damping[2] * t1233;
+        let t2130 = parameters.axial_damping[0] * t1217;
+        let t2131 = parameters.axial_damping[1] * t1225;
         let t2132 = t290 * t2128 + (t281 * t2129 + (t263 * t2130 + t272 * t2131));
         let t2133 = t308 * t2126 + (t299 * t2127 + t2132);
+        damping_force[0] = t2133;
         let t2134 = t292 * t2128 + (t283 * t2129 + (t265 * t2130 + t274 * t2131));
         let t2135 = t310 * t2126 + (t301 * t2127 + t2134);
+        damping_force[1] = t2135;
         let t2136 = t294 * t2128 + (t285 * t2129 + (t267 * t2130 + t276 * t2131));
         let t2137 = t312 * t2126 + (t303 * t2127 + t2136);
+        damping_force[2] = t2137;
         let t2138 = t331 * t2128 + (t325 * t2129 + (t313 * t2130 + t319 * t2131));
         let t2139 = t343 * t2126 + (t337 * t2127 + t2138);
+        damping_force[3] = t2139;
         let t2140 = t332 * t2128 + (t326 * t2129 + (t314 * t2130 + t320 * t2131));
         let t2141 = t344 * t2126 + (t338 * t2127 + t2140);
+        damping_force[4] = t2141;
         let t2142 = t333 * t2128 + (t327 * t2129 + (t315 * t2130 + t321 * t2131));
         let t2143 = t345 * t2126 + (t339 * t2127 + t2142);
-        spring_force[0] = -t2133;
-        spring_force[1] = -t2135;
-        spring_force[2] = -t2137;
-        spring_force[3] = -t2139;
-        spring_force[4] = -t2141;
-        spring_force[5] = -t2143;
-        // generalised damping force J_dp^T c_e d', left side
-        let t2144 = parameters.axial_damping[5] * t1257;
-        let t2145 = parameters.axial_damping[4] * t1249;
-        let t2146 = parameters.axial_damping[3] * t1241;
-        let t2147 = parameters.axial_damping[2] * t1233;
-        let t2148 = parameters.axial_damping[0] * t1217;
-        let t2149 = parameters.axial_damping[1] * t1225;
-        let t2150 = t290 * t2146 + (t281 * t2147 + (t263 * t2148 + t272 * t2149));
-        let t2151 = t308 * t2144 + (t299 * t2145 + t2150);
-        damping_force[0] = t2151;
-        let t2152 = t292 * t2146 + (t283 * t2147 + (t265 * t2148 + t274 * t2149));
-        let t2153 = t310 * t2144 + (t301 * t2145 + t2152);
-        damping_force[1] = t2153;
-        let t2154 = t294 * t2146 + (t285 * t2147 + (t267 * t2148 + t276 * t2149));
-        let t2155 = t312 * t2144 + (t303 * t2145 + t2154);
-        damping_force[2] = t2155;
-        let t2156 = t331 * t2146 + (t325 * t2147 + (t313 * t2148 + t319 * t2149));
-        let t2157 = t343 * t2144 + (t337 * t2145 + t2156);
-        damping_force[3] = t2157;
-        let t2158 = t332 * t2146 + (t326 * t2147 + (t314 * t2148 + t320 * t2149));
-        let t2159 = t344 * t2144 + (t338 * t2145 + t2158);
-        damping_force[4] = t2159;
-        let t2160 = t333 * t2146 + (t327 * t2147 + (t315 * t2148 + t321 * t2149));
-        let t2161 = t345 * t2144 + (t339 * t2145 + t2160);
-        damping_force[5] = t2161;
+        damping_force[5] = t2143;
         // generalised gravity, left side of the equation of motion
-        let t2162 = parameters.payload_mass * parameters.gravity[0];
-        let t2163 = t2162 + (t2123 + (t2117 + (t2111 + (t2105 + (t2093 + t2099)))));
-        let t2164 = t281 * t2104 + (t272 * t2098 + (t263 * t2092 + t2163));
-        let t2165 = t308 * t2122 + (t299 * t2116 + (t290 * t2110 + t2164));
-        let t2166 = parameters.payload_mass * parameters.gravity[1];
-        let t2167 = t2166 + (t2124 + (t2118 + (t2112 + (t2106 + (t2094 + t2100)))));
-        let t2168 = t283 * t2104 + (t274 * t2098 + (t265 * t2092 + t2167));
-        let t2169 = t310 * t2122 + (t301 * t2116 + (t292 * t2110 + t2168));
-        let t2170 = parameters.payload_mass * parameters.gravity[2];
-        let t2171 = t2170 + (t2125 + (t2119 + (t2113 + (t2107 + (t2095 + t2101)))));
-        let t2172 = t285 * t2104 + (t276 * t2098 + (t267 * t2092 + t2171));
-        let t2173 = t312 * t2122 + (t303 * t2116 + (t294 * t2110 + t2172));
-        let t2174 = platform_rotation[1][1] * parameters.payload_com[1];
-        let t2175 = platform_rotation[1][0] * parameters.payload_com[0] + t2174;
-        let t2176 = platform_rotation[1][2] * parameters.payload_com[2] + t2175;
-        let t2177 = platform_rotation[2][1] * parameters.payload_com[1];
-        let t2178 = platform_rotation[2][0] * parameters.payload_com[0] + t2177;
-        let t2179 = platform_rotation[2][2] * parameters.payload_com[2] + t2178;
-        let t2180 = t319 * t2098 + (t313 * t2092 + (t2170 * t2176 - t2166 * t2179));
-        let t2181 = t337 * t2116 + (t331 * t2110 + (t325 * t2104 + t2180));
-        let t2182 = t54 * t2094 - (t51 * t2095 + (t343 * t2122 + t2181));
-        let t2183 = t93 * t2107 - (t75 * t2100 - (t72 * t2101 - t2182));
-        let t2184 = t117 * t2112 - (t114 * t2113 - (t96 * t2106 - t2183));
-        let t2185 = t156 * t2125 - (t138 * t2118 - (t135 * t2119 - t2184));
-        let t2186 = t159 * t2124 - t2185;
-        gravity_force[3] = t2186;
-        let t2187 = platform_rotation[0][1] * parameters.payload_com[1];
-        let t2188 = platform_rotation[0][0] * parameters.payload_com[0] + t2187;
-        let t2189 = platform_rotation[0][2] * parameters.payload_com[2] + t2188;
-        let t2190 = t320 * t2098 + (t314 * t2092 + (t2162 * t2179 - t2170 * t2189));
-        let t2191 = t338 * t2116 + (t332 * t2110 + (t326 * t2104 + t2190));
-        let t2192 = t48 * t2095 - (t54 * t2093 + (t344 * t2122 + t2191));
-        let t2193 = t96 * t2105 - (t69 * t2101 - (t75 * t2099 - t2192));
-        let t2194 = t111 * t2113 - (t117 * t2111 - (t90 * t2107 - t2193));
-        let t2195 = t159 * t2123 - (t132 * t2119 - (t138 * t2117 - t2194));
-        let t2196 = t153 * t2125 - t2195;
-        gravity_force[4] = t2196;
-        let t2197 = t321 * t2098 + (t315 * t2092 + (t2166 * t2189 - t2162 * t2176));
-        let t2198 = t339 * t2116 + (t333 * t2110 + (t327 * t2104 + t2197));
-        let t2199 = t51 * t2093 - (t48 * t2094 + (t345 * t2122 + t2198));
-        let t2200 = t90 * t2106 - (t72 * t2099 - (t69 * t2100 - t2199));
-        let t2201 = t114 * t2111 - (t111 * t2112 - (t93 * t2105 - t2200));
-        let t2202 = t153 * t2124 - (t135 * t2117 - (t132 * t2118 - t2201));
-        let t2203 = t156 * t2123 - t2202;
-        gravity_force[5] = t2203;
-        gravity_force[0] = -t2165;
-        gravity_force[1] = -t2169;
-        gravity_force[2] = -t2173;
+        let t2144 = parameters.payload_mass * parameters.gravity[0];
+        let t2145 = t2144 + (t2105 + (t2099 + (t2093 + (t2087 + (t2075 + t2081)))));
+        let t2146 = t281 * t2086 + (t272 * t2080 + (t263 * t2074 + t2145));
+        let t2147 = t308 * t2104 + (t299 * t2098 + (t290 * t2092 + t2146));
+        let t2148 = parameters.payload_mass * parameters.gravity[1];
+        let t2149 = t2148 + (t2106 + (t2100 + (t2094 + (t2088 + (t2076 + t2082)))));
+        let t2150 = t283 * t2086 + (t274 * t2080 + (t265 * t2074 + t2149));
+        let t2151 = t310 * t2104 + (t301 * t2098 + (t292 * t2092 + t2150));
+        let t2152 = parameters.payload_mass * parameters.gravity[2];
+        let t2153 = t2152 + (t2107 + (t2101 + (t2095 + (t2089 + (t2077 + t2083)))));
+        let t2154 = t285 * t2086 + (t276 * t2080 + (t267 * t2074 + t2153));
+        let t2155 = t312 * t2104 + (t303 * t2098 + (t294 * t2092 + t2154));
+        let t2156 = platform_rotation[1][1] * parameters.payload_com[1];
+        let t2157 = platform_rotation[1][0] * parameters.payload_com[0] + t2156;
+        let t2158 = platform_rotation[1][2] * parameters.payload_com[2] + t2157;
+        let t2159 = platform_rotation[2][1] * parameters.payload_com[1];
+        let t2160 = platform_rotation[2][0] * parameters.payload_com[0] + t2159;
+        let t2161 = platform_rotation[2][2] * parameters.payload_com[2] + t2160;
+        let t2162 = t319 * t2080 + (t313 * t2074 + (t2152 * t2158 - t2148 * t2161));
+        let t2163 = t337 * t2098 + (t331 * t2092 + (t325 * t2086 + t2162));
+        let t2164 = t54 * t2076 - (t51 * t2077 + (t343 * t2104 + t2163));
+        let t2165 = t93 * t2089 - (t75 * t2082 - (t72 * t2083 - t2164));
+        let t2166 = t117 * t2094 - (t114 * t2095 - (t96 * t2088 - t2165));
+        let t2167 = t156 * t2107 - (t138 * t2100 - (t135 * t2101 - t2166));
+        let t2168 = t159 * t2106 - t2167;
+        gravity_force[3] = t2168;
+        let t2169 = platform_rotation[0][1] * parameters.payload_com[1];
+        let t2170 = platform_rotation[0][0] * parameters.payload_com[0] + t2169;
+        let t2171 = platform_rotation[0][2] * parameters.payload_com[2] + t2170;
+        let t2172 = t320 * t2080 + (t314 * t2074 + (t2144 * t2161 - t2152 * t2171));
+        let t2173 = t338 * t2098 + (t332 * t2092 + (t326 * t2086 + t2172));
+        let t2174 = t48 * t2077 - (t54 * t2075 + (t344 * t2104 + t2173));
+        let t2175 = t96 * t2087 - (t69 * t2083 - (t75 * t2081 - t2174));
+        let t2176 = t111 * t2095 - (t117 * t2093 - (t90 * t2089 - t2175));
+        let t2177 = t159 * t2105 - (t132 * t2101 - (t138 * t2099 - t2176));
+        let t2178 = t153 * t2107 - t2177;
+        gravity_force[4] = t2178;
+        let t2179 = t321 * t2080 + (t315 * t2074 + (t2148 * t2171 - t2144 * t2158));
+        let t2180 = t339 * t2098 + (t333 * t2092 + (t327 * t2086 + t2179));
+        let t2181 = t51 * t2075 - (t48 * t2076 + (t345 * t2104 + t2180));
+        let t2182 = t90 * t2088 - (t72 * t2081 - (t69 * t2082 - t2181));
+        let t2183 = t114 * t2093 - (t111 * t2094 - (t93 * t2087 - t2182));
+        let t2184 = t153 * t2106 - (t135 * t2099 - (t132 * t2100 - t2183));
+        let t2185 = t156 * t2105 - t2184;
+        gravity_force[5] = t2185;
+        gravity_force[0] = -t2147;
+        gravity_force[1] = -t2151;
+        gravity_force[2] = -t2155;
         // C_p v_p - C_b v_b + gravity, spring and damping force
-        let t2204 = platform_velocity[0] * t1636 - (t2165 + (t2133 - t2151));
-        let t2205 = platform_velocity[2] * t1638
-            + (platform_velocity[1] * t1637 + t2204);
-        let t2206 = platform_velocity[4] * t1863
-            + (platform_velocity[3] * t1669 + t2205);
-        let t2207 = base_velocity[0] * t1636 - (platform_velocity[5] * t1865 + t2206);
-        let t2208 = base_velocity[2] * t1638 + (base_velocity[1] * t1637 + t2207);
-        let t2209 = base_velocity[4] * t1892 + (base_velocity[3] * t1889 - t2208);
-        bias[0] = base_velocity[5] * t1895 + t2209;
-        let t2210 = platform_velocity[0] * t1696 - (t2169 + (t2135 - t2153));
-        let t2211 = platform_velocity[2] * t1698
-            + (platform_velocity[1] * t1697 + t2210);
-        let t2212 = platform_velocity[4] * t1736
-            - (platform_velocity[3] * t1866 + t2211);
-        let t2213 = base_velocity[0] * t1696 - (platform_velocity[5] * t1868 - t2212);
-        let t2214 = base_velocity[2] * t1698 + (base_velocity[1] * t1697 + t2213);
-        let t2215 = base_velocity[4] * t1901 - (base_velocity[3] * t1898 - t2214);
-        bias[1] = base_velocity[5] * t1904 - t2215;
-        let t2216 = platform_velocity[0] * t1750 - (t2173 + (t2137 - t2155));
-        let t2217 = platform_velocity[2] * t1752
-            + (platform_velocity[1] * t1751 + t2216);
-        let t2218 = platform_velocity[4] * t1870
-            + (platform_velocity[3] * t1869 + t2217);
-        let t2219 = base_velocity[0] * t1750 - (platform_velocity[5] * t1797 + t2218);
-        let t2220 = base_velocity[2] * t1752 + (base_velocity[1] * t1751 + t2219);
-        let t2221 = base_velocity[4] * t1910 + (base_velocity[3] * t1907 - t2220);
-        bias[2] = base_velocity[5] * t1912 + t2221;
-        let t2222 = platform_velocity[0] * t1799 + (t2186 - (t2139 - t2157));
-        let t2223 = platform_velocity[2] * t1805
-            - (platform_velocity[1] * t1802 + t2222);
-        let t2224 = platform_velocity[4] * t1875
-            + (platform_velocity[3] * t1873 + t2223);
-        let t2225 = base_velocity[0] * t1799 - (platform_velocity[5] * t1877 - t2224);
-        let t2226 = base_velocity[2] * t1805 - (base_velocity[1] * t1802 + t2225);
-        let t2227 = t2226 - base_velocity[3] * t1918 - base_velocity[4] * t1924;
-        bias[3] = t2227 - base_velocity[5] * t1930;
-        let t2228 = platform_velocity[0] * t1820 - (t2196 - (t2141 - t2159));
-        let t2229 = platform_velocity[2] * t1825
-            - (platform_velocity[1] * t1822 + t2228);
-        let t2230 = platform_velocity[4] * t1881
-            + (platform_velocity[3] * t1879 + t2229);
-        let t2231 = base_velocity[0] * t1820 - (platform_velocity[5] * t1882 - t2230);
-        let t2232 = base_velocity[2] * t1825 - (base_velocity[1] * t1822 + t2231);
-        let t2233 = base_velocity[3] * t1936 - t2232 - base_velocity[4] * t1942;
-        bias[4] = t2233 - base_velocity[5] * t1948;
-        let t2234 = platform_velocity[0] * t1840 + (t2203 - (t2143 - t2161));
-        let t2235 = platform_velocity[2] * t1845
-            - (platform_velocity[1] * t1843 - t2234);
-        let t2236 = platform_velocity[4] * t1884
-            - (platform_velocity[3] * t1883 - t2235);
-        let t2237 = base_velocity[0] * t1840 + (platform_velocity[5] * t1885 - t2236);
-        let t2238 = base_velocity[1] * t1843 - t2237 - base_velocity[2] * t1845;
-        let t2239 = t2238 - base_velocity[3] * t1954 - base_velocity[4] * t1960;
-        bias[5] = t2239 - base_velocity[5] * t1966;
+        let t2186 = platform_velocity[0] * t1618 - (t2147 + (t2115 - t2133));
+        let t2187 = platform_velocity[2] * t1620
+            + (platform_velocity[1] * t1619 + t2186);
+        let t2188 = platform_velocity[4] * t1845
+            + (platform_velocity[3] * t1651 + t2187);
+        let t2189 = base_velocity[0] * t1618 - (platform_velocity[5] * t1847 + t2188);
+        let t2190 = base_velocity[2] * t1620 + (base_velocity[1] * t1619 + t2189);
+        let t2191 = base_velocity[4] * t1874 + (base_velocity[3] * t1871 - t2190);
+        bias[0] = base_velocity[5] * t1877 + t2191;
+        let t2192 = platform_velocity[0] * t1678 - (t2151 + (t2117 - t2135));
+        let t2193 = platform_velocity[2] * t1680
+            + (platform_velocity[1] * t1679 + t2192);
+        let t2194 = platform_velocity[4] * t1718
+            - (platform_velocity[3] * t1848 + t2193);
+        let t2195 = base_velocity[0] * t1678 - (platform_velocity[5] * t1850 - t2194);
+        let t2196 = base_velocity[2] * t1680 + (base_velocity[1] * t1679 + t2195);
+        let t2197 = base_velocity[4] * t1883 - (base_velocity[3] * t1880 - t2196);
+        bias[1] = base_velocity[5] * t1886 - t2197;
+        let t2198 = platform_velocity[0] * t1732 - (t2155 + (t2119 - t2137));
+        let t2199 = platform_velocity[2] * t1734
+            + (platform_velocity[1] * t1733 + t2198);
+        let t2200 = platform_velocity[4] * t1852
+            + (platform_velocity[3] * t1851 + t2199);
+        let t2201 = base_velocity[0] * t1732 - (platform_velocity[5] * t1779 + t2200);
+        let t2202 = base_velocity[2] * t1734 + (base_velocity[1] * t1733 + t2201);
+        let t2203 = base_velocity[4] * t1892 + (base_velocity[3] * t1889 - t2202);
+        bias[2] = base_velocity[5] * t1894 + t2203;
+        let t2204 = platform_velocity[0] * t1781 + (t2168 - (t2121 - t2139));
+        let t2205 = platform_velocity[2] * t1787
+            - (platform_velocity[1] * t1784 + t2204);
+        let t2206 = platform_velocity[4] * t1857
+            + (platform_velocity[3] * t1855 + t2205);
+        let t2207 = base_velocity[0] * t1781 - (platform_velocity[5] * t1859 - t2206);
+        let t2208 = base_velocity[2] * t1787 - (base_velocity[1] * t1784 + t2207);
+        let t2209 = t2208 - base_velocity[3] * t1900 - base_velocity[4] * t1906;
+        bias[3] = t2209 - base_velocity[5] * t1912;
+        let t2210 = platform_velocity[0] * t1802 - (t2178 - (t2123 - t2141));
+        let t2211 = platform_velocity[2] * t1807
+            - (platform_velocity[1] * t1804 + t2210);
+        let t2212 = platform_velocity[4] * t1863
+            + (platform_velocity[3] * t1861 + t2211);
+        let t2213 = base_velocity[0] * t1802 - (platform_velocity[5] * t1864 - t2212);
+        let t2214 = base_velocity[2] * t1807 - (base_velocity[1] * t1804 + t2213);
+        let t2215 = base_velocity[3] * t1918 - t2214 - base_velocity[4] * t1924;
+        bias[4] = t2215 - base_velocity[5] * t1930;
+        let t2216 = platform_velocity[0] * t1822 + (t2185 - (t2125 - t2143));
+        let t2217 = platform_velocity[2] * t1827
+            - (platform_velocity[1] * t1825 - t2216);
+        let t2218 = platform_velocity[4] * t1866
+            - (platform_velocity[3] * t1865 - t2217);
+        let t2219 = base_velocity[0] * t1822 + (platform_velocity[5] * t1867 - t2218);
+        let t2220 = base_velocity[1] * t1825 - t2219 - base_velocity[2] * t1827;
+        let t2221 = t2220 - base_velocity[3] * t1936 - base_velocity[4] * t1942;
+        bias[5] = t2221 - base_velocity[5] * t1948;
     }
 }
 
@@ -24679,7 +24617,7 @@ pub fn inverse_dynamics<T: Scalar>(
 ///
 /// Outputs:
 ///
-/// - `rod_alignment`: 6, dimensionless: squared cosine between rod and actuator axis; negative out of reach, equation (18).
+/// - `rod_alignment`: 6, dimensionless: squared cosine between rod and line of the actuator's force; negative out of reach, equation (18).
 /// - `actuator_length`: 6, m: actuator length d, equation (18).
 /// - `jacobian_dp`: 6x6, 1, m, frame O: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b, equation (32).
 #[allow(clippy::all, clippy::pedantic, unused_variables)]
@@ -25032,17 +24970,17 @@ pub fn actuator_geometry<T: Scalar>(
     let t275 = base_rotation[2][0] * t238 + base_rotation[2][1] * t239;
     let t276 = t275 + base_rotation[2][2] * t240;
     jacobian_dp[5][2] = t276;
-    // leg 1: squared cosine between rod and actuator axis; negative out of reach
+    // leg 1: squared cosine between rod and line of the actuator's force; negative out of reach
     rod_alignment[0] = t170 / t169;
-    // leg 2: squared cosine between rod and actuator axis; negative out of reach
+    // leg 2: squared cosine between rod and line of the actuator's force; negative out of reach
     rod_alignment[1] = t180 / t179;
-    // leg 3: squared cosine between rod and actuator axis; negative out of reach
+    // leg 3: squared cosine between rod and line of the actuator's force; negative out of reach
     rod_alignment[2] = t190 / t189;
-    // leg 4: squared cosine between rod and actuator axis; negative out of reach
+    // leg 4: squared cosine between rod and line of the actuator's force; negative out of reach
     rod_alignment[3] = t200 / t199;
-    // leg 5: squared cosine between rod and actuator axis; negative out of reach
+    // leg 5: squared cosine between rod and line of the actuator's force; negative out of reach
     rod_alignment[4] = t210 / t209;
-    // leg 6: squared cosine between rod and actuator axis; negative out of reach
+    // leg 6: squared cosine between rod and line of the actuator's force; negative out of reach
     rod_alignment[5] = t220 / t219;
     // leg 1: actuator length d
     actuator_length[0] = -(t165 + t171);
@@ -27432,30 +27370,30 @@ pub fn passive_inverse_dynamics<T: Scalar>(
         t713,
         t714,
         t715,
-        t749,
-        t762,
+        t747,
+        t760,
+        t773,
+        t774,
         t775,
         t776,
-        t777,
-        t778,
-        t812,
-        t825,
-        t838,
-        t839,
-        t840,
-        t841,
-        t875,
-        t888,
-        t901,
-        t902,
-        t903,
-        t904,
-        t938,
-        t951,
-        t964,
-        t965,
-        t966,
-        t967,
+        t808,
+        t821,
+        t834,
+        t835,
+        t836,
+        t837,
+        t869,
+        t882,
+        t895,
+        t896,
+        t897,
+        t898,
+        t930,
+        t943,
+        t956,
+        t957,
+        t958,
+        t959,
     ) = {
         // rotation of the platform seen from the base
         let t1 = base_rotation[1][0] * platform_rotation[1][0];
@@ -28053,30 +27991,30 @@ pub fn passive_inverse_dynamics<T: Scalar>(
         let t465 = t167 * (t164 * t464 + (t162 * t462 + t163 * t463));
         // leg 6: actuator velocity d'
         let t466 = t461 + t465;
-        // leg 1: rate of that gradient relative to the base
-        let t467 = t117 * (t422 + t169 * t425);
-        let t468 = t117 * (t423 + t171 * t425);
-        let t469 = t117 * (t424 + t173 * t425);
-        // leg 2: rate of that gradient relative to the base
-        let t470 = t127 * (t430 + t175 * t433);
-        let t471 = t127 * (t431 + t177 * t433);
-        let t472 = t127 * (t432 + t179 * t433);
-        // leg 3: rate of that gradient relative to the base
-        let t473 = t137 * (t438 + t181 * t441);
-        let t474 = t137 * (t439 + t183 * t441);
-        let t475 = t137 * (t440 + t185 * t441);
-        // leg 4: rate of that gradient relative to the base
-        let t476 = t147 * (t446 + t187 * t449);
-        let t477 = t147 * (t447 + t189 * t449);
-        let t478 = t147 * (t448 + t191 * t449);
-        // leg 5: rate of that gradient relative to the base
-        let t479 = t157 * (t454 + t193 * t457);
-        let t480 = t157 * (t455 + t195 * t457);
-        let t481 = t157 * (t456 + t197 * t457);
-        // leg 6: rate of that gradient relative to the base
-        let t482 = t167 * (t462 + t199 * t465);
-        let t483 = t167 * (t463 + t201 * t465);
-        let t484 = t167 * (t464 + t203 * t465);
+        // leg 1: inertial rate of that gradient
+        let t467 = t172 * t331 + (t117 * (t422 + t169 * t425) - t174 * t328);
+        let t468 = t174 * t325 + (t117 * (t423 + t171 * t425) - t170 * t331);
+        let t469 = t170 * t328 + (t117 * (t424 + t173 * t425) - t172 * t325);
+        // leg 2: inertial rate of that gradient
+        let t470 = t178 * t331 + (t127 * (t430 + t175 * t433) - t180 * t328);
+        let t471 = t180 * t325 + (t127 * (t431 + t177 * t433) - t176 * t331);
+        let t472 = t176 * t328 + (t127 * (t432 + t179 * t433) - t178 * t325);
+        // leg 3: inertial rate of that gradient
+        let t473 = t184 * t331 + (t137 * (t438 + t181 * t441) - t186 * t328);
+        let t474 = t186 * t325 + (t137 * (t439 + t183 * t441) - t182 * t331);
+        let t475 = t182 * t328 + (t137 * (t440 + t185 * t441) - t184 * t325);
+        // leg 4: inertial rate of that gradient
+        let t476 = t190 * t331 + (t147 * (t446 + t187 * t449) - t192 * t328);
+        let t477 = t192 * t325 + (t147 * (t447 + t189 * t449) - t188 * t331);
+        let t478 = t188 * t328 + (t147 * (t448 + t191 * t449) - t190 * t325);
+        // leg 5: inertial rate of that gradient
+        let t479 = t196 * t331 + (t157 * (t454 + t193 * t457) - t198 * t328);
+        let t480 = t198 * t325 + (t157 * (t455 + t195 * t457) - t194 * t331);
+        let t481 = t194 * t328 + (t157 * (t456 + t197 * t457) - t196 * t325);
+        // leg 6: inertial rate of that gradient
+        let t482 = t202 * t331 + (t167 * (t462 + t199 * t465) - t204 * t328);
+        let t483 = t204 * t325 + (t167 * (t463 + t201 * t465) - t200 * t331);
+        let t484 = t200 * t328 + (t167 * (t464 + t203 * t465) - t202 * t325);
         // acceleration of the base origin less gravity
         let t485 = base_acceleration[2] - parameters.gravity[2];
         let t486 = base_acceleration[0] - parameters.gravity[0];
@@ -28352,245 +28290,237 @@ pub fn passive_inverse_dynamics<T: Scalar>(
         let t733 = t39 * t692 - (t685 + t42 * t690);
         let t734 = t42 * t694 - (t681 + t45 * t692);
         let t735 = t45 * t690 - (t683 + t39 * t694);
-        let t736 = (t174 * t325 + (t468 - t170 * t331)) * t735;
-        let t737 = (t172 * t331 + (t467 - t174 * t328)) * t734 + t736;
-        let t738 = (t170 * t328 + (t469 - t172 * t325)) * t733 + t737;
-        let t739 = t174 * t726 - (t172 * t729 + (t170 * t732 + t738));
-        let t740 = t174 * t733 + (t170 * t734 + t172 * t735);
-        let t741 = t723 + (parameters.actuator_axis[0][0] * t739 + t718 * t740);
-        let t742 = parameters.actuator_axis[0][1] * t507;
-        let t743 = parameters.actuator_axis[0][0] * t505 + t742;
-        let t744 = parameters.actuator_axis[0][2] * t509 - t743;
-        let t745 = parameters.mover_mass[0] * (t741 - parameters.mover_offset[0] * t744);
-        let t746 = parameters.platform_point[0][0] * t543 + (t522 - t732);
-        let t747 = parameters.platform_point[0][1] * t544 + t746;
-        let t748 = t210 * (parameters.platform_point[0][2] * t545 + t747);
-        let t749 = parameters.actuator_axis[0][0] * (t745 + (t207 * t741 - t748));
-        let t750 = parameters.actuator_axis[0][2] * t325;
-        let t751 = parameters.actuator_axis[0][0] * t331 - t750;
-        let t752 = t514 * t719 + (t512 * t720 - (t491 + t510 * t721));
-        let t753 = parameters.actuator_axis[0][1] * t651 - (t716 * t751 + t752);
-        let t754 = t753 + (parameters.actuator_axis[0][1] * t739 + t740 * t751);
-        let t755 = parameters.actuator_axis[0][1] * t512;
-        let t756 = parameters.actuator_axis[0][0] * t510 - t755;
-        let t757 = parameters.actuator_axis[0][2] * t514 - t756;
-        let t758 = parameters.mover_mass[0] * (t754 + parameters.mover_offset[0] * t757);
-        let t759 = parameters.platform_point[0][0] * t551 - (t524 - t729);
-        let t760 = parameters.platform_point[0][1] * t552 + t759;
-        let t761 = t210 * (parameters.platform_point[0][2] * t553 + t760);
-        let t762 = parameters.actuator_axis[0][1] * (t758 + (t207 * t754 + t761));
-        let t763 = parameters.actuator_axis[0][0] * t328;
-        let t764 = parameters.actuator_axis[0][1] * t325 - t763;
-        let t765 = t517 * t719 - (t516 * t720 + (t493 - t515 * t721));
-        let t766 = parameters.actuator_axis[0][2] * t651 - (t716 * t764 + t765);
-        let t767 = t766 + (parameters.actuator_axis[0][2] * t739 + t740 * t764);
-        let t768 = parameters.actuator_axis[0][1] * t516;
-        let t769 = parameters.actuator_axis[0][0] * t515 - t768;
-        let t770 = parameters.actuator_axis[0][2] * t517 + t769;
-        let t771 = parameters.mover_mass[0] * (t767 + parameters.mover_offset[0] * t770);
-        let t772 = parameters.platform_point[0][0] * t557 - (t526 + t726);
-        let t773 = parameters.platform_point[0][1] * t558 + t772;
-        let t774 = t210 * (parameters.platform_point[0][2] * t559 + t773);
-        let t775 = parameters.actuator_axis[0][2] * (t771 + (t207 * t767 + t774));
+        let t736 = t170 * t732 + (t469 * t733 + (t467 * t734 + t468 * t735));
+        let t737 = t174 * t726 - (t172 * t729 + t736);
+        let t738 = t174 * t733 + (t170 * t734 + t172 * t735);
+        let t739 = t723 + (parameters.actuator_axis[0][0] * t737 + t718 * t738);
+        let t740 = parameters.actuator_axis[0][1] * t507;
+        let t741 = parameters.actuator_axis[0][0] * t505 + t740;
+        let t742 = parameters.actuator_axis[0][2] * t509 - t741;
+        let t743 = parameters.mover_mass[0] * (t739 - parameters.mover_offset[0] * t742);
+        let t744 = parameters.platform_point[0][0] * t543 + (t522 - t732);
+        let t745 = parameters.platform_point[0][1] * t544 + t744;
+        let t746 = t210 * (parameters.platform_point[0][2] * t545 + t745);
+        let t747 = parameters.actuator_axis[0][0] * (t743 + (t207 * t739 - t746));
+        let t748 = parameters.actuator_axis[0][2] * t325;
+        let t749 = parameters.actuator_axis[0][0] * t331 - t748;
+        let t750 = t514 * t719 + (t512 * t720 - (t491 + t510 * t721));
+        let t751 = parameters.actuator_axis[0][1] * t651 - (t716 * t749 + t750);
+        let t752 = t751 + (parameters.actuator_axis[0][1] * t737 + t738 * t749);
+        let t753 = parameters.actuator_axis[0][1] * t512;
+        let t754 = parameters.actuator_axis[0][0] * t510 - t753;
+        let t755 = parameters.actuator_axis[0][2] * t514 - t754;
+        let t756 = parameters.mover_mass[0] * (t752 + parameters.mover_offset[0] * t755);
+        let t757 = parameters.platform_point[0][0] * t551 - (t524 - t729);
+        let t758 = parameters.platform_point[0][1] * t552 + t757;
+        let t759 = t210 * (parameters.platform_point[0][2] * t553 + t758);
+        let t760 = parameters.actuator_axis[0][1] * (t756 + (t207 * t752 + t759));
+        let t761 = parameters.actuator_axis[0][0] * t328;
+        let t762 = parameters.actuator_axis[0][1] * t325 - t761;
+        let t763 = t517 * t719 - (t516 * t720 + (t493 - t515 * t721));
+        let t764 = parameters.actuator_axis[0][2] * t651 - (t716 * t762 + t763);
+        let t765 = t764 + (parameters.actuator_axis[0][2] * t737 + t738 * t762);
+        let t766 = parameters.actuator_axis[0][1] * t516;
+        let t767 = parameters.actuator_axis[0][0] * t515 - t766;
+        let t768 = parameters.actuator_axis[0][2] * t517 + t767;
+        let t769 = parameters.mover_mass[0] * (t765 + parameters.mover_offset[0] * t768);
+        let t770 = parameters.platform_point[0][0] * t557 - (t526 + t726);
+        let t771 = parameters.platform_point[0][1] * t558 + t770;
+        let t772 = t210 * (parameters.platform_point[0][2] * t559 + t771);
+        let t773 = parameters.actuator_axis[0][2] * (t769 + (t207 * t765 + t772));
         // leg 1: remaining leg inertia less weight at the platform joint
-        let t776 = t210 * t741;
-        let t777 = t210 * t754;
-        let t778 = t210 * t767;
+        let t774 = t210 * t739;
+        let t775 = t210 * t752;
+        let t776 = t210 * t765;
         // leg 2: leg inertia less weight along the actuator
-        let t779 = c(2.0) * t434;
-        let t780 = parameters.actuator_axis[1][1] * t331;
-        let t781 = parameters.actuator_axis[1][2] * t328 - t780;
-        let t782 = parameters.base_point[1][2] + parameters.actuator_axis[1][2] * t128;
-        let t783 = parameters.base_point[1][1] + parameters.actuator_axis[1][1] * t128;
-        let t784 = parameters.base_point[1][0] + parameters.actuator_axis[1][0] * t128;
-        let t785 = t509 * t782 - (t507 * t783 - (t489 - t505 * t784));
-        let t786 = parameters.actuator_axis[1][0] * t656 - (t779 * t781 - t785);
-        let t787 = parameters.platform_point[1][1] * t714;
-        let t788 = parameters.platform_point[1][0] * t713 + t787;
-        let t789 = parameters.platform_point[1][2] * t715 + t788;
-        let t790 = parameters.platform_point[1][1] * t708;
-        let t791 = parameters.platform_point[1][0] * t707 + t790;
-        let t792 = parameters.platform_point[1][2] * t709 + t791;
-        let t793 = parameters.platform_point[1][1] * t701;
-        let t794 = parameters.platform_point[1][0] * t700 + t793;
-        let t795 = parameters.platform_point[1][2] * t702 + t794;
-        let t796 = t51 * t692 - (t685 + t54 * t690);
-        let t797 = t54 * t694 - (t681 + t57 * t692);
-        let t798 = t57 * t690 - (t683 + t51 * t694);
-        let t799 = (t180 * t325 + (t471 - t176 * t331)) * t798;
-        let t800 = (t178 * t331 + (t470 - t180 * t328)) * t797 + t799;
-        let t801 = (t176 * t328 + (t472 - t178 * t325)) * t796 + t800;
-        let t802 = t180 * t789 - (t178 * t792 + (t176 * t795 + t801));
-        let t803 = t180 * t796 + (t176 * t797 + t178 * t798);
-        let t804 = t786 + (parameters.actuator_axis[1][0] * t802 + t781 * t803);
-        let t805 = parameters.actuator_axis[1][1] * t507;
-        let t806 = parameters.actuator_axis[1][0] * t505 + t805;
-        let t807 = parameters.actuator_axis[1][2] * t509 - t806;
-        let t808 = parameters.mover_mass[1] * (t804 - parameters.mover_offset[1] * t807);
-        let t809 = parameters.platform_point[1][0] * t543 + (t522 - t795);
-        let t810 = parameters.platform_point[1][1] * t544 + t809;
-        let t811 = t216 * (parameters.platform_point[1][2] * t545 + t810);
-        let t812 = parameters.actuator_axis[1][0] * (t808 + (t213 * t804 - t811));
-        let t813 = parameters.actuator_axis[1][2] * t325;
-        let t814 = parameters.actuator_axis[1][0] * t331 - t813;
-        let t815 = t514 * t782 + (t512 * t783 - (t491 + t510 * t784));
-        let t816 = parameters.actuator_axis[1][1] * t656 - (t779 * t814 + t815);
-        let t817 = t816 + (parameters.actuator_axis[1][1] * t802 + t803 * t814);
-        let t818 = parameters.actuator_axis[1][1] * t512;
-        let t819 = parameters.actuator_axis[1][0] * t510 - t818;
-        let t820 = parameters.actuator_axis[1][2] * t514 - t819;
-        let t821 = parameters.mover_mass[1] * (t817 + parameters.mover_offset[1] * t820);
-        let t822 = parameters.platform_point[1][0] * t551 - (t524 - t792);
-        let t823 = parameters.platform_point[1][1] * t552 + t822;
-        let t824 = t216 * (parameters.platform_point[1][2] * t553 + t823);
-        let t825 = parameters.actuator_axis[1][1] * (t821 + (t213 * t817 + t824));
-        let t826 = parameters.actuator_axis[1][0] * t328;
-        let t827 = parameters.actuator_axis[1][1] * t325 - t826;
-        let t828 = t517 * t782 - (t516 * t783 + (t493 - t515 * t784));
-        let t829 = parameters.actuator_axis[1][2] * t656 - (t779 * t827 + t828);
-        let t830 = t829 + (parameters.actuator_axis[1][2] * t802 + t803 * t827);
-        let t831 = parameters.actuator_axis[1][1] * t516;
-        let t832 = parameters.actuator_axis[1][0] * t515 - t831;
-        let t833 = parameters.actuator_axis[1][2] * t517 + t832;
-        let t834 = parameters.mover_mass[1] * (t830 + parameters.mover_offset[1] * t833);
-        let t835 = parameters.platform_point[1][0] * t557 - (t526 + t789);
-        let t836 = parameters.platform_point[1][1] * t558 + t835;
-        let t837 = t216 * (parameters.platform_point[1][2] * t559 + t836);
-        let t838 = parameters.actuator_axis[1][2] * (t834 + (t213 * t830 + t837));
+        let t777 = c(2.0) * t434;
+        let t778 = parameters.actuator_axis[1][1] * t331;
+        let t779 = parameters.actuator_axis[1][2] * t328 - t778;
+        let t780 = parameters.base_point[1][2] + parameters.actuator_axis[1][2] * t128;
+        let t781 = parameters.base_point[1][1] + parameters.actuator_axis[1][1] * t128;
+        let t782 = parameters.base_point[1][0] + parameters.actuator_axis[1][0] * t128;
+        let t783 = t509 * t780 - (t507 * t781 - (t489 - t505 * t782));
+        let t784 = parameters.actuator_axis[1][0] * t656 - (t777 * t779 - t783);
+        let t785 = parameters.platform_point[1][1] * t714;
+        let t786 = parameters.platform_point[1][0] * t713 + t785;
+        let t787 = parameters.platform_point[1][2] * t715 + t786;
+        let t788 = parameters.platform_point[1][1] * t708;
+        let t789 = parameters.platform_point[1][0] * t707 + t788;
+        let t790 = parameters.platform_point[1][2] * t709 + t789;
+        let t791 = parameters.platform_point[1][1] * t701;
+        let t792 = parameters.platform_point[1][0] * t700 + t791;
+        let t793 = parameters.platform_point[1][2] * t702 + t792;
+        let t794 = t51 * t692 - (t685 + t54 * t690);
+        let t795 = t54 * t694 - (t681 + t57 * t692);
+        let t796 = t57 * t690 - (t683 + t51 * t694);
+        let t797 = t176 * t793 + (t472 * t794 + (t470 * t795 + t471 * t796));
+        let t798 = t180 * t787 - (t178 * t790 + t797);
+        let t799 = t180 * t794 + (t176 * t795 + t178 * t796);
+        let t800 = t784 + (parameters.actuator_axis[1][0] * t798 + t779 * t799);
+        let t801 = parameters.actuator_axis[1][1] * t507;
+        let t802 = parameters.actuator_axis[1][0] * t505 + t801;
+        let t803 = parameters.actuator_axis[1][2] * t509 - t802;
+        let t804 = parameters.mover_mass[1] * (t800 - parameters.mover_offset[1] * t803);
+        let t805 = parameters.platform_point[1][0] * t543 + (t522 - t793);
+        let t806 = parameters.platform_point[1][1] * t544 + t805;
+        let t807 = t216 * (parameters.platform_point[1][2] * t545 + t806);
+        let t808 = parameters.actuator_axis[1][0] * (t804 + (t213 * t800 - t807));
+        let t809 = parameters.actuator_axis[1][2] * t325;
+        let t810 = parameters.actuator_axis[1][0] * t331 - t809;
+        let t811 = t514 * t780 + (t512 * t781 - (t491 + t510 * t782));
+        let t812 = parameters.actuator_axis[1][1] * t656 - (t777 * t810 + t811);
+        let t813 = t812 + (parameters.actuator_axis[1][1] * t798 + t799 * t810);
+        let t814 = parameters.actuator_axis[1][1] * t512;
+        let t815 = parameters.actuator_axis[1][0] * t510 - t814;
+        let t816 = parameters.actuator_axis[1][2] * t514 - t815;
+        let t817 = parameters.mover_mass[1] * (t813 + parameters.mover_offset[1] * t816);
+        let t818 = parameters.platform_point[1][0] * t551 - (t524 - t790);
+        let t819 = parameters.platform_point[1][1] * t552 + t818;
+        let t820 = t216 * (parameters.platform_point[1][2] * t553 + t819);
+        let t821 = parameters.actuator_axis[1][1] * (t817 + (t213 * t813 + t820));
+        let t822 = parameters.actuator_axis[1][0] * t328;
+        let t823 = parameters.actuator_axis[1][1] * t325 - t822;
+        let t824 = t517 * t780 - (t516 * t781 + (t493 - t515 * t782));
+        let t825 = parameters.actuator_axis[1][2] * t656 - (t777 * t823 + t824);
+        let t826 = t825 + (parameters.actuator_axis[1][2] * t798 + t799 * t823);
+        let t827 = parameters.actuator_axis[1][1] * t516;
+        let t828 = parameters.actuator_axis[1][0] * t515 - t827;
+        let t829 = parameters.actuator_axis[1][2] * t517 + t828;
+        let t830 = parameters.mover_mass[1] * (t826 + parameters.mover_offset[1] * t829);
+        let t831 = parameters.platform_point[1][0] * t557 - (t526 + t787);
+        let t832 = parameters.platform_point[1][1] * t558 + t831;
+        let t833 = t216 * (parameters.platform_point[1][2] * t559 + t832);
+        let t834 = parameters.actuator_axis[1][2] * (t830 + (t213 * t826 + t833));
         // leg 2: remaining leg inertia less weight at the platform joint
-        let t839 = t216 * t804;
-        let t840 = t216 * t817;
-        let t841 = t216 * t830;
+        let t835 = t216 * t800;
+        let t836 = t216 * t813;
+        let t837 = t216 * t826;
         // leg 3: leg inertia less weight along the actuator
-        let t842 = c(2.0) * t442;
-        let t843 = parameters.actuator_axis[2][1] * t331;
-        let t844 = parameters.actuator_axis[2][2] * t328 - t843;
-        let t845 = parameters.base_point[2][2] + parameters.actuator_axis[2][2] * t138;
-        let t846 = parameters.base_point[2][1] + parameters.actuator_axis[2][1] * t138;
-        let t847 = parameters.base_point[2][0] + parameters.actuator_axis[2][0] * t138;
-        let t848 = t509 * t845 - (t507 * t846 - (t489 - t505 * t847));
-        let t849 = parameters.actuator_axis[2][0] * t661 - (t842 * t844 - t848);
-        let t850 = parameters.platform_point[2][1] * t714;
-        let t851 = parameters.platform_point[2][0] * t713 + t850;
-        let t852 = parameters.platform_point[2][2] * t715 + t851;
-        let t853 = parameters.platform_point[2][1] * t708;
-        let t854 = parameters.platform_point[2][0] * t707 + t853;
-        let t855 = parameters.platform_point[2][2] * t709 + t854;
-        let t856 = parameters.platform_point[2][1] * t701;
-        let t857 = parameters.platform_point[2][0] * t700 + t856;
-        let t858 = parameters.platform_point[2][2] * t702 + t857;
-        let t859 = t63 * t692 - (t685 + t66 * t690);
-        let t860 = t66 * t694 - (t681 + t69 * t692);
-        let t861 = t69 * t690 - (t683 + t63 * t694);
-        let t862 = (t186 * t325 + (t474 - t182 * t331)) * t861;
-        let t863 = (t184 * t331 + (t473 - t186 * t328)) * t860 + t862;
-        let t864 = (t182 * t328 + (t475 - t184 * t325)) * t859 + t863;
-        let t865 = t186 * t852 - (t184 * t855 + (t182 * t858 + t864));
-        let t866 = t186 * t859 + (t182 * t860 + t184 * t861);
-        let t867 = t849 + (parameters.actuator_axis[2][0] * t865 + t844 * t866);
-        let t868 = parameters.actuator_axis[2][1] * t507;
-        let t869 = parameters.actuator_axis[2][0] * t505 + t868;
-        let t870 = parameters.actuator_axis[2][2] * t509 - t869;
-        let t871 = parameters.mover_mass[2] * (t867 - parameters.mover_offset[2] * t870);
-        let t872 = parameters.platform_point[2][0] * t543 + (t522 - t858);
-        let t873 = parameters.platform_point[2][1] * t544 + t872;
-        let t874 = t222 * (parameters.platform_point[2][2] * t545 + t873);
-        let t875 = parameters.actuator_axis[2][0] * (t871 + (t219 * t867 - t874));
-        let t876 = parameters.actuator_axis[2][2] * t325;
-        let t877 = parameters.actuator_axis[2][0] * t331 - t876;
-        let t878 = t514 * t845 + (t512 * t846 - (t491 + t510 * t847));
-        let t879 = parameters.actuator_axis[2][1] * t661 - (t842 * t877 + t878);
-        let t880 = t879 + (parameters.actuator_axis[2][1] * t865 + t866 * t877);
-        let t881 = parameters.actuator_axis[2][1] * t512;
-        let t882 = parameters.actuator_axis[2][0] * t510 - t881;
-        let t883 = parameters.actuator_axis[2][2] * t514 - t882;
-        let t884 = parameters.mover_mass[2] * (t880 + parameters.mover_offset[2] * t883);
-        let t885 = parameters.platform_point[2][0] * t551 - (t524 - t855);
-        let t886 = parameters.platform_point[2][1] * t552 + t885;
-        let t887 = t222 * (parameters.platform_point[2][2] * t553 + t886);
-        let t888 = parameters.actuator_axis[2][1] * (t884 + (t219 * t880 + t887));
-        let t889 = parameters.actuator_axis[2][0] * t328;
-        let t890 = parameters.actuator_axis[2][1] * t325 - t889;
-        let t891 = t517 * t845 - (t516 * t846 + (t493 - t515 * t847));
-        let t892 = parameters.actuator_axis[2][2] * t661 - (t842 * t890 + t891);
-        let t893 = t892 + (parameters.actuator_axis[2][2] * t865 + t866 * t890);
-        let t894 = parameters.actuator_axis[2][1] * t516;
-        let t895 = parameters.actuator_axis[2][0] * t515 - t894;
-        let t896 = parameters.actuator_axis[2][2] * t517 + t895;
-        let t897 = parameters.mover_mass[2] * (t893 + parameters.mover_offset[2] * t896);
-        let t898 = parameters.platform_point[2][0] * t557 - (t526 + t852);
-        let t899 = parameters.platform_point[2][1] * t558 + t898;
-        let t900 = t222 * (parameters.platform_point[2][2] * t559 + t899);
-        let t901 = parameters.actuator_axis[2][2] * (t897 + (t219 * t893 + t900));
+        let t838 = c(2.0) * t442;
+        let t839 = parameters.actuator_axis[2][1] * t331;
+        let t840 = parameters.actuator_axis[2][2] * t328 - t839;
+        let t841 = parameters.base_point[2][2] + parameters.actuator_axis[2][2] * t138;
+        let t842 = parameters.base_point[2][1] + parameters.actuator_axis[2][1] * t138;
+        let t843 = parameters.base_point[2][0] + parameters.actuator_axis[2][0] * t138;
+        let t844 = t509 * t841 - (t507 * t842 - (t489 - t505 * t843));
+        let t845 = parameters.actuator_axis[2][0] * t661 - (t838 * t840 - t844);
+        let t846 = parameters.platform_point[2][1] * t714;
+        let t847 = parameters.platform_point[2][0] * t713 + t846;
+        let t848 = parameters.platform_point[2][2] * t715 + t847;
+        let t849 = parameters.platform_point[2][1] * t708;
+        let t850 = parameters.platform_point[2][0] * t707 + t849;
+        let t851 = parameters.platform_point[2][2] * t709 + t850;
+        let t852 = parameters.platform_point[2][1] * t701;
+        let t853 = parameters.platform_point[2][0] * t700 + t852;
+        let t854 = parameters.platform_point[2][2] * t702 + t853;
+        let t855 = t63 * t692 - (t685 + t66 * t690);
+        let t856 = t66 * t694 - (t681 + t69 * t692);
+        let t857 = t69 * t690 - (t683 + t63 * t694);
+        let t858 = t182 * t854 + (t475 * t855 + (t473 * t856 + t474 * t857));
+        let t859 = t186 * t848 - (t184 * t851 + t858);
+        let t860 = t186 * t855 + (t182 * t856 + t184 * t857);
+        let t861 = t845 + (parameters.actuator_axis[2][0] * t859 + t840 * t860);
+        let t862 = parameters.actuator_axis[2][1] * t507;
+        let t863 = parameters.actuator_axis[2][0] * t505 + t862;
+        let t864 = parameters.actuator_axis[2][2] * t509 - t863;
+        let t865 = parameters.mover_mass[2] * (t861 - parameters.mover_offset[2] * t864);
+        let t866 = parameters.platform_point[2][0] * t543 + (t522 - t854);
+        let t867 = parameters.platform_point[2][1] * t544 + t866;
+        let t868 = t222 * (parameters.platform_point[2][2] * t545 + t867);
+        let t869 = parameters.actuator_axis[2][0] * (t865 + (t219 * t861 - t868));
+        let t870 = parameters.actuator_axis[2][2] * t325;
+        let t871 = parameters.actuator_axis[2][0] * t331 - t870;
+        let t872 = t514 * t841 + (t512 * t842 - (t491 + t510 * t843));
+        let t873 = parameters.actuator_axis[2][1] * t661 - (t838 * t871 + t872);
+        let t874 = t873 + (parameters.actuator_axis[2][1] * t859 + t860 * t871);
+        let t875 = parameters.actuator_axis[2][1] * t512;
+        let t876 = parameters.actuator_axis[2][0] * t510 - t875;
+        let t877 = parameters.actuator_axis[2][2] * t514 - t876;
+        let t878 = parameters.mover_mass[2] * (t874 + parameters.mover_offset[2] * t877);
+        let t879 = parameters.platform_point[2][0] * t551 - (t524 - t851);
+        let t880 = parameters.platform_point[2][1] * t552 + t879;
+        let t881 = t222 * (parameters.platform_point[2][2] * t553 + t880);
+        let t882 = parameters.actuator_axis[2][1] * (t878 + (t219 * t874 + t881));
+        let t883 = parameters.actuator_axis[2][0] * t328;
+        let t884 = parameters.actuator_axis[2][1] * t325 - t883;
+        let t885 = t517 * t841 - (t516 * t842 + (t493 - t515 * t843));
+        let t886 = parameters.actuator_axis[2][2] * t661 - (t838 * t884 + t885);
+        let t887 = t886 + (parameters.actuator_axis[2][2] * t859 + t860 * t884);
+        let t888 = parameters.actuator_axis[2][1] * t516;
+        let t889 = parameters.actuator_axis[2][0] * t515 - t888;
+        let t890 = parameters.actuator_axis[2][2] * t517 + t889;
+        let t891 = parameters.mover_mass[2] * (t887 + parameters.mover_offset[2] * t890);
+        let t892 = parameters.platform_point[2][0] * t557 - (t526 + t848);
+        let t893 = parameters.platform_point[2][1] * t558 + t892;
+        let t894 = t222 * (parameters.platform_point[2][2] * t559 + t893);
+        let t895 = parameters.actuator_axis[2][2] * (t891 + (t219 * t887 + t894));
         // leg 3: remaining leg inertia less weight at the platform joint
-        let t902 = t222 * t867;
-        let t903 = t222 * t880;
-        let t904 = t222 * t893;
+        let t896 = t222 * t861;
+        let t897 = t222 * t874;
+        let t898 = t222 * t887;
         // leg 4: leg inertia less weight along the actuator
-        let t905 = c(2.0) * t450;
-        let t906 = parameters.actuator_axis[3][1] * t331;
-        let t907 = parameters.actuator_axis[3][2] * t328 - t906;
-        let t908 = parameters.base_point[3][2] + parameters.actuator_axis[3][2] * t148;
-        let t909 = parameters.base_point[3][1] + parameters.actuator_axis[3][1] * t148;
-        let t910 = parameters.base_point[3][0] + parameters.actuator_axis[3][0] * t148;
-        let t911 = t509 * t908 - (t507 * t909 - (t489 - t505 * t910));
-        let t912 = parameters.actuator_axis[3][0] * t666 - (t905 * t907 - t911);
-        let t913 = parameters.platform_point[3][1] * t714;
-        let t914 = parameters.platform_point[3][0] * t713 + t913;
-        let t915 = parameters.platform_point[3][2] * t715 + t914;
-        let t916 = parameters.platform_point[3][1] * t708;
-        let t917 = parameters.platform_point[3][0] * t707 + t916;
-        let t918 = parameters.platform_point[3][2] * t709 + t917;
-        let t919 = parameters.platform_point[3][1] * t701;
-        let t920 = parameters.platform_point[3][0] * t700 + t919;
-        let t921 = parameters.platform_point[3][2] * t702 + t920;
-        let t922 = t75 * t692 - (t685 + t78 * t690);
-        let t923 = t78 * t694 - (t681 + t81 * t692);
-        let t924 = t81 * t690 - (t683 + t75 * t694);
-        let t925 = (t192 * t325 + (t477 - t188 * t331)) * t924;
-        let t926 = (t190 * t331 + (t476 - t192 * t328)) * t923 + t925;
-        let t927 = (t188 * t328 + (t478 - t190 * t325)) * t922 + t926;
-        let t928 = t192 * t915 - (t190 * t918 + (t188 * t921 + t927));
-        let t929 = t192 * t922 + (t188 * t923 + t190 * t924);
-        let t930 = t912 + (parameters.actuator_axis[3][0] * t928 + t907 * t929);
-        let t931 = parameters.actuator_axis[3][1] * t507;
-        let t932 = parameters.actuator_axis[3][0] * t505 + t931;
-        let t933 = parameters.actuator_axis[3][2] * t509 - t932;
-        let t934 = parameters.mover_mass[3] * (t930 - parameters.mover_offset[3] * t933);
-        let t935 = parameters.platform_point[3][0] * t543 + (t522 - t921);
-        let t936 = parameters.platform_point[3][1] * t544 + t935;
-        let t937 = t228 * (parameters.platform_point[3][2] * t545 + t936);
-        let t938 = parameters.actuator_axis[3][0] * (t934 + (t225 * t930 - t937));
-        let t939 = parameters.actuator_axis[3][2] * t325;
-        let t940 = parameters.actuator_axis[3][0] * t331 - t939;
-        let t941 = t514 * t908 + (t512 * t909 - (t491 + t510 * t910));
-        let t942 = parameters.actuator_axis[3][1] * t666 - (t905 * t940 + t941);
-        let t943 = t942 + (parameters.actuator_axis[3][1] * t928 + t929 * t940);
-        let t944 = parameters.actuator_axis[3][1] * t512;
-        let t945 = parameters.actuator_axis[3][0] * t510 - t944;
-        let t946 = parameters.actuator_axis[3][2] * t514 - t945;
-        let t947 = parameters.mover_mass[3] * (t943 + parameters.mover_offset[3] * t946);
-        let t948 = parameters.platform_point[3][0] * t551 - (t524 - t918);
-        let t949 = parameters.platform_point[3][1] * t552 + t948;
-        let t950 = t228 * (parameters.platform_point[3][2] * t553 + t949);
-        let t951 = parameters.actuator_axis[3][1] * (t947 + (t225 * t943 + t950));
-        let t952 = parameters.actuator_axis[3][0] * t328;
-        let t953 = parameters.actuator_axis[3][1] * t325 - t952;
-        let t954 = t517 * t908 - (t516 * t909 + (t493 - t515 * t910));
-        let t955 = parameters.actuator_axis[3][2] * t666 - (t905 * t953 + t954);
-        let t956 = t955 + (parameters.actuator_axis[3][2] * t928 + t929 * t953);
-        let t957 = parameters.actuator_axis[3][1] * t516;
-        let t958 = parameters.actuator_axis[3][0] * t515 - t957;
-        let t959 = parameters.actuator_axis[3][2] * t517 + t958;
-        let t960 = parameters.mover_mass[3] * (t956 + parameters.mover_offset[3] * t959);
-        let t961 = parameters.platform_point[3][0] * t557 - (t526 + t915);
-        let t962 = parameters.platform_point[3][1] * t558 + t961;
-        let t963 = t228 * (parameters.platform_point[3][2] * t559 + t962);
-        let t964 = parameters.actuator_axis[3][2] * (t960 + (t225 * t956 + t963));
+        let t899 = c(2.0) * t450;
+        let t900 = parameters.actuator_axis[3][1] * t331;
+        let t901 = parameters.actuator_axis[3][2] * t328 - t900;
+        let t902 = parameters.base_point[3][2] + parameters.actuator_axis[3][2] * t148;
+        let t903 = parameters.base_point[3][1] + parameters.actuator_axis[3][1] * t148;
+        let t904 = parameters.base_point[3][0] + parameters.actuator_axis[3][0] * t148;
+        let t905 = t509 * t902 - (t507 * t903 - (t489 - t505 * t904));
+        let t906 = parameters.actuator_axis[3][0] * t666 - (t899 * t901 - t905);
+        let t907 = parameters.platform_point[3][1] * t714;
+        let t908 = parameters.platform_point[3][0] * t713 + t907;
+        let t909 = parameters.platform_point[3][2] * t715 + t908;
+        let t910 = parameters.platform_point[3][1] * t708;
+        let t911 = parameters.platform_point[3][0] * t707 + t910;
+        let t912 = parameters.platform_point[3][2] * t709 + t911;
+        let t913 = parameters.platform_point[3][1] * t701;
+        let t914 = parameters.platform_point[3][0] * t700 + t913;
+        let t915 = parameters.platform_point[3][2] * t702 + t914;
+        let t916 = t75 * t692 - (t685 + t78 * t690);
+        let t917 = t78 * t694 - (t681 + t81 * t692);
+        let t918 = t81 * t690 - (t683 + t75 * t694);
+        let t919 = t188 * t915 + (t478 * t916 + (t476 * t917 + t477 * t918));
+        let t920 = t192 * t909 - (t190 * t912 + t919);
+        let t921 = t192 * t916 + (t188 * t917 + t190 * t918);
+        let t922 = t906 + (parameters.actuator_axis[3][0] * t920 + t901 * t921);
+        let t923 = parameters.actuator_axis[3][1] * t507;
+        let t924 = parameters.actuator_axis[3][0] * t505 + t923;
+        let t925 = parameters.actuator_axis[3][2] * t509 - t924;
+        let t926 = parameters.mover_mass[3] * (t922 - parameters.mover_offset[3] * t925);
+        let t927 = parameters.platform_point[3][0] * t543 + (t522 - t915);
+        let t928 = parameters.platform_point[3][1] * t544 + t927;
+        let t929 = t228 * (parameters.platform_point[3][2] * t545 + t928);
+        let t930 = parameters.actuator_axis[3][0] * (t926 + (t225 * t922 - t929));
+        let t931 = parameters.actuator_axis[3][2] * t325;
+        let t932 = parameters.actuator_axis[3][0] * t331 - t931;
+        let t933 = t514 * t902 + (t512 * t903 - (t491 + t510 * t904));
+        let t934 = parameters.actuator_axis[3][1] * t666 - (t899 * t932 + t933);
+        let t935 = t934 + (parameters.actuator_axis[3][1] * t920 + t921 * t932);
+        let t936 = parameters.actuator_axis[3][1] * t512;
+        let t937 = parameters.actuator_axis[3][0] * t510 - t936;
+        let t938 = parameters.actuator_axis[3][2] * t514 - t937;
+        let t939 = parameters.mover_mass[3] * (t935 + parameters.mover_offset[3] * t938);
+        let t940 = parameters.platform_point[3][0] * t551 - (t524 - t912);
+        let t941 = parameters.platform_point[3][1] * t552 + t940;
+        let t942 = t228 * (parameters.platform_point[3][2] * t553 + t941);
+        let t943 = parameters.actuator_axis[3][1] * (t939 + (t225 * t935 + t942));
+        let t944 = parameters.actuator_axis[3][0] * t328;
+        let t945 = parameters.actuator_axis[3][1] * t325 - t944;
+        let t946 = t517 * t902 - (t516 * t903 + (t493 - t515 * t904));
+        let t947 = parameters.actuator_axis[3][2] * t666 - (t899 * t945 + t946);
+        let t948 = t947 + (parameters.actuator_axis[3][2] * t920 + t921 * t945);
+        let t949 = parameters.actuator_axis[3][1] * t516;
+        let t950 = parameters.actuator_axis[3][0] * t515 - t949;
+        let t951 = parameters.actuator_axis[3][2] * t517 + t950;
+        let t952 = parameters.mover_mass[3] * (t948 + parameters.mover_offset[3] * t951);
+        let t953 = parameters.platform_point[3][0] * t557 - (t526 + t909);
+        let t954 = parameters.platform_point[3][1] * t558 + t953;
+        let t955 = t228 * (parameters.platform_point[3][2] * t559 + t954);
+        let t956 = parameters.actuator_axis[3][2] * (t952 + (t225 * t948 + t955));
         // leg 4: remaining leg inertia less weight at the platform joint
-        let t965 = t228 * t930;
-        let t966 = t228 * t943;
-        let t967 = t228 * t956;
+        let t957 = t228 * t922;
+        let t958 = t228 * t935;
+        let t959 = t228 * t948;
         (
             t3,
             t6,
@@ -28720,416 +28650,412 @@ pub fn passive_inverse_dynamics<T: Scalar>(
             t713,
             t714,
             t715,
-            t749,
-            t762,
+            t747,
+            t760,
+            t773,
+            t774,
             t775,
             t776,
-            t777,
-            t778,
-            t812,
-            t825,
-            t838,
-            t839,
-            t840,
-            t841,
-            t875,
-            t888,
-            t901,
-            t902,
-            t903,
-            t904,
-            t938,
-            t951,
-            t964,
-            t965,
-            t966,
-            t967,
+            t808,
+            t821,
+            t834,
+            t835,
+            t836,
+            t837,
+            t869,
+            t882,
+            t895,
+            t896,
+            t897,
+            t898,
+            t930,
+            t943,
+            t956,
+            t957,
+            t958,
+            t959,
         )
     };
     {
         // leg 5: leg inertia less weight along the actuator
-        let t968 = c(2.0) * t458;
-        let t969 = parameters.actuator_axis[4][1] * t331;
-        let t970 = parameters.actuator_axis[4][2] * t328 - t969;
-        let t971 = parameters.base_point[4][2] + parameters.actuator_axis[4][2] * t158;
-        let t972 = parameters.base_point[4][1] + parameters.actuator_axis[4][1] * t158;
-        let t973 = parameters.base_point[4][0] + parameters.actuator_axis[4][0] * t158;
-        let t974 = t509 * t971 - (t507 * t972 - (t489 - t505 * t973));
-        let t975 = parameters.actuator_axis[4][0] * t671 - (t968 * t970 - t974);
-        let t976 = parameters.platform_point[4][1] * t714;
-        let t977 = parameters.platform_point[4][0] * t713 + t976;
-        let t978 = parameters.platform_point[4][2] * t715 + t977;
-        let t979 = parameters.platform_point[4][1] * t708;
-        let t980 = parameters.platform_point[4][0] * t707 + t979;
-        let t981 = parameters.platform_point[4][2] * t709 + t980;
-        let t982 = parameters.platform_point[4][1] * t701;
-        let t983 = parameters.platform_point[4][0] * t700 + t982;
-        let t984 = parameters.platform_point[4][2] * t702 + t983;
-        let t985 = t87 * t692 - (t685 + t90 * t690);
-        let t986 = t90 * t694 - (t681 + t93 * t692);
-        let t987 = t93 * t690 - (t683 + t87 * t694);
-        let t988 = (t198 * t325 + (t480 - t194 * t331)) * t987;
-        let t989 = (t196 * t331 + (t479 - t198 * t328)) * t986 + t988;
-        let t990 = (t194 * t328 + (t481 - t196 * t325)) * t985 + t989;
-        let t991 = t198 * t978 - (t196 * t981 + (t194 * t984 + t990));
-        let t992 = t198 * t985 + (t194 * t986 + t196 * t987);
-        let t993 = t975 + (parameters.actuator_axis[4][0] * t991 + t970 * t992);
-        let t994 = parameters.actuator_axis[4][1] * t507;
-        let t995 = parameters.actuator_axis[4][0] * t505 + t994;
-        let t996 = parameters.actuator_axis[4][2] * t509 - t995;
-        let t997 = parameters.mover_mass[4] * (t993 - parameters.mover_offset[4] * t996);
-        let t998 = parameters.platform_point[4][0] * t543 + (t522 - t984);
-        let t999 = parameters.platform_point[4][1] * t544 + t998;
-        let t1000 = t234 * (parameters.platform_point[4][2] * t545 + t999);
-        let t1001 = parameters.actuator_axis[4][0] * (t997 + (t231 * t993 - t1000));
-        let t1002 = parameters.actuator_axis[4][2] * t325;
-        let t1003 = parameters.actuator_axis[4][0] * t331 - t1002;
-        let t1004 = t514 * t971 + (t512 * t972 - (t491 + t510 * t973));
-        let t1005 = parameters.actuator_axis[4][1] * t671 - (t968 * t1003 + t1004);
-        let t1006 = t1005 + (parameters.actuator_axis[4][1] * t991 + t992 * t1003);
-        let t1007 = parameters.actuator_axis[4][1] * t512;
-        let t1008 = parameters.actuator_axis[4][0] * t510 - t1007;
-        let t1009 = parameters.actuator_axis[4][2] * t514 - t1008;
-        let t1010 = parameters.mover_mass[4]
-            * (t1006 + parameters.mover_offset[4] * t1009);
-        let t1011 = parameters.platform_point[4][0] * t551 - (t524 - t981);
-        let t1012 = parameters.platform_point[4][1] * t552 + t1011;
-        let t1013 = t234 * (parameters.platform_point[4][2] * t553 + t1012);
-        let t1014 = parameters.actuator_axis[4][1] * (t1010 + (t231 * t1006 + t1013));
-        let t1015 = parameters.actuator_axis[4][0] * t328;
-        let t1016 = parameters.actuator_axis[4][1] * t325 - t1015;
-        let t1017 = t517 * t971 - (t516 * t972 + (t493 - t515 * t973));
-        let t1018 = parameters.actuator_axis[4][2] * t671 - (t968 * t1016 + t1017);
-        let t1019 = t1018 + (parameters.actuator_axis[4][2] * t991 + t992 * t1016);
-        let t1020 = parameters.actuator_axis[4][1] * t516;
-        let t1021 = parameters.actuator_axis[4][0] * t515 - t1020;
-        let t1022 = parameters.actuator_axis[4][2] * t517 + t1021;
-        let t1023 = parameters.mover_mass[4]
-            * (t1019 + parameters.mover_offset[4] * t1022);
-        let t1024 = parameters.platform_point[4][0] * t557 - (t526 + t978);
-        let t1025 = parameters.platform_point[4][1] * t558 + t1024;
-        let t1026 = t234 * (parameters.platform_point[4][2] * t559 + t1025);
-        let t1027 = parameters.actuator_axis[4][2] * (t1023 + (t231 * t1019 + t1026));
+        let t960 = c(2.0) * t458;
+        let t961 = parameters.actuator_axis[4][1] * t331;
+        let t962 = parameters.actuator_axis[4][2] * t328 - t961;
+        let t963 = parameters.base_point[4][2] + parameters.actuator_axis[4][2] * t158;
+        let t964 = parameters.base_point[4][1] + parameters.actuator_axis[4][1] * t158;
+        let t965 = parameters.base_point[4][0] + parameters.actuator_axis[4][0] * t158;
+        let t966 = t509 * t963 - (t507 * t964 - (t489 - t505 * t965));
+        let t967 = parameters.actuator_axis[4][0] * t671 - (t960 * t962 - t966);
+        let t968 = parameters.platform_point[4][1] * t714;
+        let t969 = parameters.platform_point[4][0] * t713 + t968;
+        let t970 = parameters.platform_point[4][2] * t715 + t969;
+        let t971 = parameters.platform_point[4][1] * t708;
+        let t972 = parameters.platform_point[4][0] * t707 + t971;
+        let t973 = parameters.platform_point[4][2] * t709 + t972;
+        let t974 = parameters.platform_point[4][1] * t701;
+        let t975 = parameters.platform_point[4][0] * t700 + t974;
+        let t976 = parameters.platform_point[4][2] * t702 + t975;
+        let t977 = t87 * t692 - (t685 + t90 * t690);
+        let t978 = t90 * t694 - (t681 + t93 * t692);
+        let t979 = t93 * t690 - (t683 + t87 * t694);
+        let t980 = t194 * t976 + (t481 * t977 + (t479 * t978 + t480 * t979));
+        let t981 = t198 * t970 - (t196 * t973 + t980);
+        let t982 = t198 * t977 + (t194 * t978 + t196 * t979);
+        let t983 = t967 + (parameters.actuator_axis[4][0] * t981 + t962 * t982);
+        let t984 = parameters.actuator_axis[4][1] * t507;
+        let t985 = parameters.actuator_axis[4][0] * t505 + t984;
+        let t986 = parameters.actuator_axis[4][2] * t509 - t985;
+        let t987 = parameters.mover_mass[4] * (t983 - parameters.mover_offset[4] * t986);
+        let t988 = parameters.platform_point[4][0] * t543 + (t522 - t976);
+        let t989 = parameters.platform_point[4][1] * t544 + t988;
+        let t990 = t234 * (parameters.platform_point[4][2] * t545 + t989);
+        let t991 = parameters.actuator_axis[4][0] * (t987 + (t231 * t983 - t990));
+        let t992 = parameters.actuator_axis[4][2] * t325;
+        let t993 = parameters.actuator_axis[4][0] * t331 - t992;
+        let t994 = t514 * t963 + (t512 * t964 - (t491 + t510 * t965));
+        let t995 = parameters.actuator_axis[4][1] * t671 - (t960 * t993 + t994);
+        let t996 = t995 + (parameters.actuator_axis[4][1] * t981 + t982 * t993);
+        let t997 = parameters.actuator_axis[4][1] * t512;
+        let t998 = parameters.actuator_axis[4][0] * t510 - t997;
+        let t999 = parameters.actuator_axis[4][2] * t514 - t998;
+        let t1000 = parameters.mover_mass[4]
+            * (t996 + parameters.mover_offset[4] * t999);
+        let t1001 = parameters.platform_point[4][0] * t551 - (t524 - t973);
+        let t1002 = parameters.platform_point[4][1] * t552 + t1001;
+        let t1003 = t234 * (parameters.platform_point[4][2] * t553 + t1002);
+        let t1004 = parameters.actuator_axis[4][1] * (t1000 + (t231 * t996 + t1003));
+        let t1005 = parameters.actuator_axis[4][0] * t328;
+        let t1006 = parameters.actuator_axis[4][1] * t325 - t1005;
+        let t1007 = t517 * t963 - (t516 * t964 + (t493 - t515 * t965));
+        let t1008 = parameters.actuator_axis[4][2] * t671 - (t960 * t1006 + t1007);
+        let t1009 = t1008 + (parameters.actuator_axis[4][2] * t981 + t982 * t1006);
+        let t1010 = parameters.actuator_axis[4][1] * t516;
+        let t1011 = parameters.actuator_axis[4][0] * t515 - t1010;
+        let t1012 = parameters.actuator_axis[4][2] * t517 + t1011;
+        let t1013 = parameters.mover_mass[4]
+            * (t1009 + parameters.mover_offset[4] * t1012);
+        let t1014 = parameters.platform_point[4][0] * t557 - (t526 + t970);
+        let t1015 = parameters.platform_point[4][1] * t558 + t1014;
+        let t1016 = t234 * (parameters.platform_point[4][2] * t559 + t1015);
+        let t1017 = parameters.actuator_axis[4][2] * (t1013 + (t231 * t1009 + t1016));
         // leg 5: remaining leg inertia less weight at the platform joint
-        let t1028 = t234 * t993;
-        let t1029 = t234 * t1006;
-        let t1030 = t234 * t1019;
+        let t1018 = t234 * t983;
+        let t1019 = t234 * t996;
+        let t1020 = t234 * t1009;
         // leg 6: leg inertia less weight along the actuator
-        let t1031 = c(2.0) * t466;
-        let t1032 = parameters.actuator_axis[5][1] * t331;
-        let t1033 = parameters.actuator_axis[5][2] * t328 - t1032;
-        let t1034 = parameters.base_point[5][2] + parameters.actuator_axis[5][2] * t168;
-        let t1035 = parameters.base_point[5][1] + parameters.actuator_axis[5][1] * t168;
-        let t1036 = parameters.base_point[5][0] + parameters.actuator_axis[5][0] * t168;
-        let t1037 = t509 * t1034 - (t507 * t1035 - (t489 - t505 * t1036));
-        let t1038 = parameters.actuator_axis[5][0] * t676 - (t1031 * t1033 - t1037);
-        let t1039 = parameters.platform_point[5][1] * t714;
-        let t1040 = parameters.platform_point[5][0] * t713 + t1039;
-        let t1041 = parameters.platform_point[5][2] * t715 + t1040;
-        let t1042 = parameters.platform_point[5][1] * t708;
-        let t1043 = parameters.platform_point[5][0] * t707 + t1042;
-        let t1044 = parameters.platform_point[5][2] * t709 + t1043;
-        let t1045 = parameters.platform_point[5][1] * t701;
-        let t1046 = parameters.platform_point[5][0] * t700 + t1045;
-        let t1047 = parameters.platform_point[5][2] * t702 + t1046;
-        let t1048 = t99 * t692 - (t685 + t102 * t690);
-        let t1049 = t102 * t694 - (t681 + t105 * t692);
-        let t1050 = t105 * t690 - (t683 + t99 * t694);
-        let t1051 = (t204 * t325 + (t483 - t200 * t331)) * t1050;
-        let t1052 = (t202 * t331 + (t482 - t204 * t328)) * t1049 + t1051;
-        let t1053 = (t200 * t328 + (t484 - t202 * t325)) * t1048 + t1052;
-        let t1054 = t204 * t1041 - (t202 * t1044 + (t200 * t1047 + t1053));
-        let t1055 = t204 * t1048 + (t200 * t1049 + t202 * t1050);
-        let t1056 = t1038 + (parameters.actuator_axis[5][0] * t1054 + t1033 * t1055);
-        let t1057 = parameters.actuator_axis[5][1] * t507;
-        let t1058 = parameters.actuator_axis[5][0] * t505 + t1057;
-        let t1059 = parameters.actuator_axis[5][2] * t509 - t1058;
-        let t1060 = parameters.mover_mass[5]
-            * (t1056 - parameters.mover_offset[5] * t1059);
-        let t1061 = parameters.platform_point[5][0] * t543 + (t522 - t1047);
-        let t1062 = parameters.platform_point[5][1] * t544 + t1061;
-        let t1063 = t240 * (parameters.platform_point[5][2] * t545 + t1062);
-        let t1064 = parameters.actuator_axis[5][0] * (t1060 + (t237 * t1056 - t1063));
-        let t1065 = parameters.actuator_axis[5][2] * t325;
-        let t1066 = parameters.actuator_axis[5][0] * t331 - t1065;
-        let t1067 = t514 * t1034 + (t512 * t1035 - (t491 + t510 * t1036));
-        let t1068 = parameters.actuator_axis[5][1] * t676 - (t1031 * t1066 + t1067);
-        let t1069 = t1068 + (parameters.actuator_axis[5][1] * t1054 + t1055 * t1066);
-        let t1070 = parameters.actuator_axis[5][1] * t512;
-        let t1071 = parameters.actuator_axis[5][0] * t510 - t1070;
-        let t1072 = parameters.actuator_axis[5][2] * t514 - t1071;
-        let t1073 = parameters.mover_mass[5]
-            * (t1069 + parameters.mover_offset[5] * t1072);
-        let t1074 = parameters.platform_point[5][0] * t551 - (t524 - t1044);
-        let t1075 = parameters.platform_point[5][1] * t552 + t1074;
-        let t1076 = t240 * (parameters.platform_point[5][2] * t553 + t1075);
-        let t1077 = parameters.actuator_axis[5][1] * (t1073 + (t237 * t1069 + t1076));
-        let t1078 = parameters.actuator_axis[5][0] * t328;
-        let t1079 = parameters.actuator_axis[5][1] * t325 - t1078;
-        let t1080 = t517 * t1034 - (t516 * t1035 + (t493 - t515 * t1036));
-        let t1081 = parameters.actuator_axis[5][2] * t676 - (t1031 * t1079 + t1080);
-        let t1082 = t1081 + (parameters.actuator_axis[5][2] * t1054 + t1055 * t1079);
-        let t1083 = parameters.actuator_axis[5][1] * t516;
-        let t1084 = parameters.actuator_axis[5][0] * t515 - t1083;
-        let t1085 = parameters.actuator_axis[5][2] * t517 + t1084;
-        let t1086 = parameters.mover_mass[5]
-            * (t1082 + parameters.mover_offset[5] * t1085);
-        let t1087 = parameters.platform_point[5][0] * t557 - (t526 + t1041);
-        let t1088 = parameters.platform_point[5][1] * t558 + t1087;
-        let t1089 = t240 * (parameters.platform_point[5][2] * t559 + t1088);
-        let t1090 = parameters.actuator_axis[5][2] * (t1086 + (t237 * t1082 + t1089));
+        let t1021 = c(2.0) * t466;
+        let t1022 = parameters.actuator_axis[5][1] * t331;
+        let t1023 = parameters.actuator_axis[5][2] * t328 - t1022;
+        let t1024 = parameters.base_point[5][2] + parameters.actuator_axis[5][2] * t168;
+        let t1025 = parameters.base_point[5][1] + parameters.actuator_axis[5][1] * t168;
+        let t1026 = parameters.base_point[5][0] + parameters.actuator_axis[5][0] * t168;
+        let t1027 = t509 * t1024 - (t507 * t1025 - (t489 - t505 * t1026));
+        let t1028 = parameters.actuator_axis[5][0] * t676 - (t1021 * t1023 - t1027);
+        let t1029 = parameters.platform_point[5][1] * t714;
+        let t1030 = parameters.platform_point[5][0] * t713 + t1029;
+        let t1031 = parameters.platform_point[5][2] * t715 + t1030;
+        let t1032 = parameters.platform_point[5][1] * t708;
+        let t1033 = parameters.platform_point[5][0] * t707 + t1032;
+        let t1034 = parameters.platform_point[5][2] * t709 + t1033;
+        let t1035 = parameters.platform_point[5][1] * t701;
+        let t1036 = parameters.platform_point[5][0] * t700 + t1035;
+        let t1037 = parameters.platform_point[5][2] * t702 + t1036;
+        let t1038 = t99 * t692 - (t685 + t102 * t690);
+        let t1039 = t102 * t694 - (t681 + t105 * t692);
+        let t1040 = t105 * t690 - (t683 + t99 * t694);
+        let t1041 = t200 * t1037 + (t484 * t1038 + (t482 * t1039 + t483 * t1040));
+        let t1042 = t204 * t1031 - (t202 * t1034 + t1041);
+        let t1043 = t204 * t1038 + (t200 * t1039 + t202 * t1040);
+        let t1044 = t1028 + (parameters.actuator_axis[5][0] * t1042 + t1023 * t1043);
+        let t1045 = parameters.actuator_axis[5][1] * t507;
+        let t1046 = parameters.actuator_axis[5][0] * t505 + t1045;
+        let t1047 = parameters.actuator_axis[5][2] * t509 - t1046;
+        let t1048 = parameters.mover_mass[5]
+            * (t1044 - parameters.mover_offset[5] * t1047);
+        let t1049 = parameters.platform_point[5][0] * t543 + (t522 - t1037);
+        let t1050 = parameters.platform_point[5][1] * t544 + t1049;
+        let t1051 = t240 * (parameters.platform_point[5][2] * t545 + t1050);
+        let t1052 = parameters.actuator_axis[5][0] * (t1048 + (t237 * t1044 - t1051));
+        let t1053 = parameters.actuator_axis[5][2] * t325;
+        let t1054 = parameters.actuator_axis[5][0] * t331 - t1053;
+        let t1055 = t514 * t1024 + (t512 * t1025 - (t491 + t510 * t1026));
+        let t1056 = parameters.actuator_axis[5][1] * t676 - (t1021 * t1054 + t1055);
+        let t1057 = t1056 + (parameters.actuator_axis[5][1] * t1042 + t1043 * t1054);
+        let t1058 = parameters.actuator_axis[5][1] * t512;
+        let t1059 = parameters.actuator_axis[5][0] * t510 - t1058;
+        let t1060 = parameters.actuator_axis[5][2] * t514 - t1059;
+        let t1061 = parameters.mover_mass[5]
+            * (t1057 + parameters.mover_offset[5] * t1060);
+        let t1062 = parameters.platform_point[5][0] * t551 - (t524 - t1034);
+        let t1063 = parameters.platform_point[5][1] * t552 + t1062;
+        let t1064 = t240 * (parameters.platform_point[5][2] * t553 + t1063);
+        let t1065 = parameters.actuator_axis[5][1] * (t1061 + (t237 * t1057 + t1064));
+        let t1066 = parameters.actuator_axis[5][0] * t328;
+        let t1067 = parameters.actuator_axis[5][1] * t325 - t1066;
+        let t1068 = t517 * t1024 - (t516 * t1025 + (t493 - t515 * t1026));
+        let t1069 = parameters.actuator_axis[5][2] * t676 - (t1021 * t1067 + t1068);
+        let t1070 = t1069 + (parameters.actuator_axis[5][2] * t1042 + t1043 * t1067);
+        let t1071 = parameters.actuator_axis[5][1] * t516;
+        let t1072 = parameters.actuator_axis[5][0] * t515 - t1071;
+        let t1073 = parameters.actuator_axis[5][2] * t517 + t1072;
+        let t1074 = parameters.mover_mass[5]
+            * (t1070 + parameters.mover_offset[5] * t1073);
+        let t1075 = parameters.platform_point[5][0] * t557 - (t526 + t1031);
+        let t1076 = parameters.platform_point[5][1] * t558 + t1075;
+        let t1077 = t240 * (parameters.platform_point[5][2] * t559 + t1076);
+        let t1078 = parameters.actuator_axis[5][2] * (t1074 + (t237 * t1070 + t1077));
         // leg 6: remaining leg inertia less weight at the platform joint
-        let t1091 = t240 * t1056;
-        let t1092 = t240 * t1069;
-        let t1093 = t240 * t1082;
+        let t1079 = t240 * t1044;
+        let t1080 = t240 * t1057;
+        let t1081 = t240 * t1070;
         // leg 1: spring and damper force along the actuator
-        let t1094 = parameters.axial_stiffness[0] * (parameters.rest_length[0] - t118);
-        let t1095 = parameters.axial_damping[0] * t426;
+        let t1082 = parameters.axial_stiffness[0] * (parameters.rest_length[0] - t118);
+        let t1083 = parameters.axial_damping[0] * t426;
         // leg 2: spring and damper force along the actuator
-        let t1096 = parameters.axial_stiffness[1] * (parameters.rest_length[1] - t128);
-        let t1097 = parameters.axial_damping[1] * t434;
+        let t1084 = parameters.axial_stiffness[1] * (parameters.rest_length[1] - t128);
+        let t1085 = parameters.axial_damping[1] * t434;
         // leg 3: spring and damper force along the actuator
-        let t1098 = parameters.axial_stiffness[2] * (parameters.rest_length[2] - t138);
-        let t1099 = parameters.axial_damping[2] * t442;
+        let t1086 = parameters.axial_stiffness[2] * (parameters.rest_length[2] - t138);
+        let t1087 = parameters.axial_damping[2] * t442;
         // leg 4: spring and damper force along the actuator
-        let t1100 = parameters.axial_stiffness[3] * (parameters.rest_length[3] - t148);
-        let t1101 = parameters.axial_damping[3] * t450;
+        let t1088 = parameters.axial_stiffness[3] * (parameters.rest_length[3] - t148);
+        let t1089 = parameters.axial_damping[3] * t450;
         // leg 5: spring and damper force along the actuator
-        let t1102 = parameters.axial_stiffness[4] * (parameters.rest_length[4] - t158);
-        let t1103 = parameters.axial_damping[4] * t458;
+        let t1090 = parameters.axial_stiffness[4] * (parameters.rest_length[4] - t158);
+        let t1091 = parameters.axial_damping[4] * t458;
         // leg 6: spring and damper force along the actuator
-        let t1104 = parameters.axial_stiffness[5] * (parameters.rest_length[5] - t168);
-        let t1105 = parameters.axial_damping[5] * t466;
+        let t1092 = parameters.axial_stiffness[5] * (parameters.rest_length[5] - t168);
+        let t1093 = parameters.axial_damping[5] * t466;
         // leg 1: row of the actuator Jacobian in base coordinates
-        let t1106 = t42 * t174 - t45 * t172;
-        let t1107 = t45 * t170 - t39 * t174;
-        let t1108 = t39 * t172 - t42 * t170;
+        let t1094 = t42 * t174 - t45 * t172;
+        let t1095 = t45 * t170 - t39 * t174;
+        let t1096 = t39 * t172 - t42 * t170;
         // leg 2: row of the actuator Jacobian in base coordinates
-        let t1109 = t54 * t180 - t57 * t178;
-        let t1110 = t57 * t176 - t51 * t180;
-        let t1111 = t51 * t178 - t54 * t176;
+        let t1097 = t54 * t180 - t57 * t178;
+        let t1098 = t57 * t176 - t51 * t180;
+        let t1099 = t51 * t178 - t54 * t176;
         // leg 3: row of the actuator Jacobian in base coordinates
-        let t1112 = t66 * t186 - t69 * t184;
-        let t1113 = t69 * t182 - t63 * t186;
-        let t1114 = t63 * t184 - t66 * t182;
+        let t1100 = t66 * t186 - t69 * t184;
+        let t1101 = t69 * t182 - t63 * t186;
+        let t1102 = t63 * t184 - t66 * t182;
         // leg 4: row of the actuator Jacobian in base coordinates
-        let t1115 = t78 * t192 - t81 * t190;
-        let t1116 = t81 * t188 - t75 * t192;
-        let t1117 = t75 * t190 - t78 * t188;
+        let t1103 = t78 * t192 - t81 * t190;
+        let t1104 = t81 * t188 - t75 * t192;
+        let t1105 = t75 * t190 - t78 * t188;
         // leg 5: row of the actuator Jacobian in base coordinates
-        let t1118 = t90 * t198 - t93 * t196;
-        let t1119 = t93 * t194 - t87 * t198;
-        let t1120 = t87 * t196 - t90 * t194;
+        let t1106 = t90 * t198 - t93 * t196;
+        let t1107 = t93 * t194 - t87 * t198;
+        let t1108 = t87 * t196 - t90 * t194;
         // leg 6: row of the actuator Jacobian in base coordinates
-        let t1121 = t102 * t204 - t105 * t202;
-        let t1122 = t105 * t200 - t99 * t204;
-        let t1123 = t99 * t202 - t102 * t200;
+        let t1109 = t102 * t204 - t105 * t202;
+        let t1110 = t105 * t200 - t99 * t204;
+        let t1111 = t99 * t202 - t102 * t200;
         // inertia force less weight, without the actuators' own shares
-        let t1124 = t242 * t522;
-        let t1125 = t249 * t543;
-        let t1126 = t256 * t544;
-        let t1127 = t263 * t545;
-        let t1128 = t242 * t524;
-        let t1129 = t249 * t551;
-        let t1130 = t256 * t552;
-        let t1131 = t263 * t553;
-        let t1132 = t242 * t526;
-        let t1133 = t249 * t557;
-        let t1134 = t256 * t558;
-        let t1135 = t263 * t559;
+        let t1112 = t242 * t522;
+        let t1113 = t249 * t543;
+        let t1114 = t256 * t544;
+        let t1115 = t263 * t545;
+        let t1116 = t242 * t524;
+        let t1117 = t249 * t551;
+        let t1118 = t256 * t552;
+        let t1119 = t263 * t553;
+        let t1120 = t242 * t526;
+        let t1121 = t249 * t557;
+        let t1122 = t256 * t558;
+        let t1123 = t263 * t559;
         // its first moments by platform coordinate
-        let t1136 = t249 * t522;
-        let t1137 = t275 * t543;
-        let t1138 = t284 * t544;
-        let t1139 = t293 * t545;
-        let t1140 = parameters.platform_point[0][0] * t776;
-        let t1141 = parameters.platform_point[1][0] * t839;
-        let t1142 = parameters.platform_point[2][0] * t902;
-        let t1143 = parameters.platform_point[3][0] * t965;
-        let t1144 = parameters.platform_point[4][0] * t1028;
-        let t1145 = parameters.platform_point[5][0] * t1091;
-        let t1146 = t256 * t522;
-        let t1147 = t284 * t543;
-        let t1148 = t303 * t544;
-        let t1149 = t312 * t545;
-        let t1150 = parameters.platform_point[0][1] * t776;
-        let t1151 = parameters.platform_point[1][1] * t839;
-        let t1152 = parameters.platform_point[2][1] * t902;
-        let t1153 = parameters.platform_point[3][1] * t965;
-        let t1154 = parameters.platform_point[4][1] * t1028;
-        let t1155 = parameters.platform_point[5][1] * t1091;
-        let t1156 = t263 * t522;
-        let t1157 = t293 * t543;
-        let t1158 = t312 * t544;
-        let t1159 = t322 * t545;
-        let t1160 = parameters.platform_point[0][2] * t776;
-        let t1161 = parameters.platform_point[1][2] * t839;
-        let t1162 = parameters.platform_point[2][2] * t902;
-        let t1163 = parameters.platform_point[3][2] * t965;
-        let t1164 = parameters.platform_point[4][2] * t1028;
-        let t1165 = parameters.platform_point[5][2] * t1091;
-        let t1166 = t249 * t524;
-        let t1167 = t275 * t551;
-        let t1168 = t284 * t552;
-        let t1169 = t293 * t553;
-        let t1170 = parameters.platform_point[0][0] * t777;
-        let t1171 = parameters.platform_point[1][0] * t840;
-        let t1172 = parameters.platform_point[2][0] * t903;
-        let t1173 = parameters.platform_point[3][0] * t966;
-        let t1174 = parameters.platform_point[4][0] * t1029;
-        let t1175 = parameters.platform_point[5][0] * t1092;
-        let t1176 = t256 * t524;
-        let t1177 = t284 * t551;
-        let t1178 = t303 * t552;
-        let t1179 = t312 * t553;
-        let t1180 = parameters.platform_point[0][1] * t777;
-        let t1181 = parameters.platform_point[1][1] * t840;
-        let t1182 = parameters.platform_point[2][1] * t903;
-        let t1183 = parameters.platform_point[3][1] * t966;
-        let t1184 = parameters.platform_point[4][1] * t1029;
-        let t1185 = parameters.platform_point[5][1] * t1092;
-        let t1186 = t263 * t524;
-        let t1187 = t293 * t551;
-        let t1188 = t312 * t552;
-        let t1189 = t322 * t553;
-        let t1190 = parameters.platform_point[0][2] * t777;
-        let t1191 = parameters.platform_point[1][2] * t840;
-        let t1192 = parameters.platform_point[2][2] * t903;
-        let t1193 = parameters.platform_point[3][2] * t966;
-        let t1194 = parameters.platform_point[4][2] * t1029;
-        let t1195 = parameters.platform_point[5][2] * t1092;
-        let t1196 = t249 * t526;
-        let t1197 = t275 * t557;
-        let t1198 = t284 * t558;
-        let t1199 = t293 * t559;
-        let t1200 = parameters.platform_point[0][0] * t778;
-        let t1201 = parameters.platform_point[1][0] * t841;
-        let t1202 = parameters.platform_point[2][0] * t904;
-        let t1203 = parameters.platform_point[3][0] * t967;
-        let t1204 = parameters.platform_point[4][0] * t1030;
-        let t1205 = parameters.platform_point[5][0] * t1093;
-        let t1206 = t256 * t526;
-        let t1207 = t284 * t557;
-        let t1208 = t303 * t558;
-        let t1209 = t312 * t559;
-        let t1210 = parameters.platform_point[0][1] * t778;
-        let t1211 = parameters.platform_point[1][1] * t841;
-        let t1212 = parameters.platform_point[2][1] * t904;
-        let t1213 = parameters.platform_point[3][1] * t967;
-        let t1214 = parameters.platform_point[4][1] * t1030;
-        let t1215 = parameters.platform_point[5][1] * t1093;
-        let t1216 = t263 * t526;
-        let t1217 = t293 * t557;
-        let t1218 = t312 * t558;
-        let t1219 = t322 * t559;
-        let t1220 = parameters.platform_point[0][2] * t778;
-        let t1221 = parameters.platform_point[1][2] * t841;
-        let t1222 = parameters.platform_point[2][2] * t904;
-        let t1223 = parameters.platform_point[3][2] * t967;
-        let t1224 = parameters.platform_point[4][2] * t1030;
-        let t1225 = parameters.platform_point[5][2] * t1093;
+        let t1124 = t249 * t522;
+        let t1125 = t275 * t543;
+        let t1126 = t284 * t544;
+        let t1127 = t293 * t545;
+        let t1128 = parameters.platform_point[0][0] * t774;
+        let t1129 = parameters.platform_point[1][0] * t835;
+        let t1130 = parameters.platform_point[2][0] * t896;
+        let t1131 = parameters.platform_point[3][0] * t957;
+        let t1132 = parameters.platform_point[4][0] * t1018;
+        let t1133 = parameters.platform_point[5][0] * t1079;
+        let t1134 = t256 * t522;
+        let t1135 = t284 * t543;
+        let t1136 = t303 * t544;
+        let t1137 = t312 * t545;
+        let t1138 = parameters.platform_point[0][1] * t774;
+        let t1139 = parameters.platform_point[1][1] * t835;
+        let t1140 = parameters.platform_point[2][1] * t896;
+        let t1141 = parameters.platform_point[3][1] * t957;
+        let t1142 = parameters.platform_point[4][1] * t1018;
+        let t1143 = parameters.platform_point[5][1] * t1079;
+        let t1144 = t263 * t522;
+        let t1145 = t293 * t543;
+        let t1146 = t312 * t544;
+        let t1147 = t322 * t545;
+        let t1148 = parameters.platform_point[0][2] * t774;
+        let t1149 = parameters.platform_point[1][2] * t835;
+        let t1150 = parameters.platform_point[2][2] * t896;
+        let t1151 = parameters.platform_point[3][2] * t957;
+        let t1152 = parameters.platform_point[4][2] * t1018;
+        let t1153 = parameters.platform_point[5][2] * t1079;
+        let t1154 = t249 * t524;
+        let t1155 = t275 * t551;
+        let t1156 = t284 * t552;
+        let t1157 = t293 * t553;
+        let t1158 = parameters.platform_point[0][0] * t775;
+        let t1159 = parameters.platform_point[1][0] * t836;
+        let t1160 = parameters.platform_point[2][0] * t897;
+        let t1161 = parameters.platform_point[3][0] * t958;
+        let t1162 = parameters.platform_point[4][0] * t1019;
+        let t1163 = parameters.platform_point[5][0] * t1080;
+        let t1164 = t256 * t524;
+        let t1165 = t284 * t551;
+        let t1166 = t303 * t552;
+        let t1167 = t312 * t553;
+        let t1168 = parameters.platform_point[0][1] * t775;
+        let t1169 = parameters.platform_point[1][1] * t836;
+        let t1170 = parameters.platform_point[2][1] * t897;
+        let t1171 = parameters.platform_point[3][1] * t958;
+        let t1172 = parameters.platform_point[4][1] * t1019;
+        let t1173 = parameters.platform_point[5][1] * t1080;
+        let t1174 = t263 * t524;
+        let t1175 = t293 * t551;
+        let t1176 = t312 * t552;
+        let t1177 = t322 * t553;
+        let t1178 = parameters.platform_point[0][2] * t775;
+        let t1179 = parameters.platform_point[1][2] * t836;
+        let t1180 = parameters.platform_point[2][2] * t897;
+        let t1181 = parameters.platform_point[3][2] * t958;
+        let t1182 = parameters.platform_point[4][2] * t1019;
+        let t1183 = parameters.platform_point[5][2] * t1080;
+        let t1184 = t249 * t526;
+        let t1185 = t275 * t557;
+        let t1186 = t284 * t558;
+        let t1187 = t293 * t559;
+        let t1188 = parameters.platform_point[0][0] * t776;
+        let t1189 = parameters.platform_point[1][0] * t837;
+        let t1190 = parameters.platform_point[2][0] * t898;
+        let t1191 = parameters.platform_point[3][0] * t959;
+        let t1192 = parameters.platform_point[4][0] * t1020;
+        let t1193 = parameters.platform_point[5][0] * t1081;
+        let t1194 = t256 * t526;
+        let t1195 = t284 * t557;
+        let t1196 = t303 * t558;
+        let t1197 = t312 * t559;
+        let t1198 = parameters.platform_point[0][1] * t776;
+        let t1199 = parameters.platform_point[1][1] * t837;
+        let t1200 = parameters.platform_point[2][1] * t898;
+        let t1201 = parameters.platform_point[3][1] * t959;
+        let t1202 = parameters.platform_point[4][1] * t1020;
+        let t1203 = parameters.platform_point[5][1] * t1081;
+        let t1204 = t263 * t526;
+        let t1205 = t293 * t557;
+        let t1206 = t312 * t558;
+        let t1207 = t322 * t559;
+        let t1208 = parameters.platform_point[0][2] * t776;
+        let t1209 = parameters.platform_point[1][2] * t837;
+        let t1210 = parameters.platform_point[2][2] * t898;
+        let t1211 = parameters.platform_point[3][2] * t959;
+        let t1212 = parameters.platform_point[4][2] * t1020;
+        let t1213 = parameters.platform_point[5][2] * t1081;
         // inertia less external wrench that the actuators must balance
-        let t1226 = t1125
-            + (t1124 - (t1091 + (t1028 + (t965 + (t902 + (t776 + t839))))));
-        let t1227 = t1127 + (t1126 + t1226) - t249 * t700 - t256 * t701;
-        let t1228 = base_rotation[1][0] * external_wrench[1];
-        let t1229 = base_rotation[0][0] * external_wrench[0] + t1228;
-        let t1230 = base_rotation[2][0] * external_wrench[2] + t1229;
-        let t1231 = t1227 - t263 * t702 - t1230;
-        let t1232 = t1128 - (t1092 + (t1029 + (t966 + (t903 + (t777 + t840))))) - t1129;
-        let t1233 = t1232 - t1130 - t1131 - t249 * t707 - t256 * t708;
-        let t1234 = base_rotation[1][1] * external_wrench[1];
-        let t1235 = base_rotation[0][1] * external_wrench[0] + t1234;
-        let t1236 = base_rotation[2][1] * external_wrench[2] + t1235;
-        let t1237 = t1233 - t263 * t709 - t1236;
-        let t1238 = t1133
-            - (t1132 - (t1093 + (t1030 + (t967 + (t904 + (t778 + t841))))));
-        let t1239 = t256 * t714 + (t249 * t713 - (t1135 + (t1134 + t1238)));
-        let t1240 = base_rotation[1][2] * external_wrench[1];
-        let t1241 = base_rotation[0][2] * external_wrench[0] + t1240;
-        let t1242 = base_rotation[2][2] * external_wrench[2] + t1241;
-        let t1243 = t263 * t715 + t1239 - t1242;
-        let t1244 = t1193
-            + (t1192 + (t1191 + (t1190 + (t1189 + (t1188 - (t1186 - t1187))))));
-        let t1245 = t312 * t708 + (t293 * t707 + (t1195 + (t1194 + t1244)));
-        let t1246 = parameters.payload_com[2] * t1236 + (t322 * t709 + t1245);
-        let t1247 = t1223
-            + (t1222 + (t1221 + (t1220 + (t1219 + (t1218 - (t1216 - t1217))))));
-        let t1248 = t312 * t714 + (t293 * t713 - (t1225 + (t1224 + t1247)));
-        let t1249 = parameters.payload_com[2] * t1242 - (t322 * t715 + t1248);
-        let t1250 = t1183
-            + (t1182 + (t1181 + (t1180 + (t1179 + (t1178 - (t1176 - t1177))))));
-        let t1251 = t303 * t708 + (t284 * t707 + (t1185 + (t1184 + t1250)));
-        let t1252 = parameters.payload_com[1] * t1236 + (t312 * t709 + t1251);
-        let t1253 = t1213
-            + (t1212 + (t1211 + (t1210 + (t1209 + (t1208 - (t1206 - t1207))))));
-        let t1254 = t303 * t714 + (t284 * t713 - (t1215 + (t1214 + t1253)));
-        let t1255 = parameters.payload_com[1] * t1242 - (t312 * t715 + t1254);
-        let t1256 = t1203
-            + (t1202 + (t1201 + (t1200 + (t1199 + (t1198 - (t1196 - t1197))))));
-        let t1257 = t284 * t714 + (t275 * t713 - (t1205 + (t1204 + t1256)));
-        let t1258 = parameters.payload_com[0] * t1242 - (t293 * t715 + t1257);
-        let t1259 = t1173
-            + (t1172 + (t1171 + (t1170 + (t1169 + (t1168 - (t1166 - t1167))))));
-        let t1260 = t284 * t708 + (t275 * t707 + (t1175 + (t1174 + t1259)));
-        let t1261 = parameters.payload_com[0] * t1236 + (t293 * t709 + t1260);
-        let t1262 = t24 * t1252 - (t15 * t1255 + (t12 * t1258 - t21 * t1261));
-        let t1263 = t27 * t1246 - (t18 * t1249 - t1262) - t265 * (t704 - t711);
-        let t1264 = t1263 - base_rotation[0][0] * external_wrench[3];
-        let t1265 = t1264 - base_rotation[1][0] * external_wrench[4];
-        let t1266 = t1265 - base_rotation[2][0] * external_wrench[5];
-        let t1267 = t1163
-            + (t1162 + (t1161 + (t1160 - (t1159 + (t1158 + (t1156 + t1157))))));
-        let t1268 = t312 * t701 + (t293 * t700 + (t1165 + (t1164 + t1267)));
-        let t1269 = parameters.payload_com[2] * t1230 + (t322 * t702 + t1268);
-        let t1270 = t1153
-            + (t1152 + (t1151 + (t1150 - (t1149 + (t1148 + (t1146 + t1147))))));
-        let t1271 = t303 * t701 + (t284 * t700 + (t1155 + (t1154 + t1270)));
-        let t1272 = parameters.payload_com[1] * t1230 + (t312 * t702 + t1271);
-        let t1273 = t1143
-            + (t1142 + (t1141 + (t1140 - (t1139 + (t1138 + (t1136 + t1137))))));
-        let t1274 = t284 * t701 + (t275 * t700 + (t1145 + (t1144 + t1273)));
-        let t1275 = parameters.payload_com[0] * t1230 + (t293 * t702 + t1274);
-        let t1276 = t6 * t1255 - (t24 * t1272 + (t21 * t1275 - t3 * t1258));
-        let t1277 = t265 * (t696 - t710) + (t9 * t1249 - (t27 * t1269 - t1276));
-        let t1278 = t1277 - base_rotation[0][1] * external_wrench[3];
-        let t1279 = t1278 - base_rotation[1][1] * external_wrench[4];
-        let t1280 = t1279 - base_rotation[2][1] * external_wrench[5];
-        let t1281 = t15 * t1272 - (t6 * t1252 + (t3 * t1261 - t12 * t1275));
-        let t1282 = t18 * t1269 - (t9 * t1246 - t1281) - t265 * (t695 - t703);
-        let t1283 = t1282 - base_rotation[0][2] * external_wrench[3];
-        let t1284 = t1283 - base_rotation[1][2] * external_wrench[4];
-        let t1285 = t1284 - base_rotation[2][2] * external_wrench[5];
+        let t1214 = t1113
+            + (t1112 - (t1079 + (t1018 + (t957 + (t896 + (t774 + t835))))));
+        let t1215 = t1115 + (t1114 + t1214) - t249 * t700 - t256 * t701;
+        let t1216 = base_rotation[1][0] * external_wrench[1];
+        let t1217 = base_rotation[0][0] * external_wrench[0] + t1216;
+        let t1218 = base_rotation[2][0] * external_wrench[2] + t1217;
+        let t1219 = t1215 - t263 * t702 - t1218;
+        let t1220 = t1116 - (t1080 + (t1019 + (t958 + (t897 + (t775 + t836))))) - t1117;
+        let t1221 = t1220 - t1118 - t1119 - t249 * t707 - t256 * t708;
+        let t1222 = base_rotation[1][1] * external_wrench[1];
+        let t1223 = base_rotation[0][1] * external_wrench[0] + t1222;
+        let t1224 = base_rotation[2][1] * external_wrench[2] + t1223;
+        let t1225 = t1221 - t263 * t709 - t1224;
+        let t1226 = t1121
+            - (t1120 - (t1081 + (t1020 + (t959 + (t898 + (t776 + t837))))));
+        let t1227 = t256 * t714 + (t249 * t713 - (t1123 + (t1122 + t1226)));
+        let t1228 = base_rotation[1][2] * external_wrench[1];
+        let t1229 = base_rotation[0][2] * external_wrench[0] + t1228;
+        let t1230 = base_rotation[2][2] * external_wrench[2] + t1229;
+        let t1231 = t263 * t715 + t1227 - t1230;
+        let t1232 = t1181
+            + (t1180 + (t1179 + (t1178 + (t1177 + (t1176 - (t1174 - t1175))))));
+        let t1233 = t312 * t708 + (t293 * t707 + (t1183 + (t1182 + t1232)));
+        let t1234 = parameters.payload_com[2] * t1224 + (t322 * t709 + t1233);
+        let t1235 = t1211
+            + (t1210 + (t1209 + (t1208 + (t1207 + (t1206 - (t1204 - t1205))))));
+        let t1236 = t312 * t714 + (t293 * t713 - (t1213 + (t1212 + t1235)));
+        let t1237 = parameters.payload_com[2] * t1230 - (t322 * t715 + t1236);
+        let t1238 = t1171
+            + (t1170 + (t1169 + (t1168 + (t1167 + (t1166 - (t1164 - t1165))))));
+        let t1239 = t303 * t708 + (t284 * t707 + (t1173 + (t1172 + t1238)));
+        let t1240 = parameters.payload_com[1] * t1224 + (t312 * t709 + t1239);
+        let t1241 = t1201
+            + (t1200 + (t1199 + (t1198 + (t1197 + (t1196 - (t1194 - t1195))))));
+        let t1242 = t303 * t714 + (t284 * t713 - (t1203 + (t1202 + t1241)));
+        let t1243 = parameters.payload_com[1] * t1230 - (t312 * t715 + t1242);
+        let t1244 = t1191
+            + (t1190 + (t1189 + (t1188 + (t1187 + (t1186 - (t1184 - t1185))))));
+        let t1245 = t284 * t714 + (t275 * t713 - (t1193 + (t1192 + t1244)));
+        let t1246 = parameters.payload_com[0] * t1230 - (t293 * t715 + t1245);
+        let t1247 = t1161
+            + (t1160 + (t1159 + (t1158 + (t1157 + (t1156 - (t1154 - t1155))))));
+        let t1248 = t284 * t708 + (t275 * t707 + (t1163 + (t1162 + t1247)));
+        let t1249 = parameters.payload_com[0] * t1224 + (t293 * t709 + t1248);
+        let t1250 = t24 * t1240 - (t15 * t1243 + (t12 * t1246 - t21 * t1249));
+        let t1251 = t27 * t1234 - (t18 * t1237 - t1250) - t265 * (t704 - t711);
+        let t1252 = t1251 - base_rotation[0][0] * external_wrench[3];
+        let t1253 = t1252 - base_rotation[1][0] * external_wrench[4];
+        let t1254 = t1253 - base_rotation[2][0] * external_wrench[5];
+        let t1255 = t1151
+            + (t1150 + (t1149 + (t1148 - (t1147 + (t1146 + (t1144 + t1145))))));
+        let t1256 = t312 * t701 + (t293 * t700 + (t1153 + (t1152 + t1255)));
+        let t1257 = parameters.payload_com[2] * t1218 + (t322 * t702 + t1256);
+        let t1258 = t1141
+            + (t1140 + (t1139 + (t1138 - (t1137 + (t1136 + (t1134 + t1135))))));
+        let t1259 = t303 * t701 + (t284 * t700 + (t1143 + (t1142 + t1258)));
+        let t1260 = parameters.payload_com[1] * t1218 + (t312 * t702 + t1259);
+        let t1261 = t1131
+            + (t1130 + (t1129 + (t1128 - (t1127 + (t1126 + (t1124 + t1125))))));
+        let t1262 = t284 * t701 + (t275 * t700 + (t1133 + (t1132 + t1261)));
+        let t1263 = parameters.payload_com[0] * t1218 + (t293 * t702 + t1262);
+        let t1264 = t6 * t1243 - (t24 * t1260 + (t21 * t1263 - t3 * t1246));
+        let t1265 = t265 * (t696 - t710) + (t9 * t1237 - (t27 * t1257 - t1264));
+        let t1266 = t1265 - base_rotation[0][1] * external_wrench[3];
+        let t1267 = t1266 - base_rotation[1][1] * external_wrench[4];
+        let t1268 = t1267 - base_rotation[2][1] * external_wrench[5];
+        let t1269 = t15 * t1260 - (t6 * t1240 + (t3 * t1249 - t12 * t1263));
+        let t1270 = t18 * t1257 - (t9 * t1234 - t1269) - t265 * (t695 - t703);
+        let t1271 = t1270 - base_rotation[0][2] * external_wrench[3];
+        let t1272 = t1271 - base_rotation[1][2] * external_wrench[4];
+        let t1273 = t1272 - base_rotation[2][2] * external_wrench[5];
         // force along the actuator that balances the remaining wrench
         let axial_reaction = solve_general(
             &[
                 [t170, t176, t182, t188, t194, t200],
                 [t172, t178, t184, t190, t196, t202],
                 [t174, t180, t186, t192, t198, t204],
-                [t1106, t1109, t1112, t1115, t1118, t1121],
-                [t1107, t1110, t1113, t1116, t1119, t1122],
-                [t1108, t1111, t1114, t1117, t1120, t1123],
+                [t1094, t1097, t1100, t1103, t1106, t1109],
+                [t1095, t1098, t1101, t1104, t1107, t1110],
+                [t1096, t1099, t1102, t1105, t1108, t1111],
             ],
-            &[t1231, t1237, t1243, t1266, t1280, t1285],
+            &[t1219, t1225, t1231, t1254, t1268, t1273],
         );
         // leg 1: actuator forces F at reference speeds
         passive_inverse_dynamics[0] = axial_reaction[0]
-            - (t1095 + (t1094 - (t775 + (t749 + t762))));
+            - (t1083 + (t1082 - (t773 + (t747 + t760))));
         // leg 2: actuator forces F at reference speeds
         passive_inverse_dynamics[1] = axial_reaction[1]
-            - (t1097 + (t1096 - (t838 + (t812 + t825))));
+            - (t1085 + (t1084 - (t834 + (t808 + t821))));
         // leg 3: actuator forces F at reference speeds
         passive_inverse_dynamics[2] = axial_reaction[2]
-            - (t1099 + (t1098 - (t901 + (t875 + t888))));
+            - (t1087 + (t1086 - (t895 + (t869 + t882))));
         // leg 4: actuator forces F at reference speeds
         passive_inverse_dynamics[3] = axial_reaction[3]
-            - (t1101 + (t1100 - (t964 + (t938 + t951))));
+            - (t1089 + (t1088 - (t956 + (t930 + t943))));
         // leg 5: actuator forces F at reference speeds
         passive_inverse_dynamics[4] = axial_reaction[4]
-            - (t1103 + (t1102 - (t1027 + (t1001 + t1014))));
+            - (t1091 + (t1090 - (t1017 + (t991 + t1004))));
         // leg 6: actuator forces F at reference speeds
         passive_inverse_dynamics[5] = axial_reaction[5]
-            - (t1105 + (t1104 - (t1090 + (t1064 + t1077))));
+            - (t1093 + (t1092 - (t1078 + (t1052 + t1065))));
     }
 }
 
@@ -30527,7 +30453,7 @@ pub fn base_reaction<T: Scalar>(
 /// - `platform_position`: 3, m, frame O: centre of the platform's joint circle.
 /// - `platform_rotation`: 3x3, dimensionless, frame P -> O: rotation of the platform, equation (2).
 /// - `platform_velocity`: 6, m/s, rad/s, frame O: platform velocity \[r_p'; w_p\], the generalised speeds.
-/// - `actuator_force`: 6, N: actuator force on the mover, along the actuator axis.
+/// - `actuator_force`: 6, N: actuator force along the actuator, positive to lengthen it.
 /// - `external_wrench`: 6, N, N m, frame O: external force and moment \[F_D; M_D\] at the payload's centre of mass.
 ///
 /// Outputs:
@@ -32385,7 +32311,7 @@ pub fn forward_dynamics<T: Scalar>(
 ///
 /// Outputs:
 ///
-/// - `kinetic_energy`: scalar, J: kinetic energy of payload, rods and movers.
+/// - `kinetic_energy`: scalar, J: kinetic energy of all moving bodies.
 /// - `potential_energy`: scalar, J: potential energy of gravity and springs.
 #[allow(clippy::all, clippy::pedantic, unused_variables)]
 pub fn energy<T: Scalar>(
@@ -33265,7 +33191,7 @@ pub fn energy<T: Scalar>(
     let t766 = parameters.mover_mass[5] * (t764 - parameters.mover_offset[5] * t701);
     let t767 = parameters.rod_mass[5] * (t343 * t764 - t765) - t766;
     let t768 = parameters.gravity[2] * t767;
-    // kinetic energy of payload, rods and movers
+    // kinetic energy of all moving bodies
     let t769 = platform_rotation[2][1] * parameters.payload_com[1];
     let t770 = platform_rotation[2][0] * parameters.payload_com[0] + t769;
     let t771 = platform_rotation[2][2] * parameters.payload_com[2] + t770;

@@ -3,7 +3,7 @@
 //
 // Dynamics of the platform `uhp_2016`, every number baked in.
 //
-// graph     uhp.json, sha256 c0ba644a7baec83e1c503d82bf6c2b9fdeb1248d3d1f501aee99d3286ff379f4
+// graph     uhp.json, sha256 681cf4434cab11670af96653d8c96f220cec2462c26e5b794f5948e0a98ffee3
 //           derived by CasADi 3.8.2
 // platform  uhp_2016, sha256 of its resolved numbers b8134078fa1f34e5f609cc3dfb62aea03f363b944f89b1a9c1f48d524d56338e
 //
@@ -84,7 +84,7 @@ impl crate::kernels::LegKinematics for Uhp2016 {
         rod_direction: &mut [[f64; 3]; 6],
         hooke_joint_position: &mut [[f64; 3]; 6],
         platform_joint_position: &mut [[f64; 3]; 6],
-        universal_joint_rate: &mut [[f64; 3]; 6],
+        platform_joint_rate: &mut [[f64; 3]; 6],
     ) {
         self::leg_kinematics(
             base_position,
@@ -101,13 +101,13 @@ impl crate::kernels::LegKinematics for Uhp2016 {
             rod_direction,
             hooke_joint_position,
             platform_joint_position,
-            universal_joint_rate,
+            platform_joint_rate,
         );
     }
 }
 
 #[allow(clippy::all, clippy::pedantic, unused_qualifications)]
-impl crate::kernels::BodyKinematics for Uhp2016 {
+impl crate::kernels::uhp::BodyKinematics for Uhp2016 {
     fn body_kinematics(
         &self,
         base_position: &[f64; 3],
@@ -155,7 +155,7 @@ impl crate::kernels::BodyKinematics for Uhp2016 {
 }
 
 #[allow(clippy::all, clippy::pedantic, unused_qualifications)]
-impl crate::kernels::PartialVelocities for Uhp2016 {
+impl crate::kernels::uhp::PartialVelocities for Uhp2016 {
     fn partial_velocities(
         &self,
         base_position: &[f64; 3],
@@ -183,7 +183,7 @@ impl crate::kernels::PartialVelocities for Uhp2016 {
 }
 
 #[allow(clippy::all, clippy::pedantic, unused_qualifications)]
-impl crate::kernels::GeneralisedForces for Uhp2016 {
+impl crate::kernels::uhp::GeneralisedForces for Uhp2016 {
     fn generalised_forces(
         &self,
         base_position: &[f64; 3],
@@ -736,7 +736,7 @@ impl crate::kernels::LegKinematics<f32> for Uhp2016 {
         rod_direction: &mut [[f32; 3]; 6],
         hooke_joint_position: &mut [[f32; 3]; 6],
         platform_joint_position: &mut [[f32; 3]; 6],
-        universal_joint_rate: &mut [[f32; 3]; 6],
+        platform_joint_rate: &mut [[f32; 3]; 6],
     ) {
         self::leg_kinematics(
             base_position,
@@ -753,13 +753,13 @@ impl crate::kernels::LegKinematics<f32> for Uhp2016 {
             rod_direction,
             hooke_joint_position,
             platform_joint_position,
-            universal_joint_rate,
+            platform_joint_rate,
         );
     }
 }
 
 #[allow(clippy::all, clippy::pedantic, unused_qualifications)]
-impl crate::kernels::BodyKinematics<f32> for Uhp2016 {
+impl crate::kernels::uhp::BodyKinematics<f32> for Uhp2016 {
     #[inline]
     fn body_kinematics(
         &self,
@@ -808,7 +808,7 @@ impl crate::kernels::BodyKinematics<f32> for Uhp2016 {
 }
 
 #[allow(clippy::all, clippy::pedantic, unused_qualifications)]
-impl crate::kernels::PartialVelocities<f32> for Uhp2016 {
+impl crate::kernels::uhp::PartialVelocities<f32> for Uhp2016 {
     #[inline]
     fn partial_velocities(
         &self,
@@ -837,7 +837,7 @@ impl crate::kernels::PartialVelocities<f32> for Uhp2016 {
 }
 
 #[allow(clippy::all, clippy::pedantic, unused_qualifications)]
-impl crate::kernels::GeneralisedForces<f32> for Uhp2016 {
+impl crate::kernels::uhp::GeneralisedForces<f32> for Uhp2016 {
     #[inline]
     fn generalised_forces(
         &self,
@@ -1368,7 +1368,7 @@ impl crate::kernels::Energy<f32> for Uhp2016 {
     }
 }
 
-/// Squared cosine between each rod and its actuator axis, equation (18).
+/// Squared cosine between each rod and the line of its actuator's force, equation (18).
 ///
 /// Inputs:
 ///
@@ -1379,7 +1379,7 @@ impl crate::kernels::Energy<f32> for Uhp2016 {
 ///
 /// Outputs:
 ///
-/// - `rod_alignment`: 6, dimensionless: squared cosine between rod and actuator axis; negative out of reach, equation (18).
+/// - `rod_alignment`: 6, dimensionless: squared cosine between rod and line of the actuator's force; negative out of reach, equation (18).
 #[allow(clippy::all, clippy::pedantic, unused_variables)]
 pub fn rod_alignment<T: Scalar>(
     base_position: &[T; 3],
@@ -1458,17 +1458,17 @@ pub fn rod_alignment<T: Scalar>(
     // leg 6: extent of the rod along the actuator axis
     let t54 = t42 * t42;
     let t55 = t43 * t43;
-    // leg 1: squared cosine between rod and actuator axis; negative out of reach
+    // leg 1: squared cosine between rod and line of the actuator's force; negative out of reach
     rod_alignment[0] = c(1.0) - c(23.564897728343862) * (t44 + t45);
-    // leg 2: squared cosine between rod and actuator axis; negative out of reach
+    // leg 2: squared cosine between rod and line of the actuator's force; negative out of reach
     rod_alignment[1] = c(1.0) - c(23.564897728343862) * (t46 + t47);
-    // leg 3: squared cosine between rod and actuator axis; negative out of reach
+    // leg 3: squared cosine between rod and line of the actuator's force; negative out of reach
     rod_alignment[2] = c(1.0) - c(23.564897728343862) * (t48 + t49);
-    // leg 4: squared cosine between rod and actuator axis; negative out of reach
+    // leg 4: squared cosine between rod and line of the actuator's force; negative out of reach
     rod_alignment[3] = c(1.0) - c(23.564897728343862) * (t50 + t51);
-    // leg 5: squared cosine between rod and actuator axis; negative out of reach
+    // leg 5: squared cosine between rod and line of the actuator's force; negative out of reach
     rod_alignment[4] = c(1.0) - c(23.564897728343862) * (t52 + t53);
-    // leg 6: squared cosine between rod and actuator axis; negative out of reach
+    // leg 6: squared cosine between rod and line of the actuator's force; negative out of reach
     rod_alignment[5] = c(1.0) - c(23.564897728343862) * (t54 + t55);
 }
 
@@ -1493,7 +1493,7 @@ pub fn rod_alignment<T: Scalar>(
 /// - `rod_direction`: 6x3, dimensionless, frame O: rod direction u, from the Hooke joint to the platform joint, equation (17).
 /// - `hooke_joint_position`: 6x3, m, frame O: Hooke joint, equation (14).
 /// - `platform_joint_position`: 6x3, m, frame O: platform joint, equation (14).
-/// - `universal_joint_rate`: 6x3, rad/s, frame O: platform's angular velocity relative to the rod, w_p - w_s, equation (23).
+/// - `platform_joint_rate`: 6x3, rad/s, frame O: platform's angular velocity relative to the rod, w_p - w_s, equation (23).
 #[allow(clippy::all, clippy::pedantic, unused_variables)]
 pub fn leg_kinematics<T: Scalar>(
     base_position: &[T; 3],
@@ -1510,7 +1510,7 @@ pub fn leg_kinematics<T: Scalar>(
     rod_direction: &mut [[T; 3]; 6],
     hooke_joint_position: &mut [[T; 3]; 6],
     platform_joint_position: &mut [[T; 3]; 6],
-    universal_joint_rate: &mut [[T; 3]; 6],
+    platform_joint_rate: &mut [[T; 3]; 6],
 ) {
     let c = T::constant;
     // rotation of the platform seen from the base
@@ -2238,46 +2238,46 @@ pub fn leg_kinematics<T: Scalar>(
     let t547 = t328 * t542;
     let t548 = t330 * t544;
     // leg 1: platform's angular velocity relative to the rod, w_p - w_s
-    universal_joint_rate[0][0] = platform_velocity[3]
+    platform_joint_rate[0][0] = platform_velocity[3]
         + c(4.8543689320388355) * (t367 - t369);
-    universal_joint_rate[0][1] = platform_velocity[4]
+    platform_joint_rate[0][1] = platform_velocity[4]
         + c(4.8543689320388355) * (t371 - t372);
-    universal_joint_rate[0][2] = platform_velocity[5]
+    platform_joint_rate[0][2] = platform_velocity[5]
         + c(4.8543689320388355) * (t373 - t374);
     // leg 2: platform's angular velocity relative to the rod, w_p - w_s
-    universal_joint_rate[1][0] = platform_velocity[3]
+    platform_joint_rate[1][0] = platform_velocity[3]
         + c(4.8543689320388355) * (t397 - t399);
-    universal_joint_rate[1][1] = platform_velocity[4]
+    platform_joint_rate[1][1] = platform_velocity[4]
         + c(4.8543689320388355) * (t401 - t402);
-    universal_joint_rate[1][2] = platform_velocity[5]
+    platform_joint_rate[1][2] = platform_velocity[5]
         + c(4.8543689320388355) * (t403 - t404);
     // leg 3: platform's angular velocity relative to the rod, w_p - w_s
-    universal_joint_rate[2][0] = platform_velocity[3]
+    platform_joint_rate[2][0] = platform_velocity[3]
         + c(4.8543689320388355) * (t439 - t441);
-    universal_joint_rate[2][1] = platform_velocity[4]
+    platform_joint_rate[2][1] = platform_velocity[4]
         + c(4.8543689320388355) * (t443 - t444);
-    universal_joint_rate[2][2] = platform_velocity[5]
+    platform_joint_rate[2][2] = platform_velocity[5]
         + c(4.8543689320388355) * (t445 - t446);
     // leg 4: platform's angular velocity relative to the rod, w_p - w_s
-    universal_joint_rate[3][0] = platform_velocity[3]
+    platform_joint_rate[3][0] = platform_velocity[3]
         + c(4.8543689320388355) * (t481 - t483);
-    universal_joint_rate[3][1] = platform_velocity[4]
+    platform_joint_rate[3][1] = platform_velocity[4]
         + c(4.8543689320388355) * (t485 - t486);
-    universal_joint_rate[3][2] = platform_velocity[5]
+    platform_joint_rate[3][2] = platform_velocity[5]
         + c(4.8543689320388355) * (t487 - t488);
     // leg 5: platform's angular velocity relative to the rod, w_p - w_s
-    universal_joint_rate[4][0] = platform_velocity[3]
+    platform_joint_rate[4][0] = platform_velocity[3]
         + c(4.8543689320388355) * (t511 - t513);
-    universal_joint_rate[4][1] = platform_velocity[4]
+    platform_joint_rate[4][1] = platform_velocity[4]
         + c(4.8543689320388355) * (t515 - t516);
-    universal_joint_rate[4][2] = platform_velocity[5]
+    platform_joint_rate[4][2] = platform_velocity[5]
         + c(4.8543689320388355) * (t517 - t518);
     // leg 6: platform's angular velocity relative to the rod, w_p - w_s
-    universal_joint_rate[5][0] = platform_velocity[3]
+    platform_joint_rate[5][0] = platform_velocity[3]
         + c(4.8543689320388355) * (t541 - t543);
-    universal_joint_rate[5][1] = platform_velocity[4]
+    platform_joint_rate[5][1] = platform_velocity[4]
         + c(4.8543689320388355) * (t545 - t546);
-    universal_joint_rate[5][2] = platform_velocity[5]
+    platform_joint_rate[5][2] = platform_velocity[5]
         + c(4.8543689320388355) * (t547 - t548);
 }
 
@@ -4355,7 +4355,7 @@ pub fn partial_velocities<T: Scalar>(
 /// - `platform_rotation`: 3x3, dimensionless, frame P -> O: rotation of the platform, equation (2).
 /// - `platform_velocity`: 6, m/s, rad/s, frame O: platform velocity \[r_p'; w_p\], the generalised speeds.
 /// - `platform_acceleration`: 6, m/s^2, rad/s^2, frame O: platform acceleration \[r_p''; w_p'\].
-/// - `actuator_force`: 6, N: actuator force on the mover, along the actuator axis.
+/// - `actuator_force`: 6, N: actuator force along the actuator, positive to lengthen it.
 /// - `external_wrench`: 6, N, N m, frame O: external force and moment \[F_D; M_D\] at the payload's centre of mass.
 ///
 /// Outputs:
@@ -7543,96 +7543,96 @@ pub fn coriolis_matrices<T: Scalar>(
         t313,
         t314,
         t315,
+        t475,
+        t482,
+        t485,
+        t486,
         t487,
-        t494,
-        t497,
-        t498,
-        t499,
-        t501,
-        t502,
-        t503,
-        t504,
-        t524,
-        t530,
-        t533,
-        t534,
-        t535,
-        t537,
-        t538,
-        t539,
-        t540,
-        t560,
-        t566,
-        t569,
-        t570,
-        t571,
-        t573,
-        t574,
-        t575,
-        t576,
-        t596,
-        t602,
-        t605,
-        t606,
-        t607,
-        t609,
-        t610,
-        t611,
-        t612,
-        t632,
-        t638,
-        t641,
-        t642,
-        t643,
-        t645,
-        t646,
-        t647,
-        t648,
-        t668,
+        t489,
+        t490,
+        t491,
+        t492,
+        t512,
+        t518,
+        t521,
+        t522,
+        t523,
+        t525,
+        t526,
+        t527,
+        t528,
+        t548,
+        t554,
+        t557,
+        t558,
+        t559,
+        t561,
+        t562,
+        t563,
+        t564,
+        t584,
+        t590,
+        t593,
+        t594,
+        t595,
+        t597,
+        t598,
+        t599,
+        t600,
+        t620,
+        t626,
+        t629,
+        t630,
+        t631,
+        t633,
+        t634,
+        t635,
+        t636,
+        t656,
+        t662,
+        t665,
+        t666,
+        t667,
+        t669,
+        t670,
+        t671,
+        t672,
+        t673,
         t674,
-        t677,
-        t678,
-        t679,
-        t681,
-        t682,
-        t683,
-        t684,
-        t685,
-        t686,
-        t687,
-        t718,
-        t731,
-        t744,
-        t745,
-        t746,
-        t747,
-        t760,
-        t785,
-        t798,
-        t799,
-        t800,
-        t801,
-        t814,
-        t827,
+        t675,
+        t706,
+        t719,
+        t732,
+        t733,
+        t734,
+        t735,
+        t748,
+        t773,
+        t786,
+        t787,
+        t788,
+        t789,
+        t802,
+        t815,
+        t834,
+        t836,
+        t839,
+        t842,
         t846,
-        t848,
-        t851,
+        t850,
         t854,
-        t858,
+        t857,
+        t859,
         t862,
         t866,
-        t869,
-        t871,
+        t870,
         t874,
-        t878,
+        t877,
+        t880,
         t882,
         t886,
-        t889,
-        t892,
+        t890,
         t894,
-        t898,
-        t902,
-        t906,
     ) = {
         // rotation of the platform seen from the base
         let t1 = base_rotation[1][0] * platform_rotation[1][0];
@@ -8086,615 +8086,657 @@ pub fn coriolis_matrices<T: Scalar>(
         let t371 = t74 * (t50 * t353 - t51 * t354);
         // leg 6: actuator velocity d'
         let t372 = t362 + (t363 - t371);
-        // leg 1: rate of that gradient relative to the base
-        let t373 = t53 * (t333 + t76 * t355);
-        let t374 = t53 * (t336 - t77 * t355);
-        // leg 2: rate of that gradient relative to the base
-        let t375 = t58 * (t337 + t78 * t359);
-        let t376 = t58 * (t338 + t79 * t359);
-        // leg 3: rate of that gradient relative to the base
-        let t377 = t61 * (t341 + t80 * t361);
-        let t378 = t61 * (t344 + t81 * t361);
-        // leg 4: rate of that gradient relative to the base
-        let t379 = t66 * (t347 + t82 * t365);
-        let t380 = t66 * (t350 + t83 * t365);
-        // leg 5: rate of that gradient relative to the base
-        let t381 = t71 * (t351 + t84 * t369);
-        let t382 = t71 * (t352 - t85 * t369);
-        // leg 6: rate of that gradient relative to the base
-        let t383 = t74 * (t353 + t86 * t371);
-        let t384 = t74 * (t354 - t87 * t371);
-        // leg 1: rate of the platform lever
-        let t385 = platform_velocity[4] * t96 - platform_velocity[5] * t93;
-        let t386 = platform_velocity[5] * t90 - platform_velocity[3] * t96;
-        let t387 = platform_velocity[3] * t93 - platform_velocity[4] * t90;
         // leg 1: inertial rate of that gradient
-        let t388 = t77 * t294 + t76 * t297;
-        let t389 = t77 * t300 - (t297 - t373);
-        let t390 = t76 * t300 + (t294 + t374);
-        let t391 = base_rotation[0][0] * t389 + base_rotation[0][1] * t390;
-        let t392 = base_rotation[0][2] * t388 - t391;
-        let t393 = base_rotation[1][0] * t389 + base_rotation[1][1] * t390;
-        let t394 = base_rotation[1][2] * t388 - t393;
-        let t395 = base_rotation[2][0] * t389 + base_rotation[2][1] * t390;
-        let t396 = base_rotation[2][2] * t388 - t395;
-        // leg 2: rate of the platform lever
-        let t397 = platform_velocity[4] * t105 - platform_velocity[5] * t104;
-        let t398 = platform_velocity[5] * t103 - platform_velocity[3] * t105;
-        let t399 = platform_velocity[3] * t104 - platform_velocity[4] * t103;
+        let t373 = t77 * t294 + t76 * t297;
+        let t374 = t77 * t300 - (t297 - t53 * (t333 + t76 * t355));
+        let t375 = t76 * t300 + (t294 + t53 * (t336 - t77 * t355));
+        let t376 = base_rotation[0][0] * t374 + base_rotation[0][1] * t375;
+        let t377 = base_rotation[0][2] * t373 - t376;
+        let t378 = base_rotation[1][0] * t374 + base_rotation[1][1] * t375;
+        let t379 = base_rotation[1][2] * t373 - t378;
+        let t380 = base_rotation[2][0] * t374 + base_rotation[2][1] * t375;
+        let t381 = base_rotation[2][2] * t373 - t380;
         // leg 2: inertial rate of that gradient
-        let t400 = t79 * t294 - t78 * t297;
-        let t401 = t79 * t300 + (t297 - t375);
-        let t402 = t78 * t300 + (t294 + t376);
+        let t382 = t79 * t294 - t78 * t297;
+        let t383 = t79 * t300 + (t297 - t58 * (t337 + t78 * t359));
+        let t384 = t78 * t300 + (t294 + t58 * (t338 + t79 * t359));
+        let t385 = base_rotation[0][0] * t383 - base_rotation[0][1] * t384;
+        let t386 = base_rotation[0][2] * t382 - t385;
+        let t387 = base_rotation[1][0] * t383 - base_rotation[1][1] * t384;
+        let t388 = base_rotation[1][2] * t382 - t387;
+        let t389 = base_rotation[2][0] * t383 - base_rotation[2][1] * t384;
+        let t390 = base_rotation[2][2] * t382 - t389;
+        // leg 3: inertial rate of that gradient
+        let t391 = t81 * t294 - t80 * t297;
+        let t392 = t81 * t300 + (t297 - t61 * (t341 + t80 * t361));
+        let t393 = t80 * t300 + (t294 + t61 * (t344 + t81 * t361));
+        let t394 = base_rotation[0][0] * t392 - base_rotation[0][1] * t393;
+        let t395 = base_rotation[0][2] * t391 - t394;
+        let t396 = base_rotation[1][0] * t392 - base_rotation[1][1] * t393;
+        let t397 = base_rotation[1][2] * t391 - t396;
+        let t398 = base_rotation[2][0] * t392 - base_rotation[2][1] * t393;
+        let t399 = base_rotation[2][2] * t391 - t398;
+        // leg 4: inertial rate of that gradient
+        let t400 = t83 * t294 - t82 * t297;
+        let t401 = t83 * t300 + (t297 - t66 * (t347 + t82 * t365));
+        let t402 = t82 * t300 + (t294 + t66 * (t350 + t83 * t365));
         let t403 = base_rotation[0][0] * t401 - base_rotation[0][1] * t402;
         let t404 = base_rotation[0][2] * t400 - t403;
         let t405 = base_rotation[1][0] * t401 - base_rotation[1][1] * t402;
         let t406 = base_rotation[1][2] * t400 - t405;
         let t407 = base_rotation[2][0] * t401 - base_rotation[2][1] * t402;
         let t408 = base_rotation[2][2] * t400 - t407;
-        // leg 3: rate of the platform lever
-        let t409 = platform_velocity[4] * t120 - platform_velocity[5] * t117;
-        let t410 = platform_velocity[5] * t114 - platform_velocity[3] * t120;
-        let t411 = platform_velocity[3] * t117 - platform_velocity[4] * t114;
-        // leg 3: inertial rate of that gradient
-        let t412 = t81 * t294 - t80 * t297;
-        let t413 = t81 * t300 + (t297 - t377);
-        let t414 = t80 * t300 + (t294 + t378);
-        let t415 = base_rotation[0][0] * t413 - base_rotation[0][1] * t414;
-        let t416 = base_rotation[0][2] * t412 - t415;
-        let t417 = base_rotation[1][0] * t413 - base_rotation[1][1] * t414;
-        let t418 = base_rotation[1][2] * t412 - t417;
-        let t419 = base_rotation[2][0] * t413 - base_rotation[2][1] * t414;
-        let t420 = base_rotation[2][2] * t412 - t419;
-        // leg 4: rate of the platform lever
-        let t421 = platform_velocity[4] * t135 - platform_velocity[5] * t132;
-        let t422 = platform_velocity[5] * t129 - platform_velocity[3] * t135;
-        let t423 = platform_velocity[3] * t132 - platform_velocity[4] * t129;
-        // leg 4: inertial rate of that gradient
-        let t424 = t83 * t294 - t82 * t297;
-        let t425 = t83 * t300 + (t297 - t379);
-        let t426 = t82 * t300 + (t294 + t380);
-        let t427 = base_rotation[0][0] * t425 - base_rotation[0][1] * t426;
-        let t428 = base_rotation[0][2] * t424 - t427;
-        let t429 = base_rotation[1][0] * t425 - base_rotation[1][1] * t426;
-        let t430 = base_rotation[1][2] * t424 - t429;
-        let t431 = base_rotation[2][0] * t425 - base_rotation[2][1] * t426;
-        let t432 = base_rotation[2][2] * t424 - t431;
-        // leg 5: rate of the platform lever
-        let t433 = platform_velocity[4] * t144 - platform_velocity[5] * t143;
-        let t434 = platform_velocity[5] * t142 - platform_velocity[3] * t144;
-        let t435 = platform_velocity[3] * t143 - platform_velocity[4] * t142;
         // leg 5: inertial rate of that gradient
-        let t436 = t85 * t294 + t84 * t297;
-        let t437 = t85 * t300 - (t297 - t381);
-        let t438 = t84 * t300 + (t294 + t382);
-        let t439 = base_rotation[0][0] * t437 + base_rotation[0][1] * t438;
-        let t440 = base_rotation[0][2] * t436 - t439;
-        let t441 = base_rotation[1][0] * t437 + base_rotation[1][1] * t438;
-        let t442 = base_rotation[1][2] * t436 - t441;
-        let t443 = base_rotation[2][0] * t437 + base_rotation[2][1] * t438;
-        let t444 = base_rotation[2][2] * t436 - t443;
-        // leg 6: rate of the platform lever
-        let t445 = platform_velocity[4] * t153 - platform_velocity[5] * t152;
-        let t446 = platform_velocity[5] * t151 - platform_velocity[3] * t153;
-        let t447 = platform_velocity[3] * t152 - platform_velocity[4] * t151;
+        let t409 = t85 * t294 + t84 * t297;
+        let t410 = t85 * t300 - (t297 - t71 * (t351 + t84 * t369));
+        let t411 = t84 * t300 + (t294 + t71 * (t352 - t85 * t369));
+        let t412 = base_rotation[0][0] * t410 + base_rotation[0][1] * t411;
+        let t413 = base_rotation[0][2] * t409 - t412;
+        let t414 = base_rotation[1][0] * t410 + base_rotation[1][1] * t411;
+        let t415 = base_rotation[1][2] * t409 - t414;
+        let t416 = base_rotation[2][0] * t410 + base_rotation[2][1] * t411;
+        let t417 = base_rotation[2][2] * t409 - t416;
         // leg 6: inertial rate of that gradient
-        let t448 = t87 * t294 + t86 * t297;
-        let t449 = t87 * t300 - (t297 - t383);
-        let t450 = t86 * t300 + (t294 + t384);
-        let t451 = base_rotation[0][0] * t449 + base_rotation[0][1] * t450;
-        let t452 = base_rotation[0][2] * t448 - t451;
-        let t453 = base_rotation[1][0] * t449 + base_rotation[1][1] * t450;
-        let t454 = base_rotation[1][2] * t448 - t453;
-        let t455 = base_rotation[2][0] * t449 + base_rotation[2][1] * t450;
-        let t456 = base_rotation[2][2] * t448 - t455;
+        let t418 = t87 * t294 + t86 * t297;
+        let t419 = t87 * t300 - (t297 - t74 * (t353 + t86 * t371));
+        let t420 = t86 * t300 + (t294 + t74 * (t354 - t87 * t371));
+        let t421 = base_rotation[0][0] * t419 + base_rotation[0][1] * t420;
+        let t422 = base_rotation[0][2] * t418 - t421;
+        let t423 = base_rotation[1][0] * t419 + base_rotation[1][1] * t420;
+        let t424 = base_rotation[1][2] * t418 - t423;
+        let t425 = base_rotation[2][0] * t419 + base_rotation[2][1] * t420;
+        let t426 = base_rotation[2][2] * t418 - t425;
+        // leg 1: rate of the platform lever
+        let t427 = platform_velocity[4] * t96 - platform_velocity[5] * t93;
+        let t428 = platform_velocity[5] * t90 - platform_velocity[3] * t96;
+        let t429 = platform_velocity[3] * t93 - platform_velocity[4] * t90;
+        // leg 2: rate of the platform lever
+        let t430 = platform_velocity[4] * t105 - platform_velocity[5] * t104;
+        let t431 = platform_velocity[5] * t103 - platform_velocity[3] * t105;
+        let t432 = platform_velocity[3] * t104 - platform_velocity[4] * t103;
+        // leg 3: rate of the platform lever
+        let t433 = platform_velocity[4] * t120 - platform_velocity[5] * t117;
+        let t434 = platform_velocity[5] * t114 - platform_velocity[3] * t120;
+        let t435 = platform_velocity[3] * t117 - platform_velocity[4] * t114;
+        // leg 4: rate of the platform lever
+        let t436 = platform_velocity[4] * t135 - platform_velocity[5] * t132;
+        let t437 = platform_velocity[5] * t129 - platform_velocity[3] * t135;
+        let t438 = platform_velocity[3] * t132 - platform_velocity[4] * t129;
+        // leg 5: rate of the platform lever
+        let t439 = platform_velocity[4] * t144 - platform_velocity[5] * t143;
+        let t440 = platform_velocity[5] * t142 - platform_velocity[3] * t144;
+        let t441 = platform_velocity[3] * t143 - platform_velocity[4] * t142;
+        // leg 6: rate of the platform lever
+        let t442 = platform_velocity[4] * t153 - platform_velocity[5] * t152;
+        let t443 = platform_velocity[5] * t151 - platform_velocity[3] * t153;
+        let t444 = platform_velocity[3] * t152 - platform_velocity[4] * t151;
         // leg 1: Coriolis matrix of the leg in the speeds of its joint
-        let t457 = base_rotation[1][2] * base_velocity[5];
-        let t458 = base_rotation[2][2] * base_velocity[4] - t457;
-        let t459 = c(0.17066666666666666) * t458;
-        let t460 = t160 + t98 * c(0.9523333333333334);
-        let t461 = t392 * t460 + t98 * t459;
-        let t462 = t394 * t460 + t100 * t459;
-        let t463 = t396 * t460 + t102 * t459;
-        let t464 = base_rotation[2][2] * base_velocity[3];
-        let t465 = base_rotation[0][2] * base_velocity[5] - t464;
-        let t466 = c(0.17066666666666666) * t465;
-        let t467 = t163 + t100 * c(0.9523333333333334);
-        let t468 = t392 * t467 + t98 * t466;
-        let t469 = t394 * t467 + t100 * t466;
-        let t470 = t396 * t467 + t102 * t466;
-        let t471 = base_rotation[0][2] * base_velocity[4];
-        let t472 = base_rotation[1][2] * base_velocity[3] - t471;
-        let t473 = c(0.17066666666666666) * t472;
-        let t474 = t166 + t102 * c(0.9523333333333334);
-        let t475 = t392 * t474 + t98 * t473;
-        let t476 = t394 * t474 + t100 * t473;
-        let t477 = t396 * t474 + t102 * t473;
+        let t445 = base_rotation[1][2] * base_velocity[5];
+        let t446 = base_rotation[2][2] * base_velocity[4] - t445;
+        let t447 = c(0.17066666666666666) * t446;
+        let t448 = t160 + t98 * c(0.9523333333333334);
+        let t449 = t377 * t448 + t98 * t447;
+        let t450 = t379 * t448 + t100 * t447;
+        let t451 = t381 * t448 + t102 * t447;
+        let t452 = base_rotation[2][2] * base_velocity[3];
+        let t453 = base_rotation[0][2] * base_velocity[5] - t452;
+        let t454 = c(0.17066666666666666) * t453;
+        let t455 = t163 + t100 * c(0.9523333333333334);
+        let t456 = t377 * t455 + t98 * t454;
+        let t457 = t379 * t455 + t100 * t454;
+        let t458 = t381 * t455 + t102 * t454;
+        let t459 = base_rotation[0][2] * base_velocity[4];
+        let t460 = base_rotation[1][2] * base_velocity[3] - t459;
+        let t461 = c(0.17066666666666666) * t460;
+        let t462 = t166 + t102 * c(0.9523333333333334);
+        let t463 = t377 * t462 + t98 * t461;
+        let t464 = t379 * t462 + t100 * t461;
+        let t465 = t381 * t462 + t102 * t461;
         // leg 1: Coriolis matrix between joint and base angular velocity
-        let t478 = c(0.17066666666666666) * t314 + t465 * c(0.03055);
-        let t479 = c(0.17066666666666666) * t315 + t472 * c(0.03055);
-        let t480 = t56 * t465 - (base_velocity[5] * t180 - base_velocity[3] * t177);
-        let t481 = base_rotation[1][2] * t358 + t480;
-        let t482 = t478 - (c(0.17066666666666666) * t386 - c(0.9523333333333334) * t481);
-        let t483 = t56 * t472 - (base_velocity[3] * t174 - base_velocity[4] * t180);
-        let t484 = base_rotation[2][2] * t358 + t483;
-        let t485 = t479 - (c(0.17066666666666666) * t387 - c(0.9523333333333334) * t484);
-        let t486 = base_rotation[2][2] * t482 - base_rotation[1][2] * t485;
-        let t487 = t98 * t486;
-        let t488 = c(0.17066666666666666) * t313 + t458 * c(0.03055);
-        let t489 = t56 * t458 - (base_velocity[4] * t177 - base_velocity[5] * t174);
-        let t490 = base_rotation[0][2] * t358 + t489;
-        let t491 = t488 - (c(0.17066666666666666) * t385 - c(0.9523333333333334) * t490);
-        let t492 = base_rotation[0][2] * t485 - base_rotation[2][2] * t491;
-        let t493 = c(0.17066666666666666) * t484;
-        let t494 = t98 * t492 + t493;
-        let t495 = base_rotation[1][2] * t491 - base_rotation[0][2] * t482;
-        let t496 = c(0.17066666666666666) * t481;
-        let t497 = t98 * t495 - t496;
-        let t498 = t493 - t100 * t486;
-        let t499 = t100 * t492;
-        let t500 = c(0.17066666666666666) * t490;
-        let t501 = t100 * t495 + t500;
-        let t502 = t496 + t102 * t486;
-        let t503 = t500 - t102 * t492;
-        let t504 = t102 * t495;
+        let t466 = c(0.17066666666666666) * t314 + t453 * c(0.03055);
+        let t467 = c(0.17066666666666666) * t315 + t460 * c(0.03055);
+        let t468 = t56 * t453 - (base_velocity[5] * t180 - base_velocity[3] * t177);
+        let t469 = base_rotation[1][2] * t358 + t468;
+        let t470 = t466 - (c(0.17066666666666666) * t428 - c(0.9523333333333334) * t469);
+        let t471 = t56 * t460 - (base_velocity[3] * t174 - base_velocity[4] * t180);
+        let t472 = base_rotation[2][2] * t358 + t471;
+        let t473 = t467 - (c(0.17066666666666666) * t429 - c(0.9523333333333334) * t472);
+        let t474 = base_rotation[2][2] * t470 - base_rotation[1][2] * t473;
+        let t475 = t98 * t474;
+        let t476 = c(0.17066666666666666) * t313 + t446 * c(0.03055);
+        let t477 = t56 * t446 - (base_velocity[4] * t177 - base_velocity[5] * t174);
+        let t478 = base_rotation[0][2] * t358 + t477;
+        let t479 = t476 - (c(0.17066666666666666) * t427 - c(0.9523333333333334) * t478);
+        let t480 = base_rotation[0][2] * t473 - base_rotation[2][2] * t479;
+        let t481 = c(0.17066666666666666) * t472;
+        let t482 = t98 * t480 + t481;
+        let t483 = base_rotation[1][2] * t479 - base_rotation[0][2] * t470;
+        let t484 = c(0.17066666666666666) * t469;
+        let t485 = t98 * t483 - t484;
+        let t486 = t481 - t100 * t474;
+        let t487 = t100 * t480;
+        let t488 = c(0.17066666666666666) * t478;
+        let t489 = t100 * t483 + t488;
+        let t490 = t484 + t102 * t474;
+        let t491 = t488 - t102 * t480;
+        let t492 = t102 * t483;
         // leg 2: Coriolis matrix of the leg in the speeds of its joint
-        let t505 = t160 - t107 * c(0.9523333333333334);
-        let t506 = t404 * t505 + t107 * t459;
-        let t507 = t406 * t505 + t109 * t459;
-        let t508 = t408 * t505 + t111 * t459;
-        let t509 = t163 - t109 * c(0.9523333333333334);
-        let t510 = t404 * t509 + t107 * t466;
-        let t511 = t406 * t509 + t109 * t466;
-        let t512 = t408 * t509 + t111 * t466;
-        let t513 = t166 - t111 * c(0.9523333333333334);
-        let t514 = t404 * t513 + t107 * t473;
-        let t515 = t406 * t513 + t109 * t473;
-        let t516 = t408 * t513 + t111 * t473;
+        let t493 = t160 - t107 * c(0.9523333333333334);
+        let t494 = t386 * t493 + t107 * t447;
+        let t495 = t388 * t493 + t109 * t447;
+        let t496 = t390 * t493 + t111 * t447;
+        let t497 = t163 - t109 * c(0.9523333333333334);
+        let t498 = t386 * t497 + t107 * t454;
+        let t499 = t388 * t497 + t109 * t454;
+        let t500 = t390 * t497 + t111 * t454;
+        let t501 = t166 - t111 * c(0.9523333333333334);
+        let t502 = t386 * t501 + t107 * t461;
+        let t503 = t388 * t501 + t109 * t461;
+        let t504 = t390 * t501 + t111 * t461;
         // leg 2: Coriolis matrix between joint and base angular velocity
-        let t517 = t59 * t465 - (base_velocity[5] * t192 - base_velocity[3] * t191);
-        let t518 = base_rotation[1][2] * t360 + t517;
-        let t519 = t478 - (c(0.17066666666666666) * t398 - c(0.9523333333333334) * t518);
-        let t520 = t59 * t472 - (base_velocity[3] * t190 - base_velocity[4] * t192);
-        let t521 = base_rotation[2][2] * t360 + t520;
-        let t522 = t479 - (c(0.17066666666666666) * t399 - c(0.9523333333333334) * t521);
-        let t523 = base_rotation[2][2] * t519 - base_rotation[1][2] * t522;
-        let t524 = t107 * t523;
-        let t525 = t59 * t458 - (base_velocity[4] * t191 - base_velocity[5] * t190);
-        let t526 = base_rotation[0][2] * t360 + t525;
-        let t527 = t488 - (c(0.17066666666666666) * t397 - c(0.9523333333333334) * t526);
-        let t528 = base_rotation[0][2] * t522 - base_rotation[2][2] * t527;
-        let t529 = c(0.17066666666666666) * t521;
-        let t530 = t107 * t528 - t529;
-        let t531 = base_rotation[1][2] * t527 - base_rotation[0][2] * t519;
-        let t532 = c(0.17066666666666666) * t518;
-        let t533 = t107 * t531 + t532;
-        let t534 = t529 + t109 * t523;
-        let t535 = t109 * t528;
-        let t536 = c(0.17066666666666666) * t526;
-        let t537 = t109 * t531 - t536;
-        let t538 = t532 - t111 * t523;
-        let t539 = t536 + t111 * t528;
-        let t540 = t111 * t531;
+        let t505 = t59 * t453 - (base_velocity[5] * t192 - base_velocity[3] * t191);
+        let t506 = base_rotation[1][2] * t360 + t505;
+        let t507 = t466 - (c(0.17066666666666666) * t431 - c(0.9523333333333334) * t506);
+        let t508 = t59 * t460 - (base_velocity[3] * t190 - base_velocity[4] * t192);
+        let t509 = base_rotation[2][2] * t360 + t508;
+        let t510 = t467 - (c(0.17066666666666666) * t432 - c(0.9523333333333334) * t509);
+        let t511 = base_rotation[2][2] * t507 - base_rotation[1][2] * t510;
+        let t512 = t107 * t511;
+        let t513 = t59 * t446 - (base_velocity[4] * t191 - base_velocity[5] * t190);
+        let t514 = base_rotation[0][2] * t360 + t513;
+        let t515 = t476 - (c(0.17066666666666666) * t430 - c(0.9523333333333334) * t514);
+        let t516 = base_rotation[0][2] * t510 - base_rotation[2][2] * t515;
+        let t517 = c(0.17066666666666666) * t509;
+        let t518 = t107 * t516 - t517;
+        let t519 = base_rotation[1][2] * t515 - base_rotation[0][2] * t507;
+        let t520 = c(0.17066666666666666) * t506;
+        let t521 = t107 * t519 + t520;
+        let t522 = t517 + t109 * t511;
+        let t523 = t109 * t516;
+        let t524 = c(0.17066666666666666) * t514;
+        let t525 = t109 * t519 - t524;
+        let t526 = t520 - t111 * t511;
+        let t527 = t524 + t111 * t516;
+        let t528 = t111 * t519;
         // leg 3: Coriolis matrix of the leg in the speeds of its joint
-        let t541 = t160 - t122 * c(0.9523333333333334);
-        let t542 = t416 * t541 + t122 * t459;
-        let t543 = t418 * t541 + t124 * t459;
-        let t544 = t420 * t541 + t126 * t459;
-        let t545 = t163 - t124 * c(0.9523333333333334);
-        let t546 = t416 * t545 + t122 * t466;
-        let t547 = t418 * t545 + t124 * t466;
-        let t548 = t420 * t545 + t126 * t466;
-        let t549 = t166 - t126 * c(0.9523333333333334);
-        let t550 = t416 * t549 + t122 * t473;
-        let t551 = t418 * t549 + t124 * t473;
-        let t552 = t420 * t549 + t126 * t473;
+        let t529 = t160 - t122 * c(0.9523333333333334);
+        let t530 = t395 * t529 + t122 * t447;
+        let t531 = t397 * t529 + t124 * t447;
+        let t532 = t399 * t529 + t126 * t447;
+        let t533 = t163 - t124 * c(0.9523333333333334);
+        let t534 = t395 * t533 + t122 * t454;
+        let t535 = t397 * t533 + t124 * t454;
+        let t536 = t399 * t533 + t126 * t454;
+        let t537 = t166 - t126 * c(0.9523333333333334);
+        let t538 = t395 * t537 + t122 * t461;
+        let t539 = t397 * t537 + t124 * t461;
+        let t540 = t399 * t537 + t126 * t461;
         // leg 3: Coriolis matrix between joint and base angular velocity
-        let t553 = t64 * t465 - (base_velocity[5] * t210 - base_velocity[3] * t207);
-        let t554 = base_rotation[1][2] * t364 + t553;
-        let t555 = t478 + (c(0.17066666666666666) * t410 + c(0.9523333333333334) * t554);
-        let t556 = t64 * t472 - (base_velocity[3] * t204 - base_velocity[4] * t210);
-        let t557 = base_rotation[2][2] * t364 + t556;
-        let t558 = t479 + (c(0.17066666666666666) * t411 + c(0.9523333333333334) * t557);
-        let t559 = base_rotation[2][2] * t555 - base_rotation[1][2] * t558;
-        let t560 = t122 * t559;
-        let t561 = t64 * t458 - (base_velocity[4] * t207 - base_velocity[5] * t204);
-        let t562 = base_rotation[0][2] * t364 + t561;
-        let t563 = t488 + (c(0.17066666666666666) * t409 + c(0.9523333333333334) * t562);
-        let t564 = base_rotation[0][2] * t558 - base_rotation[2][2] * t563;
-        let t565 = c(0.17066666666666666) * t557;
-        let t566 = t122 * t564 - t565;
-        let t567 = base_rotation[1][2] * t563 - base_rotation[0][2] * t555;
-        let t568 = c(0.17066666666666666) * t554;
-        let t569 = t122 * t567 + t568;
-        let t570 = t565 + t124 * t559;
-        let t571 = t124 * t564;
-        let t572 = c(0.17066666666666666) * t562;
-        let t573 = t124 * t567 - t572;
-        let t574 = t568 - t126 * t559;
-        let t575 = t572 + t126 * t564;
-        let t576 = t126 * t567;
+        let t541 = t64 * t453 - (base_velocity[5] * t210 - base_velocity[3] * t207);
+        let t542 = base_rotation[1][2] * t364 + t541;
+        let t543 = t466 + (c(0.17066666666666666) * t434 + c(0.9523333333333334) * t542);
+        let t544 = t64 * t460 - (base_velocity[3] * t204 - base_velocity[4] * t210);
+        let t545 = base_rotation[2][2] * t364 + t544;
+        let t546 = t467 + (c(0.17066666666666666) * t435 + c(0.9523333333333334) * t545);
+        let t547 = base_rotation[2][2] * t543 - base_rotation[1][2] * t546;
+        let t548 = t122 * t547;
+        let t549 = t64 * t446 - (base_velocity[4] * t207 - base_velocity[5] * t204);
+        let t550 = base_rotation[0][2] * t364 + t549;
+        let t551 = t476 + (c(0.17066666666666666) * t433 + c(0.9523333333333334) * t550);
+        let t552 = base_rotation[0][2] * t546 - base_rotation[2][2] * t551;
+        let t553 = c(0.17066666666666666) * t545;
+        let t554 = t122 * t552 - t553;
+        let t555 = base_rotation[1][2] * t551 - base_rotation[0][2] * t543;
+        let t556 = c(0.17066666666666666) * t542;
+        let t557 = t122 * t555 + t556;
+        let t558 = t553 + t124 * t547;
+        let t559 = t124 * t552;
+        let t560 = c(0.17066666666666666) * t550;
+        let t561 = t124 * t555 - t560;
+        let t562 = t556 - t126 * t547;
+        let t563 = t560 + t126 * t552;
+        let t564 = t126 * t555;
         // leg 4: Coriolis matrix of the leg in the speeds of its joint
-        let t577 = t160 - t137 * c(0.9523333333333334);
-        let t578 = t428 * t577 + t137 * t459;
-        let t579 = t430 * t577 + t139 * t459;
-        let t580 = t432 * t577 + t141 * t459;
-        let t581 = t163 - t139 * c(0.9523333333333334);
-        let t582 = t428 * t581 + t137 * t466;
-        let t583 = t430 * t581 + t139 * t466;
-        let t584 = t432 * t581 + t141 * t466;
-        let t585 = t166 - t141 * c(0.9523333333333334);
-        let t586 = t428 * t585 + t137 * t473;
-        let t587 = t430 * t585 + t139 * t473;
-        let t588 = t432 * t585 + t141 * t473;
+        let t565 = t160 - t137 * c(0.9523333333333334);
+        let t566 = t404 * t565 + t137 * t447;
+        let t567 = t406 * t565 + t139 * t447;
+        let t568 = t408 * t565 + t141 * t447;
+        let t569 = t163 - t139 * c(0.9523333333333334);
+        let t570 = t404 * t569 + t137 * t454;
+        let t571 = t406 * t569 + t139 * t454;
+        let t572 = t408 * t569 + t141 * t454;
+        let t573 = t166 - t141 * c(0.9523333333333334);
+        let t574 = t404 * t573 + t137 * t461;
+        let t575 = t406 * t573 + t139 * t461;
+        let t576 = t408 * t573 + t141 * t461;
         // leg 4: Coriolis matrix between joint and base angular velocity
-        let t589 = t69 * t465 + (base_velocity[5] * t228 - base_velocity[3] * t225);
-        let t590 = base_rotation[1][2] * t368 + t589;
-        let t591 = t478 + (c(0.17066666666666666) * t422 + c(0.9523333333333334) * t590);
-        let t592 = t69 * t472 + (base_velocity[3] * t222 - base_velocity[4] * t228);
-        let t593 = base_rotation[2][2] * t368 + t592;
-        let t594 = t479 + (c(0.17066666666666666) * t423 + c(0.9523333333333334) * t593);
-        let t595 = base_rotation[2][2] * t591 - base_rotation[1][2] * t594;
-        let t596 = t137 * t595;
-        let t597 = t69 * t458 + (base_velocity[4] * t225 - base_velocity[5] * t222);
-        let t598 = base_rotation[0][2] * t368 + t597;
-        let t599 = t488 + (c(0.17066666666666666) * t421 + c(0.9523333333333334) * t598);
-        let t600 = base_rotation[0][2] * t594 - base_rotation[2][2] * t599;
-        let t601 = c(0.17066666666666666) * t593;
-        let t602 = t137 * t600 - t601;
-        let t603 = base_rotation[1][2] * t599 - base_rotation[0][2] * t591;
-        let t604 = c(0.17066666666666666) * t590;
-        let t605 = t137 * t603 + t604;
-        let t606 = t601 + t139 * t595;
-        let t607 = t139 * t600;
-        let t608 = c(0.17066666666666666) * t598;
-        let t609 = t139 * t603 - t608;
-        let t610 = t604 - t141 * t595;
-        let t611 = t608 + t141 * t600;
-        let t612 = t141 * t603;
+        let t577 = t69 * t453 + (base_velocity[5] * t228 - base_velocity[3] * t225);
+        let t578 = base_rotation[1][2] * t368 + t577;
+        let t579 = t466 + (c(0.17066666666666666) * t437 + c(0.9523333333333334) * t578);
+        let t580 = t69 * t460 + (base_velocity[3] * t222 - base_velocity[4] * t228);
+        let t581 = base_rotation[2][2] * t368 + t580;
+        let t582 = t467 + (c(0.17066666666666666) * t438 + c(0.9523333333333334) * t581);
+        let t583 = base_rotation[2][2] * t579 - base_rotation[1][2] * t582;
+        let t584 = t137 * t583;
+        let t585 = t69 * t446 + (base_velocity[4] * t225 - base_velocity[5] * t222);
+        let t586 = base_rotation[0][2] * t368 + t585;
+        let t587 = t476 + (c(0.17066666666666666) * t436 + c(0.9523333333333334) * t586);
+        let t588 = base_rotation[0][2] * t582 - base_rotation[2][2] * t587;
+        let t589 = c(0.17066666666666666) * t581;
+        let t590 = t137 * t588 - t589;
+        let t591 = base_rotation[1][2] * t587 - base_rotation[0][2] * t579;
+        let t592 = c(0.17066666666666666) * t578;
+        let t593 = t137 * t591 + t592;
+        let t594 = t589 + t139 * t583;
+        let t595 = t139 * t588;
+        let t596 = c(0.17066666666666666) * t586;
+        let t597 = t139 * t591 - t596;
+        let t598 = t592 - t141 * t583;
+        let t599 = t596 + t141 * t588;
+        let t600 = t141 * t591;
         // leg 5: Coriolis matrix of the leg in the speeds of its joint
-        let t613 = t160 + t146 * c(0.9523333333333334);
-        let t614 = t440 * t613 + t146 * t459;
-        let t615 = t442 * t613 + t148 * t459;
-        let t616 = t444 * t613 + t150 * t459;
-        let t617 = t163 + t148 * c(0.9523333333333334);
-        let t618 = t440 * t617 + t146 * t466;
-        let t619 = t442 * t617 + t148 * t466;
-        let t620 = t444 * t617 + t150 * t466;
-        let t621 = t166 + t150 * c(0.9523333333333334);
-        let t622 = t440 * t621 + t146 * t473;
-        let t623 = t442 * t621 + t148 * t473;
-        let t624 = t444 * t621 + t150 * t473;
+        let t601 = t160 + t146 * c(0.9523333333333334);
+        let t602 = t413 * t601 + t146 * t447;
+        let t603 = t415 * t601 + t148 * t447;
+        let t604 = t417 * t601 + t150 * t447;
+        let t605 = t163 + t148 * c(0.9523333333333334);
+        let t606 = t413 * t605 + t146 * t454;
+        let t607 = t415 * t605 + t148 * t454;
+        let t608 = t417 * t605 + t150 * t454;
+        let t609 = t166 + t150 * c(0.9523333333333334);
+        let t610 = t413 * t609 + t146 * t461;
+        let t611 = t415 * t609 + t148 * t461;
+        let t612 = t417 * t609 + t150 * t461;
         // leg 5: Coriolis matrix between joint and base angular velocity
-        let t625 = t72 * t465 + (base_velocity[5] * t240 - base_velocity[3] * t239);
-        let t626 = base_rotation[1][2] * t370 + t625;
-        let t627 = t478 + (c(0.17066666666666666) * t434 + c(0.9523333333333334) * t626);
-        let t628 = t72 * t472 + (base_velocity[3] * t238 - base_velocity[4] * t240);
-        let t629 = base_rotation[2][2] * t370 + t628;
-        let t630 = t479 + (c(0.17066666666666666) * t435 + c(0.9523333333333334) * t629);
-        let t631 = base_rotation[2][2] * t627 - base_rotation[1][2] * t630;
-        let t632 = t146 * t631;
-        let t633 = t72 * t458 + (base_velocity[4] * t239 - base_velocity[5] * t238);
-        let t634 = base_rotation[0][2] * t370 + t633;
-        let t635 = t488 + (c(0.17066666666666666) * t433 + c(0.9523333333333334) * t634);
-        let t636 = base_rotation[0][2] * t630 - base_rotation[2][2] * t635;
-        let t637 = c(0.17066666666666666) * t629;
-        let t638 = t146 * t636 + t637;
-        let t639 = base_rotation[1][2] * t635 - base_rotation[0][2] * t627;
-        let t640 = c(0.17066666666666666) * t626;
-        let t641 = t146 * t639 - t640;
-        let t642 = t637 - t148 * t631;
-        let t643 = t148 * t636;
-        let t644 = c(0.17066666666666666) * t634;
-        let t645 = t148 * t639 + t644;
-        let t646 = t640 + t150 * t631;
-        let t647 = t644 - t150 * t636;
-        let t648 = t150 * t639;
+        let t613 = t72 * t453 + (base_velocity[5] * t240 - base_velocity[3] * t239);
+        let t614 = base_rotation[1][2] * t370 + t613;
+        let t615 = t466 + (c(0.17066666666666666) * t440 + c(0.9523333333333334) * t614);
+        let t616 = t72 * t460 + (base_velocity[3] * t238 - base_velocity[4] * t240);
+        let t617 = base_rotation[2][2] * t370 + t616;
+        let t618 = t467 + (c(0.17066666666666666) * t441 + c(0.9523333333333334) * t617);
+        let t619 = base_rotation[2][2] * t615 - base_rotation[1][2] * t618;
+        let t620 = t146 * t619;
+        let t621 = t72 * t446 + (base_velocity[4] * t239 - base_velocity[5] * t238);
+        let t622 = base_rotation[0][2] * t370 + t621;
+        let t623 = t476 + (c(0.17066666666666666) * t439 + c(0.9523333333333334) * t622);
+        let t624 = base_rotation[0][2] * t618 - base_rotation[2][2] * t623;
+        let t625 = c(0.17066666666666666) * t617;
+        let t626 = t146 * t624 + t625;
+        let t627 = base_rotation[1][2] * t623 - base_rotation[0][2] * t615;
+        let t628 = c(0.17066666666666666) * t614;
+        let t629 = t146 * t627 - t628;
+        let t630 = t625 - t148 * t619;
+        let t631 = t148 * t624;
+        let t632 = c(0.17066666666666666) * t622;
+        let t633 = t148 * t627 + t632;
+        let t634 = t628 + t150 * t619;
+        let t635 = t632 - t150 * t624;
+        let t636 = t150 * t627;
         // leg 6: Coriolis matrix of the leg in the speeds of its joint
-        let t649 = t160 + t155 * c(0.9523333333333334);
-        let t650 = t452 * t649 + t155 * t459;
-        let t651 = t454 * t649 + t157 * t459;
-        let t652 = t456 * t649 + t159 * t459;
-        let t653 = t163 + t157 * c(0.9523333333333334);
-        let t654 = t452 * t653 + t155 * t466;
-        let t655 = t454 * t653 + t157 * t466;
-        let t656 = t456 * t653 + t159 * t466;
-        let t657 = t166 + t159 * c(0.9523333333333334);
-        let t658 = t452 * t657 + t155 * t473;
-        let t659 = t454 * t657 + t157 * t473;
-        let t660 = t456 * t657 + t159 * t473;
+        let t637 = t160 + t155 * c(0.9523333333333334);
+        let t638 = t422 * t637 + t155 * t447;
+        let t639 = t424 * t637 + t157 * t447;
+        let t640 = t426 * t637 + t159 * t447;
+        let t641 = t163 + t157 * c(0.9523333333333334);
+        let t642 = t422 * t641 + t155 * t454;
+        let t643 = t424 * t641 + t157 * t454;
+        let t644 = t426 * t641 + t159 * t454;
+        let t645 = t166 + t159 * c(0.9523333333333334);
+        let t646 = t422 * t645 + t155 * t461;
+        let t647 = t424 * t645 + t157 * t461;
+        let t648 = t426 * t645 + t159 * t461;
         // leg 6: Coriolis matrix between joint and base angular velocity
-        let t661 = t75 * t465 - (base_velocity[5] * t252 - base_velocity[3] * t251);
-        let t662 = base_rotation[1][2] * t372 + t661;
-        let t663 = t478 + (c(0.17066666666666666) * t446 + c(0.9523333333333334) * t662);
-        let t664 = t75 * t472 - (base_velocity[3] * t250 - base_velocity[4] * t252);
-        let t665 = base_rotation[2][2] * t372 + t664;
-        let t666 = t479 + (c(0.17066666666666666) * t447 + c(0.9523333333333334) * t665);
-        let t667 = base_rotation[2][2] * t663 - base_rotation[1][2] * t666;
-        let t668 = t155 * t667;
-        let t669 = t75 * t458 - (base_velocity[4] * t251 - base_velocity[5] * t250);
-        let t670 = base_rotation[0][2] * t372 + t669;
-        let t671 = t488 + (c(0.17066666666666666) * t445 + c(0.9523333333333334) * t670);
-        let t672 = base_rotation[0][2] * t666 - base_rotation[2][2] * t671;
-        let t673 = c(0.17066666666666666) * t665;
-        let t674 = t155 * t672 + t673;
-        let t675 = base_rotation[1][2] * t671 - base_rotation[0][2] * t663;
-        let t676 = c(0.17066666666666666) * t662;
-        let t677 = t155 * t675 - t676;
-        let t678 = t673 - t157 * t667;
-        let t679 = t157 * t672;
-        let t680 = c(0.17066666666666666) * t670;
-        let t681 = t157 * t675 + t680;
-        let t682 = t676 + t159 * t667;
-        let t683 = t680 - t159 * t672;
-        let t684 = t159 * t675;
+        let t649 = t75 * t453 - (base_velocity[5] * t252 - base_velocity[3] * t251);
+        let t650 = base_rotation[1][2] * t372 + t649;
+        let t651 = t466 + (c(0.17066666666666666) * t443 + c(0.9523333333333334) * t650);
+        let t652 = t75 * t460 - (base_velocity[3] * t250 - base_velocity[4] * t252);
+        let t653 = base_rotation[2][2] * t372 + t652;
+        let t654 = t467 + (c(0.17066666666666666) * t444 + c(0.9523333333333334) * t653);
+        let t655 = base_rotation[2][2] * t651 - base_rotation[1][2] * t654;
+        let t656 = t155 * t655;
+        let t657 = t75 * t446 - (base_velocity[4] * t251 - base_velocity[5] * t250);
+        let t658 = base_rotation[0][2] * t372 + t657;
+        let t659 = t476 + (c(0.17066666666666666) * t442 + c(0.9523333333333334) * t658);
+        let t660 = base_rotation[0][2] * t654 - base_rotation[2][2] * t659;
+        let t661 = c(0.17066666666666666) * t653;
+        let t662 = t155 * t660 + t661;
+        let t663 = base_rotation[1][2] * t659 - base_rotation[0][2] * t651;
+        let t664 = c(0.17066666666666666) * t650;
+        let t665 = t155 * t663 - t664;
+        let t666 = t661 - t157 * t655;
+        let t667 = t157 * t660;
+        let t668 = c(0.17066666666666666) * t658;
+        let t669 = t157 * t663 + t668;
+        let t670 = t664 + t159 * t655;
+        let t671 = t668 - t159 * t660;
+        let t672 = t159 * t663;
         // Coriolis matrix of the legs
-        let t685 = t650 + (t614 - (t578 + (t542 - (t461 - t506))));
-        coriolis_matrix_p[0][0] = t685;
-        coriolis_matrix_b[0][0] = t685;
-        let t686 = t651 + (t615 - (t579 + (t543 - (t462 - t507))));
-        coriolis_matrix_p[0][1] = t686;
-        coriolis_matrix_b[0][1] = t686;
-        let t687 = t652 + (t616 - (t580 + (t544 - (t463 - t508))));
-        coriolis_matrix_p[0][2] = t687;
-        coriolis_matrix_b[0][2] = t687;
-        let t688 = t246 * t446;
-        let t689 = t244 * t447;
-        let t690 = t153 * t651;
-        let t691 = t152 * t652;
-        let t692 = t688 - (t689 + (t690 - t691));
-        let t693 = t234 * t434;
-        let t694 = t232 * t435;
-        let t695 = t144 * t615;
-        let t696 = t143 * t616;
-        let t697 = t693 - (t694 + (t695 - t696));
-        let t698 = t216 * t422;
-        let t699 = t214 * t423;
-        let t700 = t135 * t579;
-        let t701 = t132 * t580;
-        let t702 = t698 - (t699 + (t700 - t701));
-        let t703 = t198 * t410;
-        let t704 = t196 * t411;
-        let t705 = t120 * t543;
-        let t706 = t117 * t544;
-        let t707 = t703 - (t704 + (t705 - t706));
-        let t708 = t168 * t386;
-        let t709 = t165 * t387;
-        let t710 = t96 * t462;
-        let t711 = t93 * t463;
-        let t712 = t708 - (t709 + (t710 - t711));
-        let t713 = t186 * t398;
-        let t714 = t184 * t399;
-        let t715 = t105 * t507;
-        let t716 = t104 * t508;
-        let t717 = t713 - (t714 + (t715 - t716));
-        let t718 = t692 + (t697 - (t702 + (t707 + (t712 - t717))));
-        let t719 = t153 * t650;
-        let t720 = t242 * t447 - (t246 * t445 + (t151 * t652 - t719));
-        let t721 = t144 * t614;
-        let t722 = t230 * t435 - (t234 * t433 + (t142 * t616 - t721));
-        let t723 = t135 * t578;
-        let t724 = t212 * t423 - (t216 * t421 + (t129 * t580 - t723));
-        let t725 = t120 * t542;
-        let t726 = t194 * t411 - (t198 * t409 + (t114 * t544 - t725));
-        let t727 = t96 * t461;
-        let t728 = t162 * t387 - (t168 * t385 + (t90 * t463 - t727));
-        let t729 = t105 * t506;
-        let t730 = t182 * t399 - (t186 * t397 + (t103 * t508 - t729));
-        let t731 = t720 + (t722 - (t724 + (t726 + (t728 - t730))));
-        let t732 = t152 * t650;
-        let t733 = t244 * t445 - (t242 * t446 + (t732 - t151 * t651));
-        let t734 = t143 * t614;
-        let t735 = t232 * t433 - (t230 * t434 + (t734 - t142 * t615));
-        let t736 = t132 * t578;
-        let t737 = t214 * t421 - (t212 * t422 + (t736 - t129 * t579));
-        let t738 = t117 * t542;
-        let t739 = t196 * t409 - (t194 * t410 + (t738 - t114 * t543));
-        let t740 = t93 * t461;
-        let t741 = t165 * t385 - (t162 * t386 + (t740 - t90 * t462));
-        let t742 = t104 * t506;
-        let t743 = t184 * t397 - (t182 * t398 + (t742 - t103 * t507));
-        let t744 = t733 + (t735 - (t737 + (t739 + (t741 - t743))));
-        let t745 = t654 + (t618 - (t582 + (t546 - (t468 - t510))));
-        coriolis_matrix_p[1][0] = t745;
-        coriolis_matrix_b[1][0] = t745;
-        let t746 = t655 + (t619 - (t583 + (t547 - (t469 - t511))));
-        coriolis_matrix_p[1][1] = t746;
-        coriolis_matrix_b[1][1] = t746;
-        let t747 = t656 + (t620 - (t584 + (t548 - (t470 - t512))));
-        coriolis_matrix_p[1][2] = t747;
-        coriolis_matrix_b[1][2] = t747;
-        let t748 = t153 * t655;
-        let t749 = t248 * t446 - (t247 * t447 + (t748 - t152 * t656));
-        let t750 = t144 * t619;
-        let t751 = t236 * t434 - (t235 * t435 + (t750 - t143 * t620));
-        let t752 = t135 * t583;
-        let t753 = t218 * t422 - (t217 * t423 + (t752 - t132 * t584));
-        let t754 = t120 * t547;
-        let t755 = t200 * t410 - (t199 * t411 + (t754 - t117 * t548));
-        let t756 = t96 * t469;
-        let t757 = t170 * t386 - (t169 * t387 + (t756 - t93 * t470));
-        let t758 = t105 * t511;
-        let t759 = t188 * t398 - (t187 * t399 + (t758 - t104 * t512));
-        let t760 = t749 + (t751 - (t753 + (t755 + (t757 - t759))));
-        let t761 = t248 * t445;
-        let t762 = t153 * t654;
-        let t763 = t151 * t656;
-        let t764 = t761 - (t762 + (t689 - t763));
-        let t765 = t236 * t433;
-        let t766 = t144 * t618;
-        let t767 = t142 * t620;
-        let t768 = t765 - (t766 + (t694 - t767));
-        let t769 = t218 * t421;
-        let t770 = t135 * t582;
-        let t771 = t129 * t584;
-        let t772 = t769 - (t770 + (t699 - t771));
-        let t773 = t200 * t409;
-        let t774 = t120 * t546;
-        let t775 = t114 * t548;
-        let t776 = t773 - (t774 + (t704 - t775));
-        let t777 = t170 * t385;
-        let t778 = t96 * t468;
-        let t779 = t90 * t470;
-        let t780 = t777 - (t778 + (t709 - t779));
-        let t781 = t188 * t397;
-        let t782 = t105 * t510;
-        let t783 = t103 * t512;
-        let t784 = t781 - (t782 + (t714 - t783));
-        let t785 = t764 + (t768 - (t772 + (t776 + (t780 - t784))));
-        coriolis_matrix_p[1][4] = t785;
-        let t786 = t151 * t655;
-        let t787 = t247 * t445 - (t244 * t446 + (t152 * t654 - t786));
-        let t788 = t142 * t619;
-        let t789 = t235 * t433 - (t232 * t434 + (t143 * t618 - t788));
-        let t790 = t129 * t583;
-        let t791 = t217 * t421 - (t214 * t422 + (t132 * t582 - t790));
-        let t792 = t114 * t547;
-        let t793 = t199 * t409 - (t196 * t410 + (t117 * t546 - t792));
-        let t794 = t90 * t469;
-        let t795 = t169 * t385 - (t165 * t386 + (t93 * t468 - t794));
-        let t796 = t103 * t511;
-        let t797 = t187 * t397 - (t184 * t398 + (t104 * t510 - t796));
-        let t798 = t787 + (t789 - (t791 + (t793 + (t795 - t797))));
-        let t799 = t658 + (t622 - (t586 + (t550 - (t475 - t514))));
-        coriolis_matrix_p[2][0] = t799;
-        coriolis_matrix_b[2][0] = t799;
-        let t800 = t659 + (t623 - (t587 + (t551 - (t476 - t515))));
-        coriolis_matrix_p[2][1] = t800;
-        coriolis_matrix_b[2][1] = t800;
-        let t801 = t660 + (t624 - (t588 + (t552 - (t477 - t516))));
-        coriolis_matrix_p[2][2] = t801;
-        coriolis_matrix_b[2][2] = t801;
-        let t802 = t152 * t660;
-        let t803 = t249 * t446 - (t248 * t447 + (t153 * t659 - t802));
-        let t804 = t143 * t624;
-        let t805 = t237 * t434 - (t236 * t435 + (t144 * t623 - t804));
-        let t806 = t132 * t588;
-        let t807 = t219 * t422 - (t218 * t423 + (t135 * t587 - t806));
-        let t808 = t117 * t552;
-        let t809 = t201 * t410 - (t200 * t411 + (t120 * t551 - t808));
-        let t810 = t93 * t477;
-        let t811 = t171 * t386 - (t170 * t387 + (t96 * t476 - t810));
-        let t812 = t104 * t516;
-        let t813 = t189 * t398 - (t188 * t399 + (t105 * t515 - t812));
-        let t814 = t803 + (t805 - (t807 + (t809 + (t811 - t813))));
-        let t815 = t151 * t660;
-        let t816 = t246 * t447 - (t249 * t445 + (t815 - t153 * t658));
-        let t817 = t142 * t624;
-        let t818 = t234 * t435 - (t237 * t433 + (t817 - t144 * t622));
-        let t819 = t129 * t588;
-        let t820 = t216 * t423 - (t219 * t421 + (t819 - t135 * t586));
-        let t821 = t114 * t552;
-        let t822 = t198 * t411 - (t201 * t409 + (t821 - t120 * t550));
-        let t823 = t90 * t477;
-        let t824 = t168 * t387 - (t171 * t385 + (t823 - t96 * t475));
-        let t825 = t103 * t516;
-        let t826 = t186 * t399 - (t189 * t397 + (t825 - t105 * t514));
-        let t827 = t816 + (t818 - (t820 + (t822 + (t824 - t826))));
-        let t828 = t151 * t659;
-        let t829 = t152 * t658;
-        let t830 = t828 - (t829 + (t688 - t761));
-        let t831 = t142 * t623;
-        let t832 = t143 * t622;
-        let t833 = t831 - (t832 + (t693 - t765));
-        let t834 = t129 * t587;
-        let t835 = t132 * t586;
-        let t836 = t834 - (t835 + (t698 - t769));
-        let t837 = t114 * t551;
-        let t838 = t117 * t550;
-        let t839 = t837 - (t838 + (t703 - t773));
-        let t840 = t90 * t476;
-        let t841 = t93 * t475;
-        let t842 = t840 - (t841 + (t708 - t777));
-        let t843 = t103 * t515;
-        let t844 = t104 * t514;
-        let t845 = t843 - (t844 + (t713 - t781));
-        let t846 = t830 + (t833 - (t836 + (t839 + (t842 - t845))));
-        let t847 = t844 - (t841 + (t762 + (t766 - (t770 + (t774 + (t778 - t782))))));
-        let t848 = t829 + (t832 - (t835 + (t838 - t847)));
-        let t849 = t93 * t476 + (t748 + (t750 - (t752 + (t754 + (t756 - t758)))));
-        let t850 = t132 * t587 + (t117 * t551 - (t104 * t515 - t849));
-        let t851 = t152 * t659 + (t143 * t623 - t850);
-        let t852 = t96 * t470 + (t802 + (t804 - (t806 + (t808 + (t810 - t812)))));
-        let t853 = t135 * t584 + (t120 * t548 - (t105 * t512 - t852));
-        let t854 = t153 * t656 + (t144 * t620 - t853);
-        coriolis_matrix_p[3][2] = t854;
-        coriolis_matrix_b[3][2] = t854;
-        let t855 = t104 * t813 - (t105 * t759 - (t96 * t757 - t93 * t811));
-        let t856 = t135 * t753 - (t117 * t809 - (t120 * t755 - t855));
-        let t857 = t143 * t805 - (t144 * t751 + (t132 * t807 - t856));
-        let t858 = t152 * t803 - (t153 * t749 - t857);
-        let t859 = t104 * t826 + (t105 * t784 - (t96 * t780 + t93 * t824));
-        let t860 = t135 * t772 + (t117 * t822 + (t120 * t776 + t859));
-        let t861 = t143 * t818 + (t144 * t768 - (t132 * t820 + t860));
-        let t862 = t152 * t816 + (t153 * t764 + t861);
-        let t863 = t104 * t845 - (t105 * t797 - (t96 * t795 - t93 * t842));
-        let t864 = t135 * t791 - (t117 * t839 - (t120 * t793 - t863));
-        let t865 = t143 * t833 - (t144 * t789 + (t132 * t836 - t864));
-        let t866 = t152 * t830 - (t153 * t787 - t865);
-        let t867 = t90 * t475 + (t719 + (t721 - (t723 + (t725 + (t727 - t729)))));
-        let t868 = t129 * t586 + (t114 * t550 - (t103 * t514 - t867));
-        let t869 = t151 * t658 + (t142 * t622 - t868);
-        coriolis_matrix_p[4][0] = t869;
-        coriolis_matrix_b[4][0] = t869;
-        let t870 = t843 - (t840 + (t690 + (t695 - (t700 + (t705 + (t710 - t715))))));
-        let t871 = t828 + (t831 - (t834 + (t837 - t870)));
-        coriolis_matrix_p[4][1] = t871;
-        coriolis_matrix_b[4][1] = t871;
-        let t872 = t96 * t463 + (t815 + (t817 - (t819 + (t821 + (t823 - t825)))));
-        let t873 = t135 * t580 + (t120 * t544 - (t105 * t508 - t872));
-        let t874 = t153 * t652 + (t144 * t616 - t873);
-        let t875 = t105 * t717 - (t103 * t813 - (t90 * t811 - t96 * t712));
-        let t876 = t129 * t807 - (t120 * t707 - (t114 * t809 - t875));
-        let t877 = t144 * t697 - (t142 * t805 + (t135 * t702 - t876));
-        let t878 = t153 * t692 - (t151 * t803 - t877);
-        let t879 = t105 * t730 - (t103 * t826 - (t90 * t824 - t96 * t728));
-        let t880 = t129 * t820 - (t120 * t726 - (t114 * t822 - t879));
-        let t881 = t144 * t722 - (t142 * t818 + (t135 * t724 - t880));
-        let t882 = t153 * t720 - (t151 * t816 - t881);
-        let t883 = t105 * t743 - (t103 * t845 - (t90 * t842 - t96 * t741));
-        let t884 = t129 * t836 - (t120 * t739 - (t114 * t839 - t883));
-        let t885 = t144 * t735 - (t142 * t833 + (t135 * t737 - t884));
-        let t886 = t153 * t733 - (t151 * t830 - t885);
-        let t887 = t90 * t468 + (t732 + (t734 - (t736 + (t738 + (t740 - t742)))));
-        let t888 = t129 * t582 + (t114 * t546 - (t103 * t510 - t887));
-        let t889 = t151 * t654 + (t142 * t618 - t888);
-        let t890 = t93 * t462 + (t786 + (t788 - (t790 + (t792 + (t794 - t796)))));
-        let t891 = t132 * t579 + (t117 * t543 - (t104 * t507 - t890));
-        let t892 = t152 * t651 + (t143 * t615 - t891);
-        coriolis_matrix_p[5][1] = t892;
-        coriolis_matrix_b[5][1] = t892;
-        let t893 = t783 - (t779 + (t691 + (t696 - (t701 + (t706 + (t711 - t716))))));
-        let t894 = t763 + (t767 - (t771 + (t775 - t893)));
-        let t895 = t103 * t759 - (t104 * t717 - (t93 * t712 - t90 * t757));
-        let t896 = t132 * t702 - (t114 * t755 - (t117 * t707 - t895));
-        let t897 = t142 * t751 - (t143 * t697 + (t129 * t753 - t896));
-        let t898 = t151 * t749 - (t152 * t692 - t897);
-        let t899 = t103 * t784 + (t104 * t730 - (t93 * t728 + t90 * t780));
-        let t900 = t132 * t724 + (t114 * t776 + (t117 * t726 + t899));
-        let t901 = t142 * t768 + (t143 * t722 - (t129 * t772 + t900));
-        let t902 = t151 * t764 + (t152 * t720 + t901);
-        let t903 = t103 * t797 - (t104 * t743 - (t93 * t741 - t90 * t795));
-        let t904 = t132 * t737 - (t114 * t793 - (t117 * t739 - t903));
-        let t905 = t142 * t789 - (t143 * t735 + (t129 * t791 - t904));
-        let t906 = t151 * t787 - (t152 * t733 - t905);
-        coriolis_matrix_p[0][3] = -t718;
-        coriolis_matrix_p[2][5] = -t846;
-        let t907 = -t848;
-        coriolis_matrix_p[3][0] = t907;
-        coriolis_matrix_b[3][0] = t907;
-        let t908 = -t851;
-        coriolis_matrix_p[3][1] = t908;
-        coriolis_matrix_b[3][1] = t908;
-        let t909 = -t874;
-        coriolis_matrix_p[4][2] = t909;
-        coriolis_matrix_b[4][2] = t909;
-        let t910 = -t889;
-        coriolis_matrix_p[5][0] = t910;
-        coriolis_matrix_b[5][0] = t910;
-        let t911 = -t894;
-        coriolis_matrix_p[5][2] = t911;
-        coriolis_matrix_b[5][2] = t911;
+        let t673 = t638 + (t602 - (t566 + (t530 - (t449 - t494))));
+        coriolis_matrix_p[0][0] = t673;
+        coriolis_matrix_b[0][0] = t673;
+        let t674 = t639 + (t603 - (t567 + (t531 - (t450 - t495))));
+        coriolis_matrix_p[0][1] = t674;
+        coriolis_matrix_b[0][1] = t674;
+        let t675 = t640 + (t604 - (t568 + (t532 - (t451 - t496))));
+        coriolis_matrix_p[0][2] = t675;
+        coriolis_matrix_b[0][2] = t675;
+        let t676 = t246 * t443;
+        let t677 = t244 * t444;
+        let t678 = t153 * t639;
+        let t679 = t152 * t640;
+        let t680 = t676 - (t677 + (t678 - t679));
+        let t681 = t234 * t440;
+        let t682 = t232 * t441;
+        let t683 = t144 * t603;
+        let t684 = t143 * t604;
+        let t685 = t681 - (t682 + (t683 - t684));
+        let t686 = t216 * t437;
+        let t687 = t214 * t438;
+        let t688 = t135 * t567;
+        let t689 = t132 * t568;
+        let t690 = t686 - (t687 + (t688 - t689));
+        let t691 = t198 * t434;
+        let t692 = t196 * t435;
+        let t693 = t120 * t531;
+        let t694 = t117 * t532;
+        let t695 = t691 - (t692 + (t693 - t694));
+        let t696 = t168 * t428;
+        let t697 = t165 * t429;
+        let t698 = t96 * t450;
+        let t699 = t93 * t451;
+        let t700 = t696 - (t697 + (t698 - t699));
+        let t701 = t186 * t431;
+        let t702 = t184 * t432;
+        let t703 = t105 * t495;
+        let t704 = t104 * t496;
+        let t705 = t701 - (t702 + (t703 - t704));
+        let t706 = t680 + (t685 - (t690 + (t695 + (t700 - t705))));
+        let t707 = t153 * t638;
+        let t708 = t242 * t444 - (t246 * t442 + (t151 * t640 - t707));
+        let t709 = t144 * t602;
+        let t710 = t230 * t441 - (t234 * t439 + (t142 * t604 - t709));
+        let t711 = t135 * t566;
+        let t712 = t212 * t438 - (t216 * t436 + (t129 * t568 - t711));
+        let t713 = t120 * t530;
+        let t714 = t194 * t435 - (t198 * t433 + (t114 * t532 - t713));
+        let t715 = t96 * t449;
+        let t716 = t162 * t429 - (t168 * t427 + (t90 * t451 - t715));
+        let t717 = t105 * t494;
+        let t718 = t182 * t432 - (t186 * t430 + (t103 * t496 - t717));
+        let t719 = t708 + (t710 - (t712 + (t714 + (t716 - t718))));
+        let t720 = t152 * t638;
+        let t721 = t244 * t442 - (t242 * t443 + (t720 - t151 * t639));
+        let t722 = t143 * t602;
+        let t723 = t232 * t439 - (t230 * t440 + (t722 - t142 * t603));
+        let t724 = t132 * t566;
+        let t725 = t214 * t436 - (t212 * t437 + (t724 - t129 * t567));
+        let t726 = t117 * t530;
+        let t727 = t196 * t433 - (t194 * t434 + (t726 - t114 * t531));
+        let t728 = t93 * t449;
+        let t729 = t165 * t427 - (t162 * t428 + (t728 - t90 * t450));
+        let t730 = t104 * t494;
+        let t731 = t184 * t430 - (t182 * t431 + (t730 - t103 * t495));
+        let t732 = t721 + (t723 - (t725 + (t727 + (t729 - t731))));
+        let t733 = t642 + (t606 - (t570 + (t534 - (t456 - t498))));
+        coriolis_matrix_p[1][0] = t733;
+        coriolis_matrix_b[1][0] = t733;
+        let t734 = t643 + (t607 - (t571 + (t535 - (t457 - t499))));
+        coriolis_matrix_p[1][1] = t734;
+        coriolis_matrix_b[1][1] = t734;
+        let t735 = t644 + (t608 - (t572 + (t536 - (t458 - t500))));
+        coriolis_matrix_p[1][2] = t735;
+        coriolis_matrix_b[1][2] = t735;
+        let t736 = t153 * t643;
+        let t737 = t248 * t443 - (t247 * t444 + (t736 - t152 * t644));
+        let t738 = t144 * t607;
+        let t739 = t236 * t440 - (t235 * t441 + (t738 - t143 * t608));
+        let t740 = t135 * t571;
+        let t741 = t218 * t437 - (t217 * t438 + (t740 - t132 * t572));
+        let t742 = t120 * t535;
+        let t743 = t200 * t434 - (t199 * t435 + (t742 - t117 * t536));
+        let t744 = t96 * t457;
+        let t745 = t170 * t428 - (t169 * t429 + (t744 - t93 * t458));
+        let t746 = t105 * t499;
+        let t747 = t188 * t431 - (t187 * t432 + (t746 - t104 * t500));
+        let t748 = t737 + (t739 - (t741 + (t743 + (t745 - t747))));
+        let t749 = t248 * t442;
+        let t750 = t153 * t642;
+        let t751 = t151 * t644;
+        let t752 = t749 - (t750 + (t677 - t751));
+        let t753 = t236 * t439;
+        let t754 = t144 * t606;
+        let t755 = t142 * t608;
+        let t756 = t753 - (t754 + (t682 - t755));
+        let t757 = t218 * t436;
+        let t758 = t135 * t570;
+        let t759 = t129 * t572;
+        let t760 = t757 - (t758 + (t687 - t759));
+        let t761 = t200 * t433;
+        let t762 = t120 * t534;
+        let t763 = t114 * t536;
+        let t764 = t761 - (t762 + (t692 - t763));
+        let t765 = t170 * t427;
+        let t766 = t96 * t456;
+        let t767 = t90 * t458;
+        let t768 = t765 - (t766 + (t697 - t767));
+        let t769 = t188 * t430;
+        let t770 = t105 * t498;
+        let t771 = t103 * t500;
+        let t772 = t769 - (t770 + (t702 - t771));
+        let t773 = t752 + (t756 - (t760 + (t764 + (t768 - t772))));
+        coriolis_matrix_p[1][4] = t773;
+        let t774 = t151 * t643;
+        let t775 = t247 * t442 - (t244 * t443 + (t152 * t642 - t774));
+        let t776 = t142 * t607;
+        let t777 = t235 * t439 - (t232 * t440 + (t143 * t606 - t776));
+        let t778 = t129 * t571;
+        let t779 = t217 * t436 - (t214 * t437 + (t132 * t570 - t778));
+        let t780 = t114 * t535;
+        let t781 = t199 * t433 - (t196 * t434 + (t117 * t534 - t780));
+        let t782 = t90 * t457;
+        let t783 = t169 * t427 - (t165 * t428 + (t93 * t456 - t782));
+        let t784 = t103 * t499;
+        let t785 = t187 * t430 - (t184 * t431 + (t104 * t498 - t784));
+        let t786 = t775 + (t777 - (t779 + (t781 + (t783 - t785))));
+        let t787 = t646 + (t610 - (t574 + (t538 - (t463 - t502))));
+        coriolis_matrix_p[2][0] = t787;
+        coriolis_matrix_b[2][0] = t787;
+        let t788 = t647 + (t611 - (t575 + (t539 - (t464 - t503))));
+        coriolis_matrix_p[2][1] = t788;
+        coriolis_matrix_b[2][1] = t788;
+        let t789 = t648 + (t612 - (t576 + (t540 - (t465 - t504))));
+        coriolis_matrix_p[2][2] = t789;
+        coriolis_matrix_b[2][2] = t789;
+        let t790 = t152 * t648;
+        let t791 = t249 * t443 - (t248 * t444 + (t153 * t647 - t790));
+        let t792 = t143 * t612;
+        let t793 = t237 * t440 - (t236 * t441 + (t144 * t611 - t792));
+        let t794 = t132 * t576;
+        let t795 = t219 * t437 - (t218 * t438 + (t135 * t575 - t794));
+        let t796 = t117 * t540;
+        let t797 = t201 * t434 - (t200 * t435 + (t120 * t539 - t796));
+        let t798 = t93 * t465;
+        let t799 = t171 * t428 - (t170 * t429 + (t96 * t464 - t798));
+        let t800 = t104 * t504;
+        let t801 = t189 * t431 - (t188 * t432 + (t105 * t503 - t800));
+        let t802 = t791 + (t793 - (t795 + (t797 + (t799 - t801))));
+        let t803 = t151 * t648;
+        let t804 = t246 * t444 - (t249 * t442 + (t803 - t153 * t646));
+        let t805 = t142 * t612;
+        let t806 = t234 * t441 - (t237 * t439 + (t805 - t144 * t610));
+        let t807 = t129 * t576;
+        let t808 = t216 * t438 - (t219 * t436 + (t807 - t135 * t574));
+        let t809 = t114 * t540;
+        let t810 = t198 * t435 - (t201 * t433 + (t809 - t120 * t538));
+        let t811 = t90 * t465;
+        let t812 = t168 * t429 - (t171 * t427 + (t811 - t96 * t463));
+        let t813 = t103 * t504;
+        let t814 = t186 * t432 - (t189 * t430 + (t813 - t105 * t502));
+        let t815 = t804 + (t806 - (t808 + (t810 + (t812 - t814))));
+        let t816 = t151 * t647;
+        let t817 = t152 * t646;
+        let t818 = t816 - (t817 + (t676 - t749));
+        let t819 = t142 * t611;
+        let t820 = t143 * t610;
+        let t821 = t819 - (t820 + (t681 - t753));
+        let t822 = t129 * t575;
+        let t823 = t132 * t574;
+        let t824 = t822 - (t823 + (t686 - t757));
+        let t825 = t114 * t539;
+        let t826 = t117 * t538;
+        let t827 = t825 - (t826 + (t691 - t761));
+        let t828 = t90 * t464;
+        let t829 = t93 * t463;
+        let t830 = t828 - (t829 + (t696 - t765));
+        let t831 = t103 * t503;
+        let t832 = t104 * t502;
+        let t833 = t831 - (t832 + (t701 - t769));
+        let t834 = t818 + (t821 - (t824 + (t827 + (t830 - t833))));
+        let t835 = t832 - (t829 + (t750 + (t754 - (t758 + (t762 + (t766 - t770))))));
+        let t836 = t817 + (t820 - (t823 + (t826 - t835)));
+        let t837 = t93 * t464 + (t736 + (t738 - (t740 + (t742 + (t744 - t746)))));
+        let t838 = t132 * t575 + (t117 * t539 - (t104 * t503 - t837));
+        let t839 = t152 * t647 + (t143 * t611 - t838);
+        let t840 = t96 * t458 + (t790 + (t792 - (t794 + (t796 + (t798 - t800)))));
+        let t841 = t135 * t572 + (t120 * t536 - (t105 * t500 - t840));
+        let t842 = t153 * t644 + (t144 * t608 - t841);
+        coriolis_matrix_p[3][2] = t842;
+        coriolis_matrix_b[3][2] = t842;
+        let t843 = t104 * t801 - (t105 * t747 - (t96 * t745 - t93 * t799));
+        let t844 = t135 * t741 - (t117 * t797 - (t120 * t743 - t843));
+        let t845 = t143 * t793 - (t144 * t739 + (t132 * t795 - t844));
+        let t846 = t152 * t791 - (t153 * t737 - t845);
+        let t847 = t104 * t814 + (t105 * t772 - (t96 * t768 + t93 * t812));
+        let t848 = t135 * t760 + (t117 * t810 + (t120 * t764 + t847));
+        let t849 = t143 * t806 + (t144 * t756 - (t132 * t808 + t848));
+        let t850 = t152 * t804 + (t153 * t752 + t849);
+        let t851 = t104 * t833 - (t105 * t785 - (t96 * t783 - t93 * t830));
+        let t852 = t135 * t779 - (t117 * t827 - (t120 * t781 - t851));
+        let t853 = t143 * t821 - (t144 * t777 + (t132 * t824 - t852));
+        let t854 = t152 * t818 - (t153 * t775 - t853);
+        let t855 = t90 * t463 + (t707 + (t709 - (t711 + (t713 + (t715 - t717)))));
+        let t856 = t129 * t574 + (t114 * t538 - (t103 * t502 - t855));
+        let t857 = t151 * t646 + (t142 * t610 - t856);
+        coriolis_matrix_p[4][0] = t857;
+        coriolis_matrix_b[4][0] = t857;
+        let t858 = t831 - (t828 + (t678 + (t683 - (t688 + (t693 + (t698 - t703))))));
+        let t859 = t816 + (t819 - (t822 + (t825 - t858)));
+        coriolis_matrix_p[4][1] = t859;
+        coriolis_matrix_b[4][1] = t859;
+        let t860 = t96 * t451 + (t803 + (t805 - (t807 + (t809 + (t811 - t813)))));
+        let t861 = t135 * t568 + (t120 * t532 - (t105 * t496 - t860));
+        let t862 = t153 * t640 + (t144 * t604 - t861);
+        let t863 = t105 * t705 - (t103 * t801 - (t90 * t799 - t96 * t700));
+        let t864 = t129 * t795 - (t120 * t695 - (t114 * t797 - t863));
+        let t865 = t144 * t685 - (t142 * t793 + (t135 * t690 - t864));
+        let t866 = t153 * t680 - (t151 * t791 - t865);
+        let t867 = t105 * t718 - (t103 * t814 - (t90 * t812 - t96 * t716));
+        let t868 = t129 * t808 - (t120 * t714 - (t114 * t810 - t867));
+        let t869 = t144 * t710 - (t142 * t806 + (t135 * t712 - t868));
+        let t870 = t153 * t708 - (t151 * t804 - t869);
+        let t871 = t105 * t731 - (t103 * t833 - (t90 * t830 - t96 * t729));
+        let t872 = t129 * t824 - (t120 * t727 - (t114 * t827 - t871));
+        let t873 = t144 * t723 - (t142 * t821 + (t135 * t725 - t872));
+        let t874 = t153 * t721 - (t151 * t818 - t873);
+        let t875 = t90 * t456 + (t720 + (t722 - (t724 + (t726 + (t728 - t730)))));
+        let t876 = t129 * t570 + (t114 * t534 - (t103 * t498 - t875));
+        let t877 = t151 * t642 + (t142 * t606 - t876);
+        let t878 = t93 * t450 + (t774 + (t776 - (t778 + (t780 + (t782 - t784)))));
+        let t879 = t132 * t567 + (t117 * t531 - (t104 * t495 - t878));
+        let t880 = t152 * t639 + (t143 * t603 - t879);
+        coriolis_matrix_p[5][1] = t880;
+        coriolis_matrix_b[5][1] = t880;
+        let t881 = t771 - (t767 + (t679 + (t684 - (t689 + (t694 + (t699 - t704))))));
+        let t882 = t751 + (t755 - (t759 + (t763 - t881)));
+        let t883 = t103 * t747 - (t104 * t705 - (t93 * t700 - t90 * t745));
+        let t884 = t132 * t690 - (t114 * t743 - (t117 * t695 - t883));
+        let t885 = t142 * t739 - (t143 * t685 + (t129 * t741 - t884));
+        let t886 = t151 * t737 - (t152 * t680 - t885);
+        let t887 = t103 * t772 + (t104 * t718 - (t93 * t716 + t90 * t768));
+        let t888 = t132 * t712 + (t114 * t764 + (t117 * t714 + t887));
+        let t889 = t142 * t756 + (t143 * t710 - (t129 * t760 + t888));
+        let t890 = t151 * t752 + (t152 * t708 + t889);
+        let t891 = t103 * t785 - (t104 * t731 - (t93 * t729 - t90 * t783));
+        let t892 = t132 * t725 - (t114 * t781 - (t117 * t727 - t891));
+        let t893 = t142 * t777 - (t143 * t723 + (t129 * t779 - t892));
+        let t894 = t151 * t775 - (t152 * t721 - t893);
+        coriolis_matrix_p[0][3] = -t706;
+        coriolis_matrix_p[2][5] = -t834;
+        let t895 = -t836;
+        coriolis_matrix_p[3][0] = t895;
+        coriolis_matrix_b[3][0] = t895;
+        let t896 = -t839;
+        coriolis_matrix_p[3][1] = t896;
+        coriolis_matrix_b[3][1] = t896;
+        let t897 = -t862;
+        coriolis_matrix_p[4][2] = t897;
+        coriolis_matrix_b[4][2] = t897;
+        let t898 = -t877;
+        coriolis_matrix_p[5][0] = t898;
+        coriolis_matrix_b[5][0] = t898;
+        let t899 = -t882;
+        coriolis_matrix_p[5][2] = t899;
+        coriolis_matrix_b[5][2] = t899;
+        // Coriolis matrix C_p, natural factorisation
+        let t900 = platform_rotation[1][0] * c(2.2551405187698492e-17);
+        let t901 = t900 + platform_rotation[1][1] * c(6.938893903907228e-18);
+        let t902 = t901 + platform_rotation[1][2] * c(0.188852);
+        let t903 = platform_rotation[0][0] * c(2.2551405187698492e-17);
+        let t904 = t903 + platform_rotation[0][1] * c(6.938893903907228e-18);
+        let t905 = t904 + platform_rotation[0][2] * c(0.188852);
+        let t906 = platform_velocity[3] * t902 - platform_velocity[4] * t905;
+        coriolis_matrix_p[0][4] = t906 - t719;
+        let t907 = platform_rotation[2][0] * c(2.2551405187698492e-17);
+        let t908 = t907 + platform_rotation[2][1] * c(6.938893903907228e-18);
+        let t909 = t908 + platform_rotation[2][2] * c(0.188852);
+        let t910 = platform_velocity[5] * t905 - platform_velocity[3] * t909;
+        coriolis_matrix_p[0][5] = -(t732 + t910);
+        coriolis_matrix_p[1][3] = -(t748 + t906);
+        let t911 = platform_velocity[4] * t909 - platform_velocity[5] * t902;
+        coriolis_matrix_p[1][5] = t911 - t786;
+        coriolis_matrix_p[2][3] = t910 - t802;
+        coriolis_matrix_p[2][4] = -(t815 + t911);
+        let t912 = platform_rotation[0][2] * c(0.013354412);
+        let t913 = platform_rotation[0][0] * c(0.032245600000000006);
+        let t914 = platform_rotation[0][1] * c(0.032245600000000006);
+        let t915 = platform_rotation[1][0] * t913 + platform_rotation[1][1] * t914;
+        let t916 = platform_rotation[1][2] * t912 + t915;
+        let t917 = platform_velocity[5] * t916;
+        let t918 = platform_rotation[2][0] * t913 + platform_rotation[2][1] * t914;
+        let t919 = platform_rotation[2][2] * t912 + t918;
+        let t920 = platform_velocity[4] * t919;
+        coriolis_matrix_p[3][3] = t846 + t917 - t920;
+        let t921 = platform_rotation[1][2] * c(0.013354412);
+        let t922 = platform_rotation[1][1] * c(0.032245600000000006);
+        let t923 = platform_rotation[1][0] * c(0.032245600000000006);
+        let t924 = c(0.0425) - platform_rotation[1][0] * t923;
+        let t925 = platform_rotation[1][1] * t922 - t924;
+        let t926 = platform_rotation[1][2] * t921 + t925;
+        let t927 = platform_rotation[2][0] * t923 + platform_rotation[2][1] * t922;
+        let t928 = platform_rotation[2][2] * t921 + t927;
+        coriolis_matrix_p[3][4] = t850 + platform_velocity[5] * t926
+            - platform_velocity[4] * t928;
+        let t929 = platform_rotation[2][2] * (platform_rotation[2][2] * c(0.013354412));
+        let t930 = platform_rotation[2][1] * c(0.032245600000000006);
+        let t931 = platform_rotation[2][0] * c(0.032245600000000006);
+        let t932 = c(0.0425) - platform_rotation[2][0] * t931;
+        let t933 = t929 + (platform_rotation[2][1] * t930 - t932);
+        coriolis_matrix_p[3][5] = t854 + platform_velocity[5] * t928
+            - platform_velocity[4] * t933;
+        let t934 = c(0.0425) - platform_rotation[0][0] * t913;
+        let t935 = platform_rotation[0][1] * t914 - t934;
+        let t936 = platform_rotation[0][2] * t912 + t935;
+        coriolis_matrix_p[4][3] = platform_velocity[3] * t919
+            + (t866 - platform_velocity[5] * t936);
+        let t937 = platform_velocity[3] * t928;
+        coriolis_matrix_p[4][4] = t937 + (t870 - t917);
+        coriolis_matrix_p[4][5] = platform_velocity[3] * t933
+            + (t874 - platform_velocity[5] * t919);
+        coriolis_matrix_p[5][3] = t886 + platform_velocity[4] * t936
+            - platform_velocity[3] * t916;
+        coriolis_matrix_p[5][4] = platform_velocity[4] * t916 - t890
+            - platform_velocity[3] * t926;
+        coriolis_matrix_p[5][5] = t894 + t920 - t937;
         (
             t19,
             t20,
@@ -8735,241 +8777,181 @@ pub fn coriolis_matrices<T: Scalar>(
             t313,
             t314,
             t315,
+            t475,
+            t482,
+            t485,
+            t486,
             t487,
-            t494,
-            t497,
-            t498,
-            t499,
-            t501,
-            t502,
-            t503,
-            t504,
-            t524,
-            t530,
-            t533,
-            t534,
-            t535,
-            t537,
-            t538,
-            t539,
-            t540,
-            t560,
-            t566,
-            t569,
-            t570,
-            t571,
-            t573,
-            t574,
-            t575,
-            t576,
-            t596,
-            t602,
-            t605,
-            t606,
-            t607,
-            t609,
-            t610,
-            t611,
-            t612,
-            t632,
-            t638,
-            t641,
-            t642,
-            t643,
-            t645,
-            t646,
-            t647,
-            t648,
-            t668,
+            t489,
+            t490,
+            t491,
+            t492,
+            t512,
+            t518,
+            t521,
+            t522,
+            t523,
+            t525,
+            t526,
+            t527,
+            t528,
+            t548,
+            t554,
+            t557,
+            t558,
+            t559,
+            t561,
+            t562,
+            t563,
+            t564,
+            t584,
+            t590,
+            t593,
+            t594,
+            t595,
+            t597,
+            t598,
+            t599,
+            t600,
+            t620,
+            t626,
+            t629,
+            t630,
+            t631,
+            t633,
+            t634,
+            t635,
+            t636,
+            t656,
+            t662,
+            t665,
+            t666,
+            t667,
+            t669,
+            t670,
+            t671,
+            t672,
+            t673,
             t674,
-            t677,
-            t678,
-            t679,
-            t681,
-            t682,
-            t683,
-            t684,
-            t685,
-            t686,
-            t687,
-            t718,
-            t731,
-            t744,
-            t745,
-            t746,
-            t747,
-            t760,
-            t785,
-            t798,
-            t799,
-            t800,
-            t801,
-            t814,
-            t827,
+            t675,
+            t706,
+            t719,
+            t732,
+            t733,
+            t734,
+            t735,
+            t748,
+            t773,
+            t786,
+            t787,
+            t788,
+            t789,
+            t802,
+            t815,
+            t834,
+            t836,
+            t839,
+            t842,
             t846,
-            t848,
-            t851,
+            t850,
             t854,
-            t858,
+            t857,
+            t859,
             t862,
             t866,
-            t869,
-            t871,
+            t870,
             t874,
-            t878,
+            t877,
+            t880,
             t882,
             t886,
-            t889,
-            t892,
+            t890,
             t894,
-            t898,
-            t902,
-            t906,
         )
     };
     {
-        // Coriolis matrix C_p, natural factorisation
-        let t912 = platform_rotation[1][0] * c(2.2551405187698492e-17);
-        let t913 = t912 + platform_rotation[1][1] * c(6.938893903907228e-18);
-        let t914 = t913 + platform_rotation[1][2] * c(0.188852);
-        let t915 = platform_rotation[0][0] * c(2.2551405187698492e-17);
-        let t916 = t915 + platform_rotation[0][1] * c(6.938893903907228e-18);
-        let t917 = t916 + platform_rotation[0][2] * c(0.188852);
-        let t918 = platform_velocity[3] * t914 - platform_velocity[4] * t917;
-        coriolis_matrix_p[0][4] = t918 - t731;
-        let t919 = platform_rotation[2][0] * c(2.2551405187698492e-17);
-        let t920 = t919 + platform_rotation[2][1] * c(6.938893903907228e-18);
-        let t921 = t920 + platform_rotation[2][2] * c(0.188852);
-        let t922 = platform_velocity[5] * t917 - platform_velocity[3] * t921;
-        coriolis_matrix_p[0][5] = -(t744 + t922);
-        coriolis_matrix_p[1][3] = -(t760 + t918);
-        let t923 = platform_velocity[4] * t921 - platform_velocity[5] * t914;
-        coriolis_matrix_p[1][5] = t923 - t798;
-        coriolis_matrix_p[2][3] = t922 - t814;
-        coriolis_matrix_p[2][4] = -(t827 + t923);
-        let t924 = platform_rotation[0][2] * c(0.013354412);
-        let t925 = platform_rotation[0][0] * c(0.032245600000000006);
-        let t926 = platform_rotation[0][1] * c(0.032245600000000006);
-        let t927 = platform_rotation[1][0] * t925 + platform_rotation[1][1] * t926;
-        let t928 = platform_rotation[1][2] * t924 + t927;
-        let t929 = platform_velocity[5] * t928;
-        let t930 = platform_rotation[2][0] * t925 + platform_rotation[2][1] * t926;
-        let t931 = platform_rotation[2][2] * t924 + t930;
-        let t932 = platform_velocity[4] * t931;
-        coriolis_matrix_p[3][3] = t858 + t929 - t932;
-        let t933 = platform_rotation[1][2] * c(0.013354412);
-        let t934 = platform_rotation[1][1] * c(0.032245600000000006);
-        let t935 = platform_rotation[1][0] * c(0.032245600000000006);
-        let t936 = c(0.0425) - platform_rotation[1][0] * t935;
-        let t937 = platform_rotation[1][1] * t934 - t936;
-        let t938 = platform_rotation[1][2] * t933 + t937;
-        let t939 = platform_rotation[2][0] * t935 + platform_rotation[2][1] * t934;
-        let t940 = platform_rotation[2][2] * t933 + t939;
-        coriolis_matrix_p[3][4] = t862 + platform_velocity[5] * t938
-            - platform_velocity[4] * t940;
-        let t941 = platform_rotation[2][2] * (platform_rotation[2][2] * c(0.013354412));
-        let t942 = platform_rotation[2][1] * c(0.032245600000000006);
-        let t943 = platform_rotation[2][0] * c(0.032245600000000006);
-        let t944 = c(0.0425) - platform_rotation[2][0] * t943;
-        let t945 = t941 + (platform_rotation[2][1] * t942 - t944);
-        coriolis_matrix_p[3][5] = t866 + platform_velocity[5] * t940
-            - platform_velocity[4] * t945;
-        let t946 = c(0.0425) - platform_rotation[0][0] * t925;
-        let t947 = platform_rotation[0][1] * t926 - t946;
-        let t948 = platform_rotation[0][2] * t924 + t947;
-        coriolis_matrix_p[4][3] = platform_velocity[3] * t931
-            + (t878 - platform_velocity[5] * t948);
-        let t949 = platform_velocity[3] * t940;
-        coriolis_matrix_p[4][4] = t949 + (t882 - t929);
-        coriolis_matrix_p[4][5] = platform_velocity[3] * t945
-            + (t886 - platform_velocity[5] * t931);
-        coriolis_matrix_p[5][3] = t898 + platform_velocity[4] * t948
-            - platform_velocity[3] * t928;
-        coriolis_matrix_p[5][4] = platform_velocity[4] * t928 - t902
-            - platform_velocity[3] * t938;
-        coriolis_matrix_p[5][5] = t906 + t932 - t949;
         // Coriolis matrix C_b, natural factorisation
-        let t950 = t254 * t315;
-        let t951 = t718 - (t668 + (t632 - (t596 + (t560 - (t487 - t524)))));
-        let t952 = t255 * t314;
-        coriolis_matrix_b[0][3] = t950 - (t20 * t687 - (t21 * t686 - t951)) - t952;
-        let t953 = t731 - (t674 + (t638 - (t602 + (t566 - (t494 - t530)))));
-        let t954 = t255 * t313 - (t21 * t685 - (t19 * t687 - t953));
-        coriolis_matrix_b[0][4] = t954 - t253 * t315;
-        let t955 = t744 - (t677 + (t641 - (t605 + (t569 - (t497 - t533)))));
-        let t956 = t253 * t314 - (t19 * t686 - (t20 * t685 - t955));
-        coriolis_matrix_b[0][5] = t956 - t254 * t313;
-        let t957 = t760 + (t678 + (t642 + (t606 + (t570 + (t498 + t534)))));
-        let t958 = t269 * t315 - (t20 * t747 - (t21 * t746 - t957));
-        coriolis_matrix_b[1][3] = t958 - t270 * t314;
-        let t959 = t270 * t313;
-        let t960 = t950 - (t785 + (t679 + (t643 - (t607 + (t571 - (t499 - t535))))));
-        coriolis_matrix_b[1][4] = t959 - (t21 * t745 - (t19 * t747 - t960));
-        let t961 = t798 - (t681 + (t645 - (t609 + (t573 - (t501 - t537)))));
-        let t962 = t254 * t314 - (t19 * t746 - (t20 * t745 - t961));
-        coriolis_matrix_b[1][5] = t962 - t269 * t313;
-        let t963 = t814 - (t682 + (t646 + (t610 + (t574 + (t502 + t538)))));
-        let t964 = t270 * t315 - (t20 * t801 - (t21 * t800 - t963));
-        coriolis_matrix_b[2][3] = t964 - t282 * t314;
-        let t965 = t827 + (t683 + (t647 + (t611 + (t575 + (t503 + t539)))));
-        let t966 = t282 * t313 - (t21 * t799 - (t19 * t801 - t965));
-        coriolis_matrix_b[2][4] = t966 - t255 * t315;
-        let t967 = t952 - (t846 - (t684 + (t648 - (t612 + (t576 - (t504 - t540))))));
-        coriolis_matrix_b[2][5] = t20 * t799 - (t959 - t967) - t19 * t800;
-        let t968 = t274 * t315 + (t20 * t854 - (t858 - t21 * t851));
-        let t969 = t96 * t498 + (t93 * t502 + (t286 * t314 - t968));
-        let t970 = t105 * t534 + (t104 * t538 + t969) - t117 * t574;
-        let t971 = t970 - t120 * t570 - t132 * t610 - t135 * t606;
-        let t972 = t971 - t143 * t646 - t144 * t642 - t152 * t682;
-        coriolis_matrix_b[3][3] = t972 - t153 * t678;
-        let t973 = t286 * t313 - (t21 * t848 + (t862 + t19 * t854));
-        let t974 = t96 * t499 + (t93 * t503 + (t260 * t315 + t973));
-        let t975 = t117 * t575 + (t105 * t535 - (t104 * t539 + t974));
-        let t976 = t135 * t607 - (t132 * t611 - (t120 * t571 - t975));
-        let t977 = t152 * t683 + (t144 * t643 + (t143 * t647 - t976));
-        coriolis_matrix_b[3][4] = t153 * t679 + t977;
-        let t978 = t260 * t314 + (t19 * t851 + (t866 - t20 * t848));
-        let t979 = t96 * t501 - (t93 * t504 + (t274 * t313 + t978));
-        let t980 = t117 * t576 + (t105 * t537 - (t104 * t540 + t979));
-        let t981 = t135 * t609 - (t132 * t612 - (t120 * t573 - t980));
-        let t982 = t152 * t684 - (t144 * t645 - (t143 * t648 + t981));
-        coriolis_matrix_b[3][5] = t153 * t681 - t982;
-        let t983 = t277 * t315 - (t20 * t874 + (t878 + t21 * t871));
-        let t984 = t90 * t502 - (t96 * t487 + (t290 * t314 - t983));
-        let t985 = t120 * t560 - (t103 * t538 + (t105 * t524 + t984));
-        let t986 = t129 * t610 + (t135 * t596 + (t114 * t574 + t985));
-        let t987 = t153 * t668 - (t142 * t646 - (t144 * t632 - t986));
-        coriolis_matrix_b[4][3] = t151 * t682 - t987;
-        let t988 = t290 * t313 + (t21 * t869 - (t882 - t19 * t874));
-        let t989 = t90 * t503 + (t96 * t494 + (t264 * t315 - t988));
-        let t990 = t120 * t566 + (t103 * t539 - (t105 * t530 - t989));
-        let t991 = t135 * t602 - (t114 * t575 - t990) - t129 * t611;
-        let t992 = t991 - t144 * t638 - t142 * t647 - t153 * t674;
-        coriolis_matrix_b[4][4] = t992 - t151 * t683;
-        let t993 = t264 * t314 + (t19 * t871 - (t886 + t20 * t869));
-        let t994 = t90 * t504 - (t96 * t497 + (t277 * t313 - t993));
-        let t995 = t120 * t569 + (t103 * t540 - (t105 * t533 + t994));
-        let t996 = t129 * t612 - (t135 * t605 - (t114 * t576 - t995));
-        let t997 = t153 * t677 - (t142 * t648 - (t144 * t641 + t996));
-        coriolis_matrix_b[4][5] = t151 * t684 - t997;
-        let t998 = t281 * t315 - (t20 * t894 + (t898 + t21 * t892));
-        let t999 = t93 * t487 + (t90 * t498 + (t291 * t314 + t998));
-        let t1000 = t114 * t570 + (t104 * t524 - (t103 * t534 + t999));
-        let t1001 = t132 * t596 - (t129 * t606 - (t117 * t560 - t1000));
-        let t1002 = t151 * t678 + (t143 * t632 + (t142 * t642 - t1001));
-        coriolis_matrix_b[5][3] = t152 * t668 + t1002;
-        let t1003 = t291 * t313 + (t21 * t889 - (t902 + t19 * t894));
-        let t1004 = t93 * t494 - (t90 * t499 + (t268 * t315 + t1003));
-        let t1005 = t114 * t571 + (t104 * t530 - (t103 * t535 + t1004));
-        let t1006 = t132 * t602 - (t129 * t607 - (t117 * t566 - t1005));
-        let t1007 = t151 * t679 - (t143 * t638 - (t142 * t643 + t1006));
-        coriolis_matrix_b[5][4] = t152 * t674 - t1007;
-        let t1008 = t268 * t314 + (t19 * t892 - (t906 - t20 * t889));
-        let t1009 = t93 * t497 - (t90 * t501 + (t281 * t313 - t1008));
-        let t1010 = t114 * t573 + (t104 * t533 - (t103 * t537 + t1009));
-        let t1011 = t132 * t605 - (t129 * t609 - (t117 * t569 - t1010));
-        let t1012 = t151 * t681 - (t143 * t641 - (t142 * t645 + t1011));
-        coriolis_matrix_b[5][5] = t152 * t677 - t1012;
+        let t938 = t254 * t315;
+        let t939 = t706 - (t656 + (t620 - (t584 + (t548 - (t475 - t512)))));
+        let t940 = t255 * t314;
+        coriolis_matrix_b[0][3] = t938 - (t20 * t675 - (t21 * t674 - t939)) - t940;
+        let t941 = t719 - (t662 + (t626 - (t590 + (t554 - (t482 - t518)))));
+        let t942 = t255 * t313 - (t21 * t673 - (t19 * t675 - t941));
+        coriolis_matrix_b[0][4] = t942 - t253 * t315;
+        let t943 = t732 - (t665 + (t629 - (t593 + (t557 - (t485 - t521)))));
+        let t944 = t253 * t314 - (t19 * t674 - (t20 * t673 - t943));
+        coriolis_matrix_b[0][5] = t944 - t254 * t313;
+        let t945 = t748 + (t666 + (t630 + (t594 + (t558 + (t486 + t522)))));
+        let t946 = t269 * t315 - (t20 * t735 - (t21 * t734 - t945));
+        coriolis_matrix_b[1][3] = t946 - t270 * t314;
+        let t947 = t270 * t313;
+        let t948 = t938 - (t773 + (t667 + (t631 - (t595 + (t559 - (t487 - t523))))));
+        coriolis_matrix_b[1][4] = t947 - (t21 * t733 - (t19 * t735 - t948));
+        let t949 = t786 - (t669 + (t633 - (t597 + (t561 - (t489 - t525)))));
+        let t950 = t254 * t314 - (t19 * t734 - (t20 * t733 - t949));
+        coriolis_matrix_b[1][5] = t950 - t269 * t313;
+        let t951 = t802 - (t670 + (t634 + (t598 + (t562 + (t490 + t526)))));
+        let t952 = t270 * t315 - (t20 * t789 - (t21 * t788 - t951));
+        coriolis_matrix_b[2][3] = t952 - t282 * t314;
+        let t953 = t815 + (t671 + (t635 + (t599 + (t563 + (t491 + t527)))));
+        let t954 = t282 * t313 - (t21 * t787 - (t19 * t789 - t953));
+        coriolis_matrix_b[2][4] = t954 - t255 * t315;
+        let t955 = t940 - (t834 - (t672 + (t636 - (t600 + (t564 - (t492 - t528))))));
+        coriolis_matrix_b[2][5] = t20 * t787 - (t947 - t955) - t19 * t788;
+        let t956 = t274 * t315 + (t20 * t842 - (t846 - t21 * t839));
+        let t957 = t96 * t486 + (t93 * t490 + (t286 * t314 - t956));
+        let t958 = t105 * t522 + (t104 * t526 + t957) - t117 * t562;
+        let t959 = t958 - t120 * t558 - t132 * t598 - t135 * t594;
+        let t960 = t959 - t143 * t634 - t144 * t630 - t152 * t670;
+        coriolis_matrix_b[3][3] = t960 - t153 * t666;
+        let t961 = t286 * t313 - (t21 * t836 + (t850 + t19 * t842));
+        let t962 = t96 * t487 + (t93 * t491 + (t260 * t315 + t961));
+        let t963 = t117 * t563 + (t105 * t523 - (t104 * t527 + t962));
+        let t964 = t135 * t595 - (t132 * t599 - (t120 * t559 - t963));
+        let t965 = t152 * t671 + (t144 * t631 + (t143 * t635 - t964));
+        coriolis_matrix_b[3][4] = t153 * t667 + t965;
+        let t966 = t260 * t314 + (t19 * t839 + (t854 - t20 * t836));
+        let t967 = t96 * t489 - (t93 * t492 + (t274 * t313 + t966));
+        let t968 = t117 * t564 + (t105 * t525 - (t104 * t528 + t967));
+        let t969 = t135 * t597 - (t132 * t600 - (t120 * t561 - t968));
+        let t970 = t152 * t672 - (t144 * t633 - (t143 * t636 + t969));
+        coriolis_matrix_b[3][5] = t153 * t669 - t970;
+        let t971 = t277 * t315 - (t20 * t862 + (t866 + t21 * t859));
+        let t972 = t90 * t490 - (t96 * t475 + (t290 * t314 - t971));
+        let t973 = t120 * t548 - (t103 * t526 + (t105 * t512 + t972));
+        let t974 = t129 * t598 + (t135 * t584 + (t114 * t562 + t973));
+        let t975 = t153 * t656 - (t142 * t634 - (t144 * t620 - t974));
+        coriolis_matrix_b[4][3] = t151 * t670 - t975;
+        let t976 = t290 * t313 + (t21 * t857 - (t870 - t19 * t862));
+        let t977 = t90 * t491 + (t96 * t482 + (t264 * t315 - t976));
+        let t978 = t120 * t554 + (t103 * t527 - (t105 * t518 - t977));
+        let t979 = t135 * t590 - (t114 * t563 - t978) - t129 * t599;
+        let t980 = t979 - t144 * t626 - t142 * t635 - t153 * t662;
+        coriolis_matrix_b[4][4] = t980 - t151 * t671;
+        let t981 = t264 * t314 + (t19 * t859 - (t874 + t20 * t857));
+        let t982 = t90 * t492 - (t96 * t485 + (t277 * t313 - t981));
+        let t983 = t120 * t557 + (t103 * t528 - (t105 * t521 + t982));
+        let t984 = t129 * t600 - (t135 * t593 - (t114 * t564 - t983));
+        let t985 = t153 * t665 - (t142 * t636 - (t144 * t629 + t984));
+        coriolis_matrix_b[4][5] = t151 * t672 - t985;
+        let t986 = t281 * t315 - (t20 * t882 + (t886 + t21 * t880));
+        let t987 = t93 * t475 + (t90 * t486 + (t291 * t314 + t986));
+        let t988 = t114 * t558 + (t104 * t512 - (t103 * t522 + t987));
+        let t989 = t132 * t584 - (t129 * t594 - (t117 * t548 - t988));
+        let t990 = t151 * t666 + (t143 * t620 + (t142 * t630 - t989));
+        coriolis_matrix_b[5][3] = t152 * t656 + t990;
+        let t991 = t291 * t313 + (t21 * t877 - (t890 + t19 * t882));
+        let t992 = t93 * t482 - (t90 * t487 + (t268 * t315 + t991));
+        let t993 = t114 * t559 + (t104 * t518 - (t103 * t523 + t992));
+        let t994 = t132 * t590 - (t129 * t595 - (t117 * t554 - t993));
+        let t995 = t151 * t667 - (t143 * t626 - (t142 * t631 + t994));
+        coriolis_matrix_b[5][4] = t152 * t662 - t995;
+        let t996 = t268 * t314 + (t19 * t880 - (t894 - t20 * t877));
+        let t997 = t93 * t485 - (t90 * t489 + (t281 * t313 - t996));
+        let t998 = t114 * t561 + (t104 * t521 - (t103 * t525 + t997));
+        let t999 = t132 * t593 - (t129 * t597 - (t117 * t557 - t998));
+        let t1000 = t151 * t669 - (t143 * t629 - (t142 * t633 + t999));
+        coriolis_matrix_b[5][5] = t152 * t665 - t1000;
     }
 }
 
@@ -9501,7 +9483,6 @@ pub fn matrices<T: Scalar>(
         t19,
         t20,
         t21,
-        t56,
         t59,
         t64,
         t69,
@@ -9570,9 +9551,6 @@ pub fn matrices<T: Scalar>(
         t196,
         t197,
         t198,
-        t207,
-        t211,
-        t221,
         t245,
         t247,
         t249,
@@ -9645,60 +9623,71 @@ pub fn matrices<T: Scalar>(
         t709,
         t710,
         t711,
-        t754,
         t756,
         t760,
         t764,
         t766,
         t768,
-        t781,
         t782,
-        t783,
+        t784,
+        t786,
+        t791,
         t793,
-        t794,
         t795,
         t800,
         t802,
         t804,
-        t805,
-        t806,
-        t807,
-        t812,
-        t814,
-        t816,
-        t817,
+        t809,
+        t811,
+        t813,
         t818,
-        t819,
+        t820,
+        t822,
+        t823,
         t824,
+        t825,
         t826,
+        t827,
         t828,
         t829,
         t830,
         t831,
+        t832,
+        t833,
+        t834,
+        t835,
         t836,
+        t837,
         t838,
+        t839,
         t840,
-        t841,
         t842,
         t843,
-        t848,
+        t845,
+        t846,
+        t847,
+        t849,
         t850,
         t852,
+        t853,
         t854,
-        t855,
+        t856,
         t857,
-        t858,
         t859,
+        t860,
         t861,
         t862,
-        t864,
-        t865,
-        t866,
-        t868,
-        t869,
+        t863,
         t871,
         t872,
-        t873,
+        t878,
+        t881,
+        t882,
+        t883,
+        t885,
+        t886,
+        t887,
+        t888,
     ) = {
         // rotation of the platform seen from the base
         let t1 = base_rotation[1][0] * platform_rotation[1][0];
@@ -10664,135 +10653,144 @@ pub fn matrices<T: Scalar>(
         let t767 = t74 * (t50 * t749 - t51 * t750);
         // leg 6: actuator velocity d'
         let t768 = t758 + (t759 - t767);
-        // leg 1: rate of that gradient relative to the base
-        let t769 = t53 * (t729 + t76 * t751);
-        let t770 = t53 * (t732 - t77 * t751);
-        // leg 2: rate of that gradient relative to the base
-        let t771 = t58 * (t733 + t78 * t755);
-        let t772 = t58 * (t734 + t79 * t755);
-        // leg 3: rate of that gradient relative to the base
-        let t773 = t61 * (t737 + t80 * t757);
-        let t774 = t61 * (t740 + t81 * t757);
-        // leg 4: rate of that gradient relative to the base
-        let t775 = t66 * (t743 + t82 * t761);
-        let t776 = t66 * (t746 + t83 * t761);
-        // leg 5: rate of that gradient relative to the base
-        let t777 = t71 * (t747 + t84 * t765);
-        let t778 = t71 * (t748 - t85 * t765);
-        // leg 6: rate of that gradient relative to the base
-        let t779 = t74 * (t749 + t86 * t767);
-        let t780 = t74 * (t750 - t87 * t767);
-        // leg 1: rate of the platform lever
-        let t781 = platform_velocity[4] * t96 - platform_velocity[5] * t93;
-        let t782 = platform_velocity[5] * t90 - platform_velocity[3] * t96;
-        let t783 = platform_velocity[3] * t93 - platform_velocity[4] * t90;
         // leg 1: inertial rate of that gradient
-        let t784 = t77 * t690 + t76 * t693;
-        let t785 = t77 * t696 - (t693 - t769);
-        let t786 = t76 * t696 + (t690 + t770);
-        let t787 = base_rotation[0][0] * t785 + base_rotation[0][1] * t786;
-        let t788 = base_rotation[0][2] * t784 - t787;
-        let t789 = base_rotation[1][0] * t785 + base_rotation[1][1] * t786;
-        let t790 = base_rotation[1][2] * t784 - t789;
-        let t791 = base_rotation[2][0] * t785 + base_rotation[2][1] * t786;
-        let t792 = base_rotation[2][2] * t784 - t791;
-        // leg 2: rate of the platform lever
-        let t793 = platform_velocity[4] * t108 - platform_velocity[5] * t107;
-        let t794 = platform_velocity[5] * t106 - platform_velocity[3] * t108;
-        let t795 = platform_velocity[3] * t107 - platform_velocity[4] * t106;
+        let t769 = t77 * t690 + t76 * t693;
+        let t770 = t77 * t696 - (t693 - t53 * (t729 + t76 * t751));
+        let t771 = t76 * t696 + (t690 + t53 * (t732 - t77 * t751));
+        let t772 = base_rotation[0][0] * t770 + base_rotation[0][1] * t771;
+        let t773 = base_rotation[0][2] * t769 - t772;
+        let t774 = base_rotation[1][0] * t770 + base_rotation[1][1] * t771;
+        let t775 = base_rotation[1][2] * t769 - t774;
+        let t776 = base_rotation[2][0] * t770 + base_rotation[2][1] * t771;
+        let t777 = base_rotation[2][2] * t769 - t776;
         // leg 2: inertial rate of that gradient
-        let t796 = t79 * t690 - t78 * t693;
-        let t797 = t79 * t696 + (t693 - t771);
-        let t798 = t78 * t696 + (t690 + t772);
+        let t778 = t79 * t690 - t78 * t693;
+        let t779 = t79 * t696 + (t693 - t58 * (t733 + t78 * t755));
+        let t780 = t78 * t696 + (t690 + t58 * (t734 + t79 * t755));
+        let t781 = base_rotation[0][0] * t779 - base_rotation[0][1] * t780;
+        let t782 = base_rotation[0][2] * t778 - t781;
+        let t783 = base_rotation[1][0] * t779 - base_rotation[1][1] * t780;
+        let t784 = base_rotation[1][2] * t778 - t783;
+        let t785 = base_rotation[2][0] * t779 - base_rotation[2][1] * t780;
+        let t786 = base_rotation[2][2] * t778 - t785;
+        // leg 3: inertial rate of that gradient
+        let t787 = t81 * t690 - t80 * t693;
+        let t788 = t81 * t696 + (t693 - t61 * (t737 + t80 * t757));
+        let t789 = t80 * t696 + (t690 + t61 * (t740 + t81 * t757));
+        let t790 = base_rotation[0][0] * t788 - base_rotation[0][1] * t789;
+        let t791 = base_rotation[0][2] * t787 - t790;
+        let t792 = base_rotation[1][0] * t788 - base_rotation[1][1] * t789;
+        let t793 = base_rotation[1][2] * t787 - t792;
+        let t794 = base_rotation[2][0] * t788 - base_rotation[2][1] * t789;
+        let t795 = base_rotation[2][2] * t787 - t794;
+        // leg 4: inertial rate of that gradient
+        let t796 = t83 * t690 - t82 * t693;
+        let t797 = t83 * t696 + (t693 - t66 * (t743 + t82 * t761));
+        let t798 = t82 * t696 + (t690 + t66 * (t746 + t83 * t761));
         let t799 = base_rotation[0][0] * t797 - base_rotation[0][1] * t798;
         let t800 = base_rotation[0][2] * t796 - t799;
         let t801 = base_rotation[1][0] * t797 - base_rotation[1][1] * t798;
         let t802 = base_rotation[1][2] * t796 - t801;
         let t803 = base_rotation[2][0] * t797 - base_rotation[2][1] * t798;
         let t804 = base_rotation[2][2] * t796 - t803;
-        // leg 3: rate of the platform lever
-        let t805 = platform_velocity[4] * t129 - platform_velocity[5] * t126;
-        let t806 = platform_velocity[5] * t123 - platform_velocity[3] * t129;
-        let t807 = platform_velocity[3] * t126 - platform_velocity[4] * t123;
-        // leg 3: inertial rate of that gradient
-        let t808 = t81 * t690 - t80 * t693;
-        let t809 = t81 * t696 + (t693 - t773);
-        let t810 = t80 * t696 + (t690 + t774);
-        let t811 = base_rotation[0][0] * t809 - base_rotation[0][1] * t810;
-        let t812 = base_rotation[0][2] * t808 - t811;
-        let t813 = base_rotation[1][0] * t809 - base_rotation[1][1] * t810;
-        let t814 = base_rotation[1][2] * t808 - t813;
-        let t815 = base_rotation[2][0] * t809 - base_rotation[2][1] * t810;
-        let t816 = base_rotation[2][2] * t808 - t815;
-        // leg 4: rate of the platform lever
-        let t817 = platform_velocity[4] * t150 - platform_velocity[5] * t147;
-        let t818 = platform_velocity[5] * t144 - platform_velocity[3] * t150;
-        let t819 = platform_velocity[3] * t147 - platform_velocity[4] * t144;
-        // leg 4: inertial rate of that gradient
-        let t820 = t83 * t690 - t82 * t693;
-        let t821 = t83 * t696 + (t693 - t775);
-        let t822 = t82 * t696 + (t690 + t776);
-        let t823 = base_rotation[0][0] * t821 - base_rotation[0][1] * t822;
-        let t824 = base_rotation[0][2] * t820 - t823;
-        let t825 = base_rotation[1][0] * t821 - base_rotation[1][1] * t822;
-        let t826 = base_rotation[1][2] * t820 - t825;
-        let t827 = base_rotation[2][0] * t821 - base_rotation[2][1] * t822;
-        let t828 = base_rotation[2][2] * t820 - t827;
-        // leg 5: rate of the platform lever
-        let t829 = platform_velocity[4] * t165 - platform_velocity[5] * t164;
-        let t830 = platform_velocity[5] * t163 - platform_velocity[3] * t165;
-        let t831 = platform_velocity[3] * t164 - platform_velocity[4] * t163;
         // leg 5: inertial rate of that gradient
-        let t832 = t85 * t690 + t84 * t693;
-        let t833 = t85 * t696 - (t693 - t777);
-        let t834 = t84 * t696 + (t690 + t778);
-        let t835 = base_rotation[0][0] * t833 + base_rotation[0][1] * t834;
-        let t836 = base_rotation[0][2] * t832 - t835;
-        let t837 = base_rotation[1][0] * t833 + base_rotation[1][1] * t834;
-        let t838 = base_rotation[1][2] * t832 - t837;
-        let t839 = base_rotation[2][0] * t833 + base_rotation[2][1] * t834;
-        let t840 = base_rotation[2][2] * t832 - t839;
-        // leg 6: rate of the platform lever
-        let t841 = platform_velocity[4] * t177 - platform_velocity[5] * t176;
-        let t842 = platform_velocity[5] * t175 - platform_velocity[3] * t177;
-        let t843 = platform_velocity[3] * t176 - platform_velocity[4] * t175;
+        let t805 = t85 * t690 + t84 * t693;
+        let t806 = t85 * t696 - (t693 - t71 * (t747 + t84 * t765));
+        let t807 = t84 * t696 + (t690 + t71 * (t748 - t85 * t765));
+        let t808 = base_rotation[0][0] * t806 + base_rotation[0][1] * t807;
+        let t809 = base_rotation[0][2] * t805 - t808;
+        let t810 = base_rotation[1][0] * t806 + base_rotation[1][1] * t807;
+        let t811 = base_rotation[1][2] * t805 - t810;
+        let t812 = base_rotation[2][0] * t806 + base_rotation[2][1] * t807;
+        let t813 = base_rotation[2][2] * t805 - t812;
         // leg 6: inertial rate of that gradient
-        let t844 = t87 * t690 + t86 * t693;
-        let t845 = t87 * t696 - (t693 - t779);
-        let t846 = t86 * t696 + (t690 + t780);
-        let t847 = base_rotation[0][0] * t845 + base_rotation[0][1] * t846;
-        let t848 = base_rotation[0][2] * t844 - t847;
-        let t849 = base_rotation[1][0] * t845 + base_rotation[1][1] * t846;
-        let t850 = base_rotation[1][2] * t844 - t849;
-        let t851 = base_rotation[2][0] * t845 + base_rotation[2][1] * t846;
-        let t852 = base_rotation[2][2] * t844 - t851;
+        let t814 = t87 * t690 + t86 * t693;
+        let t815 = t87 * t696 - (t693 - t74 * (t749 + t86 * t767));
+        let t816 = t86 * t696 + (t690 + t74 * (t750 - t87 * t767));
+        let t817 = base_rotation[0][0] * t815 + base_rotation[0][1] * t816;
+        let t818 = base_rotation[0][2] * t814 - t817;
+        let t819 = base_rotation[1][0] * t815 + base_rotation[1][1] * t816;
+        let t820 = base_rotation[1][2] * t814 - t819;
+        let t821 = base_rotation[2][0] * t815 + base_rotation[2][1] * t816;
+        let t822 = base_rotation[2][2] * t814 - t821;
+        // leg 1: rate of the platform lever
+        let t823 = platform_velocity[4] * t96 - platform_velocity[5] * t93;
+        let t824 = platform_velocity[5] * t90 - platform_velocity[3] * t96;
+        let t825 = platform_velocity[3] * t93 - platform_velocity[4] * t90;
+        // leg 2: rate of the platform lever
+        let t826 = platform_velocity[4] * t108 - platform_velocity[5] * t107;
+        let t827 = platform_velocity[5] * t106 - platform_velocity[3] * t108;
+        let t828 = platform_velocity[3] * t107 - platform_velocity[4] * t106;
+        // leg 3: rate of the platform lever
+        let t829 = platform_velocity[4] * t129 - platform_velocity[5] * t126;
+        let t830 = platform_velocity[5] * t123 - platform_velocity[3] * t129;
+        let t831 = platform_velocity[3] * t126 - platform_velocity[4] * t123;
+        // leg 4: rate of the platform lever
+        let t832 = platform_velocity[4] * t150 - platform_velocity[5] * t147;
+        let t833 = platform_velocity[5] * t144 - platform_velocity[3] * t150;
+        let t834 = platform_velocity[3] * t147 - platform_velocity[4] * t144;
+        // leg 5: rate of the platform lever
+        let t835 = platform_velocity[4] * t165 - platform_velocity[5] * t164;
+        let t836 = platform_velocity[5] * t163 - platform_velocity[3] * t165;
+        let t837 = platform_velocity[3] * t164 - platform_velocity[4] * t163;
+        // leg 6: rate of the platform lever
+        let t838 = platform_velocity[4] * t177 - platform_velocity[5] * t176;
+        let t839 = platform_velocity[5] * t175 - platform_velocity[3] * t177;
+        let t840 = platform_velocity[3] * t176 - platform_velocity[4] * t175;
         // leg 1: Coriolis matrix of the leg in the speeds of its joint
-        let t853 = base_rotation[1][2] * base_velocity[5];
-        let t854 = base_rotation[2][2] * base_velocity[4] - t853;
-        let t855 = c(0.17066666666666666) * t854;
-        let t856 = t187 + t101 * c(0.9523333333333334);
-        let t857 = t788 * t856 + t101 * t855;
-        let t858 = t790 * t856 + t103 * t855;
-        let t859 = t792 * t856 + t105 * t855;
-        let t860 = base_rotation[2][2] * base_velocity[3];
-        let t861 = base_rotation[0][2] * base_velocity[5] - t860;
-        let t862 = c(0.17066666666666666) * t861;
-        let t863 = t190 + t103 * c(0.9523333333333334);
-        let t864 = t788 * t863 + t101 * t862;
-        let t865 = t790 * t863 + t103 * t862;
-        let t866 = t792 * t863 + t105 * t862;
-        let t867 = base_rotation[0][2] * base_velocity[4];
-        let t868 = base_rotation[1][2] * base_velocity[3] - t867;
-        let t869 = c(0.17066666666666666) * t868;
-        let t870 = t193 + t105 * c(0.9523333333333334);
-        let t871 = t788 * t870 + t101 * t869;
-        let t872 = t790 * t870 + t103 * t869;
-        let t873 = t792 * t870 + t105 * t869;
+        let t841 = base_rotation[1][2] * base_velocity[5];
+        let t842 = base_rotation[2][2] * base_velocity[4] - t841;
+        let t843 = c(0.17066666666666666) * t842;
+        let t844 = t187 + t101 * c(0.9523333333333334);
+        let t845 = t773 * t844 + t101 * t843;
+        let t846 = t775 * t844 + t103 * t843;
+        let t847 = t777 * t844 + t105 * t843;
+        let t848 = base_rotation[2][2] * base_velocity[3];
+        let t849 = base_rotation[0][2] * base_velocity[5] - t848;
+        let t850 = c(0.17066666666666666) * t849;
+        let t851 = t190 + t103 * c(0.9523333333333334);
+        let t852 = t773 * t851 + t101 * t850;
+        let t853 = t775 * t851 + t103 * t850;
+        let t854 = t777 * t851 + t105 * t850;
+        let t855 = base_rotation[0][2] * base_velocity[4];
+        let t856 = base_rotation[1][2] * base_velocity[3] - t855;
+        let t857 = c(0.17066666666666666) * t856;
+        let t858 = t193 + t105 * c(0.9523333333333334);
+        let t859 = t773 * t858 + t101 * t857;
+        let t860 = t775 * t858 + t103 * t857;
+        let t861 = t777 * t858 + t105 * t857;
+        // leg 1: Coriolis matrix between joint and base angular velocity
+        let t862 = c(0.17066666666666666) * t710 + c(0.03055) * t849;
+        let t863 = c(0.17066666666666666) * t711 + c(0.03055) * t856;
+        let t864 = t56 * t849 - (base_velocity[5] * t221 - base_velocity[3] * t211);
+        let t865 = base_rotation[1][2] * t754 + t864;
+        let t866 = t862 - (c(0.17066666666666666) * t824 - c(0.9523333333333334) * t865);
+        let t867 = t56 * t856 - (base_velocity[3] * t207 - base_velocity[4] * t221);
+        let t868 = base_rotation[2][2] * t754 + t867;
+        let t869 = t863 - (c(0.17066666666666666) * t825 - c(0.9523333333333334) * t868);
+        let t870 = base_rotation[2][2] * t866 - base_rotation[1][2] * t869;
+        let t871 = t101 * t870;
+        let t872 = c(0.17066666666666666) * t709 + c(0.03055) * t842;
+        let t873 = t56 * t842 - (base_velocity[4] * t211 - base_velocity[5] * t207);
+        let t874 = base_rotation[0][2] * t754 + t873;
+        let t875 = t872 - (c(0.17066666666666666) * t823 - c(0.9523333333333334) * t874);
+        let t876 = base_rotation[0][2] * t869 - base_rotation[2][2] * t875;
+        let t877 = c(0.17066666666666666) * t868;
+        let t878 = t101 * t876 + t877;
+        let t879 = base_rotation[1][2] * t875 - base_rotation[0][2] * t866;
+        let t880 = c(0.17066666666666666) * t865;
+        let t881 = t101 * t879 - t880;
+        let t882 = t877 - t103 * t870;
+        let t883 = t103 * t876;
+        let t884 = c(0.17066666666666666) * t874;
+        let t885 = t103 * t879 + t884;
+        let t886 = t880 + t105 * t870;
+        let t887 = t884 - t105 * t876;
+        let t888 = t105 * t879;
         (
             t19,
             t20,
             t21,
-            t56,
             t59,
             t64,
             t69,
@@ -10861,9 +10859,6 @@ pub fn matrices<T: Scalar>(
             t196,
             t197,
             t198,
-            t207,
-            t211,
-            t221,
             t245,
             t247,
             t249,
@@ -10936,672 +10931,655 @@ pub fn matrices<T: Scalar>(
             t709,
             t710,
             t711,
-            t754,
             t756,
             t760,
             t764,
             t766,
             t768,
-            t781,
             t782,
-            t783,
+            t784,
+            t786,
+            t791,
             t793,
-            t794,
             t795,
             t800,
             t802,
             t804,
-            t805,
-            t806,
-            t807,
-            t812,
-            t814,
-            t816,
-            t817,
+            t809,
+            t811,
+            t813,
             t818,
-            t819,
+            t820,
+            t822,
+            t823,
             t824,
+            t825,
             t826,
+            t827,
             t828,
             t829,
             t830,
             t831,
+            t832,
+            t833,
+            t834,
+            t835,
             t836,
+            t837,
             t838,
+            t839,
             t840,
-            t841,
             t842,
             t843,
-            t848,
+            t845,
+            t846,
+            t847,
+            t849,
             t850,
             t852,
+            t853,
             t854,
-            t855,
+            t856,
             t857,
-            t858,
             t859,
+            t860,
             t861,
             t862,
-            t864,
-            t865,
-            t866,
-            t868,
-            t869,
+            t863,
             t871,
             t872,
-            t873,
+            t878,
+            t881,
+            t882,
+            t883,
+            t885,
+            t886,
+            t887,
+            t888,
         )
     };
     {
-        // leg 1: Coriolis matrix between joint and base angular velocity
-        let t874 = c(0.17066666666666666) * t710 + c(0.03055) * t861;
-        let t875 = c(0.17066666666666666) * t711 + c(0.03055) * t868;
-        let t876 = t56 * t861 - (base_velocity[5] * t221 - base_velocity[3] * t211);
-        let t877 = base_rotation[1][2] * t754 + t876;
-        let t878 = t874 - (c(0.17066666666666666) * t782 - c(0.9523333333333334) * t877);
-        let t879 = t56 * t868 - (base_velocity[3] * t207 - base_velocity[4] * t221);
-        let t880 = base_rotation[2][2] * t754 + t879;
-        let t881 = t875 - (c(0.17066666666666666) * t783 - c(0.9523333333333334) * t880);
-        let t882 = base_rotation[2][2] * t878 - base_rotation[1][2] * t881;
-        let t883 = t101 * t882;
-        let t884 = c(0.17066666666666666) * t709 + c(0.03055) * t854;
-        let t885 = t56 * t854 - (base_velocity[4] * t211 - base_velocity[5] * t207);
-        let t886 = base_rotation[0][2] * t754 + t885;
-        let t887 = t884 - (c(0.17066666666666666) * t781 - c(0.9523333333333334) * t886);
-        let t888 = base_rotation[0][2] * t881 - base_rotation[2][2] * t887;
-        let t889 = c(0.17066666666666666) * t880;
-        let t890 = t101 * t888 + t889;
-        let t891 = base_rotation[1][2] * t887 - base_rotation[0][2] * t878;
-        let t892 = c(0.17066666666666666) * t877;
-        let t893 = t101 * t891 - t892;
-        let t894 = t889 - t103 * t882;
-        let t895 = t103 * t888;
-        let t896 = c(0.17066666666666666) * t886;
-        let t897 = t103 * t891 + t896;
-        let t898 = t892 + t105 * t882;
-        let t899 = t896 - t105 * t888;
-        let t900 = t105 * t891;
         // leg 2: Coriolis matrix of the leg in the speeds of its joint
-        let t901 = t187 - t113 * c(0.9523333333333334);
-        let t902 = t800 * t901 + t113 * t855;
-        let t903 = t802 * t901 + t115 * t855;
-        let t904 = t804 * t901 + t117 * t855;
-        let t905 = t190 - t115 * c(0.9523333333333334);
-        let t906 = t800 * t905 + t113 * t862;
-        let t907 = t802 * t905 + t115 * t862;
-        let t908 = t804 * t905 + t117 * t862;
-        let t909 = t193 - t117 * c(0.9523333333333334);
-        let t910 = t800 * t909 + t113 * t869;
-        let t911 = t802 * t909 + t115 * t869;
-        let t912 = t804 * t909 + t117 * t869;
+        let t889 = t187 - t113 * c(0.9523333333333334);
+        let t890 = t782 * t889 + t113 * t843;
+        let t891 = t784 * t889 + t115 * t843;
+        let t892 = t786 * t889 + t117 * t843;
+        let t893 = t190 - t115 * c(0.9523333333333334);
+        let t894 = t782 * t893 + t113 * t850;
+        let t895 = t784 * t893 + t115 * t850;
+        let t896 = t786 * t893 + t117 * t850;
+        let t897 = t193 - t117 * c(0.9523333333333334);
+        let t898 = t782 * t897 + t113 * t857;
+        let t899 = t784 * t897 + t115 * t857;
+        let t900 = t786 * t897 + t117 * t857;
         // leg 2: Coriolis matrix between joint and base angular velocity
-        let t913 = t59 * t861 - (base_velocity[5] * t264 - base_velocity[3] * t257);
-        let t914 = base_rotation[1][2] * t756 + t913;
-        let t915 = t874 - (c(0.17066666666666666) * t794 - c(0.9523333333333334) * t914);
-        let t916 = t59 * t868 - (base_velocity[3] * t256 - base_velocity[4] * t264);
-        let t917 = base_rotation[2][2] * t756 + t916;
-        let t918 = t875 - (c(0.17066666666666666) * t795 - c(0.9523333333333334) * t917);
-        let t919 = base_rotation[2][2] * t915 - base_rotation[1][2] * t918;
-        let t920 = t113 * t919;
-        let t921 = t59 * t854 - (base_velocity[4] * t257 - base_velocity[5] * t256);
-        let t922 = base_rotation[0][2] * t756 + t921;
-        let t923 = t884 - (c(0.17066666666666666) * t793 - c(0.9523333333333334) * t922);
-        let t924 = base_rotation[0][2] * t918 - base_rotation[2][2] * t923;
-        let t925 = c(0.17066666666666666) * t917;
-        let t926 = t113 * t924 - t925;
-        let t927 = base_rotation[1][2] * t923 - base_rotation[0][2] * t915;
-        let t928 = c(0.17066666666666666) * t914;
-        let t929 = t113 * t927 + t928;
-        let t930 = t925 + t115 * t919;
-        let t931 = t115 * t924;
-        let t932 = c(0.17066666666666666) * t922;
-        let t933 = t115 * t927 - t932;
-        let t934 = t928 - t117 * t919;
-        let t935 = t932 + t117 * t924;
-        let t936 = t117 * t927;
+        let t901 = t59 * t849 - (base_velocity[5] * t264 - base_velocity[3] * t257);
+        let t902 = base_rotation[1][2] * t756 + t901;
+        let t903 = t862 - (c(0.17066666666666666) * t827 - c(0.9523333333333334) * t902);
+        let t904 = t59 * t856 - (base_velocity[3] * t256 - base_velocity[4] * t264);
+        let t905 = base_rotation[2][2] * t756 + t904;
+        let t906 = t863 - (c(0.17066666666666666) * t828 - c(0.9523333333333334) * t905);
+        let t907 = base_rotation[2][2] * t903 - base_rotation[1][2] * t906;
+        let t908 = t113 * t907;
+        let t909 = t59 * t842 - (base_velocity[4] * t257 - base_velocity[5] * t256);
+        let t910 = base_rotation[0][2] * t756 + t909;
+        let t911 = t872 - (c(0.17066666666666666) * t826 - c(0.9523333333333334) * t910);
+        let t912 = base_rotation[0][2] * t906 - base_rotation[2][2] * t911;
+        let t913 = c(0.17066666666666666) * t905;
+        let t914 = t113 * t912 - t913;
+        let t915 = base_rotation[1][2] * t911 - base_rotation[0][2] * t903;
+        let t916 = c(0.17066666666666666) * t902;
+        let t917 = t113 * t915 + t916;
+        let t918 = t913 + t115 * t907;
+        let t919 = t115 * t912;
+        let t920 = c(0.17066666666666666) * t910;
+        let t921 = t115 * t915 - t920;
+        let t922 = t916 - t117 * t907;
+        let t923 = t920 + t117 * t912;
+        let t924 = t117 * t915;
         // leg 3: Coriolis matrix of the leg in the speeds of its joint
-        let t937 = t187 - t134 * c(0.9523333333333334);
-        let t938 = t812 * t937 + t134 * t855;
-        let t939 = t814 * t937 + t136 * t855;
-        let t940 = t816 * t937 + t138 * t855;
-        let t941 = t190 - t136 * c(0.9523333333333334);
-        let t942 = t812 * t941 + t134 * t862;
-        let t943 = t814 * t941 + t136 * t862;
-        let t944 = t816 * t941 + t138 * t862;
-        let t945 = t193 - t138 * c(0.9523333333333334);
-        let t946 = t812 * t945 + t134 * t869;
-        let t947 = t814 * t945 + t136 * t869;
-        let t948 = t816 * t945 + t138 * t869;
+        let t925 = t187 - t134 * c(0.9523333333333334);
+        let t926 = t791 * t925 + t134 * t843;
+        let t927 = t793 * t925 + t136 * t843;
+        let t928 = t795 * t925 + t138 * t843;
+        let t929 = t190 - t136 * c(0.9523333333333334);
+        let t930 = t791 * t929 + t134 * t850;
+        let t931 = t793 * t929 + t136 * t850;
+        let t932 = t795 * t929 + t138 * t850;
+        let t933 = t193 - t138 * c(0.9523333333333334);
+        let t934 = t791 * t933 + t134 * t857;
+        let t935 = t793 * t933 + t136 * t857;
+        let t936 = t795 * t933 + t138 * t857;
         // leg 3: Coriolis matrix between joint and base angular velocity
-        let t949 = t64 * t861 - (base_velocity[5] * t312 - base_velocity[3] * t303);
-        let t950 = base_rotation[1][2] * t760 + t949;
-        let t951 = t874 + (c(0.17066666666666666) * t806 + c(0.9523333333333334) * t950);
-        let t952 = t64 * t868 - (base_velocity[3] * t300 - base_velocity[4] * t312);
-        let t953 = base_rotation[2][2] * t760 + t952;
-        let t954 = t875 + (c(0.17066666666666666) * t807 + c(0.9523333333333334) * t953);
-        let t955 = base_rotation[2][2] * t951 - base_rotation[1][2] * t954;
-        let t956 = t134 * t955;
-        let t957 = t64 * t854 - (base_velocity[4] * t303 - base_velocity[5] * t300);
-        let t958 = base_rotation[0][2] * t760 + t957;
-        let t959 = t884 + (c(0.17066666666666666) * t805 + c(0.9523333333333334) * t958);
-        let t960 = base_rotation[0][2] * t954 - base_rotation[2][2] * t959;
-        let t961 = c(0.17066666666666666) * t953;
-        let t962 = t134 * t960 - t961;
-        let t963 = base_rotation[1][2] * t959 - base_rotation[0][2] * t951;
-        let t964 = c(0.17066666666666666) * t950;
-        let t965 = t134 * t963 + t964;
-        let t966 = t961 + t136 * t955;
-        let t967 = t136 * t960;
-        let t968 = c(0.17066666666666666) * t958;
-        let t969 = t136 * t963 - t968;
-        let t970 = t964 - t138 * t955;
-        let t971 = t968 + t138 * t960;
-        let t972 = t138 * t963;
+        let t937 = t64 * t849 - (base_velocity[5] * t312 - base_velocity[3] * t303);
+        let t938 = base_rotation[1][2] * t760 + t937;
+        let t939 = t862 + (c(0.17066666666666666) * t830 + c(0.9523333333333334) * t938);
+        let t940 = t64 * t856 - (base_velocity[3] * t300 - base_velocity[4] * t312);
+        let t941 = base_rotation[2][2] * t760 + t940;
+        let t942 = t863 + (c(0.17066666666666666) * t831 + c(0.9523333333333334) * t941);
+        let t943 = base_rotation[2][2] * t939 - base_rotation[1][2] * t942;
+        let t944 = t134 * t943;
+        let t945 = t64 * t842 - (base_velocity[4] * t303 - base_velocity[5] * t300);
+        let t946 = base_rotation[0][2] * t760 + t945;
+        let t947 = t872 + (c(0.17066666666666666) * t829 + c(0.9523333333333334) * t946);
+        let t948 = base_rotation[0][2] * t942 - base_rotation[2][2] * t947;
+        let t949 = c(0.17066666666666666) * t941;
+        let t950 = t134 * t948 - t949;
+        let t951 = base_rotation[1][2] * t947 - base_rotation[0][2] * t939;
+        let t952 = c(0.17066666666666666) * t938;
+        let t953 = t134 * t951 + t952;
+        let t954 = t949 + t136 * t943;
+        let t955 = t136 * t948;
+        let t956 = c(0.17066666666666666) * t946;
+        let t957 = t136 * t951 - t956;
+        let t958 = t952 - t138 * t943;
+        let t959 = t956 + t138 * t948;
+        let t960 = t138 * t951;
         // leg 4: Coriolis matrix of the leg in the speeds of its joint
-        let t973 = t187 - t155 * c(0.9523333333333334);
-        let t974 = t824 * t973 + t155 * t855;
-        let t975 = t826 * t973 + t157 * t855;
-        let t976 = t828 * t973 + t159 * t855;
-        let t977 = t190 - t157 * c(0.9523333333333334);
-        let t978 = t824 * t977 + t155 * t862;
-        let t979 = t826 * t977 + t157 * t862;
-        let t980 = t828 * t977 + t159 * t862;
-        let t981 = t193 - t159 * c(0.9523333333333334);
-        let t982 = t824 * t981 + t155 * t869;
-        let t983 = t826 * t981 + t157 * t869;
-        let t984 = t828 * t981 + t159 * t869;
+        let t961 = t187 - t155 * c(0.9523333333333334);
+        let t962 = t800 * t961 + t155 * t843;
+        let t963 = t802 * t961 + t157 * t843;
+        let t964 = t804 * t961 + t159 * t843;
+        let t965 = t190 - t157 * c(0.9523333333333334);
+        let t966 = t800 * t965 + t155 * t850;
+        let t967 = t802 * t965 + t157 * t850;
+        let t968 = t804 * t965 + t159 * t850;
+        let t969 = t193 - t159 * c(0.9523333333333334);
+        let t970 = t800 * t969 + t155 * t857;
+        let t971 = t802 * t969 + t157 * t857;
+        let t972 = t804 * t969 + t159 * t857;
         // leg 4: Coriolis matrix between joint and base angular velocity
-        let t985 = t69 * t861 + (base_velocity[5] * t360 - base_velocity[3] * t351);
-        let t986 = base_rotation[1][2] * t764 + t985;
-        let t987 = t874 + (c(0.17066666666666666) * t818 + c(0.9523333333333334) * t986);
-        let t988 = t69 * t868 + (base_velocity[3] * t348 - base_velocity[4] * t360);
-        let t989 = base_rotation[2][2] * t764 + t988;
-        let t990 = t875 + (c(0.17066666666666666) * t819 + c(0.9523333333333334) * t989);
-        let t991 = base_rotation[2][2] * t987 - base_rotation[1][2] * t990;
-        let t992 = t155 * t991;
-        let t993 = t69 * t854 + (base_velocity[4] * t351 - base_velocity[5] * t348);
-        let t994 = base_rotation[0][2] * t764 + t993;
-        let t995 = t884 + (c(0.17066666666666666) * t817 + c(0.9523333333333334) * t994);
-        let t996 = base_rotation[0][2] * t990 - base_rotation[2][2] * t995;
-        let t997 = c(0.17066666666666666) * t989;
-        let t998 = t155 * t996 - t997;
-        let t999 = base_rotation[1][2] * t995 - base_rotation[0][2] * t987;
-        let t1000 = c(0.17066666666666666) * t986;
-        let t1001 = t155 * t999 + t1000;
-        let t1002 = t997 + t157 * t991;
-        let t1003 = t157 * t996;
-        let t1004 = c(0.17066666666666666) * t994;
-        let t1005 = t157 * t999 - t1004;
-        let t1006 = t1000 - t159 * t991;
-        let t1007 = t1004 + t159 * t996;
-        let t1008 = t159 * t999;
+        let t973 = t69 * t849 + (base_velocity[5] * t360 - base_velocity[3] * t351);
+        let t974 = base_rotation[1][2] * t764 + t973;
+        let t975 = t862 + (c(0.17066666666666666) * t833 + c(0.9523333333333334) * t974);
+        let t976 = t69 * t856 + (base_velocity[3] * t348 - base_velocity[4] * t360);
+        let t977 = base_rotation[2][2] * t764 + t976;
+        let t978 = t863 + (c(0.17066666666666666) * t834 + c(0.9523333333333334) * t977);
+        let t979 = base_rotation[2][2] * t975 - base_rotation[1][2] * t978;
+        let t980 = t155 * t979;
+        let t981 = t69 * t842 + (base_velocity[4] * t351 - base_velocity[5] * t348);
+        let t982 = base_rotation[0][2] * t764 + t981;
+        let t983 = t872 + (c(0.17066666666666666) * t832 + c(0.9523333333333334) * t982);
+        let t984 = base_rotation[0][2] * t978 - base_rotation[2][2] * t983;
+        let t985 = c(0.17066666666666666) * t977;
+        let t986 = t155 * t984 - t985;
+        let t987 = base_rotation[1][2] * t983 - base_rotation[0][2] * t975;
+        let t988 = c(0.17066666666666666) * t974;
+        let t989 = t155 * t987 + t988;
+        let t990 = t985 + t157 * t979;
+        let t991 = t157 * t984;
+        let t992 = c(0.17066666666666666) * t982;
+        let t993 = t157 * t987 - t992;
+        let t994 = t988 - t159 * t979;
+        let t995 = t992 + t159 * t984;
+        let t996 = t159 * t987;
         // leg 5: Coriolis matrix of the leg in the speeds of its joint
-        let t1009 = t187 + t170 * c(0.9523333333333334);
-        let t1010 = t836 * t1009 + t170 * t855;
-        let t1011 = t838 * t1009 + t172 * t855;
-        let t1012 = t840 * t1009 + t174 * t855;
-        let t1013 = t190 + t172 * c(0.9523333333333334);
-        let t1014 = t836 * t1013 + t170 * t862;
-        let t1015 = t838 * t1013 + t172 * t862;
-        let t1016 = t840 * t1013 + t174 * t862;
-        let t1017 = t193 + t174 * c(0.9523333333333334);
-        let t1018 = t836 * t1017 + t170 * t869;
-        let t1019 = t838 * t1017 + t172 * t869;
-        let t1020 = t840 * t1017 + t174 * t869;
+        let t997 = t187 + t170 * c(0.9523333333333334);
+        let t998 = t809 * t997 + t170 * t843;
+        let t999 = t811 * t997 + t172 * t843;
+        let t1000 = t813 * t997 + t174 * t843;
+        let t1001 = t190 + t172 * c(0.9523333333333334);
+        let t1002 = t809 * t1001 + t170 * t850;
+        let t1003 = t811 * t1001 + t172 * t850;
+        let t1004 = t813 * t1001 + t174 * t850;
+        let t1005 = t193 + t174 * c(0.9523333333333334);
+        let t1006 = t809 * t1005 + t170 * t857;
+        let t1007 = t811 * t1005 + t172 * t857;
+        let t1008 = t813 * t1005 + t174 * t857;
         // leg 5: Coriolis matrix between joint and base angular velocity
-        let t1021 = t72 * t861 + (base_velocity[5] * t402 - base_velocity[3] * t395);
-        let t1022 = base_rotation[1][2] * t766 + t1021;
-        let t1023 = t874
-            + (c(0.17066666666666666) * t830 + c(0.9523333333333334) * t1022);
-        let t1024 = t72 * t868 + (base_velocity[3] * t394 - base_velocity[4] * t402);
-        let t1025 = base_rotation[2][2] * t766 + t1024;
-        let t1026 = t875
-            + (c(0.17066666666666666) * t831 + c(0.9523333333333334) * t1025);
-        let t1027 = base_rotation[2][2] * t1023 - base_rotation[1][2] * t1026;
-        let t1028 = t170 * t1027;
-        let t1029 = t72 * t854 + (base_velocity[4] * t395 - base_velocity[5] * t394);
-        let t1030 = base_rotation[0][2] * t766 + t1029;
-        let t1031 = t884
-            + (c(0.17066666666666666) * t829 + c(0.9523333333333334) * t1030);
-        let t1032 = base_rotation[0][2] * t1026 - base_rotation[2][2] * t1031;
-        let t1033 = c(0.17066666666666666) * t1025;
-        let t1034 = t170 * t1032 + t1033;
-        let t1035 = base_rotation[1][2] * t1031 - base_rotation[0][2] * t1023;
-        let t1036 = c(0.17066666666666666) * t1022;
-        let t1037 = t170 * t1035 - t1036;
-        let t1038 = t1033 - t172 * t1027;
-        let t1039 = t172 * t1032;
-        let t1040 = c(0.17066666666666666) * t1030;
-        let t1041 = t172 * t1035 + t1040;
-        let t1042 = t1036 + t174 * t1027;
-        let t1043 = t1040 - t174 * t1032;
-        let t1044 = t174 * t1035;
+        let t1009 = t72 * t849 + (base_velocity[5] * t402 - base_velocity[3] * t395);
+        let t1010 = base_rotation[1][2] * t766 + t1009;
+        let t1011 = t862
+            + (c(0.17066666666666666) * t836 + c(0.9523333333333334) * t1010);
+        let t1012 = t72 * t856 + (base_velocity[3] * t394 - base_velocity[4] * t402);
+        let t1013 = base_rotation[2][2] * t766 + t1012;
+        let t1014 = t863
+            + (c(0.17066666666666666) * t837 + c(0.9523333333333334) * t1013);
+        let t1015 = base_rotation[2][2] * t1011 - base_rotation[1][2] * t1014;
+        let t1016 = t170 * t1015;
+        let t1017 = t72 * t842 + (base_velocity[4] * t395 - base_velocity[5] * t394);
+        let t1018 = base_rotation[0][2] * t766 + t1017;
+        let t1019 = t872
+            + (c(0.17066666666666666) * t835 + c(0.9523333333333334) * t1018);
+        let t1020 = base_rotation[0][2] * t1014 - base_rotation[2][2] * t1019;
+        let t1021 = c(0.17066666666666666) * t1013;
+        let t1022 = t170 * t1020 + t1021;
+        let t1023 = base_rotation[1][2] * t1019 - base_rotation[0][2] * t1011;
+        let t1024 = c(0.17066666666666666) * t1010;
+        let t1025 = t170 * t1023 - t1024;
+        let t1026 = t1021 - t172 * t1015;
+        let t1027 = t172 * t1020;
+        let t1028 = c(0.17066666666666666) * t1018;
+        let t1029 = t172 * t1023 + t1028;
+        let t1030 = t1024 + t174 * t1015;
+        let t1031 = t1028 - t174 * t1020;
+        let t1032 = t174 * t1023;
         // leg 6: Coriolis matrix of the leg in the speeds of its joint
-        let t1045 = t187 + t182 * c(0.9523333333333334);
-        let t1046 = t848 * t1045 + t182 * t855;
-        let t1047 = t850 * t1045 + t184 * t855;
-        let t1048 = t852 * t1045 + t186 * t855;
-        let t1049 = t190 + t184 * c(0.9523333333333334);
-        let t1050 = t848 * t1049 + t182 * t862;
-        let t1051 = t850 * t1049 + t184 * t862;
-        let t1052 = t852 * t1049 + t186 * t862;
-        let t1053 = t193 + t186 * c(0.9523333333333334);
-        let t1054 = t848 * t1053 + t182 * t869;
-        let t1055 = t850 * t1053 + t184 * t869;
-        let t1056 = t852 * t1053 + t186 * t869;
+        let t1033 = t187 + t182 * c(0.9523333333333334);
+        let t1034 = t818 * t1033 + t182 * t843;
+        let t1035 = t820 * t1033 + t184 * t843;
+        let t1036 = t822 * t1033 + t186 * t843;
+        let t1037 = t190 + t184 * c(0.9523333333333334);
+        let t1038 = t818 * t1037 + t182 * t850;
+        let t1039 = t820 * t1037 + t184 * t850;
+        let t1040 = t822 * t1037 + t186 * t850;
+        let t1041 = t193 + t186 * c(0.9523333333333334);
+        let t1042 = t818 * t1041 + t182 * t857;
+        let t1043 = t820 * t1041 + t184 * t857;
+        let t1044 = t822 * t1041 + t186 * t857;
         // leg 6: Coriolis matrix between joint and base angular velocity
-        let t1057 = t75 * t861 - (base_velocity[5] * t444 - base_velocity[3] * t437);
-        let t1058 = base_rotation[1][2] * t768 + t1057;
-        let t1059 = t874
-            + (c(0.17066666666666666) * t842 + c(0.9523333333333334) * t1058);
-        let t1060 = t75 * t868 - (base_velocity[3] * t436 - base_velocity[4] * t444);
-        let t1061 = base_rotation[2][2] * t768 + t1060;
-        let t1062 = t875
-            + (c(0.17066666666666666) * t843 + c(0.9523333333333334) * t1061);
-        let t1063 = base_rotation[2][2] * t1059 - base_rotation[1][2] * t1062;
-        let t1064 = t182 * t1063;
-        let t1065 = t75 * t854 - (base_velocity[4] * t437 - base_velocity[5] * t436);
-        let t1066 = base_rotation[0][2] * t768 + t1065;
-        let t1067 = t884
-            + (c(0.17066666666666666) * t841 + c(0.9523333333333334) * t1066);
-        let t1068 = base_rotation[0][2] * t1062 - base_rotation[2][2] * t1067;
-        let t1069 = c(0.17066666666666666) * t1061;
-        let t1070 = t182 * t1068 + t1069;
-        let t1071 = base_rotation[1][2] * t1067 - base_rotation[0][2] * t1059;
-        let t1072 = c(0.17066666666666666) * t1058;
-        let t1073 = t182 * t1071 - t1072;
-        let t1074 = t1069 - t184 * t1063;
-        let t1075 = t184 * t1068;
-        let t1076 = c(0.17066666666666666) * t1066;
-        let t1077 = t184 * t1071 + t1076;
-        let t1078 = t1072 + t186 * t1063;
-        let t1079 = t1076 - t186 * t1068;
-        let t1080 = t186 * t1071;
+        let t1045 = t75 * t849 - (base_velocity[5] * t444 - base_velocity[3] * t437);
+        let t1046 = base_rotation[1][2] * t768 + t1045;
+        let t1047 = t862
+            + (c(0.17066666666666666) * t839 + c(0.9523333333333334) * t1046);
+        let t1048 = t75 * t856 - (base_velocity[3] * t436 - base_velocity[4] * t444);
+        let t1049 = base_rotation[2][2] * t768 + t1048;
+        let t1050 = t863
+            + (c(0.17066666666666666) * t840 + c(0.9523333333333334) * t1049);
+        let t1051 = base_rotation[2][2] * t1047 - base_rotation[1][2] * t1050;
+        let t1052 = t182 * t1051;
+        let t1053 = t75 * t842 - (base_velocity[4] * t437 - base_velocity[5] * t436);
+        let t1054 = base_rotation[0][2] * t768 + t1053;
+        let t1055 = t872
+            + (c(0.17066666666666666) * t838 + c(0.9523333333333334) * t1054);
+        let t1056 = base_rotation[0][2] * t1050 - base_rotation[2][2] * t1055;
+        let t1057 = c(0.17066666666666666) * t1049;
+        let t1058 = t182 * t1056 + t1057;
+        let t1059 = base_rotation[1][2] * t1055 - base_rotation[0][2] * t1047;
+        let t1060 = c(0.17066666666666666) * t1046;
+        let t1061 = t182 * t1059 - t1060;
+        let t1062 = t1057 - t184 * t1051;
+        let t1063 = t184 * t1056;
+        let t1064 = c(0.17066666666666666) * t1054;
+        let t1065 = t184 * t1059 + t1064;
+        let t1066 = t1060 + t186 * t1051;
+        let t1067 = t1064 - t186 * t1056;
+        let t1068 = t186 * t1059;
         // Coriolis matrix of the legs
-        let t1081 = t1046 + (t1010 - (t974 + (t938 - (t857 - t902))));
-        coriolis_matrix_p[0][0] = t1081;
-        coriolis_matrix_b[0][0] = t1081;
-        let t1082 = t1047 + (t1011 - (t975 + (t939 - (t858 - t903))));
-        coriolis_matrix_p[0][1] = t1082;
-        coriolis_matrix_b[0][1] = t1082;
-        let t1083 = t1048 + (t1012 - (t976 + (t940 - (t859 - t904))));
-        coriolis_matrix_p[0][2] = t1083;
-        coriolis_matrix_b[0][2] = t1083;
-        let t1084 = t429 * t842;
-        let t1085 = t427 * t843;
-        let t1086 = t177 * t1047;
-        let t1087 = t176 * t1048;
-        let t1088 = t1084 - (t1085 + (t1086 - t1087));
-        let t1089 = t387 * t830;
-        let t1090 = t385 * t831;
-        let t1091 = t165 * t1011;
-        let t1092 = t164 * t1012;
-        let t1093 = t1089 - (t1090 + (t1091 - t1092));
-        let t1094 = t339 * t818;
-        let t1095 = t337 * t819;
-        let t1096 = t150 * t975;
-        let t1097 = t147 * t976;
-        let t1098 = t1094 - (t1095 + (t1096 - t1097));
-        let t1099 = t291 * t806;
-        let t1100 = t289 * t807;
-        let t1101 = t129 * t939;
-        let t1102 = t126 * t940;
-        let t1103 = t1099 - (t1100 + (t1101 - t1102));
-        let t1104 = t195 * t782;
-        let t1105 = t192 * t783;
-        let t1106 = t96 * t858;
-        let t1107 = t93 * t859;
-        let t1108 = t1104 - (t1105 + (t1106 - t1107));
-        let t1109 = t249 * t794;
-        let t1110 = t247 * t795;
-        let t1111 = t108 * t903;
-        let t1112 = t107 * t904;
-        let t1113 = t1109 - (t1110 + (t1111 - t1112));
-        let t1114 = t1088 + (t1093 - (t1098 + (t1103 + (t1108 - t1113))));
-        let t1115 = t177 * t1046;
-        let t1116 = t425 * t843 - (t429 * t841 + (t175 * t1048 - t1115));
-        let t1117 = t165 * t1010;
-        let t1118 = t383 * t831 - (t387 * t829 + (t163 * t1012 - t1117));
-        let t1119 = t150 * t974;
-        let t1120 = t335 * t819 - (t339 * t817 + (t144 * t976 - t1119));
-        let t1121 = t129 * t938;
-        let t1122 = t287 * t807 - (t291 * t805 + (t123 * t940 - t1121));
-        let t1123 = t96 * t857;
-        let t1124 = t189 * t783 - (t195 * t781 + (t90 * t859 - t1123));
-        let t1125 = t108 * t902;
-        let t1126 = t245 * t795 - (t249 * t793 + (t106 * t904 - t1125));
-        let t1127 = t1116 + (t1118 - (t1120 + (t1122 + (t1124 - t1126))));
-        let t1128 = t176 * t1046;
-        let t1129 = t427 * t841 - (t425 * t842 + (t1128 - t175 * t1047));
-        let t1130 = t164 * t1010;
-        let t1131 = t385 * t829 - (t383 * t830 + (t1130 - t163 * t1011));
-        let t1132 = t147 * t974;
-        let t1133 = t337 * t817 - (t335 * t818 + (t1132 - t144 * t975));
-        let t1134 = t126 * t938;
-        let t1135 = t289 * t805 - (t287 * t806 + (t1134 - t123 * t939));
-        let t1136 = t93 * t857;
-        let t1137 = t192 * t781 - (t189 * t782 + (t1136 - t90 * t858));
-        let t1138 = t107 * t902;
-        let t1139 = t247 * t793 - (t245 * t794 + (t1138 - t106 * t903));
-        let t1140 = t1129 + (t1131 - (t1133 + (t1135 + (t1137 - t1139))));
-        let t1141 = t1050 + (t1014 - (t978 + (t942 - (t864 - t906))));
-        coriolis_matrix_p[1][0] = t1141;
-        coriolis_matrix_b[1][0] = t1141;
-        let t1142 = t1051 + (t1015 - (t979 + (t943 - (t865 - t907))));
-        coriolis_matrix_p[1][1] = t1142;
-        coriolis_matrix_b[1][1] = t1142;
-        let t1143 = t1052 + (t1016 - (t980 + (t944 - (t866 - t908))));
-        coriolis_matrix_p[1][2] = t1143;
-        coriolis_matrix_b[1][2] = t1143;
-        let t1144 = t177 * t1051;
-        let t1145 = t431 * t842 - (t430 * t843 + (t1144 - t176 * t1052));
-        let t1146 = t165 * t1015;
-        let t1147 = t389 * t830 - (t388 * t831 + (t1146 - t164 * t1016));
-        let t1148 = t150 * t979;
-        let t1149 = t341 * t818 - (t340 * t819 + (t1148 - t147 * t980));
-        let t1150 = t129 * t943;
-        let t1151 = t293 * t806 - (t292 * t807 + (t1150 - t126 * t944));
-        let t1152 = t96 * t865;
-        let t1153 = t197 * t782 - (t196 * t783 + (t1152 - t93 * t866));
-        let t1154 = t108 * t907;
-        let t1155 = t251 * t794 - (t250 * t795 + (t1154 - t107 * t908));
-        let t1156 = t1145 + (t1147 - (t1149 + (t1151 + (t1153 - t1155))));
-        let t1157 = t431 * t841;
-        let t1158 = t177 * t1050;
-        let t1159 = t175 * t1052;
-        let t1160 = t1157 - (t1158 + (t1085 - t1159));
-        let t1161 = t389 * t829;
-        let t1162 = t165 * t1014;
-        let t1163 = t163 * t1016;
-        let t1164 = t1161 - (t1162 + (t1090 - t1163));
-        let t1165 = t341 * t817;
-        let t1166 = t150 * t978;
-        let t1167 = t144 * t980;
-        let t1168 = t1165 - (t1166 + (t1095 - t1167));
-        let t1169 = t293 * t805;
-        let t1170 = t129 * t942;
-        let t1171 = t123 * t944;
-        let t1172 = t1169 - (t1170 + (t1100 - t1171));
-        let t1173 = t197 * t781;
-        let t1174 = t96 * t864;
-        let t1175 = t90 * t866;
-        let t1176 = t1173 - (t1174 + (t1105 - t1175));
-        let t1177 = t251 * t793;
-        let t1178 = t108 * t906;
-        let t1179 = t106 * t908;
-        let t1180 = t1177 - (t1178 + (t1110 - t1179));
-        let t1181 = t1160 + (t1164 - (t1168 + (t1172 + (t1176 - t1180))));
-        coriolis_matrix_p[1][4] = t1181;
-        let t1182 = t175 * t1051;
-        let t1183 = t430 * t841 - (t427 * t842 + (t176 * t1050 - t1182));
-        let t1184 = t163 * t1015;
-        let t1185 = t388 * t829 - (t385 * t830 + (t164 * t1014 - t1184));
-        let t1186 = t144 * t979;
-        let t1187 = t340 * t817 - (t337 * t818 + (t147 * t978 - t1186));
-        let t1188 = t123 * t943;
-        let t1189 = t292 * t805 - (t289 * t806 + (t126 * t942 - t1188));
-        let t1190 = t90 * t865;
-        let t1191 = t196 * t781 - (t192 * t782 + (t93 * t864 - t1190));
-        let t1192 = t106 * t907;
-        let t1193 = t250 * t793 - (t247 * t794 + (t107 * t906 - t1192));
-        let t1194 = t1183 + (t1185 - (t1187 + (t1189 + (t1191 - t1193))));
-        let t1195 = t1054 + (t1018 - (t982 + (t946 - (t871 - t910))));
-        coriolis_matrix_p[2][0] = t1195;
-        coriolis_matrix_b[2][0] = t1195;
-        let t1196 = t1055 + (t1019 - (t983 + (t947 - (t872 - t911))));
-        coriolis_matrix_p[2][1] = t1196;
-        coriolis_matrix_b[2][1] = t1196;
-        let t1197 = t1056 + (t1020 - (t984 + (t948 - (t873 - t912))));
-        coriolis_matrix_p[2][2] = t1197;
-        coriolis_matrix_b[2][2] = t1197;
-        let t1198 = t176 * t1056;
-        let t1199 = t432 * t842 - (t431 * t843 + (t177 * t1055 - t1198));
-        let t1200 = t164 * t1020;
-        let t1201 = t390 * t830 - (t389 * t831 + (t165 * t1019 - t1200));
-        let t1202 = t147 * t984;
-        let t1203 = t342 * t818 - (t341 * t819 + (t150 * t983 - t1202));
-        let t1204 = t126 * t948;
-        let t1205 = t294 * t806 - (t293 * t807 + (t129 * t947 - t1204));
-        let t1206 = t93 * t873;
-        let t1207 = t198 * t782 - (t197 * t783 + (t96 * t872 - t1206));
-        let t1208 = t107 * t912;
-        let t1209 = t252 * t794 - (t251 * t795 + (t108 * t911 - t1208));
-        let t1210 = t1199 + (t1201 - (t1203 + (t1205 + (t1207 - t1209))));
-        let t1211 = t175 * t1056;
-        let t1212 = t429 * t843 - (t432 * t841 + (t1211 - t177 * t1054));
-        let t1213 = t163 * t1020;
-        let t1214 = t387 * t831 - (t390 * t829 + (t1213 - t165 * t1018));
-        let t1215 = t144 * t984;
-        let t1216 = t339 * t819 - (t342 * t817 + (t1215 - t150 * t982));
-        let t1217 = t123 * t948;
-        let t1218 = t291 * t807 - (t294 * t805 + (t1217 - t129 * t946));
-        let t1219 = t90 * t873;
-        let t1220 = t195 * t783 - (t198 * t781 + (t1219 - t96 * t871));
-        let t1221 = t106 * t912;
-        let t1222 = t249 * t795 - (t252 * t793 + (t1221 - t108 * t910));
-        let t1223 = t1212 + (t1214 - (t1216 + (t1218 + (t1220 - t1222))));
-        let t1224 = t175 * t1055;
-        let t1225 = t176 * t1054;
-        let t1226 = t1224 - (t1225 + (t1084 - t1157));
-        let t1227 = t163 * t1019;
-        let t1228 = t164 * t1018;
-        let t1229 = t1227 - (t1228 + (t1089 - t1161));
-        let t1230 = t144 * t983;
-        let t1231 = t147 * t982;
-        let t1232 = t1230 - (t1231 + (t1094 - t1165));
-        let t1233 = t123 * t947;
-        let t1234 = t126 * t946;
-        let t1235 = t1233 - (t1234 + (t1099 - t1169));
-        let t1236 = t90 * t872;
-        let t1237 = t93 * t871;
-        let t1238 = t1236 - (t1237 + (t1104 - t1173));
-        let t1239 = t106 * t911;
-        let t1240 = t107 * t910;
-        let t1241 = t1239 - (t1240 + (t1109 - t1177));
-        let t1242 = t1226 + (t1229 - (t1232 + (t1235 + (t1238 - t1241))));
-        let t1243 = t1240
-            - (t1237 + (t1158 + (t1162 - (t1166 + (t1170 + (t1174 - t1178))))));
-        let t1244 = t1225 + (t1228 - (t1231 + (t1234 - t1243)));
-        let t1245 = t93 * t872 + (t1144 + (t1146 - (t1148 + (t1150 + (t1152 - t1154)))));
-        let t1246 = t147 * t983 + (t126 * t947 - (t107 * t911 - t1245));
-        let t1247 = t176 * t1055 + (t164 * t1019 - t1246);
-        let t1248 = t96 * t866 + (t1198 + (t1200 - (t1202 + (t1204 + (t1206 - t1208)))));
-        let t1249 = t150 * t980 + (t129 * t944 - (t108 * t908 - t1248));
-        let t1250 = t177 * t1052 + (t165 * t1016 - t1249);
-        coriolis_matrix_p[3][2] = t1250;
-        coriolis_matrix_b[3][2] = t1250;
-        let t1251 = t107 * t1209 - (t108 * t1155 - (t96 * t1153 - t93 * t1207));
-        let t1252 = t150 * t1149 - (t126 * t1205 - (t129 * t1151 - t1251));
-        let t1253 = t164 * t1201 - (t165 * t1147 + (t147 * t1203 - t1252));
-        let t1254 = t176 * t1199 - (t177 * t1145 - t1253);
-        let t1255 = t107 * t1222 + (t108 * t1180 - (t96 * t1176 + t93 * t1220));
-        let t1256 = t150 * t1168 + (t126 * t1218 + (t129 * t1172 + t1255));
-        let t1257 = t164 * t1214 + (t165 * t1164 - (t147 * t1216 + t1256));
-        let t1258 = t176 * t1212 + (t177 * t1160 + t1257);
-        let t1259 = t107 * t1241 - (t108 * t1193 - (t96 * t1191 - t93 * t1238));
-        let t1260 = t150 * t1187 - (t126 * t1235 - (t129 * t1189 - t1259));
-        let t1261 = t164 * t1229 - (t165 * t1185 + (t147 * t1232 - t1260));
-        let t1262 = t176 * t1226 - (t177 * t1183 - t1261);
-        let t1263 = t90 * t871 + (t1115 + (t1117 - (t1119 + (t1121 + (t1123 - t1125)))));
-        let t1264 = t144 * t982 + (t123 * t946 - (t106 * t910 - t1263));
-        let t1265 = t175 * t1054 + (t163 * t1018 - t1264);
-        coriolis_matrix_p[4][0] = t1265;
-        coriolis_matrix_b[4][0] = t1265;
-        let t1266 = t1239
-            - (t1236 + (t1086 + (t1091 - (t1096 + (t1101 + (t1106 - t1111))))));
-        let t1267 = t1224 + (t1227 - (t1230 + (t1233 - t1266)));
-        coriolis_matrix_p[4][1] = t1267;
-        coriolis_matrix_b[4][1] = t1267;
-        let t1268 = t96 * t859 + (t1211 + (t1213 - (t1215 + (t1217 + (t1219 - t1221)))));
-        let t1269 = t150 * t976 + (t129 * t940 - (t108 * t904 - t1268));
-        let t1270 = t177 * t1048 + (t165 * t1012 - t1269);
-        let t1271 = t108 * t1113 - (t106 * t1209 - (t90 * t1207 - t96 * t1108));
-        let t1272 = t144 * t1203 - (t129 * t1103 - (t123 * t1205 - t1271));
-        let t1273 = t165 * t1093 - (t163 * t1201 + (t150 * t1098 - t1272));
-        let t1274 = t177 * t1088 - (t175 * t1199 - t1273);
-        let t1275 = t108 * t1126 - (t106 * t1222 - (t90 * t1220 - t96 * t1124));
-        let t1276 = t144 * t1216 - (t129 * t1122 - (t123 * t1218 - t1275));
-        let t1277 = t165 * t1118 - (t163 * t1214 + (t150 * t1120 - t1276));
-        let t1278 = t177 * t1116 - (t175 * t1212 - t1277);
-        let t1279 = t108 * t1139 - (t106 * t1241 - (t90 * t1238 - t96 * t1137));
-        let t1280 = t144 * t1232 - (t129 * t1135 - (t123 * t1235 - t1279));
-        let t1281 = t165 * t1131 - (t163 * t1229 + (t150 * t1133 - t1280));
-        let t1282 = t177 * t1129 - (t175 * t1226 - t1281);
-        let t1283 = t90 * t864 + (t1128 + (t1130 - (t1132 + (t1134 + (t1136 - t1138)))));
-        let t1284 = t144 * t978 + (t123 * t942 - (t106 * t906 - t1283));
-        let t1285 = t175 * t1050 + (t163 * t1014 - t1284);
-        let t1286 = t93 * t858 + (t1182 + (t1184 - (t1186 + (t1188 + (t1190 - t1192)))));
-        let t1287 = t147 * t975 + (t126 * t939 - (t107 * t903 - t1286));
-        let t1288 = t176 * t1047 + (t164 * t1011 - t1287);
-        coriolis_matrix_p[5][1] = t1288;
-        coriolis_matrix_b[5][1] = t1288;
-        let t1289 = t1179
-            - (t1175 + (t1087 + (t1092 - (t1097 + (t1102 + (t1107 - t1112))))));
-        let t1290 = t1159 + (t1163 - (t1167 + (t1171 - t1289)));
-        let t1291 = t106 * t1155 - (t107 * t1113 - (t93 * t1108 - t90 * t1153));
-        let t1292 = t147 * t1098 - (t123 * t1151 - (t126 * t1103 - t1291));
-        let t1293 = t163 * t1147 - (t164 * t1093 + (t144 * t1149 - t1292));
-        let t1294 = t175 * t1145 - (t176 * t1088 - t1293);
-        let t1295 = t106 * t1180 + (t107 * t1126 - (t93 * t1124 + t90 * t1176));
-        let t1296 = t147 * t1120 + (t123 * t1172 + (t126 * t1122 + t1295));
-        let t1297 = t163 * t1164 + (t164 * t1118 - (t144 * t1168 + t1296));
-        let t1298 = t175 * t1160 + (t176 * t1116 + t1297);
-        let t1299 = t106 * t1193 - (t107 * t1139 - (t93 * t1137 - t90 * t1191));
-        let t1300 = t147 * t1133 - (t123 * t1189 - (t126 * t1135 - t1299));
-        let t1301 = t163 * t1185 - (t164 * t1131 + (t144 * t1187 - t1300));
-        let t1302 = t175 * t1183 - (t176 * t1129 - t1301);
-        coriolis_matrix_p[0][3] = -t1114;
-        coriolis_matrix_p[2][5] = -t1242;
-        let t1303 = -t1244;
-        coriolis_matrix_p[3][0] = t1303;
-        coriolis_matrix_b[3][0] = t1303;
-        let t1304 = -t1247;
-        coriolis_matrix_p[3][1] = t1304;
-        coriolis_matrix_b[3][1] = t1304;
-        let t1305 = -t1270;
-        coriolis_matrix_p[4][2] = t1305;
-        coriolis_matrix_b[4][2] = t1305;
-        let t1306 = -t1285;
-        coriolis_matrix_p[5][0] = t1306;
-        coriolis_matrix_b[5][0] = t1306;
-        let t1307 = -t1290;
-        coriolis_matrix_p[5][2] = t1307;
-        coriolis_matrix_b[5][2] = t1307;
+        let t1069 = t1034 + (t998 - (t962 + (t926 - (t845 - t890))));
+        coriolis_matrix_p[0][0] = t1069;
+        coriolis_matrix_b[0][0] = t1069;
+        let t1070 = t1035 + (t999 - (t963 + (t927 - (t846 - t891))));
+        coriolis_matrix_p[0][1] = t1070;
+        coriolis_matrix_b[0][1] = t1070;
+        let t1071 = t1036 + (t1000 - (t964 + (t928 - (t847 - t892))));
+        coriolis_matrix_p[0][2] = t1071;
+        coriolis_matrix_b[0][2] = t1071;
+        let t1072 = t429 * t839;
+        let t1073 = t427 * t840;
+        let t1074 = t177 * t1035;
+        let t1075 = t176 * t1036;
+        let t1076 = t1072 - (t1073 + (t1074 - t1075));
+        let t1077 = t387 * t836;
+        let t1078 = t385 * t837;
+        let t1079 = t165 * t999;
+        let t1080 = t164 * t1000;
+        let t1081 = t1077 - (t1078 + (t1079 - t1080));
+        let t1082 = t339 * t833;
+        let t1083 = t337 * t834;
+        let t1084 = t150 * t963;
+        let t1085 = t147 * t964;
+        let t1086 = t1082 - (t1083 + (t1084 - t1085));
+        let t1087 = t291 * t830;
+        let t1088 = t289 * t831;
+        let t1089 = t129 * t927;
+        let t1090 = t126 * t928;
+        let t1091 = t1087 - (t1088 + (t1089 - t1090));
+        let t1092 = t195 * t824;
+        let t1093 = t192 * t825;
+        let t1094 = t96 * t846;
+        let t1095 = t93 * t847;
+        let t1096 = t1092 - (t1093 + (t1094 - t1095));
+        let t1097 = t249 * t827;
+        let t1098 = t247 * t828;
+        let t1099 = t108 * t891;
+        let t1100 = t107 * t892;
+        let t1101 = t1097 - (t1098 + (t1099 - t1100));
+        let t1102 = t1076 + (t1081 - (t1086 + (t1091 + (t1096 - t1101))));
+        let t1103 = t177 * t1034;
+        let t1104 = t425 * t840 - (t429 * t838 + (t175 * t1036 - t1103));
+        let t1105 = t165 * t998;
+        let t1106 = t383 * t837 - (t387 * t835 + (t163 * t1000 - t1105));
+        let t1107 = t150 * t962;
+        let t1108 = t335 * t834 - (t339 * t832 + (t144 * t964 - t1107));
+        let t1109 = t129 * t926;
+        let t1110 = t287 * t831 - (t291 * t829 + (t123 * t928 - t1109));
+        let t1111 = t96 * t845;
+        let t1112 = t189 * t825 - (t195 * t823 + (t90 * t847 - t1111));
+        let t1113 = t108 * t890;
+        let t1114 = t245 * t828 - (t249 * t826 + (t106 * t892 - t1113));
+        let t1115 = t1104 + (t1106 - (t1108 + (t1110 + (t1112 - t1114))));
+        let t1116 = t176 * t1034;
+        let t1117 = t427 * t838 - (t425 * t839 + (t1116 - t175 * t1035));
+        let t1118 = t164 * t998;
+        let t1119 = t385 * t835 - (t383 * t836 + (t1118 - t163 * t999));
+        let t1120 = t147 * t962;
+        let t1121 = t337 * t832 - (t335 * t833 + (t1120 - t144 * t963));
+        let t1122 = t126 * t926;
+        let t1123 = t289 * t829 - (t287 * t830 + (t1122 - t123 * t927));
+        let t1124 = t93 * t845;
+        let t1125 = t192 * t823 - (t189 * t824 + (t1124 - t90 * t846));
+        let t1126 = t107 * t890;
+        let t1127 = t247 * t826 - (t245 * t827 + (t1126 - t106 * t891));
+        let t1128 = t1117 + (t1119 - (t1121 + (t1123 + (t1125 - t1127))));
+        let t1129 = t1038 + (t1002 - (t966 + (t930 - (t852 - t894))));
+        coriolis_matrix_p[1][0] = t1129;
+        coriolis_matrix_b[1][0] = t1129;
+        let t1130 = t1039 + (t1003 - (t967 + (t931 - (t853 - t895))));
+        coriolis_matrix_p[1][1] = t1130;
+        coriolis_matrix_b[1][1] = t1130;
+        let t1131 = t1040 + (t1004 - (t968 + (t932 - (t854 - t896))));
+        coriolis_matrix_p[1][2] = t1131;
+        coriolis_matrix_b[1][2] = t1131;
+        let t1132 = t177 * t1039;
+        let t1133 = t431 * t839 - (t430 * t840 + (t1132 - t176 * t1040));
+        let t1134 = t165 * t1003;
+        let t1135 = t389 * t836 - (t388 * t837 + (t1134 - t164 * t1004));
+        let t1136 = t150 * t967;
+        let t1137 = t341 * t833 - (t340 * t834 + (t1136 - t147 * t968));
+        let t1138 = t129 * t931;
+        let t1139 = t293 * t830 - (t292 * t831 + (t1138 - t126 * t932));
+        let t1140 = t96 * t853;
+        let t1141 = t197 * t824 - (t196 * t825 + (t1140 - t93 * t854));
+        let t1142 = t108 * t895;
+        let t1143 = t251 * t827 - (t250 * t828 + (t1142 - t107 * t896));
+        let t1144 = t1133 + (t1135 - (t1137 + (t1139 + (t1141 - t1143))));
+        let t1145 = t431 * t838;
+        let t1146 = t177 * t1038;
+        let t1147 = t175 * t1040;
+        let t1148 = t1145 - (t1146 + (t1073 - t1147));
+        let t1149 = t389 * t835;
+        let t1150 = t165 * t1002;
+        let t1151 = t163 * t1004;
+        let t1152 = t1149 - (t1150 + (t1078 - t1151));
+        let t1153 = t341 * t832;
+        let t1154 = t150 * t966;
+        let t1155 = t144 * t968;
+        let t1156 = t1153 - (t1154 + (t1083 - t1155));
+        let t1157 = t293 * t829;
+        let t1158 = t129 * t930;
+        let t1159 = t123 * t932;
+        let t1160 = t1157 - (t1158 + (t1088 - t1159));
+        let t1161 = t197 * t823;
+        let t1162 = t96 * t852;
+        let t1163 = t90 * t854;
+        let t1164 = t1161 - (t1162 + (t1093 - t1163));
+        let t1165 = t251 * t826;
+        let t1166 = t108 * t894;
+        let t1167 = t106 * t896;
+        let t1168 = t1165 - (t1166 + (t1098 - t1167));
+        let t1169 = t1148 + (t1152 - (t1156 + (t1160 + (t1164 - t1168))));
+        coriolis_matrix_p[1][4] = t1169;
+        let t1170 = t175 * t1039;
+        let t1171 = t430 * t838 - (t427 * t839 + (t176 * t1038 - t1170));
+        let t1172 = t163 * t1003;
+        let t1173 = t388 * t835 - (t385 * t836 + (t164 * t1002 - t1172));
+        let t1174 = t144 * t967;
+        let t1175 = t340 * t832 - (t337 * t833 + (t147 * t966 - t1174));
+        let t1176 = t123 * t931;
+        let t1177 = t292 * t829 - (t289 * t830 + (t126 * t930 - t1176));
+        let t1178 = t90 * t853;
+        let t1179 = t196 * t823 - (t192 * t824 + (t93 * t852 - t1178));
+        let t1180 = t106 * t895;
+        let t1181 = t250 * t826 - (t247 * t827 + (t107 * t894 - t1180));
+        let t1182 = t1171 + (t1173 - (t1175 + (t1177 + (t1179 - t1181))));
+        let t1183 = t1042 + (t1006 - (t970 + (t934 - (t859 - t898))));
+        coriolis_matrix_p[2][0] = t1183;
+        coriolis_matrix_b[2][0] = t1183;
+        let t1184 = t1043 + (t1007 - (t971 + (t935 - (t860 - t899))));
+        coriolis_matrix_p[2][1] = t1184;
+        coriolis_matrix_b[2][1] = t1184;
+        let t1185 = t1044 + (t1008 - (t972 + (t936 - (t861 - t900))));
+        coriolis_matrix_p[2][2] = t1185;
+        coriolis_matrix_b[2][2] = t1185;
+        let t1186 = t176 * t1044;
+        let t1187 = t432 * t839 - (t431 * t840 + (t177 * t1043 - t1186));
+        let t1188 = t164 * t1008;
+        let t1189 = t390 * t836 - (t389 * t837 + (t165 * t1007 - t1188));
+        let t1190 = t147 * t972;
+        let t1191 = t342 * t833 - (t341 * t834 + (t150 * t971 - t1190));
+        let t1192 = t126 * t936;
+        let t1193 = t294 * t830 - (t293 * t831 + (t129 * t935 - t1192));
+        let t1194 = t93 * t861;
+        let t1195 = t198 * t824 - (t197 * t825 + (t96 * t860 - t1194));
+        let t1196 = t107 * t900;
+        let t1197 = t252 * t827 - (t251 * t828 + (t108 * t899 - t1196));
+        let t1198 = t1187 + (t1189 - (t1191 + (t1193 + (t1195 - t1197))));
+        let t1199 = t175 * t1044;
+        let t1200 = t429 * t840 - (t432 * t838 + (t1199 - t177 * t1042));
+        let t1201 = t163 * t1008;
+        let t1202 = t387 * t837 - (t390 * t835 + (t1201 - t165 * t1006));
+        let t1203 = t144 * t972;
+        let t1204 = t339 * t834 - (t342 * t832 + (t1203 - t150 * t970));
+        let t1205 = t123 * t936;
+        let t1206 = t291 * t831 - (t294 * t829 + (t1205 - t129 * t934));
+        let t1207 = t90 * t861;
+        let t1208 = t195 * t825 - (t198 * t823 + (t1207 - t96 * t859));
+        let t1209 = t106 * t900;
+        let t1210 = t249 * t828 - (t252 * t826 + (t1209 - t108 * t898));
+        let t1211 = t1200 + (t1202 - (t1204 + (t1206 + (t1208 - t1210))));
+        let t1212 = t175 * t1043;
+        let t1213 = t176 * t1042;
+        let t1214 = t1212 - (t1213 + (t1072 - t1145));
+        let t1215 = t163 * t1007;
+        let t1216 = t164 * t1006;
+        let t1217 = t1215 - (t1216 + (t1077 - t1149));
+        let t1218 = t144 * t971;
+        let t1219 = t147 * t970;
+        let t1220 = t1218 - (t1219 + (t1082 - t1153));
+        let t1221 = t123 * t935;
+        let t1222 = t126 * t934;
+        let t1223 = t1221 - (t1222 + (t1087 - t1157));
+        let t1224 = t90 * t860;
+        let t1225 = t93 * t859;
+        let t1226 = t1224 - (t1225 + (t1092 - t1161));
+        let t1227 = t106 * t899;
+        let t1228 = t107 * t898;
+        let t1229 = t1227 - (t1228 + (t1097 - t1165));
+        let t1230 = t1214 + (t1217 - (t1220 + (t1223 + (t1226 - t1229))));
+        let t1231 = t1228
+            - (t1225 + (t1146 + (t1150 - (t1154 + (t1158 + (t1162 - t1166))))));
+        let t1232 = t1213 + (t1216 - (t1219 + (t1222 - t1231)));
+        let t1233 = t93 * t860 + (t1132 + (t1134 - (t1136 + (t1138 + (t1140 - t1142)))));
+        let t1234 = t147 * t971 + (t126 * t935 - (t107 * t899 - t1233));
+        let t1235 = t176 * t1043 + (t164 * t1007 - t1234);
+        let t1236 = t96 * t854 + (t1186 + (t1188 - (t1190 + (t1192 + (t1194 - t1196)))));
+        let t1237 = t150 * t968 + (t129 * t932 - (t108 * t896 - t1236));
+        let t1238 = t177 * t1040 + (t165 * t1004 - t1237);
+        coriolis_matrix_p[3][2] = t1238;
+        coriolis_matrix_b[3][2] = t1238;
+        let t1239 = t107 * t1197 - (t108 * t1143 - (t96 * t1141 - t93 * t1195));
+        let t1240 = t150 * t1137 - (t126 * t1193 - (t129 * t1139 - t1239));
+        let t1241 = t164 * t1189 - (t165 * t1135 + (t147 * t1191 - t1240));
+        let t1242 = t176 * t1187 - (t177 * t1133 - t1241);
+        let t1243 = t107 * t1210 + (t108 * t1168 - (t96 * t1164 + t93 * t1208));
+        let t1244 = t150 * t1156 + (t126 * t1206 + (t129 * t1160 + t1243));
+        let t1245 = t164 * t1202 + (t165 * t1152 - (t147 * t1204 + t1244));
+        let t1246 = t176 * t1200 + (t177 * t1148 + t1245);
+        let t1247 = t107 * t1229 - (t108 * t1181 - (t96 * t1179 - t93 * t1226));
+        let t1248 = t150 * t1175 - (t126 * t1223 - (t129 * t1177 - t1247));
+        let t1249 = t164 * t1217 - (t165 * t1173 + (t147 * t1220 - t1248));
+        let t1250 = t176 * t1214 - (t177 * t1171 - t1249);
+        let t1251 = t90 * t859 + (t1103 + (t1105 - (t1107 + (t1109 + (t1111 - t1113)))));
+        let t1252 = t144 * t970 + (t123 * t934 - (t106 * t898 - t1251));
+        let t1253 = t175 * t1042 + (t163 * t1006 - t1252);
+        coriolis_matrix_p[4][0] = t1253;
+        coriolis_matrix_b[4][0] = t1253;
+        let t1254 = t1227
+            - (t1224 + (t1074 + (t1079 - (t1084 + (t1089 + (t1094 - t1099))))));
+        let t1255 = t1212 + (t1215 - (t1218 + (t1221 - t1254)));
+        coriolis_matrix_p[4][1] = t1255;
+        coriolis_matrix_b[4][1] = t1255;
+        let t1256 = t96 * t847 + (t1199 + (t1201 - (t1203 + (t1205 + (t1207 - t1209)))));
+        let t1257 = t150 * t964 + (t129 * t928 - (t108 * t892 - t1256));
+        let t1258 = t177 * t1036 + (t165 * t1000 - t1257);
+        let t1259 = t108 * t1101 - (t106 * t1197 - (t90 * t1195 - t96 * t1096));
+        let t1260 = t144 * t1191 - (t129 * t1091 - (t123 * t1193 - t1259));
+        let t1261 = t165 * t1081 - (t163 * t1189 + (t150 * t1086 - t1260));
+        let t1262 = t177 * t1076 - (t175 * t1187 - t1261);
+        let t1263 = t108 * t1114 - (t106 * t1210 - (t90 * t1208 - t96 * t1112));
+        let t1264 = t144 * t1204 - (t129 * t1110 - (t123 * t1206 - t1263));
+        let t1265 = t165 * t1106 - (t163 * t1202 + (t150 * t1108 - t1264));
+        let t1266 = t177 * t1104 - (t175 * t1200 - t1265);
+        let t1267 = t108 * t1127 - (t106 * t1229 - (t90 * t1226 - t96 * t1125));
+        let t1268 = t144 * t1220 - (t129 * t1123 - (t123 * t1223 - t1267));
+        let t1269 = t165 * t1119 - (t163 * t1217 + (t150 * t1121 - t1268));
+        let t1270 = t177 * t1117 - (t175 * t1214 - t1269);
+        let t1271 = t90 * t852 + (t1116 + (t1118 - (t1120 + (t1122 + (t1124 - t1126)))));
+        let t1272 = t144 * t966 + (t123 * t930 - (t106 * t894 - t1271));
+        let t1273 = t175 * t1038 + (t163 * t1002 - t1272);
+        let t1274 = t93 * t846 + (t1170 + (t1172 - (t1174 + (t1176 + (t1178 - t1180)))));
+        let t1275 = t147 * t963 + (t126 * t927 - (t107 * t891 - t1274));
+        let t1276 = t176 * t1035 + (t164 * t999 - t1275);
+        coriolis_matrix_p[5][1] = t1276;
+        coriolis_matrix_b[5][1] = t1276;
+        let t1277 = t1167
+            - (t1163 + (t1075 + (t1080 - (t1085 + (t1090 + (t1095 - t1100))))));
+        let t1278 = t1147 + (t1151 - (t1155 + (t1159 - t1277)));
+        let t1279 = t106 * t1143 - (t107 * t1101 - (t93 * t1096 - t90 * t1141));
+        let t1280 = t147 * t1086 - (t123 * t1139 - (t126 * t1091 - t1279));
+        let t1281 = t163 * t1135 - (t164 * t1081 + (t144 * t1137 - t1280));
+        let t1282 = t175 * t1133 - (t176 * t1076 - t1281);
+        let t1283 = t106 * t1168 + (t107 * t1114 - (t93 * t1112 + t90 * t1164));
+        let t1284 = t147 * t1108 + (t123 * t1160 + (t126 * t1110 + t1283));
+        let t1285 = t163 * t1152 + (t164 * t1106 - (t144 * t1156 + t1284));
+        let t1286 = t175 * t1148 + (t176 * t1104 + t1285);
+        let t1287 = t106 * t1181 - (t107 * t1127 - (t93 * t1125 - t90 * t1179));
+        let t1288 = t147 * t1121 - (t123 * t1177 - (t126 * t1123 - t1287));
+        let t1289 = t163 * t1173 - (t164 * t1119 + (t144 * t1175 - t1288));
+        let t1290 = t175 * t1171 - (t176 * t1117 - t1289);
+        coriolis_matrix_p[0][3] = -t1102;
+        coriolis_matrix_p[2][5] = -t1230;
+        let t1291 = -t1232;
+        coriolis_matrix_p[3][0] = t1291;
+        coriolis_matrix_b[3][0] = t1291;
+        let t1292 = -t1235;
+        coriolis_matrix_p[3][1] = t1292;
+        coriolis_matrix_b[3][1] = t1292;
+        let t1293 = -t1258;
+        coriolis_matrix_p[4][2] = t1293;
+        coriolis_matrix_b[4][2] = t1293;
+        let t1294 = -t1273;
+        coriolis_matrix_p[5][0] = t1294;
+        coriolis_matrix_b[5][0] = t1294;
+        let t1295 = -t1278;
+        coriolis_matrix_p[5][2] = t1295;
+        coriolis_matrix_b[5][2] = t1295;
         // Coriolis matrix C_p, natural factorisation
-        let t1308 = platform_velocity[3] * t579 - platform_velocity[4] * t582;
-        coriolis_matrix_p[0][4] = t1308 - t1127;
-        let t1309 = platform_velocity[5] * t582 - platform_velocity[3] * t576;
-        coriolis_matrix_p[0][5] = -(t1140 + t1309);
-        coriolis_matrix_p[1][3] = -(t1156 + t1308);
-        let t1310 = platform_velocity[4] * t576 - platform_velocity[5] * t579;
-        coriolis_matrix_p[1][5] = t1310 - t1194;
-        coriolis_matrix_p[2][3] = t1309 - t1210;
-        coriolis_matrix_p[2][4] = -(t1223 + t1310);
-        let t1311 = platform_velocity[5] * t589;
-        let t1312 = platform_velocity[4] * t591;
-        coriolis_matrix_p[3][3] = t1254 + t1311 - t1312;
-        let t1313 = c(0.0425) - t596;
-        coriolis_matrix_p[3][4] = t1258 - platform_velocity[5] * t1313
+        let t1296 = platform_velocity[3] * t579 - platform_velocity[4] * t582;
+        coriolis_matrix_p[0][4] = t1296 - t1115;
+        let t1297 = platform_velocity[5] * t582 - platform_velocity[3] * t576;
+        coriolis_matrix_p[0][5] = -(t1128 + t1297);
+        coriolis_matrix_p[1][3] = -(t1144 + t1296);
+        let t1298 = platform_velocity[4] * t576 - platform_velocity[5] * t579;
+        coriolis_matrix_p[1][5] = t1298 - t1182;
+        coriolis_matrix_p[2][3] = t1297 - t1198;
+        coriolis_matrix_p[2][4] = -(t1211 + t1298);
+        let t1299 = platform_velocity[5] * t589;
+        let t1300 = platform_velocity[4] * t591;
+        coriolis_matrix_p[3][3] = t1242 + t1299 - t1300;
+        let t1301 = c(0.0425) - t596;
+        coriolis_matrix_p[3][4] = t1246 - platform_velocity[5] * t1301
             - platform_velocity[4] * t598;
-        let t1314 = c(0.0425) - t603;
-        coriolis_matrix_p[3][5] = platform_velocity[4] * t1314
-            + (t1262 + platform_velocity[5] * t598);
-        let t1315 = c(0.0425) - t587;
+        let t1302 = c(0.0425) - t603;
+        coriolis_matrix_p[3][5] = platform_velocity[4] * t1302
+            + (t1250 + platform_velocity[5] * t598);
+        let t1303 = c(0.0425) - t587;
         coriolis_matrix_p[4][3] = platform_velocity[3] * t591
-            + (t1274 + platform_velocity[5] * t1315);
-        let t1316 = platform_velocity[3] * t598;
-        coriolis_matrix_p[4][4] = t1316 + (t1278 - t1311);
-        coriolis_matrix_p[4][5] = t1282 - platform_velocity[5] * t591
-            - platform_velocity[3] * t1314;
-        coriolis_matrix_p[5][3] = t1294 - platform_velocity[4] * t1315
+            + (t1262 + platform_velocity[5] * t1303);
+        let t1304 = platform_velocity[3] * t598;
+        coriolis_matrix_p[4][4] = t1304 + (t1266 - t1299);
+        coriolis_matrix_p[4][5] = t1270 - platform_velocity[5] * t591
+            - platform_velocity[3] * t1302;
+        coriolis_matrix_p[5][3] = t1282 - platform_velocity[4] * t1303
             - platform_velocity[3] * t589;
-        coriolis_matrix_p[5][4] = platform_velocity[3] * t1313
-            - (t1298 - platform_velocity[4] * t589);
-        coriolis_matrix_p[5][5] = t1302 + t1312 - t1316;
+        coriolis_matrix_p[5][4] = platform_velocity[3] * t1301
+            - (t1286 - platform_velocity[4] * t589);
+        coriolis_matrix_p[5][5] = t1290 + t1300 - t1304;
         // Coriolis matrix C_b, natural factorisation
-        let t1317 = t467 * t711;
-        let t1318 = t1114 - (t1064 + (t1028 - (t992 + (t956 - (t883 - t920)))));
-        let t1319 = t468 * t710;
-        coriolis_matrix_b[0][3] = t1317 - (t20 * t1083 - (t21 * t1082 - t1318)) - t1319;
-        let t1320 = t1127 - (t1070 + (t1034 - (t998 + (t962 - (t890 - t926)))));
-        let t1321 = t468 * t709 - (t21 * t1081 - (t19 * t1083 - t1320));
-        coriolis_matrix_b[0][4] = t1321 - t466 * t711;
-        let t1322 = t1140 - (t1073 + (t1037 - (t1001 + (t965 - (t893 - t929)))));
-        let t1323 = t466 * t710 - (t19 * t1082 - (t20 * t1081 - t1322));
-        coriolis_matrix_b[0][5] = t1323 - t467 * t709;
-        let t1324 = t1156 + (t1074 + (t1038 + (t1002 + (t966 + (t894 + t930)))));
-        let t1325 = t497 * t711 - (t20 * t1143 - (t21 * t1142 - t1324));
-        coriolis_matrix_b[1][3] = t1325 - t498 * t710;
-        let t1326 = t498 * t709;
-        let t1327 = t1317
-            - (t1181 + (t1075 + (t1039 - (t1003 + (t967 - (t895 - t931))))));
-        coriolis_matrix_b[1][4] = t1326 - (t21 * t1141 - (t19 * t1143 - t1327));
-        let t1328 = t1194 - (t1077 + (t1041 - (t1005 + (t969 - (t897 - t933)))));
-        let t1329 = t467 * t710 - (t19 * t1142 - (t20 * t1141 - t1328));
-        coriolis_matrix_b[1][5] = t1329 - t497 * t709;
-        let t1330 = t1210 - (t1078 + (t1042 + (t1006 + (t970 + (t898 + t934)))));
-        let t1331 = t498 * t711 - (t20 * t1197 - (t21 * t1196 - t1330));
-        coriolis_matrix_b[2][3] = t1331 - t526 * t710;
-        let t1332 = t1223 + (t1079 + (t1043 + (t1007 + (t971 + (t899 + t935)))));
-        let t1333 = t526 * t709 - (t21 * t1195 - (t19 * t1197 - t1332));
-        coriolis_matrix_b[2][4] = t1333 - t468 * t711;
-        let t1334 = t1319
-            - (t1242 - (t1080 + (t1044 - (t1008 + (t972 - (t900 - t936))))));
-        coriolis_matrix_b[2][5] = t20 * t1195 - (t1326 - t1334) - t19 * t1196;
-        let t1335 = t505 * t711 - (t20 * t1250 - (t1254 - t21 * t1247));
-        let t1336 = t96 * t894 + (t93 * t898 - (t533 * t710 - t1335));
-        let t1337 = t108 * t930 + (t107 * t934 + t1336) - t126 * t970;
-        let t1338 = t1337 - t129 * t966 - t147 * t1006 - t150 * t1002;
-        let t1339 = t1338 - t164 * t1042 - t165 * t1038 - t176 * t1078;
-        coriolis_matrix_b[3][3] = t1339 - t177 * t1074;
-        let t1340 = t533 * t709 + (t21 * t1244 + (t1258 + t19 * t1250));
-        let t1341 = t96 * t895 + (t93 * t899 - (t482 * t711 + t1340));
-        let t1342 = t126 * t971 + (t108 * t931 - (t107 * t935 + t1341));
-        let t1343 = t150 * t1003 - (t147 * t1007 - (t129 * t967 - t1342));
-        let t1344 = t176 * t1079 + (t165 * t1039 + (t164 * t1043 - t1343));
-        coriolis_matrix_b[3][4] = t177 * t1075 + t1344;
-        let t1345 = t482 * t710 - (t19 * t1247 + (t1262 - t20 * t1244));
-        let t1346 = t96 * t897 - (t93 * t900 - (t505 * t709 + t1345));
-        let t1347 = t126 * t972 + (t108 * t933 - (t107 * t936 + t1346));
-        let t1348 = t150 * t1005 - (t147 * t1008 - (t129 * t969 - t1347));
-        let t1349 = t176 * t1080 - (t165 * t1041 - (t164 * t1044 + t1348));
-        coriolis_matrix_b[3][5] = t177 * t1077 - t1349;
-        let t1350 = t518 * t711 - (t20 * t1270 + (t1274 + t21 * t1267));
-        let t1351 = t90 * t898 - (t96 * t883 - (t540 * t710 + t1350));
-        let t1352 = t129 * t956 - (t106 * t934 + (t108 * t920 + t1351));
-        let t1353 = t144 * t1006 + (t150 * t992 + (t123 * t970 + t1352));
-        let t1354 = t177 * t1064 - (t163 * t1042 - (t165 * t1028 - t1353));
-        coriolis_matrix_b[4][3] = t175 * t1078 - t1354;
-        let t1355 = t540 * t709 - (t21 * t1265 - (t1278 - t19 * t1270));
-        let t1356 = t90 * t899 + (t96 * t890 - (t489 * t711 - t1355));
-        let t1357 = t129 * t962 + (t106 * t935 - (t108 * t926 - t1356));
-        let t1358 = t150 * t998 - (t123 * t971 - t1357) - t144 * t1007;
-        let t1359 = t1358 - t165 * t1034 - t163 * t1043 - t177 * t1070;
-        coriolis_matrix_b[4][4] = t1359 - t175 * t1079;
-        let t1360 = t489 * t710 - (t19 * t1267 - (t1282 + t20 * t1265));
-        let t1361 = t90 * t900 - (t96 * t893 + (t518 * t709 + t1360));
-        let t1362 = t129 * t965 + (t106 * t936 - (t108 * t929 + t1361));
-        let t1363 = t144 * t1008 - (t150 * t1001 - (t123 * t972 - t1362));
-        let t1364 = t177 * t1073 - (t163 * t1044 - (t165 * t1037 + t1363));
-        coriolis_matrix_b[4][5] = t175 * t1080 - t1364;
-        let t1365 = t525 * t711 + (t20 * t1290 + (t1294 + t21 * t1288));
-        let t1366 = t93 * t883 + (t90 * t894 + (t547 * t710 - t1365));
-        let t1367 = t123 * t966 + (t107 * t920 - (t106 * t930 + t1366));
-        let t1368 = t147 * t992 - (t144 * t1002 - (t126 * t956 - t1367));
-        let t1369 = t175 * t1074 + (t164 * t1028 + (t163 * t1038 - t1368));
-        coriolis_matrix_b[5][3] = t176 * t1064 + t1369;
-        let t1370 = t547 * t709 + (t21 * t1285 - (t1298 + t19 * t1290));
-        let t1371 = t93 * t890 - (t90 * t895 - (t496 * t711 - t1370));
-        let t1372 = t123 * t967 + (t107 * t926 - (t106 * t931 + t1371));
-        let t1373 = t147 * t998 - (t144 * t1003 - (t126 * t962 - t1372));
-        let t1374 = t175 * t1075 - (t164 * t1034 - (t163 * t1039 + t1373));
-        coriolis_matrix_b[5][4] = t176 * t1070 - t1374;
-        let t1375 = t496 * t710 - (t19 * t1288 - (t1302 - t20 * t1285));
-        let t1376 = t93 * t893 - (t90 * t897 - (t525 * t709 - t1375));
-        let t1377 = t123 * t969 + (t107 * t929 - (t106 * t933 + t1376));
-        let t1378 = t147 * t1001 - (t144 * t1005 - (t126 * t965 - t1377));
-        let t1379 = t175 * t1077 - (t164 * t1037 - (t163 * t1041 + t1378));
-        coriolis_matrix_b[5][5] = t176 * t1073 - t1379;
+        let t1305 = t467 * t711;
+        let t1306 = t1102 - (t1052 + (t1016 - (t980 + (t944 - (t871 - t908)))));
+        let t1307 = t468 * t710;
+        coriolis_matrix_b[0][3] = t1305 - (t20 * t1071 - (t21 * t1070 - t1306)) - t1307;
+        let t1308 = t1115 - (t1058 + (t1022 - (t986 + (t950 - (t878 - t914)))));
+        let t1309 = t468 * t709 - (t21 * t1069 - (t19 * t1071 - t1308));
+        coriolis_matrix_b[0][4] = t1309 - t466 * t711;
+        let t1310 = t1128 - (t1061 + (t1025 - (t989 + (t953 - (t881 - t917)))));
+        let t1311 = t466 * t710 - (t19 * t1070 - (t20 * t1069 - t1310));
+        coriolis_matrix_b[0][5] = t1311 - t467 * t709;
+        let t1312 = t1144 + (t1062 + (t1026 + (t990 + (t954 + (t882 + t918)))));
+        let t1313 = t497 * t711 - (t20 * t1131 - (t21 * t1130 - t1312));
+        coriolis_matrix_b[1][3] = t1313 - t498 * t710;
+        let t1314 = t498 * t709;
+        let t1315 = t1305
+            - (t1169 + (t1063 + (t1027 - (t991 + (t955 - (t883 - t919))))));
+        coriolis_matrix_b[1][4] = t1314 - (t21 * t1129 - (t19 * t1131 - t1315));
+        let t1316 = t1182 - (t1065 + (t1029 - (t993 + (t957 - (t885 - t921)))));
+        let t1317 = t467 * t710 - (t19 * t1130 - (t20 * t1129 - t1316));
+        coriolis_matrix_b[1][5] = t1317 - t497 * t709;
+        let t1318 = t1198 - (t1066 + (t1030 + (t994 + (t958 + (t886 + t922)))));
+        let t1319 = t498 * t711 - (t20 * t1185 - (t21 * t1184 - t1318));
+        coriolis_matrix_b[2][3] = t1319 - t526 * t710;
+        let t1320 = t1211 + (t1067 + (t1031 + (t995 + (t959 + (t887 + t923)))));
+        let t1321 = t526 * t709 - (t21 * t1183 - (t19 * t1185 - t1320));
+        coriolis_matrix_b[2][4] = t1321 - t468 * t711;
+        let t1322 = t1307
+            - (t1230 - (t1068 + (t1032 - (t996 + (t960 - (t888 - t924))))));
+        coriolis_matrix_b[2][5] = t20 * t1183 - (t1314 - t1322) - t19 * t1184;
+        let t1323 = t505 * t711 - (t20 * t1238 - (t1242 - t21 * t1235));
+        let t1324 = t96 * t882 + (t93 * t886 - (t533 * t710 - t1323));
+        let t1325 = t108 * t918 + (t107 * t922 + t1324) - t126 * t958;
+        let t1326 = t1325 - t129 * t954 - t147 * t994 - t150 * t990;
+        let t1327 = t1326 - t164 * t1030 - t165 * t1026 - t176 * t1066;
+        coriolis_matrix_b[3][3] = t1327 - t177 * t1062;
+        let t1328 = t533 * t709 + (t21 * t1232 + (t1246 + t19 * t1238));
+        let t1329 = t96 * t883 + (t93 * t887 - (t482 * t711 + t1328));
+        let t1330 = t126 * t959 + (t108 * t919 - (t107 * t923 + t1329));
+        let t1331 = t150 * t991 - (t147 * t995 - (t129 * t955 - t1330));
+        let t1332 = t176 * t1067 + (t165 * t1027 + (t164 * t1031 - t1331));
+        coriolis_matrix_b[3][4] = t177 * t1063 + t1332;
+        let t1333 = t482 * t710 - (t19 * t1235 + (t1250 - t20 * t1232));
+        let t1334 = t96 * t885 - (t93 * t888 - (t505 * t709 + t1333));
+        let t1335 = t126 * t960 + (t108 * t921 - (t107 * t924 + t1334));
+        let t1336 = t150 * t993 - (t147 * t996 - (t129 * t957 - t1335));
+        let t1337 = t176 * t1068 - (t165 * t1029 - (t164 * t1032 + t1336));
+        coriolis_matrix_b[3][5] = t177 * t1065 - t1337;
+        let t1338 = t518 * t711 - (t20 * t1258 + (t1262 + t21 * t1255));
+        let t1339 = t90 * t886 - (t96 * t871 - (t540 * t710 + t1338));
+        let t1340 = t129 * t944 - (t106 * t922 + (t108 * t908 + t1339));
+        let t1341 = t144 * t994 + (t150 * t980 + (t123 * t958 + t1340));
+        let t1342 = t177 * t1052 - (t163 * t1030 - (t165 * t1016 - t1341));
+        coriolis_matrix_b[4][3] = t175 * t1066 - t1342;
+        let t1343 = t540 * t709 - (t21 * t1253 - (t1266 - t19 * t1258));
+        let t1344 = t90 * t887 + (t96 * t878 - (t489 * t711 - t1343));
+        let t1345 = t129 * t950 + (t106 * t923 - (t108 * t914 - t1344));
+        let t1346 = t150 * t986 - (t123 * t959 - t1345) - t144 * t995;
+        let t1347 = t1346 - t165 * t1022 - t163 * t1031 - t177 * t1058;
+        coriolis_matrix_b[4][4] = t1347 - t175 * t1067;
+        let t1348 = t489 * t710 - (t19 * t1255 - (t1270 + t20 * t1253));
+        let t1349 = t90 * t888 - (t96 * t881 + (t518 * t709 + t1348));
+        let t1350 = t129 * t953 + (t106 * t924 - (t108 * t917 + t1349));
+        let t1351 = t144 * t996 - (t150 * t989 - (t123 * t960 - t1350));
+        let t1352 = t177 * t1061 - (t163 * t1032 - (t165 * t1025 + t1351));
+        coriolis_matrix_b[4][5] = t175 * t1068 - t1352;
+        let t1353 = t525 * t711 + (t20 * t1278 + (t1282 + t21 * t1276));
+        let t1354 = t93 * t871 + (t90 * t882 + (t547 * t710 - t1353));
+        let t1355 = t123 * t954 + (t107 * t908 - (t106 * t918 + t1354));
+        let t1356 = t147 * t980 - (t144 * t990 - (t126 * t944 - t1355));
+        let t1357 = t175 * t1062 + (t164 * t1016 + (t163 * t1026 - t1356));
+        coriolis_matrix_b[5][3] = t176 * t1052 + t1357;
+        let t1358 = t547 * t709 + (t21 * t1273 - (t1286 + t19 * t1278));
+        let t1359 = t93 * t878 - (t90 * t883 - (t496 * t711 - t1358));
+        let t1360 = t123 * t955 + (t107 * t914 - (t106 * t919 + t1359));
+        let t1361 = t147 * t986 - (t144 * t991 - (t126 * t950 - t1360));
+        let t1362 = t175 * t1063 - (t164 * t1022 - (t163 * t1027 + t1361));
+        coriolis_matrix_b[5][4] = t176 * t1058 - t1362;
+        let t1363 = t496 * t710 - (t19 * t1276 - (t1290 - t20 * t1273));
+        let t1364 = t93 * t881 - (t90 * t885 - (t525 * t709 - t1363));
+        let t1365 = t123 * t957 + (t107 * t917 - (t106 * t921 + t1364));
+        let t1366 = t147 * t989 - (t144 * t993 - (t126 * t953 - t1365));
+        let t1367 = t175 * t1065 - (t164 * t1025 - (t163 * t1029 + t1366));
+        coriolis_matrix_b[5][5] = t176 * t1061 - t1367;
         // leg 1: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
         jacobian_dp[0][3] = t93 * t105 - t96 * t103;
         jacobian_dp[0][4] = t96 * t101 - t90 * t105;
@@ -12599,11 +12577,8 @@ pub fn equation_of_motion<T: Scalar>(
         t64,
         t69,
         t72,
+        t74,
         t75,
-        t82,
-        t83,
-        t84,
-        t85,
         t86,
         t87,
         t90,
@@ -12765,39 +12740,30 @@ pub fn equation_of_motion<T: Scalar>(
         t745,
         t746,
         t747,
+        t785,
+        t786,
         t790,
         t792,
         t796,
         t800,
         t802,
+        t803,
         t804,
+        t809,
         t811,
-        t812,
         t813,
-        t814,
-        t815,
-        t816,
-        t817,
         t818,
-        t819,
-        t824,
-        t826,
-        t828,
+        t820,
+        t822,
+        t827,
         t829,
-        t830,
         t831,
         t836,
         t838,
         t840,
-        t841,
-        t842,
-        t843,
-        t848,
-        t850,
-        t852,
-        t853,
-        t854,
-        t855,
+        t845,
+        t847,
+        t849,
     ) = {
         // rotation of the platform seen from the base
         let t1 = base_rotation[1][0] * platform_rotation[1][0];
@@ -13847,70 +13813,56 @@ pub fn equation_of_motion<T: Scalar>(
         let t803 = t74 * (t50 * t785 - t51 * t786);
         // leg 6: actuator velocity d'
         let t804 = t794 + (t795 - t803);
-        // leg 1: rate of that gradient relative to the base
-        let t805 = t53 * (t765 + t76 * t787);
-        let t806 = t53 * (t768 - t77 * t787);
-        // leg 2: rate of that gradient relative to the base
-        let t807 = t58 * (t769 + t78 * t791);
-        let t808 = t58 * (t770 + t79 * t791);
-        // leg 3: rate of that gradient relative to the base
-        let t809 = t61 * (t773 + t80 * t793);
-        let t810 = t61 * (t776 + t81 * t793);
-        // leg 4: rate of that gradient relative to the base
-        let t811 = t66 * (t779 + t82 * t797);
-        let t812 = t66 * (t782 + t83 * t797);
-        // leg 5: rate of that gradient relative to the base
-        let t813 = t71 * (t783 + t84 * t801);
-        let t814 = t71 * (t784 - t85 * t801);
-        // leg 6: rate of that gradient relative to the base
-        let t815 = t74 * (t785 + t86 * t803);
-        let t816 = t74 * (t786 - t87 * t803);
-        // leg 1: rate of the platform lever
-        let t817 = platform_velocity[4] * t96 - platform_velocity[5] * t93;
-        let t818 = platform_velocity[5] * t90 - platform_velocity[3] * t96;
-        let t819 = platform_velocity[3] * t93 - platform_velocity[4] * t90;
         // leg 1: inertial rate of that gradient
-        let t820 = t77 * t726 + t76 * t729;
-        let t821 = t77 * t732 - (t729 - t805);
-        let t822 = t76 * t732 + (t726 + t806);
-        let t823 = base_rotation[0][0] * t821 + base_rotation[0][1] * t822;
-        let t824 = base_rotation[0][2] * t820 - t823;
-        let t825 = base_rotation[1][0] * t821 + base_rotation[1][1] * t822;
-        let t826 = base_rotation[1][2] * t820 - t825;
-        let t827 = base_rotation[2][0] * t821 + base_rotation[2][1] * t822;
-        let t828 = base_rotation[2][2] * t820 - t827;
-        // leg 2: rate of the platform lever
-        let t829 = platform_velocity[4] * t108 - platform_velocity[5] * t107;
-        let t830 = platform_velocity[5] * t106 - platform_velocity[3] * t108;
-        let t831 = platform_velocity[3] * t107 - platform_velocity[4] * t106;
+        let t805 = t77 * t726 + t76 * t729;
+        let t806 = t77 * t732 - (t729 - t53 * (t765 + t76 * t787));
+        let t807 = t76 * t732 + (t726 + t53 * (t768 - t77 * t787));
+        let t808 = base_rotation[0][0] * t806 + base_rotation[0][1] * t807;
+        let t809 = base_rotation[0][2] * t805 - t808;
+        let t810 = base_rotation[1][0] * t806 + base_rotation[1][1] * t807;
+        let t811 = base_rotation[1][2] * t805 - t810;
+        let t812 = base_rotation[2][0] * t806 + base_rotation[2][1] * t807;
+        let t813 = base_rotation[2][2] * t805 - t812;
         // leg 2: inertial rate of that gradient
-        let t832 = t79 * t726 - t78 * t729;
-        let t833 = t79 * t732 + (t729 - t807);
-        let t834 = t78 * t732 + (t726 + t808);
+        let t814 = t79 * t726 - t78 * t729;
+        let t815 = t79 * t732 + (t729 - t58 * (t769 + t78 * t791));
+        let t816 = t78 * t732 + (t726 + t58 * (t770 + t79 * t791));
+        let t817 = base_rotation[0][0] * t815 - base_rotation[0][1] * t816;
+        let t818 = base_rotation[0][2] * t814 - t817;
+        let t819 = base_rotation[1][0] * t815 - base_rotation[1][1] * t816;
+        let t820 = base_rotation[1][2] * t814 - t819;
+        let t821 = base_rotation[2][0] * t815 - base_rotation[2][1] * t816;
+        let t822 = base_rotation[2][2] * t814 - t821;
+        // leg 3: inertial rate of that gradient
+        let t823 = t81 * t726 - t80 * t729;
+        let t824 = t81 * t732 + (t729 - t61 * (t773 + t80 * t793));
+        let t825 = t80 * t732 + (t726 + t61 * (t776 + t81 * t793));
+        let t826 = base_rotation[0][0] * t824 - base_rotation[0][1] * t825;
+        let t827 = base_rotation[0][2] * t823 - t826;
+        let t828 = base_rotation[1][0] * t824 - base_rotation[1][1] * t825;
+        let t829 = base_rotation[1][2] * t823 - t828;
+        let t830 = base_rotation[2][0] * t824 - base_rotation[2][1] * t825;
+        let t831 = base_rotation[2][2] * t823 - t830;
+        // leg 4: inertial rate of that gradient
+        let t832 = t83 * t726 - t82 * t729;
+        let t833 = t83 * t732 + (t729 - t66 * (t779 + t82 * t797));
+        let t834 = t82 * t732 + (t726 + t66 * (t782 + t83 * t797));
         let t835 = base_rotation[0][0] * t833 - base_rotation[0][1] * t834;
         let t836 = base_rotation[0][2] * t832 - t835;
         let t837 = base_rotation[1][0] * t833 - base_rotation[1][1] * t834;
         let t838 = base_rotation[1][2] * t832 - t837;
         let t839 = base_rotation[2][0] * t833 - base_rotation[2][1] * t834;
         let t840 = base_rotation[2][2] * t832 - t839;
-        // leg 3: rate of the platform lever
-        let t841 = platform_velocity[4] * t129 - platform_velocity[5] * t126;
-        let t842 = platform_velocity[5] * t123 - platform_velocity[3] * t129;
-        let t843 = platform_velocity[3] * t126 - platform_velocity[4] * t123;
-        // leg 3: inertial rate of that gradient
-        let t844 = t81 * t726 - t80 * t729;
-        let t845 = t81 * t732 + (t729 - t809);
-        let t846 = t80 * t732 + (t726 + t810);
-        let t847 = base_rotation[0][0] * t845 - base_rotation[0][1] * t846;
-        let t848 = base_rotation[0][2] * t844 - t847;
-        let t849 = base_rotation[1][0] * t845 - base_rotation[1][1] * t846;
-        let t850 = base_rotation[1][2] * t844 - t849;
-        let t851 = base_rotation[2][0] * t845 - base_rotation[2][1] * t846;
-        let t852 = base_rotation[2][2] * t844 - t851;
-        // leg 4: rate of the platform lever
-        let t853 = platform_velocity[4] * t150 - platform_velocity[5] * t147;
-        let t854 = platform_velocity[5] * t144 - platform_velocity[3] * t150;
-        let t855 = platform_velocity[3] * t147 - platform_velocity[4] * t144;
+        // leg 5: inertial rate of that gradient
+        let t841 = t85 * t726 + t84 * t729;
+        let t842 = t85 * t732 - (t729 - t71 * (t783 + t84 * t801));
+        let t843 = t84 * t732 + (t726 + t71 * (t784 - t85 * t801));
+        let t844 = base_rotation[0][0] * t842 + base_rotation[0][1] * t843;
+        let t845 = base_rotation[0][2] * t841 - t844;
+        let t846 = base_rotation[1][0] * t842 + base_rotation[1][1] * t843;
+        let t847 = base_rotation[1][2] * t841 - t846;
+        let t848 = base_rotation[2][0] * t842 + base_rotation[2][1] * t843;
+        let t849 = base_rotation[2][2] * t841 - t848;
         (
             t19,
             t20,
@@ -13920,11 +13872,8 @@ pub fn equation_of_motion<T: Scalar>(
             t64,
             t69,
             t72,
+            t74,
             t75,
-            t82,
-            t83,
-            t84,
-            t85,
             t86,
             t87,
             t90,
@@ -14086,1045 +14035,1032 @@ pub fn equation_of_motion<T: Scalar>(
             t745,
             t746,
             t747,
+            t785,
+            t786,
             t790,
             t792,
             t796,
             t800,
             t802,
+            t803,
             t804,
+            t809,
             t811,
-            t812,
             t813,
-            t814,
-            t815,
-            t816,
-            t817,
             t818,
-            t819,
-            t824,
-            t826,
-            t828,
+            t820,
+            t822,
+            t827,
             t829,
-            t830,
             t831,
             t836,
             t838,
             t840,
-            t841,
-            t842,
-            t843,
-            t848,
-            t850,
-            t852,
-            t853,
-            t854,
-            t855,
+            t845,
+            t847,
+            t849,
         )
     };
     {
-        // leg 4: inertial rate of that gradient
-        let t856 = t83 * t726 - t82 * t729;
-        let t857 = t83 * t732 + (t729 - t811);
-        let t858 = t82 * t732 + (t726 + t812);
-        let t859 = base_rotation[0][0] * t857 - base_rotation[0][1] * t858;
-        let t860 = base_rotation[0][2] * t856 - t859;
-        let t861 = base_rotation[1][0] * t857 - base_rotation[1][1] * t858;
-        let t862 = base_rotation[1][2] * t856 - t861;
-        let t863 = base_rotation[2][0] * t857 - base_rotation[2][1] * t858;
-        let t864 = base_rotation[2][2] * t856 - t863;
-        // leg 5: rate of the platform lever
-        let t865 = platform_velocity[4] * t165 - platform_velocity[5] * t164;
-        let t866 = platform_velocity[5] * t163 - platform_velocity[3] * t165;
-        let t867 = platform_velocity[3] * t164 - platform_velocity[4] * t163;
-        // leg 5: inertial rate of that gradient
-        let t868 = t85 * t726 + t84 * t729;
-        let t869 = t85 * t732 - (t729 - t813);
-        let t870 = t84 * t732 + (t726 + t814);
-        let t871 = base_rotation[0][0] * t869 + base_rotation[0][1] * t870;
-        let t872 = base_rotation[0][2] * t868 - t871;
-        let t873 = base_rotation[1][0] * t869 + base_rotation[1][1] * t870;
-        let t874 = base_rotation[1][2] * t868 - t873;
-        let t875 = base_rotation[2][0] * t869 + base_rotation[2][1] * t870;
-        let t876 = base_rotation[2][2] * t868 - t875;
-        // leg 6: rate of the platform lever
-        let t877 = platform_velocity[4] * t177 - platform_velocity[5] * t176;
-        let t878 = platform_velocity[5] * t175 - platform_velocity[3] * t177;
-        let t879 = platform_velocity[3] * t176 - platform_velocity[4] * t175;
         // leg 6: inertial rate of that gradient
-        let t880 = t87 * t726 + t86 * t729;
-        let t881 = t87 * t732 - (t729 - t815);
-        let t882 = t86 * t732 + (t726 + t816);
-        let t883 = base_rotation[0][0] * t881 + base_rotation[0][1] * t882;
-        let t884 = base_rotation[0][2] * t880 - t883;
-        let t885 = base_rotation[1][0] * t881 + base_rotation[1][1] * t882;
-        let t886 = base_rotation[1][2] * t880 - t885;
-        let t887 = base_rotation[2][0] * t881 + base_rotation[2][1] * t882;
-        let t888 = base_rotation[2][2] * t880 - t887;
+        let t850 = t87 * t726 + t86 * t729;
+        let t851 = t87 * t732 - (t729 - t74 * (t785 + t86 * t803));
+        let t852 = t86 * t732 + (t726 + t74 * (t786 - t87 * t803));
+        let t853 = base_rotation[0][0] * t851 + base_rotation[0][1] * t852;
+        let t854 = base_rotation[0][2] * t850 - t853;
+        let t855 = base_rotation[1][0] * t851 + base_rotation[1][1] * t852;
+        let t856 = base_rotation[1][2] * t850 - t855;
+        let t857 = base_rotation[2][0] * t851 + base_rotation[2][1] * t852;
+        let t858 = base_rotation[2][2] * t850 - t857;
+        // leg 1: rate of the platform lever
+        let t859 = platform_velocity[4] * t96 - platform_velocity[5] * t93;
+        let t860 = platform_velocity[5] * t90 - platform_velocity[3] * t96;
+        let t861 = platform_velocity[3] * t93 - platform_velocity[4] * t90;
+        // leg 2: rate of the platform lever
+        let t862 = platform_velocity[4] * t108 - platform_velocity[5] * t107;
+        let t863 = platform_velocity[5] * t106 - platform_velocity[3] * t108;
+        let t864 = platform_velocity[3] * t107 - platform_velocity[4] * t106;
+        // leg 3: rate of the platform lever
+        let t865 = platform_velocity[4] * t129 - platform_velocity[5] * t126;
+        let t866 = platform_velocity[5] * t123 - platform_velocity[3] * t129;
+        let t867 = platform_velocity[3] * t126 - platform_velocity[4] * t123;
+        // leg 4: rate of the platform lever
+        let t868 = platform_velocity[4] * t150 - platform_velocity[5] * t147;
+        let t869 = platform_velocity[5] * t144 - platform_velocity[3] * t150;
+        let t870 = platform_velocity[3] * t147 - platform_velocity[4] * t144;
+        // leg 5: rate of the platform lever
+        let t871 = platform_velocity[4] * t165 - platform_velocity[5] * t164;
+        let t872 = platform_velocity[5] * t163 - platform_velocity[3] * t165;
+        let t873 = platform_velocity[3] * t164 - platform_velocity[4] * t163;
+        // leg 6: rate of the platform lever
+        let t874 = platform_velocity[4] * t177 - platform_velocity[5] * t176;
+        let t875 = platform_velocity[5] * t175 - platform_velocity[3] * t177;
+        let t876 = platform_velocity[3] * t176 - platform_velocity[4] * t175;
         // leg 1: Coriolis matrix of the leg in the speeds of its joint
-        let t889 = base_rotation[1][2] * base_velocity[5];
-        let t890 = base_rotation[2][2] * base_velocity[4] - t889;
-        let t891 = c(0.17066666666666666) * t890;
-        let t892 = t223 + t101 * c(0.9523333333333334);
-        let t893 = t824 * t892 + t101 * t891;
-        let t894 = t826 * t892 + t103 * t891;
-        let t895 = t828 * t892 + t105 * t891;
-        let t896 = base_rotation[2][2] * base_velocity[3];
-        let t897 = base_rotation[0][2] * base_velocity[5] - t896;
-        let t898 = c(0.17066666666666666) * t897;
-        let t899 = t226 + t103 * c(0.9523333333333334);
-        let t900 = t824 * t899 + t101 * t898;
-        let t901 = t826 * t899 + t103 * t898;
-        let t902 = t828 * t899 + t105 * t898;
-        let t903 = base_rotation[0][2] * base_velocity[4];
-        let t904 = base_rotation[1][2] * base_velocity[3] - t903;
-        let t905 = c(0.17066666666666666) * t904;
-        let t906 = t229 + t105 * c(0.9523333333333334);
-        let t907 = t824 * t906 + t101 * t905;
-        let t908 = t826 * t906 + t103 * t905;
-        let t909 = t828 * t906 + t105 * t905;
+        let t877 = base_rotation[1][2] * base_velocity[5];
+        let t878 = base_rotation[2][2] * base_velocity[4] - t877;
+        let t879 = c(0.17066666666666666) * t878;
+        let t880 = t223 + t101 * c(0.9523333333333334);
+        let t881 = t809 * t880 + t101 * t879;
+        let t882 = t811 * t880 + t103 * t879;
+        let t883 = t813 * t880 + t105 * t879;
+        let t884 = base_rotation[2][2] * base_velocity[3];
+        let t885 = base_rotation[0][2] * base_velocity[5] - t884;
+        let t886 = c(0.17066666666666666) * t885;
+        let t887 = t226 + t103 * c(0.9523333333333334);
+        let t888 = t809 * t887 + t101 * t886;
+        let t889 = t811 * t887 + t103 * t886;
+        let t890 = t813 * t887 + t105 * t886;
+        let t891 = base_rotation[0][2] * base_velocity[4];
+        let t892 = base_rotation[1][2] * base_velocity[3] - t891;
+        let t893 = c(0.17066666666666666) * t892;
+        let t894 = t229 + t105 * c(0.9523333333333334);
+        let t895 = t809 * t894 + t101 * t893;
+        let t896 = t811 * t894 + t103 * t893;
+        let t897 = t813 * t894 + t105 * t893;
         // leg 1: Coriolis matrix between joint and base angular velocity
-        let t910 = c(0.17066666666666666) * t746 + c(0.03055) * t897;
-        let t911 = c(0.17066666666666666) * t747 + c(0.03055) * t904;
-        let t912 = t56 * t897 - (base_velocity[5] * t257 - base_velocity[3] * t247);
-        let t913 = base_rotation[1][2] * t790 + t912;
-        let t914 = t910 - (c(0.17066666666666666) * t818 - c(0.9523333333333334) * t913);
-        let t915 = t56 * t904 - (base_velocity[3] * t243 - base_velocity[4] * t257);
-        let t916 = base_rotation[2][2] * t790 + t915;
-        let t917 = t911 - (c(0.17066666666666666) * t819 - c(0.9523333333333334) * t916);
-        let t918 = base_rotation[2][2] * t914 - base_rotation[1][2] * t917;
-        let t919 = t101 * t918;
-        let t920 = c(0.17066666666666666) * t745 + c(0.03055) * t890;
-        let t921 = t56 * t890 - (base_velocity[4] * t247 - base_velocity[5] * t243);
-        let t922 = base_rotation[0][2] * t790 + t921;
-        let t923 = t920 - (c(0.17066666666666666) * t817 - c(0.9523333333333334) * t922);
-        let t924 = base_rotation[0][2] * t917 - base_rotation[2][2] * t923;
-        let t925 = c(0.17066666666666666) * t916;
-        let t926 = t101 * t924 + t925;
-        let t927 = base_rotation[1][2] * t923 - base_rotation[0][2] * t914;
-        let t928 = c(0.17066666666666666) * t913;
-        let t929 = t101 * t927 - t928;
-        let t930 = t925 - t103 * t918;
-        let t931 = t103 * t924;
-        let t932 = c(0.17066666666666666) * t922;
-        let t933 = t103 * t927 + t932;
-        let t934 = t928 + t105 * t918;
-        let t935 = t932 - t105 * t924;
-        let t936 = t105 * t927;
+        let t898 = c(0.17066666666666666) * t746 + c(0.03055) * t885;
+        let t899 = c(0.17066666666666666) * t747 + c(0.03055) * t892;
+        let t900 = t56 * t885 - (base_velocity[5] * t257 - base_velocity[3] * t247);
+        let t901 = base_rotation[1][2] * t790 + t900;
+        let t902 = t898 - (c(0.17066666666666666) * t860 - c(0.9523333333333334) * t901);
+        let t903 = t56 * t892 - (base_velocity[3] * t243 - base_velocity[4] * t257);
+        let t904 = base_rotation[2][2] * t790 + t903;
+        let t905 = t899 - (c(0.17066666666666666) * t861 - c(0.9523333333333334) * t904);
+        let t906 = base_rotation[2][2] * t902 - base_rotation[1][2] * t905;
+        let t907 = t101 * t906;
+        let t908 = c(0.17066666666666666) * t745 + c(0.03055) * t878;
+        let t909 = t56 * t878 - (base_velocity[4] * t247 - base_velocity[5] * t243);
+        let t910 = base_rotation[0][2] * t790 + t909;
+        let t911 = t908 - (c(0.17066666666666666) * t859 - c(0.9523333333333334) * t910);
+        let t912 = base_rotation[0][2] * t905 - base_rotation[2][2] * t911;
+        let t913 = c(0.17066666666666666) * t904;
+        let t914 = t101 * t912 + t913;
+        let t915 = base_rotation[1][2] * t911 - base_rotation[0][2] * t902;
+        let t916 = c(0.17066666666666666) * t901;
+        let t917 = t101 * t915 - t916;
+        let t918 = t913 - t103 * t906;
+        let t919 = t103 * t912;
+        let t920 = c(0.17066666666666666) * t910;
+        let t921 = t103 * t915 + t920;
+        let t922 = t916 + t105 * t906;
+        let t923 = t920 - t105 * t912;
+        let t924 = t105 * t915;
         // leg 2: Coriolis matrix of the leg in the speeds of its joint
-        let t937 = t223 - t113 * c(0.9523333333333334);
-        let t938 = t836 * t937 + t113 * t891;
-        let t939 = t838 * t937 + t115 * t891;
-        let t940 = t840 * t937 + t117 * t891;
-        let t941 = t226 - t115 * c(0.9523333333333334);
-        let t942 = t836 * t941 + t113 * t898;
-        let t943 = t838 * t941 + t115 * t898;
-        let t944 = t840 * t941 + t117 * t898;
-        let t945 = t229 - t117 * c(0.9523333333333334);
-        let t946 = t836 * t945 + t113 * t905;
-        let t947 = t838 * t945 + t115 * t905;
-        let t948 = t840 * t945 + t117 * t905;
+        let t925 = t223 - t113 * c(0.9523333333333334);
+        let t926 = t818 * t925 + t113 * t879;
+        let t927 = t820 * t925 + t115 * t879;
+        let t928 = t822 * t925 + t117 * t879;
+        let t929 = t226 - t115 * c(0.9523333333333334);
+        let t930 = t818 * t929 + t113 * t886;
+        let t931 = t820 * t929 + t115 * t886;
+        let t932 = t822 * t929 + t117 * t886;
+        let t933 = t229 - t117 * c(0.9523333333333334);
+        let t934 = t818 * t933 + t113 * t893;
+        let t935 = t820 * t933 + t115 * t893;
+        let t936 = t822 * t933 + t117 * t893;
         // leg 2: Coriolis matrix between joint and base angular velocity
-        let t949 = t59 * t897 - (base_velocity[5] * t300 - base_velocity[3] * t293);
-        let t950 = base_rotation[1][2] * t792 + t949;
-        let t951 = t910 - (c(0.17066666666666666) * t830 - c(0.9523333333333334) * t950);
-        let t952 = t59 * t904 - (base_velocity[3] * t292 - base_velocity[4] * t300);
-        let t953 = base_rotation[2][2] * t792 + t952;
-        let t954 = t911 - (c(0.17066666666666666) * t831 - c(0.9523333333333334) * t953);
-        let t955 = base_rotation[2][2] * t951 - base_rotation[1][2] * t954;
-        let t956 = t113 * t955;
-        let t957 = t59 * t890 - (base_velocity[4] * t293 - base_velocity[5] * t292);
-        let t958 = base_rotation[0][2] * t792 + t957;
-        let t959 = t920 - (c(0.17066666666666666) * t829 - c(0.9523333333333334) * t958);
-        let t960 = base_rotation[0][2] * t954 - base_rotation[2][2] * t959;
-        let t961 = c(0.17066666666666666) * t953;
-        let t962 = t113 * t960 - t961;
-        let t963 = base_rotation[1][2] * t959 - base_rotation[0][2] * t951;
-        let t964 = c(0.17066666666666666) * t950;
-        let t965 = t113 * t963 + t964;
-        let t966 = t961 + t115 * t955;
-        let t967 = t115 * t960;
-        let t968 = c(0.17066666666666666) * t958;
-        let t969 = t115 * t963 - t968;
-        let t970 = t964 - t117 * t955;
-        let t971 = t968 + t117 * t960;
-        let t972 = t117 * t963;
+        let t937 = t59 * t885 - (base_velocity[5] * t300 - base_velocity[3] * t293);
+        let t938 = base_rotation[1][2] * t792 + t937;
+        let t939 = t898 - (c(0.17066666666666666) * t863 - c(0.9523333333333334) * t938);
+        let t940 = t59 * t892 - (base_velocity[3] * t292 - base_velocity[4] * t300);
+        let t941 = base_rotation[2][2] * t792 + t940;
+        let t942 = t899 - (c(0.17066666666666666) * t864 - c(0.9523333333333334) * t941);
+        let t943 = base_rotation[2][2] * t939 - base_rotation[1][2] * t942;
+        let t944 = t113 * t943;
+        let t945 = t59 * t878 - (base_velocity[4] * t293 - base_velocity[5] * t292);
+        let t946 = base_rotation[0][2] * t792 + t945;
+        let t947 = t908 - (c(0.17066666666666666) * t862 - c(0.9523333333333334) * t946);
+        let t948 = base_rotation[0][2] * t942 - base_rotation[2][2] * t947;
+        let t949 = c(0.17066666666666666) * t941;
+        let t950 = t113 * t948 - t949;
+        let t951 = base_rotation[1][2] * t947 - base_rotation[0][2] * t939;
+        let t952 = c(0.17066666666666666) * t938;
+        let t953 = t113 * t951 + t952;
+        let t954 = t949 + t115 * t943;
+        let t955 = t115 * t948;
+        let t956 = c(0.17066666666666666) * t946;
+        let t957 = t115 * t951 - t956;
+        let t958 = t952 - t117 * t943;
+        let t959 = t956 + t117 * t948;
+        let t960 = t117 * t951;
         // leg 3: Coriolis matrix of the leg in the speeds of its joint
-        let t973 = t223 - t134 * c(0.9523333333333334);
-        let t974 = t848 * t973 + t134 * t891;
-        let t975 = t850 * t973 + t136 * t891;
-        let t976 = t852 * t973 + t138 * t891;
-        let t977 = t226 - t136 * c(0.9523333333333334);
-        let t978 = t848 * t977 + t134 * t898;
-        let t979 = t850 * t977 + t136 * t898;
-        let t980 = t852 * t977 + t138 * t898;
-        let t981 = t229 - t138 * c(0.9523333333333334);
-        let t982 = t848 * t981 + t134 * t905;
-        let t983 = t850 * t981 + t136 * t905;
-        let t984 = t852 * t981 + t138 * t905;
+        let t961 = t223 - t134 * c(0.9523333333333334);
+        let t962 = t827 * t961 + t134 * t879;
+        let t963 = t829 * t961 + t136 * t879;
+        let t964 = t831 * t961 + t138 * t879;
+        let t965 = t226 - t136 * c(0.9523333333333334);
+        let t966 = t827 * t965 + t134 * t886;
+        let t967 = t829 * t965 + t136 * t886;
+        let t968 = t831 * t965 + t138 * t886;
+        let t969 = t229 - t138 * c(0.9523333333333334);
+        let t970 = t827 * t969 + t134 * t893;
+        let t971 = t829 * t969 + t136 * t893;
+        let t972 = t831 * t969 + t138 * t893;
         // leg 3: Coriolis matrix between joint and base angular velocity
-        let t985 = t64 * t897 - (base_velocity[5] * t348 - base_velocity[3] * t339);
-        let t986 = base_rotation[1][2] * t796 + t985;
-        let t987 = t910 + (c(0.17066666666666666) * t842 + c(0.9523333333333334) * t986);
-        let t988 = t64 * t904 - (base_velocity[3] * t336 - base_velocity[4] * t348);
-        let t989 = base_rotation[2][2] * t796 + t988;
-        let t990 = t911 + (c(0.17066666666666666) * t843 + c(0.9523333333333334) * t989);
-        let t991 = base_rotation[2][2] * t987 - base_rotation[1][2] * t990;
-        let t992 = t134 * t991;
-        let t993 = t64 * t890 - (base_velocity[4] * t339 - base_velocity[5] * t336);
-        let t994 = base_rotation[0][2] * t796 + t993;
-        let t995 = t920 + (c(0.17066666666666666) * t841 + c(0.9523333333333334) * t994);
-        let t996 = base_rotation[0][2] * t990 - base_rotation[2][2] * t995;
-        let t997 = c(0.17066666666666666) * t989;
-        let t998 = t134 * t996 - t997;
-        let t999 = base_rotation[1][2] * t995 - base_rotation[0][2] * t987;
-        let t1000 = c(0.17066666666666666) * t986;
-        let t1001 = t134 * t999 + t1000;
-        let t1002 = t997 + t136 * t991;
-        let t1003 = t136 * t996;
-        let t1004 = c(0.17066666666666666) * t994;
-        let t1005 = t136 * t999 - t1004;
-        let t1006 = t1000 - t138 * t991;
-        let t1007 = t1004 + t138 * t996;
-        let t1008 = t138 * t999;
+        let t973 = t64 * t885 - (base_velocity[5] * t348 - base_velocity[3] * t339);
+        let t974 = base_rotation[1][2] * t796 + t973;
+        let t975 = t898 + (c(0.17066666666666666) * t866 + c(0.9523333333333334) * t974);
+        let t976 = t64 * t892 - (base_velocity[3] * t336 - base_velocity[4] * t348);
+        let t977 = base_rotation[2][2] * t796 + t976;
+        let t978 = t899 + (c(0.17066666666666666) * t867 + c(0.9523333333333334) * t977);
+        let t979 = base_rotation[2][2] * t975 - base_rotation[1][2] * t978;
+        let t980 = t134 * t979;
+        let t981 = t64 * t878 - (base_velocity[4] * t339 - base_velocity[5] * t336);
+        let t982 = base_rotation[0][2] * t796 + t981;
+        let t983 = t908 + (c(0.17066666666666666) * t865 + c(0.9523333333333334) * t982);
+        let t984 = base_rotation[0][2] * t978 - base_rotation[2][2] * t983;
+        let t985 = c(0.17066666666666666) * t977;
+        let t986 = t134 * t984 - t985;
+        let t987 = base_rotation[1][2] * t983 - base_rotation[0][2] * t975;
+        let t988 = c(0.17066666666666666) * t974;
+        let t989 = t134 * t987 + t988;
+        let t990 = t985 + t136 * t979;
+        let t991 = t136 * t984;
+        let t992 = c(0.17066666666666666) * t982;
+        let t993 = t136 * t987 - t992;
+        let t994 = t988 - t138 * t979;
+        let t995 = t992 + t138 * t984;
+        let t996 = t138 * t987;
         // leg 4: Coriolis matrix of the leg in the speeds of its joint
-        let t1009 = t223 - t155 * c(0.9523333333333334);
-        let t1010 = t860 * t1009 + t155 * t891;
-        let t1011 = t862 * t1009 + t157 * t891;
-        let t1012 = t864 * t1009 + t159 * t891;
-        let t1013 = t226 - t157 * c(0.9523333333333334);
-        let t1014 = t860 * t1013 + t155 * t898;
-        let t1015 = t862 * t1013 + t157 * t898;
-        let t1016 = t864 * t1013 + t159 * t898;
-        let t1017 = t229 - t159 * c(0.9523333333333334);
-        let t1018 = t860 * t1017 + t155 * t905;
-        let t1019 = t862 * t1017 + t157 * t905;
-        let t1020 = t864 * t1017 + t159 * t905;
+        let t997 = t223 - t155 * c(0.9523333333333334);
+        let t998 = t836 * t997 + t155 * t879;
+        let t999 = t838 * t997 + t157 * t879;
+        let t1000 = t840 * t997 + t159 * t879;
+        let t1001 = t226 - t157 * c(0.9523333333333334);
+        let t1002 = t836 * t1001 + t155 * t886;
+        let t1003 = t838 * t1001 + t157 * t886;
+        let t1004 = t840 * t1001 + t159 * t886;
+        let t1005 = t229 - t159 * c(0.9523333333333334);
+        let t1006 = t836 * t1005 + t155 * t893;
+        let t1007 = t838 * t1005 + t157 * t893;
+        let t1008 = t840 * t1005 + t159 * t893;
         // leg 4: Coriolis matrix between joint and base angular velocity
-        let t1021 = t69 * t897 + (base_velocity[5] * t396 - base_velocity[3] * t387);
-        let t1022 = base_rotation[1][2] * t800 + t1021;
-        let t1023 = t910
-            + (c(0.17066666666666666) * t854 + c(0.9523333333333334) * t1022);
-        let t1024 = t69 * t904 + (base_velocity[3] * t384 - base_velocity[4] * t396);
-        let t1025 = base_rotation[2][2] * t800 + t1024;
-        let t1026 = t911
-            + (c(0.17066666666666666) * t855 + c(0.9523333333333334) * t1025);
-        let t1027 = base_rotation[2][2] * t1023 - base_rotation[1][2] * t1026;
-        let t1028 = t155 * t1027;
-        let t1029 = t69 * t890 + (base_velocity[4] * t387 - base_velocity[5] * t384);
-        let t1030 = base_rotation[0][2] * t800 + t1029;
-        let t1031 = t920
-            + (c(0.17066666666666666) * t853 + c(0.9523333333333334) * t1030);
-        let t1032 = base_rotation[0][2] * t1026 - base_rotation[2][2] * t1031;
-        let t1033 = c(0.17066666666666666) * t1025;
-        let t1034 = t155 * t1032 - t1033;
-        let t1035 = base_rotation[1][2] * t1031 - base_rotation[0][2] * t1023;
-        let t1036 = c(0.17066666666666666) * t1022;
-        let t1037 = t155 * t1035 + t1036;
-        let t1038 = t1033 + t157 * t1027;
-        let t1039 = t157 * t1032;
-        let t1040 = c(0.17066666666666666) * t1030;
-        let t1041 = t157 * t1035 - t1040;
-        let t1042 = t1036 - t159 * t1027;
-        let t1043 = t1040 + t159 * t1032;
-        let t1044 = t159 * t1035;
+        let t1009 = t69 * t885 + (base_velocity[5] * t396 - base_velocity[3] * t387);
+        let t1010 = base_rotation[1][2] * t800 + t1009;
+        let t1011 = t898
+            + (c(0.17066666666666666) * t869 + c(0.9523333333333334) * t1010);
+        let t1012 = t69 * t892 + (base_velocity[3] * t384 - base_velocity[4] * t396);
+        let t1013 = base_rotation[2][2] * t800 + t1012;
+        let t1014 = t899
+            + (c(0.17066666666666666) * t870 + c(0.9523333333333334) * t1013);
+        let t1015 = base_rotation[2][2] * t1011 - base_rotation[1][2] * t1014;
+        let t1016 = t155 * t1015;
+        let t1017 = t69 * t878 + (base_velocity[4] * t387 - base_velocity[5] * t384);
+        let t1018 = base_rotation[0][2] * t800 + t1017;
+        let t1019 = t908
+            + (c(0.17066666666666666) * t868 + c(0.9523333333333334) * t1018);
+        let t1020 = base_rotation[0][2] * t1014 - base_rotation[2][2] * t1019;
+        let t1021 = c(0.17066666666666666) * t1013;
+        let t1022 = t155 * t1020 - t1021;
+        let t1023 = base_rotation[1][2] * t1019 - base_rotation[0][2] * t1011;
+        let t1024 = c(0.17066666666666666) * t1010;
+        let t1025 = t155 * t1023 + t1024;
+        let t1026 = t1021 + t157 * t1015;
+        let t1027 = t157 * t1020;
+        let t1028 = c(0.17066666666666666) * t1018;
+        let t1029 = t157 * t1023 - t1028;
+        let t1030 = t1024 - t159 * t1015;
+        let t1031 = t1028 + t159 * t1020;
+        let t1032 = t159 * t1023;
         // leg 5: Coriolis matrix of the leg in the speeds of its joint
-        let t1045 = t223 + t170 * c(0.9523333333333334);
-        let t1046 = t872 * t1045 + t170 * t891;
-        let t1047 = t874 * t1045 + t172 * t891;
-        let t1048 = t876 * t1045 + t174 * t891;
-        let t1049 = t226 + t172 * c(0.9523333333333334);
-        let t1050 = t872 * t1049 + t170 * t898;
-        let t1051 = t874 * t1049 + t172 * t898;
-        let t1052 = t876 * t1049 + t174 * t898;
-        let t1053 = t229 + t174 * c(0.9523333333333334);
-        let t1054 = t872 * t1053 + t170 * t905;
-        let t1055 = t874 * t1053 + t172 * t905;
-        let t1056 = t876 * t1053 + t174 * t905;
+        let t1033 = t223 + t170 * c(0.9523333333333334);
+        let t1034 = t845 * t1033 + t170 * t879;
+        let t1035 = t847 * t1033 + t172 * t879;
+        let t1036 = t849 * t1033 + t174 * t879;
+        let t1037 = t226 + t172 * c(0.9523333333333334);
+        let t1038 = t845 * t1037 + t170 * t886;
+        let t1039 = t847 * t1037 + t172 * t886;
+        let t1040 = t849 * t1037 + t174 * t886;
+        let t1041 = t229 + t174 * c(0.9523333333333334);
+        let t1042 = t845 * t1041 + t170 * t893;
+        let t1043 = t847 * t1041 + t172 * t893;
+        let t1044 = t849 * t1041 + t174 * t893;
         // leg 5: Coriolis matrix between joint and base angular velocity
-        let t1057 = t72 * t897 + (base_velocity[5] * t438 - base_velocity[3] * t431);
-        let t1058 = base_rotation[1][2] * t802 + t1057;
-        let t1059 = t910
-            + (c(0.17066666666666666) * t866 + c(0.9523333333333334) * t1058);
-        let t1060 = t72 * t904 + (base_velocity[3] * t430 - base_velocity[4] * t438);
-        let t1061 = base_rotation[2][2] * t802 + t1060;
-        let t1062 = t911
-            + (c(0.17066666666666666) * t867 + c(0.9523333333333334) * t1061);
-        let t1063 = base_rotation[2][2] * t1059 - base_rotation[1][2] * t1062;
-        let t1064 = t170 * t1063;
-        let t1065 = t72 * t890 + (base_velocity[4] * t431 - base_velocity[5] * t430);
-        let t1066 = base_rotation[0][2] * t802 + t1065;
-        let t1067 = t920
-            + (c(0.17066666666666666) * t865 + c(0.9523333333333334) * t1066);
-        let t1068 = base_rotation[0][2] * t1062 - base_rotation[2][2] * t1067;
-        let t1069 = c(0.17066666666666666) * t1061;
-        let t1070 = t170 * t1068 + t1069;
-        let t1071 = base_rotation[1][2] * t1067 - base_rotation[0][2] * t1059;
-        let t1072 = c(0.17066666666666666) * t1058;
-        let t1073 = t170 * t1071 - t1072;
-        let t1074 = t1069 - t172 * t1063;
-        let t1075 = t172 * t1068;
-        let t1076 = c(0.17066666666666666) * t1066;
-        let t1077 = t172 * t1071 + t1076;
-        let t1078 = t1072 + t174 * t1063;
-        let t1079 = t1076 - t174 * t1068;
-        let t1080 = t174 * t1071;
+        let t1045 = t72 * t885 + (base_velocity[5] * t438 - base_velocity[3] * t431);
+        let t1046 = base_rotation[1][2] * t802 + t1045;
+        let t1047 = t898
+            + (c(0.17066666666666666) * t872 + c(0.9523333333333334) * t1046);
+        let t1048 = t72 * t892 + (base_velocity[3] * t430 - base_velocity[4] * t438);
+        let t1049 = base_rotation[2][2] * t802 + t1048;
+        let t1050 = t899
+            + (c(0.17066666666666666) * t873 + c(0.9523333333333334) * t1049);
+        let t1051 = base_rotation[2][2] * t1047 - base_rotation[1][2] * t1050;
+        let t1052 = t170 * t1051;
+        let t1053 = t72 * t878 + (base_velocity[4] * t431 - base_velocity[5] * t430);
+        let t1054 = base_rotation[0][2] * t802 + t1053;
+        let t1055 = t908
+            + (c(0.17066666666666666) * t871 + c(0.9523333333333334) * t1054);
+        let t1056 = base_rotation[0][2] * t1050 - base_rotation[2][2] * t1055;
+        let t1057 = c(0.17066666666666666) * t1049;
+        let t1058 = t170 * t1056 + t1057;
+        let t1059 = base_rotation[1][2] * t1055 - base_rotation[0][2] * t1047;
+        let t1060 = c(0.17066666666666666) * t1046;
+        let t1061 = t170 * t1059 - t1060;
+        let t1062 = t1057 - t172 * t1051;
+        let t1063 = t172 * t1056;
+        let t1064 = c(0.17066666666666666) * t1054;
+        let t1065 = t172 * t1059 + t1064;
+        let t1066 = t1060 + t174 * t1051;
+        let t1067 = t1064 - t174 * t1056;
+        let t1068 = t174 * t1059;
         // leg 6: Coriolis matrix of the leg in the speeds of its joint
-        let t1081 = t223 + t182 * c(0.9523333333333334);
-        let t1082 = t884 * t1081 + t182 * t891;
-        let t1083 = t886 * t1081 + t184 * t891;
-        let t1084 = t888 * t1081 + t186 * t891;
-        let t1085 = t226 + t184 * c(0.9523333333333334);
-        let t1086 = t884 * t1085 + t182 * t898;
-        let t1087 = t886 * t1085 + t184 * t898;
-        let t1088 = t888 * t1085 + t186 * t898;
-        let t1089 = t229 + t186 * c(0.9523333333333334);
-        let t1090 = t884 * t1089 + t182 * t905;
-        let t1091 = t886 * t1089 + t184 * t905;
-        let t1092 = t888 * t1089 + t186 * t905;
+        let t1069 = t223 + t182 * c(0.9523333333333334);
+        let t1070 = t854 * t1069 + t182 * t879;
+        let t1071 = t856 * t1069 + t184 * t879;
+        let t1072 = t858 * t1069 + t186 * t879;
+        let t1073 = t226 + t184 * c(0.9523333333333334);
+        let t1074 = t854 * t1073 + t182 * t886;
+        let t1075 = t856 * t1073 + t184 * t886;
+        let t1076 = t858 * t1073 + t186 * t886;
+        let t1077 = t229 + t186 * c(0.9523333333333334);
+        let t1078 = t854 * t1077 + t182 * t893;
+        let t1079 = t856 * t1077 + t184 * t893;
+        let t1080 = t858 * t1077 + t186 * t893;
         // leg 6: Coriolis matrix between joint and base angular velocity
-        let t1093 = t75 * t897 - (base_velocity[5] * t480 - base_velocity[3] * t473);
-        let t1094 = base_rotation[1][2] * t804 + t1093;
-        let t1095 = t910
-            + (c(0.17066666666666666) * t878 + c(0.9523333333333334) * t1094);
-        let t1096 = t75 * t904 - (base_velocity[3] * t472 - base_velocity[4] * t480);
-        let t1097 = base_rotation[2][2] * t804 + t1096;
-        let t1098 = t911
-            + (c(0.17066666666666666) * t879 + c(0.9523333333333334) * t1097);
-        let t1099 = base_rotation[2][2] * t1095 - base_rotation[1][2] * t1098;
-        let t1100 = t182 * t1099;
-        let t1101 = t75 * t890 - (base_velocity[4] * t473 - base_velocity[5] * t472);
-        let t1102 = base_rotation[0][2] * t804 + t1101;
-        let t1103 = t920
-            + (c(0.17066666666666666) * t877 + c(0.9523333333333334) * t1102);
-        let t1104 = base_rotation[0][2] * t1098 - base_rotation[2][2] * t1103;
-        let t1105 = c(0.17066666666666666) * t1097;
-        let t1106 = t182 * t1104 + t1105;
-        let t1107 = base_rotation[1][2] * t1103 - base_rotation[0][2] * t1095;
-        let t1108 = c(0.17066666666666666) * t1094;
-        let t1109 = t182 * t1107 - t1108;
-        let t1110 = t1105 - t184 * t1099;
-        let t1111 = t184 * t1104;
-        let t1112 = c(0.17066666666666666) * t1102;
-        let t1113 = t184 * t1107 + t1112;
-        let t1114 = t1108 + t186 * t1099;
-        let t1115 = t1112 - t186 * t1104;
-        let t1116 = t186 * t1107;
+        let t1081 = t75 * t885 - (base_velocity[5] * t480 - base_velocity[3] * t473);
+        let t1082 = base_rotation[1][2] * t804 + t1081;
+        let t1083 = t898
+            + (c(0.17066666666666666) * t875 + c(0.9523333333333334) * t1082);
+        let t1084 = t75 * t892 - (base_velocity[3] * t472 - base_velocity[4] * t480);
+        let t1085 = base_rotation[2][2] * t804 + t1084;
+        let t1086 = t899
+            + (c(0.17066666666666666) * t876 + c(0.9523333333333334) * t1085);
+        let t1087 = base_rotation[2][2] * t1083 - base_rotation[1][2] * t1086;
+        let t1088 = t182 * t1087;
+        let t1089 = t75 * t878 - (base_velocity[4] * t473 - base_velocity[5] * t472);
+        let t1090 = base_rotation[0][2] * t804 + t1089;
+        let t1091 = t908
+            + (c(0.17066666666666666) * t874 + c(0.9523333333333334) * t1090);
+        let t1092 = base_rotation[0][2] * t1086 - base_rotation[2][2] * t1091;
+        let t1093 = c(0.17066666666666666) * t1085;
+        let t1094 = t182 * t1092 + t1093;
+        let t1095 = base_rotation[1][2] * t1091 - base_rotation[0][2] * t1083;
+        let t1096 = c(0.17066666666666666) * t1082;
+        let t1097 = t182 * t1095 - t1096;
+        let t1098 = t1093 - t184 * t1087;
+        let t1099 = t184 * t1092;
+        let t1100 = c(0.17066666666666666) * t1090;
+        let t1101 = t184 * t1095 + t1100;
+        let t1102 = t1096 + t186 * t1087;
+        let t1103 = t1100 - t186 * t1092;
+        let t1104 = t186 * t1095;
         // Coriolis matrix of the legs
-        let t1117 = t1082 + (t1046 - (t1010 + (t974 - (t893 - t938))));
-        coriolis_matrix_p[0][0] = t1117;
-        coriolis_matrix_b[0][0] = t1117;
-        let t1118 = t1083 + (t1047 - (t1011 + (t975 - (t894 - t939))));
-        coriolis_matrix_p[0][1] = t1118;
-        coriolis_matrix_b[0][1] = t1118;
-        let t1119 = t1084 + (t1048 - (t1012 + (t976 - (t895 - t940))));
-        coriolis_matrix_p[0][2] = t1119;
-        coriolis_matrix_b[0][2] = t1119;
-        let t1120 = t465 * t878;
-        let t1121 = t463 * t879;
-        let t1122 = t177 * t1083;
-        let t1123 = t176 * t1084;
-        let t1124 = t1120 - (t1121 + (t1122 - t1123));
-        let t1125 = t423 * t866;
-        let t1126 = t421 * t867;
-        let t1127 = t165 * t1047;
-        let t1128 = t164 * t1048;
-        let t1129 = t1125 - (t1126 + (t1127 - t1128));
-        let t1130 = t375 * t854;
-        let t1131 = t373 * t855;
-        let t1132 = t150 * t1011;
-        let t1133 = t147 * t1012;
-        let t1134 = t1130 - (t1131 + (t1132 - t1133));
-        let t1135 = t327 * t842;
-        let t1136 = t325 * t843;
-        let t1137 = t129 * t975;
-        let t1138 = t126 * t976;
-        let t1139 = t1135 - (t1136 + (t1137 - t1138));
-        let t1140 = t231 * t818;
-        let t1141 = t228 * t819;
-        let t1142 = t96 * t894;
-        let t1143 = t93 * t895;
-        let t1144 = t1140 - (t1141 + (t1142 - t1143));
-        let t1145 = t285 * t830;
-        let t1146 = t283 * t831;
-        let t1147 = t108 * t939;
-        let t1148 = t107 * t940;
-        let t1149 = t1145 - (t1146 + (t1147 - t1148));
-        let t1150 = t1124 + (t1129 - (t1134 + (t1139 + (t1144 - t1149))));
-        let t1151 = t177 * t1082;
-        let t1152 = t461 * t879 - (t465 * t877 + (t175 * t1084 - t1151));
-        let t1153 = t165 * t1046;
-        let t1154 = t419 * t867 - (t423 * t865 + (t163 * t1048 - t1153));
-        let t1155 = t150 * t1010;
-        let t1156 = t371 * t855 - (t375 * t853 + (t144 * t1012 - t1155));
-        let t1157 = t129 * t974;
-        let t1158 = t323 * t843 - (t327 * t841 + (t123 * t976 - t1157));
-        let t1159 = t96 * t893;
-        let t1160 = t225 * t819 - (t231 * t817 + (t90 * t895 - t1159));
-        let t1161 = t108 * t938;
-        let t1162 = t281 * t831 - (t285 * t829 + (t106 * t940 - t1161));
-        let t1163 = t1152 + (t1154 - (t1156 + (t1158 + (t1160 - t1162))));
-        let t1164 = t176 * t1082;
-        let t1165 = t463 * t877 - (t461 * t878 + (t1164 - t175 * t1083));
-        let t1166 = t164 * t1046;
-        let t1167 = t421 * t865 - (t419 * t866 + (t1166 - t163 * t1047));
-        let t1168 = t147 * t1010;
-        let t1169 = t373 * t853 - (t371 * t854 + (t1168 - t144 * t1011));
-        let t1170 = t126 * t974;
-        let t1171 = t325 * t841 - (t323 * t842 + (t1170 - t123 * t975));
-        let t1172 = t93 * t893;
-        let t1173 = t228 * t817 - (t225 * t818 + (t1172 - t90 * t894));
-        let t1174 = t107 * t938;
-        let t1175 = t283 * t829 - (t281 * t830 + (t1174 - t106 * t939));
-        let t1176 = t1165 + (t1167 - (t1169 + (t1171 + (t1173 - t1175))));
-        let t1177 = t1086 + (t1050 - (t1014 + (t978 - (t900 - t942))));
-        coriolis_matrix_p[1][0] = t1177;
-        coriolis_matrix_b[1][0] = t1177;
-        let t1178 = t1087 + (t1051 - (t1015 + (t979 - (t901 - t943))));
-        coriolis_matrix_p[1][1] = t1178;
-        coriolis_matrix_b[1][1] = t1178;
-        let t1179 = t1088 + (t1052 - (t1016 + (t980 - (t902 - t944))));
-        coriolis_matrix_p[1][2] = t1179;
-        coriolis_matrix_b[1][2] = t1179;
-        let t1180 = t177 * t1087;
-        let t1181 = t467 * t878 - (t466 * t879 + (t1180 - t176 * t1088));
-        let t1182 = t165 * t1051;
-        let t1183 = t425 * t866 - (t424 * t867 + (t1182 - t164 * t1052));
-        let t1184 = t150 * t1015;
-        let t1185 = t377 * t854 - (t376 * t855 + (t1184 - t147 * t1016));
-        let t1186 = t129 * t979;
-        let t1187 = t329 * t842 - (t328 * t843 + (t1186 - t126 * t980));
-        let t1188 = t96 * t901;
-        let t1189 = t233 * t818 - (t232 * t819 + (t1188 - t93 * t902));
-        let t1190 = t108 * t943;
-        let t1191 = t287 * t830 - (t286 * t831 + (t1190 - t107 * t944));
-        let t1192 = t1181 + (t1183 - (t1185 + (t1187 + (t1189 - t1191))));
-        let t1193 = t467 * t877;
-        let t1194 = t177 * t1086;
-        let t1195 = t175 * t1088;
-        let t1196 = t1193 - (t1194 + (t1121 - t1195));
-        let t1197 = t425 * t865;
-        let t1198 = t165 * t1050;
-        let t1199 = t163 * t1052;
-        let t1200 = t1197 - (t1198 + (t1126 - t1199));
-        let t1201 = t377 * t853;
-        let t1202 = t150 * t1014;
-        let t1203 = t144 * t1016;
-        let t1204 = t1201 - (t1202 + (t1131 - t1203));
-        let t1205 = t329 * t841;
-        let t1206 = t129 * t978;
-        let t1207 = t123 * t980;
-        let t1208 = t1205 - (t1206 + (t1136 - t1207));
-        let t1209 = t233 * t817;
-        let t1210 = t96 * t900;
-        let t1211 = t90 * t902;
-        let t1212 = t1209 - (t1210 + (t1141 - t1211));
-        let t1213 = t287 * t829;
-        let t1214 = t108 * t942;
-        let t1215 = t106 * t944;
-        let t1216 = t1213 - (t1214 + (t1146 - t1215));
-        let t1217 = t1196 + (t1200 - (t1204 + (t1208 + (t1212 - t1216))));
-        coriolis_matrix_p[1][4] = t1217;
-        let t1218 = t175 * t1087;
-        let t1219 = t466 * t877 - (t463 * t878 + (t176 * t1086 - t1218));
-        let t1220 = t163 * t1051;
-        let t1221 = t424 * t865 - (t421 * t866 + (t164 * t1050 - t1220));
-        let t1222 = t144 * t1015;
-        let t1223 = t376 * t853 - (t373 * t854 + (t147 * t1014 - t1222));
-        let t1224 = t123 * t979;
-        let t1225 = t328 * t841 - (t325 * t842 + (t126 * t978 - t1224));
-        let t1226 = t90 * t901;
-        let t1227 = t232 * t817 - (t228 * t818 + (t93 * t900 - t1226));
-        let t1228 = t106 * t943;
-        let t1229 = t286 * t829 - (t283 * t830 + (t107 * t942 - t1228));
-        let t1230 = t1219 + (t1221 - (t1223 + (t1225 + (t1227 - t1229))));
-        let t1231 = t1090 + (t1054 - (t1018 + (t982 - (t907 - t946))));
-        coriolis_matrix_p[2][0] = t1231;
-        coriolis_matrix_b[2][0] = t1231;
-        let t1232 = t1091 + (t1055 - (t1019 + (t983 - (t908 - t947))));
-        coriolis_matrix_p[2][1] = t1232;
-        coriolis_matrix_b[2][1] = t1232;
-        let t1233 = t1092 + (t1056 - (t1020 + (t984 - (t909 - t948))));
-        coriolis_matrix_p[2][2] = t1233;
-        coriolis_matrix_b[2][2] = t1233;
-        let t1234 = t176 * t1092;
-        let t1235 = t468 * t878 - (t467 * t879 + (t177 * t1091 - t1234));
-        let t1236 = t164 * t1056;
-        let t1237 = t426 * t866 - (t425 * t867 + (t165 * t1055 - t1236));
-        let t1238 = t147 * t1020;
-        let t1239 = t378 * t854 - (t377 * t855 + (t150 * t1019 - t1238));
-        let t1240 = t126 * t984;
-        let t1241 = t330 * t842 - (t329 * t843 + (t129 * t983 - t1240));
-        let t1242 = t93 * t909;
-        let t1243 = t234 * t818 - (t233 * t819 + (t96 * t908 - t1242));
-        let t1244 = t107 * t948;
-        let t1245 = t288 * t830 - (t287 * t831 + (t108 * t947 - t1244));
-        let t1246 = t1235 + (t1237 - (t1239 + (t1241 + (t1243 - t1245))));
-        let t1247 = t175 * t1092;
-        let t1248 = t465 * t879 - (t468 * t877 + (t1247 - t177 * t1090));
-        let t1249 = t163 * t1056;
-        let t1250 = t423 * t867 - (t426 * t865 + (t1249 - t165 * t1054));
-        let t1251 = t144 * t1020;
-        let t1252 = t375 * t855 - (t378 * t853 + (t1251 - t150 * t1018));
-        let t1253 = t123 * t984;
-        let t1254 = t327 * t843 - (t330 * t841 + (t1253 - t129 * t982));
-        let t1255 = t90 * t909;
-        let t1256 = t231 * t819 - (t234 * t817 + (t1255 - t96 * t907));
-        let t1257 = t106 * t948;
-        let t1258 = t285 * t831 - (t288 * t829 + (t1257 - t108 * t946));
-        let t1259 = t1248 + (t1250 - (t1252 + (t1254 + (t1256 - t1258))));
-        let t1260 = t175 * t1091;
-        let t1261 = t176 * t1090;
-        let t1262 = t1260 - (t1261 + (t1120 - t1193));
-        let t1263 = t163 * t1055;
-        let t1264 = t164 * t1054;
-        let t1265 = t1263 - (t1264 + (t1125 - t1197));
-        let t1266 = t144 * t1019;
-        let t1267 = t147 * t1018;
-        let t1268 = t1266 - (t1267 + (t1130 - t1201));
-        let t1269 = t123 * t983;
-        let t1270 = t126 * t982;
-        let t1271 = t1269 - (t1270 + (t1135 - t1205));
-        let t1272 = t90 * t908;
-        let t1273 = t93 * t907;
-        let t1274 = t1272 - (t1273 + (t1140 - t1209));
-        let t1275 = t106 * t947;
-        let t1276 = t107 * t946;
-        let t1277 = t1275 - (t1276 + (t1145 - t1213));
-        let t1278 = t1262 + (t1265 - (t1268 + (t1271 + (t1274 - t1277))));
-        let t1279 = t1276
-            - (t1273 + (t1194 + (t1198 - (t1202 + (t1206 + (t1210 - t1214))))));
-        let t1280 = t1261 + (t1264 - (t1267 + (t1270 - t1279)));
-        let t1281 = t93 * t908 + (t1180 + (t1182 - (t1184 + (t1186 + (t1188 - t1190)))));
-        let t1282 = t147 * t1019 + (t126 * t983 - (t107 * t947 - t1281));
-        let t1283 = t176 * t1091 + (t164 * t1055 - t1282);
-        let t1284 = t96 * t902 + (t1234 + (t1236 - (t1238 + (t1240 + (t1242 - t1244)))));
-        let t1285 = t150 * t1016 + (t129 * t980 - (t108 * t944 - t1284));
-        let t1286 = t177 * t1088 + (t165 * t1052 - t1285);
-        coriolis_matrix_p[3][2] = t1286;
-        coriolis_matrix_b[3][2] = t1286;
-        let t1287 = t107 * t1245 - (t108 * t1191 - (t96 * t1189 - t93 * t1243));
-        let t1288 = t150 * t1185 - (t126 * t1241 - (t129 * t1187 - t1287));
-        let t1289 = t164 * t1237 - (t165 * t1183 + (t147 * t1239 - t1288));
-        let t1290 = t176 * t1235 - (t177 * t1181 - t1289);
-        let t1291 = t107 * t1258 + (t108 * t1216 - (t96 * t1212 + t93 * t1256));
-        let t1292 = t150 * t1204 + (t126 * t1254 + (t129 * t1208 + t1291));
-        let t1293 = t164 * t1250 + (t165 * t1200 - (t147 * t1252 + t1292));
-        let t1294 = t176 * t1248 + (t177 * t1196 + t1293);
-        let t1295 = t107 * t1277 - (t108 * t1229 - (t96 * t1227 - t93 * t1274));
-        let t1296 = t150 * t1223 - (t126 * t1271 - (t129 * t1225 - t1295));
-        let t1297 = t164 * t1265 - (t165 * t1221 + (t147 * t1268 - t1296));
-        let t1298 = t176 * t1262 - (t177 * t1219 - t1297);
-        let t1299 = t90 * t907 + (t1151 + (t1153 - (t1155 + (t1157 + (t1159 - t1161)))));
-        let t1300 = t144 * t1018 + (t123 * t982 - (t106 * t946 - t1299));
-        let t1301 = t175 * t1090 + (t163 * t1054 - t1300);
-        coriolis_matrix_p[4][0] = t1301;
-        coriolis_matrix_b[4][0] = t1301;
-        let t1302 = t1275
-            - (t1272 + (t1122 + (t1127 - (t1132 + (t1137 + (t1142 - t1147))))));
-        let t1303 = t1260 + (t1263 - (t1266 + (t1269 - t1302)));
-        coriolis_matrix_p[4][1] = t1303;
-        coriolis_matrix_b[4][1] = t1303;
-        let t1304 = t96 * t895 + (t1247 + (t1249 - (t1251 + (t1253 + (t1255 - t1257)))));
-        let t1305 = t150 * t1012 + (t129 * t976 - (t108 * t940 - t1304));
-        let t1306 = t177 * t1084 + (t165 * t1048 - t1305);
-        let t1307 = t108 * t1149 - (t106 * t1245 - (t90 * t1243 - t96 * t1144));
-        let t1308 = t144 * t1239 - (t129 * t1139 - (t123 * t1241 - t1307));
-        let t1309 = t165 * t1129 - (t163 * t1237 + (t150 * t1134 - t1308));
-        let t1310 = t177 * t1124 - (t175 * t1235 - t1309);
-        let t1311 = t108 * t1162 - (t106 * t1258 - (t90 * t1256 - t96 * t1160));
-        let t1312 = t144 * t1252 - (t129 * t1158 - (t123 * t1254 - t1311));
-        let t1313 = t165 * t1154 - (t163 * t1250 + (t150 * t1156 - t1312));
-        let t1314 = t177 * t1152 - (t175 * t1248 - t1313);
-        let t1315 = t108 * t1175 - (t106 * t1277 - (t90 * t1274 - t96 * t1173));
-        let t1316 = t144 * t1268 - (t129 * t1171 - (t123 * t1271 - t1315));
-        let t1317 = t165 * t1167 - (t163 * t1265 + (t150 * t1169 - t1316));
-        let t1318 = t177 * t1165 - (t175 * t1262 - t1317);
-        let t1319 = t90 * t900 + (t1164 + (t1166 - (t1168 + (t1170 + (t1172 - t1174)))));
-        let t1320 = t144 * t1014 + (t123 * t978 - (t106 * t942 - t1319));
-        let t1321 = t175 * t1086 + (t163 * t1050 - t1320);
-        let t1322 = t93 * t894 + (t1218 + (t1220 - (t1222 + (t1224 + (t1226 - t1228)))));
-        let t1323 = t147 * t1011 + (t126 * t975 - (t107 * t939 - t1322));
-        let t1324 = t176 * t1083 + (t164 * t1047 - t1323);
-        coriolis_matrix_p[5][1] = t1324;
-        coriolis_matrix_b[5][1] = t1324;
-        let t1325 = t1215
-            - (t1211 + (t1123 + (t1128 - (t1133 + (t1138 + (t1143 - t1148))))));
-        let t1326 = t1195 + (t1199 - (t1203 + (t1207 - t1325)));
-        let t1327 = t106 * t1191 - (t107 * t1149 - (t93 * t1144 - t90 * t1189));
-        let t1328 = t147 * t1134 - (t123 * t1187 - (t126 * t1139 - t1327));
-        let t1329 = t163 * t1183 - (t164 * t1129 + (t144 * t1185 - t1328));
-        let t1330 = t175 * t1181 - (t176 * t1124 - t1329);
-        let t1331 = t106 * t1216 + (t107 * t1162 - (t93 * t1160 + t90 * t1212));
-        let t1332 = t147 * t1156 + (t123 * t1208 + (t126 * t1158 + t1331));
-        let t1333 = t163 * t1200 + (t164 * t1154 - (t144 * t1204 + t1332));
-        let t1334 = t175 * t1196 + (t176 * t1152 + t1333);
-        let t1335 = t106 * t1229 - (t107 * t1175 - (t93 * t1173 - t90 * t1227));
-        let t1336 = t147 * t1169 - (t123 * t1225 - (t126 * t1171 - t1335));
-        let t1337 = t163 * t1221 - (t164 * t1167 + (t144 * t1223 - t1336));
-        let t1338 = t175 * t1219 - (t176 * t1165 - t1337);
-        coriolis_matrix_p[0][3] = -t1150;
-        coriolis_matrix_p[2][5] = -t1278;
-        let t1339 = -t1280;
-        coriolis_matrix_p[3][0] = t1339;
-        coriolis_matrix_b[3][0] = t1339;
-        let t1340 = -t1283;
-        coriolis_matrix_p[3][1] = t1340;
-        coriolis_matrix_b[3][1] = t1340;
-        let t1341 = -t1306;
-        coriolis_matrix_p[4][2] = t1341;
-        coriolis_matrix_b[4][2] = t1341;
-        let t1342 = -t1321;
-        coriolis_matrix_p[5][0] = t1342;
-        coriolis_matrix_b[5][0] = t1342;
-        let t1343 = -t1326;
-        coriolis_matrix_p[5][2] = t1343;
-        coriolis_matrix_b[5][2] = t1343;
+        let t1105 = t1070 + (t1034 - (t998 + (t962 - (t881 - t926))));
+        coriolis_matrix_p[0][0] = t1105;
+        coriolis_matrix_b[0][0] = t1105;
+        let t1106 = t1071 + (t1035 - (t999 + (t963 - (t882 - t927))));
+        coriolis_matrix_p[0][1] = t1106;
+        coriolis_matrix_b[0][1] = t1106;
+        let t1107 = t1072 + (t1036 - (t1000 + (t964 - (t883 - t928))));
+        coriolis_matrix_p[0][2] = t1107;
+        coriolis_matrix_b[0][2] = t1107;
+        let t1108 = t465 * t875;
+        let t1109 = t463 * t876;
+        let t1110 = t177 * t1071;
+        let t1111 = t176 * t1072;
+        let t1112 = t1108 - (t1109 + (t1110 - t1111));
+        let t1113 = t423 * t872;
+        let t1114 = t421 * t873;
+        let t1115 = t165 * t1035;
+        let t1116 = t164 * t1036;
+        let t1117 = t1113 - (t1114 + (t1115 - t1116));
+        let t1118 = t375 * t869;
+        let t1119 = t373 * t870;
+        let t1120 = t150 * t999;
+        let t1121 = t147 * t1000;
+        let t1122 = t1118 - (t1119 + (t1120 - t1121));
+        let t1123 = t327 * t866;
+        let t1124 = t325 * t867;
+        let t1125 = t129 * t963;
+        let t1126 = t126 * t964;
+        let t1127 = t1123 - (t1124 + (t1125 - t1126));
+        let t1128 = t231 * t860;
+        let t1129 = t228 * t861;
+        let t1130 = t96 * t882;
+        let t1131 = t93 * t883;
+        let t1132 = t1128 - (t1129 + (t1130 - t1131));
+        let t1133 = t285 * t863;
+        let t1134 = t283 * t864;
+        let t1135 = t108 * t927;
+        let t1136 = t107 * t928;
+        let t1137 = t1133 - (t1134 + (t1135 - t1136));
+        let t1138 = t1112 + (t1117 - (t1122 + (t1127 + (t1132 - t1137))));
+        let t1139 = t177 * t1070;
+        let t1140 = t461 * t876 - (t465 * t874 + (t175 * t1072 - t1139));
+        let t1141 = t165 * t1034;
+        let t1142 = t419 * t873 - (t423 * t871 + (t163 * t1036 - t1141));
+        let t1143 = t150 * t998;
+        let t1144 = t371 * t870 - (t375 * t868 + (t144 * t1000 - t1143));
+        let t1145 = t129 * t962;
+        let t1146 = t323 * t867 - (t327 * t865 + (t123 * t964 - t1145));
+        let t1147 = t96 * t881;
+        let t1148 = t225 * t861 - (t231 * t859 + (t90 * t883 - t1147));
+        let t1149 = t108 * t926;
+        let t1150 = t281 * t864 - (t285 * t862 + (t106 * t928 - t1149));
+        let t1151 = t1140 + (t1142 - (t1144 + (t1146 + (t1148 - t1150))));
+        let t1152 = t176 * t1070;
+        let t1153 = t463 * t874 - (t461 * t875 + (t1152 - t175 * t1071));
+        let t1154 = t164 * t1034;
+        let t1155 = t421 * t871 - (t419 * t872 + (t1154 - t163 * t1035));
+        let t1156 = t147 * t998;
+        let t1157 = t373 * t868 - (t371 * t869 + (t1156 - t144 * t999));
+        let t1158 = t126 * t962;
+        let t1159 = t325 * t865 - (t323 * t866 + (t1158 - t123 * t963));
+        let t1160 = t93 * t881;
+        let t1161 = t228 * t859 - (t225 * t860 + (t1160 - t90 * t882));
+        let t1162 = t107 * t926;
+        let t1163 = t283 * t862 - (t281 * t863 + (t1162 - t106 * t927));
+        let t1164 = t1153 + (t1155 - (t1157 + (t1159 + (t1161 - t1163))));
+        let t1165 = t1074 + (t1038 - (t1002 + (t966 - (t888 - t930))));
+        coriolis_matrix_p[1][0] = t1165;
+        coriolis_matrix_b[1][0] = t1165;
+        let t1166 = t1075 + (t1039 - (t1003 + (t967 - (t889 - t931))));
+        coriolis_matrix_p[1][1] = t1166;
+        coriolis_matrix_b[1][1] = t1166;
+        let t1167 = t1076 + (t1040 - (t1004 + (t968 - (t890 - t932))));
+        coriolis_matrix_p[1][2] = t1167;
+        coriolis_matrix_b[1][2] = t1167;
+        let t1168 = t177 * t1075;
+        let t1169 = t467 * t875 - (t466 * t876 + (t1168 - t176 * t1076));
+        let t1170 = t165 * t1039;
+        let t1171 = t425 * t872 - (t424 * t873 + (t1170 - t164 * t1040));
+        let t1172 = t150 * t1003;
+        let t1173 = t377 * t869 - (t376 * t870 + (t1172 - t147 * t1004));
+        let t1174 = t129 * t967;
+        let t1175 = t329 * t866 - (t328 * t867 + (t1174 - t126 * t968));
+        let t1176 = t96 * t889;
+        let t1177 = t233 * t860 - (t232 * t861 + (t1176 - t93 * t890));
+        let t1178 = t108 * t931;
+        let t1179 = t287 * t863 - (t286 * t864 + (t1178 - t107 * t932));
+        let t1180 = t1169 + (t1171 - (t1173 + (t1175 + (t1177 - t1179))));
+        let t1181 = t467 * t874;
+        let t1182 = t177 * t1074;
+        let t1183 = t175 * t1076;
+        let t1184 = t1181 - (t1182 + (t1109 - t1183));
+        let t1185 = t425 * t871;
+        let t1186 = t165 * t1038;
+        let t1187 = t163 * t1040;
+        let t1188 = t1185 - (t1186 + (t1114 - t1187));
+        let t1189 = t377 * t868;
+        let t1190 = t150 * t1002;
+        let t1191 = t144 * t1004;
+        let t1192 = t1189 - (t1190 + (t1119 - t1191));
+        let t1193 = t329 * t865;
+        let t1194 = t129 * t966;
+        let t1195 = t123 * t968;
+        let t1196 = t1193 - (t1194 + (t1124 - t1195));
+        let t1197 = t233 * t859;
+        let t1198 = t96 * t888;
+        let t1199 = t90 * t890;
+        let t1200 = t1197 - (t1198 + (t1129 - t1199));
+        let t1201 = t287 * t862;
+        let t1202 = t108 * t930;
+        let t1203 = t106 * t932;
+        let t1204 = t1201 - (t1202 + (t1134 - t1203));
+        let t1205 = t1184 + (t1188 - (t1192 + (t1196 + (t1200 - t1204))));
+        coriolis_matrix_p[1][4] = t1205;
+        let t1206 = t175 * t1075;
+        let t1207 = t466 * t874 - (t463 * t875 + (t176 * t1074 - t1206));
+        let t1208 = t163 * t1039;
+        let t1209 = t424 * t871 - (t421 * t872 + (t164 * t1038 - t1208));
+        let t1210 = t144 * t1003;
+        let t1211 = t376 * t868 - (t373 * t869 + (t147 * t1002 - t1210));
+        let t1212 = t123 * t967;
+        let t1213 = t328 * t865 - (t325 * t866 + (t126 * t966 - t1212));
+        let t1214 = t90 * t889;
+        let t1215 = t232 * t859 - (t228 * t860 + (t93 * t888 - t1214));
+        let t1216 = t106 * t931;
+        let t1217 = t286 * t862 - (t283 * t863 + (t107 * t930 - t1216));
+        let t1218 = t1207 + (t1209 - (t1211 + (t1213 + (t1215 - t1217))));
+        let t1219 = t1078 + (t1042 - (t1006 + (t970 - (t895 - t934))));
+        coriolis_matrix_p[2][0] = t1219;
+        coriolis_matrix_b[2][0] = t1219;
+        let t1220 = t1079 + (t1043 - (t1007 + (t971 - (t896 - t935))));
+        coriolis_matrix_p[2][1] = t1220;
+        coriolis_matrix_b[2][1] = t1220;
+        let t1221 = t1080 + (t1044 - (t1008 + (t972 - (t897 - t936))));
+        coriolis_matrix_p[2][2] = t1221;
+        coriolis_matrix_b[2][2] = t1221;
+        let t1222 = t176 * t1080;
+        let t1223 = t468 * t875 - (t467 * t876 + (t177 * t1079 - t1222));
+        let t1224 = t164 * t1044;
+        let t1225 = t426 * t872 - (t425 * t873 + (t165 * t1043 - t1224));
+        let t1226 = t147 * t1008;
+        let t1227 = t378 * t869 - (t377 * t870 + (t150 * t1007 - t1226));
+        let t1228 = t126 * t972;
+        let t1229 = t330 * t866 - (t329 * t867 + (t129 * t971 - t1228));
+        let t1230 = t93 * t897;
+        let t1231 = t234 * t860 - (t233 * t861 + (t96 * t896 - t1230));
+        let t1232 = t107 * t936;
+        let t1233 = t288 * t863 - (t287 * t864 + (t108 * t935 - t1232));
+        let t1234 = t1223 + (t1225 - (t1227 + (t1229 + (t1231 - t1233))));
+        let t1235 = t175 * t1080;
+        let t1236 = t465 * t876 - (t468 * t874 + (t1235 - t177 * t1078));
+        let t1237 = t163 * t1044;
+        let t1238 = t423 * t873 - (t426 * t871 + (t1237 - t165 * t1042));
+        let t1239 = t144 * t1008;
+        let t1240 = t375 * t870 - (t378 * t868 + (t1239 - t150 * t1006));
+        let t1241 = t123 * t972;
+        let t1242 = t327 * t867 - (t330 * t865 + (t1241 - t129 * t970));
+        let t1243 = t90 * t897;
+        let t1244 = t231 * t861 - (t234 * t859 + (t1243 - t96 * t895));
+        let t1245 = t106 * t936;
+        let t1246 = t285 * t864 - (t288 * t862 + (t1245 - t108 * t934));
+        let t1247 = t1236 + (t1238 - (t1240 + (t1242 + (t1244 - t1246))));
+        let t1248 = t175 * t1079;
+        let t1249 = t176 * t1078;
+        let t1250 = t1248 - (t1249 + (t1108 - t1181));
+        let t1251 = t163 * t1043;
+        let t1252 = t164 * t1042;
+        let t1253 = t1251 - (t1252 + (t1113 - t1185));
+        let t1254 = t144 * t1007;
+        let t1255 = t147 * t1006;
+        let t1256 = t1254 - (t1255 + (t1118 - t1189));
+        let t1257 = t123 * t971;
+        let t1258 = t126 * t970;
+        let t1259 = t1257 - (t1258 + (t1123 - t1193));
+        let t1260 = t90 * t896;
+        let t1261 = t93 * t895;
+        let t1262 = t1260 - (t1261 + (t1128 - t1197));
+        let t1263 = t106 * t935;
+        let t1264 = t107 * t934;
+        let t1265 = t1263 - (t1264 + (t1133 - t1201));
+        let t1266 = t1250 + (t1253 - (t1256 + (t1259 + (t1262 - t1265))));
+        let t1267 = t1264
+            - (t1261 + (t1182 + (t1186 - (t1190 + (t1194 + (t1198 - t1202))))));
+        let t1268 = t1249 + (t1252 - (t1255 + (t1258 - t1267)));
+        let t1269 = t93 * t896 + (t1168 + (t1170 - (t1172 + (t1174 + (t1176 - t1178)))));
+        let t1270 = t147 * t1007 + (t126 * t971 - (t107 * t935 - t1269));
+        let t1271 = t176 * t1079 + (t164 * t1043 - t1270);
+        let t1272 = t96 * t890 + (t1222 + (t1224 - (t1226 + (t1228 + (t1230 - t1232)))));
+        let t1273 = t150 * t1004 + (t129 * t968 - (t108 * t932 - t1272));
+        let t1274 = t177 * t1076 + (t165 * t1040 - t1273);
+        coriolis_matrix_p[3][2] = t1274;
+        coriolis_matrix_b[3][2] = t1274;
+        let t1275 = t107 * t1233 - (t108 * t1179 - (t96 * t1177 - t93 * t1231));
+        let t1276 = t150 * t1173 - (t126 * t1229 - (t129 * t1175 - t1275));
+        let t1277 = t164 * t1225 - (t165 * t1171 + (t147 * t1227 - t1276));
+        let t1278 = t176 * t1223 - (t177 * t1169 - t1277);
+        let t1279 = t107 * t1246 + (t108 * t1204 - (t96 * t1200 + t93 * t1244));
+        let t1280 = t150 * t1192 + (t126 * t1242 + (t129 * t1196 + t1279));
+        let t1281 = t164 * t1238 + (t165 * t1188 - (t147 * t1240 + t1280));
+        let t1282 = t176 * t1236 + (t177 * t1184 + t1281);
+        let t1283 = t107 * t1265 - (t108 * t1217 - (t96 * t1215 - t93 * t1262));
+        let t1284 = t150 * t1211 - (t126 * t1259 - (t129 * t1213 - t1283));
+        let t1285 = t164 * t1253 - (t165 * t1209 + (t147 * t1256 - t1284));
+        let t1286 = t176 * t1250 - (t177 * t1207 - t1285);
+        let t1287 = t90 * t895 + (t1139 + (t1141 - (t1143 + (t1145 + (t1147 - t1149)))));
+        let t1288 = t144 * t1006 + (t123 * t970 - (t106 * t934 - t1287));
+        let t1289 = t175 * t1078 + (t163 * t1042 - t1288);
+        coriolis_matrix_p[4][0] = t1289;
+        coriolis_matrix_b[4][0] = t1289;
+        let t1290 = t1263
+            - (t1260 + (t1110 + (t1115 - (t1120 + (t1125 + (t1130 - t1135))))));
+        let t1291 = t1248 + (t1251 - (t1254 + (t1257 - t1290)));
+        coriolis_matrix_p[4][1] = t1291;
+        coriolis_matrix_b[4][1] = t1291;
+        let t1292 = t96 * t883 + (t1235 + (t1237 - (t1239 + (t1241 + (t1243 - t1245)))));
+        let t1293 = t150 * t1000 + (t129 * t964 - (t108 * t928 - t1292));
+        let t1294 = t177 * t1072 + (t165 * t1036 - t1293);
+        let t1295 = t108 * t1137 - (t106 * t1233 - (t90 * t1231 - t96 * t1132));
+        let t1296 = t144 * t1227 - (t129 * t1127 - (t123 * t1229 - t1295));
+        let t1297 = t165 * t1117 - (t163 * t1225 + (t150 * t1122 - t1296));
+        let t1298 = t177 * t1112 - (t175 * t1223 - t1297);
+        let t1299 = t108 * t1150 - (t106 * t1246 - (t90 * t1244 - t96 * t1148));
+        let t1300 = t144 * t1240 - (t129 * t1146 - (t123 * t1242 - t1299));
+        let t1301 = t165 * t1142 - (t163 * t1238 + (t150 * t1144 - t1300));
+        let t1302 = t177 * t1140 - (t175 * t1236 - t1301);
+        let t1303 = t108 * t1163 - (t106 * t1265 - (t90 * t1262 - t96 * t1161));
+        let t1304 = t144 * t1256 - (t129 * t1159 - (t123 * t1259 - t1303));
+        let t1305 = t165 * t1155 - (t163 * t1253 + (t150 * t1157 - t1304));
+        let t1306 = t177 * t1153 - (t175 * t1250 - t1305);
+        let t1307 = t90 * t888 + (t1152 + (t1154 - (t1156 + (t1158 + (t1160 - t1162)))));
+        let t1308 = t144 * t1002 + (t123 * t966 - (t106 * t930 - t1307));
+        let t1309 = t175 * t1074 + (t163 * t1038 - t1308);
+        let t1310 = t93 * t882 + (t1206 + (t1208 - (t1210 + (t1212 + (t1214 - t1216)))));
+        let t1311 = t147 * t999 + (t126 * t963 - (t107 * t927 - t1310));
+        let t1312 = t176 * t1071 + (t164 * t1035 - t1311);
+        coriolis_matrix_p[5][1] = t1312;
+        coriolis_matrix_b[5][1] = t1312;
+        let t1313 = t1203
+            - (t1199 + (t1111 + (t1116 - (t1121 + (t1126 + (t1131 - t1136))))));
+        let t1314 = t1183 + (t1187 - (t1191 + (t1195 - t1313)));
+        let t1315 = t106 * t1179 - (t107 * t1137 - (t93 * t1132 - t90 * t1177));
+        let t1316 = t147 * t1122 - (t123 * t1175 - (t126 * t1127 - t1315));
+        let t1317 = t163 * t1171 - (t164 * t1117 + (t144 * t1173 - t1316));
+        let t1318 = t175 * t1169 - (t176 * t1112 - t1317);
+        let t1319 = t106 * t1204 + (t107 * t1150 - (t93 * t1148 + t90 * t1200));
+        let t1320 = t147 * t1144 + (t123 * t1196 + (t126 * t1146 + t1319));
+        let t1321 = t163 * t1188 + (t164 * t1142 - (t144 * t1192 + t1320));
+        let t1322 = t175 * t1184 + (t176 * t1140 + t1321);
+        let t1323 = t106 * t1217 - (t107 * t1163 - (t93 * t1161 - t90 * t1215));
+        let t1324 = t147 * t1157 - (t123 * t1213 - (t126 * t1159 - t1323));
+        let t1325 = t163 * t1209 - (t164 * t1155 + (t144 * t1211 - t1324));
+        let t1326 = t175 * t1207 - (t176 * t1153 - t1325);
+        coriolis_matrix_p[0][3] = -t1138;
+        coriolis_matrix_p[2][5] = -t1266;
+        let t1327 = -t1268;
+        coriolis_matrix_p[3][0] = t1327;
+        coriolis_matrix_b[3][0] = t1327;
+        let t1328 = -t1271;
+        coriolis_matrix_p[3][1] = t1328;
+        coriolis_matrix_b[3][1] = t1328;
+        let t1329 = -t1294;
+        coriolis_matrix_p[4][2] = t1329;
+        coriolis_matrix_b[4][2] = t1329;
+        let t1330 = -t1309;
+        coriolis_matrix_p[5][0] = t1330;
+        coriolis_matrix_b[5][0] = t1330;
+        let t1331 = -t1314;
+        coriolis_matrix_p[5][2] = t1331;
+        coriolis_matrix_b[5][2] = t1331;
         // Coriolis matrix C_p, natural factorisation
-        let t1344 = platform_velocity[3] * t615 - platform_velocity[4] * t618;
-        let t1345 = t1163 - t1344;
-        let t1346 = platform_velocity[5] * t618 - platform_velocity[3] * t612;
-        let t1347 = t1176 + t1346;
-        let t1348 = t1192 + t1344;
-        let t1349 = platform_velocity[4] * t612 - platform_velocity[5] * t615;
-        let t1350 = t1230 - t1349;
-        let t1351 = t1246 - t1346;
-        let t1352 = t1259 + t1349;
-        let t1353 = platform_velocity[4] * t627;
-        let t1354 = platform_velocity[5] * t625;
-        let t1355 = t1353 - (t1290 + t1354);
-        let t1356 = c(0.0425) - t632;
-        let t1357 = platform_velocity[4] * t634 - (t1294 - platform_velocity[5] * t1356);
-        let t1358 = c(0.0425) - t639;
-        let t1359 = platform_velocity[4] * t1358 + (t1298 + platform_velocity[5] * t634);
-        coriolis_matrix_p[3][5] = t1359;
-        let t1360 = c(0.0425) - t623;
-        let t1361 = platform_velocity[3] * t627 + (t1310 + platform_velocity[5] * t1360);
-        coriolis_matrix_p[4][3] = t1361;
-        let t1362 = platform_velocity[3] * t634;
-        let t1363 = t1362 + (t1314 - t1354);
-        coriolis_matrix_p[4][4] = t1363;
-        let t1364 = platform_velocity[3] * t1358 - (t1318 - platform_velocity[5] * t627);
-        let t1365 = platform_velocity[3] * t625 - (t1330 - platform_velocity[4] * t1360);
-        let t1366 = platform_velocity[3] * t1356 - (t1334 - platform_velocity[4] * t625);
-        coriolis_matrix_p[5][4] = t1366;
-        let t1367 = t1362 - (t1338 + t1353);
-        coriolis_matrix_p[0][4] = -t1345;
-        coriolis_matrix_p[0][5] = -t1347;
-        coriolis_matrix_p[1][3] = -t1348;
-        coriolis_matrix_p[1][5] = -t1350;
-        coriolis_matrix_p[2][3] = -t1351;
-        coriolis_matrix_p[2][4] = -t1352;
-        coriolis_matrix_p[3][3] = -t1355;
-        coriolis_matrix_p[3][4] = -t1357;
-        coriolis_matrix_p[4][5] = -t1364;
-        coriolis_matrix_p[5][3] = -t1365;
-        coriolis_matrix_p[5][5] = -t1367;
+        let t1332 = platform_velocity[3] * t615 - platform_velocity[4] * t618;
+        let t1333 = t1151 - t1332;
+        let t1334 = platform_velocity[5] * t618 - platform_velocity[3] * t612;
+        let t1335 = t1164 + t1334;
+        let t1336 = t1180 + t1332;
+        let t1337 = platform_velocity[4] * t612 - platform_velocity[5] * t615;
+        let t1338 = t1218 - t1337;
+        let t1339 = t1234 - t1334;
+        let t1340 = t1247 + t1337;
+        let t1341 = platform_velocity[4] * t627;
+        let t1342 = platform_velocity[5] * t625;
+        let t1343 = t1341 - (t1278 + t1342);
+        let t1344 = c(0.0425) - t632;
+        let t1345 = platform_velocity[4] * t634 - (t1282 - platform_velocity[5] * t1344);
+        let t1346 = c(0.0425) - t639;
+        let t1347 = platform_velocity[4] * t1346 + (t1286 + platform_velocity[5] * t634);
+        coriolis_matrix_p[3][5] = t1347;
+        let t1348 = c(0.0425) - t623;
+        let t1349 = platform_velocity[3] * t627 + (t1298 + platform_velocity[5] * t1348);
+        coriolis_matrix_p[4][3] = t1349;
+        let t1350 = platform_velocity[3] * t634;
+        let t1351 = t1350 + (t1302 - t1342);
+        coriolis_matrix_p[4][4] = t1351;
+        let t1352 = platform_velocity[3] * t1346 - (t1306 - platform_velocity[5] * t627);
+        let t1353 = platform_velocity[3] * t625 - (t1318 - platform_velocity[4] * t1348);
+        let t1354 = platform_velocity[3] * t1344 - (t1322 - platform_velocity[4] * t625);
+        coriolis_matrix_p[5][4] = t1354;
+        let t1355 = t1350 - (t1326 + t1341);
+        coriolis_matrix_p[0][4] = -t1333;
+        coriolis_matrix_p[0][5] = -t1335;
+        coriolis_matrix_p[1][3] = -t1336;
+        coriolis_matrix_p[1][5] = -t1338;
+        coriolis_matrix_p[2][3] = -t1339;
+        coriolis_matrix_p[2][4] = -t1340;
+        coriolis_matrix_p[3][3] = -t1343;
+        coriolis_matrix_p[3][4] = -t1345;
+        coriolis_matrix_p[4][5] = -t1352;
+        coriolis_matrix_p[5][3] = -t1353;
+        coriolis_matrix_p[5][5] = -t1355;
         // Coriolis matrix C_b, natural factorisation
-        let t1368 = t504 * t746;
-        let t1369 = t503 * t747;
-        let t1370 = t1150 - (t1100 + (t1064 - (t1028 + (t992 - (t919 - t956)))));
-        let t1371 = t1368 - (t1369 - (t20 * t1119 - (t21 * t1118 - t1370)));
-        let t1372 = t1163 - (t1106 + (t1070 - (t1034 + (t998 - (t926 - t962)))));
-        let t1373 = t504 * t745 - (t21 * t1117 - (t19 * t1119 - t1372));
-        let t1374 = t502 * t747 - t1373;
-        let t1375 = t1176 - (t1109 + (t1073 - (t1037 + (t1001 - (t929 - t965)))));
-        let t1376 = t502 * t746 - (t19 * t1118 - (t20 * t1117 - t1375));
-        let t1377 = t503 * t745 - t1376;
-        let t1378 = t1192 + (t1110 + (t1074 + (t1038 + (t1002 + (t930 + t966)))));
-        let t1379 = t533 * t747 - (t20 * t1179 - (t21 * t1178 - t1378));
-        let t1380 = t534 * t746 - t1379;
-        let t1381 = t534 * t745;
-        let t1382 = t1369
-            - (t1217 + (t1111 + (t1075 - (t1039 + (t1003 - (t931 - t967))))));
-        let t1383 = t1381 - (t21 * t1177 - (t19 * t1179 - t1382));
-        coriolis_matrix_b[1][4] = t1383;
-        let t1384 = t1230 - (t1113 + (t1077 - (t1041 + (t1005 - (t933 - t969)))));
-        let t1385 = t503 * t746 - (t19 * t1178 - (t20 * t1177 - t1384));
-        let t1386 = t533 * t745 - t1385;
-        let t1387 = t1246 - (t1114 + (t1078 + (t1042 + (t1006 + (t934 + t970)))));
-        let t1388 = t534 * t747 - (t20 * t1233 - (t21 * t1232 - t1387));
-        let t1389 = t562 * t746 - t1388;
-        let t1390 = t1259 + (t1115 + (t1079 + (t1043 + (t1007 + (t935 + t971)))));
-        let t1391 = t562 * t745 - (t21 * t1231 - (t19 * t1233 - t1390));
-        let t1392 = t504 * t747 - t1391;
-        let t1393 = t1368
-            - (t1278 - (t1116 + (t1080 - (t1044 + (t1008 - (t936 - t972))))));
-        let t1394 = t19 * t1232 - (t20 * t1231 - (t1381 - t1393));
-        let t1395 = t541 * t747 - (t20 * t1286 - (t1290 - t21 * t1283));
-        let t1396 = t96 * t930 + (t93 * t934 - (t569 * t746 - t1395));
-        let t1397 = t126 * t1006 - (t108 * t966 + (t107 * t970 + t1396));
-        let t1398 = t150 * t1038 + (t147 * t1042 + (t129 * t1002 + t1397));
-        let t1399 = t176 * t1114 + (t165 * t1074 + (t164 * t1078 + t1398));
-        let t1400 = t177 * t1110 + t1399;
-        let t1401 = t569 * t745 + (t21 * t1280 + (t1294 + t19 * t1286));
-        let t1402 = t96 * t931 + (t93 * t935 - (t518 * t747 + t1401));
-        let t1403 = t126 * t1007 + (t108 * t967 - (t107 * t971 + t1402));
-        let t1404 = t150 * t1039 - (t147 * t1043 - (t129 * t1003 - t1403));
-        let t1405 = t176 * t1115 + (t165 * t1075 + (t164 * t1079 - t1404));
-        let t1406 = t177 * t1111 + t1405;
-        coriolis_matrix_b[3][4] = t1406;
-        let t1407 = t518 * t746 - (t19 * t1283 + (t1298 - t20 * t1280));
-        let t1408 = t96 * t933 - (t93 * t936 - (t541 * t745 + t1407));
-        let t1409 = t126 * t1008 + (t108 * t969 - (t107 * t972 + t1408));
-        let t1410 = t150 * t1041 - (t147 * t1044 - (t129 * t1005 - t1409));
-        let t1411 = t176 * t1116 - (t165 * t1077 - (t164 * t1080 + t1410));
-        let t1412 = t177 * t1113 - t1411;
-        coriolis_matrix_b[3][5] = t1412;
-        let t1413 = t554 * t747 - (t20 * t1306 + (t1310 + t21 * t1303));
-        let t1414 = t90 * t934 - (t96 * t919 - (t576 * t746 + t1413));
-        let t1415 = t129 * t992 - (t106 * t970 + (t108 * t956 + t1414));
-        let t1416 = t144 * t1042 + (t150 * t1028 + (t123 * t1006 + t1415));
-        let t1417 = t177 * t1100 - (t163 * t1078 - (t165 * t1064 - t1416));
-        let t1418 = t175 * t1114 - t1417;
-        coriolis_matrix_b[4][3] = t1418;
-        let t1419 = t576 * t745 - (t21 * t1301 - (t1314 - t19 * t1306));
-        let t1420 = t90 * t935 + (t96 * t926 - (t525 * t747 - t1419));
-        let t1421 = t129 * t998 + (t106 * t971 - (t108 * t962 - t1420));
-        let t1422 = t144 * t1043 - (t150 * t1034 - (t123 * t1007 - t1421));
-        let t1423 = t177 * t1106 + (t163 * t1079 + (t165 * t1070 + t1422));
-        let t1424 = t175 * t1115 + t1423;
-        let t1425 = t525 * t746 - (t19 * t1303 - (t1318 + t20 * t1301));
-        let t1426 = t90 * t936 - (t96 * t929 + (t554 * t745 + t1425));
-        let t1427 = t129 * t1001 + (t106 * t972 - (t108 * t965 + t1426));
-        let t1428 = t144 * t1044 - (t150 * t1037 - (t123 * t1008 - t1427));
-        let t1429 = t177 * t1109 - (t163 * t1080 - (t165 * t1073 + t1428));
-        let t1430 = t175 * t1116 - t1429;
-        coriolis_matrix_b[4][5] = t1430;
-        let t1431 = t561 * t747 + (t20 * t1326 + (t1330 + t21 * t1324));
-        let t1432 = t93 * t919 + (t90 * t930 + (t583 * t746 - t1431));
-        let t1433 = t123 * t1002 + (t107 * t956 - (t106 * t966 + t1432));
-        let t1434 = t147 * t1028 - (t144 * t1038 - (t126 * t992 - t1433));
-        let t1435 = t175 * t1110 + (t164 * t1064 + (t163 * t1074 - t1434));
-        let t1436 = t176 * t1100 + t1435;
-        coriolis_matrix_b[5][3] = t1436;
-        let t1437 = t583 * t745 + (t21 * t1321 - (t1334 + t19 * t1326));
-        let t1438 = t93 * t926 - (t90 * t931 - (t532 * t747 - t1437));
-        let t1439 = t123 * t1003 + (t107 * t962 - (t106 * t967 + t1438));
-        let t1440 = t147 * t1034 - (t144 * t1039 - (t126 * t998 - t1439));
-        let t1441 = t175 * t1111 - (t164 * t1070 - (t163 * t1075 + t1440));
-        let t1442 = t176 * t1106 - t1441;
-        coriolis_matrix_b[5][4] = t1442;
-        let t1443 = t532 * t746 - (t19 * t1324 - (t1338 - t20 * t1321));
-        let t1444 = t93 * t929 - (t90 * t933 - (t561 * t745 - t1443));
-        let t1445 = t123 * t1005 + (t107 * t965 - (t106 * t969 + t1444));
-        let t1446 = t147 * t1037 - (t144 * t1041 - (t126 * t1001 - t1445));
-        let t1447 = t175 * t1113 - (t164 * t1073 - (t163 * t1077 + t1446));
-        let t1448 = t176 * t1109 - t1447;
-        coriolis_matrix_b[5][5] = t1448;
-        coriolis_matrix_b[0][3] = -t1371;
-        coriolis_matrix_b[0][4] = -t1374;
-        coriolis_matrix_b[0][5] = -t1377;
-        coriolis_matrix_b[1][3] = -t1380;
-        coriolis_matrix_b[1][5] = -t1386;
-        coriolis_matrix_b[2][3] = -t1389;
-        coriolis_matrix_b[2][4] = -t1392;
-        coriolis_matrix_b[2][5] = -t1394;
-        coriolis_matrix_b[3][3] = -t1400;
-        coriolis_matrix_b[4][4] = -t1424;
+        let t1356 = t504 * t746;
+        let t1357 = t503 * t747;
+        let t1358 = t1138 - (t1088 + (t1052 - (t1016 + (t980 - (t907 - t944)))));
+        let t1359 = t1356 - (t1357 - (t20 * t1107 - (t21 * t1106 - t1358)));
+        let t1360 = t1151 - (t1094 + (t1058 - (t1022 + (t986 - (t914 - t950)))));
+        let t1361 = t504 * t745 - (t21 * t1105 - (t19 * t1107 - t1360));
+        let t1362 = t502 * t747 - t1361;
+        let t1363 = t1164 - (t1097 + (t1061 - (t1025 + (t989 - (t917 - t953)))));
+        let t1364 = t502 * t746 - (t19 * t1106 - (t20 * t1105 - t1363));
+        let t1365 = t503 * t745 - t1364;
+        let t1366 = t1180 + (t1098 + (t1062 + (t1026 + (t990 + (t918 + t954)))));
+        let t1367 = t533 * t747 - (t20 * t1167 - (t21 * t1166 - t1366));
+        let t1368 = t534 * t746 - t1367;
+        let t1369 = t534 * t745;
+        let t1370 = t1357
+            - (t1205 + (t1099 + (t1063 - (t1027 + (t991 - (t919 - t955))))));
+        let t1371 = t1369 - (t21 * t1165 - (t19 * t1167 - t1370));
+        coriolis_matrix_b[1][4] = t1371;
+        let t1372 = t1218 - (t1101 + (t1065 - (t1029 + (t993 - (t921 - t957)))));
+        let t1373 = t503 * t746 - (t19 * t1166 - (t20 * t1165 - t1372));
+        let t1374 = t533 * t745 - t1373;
+        let t1375 = t1234 - (t1102 + (t1066 + (t1030 + (t994 + (t922 + t958)))));
+        let t1376 = t534 * t747 - (t20 * t1221 - (t21 * t1220 - t1375));
+        let t1377 = t562 * t746 - t1376;
+        let t1378 = t1247 + (t1103 + (t1067 + (t1031 + (t995 + (t923 + t959)))));
+        let t1379 = t562 * t745 - (t21 * t1219 - (t19 * t1221 - t1378));
+        let t1380 = t504 * t747 - t1379;
+        let t1381 = t1356
+            - (t1266 - (t1104 + (t1068 - (t1032 + (t996 - (t924 - t960))))));
+        let t1382 = t19 * t1220 - (t20 * t1219 - (t1369 - t1381));
+        let t1383 = t541 * t747 - (t20 * t1274 - (t1278 - t21 * t1271));
+        let t1384 = t96 * t918 + (t93 * t922 - (t569 * t746 - t1383));
+        let t1385 = t126 * t994 - (t108 * t954 + (t107 * t958 + t1384));
+        let t1386 = t150 * t1026 + (t147 * t1030 + (t129 * t990 + t1385));
+        let t1387 = t176 * t1102 + (t165 * t1062 + (t164 * t1066 + t1386));
+        let t1388 = t177 * t1098 + t1387;
+        let t1389 = t569 * t745 + (t21 * t1268 + (t1282 + t19 * t1274));
+        let t1390 = t96 * t919 + (t93 * t923 - (t518 * t747 + t1389));
+        let t1391 = t126 * t995 + (t108 * t955 - (t107 * t959 + t1390));
+        let t1392 = t150 * t1027 - (t147 * t1031 - (t129 * t991 - t1391));
+        let t1393 = t176 * t1103 + (t165 * t1063 + (t164 * t1067 - t1392));
+        let t1394 = t177 * t1099 + t1393;
+        coriolis_matrix_b[3][4] = t1394;
+        let t1395 = t518 * t746 - (t19 * t1271 + (t1286 - t20 * t1268));
+        let t1396 = t96 * t921 - (t93 * t924 - (t541 * t745 + t1395));
+        let t1397 = t126 * t996 + (t108 * t957 - (t107 * t960 + t1396));
+        let t1398 = t150 * t1029 - (t147 * t1032 - (t129 * t993 - t1397));
+        let t1399 = t176 * t1104 - (t165 * t1065 - (t164 * t1068 + t1398));
+        let t1400 = t177 * t1101 - t1399;
+        coriolis_matrix_b[3][5] = t1400;
+        let t1401 = t554 * t747 - (t20 * t1294 + (t1298 + t21 * t1291));
+        let t1402 = t90 * t922 - (t96 * t907 - (t576 * t746 + t1401));
+        let t1403 = t129 * t980 - (t106 * t958 + (t108 * t944 + t1402));
+        let t1404 = t144 * t1030 + (t150 * t1016 + (t123 * t994 + t1403));
+        let t1405 = t177 * t1088 - (t163 * t1066 - (t165 * t1052 - t1404));
+        let t1406 = t175 * t1102 - t1405;
+        coriolis_matrix_b[4][3] = t1406;
+        let t1407 = t576 * t745 - (t21 * t1289 - (t1302 - t19 * t1294));
+        let t1408 = t90 * t923 + (t96 * t914 - (t525 * t747 - t1407));
+        let t1409 = t129 * t986 + (t106 * t959 - (t108 * t950 - t1408));
+        let t1410 = t144 * t1031 - (t150 * t1022 - (t123 * t995 - t1409));
+        let t1411 = t177 * t1094 + (t163 * t1067 + (t165 * t1058 + t1410));
+        let t1412 = t175 * t1103 + t1411;
+        let t1413 = t525 * t746 - (t19 * t1291 - (t1306 + t20 * t1289));
+        let t1414 = t90 * t924 - (t96 * t917 + (t554 * t745 + t1413));
+        let t1415 = t129 * t989 + (t106 * t960 - (t108 * t953 + t1414));
+        let t1416 = t144 * t1032 - (t150 * t1025 - (t123 * t996 - t1415));
+        let t1417 = t177 * t1097 - (t163 * t1068 - (t165 * t1061 + t1416));
+        let t1418 = t175 * t1104 - t1417;
+        coriolis_matrix_b[4][5] = t1418;
+        let t1419 = t561 * t747 + (t20 * t1314 + (t1318 + t21 * t1312));
+        let t1420 = t93 * t907 + (t90 * t918 + (t583 * t746 - t1419));
+        let t1421 = t123 * t990 + (t107 * t944 - (t106 * t954 + t1420));
+        let t1422 = t147 * t1016 - (t144 * t1026 - (t126 * t980 - t1421));
+        let t1423 = t175 * t1098 + (t164 * t1052 + (t163 * t1062 - t1422));
+        let t1424 = t176 * t1088 + t1423;
+        coriolis_matrix_b[5][3] = t1424;
+        let t1425 = t583 * t745 + (t21 * t1309 - (t1322 + t19 * t1314));
+        let t1426 = t93 * t914 - (t90 * t919 - (t532 * t747 - t1425));
+        let t1427 = t123 * t991 + (t107 * t950 - (t106 * t955 + t1426));
+        let t1428 = t147 * t1022 - (t144 * t1027 - (t126 * t986 - t1427));
+        let t1429 = t175 * t1099 - (t164 * t1058 - (t163 * t1063 + t1428));
+        let t1430 = t176 * t1094 - t1429;
+        coriolis_matrix_b[5][4] = t1430;
+        let t1431 = t532 * t746 - (t19 * t1312 - (t1326 - t20 * t1309));
+        let t1432 = t93 * t917 - (t90 * t921 - (t561 * t745 - t1431));
+        let t1433 = t123 * t993 + (t107 * t953 - (t106 * t957 + t1432));
+        let t1434 = t147 * t1025 - (t144 * t1029 - (t126 * t989 - t1433));
+        let t1435 = t175 * t1101 - (t164 * t1061 - (t163 * t1065 + t1434));
+        let t1436 = t176 * t1097 - t1435;
+        coriolis_matrix_b[5][5] = t1436;
+        coriolis_matrix_b[0][3] = -t1359;
+        coriolis_matrix_b[0][4] = -t1362;
+        coriolis_matrix_b[0][5] = -t1365;
+        coriolis_matrix_b[1][3] = -t1368;
+        coriolis_matrix_b[1][5] = -t1374;
+        coriolis_matrix_b[2][3] = -t1377;
+        coriolis_matrix_b[2][4] = -t1380;
+        coriolis_matrix_b[2][5] = -t1382;
+        coriolis_matrix_b[3][3] = -t1388;
+        coriolis_matrix_b[4][4] = -t1412;
         // linearised stiffness K_p = J_dp^T k_e J_dp
-        let t1449 = c(21555.9) * t101;
-        let t1450 = c(21555.9) * t113;
-        let t1451 = c(21555.9) * t134;
-        let t1452 = c(21555.9) * t155;
-        let t1453 = c(21555.9) * t170;
-        let t1454 = c(21555.9) * t182;
-        let t1455 = c(21555.9) * t103;
-        let t1456 = c(21555.9) * t115;
-        let t1457 = c(21555.9) * t136;
-        let t1458 = c(21555.9) * t157;
-        let t1459 = c(21555.9) * t172;
-        let t1460 = c(21555.9) * t184;
-        let t1461 = c(21555.9) * t105;
-        let t1462 = c(21555.9) * t117;
-        let t1463 = c(21555.9) * t138;
-        let t1464 = c(21555.9) * t159;
-        let t1465 = c(21555.9) * t174;
-        let t1466 = c(21555.9) * t186;
-        let t1467 = t155 * t1452 + (t134 * t1451 + (t101 * t1449 + t113 * t1450));
-        let t1468 = t182 * t1454 + (t170 * t1453 + t1467);
-        stiffness_matrix_p[0][0] = t1468;
-        stiffness_matrix_b[0][0] = t1468;
-        let t1469 = t155 * t1458 + (t134 * t1457 + (t101 * t1455 + t113 * t1456));
-        let t1470 = t182 * t1460 + (t170 * t1459 + t1469);
-        stiffness_matrix_p[0][1] = t1470;
-        stiffness_matrix_p[1][0] = t1470;
-        stiffness_matrix_b[0][1] = t1470;
-        let t1471 = t155 * t1464 + (t134 * t1463 + (t101 * t1461 + t113 * t1462));
-        let t1472 = t182 * t1466 + (t170 * t1465 + t1471);
-        stiffness_matrix_p[0][2] = t1472;
-        stiffness_matrix_p[2][0] = t1472;
-        stiffness_matrix_b[0][2] = t1472;
-        let t1473 = c(21555.9) * t187;
-        let t1474 = c(21555.9) * t193;
-        let t1475 = c(21555.9) * t199;
-        let t1476 = c(21555.9) * t205;
-        let t1477 = t101 * t1473 + t113 * t1474 - t134 * t1475 - t155 * t1476;
-        let t1478 = c(21555.9) * t211;
-        let t1479 = c(21555.9) * t217;
-        let t1480 = t1477 - t170 * t1478 - t182 * t1479;
-        stiffness_matrix_p[0][3] = t1480;
-        stiffness_matrix_p[3][0] = t1480;
-        let t1481 = c(21555.9) * t188;
-        let t1482 = c(21555.9) * t194;
-        let t1483 = c(21555.9) * t200;
-        let t1484 = c(21555.9) * t206;
-        let t1485 = t101 * t1481 + t113 * t1482 - t134 * t1483 - t155 * t1484;
-        let t1486 = c(21555.9) * t212;
-        let t1487 = c(21555.9) * t218;
-        let t1488 = t1485 - t170 * t1486 - t182 * t1487;
-        stiffness_matrix_p[0][4] = t1488;
-        stiffness_matrix_p[4][0] = t1488;
-        let t1489 = c(21555.9) * t189;
-        let t1490 = c(21555.9) * t195;
-        let t1491 = c(21555.9) * t201;
-        let t1492 = c(21555.9) * t207;
-        let t1493 = t101 * t1489 + t113 * t1490 - t134 * t1491 - t155 * t1492;
-        let t1494 = c(21555.9) * t213;
-        let t1495 = c(21555.9) * t219;
-        let t1496 = t1493 - t170 * t1494 - t182 * t1495;
-        stiffness_matrix_p[0][5] = t1496;
-        stiffness_matrix_p[5][0] = t1496;
-        let t1497 = t157 * t1458 + (t136 * t1457 + (t103 * t1455 + t115 * t1456));
-        let t1498 = t184 * t1460 + (t172 * t1459 + t1497);
-        stiffness_matrix_p[1][1] = t1498;
-        stiffness_matrix_b[1][1] = t1498;
-        let t1499 = t157 * t1464 + (t136 * t1463 + (t103 * t1461 + t115 * t1462));
-        let t1500 = t184 * t1466 + (t172 * t1465 + t1499);
-        stiffness_matrix_p[1][2] = t1500;
-        stiffness_matrix_p[2][1] = t1500;
-        stiffness_matrix_b[1][2] = t1500;
-        let t1501 = t103 * t1473 + t115 * t1474 - t136 * t1475 - t157 * t1476;
-        let t1502 = t1501 - t172 * t1478 - t184 * t1479;
-        stiffness_matrix_p[1][3] = t1502;
-        stiffness_matrix_p[3][1] = t1502;
-        let t1503 = t103 * t1481 + t115 * t1482 - t136 * t1483 - t157 * t1484;
-        let t1504 = t1503 - t172 * t1486 - t184 * t1487;
-        stiffness_matrix_p[1][4] = t1504;
-        stiffness_matrix_p[4][1] = t1504;
-        let t1505 = t103 * t1489 + t115 * t1490 - t136 * t1491 - t157 * t1492;
-        let t1506 = t1505 - t172 * t1494 - t184 * t1495;
-        stiffness_matrix_p[1][5] = t1506;
-        stiffness_matrix_p[5][1] = t1506;
-        let t1507 = t159 * t1464 + (t138 * t1463 + (t105 * t1461 + t117 * t1462));
-        let t1508 = t186 * t1466 + (t174 * t1465 + t1507);
-        stiffness_matrix_p[2][2] = t1508;
-        stiffness_matrix_b[2][2] = t1508;
-        let t1509 = t105 * t1473 + t117 * t1474 - t138 * t1475 - t159 * t1476;
-        let t1510 = t1509 - t174 * t1478 - t186 * t1479;
-        stiffness_matrix_p[2][3] = t1510;
-        stiffness_matrix_p[3][2] = t1510;
-        let t1511 = t105 * t1481 + t117 * t1482 - t138 * t1483 - t159 * t1484;
-        let t1512 = t1511 - t174 * t1486 - t186 * t1487;
-        stiffness_matrix_p[2][4] = t1512;
-        stiffness_matrix_p[4][2] = t1512;
-        let t1513 = t105 * t1489 + t117 * t1490 - t138 * t1491 - t159 * t1492;
-        let t1514 = t1513 - t174 * t1494 - t186 * t1495;
-        stiffness_matrix_p[2][5] = t1514;
-        stiffness_matrix_p[5][2] = t1514;
-        let t1515 = t205 * t1476 + (t199 * t1475 + (t187 * t1473 + t193 * t1474));
-        stiffness_matrix_p[3][3] = t217 * t1479 + (t211 * t1478 + t1515);
-        let t1516 = t205 * t1484 + (t199 * t1483 + (t187 * t1481 + t193 * t1482));
-        let t1517 = t217 * t1487 + (t211 * t1486 + t1516);
-        stiffness_matrix_p[3][4] = t1517;
-        stiffness_matrix_p[4][3] = t1517;
-        let t1518 = t205 * t1492 + (t199 * t1491 + (t187 * t1489 + t193 * t1490));
-        let t1519 = t217 * t1495 + (t211 * t1494 + t1518);
-        stiffness_matrix_p[3][5] = t1519;
-        stiffness_matrix_p[5][3] = t1519;
-        let t1520 = t206 * t1484 + (t200 * t1483 + (t188 * t1481 + t194 * t1482));
-        stiffness_matrix_p[4][4] = t218 * t1487 + (t212 * t1486 + t1520);
-        let t1521 = t206 * t1492 + (t200 * t1491 + (t188 * t1489 + t194 * t1490));
-        let t1522 = t218 * t1495 + (t212 * t1494 + t1521);
-        stiffness_matrix_p[4][5] = t1522;
-        stiffness_matrix_p[5][4] = t1522;
-        let t1523 = t207 * t1492 + (t201 * t1491 + (t189 * t1489 + t195 * t1490));
-        stiffness_matrix_p[5][5] = t219 * t1495 + (t213 * t1494 + t1523);
+        let t1437 = c(21555.9) * t101;
+        let t1438 = c(21555.9) * t113;
+        let t1439 = c(21555.9) * t134;
+        let t1440 = c(21555.9) * t155;
+        let t1441 = c(21555.9) * t170;
+        let t1442 = c(21555.9) * t182;
+        let t1443 = c(21555.9) * t103;
+        let t1444 = c(21555.9) * t115;
+        let t1445 = c(21555.9) * t136;
+        let t1446 = c(21555.9) * t157;
+        let t1447 = c(21555.9) * t172;
+        let t1448 = c(21555.9) * t184;
+        let t1449 = c(21555.9) * t105;
+        let t1450 = c(21555.9) * t117;
+        let t1451 = c(21555.9) * t138;
+        let t1452 = c(21555.9) * t159;
+        let t1453 = c(21555.9) * t174;
+        let t1454 = c(21555.9) * t186;
+        let t1455 = t155 * t1440 + (t134 * t1439 + (t101 * t1437 + t113 * t1438));
+        let t1456 = t182 * t1442 + (t170 * t1441 + t1455);
+        stiffness_matrix_p[0][0] = t1456;
+        stiffness_matrix_b[0][0] = t1456;
+        let t1457 = t155 * t1446 + (t134 * t1445 + (t101 * t1443 + t113 * t1444));
+        let t1458 = t182 * t1448 + (t170 * t1447 + t1457);
+        stiffness_matrix_p[0][1] = t1458;
+        stiffness_matrix_p[1][0] = t1458;
+        stiffness_matrix_b[0][1] = t1458;
+        let t1459 = t155 * t1452 + (t134 * t1451 + (t101 * t1449 + t113 * t1450));
+        let t1460 = t182 * t1454 + (t170 * t1453 + t1459);
+        stiffness_matrix_p[0][2] = t1460;
+        stiffness_matrix_p[2][0] = t1460;
+        stiffness_matrix_b[0][2] = t1460;
+        let t1461 = c(21555.9) * t187;
+        let t1462 = c(21555.9) * t193;
+        let t1463 = c(21555.9) * t199;
+        let t1464 = c(21555.9) * t205;
+        let t1465 = t101 * t1461 + t113 * t1462 - t134 * t1463 - t155 * t1464;
+        let t1466 = c(21555.9) * t211;
+        let t1467 = c(21555.9) * t217;
+        let t1468 = t1465 - t170 * t1466 - t182 * t1467;
+        stiffness_matrix_p[0][3] = t1468;
+        stiffness_matrix_p[3][0] = t1468;
+        let t1469 = c(21555.9) * t188;
+        let t1470 = c(21555.9) * t194;
+        let t1471 = c(21555.9) * t200;
+        let t1472 = c(21555.9) * t206;
+        let t1473 = t101 * t1469 + t113 * t1470 - t134 * t1471 - t155 * t1472;
+        let t1474 = c(21555.9) * t212;
+        let t1475 = c(21555.9) * t218;
+        let t1476 = t1473 - t170 * t1474 - t182 * t1475;
+        stiffness_matrix_p[0][4] = t1476;
+        stiffness_matrix_p[4][0] = t1476;
+        let t1477 = c(21555.9) * t189;
+        let t1478 = c(21555.9) * t195;
+        let t1479 = c(21555.9) * t201;
+        let t1480 = c(21555.9) * t207;
+        let t1481 = t101 * t1477 + t113 * t1478 - t134 * t1479 - t155 * t1480;
+        let t1482 = c(21555.9) * t213;
+        let t1483 = c(21555.9) * t219;
+        let t1484 = t1481 - t170 * t1482 - t182 * t1483;
+        stiffness_matrix_p[0][5] = t1484;
+        stiffness_matrix_p[5][0] = t1484;
+        let t1485 = t157 * t1446 + (t136 * t1445 + (t103 * t1443 + t115 * t1444));
+        let t1486 = t184 * t1448 + (t172 * t1447 + t1485);
+        stiffness_matrix_p[1][1] = t1486;
+        stiffness_matrix_b[1][1] = t1486;
+        let t1487 = t157 * t1452 + (t136 * t1451 + (t103 * t1449 + t115 * t1450));
+        let t1488 = t184 * t1454 + (t172 * t1453 + t1487);
+        stiffness_matrix_p[1][2] = t1488;
+        stiffness_matrix_p[2][1] = t1488;
+        stiffness_matrix_b[1][2] = t1488;
+        let t1489 = t103 * t1461 + t115 * t1462 - t136 * t1463 - t157 * t1464;
+        let t1490 = t1489 - t172 * t1466 - t184 * t1467;
+        stiffness_matrix_p[1][3] = t1490;
+        stiffness_matrix_p[3][1] = t1490;
+        let t1491 = t103 * t1469 + t115 * t1470 - t136 * t1471 - t157 * t1472;
+        let t1492 = t1491 - t172 * t1474 - t184 * t1475;
+        stiffness_matrix_p[1][4] = t1492;
+        stiffness_matrix_p[4][1] = t1492;
+        let t1493 = t103 * t1477 + t115 * t1478 - t136 * t1479 - t157 * t1480;
+        let t1494 = t1493 - t172 * t1482 - t184 * t1483;
+        stiffness_matrix_p[1][5] = t1494;
+        stiffness_matrix_p[5][1] = t1494;
+        let t1495 = t159 * t1452 + (t138 * t1451 + (t105 * t1449 + t117 * t1450));
+        let t1496 = t186 * t1454 + (t174 * t1453 + t1495);
+        stiffness_matrix_p[2][2] = t1496;
+        stiffness_matrix_b[2][2] = t1496;
+        let t1497 = t105 * t1461 + t117 * t1462 - t138 * t1463 - t159 * t1464;
+        let t1498 = t1497 - t174 * t1466 - t186 * t1467;
+        stiffness_matrix_p[2][3] = t1498;
+        stiffness_matrix_p[3][2] = t1498;
+        let t1499 = t105 * t1469 + t117 * t1470 - t138 * t1471 - t159 * t1472;
+        let t1500 = t1499 - t174 * t1474 - t186 * t1475;
+        stiffness_matrix_p[2][4] = t1500;
+        stiffness_matrix_p[4][2] = t1500;
+        let t1501 = t105 * t1477 + t117 * t1478 - t138 * t1479 - t159 * t1480;
+        let t1502 = t1501 - t174 * t1482 - t186 * t1483;
+        stiffness_matrix_p[2][5] = t1502;
+        stiffness_matrix_p[5][2] = t1502;
+        let t1503 = t205 * t1464 + (t199 * t1463 + (t187 * t1461 + t193 * t1462));
+        stiffness_matrix_p[3][3] = t217 * t1467 + (t211 * t1466 + t1503);
+        let t1504 = t205 * t1472 + (t199 * t1471 + (t187 * t1469 + t193 * t1470));
+        let t1505 = t217 * t1475 + (t211 * t1474 + t1504);
+        stiffness_matrix_p[3][4] = t1505;
+        stiffness_matrix_p[4][3] = t1505;
+        let t1506 = t205 * t1480 + (t199 * t1479 + (t187 * t1477 + t193 * t1478));
+        let t1507 = t217 * t1483 + (t211 * t1482 + t1506);
+        stiffness_matrix_p[3][5] = t1507;
+        stiffness_matrix_p[5][3] = t1507;
+        let t1508 = t206 * t1472 + (t200 * t1471 + (t188 * t1469 + t194 * t1470));
+        stiffness_matrix_p[4][4] = t218 * t1475 + (t212 * t1474 + t1508);
+        let t1509 = t206 * t1480 + (t200 * t1479 + (t188 * t1477 + t194 * t1478));
+        let t1510 = t218 * t1483 + (t212 * t1482 + t1509);
+        stiffness_matrix_p[4][5] = t1510;
+        stiffness_matrix_p[5][4] = t1510;
+        let t1511 = t207 * t1480 + (t201 * t1479 + (t189 * t1477 + t195 * t1478));
+        stiffness_matrix_p[5][5] = t219 * t1483 + (t213 * t1482 + t1511);
         // linearised stiffness K_b = J_dp^T k_e J_db
-        let t1524 = c(21555.9) * t220;
-        let t1525 = c(21555.9) * t214;
-        let t1526 = c(21555.9) * t208;
-        let t1527 = c(21555.9) * t202;
-        let t1528 = c(21555.9) * t190;
-        let t1529 = c(21555.9) * t196;
-        let t1530 = t155 * t1526 + (t134 * t1527 + (t101 * t1528 + t113 * t1529));
-        stiffness_matrix_b[0][3] = -(t182 * t1524 + (t170 * t1525 + t1530));
-        let t1531 = c(21555.9) * t221;
-        let t1532 = c(21555.9) * t215;
-        let t1533 = c(21555.9) * t209;
-        let t1534 = c(21555.9) * t203;
-        let t1535 = c(21555.9) * t191;
-        let t1536 = c(21555.9) * t197;
-        let t1537 = t155 * t1533 + (t134 * t1534 + (t101 * t1535 + t113 * t1536));
-        stiffness_matrix_b[0][4] = -(t182 * t1531 + (t170 * t1532 + t1537));
-        let t1538 = c(21555.9) * t222;
-        let t1539 = c(21555.9) * t216;
-        let t1540 = c(21555.9) * t210;
-        let t1541 = c(21555.9) * t204;
-        let t1542 = c(21555.9) * t192;
-        let t1543 = c(21555.9) * t198;
-        let t1544 = t155 * t1540 + (t134 * t1541 + (t101 * t1542 + t113 * t1543));
-        stiffness_matrix_b[0][5] = -(t182 * t1538 + (t170 * t1539 + t1544));
-        let t1545 = t157 * t1452 + (t136 * t1451 + (t103 * t1449 + t115 * t1450));
-        stiffness_matrix_b[1][0] = t184 * t1454 + (t172 * t1453 + t1545);
-        let t1546 = t157 * t1526 + (t136 * t1527 + (t103 * t1528 + t115 * t1529));
-        stiffness_matrix_b[1][3] = -(t184 * t1524 + (t172 * t1525 + t1546));
-        let t1547 = t157 * t1533 + (t136 * t1534 + (t103 * t1535 + t115 * t1536));
-        stiffness_matrix_b[1][4] = -(t184 * t1531 + (t172 * t1532 + t1547));
-        let t1548 = t157 * t1540 + (t136 * t1541 + (t103 * t1542 + t115 * t1543));
-        stiffness_matrix_b[1][5] = -(t184 * t1538 + (t172 * t1539 + t1548));
-        let t1549 = t159 * t1452 + (t138 * t1451 + (t105 * t1449 + t117 * t1450));
-        stiffness_matrix_b[2][0] = t186 * t1454 + (t174 * t1453 + t1549);
-        let t1550 = t159 * t1458 + (t138 * t1457 + (t105 * t1455 + t117 * t1456));
-        stiffness_matrix_b[2][1] = t186 * t1460 + (t174 * t1459 + t1550);
-        let t1551 = t159 * t1526 + (t138 * t1527 + (t105 * t1528 + t117 * t1529));
-        stiffness_matrix_b[2][3] = -(t186 * t1524 + (t174 * t1525 + t1551));
-        let t1552 = t159 * t1533 + (t138 * t1534 + (t105 * t1535 + t117 * t1536));
-        stiffness_matrix_b[2][4] = -(t186 * t1531 + (t174 * t1532 + t1552));
-        let t1553 = t159 * t1540 + (t138 * t1541 + (t105 * t1542 + t117 * t1543));
-        stiffness_matrix_b[2][5] = -(t186 * t1538 + (t174 * t1539 + t1553));
-        let t1554 = t187 * t1449 + t193 * t1450 - t199 * t1451 - t205 * t1452;
-        stiffness_matrix_b[3][0] = t1554 - t211 * t1453 - t217 * t1454;
-        let t1555 = t187 * t1455 + t193 * t1456 - t199 * t1457 - t205 * t1458;
-        stiffness_matrix_b[3][1] = t1555 - t211 * t1459 - t217 * t1460;
-        let t1556 = t187 * t1461 + t193 * t1462 - t199 * t1463 - t205 * t1464;
-        stiffness_matrix_b[3][2] = t1556 - t211 * t1465 - t217 * t1466;
-        let t1557 = t205 * t1526 + (t199 * t1527 - (t187 * t1528 + t193 * t1529));
-        stiffness_matrix_b[3][3] = t217 * t1524 + (t211 * t1525 + t1557);
-        let t1558 = t205 * t1533 + (t199 * t1534 - (t187 * t1535 + t193 * t1536));
-        stiffness_matrix_b[3][4] = t217 * t1531 + (t211 * t1532 + t1558);
-        let t1559 = t205 * t1540 + (t199 * t1541 - (t187 * t1542 + t193 * t1543));
-        stiffness_matrix_b[3][5] = t217 * t1538 + (t211 * t1539 + t1559);
-        let t1560 = t188 * t1449 + t194 * t1450 - t200 * t1451 - t206 * t1452;
-        stiffness_matrix_b[4][0] = t1560 - t212 * t1453 - t218 * t1454;
-        let t1561 = t188 * t1455 + t194 * t1456 - t200 * t1457 - t206 * t1458;
-        stiffness_matrix_b[4][1] = t1561 - t212 * t1459 - t218 * t1460;
-        let t1562 = t188 * t1461 + t194 * t1462 - t200 * t1463 - t206 * t1464;
-        stiffness_matrix_b[4][2] = t1562 - t212 * t1465 - t218 * t1466;
-        let t1563 = t206 * t1526 + (t200 * t1527 - (t188 * t1528 + t194 * t1529));
-        stiffness_matrix_b[4][3] = t218 * t1524 + (t212 * t1525 + t1563);
-        let t1564 = t206 * t1533 + (t200 * t1534 - (t188 * t1535 + t194 * t1536));
-        stiffness_matrix_b[4][4] = t218 * t1531 + (t212 * t1532 + t1564);
-        let t1565 = t206 * t1540 + (t200 * t1541 - (t188 * t1542 + t194 * t1543));
-        stiffness_matrix_b[4][5] = t218 * t1538 + (t212 * t1539 + t1565);
-        let t1566 = t189 * t1449 + t195 * t1450 - t201 * t1451 - t207 * t1452;
-        stiffness_matrix_b[5][0] = t1566 - t213 * t1453 - t219 * t1454;
-        let t1567 = t189 * t1455 + t195 * t1456 - t201 * t1457 - t207 * t1458;
-        stiffness_matrix_b[5][1] = t1567 - t213 * t1459 - t219 * t1460;
-        let t1568 = t189 * t1461 + t195 * t1462 - t201 * t1463 - t207 * t1464;
-        stiffness_matrix_b[5][2] = t1568 - t213 * t1465 - t219 * t1466;
-        let t1569 = t207 * t1526 + (t201 * t1527 - (t189 * t1528 + t195 * t1529));
-        stiffness_matrix_b[5][3] = t219 * t1524 + (t213 * t1525 + t1569);
-        let t1570 = t207 * t1533 + (t201 * t1534 - (t189 * t1535 + t195 * t1536));
-        stiffness_matrix_b[5][4] = t219 * t1531 + (t213 * t1532 + t1570);
-        let t1571 = t207 * t1540 + (t201 * t1541 - (t189 * t1542 + t195 * t1543));
-        stiffness_matrix_b[5][5] = t219 * t1538 + (t213 * t1539 + t1571);
+        let t1512 = c(21555.9) * t220;
+        let t1513 = c(21555.9) * t214;
+        let t1514 = c(21555.9) * t208;
+        let t1515 = c(21555.9) * t202;
+        let t1516 = c(21555.9) * t190;
+        let t1517 = c(21555.9) * t196;
+        let t1518 = t155 * t1514 + (t134 * t1515 + (t101 * t1516 + t113 * t1517));
+        stiffness_matrix_b[0][3] = -(t182 * t1512 + (t170 * t1513 + t1518));
+        let t1519 = c(21555.9) * t221;
+        let t1520 = c(21555.9) * t215;
+        let t1521 = c(21555.9) * t209;
+        let t1522 = c(21555.9) * t203;
+        let t1523 = c(21555.9) * t191;
+        let t1524 = c(21555.9) * t197;
+        let t1525 = t155 * t1521 + (t134 * t1522 + (t101 * t1523 + t113 * t1524));
+        stiffness_matrix_b[0][4] = -(t182 * t1519 + (t170 * t1520 + t1525));
+        let t1526 = c(21555.9) * t222;
+        let t1527 = c(21555.9) * t216;
+        let t1528 = c(21555.9) * t210;
+        let t1529 = c(21555.9) * t204;
+        let t1530 = c(21555.9) * t192;
+        let t1531 = c(21555.9) * t198;
+        let t1532 = t155 * t1528 + (t134 * t1529 + (t101 * t1530 + t113 * t1531));
+        stiffness_matrix_b[0][5] = -(t182 * t1526 + (t170 * t1527 + t1532));
+        let t1533 = t157 * t1440 + (t136 * t1439 + (t103 * t1437 + t115 * t1438));
+        stiffness_matrix_b[1][0] = t184 * t1442 + (t172 * t1441 + t1533);
+        let t1534 = t157 * t1514 + (t136 * t1515 + (t103 * t1516 + t115 * t1517));
+        stiffness_matrix_b[1][3] = -(t184 * t1512 + (t172 * t1513 + t1534));
+        let t1535 = t157 * t1521 + (t136 * t1522 + (t103 * t1523 + t115 * t1524));
+        stiffness_matrix_b[1][4] = -(t184 * t1519 + (t172 * t1520 + t1535));
+        let t1536 = t157 * t1528 + (t136 * t1529 + (t103 * t1530 + t115 * t1531));
+        stiffness_matrix_b[1][5] = -(t184 * t1526 + (t172 * t1527 + t1536));
+        let t1537 = t159 * t1440 + (t138 * t1439 + (t105 * t1437 + t117 * t1438));
+        stiffness_matrix_b[2][0] = t186 * t1442 + (t174 * t1441 + t1537);
+        let t1538 = t159 * t1446 + (t138 * t1445 + (t105 * t1443 + t117 * t1444));
+        stiffness_matrix_b[2][1] = t186 * t1448 + (t174 * t1447 + t1538);
+        let t1539 = t159 * t1514 + (t138 * t1515 + (t105 * t1516 + t117 * t1517));
+        stiffness_matrix_b[2][3] = -(t186 * t1512 + (t174 * t1513 + t1539));
+        let t1540 = t159 * t1521 + (t138 * t1522 + (t105 * t1523 + t117 * t1524));
+        stiffness_matrix_b[2][4] = -(t186 * t1519 + (t174 * t1520 + t1540));
+        let t1541 = t159 * t1528 + (t138 * t1529 + (t105 * t1530 + t117 * t1531));
+        stiffness_matrix_b[2][5] = -(t186 * t1526 + (t174 * t1527 + t1541));
+        let t1542 = t187 * t1437 + t193 * t1438 - t199 * t1439 - t205 * t1440;
+        stiffness_matrix_b[3][0] = t1542 - t211 * t1441 - t217 * t1442;
+        let t1543 = t187 * t1443 + t193 * t1444 - t199 * t1445 - t205 * t1446;
+        stiffness_matrix_b[3][1] = t1543 - t211 * t1447 - t217 * t1448;
+        let t1544 = t187 * t1449 + t193 * t1450 - t199 * t1451 - t205 * t1452;
+        stiffness_matrix_b[3][2] = t1544 - t211 * t1453 - t217 * t1454;
+        let t1545 = t205 * t1514 + (t199 * t1515 - (t187 * t1516 + t193 * t1517));
+        stiffness_matrix_b[3][3] = t217 * t1512 + (t211 * t1513 + t1545);
+        let t1546 = t205 * t1521 + (t199 * t1522 - (t187 * t1523 + t193 * t1524));
+        stiffness_matrix_b[3][4] = t217 * t1519 + (t211 * t1520 + t1546);
+        let t1547 = t205 * t1528 + (t199 * t1529 - (t187 * t1530 + t193 * t1531));
+        stiffness_matrix_b[3][5] = t217 * t1526 + (t211 * t1527 + t1547);
+        let t1548 = t188 * t1437 + t194 * t1438 - t200 * t1439 - t206 * t1440;
+        stiffness_matrix_b[4][0] = t1548 - t212 * t1441 - t218 * t1442;
+        let t1549 = t188 * t1443 + t194 * t1444 - t200 * t1445 - t206 * t1446;
+        stiffness_matrix_b[4][1] = t1549 - t212 * t1447 - t218 * t1448;
+        let t1550 = t188 * t1449 + t194 * t1450 - t200 * t1451 - t206 * t1452;
+        stiffness_matrix_b[4][2] = t1550 - t212 * t1453 - t218 * t1454;
+        let t1551 = t206 * t1514 + (t200 * t1515 - (t188 * t1516 + t194 * t1517));
+        stiffness_matrix_b[4][3] = t218 * t1512 + (t212 * t1513 + t1551);
+        let t1552 = t206 * t1521 + (t200 * t1522 - (t188 * t1523 + t194 * t1524));
+        stiffness_matrix_b[4][4] = t218 * t1519 + (t212 * t1520 + t1552);
+        let t1553 = t206 * t1528 + (t200 * t1529 - (t188 * t1530 + t194 * t1531));
+        stiffness_matrix_b[4][5] = t218 * t1526 + (t212 * t1527 + t1553);
+        let t1554 = t189 * t1437 + t195 * t1438 - t201 * t1439 - t207 * t1440;
+        stiffness_matrix_b[5][0] = t1554 - t213 * t1441 - t219 * t1442;
+        let t1555 = t189 * t1443 + t195 * t1444 - t201 * t1445 - t207 * t1446;
+        stiffness_matrix_b[5][1] = t1555 - t213 * t1447 - t219 * t1448;
+        let t1556 = t189 * t1449 + t195 * t1450 - t201 * t1451 - t207 * t1452;
+        stiffness_matrix_b[5][2] = t1556 - t213 * t1453 - t219 * t1454;
+        let t1557 = t207 * t1514 + (t201 * t1515 - (t189 * t1516 + t195 * t1517));
+        stiffness_matrix_b[5][3] = t219 * t1512 + (t213 * t1513 + t1557);
+        let t1558 = t207 * t1521 + (t201 * t1522 - (t189 * t1523 + t195 * t1524));
+        stiffness_matrix_b[5][4] = t219 * t1519 + (t213 * t1520 + t1558);
+        let t1559 = t207 * t1528 + (t201 * t1529 - (t189 * t1530 + t195 * t1531));
+        stiffness_matrix_b[5][5] = t219 * t1526 + (t213 * t1527 + t1559);
         // leg 1: weight of the leg along the actuator
-        let t1572 = base_rotation[2][2] * c(11.016630000000001);
+        let t1560 = base_rotation[2][2] * c(11.016630000000001);
         // generalised spring force J_dp^T k_e (d - d0), left side
-        let t1573 = c(4268.068200000001) + c(21555.9) * t75;
-        let t1574 = c(4268.068200000001) + c(21555.9) * t72;
-        let t1575 = c(4268.068200000001) + c(21555.9) * t69;
-        let t1576 = c(4268.068200000001) + c(21555.9) * t64;
-        let t1577 = c(4268.068200000001) + c(21555.9) * t56;
-        let t1578 = c(4268.068200000001) + c(21555.9) * t59;
-        let t1579 = t155 * t1575 + (t134 * t1576 - (t101 * t1577 - t113 * t1578));
-        let t1580 = t182 * t1573 + (t170 * t1574 - t1579);
-        let t1581 = t157 * t1575 + (t136 * t1576 - (t103 * t1577 - t115 * t1578));
-        let t1582 = t184 * t1573 + (t172 * t1574 - t1581);
-        let t1583 = t159 * t1575 + (t138 * t1576 - (t105 * t1577 - t117 * t1578));
-        let t1584 = t186 * t1573 + (t174 * t1574 - t1583);
-        let t1585 = t205 * t1575 + (t199 * t1576 + (t187 * t1577 - t193 * t1578));
-        let t1586 = t217 * t1573 + (t211 * t1574 - t1585);
-        spring_force[3] = t1586;
-        let t1587 = t206 * t1575 + (t200 * t1576 + (t188 * t1577 - t194 * t1578));
-        let t1588 = t218 * t1573 + (t212 * t1574 - t1587);
-        spring_force[4] = t1588;
-        let t1589 = t207 * t1575 + (t201 * t1576 + (t189 * t1577 - t195 * t1578));
-        let t1590 = t219 * t1573 + (t213 * t1574 - t1589);
-        spring_force[5] = t1590;
-        spring_force[0] = -t1580;
-        spring_force[1] = -t1582;
-        spring_force[2] = -t1584;
+        let t1561 = c(4268.068200000001) + c(21555.9) * t75;
+        let t1562 = c(4268.068200000001) + c(21555.9) * t72;
+        let t1563 = c(4268.068200000001) + c(21555.9) * t69;
+        let t1564 = c(4268.068200000001) + c(21555.9) * t64;
+        let t1565 = c(4268.068200000001) + c(21555.9) * t56;
+        let t1566 = c(4268.068200000001) + c(21555.9) * t59;
+        let t1567 = t155 * t1563 + (t134 * t1564 - (t101 * t1565 - t113 * t1566));
+        let t1568 = t182 * t1561 + (t170 * t1562 - t1567);
+        let t1569 = t157 * t1563 + (t136 * t1564 - (t103 * t1565 - t115 * t1566));
+        let t1570 = t184 * t1561 + (t172 * t1562 - t1569);
+        let t1571 = t159 * t1563 + (t138 * t1564 - (t105 * t1565 - t117 * t1566));
+        let t1572 = t186 * t1561 + (t174 * t1562 - t1571);
+        let t1573 = t205 * t1563 + (t199 * t1564 + (t187 * t1565 - t193 * t1566));
+        let t1574 = t217 * t1561 + (t211 * t1562 - t1573);
+        spring_force[3] = t1574;
+        let t1575 = t206 * t1563 + (t200 * t1564 + (t188 * t1565 - t194 * t1566));
+        let t1576 = t218 * t1561 + (t212 * t1562 - t1575);
+        spring_force[4] = t1576;
+        let t1577 = t207 * t1563 + (t201 * t1564 + (t189 * t1565 - t195 * t1566));
+        let t1578 = t219 * t1561 + (t213 * t1562 - t1577);
+        spring_force[5] = t1578;
+        spring_force[0] = -t1568;
+        spring_force[1] = -t1570;
+        spring_force[2] = -t1572;
         // generalised gravity, left side of the equation of motion
-        let t1591 = t155 * t1572 + (t134 * t1572 - (t101 * t1572 - t113 * t1572));
-        let t1592 = t182 * t1572 + (t170 * t1572 - t1591);
-        gravity_force[0] = t1592;
-        let t1593 = t157 * t1572 + (t136 * t1572 - (t103 * t1572 - t115 * t1572));
-        let t1594 = t184 * t1572 + (t172 * t1572 - t1593);
-        gravity_force[1] = t1594;
-        let t1595 = t138 * t1572 + (t117 * t1572 - (t105 * t1572 + c(89.89884)));
-        let t1596 = t186 * t1572 + (t174 * t1572 - (t159 * t1572 + t1595));
-        gravity_force[2] = t1596;
-        let t1597 = t187 * t1572 + platform_rotation[1][2] * c(1.85263812);
-        let t1598 = t205 * t1572 + (t199 * t1572 - (t193 * t1572 - t1597));
-        let t1599 = t217 * t1572 + (t211 * t1572 - t1598);
-        let t1600 = t164 + t176 - (t93 + t107 - (t126 + t147));
-        let t1601 = t1599 + c(5.0227200000000005) * t1600;
-        let t1602 = t188 * t1572 - platform_rotation[0][2] * c(1.85263812);
-        let t1603 = t206 * t1572 + (t200 * t1572 - (t194 * t1572 - t1602));
-        let t1604 = t218 * t1572 + (t212 * t1572 - t1603);
-        let t1605 = t163 + t175 - (t90 + t106 - (t123 + t144));
-        let t1606 = t1604 - c(5.0227200000000005) * t1605;
-        let t1607 = t207 * t1572 + (t201 * t1572 + (t189 * t1572 - t195 * t1572));
-        let t1608 = t219 * t1572 + (t213 * t1572 - t1607);
-        gravity_force[3] = -t1601;
-        gravity_force[4] = -t1606;
-        gravity_force[5] = -t1608;
+        let t1579 = t155 * t1560 + (t134 * t1560 - (t101 * t1560 - t113 * t1560));
+        let t1580 = t182 * t1560 + (t170 * t1560 - t1579);
+        gravity_force[0] = t1580;
+        let t1581 = t157 * t1560 + (t136 * t1560 - (t103 * t1560 - t115 * t1560));
+        let t1582 = t184 * t1560 + (t172 * t1560 - t1581);
+        gravity_force[1] = t1582;
+        let t1583 = t138 * t1560 + (t117 * t1560 - (t105 * t1560 + c(89.89884)));
+        let t1584 = t186 * t1560 + (t174 * t1560 - (t159 * t1560 + t1583));
+        gravity_force[2] = t1584;
+        let t1585 = t187 * t1560 + platform_rotation[1][2] * c(1.85263812);
+        let t1586 = t205 * t1560 + (t199 * t1560 - (t193 * t1560 - t1585));
+        let t1587 = t217 * t1560 + (t211 * t1560 - t1586);
+        let t1588 = t164 + t176 - (t93 + t107 - (t126 + t147));
+        let t1589 = t1587 + c(5.0227200000000005) * t1588;
+        let t1590 = t188 * t1560 - platform_rotation[0][2] * c(1.85263812);
+        let t1591 = t206 * t1560 + (t200 * t1560 - (t194 * t1560 - t1590));
+        let t1592 = t218 * t1560 + (t212 * t1560 - t1591);
+        let t1593 = t163 + t175 - (t90 + t106 - (t123 + t144));
+        let t1594 = t1592 - c(5.0227200000000005) * t1593;
+        let t1595 = t207 * t1560 + (t201 * t1560 + (t189 * t1560 - t195 * t1560));
+        let t1596 = t219 * t1560 + (t213 * t1560 - t1595);
+        gravity_force[3] = -t1589;
+        gravity_force[4] = -t1594;
+        gravity_force[5] = -t1596;
         // C_p v_p - C_b v_b + gravity, spring and damping force
-        let t1609 = platform_velocity[0] * t1117 - (t1580 - t1592);
-        let t1610 = platform_velocity[2] * t1119
-            + (platform_velocity[1] * t1118 + t1609);
-        let t1611 = platform_velocity[4] * t1345
-            + (platform_velocity[3] * t1150 - t1610);
-        let t1612 = base_velocity[0] * t1117 + (platform_velocity[5] * t1347 + t1611);
-        let t1613 = base_velocity[2] * t1119 + (base_velocity[1] * t1118 + t1612);
-        let t1614 = base_velocity[4] * t1374 + (base_velocity[3] * t1371 - t1613);
-        bias[0] = base_velocity[5] * t1377 + t1614;
-        let t1615 = platform_velocity[0] * t1177 - (t1582 - t1594);
-        let t1616 = platform_velocity[2] * t1179
-            + (platform_velocity[1] * t1178 + t1615);
-        let t1617 = platform_velocity[4] * t1217
-            - (platform_velocity[3] * t1348 - t1616);
-        let t1618 = base_velocity[0] * t1177 + (platform_velocity[5] * t1350 - t1617);
-        let t1619 = base_velocity[2] * t1179 + (base_velocity[1] * t1178 + t1618);
-        let t1620 = base_velocity[4] * t1383 - (base_velocity[3] * t1380 - t1619);
-        bias[1] = base_velocity[5] * t1386 - t1620;
-        let t1621 = platform_velocity[0] * t1231 - (t1584 - t1596);
-        let t1622 = platform_velocity[2] * t1233
-            + (platform_velocity[1] * t1232 + t1621);
-        let t1623 = platform_velocity[4] * t1352
-            + (platform_velocity[3] * t1351 - t1622);
-        let t1624 = base_velocity[0] * t1231 + (platform_velocity[5] * t1278 + t1623);
-        let t1625 = base_velocity[2] * t1233 + (base_velocity[1] * t1232 + t1624);
-        let t1626 = base_velocity[4] * t1392 + (base_velocity[3] * t1389 - t1625);
-        bias[2] = base_velocity[5] * t1394 + t1626;
-        let t1627 = platform_velocity[0] * t1280 - (t1586 - t1601);
-        let t1628 = platform_velocity[2] * t1286
-            - (platform_velocity[1] * t1283 + t1627);
-        let t1629 = platform_velocity[4] * t1357
-            + (platform_velocity[3] * t1355 - t1628);
-        let t1630 = base_velocity[0] * t1280 + (platform_velocity[5] * t1359 - t1629);
-        let t1631 = base_velocity[2] * t1286 - (base_velocity[1] * t1283 + t1630);
-        let t1632 = base_velocity[3] * t1400 - t1631 - base_velocity[4] * t1406;
-        bias[3] = t1632 - base_velocity[5] * t1412;
-        let t1633 = platform_velocity[0] * t1301 + (t1588 - t1606);
-        let t1634 = platform_velocity[2] * t1306
-            - (platform_velocity[1] * t1303 + t1633);
-        let t1635 = platform_velocity[4] * t1363
-            + (platform_velocity[3] * t1361 - t1634);
-        let t1636 = base_velocity[0] * t1301 + (platform_velocity[5] * t1364 - t1635);
-        let t1637 = base_velocity[2] * t1306 - (base_velocity[1] * t1303 + t1636);
-        let t1638 = base_velocity[4] * t1424 - (base_velocity[3] * t1418 - t1637);
-        bias[4] = t1638 - base_velocity[5] * t1430;
-        let t1639 = platform_velocity[0] * t1321 - (t1590 - t1608);
-        let t1640 = platform_velocity[2] * t1326
-            - (platform_velocity[1] * t1324 - t1639);
-        let t1641 = platform_velocity[4] * t1366
-            - (platform_velocity[3] * t1365 + t1640);
-        let t1642 = base_velocity[0] * t1321 - (platform_velocity[5] * t1367 - t1641);
-        let t1643 = base_velocity[2] * t1326 - (base_velocity[1] * t1324 - t1642);
-        let t1644 = t1643 - base_velocity[3] * t1436 - base_velocity[4] * t1442;
-        bias[5] = t1644 - base_velocity[5] * t1448;
+        let t1597 = platform_velocity[0] * t1105 - (t1568 - t1580);
+        let t1598 = platform_velocity[2] * t1107
+            + (platform_velocity[1] * t1106 + t1597);
+        let t1599 = platform_velocity[4] * t1333
+            + (platform_velocity[3] * t1138 - t1598);
+        let t1600 = base_velocity[0] * t1105 + (platform_velocity[5] * t1335 + t1599);
+        let t1601 = base_velocity[2] * t1107 + (base_velocity[1] * t1106 + t1600);
+        let t1602 = base_velocity[4] * t1362 + (base_velocity[3] * t1359 - t1601);
+        bias[0] = base_velocity[5] * t1365 + t1602;
+        let t1603 = platform_velocity[0] * t1165 - (t1570 - t1582);
+        let t1604 = platform_velocity[2] * t1167
+            + (platform_velocity[1] * t1166 + t1603);
+        let t1605 = platform_velocity[4] * t1205
+            - (platform_velocity[3] * t1336 - t1604);
+        let t1606 = base_velocity[0] * t1165 + (platform_velocity[5] * t1338 - t1605);
+        let t1607 = base_velocity[2] * t1167 + (base_velocity[1] * t1166 + t1606);
+        let t1608 = base_velocity[4] * t1371 - (base_velocity[3] * t1368 - t1607);
+        bias[1] = base_velocity[5] * t1374 - t1608;
+        let t1609 = platform_velocity[0] * t1219 - (t1572 - t1584);
+        let t1610 = platform_velocity[2] * t1221
+            + (platform_velocity[1] * t1220 + t1609);
+        let t1611 = platform_velocity[4] * t1340
+            + (platform_velocity[3] * t1339 - t1610);
+        let t1612 = base_velocity[0] * t1219 + (platform_velocity[5] * t1266 + t1611);
+        let t1613 = base_velocity[2] * t1221 + (base_velocity[1] * t1220 + t1612);
+        let t1614 = base_velocity[4] * t1380 + (base_velocity[3] * t1377 - t1613);
+        bias[2] = base_velocity[5] * t1382 + t1614;
+        let t1615 = platform_velocity[0] * t1268 - (t1574 - t1589);
+        let t1616 = platform_velocity[2] * t1274
+            - (platform_velocity[1] * t1271 + t1615);
+        let t1617 = platform_velocity[4] * t1345
+            + (platform_velocity[3] * t1343 - t1616);
+        let t1618 = base_velocity[0] * t1268 + (platform_velocity[5] * t1347 - t1617);
+        let t1619 = base_velocity[2] * t1274 - (base_velocity[1] * t1271 + t1618);
+        let t1620 = base_velocity[3] * t1388 - t1619 - base_velocity[4] * t1394;
+        bias[3] = t1620 - base_velocity[5] * t1400;
+        let t1621 = platform_velocity[0] * t1289 + (t1576 - t1594);
+        let t1622 = platform_velocity[2] * t1294
+            - (platform_velocity[1] * t1291 + t1621);
+        let t1623 = platform_velocity[4] * t1351
+            + (platform_velocity[3] * t1349 - t1622);
+        let t1624 = base_velocity[0] * t1289 + (platform_velocity[5] * t1352 - t1623);
+        let t1625 = base_velocity[2] * t1294 - (base_velocity[1] * t1291 + t1624);
+        let t1626 = base_velocity[4] * t1412 - (base_velocity[3] * t1406 - t1625);
+        bias[4] = t1626 - base_velocity[5] * t1418;
+        let t1627 = platform_velocity[0] * t1309 - (t1578 - t1596);
+        let t1628 = platform_velocity[2] * t1314
+            - (platform_velocity[1] * t1312 - t1627);
+        let t1629 = platform_velocity[4] * t1354
+            - (platform_velocity[3] * t1353 + t1628);
+        let t1630 = base_velocity[0] * t1309 - (platform_velocity[5] * t1355 - t1629);
+        let t1631 = base_velocity[2] * t1314 - (base_velocity[1] * t1312 - t1630);
+        let t1632 = t1631 - base_velocity[3] * t1424 - base_velocity[4] * t1430;
+        bias[5] = t1632 - base_velocity[5] * t1436;
         // constant and copied elements
         damping_force[0] = c(0.0);
         damping_force[1] = c(0.0);
@@ -15851,7 +15787,7 @@ pub fn inverse_dynamics<T: Scalar>(
 ///
 /// Outputs:
 ///
-/// - `rod_alignment`: 6, dimensionless: squared cosine between rod and actuator axis; negative out of reach, equation (18).
+/// - `rod_alignment`: 6, dimensionless: squared cosine between rod and line of the actuator's force; negative out of reach, equation (18).
 /// - `actuator_length`: 6, m: actuator length d, equation (18).
 /// - `jacobian_dp`: 6x6, 1, m, frame O: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b, equation (32).
 #[allow(clippy::all, clippy::pedantic, unused_variables)]
@@ -16086,17 +16022,17 @@ pub fn actuator_geometry<T: Scalar>(
     let t158 = base_rotation[2][2] - base_rotation[2][0] * t86;
     let t159 = base_rotation[2][1] * t87 + t158;
     jacobian_dp[5][2] = t159;
-    // leg 1: squared cosine between rod and actuator axis; negative out of reach
+    // leg 1: squared cosine between rod and line of the actuator's force; negative out of reach
     rod_alignment[0] = t52 * c(-23.564897728343862);
-    // leg 2: squared cosine between rod and actuator axis; negative out of reach
+    // leg 2: squared cosine between rod and line of the actuator's force; negative out of reach
     rod_alignment[1] = c(-23.564897728343862) * t57;
-    // leg 3: squared cosine between rod and actuator axis; negative out of reach
+    // leg 3: squared cosine between rod and line of the actuator's force; negative out of reach
     rod_alignment[2] = c(-23.564897728343862) * t60;
-    // leg 4: squared cosine between rod and actuator axis; negative out of reach
+    // leg 4: squared cosine between rod and line of the actuator's force; negative out of reach
     rod_alignment[3] = c(-23.564897728343862) * t65;
-    // leg 5: squared cosine between rod and actuator axis; negative out of reach
+    // leg 5: squared cosine between rod and line of the actuator's force; negative out of reach
     rod_alignment[4] = c(-23.564897728343862) * t70;
-    // leg 6: squared cosine between rod and actuator axis; negative out of reach
+    // leg 6: squared cosine between rod and line of the actuator's force; negative out of reach
     rod_alignment[5] = c(-23.564897728343862) * t73;
     // leg 2: actuator length d
     actuator_length[1] = t56 - t58 - t55;
@@ -17749,616 +17685,610 @@ pub fn passive_inverse_dynamics<T: Scalar>(
     let t185 = t101 * (t81 * t177 + t82 * t178);
     // leg 6: rate of the rod's extent along the actuator axis
     let t186 = t104 * (t86 * t179 + t87 * t180);
-    // leg 1: rate of that gradient relative to the base
-    let t187 = t89 * (t159 + t106 * t181);
-    let t188 = t89 * (t162 + t107 * t181);
-    // leg 2: rate of that gradient relative to the base
-    let t189 = t92 * (t163 + t108 * t182);
-    let t190 = t92 * (t164 - t109 * t182);
-    // leg 3: rate of that gradient relative to the base
-    let t191 = t95 * (t167 + t110 * t183);
-    let t192 = t95 * (t170 + t111 * t183);
-    // leg 4: rate of that gradient relative to the base
-    let t193 = t98 * (t173 + t112 * t184);
-    let t194 = t98 * (t176 + t113 * t184);
-    // leg 5: rate of that gradient relative to the base
-    let t195 = t101 * (t177 + t114 * t185);
-    let t196 = t101 * (t178 + t115 * t185);
-    // leg 6: rate of that gradient relative to the base
-    let t197 = t104 * (t179 + t116 * t186);
-    let t198 = t104 * (t180 + t117 * t186);
+    // leg 1: inertial rate of that gradient
+    let t187 = t107 * t126 - (t123 - t89 * (t159 + t106 * t181));
+    let t188 = t106 * t126 - (t120 + t89 * (t162 + t107 * t181));
+    let t189 = t107 * t120 - t106 * t123;
+    // leg 2: inertial rate of that gradient
+    let t190 = t109 * t126 - (t123 - t92 * (t163 + t108 * t182));
+    let t191 = t108 * t126 + (t120 + t92 * (t164 - t109 * t182));
+    let t192 = t109 * t120 + t108 * t123;
+    // leg 3: inertial rate of that gradient
+    let t193 = t111 * t126 + (t123 - t95 * (t167 + t110 * t183));
+    let t194 = t110 * t126 + (t120 + t95 * (t170 + t111 * t183));
+    let t195 = t111 * t120 - t110 * t123;
+    // leg 4: inertial rate of that gradient
+    let t196 = t113 * t126 + (t123 - t98 * (t173 + t112 * t184));
+    let t197 = t112 * t126 + (t120 + t98 * (t176 + t113 * t184));
+    let t198 = t113 * t120 - t112 * t123;
+    // leg 5: inertial rate of that gradient
+    let t199 = t115 * t126 + (t123 - t101 * (t177 + t114 * t185));
+    let t200 = t114 * t126 + (t120 + t101 * (t178 + t115 * t185));
+    let t201 = t115 * t120 - t114 * t123;
+    // leg 6: inertial rate of that gradient
+    let t202 = t117 * t126 + (t123 - t104 * (t179 + t116 * t186));
+    let t203 = t116 * t126 + (t120 + t104 * (t180 + t117 * t186));
+    let t204 = t117 * t120 - t116 * t123;
     // acceleration of the base origin less gravity
-    let t199 = base_acceleration[2] + c(9.81);
-    let t200 = base_rotation[1][0] * base_acceleration[1];
-    let t201 = base_rotation[0][0] * base_acceleration[0] + t200;
-    let t202 = base_rotation[2][0] * t199 + t201;
-    let t203 = base_rotation[1][1] * base_acceleration[1];
-    let t204 = base_rotation[0][1] * base_acceleration[0] + t203;
-    let t205 = base_rotation[2][1] * t199 + t204;
+    let t205 = base_acceleration[2] + c(9.81);
+    let t206 = base_rotation[1][0] * base_acceleration[1];
+    let t207 = base_rotation[0][0] * base_acceleration[0] + t206;
+    let t208 = base_rotation[2][0] * t205 + t207;
+    let t209 = base_rotation[1][1] * base_acceleration[1];
+    let t210 = base_rotation[0][1] * base_acceleration[0] + t209;
+    let t211 = base_rotation[2][1] * t205 + t210;
     // angular acceleration of the base
-    let t206 = base_rotation[1][0] * base_acceleration[4];
-    let t207 = base_rotation[0][0] * base_acceleration[3] + t206;
-    let t208 = base_rotation[2][0] * base_acceleration[5] + t207;
-    let t209 = base_rotation[1][1] * base_acceleration[4];
-    let t210 = base_rotation[0][1] * base_acceleration[3] + t209;
-    let t211 = base_rotation[2][1] * base_acceleration[5] + t210;
-    let t212 = base_rotation[1][2] * base_acceleration[4];
-    let t213 = base_rotation[0][2] * base_acceleration[3] + t212;
-    let t214 = base_rotation[2][2] * base_acceleration[5] + t213;
+    let t212 = base_rotation[1][0] * base_acceleration[4];
+    let t213 = base_rotation[0][0] * base_acceleration[3] + t212;
+    let t214 = base_rotation[2][0] * base_acceleration[5] + t213;
+    let t215 = base_rotation[1][1] * base_acceleration[4];
+    let t216 = base_rotation[0][1] * base_acceleration[3] + t215;
+    let t217 = base_rotation[2][1] * base_acceleration[5] + t216;
+    let t218 = base_rotation[1][2] * base_acceleration[4];
+    let t219 = base_rotation[0][2] * base_acceleration[3] + t218;
+    let t220 = base_rotation[2][2] * base_acceleration[5] + t219;
     // acceleration per base coordinate of points that move with the base
-    let t215 = t123 * t123;
-    let t216 = t126 * t126;
-    let t217 = t215 + t216;
-    let t218 = t120 * t123;
-    let t219 = t214 - t218;
-    let t220 = t120 * t126;
-    let t221 = t211 + t220;
-    let t222 = t214 + t218;
-    let t223 = t120 * t120;
-    let t224 = t216 + t223;
-    let t225 = t123 * t126;
-    let t226 = t208 - t225;
-    let t227 = t211 - t220;
-    let t228 = t208 + t225;
-    let t229 = t215 + t223;
+    let t221 = t123 * t123;
+    let t222 = t126 * t126;
+    let t223 = t221 + t222;
+    let t224 = t120 * t123;
+    let t225 = t220 - t224;
+    let t226 = t120 * t126;
+    let t227 = t217 + t226;
+    let t228 = t220 + t224;
+    let t229 = t120 * t120;
+    let t230 = t222 + t229;
+    let t231 = t123 * t126;
+    let t232 = t214 - t231;
+    let t233 = t217 - t226;
+    let t234 = t214 + t231;
+    let t235 = t221 + t229;
     // acceleration of the platform origin less gravity
-    let t230 = platform_acceleration[2] + c(9.81);
-    let t231 = base_rotation[1][0] * platform_acceleration[1];
-    let t232 = base_rotation[0][0] * platform_acceleration[0] + t231;
-    let t233 = base_rotation[2][0] * t230 + t232;
-    let t234 = base_rotation[1][1] * platform_acceleration[1];
-    let t235 = base_rotation[0][1] * platform_acceleration[0] + t234;
-    let t236 = base_rotation[2][1] * t230 + t235;
-    let t237 = base_rotation[1][2] * platform_acceleration[1];
-    let t238 = base_rotation[0][2] * platform_acceleration[0] + t237;
-    let t239 = base_rotation[2][2] * t230 + t238;
+    let t236 = platform_acceleration[2] + c(9.81);
+    let t237 = base_rotation[1][0] * platform_acceleration[1];
+    let t238 = base_rotation[0][0] * platform_acceleration[0] + t237;
+    let t239 = base_rotation[2][0] * t236 + t238;
+    let t240 = base_rotation[1][1] * platform_acceleration[1];
+    let t241 = base_rotation[0][1] * platform_acceleration[0] + t240;
+    let t242 = base_rotation[2][1] * t236 + t241;
+    let t243 = base_rotation[1][2] * platform_acceleration[1];
+    let t244 = base_rotation[0][2] * platform_acceleration[0] + t243;
+    let t245 = base_rotation[2][2] * t236 + t244;
     // angular acceleration of the platform
-    let t240 = base_rotation[1][0] * platform_acceleration[4];
-    let t241 = base_rotation[0][0] * platform_acceleration[3] + t240;
-    let t242 = base_rotation[2][0] * platform_acceleration[5] + t241;
-    let t243 = base_rotation[1][1] * platform_acceleration[4];
-    let t244 = base_rotation[0][1] * platform_acceleration[3] + t243;
-    let t245 = base_rotation[2][1] * platform_acceleration[5] + t244;
-    let t246 = base_rotation[1][2] * platform_acceleration[4];
-    let t247 = base_rotation[0][2] * platform_acceleration[3] + t246;
-    let t248 = base_rotation[2][2] * platform_acceleration[5] + t247;
+    let t246 = base_rotation[1][0] * platform_acceleration[4];
+    let t247 = base_rotation[0][0] * platform_acceleration[3] + t246;
+    let t248 = base_rotation[2][0] * platform_acceleration[5] + t247;
+    let t249 = base_rotation[1][1] * platform_acceleration[4];
+    let t250 = base_rotation[0][1] * platform_acceleration[3] + t249;
+    let t251 = base_rotation[2][1] * platform_acceleration[5] + t250;
+    let t252 = base_rotation[1][2] * platform_acceleration[4];
+    let t253 = base_rotation[0][2] * platform_acceleration[3] + t252;
+    let t254 = base_rotation[2][2] * platform_acceleration[5] + t253;
     // acceleration per platform coordinate of points of the platform
-    let t249 = t129 * t132;
-    let t250 = t248 - t249;
-    let t251 = t12 * t250;
-    let t252 = t132 * t132;
-    let t253 = t135 * t135;
-    let t254 = t252 + t253;
-    let t255 = t3 * t254;
-    let t256 = t129 * t135;
-    let t257 = t245 + t256;
-    let t258 = t21 * t257;
-    let t259 = t15 * t250;
-    let t260 = t6 * t254;
-    let t261 = t24 * t257;
-    let t262 = t18 * t250;
-    let t263 = t9 * t254;
-    let t264 = t27 * t257;
-    let t265 = t248 + t249;
-    let t266 = t3 * t265;
-    let t267 = t129 * t129;
-    let t268 = t253 + t267;
-    let t269 = t12 * t268;
-    let t270 = t132 * t135;
-    let t271 = t242 - t270;
-    let t272 = t21 * t271;
-    let t273 = t6 * t265;
-    let t274 = t15 * t268;
-    let t275 = t24 * t271;
-    let t276 = t9 * t265;
-    let t277 = t18 * t268;
-    let t278 = t27 * t271;
-    let t279 = t252 + t267;
-    let t280 = t245 - t256;
-    let t281 = t242 + t270;
-    let t282 = t21 * t279 + (t3 * t280 - t12 * t281);
-    let t283 = t24 * t279 + (t6 * t280 - t15 * t281);
-    let t284 = t9 * t280;
-    let t285 = t18 * t281;
-    let t286 = t27 * t279;
+    let t255 = t129 * t132;
+    let t256 = t254 - t255;
+    let t257 = t12 * t256;
+    let t258 = t132 * t132;
+    let t259 = t135 * t135;
+    let t260 = t258 + t259;
+    let t261 = t3 * t260;
+    let t262 = t129 * t135;
+    let t263 = t251 + t262;
+    let t264 = t21 * t263;
+    let t265 = t15 * t256;
+    let t266 = t6 * t260;
+    let t267 = t24 * t263;
+    let t268 = t18 * t256;
+    let t269 = t9 * t260;
+    let t270 = t27 * t263;
+    let t271 = t254 + t255;
+    let t272 = t3 * t271;
+    let t273 = t129 * t129;
+    let t274 = t259 + t273;
+    let t275 = t12 * t274;
+    let t276 = t132 * t135;
+    let t277 = t248 - t276;
+    let t278 = t21 * t277;
+    let t279 = t6 * t271;
+    let t280 = t15 * t274;
+    let t281 = t24 * t277;
+    let t282 = t9 * t271;
+    let t283 = t18 * t274;
+    let t284 = t27 * t277;
+    let t285 = t258 + t273;
+    let t286 = t251 - t262;
+    let t287 = t248 + t276;
+    let t288 = t21 * t285 + (t3 * t286 - t12 * t287);
+    let t289 = t24 * t285 + (t6 * t286 - t15 * t287);
+    let t290 = t9 * t286;
+    let t291 = t18 * t287;
+    let t292 = t27 * t285;
     // acceleration of the platform origin relative to the base
-    let t287 = t36 * t221 - (t34 * t219 + (t32 * t217 + (t202 - t233)));
-    let t288 = t287 + c(2.0) * (t123 * t150 - t126 * t147);
-    let t289 = t36 * t226 + (t34 * t224 - (t32 * t222 - (t205 - t236)));
-    let t290 = t289 - c(2.0) * (t126 * t144 - t120 * t150);
-    let t291 = t32 * t227;
-    let t292 = t34 * t228;
-    let t293 = t36 * t229;
-    let t294 = t120 * t147;
-    let t295 = t123 * t144;
+    let t293 = t36 * t227 - (t34 * t225 + (t32 * t223 + (t208 - t239)));
+    let t294 = t293 + c(2.0) * (t123 * t150 - t126 * t147);
+    let t295 = t36 * t232 + (t34 * t230 - (t32 * t228 - (t211 - t242)));
+    let t296 = t295 - c(2.0) * (t126 * t144 - t120 * t150);
+    let t297 = t32 * t233;
+    let t298 = t34 * t234;
+    let t299 = t36 * t235;
+    let t300 = t120 * t147;
+    let t301 = t123 * t144;
     // second derivative of the relative rotation
-    let t296 = t136 * t138;
-    let t297 = t120 * t138 - (t126 * t136 - (t211 - t245));
-    let t298 = t296 - t297;
-    let t299 = t136 * t137;
-    let t300 = t123 * t136 - (t120 * t137 - (t214 - t248));
-    let t301 = t299 + t300;
-    let t302 = t137 * t137;
-    let t303 = t138 * t138;
-    let t304 = t302 + t303;
-    let t305 = t21 * t298 + (t12 * t301 - t3 * t304);
-    let t306 = t24 * t298 + (t15 * t301 - t6 * t304);
-    let t307 = t137 * t138;
-    let t308 = t126 * t137 - (t123 * t138 - (t208 - t242));
-    let t309 = t307 + t308;
-    let t310 = t299 - t300;
-    let t311 = t136 * t136;
-    let t312 = t303 + t311;
-    let t313 = t21 * t309 + (t3 * t310 - t12 * t312);
-    let t314 = t24 * t309 + (t6 * t310 - t15 * t312);
-    let t315 = t302 + t311;
-    let t316 = t296 + t297;
-    let t317 = t307 - t308;
-    let t318 = t21 * t315 - (t3 * t316 + t12 * t317);
-    let t319 = t24 * t315 - (t6 * t316 + t15 * t317);
+    let t302 = t136 * t138;
+    let t303 = t120 * t138 - (t126 * t136 - (t217 - t251));
+    let t304 = t302 - t303;
+    let t305 = t136 * t137;
+    let t306 = t123 * t136 - (t120 * t137 - (t220 - t254));
+    let t307 = t305 + t306;
+    let t308 = t137 * t137;
+    let t309 = t138 * t138;
+    let t310 = t308 + t309;
+    let t311 = t21 * t304 + (t12 * t307 - t3 * t310);
+    let t312 = t24 * t304 + (t15 * t307 - t6 * t310);
+    let t313 = t137 * t138;
+    let t314 = t126 * t137 - (t123 * t138 - (t214 - t248));
+    let t315 = t313 + t314;
+    let t316 = t305 - t306;
+    let t317 = t136 * t136;
+    let t318 = t309 + t317;
+    let t319 = t21 * t315 + (t3 * t316 - t12 * t318);
+    let t320 = t24 * t315 + (t6 * t316 - t15 * t318);
+    let t321 = t308 + t317;
+    let t322 = t302 + t303;
+    let t323 = t313 - t314;
+    let t324 = t21 * t321 - (t3 * t322 + t12 * t323);
+    let t325 = t24 * t321 - (t6 * t322 + t15 * t323);
     // leg 1: acceleration of the platform joint relative to the base
-    let t320 = t288 + c(0.1159110991546882) * t305;
-    let t321 = c(0.03105828541230249) * t306;
-    let t322 = t320 - t321;
-    let t323 = t290 - c(0.1159110991546882) * t313;
-    let t324 = c(0.03105828541230249) * t314;
-    let t325 = t323 + t324;
+    let t326 = t294 + c(0.1159110991546882) * t311;
+    let t327 = c(0.03105828541230249) * t312;
+    let t328 = t326 - t327;
+    let t329 = t296 - c(0.1159110991546882) * t319;
+    let t330 = c(0.03105828541230249) * t320;
+    let t331 = t329 + t330;
     // leg 2: acceleration of the platform joint relative to the base
-    let t326 = t320 + t321;
-    let t327 = t323 - t324;
+    let t332 = t326 + t327;
+    let t333 = t329 - t330;
     // leg 3: acceleration of the platform joint relative to the base
-    let t328 = t288 - c(0.031058285412302475) * t305;
-    let t329 = c(0.1159110991546882) * t306;
-    let t330 = t328 + t329;
-    let t331 = t290 + c(0.031058285412302475) * t313;
-    let t332 = c(0.1159110991546882) * t314;
-    let t333 = t331 - t332;
-    // leg 4: acceleration of the platform joint relative to the base
-    let t334 = t288 - c(0.0848528137423857) * t305;
-    let t335 = c(0.08485281374238571) * t306;
+    let t334 = t294 - c(0.031058285412302475) * t311;
+    let t335 = c(0.1159110991546882) * t312;
     let t336 = t334 + t335;
-    let t337 = t290 + c(0.0848528137423857) * t313;
-    let t338 = c(0.08485281374238571) * t314;
+    let t337 = t296 + c(0.031058285412302475) * t319;
+    let t338 = c(0.1159110991546882) * t320;
     let t339 = t337 - t338;
+    // leg 4: acceleration of the platform joint relative to the base
+    let t340 = t294 - c(0.0848528137423857) * t311;
+    let t341 = c(0.08485281374238571) * t312;
+    let t342 = t340 + t341;
+    let t343 = t296 + c(0.0848528137423857) * t319;
+    let t344 = c(0.08485281374238571) * t320;
+    let t345 = t343 - t344;
     // leg 5: acceleration of the platform joint relative to the base
-    let t340 = t334 - t335;
-    let t341 = t337 + t338;
+    let t346 = t340 - t341;
+    let t347 = t343 + t344;
     // leg 6: acceleration of the platform joint relative to the base
-    let t342 = t328 - t329;
-    let t343 = t331 + t332;
+    let t348 = t334 - t335;
+    let t349 = t337 + t338;
     // leg 1: actuator acceleration d''
-    let t344 = t48 * t325 - (t47 * t322 + (t159 * t159 + t162 * t162));
-    let t345 = t89 * (t181 * t181 - t344);
+    let t350 = t48 * t331 - (t47 * t328 + (t159 * t159 + t162 * t162));
+    let t351 = t89 * (t181 * t181 - t350);
     // leg 2: actuator acceleration d''
-    let t346 = t53 * t327 + (t52 * t326 - (t163 * t163 + t164 * t164));
-    let t347 = t92 * (t182 * t182 - t346);
+    let t352 = t53 * t333 + (t52 * t332 - (t163 * t163 + t164 * t164));
+    let t353 = t92 * (t182 * t182 - t352);
     // leg 3: actuator acceleration d''
-    let t348 = t65 * t333 - (t64 * t330 - (t167 * t167 + t170 * t170));
-    let t349 = t95 * (t183 * t183 + t348);
+    let t354 = t65 * t339 - (t64 * t336 - (t167 * t167 + t170 * t170));
+    let t355 = t95 * (t183 * t183 + t354);
     // leg 4: actuator acceleration d''
-    let t350 = t77 * t339 - (t76 * t336 - (t173 * t173 + t176 * t176));
-    let t351 = t98 * (t184 * t184 + t350);
+    let t356 = t77 * t345 - (t76 * t342 - (t173 * t173 + t176 * t176));
+    let t357 = t98 * (t184 * t184 + t356);
     // leg 5: actuator acceleration d''
-    let t352 = t82 * t341 - (t81 * t340 - (t177 * t177 + t178 * t178));
-    let t353 = t101 * (t185 * t185 + t352);
+    let t358 = t82 * t347 - (t81 * t346 - (t177 * t177 + t178 * t178));
+    let t359 = t101 * (t185 * t185 + t358);
     // leg 6: actuator acceleration d''
-    let t354 = t87 * t343 - (t86 * t342 - (t179 * t179 + t180 * t180));
-    let t355 = t104 * (t186 * t186 + t354);
+    let t360 = t87 * t349 - (t86 * t348 - (t179 * t179 + t180 * t180));
+    let t361 = t104 * (t186 * t186 + t360);
     // reference less actual velocity of the platform origin
-    let t356 = platform_velocity[2] - reference_velocity[2];
-    let t357 = platform_velocity[0] - reference_velocity[0];
-    let t358 = platform_velocity[1] - reference_velocity[1];
-    let t359 = base_rotation[0][0] * t357 + base_rotation[1][0] * t358;
-    let t360 = base_rotation[2][0] * t356 + t359;
-    let t361 = base_rotation[0][1] * t357 + base_rotation[1][1] * t358;
-    let t362 = base_rotation[2][1] * t356 + t361;
-    let t363 = base_rotation[0][2] * t357 + base_rotation[1][2] * t358;
-    let t364 = base_rotation[2][2] * t356 + t363;
+    let t362 = platform_velocity[2] - reference_velocity[2];
+    let t363 = platform_velocity[0] - reference_velocity[0];
+    let t364 = platform_velocity[1] - reference_velocity[1];
+    let t365 = base_rotation[0][0] * t363 + base_rotation[1][0] * t364;
+    let t366 = base_rotation[2][0] * t362 + t365;
+    let t367 = base_rotation[0][1] * t363 + base_rotation[1][1] * t364;
+    let t368 = base_rotation[2][1] * t362 + t367;
+    let t369 = base_rotation[0][2] * t363 + base_rotation[1][2] * t364;
+    let t370 = base_rotation[2][2] * t362 + t369;
     // reference less actual angular velocity of the platform
-    let t365 = platform_velocity[5] - reference_velocity[5];
-    let t366 = platform_velocity[3] - reference_velocity[3];
-    let t367 = platform_velocity[4] - reference_velocity[4];
-    let t368 = base_rotation[0][0] * t366 + base_rotation[1][0] * t367;
-    let t369 = base_rotation[2][0] * t365 + t368;
-    let t370 = base_rotation[0][1] * t366 + base_rotation[1][1] * t367;
-    let t371 = base_rotation[2][1] * t365 + t370;
-    let t372 = base_rotation[0][2] * t366 + base_rotation[1][2] * t367;
-    let t373 = base_rotation[2][2] * t365 + t372;
+    let t371 = platform_velocity[5] - reference_velocity[5];
+    let t372 = platform_velocity[3] - reference_velocity[3];
+    let t373 = platform_velocity[4] - reference_velocity[4];
+    let t374 = base_rotation[0][0] * t372 + base_rotation[1][0] * t373;
+    let t375 = base_rotation[2][0] * t371 + t374;
+    let t376 = base_rotation[0][1] * t372 + base_rotation[1][1] * t373;
+    let t377 = base_rotation[2][1] * t371 + t376;
+    let t378 = base_rotation[0][2] * t372 + base_rotation[1][2] * t373;
+    let t379 = base_rotation[2][2] * t371 + t378;
     // what that adds to the acceleration per platform coordinate
-    let t374 = t129 * t371;
-    let t375 = t129 * t373;
-    let t376 = t135 * t373;
-    let t377 = t132 * t371;
-    let t378 = t376 + t377;
-    let t379 = t21 * t375 + (t12 * t374 - t3 * t378);
-    let t380 = t24 * t375 + (t15 * t374 - t6 * t378);
-    let t381 = t18 * t374;
-    let t382 = t9 * t378;
-    let t383 = t27 * t375;
-    let t384 = t132 * t369;
-    let t385 = t132 * t373;
-    let t386 = t129 * t369;
-    let t387 = t376 + t386;
-    let t388 = t21 * t385 + (t3 * t384 - t12 * t387);
-    let t389 = t24 * t385 + (t6 * t384 - t15 * t387);
-    let t390 = t9 * t384;
-    let t391 = t18 * t387;
-    let t392 = t27 * t385;
-    let t393 = t135 * t369;
-    let t394 = t135 * t371;
-    let t395 = t377 + t386;
-    let t396 = t21 * t395 - (t3 * t393 + t12 * t394);
-    let t397 = t24 * t395 - (t6 * t393 + t15 * t394);
-    let t398 = t9 * t393;
-    let t399 = t18 * t394;
-    let t400 = t27 * t395;
+    let t380 = t129 * t377;
+    let t381 = t129 * t379;
+    let t382 = t135 * t379;
+    let t383 = t132 * t377;
+    let t384 = t382 + t383;
+    let t385 = t21 * t381 + (t12 * t380 - t3 * t384);
+    let t386 = t24 * t381 + (t15 * t380 - t6 * t384);
+    let t387 = t18 * t380;
+    let t388 = t9 * t384;
+    let t389 = t27 * t381;
+    let t390 = t132 * t375;
+    let t391 = t132 * t379;
+    let t392 = t129 * t375;
+    let t393 = t382 + t392;
+    let t394 = t21 * t391 + (t3 * t390 - t12 * t393);
+    let t395 = t24 * t391 + (t6 * t390 - t15 * t393);
+    let t396 = t9 * t390;
+    let t397 = t18 * t393;
+    let t398 = t27 * t391;
+    let t399 = t135 * t375;
+    let t400 = t135 * t377;
+    let t401 = t383 + t392;
+    let t402 = t21 * t401 - (t3 * t399 + t12 * t400);
+    let t403 = t24 * t401 - (t6 * t399 + t15 * t400);
+    let t404 = t9 * t399;
+    let t405 = t18 * t400;
+    let t406 = t27 * t401;
     // leg 1: leg inertia less weight along the actuator
-    let t401 = t90 * t221;
-    let t402 = c(2.0) * t150;
-    let t403 = t402 + t155 * c(0.2318221983093764);
-    let t404 = t156 * c(0.06211657082460498);
-    let t405 = t403 - (t404 - c(2.0) * t181);
-    let t406 = t123 * t405;
-    let t407 = c(0.1159110991546882) * t379;
-    let t408 = c(0.03105828541230249) * t380;
-    let t409 = c(0.1159110991546882) * t388;
-    let t410 = c(0.03105828541230249) * t389;
-    let t411 = c(0.1159110991546882) * t396;
-    let t412 = c(0.03105828541230249) * t397;
-    let t413 = t411 - t412;
-    let t414 = t45 * t369 - (t362 + t39 * t373);
-    let t415 = t39 * t371 - (t364 + t42 * t369);
-    let t416 = t42 * t373 - (t360 + t45 * t371);
-    let t417 = t107 * t414 + (t415 + t106 * t416);
-    let t418 = t123 * t417;
-    let t419 = t90 * t226;
-    let t420 = t120 * t405;
-    let t421 = t120 * t417;
-    let t422 = t293 - (t292 + (t239 - t291)) - c(2.0) * (t294 - t295);
-    let t423 = c(0.12275970481124972) * t228 - c(0.03105828541230249) * t319;
-    let t424 = t422 + (c(0.1316436662914507) * t227 + c(0.1159110991546882) * t318);
-    let t425 = t345 - (t107 * t126 - (t123 - t187)) * t416;
-    let t426 = (t106 * t126 - (t120 + t188)) * t414 + t425;
-    let t427 = (t107 * t120 - t106 * t123) * t415 + t426;
-    let t428 = t413 - (t107 * (t409 - t410) + (t106 * (t407 - t408) - t427));
-    let t429 = t424 + (t423 - (t90 * t229 + t428));
+    let t407 = t90 * t227;
+    let t408 = c(2.0) * t150;
+    let t409 = t408 + t155 * c(0.2318221983093764);
+    let t410 = t156 * c(0.06211657082460498);
+    let t411 = t409 - (t410 - c(2.0) * t181);
+    let t412 = t123 * t411;
+    let t413 = c(0.1159110991546882) * t385;
+    let t414 = c(0.03105828541230249) * t386;
+    let t415 = c(0.1159110991546882) * t394;
+    let t416 = c(0.03105828541230249) * t395;
+    let t417 = c(0.1159110991546882) * t402;
+    let t418 = c(0.03105828541230249) * t403;
+    let t419 = t417 - t418;
+    let t420 = t45 * t375 - (t368 + t39 * t379);
+    let t421 = t39 * t377 - (t370 + t42 * t375);
+    let t422 = t42 * t379 - (t366 + t45 * t377);
+    let t423 = t107 * t420 + (t421 + t106 * t422);
+    let t424 = t123 * t423;
+    let t425 = t90 * t232;
+    let t426 = t120 * t411;
+    let t427 = t120 * t423;
+    let t428 = t299 - (t298 + (t245 - t297)) - c(2.0) * (t300 - t301);
+    let t429 = c(0.12275970481124972) * t234 - c(0.03105828541230249) * t325;
+    let t430 = t428 + (c(0.1316436662914507) * t233 + c(0.1159110991546882) * t324);
+    let t431 = t189 * t421 + (t188 * t420 + (t351 - t187 * t422));
+    let t432 = t419 - (t107 * (t415 - t416) + (t106 * (t413 - t414) - t431));
+    let t433 = t430 + (t429 - (t90 * t235 + t432));
     // leg 1: remaining leg inertia less weight at the platform joint
-    let t430 = c(0.17066666666666666) * t202;
-    let t431 = t430 - t217 * c(0.022467185713740918);
-    let t432 = t219 * c(0.02095098962111995);
-    let t433 = t431 + t432 + c(0.17066666666666666) * (t418 - (t401 + t406));
-    let t434 = c(0.17066666666666666) * t205;
-    let t435 = t434 + t222 * c(0.022467185713740918);
-    let t436 = t224 * c(0.02095098962111995);
-    let t437 = t435 + t436 - c(0.17066666666666666) * (t421 - (t419 + t420));
+    let t434 = c(0.17066666666666666) * t208;
+    let t435 = t434 - t223 * c(0.022467185713740918);
+    let t436 = t225 * c(0.02095098962111995);
+    let t437 = t435 + t436 + c(0.17066666666666666) * (t424 - (t407 + t412));
+    let t438 = c(0.17066666666666666) * t211;
+    let t439 = t438 + t228 * c(0.022467185713740918);
+    let t440 = t230 * c(0.02095098962111995);
+    let t441 = t439 + t440 - c(0.17066666666666666) * (t427 - (t425 + t426));
     // leg 2: leg inertia less weight along the actuator
-    let t438 = t93 * t221;
-    let t439 = t403 + (t404 - c(2.0) * t182);
-    let t440 = t123 * t439;
-    let t441 = t411 + t412;
-    let t442 = t51 * t369 - (t362 + t49 * t373);
-    let t443 = t49 * t371 - (t364 + t50 * t369);
-    let t444 = t50 * t373 - (t360 + t51 * t371);
-    let t445 = t109 * t442 + (t443 - t108 * t444);
-    let t446 = t123 * t445;
-    let t447 = t93 * t226;
-    let t448 = t120 * t439;
-    let t449 = t120 * t445;
-    let t450 = (t109 * t126 - (t123 - t189)) * t444 + (t424 - (t347 + t423));
-    let t451 = (t108 * t126 + (t120 + t190)) * t442 + t450;
-    let t452 = (t109 * t120 + t108 * t123) * t443 - t451;
-    let t453 = t441 - (t109 * (t409 + t410) - (t108 * (t407 + t408) + t452));
-    let t454 = t93 * t229 + t453;
+    let t442 = t93 * t227;
+    let t443 = t409 + (t410 - c(2.0) * t182);
+    let t444 = t123 * t443;
+    let t445 = t417 + t418;
+    let t446 = t51 * t375 - (t368 + t49 * t379);
+    let t447 = t49 * t377 - (t370 + t50 * t375);
+    let t448 = t50 * t379 - (t366 + t51 * t377);
+    let t449 = t109 * t446 + (t447 - t108 * t448);
+    let t450 = t123 * t449;
+    let t451 = t93 * t232;
+    let t452 = t120 * t443;
+    let t453 = t120 * t449;
+    let t454 = t191 * t446 + (t190 * t448 + (t430 - (t353 + t429)));
+    let t455 = t108 * (t413 + t414) + (t192 * t447 - t454);
+    let t456 = t93 * t235 + (t445 - (t109 * (t415 + t416) - t455));
     // leg 2: remaining leg inertia less weight at the platform joint
-    let t455 = t431 - t432 + c(0.17066666666666666) * (t446 - (t438 + t440));
-    let t456 = t435 - t436 - c(0.17066666666666666) * (t449 - (t447 + t448));
+    let t457 = t435 - t436 + c(0.17066666666666666) * (t450 - (t442 + t444));
+    let t458 = t439 - t440 - c(0.17066666666666666) * (t453 - (t451 + t452));
     // leg 3: leg inertia less weight along the actuator
-    let t457 = t96 * t221;
-    let t458 = t402 - t155 * c(0.06211657082460495);
-    let t459 = t156 * c(0.2318221983093764);
-    let t460 = t458 + (t459 - c(2.0) * t183);
-    let t461 = t123 * t460;
-    let t462 = c(0.031058285412302475) * t379;
-    let t463 = c(0.1159110991546882) * t380;
-    let t464 = c(0.031058285412302475) * t388;
-    let t465 = c(0.1159110991546882) * t389;
-    let t466 = c(0.031058285412302475) * t396;
-    let t467 = c(0.1159110991546882) * t397;
-    let t468 = t466 - t467;
-    let t469 = t62 * t369 + (t362 - t56 * t373);
-    let t470 = t56 * t371 + (t364 - t59 * t369);
-    let t471 = t59 * t373 + (t360 - t62 * t371);
-    let t472 = t111 * t469 - (t470 - t110 * t471);
-    let t473 = t123 * t472;
-    let t474 = t96 * t226;
-    let t475 = t120 * t460;
-    let t476 = t120 * t472;
-    let t477 = c(0.17538661166134234) * t228 - c(0.1159110991546882) * t319;
-    let t478 = c(0.040491189781895726) * t227 - c(0.031058285412302475) * t318;
-    let t479 = t422 + t478;
-    let t480 = t349 - (t111 * t126 + (t123 - t191)) * t471;
-    let t481 = (t110 * t126 + (t120 + t192)) * t469 + t480;
-    let t482 = (t111 * t120 - t110 * t123) * t470 + t481;
-    let t483 = t468 + (t111 * (t464 - t465) + (t110 * (t462 - t463) - t482));
-    let t484 = t479 - (t477 + (t96 * t229 - t483));
+    let t459 = t96 * t227;
+    let t460 = t408 - t155 * c(0.06211657082460495);
+    let t461 = t156 * c(0.2318221983093764);
+    let t462 = t460 + (t461 - c(2.0) * t183);
+    let t463 = t123 * t462;
+    let t464 = c(0.031058285412302475) * t385;
+    let t465 = c(0.1159110991546882) * t386;
+    let t466 = c(0.031058285412302475) * t394;
+    let t467 = c(0.1159110991546882) * t395;
+    let t468 = c(0.031058285412302475) * t402;
+    let t469 = c(0.1159110991546882) * t403;
+    let t470 = t468 - t469;
+    let t471 = t62 * t375 + (t368 - t56 * t379);
+    let t472 = t56 * t377 + (t370 - t59 * t375);
+    let t473 = t59 * t379 + (t366 - t62 * t377);
+    let t474 = t111 * t471 - (t472 - t110 * t473);
+    let t475 = t123 * t474;
+    let t476 = t96 * t232;
+    let t477 = t120 * t462;
+    let t478 = t120 * t474;
+    let t479 = c(0.17538661166134234) * t234 - c(0.1159110991546882) * t325;
+    let t480 = c(0.040491189781895726) * t233 - c(0.031058285412302475) * t324;
+    let t481 = t428 + t480;
+    let t482 = t195 * t472 + (t194 * t471 + (t355 - t193 * t473));
+    let t483 = t470 + (t111 * (t466 - t467) + (t110 * (t464 - t465) - t482));
+    let t484 = t481 - (t479 + (t96 * t235 - t483));
     // leg 3: remaining leg inertia less weight at the platform joint
-    let t485 = t430 - t217 * c(0.006910496389443537);
-    let t486 = t219 * c(0.029932648390202425);
-    let t487 = t485 - t486 + c(0.17066666666666666) * (t473 - (t457 + t461));
-    let t488 = t434 + t222 * c(0.006910496389443537);
-    let t489 = t224 * c(0.029932648390202425);
-    let t490 = t488 - t489 - c(0.17066666666666666) * (t476 - (t474 + t475));
+    let t485 = t434 - t223 * c(0.006910496389443537);
+    let t486 = t225 * c(0.029932648390202425);
+    let t487 = t485 - t486 + c(0.17066666666666666) * (t475 - (t459 + t463));
+    let t488 = t438 + t228 * c(0.006910496389443537);
+    let t489 = t230 * c(0.029932648390202425);
+    let t490 = t488 - t489 - c(0.17066666666666666) * (t478 - (t476 + t477));
     // leg 4: leg inertia less weight along the actuator
-    let t491 = t99 * t221;
-    let t492 = t402 - t155 * c(0.1697056274847714);
+    let t491 = t99 * t227;
+    let t492 = t408 - t155 * c(0.1697056274847714);
     let t493 = t156 * c(0.16970562748477142);
     let t494 = t492 + (t493 - c(2.0) * t184);
     let t495 = t123 * t494;
-    let t496 = c(0.0848528137423857) * t379;
-    let t497 = c(0.08485281374238571) * t380;
-    let t498 = c(0.0848528137423857) * t388;
-    let t499 = c(0.08485281374238571) * t389;
-    let t500 = c(0.0848528137423857) * t396;
-    let t501 = c(0.08485281374238571) * t397;
+    let t496 = c(0.0848528137423857) * t385;
+    let t497 = c(0.08485281374238571) * t386;
+    let t498 = c(0.0848528137423857) * t394;
+    let t499 = c(0.08485281374238571) * t395;
+    let t500 = c(0.0848528137423857) * t402;
+    let t501 = c(0.08485281374238571) * t403;
     let t502 = t500 - t501;
-    let t503 = t74 * t369 + (t362 - t68 * t373);
-    let t504 = t68 * t371 + (t364 - t71 * t369);
-    let t505 = t71 * t373 + (t360 - t74 * t371);
+    let t503 = t74 * t375 + (t368 - t68 * t379);
+    let t504 = t68 * t377 + (t370 - t71 * t375);
+    let t505 = t71 * t379 + (t366 - t74 * t377);
     let t506 = t113 * t503 - (t504 - t112 * t505);
     let t507 = t123 * t506;
-    let t508 = t99 * t226;
+    let t508 = t99 * t232;
     let t509 = t120 * t494;
     let t510 = t120 * t506;
-    let t511 = c(0.052626906850092664) * t228 - c(0.08485281374238571) * t319;
-    let t512 = t422 - (c(0.17213485607334636) * t227 + c(0.0848528137423857) * t318);
-    let t513 = t351 - (t113 * t126 + (t123 - t193)) * t505;
-    let t514 = (t112 * t126 + (t120 + t194)) * t503 + t513;
-    let t515 = (t113 * t120 - t112 * t123) * t504 + t514;
-    let t516 = t502 + (t113 * (t498 - t499) + (t112 * (t496 - t497) - t515));
-    let t517 = t512 - (t511 + (t99 * t229 - t516));
+    let t511 = c(0.052626906850092664) * t234 - c(0.08485281374238571) * t325;
+    let t512 = t428 - (c(0.17213485607334636) * t233 + c(0.0848528137423857) * t324);
+    let t513 = t198 * t504 + (t197 * t503 + (t357 - t196 * t505));
+    let t514 = t502 + (t113 * (t498 - t499) + (t112 * (t496 - t497) - t513));
+    let t515 = t512 - (t511 + (t99 * t235 - t514));
     // leg 4: remaining leg inertia less weight at the platform joint
-    let t518 = t430 + t217 * c(0.029377682103184446);
-    let t519 = t219 * c(0.008981658769082482);
-    let t520 = t518 - t519 + c(0.17066666666666666) * (t507 - (t491 + t495));
-    let t521 = t434 - t222 * c(0.029377682103184446);
-    let t522 = t224 * c(0.008981658769082482);
-    let t523 = t521 - t522 - c(0.17066666666666666) * (t510 - (t508 + t509));
+    let t516 = t434 + t223 * c(0.029377682103184446);
+    let t517 = t225 * c(0.008981658769082482);
+    let t518 = t516 - t517 + c(0.17066666666666666) * (t507 - (t491 + t495));
+    let t519 = t438 - t228 * c(0.029377682103184446);
+    let t520 = t230 * c(0.008981658769082482);
+    let t521 = t519 - t520 - c(0.17066666666666666) * (t510 - (t508 + t509));
     // leg 5: leg inertia less weight along the actuator
-    let t524 = t102 * t221;
-    let t525 = t492 - (t493 + c(2.0) * t185);
-    let t526 = t123 * t525;
-    let t527 = t500 + t501;
-    let t528 = t80 * t369 + (t362 - t78 * t373);
-    let t529 = t78 * t371 + (t364 - t79 * t369);
-    let t530 = t79 * t373 + (t360 - t80 * t371);
-    let t531 = t115 * t528 - (t529 - t114 * t530);
-    let t532 = t123 * t531;
-    let t533 = t102 * t226;
-    let t534 = t120 * t525;
-    let t535 = t120 * t531;
-    let t536 = (t115 * t126 + (t123 - t195)) * t530 + (t512 - (t353 - t511));
-    let t537 = (t114 * t126 + (t120 + t196)) * t528 - t536;
-    let t538 = (t115 * t120 - t114 * t123) * t529 + t537;
-    let t539 = t527 + (t115 * (t498 + t499) + (t114 * (t496 + t497) - t538));
-    let t540 = t102 * t229 - t539;
+    let t522 = t102 * t227;
+    let t523 = t492 - (t493 + c(2.0) * t185);
+    let t524 = t123 * t523;
+    let t525 = t500 + t501;
+    let t526 = t80 * t375 + (t368 - t78 * t379);
+    let t527 = t78 * t377 + (t370 - t79 * t375);
+    let t528 = t79 * t379 + (t366 - t80 * t377);
+    let t529 = t115 * t526 - (t527 - t114 * t528);
+    let t530 = t123 * t529;
+    let t531 = t102 * t232;
+    let t532 = t120 * t523;
+    let t533 = t120 * t529;
+    let t534 = t200 * t526 - (t199 * t528 + (t512 - (t359 - t511)));
+    let t535 = t114 * (t496 + t497) - (t201 * t527 + t534);
+    let t536 = t102 * t235 - (t525 + (t115 * (t498 + t499) + t535));
     // leg 5: remaining leg inertia less weight at the platform joint
-    let t541 = t518 + t519 + c(0.17066666666666666) * (t532 - (t524 + t526));
-    let t542 = t521 + t522 - c(0.17066666666666666) * (t535 - (t533 + t534));
+    let t537 = t516 + t517 + c(0.17066666666666666) * (t530 - (t522 + t524));
+    let t538 = t519 + t520 - c(0.17066666666666666) * (t533 - (t531 + t532));
     // leg 6: leg inertia less weight along the actuator
-    let t543 = t105 * t221;
-    let t544 = t458 - (t459 + c(2.0) * t186);
-    let t545 = t123 * t544;
-    let t546 = t466 + t467;
-    let t547 = t85 * t369 + (t362 - t83 * t373);
-    let t548 = t83 * t371 + (t364 - t84 * t369);
-    let t549 = t84 * t373 + (t360 - t85 * t371);
-    let t550 = t117 * t547 - (t548 - t116 * t549);
-    let t551 = t123 * t550;
-    let t552 = t105 * t226;
-    let t553 = t120 * t544;
-    let t554 = t120 * t550;
-    let t555 = (t117 * t126 + (t123 - t197)) * t549 + (t479 - (t355 - t477));
-    let t556 = (t116 * t126 + (t120 + t198)) * t547 - t555;
-    let t557 = (t117 * t120 - t116 * t123) * t548 + t556;
-    let t558 = t546 + (t117 * (t464 + t465) + (t116 * (t462 + t463) - t557));
-    let t559 = t105 * t229 - t558;
+    let t539 = t105 * t227;
+    let t540 = t460 - (t461 + c(2.0) * t186);
+    let t541 = t123 * t540;
+    let t542 = t468 + t469;
+    let t543 = t85 * t375 + (t368 - t83 * t379);
+    let t544 = t83 * t377 + (t370 - t84 * t375);
+    let t545 = t84 * t379 + (t366 - t85 * t377);
+    let t546 = t117 * t543 - (t544 - t116 * t545);
+    let t547 = t123 * t546;
+    let t548 = t105 * t232;
+    let t549 = t120 * t540;
+    let t550 = t120 * t546;
+    let t551 = t203 * t543 - (t202 * t545 + (t481 - (t361 - t479)));
+    let t552 = t116 * (t464 + t465) - (t204 * t544 + t551);
+    let t553 = t105 * t235 - (t542 + (t117 * (t466 + t467) + t552));
     // leg 6: remaining leg inertia less weight at the platform joint
-    let t560 = t485 + t486 + c(0.17066666666666666) * (t551 - (t543 + t545));
-    let t561 = t488 + t489 - c(0.17066666666666666) * (t554 - (t552 + t553));
+    let t554 = t485 + t486 + c(0.17066666666666666) * (t547 - (t539 + t541));
+    let t555 = t488 + t489 - c(0.17066666666666666) * (t550 - (t548 + t549));
     // leg 1: row of the actuator Jacobian in base coordinates
-    let t562 = t45 * t107;
-    let t563 = t45 * t106;
-    let t564 = t39 * t107;
-    let t565 = t42 * t106;
+    let t556 = t45 * t107;
+    let t557 = t45 * t106;
+    let t558 = t39 * t107;
+    let t559 = t42 * t106;
     // leg 2: row of the actuator Jacobian in base coordinates
-    let t566 = t51 * t109;
-    let t567 = t51 * t108;
-    let t568 = t49 * t109;
-    let t569 = t50 * t108;
+    let t560 = t51 * t109;
+    let t561 = t51 * t108;
+    let t562 = t49 * t109;
+    let t563 = t50 * t108;
     // leg 3: row of the actuator Jacobian in base coordinates
-    let t570 = t62 * t111;
-    let t571 = t62 * t110;
-    let t572 = t56 * t111;
-    let t573 = t59 * t110;
+    let t564 = t62 * t111;
+    let t565 = t62 * t110;
+    let t566 = t56 * t111;
+    let t567 = t59 * t110;
     // leg 4: row of the actuator Jacobian in base coordinates
-    let t574 = t71 + t74 * t113;
-    let t575 = t68 + t74 * t112;
-    let t576 = t68 * t113 - t71 * t112;
+    let t568 = t71 + t74 * t113;
+    let t569 = t68 + t74 * t112;
+    let t570 = t68 * t113 - t71 * t112;
     // leg 5: row of the actuator Jacobian in base coordinates
-    let t577 = t80 * t115;
-    let t578 = t80 * t114;
-    let t579 = t78 * t115;
-    let t580 = t79 * t114;
+    let t571 = t80 * t115;
+    let t572 = t80 * t114;
+    let t573 = t78 * t115;
+    let t574 = t79 * t114;
     // leg 6: row of the actuator Jacobian in base coordinates
-    let t581 = t85 * t117;
-    let t582 = t85 * t116;
-    let t583 = t83 * t117;
-    let t584 = t84 * t116;
+    let t575 = t85 * t117;
+    let t576 = t85 * t116;
+    let t577 = t83 * t117;
+    let t578 = t84 * t116;
     // inertia less external wrench that the actuators must balance
-    let t585 = base_rotation[1][0] * external_wrench[1];
-    let t586 = base_rotation[0][0] * external_wrench[0] + t585;
-    let t587 = base_rotation[2][0] * external_wrench[2] + t586;
-    let t588 = base_rotation[1][1] * external_wrench[1];
-    let t589 = base_rotation[0][1] * external_wrench[0] + t588;
-    let t590 = base_rotation[2][1] * external_wrench[2] + t589;
-    let t591 = base_rotation[1][2] * external_wrench[1];
-    let t592 = base_rotation[0][2] * external_wrench[0] + t591;
-    let t593 = base_rotation[2][2] * external_wrench[2] + t592;
-    let t594 = t593 - c(8.139999999999999) * t239;
-    let t595 = t282 - t396;
-    let t596 = t594 + c(2.2551405187698492e-17) * t595;
-    let t597 = t283 - t397;
-    let t598 = t400 - (t399 + (t398 + (t286 + (t284 - t285))));
-    let t599 = t596 + c(6.938893903907228e-18) * t597 - c(0.188852) * t598;
-    let t600 = t517 - t540;
-    let t601 = t429 - t454;
-    let t602 = t484 - t559;
-    let t603 = t599 + c(0.17066666666666666) * (t600 + (t601 + t602));
-    let t604 = c(2.2551405187698492e-17) * t239 - c(0.032245600000000006) * t595;
-    let t605 = t604 - t601 * c(0.019782160922400118);
-    let t606 = t605 + t602 * c(0.005300614043699622);
-    let t607 = t606 + t600 * c(0.01448154687870049);
-    let t608 = t12 * t607;
-    let t609 = t388 + (t272 - (t266 - t269));
-    let t610 = t437 + t456;
-    let t611 = t490 + t561;
-    let t612 = t523 + t542;
-    let t613 = c(2.2551405187698492e-17) * t236 - c(0.032245600000000006) * t609;
-    let t614 = t613 + c(0.1159110991546882) * t610;
-    let t615 = t614 - c(0.031058285412302475) * t611;
-    let t616 = t615 - c(0.0848528137423857) * t612;
-    let t617 = t21 * t616;
-    let t618 = c(6.938893903907228e-18) * t239 - c(0.032245600000000006) * t597;
-    let t619 = t618 + c(0.005300614043699624) * (t429 + t454);
-    let t620 = t619 - c(0.019782160922400118) * (t484 + t559);
-    let t621 = t620 - c(0.014481546878700494) * (t517 + t540);
-    let t622 = t15 * t621;
-    let t623 = t389 + (t275 - (t273 - t274));
-    let t624 = c(6.938893903907228e-18) * t236 - c(0.032245600000000006) * t623;
-    let t625 = t624 - c(0.03105828541230249) * (t437 - t456);
-    let t626 = t625 + c(0.1159110991546882) * (t490 - t561);
-    let t627 = t626 + c(0.08485281374238571) * (t523 - t542);
-    let t628 = t24 * t627;
-    let t629 = c(0.188852) * t239 - c(0.031) * t593 + c(0.013354412) * t598;
-    let t630 = t18 * t629;
-    let t631 = t392 - (t391 - (t390 + (t278 - (t276 - t277))));
-    let t632 = c(0.188852) * t236 - c(0.031) * t590 - c(0.013354412) * t631;
-    let t633 = t27 * t632;
-    let t634 = base_rotation[0][0] * external_wrench[3];
-    let t635 = base_rotation[1][0] * external_wrench[4];
-    let t636 = base_rotation[2][0] * external_wrench[5];
-    let t637 = t379 - (t258 - (t251 + t255));
-    let t638 = t433 + t455;
-    let t639 = t487 + t560;
-    let t640 = t520 + t541;
-    let t641 = c(2.2551405187698492e-17) * t233 - c(0.032245600000000006) * t637;
-    let t642 = t641 + c(0.1159110991546882) * t638;
-    let t643 = t642 - c(0.031058285412302475) * t639;
-    let t644 = t643 - c(0.0848528137423857) * t640;
-    let t645 = t21 * t644;
-    let t646 = t3 * t607;
-    let t647 = t380 - (t261 - (t259 + t260));
-    let t648 = c(6.938893903907228e-18) * t233 - c(0.032245600000000006) * t647;
-    let t649 = t648 - c(0.03105828541230249) * (t433 - t455);
-    let t650 = t649 + c(0.1159110991546882) * (t487 - t560);
-    let t651 = t650 + c(0.08485281374238571) * (t520 - t541);
-    let t652 = t24 * t651;
-    let t653 = t6 * t621;
-    let t654 = t383 - (t382 - (t381 - (t264 - (t262 + t263))));
-    let t655 = c(0.188852) * t233 - c(0.031) * t587 - c(0.013354412) * t654;
-    let t656 = t27 * t655;
-    let t657 = t9 * t629;
-    let t658 = base_rotation[0][1] * external_wrench[3];
-    let t659 = base_rotation[1][1] * external_wrench[4];
-    let t660 = base_rotation[2][1] * external_wrench[5];
-    let t661 = t3 * t616;
-    let t662 = t12 * t644;
-    let t663 = t6 * t627;
-    let t664 = t15 * t651;
-    let t665 = t9 * t632;
-    let t666 = t18 * t655;
-    let t667 = base_rotation[0][2] * external_wrench[3];
-    let t668 = base_rotation[1][2] * external_wrench[4];
-    let t669 = base_rotation[2][2] * external_wrench[5];
+    let t579 = base_rotation[1][0] * external_wrench[1];
+    let t580 = base_rotation[0][0] * external_wrench[0] + t579;
+    let t581 = base_rotation[2][0] * external_wrench[2] + t580;
+    let t582 = base_rotation[1][1] * external_wrench[1];
+    let t583 = base_rotation[0][1] * external_wrench[0] + t582;
+    let t584 = base_rotation[2][1] * external_wrench[2] + t583;
+    let t585 = base_rotation[1][2] * external_wrench[1];
+    let t586 = base_rotation[0][2] * external_wrench[0] + t585;
+    let t587 = base_rotation[2][2] * external_wrench[2] + t586;
+    let t588 = t587 - c(8.139999999999999) * t245;
+    let t589 = t288 - t402;
+    let t590 = t588 + c(2.2551405187698492e-17) * t589;
+    let t591 = t289 - t403;
+    let t592 = t406 - (t405 + (t404 + (t292 + (t290 - t291))));
+    let t593 = t590 + c(6.938893903907228e-18) * t591 - c(0.188852) * t592;
+    let t594 = t515 - t536;
+    let t595 = t433 - t456;
+    let t596 = t484 - t553;
+    let t597 = t593 + c(0.17066666666666666) * (t594 + (t595 + t596));
+    let t598 = c(2.2551405187698492e-17) * t245 - c(0.032245600000000006) * t589;
+    let t599 = t598 - t595 * c(0.019782160922400118);
+    let t600 = t599 + t596 * c(0.005300614043699622);
+    let t601 = t600 + t594 * c(0.01448154687870049);
+    let t602 = t12 * t601;
+    let t603 = t394 + (t278 - (t272 - t275));
+    let t604 = t441 + t458;
+    let t605 = t490 + t555;
+    let t606 = t521 + t538;
+    let t607 = c(2.2551405187698492e-17) * t242 - c(0.032245600000000006) * t603;
+    let t608 = t607 + c(0.1159110991546882) * t604;
+    let t609 = t608 - c(0.031058285412302475) * t605;
+    let t610 = t609 - c(0.0848528137423857) * t606;
+    let t611 = t21 * t610;
+    let t612 = c(6.938893903907228e-18) * t245 - c(0.032245600000000006) * t591;
+    let t613 = t612 + c(0.005300614043699624) * (t433 + t456);
+    let t614 = t613 - c(0.019782160922400118) * (t484 + t553);
+    let t615 = t614 - c(0.014481546878700494) * (t515 + t536);
+    let t616 = t15 * t615;
+    let t617 = t395 + (t281 - (t279 - t280));
+    let t618 = c(6.938893903907228e-18) * t242 - c(0.032245600000000006) * t617;
+    let t619 = t618 - c(0.03105828541230249) * (t441 - t458);
+    let t620 = t619 + c(0.1159110991546882) * (t490 - t555);
+    let t621 = t620 + c(0.08485281374238571) * (t521 - t538);
+    let t622 = t24 * t621;
+    let t623 = c(0.188852) * t245 - c(0.031) * t587 + c(0.013354412) * t592;
+    let t624 = t18 * t623;
+    let t625 = t398 - (t397 - (t396 + (t284 - (t282 - t283))));
+    let t626 = c(0.188852) * t242 - c(0.031) * t584 - c(0.013354412) * t625;
+    let t627 = t27 * t626;
+    let t628 = base_rotation[0][0] * external_wrench[3];
+    let t629 = base_rotation[1][0] * external_wrench[4];
+    let t630 = base_rotation[2][0] * external_wrench[5];
+    let t631 = t385 - (t264 - (t257 + t261));
+    let t632 = t437 + t457;
+    let t633 = t487 + t554;
+    let t634 = t518 + t537;
+    let t635 = c(2.2551405187698492e-17) * t239 - c(0.032245600000000006) * t631;
+    let t636 = t635 + c(0.1159110991546882) * t632;
+    let t637 = t636 - c(0.031058285412302475) * t633;
+    let t638 = t637 - c(0.0848528137423857) * t634;
+    let t639 = t21 * t638;
+    let t640 = t3 * t601;
+    let t641 = t386 - (t267 - (t265 + t266));
+    let t642 = c(6.938893903907228e-18) * t239 - c(0.032245600000000006) * t641;
+    let t643 = t642 - c(0.03105828541230249) * (t437 - t457);
+    let t644 = t643 + c(0.1159110991546882) * (t487 - t554);
+    let t645 = t644 + c(0.08485281374238571) * (t518 - t537);
+    let t646 = t24 * t645;
+    let t647 = t6 * t615;
+    let t648 = t389 - (t388 - (t387 - (t270 - (t268 + t269))));
+    let t649 = c(0.188852) * t239 - c(0.031) * t581 - c(0.013354412) * t648;
+    let t650 = t27 * t649;
+    let t651 = t9 * t623;
+    let t652 = base_rotation[0][1] * external_wrench[3];
+    let t653 = base_rotation[1][1] * external_wrench[4];
+    let t654 = base_rotation[2][1] * external_wrench[5];
+    let t655 = t3 * t610;
+    let t656 = t12 * t638;
+    let t657 = t6 * t621;
+    let t658 = t15 * t645;
+    let t659 = t9 * t626;
+    let t660 = t18 * t649;
+    let t661 = base_rotation[0][2] * external_wrench[3];
+    let t662 = base_rotation[1][2] * external_wrench[4];
+    let t663 = base_rotation[2][2] * external_wrench[5];
     // force along the actuator that balances the remaining wrench
-    let t670 = t635 + (t634 + (t633 - (t630 - (t628 - (t622 + (t608 - t617))))));
-    let t671 = t574 * t603 + (t636 + t670) + c(0.0425) * (t385 - t394);
-    let t672 = c(1.0) / (t577 + (t79 - t574));
-    let t673 = (t578 + (t78 - t575)) * t672;
-    let t674 = t659 + (t658 + (t657 - (t656 - (t653 - (t652 + (t645 - t646))))));
-    let t675 = t671 * t673 - (t575 * t603 - (t660 + t674));
-    let t676 = t675 - c(0.0425) * (t375 - t393);
-    let t677 = t574 + (t50 - t566);
-    let t678 = (t580 + (t576 - t579)) * t672;
-    let t679 = c(1.0) / (t677 * t673 - (t575 + (t49 + t567)));
-    let t680 = (t677 * t678 + (t576 - (t568 + t569))) * t679;
-    let t681 = t668 + (t667 + (t666 - (t665 - (t664 - (t663 + (t661 - t662))))));
-    let t682 = t676 * t680 - (t671 * t678 + (t576 * t603 - (t669 + t681)));
-    let t683 = t682 + c(0.0425) * (t374 - t384);
-    let t684 = t574 - (t59 + t570);
-    let t685 = t684 * t673 - (t575 - (t56 + t571));
-    let t686 = (t113 - t115) * t672;
-    let t687 = (t677 * t686 + (t109 + t113)) * t679;
-    let t688 = c(1.0) / (t685 * t680 - (t684 * t678 + (t576 - (t572 - t573))));
-    let t689 = (t685 * t687 - (t684 * t686 - (t111 - t113))) * t688;
-    let t690 = t590 - c(8.139999999999999) * t236;
-    let t691 = t612 + (t611 + (t610 - (t690 + c(2.2551405187698492e-17) * t609)));
-    let t692 = t691 - c(6.938893903907228e-18) * t623 - c(0.188852) * t631;
-    let t693 = t676 * t687 - (t671 * t686 + (t113 * t603 - t692));
-    let t694 = t683 * t689 - t693;
-    let t695 = t574 + (t42 - t562);
-    let t696 = t695 * t673 - (t575 + (t39 - t563));
-    let t697 = t696 * t680 - (t695 * t678 + (t576 - (t564 - t565)));
-    let t698 = (t112 - t114) * t672;
-    let t699 = (t677 * t698 - (t108 - t112)) * t679;
-    let t700 = (t685 * t699 - (t684 * t698 - (t110 - t112))) * t688;
-    let t701 = t697 * t700 - (t696 * t699 - (t695 * t698 + (t106 + t112)));
-    let t702 = t697 * t689 - (t696 * t687 - (t695 * t686 + (t107 + t113)));
-    let t703 = c(1.0) / t702;
-    let t704 = t701 * t703;
-    let t705 = t587 - c(8.139999999999999) * t233;
-    let t706 = t640 + (t639 + (t638 - (t705 + c(2.2551405187698492e-17) * t637)));
-    let t707 = t706 - c(6.938893903907228e-18) * t647 - c(0.188852) * t654;
-    let t708 = t676 * t699 - (t671 * t698 + (t112 * t603 - t707));
-    let t709 = t694 * t704 - (t683 * t700 - t708);
-    let t710 = t581 + (t84 - t574);
-    let t711 = t710 * t673 - (t582 + (t83 - t575));
-    let t712 = t711 * t680 - (t710 * t678 - (t584 + (t576 - t583)));
-    let t713 = t712 * t689 - (t711 * t687 - (t710 * t686 - (t113 - t117)));
-    let t714 = t712 * t700 - (t711 * t699 - (t710 * t698 - (t112 - t116)));
-    let t715 = t709 * (c(1.0) / (t713 * t704 - t714));
-    let t716 = t703 * (t694 - t713 * t715);
-    let t717 = t688 * (t712 * t715 - (t683 - t697 * t716));
-    let t718 = t679 * (t711 * t715 + (t696 * t716 - (t676 + t685 * t717)));
-    let t719 = t695 * t716 - (t684 * t717 + (t671 + t677 * t718));
-    let t720 = t672 * (t710 * t715 + t719);
+    let t664 = t629 + (t628 + (t627 - (t624 - (t622 - (t616 + (t602 - t611))))));
+    let t665 = t568 * t597 + (t630 + t664) + c(0.0425) * (t391 - t400);
+    let t666 = c(1.0) / (t571 + (t79 - t568));
+    let t667 = (t572 + (t78 - t569)) * t666;
+    let t668 = t653 + (t652 + (t651 - (t650 - (t647 - (t646 + (t639 - t640))))));
+    let t669 = t665 * t667 - (t569 * t597 - (t654 + t668));
+    let t670 = t669 - c(0.0425) * (t381 - t399);
+    let t671 = t568 + (t50 - t560);
+    let t672 = (t574 + (t570 - t573)) * t666;
+    let t673 = c(1.0) / (t671 * t667 - (t569 + (t49 + t561)));
+    let t674 = (t671 * t672 + (t570 - (t562 + t563))) * t673;
+    let t675 = t662 + (t661 + (t660 - (t659 - (t658 - (t657 + (t655 - t656))))));
+    let t676 = t670 * t674 - (t665 * t672 + (t570 * t597 - (t663 + t675)));
+    let t677 = t676 + c(0.0425) * (t380 - t390);
+    let t678 = t568 - (t59 + t564);
+    let t679 = t678 * t667 - (t569 - (t56 + t565));
+    let t680 = (t113 - t115) * t666;
+    let t681 = (t671 * t680 + (t109 + t113)) * t673;
+    let t682 = c(1.0) / (t679 * t674 - (t678 * t672 + (t570 - (t566 - t567))));
+    let t683 = (t679 * t681 - (t678 * t680 - (t111 - t113))) * t682;
+    let t684 = t584 - c(8.139999999999999) * t242;
+    let t685 = t606 + (t605 + (t604 - (t684 + c(2.2551405187698492e-17) * t603)));
+    let t686 = t685 - c(6.938893903907228e-18) * t617 - c(0.188852) * t625;
+    let t687 = t670 * t681 - (t665 * t680 + (t113 * t597 - t686));
+    let t688 = t677 * t683 - t687;
+    let t689 = t568 + (t42 - t556);
+    let t690 = t689 * t667 - (t569 + (t39 - t557));
+    let t691 = t690 * t674 - (t689 * t672 + (t570 - (t558 - t559)));
+    let t692 = (t112 - t114) * t666;
+    let t693 = (t671 * t692 - (t108 - t112)) * t673;
+    let t694 = (t679 * t693 - (t678 * t692 - (t110 - t112))) * t682;
+    let t695 = t691 * t694 - (t690 * t693 - (t689 * t692 + (t106 + t112)));
+    let t696 = t691 * t683 - (t690 * t681 - (t689 * t680 + (t107 + t113)));
+    let t697 = c(1.0) / t696;
+    let t698 = t695 * t697;
+    let t699 = t581 - c(8.139999999999999) * t239;
+    let t700 = t634 + (t633 + (t632 - (t699 + c(2.2551405187698492e-17) * t631)));
+    let t701 = t700 - c(6.938893903907228e-18) * t641 - c(0.188852) * t648;
+    let t702 = t670 * t693 - (t665 * t692 + (t112 * t597 - t701));
+    let t703 = t688 * t698 - (t677 * t694 - t702);
+    let t704 = t575 + (t84 - t568);
+    let t705 = t704 * t667 - (t576 + (t83 - t569));
+    let t706 = t705 * t674 - (t704 * t672 - (t578 + (t570 - t577)));
+    let t707 = t706 * t683 - (t705 * t681 - (t704 * t680 - (t113 - t117)));
+    let t708 = t706 * t694 - (t705 * t693 - (t704 * t692 - (t112 - t116)));
+    let t709 = t703 * (c(1.0) / (t707 * t698 - t708));
+    let t710 = t697 * (t688 - t707 * t709);
+    let t711 = t682 * (t706 * t709 - (t677 - t691 * t710));
+    let t712 = t673 * (t705 * t709 + (t690 * t710 - (t670 + t679 * t711)));
+    let t713 = t689 * t710 - (t678 * t711 + (t665 + t671 * t712));
+    let t714 = t666 * (t704 * t709 + t713);
     // leg 1: actuator forces F at reference speeds
-    let t721 = c(4268.068200000001) - t229 * c(0.03055);
-    let t722 = t721 - c(0.17066666666666666) * t239;
-    let t723 = t722 + t282 * c(0.019782160922400118);
-    let t724 = t283 * c(0.005300614043699624);
-    let t725 = c(0.17066666666666666) * t413 - (c(21555.9) * t90 - t724);
-    passive_inverse_dynamics[0] = t725 - t429 * c(0.9523333333333334) - t716 - t723;
+    let t715 = c(4268.068200000001) - t235 * c(0.03055);
+    let t716 = t715 - c(0.17066666666666666) * t245;
+    let t717 = t716 + t288 * c(0.019782160922400118);
+    let t718 = t289 * c(0.005300614043699624);
+    let t719 = c(0.17066666666666666) * t419 - (c(21555.9) * t90 - t718);
+    passive_inverse_dynamics[0] = t719 - t433 * c(0.9523333333333334) - t710 - t717;
     // leg 2: actuator forces F at reference speeds
-    let t726 = t724 + c(21555.9) * t93 - c(0.17066666666666666) * t441;
-    passive_inverse_dynamics[1] = t718 - (t726 - t454 * c(0.9523333333333334)) - t723;
+    let t720 = t718 + c(21555.9) * t93 - c(0.17066666666666666) * t445;
+    passive_inverse_dynamics[1] = t712 - (t720 - t456 * c(0.9523333333333334)) - t717;
     // leg 3: actuator forces F at reference speeds
-    let t727 = t722 - t282 * c(0.005300614043699622);
-    let t728 = t283 * c(0.019782160922400118);
-    let t729 = c(21555.9) * t96 + t728 + c(0.17066666666666666) * t468;
-    passive_inverse_dynamics[2] = t717 - (t729 + t484 * c(0.9523333333333334)) - t727;
+    let t721 = t716 - t288 * c(0.005300614043699622);
+    let t722 = t289 * c(0.019782160922400118);
+    let t723 = c(21555.9) * t96 + t722 + c(0.17066666666666666) * t470;
+    passive_inverse_dynamics[2] = t711 - (t723 + t484 * c(0.9523333333333334)) - t721;
     // leg 4: actuator forces F at reference speeds
-    let t730 = t720 - t283 * c(0.014481546878700494);
-    let t731 = t722 - t282 * c(0.01448154687870049);
-    let t732 = c(21555.9) * t99 + c(0.17066666666666666) * t502;
-    let t733 = t716 - (t715 + (t603 + (t732 + t517 * c(0.9523333333333334))));
-    passive_inverse_dynamics[3] = t730 - (t718 + (t717 - t733)) - t731;
+    let t724 = t714 - t289 * c(0.014481546878700494);
+    let t725 = t716 - t288 * c(0.01448154687870049);
+    let t726 = c(21555.9) * t99 + c(0.17066666666666666) * t502;
+    let t727 = t710 - (t709 + (t597 + (t726 + t515 * c(0.9523333333333334))));
+    passive_inverse_dynamics[3] = t724 - (t712 + (t711 - t727)) - t725;
     // leg 5: actuator forces F at reference speeds
-    let t734 = c(21555.9) * t102 + c(0.17066666666666666) * t527;
-    passive_inverse_dynamics[4] = t540 * c(0.9523333333333334) - t734 - t730 - t731;
+    let t728 = c(21555.9) * t102 + c(0.17066666666666666) * t525;
+    passive_inverse_dynamics[4] = t536 * c(0.9523333333333334) - t728 - t724 - t725;
     // leg 6: actuator forces F at reference speeds
-    let t735 = t728 - c(21555.9) * t105 - c(0.17066666666666666) * t546;
-    passive_inverse_dynamics[5] = t715 + (t735 + t559 * c(0.9523333333333334)) - t727;
+    let t729 = t722 - c(21555.9) * t105 - c(0.17066666666666666) * t542;
+    passive_inverse_dynamics[5] = t709 + (t729 + t553 * c(0.9523333333333334)) - t721;
 }
 
 /// Wrench of the base on the mechanism.
@@ -19076,7 +19006,7 @@ pub fn base_reaction<T: Scalar>(
 /// - `platform_position`: 3, m, frame O: centre of the platform's joint circle.
 /// - `platform_rotation`: 3x3, dimensionless, frame P -> O: rotation of the platform, equation (2).
 /// - `platform_velocity`: 6, m/s, rad/s, frame O: platform velocity \[r_p'; w_p\], the generalised speeds.
-/// - `actuator_force`: 6, N: actuator force on the mover, along the actuator axis.
+/// - `actuator_force`: 6, N: actuator force along the actuator, positive to lengthen it.
 /// - `external_wrench`: 6, N, N m, frame O: external force and moment \[F_D; M_D\] at the payload's centre of mass.
 ///
 /// Outputs:
@@ -20001,7 +19931,7 @@ pub fn forward_dynamics<T: Scalar>(
 ///
 /// Outputs:
 ///
-/// - `kinetic_energy`: scalar, J: kinetic energy of payload, rods and movers.
+/// - `kinetic_energy`: scalar, J: kinetic energy of all moving bodies.
 /// - `potential_energy`: scalar, J: potential energy of gravity and springs.
 #[allow(clippy::all, clippy::pedantic, unused_variables)]
 pub fn energy<T: Scalar>(
@@ -20484,7 +20414,7 @@ pub fn energy<T: Scalar>(
     // leg 6: potential energy of the leg
     let t407 = c(0.198) + t75;
     let t408 = t407 * (c(21555.9) * t407);
-    // kinetic energy of payload, rods and movers
+    // kinetic energy of all moving bodies
     let t409 = platform_rotation[0][2] * c(0.031);
     let t410 = platform_rotation[1][2] * c(0.031);
     let t411 = platform_velocity[2] + platform_velocity[3] * t410;

@@ -78,7 +78,7 @@ pub const CALLS: &[Call] = &[
                 k.rod_direction,
                 k.hooke_joint_position_m,
                 k.platform_joint_position_m,
-                k.universal_joint_rate_rad_s,
+                k.platform_joint_rate_rad_s,
             ];
             Ok([flat(&lengths), flat(vectors.as_flattened())].concat())
         },
@@ -125,6 +125,52 @@ pub const CALLS: &[Call] = &[
                 &a.external_wrench,
             )?;
             let legs = [f.rod_active_force, f.rod_inertia_force, f.mover_active_force, f.mover_inertia_force];
+            Ok([flat(&[f.payload_active_force, f.payload_inertia_force]), flat(legs.as_flattened())].concat())
+        },
+    },
+    Call {
+        name: "ups_body_kinematics",
+        inputs: MOTIONS,
+        run: |hexapod, a| {
+            let k = hexapod.ups_body_kinematics(&a.base, &a.platform, &a.platform_acceleration)?;
+            let payload =
+                [k.payload_com_position_m, k.payload_com_velocity_m_s, k.payload_com_acceleration_m_s2];
+            let legs = [
+                k.leg_angular_velocity_rad_s,
+                k.leg_angular_acceleration_rad_s2,
+                k.lower_com_position_m,
+                k.lower_com_velocity_m_s,
+                k.lower_com_acceleration_m_s2,
+                k.upper_com_position_m,
+                k.upper_com_velocity_m_s,
+                k.upper_com_acceleration_m_s2,
+            ];
+            Ok([flat(&payload), flat(legs.as_flattened())].concat())
+        },
+    },
+    Call {
+        name: "ups_partial_velocities",
+        inputs: POSES,
+        run: |hexapod, a| {
+            let v = hexapod.ups_partial_velocities(&a.base, &a.platform)?;
+            let payload = [v.payload_partial_velocity, v.payload_partial_angular_velocity];
+            let legs = [v.lower_partial_velocity, v.upper_partial_velocity, v.leg_partial_angular_velocity];
+            Ok([flat(&payload), flat(legs.as_flattened())].concat())
+        },
+    },
+    Call {
+        name: "ups_generalised_forces",
+        inputs: ALL,
+        run: |hexapod, a| {
+            let f = hexapod.ups_generalised_forces(
+                &a.base,
+                &a.platform,
+                &a.platform_acceleration,
+                &a.actuator_force_n,
+                &a.external_wrench,
+            )?;
+            let legs =
+                [f.lower_active_force, f.lower_inertia_force, f.upper_active_force, f.upper_inertia_force];
             Ok([flat(&[f.payload_active_force, f.payload_inertia_force]), flat(legs.as_flattened())].concat())
         },
     },

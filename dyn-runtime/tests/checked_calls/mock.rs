@@ -98,10 +98,10 @@ impl kernels::JacobianDp for Mock {
     }
 }
 
-/// `Trait function(inputs) -> (outputs)`; a digit keeps names apart.
+/// `Trait => function(inputs) -> (outputs)`; a digit keeps names apart.
 macro_rules! counting {
-    ($($kernel:ident $function:ident($($input:ident: $in:ty),*) -> ($($output:ident: $out:ty),*);)*) => {$(
-        impl kernels::$kernel for Mock {
+    ($($($kernel:ident)::+ => $function:ident($($input:ident: $in:ty),*) -> ($($output:ident: $out:ty),*);)*) => {$(
+        impl kernels::$($kernel)::+ for Mock {
             fn $function(&self, $($input: &$in,)* $($output: &mut $out),*) {
                 self.count(&[$($input),*], &mut [$($output),*]);
             }
@@ -110,30 +110,38 @@ macro_rules! counting {
 }
 
 counting! {
-    LegKinematics leg_kinematics(i1: V3, i2: M3, i3: V6, i4: V6, i5: V3, i6: M3, i7: V6, i8: V6)
+    LegKinematics => leg_kinematics(i1: V3, i2: M3, i3: V6, i4: V6, i5: V3, i6: M3, i7: V6, i8: V6)
         -> (o1: V6, o2: V6, o3: V6, o4: [V3; 6], o5: [V3; 6], o6: [V3; 6], o7: [V3; 6]);
-    BodyKinematics body_kinematics(i1: V3, i2: M3, i3: V6, i4: V6, i5: V3, i6: M3, i7: V6, i8: V6)
+    uhp::BodyKinematics => body_kinematics(i1: V3, i2: M3, i3: V6, i4: V6, i5: V3, i6: M3, i7: V6, i8: V6)
         -> (o1: V3, o2: V3, o3: V3, o4: [V3; 6], o5: [V3; 6], o6: [V3; 6], o7: [V3; 6], o8: [V3; 6], o9: [V3; 6],
             o10: [V3; 6], o11: [V3; 6]);
-    PartialVelocities partial_velocities(i1: V3, i2: M3, i3: V3, i4: M3)
+    uhp::PartialVelocities => partial_velocities(i1: V3, i2: M3, i3: V3, i4: M3)
         -> (o1: M36, o2: M36, o3: [M36; 6], o4: [M36; 6], o5: [M36; 6]);
-    GeneralisedForces generalised_forces(
+    uhp::GeneralisedForces => generalised_forces(
         i1: V3, i2: M3, i3: V6, i4: V6, i5: V3, i6: M3, i7: V6, i8: V6, i9: V6, i10: V6
     ) -> (o1: V6, o2: V6, o3: M6, o4: M6, o5: M6, o6: M6);
-    JacobianDb jacobian_db(i1: V3, i2: M3, i3: V3, i4: M3) -> (o1: M6);
-    MassMatrixP mass_matrix_p(i1: V3, i2: M3, i3: V3, i4: M3) -> (o1: M6);
-    MassMatrixB mass_matrix_b(i1: V3, i2: M3, i3: V3, i4: M3) -> (o1: M6);
-    CoriolisMatrices coriolis_matrices(i1: V3, i2: M3, i3: V6, i4: V3, i5: M3, i6: V6) -> (o1: M6, o2: M6);
-    StiffnessMatrices stiffness_matrices(i1: V3, i2: M3, i3: V3, i4: M3) -> (o1: M6, o2: M6);
-    Matrices matrices(i1: V3, i2: M3, i3: V6, i4: V3, i5: M3, i6: V6)
+    ups::BodyKinematics => body_kinematics(i1: V3, i2: M3, i3: V6, i4: V6, i5: V3, i6: M3, i7: V6, i8: V6)
+        -> (o1: V3, o2: V3, o3: V3, o4: [V3; 6], o5: [V3; 6], o6: [V3; 6], o7: [V3; 6], o8: [V3; 6], o9: [V3; 6],
+            o10: [V3; 6], o11: [V3; 6]);
+    ups::PartialVelocities => partial_velocities(i1: V3, i2: M3, i3: V3, i4: M3)
+        -> (o1: M36, o2: M36, o3: [M36; 6], o4: [M36; 6], o5: [M36; 6]);
+    ups::GeneralisedForces => generalised_forces(
+        i1: V3, i2: M3, i3: V6, i4: V6, i5: V3, i6: M3, i7: V6, i8: V6, i9: V6, i10: V6
+    ) -> (o1: V6, o2: V6, o3: M6, o4: M6, o5: M6, o6: M6);
+    JacobianDb => jacobian_db(i1: V3, i2: M3, i3: V3, i4: M3) -> (o1: M6);
+    MassMatrixP => mass_matrix_p(i1: V3, i2: M3, i3: V3, i4: M3) -> (o1: M6);
+    MassMatrixB => mass_matrix_b(i1: V3, i2: M3, i3: V3, i4: M3) -> (o1: M6);
+    CoriolisMatrices => coriolis_matrices(i1: V3, i2: M3, i3: V6, i4: V3, i5: M3, i6: V6) -> (o1: M6, o2: M6);
+    StiffnessMatrices => stiffness_matrices(i1: V3, i2: M3, i3: V3, i4: M3) -> (o1: M6, o2: M6);
+    Matrices => matrices(i1: V3, i2: M3, i3: V6, i4: V3, i5: M3, i6: V6)
         -> (o1: M6, o2: M6, o3: M6, o4: M6, o5: M6, o6: M6);
-    PassiveForces passive_forces(i1: V3, i2: M3, i3: V6, i4: V3, i5: M3, i6: V6) -> (o1: V6, o2: V6, o3: V6);
-    Bias bias(i1: V3, i2: M3, i3: V6, i4: V3, i5: M3, i6: V6) -> (o1: V6);
-    EquationOfMotion equation_of_motion(i1: V3, i2: M3, i3: V6, i4: V3, i5: M3, i6: V6)
+    PassiveForces => passive_forces(i1: V3, i2: M3, i3: V6, i4: V3, i5: M3, i6: V6) -> (o1: V6, o2: V6, o3: V6);
+    Bias => bias(i1: V3, i2: M3, i3: V6, i4: V3, i5: M3, i6: V6) -> (o1: V6);
+    EquationOfMotion => equation_of_motion(i1: V3, i2: M3, i3: V6, i4: V3, i5: M3, i6: V6)
         -> (o1: M6, o2: M6, o3: M6, o4: M6, o5: M6, o6: M6, o7: M6, o8: M6, o9: V6, o10: V6, o11: V6, o12: V6);
-    InverseDynamics inverse_dynamics(i1: V3, i2: M3, i3: V6, i4: V6, i5: V3, i6: M3, i7: V6, i8: V6, i9: V6)
+    InverseDynamics => inverse_dynamics(i1: V3, i2: M3, i3: V6, i4: V6, i5: V3, i6: M3, i7: V6, i8: V6, i9: V6)
         -> (o1: V6);
-    ForwardDynamics forward_dynamics(i1: V3, i2: M3, i3: V6, i4: V6, i5: V3, i6: M3, i7: V6, i8: V6, i9: V6)
+    ForwardDynamics => forward_dynamics(i1: V3, i2: M3, i3: V6, i4: V6, i5: V3, i6: M3, i7: V6, i8: V6, i9: V6)
         -> (o1: V6);
-    Energy energy(i1: V3, i2: M3, i3: V6, i4: V3, i5: M3, i6: V6) -> (o1: f64, o2: f64);
+    Energy => energy(i1: V3, i2: M3, i3: V6, i4: V3, i5: M3, i6: V6) -> (o1: f64, o2: f64);
 }

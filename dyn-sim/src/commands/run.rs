@@ -57,9 +57,18 @@ fn repository() -> Option<PathBuf> {
     folders.find(|folder| folder.join(SIGN).is_file()).map(Path::to_owned)
 }
 
+/// The scenario of a file. Hints at what may be wrong with its platform are printed.
+fn read(file: &Path) -> Result<Scenario> {
+    let scenario = Scenario::from_file(file)?;
+    for warning in &scenario.platform.warnings {
+        eprintln!("{:?}", Report::new(warning.clone()));
+    }
+    Ok(scenario)
+}
+
 /// Reads a scenario and says what it is.
 pub fn check(file: &Path) -> Result<Ending> {
-    let scenario = Scenario::from_file(file)?;
+    let scenario = read(file)?;
     let (grid, platform) = (scenario.grid, &scenario.platform.name);
     println!(
         "{}: scenario `{}` of platform `{platform}`, {} steps of {} s",
@@ -76,7 +85,7 @@ pub fn check(file: &Path) -> Result<Ending> {
 
 /// Runs a scenario file.
 pub fn run(file: &Path, options: &Options, command: &str) -> Result<Ending> {
-    let scenario = Scenario::from_file(file)?;
+    let scenario = read(file)?;
     let root = repository();
     let workspace = root.as_deref().filter(|_| !options.no_prototype);
     let mut bars = Bars::default();

@@ -172,7 +172,8 @@ fn leg_columns(
 fn actuator_forces(outcome: &Outcome, analysis: &Analysis) -> Option<Figure> {
     let window = analysis.detail(outcome);
     let forces = &outcome.actuator_force_n;
-    (!forces.is_empty()).then(|| Figure {
+    // Those of a free platform are constant: nothing to see.
+    forces.windows(2).any(|pair| pair[0] != pair[1]).then(|| Figure {
         name: "actuator_force".into(),
         title: "Actuator forces".into(),
         caption: format!(

@@ -8,7 +8,6 @@ use toml::Spanned;
 use super::motions::Reader;
 use super::schema::{File, Limits, Spectrum};
 use super::{Scenario, SpectrumRequest, Steering, VERSION};
-use crate::mechanism;
 use crate::simulate::{Grid, Stroke};
 use crate::spectrum::Window;
 
@@ -37,7 +36,6 @@ pub(super) fn scenario(
     refusals: &mut Vec<Refusal>,
 ) -> Result<Option<Scenario>, FileError> {
     name(&file.name, refusals);
-    model(&file.platform, &platform, refusals);
     let grid = grid(&file, refusals);
     let stroke = stroke(&platform, file.limits.as_ref(), refusals);
     let mut reader = Reader { grid, folder, refusals, notes: Vec::new() };
@@ -78,17 +76,6 @@ pub(super) fn scenario(
         outputs: file.outputs,
         notes,
     }))
-}
-
-/// Without a model there is nothing to simulate.
-fn model(written: &Spanned<String>, platform: &Platform, refusals: &mut Vec<Refusal>) {
-    if !mechanism::has_model(platform) {
-        let (name, legs) = (&platform.name, platform.leg_type.name());
-        let what =
-            format!("the platform `{name}` has legs of type `{legs}`, of which there is no generated model");
-        let help = "choose a platform with legs of type `uhp`";
-        refusals.push(Refusal::new(written.span(), "no model of its legs", what, help));
-    }
 }
 
 /// Names become folders.

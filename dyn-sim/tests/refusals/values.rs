@@ -240,23 +240,3 @@ fn name_that_is_no_folder() {
     "#]],
     );
 }
-
-#[test]
-fn legs_without_a_model() {
-    check(
-        "platform = \"uhp_2016.toml\"",
-        "platform = \"../tests/platforms/ups_regular.toml\"",
-        expect![[r#"
-            Error:
-              × the platform `ups_regular` has legs of type `ups`, of which there is no generated model
-               ╭─[bench.toml:3:12]
-             2 │ name = "bench"
-             3 │ platform = "../tests/platforms/ups_regular.toml"
-               ·            ──────────────────┬──────────────────
-               ·                              ╰── no model of its legs
-             4 │ gravity = true
-               ╰────
-              help: choose a platform with legs of type `uhp`
-        "#]],
-    );
-}

@@ -1,0 +1,149 @@
+//! A control loop at 10 kHz on the machine at hand: how long the model takes in every cycle.
+//!
+//! The loop sleeps for most of each period and waits actively for the rest, as a controller without a real-time operating
+//! system does. What happens in between belongs to it: other programs run, caches and branch predictors forget. So these
+//! times are longer than a benchmark's, which calls the same function again and again.
+
+use std::hint::{black_box, spin_loop};
+use std::thread;
+use std::time::{Duration, Instant};
+
+use hdrhistogram::Histogram;
+use serde::Serialize;
+
+/// Time from one cycle to the next.
+pub const PERIOD: Duration = Duration::from_micros(100);
+
+/// How long before a cycle the loop stops sleeping; an ordinary kernel wakes a thread some 60 us late.
+const AWAKE: Duration = Duration::from_micros(75);
+
+/// Longest time that is told apart from longer ones, ns.
+const LONGEST_NS: u64 = 1_000_000_000;
+
+/// Times of all cycles of one run, ns.
+pub struct Run {
+    /// Of the model itself.
+    pub model: Histogram<u64>,
+    /// From when a cycle should have begun to when it began: the operating system's share, not the model's.
+    pub lateness: Histogram<u64>,
+}
+
+/// What a histogram says in five numbers, ns.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub struct Summary {
+    /// Half of the cycles took at most this.
+    pub median_ns: u64,
+    /// 99 of 100.
+    pub p99_ns: u64,
+    /// 999 of 1000.
+    pub p99_9_ns: u64,
+    /// All.
+    pub max_ns: u64,
+    /// `p99_9_ns / median_ns`.
+    pub p99_9_by_median: f64,
+}
+
+/// Runs `model` with the number of the cycle, in every period of `duration`.
+///
+/// # Errors
+/// If a histogram cannot be made.
+pub fn run(duration: Duration, mut model: impl FnMut(usize)) -> Result<Run, hdrhistogram::CreationError> {
+    let histogram = || Histogram::new_with_bounds(1, LONGEST_NS, 3);
+    let mut result = Run { model: histogram()?, lateness: histogram()? };
+    let cycles = (duration.as_nanos() / PERIOD.as_nanos()) as usize;
+    let mut due = Instant::now() + PERIOD;
+    for cycle in 0..cycles {
+        let begun = wait_until(due);
+        model(black_box(cycle));
+        let ended = Instant::now();
+        // Longer than the longest counts as the longest.
+        result.model.saturating_record(nanoseconds(ended - begun));
+        result.lateness.saturating_record(nanoseconds(begun - due));
+        // A cycle that was missed is not made up for: a controller would act on old measurements.
+        due += PERIOD;
+        while due < ended {
+            due += PERIOD;
+        }
+    }
+    Ok(result)
+}
+
+/// Sleeps, then waits actively; when it is that time, which time it is.
+fn wait_until(due: Instant) -> Instant {
+    if let Some(sleep) = due.checked_duration_since(Instant::now()).and_then(|left| left.checked_sub(AWAKE)) {
+        thread::sleep(sleep);
+    }
+    loop {
+        let now = Instant::now();
+        if now >= due {
+            return now;
+        }
+        spin_loop();
+    }
+}
+
+fn nanoseconds(duration: Duration) -> u64 {
+    duration.as_nanos().try_into().unwrap_or(u64::MAX).max(1)
+}
+
+impl Summary {
+    /// Of a histogram.
+    pub fn of(histogram: &Histogram<u64>) -> Self {
+        let [median_ns, p99_ns, p99_9_ns] = [0.5, 0.99, 0.999].map(|q| histogram.value_at_quantile(q));
+        Self {
+            median_ns,
+            p99_ns,
+            p99_9_ns,
+            max_ns: histogram.max(),
+            p99_9_by_median: p99_9_ns as f64 / median_ns as f64,
+        }
+    }
+
+    /// Each number's median over runs.
+    ///
+    /// # Panics
+    /// Without any run.
+    pub fn median(runs: &[Self]) -> Self {
+        let median = |number: fn(&Self) -> f64| {
+            let mut numbers: Vec<f64> = runs.iter().map(number).collect();
+            numbers.sort_by(f64::total_cmp);
+            numbers[numbers.len() / 2]
+        };
+        Self {
+            median_ns: median(|run| run.median_ns as f64) as u64,
+            p99_ns: median(|run| run.p99_ns as f64) as u64,
+            p99_9_ns: median(|run| run.p99_9_ns as f64) as u64,
+            max_ns: median(|run| run.max_ns as f64) as u64,
+            p99_9_by_median: median(|run| run.p99_9_by_median),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_period_has_a_cycle_and_times_are_told_apart() {
+        let mut cycles = Vec::new();
+        let run = run(10 * PERIOD, |cycle| {
+            cycles.push(cycle);
+            if cycle == 5 {
+                thread::sleep(Duration::from_millis(2));
+            }
+        })
+        .unwrap();
+        assert_eq!(cycles, (0..10).collect::<Vec<_>>());
+        assert_eq!((run.model.len(), run.lateness.len()), (10, 10));
+        let summary = Summary::of(&run.model);
+        assert!(summary.max_ns >= 2_000_000 && summary.median_ns < 2_000_000, "{summary:?}");
+    }
+
+    #[test]
+    fn medians_of_runs_are_taken_number_by_number() {
+        let run =
+            |median_ns, max_ns| Summary { median_ns, p99_ns: 2, p99_9_ns: 3, max_ns, p99_9_by_median: 1.0 };
+        let median = Summary::median(&[run(5, 10), run(7, 90), run(6, 50)]);
+        assert_eq!((median.median_ns, median.max_ns), (6, 50));
+    }
+}

@@ -1,0 +1,8 @@
+//! Makes the model of `my_platform.toml`, again whenever that file has changed. The payload is left for run time.
+
+fn main() {
+    dyn_gen::Build::new("my_platform.toml")
+        .runtime(["payload"])
+        .functions(["rod_alignment", "jacobian_dp", "inverse_dynamics"])
+        .write_to_out_dir("model.rs");
+}
