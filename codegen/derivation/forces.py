@@ -8,7 +8,7 @@ along the actuators must balance: one 6 x 6 solve, no mass matrix.
 import casadi as ca
 
 from .payload import mass_matrix, with_point_masses
-from .rotations import cross, levers_cross, symmetric
+from .rotations import cross, levers_cross, skew, symmetric
 from .stages import leg_stage, platform_stage
 
 
@@ -39,6 +39,56 @@ def inertia_wrench(
 
 
 @platform_stage
+def reference_speeds(base_rotation, platform_velocity, reference_velocity, platform_rate, relative_rotation):
+    """reference less actual speeds of the platform, and the acceleration field that goes with their product."""
+    velocity = base_rotation.T @ (reference_velocity[:3] - platform_velocity[:3])
+    rate = base_rotation.T @ (reference_velocity[3:] - platform_velocity[3:])
+    return {
+        "velocity_error": velocity,
+        "rate_error": rate,
+        "error_field": skew(rate) @ skew(platform_rate) @ relative_rotation,
+    }
+
+
+@platform_stage
+def remaining_reference_wrench(
+    relative_rotation, base_rotation, inertia_force, inertia_moments, external_wrench, payload_com, payload_inertia,
+    platform_rate, rate_error, error_field, merged_moment, merged_second_moment,
+):
+    """inertia at reference speeds less external wrench about the platform origin."""
+    external = base_rotation.T @ external_wrench[:3]
+    moments = inertia_moments + error_field @ merged_second_moment
+    moment = levers_cross(relative_rotation, moments - external @ payload_com.T)
+    # Points at reference speeds give -S(w) Sigma where the natural factorisation has S(w) I, about the payload's com.
+    gyroscopic = (ca.trace(payload_inertia) / 2) * cross(platform_rate, rate_error)
+    return {
+        "remaining_wrench": ca.vertcat(
+            inertia_force + error_field @ merged_moment - external,
+            moment + gyroscopic - base_rotation.T @ external_wrench[3:],
+        ),
+    }
+
+
+@platform_stage
+def base_reaction(
+    relative_rotation, relative_position, base_rotation, platform_origin_acceleration, platform_field,
+    merged_mass, merged_moment, merged_second_moment, leg_inertia_force, leg_inertia_moment, external_wrench, payload_com,
+):
+    """wrench of the base on the mechanism in O, moments about the base origin."""
+    external = base_rotation.T @ external_wrench[:3]
+    force = merged_mass * platform_origin_acceleration + platform_field @ merged_moment - external
+    moments = (
+        platform_origin_acceleration @ merged_moment.T + platform_field @ merged_second_moment - external @ payload_com.T
+    )
+    moment = levers_cross(relative_rotation, moments) + cross(relative_position, force)
+    moment -= base_rotation.T @ external_wrench[3:]
+    for leg_force, leg_moment in zip(leg_inertia_force, leg_inertia_moment, strict=True):
+        force += leg_force
+        moment += leg_moment
+    return {"base_wrench": ca.vertcat(base_rotation @ force, base_rotation @ moment)}
+
+
+@platform_stage
 def remaining_wrench(relative_rotation, base_rotation, inertia_force, inertia_moments, external_wrench, payload_com):
     """inertia less external wrench about the platform origin."""
     external = base_rotation.T @ external_wrench[:3]
@@ -58,6 +108,12 @@ def wrench_map(jacobian_row):
 def actuator_forces(axial_inertia_force, passive_axial_force, axial_reaction):
     """actuator force."""
     return {"inverse_dynamics": axial_inertia_force + passive_axial_force + axial_reaction}
+
+
+@leg_stage
+def reference_actuator_forces(axial_inertia_force, passive_axial_force, axial_reaction):
+    """actuator force at reference speeds."""
+    return {"passive_inverse_dynamics": axial_inertia_force + passive_axial_force + axial_reaction}
 
 
 @leg_stage
@@ -120,9 +176,39 @@ def platform_acceleration(base_rotation, gravity, acceleration_correction):
 
 
 @platform_stage
+def commanded_wrench(
+    platform_rotation, platform_acceleration, mass_matrix_p, total_bias, external_wrench, payload_com,
+):
+    """M_p v_p' + bias - M_b v_b' - W_ext in O."""
+    moment = external_wrench[3:] + cross(platform_rotation @ payload_com, external_wrench[:3])
+    external = ca.vertcat(external_wrench[:3], moment)
+    return {"remaining_wrench": mass_matrix_p @ platform_acceleration + total_bias - external}
+
+
+@platform_stage
+def wrench_map_in_o(jacobian_dp):
+    """transposed actuator Jacobian in O."""
+    return {"wrench_map": ca.horzcat(*jacobian_dp)}
+
+
+@leg_stage
+def commanded_forces(axial_reaction):
+    """actuator force."""
+    return {"inverse_dynamics": axial_reaction}
+
+
+@platform_stage
 def bias_from_wrench(base_rotation, relative_rotation, inertia_force, inertia_moments, jacobian_row, net_axial_force):
     """bias in O: the wrench that holds the platform at constant speeds."""
     reflected = sum((row * force for row, force in zip(jacobian_row, net_axial_force, strict=True)), ca.SX.zeros(6))
     force = inertia_force - reflected[:3]
     moment = levers_cross(relative_rotation, inertia_moments) - reflected[3:]
     return {"bias": ca.vertcat(base_rotation @ force, base_rotation @ moment)}
+
+
+@platform_stage
+def total_bias(base_rotation, relative_rotation, inertia_force, inertia_moments, jacobian_dp, net_axial_force):
+    """bias in O on a base that accelerates."""
+    reflected = sum((row * force for row, force in zip(jacobian_dp, net_axial_force, strict=True)), ca.SX.zeros(6))
+    moment = levers_cross(relative_rotation, inertia_moments)
+    return {"total_bias": ca.vertcat(base_rotation @ inertia_force, base_rotation @ moment) - reflected}

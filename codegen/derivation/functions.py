@@ -29,6 +29,9 @@ MATRICES = (
 )
 
 
+AXIAL_REACTION = Solve("axial_reaction", "wrench_map", "remaining_wrench", symmetric_positive_definite=False)
+
+
 def functions(leg) -> list[Function]:
     """Every function for a leg type (a module of `legs`)."""
     pose = (motion.relative_pose, motion.joint_pose, leg.leg_closure)
@@ -118,9 +121,30 @@ def functions(leg) -> list[Function]:
         Function(
             "inverse_dynamics", "actuator forces for a given platform acceleration", "(49)",
             ("inverse_dynamics",),
-            (*gradient, *merged, *rates, *fields, *leg_forces, *reaction, forces.wrench_map,
-             Solve("axial_reaction", "wrench_map", "remaining_wrench", symmetric_positive_definite=False),
+            (*gradient, *merged, *rates, *fields, *leg_forces, *reaction, forces.wrench_map, AXIAL_REACTION,
              forces.actuator_forces),
+        ),
+        Function(
+            "actuator_geometry", "actuator lengths with their gradients, for forward kinematics", "(18), (32)",
+            ("rod_alignment", "actuator_length", "jacobian_dp"), jacobians,
+        ),
+        Function(
+            "control", "what a controller by inverse dynamics needs, in one call", "(18), (30), (32), (49)",
+            ("actuator_length", "actuator_velocity", "jacobian_dp", "mass_matrix_p", "total_bias", "inverse_dynamics"),
+            (*mass, matrices.mass_matrix_p, *rates, motion.base_acceleration_field, motion.steady_platform_field, *acceleration,
+             leg.leg_inertia_forces, forces.passive_axial_force, forces.inertia_wrench, forces.opposing_axial_force,
+             forces.total_bias, forces.commanded_wrench, forces.wrench_map_in_o, AXIAL_REACTION, forces.commanded_forces),
+        ),
+        Function(
+            "passive_inverse_dynamics", "actuator forces at reference speeds and accelerations, for passivity-based control",
+            "(49)", ("passive_inverse_dynamics",),
+            (*gradient, *merged, *rates, *fields, *acceleration, forces.reference_speeds,
+             leg.leg_reference_forces, forces.passive_axial_force, forces.jacobian_row, forces.inertia_wrench,
+             forces.remaining_reference_wrench, forces.wrench_map, AXIAL_REACTION, forces.reference_actuator_forces),
+        ),
+        Function(
+            "base_reaction", "wrench of the base on the mechanism", "", ("base_wrench",),
+            (*gradient, *merged, *rates, *fields, *acceleration, leg.leg_inertia_wrench, forces.base_reaction),
         ),
         Function(
             "forward_dynamics", "platform acceleration for given actuator forces", "(49)",

@@ -65,6 +65,31 @@ def inertia_forces(leg: Leg, axis, accelerations):
     return dot(axis, along), across
 
 
+def inertia_wrench(leg: Leg, positions, accelerations):
+    """Inertia force of the whole leg and its moment about the origin of `positions`, which of a direction is itself."""
+    forces = {name: ca.SX.zeros(3) for name in leg.points}
+    for (first, second), mass in leg.masses.items():
+        forces[first] += mass * accelerations[second]
+        if first != second:
+            forces[second] += mass * accelerations[first]
+    moment = sum((cross(positions[name], force) for name, force in forces.items()), ca.SX.zeros(3))
+    total = sum((leg.points[name].translates * force for name, force in forces.items()), ca.SX.zeros(3))
+    return total, moment
+
+
+def bilinear_accelerations(leg: Leg, axis, axis_rate, gradient, gradient_rate, speed, speed_rate):
+    """D_k' s + D_k s' of every point: what speeds s of the joint, other than its own, add to a point's acceleration.
+
+    Their inertia forces are the leg's Coriolis matrix times s, as `joint_inertia_rate` has it, without the matrix.
+    """
+    axial, axial_rate = dot(gradient, speed), dot(gradient_rate, speed) + dot(gradient, speed_rate)
+    return {
+        name: axis * (point.along * axial_rate + point.along_rate * axial) + axis_rate * (point.along * axial)
+        + point.across_rate * speed + point.across * speed_rate
+        for name, point in leg.points.items()
+    }
+
+
 def joint_inertia(leg: Leg, axis, gradient):
     """N = sum m_kl D_k^T D_l: mass matrix of the leg in the speeds of its joint, 3 x 3."""
     both = leg.total(lambda k, l: k.along * l.along)

@@ -89,6 +89,7 @@ def sample(leg_type: str) -> dict[str, list[float]]:
         "platform_rotation": _flat(_multiply(base_rotation, _rotation(*_spread(3, 17, 0.1)))),
         "platform_velocity": _spread(6, 91, 1.7),
         "platform_acceleration": _spread(6, 101, 2.9),
+        "reference_velocity": _spread(6, 221, 1.5),
         "actuator_force": _spread(LEG_COUNT, 111, 23.0),
         "external_wrench": _spread(6, 121, 5.3),
         "base_point": _flat((x, y, z) for (x, y), z in zip(lower, height)),

@@ -44,6 +44,7 @@ INPUTS = table("input", False, [
     ("platform_rotation", (3, 3), "1", "P -> O", "rotation of the platform", "(2)"),
     ("platform_velocity", (6,), TWIST, "O", "platform velocity [r_p'; w_p], the generalised speeds"),
     ("platform_acceleration", (6,), TWIST_RATE, "O", "platform acceleration [r_p''; w_p']"),
+    ("reference_velocity", (6,), TWIST, "O", "reference velocity [r_r'; w_r] of the platform, for passivity-based control"),
 ]) + table("input", True, [
     ("actuator_force", (), "N", "-", "actuator force along the actuator, positive to lengthen it"),
 ]) + table("input", False, [
@@ -88,6 +89,8 @@ LEG_INTERFACE = table("intermediate", True, [
     ("platform_end_mass", (), "kg", "-", "leg mass that moves with the platform joint"),
     ("axial_inertia_force", (), "N", "-", "leg inertia less weight along the actuator"),
     ("joint_inertia_force", (3,), "N", "B", "remaining leg inertia less weight at the platform joint"),
+    ("leg_inertia_force", (3,), "N", "B", "inertia less weight of the whole leg"),
+    ("leg_inertia_moment", (3,), "N m", "B", "its moment about the base origin"),
     ("joint_inertia", (3, 3), "kg", "O", "mass matrix of the leg in the speeds of its joint"),
     ("joint_inertia_rate", (3, 3), "kg/s", "O", "Coriolis matrix of the leg in the speeds of its joint"),
     ("joint_base_inertia", (3, 6), "kg, kg m", "O", "leg inertia between joint and base speeds"),
@@ -115,8 +118,11 @@ DYNAMICS = table("intermediate", True, [
     ("merged_second_moment", (3, 3), "kg m^2", "P", "second moment of payload and platform-side leg ends"),
     ("inertia_force", (3,), "N", "B", "inertia force less weight, without the actuators' own shares"),
     ("inertia_moments", (3, 3), "N m", "B, P", "its first moments by platform coordinate"),
-    ("wrench_map", (6, 6), "1, m", "B", "transposed actuator Jacobian about the platform origin"),
-    ("remaining_wrench", (6,), WRENCH, "B", "inertia less external wrench that the actuators must balance"),
+    ("velocity_error", (3,), "m/s", "B", "reference less actual velocity of the platform origin"),
+    ("rate_error", (3,), "rad/s", "B", "reference less actual angular velocity of the platform"),
+    ("error_field", (3, 3), "1/s^2", "P -> B", "what that adds to the acceleration per platform coordinate"),
+    ("wrench_map", (6, 6), "1, m", "B or O", "transposed actuator Jacobian about the platform origin"),
+    ("remaining_wrench", (6,), WRENCH, "B or O", "inertia less external wrench that the actuators must balance"),
     ("platform_mass_matrix", (6, 6), INERTIA_6, "B", "mass matrix in base coordinates"),
     ("residual_wrench", (6,), WRENCH, "B", "wrench left at the trial acceleration"),
     ("acceleration_correction", (6,), TWIST_RATE, "B", "acceleration that removes the residual wrench"),
@@ -136,6 +142,7 @@ OUTPUTS = table("output", True, [
     ("jacobian_dp", (6,), "1, m", "O", "actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b", "(32)"),
     ("jacobian_db", (6,), "1, m", "O", "actuator Jacobian of the base", "(31)"),
     ("inverse_dynamics", (), "N", "-", "actuator forces F", "(49)"),
+    ("passive_inverse_dynamics", (), "N", "-", "actuator forces F at reference speeds", "(49)"),
 ]) + table("output", False, [
     ("payload_com_position", (3,), "m", "O", "centre of mass of the payload", "(11)-(13)"),
     ("payload_com_velocity", (3,), "m/s", "O", "velocity of the payload's centre of mass", "(11)-(13)"),
@@ -154,7 +161,9 @@ OUTPUTS = table("output", True, [
     ("spring_force", (6,), WRENCH, "O", "generalised spring force J_dp^T k_e (d - d0), left side", "(39)-(46)"),
     ("damping_force", (6,), WRENCH, "O", "generalised damping force J_dp^T c_e d', left side", "(39)-(46)"),
     ("bias", (6,), WRENCH, "O", "C_p v_p - C_b v_b + gravity, spring and damping force", "(49)"),
+    ("total_bias", (6,), WRENCH, "O", "bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext", "(49)"),
     ("forward_dynamics", (6,), TWIST_RATE, "O", "platform acceleration v_p'", "(49)"),
+    ("base_wrench", (6,), WRENCH, "O", "wrench of the base on the mechanism, moments about the base origin"),
     ("kinetic_energy", (), "J", "-", "kinetic energy of all moving bodies"),
     ("potential_energy", (), "J", "-", "potential energy of gravity and springs"),
 ])

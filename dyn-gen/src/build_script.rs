@@ -96,7 +96,7 @@ impl Build {
         self
     }
 
-    /// The functions to generate. Otherwise all.
+    /// The functions to generate, as in [`Options::functions`]. Otherwise all.
     pub fn functions(mut self, names: impl IntoIterator<Item = impl Into<String>>) -> Build {
         self.functions.get_or_insert_default().extend(names.into_iter().map(Into::into));
         self

@@ -62,7 +62,7 @@ pub struct Tolerance {
 
 /// Tolerances that differ from [`DEFAULT`].
 pub const TOLERANCES: &[Tolerance] = &[Tolerance {
-    outputs: &["inverse_dynamics"],
+    outputs: &["inverse_dynamics", "passive_inverse_dynamics"],
     relative: 1e-11,
     reason: "rounding errors are multiplied by the condition number of J_dp, up to 1000 near the edge",
 }];

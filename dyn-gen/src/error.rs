@@ -19,6 +19,17 @@ pub enum GenerateError {
         /// The nearest, or what there is.
         help: String,
     },
+    /// An output that a function does not have.
+    #[error("function `{function}` has no output `{output}`")]
+    #[diagnostic(help("{help}"))]
+    UnknownOutput {
+        /// The function.
+        function: String,
+        /// The output asked for.
+        output: String,
+        /// The nearest, or what there is.
+        help: String,
+    },
     /// A parameter to be given at run time that the graph file does not have.
     #[error("no parameter is called `{name}`")]
     #[diagnostic(help("{help}"))]

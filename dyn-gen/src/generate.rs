@@ -31,7 +31,8 @@ pub struct Options {
     pub runtime: RuntimePath,
     /// The types of number for which the model implements the kernel traits, see [`Model::scalars`].
     pub scalars: Vec<Scalar>,
-    /// Which functions; all when `None`.
+    /// Which functions, each `NAME` or, with some of its outputs only, `NAME:OUTPUT:...`; all when `None`. A function without all of
+    /// its outputs does less work; it is a free function then and no method of the model, whose trait promises all of them.
     pub functions: Option<Vec<String>>,
     /// The command that makes the file, for its first lines.
     pub command: String,
@@ -111,8 +112,16 @@ pub fn generate(
     });
     let print = |function: &GeneratedFunction| emit::function(&function.graph, !parameters.is_empty());
     let sources = parallel::map(&functions, print).into_iter().collect::<Result<Vec<_>, _>>()?;
-    let signatures: Vec<Signature> =
-        functions.iter().map(|function| Signature::of(&function.graph).within(program)).collect();
+    // A trait promises all outputs: a function with some of them is a free function only.
+    let has_all = |function: &&GeneratedFunction| {
+        let all = program.function(&function.graph.name).map(|whole| whole.outputs.len());
+        all == Some(function.graph.outputs.len())
+    };
+    let signatures: Vec<Signature> = functions
+        .iter()
+        .filter(has_all)
+        .map(|function| Signature::of(&function.graph).within(program))
+        .collect();
     let model = Model {
         name: &options.model,
         runtime: &options.runtime,
@@ -192,22 +201,45 @@ pub fn kernels(files: &[GraphFile], command: &str) -> Result<String, GenerateErr
     Ok(emit::kernels_file(&header, &signatures)?)
 }
 
-fn choose<'a>(program: &'a Program, names: Option<&[String]>) -> Result<Vec<&'a Function>, GenerateError> {
-    let Some(names) = names else { return Ok(program.functions.iter().collect()) };
-    if let Some((_, name)) = names.iter().enumerate().find(|(k, name)| names[..*k].contains(name)) {
-        return Err(GenerateError::RepeatedFunction { name: name.clone() });
+/// The functions called `names`, each `NAME` or, with some of its outputs only, `NAME:OUTPUT:...`.
+fn choose(program: &Program, names: Option<&[String]>) -> Result<Vec<Function>, GenerateError> {
+    let Some(names) = names else { return Ok(program.functions.clone()) };
+    let mut chosen: Vec<Function> = Vec::with_capacity(names.len());
+    for words in names {
+        let mut words = words.split(':');
+        let name = words.next().unwrap_or_default();
+        if chosen.iter().any(|function| function.name == name) {
+            return Err(GenerateError::RepeatedFunction { name: name.into() });
+        }
+        let known = program.functions.iter().map(|function| function.name.as_str());
+        let mut function = program
+            .function(name)
+            .cloned()
+            .ok_or_else(|| GenerateError::UnknownFunction { name: name.into(), help: help(name, known) })?;
+        let outputs: Vec<&str> = words.collect();
+        let known = || function.outputs.iter().map(String::as_str);
+        if let Some(unknown) = outputs.iter().find(|output| !known().any(|known| known == **output)) {
+            let help = help(unknown, known());
+            return Err(GenerateError::UnknownOutput {
+                function: name.into(),
+                output: (*unknown).into(),
+                help,
+            });
+        }
+        if !outputs.is_empty() {
+            function.outputs.retain(|output| outputs.contains(&output.as_str()));
+        }
+        chosen.push(function);
     }
-    let find = |name: &String| {
-        program.function(name).ok_or_else(|| {
-            let known: Vec<&str> = program.functions.iter().map(|function| function.name.as_str()).collect();
-            let help = match nearest(name, known.iter().copied()) {
-                Some(near) => format!("did you mean `{near}`?"),
-                None => format!("it has {}", known.join(", ")),
-            };
-            GenerateError::UnknownFunction { name: name.clone(), help }
-        })
-    };
-    names.iter().map(find).collect()
+    Ok(chosen)
+}
+
+/// What to write instead of a name that is not known.
+fn help<'a>(name: &str, known: impl Iterator<Item = &'a str> + Clone) -> String {
+    match nearest(name, known.clone()) {
+        Some(near) => format!("did you mean `{near}`?"),
+        None => format!("it has {}", known.collect::<Vec<_>>().join(", ")),
+    }
 }
 
 /// What the passes need to know: the numbers to bake, and states by which to order eliminations.

@@ -143,6 +143,7 @@ impl Source {
         put("platform_acceleration", &self.array::<6>(acceleration));
         put("actuator_force", &self.array::<6>(force));
         put("external_wrench", &self.array::<6>(0.1 * force));
+        put("reference_velocity", &self.array::<6>(speed));
         Ok(state)
     }
 

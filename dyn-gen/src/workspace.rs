@@ -101,6 +101,7 @@ pub fn state_at(pose: &Pose) -> Environment {
         "base_acceleration",
         "platform_velocity",
         "platform_acceleration",
+        "reference_velocity",
         "actuator_force",
         "external_wrench",
     ] {

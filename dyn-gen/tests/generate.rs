@@ -316,3 +316,23 @@ proptest! {
         }
     }
 }
+
+#[test]
+fn some_outputs_cost_less_and_are_no_trait() {
+    let file = GraphFile::uhp().unwrap();
+    let text = include_str!("../../platforms/uhp_2016.toml");
+    let platform = Platform::from_toml("uhp_2016.toml", text).unwrap();
+    let whole = generate(&file, &Numbers::baked(&platform), &options(&["control"])).unwrap();
+    let some =
+        generate(&file, &Numbers::baked(&platform), &options(&["control:total_bias:jacobian_dp"])).unwrap();
+    assert!(whole.source.contains("kernels::Control for"));
+    assert!(!some.source.contains("kernels::Control for"));
+    let outputs: Vec<&str> =
+        some.functions[0].graph.outputs.iter().map(|output| output.symbol.name.as_str()).collect();
+    assert_eq!(outputs, ["jacobian_dp", "total_bias"]);
+    let count = |generated: &Generated| generated.functions[0].graph.operation_count().total();
+    assert!(count(&some) < 2 * count(&whole) / 3);
+    let refused =
+        generate(&file, &Numbers::baked(&platform), &options(&["control:jacobian_db"])).unwrap_err();
+    assert_eq!(refused.to_string(), "function `control` has no output `jacobian_db`");
+}

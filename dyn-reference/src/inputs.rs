@@ -25,6 +25,7 @@ pub const STATE: &[(&str, &[usize])] = &[
     ("platform_rotation", &[3, 3]),
     ("platform_velocity", &[6]),
     ("platform_acceleration", &[6]),
+    ("reference_velocity", &[6]),
     ("actuator_force", &[6]),
     ("external_wrench", &[6]),
 ];
@@ -106,6 +107,7 @@ impl State {
                 velocity: Vector6::from(array::<6>(lookup, "platform_velocity")?),
                 acceleration: Vector6::from(array::<6>(lookup, "platform_acceleration")?),
             },
+            reference_velocity: Vector6::from(array::<6>(lookup, "reference_velocity")?),
             actuator_force_n: Vector6::from(array::<6>(lookup, "actuator_force")?),
             external_wrench: Vector6::from(array::<6>(lookup, "external_wrench")?),
         })

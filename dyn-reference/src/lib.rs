@@ -23,6 +23,7 @@
 //! | [`mod@matrices`] | `mass_matrix_p`, `mass_matrix_b`, `coriolis_matrices`, `stiffness_matrices`, `matrices` |
 //! | [`forces`] | `generalised_forces`, `passive_forces` |
 //! | [`dynamics`] | `bias`, `equation_of_motion`, `inverse_dynamics`, `forward_dynamics` |
+//! | [`control`] | `total_bias`, `passive_inverse_dynamics`, `base_wrench` |
 //! | [`mod@energy`] | `energy` |
 //! | [`inputs`], [`outputs`] | parameters, states and results by name, as flat row-major numbers |
 //! | [`mechanism`] | parameters whose leg type is known at run time only |
@@ -30,6 +31,7 @@
 //! A leg that cannot be built (a rod that does not reach its platform joint) yields NaN (see [`leg::rod_alignment`]).
 
 pub mod bodies;
+pub mod control;
 pub mod dynamics;
 pub mod energy;
 pub mod forces;
@@ -44,6 +46,7 @@ pub mod partial_velocities;
 pub mod state;
 
 pub use bodies::body_kinematics;
+pub use control::{base_wrench, passive_inverse_dynamics, total_bias};
 pub use dynamics::{bias, equation_of_motion, forward_dynamics, inverse_dynamics};
 pub use energy::energy;
 pub use forces::{generalised_forces, passive_forces};

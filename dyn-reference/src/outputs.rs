@@ -9,9 +9,10 @@ use crate::legs::LegType;
 use crate::parameters::Parameters;
 use crate::state::State;
 use crate::{
-    bias, body_kinematics, coriolis_matrices, energy, forward_dynamics, generalised_forces, inverse_dynamics,
-    jacobian_db, jacobian_dp, leg_kinematics, mass_matrix_b, mass_matrix_p, partial_velocities,
-    passive_forces, rod_alignment, stiffness_matrices,
+    base_wrench, bias, body_kinematics, coriolis_matrices, energy, forward_dynamics, generalised_forces,
+    inverse_dynamics, jacobian_db, jacobian_dp, leg_kinematics, mass_matrix_b, mass_matrix_p,
+    partial_velocities, passive_forces, passive_inverse_dynamics, rod_alignment, stiffness_matrices,
+    total_bias,
 };
 
 /// One named result for legs of type `L`.
@@ -84,6 +85,9 @@ impl<L: LegType> Common<L> {
         Output { name: "bias", shape: SIX, append: |p, s, out| put(&bias(p, s), out) },
 
         Output { name: "inverse_dynamics", shape: SIX, append: |p, s, out| put_or_nan(inverse_dynamics(p, s), out) },
+        Output { name: "passive_inverse_dynamics", shape: SIX, append: |p, s, out| put_or_nan(passive_inverse_dynamics(p, s), out) },
+        Output { name: "total_bias", shape: SIX, append: |p, s, out| put(&total_bias(p, s), out) },
+        Output { name: "base_wrench", shape: SIX, append: |p, s, out| put(&base_wrench(p, s), out) },
         Output { name: "forward_dynamics", shape: SIX, append: |p, s, out| put_or_nan(forward_dynamics(p, s), out) },
         Output { name: "kinetic_energy", shape: &[], append: |p, s, out| out.push(energy(p, s).kinetic_energy) },
         Output { name: "potential_energy", shape: &[], append: |p, s, out| out.push(energy(p, s).potential_energy) },

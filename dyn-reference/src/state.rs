@@ -69,6 +69,8 @@ pub struct State {
     pub base: RigidBodyMotion,
     /// Motion of the platform P.
     pub platform: RigidBodyMotion,
+    /// Reference velocity `[r_r'; w_r]` of the platform, m/s and rad/s, in O; only passivity-based control reads it.
+    pub reference_velocity: Vector6<f64>,
     /// Actuator forces `F_i` along the axes, on the movers, N.
     pub actuator_force_n: Vector6<f64>,
     /// `[F_D; M_D]`, N and N m, in O, at the payload's centre of mass.

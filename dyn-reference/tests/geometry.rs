@@ -83,7 +83,13 @@ fn a_telescopic_leg_without_length_is_reported() {
     let [case, _] = ups_cases();
     let origin = RigidBodyMotion::at_rest(nalgebra::Vector3::zeros(), nalgebra::Matrix3::identity());
     let zero = Vector6::zeros();
-    let state = State { base: origin, platform: origin, actuator_force_n: zero, external_wrench: zero };
+    let state = State {
+        base: origin,
+        platform: origin,
+        actuator_force_n: zero,
+        external_wrench: zero,
+        reference_velocity: zero,
+    };
     let mut parameters = case.parameters;
     parameters.legs[2].platform_point_m = parameters.legs[2].base_point_m;
     assert!(rod_alignment(&parameters, &state)[2].is_nan());
@@ -99,6 +105,7 @@ fn home() -> (dyn_reference::Parameters, State) {
         platform: RigidBodyMotion { position_m: case.home_position, ..origin },
         actuator_force_n: Vector6::zeros(),
         external_wrench: Vector6::zeros(),
+        reference_velocity: Vector6::zeros(),
     };
     (case.parameters, state)
 }

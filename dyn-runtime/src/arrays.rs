@@ -64,6 +64,7 @@ impl<T: Real> AllFinite for T {
 
 impl<Element: AllFinite, const N: usize> AllFinite for [Element; N] {
     fn all_finite(&self) -> bool {
-        self.iter().all(Element::all_finite)
+        // Without a way out in the middle: a few comparisons at once are faster than one after the other.
+        self.iter().fold(true, |all, element| all & element.all_finite())
     }
 }

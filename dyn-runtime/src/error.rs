@@ -3,6 +3,8 @@
 use core::error;
 use core::fmt;
 
+use crate::monitor::Quantity;
+
 /// An argument of a checked call.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 #[non_exhaustive]
@@ -27,6 +29,12 @@ pub enum Input {
     ActuatorForce,
     /// External wrench on the payload.
     ExternalWrench,
+    /// Reference velocity of the platform.
+    ReferenceVelocity,
+    /// Lengths of the six actuators.
+    ActuatorLength,
+    /// Rates of the six actuators.
+    ActuatorVelocity,
 }
 
 /// Why a checked call gives no answer. Legs are indices 0 to 5; the messages number them 1 to 6 as well.
@@ -69,6 +77,22 @@ pub enum Error {
         /// [`Real::MIN_RECIPROCAL_CONDITION`](crate::Real::MIN_RECIPROCAL_CONDITION).
         reciprocal_condition: f64,
     },
+    /// Forward kinematics found no pose with the given actuator lengths from where it started.
+    NoConvergence {
+        /// Steps that were made.
+        iterations: u32,
+        /// Largest difference of a length that is left, m.
+        residual_m: f64,
+    },
+    /// A quantity is beyond its limit, see [`Monitor`](crate::Monitor).
+    BeyondLimit {
+        /// The quantity.
+        quantity: Quantity,
+        /// Index, 0 to 5, of the leg that is farthest beyond; none for conditioning.
+        leg: Option<usize>,
+        /// Distance to the limit in the quantity's unit, negative because beyond; NaN for a limit that is none.
+        margin: f64,
+    },
     /// Every input is finite, yet the result is not: numbers too large to compute with, or a model whose
     /// parameters are not physical.
     NonFiniteResult,
@@ -104,6 +128,9 @@ impl Input {
             Self::PlatformAcceleration => "acceleration of the platform",
             Self::ActuatorForce => "actuator forces",
             Self::ExternalWrench => "external wrench",
+            Self::ReferenceVelocity => "reference velocity",
+            Self::ActuatorLength => "actuator lengths",
+            Self::ActuatorVelocity => "actuator velocities",
         }
     }
 }
@@ -144,6 +171,23 @@ impl fmt::Display for Error {
                 "the Jacobian J_dp is singular (reciprocal condition number {reciprocal_condition:.1e}): no actuator \
                  forces hold every wrench in this pose; bring the platform nearer to its home"
             ),
+            Self::NoConvergence { iterations, residual_m } => write!(
+                f,
+                "no pose found with these actuator lengths: after {iterations} steps a length still differs by \
+                 {residual_m:.1e} m; start nearer to the pose, and check that the lengths are d in metres"
+            ),
+            Self::BeyondLimit { quantity, leg, margin } => {
+                match leg {
+                    Some(leg) => write!(f, "leg {} (index {leg}): ", leg + 1)?,
+                    None => f.write_str("all legs together: ")?,
+                }
+                let (name, unit) = quantity.name_and_unit();
+                write!(
+                    f,
+                    "{name} is beyond its limit by {:.3e}{unit}; bring the platform nearer to its home",
+                    -margin
+                )
+            }
             Self::NonFiniteResult => f.write_str(
                 "the result is not finite although every input is: check units and the model's parameters",
             ),

@@ -5,7 +5,7 @@ use core::marker::PhantomData;
 use crate::arrays::rotation_rows;
 use crate::check;
 use crate::error::{Error, Input};
-use crate::kernels::RodAlignment;
+use crate::kernels::{JacobianDp, RodAlignment};
 use crate::real::Real;
 use crate::state::{BaseMotion, PlatformState, Pose};
 
@@ -112,6 +112,28 @@ impl<M: RodAlignment<T>, T: Real> Hexapod<M, T> {
         Ok(rod_alignment)
     }
 
+    /// J_dp can be inverted at these poses.
+    pub(crate) fn check_jacobian(
+        &self,
+        base_position: &[T; 3],
+        base_rotation: &[[T; 3]; 3],
+        platform_position: &[T; 3],
+        platform_rotation: &[[T; 3]; 3],
+    ) -> Result<(), Error>
+    where
+        M: JacobianDp<T>,
+    {
+        let mut jacobian_dp = [[T::zero(); 6]; 6];
+        self.model.jacobian_dp(
+            base_position,
+            base_rotation,
+            platform_position,
+            platform_rotation,
+            &mut jacobian_dp,
+        );
+        check::invertible(&jacobian_dp)
+    }
+
     /// Finite poses of base and platform, in reach of every leg.
     pub(crate) fn poses(
         &self,
@@ -153,7 +175,11 @@ pub(crate) fn checked_poses<T: Real>(
     ))
 }
 
-fn checked_pose<T: Real>(pose: &Pose<T>, position: Input, rotation: Input) -> Result<PoseArrays<T>, Error> {
+pub(crate) fn checked_pose<T: Real>(
+    pose: &Pose<T>,
+    position: Input,
+    rotation: Input,
+) -> Result<PoseArrays<T>, Error> {
     let arrays = PoseArrays {
         position: check::finite(position, pose.position_m.into())?,
         rotation: check::finite(rotation, rotation_rows(&pose.rotation))?,

@@ -2,7 +2,7 @@
 
 use nalgebra::Vector6;
 
-use crate::check::{finite, invertible};
+use crate::check::finite;
 use crate::error::{Error, Input};
 use crate::evaluate::evaluate;
 use crate::hexapod::Hexapod;
@@ -16,8 +16,8 @@ impl<M: kernels::RodAlignment<T>, T: Real> Hexapod<M, T> {
     /// accelerations of both bodies and on the external wrench.
     ///
     /// # Errors
-    /// See [`Hexapod`]; besides, [`Error::SingularJacobian`]. That check evaluates J_dp and its condition in
-    /// every call, which costs about as much as the forces themselves.
+    /// See [`Hexapod`]; besides, [`Error::SingularJacobian`]. That check evaluates J_dp and a
+    /// bound of its condition, which costs a third of the forces themselves; [`control`](Self::control) has J_dp anyway.
     ///
     /// ```
     /// use dyn_runtime::nalgebra::{Vector3, Vector6};
@@ -49,10 +49,7 @@ impl<M: kernels::RodAlignment<T>, T: Real> Hexapod<M, T> {
         let external_wrench = finite(Input::ExternalWrench, external_wrench.to_array())?;
         let (b, p) = self.states(base, platform)?;
 
-        let mut jacobian_dp = [[T::zero(); 6]; 6];
-        self.model.jacobian_dp(&b.position, &b.rotation, &p.position, &p.rotation, &mut jacobian_dp);
-        invertible(&jacobian_dp)?;
-
+        self.check_jacobian(&b.position, &b.rotation, &p.position, &p.rotation)?;
         evaluate!(self.model.inverse_dynamics(
             b.position, b.rotation, b.velocity, base_acceleration,
             p.position, p.rotation, p.velocity, platform_acceleration,

@@ -46,6 +46,11 @@
 //! | wanted | call |
 //! |-|-|
 //! | forces for a wanted acceleration | [`Hexapod::inverse_dynamics`] |
+//! | all that a controller needs, in one call | [`Hexapod::control`] |
+//! | forces for passivity-based control | [`Hexapod::passive_inverse_dynamics`] |
+//! | what the base feels | [`Hexapod::base_reaction`] |
+//! | pose from actuator lengths, velocity from rates | [`Hexapod::forward_kinematics`], [`Hexapod::platform_velocity`] |
+//! | margins of stroke, rate, force, joints, conditioning | [`Hexapod::monitor`] |
 //! | acceleration under given forces | [`Hexapod::forward_dynamics`] |
 //! | every term of the equation of motion (49) | [`Hexapod::equation_of_motion`] |
 //! | M, C, J together, or singly | [`Hexapod::matrices`], [`Hexapod::mass_matrix_p`], [`Hexapod::jacobian_dp`], ... |
@@ -89,39 +94,49 @@ extern crate std;
 pub use nalgebra;
 
 mod arrays;
+mod base_reaction;
 mod check;
+mod control;
 mod energy;
 mod equation_of_motion;
 mod error;
 mod evaluate;
 mod forces;
 mod forward_dynamics;
+mod forward_kinematics;
 #[rustfmt::skip]
 mod generated;
 mod hexapod;
 mod inverse_dynamics;
 mod kinematics;
 mod matrices;
+mod monitor;
 mod real;
 mod state;
 
 pub mod angles;
+pub mod current;
 pub mod float;
 pub mod parameter;
 pub mod solve;
 pub mod ups;
 
+pub use base_reaction::BaseReaction;
 pub use check::{
-    MAX_ROTATION_DEVIATION, MIN_RECIPROCAL_CONDITION, MIN_ROD_ALIGNMENT, jacobian_reciprocal_condition,
+    MAX_ROTATION_DEVIATION, MIN_RECIPROCAL_CONDITION, MIN_ROD_ALIGNMENT, jacobian_condition_bound,
+    jacobian_reciprocal_condition,
 };
+pub use control::Control;
 pub use energy::Energy;
 pub use equation_of_motion::EquationOfMotion;
 pub use error::{Error, GimbalLock, Input, NotARotation};
 pub use forces::{GeneralisedForces, PassiveForces};
+pub use forward_kinematics::ForwardKinematics;
 pub use generated::kernels;
 pub use hexapod::Hexapod;
 pub use kinematics::{BodyKinematics, LegKinematics, PartialVelocities};
 pub use matrices::{CoriolisMatrices, Matrices, StiffnessMatrices};
+pub use monitor::{Limits, Margin, Monitor, Quantity};
 pub use real::Real;
 pub use state::{Acceleration, BaseMotion, PlatformState, Pose, Twist, Wrench};
 

@@ -37,6 +37,10 @@ pub trait Real: RealField + Scalar + Copy + Default + sealed::Sealed {
     /// the squares of distances are infinite.
     const OVERFLOWING_DISTANCE_M: Self;
 
+    /// Largest difference of a length, m, that forward kinematics leaves: `f64` 1e-12, `f32` 5e-7; some units in the last
+    /// place of the distances that lengths are made of.
+    const LENGTH_RESIDUAL_M: Self;
+
     /// Least `|cos c2|` at which the paper's angles have rates, [`angles::angle_rates`](crate::angles::angle_rates).
     ///
     /// `f64`: 1e-6, `c2` farther than 1e-6 rad from `+-pi/2`; nearer, an error of the angles of 1e-6 rad changes
@@ -70,6 +74,7 @@ impl Real for f64 {
     const MIN_ROD_ALIGNMENT: Self = 1e-4;
     const MIN_RECIPROCAL_CONDITION: Self = 1e-6;
     const OVERFLOWING_DISTANCE_M: Self = 1e100;
+    const LENGTH_RESIDUAL_M: Self = 1e-12;
     const MIN_COS_C2: Self = 1e-6;
     const LOCKED_COS_C2: Self = 1e-15;
 
@@ -91,6 +96,7 @@ impl Real for f32 {
     const MIN_ROD_ALIGNMENT: Self = 1e-2;
     const MIN_RECIPROCAL_CONDITION: Self = 1e-4;
     const OVERFLOWING_DISTANCE_M: Self = 1e12;
+    const LENGTH_RESIDUAL_M: Self = 5e-7;
     const MIN_COS_C2: Self = 1e-4;
     const LOCKED_COS_C2: Self = 5e-7;
 

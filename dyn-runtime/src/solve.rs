@@ -61,8 +61,71 @@ pub fn reciprocal_condition<T: Real, const N: usize>(matrix: &[[T; N]; N]) -> T 
     }
 }
 
+/// Solution of `matrix * x = right` and `|det matrix|`, for six rows of about equal size: Gaussian elimination with
+/// partial pivoting. Not finite or 0 where [`solve_general`] is so.
+pub(crate) fn solve_even_rows<T: Real>(matrix: &[[T; 6]; 6], right: &[T; 6]) -> ([T; 6], T) {
+    let mut system = Six { rows: *matrix, right: *right };
+    // One function per column, so that loops have constant lengths and the compiler unrolls them.
+    let pivots = [
+        system.eliminate::<0>(),
+        system.eliminate::<1>(),
+        system.eliminate::<2>(),
+        system.eliminate::<3>(),
+        system.eliminate::<4>(),
+        system.eliminate::<5>(),
+    ];
+    system.substitute::<5>();
+    system.substitute::<4>();
+    system.substitute::<3>();
+    system.substitute::<2>();
+    system.substitute::<1>();
+    system.substitute::<0>();
+    (system.right, pivots.into_iter().fold(T::one(), |product, pivot| product * pivot).abs())
+}
+
+/// Six equations.
+struct Six<T> {
+    rows: [[T; 6]; 6],
+    right: [T; 6],
+}
+
+impl<T: Real> Six<T> {
+    /// Chooses the pivot of column K, clears the column below it, and gives the pivot.
+    #[inline(always)]
+    fn eliminate<const K: usize>(&mut self) -> T {
+        let Self { rows, right } = self;
+        for below in K + 1..6 {
+            if rows[below][K].abs() > rows[K][K].abs() {
+                rows.swap(K, below);
+                right.swap(K, below);
+            }
+        }
+        let (pivot, known) = (rows[K], right[K]);
+        let reciprocal = T::one() / pivot[K];
+        for below in K + 1..6 {
+            let factor = rows[below][K] * reciprocal;
+            for column in K + 1..6 {
+                rows[below][column] -= factor * pivot[column];
+            }
+            right[below] -= factor * known;
+        }
+        pivot[K]
+    }
+
+    /// Puts the unknowns after K into equation K.
+    #[inline(always)]
+    fn substitute<const K: usize>(&mut self) {
+        let Self { rows, right } = self;
+        let mut sum = right[K];
+        for column in K + 1..6 {
+            sum -= rows[K][column] * right[column];
+        }
+        right[K] = sum / rows[K][K];
+    }
+}
+
 /// Largest column sum of absolute values; NaN if an entry is NaN.
-fn one_norm<T: Real, const N: usize>(matrix: &[[T; N]; N]) -> T {
+pub(crate) fn one_norm<T: Real, const N: usize>(matrix: &[[T; N]; N]) -> T {
     let mut sums = [T::zero(); N];
     for row in matrix {
         for (sum, element) in sums.iter_mut().zip(row) {

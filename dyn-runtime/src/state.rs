@@ -152,6 +152,13 @@ impl<T: Real> Acceleration<T> {
     }
 }
 
+impl<T: Real> FromRows<[T; 6]> for Twist<T> {
+    fn from_rows(stacked: &[T; 6]) -> Self {
+        let (linear_m_s, angular_rad_s) = arrays::halves(stacked);
+        Self { linear_m_s, angular_rad_s }
+    }
+}
+
 impl<T: Real> FromRows<[T; 6]> for Acceleration<T> {
     fn from_rows(stacked: &[T; 6]) -> Self {
         let (linear_m_s2, angular_rad_s2) = arrays::halves(stacked);

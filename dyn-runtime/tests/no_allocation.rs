@@ -91,7 +91,7 @@ macro_rules! all_of {
 all_of! {
     RodAlignment LegKinematics uhp::BodyKinematics uhp::PartialVelocities uhp::GeneralisedForces JacobianDp JacobianDb
     MassMatrixP MassMatrixB CoriolisMatrices StiffnessMatrices Matrices PassiveForces Bias EquationOfMotion
-    InverseDynamics ForwardDynamics Energy
+    InverseDynamics ActuatorGeometry Control PassiveInverseDynamics BaseReaction ForwardDynamics Energy
 }
 
 #[derive(Clone, Copy)]
@@ -125,7 +125,7 @@ fn arguments() -> Arguments {
 }
 
 /// Every checked call by name, and its error if it has one.
-fn checked_calls<M: Complete>(hexapod: &Hexapod<M>, a: &Arguments) -> [(&'static str, Option<Error>); 18] {
+fn checked_calls<M: Complete>(hexapod: &Hexapod<M>, a: &Arguments) -> [(&'static str, Option<Error>); 22] {
     fn error<T>(result: Result<T, Error>) -> Option<Error> {
         black_box(result).err()
     }
@@ -160,6 +160,26 @@ fn checked_calls<M: Complete>(hexapod: &Hexapod<M>, a: &Arguments) -> [(&'static
             "inverse_dynamics",
             error(h.inverse_dynamics(base, platform, platform_acceleration, external_wrench)),
         ),
+        (
+            "actuator_geometry",
+            error(h.forward_kinematics(
+                &base.pose,
+                &black_box(Vector6::new(0.19, 0.2, 0.2, 0.2, 0.2, 0.21)),
+                &platform.pose,
+            )),
+        ),
+        ("control", error(h.control(base, platform, platform_acceleration, external_wrench))),
+        (
+            "passive_inverse_dynamics",
+            error(h.passive_inverse_dynamics(
+                base,
+                platform,
+                &base.velocity,
+                platform_acceleration,
+                external_wrench,
+            )),
+        ),
+        ("base_reaction", error(h.base_reaction(base, platform, platform_acceleration, external_wrench))),
         ("forward_dynamics", error(h.forward_dynamics(base, platform, actuator_force_n, external_wrench))),
         ("energy", error(h.energy(base, platform))),
     ]
@@ -239,6 +259,14 @@ raw_calls! {
         platform_velocity) -> (o1, o2, o3, o4, o5, o6, o7, o8, o9, o10, o11, o12);
     inverse_dynamics(base_position, base_rotation, base_velocity, base_acceleration, platform_position,
         platform_rotation, platform_velocity, platform_acceleration, external_wrench) -> (o1);
+    actuator_geometry(base_position, base_rotation, platform_position, platform_rotation) -> (o1, o2, o3);
+    control(base_position, base_rotation, base_velocity, base_acceleration, platform_position,
+        platform_rotation, platform_velocity, platform_acceleration, external_wrench)
+        -> (o1, o2, o3, o4, o5, o6);
+    passive_inverse_dynamics(base_position, base_rotation, base_velocity, base_acceleration, platform_position,
+        platform_rotation, platform_velocity, platform_acceleration, base_velocity, external_wrench) -> (o1);
+    base_reaction(base_position, base_rotation, base_velocity, base_acceleration, platform_position,
+        platform_rotation, platform_velocity, platform_acceleration, external_wrench) -> (o1);
     forward_dynamics(base_position, base_rotation, base_velocity, base_acceleration, platform_position,
         platform_rotation, platform_velocity, actuator_force, external_wrench) -> (o1);
     energy(base_position, base_rotation, base_velocity, platform_position, platform_rotation,
@@ -270,7 +298,7 @@ fn at_run_time() -> Uhp {
 fn assert_no_requests(model: impl Complete) {
     let hexapod = Hexapod::new(model);
     let inside = arguments();
-    let mut results = [("", None); 18];
+    let mut results = [("", None); 22];
     assert_eq!(requests(|| results = checked_calls(&hexapod, black_box(&inside))), 0);
     assert_eq!(results.map(|(name, _)| name).as_slice(), functions());
     assert!(results.iter().all(|(_, error)| error.is_none()), "{results:?}");

@@ -49,6 +49,8 @@ fn case(case: &Value) -> (Environment, Environment) {
             state.insert(format!("{body}_{part}"), flat(&case[body][part]));
         }
     }
+    // The engines know no reference; at the platform's own velocity it makes no difference.
+    state.insert("reference_velocity".into(), state["platform_velocity"].clone());
     for load in ["actuator_force", "external_wrench"] {
         state.insert(load.into(), flat(&case[load]));
     }

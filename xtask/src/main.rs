@@ -1,6 +1,7 @@
 //! The workspace's own commands: orchestration only, each step is a command one can also type.
 
 mod bare;
+mod contract;
 mod runner;
 mod steps;
 #[cfg(test)]
@@ -55,6 +56,10 @@ enum Task {
     ///
     /// Pinocchio and MuJoCo are installed from `tests/engines/requirements.lock` into an environment of their own.
     Vectors(vectors::Options),
+    /// Show that no call of the runtime crate can panic, and the code and stack that each takes
+    ///
+    /// Needs binutils (nm, ar, objdump). The frame is that of the function alone: the deepest call adds those it calls.
+    Contract,
     /// Build the C library without operating system, for this machine, a Cortex-M and WebAssembly, and look into it
     ///
     /// No exported function may reach a panic or call itself; code and stack are listed for each; the WebAssembly module
@@ -83,6 +88,7 @@ fn main() -> ExitCode {
         Task::Test { selection, bare } => fetched(bare).and_then(|()| perform("test", TEST, &selection)),
         Task::Bench { filter } => runner::bench(filter.as_deref()),
         Task::Vectors(options) => vectors::compare_or_write(&options),
+        Task::Contract => contract::check(),
         Task::Bare(options) => bare::bare(&options),
     };
     match result {

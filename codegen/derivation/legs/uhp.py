@@ -140,6 +140,24 @@ def leg_accelerations(
     return {"actuator_acceleration": axial + curvature * axial_span_reciprocal}
 
 
+def _point_accelerations(
+    base_point, actuator_axis, platform_point, mover_offset, actuator_length, actuator_velocity, actuator_acceleration,
+    base_origin_acceleration, base_field, base_rate, platform_origin_acceleration, platform_field,
+):
+    """Inertial acceleration of every point, less gravity, B."""
+    hooke = (
+        base_origin_acceleration
+        + base_field @ (base_point + actuator_length * actuator_axis)
+        + (2 * actuator_velocity) * cross(base_rate, actuator_axis)
+        + actuator_acceleration * actuator_axis
+    )
+    return {
+        "hooke": hooke,
+        "joint": platform_origin_acceleration + platform_field @ platform_point,
+        "mover": hooke - mover_offset * (base_field @ actuator_axis),
+    }
+
+
 @leg_stage
 def leg_inertia_forces(
     base_point, actuator_axis, platform_point, mover_mass, mover_offset, hooke_end_mass, rod_coupling,
@@ -147,19 +165,52 @@ def leg_inertia_forces(
     base_origin_acceleration, base_field, base_rate, platform_origin_acceleration, platform_field,
 ):
     """inertia of the leg, less weight, at the actuator and at the platform joint."""
-    hooke = (
-        base_origin_acceleration
-        + base_field @ (base_point + actuator_length * actuator_axis)
-        + (2 * actuator_velocity) * cross(base_rate, actuator_axis)
-        + actuator_acceleration * actuator_axis
+    accelerations = _point_accelerations(
+        base_point, actuator_axis, platform_point, mover_offset, actuator_length, actuator_velocity, actuator_acceleration,
+        base_origin_acceleration, base_field, base_rate, platform_origin_acceleration, platform_field,
     )
-    accelerations = {
-        "hooke": hooke,
-        "joint": platform_origin_acceleration + platform_field @ platform_point,
-        "mover": hooke - mover_offset * (base_field @ actuator_axis),
-    }
     axial, joint = kane.inertia_forces(_leg(hooke_end_mass, rod_coupling, mover_mass), actuator_axis, accelerations)
     return {"axial_inertia_force": axial, "joint_inertia_force": joint}
+
+
+@leg_stage
+def leg_reference_forces(
+    base_point, actuator_axis, platform_point, platform_lever, mover_mass, mover_offset, hooke_end_mass, rod_coupling,
+    actuator_length, actuator_velocity, actuator_acceleration, length_gradient, length_gradient_rate,
+    base_origin_acceleration, base_field, base_rate, platform_origin_acceleration, platform_field,
+    velocity_error, rate_error, error_field,
+):
+    """inertia of the leg, less weight, at reference speeds: at the actuator and at the platform joint."""
+    leg = _leg(hooke_end_mass, rod_coupling, mover_mass)
+    accelerations = _point_accelerations(
+        base_point, actuator_axis, platform_point, mover_offset, actuator_length, actuator_velocity, actuator_acceleration,
+        base_origin_acceleration, base_field, base_rate, platform_origin_acceleration, platform_field,
+    )
+    more = kane.bilinear_accelerations(
+        leg, actuator_axis, cross(base_rate, actuator_axis),
+        length_gradient, length_gradient_rate,
+        velocity_error + cross(rate_error, platform_lever), error_field @ platform_point,
+    )
+    accelerations = {name: acceleration + more[name] for name, acceleration in accelerations.items()}
+    axial, joint = kane.inertia_forces(leg, actuator_axis, accelerations)
+    return {"axial_inertia_force": axial, "joint_inertia_force": joint}
+
+
+@leg_stage
+def leg_inertia_wrench(
+    base_point, actuator_axis, platform_point, joint_vector, mover_mass, mover_offset, hooke_end_mass, rod_coupling,
+    actuator_length, actuator_velocity, actuator_acceleration,
+    base_origin_acceleration, base_field, base_rate, platform_origin_acceleration, platform_field,
+):
+    """inertia of the whole leg, less weight, about the base origin."""
+    accelerations = _point_accelerations(
+        base_point, actuator_axis, platform_point, mover_offset, actuator_length, actuator_velocity, actuator_acceleration,
+        base_origin_acceleration, base_field, base_rate, platform_origin_acceleration, platform_field,
+    )
+    hooke = base_point + actuator_length * actuator_axis
+    positions = {"hooke": hooke, "joint": base_point + joint_vector, "mover": hooke - mover_offset * actuator_axis}
+    force, moment = kane.inertia_wrench(_leg(hooke_end_mass, rod_coupling, mover_mass), positions, accelerations)
+    return {"leg_inertia_force": force, "leg_inertia_moment": moment}
 
 
 @leg_stage

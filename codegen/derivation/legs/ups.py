@@ -147,6 +147,57 @@ def leg_accelerations(
     return {"actuator_acceleration": dot(length_gradient, joint - base) + centripetal}
 
 
+def _point_accelerations(
+    base_point, platform_point, base_origin_acceleration, base_field, platform_origin_acceleration, platform_field,
+    actuator_velocity, actuator_acceleration, length_gradient, length_gradient_rate, length_reciprocal,
+):
+    """Inertial acceleration of every point, less gravity, and second derivative of the direction."""
+    base, joint = _joint_accelerations(
+        base_point, platform_point, base_origin_acceleration, base_field, platform_origin_acceleration, platform_field
+    )
+    span = joint - base - actuator_acceleration * length_gradient - (2 * actuator_velocity) * length_gradient_rate
+    return {"base": base, "joint": joint, "direction": span * length_reciprocal}
+
+
+@leg_stage
+def leg_reference_forces(
+    base_point, platform_point, platform_lever, base_origin_acceleration, base_field, platform_origin_acceleration,
+    platform_field, actuator_velocity, actuator_acceleration, length_gradient, length_gradient_rate, length_reciprocal,
+    lower_moment, upper_moment, turning_inertia, velocity_error, rate_error, error_field,
+):
+    """inertia of the leg, less weight, at reference speeds: at the actuator and at the platform joint."""
+    accelerations = _point_accelerations(
+        base_point, platform_point, base_origin_acceleration, base_field, platform_origin_acceleration, platform_field,
+        actuator_velocity, actuator_acceleration, length_gradient, length_gradient_rate, length_reciprocal,
+    )
+    leg = _leg(length_reciprocal, actuator_velocity, lower_moment, upper_moment, turning_inertia)
+    more = kane.bilinear_accelerations(
+        leg, length_gradient, length_gradient_rate, length_gradient, length_gradient_rate,
+        velocity_error + cross(rate_error, platform_lever), error_field @ platform_point,
+    )
+    accelerations = {name: acceleration + more[name] for name, acceleration in accelerations.items()}
+    axial, at_joint = kane.inertia_forces(leg, length_gradient, accelerations)
+    return {"axial_inertia_force": axial, "joint_inertia_force": at_joint}
+
+
+@leg_stage
+def leg_inertia_wrench(
+    base_point, platform_point, joint_vector, base_origin_acceleration, base_field, platform_origin_acceleration,
+    platform_field, actuator_velocity, actuator_acceleration, length_gradient, length_gradient_rate, length_reciprocal,
+    lower_mass, lower_moment, upper_moment, turning_inertia,
+):
+    """inertia of the whole leg, less weight, about the base origin."""
+    accelerations = _point_accelerations(
+        base_point, platform_point, base_origin_acceleration, base_field, platform_origin_acceleration, platform_field,
+        actuator_velocity, actuator_acceleration, length_gradient, length_gradient_rate, length_reciprocal,
+    )
+    positions = {"base": base_point, "joint": base_point + joint_vector, "direction": length_gradient}
+    leg = _leg(length_reciprocal, actuator_velocity, lower_moment, upper_moment, turning_inertia)
+    leg.masses["base", "base"] = lower_mass
+    force, moment = kane.inertia_wrench(leg, positions, accelerations)
+    return {"leg_inertia_force": force, "leg_inertia_moment": moment}
+
+
 @leg_stage
 def leg_inertia_forces(
     base_point, platform_point, base_origin_acceleration, base_field, platform_origin_acceleration, platform_field,
@@ -154,11 +205,10 @@ def leg_inertia_forces(
     lower_moment, upper_moment, turning_inertia,
 ):
     """inertia of the leg, less weight, at the actuator and at the platform joint."""
-    base, joint = _joint_accelerations(
-        base_point, platform_point, base_origin_acceleration, base_field, platform_origin_acceleration, platform_field
+    accelerations = _point_accelerations(
+        base_point, platform_point, base_origin_acceleration, base_field, platform_origin_acceleration, platform_field,
+        actuator_velocity, actuator_acceleration, length_gradient, length_gradient_rate, length_reciprocal,
     )
-    span = joint - base - actuator_acceleration * length_gradient - (2 * actuator_velocity) * length_gradient_rate
-    accelerations = {"base": base, "joint": joint, "direction": span * length_reciprocal}
     leg = _leg(length_reciprocal, actuator_velocity, lower_moment, upper_moment, turning_inertia)
     axial, at_joint = kane.inertia_forces(leg, length_gradient, accelerations)
     return {"axial_inertia_force": axial, "joint_inertia_force": at_joint}

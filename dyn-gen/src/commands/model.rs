@@ -22,7 +22,8 @@ pub struct ModelArguments {
     /// Name of the model, whose type is its CamelCase [default: the platform's name]
     #[arg(long)]
     model: Option<String>,
-    /// Functions to generate, separated by commas [default: all; `dyn-gen explain` lists them]
+    /// Functions to generate, separated by commas; one with some of its outputs only as `control:jacobian_dp:total_bias`
+    /// [default: all; `dyn-gen explain` lists them]
     #[arg(long, value_delimiter = ',', value_name = "NAME,...")]
     functions: Option<Vec<String>>,
     /// Numbers given at run time, separated by commas, all others baked in: parameters (`axial_stiffness`, `legs.k_e`) or

@@ -3,8 +3,8 @@
 //
 // What models can compute: one trait per function.
 //
-// graph     uhp.json, sha256 64598c63b0eef92949c7e47bb8307f621caaf18f73a9c7b4d4cbe2ee8d4f74b4
-// graph     ups.json, sha256 e640b54bd123582230e6e3597581aa15c8f0e6ffc85ff80b302445a5f3068c25
+// graph     uhp.json, sha256 681cf4434cab11670af96653d8c96f220cec2462c26e5b794f5948e0a98ffee3
+// graph     ups.json, sha256 189ee6e20b9380f4cf3986c52f6c089d7abb639c5b5ce8d3f6d0e67256f8b29b
 //           derived by CasADi 3.8.2
 
 /// A model that has `rod_alignment`.
@@ -419,6 +419,152 @@ pub trait InverseDynamics<T = f64> {
         platform_acceleration: &[T; 6],
         external_wrench: &[T; 6],
         inverse_dynamics: &mut [T; 6],
+    );
+}
+
+/// A model that has `actuator_geometry`.
+#[allow(clippy::all, clippy::pedantic)]
+pub trait ActuatorGeometry<T = f64> {
+    /// Actuator lengths with their gradients, for forward kinematics, equation (18), (32).
+    ///
+    /// Inputs:
+    ///
+    /// - `base_position`: 3, m, frame O: origin of the base frame.
+    /// - `base_rotation`: 3x3, dimensionless, frame B -> O: rotation of the base, equation (2).
+    /// - `platform_position`: 3, m, frame O: centre of the platform's joint circle.
+    /// - `platform_rotation`: 3x3, dimensionless, frame P -> O: rotation of the platform, equation (2).
+    ///
+    /// Outputs:
+    ///
+    /// - `rod_alignment`: 6, dimensionless: squared cosine between rod and line of the actuator's force; negative out of reach, equation (18).
+    /// - `actuator_length`: 6, m: actuator length d, equation (18).
+    /// - `jacobian_dp`: 6x6, 1, m, frame O: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b, equation (32).
+    fn actuator_geometry(
+        &self,
+        base_position: &[T; 3],
+        base_rotation: &[[T; 3]; 3],
+        platform_position: &[T; 3],
+        platform_rotation: &[[T; 3]; 3],
+        rod_alignment: &mut [T; 6],
+        actuator_length: &mut [T; 6],
+        jacobian_dp: &mut [[T; 6]; 6],
+    );
+}
+
+/// A model that has `control`.
+#[allow(clippy::all, clippy::pedantic)]
+pub trait Control<T = f64> {
+    /// What a controller by inverse dynamics needs, in one call, equation (18), (30), (32), (49).
+    ///
+    /// Inputs:
+    ///
+    /// - `base_position`: 3, m, frame O: origin of the base frame.
+    /// - `base_rotation`: 3x3, dimensionless, frame B -> O: rotation of the base, equation (2).
+    /// - `base_velocity`: 6, m/s, rad/s, frame O: base velocity \[r_b'; w_b\], w_b the angular velocity.
+    /// - `base_acceleration`: 6, m/s^2, rad/s^2, frame O: base acceleration \[r_b''; w_b'\].
+    /// - `platform_position`: 3, m, frame O: centre of the platform's joint circle.
+    /// - `platform_rotation`: 3x3, dimensionless, frame P -> O: rotation of the platform, equation (2).
+    /// - `platform_velocity`: 6, m/s, rad/s, frame O: platform velocity \[r_p'; w_p\], the generalised speeds.
+    /// - `platform_acceleration`: 6, m/s^2, rad/s^2, frame O: platform acceleration \[r_p''; w_p'\].
+    /// - `external_wrench`: 6, N, N m, frame O: external force and moment \[F_D; M_D\] at the payload's centre of mass.
+    ///
+    /// Outputs:
+    ///
+    /// - `actuator_length`: 6, m: actuator length d, equation (18).
+    /// - `actuator_velocity`: 6, m/s: actuator velocity d', equation (30).
+    /// - `jacobian_dp`: 6x6, 1, m, frame O: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b, equation (32).
+    /// - `mass_matrix_p`: 6x6, kg, kg m, kg m^2, frame O: mass matrix M_p of the platform, equation (49).
+    /// - `total_bias`: 6, N, N m, frame O: bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext, equation (49).
+    /// - `inverse_dynamics`: 6, N: actuator forces F, equation (49).
+    fn control(
+        &self,
+        base_position: &[T; 3],
+        base_rotation: &[[T; 3]; 3],
+        base_velocity: &[T; 6],
+        base_acceleration: &[T; 6],
+        platform_position: &[T; 3],
+        platform_rotation: &[[T; 3]; 3],
+        platform_velocity: &[T; 6],
+        platform_acceleration: &[T; 6],
+        external_wrench: &[T; 6],
+        actuator_length: &mut [T; 6],
+        actuator_velocity: &mut [T; 6],
+        jacobian_dp: &mut [[T; 6]; 6],
+        mass_matrix_p: &mut [[T; 6]; 6],
+        total_bias: &mut [T; 6],
+        inverse_dynamics: &mut [T; 6],
+    );
+}
+
+/// A model that has `passive_inverse_dynamics`.
+#[allow(clippy::all, clippy::pedantic)]
+pub trait PassiveInverseDynamics<T = f64> {
+    /// Actuator forces at reference speeds and accelerations, for passivity-based control, equation (49).
+    ///
+    /// Inputs:
+    ///
+    /// - `base_position`: 3, m, frame O: origin of the base frame.
+    /// - `base_rotation`: 3x3, dimensionless, frame B -> O: rotation of the base, equation (2).
+    /// - `base_velocity`: 6, m/s, rad/s, frame O: base velocity \[r_b'; w_b\], w_b the angular velocity.
+    /// - `base_acceleration`: 6, m/s^2, rad/s^2, frame O: base acceleration \[r_b''; w_b'\].
+    /// - `platform_position`: 3, m, frame O: centre of the platform's joint circle.
+    /// - `platform_rotation`: 3x3, dimensionless, frame P -> O: rotation of the platform, equation (2).
+    /// - `platform_velocity`: 6, m/s, rad/s, frame O: platform velocity \[r_p'; w_p\], the generalised speeds.
+    /// - `platform_acceleration`: 6, m/s^2, rad/s^2, frame O: platform acceleration \[r_p''; w_p'\].
+    /// - `reference_velocity`: 6, m/s, rad/s, frame O: reference velocity \[r_r'; w_r\] of the platform, for passivity-based control.
+    /// - `external_wrench`: 6, N, N m, frame O: external force and moment \[F_D; M_D\] at the payload's centre of mass.
+    ///
+    /// Outputs:
+    ///
+    /// - `passive_inverse_dynamics`: 6, N: actuator forces F at reference speeds, equation (49).
+    fn passive_inverse_dynamics(
+        &self,
+        base_position: &[T; 3],
+        base_rotation: &[[T; 3]; 3],
+        base_velocity: &[T; 6],
+        base_acceleration: &[T; 6],
+        platform_position: &[T; 3],
+        platform_rotation: &[[T; 3]; 3],
+        platform_velocity: &[T; 6],
+        platform_acceleration: &[T; 6],
+        reference_velocity: &[T; 6],
+        external_wrench: &[T; 6],
+        passive_inverse_dynamics: &mut [T; 6],
+    );
+}
+
+/// A model that has `base_reaction`.
+#[allow(clippy::all, clippy::pedantic)]
+pub trait BaseReaction<T = f64> {
+    /// Wrench of the base on the mechanism.
+    ///
+    /// Inputs:
+    ///
+    /// - `base_position`: 3, m, frame O: origin of the base frame.
+    /// - `base_rotation`: 3x3, dimensionless, frame B -> O: rotation of the base, equation (2).
+    /// - `base_velocity`: 6, m/s, rad/s, frame O: base velocity \[r_b'; w_b\], w_b the angular velocity.
+    /// - `base_acceleration`: 6, m/s^2, rad/s^2, frame O: base acceleration \[r_b''; w_b'\].
+    /// - `platform_position`: 3, m, frame O: centre of the platform's joint circle.
+    /// - `platform_rotation`: 3x3, dimensionless, frame P -> O: rotation of the platform, equation (2).
+    /// - `platform_velocity`: 6, m/s, rad/s, frame O: platform velocity \[r_p'; w_p\], the generalised speeds.
+    /// - `platform_acceleration`: 6, m/s^2, rad/s^2, frame O: platform acceleration \[r_p''; w_p'\].
+    /// - `external_wrench`: 6, N, N m, frame O: external force and moment \[F_D; M_D\] at the payload's centre of mass.
+    ///
+    /// Outputs:
+    ///
+    /// - `base_wrench`: 6, N, N m, frame O: wrench of the base on the mechanism, moments about the base origin.
+    fn base_reaction(
+        &self,
+        base_position: &[T; 3],
+        base_rotation: &[[T; 3]; 3],
+        base_velocity: &[T; 6],
+        base_acceleration: &[T; 6],
+        platform_position: &[T; 3],
+        platform_rotation: &[[T; 3]; 3],
+        platform_velocity: &[T; 6],
+        platform_acceleration: &[T; 6],
+        external_wrench: &[T; 6],
+        base_wrench: &mut [T; 6],
     );
 }
 

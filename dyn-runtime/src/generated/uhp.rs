@@ -3,29 +3,33 @@
 //
 // Dynamics of any `uhp` platform, all numbers given at run time.
 //
-// graph     uhp.json, sha256 64598c63b0eef92949c7e47bb8307f621caaf18f73a9c7b4d4cbe2ee8d4f74b4
+// graph     uhp.json, sha256 681cf4434cab11670af96653d8c96f220cec2462c26e5b794f5948e0a98ffee3
 //           derived by CasADi 3.8.2
 //
 // operations (+ - * / sqrt; a change of sign is not counted)
-// function            as derived  as printed
-// rod_alignment              303         303
-// leg_kinematics            1815        1803
-// body_kinematics           2853        2859
-// partial_velocities        1608        1614
-// generalised_forces        3660        3666
-// jacobian_dp                579         579
-// jacobian_db                597         597
-// mass_matrix_p             1475        1475
-// mass_matrix_b             2325        2319
-// coriolis_matrices         3939        3924
-// stiffness_matrices        1266        1266
-// matrices                  5264        5258
-// passive_forces            1398        1398
-// bias                      2386        2376
-// equation_of_motion        6434        6428
-// inverse_dynamics          2409        2409
-// forward_dynamics          3282        3405
-// energy                    1769        1745
+// function                  as derived  as printed
+// rod_alignment                    303         303
+// leg_kinematics                  1815        1803
+// body_kinematics                 2853        2859
+// partial_velocities              1608        1614
+// generalised_forces              3660        3666
+// jacobian_dp                      579         579
+// jacobian_db                      597         597
+// mass_matrix_p                   1475        1475
+// mass_matrix_b                   2325        2319
+// coriolis_matrices               3939        3924
+// stiffness_matrices              1266        1266
+// matrices                        5264        5258
+// passive_forces                  1398        1398
+// bias                            2386        2376
+// equation_of_motion              6434        6428
+// inverse_dynamics                2409        2409
+// actuator_geometry                591         591
+// control                         3425        3422
+// passive_inverse_dynamics        3075        3057
+// base_reaction                   2475        2475
+// forward_dynamics                3282        3405
+// energy                          1769        1745
 
 #[allow(unused_imports)]
 use crate::float::{Scalar, sqrt};
@@ -973,6 +977,136 @@ impl crate::kernels::InverseDynamics for Uhp {
 }
 
 #[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::ActuatorGeometry for Uhp {
+    fn actuator_geometry(
+        &self,
+        base_position: &[f64; 3],
+        base_rotation: &[[f64; 3]; 3],
+        platform_position: &[f64; 3],
+        platform_rotation: &[[f64; 3]; 3],
+        rod_alignment: &mut [f64; 6],
+        actuator_length: &mut [f64; 6],
+        jacobian_dp: &mut [[f64; 6]; 6],
+    ) {
+        self::actuator_geometry(
+            &self.parameters,
+            base_position,
+            base_rotation,
+            platform_position,
+            platform_rotation,
+            rod_alignment,
+            actuator_length,
+            jacobian_dp,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::Control for Uhp {
+    fn control(
+        &self,
+        base_position: &[f64; 3],
+        base_rotation: &[[f64; 3]; 3],
+        base_velocity: &[f64; 6],
+        base_acceleration: &[f64; 6],
+        platform_position: &[f64; 3],
+        platform_rotation: &[[f64; 3]; 3],
+        platform_velocity: &[f64; 6],
+        platform_acceleration: &[f64; 6],
+        external_wrench: &[f64; 6],
+        actuator_length: &mut [f64; 6],
+        actuator_velocity: &mut [f64; 6],
+        jacobian_dp: &mut [[f64; 6]; 6],
+        mass_matrix_p: &mut [[f64; 6]; 6],
+        total_bias: &mut [f64; 6],
+        inverse_dynamics: &mut [f64; 6],
+    ) {
+        self::control(
+            &self.parameters,
+            base_position,
+            base_rotation,
+            base_velocity,
+            base_acceleration,
+            platform_position,
+            platform_rotation,
+            platform_velocity,
+            platform_acceleration,
+            external_wrench,
+            actuator_length,
+            actuator_velocity,
+            jacobian_dp,
+            mass_matrix_p,
+            total_bias,
+            inverse_dynamics,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::PassiveInverseDynamics for Uhp {
+    fn passive_inverse_dynamics(
+        &self,
+        base_position: &[f64; 3],
+        base_rotation: &[[f64; 3]; 3],
+        base_velocity: &[f64; 6],
+        base_acceleration: &[f64; 6],
+        platform_position: &[f64; 3],
+        platform_rotation: &[[f64; 3]; 3],
+        platform_velocity: &[f64; 6],
+        platform_acceleration: &[f64; 6],
+        reference_velocity: &[f64; 6],
+        external_wrench: &[f64; 6],
+        passive_inverse_dynamics: &mut [f64; 6],
+    ) {
+        self::passive_inverse_dynamics(
+            &self.parameters,
+            base_position,
+            base_rotation,
+            base_velocity,
+            base_acceleration,
+            platform_position,
+            platform_rotation,
+            platform_velocity,
+            platform_acceleration,
+            reference_velocity,
+            external_wrench,
+            passive_inverse_dynamics,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::BaseReaction for Uhp {
+    fn base_reaction(
+        &self,
+        base_position: &[f64; 3],
+        base_rotation: &[[f64; 3]; 3],
+        base_velocity: &[f64; 6],
+        base_acceleration: &[f64; 6],
+        platform_position: &[f64; 3],
+        platform_rotation: &[[f64; 3]; 3],
+        platform_velocity: &[f64; 6],
+        platform_acceleration: &[f64; 6],
+        external_wrench: &[f64; 6],
+        base_wrench: &mut [f64; 6],
+    ) {
+        self::base_reaction(
+            &self.parameters,
+            base_position,
+            base_rotation,
+            base_velocity,
+            base_acceleration,
+            platform_position,
+            platform_rotation,
+            platform_velocity,
+            platform_acceleration,
+            external_wrench,
+            base_wrench,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
 impl crate::kernels::ForwardDynamics for Uhp {
     fn forward_dynamics(
         &self,
@@ -1526,6 +1660,140 @@ impl crate::kernels::InverseDynamics<f32> for Uhp<f32> {
             platform_acceleration,
             external_wrench,
             inverse_dynamics,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::ActuatorGeometry<f32> for Uhp<f32> {
+    #[inline]
+    fn actuator_geometry(
+        &self,
+        base_position: &[f32; 3],
+        base_rotation: &[[f32; 3]; 3],
+        platform_position: &[f32; 3],
+        platform_rotation: &[[f32; 3]; 3],
+        rod_alignment: &mut [f32; 6],
+        actuator_length: &mut [f32; 6],
+        jacobian_dp: &mut [[f32; 6]; 6],
+    ) {
+        self::actuator_geometry(
+            &self.parameters,
+            base_position,
+            base_rotation,
+            platform_position,
+            platform_rotation,
+            rod_alignment,
+            actuator_length,
+            jacobian_dp,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::Control<f32> for Uhp<f32> {
+    #[inline]
+    fn control(
+        &self,
+        base_position: &[f32; 3],
+        base_rotation: &[[f32; 3]; 3],
+        base_velocity: &[f32; 6],
+        base_acceleration: &[f32; 6],
+        platform_position: &[f32; 3],
+        platform_rotation: &[[f32; 3]; 3],
+        platform_velocity: &[f32; 6],
+        platform_acceleration: &[f32; 6],
+        external_wrench: &[f32; 6],
+        actuator_length: &mut [f32; 6],
+        actuator_velocity: &mut [f32; 6],
+        jacobian_dp: &mut [[f32; 6]; 6],
+        mass_matrix_p: &mut [[f32; 6]; 6],
+        total_bias: &mut [f32; 6],
+        inverse_dynamics: &mut [f32; 6],
+    ) {
+        self::control(
+            &self.parameters,
+            base_position,
+            base_rotation,
+            base_velocity,
+            base_acceleration,
+            platform_position,
+            platform_rotation,
+            platform_velocity,
+            platform_acceleration,
+            external_wrench,
+            actuator_length,
+            actuator_velocity,
+            jacobian_dp,
+            mass_matrix_p,
+            total_bias,
+            inverse_dynamics,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::PassiveInverseDynamics<f32> for Uhp<f32> {
+    #[inline]
+    fn passive_inverse_dynamics(
+        &self,
+        base_position: &[f32; 3],
+        base_rotation: &[[f32; 3]; 3],
+        base_velocity: &[f32; 6],
+        base_acceleration: &[f32; 6],
+        platform_position: &[f32; 3],
+        platform_rotation: &[[f32; 3]; 3],
+        platform_velocity: &[f32; 6],
+        platform_acceleration: &[f32; 6],
+        reference_velocity: &[f32; 6],
+        external_wrench: &[f32; 6],
+        passive_inverse_dynamics: &mut [f32; 6],
+    ) {
+        self::passive_inverse_dynamics(
+            &self.parameters,
+            base_position,
+            base_rotation,
+            base_velocity,
+            base_acceleration,
+            platform_position,
+            platform_rotation,
+            platform_velocity,
+            platform_acceleration,
+            reference_velocity,
+            external_wrench,
+            passive_inverse_dynamics,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::BaseReaction<f32> for Uhp<f32> {
+    #[inline]
+    fn base_reaction(
+        &self,
+        base_position: &[f32; 3],
+        base_rotation: &[[f32; 3]; 3],
+        base_velocity: &[f32; 6],
+        base_acceleration: &[f32; 6],
+        platform_position: &[f32; 3],
+        platform_rotation: &[[f32; 3]; 3],
+        platform_velocity: &[f32; 6],
+        platform_acceleration: &[f32; 6],
+        external_wrench: &[f32; 6],
+        base_wrench: &mut [f32; 6],
+    ) {
+        self::base_reaction(
+            &self.parameters,
+            base_position,
+            base_rotation,
+            base_velocity,
+            base_acceleration,
+            platform_position,
+            platform_rotation,
+            platform_velocity,
+            platform_acceleration,
+            external_wrench,
+            base_wrench,
         );
     }
 }
@@ -24335,6 +24603,5842 @@ pub fn inverse_dynamics<T: Scalar>(
         inverse_dynamics[4] = axial_reaction[4] + (t863 - t920);
         // leg 6: actuator forces F
         inverse_dynamics[5] = axial_reaction[5] + (t907 - t922);
+    }
+}
+
+/// Actuator lengths with their gradients, for forward kinematics, equation (18), (32).
+///
+/// Inputs:
+///
+/// - `base_position`: 3, m, frame O: origin of the base frame.
+/// - `base_rotation`: 3x3, dimensionless, frame B -> O: rotation of the base, equation (2).
+/// - `platform_position`: 3, m, frame O: centre of the platform's joint circle.
+/// - `platform_rotation`: 3x3, dimensionless, frame P -> O: rotation of the platform, equation (2).
+///
+/// Outputs:
+///
+/// - `rod_alignment`: 6, dimensionless: squared cosine between rod and line of the actuator's force; negative out of reach, equation (18).
+/// - `actuator_length`: 6, m: actuator length d, equation (18).
+/// - `jacobian_dp`: 6x6, 1, m, frame O: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b, equation (32).
+#[allow(clippy::all, clippy::pedantic, unused_variables)]
+pub fn actuator_geometry<T: Scalar>(
+    parameters: &Parameters<T>,
+    base_position: &[T; 3],
+    base_rotation: &[[T; 3]; 3],
+    platform_position: &[T; 3],
+    platform_rotation: &[[T; 3]; 3],
+    rod_alignment: &mut [T; 6],
+    actuator_length: &mut [T; 6],
+    jacobian_dp: &mut [[T; 6]; 6],
+) {
+    let c = T::constant;
+    // rotation of the platform seen from the base
+    let t1 = base_rotation[1][0] * platform_rotation[1][0];
+    let t2 = base_rotation[0][0] * platform_rotation[0][0] + t1;
+    let t3 = t2 + base_rotation[2][0] * platform_rotation[2][0];
+    let t4 = base_rotation[1][0] * platform_rotation[1][1];
+    let t5 = base_rotation[0][0] * platform_rotation[0][1] + t4;
+    let t6 = t5 + base_rotation[2][0] * platform_rotation[2][1];
+    let t7 = base_rotation[1][0] * platform_rotation[1][2];
+    let t8 = base_rotation[0][0] * platform_rotation[0][2] + t7;
+    let t9 = t8 + base_rotation[2][0] * platform_rotation[2][2];
+    let t10 = base_rotation[1][1] * platform_rotation[1][0];
+    let t11 = base_rotation[0][1] * platform_rotation[0][0] + t10;
+    let t12 = t11 + base_rotation[2][1] * platform_rotation[2][0];
+    let t13 = base_rotation[1][1] * platform_rotation[1][1];
+    let t14 = base_rotation[0][1] * platform_rotation[0][1] + t13;
+    let t15 = t14 + base_rotation[2][1] * platform_rotation[2][1];
+    let t16 = base_rotation[1][1] * platform_rotation[1][2];
+    let t17 = base_rotation[0][1] * platform_rotation[0][2] + t16;
+    let t18 = t17 + base_rotation[2][1] * platform_rotation[2][2];
+    let t19 = base_rotation[1][2] * platform_rotation[1][0];
+    let t20 = base_rotation[0][2] * platform_rotation[0][0] + t19;
+    let t21 = t20 + base_rotation[2][2] * platform_rotation[2][0];
+    let t22 = base_rotation[1][2] * platform_rotation[1][1];
+    let t23 = base_rotation[0][2] * platform_rotation[0][1] + t22;
+    let t24 = t23 + base_rotation[2][2] * platform_rotation[2][1];
+    let t25 = base_rotation[1][2] * platform_rotation[1][2];
+    let t26 = base_rotation[0][2] * platform_rotation[0][2] + t25;
+    let t27 = t26 + base_rotation[2][2] * platform_rotation[2][2];
+    // platform origin seen from the base
+    let t28 = base_position[0] - platform_position[0];
+    let t29 = base_position[1] - platform_position[1];
+    let t30 = base_rotation[0][0] * t28 + base_rotation[1][0] * t29;
+    let t31 = base_position[2] - platform_position[2];
+    let t32 = t30 + base_rotation[2][0] * t31;
+    let t33 = base_rotation[0][1] * t28 + base_rotation[1][1] * t29;
+    let t34 = t33 + base_rotation[2][1] * t31;
+    let t35 = base_rotation[0][2] * t28 + base_rotation[1][2] * t29;
+    let t36 = t35 + base_rotation[2][2] * t31;
+    // leg 1: platform joint from the platform origin
+    let t37 = parameters.platform_point[0][1] * t6;
+    let t38 = parameters.platform_point[0][0] * t3 + t37;
+    let t39 = t38 + parameters.platform_point[0][2] * t9;
+    let t40 = parameters.platform_point[0][1] * t15;
+    let t41 = parameters.platform_point[0][0] * t12 + t40;
+    let t42 = t41 + parameters.platform_point[0][2] * t18;
+    let t43 = parameters.platform_point[0][1] * t24;
+    let t44 = parameters.platform_point[0][0] * t21 + t43;
+    let t45 = t44 + parameters.platform_point[0][2] * t27;
+    let t46 = platform_rotation[0][1] * parameters.platform_point[0][1];
+    let t47 = platform_rotation[0][0] * parameters.platform_point[0][0] + t46;
+    let t48 = t47 + platform_rotation[0][2] * parameters.platform_point[0][2];
+    let t49 = platform_rotation[1][1] * parameters.platform_point[0][1];
+    let t50 = platform_rotation[1][0] * parameters.platform_point[0][0] + t49;
+    let t51 = t50 + platform_rotation[1][2] * parameters.platform_point[0][2];
+    let t52 = platform_rotation[2][1] * parameters.platform_point[0][1];
+    let t53 = platform_rotation[2][0] * parameters.platform_point[0][0] + t52;
+    let t54 = t53 + platform_rotation[2][2] * parameters.platform_point[0][2];
+    // leg 1: platform joint from the base point
+    let t55 = parameters.base_point[0][0] + (t32 - t39);
+    let t56 = parameters.base_point[0][1] + (t34 - t42);
+    let t57 = parameters.base_point[0][2] + (t36 - t45);
+    // leg 2: platform joint from the platform origin
+    let t58 = parameters.platform_point[1][1] * t6;
+    let t59 = parameters.platform_point[1][0] * t3 + t58;
+    let t60 = t59 + parameters.platform_point[1][2] * t9;
+    let t61 = parameters.platform_point[1][1] * t15;
+    let t62 = parameters.platform_point[1][0] * t12 + t61;
+    let t63 = t62 + parameters.platform_point[1][2] * t18;
+    let t64 = parameters.platform_point[1][1] * t24;
+    let t65 = parameters.platform_point[1][0] * t21 + t64;
+    let t66 = t65 + parameters.platform_point[1][2] * t27;
+    let t67 = platform_rotation[0][1] * parameters.platform_point[1][1];
+    let t68 = platform_rotation[0][0] * parameters.platform_point[1][0] + t67;
+    let t69 = t68 + platform_rotation[0][2] * parameters.platform_point[1][2];
+    let t70 = platform_rotation[1][1] * parameters.platform_point[1][1];
+    let t71 = platform_rotation[1][0] * parameters.platform_point[1][0] + t70;
+    let t72 = t71 + platform_rotation[1][2] * parameters.platform_point[1][2];
+    let t73 = platform_rotation[2][1] * parameters.platform_point[1][1];
+    let t74 = platform_rotation[2][0] * parameters.platform_point[1][0] + t73;
+    let t75 = t74 + platform_rotation[2][2] * parameters.platform_point[1][2];
+    // leg 2: platform joint from the base point
+    let t76 = parameters.base_point[1][0] + (t32 - t60);
+    let t77 = parameters.base_point[1][1] + (t34 - t63);
+    let t78 = parameters.base_point[1][2] + (t36 - t66);
+    // leg 3: platform joint from the platform origin
+    let t79 = parameters.platform_point[2][1] * t6;
+    let t80 = parameters.platform_point[2][0] * t3 + t79;
+    let t81 = t80 + parameters.platform_point[2][2] * t9;
+    let t82 = parameters.platform_point[2][1] * t15;
+    let t83 = parameters.platform_point[2][0] * t12 + t82;
+    let t84 = t83 + parameters.platform_point[2][2] * t18;
+    let t85 = parameters.platform_point[2][1] * t24;
+    let t86 = parameters.platform_point[2][0] * t21 + t85;
+    let t87 = t86 + parameters.platform_point[2][2] * t27;
+    let t88 = platform_rotation[0][1] * parameters.platform_point[2][1];
+    let t89 = platform_rotation[0][0] * parameters.platform_point[2][0] + t88;
+    let t90 = t89 + platform_rotation[0][2] * parameters.platform_point[2][2];
+    let t91 = platform_rotation[1][1] * parameters.platform_point[2][1];
+    let t92 = platform_rotation[1][0] * parameters.platform_point[2][0] + t91;
+    let t93 = t92 + platform_rotation[1][2] * parameters.platform_point[2][2];
+    let t94 = platform_rotation[2][1] * parameters.platform_point[2][1];
+    let t95 = platform_rotation[2][0] * parameters.platform_point[2][0] + t94;
+    let t96 = t95 + platform_rotation[2][2] * parameters.platform_point[2][2];
+    // leg 3: platform joint from the base point
+    let t97 = parameters.base_point[2][0] + (t32 - t81);
+    let t98 = parameters.base_point[2][1] + (t34 - t84);
+    let t99 = parameters.base_point[2][2] + (t36 - t87);
+    // leg 4: platform joint from the platform origin
+    let t100 = parameters.platform_point[3][1] * t6;
+    let t101 = parameters.platform_point[3][0] * t3 + t100;
+    let t102 = t101 + parameters.platform_point[3][2] * t9;
+    let t103 = parameters.platform_point[3][1] * t15;
+    let t104 = parameters.platform_point[3][0] * t12 + t103;
+    let t105 = t104 + parameters.platform_point[3][2] * t18;
+    let t106 = parameters.platform_point[3][1] * t24;
+    let t107 = parameters.platform_point[3][0] * t21 + t106;
+    let t108 = t107 + parameters.platform_point[3][2] * t27;
+    let t109 = platform_rotation[0][1] * parameters.platform_point[3][1];
+    let t110 = platform_rotation[0][0] * parameters.platform_point[3][0] + t109;
+    let t111 = t110 + platform_rotation[0][2] * parameters.platform_point[3][2];
+    let t112 = platform_rotation[1][1] * parameters.platform_point[3][1];
+    let t113 = platform_rotation[1][0] * parameters.platform_point[3][0] + t112;
+    let t114 = t113 + platform_rotation[1][2] * parameters.platform_point[3][2];
+    let t115 = platform_rotation[2][1] * parameters.platform_point[3][1];
+    let t116 = platform_rotation[2][0] * parameters.platform_point[3][0] + t115;
+    let t117 = t116 + platform_rotation[2][2] * parameters.platform_point[3][2];
+    // leg 4: platform joint from the base point
+    let t118 = parameters.base_point[3][0] + (t32 - t102);
+    let t119 = parameters.base_point[3][1] + (t34 - t105);
+    let t120 = parameters.base_point[3][2] + (t36 - t108);
+    // leg 5: platform joint from the platform origin
+    let t121 = parameters.platform_point[4][1] * t6;
+    let t122 = parameters.platform_point[4][0] * t3 + t121;
+    let t123 = t122 + parameters.platform_point[4][2] * t9;
+    let t124 = parameters.platform_point[4][1] * t15;
+    let t125 = parameters.platform_point[4][0] * t12 + t124;
+    let t126 = t125 + parameters.platform_point[4][2] * t18;
+    let t127 = parameters.platform_point[4][1] * t24;
+    let t128 = parameters.platform_point[4][0] * t21 + t127;
+    let t129 = t128 + parameters.platform_point[4][2] * t27;
+    let t130 = platform_rotation[0][1] * parameters.platform_point[4][1];
+    let t131 = platform_rotation[0][0] * parameters.platform_point[4][0] + t130;
+    let t132 = t131 + platform_rotation[0][2] * parameters.platform_point[4][2];
+    let t133 = platform_rotation[1][1] * parameters.platform_point[4][1];
+    let t134 = platform_rotation[1][0] * parameters.platform_point[4][0] + t133;
+    let t135 = t134 + platform_rotation[1][2] * parameters.platform_point[4][2];
+    let t136 = platform_rotation[2][1] * parameters.platform_point[4][1];
+    let t137 = platform_rotation[2][0] * parameters.platform_point[4][0] + t136;
+    let t138 = t137 + platform_rotation[2][2] * parameters.platform_point[4][2];
+    // leg 5: platform joint from the base point
+    let t139 = parameters.base_point[4][0] + (t32 - t123);
+    let t140 = parameters.base_point[4][1] + (t34 - t126);
+    let t141 = parameters.base_point[4][2] + (t36 - t129);
+    // leg 6: platform joint from the platform origin
+    let t142 = parameters.platform_point[5][1] * t6;
+    let t143 = parameters.platform_point[5][0] * t3 + t142;
+    let t144 = t143 + parameters.platform_point[5][2] * t9;
+    let t145 = parameters.platform_point[5][1] * t15;
+    let t146 = parameters.platform_point[5][0] * t12 + t145;
+    let t147 = t146 + parameters.platform_point[5][2] * t18;
+    let t148 = parameters.platform_point[5][1] * t24;
+    let t149 = parameters.platform_point[5][0] * t21 + t148;
+    let t150 = t149 + parameters.platform_point[5][2] * t27;
+    let t151 = platform_rotation[0][1] * parameters.platform_point[5][1];
+    let t152 = platform_rotation[0][0] * parameters.platform_point[5][0] + t151;
+    let t153 = t152 + platform_rotation[0][2] * parameters.platform_point[5][2];
+    let t154 = platform_rotation[1][1] * parameters.platform_point[5][1];
+    let t155 = platform_rotation[1][0] * parameters.platform_point[5][0] + t154;
+    let t156 = t155 + platform_rotation[1][2] * parameters.platform_point[5][2];
+    let t157 = platform_rotation[2][1] * parameters.platform_point[5][1];
+    let t158 = platform_rotation[2][0] * parameters.platform_point[5][0] + t157;
+    let t159 = t158 + platform_rotation[2][2] * parameters.platform_point[5][2];
+    // leg 6: platform joint from the base point
+    let t160 = parameters.base_point[5][0] + (t32 - t144);
+    let t161 = parameters.base_point[5][1] + (t34 - t147);
+    let t162 = parameters.base_point[5][2] + (t36 - t150);
+    // leg 1: offset of the platform joint from the actuator axis
+    let t163 = parameters.actuator_axis[0][1] * t56;
+    let t164 = parameters.actuator_axis[0][0] * t55 + t163;
+    let t165 = t164 + parameters.actuator_axis[0][2] * t57;
+    let t166 = t55 - parameters.actuator_axis[0][0] * t165;
+    let t167 = t56 - parameters.actuator_axis[0][1] * t165;
+    let t168 = t57 - parameters.actuator_axis[0][2] * t165;
+    // leg 1: extent of the rod along the actuator axis
+    let t169 = parameters.rod_length[0] * parameters.rod_length[0];
+    let t170 = t169 - (t166 * t166 + t167 * t167 + t168 * t168);
+    let t171 = sqrt(t170);
+    // leg 1: reciprocal of that extent
+    let t172 = c(1.0) / t171;
+    // leg 2: offset of the platform joint from the actuator axis
+    let t173 = parameters.actuator_axis[1][1] * t77;
+    let t174 = parameters.actuator_axis[1][0] * t76 + t173;
+    let t175 = t174 + parameters.actuator_axis[1][2] * t78;
+    let t176 = t76 - parameters.actuator_axis[1][0] * t175;
+    let t177 = t77 - parameters.actuator_axis[1][1] * t175;
+    let t178 = t78 - parameters.actuator_axis[1][2] * t175;
+    // leg 2: extent of the rod along the actuator axis
+    let t179 = parameters.rod_length[1] * parameters.rod_length[1];
+    let t180 = t179 - (t176 * t176 + t177 * t177 + t178 * t178);
+    let t181 = sqrt(t180);
+    // leg 2: reciprocal of that extent
+    let t182 = c(1.0) / t181;
+    // leg 3: offset of the platform joint from the actuator axis
+    let t183 = parameters.actuator_axis[2][1] * t98;
+    let t184 = parameters.actuator_axis[2][0] * t97 + t183;
+    let t185 = t184 + parameters.actuator_axis[2][2] * t99;
+    let t186 = t97 - parameters.actuator_axis[2][0] * t185;
+    let t187 = t98 - parameters.actuator_axis[2][1] * t185;
+    let t188 = t99 - parameters.actuator_axis[2][2] * t185;
+    // leg 3: extent of the rod along the actuator axis
+    let t189 = parameters.rod_length[2] * parameters.rod_length[2];
+    let t190 = t189 - (t186 * t186 + t187 * t187 + t188 * t188);
+    let t191 = sqrt(t190);
+    // leg 3: reciprocal of that extent
+    let t192 = c(1.0) / t191;
+    // leg 4: offset of the platform joint from the actuator axis
+    let t193 = parameters.actuator_axis[3][1] * t119;
+    let t194 = parameters.actuator_axis[3][0] * t118 + t193;
+    let t195 = t194 + parameters.actuator_axis[3][2] * t120;
+    let t196 = t118 - parameters.actuator_axis[3][0] * t195;
+    let t197 = t119 - parameters.actuator_axis[3][1] * t195;
+    let t198 = t120 - parameters.actuator_axis[3][2] * t195;
+    // leg 4: extent of the rod along the actuator axis
+    let t199 = parameters.rod_length[3] * parameters.rod_length[3];
+    let t200 = t199 - (t196 * t196 + t197 * t197 + t198 * t198);
+    let t201 = sqrt(t200);
+    // leg 4: reciprocal of that extent
+    let t202 = c(1.0) / t201;
+    // leg 5: offset of the platform joint from the actuator axis
+    let t203 = parameters.actuator_axis[4][1] * t140;
+    let t204 = parameters.actuator_axis[4][0] * t139 + t203;
+    let t205 = t204 + parameters.actuator_axis[4][2] * t141;
+    let t206 = t139 - parameters.actuator_axis[4][0] * t205;
+    let t207 = t140 - parameters.actuator_axis[4][1] * t205;
+    let t208 = t141 - parameters.actuator_axis[4][2] * t205;
+    // leg 5: extent of the rod along the actuator axis
+    let t209 = parameters.rod_length[4] * parameters.rod_length[4];
+    let t210 = t209 - (t206 * t206 + t207 * t207 + t208 * t208);
+    let t211 = sqrt(t210);
+    // leg 5: reciprocal of that extent
+    let t212 = c(1.0) / t211;
+    // leg 6: offset of the platform joint from the actuator axis
+    let t213 = parameters.actuator_axis[5][1] * t161;
+    let t214 = parameters.actuator_axis[5][0] * t160 + t213;
+    let t215 = t214 + parameters.actuator_axis[5][2] * t162;
+    let t216 = t160 - parameters.actuator_axis[5][0] * t215;
+    let t217 = t161 - parameters.actuator_axis[5][1] * t215;
+    let t218 = t162 - parameters.actuator_axis[5][2] * t215;
+    // leg 6: extent of the rod along the actuator axis
+    let t219 = parameters.rod_length[5] * parameters.rod_length[5];
+    let t220 = t219 - (t216 * t216 + t217 * t217 + t218 * t218);
+    let t221 = sqrt(t220);
+    // leg 6: reciprocal of that extent
+    let t222 = c(1.0) / t221;
+    // leg 1: gradient of the actuator length by the platform joint
+    let t223 = parameters.actuator_axis[0][0] - t166 * t172;
+    let t224 = parameters.actuator_axis[0][1] - t167 * t172;
+    let t225 = parameters.actuator_axis[0][2] - t168 * t172;
+    // leg 2: gradient of the actuator length by the platform joint
+    let t226 = parameters.actuator_axis[1][0] - t176 * t182;
+    let t227 = parameters.actuator_axis[1][1] - t177 * t182;
+    let t228 = parameters.actuator_axis[1][2] - t178 * t182;
+    // leg 3: gradient of the actuator length by the platform joint
+    let t229 = parameters.actuator_axis[2][0] - t186 * t192;
+    let t230 = parameters.actuator_axis[2][1] - t187 * t192;
+    let t231 = parameters.actuator_axis[2][2] - t188 * t192;
+    // leg 4: gradient of the actuator length by the platform joint
+    let t232 = parameters.actuator_axis[3][0] - t196 * t202;
+    let t233 = parameters.actuator_axis[3][1] - t197 * t202;
+    let t234 = parameters.actuator_axis[3][2] - t198 * t202;
+    // leg 5: gradient of the actuator length by the platform joint
+    let t235 = parameters.actuator_axis[4][0] - t206 * t212;
+    let t236 = parameters.actuator_axis[4][1] - t207 * t212;
+    let t237 = parameters.actuator_axis[4][2] - t208 * t212;
+    // leg 6: gradient of the actuator length by the platform joint
+    let t238 = parameters.actuator_axis[5][0] - t216 * t222;
+    let t239 = parameters.actuator_axis[5][1] - t217 * t222;
+    let t240 = parameters.actuator_axis[5][2] - t218 * t222;
+    // leg 1: gradient of the actuator length
+    let t241 = base_rotation[0][0] * t223 + base_rotation[0][1] * t224;
+    let t242 = t241 + base_rotation[0][2] * t225;
+    jacobian_dp[0][0] = t242;
+    let t243 = base_rotation[1][0] * t223 + base_rotation[1][1] * t224;
+    let t244 = t243 + base_rotation[1][2] * t225;
+    jacobian_dp[0][1] = t244;
+    let t245 = base_rotation[2][0] * t223 + base_rotation[2][1] * t224;
+    let t246 = t245 + base_rotation[2][2] * t225;
+    jacobian_dp[0][2] = t246;
+    // leg 2: gradient of the actuator length
+    let t247 = base_rotation[0][0] * t226 + base_rotation[0][1] * t227;
+    let t248 = t247 + base_rotation[0][2] * t228;
+    jacobian_dp[1][0] = t248;
+    let t249 = base_rotation[1][0] * t226 + base_rotation[1][1] * t227;
+    let t250 = t249 + base_rotation[1][2] * t228;
+    jacobian_dp[1][1] = t250;
+    let t251 = base_rotation[2][0] * t226 + base_rotation[2][1] * t227;
+    let t252 = t251 + base_rotation[2][2] * t228;
+    jacobian_dp[1][2] = t252;
+    // leg 3: gradient of the actuator length
+    let t253 = base_rotation[0][0] * t229 + base_rotation[0][1] * t230;
+    let t254 = t253 + base_rotation[0][2] * t231;
+    jacobian_dp[2][0] = t254;
+    let t255 = base_rotation[1][0] * t229 + base_rotation[1][1] * t230;
+    let t256 = t255 + base_rotation[1][2] * t231;
+    jacobian_dp[2][1] = t256;
+    let t257 = base_rotation[2][0] * t229 + base_rotation[2][1] * t230;
+    let t258 = t257 + base_rotation[2][2] * t231;
+    jacobian_dp[2][2] = t258;
+    // leg 4: gradient of the actuator length
+    let t259 = base_rotation[0][0] * t232 + base_rotation[0][1] * t233;
+    let t260 = t259 + base_rotation[0][2] * t234;
+    jacobian_dp[3][0] = t260;
+    let t261 = base_rotation[1][0] * t232 + base_rotation[1][1] * t233;
+    let t262 = t261 + base_rotation[1][2] * t234;
+    jacobian_dp[3][1] = t262;
+    let t263 = base_rotation[2][0] * t232 + base_rotation[2][1] * t233;
+    let t264 = t263 + base_rotation[2][2] * t234;
+    jacobian_dp[3][2] = t264;
+    // leg 5: gradient of the actuator length
+    let t265 = base_rotation[0][0] * t235 + base_rotation[0][1] * t236;
+    let t266 = t265 + base_rotation[0][2] * t237;
+    jacobian_dp[4][0] = t266;
+    let t267 = base_rotation[1][0] * t235 + base_rotation[1][1] * t236;
+    let t268 = t267 + base_rotation[1][2] * t237;
+    jacobian_dp[4][1] = t268;
+    let t269 = base_rotation[2][0] * t235 + base_rotation[2][1] * t236;
+    let t270 = t269 + base_rotation[2][2] * t237;
+    jacobian_dp[4][2] = t270;
+    // leg 6: gradient of the actuator length
+    let t271 = base_rotation[0][0] * t238 + base_rotation[0][1] * t239;
+    let t272 = t271 + base_rotation[0][2] * t240;
+    jacobian_dp[5][0] = t272;
+    let t273 = base_rotation[1][0] * t238 + base_rotation[1][1] * t239;
+    let t274 = t273 + base_rotation[1][2] * t240;
+    jacobian_dp[5][1] = t274;
+    let t275 = base_rotation[2][0] * t238 + base_rotation[2][1] * t239;
+    let t276 = t275 + base_rotation[2][2] * t240;
+    jacobian_dp[5][2] = t276;
+    // leg 1: squared cosine between rod and line of the actuator's force; negative out of reach
+    rod_alignment[0] = t170 / t169;
+    // leg 2: squared cosine between rod and line of the actuator's force; negative out of reach
+    rod_alignment[1] = t180 / t179;
+    // leg 3: squared cosine between rod and line of the actuator's force; negative out of reach
+    rod_alignment[2] = t190 / t189;
+    // leg 4: squared cosine between rod and line of the actuator's force; negative out of reach
+    rod_alignment[3] = t200 / t199;
+    // leg 5: squared cosine between rod and line of the actuator's force; negative out of reach
+    rod_alignment[4] = t210 / t209;
+    // leg 6: squared cosine between rod and line of the actuator's force; negative out of reach
+    rod_alignment[5] = t220 / t219;
+    // leg 1: actuator length d
+    actuator_length[0] = -(t165 + t171);
+    // leg 2: actuator length d
+    actuator_length[1] = -(t175 + t181);
+    // leg 3: actuator length d
+    actuator_length[2] = -(t185 + t191);
+    // leg 4: actuator length d
+    actuator_length[3] = -(t195 + t201);
+    // leg 5: actuator length d
+    actuator_length[4] = -(t205 + t211);
+    // leg 6: actuator length d
+    actuator_length[5] = -(t215 + t221);
+    // leg 1: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+    jacobian_dp[0][3] = t51 * t246 - t54 * t244;
+    jacobian_dp[0][4] = t54 * t242 - t48 * t246;
+    jacobian_dp[0][5] = t48 * t244 - t51 * t242;
+    // leg 2: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+    jacobian_dp[1][3] = t72 * t252 - t75 * t250;
+    jacobian_dp[1][4] = t75 * t248 - t69 * t252;
+    jacobian_dp[1][5] = t69 * t250 - t72 * t248;
+    // leg 3: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+    jacobian_dp[2][3] = t93 * t258 - t96 * t256;
+    jacobian_dp[2][4] = t96 * t254 - t90 * t258;
+    jacobian_dp[2][5] = t90 * t256 - t93 * t254;
+    // leg 4: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+    jacobian_dp[3][3] = t114 * t264 - t117 * t262;
+    jacobian_dp[3][4] = t117 * t260 - t111 * t264;
+    jacobian_dp[3][5] = t111 * t262 - t114 * t260;
+    // leg 5: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+    jacobian_dp[4][3] = t135 * t270 - t138 * t268;
+    jacobian_dp[4][4] = t138 * t266 - t132 * t270;
+    jacobian_dp[4][5] = t132 * t268 - t135 * t266;
+    // leg 6: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+    jacobian_dp[5][3] = t156 * t276 - t159 * t274;
+    jacobian_dp[5][4] = t159 * t272 - t153 * t276;
+    jacobian_dp[5][5] = t153 * t274 - t156 * t272;
+}
+
+/// What a controller by inverse dynamics needs, in one call, equation (18), (30), (32), (49).
+///
+/// Inputs:
+///
+/// - `base_position`: 3, m, frame O: origin of the base frame.
+/// - `base_rotation`: 3x3, dimensionless, frame B -> O: rotation of the base, equation (2).
+/// - `base_velocity`: 6, m/s, rad/s, frame O: base velocity \[r_b'; w_b\], w_b the angular velocity.
+/// - `base_acceleration`: 6, m/s^2, rad/s^2, frame O: base acceleration \[r_b''; w_b'\].
+/// - `platform_position`: 3, m, frame O: centre of the platform's joint circle.
+/// - `platform_rotation`: 3x3, dimensionless, frame P -> O: rotation of the platform, equation (2).
+/// - `platform_velocity`: 6, m/s, rad/s, frame O: platform velocity \[r_p'; w_p\], the generalised speeds.
+/// - `platform_acceleration`: 6, m/s^2, rad/s^2, frame O: platform acceleration \[r_p''; w_p'\].
+/// - `external_wrench`: 6, N, N m, frame O: external force and moment \[F_D; M_D\] at the payload's centre of mass.
+///
+/// Outputs:
+///
+/// - `actuator_length`: 6, m: actuator length d, equation (18).
+/// - `actuator_velocity`: 6, m/s: actuator velocity d', equation (30).
+/// - `jacobian_dp`: 6x6, 1, m, frame O: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b, equation (32).
+/// - `mass_matrix_p`: 6x6, kg, kg m, kg m^2, frame O: mass matrix M_p of the platform, equation (49).
+/// - `total_bias`: 6, N, N m, frame O: bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext, equation (49).
+/// - `inverse_dynamics`: 6, N: actuator forces F, equation (49).
+#[allow(clippy::all, clippy::pedantic, unused_variables)]
+pub fn control<T: Scalar>(
+    parameters: &Parameters<T>,
+    base_position: &[T; 3],
+    base_rotation: &[[T; 3]; 3],
+    base_velocity: &[T; 6],
+    base_acceleration: &[T; 6],
+    platform_position: &[T; 3],
+    platform_rotation: &[[T; 3]; 3],
+    platform_velocity: &[T; 6],
+    platform_acceleration: &[T; 6],
+    external_wrench: &[T; 6],
+    actuator_length: &mut [T; 6],
+    actuator_velocity: &mut [T; 6],
+    jacobian_dp: &mut [[T; 6]; 6],
+    mass_matrix_p: &mut [[T; 6]; 6],
+    total_bias: &mut [T; 6],
+    inverse_dynamics: &mut [T; 6],
+) {
+    let c = T::constant;
+    let (
+        t3,
+        t6,
+        t9,
+        t12,
+        t15,
+        t18,
+        t21,
+        t24,
+        t27,
+        t166,
+        t167,
+        t168,
+        t171,
+        t172,
+        t176,
+        t177,
+        t178,
+        t181,
+        t182,
+        t186,
+        t187,
+        t188,
+        t191,
+        t192,
+        t196,
+        t197,
+        t198,
+        t201,
+        t202,
+        t206,
+        t207,
+        t208,
+        t211,
+        t212,
+        t216,
+        t217,
+        t218,
+        t221,
+        t222,
+        t242,
+        t244,
+        t246,
+        t248,
+        t250,
+        t252,
+        t254,
+        t256,
+        t258,
+        t260,
+        t262,
+        t264,
+        t266,
+        t268,
+        t270,
+        t272,
+        t274,
+        t276,
+        t277,
+        t278,
+        t279,
+        t280,
+        t281,
+        t282,
+        t283,
+        t284,
+        t285,
+        t286,
+        t287,
+        t288,
+        t289,
+        t290,
+        t291,
+        t292,
+        t293,
+        t294,
+        t297,
+        t300,
+        t303,
+        t306,
+        t309,
+        t312,
+        t315,
+        t318,
+        t321,
+        t324,
+        t327,
+        t330,
+        t332,
+        t339,
+        t346,
+        t353,
+        t365,
+        t374,
+        t383,
+        t393,
+        t402,
+        t412,
+        t528,
+        t529,
+        t543,
+        t559,
+        t579,
+        t608,
+        t641,
+        t644,
+        t647,
+        t648,
+        t649,
+        t652,
+        t653,
+        t654,
+        t655,
+        t664,
+        t666,
+        t668,
+        t676,
+        t678,
+        t685,
+        t695,
+        t698,
+        t701,
+        t711,
+        t712,
+        t713,
+        t792,
+        t793,
+        t794,
+        t795,
+        t796,
+        t800,
+        t801,
+        t802,
+        t803,
+        t804,
+        t808,
+        t809,
+        t810,
+        t811,
+        t812,
+        t816,
+        t817,
+        t818,
+        t819,
+        t820,
+        t824,
+        t825,
+        t826,
+        t827,
+        t828,
+        t832,
+        t833,
+        t834,
+        t835,
+        t836,
+        t841,
+        t843,
+        t845,
+        t848,
+        t851,
+        t854,
+        t857,
+        t859,
+        t861,
+        t862,
+        t864,
+        t866,
+        t867,
+        t868,
+        t869,
+        t872,
+        t875,
+        t878,
+        t884,
+        t885,
+        t886,
+        t890,
+        t891,
+        t892,
+        t894,
+        t895,
+        t896,
+        t898,
+        t900,
+        t902,
+    ) = {
+        // rotation of the platform seen from the base
+        let t1 = base_rotation[1][0] * platform_rotation[1][0];
+        let t2 = base_rotation[0][0] * platform_rotation[0][0] + t1;
+        let t3 = t2 + base_rotation[2][0] * platform_rotation[2][0];
+        let t4 = base_rotation[1][0] * platform_rotation[1][1];
+        let t5 = base_rotation[0][0] * platform_rotation[0][1] + t4;
+        let t6 = t5 + base_rotation[2][0] * platform_rotation[2][1];
+        let t7 = base_rotation[1][0] * platform_rotation[1][2];
+        let t8 = base_rotation[0][0] * platform_rotation[0][2] + t7;
+        let t9 = t8 + base_rotation[2][0] * platform_rotation[2][2];
+        let t10 = base_rotation[1][1] * platform_rotation[1][0];
+        let t11 = base_rotation[0][1] * platform_rotation[0][0] + t10;
+        let t12 = t11 + base_rotation[2][1] * platform_rotation[2][0];
+        let t13 = base_rotation[1][1] * platform_rotation[1][1];
+        let t14 = base_rotation[0][1] * platform_rotation[0][1] + t13;
+        let t15 = t14 + base_rotation[2][1] * platform_rotation[2][1];
+        let t16 = base_rotation[1][1] * platform_rotation[1][2];
+        let t17 = base_rotation[0][1] * platform_rotation[0][2] + t16;
+        let t18 = t17 + base_rotation[2][1] * platform_rotation[2][2];
+        let t19 = base_rotation[1][2] * platform_rotation[1][0];
+        let t20 = base_rotation[0][2] * platform_rotation[0][0] + t19;
+        let t21 = t20 + base_rotation[2][2] * platform_rotation[2][0];
+        let t22 = base_rotation[1][2] * platform_rotation[1][1];
+        let t23 = base_rotation[0][2] * platform_rotation[0][1] + t22;
+        let t24 = t23 + base_rotation[2][2] * platform_rotation[2][1];
+        let t25 = base_rotation[1][2] * platform_rotation[1][2];
+        let t26 = base_rotation[0][2] * platform_rotation[0][2] + t25;
+        let t27 = t26 + base_rotation[2][2] * platform_rotation[2][2];
+        // platform origin seen from the base
+        let t28 = base_position[0] - platform_position[0];
+        let t29 = base_position[1] - platform_position[1];
+        let t30 = base_rotation[0][0] * t28 + base_rotation[1][0] * t29;
+        let t31 = base_position[2] - platform_position[2];
+        let t32 = t30 + base_rotation[2][0] * t31;
+        let t33 = base_rotation[0][1] * t28 + base_rotation[1][1] * t29;
+        let t34 = t33 + base_rotation[2][1] * t31;
+        let t35 = base_rotation[0][2] * t28 + base_rotation[1][2] * t29;
+        let t36 = t35 + base_rotation[2][2] * t31;
+        // leg 1: platform joint from the platform origin
+        let t37 = parameters.platform_point[0][1] * t6;
+        let t38 = parameters.platform_point[0][0] * t3 + t37;
+        let t39 = t38 + parameters.platform_point[0][2] * t9;
+        let t40 = parameters.platform_point[0][1] * t15;
+        let t41 = parameters.platform_point[0][0] * t12 + t40;
+        let t42 = t41 + parameters.platform_point[0][2] * t18;
+        let t43 = parameters.platform_point[0][1] * t24;
+        let t44 = parameters.platform_point[0][0] * t21 + t43;
+        let t45 = t44 + parameters.platform_point[0][2] * t27;
+        let t46 = platform_rotation[0][1] * parameters.platform_point[0][1];
+        let t47 = platform_rotation[0][0] * parameters.platform_point[0][0] + t46;
+        let t48 = t47 + platform_rotation[0][2] * parameters.platform_point[0][2];
+        let t49 = platform_rotation[1][1] * parameters.platform_point[0][1];
+        let t50 = platform_rotation[1][0] * parameters.platform_point[0][0] + t49;
+        let t51 = t50 + platform_rotation[1][2] * parameters.platform_point[0][2];
+        let t52 = platform_rotation[2][1] * parameters.platform_point[0][1];
+        let t53 = platform_rotation[2][0] * parameters.platform_point[0][0] + t52;
+        let t54 = t53 + platform_rotation[2][2] * parameters.platform_point[0][2];
+        // leg 1: platform joint from the base point
+        let t55 = parameters.base_point[0][0] + (t32 - t39);
+        let t56 = parameters.base_point[0][1] + (t34 - t42);
+        let t57 = parameters.base_point[0][2] + (t36 - t45);
+        // leg 2: platform joint from the platform origin
+        let t58 = parameters.platform_point[1][1] * t6;
+        let t59 = parameters.platform_point[1][0] * t3 + t58;
+        let t60 = t59 + parameters.platform_point[1][2] * t9;
+        let t61 = parameters.platform_point[1][1] * t15;
+        let t62 = parameters.platform_point[1][0] * t12 + t61;
+        let t63 = t62 + parameters.platform_point[1][2] * t18;
+        let t64 = parameters.platform_point[1][1] * t24;
+        let t65 = parameters.platform_point[1][0] * t21 + t64;
+        let t66 = t65 + parameters.platform_point[1][2] * t27;
+        let t67 = platform_rotation[0][1] * parameters.platform_point[1][1];
+        let t68 = platform_rotation[0][0] * parameters.platform_point[1][0] + t67;
+        let t69 = t68 + platform_rotation[0][2] * parameters.platform_point[1][2];
+        let t70 = platform_rotation[1][1] * parameters.platform_point[1][1];
+        let t71 = platform_rotation[1][0] * parameters.platform_point[1][0] + t70;
+        let t72 = t71 + platform_rotation[1][2] * parameters.platform_point[1][2];
+        let t73 = platform_rotation[2][1] * parameters.platform_point[1][1];
+        let t74 = platform_rotation[2][0] * parameters.platform_point[1][0] + t73;
+        let t75 = t74 + platform_rotation[2][2] * parameters.platform_point[1][2];
+        // leg 2: platform joint from the base point
+        let t76 = parameters.base_point[1][0] + (t32 - t60);
+        let t77 = parameters.base_point[1][1] + (t34 - t63);
+        let t78 = parameters.base_point[1][2] + (t36 - t66);
+        // leg 3: platform joint from the platform origin
+        let t79 = parameters.platform_point[2][1] * t6;
+        let t80 = parameters.platform_point[2][0] * t3 + t79;
+        let t81 = t80 + parameters.platform_point[2][2] * t9;
+        let t82 = parameters.platform_point[2][1] * t15;
+        let t83 = parameters.platform_point[2][0] * t12 + t82;
+        let t84 = t83 + parameters.platform_point[2][2] * t18;
+        let t85 = parameters.platform_point[2][1] * t24;
+        let t86 = parameters.platform_point[2][0] * t21 + t85;
+        let t87 = t86 + parameters.platform_point[2][2] * t27;
+        let t88 = platform_rotation[0][1] * parameters.platform_point[2][1];
+        let t89 = platform_rotation[0][0] * parameters.platform_point[2][0] + t88;
+        let t90 = t89 + platform_rotation[0][2] * parameters.platform_point[2][2];
+        let t91 = platform_rotation[1][1] * parameters.platform_point[2][1];
+        let t92 = platform_rotation[1][0] * parameters.platform_point[2][0] + t91;
+        let t93 = t92 + platform_rotation[1][2] * parameters.platform_point[2][2];
+        let t94 = platform_rotation[2][1] * parameters.platform_point[2][1];
+        let t95 = platform_rotation[2][0] * parameters.platform_point[2][0] + t94;
+        let t96 = t95 + platform_rotation[2][2] * parameters.platform_point[2][2];
+        // leg 3: platform joint from the base point
+        let t97 = parameters.base_point[2][0] + (t32 - t81);
+        let t98 = parameters.base_point[2][1] + (t34 - t84);
+        let t99 = parameters.base_point[2][2] + (t36 - t87);
+        // leg 4: platform joint from the platform origin
+        let t100 = parameters.platform_point[3][1] * t6;
+        let t101 = parameters.platform_point[3][0] * t3 + t100;
+        let t102 = t101 + parameters.platform_point[3][2] * t9;
+        let t103 = parameters.platform_point[3][1] * t15;
+        let t104 = parameters.platform_point[3][0] * t12 + t103;
+        let t105 = t104 + parameters.platform_point[3][2] * t18;
+        let t106 = parameters.platform_point[3][1] * t24;
+        let t107 = parameters.platform_point[3][0] * t21 + t106;
+        let t108 = t107 + parameters.platform_point[3][2] * t27;
+        let t109 = platform_rotation[0][1] * parameters.platform_point[3][1];
+        let t110 = platform_rotation[0][0] * parameters.platform_point[3][0] + t109;
+        let t111 = t110 + platform_rotation[0][2] * parameters.platform_point[3][2];
+        let t112 = platform_rotation[1][1] * parameters.platform_point[3][1];
+        let t113 = platform_rotation[1][0] * parameters.platform_point[3][0] + t112;
+        let t114 = t113 + platform_rotation[1][2] * parameters.platform_point[3][2];
+        let t115 = platform_rotation[2][1] * parameters.platform_point[3][1];
+        let t116 = platform_rotation[2][0] * parameters.platform_point[3][0] + t115;
+        let t117 = t116 + platform_rotation[2][2] * parameters.platform_point[3][2];
+        // leg 4: platform joint from the base point
+        let t118 = parameters.base_point[3][0] + (t32 - t102);
+        let t119 = parameters.base_point[3][1] + (t34 - t105);
+        let t120 = parameters.base_point[3][2] + (t36 - t108);
+        // leg 5: platform joint from the platform origin
+        let t121 = parameters.platform_point[4][1] * t6;
+        let t122 = parameters.platform_point[4][0] * t3 + t121;
+        let t123 = t122 + parameters.platform_point[4][2] * t9;
+        let t124 = parameters.platform_point[4][1] * t15;
+        let t125 = parameters.platform_point[4][0] * t12 + t124;
+        let t126 = t125 + parameters.platform_point[4][2] * t18;
+        let t127 = parameters.platform_point[4][1] * t24;
+        let t128 = parameters.platform_point[4][0] * t21 + t127;
+        let t129 = t128 + parameters.platform_point[4][2] * t27;
+        let t130 = platform_rotation[0][1] * parameters.platform_point[4][1];
+        let t131 = platform_rotation[0][0] * parameters.platform_point[4][0] + t130;
+        let t132 = t131 + platform_rotation[0][2] * parameters.platform_point[4][2];
+        let t133 = platform_rotation[1][1] * parameters.platform_point[4][1];
+        let t134 = platform_rotation[1][0] * parameters.platform_point[4][0] + t133;
+        let t135 = t134 + platform_rotation[1][2] * parameters.platform_point[4][2];
+        let t136 = platform_rotation[2][1] * parameters.platform_point[4][1];
+        let t137 = platform_rotation[2][0] * parameters.platform_point[4][0] + t136;
+        let t138 = t137 + platform_rotation[2][2] * parameters.platform_point[4][2];
+        // leg 5: platform joint from the base point
+        let t139 = parameters.base_point[4][0] + (t32 - t123);
+        let t140 = parameters.base_point[4][1] + (t34 - t126);
+        let t141 = parameters.base_point[4][2] + (t36 - t129);
+        // leg 6: platform joint from the platform origin
+        let t142 = parameters.platform_point[5][1] * t6;
+        let t143 = parameters.platform_point[5][0] * t3 + t142;
+        let t144 = t143 + parameters.platform_point[5][2] * t9;
+        let t145 = parameters.platform_point[5][1] * t15;
+        let t146 = parameters.platform_point[5][0] * t12 + t145;
+        let t147 = t146 + parameters.platform_point[5][2] * t18;
+        let t148 = parameters.platform_point[5][1] * t24;
+        let t149 = parameters.platform_point[5][0] * t21 + t148;
+        let t150 = t149 + parameters.platform_point[5][2] * t27;
+        let t151 = platform_rotation[0][1] * parameters.platform_point[5][1];
+        let t152 = platform_rotation[0][0] * parameters.platform_point[5][0] + t151;
+        let t153 = t152 + platform_rotation[0][2] * parameters.platform_point[5][2];
+        let t154 = platform_rotation[1][1] * parameters.platform_point[5][1];
+        let t155 = platform_rotation[1][0] * parameters.platform_point[5][0] + t154;
+        let t156 = t155 + platform_rotation[1][2] * parameters.platform_point[5][2];
+        let t157 = platform_rotation[2][1] * parameters.platform_point[5][1];
+        let t158 = platform_rotation[2][0] * parameters.platform_point[5][0] + t157;
+        let t159 = t158 + platform_rotation[2][2] * parameters.platform_point[5][2];
+        // leg 6: platform joint from the base point
+        let t160 = parameters.base_point[5][0] + (t32 - t144);
+        let t161 = parameters.base_point[5][1] + (t34 - t147);
+        let t162 = parameters.base_point[5][2] + (t36 - t150);
+        // leg 1: offset of the platform joint from the actuator axis
+        let t163 = parameters.actuator_axis[0][1] * t56;
+        let t164 = parameters.actuator_axis[0][0] * t55 + t163;
+        let t165 = t164 + parameters.actuator_axis[0][2] * t57;
+        let t166 = t55 - parameters.actuator_axis[0][0] * t165;
+        let t167 = t56 - parameters.actuator_axis[0][1] * t165;
+        let t168 = t57 - parameters.actuator_axis[0][2] * t165;
+        // leg 1: extent of the rod along the actuator axis
+        let t169 = parameters.rod_length[0] * parameters.rod_length[0];
+        let t170 = sqrt(t169 - (t166 * t166 + t167 * t167 + t168 * t168));
+        // leg 1: reciprocal of that extent
+        let t171 = c(1.0) / t170;
+        // leg 1: actuator length d
+        let t172 = t165 + t170;
+        actuator_length[0] = -t172;
+        // leg 2: offset of the platform joint from the actuator axis
+        let t173 = parameters.actuator_axis[1][1] * t77;
+        let t174 = parameters.actuator_axis[1][0] * t76 + t173;
+        let t175 = t174 + parameters.actuator_axis[1][2] * t78;
+        let t176 = t76 - parameters.actuator_axis[1][0] * t175;
+        let t177 = t77 - parameters.actuator_axis[1][1] * t175;
+        let t178 = t78 - parameters.actuator_axis[1][2] * t175;
+        // leg 2: extent of the rod along the actuator axis
+        let t179 = parameters.rod_length[1] * parameters.rod_length[1];
+        let t180 = sqrt(t179 - (t176 * t176 + t177 * t177 + t178 * t178));
+        // leg 2: reciprocal of that extent
+        let t181 = c(1.0) / t180;
+        // leg 2: actuator length d
+        let t182 = t175 + t180;
+        actuator_length[1] = -t182;
+        // leg 3: offset of the platform joint from the actuator axis
+        let t183 = parameters.actuator_axis[2][1] * t98;
+        let t184 = parameters.actuator_axis[2][0] * t97 + t183;
+        let t185 = t184 + parameters.actuator_axis[2][2] * t99;
+        let t186 = t97 - parameters.actuator_axis[2][0] * t185;
+        let t187 = t98 - parameters.actuator_axis[2][1] * t185;
+        let t188 = t99 - parameters.actuator_axis[2][2] * t185;
+        // leg 3: extent of the rod along the actuator axis
+        let t189 = parameters.rod_length[2] * parameters.rod_length[2];
+        let t190 = sqrt(t189 - (t186 * t186 + t187 * t187 + t188 * t188));
+        // leg 3: reciprocal of that extent
+        let t191 = c(1.0) / t190;
+        // leg 3: actuator length d
+        let t192 = t185 + t190;
+        actuator_length[2] = -t192;
+        // leg 4: offset of the platform joint from the actuator axis
+        let t193 = parameters.actuator_axis[3][1] * t119;
+        let t194 = parameters.actuator_axis[3][0] * t118 + t193;
+        let t195 = t194 + parameters.actuator_axis[3][2] * t120;
+        let t196 = t118 - parameters.actuator_axis[3][0] * t195;
+        let t197 = t119 - parameters.actuator_axis[3][1] * t195;
+        let t198 = t120 - parameters.actuator_axis[3][2] * t195;
+        // leg 4: extent of the rod along the actuator axis
+        let t199 = parameters.rod_length[3] * parameters.rod_length[3];
+        let t200 = sqrt(t199 - (t196 * t196 + t197 * t197 + t198 * t198));
+        // leg 4: reciprocal of that extent
+        let t201 = c(1.0) / t200;
+        // leg 4: actuator length d
+        let t202 = t195 + t200;
+        actuator_length[3] = -t202;
+        // leg 5: offset of the platform joint from the actuator axis
+        let t203 = parameters.actuator_axis[4][1] * t140;
+        let t204 = parameters.actuator_axis[4][0] * t139 + t203;
+        let t205 = t204 + parameters.actuator_axis[4][2] * t141;
+        let t206 = t139 - parameters.actuator_axis[4][0] * t205;
+        let t207 = t140 - parameters.actuator_axis[4][1] * t205;
+        let t208 = t141 - parameters.actuator_axis[4][2] * t205;
+        // leg 5: extent of the rod along the actuator axis
+        let t209 = parameters.rod_length[4] * parameters.rod_length[4];
+        let t210 = sqrt(t209 - (t206 * t206 + t207 * t207 + t208 * t208));
+        // leg 5: reciprocal of that extent
+        let t211 = c(1.0) / t210;
+        // leg 5: actuator length d
+        let t212 = t205 + t210;
+        actuator_length[4] = -t212;
+        // leg 6: offset of the platform joint from the actuator axis
+        let t213 = parameters.actuator_axis[5][1] * t161;
+        let t214 = parameters.actuator_axis[5][0] * t160 + t213;
+        let t215 = t214 + parameters.actuator_axis[5][2] * t162;
+        let t216 = t160 - parameters.actuator_axis[5][0] * t215;
+        let t217 = t161 - parameters.actuator_axis[5][1] * t215;
+        let t218 = t162 - parameters.actuator_axis[5][2] * t215;
+        // leg 6: extent of the rod along the actuator axis
+        let t219 = parameters.rod_length[5] * parameters.rod_length[5];
+        let t220 = sqrt(t219 - (t216 * t216 + t217 * t217 + t218 * t218));
+        // leg 6: reciprocal of that extent
+        let t221 = c(1.0) / t220;
+        // leg 6: actuator length d
+        let t222 = t215 + t220;
+        actuator_length[5] = -t222;
+        // leg 1: gradient of the actuator length by the platform joint
+        let t223 = parameters.actuator_axis[0][0] - t166 * t171;
+        let t224 = parameters.actuator_axis[0][1] - t167 * t171;
+        let t225 = parameters.actuator_axis[0][2] - t168 * t171;
+        // leg 2: gradient of the actuator length by the platform joint
+        let t226 = parameters.actuator_axis[1][0] - t176 * t181;
+        let t227 = parameters.actuator_axis[1][1] - t177 * t181;
+        let t228 = parameters.actuator_axis[1][2] - t178 * t181;
+        // leg 3: gradient of the actuator length by the platform joint
+        let t229 = parameters.actuator_axis[2][0] - t186 * t191;
+        let t230 = parameters.actuator_axis[2][1] - t187 * t191;
+        let t231 = parameters.actuator_axis[2][2] - t188 * t191;
+        // leg 4: gradient of the actuator length by the platform joint
+        let t232 = parameters.actuator_axis[3][0] - t196 * t201;
+        let t233 = parameters.actuator_axis[3][1] - t197 * t201;
+        let t234 = parameters.actuator_axis[3][2] - t198 * t201;
+        // leg 5: gradient of the actuator length by the platform joint
+        let t235 = parameters.actuator_axis[4][0] - t206 * t211;
+        let t236 = parameters.actuator_axis[4][1] - t207 * t211;
+        let t237 = parameters.actuator_axis[4][2] - t208 * t211;
+        // leg 6: gradient of the actuator length by the platform joint
+        let t238 = parameters.actuator_axis[5][0] - t216 * t221;
+        let t239 = parameters.actuator_axis[5][1] - t217 * t221;
+        let t240 = parameters.actuator_axis[5][2] - t218 * t221;
+        // leg 1: gradient of the actuator length
+        let t241 = base_rotation[0][0] * t223 + base_rotation[0][1] * t224;
+        let t242 = t241 + base_rotation[0][2] * t225;
+        jacobian_dp[0][0] = t242;
+        let t243 = base_rotation[1][0] * t223 + base_rotation[1][1] * t224;
+        let t244 = t243 + base_rotation[1][2] * t225;
+        jacobian_dp[0][1] = t244;
+        let t245 = base_rotation[2][0] * t223 + base_rotation[2][1] * t224;
+        let t246 = t245 + base_rotation[2][2] * t225;
+        jacobian_dp[0][2] = t246;
+        // leg 2: gradient of the actuator length
+        let t247 = base_rotation[0][0] * t226 + base_rotation[0][1] * t227;
+        let t248 = t247 + base_rotation[0][2] * t228;
+        jacobian_dp[1][0] = t248;
+        let t249 = base_rotation[1][0] * t226 + base_rotation[1][1] * t227;
+        let t250 = t249 + base_rotation[1][2] * t228;
+        jacobian_dp[1][1] = t250;
+        let t251 = base_rotation[2][0] * t226 + base_rotation[2][1] * t227;
+        let t252 = t251 + base_rotation[2][2] * t228;
+        jacobian_dp[1][2] = t252;
+        // leg 3: gradient of the actuator length
+        let t253 = base_rotation[0][0] * t229 + base_rotation[0][1] * t230;
+        let t254 = t253 + base_rotation[0][2] * t231;
+        jacobian_dp[2][0] = t254;
+        let t255 = base_rotation[1][0] * t229 + base_rotation[1][1] * t230;
+        let t256 = t255 + base_rotation[1][2] * t231;
+        jacobian_dp[2][1] = t256;
+        let t257 = base_rotation[2][0] * t229 + base_rotation[2][1] * t230;
+        let t258 = t257 + base_rotation[2][2] * t231;
+        jacobian_dp[2][2] = t258;
+        // leg 4: gradient of the actuator length
+        let t259 = base_rotation[0][0] * t232 + base_rotation[0][1] * t233;
+        let t260 = t259 + base_rotation[0][2] * t234;
+        jacobian_dp[3][0] = t260;
+        let t261 = base_rotation[1][0] * t232 + base_rotation[1][1] * t233;
+        let t262 = t261 + base_rotation[1][2] * t234;
+        jacobian_dp[3][1] = t262;
+        let t263 = base_rotation[2][0] * t232 + base_rotation[2][1] * t233;
+        let t264 = t263 + base_rotation[2][2] * t234;
+        jacobian_dp[3][2] = t264;
+        // leg 5: gradient of the actuator length
+        let t265 = base_rotation[0][0] * t235 + base_rotation[0][1] * t236;
+        let t266 = t265 + base_rotation[0][2] * t237;
+        jacobian_dp[4][0] = t266;
+        let t267 = base_rotation[1][0] * t235 + base_rotation[1][1] * t236;
+        let t268 = t267 + base_rotation[1][2] * t237;
+        jacobian_dp[4][1] = t268;
+        let t269 = base_rotation[2][0] * t235 + base_rotation[2][1] * t236;
+        let t270 = t269 + base_rotation[2][2] * t237;
+        jacobian_dp[4][2] = t270;
+        // leg 6: gradient of the actuator length
+        let t271 = base_rotation[0][0] * t238 + base_rotation[0][1] * t239;
+        let t272 = t271 + base_rotation[0][2] * t240;
+        jacobian_dp[5][0] = t272;
+        let t273 = base_rotation[1][0] * t238 + base_rotation[1][1] * t239;
+        let t274 = t273 + base_rotation[1][2] * t240;
+        jacobian_dp[5][1] = t274;
+        let t275 = base_rotation[2][0] * t238 + base_rotation[2][1] * t239;
+        let t276 = t275 + base_rotation[2][2] * t240;
+        jacobian_dp[5][2] = t276;
+        // leg 1: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+        let t277 = t51 * t246 - t54 * t244;
+        jacobian_dp[0][3] = t277;
+        let t278 = t54 * t242 - t48 * t246;
+        jacobian_dp[0][4] = t278;
+        let t279 = t48 * t244 - t51 * t242;
+        jacobian_dp[0][5] = t279;
+        // leg 2: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+        let t280 = t72 * t252 - t75 * t250;
+        jacobian_dp[1][3] = t280;
+        let t281 = t75 * t248 - t69 * t252;
+        jacobian_dp[1][4] = t281;
+        let t282 = t69 * t250 - t72 * t248;
+        jacobian_dp[1][5] = t282;
+        // leg 3: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+        let t283 = t93 * t258 - t96 * t256;
+        jacobian_dp[2][3] = t283;
+        let t284 = t96 * t254 - t90 * t258;
+        jacobian_dp[2][4] = t284;
+        let t285 = t90 * t256 - t93 * t254;
+        jacobian_dp[2][5] = t285;
+        // leg 4: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+        let t286 = t114 * t264 - t117 * t262;
+        jacobian_dp[3][3] = t286;
+        let t287 = t117 * t260 - t111 * t264;
+        jacobian_dp[3][4] = t287;
+        let t288 = t111 * t262 - t114 * t260;
+        jacobian_dp[3][5] = t288;
+        // leg 5: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+        let t289 = t135 * t270 - t138 * t268;
+        jacobian_dp[4][3] = t289;
+        let t290 = t138 * t266 - t132 * t270;
+        jacobian_dp[4][4] = t290;
+        let t291 = t132 * t268 - t135 * t266;
+        jacobian_dp[4][5] = t291;
+        // leg 6: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+        let t292 = t156 * t276 - t159 * t274;
+        jacobian_dp[5][3] = t292;
+        let t293 = t159 * t272 - t153 * t276;
+        jacobian_dp[5][4] = t293;
+        let t294 = t153 * t274 - t156 * t272;
+        jacobian_dp[5][5] = t294;
+        // leg 1: rod's end mass at the Hooke joint
+        let t295 = parameters.rod_com_fraction[0] - c(1.0);
+        let t296 = parameters.rod_inertia[0] / t169;
+        let t297 = t295 * (parameters.rod_mass[0] * t295) + t296;
+        // leg 1: leg mass that moves with the platform joint
+        let t298 = parameters.rod_mass[0] * parameters.rod_com_fraction[0];
+        let t299 = t296 + parameters.rod_com_fraction[0] * t298;
+        // leg 1: rod's inertial coupling between its ends
+        let t300 = t296 + t295 * t298;
+        // leg 2: rod's end mass at the Hooke joint
+        let t301 = parameters.rod_com_fraction[1] - c(1.0);
+        let t302 = parameters.rod_inertia[1] / t179;
+        let t303 = t301 * (parameters.rod_mass[1] * t301) + t302;
+        // leg 2: leg mass that moves with the platform joint
+        let t304 = parameters.rod_mass[1] * parameters.rod_com_fraction[1];
+        let t305 = t302 + parameters.rod_com_fraction[1] * t304;
+        // leg 2: rod's inertial coupling between its ends
+        let t306 = t302 + t301 * t304;
+        // leg 3: rod's end mass at the Hooke joint
+        let t307 = parameters.rod_com_fraction[2] - c(1.0);
+        let t308 = parameters.rod_inertia[2] / t189;
+        let t309 = t307 * (parameters.rod_mass[2] * t307) + t308;
+        // leg 3: leg mass that moves with the platform joint
+        let t310 = parameters.rod_mass[2] * parameters.rod_com_fraction[2];
+        let t311 = t308 + parameters.rod_com_fraction[2] * t310;
+        // leg 3: rod's inertial coupling between its ends
+        let t312 = t308 + t307 * t310;
+        // leg 4: rod's end mass at the Hooke joint
+        let t313 = parameters.rod_com_fraction[3] - c(1.0);
+        let t314 = parameters.rod_inertia[3] / t199;
+        let t315 = t313 * (parameters.rod_mass[3] * t313) + t314;
+        // leg 4: leg mass that moves with the platform joint
+        let t316 = parameters.rod_mass[3] * parameters.rod_com_fraction[3];
+        let t317 = t314 + parameters.rod_com_fraction[3] * t316;
+        // leg 4: rod's inertial coupling between its ends
+        let t318 = t314 + t313 * t316;
+        // leg 5: rod's end mass at the Hooke joint
+        let t319 = parameters.rod_com_fraction[4] - c(1.0);
+        let t320 = parameters.rod_inertia[4] / t209;
+        let t321 = t319 * (parameters.rod_mass[4] * t319) + t320;
+        // leg 5: leg mass that moves with the platform joint
+        let t322 = parameters.rod_mass[4] * parameters.rod_com_fraction[4];
+        let t323 = t320 + parameters.rod_com_fraction[4] * t322;
+        // leg 5: rod's inertial coupling between its ends
+        let t324 = t320 + t319 * t322;
+        // leg 6: rod's end mass at the Hooke joint
+        let t325 = parameters.rod_com_fraction[5] - c(1.0);
+        let t326 = parameters.rod_inertia[5] / t219;
+        let t327 = t325 * (parameters.rod_mass[5] * t325) + t326;
+        // leg 6: leg mass that moves with the platform joint
+        let t328 = parameters.rod_mass[5] * parameters.rod_com_fraction[5];
+        let t329 = t326 + parameters.rod_com_fraction[5] * t328;
+        // leg 6: rod's inertial coupling between its ends
+        let t330 = t326 + t325 * t328;
+        // mass of payload and platform-side leg ends
+        let t331 = t323 + (t317 + (t311 + (t305 + (parameters.payload_mass + t299))));
+        let t332 = t329 + t331;
+        // first moment of payload and platform-side leg ends
+        let t333 = parameters.payload_mass * parameters.payload_com[0];
+        let t334 = t333 + parameters.platform_point[0][0] * t299;
+        let t335 = t334 + parameters.platform_point[1][0] * t305;
+        let t336 = t335 + parameters.platform_point[2][0] * t311;
+        let t337 = t336 + parameters.platform_point[3][0] * t317;
+        let t338 = t337 + parameters.platform_point[4][0] * t323;
+        let t339 = t338 + parameters.platform_point[5][0] * t329;
+        let t340 = parameters.payload_mass * parameters.payload_com[1];
+        let t341 = t340 + parameters.platform_point[0][1] * t299;
+        let t342 = t341 + parameters.platform_point[1][1] * t305;
+        let t343 = t342 + parameters.platform_point[2][1] * t311;
+        let t344 = t343 + parameters.platform_point[3][1] * t317;
+        let t345 = t344 + parameters.platform_point[4][1] * t323;
+        let t346 = t345 + parameters.platform_point[5][1] * t329;
+        let t347 = parameters.payload_mass * parameters.payload_com[2];
+        let t348 = t347 + parameters.platform_point[0][2] * t299;
+        let t349 = t348 + parameters.platform_point[1][2] * t305;
+        let t350 = t349 + parameters.platform_point[2][2] * t311;
+        let t351 = t350 + parameters.platform_point[3][2] * t317;
+        let t352 = t351 + parameters.platform_point[4][2] * t323;
+        let t353 = t352 + parameters.platform_point[5][2] * t329;
+        // second moment of payload and platform-side leg ends
+        let t354 = parameters.payload_inertia[0][0] + parameters.payload_inertia[1][1];
+        let t355 = (parameters.payload_inertia[2][2] + t354) * c(0.5);
+        let t356 = parameters.payload_inertia[0][0] - t355;
+        let t357 = parameters.payload_com[0] * parameters.payload_com[0];
+        let t358 = t299
+            * (parameters.platform_point[0][0] * parameters.platform_point[0][0]);
+        let t359 = t305
+            * (parameters.platform_point[1][0] * parameters.platform_point[1][0]);
+        let t360 = t311
+            * (parameters.platform_point[2][0] * parameters.platform_point[2][0]);
+        let t361 = t356 - parameters.payload_mass * t357 - t358 - t359 - t360;
+        let t362 = t317
+            * (parameters.platform_point[3][0] * parameters.platform_point[3][0]);
+        let t363 = t323
+            * (parameters.platform_point[4][0] * parameters.platform_point[4][0]);
+        let t364 = t329
+            * (parameters.platform_point[5][0] * parameters.platform_point[5][0]);
+        let t365 = t361 - t362 - t363 - t364;
+        let t366 = parameters.payload_com[0] * parameters.payload_com[1];
+        let t367 = parameters.payload_inertia[0][1] - parameters.payload_mass * t366;
+        let t368 = t299
+            * (parameters.platform_point[0][0] * parameters.platform_point[0][1]);
+        let t369 = t305
+            * (parameters.platform_point[1][0] * parameters.platform_point[1][1]);
+        let t370 = t311
+            * (parameters.platform_point[2][0] * parameters.platform_point[2][1]);
+        let t371 = t317
+            * (parameters.platform_point[3][0] * parameters.platform_point[3][1]);
+        let t372 = t323
+            * (parameters.platform_point[4][0] * parameters.platform_point[4][1]);
+        let t373 = t329
+            * (parameters.platform_point[5][0] * parameters.platform_point[5][1]);
+        let t374 = t367 - t368 - t369 - t370 - t371 - t372 - t373;
+        let t375 = parameters.payload_com[0] * parameters.payload_com[2];
+        let t376 = parameters.payload_inertia[0][2] - parameters.payload_mass * t375;
+        let t377 = t299
+            * (parameters.platform_point[0][0] * parameters.platform_point[0][2]);
+        let t378 = t305
+            * (parameters.platform_point[1][0] * parameters.platform_point[1][2]);
+        let t379 = t311
+            * (parameters.platform_point[2][0] * parameters.platform_point[2][2]);
+        let t380 = t317
+            * (parameters.platform_point[3][0] * parameters.platform_point[3][2]);
+        let t381 = t323
+            * (parameters.platform_point[4][0] * parameters.platform_point[4][2]);
+        let t382 = t329
+            * (parameters.platform_point[5][0] * parameters.platform_point[5][2]);
+        let t383 = t376 - t377 - t378 - t379 - t380 - t381 - t382;
+        let t384 = parameters.payload_inertia[1][1] - t355;
+        let t385 = parameters.payload_com[1] * parameters.payload_com[1];
+        let t386 = t299
+            * (parameters.platform_point[0][1] * parameters.platform_point[0][1]);
+        let t387 = t305
+            * (parameters.platform_point[1][1] * parameters.platform_point[1][1]);
+        let t388 = t311
+            * (parameters.platform_point[2][1] * parameters.platform_point[2][1]);
+        let t389 = t384 - parameters.payload_mass * t385 - t386 - t387 - t388;
+        let t390 = t317
+            * (parameters.platform_point[3][1] * parameters.platform_point[3][1]);
+        let t391 = t323
+            * (parameters.platform_point[4][1] * parameters.platform_point[4][1]);
+        let t392 = t329
+            * (parameters.platform_point[5][1] * parameters.platform_point[5][1]);
+        let t393 = t389 - t390 - t391 - t392;
+        let t394 = parameters.payload_com[1] * parameters.payload_com[2];
+        let t395 = parameters.payload_inertia[1][2] - parameters.payload_mass * t394;
+        let t396 = t299
+            * (parameters.platform_point[0][1] * parameters.platform_point[0][2]);
+        let t397 = t305
+            * (parameters.platform_point[1][1] * parameters.platform_point[1][2]);
+        let t398 = t311
+            * (parameters.platform_point[2][1] * parameters.platform_point[2][2]);
+        let t399 = t317
+            * (parameters.platform_point[3][1] * parameters.platform_point[3][2]);
+        let t400 = t323
+            * (parameters.platform_point[4][1] * parameters.platform_point[4][2]);
+        let t401 = t329
+            * (parameters.platform_point[5][1] * parameters.platform_point[5][2]);
+        let t402 = t395 - t396 - t397 - t398 - t399 - t400 - t401;
+        let t403 = parameters.payload_inertia[2][2] - t355;
+        let t404 = parameters.payload_com[2] * parameters.payload_com[2];
+        let t405 = t299
+            * (parameters.platform_point[0][2] * parameters.platform_point[0][2]);
+        let t406 = t305
+            * (parameters.platform_point[1][2] * parameters.platform_point[1][2]);
+        let t407 = t311
+            * (parameters.platform_point[2][2] * parameters.platform_point[2][2]);
+        let t408 = t403 - parameters.payload_mass * t404 - t405 - t406 - t407;
+        let t409 = t317
+            * (parameters.platform_point[3][2] * parameters.platform_point[3][2]);
+        let t410 = t323
+            * (parameters.platform_point[4][2] * parameters.platform_point[4][2]);
+        let t411 = t329
+            * (parameters.platform_point[5][2] * parameters.platform_point[5][2]);
+        let t412 = t408 - t409 - t410 - t411;
+        // leg 1: mass matrix of the leg in the speeds of its joint
+        let t413 = c(0.5) * (parameters.mover_mass[0] + t297);
+        let t414 = base_rotation[0][1] * parameters.actuator_axis[0][1];
+        let t415 = base_rotation[0][0] * parameters.actuator_axis[0][0] + t414;
+        let t416 = t300 * (t415 + base_rotation[0][2] * parameters.actuator_axis[0][2]);
+        let t417 = t242 * t413 - t416;
+        let t418 = c(2.0) * (t242 * t417);
+        let t419 = base_rotation[1][1] * parameters.actuator_axis[0][1];
+        let t420 = base_rotation[1][0] * parameters.actuator_axis[0][0] + t419;
+        let t421 = t300 * (t420 + base_rotation[1][2] * parameters.actuator_axis[0][2]);
+        let t422 = t244 * t413 - t421;
+        let t423 = t242 * t422 + t244 * t417;
+        let t424 = base_rotation[2][1] * parameters.actuator_axis[0][1];
+        let t425 = base_rotation[2][0] * parameters.actuator_axis[0][0] + t424;
+        let t426 = t300 * (t425 + base_rotation[2][2] * parameters.actuator_axis[0][2]);
+        let t427 = t246 * t413 - t426;
+        let t428 = t242 * t427 + t246 * t417;
+        let t429 = c(2.0) * (t244 * t422);
+        let t430 = t244 * t427 + t246 * t422;
+        let t431 = c(2.0) * (t246 * t427);
+        // leg 2: mass matrix of the leg in the speeds of its joint
+        let t432 = c(0.5) * (parameters.mover_mass[1] + t303);
+        let t433 = base_rotation[0][1] * parameters.actuator_axis[1][1];
+        let t434 = base_rotation[0][0] * parameters.actuator_axis[1][0] + t433;
+        let t435 = t306 * (t434 + base_rotation[0][2] * parameters.actuator_axis[1][2]);
+        let t436 = t248 * t432 - t435;
+        let t437 = c(2.0) * (t248 * t436);
+        let t438 = base_rotation[1][1] * parameters.actuator_axis[1][1];
+        let t439 = base_rotation[1][0] * parameters.actuator_axis[1][0] + t438;
+        let t440 = t306 * (t439 + base_rotation[1][2] * parameters.actuator_axis[1][2]);
+        let t441 = t250 * t432 - t440;
+        let t442 = t248 * t441 + t250 * t436;
+        let t443 = base_rotation[2][1] * parameters.actuator_axis[1][1];
+        let t444 = base_rotation[2][0] * parameters.actuator_axis[1][0] + t443;
+        let t445 = t306 * (t444 + base_rotation[2][2] * parameters.actuator_axis[1][2]);
+        let t446 = t252 * t432 - t445;
+        let t447 = t248 * t446 + t252 * t436;
+        let t448 = c(2.0) * (t250 * t441);
+        let t449 = t250 * t446 + t252 * t441;
+        let t450 = c(2.0) * (t252 * t446);
+        // leg 3: mass matrix of the leg in the speeds of its joint
+        let t451 = c(0.5) * (parameters.mover_mass[2] + t309);
+        let t452 = base_rotation[0][1] * parameters.actuator_axis[2][1];
+        let t453 = base_rotation[0][0] * parameters.actuator_axis[2][0] + t452;
+        let t454 = t312 * (t453 + base_rotation[0][2] * parameters.actuator_axis[2][2]);
+        let t455 = t254 * t451 - t454;
+        let t456 = c(2.0) * (t254 * t455);
+        let t457 = base_rotation[1][1] * parameters.actuator_axis[2][1];
+        let t458 = base_rotation[1][0] * parameters.actuator_axis[2][0] + t457;
+        let t459 = t312 * (t458 + base_rotation[1][2] * parameters.actuator_axis[2][2]);
+        let t460 = t256 * t451 - t459;
+        let t461 = t254 * t460 + t256 * t455;
+        let t462 = base_rotation[2][1] * parameters.actuator_axis[2][1];
+        let t463 = base_rotation[2][0] * parameters.actuator_axis[2][0] + t462;
+        let t464 = t312 * (t463 + base_rotation[2][2] * parameters.actuator_axis[2][2]);
+        let t465 = t258 * t451 - t464;
+        let t466 = t254 * t465 + t258 * t455;
+        let t467 = c(2.0) * (t256 * t460);
+        let t468 = t256 * t465 + t258 * t460;
+        let t469 = c(2.0) * (t258 * t465);
+        // leg 4: mass matrix of the leg in the speeds of its joint
+        let t470 = c(0.5) * (parameters.mover_mass[3] + t315);
+        let t471 = base_rotation[0][1] * parameters.actuator_axis[3][1];
+        let t472 = base_rotation[0][0] * parameters.actuator_axis[3][0] + t471;
+        let t473 = t318 * (t472 + base_rotation[0][2] * parameters.actuator_axis[3][2]);
+        let t474 = t260 * t470 - t473;
+        let t475 = c(2.0) * (t260 * t474);
+        let t476 = base_rotation[1][1] * parameters.actuator_axis[3][1];
+        let t477 = base_rotation[1][0] * parameters.actuator_axis[3][0] + t476;
+        let t478 = t318 * (t477 + base_rotation[1][2] * parameters.actuator_axis[3][2]);
+        let t479 = t262 * t470 - t478;
+        let t480 = t260 * t479 + t262 * t474;
+        let t481 = base_rotation[2][1] * parameters.actuator_axis[3][1];
+        let t482 = base_rotation[2][0] * parameters.actuator_axis[3][0] + t481;
+        let t483 = t318 * (t482 + base_rotation[2][2] * parameters.actuator_axis[3][2]);
+        let t484 = t264 * t470 - t483;
+        let t485 = t260 * t484 + t264 * t474;
+        let t486 = c(2.0) * (t262 * t479);
+        let t487 = t262 * t484 + t264 * t479;
+        let t488 = c(2.0) * (t264 * t484);
+        // leg 5: mass matrix of the leg in the speeds of its joint
+        let t489 = c(0.5) * (parameters.mover_mass[4] + t321);
+        let t490 = base_rotation[0][1] * parameters.actuator_axis[4][1];
+        let t491 = base_rotation[0][0] * parameters.actuator_axis[4][0] + t490;
+        let t492 = t324 * (t491 + base_rotation[0][2] * parameters.actuator_axis[4][2]);
+        let t493 = t266 * t489 - t492;
+        let t494 = c(2.0) * (t266 * t493);
+        let t495 = base_rotation[1][1] * parameters.actuator_axis[4][1];
+        let t496 = base_rotation[1][0] * parameters.actuator_axis[4][0] + t495;
+        let t497 = t324 * (t496 + base_rotation[1][2] * parameters.actuator_axis[4][2]);
+        let t498 = t268 * t489 - t497;
+        let t499 = t266 * t498 + t268 * t493;
+        let t500 = base_rotation[2][1] * parameters.actuator_axis[4][1];
+        let t501 = base_rotation[2][0] * parameters.actuator_axis[4][0] + t500;
+        let t502 = t324 * (t501 + base_rotation[2][2] * parameters.actuator_axis[4][2]);
+        let t503 = t270 * t489 - t502;
+        let t504 = t266 * t503 + t270 * t493;
+        let t505 = c(2.0) * (t268 * t498);
+        let t506 = t268 * t503 + t270 * t498;
+        let t507 = c(2.0) * (t270 * t503);
+        // leg 6: mass matrix of the leg in the speeds of its joint
+        let t508 = c(0.5) * (parameters.mover_mass[5] + t327);
+        let t509 = base_rotation[0][1] * parameters.actuator_axis[5][1];
+        let t510 = base_rotation[0][0] * parameters.actuator_axis[5][0] + t509;
+        let t511 = t330 * (t510 + base_rotation[0][2] * parameters.actuator_axis[5][2]);
+        let t512 = t272 * t508 - t511;
+        let t513 = c(2.0) * (t272 * t512);
+        let t514 = base_rotation[1][1] * parameters.actuator_axis[5][1];
+        let t515 = base_rotation[1][0] * parameters.actuator_axis[5][0] + t514;
+        let t516 = t330 * (t515 + base_rotation[1][2] * parameters.actuator_axis[5][2]);
+        let t517 = t274 * t508 - t516;
+        let t518 = t272 * t517 + t274 * t512;
+        let t519 = base_rotation[2][1] * parameters.actuator_axis[5][1];
+        let t520 = base_rotation[2][0] * parameters.actuator_axis[5][0] + t519;
+        let t521 = t330 * (t520 + base_rotation[2][2] * parameters.actuator_axis[5][2]);
+        let t522 = t276 * t508 - t521;
+        let t523 = t272 * t522 + t276 * t512;
+        let t524 = c(2.0) * (t274 * t517);
+        let t525 = t274 * t522 + t276 * t517;
+        let t526 = c(2.0) * (t276 * t522);
+        // mass matrix of the legs
+        let t527 = t513 + (t494 + (t475 + (t456 + (t418 + t437))));
+        let t528 = t518 + (t499 + (t480 + (t461 + (t423 + t442))));
+        mass_matrix_p[0][1] = t528;
+        mass_matrix_p[1][0] = t528;
+        let t529 = t523 + (t504 + (t485 + (t466 + (t428 + t447))));
+        mass_matrix_p[0][2] = t529;
+        mass_matrix_p[2][0] = t529;
+        let t530 = t54 * t423;
+        let t531 = t51 * t428;
+        let t532 = t75 * t442;
+        let t533 = t72 * t447;
+        let t534 = t96 * t461;
+        let t535 = t93 * t466;
+        let t536 = t117 * t480;
+        let t537 = t114 * t485;
+        let t538 = t530 - t531 + (t532 - t533) + (t534 - t535) + (t536 - t537);
+        let t539 = t138 * t499;
+        let t540 = t135 * t504;
+        let t541 = t159 * t518;
+        let t542 = t156 * t523;
+        let t543 = t538 + (t539 - t540) + (t541 - t542);
+        let t544 = t48 * t428 - t54 * t418;
+        let t545 = t69 * t447 - t75 * t437;
+        let t546 = t90 * t466 - t96 * t456;
+        let t547 = t111 * t485 - t117 * t475;
+        let t548 = t132 * t504 - t138 * t494;
+        let t549 = t153 * t523 - t159 * t513;
+        let t550 = t544 + t545 + t546 + t547 + t548 + t549;
+        let t551 = t51 * t418 - t48 * t423;
+        let t552 = t72 * t437 - t69 * t442;
+        let t553 = t93 * t456 - t90 * t461;
+        let t554 = t114 * t475 - t111 * t480;
+        let t555 = t135 * t494 - t132 * t499;
+        let t556 = t156 * t513 - t153 * t518;
+        let t557 = t551 + t552 + t553 + t554 + t555 + t556;
+        let t558 = t524 + (t505 + (t486 + (t467 + (t429 + t448))));
+        let t559 = t525 + (t506 + (t487 + (t468 + (t430 + t449))));
+        mass_matrix_p[1][2] = t559;
+        mass_matrix_p[2][1] = t559;
+        let t560 = t54 * t429 - t51 * t430;
+        let t561 = t75 * t448 - t72 * t449;
+        let t562 = t96 * t467 - t93 * t468;
+        let t563 = t117 * t486 - t114 * t487;
+        let t564 = t138 * t505 - t135 * t506;
+        let t565 = t159 * t524 - t156 * t525;
+        let t566 = t560 + t561 + t562 + t563 + t564 + t565;
+        let t567 = t48 * t430;
+        let t568 = t530 - t567;
+        let t569 = t69 * t449;
+        let t570 = t532 - t569;
+        let t571 = t90 * t468;
+        let t572 = t534 - t571;
+        let t573 = t111 * t487;
+        let t574 = t536 - t573;
+        let t575 = t132 * t506;
+        let t576 = t539 - t575;
+        let t577 = t153 * t525;
+        let t578 = t541 - t577;
+        let t579 = t568 + t570 + t572 + t574 + t576 + t578;
+        mass_matrix_p[1][4] = t579;
+        mass_matrix_p[4][1] = t579;
+        let t580 = t51 * t423 - t48 * t429;
+        let t581 = t72 * t442 - t69 * t448;
+        let t582 = t93 * t461 - t90 * t467;
+        let t583 = t114 * t480 - t111 * t486;
+        let t584 = t135 * t499 - t132 * t505;
+        let t585 = t156 * t518 - t153 * t524;
+        let t586 = t580 + t581 + t582 + t583 + t584 + t585;
+        let t587 = t526 + (t507 + (t488 + (t469 + (t431 + t450))));
+        let t588 = t54 * t430 - t51 * t431;
+        let t589 = t75 * t449 - t72 * t450;
+        let t590 = t96 * t468 - t93 * t469;
+        let t591 = t117 * t487 - t114 * t488;
+        let t592 = t138 * t506 - t135 * t507;
+        let t593 = t159 * t525 - t156 * t526;
+        let t594 = t588 + t589 + t590 + t591 + t592 + t593;
+        let t595 = t48 * t431 - t54 * t428;
+        let t596 = t69 * t450 - t75 * t447;
+        let t597 = t90 * t469 - t96 * t466;
+        let t598 = t111 * t488 - t117 * t485;
+        let t599 = t132 * t507 - t138 * t504;
+        let t600 = t153 * t526 - t159 * t523;
+        let t601 = t595 + t596 + t597 + t598 + t599 + t600;
+        let t602 = t531 - t567;
+        let t603 = t533 - t569;
+        let t604 = t535 - t571;
+        let t605 = t537 - t573;
+        let t606 = t540 - t575;
+        let t607 = t542 - t577;
+        let t608 = t602 + t603 + t604 + t605 + t606 + t607;
+        let t609 = t54 * t560 - t51 * t588 + (t75 * t561 - t72 * t589);
+        let t610 = t609 + (t96 * t562 - t93 * t590);
+        let t611 = t610 + (t117 * t563 - t114 * t591);
+        let t612 = t611 + (t138 * t564 - t135 * t592);
+        let t613 = t612 + (t159 * t565 - t156 * t593);
+        let t614 = t54 * t568 + t51 * t595 + (t75 * t570 + t72 * t596);
+        let t615 = t614 + (t96 * t572 + t93 * t597);
+        let t616 = t615 + (t117 * t574 + t114 * t598);
+        let t617 = t616 + (t138 * t576 + t135 * t599);
+        let t618 = t617 + (t159 * t578 + t156 * t600);
+        let t619 = t54 * t580 - t51 * t602 + (t75 * t581 - t72 * t603);
+        let t620 = t619 + (t96 * t582 - t93 * t604);
+        let t621 = t620 + (t117 * t583 - t114 * t605);
+        let t622 = t621 + (t138 * t584 - t135 * t606);
+        let t623 = t622 + (t159 * t585 - t156 * t607);
+        let t624 = t48 * t595 - t54 * t544 + (t69 * t596 - t75 * t545);
+        let t625 = t624 + (t90 * t597 - t96 * t546);
+        let t626 = t625 + (t111 * t598 - t117 * t547);
+        let t627 = t626 + (t132 * t599 - t138 * t548);
+        let t628 = t627 + (t153 * t600 - t159 * t549);
+        let t629 = t48 * t602 - t54 * t551 + (t69 * t603 - t75 * t552);
+        let t630 = t629 + (t90 * t604 - t96 * t553);
+        let t631 = t630 + (t111 * t605 - t117 * t554);
+        let t632 = t631 + (t132 * t606 - t138 * t555);
+        let t633 = t632 + (t153 * t607 - t159 * t556);
+        let t634 = t51 * t551 - t48 * t580 + (t72 * t552 - t69 * t581);
+        let t635 = t634 + (t93 * t553 - t90 * t582);
+        let t636 = t635 + (t114 * t554 - t111 * t583);
+        let t637 = t636 + (t135 * t555 - t132 * t584);
+        let t638 = t637 + (t156 * t556 - t153 * t585);
+        let t639 = -t543;
+        mass_matrix_p[0][3] = t639;
+        mass_matrix_p[3][0] = t639;
+        let t640 = -t608;
+        mass_matrix_p[2][5] = t640;
+        mass_matrix_p[5][2] = t640;
+        // mass matrix M_p of the platform
+        let t641 = t332 + t527;
+        mass_matrix_p[0][0] = t641;
+        let t642 = platform_rotation[2][0] * t339 + platform_rotation[2][1] * t346;
+        let t643 = t642 + platform_rotation[2][2] * t353;
+        let t644 = t550 - t643;
+        let t645 = platform_rotation[1][0] * t339 + platform_rotation[1][1] * t346;
+        let t646 = t645 + platform_rotation[1][2] * t353;
+        let t647 = t557 + t646;
+        let t648 = t332 + t558;
+        mass_matrix_p[1][1] = t648;
+        let t649 = t566 + t643;
+        let t650 = platform_rotation[0][0] * t339 + platform_rotation[0][1] * t346;
+        let t651 = t650 + platform_rotation[0][2] * t353;
+        let t652 = t586 - t651;
+        let t653 = t332 + t587;
+        mass_matrix_p[2][2] = t653;
+        let t654 = t594 - t646;
+        let t655 = t601 + t651;
+        let t656 = t412 + (t365 + t393);
+        let t657 = platform_rotation[0][0] * t365 + platform_rotation[0][1] * t374;
+        let t658 = t657 + platform_rotation[0][2] * t383;
+        let t659 = platform_rotation[0][0] * t374 + platform_rotation[0][1] * t393;
+        let t660 = t659 + platform_rotation[0][2] * t402;
+        let t661 = platform_rotation[0][0] * t658 + platform_rotation[0][1] * t660;
+        let t662 = platform_rotation[0][0] * t383 + platform_rotation[0][1] * t402;
+        let t663 = t662 + platform_rotation[0][2] * t412;
+        let t664 = t613 - (t656 - (t661 + platform_rotation[0][2] * t663));
+        mass_matrix_p[3][3] = t664;
+        let t665 = platform_rotation[1][0] * t658 + platform_rotation[1][1] * t660;
+        let t666 = t618 - (t665 + platform_rotation[1][2] * t663);
+        let t667 = platform_rotation[2][0] * t658 + platform_rotation[2][1] * t660;
+        let t668 = t623 + (t667 + platform_rotation[2][2] * t663);
+        mass_matrix_p[3][5] = t668;
+        mass_matrix_p[5][3] = t668;
+        let t669 = platform_rotation[1][0] * t365 + platform_rotation[1][1] * t374;
+        let t670 = t669 + platform_rotation[1][2] * t383;
+        let t671 = platform_rotation[1][0] * t374 + platform_rotation[1][1] * t393;
+        let t672 = t671 + platform_rotation[1][2] * t402;
+        let t673 = platform_rotation[1][0] * t670 + platform_rotation[1][1] * t672;
+        let t674 = platform_rotation[1][0] * t383 + platform_rotation[1][1] * t402;
+        let t675 = t674 + platform_rotation[1][2] * t412;
+        let t676 = t628 - (t656 - (t673 + platform_rotation[1][2] * t675));
+        mass_matrix_p[4][4] = t676;
+        let t677 = platform_rotation[2][0] * t670 + platform_rotation[2][1] * t672;
+        let t678 = t633 + (t677 + platform_rotation[2][2] * t675);
+        mass_matrix_p[4][5] = t678;
+        mass_matrix_p[5][4] = t678;
+        let t679 = platform_rotation[2][0] * t365 + platform_rotation[2][1] * t374;
+        let t680 = platform_rotation[2][0] * (t679 + platform_rotation[2][2] * t383);
+        let t681 = platform_rotation[2][0] * t374 + platform_rotation[2][1] * t393;
+        let t682 = platform_rotation[2][1] * (t681 + platform_rotation[2][2] * t402);
+        let t683 = platform_rotation[2][0] * t383 + platform_rotation[2][1] * t402;
+        let t684 = platform_rotation[2][2] * (t683 + platform_rotation[2][2] * t412);
+        let t685 = t638 - (t656 - (t680 + t682 + t684));
+        mass_matrix_p[5][5] = t685;
+        let t686 = -t644;
+        mass_matrix_p[0][4] = t686;
+        mass_matrix_p[4][0] = t686;
+        let t687 = -t647;
+        mass_matrix_p[0][5] = t687;
+        mass_matrix_p[5][0] = t687;
+        let t688 = -t649;
+        mass_matrix_p[1][3] = t688;
+        mass_matrix_p[3][1] = t688;
+        let t689 = -t652;
+        mass_matrix_p[1][5] = t689;
+        mass_matrix_p[5][1] = t689;
+        let t690 = -t654;
+        mass_matrix_p[2][3] = t690;
+        mass_matrix_p[3][2] = t690;
+        let t691 = -t655;
+        mass_matrix_p[2][4] = t691;
+        mass_matrix_p[4][2] = t691;
+        let t692 = -t666;
+        mass_matrix_p[3][4] = t692;
+        mass_matrix_p[4][3] = t692;
+        // angular velocity of the base
+        let t693 = base_rotation[1][0] * base_velocity[4];
+        let t694 = base_rotation[0][0] * base_velocity[3] + t693;
+        let t695 = t694 + base_rotation[2][0] * base_velocity[5];
+        let t696 = base_rotation[1][1] * base_velocity[4];
+        let t697 = base_rotation[0][1] * base_velocity[3] + t696;
+        let t698 = t697 + base_rotation[2][1] * base_velocity[5];
+        let t699 = base_rotation[1][2] * base_velocity[4];
+        let t700 = base_rotation[0][2] * base_velocity[3] + t699;
+        let t701 = t700 + base_rotation[2][2] * base_velocity[5];
+        // angular velocity of the platform
+        let t702 = base_rotation[1][0] * platform_velocity[4];
+        let t703 = base_rotation[0][0] * platform_velocity[3] + t702;
+        let t704 = t703 + base_rotation[2][0] * platform_velocity[5];
+        let t705 = base_rotation[1][1] * platform_velocity[4];
+        let t706 = base_rotation[0][1] * platform_velocity[3] + t705;
+        let t707 = t706 + base_rotation[2][1] * platform_velocity[5];
+        let t708 = base_rotation[1][2] * platform_velocity[4];
+        let t709 = base_rotation[0][2] * platform_velocity[3] + t708;
+        let t710 = t709 + base_rotation[2][2] * platform_velocity[5];
+        // angular velocity of the platform relative to the base
+        let t711 = t695 - t704;
+        let t712 = t698 - t707;
+        let t713 = t701 - t710;
+        // velocity of the platform origin relative to the base
+        let t714 = base_velocity[0] - platform_velocity[0];
+        let t715 = base_velocity[1] - platform_velocity[1];
+        let t716 = base_rotation[0][0] * t714 + base_rotation[1][0] * t715;
+        let t717 = base_velocity[2] - platform_velocity[2];
+        let t718 = t716 + base_rotation[2][0] * t717;
+        let t719 = t718 - (t36 * t698 - t34 * t701);
+        let t720 = base_rotation[0][1] * t714 + base_rotation[1][1] * t715;
+        let t721 = t720 + base_rotation[2][1] * t717;
+        let t722 = t721 - (t32 * t701 - t36 * t695);
+        let t723 = base_rotation[0][2] * t714 + base_rotation[1][2] * t715;
+        let t724 = t723 + base_rotation[2][2] * t717;
+        let t725 = t724 - (t34 * t695 - t32 * t698);
+        // rate of the relative rotation
+        let t726 = t21 * t712 - t12 * t713;
+        let t727 = t24 * t712 - t15 * t713;
+        let t728 = t27 * t712 - t18 * t713;
+        let t729 = t3 * t713 - t21 * t711;
+        let t730 = t6 * t713 - t24 * t711;
+        let t731 = t9 * t713 - t27 * t711;
+        let t732 = t12 * t711 - t3 * t712;
+        let t733 = t15 * t711 - t6 * t712;
+        let t734 = t18 * t711 - t9 * t712;
+        // leg 1: velocity of the platform joint relative to the base
+        let t735 = parameters.platform_point[0][1] * t727;
+        let t736 = parameters.platform_point[0][0] * t726 + t735;
+        let t737 = t719 + (t736 + parameters.platform_point[0][2] * t728);
+        let t738 = parameters.platform_point[0][1] * t730;
+        let t739 = parameters.platform_point[0][0] * t729 + t738;
+        let t740 = t722 + (t739 + parameters.platform_point[0][2] * t731);
+        let t741 = parameters.platform_point[0][1] * t733;
+        let t742 = parameters.platform_point[0][0] * t732 + t741;
+        let t743 = t725 + (t742 + parameters.platform_point[0][2] * t734);
+        // leg 2: velocity of the platform joint relative to the base
+        let t744 = parameters.platform_point[1][1] * t727;
+        let t745 = parameters.platform_point[1][0] * t726 + t744;
+        let t746 = t719 + (t745 + parameters.platform_point[1][2] * t728);
+        let t747 = parameters.platform_point[1][1] * t730;
+        let t748 = parameters.platform_point[1][0] * t729 + t747;
+        let t749 = t722 + (t748 + parameters.platform_point[1][2] * t731);
+        let t750 = parameters.platform_point[1][1] * t733;
+        let t751 = parameters.platform_point[1][0] * t732 + t750;
+        let t752 = t725 + (t751 + parameters.platform_point[1][2] * t734);
+        // leg 3: velocity of the platform joint relative to the base
+        let t753 = parameters.platform_point[2][1] * t727;
+        let t754 = parameters.platform_point[2][0] * t726 + t753;
+        let t755 = t719 + (t754 + parameters.platform_point[2][2] * t728);
+        let t756 = parameters.platform_point[2][1] * t730;
+        let t757 = parameters.platform_point[2][0] * t729 + t756;
+        let t758 = t722 + (t757 + parameters.platform_point[2][2] * t731);
+        let t759 = parameters.platform_point[2][1] * t733;
+        let t760 = parameters.platform_point[2][0] * t732 + t759;
+        let t761 = t725 + (t760 + parameters.platform_point[2][2] * t734);
+        // leg 4: velocity of the platform joint relative to the base
+        let t762 = parameters.platform_point[3][1] * t727;
+        let t763 = parameters.platform_point[3][0] * t726 + t762;
+        let t764 = t719 + (t763 + parameters.platform_point[3][2] * t728);
+        let t765 = parameters.platform_point[3][1] * t730;
+        let t766 = parameters.platform_point[3][0] * t729 + t765;
+        let t767 = t722 + (t766 + parameters.platform_point[3][2] * t731);
+        let t768 = parameters.platform_point[3][1] * t733;
+        let t769 = parameters.platform_point[3][0] * t732 + t768;
+        let t770 = t725 + (t769 + parameters.platform_point[3][2] * t734);
+        // leg 5: velocity of the platform joint relative to the base
+        let t771 = parameters.platform_point[4][1] * t727;
+        let t772 = parameters.platform_point[4][0] * t726 + t771;
+        let t773 = t719 + (t772 + parameters.platform_point[4][2] * t728);
+        let t774 = parameters.platform_point[4][1] * t730;
+        let t775 = parameters.platform_point[4][0] * t729 + t774;
+        let t776 = t722 + (t775 + parameters.platform_point[4][2] * t731);
+        let t777 = parameters.platform_point[4][1] * t733;
+        let t778 = parameters.platform_point[4][0] * t732 + t777;
+        let t779 = t725 + (t778 + parameters.platform_point[4][2] * t734);
+        // leg 6: velocity of the platform joint relative to the base
+        let t780 = parameters.platform_point[5][1] * t727;
+        let t781 = parameters.platform_point[5][0] * t726 + t780;
+        let t782 = t719 + (t781 + parameters.platform_point[5][2] * t728);
+        let t783 = parameters.platform_point[5][1] * t730;
+        let t784 = parameters.platform_point[5][0] * t729 + t783;
+        let t785 = t722 + (t784 + parameters.platform_point[5][2] * t731);
+        let t786 = parameters.platform_point[5][1] * t733;
+        let t787 = parameters.platform_point[5][0] * t732 + t786;
+        let t788 = t725 + (t787 + parameters.platform_point[5][2] * t734);
+        // leg 1: rate of the offset from the actuator axis
+        let t789 = parameters.actuator_axis[0][1] * t740;
+        let t790 = parameters.actuator_axis[0][0] * t737 + t789;
+        let t791 = t790 + parameters.actuator_axis[0][2] * t743;
+        let t792 = t737 - parameters.actuator_axis[0][0] * t791;
+        let t793 = t740 - parameters.actuator_axis[0][1] * t791;
+        let t794 = t743 - parameters.actuator_axis[0][2] * t791;
+        // leg 1: rate of the rod's extent along the actuator axis
+        let t795 = t171 * (t166 * t792 + t167 * t793 + t168 * t794);
+        // leg 1: actuator velocity d'
+        let t796 = t791 - t795;
+        actuator_velocity[0] = -t796;
+        // leg 2: rate of the offset from the actuator axis
+        let t797 = parameters.actuator_axis[1][1] * t749;
+        let t798 = parameters.actuator_axis[1][0] * t746 + t797;
+        let t799 = t798 + parameters.actuator_axis[1][2] * t752;
+        let t800 = t746 - parameters.actuator_axis[1][0] * t799;
+        let t801 = t749 - parameters.actuator_axis[1][1] * t799;
+        let t802 = t752 - parameters.actuator_axis[1][2] * t799;
+        // leg 2: rate of the rod's extent along the actuator axis
+        let t803 = t181 * (t176 * t800 + t177 * t801 + t178 * t802);
+        // leg 2: actuator velocity d'
+        let t804 = t799 - t803;
+        actuator_velocity[1] = -t804;
+        // leg 3: rate of the offset from the actuator axis
+        let t805 = parameters.actuator_axis[2][1] * t758;
+        let t806 = parameters.actuator_axis[2][0] * t755 + t805;
+        let t807 = t806 + parameters.actuator_axis[2][2] * t761;
+        let t808 = t755 - parameters.actuator_axis[2][0] * t807;
+        let t809 = t758 - parameters.actuator_axis[2][1] * t807;
+        let t810 = t761 - parameters.actuator_axis[2][2] * t807;
+        // leg 3: rate of the rod's extent along the actuator axis
+        let t811 = t191 * (t186 * t808 + t187 * t809 + t188 * t810);
+        // leg 3: actuator velocity d'
+        let t812 = t807 - t811;
+        actuator_velocity[2] = -t812;
+        // leg 4: rate of the offset from the actuator axis
+        let t813 = parameters.actuator_axis[3][1] * t767;
+        let t814 = parameters.actuator_axis[3][0] * t764 + t813;
+        let t815 = t814 + parameters.actuator_axis[3][2] * t770;
+        let t816 = t764 - parameters.actuator_axis[3][0] * t815;
+        let t817 = t767 - parameters.actuator_axis[3][1] * t815;
+        let t818 = t770 - parameters.actuator_axis[3][2] * t815;
+        // leg 4: rate of the rod's extent along the actuator axis
+        let t819 = t201 * (t196 * t816 + t197 * t817 + t198 * t818);
+        // leg 4: actuator velocity d'
+        let t820 = t815 - t819;
+        actuator_velocity[3] = -t820;
+        // leg 5: rate of the offset from the actuator axis
+        let t821 = parameters.actuator_axis[4][1] * t776;
+        let t822 = parameters.actuator_axis[4][0] * t773 + t821;
+        let t823 = t822 + parameters.actuator_axis[4][2] * t779;
+        let t824 = t773 - parameters.actuator_axis[4][0] * t823;
+        let t825 = t776 - parameters.actuator_axis[4][1] * t823;
+        let t826 = t779 - parameters.actuator_axis[4][2] * t823;
+        // leg 5: rate of the rod's extent along the actuator axis
+        let t827 = t211 * (t206 * t824 + t207 * t825 + t208 * t826);
+        // leg 5: actuator velocity d'
+        let t828 = t823 - t827;
+        actuator_velocity[4] = -t828;
+        // leg 6: rate of the offset from the actuator axis
+        let t829 = parameters.actuator_axis[5][1] * t785;
+        let t830 = parameters.actuator_axis[5][0] * t782 + t829;
+        let t831 = t830 + parameters.actuator_axis[5][2] * t788;
+        let t832 = t782 - parameters.actuator_axis[5][0] * t831;
+        let t833 = t785 - parameters.actuator_axis[5][1] * t831;
+        let t834 = t788 - parameters.actuator_axis[5][2] * t831;
+        // leg 6: rate of the rod's extent along the actuator axis
+        let t835 = t221 * (t216 * t832 + t217 * t833 + t218 * t834);
+        // leg 6: actuator velocity d'
+        let t836 = t831 - t835;
+        actuator_velocity[5] = -t836;
+        // acceleration of the base origin less gravity
+        let t837 = base_acceleration[0] - parameters.gravity[0];
+        let t838 = base_acceleration[1] - parameters.gravity[1];
+        let t839 = base_rotation[0][0] * t837 + base_rotation[1][0] * t838;
+        let t840 = base_acceleration[2] - parameters.gravity[2];
+        let t841 = t839 + base_rotation[2][0] * t840;
+        let t842 = base_rotation[0][1] * t837 + base_rotation[1][1] * t838;
+        let t843 = t842 + base_rotation[2][1] * t840;
+        let t844 = base_rotation[0][2] * t837 + base_rotation[1][2] * t838;
+        let t845 = t844 + base_rotation[2][2] * t840;
+        // angular acceleration of the base
+        let t846 = base_rotation[1][0] * base_acceleration[4];
+        let t847 = base_rotation[0][0] * base_acceleration[3] + t846;
+        let t848 = t847 + base_rotation[2][0] * base_acceleration[5];
+        let t849 = base_rotation[1][1] * base_acceleration[4];
+        let t850 = base_rotation[0][1] * base_acceleration[3] + t849;
+        let t851 = t850 + base_rotation[2][1] * base_acceleration[5];
+        let t852 = base_rotation[1][2] * base_acceleration[4];
+        let t853 = base_rotation[0][2] * base_acceleration[3] + t852;
+        let t854 = t853 + base_rotation[2][2] * base_acceleration[5];
+        // acceleration per base coordinate of points that move with the base
+        let t855 = t698 * t698;
+        let t856 = t701 * t701;
+        let t857 = t855 + t856;
+        let t858 = t695 * t698;
+        let t859 = t854 - t858;
+        let t860 = t695 * t701;
+        let t861 = t851 + t860;
+        let t862 = t854 + t858;
+        let t863 = t695 * t695;
+        let t864 = t856 + t863;
+        let t865 = t698 * t701;
+        let t866 = t848 - t865;
+        let t867 = t851 - t860;
+        let t868 = t848 + t865;
+        let t869 = t855 + t863;
+        // acceleration of the platform origin less gravity
+        let t870 = base_rotation[1][0] * parameters.gravity[1];
+        let t871 = base_rotation[0][0] * parameters.gravity[0] + t870;
+        let t872 = t871 + base_rotation[2][0] * parameters.gravity[2];
+        let t873 = base_rotation[1][1] * parameters.gravity[1];
+        let t874 = base_rotation[0][1] * parameters.gravity[0] + t873;
+        let t875 = t874 + base_rotation[2][1] * parameters.gravity[2];
+        let t876 = base_rotation[1][2] * parameters.gravity[1];
+        let t877 = base_rotation[0][2] * parameters.gravity[0] + t876;
+        let t878 = t877 + base_rotation[2][2] * parameters.gravity[2];
+        // acceleration per platform coordinate of points of the platform
+        let t879 = t704 * t707;
+        let t880 = t707 * t707;
+        let t881 = t710 * t710;
+        let t882 = t880 + t881;
+        let t883 = t704 * t710;
+        let t884 = t12 * t879 - t3 * t882 + t21 * t883;
+        let t885 = t15 * t879 - t6 * t882 + t24 * t883;
+        let t886 = t18 * t879 - t9 * t882 + t27 * t883;
+        let t887 = t704 * t704;
+        let t888 = t881 + t887;
+        let t889 = t707 * t710;
+        let t890 = t3 * t879 - t12 * t888 + t21 * t889;
+        let t891 = t6 * t879 - t15 * t888 + t24 * t889;
+        let t892 = t9 * t879 - t18 * t888 + t27 * t889;
+        let t893 = t880 + t887;
+        let t894 = t3 * t883 + t12 * t889 - t21 * t893;
+        let t895 = t6 * t883 + t15 * t889 - t24 * t893;
+        let t896 = t9 * t883 + t18 * t889 - t27 * t893;
+        // acceleration of the platform origin relative to the base
+        let t897 = t841 + t872 + (t32 * t857 + t34 * t859 - t36 * t861);
+        let t898 = t897 - c(2.0) * (t698 * t725 - t701 * t722);
+        let t899 = t843 + t875 - (t32 * t862 - t34 * t864 - t36 * t866);
+        let t900 = t899 - c(2.0) * (t701 * t719 - t695 * t725);
+        let t901 = t845 + t878 + (t32 * t867 - t34 * t868 + t36 * t869);
+        let t902 = t901 - c(2.0) * (t695 * t722 - t698 * t719);
+        (
+            t3,
+            t6,
+            t9,
+            t12,
+            t15,
+            t18,
+            t21,
+            t24,
+            t27,
+            t166,
+            t167,
+            t168,
+            t171,
+            t172,
+            t176,
+            t177,
+            t178,
+            t181,
+            t182,
+            t186,
+            t187,
+            t188,
+            t191,
+            t192,
+            t196,
+            t197,
+            t198,
+            t201,
+            t202,
+            t206,
+            t207,
+            t208,
+            t211,
+            t212,
+            t216,
+            t217,
+            t218,
+            t221,
+            t222,
+            t242,
+            t244,
+            t246,
+            t248,
+            t250,
+            t252,
+            t254,
+            t256,
+            t258,
+            t260,
+            t262,
+            t264,
+            t266,
+            t268,
+            t270,
+            t272,
+            t274,
+            t276,
+            t277,
+            t278,
+            t279,
+            t280,
+            t281,
+            t282,
+            t283,
+            t284,
+            t285,
+            t286,
+            t287,
+            t288,
+            t289,
+            t290,
+            t291,
+            t292,
+            t293,
+            t294,
+            t297,
+            t300,
+            t303,
+            t306,
+            t309,
+            t312,
+            t315,
+            t318,
+            t321,
+            t324,
+            t327,
+            t330,
+            t332,
+            t339,
+            t346,
+            t353,
+            t365,
+            t374,
+            t383,
+            t393,
+            t402,
+            t412,
+            t528,
+            t529,
+            t543,
+            t559,
+            t579,
+            t608,
+            t641,
+            t644,
+            t647,
+            t648,
+            t649,
+            t652,
+            t653,
+            t654,
+            t655,
+            t664,
+            t666,
+            t668,
+            t676,
+            t678,
+            t685,
+            t695,
+            t698,
+            t701,
+            t711,
+            t712,
+            t713,
+            t792,
+            t793,
+            t794,
+            t795,
+            t796,
+            t800,
+            t801,
+            t802,
+            t803,
+            t804,
+            t808,
+            t809,
+            t810,
+            t811,
+            t812,
+            t816,
+            t817,
+            t818,
+            t819,
+            t820,
+            t824,
+            t825,
+            t826,
+            t827,
+            t828,
+            t832,
+            t833,
+            t834,
+            t835,
+            t836,
+            t841,
+            t843,
+            t845,
+            t848,
+            t851,
+            t854,
+            t857,
+            t859,
+            t861,
+            t862,
+            t864,
+            t866,
+            t867,
+            t868,
+            t869,
+            t872,
+            t875,
+            t878,
+            t884,
+            t885,
+            t886,
+            t890,
+            t891,
+            t892,
+            t894,
+            t895,
+            t896,
+            t898,
+            t900,
+            t902,
+        )
+    };
+    {
+        // second derivative of the relative rotation
+        let t903 = t711 * t712;
+        let t904 = t854 - (t695 * t712 - t698 * t711);
+        let t905 = t903 + t904;
+        let t906 = t712 * t712;
+        let t907 = t713 * t713;
+        let t908 = t906 + t907;
+        let t909 = t711 * t713;
+        let t910 = t851 - (t701 * t711 - t695 * t713);
+        let t911 = t909 - t910;
+        let t912 = t12 * t905 - t3 * t908 + t21 * t911;
+        let t913 = t15 * t905 - t6 * t908 + t24 * t911;
+        let t914 = t18 * t905 - t9 * t908 + t27 * t911;
+        let t915 = t903 - t904;
+        let t916 = t711 * t711;
+        let t917 = t907 + t916;
+        let t918 = t712 * t713;
+        let t919 = t848 - (t698 * t713 - t701 * t712);
+        let t920 = t918 + t919;
+        let t921 = t3 * t915 - t12 * t917 + t21 * t920;
+        let t922 = t6 * t915 - t15 * t917 + t24 * t920;
+        let t923 = t9 * t915 - t18 * t917 + t27 * t920;
+        let t924 = t909 + t910;
+        let t925 = t918 - t919;
+        let t926 = t906 + t916;
+        let t927 = t3 * t924 + t12 * t925 - t21 * t926;
+        let t928 = t6 * t924 + t15 * t925 - t24 * t926;
+        let t929 = t9 * t924 + t18 * t925 - t27 * t926;
+        // leg 1: acceleration of the platform joint relative to the base
+        let t930 = parameters.platform_point[0][1] * t913;
+        let t931 = parameters.platform_point[0][0] * t912 + t930;
+        let t932 = t898 - (t931 + parameters.platform_point[0][2] * t914);
+        let t933 = parameters.platform_point[0][1] * t922;
+        let t934 = parameters.platform_point[0][0] * t921 + t933;
+        let t935 = t900 - (t934 + parameters.platform_point[0][2] * t923);
+        let t936 = parameters.platform_point[0][1] * t928;
+        let t937 = parameters.platform_point[0][0] * t927 + t936;
+        let t938 = t902 - (t937 + parameters.platform_point[0][2] * t929);
+        // leg 2: acceleration of the platform joint relative to the base
+        let t939 = parameters.platform_point[1][1] * t913;
+        let t940 = parameters.platform_point[1][0] * t912 + t939;
+        let t941 = t898 - (t940 + parameters.platform_point[1][2] * t914);
+        let t942 = parameters.platform_point[1][1] * t922;
+        let t943 = parameters.platform_point[1][0] * t921 + t942;
+        let t944 = t900 - (t943 + parameters.platform_point[1][2] * t923);
+        let t945 = parameters.platform_point[1][1] * t928;
+        let t946 = parameters.platform_point[1][0] * t927 + t945;
+        let t947 = t902 - (t946 + parameters.platform_point[1][2] * t929);
+        // leg 3: acceleration of the platform joint relative to the base
+        let t948 = parameters.platform_point[2][1] * t913;
+        let t949 = parameters.platform_point[2][0] * t912 + t948;
+        let t950 = t898 - (t949 + parameters.platform_point[2][2] * t914);
+        let t951 = parameters.platform_point[2][1] * t922;
+        let t952 = parameters.platform_point[2][0] * t921 + t951;
+        let t953 = t900 - (t952 + parameters.platform_point[2][2] * t923);
+        let t954 = parameters.platform_point[2][1] * t928;
+        let t955 = parameters.platform_point[2][0] * t927 + t954;
+        let t956 = t902 - (t955 + parameters.platform_point[2][2] * t929);
+        // leg 4: acceleration of the platform joint relative to the base
+        let t957 = parameters.platform_point[3][1] * t913;
+        let t958 = parameters.platform_point[3][0] * t912 + t957;
+        let t959 = t898 - (t958 + parameters.platform_point[3][2] * t914);
+        let t960 = parameters.platform_point[3][1] * t922;
+        let t961 = parameters.platform_point[3][0] * t921 + t960;
+        let t962 = t900 - (t961 + parameters.platform_point[3][2] * t923);
+        let t963 = parameters.platform_point[3][1] * t928;
+        let t964 = parameters.platform_point[3][0] * t927 + t963;
+        let t965 = t902 - (t964 + parameters.platform_point[3][2] * t929);
+        // leg 5: acceleration of the platform joint relative to the base
+        let t966 = parameters.platform_point[4][1] * t913;
+        let t967 = parameters.platform_point[4][0] * t912 + t966;
+        let t968 = t898 - (t967 + parameters.platform_point[4][2] * t914);
+        let t969 = parameters.platform_point[4][1] * t922;
+        let t970 = parameters.platform_point[4][0] * t921 + t969;
+        let t971 = t900 - (t970 + parameters.platform_point[4][2] * t923);
+        let t972 = parameters.platform_point[4][1] * t928;
+        let t973 = parameters.platform_point[4][0] * t927 + t972;
+        let t974 = t902 - (t973 + parameters.platform_point[4][2] * t929);
+        // leg 6: acceleration of the platform joint relative to the base
+        let t975 = parameters.platform_point[5][1] * t913;
+        let t976 = parameters.platform_point[5][0] * t912 + t975;
+        let t977 = t898 - (t976 + parameters.platform_point[5][2] * t914);
+        let t978 = parameters.platform_point[5][1] * t922;
+        let t979 = parameters.platform_point[5][0] * t921 + t978;
+        let t980 = t900 - (t979 + parameters.platform_point[5][2] * t923);
+        let t981 = parameters.platform_point[5][1] * t928;
+        let t982 = parameters.platform_point[5][0] * t927 + t981;
+        let t983 = t902 - (t982 + parameters.platform_point[5][2] * t929);
+        // leg 1: actuator acceleration d''
+        let t984 = parameters.actuator_axis[0][1] * t935;
+        let t985 = parameters.actuator_axis[0][0] * t932 + t984;
+        let t986 = t985 + parameters.actuator_axis[0][2] * t938;
+        let t987 = t166 * t932 + t167 * t935 + t168 * t938;
+        let t988 = t792 * t792 + t793 * t793 + t794 * t794 + t987;
+        let t989 = t986 - t171 * (t988 + t795 * t795);
+        // leg 2: actuator acceleration d''
+        let t990 = parameters.actuator_axis[1][1] * t944;
+        let t991 = parameters.actuator_axis[1][0] * t941 + t990;
+        let t992 = t991 + parameters.actuator_axis[1][2] * t947;
+        let t993 = t176 * t941 + t177 * t944 + t178 * t947;
+        let t994 = t800 * t800 + t801 * t801 + t802 * t802 + t993;
+        let t995 = t992 - t181 * (t994 + t803 * t803);
+        // leg 3: actuator acceleration d''
+        let t996 = parameters.actuator_axis[2][1] * t953;
+        let t997 = parameters.actuator_axis[2][0] * t950 + t996;
+        let t998 = t997 + parameters.actuator_axis[2][2] * t956;
+        let t999 = t186 * t950 + t187 * t953 + t188 * t956;
+        let t1000 = t808 * t808 + t809 * t809 + t810 * t810 + t999;
+        let t1001 = t998 - t191 * (t1000 + t811 * t811);
+        // leg 4: actuator acceleration d''
+        let t1002 = parameters.actuator_axis[3][1] * t962;
+        let t1003 = parameters.actuator_axis[3][0] * t959 + t1002;
+        let t1004 = t1003 + parameters.actuator_axis[3][2] * t965;
+        let t1005 = t196 * t959 + t197 * t962 + t198 * t965;
+        let t1006 = t816 * t816 + t817 * t817 + t818 * t818 + t1005;
+        let t1007 = t1004 - t201 * (t1006 + t819 * t819);
+        // leg 5: actuator acceleration d''
+        let t1008 = parameters.actuator_axis[4][1] * t971;
+        let t1009 = parameters.actuator_axis[4][0] * t968 + t1008;
+        let t1010 = t1009 + parameters.actuator_axis[4][2] * t974;
+        let t1011 = t206 * t968 + t207 * t971 + t208 * t974;
+        let t1012 = t824 * t824 + t825 * t825 + t826 * t826 + t1011;
+        let t1013 = t1010 - t211 * (t1012 + t827 * t827);
+        // leg 6: actuator acceleration d''
+        let t1014 = parameters.actuator_axis[5][1] * t980;
+        let t1015 = parameters.actuator_axis[5][0] * t977 + t1014;
+        let t1016 = t1015 + parameters.actuator_axis[5][2] * t983;
+        let t1017 = t216 * t977 + t217 * t980 + t218 * t983;
+        let t1018 = t832 * t832 + t833 * t833 + t834 * t834 + t1017;
+        let t1019 = t1016 - t221 * (t1018 + t835 * t835);
+        // leg 1: leg inertia less weight along the actuator
+        let t1020 = parameters.base_point[0][0] - parameters.actuator_axis[0][0] * t172;
+        let t1021 = parameters.base_point[0][1] - parameters.actuator_axis[0][1] * t172;
+        let t1022 = parameters.base_point[0][2] - parameters.actuator_axis[0][2] * t172;
+        let t1023 = t841 - (t857 * t1020 + t859 * t1021 - t861 * t1022);
+        let t1024 = c(2.0) * t796;
+        let t1025 = parameters.actuator_axis[0][1] * t701;
+        let t1026 = t1023 - t1024 * (parameters.actuator_axis[0][2] * t698 - t1025);
+        let t1027 = t1026 - parameters.actuator_axis[0][0] * t989;
+        let t1028 = t843 + (t862 * t1020 - t864 * t1021 - t866 * t1022);
+        let t1029 = parameters.actuator_axis[0][2] * t695;
+        let t1030 = t1028 - t1024 * (parameters.actuator_axis[0][0] * t701 - t1029);
+        let t1031 = t1030 - parameters.actuator_axis[0][1] * t989;
+        let t1032 = t845 - (t867 * t1020 - t868 * t1021 + t869 * t1022);
+        let t1033 = parameters.actuator_axis[0][0] * t698;
+        let t1034 = t1032 - t1024 * (parameters.actuator_axis[0][1] * t695 - t1033);
+        let t1035 = t1034 - parameters.actuator_axis[0][2] * t989;
+        let t1036 = parameters.platform_point[0][1] * t885;
+        let t1037 = parameters.platform_point[0][0] * t884 + t1036;
+        let t1038 = t300 * (t872 - (t1037 + parameters.platform_point[0][2] * t886));
+        let t1039 = parameters.actuator_axis[0][1] * t859;
+        let t1040 = parameters.actuator_axis[0][0] * t857 + t1039;
+        let t1041 = t1040 - parameters.actuator_axis[0][2] * t861;
+        let t1042 = parameters.mover_mass[0]
+            * (t1027 + parameters.mover_offset[0] * t1041);
+        let t1043 = parameters.actuator_axis[0][0] * (t297 * t1027 + t1038 + t1042);
+        let t1044 = parameters.platform_point[0][1] * t891;
+        let t1045 = parameters.platform_point[0][0] * t890 + t1044;
+        let t1046 = t300 * (t875 - (t1045 + parameters.platform_point[0][2] * t892));
+        let t1047 = parameters.actuator_axis[0][1] * t864;
+        let t1048 = parameters.actuator_axis[0][0] * t862 - t1047;
+        let t1049 = t1048 - parameters.actuator_axis[0][2] * t866;
+        let t1050 = parameters.mover_mass[0]
+            * (t1031 - parameters.mover_offset[0] * t1049);
+        let t1051 = parameters.actuator_axis[0][1] * (t297 * t1031 + t1046 + t1050);
+        let t1052 = parameters.platform_point[0][1] * t895;
+        let t1053 = parameters.platform_point[0][0] * t894 + t1052;
+        let t1054 = t300 * (t878 - (t1053 + parameters.platform_point[0][2] * t896));
+        let t1055 = parameters.actuator_axis[0][1] * t868;
+        let t1056 = parameters.actuator_axis[0][0] * t867 - t1055;
+        let t1057 = t1056 + parameters.actuator_axis[0][2] * t869;
+        let t1058 = parameters.mover_mass[0]
+            * (t1035 + parameters.mover_offset[0] * t1057);
+        let t1059 = parameters.actuator_axis[0][2] * (t297 * t1035 + t1054 + t1058);
+        let t1060 = t1043 + t1051 + t1059;
+        // leg 1: remaining leg inertia less weight at the platform joint
+        let t1061 = t300 * t1027;
+        let t1062 = t300 * t1031;
+        let t1063 = t300 * t1035;
+        // leg 2: leg inertia less weight along the actuator
+        let t1064 = parameters.base_point[1][0] - parameters.actuator_axis[1][0] * t182;
+        let t1065 = parameters.base_point[1][1] - parameters.actuator_axis[1][1] * t182;
+        let t1066 = parameters.base_point[1][2] - parameters.actuator_axis[1][2] * t182;
+        let t1067 = t841 - (t857 * t1064 + t859 * t1065 - t861 * t1066);
+        let t1068 = c(2.0) * t804;
+        let t1069 = parameters.actuator_axis[1][1] * t701;
+        let t1070 = t1067 - t1068 * (parameters.actuator_axis[1][2] * t698 - t1069);
+        let t1071 = t1070 - parameters.actuator_axis[1][0] * t995;
+        let t1072 = t843 + (t862 * t1064 - t864 * t1065 - t866 * t1066);
+        let t1073 = parameters.actuator_axis[1][2] * t695;
+        let t1074 = t1072 - t1068 * (parameters.actuator_axis[1][0] * t701 - t1073);
+        let t1075 = t1074 - parameters.actuator_axis[1][1] * t995;
+        let t1076 = t845 - (t867 * t1064 - t868 * t1065 + t869 * t1066);
+        let t1077 = parameters.actuator_axis[1][0] * t698;
+        let t1078 = t1076 - t1068 * (parameters.actuator_axis[1][1] * t695 - t1077);
+        let t1079 = t1078 - parameters.actuator_axis[1][2] * t995;
+        let t1080 = parameters.platform_point[1][1] * t885;
+        let t1081 = parameters.platform_point[1][0] * t884 + t1080;
+        let t1082 = t306 * (t872 - (t1081 + parameters.platform_point[1][2] * t886));
+        let t1083 = parameters.actuator_axis[1][1] * t859;
+        let t1084 = parameters.actuator_axis[1][0] * t857 + t1083;
+        let t1085 = t1084 - parameters.actuator_axis[1][2] * t861;
+        let t1086 = parameters.mover_mass[1]
+            * (t1071 + parameters.mover_offset[1] * t1085);
+        let t1087 = parameters.actuator_axis[1][0] * (t303 * t1071 + t1082 + t1086);
+        let t1088 = parameters.platform_point[1][1] * t891;
+        let t1089 = parameters.platform_point[1][0] * t890 + t1088;
+        let t1090 = t306 * (t875 - (t1089 + parameters.platform_point[1][2] * t892));
+        let t1091 = parameters.actuator_axis[1][1] * t864;
+        let t1092 = parameters.actuator_axis[1][0] * t862 - t1091;
+        let t1093 = t1092 - parameters.actuator_axis[1][2] * t866;
+        let t1094 = parameters.mover_mass[1]
+            * (t1075 - parameters.mover_offset[1] * t1093);
+        let t1095 = parameters.actuator_axis[1][1] * (t303 * t1075 + t1090 + t1094);
+        let t1096 = parameters.platform_point[1][1] * t895;
+        let t1097 = parameters.platform_point[1][0] * t894 + t1096;
+        let t1098 = t306 * (t878 - (t1097 + parameters.platform_point[1][2] * t896));
+        let t1099 = parameters.actuator_axis[1][1] * t868;
+        let t1100 = parameters.actuator_axis[1][0] * t867 - t1099;
+        let t1101 = t1100 + parameters.actuator_axis[1][2] * t869;
+        let t1102 = parameters.mover_mass[1]
+            * (t1079 + parameters.mover_offset[1] * t1101);
+        let t1103 = parameters.actuator_axis[1][2] * (t303 * t1079 + t1098 + t1102);
+        let t1104 = t1087 + t1095 + t1103;
+        // leg 2: remaining leg inertia less weight at the platform joint
+        let t1105 = t306 * t1071;
+        let t1106 = t306 * t1075;
+        let t1107 = t306 * t1079;
+        // leg 3: leg inertia less weight along the actuator
+        let t1108 = parameters.base_point[2][0] - parameters.actuator_axis[2][0] * t192;
+        let t1109 = parameters.base_point[2][1] - parameters.actuator_axis[2][1] * t192;
+        let t1110 = parameters.base_point[2][2] - parameters.actuator_axis[2][2] * t192;
+        let t1111 = t841 - (t857 * t1108 + t859 * t1109 - t861 * t1110);
+        let t1112 = c(2.0) * t812;
+        let t1113 = parameters.actuator_axis[2][1] * t701;
+        let t1114 = t1111 - t1112 * (parameters.actuator_axis[2][2] * t698 - t1113);
+        let t1115 = t1114 - parameters.actuator_axis[2][0] * t1001;
+        let t1116 = t843 + (t862 * t1108 - t864 * t1109 - t866 * t1110);
+        let t1117 = parameters.actuator_axis[2][2] * t695;
+        let t1118 = t1116 - t1112 * (parameters.actuator_axis[2][0] * t701 - t1117);
+        let t1119 = t1118 - parameters.actuator_axis[2][1] * t1001;
+        let t1120 = t845 - (t867 * t1108 - t868 * t1109 + t869 * t1110);
+        let t1121 = parameters.actuator_axis[2][0] * t698;
+        let t1122 = t1120 - t1112 * (parameters.actuator_axis[2][1] * t695 - t1121);
+        let t1123 = t1122 - parameters.actuator_axis[2][2] * t1001;
+        let t1124 = parameters.platform_point[2][1] * t885;
+        let t1125 = parameters.platform_point[2][0] * t884 + t1124;
+        let t1126 = t312 * (t872 - (t1125 + parameters.platform_point[2][2] * t886));
+        let t1127 = parameters.actuator_axis[2][1] * t859;
+        let t1128 = parameters.actuator_axis[2][0] * t857 + t1127;
+        let t1129 = t1128 - parameters.actuator_axis[2][2] * t861;
+        let t1130 = parameters.mover_mass[2]
+            * (t1115 + parameters.mover_offset[2] * t1129);
+        let t1131 = parameters.actuator_axis[2][0] * (t309 * t1115 + t1126 + t1130);
+        let t1132 = parameters.platform_point[2][1] * t891;
+        let t1133 = parameters.platform_point[2][0] * t890 + t1132;
+        let t1134 = t312 * (t875 - (t1133 + parameters.platform_point[2][2] * t892));
+        let t1135 = parameters.actuator_axis[2][1] * t864;
+        let t1136 = parameters.actuator_axis[2][0] * t862 - t1135;
+        let t1137 = t1136 - parameters.actuator_axis[2][2] * t866;
+        let t1138 = parameters.mover_mass[2]
+            * (t1119 - parameters.mover_offset[2] * t1137);
+        let t1139 = parameters.actuator_axis[2][1] * (t309 * t1119 + t1134 + t1138);
+        let t1140 = parameters.platform_point[2][1] * t895;
+        let t1141 = parameters.platform_point[2][0] * t894 + t1140;
+        let t1142 = t312 * (t878 - (t1141 + parameters.platform_point[2][2] * t896));
+        let t1143 = parameters.actuator_axis[2][1] * t868;
+        let t1144 = parameters.actuator_axis[2][0] * t867 - t1143;
+        let t1145 = t1144 + parameters.actuator_axis[2][2] * t869;
+        let t1146 = parameters.mover_mass[2]
+            * (t1123 + parameters.mover_offset[2] * t1145);
+        let t1147 = parameters.actuator_axis[2][2] * (t309 * t1123 + t1142 + t1146);
+        let t1148 = t1131 + t1139 + t1147;
+        // leg 3: remaining leg inertia less weight at the platform joint
+        let t1149 = t312 * t1115;
+        let t1150 = t312 * t1119;
+        let t1151 = t312 * t1123;
+        // leg 4: leg inertia less weight along the actuator
+        let t1152 = parameters.base_point[3][0] - parameters.actuator_axis[3][0] * t202;
+        let t1153 = parameters.base_point[3][1] - parameters.actuator_axis[3][1] * t202;
+        let t1154 = parameters.base_point[3][2] - parameters.actuator_axis[3][2] * t202;
+        let t1155 = t841 - (t857 * t1152 + t859 * t1153 - t861 * t1154);
+        let t1156 = c(2.0) * t820;
+        let t1157 = parameters.actuator_axis[3][1] * t701;
+        let t1158 = t1155 - t1156 * (parameters.actuator_axis[3][2] * t698 - t1157);
+        let t1159 = t1158 - parameters.actuator_axis[3][0] * t1007;
+        let t1160 = t843 + (t862 * t1152 - t864 * t1153 - t866 * t1154);
+        let t1161 = parameters.actuator_axis[3][2] * t695;
+        let t1162 = t1160 - t1156 * (parameters.actuator_axis[3][0] * t701 - t1161);
+        let t1163 = t1162 - parameters.actuator_axis[3][1] * t1007;
+        let t1164 = t845 - (t867 * t1152 - t868 * t1153 + t869 * t1154);
+        let t1165 = parameters.actuator_axis[3][0] * t698;
+        let t1166 = t1164 - t1156 * (parameters.actuator_axis[3][1] * t695 - t1165);
+        let t1167 = t1166 - parameters.actuator_axis[3][2] * t1007;
+        let t1168 = parameters.platform_point[3][1] * t885;
+        let t1169 = parameters.platform_point[3][0] * t884 + t1168;
+        let t1170 = t318 * (t872 - (t1169 + parameters.platform_point[3][2] * t886));
+        let t1171 = parameters.actuator_axis[3][1] * t859;
+        let t1172 = parameters.actuator_axis[3][0] * t857 + t1171;
+        let t1173 = t1172 - parameters.actuator_axis[3][2] * t861;
+        let t1174 = parameters.mover_mass[3]
+            * (t1159 + parameters.mover_offset[3] * t1173);
+        let t1175 = parameters.actuator_axis[3][0] * (t315 * t1159 + t1170 + t1174);
+        let t1176 = parameters.platform_point[3][1] * t891;
+        let t1177 = parameters.platform_point[3][0] * t890 + t1176;
+        let t1178 = t318 * (t875 - (t1177 + parameters.platform_point[3][2] * t892));
+        let t1179 = parameters.actuator_axis[3][1] * t864;
+        let t1180 = parameters.actuator_axis[3][0] * t862 - t1179;
+        let t1181 = t1180 - parameters.actuator_axis[3][2] * t866;
+        let t1182 = parameters.mover_mass[3]
+            * (t1163 - parameters.mover_offset[3] * t1181);
+        let t1183 = parameters.actuator_axis[3][1] * (t315 * t1163 + t1178 + t1182);
+        let t1184 = parameters.platform_point[3][1] * t895;
+        let t1185 = parameters.platform_point[3][0] * t894 + t1184;
+        let t1186 = t318 * (t878 - (t1185 + parameters.platform_point[3][2] * t896));
+        let t1187 = parameters.actuator_axis[3][1] * t868;
+        let t1188 = parameters.actuator_axis[3][0] * t867 - t1187;
+        let t1189 = t1188 + parameters.actuator_axis[3][2] * t869;
+        let t1190 = parameters.mover_mass[3]
+            * (t1167 + parameters.mover_offset[3] * t1189);
+        let t1191 = parameters.actuator_axis[3][2] * (t315 * t1167 + t1186 + t1190);
+        let t1192 = t1175 + t1183 + t1191;
+        // leg 4: remaining leg inertia less weight at the platform joint
+        let t1193 = t318 * t1159;
+        let t1194 = t318 * t1163;
+        let t1195 = t318 * t1167;
+        // leg 5: leg inertia less weight along the actuator
+        let t1196 = parameters.base_point[4][0] - parameters.actuator_axis[4][0] * t212;
+        let t1197 = parameters.base_point[4][1] - parameters.actuator_axis[4][1] * t212;
+        let t1198 = parameters.base_point[4][2] - parameters.actuator_axis[4][2] * t212;
+        let t1199 = t841 - (t857 * t1196 + t859 * t1197 - t861 * t1198);
+        let t1200 = c(2.0) * t828;
+        let t1201 = parameters.actuator_axis[4][1] * t701;
+        let t1202 = t1199 - t1200 * (parameters.actuator_axis[4][2] * t698 - t1201);
+        let t1203 = t1202 - parameters.actuator_axis[4][0] * t1013;
+        let t1204 = t843 + (t862 * t1196 - t864 * t1197 - t866 * t1198);
+        let t1205 = parameters.actuator_axis[4][2] * t695;
+        let t1206 = t1204 - t1200 * (parameters.actuator_axis[4][0] * t701 - t1205);
+        let t1207 = t1206 - parameters.actuator_axis[4][1] * t1013;
+        let t1208 = t845 - (t867 * t1196 - t868 * t1197 + t869 * t1198);
+        let t1209 = parameters.actuator_axis[4][0] * t698;
+        let t1210 = t1208 - t1200 * (parameters.actuator_axis[4][1] * t695 - t1209);
+        let t1211 = t1210 - parameters.actuator_axis[4][2] * t1013;
+        let t1212 = parameters.platform_point[4][1] * t885;
+        let t1213 = parameters.platform_point[4][0] * t884 + t1212;
+        let t1214 = t324 * (t872 - (t1213 + parameters.platform_point[4][2] * t886));
+        let t1215 = parameters.actuator_axis[4][1] * t859;
+        let t1216 = parameters.actuator_axis[4][0] * t857 + t1215;
+        let t1217 = t1216 - parameters.actuator_axis[4][2] * t861;
+        let t1218 = parameters.mover_mass[4]
+            * (t1203 + parameters.mover_offset[4] * t1217);
+        let t1219 = parameters.actuator_axis[4][0] * (t321 * t1203 + t1214 + t1218);
+        let t1220 = parameters.platform_point[4][1] * t891;
+        let t1221 = parameters.platform_point[4][0] * t890 + t1220;
+        let t1222 = t324 * (t875 - (t1221 + parameters.platform_point[4][2] * t892));
+        let t1223 = parameters.actuator_axis[4][1] * t864;
+        let t1224 = parameters.actuator_axis[4][0] * t862 - t1223;
+        let t1225 = t1224 - parameters.actuator_axis[4][2] * t866;
+        let t1226 = parameters.mover_mass[4]
+            * (t1207 - parameters.mover_offset[4] * t1225);
+        let t1227 = parameters.actuator_axis[4][1] * (t321 * t1207 + t1222 + t1226);
+        let t1228 = parameters.platform_point[4][1] * t895;
+        let t1229 = parameters.platform_point[4][0] * t894 + t1228;
+        let t1230 = t324 * (t878 - (t1229 + parameters.platform_point[4][2] * t896));
+        let t1231 = parameters.actuator_axis[4][1] * t868;
+        let t1232 = parameters.actuator_axis[4][0] * t867 - t1231;
+        let t1233 = t1232 + parameters.actuator_axis[4][2] * t869;
+        let t1234 = parameters.mover_mass[4]
+            * (t1211 + parameters.mover_offset[4] * t1233);
+        let t1235 = parameters.actuator_axis[4][2] * (t321 * t1211 + t1230 + t1234);
+        let t1236 = t1219 + t1227 + t1235;
+        // leg 5: remaining leg inertia less weight at the platform joint
+        let t1237 = t324 * t1203;
+        let t1238 = t324 * t1207;
+        let t1239 = t324 * t1211;
+        // leg 6: leg inertia less weight along the actuator
+        let t1240 = parameters.base_point[5][0] - parameters.actuator_axis[5][0] * t222;
+        let t1241 = parameters.base_point[5][1] - parameters.actuator_axis[5][1] * t222;
+        let t1242 = parameters.base_point[5][2] - parameters.actuator_axis[5][2] * t222;
+        let t1243 = t841 - (t857 * t1240 + t859 * t1241 - t861 * t1242);
+        let t1244 = c(2.0) * t836;
+        let t1245 = parameters.actuator_axis[5][1] * t701;
+        let t1246 = t1243 - t1244 * (parameters.actuator_axis[5][2] * t698 - t1245);
+        let t1247 = t1246 - parameters.actuator_axis[5][0] * t1019;
+        let t1248 = t843 + (t862 * t1240 - t864 * t1241 - t866 * t1242);
+        let t1249 = parameters.actuator_axis[5][2] * t695;
+        let t1250 = t1248 - t1244 * (parameters.actuator_axis[5][0] * t701 - t1249);
+        let t1251 = t1250 - parameters.actuator_axis[5][1] * t1019;
+        let t1252 = t845 - (t867 * t1240 - t868 * t1241 + t869 * t1242);
+        let t1253 = parameters.actuator_axis[5][0] * t698;
+        let t1254 = t1252 - t1244 * (parameters.actuator_axis[5][1] * t695 - t1253);
+        let t1255 = t1254 - parameters.actuator_axis[5][2] * t1019;
+        let t1256 = parameters.platform_point[5][1] * t885;
+        let t1257 = parameters.platform_point[5][0] * t884 + t1256;
+        let t1258 = t330 * (t872 - (t1257 + parameters.platform_point[5][2] * t886));
+        let t1259 = parameters.actuator_axis[5][1] * t859;
+        let t1260 = parameters.actuator_axis[5][0] * t857 + t1259;
+        let t1261 = t1260 - parameters.actuator_axis[5][2] * t861;
+        let t1262 = parameters.mover_mass[5]
+            * (t1247 + parameters.mover_offset[5] * t1261);
+        let t1263 = parameters.actuator_axis[5][0] * (t327 * t1247 + t1258 + t1262);
+        let t1264 = parameters.platform_point[5][1] * t891;
+        let t1265 = parameters.platform_point[5][0] * t890 + t1264;
+        let t1266 = t330 * (t875 - (t1265 + parameters.platform_point[5][2] * t892));
+        let t1267 = parameters.actuator_axis[5][1] * t864;
+        let t1268 = parameters.actuator_axis[5][0] * t862 - t1267;
+        let t1269 = t1268 - parameters.actuator_axis[5][2] * t866;
+        let t1270 = parameters.mover_mass[5]
+            * (t1251 - parameters.mover_offset[5] * t1269);
+        let t1271 = parameters.actuator_axis[5][1] * (t327 * t1251 + t1266 + t1270);
+        let t1272 = parameters.platform_point[5][1] * t895;
+        let t1273 = parameters.platform_point[5][0] * t894 + t1272;
+        let t1274 = t330 * (t878 - (t1273 + parameters.platform_point[5][2] * t896));
+        let t1275 = parameters.actuator_axis[5][1] * t868;
+        let t1276 = parameters.actuator_axis[5][0] * t867 - t1275;
+        let t1277 = t1276 + parameters.actuator_axis[5][2] * t869;
+        let t1278 = parameters.mover_mass[5]
+            * (t1255 + parameters.mover_offset[5] * t1277);
+        let t1279 = parameters.actuator_axis[5][2] * (t327 * t1255 + t1274 + t1278);
+        let t1280 = t1263 + t1271 + t1279;
+        // leg 6: remaining leg inertia less weight at the platform joint
+        let t1281 = t330 * t1247;
+        let t1282 = t330 * t1251;
+        let t1283 = t330 * t1255;
+        // leg 1: spring and damper force along the actuator
+        let t1284 = parameters.axial_stiffness[0] * (parameters.rest_length[0] + t172);
+        let t1285 = t1284 + parameters.axial_damping[0] * t796;
+        // leg 2: spring and damper force along the actuator
+        let t1286 = parameters.axial_stiffness[1] * (parameters.rest_length[1] + t182);
+        let t1287 = t1286 + parameters.axial_damping[1] * t804;
+        // leg 3: spring and damper force along the actuator
+        let t1288 = parameters.axial_stiffness[2] * (parameters.rest_length[2] + t192);
+        let t1289 = t1288 + parameters.axial_damping[2] * t812;
+        // leg 4: spring and damper force along the actuator
+        let t1290 = parameters.axial_stiffness[3] * (parameters.rest_length[3] + t202);
+        let t1291 = t1290 + parameters.axial_damping[3] * t820;
+        // leg 5: spring and damper force along the actuator
+        let t1292 = parameters.axial_stiffness[4] * (parameters.rest_length[4] + t212);
+        let t1293 = t1292 + parameters.axial_damping[4] * t828;
+        // leg 6: spring and damper force along the actuator
+        let t1294 = parameters.axial_stiffness[5] * (parameters.rest_length[5] + t222);
+        let t1295 = t1294 + parameters.axial_damping[5] * t836;
+        // inertia force less weight, without the actuators' own shares
+        let t1296 = t332 * t872 - (t339 * t884 + t346 * t885 + t353 * t886);
+        let t1297 = t1281 + (t1237 + (t1193 + (t1149 + (t1105 + (t1061 + t1296)))));
+        let t1298 = t332 * t875 - (t339 * t890 + t346 * t891 + t353 * t892);
+        let t1299 = t1282 + (t1238 + (t1194 + (t1150 + (t1106 + (t1062 + t1298)))));
+        let t1300 = t332 * t878 - (t339 * t894 + t346 * t895 + t353 * t896);
+        let t1301 = t1283 + (t1239 + (t1195 + (t1151 + (t1107 + (t1063 + t1300)))));
+        // its first moments by platform coordinate
+        let t1302 = t339 * t872 + (t365 * t884 + t374 * t885 + t383 * t886);
+        let t1303 = t1302 + parameters.platform_point[0][0] * t1061;
+        let t1304 = t1303 + parameters.platform_point[1][0] * t1105;
+        let t1305 = t1304 + parameters.platform_point[2][0] * t1149;
+        let t1306 = t1305 + parameters.platform_point[3][0] * t1193;
+        let t1307 = t1306 + parameters.platform_point[4][0] * t1237;
+        let t1308 = t1307 + parameters.platform_point[5][0] * t1281;
+        let t1309 = t346 * t872 + (t374 * t884 + t393 * t885 + t402 * t886);
+        let t1310 = t1309 + parameters.platform_point[0][1] * t1061;
+        let t1311 = t1310 + parameters.platform_point[1][1] * t1105;
+        let t1312 = t1311 + parameters.platform_point[2][1] * t1149;
+        let t1313 = t1312 + parameters.platform_point[3][1] * t1193;
+        let t1314 = t1313 + parameters.platform_point[4][1] * t1237;
+        let t1315 = t1314 + parameters.platform_point[5][1] * t1281;
+        let t1316 = t353 * t872 + (t383 * t884 + t402 * t885 + t412 * t886);
+        let t1317 = t1316 + parameters.platform_point[0][2] * t1061;
+        let t1318 = t1317 + parameters.platform_point[1][2] * t1105;
+        let t1319 = t1318 + parameters.platform_point[2][2] * t1149;
+        let t1320 = t1319 + parameters.platform_point[3][2] * t1193;
+        let t1321 = t1320 + parameters.platform_point[4][2] * t1237;
+        let t1322 = t1321 + parameters.platform_point[5][2] * t1281;
+        let t1323 = t339 * t875 + (t365 * t890 + t374 * t891 + t383 * t892);
+        let t1324 = t1323 + parameters.platform_point[0][0] * t1062;
+        let t1325 = t1324 + parameters.platform_point[1][0] * t1106;
+        let t1326 = t1325 + parameters.platform_point[2][0] * t1150;
+        let t1327 = t1326 + parameters.platform_point[3][0] * t1194;
+        let t1328 = t1327 + parameters.platform_point[4][0] * t1238;
+        let t1329 = t1328 + parameters.platform_point[5][0] * t1282;
+        let t1330 = t346 * t875 + (t374 * t890 + t393 * t891 + t402 * t892);
+        let t1331 = t1330 + parameters.platform_point[0][1] * t1062;
+        let t1332 = t1331 + parameters.platform_point[1][1] * t1106;
+        let t1333 = t1332 + parameters.platform_point[2][1] * t1150;
+        let t1334 = t1333 + parameters.platform_point[3][1] * t1194;
+        let t1335 = t1334 + parameters.platform_point[4][1] * t1238;
+        let t1336 = t1335 + parameters.platform_point[5][1] * t1282;
+        let t1337 = t353 * t875 + (t383 * t890 + t402 * t891 + t412 * t892);
+        let t1338 = t1337 + parameters.platform_point[0][2] * t1062;
+        let t1339 = t1338 + parameters.platform_point[1][2] * t1106;
+        let t1340 = t1339 + parameters.platform_point[2][2] * t1150;
+        let t1341 = t1340 + parameters.platform_point[3][2] * t1194;
+        let t1342 = t1341 + parameters.platform_point[4][2] * t1238;
+        let t1343 = t1342 + parameters.platform_point[5][2] * t1282;
+        let t1344 = t339 * t878 + (t365 * t894 + t374 * t895 + t383 * t896);
+        let t1345 = t1344 + parameters.platform_point[0][0] * t1063;
+        let t1346 = t1345 + parameters.platform_point[1][0] * t1107;
+        let t1347 = t1346 + parameters.platform_point[2][0] * t1151;
+        let t1348 = t1347 + parameters.platform_point[3][0] * t1195;
+        let t1349 = t1348 + parameters.platform_point[4][0] * t1239;
+        let t1350 = t1349 + parameters.platform_point[5][0] * t1283;
+        let t1351 = t346 * t878 + (t374 * t894 + t393 * t895 + t402 * t896);
+        let t1352 = t1351 + parameters.platform_point[0][1] * t1063;
+        let t1353 = t1352 + parameters.platform_point[1][1] * t1107;
+        let t1354 = t1353 + parameters.platform_point[2][1] * t1151;
+        let t1355 = t1354 + parameters.platform_point[3][1] * t1195;
+        let t1356 = t1355 + parameters.platform_point[4][1] * t1239;
+        let t1357 = t1356 + parameters.platform_point[5][1] * t1283;
+        let t1358 = t353 * t878 + (t383 * t894 + t402 * t895 + t412 * t896);
+        let t1359 = t1358 + parameters.platform_point[0][2] * t1063;
+        let t1360 = t1359 + parameters.platform_point[1][2] * t1107;
+        let t1361 = t1360 + parameters.platform_point[2][2] * t1151;
+        let t1362 = t1361 + parameters.platform_point[3][2] * t1195;
+        let t1363 = t1362 + parameters.platform_point[4][2] * t1239;
+        let t1364 = t1363 + parameters.platform_point[5][2] * t1283;
+        // leg 1: force along the actuator that reaches the platform
+        let t1365 = t1060 - t1285;
+        // leg 2: force along the actuator that reaches the platform
+        let t1366 = t1104 - t1287;
+        // leg 3: force along the actuator that reaches the platform
+        let t1367 = t1148 - t1289;
+        // leg 4: force along the actuator that reaches the platform
+        let t1368 = t1192 - t1291;
+        // leg 5: force along the actuator that reaches the platform
+        let t1369 = t1236 - t1293;
+        // leg 6: force along the actuator that reaches the platform
+        let t1370 = t1280 - t1295;
+        // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
+        let t1371 = base_rotation[0][0] * t1297 + base_rotation[0][1] * t1299;
+        let t1372 = t242 * t1365 + t248 * t1366 + t254 * t1367 + t260 * t1368;
+        let t1373 = t1372 + t266 * t1369 + t272 * t1370;
+        let t1374 = t1371 + base_rotation[0][2] * t1301 - t1373;
+        let t1375 = base_rotation[1][0] * t1297 + base_rotation[1][1] * t1299;
+        let t1376 = t244 * t1365 + t250 * t1366 + t256 * t1367 + t262 * t1368;
+        let t1377 = t1376 + t268 * t1369 + t274 * t1370;
+        let t1378 = t1375 + base_rotation[1][2] * t1301 - t1377;
+        let t1379 = base_rotation[2][0] * t1297 + base_rotation[2][1] * t1299;
+        let t1380 = t246 * t1365 + t252 * t1366 + t258 * t1367 + t264 * t1368;
+        let t1381 = t1380 + t270 * t1369 + t276 * t1370;
+        let t1382 = t1379 + base_rotation[2][2] * t1301 - t1381;
+        let t1383 = t12 * t1350 - t21 * t1329 + (t15 * t1357 - t24 * t1336);
+        let t1384 = t1383 + (t18 * t1364 - t27 * t1343);
+        let t1385 = t21 * t1308 - t3 * t1350 + (t24 * t1315 - t6 * t1357);
+        let t1386 = t1385 + (t27 * t1322 - t9 * t1364);
+        let t1387 = base_rotation[0][0] * t1384 + base_rotation[0][1] * t1386;
+        let t1388 = t3 * t1329 - t12 * t1308 + (t6 * t1336 - t15 * t1315);
+        let t1389 = t1388 + (t9 * t1343 - t18 * t1322);
+        let t1390 = t277 * t1365 + t280 * t1366 + t283 * t1367 + t286 * t1368;
+        let t1391 = t1390 + t289 * t1369 + t292 * t1370;
+        let t1392 = t1387 + base_rotation[0][2] * t1389 - t1391;
+        let t1393 = base_rotation[1][0] * t1384 + base_rotation[1][1] * t1386;
+        let t1394 = t278 * t1365 + t281 * t1366 + t284 * t1367 + t287 * t1368;
+        let t1395 = t1394 + t290 * t1369 + t293 * t1370;
+        let t1396 = t1393 + base_rotation[1][2] * t1389 - t1395;
+        let t1397 = base_rotation[2][0] * t1384 + base_rotation[2][1] * t1386;
+        let t1398 = t279 * t1365 + t282 * t1366 + t285 * t1367 + t288 * t1368;
+        let t1399 = t1398 + t291 * t1369 + t294 * t1370;
+        let t1400 = t1397 + base_rotation[2][2] * t1389 - t1399;
+        total_bias[0] = -t1374;
+        total_bias[1] = -t1378;
+        total_bias[2] = -t1382;
+        total_bias[3] = -t1392;
+        total_bias[4] = -t1396;
+        total_bias[5] = -t1400;
+        // inertia less external wrench that the actuators must balance
+        let t1401 = platform_acceleration[0] * t641 + platform_acceleration[1] * t528;
+        let t1402 = t1401 + platform_acceleration[2] * t529;
+        let t1403 = t1402 - platform_acceleration[3] * t543;
+        let t1404 = t1403 - platform_acceleration[4] * t644;
+        let t1405 = t1404 - platform_acceleration[5] * t647 - t1374 - external_wrench[0];
+        let t1406 = platform_acceleration[0] * t528 + platform_acceleration[1] * t648;
+        let t1407 = t1406 + platform_acceleration[2] * t559;
+        let t1408 = t1407 - platform_acceleration[3] * t649;
+        let t1409 = t1408 + platform_acceleration[4] * t579;
+        let t1410 = t1409 - platform_acceleration[5] * t652 - t1378 - external_wrench[1];
+        let t1411 = platform_acceleration[0] * t529 + platform_acceleration[1] * t559;
+        let t1412 = t1411 + platform_acceleration[2] * t653;
+        let t1413 = t1412 - platform_acceleration[3] * t654;
+        let t1414 = t1413 - platform_acceleration[4] * t655;
+        let t1415 = t1414 - platform_acceleration[5] * t608 - t1382 - external_wrench[2];
+        let t1416 = platform_acceleration[0] * t543 + platform_acceleration[1] * t649;
+        let t1417 = t1416 + platform_acceleration[2] * t654;
+        let t1418 = t1417 - platform_acceleration[3] * t664;
+        let t1419 = t1418 + platform_acceleration[4] * t666;
+        let t1420 = platform_acceleration[5] * t668 - t1419 - t1392;
+        let t1421 = platform_rotation[1][1] * parameters.payload_com[1];
+        let t1422 = platform_rotation[1][0] * parameters.payload_com[0] + t1421;
+        let t1423 = t1422 + platform_rotation[1][2] * parameters.payload_com[2];
+        let t1424 = platform_rotation[2][1] * parameters.payload_com[1];
+        let t1425 = platform_rotation[2][0] * parameters.payload_com[0] + t1424;
+        let t1426 = t1425 + platform_rotation[2][2] * parameters.payload_com[2];
+        let t1427 = external_wrench[2] * t1423 - external_wrench[1] * t1426;
+        let t1428 = t1420 - (external_wrench[3] + t1427);
+        let t1429 = platform_acceleration[0] * t644 - platform_acceleration[1] * t579;
+        let t1430 = t1429 + platform_acceleration[2] * t655;
+        let t1431 = t1430 + platform_acceleration[3] * t666;
+        let t1432 = t1431 - platform_acceleration[4] * t676;
+        let t1433 = platform_acceleration[5] * t678 - t1432 - t1396;
+        let t1434 = platform_rotation[0][1] * parameters.payload_com[1];
+        let t1435 = platform_rotation[0][0] * parameters.payload_com[0] + t1434;
+        let t1436 = t1435 + platform_rotation[0][2] * parameters.payload_com[2];
+        let t1437 = external_wrench[0] * t1426 - external_wrench[2] * t1436;
+        let t1438 = t1433 - (external_wrench[4] + t1437);
+        let t1439 = platform_acceleration[0] * t647 + platform_acceleration[1] * t652;
+        let t1440 = t1439 + platform_acceleration[2] * t608;
+        let t1441 = t1440 - platform_acceleration[3] * t668;
+        let t1442 = t1441 - platform_acceleration[4] * t678;
+        let t1443 = platform_acceleration[5] * t685 - t1442 - t1400;
+        let t1444 = external_wrench[1] * t1436 - external_wrench[0] * t1423;
+        let t1445 = t1443 - (external_wrench[5] + t1444);
+        // force along the actuator that balances the remaining wrench
+        let axial_reaction = solve_general(
+            &[
+                [t242, t248, t254, t260, t266, t272],
+                [t244, t250, t256, t262, t268, t274],
+                [t246, t252, t258, t264, t270, t276],
+                [t277, t280, t283, t286, t289, t292],
+                [t278, t281, t284, t287, t290, t293],
+                [t279, t282, t285, t288, t291, t294],
+            ],
+            &[t1405, t1410, t1415, t1428, t1438, t1445],
+        );
+        inverse_dynamics[0] = axial_reaction[0];
+        inverse_dynamics[1] = axial_reaction[1];
+        inverse_dynamics[2] = axial_reaction[2];
+        inverse_dynamics[3] = axial_reaction[3];
+        inverse_dynamics[4] = axial_reaction[4];
+        inverse_dynamics[5] = axial_reaction[5];
+    }
+}
+
+/// Actuator forces at reference speeds and accelerations, for passivity-based control, equation (49).
+///
+/// Inputs:
+///
+/// - `base_position`: 3, m, frame O: origin of the base frame.
+/// - `base_rotation`: 3x3, dimensionless, frame B -> O: rotation of the base, equation (2).
+/// - `base_velocity`: 6, m/s, rad/s, frame O: base velocity \[r_b'; w_b\], w_b the angular velocity.
+/// - `base_acceleration`: 6, m/s^2, rad/s^2, frame O: base acceleration \[r_b''; w_b'\].
+/// - `platform_position`: 3, m, frame O: centre of the platform's joint circle.
+/// - `platform_rotation`: 3x3, dimensionless, frame P -> O: rotation of the platform, equation (2).
+/// - `platform_velocity`: 6, m/s, rad/s, frame O: platform velocity \[r_p'; w_p\], the generalised speeds.
+/// - `platform_acceleration`: 6, m/s^2, rad/s^2, frame O: platform acceleration \[r_p''; w_p'\].
+/// - `reference_velocity`: 6, m/s, rad/s, frame O: reference velocity \[r_r'; w_r\] of the platform, for passivity-based control.
+/// - `external_wrench`: 6, N, N m, frame O: external force and moment \[F_D; M_D\] at the payload's centre of mass.
+///
+/// Outputs:
+///
+/// - `passive_inverse_dynamics`: 6, N: actuator forces F at reference speeds, equation (49).
+#[allow(clippy::all, clippy::pedantic, unused_variables)]
+pub fn passive_inverse_dynamics<T: Scalar>(
+    parameters: &Parameters<T>,
+    base_position: &[T; 3],
+    base_rotation: &[[T; 3]; 3],
+    base_velocity: &[T; 6],
+    base_acceleration: &[T; 6],
+    platform_position: &[T; 3],
+    platform_rotation: &[[T; 3]; 3],
+    platform_velocity: &[T; 6],
+    platform_acceleration: &[T; 6],
+    reference_velocity: &[T; 6],
+    external_wrench: &[T; 6],
+    passive_inverse_dynamics: &mut [T; 6],
+) {
+    let c = T::constant;
+    let (
+        t3,
+        t6,
+        t9,
+        t12,
+        t15,
+        t18,
+        t21,
+        t24,
+        t27,
+        t39,
+        t42,
+        t45,
+        t51,
+        t54,
+        t57,
+        t63,
+        t66,
+        t69,
+        t75,
+        t78,
+        t81,
+        t87,
+        t90,
+        t93,
+        t99,
+        t102,
+        t105,
+        t118,
+        t128,
+        t138,
+        t148,
+        t158,
+        t168,
+        t170,
+        t172,
+        t174,
+        t176,
+        t178,
+        t180,
+        t182,
+        t184,
+        t186,
+        t188,
+        t190,
+        t192,
+        t194,
+        t196,
+        t198,
+        t200,
+        t202,
+        t204,
+        t231,
+        t234,
+        t237,
+        t240,
+        t242,
+        t249,
+        t256,
+        t263,
+        t265,
+        t275,
+        t284,
+        t293,
+        t303,
+        t312,
+        t322,
+        t325,
+        t328,
+        t331,
+        t426,
+        t434,
+        t442,
+        t450,
+        t458,
+        t466,
+        t479,
+        t480,
+        t481,
+        t482,
+        t483,
+        t484,
+        t489,
+        t491,
+        t493,
+        t505,
+        t507,
+        t509,
+        t510,
+        t512,
+        t514,
+        t515,
+        t516,
+        t517,
+        t522,
+        t524,
+        t526,
+        t543,
+        t544,
+        t545,
+        t551,
+        t552,
+        t553,
+        t557,
+        t558,
+        t559,
+        t671,
+        t676,
+        t681,
+        t683,
+        t685,
+        t690,
+        t692,
+        t694,
+        t695,
+        t696,
+        t700,
+        t701,
+        t702,
+        t703,
+        t704,
+        t707,
+        t708,
+        t709,
+        t710,
+        t711,
+        t713,
+        t714,
+        t715,
+        t747,
+        t760,
+        t773,
+        t774,
+        t775,
+        t776,
+        t808,
+        t821,
+        t834,
+        t835,
+        t836,
+        t837,
+        t869,
+        t882,
+        t895,
+        t896,
+        t897,
+        t898,
+        t930,
+        t943,
+        t956,
+        t957,
+        t958,
+        t959,
+    ) = {
+        // rotation of the platform seen from the base
+        let t1 = base_rotation[1][0] * platform_rotation[1][0];
+        let t2 = base_rotation[0][0] * platform_rotation[0][0] + t1;
+        let t3 = base_rotation[2][0] * platform_rotation[2][0] + t2;
+        let t4 = base_rotation[1][0] * platform_rotation[1][1];
+        let t5 = base_rotation[0][0] * platform_rotation[0][1] + t4;
+        let t6 = base_rotation[2][0] * platform_rotation[2][1] + t5;
+        let t7 = base_rotation[1][0] * platform_rotation[1][2];
+        let t8 = base_rotation[0][0] * platform_rotation[0][2] + t7;
+        let t9 = base_rotation[2][0] * platform_rotation[2][2] + t8;
+        let t10 = base_rotation[1][1] * platform_rotation[1][0];
+        let t11 = base_rotation[0][1] * platform_rotation[0][0] + t10;
+        let t12 = base_rotation[2][1] * platform_rotation[2][0] + t11;
+        let t13 = base_rotation[1][1] * platform_rotation[1][1];
+        let t14 = base_rotation[0][1] * platform_rotation[0][1] + t13;
+        let t15 = base_rotation[2][1] * platform_rotation[2][1] + t14;
+        let t16 = base_rotation[1][1] * platform_rotation[1][2];
+        let t17 = base_rotation[0][1] * platform_rotation[0][2] + t16;
+        let t18 = base_rotation[2][1] * platform_rotation[2][2] + t17;
+        let t19 = base_rotation[1][2] * platform_rotation[1][0];
+        let t20 = base_rotation[0][2] * platform_rotation[0][0] + t19;
+        let t21 = base_rotation[2][2] * platform_rotation[2][0] + t20;
+        let t22 = base_rotation[1][2] * platform_rotation[1][1];
+        let t23 = base_rotation[0][2] * platform_rotation[0][1] + t22;
+        let t24 = base_rotation[2][2] * platform_rotation[2][1] + t23;
+        let t25 = base_rotation[1][2] * platform_rotation[1][2];
+        let t26 = base_rotation[0][2] * platform_rotation[0][2] + t25;
+        let t27 = base_rotation[2][2] * platform_rotation[2][2] + t26;
+        // platform origin seen from the base
+        let t28 = base_position[2] - platform_position[2];
+        let t29 = base_position[0] - platform_position[0];
+        let t30 = base_position[1] - platform_position[1];
+        let t31 = base_rotation[0][0] * t29 + base_rotation[1][0] * t30;
+        let t32 = base_rotation[2][0] * t28 + t31;
+        let t33 = base_rotation[0][1] * t29 + base_rotation[1][1] * t30;
+        let t34 = base_rotation[2][1] * t28 + t33;
+        let t35 = base_rotation[0][2] * t29 + base_rotation[1][2] * t30;
+        let t36 = base_rotation[2][2] * t28 + t35;
+        // leg 1: platform joint from the platform origin
+        let t37 = parameters.platform_point[0][1] * t6;
+        let t38 = parameters.platform_point[0][0] * t3 + t37;
+        let t39 = parameters.platform_point[0][2] * t9 + t38;
+        let t40 = parameters.platform_point[0][1] * t15;
+        let t41 = parameters.platform_point[0][0] * t12 + t40;
+        let t42 = parameters.platform_point[0][2] * t18 + t41;
+        let t43 = parameters.platform_point[0][1] * t24;
+        let t44 = parameters.platform_point[0][0] * t21 + t43;
+        let t45 = parameters.platform_point[0][2] * t27 + t44;
+        // leg 1: platform joint from the base point
+        let t46 = t39 - (parameters.base_point[0][0] + t32);
+        let t47 = t42 - (parameters.base_point[0][1] + t34);
+        let t48 = t45 - (parameters.base_point[0][2] + t36);
+        // leg 2: platform joint from the platform origin
+        let t49 = parameters.platform_point[1][1] * t6;
+        let t50 = parameters.platform_point[1][0] * t3 + t49;
+        let t51 = parameters.platform_point[1][2] * t9 + t50;
+        let t52 = parameters.platform_point[1][1] * t15;
+        let t53 = parameters.platform_point[1][0] * t12 + t52;
+        let t54 = parameters.platform_point[1][2] * t18 + t53;
+        let t55 = parameters.platform_point[1][1] * t24;
+        let t56 = parameters.platform_point[1][0] * t21 + t55;
+        let t57 = parameters.platform_point[1][2] * t27 + t56;
+        // leg 2: platform joint from the base point
+        let t58 = t51 - (parameters.base_point[1][0] + t32);
+        let t59 = t54 - (parameters.base_point[1][1] + t34);
+        let t60 = t57 - (parameters.base_point[1][2] + t36);
+        // leg 3: platform joint from the platform origin
+        let t61 = parameters.platform_point[2][1] * t6;
+        let t62 = parameters.platform_point[2][0] * t3 + t61;
+        let t63 = parameters.platform_point[2][2] * t9 + t62;
+        let t64 = parameters.platform_point[2][1] * t15;
+        let t65 = parameters.platform_point[2][0] * t12 + t64;
+        let t66 = parameters.platform_point[2][2] * t18 + t65;
+        let t67 = parameters.platform_point[2][1] * t24;
+        let t68 = parameters.platform_point[2][0] * t21 + t67;
+        let t69 = parameters.platform_point[2][2] * t27 + t68;
+        // leg 3: platform joint from the base point
+        let t70 = t63 - (parameters.base_point[2][0] + t32);
+        let t71 = t66 - (parameters.base_point[2][1] + t34);
+        let t72 = t69 - (parameters.base_point[2][2] + t36);
+        // leg 4: platform joint from the platform origin
+        let t73 = parameters.platform_point[3][1] * t6;
+        let t74 = parameters.platform_point[3][0] * t3 + t73;
+        let t75 = parameters.platform_point[3][2] * t9 + t74;
+        let t76 = parameters.platform_point[3][1] * t15;
+        let t77 = parameters.platform_point[3][0] * t12 + t76;
+        let t78 = parameters.platform_point[3][2] * t18 + t77;
+        let t79 = parameters.platform_point[3][1] * t24;
+        let t80 = parameters.platform_point[3][0] * t21 + t79;
+        let t81 = parameters.platform_point[3][2] * t27 + t80;
+        // leg 4: platform joint from the base point
+        let t82 = t75 - (parameters.base_point[3][0] + t32);
+        let t83 = t78 - (parameters.base_point[3][1] + t34);
+        let t84 = t81 - (parameters.base_point[3][2] + t36);
+        // leg 5: platform joint from the platform origin
+        let t85 = parameters.platform_point[4][1] * t6;
+        let t86 = parameters.platform_point[4][0] * t3 + t85;
+        let t87 = parameters.platform_point[4][2] * t9 + t86;
+        let t88 = parameters.platform_point[4][1] * t15;
+        let t89 = parameters.platform_point[4][0] * t12 + t88;
+        let t90 = parameters.platform_point[4][2] * t18 + t89;
+        let t91 = parameters.platform_point[4][1] * t24;
+        let t92 = parameters.platform_point[4][0] * t21 + t91;
+        let t93 = parameters.platform_point[4][2] * t27 + t92;
+        // leg 5: platform joint from the base point
+        let t94 = t87 - (parameters.base_point[4][0] + t32);
+        let t95 = t90 - (parameters.base_point[4][1] + t34);
+        let t96 = t93 - (parameters.base_point[4][2] + t36);
+        // leg 6: platform joint from the platform origin
+        let t97 = parameters.platform_point[5][1] * t6;
+        let t98 = parameters.platform_point[5][0] * t3 + t97;
+        let t99 = parameters.platform_point[5][2] * t9 + t98;
+        let t100 = parameters.platform_point[5][1] * t15;
+        let t101 = parameters.platform_point[5][0] * t12 + t100;
+        let t102 = parameters.platform_point[5][2] * t18 + t101;
+        let t103 = parameters.platform_point[5][1] * t24;
+        let t104 = parameters.platform_point[5][0] * t21 + t103;
+        let t105 = parameters.platform_point[5][2] * t27 + t104;
+        // leg 6: platform joint from the base point
+        let t106 = t99 - (parameters.base_point[5][0] + t32);
+        let t107 = t102 - (parameters.base_point[5][1] + t34);
+        let t108 = t105 - (parameters.base_point[5][2] + t36);
+        // leg 1: offset of the platform joint from the actuator axis
+        let t109 = parameters.actuator_axis[0][1] * t47;
+        let t110 = parameters.actuator_axis[0][0] * t46 + t109;
+        let t111 = parameters.actuator_axis[0][2] * t48 + t110;
+        let t112 = t46 - parameters.actuator_axis[0][0] * t111;
+        let t113 = t47 - parameters.actuator_axis[0][1] * t111;
+        let t114 = t48 - parameters.actuator_axis[0][2] * t111;
+        // leg 1: extent of the rod along the actuator axis
+        let t115 = parameters.rod_length[0] * parameters.rod_length[0];
+        let t116 = sqrt(t115 - t112 * t112 - t113 * t113 - t114 * t114);
+        // leg 1: reciprocal of that extent
+        let t117 = c(1.0) / t116;
+        // leg 1: actuator length d
+        let t118 = t111 - t116;
+        // leg 2: offset of the platform joint from the actuator axis
+        let t119 = parameters.actuator_axis[1][1] * t59;
+        let t120 = parameters.actuator_axis[1][0] * t58 + t119;
+        let t121 = parameters.actuator_axis[1][2] * t60 + t120;
+        let t122 = t58 - parameters.actuator_axis[1][0] * t121;
+        let t123 = t59 - parameters.actuator_axis[1][1] * t121;
+        let t124 = t60 - parameters.actuator_axis[1][2] * t121;
+        // leg 2: extent of the rod along the actuator axis
+        let t125 = parameters.rod_length[1] * parameters.rod_length[1];
+        let t126 = sqrt(t125 - t122 * t122 - t123 * t123 - t124 * t124);
+        // leg 2: reciprocal of that extent
+        let t127 = c(1.0) / t126;
+        // leg 2: actuator length d
+        let t128 = t121 - t126;
+        // leg 3: offset of the platform joint from the actuator axis
+        let t129 = parameters.actuator_axis[2][1] * t71;
+        let t130 = parameters.actuator_axis[2][0] * t70 + t129;
+        let t131 = parameters.actuator_axis[2][2] * t72 + t130;
+        let t132 = t70 - parameters.actuator_axis[2][0] * t131;
+        let t133 = t71 - parameters.actuator_axis[2][1] * t131;
+        let t134 = t72 - parameters.actuator_axis[2][2] * t131;
+        // leg 3: extent of the rod along the actuator axis
+        let t135 = parameters.rod_length[2] * parameters.rod_length[2];
+        let t136 = sqrt(t135 - t132 * t132 - t133 * t133 - t134 * t134);
+        // leg 3: reciprocal of that extent
+        let t137 = c(1.0) / t136;
+        // leg 3: actuator length d
+        let t138 = t131 - t136;
+        // leg 4: offset of the platform joint from the actuator axis
+        let t139 = parameters.actuator_axis[3][1] * t83;
+        let t140 = parameters.actuator_axis[3][0] * t82 + t139;
+        let t141 = parameters.actuator_axis[3][2] * t84 + t140;
+        let t142 = t82 - parameters.actuator_axis[3][0] * t141;
+        let t143 = t83 - parameters.actuator_axis[3][1] * t141;
+        let t144 = t84 - parameters.actuator_axis[3][2] * t141;
+        // leg 4: extent of the rod along the actuator axis
+        let t145 = parameters.rod_length[3] * parameters.rod_length[3];
+        let t146 = sqrt(t145 - t142 * t142 - t143 * t143 - t144 * t144);
+        // leg 4: reciprocal of that extent
+        let t147 = c(1.0) / t146;
+        // leg 4: actuator length d
+        let t148 = t141 - t146;
+        // leg 5: offset of the platform joint from the actuator axis
+        let t149 = parameters.actuator_axis[4][1] * t95;
+        let t150 = parameters.actuator_axis[4][0] * t94 + t149;
+        let t151 = parameters.actuator_axis[4][2] * t96 + t150;
+        let t152 = t94 - parameters.actuator_axis[4][0] * t151;
+        let t153 = t95 - parameters.actuator_axis[4][1] * t151;
+        let t154 = t96 - parameters.actuator_axis[4][2] * t151;
+        // leg 5: extent of the rod along the actuator axis
+        let t155 = parameters.rod_length[4] * parameters.rod_length[4];
+        let t156 = sqrt(t155 - t152 * t152 - t153 * t153 - t154 * t154);
+        // leg 5: reciprocal of that extent
+        let t157 = c(1.0) / t156;
+        // leg 5: actuator length d
+        let t158 = t151 - t156;
+        // leg 6: offset of the platform joint from the actuator axis
+        let t159 = parameters.actuator_axis[5][1] * t107;
+        let t160 = parameters.actuator_axis[5][0] * t106 + t159;
+        let t161 = parameters.actuator_axis[5][2] * t108 + t160;
+        let t162 = t106 - parameters.actuator_axis[5][0] * t161;
+        let t163 = t107 - parameters.actuator_axis[5][1] * t161;
+        let t164 = t108 - parameters.actuator_axis[5][2] * t161;
+        // leg 6: extent of the rod along the actuator axis
+        let t165 = parameters.rod_length[5] * parameters.rod_length[5];
+        let t166 = sqrt(t165 - t162 * t162 - t163 * t163 - t164 * t164);
+        // leg 6: reciprocal of that extent
+        let t167 = c(1.0) / t166;
+        // leg 6: actuator length d
+        let t168 = t161 - t166;
+        // leg 1: gradient of the actuator length by the platform joint
+        let t169 = t112 * t117;
+        let t170 = parameters.actuator_axis[0][0] + t169;
+        let t171 = t113 * t117;
+        let t172 = parameters.actuator_axis[0][1] + t171;
+        let t173 = t114 * t117;
+        let t174 = parameters.actuator_axis[0][2] + t173;
+        // leg 2: gradient of the actuator length by the platform joint
+        let t175 = t122 * t127;
+        let t176 = parameters.actuator_axis[1][0] + t175;
+        let t177 = t123 * t127;
+        let t178 = parameters.actuator_axis[1][1] + t177;
+        let t179 = t124 * t127;
+        let t180 = parameters.actuator_axis[1][2] + t179;
+        // leg 3: gradient of the actuator length by the platform joint
+        let t181 = t132 * t137;
+        let t182 = parameters.actuator_axis[2][0] + t181;
+        let t183 = t133 * t137;
+        let t184 = parameters.actuator_axis[2][1] + t183;
+        let t185 = t134 * t137;
+        let t186 = parameters.actuator_axis[2][2] + t185;
+        // leg 4: gradient of the actuator length by the platform joint
+        let t187 = t142 * t147;
+        let t188 = parameters.actuator_axis[3][0] + t187;
+        let t189 = t143 * t147;
+        let t190 = parameters.actuator_axis[3][1] + t189;
+        let t191 = t144 * t147;
+        let t192 = parameters.actuator_axis[3][2] + t191;
+        // leg 5: gradient of the actuator length by the platform joint
+        let t193 = t152 * t157;
+        let t194 = parameters.actuator_axis[4][0] + t193;
+        let t195 = t153 * t157;
+        let t196 = parameters.actuator_axis[4][1] + t195;
+        let t197 = t154 * t157;
+        let t198 = parameters.actuator_axis[4][2] + t197;
+        // leg 6: gradient of the actuator length by the platform joint
+        let t199 = t162 * t167;
+        let t200 = parameters.actuator_axis[5][0] + t199;
+        let t201 = t163 * t167;
+        let t202 = parameters.actuator_axis[5][1] + t201;
+        let t203 = t164 * t167;
+        let t204 = parameters.actuator_axis[5][2] + t203;
+        // leg 1: rod's end mass at the Hooke joint
+        let t205 = parameters.rod_com_fraction[0] - c(1.0);
+        let t206 = parameters.rod_inertia[0] / t115;
+        let t207 = t205 * (parameters.rod_mass[0] * t205) + t206;
+        // leg 1: leg mass that moves with the platform joint
+        let t208 = parameters.rod_mass[0] * parameters.rod_com_fraction[0];
+        let t209 = t206 + parameters.rod_com_fraction[0] * t208;
+        // leg 1: rod's inertial coupling between its ends
+        let t210 = t206 + t205 * t208;
+        // leg 2: rod's end mass at the Hooke joint
+        let t211 = parameters.rod_com_fraction[1] - c(1.0);
+        let t212 = parameters.rod_inertia[1] / t125;
+        let t213 = t211 * (parameters.rod_mass[1] * t211) + t212;
+        // leg 2: leg mass that moves with the platform joint
+        let t214 = parameters.rod_mass[1] * parameters.rod_com_fraction[1];
+        let t215 = t212 + parameters.rod_com_fraction[1] * t214;
+        // leg 2: rod's inertial coupling between its ends
+        let t216 = t212 + t211 * t214;
+        // leg 3: rod's end mass at the Hooke joint
+        let t217 = parameters.rod_com_fraction[2] - c(1.0);
+        let t218 = parameters.rod_inertia[2] / t135;
+        let t219 = t217 * (parameters.rod_mass[2] * t217) + t218;
+        // leg 3: leg mass that moves with the platform joint
+        let t220 = parameters.rod_mass[2] * parameters.rod_com_fraction[2];
+        let t221 = t218 + parameters.rod_com_fraction[2] * t220;
+        // leg 3: rod's inertial coupling between its ends
+        let t222 = t218 + t217 * t220;
+        // leg 4: rod's end mass at the Hooke joint
+        let t223 = parameters.rod_com_fraction[3] - c(1.0);
+        let t224 = parameters.rod_inertia[3] / t145;
+        let t225 = t223 * (parameters.rod_mass[3] * t223) + t224;
+        // leg 4: leg mass that moves with the platform joint
+        let t226 = parameters.rod_mass[3] * parameters.rod_com_fraction[3];
+        let t227 = t224 + parameters.rod_com_fraction[3] * t226;
+        // leg 4: rod's inertial coupling between its ends
+        let t228 = t224 + t223 * t226;
+        // leg 5: rod's end mass at the Hooke joint
+        let t229 = parameters.rod_com_fraction[4] - c(1.0);
+        let t230 = parameters.rod_inertia[4] / t155;
+        let t231 = t229 * (parameters.rod_mass[4] * t229) + t230;
+        // leg 5: leg mass that moves with the platform joint
+        let t232 = parameters.rod_mass[4] * parameters.rod_com_fraction[4];
+        let t233 = t230 + parameters.rod_com_fraction[4] * t232;
+        // leg 5: rod's inertial coupling between its ends
+        let t234 = t230 + t229 * t232;
+        // leg 6: rod's end mass at the Hooke joint
+        let t235 = parameters.rod_com_fraction[5] - c(1.0);
+        let t236 = parameters.rod_inertia[5] / t165;
+        let t237 = t235 * (parameters.rod_mass[5] * t235) + t236;
+        // leg 6: leg mass that moves with the platform joint
+        let t238 = parameters.rod_mass[5] * parameters.rod_com_fraction[5];
+        let t239 = t236 + parameters.rod_com_fraction[5] * t238;
+        // leg 6: rod's inertial coupling between its ends
+        let t240 = t236 + t235 * t238;
+        // mass of payload and platform-side leg ends
+        let t241 = t233 + (t227 + (t221 + (t215 + (parameters.payload_mass + t209))));
+        let t242 = t239 + t241;
+        // first moment of payload and platform-side leg ends
+        let t243 = parameters.payload_mass * parameters.payload_com[0];
+        let t244 = t243 + parameters.platform_point[0][0] * t209;
+        let t245 = parameters.platform_point[1][0] * t215 + t244;
+        let t246 = parameters.platform_point[2][0] * t221 + t245;
+        let t247 = parameters.platform_point[3][0] * t227 + t246;
+        let t248 = parameters.platform_point[4][0] * t233 + t247;
+        let t249 = parameters.platform_point[5][0] * t239 + t248;
+        let t250 = parameters.payload_mass * parameters.payload_com[1];
+        let t251 = t250 + parameters.platform_point[0][1] * t209;
+        let t252 = parameters.platform_point[1][1] * t215 + t251;
+        let t253 = parameters.platform_point[2][1] * t221 + t252;
+        let t254 = parameters.platform_point[3][1] * t227 + t253;
+        let t255 = parameters.platform_point[4][1] * t233 + t254;
+        let t256 = parameters.platform_point[5][1] * t239 + t255;
+        let t257 = parameters.payload_mass * parameters.payload_com[2];
+        let t258 = t257 + parameters.platform_point[0][2] * t209;
+        let t259 = parameters.platform_point[1][2] * t215 + t258;
+        let t260 = parameters.platform_point[2][2] * t221 + t259;
+        let t261 = parameters.platform_point[3][2] * t227 + t260;
+        let t262 = parameters.platform_point[4][2] * t233 + t261;
+        let t263 = parameters.platform_point[5][2] * t239 + t262;
+        // second moment of payload and platform-side leg ends
+        let t264 = parameters.payload_inertia[0][0] + parameters.payload_inertia[1][1];
+        let t265 = c(0.5) * (parameters.payload_inertia[2][2] + t264);
+        let t266 = t239
+            * (parameters.platform_point[5][0] * parameters.platform_point[5][0]);
+        let t267 = t233
+            * (parameters.platform_point[4][0] * parameters.platform_point[4][0]);
+        let t268 = t227
+            * (parameters.platform_point[3][0] * parameters.platform_point[3][0]);
+        let t269 = t221
+            * (parameters.platform_point[2][0] * parameters.platform_point[2][0]);
+        let t270 = t215
+            * (parameters.platform_point[1][0] * parameters.platform_point[1][0]);
+        let t271 = t209
+            * (parameters.platform_point[0][0] * parameters.platform_point[0][0]);
+        let t272 = parameters.payload_com[0] * parameters.payload_com[0];
+        let t273 = parameters.payload_inertia[0][0] - t265;
+        let t274 = t269 + (t270 + (t271 + (parameters.payload_mass * t272 - t273)));
+        let t275 = t266 + (t267 + (t268 + t274));
+        let t276 = t239
+            * (parameters.platform_point[5][0] * parameters.platform_point[5][1]);
+        let t277 = t233
+            * (parameters.platform_point[4][0] * parameters.platform_point[4][1]);
+        let t278 = t227
+            * (parameters.platform_point[3][0] * parameters.platform_point[3][1]);
+        let t279 = t221
+            * (parameters.platform_point[2][0] * parameters.platform_point[2][1]);
+        let t280 = t215
+            * (parameters.platform_point[1][0] * parameters.platform_point[1][1]);
+        let t281 = t209
+            * (parameters.platform_point[0][0] * parameters.platform_point[0][1]);
+        let t282 = parameters.payload_com[0] * parameters.payload_com[1];
+        let t283 = parameters.payload_inertia[0][1] - parameters.payload_mass * t282;
+        let t284 = t276 + (t277 + (t278 + (t279 + (t280 + (t281 - t283)))));
+        let t285 = t239
+            * (parameters.platform_point[5][0] * parameters.platform_point[5][2]);
+        let t286 = t233
+            * (parameters.platform_point[4][0] * parameters.platform_point[4][2]);
+        let t287 = t227
+            * (parameters.platform_point[3][0] * parameters.platform_point[3][2]);
+        let t288 = t221
+            * (parameters.platform_point[2][0] * parameters.platform_point[2][2]);
+        let t289 = t215
+            * (parameters.platform_point[1][0] * parameters.platform_point[1][2]);
+        let t290 = t209
+            * (parameters.platform_point[0][0] * parameters.platform_point[0][2]);
+        let t291 = parameters.payload_com[0] * parameters.payload_com[2];
+        let t292 = parameters.payload_inertia[0][2] - parameters.payload_mass * t291;
+        let t293 = t285 + (t286 + (t287 + (t288 + (t289 + (t290 - t292)))));
+        let t294 = t239
+            * (parameters.platform_point[5][1] * parameters.platform_point[5][1]);
+        let t295 = t233
+            * (parameters.platform_point[4][1] * parameters.platform_point[4][1]);
+        let t296 = t227
+            * (parameters.platform_point[3][1] * parameters.platform_point[3][1]);
+        let t297 = t221
+            * (parameters.platform_point[2][1] * parameters.platform_point[2][1]);
+        let t298 = t215
+            * (parameters.platform_point[1][1] * parameters.platform_point[1][1]);
+        let t299 = t209
+            * (parameters.platform_point[0][1] * parameters.platform_point[0][1]);
+        let t300 = parameters.payload_com[1] * parameters.payload_com[1];
+        let t301 = parameters.payload_inertia[1][1] - t265;
+        let t302 = t297 + (t298 + (t299 + (parameters.payload_mass * t300 - t301)));
+        let t303 = t294 + (t295 + (t296 + t302));
+        let t304 = t239
+            * (parameters.platform_point[5][1] * parameters.platform_point[5][2]);
+        let t305 = t233
+            * (parameters.platform_point[4][1] * parameters.platform_point[4][2]);
+        let t306 = t227
+            * (parameters.platform_point[3][1] * parameters.platform_point[3][2]);
+        let t307 = t221
+            * (parameters.platform_point[2][1] * parameters.platform_point[2][2]);
+        let t308 = t215
+            * (parameters.platform_point[1][1] * parameters.platform_point[1][2]);
+        let t309 = t209
+            * (parameters.platform_point[0][1] * parameters.platform_point[0][2]);
+        let t310 = parameters.payload_com[1] * parameters.payload_com[2];
+        let t311 = parameters.payload_inertia[1][2] - parameters.payload_mass * t310;
+        let t312 = t304 + (t305 + (t306 + (t307 + (t308 + (t309 - t311)))));
+        let t313 = t239
+            * (parameters.platform_point[5][2] * parameters.platform_point[5][2]);
+        let t314 = t233
+            * (parameters.platform_point[4][2] * parameters.platform_point[4][2]);
+        let t315 = t227
+            * (parameters.platform_point[3][2] * parameters.platform_point[3][2]);
+        let t316 = t221
+            * (parameters.platform_point[2][2] * parameters.platform_point[2][2]);
+        let t317 = t215
+            * (parameters.platform_point[1][2] * parameters.platform_point[1][2]);
+        let t318 = t209
+            * (parameters.platform_point[0][2] * parameters.platform_point[0][2]);
+        let t319 = parameters.payload_com[2] * parameters.payload_com[2];
+        let t320 = parameters.payload_inertia[2][2] - t265;
+        let t321 = t316 + (t317 + (t318 + (parameters.payload_mass * t319 - t320)));
+        let t322 = t313 + (t314 + (t315 + t321));
+        // angular velocity of the base
+        let t323 = base_rotation[1][0] * base_velocity[4];
+        let t324 = base_rotation[0][0] * base_velocity[3] + t323;
+        let t325 = base_rotation[2][0] * base_velocity[5] + t324;
+        let t326 = base_rotation[1][1] * base_velocity[4];
+        let t327 = base_rotation[0][1] * base_velocity[3] + t326;
+        let t328 = base_rotation[2][1] * base_velocity[5] + t327;
+        let t329 = base_rotation[1][2] * base_velocity[4];
+        let t330 = base_rotation[0][2] * base_velocity[3] + t329;
+        let t331 = base_rotation[2][2] * base_velocity[5] + t330;
+        // angular velocity of the platform
+        let t332 = base_rotation[1][0] * platform_velocity[4];
+        let t333 = base_rotation[0][0] * platform_velocity[3] + t332;
+        let t334 = base_rotation[2][0] * platform_velocity[5] + t333;
+        let t335 = base_rotation[1][1] * platform_velocity[4];
+        let t336 = base_rotation[0][1] * platform_velocity[3] + t335;
+        let t337 = base_rotation[2][1] * platform_velocity[5] + t336;
+        let t338 = base_rotation[1][2] * platform_velocity[4];
+        let t339 = base_rotation[0][2] * platform_velocity[3] + t338;
+        let t340 = base_rotation[2][2] * platform_velocity[5] + t339;
+        // angular velocity of the platform relative to the base
+        let t341 = t325 - t334;
+        let t342 = t328 - t337;
+        let t343 = t331 - t340;
+        // velocity of the platform origin relative to the base
+        let t344 = base_velocity[2] - platform_velocity[2];
+        let t345 = base_velocity[0] - platform_velocity[0];
+        let t346 = base_velocity[1] - platform_velocity[1];
+        let t347 = base_rotation[0][0] * t345 + base_rotation[1][0] * t346;
+        let t348 = t36 * t328 - (base_rotation[2][0] * t344 + t347);
+        let t349 = t34 * t331 - t348;
+        let t350 = base_rotation[0][1] * t345 + base_rotation[1][1] * t346;
+        let t351 = t32 * t331 - (base_rotation[2][1] * t344 + t350);
+        let t352 = t36 * t325 - t351;
+        let t353 = base_rotation[0][2] * t345 + base_rotation[1][2] * t346;
+        let t354 = t34 * t325 - (base_rotation[2][2] * t344 + t353);
+        let t355 = t32 * t328 - t354;
+        // rate of the relative rotation
+        let t356 = t21 * t342 - t12 * t343;
+        let t357 = t24 * t342 - t15 * t343;
+        let t358 = t27 * t342 - t18 * t343;
+        let t359 = t3 * t343 - t21 * t341;
+        let t360 = t6 * t343 - t24 * t341;
+        let t361 = t9 * t343 - t27 * t341;
+        let t362 = t12 * t341 - t3 * t342;
+        let t363 = t15 * t341 - t6 * t342;
+        let t364 = t18 * t341 - t9 * t342;
+        // leg 1: velocity of the platform joint relative to the base
+        let t365 = t349 + parameters.platform_point[0][0] * t356;
+        let t366 = parameters.platform_point[0][1] * t357 + t365;
+        let t367 = parameters.platform_point[0][2] * t358 + t366;
+        let t368 = t352 + parameters.platform_point[0][0] * t359;
+        let t369 = parameters.platform_point[0][1] * t360 + t368;
+        let t370 = parameters.platform_point[0][2] * t361 + t369;
+        let t371 = t355 + parameters.platform_point[0][0] * t362;
+        let t372 = parameters.platform_point[0][1] * t363 + t371;
+        let t373 = parameters.platform_point[0][2] * t364 + t372;
+        // leg 2: velocity of the platform joint relative to the base
+        let t374 = t349 + parameters.platform_point[1][0] * t356;
+        let t375 = parameters.platform_point[1][1] * t357 + t374;
+        let t376 = parameters.platform_point[1][2] * t358 + t375;
+        let t377 = t352 + parameters.platform_point[1][0] * t359;
+        let t378 = parameters.platform_point[1][1] * t360 + t377;
+        let t379 = parameters.platform_point[1][2] * t361 + t378;
+        let t380 = t355 + parameters.platform_point[1][0] * t362;
+        let t381 = parameters.platform_point[1][1] * t363 + t380;
+        let t382 = parameters.platform_point[1][2] * t364 + t381;
+        // leg 3: velocity of the platform joint relative to the base
+        let t383 = t349 + parameters.platform_point[2][0] * t356;
+        let t384 = parameters.platform_point[2][1] * t357 + t383;
+        let t385 = parameters.platform_point[2][2] * t358 + t384;
+        let t386 = t352 + parameters.platform_point[2][0] * t359;
+        let t387 = parameters.platform_point[2][1] * t360 + t386;
+        let t388 = parameters.platform_point[2][2] * t361 + t387;
+        let t389 = t355 + parameters.platform_point[2][0] * t362;
+        let t390 = parameters.platform_point[2][1] * t363 + t389;
+        let t391 = parameters.platform_point[2][2] * t364 + t390;
+        // leg 4: velocity of the platform joint relative to the base
+        let t392 = t349 + parameters.platform_point[3][0] * t356;
+        let t393 = parameters.platform_point[3][1] * t357 + t392;
+        let t394 = parameters.platform_point[3][2] * t358 + t393;
+        let t395 = t352 + parameters.platform_point[3][0] * t359;
+        let t396 = parameters.platform_point[3][1] * t360 + t395;
+        let t397 = parameters.platform_point[3][2] * t361 + t396;
+        let t398 = t355 + parameters.platform_point[3][0] * t362;
+        let t399 = parameters.platform_point[3][1] * t363 + t398;
+        let t400 = parameters.platform_point[3][2] * t364 + t399;
+        // leg 5: velocity of the platform joint relative to the base
+        let t401 = t349 + parameters.platform_point[4][0] * t356;
+        let t402 = parameters.platform_point[4][1] * t357 + t401;
+        let t403 = parameters.platform_point[4][2] * t358 + t402;
+        let t404 = t352 + parameters.platform_point[4][0] * t359;
+        let t405 = parameters.platform_point[4][1] * t360 + t404;
+        let t406 = parameters.platform_point[4][2] * t361 + t405;
+        let t407 = t355 + parameters.platform_point[4][0] * t362;
+        let t408 = parameters.platform_point[4][1] * t363 + t407;
+        let t409 = parameters.platform_point[4][2] * t364 + t408;
+        // leg 6: velocity of the platform joint relative to the base
+        let t410 = t349 + parameters.platform_point[5][0] * t356;
+        let t411 = parameters.platform_point[5][1] * t357 + t410;
+        let t412 = parameters.platform_point[5][2] * t358 + t411;
+        let t413 = t352 + parameters.platform_point[5][0] * t359;
+        let t414 = parameters.platform_point[5][1] * t360 + t413;
+        let t415 = parameters.platform_point[5][2] * t361 + t414;
+        let t416 = t355 + parameters.platform_point[5][0] * t362;
+        let t417 = parameters.platform_point[5][1] * t363 + t416;
+        let t418 = parameters.platform_point[5][2] * t364 + t417;
+        // leg 1: rate of the offset from the actuator axis
+        let t419 = parameters.actuator_axis[0][1] * t370;
+        let t420 = parameters.actuator_axis[0][0] * t367 + t419;
+        let t421 = parameters.actuator_axis[0][2] * t373 + t420;
+        let t422 = t367 - parameters.actuator_axis[0][0] * t421;
+        let t423 = t370 - parameters.actuator_axis[0][1] * t421;
+        let t424 = t373 - parameters.actuator_axis[0][2] * t421;
+        // leg 1: rate of the rod's extent along the actuator axis
+        let t425 = t117 * (t114 * t424 + (t112 * t422 + t113 * t423));
+        // leg 1: actuator velocity d'
+        let t426 = t421 + t425;
+        // leg 2: rate of the offset from the actuator axis
+        let t427 = parameters.actuator_axis[1][1] * t379;
+        let t428 = parameters.actuator_axis[1][0] * t376 + t427;
+        let t429 = parameters.actuator_axis[1][2] * t382 + t428;
+        let t430 = t376 - parameters.actuator_axis[1][0] * t429;
+        let t431 = t379 - parameters.actuator_axis[1][1] * t429;
+        let t432 = t382 - parameters.actuator_axis[1][2] * t429;
+        // leg 2: rate of the rod's extent along the actuator axis
+        let t433 = t127 * (t124 * t432 + (t122 * t430 + t123 * t431));
+        // leg 2: actuator velocity d'
+        let t434 = t429 + t433;
+        // leg 3: rate of the offset from the actuator axis
+        let t435 = parameters.actuator_axis[2][1] * t388;
+        let t436 = parameters.actuator_axis[2][0] * t385 + t435;
+        let t437 = parameters.actuator_axis[2][2] * t391 + t436;
+        let t438 = t385 - parameters.actuator_axis[2][0] * t437;
+        let t439 = t388 - parameters.actuator_axis[2][1] * t437;
+        let t440 = t391 - parameters.actuator_axis[2][2] * t437;
+        // leg 3: rate of the rod's extent along the actuator axis
+        let t441 = t137 * (t134 * t440 + (t132 * t438 + t133 * t439));
+        // leg 3: actuator velocity d'
+        let t442 = t437 + t441;
+        // leg 4: rate of the offset from the actuator axis
+        let t443 = parameters.actuator_axis[3][1] * t397;
+        let t444 = parameters.actuator_axis[3][0] * t394 + t443;
+        let t445 = parameters.actuator_axis[3][2] * t400 + t444;
+        let t446 = t394 - parameters.actuator_axis[3][0] * t445;
+        let t447 = t397 - parameters.actuator_axis[3][1] * t445;
+        let t448 = t400 - parameters.actuator_axis[3][2] * t445;
+        // leg 4: rate of the rod's extent along the actuator axis
+        let t449 = t147 * (t144 * t448 + (t142 * t446 + t143 * t447));
+        // leg 4: actuator velocity d'
+        let t450 = t445 + t449;
+        // leg 5: rate of the offset from the actuator axis
+        let t451 = parameters.actuator_axis[4][1] * t406;
+        let t452 = parameters.actuator_axis[4][0] * t403 + t451;
+        let t453 = parameters.actuator_axis[4][2] * t409 + t452;
+        let t454 = t403 - parameters.actuator_axis[4][0] * t453;
+        let t455 = t406 - parameters.actuator_axis[4][1] * t453;
+        let t456 = t409 - parameters.actuator_axis[4][2] * t453;
+        // leg 5: rate of the rod's extent along the actuator axis
+        let t457 = t157 * (t154 * t456 + (t152 * t454 + t153 * t455));
+        // leg 5: actuator velocity d'
+        let t458 = t453 + t457;
+        // leg 6: rate of the offset from the actuator axis
+        let t459 = parameters.actuator_axis[5][1] * t415;
+        let t460 = parameters.actuator_axis[5][0] * t412 + t459;
+        let t461 = parameters.actuator_axis[5][2] * t418 + t460;
+        let t462 = t412 - parameters.actuator_axis[5][0] * t461;
+        let t463 = t415 - parameters.actuator_axis[5][1] * t461;
+        let t464 = t418 - parameters.actuator_axis[5][2] * t461;
+        // leg 6: rate of the rod's extent along the actuator axis
+        let t465 = t167 * (t164 * t464 + (t162 * t462 + t163 * t463));
+        // leg 6: actuator velocity d'
+        let t466 = t461 + t465;
+        // leg 1: inertial rate of that gradient
+        let t467 = t172 * t331 + (t117 * (t422 + t169 * t425) - t174 * t328);
+        let t468 = t174 * t325 + (t117 * (t423 + t171 * t425) - t170 * t331);
+        let t469 = t170 * t328 + (t117 * (t424 + t173 * t425) - t172 * t325);
+        // leg 2: inertial rate of that gradient
+        let t470 = t178 * t331 + (t127 * (t430 + t175 * t433) - t180 * t328);
+        let t471 = t180 * t325 + (t127 * (t431 + t177 * t433) - t176 * t331);
+        let t472 = t176 * t328 + (t127 * (t432 + t179 * t433) - t178 * t325);
+        // leg 3: inertial rate of that gradient
+        let t473 = t184 * t331 + (t137 * (t438 + t181 * t441) - t186 * t328);
+        let t474 = t186 * t325 + (t137 * (t439 + t183 * t441) - t182 * t331);
+        let t475 = t182 * t328 + (t137 * (t440 + t185 * t441) - t184 * t325);
+        // leg 4: inertial rate of that gradient
+        let t476 = t190 * t331 + (t147 * (t446 + t187 * t449) - t192 * t328);
+        let t477 = t192 * t325 + (t147 * (t447 + t189 * t449) - t188 * t331);
+        let t478 = t188 * t328 + (t147 * (t448 + t191 * t449) - t190 * t325);
+        // leg 5: inertial rate of that gradient
+        let t479 = t196 * t331 + (t157 * (t454 + t193 * t457) - t198 * t328);
+        let t480 = t198 * t325 + (t157 * (t455 + t195 * t457) - t194 * t331);
+        let t481 = t194 * t328 + (t157 * (t456 + t197 * t457) - t196 * t325);
+        // leg 6: inertial rate of that gradient
+        let t482 = t202 * t331 + (t167 * (t462 + t199 * t465) - t204 * t328);
+        let t483 = t204 * t325 + (t167 * (t463 + t201 * t465) - t200 * t331);
+        let t484 = t200 * t328 + (t167 * (t464 + t203 * t465) - t202 * t325);
+        // acceleration of the base origin less gravity
+        let t485 = base_acceleration[2] - parameters.gravity[2];
+        let t486 = base_acceleration[0] - parameters.gravity[0];
+        let t487 = base_acceleration[1] - parameters.gravity[1];
+        let t488 = base_rotation[0][0] * t486 + base_rotation[1][0] * t487;
+        let t489 = base_rotation[2][0] * t485 + t488;
+        let t490 = base_rotation[0][1] * t486 + base_rotation[1][1] * t487;
+        let t491 = base_rotation[2][1] * t485 + t490;
+        let t492 = base_rotation[0][2] * t486 + base_rotation[1][2] * t487;
+        let t493 = base_rotation[2][2] * t485 + t492;
+        // angular acceleration of the base
+        let t494 = base_rotation[1][0] * base_acceleration[4];
+        let t495 = base_rotation[0][0] * base_acceleration[3] + t494;
+        let t496 = base_rotation[2][0] * base_acceleration[5] + t495;
+        let t497 = base_rotation[1][1] * base_acceleration[4];
+        let t498 = base_rotation[0][1] * base_acceleration[3] + t497;
+        let t499 = base_rotation[2][1] * base_acceleration[5] + t498;
+        let t500 = base_rotation[1][2] * base_acceleration[4];
+        let t501 = base_rotation[0][2] * base_acceleration[3] + t500;
+        let t502 = base_rotation[2][2] * base_acceleration[5] + t501;
+        // acceleration per base coordinate of points that move with the base
+        let t503 = t328 * t328;
+        let t504 = t331 * t331;
+        let t505 = t503 + t504;
+        let t506 = t325 * t328;
+        let t507 = t502 - t506;
+        let t508 = t325 * t331;
+        let t509 = t499 + t508;
+        let t510 = t502 + t506;
+        let t511 = t325 * t325;
+        let t512 = t504 + t511;
+        let t513 = t328 * t331;
+        let t514 = t496 - t513;
+        let t515 = t499 - t508;
+        let t516 = t496 + t513;
+        let t517 = t503 + t511;
+        // acceleration of the platform origin less gravity
+        let t518 = platform_acceleration[2] - parameters.gravity[2];
+        let t519 = platform_acceleration[0] - parameters.gravity[0];
+        let t520 = platform_acceleration[1] - parameters.gravity[1];
+        let t521 = base_rotation[0][0] * t519 + base_rotation[1][0] * t520;
+        let t522 = base_rotation[2][0] * t518 + t521;
+        let t523 = base_rotation[0][1] * t519 + base_rotation[1][1] * t520;
+        let t524 = base_rotation[2][1] * t518 + t523;
+        let t525 = base_rotation[0][2] * t519 + base_rotation[1][2] * t520;
+        let t526 = base_rotation[2][2] * t518 + t525;
+        // angular acceleration of the platform
+        let t527 = base_rotation[1][0] * platform_acceleration[4];
+        let t528 = base_rotation[0][0] * platform_acceleration[3] + t527;
+        let t529 = base_rotation[2][0] * platform_acceleration[5] + t528;
+        let t530 = base_rotation[1][1] * platform_acceleration[4];
+        let t531 = base_rotation[0][1] * platform_acceleration[3] + t530;
+        let t532 = base_rotation[2][1] * platform_acceleration[5] + t531;
+        let t533 = base_rotation[1][2] * platform_acceleration[4];
+        let t534 = base_rotation[0][2] * platform_acceleration[3] + t533;
+        let t535 = base_rotation[2][2] * platform_acceleration[5] + t534;
+        // acceleration per platform coordinate of points of the platform
+        let t536 = t334 * t340;
+        let t537 = t532 + t536;
+        let t538 = t334 * t337;
+        let t539 = t535 - t538;
+        let t540 = t337 * t337;
+        let t541 = t340 * t340;
+        let t542 = t540 + t541;
+        let t543 = t21 * t537 - (t12 * t539 + t3 * t542);
+        let t544 = t24 * t537 - (t15 * t539 + t6 * t542);
+        let t545 = t27 * t537 - (t18 * t539 + t9 * t542);
+        let t546 = t337 * t340;
+        let t547 = t529 - t546;
+        let t548 = t535 + t538;
+        let t549 = t334 * t334;
+        let t550 = t541 + t549;
+        let t551 = t21 * t547 - (t3 * t548 - t12 * t550);
+        let t552 = t24 * t547 - (t6 * t548 - t15 * t550);
+        let t553 = t27 * t547 - (t9 * t548 - t18 * t550);
+        let t554 = t540 + t549;
+        let t555 = t532 - t536;
+        let t556 = t529 + t546;
+        let t557 = t21 * t554 + (t3 * t555 - t12 * t556);
+        let t558 = t24 * t554 + (t6 * t555 - t15 * t556);
+        let t559 = t27 * t554 + (t9 * t555 - t18 * t556);
+        // acceleration of the platform origin relative to the base
+        let t560 = t36 * t509 - (t34 * t507 + (t32 * t505 + (t489 - t522)));
+        let t561 = t560 + c(2.0) * (t328 * t355 - t331 * t352);
+        let t562 = t36 * t514 + (t34 * t512 - (t32 * t510 - (t491 - t524)));
+        let t563 = t562 - c(2.0) * (t331 * t349 - t325 * t355);
+        let t564 = t36 * t517 - (t34 * t516 - (t32 * t515 + (t493 - t526)));
+        let t565 = t564 - c(2.0) * (t325 * t352 - t328 * t349);
+        // second derivative of the relative rotation
+        let t566 = t341 * t343;
+        let t567 = t325 * t343 - (t331 * t341 - (t499 - t532));
+        let t568 = t566 - t567;
+        let t569 = t341 * t342;
+        let t570 = t328 * t341 - (t325 * t342 - (t502 - t535));
+        let t571 = t569 + t570;
+        let t572 = t342 * t342;
+        let t573 = t343 * t343;
+        let t574 = t572 + t573;
+        let t575 = t21 * t568 + (t12 * t571 - t3 * t574);
+        let t576 = t24 * t568 + (t15 * t571 - t6 * t574);
+        let t577 = t27 * t568 + (t18 * t571 - t9 * t574);
+        let t578 = t342 * t343;
+        let t579 = t331 * t342 - (t328 * t343 - (t496 - t529));
+        let t580 = t578 + t579;
+        let t581 = t569 - t570;
+        let t582 = t341 * t341;
+        let t583 = t573 + t582;
+        let t584 = t21 * t580 + (t3 * t581 - t12 * t583);
+        let t585 = t24 * t580 + (t6 * t581 - t15 * t583);
+        let t586 = t27 * t580 + (t9 * t581 - t18 * t583);
+        let t587 = t572 + t582;
+        let t588 = t566 + t567;
+        let t589 = t578 - t579;
+        let t590 = t21 * t587 - (t3 * t588 + t12 * t589);
+        let t591 = t24 * t587 - (t6 * t588 + t15 * t589);
+        let t592 = t27 * t587 - (t9 * t588 + t18 * t589);
+        // leg 1: acceleration of the platform joint relative to the base
+        let t593 = t561 + parameters.platform_point[0][0] * t575;
+        let t594 = parameters.platform_point[0][1] * t576 + t593;
+        let t595 = parameters.platform_point[0][2] * t577 + t594;
+        let t596 = t563 - parameters.platform_point[0][0] * t584;
+        let t597 = parameters.platform_point[0][1] * t585 - t596;
+        let t598 = parameters.platform_point[0][2] * t586 + t597;
+        let t599 = t565 + parameters.platform_point[0][0] * t590;
+        let t600 = parameters.platform_point[0][1] * t591 + t599;
+        let t601 = parameters.platform_point[0][2] * t592 + t600;
+        // leg 2: acceleration of the platform joint relative to the base
+        let t602 = t561 + parameters.platform_point[1][0] * t575;
+        let t603 = parameters.platform_point[1][1] * t576 + t602;
+        let t604 = parameters.platform_point[1][2] * t577 + t603;
+        let t605 = t563 - parameters.platform_point[1][0] * t584;
+        let t606 = parameters.platform_point[1][1] * t585 - t605;
+        let t607 = parameters.platform_point[1][2] * t586 + t606;
+        let t608 = t565 + parameters.platform_point[1][0] * t590;
+        let t609 = parameters.platform_point[1][1] * t591 + t608;
+        let t610 = parameters.platform_point[1][2] * t592 + t609;
+        // leg 3: acceleration of the platform joint relative to the base
+        let t611 = t561 + parameters.platform_point[2][0] * t575;
+        let t612 = parameters.platform_point[2][1] * t576 + t611;
+        let t613 = parameters.platform_point[2][2] * t577 + t612;
+        let t614 = t563 - parameters.platform_point[2][0] * t584;
+        let t615 = parameters.platform_point[2][1] * t585 - t614;
+        let t616 = parameters.platform_point[2][2] * t586 + t615;
+        let t617 = t565 + parameters.platform_point[2][0] * t590;
+        let t618 = parameters.platform_point[2][1] * t591 + t617;
+        let t619 = parameters.platform_point[2][2] * t592 + t618;
+        // leg 4: acceleration of the platform joint relative to the base
+        let t620 = t561 + parameters.platform_point[3][0] * t575;
+        let t621 = parameters.platform_point[3][1] * t576 + t620;
+        let t622 = parameters.platform_point[3][2] * t577 + t621;
+        let t623 = t563 - parameters.platform_point[3][0] * t584;
+        let t624 = parameters.platform_point[3][1] * t585 - t623;
+        let t625 = parameters.platform_point[3][2] * t586 + t624;
+        let t626 = t565 + parameters.platform_point[3][0] * t590;
+        let t627 = parameters.platform_point[3][1] * t591 + t626;
+        let t628 = parameters.platform_point[3][2] * t592 + t627;
+        // leg 5: acceleration of the platform joint relative to the base
+        let t629 = t561 + parameters.platform_point[4][0] * t575;
+        let t630 = parameters.platform_point[4][1] * t576 + t629;
+        let t631 = parameters.platform_point[4][2] * t577 + t630;
+        let t632 = t563 - parameters.platform_point[4][0] * t584;
+        let t633 = parameters.platform_point[4][1] * t585 - t632;
+        let t634 = parameters.platform_point[4][2] * t586 + t633;
+        let t635 = t565 + parameters.platform_point[4][0] * t590;
+        let t636 = parameters.platform_point[4][1] * t591 + t635;
+        let t637 = parameters.platform_point[4][2] * t592 + t636;
+        // leg 6: acceleration of the platform joint relative to the base
+        let t638 = t561 + parameters.platform_point[5][0] * t575;
+        let t639 = parameters.platform_point[5][1] * t576 + t638;
+        let t640 = parameters.platform_point[5][2] * t577 + t639;
+        let t641 = t563 - parameters.platform_point[5][0] * t584;
+        let t642 = parameters.platform_point[5][1] * t585 - t641;
+        let t643 = parameters.platform_point[5][2] * t586 + t642;
+        let t644 = t565 + parameters.platform_point[5][0] * t590;
+        let t645 = parameters.platform_point[5][1] * t591 + t644;
+        let t646 = parameters.platform_point[5][2] * t592 + t645;
+        // leg 1: actuator acceleration d''
+        let t647 = t112 * t595 + (t424 * t424 + (t422 * t422 + t423 * t423));
+        let t648 = t117 * (t425 * t425 - (t114 * t601 - (t113 * t598 + t647)));
+        let t649 = parameters.actuator_axis[0][1] * t598;
+        let t650 = parameters.actuator_axis[0][0] * t595 + t649;
+        let t651 = t648 - (parameters.actuator_axis[0][2] * t601 - t650);
+        // leg 2: actuator acceleration d''
+        let t652 = t122 * t604 + (t432 * t432 + (t430 * t430 + t431 * t431));
+        let t653 = t127 * (t433 * t433 - (t124 * t610 - (t123 * t607 + t652)));
+        let t654 = parameters.actuator_axis[1][1] * t607;
+        let t655 = parameters.actuator_axis[1][0] * t604 + t654;
+        let t656 = t653 - (parameters.actuator_axis[1][2] * t610 - t655);
+        // leg 3: actuator acceleration d''
+        let t657 = t132 * t613 + (t440 * t440 + (t438 * t438 + t439 * t439));
+        let t658 = t137 * (t441 * t441 - (t134 * t619 - (t133 * t616 + t657)));
+        let t659 = parameters.actuator_axis[2][1] * t616;
+        let t660 = parameters.actuator_axis[2][0] * t613 + t659;
+        let t661 = t658 - (parameters.actuator_axis[2][2] * t619 - t660);
+        // leg 4: actuator acceleration d''
+        let t662 = t142 * t622 + (t448 * t448 + (t446 * t446 + t447 * t447));
+        let t663 = t147 * (t449 * t449 - (t144 * t628 - (t143 * t625 + t662)));
+        let t664 = parameters.actuator_axis[3][1] * t625;
+        let t665 = parameters.actuator_axis[3][0] * t622 + t664;
+        let t666 = t663 - (parameters.actuator_axis[3][2] * t628 - t665);
+        // leg 5: actuator acceleration d''
+        let t667 = t152 * t631 + (t456 * t456 + (t454 * t454 + t455 * t455));
+        let t668 = t157 * (t457 * t457 - (t154 * t637 - (t153 * t634 + t667)));
+        let t669 = parameters.actuator_axis[4][1] * t634;
+        let t670 = parameters.actuator_axis[4][0] * t631 + t669;
+        let t671 = t668 - (parameters.actuator_axis[4][2] * t637 - t670);
+        // leg 6: actuator acceleration d''
+        let t672 = t162 * t640 + (t464 * t464 + (t462 * t462 + t463 * t463));
+        let t673 = t167 * (t465 * t465 - (t164 * t646 - (t163 * t643 + t672)));
+        let t674 = parameters.actuator_axis[5][1] * t643;
+        let t675 = parameters.actuator_axis[5][0] * t640 + t674;
+        let t676 = t673 - (parameters.actuator_axis[5][2] * t646 - t675);
+        // reference less actual velocity of the platform origin
+        let t677 = platform_velocity[2] - reference_velocity[2];
+        let t678 = platform_velocity[0] - reference_velocity[0];
+        let t679 = platform_velocity[1] - reference_velocity[1];
+        let t680 = base_rotation[0][0] * t678 + base_rotation[1][0] * t679;
+        let t681 = base_rotation[2][0] * t677 + t680;
+        let t682 = base_rotation[0][1] * t678 + base_rotation[1][1] * t679;
+        let t683 = base_rotation[2][1] * t677 + t682;
+        let t684 = base_rotation[0][2] * t678 + base_rotation[1][2] * t679;
+        let t685 = base_rotation[2][2] * t677 + t684;
+        // reference less actual angular velocity of the platform
+        let t686 = platform_velocity[5] - reference_velocity[5];
+        let t687 = platform_velocity[3] - reference_velocity[3];
+        let t688 = platform_velocity[4] - reference_velocity[4];
+        let t689 = base_rotation[0][0] * t687 + base_rotation[1][0] * t688;
+        let t690 = base_rotation[2][0] * t686 + t689;
+        let t691 = base_rotation[0][1] * t687 + base_rotation[1][1] * t688;
+        let t692 = base_rotation[2][1] * t686 + t691;
+        let t693 = base_rotation[0][2] * t687 + base_rotation[1][2] * t688;
+        let t694 = base_rotation[2][2] * t686 + t693;
+        // what that adds to the acceleration per platform coordinate
+        let t695 = t334 * t692;
+        let t696 = t334 * t694;
+        let t697 = t340 * t694;
+        let t698 = t337 * t692;
+        let t699 = t697 + t698;
+        let t700 = t21 * t696 + (t12 * t695 - t3 * t699);
+        let t701 = t24 * t696 + (t15 * t695 - t6 * t699);
+        let t702 = t27 * t696 + (t18 * t695 - t9 * t699);
+        let t703 = t337 * t690;
+        let t704 = t337 * t694;
+        let t705 = t334 * t690;
+        let t706 = t697 + t705;
+        let t707 = t21 * t704 + (t3 * t703 - t12 * t706);
+        let t708 = t24 * t704 + (t6 * t703 - t15 * t706);
+        let t709 = t27 * t704 + (t9 * t703 - t18 * t706);
+        let t710 = t340 * t690;
+        let t711 = t340 * t692;
+        let t712 = t698 + t705;
+        let t713 = t21 * t712 - (t3 * t710 + t12 * t711);
+        let t714 = t24 * t712 - (t6 * t710 + t15 * t711);
+        let t715 = t27 * t712 - (t9 * t710 + t18 * t711);
+        // leg 1: leg inertia less weight along the actuator
+        let t716 = c(2.0) * t426;
+        let t717 = parameters.actuator_axis[0][1] * t331;
+        let t718 = parameters.actuator_axis[0][2] * t328 - t717;
+        let t719 = parameters.base_point[0][2] + parameters.actuator_axis[0][2] * t118;
+        let t720 = parameters.base_point[0][1] + parameters.actuator_axis[0][1] * t118;
+        let t721 = parameters.base_point[0][0] + parameters.actuator_axis[0][0] * t118;
+        let t722 = t509 * t719 - (t507 * t720 - (t489 - t505 * t721));
+        let t723 = parameters.actuator_axis[0][0] * t651 - (t716 * t718 - t722);
+        let t724 = parameters.platform_point[0][1] * t714;
+        let t725 = parameters.platform_point[0][0] * t713 + t724;
+        let t726 = parameters.platform_point[0][2] * t715 + t725;
+        let t727 = parameters.platform_point[0][1] * t708;
+        let t728 = parameters.platform_point[0][0] * t707 + t727;
+        let t729 = parameters.platform_point[0][2] * t709 + t728;
+        let t730 = parameters.platform_point[0][1] * t701;
+        let t731 = parameters.platform_point[0][0] * t700 + t730;
+        let t732 = parameters.platform_point[0][2] * t702 + t731;
+        let t733 = t39 * t692 - (t685 + t42 * t690);
+        let t734 = t42 * t694 - (t681 + t45 * t692);
+        let t735 = t45 * t690 - (t683 + t39 * t694);
+        let t736 = t170 * t732 + (t469 * t733 + (t467 * t734 + t468 * t735));
+        let t737 = t174 * t726 - (t172 * t729 + t736);
+        let t738 = t174 * t733 + (t170 * t734 + t172 * t735);
+        let t739 = t723 + (parameters.actuator_axis[0][0] * t737 + t718 * t738);
+        let t740 = parameters.actuator_axis[0][1] * t507;
+        let t741 = parameters.actuator_axis[0][0] * t505 + t740;
+        let t742 = parameters.actuator_axis[0][2] * t509 - t741;
+        let t743 = parameters.mover_mass[0] * (t739 - parameters.mover_offset[0] * t742);
+        let t744 = parameters.platform_point[0][0] * t543 + (t522 - t732);
+        let t745 = parameters.platform_point[0][1] * t544 + t744;
+        let t746 = t210 * (parameters.platform_point[0][2] * t545 + t745);
+        let t747 = parameters.actuator_axis[0][0] * (t743 + (t207 * t739 - t746));
+        let t748 = parameters.actuator_axis[0][2] * t325;
+        let t749 = parameters.actuator_axis[0][0] * t331 - t748;
+        let t750 = t514 * t719 + (t512 * t720 - (t491 + t510 * t721));
+        let t751 = parameters.actuator_axis[0][1] * t651 - (t716 * t749 + t750);
+        let t752 = t751 + (parameters.actuator_axis[0][1] * t737 + t738 * t749);
+        let t753 = parameters.actuator_axis[0][1] * t512;
+        let t754 = parameters.actuator_axis[0][0] * t510 - t753;
+        let t755 = parameters.actuator_axis[0][2] * t514 - t754;
+        let t756 = parameters.mover_mass[0] * (t752 + parameters.mover_offset[0] * t755);
+        let t757 = parameters.platform_point[0][0] * t551 - (t524 - t729);
+        let t758 = parameters.platform_point[0][1] * t552 + t757;
+        let t759 = t210 * (parameters.platform_point[0][2] * t553 + t758);
+        let t760 = parameters.actuator_axis[0][1] * (t756 + (t207 * t752 + t759));
+        let t761 = parameters.actuator_axis[0][0] * t328;
+        let t762 = parameters.actuator_axis[0][1] * t325 - t761;
+        let t763 = t517 * t719 - (t516 * t720 + (t493 - t515 * t721));
+        let t764 = parameters.actuator_axis[0][2] * t651 - (t716 * t762 + t763);
+        let t765 = t764 + (parameters.actuator_axis[0][2] * t737 + t738 * t762);
+        let t766 = parameters.actuator_axis[0][1] * t516;
+        let t767 = parameters.actuator_axis[0][0] * t515 - t766;
+        let t768 = parameters.actuator_axis[0][2] * t517 + t767;
+        let t769 = parameters.mover_mass[0] * (t765 + parameters.mover_offset[0] * t768);
+        let t770 = parameters.platform_point[0][0] * t557 - (t526 + t726);
+        let t771 = parameters.platform_point[0][1] * t558 + t770;
+        let t772 = t210 * (parameters.platform_point[0][2] * t559 + t771);
+        let t773 = parameters.actuator_axis[0][2] * (t769 + (t207 * t765 + t772));
+        // leg 1: remaining leg inertia less weight at the platform joint
+        let t774 = t210 * t739;
+        let t775 = t210 * t752;
+        let t776 = t210 * t765;
+        // leg 2: leg inertia less weight along the actuator
+        let t777 = c(2.0) * t434;
+        let t778 = parameters.actuator_axis[1][1] * t331;
+        let t779 = parameters.actuator_axis[1][2] * t328 - t778;
+        let t780 = parameters.base_point[1][2] + parameters.actuator_axis[1][2] * t128;
+        let t781 = parameters.base_point[1][1] + parameters.actuator_axis[1][1] * t128;
+        let t782 = parameters.base_point[1][0] + parameters.actuator_axis[1][0] * t128;
+        let t783 = t509 * t780 - (t507 * t781 - (t489 - t505 * t782));
+        let t784 = parameters.actuator_axis[1][0] * t656 - (t777 * t779 - t783);
+        let t785 = parameters.platform_point[1][1] * t714;
+        let t786 = parameters.platform_point[1][0] * t713 + t785;
+        let t787 = parameters.platform_point[1][2] * t715 + t786;
+        let t788 = parameters.platform_point[1][1] * t708;
+        let t789 = parameters.platform_point[1][0] * t707 + t788;
+        let t790 = parameters.platform_point[1][2] * t709 + t789;
+        let t791 = parameters.platform_point[1][1] * t701;
+        let t792 = parameters.platform_point[1][0] * t700 + t791;
+        let t793 = parameters.platform_point[1][2] * t702 + t792;
+        let t794 = t51 * t692 - (t685 + t54 * t690);
+        let t795 = t54 * t694 - (t681 + t57 * t692);
+        let t796 = t57 * t690 - (t683 + t51 * t694);
+        let t797 = t176 * t793 + (t472 * t794 + (t470 * t795 + t471 * t796));
+        let t798 = t180 * t787 - (t178 * t790 + t797);
+        let t799 = t180 * t794 + (t176 * t795 + t178 * t796);
+        let t800 = t784 + (parameters.actuator_axis[1][0] * t798 + t779 * t799);
+        let t801 = parameters.actuator_axis[1][1] * t507;
+        let t802 = parameters.actuator_axis[1][0] * t505 + t801;
+        let t803 = parameters.actuator_axis[1][2] * t509 - t802;
+        let t804 = parameters.mover_mass[1] * (t800 - parameters.mover_offset[1] * t803);
+        let t805 = parameters.platform_point[1][0] * t543 + (t522 - t793);
+        let t806 = parameters.platform_point[1][1] * t544 + t805;
+        let t807 = t216 * (parameters.platform_point[1][2] * t545 + t806);
+        let t808 = parameters.actuator_axis[1][0] * (t804 + (t213 * t800 - t807));
+        let t809 = parameters.actuator_axis[1][2] * t325;
+        let t810 = parameters.actuator_axis[1][0] * t331 - t809;
+        let t811 = t514 * t780 + (t512 * t781 - (t491 + t510 * t782));
+        let t812 = parameters.actuator_axis[1][1] * t656 - (t777 * t810 + t811);
+        let t813 = t812 + (parameters.actuator_axis[1][1] * t798 + t799 * t810);
+        let t814 = parameters.actuator_axis[1][1] * t512;
+        let t815 = parameters.actuator_axis[1][0] * t510 - t814;
+        let t816 = parameters.actuator_axis[1][2] * t514 - t815;
+        let t817 = parameters.mover_mass[1] * (t813 + parameters.mover_offset[1] * t816);
+        let t818 = parameters.platform_point[1][0] * t551 - (t524 - t790);
+        let t819 = parameters.platform_point[1][1] * t552 + t818;
+        let t820 = t216 * (parameters.platform_point[1][2] * t553 + t819);
+        let t821 = parameters.actuator_axis[1][1] * (t817 + (t213 * t813 + t820));
+        let t822 = parameters.actuator_axis[1][0] * t328;
+        let t823 = parameters.actuator_axis[1][1] * t325 - t822;
+        let t824 = t517 * t780 - (t516 * t781 + (t493 - t515 * t782));
+        let t825 = parameters.actuator_axis[1][2] * t656 - (t777 * t823 + t824);
+        let t826 = t825 + (parameters.actuator_axis[1][2] * t798 + t799 * t823);
+        let t827 = parameters.actuator_axis[1][1] * t516;
+        let t828 = parameters.actuator_axis[1][0] * t515 - t827;
+        let t829 = parameters.actuator_axis[1][2] * t517 + t828;
+        let t830 = parameters.mover_mass[1] * (t826 + parameters.mover_offset[1] * t829);
+        let t831 = parameters.platform_point[1][0] * t557 - (t526 + t787);
+        let t832 = parameters.platform_point[1][1] * t558 + t831;
+        let t833 = t216 * (parameters.platform_point[1][2] * t559 + t832);
+        let t834 = parameters.actuator_axis[1][2] * (t830 + (t213 * t826 + t833));
+        // leg 2: remaining leg inertia less weight at the platform joint
+        let t835 = t216 * t800;
+        let t836 = t216 * t813;
+        let t837 = t216 * t826;
+        // leg 3: leg inertia less weight along the actuator
+        let t838 = c(2.0) * t442;
+        let t839 = parameters.actuator_axis[2][1] * t331;
+        let t840 = parameters.actuator_axis[2][2] * t328 - t839;
+        let t841 = parameters.base_point[2][2] + parameters.actuator_axis[2][2] * t138;
+        let t842 = parameters.base_point[2][1] + parameters.actuator_axis[2][1] * t138;
+        let t843 = parameters.base_point[2][0] + parameters.actuator_axis[2][0] * t138;
+        let t844 = t509 * t841 - (t507 * t842 - (t489 - t505 * t843));
+        let t845 = parameters.actuator_axis[2][0] * t661 - (t838 * t840 - t844);
+        let t846 = parameters.platform_point[2][1] * t714;
+        let t847 = parameters.platform_point[2][0] * t713 + t846;
+        let t848 = parameters.platform_point[2][2] * t715 + t847;
+        let t849 = parameters.platform_point[2][1] * t708;
+        let t850 = parameters.platform_point[2][0] * t707 + t849;
+        let t851 = parameters.platform_point[2][2] * t709 + t850;
+        let t852 = parameters.platform_point[2][1] * t701;
+        let t853 = parameters.platform_point[2][0] * t700 + t852;
+        let t854 = parameters.platform_point[2][2] * t702 + t853;
+        let t855 = t63 * t692 - (t685 + t66 * t690);
+        let t856 = t66 * t694 - (t681 + t69 * t692);
+        let t857 = t69 * t690 - (t683 + t63 * t694);
+        let t858 = t182 * t854 + (t475 * t855 + (t473 * t856 + t474 * t857));
+        let t859 = t186 * t848 - (t184 * t851 + t858);
+        let t860 = t186 * t855 + (t182 * t856 + t184 * t857);
+        let t861 = t845 + (parameters.actuator_axis[2][0] * t859 + t840 * t860);
+        let t862 = parameters.actuator_axis[2][1] * t507;
+        let t863 = parameters.actuator_axis[2][0] * t505 + t862;
+        let t864 = parameters.actuator_axis[2][2] * t509 - t863;
+        let t865 = parameters.mover_mass[2] * (t861 - parameters.mover_offset[2] * t864);
+        let t866 = parameters.platform_point[2][0] * t543 + (t522 - t854);
+        let t867 = parameters.platform_point[2][1] * t544 + t866;
+        let t868 = t222 * (parameters.platform_point[2][2] * t545 + t867);
+        let t869 = parameters.actuator_axis[2][0] * (t865 + (t219 * t861 - t868));
+        let t870 = parameters.actuator_axis[2][2] * t325;
+        let t871 = parameters.actuator_axis[2][0] * t331 - t870;
+        let t872 = t514 * t841 + (t512 * t842 - (t491 + t510 * t843));
+        let t873 = parameters.actuator_axis[2][1] * t661 - (t838 * t871 + t872);
+        let t874 = t873 + (parameters.actuator_axis[2][1] * t859 + t860 * t871);
+        let t875 = parameters.actuator_axis[2][1] * t512;
+        let t876 = parameters.actuator_axis[2][0] * t510 - t875;
+        let t877 = parameters.actuator_axis[2][2] * t514 - t876;
+        let t878 = parameters.mover_mass[2] * (t874 + parameters.mover_offset[2] * t877);
+        let t879 = parameters.platform_point[2][0] * t551 - (t524 - t851);
+        let t880 = parameters.platform_point[2][1] * t552 + t879;
+        let t881 = t222 * (parameters.platform_point[2][2] * t553 + t880);
+        let t882 = parameters.actuator_axis[2][1] * (t878 + (t219 * t874 + t881));
+        let t883 = parameters.actuator_axis[2][0] * t328;
+        let t884 = parameters.actuator_axis[2][1] * t325 - t883;
+        let t885 = t517 * t841 - (t516 * t842 + (t493 - t515 * t843));
+        let t886 = parameters.actuator_axis[2][2] * t661 - (t838 * t884 + t885);
+        let t887 = t886 + (parameters.actuator_axis[2][2] * t859 + t860 * t884);
+        let t888 = parameters.actuator_axis[2][1] * t516;
+        let t889 = parameters.actuator_axis[2][0] * t515 - t888;
+        let t890 = parameters.actuator_axis[2][2] * t517 + t889;
+        let t891 = parameters.mover_mass[2] * (t887 + parameters.mover_offset[2] * t890);
+        let t892 = parameters.platform_point[2][0] * t557 - (t526 + t848);
+        let t893 = parameters.platform_point[2][1] * t558 + t892;
+        let t894 = t222 * (parameters.platform_point[2][2] * t559 + t893);
+        let t895 = parameters.actuator_axis[2][2] * (t891 + (t219 * t887 + t894));
+        // leg 3: remaining leg inertia less weight at the platform joint
+        let t896 = t222 * t861;
+        let t897 = t222 * t874;
+        let t898 = t222 * t887;
+        // leg 4: leg inertia less weight along the actuator
+        let t899 = c(2.0) * t450;
+        let t900 = parameters.actuator_axis[3][1] * t331;
+        let t901 = parameters.actuator_axis[3][2] * t328 - t900;
+        let t902 = parameters.base_point[3][2] + parameters.actuator_axis[3][2] * t148;
+        let t903 = parameters.base_point[3][1] + parameters.actuator_axis[3][1] * t148;
+        let t904 = parameters.base_point[3][0] + parameters.actuator_axis[3][0] * t148;
+        let t905 = t509 * t902 - (t507 * t903 - (t489 - t505 * t904));
+        let t906 = parameters.actuator_axis[3][0] * t666 - (t899 * t901 - t905);
+        let t907 = parameters.platform_point[3][1] * t714;
+        let t908 = parameters.platform_point[3][0] * t713 + t907;
+        let t909 = parameters.platform_point[3][2] * t715 + t908;
+        let t910 = parameters.platform_point[3][1] * t708;
+        let t911 = parameters.platform_point[3][0] * t707 + t910;
+        let t912 = parameters.platform_point[3][2] * t709 + t911;
+        let t913 = parameters.platform_point[3][1] * t701;
+        let t914 = parameters.platform_point[3][0] * t700 + t913;
+        let t915 = parameters.platform_point[3][2] * t702 + t914;
+        let t916 = t75 * t692 - (t685 + t78 * t690);
+        let t917 = t78 * t694 - (t681 + t81 * t692);
+        let t918 = t81 * t690 - (t683 + t75 * t694);
+        let t919 = t188 * t915 + (t478 * t916 + (t476 * t917 + t477 * t918));
+        let t920 = t192 * t909 - (t190 * t912 + t919);
+        let t921 = t192 * t916 + (t188 * t917 + t190 * t918);
+        let t922 = t906 + (parameters.actuator_axis[3][0] * t920 + t901 * t921);
+        let t923 = parameters.actuator_axis[3][1] * t507;
+        let t924 = parameters.actuator_axis[3][0] * t505 + t923;
+        let t925 = parameters.actuator_axis[3][2] * t509 - t924;
+        let t926 = parameters.mover_mass[3] * (t922 - parameters.mover_offset[3] * t925);
+        let t927 = parameters.platform_point[3][0] * t543 + (t522 - t915);
+        let t928 = parameters.platform_point[3][1] * t544 + t927;
+        let t929 = t228 * (parameters.platform_point[3][2] * t545 + t928);
+        let t930 = parameters.actuator_axis[3][0] * (t926 + (t225 * t922 - t929));
+        let t931 = parameters.actuator_axis[3][2] * t325;
+        let t932 = parameters.actuator_axis[3][0] * t331 - t931;
+        let t933 = t514 * t902 + (t512 * t903 - (t491 + t510 * t904));
+        let t934 = parameters.actuator_axis[3][1] * t666 - (t899 * t932 + t933);
+        let t935 = t934 + (parameters.actuator_axis[3][1] * t920 + t921 * t932);
+        let t936 = parameters.actuator_axis[3][1] * t512;
+        let t937 = parameters.actuator_axis[3][0] * t510 - t936;
+        let t938 = parameters.actuator_axis[3][2] * t514 - t937;
+        let t939 = parameters.mover_mass[3] * (t935 + parameters.mover_offset[3] * t938);
+        let t940 = parameters.platform_point[3][0] * t551 - (t524 - t912);
+        let t941 = parameters.platform_point[3][1] * t552 + t940;
+        let t942 = t228 * (parameters.platform_point[3][2] * t553 + t941);
+        let t943 = parameters.actuator_axis[3][1] * (t939 + (t225 * t935 + t942));
+        let t944 = parameters.actuator_axis[3][0] * t328;
+        let t945 = parameters.actuator_axis[3][1] * t325 - t944;
+        let t946 = t517 * t902 - (t516 * t903 + (t493 - t515 * t904));
+        let t947 = parameters.actuator_axis[3][2] * t666 - (t899 * t945 + t946);
+        let t948 = t947 + (parameters.actuator_axis[3][2] * t920 + t921 * t945);
+        let t949 = parameters.actuator_axis[3][1] * t516;
+        let t950 = parameters.actuator_axis[3][0] * t515 - t949;
+        let t951 = parameters.actuator_axis[3][2] * t517 + t950;
+        let t952 = parameters.mover_mass[3] * (t948 + parameters.mover_offset[3] * t951);
+        let t953 = parameters.platform_point[3][0] * t557 - (t526 + t909);
+        let t954 = parameters.platform_point[3][1] * t558 + t953;
+        let t955 = t228 * (parameters.platform_point[3][2] * t559 + t954);
+        let t956 = parameters.actuator_axis[3][2] * (t952 + (t225 * t948 + t955));
+        // leg 4: remaining leg inertia less weight at the platform joint
+        let t957 = t228 * t922;
+        let t958 = t228 * t935;
+        let t959 = t228 * t948;
+        (
+            t3,
+            t6,
+            t9,
+            t12,
+            t15,
+            t18,
+            t21,
+            t24,
+            t27,
+            t39,
+            t42,
+            t45,
+            t51,
+            t54,
+            t57,
+            t63,
+            t66,
+            t69,
+            t75,
+            t78,
+            t81,
+            t87,
+            t90,
+            t93,
+            t99,
+            t102,
+            t105,
+            t118,
+            t128,
+            t138,
+            t148,
+            t158,
+            t168,
+            t170,
+            t172,
+            t174,
+            t176,
+            t178,
+            t180,
+            t182,
+            t184,
+            t186,
+            t188,
+            t190,
+            t192,
+            t194,
+            t196,
+            t198,
+            t200,
+            t202,
+            t204,
+            t231,
+            t234,
+            t237,
+            t240,
+            t242,
+            t249,
+            t256,
+            t263,
+            t265,
+            t275,
+            t284,
+            t293,
+            t303,
+            t312,
+            t322,
+            t325,
+            t328,
+            t331,
+            t426,
+            t434,
+            t442,
+            t450,
+            t458,
+            t466,
+            t479,
+            t480,
+            t481,
+            t482,
+            t483,
+            t484,
+            t489,
+            t491,
+            t493,
+            t505,
+            t507,
+            t509,
+            t510,
+            t512,
+            t514,
+            t515,
+            t516,
+            t517,
+            t522,
+            t524,
+            t526,
+            t543,
+            t544,
+            t545,
+            t551,
+            t552,
+            t553,
+            t557,
+            t558,
+            t559,
+            t671,
+            t676,
+            t681,
+            t683,
+            t685,
+            t690,
+            t692,
+            t694,
+            t695,
+            t696,
+            t700,
+            t701,
+            t702,
+            t703,
+            t704,
+            t707,
+            t708,
+            t709,
+            t710,
+            t711,
+            t713,
+            t714,
+            t715,
+            t747,
+            t760,
+            t773,
+            t774,
+            t775,
+            t776,
+            t808,
+            t821,
+            t834,
+            t835,
+            t836,
+            t837,
+            t869,
+            t882,
+            t895,
+            t896,
+            t897,
+            t898,
+            t930,
+            t943,
+            t956,
+            t957,
+            t958,
+            t959,
+        )
+    };
+    {
+        // leg 5: leg inertia less weight along the actuator
+        let t960 = c(2.0) * t458;
+        let t961 = parameters.actuator_axis[4][1] * t331;
+        let t962 = parameters.actuator_axis[4][2] * t328 - t961;
+        let t963 = parameters.base_point[4][2] + parameters.actuator_axis[4][2] * t158;
+        let t964 = parameters.base_point[4][1] + parameters.actuator_axis[4][1] * t158;
+        let t965 = parameters.base_point[4][0] + parameters.actuator_axis[4][0] * t158;
+        let t966 = t509 * t963 - (t507 * t964 - (t489 - t505 * t965));
+        let t967 = parameters.actuator_axis[4][0] * t671 - (t960 * t962 - t966);
+        let t968 = parameters.platform_point[4][1] * t714;
+        let t969 = parameters.platform_point[4][0] * t713 + t968;
+        let t970 = parameters.platform_point[4][2] * t715 + t969;
+        let t971 = parameters.platform_point[4][1] * t708;
+        let t972 = parameters.platform_point[4][0] * t707 + t971;
+        let t973 = parameters.platform_point[4][2] * t709 + t972;
+        let t974 = parameters.platform_point[4][1] * t701;
+        let t975 = parameters.platform_point[4][0] * t700 + t974;
+        let t976 = parameters.platform_point[4][2] * t702 + t975;
+        let t977 = t87 * t692 - (t685 + t90 * t690);
+        let t978 = t90 * t694 - (t681 + t93 * t692);
+        let t979 = t93 * t690 - (t683 + t87 * t694);
+        let t980 = t194 * t976 + (t481 * t977 + (t479 * t978 + t480 * t979));
+        let t981 = t198 * t970 - (t196 * t973 + t980);
+        let t982 = t198 * t977 + (t194 * t978 + t196 * t979);
+        let t983 = t967 + (parameters.actuator_axis[4][0] * t981 + t962 * t982);
+        let t984 = parameters.actuator_axis[4][1] * t507;
+        let t985 = parameters.actuator_axis[4][0] * t505 + t984;
+        let t986 = parameters.actuator_axis[4][2] * t509 - t985;
+        let t987 = parameters.mover_mass[4] * (t983 - parameters.mover_offset[4] * t986);
+        let t988 = parameters.platform_point[4][0] * t543 + (t522 - t976);
+        let t989 = parameters.platform_point[4][1] * t544 + t988;
+        let t990 = t234 * (parameters.platform_point[4][2] * t545 + t989);
+        let t991 = parameters.actuator_axis[4][0] * (t987 + (t231 * t983 - t990));
+        let t992 = parameters.actuator_axis[4][2] * t325;
+        let t993 = parameters.actuator_axis[4][0] * t331 - t992;
+        let t994 = t514 * t963 + (t512 * t964 - (t491 + t510 * t965));
+        let t995 = parameters.actuator_axis[4][1] * t671 - (t960 * t993 + t994);
+        let t996 = t995 + (parameters.actuator_axis[4][1] * t981 + t982 * t993);
+        let t997 = parameters.actuator_axis[4][1] * t512;
+        let t998 = parameters.actuator_axis[4][0] * t510 - t997;
+        let t999 = parameters.actuator_axis[4][2] * t514 - t998;
+        let t1000 = parameters.mover_mass[4]
+            * (t996 + parameters.mover_offset[4] * t999);
+        let t1001 = parameters.platform_point[4][0] * t551 - (t524 - t973);
+        let t1002 = parameters.platform_point[4][1] * t552 + t1001;
+        let t1003 = t234 * (parameters.platform_point[4][2] * t553 + t1002);
+        let t1004 = parameters.actuator_axis[4][1] * (t1000 + (t231 * t996 + t1003));
+        let t1005 = parameters.actuator_axis[4][0] * t328;
+        let t1006 = parameters.actuator_axis[4][1] * t325 - t1005;
+        let t1007 = t517 * t963 - (t516 * t964 + (t493 - t515 * t965));
+        let t1008 = parameters.actuator_axis[4][2] * t671 - (t960 * t1006 + t1007);
+        let t1009 = t1008 + (parameters.actuator_axis[4][2] * t981 + t982 * t1006);
+        let t1010 = parameters.actuator_axis[4][1] * t516;
+        let t1011 = parameters.actuator_axis[4][0] * t515 - t1010;
+        let t1012 = parameters.actuator_axis[4][2] * t517 + t1011;
+        let t1013 = parameters.mover_mass[4]
+            * (t1009 + parameters.mover_offset[4] * t1012);
+        let t1014 = parameters.platform_point[4][0] * t557 - (t526 + t970);
+        let t1015 = parameters.platform_point[4][1] * t558 + t1014;
+        let t1016 = t234 * (parameters.platform_point[4][2] * t559 + t1015);
+        let t1017 = parameters.actuator_axis[4][2] * (t1013 + (t231 * t1009 + t1016));
+        // leg 5: remaining leg inertia less weight at the platform joint
+        let t1018 = t234 * t983;
+        let t1019 = t234 * t996;
+        let t1020 = t234 * t1009;
+        // leg 6: leg inertia less weight along the actuator
+        let t1021 = c(2.0) * t466;
+        let t1022 = parameters.actuator_axis[5][1] * t331;
+        let t1023 = parameters.actuator_axis[5][2] * t328 - t1022;
+        let t1024 = parameters.base_point[5][2] + parameters.actuator_axis[5][2] * t168;
+        let t1025 = parameters.base_point[5][1] + parameters.actuator_axis[5][1] * t168;
+        let t1026 = parameters.base_point[5][0] + parameters.actuator_axis[5][0] * t168;
+        let t1027 = t509 * t1024 - (t507 * t1025 - (t489 - t505 * t1026));
+        let t1028 = parameters.actuator_axis[5][0] * t676 - (t1021 * t1023 - t1027);
+        let t1029 = parameters.platform_point[5][1] * t714;
+        let t1030 = parameters.platform_point[5][0] * t713 + t1029;
+        let t1031 = parameters.platform_point[5][2] * t715 + t1030;
+        let t1032 = parameters.platform_point[5][1] * t708;
+        let t1033 = parameters.platform_point[5][0] * t707 + t1032;
+        let t1034 = parameters.platform_point[5][2] * t709 + t1033;
+        let t1035 = parameters.platform_point[5][1] * t701;
+        let t1036 = parameters.platform_point[5][0] * t700 + t1035;
+        let t1037 = parameters.platform_point[5][2] * t702 + t1036;
+        let t1038 = t99 * t692 - (t685 + t102 * t690);
+        let t1039 = t102 * t694 - (t681 + t105 * t692);
+        let t1040 = t105 * t690 - (t683 + t99 * t694);
+        let t1041 = t200 * t1037 + (t484 * t1038 + (t482 * t1039 + t483 * t1040));
+        let t1042 = t204 * t1031 - (t202 * t1034 + t1041);
+        let t1043 = t204 * t1038 + (t200 * t1039 + t202 * t1040);
+        let t1044 = t1028 + (parameters.actuator_axis[5][0] * t1042 + t1023 * t1043);
+        let t1045 = parameters.actuator_axis[5][1] * t507;
+        let t1046 = parameters.actuator_axis[5][0] * t505 + t1045;
+        let t1047 = parameters.actuator_axis[5][2] * t509 - t1046;
+        let t1048 = parameters.mover_mass[5]
+            * (t1044 - parameters.mover_offset[5] * t1047);
+        let t1049 = parameters.platform_point[5][0] * t543 + (t522 - t1037);
+        let t1050 = parameters.platform_point[5][1] * t544 + t1049;
+        let t1051 = t240 * (parameters.platform_point[5][2] * t545 + t1050);
+        let t1052 = parameters.actuator_axis[5][0] * (t1048 + (t237 * t1044 - t1051));
+        let t1053 = parameters.actuator_axis[5][2] * t325;
+        let t1054 = parameters.actuator_axis[5][0] * t331 - t1053;
+        let t1055 = t514 * t1024 + (t512 * t1025 - (t491 + t510 * t1026));
+        let t1056 = parameters.actuator_axis[5][1] * t676 - (t1021 * t1054 + t1055);
+        let t1057 = t1056 + (parameters.actuator_axis[5][1] * t1042 + t1043 * t1054);
+        let t1058 = parameters.actuator_axis[5][1] * t512;
+        let t1059 = parameters.actuator_axis[5][0] * t510 - t1058;
+        let t1060 = parameters.actuator_axis[5][2] * t514 - t1059;
+        let t1061 = parameters.mover_mass[5]
+            * (t1057 + parameters.mover_offset[5] * t1060);
+        let t1062 = parameters.platform_point[5][0] * t551 - (t524 - t1034);
+        let t1063 = parameters.platform_point[5][1] * t552 + t1062;
+        let t1064 = t240 * (parameters.platform_point[5][2] * t553 + t1063);
+        let t1065 = parameters.actuator_axis[5][1] * (t1061 + (t237 * t1057 + t1064));
+        let t1066 = parameters.actuator_axis[5][0] * t328;
+        let t1067 = parameters.actuator_axis[5][1] * t325 - t1066;
+        let t1068 = t517 * t1024 - (t516 * t1025 + (t493 - t515 * t1026));
+        let t1069 = parameters.actuator_axis[5][2] * t676 - (t1021 * t1067 + t1068);
+        let t1070 = t1069 + (parameters.actuator_axis[5][2] * t1042 + t1043 * t1067);
+        let t1071 = parameters.actuator_axis[5][1] * t516;
+        let t1072 = parameters.actuator_axis[5][0] * t515 - t1071;
+        let t1073 = parameters.actuator_axis[5][2] * t517 + t1072;
+        let t1074 = parameters.mover_mass[5]
+            * (t1070 + parameters.mover_offset[5] * t1073);
+        let t1075 = parameters.platform_point[5][0] * t557 - (t526 + t1031);
+        let t1076 = parameters.platform_point[5][1] * t558 + t1075;
+        let t1077 = t240 * (parameters.platform_point[5][2] * t559 + t1076);
+        let t1078 = parameters.actuator_axis[5][2] * (t1074 + (t237 * t1070 + t1077));
+        // leg 6: remaining leg inertia less weight at the platform joint
+        let t1079 = t240 * t1044;
+        let t1080 = t240 * t1057;
+        let t1081 = t240 * t1070;
+        // leg 1: spring and damper force along the actuator
+        let t1082 = parameters.axial_stiffness[0] * (parameters.rest_length[0] - t118);
+        let t1083 = parameters.axial_damping[0] * t426;
+        // leg 2: spring and damper force along the actuator
+        let t1084 = parameters.axial_stiffness[1] * (parameters.rest_length[1] - t128);
+        let t1085 = parameters.axial_damping[1] * t434;
+        // leg 3: spring and damper force along the actuator
+        let t1086 = parameters.axial_stiffness[2] * (parameters.rest_length[2] - t138);
+        let t1087 = parameters.axial_damping[2] * t442;
+        // leg 4: spring and damper force along the actuator
+        let t1088 = parameters.axial_stiffness[3] * (parameters.rest_length[3] - t148);
+        let t1089 = parameters.axial_damping[3] * t450;
+        // leg 5: spring and damper force along the actuator
+        let t1090 = parameters.axial_stiffness[4] * (parameters.rest_length[4] - t158);
+        let t1091 = parameters.axial_damping[4] * t458;
+        // leg 6: spring and damper force along the actuator
+        let t1092 = parameters.axial_stiffness[5] * (parameters.rest_length[5] - t168);
+        let t1093 = parameters.axial_damping[5] * t466;
+        // leg 1: row of the actuator Jacobian in base coordinates
+        let t1094 = t42 * t174 - t45 * t172;
+        let t1095 = t45 * t170 - t39 * t174;
+        let t1096 = t39 * t172 - t42 * t170;
+        // leg 2: row of the actuator Jacobian in base coordinates
+        let t1097 = t54 * t180 - t57 * t178;
+        let t1098 = t57 * t176 - t51 * t180;
+        let t1099 = t51 * t178 - t54 * t176;
+        // leg 3: row of the actuator Jacobian in base coordinates
+        let t1100 = t66 * t186 - t69 * t184;
+        let t1101 = t69 * t182 - t63 * t186;
+        let t1102 = t63 * t184 - t66 * t182;
+        // leg 4: row of the actuator Jacobian in base coordinates
+        let t1103 = t78 * t192 - t81 * t190;
+        let t1104 = t81 * t188 - t75 * t192;
+        let t1105 = t75 * t190 - t78 * t188;
+        // leg 5: row of the actuator Jacobian in base coordinates
+        let t1106 = t90 * t198 - t93 * t196;
+        let t1107 = t93 * t194 - t87 * t198;
+        let t1108 = t87 * t196 - t90 * t194;
+        // leg 6: row of the actuator Jacobian in base coordinates
+        let t1109 = t102 * t204 - t105 * t202;
+        let t1110 = t105 * t200 - t99 * t204;
+        let t1111 = t99 * t202 - t102 * t200;
+        // inertia force less weight, without the actuators' own shares
+        let t1112 = t242 * t522;
+        let t1113 = t249 * t543;
+        let t1114 = t256 * t544;
+        let t1115 = t263 * t545;
+        let t1116 = t242 * t524;
+        let t1117 = t249 * t551;
+        let t1118 = t256 * t552;
+        let t1119 = t263 * t553;
+        let t1120 = t242 * t526;
+        let t1121 = t249 * t557;
+        let t1122 = t256 * t558;
+        let t1123 = t263 * t559;
+        // its first moments by platform coordinate
+        let t1124 = t249 * t522;
+        let t1125 = t275 * t543;
+        let t1126 = t284 * t544;
+        let t1127 = t293 * t545;
+        let t1128 = parameters.platform_point[0][0] * t774;
+        let t1129 = parameters.platform_point[1][0] * t835;
+        let t1130 = parameters.platform_point[2][0] * t896;
+        let t1131 = parameters.platform_point[3][0] * t957;
+        let t1132 = parameters.platform_point[4][0] * t1018;
+        let t1133 = parameters.platform_point[5][0] * t1079;
+        let t1134 = t256 * t522;
+        let t1135 = t284 * t543;
+        let t1136 = t303 * t544;
+        let t1137 = t312 * t545;
+        let t1138 = parameters.platform_point[0][1] * t774;
+        let t1139 = parameters.platform_point[1][1] * t835;
+        let t1140 = parameters.platform_point[2][1] * t896;
+        let t1141 = parameters.platform_point[3][1] * t957;
+        let t1142 = parameters.platform_point[4][1] * t1018;
+        let t1143 = parameters.platform_point[5][1] * t1079;
+        let t1144 = t263 * t522;
+        let t1145 = t293 * t543;
+        let t1146 = t312 * t544;
+        let t1147 = t322 * t545;
+        let t1148 = parameters.platform_point[0][2] * t774;
+        let t1149 = parameters.platform_point[1][2] * t835;
+        let t1150 = parameters.platform_point[2][2] * t896;
+        let t1151 = parameters.platform_point[3][2] * t957;
+        let t1152 = parameters.platform_point[4][2] * t1018;
+        let t1153 = parameters.platform_point[5][2] * t1079;
+        let t1154 = t249 * t524;
+        let t1155 = t275 * t551;
+        let t1156 = t284 * t552;
+        let t1157 = t293 * t553;
+        let t1158 = parameters.platform_point[0][0] * t775;
+        let t1159 = parameters.platform_point[1][0] * t836;
+        let t1160 = parameters.platform_point[2][0] * t897;
+        let t1161 = parameters.platform_point[3][0] * t958;
+        let t1162 = parameters.platform_point[4][0] * t1019;
+        let t1163 = parameters.platform_point[5][0] * t1080;
+        let t1164 = t256 * t524;
+        let t1165 = t284 * t551;
+        let t1166 = t303 * t552;
+        let t1167 = t312 * t553;
+        let t1168 = parameters.platform_point[0][1] * t775;
+        let t1169 = parameters.platform_point[1][1] * t836;
+        let t1170 = parameters.platform_point[2][1] * t897;
+        let t1171 = parameters.platform_point[3][1] * t958;
+        let t1172 = parameters.platform_point[4][1] * t1019;
+        let t1173 = parameters.platform_point[5][1] * t1080;
+        let t1174 = t263 * t524;
+        let t1175 = t293 * t551;
+        let t1176 = t312 * t552;
+        let t1177 = t322 * t553;
+        let t1178 = parameters.platform_point[0][2] * t775;
+        let t1179 = parameters.platform_point[1][2] * t836;
+        let t1180 = parameters.platform_point[2][2] * t897;
+        let t1181 = parameters.platform_point[3][2] * t958;
+        let t1182 = parameters.platform_point[4][2] * t1019;
+        let t1183 = parameters.platform_point[5][2] * t1080;
+        let t1184 = t249 * t526;
+        let t1185 = t275 * t557;
+        let t1186 = t284 * t558;
+        let t1187 = t293 * t559;
+        let t1188 = parameters.platform_point[0][0] * t776;
+        let t1189 = parameters.platform_point[1][0] * t837;
+        let t1190 = parameters.platform_point[2][0] * t898;
+        let t1191 = parameters.platform_point[3][0] * t959;
+        let t1192 = parameters.platform_point[4][0] * t1020;
+        let t1193 = parameters.platform_point[5][0] * t1081;
+        let t1194 = t256 * t526;
+        let t1195 = t284 * t557;
+        let t1196 = t303 * t558;
+        let t1197 = t312 * t559;
+        let t1198 = parameters.platform_point[0][1] * t776;
+        let t1199 = parameters.platform_point[1][1] * t837;
+        let t1200 = parameters.platform_point[2][1] * t898;
+        let t1201 = parameters.platform_point[3][1] * t959;
+        let t1202 = parameters.platform_point[4][1] * t1020;
+        let t1203 = parameters.platform_point[5][1] * t1081;
+        let t1204 = t263 * t526;
+        let t1205 = t293 * t557;
+        let t1206 = t312 * t558;
+        let t1207 = t322 * t559;
+        let t1208 = parameters.platform_point[0][2] * t776;
+        let t1209 = parameters.platform_point[1][2] * t837;
+        let t1210 = parameters.platform_point[2][2] * t898;
+        let t1211 = parameters.platform_point[3][2] * t959;
+        let t1212 = parameters.platform_point[4][2] * t1020;
+        let t1213 = parameters.platform_point[5][2] * t1081;
+        // inertia less external wrench that the actuators must balance
+        let t1214 = t1113
+            + (t1112 - (t1079 + (t1018 + (t957 + (t896 + (t774 + t835))))));
+        let t1215 = t1115 + (t1114 + t1214) - t249 * t700 - t256 * t701;
+        let t1216 = base_rotation[1][0] * external_wrench[1];
+        let t1217 = base_rotation[0][0] * external_wrench[0] + t1216;
+        let t1218 = base_rotation[2][0] * external_wrench[2] + t1217;
+        let t1219 = t1215 - t263 * t702 - t1218;
+        let t1220 = t1116 - (t1080 + (t1019 + (t958 + (t897 + (t775 + t836))))) - t1117;
+        let t1221 = t1220 - t1118 - t1119 - t249 * t707 - t256 * t708;
+        let t1222 = base_rotation[1][1] * external_wrench[1];
+        let t1223 = base_rotation[0][1] * external_wrench[0] + t1222;
+        let t1224 = base_rotation[2][1] * external_wrench[2] + t1223;
+        let t1225 = t1221 - t263 * t709 - t1224;
+        let t1226 = t1121
+            - (t1120 - (t1081 + (t1020 + (t959 + (t898 + (t776 + t837))))));
+        let t1227 = t256 * t714 + (t249 * t713 - (t1123 + (t1122 + t1226)));
+        let t1228 = base_rotation[1][2] * external_wrench[1];
+        let t1229 = base_rotation[0][2] * external_wrench[0] + t1228;
+        let t1230 = base_rotation[2][2] * external_wrench[2] + t1229;
+        let t1231 = t263 * t715 + t1227 - t1230;
+        let t1232 = t1181
+            + (t1180 + (t1179 + (t1178 + (t1177 + (t1176 - (t1174 - t1175))))));
+        let t1233 = t312 * t708 + (t293 * t707 + (t1183 + (t1182 + t1232)));
+        let t1234 = parameters.payload_com[2] * t1224 + (t322 * t709 + t1233);
+        let t1235 = t1211
+            + (t1210 + (t1209 + (t1208 + (t1207 + (t1206 - (t1204 - t1205))))));
+        let t1236 = t312 * t714 + (t293 * t713 - (t1213 + (t1212 + t1235)));
+        let t1237 = parameters.payload_com[2] * t1230 - (t322 * t715 + t1236);
+        let t1238 = t1171
+            + (t1170 + (t1169 + (t1168 + (t1167 + (t1166 - (t1164 - t1165))))));
+        let t1239 = t303 * t708 + (t284 * t707 + (t1173 + (t1172 + t1238)));
+        let t1240 = parameters.payload_com[1] * t1224 + (t312 * t709 + t1239);
+        let t1241 = t1201
+            + (t1200 + (t1199 + (t1198 + (t1197 + (t1196 - (t1194 - t1195))))));
+        let t1242 = t303 * t714 + (t284 * t713 - (t1203 + (t1202 + t1241)));
+        let t1243 = parameters.payload_com[1] * t1230 - (t312 * t715 + t1242);
+        let t1244 = t1191
+            + (t1190 + (t1189 + (t1188 + (t1187 + (t1186 - (t1184 - t1185))))));
+        let t1245 = t284 * t714 + (t275 * t713 - (t1193 + (t1192 + t1244)));
+        let t1246 = parameters.payload_com[0] * t1230 - (t293 * t715 + t1245);
+        let t1247 = t1161
+            + (t1160 + (t1159 + (t1158 + (t1157 + (t1156 - (t1154 - t1155))))));
+        let t1248 = t284 * t708 + (t275 * t707 + (t1163 + (t1162 + t1247)));
+        let t1249 = parameters.payload_com[0] * t1224 + (t293 * t709 + t1248);
+        let t1250 = t24 * t1240 - (t15 * t1243 + (t12 * t1246 - t21 * t1249));
+        let t1251 = t27 * t1234 - (t18 * t1237 - t1250) - t265 * (t704 - t711);
+        let t1252 = t1251 - base_rotation[0][0] * external_wrench[3];
+        let t1253 = t1252 - base_rotation[1][0] * external_wrench[4];
+        let t1254 = t1253 - base_rotation[2][0] * external_wrench[5];
+        let t1255 = t1151
+            + (t1150 + (t1149 + (t1148 - (t1147 + (t1146 + (t1144 + t1145))))));
+        let t1256 = t312 * t701 + (t293 * t700 + (t1153 + (t1152 + t1255)));
+        let t1257 = parameters.payload_com[2] * t1218 + (t322 * t702 + t1256);
+        let t1258 = t1141
+            + (t1140 + (t1139 + (t1138 - (t1137 + (t1136 + (t1134 + t1135))))));
+        let t1259 = t303 * t701 + (t284 * t700 + (t1143 + (t1142 + t1258)));
+        let t1260 = parameters.payload_com[1] * t1218 + (t312 * t702 + t1259);
+        let t1261 = t1131
+            + (t1130 + (t1129 + (t1128 - (t1127 + (t1126 + (t1124 + t1125))))));
+        let t1262 = t284 * t701 + (t275 * t700 + (t1133 + (t1132 + t1261)));
+        let t1263 = parameters.payload_com[0] * t1218 + (t293 * t702 + t1262);
+        let t1264 = t6 * t1243 - (t24 * t1260 + (t21 * t1263 - t3 * t1246));
+        let t1265 = t265 * (t696 - t710) + (t9 * t1237 - (t27 * t1257 - t1264));
+        let t1266 = t1265 - base_rotation[0][1] * external_wrench[3];
+        let t1267 = t1266 - base_rotation[1][1] * external_wrench[4];
+        let t1268 = t1267 - base_rotation[2][1] * external_wrench[5];
+        let t1269 = t15 * t1260 - (t6 * t1240 + (t3 * t1249 - t12 * t1263));
+        let t1270 = t18 * t1257 - (t9 * t1234 - t1269) - t265 * (t695 - t703);
+        let t1271 = t1270 - base_rotation[0][2] * external_wrench[3];
+        let t1272 = t1271 - base_rotation[1][2] * external_wrench[4];
+        let t1273 = t1272 - base_rotation[2][2] * external_wrench[5];
+        // force along the actuator that balances the remaining wrench
+        let axial_reaction = solve_general(
+            &[
+                [t170, t176, t182, t188, t194, t200],
+                [t172, t178, t184, t190, t196, t202],
+                [t174, t180, t186, t192, t198, t204],
+                [t1094, t1097, t1100, t1103, t1106, t1109],
+                [t1095, t1098, t1101, t1104, t1107, t1110],
+                [t1096, t1099, t1102, t1105, t1108, t1111],
+            ],
+            &[t1219, t1225, t1231, t1254, t1268, t1273],
+        );
+        // leg 1: actuator forces F at reference speeds
+        passive_inverse_dynamics[0] = axial_reaction[0]
+            - (t1083 + (t1082 - (t773 + (t747 + t760))));
+        // leg 2: actuator forces F at reference speeds
+        passive_inverse_dynamics[1] = axial_reaction[1]
+            - (t1085 + (t1084 - (t834 + (t808 + t821))));
+        // leg 3: actuator forces F at reference speeds
+        passive_inverse_dynamics[2] = axial_reaction[2]
+            - (t1087 + (t1086 - (t895 + (t869 + t882))));
+        // leg 4: actuator forces F at reference speeds
+        passive_inverse_dynamics[3] = axial_reaction[3]
+            - (t1089 + (t1088 - (t956 + (t930 + t943))));
+        // leg 5: actuator forces F at reference speeds
+        passive_inverse_dynamics[4] = axial_reaction[4]
+            - (t1091 + (t1090 - (t1017 + (t991 + t1004))));
+        // leg 6: actuator forces F at reference speeds
+        passive_inverse_dynamics[5] = axial_reaction[5]
+            - (t1093 + (t1092 - (t1078 + (t1052 + t1065))));
+    }
+}
+
+/// Wrench of the base on the mechanism.
+///
+/// Inputs:
+///
+/// - `base_position`: 3, m, frame O: origin of the base frame.
+/// - `base_rotation`: 3x3, dimensionless, frame B -> O: rotation of the base, equation (2).
+/// - `base_velocity`: 6, m/s, rad/s, frame O: base velocity \[r_b'; w_b\], w_b the angular velocity.
+/// - `base_acceleration`: 6, m/s^2, rad/s^2, frame O: base acceleration \[r_b''; w_b'\].
+/// - `platform_position`: 3, m, frame O: centre of the platform's joint circle.
+/// - `platform_rotation`: 3x3, dimensionless, frame P -> O: rotation of the platform, equation (2).
+/// - `platform_velocity`: 6, m/s, rad/s, frame O: platform velocity \[r_p'; w_p\], the generalised speeds.
+/// - `platform_acceleration`: 6, m/s^2, rad/s^2, frame O: platform acceleration \[r_p''; w_p'\].
+/// - `external_wrench`: 6, N, N m, frame O: external force and moment \[F_D; M_D\] at the payload's centre of mass.
+///
+/// Outputs:
+///
+/// - `base_wrench`: 6, N, N m, frame O: wrench of the base on the mechanism, moments about the base origin.
+#[allow(clippy::all, clippy::pedantic, unused_variables)]
+pub fn base_reaction<T: Scalar>(
+    parameters: &Parameters<T>,
+    base_position: &[T; 3],
+    base_rotation: &[[T; 3]; 3],
+    base_velocity: &[T; 6],
+    base_acceleration: &[T; 6],
+    platform_position: &[T; 3],
+    platform_rotation: &[[T; 3]; 3],
+    platform_velocity: &[T; 6],
+    platform_acceleration: &[T; 6],
+    external_wrench: &[T; 6],
+    base_wrench: &mut [T; 6],
+) {
+    let c = T::constant;
+    let (
+        t3,
+        t6,
+        t9,
+        t12,
+        t15,
+        t18,
+        t21,
+        t24,
+        t27,
+        t32,
+        t34,
+        t36,
+        t206,
+        t213,
+        t220,
+        t227,
+        t239,
+        t248,
+        t257,
+        t267,
+        t276,
+        t286,
+        t468,
+        t470,
+        t472,
+        t489,
+        t490,
+        t491,
+        t497,
+        t498,
+        t499,
+        t503,
+        t504,
+        t505,
+        t646,
+        t660,
+        t674,
+        t680,
+        t684,
+        t686,
+        t704,
+        t718,
+        t732,
+        t738,
+        t742,
+        t744,
+        t762,
+        t776,
+        t790,
+        t796,
+        t800,
+        t802,
+        t820,
+        t834,
+        t848,
+        t854,
+        t858,
+        t860,
+        t878,
+        t892,
+        t906,
+        t912,
+        t916,
+        t918,
+        t936,
+        t950,
+        t964,
+        t970,
+        t974,
+        t976,
+    ) = {
+        // rotation of the platform seen from the base
+        let t1 = base_rotation[1][0] * platform_rotation[1][0];
+        let t2 = base_rotation[0][0] * platform_rotation[0][0] + t1;
+        let t3 = t2 + base_rotation[2][0] * platform_rotation[2][0];
+        let t4 = base_rotation[1][0] * platform_rotation[1][1];
+        let t5 = base_rotation[0][0] * platform_rotation[0][1] + t4;
+        let t6 = t5 + base_rotation[2][0] * platform_rotation[2][1];
+        let t7 = base_rotation[1][0] * platform_rotation[1][2];
+        let t8 = base_rotation[0][0] * platform_rotation[0][2] + t7;
+        let t9 = t8 + base_rotation[2][0] * platform_rotation[2][2];
+        let t10 = base_rotation[1][1] * platform_rotation[1][0];
+        let t11 = base_rotation[0][1] * platform_rotation[0][0] + t10;
+        let t12 = t11 + base_rotation[2][1] * platform_rotation[2][0];
+        let t13 = base_rotation[1][1] * platform_rotation[1][1];
+        let t14 = base_rotation[0][1] * platform_rotation[0][1] + t13;
+        let t15 = t14 + base_rotation[2][1] * platform_rotation[2][1];
+        let t16 = base_rotation[1][1] * platform_rotation[1][2];
+        let t17 = base_rotation[0][1] * platform_rotation[0][2] + t16;
+        let t18 = t17 + base_rotation[2][1] * platform_rotation[2][2];
+        let t19 = base_rotation[1][2] * platform_rotation[1][0];
+        let t20 = base_rotation[0][2] * platform_rotation[0][0] + t19;
+        let t21 = t20 + base_rotation[2][2] * platform_rotation[2][0];
+        let t22 = base_rotation[1][2] * platform_rotation[1][1];
+        let t23 = base_rotation[0][2] * platform_rotation[0][1] + t22;
+        let t24 = t23 + base_rotation[2][2] * platform_rotation[2][1];
+        let t25 = base_rotation[1][2] * platform_rotation[1][2];
+        let t26 = base_rotation[0][2] * platform_rotation[0][2] + t25;
+        let t27 = t26 + base_rotation[2][2] * platform_rotation[2][2];
+        // platform origin seen from the base
+        let t28 = base_position[0] - platform_position[0];
+        let t29 = base_position[1] - platform_position[1];
+        let t30 = base_rotation[0][0] * t28 + base_rotation[1][0] * t29;
+        let t31 = base_position[2] - platform_position[2];
+        let t32 = t30 + base_rotation[2][0] * t31;
+        let t33 = base_rotation[0][1] * t28 + base_rotation[1][1] * t29;
+        let t34 = t33 + base_rotation[2][1] * t31;
+        let t35 = base_rotation[0][2] * t28 + base_rotation[1][2] * t29;
+        let t36 = t35 + base_rotation[2][2] * t31;
+        // leg 1: platform joint from the platform origin
+        let t37 = parameters.platform_point[0][1] * t6;
+        let t38 = parameters.platform_point[0][0] * t3 + t37;
+        let t39 = t38 + parameters.platform_point[0][2] * t9;
+        let t40 = parameters.platform_point[0][1] * t15;
+        let t41 = parameters.platform_point[0][0] * t12 + t40;
+        let t42 = t41 + parameters.platform_point[0][2] * t18;
+        let t43 = parameters.platform_point[0][1] * t24;
+        let t44 = parameters.platform_point[0][0] * t21 + t43;
+        let t45 = t44 + parameters.platform_point[0][2] * t27;
+        // leg 1: platform joint from the base point
+        let t46 = parameters.base_point[0][0] + (t32 - t39);
+        let t47 = parameters.base_point[0][1] + (t34 - t42);
+        let t48 = parameters.base_point[0][2] + (t36 - t45);
+        // leg 2: platform joint from the platform origin
+        let t49 = parameters.platform_point[1][1] * t6;
+        let t50 = parameters.platform_point[1][0] * t3 + t49;
+        let t51 = t50 + parameters.platform_point[1][2] * t9;
+        let t52 = parameters.platform_point[1][1] * t15;
+        let t53 = parameters.platform_point[1][0] * t12 + t52;
+        let t54 = t53 + parameters.platform_point[1][2] * t18;
+        let t55 = parameters.platform_point[1][1] * t24;
+        let t56 = parameters.platform_point[1][0] * t21 + t55;
+        let t57 = t56 + parameters.platform_point[1][2] * t27;
+        // leg 2: platform joint from the base point
+        let t58 = parameters.base_point[1][0] + (t32 - t51);
+        let t59 = parameters.base_point[1][1] + (t34 - t54);
+        let t60 = parameters.base_point[1][2] + (t36 - t57);
+        // leg 3: platform joint from the platform origin
+        let t61 = parameters.platform_point[2][1] * t6;
+        let t62 = parameters.platform_point[2][0] * t3 + t61;
+        let t63 = t62 + parameters.platform_point[2][2] * t9;
+        let t64 = parameters.platform_point[2][1] * t15;
+        let t65 = parameters.platform_point[2][0] * t12 + t64;
+        let t66 = t65 + parameters.platform_point[2][2] * t18;
+        let t67 = parameters.platform_point[2][1] * t24;
+        let t68 = parameters.platform_point[2][0] * t21 + t67;
+        let t69 = t68 + parameters.platform_point[2][2] * t27;
+        // leg 3: platform joint from the base point
+        let t70 = parameters.base_point[2][0] + (t32 - t63);
+        let t71 = parameters.base_point[2][1] + (t34 - t66);
+        let t72 = parameters.base_point[2][2] + (t36 - t69);
+        // leg 4: platform joint from the platform origin
+        let t73 = parameters.platform_point[3][1] * t6;
+        let t74 = parameters.platform_point[3][0] * t3 + t73;
+        let t75 = t74 + parameters.platform_point[3][2] * t9;
+        let t76 = parameters.platform_point[3][1] * t15;
+        let t77 = parameters.platform_point[3][0] * t12 + t76;
+        let t78 = t77 + parameters.platform_point[3][2] * t18;
+        let t79 = parameters.platform_point[3][1] * t24;
+        let t80 = parameters.platform_point[3][0] * t21 + t79;
+        let t81 = t80 + parameters.platform_point[3][2] * t27;
+        // leg 4: platform joint from the base point
+        let t82 = parameters.base_point[3][0] + (t32 - t75);
+        let t83 = parameters.base_point[3][1] + (t34 - t78);
+        let t84 = parameters.base_point[3][2] + (t36 - t81);
+        // leg 5: platform joint from the platform origin
+        let t85 = parameters.platform_point[4][1] * t6;
+        let t86 = parameters.platform_point[4][0] * t3 + t85;
+        let t87 = t86 + parameters.platform_point[4][2] * t9;
+        let t88 = parameters.platform_point[4][1] * t15;
+        let t89 = parameters.platform_point[4][0] * t12 + t88;
+        let t90 = t89 + parameters.platform_point[4][2] * t18;
+        let t91 = parameters.platform_point[4][1] * t24;
+        let t92 = parameters.platform_point[4][0] * t21 + t91;
+        let t93 = t92 + parameters.platform_point[4][2] * t27;
+        // leg 5: platform joint from the base point
+        let t94 = parameters.base_point[4][0] + (t32 - t87);
+        let t95 = parameters.base_point[4][1] + (t34 - t90);
+        let t96 = parameters.base_point[4][2] + (t36 - t93);
+        // leg 6: platform joint from the platform origin
+        let t97 = parameters.platform_point[5][1] * t6;
+        let t98 = parameters.platform_point[5][0] * t3 + t97;
+        let t99 = t98 + parameters.platform_point[5][2] * t9;
+        let t100 = parameters.platform_point[5][1] * t15;
+        let t101 = parameters.platform_point[5][0] * t12 + t100;
+        let t102 = t101 + parameters.platform_point[5][2] * t18;
+        let t103 = parameters.platform_point[5][1] * t24;
+        let t104 = parameters.platform_point[5][0] * t21 + t103;
+        let t105 = t104 + parameters.platform_point[5][2] * t27;
+        // leg 6: platform joint from the base point
+        let t106 = parameters.base_point[5][0] + (t32 - t99);
+        let t107 = parameters.base_point[5][1] + (t34 - t102);
+        let t108 = parameters.base_point[5][2] + (t36 - t105);
+        // leg 1: offset of the platform joint from the actuator axis
+        let t109 = parameters.actuator_axis[0][1] * t47;
+        let t110 = parameters.actuator_axis[0][0] * t46 + t109;
+        let t111 = t110 + parameters.actuator_axis[0][2] * t48;
+        let t112 = t46 - parameters.actuator_axis[0][0] * t111;
+        let t113 = t47 - parameters.actuator_axis[0][1] * t111;
+        let t114 = t48 - parameters.actuator_axis[0][2] * t111;
+        // leg 1: extent of the rod along the actuator axis
+        let t115 = parameters.rod_length[0] * parameters.rod_length[0];
+        let t116 = sqrt(t115 - (t112 * t112 + t113 * t113 + t114 * t114));
+        // leg 1: reciprocal of that extent
+        let t117 = c(1.0) / t116;
+        // leg 1: actuator length d
+        let t118 = t111 + t116;
+        // leg 2: offset of the platform joint from the actuator axis
+        let t119 = parameters.actuator_axis[1][1] * t59;
+        let t120 = parameters.actuator_axis[1][0] * t58 + t119;
+        let t121 = t120 + parameters.actuator_axis[1][2] * t60;
+        let t122 = t58 - parameters.actuator_axis[1][0] * t121;
+        let t123 = t59 - parameters.actuator_axis[1][1] * t121;
+        let t124 = t60 - parameters.actuator_axis[1][2] * t121;
+        // leg 2: extent of the rod along the actuator axis
+        let t125 = parameters.rod_length[1] * parameters.rod_length[1];
+        let t126 = sqrt(t125 - (t122 * t122 + t123 * t123 + t124 * t124));
+        // leg 2: reciprocal of that extent
+        let t127 = c(1.0) / t126;
+        // leg 2: actuator length d
+        let t128 = t121 + t126;
+        // leg 3: offset of the platform joint from the actuator axis
+        let t129 = parameters.actuator_axis[2][1] * t71;
+        let t130 = parameters.actuator_axis[2][0] * t70 + t129;
+        let t131 = t130 + parameters.actuator_axis[2][2] * t72;
+        let t132 = t70 - parameters.actuator_axis[2][0] * t131;
+        let t133 = t71 - parameters.actuator_axis[2][1] * t131;
+        let t134 = t72 - parameters.actuator_axis[2][2] * t131;
+        // leg 3: extent of the rod along the actuator axis
+        let t135 = parameters.rod_length[2] * parameters.rod_length[2];
+        let t136 = sqrt(t135 - (t132 * t132 + t133 * t133 + t134 * t134));
+        // leg 3: reciprocal of that extent
+        let t137 = c(1.0) / t136;
+        // leg 3: actuator length d
+        let t138 = t131 + t136;
+        // leg 4: offset of the platform joint from the actuator axis
+        let t139 = parameters.actuator_axis[3][1] * t83;
+        let t140 = parameters.actuator_axis[3][0] * t82 + t139;
+        let t141 = t140 + parameters.actuator_axis[3][2] * t84;
+        let t142 = t82 - parameters.actuator_axis[3][0] * t141;
+        let t143 = t83 - parameters.actuator_axis[3][1] * t141;
+        let t144 = t84 - parameters.actuator_axis[3][2] * t141;
+        // leg 4: extent of the rod along the actuator axis
+        let t145 = parameters.rod_length[3] * parameters.rod_length[3];
+        let t146 = sqrt(t145 - (t142 * t142 + t143 * t143 + t144 * t144));
+        // leg 4: reciprocal of that extent
+        let t147 = c(1.0) / t146;
+        // leg 4: actuator length d
+        let t148 = t141 + t146;
+        // leg 5: offset of the platform joint from the actuator axis
+        let t149 = parameters.actuator_axis[4][1] * t95;
+        let t150 = parameters.actuator_axis[4][0] * t94 + t149;
+        let t151 = t150 + parameters.actuator_axis[4][2] * t96;
+        let t152 = t94 - parameters.actuator_axis[4][0] * t151;
+        let t153 = t95 - parameters.actuator_axis[4][1] * t151;
+        let t154 = t96 - parameters.actuator_axis[4][2] * t151;
+        // leg 5: extent of the rod along the actuator axis
+        let t155 = parameters.rod_length[4] * parameters.rod_length[4];
+        let t156 = sqrt(t155 - (t152 * t152 + t153 * t153 + t154 * t154));
+        // leg 5: reciprocal of that extent
+        let t157 = c(1.0) / t156;
+        // leg 5: actuator length d
+        let t158 = t151 + t156;
+        // leg 6: offset of the platform joint from the actuator axis
+        let t159 = parameters.actuator_axis[5][1] * t107;
+        let t160 = parameters.actuator_axis[5][0] * t106 + t159;
+        let t161 = t160 + parameters.actuator_axis[5][2] * t108;
+        let t162 = t106 - parameters.actuator_axis[5][0] * t161;
+        let t163 = t107 - parameters.actuator_axis[5][1] * t161;
+        let t164 = t108 - parameters.actuator_axis[5][2] * t161;
+        // leg 6: extent of the rod along the actuator axis
+        let t165 = parameters.rod_length[5] * parameters.rod_length[5];
+        let t166 = sqrt(t165 - (t162 * t162 + t163 * t163 + t164 * t164));
+        // leg 6: reciprocal of that extent
+        let t167 = c(1.0) / t166;
+        // leg 6: actuator length d
+        let t168 = t161 + t166;
+        // leg 1: rod's end mass at the Hooke joint
+        let t169 = parameters.rod_com_fraction[0] - c(1.0);
+        let t170 = parameters.rod_inertia[0] / t115;
+        let t171 = t169 * (parameters.rod_mass[0] * t169) + t170;
+        // leg 1: leg mass that moves with the platform joint
+        let t172 = parameters.rod_mass[0] * parameters.rod_com_fraction[0];
+        let t173 = t170 + parameters.rod_com_fraction[0] * t172;
+        // leg 1: rod's inertial coupling between its ends
+        let t174 = t170 + t169 * t172;
+        // leg 2: rod's end mass at the Hooke joint
+        let t175 = parameters.rod_com_fraction[1] - c(1.0);
+        let t176 = parameters.rod_inertia[1] / t125;
+        let t177 = t175 * (parameters.rod_mass[1] * t175) + t176;
+        // leg 2: leg mass that moves with the platform joint
+        let t178 = parameters.rod_mass[1] * parameters.rod_com_fraction[1];
+        let t179 = t176 + parameters.rod_com_fraction[1] * t178;
+        // leg 2: rod's inertial coupling between its ends
+        let t180 = t176 + t175 * t178;
+        // leg 3: rod's end mass at the Hooke joint
+        let t181 = parameters.rod_com_fraction[2] - c(1.0);
+        let t182 = parameters.rod_inertia[2] / t135;
+        let t183 = t181 * (parameters.rod_mass[2] * t181) + t182;
+        // leg 3: leg mass that moves with the platform joint
+        let t184 = parameters.rod_mass[2] * parameters.rod_com_fraction[2];
+        let t185 = t182 + parameters.rod_com_fraction[2] * t184;
+        // leg 3: rod's inertial coupling between its ends
+        let t186 = t182 + t181 * t184;
+        // leg 4: rod's end mass at the Hooke joint
+        let t187 = parameters.rod_com_fraction[3] - c(1.0);
+        let t188 = parameters.rod_inertia[3] / t145;
+        let t189 = t187 * (parameters.rod_mass[3] * t187) + t188;
+        // leg 4: leg mass that moves with the platform joint
+        let t190 = parameters.rod_mass[3] * parameters.rod_com_fraction[3];
+        let t191 = t188 + parameters.rod_com_fraction[3] * t190;
+        // leg 4: rod's inertial coupling between its ends
+        let t192 = t188 + t187 * t190;
+        // leg 5: rod's end mass at the Hooke joint
+        let t193 = parameters.rod_com_fraction[4] - c(1.0);
+        let t194 = parameters.rod_inertia[4] / t155;
+        let t195 = t193 * (parameters.rod_mass[4] * t193) + t194;
+        // leg 5: leg mass that moves with the platform joint
+        let t196 = parameters.rod_mass[4] * parameters.rod_com_fraction[4];
+        let t197 = t194 + parameters.rod_com_fraction[4] * t196;
+        // leg 5: rod's inertial coupling between its ends
+        let t198 = t194 + t193 * t196;
+        // leg 6: rod's end mass at the Hooke joint
+        let t199 = parameters.rod_com_fraction[5] - c(1.0);
+        let t200 = parameters.rod_inertia[5] / t165;
+        let t201 = t199 * (parameters.rod_mass[5] * t199) + t200;
+        // leg 6: leg mass that moves with the platform joint
+        let t202 = parameters.rod_mass[5] * parameters.rod_com_fraction[5];
+        let t203 = t200 + parameters.rod_com_fraction[5] * t202;
+        // leg 6: rod's inertial coupling between its ends
+        let t204 = t200 + t199 * t202;
+        // mass of payload and platform-side leg ends
+        let t205 = t197 + (t191 + (t185 + (t179 + (parameters.payload_mass + t173))));
+        let t206 = t203 + t205;
+        // first moment of payload and platform-side leg ends
+        let t207 = parameters.payload_mass * parameters.payload_com[0];
+        let t208 = t207 + parameters.platform_point[0][0] * t173;
+        let t209 = t208 + parameters.platform_point[1][0] * t179;
+        let t210 = t209 + parameters.platform_point[2][0] * t185;
+        let t211 = t210 + parameters.platform_point[3][0] * t191;
+        let t212 = t211 + parameters.platform_point[4][0] * t197;
+        let t213 = t212 + parameters.platform_point[5][0] * t203;
+        let t214 = parameters.payload_mass * parameters.payload_com[1];
+        let t215 = t214 + parameters.platform_point[0][1] * t173;
+        let t216 = t215 + parameters.platform_point[1][1] * t179;
+        let t217 = t216 + parameters.platform_point[2][1] * t185;
+        let t218 = t217 + parameters.platform_point[3][1] * t191;
+        let t219 = t218 + parameters.platform_point[4][1] * t197;
+        let t220 = t219 + parameters.platform_point[5][1] * t203;
+        let t221 = parameters.payload_mass * parameters.payload_com[2];
+        let t222 = t221 + parameters.platform_point[0][2] * t173;
+        let t223 = t222 + parameters.platform_point[1][2] * t179;
+        let t224 = t223 + parameters.platform_point[2][2] * t185;
+        let t225 = t224 + parameters.platform_point[3][2] * t191;
+        let t226 = t225 + parameters.platform_point[4][2] * t197;
+        let t227 = t226 + parameters.platform_point[5][2] * t203;
+        // second moment of payload and platform-side leg ends
+        let t228 = parameters.payload_inertia[0][0] + parameters.payload_inertia[1][1];
+        let t229 = (parameters.payload_inertia[2][2] + t228) * c(0.5);
+        let t230 = parameters.payload_inertia[0][0] - t229;
+        let t231 = parameters.payload_com[0] * parameters.payload_com[0];
+        let t232 = t173
+            * (parameters.platform_point[0][0] * parameters.platform_point[0][0]);
+        let t233 = t179
+            * (parameters.platform_point[1][0] * parameters.platform_point[1][0]);
+        let t234 = t185
+            * (parameters.platform_point[2][0] * parameters.platform_point[2][0]);
+        let t235 = t230 - parameters.payload_mass * t231 - t232 - t233 - t234;
+        let t236 = t191
+            * (parameters.platform_point[3][0] * parameters.platform_point[3][0]);
+        let t237 = t197
+            * (parameters.platform_point[4][0] * parameters.platform_point[4][0]);
+        let t238 = t203
+            * (parameters.platform_point[5][0] * parameters.platform_point[5][0]);
+        let t239 = t235 - t236 - t237 - t238;
+        let t240 = parameters.payload_com[0] * parameters.payload_com[1];
+        let t241 = parameters.payload_inertia[0][1] - parameters.payload_mass * t240;
+        let t242 = t173
+            * (parameters.platform_point[0][0] * parameters.platform_point[0][1]);
+        let t243 = t179
+            * (parameters.platform_point[1][0] * parameters.platform_point[1][1]);
+        let t244 = t185
+            * (parameters.platform_point[2][0] * parameters.platform_point[2][1]);
+        let t245 = t191
+            * (parameters.platform_point[3][0] * parameters.platform_point[3][1]);
+        let t246 = t197
+            * (parameters.platform_point[4][0] * parameters.platform_point[4][1]);
+        let t247 = t203
+            * (parameters.platform_point[5][0] * parameters.platform_point[5][1]);
+        let t248 = t241 - t242 - t243 - t244 - t245 - t246 - t247;
+        let t249 = parameters.payload_com[0] * parameters.payload_com[2];
+        let t250 = parameters.payload_inertia[0][2] - parameters.payload_mass * t249;
+        let t251 = t173
+            * (parameters.platform_point[0][0] * parameters.platform_point[0][2]);
+        let t252 = t179
+            * (parameters.platform_point[1][0] * parameters.platform_point[1][2]);
+        let t253 = t185
+            * (parameters.platform_point[2][0] * parameters.platform_point[2][2]);
+        let t254 = t191
+            * (parameters.platform_point[3][0] * parameters.platform_point[3][2]);
+        let t255 = t197
+            * (parameters.platform_point[4][0] * parameters.platform_point[4][2]);
+        let t256 = t203
+            * (parameters.platform_point[5][0] * parameters.platform_point[5][2]);
+        let t257 = t250 - t251 - t252 - t253 - t254 - t255 - t256;
+        let t258 = parameters.payload_inertia[1][1] - t229;
+        let t259 = parameters.payload_com[1] * parameters.payload_com[1];
+        let t260 = t173
+            * (parameters.platform_point[0][1] * parameters.platform_point[0][1]);
+        let t261 = t179
+            * (parameters.platform_point[1][1] * parameters.platform_point[1][1]);
+        let t262 = t185
+            * (parameters.platform_point[2][1] * parameters.platform_point[2][1]);
+        let t263 = t258 - parameters.payload_mass * t259 - t260 - t261 - t262;
+        let t264 = t191
+            * (parameters.platform_point[3][1] * parameters.platform_point[3][1]);
+        let t265 = t197
+            * (parameters.platform_point[4][1] * parameters.platform_point[4][1]);
+        let t266 = t203
+            * (parameters.platform_point[5][1] * parameters.platform_point[5][1]);
+        let t267 = t263 - t264 - t265 - t266;
+        let t268 = parameters.payload_com[1] * parameters.payload_com[2];
+        let t269 = parameters.payload_inertia[1][2] - parameters.payload_mass * t268;
+        let t270 = t173
+            * (parameters.platform_point[0][1] * parameters.platform_point[0][2]);
+        let t271 = t179
+            * (parameters.platform_point[1][1] * parameters.platform_point[1][2]);
+        let t272 = t185
+            * (parameters.platform_point[2][1] * parameters.platform_point[2][2]);
+        let t273 = t191
+            * (parameters.platform_point[3][1] * parameters.platform_point[3][2]);
+        let t274 = t197
+            * (parameters.platform_point[4][1] * parameters.platform_point[4][2]);
+        let t275 = t203
+            * (parameters.platform_point[5][1] * parameters.platform_point[5][2]);
+        let t276 = t269 - t270 - t271 - t272 - t273 - t274 - t275;
+        let t277 = parameters.payload_inertia[2][2] - t229;
+        let t278 = parameters.payload_com[2] * parameters.payload_com[2];
+        let t279 = t173
+            * (parameters.platform_point[0][2] * parameters.platform_point[0][2]);
+        let t280 = t179
+            * (parameters.platform_point[1][2] * parameters.platform_point[1][2]);
+        let t281 = t185
+            * (parameters.platform_point[2][2] * parameters.platform_point[2][2]);
+        let t282 = t277 - parameters.payload_mass * t278 - t279 - t280 - t281;
+        let t283 = t191
+            * (parameters.platform_point[3][2] * parameters.platform_point[3][2]);
+        let t284 = t197
+            * (parameters.platform_point[4][2] * parameters.platform_point[4][2]);
+        let t285 = t203
+            * (parameters.platform_point[5][2] * parameters.platform_point[5][2]);
+        let t286 = t282 - t283 - t284 - t285;
+        // angular velocity of the base
+        let t287 = base_rotation[1][0] * base_velocity[4];
+        let t288 = base_rotation[0][0] * base_velocity[3] + t287;
+        let t289 = t288 + base_rotation[2][0] * base_velocity[5];
+        let t290 = base_rotation[1][1] * base_velocity[4];
+        let t291 = base_rotation[0][1] * base_velocity[3] + t290;
+        let t292 = t291 + base_rotation[2][1] * base_velocity[5];
+        let t293 = base_rotation[1][2] * base_velocity[4];
+        let t294 = base_rotation[0][2] * base_velocity[3] + t293;
+        let t295 = t294 + base_rotation[2][2] * base_velocity[5];
+        // angular velocity of the platform
+        let t296 = base_rotation[1][0] * platform_velocity[4];
+        let t297 = base_rotation[0][0] * platform_velocity[3] + t296;
+        let t298 = t297 + base_rotation[2][0] * platform_velocity[5];
+        let t299 = base_rotation[1][1] * platform_velocity[4];
+        let t300 = base_rotation[0][1] * platform_velocity[3] + t299;
+        let t301 = t300 + base_rotation[2][1] * platform_velocity[5];
+        let t302 = base_rotation[1][2] * platform_velocity[4];
+        let t303 = base_rotation[0][2] * platform_velocity[3] + t302;
+        let t304 = t303 + base_rotation[2][2] * platform_velocity[5];
+        // angular velocity of the platform relative to the base
+        let t305 = t289 - t298;
+        let t306 = t292 - t301;
+        let t307 = t295 - t304;
+        // velocity of the platform origin relative to the base
+        let t308 = base_velocity[0] - platform_velocity[0];
+        let t309 = base_velocity[1] - platform_velocity[1];
+        let t310 = base_rotation[0][0] * t308 + base_rotation[1][0] * t309;
+        let t311 = base_velocity[2] - platform_velocity[2];
+        let t312 = t310 + base_rotation[2][0] * t311;
+        let t313 = t312 - (t36 * t292 - t34 * t295);
+        let t314 = base_rotation[0][1] * t308 + base_rotation[1][1] * t309;
+        let t315 = t314 + base_rotation[2][1] * t311;
+        let t316 = t315 - (t32 * t295 - t36 * t289);
+        let t317 = base_rotation[0][2] * t308 + base_rotation[1][2] * t309;
+        let t318 = t317 + base_rotation[2][2] * t311;
+        let t319 = t318 - (t34 * t289 - t32 * t292);
+        // rate of the relative rotation
+        let t320 = t21 * t306 - t12 * t307;
+        let t321 = t24 * t306 - t15 * t307;
+        let t322 = t27 * t306 - t18 * t307;
+        let t323 = t3 * t307 - t21 * t305;
+        let t324 = t6 * t307 - t24 * t305;
+        let t325 = t9 * t307 - t27 * t305;
+        let t326 = t12 * t305 - t3 * t306;
+        let t327 = t15 * t305 - t6 * t306;
+        let t328 = t18 * t305 - t9 * t306;
+        // leg 1: velocity of the platform joint relative to the base
+        let t329 = parameters.platform_point[0][1] * t321;
+        let t330 = parameters.platform_point[0][0] * t320 + t329;
+        let t331 = t313 + (t330 + parameters.platform_point[0][2] * t322);
+        let t332 = parameters.platform_point[0][1] * t324;
+        let t333 = parameters.platform_point[0][0] * t323 + t332;
+        let t334 = t316 + (t333 + parameters.platform_point[0][2] * t325);
+        let t335 = parameters.platform_point[0][1] * t327;
+        let t336 = parameters.platform_point[0][0] * t326 + t335;
+        let t337 = t319 + (t336 + parameters.platform_point[0][2] * t328);
+        // leg 2: velocity of the platform joint relative to the base
+        let t338 = parameters.platform_point[1][1] * t321;
+        let t339 = parameters.platform_point[1][0] * t320 + t338;
+        let t340 = t313 + (t339 + parameters.platform_point[1][2] * t322);
+        let t341 = parameters.platform_point[1][1] * t324;
+        let t342 = parameters.platform_point[1][0] * t323 + t341;
+        let t343 = t316 + (t342 + parameters.platform_point[1][2] * t325);
+        let t344 = parameters.platform_point[1][1] * t327;
+        let t345 = parameters.platform_point[1][0] * t326 + t344;
+        let t346 = t319 + (t345 + parameters.platform_point[1][2] * t328);
+        // leg 3: velocity of the platform joint relative to the base
+        let t347 = parameters.platform_point[2][1] * t321;
+        let t348 = parameters.platform_point[2][0] * t320 + t347;
+        let t349 = t313 + (t348 + parameters.platform_point[2][2] * t322);
+        let t350 = parameters.platform_point[2][1] * t324;
+        let t351 = parameters.platform_point[2][0] * t323 + t350;
+        let t352 = t316 + (t351 + parameters.platform_point[2][2] * t325);
+        let t353 = parameters.platform_point[2][1] * t327;
+        let t354 = parameters.platform_point[2][0] * t326 + t353;
+        let t355 = t319 + (t354 + parameters.platform_point[2][2] * t328);
+        // leg 4: velocity of the platform joint relative to the base
+        let t356 = parameters.platform_point[3][1] * t321;
+        let t357 = parameters.platform_point[3][0] * t320 + t356;
+        let t358 = t313 + (t357 + parameters.platform_point[3][2] * t322);
+        let t359 = parameters.platform_point[3][1] * t324;
+        let t360 = parameters.platform_point[3][0] * t323 + t359;
+        let t361 = t316 + (t360 + parameters.platform_point[3][2] * t325);
+        let t362 = parameters.platform_point[3][1] * t327;
+        let t363 = parameters.platform_point[3][0] * t326 + t362;
+        let t364 = t319 + (t363 + parameters.platform_point[3][2] * t328);
+        // leg 5: velocity of the platform joint relative to the base
+        let t365 = parameters.platform_point[4][1] * t321;
+        let t366 = parameters.platform_point[4][0] * t320 + t365;
+        let t367 = t313 + (t366 + parameters.platform_point[4][2] * t322);
+        let t368 = parameters.platform_point[4][1] * t324;
+        let t369 = parameters.platform_point[4][0] * t323 + t368;
+        let t370 = t316 + (t369 + parameters.platform_point[4][2] * t325);
+        let t371 = parameters.platform_point[4][1] * t327;
+        let t372 = parameters.platform_point[4][0] * t326 + t371;
+        let t373 = t319 + (t372 + parameters.platform_point[4][2] * t328);
+        // leg 6: velocity of the platform joint relative to the base
+        let t374 = parameters.platform_point[5][1] * t321;
+        let t375 = parameters.platform_point[5][0] * t320 + t374;
+        let t376 = t313 + (t375 + parameters.platform_point[5][2] * t322);
+        let t377 = parameters.platform_point[5][1] * t324;
+        let t378 = parameters.platform_point[5][0] * t323 + t377;
+        let t379 = t316 + (t378 + parameters.platform_point[5][2] * t325);
+        let t380 = parameters.platform_point[5][1] * t327;
+        let t381 = parameters.platform_point[5][0] * t326 + t380;
+        let t382 = t319 + (t381 + parameters.platform_point[5][2] * t328);
+        // leg 1: rate of the offset from the actuator axis
+        let t383 = parameters.actuator_axis[0][1] * t334;
+        let t384 = parameters.actuator_axis[0][0] * t331 + t383;
+        let t385 = t384 + parameters.actuator_axis[0][2] * t337;
+        let t386 = t331 - parameters.actuator_axis[0][0] * t385;
+        let t387 = t334 - parameters.actuator_axis[0][1] * t385;
+        let t388 = t337 - parameters.actuator_axis[0][2] * t385;
+        // leg 1: rate of the rod's extent along the actuator axis
+        let t389 = t117 * (t112 * t386 + t113 * t387 + t114 * t388);
+        // leg 1: actuator velocity d'
+        let t390 = t385 - t389;
+        // leg 2: rate of the offset from the actuator axis
+        let t391 = parameters.actuator_axis[1][1] * t343;
+        let t392 = parameters.actuator_axis[1][0] * t340 + t391;
+        let t393 = t392 + parameters.actuator_axis[1][2] * t346;
+        let t394 = t340 - parameters.actuator_axis[1][0] * t393;
+        let t395 = t343 - parameters.actuator_axis[1][1] * t393;
+        let t396 = t346 - parameters.actuator_axis[1][2] * t393;
+        // leg 2: rate of the rod's extent along the actuator axis
+        let t397 = t127 * (t122 * t394 + t123 * t395 + t124 * t396);
+        // leg 2: actuator velocity d'
+        let t398 = t393 - t397;
+        // leg 3: rate of the offset from the actuator axis
+        let t399 = parameters.actuator_axis[2][1] * t352;
+        let t400 = parameters.actuator_axis[2][0] * t349 + t399;
+        let t401 = t400 + parameters.actuator_axis[2][2] * t355;
+        let t402 = t349 - parameters.actuator_axis[2][0] * t401;
+        let t403 = t352 - parameters.actuator_axis[2][1] * t401;
+        let t404 = t355 - parameters.actuator_axis[2][2] * t401;
+        // leg 3: rate of the rod's extent along the actuator axis
+        let t405 = t137 * (t132 * t402 + t133 * t403 + t134 * t404);
+        // leg 3: actuator velocity d'
+        let t406 = t401 - t405;
+        // leg 4: rate of the offset from the actuator axis
+        let t407 = parameters.actuator_axis[3][1] * t361;
+        let t408 = parameters.actuator_axis[3][0] * t358 + t407;
+        let t409 = t408 + parameters.actuator_axis[3][2] * t364;
+        let t410 = t358 - parameters.actuator_axis[3][0] * t409;
+        let t411 = t361 - parameters.actuator_axis[3][1] * t409;
+        let t412 = t364 - parameters.actuator_axis[3][2] * t409;
+        // leg 4: rate of the rod's extent along the actuator axis
+        let t413 = t147 * (t142 * t410 + t143 * t411 + t144 * t412);
+        // leg 4: actuator velocity d'
+        let t414 = t409 - t413;
+        // leg 5: rate of the offset from the actuator axis
+        let t415 = parameters.actuator_axis[4][1] * t370;
+        let t416 = parameters.actuator_axis[4][0] * t367 + t415;
+        let t417 = t416 + parameters.actuator_axis[4][2] * t373;
+        let t418 = t367 - parameters.actuator_axis[4][0] * t417;
+        let t419 = t370 - parameters.actuator_axis[4][1] * t417;
+        let t420 = t373 - parameters.actuator_axis[4][2] * t417;
+        // leg 5: rate of the rod's extent along the actuator axis
+        let t421 = t157 * (t152 * t418 + t153 * t419 + t154 * t420);
+        // leg 5: actuator velocity d'
+        let t422 = t417 - t421;
+        // leg 6: rate of the offset from the actuator axis
+        let t423 = parameters.actuator_axis[5][1] * t379;
+        let t424 = parameters.actuator_axis[5][0] * t376 + t423;
+        let t425 = t424 + parameters.actuator_axis[5][2] * t382;
+        let t426 = t376 - parameters.actuator_axis[5][0] * t425;
+        let t427 = t379 - parameters.actuator_axis[5][1] * t425;
+        let t428 = t382 - parameters.actuator_axis[5][2] * t425;
+        // leg 6: rate of the rod's extent along the actuator axis
+        let t429 = t167 * (t162 * t426 + t163 * t427 + t164 * t428);
+        // leg 6: actuator velocity d'
+        let t430 = t425 - t429;
+        // acceleration of the base origin less gravity
+        let t431 = base_acceleration[0] - parameters.gravity[0];
+        let t432 = base_acceleration[1] - parameters.gravity[1];
+        let t433 = base_rotation[0][0] * t431 + base_rotation[1][0] * t432;
+        let t434 = base_acceleration[2] - parameters.gravity[2];
+        let t435 = t433 + base_rotation[2][0] * t434;
+        let t436 = base_rotation[0][1] * t431 + base_rotation[1][1] * t432;
+        let t437 = t436 + base_rotation[2][1] * t434;
+        let t438 = base_rotation[0][2] * t431 + base_rotation[1][2] * t432;
+        let t439 = t438 + base_rotation[2][2] * t434;
+        // angular acceleration of the base
+        let t440 = base_rotation[1][0] * base_acceleration[4];
+        let t441 = base_rotation[0][0] * base_acceleration[3] + t440;
+        let t442 = t441 + base_rotation[2][0] * base_acceleration[5];
+        let t443 = base_rotation[1][1] * base_acceleration[4];
+        let t444 = base_rotation[0][1] * base_acceleration[3] + t443;
+        let t445 = t444 + base_rotation[2][1] * base_acceleration[5];
+        let t446 = base_rotation[1][2] * base_acceleration[4];
+        let t447 = base_rotation[0][2] * base_acceleration[3] + t446;
+        let t448 = t447 + base_rotation[2][2] * base_acceleration[5];
+        // acceleration per base coordinate of points that move with the base
+        let t449 = t292 * t292;
+        let t450 = t295 * t295;
+        let t451 = t449 + t450;
+        let t452 = t289 * t292;
+        let t453 = t448 - t452;
+        let t454 = t289 * t295;
+        let t455 = t445 + t454;
+        let t456 = t448 + t452;
+        let t457 = t289 * t289;
+        let t458 = t450 + t457;
+        let t459 = t292 * t295;
+        let t460 = t442 - t459;
+        let t461 = t445 - t454;
+        let t462 = t442 + t459;
+        let t463 = t449 + t457;
+        // acceleration of the platform origin less gravity
+        let t464 = platform_acceleration[0] - parameters.gravity[0];
+        let t465 = platform_acceleration[1] - parameters.gravity[1];
+        let t466 = base_rotation[0][0] * t464 + base_rotation[1][0] * t465;
+        let t467 = platform_acceleration[2] - parameters.gravity[2];
+        let t468 = t466 + base_rotation[2][0] * t467;
+        let t469 = base_rotation[0][1] * t464 + base_rotation[1][1] * t465;
+        let t470 = t469 + base_rotation[2][1] * t467;
+        let t471 = base_rotation[0][2] * t464 + base_rotation[1][2] * t465;
+        let t472 = t471 + base_rotation[2][2] * t467;
+        // angular acceleration of the platform
+        let t473 = base_rotation[1][0] * platform_acceleration[4];
+        let t474 = base_rotation[0][0] * platform_acceleration[3] + t473;
+        let t475 = t474 + base_rotation[2][0] * platform_acceleration[5];
+        let t476 = base_rotation[1][1] * platform_acceleration[4];
+        let t477 = base_rotation[0][1] * platform_acceleration[3] + t476;
+        let t478 = t477 + base_rotation[2][1] * platform_acceleration[5];
+        let t479 = base_rotation[1][2] * platform_acceleration[4];
+        let t480 = base_rotation[0][2] * platform_acceleration[3] + t479;
+        let t481 = t480 + base_rotation[2][2] * platform_acceleration[5];
+        // acceleration per platform coordinate of points of the platform
+        let t482 = t298 * t301;
+        let t483 = t481 - t482;
+        let t484 = t301 * t301;
+        let t485 = t304 * t304;
+        let t486 = t484 + t485;
+        let t487 = t298 * t304;
+        let t488 = t478 + t487;
+        let t489 = t12 * t483 + t3 * t486 - t21 * t488;
+        let t490 = t15 * t483 + t6 * t486 - t24 * t488;
+        let t491 = t18 * t483 + t9 * t486 - t27 * t488;
+        let t492 = t481 + t482;
+        let t493 = t298 * t298;
+        let t494 = t485 + t493;
+        let t495 = t301 * t304;
+        let t496 = t475 - t495;
+        let t497 = t3 * t492 - t12 * t494 - t21 * t496;
+        let t498 = t6 * t492 - t15 * t494 - t24 * t496;
+        let t499 = t9 * t492 - t18 * t494 - t27 * t496;
+        let t500 = t478 - t487;
+        let t501 = t475 + t495;
+        let t502 = t484 + t493;
+        let t503 = t3 * t500 - t12 * t501 + t21 * t502;
+        let t504 = t6 * t500 - t15 * t501 + t24 * t502;
+        let t505 = t9 * t500 - t18 * t501 + t27 * t502;
+        // acceleration of the platform origin relative to the base
+        let t506 = t435 - t468 + (t32 * t451 + t34 * t453 - t36 * t455);
+        let t507 = t506 - c(2.0) * (t292 * t319 - t295 * t316);
+        let t508 = t437 - t470 - (t32 * t456 - t34 * t458 - t36 * t460);
+        let t509 = t508 - c(2.0) * (t295 * t313 - t289 * t319);
+        let t510 = t439 - t472 + (t32 * t461 - t34 * t462 + t36 * t463);
+        let t511 = t510 - c(2.0) * (t289 * t316 - t292 * t313);
+        // second derivative of the relative rotation
+        let t512 = t305 * t306;
+        let t513 = t448 - t481 - (t289 * t306 - t292 * t305);
+        let t514 = t512 + t513;
+        let t515 = t306 * t306;
+        let t516 = t307 * t307;
+        let t517 = t515 + t516;
+        let t518 = t305 * t307;
+        let t519 = t445 - t478 - (t295 * t305 - t289 * t307);
+        let t520 = t518 - t519;
+        let t521 = t12 * t514 - t3 * t517 + t21 * t520;
+        let t522 = t15 * t514 - t6 * t517 + t24 * t520;
+        let t523 = t18 * t514 - t9 * t517 + t27 * t520;
+        let t524 = t512 - t513;
+        let t525 = t305 * t305;
+        let t526 = t516 + t525;
+        let t527 = t306 * t307;
+        let t528 = t442 - t475 - (t292 * t307 - t295 * t306);
+        let t529 = t527 + t528;
+        let t530 = t3 * t524 - t12 * t526 + t21 * t529;
+        let t531 = t6 * t524 - t15 * t526 + t24 * t529;
+        let t532 = t9 * t524 - t18 * t526 + t27 * t529;
+        let t533 = t518 + t519;
+        let t534 = t527 - t528;
+        let t535 = t515 + t525;
+        let t536 = t3 * t533 + t12 * t534 - t21 * t535;
+        let t537 = t6 * t533 + t15 * t534 - t24 * t535;
+        let t538 = t9 * t533 + t18 * t534 - t27 * t535;
+        // leg 1: acceleration of the platform joint relative to the base
+        let t539 = parameters.platform_point[0][1] * t522;
+        let t540 = parameters.platform_point[0][0] * t521 + t539;
+        let t541 = t507 - (t540 + parameters.platform_point[0][2] * t523);
+        let t542 = parameters.platform_point[0][1] * t531;
+        let t543 = parameters.platform_point[0][0] * t530 + t542;
+        let t544 = t509 - (t543 + parameters.platform_point[0][2] * t532);
+        let t545 = parameters.platform_point[0][1] * t537;
+        let t546 = parameters.platform_point[0][0] * t536 + t545;
+        let t547 = t511 - (t546 + parameters.platform_point[0][2] * t538);
+        // leg 2: acceleration of the platform joint relative to the base
+        let t548 = parameters.platform_point[1][1] * t522;
+        let t549 = parameters.platform_point[1][0] * t521 + t548;
+        let t550 = t507 - (t549 + parameters.platform_point[1][2] * t523);
+        let t551 = parameters.platform_point[1][1] * t531;
+        let t552 = parameters.platform_point[1][0] * t530 + t551;
+        let t553 = t509 - (t552 + parameters.platform_point[1][2] * t532);
+        let t554 = parameters.platform_point[1][1] * t537;
+        let t555 = parameters.platform_point[1][0] * t536 + t554;
+        let t556 = t511 - (t555 + parameters.platform_point[1][2] * t538);
+        // leg 3: acceleration of the platform joint relative to the base
+        let t557 = parameters.platform_point[2][1] * t522;
+        let t558 = parameters.platform_point[2][0] * t521 + t557;
+        let t559 = t507 - (t558 + parameters.platform_point[2][2] * t523);
+        let t560 = parameters.platform_point[2][1] * t531;
+        let t561 = parameters.platform_point[2][0] * t530 + t560;
+        let t562 = t509 - (t561 + parameters.platform_point[2][2] * t532);
+        let t563 = parameters.platform_point[2][1] * t537;
+        let t564 = parameters.platform_point[2][0] * t536 + t563;
+        let t565 = t511 - (t564 + parameters.platform_point[2][2] * t538);
+        // leg 4: acceleration of the platform joint relative to the base
+        let t566 = parameters.platform_point[3][1] * t522;
+        let t567 = parameters.platform_point[3][0] * t521 + t566;
+        let t568 = t507 - (t567 + parameters.platform_point[3][2] * t523);
+        let t569 = parameters.platform_point[3][1] * t531;
+        let t570 = parameters.platform_point[3][0] * t530 + t569;
+        let t571 = t509 - (t570 + parameters.platform_point[3][2] * t532);
+        let t572 = parameters.platform_point[3][1] * t537;
+        let t573 = parameters.platform_point[3][0] * t536 + t572;
+        let t574 = t511 - (t573 + parameters.platform_point[3][2] * t538);
+        // leg 5: acceleration of the platform joint relative to the base
+        let t575 = parameters.platform_point[4][1] * t522;
+        let t576 = parameters.platform_point[4][0] * t521 + t575;
+        let t577 = t507 - (t576 + parameters.platform_point[4][2] * t523);
+        let t578 = parameters.platform_point[4][1] * t531;
+        let t579 = parameters.platform_point[4][0] * t530 + t578;
+        let t580 = t509 - (t579 + parameters.platform_point[4][2] * t532);
+        let t581 = parameters.platform_point[4][1] * t537;
+        let t582 = parameters.platform_point[4][0] * t536 + t581;
+        let t583 = t511 - (t582 + parameters.platform_point[4][2] * t538);
+        // leg 6: acceleration of the platform joint relative to the base
+        let t584 = parameters.platform_point[5][1] * t522;
+        let t585 = parameters.platform_point[5][0] * t521 + t584;
+        let t586 = t507 - (t585 + parameters.platform_point[5][2] * t523);
+        let t587 = parameters.platform_point[5][1] * t531;
+        let t588 = parameters.platform_point[5][0] * t530 + t587;
+        let t589 = t509 - (t588 + parameters.platform_point[5][2] * t532);
+        let t590 = parameters.platform_point[5][1] * t537;
+        let t591 = parameters.platform_point[5][0] * t536 + t590;
+        let t592 = t511 - (t591 + parameters.platform_point[5][2] * t538);
+        // leg 1: actuator acceleration d''
+        let t593 = parameters.actuator_axis[0][1] * t544;
+        let t594 = parameters.actuator_axis[0][0] * t541 + t593;
+        let t595 = t594 + parameters.actuator_axis[0][2] * t547;
+        let t596 = t112 * t541 + t113 * t544 + t114 * t547;
+        let t597 = t386 * t386 + t387 * t387 + t388 * t388 + t596;
+        let t598 = t595 - t117 * (t597 + t389 * t389);
+        // leg 2: actuator acceleration d''
+        let t599 = parameters.actuator_axis[1][1] * t553;
+        let t600 = parameters.actuator_axis[1][0] * t550 + t599;
+        let t601 = t600 + parameters.actuator_axis[1][2] * t556;
+        let t602 = t122 * t550 + t123 * t553 + t124 * t556;
+        let t603 = t394 * t394 + t395 * t395 + t396 * t396 + t602;
+        let t604 = t601 - t127 * (t603 + t397 * t397);
+        // leg 3: actuator acceleration d''
+        let t605 = parameters.actuator_axis[2][1] * t562;
+        let t606 = parameters.actuator_axis[2][0] * t559 + t605;
+        let t607 = t606 + parameters.actuator_axis[2][2] * t565;
+        let t608 = t132 * t559 + t133 * t562 + t134 * t565;
+        let t609 = t402 * t402 + t403 * t403 + t404 * t404 + t608;
+        let t610 = t607 - t137 * (t609 + t405 * t405);
+        // leg 4: actuator acceleration d''
+        let t611 = parameters.actuator_axis[3][1] * t571;
+        let t612 = parameters.actuator_axis[3][0] * t568 + t611;
+        let t613 = t612 + parameters.actuator_axis[3][2] * t574;
+        let t614 = t142 * t568 + t143 * t571 + t144 * t574;
+        let t615 = t410 * t410 + t411 * t411 + t412 * t412 + t614;
+        let t616 = t613 - t147 * (t615 + t413 * t413);
+        // leg 5: actuator acceleration d''
+        let t617 = parameters.actuator_axis[4][1] * t580;
+        let t618 = parameters.actuator_axis[4][0] * t577 + t617;
+        let t619 = t618 + parameters.actuator_axis[4][2] * t583;
+        let t620 = t152 * t577 + t153 * t580 + t154 * t583;
+        let t621 = t418 * t418 + t419 * t419 + t420 * t420 + t620;
+        let t622 = t619 - t157 * (t621 + t421 * t421);
+        // leg 6: actuator acceleration d''
+        let t623 = parameters.actuator_axis[5][1] * t589;
+        let t624 = parameters.actuator_axis[5][0] * t586 + t623;
+        let t625 = t624 + parameters.actuator_axis[5][2] * t592;
+        let t626 = t162 * t586 + t163 * t589 + t164 * t592;
+        let t627 = t426 * t426 + t427 * t427 + t428 * t428 + t626;
+        let t628 = t625 - t167 * (t627 + t429 * t429);
+        // leg 1: inertia less weight of the whole leg
+        let t629 = parameters.base_point[0][0] - parameters.actuator_axis[0][0] * t118;
+        let t630 = parameters.base_point[0][1] - parameters.actuator_axis[0][1] * t118;
+        let t631 = parameters.base_point[0][2] - parameters.actuator_axis[0][2] * t118;
+        let t632 = t435 - (t451 * t629 + t453 * t630 - t455 * t631);
+        let t633 = c(2.0) * t390;
+        let t634 = parameters.actuator_axis[0][1] * t295;
+        let t635 = t632 - t633 * (parameters.actuator_axis[0][2] * t292 - t634);
+        let t636 = t635 - parameters.actuator_axis[0][0] * t598;
+        let t637 = parameters.platform_point[0][1] * t490;
+        let t638 = parameters.platform_point[0][0] * t489 + t637;
+        let t639 = t174 * (t468 - (t638 + parameters.platform_point[0][2] * t491));
+        let t640 = t171 * t636 - t639;
+        let t641 = t174 * t636;
+        let t642 = parameters.actuator_axis[0][1] * t453;
+        let t643 = parameters.actuator_axis[0][0] * t451 + t642;
+        let t644 = t643 - parameters.actuator_axis[0][2] * t455;
+        let t645 = parameters.mover_mass[0] * (t636 + parameters.mover_offset[0] * t644);
+        let t646 = t640 - t641 + t645;
+        let t647 = t437 + (t456 * t629 - t458 * t630 - t460 * t631);
+        let t648 = parameters.actuator_axis[0][2] * t289;
+        let t649 = t647 - t633 * (parameters.actuator_axis[0][0] * t295 - t648);
+        let t650 = t649 - parameters.actuator_axis[0][1] * t598;
+        let t651 = parameters.platform_point[0][1] * t498;
+        let t652 = parameters.platform_point[0][0] * t497 + t651;
+        let t653 = t174 * (t470 + (t652 + parameters.platform_point[0][2] * t499));
+        let t654 = t171 * t650 - t653;
+        let t655 = t174 * t650;
+        let t656 = parameters.actuator_axis[0][1] * t458;
+        let t657 = parameters.actuator_axis[0][0] * t456 - t656;
+        let t658 = t657 - parameters.actuator_axis[0][2] * t460;
+        let t659 = parameters.mover_mass[0] * (t650 - parameters.mover_offset[0] * t658);
+        let t660 = t654 - t655 + t659;
+        let t661 = t439 - (t461 * t629 - t462 * t630 + t463 * t631);
+        let t662 = parameters.actuator_axis[0][0] * t292;
+        let t663 = t661 - t633 * (parameters.actuator_axis[0][1] * t289 - t662);
+        let t664 = t663 - parameters.actuator_axis[0][2] * t598;
+        let t665 = parameters.platform_point[0][1] * t504;
+        let t666 = parameters.platform_point[0][0] * t503 + t665;
+        let t667 = t174 * (t472 - (t666 + parameters.platform_point[0][2] * t505));
+        let t668 = t171 * t664 - t667;
+        let t669 = t174 * t664;
+        let t670 = parameters.actuator_axis[0][1] * t462;
+        let t671 = parameters.actuator_axis[0][0] * t461 - t670;
+        let t672 = t671 + parameters.actuator_axis[0][2] * t463;
+        let t673 = parameters.mover_mass[0] * (t664 + parameters.mover_offset[0] * t672);
+        let t674 = t668 - t669 + t673;
+        // leg 1: its moment about the base origin
+        let t675 = parameters.base_point[0][1] - t47;
+        let t676 = parameters.base_point[0][2] - t48;
+        let t677 = t630 * t668 - t631 * t654 - (t669 * t675 - t655 * t676);
+        let t678 = t630 - parameters.actuator_axis[0][1] * parameters.mover_offset[0];
+        let t679 = t631 - parameters.actuator_axis[0][2] * parameters.mover_offset[0];
+        let t680 = t677 + (t673 * t678 - t659 * t679);
+        let t681 = parameters.base_point[0][0] - t46;
+        let t682 = t631 * t640 - t629 * t668 - (t641 * t676 - t669 * t681);
+        let t683 = t629 - parameters.actuator_axis[0][0] * parameters.mover_offset[0];
+        let t684 = t682 + (t645 * t679 - t673 * t683);
+        let t685 = t629 * t654 - t630 * t640 - (t655 * t681 - t641 * t675);
+        let t686 = t685 + (t659 * t683 - t645 * t678);
+        // leg 2: inertia less weight of the whole leg
+        let t687 = parameters.base_point[1][0] - parameters.actuator_axis[1][0] * t128;
+        let t688 = parameters.base_point[1][1] - parameters.actuator_axis[1][1] * t128;
+        let t689 = parameters.base_point[1][2] - parameters.actuator_axis[1][2] * t128;
+        let t690 = t435 - (t451 * t687 + t453 * t688 - t455 * t689);
+        let t691 = c(2.0) * t398;
+        let t692 = parameters.actuator_axis[1][1] * t295;
+        let t693 = t690 - t691 * (parameters.actuator_axis[1][2] * t292 - t692);
+        let t694 = t693 - parameters.actuator_axis[1][0] * t604;
+        let t695 = parameters.platform_point[1][1] * t490;
+        let t696 = parameters.platform_point[1][0] * t489 + t695;
+        let t697 = t180 * (t468 - (t696 + parameters.platform_point[1][2] * t491));
+        let t698 = t177 * t694 - t697;
+        let t699 = t180 * t694;
+        let t700 = parameters.actuator_axis[1][1] * t453;
+        let t701 = parameters.actuator_axis[1][0] * t451 + t700;
+        let t702 = t701 - parameters.actuator_axis[1][2] * t455;
+        let t703 = parameters.mover_mass[1] * (t694 + parameters.mover_offset[1] * t702);
+        let t704 = t698 - t699 + t703;
+        let t705 = t437 + (t456 * t687 - t458 * t688 - t460 * t689);
+        let t706 = parameters.actuator_axis[1][2] * t289;
+        let t707 = t705 - t691 * (parameters.actuator_axis[1][0] * t295 - t706);
+        let t708 = t707 - parameters.actuator_axis[1][1] * t604;
+        let t709 = parameters.platform_point[1][1] * t498;
+        let t710 = parameters.platform_point[1][0] * t497 + t709;
+        let t711 = t180 * (t470 + (t710 + parameters.platform_point[1][2] * t499));
+        let t712 = t177 * t708 - t711;
+        let t713 = t180 * t708;
+        let t714 = parameters.actuator_axis[1][1] * t458;
+        let t715 = parameters.actuator_axis[1][0] * t456 - t714;
+        let t716 = t715 - parameters.actuator_axis[1][2] * t460;
+        let t717 = parameters.mover_mass[1] * (t708 - parameters.mover_offset[1] * t716);
+        let t718 = t712 - t713 + t717;
+        let t719 = t439 - (t461 * t687 - t462 * t688 + t463 * t689);
+        let t720 = parameters.actuator_axis[1][0] * t292;
+        let t721 = t719 - t691 * (parameters.actuator_axis[1][1] * t289 - t720);
+        let t722 = t721 - parameters.actuator_axis[1][2] * t604;
+        let t723 = parameters.platform_point[1][1] * t504;
+        let t724 = parameters.platform_point[1][0] * t503 + t723;
+        let t725 = t180 * (t472 - (t724 + parameters.platform_point[1][2] * t505));
+        let t726 = t177 * t722 - t725;
+        let t727 = t180 * t722;
+        let t728 = parameters.actuator_axis[1][1] * t462;
+        let t729 = parameters.actuator_axis[1][0] * t461 - t728;
+        let t730 = t729 + parameters.actuator_axis[1][2] * t463;
+        let t731 = parameters.mover_mass[1] * (t722 + parameters.mover_offset[1] * t730);
+        let t732 = t726 - t727 + t731;
+        // leg 2: its moment about the base origin
+        let t733 = parameters.base_point[1][1] - t59;
+        let t734 = parameters.base_point[1][2] - t60;
+        let t735 = t688 * t726 - t689 * t712 - (t727 * t733 - t713 * t734);
+        let t736 = t688 - parameters.actuator_axis[1][1] * parameters.mover_offset[1];
+        let t737 = t689 - parameters.actuator_axis[1][2] * parameters.mover_offset[1];
+        let t738 = t735 + (t731 * t736 - t717 * t737);
+        let t739 = parameters.base_point[1][0] - t58;
+        let t740 = t689 * t698 - t687 * t726 - (t699 * t734 - t727 * t739);
+        let t741 = t687 - parameters.actuator_axis[1][0] * parameters.mover_offset[1];
+        let t742 = t740 + (t703 * t737 - t731 * t741);
+        let t743 = t687 * t712 - t688 * t698 - (t713 * t739 - t699 * t733);
+        let t744 = t743 + (t717 * t741 - t703 * t736);
+        // leg 3: inertia less weight of the whole leg
+        let t745 = parameters.base_point[2][0] - parameters.actuator_axis[2][0] * t138;
+        let t746 = parameters.base_point[2][1] - parameters.actuator_axis[2][1] * t138;
+        let t747 = parameters.base_point[2][2] - parameters.actuator_axis[2][2] * t138;
+        let t748 = t435 - (t451 * t745 + t453 * t746 - t455 * t747);
+        let t749 = c(2.0) * t406;
+        let t750 = parameters.actuator_axis[2][1] * t295;
+        let t751 = t748 - t749 * (parameters.actuator_axis[2][2] * t292 - t750);
+        let t752 = t751 - parameters.actuator_axis[2][0] * t610;
+        let t753 = parameters.platform_point[2][1] * t490;
+        let t754 = parameters.platform_point[2][0] * t489 + t753;
+        let t755 = t186 * (t468 - (t754 + parameters.platform_point[2][2] * t491));
+        let t756 = t183 * t752 - t755;
+        let t757 = t186 * t752;
+        let t758 = parameters.actuator_axis[2][1] * t453;
+        let t759 = parameters.actuator_axis[2][0] * t451 + t758;
+        let t760 = t759 - parameters.actuator_axis[2][2] * t455;
+        let t761 = parameters.mover_mass[2] * (t752 + parameters.mover_offset[2] * t760);
+        let t762 = t756 - t757 + t761;
+        let t763 = t437 + (t456 * t745 - t458 * t746 - t460 * t747);
+        let t764 = parameters.actuator_axis[2][2] * t289;
+        let t765 = t763 - t749 * (parameters.actuator_axis[2][0] * t295 - t764);
+        let t766 = t765 - parameters.actuator_axis[2][1] * t610;
+        let t767 = parameters.platform_point[2][1] * t498;
+        let t768 = parameters.platform_point[2][0] * t497 + t767;
+        let t769 = t186 * (t470 + (t768 + parameters.platform_point[2][2] * t499));
+        let t770 = t183 * t766 - t769;
+        let t771 = t186 * t766;
+        let t772 = parameters.actuator_axis[2][1] * t458;
+        let t773 = parameters.actuator_axis[2][0] * t456 - t772;
+        let t774 = t773 - parameters.actuator_axis[2][2] * t460;
+        let t775 = parameters.mover_mass[2] * (t766 - parameters.mover_offset[2] * t774);
+        let t776 = t770 - t771 + t775;
+        let t777 = t439 - (t461 * t745 - t462 * t746 + t463 * t747);
+        let t778 = parameters.actuator_axis[2][0] * t292;
+        let t779 = t777 - t749 * (parameters.actuator_axis[2][1] * t289 - t778);
+        let t780 = t779 - parameters.actuator_axis[2][2] * t610;
+        let t781 = parameters.platform_point[2][1] * t504;
+        let t782 = parameters.platform_point[2][0] * t503 + t781;
+        let t783 = t186 * (t472 - (t782 + parameters.platform_point[2][2] * t505));
+        let t784 = t183 * t780 - t783;
+        let t785 = t186 * t780;
+        let t786 = parameters.actuator_axis[2][1] * t462;
+        let t787 = parameters.actuator_axis[2][0] * t461 - t786;
+        let t788 = t787 + parameters.actuator_axis[2][2] * t463;
+        let t789 = parameters.mover_mass[2] * (t780 + parameters.mover_offset[2] * t788);
+        let t790 = t784 - t785 + t789;
+        // leg 3: its moment about the base origin
+        let t791 = parameters.base_point[2][1] - t71;
+        let t792 = parameters.base_point[2][2] - t72;
+        let t793 = t746 * t784 - t747 * t770 - (t785 * t791 - t771 * t792);
+        let t794 = t746 - parameters.actuator_axis[2][1] * parameters.mover_offset[2];
+        let t795 = t747 - parameters.actuator_axis[2][2] * parameters.mover_offset[2];
+        let t796 = t793 + (t789 * t794 - t775 * t795);
+        let t797 = parameters.base_point[2][0] - t70;
+        let t798 = t747 * t756 - t745 * t784 - (t757 * t792 - t785 * t797);
+        let t799 = t745 - parameters.actuator_axis[2][0] * parameters.mover_offset[2];
+        let t800 = t798 + (t761 * t795 - t789 * t799);
+        let t801 = t745 * t770 - t746 * t756 - (t771 * t797 - t757 * t791);
+        let t802 = t801 + (t775 * t799 - t761 * t794);
+        // leg 4: inertia less weight of the whole leg
+        let t803 = parameters.base_point[3][0] - parameters.actuator_axis[3][0] * t148;
+        let t804 = parameters.base_point[3][1] - parameters.actuator_axis[3][1] * t148;
+        let t805 = parameters.base_point[3][2] - parameters.actuator_axis[3][2] * t148;
+        let t806 = t435 - (t451 * t803 + t453 * t804 - t455 * t805);
+        let t807 = c(2.0) * t414;
+        let t808 = parameters.actuator_axis[3][1] * t295;
+        let t809 = t806 - t807 * (parameters.actuator_axis[3][2] * t292 - t808);
+        let t810 = t809 - parameters.actuator_axis[3][0] * t616;
+        let t811 = parameters.platform_point[3][1] * t490;
+        let t812 = parameters.platform_point[3][0] * t489 + t811;
+        let t813 = t192 * (t468 - (t812 + parameters.platform_point[3][2] * t491));
+        let t814 = t189 * t810 - t813;
+        let t815 = t192 * t810;
+        let t816 = parameters.actuator_axis[3][1] * t453;
+        let t817 = parameters.actuator_axis[3][0] * t451 + t816;
+        let t818 = t817 - parameters.actuator_axis[3][2] * t455;
+        let t819 = parameters.mover_mass[3] * (t810 + parameters.mover_offset[3] * t818);
+        let t820 = t814 - t815 + t819;
+        let t821 = t437 + (t456 * t803 - t458 * t804 - t460 * t805);
+        let t822 = parameters.actuator_axis[3][2] * t289;
+        let t823 = t821 - t807 * (parameters.actuator_axis[3][0] * t295 - t822);
+        let t824 = t823 - parameters.actuator_axis[3][1] * t616;
+        let t825 = parameters.platform_point[3][1] * t498;
+        let t826 = parameters.platform_point[3][0] * t497 + t825;
+        let t827 = t192 * (t470 + (t826 + parameters.platform_point[3][2] * t499));
+        let t828 = t189 * t824 - t827;
+        let t829 = t192 * t824;
+        let t830 = parameters.actuator_axis[3][1] * t458;
+        let t831 = parameters.actuator_axis[3][0] * t456 - t830;
+        let t832 = t831 - parameters.actuator_axis[3][2] * t460;
+        let t833 = parameters.mover_mass[3] * (t824 - parameters.mover_offset[3] * t832);
+        let t834 = t828 - t829 + t833;
+        let t835 = t439 - (t461 * t803 - t462 * t804 + t463 * t805);
+        let t836 = parameters.actuator_axis[3][0] * t292;
+        let t837 = t835 - t807 * (parameters.actuator_axis[3][1] * t289 - t836);
+        let t838 = t837 - parameters.actuator_axis[3][2] * t616;
+        let t839 = parameters.platform_point[3][1] * t504;
+        let t840 = parameters.platform_point[3][0] * t503 + t839;
+        let t841 = t192 * (t472 - (t840 + parameters.platform_point[3][2] * t505));
+        let t842 = t189 * t838 - t841;
+        let t843 = t192 * t838;
+        let t844 = parameters.actuator_axis[3][1] * t462;
+        let t845 = parameters.actuator_axis[3][0] * t461 - t844;
+        let t846 = t845 + parameters.actuator_axis[3][2] * t463;
+        let t847 = parameters.mover_mass[3] * (t838 + parameters.mover_offset[3] * t846);
+        let t848 = t842 - t843 + t847;
+        // leg 4: its moment about the base origin
+        let t849 = parameters.base_point[3][1] - t83;
+        let t850 = parameters.base_point[3][2] - t84;
+        let t851 = t804 * t842 - t805 * t828 - (t843 * t849 - t829 * t850);
+        let t852 = t804 - parameters.actuator_axis[3][1] * parameters.mover_offset[3];
+        let t853 = t805 - parameters.actuator_axis[3][2] * parameters.mover_offset[3];
+        let t854 = t851 + (t847 * t852 - t833 * t853);
+        let t855 = parameters.base_point[3][0] - t82;
+        let t856 = t805 * t814 - t803 * t842 - (t815 * t850 - t843 * t855);
+        let t857 = t803 - parameters.actuator_axis[3][0] * parameters.mover_offset[3];
+        let t858 = t856 + (t819 * t853 - t847 * t857);
+        let t859 = t803 * t828 - t804 * t814 - (t829 * t855 - t815 * t849);
+        let t860 = t859 + (t833 * t857 - t819 * t852);
+        // leg 5: inertia less weight of the whole leg
+        let t861 = parameters.base_point[4][0] - parameters.actuator_axis[4][0] * t158;
+        let t862 = parameters.base_point[4][1] - parameters.actuator_axis[4][1] * t158;
+        let t863 = parameters.base_point[4][2] - parameters.actuator_axis[4][2] * t158;
+        let t864 = t435 - (t451 * t861 + t453 * t862 - t455 * t863);
+        let t865 = c(2.0) * t422;
+        let t866 = parameters.actuator_axis[4][1] * t295;
+        let t867 = t864 - t865 * (parameters.actuator_axis[4][2] * t292 - t866);
+        let t868 = t867 - parameters.actuator_axis[4][0] * t622;
+        let t869 = parameters.platform_point[4][1] * t490;
+        let t870 = parameters.platform_point[4][0] * t489 + t869;
+        let t871 = t198 * (t468 - (t870 + parameters.platform_point[4][2] * t491));
+        let t872 = t195 * t868 - t871;
+        let t873 = t198 * t868;
+        let t874 = parameters.actuator_axis[4][1] * t453;
+        let t875 = parameters.actuator_axis[4][0] * t451 + t874;
+        let t876 = t875 - parameters.actuator_axis[4][2] * t455;
+        let t877 = parameters.mover_mass[4] * (t868 + parameters.mover_offset[4] * t876);
+        let t878 = t872 - t873 + t877;
+        let t879 = t437 + (t456 * t861 - t458 * t862 - t460 * t863);
+        let t880 = parameters.actuator_axis[4][2] * t289;
+        let t881 = t879 - t865 * (parameters.actuator_axis[4][0] * t295 - t880);
+        let t882 = t881 - parameters.actuator_axis[4][1] * t622;
+        let t883 = parameters.platform_point[4][1] * t498;
+        let t884 = parameters.platform_point[4][0] * t497 + t883;
+        let t885 = t198 * (t470 + (t884 + parameters.platform_point[4][2] * t499));
+        let t886 = t195 * t882 - t885;
+        let t887 = t198 * t882;
+        let t888 = parameters.actuator_axis[4][1] * t458;
+        let t889 = parameters.actuator_axis[4][0] * t456 - t888;
+        let t890 = t889 - parameters.actuator_axis[4][2] * t460;
+        let t891 = parameters.mover_mass[4] * (t882 - parameters.mover_offset[4] * t890);
+        let t892 = t886 - t887 + t891;
+        let t893 = t439 - (t461 * t861 - t462 * t862 + t463 * t863);
+        let t894 = parameters.actuator_axis[4][0] * t292;
+        let t895 = t893 - t865 * (parameters.actuator_axis[4][1] * t289 - t894);
+        let t896 = t895 - parameters.actuator_axis[4][2] * t622;
+        let t897 = parameters.platform_point[4][1] * t504;
+        let t898 = parameters.platform_point[4][0] * t503 + t897;
+        let t899 = t198 * (t472 - (t898 + parameters.platform_point[4][2] * t505));
+        let t900 = t195 * t896 - t899;
+        let t901 = t198 * t896;
+        let t902 = parameters.actuator_axis[4][1] * t462;
+        let t903 = parameters.actuator_axis[4][0] * t461 - t902;
+        let t904 = t903 + parameters.actuator_axis[4][2] * t463;
+        let t905 = parameters.mover_mass[4] * (t896 + parameters.mover_offset[4] * t904);
+        let t906 = t900 - t901 + t905;
+        // leg 5: its moment about the base origin
+        let t907 = parameters.base_point[4][1] - t95;
+        let t908 = parameters.base_point[4][2] - t96;
+        let t909 = t862 * t900 - t863 * t886 - (t901 * t907 - t887 * t908);
+        let t910 = t862 - parameters.actuator_axis[4][1] * parameters.mover_offset[4];
+        let t911 = t863 - parameters.actuator_axis[4][2] * parameters.mover_offset[4];
+        let t912 = t909 + (t905 * t910 - t891 * t911);
+        let t913 = parameters.base_point[4][0] - t94;
+        let t914 = t863 * t872 - t861 * t900 - (t873 * t908 - t901 * t913);
+        let t915 = t861 - parameters.actuator_axis[4][0] * parameters.mover_offset[4];
+        let t916 = t914 + (t877 * t911 - t905 * t915);
+        let t917 = t861 * t886 - t862 * t872 - (t887 * t913 - t873 * t907);
+        let t918 = t917 + (t891 * t915 - t877 * t910);
+        // leg 6: inertia less weight of the whole leg
+        let t919 = parameters.base_point[5][0] - parameters.actuator_axis[5][0] * t168;
+        let t920 = parameters.base_point[5][1] - parameters.actuator_axis[5][1] * t168;
+        let t921 = parameters.base_point[5][2] - parameters.actuator_axis[5][2] * t168;
+        let t922 = t435 - (t451 * t919 + t453 * t920 - t455 * t921);
+        let t923 = c(2.0) * t430;
+        let t924 = parameters.actuator_axis[5][1] * t295;
+        let t925 = t922 - t923 * (parameters.actuator_axis[5][2] * t292 - t924);
+        let t926 = t925 - parameters.actuator_axis[5][0] * t628;
+        let t927 = parameters.platform_point[5][1] * t490;
+        let t928 = parameters.platform_point[5][0] * t489 + t927;
+        let t929 = t204 * (t468 - (t928 + parameters.platform_point[5][2] * t491));
+        let t930 = t201 * t926 - t929;
+        let t931 = t204 * t926;
+        let t932 = parameters.actuator_axis[5][1] * t453;
+        let t933 = parameters.actuator_axis[5][0] * t451 + t932;
+        let t934 = t933 - parameters.actuator_axis[5][2] * t455;
+        let t935 = parameters.mover_mass[5] * (t926 + parameters.mover_offset[5] * t934);
+        let t936 = t930 - t931 + t935;
+        let t937 = t437 + (t456 * t919 - t458 * t920 - t460 * t921);
+        let t938 = parameters.actuator_axis[5][2] * t289;
+        let t939 = t937 - t923 * (parameters.actuator_axis[5][0] * t295 - t938);
+        let t940 = t939 - parameters.actuator_axis[5][1] * t628;
+        let t941 = parameters.platform_point[5][1] * t498;
+        let t942 = parameters.platform_point[5][0] * t497 + t941;
+        let t943 = t204 * (t470 + (t942 + parameters.platform_point[5][2] * t499));
+        let t944 = t201 * t940 - t943;
+        let t945 = t204 * t940;
+        let t946 = parameters.actuator_axis[5][1] * t458;
+        let t947 = parameters.actuator_axis[5][0] * t456 - t946;
+        let t948 = t947 - parameters.actuator_axis[5][2] * t460;
+        let t949 = parameters.mover_mass[5] * (t940 - parameters.mover_offset[5] * t948);
+        let t950 = t944 - t945 + t949;
+        let t951 = t439 - (t461 * t919 - t462 * t920 + t463 * t921);
+        let t952 = parameters.actuator_axis[5][0] * t292;
+        let t953 = t951 - t923 * (parameters.actuator_axis[5][1] * t289 - t952);
+        let t954 = t953 - parameters.actuator_axis[5][2] * t628;
+        let t955 = parameters.platform_point[5][1] * t504;
+        let t956 = parameters.platform_point[5][0] * t503 + t955;
+        let t957 = t204 * (t472 - (t956 + parameters.platform_point[5][2] * t505));
+        let t958 = t201 * t954 - t957;
+        let t959 = t204 * t954;
+        let t960 = parameters.actuator_axis[5][1] * t462;
+        let t961 = parameters.actuator_axis[5][0] * t461 - t960;
+        let t962 = t961 + parameters.actuator_axis[5][2] * t463;
+        let t963 = parameters.mover_mass[5] * (t954 + parameters.mover_offset[5] * t962);
+        let t964 = t958 - t959 + t963;
+        // leg 6: its moment about the base origin
+        let t965 = parameters.base_point[5][1] - t107;
+        let t966 = parameters.base_point[5][2] - t108;
+        let t967 = t920 * t958 - t921 * t944 - (t959 * t965 - t945 * t966);
+        let t968 = t920 - parameters.actuator_axis[5][1] * parameters.mover_offset[5];
+        let t969 = t921 - parameters.actuator_axis[5][2] * parameters.mover_offset[5];
+        let t970 = t967 + (t963 * t968 - t949 * t969);
+        let t971 = parameters.base_point[5][0] - t106;
+        let t972 = t921 * t930 - t919 * t958 - (t931 * t966 - t959 * t971);
+        let t973 = t919 - parameters.actuator_axis[5][0] * parameters.mover_offset[5];
+        let t974 = t972 + (t935 * t969 - t963 * t973);
+        let t975 = t919 * t944 - t920 * t930 - (t945 * t971 - t931 * t965);
+        let t976 = t975 + (t949 * t973 - t935 * t968);
+        (
+            t3,
+            t6,
+            t9,
+            t12,
+            t15,
+            t18,
+            t21,
+            t24,
+            t27,
+            t32,
+            t34,
+            t36,
+            t206,
+            t213,
+            t220,
+            t227,
+            t239,
+            t248,
+            t257,
+            t267,
+            t276,
+            t286,
+            t468,
+            t470,
+            t472,
+            t489,
+            t490,
+            t491,
+            t497,
+            t498,
+            t499,
+            t503,
+            t504,
+            t505,
+            t646,
+            t660,
+            t674,
+            t680,
+            t684,
+            t686,
+            t704,
+            t718,
+            t732,
+            t738,
+            t742,
+            t744,
+            t762,
+            t776,
+            t790,
+            t796,
+            t800,
+            t802,
+            t820,
+            t834,
+            t848,
+            t854,
+            t858,
+            t860,
+            t878,
+            t892,
+            t906,
+            t912,
+            t916,
+            t918,
+            t936,
+            t950,
+            t964,
+            t970,
+            t974,
+            t976,
+        )
+    };
+    {
+        // wrench of the base on the mechanism, moments about the base origin
+        let t977 = t206 * t468 - (t213 * t489 + t220 * t490 + t227 * t491);
+        let t978 = base_rotation[1][0] * external_wrench[1];
+        let t979 = base_rotation[0][0] * external_wrench[0] + t978;
+        let t980 = t979 + base_rotation[2][0] * external_wrench[2];
+        let t981 = t977 - t980;
+        let t982 = t936 + (t878 + (t820 + (t762 + (t704 + (t646 + t981)))));
+        let t983 = t206 * t470 + (t213 * t497 + t220 * t498 + t227 * t499);
+        let t984 = base_rotation[1][1] * external_wrench[1];
+        let t985 = base_rotation[0][1] * external_wrench[0] + t984;
+        let t986 = t985 + base_rotation[2][1] * external_wrench[2];
+        let t987 = t983 - t986;
+        let t988 = t950 + (t892 + (t834 + (t776 + (t718 + (t660 + t987)))));
+        let t989 = base_rotation[0][0] * t982 + base_rotation[0][1] * t988;
+        let t990 = t206 * t472 - (t213 * t503 + t220 * t504 + t227 * t505);
+        let t991 = base_rotation[1][2] * external_wrench[1];
+        let t992 = base_rotation[0][2] * external_wrench[0] + t991;
+        let t993 = t992 + base_rotation[2][2] * external_wrench[2];
+        let t994 = t990 - t993;
+        let t995 = t964 + (t906 + (t848 + (t790 + (t732 + (t674 + t994)))));
+        base_wrench[0] = t989 + base_rotation[0][2] * t995;
+        let t996 = base_rotation[1][0] * t982 + base_rotation[1][1] * t988;
+        base_wrench[1] = t996 + base_rotation[1][2] * t995;
+        let t997 = base_rotation[2][0] * t982 + base_rotation[2][1] * t988;
+        base_wrench[2] = t997 + base_rotation[2][2] * t995;
+        let t998 = t213 * t472 + (t239 * t503 + t248 * t504 + t257 * t505);
+        let t999 = t998 - parameters.payload_com[0] * t993;
+        let t1000 = t213 * t470 - (t239 * t497 + t248 * t498 + t257 * t499);
+        let t1001 = t1000 - parameters.payload_com[0] * t986;
+        let t1002 = t220 * t472 + (t248 * t503 + t267 * t504 + t276 * t505);
+        let t1003 = t1002 - parameters.payload_com[1] * t993;
+        let t1004 = t220 * t470 - (t248 * t497 + t267 * t498 + t276 * t499);
+        let t1005 = t1004 - parameters.payload_com[1] * t986;
+        let t1006 = t12 * t999 - t21 * t1001 + (t15 * t1003 - t24 * t1005);
+        let t1007 = t227 * t472 + (t257 * t503 + t276 * t504 + t286 * t505);
+        let t1008 = t1007 - parameters.payload_com[2] * t993;
+        let t1009 = t227 * t470 - (t257 * t497 + t276 * t498 + t286 * t499);
+        let t1010 = t1009 - parameters.payload_com[2] * t986;
+        let t1011 = t1006 + (t18 * t1008 - t27 * t1010);
+        let t1012 = base_rotation[1][0] * external_wrench[4];
+        let t1013 = base_rotation[0][0] * external_wrench[3] + t1012;
+        let t1014 = t1013 + base_rotation[2][0] * external_wrench[5];
+        let t1015 = t738 + (t680 + (t1011 - (t34 * t994 - t36 * t987) - t1014));
+        let t1016 = t970 + (t912 + (t854 + (t796 + t1015)));
+        let t1017 = t213 * t468 + (t239 * t489 + t248 * t490 + t257 * t491);
+        let t1018 = t1017 - parameters.payload_com[0] * t980;
+        let t1019 = t220 * t468 + (t248 * t489 + t267 * t490 + t276 * t491);
+        let t1020 = t1019 - parameters.payload_com[1] * t980;
+        let t1021 = t21 * t1018 - t3 * t999 + (t24 * t1020 - t6 * t1003);
+        let t1022 = t227 * t468 + (t257 * t489 + t276 * t490 + t286 * t491);
+        let t1023 = t1022 - parameters.payload_com[2] * t980;
+        let t1024 = t1021 + (t27 * t1023 - t9 * t1008);
+        let t1025 = base_rotation[1][1] * external_wrench[4];
+        let t1026 = base_rotation[0][1] * external_wrench[3] + t1025;
+        let t1027 = t1026 + base_rotation[2][1] * external_wrench[5];
+        let t1028 = t742 + (t684 + (t1024 - (t36 * t981 - t32 * t994) - t1027));
+        let t1029 = t974 + (t916 + (t858 + (t800 + t1028)));
+        let t1030 = base_rotation[0][0] * t1016 + base_rotation[0][1] * t1029;
+        let t1031 = t3 * t1001 - t12 * t1018 + (t6 * t1005 - t15 * t1020);
+        let t1032 = t1031 + (t9 * t1010 - t18 * t1023);
+        let t1033 = base_rotation[1][2] * external_wrench[4];
+        let t1034 = base_rotation[0][2] * external_wrench[3] + t1033;
+        let t1035 = t1034 + base_rotation[2][2] * external_wrench[5];
+        let t1036 = t744 + (t686 + (t1032 - (t32 * t987 - t34 * t981) - t1035));
+        let t1037 = t976 + (t918 + (t860 + (t802 + t1036)));
+        base_wrench[3] = t1030 + base_rotation[0][2] * t1037;
+        let t1038 = base_rotation[1][0] * t1016 + base_rotation[1][1] * t1029;
+        base_wrench[4] = t1038 + base_rotation[1][2] * t1037;
+        let t1039 = base_rotation[2][0] * t1016 + base_rotation[2][1] * t1029;
+        base_wrench[5] = t1039 + base_rotation[2][2] * t1037;
     }
 }
 

@@ -3,33 +3,39 @@
 //
 // Dynamics of the platform `uhp_2016`, every number baked in.
 //
-// graph     uhp.json, sha256 64598c63b0eef92949c7e47bb8307f621caaf18f73a9c7b4d4cbe2ee8d4f74b4
+// graph     uhp.json, sha256 681cf4434cab11670af96653d8c96f220cec2462c26e5b794f5948e0a98ffee3
 //           derived by CasADi 3.8.2
 // platform  uhp_2016, sha256 of its resolved numbers b8134078fa1f34e5f609cc3dfb62aea03f363b944f89b1a9c1f48d524d56338e
 //
 // operations (+ - * / sqrt; a change of sign is not counted)
-// function            as derived  as printed
-// rod_alignment              303          99
-// leg_kinematics            1815        1103
-// body_kinematics           2853        1895
-// partial_velocities        1608        1164
-// generalised_forces        3660        2408
-// jacobian_dp                579         279
-// jacobian_db                597         288
-// mass_matrix_p             1475         783
-// mass_matrix_b             2325        1746
-// coriolis_matrices         3939        2907
-// stiffness_matrices        1266         966
-// matrices                  5264        4161
-// passive_forces            1398         475
-// bias                      2386        1045
-// equation_of_motion        6434        5090
-// inverse_dynamics          2409        1234
-// forward_dynamics          3282        1640
-// energy                    1769         854
+// function                  as derived  as printed
+// rod_alignment                    303          99
+// leg_kinematics                  1815        1103
+// body_kinematics                 2853        1895
+// partial_velocities              1608        1164
+// generalised_forces              3660        2408
+// jacobian_dp                      579         279
+// jacobian_db                      597         288
+// mass_matrix_p                   1475         783
+// mass_matrix_b                   2325        1746
+// coriolis_matrices               3939        2907
+// stiffness_matrices              1266         966
+// matrices                        5264        4161
+// passive_forces                  1398         475
+// bias                            2386        1045
+// equation_of_motion              6434        5090
+// inverse_dynamics                2409        1234
+// actuator_geometry                591         321
+// control                         3425        2047
+// passive_inverse_dynamics        3075        1669
+// base_reaction                   2475        1270
+// forward_dynamics                3282        1640
+// energy                          1769         854
 //
 // linear systems: growth of rounding errors in a fixed order of pivots, at the worst state
-// inverse_dynamics, axial_reaction: 10.7 (51 states sampled)
+// inverse_dynamics, axial_reaction: 7.2 (51 states sampled)
+// control, axial_reaction: 38.3 (51 states sampled)
+// passive_inverse_dynamics, axial_reaction: 7.2 (51 states sampled)
 
 #[allow(unused_imports)]
 use crate::float::{Scalar, sqrt};
@@ -504,6 +510,132 @@ impl crate::kernels::InverseDynamics for Uhp2016 {
             platform_acceleration,
             external_wrench,
             inverse_dynamics,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::ActuatorGeometry for Uhp2016 {
+    fn actuator_geometry(
+        &self,
+        base_position: &[f64; 3],
+        base_rotation: &[[f64; 3]; 3],
+        platform_position: &[f64; 3],
+        platform_rotation: &[[f64; 3]; 3],
+        rod_alignment: &mut [f64; 6],
+        actuator_length: &mut [f64; 6],
+        jacobian_dp: &mut [[f64; 6]; 6],
+    ) {
+        self::actuator_geometry(
+            base_position,
+            base_rotation,
+            platform_position,
+            platform_rotation,
+            rod_alignment,
+            actuator_length,
+            jacobian_dp,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::Control for Uhp2016 {
+    fn control(
+        &self,
+        base_position: &[f64; 3],
+        base_rotation: &[[f64; 3]; 3],
+        base_velocity: &[f64; 6],
+        base_acceleration: &[f64; 6],
+        platform_position: &[f64; 3],
+        platform_rotation: &[[f64; 3]; 3],
+        platform_velocity: &[f64; 6],
+        platform_acceleration: &[f64; 6],
+        external_wrench: &[f64; 6],
+        actuator_length: &mut [f64; 6],
+        actuator_velocity: &mut [f64; 6],
+        jacobian_dp: &mut [[f64; 6]; 6],
+        mass_matrix_p: &mut [[f64; 6]; 6],
+        total_bias: &mut [f64; 6],
+        inverse_dynamics: &mut [f64; 6],
+    ) {
+        self::control(
+            base_position,
+            base_rotation,
+            base_velocity,
+            base_acceleration,
+            platform_position,
+            platform_rotation,
+            platform_velocity,
+            platform_acceleration,
+            external_wrench,
+            actuator_length,
+            actuator_velocity,
+            jacobian_dp,
+            mass_matrix_p,
+            total_bias,
+            inverse_dynamics,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::PassiveInverseDynamics for Uhp2016 {
+    fn passive_inverse_dynamics(
+        &self,
+        base_position: &[f64; 3],
+        base_rotation: &[[f64; 3]; 3],
+        base_velocity: &[f64; 6],
+        base_acceleration: &[f64; 6],
+        platform_position: &[f64; 3],
+        platform_rotation: &[[f64; 3]; 3],
+        platform_velocity: &[f64; 6],
+        platform_acceleration: &[f64; 6],
+        reference_velocity: &[f64; 6],
+        external_wrench: &[f64; 6],
+        passive_inverse_dynamics: &mut [f64; 6],
+    ) {
+        self::passive_inverse_dynamics(
+            base_position,
+            base_rotation,
+            base_velocity,
+            base_acceleration,
+            platform_position,
+            platform_rotation,
+            platform_velocity,
+            platform_acceleration,
+            reference_velocity,
+            external_wrench,
+            passive_inverse_dynamics,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::BaseReaction for Uhp2016 {
+    fn base_reaction(
+        &self,
+        base_position: &[f64; 3],
+        base_rotation: &[[f64; 3]; 3],
+        base_velocity: &[f64; 6],
+        base_acceleration: &[f64; 6],
+        platform_position: &[f64; 3],
+        platform_rotation: &[[f64; 3]; 3],
+        platform_velocity: &[f64; 6],
+        platform_acceleration: &[f64; 6],
+        external_wrench: &[f64; 6],
+        base_wrench: &mut [f64; 6],
+    ) {
+        self::base_reaction(
+            base_position,
+            base_rotation,
+            base_velocity,
+            base_acceleration,
+            platform_position,
+            platform_rotation,
+            platform_velocity,
+            platform_acceleration,
+            external_wrench,
+            base_wrench,
         );
     }
 }
@@ -1044,6 +1176,136 @@ impl crate::kernels::InverseDynamics<f32> for Uhp2016 {
             platform_acceleration,
             external_wrench,
             inverse_dynamics,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::ActuatorGeometry<f32> for Uhp2016 {
+    #[inline]
+    fn actuator_geometry(
+        &self,
+        base_position: &[f32; 3],
+        base_rotation: &[[f32; 3]; 3],
+        platform_position: &[f32; 3],
+        platform_rotation: &[[f32; 3]; 3],
+        rod_alignment: &mut [f32; 6],
+        actuator_length: &mut [f32; 6],
+        jacobian_dp: &mut [[f32; 6]; 6],
+    ) {
+        self::actuator_geometry(
+            base_position,
+            base_rotation,
+            platform_position,
+            platform_rotation,
+            rod_alignment,
+            actuator_length,
+            jacobian_dp,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::Control<f32> for Uhp2016 {
+    #[inline]
+    fn control(
+        &self,
+        base_position: &[f32; 3],
+        base_rotation: &[[f32; 3]; 3],
+        base_velocity: &[f32; 6],
+        base_acceleration: &[f32; 6],
+        platform_position: &[f32; 3],
+        platform_rotation: &[[f32; 3]; 3],
+        platform_velocity: &[f32; 6],
+        platform_acceleration: &[f32; 6],
+        external_wrench: &[f32; 6],
+        actuator_length: &mut [f32; 6],
+        actuator_velocity: &mut [f32; 6],
+        jacobian_dp: &mut [[f32; 6]; 6],
+        mass_matrix_p: &mut [[f32; 6]; 6],
+        total_bias: &mut [f32; 6],
+        inverse_dynamics: &mut [f32; 6],
+    ) {
+        self::control(
+            base_position,
+            base_rotation,
+            base_velocity,
+            base_acceleration,
+            platform_position,
+            platform_rotation,
+            platform_velocity,
+            platform_acceleration,
+            external_wrench,
+            actuator_length,
+            actuator_velocity,
+            jacobian_dp,
+            mass_matrix_p,
+            total_bias,
+            inverse_dynamics,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::PassiveInverseDynamics<f32> for Uhp2016 {
+    #[inline]
+    fn passive_inverse_dynamics(
+        &self,
+        base_position: &[f32; 3],
+        base_rotation: &[[f32; 3]; 3],
+        base_velocity: &[f32; 6],
+        base_acceleration: &[f32; 6],
+        platform_position: &[f32; 3],
+        platform_rotation: &[[f32; 3]; 3],
+        platform_velocity: &[f32; 6],
+        platform_acceleration: &[f32; 6],
+        reference_velocity: &[f32; 6],
+        external_wrench: &[f32; 6],
+        passive_inverse_dynamics: &mut [f32; 6],
+    ) {
+        self::passive_inverse_dynamics(
+            base_position,
+            base_rotation,
+            base_velocity,
+            base_acceleration,
+            platform_position,
+            platform_rotation,
+            platform_velocity,
+            platform_acceleration,
+            reference_velocity,
+            external_wrench,
+            passive_inverse_dynamics,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::BaseReaction<f32> for Uhp2016 {
+    #[inline]
+    fn base_reaction(
+        &self,
+        base_position: &[f32; 3],
+        base_rotation: &[[f32; 3]; 3],
+        base_velocity: &[f32; 6],
+        base_acceleration: &[f32; 6],
+        platform_position: &[f32; 3],
+        platform_rotation: &[[f32; 3]; 3],
+        platform_velocity: &[f32; 6],
+        platform_acceleration: &[f32; 6],
+        external_wrench: &[f32; 6],
+        base_wrench: &mut [f32; 6],
+    ) {
+        self::base_reaction(
+            base_position,
+            base_rotation,
+            base_velocity,
+            base_acceleration,
+            platform_position,
+            platform_rotation,
+            platform_velocity,
+            platform_acceleration,
+            external_wrench,
+            base_wrench,
         );
     }
 }
@@ -15440,80 +15702,3297 @@ pub fn inverse_dynamics<T: Scalar>(
     let t503 = base_rotation[1][2] * external_wrench[4];
     let t504 = base_rotation[2][2] * external_wrench[5];
     // force along the actuator that balances the remaining wrench
-    let t505 = t494 + (t493 + (t492 - (t491 - (t489 - (t488 + (t486 - t487))))));
-    let t506 = t420 * t474 - (t495 + t505);
-    let t507 = c(1.0) / (t420 + (t49 + t412));
-    let t508 = (t419 + (t50 - t411)) * t507;
-    let t509 = t484 + (t483 + (t482 - (t480 - (t478 - (t477 + (t475 - t476))))));
-    let t510 = t506 * t508 - (t419 * t474 + (t485 + t509));
-    let t511 = t423 + (t78 - t420);
-    let t512 = (t109 + t113) * t507;
-    let t513 = c(1.0) / (t511 * t508 - (t422 + (t79 - t419)));
-    let t514 = (t511 * t512 + (t113 - t115)) * t513;
-    let t515 = c(8.139999999999999) * t224 - c(2.2551405187698492e-17) * t252;
-    let t516 = t515 - c(6.938893903907228e-18) * t253 - c(0.188852) * t254;
-    let t517 = t113 * t474 + (t468 - (t443 + (t442 + (t441 + t516))));
-    let t518 = t510 * t514 - (t506 * t512 - t517);
-    let t519 = t420 + (t39 - t408);
-    let t520 = t519 * t508 - (t419 + (t42 - t407));
-    let t521 = (t421 - (t413 + t414)) * t507;
-    let t522 = (t511 * t521 + (t425 + (t421 - t424))) * t513;
-    let t523 = c(1.0) / (t520 * t514 - (t519 * t512 - (t107 + t113)));
-    let t524 = (t520 * t522 - (t519 * t521 - (t421 - (t409 - t410)))) * t523;
-    let t525 = t503 + (t502 + (t501 - (t500 - (t499 - (t498 + (t496 - t497))))));
-    let t526 = t510 * t522 - (t506 * t521 - (t421 * t474 - (t504 + t525)));
-    let t527 = t518 * t524 - t526;
-    let t528 = t427 + (t83 - t420);
-    let t529 = t528 * t508 - (t426 + (t84 - t419));
-    let t530 = t529 * t514 - (t528 * t512 + (t113 - t117));
-    let t531 = (t108 - t112) * t507;
-    let t532 = (t511 * t531 - (t112 - t114)) * t513;
-    let t533 = (t520 * t532 - (t519 * t531 + (t106 + t112))) * t523;
-    let t534 = t530 * t533 - (t529 * t532 - (t528 * t531 - (t112 - t116)));
-    let t535 = t529 * t522 - (t528 * t521 + (t429 + (t421 - t428)));
-    let t536 = c(1.0) / (t530 * t524 - t535);
-    let t537 = t534 * t536;
-    let t538 = c(8.139999999999999) * t221 + c(2.2551405187698492e-17) * t244;
-    let t539 = t538 + c(6.938893903907228e-18) * t245 + c(0.188852) * t246;
-    let t540 = t112 * t474 + (t465 - (t432 + (t431 + (t430 + t539))));
-    let t541 = t518 * t533 - (t510 * t532 - (t506 * t531 + t540));
-    let t542 = t420 - (t56 + t416);
-    let t543 = t542 * t508 - (t419 - (t59 + t415));
-    let t544 = t543 * t514 - (t542 * t512 + (t111 - t113));
-    let t545 = t543 * t522 - (t542 * t521 - (t421 - (t417 - t418)));
-    let t546 = t544 * t524 - t545;
-    let t547 = t544 * t533 - (t543 * t532 - (t542 * t531 - (t110 - t112)));
-    let t548 = (t527 * t537 - t541) * (c(1.0) / (t546 * t537 - t547));
-    let t549 = t536 * (t527 - t546 * t548);
-    let t550 = t523 * (t544 * t548 - (t518 - t530 * t549));
-    let t551 = t513 * (t543 * t548 + (t529 * t549 - (t510 + t520 * t550)));
-    let t552 = t528 * t549 - (t519 * t550 + (t506 + t511 * t551));
-    let t553 = t507 * (t542 * t548 + t552);
+    let t505 = t484 + (t483 + (t482 - (t480 - (t478 - (t477 + (t475 - t476))))));
+    let t506 = t419 * t474 + (t485 + t505);
+    let t507 = c(1.0) / (t422 + (t79 - t419));
+    let t508 = (t423 + (t78 - t420)) * t507;
+    let t509 = t494 + (t493 + (t492 - (t491 - (t489 - (t488 + (t486 - t487))))));
+    let t510 = t506 * t508 - (t420 * t474 - (t495 + t509));
+    let t511 = t419 + (t50 - t411);
+    let t512 = (t425 + (t421 - t424)) * t507;
+    let t513 = c(1.0) / (t511 * t508 - (t420 + (t49 + t412)));
+    let t514 = (t511 * t512 + (t421 - (t413 + t414))) * t513;
+    let t515 = t503 + (t502 + (t501 - (t500 - (t499 - (t498 + (t496 - t497))))));
+    let t516 = t510 * t514 - (t506 * t512 + (t421 * t474 - (t504 + t515)));
+    let t517 = t419 - (t59 + t415);
+    let t518 = t517 * t508 - (t420 - (t56 + t416));
+    let t519 = (t113 - t115) * t507;
+    let t520 = (t511 * t519 + (t109 + t113)) * t513;
+    let t521 = c(1.0) / (t518 * t514 - (t517 * t512 + (t421 - (t417 - t418))));
+    let t522 = (t518 * t520 - (t517 * t519 - (t111 - t113))) * t521;
+    let t523 = c(8.139999999999999) * t224 - c(2.2551405187698492e-17) * t252;
+    let t524 = t523 - c(6.938893903907228e-18) * t253 - c(0.188852) * t254;
+    let t525 = t113 * t474 + (t468 - (t443 + (t442 + (t441 + t524))));
+    let t526 = t516 * t522 - (t510 * t520 - (t506 * t519 + t525));
+    let t527 = t419 + (t42 - t407);
+    let t528 = t527 * t508 - (t420 + (t39 - t408));
+    let t529 = t528 * t514 - (t527 * t512 + (t421 - (t409 - t410)));
+    let t530 = (t112 - t114) * t507;
+    let t531 = (t511 * t530 - (t108 - t112)) * t513;
+    let t532 = (t518 * t531 - (t517 * t530 - (t110 - t112))) * t521;
+    let t533 = t529 * t532 - (t528 * t531 - (t527 * t530 + (t106 + t112)));
+    let t534 = t529 * t522 - (t528 * t520 - (t527 * t519 + (t107 + t113)));
+    let t535 = c(1.0) / t534;
+    let t536 = t533 * t535;
+    let t537 = c(8.139999999999999) * t221 + c(2.2551405187698492e-17) * t244;
+    let t538 = t537 + c(6.938893903907228e-18) * t245 + c(0.188852) * t246;
+    let t539 = t112 * t474 + (t465 - (t432 + (t431 + (t430 + t538))));
+    let t540 = t516 * t532 - (t510 * t531 - (t506 * t530 + t539));
+    let t541 = t426 + (t84 - t419);
+    let t542 = t541 * t508 - (t427 + (t83 - t420));
+    let t543 = t542 * t514 - (t541 * t512 - (t429 + (t421 - t428)));
+    let t544 = t543 * t522 - (t542 * t520 - (t541 * t519 - (t113 - t117)));
+    let t545 = t543 * t532 - (t542 * t531 - (t541 * t530 - (t112 - t116)));
+    let t546 = (t526 * t536 - t540) * (c(1.0) / (t544 * t536 - t545));
+    let t547 = t535 * (t526 - t544 * t546);
+    let t548 = t521 * (t543 * t546 - (t516 - t529 * t547));
+    let t549 = t513 * (t542 * t546 + (t528 * t547 - (t510 + t518 * t548)));
+    let t550 = t527 * t547 - (t517 * t548 + (t506 + t511 * t549));
+    let t551 = t507 * (t541 * t546 + t550);
     // leg 1: actuator forces F
-    let t554 = c(4268.068200000001) - t217 * c(0.03055);
-    let t555 = t554 - c(0.17066666666666666) * t227;
-    let t556 = t555 + t258 * c(0.019782160922400118);
-    let t557 = t259 * c(0.005300614043699624);
-    let t558 = t550 - (c(21555.9) * t90 - t557 + t341 * c(0.9523333333333334));
-    inverse_dynamics[0] = t558 - t556;
+    let t552 = c(4268.068200000001) - t217 * c(0.03055);
+    let t553 = t552 - c(0.17066666666666666) * t227;
+    let t554 = t553 + t258 * c(0.019782160922400118);
+    let t555 = t259 * c(0.005300614043699624);
+    let t556 = t555 - c(21555.9) * t90 - t341 * c(0.9523333333333334) - t547;
+    inverse_dynamics[0] = t556 - t554;
     // leg 2: actuator forces F
-    let t559 = t553 - (t557 + c(21555.9) * t93 - t355 * c(0.9523333333333334));
-    inverse_dynamics[1] = t559 - t556;
+    let t557 = t549 - (t555 + c(21555.9) * t93 - t355 * c(0.9523333333333334));
+    inverse_dynamics[1] = t557 - t554;
     // leg 3: actuator forces F
-    let t560 = t555 - t258 * c(0.005300614043699622);
-    let t561 = t259 * c(0.019782160922400118);
-    let t562 = t96 * c(-21555.9) - t561 - t368 * c(0.9523333333333334) - t548;
-    inverse_dynamics[2] = t562 - t560;
+    let t558 = t553 - t258 * c(0.005300614043699622);
+    let t559 = t259 * c(0.019782160922400118);
+    let t560 = t548 - (c(21555.9) * t96 + t559 + t368 * c(0.9523333333333334));
+    inverse_dynamics[2] = t560 - t558;
     // leg 4: actuator forces F
-    let t563 = t551 - t259 * c(0.014481546878700494);
-    let t564 = t555 - t258 * c(0.01448154687870049);
-    let t565 = t548 - (t474 + (c(21555.9) * t99 + t384 * c(0.9523333333333334)));
-    inverse_dynamics[3] = t563 - (t553 + (t550 + (t549 - t565))) - t564;
+    let t561 = t551 - t259 * c(0.014481546878700494);
+    let t562 = t553 - t258 * c(0.01448154687870049);
+    let t563 = t546 + (t474 + (c(21555.9) * t99 + t384 * c(0.9523333333333334)));
+    inverse_dynamics[3] = t561 - (t549 + (t548 - (t547 - t563))) - t562;
     // leg 6: actuator forces F
-    let t566 = t549 + (t561 - c(21555.9) * t105 + t404 * c(0.9523333333333334));
-    inverse_dynamics[5] = t566 - t560;
+    let t564 = t546 + (t559 - c(21555.9) * t105 + t404 * c(0.9523333333333334));
+    inverse_dynamics[5] = t564 - t558;
     // leg 5: actuator forces F
-    inverse_dynamics[4] = t396 * c(0.9523333333333334) - c(21555.9) * t102 - t563 - t564;
+    inverse_dynamics[4] = t396 * c(0.9523333333333334) - c(21555.9) * t102 - t561 - t562;
+}
+
+/// Actuator lengths with their gradients, for forward kinematics, equation (18), (32).
+///
+/// Inputs:
+///
+/// - `base_position`: 3, m, frame O: origin of the base frame.
+/// - `base_rotation`: 3x3, dimensionless, frame B -> O: rotation of the base, equation (2).
+/// - `platform_position`: 3, m, frame O: centre of the platform's joint circle.
+/// - `platform_rotation`: 3x3, dimensionless, frame P -> O: rotation of the platform, equation (2).
+///
+/// Outputs:
+///
+/// - `rod_alignment`: 6, dimensionless: squared cosine between rod and line of the actuator's force; negative out of reach, equation (18).
+/// - `actuator_length`: 6, m: actuator length d, equation (18).
+/// - `jacobian_dp`: 6x6, 1, m, frame O: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b, equation (32).
+#[allow(clippy::all, clippy::pedantic, unused_variables)]
+pub fn actuator_geometry<T: Scalar>(
+    base_position: &[T; 3],
+    base_rotation: &[[T; 3]; 3],
+    platform_position: &[T; 3],
+    platform_rotation: &[[T; 3]; 3],
+    rod_alignment: &mut [T; 6],
+    actuator_length: &mut [T; 6],
+    jacobian_dp: &mut [[T; 6]; 6],
+) {
+    let c = T::constant;
+    // rotation of the platform seen from the base
+    let t1 = base_rotation[1][0] * platform_rotation[1][0];
+    let t2 = base_rotation[0][0] * platform_rotation[0][0] + t1;
+    let t3 = base_rotation[2][0] * platform_rotation[2][0] + t2;
+    let t4 = base_rotation[1][0] * platform_rotation[1][1];
+    let t5 = base_rotation[0][0] * platform_rotation[0][1] + t4;
+    let t6 = base_rotation[2][0] * platform_rotation[2][1] + t5;
+    let t7 = base_rotation[1][1] * platform_rotation[1][0];
+    let t8 = base_rotation[0][1] * platform_rotation[0][0] + t7;
+    let t9 = base_rotation[2][1] * platform_rotation[2][0] + t8;
+    let t10 = base_rotation[1][1] * platform_rotation[1][1];
+    let t11 = base_rotation[0][1] * platform_rotation[0][1] + t10;
+    let t12 = base_rotation[2][1] * platform_rotation[2][1] + t11;
+    let t13 = base_rotation[1][2] * platform_rotation[1][0];
+    let t14 = base_rotation[0][2] * platform_rotation[0][0] + t13;
+    let t15 = base_rotation[2][2] * platform_rotation[2][0] + t14;
+    let t16 = base_rotation[1][2] * platform_rotation[1][1];
+    let t17 = base_rotation[0][2] * platform_rotation[0][1] + t16;
+    let t18 = base_rotation[2][2] * platform_rotation[2][1] + t17;
+    // platform origin seen from the base
+    let t19 = base_position[2] - platform_position[2];
+    let t20 = base_position[0] - platform_position[0];
+    let t21 = base_position[1] - platform_position[1];
+    let t22 = base_rotation[0][0] * t20 + base_rotation[1][0] * t21;
+    let t23 = base_rotation[2][0] * t19 + t22;
+    let t24 = base_rotation[0][1] * t20 + base_rotation[1][1] * t21;
+    let t25 = base_rotation[2][1] * t19 + t24;
+    let t26 = base_rotation[0][2] * t20 + base_rotation[1][2] * t21;
+    let t27 = base_rotation[2][2] * t19 + t26;
+    // leg 1: platform joint from the base point
+    let t28 = t23 + (c(0.1316436662914507) - c(0.1159110991546882) * t3);
+    let t29 = c(0.03105828541230249) * t6;
+    let t30 = t28 + t29;
+    let t31 = c(0.12275970481124972) - c(0.03105828541230249) * t12;
+    let t32 = t25 - c(0.1159110991546882) * t9;
+    let t33 = t31 - t32;
+    // leg 2: platform joint from the base point
+    let t34 = t28 - t29;
+    let t35 = t31 + t32;
+    // leg 3: platform joint from the base point
+    let t36 = t23 + (c(0.040491189781895726) + t3 * c(0.031058285412302475));
+    let t37 = c(0.1159110991546882) * t6;
+    let t38 = t36 - t37;
+    let t39 = c(0.17538661166134234) - c(0.1159110991546882) * t12;
+    let t40 = t25 + t9 * c(0.031058285412302475);
+    let t41 = t39 + t40;
+    // leg 4: platform joint from the base point
+    let t42 = t23 - (c(0.17213485607334636) - t3 * c(0.0848528137423857));
+    let t43 = c(0.08485281374238571) * t6;
+    let t44 = t42 - t43;
+    let t45 = c(0.052626906850092664) - c(0.08485281374238571) * t12;
+    let t46 = t25 + t9 * c(0.0848528137423857);
+    let t47 = t45 + t46;
+    // leg 5: platform joint from the base point
+    let t48 = t42 + t43;
+    let t49 = t45 - t46;
+    // leg 6: platform joint from the base point
+    let t50 = t36 + t37;
+    let t51 = t39 - t40;
+    // leg 1: extent of the rod along the actuator axis
+    let t52 = t33 * t33 - (c(0.042435999999999995) - t30 * t30);
+    let t53 = sqrt(-t52);
+    // leg 1: reciprocal of that extent
+    let t54 = c(1.0) / t53;
+    // leg 1: actuator length d
+    let t55 = t27 - c(0.1159110991546882) * t15;
+    let t56 = c(0.03105828541230249) * t18;
+    actuator_length[0] = -(t55 + (t53 + t56));
+    // leg 2: extent of the rod along the actuator axis
+    let t57 = t35 * t35 - (c(0.042435999999999995) - t34 * t34);
+    let t58 = sqrt(-t57);
+    // leg 2: reciprocal of that extent
+    let t59 = c(1.0) / t58;
+    // leg 3: extent of the rod along the actuator axis
+    let t60 = t41 * t41 - (c(0.042435999999999995) - t38 * t38);
+    let t61 = sqrt(-t60);
+    // leg 3: reciprocal of that extent
+    let t62 = c(1.0) / t61;
+    // leg 3: actuator length d
+    let t63 = t27 + t15 * c(0.031058285412302475);
+    let t64 = c(0.1159110991546882) * t18;
+    actuator_length[2] = t64 - t61 - t63;
+    // leg 4: extent of the rod along the actuator axis
+    let t65 = t47 * t47 - (c(0.042435999999999995) - t44 * t44);
+    let t66 = sqrt(-t65);
+    // leg 4: reciprocal of that extent
+    let t67 = c(1.0) / t66;
+    // leg 4: actuator length d
+    let t68 = t27 + t15 * c(0.0848528137423857);
+    let t69 = c(0.08485281374238571) * t18;
+    actuator_length[3] = t69 - t66 - t68;
+    // leg 5: extent of the rod along the actuator axis
+    let t70 = t49 * t49 - (c(0.042435999999999995) - t48 * t48);
+    let t71 = sqrt(-t70);
+    // leg 5: reciprocal of that extent
+    let t72 = c(1.0) / t71;
+    // leg 6: extent of the rod along the actuator axis
+    let t73 = t51 * t51 - (c(0.042435999999999995) - t50 * t50);
+    let t74 = sqrt(-t73);
+    // leg 6: reciprocal of that extent
+    let t75 = c(1.0) / t74;
+    // leg 1: gradient of the actuator length by the platform joint
+    let t76 = t30 * t54;
+    let t77 = t33 * t54;
+    // leg 2: gradient of the actuator length by the platform joint
+    let t78 = t34 * t59;
+    let t79 = t35 * t59;
+    // leg 3: gradient of the actuator length by the platform joint
+    let t80 = t38 * t62;
+    let t81 = t41 * t62;
+    // leg 4: gradient of the actuator length by the platform joint
+    let t82 = t44 * t67;
+    let t83 = t47 * t67;
+    // leg 5: gradient of the actuator length by the platform joint
+    let t84 = t48 * t72;
+    let t85 = t49 * t72;
+    // leg 6: gradient of the actuator length by the platform joint
+    let t86 = t50 * t75;
+    let t87 = t51 * t75;
+    // leg 1: platform joint from the platform origin
+    let t88 = platform_rotation[0][0] * c(0.1159110991546882);
+    let t89 = platform_rotation[0][1] * c(0.03105828541230249);
+    let t90 = t88 - t89;
+    let t91 = platform_rotation[1][0] * c(0.1159110991546882);
+    let t92 = platform_rotation[1][1] * c(0.03105828541230249);
+    let t93 = t91 - t92;
+    let t94 = platform_rotation[2][0] * c(0.1159110991546882);
+    let t95 = platform_rotation[2][1] * c(0.03105828541230249);
+    let t96 = t94 - t95;
+    // leg 1: gradient of the actuator length
+    let t97 = base_rotation[0][2] - base_rotation[0][0] * t76;
+    let t98 = base_rotation[0][1] * t77 + t97;
+    jacobian_dp[0][0] = t98;
+    let t99 = base_rotation[1][2] - base_rotation[1][0] * t76;
+    let t100 = base_rotation[1][1] * t77 + t99;
+    jacobian_dp[0][1] = t100;
+    let t101 = base_rotation[2][2] - base_rotation[2][0] * t76;
+    let t102 = base_rotation[2][1] * t77 + t101;
+    jacobian_dp[0][2] = t102;
+    // leg 2: platform joint from the platform origin
+    let t103 = t88 + t89;
+    let t104 = t91 + t92;
+    let t105 = t94 + t95;
+    // leg 2: gradient of the actuator length
+    let t106 = base_rotation[0][2] - base_rotation[0][0] * t78;
+    let t107 = base_rotation[0][1] * t79 - t106;
+    let t108 = base_rotation[1][2] - base_rotation[1][0] * t78;
+    let t109 = base_rotation[1][1] * t79 - t108;
+    let t110 = base_rotation[2][2] - base_rotation[2][0] * t78;
+    let t111 = base_rotation[2][1] * t79 - t110;
+    jacobian_dp[1][0] = -t107;
+    jacobian_dp[1][1] = -t109;
+    jacobian_dp[1][2] = -t111;
+    // leg 3: platform joint from the platform origin
+    let t112 = platform_rotation[0][0] * c(0.031058285412302475);
+    let t113 = platform_rotation[0][1] * c(0.1159110991546882);
+    let t114 = t112 - t113;
+    let t115 = platform_rotation[1][0] * c(0.031058285412302475);
+    let t116 = platform_rotation[1][1] * c(0.1159110991546882);
+    let t117 = t115 - t116;
+    let t118 = platform_rotation[2][0] * c(0.031058285412302475);
+    let t119 = platform_rotation[2][1] * c(0.1159110991546882);
+    let t120 = t118 - t119;
+    // leg 3: gradient of the actuator length
+    let t121 = base_rotation[0][2] - base_rotation[0][0] * t80;
+    let t122 = base_rotation[0][1] * t81 - t121;
+    let t123 = base_rotation[1][2] - base_rotation[1][0] * t80;
+    let t124 = base_rotation[1][1] * t81 - t123;
+    let t125 = base_rotation[2][2] - base_rotation[2][0] * t80;
+    let t126 = base_rotation[2][1] * t81 - t125;
+    jacobian_dp[2][0] = -t122;
+    jacobian_dp[2][1] = -t124;
+    jacobian_dp[2][2] = -t126;
+    // leg 4: platform joint from the platform origin
+    let t127 = platform_rotation[0][0] * c(0.0848528137423857);
+    let t128 = platform_rotation[0][1] * c(0.08485281374238571);
+    let t129 = t127 - t128;
+    let t130 = platform_rotation[1][0] * c(0.0848528137423857);
+    let t131 = platform_rotation[1][1] * c(0.08485281374238571);
+    let t132 = t130 - t131;
+    let t133 = platform_rotation[2][0] * c(0.0848528137423857);
+    let t134 = platform_rotation[2][1] * c(0.08485281374238571);
+    let t135 = t133 - t134;
+    // leg 4: gradient of the actuator length
+    let t136 = base_rotation[0][2] - base_rotation[0][0] * t82;
+    let t137 = base_rotation[0][1] * t83 - t136;
+    let t138 = base_rotation[1][2] - base_rotation[1][0] * t82;
+    let t139 = base_rotation[1][1] * t83 - t138;
+    let t140 = base_rotation[2][2] - base_rotation[2][0] * t82;
+    let t141 = base_rotation[2][1] * t83 - t140;
+    jacobian_dp[3][0] = -t137;
+    jacobian_dp[3][1] = -t139;
+    jacobian_dp[3][2] = -t141;
+    // leg 5: platform joint from the platform origin
+    let t142 = t127 + t128;
+    let t143 = t130 + t131;
+    let t144 = t133 + t134;
+    // leg 5: gradient of the actuator length
+    let t145 = base_rotation[0][2] - base_rotation[0][0] * t84;
+    let t146 = base_rotation[0][1] * t85 + t145;
+    jacobian_dp[4][0] = t146;
+    let t147 = base_rotation[1][2] - base_rotation[1][0] * t84;
+    let t148 = base_rotation[1][1] * t85 + t147;
+    jacobian_dp[4][1] = t148;
+    let t149 = base_rotation[2][2] - base_rotation[2][0] * t84;
+    let t150 = base_rotation[2][1] * t85 + t149;
+    jacobian_dp[4][2] = t150;
+    // leg 6: platform joint from the platform origin
+    let t151 = t112 + t113;
+    let t152 = t115 + t116;
+    let t153 = t118 + t119;
+    // leg 6: gradient of the actuator length
+    let t154 = base_rotation[0][2] - base_rotation[0][0] * t86;
+    let t155 = base_rotation[0][1] * t87 + t154;
+    jacobian_dp[5][0] = t155;
+    let t156 = base_rotation[1][2] - base_rotation[1][0] * t86;
+    let t157 = base_rotation[1][1] * t87 + t156;
+    jacobian_dp[5][1] = t157;
+    let t158 = base_rotation[2][2] - base_rotation[2][0] * t86;
+    let t159 = base_rotation[2][1] * t87 + t158;
+    jacobian_dp[5][2] = t159;
+    // leg 1: squared cosine between rod and line of the actuator's force; negative out of reach
+    rod_alignment[0] = t52 * c(-23.564897728343862);
+    // leg 2: squared cosine between rod and line of the actuator's force; negative out of reach
+    rod_alignment[1] = c(-23.564897728343862) * t57;
+    // leg 3: squared cosine between rod and line of the actuator's force; negative out of reach
+    rod_alignment[2] = c(-23.564897728343862) * t60;
+    // leg 4: squared cosine between rod and line of the actuator's force; negative out of reach
+    rod_alignment[3] = c(-23.564897728343862) * t65;
+    // leg 5: squared cosine between rod and line of the actuator's force; negative out of reach
+    rod_alignment[4] = c(-23.564897728343862) * t70;
+    // leg 6: squared cosine between rod and line of the actuator's force; negative out of reach
+    rod_alignment[5] = c(-23.564897728343862) * t73;
+    // leg 2: actuator length d
+    actuator_length[1] = t56 - t58 - t55;
+    // leg 5: actuator length d
+    actuator_length[4] = -(t68 + (t69 + t71));
+    // leg 6: actuator length d
+    actuator_length[5] = -(t63 + (t64 + t74));
+    // leg 1: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+    jacobian_dp[0][3] = t93 * t102 - t96 * t100;
+    jacobian_dp[0][4] = t96 * t98 - t90 * t102;
+    jacobian_dp[0][5] = t90 * t100 - t93 * t98;
+    // leg 2: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+    jacobian_dp[1][3] = t105 * t109 - t104 * t111;
+    jacobian_dp[1][4] = t103 * t111 - t105 * t107;
+    jacobian_dp[1][5] = t104 * t107 - t103 * t109;
+    // leg 3: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+    jacobian_dp[2][3] = t117 * t126 - t120 * t124;
+    jacobian_dp[2][4] = t120 * t122 - t114 * t126;
+    jacobian_dp[2][5] = t114 * t124 - t117 * t122;
+    // leg 4: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+    jacobian_dp[3][3] = t132 * t141 - t135 * t139;
+    jacobian_dp[3][4] = t135 * t137 - t129 * t141;
+    jacobian_dp[3][5] = t129 * t139 - t132 * t137;
+    // leg 5: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+    jacobian_dp[4][3] = t144 * t148 - t143 * t150;
+    jacobian_dp[4][4] = t142 * t150 - t144 * t146;
+    jacobian_dp[4][5] = t143 * t146 - t142 * t148;
+    // leg 6: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+    jacobian_dp[5][3] = t153 * t157 - t152 * t159;
+    jacobian_dp[5][4] = t151 * t159 - t153 * t155;
+    jacobian_dp[5][5] = t152 * t155 - t151 * t157;
+}
+
+/// What a controller by inverse dynamics needs, in one call, equation (18), (30), (32), (49).
+///
+/// Inputs:
+///
+/// - `base_position`: 3, m, frame O: origin of the base frame.
+/// - `base_rotation`: 3x3, dimensionless, frame B -> O: rotation of the base, equation (2).
+/// - `base_velocity`: 6, m/s, rad/s, frame O: base velocity \[r_b'; w_b\], w_b the angular velocity.
+/// - `base_acceleration`: 6, m/s^2, rad/s^2, frame O: base acceleration \[r_b''; w_b'\].
+/// - `platform_position`: 3, m, frame O: centre of the platform's joint circle.
+/// - `platform_rotation`: 3x3, dimensionless, frame P -> O: rotation of the platform, equation (2).
+/// - `platform_velocity`: 6, m/s, rad/s, frame O: platform velocity \[r_p'; w_p\], the generalised speeds.
+/// - `platform_acceleration`: 6, m/s^2, rad/s^2, frame O: platform acceleration \[r_p''; w_p'\].
+/// - `external_wrench`: 6, N, N m, frame O: external force and moment \[F_D; M_D\] at the payload's centre of mass.
+///
+/// Outputs:
+///
+/// - `actuator_length`: 6, m: actuator length d, equation (18).
+/// - `actuator_velocity`: 6, m/s: actuator velocity d', equation (30).
+/// - `jacobian_dp`: 6x6, 1, m, frame O: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b, equation (32).
+/// - `mass_matrix_p`: 6x6, kg, kg m, kg m^2, frame O: mass matrix M_p of the platform, equation (49).
+/// - `total_bias`: 6, N, N m, frame O: bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext, equation (49).
+/// - `inverse_dynamics`: 6, N: actuator forces F, equation (49).
+#[allow(clippy::all, clippy::pedantic, unused_variables)]
+pub fn control<T: Scalar>(
+    base_position: &[T; 3],
+    base_rotation: &[[T; 3]; 3],
+    base_velocity: &[T; 6],
+    base_acceleration: &[T; 6],
+    platform_position: &[T; 3],
+    platform_rotation: &[[T; 3]; 3],
+    platform_velocity: &[T; 6],
+    platform_acceleration: &[T; 6],
+    external_wrench: &[T; 6],
+    actuator_length: &mut [T; 6],
+    actuator_velocity: &mut [T; 6],
+    jacobian_dp: &mut [[T; 6]; 6],
+    mass_matrix_p: &mut [[T; 6]; 6],
+    total_bias: &mut [T; 6],
+    inverse_dynamics: &mut [T; 6],
+) {
+    let c = T::constant;
+    let (
+        t107,
+        t109,
+        t111,
+        t116,
+        t118,
+        t120,
+        t131,
+        t133,
+        t135,
+        t146,
+        t148,
+        t150,
+        t155,
+        t157,
+        t159,
+        t164,
+        t166,
+        t168,
+        t169,
+        t170,
+        t171,
+        t172,
+        t173,
+        t174,
+        t175,
+        t176,
+        t177,
+        t178,
+        t179,
+        t180,
+        t181,
+        t182,
+        t183,
+        t184,
+        t185,
+        t186,
+        t796,
+        t800,
+        t804,
+        t818,
+        t822,
+        t823,
+        t824,
+        t825,
+        t826,
+        t827,
+        t828,
+        t829,
+        t830,
+        t831,
+        t832,
+        t833,
+        t834,
+        t835,
+        t836,
+        t837,
+        t838,
+        t839,
+        t840,
+        t849,
+        t850,
+        t851,
+        t852,
+        t853,
+        t854,
+        t855,
+        t856,
+        t858,
+        t859,
+        t860,
+        t861,
+        t862,
+        t863,
+        t864,
+        t865,
+        t866,
+    ) = {
+        // rotation of the platform seen from the base
+        let t1 = base_rotation[1][0] * platform_rotation[1][0];
+        let t2 = base_rotation[0][0] * platform_rotation[0][0] + t1;
+        let t3 = base_rotation[2][0] * platform_rotation[2][0] + t2;
+        let t4 = base_rotation[1][0] * platform_rotation[1][1];
+        let t5 = base_rotation[0][0] * platform_rotation[0][1] + t4;
+        let t6 = base_rotation[2][0] * platform_rotation[2][1] + t5;
+        let t7 = base_rotation[1][0] * platform_rotation[1][2];
+        let t8 = base_rotation[0][0] * platform_rotation[0][2] + t7;
+        let t9 = base_rotation[2][0] * platform_rotation[2][2] + t8;
+        let t10 = base_rotation[1][1] * platform_rotation[1][0];
+        let t11 = base_rotation[0][1] * platform_rotation[0][0] + t10;
+        let t12 = base_rotation[2][1] * platform_rotation[2][0] + t11;
+        let t13 = base_rotation[1][1] * platform_rotation[1][1];
+        let t14 = base_rotation[0][1] * platform_rotation[0][1] + t13;
+        let t15 = base_rotation[2][1] * platform_rotation[2][1] + t14;
+        let t16 = base_rotation[1][1] * platform_rotation[1][2];
+        let t17 = base_rotation[0][1] * platform_rotation[0][2] + t16;
+        let t18 = base_rotation[2][1] * platform_rotation[2][2] + t17;
+        let t19 = base_rotation[1][2] * platform_rotation[1][0];
+        let t20 = base_rotation[0][2] * platform_rotation[0][0] + t19;
+        let t21 = base_rotation[2][2] * platform_rotation[2][0] + t20;
+        let t22 = base_rotation[1][2] * platform_rotation[1][1];
+        let t23 = base_rotation[0][2] * platform_rotation[0][1] + t22;
+        let t24 = base_rotation[2][2] * platform_rotation[2][1] + t23;
+        let t25 = base_rotation[1][2] * platform_rotation[1][2];
+        let t26 = base_rotation[0][2] * platform_rotation[0][2] + t25;
+        let t27 = base_rotation[2][2] * platform_rotation[2][2] + t26;
+        // platform origin seen from the base
+        let t28 = base_position[2] - platform_position[2];
+        let t29 = base_position[0] - platform_position[0];
+        let t30 = base_position[1] - platform_position[1];
+        let t31 = base_rotation[0][0] * t29 + base_rotation[1][0] * t30;
+        let t32 = base_rotation[2][0] * t28 + t31;
+        let t33 = base_rotation[0][1] * t29 + base_rotation[1][1] * t30;
+        let t34 = base_rotation[2][1] * t28 + t33;
+        let t35 = base_rotation[0][2] * t29 + base_rotation[1][2] * t30;
+        let t36 = base_rotation[2][2] * t28 + t35;
+        // leg 1: platform joint from the base point
+        let t37 = t32 + (c(0.1316436662914507) - c(0.1159110991546882) * t3);
+        let t38 = c(0.03105828541230249) * t6;
+        let t39 = t37 + t38;
+        let t40 = c(0.12275970481124972) - c(0.03105828541230249) * t15;
+        let t41 = t34 - c(0.1159110991546882) * t12;
+        let t42 = t40 - t41;
+        // leg 2: platform joint from the base point
+        let t43 = t37 - t38;
+        let t44 = t40 + t41;
+        // leg 3: platform joint from the base point
+        let t45 = t32 + (c(0.040491189781895726) + t3 * c(0.031058285412302475));
+        let t46 = c(0.1159110991546882) * t6;
+        let t47 = t45 - t46;
+        let t48 = c(0.17538661166134234) - c(0.1159110991546882) * t15;
+        let t49 = t34 + t12 * c(0.031058285412302475);
+        let t50 = t48 + t49;
+        // leg 4: platform joint from the base point
+        let t51 = t32 - (c(0.17213485607334636) - t3 * c(0.0848528137423857));
+        let t52 = c(0.08485281374238571) * t6;
+        let t53 = t51 - t52;
+        let t54 = c(0.052626906850092664) - c(0.08485281374238571) * t15;
+        let t55 = t34 + t12 * c(0.0848528137423857);
+        let t56 = t54 + t55;
+        // leg 5: platform joint from the base point
+        let t57 = t51 + t52;
+        let t58 = t54 - t55;
+        // leg 6: platform joint from the base point
+        let t59 = t45 + t46;
+        let t60 = t48 - t49;
+        // leg 1: extent of the rod along the actuator axis
+        let t61 = sqrt(c(0.042435999999999995) - t39 * t39 - t42 * t42);
+        // leg 1: reciprocal of that extent
+        let t62 = c(1.0) / t61;
+        // leg 1: actuator length d
+        let t63 = t36 - c(0.1159110991546882) * t21;
+        let t64 = c(0.03105828541230249) * t24;
+        let t65 = t63 + (t61 + t64);
+        actuator_length[0] = -t65;
+        // leg 2: extent of the rod along the actuator axis
+        let t66 = sqrt(c(0.042435999999999995) - t43 * t43 - t44 * t44);
+        // leg 2: reciprocal of that extent
+        let t67 = c(1.0) / t66;
+        // leg 2: actuator length d
+        let t68 = t66 + (t63 - t64);
+        actuator_length[1] = -t68;
+        // leg 3: extent of the rod along the actuator axis
+        let t69 = sqrt(c(0.042435999999999995) - t47 * t47 - t50 * t50);
+        // leg 3: reciprocal of that extent
+        let t70 = c(1.0) / t69;
+        // leg 3: actuator length d
+        let t71 = t36 + t21 * c(0.031058285412302475);
+        let t72 = c(0.1159110991546882) * t24;
+        let t73 = t71 + (t69 - t72);
+        actuator_length[2] = -t73;
+        // leg 4: extent of the rod along the actuator axis
+        let t74 = sqrt(c(0.042435999999999995) - t53 * t53 - t56 * t56);
+        // leg 4: reciprocal of that extent
+        let t75 = c(1.0) / t74;
+        // leg 4: actuator length d
+        let t76 = t36 + t21 * c(0.0848528137423857);
+        let t77 = c(0.08485281374238571) * t24;
+        let t78 = t76 + (t74 - t77);
+        actuator_length[3] = -t78;
+        // leg 5: extent of the rod along the actuator axis
+        let t79 = sqrt(c(0.042435999999999995) - t57 * t57 - t58 * t58);
+        // leg 5: reciprocal of that extent
+        let t80 = c(1.0) / t79;
+        // leg 5: actuator length d
+        let t81 = t79 + (t76 + t77);
+        actuator_length[4] = -t81;
+        // leg 6: extent of the rod along the actuator axis
+        let t82 = sqrt(c(0.042435999999999995) - t59 * t59 - t60 * t60);
+        // leg 6: reciprocal of that extent
+        let t83 = c(1.0) / t82;
+        // leg 6: actuator length d
+        let t84 = t82 + (t71 + t72);
+        actuator_length[5] = -t84;
+        // leg 1: gradient of the actuator length by the platform joint
+        let t85 = t39 * t62;
+        let t86 = t42 * t62;
+        // leg 2: gradient of the actuator length by the platform joint
+        let t87 = t43 * t67;
+        let t88 = t44 * t67;
+        // leg 3: gradient of the actuator length by the platform joint
+        let t89 = t47 * t70;
+        let t90 = t50 * t70;
+        // leg 4: gradient of the actuator length by the platform joint
+        let t91 = t53 * t75;
+        let t92 = t56 * t75;
+        // leg 5: gradient of the actuator length by the platform joint
+        let t93 = t57 * t80;
+        let t94 = t58 * t80;
+        // leg 6: gradient of the actuator length by the platform joint
+        let t95 = t59 * t83;
+        let t96 = t60 * t83;
+        // leg 1: platform joint from the platform origin
+        let t97 = platform_rotation[0][0] * c(0.1159110991546882);
+        let t98 = platform_rotation[0][1] * c(0.03105828541230249);
+        let t99 = t97 - t98;
+        let t100 = platform_rotation[1][0] * c(0.1159110991546882);
+        let t101 = platform_rotation[1][1] * c(0.03105828541230249);
+        let t102 = t100 - t101;
+        let t103 = platform_rotation[2][0] * c(0.1159110991546882);
+        let t104 = platform_rotation[2][1] * c(0.03105828541230249);
+        let t105 = t103 - t104;
+        // leg 1: gradient of the actuator length
+        let t106 = base_rotation[0][2] - base_rotation[0][0] * t85;
+        let t107 = base_rotation[0][1] * t86 + t106;
+        jacobian_dp[0][0] = t107;
+        let t108 = base_rotation[1][2] - base_rotation[1][0] * t85;
+        let t109 = base_rotation[1][1] * t86 + t108;
+        jacobian_dp[0][1] = t109;
+        let t110 = base_rotation[2][2] - base_rotation[2][0] * t85;
+        let t111 = base_rotation[2][1] * t86 + t110;
+        jacobian_dp[0][2] = t111;
+        // leg 2: platform joint from the platform origin
+        let t112 = t97 + t98;
+        let t113 = t100 + t101;
+        let t114 = t103 + t104;
+        // leg 2: gradient of the actuator length
+        let t115 = base_rotation[0][2] - base_rotation[0][0] * t87;
+        let t116 = base_rotation[0][1] * t88 - t115;
+        let t117 = base_rotation[1][2] - base_rotation[1][0] * t87;
+        let t118 = base_rotation[1][1] * t88 - t117;
+        let t119 = base_rotation[2][2] - base_rotation[2][0] * t87;
+        let t120 = base_rotation[2][1] * t88 - t119;
+        jacobian_dp[1][0] = -t116;
+        jacobian_dp[1][1] = -t118;
+        jacobian_dp[1][2] = -t120;
+        // leg 3: platform joint from the platform origin
+        let t121 = platform_rotation[0][0] * c(0.031058285412302475);
+        let t122 = platform_rotation[0][1] * c(0.1159110991546882);
+        let t123 = t121 - t122;
+        let t124 = platform_rotation[1][0] * c(0.031058285412302475);
+        let t125 = platform_rotation[1][1] * c(0.1159110991546882);
+        let t126 = t124 - t125;
+        let t127 = platform_rotation[2][0] * c(0.031058285412302475);
+        let t128 = platform_rotation[2][1] * c(0.1159110991546882);
+        let t129 = t127 - t128;
+        // leg 3: gradient of the actuator length
+        let t130 = base_rotation[0][2] - base_rotation[0][0] * t89;
+        let t131 = base_rotation[0][1] * t90 - t130;
+        let t132 = base_rotation[1][2] - base_rotation[1][0] * t89;
+        let t133 = base_rotation[1][1] * t90 - t132;
+        let t134 = base_rotation[2][2] - base_rotation[2][0] * t89;
+        let t135 = base_rotation[2][1] * t90 - t134;
+        jacobian_dp[2][0] = -t131;
+        jacobian_dp[2][1] = -t133;
+        jacobian_dp[2][2] = -t135;
+        // leg 4: platform joint from the platform origin
+        let t136 = platform_rotation[0][0] * c(0.0848528137423857);
+        let t137 = platform_rotation[0][1] * c(0.08485281374238571);
+        let t138 = t136 - t137;
+        let t139 = platform_rotation[1][0] * c(0.0848528137423857);
+        let t140 = platform_rotation[1][1] * c(0.08485281374238571);
+        let t141 = t139 - t140;
+        let t142 = platform_rotation[2][0] * c(0.0848528137423857);
+        let t143 = platform_rotation[2][1] * c(0.08485281374238571);
+        let t144 = t142 - t143;
+        // leg 4: gradient of the actuator length
+        let t145 = base_rotation[0][2] - base_rotation[0][0] * t91;
+        let t146 = base_rotation[0][1] * t92 - t145;
+        let t147 = base_rotation[1][2] - base_rotation[1][0] * t91;
+        let t148 = base_rotation[1][1] * t92 - t147;
+        let t149 = base_rotation[2][2] - base_rotation[2][0] * t91;
+        let t150 = base_rotation[2][1] * t92 - t149;
+        jacobian_dp[3][0] = -t146;
+        jacobian_dp[3][1] = -t148;
+        jacobian_dp[3][2] = -t150;
+        // leg 5: platform joint from the platform origin
+        let t151 = t136 + t137;
+        let t152 = t139 + t140;
+        let t153 = t142 + t143;
+        // leg 5: gradient of the actuator length
+        let t154 = base_rotation[0][2] - base_rotation[0][0] * t93;
+        let t155 = base_rotation[0][1] * t94 + t154;
+        jacobian_dp[4][0] = t155;
+        let t156 = base_rotation[1][2] - base_rotation[1][0] * t93;
+        let t157 = base_rotation[1][1] * t94 + t156;
+        jacobian_dp[4][1] = t157;
+        let t158 = base_rotation[2][2] - base_rotation[2][0] * t93;
+        let t159 = base_rotation[2][1] * t94 + t158;
+        jacobian_dp[4][2] = t159;
+        // leg 6: platform joint from the platform origin
+        let t160 = t121 + t122;
+        let t161 = t124 + t125;
+        let t162 = t127 + t128;
+        // leg 6: gradient of the actuator length
+        let t163 = base_rotation[0][2] - base_rotation[0][0] * t95;
+        let t164 = base_rotation[0][1] * t96 + t163;
+        jacobian_dp[5][0] = t164;
+        let t165 = base_rotation[1][2] - base_rotation[1][0] * t95;
+        let t166 = base_rotation[1][1] * t96 + t165;
+        jacobian_dp[5][1] = t166;
+        let t167 = base_rotation[2][2] - base_rotation[2][0] * t95;
+        let t168 = base_rotation[2][1] * t96 + t167;
+        jacobian_dp[5][2] = t168;
+        // leg 1: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+        let t169 = t102 * t111 - t105 * t109;
+        jacobian_dp[0][3] = t169;
+        let t170 = t105 * t107 - t99 * t111;
+        jacobian_dp[0][4] = t170;
+        let t171 = t99 * t109 - t102 * t107;
+        jacobian_dp[0][5] = t171;
+        // leg 2: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+        let t172 = t113 * t120 - t114 * t118;
+        let t173 = t114 * t116 - t112 * t120;
+        let t174 = t112 * t118 - t113 * t116;
+        jacobian_dp[1][3] = -t172;
+        jacobian_dp[1][4] = -t173;
+        jacobian_dp[1][5] = -t174;
+        // leg 3: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+        let t175 = t126 * t135 - t129 * t133;
+        jacobian_dp[2][3] = t175;
+        let t176 = t129 * t131 - t123 * t135;
+        jacobian_dp[2][4] = t176;
+        let t177 = t123 * t133 - t126 * t131;
+        jacobian_dp[2][5] = t177;
+        // leg 4: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+        let t178 = t141 * t150 - t144 * t148;
+        jacobian_dp[3][3] = t178;
+        let t179 = t144 * t146 - t138 * t150;
+        jacobian_dp[3][4] = t179;
+        let t180 = t138 * t148 - t141 * t146;
+        jacobian_dp[3][5] = t180;
+        // leg 5: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+        let t181 = t152 * t159 - t153 * t157;
+        let t182 = t153 * t155 - t151 * t159;
+        let t183 = t151 * t157 - t152 * t155;
+        jacobian_dp[4][3] = -t181;
+        jacobian_dp[4][4] = -t182;
+        jacobian_dp[4][5] = -t183;
+        // leg 6: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+        let t184 = t161 * t168 - t162 * t166;
+        let t185 = t162 * t164 - t160 * t168;
+        let t186 = t160 * t166 - t161 * t164;
+        jacobian_dp[5][3] = -t184;
+        jacobian_dp[5][4] = -t185;
+        jacobian_dp[5][5] = -t186;
+        // leg 1: mass matrix of the leg in the speeds of its joint
+        let t187 = base_rotation[0][2] * c(0.17066666666666666);
+        let t188 = t187 + t107 * c(0.4761666666666667);
+        let t189 = c(2.0) * (t107 * t188);
+        let t190 = base_rotation[1][2] * c(0.17066666666666666);
+        let t191 = t190 + t109 * c(0.4761666666666667);
+        let t192 = t107 * t191 + t109 * t188;
+        let t193 = base_rotation[2][2] * c(0.17066666666666666);
+        let t194 = t193 + t111 * c(0.4761666666666667);
+        let t195 = t107 * t194 + t111 * t188;
+        let t196 = c(2.0) * (t109 * t191);
+        let t197 = t109 * t194 + t111 * t191;
+        let t198 = c(2.0) * (t111 * t194);
+        // leg 2: mass matrix of the leg in the speeds of its joint
+        let t199 = t187 - t116 * c(0.4761666666666667);
+        let t200 = c(2.0) * (t116 * t199);
+        let t201 = t190 - t118 * c(0.4761666666666667);
+        let t202 = t116 * t201 + t118 * t199;
+        let t203 = t193 - t120 * c(0.4761666666666667);
+        let t204 = t116 * t203 + t120 * t199;
+        let t205 = c(2.0) * (t118 * t201);
+        let t206 = t118 * t203 + t120 * t201;
+        let t207 = c(2.0) * (t120 * t203);
+        // leg 3: mass matrix of the leg in the speeds of its joint
+        let t208 = t187 - t131 * c(0.4761666666666667);
+        let t209 = c(2.0) * (t131 * t208);
+        let t210 = t190 - t133 * c(0.4761666666666667);
+        let t211 = t131 * t210 + t133 * t208;
+        let t212 = t193 - t135 * c(0.4761666666666667);
+        let t213 = t131 * t212 + t135 * t208;
+        let t214 = c(2.0) * (t133 * t210);
+        let t215 = t133 * t212 + t135 * t210;
+        let t216 = c(2.0) * (t135 * t212);
+        // leg 4: mass matrix of the leg in the speeds of its joint
+        let t217 = t187 - t146 * c(0.4761666666666667);
+        let t218 = c(2.0) * (t146 * t217);
+        let t219 = t190 - t148 * c(0.4761666666666667);
+        let t220 = t146 * t219 + t148 * t217;
+        let t221 = t193 - t150 * c(0.4761666666666667);
+        let t222 = t146 * t221 + t150 * t217;
+        let t223 = c(2.0) * (t148 * t219);
+        let t224 = t148 * t221 + t150 * t219;
+        let t225 = c(2.0) * (t150 * t221);
+        // leg 5: mass matrix of the leg in the speeds of its joint
+        let t226 = t187 + t155 * c(0.4761666666666667);
+        let t227 = c(2.0) * (t155 * t226);
+        let t228 = t190 + t157 * c(0.4761666666666667);
+        let t229 = t155 * t228 + t157 * t226;
+        let t230 = t193 + t159 * c(0.4761666666666667);
+        let t231 = t155 * t230 + t159 * t226;
+        let t232 = c(2.0) * (t157 * t228);
+        let t233 = t157 * t230 + t159 * t228;
+        let t234 = c(2.0) * (t159 * t230);
+        // leg 6: mass matrix of the leg in the speeds of its joint
+        let t235 = t187 + t164 * c(0.4761666666666667);
+        let t236 = c(2.0) * (t164 * t235);
+        let t237 = t190 + t166 * c(0.4761666666666667);
+        let t238 = t164 * t237 + t166 * t235;
+        let t239 = t193 + t168 * c(0.4761666666666667);
+        let t240 = t164 * t239 + t168 * t235;
+        let t241 = c(2.0) * (t166 * t237);
+        let t242 = t166 * t239 + t168 * t237;
+        let t243 = c(2.0) * (t168 * t239);
+        // mass matrix of the legs
+        let t244 = t238 + (t229 - (t220 + (t211 - (t192 - t202))));
+        mass_matrix_p[0][1] = t244;
+        mass_matrix_p[1][0] = t244;
+        let t245 = t240 + (t231 - (t222 + (t213 - (t195 - t204))));
+        mass_matrix_p[0][2] = t245;
+        mass_matrix_p[2][0] = t245;
+        let t246 = t161 * t240;
+        let t247 = t162 * t238;
+        let t248 = t152 * t231;
+        let t249 = t153 * t229;
+        let t250 = t141 * t222;
+        let t251 = t144 * t220;
+        let t252 = t126 * t213;
+        let t253 = t129 * t211;
+        let t254 = t113 * t204;
+        let t255 = t114 * t202;
+        let t256 = t105 * t192;
+        let t257 = t102 * t195;
+        let t258 = t250 - (t251 - (t252 - (t253 + (t254 - (t255 - (t256 - t257))))));
+        let t259 = t246 - (t247 - (t248 - (t249 + t258)));
+        let t260 = t99 * t195 - t105 * t189;
+        let t261 = t112 * t204 - t114 * t200;
+        let t262 = t123 * t213 - t129 * t209;
+        let t263 = t138 * t222 - t144 * t218;
+        let t264 = t151 * t231 - t153 * t227;
+        let t265 = t160 * t240 - t162 * t236;
+        let t266 = t102 * t189 - t99 * t192;
+        let t267 = t113 * t200 - t112 * t202;
+        let t268 = t126 * t209 - t123 * t211;
+        let t269 = t141 * t218 - t138 * t220;
+        let t270 = t152 * t227 - t151 * t229;
+        let t271 = t161 * t236 - t160 * t238;
+        let t272 = t242 + (t233 - (t224 + (t215 - (t197 - t206))));
+        mass_matrix_p[1][2] = t272;
+        mass_matrix_p[2][1] = t272;
+        let t273 = t105 * t196 - t102 * t197;
+        let t274 = t114 * t205 - t113 * t206;
+        let t275 = t129 * t214 - t126 * t215;
+        let t276 = t144 * t223 - t141 * t224;
+        let t277 = t153 * t232 - t152 * t233;
+        let t278 = t162 * t241 - t161 * t242;
+        let t279 = t160 * t242;
+        let t280 = t247 - t279;
+        let t281 = t151 * t233;
+        let t282 = t249 - t281;
+        let t283 = t138 * t224;
+        let t284 = t251 - t283;
+        let t285 = t123 * t215;
+        let t286 = t253 - t285;
+        let t287 = t99 * t197;
+        let t288 = t256 - t287;
+        let t289 = t112 * t206;
+        let t290 = t255 - t289;
+        let t291 = t280 + (t282 - (t284 + (t286 + (t288 - t290))));
+        let t292 = t102 * t192 - t99 * t196;
+        let t293 = t113 * t202 - t112 * t205;
+        let t294 = t126 * t211 - t123 * t214;
+        let t295 = t141 * t220 - t138 * t223;
+        let t296 = t152 * t229 - t151 * t232;
+        let t297 = t161 * t238 - t160 * t241;
+        let t298 = t105 * t197 - t102 * t198;
+        let t299 = t114 * t206 - t113 * t207;
+        let t300 = t129 * t215 - t126 * t216;
+        let t301 = t144 * t224 - t141 * t225;
+        let t302 = t153 * t233 - t152 * t234;
+        let t303 = t162 * t242 - t161 * t243;
+        let t304 = t99 * t198 - t105 * t195;
+        let t305 = t112 * t207 - t114 * t204;
+        let t306 = t123 * t216 - t129 * t213;
+        let t307 = t138 * t225 - t144 * t222;
+        let t308 = t151 * t234 - t153 * t231;
+        let t309 = t160 * t243 - t162 * t240;
+        let t310 = t246 - t279;
+        let t311 = t248 - t281;
+        let t312 = t250 - t283;
+        let t313 = t252 - t285;
+        let t314 = t257 - t287;
+        let t315 = t254 - t289;
+        let t316 = t310 + (t311 - (t312 + (t313 + (t314 - t315))));
+        mass_matrix_p[2][5] = t316;
+        mass_matrix_p[5][2] = t316;
+        let t317 = t105 * t273;
+        let t318 = t102 * t298;
+        let t319 = t114 * t274;
+        let t320 = t113 * t299;
+        let t321 = t129 * t275;
+        let t322 = t126 * t300;
+        let t323 = t144 * t276;
+        let t324 = t141 * t301;
+        let t325 = t153 * t277;
+        let t326 = t152 * t302;
+        let t327 = t162 * t278;
+        let t328 = t161 * t303;
+        let t329 = t105 * t288;
+        let t330 = t102 * t304;
+        let t331 = t114 * t290;
+        let t332 = t113 * t305;
+        let t333 = t129 * t286;
+        let t334 = t126 * t306;
+        let t335 = t144 * t284;
+        let t336 = t141 * t307;
+        let t337 = t153 * t282;
+        let t338 = t152 * t308;
+        let t339 = t162 * t280;
+        let t340 = t161 * t309;
+        let t341 = t105 * t292;
+        let t342 = t102 * t314;
+        let t343 = t114 * t293;
+        let t344 = t113 * t315;
+        let t345 = t129 * t294;
+        let t346 = t126 * t313;
+        let t347 = t144 * t295;
+        let t348 = t141 * t312;
+        let t349 = t153 * t296;
+        let t350 = t152 * t311;
+        let t351 = t162 * t297;
+        let t352 = t161 * t310;
+        let t353 = t99 * t304;
+        let t354 = t105 * t260;
+        let t355 = t112 * t305;
+        let t356 = t114 * t261;
+        let t357 = t123 * t306;
+        let t358 = t129 * t262;
+        let t359 = t138 * t307;
+        let t360 = t144 * t263;
+        let t361 = t151 * t308;
+        let t362 = t153 * t264;
+        let t363 = t160 * t309;
+        let t364 = t162 * t265;
+        let t365 = t99 * t314;
+        let t366 = t105 * t266;
+        let t367 = t112 * t315;
+        let t368 = t114 * t267;
+        let t369 = t123 * t313;
+        let t370 = t129 * t268;
+        let t371 = t138 * t312;
+        let t372 = t144 * t269;
+        let t373 = t151 * t311;
+        let t374 = t153 * t270;
+        let t375 = t160 * t310;
+        let t376 = t162 * t271;
+        let t377 = t102 * t266;
+        let t378 = t99 * t292;
+        let t379 = t113 * t267;
+        let t380 = t112 * t293;
+        let t381 = t126 * t268;
+        let t382 = t123 * t294;
+        let t383 = t141 * t269;
+        let t384 = t138 * t295;
+        let t385 = t152 * t270;
+        let t386 = t151 * t296;
+        let t387 = t161 * t271;
+        let t388 = t160 * t297;
+        let t389 = -t259;
+        mass_matrix_p[0][3] = t389;
+        mass_matrix_p[3][0] = t389;
+        let t390 = -t291;
+        mass_matrix_p[1][4] = t390;
+        mass_matrix_p[4][1] = t390;
+        // mass matrix M_p of the platform
+        let t391 = t227 - (t218 + (t209 + (t200 - (c(8.139999999999999) + t189))));
+        let t392 = t236 + t391;
+        mass_matrix_p[0][0] = t392;
+        let t393 = platform_rotation[2][0] * c(2.2551405187698492e-17);
+        let t394 = t393 + platform_rotation[2][1] * c(6.938893903907228e-18);
+        let t395 = t394 + platform_rotation[2][2] * c(0.188852);
+        let t396 = t395 + (t265 + (t264 - (t263 + (t262 + (t260 - t261)))));
+        mass_matrix_p[0][4] = t396;
+        mass_matrix_p[4][0] = t396;
+        let t397 = platform_rotation[1][0] * c(2.2551405187698492e-17);
+        let t398 = t397 + platform_rotation[1][1] * c(6.938893903907228e-18);
+        let t399 = t398 + platform_rotation[1][2] * c(0.188852);
+        let t400 = t399 - (t271 + (t270 - (t269 + (t268 + (t266 - t267)))));
+        let t401 = t232 - (t223 + (t214 + (t205 - (c(8.139999999999999) + t196))));
+        let t402 = t241 + t401;
+        mass_matrix_p[1][1] = t402;
+        let t403 = t395 - (t278 + (t277 - (t276 + (t275 + (t273 - t274)))));
+        let t404 = platform_rotation[0][0] * c(2.2551405187698492e-17);
+        let t405 = t404 + platform_rotation[0][1] * c(6.938893903907228e-18);
+        let t406 = t405 + platform_rotation[0][2] * c(0.188852);
+        let t407 = t406 + (t297 + (t296 - (t295 + (t294 + (t292 - t293)))));
+        mass_matrix_p[1][5] = t407;
+        mass_matrix_p[5][1] = t407;
+        let t408 = t234 - (t225 + (t216 + (t207 - (c(8.139999999999999) + t198))));
+        let t409 = t243 + t408;
+        mass_matrix_p[2][2] = t409;
+        let t410 = t399 + (t303 + (t302 - (t301 + (t300 + (t298 - t299)))));
+        mass_matrix_p[2][3] = t410;
+        mass_matrix_p[3][2] = t410;
+        let t411 = t406 - (t309 + (t308 - (t307 + (t306 + (t304 - t305)))));
+        let t412 = platform_rotation[0][2] * c(0.013354412);
+        let t413 = platform_rotation[0][1] * c(0.032245600000000006);
+        let t414 = platform_rotation[0][0] * c(0.032245600000000006);
+        let t415 = t321 - (t320 - (t319 + (t318 - (t317 + c(0.07784561200000001)))));
+        let t416 = t328 - (t327 - (t326 - (t325 + (t324 - (t323 - (t322 - t415))))));
+        let t417 = platform_rotation[0][0] * t414 + t416;
+        let t418 = platform_rotation[0][1] * t413 + t417;
+        let t419 = platform_rotation[0][2] * t412 + t418;
+        let t420 = t336 + (t335 + (t334 + (t333 + (t332 + (t331 - (t329 + t330))))));
+        let t421 = t340 + (t339 + (t338 + (t337 - t420)));
+        let t422 = platform_rotation[1][0] * t414 + t421;
+        let t423 = platform_rotation[1][1] * t413 + t422;
+        let t424 = platform_rotation[1][2] * t412 + t423;
+        let t425 = t348 - (t347 - (t346 - (t345 - (t344 - (t343 - (t341 - t342))))));
+        let t426 = t352 - (t351 - (t350 - (t349 + t425)));
+        let t427 = platform_rotation[2][0] * t414 + t426;
+        let t428 = platform_rotation[2][1] * t413 + t427;
+        let t429 = platform_rotation[2][2] * t412 + t428;
+        let t430 = platform_rotation[1][2] * c(0.013354412);
+        let t431 = platform_rotation[1][1] * c(0.032245600000000006);
+        let t432 = platform_rotation[1][0] * c(0.032245600000000006);
+        let t433 = t357 - (t356 - (t355 + (t354 - (t353 + c(0.07784561200000001)))));
+        let t434 = t364 - (t363 - (t362 - (t361 + (t360 - (t359 - (t358 - t433))))));
+        let t435 = platform_rotation[1][0] * t432 + t434;
+        let t436 = platform_rotation[1][1] * t431 + t435;
+        let t437 = platform_rotation[1][2] * t430 + t436;
+        let t438 = t372 - (t371 - (t370 - (t369 - (t368 - (t367 - (t365 - t366))))));
+        let t439 = t376 - (t375 - (t374 - (t373 + t438)));
+        let t440 = platform_rotation[2][0] * t432 + t439;
+        let t441 = platform_rotation[2][1] * t431 + t440;
+        let t442 = platform_rotation[2][2] * t430 + t441;
+        let t443 = platform_rotation[2][2] * (platform_rotation[2][2] * c(0.013354412));
+        let t444 = platform_rotation[2][1] * c(0.032245600000000006);
+        let t445 = platform_rotation[2][0] * c(0.032245600000000006);
+        let t446 = t381 - (t380 - (t379 + (t378 - (t377 + c(0.07784561200000001)))));
+        let t447 = t388 - (t387 - (t386 - (t385 + (t384 - (t383 - (t382 - t446))))));
+        let t448 = platform_rotation[2][0] * t445 + t447;
+        let t449 = t443 + (platform_rotation[2][1] * t444 + t448);
+        let t450 = -t400;
+        mass_matrix_p[0][5] = t450;
+        mass_matrix_p[5][0] = t450;
+        let t451 = -t403;
+        mass_matrix_p[1][3] = t451;
+        mass_matrix_p[3][1] = t451;
+        let t452 = -t411;
+        mass_matrix_p[2][4] = t452;
+        mass_matrix_p[4][2] = t452;
+        mass_matrix_p[3][3] = -t419;
+        let t453 = -t424;
+        mass_matrix_p[3][4] = t453;
+        mass_matrix_p[4][3] = t453;
+        let t454 = -t429;
+        mass_matrix_p[3][5] = t454;
+        mass_matrix_p[5][3] = t454;
+        mass_matrix_p[4][4] = -t437;
+        let t455 = -t442;
+        mass_matrix_p[4][5] = t455;
+        mass_matrix_p[5][4] = t455;
+        mass_matrix_p[5][5] = -t449;
+        // angular velocity of the base
+        let t456 = base_rotation[1][0] * base_velocity[4];
+        let t457 = base_rotation[0][0] * base_velocity[3] + t456;
+        let t458 = base_rotation[2][0] * base_velocity[5] + t457;
+        let t459 = base_rotation[1][1] * base_velocity[4];
+        let t460 = base_rotation[0][1] * base_velocity[3] + t459;
+        let t461 = base_rotation[2][1] * base_velocity[5] + t460;
+        let t462 = base_rotation[1][2] * base_velocity[4];
+        let t463 = base_rotation[0][2] * base_velocity[3] + t462;
+        let t464 = base_rotation[2][2] * base_velocity[5] + t463;
+        // angular velocity of the platform
+        let t465 = base_rotation[1][0] * platform_velocity[4];
+        let t466 = base_rotation[0][0] * platform_velocity[3] + t465;
+        let t467 = base_rotation[2][0] * platform_velocity[5] + t466;
+        let t468 = base_rotation[1][1] * platform_velocity[4];
+        let t469 = base_rotation[0][1] * platform_velocity[3] + t468;
+        let t470 = base_rotation[2][1] * platform_velocity[5] + t469;
+        let t471 = base_rotation[1][2] * platform_velocity[4];
+        let t472 = base_rotation[0][2] * platform_velocity[3] + t471;
+        let t473 = base_rotation[2][2] * platform_velocity[5] + t472;
+        // angular velocity of the platform relative to the base
+        let t474 = t458 - t467;
+        let t475 = t461 - t470;
+        let t476 = t464 - t473;
+        // velocity of the platform origin relative to the base
+        let t477 = base_velocity[2] - platform_velocity[2];
+        let t478 = base_velocity[0] - platform_velocity[0];
+        let t479 = base_velocity[1] - platform_velocity[1];
+        let t480 = base_rotation[0][0] * t478 + base_rotation[1][0] * t479;
+        let t481 = t36 * t461 - (base_rotation[2][0] * t477 + t480);
+        let t482 = t34 * t464 - t481;
+        let t483 = base_rotation[0][1] * t478 + base_rotation[1][1] * t479;
+        let t484 = t32 * t464 - (base_rotation[2][1] * t477 + t483);
+        let t485 = t36 * t458 - t484;
+        let t486 = base_rotation[0][2] * t478 + base_rotation[1][2] * t479;
+        let t487 = t34 * t458 - (base_rotation[2][2] * t477 + t486);
+        let t488 = t32 * t461 - t487;
+        // rate of the relative rotation
+        let t489 = t21 * t475 - t12 * t476;
+        let t490 = t24 * t475 - t15 * t476;
+        let t491 = t3 * t476 - t21 * t474;
+        let t492 = t6 * t476 - t24 * t474;
+        let t493 = t12 * t474 - t3 * t475;
+        let t494 = t15 * t474 - t6 * t475;
+        // leg 1: velocity of the platform joint relative to the base
+        let t495 = t482 + c(0.1159110991546882) * t489;
+        let t496 = c(0.03105828541230249) * t490;
+        let t497 = t495 - t496;
+        let t498 = t485 + c(0.1159110991546882) * t491;
+        let t499 = c(0.03105828541230249) * t492;
+        let t500 = t498 - t499;
+        // leg 2: velocity of the platform joint relative to the base
+        let t501 = t495 + t496;
+        let t502 = t498 + t499;
+        // leg 3: velocity of the platform joint relative to the base
+        let t503 = t482 - c(0.031058285412302475) * t489;
+        let t504 = c(0.1159110991546882) * t490;
+        let t505 = t503 + t504;
+        let t506 = t485 - c(0.031058285412302475) * t491;
+        let t507 = c(0.1159110991546882) * t492;
+        let t508 = t506 + t507;
+        // leg 4: velocity of the platform joint relative to the base
+        let t509 = t482 - c(0.0848528137423857) * t489;
+        let t510 = c(0.08485281374238571) * t490;
+        let t511 = t509 + t510;
+        let t512 = t485 - c(0.0848528137423857) * t491;
+        let t513 = c(0.08485281374238571) * t492;
+        let t514 = t512 + t513;
+        // leg 5: velocity of the platform joint relative to the base
+        let t515 = t509 - t510;
+        let t516 = t512 - t513;
+        // leg 6: velocity of the platform joint relative to the base
+        let t517 = t503 - t504;
+        let t518 = t506 - t507;
+        // leg 1: rate of the rod's extent along the actuator axis
+        let t519 = t62 * (t39 * t497 - t42 * t500);
+        // leg 1: actuator velocity d'
+        let t520 = t488 + c(0.1159110991546882) * t493;
+        let t521 = c(0.03105828541230249) * t494;
+        let t522 = t520 - (t519 + t521);
+        actuator_velocity[0] = -t522;
+        // leg 2: rate of the rod's extent along the actuator axis
+        let t523 = t67 * (t43 * t501 + t44 * t502);
+        // leg 2: actuator velocity d'
+        let t524 = t523 - (t520 + t521);
+        actuator_velocity[1] = t524;
+        // leg 3: rate of the rod's extent along the actuator axis
+        let t525 = t70 * (t47 * t505 + t50 * t508);
+        // leg 3: actuator velocity d'
+        let t526 = t488 - c(0.031058285412302475) * t493;
+        let t527 = c(0.1159110991546882) * t494;
+        let t528 = t526 - (t525 - t527);
+        actuator_velocity[2] = -t528;
+        // leg 4: rate of the rod's extent along the actuator axis
+        let t529 = t75 * (t53 * t511 + t56 * t514);
+        // leg 4: actuator velocity d'
+        let t530 = t488 - c(0.0848528137423857) * t493;
+        let t531 = c(0.08485281374238571) * t494;
+        let t532 = t530 - (t529 - t531);
+        actuator_velocity[3] = -t532;
+        // leg 5: rate of the rod's extent along the actuator axis
+        let t533 = t80 * (t57 * t515 - t58 * t516);
+        // leg 5: actuator velocity d'
+        let t534 = t533 - (t530 - t531);
+        actuator_velocity[4] = t534;
+        // leg 6: rate of the rod's extent along the actuator axis
+        let t535 = t83 * (t59 * t517 - t60 * t518);
+        // leg 6: actuator velocity d'
+        let t536 = t535 - (t526 - t527);
+        actuator_velocity[5] = t536;
+        // acceleration of the base origin less gravity
+        let t537 = base_acceleration[2] + c(9.81);
+        let t538 = base_rotation[1][0] * base_acceleration[1];
+        let t539 = base_rotation[0][0] * base_acceleration[0] + t538;
+        let t540 = base_rotation[2][0] * t537 + t539;
+        let t541 = base_rotation[1][1] * base_acceleration[1];
+        let t542 = base_rotation[0][1] * base_acceleration[0] + t541;
+        let t543 = base_rotation[2][1] * t537 + t542;
+        // angular acceleration of the base
+        let t544 = base_rotation[1][0] * base_acceleration[4];
+        let t545 = base_rotation[0][0] * base_acceleration[3] + t544;
+        let t546 = base_rotation[2][0] * base_acceleration[5] + t545;
+        let t547 = base_rotation[1][1] * base_acceleration[4];
+        let t548 = base_rotation[0][1] * base_acceleration[3] + t547;
+        let t549 = base_rotation[2][1] * base_acceleration[5] + t548;
+        let t550 = base_rotation[1][2] * base_acceleration[4];
+        let t551 = base_rotation[0][2] * base_acceleration[3] + t550;
+        let t552 = base_rotation[2][2] * base_acceleration[5] + t551;
+        // acceleration per base coordinate of points that move with the base
+        let t553 = t461 * t461;
+        let t554 = t464 * t464;
+        let t555 = t553 + t554;
+        let t556 = t458 * t461;
+        let t557 = t552 - t556;
+        let t558 = t458 * t464;
+        let t559 = t549 + t558;
+        let t560 = t552 + t556;
+        let t561 = t458 * t458;
+        let t562 = t554 + t561;
+        let t563 = t461 * t464;
+        let t564 = t546 - t563;
+        let t565 = t549 - t558;
+        let t566 = t546 + t563;
+        let t567 = t553 + t561;
+        // acceleration per platform coordinate of points of the platform
+        let t568 = t467 * t473;
+        let t569 = t467 * t470;
+        let t570 = t470 * t470;
+        let t571 = t473 * t473;
+        let t572 = t570 + t571;
+        let t573 = t21 * t568 + (t12 * t569 - t3 * t572);
+        let t574 = t24 * t568 + (t15 * t569 - t6 * t572);
+        let t575 = t27 * t568 + (t18 * t569 - t9 * t572);
+        let t576 = t470 * t473;
+        let t577 = t467 * t467;
+        let t578 = t571 + t577;
+        let t579 = t21 * t576 + (t3 * t569 - t12 * t578);
+        let t580 = t24 * t576 + (t6 * t569 - t15 * t578);
+        let t581 = t27 * t576 + (t9 * t569 - t18 * t578);
+        let t582 = t570 + t577;
+        let t583 = t21 * t582 - (t3 * t568 + t12 * t576);
+        let t584 = t24 * t582 - (t6 * t568 + t15 * t576);
+        let t585 = t27 * t582 - (t9 * t568 + t18 * t576);
+        // acceleration of the platform origin relative to the base
+        let t586 = t32 * t555 + (t540 - base_rotation[2][0] * c(9.81));
+        let t587 = c(2.0) * (t461 * t488 - t464 * t485);
+        let t588 = t36 * t559 - (t34 * t557 + t586) + t587;
+        let t589 = t32 * t560 - (t543 - base_rotation[2][1] * c(9.81));
+        let t590 = c(2.0) * (t464 * t482 - t458 * t488);
+        let t591 = t36 * t564 + (t34 * t562 - t589) - t590;
+        let t592 = t32 * t565;
+        let t593 = t34 * t566;
+        let t594 = t36 * t567;
+        let t595 = t458 * t485;
+        let t596 = t461 * t482;
+        // second derivative of the relative rotation
+        let t597 = t474 * t476;
+        let t598 = t458 * t476 + (t549 - t464 * t474);
+        let t599 = t597 - t598;
+        let t600 = t474 * t475;
+        let t601 = t461 * t474 + (t552 - t458 * t475);
+        let t602 = t600 + t601;
+        let t603 = t475 * t475;
+        let t604 = t476 * t476;
+        let t605 = t603 + t604;
+        let t606 = t21 * t599 + (t12 * t602 - t3 * t605);
+        let t607 = t24 * t599 + (t15 * t602 - t6 * t605);
+        let t608 = t475 * t476;
+        let t609 = t464 * t475 + (t546 - t461 * t476);
+        let t610 = t608 + t609;
+        let t611 = t600 - t601;
+        let t612 = t474 * t474;
+        let t613 = t604 + t612;
+        let t614 = t21 * t610 + (t3 * t611 - t12 * t613);
+        let t615 = t24 * t610 + (t6 * t611 - t15 * t613);
+        let t616 = t603 + t612;
+        let t617 = t597 + t598;
+        let t618 = t608 - t609;
+        let t619 = t21 * t616 - (t3 * t617 + t12 * t618);
+        let t620 = t24 * t616 - (t6 * t617 + t15 * t618);
+        // leg 1: acceleration of the platform joint relative to the base
+        let t621 = t588 + c(0.1159110991546882) * t606;
+        let t622 = c(0.03105828541230249) * t607;
+        let t623 = t621 - t622;
+        let t624 = t591 - c(0.1159110991546882) * t614;
+        let t625 = c(0.03105828541230249) * t615;
+        let t626 = t624 + t625;
+        // leg 2: acceleration of the platform joint relative to the base
+        let t627 = t621 + t622;
+        let t628 = t624 - t625;
+        // leg 3: acceleration of the platform joint relative to the base
+        let t629 = t588 - c(0.031058285412302475) * t606;
+        let t630 = c(0.1159110991546882) * t607;
+        let t631 = t629 + t630;
+        let t632 = t591 + c(0.031058285412302475) * t614;
+        let t633 = c(0.1159110991546882) * t615;
+        let t634 = t632 - t633;
+        // leg 4: acceleration of the platform joint relative to the base
+        let t635 = t588 - c(0.0848528137423857) * t606;
+        let t636 = c(0.08485281374238571) * t607;
+        let t637 = t635 + t636;
+        let t638 = t591 + c(0.0848528137423857) * t614;
+        let t639 = c(0.08485281374238571) * t615;
+        let t640 = t638 - t639;
+        // leg 5: acceleration of the platform joint relative to the base
+        let t641 = t635 - t636;
+        let t642 = t638 + t639;
+        // leg 6: acceleration of the platform joint relative to the base
+        let t643 = t629 - t630;
+        let t644 = t632 + t633;
+        // leg 1: actuator acceleration d''
+        let t645 = t42 * t626 + (t39 * t623 - (t497 * t497 + t500 * t500));
+        let t646 = t62 * (t519 * t519 - t645);
+        // leg 2: actuator acceleration d''
+        let t647 = t44 * t628 - (t43 * t627 - (t501 * t501 + t502 * t502));
+        let t648 = t67 * (t523 * t523 + t647);
+        // leg 3: actuator acceleration d''
+        let t649 = t50 * t634 - (t47 * t631 - (t505 * t505 + t508 * t508));
+        let t650 = t70 * (t525 * t525 + t649);
+        // leg 4: actuator acceleration d''
+        let t651 = t56 * t640 - (t53 * t637 - (t511 * t511 + t514 * t514));
+        let t652 = t75 * (t529 * t529 + t651);
+        // leg 5: actuator acceleration d''
+        let t653 = t58 * t642 + (t57 * t641 - (t515 * t515 + t516 * t516));
+        let t654 = t80 * (t533 * t533 - t653);
+        // leg 6: actuator acceleration d''
+        let t655 = t60 * t644 + (t59 * t643 - (t517 * t517 + t518 * t518));
+        let t656 = t83 * (t535 * t535 - t655);
+        // leg 1: leg inertia less weight along the actuator
+        let t657 = t65 * t559;
+        let t658 = c(2.0) * t522;
+        let t659 = t461 * t658;
+        let t660 = t65 * t564;
+        let t661 = t458 * t658;
+        let t662 = t594 - (t593 - (t592 - base_rotation[2][2] * c(9.81)));
+        let t663 = t662 - c(2.0) * (t595 - t596);
+        let t664 = c(0.12275970481124972) * t566 - c(0.03105828541230249) * t620;
+        let t665 = t663 + (c(0.1316436662914507) * t565 + c(0.1159110991546882) * t619);
+        let t666 = t665 + (t664 - (t646 + t65 * t567));
+        // leg 1: remaining leg inertia less weight at the platform joint
+        let t667 = c(0.17066666666666666) * t540;
+        let t668 = t667 - t555 * c(0.022467185713740918);
+        let t669 = t557 * c(0.02095098962111995);
+        let t670 = t668 + t669 - c(0.17066666666666666) * (t657 + t659);
+        let t671 = c(0.17066666666666666) * t543;
+        let t672 = t671 + t560 * c(0.022467185713740918);
+        let t673 = t562 * c(0.02095098962111995);
+        let t674 = t672 + t673 + c(0.17066666666666666) * (t660 + t661);
+        // leg 2: leg inertia less weight along the actuator
+        let t675 = t68 * t559;
+        let t676 = c(2.0) * t524;
+        let t677 = t461 * t676;
+        let t678 = t68 * t564;
+        let t679 = t458 * t676;
+        let t680 = t68 * t567 - (t665 - (t648 + t664));
+        // leg 2: remaining leg inertia less weight at the platform joint
+        let t681 = t668 - t669 - c(0.17066666666666666) * (t675 - t677);
+        let t682 = t672 - t673 + c(0.17066666666666666) * (t678 - t679);
+        // leg 3: leg inertia less weight along the actuator
+        let t683 = t73 * t559;
+        let t684 = c(2.0) * t528;
+        let t685 = t461 * t684;
+        let t686 = t73 * t564;
+        let t687 = t458 * t684;
+        let t688 = c(0.17538661166134234) * t566 - c(0.1159110991546882) * t620;
+        let t689 = c(0.040491189781895726) * t565 - c(0.031058285412302475) * t619;
+        let t690 = t663 + t689;
+        let t691 = t690 - (t688 + (t650 + t73 * t567));
+        // leg 3: remaining leg inertia less weight at the platform joint
+        let t692 = t667 - t555 * c(0.006910496389443537);
+        let t693 = t557 * c(0.029932648390202425);
+        let t694 = t692 - t693 - c(0.17066666666666666) * (t683 + t685);
+        let t695 = t671 + t560 * c(0.006910496389443537);
+        let t696 = t562 * c(0.029932648390202425);
+        let t697 = t695 - t696 + c(0.17066666666666666) * (t686 + t687);
+        // leg 4: leg inertia less weight along the actuator
+        let t698 = t78 * t559;
+        let t699 = c(2.0) * t532;
+        let t700 = t461 * t699;
+        let t701 = t78 * t564;
+        let t702 = t458 * t699;
+        let t703 = c(0.052626906850092664) * t566 - c(0.08485281374238571) * t620;
+        let t704 = t663 - (c(0.17213485607334636) * t565 + c(0.0848528137423857) * t619);
+        let t705 = t704 - (t703 + (t652 + t78 * t567));
+        // leg 4: remaining leg inertia less weight at the platform joint
+        let t706 = t667 + t555 * c(0.029377682103184446);
+        let t707 = t557 * c(0.008981658769082482);
+        let t708 = t706 - t707 - c(0.17066666666666666) * (t698 + t700);
+        let t709 = t671 - t560 * c(0.029377682103184446);
+        let t710 = t562 * c(0.008981658769082482);
+        let t711 = t709 - t710 + c(0.17066666666666666) * (t701 + t702);
+        // leg 5: leg inertia less weight along the actuator
+        let t712 = t81 * t559;
+        let t713 = c(2.0) * t534;
+        let t714 = t461 * t713;
+        let t715 = t81 * t564;
+        let t716 = t458 * t713;
+        let t717 = t81 * t567 - (t704 - (t654 - t703));
+        // leg 5: remaining leg inertia less weight at the platform joint
+        let t718 = t706 + t707 - c(0.17066666666666666) * (t712 - t714);
+        let t719 = t709 + t710 + c(0.17066666666666666) * (t715 - t716);
+        // leg 6: leg inertia less weight along the actuator
+        let t720 = t84 * t559;
+        let t721 = c(2.0) * t536;
+        let t722 = t461 * t721;
+        let t723 = t84 * t564;
+        let t724 = t458 * t721;
+        let t725 = t84 * t567 - (t690 - (t656 - t688));
+        // leg 6: remaining leg inertia less weight at the platform joint
+        let t726 = t692 + t693 - c(0.17066666666666666) * (t720 - t722);
+        let t727 = t695 + t696 + c(0.17066666666666666) * (t723 - t724);
+        // inertia force less weight, without the actuators' own shares
+        let t728 = t670 + t681;
+        let t729 = t694 + t726;
+        let t730 = t708 + t718;
+        let t731 = base_rotation[2][0] * c(79.8534) + c(2.2551405187698492e-17) * t573;
+        let t732 = t731 + c(6.938893903907228e-18) * t574 + c(0.188852) * t575;
+        let t733 = t730 + (t729 + (t728 + t732));
+        let t734 = t674 + t682;
+        let t735 = t697 + t727;
+        let t736 = t711 + t719;
+        let t737 = base_rotation[2][1] * c(79.8534) + c(2.2551405187698492e-17) * t579;
+        let t738 = t737 + c(6.938893903907228e-18) * t580 + c(0.188852) * t581;
+        let t739 = t736 + (t735 + (t734 + t738));
+        let t740 = t666 - t680;
+        let t741 = t691 - t725;
+        let t742 = t705 - t717;
+        let t743 = base_rotation[2][2] * c(79.8534) - c(2.2551405187698492e-17) * t583;
+        let t744 = t743 - c(6.938893903907228e-18) * t584 - c(0.188852) * t585;
+        let t745 = t744 - c(0.17066666666666666) * (t742 + (t740 + t741));
+        // its first moments by platform coordinate
+        let t746 = base_rotation[2][0] * c(2.212292848913222e-16);
+        let t747 = t746 + c(0.032245600000000006) * t573;
+        let t748 = t747 + c(0.1159110991546882) * t728;
+        let t749 = t748 - c(0.031058285412302475) * t729;
+        let t750 = t749 - c(0.0848528137423857) * t730;
+        let t751 = base_rotation[2][0] * c(6.807054919732991e-17);
+        let t752 = t751 + c(0.032245600000000006) * t574;
+        let t753 = t752 - c(0.03105828541230249) * (t670 - t681);
+        let t754 = t753 + c(0.1159110991546882) * (t694 - t726);
+        let t755 = t754 + c(0.08485281374238571) * (t708 - t718);
+        let t756 = base_rotation[2][0] * c(1.85263812) + c(0.013354412) * t575;
+        let t757 = base_rotation[2][1] * c(2.212292848913222e-16);
+        let t758 = t757 + c(0.032245600000000006) * t579;
+        let t759 = t758 + c(0.1159110991546882) * t734;
+        let t760 = t759 - c(0.031058285412302475) * t735;
+        let t761 = t760 - c(0.0848528137423857) * t736;
+        let t762 = base_rotation[2][1] * c(6.807054919732991e-17);
+        let t763 = t762 + c(0.032245600000000006) * t580;
+        let t764 = t763 - c(0.03105828541230249) * (t674 - t682);
+        let t765 = t764 + c(0.1159110991546882) * (t697 - t727);
+        let t766 = t765 + c(0.08485281374238571) * (t711 - t719);
+        let t767 = base_rotation[2][1] * c(1.85263812) + c(0.013354412) * t581;
+        let t768 = base_rotation[2][2] * c(2.212292848913222e-16);
+        let t769 = t768 - c(0.032245600000000006) * t583;
+        let t770 = t769 - t740 * c(0.019782160922400118);
+        let t771 = t770 + t741 * c(0.005300614043699622);
+        let t772 = t771 + t742 * c(0.01448154687870049);
+        let t773 = base_rotation[2][2] * c(6.807054919732991e-17);
+        let t774 = c(0.005300614043699624) * (t666 + t680);
+        let t775 = t773 - c(0.032245600000000006) * t584 + t774;
+        let t776 = t775 - c(0.019782160922400118) * (t691 + t725);
+        let t777 = t776 - c(0.014481546878700494) * (t705 + t717);
+        let t778 = base_rotation[2][2] * c(1.85263812) - c(0.013354412) * t585;
+        // leg 1: force along the actuator that reaches the platform
+        let t779 = c(4268.068200000001) - base_rotation[2][2] * c(1.67424);
+        let t780 = t779 - t567 * c(0.03055);
+        let t781 = t780 + t583 * c(0.019782160922400118);
+        let t782 = t584 * c(0.005300614043699624);
+        let t783 = t781 + (c(21555.9) * t65 - t782 + t666 * c(0.9523333333333334));
+        // leg 2: force along the actuator that reaches the platform
+        let t784 = t781 + (t782 + c(21555.9) * t68 - t680 * c(0.9523333333333334));
+        // leg 3: force along the actuator that reaches the platform
+        let t785 = t780 - t583 * c(0.005300614043699622);
+        let t786 = t584 * c(0.019782160922400118);
+        let t787 = t785 + (c(21555.9) * t73 + t786 + t691 * c(0.9523333333333334));
+        // leg 4: force along the actuator that reaches the platform
+        let t788 = t780 - t583 * c(0.01448154687870049);
+        let t789 = t584 * c(0.014481546878700494);
+        let t790 = t788 + (c(21555.9) * t78 + t789 + t705 * c(0.9523333333333334));
+        // leg 5: force along the actuator that reaches the platform
+        let t791 = t788 - (t789 - c(21555.9) * t81 + t717 * c(0.9523333333333334));
+        // leg 6: force along the actuator that reaches the platform
+        let t792 = t785 - (t786 - c(21555.9) * t84 + t725 * c(0.9523333333333334));
+        // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
+        let t793 = base_rotation[0][0] * t733 + base_rotation[0][1] * t739;
+        let t794 = t107 * t783 - (base_rotation[0][2] * t745 + t793);
+        let t795 = t146 * t790 + (t131 * t787 + (t116 * t784 - t794));
+        let t796 = t164 * t792 + (t155 * t791 - t795);
+        let t797 = base_rotation[1][0] * t733 + base_rotation[1][1] * t739;
+        let t798 = t109 * t783 - (base_rotation[1][2] * t745 + t797);
+        let t799 = t148 * t790 + (t133 * t787 + (t118 * t784 - t798));
+        let t800 = t166 * t792 + (t157 * t791 - t799);
+        let t801 = base_rotation[2][0] * t733 + base_rotation[2][1] * t739;
+        let t802 = t111 * t783 - (base_rotation[2][2] * t745 + t801);
+        let t803 = t150 * t790 + (t135 * t787 + (t120 * t784 - t802));
+        let t804 = t168 * t792 + (t159 * t791 - t803);
+        let t805 = t15 * t755 - (t6 * t766 + (t3 * t761 - t12 * t750));
+        let t806 = t18 * t756 - (t9 * t767 - t805);
+        let t807 = t24 * t766 - (t15 * t777 + (t12 * t772 - t21 * t761));
+        let t808 = t27 * t767 - (t18 * t778 - t807);
+        let t809 = t6 * t777 - (t24 * t755 + (t21 * t750 - t3 * t772));
+        let t810 = t9 * t778 - (t27 * t756 - t809);
+        let t811 = base_rotation[0][0] * t808 + base_rotation[0][1] * t810;
+        let t812 = t169 * t783 + (base_rotation[0][2] * t806 + t811);
+        let t813 = t178 * t790 + (t175 * t787 - (t172 * t784 - t812));
+        let t814 = t184 * t792 + (t181 * t791 - t813);
+        total_bias[3] = t814;
+        let t815 = base_rotation[1][0] * t808 + base_rotation[1][1] * t810;
+        let t816 = t170 * t783 + (base_rotation[1][2] * t806 + t815);
+        let t817 = t179 * t790 + (t176 * t787 - (t173 * t784 - t816));
+        let t818 = t185 * t792 + (t182 * t791 - t817);
+        total_bias[4] = t818;
+        let t819 = base_rotation[2][0] * t808 + base_rotation[2][1] * t810;
+        let t820 = t171 * t783 + (base_rotation[2][2] * t806 + t819);
+        let t821 = t180 * t790 + (t177 * t787 - (t174 * t784 - t820));
+        let t822 = t186 * t792 + (t183 * t791 - t821);
+        total_bias[5] = t822;
+        total_bias[0] = -t796;
+        total_bias[1] = -t800;
+        total_bias[2] = -t804;
+        // inertia less external wrench that the actuators must balance
+        let t823 = platform_acceleration[0] * t392;
+        let t824 = platform_acceleration[1] * t244;
+        let t825 = platform_acceleration[2] * t245;
+        let t826 = platform_acceleration[3] * t259;
+        let t827 = platform_acceleration[4] * t396;
+        let t828 = platform_acceleration[5] * t400;
+        let t829 = platform_acceleration[0] * t244;
+        let t830 = platform_acceleration[1] * t402;
+        let t831 = platform_acceleration[2] * t272;
+        let t832 = platform_acceleration[3] * t403;
+        let t833 = platform_acceleration[4] * t291;
+        let t834 = platform_acceleration[5] * t407;
+        let t835 = platform_acceleration[0] * t245;
+        let t836 = platform_acceleration[1] * t272;
+        let t837 = platform_acceleration[2] * t409;
+        let t838 = platform_acceleration[3] * t410;
+        let t839 = platform_acceleration[4] * t411;
+        let t840 = platform_acceleration[5] * t316;
+        let t841 = platform_rotation[2][2] * c(0.031);
+        let t842 = platform_rotation[1][2] * c(0.031);
+        let t843 = platform_acceleration[0] * t259 + (external_wrench[3] - t814);
+        let t844 = platform_acceleration[1] * t403 + t843;
+        let t845 = platform_acceleration[2] * t410 - t844;
+        let t846 = platform_acceleration[3] * t419 - t845;
+        let t847 = platform_acceleration[4] * t424 + t846;
+        let t848 = external_wrench[2] * t842 + (platform_acceleration[5] * t429 + t847);
+        let t849 = external_wrench[1] * t841 - t848;
+        let t850 = platform_acceleration[0] * t396;
+        let t851 = platform_acceleration[1] * t291;
+        let t852 = platform_acceleration[2] * t411;
+        let t853 = platform_acceleration[3] * t424;
+        let t854 = platform_acceleration[4] * t437;
+        let t855 = platform_acceleration[5] * t442;
+        let t856 = external_wrench[0] * t841;
+        let t857 = platform_rotation[0][2] * c(0.031);
+        let t858 = external_wrench[2] * t857;
+        let t859 = platform_acceleration[0] * t400;
+        let t860 = platform_acceleration[1] * t407;
+        let t861 = platform_acceleration[2] * t316;
+        let t862 = platform_acceleration[3] * t429;
+        let t863 = platform_acceleration[4] * t442;
+        let t864 = platform_acceleration[5] * t449;
+        let t865 = external_wrench[1] * t857;
+        let t866 = external_wrench[0] * t842;
+        (
+            t107,
+            t109,
+            t111,
+            t116,
+            t118,
+            t120,
+            t131,
+            t133,
+            t135,
+            t146,
+            t148,
+            t150,
+            t155,
+            t157,
+            t159,
+            t164,
+            t166,
+            t168,
+            t169,
+            t170,
+            t171,
+            t172,
+            t173,
+            t174,
+            t175,
+            t176,
+            t177,
+            t178,
+            t179,
+            t180,
+            t181,
+            t182,
+            t183,
+            t184,
+            t185,
+            t186,
+            t796,
+            t800,
+            t804,
+            t818,
+            t822,
+            t823,
+            t824,
+            t825,
+            t826,
+            t827,
+            t828,
+            t829,
+            t830,
+            t831,
+            t832,
+            t833,
+            t834,
+            t835,
+            t836,
+            t837,
+            t838,
+            t839,
+            t840,
+            t849,
+            t850,
+            t851,
+            t852,
+            t853,
+            t854,
+            t855,
+            t856,
+            t858,
+            t859,
+            t860,
+            t861,
+            t862,
+            t863,
+            t864,
+            t865,
+            t866,
+        )
+    };
+    {
+        // force along the actuator that balances the remaining wrench
+        let t867 = c(1.0) / t184;
+        let t868 = t164 * t867;
+        let t869 = t107 + t169 * t868;
+        let t870 = t168 * t867;
+        let t871 = c(1.0) / (t155 - t181 * t868);
+        let t872 = (t159 - t181 * t870) * t871;
+        let t873 = t869 * t872 - (t111 + t169 * t870);
+        let t874 = t131 - t175 * t868;
+        let t875 = t186 * t867;
+        let t876 = (t183 - t181 * t875) * t871;
+        let t877 = c(1.0) / (t874 * t872 - (t135 - t175 * t870));
+        let t878 = (t874 * t876 - (t177 - t175 * t875)) * t877;
+        let t879 = t873 * t878 - (t869 * t876 + (t171 - t169 * t875));
+        let t880 = t146 - t178 * t868;
+        let t881 = t880 * t872 - (t150 - t178 * t870);
+        let t882 = t185 * t867;
+        let t883 = (t182 - t181 * t882) * t871;
+        let t884 = (t874 * t883 - (t176 - t175 * t882)) * t877;
+        let t885 = c(1.0) / (t881 * t878 - (t880 * t876 - (t180 - t178 * t875)));
+        let t886 = (t881 * t884 - (t880 * t883 - (t179 - t178 * t882))) * t885;
+        let t887 = t873 * t884 - (t869 * t883 + (t170 - t169 * t882));
+        let t888 = c(1.0) / (t879 * t886 - t887);
+        let t889 = t827
+            - (t826 - (t825 + (t824 + (t823 - (external_wrench[0] + t796)))));
+        let t890 = t849 * t868 - (t828 - t889);
+        let t891 = t839
+            - (t838 + (t837 + (t836 + (t835 - (external_wrench[2] + t804)))));
+        let t892 = t890 * t872 - (t849 * t870 + (t840 - t891));
+        let t893 = t863
+            + (t862 - (t861 + (t860 - (t859 + (external_wrench[5] - t822)))));
+        let t894 = t890 * t876 - (t849 * t875 - (t866 - (t865 + (t864 + t893))));
+        let t895 = t892 * t878 - t894;
+        let t896 = t854
+            + (t853 + (t852 + (t851 - (t850 - (external_wrench[4] - t818)))));
+        let t897 = t890 * t883 - (t849 * t882 - (t858 - (t856 + (t855 + t896))));
+        let t898 = t895 * t886 - (t892 * t884 - t897);
+        let t899 = t116 + t172 * t868;
+        let t900 = t899 * t872 - (t120 + t172 * t870);
+        let t901 = t900 * t878 - (t899 * t876 + (t174 - t172 * t875));
+        let t902 = t900 * t884 - (t899 * t883 + (t173 - t172 * t882));
+        let t903 = t901 * t886 - t902;
+        let t904 = t166 * t867;
+        let t905 = (t157 - t181 * t904) * t871;
+        let t906 = (t874 * t905 - (t133 - t175 * t904)) * t877;
+        let t907 = (t881 * t906 - (t880 * t905 - (t148 - t178 * t904))) * t885;
+        let t908 = t873 * t906 - (t869 * t905 - (t109 + t169 * t904));
+        let t909 = (t879 * t907 - t908) * t888;
+        let t910 = t833
+            + (t832 - (t831 + (t830 + (t829 - (external_wrench[1] + t800)))));
+        let t911 = t892 * t906 - (t890 * t905 - (t849 * t904 + (t834 - t910)));
+        let t912 = t900 * t906 - (t899 * t905 - (t118 + t172 * t904));
+        let t913 = c(1.0) / (t903 * t909 - (t901 * t907 - t912));
+        let t914 = (t898 * t909 - (t895 * t907 - t911)) * t913;
+        let t915 = t888 * (t898 - t903 * t914);
+        inverse_dynamics[0] = t915;
+        inverse_dynamics[1] = -t914;
+        let t916 = t885 * (t901 * t914 - (t895 - t879 * t915));
+        inverse_dynamics[3] = t916;
+        let t917 = t877 * (t900 * t914 + (t873 * t915 - (t892 + t881 * t916)));
+        inverse_dynamics[2] = t917;
+        let t918 = t869 * t915 - (t880 * t916 + (t890 + t874 * t917));
+        let t919 = t871 * (t899 * t914 + t918);
+        inverse_dynamics[4] = -t919;
+        let t920 = t178 * t916 + (t175 * t917 - (t849 - t181 * t919));
+        inverse_dynamics[5] = t867 * (t172 * t914 + (t169 * t915 + t920));
+    }
+}
+
+/// Actuator forces at reference speeds and accelerations, for passivity-based control, equation (49).
+///
+/// Inputs:
+///
+/// - `base_position`: 3, m, frame O: origin of the base frame.
+/// - `base_rotation`: 3x3, dimensionless, frame B -> O: rotation of the base, equation (2).
+/// - `base_velocity`: 6, m/s, rad/s, frame O: base velocity \[r_b'; w_b\], w_b the angular velocity.
+/// - `base_acceleration`: 6, m/s^2, rad/s^2, frame O: base acceleration \[r_b''; w_b'\].
+/// - `platform_position`: 3, m, frame O: centre of the platform's joint circle.
+/// - `platform_rotation`: 3x3, dimensionless, frame P -> O: rotation of the platform, equation (2).
+/// - `platform_velocity`: 6, m/s, rad/s, frame O: platform velocity \[r_p'; w_p\], the generalised speeds.
+/// - `platform_acceleration`: 6, m/s^2, rad/s^2, frame O: platform acceleration \[r_p''; w_p'\].
+/// - `reference_velocity`: 6, m/s, rad/s, frame O: reference velocity \[r_r'; w_r\] of the platform, for passivity-based control.
+/// - `external_wrench`: 6, N, N m, frame O: external force and moment \[F_D; M_D\] at the payload's centre of mass.
+///
+/// Outputs:
+///
+/// - `passive_inverse_dynamics`: 6, N: actuator forces F at reference speeds, equation (49).
+#[allow(clippy::all, clippy::pedantic, unused_variables)]
+pub fn passive_inverse_dynamics<T: Scalar>(
+    base_position: &[T; 3],
+    base_rotation: &[[T; 3]; 3],
+    base_velocity: &[T; 6],
+    base_acceleration: &[T; 6],
+    platform_position: &[T; 3],
+    platform_rotation: &[[T; 3]; 3],
+    platform_velocity: &[T; 6],
+    platform_acceleration: &[T; 6],
+    reference_velocity: &[T; 6],
+    external_wrench: &[T; 6],
+    passive_inverse_dynamics: &mut [T; 6],
+) {
+    let c = T::constant;
+    // rotation of the platform seen from the base
+    let t1 = base_rotation[1][0] * platform_rotation[1][0];
+    let t2 = base_rotation[0][0] * platform_rotation[0][0] + t1;
+    let t3 = base_rotation[2][0] * platform_rotation[2][0] + t2;
+    let t4 = base_rotation[1][0] * platform_rotation[1][1];
+    let t5 = base_rotation[0][0] * platform_rotation[0][1] + t4;
+    let t6 = base_rotation[2][0] * platform_rotation[2][1] + t5;
+    let t7 = base_rotation[1][0] * platform_rotation[1][2];
+    let t8 = base_rotation[0][0] * platform_rotation[0][2] + t7;
+    let t9 = base_rotation[2][0] * platform_rotation[2][2] + t8;
+    let t10 = base_rotation[1][1] * platform_rotation[1][0];
+    let t11 = base_rotation[0][1] * platform_rotation[0][0] + t10;
+    let t12 = base_rotation[2][1] * platform_rotation[2][0] + t11;
+    let t13 = base_rotation[1][1] * platform_rotation[1][1];
+    let t14 = base_rotation[0][1] * platform_rotation[0][1] + t13;
+    let t15 = base_rotation[2][1] * platform_rotation[2][1] + t14;
+    let t16 = base_rotation[1][1] * platform_rotation[1][2];
+    let t17 = base_rotation[0][1] * platform_rotation[0][2] + t16;
+    let t18 = base_rotation[2][1] * platform_rotation[2][2] + t17;
+    let t19 = base_rotation[1][2] * platform_rotation[1][0];
+    let t20 = base_rotation[0][2] * platform_rotation[0][0] + t19;
+    let t21 = base_rotation[2][2] * platform_rotation[2][0] + t20;
+    let t22 = base_rotation[1][2] * platform_rotation[1][1];
+    let t23 = base_rotation[0][2] * platform_rotation[0][1] + t22;
+    let t24 = base_rotation[2][2] * platform_rotation[2][1] + t23;
+    let t25 = base_rotation[1][2] * platform_rotation[1][2];
+    let t26 = base_rotation[0][2] * platform_rotation[0][2] + t25;
+    let t27 = base_rotation[2][2] * platform_rotation[2][2] + t26;
+    // platform origin seen from the base
+    let t28 = base_position[2] - platform_position[2];
+    let t29 = base_position[0] - platform_position[0];
+    let t30 = base_position[1] - platform_position[1];
+    let t31 = base_rotation[0][0] * t29 + base_rotation[1][0] * t30;
+    let t32 = base_rotation[2][0] * t28 + t31;
+    let t33 = base_rotation[0][1] * t29 + base_rotation[1][1] * t30;
+    let t34 = base_rotation[2][1] * t28 + t33;
+    let t35 = base_rotation[0][2] * t29 + base_rotation[1][2] * t30;
+    let t36 = base_rotation[2][2] * t28 + t35;
+    // leg 1: platform joint from the platform origin
+    let t37 = c(0.1159110991546882) * t3;
+    let t38 = c(0.03105828541230249) * t6;
+    let t39 = t37 - t38;
+    let t40 = c(0.1159110991546882) * t12;
+    let t41 = c(0.03105828541230249) * t15;
+    let t42 = t40 - t41;
+    let t43 = c(0.1159110991546882) * t21;
+    let t44 = c(0.03105828541230249) * t24;
+    let t45 = t43 - t44;
+    // leg 1: platform joint from the base point
+    let t46 = c(0.1316436662914507) + t32;
+    let t47 = t39 - t46;
+    let t48 = t42 + (c(0.12275970481124972) - t34);
+    // leg 2: platform joint from the platform origin
+    let t49 = t37 + t38;
+    let t50 = t40 + t41;
+    let t51 = t43 + t44;
+    // leg 2: platform joint from the base point
+    let t52 = t46 - t49;
+    let t53 = t50 - (c(0.12275970481124972) + t34);
+    // leg 3: platform joint from the platform origin
+    let t54 = t3 * c(0.031058285412302475);
+    let t55 = c(0.1159110991546882) * t6;
+    let t56 = t54 - t55;
+    let t57 = t12 * c(0.031058285412302475);
+    let t58 = c(0.1159110991546882) * t15;
+    let t59 = t57 - t58;
+    let t60 = t21 * c(0.031058285412302475);
+    let t61 = c(0.1159110991546882) * t24;
+    let t62 = t60 - t61;
+    // leg 3: platform joint from the base point
+    let t63 = c(0.040491189781895726) + t32;
+    let t64 = t56 + t63;
+    let t65 = t59 + (c(0.17538661166134234) + t34);
+    // leg 4: platform joint from the platform origin
+    let t66 = t3 * c(0.0848528137423857);
+    let t67 = c(0.08485281374238571) * t6;
+    let t68 = t66 - t67;
+    let t69 = t12 * c(0.0848528137423857);
+    let t70 = c(0.08485281374238571) * t15;
+    let t71 = t69 - t70;
+    let t72 = t21 * c(0.0848528137423857);
+    let t73 = c(0.08485281374238571) * t24;
+    let t74 = t72 - t73;
+    // leg 4: platform joint from the base point
+    let t75 = t32 - c(0.17213485607334636);
+    let t76 = t68 + t75;
+    let t77 = t71 + (c(0.052626906850092664) + t34);
+    // leg 5: platform joint from the platform origin
+    let t78 = t66 + t67;
+    let t79 = t69 + t70;
+    let t80 = t72 + t73;
+    // leg 5: platform joint from the base point
+    let t81 = t75 + t78;
+    let t82 = t79 - (c(0.052626906850092664) - t34);
+    // leg 6: platform joint from the platform origin
+    let t83 = t54 + t55;
+    let t84 = t57 + t58;
+    let t85 = t60 + t61;
+    // leg 6: platform joint from the base point
+    let t86 = t63 + t83;
+    let t87 = t84 - (c(0.17538661166134234) - t34);
+    // leg 1: extent of the rod along the actuator axis
+    let t88 = sqrt(c(0.042435999999999995) - t47 * t47 - t48 * t48);
+    // leg 1: reciprocal of that extent
+    let t89 = c(1.0) / t88;
+    // leg 1: actuator length d
+    let t90 = t88 + (t36 - t45);
+    // leg 2: extent of the rod along the actuator axis
+    let t91 = sqrt(c(0.042435999999999995) - t52 * t52 - t53 * t53);
+    // leg 2: reciprocal of that extent
+    let t92 = c(1.0) / t91;
+    // leg 2: actuator length d
+    let t93 = t91 + (t36 - t51);
+    // leg 3: extent of the rod along the actuator axis
+    let t94 = sqrt(c(0.042435999999999995) - t64 * t64 - t65 * t65);
+    // leg 3: reciprocal of that extent
+    let t95 = c(1.0) / t94;
+    // leg 3: actuator length d
+    let t96 = t94 + (t36 + t62);
+    // leg 4: extent of the rod along the actuator axis
+    let t97 = sqrt(c(0.042435999999999995) - t76 * t76 - t77 * t77);
+    // leg 4: reciprocal of that extent
+    let t98 = c(1.0) / t97;
+    // leg 4: actuator length d
+    let t99 = t97 + (t36 + t74);
+    // leg 5: extent of the rod along the actuator axis
+    let t100 = sqrt(c(0.042435999999999995) - t81 * t81 - t82 * t82);
+    // leg 5: reciprocal of that extent
+    let t101 = c(1.0) / t100;
+    // leg 5: actuator length d
+    let t102 = t100 + (t36 + t80);
+    // leg 6: extent of the rod along the actuator axis
+    let t103 = sqrt(c(0.042435999999999995) - t86 * t86 - t87 * t87);
+    // leg 6: reciprocal of that extent
+    let t104 = c(1.0) / t103;
+    // leg 6: actuator length d
+    let t105 = t103 + (t36 + t85);
+    // leg 1: gradient of the actuator length by the platform joint
+    let t106 = t47 * t89;
+    let t107 = t48 * t89;
+    // leg 2: gradient of the actuator length by the platform joint
+    let t108 = t52 * t92;
+    let t109 = t53 * t92;
+    // leg 3: gradient of the actuator length by the platform joint
+    let t110 = t64 * t95;
+    let t111 = t65 * t95;
+    // leg 4: gradient of the actuator length by the platform joint
+    let t112 = t76 * t98;
+    let t113 = t77 * t98;
+    // leg 5: gradient of the actuator length by the platform joint
+    let t114 = t81 * t101;
+    let t115 = t82 * t101;
+    // leg 6: gradient of the actuator length by the platform joint
+    let t116 = t86 * t104;
+    let t117 = t87 * t104;
+    // angular velocity of the base
+    let t118 = base_rotation[1][0] * base_velocity[4];
+    let t119 = base_rotation[0][0] * base_velocity[3] + t118;
+    let t120 = base_rotation[2][0] * base_velocity[5] + t119;
+    let t121 = base_rotation[1][1] * base_velocity[4];
+    let t122 = base_rotation[0][1] * base_velocity[3] + t121;
+    let t123 = base_rotation[2][1] * base_velocity[5] + t122;
+    let t124 = base_rotation[1][2] * base_velocity[4];
+    let t125 = base_rotation[0][2] * base_velocity[3] + t124;
+    let t126 = base_rotation[2][2] * base_velocity[5] + t125;
+    // angular velocity of the platform
+    let t127 = base_rotation[1][0] * platform_velocity[4];
+    let t128 = base_rotation[0][0] * platform_velocity[3] + t127;
+    let t129 = base_rotation[2][0] * platform_velocity[5] + t128;
+    let t130 = base_rotation[1][1] * platform_velocity[4];
+    let t131 = base_rotation[0][1] * platform_velocity[3] + t130;
+    let t132 = base_rotation[2][1] * platform_velocity[5] + t131;
+    let t133 = base_rotation[1][2] * platform_velocity[4];
+    let t134 = base_rotation[0][2] * platform_velocity[3] + t133;
+    let t135 = base_rotation[2][2] * platform_velocity[5] + t134;
+    // angular velocity of the platform relative to the base
+    let t136 = t120 - t129;
+    let t137 = t123 - t132;
+    let t138 = t126 - t135;
+    // velocity of the platform origin relative to the base
+    let t139 = base_velocity[2] - platform_velocity[2];
+    let t140 = base_velocity[0] - platform_velocity[0];
+    let t141 = base_velocity[1] - platform_velocity[1];
+    let t142 = base_rotation[0][0] * t140 + base_rotation[1][0] * t141;
+    let t143 = t36 * t123 - (base_rotation[2][0] * t139 + t142);
+    let t144 = t34 * t126 - t143;
+    let t145 = base_rotation[0][1] * t140 + base_rotation[1][1] * t141;
+    let t146 = t32 * t126 - (base_rotation[2][1] * t139 + t145);
+    let t147 = t36 * t120 - t146;
+    let t148 = base_rotation[0][2] * t140 + base_rotation[1][2] * t141;
+    let t149 = t34 * t120 - (base_rotation[2][2] * t139 + t148);
+    let t150 = t32 * t123 - t149;
+    // rate of the relative rotation
+    let t151 = t21 * t137 - t12 * t138;
+    let t152 = t24 * t137 - t15 * t138;
+    let t153 = t3 * t138 - t21 * t136;
+    let t154 = t6 * t138 - t24 * t136;
+    let t155 = t12 * t136 - t3 * t137;
+    let t156 = t15 * t136 - t6 * t137;
+    // leg 1: velocity of the platform joint relative to the base
+    let t157 = t144 + c(0.1159110991546882) * t151;
+    let t158 = c(0.03105828541230249) * t152;
+    let t159 = t157 - t158;
+    let t160 = t147 + c(0.1159110991546882) * t153;
+    let t161 = c(0.03105828541230249) * t154;
+    let t162 = t160 - t161;
+    // leg 2: velocity of the platform joint relative to the base
+    let t163 = t157 + t158;
+    let t164 = t160 + t161;
+    // leg 3: velocity of the platform joint relative to the base
+    let t165 = t144 - c(0.031058285412302475) * t151;
+    let t166 = c(0.1159110991546882) * t152;
+    let t167 = t165 + t166;
+    let t168 = t147 - c(0.031058285412302475) * t153;
+    let t169 = c(0.1159110991546882) * t154;
+    let t170 = t168 + t169;
+    // leg 4: velocity of the platform joint relative to the base
+    let t171 = t144 - c(0.0848528137423857) * t151;
+    let t172 = c(0.08485281374238571) * t152;
+    let t173 = t171 + t172;
+    let t174 = t147 - c(0.0848528137423857) * t153;
+    let t175 = c(0.08485281374238571) * t154;
+    let t176 = t174 + t175;
+    // leg 5: velocity of the platform joint relative to the base
+    let t177 = t171 - t172;
+    let t178 = t174 - t175;
+    // leg 6: velocity of the platform joint relative to the base
+    let t179 = t165 - t166;
+    let t180 = t168 - t169;
+    // leg 1: rate of the rod's extent along the actuator axis
+    let t181 = t89 * (t47 * t159 + t48 * t162);
+    // leg 2: rate of the rod's extent along the actuator axis
+    let t182 = t92 * (t52 * t163 - t53 * t164);
+    // leg 3: rate of the rod's extent along the actuator axis
+    let t183 = t95 * (t64 * t167 + t65 * t170);
+    // leg 4: rate of the rod's extent along the actuator axis
+    let t184 = t98 * (t76 * t173 + t77 * t176);
+    // leg 5: rate of the rod's extent along the actuator axis
+    let t185 = t101 * (t81 * t177 + t82 * t178);
+    // leg 6: rate of the rod's extent along the actuator axis
+    let t186 = t104 * (t86 * t179 + t87 * t180);
+    // leg 1: inertial rate of that gradient
+    let t187 = t107 * t126 - (t123 - t89 * (t159 + t106 * t181));
+    let t188 = t106 * t126 - (t120 + t89 * (t162 + t107 * t181));
+    let t189 = t107 * t120 - t106 * t123;
+    // leg 2: inertial rate of that gradient
+    let t190 = t109 * t126 - (t123 - t92 * (t163 + t108 * t182));
+    let t191 = t108 * t126 + (t120 + t92 * (t164 - t109 * t182));
+    let t192 = t109 * t120 + t108 * t123;
+    // leg 3: inertial rate of that gradient
+    let t193 = t111 * t126 + (t123 - t95 * (t167 + t110 * t183));
+    let t194 = t110 * t126 + (t120 + t95 * (t170 + t111 * t183));
+    let t195 = t111 * t120 - t110 * t123;
+    // leg 4: inertial rate of that gradient
+    let t196 = t113 * t126 + (t123 - t98 * (t173 + t112 * t184));
+    let t197 = t112 * t126 + (t120 + t98 * (t176 + t113 * t184));
+    let t198 = t113 * t120 - t112 * t123;
+    // leg 5: inertial rate of that gradient
+    let t199 = t115 * t126 + (t123 - t101 * (t177 + t114 * t185));
+    let t200 = t114 * t126 + (t120 + t101 * (t178 + t115 * t185));
+    let t201 = t115 * t120 - t114 * t123;
+    // leg 6: inertial rate of that gradient
+    let t202 = t117 * t126 + (t123 - t104 * (t179 + t116 * t186));
+    let t203 = t116 * t126 + (t120 + t104 * (t180 + t117 * t186));
+    let t204 = t117 * t120 - t116 * t123;
+    // acceleration of the base origin less gravity
+    let t205 = base_acceleration[2] + c(9.81);
+    let t206 = base_rotation[1][0] * base_acceleration[1];
+    let t207 = base_rotation[0][0] * base_acceleration[0] + t206;
+    let t208 = base_rotation[2][0] * t205 + t207;
+    let t209 = base_rotation[1][1] * base_acceleration[1];
+    let t210 = base_rotation[0][1] * base_acceleration[0] + t209;
+    let t211 = base_rotation[2][1] * t205 + t210;
+    // angular acceleration of the base
+    let t212 = base_rotation[1][0] * base_acceleration[4];
+    let t213 = base_rotation[0][0] * base_acceleration[3] + t212;
+    let t214 = base_rotation[2][0] * base_acceleration[5] + t213;
+    let t215 = base_rotation[1][1] * base_acceleration[4];
+    let t216 = base_rotation[0][1] * base_acceleration[3] + t215;
+    let t217 = base_rotation[2][1] * base_acceleration[5] + t216;
+    let t218 = base_rotation[1][2] * base_acceleration[4];
+    let t219 = base_rotation[0][2] * base_acceleration[3] + t218;
+    let t220 = base_rotation[2][2] * base_acceleration[5] + t219;
+    // acceleration per base coordinate of points that move with the base
+    let t221 = t123 * t123;
+    let t222 = t126 * t126;
+    let t223 = t221 + t222;
+    let t224 = t120 * t123;
+    let t225 = t220 - t224;
+    let t226 = t120 * t126;
+    let t227 = t217 + t226;
+    let t228 = t220 + t224;
+    let t229 = t120 * t120;
+    let t230 = t222 + t229;
+    let t231 = t123 * t126;
+    let t232 = t214 - t231;
+    let t233 = t217 - t226;
+    let t234 = t214 + t231;
+    let t235 = t221 + t229;
+    // acceleration of the platform origin less gravity
+    let t236 = platform_acceleration[2] + c(9.81);
+    let t237 = base_rotation[1][0] * platform_acceleration[1];
+    let t238 = base_rotation[0][0] * platform_acceleration[0] + t237;
+    let t239 = base_rotation[2][0] * t236 + t238;
+    let t240 = base_rotation[1][1] * platform_acceleration[1];
+    let t241 = base_rotation[0][1] * platform_acceleration[0] + t240;
+    let t242 = base_rotation[2][1] * t236 + t241;
+    let t243 = base_rotation[1][2] * platform_acceleration[1];
+    let t244 = base_rotation[0][2] * platform_acceleration[0] + t243;
+    let t245 = base_rotation[2][2] * t236 + t244;
+    // angular acceleration of the platform
+    let t246 = base_rotation[1][0] * platform_acceleration[4];
+    let t247 = base_rotation[0][0] * platform_acceleration[3] + t246;
+    let t248 = base_rotation[2][0] * platform_acceleration[5] + t247;
+    let t249 = base_rotation[1][1] * platform_acceleration[4];
+    let t250 = base_rotation[0][1] * platform_acceleration[3] + t249;
+    let t251 = base_rotation[2][1] * platform_acceleration[5] + t250;
+    let t252 = base_rotation[1][2] * platform_acceleration[4];
+    let t253 = base_rotation[0][2] * platform_acceleration[3] + t252;
+    let t254 = base_rotation[2][2] * platform_acceleration[5] + t253;
+    // acceleration per platform coordinate of points of the platform
+    let t255 = t129 * t132;
+    let t256 = t254 - t255;
+    let t257 = t12 * t256;
+    let t258 = t132 * t132;
+    let t259 = t135 * t135;
+    let t260 = t258 + t259;
+    let t261 = t3 * t260;
+    let t262 = t129 * t135;
+    let t263 = t251 + t262;
+    let t264 = t21 * t263;
+    let t265 = t15 * t256;
+    let t266 = t6 * t260;
+    let t267 = t24 * t263;
+    let t268 = t18 * t256;
+    let t269 = t9 * t260;
+    let t270 = t27 * t263;
+    let t271 = t254 + t255;
+    let t272 = t3 * t271;
+    let t273 = t129 * t129;
+    let t274 = t259 + t273;
+    let t275 = t12 * t274;
+    let t276 = t132 * t135;
+    let t277 = t248 - t276;
+    let t278 = t21 * t277;
+    let t279 = t6 * t271;
+    let t280 = t15 * t274;
+    let t281 = t24 * t277;
+    let t282 = t9 * t271;
+    let t283 = t18 * t274;
+    let t284 = t27 * t277;
+    let t285 = t258 + t273;
+    let t286 = t251 - t262;
+    let t287 = t248 + t276;
+    let t288 = t21 * t285 + (t3 * t286 - t12 * t287);
+    let t289 = t24 * t285 + (t6 * t286 - t15 * t287);
+    let t290 = t9 * t286;
+    let t291 = t18 * t287;
+    let t292 = t27 * t285;
+    // acceleration of the platform origin relative to the base
+    let t293 = t36 * t227 - (t34 * t225 + (t32 * t223 + (t208 - t239)));
+    let t294 = t293 + c(2.0) * (t123 * t150 - t126 * t147);
+    let t295 = t36 * t232 + (t34 * t230 - (t32 * t228 - (t211 - t242)));
+    let t296 = t295 - c(2.0) * (t126 * t144 - t120 * t150);
+    let t297 = t32 * t233;
+    let t298 = t34 * t234;
+    let t299 = t36 * t235;
+    let t300 = t120 * t147;
+    let t301 = t123 * t144;
+    // second derivative of the relative rotation
+    let t302 = t136 * t138;
+    let t303 = t120 * t138 - (t126 * t136 - (t217 - t251));
+    let t304 = t302 - t303;
+    let t305 = t136 * t137;
+    let t306 = t123 * t136 - (t120 * t137 - (t220 - t254));
+    let t307 = t305 + t306;
+    let t308 = t137 * t137;
+    let t309 = t138 * t138;
+    let t310 = t308 + t309;
+    let t311 = t21 * t304 + (t12 * t307 - t3 * t310);
+    let t312 = t24 * t304 + (t15 * t307 - t6 * t310);
+    let t313 = t137 * t138;
+    let t314 = t126 * t137 - (t123 * t138 - (t214 - t248));
+    let t315 = t313 + t314;
+    let t316 = t305 - t306;
+    let t317 = t136 * t136;
+    let t318 = t309 + t317;
+    let t319 = t21 * t315 + (t3 * t316 - t12 * t318);
+    let t320 = t24 * t315 + (t6 * t316 - t15 * t318);
+    let t321 = t308 + t317;
+    let t322 = t302 + t303;
+    let t323 = t313 - t314;
+    let t324 = t21 * t321 - (t3 * t322 + t12 * t323);
+    let t325 = t24 * t321 - (t6 * t322 + t15 * t323);
+    // leg 1: acceleration of the platform joint relative to the base
+    let t326 = t294 + c(0.1159110991546882) * t311;
+    let t327 = c(0.03105828541230249) * t312;
+    let t328 = t326 - t327;
+    let t329 = t296 - c(0.1159110991546882) * t319;
+    let t330 = c(0.03105828541230249) * t320;
+    let t331 = t329 + t330;
+    // leg 2: acceleration of the platform joint relative to the base
+    let t332 = t326 + t327;
+    let t333 = t329 - t330;
+    // leg 3: acceleration of the platform joint relative to the base
+    let t334 = t294 - c(0.031058285412302475) * t311;
+    let t335 = c(0.1159110991546882) * t312;
+    let t336 = t334 + t335;
+    let t337 = t296 + c(0.031058285412302475) * t319;
+    let t338 = c(0.1159110991546882) * t320;
+    let t339 = t337 - t338;
+    // leg 4: acceleration of the platform joint relative to the base
+    let t340 = t294 - c(0.0848528137423857) * t311;
+    let t341 = c(0.08485281374238571) * t312;
+    let t342 = t340 + t341;
+    let t343 = t296 + c(0.0848528137423857) * t319;
+    let t344 = c(0.08485281374238571) * t320;
+    let t345 = t343 - t344;
+    // leg 5: acceleration of the platform joint relative to the base
+    let t346 = t340 - t341;
+    let t347 = t343 + t344;
+    // leg 6: acceleration of the platform joint relative to the base
+    let t348 = t334 - t335;
+    let t349 = t337 + t338;
+    // leg 1: actuator acceleration d''
+    let t350 = t48 * t331 - (t47 * t328 + (t159 * t159 + t162 * t162));
+    let t351 = t89 * (t181 * t181 - t350);
+    // leg 2: actuator acceleration d''
+    let t352 = t53 * t333 + (t52 * t332 - (t163 * t163 + t164 * t164));
+    let t353 = t92 * (t182 * t182 - t352);
+    // leg 3: actuator acceleration d''
+    let t354 = t65 * t339 - (t64 * t336 - (t167 * t167 + t170 * t170));
+    let t355 = t95 * (t183 * t183 + t354);
+    // leg 4: actuator acceleration d''
+    let t356 = t77 * t345 - (t76 * t342 - (t173 * t173 + t176 * t176));
+    let t357 = t98 * (t184 * t184 + t356);
+    // leg 5: actuator acceleration d''
+    let t358 = t82 * t347 - (t81 * t346 - (t177 * t177 + t178 * t178));
+    let t359 = t101 * (t185 * t185 + t358);
+    // leg 6: actuator acceleration d''
+    let t360 = t87 * t349 - (t86 * t348 - (t179 * t179 + t180 * t180));
+    let t361 = t104 * (t186 * t186 + t360);
+    // reference less actual velocity of the platform origin
+    let t362 = platform_velocity[2] - reference_velocity[2];
+    let t363 = platform_velocity[0] - reference_velocity[0];
+    let t364 = platform_velocity[1] - reference_velocity[1];
+    let t365 = base_rotation[0][0] * t363 + base_rotation[1][0] * t364;
+    let t366 = base_rotation[2][0] * t362 + t365;
+    let t367 = base_rotation[0][1] * t363 + base_rotation[1][1] * t364;
+    let t368 = base_rotation[2][1] * t362 + t367;
+    let t369 = base_rotation[0][2] * t363 + base_rotation[1][2] * t364;
+    let t370 = base_rotation[2][2] * t362 + t369;
+    // reference less actual angular velocity of the platform
+    let t371 = platform_velocity[5] - reference_velocity[5];
+    let t372 = platform_velocity[3] - reference_velocity[3];
+    let t373 = platform_velocity[4] - reference_velocity[4];
+    let t374 = base_rotation[0][0] * t372 + base_rotation[1][0] * t373;
+    let t375 = base_rotation[2][0] * t371 + t374;
+    let t376 = base_rotation[0][1] * t372 + base_rotation[1][1] * t373;
+    let t377 = base_rotation[2][1] * t371 + t376;
+    let t378 = base_rotation[0][2] * t372 + base_rotation[1][2] * t373;
+    let t379 = base_rotation[2][2] * t371 + t378;
+    // what that adds to the acceleration per platform coordinate
+    let t380 = t129 * t377;
+    let t381 = t129 * t379;
+    let t382 = t135 * t379;
+    let t383 = t132 * t377;
+    let t384 = t382 + t383;
+    let t385 = t21 * t381 + (t12 * t380 - t3 * t384);
+    let t386 = t24 * t381 + (t15 * t380 - t6 * t384);
+    let t387 = t18 * t380;
+    let t388 = t9 * t384;
+    let t389 = t27 * t381;
+    let t390 = t132 * t375;
+    let t391 = t132 * t379;
+    let t392 = t129 * t375;
+    let t393 = t382 + t392;
+    let t394 = t21 * t391 + (t3 * t390 - t12 * t393);
+    let t395 = t24 * t391 + (t6 * t390 - t15 * t393);
+    let t396 = t9 * t390;
+    let t397 = t18 * t393;
+    let t398 = t27 * t391;
+    let t399 = t135 * t375;
+    let t400 = t135 * t377;
+    let t401 = t383 + t392;
+    let t402 = t21 * t401 - (t3 * t399 + t12 * t400);
+    let t403 = t24 * t401 - (t6 * t399 + t15 * t400);
+    let t404 = t9 * t399;
+    let t405 = t18 * t400;
+    let t406 = t27 * t401;
+    // leg 1: leg inertia less weight along the actuator
+    let t407 = t90 * t227;
+    let t408 = c(2.0) * t150;
+    let t409 = t408 + t155 * c(0.2318221983093764);
+    let t410 = t156 * c(0.06211657082460498);
+    let t411 = t409 - (t410 - c(2.0) * t181);
+    let t412 = t123 * t411;
+    let t413 = c(0.1159110991546882) * t385;
+    let t414 = c(0.03105828541230249) * t386;
+    let t415 = c(0.1159110991546882) * t394;
+    let t416 = c(0.03105828541230249) * t395;
+    let t417 = c(0.1159110991546882) * t402;
+    let t418 = c(0.03105828541230249) * t403;
+    let t419 = t417 - t418;
+    let t420 = t45 * t375 - (t368 + t39 * t379);
+    let t421 = t39 * t377 - (t370 + t42 * t375);
+    let t422 = t42 * t379 - (t366 + t45 * t377);
+    let t423 = t107 * t420 + (t421 + t106 * t422);
+    let t424 = t123 * t423;
+    let t425 = t90 * t232;
+    let t426 = t120 * t411;
+    let t427 = t120 * t423;
+    let t428 = t299 - (t298 + (t245 - t297)) - c(2.0) * (t300 - t301);
+    let t429 = c(0.12275970481124972) * t234 - c(0.03105828541230249) * t325;
+    let t430 = t428 + (c(0.1316436662914507) * t233 + c(0.1159110991546882) * t324);
+    let t431 = t189 * t421 + (t188 * t420 + (t351 - t187 * t422));
+    let t432 = t419 - (t107 * (t415 - t416) + (t106 * (t413 - t414) - t431));
+    let t433 = t430 + (t429 - (t90 * t235 + t432));
+    // leg 1: remaining leg inertia less weight at the platform joint
+    let t434 = c(0.17066666666666666) * t208;
+    let t435 = t434 - t223 * c(0.022467185713740918);
+    let t436 = t225 * c(0.02095098962111995);
+    let t437 = t435 + t436 + c(0.17066666666666666) * (t424 - (t407 + t412));
+    let t438 = c(0.17066666666666666) * t211;
+    let t439 = t438 + t228 * c(0.022467185713740918);
+    let t440 = t230 * c(0.02095098962111995);
+    let t441 = t439 + t440 - c(0.17066666666666666) * (t427 - (t425 + t426));
+    // leg 2: leg inertia less weight along the actuator
+    let t442 = t93 * t227;
+    let t443 = t409 + (t410 - c(2.0) * t182);
+    let t444 = t123 * t443;
+    let t445 = t417 + t418;
+    let t446 = t51 * t375 - (t368 + t49 * t379);
+    let t447 = t49 * t377 - (t370 + t50 * t375);
+    let t448 = t50 * t379 - (t366 + t51 * t377);
+    let t449 = t109 * t446 + (t447 - t108 * t448);
+    let t450 = t123 * t449;
+    let t451 = t93 * t232;
+    let t452 = t120 * t443;
+    let t453 = t120 * t449;
+    let t454 = t191 * t446 + (t190 * t448 + (t430 - (t353 + t429)));
+    let t455 = t108 * (t413 + t414) + (t192 * t447 - t454);
+    let t456 = t93 * t235 + (t445 - (t109 * (t415 + t416) - t455));
+    // leg 2: remaining leg inertia less weight at the platform joint
+    let t457 = t435 - t436 + c(0.17066666666666666) * (t450 - (t442 + t444));
+    let t458 = t439 - t440 - c(0.17066666666666666) * (t453 - (t451 + t452));
+    // leg 3: leg inertia less weight along the actuator
+    let t459 = t96 * t227;
+    let t460 = t408 - t155 * c(0.06211657082460495);
+    let t461 = t156 * c(0.2318221983093764);
+    let t462 = t460 + (t461 - c(2.0) * t183);
+    let t463 = t123 * t462;
+    let t464 = c(0.031058285412302475) * t385;
+    let t465 = c(0.1159110991546882) * t386;
+    let t466 = c(0.031058285412302475) * t394;
+    let t467 = c(0.1159110991546882) * t395;
+    let t468 = c(0.031058285412302475) * t402;
+    let t469 = c(0.1159110991546882) * t403;
+    let t470 = t468 - t469;
+    let t471 = t62 * t375 + (t368 - t56 * t379);
+    let t472 = t56 * t377 + (t370 - t59 * t375);
+    let t473 = t59 * t379 + (t366 - t62 * t377);
+    let t474 = t111 * t471 - (t472 - t110 * t473);
+    let t475 = t123 * t474;
+    let t476 = t96 * t232;
+    let t477 = t120 * t462;
+    let t478 = t120 * t474;
+    let t479 = c(0.17538661166134234) * t234 - c(0.1159110991546882) * t325;
+    let t480 = c(0.040491189781895726) * t233 - c(0.031058285412302475) * t324;
+    let t481 = t428 + t480;
+    let t482 = t195 * t472 + (t194 * t471 + (t355 - t193 * t473));
+    let t483 = t470 + (t111 * (t466 - t467) + (t110 * (t464 - t465) - t482));
+    let t484 = t481 - (t479 + (t96 * t235 - t483));
+    // leg 3: remaining leg inertia less weight at the platform joint
+    let t485 = t434 - t223 * c(0.006910496389443537);
+    let t486 = t225 * c(0.029932648390202425);
+    let t487 = t485 - t486 + c(0.17066666666666666) * (t475 - (t459 + t463));
+    let t488 = t438 + t228 * c(0.006910496389443537);
+    let t489 = t230 * c(0.029932648390202425);
+    let t490 = t488 - t489 - c(0.17066666666666666) * (t478 - (t476 + t477));
+    // leg 4: leg inertia less weight along the actuator
+    let t491 = t99 * t227;
+    let t492 = t408 - t155 * c(0.1697056274847714);
+    let t493 = t156 * c(0.16970562748477142);
+    let t494 = t492 + (t493 - c(2.0) * t184);
+    let t495 = t123 * t494;
+    let t496 = c(0.0848528137423857) * t385;
+    let t497 = c(0.08485281374238571) * t386;
+    let t498 = c(0.0848528137423857) * t394;
+    let t499 = c(0.08485281374238571) * t395;
+    let t500 = c(0.0848528137423857) * t402;
+    let t501 = c(0.08485281374238571) * t403;
+    let t502 = t500 - t501;
+    let t503 = t74 * t375 + (t368 - t68 * t379);
+    let t504 = t68 * t377 + (t370 - t71 * t375);
+    let t505 = t71 * t379 + (t366 - t74 * t377);
+    let t506 = t113 * t503 - (t504 - t112 * t505);
+    let t507 = t123 * t506;
+    let t508 = t99 * t232;
+    let t509 = t120 * t494;
+    let t510 = t120 * t506;
+    let t511 = c(0.052626906850092664) * t234 - c(0.08485281374238571) * t325;
+    let t512 = t428 - (c(0.17213485607334636) * t233 + c(0.0848528137423857) * t324);
+    let t513 = t198 * t504 + (t197 * t503 + (t357 - t196 * t505));
+    let t514 = t502 + (t113 * (t498 - t499) + (t112 * (t496 - t497) - t513));
+    let t515 = t512 - (t511 + (t99 * t235 - t514));
+    // leg 4: remaining leg inertia less weight at the platform joint
+    let t516 = t434 + t223 * c(0.029377682103184446);
+    let t517 = t225 * c(0.008981658769082482);
+    let t518 = t516 - t517 + c(0.17066666666666666) * (t507 - (t491 + t495));
+    let t519 = t438 - t228 * c(0.029377682103184446);
+    let t520 = t230 * c(0.008981658769082482);
+    let t521 = t519 - t520 - c(0.17066666666666666) * (t510 - (t508 + t509));
+    // leg 5: leg inertia less weight along the actuator
+    let t522 = t102 * t227;
+    let t523 = t492 - (t493 + c(2.0) * t185);
+    let t524 = t123 * t523;
+    let t525 = t500 + t501;
+    let t526 = t80 * t375 + (t368 - t78 * t379);
+    let t527 = t78 * t377 + (t370 - t79 * t375);
+    let t528 = t79 * t379 + (t366 - t80 * t377);
+    let t529 = t115 * t526 - (t527 - t114 * t528);
+    let t530 = t123 * t529;
+    let t531 = t102 * t232;
+    let t532 = t120 * t523;
+    let t533 = t120 * t529;
+    let t534 = t200 * t526 - (t199 * t528 + (t512 - (t359 - t511)));
+    let t535 = t114 * (t496 + t497) - (t201 * t527 + t534);
+    let t536 = t102 * t235 - (t525 + (t115 * (t498 + t499) + t535));
+    // leg 5: remaining leg inertia less weight at the platform joint
+    let t537 = t516 + t517 + c(0.17066666666666666) * (t530 - (t522 + t524));
+    let t538 = t519 + t520 - c(0.17066666666666666) * (t533 - (t531 + t532));
+    // leg 6: leg inertia less weight along the actuator
+    let t539 = t105 * t227;
+    let t540 = t460 - (t461 + c(2.0) * t186);
+    let t541 = t123 * t540;
+    let t542 = t468 + t469;
+    let t543 = t85 * t375 + (t368 - t83 * t379);
+    let t544 = t83 * t377 + (t370 - t84 * t375);
+    let t545 = t84 * t379 + (t366 - t85 * t377);
+    let t546 = t117 * t543 - (t544 - t116 * t545);
+    let t547 = t123 * t546;
+    let t548 = t105 * t232;
+    let t549 = t120 * t540;
+    let t550 = t120 * t546;
+    let t551 = t203 * t543 - (t202 * t545 + (t481 - (t361 - t479)));
+    let t552 = t116 * (t464 + t465) - (t204 * t544 + t551);
+    let t553 = t105 * t235 - (t542 + (t117 * (t466 + t467) + t552));
+    // leg 6: remaining leg inertia less weight at the platform joint
+    let t554 = t485 + t486 + c(0.17066666666666666) * (t547 - (t539 + t541));
+    let t555 = t488 + t489 - c(0.17066666666666666) * (t550 - (t548 + t549));
+    // leg 1: row of the actuator Jacobian in base coordinates
+    let t556 = t45 * t107;
+    let t557 = t45 * t106;
+    let t558 = t39 * t107;
+    let t559 = t42 * t106;
+    // leg 2: row of the actuator Jacobian in base coordinates
+    let t560 = t51 * t109;
+    let t561 = t51 * t108;
+    let t562 = t49 * t109;
+    let t563 = t50 * t108;
+    // leg 3: row of the actuator Jacobian in base coordinates
+    let t564 = t62 * t111;
+    let t565 = t62 * t110;
+    let t566 = t56 * t111;
+    let t567 = t59 * t110;
+    // leg 4: row of the actuator Jacobian in base coordinates
+    let t568 = t71 + t74 * t113;
+    let t569 = t68 + t74 * t112;
+    let t570 = t68 * t113 - t71 * t112;
+    // leg 5: row of the actuator Jacobian in base coordinates
+    let t571 = t80 * t115;
+    let t572 = t80 * t114;
+    let t573 = t78 * t115;
+    let t574 = t79 * t114;
+    // leg 6: row of the actuator Jacobian in base coordinates
+    let t575 = t85 * t117;
+    let t576 = t85 * t116;
+    let t577 = t83 * t117;
+    let t578 = t84 * t116;
+    // inertia less external wrench that the actuators must balance
+    let t579 = base_rotation[1][0] * external_wrench[1];
+    let t580 = base_rotation[0][0] * external_wrench[0] + t579;
+    let t581 = base_rotation[2][0] * external_wrench[2] + t580;
+    let t582 = base_rotation[1][1] * external_wrench[1];
+    let t583 = base_rotation[0][1] * external_wrench[0] + t582;
+    let t584 = base_rotation[2][1] * external_wrench[2] + t583;
+    let t585 = base_rotation[1][2] * external_wrench[1];
+    let t586 = base_rotation[0][2] * external_wrench[0] + t585;
+    let t587 = base_rotation[2][2] * external_wrench[2] + t586;
+    let t588 = t587 - c(8.139999999999999) * t245;
+    let t589 = t288 - t402;
+    let t590 = t588 + c(2.2551405187698492e-17) * t589;
+    let t591 = t289 - t403;
+    let t592 = t406 - (t405 + (t404 + (t292 + (t290 - t291))));
+    let t593 = t590 + c(6.938893903907228e-18) * t591 - c(0.188852) * t592;
+    let t594 = t515 - t536;
+    let t595 = t433 - t456;
+    let t596 = t484 - t553;
+    let t597 = t593 + c(0.17066666666666666) * (t594 + (t595 + t596));
+    let t598 = c(2.2551405187698492e-17) * t245 - c(0.032245600000000006) * t589;
+    let t599 = t598 - t595 * c(0.019782160922400118);
+    let t600 = t599 + t596 * c(0.005300614043699622);
+    let t601 = t600 + t594 * c(0.01448154687870049);
+    let t602 = t12 * t601;
+    let t603 = t394 + (t278 - (t272 - t275));
+    let t604 = t441 + t458;
+    let t605 = t490 + t555;
+    let t606 = t521 + t538;
+    let t607 = c(2.2551405187698492e-17) * t242 - c(0.032245600000000006) * t603;
+    let t608 = t607 + c(0.1159110991546882) * t604;
+    let t609 = t608 - c(0.031058285412302475) * t605;
+    let t610 = t609 - c(0.0848528137423857) * t606;
+    let t611 = t21 * t610;
+    let t612 = c(6.938893903907228e-18) * t245 - c(0.032245600000000006) * t591;
+    let t613 = t612 + c(0.005300614043699624) * (t433 + t456);
+    let t614 = t613 - c(0.019782160922400118) * (t484 + t553);
+    let t615 = t614 - c(0.014481546878700494) * (t515 + t536);
+    let t616 = t15 * t615;
+    let t617 = t395 + (t281 - (t279 - t280));
+    let t618 = c(6.938893903907228e-18) * t242 - c(0.032245600000000006) * t617;
+    let t619 = t618 - c(0.03105828541230249) * (t441 - t458);
+    let t620 = t619 + c(0.1159110991546882) * (t490 - t555);
+    let t621 = t620 + c(0.08485281374238571) * (t521 - t538);
+    let t622 = t24 * t621;
+    let t623 = c(0.188852) * t245 - c(0.031) * t587 + c(0.013354412) * t592;
+    let t624 = t18 * t623;
+    let t625 = t398 - (t397 - (t396 + (t284 - (t282 - t283))));
+    let t626 = c(0.188852) * t242 - c(0.031) * t584 - c(0.013354412) * t625;
+    let t627 = t27 * t626;
+    let t628 = base_rotation[0][0] * external_wrench[3];
+    let t629 = base_rotation[1][0] * external_wrench[4];
+    let t630 = base_rotation[2][0] * external_wrench[5];
+    let t631 = t385 - (t264 - (t257 + t261));
+    let t632 = t437 + t457;
+    let t633 = t487 + t554;
+    let t634 = t518 + t537;
+    let t635 = c(2.2551405187698492e-17) * t239 - c(0.032245600000000006) * t631;
+    let t636 = t635 + c(0.1159110991546882) * t632;
+    let t637 = t636 - c(0.031058285412302475) * t633;
+    let t638 = t637 - c(0.0848528137423857) * t634;
+    let t639 = t21 * t638;
+    let t640 = t3 * t601;
+    let t641 = t386 - (t267 - (t265 + t266));
+    let t642 = c(6.938893903907228e-18) * t239 - c(0.032245600000000006) * t641;
+    let t643 = t642 - c(0.03105828541230249) * (t437 - t457);
+    let t644 = t643 + c(0.1159110991546882) * (t487 - t554);
+    let t645 = t644 + c(0.08485281374238571) * (t518 - t537);
+    let t646 = t24 * t645;
+    let t647 = t6 * t615;
+    let t648 = t389 - (t388 - (t387 - (t270 - (t268 + t269))));
+    let t649 = c(0.188852) * t239 - c(0.031) * t581 - c(0.013354412) * t648;
+    let t650 = t27 * t649;
+    let t651 = t9 * t623;
+    let t652 = base_rotation[0][1] * external_wrench[3];
+    let t653 = base_rotation[1][1] * external_wrench[4];
+    let t654 = base_rotation[2][1] * external_wrench[5];
+    let t655 = t3 * t610;
+    let t656 = t12 * t638;
+    let t657 = t6 * t621;
+    let t658 = t15 * t645;
+    let t659 = t9 * t626;
+    let t660 = t18 * t649;
+    let t661 = base_rotation[0][2] * external_wrench[3];
+    let t662 = base_rotation[1][2] * external_wrench[4];
+    let t663 = base_rotation[2][2] * external_wrench[5];
+    // force along the actuator that balances the remaining wrench
+    let t664 = t629 + (t628 + (t627 - (t624 - (t622 - (t616 + (t602 - t611))))));
+    let t665 = t568 * t597 + (t630 + t664) + c(0.0425) * (t391 - t400);
+    let t666 = c(1.0) / (t571 + (t79 - t568));
+    let t667 = (t572 + (t78 - t569)) * t666;
+    let t668 = t653 + (t652 + (t651 - (t650 - (t647 - (t646 + (t639 - t640))))));
+    let t669 = t665 * t667 - (t569 * t597 - (t654 + t668));
+    let t670 = t669 - c(0.0425) * (t381 - t399);
+    let t671 = t568 + (t50 - t560);
+    let t672 = (t574 + (t570 - t573)) * t666;
+    let t673 = c(1.0) / (t671 * t667 - (t569 + (t49 + t561)));
+    let t674 = (t671 * t672 + (t570 - (t562 + t563))) * t673;
+    let t675 = t662 + (t661 + (t660 - (t659 - (t658 - (t657 + (t655 - t656))))));
+    let t676 = t670 * t674 - (t665 * t672 + (t570 * t597 - (t663 + t675)));
+    let t677 = t676 + c(0.0425) * (t380 - t390);
+    let t678 = t568 - (t59 + t564);
+    let t679 = t678 * t667 - (t569 - (t56 + t565));
+    let t680 = (t113 - t115) * t666;
+    let t681 = (t671 * t680 + (t109 + t113)) * t673;
+    let t682 = c(1.0) / (t679 * t674 - (t678 * t672 + (t570 - (t566 - t567))));
+    let t683 = (t679 * t681 - (t678 * t680 - (t111 - t113))) * t682;
+    let t684 = t584 - c(8.139999999999999) * t242;
+    let t685 = t606 + (t605 + (t604 - (t684 + c(2.2551405187698492e-17) * t603)));
+    let t686 = t685 - c(6.938893903907228e-18) * t617 - c(0.188852) * t625;
+    let t687 = t670 * t681 - (t665 * t680 + (t113 * t597 - t686));
+    let t688 = t677 * t683 - t687;
+    let t689 = t568 + (t42 - t556);
+    let t690 = t689 * t667 - (t569 + (t39 - t557));
+    let t691 = t690 * t674 - (t689 * t672 + (t570 - (t558 - t559)));
+    let t692 = (t112 - t114) * t666;
+    let t693 = (t671 * t692 - (t108 - t112)) * t673;
+    let t694 = (t679 * t693 - (t678 * t692 - (t110 - t112))) * t682;
+    let t695 = t691 * t694 - (t690 * t693 - (t689 * t692 + (t106 + t112)));
+    let t696 = t691 * t683 - (t690 * t681 - (t689 * t680 + (t107 + t113)));
+    let t697 = c(1.0) / t696;
+    let t698 = t695 * t697;
+    let t699 = t581 - c(8.139999999999999) * t239;
+    let t700 = t634 + (t633 + (t632 - (t699 + c(2.2551405187698492e-17) * t631)));
+    let t701 = t700 - c(6.938893903907228e-18) * t641 - c(0.188852) * t648;
+    let t702 = t670 * t693 - (t665 * t692 + (t112 * t597 - t701));
+    let t703 = t688 * t698 - (t677 * t694 - t702);
+    let t704 = t575 + (t84 - t568);
+    let t705 = t704 * t667 - (t576 + (t83 - t569));
+    let t706 = t705 * t674 - (t704 * t672 - (t578 + (t570 - t577)));
+    let t707 = t706 * t683 - (t705 * t681 - (t704 * t680 - (t113 - t117)));
+    let t708 = t706 * t694 - (t705 * t693 - (t704 * t692 - (t112 - t116)));
+    let t709 = t703 * (c(1.0) / (t707 * t698 - t708));
+    let t710 = t697 * (t688 - t707 * t709);
+    let t711 = t682 * (t706 * t709 - (t677 - t691 * t710));
+    let t712 = t673 * (t705 * t709 + (t690 * t710 - (t670 + t679 * t711)));
+    let t713 = t689 * t710 - (t678 * t711 + (t665 + t671 * t712));
+    let t714 = t666 * (t704 * t709 + t713);
+    // leg 1: actuator forces F at reference speeds
+    let t715 = c(4268.068200000001) - t235 * c(0.03055);
+    let t716 = t715 - c(0.17066666666666666) * t245;
+    let t717 = t716 + t288 * c(0.019782160922400118);
+    let t718 = t289 * c(0.005300614043699624);
+    let t719 = c(0.17066666666666666) * t419 - (c(21555.9) * t90 - t718);
+    passive_inverse_dynamics[0] = t719 - t433 * c(0.9523333333333334) - t710 - t717;
+    // leg 2: actuator forces F at reference speeds
+    let t720 = t718 + c(21555.9) * t93 - c(0.17066666666666666) * t445;
+    passive_inverse_dynamics[1] = t712 - (t720 - t456 * c(0.9523333333333334)) - t717;
+    // leg 3: actuator forces F at reference speeds
+    let t721 = t716 - t288 * c(0.005300614043699622);
+    let t722 = t289 * c(0.019782160922400118);
+    let t723 = c(21555.9) * t96 + t722 + c(0.17066666666666666) * t470;
+    passive_inverse_dynamics[2] = t711 - (t723 + t484 * c(0.9523333333333334)) - t721;
+    // leg 4: actuator forces F at reference speeds
+    let t724 = t714 - t289 * c(0.014481546878700494);
+    let t725 = t716 - t288 * c(0.01448154687870049);
+    let t726 = c(21555.9) * t99 + c(0.17066666666666666) * t502;
+    let t727 = t710 - (t709 + (t597 + (t726 + t515 * c(0.9523333333333334))));
+    passive_inverse_dynamics[3] = t724 - (t712 + (t711 - t727)) - t725;
+    // leg 5: actuator forces F at reference speeds
+    let t728 = c(21555.9) * t102 + c(0.17066666666666666) * t525;
+    passive_inverse_dynamics[4] = t536 * c(0.9523333333333334) - t728 - t724 - t725;
+    // leg 6: actuator forces F at reference speeds
+    let t729 = t722 - c(21555.9) * t105 - c(0.17066666666666666) * t542;
+    passive_inverse_dynamics[5] = t709 + (t729 + t553 * c(0.9523333333333334)) - t721;
+}
+
+/// Wrench of the base on the mechanism.
+///
+/// Inputs:
+///
+/// - `base_position`: 3, m, frame O: origin of the base frame.
+/// - `base_rotation`: 3x3, dimensionless, frame B -> O: rotation of the base, equation (2).
+/// - `base_velocity`: 6, m/s, rad/s, frame O: base velocity \[r_b'; w_b\], w_b the angular velocity.
+/// - `base_acceleration`: 6, m/s^2, rad/s^2, frame O: base acceleration \[r_b''; w_b'\].
+/// - `platform_position`: 3, m, frame O: centre of the platform's joint circle.
+/// - `platform_rotation`: 3x3, dimensionless, frame P -> O: rotation of the platform, equation (2).
+/// - `platform_velocity`: 6, m/s, rad/s, frame O: platform velocity \[r_p'; w_p\], the generalised speeds.
+/// - `platform_acceleration`: 6, m/s^2, rad/s^2, frame O: platform acceleration \[r_p''; w_p'\].
+/// - `external_wrench`: 6, N, N m, frame O: external force and moment \[F_D; M_D\] at the payload's centre of mass.
+///
+/// Outputs:
+///
+/// - `base_wrench`: 6, N, N m, frame O: wrench of the base on the mechanism, moments about the base origin.
+#[allow(clippy::all, clippy::pedantic, unused_variables)]
+pub fn base_reaction<T: Scalar>(
+    base_position: &[T; 3],
+    base_rotation: &[[T; 3]; 3],
+    base_velocity: &[T; 6],
+    base_acceleration: &[T; 6],
+    platform_position: &[T; 3],
+    platform_rotation: &[[T; 3]; 3],
+    platform_velocity: &[T; 6],
+    platform_acceleration: &[T; 6],
+    external_wrench: &[T; 6],
+    base_wrench: &mut [T; 6],
+) {
+    let c = T::constant;
+    // rotation of the platform seen from the base
+    let t1 = base_rotation[1][0] * platform_rotation[1][0];
+    let t2 = base_rotation[0][0] * platform_rotation[0][0] + t1;
+    let t3 = base_rotation[2][0] * platform_rotation[2][0] + t2;
+    let t4 = base_rotation[1][0] * platform_rotation[1][1];
+    let t5 = base_rotation[0][0] * platform_rotation[0][1] + t4;
+    let t6 = base_rotation[2][0] * platform_rotation[2][1] + t5;
+    let t7 = base_rotation[1][0] * platform_rotation[1][2];
+    let t8 = base_rotation[0][0] * platform_rotation[0][2] + t7;
+    let t9 = base_rotation[2][0] * platform_rotation[2][2] + t8;
+    let t10 = base_rotation[1][1] * platform_rotation[1][0];
+    let t11 = base_rotation[0][1] * platform_rotation[0][0] + t10;
+    let t12 = base_rotation[2][1] * platform_rotation[2][0] + t11;
+    let t13 = base_rotation[1][1] * platform_rotation[1][1];
+    let t14 = base_rotation[0][1] * platform_rotation[0][1] + t13;
+    let t15 = base_rotation[2][1] * platform_rotation[2][1] + t14;
+    let t16 = base_rotation[1][1] * platform_rotation[1][2];
+    let t17 = base_rotation[0][1] * platform_rotation[0][2] + t16;
+    let t18 = base_rotation[2][1] * platform_rotation[2][2] + t17;
+    let t19 = base_rotation[1][2] * platform_rotation[1][0];
+    let t20 = base_rotation[0][2] * platform_rotation[0][0] + t19;
+    let t21 = base_rotation[2][2] * platform_rotation[2][0] + t20;
+    let t22 = base_rotation[1][2] * platform_rotation[1][1];
+    let t23 = base_rotation[0][2] * platform_rotation[0][1] + t22;
+    let t24 = base_rotation[2][2] * platform_rotation[2][1] + t23;
+    let t25 = base_rotation[1][2] * platform_rotation[1][2];
+    let t26 = base_rotation[0][2] * platform_rotation[0][2] + t25;
+    let t27 = base_rotation[2][2] * platform_rotation[2][2] + t26;
+    // platform origin seen from the base
+    let t28 = base_position[2] - platform_position[2];
+    let t29 = base_position[0] - platform_position[0];
+    let t30 = base_position[1] - platform_position[1];
+    let t31 = base_rotation[0][0] * t29 + base_rotation[1][0] * t30;
+    let t32 = base_rotation[2][0] * t28 + t31;
+    let t33 = base_rotation[0][1] * t29 + base_rotation[1][1] * t30;
+    let t34 = base_rotation[2][1] * t28 + t33;
+    let t35 = base_rotation[0][2] * t29 + base_rotation[1][2] * t30;
+    let t36 = base_rotation[2][2] * t28 + t35;
+    // leg 1: platform joint from the base point
+    let t37 = t32 + (c(0.1316436662914507) - c(0.1159110991546882) * t3);
+    let t38 = c(0.03105828541230249) * t6;
+    let t39 = t37 + t38;
+    let t40 = c(0.12275970481124972) - c(0.03105828541230249) * t15;
+    let t41 = t34 - c(0.1159110991546882) * t12;
+    let t42 = t40 - t41;
+    let t43 = t36 - c(0.1159110991546882) * t21;
+    let t44 = c(0.03105828541230249) * t24;
+    let t45 = t43 + t44;
+    // leg 2: platform joint from the base point
+    let t46 = t37 - t38;
+    let t47 = t40 + t41;
+    let t48 = t43 - t44;
+    // leg 3: platform joint from the base point
+    let t49 = t32 + (c(0.040491189781895726) + t3 * c(0.031058285412302475));
+    let t50 = c(0.1159110991546882) * t6;
+    let t51 = t49 - t50;
+    let t52 = c(0.17538661166134234) - c(0.1159110991546882) * t15;
+    let t53 = t34 + t12 * c(0.031058285412302475);
+    let t54 = t52 + t53;
+    let t55 = t36 + t21 * c(0.031058285412302475);
+    let t56 = c(0.1159110991546882) * t24;
+    let t57 = t55 - t56;
+    // leg 4: platform joint from the base point
+    let t58 = t32 - (c(0.17213485607334636) - t3 * c(0.0848528137423857));
+    let t59 = c(0.08485281374238571) * t6;
+    let t60 = t58 - t59;
+    let t61 = c(0.052626906850092664) - c(0.08485281374238571) * t15;
+    let t62 = t34 + t12 * c(0.0848528137423857);
+    let t63 = t61 + t62;
+    let t64 = t36 + t21 * c(0.0848528137423857);
+    let t65 = c(0.08485281374238571) * t24;
+    let t66 = t64 - t65;
+    // leg 5: platform joint from the base point
+    let t67 = t58 + t59;
+    let t68 = t61 - t62;
+    let t69 = t64 + t65;
+    // leg 6: platform joint from the base point
+    let t70 = t49 + t50;
+    let t71 = t52 - t53;
+    let t72 = t55 + t56;
+    // leg 1: extent of the rod along the actuator axis
+    let t73 = sqrt(c(0.042435999999999995) - t39 * t39 - t42 * t42);
+    // leg 1: reciprocal of that extent
+    let t74 = c(1.0) / t73;
+    // leg 1: actuator length d
+    let t75 = t45 + t73;
+    // leg 2: extent of the rod along the actuator axis
+    let t76 = sqrt(c(0.042435999999999995) - t46 * t46 - t47 * t47);
+    // leg 2: reciprocal of that extent
+    let t77 = c(1.0) / t76;
+    // leg 2: actuator length d
+    let t78 = t48 + t76;
+    // leg 3: extent of the rod along the actuator axis
+    let t79 = sqrt(c(0.042435999999999995) - t51 * t51 - t54 * t54);
+    // leg 3: reciprocal of that extent
+    let t80 = c(1.0) / t79;
+    // leg 3: actuator length d
+    let t81 = t57 + t79;
+    // leg 4: extent of the rod along the actuator axis
+    let t82 = sqrt(c(0.042435999999999995) - t60 * t60 - t63 * t63);
+    // leg 4: reciprocal of that extent
+    let t83 = c(1.0) / t82;
+    // leg 4: actuator length d
+    let t84 = t66 + t82;
+    // leg 5: extent of the rod along the actuator axis
+    let t85 = sqrt(c(0.042435999999999995) - t67 * t67 - t68 * t68);
+    // leg 5: reciprocal of that extent
+    let t86 = c(1.0) / t85;
+    // leg 5: actuator length d
+    let t87 = t69 + t85;
+    // leg 6: extent of the rod along the actuator axis
+    let t88 = sqrt(c(0.042435999999999995) - t70 * t70 - t71 * t71);
+    // leg 6: reciprocal of that extent
+    let t89 = c(1.0) / t88;
+    // leg 6: actuator length d
+    let t90 = t72 + t88;
+    // angular velocity of the base
+    let t91 = base_rotation[1][0] * base_velocity[4];
+    let t92 = base_rotation[0][0] * base_velocity[3] + t91;
+    let t93 = base_rotation[2][0] * base_velocity[5] + t92;
+    let t94 = base_rotation[1][1] * base_velocity[4];
+    let t95 = base_rotation[0][1] * base_velocity[3] + t94;
+    let t96 = base_rotation[2][1] * base_velocity[5] + t95;
+    let t97 = base_rotation[1][2] * base_velocity[4];
+    let t98 = base_rotation[0][2] * base_velocity[3] + t97;
+    let t99 = base_rotation[2][2] * base_velocity[5] + t98;
+    // angular velocity of the platform
+    let t100 = base_rotation[1][0] * platform_velocity[4];
+    let t101 = base_rotation[0][0] * platform_velocity[3] + t100;
+    let t102 = base_rotation[2][0] * platform_velocity[5] + t101;
+    let t103 = base_rotation[1][1] * platform_velocity[4];
+    let t104 = base_rotation[0][1] * platform_velocity[3] + t103;
+    let t105 = base_rotation[2][1] * platform_velocity[5] + t104;
+    let t106 = base_rotation[1][2] * platform_velocity[4];
+    let t107 = base_rotation[0][2] * platform_velocity[3] + t106;
+    let t108 = base_rotation[2][2] * platform_velocity[5] + t107;
+    // angular velocity of the platform relative to the base
+    let t109 = t93 - t102;
+    let t110 = t96 - t105;
+    let t111 = t99 - t108;
+    // velocity of the platform origin relative to the base
+    let t112 = base_velocity[2] - platform_velocity[2];
+    let t113 = base_velocity[0] - platform_velocity[0];
+    let t114 = base_velocity[1] - platform_velocity[1];
+    let t115 = base_rotation[0][0] * t113 + base_rotation[1][0] * t114;
+    let t116 = t36 * t96 - (base_rotation[2][0] * t112 + t115);
+    let t117 = t34 * t99 - t116;
+    let t118 = base_rotation[0][1] * t113 + base_rotation[1][1] * t114;
+    let t119 = t32 * t99 - (base_rotation[2][1] * t112 + t118);
+    let t120 = t36 * t93 - t119;
+    let t121 = base_rotation[0][2] * t113 + base_rotation[1][2] * t114;
+    let t122 = t34 * t93 - (base_rotation[2][2] * t112 + t121);
+    let t123 = t32 * t96 - t122;
+    // rate of the relative rotation
+    let t124 = t21 * t110 - t12 * t111;
+    let t125 = t24 * t110 - t15 * t111;
+    let t126 = t3 * t111 - t21 * t109;
+    let t127 = t6 * t111 - t24 * t109;
+    let t128 = t12 * t109 - t3 * t110;
+    let t129 = t15 * t109 - t6 * t110;
+    // leg 1: velocity of the platform joint relative to the base
+    let t130 = t117 + c(0.1159110991546882) * t124;
+    let t131 = c(0.03105828541230249) * t125;
+    let t132 = t130 - t131;
+    let t133 = t120 + c(0.1159110991546882) * t126;
+    let t134 = c(0.03105828541230249) * t127;
+    let t135 = t133 - t134;
+    // leg 2: velocity of the platform joint relative to the base
+    let t136 = t130 + t131;
+    let t137 = t133 + t134;
+    // leg 3: velocity of the platform joint relative to the base
+    let t138 = t117 - c(0.031058285412302475) * t124;
+    let t139 = c(0.1159110991546882) * t125;
+    let t140 = t138 + t139;
+    let t141 = t120 - c(0.031058285412302475) * t126;
+    let t142 = c(0.1159110991546882) * t127;
+    let t143 = t141 + t142;
+    // leg 4: velocity of the platform joint relative to the base
+    let t144 = t117 - c(0.0848528137423857) * t124;
+    let t145 = c(0.08485281374238571) * t125;
+    let t146 = t144 + t145;
+    let t147 = t120 - c(0.0848528137423857) * t126;
+    let t148 = c(0.08485281374238571) * t127;
+    let t149 = t147 + t148;
+    // leg 5: velocity of the platform joint relative to the base
+    let t150 = t144 - t145;
+    let t151 = t147 - t148;
+    // leg 6: velocity of the platform joint relative to the base
+    let t152 = t138 - t139;
+    let t153 = t141 - t142;
+    // leg 1: rate of the rod's extent along the actuator axis
+    let t154 = t74 * (t39 * t132 - t42 * t135);
+    // leg 2: rate of the rod's extent along the actuator axis
+    let t155 = t77 * (t46 * t136 + t47 * t137);
+    // leg 3: rate of the rod's extent along the actuator axis
+    let t156 = t80 * (t51 * t140 + t54 * t143);
+    // leg 4: rate of the rod's extent along the actuator axis
+    let t157 = t83 * (t60 * t146 + t63 * t149);
+    // leg 5: rate of the rod's extent along the actuator axis
+    let t158 = t86 * (t67 * t150 - t68 * t151);
+    // leg 6: rate of the rod's extent along the actuator axis
+    let t159 = t89 * (t70 * t152 - t71 * t153);
+    // acceleration of the base origin less gravity
+    let t160 = base_acceleration[2] + c(9.81);
+    let t161 = base_rotation[1][0] * base_acceleration[1];
+    let t162 = base_rotation[0][0] * base_acceleration[0] + t161;
+    let t163 = base_rotation[2][0] * t160 + t162;
+    let t164 = base_rotation[1][1] * base_acceleration[1];
+    let t165 = base_rotation[0][1] * base_acceleration[0] + t164;
+    let t166 = base_rotation[2][1] * t160 + t165;
+    // angular acceleration of the base
+    let t167 = base_rotation[1][0] * base_acceleration[4];
+    let t168 = base_rotation[0][0] * base_acceleration[3] + t167;
+    let t169 = base_rotation[2][0] * base_acceleration[5] + t168;
+    let t170 = base_rotation[1][1] * base_acceleration[4];
+    let t171 = base_rotation[0][1] * base_acceleration[3] + t170;
+    let t172 = base_rotation[2][1] * base_acceleration[5] + t171;
+    let t173 = base_rotation[1][2] * base_acceleration[4];
+    let t174 = base_rotation[0][2] * base_acceleration[3] + t173;
+    let t175 = base_rotation[2][2] * base_acceleration[5] + t174;
+    // acceleration per base coordinate of points that move with the base
+    let t176 = t96 * t96;
+    let t177 = t99 * t99;
+    let t178 = t176 + t177;
+    let t179 = t93 * t96;
+    let t180 = t175 - t179;
+    let t181 = t93 * t99;
+    let t182 = t172 + t181;
+    let t183 = t175 + t179;
+    let t184 = t93 * t93;
+    let t185 = t177 + t184;
+    let t186 = t96 * t99;
+    let t187 = t169 - t186;
+    let t188 = t172 - t181;
+    let t189 = t169 + t186;
+    let t190 = t176 + t184;
+    // acceleration of the platform origin less gravity
+    let t191 = platform_acceleration[2] + c(9.81);
+    let t192 = base_rotation[1][0] * platform_acceleration[1];
+    let t193 = base_rotation[0][0] * platform_acceleration[0] + t192;
+    let t194 = base_rotation[2][0] * t191 + t193;
+    let t195 = base_rotation[1][1] * platform_acceleration[1];
+    let t196 = base_rotation[0][1] * platform_acceleration[0] + t195;
+    let t197 = base_rotation[2][1] * t191 + t196;
+    let t198 = base_rotation[1][2] * platform_acceleration[1];
+    let t199 = base_rotation[0][2] * platform_acceleration[0] + t198;
+    let t200 = base_rotation[2][2] * t191 + t199;
+    // angular acceleration of the platform
+    let t201 = base_rotation[1][0] * platform_acceleration[4];
+    let t202 = base_rotation[0][0] * platform_acceleration[3] + t201;
+    let t203 = base_rotation[2][0] * platform_acceleration[5] + t202;
+    let t204 = base_rotation[1][1] * platform_acceleration[4];
+    let t205 = base_rotation[0][1] * platform_acceleration[3] + t204;
+    let t206 = base_rotation[2][1] * platform_acceleration[5] + t205;
+    let t207 = base_rotation[1][2] * platform_acceleration[4];
+    let t208 = base_rotation[0][2] * platform_acceleration[3] + t207;
+    let t209 = base_rotation[2][2] * platform_acceleration[5] + t208;
+    // acceleration per platform coordinate of points of the platform
+    let t210 = t102 * t108;
+    let t211 = t206 + t210;
+    let t212 = t102 * t105;
+    let t213 = t209 - t212;
+    let t214 = t105 * t105;
+    let t215 = t108 * t108;
+    let t216 = t214 + t215;
+    let t217 = t21 * t211 - (t12 * t213 + t3 * t216);
+    let t218 = t24 * t211 - (t15 * t213 + t6 * t216);
+    let t219 = t27 * t211 - (t18 * t213 + t9 * t216);
+    let t220 = t105 * t108;
+    let t221 = t203 - t220;
+    let t222 = t209 + t212;
+    let t223 = t102 * t102;
+    let t224 = t215 + t223;
+    let t225 = t21 * t221 - (t3 * t222 - t12 * t224);
+    let t226 = t24 * t221 - (t6 * t222 - t15 * t224);
+    let t227 = t27 * t221 - (t9 * t222 - t18 * t224);
+    let t228 = t214 + t223;
+    let t229 = t206 - t210;
+    let t230 = t203 + t220;
+    let t231 = t21 * t228 + (t3 * t229 - t12 * t230);
+    let t232 = t24 * t228 + (t6 * t229 - t15 * t230);
+    let t233 = t27 * t228 + (t9 * t229 - t18 * t230);
+    // acceleration of the platform origin relative to the base
+    let t234 = t36 * t182 - (t34 * t180 + (t32 * t178 + (t163 - t194)));
+    let t235 = t234 + c(2.0) * (t96 * t123 - t99 * t120);
+    let t236 = t36 * t187 + (t34 * t185 - (t32 * t183 - (t166 - t197)));
+    let t237 = t236 - c(2.0) * (t99 * t117 - t93 * t123);
+    let t238 = t32 * t188;
+    let t239 = t34 * t189;
+    let t240 = t36 * t190;
+    let t241 = t93 * t120;
+    let t242 = t96 * t117;
+    // second derivative of the relative rotation
+    let t243 = t109 * t111;
+    let t244 = t93 * t111 - (t99 * t109 - (t172 - t206));
+    let t245 = t243 - t244;
+    let t246 = t109 * t110;
+    let t247 = t96 * t109 - (t93 * t110 - (t175 - t209));
+    let t248 = t246 + t247;
+    let t249 = t110 * t110;
+    let t250 = t111 * t111;
+    let t251 = t249 + t250;
+    let t252 = t21 * t245 + (t12 * t248 - t3 * t251);
+    let t253 = t24 * t245 + (t15 * t248 - t6 * t251);
+    let t254 = t110 * t111;
+    let t255 = t99 * t110 - (t96 * t111 - (t169 - t203));
+    let t256 = t254 + t255;
+    let t257 = t246 - t247;
+    let t258 = t109 * t109;
+    let t259 = t250 + t258;
+    let t260 = t21 * t256 + (t3 * t257 - t12 * t259);
+    let t261 = t24 * t256 + (t6 * t257 - t15 * t259);
+    let t262 = t249 + t258;
+    let t263 = t243 + t244;
+    let t264 = t254 - t255;
+    let t265 = t21 * t262 - (t3 * t263 + t12 * t264);
+    let t266 = t24 * t262 - (t6 * t263 + t15 * t264);
+    // leg 1: acceleration of the platform joint relative to the base
+    let t267 = t235 + c(0.1159110991546882) * t252;
+    let t268 = c(0.03105828541230249) * t253;
+    let t269 = t267 - t268;
+    let t270 = t237 - c(0.1159110991546882) * t260;
+    let t271 = c(0.03105828541230249) * t261;
+    let t272 = t270 + t271;
+    // leg 2: acceleration of the platform joint relative to the base
+    let t273 = t267 + t268;
+    let t274 = t270 - t271;
+    // leg 3: acceleration of the platform joint relative to the base
+    let t275 = t235 - c(0.031058285412302475) * t252;
+    let t276 = c(0.1159110991546882) * t253;
+    let t277 = t275 + t276;
+    let t278 = t237 + c(0.031058285412302475) * t260;
+    let t279 = c(0.1159110991546882) * t261;
+    let t280 = t278 - t279;
+    // leg 4: acceleration of the platform joint relative to the base
+    let t281 = t235 - c(0.0848528137423857) * t252;
+    let t282 = c(0.08485281374238571) * t253;
+    let t283 = t281 + t282;
+    let t284 = t237 + c(0.0848528137423857) * t260;
+    let t285 = c(0.08485281374238571) * t261;
+    let t286 = t284 - t285;
+    // leg 5: acceleration of the platform joint relative to the base
+    let t287 = t281 - t282;
+    let t288 = t284 + t285;
+    // leg 6: acceleration of the platform joint relative to the base
+    let t289 = t275 - t276;
+    let t290 = t278 + t279;
+    // leg 1: actuator acceleration d''
+    let t291 = t42 * t272 + (t39 * t269 - (t132 * t132 + t135 * t135));
+    let t292 = t74 * (t154 * t154 - t291);
+    // leg 2: actuator acceleration d''
+    let t293 = t47 * t274 - (t46 * t273 - (t136 * t136 + t137 * t137));
+    let t294 = t77 * (t155 * t155 + t293);
+    // leg 3: actuator acceleration d''
+    let t295 = t54 * t280 - (t51 * t277 - (t140 * t140 + t143 * t143));
+    let t296 = t80 * (t156 * t156 + t295);
+    // leg 4: actuator acceleration d''
+    let t297 = t63 * t286 - (t60 * t283 - (t146 * t146 + t149 * t149));
+    let t298 = t83 * (t157 * t157 + t297);
+    // leg 5: actuator acceleration d''
+    let t299 = t68 * t288 + (t67 * t287 - (t150 * t150 + t151 * t151));
+    let t300 = t86 * (t158 * t158 - t299);
+    // leg 6: actuator acceleration d''
+    let t301 = t71 * t290 + (t70 * t289 - (t152 * t152 + t153 * t153));
+    let t302 = t89 * (t159 * t159 - t301);
+    // leg 1: inertia less weight of the whole leg
+    let t303 = c(2.0) * t123;
+    let t304 = t303 + t128 * c(0.2318221983093764);
+    let t305 = t129 * c(0.06211657082460498);
+    let t306 = t163 - c(0.1316436662914507) * t178;
+    let t307 = c(0.12275970481124972) * t180;
+    let t308 = c(0.17066666666666666) * t194;
+    let t309 = t308 + t217 * c(0.019782160922400118);
+    let t310 = t218 * c(0.005300614043699624);
+    let t311 = t304 - (t305 + c(2.0) * t154);
+    let t312 = t306 - (t96 * t311 + (t75 * t182 - t307));
+    let t313 = t309 - (t310 - c(0.3413333333333334) * t312);
+    let t314 = c(0.17066666666666666) * t312;
+    let t315 = t182 * c(0.03055);
+    let t316 = t315 - c(0.611) * t312;
+    let t317 = t166 + c(0.1316436662914507) * t183;
+    let t318 = c(0.12275970481124972) * t185;
+    let t319 = c(0.17066666666666666) * t197;
+    let t320 = t319 - t225 * c(0.019782160922400118);
+    let t321 = t226 * c(0.005300614043699624);
+    let t322 = t317 + (t93 * t311 + (t75 * t187 + t318));
+    let t323 = t320 + (t321 + c(0.3413333333333334) * t322);
+    let t324 = c(0.17066666666666666) * t322;
+    let t325 = t187 * c(0.03055);
+    let t326 = t325 + c(0.611) * t322;
+    let t327 = t240 - (t239 + (t200 - t238)) - c(2.0) * (t241 - t242);
+    let t328 = c(0.12275970481124972) * t189 - c(0.03105828541230249) * t266;
+    let t329 = t327 + (c(0.1316436662914507) * t188 + c(0.1159110991546882) * t265);
+    let t330 = t329 + (t328 - (t292 + t75 * t190));
+    let t331 = c(0.17066666666666666) * t330;
+    // leg 1: its moment about the base origin
+    let t332 = t75 * t323;
+    let t333 = c(0.12275970481124972) - t42;
+    let t334 = t331 * t333;
+    let t335 = t45 * t324;
+    let t336 = c(0.05) + t75;
+    let t337 = t326 * t336;
+    let t338 = t75 * t313;
+    let t339 = t45 * t314;
+    let t340 = c(0.1316436662914507) - t39;
+    let t341 = t331 * t340;
+    let t342 = t316 * t336;
+    let t343 = t324 * t340;
+    let t344 = t314 * t333;
+    // leg 2: inertia less weight of the whole leg
+    let t345 = t304 + (t305 - c(2.0) * t155);
+    let t346 = t96 * t345 + (t78 * t182 - (t306 - t307));
+    let t347 = t309 + t310 - c(0.3413333333333334) * t346;
+    let t348 = c(0.17066666666666666) * t346;
+    let t349 = t315 + c(0.611) * t346;
+    let t350 = t93 * t345 + (t78 * t187 + (t317 - t318));
+    let t351 = t320 - t321 + c(0.3413333333333334) * t350;
+    let t352 = c(0.17066666666666666) * t350;
+    let t353 = t325 + c(0.611) * t350;
+    let t354 = t78 * t190 - (t329 - (t294 + t328));
+    let t355 = c(0.17066666666666666) * t354;
+    // leg 2: its moment about the base origin
+    let t356 = t78 * t351;
+    let t357 = c(0.12275970481124972) - t47;
+    let t358 = t355 * t357;
+    let t359 = t48 * t352;
+    let t360 = c(0.05) + t78;
+    let t361 = t353 * t360;
+    let t362 = t78 * t347;
+    let t363 = t48 * t348;
+    let t364 = c(0.1316436662914507) - t46;
+    let t365 = t355 * t364;
+    let t366 = t349 * t360;
+    let t367 = t352 * t364;
+    let t368 = t348 * t357;
+    // leg 3: inertia less weight of the whole leg
+    let t369 = t303 - t128 * c(0.06211657082460495);
+    let t370 = t129 * c(0.2318221983093764);
+    let t371 = t163 - c(0.040491189781895726) * t178;
+    let t372 = c(0.17538661166134234) * t180;
+    let t373 = t308 - t217 * c(0.005300614043699622);
+    let t374 = t218 * c(0.019782160922400118);
+    let t375 = t369 + (t370 - c(2.0) * t156);
+    let t376 = t371 - (t96 * t375 + (t81 * t182 + t372));
+    let t377 = t373 + (t374 + c(0.3413333333333334) * t376);
+    let t378 = c(0.17066666666666666) * t376;
+    let t379 = t315 - c(0.611) * t376;
+    let t380 = t166 + c(0.040491189781895726) * t183;
+    let t381 = c(0.17538661166134234) * t185;
+    let t382 = t319 + t225 * c(0.005300614043699622);
+    let t383 = t226 * c(0.019782160922400118);
+    let t384 = t380 + (t93 * t375 + (t81 * t187 - t381));
+    let t385 = t382 - (t383 - c(0.3413333333333334) * t384);
+    let t386 = c(0.17066666666666666) * t384;
+    let t387 = t325 + c(0.611) * t384;
+    let t388 = c(0.17538661166134234) * t189 - c(0.1159110991546882) * t266;
+    let t389 = c(0.040491189781895726) * t188 - c(0.031058285412302475) * t265;
+    let t390 = t327 + t389;
+    let t391 = t390 - (t388 + (t296 + t81 * t190));
+    let t392 = c(0.17066666666666666) * t391;
+    // leg 3: its moment about the base origin
+    let t393 = t81 * t385;
+    let t394 = c(0.17538661166134234) - t54;
+    let t395 = t392 * t394;
+    let t396 = t57 * t386;
+    let t397 = c(0.05) + t81;
+    let t398 = t387 * t397;
+    let t399 = t81 * t377;
+    let t400 = t57 * t378;
+    let t401 = c(0.040491189781895726) - t51;
+    let t402 = t392 * t401;
+    let t403 = t379 * t397;
+    let t404 = t386 * t401;
+    let t405 = t378 * t394;
+    // leg 4: inertia less weight of the whole leg
+    let t406 = t303 - t128 * c(0.1697056274847714);
+    let t407 = t129 * c(0.16970562748477142);
+    let t408 = t163 + c(0.17213485607334636) * t178;
+    let t409 = c(0.052626906850092664) * t180;
+    let t410 = t308 - t217 * c(0.01448154687870049);
+    let t411 = t218 * c(0.014481546878700494);
+    let t412 = t406 + (t407 - c(2.0) * t157);
+    let t413 = t408 - (t96 * t412 + (t84 * t182 + t409));
+    let t414 = t410 + (t411 + c(0.3413333333333334) * t413);
+    let t415 = c(0.17066666666666666) * t413;
+    let t416 = t315 - c(0.611) * t413;
+    let t417 = t166 - c(0.17213485607334636) * t183;
+    let t418 = c(0.052626906850092664) * t185;
+    let t419 = t319 + t225 * c(0.01448154687870049);
+    let t420 = t226 * c(0.014481546878700494);
+    let t421 = t417 + (t93 * t412 + (t84 * t187 - t418));
+    let t422 = t419 - (t420 - c(0.3413333333333334) * t421);
+    let t423 = c(0.17066666666666666) * t421;
+    let t424 = t325 + c(0.611) * t421;
+    let t425 = c(0.052626906850092664) * t189 - c(0.08485281374238571) * t266;
+    let t426 = t327 - (c(0.17213485607334636) * t188 + c(0.0848528137423857) * t265);
+    let t427 = t426 - (t425 + (t298 + t84 * t190));
+    let t428 = c(0.17066666666666666) * t427;
+    // leg 4: its moment about the base origin
+    let t429 = t84 * t422;
+    let t430 = c(0.052626906850092664) - t63;
+    let t431 = t428 * t430;
+    let t432 = t66 * t423;
+    let t433 = c(0.05) + t84;
+    let t434 = t424 * t433;
+    let t435 = t84 * t414;
+    let t436 = t66 * t415;
+    let t437 = c(0.17213485607334636) + t60;
+    let t438 = t428 * t437;
+    let t439 = t416 * t433;
+    let t440 = t423 * t437;
+    let t441 = t415 * t430;
+    // leg 5: inertia less weight of the whole leg
+    let t442 = t406 - (t407 + c(2.0) * t158);
+    let t443 = t96 * t442 + (t87 * t182 - (t408 + t409));
+    let t444 = t410 - t411 - c(0.3413333333333334) * t443;
+    let t445 = c(0.17066666666666666) * t443;
+    let t446 = t315 + c(0.611) * t443;
+    let t447 = t93 * t442 + (t87 * t187 + (t417 + t418));
+    let t448 = t419 + t420 + c(0.3413333333333334) * t447;
+    let t449 = c(0.17066666666666666) * t447;
+    let t450 = t325 + c(0.611) * t447;
+    let t451 = t87 * t190 - (t426 - (t300 - t425));
+    let t452 = c(0.17066666666666666) * t451;
+    // leg 5: its moment about the base origin
+    let t453 = t87 * t448;
+    let t454 = c(0.052626906850092664) - t68;
+    let t455 = t452 * t454;
+    let t456 = t69 * t449;
+    let t457 = c(0.05) + t87;
+    let t458 = t450 * t457;
+    let t459 = t87 * t444;
+    let t460 = t69 * t445;
+    let t461 = c(0.17213485607334636) + t67;
+    let t462 = t452 * t461;
+    let t463 = t446 * t457;
+    let t464 = t449 * t461;
+    let t465 = t445 * t454;
+    // leg 6: inertia less weight of the whole leg
+    let t466 = t369 - (t370 + c(2.0) * t159);
+    let t467 = t96 * t466 + (t90 * t182 - (t371 + t372));
+    let t468 = t373 - t374 - c(0.3413333333333334) * t467;
+    let t469 = c(0.17066666666666666) * t467;
+    let t470 = t315 + c(0.611) * t467;
+    let t471 = t93 * t466 + (t90 * t187 + (t380 + t381));
+    let t472 = t382 + t383 + c(0.3413333333333334) * t471;
+    let t473 = c(0.17066666666666666) * t471;
+    let t474 = t325 + c(0.611) * t471;
+    let t475 = t90 * t190 - (t390 - (t302 - t388));
+    let t476 = c(0.17066666666666666) * t475;
+    // leg 6: its moment about the base origin
+    let t477 = t90 * t472;
+    let t478 = c(0.17538661166134234) - t71;
+    let t479 = t476 * t478;
+    let t480 = t72 * t473;
+    let t481 = c(0.05) + t90;
+    let t482 = t474 * t481;
+    let t483 = t90 * t468;
+    let t484 = t72 * t469;
+    let t485 = c(0.040491189781895726) - t70;
+    let t486 = t476 * t485;
+    let t487 = t470 * t481;
+    let t488 = t473 * t485;
+    let t489 = t469 * t478;
+    // wrench of the base on the mechanism, moments about the base origin
+    let t490 = t190 * c(0.03055) + c(0.17066666666666666) * t200;
+    let t491 = t490 + t231 * c(0.01448154687870049);
+    let t492 = t232 * c(0.014481546878700494);
+    let t493 = t491 - (t492 + t427 * c(0.9523333333333334));
+    let t494 = t491 + (t492 + t451 * c(0.9523333333333334));
+    let t495 = t493 + t494;
+    let t496 = t490 + t231 * c(0.005300614043699622);
+    let t497 = t232 * c(0.019782160922400118);
+    let t498 = t496 - (t497 + t391 * c(0.9523333333333334));
+    let t499 = t496 + (t497 + t475 * c(0.9523333333333334));
+    let t500 = t498 + t499;
+    let t501 = t490 - t231 * c(0.019782160922400118);
+    let t502 = t232 * c(0.005300614043699624);
+    let t503 = t501 + (t502 - t330 * c(0.9523333333333334));
+    let t504 = t501 - (t502 - t354 * c(0.9523333333333334));
+    let t505 = t503 + t504;
+    let t506 = base_rotation[1][2] * external_wrench[1];
+    let t507 = base_rotation[0][2] * external_wrench[0] + t506;
+    let t508 = base_rotation[2][2] * external_wrench[2] + t507;
+    let t509 = c(8.139999999999999) * t200 - c(2.2551405187698492e-17) * t231;
+    let t510 = t509 - c(6.938893903907228e-18) * t232 - c(0.188852) * t233;
+    let t511 = t508 - t510;
+    let t512 = t505 - (t511 - (t476 + (t452 - (t428 + (t392 + (t331 - t355))))));
+    let t513 = t495 + (t500 + t512);
+    let t514 = t468 - t470;
+    let t515 = t444 - t446;
+    let t516 = t414 - t416;
+    let t517 = t377 - t379;
+    let t518 = t347 - t349;
+    let t519 = t313 - t316;
+    let t520 = base_rotation[1][0] * external_wrench[1];
+    let t521 = base_rotation[0][0] * external_wrench[0] + t520;
+    let t522 = base_rotation[2][0] * external_wrench[2] + t521;
+    let t523 = c(8.139999999999999) * t194 + c(2.2551405187698492e-17) * t217;
+    let t524 = t523 + c(6.938893903907228e-18) * t218 + c(0.188852) * t219;
+    let t525 = t522 - t524;
+    let t526 = t519 - (t525 + (t469 + (t445 - (t415 + (t378 + (t314 - t348))))));
+    let t527 = t514 + (t515 + (t516 + (t517 + (t518 + t526))));
+    let t528 = t450 + (t448 + (t422 + t424));
+    let t529 = t474 + (t472 + (t385 + t387));
+    let t530 = t353 + (t351 + (t323 + t326));
+    let t531 = base_rotation[1][1] * external_wrench[1];
+    let t532 = base_rotation[0][1] * external_wrench[0] + t531;
+    let t533 = base_rotation[2][1] * external_wrench[2] + t532;
+    let t534 = c(8.139999999999999) * t197 - c(2.2551405187698492e-17) * t225;
+    let t535 = t534 - c(6.938893903907228e-18) * t226 - c(0.188852) * t227;
+    let t536 = t533 - t535;
+    let t537 = t530 - (t536 - (t473 + (t449 + (t423 + (t386 + (t324 + t352))))));
+    let t538 = t528 + (t529 + t537);
+    let t539 = base_rotation[0][0] * t527 + base_rotation[0][1] * t538;
+    base_wrench[0] = base_rotation[0][2] * t513 + t539;
+    let t540 = base_rotation[1][0] * t527 + base_rotation[1][1] * t538;
+    base_wrench[1] = base_rotation[1][2] * t513 + t540;
+    let t541 = base_rotation[2][0] * t527 + base_rotation[2][1] * t538;
+    base_wrench[2] = base_rotation[2][2] * t513 + t541;
+    let t542 = c(0.188852) * t194 + c(0.013354412) * t219 - c(0.031) * t522;
+    let t543 = c(0.188852) * t197 - c(0.013354412) * t227 - c(0.031) * t533;
+    let t544 = c(6.938893903907228e-18) * t194 + c(0.032245600000000006) * t218;
+    let t545 = c(6.938893903907228e-18) * t197 - c(0.032245600000000006) * t226;
+    let t546 = c(2.2551405187698492e-17) * t194 + c(0.032245600000000006) * t217;
+    let t547 = c(2.2551405187698492e-17) * t197 - c(0.032245600000000006) * t225;
+    let t548 = t441 + (t440 + (t405 - (t404 + (t368 + (t367 + (t343 + t344))))));
+    let t549 = t489 - (t488 - (t465 + (t464 + t548)));
+    let t550 = t549 - c(0.1316436662914507) * t530;
+    let t551 = t550 - c(0.040491189781895726) * t529;
+    let t552 = t3 * t547 - (t551 + c(0.17213485607334636) * t528);
+    let t553 = t15 * t544 - (t6 * t545 - (t12 * t546 - t552));
+    let t554 = t32 * t536 - (t18 * t542 - (t9 * t543 - t553));
+    let t555 = base_rotation[0][2] * external_wrench[3] + (t34 * t525 - t554);
+    let t556 = base_rotation[1][2] * external_wrench[4] + t555;
+    let t557 = base_rotation[2][2] * external_wrench[5] + t556;
+    let t558 = t557 - c(0.12275970481124972) * (t519 - t518);
+    let t559 = t558 + c(0.17538661166134234) * (t517 - t514);
+    let t560 = t559 + c(0.052626906850092664) * (t516 - t515);
+    let t561 = c(0.188852) * t200 - c(0.013354412) * t233 - c(0.031) * t508;
+    let t562 = c(6.938893903907228e-18) * t200 - c(0.032245600000000006) * t232;
+    let t563 = c(2.2551405187698492e-17) * t200 - c(0.032245600000000006) * t231;
+    let t564 = t361 + (t359 + (t358 + (t356 + (t337 + (t335 + (t332 + t334))))));
+    let t565 = t432 - (t431 - (t429 + (t398 + (t396 - (t395 - (t393 + t564))))));
+    let t566 = t479 - (t477 + (t458 + (t456 - (t455 - (t453 + (t434 + t565))))));
+    let t567 = t21 * t547 - (t12 * t563 + (t482 + (t480 - t566)));
+    let t568 = t18 * t561 - (t24 * t545 - (t15 * t562 - t567));
+    let t569 = t36 * t536 - (t34 * t511 - (t27 * t543 - t568));
+    let t570 = base_rotation[0][0] * external_wrench[3] + t569;
+    let t571 = base_rotation[1][0] * external_wrench[4] + t570;
+    let t572 = base_rotation[2][0] * external_wrench[5] + t571;
+    let t573 = t572 + c(0.12275970481124972) * (t503 - t504);
+    let t574 = t573 - c(0.17538661166134234) * (t498 - t499);
+    let t575 = t574 - c(0.052626906850092664) * (t493 - t494);
+    let t576 = t366 - (t365 - (t363 - (t362 - (t342 + (t341 - (t338 + t339))))));
+    let t577 = t438 + (t436 + (t435 - (t403 + (t402 - (t400 + (t399 - t576))))));
+    let t578 = t484 - (t483 - (t463 + (t462 + (t460 - (t459 - (t439 - t577))))));
+    let t579 = t487 - (t486 - t578) - c(0.1316436662914507) * t505;
+    let t580 = t579 - c(0.040491189781895726) * t500;
+    let t581 = t21 * t546 + (t580 + c(0.17213485607334636) * t495);
+    let t582 = t6 * t562 - (t24 * t544 - (t3 * t563 - t581));
+    let t583 = t36 * t525 - (t9 * t561 - (t27 * t542 - t582));
+    let t584 = base_rotation[0][1] * external_wrench[3] + (t32 * t511 - t583);
+    let t585 = base_rotation[1][1] * external_wrench[4] + t584;
+    let t586 = base_rotation[2][1] * external_wrench[5] + t585;
+    let t587 = base_rotation[0][0] * t575 + base_rotation[0][1] * t586;
+    base_wrench[3] = -(base_rotation[0][2] * t560 + t587);
+    let t588 = base_rotation[1][0] * t575 + base_rotation[1][1] * t586;
+    base_wrench[4] = -(base_rotation[1][2] * t560 + t588);
+    let t589 = base_rotation[2][0] * t575 + base_rotation[2][1] * t586;
+    base_wrench[5] = -(base_rotation[2][2] * t560 + t589);
 }
 
 /// Platform acceleration for given actuator forces, equation (49).

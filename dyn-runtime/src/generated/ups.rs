@@ -3,29 +3,33 @@
 //
 // Dynamics of any `ups` platform, all numbers given at run time.
 //
-// graph     ups.json, sha256 e640b54bd123582230e6e3597581aa15c8f0e6ffc85ff80b302445a5f3068c25
+// graph     ups.json, sha256 189ee6e20b9380f4cf3986c52f6c089d7abb639c5b5ce8d3f6d0e67256f8b29b
 //           derived by CasADi 3.8.2
 //
 // operations (+ - * / sqrt; a change of sign is not counted)
-// function            as derived  as printed
-// rod_alignment              273         279
-// leg_kinematics            1608        1575
-// body_kinematics           2370        2355
-// partial_velocities        1074        1074
-// generalised_forces        3633        3600
-// jacobian_dp                483         483
-// jacobian_db                501         501
-// mass_matrix_p             1235        1217
-// mass_matrix_b             2085        2025
-// coriolis_matrices         3597        3540
-// stiffness_matrices        1170        1170
-// matrices                  4904        4820
-// passive_forces            1134        1134
-// bias                      1941        1905
-// equation_of_motion        6086        6002
-// inverse_dynamics          1962        1926
-// forward_dynamics          2553        2622
-// energy                    1511        1487
+// function                  as derived  as printed
+// rod_alignment                    273         279
+// leg_kinematics                  1608        1575
+// body_kinematics                 2370        2355
+// partial_velocities              1074        1074
+// generalised_forces              3633        3600
+// jacobian_dp                      483         483
+// jacobian_db                      501         501
+// mass_matrix_p                   1235        1217
+// mass_matrix_b                   2085        2025
+// coriolis_matrices               3597        3540
+// stiffness_matrices              1170        1170
+// matrices                        4904        4820
+// passive_forces                  1134        1134
+// bias                            1941        1905
+// equation_of_motion              6086        6002
+// inverse_dynamics                1962        1926
+// actuator_geometry                531         513
+// control                         2846        2792
+// passive_inverse_dynamics        2592        2556
+// base_reaction                   2010        2010
+// forward_dynamics                2553        2622
+// energy                          1511        1487
 
 #[allow(unused_imports)]
 use crate::float::{Scalar, sqrt};
@@ -947,6 +951,136 @@ impl crate::kernels::InverseDynamics for Ups {
 }
 
 #[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::ActuatorGeometry for Ups {
+    fn actuator_geometry(
+        &self,
+        base_position: &[f64; 3],
+        base_rotation: &[[f64; 3]; 3],
+        platform_position: &[f64; 3],
+        platform_rotation: &[[f64; 3]; 3],
+        rod_alignment: &mut [f64; 6],
+        actuator_length: &mut [f64; 6],
+        jacobian_dp: &mut [[f64; 6]; 6],
+    ) {
+        self::actuator_geometry(
+            &self.parameters,
+            base_position,
+            base_rotation,
+            platform_position,
+            platform_rotation,
+            rod_alignment,
+            actuator_length,
+            jacobian_dp,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::Control for Ups {
+    fn control(
+        &self,
+        base_position: &[f64; 3],
+        base_rotation: &[[f64; 3]; 3],
+        base_velocity: &[f64; 6],
+        base_acceleration: &[f64; 6],
+        platform_position: &[f64; 3],
+        platform_rotation: &[[f64; 3]; 3],
+        platform_velocity: &[f64; 6],
+        platform_acceleration: &[f64; 6],
+        external_wrench: &[f64; 6],
+        actuator_length: &mut [f64; 6],
+        actuator_velocity: &mut [f64; 6],
+        jacobian_dp: &mut [[f64; 6]; 6],
+        mass_matrix_p: &mut [[f64; 6]; 6],
+        total_bias: &mut [f64; 6],
+        inverse_dynamics: &mut [f64; 6],
+    ) {
+        self::control(
+            &self.parameters,
+            base_position,
+            base_rotation,
+            base_velocity,
+            base_acceleration,
+            platform_position,
+            platform_rotation,
+            platform_velocity,
+            platform_acceleration,
+            external_wrench,
+            actuator_length,
+            actuator_velocity,
+            jacobian_dp,
+            mass_matrix_p,
+            total_bias,
+            inverse_dynamics,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::PassiveInverseDynamics for Ups {
+    fn passive_inverse_dynamics(
+        &self,
+        base_position: &[f64; 3],
+        base_rotation: &[[f64; 3]; 3],
+        base_velocity: &[f64; 6],
+        base_acceleration: &[f64; 6],
+        platform_position: &[f64; 3],
+        platform_rotation: &[[f64; 3]; 3],
+        platform_velocity: &[f64; 6],
+        platform_acceleration: &[f64; 6],
+        reference_velocity: &[f64; 6],
+        external_wrench: &[f64; 6],
+        passive_inverse_dynamics: &mut [f64; 6],
+    ) {
+        self::passive_inverse_dynamics(
+            &self.parameters,
+            base_position,
+            base_rotation,
+            base_velocity,
+            base_acceleration,
+            platform_position,
+            platform_rotation,
+            platform_velocity,
+            platform_acceleration,
+            reference_velocity,
+            external_wrench,
+            passive_inverse_dynamics,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::BaseReaction for Ups {
+    fn base_reaction(
+        &self,
+        base_position: &[f64; 3],
+        base_rotation: &[[f64; 3]; 3],
+        base_velocity: &[f64; 6],
+        base_acceleration: &[f64; 6],
+        platform_position: &[f64; 3],
+        platform_rotation: &[[f64; 3]; 3],
+        platform_velocity: &[f64; 6],
+        platform_acceleration: &[f64; 6],
+        external_wrench: &[f64; 6],
+        base_wrench: &mut [f64; 6],
+    ) {
+        self::base_reaction(
+            &self.parameters,
+            base_position,
+            base_rotation,
+            base_velocity,
+            base_acceleration,
+            platform_position,
+            platform_rotation,
+            platform_velocity,
+            platform_acceleration,
+            external_wrench,
+            base_wrench,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
 impl crate::kernels::ForwardDynamics for Ups {
     fn forward_dynamics(
         &self,
@@ -1500,6 +1634,140 @@ impl crate::kernels::InverseDynamics<f32> for Ups<f32> {
             platform_acceleration,
             external_wrench,
             inverse_dynamics,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::ActuatorGeometry<f32> for Ups<f32> {
+    #[inline]
+    fn actuator_geometry(
+        &self,
+        base_position: &[f32; 3],
+        base_rotation: &[[f32; 3]; 3],
+        platform_position: &[f32; 3],
+        platform_rotation: &[[f32; 3]; 3],
+        rod_alignment: &mut [f32; 6],
+        actuator_length: &mut [f32; 6],
+        jacobian_dp: &mut [[f32; 6]; 6],
+    ) {
+        self::actuator_geometry(
+            &self.parameters,
+            base_position,
+            base_rotation,
+            platform_position,
+            platform_rotation,
+            rod_alignment,
+            actuator_length,
+            jacobian_dp,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::Control<f32> for Ups<f32> {
+    #[inline]
+    fn control(
+        &self,
+        base_position: &[f32; 3],
+        base_rotation: &[[f32; 3]; 3],
+        base_velocity: &[f32; 6],
+        base_acceleration: &[f32; 6],
+        platform_position: &[f32; 3],
+        platform_rotation: &[[f32; 3]; 3],
+        platform_velocity: &[f32; 6],
+        platform_acceleration: &[f32; 6],
+        external_wrench: &[f32; 6],
+        actuator_length: &mut [f32; 6],
+        actuator_velocity: &mut [f32; 6],
+        jacobian_dp: &mut [[f32; 6]; 6],
+        mass_matrix_p: &mut [[f32; 6]; 6],
+        total_bias: &mut [f32; 6],
+        inverse_dynamics: &mut [f32; 6],
+    ) {
+        self::control(
+            &self.parameters,
+            base_position,
+            base_rotation,
+            base_velocity,
+            base_acceleration,
+            platform_position,
+            platform_rotation,
+            platform_velocity,
+            platform_acceleration,
+            external_wrench,
+            actuator_length,
+            actuator_velocity,
+            jacobian_dp,
+            mass_matrix_p,
+            total_bias,
+            inverse_dynamics,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::PassiveInverseDynamics<f32> for Ups<f32> {
+    #[inline]
+    fn passive_inverse_dynamics(
+        &self,
+        base_position: &[f32; 3],
+        base_rotation: &[[f32; 3]; 3],
+        base_velocity: &[f32; 6],
+        base_acceleration: &[f32; 6],
+        platform_position: &[f32; 3],
+        platform_rotation: &[[f32; 3]; 3],
+        platform_velocity: &[f32; 6],
+        platform_acceleration: &[f32; 6],
+        reference_velocity: &[f32; 6],
+        external_wrench: &[f32; 6],
+        passive_inverse_dynamics: &mut [f32; 6],
+    ) {
+        self::passive_inverse_dynamics(
+            &self.parameters,
+            base_position,
+            base_rotation,
+            base_velocity,
+            base_acceleration,
+            platform_position,
+            platform_rotation,
+            platform_velocity,
+            platform_acceleration,
+            reference_velocity,
+            external_wrench,
+            passive_inverse_dynamics,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::BaseReaction<f32> for Ups<f32> {
+    #[inline]
+    fn base_reaction(
+        &self,
+        base_position: &[f32; 3],
+        base_rotation: &[[f32; 3]; 3],
+        base_velocity: &[f32; 6],
+        base_acceleration: &[f32; 6],
+        platform_position: &[f32; 3],
+        platform_rotation: &[[f32; 3]; 3],
+        platform_velocity: &[f32; 6],
+        platform_acceleration: &[f32; 6],
+        external_wrench: &[f32; 6],
+        base_wrench: &mut [f32; 6],
+    ) {
+        self::base_reaction(
+            &self.parameters,
+            base_position,
+            base_rotation,
+            base_velocity,
+            base_acceleration,
+            platform_position,
+            platform_rotation,
+            platform_velocity,
+            platform_acceleration,
+            external_wrench,
+            base_wrench,
         );
     }
 }
@@ -20612,6 +20880,4839 @@ pub fn inverse_dynamics<T: Scalar>(
     inverse_dynamics[4] = axial_reaction[4] - (t721 + (t720 + (t692 + (t686 + t689))));
     // leg 6: actuator forces F
     inverse_dynamics[5] = axial_reaction[5] - (t723 + (t722 + (t708 + (t702 + t705))));
+}
+
+/// Actuator lengths with their gradients, for forward kinematics, equation (18), (32).
+///
+/// Inputs:
+///
+/// - `base_position`: 3, m, frame O: origin of the base frame.
+/// - `base_rotation`: 3x3, dimensionless, frame B -> O: rotation of the base, equation (2).
+/// - `platform_position`: 3, m, frame O: centre of the platform's joint circle.
+/// - `platform_rotation`: 3x3, dimensionless, frame P -> O: rotation of the platform, equation (2).
+///
+/// Outputs:
+///
+/// - `rod_alignment`: 6, dimensionless: squared cosine between rod and line of the actuator's force; negative out of reach, equation (18).
+/// - `actuator_length`: 6, m: actuator length d, equation (18).
+/// - `jacobian_dp`: 6x6, 1, m, frame O: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b, equation (32).
+#[allow(clippy::all, clippy::pedantic, unused_variables)]
+pub fn actuator_geometry<T: Scalar>(
+    parameters: &Parameters<T>,
+    base_position: &[T; 3],
+    base_rotation: &[[T; 3]; 3],
+    platform_position: &[T; 3],
+    platform_rotation: &[[T; 3]; 3],
+    rod_alignment: &mut [T; 6],
+    actuator_length: &mut [T; 6],
+    jacobian_dp: &mut [[T; 6]; 6],
+) {
+    let c = T::constant;
+    // rotation of the platform seen from the base
+    let t1 = base_rotation[1][0] * platform_rotation[1][0];
+    let t2 = base_rotation[0][0] * platform_rotation[0][0] + t1;
+    let t3 = t2 + base_rotation[2][0] * platform_rotation[2][0];
+    let t4 = base_rotation[1][0] * platform_rotation[1][1];
+    let t5 = base_rotation[0][0] * platform_rotation[0][1] + t4;
+    let t6 = t5 + base_rotation[2][0] * platform_rotation[2][1];
+    let t7 = base_rotation[1][0] * platform_rotation[1][2];
+    let t8 = base_rotation[0][0] * platform_rotation[0][2] + t7;
+    let t9 = t8 + base_rotation[2][0] * platform_rotation[2][2];
+    let t10 = base_rotation[1][1] * platform_rotation[1][0];
+    let t11 = base_rotation[0][1] * platform_rotation[0][0] + t10;
+    let t12 = t11 + base_rotation[2][1] * platform_rotation[2][0];
+    let t13 = base_rotation[1][1] * platform_rotation[1][1];
+    let t14 = base_rotation[0][1] * platform_rotation[0][1] + t13;
+    let t15 = t14 + base_rotation[2][1] * platform_rotation[2][1];
+    let t16 = base_rotation[1][1] * platform_rotation[1][2];
+    let t17 = base_rotation[0][1] * platform_rotation[0][2] + t16;
+    let t18 = t17 + base_rotation[2][1] * platform_rotation[2][2];
+    let t19 = base_rotation[1][2] * platform_rotation[1][0];
+    let t20 = base_rotation[0][2] * platform_rotation[0][0] + t19;
+    let t21 = t20 + base_rotation[2][2] * platform_rotation[2][0];
+    let t22 = base_rotation[1][2] * platform_rotation[1][1];
+    let t23 = base_rotation[0][2] * platform_rotation[0][1] + t22;
+    let t24 = t23 + base_rotation[2][2] * platform_rotation[2][1];
+    let t25 = base_rotation[1][2] * platform_rotation[1][2];
+    let t26 = base_rotation[0][2] * platform_rotation[0][2] + t25;
+    let t27 = t26 + base_rotation[2][2] * platform_rotation[2][2];
+    // platform origin seen from the base
+    let t28 = base_position[0] - platform_position[0];
+    let t29 = base_position[1] - platform_position[1];
+    let t30 = base_rotation[0][0] * t28 + base_rotation[1][0] * t29;
+    let t31 = base_position[2] - platform_position[2];
+    let t32 = t30 + base_rotation[2][0] * t31;
+    let t33 = base_rotation[0][1] * t28 + base_rotation[1][1] * t29;
+    let t34 = t33 + base_rotation[2][1] * t31;
+    let t35 = base_rotation[0][2] * t28 + base_rotation[1][2] * t29;
+    let t36 = t35 + base_rotation[2][2] * t31;
+    // leg 1: platform joint from the platform origin
+    let t37 = parameters.platform_point[0][1] * t6;
+    let t38 = parameters.platform_point[0][0] * t3 + t37;
+    let t39 = t38 + parameters.platform_point[0][2] * t9;
+    let t40 = parameters.platform_point[0][1] * t15;
+    let t41 = parameters.platform_point[0][0] * t12 + t40;
+    let t42 = t41 + parameters.platform_point[0][2] * t18;
+    let t43 = parameters.platform_point[0][1] * t24;
+    let t44 = parameters.platform_point[0][0] * t21 + t43;
+    let t45 = t44 + parameters.platform_point[0][2] * t27;
+    let t46 = platform_rotation[0][1] * parameters.platform_point[0][1];
+    let t47 = platform_rotation[0][0] * parameters.platform_point[0][0] + t46;
+    let t48 = t47 + platform_rotation[0][2] * parameters.platform_point[0][2];
+    let t49 = platform_rotation[1][1] * parameters.platform_point[0][1];
+    let t50 = platform_rotation[1][0] * parameters.platform_point[0][0] + t49;
+    let t51 = t50 + platform_rotation[1][2] * parameters.platform_point[0][2];
+    let t52 = platform_rotation[2][1] * parameters.platform_point[0][1];
+    let t53 = platform_rotation[2][0] * parameters.platform_point[0][0] + t52;
+    let t54 = t53 + platform_rotation[2][2] * parameters.platform_point[0][2];
+    // leg 1: platform joint from the base point
+    let t55 = parameters.base_point[0][0] + (t32 - t39);
+    let t56 = parameters.base_point[0][1] + (t34 - t42);
+    let t57 = parameters.base_point[0][2] + (t36 - t45);
+    // leg 2: platform joint from the platform origin
+    let t58 = parameters.platform_point[1][1] * t6;
+    let t59 = parameters.platform_point[1][0] * t3 + t58;
+    let t60 = t59 + parameters.platform_point[1][2] * t9;
+    let t61 = parameters.platform_point[1][1] * t15;
+    let t62 = parameters.platform_point[1][0] * t12 + t61;
+    let t63 = t62 + parameters.platform_point[1][2] * t18;
+    let t64 = parameters.platform_point[1][1] * t24;
+    let t65 = parameters.platform_point[1][0] * t21 + t64;
+    let t66 = t65 + parameters.platform_point[1][2] * t27;
+    let t67 = platform_rotation[0][1] * parameters.platform_point[1][1];
+    let t68 = platform_rotation[0][0] * parameters.platform_point[1][0] + t67;
+    let t69 = t68 + platform_rotation[0][2] * parameters.platform_point[1][2];
+    let t70 = platform_rotation[1][1] * parameters.platform_point[1][1];
+    let t71 = platform_rotation[1][0] * parameters.platform_point[1][0] + t70;
+    let t72 = t71 + platform_rotation[1][2] * parameters.platform_point[1][2];
+    let t73 = platform_rotation[2][1] * parameters.platform_point[1][1];
+    let t74 = platform_rotation[2][0] * parameters.platform_point[1][0] + t73;
+    let t75 = t74 + platform_rotation[2][2] * parameters.platform_point[1][2];
+    // leg 2: platform joint from the base point
+    let t76 = parameters.base_point[1][0] + (t32 - t60);
+    let t77 = parameters.base_point[1][1] + (t34 - t63);
+    let t78 = parameters.base_point[1][2] + (t36 - t66);
+    // leg 3: platform joint from the platform origin
+    let t79 = parameters.platform_point[2][1] * t6;
+    let t80 = parameters.platform_point[2][0] * t3 + t79;
+    let t81 = t80 + parameters.platform_point[2][2] * t9;
+    let t82 = parameters.platform_point[2][1] * t15;
+    let t83 = parameters.platform_point[2][0] * t12 + t82;
+    let t84 = t83 + parameters.platform_point[2][2] * t18;
+    let t85 = parameters.platform_point[2][1] * t24;
+    let t86 = parameters.platform_point[2][0] * t21 + t85;
+    let t87 = t86 + parameters.platform_point[2][2] * t27;
+    let t88 = platform_rotation[0][1] * parameters.platform_point[2][1];
+    let t89 = platform_rotation[0][0] * parameters.platform_point[2][0] + t88;
+    let t90 = t89 + platform_rotation[0][2] * parameters.platform_point[2][2];
+    let t91 = platform_rotation[1][1] * parameters.platform_point[2][1];
+    let t92 = platform_rotation[1][0] * parameters.platform_point[2][0] + t91;
+    let t93 = t92 + platform_rotation[1][2] * parameters.platform_point[2][2];
+    let t94 = platform_rotation[2][1] * parameters.platform_point[2][1];
+    let t95 = platform_rotation[2][0] * parameters.platform_point[2][0] + t94;
+    let t96 = t95 + platform_rotation[2][2] * parameters.platform_point[2][2];
+    // leg 3: platform joint from the base point
+    let t97 = parameters.base_point[2][0] + (t32 - t81);
+    let t98 = parameters.base_point[2][1] + (t34 - t84);
+    let t99 = parameters.base_point[2][2] + (t36 - t87);
+    // leg 4: platform joint from the platform origin
+    let t100 = parameters.platform_point[3][1] * t6;
+    let t101 = parameters.platform_point[3][0] * t3 + t100;
+    let t102 = t101 + parameters.platform_point[3][2] * t9;
+    let t103 = parameters.platform_point[3][1] * t15;
+    let t104 = parameters.platform_point[3][0] * t12 + t103;
+    let t105 = t104 + parameters.platform_point[3][2] * t18;
+    let t106 = parameters.platform_point[3][1] * t24;
+    let t107 = parameters.platform_point[3][0] * t21 + t106;
+    let t108 = t107 + parameters.platform_point[3][2] * t27;
+    let t109 = platform_rotation[0][1] * parameters.platform_point[3][1];
+    let t110 = platform_rotation[0][0] * parameters.platform_point[3][0] + t109;
+    let t111 = t110 + platform_rotation[0][2] * parameters.platform_point[3][2];
+    let t112 = platform_rotation[1][1] * parameters.platform_point[3][1];
+    let t113 = platform_rotation[1][0] * parameters.platform_point[3][0] + t112;
+    let t114 = t113 + platform_rotation[1][2] * parameters.platform_point[3][2];
+    let t115 = platform_rotation[2][1] * parameters.platform_point[3][1];
+    let t116 = platform_rotation[2][0] * parameters.platform_point[3][0] + t115;
+    let t117 = t116 + platform_rotation[2][2] * parameters.platform_point[3][2];
+    // leg 4: platform joint from the base point
+    let t118 = parameters.base_point[3][0] + (t32 - t102);
+    let t119 = parameters.base_point[3][1] + (t34 - t105);
+    let t120 = parameters.base_point[3][2] + (t36 - t108);
+    // leg 5: platform joint from the platform origin
+    let t121 = parameters.platform_point[4][1] * t6;
+    let t122 = parameters.platform_point[4][0] * t3 + t121;
+    let t123 = t122 + parameters.platform_point[4][2] * t9;
+    let t124 = parameters.platform_point[4][1] * t15;
+    let t125 = parameters.platform_point[4][0] * t12 + t124;
+    let t126 = t125 + parameters.platform_point[4][2] * t18;
+    let t127 = parameters.platform_point[4][1] * t24;
+    let t128 = parameters.platform_point[4][0] * t21 + t127;
+    let t129 = t128 + parameters.platform_point[4][2] * t27;
+    let t130 = platform_rotation[0][1] * parameters.platform_point[4][1];
+    let t131 = platform_rotation[0][0] * parameters.platform_point[4][0] + t130;
+    let t132 = t131 + platform_rotation[0][2] * parameters.platform_point[4][2];
+    let t133 = platform_rotation[1][1] * parameters.platform_point[4][1];
+    let t134 = platform_rotation[1][0] * parameters.platform_point[4][0] + t133;
+    let t135 = t134 + platform_rotation[1][2] * parameters.platform_point[4][2];
+    let t136 = platform_rotation[2][1] * parameters.platform_point[4][1];
+    let t137 = platform_rotation[2][0] * parameters.platform_point[4][0] + t136;
+    let t138 = t137 + platform_rotation[2][2] * parameters.platform_point[4][2];
+    // leg 5: platform joint from the base point
+    let t139 = parameters.base_point[4][0] + (t32 - t123);
+    let t140 = parameters.base_point[4][1] + (t34 - t126);
+    let t141 = parameters.base_point[4][2] + (t36 - t129);
+    // leg 6: platform joint from the platform origin
+    let t142 = parameters.platform_point[5][1] * t6;
+    let t143 = parameters.platform_point[5][0] * t3 + t142;
+    let t144 = t143 + parameters.platform_point[5][2] * t9;
+    let t145 = parameters.platform_point[5][1] * t15;
+    let t146 = parameters.platform_point[5][0] * t12 + t145;
+    let t147 = t146 + parameters.platform_point[5][2] * t18;
+    let t148 = parameters.platform_point[5][1] * t24;
+    let t149 = parameters.platform_point[5][0] * t21 + t148;
+    let t150 = t149 + parameters.platform_point[5][2] * t27;
+    let t151 = platform_rotation[0][1] * parameters.platform_point[5][1];
+    let t152 = platform_rotation[0][0] * parameters.platform_point[5][0] + t151;
+    let t153 = t152 + platform_rotation[0][2] * parameters.platform_point[5][2];
+    let t154 = platform_rotation[1][1] * parameters.platform_point[5][1];
+    let t155 = platform_rotation[1][0] * parameters.platform_point[5][0] + t154;
+    let t156 = t155 + platform_rotation[1][2] * parameters.platform_point[5][2];
+    let t157 = platform_rotation[2][1] * parameters.platform_point[5][1];
+    let t158 = platform_rotation[2][0] * parameters.platform_point[5][0] + t157;
+    let t159 = t158 + platform_rotation[2][2] * parameters.platform_point[5][2];
+    // leg 6: platform joint from the base point
+    let t160 = parameters.base_point[5][0] + (t32 - t144);
+    let t161 = parameters.base_point[5][1] + (t34 - t147);
+    let t162 = parameters.base_point[5][2] + (t36 - t150);
+    // leg 1: actuator length d
+    let t163 = sqrt(t55 * t55 + t56 * t56 + t57 * t57);
+    actuator_length[0] = t163;
+    // leg 1: reciprocal of the actuator length
+    let t164 = c(1.0) / t163;
+    // leg 1: squared cosine between rod and line of the actuator's force; negative out of reach
+    let t165 = t55 * t164;
+    let t166 = t56 * t164;
+    let t167 = t57 * t164;
+    rod_alignment[0] = t165 * t165 + t166 * t166 + t167 * t167;
+    // leg 2: actuator length d
+    let t168 = sqrt(t76 * t76 + t77 * t77 + t78 * t78);
+    actuator_length[1] = t168;
+    // leg 2: reciprocal of the actuator length
+    let t169 = c(1.0) / t168;
+    // leg 2: squared cosine between rod and line of the actuator's force; negative out of reach
+    let t170 = t76 * t169;
+    let t171 = t77 * t169;
+    let t172 = t78 * t169;
+    rod_alignment[1] = t170 * t170 + t171 * t171 + t172 * t172;
+    // leg 3: actuator length d
+    let t173 = sqrt(t97 * t97 + t98 * t98 + t99 * t99);
+    actuator_length[2] = t173;
+    // leg 3: reciprocal of the actuator length
+    let t174 = c(1.0) / t173;
+    // leg 3: squared cosine between rod and line of the actuator's force; negative out of reach
+    let t175 = t97 * t174;
+    let t176 = t98 * t174;
+    let t177 = t99 * t174;
+    rod_alignment[2] = t175 * t175 + t176 * t176 + t177 * t177;
+    // leg 4: actuator length d
+    let t178 = sqrt(t118 * t118 + t119 * t119 + t120 * t120);
+    actuator_length[3] = t178;
+    // leg 4: reciprocal of the actuator length
+    let t179 = c(1.0) / t178;
+    // leg 4: squared cosine between rod and line of the actuator's force; negative out of reach
+    let t180 = t118 * t179;
+    let t181 = t119 * t179;
+    let t182 = t120 * t179;
+    rod_alignment[3] = t180 * t180 + t181 * t181 + t182 * t182;
+    // leg 5: actuator length d
+    let t183 = sqrt(t139 * t139 + t140 * t140 + t141 * t141);
+    actuator_length[4] = t183;
+    // leg 5: reciprocal of the actuator length
+    let t184 = c(1.0) / t183;
+    // leg 5: squared cosine between rod and line of the actuator's force; negative out of reach
+    let t185 = t139 * t184;
+    let t186 = t140 * t184;
+    let t187 = t141 * t184;
+    rod_alignment[4] = t185 * t185 + t186 * t186 + t187 * t187;
+    // leg 6: actuator length d
+    let t188 = sqrt(t160 * t160 + t161 * t161 + t162 * t162);
+    actuator_length[5] = t188;
+    // leg 6: reciprocal of the actuator length
+    let t189 = c(1.0) / t188;
+    // leg 6: squared cosine between rod and line of the actuator's force; negative out of reach
+    let t190 = t160 * t189;
+    let t191 = t161 * t189;
+    let t192 = t162 * t189;
+    rod_alignment[5] = t190 * t190 + t191 * t191 + t192 * t192;
+    // leg 1: gradient of the actuator length
+    let t193 = base_rotation[0][0] * t165 + base_rotation[0][1] * t166;
+    let t194 = t193 + base_rotation[0][2] * t167;
+    let t195 = base_rotation[1][0] * t165 + base_rotation[1][1] * t166;
+    let t196 = t195 + base_rotation[1][2] * t167;
+    let t197 = base_rotation[2][0] * t165 + base_rotation[2][1] * t166;
+    let t198 = t197 + base_rotation[2][2] * t167;
+    jacobian_dp[0][0] = -t194;
+    jacobian_dp[0][1] = -t196;
+    jacobian_dp[0][2] = -t198;
+    // leg 2: gradient of the actuator length
+    let t199 = base_rotation[0][0] * t170 + base_rotation[0][1] * t171;
+    let t200 = t199 + base_rotation[0][2] * t172;
+    let t201 = base_rotation[1][0] * t170 + base_rotation[1][1] * t171;
+    let t202 = t201 + base_rotation[1][2] * t172;
+    let t203 = base_rotation[2][0] * t170 + base_rotation[2][1] * t171;
+    let t204 = t203 + base_rotation[2][2] * t172;
+    jacobian_dp[1][0] = -t200;
+    jacobian_dp[1][1] = -t202;
+    jacobian_dp[1][2] = -t204;
+    // leg 3: gradient of the actuator length
+    let t205 = base_rotation[0][0] * t175 + base_rotation[0][1] * t176;
+    let t206 = t205 + base_rotation[0][2] * t177;
+    let t207 = base_rotation[1][0] * t175 + base_rotation[1][1] * t176;
+    let t208 = t207 + base_rotation[1][2] * t177;
+    let t209 = base_rotation[2][0] * t175 + base_rotation[2][1] * t176;
+    let t210 = t209 + base_rotation[2][2] * t177;
+    jacobian_dp[2][0] = -t206;
+    jacobian_dp[2][1] = -t208;
+    jacobian_dp[2][2] = -t210;
+    // leg 4: gradient of the actuator length
+    let t211 = base_rotation[0][0] * t180 + base_rotation[0][1] * t181;
+    let t212 = t211 + base_rotation[0][2] * t182;
+    let t213 = base_rotation[1][0] * t180 + base_rotation[1][1] * t181;
+    let t214 = t213 + base_rotation[1][2] * t182;
+    let t215 = base_rotation[2][0] * t180 + base_rotation[2][1] * t181;
+    let t216 = t215 + base_rotation[2][2] * t182;
+    jacobian_dp[3][0] = -t212;
+    jacobian_dp[3][1] = -t214;
+    jacobian_dp[3][2] = -t216;
+    // leg 5: gradient of the actuator length
+    let t217 = base_rotation[0][0] * t185 + base_rotation[0][1] * t186;
+    let t218 = t217 + base_rotation[0][2] * t187;
+    let t219 = base_rotation[1][0] * t185 + base_rotation[1][1] * t186;
+    let t220 = t219 + base_rotation[1][2] * t187;
+    let t221 = base_rotation[2][0] * t185 + base_rotation[2][1] * t186;
+    let t222 = t221 + base_rotation[2][2] * t187;
+    jacobian_dp[4][0] = -t218;
+    jacobian_dp[4][1] = -t220;
+    jacobian_dp[4][2] = -t222;
+    // leg 6: gradient of the actuator length
+    let t223 = base_rotation[0][0] * t190 + base_rotation[0][1] * t191;
+    let t224 = t223 + base_rotation[0][2] * t192;
+    let t225 = base_rotation[1][0] * t190 + base_rotation[1][1] * t191;
+    let t226 = t225 + base_rotation[1][2] * t192;
+    let t227 = base_rotation[2][0] * t190 + base_rotation[2][1] * t191;
+    let t228 = t227 + base_rotation[2][2] * t192;
+    jacobian_dp[5][0] = -t224;
+    jacobian_dp[5][1] = -t226;
+    jacobian_dp[5][2] = -t228;
+    // leg 1: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+    jacobian_dp[0][3] = t54 * t196 - t51 * t198;
+    jacobian_dp[0][4] = t48 * t198 - t54 * t194;
+    jacobian_dp[0][5] = t51 * t194 - t48 * t196;
+    // leg 2: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+    jacobian_dp[1][3] = t75 * t202 - t72 * t204;
+    jacobian_dp[1][4] = t69 * t204 - t75 * t200;
+    jacobian_dp[1][5] = t72 * t200 - t69 * t202;
+    // leg 3: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+    jacobian_dp[2][3] = t96 * t208 - t93 * t210;
+    jacobian_dp[2][4] = t90 * t210 - t96 * t206;
+    jacobian_dp[2][5] = t93 * t206 - t90 * t208;
+    // leg 4: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+    jacobian_dp[3][3] = t117 * t214 - t114 * t216;
+    jacobian_dp[3][4] = t111 * t216 - t117 * t212;
+    jacobian_dp[3][5] = t114 * t212 - t111 * t214;
+    // leg 5: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+    jacobian_dp[4][3] = t138 * t220 - t135 * t222;
+    jacobian_dp[4][4] = t132 * t222 - t138 * t218;
+    jacobian_dp[4][5] = t135 * t218 - t132 * t220;
+    // leg 6: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+    jacobian_dp[5][3] = t159 * t226 - t156 * t228;
+    jacobian_dp[5][4] = t153 * t228 - t159 * t224;
+    jacobian_dp[5][5] = t156 * t224 - t153 * t226;
+}
+
+/// What a controller by inverse dynamics needs, in one call, equation (18), (30), (32), (49).
+///
+/// Inputs:
+///
+/// - `base_position`: 3, m, frame O: origin of the base frame.
+/// - `base_rotation`: 3x3, dimensionless, frame B -> O: rotation of the base, equation (2).
+/// - `base_velocity`: 6, m/s, rad/s, frame O: base velocity \[r_b'; w_b\], w_b the angular velocity.
+/// - `base_acceleration`: 6, m/s^2, rad/s^2, frame O: base acceleration \[r_b''; w_b'\].
+/// - `platform_position`: 3, m, frame O: centre of the platform's joint circle.
+/// - `platform_rotation`: 3x3, dimensionless, frame P -> O: rotation of the platform, equation (2).
+/// - `platform_velocity`: 6, m/s, rad/s, frame O: platform velocity \[r_p'; w_p\], the generalised speeds.
+/// - `platform_acceleration`: 6, m/s^2, rad/s^2, frame O: platform acceleration \[r_p''; w_p'\].
+/// - `external_wrench`: 6, N, N m, frame O: external force and moment \[F_D; M_D\] at the payload's centre of mass.
+///
+/// Outputs:
+///
+/// - `actuator_length`: 6, m: actuator length d, equation (18).
+/// - `actuator_velocity`: 6, m/s: actuator velocity d', equation (30).
+/// - `jacobian_dp`: 6x6, 1, m, frame O: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b, equation (32).
+/// - `mass_matrix_p`: 6x6, kg, kg m, kg m^2, frame O: mass matrix M_p of the platform, equation (49).
+/// - `total_bias`: 6, N, N m, frame O: bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext, equation (49).
+/// - `inverse_dynamics`: 6, N: actuator forces F, equation (49).
+#[allow(clippy::all, clippy::pedantic, unused_variables)]
+pub fn control<T: Scalar>(
+    parameters: &Parameters<T>,
+    base_position: &[T; 3],
+    base_rotation: &[[T; 3]; 3],
+    base_velocity: &[T; 6],
+    base_acceleration: &[T; 6],
+    platform_position: &[T; 3],
+    platform_rotation: &[[T; 3]; 3],
+    platform_velocity: &[T; 6],
+    platform_acceleration: &[T; 6],
+    external_wrench: &[T; 6],
+    actuator_length: &mut [T; 6],
+    actuator_velocity: &mut [T; 6],
+    jacobian_dp: &mut [[T; 6]; 6],
+    mass_matrix_p: &mut [[T; 6]; 6],
+    total_bias: &mut [T; 6],
+    inverse_dynamics: &mut [T; 6],
+) {
+    let c = T::constant;
+    let (
+        t3,
+        t6,
+        t9,
+        t12,
+        t15,
+        t18,
+        t21,
+        t24,
+        t27,
+        t163,
+        t164,
+        t165,
+        t166,
+        t167,
+        t168,
+        t169,
+        t170,
+        t171,
+        t172,
+        t173,
+        t174,
+        t175,
+        t176,
+        t177,
+        t178,
+        t179,
+        t180,
+        t181,
+        t182,
+        t183,
+        t184,
+        t185,
+        t186,
+        t187,
+        t188,
+        t189,
+        t190,
+        t191,
+        t192,
+        t194,
+        t196,
+        t198,
+        t200,
+        t202,
+        t204,
+        t206,
+        t208,
+        t210,
+        t212,
+        t214,
+        t216,
+        t218,
+        t220,
+        t222,
+        t224,
+        t226,
+        t228,
+        t229,
+        t230,
+        t231,
+        t232,
+        t233,
+        t234,
+        t235,
+        t236,
+        t237,
+        t238,
+        t239,
+        t240,
+        t241,
+        t242,
+        t243,
+        t244,
+        t245,
+        t246,
+        t248,
+        t253,
+        t258,
+        t263,
+        t268,
+        t273,
+        t280,
+        t287,
+        t294,
+        t301,
+        t318,
+        t332,
+        t346,
+        t361,
+        t375,
+        t390,
+        t391,
+        t401,
+        t402,
+        t403,
+        t413,
+        t414,
+        t415,
+        t425,
+        t426,
+        t427,
+        t437,
+        t438,
+        t439,
+        t449,
+        t450,
+        t451,
+        t461,
+        t462,
+        t463,
+        t464,
+        t478,
+        t491,
+        t510,
+        t535,
+        t613,
+        t616,
+        t619,
+        t620,
+        t621,
+        t624,
+        t625,
+        t626,
+        t627,
+        t639,
+        t644,
+        t649,
+        t660,
+        t665,
+        t674,
+        t777,
+        t778,
+        t779,
+        t780,
+        t781,
+        t782,
+        t783,
+        t784,
+        t785,
+        t786,
+        t787,
+        t788,
+        t789,
+        t790,
+        t791,
+        t792,
+        t793,
+        t794,
+        t795,
+        t796,
+        t797,
+        t798,
+        t799,
+        t800,
+        t805,
+        t807,
+        t809,
+        t821,
+        t823,
+        t825,
+        t826,
+        t828,
+        t830,
+        t831,
+        t832,
+        t833,
+        t836,
+        t839,
+        t842,
+        t848,
+        t849,
+        t850,
+        t854,
+        t855,
+        t856,
+        t858,
+        t859,
+        t860,
+        t863,
+        t866,
+        t867,
+        t870,
+        t873,
+        t874,
+        t877,
+        t880,
+        t881,
+        t883,
+        t886,
+        t889,
+        t890,
+        t893,
+        t896,
+        t897,
+        t900,
+        t903,
+        t904,
+        t906,
+    ) = {
+        // rotation of the platform seen from the base
+        let t1 = base_rotation[1][0] * platform_rotation[1][0];
+        let t2 = base_rotation[0][0] * platform_rotation[0][0] + t1;
+        let t3 = base_rotation[2][0] * platform_rotation[2][0] + t2;
+        let t4 = base_rotation[1][0] * platform_rotation[1][1];
+        let t5 = base_rotation[0][0] * platform_rotation[0][1] + t4;
+        let t6 = base_rotation[2][0] * platform_rotation[2][1] + t5;
+        let t7 = base_rotation[1][0] * platform_rotation[1][2];
+        let t8 = base_rotation[0][0] * platform_rotation[0][2] + t7;
+        let t9 = base_rotation[2][0] * platform_rotation[2][2] + t8;
+        let t10 = base_rotation[1][1] * platform_rotation[1][0];
+        let t11 = base_rotation[0][1] * platform_rotation[0][0] + t10;
+        let t12 = base_rotation[2][1] * platform_rotation[2][0] + t11;
+        let t13 = base_rotation[1][1] * platform_rotation[1][1];
+        let t14 = base_rotation[0][1] * platform_rotation[0][1] + t13;
+        let t15 = base_rotation[2][1] * platform_rotation[2][1] + t14;
+        let t16 = base_rotation[1][1] * platform_rotation[1][2];
+        let t17 = base_rotation[0][1] * platform_rotation[0][2] + t16;
+        let t18 = base_rotation[2][1] * platform_rotation[2][2] + t17;
+        let t19 = base_rotation[1][2] * platform_rotation[1][0];
+        let t20 = base_rotation[0][2] * platform_rotation[0][0] + t19;
+        let t21 = base_rotation[2][2] * platform_rotation[2][0] + t20;
+        let t22 = base_rotation[1][2] * platform_rotation[1][1];
+        let t23 = base_rotation[0][2] * platform_rotation[0][1] + t22;
+        let t24 = base_rotation[2][2] * platform_rotation[2][1] + t23;
+        let t25 = base_rotation[1][2] * platform_rotation[1][2];
+        let t26 = base_rotation[0][2] * platform_rotation[0][2] + t25;
+        let t27 = base_rotation[2][2] * platform_rotation[2][2] + t26;
+        // platform origin seen from the base
+        let t28 = base_position[2] - platform_position[2];
+        let t29 = base_position[0] - platform_position[0];
+        let t30 = base_position[1] - platform_position[1];
+        let t31 = base_rotation[0][0] * t29 + base_rotation[1][0] * t30;
+        let t32 = base_rotation[2][0] * t28 + t31;
+        let t33 = base_rotation[0][1] * t29 + base_rotation[1][1] * t30;
+        let t34 = base_rotation[2][1] * t28 + t33;
+        let t35 = base_rotation[0][2] * t29 + base_rotation[1][2] * t30;
+        let t36 = base_rotation[2][2] * t28 + t35;
+        // leg 1: platform joint from the platform origin
+        let t37 = parameters.platform_point[0][0] * t3;
+        let t38 = parameters.platform_point[0][1] * t6;
+        let t39 = parameters.platform_point[0][2] * t9;
+        let t40 = parameters.platform_point[0][0] * t12;
+        let t41 = parameters.platform_point[0][1] * t15;
+        let t42 = parameters.platform_point[0][2] * t18;
+        let t43 = parameters.platform_point[0][0] * t21;
+        let t44 = parameters.platform_point[0][1] * t24;
+        let t45 = parameters.platform_point[0][2] * t27;
+        let t46 = platform_rotation[0][1] * parameters.platform_point[0][1];
+        let t47 = platform_rotation[0][0] * parameters.platform_point[0][0] + t46;
+        let t48 = platform_rotation[0][2] * parameters.platform_point[0][2] + t47;
+        let t49 = platform_rotation[1][1] * parameters.platform_point[0][1];
+        let t50 = platform_rotation[1][0] * parameters.platform_point[0][0] + t49;
+        let t51 = platform_rotation[1][2] * parameters.platform_point[0][2] + t50;
+        let t52 = platform_rotation[2][1] * parameters.platform_point[0][1];
+        let t53 = platform_rotation[2][0] * parameters.platform_point[0][0] + t52;
+        let t54 = platform_rotation[2][2] * parameters.platform_point[0][2] + t53;
+        // leg 1: platform joint from the base point
+        let t55 = t39 + (t38 + (t37 - (parameters.base_point[0][0] + t32)));
+        let t56 = t42 + (t41 + (t40 - (parameters.base_point[0][1] + t34)));
+        let t57 = t45 + (t44 + (t43 - (parameters.base_point[0][2] + t36)));
+        // leg 2: platform joint from the platform origin
+        let t58 = parameters.platform_point[1][0] * t3;
+        let t59 = parameters.platform_point[1][1] * t6;
+        let t60 = parameters.platform_point[1][2] * t9;
+        let t61 = parameters.platform_point[1][0] * t12;
+        let t62 = parameters.platform_point[1][1] * t15;
+        let t63 = parameters.platform_point[1][2] * t18;
+        let t64 = parameters.platform_point[1][0] * t21;
+        let t65 = parameters.platform_point[1][1] * t24;
+        let t66 = parameters.platform_point[1][2] * t27;
+        let t67 = platform_rotation[0][1] * parameters.platform_point[1][1];
+        let t68 = platform_rotation[0][0] * parameters.platform_point[1][0] + t67;
+        let t69 = platform_rotation[0][2] * parameters.platform_point[1][2] + t68;
+        let t70 = platform_rotation[1][1] * parameters.platform_point[1][1];
+        let t71 = platform_rotation[1][0] * parameters.platform_point[1][0] + t70;
+        let t72 = platform_rotation[1][2] * parameters.platform_point[1][2] + t71;
+        let t73 = platform_rotation[2][1] * parameters.platform_point[1][1];
+        let t74 = platform_rotation[2][0] * parameters.platform_point[1][0] + t73;
+        let t75 = platform_rotation[2][2] * parameters.platform_point[1][2] + t74;
+        // leg 2: platform joint from the base point
+        let t76 = t60 + (t59 + (t58 - (parameters.base_point[1][0] + t32)));
+        let t77 = t63 + (t62 + (t61 - (parameters.base_point[1][1] + t34)));
+        let t78 = t66 + (t65 + (t64 - (parameters.base_point[1][2] + t36)));
+        // leg 3: platform joint from the platform origin
+        let t79 = parameters.platform_point[2][0] * t3;
+        let t80 = parameters.platform_point[2][1] * t6;
+        let t81 = parameters.platform_point[2][2] * t9;
+        let t82 = parameters.platform_point[2][0] * t12;
+        let t83 = parameters.platform_point[2][1] * t15;
+        let t84 = parameters.platform_point[2][2] * t18;
+        let t85 = parameters.platform_point[2][0] * t21;
+        let t86 = parameters.platform_point[2][1] * t24;
+        let t87 = parameters.platform_point[2][2] * t27;
+        let t88 = platform_rotation[0][1] * parameters.platform_point[2][1];
+        let t89 = platform_rotation[0][0] * parameters.platform_point[2][0] + t88;
+        let t90 = platform_rotation[0][2] * parameters.platform_point[2][2] + t89;
+        let t91 = platform_rotation[1][1] * parameters.platform_point[2][1];
+        let t92 = platform_rotation[1][0] * parameters.platform_point[2][0] + t91;
+        let t93 = platform_rotation[1][2] * parameters.platform_point[2][2] + t92;
+        let t94 = platform_rotation[2][1] * parameters.platform_point[2][1];
+        let t95 = platform_rotation[2][0] * parameters.platform_point[2][0] + t94;
+        let t96 = platform_rotation[2][2] * parameters.platform_point[2][2] + t95;
+        // leg 3: platform joint from the base point
+        let t97 = t81 + (t80 + (t79 - (parameters.base_point[2][0] + t32)));
+        let t98 = t84 + (t83 + (t82 - (parameters.base_point[2][1] + t34)));
+        let t99 = t87 + (t86 + (t85 - (parameters.base_point[2][2] + t36)));
+        // leg 4: platform joint from the platform origin
+        let t100 = parameters.platform_point[3][0] * t3;
+        let t101 = parameters.platform_point[3][1] * t6;
+        let t102 = parameters.platform_point[3][2] * t9;
+        let t103 = parameters.platform_point[3][0] * t12;
+        let t104 = parameters.platform_point[3][1] * t15;
+        let t105 = parameters.platform_point[3][2] * t18;
+        let t106 = parameters.platform_point[3][0] * t21;
+        let t107 = parameters.platform_point[3][1] * t24;
+        let t108 = parameters.platform_point[3][2] * t27;
+        let t109 = platform_rotation[0][1] * parameters.platform_point[3][1];
+        let t110 = platform_rotation[0][0] * parameters.platform_point[3][0] + t109;
+        let t111 = platform_rotation[0][2] * parameters.platform_point[3][2] + t110;
+        let t112 = platform_rotation[1][1] * parameters.platform_point[3][1];
+        let t113 = platform_rotation[1][0] * parameters.platform_point[3][0] + t112;
+        let t114 = platform_rotation[1][2] * parameters.platform_point[3][2] + t113;
+        let t115 = platform_rotation[2][1] * parameters.platform_point[3][1];
+        let t116 = platform_rotation[2][0] * parameters.platform_point[3][0] + t115;
+        let t117 = platform_rotation[2][2] * parameters.platform_point[3][2] + t116;
+        // leg 4: platform joint from the base point
+        let t118 = t102 + (t101 + (t100 - (parameters.base_point[3][0] + t32)));
+        let t119 = t105 + (t104 + (t103 - (parameters.base_point[3][1] + t34)));
+        let t120 = t108 + (t107 + (t106 - (parameters.base_point[3][2] + t36)));
+        // leg 5: platform joint from the platform origin
+        let t121 = parameters.platform_point[4][0] * t3;
+        let t122 = parameters.platform_point[4][1] * t6;
+        let t123 = parameters.platform_point[4][2] * t9;
+        let t124 = parameters.platform_point[4][0] * t12;
+        let t125 = parameters.platform_point[4][1] * t15;
+        let t126 = parameters.platform_point[4][2] * t18;
+        let t127 = parameters.platform_point[4][0] * t21;
+        let t128 = parameters.platform_point[4][1] * t24;
+        let t129 = parameters.platform_point[4][2] * t27;
+        let t130 = platform_rotation[0][1] * parameters.platform_point[4][1];
+        let t131 = platform_rotation[0][0] * parameters.platform_point[4][0] + t130;
+        let t132 = platform_rotation[0][2] * parameters.platform_point[4][2] + t131;
+        let t133 = platform_rotation[1][1] * parameters.platform_point[4][1];
+        let t134 = platform_rotation[1][0] * parameters.platform_point[4][0] + t133;
+        let t135 = platform_rotation[1][2] * parameters.platform_point[4][2] + t134;
+        let t136 = platform_rotation[2][1] * parameters.platform_point[4][1];
+        let t137 = platform_rotation[2][0] * parameters.platform_point[4][0] + t136;
+        let t138 = platform_rotation[2][2] * parameters.platform_point[4][2] + t137;
+        // leg 5: platform joint from the base point
+        let t139 = t123 + (t122 + (t121 - (parameters.base_point[4][0] + t32)));
+        let t140 = t126 + (t125 + (t124 - (parameters.base_point[4][1] + t34)));
+        let t141 = t129 + (t128 + (t127 - (parameters.base_point[4][2] + t36)));
+        // leg 6: platform joint from the platform origin
+        let t142 = parameters.platform_point[5][0] * t3;
+        let t143 = parameters.platform_point[5][1] * t6;
+        let t144 = parameters.platform_point[5][2] * t9;
+        let t145 = parameters.platform_point[5][0] * t12;
+        let t146 = parameters.platform_point[5][1] * t15;
+        let t147 = parameters.platform_point[5][2] * t18;
+        let t148 = parameters.platform_point[5][0] * t21;
+        let t149 = parameters.platform_point[5][1] * t24;
+        let t150 = parameters.platform_point[5][2] * t27;
+        let t151 = platform_rotation[0][1] * parameters.platform_point[5][1];
+        let t152 = platform_rotation[0][0] * parameters.platform_point[5][0] + t151;
+        let t153 = platform_rotation[0][2] * parameters.platform_point[5][2] + t152;
+        let t154 = platform_rotation[1][1] * parameters.platform_point[5][1];
+        let t155 = platform_rotation[1][0] * parameters.platform_point[5][0] + t154;
+        let t156 = platform_rotation[1][2] * parameters.platform_point[5][2] + t155;
+        let t157 = platform_rotation[2][1] * parameters.platform_point[5][1];
+        let t158 = platform_rotation[2][0] * parameters.platform_point[5][0] + t157;
+        let t159 = platform_rotation[2][2] * parameters.platform_point[5][2] + t158;
+        // leg 6: platform joint from the base point
+        let t160 = t144 + (t143 + (t142 - (parameters.base_point[5][0] + t32)));
+        let t161 = t147 + (t146 + (t145 - (parameters.base_point[5][1] + t34)));
+        let t162 = t150 + (t149 + (t148 - (parameters.base_point[5][2] + t36)));
+        // leg 1: actuator length d
+        let t163 = sqrt(t57 * t57 + (t55 * t55 + t56 * t56));
+        actuator_length[0] = t163;
+        // leg 1: reciprocal of the actuator length
+        let t164 = c(1.0) / t163;
+        // leg 2: actuator length d
+        let t165 = sqrt(t78 * t78 + (t76 * t76 + t77 * t77));
+        actuator_length[1] = t165;
+        // leg 2: reciprocal of the actuator length
+        let t166 = c(1.0) / t165;
+        // leg 3: actuator length d
+        let t167 = sqrt(t99 * t99 + (t97 * t97 + t98 * t98));
+        actuator_length[2] = t167;
+        // leg 3: reciprocal of the actuator length
+        let t168 = c(1.0) / t167;
+        // leg 4: actuator length d
+        let t169 = sqrt(t120 * t120 + (t118 * t118 + t119 * t119));
+        actuator_length[3] = t169;
+        // leg 4: reciprocal of the actuator length
+        let t170 = c(1.0) / t169;
+        // leg 5: actuator length d
+        let t171 = sqrt(t141 * t141 + (t139 * t139 + t140 * t140));
+        actuator_length[4] = t171;
+        // leg 5: reciprocal of the actuator length
+        let t172 = c(1.0) / t171;
+        // leg 6: actuator length d
+        let t173 = sqrt(t162 * t162 + (t160 * t160 + t161 * t161));
+        actuator_length[5] = t173;
+        // leg 6: reciprocal of the actuator length
+        let t174 = c(1.0) / t173;
+        // leg 1: gradient of the actuator length by the platform joint
+        let t175 = t55 * t164;
+        let t176 = t56 * t164;
+        let t177 = t57 * t164;
+        // leg 2: gradient of the actuator length by the platform joint
+        let t178 = t76 * t166;
+        let t179 = t77 * t166;
+        let t180 = t78 * t166;
+        // leg 3: gradient of the actuator length by the platform joint
+        let t181 = t97 * t168;
+        let t182 = t98 * t168;
+        let t183 = t99 * t168;
+        // leg 4: gradient of the actuator length by the platform joint
+        let t184 = t118 * t170;
+        let t185 = t119 * t170;
+        let t186 = t120 * t170;
+        // leg 5: gradient of the actuator length by the platform joint
+        let t187 = t139 * t172;
+        let t188 = t140 * t172;
+        let t189 = t141 * t172;
+        // leg 6: gradient of the actuator length by the platform joint
+        let t190 = t160 * t174;
+        let t191 = t161 * t174;
+        let t192 = t162 * t174;
+        // leg 1: gradient of the actuator length
+        let t193 = base_rotation[0][0] * t175 + base_rotation[0][1] * t176;
+        let t194 = base_rotation[0][2] * t177 + t193;
+        jacobian_dp[0][0] = t194;
+        let t195 = base_rotation[1][0] * t175 + base_rotation[1][1] * t176;
+        let t196 = base_rotation[1][2] * t177 + t195;
+        jacobian_dp[0][1] = t196;
+        let t197 = base_rotation[2][0] * t175 + base_rotation[2][1] * t176;
+        let t198 = base_rotation[2][2] * t177 + t197;
+        jacobian_dp[0][2] = t198;
+        // leg 2: gradient of the actuator length
+        let t199 = base_rotation[0][0] * t178 + base_rotation[0][1] * t179;
+        let t200 = base_rotation[0][2] * t180 + t199;
+        jacobian_dp[1][0] = t200;
+        let t201 = base_rotation[1][0] * t178 + base_rotation[1][1] * t179;
+        let t202 = base_rotation[1][2] * t180 + t201;
+        jacobian_dp[1][1] = t202;
+        let t203 = base_rotation[2][0] * t178 + base_rotation[2][1] * t179;
+        let t204 = base_rotation[2][2] * t180 + t203;
+        jacobian_dp[1][2] = t204;
+        // leg 3: gradient of the actuator length
+        let t205 = base_rotation[0][0] * t181 + base_rotation[0][1] * t182;
+        let t206 = base_rotation[0][2] * t183 + t205;
+        jacobian_dp[2][0] = t206;
+        let t207 = base_rotation[1][0] * t181 + base_rotation[1][1] * t182;
+        let t208 = base_rotation[1][2] * t183 + t207;
+        jacobian_dp[2][1] = t208;
+        let t209 = base_rotation[2][0] * t181 + base_rotation[2][1] * t182;
+        let t210 = base_rotation[2][2] * t183 + t209;
+        jacobian_dp[2][2] = t210;
+        // leg 4: gradient of the actuator length
+        let t211 = base_rotation[0][0] * t184 + base_rotation[0][1] * t185;
+        let t212 = base_rotation[0][2] * t186 + t211;
+        jacobian_dp[3][0] = t212;
+        let t213 = base_rotation[1][0] * t184 + base_rotation[1][1] * t185;
+        let t214 = base_rotation[1][2] * t186 + t213;
+        jacobian_dp[3][1] = t214;
+        let t215 = base_rotation[2][0] * t184 + base_rotation[2][1] * t185;
+        let t216 = base_rotation[2][2] * t186 + t215;
+        jacobian_dp[3][2] = t216;
+        // leg 5: gradient of the actuator length
+        let t217 = base_rotation[0][0] * t187 + base_rotation[0][1] * t188;
+        let t218 = base_rotation[0][2] * t189 + t217;
+        jacobian_dp[4][0] = t218;
+        let t219 = base_rotation[1][0] * t187 + base_rotation[1][1] * t188;
+        let t220 = base_rotation[1][2] * t189 + t219;
+        jacobian_dp[4][1] = t220;
+        let t221 = base_rotation[2][0] * t187 + base_rotation[2][1] * t188;
+        let t222 = base_rotation[2][2] * t189 + t221;
+        jacobian_dp[4][2] = t222;
+        // leg 6: gradient of the actuator length
+        let t223 = base_rotation[0][0] * t190 + base_rotation[0][1] * t191;
+        let t224 = base_rotation[0][2] * t192 + t223;
+        jacobian_dp[5][0] = t224;
+        let t225 = base_rotation[1][0] * t190 + base_rotation[1][1] * t191;
+        let t226 = base_rotation[1][2] * t192 + t225;
+        jacobian_dp[5][1] = t226;
+        let t227 = base_rotation[2][0] * t190 + base_rotation[2][1] * t191;
+        let t228 = base_rotation[2][2] * t192 + t227;
+        jacobian_dp[5][2] = t228;
+        // leg 1: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+        let t229 = t51 * t198 - t54 * t196;
+        jacobian_dp[0][3] = t229;
+        let t230 = t54 * t194 - t48 * t198;
+        jacobian_dp[0][4] = t230;
+        let t231 = t48 * t196 - t51 * t194;
+        jacobian_dp[0][5] = t231;
+        // leg 2: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+        let t232 = t72 * t204 - t75 * t202;
+        jacobian_dp[1][3] = t232;
+        let t233 = t75 * t200 - t69 * t204;
+        jacobian_dp[1][4] = t233;
+        let t234 = t69 * t202 - t72 * t200;
+        jacobian_dp[1][5] = t234;
+        // leg 3: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+        let t235 = t93 * t210 - t96 * t208;
+        jacobian_dp[2][3] = t235;
+        let t236 = t96 * t206 - t90 * t210;
+        jacobian_dp[2][4] = t236;
+        let t237 = t90 * t208 - t93 * t206;
+        jacobian_dp[2][5] = t237;
+        // leg 4: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+        let t238 = t114 * t216 - t117 * t214;
+        jacobian_dp[3][3] = t238;
+        let t239 = t117 * t212 - t111 * t216;
+        jacobian_dp[3][4] = t239;
+        let t240 = t111 * t214 - t114 * t212;
+        jacobian_dp[3][5] = t240;
+        // leg 5: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+        let t241 = t135 * t222 - t138 * t220;
+        jacobian_dp[4][3] = t241;
+        let t242 = t138 * t218 - t132 * t222;
+        jacobian_dp[4][4] = t242;
+        let t243 = t132 * t220 - t135 * t218;
+        jacobian_dp[4][5] = t243;
+        // leg 6: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+        let t244 = t156 * t228 - t159 * t226;
+        jacobian_dp[5][3] = t244;
+        let t245 = t159 * t224 - t153 * t228;
+        jacobian_dp[5][4] = t245;
+        let t246 = t153 * t226 - t156 * t224;
+        jacobian_dp[5][5] = t246;
+        // leg 1: first moment of the lower part about the base joint
+        let t247 = parameters.lower_mass[0] * parameters.lower_com_distance[0];
+        // leg 1: first moment of the upper part about the platform joint
+        let t248 = parameters.upper_mass[0] * parameters.upper_com_distance[0];
+        // leg 1: inertia of both parts, each about its joint, that turns with the direction
+        let t249 = parameters.lower_inertia[0] + parameters.upper_inertia[0];
+        let t250 = parameters.lower_com_distance[0] * t247 + t249;
+        let t251 = parameters.upper_com_distance[0] * t248 + t250;
+        // leg 2: first moment of the lower part about the base joint
+        let t252 = parameters.lower_mass[1] * parameters.lower_com_distance[1];
+        // leg 2: first moment of the upper part about the platform joint
+        let t253 = parameters.upper_mass[1] * parameters.upper_com_distance[1];
+        // leg 2: inertia of both parts, each about its joint, that turns with the direction
+        let t254 = parameters.lower_inertia[1] + parameters.upper_inertia[1];
+        let t255 = parameters.lower_com_distance[1] * t252 + t254;
+        let t256 = parameters.upper_com_distance[1] * t253 + t255;
+        // leg 3: first moment of the lower part about the base joint
+        let t257 = parameters.lower_mass[2] * parameters.lower_com_distance[2];
+        // leg 3: first moment of the upper part about the platform joint
+        let t258 = parameters.upper_mass[2] * parameters.upper_com_distance[2];
+        // leg 3: inertia of both parts, each about its joint, that turns with the direction
+        let t259 = parameters.lower_inertia[2] + parameters.upper_inertia[2];
+        let t260 = parameters.lower_com_distance[2] * t257 + t259;
+        let t261 = parameters.upper_com_distance[2] * t258 + t260;
+        // leg 4: first moment of the lower part about the base joint
+        let t262 = parameters.lower_mass[3] * parameters.lower_com_distance[3];
+        // leg 4: first moment of the upper part about the platform joint
+        let t263 = parameters.upper_mass[3] * parameters.upper_com_distance[3];
+        // leg 4: inertia of both parts, each about its joint, that turns with the direction
+        let t264 = parameters.lower_inertia[3] + parameters.upper_inertia[3];
+        let t265 = parameters.lower_com_distance[3] * t262 + t264;
+        let t266 = parameters.upper_com_distance[3] * t263 + t265;
+        // leg 5: first moment of the lower part about the base joint
+        let t267 = parameters.lower_mass[4] * parameters.lower_com_distance[4];
+        // leg 5: first moment of the upper part about the platform joint
+        let t268 = parameters.upper_mass[4] * parameters.upper_com_distance[4];
+        // leg 5: inertia of both parts, each about its joint, that turns with the direction
+        let t269 = parameters.lower_inertia[4] + parameters.upper_inertia[4];
+        let t270 = parameters.lower_com_distance[4] * t267 + t269;
+        let t271 = parameters.upper_com_distance[4] * t268 + t270;
+        // leg 6: first moment of the lower part about the base joint
+        let t272 = parameters.lower_mass[5] * parameters.lower_com_distance[5];
+        // leg 6: first moment of the upper part about the platform joint
+        let t273 = parameters.upper_mass[5] * parameters.upper_com_distance[5];
+        // leg 6: inertia of both parts, each about its joint, that turns with the direction
+        let t274 = parameters.lower_inertia[5] + parameters.upper_inertia[5];
+        let t275 = parameters.lower_com_distance[5] * t272 + t274;
+        let t276 = parameters.upper_com_distance[5] * t273 + t275;
+        // mass of payload and platform-side leg ends
+        let t277 = parameters.upper_mass[0] + parameters.upper_mass[1];
+        let t278 = parameters.upper_mass[3] + (parameters.upper_mass[2] + t277);
+        let t279 = parameters.upper_mass[5] + (parameters.upper_mass[4] + t278);
+        let t280 = parameters.payload_mass + t279;
+        // first moment of payload and platform-side leg ends
+        let t281 = parameters.platform_point[0][0] * parameters.upper_mass[0];
+        let t282 = parameters.payload_mass * parameters.payload_com[0] + t281;
+        let t283 = parameters.platform_point[1][0] * parameters.upper_mass[1] + t282;
+        let t284 = parameters.platform_point[2][0] * parameters.upper_mass[2] + t283;
+        let t285 = parameters.platform_point[3][0] * parameters.upper_mass[3] + t284;
+        let t286 = parameters.platform_point[4][0] * parameters.upper_mass[4] + t285;
+        let t287 = parameters.platform_point[5][0] * parameters.upper_mass[5] + t286;
+        let t288 = parameters.platform_point[0][1] * parameters.upper_mass[0];
+        let t289 = parameters.payload_mass * parameters.payload_com[1] + t288;
+        let t290 = parameters.platform_point[1][1] * parameters.upper_mass[1] + t289;
+        let t291 = parameters.platform_point[2][1] * parameters.upper_mass[2] + t290;
+        let t292 = parameters.platform_point[3][1] * parameters.upper_mass[3] + t291;
+        let t293 = parameters.platform_point[4][1] * parameters.upper_mass[4] + t292;
+        let t294 = parameters.platform_point[5][1] * parameters.upper_mass[5] + t293;
+        let t295 = parameters.platform_point[0][2] * parameters.upper_mass[0];
+        let t296 = parameters.payload_mass * parameters.payload_com[2] + t295;
+        let t297 = parameters.platform_point[1][2] * parameters.upper_mass[1] + t296;
+        let t298 = parameters.platform_point[2][2] * parameters.upper_mass[2] + t297;
+        let t299 = parameters.platform_point[3][2] * parameters.upper_mass[3] + t298;
+        let t300 = parameters.platform_point[4][2] * parameters.upper_mass[4] + t299;
+        let t301 = parameters.platform_point[5][2] * parameters.upper_mass[5] + t300;
+        // second moment of payload and platform-side leg ends
+        let t302 = parameters.platform_point[5][0] * parameters.platform_point[5][0];
+        let t303 = parameters.platform_point[4][0] * parameters.platform_point[4][0];
+        let t304 = parameters.platform_point[3][0] * parameters.platform_point[3][0];
+        let t305 = parameters.platform_point[2][0] * parameters.platform_point[2][0];
+        let t306 = parameters.platform_point[1][0] * parameters.platform_point[1][0];
+        let t307 = parameters.platform_point[0][0] * parameters.platform_point[0][0];
+        let t308 = parameters.payload_com[0] * parameters.payload_com[0];
+        let t309 = parameters.payload_inertia[0][0] + parameters.payload_inertia[1][1];
+        let t310 = c(0.5) * (parameters.payload_inertia[2][2] + t309);
+        let t311 = parameters.payload_inertia[0][0] - t310;
+        let t312 = parameters.payload_mass * t308 - t311;
+        let t313 = parameters.upper_mass[0] * t307 + t312;
+        let t314 = parameters.upper_mass[1] * t306 + t313;
+        let t315 = parameters.upper_mass[2] * t305 + t314;
+        let t316 = parameters.upper_mass[3] * t304 + t315;
+        let t317 = parameters.upper_mass[4] * t303 + t316;
+        let t318 = parameters.upper_mass[5] * t302 + t317;
+        let t319 = parameters.platform_point[5][0] * parameters.platform_point[5][1];
+        let t320 = parameters.platform_point[4][0] * parameters.platform_point[4][1];
+        let t321 = parameters.platform_point[3][0] * parameters.platform_point[3][1];
+        let t322 = parameters.platform_point[2][0] * parameters.platform_point[2][1];
+        let t323 = parameters.platform_point[1][0] * parameters.platform_point[1][1];
+        let t324 = parameters.platform_point[0][0] * parameters.platform_point[0][1];
+        let t325 = parameters.payload_com[0] * parameters.payload_com[1];
+        let t326 = parameters.payload_inertia[0][1] - parameters.payload_mass * t325;
+        let t327 = parameters.upper_mass[0] * t324 - t326;
+        let t328 = parameters.upper_mass[1] * t323 + t327;
+        let t329 = parameters.upper_mass[2] * t322 + t328;
+        let t330 = parameters.upper_mass[3] * t321 + t329;
+        let t331 = parameters.upper_mass[4] * t320 + t330;
+        let t332 = parameters.upper_mass[5] * t319 + t331;
+        let t333 = parameters.platform_point[5][0] * parameters.platform_point[5][2];
+        let t334 = parameters.platform_point[4][0] * parameters.platform_point[4][2];
+        let t335 = parameters.platform_point[3][0] * parameters.platform_point[3][2];
+        let t336 = parameters.platform_point[2][0] * parameters.platform_point[2][2];
+        let t337 = parameters.platform_point[1][0] * parameters.platform_point[1][2];
+        let t338 = parameters.platform_point[0][0] * parameters.platform_point[0][2];
+        let t339 = parameters.payload_com[0] * parameters.payload_com[2];
+        let t340 = parameters.payload_inertia[0][2] - parameters.payload_mass * t339;
+        let t341 = parameters.upper_mass[0] * t338 - t340;
+        let t342 = parameters.upper_mass[1] * t337 + t341;
+        let t343 = parameters.upper_mass[2] * t336 + t342;
+        let t344 = parameters.upper_mass[3] * t335 + t343;
+        let t345 = parameters.upper_mass[4] * t334 + t344;
+        let t346 = parameters.upper_mass[5] * t333 + t345;
+        let t347 = parameters.platform_point[5][1] * parameters.platform_point[5][1];
+        let t348 = parameters.platform_point[4][1] * parameters.platform_point[4][1];
+        let t349 = parameters.platform_point[3][1] * parameters.platform_point[3][1];
+        let t350 = parameters.platform_point[2][1] * parameters.platform_point[2][1];
+        let t351 = parameters.platform_point[1][1] * parameters.platform_point[1][1];
+        let t352 = parameters.platform_point[0][1] * parameters.platform_point[0][1];
+        let t353 = parameters.payload_com[1] * parameters.payload_com[1];
+        let t354 = parameters.payload_inertia[1][1] - t310;
+        let t355 = parameters.payload_mass * t353 - t354;
+        let t356 = parameters.upper_mass[0] * t352 + t355;
+        let t357 = parameters.upper_mass[1] * t351 + t356;
+        let t358 = parameters.upper_mass[2] * t350 + t357;
+        let t359 = parameters.upper_mass[3] * t349 + t358;
+        let t360 = parameters.upper_mass[4] * t348 + t359;
+        let t361 = parameters.upper_mass[5] * t347 + t360;
+        let t362 = parameters.platform_point[5][1] * parameters.platform_point[5][2];
+        let t363 = parameters.platform_point[4][1] * parameters.platform_point[4][2];
+        let t364 = parameters.platform_point[3][1] * parameters.platform_point[3][2];
+        let t365 = parameters.platform_point[2][1] * parameters.platform_point[2][2];
+        let t366 = parameters.platform_point[1][1] * parameters.platform_point[1][2];
+        let t367 = parameters.platform_point[0][1] * parameters.platform_point[0][2];
+        let t368 = parameters.payload_com[1] * parameters.payload_com[2];
+        let t369 = parameters.payload_inertia[1][2] - parameters.payload_mass * t368;
+        let t370 = parameters.upper_mass[0] * t367 - t369;
+        let t371 = parameters.upper_mass[1] * t366 + t370;
+        let t372 = parameters.upper_mass[2] * t365 + t371;
+        let t373 = parameters.upper_mass[3] * t364 + t372;
+        let t374 = parameters.upper_mass[4] * t363 + t373;
+        let t375 = parameters.upper_mass[5] * t362 + t374;
+        let t376 = parameters.platform_point[5][2] * parameters.platform_point[5][2];
+        let t377 = parameters.platform_point[4][2] * parameters.platform_point[4][2];
+        let t378 = parameters.platform_point[3][2] * parameters.platform_point[3][2];
+        let t379 = parameters.platform_point[2][2] * parameters.platform_point[2][2];
+        let t380 = parameters.platform_point[1][2] * parameters.platform_point[1][2];
+        let t381 = parameters.platform_point[0][2] * parameters.platform_point[0][2];
+        let t382 = parameters.payload_com[2] * parameters.payload_com[2];
+        let t383 = parameters.payload_inertia[2][2] - t310;
+        let t384 = parameters.payload_mass * t382 - t383;
+        let t385 = parameters.upper_mass[0] * t381 + t384;
+        let t386 = parameters.upper_mass[1] * t380 + t385;
+        let t387 = parameters.upper_mass[2] * t379 + t386;
+        let t388 = parameters.upper_mass[3] * t378 + t387;
+        let t389 = parameters.upper_mass[4] * t377 + t388;
+        let t390 = parameters.upper_mass[5] * t376 + t389;
+        // leg 1: mass matrix of the leg in the speeds of its joint
+        let t391 = t164 * t248;
+        let t392 = t251 * (t164 * t164) - c(2.0) * t391;
+        let t393 = t194 * t392;
+        let t394 = t392 - t194 * t393;
+        let t395 = t196 * t393;
+        let t396 = t198 * t393;
+        let t397 = t196 * t392;
+        let t398 = t392 - t196 * t397;
+        let t399 = t198 * t397;
+        let t400 = t392 - t198 * (t198 * t392);
+        // leg 1: leg inertia between joint and base speeds
+        let t401 = t164 * t247;
+        let t402 = t164 * t251;
+        // leg 2: mass matrix of the leg in the speeds of its joint
+        let t403 = t166 * t253;
+        let t404 = t256 * (t166 * t166) - c(2.0) * t403;
+        let t405 = t200 * t404;
+        let t406 = t404 - t200 * t405;
+        let t407 = t202 * t405;
+        let t408 = t204 * t405;
+        let t409 = t202 * t404;
+        let t410 = t404 - t202 * t409;
+        let t411 = t204 * t409;
+        let t412 = t404 - t204 * (t204 * t404);
+        // leg 2: leg inertia between joint and base speeds
+        let t413 = t166 * t252;
+        let t414 = t166 * t256;
+        // leg 3: mass matrix of the leg in the speeds of its joint
+        let t415 = t168 * t258;
+        let t416 = t261 * (t168 * t168) - c(2.0) * t415;
+        let t417 = t206 * t416;
+        let t418 = t416 - t206 * t417;
+        let t419 = t208 * t417;
+        let t420 = t210 * t417;
+        let t421 = t208 * t416;
+        let t422 = t416 - t208 * t421;
+        let t423 = t210 * t421;
+        let t424 = t416 - t210 * (t210 * t416);
+        // leg 3: leg inertia between joint and base speeds
+        let t425 = t168 * t257;
+        let t426 = t168 * t261;
+        // leg 4: mass matrix of the leg in the speeds of its joint
+        let t427 = t170 * t263;
+        let t428 = t266 * (t170 * t170) - c(2.0) * t427;
+        let t429 = t212 * t428;
+        let t430 = t428 - t212 * t429;
+        let t431 = t214 * t429;
+        let t432 = t216 * t429;
+        let t433 = t214 * t428;
+        let t434 = t428 - t214 * t433;
+        let t435 = t216 * t433;
+        let t436 = t428 - t216 * (t216 * t428);
+        // leg 4: leg inertia between joint and base speeds
+        let t437 = t170 * t262;
+        let t438 = t170 * t266;
+        // leg 5: mass matrix of the leg in the speeds of its joint
+        let t439 = t172 * t268;
+        let t440 = t271 * (t172 * t172) - c(2.0) * t439;
+        let t441 = t218 * t440;
+        let t442 = t440 - t218 * t441;
+        let t443 = t220 * t441;
+        let t444 = t222 * t441;
+        let t445 = t220 * t440;
+        let t446 = t440 - t220 * t445;
+        let t447 = t222 * t445;
+        let t448 = t440 - t222 * (t222 * t440);
+        // leg 5: leg inertia between joint and base speeds
+        let t449 = t172 * t267;
+        let t450 = t172 * t271;
+        // leg 6: mass matrix of the leg in the speeds of its joint
+        let t451 = t174 * t273;
+        let t452 = t276 * (t174 * t174) - c(2.0) * t451;
+        let t453 = t224 * t452;
+        let t454 = t452 - t224 * t453;
+        let t455 = t226 * t453;
+        let t456 = t228 * t453;
+        let t457 = t226 * t452;
+        let t458 = t452 - t226 * t457;
+        let t459 = t228 * t457;
+        let t460 = t452 - t228 * (t228 * t452);
+        // leg 6: leg inertia between joint and base speeds
+        let t461 = t174 * t272;
+        let t462 = t174 * t276;
+        // mass matrix of the legs
+        let t463 = t455 + (t443 + (t431 + (t419 + (t395 + t407))));
+        let t464 = t456 + (t444 + (t432 + (t420 + (t396 + t408))));
+        let t465 = t156 * t456;
+        let t466 = t159 * t455;
+        let t467 = t135 * t444;
+        let t468 = t138 * t443;
+        let t469 = t114 * t432;
+        let t470 = t117 * t431;
+        let t471 = t93 * t420;
+        let t472 = t96 * t419;
+        let t473 = t72 * t408;
+        let t474 = t75 * t407;
+        let t475 = t54 * t395;
+        let t476 = t51 * t396;
+        let t477 = t469 - (t470 - (t471 - (t472 - (t473 - (t474 + (t475 - t476))))));
+        let t478 = t465 - (t466 - (t467 - (t468 - t477)));
+        let t479 = t48 * t396 + t54 * t394;
+        let t480 = t69 * t408 + t75 * t406;
+        let t481 = t90 * t420 + t96 * t418;
+        let t482 = t111 * t432 + t117 * t430;
+        let t483 = t132 * t444 + t138 * t442;
+        let t484 = t153 * t456 + t159 * t454;
+        let t485 = t51 * t394 + t48 * t395;
+        let t486 = t72 * t406 + t69 * t407;
+        let t487 = t93 * t418 + t90 * t419;
+        let t488 = t114 * t430 + t111 * t431;
+        let t489 = t135 * t442 + t132 * t443;
+        let t490 = t156 * t454 + t153 * t455;
+        let t491 = t459 + (t447 + (t435 + (t423 + (t399 + t411))));
+        let t492 = t54 * t398 + t51 * t399;
+        let t493 = t75 * t410 + t72 * t411;
+        let t494 = t96 * t422 + t93 * t423;
+        let t495 = t117 * t434 + t114 * t435;
+        let t496 = t138 * t446 + t135 * t447;
+        let t497 = t159 * t458 + t156 * t459;
+        let t498 = t153 * t459;
+        let t499 = t466 - t498;
+        let t500 = t132 * t447;
+        let t501 = t468 - t500;
+        let t502 = t111 * t435;
+        let t503 = t470 - t502;
+        let t504 = t90 * t423;
+        let t505 = t472 - t504;
+        let t506 = t48 * t399;
+        let t507 = t475 - t506;
+        let t508 = t69 * t411;
+        let t509 = t474 - t508;
+        let t510 = t499 + (t501 + (t503 + (t505 + (t507 + t509))));
+        let t511 = t51 * t395 + t48 * t398;
+        let t512 = t72 * t407 + t69 * t410;
+        let t513 = t93 * t419 + t90 * t422;
+        let t514 = t114 * t431 + t111 * t434;
+        let t515 = t135 * t443 + t132 * t446;
+        let t516 = t156 * t455 + t153 * t458;
+        let t517 = t54 * t399 + t51 * t400;
+        let t518 = t75 * t411 + t72 * t412;
+        let t519 = t96 * t423 + t93 * t424;
+        let t520 = t117 * t435 + t114 * t436;
+        let t521 = t138 * t447 + t135 * t448;
+        let t522 = t159 * t459 + t156 * t460;
+        let t523 = t48 * t400 + t54 * t396;
+        let t524 = t69 * t412 + t75 * t408;
+        let t525 = t90 * t424 + t96 * t420;
+        let t526 = t111 * t436 + t117 * t432;
+        let t527 = t132 * t448 + t138 * t444;
+        let t528 = t153 * t460 + t159 * t456;
+        let t529 = t465 - t498;
+        let t530 = t467 - t500;
+        let t531 = t469 - t502;
+        let t532 = t471 - t504;
+        let t533 = t476 - t506;
+        let t534 = t473 - t508;
+        let t535 = t529 + (t530 + (t531 + (t532 + (t533 + t534))));
+        mass_matrix_p[2][5] = t535;
+        mass_matrix_p[5][2] = t535;
+        let t536 = t54 * t492;
+        let t537 = t51 * t517;
+        let t538 = t75 * t493;
+        let t539 = t72 * t518;
+        let t540 = t96 * t494;
+        let t541 = t93 * t519;
+        let t542 = t117 * t495;
+        let t543 = t114 * t520;
+        let t544 = t138 * t496;
+        let t545 = t135 * t521;
+        let t546 = t159 * t497;
+        let t547 = t156 * t522;
+        let t548 = t54 * t507;
+        let t549 = t51 * t523;
+        let t550 = t75 * t509;
+        let t551 = t72 * t524;
+        let t552 = t96 * t505;
+        let t553 = t93 * t525;
+        let t554 = t117 * t503;
+        let t555 = t114 * t526;
+        let t556 = t138 * t501;
+        let t557 = t135 * t527;
+        let t558 = t159 * t499;
+        let t559 = t156 * t528;
+        let t560 = t54 * t511;
+        let t561 = t51 * t533;
+        let t562 = t75 * t512;
+        let t563 = t72 * t534;
+        let t564 = t96 * t513;
+        let t565 = t93 * t532;
+        let t566 = t117 * t514;
+        let t567 = t114 * t531;
+        let t568 = t138 * t515;
+        let t569 = t135 * t530;
+        let t570 = t159 * t516;
+        let t571 = t156 * t529;
+        let t572 = t48 * t523;
+        let t573 = t54 * t479;
+        let t574 = t69 * t524;
+        let t575 = t75 * t480;
+        let t576 = t90 * t525;
+        let t577 = t96 * t481;
+        let t578 = t111 * t526;
+        let t579 = t117 * t482;
+        let t580 = t132 * t527;
+        let t581 = t138 * t483;
+        let t582 = t153 * t528;
+        let t583 = t159 * t484;
+        let t584 = t48 * t533;
+        let t585 = t54 * t485;
+        let t586 = t69 * t534;
+        let t587 = t75 * t486;
+        let t588 = t90 * t532;
+        let t589 = t96 * t487;
+        let t590 = t111 * t531;
+        let t591 = t117 * t488;
+        let t592 = t132 * t530;
+        let t593 = t138 * t489;
+        let t594 = t153 * t529;
+        let t595 = t159 * t490;
+        let t596 = t51 * t485;
+        let t597 = t48 * t511;
+        let t598 = t72 * t486;
+        let t599 = t69 * t512;
+        let t600 = t93 * t487;
+        let t601 = t90 * t513;
+        let t602 = t114 * t488;
+        let t603 = t111 * t514;
+        let t604 = t135 * t489;
+        let t605 = t132 * t515;
+        let t606 = t156 * t490;
+        let t607 = t153 * t516;
+        let t608 = -t463;
+        mass_matrix_p[0][1] = t608;
+        mass_matrix_p[1][0] = t608;
+        let t609 = -t464;
+        mass_matrix_p[0][2] = t609;
+        mass_matrix_p[2][0] = t609;
+        let t610 = -t478;
+        mass_matrix_p[0][3] = t610;
+        mass_matrix_p[3][0] = t610;
+        let t611 = -t491;
+        mass_matrix_p[1][2] = t611;
+        mass_matrix_p[2][1] = t611;
+        let t612 = -t510;
+        mass_matrix_p[1][4] = t612;
+        mass_matrix_p[4][1] = t612;
+        // mass matrix M_p of the platform
+        let t613 = t454 + (t442 + (t430 + (t418 + (t406 + (t280 + t394)))));
+        mass_matrix_p[0][0] = t613;
+        let t614 = platform_rotation[2][0] * t287 + platform_rotation[2][1] * t294;
+        let t615 = platform_rotation[2][2] * t301 + t614;
+        let t616 = t615 + (t484 + (t483 + (t482 + (t481 + (t479 + t480)))));
+        mass_matrix_p[0][4] = t616;
+        mass_matrix_p[4][0] = t616;
+        let t617 = platform_rotation[1][0] * t287 + platform_rotation[1][1] * t294;
+        let t618 = platform_rotation[1][2] * t301 + t617;
+        let t619 = t618 + (t490 + (t489 + (t488 + (t487 + (t485 + t486)))));
+        let t620 = t458 + (t446 + (t434 + (t422 + (t410 + (t280 + t398)))));
+        mass_matrix_p[1][1] = t620;
+        let t621 = t615 + (t497 + (t496 + (t495 + (t494 + (t492 + t493)))));
+        let t622 = platform_rotation[0][0] * t287 + platform_rotation[0][1] * t294;
+        let t623 = platform_rotation[0][2] * t301 + t622;
+        let t624 = t623 + (t516 + (t515 + (t514 + (t513 + (t511 + t512)))));
+        mass_matrix_p[1][5] = t624;
+        mass_matrix_p[5][1] = t624;
+        let t625 = t460 + (t448 + (t436 + (t424 + (t412 + (t280 + t400)))));
+        mass_matrix_p[2][2] = t625;
+        let t626 = t618 + (t522 + (t521 + (t520 + (t519 + (t517 + t518)))));
+        mass_matrix_p[2][3] = t626;
+        mass_matrix_p[3][2] = t626;
+        let t627 = t623 + (t528 + (t527 + (t526 + (t525 + (t523 + t524)))));
+        let t628 = platform_rotation[0][0] * t346 + platform_rotation[0][1] * t375;
+        let t629 = platform_rotation[0][2] * t390 + t628;
+        let t630 = platform_rotation[0][0] * t332 + platform_rotation[0][1] * t361;
+        let t631 = platform_rotation[0][2] * t375 + t630;
+        let t632 = platform_rotation[0][0] * t318 + platform_rotation[0][1] * t332;
+        let t633 = platform_rotation[0][2] * t346 + t632;
+        let t634 = t390 + (t318 + t361);
+        let t635 = t543 + (t542 + (t541 + (t540 + (t539 + (t538 + (t536 + t537))))));
+        let t636 = t634 + (t547 + (t546 + (t545 + (t544 + t635))));
+        let t637 = platform_rotation[0][0] * t633 - t636;
+        let t638 = platform_rotation[0][1] * t631 + t637;
+        let t639 = platform_rotation[0][2] * t629 + t638;
+        let t640 = t555 - (t554 - (t553 - (t552 - (t551 - (t550 + (t548 - t549))))));
+        let t641 = t559 - (t558 - (t557 - (t556 - t640)));
+        let t642 = platform_rotation[1][0] * t633 + t641;
+        let t643 = platform_rotation[1][1] * t631 + t642;
+        let t644 = platform_rotation[1][2] * t629 + t643;
+        let t645 = t567 - (t566 - (t565 - (t564 - (t563 - (t562 + (t560 - t561))))));
+        let t646 = t571 - (t570 - (t569 - (t568 - t645)));
+        let t647 = platform_rotation[2][0] * t633 - t646;
+        let t648 = platform_rotation[2][1] * t631 + t647;
+        let t649 = platform_rotation[2][2] * t629 + t648;
+        let t650 = platform_rotation[1][0] * t346 + platform_rotation[1][1] * t375;
+        let t651 = platform_rotation[1][2] * t390 + t650;
+        let t652 = platform_rotation[1][0] * t332 + platform_rotation[1][1] * t361;
+        let t653 = platform_rotation[1][2] * t375 + t652;
+        let t654 = platform_rotation[1][0] * t318 + platform_rotation[1][1] * t332;
+        let t655 = platform_rotation[1][2] * t346 + t654;
+        let t656 = t579 + (t578 + (t577 + (t576 + (t575 + (t574 + (t572 + t573))))));
+        let t657 = t634 + (t583 + (t582 + (t581 + (t580 + t656))));
+        let t658 = platform_rotation[1][0] * t655 - t657;
+        let t659 = platform_rotation[1][1] * t653 + t658;
+        let t660 = platform_rotation[1][2] * t651 + t659;
+        let t661 = t591 + (t590 + (t589 + (t588 + (t587 + (t586 + (t584 + t585))))));
+        let t662 = t595 + (t594 + (t593 + (t592 + t661)));
+        let t663 = platform_rotation[2][0] * t655 + t662;
+        let t664 = platform_rotation[2][1] * t653 + t663;
+        let t665 = platform_rotation[2][2] * t651 + t664;
+        let t666 = platform_rotation[2][0] * t346 + platform_rotation[2][1] * t375;
+        let t667 = platform_rotation[2][2] * (platform_rotation[2][2] * t390 + t666);
+        let t668 = platform_rotation[2][0] * t332 + platform_rotation[2][1] * t361;
+        let t669 = platform_rotation[2][1] * (platform_rotation[2][2] * t375 + t668);
+        let t670 = platform_rotation[2][0] * t318 + platform_rotation[2][1] * t332;
+        let t671 = platform_rotation[2][0] * (platform_rotation[2][2] * t346 + t670);
+        let t672 = t603 + (t602 + (t601 + (t600 + (t599 + (t598 + (t596 + t597))))));
+        let t673 = t669 + (t671 - (t634 + (t607 + (t606 + (t605 + (t604 + t672))))));
+        let t674 = t667 + t673;
+        let t675 = -t619;
+        mass_matrix_p[0][5] = t675;
+        mass_matrix_p[5][0] = t675;
+        let t676 = -t621;
+        mass_matrix_p[1][3] = t676;
+        mass_matrix_p[3][1] = t676;
+        let t677 = -t627;
+        mass_matrix_p[2][4] = t677;
+        mass_matrix_p[4][2] = t677;
+        mass_matrix_p[3][3] = -t639;
+        let t678 = -t644;
+        mass_matrix_p[3][4] = t678;
+        mass_matrix_p[4][3] = t678;
+        let t679 = -t649;
+        mass_matrix_p[3][5] = t679;
+        mass_matrix_p[5][3] = t679;
+        mass_matrix_p[4][4] = -t660;
+        let t680 = -t665;
+        mass_matrix_p[4][5] = t680;
+        mass_matrix_p[5][4] = t680;
+        mass_matrix_p[5][5] = -t674;
+        // angular velocity of the base
+        let t681 = base_rotation[1][0] * base_velocity[4];
+        let t682 = base_rotation[0][0] * base_velocity[3] + t681;
+        let t683 = base_rotation[2][0] * base_velocity[5] + t682;
+        let t684 = base_rotation[1][1] * base_velocity[4];
+        let t685 = base_rotation[0][1] * base_velocity[3] + t684;
+        let t686 = base_rotation[2][1] * base_velocity[5] + t685;
+        let t687 = base_rotation[1][2] * base_velocity[4];
+        let t688 = base_rotation[0][2] * base_velocity[3] + t687;
+        let t689 = base_rotation[2][2] * base_velocity[5] + t688;
+        // angular velocity of the platform
+        let t690 = base_rotation[1][0] * platform_velocity[4];
+        let t691 = base_rotation[0][0] * platform_velocity[3] + t690;
+        let t692 = base_rotation[2][0] * platform_velocity[5] + t691;
+        let t693 = base_rotation[1][1] * platform_velocity[4];
+        let t694 = base_rotation[0][1] * platform_velocity[3] + t693;
+        let t695 = base_rotation[2][1] * platform_velocity[5] + t694;
+        let t696 = base_rotation[1][2] * platform_velocity[4];
+        let t697 = base_rotation[0][2] * platform_velocity[3] + t696;
+        let t698 = base_rotation[2][2] * platform_velocity[5] + t697;
+        // angular velocity of the platform relative to the base
+        let t699 = t683 - t692;
+        let t700 = t686 - t695;
+        let t701 = t689 - t698;
+        // velocity of the platform origin relative to the base
+        let t702 = base_velocity[2] - platform_velocity[2];
+        let t703 = base_velocity[0] - platform_velocity[0];
+        let t704 = base_velocity[1] - platform_velocity[1];
+        let t705 = base_rotation[0][0] * t703 + base_rotation[1][0] * t704;
+        let t706 = t36 * t686 - (base_rotation[2][0] * t702 + t705);
+        let t707 = t34 * t689 - t706;
+        let t708 = base_rotation[0][1] * t703 + base_rotation[1][1] * t704;
+        let t709 = t32 * t689 - (base_rotation[2][1] * t702 + t708);
+        let t710 = t36 * t683 - t709;
+        let t711 = base_rotation[0][2] * t703 + base_rotation[1][2] * t704;
+        let t712 = t34 * t683 - (base_rotation[2][2] * t702 + t711);
+        let t713 = t32 * t686 - t712;
+        // rate of the relative rotation
+        let t714 = t21 * t700 - t12 * t701;
+        let t715 = t24 * t700 - t15 * t701;
+        let t716 = t27 * t700 - t18 * t701;
+        let t717 = t3 * t701 - t21 * t699;
+        let t718 = t6 * t701 - t24 * t699;
+        let t719 = t9 * t701 - t27 * t699;
+        let t720 = t12 * t699 - t3 * t700;
+        let t721 = t15 * t699 - t6 * t700;
+        let t722 = t18 * t699 - t9 * t700;
+        // leg 1: velocity of the platform joint relative to the base
+        let t723 = t707 + parameters.platform_point[0][0] * t714;
+        let t724 = parameters.platform_point[0][1] * t715 + t723;
+        let t725 = parameters.platform_point[0][2] * t716 + t724;
+        let t726 = t710 + parameters.platform_point[0][0] * t717;
+        let t727 = parameters.platform_point[0][1] * t718 + t726;
+        let t728 = parameters.platform_point[0][2] * t719 + t727;
+        let t729 = t713 + parameters.platform_point[0][0] * t720;
+        let t730 = parameters.platform_point[0][1] * t721 + t729;
+        let t731 = parameters.platform_point[0][2] * t722 + t730;
+        // leg 2: velocity of the platform joint relative to the base
+        let t732 = t707 + parameters.platform_point[1][0] * t714;
+        let t733 = parameters.platform_point[1][1] * t715 + t732;
+        let t734 = parameters.platform_point[1][2] * t716 + t733;
+        let t735 = t710 + parameters.platform_point[1][0] * t717;
+        let t736 = parameters.platform_point[1][1] * t718 + t735;
+        let t737 = parameters.platform_point[1][2] * t719 + t736;
+        let t738 = t713 + parameters.platform_point[1][0] * t720;
+        let t739 = parameters.platform_point[1][1] * t721 + t738;
+        let t740 = parameters.platform_point[1][2] * t722 + t739;
+        // leg 3: velocity of the platform joint relative to the base
+        let t741 = t707 + parameters.platform_point[2][0] * t714;
+        let t742 = parameters.platform_point[2][1] * t715 + t741;
+        let t743 = parameters.platform_point[2][2] * t716 + t742;
+        let t744 = t710 + parameters.platform_point[2][0] * t717;
+        let t745 = parameters.platform_point[2][1] * t718 + t744;
+        let t746 = parameters.platform_point[2][2] * t719 + t745;
+        let t747 = t713 + parameters.platform_point[2][0] * t720;
+        let t748 = parameters.platform_point[2][1] * t721 + t747;
+        let t749 = parameters.platform_point[2][2] * t722 + t748;
+        // leg 4: velocity of the platform joint relative to the base
+        let t750 = t707 + parameters.platform_point[3][0] * t714;
+        let t751 = parameters.platform_point[3][1] * t715 + t750;
+        let t752 = parameters.platform_point[3][2] * t716 + t751;
+        let t753 = t710 + parameters.platform_point[3][0] * t717;
+        let t754 = parameters.platform_point[3][1] * t718 + t753;
+        let t755 = parameters.platform_point[3][2] * t719 + t754;
+        let t756 = t713 + parameters.platform_point[3][0] * t720;
+        let t757 = parameters.platform_point[3][1] * t721 + t756;
+        let t758 = parameters.platform_point[3][2] * t722 + t757;
+        // leg 5: velocity of the platform joint relative to the base
+        let t759 = t707 + parameters.platform_point[4][0] * t714;
+        let t760 = parameters.platform_point[4][1] * t715 + t759;
+        let t761 = parameters.platform_point[4][2] * t716 + t760;
+        let t762 = t710 + parameters.platform_point[4][0] * t717;
+        let t763 = parameters.platform_point[4][1] * t718 + t762;
+        let t764 = parameters.platform_point[4][2] * t719 + t763;
+        let t765 = t713 + parameters.platform_point[4][0] * t720;
+        let t766 = parameters.platform_point[4][1] * t721 + t765;
+        let t767 = parameters.platform_point[4][2] * t722 + t766;
+        // leg 6: velocity of the platform joint relative to the base
+        let t768 = t707 + parameters.platform_point[5][0] * t714;
+        let t769 = parameters.platform_point[5][1] * t715 + t768;
+        let t770 = parameters.platform_point[5][2] * t716 + t769;
+        let t771 = t710 + parameters.platform_point[5][0] * t717;
+        let t772 = parameters.platform_point[5][1] * t718 + t771;
+        let t773 = parameters.platform_point[5][2] * t719 + t772;
+        let t774 = t713 + parameters.platform_point[5][0] * t720;
+        let t775 = parameters.platform_point[5][1] * t721 + t774;
+        let t776 = parameters.platform_point[5][2] * t722 + t775;
+        // leg 1: actuator velocity d'
+        let t777 = t177 * t731 + (t175 * t725 + t176 * t728);
+        actuator_velocity[0] = -t777;
+        // leg 2: actuator velocity d'
+        let t778 = t180 * t740 + (t178 * t734 + t179 * t737);
+        actuator_velocity[1] = -t778;
+        // leg 3: actuator velocity d'
+        let t779 = t183 * t749 + (t181 * t743 + t182 * t746);
+        actuator_velocity[2] = -t779;
+        // leg 4: actuator velocity d'
+        let t780 = t186 * t758 + (t184 * t752 + t185 * t755);
+        actuator_velocity[3] = -t780;
+        // leg 5: actuator velocity d'
+        let t781 = t189 * t767 + (t187 * t761 + t188 * t764);
+        actuator_velocity[4] = -t781;
+        // leg 6: actuator velocity d'
+        let t782 = t192 * t776 + (t190 * t770 + t191 * t773);
+        actuator_velocity[5] = -t782;
+        // leg 1: inertial rate of that gradient
+        let t783 = t164 * (t175 * t777 - (t56 * t689 + (t725 - t57 * t686)));
+        let t784 = t164 * (t176 * t777 - (t57 * t683 + (t728 - t55 * t689)));
+        let t785 = t164 * (t177 * t777 - (t55 * t686 + (t731 - t56 * t683)));
+        // leg 2: inertial rate of that gradient
+        let t786 = t166 * (t178 * t778 - (t77 * t689 + (t734 - t78 * t686)));
+        let t787 = t166 * (t179 * t778 - (t78 * t683 + (t737 - t76 * t689)));
+        let t788 = t166 * (t180 * t778 - (t76 * t686 + (t740 - t77 * t683)));
+        // leg 3: inertial rate of that gradient
+        let t789 = t168 * (t181 * t779 - (t98 * t689 + (t743 - t99 * t686)));
+        let t790 = t168 * (t182 * t779 - (t99 * t683 + (t746 - t97 * t689)));
+        let t791 = t168 * (t183 * t779 - (t97 * t686 + (t749 - t98 * t683)));
+        // leg 4: inertial rate of that gradient
+        let t792 = t170 * (t184 * t780 - (t119 * t689 + (t752 - t120 * t686)));
+        let t793 = t170 * (t185 * t780 - (t120 * t683 + (t755 - t118 * t689)));
+        let t794 = t170 * (t186 * t780 - (t118 * t686 + (t758 - t119 * t683)));
+        // leg 5: inertial rate of that gradient
+        let t795 = t172 * (t187 * t781 - (t140 * t689 + (t761 - t141 * t686)));
+        let t796 = t172 * (t188 * t781 - (t141 * t683 + (t764 - t139 * t689)));
+        let t797 = t172 * (t189 * t781 - (t139 * t686 + (t767 - t140 * t683)));
+        // leg 6: inertial rate of that gradient
+        let t798 = t174 * (t190 * t782 - (t161 * t689 + (t770 - t162 * t686)));
+        let t799 = t174 * (t191 * t782 - (t162 * t683 + (t773 - t160 * t689)));
+        let t800 = t174 * (t192 * t782 - (t160 * t686 + (t776 - t161 * t683)));
+        // acceleration of the base origin less gravity
+        let t801 = base_acceleration[2] - parameters.gravity[2];
+        let t802 = base_acceleration[0] - parameters.gravity[0];
+        let t803 = base_acceleration[1] - parameters.gravity[1];
+        let t804 = base_rotation[0][0] * t802 + base_rotation[1][0] * t803;
+        let t805 = base_rotation[2][0] * t801 + t804;
+        let t806 = base_rotation[0][1] * t802 + base_rotation[1][1] * t803;
+        let t807 = base_rotation[2][1] * t801 + t806;
+        let t808 = base_rotation[0][2] * t802 + base_rotation[1][2] * t803;
+        let t809 = base_rotation[2][2] * t801 + t808;
+        // angular acceleration of the base
+        let t810 = base_rotation[1][0] * base_acceleration[4];
+        let t811 = base_rotation[0][0] * base_acceleration[3] + t810;
+        let t812 = base_rotation[2][0] * base_acceleration[5] + t811;
+        let t813 = base_rotation[1][1] * base_acceleration[4];
+        let t814 = base_rotation[0][1] * base_acceleration[3] + t813;
+        let t815 = base_rotation[2][1] * base_acceleration[5] + t814;
+        let t816 = base_rotation[1][2] * base_acceleration[4];
+        let t817 = base_rotation[0][2] * base_acceleration[3] + t816;
+        let t818 = base_rotation[2][2] * base_acceleration[5] + t817;
+        // acceleration per base coordinate of points that move with the base
+        let t819 = t686 * t686;
+        let t820 = t689 * t689;
+        let t821 = t819 + t820;
+        let t822 = t683 * t686;
+        let t823 = t818 - t822;
+        let t824 = t683 * t689;
+        let t825 = t815 + t824;
+        let t826 = t818 + t822;
+        let t827 = t683 * t683;
+        let t828 = t820 + t827;
+        let t829 = t686 * t689;
+        let t830 = t812 - t829;
+        let t831 = t815 - t824;
+        let t832 = t812 + t829;
+        let t833 = t819 + t827;
+        // acceleration of the platform origin less gravity
+        let t834 = base_rotation[1][0] * parameters.gravity[1];
+        let t835 = base_rotation[0][0] * parameters.gravity[0] + t834;
+        let t836 = base_rotation[2][0] * parameters.gravity[2] + t835;
+        let t837 = base_rotation[1][1] * parameters.gravity[1];
+        let t838 = base_rotation[0][1] * parameters.gravity[0] + t837;
+        let t839 = base_rotation[2][1] * parameters.gravity[2] + t838;
+        let t840 = base_rotation[1][2] * parameters.gravity[1];
+        let t841 = base_rotation[0][2] * parameters.gravity[0] + t840;
+        let t842 = base_rotation[2][2] * parameters.gravity[2] + t841;
+        // acceleration per platform coordinate of points of the platform
+        let t843 = t692 * t698;
+        let t844 = t692 * t695;
+        let t845 = t695 * t695;
+        let t846 = t698 * t698;
+        let t847 = t845 + t846;
+        let t848 = t21 * t843 + (t12 * t844 - t3 * t847);
+        let t849 = t24 * t843 + (t15 * t844 - t6 * t847);
+        let t850 = t27 * t843 + (t18 * t844 - t9 * t847);
+        let t851 = t695 * t698;
+        let t852 = t692 * t692;
+        let t853 = t846 + t852;
+        let t854 = t21 * t851 + (t3 * t844 - t12 * t853);
+        let t855 = t24 * t851 + (t6 * t844 - t15 * t853);
+        let t856 = t27 * t851 + (t9 * t844 - t18 * t853);
+        let t857 = t845 + t852;
+        let t858 = t21 * t857 - (t3 * t843 + t12 * t851);
+        let t859 = t24 * t857 - (t6 * t843 + t15 * t851);
+        let t860 = t27 * t857 - (t9 * t843 + t18 * t851);
+        // leg 1: actuator acceleration d''
+        let t861 = t836 - parameters.platform_point[0][0] * t848;
+        let t862 = parameters.platform_point[0][1] * t849 - t861;
+        let t863 = parameters.platform_point[0][2] * t850 + t862;
+        let t864 = t805 - parameters.base_point[0][0] * t821;
+        let t865 = parameters.base_point[0][1] * t823 - t864;
+        let t866 = parameters.base_point[0][2] * t825 - t865;
+        let t867 = t863 - t866;
+        let t868 = t839 - parameters.platform_point[0][0] * t854;
+        let t869 = parameters.platform_point[0][1] * t855 - t868;
+        let t870 = parameters.platform_point[0][2] * t856 + t869;
+        let t871 = t807 + parameters.base_point[0][0] * t826;
+        let t872 = parameters.base_point[0][1] * t828 - t871;
+        let t873 = parameters.base_point[0][2] * t830 + t872;
+        let t874 = t870 + t873;
+        let t875 = t842 + parameters.platform_point[0][0] * t858;
+        let t876 = parameters.platform_point[0][1] * t859 + t875;
+        let t877 = parameters.platform_point[0][2] * t860 + t876;
+        let t878 = t809 - parameters.base_point[0][0] * t831;
+        let t879 = parameters.base_point[0][1] * t832 + t878;
+        let t880 = parameters.base_point[0][2] * t833 - t879;
+        let t881 = t877 - t880;
+        let t882 = t163 * (t785 * t785 + (t783 * t783 + t784 * t784));
+        let t883 = t882 - (t177 * t881 - (t175 * t867 + t176 * t874));
+        // leg 2: actuator acceleration d''
+        let t884 = t836 - parameters.platform_point[1][0] * t848;
+        let t885 = parameters.platform_point[1][1] * t849 - t884;
+        let t886 = parameters.platform_point[1][2] * t850 + t885;
+        let t887 = t805 - parameters.base_point[1][0] * t821;
+        let t888 = parameters.base_point[1][1] * t823 - t887;
+        let t889 = parameters.base_point[1][2] * t825 - t888;
+        let t890 = t886 - t889;
+        let t891 = t839 - parameters.platform_point[1][0] * t854;
+        let t892 = parameters.platform_point[1][1] * t855 - t891;
+        let t893 = parameters.platform_point[1][2] * t856 + t892;
+        let t894 = t807 + parameters.base_point[1][0] * t826;
+        let t895 = parameters.base_point[1][1] * t828 - t894;
+        let t896 = parameters.base_point[1][2] * t830 + t895;
+        let t897 = t893 + t896;
+        let t898 = t842 + parameters.platform_point[1][0] * t858;
+        let t899 = parameters.platform_point[1][1] * t859 + t898;
+        let t900 = parameters.platform_point[1][2] * t860 + t899;
+        let t901 = t809 - parameters.base_point[1][0] * t831;
+        let t902 = parameters.base_point[1][1] * t832 + t901;
+        let t903 = parameters.base_point[1][2] * t833 - t902;
+        let t904 = t900 - t903;
+        let t905 = t165 * (t788 * t788 + (t786 * t786 + t787 * t787));
+        let t906 = t905 - (t180 * t904 - (t178 * t890 + t179 * t897));
+        (
+            t3,
+            t6,
+            t9,
+            t12,
+            t15,
+            t18,
+            t21,
+            t24,
+            t27,
+            t163,
+            t164,
+            t165,
+            t166,
+            t167,
+            t168,
+            t169,
+            t170,
+            t171,
+            t172,
+            t173,
+            t174,
+            t175,
+            t176,
+            t177,
+            t178,
+            t179,
+            t180,
+            t181,
+            t182,
+            t183,
+            t184,
+            t185,
+            t186,
+            t187,
+            t188,
+            t189,
+            t190,
+            t191,
+            t192,
+            t194,
+            t196,
+            t198,
+            t200,
+            t202,
+            t204,
+            t206,
+            t208,
+            t210,
+            t212,
+            t214,
+            t216,
+            t218,
+            t220,
+            t222,
+            t224,
+            t226,
+            t228,
+            t229,
+            t230,
+            t231,
+            t232,
+            t233,
+            t234,
+            t235,
+            t236,
+            t237,
+            t238,
+            t239,
+            t240,
+            t241,
+            t242,
+            t243,
+            t244,
+            t245,
+            t246,
+            t248,
+            t253,
+            t258,
+            t263,
+            t268,
+            t273,
+            t280,
+            t287,
+            t294,
+            t301,
+            t318,
+            t332,
+            t346,
+            t361,
+            t375,
+            t390,
+            t391,
+            t401,
+            t402,
+            t403,
+            t413,
+            t414,
+            t415,
+            t425,
+            t426,
+            t427,
+            t437,
+            t438,
+            t439,
+            t449,
+            t450,
+            t451,
+            t461,
+            t462,
+            t463,
+            t464,
+            t478,
+            t491,
+            t510,
+            t535,
+            t613,
+            t616,
+            t619,
+            t620,
+            t621,
+            t624,
+            t625,
+            t626,
+            t627,
+            t639,
+            t644,
+            t649,
+            t660,
+            t665,
+            t674,
+            t777,
+            t778,
+            t779,
+            t780,
+            t781,
+            t782,
+            t783,
+            t784,
+            t785,
+            t786,
+            t787,
+            t788,
+            t789,
+            t790,
+            t791,
+            t792,
+            t793,
+            t794,
+            t795,
+            t796,
+            t797,
+            t798,
+            t799,
+            t800,
+            t805,
+            t807,
+            t809,
+            t821,
+            t823,
+            t825,
+            t826,
+            t828,
+            t830,
+            t831,
+            t832,
+            t833,
+            t836,
+            t839,
+            t842,
+            t848,
+            t849,
+            t850,
+            t854,
+            t855,
+            t856,
+            t858,
+            t859,
+            t860,
+            t863,
+            t866,
+            t867,
+            t870,
+            t873,
+            t874,
+            t877,
+            t880,
+            t881,
+            t883,
+            t886,
+            t889,
+            t890,
+            t893,
+            t896,
+            t897,
+            t900,
+            t903,
+            t904,
+            t906,
+        )
+    };
+    {
+        // leg 3: actuator acceleration d''
+        let t907 = t836 - parameters.platform_point[2][0] * t848;
+        let t908 = parameters.platform_point[2][1] * t849 - t907;
+        let t909 = parameters.platform_point[2][2] * t850 + t908;
+        let t910 = t805 - parameters.base_point[2][0] * t821;
+        let t911 = parameters.base_point[2][1] * t823 - t910;
+        let t912 = parameters.base_point[2][2] * t825 - t911;
+        let t913 = t909 - t912;
+        let t914 = t839 - parameters.platform_point[2][0] * t854;
+        let t915 = parameters.platform_point[2][1] * t855 - t914;
+        let t916 = parameters.platform_point[2][2] * t856 + t915;
+        let t917 = t807 + parameters.base_point[2][0] * t826;
+        let t918 = parameters.base_point[2][1] * t828 - t917;
+        let t919 = parameters.base_point[2][2] * t830 + t918;
+        let t920 = t916 + t919;
+        let t921 = t842 + parameters.platform_point[2][0] * t858;
+        let t922 = parameters.platform_point[2][1] * t859 + t921;
+        let t923 = parameters.platform_point[2][2] * t860 + t922;
+        let t924 = t809 - parameters.base_point[2][0] * t831;
+        let t925 = parameters.base_point[2][1] * t832 + t924;
+        let t926 = parameters.base_point[2][2] * t833 - t925;
+        let t927 = t923 - t926;
+        let t928 = t167 * (t791 * t791 + (t789 * t789 + t790 * t790));
+        let t929 = t928 - (t183 * t927 - (t181 * t913 + t182 * t920));
+        // leg 4: actuator acceleration d''
+        let t930 = t836 - parameters.platform_point[3][0] * t848;
+        let t931 = parameters.platform_point[3][1] * t849 - t930;
+        let t932 = parameters.platform_point[3][2] * t850 + t931;
+        let t933 = t805 - parameters.base_point[3][0] * t821;
+        let t934 = parameters.base_point[3][1] * t823 - t933;
+        let t935 = parameters.base_point[3][2] * t825 - t934;
+        let t936 = t932 - t935;
+        let t937 = t839 - parameters.platform_point[3][0] * t854;
+        let t938 = parameters.platform_point[3][1] * t855 - t937;
+        let t939 = parameters.platform_point[3][2] * t856 + t938;
+        let t940 = t807 + parameters.base_point[3][0] * t826;
+        let t941 = parameters.base_point[3][1] * t828 - t940;
+        let t942 = parameters.base_point[3][2] * t830 + t941;
+        let t943 = t939 + t942;
+        let t944 = t842 + parameters.platform_point[3][0] * t858;
+        let t945 = parameters.platform_point[3][1] * t859 + t944;
+        let t946 = parameters.platform_point[3][2] * t860 + t945;
+        let t947 = t809 - parameters.base_point[3][0] * t831;
+        let t948 = parameters.base_point[3][1] * t832 + t947;
+        let t949 = parameters.base_point[3][2] * t833 - t948;
+        let t950 = t946 - t949;
+        let t951 = t169 * (t794 * t794 + (t792 * t792 + t793 * t793));
+        let t952 = t951 - (t186 * t950 - (t184 * t936 + t185 * t943));
+        // leg 5: actuator acceleration d''
+        let t953 = t836 - parameters.platform_point[4][0] * t848;
+        let t954 = parameters.platform_point[4][1] * t849 - t953;
+        let t955 = parameters.platform_point[4][2] * t850 + t954;
+        let t956 = t805 - parameters.base_point[4][0] * t821;
+        let t957 = parameters.base_point[4][1] * t823 - t956;
+        let t958 = parameters.base_point[4][2] * t825 - t957;
+        let t959 = t955 - t958;
+        let t960 = t839 - parameters.platform_point[4][0] * t854;
+        let t961 = parameters.platform_point[4][1] * t855 - t960;
+        let t962 = parameters.platform_point[4][2] * t856 + t961;
+        let t963 = t807 + parameters.base_point[4][0] * t826;
+        let t964 = parameters.base_point[4][1] * t828 - t963;
+        let t965 = parameters.base_point[4][2] * t830 + t964;
+        let t966 = t962 + t965;
+        let t967 = t842 + parameters.platform_point[4][0] * t858;
+        let t968 = parameters.platform_point[4][1] * t859 + t967;
+        let t969 = parameters.platform_point[4][2] * t860 + t968;
+        let t970 = t809 - parameters.base_point[4][0] * t831;
+        let t971 = parameters.base_point[4][1] * t832 + t970;
+        let t972 = parameters.base_point[4][2] * t833 - t971;
+        let t973 = t969 - t972;
+        let t974 = t171 * (t797 * t797 + (t795 * t795 + t796 * t796));
+        let t975 = t974 - (t189 * t973 - (t187 * t959 + t188 * t966));
+        // leg 6: actuator acceleration d''
+        let t976 = t836 - parameters.platform_point[5][0] * t848;
+        let t977 = parameters.platform_point[5][1] * t849 - t976;
+        let t978 = parameters.platform_point[5][2] * t850 + t977;
+        let t979 = t805 - parameters.base_point[5][0] * t821;
+        let t980 = parameters.base_point[5][1] * t823 - t979;
+        let t981 = parameters.base_point[5][2] * t825 - t980;
+        let t982 = t978 - t981;
+        let t983 = t839 - parameters.platform_point[5][0] * t854;
+        let t984 = parameters.platform_point[5][1] * t855 - t983;
+        let t985 = parameters.platform_point[5][2] * t856 + t984;
+        let t986 = t807 + parameters.base_point[5][0] * t826;
+        let t987 = parameters.base_point[5][1] * t828 - t986;
+        let t988 = parameters.base_point[5][2] * t830 + t987;
+        let t989 = t985 + t988;
+        let t990 = t842 + parameters.platform_point[5][0] * t858;
+        let t991 = parameters.platform_point[5][1] * t859 + t990;
+        let t992 = parameters.platform_point[5][2] * t860 + t991;
+        let t993 = t809 - parameters.base_point[5][0] * t831;
+        let t994 = parameters.base_point[5][1] * t832 + t993;
+        let t995 = parameters.base_point[5][2] * t833 - t994;
+        let t996 = t992 - t995;
+        let t997 = t173 * (t800 * t800 + (t798 * t798 + t799 * t799));
+        let t998 = t997 - (t192 * t996 - (t190 * t982 + t191 * t989));
+        // leg 1: leg inertia less weight along the actuator
+        let t999 = c(2.0) * t777;
+        let t1000 = t164 * (t783 * t999 + (t867 - t175 * t883));
+        let t1001 = t402 * t1000 - (t391 * t863 - t401 * t866);
+        let t1002 = t175 * t1001;
+        let t1003 = t164 * (t784 * t999 + (t874 - t176 * t883));
+        let t1004 = t402 * t1003 - (t391 * t870 + t401 * t873);
+        let t1005 = t176 * t1004;
+        let t1006 = t164 * (t785 * t999 - (t881 + t177 * t883));
+        let t1007 = t402 * t1006 + (t391 * t877 - t401 * t880);
+        let t1008 = t177 * t1007;
+        // leg 1: remaining leg inertia less weight at the platform joint
+        let t1009 = t1001 - t248 * t1000;
+        let t1010 = t1004 - t248 * t1003;
+        let t1011 = t1007 - t248 * t1006;
+        // leg 2: leg inertia less weight along the actuator
+        let t1012 = c(2.0) * t778;
+        let t1013 = t166 * (t786 * t1012 + (t890 - t178 * t906));
+        let t1014 = t414 * t1013 - (t403 * t886 - t413 * t889);
+        let t1015 = t178 * t1014;
+        let t1016 = t166 * (t787 * t1012 + (t897 - t179 * t906));
+        let t1017 = t414 * t1016 - (t403 * t893 + t413 * t896);
+        let t1018 = t179 * t1017;
+        let t1019 = t166 * (t788 * t1012 - (t904 + t180 * t906));
+        let t1020 = t414 * t1019 + (t403 * t900 - t413 * t903);
+        let t1021 = t180 * t1020;
+        // leg 2: remaining leg inertia less weight at the platform joint
+        let t1022 = t1014 - t253 * t1013;
+        let t1023 = t1017 - t253 * t1016;
+        let t1024 = t1020 - t253 * t1019;
+        // leg 3: leg inertia less weight along the actuator
+        let t1025 = c(2.0) * t779;
+        let t1026 = t168 * (t789 * t1025 + (t913 - t181 * t929));
+        let t1027 = t426 * t1026 - (t415 * t909 - t425 * t912);
+        let t1028 = t181 * t1027;
+        let t1029 = t168 * (t790 * t1025 + (t920 - t182 * t929));
+        let t1030 = t426 * t1029 - (t415 * t916 + t425 * t919);
+        let t1031 = t182 * t1030;
+        let t1032 = t168 * (t791 * t1025 - (t927 + t183 * t929));
+        let t1033 = t426 * t1032 + (t415 * t923 - t425 * t926);
+        let t1034 = t183 * t1033;
+        // leg 3: remaining leg inertia less weight at the platform joint
+        let t1035 = t1027 - t258 * t1026;
+        let t1036 = t1030 - t258 * t1029;
+        let t1037 = t1033 - t258 * t1032;
+        // leg 4: leg inertia less weight along the actuator
+        let t1038 = c(2.0) * t780;
+        let t1039 = t170 * (t792 * t1038 + (t936 - t184 * t952));
+        let t1040 = t438 * t1039 - (t427 * t932 - t437 * t935);
+        let t1041 = t184 * t1040;
+        let t1042 = t170 * (t793 * t1038 + (t943 - t185 * t952));
+        let t1043 = t438 * t1042 - (t427 * t939 + t437 * t942);
+        let t1044 = t185 * t1043;
+        let t1045 = t170 * (t794 * t1038 - (t950 + t186 * t952));
+        let t1046 = t438 * t1045 + (t427 * t946 - t437 * t949);
+        let t1047 = t186 * t1046;
+        // leg 4: remaining leg inertia less weight at the platform joint
+        let t1048 = t1040 - t263 * t1039;
+        let t1049 = t1043 - t263 * t1042;
+        let t1050 = t1046 - t263 * t1045;
+        // leg 5: leg inertia less weight along the actuator
+        let t1051 = c(2.0) * t781;
+        let t1052 = t172 * (t795 * t1051 + (t959 - t187 * t975));
+        let t1053 = t450 * t1052 - (t439 * t955 - t449 * t958);
+        let t1054 = t187 * t1053;
+        let t1055 = t172 * (t796 * t1051 + (t966 - t188 * t975));
+        let t1056 = t450 * t1055 - (t439 * t962 + t449 * t965);
+        let t1057 = t188 * t1056;
+        let t1058 = t172 * (t797 * t1051 - (t973 + t189 * t975));
+        let t1059 = t450 * t1058 + (t439 * t969 - t449 * t972);
+        let t1060 = t189 * t1059;
+        // leg 5: remaining leg inertia less weight at the platform joint
+        let t1061 = t1053 - t268 * t1052;
+        let t1062 = t1056 - t268 * t1055;
+        let t1063 = t1059 - t268 * t1058;
+        // leg 6: leg inertia less weight along the actuator
+        let t1064 = c(2.0) * t782;
+        let t1065 = t174 * (t798 * t1064 + (t982 - t190 * t998));
+        let t1066 = t462 * t1065 - (t451 * t978 - t461 * t981);
+        let t1067 = t190 * t1066;
+        let t1068 = t174 * (t799 * t1064 + (t989 - t191 * t998));
+        let t1069 = t462 * t1068 - (t451 * t985 + t461 * t988);
+        let t1070 = t191 * t1069;
+        let t1071 = t174 * (t800 * t1064 - (t996 + t192 * t998));
+        let t1072 = t462 * t1071 + (t451 * t992 - t461 * t995);
+        let t1073 = t192 * t1072;
+        // leg 6: remaining leg inertia less weight at the platform joint
+        let t1074 = t1066 - t273 * t1065;
+        let t1075 = t1069 - t273 * t1068;
+        let t1076 = t1072 - t273 * t1071;
+        // leg 1: spring and damper force along the actuator
+        let t1077 = parameters.axial_stiffness[0] * (parameters.rest_length[0] - t163);
+        let t1078 = parameters.axial_damping[0] * t777;
+        // leg 2: spring and damper force along the actuator
+        let t1079 = parameters.axial_stiffness[1] * (parameters.rest_length[1] - t165);
+        let t1080 = parameters.axial_damping[1] * t778;
+        // leg 3: spring and damper force along the actuator
+        let t1081 = parameters.axial_stiffness[2] * (parameters.rest_length[2] - t167);
+        let t1082 = parameters.axial_damping[2] * t779;
+        // leg 4: spring and damper force along the actuator
+        let t1083 = parameters.axial_stiffness[3] * (parameters.rest_length[3] - t169);
+        let t1084 = parameters.axial_damping[3] * t780;
+        // leg 5: spring and damper force along the actuator
+        let t1085 = parameters.axial_stiffness[4] * (parameters.rest_length[4] - t171);
+        let t1086 = parameters.axial_damping[4] * t781;
+        // leg 6: spring and damper force along the actuator
+        let t1087 = parameters.axial_stiffness[5] * (parameters.rest_length[5] - t173);
+        let t1088 = parameters.axial_damping[5] * t782;
+        // inertia force less weight, without the actuators' own shares
+        let t1089 = t280 * t836
+            - (t1074 + (t1061 + (t1048 + (t1035 + (t1009 + t1022)))));
+        let t1090 = t301 * t850 + (t294 * t849 + (t287 * t848 - t1089));
+        let t1091 = t280 * t839
+            - (t1075 + (t1062 + (t1049 + (t1036 + (t1010 + t1023)))));
+        let t1092 = t301 * t856 + (t294 * t855 + (t287 * t854 - t1091));
+        let t1093 = t280 * t842
+            - (t1076 + (t1063 + (t1050 + (t1037 + (t1011 + t1024)))));
+        let t1094 = t301 * t860 + (t294 * t859 + (t287 * t858 + t1093));
+        // its first moments by platform coordinate
+        let t1095 = t346 * t850 + (t332 * t849 - (t287 * t836 - t318 * t848));
+        let t1096 = parameters.platform_point[0][0] * t1009 + t1095;
+        let t1097 = parameters.platform_point[1][0] * t1022 + t1096;
+        let t1098 = parameters.platform_point[2][0] * t1035 + t1097;
+        let t1099 = parameters.platform_point[3][0] * t1048 + t1098;
+        let t1100 = parameters.platform_point[4][0] * t1061 + t1099;
+        let t1101 = parameters.platform_point[5][0] * t1074 + t1100;
+        let t1102 = t375 * t850 + (t361 * t849 - (t294 * t836 - t332 * t848));
+        let t1103 = parameters.platform_point[0][1] * t1009 + t1102;
+        let t1104 = parameters.platform_point[1][1] * t1022 + t1103;
+        let t1105 = parameters.platform_point[2][1] * t1035 + t1104;
+        let t1106 = parameters.platform_point[3][1] * t1048 + t1105;
+        let t1107 = parameters.platform_point[4][1] * t1061 + t1106;
+        let t1108 = parameters.platform_point[5][1] * t1074 + t1107;
+        let t1109 = t390 * t850 + (t375 * t849 - (t301 * t836 - t346 * t848));
+        let t1110 = parameters.platform_point[0][2] * t1009 + t1109;
+        let t1111 = parameters.platform_point[1][2] * t1022 + t1110;
+        let t1112 = parameters.platform_point[2][2] * t1035 + t1111;
+        let t1113 = parameters.platform_point[3][2] * t1048 + t1112;
+        let t1114 = parameters.platform_point[4][2] * t1061 + t1113;
+        let t1115 = parameters.platform_point[5][2] * t1074 + t1114;
+        let t1116 = t346 * t856 + (t332 * t855 - (t287 * t839 - t318 * t854));
+        let t1117 = parameters.platform_point[0][0] * t1010 + t1116;
+        let t1118 = parameters.platform_point[1][0] * t1023 + t1117;
+        let t1119 = parameters.platform_point[2][0] * t1036 + t1118;
+        let t1120 = parameters.platform_point[3][0] * t1049 + t1119;
+        let t1121 = parameters.platform_point[4][0] * t1062 + t1120;
+        let t1122 = parameters.platform_point[5][0] * t1075 + t1121;
+        let t1123 = t375 * t856 + (t361 * t855 - (t294 * t839 - t332 * t854));
+        let t1124 = parameters.platform_point[0][1] * t1010 + t1123;
+        let t1125 = parameters.platform_point[1][1] * t1023 + t1124;
+        let t1126 = parameters.platform_point[2][1] * t1036 + t1125;
+        let t1127 = parameters.platform_point[3][1] * t1049 + t1126;
+        let t1128 = parameters.platform_point[4][1] * t1062 + t1127;
+        let t1129 = parameters.platform_point[5][1] * t1075 + t1128;
+        let t1130 = t390 * t856 + (t375 * t855 - (t301 * t839 - t346 * t854));
+        let t1131 = parameters.platform_point[0][2] * t1010 + t1130;
+        let t1132 = parameters.platform_point[1][2] * t1023 + t1131;
+        let t1133 = parameters.platform_point[2][2] * t1036 + t1132;
+        let t1134 = parameters.platform_point[3][2] * t1049 + t1133;
+        let t1135 = parameters.platform_point[4][2] * t1062 + t1134;
+        let t1136 = parameters.platform_point[5][2] * t1075 + t1135;
+        let t1137 = t346 * t860 + (t332 * t859 + (t287 * t842 + t318 * t858));
+        let t1138 = parameters.platform_point[0][0] * t1011 - t1137;
+        let t1139 = parameters.platform_point[1][0] * t1024 + t1138;
+        let t1140 = parameters.platform_point[2][0] * t1037 + t1139;
+        let t1141 = parameters.platform_point[3][0] * t1050 + t1140;
+        let t1142 = parameters.platform_point[4][0] * t1063 + t1141;
+        let t1143 = parameters.platform_point[5][0] * t1076 + t1142;
+        let t1144 = t375 * t860 + (t361 * t859 + (t294 * t842 + t332 * t858));
+        let t1145 = parameters.platform_point[0][1] * t1011 - t1144;
+        let t1146 = parameters.platform_point[1][1] * t1024 + t1145;
+        let t1147 = parameters.platform_point[2][1] * t1037 + t1146;
+        let t1148 = parameters.platform_point[3][1] * t1050 + t1147;
+        let t1149 = parameters.platform_point[4][1] * t1063 + t1148;
+        let t1150 = parameters.platform_point[5][1] * t1076 + t1149;
+        let t1151 = t390 * t860 + (t375 * t859 + (t301 * t842 + t346 * t858));
+        let t1152 = parameters.platform_point[0][2] * t1011 - t1151;
+        let t1153 = parameters.platform_point[1][2] * t1024 + t1152;
+        let t1154 = parameters.platform_point[2][2] * t1037 + t1153;
+        let t1155 = parameters.platform_point[3][2] * t1050 + t1154;
+        let t1156 = parameters.platform_point[4][2] * t1063 + t1155;
+        let t1157 = parameters.platform_point[5][2] * t1076 + t1156;
+        // leg 1: force along the actuator that reaches the platform
+        let t1158 = t1078 + (t1077 + (t1008 + (t1002 + t1005)));
+        // leg 2: force along the actuator that reaches the platform
+        let t1159 = t1080 + (t1079 + (t1021 + (t1015 + t1018)));
+        // leg 3: force along the actuator that reaches the platform
+        let t1160 = t1082 + (t1081 + (t1034 + (t1028 + t1031)));
+        // leg 4: force along the actuator that reaches the platform
+        let t1161 = t1084 + (t1083 + (t1047 + (t1041 + t1044)));
+        // leg 5: force along the actuator that reaches the platform
+        let t1162 = t1086 + (t1085 + (t1060 + (t1054 + t1057)));
+        // leg 6: force along the actuator that reaches the platform
+        let t1163 = t1088 + (t1087 + (t1073 + (t1067 + t1070)));
+        // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
+        let t1164 = base_rotation[0][0] * t1090 + base_rotation[0][1] * t1092;
+        let t1165 = t194 * t1158 + (base_rotation[0][2] * t1094 - t1164);
+        let t1166 = t212 * t1161 + (t206 * t1160 + (t200 * t1159 + t1165));
+        let t1167 = t224 * t1163 + (t218 * t1162 + t1166);
+        let t1168 = base_rotation[1][0] * t1090 + base_rotation[1][1] * t1092;
+        let t1169 = t196 * t1158 + (base_rotation[1][2] * t1094 - t1168);
+        let t1170 = t214 * t1161 + (t208 * t1160 + (t202 * t1159 + t1169));
+        let t1171 = t226 * t1163 + (t220 * t1162 + t1170);
+        let t1172 = base_rotation[2][0] * t1090 + base_rotation[2][1] * t1092;
+        let t1173 = t198 * t1158 + (base_rotation[2][2] * t1094 - t1172);
+        let t1174 = t216 * t1161 + (t210 * t1160 + (t204 * t1159 + t1173));
+        let t1175 = t228 * t1163 + (t222 * t1162 + t1174);
+        let t1176 = t15 * t1108 - (t6 * t1129 + (t3 * t1122 - t12 * t1101));
+        let t1177 = t18 * t1115 - (t9 * t1136 - t1176);
+        let t1178 = t24 * t1129 - (t15 * t1150 + (t12 * t1143 - t21 * t1122));
+        let t1179 = t27 * t1136 - (t18 * t1157 - t1178);
+        let t1180 = t6 * t1150 - (t24 * t1108 + (t21 * t1101 - t3 * t1143));
+        let t1181 = t9 * t1157 - (t27 * t1115 - t1180);
+        let t1182 = base_rotation[0][0] * t1179 + base_rotation[0][1] * t1181;
+        let t1183 = t229 * t1158 + (base_rotation[0][2] * t1177 + t1182);
+        let t1184 = t238 * t1161 + (t235 * t1160 + (t232 * t1159 + t1183));
+        let t1185 = t244 * t1163 + (t241 * t1162 + t1184);
+        let t1186 = base_rotation[1][0] * t1179 + base_rotation[1][1] * t1181;
+        let t1187 = t230 * t1158 + (base_rotation[1][2] * t1177 + t1186);
+        let t1188 = t239 * t1161 + (t236 * t1160 + (t233 * t1159 + t1187));
+        let t1189 = t245 * t1163 + (t242 * t1162 + t1188);
+        let t1190 = base_rotation[2][0] * t1179 + base_rotation[2][1] * t1181;
+        let t1191 = t231 * t1158 + (base_rotation[2][2] * t1177 + t1190);
+        let t1192 = t240 * t1161 + (t237 * t1160 + (t234 * t1159 + t1191));
+        let t1193 = t246 * t1163 + (t243 * t1162 + t1192);
+        total_bias[0] = -t1167;
+        total_bias[1] = -t1171;
+        total_bias[2] = -t1175;
+        total_bias[3] = -t1185;
+        total_bias[4] = -t1189;
+        total_bias[5] = -t1193;
+        // inertia less external wrench that the actuators must balance
+        let t1194 = platform_acceleration[0] * t613 - (external_wrench[0] + t1167);
+        let t1195 = platform_acceleration[1] * t463 - t1194;
+        let t1196 = platform_acceleration[2] * t464 + t1195;
+        let t1197 = platform_acceleration[3] * t478 + t1196;
+        let t1198 = platform_acceleration[4] * t616 - t1197;
+        let t1199 = t1198 - platform_acceleration[5] * t619;
+        let t1200 = platform_acceleration[0] * t463 + (external_wrench[1] + t1171);
+        let t1201 = platform_acceleration[1] * t620 - t1200;
+        let t1202 = platform_acceleration[2] * t491 - t1201;
+        let t1203 = platform_acceleration[3] * t621 + t1202;
+        let t1204 = platform_acceleration[4] * t510 + t1203;
+        let t1205 = platform_acceleration[5] * t624 - t1204;
+        let t1206 = platform_acceleration[0] * t464 + (external_wrench[2] + t1175);
+        let t1207 = platform_acceleration[1] * t491 + t1206;
+        let t1208 = platform_acceleration[2] * t625 - t1207;
+        let t1209 = platform_acceleration[3] * t626 + t1208;
+        let t1210 = platform_acceleration[4] * t627 - t1209;
+        let t1211 = platform_acceleration[5] * t535 - t1210;
+        let t1212 = platform_rotation[2][1] * parameters.payload_com[1];
+        let t1213 = platform_rotation[2][0] * parameters.payload_com[0] + t1212;
+        let t1214 = platform_rotation[2][2] * parameters.payload_com[2] + t1213;
+        let t1215 = platform_rotation[1][1] * parameters.payload_com[1];
+        let t1216 = platform_rotation[1][0] * parameters.payload_com[0] + t1215;
+        let t1217 = platform_rotation[1][2] * parameters.payload_com[2] + t1216;
+        let t1218 = platform_acceleration[0] * t478 + (external_wrench[3] + t1185);
+        let t1219 = platform_acceleration[1] * t621 + t1218;
+        let t1220 = platform_acceleration[2] * t626 - t1219;
+        let t1221 = platform_acceleration[3] * t639 - t1220;
+        let t1222 = platform_acceleration[4] * t644 + t1221;
+        let t1223 = external_wrench[2] * t1217
+            + (platform_acceleration[5] * t649 + t1222);
+        let t1224 = external_wrench[1] * t1214 - t1223;
+        let t1225 = platform_rotation[0][1] * parameters.payload_com[1];
+        let t1226 = platform_rotation[0][0] * parameters.payload_com[0] + t1225;
+        let t1227 = platform_rotation[0][2] * parameters.payload_com[2] + t1226;
+        let t1228 = platform_acceleration[0] * t616 - (external_wrench[4] + t1189);
+        let t1229 = platform_acceleration[1] * t510 - t1228;
+        let t1230 = platform_acceleration[2] * t627 + t1229;
+        let t1231 = platform_acceleration[3] * t644 + t1230;
+        let t1232 = platform_acceleration[4] * t660 + t1231;
+        let t1233 = external_wrench[0] * t1214
+            + (platform_acceleration[5] * t665 + t1232);
+        let t1234 = external_wrench[2] * t1227 - t1233;
+        let t1235 = platform_acceleration[0] * t619 + (external_wrench[5] + t1193);
+        let t1236 = platform_acceleration[1] * t624 - t1235;
+        let t1237 = platform_acceleration[2] * t535 + t1236;
+        let t1238 = platform_acceleration[3] * t649 - t1237;
+        let t1239 = platform_acceleration[4] * t665 + t1238;
+        let t1240 = external_wrench[1] * t1227
+            + (platform_acceleration[5] * t674 + t1239);
+        let t1241 = external_wrench[0] * t1217 - t1240;
+        // force along the actuator that balances the remaining wrench
+        let axial_reaction = solve_general(
+            &[
+                [t194, t200, t206, t212, t218, t224],
+                [t196, t202, t208, t214, t220, t226],
+                [t198, t204, t210, t216, t222, t228],
+                [t229, t232, t235, t238, t241, t244],
+                [t230, t233, t236, t239, t242, t245],
+                [t231, t234, t237, t240, t243, t246],
+            ],
+            &[t1199, t1205, t1211, t1224, t1234, t1241],
+        );
+        inverse_dynamics[0] = axial_reaction[0];
+        inverse_dynamics[1] = axial_reaction[1];
+        inverse_dynamics[2] = axial_reaction[2];
+        inverse_dynamics[3] = axial_reaction[3];
+        inverse_dynamics[4] = axial_reaction[4];
+        inverse_dynamics[5] = axial_reaction[5];
+    }
+}
+
+/// Actuator forces at reference speeds and accelerations, for passivity-based control, equation (49).
+///
+/// Inputs:
+///
+/// - `base_position`: 3, m, frame O: origin of the base frame.
+/// - `base_rotation`: 3x3, dimensionless, frame B -> O: rotation of the base, equation (2).
+/// - `base_velocity`: 6, m/s, rad/s, frame O: base velocity \[r_b'; w_b\], w_b the angular velocity.
+/// - `base_acceleration`: 6, m/s^2, rad/s^2, frame O: base acceleration \[r_b''; w_b'\].
+/// - `platform_position`: 3, m, frame O: centre of the platform's joint circle.
+/// - `platform_rotation`: 3x3, dimensionless, frame P -> O: rotation of the platform, equation (2).
+/// - `platform_velocity`: 6, m/s, rad/s, frame O: platform velocity \[r_p'; w_p\], the generalised speeds.
+/// - `platform_acceleration`: 6, m/s^2, rad/s^2, frame O: platform acceleration \[r_p''; w_p'\].
+/// - `reference_velocity`: 6, m/s, rad/s, frame O: reference velocity \[r_r'; w_r\] of the platform, for passivity-based control.
+/// - `external_wrench`: 6, N, N m, frame O: external force and moment \[F_D; M_D\] at the payload's centre of mass.
+///
+/// Outputs:
+///
+/// - `passive_inverse_dynamics`: 6, N: actuator forces F at reference speeds, equation (49).
+#[allow(clippy::all, clippy::pedantic, unused_variables)]
+pub fn passive_inverse_dynamics<T: Scalar>(
+    parameters: &Parameters<T>,
+    base_position: &[T; 3],
+    base_rotation: &[[T; 3]; 3],
+    base_velocity: &[T; 6],
+    base_acceleration: &[T; 6],
+    platform_position: &[T; 3],
+    platform_rotation: &[[T; 3]; 3],
+    platform_velocity: &[T; 6],
+    platform_acceleration: &[T; 6],
+    reference_velocity: &[T; 6],
+    external_wrench: &[T; 6],
+    passive_inverse_dynamics: &mut [T; 6],
+) {
+    let c = T::constant;
+    let (
+        t3,
+        t6,
+        t9,
+        t12,
+        t15,
+        t18,
+        t21,
+        t24,
+        t27,
+        t121,
+        t122,
+        t123,
+        t124,
+        t125,
+        t126,
+        t127,
+        t128,
+        t129,
+        t130,
+        t131,
+        t132,
+        t133,
+        t134,
+        t135,
+        t136,
+        t137,
+        t138,
+        t179,
+        t186,
+        t193,
+        t195,
+        t210,
+        t224,
+        t238,
+        t253,
+        t267,
+        t282,
+        t440,
+        t442,
+        t444,
+        t461,
+        t462,
+        t463,
+        t469,
+        t470,
+        t471,
+        t475,
+        t476,
+        t477,
+        t634,
+        t635,
+        t639,
+        t640,
+        t641,
+        t642,
+        t643,
+        t646,
+        t647,
+        t648,
+        t649,
+        t650,
+        t652,
+        t653,
+        t654,
+        t679,
+        t683,
+        t687,
+        t688,
+        t689,
+        t690,
+        t715,
+        t719,
+        t723,
+        t724,
+        t725,
+        t726,
+        t751,
+        t755,
+        t759,
+        t760,
+        t761,
+        t762,
+        t787,
+        t791,
+        t795,
+        t796,
+        t797,
+        t798,
+        t823,
+        t827,
+        t831,
+        t832,
+        t833,
+        t834,
+        t859,
+        t863,
+        t867,
+        t868,
+        t869,
+        t870,
+        t871,
+        t872,
+        t873,
+        t874,
+        t875,
+        t876,
+        t877,
+        t878,
+        t879,
+        t880,
+        t881,
+        t882,
+        t883,
+        t884,
+        t885,
+        t886,
+        t887,
+        t888,
+        t889,
+        t890,
+        t891,
+        t892,
+        t893,
+        t894,
+        t895,
+        t896,
+        t897,
+        t898,
+        t899,
+        t900,
+        t901,
+        t902,
+        t903,
+        t904,
+        t905,
+        t906,
+        t907,
+        t908,
+        t909,
+        t910,
+        t911,
+        t912,
+    ) = {
+        // rotation of the platform seen from the base
+        let t1 = base_rotation[1][0] * platform_rotation[1][0];
+        let t2 = base_rotation[0][0] * platform_rotation[0][0] + t1;
+        let t3 = base_rotation[2][0] * platform_rotation[2][0] + t2;
+        let t4 = base_rotation[1][0] * platform_rotation[1][1];
+        let t5 = base_rotation[0][0] * platform_rotation[0][1] + t4;
+        let t6 = base_rotation[2][0] * platform_rotation[2][1] + t5;
+        let t7 = base_rotation[1][0] * platform_rotation[1][2];
+        let t8 = base_rotation[0][0] * platform_rotation[0][2] + t7;
+        let t9 = base_rotation[2][0] * platform_rotation[2][2] + t8;
+        let t10 = base_rotation[1][1] * platform_rotation[1][0];
+        let t11 = base_rotation[0][1] * platform_rotation[0][0] + t10;
+        let t12 = base_rotation[2][1] * platform_rotation[2][0] + t11;
+        let t13 = base_rotation[1][1] * platform_rotation[1][1];
+        let t14 = base_rotation[0][1] * platform_rotation[0][1] + t13;
+        let t15 = base_rotation[2][1] * platform_rotation[2][1] + t14;
+        let t16 = base_rotation[1][1] * platform_rotation[1][2];
+        let t17 = base_rotation[0][1] * platform_rotation[0][2] + t16;
+        let t18 = base_rotation[2][1] * platform_rotation[2][2] + t17;
+        let t19 = base_rotation[1][2] * platform_rotation[1][0];
+        let t20 = base_rotation[0][2] * platform_rotation[0][0] + t19;
+        let t21 = base_rotation[2][2] * platform_rotation[2][0] + t20;
+        let t22 = base_rotation[1][2] * platform_rotation[1][1];
+        let t23 = base_rotation[0][2] * platform_rotation[0][1] + t22;
+        let t24 = base_rotation[2][2] * platform_rotation[2][1] + t23;
+        let t25 = base_rotation[1][2] * platform_rotation[1][2];
+        let t26 = base_rotation[0][2] * platform_rotation[0][2] + t25;
+        let t27 = base_rotation[2][2] * platform_rotation[2][2] + t26;
+        // platform origin seen from the base
+        let t28 = base_position[2] - platform_position[2];
+        let t29 = base_position[0] - platform_position[0];
+        let t30 = base_position[1] - platform_position[1];
+        let t31 = base_rotation[0][0] * t29 + base_rotation[1][0] * t30;
+        let t32 = base_rotation[2][0] * t28 + t31;
+        let t33 = base_rotation[0][1] * t29 + base_rotation[1][1] * t30;
+        let t34 = base_rotation[2][1] * t28 + t33;
+        let t35 = base_rotation[0][2] * t29 + base_rotation[1][2] * t30;
+        let t36 = base_rotation[2][2] * t28 + t35;
+        // leg 1: platform joint from the platform origin
+        let t37 = parameters.platform_point[0][1] * t6;
+        let t38 = parameters.platform_point[0][0] * t3 + t37;
+        let t39 = parameters.platform_point[0][2] * t9 + t38;
+        let t40 = parameters.platform_point[0][1] * t15;
+        let t41 = parameters.platform_point[0][0] * t12 + t40;
+        let t42 = parameters.platform_point[0][2] * t18 + t41;
+        let t43 = parameters.platform_point[0][1] * t24;
+        let t44 = parameters.platform_point[0][0] * t21 + t43;
+        let t45 = parameters.platform_point[0][2] * t27 + t44;
+        // leg 1: platform joint from the base point
+        let t46 = t39 - (parameters.base_point[0][0] + t32);
+        let t47 = t42 - (parameters.base_point[0][1] + t34);
+        let t48 = t45 - (parameters.base_point[0][2] + t36);
+        // leg 2: platform joint from the platform origin
+        let t49 = parameters.platform_point[1][1] * t6;
+        let t50 = parameters.platform_point[1][0] * t3 + t49;
+        let t51 = parameters.platform_point[1][2] * t9 + t50;
+        let t52 = parameters.platform_point[1][1] * t15;
+        let t53 = parameters.platform_point[1][0] * t12 + t52;
+        let t54 = parameters.platform_point[1][2] * t18 + t53;
+        let t55 = parameters.platform_point[1][1] * t24;
+        let t56 = parameters.platform_point[1][0] * t21 + t55;
+        let t57 = parameters.platform_point[1][2] * t27 + t56;
+        // leg 2: platform joint from the base point
+        let t58 = t51 - (parameters.base_point[1][0] + t32);
+        let t59 = t54 - (parameters.base_point[1][1] + t34);
+        let t60 = t57 - (parameters.base_point[1][2] + t36);
+        // leg 3: platform joint from the platform origin
+        let t61 = parameters.platform_point[2][1] * t6;
+        let t62 = parameters.platform_point[2][0] * t3 + t61;
+        let t63 = parameters.platform_point[2][2] * t9 + t62;
+        let t64 = parameters.platform_point[2][1] * t15;
+        let t65 = parameters.platform_point[2][0] * t12 + t64;
+        let t66 = parameters.platform_point[2][2] * t18 + t65;
+        let t67 = parameters.platform_point[2][1] * t24;
+        let t68 = parameters.platform_point[2][0] * t21 + t67;
+        let t69 = parameters.platform_point[2][2] * t27 + t68;
+        // leg 3: platform joint from the base point
+        let t70 = t63 - (parameters.base_point[2][0] + t32);
+        let t71 = t66 - (parameters.base_point[2][1] + t34);
+        let t72 = t69 - (parameters.base_point[2][2] + t36);
+        // leg 4: platform joint from the platform origin
+        let t73 = parameters.platform_point[3][1] * t6;
+        let t74 = parameters.platform_point[3][0] * t3 + t73;
+        let t75 = parameters.platform_point[3][2] * t9 + t74;
+        let t76 = parameters.platform_point[3][1] * t15;
+        let t77 = parameters.platform_point[3][0] * t12 + t76;
+        let t78 = parameters.platform_point[3][2] * t18 + t77;
+        let t79 = parameters.platform_point[3][1] * t24;
+        let t80 = parameters.platform_point[3][0] * t21 + t79;
+        let t81 = parameters.platform_point[3][2] * t27 + t80;
+        // leg 4: platform joint from the base point
+        let t82 = t75 - (parameters.base_point[3][0] + t32);
+        let t83 = t78 - (parameters.base_point[3][1] + t34);
+        let t84 = t81 - (parameters.base_point[3][2] + t36);
+        // leg 5: platform joint from the platform origin
+        let t85 = parameters.platform_point[4][1] * t6;
+        let t86 = parameters.platform_point[4][0] * t3 + t85;
+        let t87 = parameters.platform_point[4][2] * t9 + t86;
+        let t88 = parameters.platform_point[4][1] * t15;
+        let t89 = parameters.platform_point[4][0] * t12 + t88;
+        let t90 = parameters.platform_point[4][2] * t18 + t89;
+        let t91 = parameters.platform_point[4][1] * t24;
+        let t92 = parameters.platform_point[4][0] * t21 + t91;
+        let t93 = parameters.platform_point[4][2] * t27 + t92;
+        // leg 5: platform joint from the base point
+        let t94 = t87 - (parameters.base_point[4][0] + t32);
+        let t95 = t90 - (parameters.base_point[4][1] + t34);
+        let t96 = t93 - (parameters.base_point[4][2] + t36);
+        // leg 6: platform joint from the platform origin
+        let t97 = parameters.platform_point[5][1] * t6;
+        let t98 = parameters.platform_point[5][0] * t3 + t97;
+        let t99 = parameters.platform_point[5][2] * t9 + t98;
+        let t100 = parameters.platform_point[5][1] * t15;
+        let t101 = parameters.platform_point[5][0] * t12 + t100;
+        let t102 = parameters.platform_point[5][2] * t18 + t101;
+        let t103 = parameters.platform_point[5][1] * t24;
+        let t104 = parameters.platform_point[5][0] * t21 + t103;
+        let t105 = parameters.platform_point[5][2] * t27 + t104;
+        // leg 6: platform joint from the base point
+        let t106 = t99 - (parameters.base_point[5][0] + t32);
+        let t107 = t102 - (parameters.base_point[5][1] + t34);
+        let t108 = t105 - (parameters.base_point[5][2] + t36);
+        // leg 1: actuator length d
+        let t109 = sqrt(t48 * t48 + (t46 * t46 + t47 * t47));
+        // leg 1: reciprocal of the actuator length
+        let t110 = c(1.0) / t109;
+        // leg 2: actuator length d
+        let t111 = sqrt(t60 * t60 + (t58 * t58 + t59 * t59));
+        // leg 2: reciprocal of the actuator length
+        let t112 = c(1.0) / t111;
+        // leg 3: actuator length d
+        let t113 = sqrt(t72 * t72 + (t70 * t70 + t71 * t71));
+        // leg 3: reciprocal of the actuator length
+        let t114 = c(1.0) / t113;
+        // leg 4: actuator length d
+        let t115 = sqrt(t84 * t84 + (t82 * t82 + t83 * t83));
+        // leg 4: reciprocal of the actuator length
+        let t116 = c(1.0) / t115;
+        // leg 5: actuator length d
+        let t117 = sqrt(t96 * t96 + (t94 * t94 + t95 * t95));
+        // leg 5: reciprocal of the actuator length
+        let t118 = c(1.0) / t117;
+        // leg 6: actuator length d
+        let t119 = sqrt(t108 * t108 + (t106 * t106 + t107 * t107));
+        // leg 6: reciprocal of the actuator length
+        let t120 = c(1.0) / t119;
+        // leg 1: gradient of the actuator length by the platform joint
+        let t121 = t46 * t110;
+        let t122 = t47 * t110;
+        let t123 = t48 * t110;
+        // leg 2: gradient of the actuator length by the platform joint
+        let t124 = t58 * t112;
+        let t125 = t59 * t112;
+        let t126 = t60 * t112;
+        // leg 3: gradient of the actuator length by the platform joint
+        let t127 = t70 * t114;
+        let t128 = t71 * t114;
+        let t129 = t72 * t114;
+        // leg 4: gradient of the actuator length by the platform joint
+        let t130 = t82 * t116;
+        let t131 = t83 * t116;
+        let t132 = t84 * t116;
+        // leg 5: gradient of the actuator length by the platform joint
+        let t133 = t94 * t118;
+        let t134 = t95 * t118;
+        let t135 = t96 * t118;
+        // leg 6: gradient of the actuator length by the platform joint
+        let t136 = t106 * t120;
+        let t137 = t107 * t120;
+        let t138 = t108 * t120;
+        // leg 1: first moment of the lower part about the base joint
+        let t139 = parameters.lower_mass[0] * parameters.lower_com_distance[0];
+        // leg 1: first moment of the upper part about the platform joint
+        let t140 = parameters.upper_mass[0] * parameters.upper_com_distance[0];
+        // leg 1: inertia of both parts, each about its joint, that turns with the direction
+        let t141 = parameters.lower_inertia[0] + parameters.upper_inertia[0];
+        let t142 = parameters.lower_com_distance[0] * t139 + t141;
+        let t143 = parameters.upper_com_distance[0] * t140 + t142;
+        // leg 2: first moment of the lower part about the base joint
+        let t144 = parameters.lower_mass[1] * parameters.lower_com_distance[1];
+        // leg 2: first moment of the upper part about the platform joint
+        let t145 = parameters.upper_mass[1] * parameters.upper_com_distance[1];
+        // leg 2: inertia of both parts, each about its joint, that turns with the direction
+        let t146 = parameters.lower_inertia[1] + parameters.upper_inertia[1];
+        let t147 = parameters.lower_com_distance[1] * t144 + t146;
+        let t148 = parameters.upper_com_distance[1] * t145 + t147;
+        // leg 3: first moment of the lower part about the base joint
+        let t149 = parameters.lower_mass[2] * parameters.lower_com_distance[2];
+        // leg 3: first moment of the upper part about the platform joint
+        let t150 = parameters.upper_mass[2] * parameters.upper_com_distance[2];
+        // leg 3: inertia of both parts, each about its joint, that turns with the direction
+        let t151 = parameters.lower_inertia[2] + parameters.upper_inertia[2];
+        let t152 = parameters.lower_com_distance[2] * t149 + t151;
+        let t153 = parameters.upper_com_distance[2] * t150 + t152;
+        // leg 4: first moment of the lower part about the base joint
+        let t154 = parameters.lower_mass[3] * parameters.lower_com_distance[3];
+        // leg 4: first moment of the upper part about the platform joint
+        let t155 = parameters.upper_mass[3] * parameters.upper_com_distance[3];
+        // leg 4: inertia of both parts, each about its joint, that turns with the direction
+        let t156 = parameters.lower_inertia[3] + parameters.upper_inertia[3];
+        let t157 = parameters.lower_com_distance[3] * t154 + t156;
+        let t158 = parameters.upper_com_distance[3] * t155 + t157;
+        // leg 5: first moment of the lower part about the base joint
+        let t159 = parameters.lower_mass[4] * parameters.lower_com_distance[4];
+        // leg 5: first moment of the upper part about the platform joint
+        let t160 = parameters.upper_mass[4] * parameters.upper_com_distance[4];
+        // leg 5: inertia of both parts, each about its joint, that turns with the direction
+        let t161 = parameters.lower_inertia[4] + parameters.upper_inertia[4];
+        let t162 = parameters.lower_com_distance[4] * t159 + t161;
+        let t163 = parameters.upper_com_distance[4] * t160 + t162;
+        // leg 6: first moment of the lower part about the base joint
+        let t164 = parameters.lower_mass[5] * parameters.lower_com_distance[5];
+        // leg 6: first moment of the upper part about the platform joint
+        let t165 = parameters.upper_mass[5] * parameters.upper_com_distance[5];
+        // leg 6: inertia of both parts, each about its joint, that turns with the direction
+        let t166 = parameters.lower_inertia[5] + parameters.upper_inertia[5];
+        let t167 = parameters.lower_com_distance[5] * t164 + t166;
+        let t168 = parameters.upper_com_distance[5] * t165 + t167;
+        // mass of payload and platform-side leg ends
+        let t169 = parameters.upper_mass[0] + parameters.upper_mass[1];
+        let t170 = parameters.upper_mass[3] + (parameters.upper_mass[2] + t169);
+        let t171 = parameters.upper_mass[5] + (parameters.upper_mass[4] + t170);
+        let t172 = parameters.payload_mass + t171;
+        // first moment of payload and platform-side leg ends
+        let t173 = parameters.platform_point[0][0] * parameters.upper_mass[0];
+        let t174 = parameters.payload_mass * parameters.payload_com[0] + t173;
+        let t175 = parameters.platform_point[1][0] * parameters.upper_mass[1] + t174;
+        let t176 = parameters.platform_point[2][0] * parameters.upper_mass[2] + t175;
+        let t177 = parameters.platform_point[3][0] * parameters.upper_mass[3] + t176;
+        let t178 = parameters.platform_point[4][0] * parameters.upper_mass[4] + t177;
+        let t179 = parameters.platform_point[5][0] * parameters.upper_mass[5] + t178;
+        let t180 = parameters.platform_point[0][1] * parameters.upper_mass[0];
+        let t181 = parameters.payload_mass * parameters.payload_com[1] + t180;
+        let t182 = parameters.platform_point[1][1] * parameters.upper_mass[1] + t181;
+        let t183 = parameters.platform_point[2][1] * parameters.upper_mass[2] + t182;
+        let t184 = parameters.platform_point[3][1] * parameters.upper_mass[3] + t183;
+        let t185 = parameters.platform_point[4][1] * parameters.upper_mass[4] + t184;
+        let t186 = parameters.platform_point[5][1] * parameters.upper_mass[5] + t185;
+        let t187 = parameters.platform_point[0][2] * parameters.upper_mass[0];
+        let t188 = parameters.payload_mass * parameters.payload_com[2] + t187;
+        let t189 = parameters.platform_point[1][2] * parameters.upper_mass[1] + t188;
+        let t190 = parameters.platform_point[2][2] * parameters.upper_mass[2] + t189;
+        let t191 = parameters.platform_point[3][2] * parameters.upper_mass[3] + t190;
+        let t192 = parameters.platform_point[4][2] * parameters.upper_mass[4] + t191;
+        let t193 = parameters.platform_point[5][2] * parameters.upper_mass[5] + t192;
+        // second moment of payload and platform-side leg ends
+        let t194 = parameters.payload_inertia[0][0] + parameters.payload_inertia[1][1];
+        let t195 = c(0.5) * (parameters.payload_inertia[2][2] + t194);
+        let t196 = parameters.platform_point[5][0] * parameters.platform_point[5][0];
+        let t197 = parameters.platform_point[4][0] * parameters.platform_point[4][0];
+        let t198 = parameters.platform_point[3][0] * parameters.platform_point[3][0];
+        let t199 = parameters.platform_point[2][0] * parameters.platform_point[2][0];
+        let t200 = parameters.platform_point[1][0] * parameters.platform_point[1][0];
+        let t201 = parameters.platform_point[0][0] * parameters.platform_point[0][0];
+        let t202 = parameters.payload_com[0] * parameters.payload_com[0];
+        let t203 = parameters.payload_inertia[0][0] - t195;
+        let t204 = parameters.payload_mass * t202 - t203;
+        let t205 = parameters.upper_mass[0] * t201 + t204;
+        let t206 = parameters.upper_mass[1] * t200 + t205;
+        let t207 = parameters.upper_mass[2] * t199 + t206;
+        let t208 = parameters.upper_mass[3] * t198 + t207;
+        let t209 = parameters.upper_mass[4] * t197 + t208;
+        let t210 = parameters.upper_mass[5] * t196 + t209;
+        let t211 = parameters.platform_point[5][0] * parameters.platform_point[5][1];
+        let t212 = parameters.platform_point[4][0] * parameters.platform_point[4][1];
+        let t213 = parameters.platform_point[3][0] * parameters.platform_point[3][1];
+        let t214 = parameters.platform_point[2][0] * parameters.platform_point[2][1];
+        let t215 = parameters.platform_point[1][0] * parameters.platform_point[1][1];
+        let t216 = parameters.platform_point[0][0] * parameters.platform_point[0][1];
+        let t217 = parameters.payload_com[0] * parameters.payload_com[1];
+        let t218 = parameters.payload_inertia[0][1] - parameters.payload_mass * t217;
+        let t219 = parameters.upper_mass[0] * t216 - t218;
+        let t220 = parameters.upper_mass[1] * t215 + t219;
+        let t221 = parameters.upper_mass[2] * t214 + t220;
+        let t222 = parameters.upper_mass[3] * t213 + t221;
+        let t223 = parameters.upper_mass[4] * t212 + t222;
+        let t224 = parameters.upper_mass[5] * t211 + t223;
+        let t225 = parameters.platform_point[5][0] * parameters.platform_point[5][2];
+        let t226 = parameters.platform_point[4][0] * parameters.platform_point[4][2];
+        let t227 = parameters.platform_point[3][0] * parameters.platform_point[3][2];
+        let t228 = parameters.platform_point[2][0] * parameters.platform_point[2][2];
+        let t229 = parameters.platform_point[1][0] * parameters.platform_point[1][2];
+        let t230 = parameters.platform_point[0][0] * parameters.platform_point[0][2];
+        let t231 = parameters.payload_com[0] * parameters.payload_com[2];
+        let t232 = parameters.payload_inertia[0][2] - parameters.payload_mass * t231;
+        let t233 = parameters.upper_mass[0] * t230 - t232;
+        let t234 = parameters.upper_mass[1] * t229 + t233;
+        let t235 = parameters.upper_mass[2] * t228 + t234;
+        let t236 = parameters.upper_mass[3] * t227 + t235;
+        let t237 = parameters.upper_mass[4] * t226 + t236;
+        let t238 = parameters.upper_mass[5] * t225 + t237;
+        let t239 = parameters.platform_point[5][1] * parameters.platform_point[5][1];
+        let t240 = parameters.platform_point[4][1] * parameters.platform_point[4][1];
+        let t241 = parameters.platform_point[3][1] * parameters.platform_point[3][1];
+        let t242 = parameters.platform_point[2][1] * parameters.platform_point[2][1];
+        let t243 = parameters.platform_point[1][1] * parameters.platform_point[1][1];
+        let t244 = parameters.platform_point[0][1] * parameters.platform_point[0][1];
+        let t245 = parameters.payload_com[1] * parameters.payload_com[1];
+        let t246 = parameters.payload_inertia[1][1] - t195;
+        let t247 = parameters.payload_mass * t245 - t246;
+        let t248 = parameters.upper_mass[0] * t244 + t247;
+        let t249 = parameters.upper_mass[1] * t243 + t248;
+        let t250 = parameters.upper_mass[2] * t242 + t249;
+        let t251 = parameters.upper_mass[3] * t241 + t250;
+        let t252 = parameters.upper_mass[4] * t240 + t251;
+        let t253 = parameters.upper_mass[5] * t239 + t252;
+        let t254 = parameters.platform_point[5][1] * parameters.platform_point[5][2];
+        let t255 = parameters.platform_point[4][1] * parameters.platform_point[4][2];
+        let t256 = parameters.platform_point[3][1] * parameters.platform_point[3][2];
+        let t257 = parameters.platform_point[2][1] * parameters.platform_point[2][2];
+        let t258 = parameters.platform_point[1][1] * parameters.platform_point[1][2];
+        let t259 = parameters.platform_point[0][1] * parameters.platform_point[0][2];
+        let t260 = parameters.payload_com[1] * parameters.payload_com[2];
+        let t261 = parameters.payload_inertia[1][2] - parameters.payload_mass * t260;
+        let t262 = parameters.upper_mass[0] * t259 - t261;
+        let t263 = parameters.upper_mass[1] * t258 + t262;
+        let t264 = parameters.upper_mass[2] * t257 + t263;
+        let t265 = parameters.upper_mass[3] * t256 + t264;
+        let t266 = parameters.upper_mass[4] * t255 + t265;
+        let t267 = parameters.upper_mass[5] * t254 + t266;
+        let t268 = parameters.platform_point[5][2] * parameters.platform_point[5][2];
+        let t269 = parameters.platform_point[4][2] * parameters.platform_point[4][2];
+        let t270 = parameters.platform_point[3][2] * parameters.platform_point[3][2];
+        let t271 = parameters.platform_point[2][2] * parameters.platform_point[2][2];
+        let t272 = parameters.platform_point[1][2] * parameters.platform_point[1][2];
+        let t273 = parameters.platform_point[0][2] * parameters.platform_point[0][2];
+        let t274 = parameters.payload_com[2] * parameters.payload_com[2];
+        let t275 = parameters.payload_inertia[2][2] - t195;
+        let t276 = parameters.payload_mass * t274 - t275;
+        let t277 = parameters.upper_mass[0] * t273 + t276;
+        let t278 = parameters.upper_mass[1] * t272 + t277;
+        let t279 = parameters.upper_mass[2] * t271 + t278;
+        let t280 = parameters.upper_mass[3] * t270 + t279;
+        let t281 = parameters.upper_mass[4] * t269 + t280;
+        let t282 = parameters.upper_mass[5] * t268 + t281;
+        // angular velocity of the base
+        let t283 = base_rotation[1][0] * base_velocity[4];
+        let t284 = base_rotation[0][0] * base_velocity[3] + t283;
+        let t285 = base_rotation[2][0] * base_velocity[5] + t284;
+        let t286 = base_rotation[1][1] * base_velocity[4];
+        let t287 = base_rotation[0][1] * base_velocity[3] + t286;
+        let t288 = base_rotation[2][1] * base_velocity[5] + t287;
+        let t289 = base_rotation[1][2] * base_velocity[4];
+        let t290 = base_rotation[0][2] * base_velocity[3] + t289;
+        let t291 = base_rotation[2][2] * base_velocity[5] + t290;
+        // angular velocity of the platform
+        let t292 = base_rotation[1][0] * platform_velocity[4];
+        let t293 = base_rotation[0][0] * platform_velocity[3] + t292;
+        let t294 = base_rotation[2][0] * platform_velocity[5] + t293;
+        let t295 = base_rotation[1][1] * platform_velocity[4];
+        let t296 = base_rotation[0][1] * platform_velocity[3] + t295;
+        let t297 = base_rotation[2][1] * platform_velocity[5] + t296;
+        let t298 = base_rotation[1][2] * platform_velocity[4];
+        let t299 = base_rotation[0][2] * platform_velocity[3] + t298;
+        let t300 = base_rotation[2][2] * platform_velocity[5] + t299;
+        // angular velocity of the platform relative to the base
+        let t301 = t285 - t294;
+        let t302 = t288 - t297;
+        let t303 = t291 - t300;
+        // velocity of the platform origin relative to the base
+        let t304 = base_velocity[2] - platform_velocity[2];
+        let t305 = base_velocity[0] - platform_velocity[0];
+        let t306 = base_velocity[1] - platform_velocity[1];
+        let t307 = base_rotation[0][0] * t305 + base_rotation[1][0] * t306;
+        let t308 = t36 * t288 - (base_rotation[2][0] * t304 + t307);
+        let t309 = t34 * t291 - t308;
+        let t310 = base_rotation[0][1] * t305 + base_rotation[1][1] * t306;
+        let t311 = t32 * t291 - (base_rotation[2][1] * t304 + t310);
+        let t312 = t36 * t285 - t311;
+        let t313 = base_rotation[0][2] * t305 + base_rotation[1][2] * t306;
+        let t314 = t34 * t285 - (base_rotation[2][2] * t304 + t313);
+        let t315 = t32 * t288 - t314;
+        // rate of the relative rotation
+        let t316 = t21 * t302 - t12 * t303;
+        let t317 = t24 * t302 - t15 * t303;
+        let t318 = t27 * t302 - t18 * t303;
+        let t319 = t3 * t303 - t21 * t301;
+        let t320 = t6 * t303 - t24 * t301;
+        let t321 = t9 * t303 - t27 * t301;
+        let t322 = t12 * t301 - t3 * t302;
+        let t323 = t15 * t301 - t6 * t302;
+        let t324 = t18 * t301 - t9 * t302;
+        // leg 1: velocity of the platform joint relative to the base
+        let t325 = t309 + parameters.platform_point[0][0] * t316;
+        let t326 = parameters.platform_point[0][1] * t317 + t325;
+        let t327 = parameters.platform_point[0][2] * t318 + t326;
+        let t328 = t312 + parameters.platform_point[0][0] * t319;
+        let t329 = parameters.platform_point[0][1] * t320 + t328;
+        let t330 = parameters.platform_point[0][2] * t321 + t329;
+        let t331 = t315 + parameters.platform_point[0][0] * t322;
+        let t332 = parameters.platform_point[0][1] * t323 + t331;
+        let t333 = parameters.platform_point[0][2] * t324 + t332;
+        // leg 2: velocity of the platform joint relative to the base
+        let t334 = t309 + parameters.platform_point[1][0] * t316;
+        let t335 = parameters.platform_point[1][1] * t317 + t334;
+        let t336 = parameters.platform_point[1][2] * t318 + t335;
+        let t337 = t312 + parameters.platform_point[1][0] * t319;
+        let t338 = parameters.platform_point[1][1] * t320 + t337;
+        let t339 = parameters.platform_point[1][2] * t321 + t338;
+        let t340 = t315 + parameters.platform_point[1][0] * t322;
+        let t341 = parameters.platform_point[1][1] * t323 + t340;
+        let t342 = parameters.platform_point[1][2] * t324 + t341;
+        // leg 3: velocity of the platform joint relative to the base
+        let t343 = t309 + parameters.platform_point[2][0] * t316;
+        let t344 = parameters.platform_point[2][1] * t317 + t343;
+        let t345 = parameters.platform_point[2][2] * t318 + t344;
+        let t346 = t312 + parameters.platform_point[2][0] * t319;
+        let t347 = parameters.platform_point[2][1] * t320 + t346;
+        let t348 = parameters.platform_point[2][2] * t321 + t347;
+        let t349 = t315 + parameters.platform_point[2][0] * t322;
+        let t350 = parameters.platform_point[2][1] * t323 + t349;
+        let t351 = parameters.platform_point[2][2] * t324 + t350;
+        // leg 4: velocity of the platform joint relative to the base
+        let t352 = t309 + parameters.platform_point[3][0] * t316;
+        let t353 = parameters.platform_point[3][1] * t317 + t352;
+        let t354 = parameters.platform_point[3][2] * t318 + t353;
+        let t355 = t312 + parameters.platform_point[3][0] * t319;
+        let t356 = parameters.platform_point[3][1] * t320 + t355;
+        let t357 = parameters.platform_point[3][2] * t321 + t356;
+        let t358 = t315 + parameters.platform_point[3][0] * t322;
+        let t359 = parameters.platform_point[3][1] * t323 + t358;
+        let t360 = parameters.platform_point[3][2] * t324 + t359;
+        // leg 5: velocity of the platform joint relative to the base
+        let t361 = t309 + parameters.platform_point[4][0] * t316;
+        let t362 = parameters.platform_point[4][1] * t317 + t361;
+        let t363 = parameters.platform_point[4][2] * t318 + t362;
+        let t364 = t312 + parameters.platform_point[4][0] * t319;
+        let t365 = parameters.platform_point[4][1] * t320 + t364;
+        let t366 = parameters.platform_point[4][2] * t321 + t365;
+        let t367 = t315 + parameters.platform_point[4][0] * t322;
+        let t368 = parameters.platform_point[4][1] * t323 + t367;
+        let t369 = parameters.platform_point[4][2] * t324 + t368;
+        // leg 6: velocity of the platform joint relative to the base
+        let t370 = t309 + parameters.platform_point[5][0] * t316;
+        let t371 = parameters.platform_point[5][1] * t317 + t370;
+        let t372 = parameters.platform_point[5][2] * t318 + t371;
+        let t373 = t312 + parameters.platform_point[5][0] * t319;
+        let t374 = parameters.platform_point[5][1] * t320 + t373;
+        let t375 = parameters.platform_point[5][2] * t321 + t374;
+        let t376 = t315 + parameters.platform_point[5][0] * t322;
+        let t377 = parameters.platform_point[5][1] * t323 + t376;
+        let t378 = parameters.platform_point[5][2] * t324 + t377;
+        // leg 1: actuator velocity d'
+        let t379 = t123 * t333 + (t121 * t327 + t122 * t330);
+        // leg 2: actuator velocity d'
+        let t380 = t126 * t342 + (t124 * t336 + t125 * t339);
+        // leg 3: actuator velocity d'
+        let t381 = t129 * t351 + (t127 * t345 + t128 * t348);
+        // leg 4: actuator velocity d'
+        let t382 = t132 * t360 + (t130 * t354 + t131 * t357);
+        // leg 5: actuator velocity d'
+        let t383 = t135 * t369 + (t133 * t363 + t134 * t366);
+        // leg 6: actuator velocity d'
+        let t384 = t138 * t378 + (t136 * t372 + t137 * t375);
+        // leg 1: inertial rate of that gradient
+        let t385 = t110 * (t121 * t379 - (t47 * t291 + (t327 - t48 * t288)));
+        let t386 = t110 * (t122 * t379 - (t48 * t285 + (t330 - t46 * t291)));
+        let t387 = t110 * (t123 * t379 - (t46 * t288 + (t333 - t47 * t285)));
+        // leg 2: inertial rate of that gradient
+        let t388 = t112 * (t124 * t380 - (t59 * t291 + (t336 - t60 * t288)));
+        let t389 = t112 * (t125 * t380 - (t60 * t285 + (t339 - t58 * t291)));
+        let t390 = t112 * (t126 * t380 - (t58 * t288 + (t342 - t59 * t285)));
+        // leg 3: inertial rate of that gradient
+        let t391 = t114 * (t127 * t381 - (t71 * t291 + (t345 - t72 * t288)));
+        let t392 = t114 * (t128 * t381 - (t72 * t285 + (t348 - t70 * t291)));
+        let t393 = t114 * (t129 * t381 - (t70 * t288 + (t351 - t71 * t285)));
+        // leg 4: inertial rate of that gradient
+        let t394 = t116 * (t130 * t382 - (t83 * t291 + (t354 - t84 * t288)));
+        let t395 = t116 * (t131 * t382 - (t84 * t285 + (t357 - t82 * t291)));
+        let t396 = t116 * (t132 * t382 - (t82 * t288 + (t360 - t83 * t285)));
+        // leg 5: inertial rate of that gradient
+        let t397 = t118 * (t133 * t383 - (t95 * t291 + (t363 - t96 * t288)));
+        let t398 = t118 * (t134 * t383 - (t96 * t285 + (t366 - t94 * t291)));
+        let t399 = t118 * (t135 * t383 - (t94 * t288 + (t369 - t95 * t285)));
+        // leg 6: inertial rate of that gradient
+        let t400 = t120 * (t136 * t384 - (t107 * t291 + (t372 - t108 * t288)));
+        let t401 = t120 * (t137 * t384 - (t108 * t285 + (t375 - t106 * t291)));
+        let t402 = t120 * (t138 * t384 - (t106 * t288 + (t378 - t107 * t285)));
+        // acceleration of the base origin less gravity
+        let t403 = base_acceleration[2] - parameters.gravity[2];
+        let t404 = base_acceleration[0] - parameters.gravity[0];
+        let t405 = base_acceleration[1] - parameters.gravity[1];
+        let t406 = base_rotation[0][0] * t404 + base_rotation[1][0] * t405;
+        let t407 = base_rotation[2][0] * t403 + t406;
+        let t408 = base_rotation[0][1] * t404 + base_rotation[1][1] * t405;
+        let t409 = base_rotation[2][1] * t403 + t408;
+        let t410 = base_rotation[0][2] * t404 + base_rotation[1][2] * t405;
+        let t411 = base_rotation[2][2] * t403 + t410;
+        // angular acceleration of the base
+        let t412 = base_rotation[1][0] * base_acceleration[4];
+        let t413 = base_rotation[0][0] * base_acceleration[3] + t412;
+        let t414 = base_rotation[2][0] * base_acceleration[5] + t413;
+        let t415 = base_rotation[1][1] * base_acceleration[4];
+        let t416 = base_rotation[0][1] * base_acceleration[3] + t415;
+        let t417 = base_rotation[2][1] * base_acceleration[5] + t416;
+        let t418 = base_rotation[1][2] * base_acceleration[4];
+        let t419 = base_rotation[0][2] * base_acceleration[3] + t418;
+        let t420 = base_rotation[2][2] * base_acceleration[5] + t419;
+        // acceleration per base coordinate of points that move with the base
+        let t421 = t288 * t288;
+        let t422 = t291 * t291;
+        let t423 = t421 + t422;
+        let t424 = t285 * t288;
+        let t425 = t420 - t424;
+        let t426 = t285 * t291;
+        let t427 = t417 + t426;
+        let t428 = t420 + t424;
+        let t429 = t285 * t285;
+        let t430 = t422 + t429;
+        let t431 = t288 * t291;
+        let t432 = t414 - t431;
+        let t433 = t417 - t426;
+        let t434 = t414 + t431;
+        let t435 = t421 + t429;
+        // acceleration of the platform origin less gravity
+        let t436 = platform_acceleration[2] - parameters.gravity[2];
+        let t437 = platform_acceleration[0] - parameters.gravity[0];
+        let t438 = platform_acceleration[1] - parameters.gravity[1];
+        let t439 = base_rotation[0][0] * t437 + base_rotation[1][0] * t438;
+        let t440 = base_rotation[2][0] * t436 + t439;
+        let t441 = base_rotation[0][1] * t437 + base_rotation[1][1] * t438;
+        let t442 = base_rotation[2][1] * t436 + t441;
+        let t443 = base_rotation[0][2] * t437 + base_rotation[1][2] * t438;
+        let t444 = base_rotation[2][2] * t436 + t443;
+        // angular acceleration of the platform
+        let t445 = base_rotation[1][0] * platform_acceleration[4];
+        let t446 = base_rotation[0][0] * platform_acceleration[3] + t445;
+        let t447 = base_rotation[2][0] * platform_acceleration[5] + t446;
+        let t448 = base_rotation[1][1] * platform_acceleration[4];
+        let t449 = base_rotation[0][1] * platform_acceleration[3] + t448;
+        let t450 = base_rotation[2][1] * platform_acceleration[5] + t449;
+        let t451 = base_rotation[1][2] * platform_acceleration[4];
+        let t452 = base_rotation[0][2] * platform_acceleration[3] + t451;
+        let t453 = base_rotation[2][2] * platform_acceleration[5] + t452;
+        // acceleration per platform coordinate of points of the platform
+        let t454 = t294 * t300;
+        let t455 = t450 + t454;
+        let t456 = t294 * t297;
+        let t457 = t453 - t456;
+        let t458 = t297 * t297;
+        let t459 = t300 * t300;
+        let t460 = t458 + t459;
+        let t461 = t21 * t455 - (t12 * t457 + t3 * t460);
+        let t462 = t24 * t455 - (t15 * t457 + t6 * t460);
+        let t463 = t27 * t455 - (t18 * t457 + t9 * t460);
+        let t464 = t297 * t300;
+        let t465 = t447 - t464;
+        let t466 = t453 + t456;
+        let t467 = t294 * t294;
+        let t468 = t459 + t467;
+        let t469 = t21 * t465 - (t3 * t466 - t12 * t468);
+        let t470 = t24 * t465 - (t6 * t466 - t15 * t468);
+        let t471 = t27 * t465 - (t9 * t466 - t18 * t468);
+        let t472 = t458 + t467;
+        let t473 = t450 - t454;
+        let t474 = t447 + t464;
+        let t475 = t21 * t472 + (t3 * t473 - t12 * t474);
+        let t476 = t24 * t472 + (t6 * t473 - t15 * t474);
+        let t477 = t27 * t472 + (t9 * t473 - t18 * t474);
+        // leg 1: actuator acceleration d''
+        let t478 = t440 + parameters.platform_point[0][0] * t461;
+        let t479 = parameters.platform_point[0][1] * t462 + t478;
+        let t480 = parameters.platform_point[0][2] * t463 + t479;
+        let t481 = t407 - parameters.base_point[0][0] * t423;
+        let t482 = parameters.base_point[0][1] * t425 - t481;
+        let t483 = parameters.base_point[0][2] * t427 - t482;
+        let t484 = t480 - t483;
+        let t485 = t442 - parameters.platform_point[0][0] * t469;
+        let t486 = parameters.platform_point[0][1] * t470 - t485;
+        let t487 = parameters.platform_point[0][2] * t471 + t486;
+        let t488 = t409 + parameters.base_point[0][0] * t428;
+        let t489 = parameters.base_point[0][1] * t430 - t488;
+        let t490 = parameters.base_point[0][2] * t432 + t489;
+        let t491 = t487 - t490;
+        let t492 = t444 - parameters.platform_point[0][0] * t475;
+        let t493 = parameters.platform_point[0][1] * t476 - t492;
+        let t494 = parameters.platform_point[0][2] * t477 + t493;
+        let t495 = t411 - parameters.base_point[0][0] * t433;
+        let t496 = parameters.base_point[0][1] * t434 + t495;
+        let t497 = parameters.base_point[0][2] * t435 - t496;
+        let t498 = t494 - t497;
+        let t499 = t109 * (t387 * t387 + (t385 * t385 + t386 * t386));
+        let t500 = t499 - (t123 * t498 - (t121 * t484 - t122 * t491));
+        // leg 2: actuator acceleration d''
+        let t501 = t440 + parameters.platform_point[1][0] * t461;
+        let t502 = parameters.platform_point[1][1] * t462 + t501;
+        let t503 = parameters.platform_point[1][2] * t463 + t502;
+        let t504 = t407 - parameters.base_point[1][0] * t423;
+        let t505 = parameters.base_point[1][1] * t425 - t504;
+        let t506 = parameters.base_point[1][2] * t427 - t505;
+        let t507 = t503 - t506;
+        let t508 = t442 - parameters.platform_point[1][0] * t469;
+        let t509 = parameters.platform_point[1][1] * t470 - t508;
+        let t510 = parameters.platform_point[1][2] * t471 + t509;
+        let t511 = t409 + parameters.base_point[1][0] * t428;
+        let t512 = parameters.base_point[1][1] * t430 - t511;
+        let t513 = parameters.base_point[1][2] * t432 + t512;
+        let t514 = t510 - t513;
+        let t515 = t444 - parameters.platform_point[1][0] * t475;
+        let t516 = parameters.platform_point[1][1] * t476 - t515;
+        let t517 = parameters.platform_point[1][2] * t477 + t516;
+        let t518 = t411 - parameters.base_point[1][0] * t433;
+        let t519 = parameters.base_point[1][1] * t434 + t518;
+        let t520 = parameters.base_point[1][2] * t435 - t519;
+        let t521 = t517 - t520;
+        let t522 = t111 * (t390 * t390 + (t388 * t388 + t389 * t389));
+        let t523 = t522 - (t126 * t521 - (t124 * t507 - t125 * t514));
+        // leg 3: actuator acceleration d''
+        let t524 = t440 + parameters.platform_point[2][0] * t461;
+        let t525 = parameters.platform_point[2][1] * t462 + t524;
+        let t526 = parameters.platform_point[2][2] * t463 + t525;
+        let t527 = t407 - parameters.base_point[2][0] * t423;
+        let t528 = parameters.base_point[2][1] * t425 - t527;
+        let t529 = parameters.base_point[2][2] * t427 - t528;
+        let t530 = t526 - t529;
+        let t531 = t442 - parameters.platform_point[2][0] * t469;
+        let t532 = parameters.platform_point[2][1] * t470 - t531;
+        let t533 = parameters.platform_point[2][2] * t471 + t532;
+        let t534 = t409 + parameters.base_point[2][0] * t428;
+        let t535 = parameters.base_point[2][1] * t430 - t534;
+        let t536 = parameters.base_point[2][2] * t432 + t535;
+        let t537 = t533 - t536;
+        let t538 = t444 - parameters.platform_point[2][0] * t475;
+        let t539 = parameters.platform_point[2][1] * t476 - t538;
+        let t540 = parameters.platform_point[2][2] * t477 + t539;
+        let t541 = t411 - parameters.base_point[2][0] * t433;
+        let t542 = parameters.base_point[2][1] * t434 + t541;
+        let t543 = parameters.base_point[2][2] * t435 - t542;
+        let t544 = t540 - t543;
+        let t545 = t113 * (t393 * t393 + (t391 * t391 + t392 * t392));
+        let t546 = t545 - (t129 * t544 - (t127 * t530 - t128 * t537));
+        // leg 4: actuator acceleration d''
+        let t547 = t440 + parameters.platform_point[3][0] * t461;
+        let t548 = parameters.platform_point[3][1] * t462 + t547;
+        let t549 = parameters.platform_point[3][2] * t463 + t548;
+        let t550 = t407 - parameters.base_point[3][0] * t423;
+        let t551 = parameters.base_point[3][1] * t425 - t550;
+        let t552 = parameters.base_point[3][2] * t427 - t551;
+        let t553 = t549 - t552;
+        let t554 = t442 - parameters.platform_point[3][0] * t469;
+        let t555 = parameters.platform_point[3][1] * t470 - t554;
+        let t556 = parameters.platform_point[3][2] * t471 + t555;
+        let t557 = t409 + parameters.base_point[3][0] * t428;
+        let t558 = parameters.base_point[3][1] * t430 - t557;
+        let t559 = parameters.base_point[3][2] * t432 + t558;
+        let t560 = t556 - t559;
+        let t561 = t444 - parameters.platform_point[3][0] * t475;
+        let t562 = parameters.platform_point[3][1] * t476 - t561;
+        let t563 = parameters.platform_point[3][2] * t477 + t562;
+        let t564 = t411 - parameters.base_point[3][0] * t433;
+        let t565 = parameters.base_point[3][1] * t434 + t564;
+        let t566 = parameters.base_point[3][2] * t435 - t565;
+        let t567 = t563 - t566;
+        let t568 = t115 * (t396 * t396 + (t394 * t394 + t395 * t395));
+        let t569 = t568 - (t132 * t567 - (t130 * t553 - t131 * t560));
+        // leg 5: actuator acceleration d''
+        let t570 = t440 + parameters.platform_point[4][0] * t461;
+        let t571 = parameters.platform_point[4][1] * t462 + t570;
+        let t572 = parameters.platform_point[4][2] * t463 + t571;
+        let t573 = t407 - parameters.base_point[4][0] * t423;
+        let t574 = parameters.base_point[4][1] * t425 - t573;
+        let t575 = parameters.base_point[4][2] * t427 - t574;
+        let t576 = t572 - t575;
+        let t577 = t442 - parameters.platform_point[4][0] * t469;
+        let t578 = parameters.platform_point[4][1] * t470 - t577;
+        let t579 = parameters.platform_point[4][2] * t471 + t578;
+        let t580 = t409 + parameters.base_point[4][0] * t428;
+        let t581 = parameters.base_point[4][1] * t430 - t580;
+        let t582 = parameters.base_point[4][2] * t432 + t581;
+        let t583 = t579 - t582;
+        let t584 = t444 - parameters.platform_point[4][0] * t475;
+        let t585 = parameters.platform_point[4][1] * t476 - t584;
+        let t586 = parameters.platform_point[4][2] * t477 + t585;
+        let t587 = t411 - parameters.base_point[4][0] * t433;
+        let t588 = parameters.base_point[4][1] * t434 + t587;
+        let t589 = parameters.base_point[4][2] * t435 - t588;
+        let t590 = t586 - t589;
+        let t591 = t117 * (t399 * t399 + (t397 * t397 + t398 * t398));
+        let t592 = t591 - (t135 * t590 - (t133 * t576 - t134 * t583));
+        // leg 6: actuator acceleration d''
+        let t593 = t440 + parameters.platform_point[5][0] * t461;
+        let t594 = parameters.platform_point[5][1] * t462 + t593;
+        let t595 = parameters.platform_point[5][2] * t463 + t594;
+        let t596 = t407 - parameters.base_point[5][0] * t423;
+        let t597 = parameters.base_point[5][1] * t425 - t596;
+        let t598 = parameters.base_point[5][2] * t427 - t597;
+        let t599 = t595 - t598;
+        let t600 = t442 - parameters.platform_point[5][0] * t469;
+        let t601 = parameters.platform_point[5][1] * t470 - t600;
+        let t602 = parameters.platform_point[5][2] * t471 + t601;
+        let t603 = t409 + parameters.base_point[5][0] * t428;
+        let t604 = parameters.base_point[5][1] * t430 - t603;
+        let t605 = parameters.base_point[5][2] * t432 + t604;
+        let t606 = t602 - t605;
+        let t607 = t444 - parameters.platform_point[5][0] * t475;
+        let t608 = parameters.platform_point[5][1] * t476 - t607;
+        let t609 = parameters.platform_point[5][2] * t477 + t608;
+        let t610 = t411 - parameters.base_point[5][0] * t433;
+        let t611 = parameters.base_point[5][1] * t434 + t610;
+        let t612 = parameters.base_point[5][2] * t435 - t611;
+        let t613 = t609 - t612;
+        let t614 = t119 * (t402 * t402 + (t400 * t400 + t401 * t401));
+        let t615 = t614 - (t138 * t613 - (t136 * t599 - t137 * t606));
+        // reference less actual velocity of the platform origin
+        let t616 = platform_velocity[2] - reference_velocity[2];
+        let t617 = platform_velocity[0] - reference_velocity[0];
+        let t618 = platform_velocity[1] - reference_velocity[1];
+        let t619 = base_rotation[0][0] * t617 + base_rotation[1][0] * t618;
+        let t620 = base_rotation[2][0] * t616 + t619;
+        let t621 = base_rotation[0][1] * t617 + base_rotation[1][1] * t618;
+        let t622 = base_rotation[2][1] * t616 + t621;
+        let t623 = base_rotation[0][2] * t617 + base_rotation[1][2] * t618;
+        let t624 = base_rotation[2][2] * t616 + t623;
+        // reference less actual angular velocity of the platform
+        let t625 = platform_velocity[5] - reference_velocity[5];
+        let t626 = platform_velocity[3] - reference_velocity[3];
+        let t627 = platform_velocity[4] - reference_velocity[4];
+        let t628 = base_rotation[0][0] * t626 + base_rotation[1][0] * t627;
+        let t629 = base_rotation[2][0] * t625 + t628;
+        let t630 = base_rotation[0][1] * t626 + base_rotation[1][1] * t627;
+        let t631 = base_rotation[2][1] * t625 + t630;
+        let t632 = base_rotation[0][2] * t626 + base_rotation[1][2] * t627;
+        let t633 = base_rotation[2][2] * t625 + t632;
+        // what that adds to the acceleration per platform coordinate
+        let t634 = t294 * t631;
+        let t635 = t294 * t633;
+        let t636 = t300 * t633;
+        let t637 = t297 * t631;
+        let t638 = t636 + t637;
+        let t639 = t21 * t635 + (t12 * t634 - t3 * t638);
+        let t640 = t24 * t635 + (t15 * t634 - t6 * t638);
+        let t641 = t27 * t635 + (t18 * t634 - t9 * t638);
+        let t642 = t297 * t629;
+        let t643 = t297 * t633;
+        let t644 = t294 * t629;
+        let t645 = t636 + t644;
+        let t646 = t21 * t643 + (t3 * t642 - t12 * t645);
+        let t647 = t24 * t643 + (t6 * t642 - t15 * t645);
+        let t648 = t27 * t643 + (t9 * t642 - t18 * t645);
+        let t649 = t300 * t629;
+        let t650 = t300 * t631;
+        let t651 = t637 + t644;
+        let t652 = t21 * t651 - (t3 * t649 + t12 * t650);
+        let t653 = t24 * t651 - (t6 * t649 + t15 * t650);
+        let t654 = t27 * t651 - (t9 * t649 + t18 * t650);
+        // leg 1: leg inertia less weight along the actuator
+        let t655 = parameters.platform_point[0][1] * t640;
+        let t656 = parameters.platform_point[0][0] * t639 + t655;
+        let t657 = parameters.platform_point[0][2] * t641 + t656;
+        let t658 = t110 * (t110 * t379);
+        let t659 = t42 * t633 - (t620 + t45 * t631);
+        let t660 = t39 * t631 - (t624 + t42 * t629);
+        let t661 = t45 * t629 - (t622 + t39 * t633);
+        let t662 = t123 * t660 + (t121 * t659 + t122 * t661);
+        let t663 = t110 * t662;
+        let t664 = c(2.0) * t379;
+        let t665 = parameters.platform_point[0][1] * t653;
+        let t666 = parameters.platform_point[0][0] * t652 + t665;
+        let t667 = parameters.platform_point[0][2] * t654 + t666;
+        let t668 = parameters.platform_point[0][1] * t647;
+        let t669 = parameters.platform_point[0][0] * t646 + t668;
+        let t670 = parameters.platform_point[0][2] * t648 + t669;
+        let t671 = t121 * t657 - (t387 * t660 + (t385 * t659 + t386 * t661));
+        let t672 = t658 * t662 + t110 * (t123 * t667 - (t122 * t670 + t671));
+        let t673 = t110 * (t385 * t664 + (t484 - t121 * t500)) - t121 * t672;
+        let t674 = t110 * t657 - (t658 * t659 - (t385 * t663 - t673));
+        let t675 = t110 * t143;
+        let t676 = t110 * t140;
+        let t677 = t110 * t139;
+        let t678 = t675 * t674 + (t676 * (t480 - t657) - t483 * t677);
+        let t679 = t121 * t678;
+        let t680 = t110 * (t386 * t664 - (t491 + t122 * t500)) - t122 * t672;
+        let t681 = t110 * t670 - (t658 * t661 - (t386 * t663 - t680));
+        let t682 = t675 * t681 - (t676 * (t487 + t670) - t490 * t677);
+        let t683 = t122 * t682;
+        let t684 = t110 * (t387 * t664 - (t498 + t123 * t500)) - t123 * t672;
+        let t685 = t110 * t667 + (t658 * t660 - (t387 * t663 - t684));
+        let t686 = t675 * t685 + (t676 * (t494 - t667) - t497 * t677);
+        let t687 = t123 * t686;
+        // leg 1: remaining leg inertia less weight at the platform joint
+        let t688 = t678 - t140 * t674;
+        let t689 = t682 - t140 * t681;
+        let t690 = t686 - t140 * t685;
+        // leg 2: leg inertia less weight along the actuator
+        let t691 = parameters.platform_point[1][1] * t640;
+        let t692 = parameters.platform_point[1][0] * t639 + t691;
+        let t693 = parameters.platform_point[1][2] * t641 + t692;
+        let t694 = t112 * (t112 * t380);
+        let t695 = t54 * t633 - (t620 + t57 * t631);
+        let t696 = t51 * t631 - (t624 + t54 * t629);
+        let t697 = t57 * t629 - (t622 + t51 * t633);
+        let t698 = t126 * t696 + (t124 * t695 + t125 * t697);
+        let t699 = t112 * t698;
+        let t700 = c(2.0) * t380;
+        let t701 = parameters.platform_point[1][1] * t653;
+        let t702 = parameters.platform_point[1][0] * t652 + t701;
+        let t703 = parameters.platform_point[1][2] * t654 + t702;
+        let t704 = parameters.platform_point[1][1] * t647;
+        let t705 = parameters.platform_point[1][0] * t646 + t704;
+        let t706 = parameters.platform_point[1][2] * t648 + t705;
+        let t707 = t124 * t693 - (t390 * t696 + (t388 * t695 + t389 * t697));
+        let t708 = t694 * t698 + t112 * (t126 * t703 - (t125 * t706 + t707));
+        let t709 = t112 * (t388 * t700 + (t507 - t124 * t523)) - t124 * t708;
+        let t710 = t112 * t693 - (t694 * t695 - (t388 * t699 - t709));
+        let t711 = t112 * t148;
+        let t712 = t112 * t145;
+        let t713 = t112 * t144;
+        let t714 = t711 * t710 + (t712 * (t503 - t693) - t506 * t713);
+        let t715 = t124 * t714;
+        let t716 = t112 * (t389 * t700 - (t514 + t125 * t523)) - t125 * t708;
+        let t717 = t112 * t706 - (t694 * t697 - (t389 * t699 - t716));
+        let t718 = t711 * t717 - (t712 * (t510 + t706) - t513 * t713);
+        let t719 = t125 * t718;
+        let t720 = t112 * (t390 * t700 - (t521 + t126 * t523)) - t126 * t708;
+        let t721 = t112 * t703 + (t694 * t696 - (t390 * t699 - t720));
+        let t722 = t711 * t721 + (t712 * (t517 - t703) - t520 * t713);
+        let t723 = t126 * t722;
+        // leg 2: remaining leg inertia less weight at the platform joint
+        let t724 = t714 - t145 * t710;
+        let t725 = t718 - t145 * t717;
+        let t726 = t722 - t145 * t721;
+        // leg 3: leg inertia less weight along the actuator
+        let t727 = parameters.platform_point[2][1] * t640;
+        let t728 = parameters.platform_point[2][0] * t639 + t727;
+        let t729 = parameters.platform_point[2][2] * t641 + t728;
+        let t730 = t114 * (t114 * t381);
+        let t731 = t66 * t633 - (t620 + t69 * t631);
+        let t732 = t63 * t631 - (t624 + t66 * t629);
+        let t733 = t69 * t629 - (t622 + t63 * t633);
+        let t734 = t129 * t732 + (t127 * t731 + t128 * t733);
+        let t735 = t114 * t734;
+        let t736 = c(2.0) * t381;
+        let t737 = parameters.platform_point[2][1] * t653;
+        let t738 = parameters.platform_point[2][0] * t652 + t737;
+        let t739 = parameters.platform_point[2][2] * t654 + t738;
+        let t740 = parameters.platform_point[2][1] * t647;
+        let t741 = parameters.platform_point[2][0] * t646 + t740;
+        let t742 = parameters.platform_point[2][2] * t648 + t741;
+        let t743 = t127 * t729 - (t393 * t732 + (t391 * t731 + t392 * t733));
+        let t744 = t730 * t734 + t114 * (t129 * t739 - (t128 * t742 + t743));
+        let t745 = t114 * (t391 * t736 + (t530 - t127 * t546)) - t127 * t744;
+        let t746 = t114 * t729 - (t730 * t731 - (t391 * t735 - t745));
+        let t747 = t114 * t153;
+        let t748 = t114 * t150;
+        let t749 = t114 * t149;
+        let t750 = t747 * t746 + (t748 * (t526 - t729) - t529 * t749);
+        let t751 = t127 * t750;
+        let t752 = t114 * (t392 * t736 - (t537 + t128 * t546)) - t128 * t744;
+        let t753 = t114 * t742 - (t730 * t733 - (t392 * t735 - t752));
+        let t754 = t747 * t753 - (t748 * (t533 + t742) - t536 * t749);
+        let t755 = t128 * t754;
+        let t756 = t114 * (t393 * t736 - (t544 + t129 * t546)) - t129 * t744;
+        let t757 = t114 * t739 + (t730 * t732 - (t393 * t735 - t756));
+        let t758 = t747 * t757 + (t748 * (t540 - t739) - t543 * t749);
+        let t759 = t129 * t758;
+        // leg 3: remaining leg inertia less weight at the platform joint
+        let t760 = t750 - t150 * t746;
+        let t761 = t754 - t150 * t753;
+        let t762 = t758 - t150 * t757;
+        // leg 4: leg inertia less weight along the actuator
+        let t763 = parameters.platform_point[3][1] * t640;
+        let t764 = parameters.platform_point[3][0] * t639 + t763;
+        let t765 = parameters.platform_point[3][2] * t641 + t764;
+        let t766 = t116 * (t116 * t382);
+        let t767 = t78 * t633 - (t620 + t81 * t631);
+        let t768 = t75 * t631 - (t624 + t78 * t629);
+        let t769 = t81 * t629 - (t622 + t75 * t633);
+        let t770 = t132 * t768 + (t130 * t767 + t131 * t769);
+        let t771 = t116 * t770;
+        let t772 = c(2.0) * t382;
+        let t773 = parameters.platform_point[3][1] * t653;
+        let t774 = parameters.platform_point[3][0] * t652 + t773;
+        let t775 = parameters.platform_point[3][2] * t654 + t774;
+        let t776 = parameters.platform_point[3][1] * t647;
+        let t777 = parameters.platform_point[3][0] * t646 + t776;
+        let t778 = parameters.platform_point[3][2] * t648 + t777;
+        let t779 = t130 * t765 - (t396 * t768 + (t394 * t767 + t395 * t769));
+        let t780 = t766 * t770 + t116 * (t132 * t775 - (t131 * t778 + t779));
+        let t781 = t116 * (t394 * t772 + (t553 - t130 * t569)) - t130 * t780;
+        let t782 = t116 * t765 - (t766 * t767 - (t394 * t771 - t781));
+        let t783 = t116 * t158;
+        let t784 = t116 * t155;
+        let t785 = t116 * t154;
+        let t786 = t783 * t782 + (t784 * (t549 - t765) - t552 * t785);
+        let t787 = t130 * t786;
+        let t788 = t116 * (t395 * t772 - (t560 + t131 * t569)) - t131 * t780;
+        let t789 = t116 * t778 - (t766 * t769 - (t395 * t771 - t788));
+        let t790 = t783 * t789 - (t784 * (t556 + t778) - t559 * t785);
+        let t791 = t131 * t790;
+        let t792 = t116 * (t396 * t772 - (t567 + t132 * t569)) - t132 * t780;
+        let t793 = t116 * t775 + (t766 * t768 - (t396 * t771 - t792));
+        let t794 = t783 * t793 + (t784 * (t563 - t775) - t566 * t785);
+        let t795 = t132 * t794;
+        // leg 4: remaining leg inertia less weight at the platform joint
+        let t796 = t786 - t155 * t782;
+        let t797 = t790 - t155 * t789;
+        let t798 = t794 - t155 * t793;
+        // leg 5: leg inertia less weight along the actuator
+        let t799 = parameters.platform_point[4][1] * t640;
+        let t800 = parameters.platform_point[4][0] * t639 + t799;
+        let t801 = parameters.platform_point[4][2] * t641 + t800;
+        let t802 = t118 * (t118 * t383);
+        let t803 = t90 * t633 - (t620 + t93 * t631);
+        let t804 = t87 * t631 - (t624 + t90 * t629);
+        let t805 = t93 * t629 - (t622 + t87 * t633);
+        let t806 = t135 * t804 + (t133 * t803 + t134 * t805);
+        let t807 = t118 * t806;
+        let t808 = c(2.0) * t383;
+        let t809 = parameters.platform_point[4][1] * t653;
+        let t810 = parameters.platform_point[4][0] * t652 + t809;
+        let t811 = parameters.platform_point[4][2] * t654 + t810;
+        let t812 = parameters.platform_point[4][1] * t647;
+        let t813 = parameters.platform_point[4][0] * t646 + t812;
+        let t814 = parameters.platform_point[4][2] * t648 + t813;
+        let t815 = t133 * t801 - (t399 * t804 + (t397 * t803 + t398 * t805));
+        let t816 = t802 * t806 + t118 * (t135 * t811 - (t134 * t814 + t815));
+        let t817 = t118 * (t397 * t808 + (t576 - t133 * t592)) - t133 * t816;
+        let t818 = t118 * t801 - (t802 * t803 - (t397 * t807 - t817));
+        let t819 = t118 * t163;
+        let t820 = t118 * t160;
+        let t821 = t118 * t159;
+        let t822 = t819 * t818 + (t820 * (t572 - t801) - t575 * t821);
+        let t823 = t133 * t822;
+        let t824 = t118 * (t398 * t808 - (t583 + t134 * t592)) - t134 * t816;
+        let t825 = t118 * t814 - (t802 * t805 - (t398 * t807 - t824));
+        let t826 = t819 * t825 - (t820 * (t579 + t814) - t582 * t821);
+        let t827 = t134 * t826;
+        let t828 = t118 * (t399 * t808 - (t590 + t135 * t592)) - t135 * t816;
+        let t829 = t118 * t811 + (t802 * t804 - (t399 * t807 - t828));
+        let t830 = t819 * t829 + (t820 * (t586 - t811) - t589 * t821);
+        let t831 = t135 * t830;
+        // leg 5: remaining leg inertia less weight at the platform joint
+        let t832 = t822 - t160 * t818;
+        let t833 = t826 - t160 * t825;
+        let t834 = t830 - t160 * t829;
+        // leg 6: leg inertia less weight along the actuator
+        let t835 = parameters.platform_point[5][1] * t640;
+        let t836 = parameters.platform_point[5][0] * t639 + t835;
+        let t837 = parameters.platform_point[5][2] * t641 + t836;
+        let t838 = t120 * (t120 * t384);
+        let t839 = t102 * t633 - (t620 + t105 * t631);
+        let t840 = t99 * t631 - (t624 + t102 * t629);
+        let t841 = t105 * t629 - (t622 + t99 * t633);
+        let t842 = t138 * t840 + (t136 * t839 + t137 * t841);
+        let t843 = t120 * t842;
+        let t844 = c(2.0) * t384;
+        let t845 = parameters.platform_point[5][1] * t653;
+        let t846 = parameters.platform_point[5][0] * t652 + t845;
+        let t847 = parameters.platform_point[5][2] * t654 + t846;
+        let t848 = parameters.platform_point[5][1] * t647;
+        let t849 = parameters.platform_point[5][0] * t646 + t848;
+        let t850 = parameters.platform_point[5][2] * t648 + t849;
+        let t851 = t136 * t837 - (t402 * t840 + (t400 * t839 + t401 * t841));
+        let t852 = t838 * t842 + t120 * (t138 * t847 - (t137 * t850 + t851));
+        let t853 = t120 * (t400 * t844 + (t599 - t136 * t615)) - t136 * t852;
+        let t854 = t120 * t837 - (t838 * t839 - (t400 * t843 - t853));
+        let t855 = t120 * t168;
+        let t856 = t120 * t165;
+        let t857 = t120 * t164;
+        let t858 = t855 * t854 + (t856 * (t595 - t837) - t598 * t857);
+        let t859 = t136 * t858;
+        let t860 = t120 * (t401 * t844 - (t606 + t137 * t615)) - t137 * t852;
+        let t861 = t120 * t850 - (t838 * t841 - (t401 * t843 - t860));
+        let t862 = t855 * t861 - (t856 * (t602 + t850) - t605 * t857);
+        let t863 = t137 * t862;
+        let t864 = t120 * (t402 * t844 - (t613 + t138 * t615)) - t138 * t852;
+        let t865 = t120 * t847 + (t838 * t840 - (t402 * t843 - t864));
+        let t866 = t855 * t865 + (t856 * (t609 - t847) - t612 * t857);
+        let t867 = t138 * t866;
+        // leg 6: remaining leg inertia less weight at the platform joint
+        let t868 = t858 - t165 * t854;
+        let t869 = t862 - t165 * t861;
+        let t870 = t866 - t165 * t865;
+        // leg 1: spring and damper force along the actuator
+        let t871 = parameters.axial_stiffness[0] * (parameters.rest_length[0] - t109);
+        let t872 = parameters.axial_damping[0] * t379;
+        // leg 2: spring and damper force along the actuator
+        let t873 = parameters.axial_stiffness[1] * (parameters.rest_length[1] - t111);
+        let t874 = parameters.axial_damping[1] * t380;
+        // leg 3: spring and damper force along the actuator
+        let t875 = parameters.axial_stiffness[2] * (parameters.rest_length[2] - t113);
+        let t876 = parameters.axial_damping[2] * t381;
+        // leg 4: spring and damper force along the actuator
+        let t877 = parameters.axial_stiffness[3] * (parameters.rest_length[3] - t115);
+        let t878 = parameters.axial_damping[3] * t382;
+        // leg 5: spring and damper force along the actuator
+        let t879 = parameters.axial_stiffness[4] * (parameters.rest_length[4] - t117);
+        let t880 = parameters.axial_damping[4] * t383;
+        // leg 6: spring and damper force along the actuator
+        let t881 = parameters.axial_stiffness[5] * (parameters.rest_length[5] - t119);
+        let t882 = parameters.axial_damping[5] * t384;
+        // leg 1: row of the actuator Jacobian in base coordinates
+        let t883 = t42 * t123 - t45 * t122;
+        let t884 = t45 * t121 - t39 * t123;
+        let t885 = t39 * t122 - t42 * t121;
+        // leg 2: row of the actuator Jacobian in base coordinates
+        let t886 = t54 * t126 - t57 * t125;
+        let t887 = t57 * t124 - t51 * t126;
+        let t888 = t51 * t125 - t54 * t124;
+        // leg 3: row of the actuator Jacobian in base coordinates
+        let t889 = t66 * t129 - t69 * t128;
+        let t890 = t69 * t127 - t63 * t129;
+        let t891 = t63 * t128 - t66 * t127;
+        // leg 4: row of the actuator Jacobian in base coordinates
+        let t892 = t78 * t132 - t81 * t131;
+        let t893 = t81 * t130 - t75 * t132;
+        let t894 = t75 * t131 - t78 * t130;
+        // leg 5: row of the actuator Jacobian in base coordinates
+        let t895 = t90 * t135 - t93 * t134;
+        let t896 = t93 * t133 - t87 * t135;
+        let t897 = t87 * t134 - t90 * t133;
+        // leg 6: row of the actuator Jacobian in base coordinates
+        let t898 = t102 * t138 - t105 * t137;
+        let t899 = t105 * t136 - t99 * t138;
+        let t900 = t99 * t137 - t102 * t136;
+        // inertia force less weight, without the actuators' own shares
+        let t901 = t172 * t440;
+        let t902 = t179 * t461;
+        let t903 = t186 * t462;
+        let t904 = t193 * t463;
+        let t905 = t172 * t442;
+        let t906 = t179 * t469;
+        let t907 = t186 * t470;
+        let t908 = t193 * t471;
+        let t909 = t172 * t444;
+        let t910 = t179 * t475;
+        let t911 = t186 * t476;
+        let t912 = t193 * t477;
+        (
+            t3,
+            t6,
+            t9,
+            t12,
+            t15,
+            t18,
+            t21,
+            t24,
+            t27,
+            t121,
+            t122,
+            t123,
+            t124,
+            t125,
+            t126,
+            t127,
+            t128,
+            t129,
+            t130,
+            t131,
+            t132,
+            t133,
+            t134,
+            t135,
+            t136,
+            t137,
+            t138,
+            t179,
+            t186,
+            t193,
+            t195,
+            t210,
+            t224,
+            t238,
+            t253,
+            t267,
+            t282,
+            t440,
+            t442,
+            t444,
+            t461,
+            t462,
+            t463,
+            t469,
+            t470,
+            t471,
+            t475,
+            t476,
+            t477,
+            t634,
+            t635,
+            t639,
+            t640,
+            t641,
+            t642,
+            t643,
+            t646,
+            t647,
+            t648,
+            t649,
+            t650,
+            t652,
+            t653,
+            t654,
+            t679,
+            t683,
+            t687,
+            t688,
+            t689,
+            t690,
+            t715,
+            t719,
+            t723,
+            t724,
+            t725,
+            t726,
+            t751,
+            t755,
+            t759,
+            t760,
+            t761,
+            t762,
+            t787,
+            t791,
+            t795,
+            t796,
+            t797,
+            t798,
+            t823,
+            t827,
+            t831,
+            t832,
+            t833,
+            t834,
+            t859,
+            t863,
+            t867,
+            t868,
+            t869,
+            t870,
+            t871,
+            t872,
+            t873,
+            t874,
+            t875,
+            t876,
+            t877,
+            t878,
+            t879,
+            t880,
+            t881,
+            t882,
+            t883,
+            t884,
+            t885,
+            t886,
+            t887,
+            t888,
+            t889,
+            t890,
+            t891,
+            t892,
+            t893,
+            t894,
+            t895,
+            t896,
+            t897,
+            t898,
+            t899,
+            t900,
+            t901,
+            t902,
+            t903,
+            t904,
+            t905,
+            t906,
+            t907,
+            t908,
+            t909,
+            t910,
+            t911,
+            t912,
+        )
+    };
+    {
+        // its first moments by platform coordinate
+        let t913 = t179 * t440;
+        let t914 = t210 * t461;
+        let t915 = t224 * t462;
+        let t916 = t238 * t463;
+        let t917 = parameters.platform_point[0][0] * t688;
+        let t918 = parameters.platform_point[1][0] * t724;
+        let t919 = parameters.platform_point[2][0] * t760;
+        let t920 = parameters.platform_point[3][0] * t796;
+        let t921 = parameters.platform_point[4][0] * t832;
+        let t922 = parameters.platform_point[5][0] * t868;
+        let t923 = t186 * t440;
+        let t924 = t224 * t461;
+        let t925 = t253 * t462;
+        let t926 = t267 * t463;
+        let t927 = parameters.platform_point[0][1] * t688;
+        let t928 = parameters.platform_point[1][1] * t724;
+        let t929 = parameters.platform_point[2][1] * t760;
+        let t930 = parameters.platform_point[3][1] * t796;
+        let t931 = parameters.platform_point[4][1] * t832;
+        let t932 = parameters.platform_point[5][1] * t868;
+        let t933 = t193 * t440;
+        let t934 = t238 * t461;
+        let t935 = t267 * t462;
+        let t936 = t282 * t463;
+        let t937 = parameters.platform_point[0][2] * t688;
+        let t938 = parameters.platform_point[1][2] * t724;
+        let t939 = parameters.platform_point[2][2] * t760;
+        let t940 = parameters.platform_point[3][2] * t796;
+        let t941 = parameters.platform_point[4][2] * t832;
+        let t942 = parameters.platform_point[5][2] * t868;
+        let t943 = t179 * t442;
+        let t944 = t210 * t469;
+        let t945 = t224 * t470;
+        let t946 = t238 * t471;
+        let t947 = parameters.platform_point[0][0] * t689;
+        let t948 = parameters.platform_point[1][0] * t725;
+        let t949 = parameters.platform_point[2][0] * t761;
+        let t950 = parameters.platform_point[3][0] * t797;
+        let t951 = parameters.platform_point[4][0] * t833;
+        let t952 = parameters.platform_point[5][0] * t869;
+        let t953 = t186 * t442;
+        let t954 = t224 * t469;
+        let t955 = t253 * t470;
+        let t956 = t267 * t471;
+        let t957 = parameters.platform_point[0][1] * t689;
+        let t958 = parameters.platform_point[1][1] * t725;
+        let t959 = parameters.platform_point[2][1] * t761;
+        let t960 = parameters.platform_point[3][1] * t797;
+        let t961 = parameters.platform_point[4][1] * t833;
+        let t962 = parameters.platform_point[5][1] * t869;
+        let t963 = t193 * t442;
+        let t964 = t238 * t469;
+        let t965 = t267 * t470;
+        let t966 = t282 * t471;
+        let t967 = parameters.platform_point[0][2] * t689;
+        let t968 = parameters.platform_point[1][2] * t725;
+        let t969 = parameters.platform_point[2][2] * t761;
+        let t970 = parameters.platform_point[3][2] * t797;
+        let t971 = parameters.platform_point[4][2] * t833;
+        let t972 = parameters.platform_point[5][2] * t869;
+        let t973 = t179 * t444;
+        let t974 = t210 * t475;
+        let t975 = t224 * t476;
+        let t976 = t238 * t477;
+        let t977 = parameters.platform_point[0][0] * t690;
+        let t978 = parameters.platform_point[1][0] * t726;
+        let t979 = parameters.platform_point[2][0] * t762;
+        let t980 = parameters.platform_point[3][0] * t798;
+        let t981 = parameters.platform_point[4][0] * t834;
+        let t982 = parameters.platform_point[5][0] * t870;
+        let t983 = t186 * t444;
+        let t984 = t224 * t475;
+        let t985 = t253 * t476;
+        let t986 = t267 * t477;
+        let t987 = parameters.platform_point[0][1] * t690;
+        let t988 = parameters.platform_point[1][1] * t726;
+        let t989 = parameters.platform_point[2][1] * t762;
+        let t990 = parameters.platform_point[3][1] * t798;
+        let t991 = parameters.platform_point[4][1] * t834;
+        let t992 = parameters.platform_point[5][1] * t870;
+        let t993 = t193 * t444;
+        let t994 = t238 * t475;
+        let t995 = t267 * t476;
+        let t996 = t282 * t477;
+        let t997 = parameters.platform_point[0][2] * t690;
+        let t998 = parameters.platform_point[1][2] * t726;
+        let t999 = parameters.platform_point[2][2] * t762;
+        let t1000 = parameters.platform_point[3][2] * t798;
+        let t1001 = parameters.platform_point[4][2] * t834;
+        let t1002 = parameters.platform_point[5][2] * t870;
+        // inertia less external wrench that the actuators must balance
+        let t1003 = t902 + (t901 - (t868 + (t832 + (t796 + (t760 + (t688 + t724))))));
+        let t1004 = t904 + (t903 + t1003) - t179 * t639 - t186 * t640;
+        let t1005 = base_rotation[1][0] * external_wrench[1];
+        let t1006 = base_rotation[0][0] * external_wrench[0] + t1005;
+        let t1007 = base_rotation[2][0] * external_wrench[2] + t1006;
+        let t1008 = t1004 - t193 * t641 - t1007;
+        let t1009 = t905 - (t869 + (t833 + (t797 + (t761 + (t689 + t725))))) - t906;
+        let t1010 = t1009 - t907 - t908 - t179 * t646 - t186 * t647;
+        let t1011 = base_rotation[1][1] * external_wrench[1];
+        let t1012 = base_rotation[0][1] * external_wrench[0] + t1011;
+        let t1013 = base_rotation[2][1] * external_wrench[2] + t1012;
+        let t1014 = t1010 - t193 * t648 - t1013;
+        let t1015 = t910 - (t909 + (t870 + (t834 + (t798 + (t762 + (t690 + t726))))));
+        let t1016 = t186 * t653 + (t179 * t652 - (t912 + (t911 + t1015)));
+        let t1017 = base_rotation[1][2] * external_wrench[1];
+        let t1018 = base_rotation[0][2] * external_wrench[0] + t1017;
+        let t1019 = base_rotation[2][2] * external_wrench[2] + t1018;
+        let t1020 = t193 * t654 + t1016 - t1019;
+        let t1021 = t970 + (t969 + (t968 + (t967 + (t966 + (t965 - (t963 - t964))))));
+        let t1022 = t267 * t647 + (t238 * t646 + (t972 + (t971 + t1021)));
+        let t1023 = parameters.payload_com[2] * t1013 + (t282 * t648 + t1022);
+        let t1024 = t1000 + (t999 + (t998 + (t997 - (t996 + (t995 - (t993 - t994))))));
+        let t1025 = t267 * t653 + (t238 * t652 + (t1002 + (t1001 + t1024)));
+        let t1026 = parameters.payload_com[2] * t1019 - (t282 * t654 + t1025);
+        let t1027 = t960 + (t959 + (t958 + (t957 + (t956 + (t955 - (t953 - t954))))));
+        let t1028 = t253 * t647 + (t224 * t646 + (t962 + (t961 + t1027)));
+        let t1029 = parameters.payload_com[1] * t1013 + (t267 * t648 + t1028);
+        let t1030 = t990 + (t989 + (t988 + (t987 - (t986 + (t985 - (t983 - t984))))));
+        let t1031 = t253 * t653 + (t224 * t652 + (t992 + (t991 + t1030)));
+        let t1032 = parameters.payload_com[1] * t1019 - (t267 * t654 + t1031);
+        let t1033 = t980 + (t979 + (t978 + (t977 - (t976 + (t975 - (t973 - t974))))));
+        let t1034 = t224 * t653 + (t210 * t652 + (t982 + (t981 + t1033)));
+        let t1035 = parameters.payload_com[0] * t1019 - (t238 * t654 + t1034);
+        let t1036 = t950 + (t949 + (t948 + (t947 + (t946 + (t945 - (t943 - t944))))));
+        let t1037 = t224 * t647 + (t210 * t646 + (t952 + (t951 + t1036)));
+        let t1038 = parameters.payload_com[0] * t1013 + (t238 * t648 + t1037);
+        let t1039 = t24 * t1029 - (t15 * t1032 + (t12 * t1035 - t21 * t1038));
+        let t1040 = t27 * t1023 - (t18 * t1026 - t1039) - t195 * (t643 - t650);
+        let t1041 = t1040 - base_rotation[0][0] * external_wrench[3];
+        let t1042 = t1041 - base_rotation[1][0] * external_wrench[4];
+        let t1043 = t1042 - base_rotation[2][0] * external_wrench[5];
+        let t1044 = t940 + (t939 + (t938 + (t937 - (t936 + (t935 + (t933 + t934))))));
+        let t1045 = t267 * t640 + (t238 * t639 + (t942 + (t941 + t1044)));
+        let t1046 = parameters.payload_com[2] * t1007 + (t282 * t641 + t1045);
+        let t1047 = t930 + (t929 + (t928 + (t927 - (t926 + (t925 + (t923 + t924))))));
+        let t1048 = t253 * t640 + (t224 * t639 + (t932 + (t931 + t1047)));
+        let t1049 = parameters.payload_com[1] * t1007 + (t267 * t641 + t1048);
+        let t1050 = t920 + (t919 + (t918 + (t917 - (t916 + (t915 + (t913 + t914))))));
+        let t1051 = t224 * t640 + (t210 * t639 + (t922 + (t921 + t1050)));
+        let t1052 = parameters.payload_com[0] * t1007 + (t238 * t641 + t1051);
+        let t1053 = t6 * t1032 - (t24 * t1049 + (t21 * t1052 - t3 * t1035));
+        let t1054 = t195 * (t635 - t649) + (t9 * t1026 - (t27 * t1046 - t1053));
+        let t1055 = t1054 - base_rotation[0][1] * external_wrench[3];
+        let t1056 = t1055 - base_rotation[1][1] * external_wrench[4];
+        let t1057 = t1056 - base_rotation[2][1] * external_wrench[5];
+        let t1058 = t15 * t1049 - (t6 * t1029 + (t3 * t1038 - t12 * t1052));
+        let t1059 = t18 * t1046 - (t9 * t1023 - t1058) - t195 * (t634 - t642);
+        let t1060 = t1059 - base_rotation[0][2] * external_wrench[3];
+        let t1061 = t1060 - base_rotation[1][2] * external_wrench[4];
+        let t1062 = t1061 - base_rotation[2][2] * external_wrench[5];
+        // force along the actuator that balances the remaining wrench
+        let axial_reaction = solve_general(
+            &[
+                [t121, t124, t127, t130, t133, t136],
+                [t122, t125, t128, t131, t134, t137],
+                [t123, t126, t129, t132, t135, t138],
+                [t883, t886, t889, t892, t895, t898],
+                [t884, t887, t890, t893, t896, t899],
+                [t885, t888, t891, t894, t897, t900],
+            ],
+            &[t1008, t1014, t1020, t1043, t1057, t1062],
+        );
+        // leg 1: actuator forces F at reference speeds
+        passive_inverse_dynamics[0] = axial_reaction[0]
+            - (t872 + (t871 + (t687 - (t679 + t683))));
+        // leg 2: actuator forces F at reference speeds
+        passive_inverse_dynamics[1] = axial_reaction[1]
+            - (t874 + (t873 + (t723 - (t715 + t719))));
+        // leg 3: actuator forces F at reference speeds
+        passive_inverse_dynamics[2] = axial_reaction[2]
+            - (t876 + (t875 + (t759 - (t751 + t755))));
+        // leg 4: actuator forces F at reference speeds
+        passive_inverse_dynamics[3] = axial_reaction[3]
+            - (t878 + (t877 + (t795 - (t787 + t791))));
+        // leg 5: actuator forces F at reference speeds
+        passive_inverse_dynamics[4] = axial_reaction[4]
+            - (t880 + (t879 + (t831 - (t823 + t827))));
+        // leg 6: actuator forces F at reference speeds
+        passive_inverse_dynamics[5] = axial_reaction[5]
+            - (t882 + (t881 + (t867 - (t859 + t863))));
+    }
+}
+
+/// Wrench of the base on the mechanism.
+///
+/// Inputs:
+///
+/// - `base_position`: 3, m, frame O: origin of the base frame.
+/// - `base_rotation`: 3x3, dimensionless, frame B -> O: rotation of the base, equation (2).
+/// - `base_velocity`: 6, m/s, rad/s, frame O: base velocity \[r_b'; w_b\], w_b the angular velocity.
+/// - `base_acceleration`: 6, m/s^2, rad/s^2, frame O: base acceleration \[r_b''; w_b'\].
+/// - `platform_position`: 3, m, frame O: centre of the platform's joint circle.
+/// - `platform_rotation`: 3x3, dimensionless, frame P -> O: rotation of the platform, equation (2).
+/// - `platform_velocity`: 6, m/s, rad/s, frame O: platform velocity \[r_p'; w_p\], the generalised speeds.
+/// - `platform_acceleration`: 6, m/s^2, rad/s^2, frame O: platform acceleration \[r_p''; w_p'\].
+/// - `external_wrench`: 6, N, N m, frame O: external force and moment \[F_D; M_D\] at the payload's centre of mass.
+///
+/// Outputs:
+///
+/// - `base_wrench`: 6, N, N m, frame O: wrench of the base on the mechanism, moments about the base origin.
+#[allow(clippy::all, clippy::pedantic, unused_variables)]
+pub fn base_reaction<T: Scalar>(
+    parameters: &Parameters<T>,
+    base_position: &[T; 3],
+    base_rotation: &[[T; 3]; 3],
+    base_velocity: &[T; 6],
+    base_acceleration: &[T; 6],
+    platform_position: &[T; 3],
+    platform_rotation: &[[T; 3]; 3],
+    platform_velocity: &[T; 6],
+    platform_acceleration: &[T; 6],
+    external_wrench: &[T; 6],
+    base_wrench: &mut [T; 6],
+) {
+    let c = T::constant;
+    // rotation of the platform seen from the base
+    let t1 = base_rotation[1][0] * platform_rotation[1][0];
+    let t2 = base_rotation[0][0] * platform_rotation[0][0] + t1;
+    let t3 = t2 + base_rotation[2][0] * platform_rotation[2][0];
+    let t4 = base_rotation[1][0] * platform_rotation[1][1];
+    let t5 = base_rotation[0][0] * platform_rotation[0][1] + t4;
+    let t6 = t5 + base_rotation[2][0] * platform_rotation[2][1];
+    let t7 = base_rotation[1][0] * platform_rotation[1][2];
+    let t8 = base_rotation[0][0] * platform_rotation[0][2] + t7;
+    let t9 = t8 + base_rotation[2][0] * platform_rotation[2][2];
+    let t10 = base_rotation[1][1] * platform_rotation[1][0];
+    let t11 = base_rotation[0][1] * platform_rotation[0][0] + t10;
+    let t12 = t11 + base_rotation[2][1] * platform_rotation[2][0];
+    let t13 = base_rotation[1][1] * platform_rotation[1][1];
+    let t14 = base_rotation[0][1] * platform_rotation[0][1] + t13;
+    let t15 = t14 + base_rotation[2][1] * platform_rotation[2][1];
+    let t16 = base_rotation[1][1] * platform_rotation[1][2];
+    let t17 = base_rotation[0][1] * platform_rotation[0][2] + t16;
+    let t18 = t17 + base_rotation[2][1] * platform_rotation[2][2];
+    let t19 = base_rotation[1][2] * platform_rotation[1][0];
+    let t20 = base_rotation[0][2] * platform_rotation[0][0] + t19;
+    let t21 = t20 + base_rotation[2][2] * platform_rotation[2][0];
+    let t22 = base_rotation[1][2] * platform_rotation[1][1];
+    let t23 = base_rotation[0][2] * platform_rotation[0][1] + t22;
+    let t24 = t23 + base_rotation[2][2] * platform_rotation[2][1];
+    let t25 = base_rotation[1][2] * platform_rotation[1][2];
+    let t26 = base_rotation[0][2] * platform_rotation[0][2] + t25;
+    let t27 = t26 + base_rotation[2][2] * platform_rotation[2][2];
+    // platform origin seen from the base
+    let t28 = base_position[0] - platform_position[0];
+    let t29 = base_position[1] - platform_position[1];
+    let t30 = base_rotation[0][0] * t28 + base_rotation[1][0] * t29;
+    let t31 = base_position[2] - platform_position[2];
+    let t32 = t30 + base_rotation[2][0] * t31;
+    let t33 = base_rotation[0][1] * t28 + base_rotation[1][1] * t29;
+    let t34 = t33 + base_rotation[2][1] * t31;
+    let t35 = base_rotation[0][2] * t28 + base_rotation[1][2] * t29;
+    let t36 = t35 + base_rotation[2][2] * t31;
+    // leg 1: platform joint from the platform origin
+    let t37 = parameters.platform_point[0][1] * t6;
+    let t38 = parameters.platform_point[0][0] * t3 + t37;
+    let t39 = t38 + parameters.platform_point[0][2] * t9;
+    let t40 = parameters.platform_point[0][1] * t15;
+    let t41 = parameters.platform_point[0][0] * t12 + t40;
+    let t42 = t41 + parameters.platform_point[0][2] * t18;
+    let t43 = parameters.platform_point[0][1] * t24;
+    let t44 = parameters.platform_point[0][0] * t21 + t43;
+    let t45 = t44 + parameters.platform_point[0][2] * t27;
+    // leg 1: platform joint from the base point
+    let t46 = parameters.base_point[0][0] + (t32 - t39);
+    let t47 = parameters.base_point[0][1] + (t34 - t42);
+    let t48 = parameters.base_point[0][2] + (t36 - t45);
+    // leg 2: platform joint from the platform origin
+    let t49 = parameters.platform_point[1][1] * t6;
+    let t50 = parameters.platform_point[1][0] * t3 + t49;
+    let t51 = t50 + parameters.platform_point[1][2] * t9;
+    let t52 = parameters.platform_point[1][1] * t15;
+    let t53 = parameters.platform_point[1][0] * t12 + t52;
+    let t54 = t53 + parameters.platform_point[1][2] * t18;
+    let t55 = parameters.platform_point[1][1] * t24;
+    let t56 = parameters.platform_point[1][0] * t21 + t55;
+    let t57 = t56 + parameters.platform_point[1][2] * t27;
+    // leg 2: platform joint from the base point
+    let t58 = parameters.base_point[1][0] + (t32 - t51);
+    let t59 = parameters.base_point[1][1] + (t34 - t54);
+    let t60 = parameters.base_point[1][2] + (t36 - t57);
+    // leg 3: platform joint from the platform origin
+    let t61 = parameters.platform_point[2][1] * t6;
+    let t62 = parameters.platform_point[2][0] * t3 + t61;
+    let t63 = t62 + parameters.platform_point[2][2] * t9;
+    let t64 = parameters.platform_point[2][1] * t15;
+    let t65 = parameters.platform_point[2][0] * t12 + t64;
+    let t66 = t65 + parameters.platform_point[2][2] * t18;
+    let t67 = parameters.platform_point[2][1] * t24;
+    let t68 = parameters.platform_point[2][0] * t21 + t67;
+    let t69 = t68 + parameters.platform_point[2][2] * t27;
+    // leg 3: platform joint from the base point
+    let t70 = parameters.base_point[2][0] + (t32 - t63);
+    let t71 = parameters.base_point[2][1] + (t34 - t66);
+    let t72 = parameters.base_point[2][2] + (t36 - t69);
+    // leg 4: platform joint from the platform origin
+    let t73 = parameters.platform_point[3][1] * t6;
+    let t74 = parameters.platform_point[3][0] * t3 + t73;
+    let t75 = t74 + parameters.platform_point[3][2] * t9;
+    let t76 = parameters.platform_point[3][1] * t15;
+    let t77 = parameters.platform_point[3][0] * t12 + t76;
+    let t78 = t77 + parameters.platform_point[3][2] * t18;
+    let t79 = parameters.platform_point[3][1] * t24;
+    let t80 = parameters.platform_point[3][0] * t21 + t79;
+    let t81 = t80 + parameters.platform_point[3][2] * t27;
+    // leg 4: platform joint from the base point
+    let t82 = parameters.base_point[3][0] + (t32 - t75);
+    let t83 = parameters.base_point[3][1] + (t34 - t78);
+    let t84 = parameters.base_point[3][2] + (t36 - t81);
+    // leg 5: platform joint from the platform origin
+    let t85 = parameters.platform_point[4][1] * t6;
+    let t86 = parameters.platform_point[4][0] * t3 + t85;
+    let t87 = t86 + parameters.platform_point[4][2] * t9;
+    let t88 = parameters.platform_point[4][1] * t15;
+    let t89 = parameters.platform_point[4][0] * t12 + t88;
+    let t90 = t89 + parameters.platform_point[4][2] * t18;
+    let t91 = parameters.platform_point[4][1] * t24;
+    let t92 = parameters.platform_point[4][0] * t21 + t91;
+    let t93 = t92 + parameters.platform_point[4][2] * t27;
+    // leg 5: platform joint from the base point
+    let t94 = parameters.base_point[4][0] + (t32 - t87);
+    let t95 = parameters.base_point[4][1] + (t34 - t90);
+    let t96 = parameters.base_point[4][2] + (t36 - t93);
+    // leg 6: platform joint from the platform origin
+    let t97 = parameters.platform_point[5][1] * t6;
+    let t98 = parameters.platform_point[5][0] * t3 + t97;
+    let t99 = t98 + parameters.platform_point[5][2] * t9;
+    let t100 = parameters.platform_point[5][1] * t15;
+    let t101 = parameters.platform_point[5][0] * t12 + t100;
+    let t102 = t101 + parameters.platform_point[5][2] * t18;
+    let t103 = parameters.platform_point[5][1] * t24;
+    let t104 = parameters.platform_point[5][0] * t21 + t103;
+    let t105 = t104 + parameters.platform_point[5][2] * t27;
+    // leg 6: platform joint from the base point
+    let t106 = parameters.base_point[5][0] + (t32 - t99);
+    let t107 = parameters.base_point[5][1] + (t34 - t102);
+    let t108 = parameters.base_point[5][2] + (t36 - t105);
+    // leg 1: actuator length d
+    let t109 = sqrt(t46 * t46 + t47 * t47 + t48 * t48);
+    // leg 1: reciprocal of the actuator length
+    let t110 = c(1.0) / t109;
+    // leg 2: actuator length d
+    let t111 = sqrt(t58 * t58 + t59 * t59 + t60 * t60);
+    // leg 2: reciprocal of the actuator length
+    let t112 = c(1.0) / t111;
+    // leg 3: actuator length d
+    let t113 = sqrt(t70 * t70 + t71 * t71 + t72 * t72);
+    // leg 3: reciprocal of the actuator length
+    let t114 = c(1.0) / t113;
+    // leg 4: actuator length d
+    let t115 = sqrt(t82 * t82 + t83 * t83 + t84 * t84);
+    // leg 4: reciprocal of the actuator length
+    let t116 = c(1.0) / t115;
+    // leg 5: actuator length d
+    let t117 = sqrt(t94 * t94 + t95 * t95 + t96 * t96);
+    // leg 5: reciprocal of the actuator length
+    let t118 = c(1.0) / t117;
+    // leg 6: actuator length d
+    let t119 = sqrt(t106 * t106 + t107 * t107 + t108 * t108);
+    // leg 6: reciprocal of the actuator length
+    let t120 = c(1.0) / t119;
+    // leg 1: gradient of the actuator length by the platform joint
+    let t121 = t46 * t110;
+    let t122 = t47 * t110;
+    let t123 = t48 * t110;
+    // leg 2: gradient of the actuator length by the platform joint
+    let t124 = t58 * t112;
+    let t125 = t59 * t112;
+    let t126 = t60 * t112;
+    // leg 3: gradient of the actuator length by the platform joint
+    let t127 = t70 * t114;
+    let t128 = t71 * t114;
+    let t129 = t72 * t114;
+    // leg 4: gradient of the actuator length by the platform joint
+    let t130 = t82 * t116;
+    let t131 = t83 * t116;
+    let t132 = t84 * t116;
+    // leg 5: gradient of the actuator length by the platform joint
+    let t133 = t94 * t118;
+    let t134 = t95 * t118;
+    let t135 = t96 * t118;
+    // leg 6: gradient of the actuator length by the platform joint
+    let t136 = t106 * t120;
+    let t137 = t107 * t120;
+    let t138 = t108 * t120;
+    // leg 1: first moment of the lower part about the base joint
+    let t139 = parameters.lower_mass[0] * parameters.lower_com_distance[0];
+    // leg 1: first moment of the upper part about the platform joint
+    let t140 = parameters.upper_mass[0] * parameters.upper_com_distance[0];
+    // leg 1: inertia of both parts, each about its joint, that turns with the direction
+    let t141 = parameters.lower_inertia[0] + parameters.lower_com_distance[0] * t139;
+    let t142 = parameters.upper_com_distance[0] * t140;
+    let t143 = parameters.upper_inertia[0] + t141 + t142;
+    // leg 2: first moment of the lower part about the base joint
+    let t144 = parameters.lower_mass[1] * parameters.lower_com_distance[1];
+    // leg 2: first moment of the upper part about the platform joint
+    let t145 = parameters.upper_mass[1] * parameters.upper_com_distance[1];
+    // leg 2: inertia of both parts, each about its joint, that turns with the direction
+    let t146 = parameters.lower_inertia[1] + parameters.lower_com_distance[1] * t144;
+    let t147 = parameters.upper_com_distance[1] * t145;
+    let t148 = parameters.upper_inertia[1] + t146 + t147;
+    // leg 3: first moment of the lower part about the base joint
+    let t149 = parameters.lower_mass[2] * parameters.lower_com_distance[2];
+    // leg 3: first moment of the upper part about the platform joint
+    let t150 = parameters.upper_mass[2] * parameters.upper_com_distance[2];
+    // leg 3: inertia of both parts, each about its joint, that turns with the direction
+    let t151 = parameters.lower_inertia[2] + parameters.lower_com_distance[2] * t149;
+    let t152 = parameters.upper_com_distance[2] * t150;
+    let t153 = parameters.upper_inertia[2] + t151 + t152;
+    // leg 4: first moment of the lower part about the base joint
+    let t154 = parameters.lower_mass[3] * parameters.lower_com_distance[3];
+    // leg 4: first moment of the upper part about the platform joint
+    let t155 = parameters.upper_mass[3] * parameters.upper_com_distance[3];
+    // leg 4: inertia of both parts, each about its joint, that turns with the direction
+    let t156 = parameters.lower_inertia[3] + parameters.lower_com_distance[3] * t154;
+    let t157 = parameters.upper_com_distance[3] * t155;
+    let t158 = parameters.upper_inertia[3] + t156 + t157;
+    // leg 5: first moment of the lower part about the base joint
+    let t159 = parameters.lower_mass[4] * parameters.lower_com_distance[4];
+    // leg 5: first moment of the upper part about the platform joint
+    let t160 = parameters.upper_mass[4] * parameters.upper_com_distance[4];
+    // leg 5: inertia of both parts, each about its joint, that turns with the direction
+    let t161 = parameters.lower_inertia[4] + parameters.lower_com_distance[4] * t159;
+    let t162 = parameters.upper_com_distance[4] * t160;
+    let t163 = parameters.upper_inertia[4] + t161 + t162;
+    // leg 6: first moment of the lower part about the base joint
+    let t164 = parameters.lower_mass[5] * parameters.lower_com_distance[5];
+    // leg 6: first moment of the upper part about the platform joint
+    let t165 = parameters.upper_mass[5] * parameters.upper_com_distance[5];
+    // leg 6: inertia of both parts, each about its joint, that turns with the direction
+    let t166 = parameters.lower_inertia[5] + parameters.lower_com_distance[5] * t164;
+    let t167 = parameters.upper_com_distance[5] * t165;
+    let t168 = parameters.upper_inertia[5] + t166 + t167;
+    // mass of payload and platform-side leg ends
+    let t169 = parameters.upper_mass[0] + parameters.payload_mass;
+    let t170 = parameters.upper_mass[2] + (parameters.upper_mass[1] + t169);
+    let t171 = parameters.upper_mass[4] + (parameters.upper_mass[3] + t170);
+    let t172 = parameters.upper_mass[5] + t171;
+    // first moment of payload and platform-side leg ends
+    let t173 = parameters.platform_point[0][0] * parameters.upper_mass[0];
+    let t174 = parameters.payload_mass * parameters.payload_com[0] + t173;
+    let t175 = t174 + parameters.platform_point[1][0] * parameters.upper_mass[1];
+    let t176 = t175 + parameters.platform_point[2][0] * parameters.upper_mass[2];
+    let t177 = t176 + parameters.platform_point[3][0] * parameters.upper_mass[3];
+    let t178 = t177 + parameters.platform_point[4][0] * parameters.upper_mass[4];
+    let t179 = t178 + parameters.platform_point[5][0] * parameters.upper_mass[5];
+    let t180 = parameters.platform_point[0][1] * parameters.upper_mass[0];
+    let t181 = parameters.payload_mass * parameters.payload_com[1] + t180;
+    let t182 = t181 + parameters.platform_point[1][1] * parameters.upper_mass[1];
+    let t183 = t182 + parameters.platform_point[2][1] * parameters.upper_mass[2];
+    let t184 = t183 + parameters.platform_point[3][1] * parameters.upper_mass[3];
+    let t185 = t184 + parameters.platform_point[4][1] * parameters.upper_mass[4];
+    let t186 = t185 + parameters.platform_point[5][1] * parameters.upper_mass[5];
+    let t187 = parameters.platform_point[0][2] * parameters.upper_mass[0];
+    let t188 = parameters.payload_mass * parameters.payload_com[2] + t187;
+    let t189 = t188 + parameters.platform_point[1][2] * parameters.upper_mass[1];
+    let t190 = t189 + parameters.platform_point[2][2] * parameters.upper_mass[2];
+    let t191 = t190 + parameters.platform_point[3][2] * parameters.upper_mass[3];
+    let t192 = t191 + parameters.platform_point[4][2] * parameters.upper_mass[4];
+    let t193 = t192 + parameters.platform_point[5][2] * parameters.upper_mass[5];
+    // second moment of payload and platform-side leg ends
+    let t194 = parameters.payload_inertia[0][0] + parameters.payload_inertia[1][1];
+    let t195 = (parameters.payload_inertia[2][2] + t194) * c(0.5);
+    let t196 = parameters.payload_inertia[0][0] - t195;
+    let t197 = parameters.payload_com[0] * parameters.payload_com[0];
+    let t198 = t196 - parameters.payload_mass * t197;
+    let t199 = parameters.platform_point[0][0] * parameters.platform_point[0][0];
+    let t200 = t198 - parameters.upper_mass[0] * t199;
+    let t201 = parameters.platform_point[1][0] * parameters.platform_point[1][0];
+    let t202 = t200 - parameters.upper_mass[1] * t201;
+    let t203 = parameters.platform_point[2][0] * parameters.platform_point[2][0];
+    let t204 = t202 - parameters.upper_mass[2] * t203;
+    let t205 = parameters.platform_point[3][0] * parameters.platform_point[3][0];
+    let t206 = t204 - parameters.upper_mass[3] * t205;
+    let t207 = parameters.platform_point[4][0] * parameters.platform_point[4][0];
+    let t208 = t206 - parameters.upper_mass[4] * t207;
+    let t209 = parameters.platform_point[5][0] * parameters.platform_point[5][0];
+    let t210 = t208 - parameters.upper_mass[5] * t209;
+    let t211 = parameters.payload_com[0] * parameters.payload_com[1];
+    let t212 = parameters.payload_inertia[0][1] - parameters.payload_mass * t211;
+    let t213 = parameters.platform_point[0][0] * parameters.platform_point[0][1];
+    let t214 = t212 - parameters.upper_mass[0] * t213;
+    let t215 = parameters.platform_point[1][0] * parameters.platform_point[1][1];
+    let t216 = t214 - parameters.upper_mass[1] * t215;
+    let t217 = parameters.platform_point[2][0] * parameters.platform_point[2][1];
+    let t218 = t216 - parameters.upper_mass[2] * t217;
+    let t219 = parameters.platform_point[3][0] * parameters.platform_point[3][1];
+    let t220 = t218 - parameters.upper_mass[3] * t219;
+    let t221 = parameters.platform_point[4][0] * parameters.platform_point[4][1];
+    let t222 = t220 - parameters.upper_mass[4] * t221;
+    let t223 = parameters.platform_point[5][0] * parameters.platform_point[5][1];
+    let t224 = t222 - parameters.upper_mass[5] * t223;
+    let t225 = parameters.payload_com[0] * parameters.payload_com[2];
+    let t226 = parameters.payload_inertia[0][2] - parameters.payload_mass * t225;
+    let t227 = parameters.platform_point[0][0] * parameters.platform_point[0][2];
+    let t228 = t226 - parameters.upper_mass[0] * t227;
+    let t229 = parameters.platform_point[1][0] * parameters.platform_point[1][2];
+    let t230 = t228 - parameters.upper_mass[1] * t229;
+    let t231 = parameters.platform_point[2][0] * parameters.platform_point[2][2];
+    let t232 = t230 - parameters.upper_mass[2] * t231;
+    let t233 = parameters.platform_point[3][0] * parameters.platform_point[3][2];
+    let t234 = t232 - parameters.upper_mass[3] * t233;
+    let t235 = parameters.platform_point[4][0] * parameters.platform_point[4][2];
+    let t236 = t234 - parameters.upper_mass[4] * t235;
+    let t237 = parameters.platform_point[5][0] * parameters.platform_point[5][2];
+    let t238 = t236 - parameters.upper_mass[5] * t237;
+    let t239 = parameters.payload_inertia[1][1] - t195;
+    let t240 = parameters.payload_com[1] * parameters.payload_com[1];
+    let t241 = t239 - parameters.payload_mass * t240;
+    let t242 = parameters.platform_point[0][1] * parameters.platform_point[0][1];
+    let t243 = t241 - parameters.upper_mass[0] * t242;
+    let t244 = parameters.platform_point[1][1] * parameters.platform_point[1][1];
+    let t245 = t243 - parameters.upper_mass[1] * t244;
+    let t246 = parameters.platform_point[2][1] * parameters.platform_point[2][1];
+    let t247 = t245 - parameters.upper_mass[2] * t246;
+    let t248 = parameters.platform_point[3][1] * parameters.platform_point[3][1];
+    let t249 = t247 - parameters.upper_mass[3] * t248;
+    let t250 = parameters.platform_point[4][1] * parameters.platform_point[4][1];
+    let t251 = t249 - parameters.upper_mass[4] * t250;
+    let t252 = parameters.platform_point[5][1] * parameters.platform_point[5][1];
+    let t253 = t251 - parameters.upper_mass[5] * t252;
+    let t254 = parameters.payload_com[1] * parameters.payload_com[2];
+    let t255 = parameters.payload_inertia[1][2] - parameters.payload_mass * t254;
+    let t256 = parameters.platform_point[0][1] * parameters.platform_point[0][2];
+    let t257 = t255 - parameters.upper_mass[0] * t256;
+    let t258 = parameters.platform_point[1][1] * parameters.platform_point[1][2];
+    let t259 = t257 - parameters.upper_mass[1] * t258;
+    let t260 = parameters.platform_point[2][1] * parameters.platform_point[2][2];
+    let t261 = t259 - parameters.upper_mass[2] * t260;
+    let t262 = parameters.platform_point[3][1] * parameters.platform_point[3][2];
+    let t263 = t261 - parameters.upper_mass[3] * t262;
+    let t264 = parameters.platform_point[4][1] * parameters.platform_point[4][2];
+    let t265 = t263 - parameters.upper_mass[4] * t264;
+    let t266 = parameters.platform_point[5][1] * parameters.platform_point[5][2];
+    let t267 = t265 - parameters.upper_mass[5] * t266;
+    let t268 = parameters.payload_inertia[2][2] - t195;
+    let t269 = parameters.payload_com[2] * parameters.payload_com[2];
+    let t270 = t268 - parameters.payload_mass * t269;
+    let t271 = parameters.platform_point[0][2] * parameters.platform_point[0][2];
+    let t272 = t270 - parameters.upper_mass[0] * t271;
+    let t273 = parameters.platform_point[1][2] * parameters.platform_point[1][2];
+    let t274 = t272 - parameters.upper_mass[1] * t273;
+    let t275 = parameters.platform_point[2][2] * parameters.platform_point[2][2];
+    let t276 = t274 - parameters.upper_mass[2] * t275;
+    let t277 = parameters.platform_point[3][2] * parameters.platform_point[3][2];
+    let t278 = t276 - parameters.upper_mass[3] * t277;
+    let t279 = parameters.platform_point[4][2] * parameters.platform_point[4][2];
+    let t280 = t278 - parameters.upper_mass[4] * t279;
+    let t281 = parameters.platform_point[5][2] * parameters.platform_point[5][2];
+    let t282 = t280 - parameters.upper_mass[5] * t281;
+    // angular velocity of the base
+    let t283 = base_rotation[1][0] * base_velocity[4];
+    let t284 = base_rotation[0][0] * base_velocity[3] + t283;
+    let t285 = t284 + base_rotation[2][0] * base_velocity[5];
+    let t286 = base_rotation[1][1] * base_velocity[4];
+    let t287 = base_rotation[0][1] * base_velocity[3] + t286;
+    let t288 = t287 + base_rotation[2][1] * base_velocity[5];
+    let t289 = base_rotation[1][2] * base_velocity[4];
+    let t290 = base_rotation[0][2] * base_velocity[3] + t289;
+    let t291 = t290 + base_rotation[2][2] * base_velocity[5];
+    // angular velocity of the platform
+    let t292 = base_rotation[1][0] * platform_velocity[4];
+    let t293 = base_rotation[0][0] * platform_velocity[3] + t292;
+    let t294 = t293 + base_rotation[2][0] * platform_velocity[5];
+    let t295 = base_rotation[1][1] * platform_velocity[4];
+    let t296 = base_rotation[0][1] * platform_velocity[3] + t295;
+    let t297 = t296 + base_rotation[2][1] * platform_velocity[5];
+    let t298 = base_rotation[1][2] * platform_velocity[4];
+    let t299 = base_rotation[0][2] * platform_velocity[3] + t298;
+    let t300 = t299 + base_rotation[2][2] * platform_velocity[5];
+    // angular velocity of the platform relative to the base
+    let t301 = t285 - t294;
+    let t302 = t288 - t297;
+    let t303 = t291 - t300;
+    // velocity of the platform origin relative to the base
+    let t304 = base_velocity[0] - platform_velocity[0];
+    let t305 = base_velocity[1] - platform_velocity[1];
+    let t306 = base_rotation[0][0] * t304 + base_rotation[1][0] * t305;
+    let t307 = base_velocity[2] - platform_velocity[2];
+    let t308 = t306 + base_rotation[2][0] * t307;
+    let t309 = t308 - (t36 * t288 - t34 * t291);
+    let t310 = base_rotation[0][1] * t304 + base_rotation[1][1] * t305;
+    let t311 = t310 + base_rotation[2][1] * t307;
+    let t312 = t311 - (t32 * t291 - t36 * t285);
+    let t313 = base_rotation[0][2] * t304 + base_rotation[1][2] * t305;
+    let t314 = t313 + base_rotation[2][2] * t307;
+    let t315 = t314 - (t34 * t285 - t32 * t288);
+    // rate of the relative rotation
+    let t316 = t21 * t302 - t12 * t303;
+    let t317 = t24 * t302 - t15 * t303;
+    let t318 = t27 * t302 - t18 * t303;
+    let t319 = t3 * t303 - t21 * t301;
+    let t320 = t6 * t303 - t24 * t301;
+    let t321 = t9 * t303 - t27 * t301;
+    let t322 = t12 * t301 - t3 * t302;
+    let t323 = t15 * t301 - t6 * t302;
+    let t324 = t18 * t301 - t9 * t302;
+    // leg 1: velocity of the platform joint relative to the base
+    let t325 = parameters.platform_point[0][1] * t317;
+    let t326 = parameters.platform_point[0][0] * t316 + t325;
+    let t327 = t309 + (t326 + parameters.platform_point[0][2] * t318);
+    let t328 = parameters.platform_point[0][1] * t320;
+    let t329 = parameters.platform_point[0][0] * t319 + t328;
+    let t330 = t312 + (t329 + parameters.platform_point[0][2] * t321);
+    let t331 = parameters.platform_point[0][1] * t323;
+    let t332 = parameters.platform_point[0][0] * t322 + t331;
+    let t333 = t315 + (t332 + parameters.platform_point[0][2] * t324);
+    // leg 2: velocity of the platform joint relative to the base
+    let t334 = parameters.platform_point[1][1] * t317;
+    let t335 = parameters.platform_point[1][0] * t316 + t334;
+    let t336 = t309 + (t335 + parameters.platform_point[1][2] * t318);
+    let t337 = parameters.platform_point[1][1] * t320;
+    let t338 = parameters.platform_point[1][0] * t319 + t337;
+    let t339 = t312 + (t338 + parameters.platform_point[1][2] * t321);
+    let t340 = parameters.platform_point[1][1] * t323;
+    let t341 = parameters.platform_point[1][0] * t322 + t340;
+    let t342 = t315 + (t341 + parameters.platform_point[1][2] * t324);
+    // leg 3: velocity of the platform joint relative to the base
+    let t343 = parameters.platform_point[2][1] * t317;
+    let t344 = parameters.platform_point[2][0] * t316 + t343;
+    let t345 = t309 + (t344 + parameters.platform_point[2][2] * t318);
+    let t346 = parameters.platform_point[2][1] * t320;
+    let t347 = parameters.platform_point[2][0] * t319 + t346;
+    let t348 = t312 + (t347 + parameters.platform_point[2][2] * t321);
+    let t349 = parameters.platform_point[2][1] * t323;
+    let t350 = parameters.platform_point[2][0] * t322 + t349;
+    let t351 = t315 + (t350 + parameters.platform_point[2][2] * t324);
+    // leg 4: velocity of the platform joint relative to the base
+    let t352 = parameters.platform_point[3][1] * t317;
+    let t353 = parameters.platform_point[3][0] * t316 + t352;
+    let t354 = t309 + (t353 + parameters.platform_point[3][2] * t318);
+    let t355 = parameters.platform_point[3][1] * t320;
+    let t356 = parameters.platform_point[3][0] * t319 + t355;
+    let t357 = t312 + (t356 + parameters.platform_point[3][2] * t321);
+    let t358 = parameters.platform_point[3][1] * t323;
+    let t359 = parameters.platform_point[3][0] * t322 + t358;
+    let t360 = t315 + (t359 + parameters.platform_point[3][2] * t324);
+    // leg 5: velocity of the platform joint relative to the base
+    let t361 = parameters.platform_point[4][1] * t317;
+    let t362 = parameters.platform_point[4][0] * t316 + t361;
+    let t363 = t309 + (t362 + parameters.platform_point[4][2] * t318);
+    let t364 = parameters.platform_point[4][1] * t320;
+    let t365 = parameters.platform_point[4][0] * t319 + t364;
+    let t366 = t312 + (t365 + parameters.platform_point[4][2] * t321);
+    let t367 = parameters.platform_point[4][1] * t323;
+    let t368 = parameters.platform_point[4][0] * t322 + t367;
+    let t369 = t315 + (t368 + parameters.platform_point[4][2] * t324);
+    // leg 6: velocity of the platform joint relative to the base
+    let t370 = parameters.platform_point[5][1] * t317;
+    let t371 = parameters.platform_point[5][0] * t316 + t370;
+    let t372 = t309 + (t371 + parameters.platform_point[5][2] * t318);
+    let t373 = parameters.platform_point[5][1] * t320;
+    let t374 = parameters.platform_point[5][0] * t319 + t373;
+    let t375 = t312 + (t374 + parameters.platform_point[5][2] * t321);
+    let t376 = parameters.platform_point[5][1] * t323;
+    let t377 = parameters.platform_point[5][0] * t322 + t376;
+    let t378 = t315 + (t377 + parameters.platform_point[5][2] * t324);
+    // leg 1: actuator velocity d'
+    let t379 = t121 * t327 + t122 * t330 + t123 * t333;
+    // leg 2: actuator velocity d'
+    let t380 = t124 * t336 + t125 * t339 + t126 * t342;
+    // leg 3: actuator velocity d'
+    let t381 = t127 * t345 + t128 * t348 + t129 * t351;
+    // leg 4: actuator velocity d'
+    let t382 = t130 * t354 + t131 * t357 + t132 * t360;
+    // leg 5: actuator velocity d'
+    let t383 = t133 * t363 + t134 * t366 + t135 * t369;
+    // leg 6: actuator velocity d'
+    let t384 = t136 * t372 + t137 * t375 + t138 * t378;
+    // leg 1: inertial rate of that gradient
+    let t385 = t110 * (t327 + (t48 * t288 - t47 * t291) - t121 * t379);
+    let t386 = t110 * (t330 + (t46 * t291 - t48 * t285) - t122 * t379);
+    let t387 = t110 * (t333 + (t47 * t285 - t46 * t288) - t123 * t379);
+    // leg 2: inertial rate of that gradient
+    let t388 = t112 * (t336 + (t60 * t288 - t59 * t291) - t124 * t380);
+    let t389 = t112 * (t339 + (t58 * t291 - t60 * t285) - t125 * t380);
+    let t390 = t112 * (t342 + (t59 * t285 - t58 * t288) - t126 * t380);
+    // leg 3: inertial rate of that gradient
+    let t391 = t114 * (t345 + (t72 * t288 - t71 * t291) - t127 * t381);
+    let t392 = t114 * (t348 + (t70 * t291 - t72 * t285) - t128 * t381);
+    let t393 = t114 * (t351 + (t71 * t285 - t70 * t288) - t129 * t381);
+    // leg 4: inertial rate of that gradient
+    let t394 = t116 * (t354 + (t84 * t288 - t83 * t291) - t130 * t382);
+    let t395 = t116 * (t357 + (t82 * t291 - t84 * t285) - t131 * t382);
+    let t396 = t116 * (t360 + (t83 * t285 - t82 * t288) - t132 * t382);
+    // leg 5: inertial rate of that gradient
+    let t397 = t118 * (t363 + (t96 * t288 - t95 * t291) - t133 * t383);
+    let t398 = t118 * (t366 + (t94 * t291 - t96 * t285) - t134 * t383);
+    let t399 = t118 * (t369 + (t95 * t285 - t94 * t288) - t135 * t383);
+    // leg 6: inertial rate of that gradient
+    let t400 = t120 * (t372 + (t108 * t288 - t107 * t291) - t136 * t384);
+    let t401 = t120 * (t375 + (t106 * t291 - t108 * t285) - t137 * t384);
+    let t402 = t120 * (t378 + (t107 * t285 - t106 * t288) - t138 * t384);
+    // acceleration of the base origin less gravity
+    let t403 = base_acceleration[0] - parameters.gravity[0];
+    let t404 = base_acceleration[1] - parameters.gravity[1];
+    let t405 = base_rotation[0][0] * t403 + base_rotation[1][0] * t404;
+    let t406 = base_acceleration[2] - parameters.gravity[2];
+    let t407 = t405 + base_rotation[2][0] * t406;
+    let t408 = base_rotation[0][1] * t403 + base_rotation[1][1] * t404;
+    let t409 = t408 + base_rotation[2][1] * t406;
+    let t410 = base_rotation[0][2] * t403 + base_rotation[1][2] * t404;
+    let t411 = t410 + base_rotation[2][2] * t406;
+    // angular acceleration of the base
+    let t412 = base_rotation[1][0] * base_acceleration[4];
+    let t413 = base_rotation[0][0] * base_acceleration[3] + t412;
+    let t414 = t413 + base_rotation[2][0] * base_acceleration[5];
+    let t415 = base_rotation[1][1] * base_acceleration[4];
+    let t416 = base_rotation[0][1] * base_acceleration[3] + t415;
+    let t417 = t416 + base_rotation[2][1] * base_acceleration[5];
+    let t418 = base_rotation[1][2] * base_acceleration[4];
+    let t419 = base_rotation[0][2] * base_acceleration[3] + t418;
+    let t420 = t419 + base_rotation[2][2] * base_acceleration[5];
+    // acceleration per base coordinate of points that move with the base
+    let t421 = t288 * t288;
+    let t422 = t291 * t291;
+    let t423 = t421 + t422;
+    let t424 = t285 * t288;
+    let t425 = t420 - t424;
+    let t426 = t285 * t291;
+    let t427 = t417 + t426;
+    let t428 = t420 + t424;
+    let t429 = t285 * t285;
+    let t430 = t422 + t429;
+    let t431 = t288 * t291;
+    let t432 = t414 - t431;
+    let t433 = t417 - t426;
+    let t434 = t414 + t431;
+    let t435 = t421 + t429;
+    // acceleration of the platform origin less gravity
+    let t436 = platform_acceleration[0] - parameters.gravity[0];
+    let t437 = platform_acceleration[1] - parameters.gravity[1];
+    let t438 = base_rotation[0][0] * t436 + base_rotation[1][0] * t437;
+    let t439 = platform_acceleration[2] - parameters.gravity[2];
+    let t440 = t438 + base_rotation[2][0] * t439;
+    let t441 = base_rotation[0][1] * t436 + base_rotation[1][1] * t437;
+    let t442 = t441 + base_rotation[2][1] * t439;
+    let t443 = base_rotation[0][2] * t436 + base_rotation[1][2] * t437;
+    let t444 = t443 + base_rotation[2][2] * t439;
+    // angular acceleration of the platform
+    let t445 = base_rotation[1][0] * platform_acceleration[4];
+    let t446 = base_rotation[0][0] * platform_acceleration[3] + t445;
+    let t447 = t446 + base_rotation[2][0] * platform_acceleration[5];
+    let t448 = base_rotation[1][1] * platform_acceleration[4];
+    let t449 = base_rotation[0][1] * platform_acceleration[3] + t448;
+    let t450 = t449 + base_rotation[2][1] * platform_acceleration[5];
+    let t451 = base_rotation[1][2] * platform_acceleration[4];
+    let t452 = base_rotation[0][2] * platform_acceleration[3] + t451;
+    let t453 = t452 + base_rotation[2][2] * platform_acceleration[5];
+    // acceleration per platform coordinate of points of the platform
+    let t454 = t294 * t297;
+    let t455 = t453 - t454;
+    let t456 = t297 * t297;
+    let t457 = t300 * t300;
+    let t458 = t456 + t457;
+    let t459 = t294 * t300;
+    let t460 = t450 + t459;
+    let t461 = t12 * t455 + t3 * t458 - t21 * t460;
+    let t462 = t15 * t455 + t6 * t458 - t24 * t460;
+    let t463 = t18 * t455 + t9 * t458 - t27 * t460;
+    let t464 = t453 + t454;
+    let t465 = t294 * t294;
+    let t466 = t457 + t465;
+    let t467 = t297 * t300;
+    let t468 = t447 - t467;
+    let t469 = t3 * t464 - t12 * t466 - t21 * t468;
+    let t470 = t6 * t464 - t15 * t466 - t24 * t468;
+    let t471 = t9 * t464 - t18 * t466 - t27 * t468;
+    let t472 = t450 - t459;
+    let t473 = t447 + t467;
+    let t474 = t456 + t465;
+    let t475 = t3 * t472 - t12 * t473 + t21 * t474;
+    let t476 = t6 * t472 - t15 * t473 + t24 * t474;
+    let t477 = t9 * t472 - t18 * t473 + t27 * t474;
+    // leg 1: actuator acceleration d''
+    let t478 = parameters.platform_point[0][1] * t462;
+    let t479 = parameters.platform_point[0][0] * t461 + t478;
+    let t480 = t440 - (t479 + parameters.platform_point[0][2] * t463);
+    let t481 = parameters.base_point[0][1] * t425;
+    let t482 = parameters.base_point[0][0] * t423 + t481;
+    let t483 = t407 - (t482 - parameters.base_point[0][2] * t427);
+    let t484 = t480 - t483;
+    let t485 = parameters.platform_point[0][1] * t470;
+    let t486 = parameters.platform_point[0][0] * t469 + t485;
+    let t487 = t442 + (t486 + parameters.platform_point[0][2] * t471);
+    let t488 = parameters.base_point[0][1] * t430;
+    let t489 = parameters.base_point[0][0] * t428 - t488;
+    let t490 = t409 + (t489 - parameters.base_point[0][2] * t432);
+    let t491 = t487 - t490;
+    let t492 = parameters.platform_point[0][1] * t476;
+    let t493 = parameters.platform_point[0][0] * t475 + t492;
+    let t494 = t444 - (t493 + parameters.platform_point[0][2] * t477);
+    let t495 = parameters.base_point[0][1] * t434;
+    let t496 = parameters.base_point[0][0] * t433 - t495;
+    let t497 = t411 - (t496 + parameters.base_point[0][2] * t435);
+    let t498 = t494 - t497;
+    let t499 = t109 * (t385 * t385 + t386 * t386 + t387 * t387);
+    let t500 = t121 * t484 + t122 * t491 + t123 * t498 - t499;
+    // leg 2: actuator acceleration d''
+    let t501 = parameters.platform_point[1][1] * t462;
+    let t502 = parameters.platform_point[1][0] * t461 + t501;
+    let t503 = t440 - (t502 + parameters.platform_point[1][2] * t463);
+    let t504 = parameters.base_point[1][1] * t425;
+    let t505 = parameters.base_point[1][0] * t423 + t504;
+    let t506 = t407 - (t505 - parameters.base_point[1][2] * t427);
+    let t507 = t503 - t506;
+    let t508 = parameters.platform_point[1][1] * t470;
+    let t509 = parameters.platform_point[1][0] * t469 + t508;
+    let t510 = t442 + (t509 + parameters.platform_point[1][2] * t471);
+    let t511 = parameters.base_point[1][1] * t430;
+    let t512 = parameters.base_point[1][0] * t428 - t511;
+    let t513 = t409 + (t512 - parameters.base_point[1][2] * t432);
+    let t514 = t510 - t513;
+    let t515 = parameters.platform_point[1][1] * t476;
+    let t516 = parameters.platform_point[1][0] * t475 + t515;
+    let t517 = t444 - (t516 + parameters.platform_point[1][2] * t477);
+    let t518 = parameters.base_point[1][1] * t434;
+    let t519 = parameters.base_point[1][0] * t433 - t518;
+    let t520 = t411 - (t519 + parameters.base_point[1][2] * t435);
+    let t521 = t517 - t520;
+    let t522 = t111 * (t388 * t388 + t389 * t389 + t390 * t390);
+    let t523 = t124 * t507 + t125 * t514 + t126 * t521 - t522;
+    // leg 3: actuator acceleration d''
+    let t524 = parameters.platform_point[2][1] * t462;
+    let t525 = parameters.platform_point[2][0] * t461 + t524;
+    let t526 = t440 - (t525 + parameters.platform_point[2][2] * t463);
+    let t527 = parameters.base_point[2][1] * t425;
+    let t528 = parameters.base_point[2][0] * t423 + t527;
+    let t529 = t407 - (t528 - parameters.base_point[2][2] * t427);
+    let t530 = t526 - t529;
+    let t531 = parameters.platform_point[2][1] * t470;
+    let t532 = parameters.platform_point[2][0] * t469 + t531;
+    let t533 = t442 + (t532 + parameters.platform_point[2][2] * t471);
+    let t534 = parameters.base_point[2][1] * t430;
+    let t535 = parameters.base_point[2][0] * t428 - t534;
+    let t536 = t409 + (t535 - parameters.base_point[2][2] * t432);
+    let t537 = t533 - t536;
+    let t538 = parameters.platform_point[2][1] * t476;
+    let t539 = parameters.platform_point[2][0] * t475 + t538;
+    let t540 = t444 - (t539 + parameters.platform_point[2][2] * t477);
+    let t541 = parameters.base_point[2][1] * t434;
+    let t542 = parameters.base_point[2][0] * t433 - t541;
+    let t543 = t411 - (t542 + parameters.base_point[2][2] * t435);
+    let t544 = t540 - t543;
+    let t545 = t113 * (t391 * t391 + t392 * t392 + t393 * t393);
+    let t546 = t127 * t530 + t128 * t537 + t129 * t544 - t545;
+    // leg 4: actuator acceleration d''
+    let t547 = parameters.platform_point[3][1] * t462;
+    let t548 = parameters.platform_point[3][0] * t461 + t547;
+    let t549 = t440 - (t548 + parameters.platform_point[3][2] * t463);
+    let t550 = parameters.base_point[3][1] * t425;
+    let t551 = parameters.base_point[3][0] * t423 + t550;
+    let t552 = t407 - (t551 - parameters.base_point[3][2] * t427);
+    let t553 = t549 - t552;
+    let t554 = parameters.platform_point[3][1] * t470;
+    let t555 = parameters.platform_point[3][0] * t469 + t554;
+    let t556 = t442 + (t555 + parameters.platform_point[3][2] * t471);
+    let t557 = parameters.base_point[3][1] * t430;
+    let t558 = parameters.base_point[3][0] * t428 - t557;
+    let t559 = t409 + (t558 - parameters.base_point[3][2] * t432);
+    let t560 = t556 - t559;
+    let t561 = parameters.platform_point[3][1] * t476;
+    let t562 = parameters.platform_point[3][0] * t475 + t561;
+    let t563 = t444 - (t562 + parameters.platform_point[3][2] * t477);
+    let t564 = parameters.base_point[3][1] * t434;
+    let t565 = parameters.base_point[3][0] * t433 - t564;
+    let t566 = t411 - (t565 + parameters.base_point[3][2] * t435);
+    let t567 = t563 - t566;
+    let t568 = t115 * (t394 * t394 + t395 * t395 + t396 * t396);
+    let t569 = t130 * t553 + t131 * t560 + t132 * t567 - t568;
+    // leg 5: actuator acceleration d''
+    let t570 = parameters.platform_point[4][1] * t462;
+    let t571 = parameters.platform_point[4][0] * t461 + t570;
+    let t572 = t440 - (t571 + parameters.platform_point[4][2] * t463);
+    let t573 = parameters.base_point[4][1] * t425;
+    let t574 = parameters.base_point[4][0] * t423 + t573;
+    let t575 = t407 - (t574 - parameters.base_point[4][2] * t427);
+    let t576 = t572 - t575;
+    let t577 = parameters.platform_point[4][1] * t470;
+    let t578 = parameters.platform_point[4][0] * t469 + t577;
+    let t579 = t442 + (t578 + parameters.platform_point[4][2] * t471);
+    let t580 = parameters.base_point[4][1] * t430;
+    let t581 = parameters.base_point[4][0] * t428 - t580;
+    let t582 = t409 + (t581 - parameters.base_point[4][2] * t432);
+    let t583 = t579 - t582;
+    let t584 = parameters.platform_point[4][1] * t476;
+    let t585 = parameters.platform_point[4][0] * t475 + t584;
+    let t586 = t444 - (t585 + parameters.platform_point[4][2] * t477);
+    let t587 = parameters.base_point[4][1] * t434;
+    let t588 = parameters.base_point[4][0] * t433 - t587;
+    let t589 = t411 - (t588 + parameters.base_point[4][2] * t435);
+    let t590 = t586 - t589;
+    let t591 = t117 * (t397 * t397 + t398 * t398 + t399 * t399);
+    let t592 = t133 * t576 + t134 * t583 + t135 * t590 - t591;
+    // leg 6: actuator acceleration d''
+    let t593 = parameters.platform_point[5][1] * t462;
+    let t594 = parameters.platform_point[5][0] * t461 + t593;
+    let t595 = t440 - (t594 + parameters.platform_point[5][2] * t463);
+    let t596 = parameters.base_point[5][1] * t425;
+    let t597 = parameters.base_point[5][0] * t423 + t596;
+    let t598 = t407 - (t597 - parameters.base_point[5][2] * t427);
+    let t599 = t595 - t598;
+    let t600 = parameters.platform_point[5][1] * t470;
+    let t601 = parameters.platform_point[5][0] * t469 + t600;
+    let t602 = t442 + (t601 + parameters.platform_point[5][2] * t471);
+    let t603 = parameters.base_point[5][1] * t430;
+    let t604 = parameters.base_point[5][0] * t428 - t603;
+    let t605 = t409 + (t604 - parameters.base_point[5][2] * t432);
+    let t606 = t602 - t605;
+    let t607 = parameters.platform_point[5][1] * t476;
+    let t608 = parameters.platform_point[5][0] * t475 + t607;
+    let t609 = t444 - (t608 + parameters.platform_point[5][2] * t477);
+    let t610 = parameters.base_point[5][1] * t434;
+    let t611 = parameters.base_point[5][0] * t433 - t610;
+    let t612 = t411 - (t611 + parameters.base_point[5][2] * t435);
+    let t613 = t609 - t612;
+    let t614 = t119 * (t400 * t400 + t401 * t401 + t402 * t402);
+    let t615 = t136 * t599 + t137 * t606 + t138 * t613 - t614;
+    // leg 1: inertia less weight of the whole leg
+    let t616 = c(2.0) * t379;
+    let t617 = t110 * (t484 - t121 * t500 + t385 * t616);
+    let t618 = t139 * t617 + parameters.lower_mass[0] * t483;
+    let t619 = t140 * t617;
+    let t620 = t618 - t619;
+    let t621 = t110 * (t491 - t122 * t500 + t386 * t616);
+    let t622 = t139 * t621 + parameters.lower_mass[0] * t490;
+    let t623 = t140 * t621;
+    let t624 = t622 - t623;
+    let t625 = t110 * (t498 - t123 * t500 + t387 * t616);
+    let t626 = t139 * t625 + parameters.lower_mass[0] * t497;
+    let t627 = t140 * t625;
+    let t628 = t626 - t627;
+    // leg 1: its moment about the base origin
+    let t629 = parameters.base_point[0][2] * t622;
+    let t630 = parameters.base_point[0][1] * t626 - t629;
+    let t631 = parameters.base_point[0][2] - t48;
+    let t632 = parameters.base_point[0][1] - t47;
+    let t633 = t630 + (t623 * t631 - t627 * t632);
+    let t634 = t139 * t497 - t140 * t494 + t143 * t625;
+    let t635 = t139 * t490 - t140 * t487 + t143 * t621;
+    let t636 = t633 - (t122 * t634 - t123 * t635);
+    let t637 = parameters.base_point[0][0] * t626;
+    let t638 = parameters.base_point[0][2] * t618 - t637;
+    let t639 = parameters.base_point[0][0] - t46;
+    let t640 = t638 + (t627 * t639 - t619 * t631);
+    let t641 = t139 * t483 - t140 * t480 + t143 * t617;
+    let t642 = t640 - (t123 * t641 - t121 * t634);
+    let t643 = parameters.base_point[0][1] * t618;
+    let t644 = parameters.base_point[0][0] * t622 - t643;
+    let t645 = t644 + (t619 * t632 - t623 * t639);
+    let t646 = t645 - (t121 * t635 - t122 * t641);
+    // leg 2: inertia less weight of the whole leg
+    let t647 = c(2.0) * t380;
+    let t648 = t112 * (t507 - t124 * t523 + t388 * t647);
+    let t649 = t144 * t648 + parameters.lower_mass[1] * t506;
+    let t650 = t145 * t648;
+    let t651 = t649 - t650;
+    let t652 = t112 * (t514 - t125 * t523 + t389 * t647);
+    let t653 = t144 * t652 + parameters.lower_mass[1] * t513;
+    let t654 = t145 * t652;
+    let t655 = t653 - t654;
+    let t656 = t112 * (t521 - t126 * t523 + t390 * t647);
+    let t657 = t144 * t656 + parameters.lower_mass[1] * t520;
+    let t658 = t145 * t656;
+    let t659 = t657 - t658;
+    // leg 2: its moment about the base origin
+    let t660 = parameters.base_point[1][2] * t653;
+    let t661 = parameters.base_point[1][1] * t657 - t660;
+    let t662 = parameters.base_point[1][2] - t60;
+    let t663 = parameters.base_point[1][1] - t59;
+    let t664 = t661 + (t654 * t662 - t658 * t663);
+    let t665 = t144 * t520 - t145 * t517 + t148 * t656;
+    let t666 = t144 * t513 - t145 * t510 + t148 * t652;
+    let t667 = t664 - (t125 * t665 - t126 * t666);
+    let t668 = parameters.base_point[1][0] * t657;
+    let t669 = parameters.base_point[1][2] * t649 - t668;
+    let t670 = parameters.base_point[1][0] - t58;
+    let t671 = t669 + (t658 * t670 - t650 * t662);
+    let t672 = t144 * t506 - t145 * t503 + t148 * t648;
+    let t673 = t671 - (t126 * t672 - t124 * t665);
+    let t674 = parameters.base_point[1][1] * t649;
+    let t675 = parameters.base_point[1][0] * t653 - t674;
+    let t676 = t675 + (t650 * t663 - t654 * t670);
+    let t677 = t676 - (t124 * t666 - t125 * t672);
+    // leg 3: inertia less weight of the whole leg
+    let t678 = c(2.0) * t381;
+    let t679 = t114 * (t530 - t127 * t546 + t391 * t678);
+    let t680 = t149 * t679 + parameters.lower_mass[2] * t529;
+    let t681 = t150 * t679;
+    let t682 = t680 - t681;
+    let t683 = t114 * (t537 - t128 * t546 + t392 * t678);
+    let t684 = t149 * t683 + parameters.lower_mass[2] * t536;
+    let t685 = t150 * t683;
+    let t686 = t684 - t685;
+    let t687 = t114 * (t544 - t129 * t546 + t393 * t678);
+    let t688 = t149 * t687 + parameters.lower_mass[2] * t543;
+    let t689 = t150 * t687;
+    let t690 = t688 - t689;
+    // leg 3: its moment about the base origin
+    let t691 = parameters.base_point[2][2] * t684;
+    let t692 = parameters.base_point[2][1] * t688 - t691;
+    let t693 = parameters.base_point[2][2] - t72;
+    let t694 = parameters.base_point[2][1] - t71;
+    let t695 = t692 + (t685 * t693 - t689 * t694);
+    let t696 = t149 * t543 - t150 * t540 + t153 * t687;
+    let t697 = t149 * t536 - t150 * t533 + t153 * t683;
+    let t698 = t695 - (t128 * t696 - t129 * t697);
+    let t699 = parameters.base_point[2][0] * t688;
+    let t700 = parameters.base_point[2][2] * t680 - t699;
+    let t701 = parameters.base_point[2][0] - t70;
+    let t702 = t700 + (t689 * t701 - t681 * t693);
+    let t703 = t149 * t529 - t150 * t526 + t153 * t679;
+    let t704 = t702 - (t129 * t703 - t127 * t696);
+    let t705 = parameters.base_point[2][1] * t680;
+    let t706 = parameters.base_point[2][0] * t684 - t705;
+    let t707 = t706 + (t681 * t694 - t685 * t701);
+    let t708 = t707 - (t127 * t697 - t128 * t703);
+    // leg 4: inertia less weight of the whole leg
+    let t709 = c(2.0) * t382;
+    let t710 = t116 * (t553 - t130 * t569 + t394 * t709);
+    let t711 = t154 * t710 + parameters.lower_mass[3] * t552;
+    let t712 = t155 * t710;
+    let t713 = t711 - t712;
+    let t714 = t116 * (t560 - t131 * t569 + t395 * t709);
+    let t715 = t154 * t714 + parameters.lower_mass[3] * t559;
+    let t716 = t155 * t714;
+    let t717 = t715 - t716;
+    let t718 = t116 * (t567 - t132 * t569 + t396 * t709);
+    let t719 = t154 * t718 + parameters.lower_mass[3] * t566;
+    let t720 = t155 * t718;
+    let t721 = t719 - t720;
+    // leg 4: its moment about the base origin
+    let t722 = parameters.base_point[3][2] * t715;
+    let t723 = parameters.base_point[3][1] * t719 - t722;
+    let t724 = parameters.base_point[3][2] - t84;
+    let t725 = parameters.base_point[3][1] - t83;
+    let t726 = t723 + (t716 * t724 - t720 * t725);
+    let t727 = t154 * t566 - t155 * t563 + t158 * t718;
+    let t728 = t154 * t559 - t155 * t556 + t158 * t714;
+    let t729 = t726 - (t131 * t727 - t132 * t728);
+    let t730 = parameters.base_point[3][0] * t719;
+    let t731 = parameters.base_point[3][2] * t711 - t730;
+    let t732 = parameters.base_point[3][0] - t82;
+    let t733 = t731 + (t720 * t732 - t712 * t724);
+    let t734 = t154 * t552 - t155 * t549 + t158 * t710;
+    let t735 = t733 - (t132 * t734 - t130 * t727);
+    let t736 = parameters.base_point[3][1] * t711;
+    let t737 = parameters.base_point[3][0] * t715 - t736;
+    let t738 = t737 + (t712 * t725 - t716 * t732);
+    let t739 = t738 - (t130 * t728 - t131 * t734);
+    // leg 5: inertia less weight of the whole leg
+    let t740 = c(2.0) * t383;
+    let t741 = t118 * (t576 - t133 * t592 + t397 * t740);
+    let t742 = t159 * t741 + parameters.lower_mass[4] * t575;
+    let t743 = t160 * t741;
+    let t744 = t742 - t743;
+    let t745 = t118 * (t583 - t134 * t592 + t398 * t740);
+    let t746 = t159 * t745 + parameters.lower_mass[4] * t582;
+    let t747 = t160 * t745;
+    let t748 = t746 - t747;
+    let t749 = t118 * (t590 - t135 * t592 + t399 * t740);
+    let t750 = t159 * t749 + parameters.lower_mass[4] * t589;
+    let t751 = t160 * t749;
+    let t752 = t750 - t751;
+    // leg 5: its moment about the base origin
+    let t753 = parameters.base_point[4][2] * t746;
+    let t754 = parameters.base_point[4][1] * t750 - t753;
+    let t755 = parameters.base_point[4][2] - t96;
+    let t756 = parameters.base_point[4][1] - t95;
+    let t757 = t754 + (t747 * t755 - t751 * t756);
+    let t758 = t159 * t589 - t160 * t586 + t163 * t749;
+    let t759 = t159 * t582 - t160 * t579 + t163 * t745;
+    let t760 = t757 - (t134 * t758 - t135 * t759);
+    let t761 = parameters.base_point[4][0] * t750;
+    let t762 = parameters.base_point[4][2] * t742 - t761;
+    let t763 = parameters.base_point[4][0] - t94;
+    let t764 = t762 + (t751 * t763 - t743 * t755);
+    let t765 = t159 * t575 - t160 * t572 + t163 * t741;
+    let t766 = t764 - (t135 * t765 - t133 * t758);
+    let t767 = parameters.base_point[4][1] * t742;
+    let t768 = parameters.base_point[4][0] * t746 - t767;
+    let t769 = t768 + (t743 * t756 - t747 * t763);
+    let t770 = t769 - (t133 * t759 - t134 * t765);
+    // leg 6: inertia less weight of the whole leg
+    let t771 = c(2.0) * t384;
+    let t772 = t120 * (t599 - t136 * t615 + t400 * t771);
+    let t773 = t164 * t772 + parameters.lower_mass[5] * t598;
+    let t774 = t165 * t772;
+    let t775 = t773 - t774;
+    let t776 = t120 * (t606 - t137 * t615 + t401 * t771);
+    let t777 = t164 * t776 + parameters.lower_mass[5] * t605;
+    let t778 = t165 * t776;
+    let t779 = t777 - t778;
+    let t780 = t120 * (t613 - t138 * t615 + t402 * t771);
+    let t781 = t164 * t780 + parameters.lower_mass[5] * t612;
+    let t782 = t165 * t780;
+    let t783 = t781 - t782;
+    // leg 6: its moment about the base origin
+    let t784 = parameters.base_point[5][2] * t777;
+    let t785 = parameters.base_point[5][1] * t781 - t784;
+    let t786 = parameters.base_point[5][2] - t108;
+    let t787 = parameters.base_point[5][1] - t107;
+    let t788 = t785 + (t778 * t786 - t782 * t787);
+    let t789 = t164 * t612 - t165 * t609 + t168 * t780;
+    let t790 = t164 * t605 - t165 * t602 + t168 * t776;
+    let t791 = t788 - (t137 * t789 - t138 * t790);
+    let t792 = parameters.base_point[5][0] * t781;
+    let t793 = parameters.base_point[5][2] * t773 - t792;
+    let t794 = parameters.base_point[5][0] - t106;
+    let t795 = t793 + (t782 * t794 - t774 * t786);
+    let t796 = t164 * t598 - t165 * t595 + t168 * t772;
+    let t797 = t795 - (t138 * t796 - t136 * t789);
+    let t798 = parameters.base_point[5][1] * t773;
+    let t799 = parameters.base_point[5][0] * t777 - t798;
+    let t800 = t799 + (t774 * t787 - t778 * t794);
+    let t801 = t800 - (t136 * t790 - t137 * t796);
+    // wrench of the base on the mechanism, moments about the base origin
+    let t802 = t172 * t440 - (t179 * t461 + t186 * t462 + t193 * t463);
+    let t803 = base_rotation[1][0] * external_wrench[1];
+    let t804 = base_rotation[0][0] * external_wrench[0] + t803;
+    let t805 = t804 + base_rotation[2][0] * external_wrench[2];
+    let t806 = t802 - t805;
+    let t807 = t775 + (t744 + (t713 + (t682 + (t651 + (t620 + t806)))));
+    let t808 = t172 * t442 + (t179 * t469 + t186 * t470 + t193 * t471);
+    let t809 = base_rotation[1][1] * external_wrench[1];
+    let t810 = base_rotation[0][1] * external_wrench[0] + t809;
+    let t811 = t810 + base_rotation[2][1] * external_wrench[2];
+    let t812 = t808 - t811;
+    let t813 = t779 + (t748 + (t717 + (t686 + (t655 + (t624 + t812)))));
+    let t814 = base_rotation[0][0] * t807 + base_rotation[0][1] * t813;
+    let t815 = t172 * t444 - (t179 * t475 + t186 * t476 + t193 * t477);
+    let t816 = base_rotation[1][2] * external_wrench[1];
+    let t817 = base_rotation[0][2] * external_wrench[0] + t816;
+    let t818 = t817 + base_rotation[2][2] * external_wrench[2];
+    let t819 = t815 - t818;
+    let t820 = t783 + (t752 + (t721 + (t690 + (t659 + (t628 + t819)))));
+    base_wrench[0] = t814 + base_rotation[0][2] * t820;
+    let t821 = base_rotation[1][0] * t807 + base_rotation[1][1] * t813;
+    base_wrench[1] = t821 + base_rotation[1][2] * t820;
+    let t822 = base_rotation[2][0] * t807 + base_rotation[2][1] * t813;
+    base_wrench[2] = t822 + base_rotation[2][2] * t820;
+    let t823 = t179 * t444 + (t210 * t475 + t224 * t476 + t238 * t477);
+    let t824 = t823 - parameters.payload_com[0] * t818;
+    let t825 = t179 * t442 - (t210 * t469 + t224 * t470 + t238 * t471);
+    let t826 = t825 - parameters.payload_com[0] * t811;
+    let t827 = t186 * t444 + (t224 * t475 + t253 * t476 + t267 * t477);
+    let t828 = t827 - parameters.payload_com[1] * t818;
+    let t829 = t186 * t442 - (t224 * t469 + t253 * t470 + t267 * t471);
+    let t830 = t829 - parameters.payload_com[1] * t811;
+    let t831 = t12 * t824 - t21 * t826 + (t15 * t828 - t24 * t830);
+    let t832 = t193 * t444 + (t238 * t475 + t267 * t476 + t282 * t477);
+    let t833 = t832 - parameters.payload_com[2] * t818;
+    let t834 = t193 * t442 - (t238 * t469 + t267 * t470 + t282 * t471);
+    let t835 = t834 - parameters.payload_com[2] * t811;
+    let t836 = t831 + (t18 * t833 - t27 * t835);
+    let t837 = base_rotation[1][0] * external_wrench[4];
+    let t838 = base_rotation[0][0] * external_wrench[3] + t837;
+    let t839 = t838 + base_rotation[2][0] * external_wrench[5];
+    let t840 = t667 + (t636 + (t836 - (t34 * t819 - t36 * t812) - t839));
+    let t841 = t791 + (t760 + (t729 + (t698 + t840)));
+    let t842 = t179 * t440 + (t210 * t461 + t224 * t462 + t238 * t463);
+    let t843 = t842 - parameters.payload_com[0] * t805;
+    let t844 = t186 * t440 + (t224 * t461 + t253 * t462 + t267 * t463);
+    let t845 = t844 - parameters.payload_com[1] * t805;
+    let t846 = t21 * t843 - t3 * t824 + (t24 * t845 - t6 * t828);
+    let t847 = t193 * t440 + (t238 * t461 + t267 * t462 + t282 * t463);
+    let t848 = t847 - parameters.payload_com[2] * t805;
+    let t849 = t846 + (t27 * t848 - t9 * t833);
+    let t850 = base_rotation[1][1] * external_wrench[4];
+    let t851 = base_rotation[0][1] * external_wrench[3] + t850;
+    let t852 = t851 + base_rotation[2][1] * external_wrench[5];
+    let t853 = t673 + (t642 + (t849 - (t36 * t806 - t32 * t819) - t852));
+    let t854 = t797 + (t766 + (t735 + (t704 + t853)));
+    let t855 = base_rotation[0][0] * t841 + base_rotation[0][1] * t854;
+    let t856 = t3 * t826 - t12 * t843 + (t6 * t830 - t15 * t845);
+    let t857 = t856 + (t9 * t835 - t18 * t848);
+    let t858 = base_rotation[1][2] * external_wrench[4];
+    let t859 = base_rotation[0][2] * external_wrench[3] + t858;
+    let t860 = t859 + base_rotation[2][2] * external_wrench[5];
+    let t861 = t677 + (t646 + (t857 - (t32 * t812 - t34 * t806) - t860));
+    let t862 = t801 + (t770 + (t739 + (t708 + t861)));
+    base_wrench[3] = t855 + base_rotation[0][2] * t862;
+    let t863 = base_rotation[1][0] * t841 + base_rotation[1][1] * t854;
+    base_wrench[4] = t863 + base_rotation[1][2] * t862;
+    let t864 = base_rotation[2][0] * t841 + base_rotation[2][1] * t854;
+    base_wrench[5] = t864 + base_rotation[2][2] * t862;
 }
 
 /// Platform acceleration for given actuator forces, equation (49).

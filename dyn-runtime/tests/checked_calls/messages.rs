@@ -32,5 +32,5 @@ fn messages_name_what_is_wrong_and_what_to_do() {
         "{not_a_rotation}"
     );
     assert!(message(Error::NonFiniteResult).contains("check units"));
-    assert!(size_of::<Error>() <= 24);
+    assert!(size_of::<Error>() <= 32);
 }

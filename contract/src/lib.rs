@@ -1,0 +1,100 @@
+//! Every call of the runtime crate, as a program for a machine without operating system would make it. The object that comes out must not
+//! contain a way to panic.
+#![no_std]
+
+use core::panic::PanicInfo;
+
+use dyn_runtime::current::VoiceCoils;
+use dyn_runtime::models::{Uhp, Uhp2016};
+use dyn_runtime::nalgebra::Vector6;
+use dyn_runtime::{Acceleration, BaseMotion, Hexapod, Limits, PlatformState, Pose, Real, Twist, Wrench, kernels};
+
+#[panic_handler]
+fn panic(_: &PanicInfo) -> ! {
+    loop {}
+}
+
+/// Everything that goes into calls.
+pub struct Arguments<T: Real> {
+    base: BaseMotion<T>,
+    platform: PlatformState<T>,
+    acceleration: Acceleration<T>,
+    reference: Twist<T>,
+    wrench: Wrench<T>,
+    forces: Vector6<T>,
+    limits: Limits<T>,
+    coils: VoiceCoils<T>,
+    start: Pose<T>,
+}
+
+/// `name: |hexapod, arguments| call`, for both models in double precision and the baked one in single; true where there is a result.
+macro_rules! checked {
+    ($($baked:ident $run_time:ident $single:ident: |$h:ident, $a:ident| $call:expr;)*) => {$(
+        #[unsafe(no_mangle)]
+        pub extern "C" fn $baked($a: &Arguments<f64>) -> bool {
+            let $h = Hexapod::new(Uhp2016);
+            core::hint::black_box($call).is_ok()
+        }
+
+        #[unsafe(no_mangle)]
+        pub extern "C" fn $run_time($h: &Hexapod<Uhp>, $a: &Arguments<f64>) -> bool {
+            core::hint::black_box($call).is_ok()
+        }
+
+        #[unsafe(no_mangle)]
+        pub extern "C" fn $single($a: &Arguments<f32>) -> bool {
+            let $h = Hexapod::single_precision(Uhp2016);
+            core::hint::black_box($call).is_ok()
+        }
+    )*};
+}
+
+checked! {
+    rod_alignment rod_alignment_uhp rod_alignment_f32: |h, a| h.rod_alignment(&a.base, &a.platform);
+    leg_kinematics leg_kinematics_uhp leg_kinematics_f32: |h, a| h.leg_kinematics(&a.base, &a.platform, &a.acceleration);
+    body_kinematics body_kinematics_uhp body_kinematics_f32: |h, a| h.body_kinematics(&a.base, &a.platform, &a.acceleration);
+    partial_velocities partial_velocities_uhp partial_velocities_f32: |h, a| h.partial_velocities(&a.base, &a.platform);
+    generalised_forces generalised_forces_uhp generalised_forces_f32:
+        |h, a| h.generalised_forces(&a.base, &a.platform, &a.acceleration, &a.forces, &a.wrench);
+    jacobian_dp jacobian_dp_uhp jacobian_dp_f32: |h, a| h.jacobian_dp(&a.base, &a.platform);
+    jacobian_db jacobian_db_uhp jacobian_db_f32: |h, a| h.jacobian_db(&a.base, &a.platform);
+    mass_matrix_p mass_matrix_p_uhp mass_matrix_p_f32: |h, a| h.mass_matrix_p(&a.base, &a.platform);
+    mass_matrix_b mass_matrix_b_uhp mass_matrix_b_f32: |h, a| h.mass_matrix_b(&a.base, &a.platform);
+    coriolis_matrices coriolis_matrices_uhp coriolis_matrices_f32: |h, a| h.coriolis_matrices(&a.base, &a.platform);
+    stiffness_matrices stiffness_matrices_uhp stiffness_matrices_f32: |h, a| h.stiffness_matrices(&a.base, &a.platform);
+    matrices matrices_uhp matrices_f32: |h, a| h.matrices(&a.base, &a.platform);
+    passive_forces passive_forces_uhp passive_forces_f32: |h, a| h.passive_forces(&a.base, &a.platform);
+    bias bias_uhp bias_f32: |h, a| h.bias(&a.base, &a.platform);
+    equation_of_motion equation_of_motion_uhp equation_of_motion_f32: |h, a| h.equation_of_motion(&a.base, &a.platform);
+    inverse_dynamics inverse_dynamics_uhp inverse_dynamics_f32:
+        |h, a| h.inverse_dynamics(&a.base, &a.platform, &a.acceleration, &a.wrench);
+    forward_dynamics forward_dynamics_uhp forward_dynamics_f32:
+        |h, a| h.forward_dynamics(&a.base, &a.platform, &a.forces, &a.wrench);
+    energy energy_uhp energy_f32: |h, a| h.energy(&a.base, &a.platform);
+    control control_uhp control_f32: |h, a| h.control(&a.base, &a.platform, &a.acceleration, &a.wrench);
+    passive_inverse_dynamics passive_inverse_dynamics_uhp passive_inverse_dynamics_f32:
+        |h, a| h.passive_inverse_dynamics(&a.base, &a.platform, &a.reference, &a.acceleration, &a.wrench);
+    base_reaction base_reaction_uhp base_reaction_f32:
+        |h, a| h.base_reaction(&a.base, &a.platform, &a.acceleration, &a.wrench);
+    forward_kinematics forward_kinematics_uhp forward_kinematics_f32:
+        |h, a| h.forward_kinematics(&a.base.pose, &a.forces, &a.start);
+    platform_velocity platform_velocity_uhp platform_velocity_f32:
+        |h, a| h.platform_velocity(&a.base, &a.start, &a.forces);
+    monitor monitor_uhp monitor_f32:
+        |h, a| h.monitor(&a.base, &a.platform, &a.forces, &a.limits).and_then(|monitor| monitor.check());
+    currents currents_uhp currents_f32: |_h, a| a.coils.currents(&a.forces);
+}
+
+/// An unchecked call.
+#[unsafe(no_mangle)]
+pub extern "C" fn unchecked(poses: &[[f64; 3]; 2], rotations: &[[[f64; 3]; 3]; 2], rod_alignment: &mut [f64; 6]) {
+    let ([base, platform], [from_base, from_platform]) = (poses, rotations);
+    kernels::RodAlignment::rod_alignment(&Uhp2016, base, from_base, platform, from_platform, rod_alignment);
+}
+
+/// What the check must find.
+#[cfg(feature = "can_panic")]
+#[unsafe(no_mangle)]
+pub extern "C" fn can_panic(numbers: &[f64; 6], index: usize) -> f64 {
+    numbers[index]
+}

@@ -1,0 +1,176 @@
+//! What calls cost on this machine, next to inverse dynamics alone: median of five runs, ns per call.
+//!
+//!     cargo run --release -p dyn-runtime --features std --example cost
+
+use std::hint::black_box;
+use std::time::Instant;
+
+use dyn_runtime::kernels;
+use dyn_runtime::models::Uhp2016;
+use dyn_runtime::nalgebra::Vector3;
+use dyn_runtime::{Acceleration, BaseMotion, Error, Hexapod, PlatformState, Pose, Twist, Wrench};
+
+/// Calls of one run, unless the first argument says otherwise (few, under valgrind).
+const CALLS: u32 = 200_000;
+
+fn main() -> Result<(), Error> {
+    let hexapod = Hexapod::new(Uhp2016);
+    let base = BaseMotion {
+        pose: Pose::from_paper_angles(Vector3::new(0.1, -0.2, 0.3), [0.2, -0.1, 0.3]),
+        velocity: Twist {
+            linear_m_s: Vector3::new(0.1, 0.2, -0.1),
+            angular_rad_s: Vector3::new(0.3, -0.2, 0.1),
+        },
+        acceleration: Acceleration {
+            linear_m_s2: Vector3::new(1.0, -2.0, 0.5),
+            angular_rad_s2: Vector3::new(2.0, 1.0, -1.0),
+        },
+    };
+    let relative = Pose::from_paper_angles(Vector3::new(0.002, -0.003, 0.384), [0.02, -0.01, 0.015]);
+    let platform = PlatformState {
+        pose: base.pose.compose(&relative),
+        velocity: Twist {
+            linear_m_s: Vector3::new(-0.1, 0.1, 0.2),
+            angular_rad_s: Vector3::new(0.2, 0.5, -0.3),
+        },
+    };
+    let (acceleration, wrench) = (base.acceleration, Wrench::zero());
+    let legs = hexapod.leg_kinematics(&base, &platform, &acceleration)?;
+    // A millimetre and a milliradian away, in every component.
+    let moved = Pose::from_paper_angles(Vector3::repeat(1e-3), [1e-3; 3]);
+    let near = Pose {
+        position_m: platform.pose.position_m + moved.position_m,
+        rotation: moved.rotation * platform.pose.rotation,
+    };
+    let found = hexapod.forward_kinematics(&base.pose, &legs.actuator_length_m, &near)?;
+
+    let rows = |pose: &Pose| -> [[f64; 3]; 3] { pose.rotation.matrix().transpose().into() };
+    let (rb, b, rp, p) = (
+        base.pose.position_m.into(),
+        rows(&base.pose),
+        platform.pose.position_m.into(),
+        rows(&platform.pose),
+    );
+    let (vb, ab) = (base.velocity.to_vector().into(), base.acceleration.to_vector().into());
+    let (vp, ap, w) = (platform.velocity.to_vector().into(), acceleration.to_vector().into(), [0.0; 6]);
+
+    let unchecked = time(|| {
+        let mut forces = [0.0; 6];
+        kernels::InverseDynamics::inverse_dynamics(
+            &Uhp2016,
+            black_box(&rb),
+            &b,
+            &vb,
+            &ab,
+            &rp,
+            &p,
+            &vp,
+            &ap,
+            &w,
+            &mut forces,
+        );
+        black_box(forces);
+    });
+    println!("{:<44} {:>8} {:>8}", "call", "ns", "ratio");
+    let row = |call: &str, ns: f64| println!("{call:<44} {ns:>8.1} {:>8.2}", ns / unchecked);
+    row("inverse_dynamics, unchecked", unchecked);
+    row(
+        "control, unchecked",
+        time(|| {
+            let [mut d, mut rates, mut bias, mut forces] = [[0.0; 6]; 4];
+            let [mut jacobian, mut mass] = [[[0.0; 6]; 6]; 2];
+            kernels::Control::control(
+                &Uhp2016,
+                black_box(&rb),
+                &b,
+                &vb,
+                &ab,
+                &rp,
+                &p,
+                &vp,
+                &ap,
+                &w,
+                &mut d,
+                &mut rates,
+                &mut jacobian,
+                &mut mass,
+                &mut bias,
+                &mut forces,
+            );
+            black_box((d, rates, jacobian, mass, bias, forces));
+        }),
+    );
+    row(
+        "passive_inverse_dynamics, unchecked",
+        time(|| {
+            let mut forces = [0.0; 6];
+            kernels::PassiveInverseDynamics::passive_inverse_dynamics(
+                &Uhp2016,
+                black_box(&rb),
+                &b,
+                &vb,
+                &ab,
+                &rp,
+                &p,
+                &vp,
+                &ap,
+                &vb,
+                &w,
+                &mut forces,
+            );
+            black_box(forces);
+        }),
+    );
+    row(
+        "base_reaction, unchecked",
+        time(|| {
+            let mut reaction = [0.0; 6];
+            kernels::BaseReaction::base_reaction(
+                &Uhp2016,
+                black_box(&rb),
+                &b,
+                &vb,
+                &ab,
+                &rp,
+                &p,
+                &vp,
+                &ap,
+                &w,
+                &mut reaction,
+            );
+            black_box(reaction);
+        }),
+    );
+    row(
+        "inverse_dynamics, checked",
+        time(|| {
+            let _ = black_box(hexapod.inverse_dynamics(black_box(&base), &platform, &acceleration, &wrench));
+        }),
+    );
+    row(
+        "control, checked",
+        time(|| {
+            let _ = black_box(hexapod.control(black_box(&base), &platform, &acceleration, &wrench));
+        }),
+    );
+    row(
+        &format!("forward_kinematics, {} steps, checked", found.iterations),
+        time(|| {
+            let _ =
+                black_box(hexapod.forward_kinematics(black_box(&base.pose), &legs.actuator_length_m, &near));
+        }),
+    );
+    Ok(())
+}
+
+/// Median of five runs, ns per call.
+fn time(mut call: impl FnMut()) -> f64 {
+    let calls = std::env::args().nth(1).and_then(|number| number.parse().ok()).unwrap_or(CALLS);
+    let mut runs: [f64; 5] = std::array::from_fn(|_| {
+        let start = Instant::now();
+        (0..calls).for_each(|_| call());
+        start.elapsed().as_secs_f64() * 1e9 / f64::from(calls)
+    });
+    runs.sort_by(f64::total_cmp);
+    runs[2]
+}
