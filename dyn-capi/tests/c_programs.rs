@@ -48,6 +48,14 @@ fn every_refusal() {
     }
 }
 
+#[test]
+fn calls_of_a_control_loop() {
+    let scratch = tempfile::tempdir().unwrap();
+    for link in LINKS {
+        succeed(&mut program(&compile(&folder().join("tests/c/control.c"), link, scratch.path())));
+    }
+}
+
 /// Against a stub of Simulink's header: it compiles, and what it computes is what the library computes.
 #[test]
 fn s_function() {
