@@ -1,13 +1,10 @@
-//! Everything that a controller asks of the model in a cycle: d, d', J_dp, M_p, bias, forces.
+//! Everything that a controller asks of the model in a cycle: d, d', J_dp, M_p, bias less `M_b v_b'`, forces.
 
 use dyn_runtime::models::Uhp2016;
-use dyn_runtime::{Acceleration, BaseMotion, Error, Hexapod, PlatformState, Pose, Twist, Wrench};
-use nalgebra::{Matrix3, Matrix6, Rotation3, Vector3, Vector6};
+use dyn_runtime::{Acceleration, BaseMotion, Control, Error, Hexapod, PlatformState, Pose, Twist, Wrench};
+use nalgebra::{Matrix3, Rotation3, Vector3, Vector6};
 
 use crate::states::{Inputs, States};
-
-/// The outputs, in this order: d, d', J_dp, M_p, bias, forces.
-pub type Bundle = (Vector6<f64>, Vector6<f64>, Matrix6<f64>, Matrix6<f64>, Vector6<f64>, Vector6<f64>);
 
 /// A state as checked calls take it.
 pub struct TypedState {
@@ -25,32 +22,24 @@ pub fn typed_states(states: &States) -> Vec<TypedState> {
 /// By generated code, with all checks.
 ///
 /// # Errors
-/// As the calls.
-pub fn generated(state: &TypedState) -> Result<Bundle, Error> {
-    let hexapod = Hexapod::new(Uhp2016);
+/// As the call.
+pub fn generated(state: &TypedState) -> Result<Control, Error> {
     let TypedState { base, platform, platform_acceleration, external_wrench } = state;
-    let legs = hexapod.leg_kinematics(base, platform, platform_acceleration)?;
-    Ok((
-        legs.actuator_length_m,
-        legs.actuator_velocity_m_s,
-        hexapod.jacobian_dp(base, platform)?,
-        hexapod.mass_matrix_p(base, platform)?,
-        hexapod.bias(base, platform)?,
-        hexapod.inverse_dynamics(base, platform, platform_acceleration, external_wrench)?,
-    ))
+    Hexapod::new(Uhp2016).control(base, platform, platform_acceleration, external_wrench)
 }
 
 /// By the reference; forces are NaN where it finds none.
-pub fn reference(parameters: &dyn_reference::Parameters, state: &dyn_reference::State) -> Bundle {
+pub fn reference(parameters: &dyn_reference::Parameters, state: &dyn_reference::State) -> Control {
     let legs = dyn_reference::leg_kinematics(parameters, state);
-    (
-        legs.actuator_length,
-        legs.actuator_velocity,
-        dyn_reference::jacobian_dp(parameters, state),
-        dyn_reference::mass_matrix_p(parameters, state),
-        dyn_reference::bias(parameters, state),
-        dyn_reference::inverse_dynamics(parameters, state).unwrap_or(Vector6::repeat(f64::NAN)),
-    )
+    Control {
+        actuator_length_m: legs.actuator_length,
+        actuator_velocity_m_s: legs.actuator_velocity,
+        jacobian_dp: dyn_reference::jacobian_dp(parameters, state),
+        mass_matrix_p: dyn_reference::mass_matrix_p(parameters, state),
+        total_bias: dyn_reference::total_bias(parameters, state),
+        inverse_dynamics_n: dyn_reference::inverse_dynamics(parameters, state)
+            .unwrap_or(Vector6::repeat(f64::NAN)),
+    }
 }
 
 fn typed(inputs: &Inputs) -> TypedState {
@@ -99,14 +88,22 @@ mod tests {
         let states = States::new(&sampled(&platform));
         let parameters = reference_parameters(&platform);
         for (typed, state) in typed_states(&states).iter().zip(states.reference.iter()) {
-            let (length, velocity, jacobian, mass, bias, forces) = generated(typed).unwrap();
+            let found = generated(typed).unwrap();
             let expected = reference(&parameters, state);
-            assert!((length - expected.0).amax() < 1e-12);
-            assert!((velocity - expected.1).amax() < 1e-12 * expected.1.amax().max(1.0));
-            assert!((jacobian - expected.2).amax() < 1e-12 * expected.2.amax());
-            assert!((mass - expected.3).amax() < 1e-12 * expected.3.amax());
-            assert!((bias - expected.4).amax() < 1e-12 * expected.4.amax());
-            assert!((forces - expected.5).amax() < 1e-10 * expected.5.amax());
+            let close = |found: Vector6<f64>, expected: Vector6<f64>| {
+                assert!((found - expected).amax() <= 1e-11 * expected.amax().max(1.0));
+            };
+            close(found.actuator_length_m, expected.actuator_length_m);
+            close(found.actuator_velocity_m_s, expected.actuator_velocity_m_s);
+            close(found.total_bias, expected.total_bias);
+            close(found.inverse_dynamics_n, expected.inverse_dynamics_n);
+            for column in 0..6 {
+                close(found.jacobian_dp.column(column).into(), expected.jacobian_dp.column(column).into());
+                close(
+                    found.mass_matrix_p.column(column).into(),
+                    expected.mass_matrix_p.column(column).into(),
+                );
+            }
         }
     }
 }

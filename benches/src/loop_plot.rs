@@ -76,10 +76,15 @@ fn exceeded(histogram: &Histogram<u64>) -> Vec<(f64, f64)> {
     let mut points = vec![(histogram.min() as f64, 1.0)];
     for value in histogram.iter_recorded() {
         let time = value.value_iterated_to() as f64;
-        points.push((time, left / all));
+        let share = left / all;
         left -= value.count_since_last_iteration() as f64;
-        // A logarithmic axis has no zero: the last step ends at half a cycle.
-        points.push((time, left.max(0.5) / all));
+        // Steps that nobody would see make large files only.
+        if points.last().is_none_or(|&(before, above)| time > 1.01 * before || share < 0.97 * above) {
+            points.push((time, share));
+            // A logarithmic axis has no zero: the last step ends at half a cycle.
+            points.push((time, left.max(0.5) / all));
+        }
     }
+    points.push((histogram.max() as f64, 0.5 / all));
     points
 }

@@ -108,6 +108,9 @@ fn run(platform: &Platform, cases: &[Value], kind: ModelKind) -> Result<Value, B
             dyn_inverse_dynamics: [Real; 6],
             dyn_forward_dynamics: [Real; 6],
             dyn_energy: capi::Energy,
+            dyn_control: capi::Control,
+            dyn_passive_inverse_dynamics: [Real; 6],
+            dyn_base_reaction: [Real; 6],
         );
         results.push(json!({ "inputs": words(&inputs), "outputs": outputs }));
     }
@@ -154,6 +157,8 @@ fn inputs(case: &Value) -> Result<Inputs, Box<dyn Error>> {
             flatten(&case[body][part], &mut numbers);
         }
     }
+    // The reference's velocity is the platform's.
+    flatten(&case["platform"]["velocity"], &mut numbers);
     flatten(&case["actuator_force"], &mut numbers);
     flatten(&case["external_wrench"], &mut numbers);
     structure(&numbers)

@@ -52,8 +52,12 @@ enum dyn_status
   DYN_STATUS_GIMBAL_LOCK = 11,
   // A parameter is not physical: `info.input` and `info.leg` say which, `info.value` is what it is.
   DYN_STATUS_INVALID_PARAMETER = 12,
+  // No pose found with the given actuator lengths: a length still differs by `info.value`, m.
+  DYN_STATUS_NO_CONVERGENCE = 13,
+  // A quantity is beyond its limit: `info.quantity`, `info.leg`, and `info.value`, the margin (negative).
+  DYN_STATUS_BEYOND_LIMIT = 14,
   // A reason that this version of the interface has no status for.
-  DYN_STATUS_OTHER = 13,
+  DYN_STATUS_OTHER = 15,
 };
 #ifndef __cplusplus
 #if __STDC_VERSION__ >= 202311L
@@ -95,6 +99,12 @@ enum dyn_input
   DYN_INPUT_ANGLES = 10,
   // The quaternion of a conversion.
   DYN_INPUT_QUATERNION = 11,
+  // `reference_velocity`
+  DYN_INPUT_REFERENCE_VELOCITY = 12,
+  // The lengths of forward kinematics.
+  DYN_INPUT_ACTUATOR_LENGTH = 13,
+  // The rates of dyn_platform_velocity.
+  DYN_INPUT_ACTUATOR_VELOCITY = 14,
   // `base_point`
   DYN_INPUT_BASE_POINT = 100,
   // `actuator_axis`
@@ -167,6 +177,33 @@ enum dyn_model_kind
 typedef enum dyn_model_kind dyn_model_kind;
 #else
 typedef int32_t dyn_model_kind;
+#endif // __STDC_VERSION__ >= 202311L
+#endif // __cplusplus
+
+// Quantities with a limit: indices of `margin` and `leg` in dyn_monitor_result.
+enum dyn_quantity
+#if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+  : int32_t
+#endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+ {
+  // d, m.
+  DYN_QUANTITY_ACTUATOR_LENGTH = 0,
+  // d', m/s.
+  DYN_QUANTITY_ACTUATOR_VELOCITY = 1,
+  // F, N.
+  DYN_QUANTITY_ACTUATOR_FORCE = 2,
+  // Angle at the Hooke joint, rad.
+  DYN_QUANTITY_HOOKE_JOINT_ANGLE = 3,
+  // Angle at the platform joint, rad.
+  DYN_QUANTITY_PLATFORM_JOINT_ANGLE = 4,
+  // Conditioning of J_dp.
+  DYN_QUANTITY_CONDITIONING = 5,
+};
+#ifndef __cplusplus
+#if __STDC_VERSION__ >= 202311L
+typedef enum dyn_quantity dyn_quantity;
+#else
+typedef int32_t dyn_quantity;
 #endif // __STDC_VERSION__ >= 202311L
 #endif // __cplusplus
 
@@ -295,11 +332,31 @@ typedef struct dyn_inputs {
   dyn_real platform_velocity[6];
   // Acceleration of P [r_p''; w_p']: m/s^2, rad/s^2; O. For dynamics: the wanted one.
   dyn_real platform_acceleration[6];
+  // Reference velocity [r_r'; w_r]: m/s, rad/s; O. For dyn_passive_inverse_dynamics only.
+  dyn_real reference_velocity[6];
   // Forces of the six actuators, N, positive away from the base.
   dyn_real actuator_force[6];
   // External force and moment on the payload at its centre of mass [F_D; M_D]: N, N m; O.
   dyn_real external_wrench[6];
 } dyn_inputs;
+
+// What a controller needs in every cycle, from one shared evaluation.
+typedef struct dyn_control_result {
+  // Set to sizeof(dyn_control_result) before the call.
+  size_t struct_size;
+  // d, m.
+  dyn_real actuator_length[6];
+  // d', m/s.
+  dyn_real actuator_velocity[6];
+  // J_dp.
+  dyn_real jacobian_dp[6][6];
+  // M_p.
+  dyn_real mass_matrix_p[6][6];
+  // dyn_bias less M_b v_b', N and N m, O: M_p v_p' + total_bias = J_dp^T F + W_ext.
+  dyn_real total_bias[6];
+  // Forces as dyn_inverse_dynamics gives them, N.
+  dyn_real actuator_force[6];
+} dyn_control_result;
 
 // Details of a status. Wherever a call takes a pointer to one, it may be null.
 //
@@ -311,11 +368,85 @@ typedef struct dyn_info {
   dyn_input input;
   // The first leg to blame, 0 to 5, or -1.
   int32_t leg;
+  // The quantity beyond its limit, a `DYN_QUANTITY_...`, or -1.
+  int32_t quantity;
   // A number that says how far off, see the status; else 0.
   dyn_real value;
   // The threshold that `value` failed; else 0.
   dyn_real limit;
 } dyn_info;
+
+// A pose with given actuator lengths.
+typedef struct dyn_forward_kinematics_result {
+  // Set to sizeof(dyn_forward_kinematics_result) before the call.
+  size_t struct_size;
+  // Origin of P, m, O.
+  dyn_real platform_position[3];
+  // P coordinates to O coordinates.
+  dyn_real platform_rotation[3][3];
+  // Largest difference between a length given and one at this pose, m.
+  dyn_real residual;
+  // Newton steps that led there.
+  uint32_t iterations;
+} dyn_forward_kinematics_result;
+
+// What actuators and joints may do. INFINITY is no limit (for minima -INFINITY).
+typedef struct dyn_limits {
+  // Set to sizeof(dyn_limits).
+  size_t struct_size;
+  // Shortest d, m.
+  dyn_real minimum_length[6];
+  // Longest d, m.
+  dyn_real maximum_length[6];
+  // Highest |d'|, m/s.
+  dyn_real maximum_velocity[6];
+  // Largest |F|, N.
+  dyn_real maximum_force[6];
+  // Largest angle between a rod and its direction at home, both in axes of B, rad.
+  dyn_real maximum_hooke_joint_angle[6];
+  // Largest angle between a rod and its direction at home, both in axes of P, rad.
+  dyn_real maximum_platform_joint_angle[6];
+  // Direction of each rod at home, B. Counts where an angle at the Hooke joint is limited.
+  dyn_real home_direction_in_base[6][3];
+  // Direction of each rod at home, P. Counts where an angle at the platform joint is limited.
+  dyn_real home_direction_in_platform[6][3];
+  // Least conditioning of J_dp, 0 to 1.
+  dyn_real minimum_condition_bound;
+} dyn_limits;
+
+// The least margin of every quantity.
+typedef struct dyn_monitor_result {
+  // Set to sizeof(dyn_monitor_result) before the call.
+  size_t struct_size;
+  // Distance to the limit in the quantity's unit, by DYN_QUANTITY_...; negative beyond it, INFINITY without limit.
+  dyn_real margin[6];
+  // The leg that is nearest to its limit, 0 to 5, by DYN_QUANTITY_...; -1 for conditioning.
+  int32_t leg[6];
+} dyn_monitor_result;
+
+// The voice coils of the six actuators.
+typedef struct dyn_voice_coils {
+  // Set to sizeof(dyn_voice_coils).
+  size_t struct_size;
+  // Force per current, N/A; not 0.
+  dyn_real force_constant[6];
+  // Largest current either way, A; INFINITY is no limit.
+  dyn_real maximum_current[6];
+} dyn_voice_coils;
+
+// Currents for wanted forces.
+typedef struct dyn_currents_result {
+  // Set to sizeof(dyn_currents_result) before the call.
+  size_t struct_size;
+  // Current of each coil, A, never beyond its limit.
+  dyn_real current[6];
+  // The forces that they make, N.
+  dyn_real actuator_force[6];
+  // Share of the wanted forces that is left, the same for all six; 1 without saturation.
+  dyn_real factor;
+  // The leg whose coil is at its limit, 0 to 5; -1 without saturation.
+  int32_t saturated_leg;
+} dyn_currents_result;
 
 // Where the legs are and how they move; vectors in O.
 typedef struct dyn_leg_kinematics_result {
@@ -432,6 +563,65 @@ typedef struct dyn_energy_result {
 #ifdef __cplusplus
 extern "C" {
 #endif // __cplusplus
+
+// Lengths, rates, J_dp, M_p, bias and the forces for `platform_acceleration`, in one call that costs less than twice
+// dyn_inverse_dynamics. Depends on poses, velocities and accelerations of both bodies and on the external wrench.
+dyn_status dyn_control(const struct dyn_model *model,
+                       const struct dyn_inputs *inputs,
+                       struct dyn_control_result *result,
+                       struct dyn_info *info);
+
+// Forces, N, at `reference_velocity` and, as reference acceleration, `platform_acceleration`, for passivity-based control
+// (Slotine and Li): J_dp^T F = M_p a_r + C_p v_r - C_b v_b - M_b v_b' + gravity, springs, dampers - W_ext.
+dyn_status dyn_passive_inverse_dynamics(const struct dyn_model *model,
+                                        const struct dyn_inputs *inputs,
+                                        dyn_real (*force)[6],
+                                        struct dyn_info *info);
+
+// Wrench of the base on the mechanism [force; moment about the base's origin], N, N m, O; the base feels the opposite.
+// Depends on poses, velocities and accelerations of both bodies and on the external wrench.
+dyn_status dyn_base_reaction(const struct dyn_model *model,
+                             const struct dyn_inputs *inputs,
+                             dyn_real (*wrench)[6],
+                             struct dyn_info *info);
+
+// The platform's pose from six actuator lengths, m: Newton's method from the platform's pose in `inputs`, the last one in a
+// loop, home at first. Depends on the base's pose.
+dyn_status dyn_forward_kinematics(const struct dyn_model *model,
+                                  const struct dyn_inputs *inputs,
+                                  const dyn_real *actuator_length,
+                                  struct dyn_forward_kinematics_result *result,
+                                  struct dyn_info *info);
+
+// The platform's velocity [r_p'; w_p], m/s, rad/s, O, from six actuator rates, m/s. Depends on both poses and the base's
+// velocity.
+dyn_status dyn_platform_velocity(const struct dyn_model *model,
+                                 const struct dyn_inputs *inputs,
+                                 const dyn_real *actuator_velocity,
+                                 dyn_real (*velocity)[6],
+                                 struct dyn_info *info);
+
+// Margins of stroke, rate, force, joint angles and conditioning. Depends on poses, velocities and `actuator_force`. A state
+// beyond its limits is no error here: see dyn_check_limits.
+dyn_status dyn_monitor(const struct dyn_model *model,
+                       const struct dyn_inputs *inputs,
+                       const struct dyn_limits *limits,
+                       struct dyn_monitor_result *result,
+                       struct dyn_info *info);
+
+// DYN_STATUS_BEYOND_LIMIT for the first quantity that is beyond its limit: `info.quantity` and `info.leg` say which,
+// `info.value` is the margin, negative. Depends on poses, velocities and `actuator_force`.
+dyn_status dyn_check_limits(const struct dyn_model *model,
+                            const struct dyn_inputs *inputs,
+                            const struct dyn_limits *limits,
+                            struct dyn_info *info);
+
+// Currents for wanted forces, N. Where one coil would be beyond its limit, all six forces are scaled by one factor, so that
+// the wrench on the platform keeps its direction; this is no error, `result.saturated_leg` tells.
+dyn_status dyn_currents(const struct dyn_voice_coils *coils,
+                        const dyn_real *actuator_force,
+                        struct dyn_currents_result *result,
+                        struct dyn_info *info);
 
 // (u.a)^2 of each leg: 1 where the rod lies along its actuator, 0 where it is perpendicular, negative out of reach (which is no
 // error here). Depends on the poses.

@@ -30,6 +30,8 @@ pub struct Inputs {
     pub platform_velocity: [Real; 6],
     /// Acceleration of P [r_p''; w_p']: m/s^2, rad/s^2; O. For dynamics: the wanted one.
     pub platform_acceleration: [Real; 6],
+    /// Reference velocity [r_r'; w_r]: m/s, rad/s; O. For dyn_passive_inverse_dynamics only.
+    pub reference_velocity: [Real; 6],
     /// Forces of the six actuators, N, positive away from the base.
     pub actuator_force: [Real; 6],
     /// External force and moment on the payload at its centre of mass [F_D; M_D]: N, N m; O.
@@ -41,6 +43,7 @@ pub(crate) struct States {
     pub base: BaseMotion<Real>,
     pub platform: PlatformState<Real>,
     pub platform_acceleration: Acceleration<Real>,
+    pub reference_velocity: Twist<Real>,
     pub actuator_force: Vector6<Real>,
     pub external_wrench: Wrench<Real>,
 }
@@ -58,6 +61,7 @@ impl From<&Inputs> for States {
                 velocity: twist(&inputs.platform_velocity),
             },
             platform_acceleration: acceleration(&inputs.platform_acceleration),
+            reference_velocity: twist(&inputs.reference_velocity),
             actuator_force: Vector6::from(inputs.actuator_force),
             external_wrench: wrench(&inputs.external_wrench),
         }

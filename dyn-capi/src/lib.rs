@@ -21,7 +21,8 @@
 //! | `status` | status, details, both in words |
 //! | `model`, `parameters`, `inputs`, `outputs` | structs, and what the runtime makes of them |
 //! | `pointers` | the border: the only module that follows pointers |
-//! | `dynamics` | the calls about a model, one row each |
+//! | `control` | the calls that a control loop is made of |
+//! | `dynamics` | the other calls about a model, one row each |
 //! | `rotations` | the calls about rotations and angles |
 //! | `panic` | the handler of libraries without `std` |
 //!
@@ -37,6 +38,7 @@
 #[cfg(feature = "std")]
 extern crate std;
 
+mod control;
 mod dynamics;
 mod inputs;
 mod model;
@@ -49,6 +51,7 @@ mod real;
 mod rotations;
 mod status;
 
+pub use control::*;
 pub use dynamics::*;
 pub use inputs::Inputs;
 pub use model::{Model, ModelKind, dyn_baked_platform_name, dyn_check_model};

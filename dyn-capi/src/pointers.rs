@@ -11,8 +11,12 @@ use core::mem::size_of;
 
 use dyn_runtime::Error;
 
+use crate::control::{Coils, Control, CurrentsResult, ForwardKinematics, Limits, Margins};
 use crate::inputs::{Inputs, States};
 use crate::model::{Model, Platform};
+use crate::outputs::{
+    CoriolisMatrices, Energy, EquationOfMotion, LegKinematics, Matrices, PassiveForces, StiffnessMatrices,
+};
 use crate::parameters::{UhpParameters, UpsParameters};
 use crate::real::Real;
 use crate::status::{Info, Refusal, Status};
@@ -34,16 +38,13 @@ pub(crate) unsafe trait Structure: Sized {
     }
 }
 
-// SAFETY: `repr(C)`, first member `struct_size: usize`.
-unsafe impl Structure for Inputs {}
-// SAFETY: `repr(C)`, first member `struct_size: usize`.
-unsafe impl Structure for Info {}
-// SAFETY: `repr(C)`, first member `struct_size: usize`.
-unsafe impl Structure for Model {}
-// SAFETY: `repr(C)`, first member `struct_size: usize`.
-unsafe impl Structure for UhpParameters {}
-// SAFETY: `repr(C)`, first member `struct_size: usize`.
-unsafe impl Structure for UpsParameters {}
+/// Declares that structs begin with their size.
+macro_rules! structures {
+    ($($structure:ty),+ $(,)?) => {$(
+        // SAFETY: `repr(C)`, first member `struct_size: usize`.
+        unsafe impl Structure for $structure {}
+    )+};
+}
 
 /// What a call writes: an array, or a struct that begins with its size.
 pub(crate) trait Output: Copy {
@@ -147,31 +148,31 @@ pub(crate) unsafe fn explain(info: *mut Info, act: impl FnOnce() -> Result<(), R
     }
 }
 
-/// Declares that structs of outputs begin with their size.
-macro_rules! output_structures {
-    ($($structure:ty),+ $(,)?) => {$(
-        // SAFETY: `repr(C)`, first member `struct_size: usize`.
-        unsafe impl Structure for $structure {}
-
-        impl Output for $structure {
+/// Declares that structs are outputs.
+macro_rules! outputs {
+    ($($structure:ty),+ $(,)?) => {
+        structures!($($structure),+);
+        $(impl Output for $structure {
             unsafe fn check(pointer: *const Self) -> Result<(), Refusal> {
                 // SAFETY: passed on to the caller.
                 unsafe { <Self as Structure>::check(pointer) }
             }
-        }
-    )+};
+        })+
+    };
 }
 
-use crate::outputs::{
-    CoriolisMatrices, Energy, EquationOfMotion, LegKinematics, Matrices, PassiveForces, StiffnessMatrices,
-};
+structures!(Inputs, Info, Model, UhpParameters, UpsParameters, Limits, Coils);
 
-output_structures!(
+outputs!(
     CoriolisMatrices,
     Energy,
     EquationOfMotion,
     LegKinematics,
     Matrices,
     PassiveForces,
-    StiffnessMatrices
+    StiffnessMatrices,
+    Control,
+    CurrentsResult,
+    ForwardKinematics,
+    Margins,
 );

@@ -6,6 +6,7 @@ use core::mem::size_of;
 use dyn_runtime::parameter::{ParameterError, ParameterProblem};
 use dyn_runtime::{Error, Input};
 
+use crate::control::Quantity;
 use crate::real::Real;
 
 /// How a call ended. With any status but DYN_STATUS_OK no output has been written.
@@ -40,8 +41,12 @@ pub enum Status {
     GimbalLock = 11,
     /// A parameter is not physical: `info.input` and `info.leg` say which, `info.value` is what it is.
     InvalidParameter = 12,
+    /// No pose found with the given actuator lengths: a length still differs by `info.value`, m.
+    NoConvergence = 13,
+    /// A quantity is beyond its limit: `info.quantity`, `info.leg`, and `info.value`, the margin (negative).
+    BeyondLimit = 14,
     /// A reason that this version of the interface has no status for.
-    Other = 13,
+    Other = 15,
 }
 
 /// An input of a call or a parameter of a model, as `info.input` names it.
@@ -74,6 +79,12 @@ pub enum InputName {
     Angles = 10,
     /// The quaternion of a conversion.
     Quaternion = 11,
+    /// `reference_velocity`
+    ReferenceVelocity = 12,
+    /// The lengths of forward kinematics.
+    ActuatorLength = 13,
+    /// The rates of dyn_platform_velocity.
+    ActuatorVelocity = 14,
     /// `base_point`
     BasePoint = 100,
     /// `actuator_axis`
@@ -132,6 +143,8 @@ pub struct Info {
     pub input: InputName,
     /// The first leg to blame, 0 to 5, or -1.
     pub leg: i32,
+    /// The quantity beyond its limit, a `DYN_QUANTITY_...`, or -1.
+    pub quantity: i32,
     /// A number that says how far off, see the status; else 0.
     pub value: Real,
     /// The threshold that `value` failed; else 0.
@@ -144,6 +157,7 @@ pub(crate) struct Refusal {
     pub status: Status,
     pub input: InputName,
     pub leg: i32,
+    pub quantity: i32,
     pub value: Real,
     pub limit: Real,
 }
@@ -151,7 +165,7 @@ pub(crate) struct Refusal {
 impl Refusal {
     /// Without details.
     pub fn of(status: Status) -> Self {
-        Self { status, input: InputName::None, leg: -1, value: 0.0, limit: 0.0 }
+        Self { status, input: InputName::None, leg: -1, quantity: -1, value: 0.0, limit: 0.0 }
     }
 
     /// Because of an input.
@@ -169,6 +183,7 @@ impl Refusal {
             struct_size: size_of::<Info>(),
             input: self.input,
             leg: self.leg,
+            quantity: self.quantity,
             value: self.value,
             limit: self.limit,
         }
@@ -219,6 +234,14 @@ impl From<Error> for Refusal {
                 limit: <Real as dyn_runtime::Real>::MIN_RECIPROCAL_CONDITION,
                 ..Self::of(Status::SingularJacobian)
             },
+            Error::NoConvergence { residual_m, .. } => {
+                Self { value: residual_m as Real, ..Self::of(Status::NoConvergence) }
+            }
+            Error::BeyondLimit { quantity, leg, margin } => Self {
+                quantity: Quantity::from(quantity) as i32,
+                value: margin as Real,
+                ..leg.map_or(Self::of(Status::BeyondLimit), |leg| Self::of_leg(Status::BeyondLimit, leg))
+            },
             Error::NonFiniteResult => Self::of(Status::NonFiniteResult),
             _ => Self::of(Status::Other),
         }
@@ -238,6 +261,9 @@ impl From<Input> for InputName {
             Input::PlatformAcceleration => Self::PlatformAcceleration,
             Input::ActuatorForce => Self::ActuatorForce,
             Input::ExternalWrench => Self::ExternalWrench,
+            Input::ReferenceVelocity => Self::ReferenceVelocity,
+            Input::ActuatorLength => Self::ActuatorLength,
+            Input::ActuatorVelocity => Self::ActuatorVelocity,
             _ => Self::None,
         }
     }
@@ -281,6 +307,11 @@ const STATUSES: &[(Status, &core::ffi::CStr)] = &[
         Status::InvalidParameter,
         c"a parameter is not physical: masses, lengths and inertias are positive, axes are unit vectors, numbers finite",
     ),
+    (
+        Status::NoConvergence,
+        c"no pose found with these actuator lengths: start nearer to it, and check that the lengths are d in metres",
+    ),
+    (Status::BeyondLimit, c"a quantity is beyond its limit: bring the platform nearer to its home"),
     (Status::Other, c"refused for a reason that this version of the interface has no status for"),
 ];
 
@@ -305,6 +336,9 @@ const INPUTS: &[(InputName, &core::ffi::CStr)] = &[
     (InputName::ExternalWrench, c"external_wrench"),
     (InputName::Angles, c"angles"),
     (InputName::Quaternion, c"quaternion"),
+    (InputName::ReferenceVelocity, c"reference_velocity"),
+    (InputName::ActuatorLength, c"actuator_length"),
+    (InputName::ActuatorVelocity, c"actuator_velocity"),
     (InputName::BasePoint, c"base_point"),
     (InputName::ActuatorAxis, c"actuator_axis"),
     (InputName::PlatformPoint, c"platform_point"),

@@ -4,8 +4,9 @@
 mod support;
 
 use std::fs;
+use std::process::Command;
 
-use support::{Link, compile, compile_with, folder, program, records, succeed};
+use support::{Link, compile, compile_with, compiler, folder, program, records, succeed};
 
 const LINKS: [Link; 2] = [Link::Static, Link::Dynamic];
 
@@ -48,6 +49,14 @@ fn every_refusal() {
     }
 }
 
+#[test]
+fn calls_of_a_control_loop() {
+    let scratch = tempfile::tempdir().unwrap();
+    for link in LINKS {
+        succeed(&mut program(&compile(&folder().join("tests/c/control.c"), link, scratch.path())));
+    }
+}
+
 /// Against a stub of Simulink's header: it compiles, and what it computes is what the library computes.
 #[test]
 fn s_function() {
@@ -74,4 +83,35 @@ fn documented_control_loop() {
     for link in LINKS {
         succeed(&mut program(&compile(&source, link, scratch.path())));
     }
+}
+
+/// A library with a platform file of the user's: the vectors of that platform, by the baked model.
+#[test]
+#[ignore = "builds the library anew, some minutes: cargo test -p dyn-capi --test c_programs -- --ignored"]
+fn own_platform() {
+    let scratch = tempfile::tempdir().unwrap();
+    let root = folder().join("..").canonicalize().unwrap();
+    let target = root.join("target/own-platform");
+    succeed(
+        Command::new(env!("CARGO"))
+            .args(["build", "--package", "dyn-capi", "--features", "own-platform", "--target-dir"])
+            .arg(&target)
+            .env("DYN_PLATFORM", root.join("tests/platforms/everything.toml"))
+            .current_dir(&root),
+    );
+    let file = scratch.path().join("vectors.txt");
+    fs::write(&file, records()).unwrap();
+    let path = scratch.path().join("vectors");
+    let library = target.join("debug/libdyn_capi.a");
+    let source = folder().join("tests/c/vectors.c");
+    succeed(compiler().arg(source).arg("-o").arg(&path).arg(library).args(["-lm", "-lpthread", "-ldl"]));
+    succeed(program(&path).arg(&file));
+
+    let main = "#include <stdio.h>\n#include \"dyn_capi.h\"\nint main(void) { puts(dyn_baked_platform_name()); return 0; }\n";
+    let source = scratch.path().join("name.c");
+    fs::write(&source, main).unwrap();
+    let path = scratch.path().join("name");
+    let library = target.join("debug/libdyn_capi.a");
+    succeed(compiler().arg(source).arg("-o").arg(&path).arg(library).args(["-lm", "-lpthread", "-ldl"]));
+    assert_eq!(succeed(&mut program(&path)).stdout, b"everything\n");
 }

@@ -57,13 +57,13 @@ static const slot input_slots[] = {
     SLOT(inputs, base_position), SLOT(inputs, base_rotation), SLOT(inputs, base_velocity),
     SLOT(inputs, base_acceleration), SLOT(inputs, platform_position), SLOT(inputs, platform_rotation),
     SLOT(inputs, platform_velocity), SLOT(inputs, platform_acceleration), SLOT(inputs, actuator_force),
-    SLOT(inputs, external_wrench), { 0, 0, 0 }
+    SLOT(inputs, external_wrench), { "platform_velocity", inputs.reference_velocity, 6 }, { 0, 0, 0 }
 };
 
 /* Outputs: of functions with one array, then of those with a struct. */
 static struct {
     dyn_real rod_alignment[6], jacobian_dp[6][6], jacobian_db[6][6], mass_matrix_p[6][6], mass_matrix_b[6][6], bias[6],
-        inverse_dynamics[6], forward_dynamics[6];
+        inverse_dynamics[6], forward_dynamics[6], passive_inverse_dynamics[6], base_wrench[6];
 } out;
 static dyn_leg_kinematics_result legs = { .struct_size = sizeof legs };
 static dyn_stiffness_matrices_result stiffness = { .struct_size = sizeof stiffness };
@@ -71,6 +71,7 @@ static dyn_passive_forces_result passive = { .struct_size = sizeof passive };
 static dyn_coriolis_matrices_result coriolis = { .struct_size = sizeof coriolis };
 static dyn_matrices_result matrices = { .struct_size = sizeof matrices };
 static dyn_equation_of_motion_result equation = { .struct_size = sizeof equation };
+static dyn_control_result control = { .struct_size = sizeof control };
 static dyn_energy_result energy = { .struct_size = sizeof energy };
 
 /* An output that several functions give appears once for each. */
@@ -88,7 +89,11 @@ static const slot output_slots[] = {
     SLOT(equation, mass_matrix_b), SLOT(equation, coriolis_matrix_b), SLOT(equation, stiffness_matrix_b),
     SLOT(equation, jacobian_db), SLOT(equation, gravity_force), SLOT(equation, spring_force),
     SLOT(equation, damping_force), SLOT(equation, bias), SLOT(energy, kinetic_energy),
-    SLOT(energy, potential_energy), { 0, 0, 0 }
+    SLOT(energy, potential_energy), SLOT(out, base_wrench), SLOT(control, actuator_length),
+    SLOT(control, actuator_velocity), SLOT(control, jacobian_dp), SLOT(control, mass_matrix_p),
+    { "inverse_dynamics", control.actuator_force, 6 },
+    /* At the actual velocity forces for passivity-based control are those of inverse dynamics. */
+    { "inverse_dynamics", out.passive_inverse_dynamics, 6 }, { 0, 0, 0 }
 };
 
 static long failures, compared;
@@ -144,6 +149,9 @@ static void call_everything(const dyn_model *model)
     CALL(matrices, matrices);
     CALL(equation_of_motion, equation);
     CALL(energy, energy);
+    CALL(control, control);
+    CALL(passive_inverse_dynamics, out.passive_inverse_dynamics);
+    CALL(base_reaction, out.base_wrench);
 }
 
 /* Compares every output of that name; one that no call here gives is left out. */
