@@ -8,7 +8,8 @@ import numpy as np
 from prototype.exchange import PARAMETERS
 
 REPOSITORY = Path(__file__).parents[3]
-VECTORS = sorted((REPOSITORY / "tests" / "vectors").glob("*.json"))
+# The prototype builds legs of the paper's type only; other types have vectors of their own, named after them.
+VECTORS = sorted(path for path in (REPOSITORY / "tests" / "vectors").glob("*.json") if not path.stem.startswith("ups_"))
 HOME_HEIGHT = 0.382  # m, platforms/uhp_2016.toml
 
 
