@@ -25,9 +25,9 @@ pub const STATE: &[(&str, &[usize])] = &[
     ("platform_rotation", &[3, 3]),
     ("platform_velocity", &[6]),
     ("platform_acceleration", &[6]),
-    ("reference_velocity", &[6]),
     ("actuator_force", &[6]),
     ("external_wrench", &[6]),
+    ("reference_velocity", &[6]),
 ];
 
 /// A value that the lookup did not give, or gave with the wrong number of entries.

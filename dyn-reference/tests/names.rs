@@ -133,6 +133,7 @@ fn states_are_read_by_name() {
     assert_eq!(state.platform.acceleration[1], 43.0);
     assert_eq!(state.actuator_force_n[5], 53.0);
     assert_eq!(state.external_wrench[0], 54.0);
+    assert_eq!(state.reference_velocity[0], 60.0);
 }
 
 #[test]

@@ -77,7 +77,7 @@ fn the_counter_counts() {
 /// The functions of a model, by the file that the generator wrote.
 fn functions() -> Vec<&'static str> {
     let model = include_str!("../src/generated/uhp.rs");
-    model.split("\npub fn ").skip(1).map(|text| text.split_once('(').expect("a signature").0).collect()
+    model.split("\npub fn ").skip(1).map(|text| text.split_once(['<', '(']).expect("a signature").0).collect()
 }
 
 /// One trait that stands for those named.

@@ -147,7 +147,7 @@ pub fn random_state<L: LegType>(case: &Case<L>, random: &mut Pcg64) -> State {
             ),
             actuator_force_n: vector(random, 200.0),
             external_wrench: vector(random, 50.0),
-            reference_velocity: vector(random, 1.0),
+            reference_velocity: SMatrix::zeros(),
         };
         for body in [&mut state.base, &mut state.platform] {
             body.velocity = vector(random, 3.0);
