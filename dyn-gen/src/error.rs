@@ -159,20 +159,12 @@ const LAYOUT: &str = "check the legs' layout: parallel or coinciding rods, or al
                       platform; move the joints (in a circular layout, change the pair angles or radii) or the home pose";
 
 /// What evidence against a model tells.
-const FAULT: &str = "no platform file can cause this: the graph file was altered (derive it again with `cargo regen --derive`, \
+const FAULT: &str = "check the units of the platform file first, SI throughout: lengths in millimetres cost the digits that are \
+                     missing here. Otherwise the graph file was altered (derive it again with `cargo regen --derive`, \
                      or leave out --graph), or dyn-gen is at fault; please report it with the platform file and this message";
 
-/// At most this many figures in a message; the table has all.
-const MOST_SHOWN: usize = 4;
-
 fn refused(evidence: &Evidence) -> String {
-    let failures = evidence.failures();
-    let more = failures.len().saturating_sub(MOST_SHOWN);
-    let mut lines: Vec<String> = failures.into_iter().take(MOST_SHOWN).collect();
-    if more > 0 {
-        lines.push(format!("and {more} more"));
-    }
-    format!("the evidence is against this model; nothing is written\n{}", lines.join("\n"))
+    format!("the evidence is against this model; nothing is written\n{}", evidence.first_failures())
 }
 
 fn remedy(reason: &NoPose) -> &'static str {

@@ -50,6 +50,7 @@ fn a_model_is_checked_with_the_options_in_its_first_lines() {
             "{}",
             said(&result)
         );
+        assert!(!said(&result).contains("edited"), "{}", said(&result));
         let command = [
             "make it again with\n  dyn-gen generate 'my platform.toml' -o model.rs",
             "--functions rod_alignment,bias",
@@ -73,6 +74,11 @@ fn a_file_that_was_edited_is_not_what_the_platform_gives() {
     let text = fs::read_to_string(folder.path().join("model.rs")).unwrap();
     let line = 1 + text.lines().position(|line| line.contains("t1  ")).unwrap();
     assert!(said(&result).contains(&format!("line {line} is the first that differs")), "{}", said(&result));
+    assert!(
+        words(&result).contains("numbers and options are the same, so it was edited"),
+        "{}",
+        said(&result)
+    );
 }
 
 #[test]
@@ -89,7 +95,14 @@ fn files_of_other_origin_are_refused_with_the_command_that_makes_them() {
     assert!(own.contains("help: write it with `dyn-gen generate 'my platform.toml' -o own.rs`"), "{own}");
     fs::write(folder.path().join("empty.rs"), "").unwrap();
     assert!(check("empty.rs").contains("its first line is another"));
-    assert!(check("missing.rs").contains("cannot read missing.rs"));
+    let missing = check("missing.rs");
+    assert!(missing.contains("cannot read missing.rs: there is no such file"), "{missing}");
+    assert!(
+        missing.contains("or write it with `dyn-gen generate 'my platform.toml' -o missing.rs`"),
+        "{missing}"
+    );
+    let swapped = words(&dyn_gen(folder.path(), &["check", "model.rs", "my platform.toml"]));
+    assert!(swapped.contains("help: give the platform file first"), "{swapped}");
     for (command, mention) in [
         ("cargo regen", "it was made with `cargo regen`"),
         ("dyn-gen generate a.toml", "is not one of this version"),

@@ -79,7 +79,7 @@ impl Platform {
     /// The file cannot be read, is not UTF-8, or holds mistakes; each mistake comes with line, caret and remedy.
     pub fn from_file(path: impl AsRef<Path>) -> Result<Self, FileError> {
         let path = path.as_ref();
-        let help = "check the path and its permissions; platforms/uhp_2016.toml is an example";
+        let help = "check the path and its permissions; `dyn-gen init` prints an example";
         let text = read_text(path, "platform", help)?;
         Self::from_toml(&path.display().to_string(), &text)
     }

@@ -226,7 +226,7 @@ fn syntax(error: &toml::de::Error, text: &str) -> Refusal {
         error.span().unwrap_or_else(|| first_line(text)),
         "here",
         format!("this is not TOML: {}", error.message()),
-        "mend the syntax; https://toml.io describes it, platforms/uhp_2016.toml is an example",
+        "mend the syntax; https://toml.io describes it, `dyn-gen init` prints an example",
     )
 }
 

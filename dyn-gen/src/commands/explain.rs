@@ -10,7 +10,7 @@ use miette::{IntoDiagnostic, Result};
 
 use super::Outcome;
 use super::files::read_platform;
-use super::model::states;
+use super::model::{states, trimmed};
 use super::progress::with_progress;
 
 /// Arguments of `explain`.
@@ -24,10 +24,10 @@ pub struct Explain {
     #[arg(long)]
     json: bool,
     /// Functions to explain, separated by commas [default: all]
-    #[arg(long, value_delimiter = ',', value_name = "NAME,...")]
+    #[arg(long, value_delimiter = ',', value_parser = trimmed, value_name = "NAME,...")]
     functions: Option<Vec<String>>,
     /// Numbers given at run time, as for `generate`
-    #[arg(long, value_delimiter = ',', value_name = "NAME,...")]
+    #[arg(long, value_delimiter = ',', value_parser = trimmed, value_name = "NAME,...")]
     runtime: Vec<String>,
     /// States looked at
     #[arg(long, value_name = "N", default_value_t = Sampling::default().states, value_parser = states)]
@@ -60,8 +60,13 @@ impl Explain {
         } else {
             print!("{}", explanation.text());
         }
-        let failures = explanation.evidence.failures();
-        failures.iter().for_each(|failure| eprintln!("{failure}"));
-        Ok(if failures.is_empty() { Outcome::Done } else { Outcome::Differs })
+        if explanation.evidence.holds() {
+            return Ok(Outcome::Done);
+        }
+        eprintln!("{}", explanation.evidence.first_failures());
+        if !platform.warnings.is_empty() {
+            eprintln!("first mend what the warnings above are about, if it is not meant");
+        }
+        Ok(Outcome::Differs)
     }
 }

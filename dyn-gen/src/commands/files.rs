@@ -49,6 +49,18 @@ pub fn read(path: &Path) -> Result<String> {
     fs::read_to_string(path).into_diagnostic().wrap_err_with(|| format!("cannot read {}", path.display()))
 }
 
+/// Refuses to write over the platform file.
+pub fn keeps_input(platform: &Path, output: &Path) -> Result<()> {
+    let same = matches!((platform.canonicalize(), output.canonicalize()), (Ok(a), Ok(b)) if a == b);
+    miette::ensure!(
+        !same,
+        help = "choose another name for what is written",
+        "{} is the platform file and stays as it is",
+        output.display()
+    );
+    Ok(())
+}
+
 /// The platform file at `path`. Hints at what may be wrong with it are printed.
 pub fn read_platform(path: &Path) -> Result<Platform> {
     let platform = Platform::from_file(path)?;

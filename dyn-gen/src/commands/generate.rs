@@ -5,9 +5,11 @@ use std::path::PathBuf;
 use clap::Args;
 use dyn_gen::GenerateError;
 use dyn_gen::output::{NewFile, write_all};
-use miette::{IntoDiagnostic, Result};
+use miette::{IntoDiagnostic, Result, ensure};
 
 use super::Outcome;
+use super::check::is_ours;
+use super::files::{keeps_input, read};
 use super::model::ModelArguments;
 
 /// Arguments of `generate`.
@@ -37,16 +39,27 @@ Examples:
   dyn-gen generate my_platform.toml -o src/my_platform.rs --runtime payload,gravity,legs.k_e
   dyn-gen generate my_platform.toml -o src/my_platform.rs --evidence evidence.json
 
-The file needs the crate dyn-runtime and nothing else: add `mod my_platform;` and call
-`dyn_runtime::Hexapod::new(my_platform::MyPlatform)`. With --runtime the model has parameters:
-`my_platform::MyPlatform::default()` has the platform file's.
+The file needs the crate dyn-runtime and nothing else: add `mod my_platform;`, with
+`#[rustfmt::skip]` before it, and call `dyn_runtime::Hexapod::new(my_platform::MyPlatform)`. With
+--runtime the model has parameters: `my_platform::MyPlatform::default()` has the platform file's.
 
-Before it writes, generate compares the model with the equations as derived and with dynamics written by hand, at sampled
-states, and asks laws of mechanics of it. If anything is beyond its tolerance it writes nothing and ends with code 1.";
+Before it writes, generate compares the model with the equations as derived and with dynamics
+written by hand, at sampled states, and asks laws of mechanics of it. If anything is beyond its
+tolerance it writes nothing and ends with code 1. A file that it did not write is left alone.";
 
 impl Generate {
     /// Writes the model, if nothing stands against it.
     pub fn run(self) -> Result<Outcome> {
+        keeps_input(&self.platform, &self.output)?;
+        if let Some(evidence) = &self.evidence {
+            keeps_input(&self.platform, evidence)?;
+        }
+        ensure!(
+            !self.output.is_file() || read(&self.output).is_ok_and(|text| is_ours(&text)),
+            help = "choose another name, or remove it first",
+            "{} was not written by dyn-gen and stays as it is",
+            self.output.display()
+        );
         let generated = match self.model.generate(&self.platform, &self.output) {
             Ok(generated) => generated,
             Err(report) => {

@@ -1,6 +1,6 @@
 //! `dyn-gen init`: a platform file to start from.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::builder::PossibleValuesParser;
 use clap::{Args, builder::TypedValueParser};
@@ -53,8 +53,9 @@ impl Init {
         );
         write_all(&[NewFile { path: path.clone(), text: text.to_owned() }])?;
         let file = path.display();
+        let model = if Path::new("src").is_dir() { "src/my_platform.rs" } else { "my_platform.rs" };
         eprintln!(
-            "wrote {file}\nnext: change its numbers, then\n  dyn-gen explain {file}\n  dyn-gen generate {file} -o my_platform.rs"
+            "wrote {file}\nnext: change its numbers, then\n  dyn-gen explain {file}\n  dyn-gen generate {file} -o {model}"
         );
         Ok(Outcome::Done)
     }

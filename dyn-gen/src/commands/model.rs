@@ -24,11 +24,11 @@ pub struct ModelArguments {
     model: Option<String>,
     /// Functions to generate, separated by commas; one with some of its outputs only as `control:jacobian_dp:total_bias`
     /// [default: all; `dyn-gen explain` lists them]
-    #[arg(long, value_delimiter = ',', value_name = "NAME,...")]
+    #[arg(long, value_delimiter = ',', value_parser = trimmed, value_name = "NAME,...")]
     functions: Option<Vec<String>>,
     /// Numbers given at run time, separated by commas, all others baked in: parameters (`axial_stiffness`, `legs.k_e`) or
     /// the groups payload, legs, gravity, all [default: none]
-    #[arg(long, value_delimiter = ',', value_name = "NAME,...")]
+    #[arg(long, value_delimiter = ',', value_parser = trimmed, value_name = "NAME,...")]
     runtime: Vec<String>,
     /// Numbers that the model computes with, f64 or f32 or both; the first is compiled with the file, others where they are
     /// called
@@ -103,6 +103,11 @@ impl ModelArguments {
         }
         words
     }
+}
+
+/// A name of a list, without the blanks that may follow its comma.
+pub fn trimmed(text: &str) -> std::result::Result<String, std::convert::Infallible> {
+    Ok(text.trim().to_owned())
 }
 
 /// Number of states to look at: all kinds of them, or figures could come from home alone, where much is zero.

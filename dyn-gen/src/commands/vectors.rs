@@ -10,7 +10,7 @@ use dyn_gen::vectors::{read_states, vectors};
 use miette::{IntoDiagnostic, Report, Result, WrapErr};
 
 use super::Outcome;
-use super::files::{read, read_platform};
+use super::files::{keeps_input, read, read_platform};
 
 /// Arguments of `vectors`.
 #[derive(Args)]
@@ -39,12 +39,13 @@ Examples:
   dyn-gen vectors my_platform.toml -n 500 --seed 7 -o vectors.json
   dyn-gen vectors my_platform.toml --states states.json -o vectors.json
 
-The file has the platform's resolved numbers and, for each state, every output of every function, in SI units and inertial
-axes. docs/vectors.md describes the format and lists the outputs.";
+The file has the platform's resolved numbers and, for each state, every output of every function,
+in SI units and inertial axes. docs/vectors.md describes the format and lists the outputs.";
 
 impl Vectors {
     /// Writes the vectors.
     pub fn run(self) -> Result<Outcome> {
+        keeps_input(&self.platform, &self.output)?;
         let platform = read_platform(&self.platform)?;
         let file = GraphFile::of(platform.leg_type)?;
         let states = match &self.states {

@@ -178,6 +178,19 @@ impl Evidence {
         self.outputs.iter().all(Agreement::holds) && self.laws.iter().all(LawRow::holds)
     }
 
+    /// The first of the [`failures`](Self::failures), line by line, and how many more there are.
+    pub fn first_failures(&self) -> String {
+        /// At most this many; the table has all.
+        const MOST_SHOWN: usize = 4;
+        let failures = self.failures();
+        let more = failures.len().saturating_sub(MOST_SHOWN);
+        let mut lines: Vec<String> = failures.into_iter().take(MOST_SHOWN).collect();
+        if more > 0 {
+            lines.push(format!("and {more} more"));
+        }
+        lines.join("\n")
+    }
+
     /// Every figure that exceeds its tolerance, in words: what, by how much, at which state.
     pub fn failures(&self) -> Vec<String> {
         let place = |worst: &Worst| {

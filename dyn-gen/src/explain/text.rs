@@ -104,5 +104,5 @@ fn numbers(values: &[f64], decimals: usize) -> String {
     // No minus sign on what rounds to zero.
     let half = 0.5 * 0.1_f64.powi(decimals as i32);
     let shown = |value: &f64| if value.abs() < half { 0.0 } else { *value };
-    values.iter().map(|value| format!("{:>10.decimals$}", shown(value))).collect()
+    values.iter().map(|value| format!(" {:>9.decimals$}", shown(value))).collect()
 }

@@ -13,7 +13,7 @@ fn vanished_file() {
     expect![[r#"
         Error:
           × cannot read the platform file `no/such/platform.toml`: No such file or directory (os error 2)
-          help: check the path and its permissions; platforms/uhp_2016.toml is an example
+          help: check the path and its permissions; `dyn-gen init` prints an example
     "#]]
     .assert_eq(&rendered(&error));
 }
@@ -86,7 +86,7 @@ fn syntax_error() {
             ·           ╰── here
          30 │ com_m = [0.0, 0.0, 0.03]
             ╰────
-          help: mend the syntax; https://toml.io describes it, platforms/uhp_2016.toml is an example
+          help: mend the syntax; https://toml.io describes it, `dyn-gen init` prints an example
     "#]],
     );
 }
@@ -106,7 +106,7 @@ fn key_given_twice() {
             ·      ╰── here
          21 │ rod_inertia_kg_m2 = 0.005
             ╰────
-          help: mend the syntax; https://toml.io describes it, platforms/uhp_2016.toml is an example
+          help: mend the syntax; https://toml.io describes it, `dyn-gen init` prints an example
     "#]],
     );
 }
