@@ -96,6 +96,7 @@ pub fn states(
 }
 
 /// Random numbers.
+#[derive(Clone)]
 struct Source(Pcg64Mcg);
 
 impl Source {
@@ -143,7 +144,8 @@ impl Source {
         put("platform_acceleration", &self.array::<6>(acceleration));
         put("actuator_force", &self.array::<6>(force));
         put("external_wrench", &self.array::<6>(0.1 * force));
-        put("reference_velocity", &self.array::<6>(speed));
+        // From a copy of the source: states do not depend on whether a function takes it.
+        put("reference_velocity", &self.clone().array::<6>(speed));
         Ok(state)
     }
 

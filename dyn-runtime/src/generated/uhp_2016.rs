@@ -33,9 +33,9 @@
 // energy                          1769         854
 //
 // linear systems: growth of rounding errors in a fixed order of pivots, at the worst state
-// inverse_dynamics, axial_reaction: 7.2 (51 states sampled)
-// control, axial_reaction: 38.3 (51 states sampled)
-// passive_inverse_dynamics, axial_reaction: 7.2 (51 states sampled)
+// inverse_dynamics, axial_reaction: 10.7 (51 states sampled)
+// control, axial_reaction: 54.5 (51 states sampled)
+// passive_inverse_dynamics, axial_reaction: 10.7 (51 states sampled)
 
 #[allow(unused_imports)]
 use crate::float::{Scalar, sqrt};
@@ -15702,78 +15702,80 @@ pub fn inverse_dynamics<T: Scalar>(
     let t503 = base_rotation[1][2] * external_wrench[4];
     let t504 = base_rotation[2][2] * external_wrench[5];
     // force along the actuator that balances the remaining wrench
-    let t505 = t484 + (t483 + (t482 - (t480 - (t478 - (t477 + (t475 - t476))))));
-    let t506 = t419 * t474 + (t485 + t505);
-    let t507 = c(1.0) / (t422 + (t79 - t419));
-    let t508 = (t423 + (t78 - t420)) * t507;
-    let t509 = t494 + (t493 + (t492 - (t491 - (t489 - (t488 + (t486 - t487))))));
-    let t510 = t506 * t508 - (t420 * t474 - (t495 + t509));
-    let t511 = t419 + (t50 - t411);
-    let t512 = (t425 + (t421 - t424)) * t507;
-    let t513 = c(1.0) / (t511 * t508 - (t420 + (t49 + t412)));
-    let t514 = (t511 * t512 + (t421 - (t413 + t414))) * t513;
-    let t515 = t503 + (t502 + (t501 - (t500 - (t499 - (t498 + (t496 - t497))))));
-    let t516 = t510 * t514 - (t506 * t512 + (t421 * t474 - (t504 + t515)));
-    let t517 = t419 - (t59 + t415);
-    let t518 = t517 * t508 - (t420 - (t56 + t416));
-    let t519 = (t113 - t115) * t507;
-    let t520 = (t511 * t519 + (t109 + t113)) * t513;
-    let t521 = c(1.0) / (t518 * t514 - (t517 * t512 + (t421 - (t417 - t418))));
-    let t522 = (t518 * t520 - (t517 * t519 - (t111 - t113))) * t521;
-    let t523 = c(8.139999999999999) * t224 - c(2.2551405187698492e-17) * t252;
-    let t524 = t523 - c(6.938893903907228e-18) * t253 - c(0.188852) * t254;
-    let t525 = t113 * t474 + (t468 - (t443 + (t442 + (t441 + t524))));
-    let t526 = t516 * t522 - (t510 * t520 - (t506 * t519 + t525));
-    let t527 = t419 + (t42 - t407);
-    let t528 = t527 * t508 - (t420 + (t39 - t408));
-    let t529 = t528 * t514 - (t527 * t512 + (t421 - (t409 - t410)));
-    let t530 = (t112 - t114) * t507;
-    let t531 = (t511 * t530 - (t108 - t112)) * t513;
-    let t532 = (t518 * t531 - (t517 * t530 - (t110 - t112))) * t521;
-    let t533 = t529 * t532 - (t528 * t531 - (t527 * t530 + (t106 + t112)));
-    let t534 = t529 * t522 - (t528 * t520 - (t527 * t519 + (t107 + t113)));
-    let t535 = c(1.0) / t534;
-    let t536 = t533 * t535;
-    let t537 = c(8.139999999999999) * t221 + c(2.2551405187698492e-17) * t244;
-    let t538 = t537 + c(6.938893903907228e-18) * t245 + c(0.188852) * t246;
-    let t539 = t112 * t474 + (t465 - (t432 + (t431 + (t430 + t538))));
-    let t540 = t516 * t532 - (t510 * t531 - (t506 * t530 + t539));
-    let t541 = t426 + (t84 - t419);
-    let t542 = t541 * t508 - (t427 + (t83 - t420));
-    let t543 = t542 * t514 - (t541 * t512 - (t429 + (t421 - t428)));
-    let t544 = t543 * t522 - (t542 * t520 - (t541 * t519 - (t113 - t117)));
-    let t545 = t543 * t532 - (t542 * t531 - (t541 * t530 - (t112 - t116)));
-    let t546 = (t526 * t536 - t540) * (c(1.0) / (t544 * t536 - t545));
-    let t547 = t535 * (t526 - t544 * t546);
-    let t548 = t521 * (t543 * t546 - (t516 - t529 * t547));
-    let t549 = t513 * (t542 * t546 + (t528 * t547 - (t510 + t518 * t548)));
-    let t550 = t527 * t547 - (t517 * t548 + (t506 + t511 * t549));
-    let t551 = t507 * (t541 * t546 + t550);
+    let t505 = t494 + (t493 + (t492 - (t491 - (t489 - (t488 + (t486 - t487))))));
+    let t506 = t420 * t474 - (t495 + t505);
+    let t507 = c(1.0) / (t420 + (t49 + t412));
+    let t508 = (t419 + (t50 - t411)) * t507;
+    let t509 = t484 + (t483 + (t482 - (t480 - (t478 - (t477 + (t475 - t476))))));
+    let t510 = t506 * t508 - (t419 * t474 + (t485 + t509));
+    let t511 = t423 + (t78 - t420);
+    let t512 = (t109 + t113) * t507;
+    let t513 = c(1.0) / (t511 * t508 - (t422 + (t79 - t419)));
+    let t514 = (t511 * t512 + (t113 - t115)) * t513;
+    let t515 = c(8.139999999999999) * t224 - c(2.2551405187698492e-17) * t252;
+    let t516 = t515 - c(6.938893903907228e-18) * t253 - c(0.188852) * t254;
+    let t517 = t113 * t474 + (t468 - (t443 + (t442 + (t441 + t516))));
+    let t518 = t510 * t514 - (t506 * t512 - t517);
+    let t519 = t420 + (t39 - t408);
+    let t520 = t519 * t508 - (t419 + (t42 - t407));
+    let t521 = (t421 - (t413 + t414)) * t507;
+    let t522 = (t511 * t521 + (t425 + (t421 - t424))) * t513;
+    let t523 = c(1.0) / (t520 * t514 - (t519 * t512 - (t107 + t113)));
+    let t524 = (t520 * t522 - (t519 * t521 - (t421 - (t409 - t410)))) * t523;
+    let t525 = t503 + (t502 + (t501 - (t500 - (t499 - (t498 + (t496 - t497))))));
+    let t526 = t510 * t522 - (t506 * t521 - (t421 * t474 - (t504 + t525)));
+    let t527 = t518 * t524 - t526;
+    let t528 = t427 + (t83 - t420);
+    let t529 = t528 * t508 - (t426 + (t84 - t419));
+    let t530 = t529 * t514 - (t528 * t512 + (t113 - t117));
+    let t531 = (t108 - t112) * t507;
+    let t532 = (t511 * t531 - (t112 - t114)) * t513;
+    let t533 = (t520 * t532 - (t519 * t531 + (t106 + t112))) * t523;
+    let t534 = t530 * t533 - (t529 * t532 - (t528 * t531 - (t112 - t116)));
+    let t535 = t529 * t522 - (t528 * t521 + (t429 + (t421 - t428)));
+    let t536 = c(1.0) / (t530 * t524 - t535);
+    let t537 = t534 * t536;
+    let t538 = c(8.139999999999999) * t221 + c(2.2551405187698492e-17) * t244;
+    let t539 = t538 + c(6.938893903907228e-18) * t245 + c(0.188852) * t246;
+    let t540 = t112 * t474 + (t465 - (t432 + (t431 + (t430 + t539))));
+    let t541 = t518 * t533 - (t510 * t532 - (t506 * t531 + t540));
+    let t542 = t420 - (t56 + t416);
+    let t543 = t542 * t508 - (t419 - (t59 + t415));
+    let t544 = t543 * t514 - (t542 * t512 + (t111 - t113));
+    let t545 = t543 * t522 - (t542 * t521 - (t421 - (t417 - t418)));
+    let t546 = t544 * t524 - t545;
+    let t547 = t544 * t533 - (t543 * t532 - (t542 * t531 - (t110 - t112)));
+    let t548 = (t527 * t537 - t541) * (c(1.0) / (t546 * t537 - t547));
+    let t549 = t536 * (t527 - t546 * t548);
+    let t550 = t523 * (t544 * t548 - (t518 - t530 * t549));
+    let t551 = t513 * (t543 * t548 + (t529 * t549 - (t510 + t520 * t550)));
+    let t552 = t528 * t549 - (t519 * t550 + (t506 + t511 * t551));
+    let t553 = t507 * (t542 * t548 + t552);
     // leg 1: actuator forces F
-    let t552 = c(4268.068200000001) - t217 * c(0.03055);
-    let t553 = t552 - c(0.17066666666666666) * t227;
-    let t554 = t553 + t258 * c(0.019782160922400118);
-    let t555 = t259 * c(0.005300614043699624);
-    let t556 = t555 - c(21555.9) * t90 - t341 * c(0.9523333333333334) - t547;
-    inverse_dynamics[0] = t556 - t554;
+    let t554 = c(4268.068200000001) - t217 * c(0.03055);
+    let t555 = t554 - c(0.17066666666666666) * t227;
+    let t556 = t555 + t258 * c(0.019782160922400118);
+    let t557 = t259 * c(0.005300614043699624);
+    let t558 = t550 - (c(21555.9) * t90 - t557 + t341 * c(0.9523333333333334));
+    inverse_dynamics[0] = t558 - t556;
     // leg 2: actuator forces F
-    let t557 = t549 - (t555 + c(21555.9) * t93 - t355 * c(0.9523333333333334));
-    inverse_dynamics[1] = t557 - t554;
+    let t559 = t553 - (t557 + c(21555.9) * t93 - t355 * c(0.9523333333333334));
+    inverse_dynamics[1] = t559 - t556;
     // leg 3: actuator forces F
-    let t558 = t553 - t258 * c(0.005300614043699622);
-    let t559 = t259 * c(0.019782160922400118);
-    let t560 = t548 - (c(21555.9) * t96 + t559 + t368 * c(0.9523333333333334));
-    inverse_dynamics[2] = t560 - t558;
+    let t560 = t555 - t258 * c(0.005300614043699622);
+    let t561 = t259 * c(0.019782160922400118);
+    let t562 = t96 * c(-21555.9) - t561 - t368 * c(0.9523333333333334) - t548;
+    inverse_dynamics[2] = t562 - t560;
     // leg 4: actuator forces F
-    let t561 = t551 - t259 * c(0.014481546878700494);
-    let t562 = t553 - t258 * c(0.01448154687870049);
-    let t563 = t546 + (t474 + (c(21555.9) * t99 + t384 * c(0.9523333333333334)));
-    inverse_dynamics[3] = t561 - (t549 + (t548 - (t547 - t563))) - t562;
+    let t563 = t551 - t259 * c(0.014481546878700494);
+    let t564 = t555 - t258 * c(0.01448154687870049);
+    let t565 = t548 - (t474 + (c(21555.9) * t99 + t384 * c(0.9523333333333334)));
+    inverse_dynamics[3] = t563 - (t553 + (t550 + (t549 - t565))) - t564;
     // leg 6: actuator forces F
-    let t564 = t546 + (t559 - c(21555.9) * t105 + t404 * c(0.9523333333333334));
-    inverse_dynamics[5] = t564 - t558;
+    let t566 = t549 + (t561 - c(21555.9) * t105 + t404 * c(0.9523333333333334));
+    inverse_dynamics[5] = t566 - t560;
     // leg 5: actuator forces F
-    inverse_dynamics[4] = t396 * c(0.9523333333333334) - c(21555.9) * t102 - t561 - t562;
+    inverse_dynamics[4] = t396 * c(0.9523333333333334) - c(21555.9) * t102 - t563 - t564;
 }
 
 /// Actuator lengths with their gradients, for forward kinematics, equation (18), (32).
@@ -16144,16 +16146,11 @@ pub fn control<T: Scalar>(
         t184,
         t185,
         t186,
-        t796,
         t800,
         t804,
+        t814,
         t818,
         t822,
-        t823,
-        t824,
-        t825,
-        t826,
-        t827,
         t828,
         t829,
         t830,
@@ -16167,7 +16164,13 @@ pub fn control<T: Scalar>(
         t838,
         t839,
         t840,
-        t849,
+        t841,
+        t842,
+        t843,
+        t844,
+        t845,
+        t846,
+        t848,
         t850,
         t851,
         t852,
@@ -16175,7 +16178,7 @@ pub fn control<T: Scalar>(
         t854,
         t855,
         t856,
-        t858,
+        t857,
         t859,
         t860,
         t861,
@@ -16184,6 +16187,7 @@ pub fn control<T: Scalar>(
         t864,
         t865,
         t866,
+        t867,
     ) = {
         // rotation of the platform seen from the base
         let t1 = base_rotation[1][0] * platform_rotation[1][0];
@@ -17218,12 +17222,12 @@ pub fn control<T: Scalar>(
         total_bias[1] = -t800;
         total_bias[2] = -t804;
         // inertia less external wrench that the actuators must balance
-        let t823 = platform_acceleration[0] * t392;
-        let t824 = platform_acceleration[1] * t244;
-        let t825 = platform_acceleration[2] * t245;
-        let t826 = platform_acceleration[3] * t259;
-        let t827 = platform_acceleration[4] * t396;
-        let t828 = platform_acceleration[5] * t400;
+        let t823 = platform_acceleration[0] * t392 - (external_wrench[0] + t796);
+        let t824 = platform_acceleration[1] * t244 + t823;
+        let t825 = platform_acceleration[2] * t245 + t824;
+        let t826 = platform_acceleration[3] * t259 - t825;
+        let t827 = platform_acceleration[4] * t396 - t826;
+        let t828 = platform_acceleration[5] * t400 - t827;
         let t829 = platform_acceleration[0] * t244;
         let t830 = platform_acceleration[1] * t402;
         let t831 = platform_acceleration[2] * t272;
@@ -17236,32 +17240,33 @@ pub fn control<T: Scalar>(
         let t838 = platform_acceleration[3] * t410;
         let t839 = platform_acceleration[4] * t411;
         let t840 = platform_acceleration[5] * t316;
-        let t841 = platform_rotation[2][2] * c(0.031);
-        let t842 = platform_rotation[1][2] * c(0.031);
-        let t843 = platform_acceleration[0] * t259 + (external_wrench[3] - t814);
-        let t844 = platform_acceleration[1] * t403 + t843;
-        let t845 = platform_acceleration[2] * t410 - t844;
-        let t846 = platform_acceleration[3] * t419 - t845;
-        let t847 = platform_acceleration[4] * t424 + t846;
-        let t848 = external_wrench[2] * t842 + (platform_acceleration[5] * t429 + t847);
-        let t849 = external_wrench[1] * t841 - t848;
-        let t850 = platform_acceleration[0] * t396;
-        let t851 = platform_acceleration[1] * t291;
-        let t852 = platform_acceleration[2] * t411;
-        let t853 = platform_acceleration[3] * t424;
-        let t854 = platform_acceleration[4] * t437;
-        let t855 = platform_acceleration[5] * t442;
-        let t856 = external_wrench[0] * t841;
-        let t857 = platform_rotation[0][2] * c(0.031);
-        let t858 = external_wrench[2] * t857;
-        let t859 = platform_acceleration[0] * t400;
-        let t860 = platform_acceleration[1] * t407;
-        let t861 = platform_acceleration[2] * t316;
-        let t862 = platform_acceleration[3] * t429;
-        let t863 = platform_acceleration[4] * t442;
-        let t864 = platform_acceleration[5] * t449;
-        let t865 = external_wrench[1] * t857;
-        let t866 = external_wrench[0] * t842;
+        let t841 = platform_acceleration[0] * t259;
+        let t842 = platform_acceleration[1] * t403;
+        let t843 = platform_acceleration[2] * t410;
+        let t844 = platform_acceleration[3] * t419;
+        let t845 = platform_acceleration[4] * t424;
+        let t846 = platform_acceleration[5] * t429;
+        let t847 = platform_rotation[1][2] * c(0.031);
+        let t848 = external_wrench[2] * t847;
+        let t849 = platform_rotation[2][2] * c(0.031);
+        let t850 = external_wrench[1] * t849;
+        let t851 = platform_acceleration[0] * t396;
+        let t852 = platform_acceleration[1] * t291;
+        let t853 = platform_acceleration[2] * t411;
+        let t854 = platform_acceleration[3] * t424;
+        let t855 = platform_acceleration[4] * t437;
+        let t856 = platform_acceleration[5] * t442;
+        let t857 = external_wrench[0] * t849;
+        let t858 = platform_rotation[0][2] * c(0.031);
+        let t859 = external_wrench[2] * t858;
+        let t860 = platform_acceleration[0] * t400;
+        let t861 = platform_acceleration[1] * t407;
+        let t862 = platform_acceleration[2] * t316;
+        let t863 = platform_acceleration[3] * t429;
+        let t864 = platform_acceleration[4] * t442;
+        let t865 = platform_acceleration[5] * t449;
+        let t866 = external_wrench[1] * t858;
+        let t867 = external_wrench[0] * t847;
         (
             t107,
             t109,
@@ -17299,16 +17304,11 @@ pub fn control<T: Scalar>(
             t184,
             t185,
             t186,
-            t796,
             t800,
             t804,
+            t814,
             t818,
             t822,
-            t823,
-            t824,
-            t825,
-            t826,
-            t827,
             t828,
             t829,
             t830,
@@ -17322,7 +17322,13 @@ pub fn control<T: Scalar>(
             t838,
             t839,
             t840,
-            t849,
+            t841,
+            t842,
+            t843,
+            t844,
+            t845,
+            t846,
+            t848,
             t850,
             t851,
             t852,
@@ -17330,7 +17336,7 @@ pub fn control<T: Scalar>(
             t854,
             t855,
             t856,
-            t858,
+            t857,
             t859,
             t860,
             t861,
@@ -17339,75 +17345,75 @@ pub fn control<T: Scalar>(
             t864,
             t865,
             t866,
+            t867,
         )
     };
     {
         // force along the actuator that balances the remaining wrench
-        let t867 = c(1.0) / t184;
-        let t868 = t164 * t867;
-        let t869 = t107 + t169 * t868;
-        let t870 = t168 * t867;
-        let t871 = c(1.0) / (t155 - t181 * t868);
-        let t872 = (t159 - t181 * t870) * t871;
-        let t873 = t869 * t872 - (t111 + t169 * t870);
-        let t874 = t131 - t175 * t868;
-        let t875 = t186 * t867;
-        let t876 = (t183 - t181 * t875) * t871;
-        let t877 = c(1.0) / (t874 * t872 - (t135 - t175 * t870));
-        let t878 = (t874 * t876 - (t177 - t175 * t875)) * t877;
-        let t879 = t873 * t878 - (t869 * t876 + (t171 - t169 * t875));
-        let t880 = t146 - t178 * t868;
-        let t881 = t880 * t872 - (t150 - t178 * t870);
-        let t882 = t185 * t867;
-        let t883 = (t182 - t181 * t882) * t871;
-        let t884 = (t874 * t883 - (t176 - t175 * t882)) * t877;
-        let t885 = c(1.0) / (t881 * t878 - (t880 * t876 - (t180 - t178 * t875)));
-        let t886 = (t881 * t884 - (t880 * t883 - (t179 - t178 * t882))) * t885;
-        let t887 = t873 * t884 - (t869 * t883 + (t170 - t169 * t882));
-        let t888 = c(1.0) / (t879 * t886 - t887);
-        let t889 = t827
-            - (t826 - (t825 + (t824 + (t823 - (external_wrench[0] + t796)))));
-        let t890 = t849 * t868 - (t828 - t889);
-        let t891 = t839
+        let t868 = c(1.0) / t164;
+        let t869 = t184 * t868;
+        let t870 = t845
+            + (t844 - (t843 - (t842 + (t841 + (external_wrench[3] - t814)))));
+        let t871 = t828 * t869 - (t850 - (t848 + (t846 + t870)));
+        let t872 = t186 * t868;
+        let t873 = c(1.0) / (t181 - t155 * t869);
+        let t874 = (t183 - t155 * t872) * t873;
+        let t875 = t864
+            + (t863 - (t862 + (t861 - (t860 + (external_wrench[5] - t822)))));
+        let t876 = t871 * t874 - (t828 * t872 - (t867 - (t866 + (t865 + t875))));
+        let t877 = t178 - t146 * t869;
+        let t878 = t168 * t868;
+        let t879 = (t159 - t155 * t878) * t873;
+        let t880 = c(1.0) / (t877 * t874 - (t180 - t146 * t872));
+        let t881 = (t877 * t879 - (t150 - t146 * t878)) * t880;
+        let t882 = t839
             - (t838 + (t837 + (t836 + (t835 - (external_wrench[2] + t804)))));
-        let t892 = t890 * t872 - (t849 * t870 + (t840 - t891));
-        let t893 = t863
-            + (t862 - (t861 + (t860 - (t859 + (external_wrench[5] - t822)))));
-        let t894 = t890 * t876 - (t849 * t875 - (t866 - (t865 + (t864 + t893))));
-        let t895 = t892 * t878 - t894;
-        let t896 = t854
-            + (t853 + (t852 + (t851 - (t850 - (external_wrench[4] - t818)))));
-        let t897 = t890 * t883 - (t849 * t882 - (t858 - (t856 + (t855 + t896))));
-        let t898 = t895 * t886 - (t892 * t884 - t897);
-        let t899 = t116 + t172 * t868;
-        let t900 = t899 * t872 - (t120 + t172 * t870);
-        let t901 = t900 * t878 - (t899 * t876 + (t174 - t172 * t875));
-        let t902 = t900 * t884 - (t899 * t883 + (t173 - t172 * t882));
-        let t903 = t901 * t886 - t902;
-        let t904 = t166 * t867;
-        let t905 = (t157 - t181 * t904) * t871;
-        let t906 = (t874 * t905 - (t133 - t175 * t904)) * t877;
-        let t907 = (t881 * t906 - (t880 * t905 - (t148 - t178 * t904))) * t885;
-        let t908 = t873 * t906 - (t869 * t905 - (t109 + t169 * t904));
-        let t909 = (t879 * t907 - t908) * t888;
-        let t910 = t833
+        let t883 = t876 * t881 - (t871 * t879 - (t828 * t878 + (t840 - t882)));
+        let t884 = t175 - t131 * t869;
+        let t885 = t884 * t874 - (t177 - t131 * t872);
+        let t886 = t185 * t868;
+        let t887 = (t182 - t155 * t886) * t873;
+        let t888 = (t877 * t887 - (t179 - t146 * t886)) * t880;
+        let t889 = c(1.0) / (t885 * t881 - (t884 * t879 - (t135 - t131 * t878)));
+        let t890 = (t885 * t888 - (t884 * t887 - (t176 - t131 * t886))) * t889;
+        let t891 = t855
+            + (t854 + (t853 + (t852 - (t851 - (external_wrench[4] - t818)))));
+        let t892 = t871 * t887 - (t828 * t886 - (t859 - (t857 + (t856 + t891))));
+        let t893 = t883 * t890 - (t876 * t888 - t892);
+        let t894 = t172 + t116 * t869;
+        let t895 = t894 * t874 - (t174 + t116 * t872);
+        let t896 = t895 * t881 - (t894 * t879 + (t120 - t116 * t878));
+        let t897 = t166 * t868;
+        let t898 = (t157 - t155 * t897) * t873;
+        let t899 = (t877 * t898 - (t148 - t146 * t897)) * t880;
+        let t900 = (t885 * t899 - (t884 * t898 - (t133 - t131 * t897))) * t889;
+        let t901 = t895 * t899 - (t894 * t898 + (t118 - t116 * t897));
+        let t902 = t895 * t888 - (t894 * t887 - (t173 + t116 * t886));
+        let t903 = c(1.0) / (t896 * t890 - t902);
+        let t904 = (t896 * t900 - t901) * t903;
+        let t905 = t833
             + (t832 - (t831 + (t830 + (t829 - (external_wrench[1] + t800)))));
-        let t911 = t892 * t906 - (t890 * t905 - (t849 * t904 + (t834 - t910)));
-        let t912 = t900 * t906 - (t899 * t905 - (t118 + t172 * t904));
-        let t913 = c(1.0) / (t903 * t909 - (t901 * t907 - t912));
-        let t914 = (t898 * t909 - (t895 * t907 - t911)) * t913;
-        let t915 = t888 * (t898 - t903 * t914);
-        inverse_dynamics[0] = t915;
-        inverse_dynamics[1] = -t914;
-        let t916 = t885 * (t901 * t914 - (t895 - t879 * t915));
-        inverse_dynamics[3] = t916;
-        let t917 = t877 * (t900 * t914 + (t873 * t915 - (t892 + t881 * t916)));
-        inverse_dynamics[2] = t917;
-        let t918 = t869 * t915 - (t880 * t916 + (t890 + t874 * t917));
-        let t919 = t871 * (t899 * t914 + t918);
+        let t906 = t876 * t899 - (t871 * t898 - (t828 * t897 + (t834 - t905)));
+        let t907 = t169 + t107 * t869;
+        let t908 = t907 * t874 - (t171 + t107 * t872);
+        let t909 = t908 * t881 - (t907 * t879 + (t111 - t107 * t878));
+        let t910 = t908 * t888 - (t907 * t887 - (t170 + t107 * t886));
+        let t911 = t909 * t890 - t910;
+        let t912 = t908 * t899 - (t907 * t898 + (t109 - t107 * t897));
+        let t913 = c(1.0) / (t911 * t904 - (t909 * t900 - t912));
+        let t914 = (t893 * t904 - (t883 * t900 - t906)) * t913;
+        inverse_dynamics[0] = -t914;
+        let t915 = t903 * (t893 - t911 * t914);
+        inverse_dynamics[1] = t915;
+        let t916 = t889 * (t909 * t914 - (t883 - t896 * t915));
+        inverse_dynamics[2] = t916;
+        let t917 = t880 * (t908 * t914 + (t895 * t915 - (t876 + t885 * t916)));
+        inverse_dynamics[3] = t917;
+        let t918 = t894 * t915 - (t884 * t916 + (t871 + t877 * t917));
+        let t919 = t873 * (t907 * t914 + t918);
         inverse_dynamics[4] = -t919;
-        let t920 = t178 * t916 + (t175 * t917 - (t849 - t181 * t919));
-        inverse_dynamics[5] = t867 * (t172 * t914 + (t169 * t915 + t920));
+        let t920 = t131 * t916 + (t146 * t917 - (t828 - t155 * t919));
+        inverse_dynamics[5] = t868 * (t107 * t914 + (t116 * t915 + t920));
     }
 }
 
@@ -18211,84 +18217,84 @@ pub fn passive_inverse_dynamics<T: Scalar>(
     let t662 = base_rotation[1][2] * external_wrench[4];
     let t663 = base_rotation[2][2] * external_wrench[5];
     // force along the actuator that balances the remaining wrench
-    let t664 = t629 + (t628 + (t627 - (t624 - (t622 - (t616 + (t602 - t611))))));
-    let t665 = t568 * t597 + (t630 + t664) + c(0.0425) * (t391 - t400);
-    let t666 = c(1.0) / (t571 + (t79 - t568));
-    let t667 = (t572 + (t78 - t569)) * t666;
-    let t668 = t653 + (t652 + (t651 - (t650 - (t647 - (t646 + (t639 - t640))))));
-    let t669 = t665 * t667 - (t569 * t597 - (t654 + t668));
-    let t670 = t669 - c(0.0425) * (t381 - t399);
-    let t671 = t568 + (t50 - t560);
-    let t672 = (t574 + (t570 - t573)) * t666;
-    let t673 = c(1.0) / (t671 * t667 - (t569 + (t49 + t561)));
-    let t674 = (t671 * t672 + (t570 - (t562 + t563))) * t673;
-    let t675 = t662 + (t661 + (t660 - (t659 - (t658 - (t657 + (t655 - t656))))));
-    let t676 = t670 * t674 - (t665 * t672 + (t570 * t597 - (t663 + t675)));
-    let t677 = t676 + c(0.0425) * (t380 - t390);
-    let t678 = t568 - (t59 + t564);
-    let t679 = t678 * t667 - (t569 - (t56 + t565));
-    let t680 = (t113 - t115) * t666;
-    let t681 = (t671 * t680 + (t109 + t113)) * t673;
-    let t682 = c(1.0) / (t679 * t674 - (t678 * t672 + (t570 - (t566 - t567))));
-    let t683 = (t679 * t681 - (t678 * t680 - (t111 - t113))) * t682;
-    let t684 = t584 - c(8.139999999999999) * t242;
-    let t685 = t606 + (t605 + (t604 - (t684 + c(2.2551405187698492e-17) * t603)));
-    let t686 = t685 - c(6.938893903907228e-18) * t617 - c(0.188852) * t625;
-    let t687 = t670 * t681 - (t665 * t680 + (t113 * t597 - t686));
-    let t688 = t677 * t683 - t687;
-    let t689 = t568 + (t42 - t556);
-    let t690 = t689 * t667 - (t569 + (t39 - t557));
-    let t691 = t690 * t674 - (t689 * t672 + (t570 - (t558 - t559)));
-    let t692 = (t112 - t114) * t666;
-    let t693 = (t671 * t692 - (t108 - t112)) * t673;
-    let t694 = (t679 * t693 - (t678 * t692 - (t110 - t112))) * t682;
-    let t695 = t691 * t694 - (t690 * t693 - (t689 * t692 + (t106 + t112)));
-    let t696 = t691 * t683 - (t690 * t681 - (t689 * t680 + (t107 + t113)));
-    let t697 = c(1.0) / t696;
-    let t698 = t695 * t697;
-    let t699 = t581 - c(8.139999999999999) * t239;
-    let t700 = t634 + (t633 + (t632 - (t699 + c(2.2551405187698492e-17) * t631)));
-    let t701 = t700 - c(6.938893903907228e-18) * t641 - c(0.188852) * t648;
-    let t702 = t670 * t693 - (t665 * t692 + (t112 * t597 - t701));
-    let t703 = t688 * t698 - (t677 * t694 - t702);
-    let t704 = t575 + (t84 - t568);
-    let t705 = t704 * t667 - (t576 + (t83 - t569));
-    let t706 = t705 * t674 - (t704 * t672 - (t578 + (t570 - t577)));
-    let t707 = t706 * t683 - (t705 * t681 - (t704 * t680 - (t113 - t117)));
-    let t708 = t706 * t694 - (t705 * t693 - (t704 * t692 - (t112 - t116)));
-    let t709 = t703 * (c(1.0) / (t707 * t698 - t708));
-    let t710 = t697 * (t688 - t707 * t709);
-    let t711 = t682 * (t706 * t709 - (t677 - t691 * t710));
-    let t712 = t673 * (t705 * t709 + (t690 * t710 - (t670 + t679 * t711)));
-    let t713 = t689 * t710 - (t678 * t711 + (t665 + t671 * t712));
-    let t714 = t666 * (t704 * t709 + t713);
+    let t664 = t653 + (t652 + (t651 - (t650 - (t647 - (t646 + (t639 - t640))))));
+    let t665 = t569 * t597 - (t654 + t664) + c(0.0425) * (t381 - t399);
+    let t666 = c(1.0) / (t569 + (t49 + t561));
+    let t667 = (t568 + (t50 - t560)) * t666;
+    let t668 = t629 + (t628 + (t627 - (t624 - (t622 - (t616 + (t602 - t611))))));
+    let t669 = t665 * t667 - (t568 * t597 + (t630 + t668));
+    let t670 = t669 - c(0.0425) * (t391 - t400);
+    let t671 = t572 + (t78 - t569);
+    let t672 = (t109 + t113) * t666;
+    let t673 = c(1.0) / (t671 * t667 - (t571 + (t79 - t568)));
+    let t674 = (t671 * t672 + (t113 - t115)) * t673;
+    let t675 = t584 - c(8.139999999999999) * t242;
+    let t676 = t606 + (t605 + (t604 - (t675 + c(2.2551405187698492e-17) * t603)));
+    let t677 = t676 - c(6.938893903907228e-18) * t617 - c(0.188852) * t625;
+    let t678 = t670 * t674 - (t665 * t672 - (t113 * t597 - t677));
+    let t679 = t569 + (t39 - t557);
+    let t680 = t679 * t667 - (t568 + (t42 - t556));
+    let t681 = (t570 - (t562 + t563)) * t666;
+    let t682 = (t671 * t681 + (t574 + (t570 - t573))) * t673;
+    let t683 = c(1.0) / (t680 * t674 - (t679 * t672 - (t107 + t113)));
+    let t684 = (t680 * t682 - (t679 * t681 - (t570 - (t558 - t559)))) * t683;
+    let t685 = t662 + (t661 + (t660 - (t659 - (t658 - (t657 + (t655 - t656))))));
+    let t686 = t670 * t682 - (t665 * t681 - (t570 * t597 - (t663 + t685)));
+    let t687 = t678 * t684 - t686 + c(0.0425) * (t380 - t390);
+    let t688 = t576 + (t83 - t569);
+    let t689 = t688 * t667 - (t575 + (t84 - t568));
+    let t690 = t689 * t674 - (t688 * t672 + (t113 - t117));
+    let t691 = (t108 - t112) * t666;
+    let t692 = (t671 * t691 - (t112 - t114)) * t673;
+    let t693 = (t680 * t692 - (t679 * t691 + (t106 + t112))) * t683;
+    let t694 = t690 * t693 - (t689 * t692 - (t688 * t691 - (t112 - t116)));
+    let t695 = t689 * t682 - (t688 * t681 + (t578 + (t570 - t577)));
+    let t696 = c(1.0) / (t690 * t684 - t695);
+    let t697 = t694 * t696;
+    let t698 = t581 - c(8.139999999999999) * t239;
+    let t699 = t634 + (t633 + (t632 - (t698 + c(2.2551405187698492e-17) * t631)));
+    let t700 = t699 - c(6.938893903907228e-18) * t641 - c(0.188852) * t648;
+    let t701 = t670 * t692 - (t665 * t691 + (t112 * t597 - t700));
+    let t702 = t687 * t697 - (t678 * t693 - t701);
+    let t703 = t569 - (t56 + t565);
+    let t704 = t703 * t667 - (t568 - (t59 + t564));
+    let t705 = t704 * t674 - (t703 * t672 + (t111 - t113));
+    let t706 = t704 * t682 - (t703 * t681 - (t570 - (t566 - t567)));
+    let t707 = t705 * t684 - t706;
+    let t708 = t705 * t693 - (t704 * t692 - (t703 * t691 - (t110 - t112)));
+    let t709 = t702 * (c(1.0) / (t707 * t697 - t708));
+    let t710 = t696 * (t687 - t707 * t709);
+    let t711 = t683 * (t705 * t709 - (t678 - t690 * t710));
+    let t712 = t673 * (t704 * t709 + (t689 * t710 - (t670 + t680 * t711)));
+    let t713 = t688 * t710 - (t679 * t711 + (t665 + t671 * t712));
+    let t714 = t666 * (t703 * t709 + t713);
     // leg 1: actuator forces F at reference speeds
     let t715 = c(4268.068200000001) - t235 * c(0.03055);
     let t716 = t715 - c(0.17066666666666666) * t245;
     let t717 = t716 + t288 * c(0.019782160922400118);
     let t718 = t289 * c(0.005300614043699624);
-    let t719 = c(0.17066666666666666) * t419 - (c(21555.9) * t90 - t718);
-    passive_inverse_dynamics[0] = t719 - t433 * c(0.9523333333333334) - t710 - t717;
+    let t719 = c(21555.9) * t90 - t718 - c(0.17066666666666666) * t419;
+    passive_inverse_dynamics[0] = t711 - (t719 + t433 * c(0.9523333333333334)) - t717;
     // leg 2: actuator forces F at reference speeds
     let t720 = t718 + c(21555.9) * t93 - c(0.17066666666666666) * t445;
-    passive_inverse_dynamics[1] = t712 - (t720 - t456 * c(0.9523333333333334)) - t717;
+    passive_inverse_dynamics[1] = t714 - (t720 - t456 * c(0.9523333333333334)) - t717;
     // leg 3: actuator forces F at reference speeds
     let t721 = t716 - t288 * c(0.005300614043699622);
     let t722 = t289 * c(0.019782160922400118);
-    let t723 = c(21555.9) * t96 + t722 + c(0.17066666666666666) * t470;
-    passive_inverse_dynamics[2] = t711 - (t723 + t484 * c(0.9523333333333334)) - t721;
+    let t723 = t96 * c(-21555.9) - t722 - c(0.17066666666666666) * t470;
+    passive_inverse_dynamics[2] = t723 - t484 * c(0.9523333333333334) - t709 - t721;
     // leg 4: actuator forces F at reference speeds
-    let t724 = t714 - t289 * c(0.014481546878700494);
+    let t724 = t712 - t289 * c(0.014481546878700494);
     let t725 = t716 - t288 * c(0.01448154687870049);
     let t726 = c(21555.9) * t99 + c(0.17066666666666666) * t502;
-    let t727 = t710 - (t709 + (t597 + (t726 + t515 * c(0.9523333333333334))));
-    passive_inverse_dynamics[3] = t724 - (t712 + (t711 - t727)) - t725;
+    let t727 = t710 - (t709 - (t597 + (t726 + t515 * c(0.9523333333333334))));
+    passive_inverse_dynamics[3] = t724 - (t714 + (t711 + t727)) - t725;
     // leg 5: actuator forces F at reference speeds
     let t728 = c(21555.9) * t102 + c(0.17066666666666666) * t525;
     passive_inverse_dynamics[4] = t536 * c(0.9523333333333334) - t728 - t724 - t725;
     // leg 6: actuator forces F at reference speeds
     let t729 = t722 - c(21555.9) * t105 - c(0.17066666666666666) * t542;
-    passive_inverse_dynamics[5] = t709 + (t729 + t553 * c(0.9523333333333334)) - t721;
+    passive_inverse_dynamics[5] = t710 + (t729 + t553 * c(0.9523333333333334)) - t721;
 }
 
 /// Wrench of the base on the mechanism.
