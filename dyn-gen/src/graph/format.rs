@@ -141,6 +141,7 @@ pub(super) struct FileFunction {
     pub equation: String,
     pub inputs: Vec<String>,
     pub outputs: Vec<String>,
+    #[serde(default)]
     pub leg_specific: bool,
     pub steps: Vec<FileStep>,
     pub sample_outputs: BTreeMap<String, Vec<f64>>,

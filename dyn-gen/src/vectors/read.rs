@@ -76,7 +76,8 @@ pub fn read_states(text: &str) -> Read<StatesFile> {
 }
 
 fn state(case: &Value, place: &str) -> Read<Environment> {
-    let case = object(case, place, &["base", "platform", "actuator_force", "external_wrench", "outputs"])?;
+    let known = ["base", "platform", "actuator_force", "external_wrench", "reference_velocity", "outputs"];
+    let case = object(case, place, &known)?;
     let mut state = Environment::new();
     for body in ["base", "platform"] {
         let at = format!("{place}.{body}");
@@ -92,6 +93,11 @@ fn state(case: &Value, place: &str) -> Read<Environment> {
     for load in ["actuator_force", "external_wrench"] {
         state.insert(load.into(), numbers(required(case, place, load)?, &format!("{place}.{load}"), 6)?);
     }
+    let reference = match case.get("reference_velocity") {
+        Some(given) => numbers(given, &format!("{place}.reference_velocity"), 6)?,
+        None => state["platform_velocity"].clone(),
+    };
+    state.insert("reference_velocity".into(), reference);
     Ok(state)
 }
 

@@ -33,6 +33,7 @@ pub fn case(state: &Environment, outputs: &[(String, Value)]) -> Value {
         "platform": body("platform"),
         "actuator_force": part("actuator_force".into()),
         "external_wrench": part("external_wrench".into()),
+        "reference_velocity": part("reference_velocity".into()),
         "outputs": outputs.iter().cloned().collect::<Map<String, Value>>(),
     })
 }
