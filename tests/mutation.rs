@@ -47,7 +47,7 @@ fn changes(node: Node) -> &'static [Change] {
         Node::Constant(_) => &[ConstantLarger],
         Node::Input { .. } | Node::Solution { .. } => &[],
         Node::Unary(..) => &[OtherSign, OperationDropped],
-        Node::Binary(..) => &[OtherSign, FirstOperandDropped, SecondOperandDropped],
+        Node::Binary(..) | Node::Ternary(..) => &[OtherSign, FirstOperandDropped, SecondOperandDropped],
     }
 }
 
@@ -69,6 +69,11 @@ fn mutate(graph: &Graph, id: usize, change: Change) -> Graph {
         (Change::OperationDropped, Node::Unary(_, operand)) => operand,
         (Change::FirstOperandDropped, Node::Binary(_, _, b)) => b,
         (Change::SecondOperandDropped, Node::Binary(_, a, _)) => a,
+        (Change::FirstOperandDropped, Node::Ternary(_, _, _, sum)) => sum,
+        (Change::SecondOperandDropped, Node::Ternary(_, a, b, _)) => {
+            *node = Node::Binary(Op::Mul, a, b);
+            return mutant;
+        }
         (change, node) => panic!("{change:?} does not fit {node:?}"),
     };
     mutant.replace_uses(NodeId(id as u32), users);
@@ -82,6 +87,7 @@ fn with_negation_after(mut graph: Graph, id: usize) -> Graph {
         *node = match *node {
             Node::Unary(op, a) => Node::Unary(op, shift(a)),
             Node::Binary(op, a, b) => Node::Binary(op, shift(a), shift(b)),
+            Node::Ternary(op, a, b, c) => Node::Ternary(op, shift(a), shift(b), shift(c)),
             other => other,
         };
     }

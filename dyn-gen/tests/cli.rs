@@ -57,7 +57,7 @@ fn generate_writes_one_file_that_is_the_same_each_time() {
         ["generate", "uhp_2016.toml", "-o", "model.rs", "--functions", "rod_alignment,jacobian_dp"];
     assert_eq!(code(&dyn_gen(&copy, &arguments)), 0);
     assert_eq!(text, fs::read_to_string(copy.join("model.rs")).unwrap(), "a folder changes the bytes");
-    assert!(text.contains("use ::dyn_runtime::float::{Scalar, sqrt};"));
+    assert!(text.contains("use ::dyn_runtime::float::{Scalar, mul_add, mul_sub, neg_mul_add, sqrt};"));
     assert!(text.contains("impl ::dyn_runtime::kernels::JacobianDp for Uhp2016"));
     assert!(!text.contains(env!("CARGO_MANIFEST_DIR")), "a path got into the file");
 }

@@ -4,7 +4,7 @@ mod common;
 
 use common::text::{parse, print};
 use dyn_gen::graph::{
-    Environment, Evaluator, Node, NodeId, OPS, Op, Solve, SolveKind, solve_general, solve_symmetric,
+    Environment, Evaluator, Node, NodeId, OPS, Op, Rounding, Solve, SolveKind, solve_general, solve_symmetric,
 };
 
 fn value(expression: &str, x: f64, y: f64) -> f64 {
@@ -23,7 +23,7 @@ fn every_operation_gives_the_correctly_rounded_value() {
         (Op::Mul, "x * y", 0.1 * 0.7),
         (Op::Div, "x / y", 0.1 / 0.7),
     ];
-    assert_eq!(cases.len(), OPS.len());
+    assert_eq!(cases.len() + 3, OPS.len(), "three more are multiplications with an addition");
     for ((op, expression, expected), info) in cases.into_iter().zip(&OPS) {
         assert_eq!(op, info.op, "the table is in the order of the enumeration");
         assert_eq!(op.info().name, info.name);
@@ -31,6 +31,20 @@ fn every_operation_gives_the_correctly_rounded_value() {
         assert_eq!(value(expression, 0.1, 0.7).to_bits(), expected.to_bits(), "{expression}");
     }
     assert_eq!(Op::from_name("sin"), None);
+}
+
+#[test]
+fn products_in_sums_are_rounded_as_told() {
+    // x * x = 1 + 2^-29 + 2^-60, of which rounding loses the last part.
+    let (x, one) = (1.0 + f64::EPSILON * f64::exp2(22.0), 1.0);
+    let (tail, rounded) = (f64::exp2(-60.0), f64::exp2(-29.0));
+    let cases = [(Op::MulAdd, -one, rounded), (Op::MulSub, one, rounded), (Op::NegMulAdd, one, -rounded)];
+    for (op, addend, expected) in cases {
+        assert_eq!(op.apply(Rounding::Separate, x, x, addend), expected, "{op:?}");
+        assert_eq!(op.apply(Rounding::Fused, x, x, addend), expected + tail.copysign(expected), "{op:?}");
+        assert_eq!(Op::from_name(op.info().name), Some(op));
+        assert_eq!(op.info().op, op);
+    }
 }
 
 #[test]
@@ -130,7 +144,7 @@ fn a_node_can_be_replaced_by_an_earlier_one() {
 #[test]
 fn counts_are_of_live_operations() {
     let mut graph = parse("a = sqrt(x * x + 4) / y\nb = -(x * y) - x");
-    assert_eq!(graph.operation_count().to_string(), "6 (2 add, 2 mul, 1 div, 1 sqrt; 1 neg, 0 solve)");
+    assert_eq!(graph.operation_count().to_string(), "6 (2 add, 2 mul, 0 fma, 1 div, 1 sqrt; 1 neg, 0 solve)");
     graph.outputs.pop();
     assert_eq!(graph.operation_count().total(), 4);
 }

@@ -34,6 +34,26 @@ fn bake_replaces_parameters_and_folds() {
 }
 
 #[test]
+fn fuse_takes_up_products_in_sums() {
+    // `x * y` has two readers, both sums: it disappears. `u * v` stays for the root, and is taken up where nothing else is.
+    let before =
+        "a = x * y + z\nb = z - x * y\nc = u * v - z\nd = sqrt(u * v)\ne = u * v + x * z\nf = x * z + x * z";
+    check(
+        "fuse",
+        before,
+        expect![[r#"
+            t11 = x * z
+            a = mul_add(x, y, z)
+            b = neg_mul_add(x, y, z)
+            c = mul_sub(u, v, z)
+            d = sqrt(u * v)
+            e = mul_add(u, v, t11)
+            f = t11 + t11
+        "#]],
+    );
+}
+
+#[test]
 fn simplify_removes_trivial_operands() {
     let before = "a = x * 1 + 0\nb = x * 0\nc = x - x\nd = 0 - x\ne = x / 1\nf = --x\ng = x + x\nh = x / 4\ni = x / -1\nj = 0 / x\n\
                   k = x / 3\nl = (x - 0) * (3 - 2)\nm = x / 0";

@@ -23,9 +23,23 @@ pub trait Scalar:
     /// Square root, correctly rounded; NaN below zero.
     fn square_root(self) -> Self;
 
+    /// `self * factor + addend`: rounded once where the code is compiled for a processor with fused multiply-add, else the
+    /// product is rounded first.
+    fn multiply_add(self, factor: Self, addend: Self) -> Self;
+
     /// Solves `matrix * x = right_hand_side` with pivoting; `matrix` is row-major. See
     /// [`solve::solve_general`].
     fn solve_general<const N: usize>(matrix: &[[Self; N]; N], right_hand_side: &[Self; N]) -> [Self; N];
+}
+
+/// A fused multiply-add is one instruction or a slow call of a library: it is used only where it is an instruction.
+macro_rules! multiply_add_as_compiled {
+    ($number:ident, $a:expr, $b:expr, $c:expr) => {{
+        #[cfg(all(feature = "std", target_feature = "fma"))]
+        return $number::mul_add($a, $b, $c);
+        #[cfg(not(all(feature = "std", target_feature = "fma")))]
+        return $a * $b + $c;
+    }};
 }
 
 impl Scalar for f64 {
@@ -40,6 +54,11 @@ impl Scalar for f64 {
         return self.sqrt();
         #[cfg(not(feature = "std"))]
         return libm::sqrt(self);
+    }
+
+    #[inline(always)]
+    fn multiply_add(self, factor: Self, addend: Self) -> Self {
+        multiply_add_as_compiled!(f64, self, factor, addend)
     }
 
     fn solve_general<const N: usize>(matrix: &[[Self; N]; N], right_hand_side: &[Self; N]) -> [Self; N] {
@@ -61,6 +80,11 @@ impl Scalar for f32 {
         return libm::sqrtf(self);
     }
 
+    #[inline(always)]
+    fn multiply_add(self, factor: Self, addend: Self) -> Self {
+        multiply_add_as_compiled!(f32, self, factor, addend)
+    }
+
     fn solve_general<const N: usize>(matrix: &[[Self; N]; N], right_hand_side: &[Self; N]) -> [Self; N] {
         solve::by_elimination(matrix, right_hand_side)
     }
@@ -70,6 +94,24 @@ impl Scalar for f32 {
 #[inline(always)]
 pub fn sqrt<T: Scalar>(x: T) -> T {
     x.square_root()
+}
+
+/// `a * b + c`, see [`Scalar::multiply_add`].
+#[inline(always)]
+pub fn mul_add<T: Scalar>(a: T, b: T, c: T) -> T {
+    a.multiply_add(b, c)
+}
+
+/// `a * b - c`, see [`Scalar::multiply_add`].
+#[inline(always)]
+pub fn mul_sub<T: Scalar>(a: T, b: T, c: T) -> T {
+    a.multiply_add(b, -c)
+}
+
+/// `c - a * b`, see [`Scalar::multiply_add`].
+#[inline(always)]
+pub fn neg_mul_add<T: Scalar>(a: T, b: T, c: T) -> T {
+    (-a).multiply_add(b, c)
 }
 
 /// Sine and cosine of an angle in radians, in this order.

@@ -114,6 +114,10 @@ impl<'a> Expressions<'a> {
                 };
                 tree::binary(operator, self.value(a)?, self.value(b)?)
             }
+            Node::Ternary(op, a, b, c) => {
+                let function = format_ident!("{}", op.info().name);
+                tree::call(&function, [self.value(a)?, self.value(b)?, self.value(c)?])
+            }
         })
     }
 }

@@ -92,7 +92,7 @@ fn items(model: &Model) -> Result<Vec<TokenStream>, EmitError> {
     let scalar = format_ident!("{SCALAR}");
     let mut items = vec![quote! {
         #[allow(unused_imports)]
-        use #runtime::float::{Scalar, sqrt};
+        use #runtime::float::{Scalar, mul_add, mul_sub, neg_mul_add, sqrt};
         #[allow(unused_imports)]
         use #runtime::solve::solve_general;
     }];

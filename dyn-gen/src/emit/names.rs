@@ -15,6 +15,8 @@ pub const SCALAR: &str = "T";
 pub const CONSTANT: &str = "c";
 /// The imported square root.
 pub const SQRT: &str = "sqrt";
+/// The imported multiplications with an addition, by the names of their operations.
+pub const MULTIPLY_ADDITIONS: [&str; 3] = ["mul_add", "mul_sub", "neg_mul_add"];
 /// The imported pivoted linear solver.
 pub const SOLVE_GENERAL: &str = "solve_general";
 
@@ -24,7 +26,7 @@ pub fn identifier(function: &str, name: &str) -> Result<Ident, EmitError> {
     if syn::parse_str::<Ident>(name).is_err() {
         return refuse("it is not an identifier of Rust");
     }
-    if [PARAMETERS, CONSTANT, SQRT, SOLVE_GENERAL].contains(&name) {
+    if [PARAMETERS, CONSTANT, SQRT, SOLVE_GENERAL].contains(&name) || MULTIPLY_ADDITIONS.contains(&name) {
         return refuse("the generated code uses it itself");
     }
     if is_temporary(name) {
@@ -101,8 +103,20 @@ mod tests {
 
     #[test]
     fn names_that_would_hide_others_are_refused() {
-        for name in ["t1", "t123", "parameters", "c", "sqrt", "solve_general", "fn", "2b", "a-b", "", "self"]
-        {
+        for name in [
+            "t1",
+            "t123",
+            "parameters",
+            "c",
+            "sqrt",
+            "mul_add",
+            "solve_general",
+            "fn",
+            "2b",
+            "a-b",
+            "",
+            "self",
+        ] {
             assert!(identifier("f", name).is_err(), "{name} was accepted");
         }
         for name in ["t", "torque", "t1a", "time_2"] {

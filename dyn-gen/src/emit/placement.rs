@@ -34,7 +34,7 @@ pub fn place(graph: &Graph) -> Vec<Place> {
         let mut total = own_width(graph, node);
         places[index] = match node {
             Node::Constant(_) | Node::Input { .. } | Node::Solution { .. } => Place::Leaf,
-            Node::Unary(..) | Node::Binary(..) => Place::Temporary,
+            Node::Unary(..) | Node::Binary(..) | Node::Ternary(..) => Place::Temporary,
         };
         let mut operands = operands(node);
         operands.sort_by_key(|operand| width[operand.0 as usize]);
@@ -67,6 +67,7 @@ pub fn operands(node: &Node) -> Vec<NodeId> {
         Node::Constant(_) | Node::Input { .. } | Node::Solution { .. } => Vec::new(),
         Node::Unary(_, a) => vec![a],
         Node::Binary(_, a, b) => vec![a, b],
+        Node::Ternary(_, a, b, c) => vec![a, b, c],
     }
 }
 
@@ -122,6 +123,7 @@ fn own_width(graph: &Graph, node: &Node) -> u32 {
         Node::Unary(Op::Sqrt, _) => "sqrt()".len(),
         Node::Unary(..) => "-".len(),
         Node::Binary(..) => " + ".len(),
+        Node::Ternary(op, ..) => op.info().name.len() + "(, , )".len(),
     };
     characters as u32
 }

@@ -12,6 +12,7 @@ enum Key {
     Input(u32, u32),
     Unary(Op, NodeId),
     Binary(Op, NodeId, NodeId),
+    Ternary(Op, NodeId, NodeId, NodeId),
     Solution(u32, u32),
 }
 
@@ -94,6 +95,10 @@ impl Builder {
                 (Key::Binary(op, b, a), Node::Binary(op, b, a))
             }
             Node::Binary(op, a, b) => (Key::Binary(op, a, b), node),
+            Node::Ternary(op, a, b, c) => {
+                let (a, b) = if op.info().commutative && b < a { (b, a) } else { (a, b) };
+                (Key::Ternary(op, a, b, c), Node::Ternary(op, a, b, c))
+            }
             Node::Solution { solve, element } => (Key::Solution(solve, element), node),
         };
         if let Some(known) = self.known.get(&key) {

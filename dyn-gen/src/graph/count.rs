@@ -11,6 +11,8 @@ pub struct OperationCount {
     pub additions: usize,
     /// Multiplications.
     pub multiplications: usize,
+    /// Multiplications with an addition in one.
+    pub multiply_additions: usize,
     /// Divisions.
     pub divisions: usize,
     /// Square roots.
@@ -22,9 +24,9 @@ pub struct OperationCount {
 }
 
 impl OperationCount {
-    /// Additions, multiplications, divisions and square roots; sign changes ride along with additions and are not counted.
+    /// Additions, multiplications, both in one, divisions and square roots; sign changes ride along with additions and are not counted.
     pub fn total(&self) -> usize {
-        self.additions + self.multiplications + self.divisions + self.square_roots
+        self.additions + self.multiplications + self.multiply_additions + self.divisions + self.square_roots
     }
 }
 
@@ -32,10 +34,11 @@ impl fmt::Display for OperationCount {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(
             f,
-            "{} ({} add, {} mul, {} div, {} sqrt; {} neg, {} solve)",
+            "{} ({} add, {} mul, {} fma, {} div, {} sqrt; {} neg, {} solve)",
             self.total(),
             self.additions,
             self.multiplications,
+            self.multiply_additions,
             self.divisions,
             self.square_roots,
             self.negations,
@@ -55,9 +58,10 @@ impl Graph {
             }
             match *node {
                 Node::Constant(_) | Node::Input { .. } => {}
-                Node::Unary(op, _) | Node::Binary(op, _, _) => match op {
+                Node::Unary(op, _) | Node::Binary(op, _, _) | Node::Ternary(op, ..) => match op {
                     Op::Add | Op::Sub => count.additions += 1,
                     Op::Mul => count.multiplications += 1,
+                    Op::MulAdd | Op::MulSub | Op::NegMulAdd => count.multiply_additions += 1,
                     Op::Div => count.divisions += 1,
                     Op::Sqrt => count.square_roots += 1,
                     Op::Neg => count.negations += 1,

@@ -114,6 +114,10 @@ fn copy(node: Node, arguments: &[&[NodeId]], copies: &[Option<NodeId>], builder:
         Node::Constant(value) => builder.constant(value),
         Node::Unary(op, a) => builder.unary(op, copied(copies, a)),
         Node::Binary(op, a, b) => builder.binary(op, copied(copies, a), copied(copies, b)),
+        Node::Ternary(op, a, b, c) => {
+            let [a, b, c] = [a, b, c].map(|operand| copied(copies, operand));
+            builder.insert(Node::Ternary(op, a, b, c))
+        }
         Node::Solution { .. } => {
             unreachable!("solves are steps of functions, never nodes of a program's graphs")
         }

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use super::{Graph, Node, SolveKind, Symbol};
+use super::{Graph, Node, Rounding, SolveKind, Symbol};
 
 /// Named arrays, flat and row-major.
 pub type Environment = BTreeMap<String, Vec<f64>>;
@@ -43,6 +43,7 @@ pub(super) fn lookup<'a>(
 /// Evaluates graphs one after another without allocating once its buffers have grown.
 #[derive(Default)]
 pub struct Evaluator {
+    rounding: Rounding,
     values: Vec<f64>,
     /// Solutions of all solves, one after the other; each is filled when its first element is met.
     solutions: Vec<f64>,
@@ -53,9 +54,14 @@ pub struct Evaluator {
 }
 
 impl Evaluator {
-    /// An evaluator with empty buffers.
+    /// An evaluator with empty buffers that rounds products before it adds.
     pub fn new() -> Evaluator {
         Evaluator::default()
+    }
+
+    /// An evaluator with empty buffers that rounds as told.
+    pub fn with_rounding(rounding: Rounding) -> Evaluator {
+        Evaluator { rounding, ..Evaluator::default() }
     }
 
     /// Gives every node of `graph` its value and returns them all; `inputs[k]` are the elements of `graph.inputs[k]`.
@@ -72,8 +78,14 @@ impl Evaluator {
             let value = match *node {
                 Node::Constant(value) => value,
                 Node::Input { input, element } => inputs[input as usize][element as usize],
-                Node::Unary(op, a) => op.apply(self.values[a.index()], 0.0),
-                Node::Binary(op, a, b) => op.apply(self.values[a.index()], self.values[b.index()]),
+                Node::Unary(op, a) => op.apply(self.rounding, self.values[a.index()], 0.0, 0.0),
+                Node::Binary(op, a, b) => {
+                    op.apply(self.rounding, self.values[a.index()], self.values[b.index()], 0.0)
+                }
+                Node::Ternary(op, a, b, c) => {
+                    let [a, b, c] = [a, b, c].map(|operand| self.values[operand.index()]);
+                    op.apply(self.rounding, a, b, c)
+                }
                 Node::Solution { solve, element } => {
                     if self.solved_at[solve as usize] == usize::MAX {
                         self.solve(graph, solve as usize);

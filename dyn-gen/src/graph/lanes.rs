@@ -12,13 +12,13 @@ pub const LANES: usize = 8;
 pub trait Number: Copy {
     /// The same number in every lane, at rest.
     fn constant(value: f64) -> Self;
-    /// The operation on these operands (`b` is ignored by unary operations).
-    fn apply(op: Op, a: Self, b: Self) -> Self;
+    /// The operation on these operands, as many as it has count; products are rounded before they are added.
+    fn apply(op: Op, a: Self, b: Self, c: Self) -> Self;
     /// The solution of a linear system, row-major, lane by lane.
     fn solve(kind: SolveKind, matrix: &[Self], right_hand_side: &[Self]) -> Vec<Self>;
 }
 
-/// A value in every lane: the bits of [`Op::apply`].
+/// A value in every lane: the bits of [`Op::apply`] with products rounded separately.
 pub type Values = [f64; LANES];
 
 impl Number for Values {
@@ -27,7 +27,7 @@ impl Number for Values {
     }
 
     #[inline]
-    fn apply(op: Op, a: Values, b: Values) -> Values {
+    fn apply(op: Op, a: Values, b: Values, c: Values) -> Values {
         // The operation is chosen once for all lanes.
         match op {
             Op::Neg => a.map(|x| -x),
@@ -36,6 +36,9 @@ impl Number for Values {
             Op::Sub => std::array::from_fn(|lane| a[lane] - b[lane]),
             Op::Mul => std::array::from_fn(|lane| a[lane] * b[lane]),
             Op::Div => std::array::from_fn(|lane| a[lane] / b[lane]),
+            Op::MulAdd => std::array::from_fn(|lane| a[lane] * b[lane] + c[lane]),
+            Op::MulSub => std::array::from_fn(|lane| a[lane] * b[lane] - c[lane]),
+            Op::NegMulAdd => std::array::from_fn(|lane| c[lane] - a[lane] * b[lane]),
         }
     }
 
@@ -70,14 +73,17 @@ impl Number for Rates {
     }
 
     #[inline]
-    fn apply(op: Op, a: Rates, b: Rates) -> Rates {
-        let value = Values::apply(op, a.value, b.value);
+    fn apply(op: Op, a: Rates, b: Rates, c: Rates) -> Rates {
+        let value = Values::apply(op, a.value, b.value, c.value);
+        let product =
+            || std::array::from_fn(|lane| a.rate[lane] * b.value[lane] + a.value[lane] * b.rate[lane]);
         let rate = match op {
-            Op::Neg | Op::Add | Op::Sub => Values::apply(op, a.rate, b.rate),
+            Op::Neg | Op::Add | Op::Sub => Values::apply(op, a.rate, b.rate, c.rate),
             Op::Sqrt => std::array::from_fn(|lane| 0.5 * a.rate[lane] / value[lane]),
-            Op::Mul => {
-                std::array::from_fn(|lane| a.rate[lane] * b.value[lane] + a.value[lane] * b.rate[lane])
-            }
+            Op::Mul => product(),
+            Op::MulAdd => Values::apply(Op::Add, product(), c.rate, c.rate),
+            Op::MulSub => Values::apply(Op::Sub, product(), c.rate, c.rate),
+            Op::NegMulAdd => Values::apply(Op::Sub, c.rate, product(), c.rate),
             Op::Div => {
                 std::array::from_fn(|lane| (a.rate[lane] - value[lane] * b.rate[lane]) / b.value[lane])
             }
@@ -161,8 +167,11 @@ impl<N: Number> LaneEvaluator<N> {
             let value = match *node {
                 Node::Constant(value) => N::constant(value),
                 Node::Input { input, element } => inputs[input as usize][element as usize],
-                Node::Unary(op, a) => N::apply(op, values[a.index()], zero),
-                Node::Binary(op, a, b) => N::apply(op, values[a.index()], values[b.index()]),
+                Node::Unary(op, a) => N::apply(op, values[a.index()], zero, zero),
+                Node::Binary(op, a, b) => N::apply(op, values[a.index()], values[b.index()], zero),
+                Node::Ternary(op, a, b, c) => {
+                    N::apply(op, values[a.index()], values[b.index()], values[c.index()])
+                }
                 Node::Solution { solve, element } => {
                     let solution = solved[solve as usize]
                         .get_or_insert_with(|| solution(&graph.solves[solve as usize], values));

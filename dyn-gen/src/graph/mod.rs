@@ -21,7 +21,7 @@ pub use format::FormatError;
 pub(crate) use hasher::NodeHash;
 pub use interpreter::{Environment, EvaluationError, Evaluator, solve_general, solve_symmetric};
 pub use lanes::{Batch, LANES, LaneEvaluator, Number, Rates, Values};
-pub use ops::{OPS, Op, OpInfo};
+pub use ops::{OPS, Op, OpInfo, Rounding};
 pub use program::{Declaration, Function, Program, Provenance, Role, Step};
 
 /// Index of a node in [`Graph::nodes`].
@@ -51,6 +51,8 @@ pub enum Node {
     Unary(Op, NodeId),
     /// A binary operation.
     Binary(Op, NodeId, NodeId),
+    /// A multiplication with an addition.
+    Ternary(Op, NodeId, NodeId, NodeId),
     /// Element `element` of the solution of [`Graph::solves`]`[solve]`.
     Solution {
         /// Index into [`Graph::solves`].
@@ -165,6 +167,11 @@ impl Graph {
                 visit(a);
                 visit(b);
             }
+            Node::Ternary(_, a, b, c) => {
+                visit(a);
+                visit(b);
+                visit(c);
+            }
             Node::Solution { solve, .. } => self.solves[solve as usize].operands().for_each(visit),
         }
     }
@@ -221,6 +228,11 @@ impl Graph {
                 Node::Binary(_, a, b) => {
                     redirect(a);
                     redirect(b);
+                }
+                Node::Ternary(_, a, b, c) => {
+                    redirect(a);
+                    redirect(b);
+                    redirect(c);
                 }
                 _ => {}
             }

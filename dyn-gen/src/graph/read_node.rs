@@ -3,7 +3,7 @@
 use serde_json::Number;
 
 use super::format::FileNode;
-use super::{Node, NodeId, OPS, Op, Symbol};
+use super::{Node, NodeId, OPS, Op, OpInfo, Symbol};
 
 /// A node of a graph with these inputs, at this index.
 pub(super) fn read_node(file: FileNode, index: usize, inputs: &[Symbol]) -> Result<Node, String> {
@@ -48,17 +48,19 @@ pub(super) fn read_node(file: FileNode, index: usize, inputs: &[Symbol]) -> Resu
             Ok(Node::Input { input, element })
         }
         name => {
-            let Some(op) = Op::from_name(name) else {
-                let known = OPS.map(|info| info.name).join(", ");
+            // Fusing is a pass: a derivation does not know it.
+            let derived = |info: &OpInfo| info.arity < 3;
+            let Some(op) = Op::from_name(name).filter(|op| derived(op.info())) else {
+                let known: Vec<_> = OPS.iter().filter(|info| derived(info)).map(|info| info.name).collect();
+                let known = known.join(", ");
                 return Err(format!("unknown operation `{name}`; known: input, const, {known}"));
             };
             arity(op.info().arity)?;
             let a = operand(&operands[0])?;
             if op.info().arity == 1 {
-                Ok(Node::Unary(op, a))
-            } else {
-                Ok(Node::Binary(op, a, operand(&operands[1])?))
+                return Ok(Node::Unary(op, a));
             }
+            Ok(Node::Binary(op, a, operand(&operands[1])?))
         }
     }
 }

@@ -27,6 +27,9 @@ pub fn expand(graph: &Graph, context: &Context, orders: &mut Vec<PivotOrder>) ->
                 });
                 solution[element as usize]
             }
+            Node::Ternary(op, a, b, c) => {
+                builder.insert(Node::Ternary(op, images.of(a), images.of(b), images.of(c)))
+            }
             leaf => builder.insert(leaf),
         };
         images.set(index, image);

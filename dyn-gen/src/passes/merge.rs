@@ -51,6 +51,9 @@ fn merge_once(graph: &Graph) -> Option<Graph> {
                 let solve = builder.solve(images.solve(&graph.solves[solve as usize]));
                 builder.solution(solve, element)
             }
+            Node::Ternary(op, a, b, c) => {
+                builder.insert(Node::Ternary(op, images.of(a), images.of(b), images.of(c)))
+            }
             leaf => builder.insert(leaf),
         };
         images.set(index, image);

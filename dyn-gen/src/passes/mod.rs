@@ -13,6 +13,7 @@
 mod bake;
 mod expand;
 mod fold;
+mod fuse;
 mod invert;
 mod linear;
 mod merge;
@@ -60,7 +61,7 @@ pub struct Pass {
 use Exactness::{Exact, Rounding};
 
 /// Every pass, in the order in which they run.
-pub const PASSES: [Pass; 8] = [
+pub const PASSES: [Pass; 9] = [
     Pass {
         name: "bake",
         exactness: Exact,
@@ -102,6 +103,12 @@ pub const PASSES: [Pass; 8] = [
         exactness: Exact,
         after: "no negation is left that a difference or a constant used nowhere else could take up",
         run: |graph, _, _| settle::settle(graph),
+    },
+    Pass {
+        name: "fuse",
+        exactness: Exact,
+        after: "no sum has a product among its operands, unless the other one is a product that is fused",
+        run: |graph, _, _| fuse::fuse(graph),
     },
     Pass {
         name: "prune",

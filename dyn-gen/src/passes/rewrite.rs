@@ -54,6 +54,7 @@ pub fn rewrite(graph: &Graph, mut construct: impl FnMut(&mut Builder, NodeId, No
         let node = match graph.nodes[index] {
             Node::Unary(op, a) => Node::Unary(op, images.of(a)),
             Node::Binary(op, a, b) => Node::Binary(op, images.of(a), images.of(b)),
+            Node::Ternary(op, a, b, c) => Node::Ternary(op, images.of(a), images.of(b), images.of(c)),
             Node::Solution { solve, element } => {
                 let solve = builder.solve(images.solve(&graph.solves[solve as usize]));
                 Node::Solution { solve, element }

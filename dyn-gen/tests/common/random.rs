@@ -112,10 +112,14 @@ pub fn error_bounds(graph: &Graph, values: &[f64]) -> Vec<f64> {
                     _ => x + y,
                 }
             }
+            Node::Ternary(_, a, b, c) => {
+                let [(a, x), (b, y), (c, z)] = [a, b, c].map(|id| (values[id.index()], errors[id.index()]));
+                own + UNIT * (a * b).abs().max(c.abs()) + x * b.abs() + y * a.abs() + z
+            }
             Node::Solution { .. } => f64::INFINITY,
         };
         errors.push(error);
     }
-    assert_eq!(OPS.len(), 6, "a new operation needs its error bound here");
+    assert_eq!(OPS.len(), 9, "a new operation needs its error bound here");
     errors
 }

@@ -126,9 +126,13 @@ pub fn print(graph: &Graph) -> String {
                 let sign = ["", "", "+", "-", "*", "/"][op as usize];
                 format!("{} {sign} {}", compound(a), compound(b))
             }
+            Node::Ternary(op, a, b, c) => {
+                format!("{}({}, {}, {})", op.info().name, operand(a), operand(b), operand(c))
+            }
             Node::Solution { solve, element } => format!("{}[{element}]", graph.solves[solve as usize].name),
         };
-        let shared = live[index] && uses[index] > 1 && matches!(node, Node::Unary(..) | Node::Binary(..));
+        let operation = matches!(node, Node::Unary(..) | Node::Binary(..) | Node::Ternary(..));
+        let shared = live[index] && uses[index] > 1 && operation;
         expressions.push(if shared {
             writeln!(text, "t{index} = {expression}").unwrap();
             format!("t{index}")

@@ -22,7 +22,8 @@ fn precedence() -> Graph {
     let mut builder = Builder::new();
     let apply = |builder: &mut Builder, op: Op, a: NodeId, b: NodeId| match op.info().arity {
         1 => builder.insert(Node::Unary(op, a)),
-        _ => builder.insert(Node::Binary(op, a, b)),
+        2 => builder.insert(Node::Binary(op, a, b)),
+        _ => builder.insert(Node::Ternary(op, a, b, a)),
     };
     let mut nodes = Vec::new();
     for outer in OPS {

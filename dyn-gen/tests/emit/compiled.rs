@@ -29,6 +29,9 @@ mod float {
         fn solve<const N: usize>(_: &[[f32; N]; N], _: &[f32; N]) -> [f32; N] { unimplemented!() }
     }
     pub fn sqrt<T: Scalar>(x: T) -> T { x.square_root() }
+    pub fn mul_add<T: Scalar>(a: T, b: T, c: T) -> T { a * b + c }
+    pub fn mul_sub<T: Scalar>(a: T, b: T, c: T) -> T { a * b - c }
+    pub fn neg_mul_add<T: Scalar>(a: T, b: T, c: T) -> T { c - a * b }
 }
 mod solve {
     pub fn solve_general<T: crate::float::Scalar, const N: usize>(matrix: &[[T; N]; N], rhs: &[T; N]) -> [T; N] {

@@ -133,14 +133,15 @@ pub fn random(name: &str, seed: u64, operations: usize) -> Graph {
             let reach = if draw.below(10) < 7 { values.len().min(6) } else { values.len() };
             values[values.len() - 1 - draw.below(reach)]
         };
-        let (a, b) = (pick(), pick());
-        let node = match draw.below(8) {
+        let (a, b, c) = (pick(), pick(), pick());
+        let node = match draw.below(9) {
             0 => Node::Unary(Op::Neg, a),
             1 => Node::Unary(Op::Sqrt, a),
             2 | 3 => Node::Binary(Op::Add, a, b),
             4 | 5 => Node::Binary(Op::Sub, a, b),
             6 => Node::Binary(Op::Mul, a, b),
-            _ => Node::Binary(Op::Div, a, b),
+            7 => Node::Binary(Op::Div, a, b),
+            _ => Node::Ternary([Op::MulAdd, Op::MulSub, Op::NegMulAdd][step % 3], a, b, c),
         };
         values.push(builder.insert(node));
     }

@@ -88,7 +88,7 @@ fn a_model_file() {
         // rod_direction           7          10
 
         #[allow(unused_imports)]
-        use crate::float::{Scalar, sqrt};
+        use crate::float::{Scalar, mul_add, mul_sub, neg_mul_add, sqrt};
         #[allow(unused_imports)]
         use crate::solve::solve_general;
 

@@ -9,9 +9,9 @@
 //
 // operations (+ - * / sqrt; a change of sign is not counted)
 // function          as derived  as printed
-// rod_alignment            303          99
-// jacobian_dp              579         279
-// inverse_dynamics        2409        1224
+// rod_alignment            303          63
+// jacobian_dp              579         180
+// inverse_dynamics        2409         794
 //
 // linear systems: growth of rounding errors in a fixed order of pivots, at the worst state
 // inverse_dynamics, axial_reaction: 10.7 (51 states sampled)
@@ -21,7 +21,7 @@
 // hand-written dynamics to a relative error below 1e-12
 
 #[allow(unused_imports)]
-use ::dyn_runtime::float::{Scalar, sqrt};
+use ::dyn_runtime::float::{Scalar, mul_add, mul_sub, neg_mul_add, sqrt};
 #[allow(unused_imports)]
 use ::dyn_runtime::solve::solve_general;
 
@@ -122,85 +122,100 @@ pub fn rod_alignment<T: Scalar>(
     let c = T::constant;
     // rotation of the platform seen from the base
     let t1 = base_rotation[1][0] * platform_rotation[1][0];
-    let t2 = base_rotation[0][0] * platform_rotation[0][0] + t1;
-    let t3 = base_rotation[2][0] * platform_rotation[2][0] + t2;
+    let t2 = mul_add(base_rotation[0][0], platform_rotation[0][0], t1);
+    let t3 = mul_add(base_rotation[2][0], platform_rotation[2][0], t2);
     let t4 = base_rotation[1][0] * platform_rotation[1][1];
-    let t5 = base_rotation[0][0] * platform_rotation[0][1] + t4;
-    let t6 = base_rotation[2][0] * platform_rotation[2][1] + t5;
+    let t5 = mul_add(base_rotation[0][0], platform_rotation[0][1], t4);
+    let t6 = mul_add(base_rotation[2][0], platform_rotation[2][1], t5);
     let t7 = base_rotation[1][1] * platform_rotation[1][0];
-    let t8 = base_rotation[0][1] * platform_rotation[0][0] + t7;
-    let t9 = base_rotation[2][1] * platform_rotation[2][0] + t8;
+    let t8 = mul_add(base_rotation[0][1], platform_rotation[0][0], t7);
+    let t9 = mul_add(base_rotation[2][1], platform_rotation[2][0], t8);
     let t10 = base_rotation[1][1] * platform_rotation[1][1];
-    let t11 = base_rotation[0][1] * platform_rotation[0][1] + t10;
-    let t12 = base_rotation[2][1] * platform_rotation[2][1] + t11;
+    let t11 = mul_add(base_rotation[0][1], platform_rotation[0][1], t10);
+    let t12 = mul_add(base_rotation[2][1], platform_rotation[2][1], t11);
     // platform origin seen from the base
     let t13 = base_position[2] - platform_position[2];
     let t14 = base_position[0] - platform_position[0];
     let t15 = base_position[1] - platform_position[1];
-    let t16 = base_rotation[0][0] * t14 + base_rotation[1][0] * t15;
-    let t17 = base_rotation[2][0] * t13 + t16;
-    let t18 = base_rotation[0][1] * t14 + base_rotation[1][1] * t15;
-    let t19 = base_rotation[2][1] * t13 + t18;
+    let t16 = mul_add(base_rotation[0][0], t14, base_rotation[1][0] * t15);
+    let t17 = mul_add(base_rotation[2][0], t13, t16);
+    let t18 = mul_add(base_rotation[0][1], t14, base_rotation[1][1] * t15);
+    let t19 = mul_add(base_rotation[2][1], t13, t18);
     // leg 1: platform joint from the base point
-    let t20 = t17 + (c(0.131644) - c(0.115911) * t3);
-    let t21 = c(0.031058) * t6;
-    let t22 = t20 + t21;
-    let t23 = c(0.12276) - c(0.031058) * t12;
-    let t24 = t19 - c(0.115911) * t9;
-    let t25 = t23 - t24;
+    let t20 = t17 + neg_mul_add(c(0.115911), t3, c(0.131644));
+    let t21 = mul_add(c(0.031058), t6, t20);
+    let t22 = neg_mul_add(c(0.031058), t12, c(0.12276));
+    let t23 = neg_mul_add(c(0.115911), t9, t19);
+    let t24 = t22 - t23;
     // leg 2: platform joint from the base point
-    let t26 = t20 - t21;
-    let t27 = t23 + t24;
+    let t25 = neg_mul_add(c(0.031058), t6, t20);
+    let t26 = t22 + t23;
     // leg 3: platform joint from the base point
-    let t28 = t17 + (c(0.040491) + c(0.031058) * t3);
-    let t29 = c(0.115911) * t6;
-    let t30 = t28 - t29;
-    let t31 = c(0.175387) - c(0.115911) * t12;
-    let t32 = t19 + c(0.031058) * t9;
-    let t33 = t31 + t32;
+    let t27 = t17 + mul_add(c(0.031058), t3, c(0.040491));
+    let t28 = neg_mul_add(c(0.115911), t6, t27);
+    let t29 = neg_mul_add(c(0.115911), t12, c(0.175387));
+    let t30 = mul_add(c(0.031058), t9, t19);
+    let t31 = t29 + t30;
     // leg 4: platform joint from the base point
-    let t34 = t17 - (c(0.172135) - c(0.084853) * t3);
-    let t35 = c(0.084853) * t6;
-    let t36 = t34 - t35;
-    let t37 = c(0.052627) - c(0.084853) * t12;
-    let t38 = t19 + c(0.084853) * t9;
-    let t39 = t37 + t38;
+    let t32 = t17 - neg_mul_add(c(0.084853), t3, c(0.172135));
+    let t33 = neg_mul_add(c(0.084853), t6, t32);
+    let t34 = neg_mul_add(c(0.084853), t12, c(0.052627));
+    let t35 = mul_add(c(0.084853), t9, t19);
+    let t36 = t34 + t35;
     // leg 5: platform joint from the base point
-    let t40 = t34 + t35;
-    let t41 = t37 - t38;
+    let t37 = mul_add(c(0.084853), t6, t32);
+    let t38 = t34 - t35;
     // leg 6: platform joint from the base point
-    let t42 = t28 + t29;
-    let t43 = t31 - t32;
+    let t39 = mul_add(c(0.115911), t6, t27);
+    let t40 = t29 - t30;
     // leg 1: extent of the rod along the actuator axis
-    let t44 = t22 * t22;
-    let t45 = t25 * t25;
+    let t41 = t24 * t24;
     // leg 2: extent of the rod along the actuator axis
-    let t46 = t26 * t26;
-    let t47 = t27 * t27;
+    let t42 = t26 * t26;
     // leg 3: extent of the rod along the actuator axis
-    let t48 = t30 * t30;
-    let t49 = t33 * t33;
+    let t43 = t31 * t31;
     // leg 4: extent of the rod along the actuator axis
-    let t50 = t36 * t36;
-    let t51 = t39 * t39;
+    let t44 = t36 * t36;
     // leg 5: extent of the rod along the actuator axis
-    let t52 = t40 * t40;
-    let t53 = t41 * t41;
+    let t45 = t38 * t38;
     // leg 6: extent of the rod along the actuator axis
-    let t54 = t42 * t42;
-    let t55 = t43 * t43;
+    let t46 = t40 * t40;
     // leg 1: squared cosine between rod and line of the actuator's force; negative out of reach
-    rod_alignment[0] = c(1.0) - c(23.564897728343862) * (t44 + t45);
+    rod_alignment[0] = neg_mul_add(
+        c(23.564897728343862),
+        mul_add(t21, t21, t41),
+        c(1.0),
+    );
     // leg 2: squared cosine between rod and line of the actuator's force; negative out of reach
-    rod_alignment[1] = c(1.0) - c(23.564897728343862) * (t46 + t47);
+    rod_alignment[1] = neg_mul_add(
+        c(23.564897728343862),
+        mul_add(t25, t25, t42),
+        c(1.0),
+    );
     // leg 3: squared cosine between rod and line of the actuator's force; negative out of reach
-    rod_alignment[2] = c(1.0) - c(23.564897728343862) * (t48 + t49);
+    rod_alignment[2] = neg_mul_add(
+        c(23.564897728343862),
+        mul_add(t28, t28, t43),
+        c(1.0),
+    );
     // leg 4: squared cosine between rod and line of the actuator's force; negative out of reach
-    rod_alignment[3] = c(1.0) - c(23.564897728343862) * (t50 + t51);
+    rod_alignment[3] = neg_mul_add(
+        c(23.564897728343862),
+        mul_add(t33, t33, t44),
+        c(1.0),
+    );
     // leg 5: squared cosine between rod and line of the actuator's force; negative out of reach
-    rod_alignment[4] = c(1.0) - c(23.564897728343862) * (t52 + t53);
+    rod_alignment[4] = neg_mul_add(
+        c(23.564897728343862),
+        mul_add(t37, t37, t45),
+        c(1.0),
+    );
     // leg 6: squared cosine between rod and line of the actuator's force; negative out of reach
-    rod_alignment[5] = c(1.0) - c(23.564897728343862) * (t54 + t55);
+    rod_alignment[5] = neg_mul_add(
+        c(23.564897728343862),
+        mul_add(t39, t39, t46),
+        c(1.0),
+    );
 }
 
 /// Actuator Jacobian of the platform, equation (32).
@@ -226,223 +241,217 @@ pub fn jacobian_dp<T: Scalar>(
     let c = T::constant;
     // rotation of the platform seen from the base
     let t1 = base_rotation[1][0] * platform_rotation[1][0];
-    let t2 = base_rotation[0][0] * platform_rotation[0][0] + t1;
-    let t3 = base_rotation[2][0] * platform_rotation[2][0] + t2;
+    let t2 = mul_add(base_rotation[0][0], platform_rotation[0][0], t1);
+    let t3 = mul_add(base_rotation[2][0], platform_rotation[2][0], t2);
     let t4 = base_rotation[1][0] * platform_rotation[1][1];
-    let t5 = base_rotation[0][0] * platform_rotation[0][1] + t4;
-    let t6 = base_rotation[2][0] * platform_rotation[2][1] + t5;
+    let t5 = mul_add(base_rotation[0][0], platform_rotation[0][1], t4);
+    let t6 = mul_add(base_rotation[2][0], platform_rotation[2][1], t5);
     let t7 = base_rotation[1][1] * platform_rotation[1][0];
-    let t8 = base_rotation[0][1] * platform_rotation[0][0] + t7;
-    let t9 = base_rotation[2][1] * platform_rotation[2][0] + t8;
+    let t8 = mul_add(base_rotation[0][1], platform_rotation[0][0], t7);
+    let t9 = mul_add(base_rotation[2][1], platform_rotation[2][0], t8);
     let t10 = base_rotation[1][1] * platform_rotation[1][1];
-    let t11 = base_rotation[0][1] * platform_rotation[0][1] + t10;
-    let t12 = base_rotation[2][1] * platform_rotation[2][1] + t11;
+    let t11 = mul_add(base_rotation[0][1], platform_rotation[0][1], t10);
+    let t12 = mul_add(base_rotation[2][1], platform_rotation[2][1], t11);
     // platform origin seen from the base
     let t13 = base_position[2] - platform_position[2];
     let t14 = base_position[0] - platform_position[0];
     let t15 = base_position[1] - platform_position[1];
-    let t16 = base_rotation[0][0] * t14 + base_rotation[1][0] * t15;
-    let t17 = base_rotation[2][0] * t13 + t16;
-    let t18 = base_rotation[0][1] * t14 + base_rotation[1][1] * t15;
-    let t19 = base_rotation[2][1] * t13 + t18;
+    let t16 = mul_add(base_rotation[0][0], t14, base_rotation[1][0] * t15);
+    let t17 = mul_add(base_rotation[2][0], t13, t16);
+    let t18 = mul_add(base_rotation[0][1], t14, base_rotation[1][1] * t15);
+    let t19 = mul_add(base_rotation[2][1], t13, t18);
     // leg 1: platform joint from the base point
-    let t20 = t17 + (c(0.131644) - c(0.115911) * t3);
-    let t21 = c(0.031058) * t6;
-    let t22 = t20 + t21;
-    let t23 = c(0.12276) - c(0.031058) * t12;
-    let t24 = t19 - c(0.115911) * t9;
-    let t25 = t23 - t24;
+    let t20 = t17 + neg_mul_add(c(0.115911), t3, c(0.131644));
+    let t21 = mul_add(c(0.031058), t6, t20);
+    let t22 = neg_mul_add(c(0.031058), t12, c(0.12276));
+    let t23 = neg_mul_add(c(0.115911), t9, t19);
+    let t24 = t22 - t23;
     // leg 2: platform joint from the base point
-    let t26 = t20 - t21;
-    let t27 = t23 + t24;
+    let t25 = neg_mul_add(c(0.031058), t6, t20);
+    let t26 = t22 + t23;
     // leg 3: platform joint from the base point
-    let t28 = t17 + (c(0.040491) + c(0.031058) * t3);
-    let t29 = c(0.115911) * t6;
-    let t30 = t28 - t29;
-    let t31 = c(0.175387) - c(0.115911) * t12;
-    let t32 = t19 + c(0.031058) * t9;
-    let t33 = t31 + t32;
+    let t27 = t17 + mul_add(c(0.031058), t3, c(0.040491));
+    let t28 = neg_mul_add(c(0.115911), t6, t27);
+    let t29 = neg_mul_add(c(0.115911), t12, c(0.175387));
+    let t30 = mul_add(c(0.031058), t9, t19);
+    let t31 = t29 + t30;
     // leg 4: platform joint from the base point
-    let t34 = t17 - (c(0.172135) - c(0.084853) * t3);
-    let t35 = c(0.084853) * t6;
-    let t36 = t34 - t35;
-    let t37 = c(0.052627) - c(0.084853) * t12;
-    let t38 = t19 + c(0.084853) * t9;
-    let t39 = t37 + t38;
+    let t32 = t17 - neg_mul_add(c(0.084853), t3, c(0.172135));
+    let t33 = neg_mul_add(c(0.084853), t6, t32);
+    let t34 = neg_mul_add(c(0.084853), t12, c(0.052627));
+    let t35 = mul_add(c(0.084853), t9, t19);
+    let t36 = t34 + t35;
     // leg 5: platform joint from the base point
-    let t40 = t34 + t35;
-    let t41 = t37 - t38;
+    let t37 = mul_add(c(0.084853), t6, t32);
+    let t38 = t34 - t35;
     // leg 6: platform joint from the base point
-    let t42 = t28 + t29;
-    let t43 = t31 - t32;
+    let t39 = mul_add(c(0.115911), t6, t27);
+    let t40 = t29 - t30;
     // leg 1: extent of the rod along the actuator axis
-    let t44 = sqrt(c(0.042435999999999995) - t22 * t22 - t25 * t25);
+    let t41 = neg_mul_add(t21, t21, c(0.042435999999999995));
+    let t42 = sqrt(neg_mul_add(t24, t24, t41));
     // leg 1: reciprocal of that extent
-    let t45 = c(1.0) / t44;
+    let t43 = c(1.0) / t42;
     // leg 2: extent of the rod along the actuator axis
-    let t46 = sqrt(c(0.042435999999999995) - t26 * t26 - t27 * t27);
+    let t44 = neg_mul_add(t25, t25, c(0.042435999999999995));
+    let t45 = sqrt(neg_mul_add(t26, t26, t44));
     // leg 2: reciprocal of that extent
-    let t47 = c(1.0) / t46;
+    let t46 = c(1.0) / t45;
     // leg 3: extent of the rod along the actuator axis
-    let t48 = sqrt(c(0.042435999999999995) - t30 * t30 - t33 * t33);
+    let t47 = neg_mul_add(t28, t28, c(0.042435999999999995));
+    let t48 = sqrt(neg_mul_add(t31, t31, t47));
     // leg 3: reciprocal of that extent
     let t49 = c(1.0) / t48;
     // leg 4: extent of the rod along the actuator axis
-    let t50 = sqrt(c(0.042435999999999995) - t36 * t36 - t39 * t39);
+    let t50 = neg_mul_add(t33, t33, c(0.042435999999999995));
+    let t51 = sqrt(neg_mul_add(t36, t36, t50));
     // leg 4: reciprocal of that extent
-    let t51 = c(1.0) / t50;
+    let t52 = c(1.0) / t51;
     // leg 5: extent of the rod along the actuator axis
-    let t52 = sqrt(c(0.042435999999999995) - t40 * t40 - t41 * t41);
+    let t53 = neg_mul_add(t37, t37, c(0.042435999999999995));
+    let t54 = sqrt(neg_mul_add(t38, t38, t53));
     // leg 5: reciprocal of that extent
-    let t53 = c(1.0) / t52;
-    // leg 6: extent of the rod along the actuator axis
-    let t54 = sqrt(c(0.042435999999999995) - t42 * t42 - t43 * t43);
-    // leg 6: reciprocal of that extent
     let t55 = c(1.0) / t54;
+    // leg 6: extent of the rod along the actuator axis
+    let t56 = neg_mul_add(t39, t39, c(0.042435999999999995));
+    let t57 = sqrt(neg_mul_add(t40, t40, t56));
+    // leg 6: reciprocal of that extent
+    let t58 = c(1.0) / t57;
     // leg 1: gradient of the actuator length by the platform joint
-    let t56 = t22 * t45;
-    let t57 = t25 * t45;
+    let t59 = t21 * t43;
+    let t60 = t24 * t43;
     // leg 2: gradient of the actuator length by the platform joint
-    let t58 = t26 * t47;
-    let t59 = t27 * t47;
+    let t61 = t25 * t46;
+    let t62 = t26 * t46;
     // leg 3: gradient of the actuator length by the platform joint
-    let t60 = t30 * t49;
-    let t61 = t33 * t49;
+    let t63 = t28 * t49;
+    let t64 = t31 * t49;
     // leg 4: gradient of the actuator length by the platform joint
-    let t62 = t36 * t51;
-    let t63 = t39 * t51;
+    let t65 = t33 * t52;
+    let t66 = t36 * t52;
     // leg 5: gradient of the actuator length by the platform joint
-    let t64 = t40 * t53;
-    let t65 = t41 * t53;
+    let t67 = t37 * t55;
+    let t68 = t38 * t55;
     // leg 6: gradient of the actuator length by the platform joint
-    let t66 = t42 * t55;
-    let t67 = t43 * t55;
+    let t69 = t39 * t58;
+    let t70 = t40 * t58;
     // leg 1: platform joint from the platform origin
-    let t68 = platform_rotation[0][0] * c(0.115911);
-    let t69 = platform_rotation[0][1] * c(0.031058);
-    let t70 = t68 - t69;
-    let t71 = platform_rotation[1][0] * c(0.115911);
-    let t72 = platform_rotation[1][1] * c(0.031058);
-    let t73 = t71 - t72;
-    let t74 = platform_rotation[2][0] * c(0.115911);
+    let t71 = platform_rotation[0][1] * c(0.031058);
+    let t72 = mul_sub(platform_rotation[0][0], c(0.115911), t71);
+    let t73 = platform_rotation[1][1] * c(0.031058);
+    let t74 = mul_sub(platform_rotation[1][0], c(0.115911), t73);
     let t75 = platform_rotation[2][1] * c(0.031058);
-    let t76 = t74 - t75;
+    let t76 = mul_sub(platform_rotation[2][0], c(0.115911), t75);
     // leg 1: gradient of the actuator length
-    let t77 = base_rotation[0][2] - base_rotation[0][0] * t56;
-    let t78 = base_rotation[0][1] * t57 + t77;
+    let t77 = neg_mul_add(base_rotation[0][0], t59, base_rotation[0][2]);
+    let t78 = mul_add(base_rotation[0][1], t60, t77);
     jacobian_dp[0][0] = t78;
-    let t79 = base_rotation[1][2] - base_rotation[1][0] * t56;
-    let t80 = base_rotation[1][1] * t57 + t79;
+    let t79 = neg_mul_add(base_rotation[1][0], t59, base_rotation[1][2]);
+    let t80 = mul_add(base_rotation[1][1], t60, t79);
     jacobian_dp[0][1] = t80;
-    let t81 = base_rotation[2][2] - base_rotation[2][0] * t56;
-    let t82 = base_rotation[2][1] * t57 + t81;
+    let t81 = neg_mul_add(base_rotation[2][0], t59, base_rotation[2][2]);
+    let t82 = mul_add(base_rotation[2][1], t60, t81);
     jacobian_dp[0][2] = t82;
     // leg 2: platform joint from the platform origin
-    let t83 = t68 + t69;
-    let t84 = t71 + t72;
-    let t85 = t74 + t75;
+    let t83 = mul_add(platform_rotation[0][0], c(0.115911), t71);
+    let t84 = mul_add(platform_rotation[1][0], c(0.115911), t73);
+    let t85 = mul_add(platform_rotation[2][0], c(0.115911), t75);
     // leg 2: gradient of the actuator length
-    let t86 = base_rotation[0][2] - base_rotation[0][0] * t58;
-    let t87 = base_rotation[0][1] * t59 - t86;
-    let t88 = base_rotation[1][2] - base_rotation[1][0] * t58;
-    let t89 = base_rotation[1][1] * t59 - t88;
-    let t90 = base_rotation[2][2] - base_rotation[2][0] * t58;
-    let t91 = base_rotation[2][1] * t59 - t90;
+    let t86 = neg_mul_add(base_rotation[0][0], t61, base_rotation[0][2]);
+    let t87 = mul_sub(base_rotation[0][1], t62, t86);
+    let t88 = neg_mul_add(base_rotation[1][0], t61, base_rotation[1][2]);
+    let t89 = mul_sub(base_rotation[1][1], t62, t88);
+    let t90 = neg_mul_add(base_rotation[2][0], t61, base_rotation[2][2]);
+    let t91 = mul_sub(base_rotation[2][1], t62, t90);
     jacobian_dp[1][0] = -t87;
     jacobian_dp[1][1] = -t89;
     jacobian_dp[1][2] = -t91;
     // leg 3: platform joint from the platform origin
-    let t92 = platform_rotation[0][0] * c(0.031058);
-    let t93 = platform_rotation[0][1] * c(0.115911);
-    let t94 = t92 - t93;
-    let t95 = platform_rotation[1][0] * c(0.031058);
-    let t96 = platform_rotation[1][1] * c(0.115911);
-    let t97 = t95 - t96;
-    let t98 = platform_rotation[2][0] * c(0.031058);
-    let t99 = platform_rotation[2][1] * c(0.115911);
-    let t100 = t98 - t99;
+    let t92 = platform_rotation[0][1] * c(0.115911);
+    let t93 = mul_sub(platform_rotation[0][0], c(0.031058), t92);
+    let t94 = platform_rotation[1][1] * c(0.115911);
+    let t95 = mul_sub(platform_rotation[1][0], c(0.031058), t94);
+    let t96 = platform_rotation[2][1] * c(0.115911);
+    let t97 = mul_sub(platform_rotation[2][0], c(0.031058), t96);
     // leg 3: gradient of the actuator length
-    let t101 = base_rotation[0][2] - base_rotation[0][0] * t60;
-    let t102 = base_rotation[0][1] * t61 - t101;
-    let t103 = base_rotation[1][2] - base_rotation[1][0] * t60;
-    let t104 = base_rotation[1][1] * t61 - t103;
-    let t105 = base_rotation[2][2] - base_rotation[2][0] * t60;
-    let t106 = base_rotation[2][1] * t61 - t105;
-    jacobian_dp[2][0] = -t102;
-    jacobian_dp[2][1] = -t104;
-    jacobian_dp[2][2] = -t106;
+    let t98 = neg_mul_add(base_rotation[0][0], t63, base_rotation[0][2]);
+    let t99 = mul_sub(base_rotation[0][1], t64, t98);
+    let t100 = neg_mul_add(base_rotation[1][0], t63, base_rotation[1][2]);
+    let t101 = mul_sub(base_rotation[1][1], t64, t100);
+    let t102 = neg_mul_add(base_rotation[2][0], t63, base_rotation[2][2]);
+    let t103 = mul_sub(base_rotation[2][1], t64, t102);
+    jacobian_dp[2][0] = -t99;
+    jacobian_dp[2][1] = -t101;
+    jacobian_dp[2][2] = -t103;
     // leg 4: platform joint from the platform origin
-    let t107 = platform_rotation[0][0] * c(0.084853);
-    let t108 = platform_rotation[0][1] * c(0.084853);
-    let t109 = t107 - t108;
-    let t110 = platform_rotation[1][0] * c(0.084853);
-    let t111 = platform_rotation[1][1] * c(0.084853);
-    let t112 = t110 - t111;
-    let t113 = platform_rotation[2][0] * c(0.084853);
-    let t114 = platform_rotation[2][1] * c(0.084853);
-    let t115 = t113 - t114;
+    let t104 = platform_rotation[0][1] * c(0.084853);
+    let t105 = mul_sub(platform_rotation[0][0], c(0.084853), t104);
+    let t106 = platform_rotation[1][1] * c(0.084853);
+    let t107 = mul_sub(platform_rotation[1][0], c(0.084853), t106);
+    let t108 = platform_rotation[2][1] * c(0.084853);
+    let t109 = mul_sub(platform_rotation[2][0], c(0.084853), t108);
     // leg 4: gradient of the actuator length
-    let t116 = base_rotation[0][2] - base_rotation[0][0] * t62;
-    let t117 = base_rotation[0][1] * t63 - t116;
-    let t118 = base_rotation[1][2] - base_rotation[1][0] * t62;
-    let t119 = base_rotation[1][1] * t63 - t118;
-    let t120 = base_rotation[2][2] - base_rotation[2][0] * t62;
-    let t121 = base_rotation[2][1] * t63 - t120;
-    jacobian_dp[3][0] = -t117;
-    jacobian_dp[3][1] = -t119;
-    jacobian_dp[3][2] = -t121;
+    let t110 = neg_mul_add(base_rotation[0][0], t65, base_rotation[0][2]);
+    let t111 = mul_sub(base_rotation[0][1], t66, t110);
+    let t112 = neg_mul_add(base_rotation[1][0], t65, base_rotation[1][2]);
+    let t113 = mul_sub(base_rotation[1][1], t66, t112);
+    let t114 = neg_mul_add(base_rotation[2][0], t65, base_rotation[2][2]);
+    let t115 = mul_sub(base_rotation[2][1], t66, t114);
+    jacobian_dp[3][0] = -t111;
+    jacobian_dp[3][1] = -t113;
+    jacobian_dp[3][2] = -t115;
     // leg 5: platform joint from the platform origin
-    let t122 = t107 + t108;
-    let t123 = t110 + t111;
-    let t124 = t113 + t114;
+    let t116 = mul_add(platform_rotation[0][0], c(0.084853), t104);
+    let t117 = mul_add(platform_rotation[1][0], c(0.084853), t106);
+    let t118 = mul_add(platform_rotation[2][0], c(0.084853), t108);
     // leg 5: gradient of the actuator length
-    let t125 = base_rotation[0][2] - base_rotation[0][0] * t64;
-    let t126 = base_rotation[0][1] * t65 + t125;
-    jacobian_dp[4][0] = t126;
-    let t127 = base_rotation[1][2] - base_rotation[1][0] * t64;
-    let t128 = base_rotation[1][1] * t65 + t127;
-    jacobian_dp[4][1] = t128;
-    let t129 = base_rotation[2][2] - base_rotation[2][0] * t64;
-    let t130 = base_rotation[2][1] * t65 + t129;
-    jacobian_dp[4][2] = t130;
+    let t119 = neg_mul_add(base_rotation[0][0], t67, base_rotation[0][2]);
+    let t120 = mul_add(base_rotation[0][1], t68, t119);
+    jacobian_dp[4][0] = t120;
+    let t121 = neg_mul_add(base_rotation[1][0], t67, base_rotation[1][2]);
+    let t122 = mul_add(base_rotation[1][1], t68, t121);
+    jacobian_dp[4][1] = t122;
+    let t123 = neg_mul_add(base_rotation[2][0], t67, base_rotation[2][2]);
+    let t124 = mul_add(base_rotation[2][1], t68, t123);
+    jacobian_dp[4][2] = t124;
     // leg 6: platform joint from the platform origin
-    let t131 = t92 + t93;
-    let t132 = t95 + t96;
-    let t133 = t98 + t99;
+    let t125 = mul_add(platform_rotation[0][0], c(0.031058), t92);
+    let t126 = mul_add(platform_rotation[1][0], c(0.031058), t94);
+    let t127 = mul_add(platform_rotation[2][0], c(0.031058), t96);
     // leg 6: gradient of the actuator length
-    let t134 = base_rotation[0][2] - base_rotation[0][0] * t66;
-    let t135 = base_rotation[0][1] * t67 + t134;
-    jacobian_dp[5][0] = t135;
-    let t136 = base_rotation[1][2] - base_rotation[1][0] * t66;
-    let t137 = base_rotation[1][1] * t67 + t136;
-    jacobian_dp[5][1] = t137;
-    let t138 = base_rotation[2][2] - base_rotation[2][0] * t66;
-    let t139 = base_rotation[2][1] * t67 + t138;
-    jacobian_dp[5][2] = t139;
+    let t128 = neg_mul_add(base_rotation[0][0], t69, base_rotation[0][2]);
+    let t129 = mul_add(base_rotation[0][1], t70, t128);
+    jacobian_dp[5][0] = t129;
+    let t130 = neg_mul_add(base_rotation[1][0], t69, base_rotation[1][2]);
+    let t131 = mul_add(base_rotation[1][1], t70, t130);
+    jacobian_dp[5][1] = t131;
+    let t132 = neg_mul_add(base_rotation[2][0], t69, base_rotation[2][2]);
+    let t133 = mul_add(base_rotation[2][1], t70, t132);
+    jacobian_dp[5][2] = t133;
     // leg 1: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
-    jacobian_dp[0][3] = t73 * t82 - t76 * t80;
-    jacobian_dp[0][4] = t76 * t78 - t70 * t82;
-    jacobian_dp[0][5] = t70 * t80 - t73 * t78;
+    jacobian_dp[0][3] = mul_sub(t74, t82, t76 * t80);
+    jacobian_dp[0][4] = mul_sub(t76, t78, t72 * t82);
+    jacobian_dp[0][5] = mul_sub(t72, t80, t74 * t78);
     // leg 2: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
-    jacobian_dp[1][3] = t85 * t89 - t84 * t91;
-    jacobian_dp[1][4] = t83 * t91 - t85 * t87;
-    jacobian_dp[1][5] = t84 * t87 - t83 * t89;
+    jacobian_dp[1][3] = neg_mul_add(t84, t91, t85 * t89);
+    jacobian_dp[1][4] = neg_mul_add(t85, t87, t83 * t91);
+    jacobian_dp[1][5] = neg_mul_add(t83, t89, t84 * t87);
     // leg 3: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
-    jacobian_dp[2][3] = t97 * t106 - t100 * t104;
-    jacobian_dp[2][4] = t100 * t102 - t94 * t106;
-    jacobian_dp[2][5] = t94 * t104 - t97 * t102;
+    jacobian_dp[2][3] = mul_sub(t95, t103, t97 * t101);
+    jacobian_dp[2][4] = mul_sub(t97, t99, t93 * t103);
+    jacobian_dp[2][5] = mul_sub(t93, t101, t95 * t99);
     // leg 4: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
-    jacobian_dp[3][3] = t112 * t121 - t115 * t119;
-    jacobian_dp[3][4] = t115 * t117 - t109 * t121;
-    jacobian_dp[3][5] = t109 * t119 - t112 * t117;
+    jacobian_dp[3][3] = mul_sub(t107, t115, t109 * t113);
+    jacobian_dp[3][4] = mul_sub(t109, t111, t105 * t115);
+    jacobian_dp[3][5] = mul_sub(t105, t113, t107 * t111);
     // leg 5: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
-    jacobian_dp[4][3] = t124 * t128 - t123 * t130;
-    jacobian_dp[4][4] = t122 * t130 - t124 * t126;
-    jacobian_dp[4][5] = t123 * t126 - t122 * t128;
+    jacobian_dp[4][3] = neg_mul_add(t117, t124, t118 * t122);
+    jacobian_dp[4][4] = neg_mul_add(t118, t120, t116 * t124);
+    jacobian_dp[4][5] = neg_mul_add(t116, t122, t117 * t120);
     // leg 6: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
-    jacobian_dp[5][3] = t133 * t137 - t132 * t139;
-    jacobian_dp[5][4] = t131 * t139 - t133 * t135;
-    jacobian_dp[5][5] = t132 * t135 - t131 * t137;
+    jacobian_dp[5][3] = neg_mul_add(t126, t133, t127 * t131);
+    jacobian_dp[5][4] = neg_mul_add(t127, t129, t125 * t133);
+    jacobian_dp[5][5] = neg_mul_add(t125, t131, t126 * t129);
 }
 
 /// Actuator forces for a given platform acceleration, equation (49).
@@ -478,674 +487,630 @@ pub fn inverse_dynamics<T: Scalar>(
     let c = T::constant;
     // rotation of the platform seen from the base
     let t1 = base_rotation[1][0] * platform_rotation[1][0];
-    let t2 = base_rotation[0][0] * platform_rotation[0][0] + t1;
-    let t3 = base_rotation[2][0] * platform_rotation[2][0] + t2;
+    let t2 = mul_add(base_rotation[0][0], platform_rotation[0][0], t1);
+    let t3 = mul_add(base_rotation[2][0], platform_rotation[2][0], t2);
     let t4 = base_rotation[1][0] * platform_rotation[1][1];
-    let t5 = base_rotation[0][0] * platform_rotation[0][1] + t4;
-    let t6 = base_rotation[2][0] * platform_rotation[2][1] + t5;
+    let t5 = mul_add(base_rotation[0][0], platform_rotation[0][1], t4);
+    let t6 = mul_add(base_rotation[2][0], platform_rotation[2][1], t5);
     let t7 = base_rotation[1][0] * platform_rotation[1][2];
-    let t8 = base_rotation[0][0] * platform_rotation[0][2] + t7;
-    let t9 = base_rotation[2][0] * platform_rotation[2][2] + t8;
+    let t8 = mul_add(base_rotation[0][0], platform_rotation[0][2], t7);
+    let t9 = mul_add(base_rotation[2][0], platform_rotation[2][2], t8);
     let t10 = base_rotation[1][1] * platform_rotation[1][0];
-    let t11 = base_rotation[0][1] * platform_rotation[0][0] + t10;
-    let t12 = base_rotation[2][1] * platform_rotation[2][0] + t11;
+    let t11 = mul_add(base_rotation[0][1], platform_rotation[0][0], t10);
+    let t12 = mul_add(base_rotation[2][1], platform_rotation[2][0], t11);
     let t13 = base_rotation[1][1] * platform_rotation[1][1];
-    let t14 = base_rotation[0][1] * platform_rotation[0][1] + t13;
-    let t15 = base_rotation[2][1] * platform_rotation[2][1] + t14;
+    let t14 = mul_add(base_rotation[0][1], platform_rotation[0][1], t13);
+    let t15 = mul_add(base_rotation[2][1], platform_rotation[2][1], t14);
     let t16 = base_rotation[1][1] * platform_rotation[1][2];
-    let t17 = base_rotation[0][1] * platform_rotation[0][2] + t16;
-    let t18 = base_rotation[2][1] * platform_rotation[2][2] + t17;
+    let t17 = mul_add(base_rotation[0][1], platform_rotation[0][2], t16);
+    let t18 = mul_add(base_rotation[2][1], platform_rotation[2][2], t17);
     let t19 = base_rotation[1][2] * platform_rotation[1][0];
-    let t20 = base_rotation[0][2] * platform_rotation[0][0] + t19;
-    let t21 = base_rotation[2][2] * platform_rotation[2][0] + t20;
+    let t20 = mul_add(base_rotation[0][2], platform_rotation[0][0], t19);
+    let t21 = mul_add(base_rotation[2][2], platform_rotation[2][0], t20);
     let t22 = base_rotation[1][2] * platform_rotation[1][1];
-    let t23 = base_rotation[0][2] * platform_rotation[0][1] + t22;
-    let t24 = base_rotation[2][2] * platform_rotation[2][1] + t23;
+    let t23 = mul_add(base_rotation[0][2], platform_rotation[0][1], t22);
+    let t24 = mul_add(base_rotation[2][2], platform_rotation[2][1], t23);
     let t25 = base_rotation[1][2] * platform_rotation[1][2];
-    let t26 = base_rotation[0][2] * platform_rotation[0][2] + t25;
-    let t27 = base_rotation[2][2] * platform_rotation[2][2] + t26;
+    let t26 = mul_add(base_rotation[0][2], platform_rotation[0][2], t25);
+    let t27 = mul_add(base_rotation[2][2], platform_rotation[2][2], t26);
     // platform origin seen from the base
     let t28 = base_position[2] - platform_position[2];
     let t29 = base_position[0] - platform_position[0];
     let t30 = base_position[1] - platform_position[1];
-    let t31 = base_rotation[0][0] * t29 + base_rotation[1][0] * t30;
-    let t32 = base_rotation[2][0] * t28 + t31;
-    let t33 = base_rotation[0][1] * t29 + base_rotation[1][1] * t30;
-    let t34 = base_rotation[2][1] * t28 + t33;
-    let t35 = base_rotation[0][2] * t29 + base_rotation[1][2] * t30;
-    let t36 = base_rotation[2][2] * t28 + t35;
+    let t31 = mul_add(base_rotation[0][0], t29, base_rotation[1][0] * t30);
+    let t32 = mul_add(base_rotation[2][0], t28, t31);
+    let t33 = mul_add(base_rotation[0][1], t29, base_rotation[1][1] * t30);
+    let t34 = mul_add(base_rotation[2][1], t28, t33);
+    let t35 = mul_add(base_rotation[0][2], t29, base_rotation[1][2] * t30);
+    let t36 = mul_add(base_rotation[2][2], t28, t35);
     // leg 1: platform joint from the platform origin
-    let t37 = c(0.115911) * t3;
-    let t38 = c(0.031058) * t6;
-    let t39 = t37 - t38;
-    let t40 = c(0.115911) * t12;
-    let t41 = c(0.031058) * t15;
-    let t42 = t40 - t41;
-    let t43 = c(0.115911) * t21;
-    let t44 = c(0.031058) * t24;
-    let t45 = t43 - t44;
+    let t37 = c(0.031058) * t6;
+    let t38 = mul_sub(c(0.115911), t3, t37);
+    let t39 = c(0.031058) * t15;
+    let t40 = mul_sub(c(0.115911), t12, t39);
+    let t41 = c(0.031058) * t24;
+    let t42 = mul_sub(c(0.115911), t21, t41);
     // leg 1: platform joint from the base point
-    let t46 = c(0.131644) + t32;
-    let t47 = t39 - t46;
-    let t48 = t42 + (c(0.12276) - t34);
+    let t43 = c(0.131644) + t32;
+    let t44 = t38 - t43;
+    let t45 = t40 + (c(0.12276) - t34);
     // leg 2: platform joint from the platform origin
-    let t49 = t37 + t38;
-    let t50 = t40 + t41;
-    let t51 = t43 + t44;
+    let t46 = mul_add(c(0.115911), t3, t37);
+    let t47 = mul_add(c(0.115911), t12, t39);
+    let t48 = mul_add(c(0.115911), t21, t41);
     // leg 2: platform joint from the base point
-    let t52 = t46 - t49;
-    let t53 = t50 - (c(0.12276) + t34);
+    let t49 = t43 - t46;
+    let t50 = t47 - (c(0.12276) + t34);
     // leg 3: platform joint from the platform origin
-    let t54 = c(0.031058) * t3;
-    let t55 = c(0.115911) * t6;
-    let t56 = t54 - t55;
-    let t57 = c(0.031058) * t12;
-    let t58 = c(0.115911) * t15;
-    let t59 = t57 - t58;
-    let t60 = c(0.031058) * t21;
-    let t61 = c(0.115911) * t24;
-    let t62 = t60 - t61;
+    let t51 = c(0.115911) * t6;
+    let t52 = mul_sub(c(0.031058), t3, t51);
+    let t53 = c(0.115911) * t15;
+    let t54 = mul_sub(c(0.031058), t12, t53);
+    let t55 = c(0.115911) * t24;
+    let t56 = mul_sub(c(0.031058), t21, t55);
     // leg 3: platform joint from the base point
-    let t63 = c(0.040491) + t32;
-    let t64 = t56 + t63;
-    let t65 = t59 + (c(0.175387) + t34);
+    let t57 = c(0.040491) + t32;
+    let t58 = t52 + t57;
+    let t59 = t54 + (c(0.175387) + t34);
     // leg 4: platform joint from the platform origin
-    let t66 = c(0.084853) * t3;
-    let t67 = c(0.084853) * t6;
-    let t68 = t66 - t67;
-    let t69 = c(0.084853) * t12;
-    let t70 = c(0.084853) * t15;
-    let t71 = t69 - t70;
-    let t72 = c(0.084853) * t21;
-    let t73 = c(0.084853) * t24;
-    let t74 = t72 - t73;
+    let t60 = c(0.084853) * t6;
+    let t61 = mul_sub(c(0.084853), t3, t60);
+    let t62 = c(0.084853) * t15;
+    let t63 = mul_sub(c(0.084853), t12, t62);
+    let t64 = c(0.084853) * t24;
+    let t65 = mul_sub(c(0.084853), t21, t64);
     // leg 4: platform joint from the base point
-    let t75 = t32 - c(0.172135);
-    let t76 = t68 + t75;
-    let t77 = t71 + (c(0.052627) + t34);
+    let t66 = t32 - c(0.172135);
+    let t67 = t61 + t66;
+    let t68 = t63 + (c(0.052627) + t34);
     // leg 5: platform joint from the platform origin
-    let t78 = t66 + t67;
-    let t79 = t69 + t70;
-    let t80 = t72 + t73;
+    let t69 = mul_add(c(0.084853), t3, t60);
+    let t70 = mul_add(c(0.084853), t12, t62);
+    let t71 = mul_add(c(0.084853), t21, t64);
     // leg 5: platform joint from the base point
-    let t81 = t75 + t78;
-    let t82 = t79 - (c(0.052627) - t34);
+    let t72 = t66 + t69;
+    let t73 = t70 - (c(0.052627) - t34);
     // leg 6: platform joint from the platform origin
-    let t83 = t54 + t55;
-    let t84 = t57 + t58;
-    let t85 = t60 + t61;
+    let t74 = mul_add(c(0.031058), t3, t51);
+    let t75 = mul_add(c(0.031058), t12, t53);
+    let t76 = mul_add(c(0.031058), t21, t55);
     // leg 6: platform joint from the base point
-    let t86 = t63 + t83;
-    let t87 = t84 - (c(0.175387) - t34);
+    let t77 = t57 + t74;
+    let t78 = t75 - (c(0.175387) - t34);
     // leg 1: extent of the rod along the actuator axis
-    let t88 = sqrt(c(0.042435999999999995) - t47 * t47 - t48 * t48);
+    let t79 = neg_mul_add(t44, t44, c(0.042435999999999995));
+    let t80 = sqrt(neg_mul_add(t45, t45, t79));
     // leg 1: reciprocal of that extent
-    let t89 = c(1.0) / t88;
+    let t81 = c(1.0) / t80;
     // leg 1: actuator length d
-    let t90 = t88 + (t36 - t45);
+    let t82 = t80 + (t36 - t42);
     // leg 2: extent of the rod along the actuator axis
-    let t91 = sqrt(c(0.042435999999999995) - t52 * t52 - t53 * t53);
+    let t83 = neg_mul_add(t49, t49, c(0.042435999999999995));
+    let t84 = sqrt(neg_mul_add(t50, t50, t83));
     // leg 2: reciprocal of that extent
-    let t92 = c(1.0) / t91;
+    let t85 = c(1.0) / t84;
     // leg 2: actuator length d
-    let t93 = t91 + (t36 - t51);
+    let t86 = t84 + (t36 - t48);
     // leg 3: extent of the rod along the actuator axis
-    let t94 = sqrt(c(0.042435999999999995) - t64 * t64 - t65 * t65);
+    let t87 = neg_mul_add(t58, t58, c(0.042435999999999995));
+    let t88 = sqrt(neg_mul_add(t59, t59, t87));
     // leg 3: reciprocal of that extent
-    let t95 = c(1.0) / t94;
+    let t89 = c(1.0) / t88;
     // leg 3: actuator length d
-    let t96 = t94 + (t36 + t62);
+    let t90 = t88 + (t36 + t56);
     // leg 4: extent of the rod along the actuator axis
-    let t97 = sqrt(c(0.042435999999999995) - t76 * t76 - t77 * t77);
+    let t91 = neg_mul_add(t67, t67, c(0.042435999999999995));
+    let t92 = sqrt(neg_mul_add(t68, t68, t91));
     // leg 4: reciprocal of that extent
-    let t98 = c(1.0) / t97;
+    let t93 = c(1.0) / t92;
     // leg 4: actuator length d
-    let t99 = t97 + (t36 + t74);
+    let t94 = t92 + (t36 + t65);
     // leg 5: extent of the rod along the actuator axis
-    let t100 = sqrt(c(0.042435999999999995) - t81 * t81 - t82 * t82);
+    let t95 = neg_mul_add(t72, t72, c(0.042435999999999995));
+    let t96 = sqrt(neg_mul_add(t73, t73, t95));
     // leg 5: reciprocal of that extent
-    let t101 = c(1.0) / t100;
+    let t97 = c(1.0) / t96;
     // leg 5: actuator length d
-    let t102 = t100 + (t36 + t80);
+    let t98 = t96 + (t36 + t71);
     // leg 6: extent of the rod along the actuator axis
-    let t103 = sqrt(c(0.042435999999999995) - t86 * t86 - t87 * t87);
+    let t99 = neg_mul_add(t77, t77, c(0.042435999999999995));
+    let t100 = sqrt(neg_mul_add(t78, t78, t99));
     // leg 6: reciprocal of that extent
-    let t104 = c(1.0) / t103;
+    let t101 = c(1.0) / t100;
     // leg 6: actuator length d
-    let t105 = t103 + (t36 + t85);
+    let t102 = t100 + (t36 + t76);
     // leg 1: gradient of the actuator length by the platform joint
-    let t106 = t47 * t89;
-    let t107 = t48 * t89;
+    let t103 = t44 * t81;
+    let t104 = t45 * t81;
     // leg 2: gradient of the actuator length by the platform joint
-    let t108 = t52 * t92;
-    let t109 = t53 * t92;
+    let t105 = t49 * t85;
+    let t106 = t50 * t85;
     // leg 3: gradient of the actuator length by the platform joint
-    let t110 = t64 * t95;
-    let t111 = t65 * t95;
+    let t107 = t58 * t89;
+    let t108 = t59 * t89;
     // leg 4: gradient of the actuator length by the platform joint
-    let t112 = t76 * t98;
-    let t113 = t77 * t98;
+    let t109 = t67 * t93;
+    let t110 = t68 * t93;
     // leg 5: gradient of the actuator length by the platform joint
-    let t114 = t81 * t101;
-    let t115 = t82 * t101;
+    let t111 = t72 * t97;
+    let t112 = t73 * t97;
     // leg 6: gradient of the actuator length by the platform joint
-    let t116 = t86 * t104;
-    let t117 = t87 * t104;
+    let t113 = t77 * t101;
+    let t114 = t78 * t101;
     // angular velocity of the base
-    let t118 = base_rotation[1][0] * base_velocity[4];
-    let t119 = base_rotation[0][0] * base_velocity[3] + t118;
-    let t120 = base_rotation[2][0] * base_velocity[5] + t119;
-    let t121 = base_rotation[1][1] * base_velocity[4];
-    let t122 = base_rotation[0][1] * base_velocity[3] + t121;
-    let t123 = base_rotation[2][1] * base_velocity[5] + t122;
-    let t124 = base_rotation[1][2] * base_velocity[4];
-    let t125 = base_rotation[0][2] * base_velocity[3] + t124;
-    let t126 = base_rotation[2][2] * base_velocity[5] + t125;
+    let t115 = base_rotation[1][0] * base_velocity[4];
+    let t116 = mul_add(base_rotation[0][0], base_velocity[3], t115);
+    let t117 = mul_add(base_rotation[2][0], base_velocity[5], t116);
+    let t118 = base_rotation[1][1] * base_velocity[4];
+    let t119 = mul_add(base_rotation[0][1], base_velocity[3], t118);
+    let t120 = mul_add(base_rotation[2][1], base_velocity[5], t119);
+    let t121 = base_rotation[1][2] * base_velocity[4];
+    let t122 = mul_add(base_rotation[0][2], base_velocity[3], t121);
+    let t123 = mul_add(base_rotation[2][2], base_velocity[5], t122);
     // angular velocity of the platform
-    let t127 = base_rotation[1][0] * platform_velocity[4];
-    let t128 = base_rotation[0][0] * platform_velocity[3] + t127;
-    let t129 = base_rotation[2][0] * platform_velocity[5] + t128;
-    let t130 = base_rotation[1][1] * platform_velocity[4];
-    let t131 = base_rotation[0][1] * platform_velocity[3] + t130;
-    let t132 = base_rotation[2][1] * platform_velocity[5] + t131;
-    let t133 = base_rotation[1][2] * platform_velocity[4];
-    let t134 = base_rotation[0][2] * platform_velocity[3] + t133;
-    let t135 = base_rotation[2][2] * platform_velocity[5] + t134;
+    let t124 = base_rotation[1][0] * platform_velocity[4];
+    let t125 = mul_add(base_rotation[0][0], platform_velocity[3], t124);
+    let t126 = mul_add(base_rotation[2][0], platform_velocity[5], t125);
+    let t127 = base_rotation[1][1] * platform_velocity[4];
+    let t128 = mul_add(base_rotation[0][1], platform_velocity[3], t127);
+    let t129 = mul_add(base_rotation[2][1], platform_velocity[5], t128);
+    let t130 = base_rotation[1][2] * platform_velocity[4];
+    let t131 = mul_add(base_rotation[0][2], platform_velocity[3], t130);
+    let t132 = mul_add(base_rotation[2][2], platform_velocity[5], t131);
     // angular velocity of the platform relative to the base
-    let t136 = t120 - t129;
-    let t137 = t123 - t132;
-    let t138 = t126 - t135;
+    let t133 = t117 - t126;
+    let t134 = t120 - t129;
+    let t135 = t123 - t132;
     // velocity of the platform origin relative to the base
-    let t139 = base_velocity[2] - platform_velocity[2];
-    let t140 = base_velocity[0] - platform_velocity[0];
-    let t141 = base_velocity[1] - platform_velocity[1];
-    let t142 = base_rotation[0][0] * t140 + base_rotation[1][0] * t141;
-    let t143 = t36 * t123 - (base_rotation[2][0] * t139 + t142);
-    let t144 = t34 * t126 - t143;
-    let t145 = base_rotation[0][1] * t140 + base_rotation[1][1] * t141;
-    let t146 = t32 * t126 - (base_rotation[2][1] * t139 + t145);
-    let t147 = t36 * t120 - t146;
-    let t148 = base_rotation[0][2] * t140 + base_rotation[1][2] * t141;
-    let t149 = t34 * t120 - (base_rotation[2][2] * t139 + t148);
-    let t150 = t32 * t123 - t149;
+    let t136 = base_velocity[2] - platform_velocity[2];
+    let t137 = base_velocity[0] - platform_velocity[0];
+    let t138 = base_velocity[1] - platform_velocity[1];
+    let t139 = mul_add(base_rotation[0][0], t137, base_rotation[1][0] * t138);
+    let t140 = mul_sub(t36, t120, mul_add(base_rotation[2][0], t136, t139));
+    let t141 = mul_sub(t34, t123, t140);
+    let t142 = mul_add(base_rotation[0][1], t137, base_rotation[1][1] * t138);
+    let t143 = mul_sub(t32, t123, mul_add(base_rotation[2][1], t136, t142));
+    let t144 = mul_sub(t36, t117, t143);
+    let t145 = mul_add(base_rotation[0][2], t137, base_rotation[1][2] * t138);
+    let t146 = mul_sub(t34, t117, mul_add(base_rotation[2][2], t136, t145));
+    let t147 = mul_sub(t32, t120, t146);
     // rate of the relative rotation
-    let t151 = t21 * t137 - t12 * t138;
-    let t152 = t24 * t137 - t15 * t138;
-    let t153 = t3 * t138 - t21 * t136;
-    let t154 = t6 * t138 - t24 * t136;
-    let t155 = t12 * t136 - t3 * t137;
-    let t156 = t15 * t136 - t6 * t137;
+    let t148 = mul_sub(t21, t134, t12 * t135);
+    let t149 = mul_sub(t24, t134, t15 * t135);
+    let t150 = mul_sub(t3, t135, t21 * t133);
+    let t151 = mul_sub(t6, t135, t24 * t133);
+    let t152 = mul_sub(t12, t133, t3 * t134);
+    let t153 = mul_sub(t15, t133, t6 * t134);
     // leg 1: velocity of the platform joint relative to the base
-    let t157 = t144 + c(0.115911) * t151;
-    let t158 = c(0.031058) * t152;
-    let t159 = t157 - t158;
-    let t160 = t147 + c(0.115911) * t153;
-    let t161 = c(0.031058) * t154;
-    let t162 = t160 - t161;
+    let t154 = mul_add(c(0.115911), t148, t141);
+    let t155 = neg_mul_add(c(0.031058), t149, t154);
+    let t156 = mul_add(c(0.115911), t150, t144);
+    let t157 = neg_mul_add(c(0.031058), t151, t156);
     // leg 2: velocity of the platform joint relative to the base
-    let t163 = t157 + t158;
-    let t164 = t160 + t161;
+    let t158 = mul_add(c(0.031058), t149, t154);
+    let t159 = mul_add(c(0.031058), t151, t156);
     // leg 3: velocity of the platform joint relative to the base
-    let t165 = t144 - c(0.031058) * t151;
-    let t166 = c(0.115911) * t152;
-    let t167 = t165 + t166;
-    let t168 = t147 - c(0.031058) * t153;
-    let t169 = c(0.115911) * t154;
-    let t170 = t168 + t169;
+    let t160 = neg_mul_add(c(0.031058), t148, t141);
+    let t161 = mul_add(c(0.115911), t149, t160);
+    let t162 = neg_mul_add(c(0.031058), t150, t144);
+    let t163 = mul_add(c(0.115911), t151, t162);
     // leg 4: velocity of the platform joint relative to the base
-    let t171 = t144 - c(0.084853) * t151;
-    let t172 = c(0.084853) * t152;
-    let t173 = t171 + t172;
-    let t174 = t147 - c(0.084853) * t153;
-    let t175 = c(0.084853) * t154;
-    let t176 = t174 + t175;
+    let t164 = neg_mul_add(c(0.084853), t148, t141);
+    let t165 = mul_add(c(0.084853), t149, t164);
+    let t166 = neg_mul_add(c(0.084853), t150, t144);
+    let t167 = mul_add(c(0.084853), t151, t166);
     // leg 5: velocity of the platform joint relative to the base
-    let t177 = t171 - t172;
-    let t178 = t174 - t175;
+    let t168 = neg_mul_add(c(0.084853), t149, t164);
+    let t169 = neg_mul_add(c(0.084853), t151, t166);
     // leg 6: velocity of the platform joint relative to the base
-    let t179 = t165 - t166;
-    let t180 = t168 - t169;
+    let t170 = neg_mul_add(c(0.115911), t149, t160);
+    let t171 = neg_mul_add(c(0.115911), t151, t162);
     // leg 1: rate of the rod's extent along the actuator axis
-    let t181 = t89 * (t47 * t159 + t48 * t162);
+    let t172 = t81 * mul_add(t44, t155, t45 * t157);
     // leg 2: rate of the rod's extent along the actuator axis
-    let t182 = t92 * (t52 * t163 - t53 * t164);
+    let t173 = t85 * mul_sub(t49, t158, t50 * t159);
     // leg 3: rate of the rod's extent along the actuator axis
-    let t183 = t95 * (t64 * t167 + t65 * t170);
+    let t174 = t89 * mul_add(t58, t161, t59 * t163);
     // leg 4: rate of the rod's extent along the actuator axis
-    let t184 = t98 * (t76 * t173 + t77 * t176);
+    let t175 = t93 * mul_add(t67, t165, t68 * t167);
     // leg 5: rate of the rod's extent along the actuator axis
-    let t185 = t101 * (t81 * t177 + t82 * t178);
+    let t176 = t97 * mul_add(t72, t168, t73 * t169);
     // leg 6: rate of the rod's extent along the actuator axis
-    let t186 = t104 * (t86 * t179 + t87 * t180);
+    let t177 = t101 * mul_add(t77, t170, t78 * t171);
     // acceleration of the base origin less gravity
-    let t187 = base_acceleration[2] + c(9.81);
-    let t188 = base_rotation[1][0] * base_acceleration[1];
-    let t189 = base_rotation[0][0] * base_acceleration[0] + t188;
-    let t190 = base_rotation[2][0] * t187 + t189;
-    let t191 = base_rotation[1][1] * base_acceleration[1];
-    let t192 = base_rotation[0][1] * base_acceleration[0] + t191;
-    let t193 = base_rotation[2][1] * t187 + t192;
+    let t178 = base_acceleration[2] + c(9.81);
+    let t179 = base_rotation[1][0] * base_acceleration[1];
+    let t180 = mul_add(base_rotation[0][0], base_acceleration[0], t179);
+    let t181 = mul_add(base_rotation[2][0], t178, t180);
+    let t182 = base_rotation[1][1] * base_acceleration[1];
+    let t183 = mul_add(base_rotation[0][1], base_acceleration[0], t182);
+    let t184 = mul_add(base_rotation[2][1], t178, t183);
     // angular acceleration of the base
-    let t194 = base_rotation[1][0] * base_acceleration[4];
-    let t195 = base_rotation[0][0] * base_acceleration[3] + t194;
-    let t196 = base_rotation[2][0] * base_acceleration[5] + t195;
-    let t197 = base_rotation[1][1] * base_acceleration[4];
-    let t198 = base_rotation[0][1] * base_acceleration[3] + t197;
-    let t199 = base_rotation[2][1] * base_acceleration[5] + t198;
-    let t200 = base_rotation[1][2] * base_acceleration[4];
-    let t201 = base_rotation[0][2] * base_acceleration[3] + t200;
-    let t202 = base_rotation[2][2] * base_acceleration[5] + t201;
+    let t185 = base_rotation[1][0] * base_acceleration[4];
+    let t186 = mul_add(base_rotation[0][0], base_acceleration[3], t185);
+    let t187 = mul_add(base_rotation[2][0], base_acceleration[5], t186);
+    let t188 = base_rotation[1][1] * base_acceleration[4];
+    let t189 = mul_add(base_rotation[0][1], base_acceleration[3], t188);
+    let t190 = mul_add(base_rotation[2][1], base_acceleration[5], t189);
+    let t191 = base_rotation[1][2] * base_acceleration[4];
+    let t192 = mul_add(base_rotation[0][2], base_acceleration[3], t191);
+    let t193 = mul_add(base_rotation[2][2], base_acceleration[5], t192);
     // acceleration per base coordinate of points that move with the base
-    let t203 = t123 * t123;
-    let t204 = t126 * t126;
-    let t205 = t203 + t204;
-    let t206 = t120 * t123;
-    let t207 = t202 - t206;
-    let t208 = t120 * t126;
-    let t209 = t199 + t208;
-    let t210 = t202 + t206;
-    let t211 = t120 * t120;
-    let t212 = t204 + t211;
-    let t213 = t123 * t126;
-    let t214 = t196 - t213;
-    let t215 = t199 - t208;
-    let t216 = t196 + t213;
-    let t217 = t203 + t211;
+    let t194 = mul_add(t120, t120, t123 * t123);
+    let t195 = neg_mul_add(t117, t120, t193);
+    let t196 = mul_add(t117, t123, t190);
+    let t197 = mul_add(t117, t120, t193);
+    let t198 = t117 * t117;
+    let t199 = mul_add(t123, t123, t198);
+    let t200 = neg_mul_add(t120, t123, t187);
+    let t201 = neg_mul_add(t117, t123, t190);
+    let t202 = mul_add(t120, t123, t187);
+    let t203 = mul_add(t120, t120, t198);
     // acceleration of the platform origin less gravity
-    let t218 = platform_acceleration[2] + c(9.81);
-    let t219 = base_rotation[1][0] * platform_acceleration[1];
-    let t220 = base_rotation[0][0] * platform_acceleration[0] + t219;
-    let t221 = base_rotation[2][0] * t218 + t220;
-    let t222 = base_rotation[1][1] * platform_acceleration[1];
-    let t223 = base_rotation[0][1] * platform_acceleration[0] + t222;
-    let t224 = base_rotation[2][1] * t218 + t223;
-    let t225 = base_rotation[1][2] * platform_acceleration[1];
-    let t226 = base_rotation[0][2] * platform_acceleration[0] + t225;
-    let t227 = base_rotation[2][2] * t218 + t226;
+    let t204 = platform_acceleration[2] + c(9.81);
+    let t205 = base_rotation[1][0] * platform_acceleration[1];
+    let t206 = mul_add(base_rotation[0][0], platform_acceleration[0], t205);
+    let t207 = mul_add(base_rotation[2][0], t204, t206);
+    let t208 = base_rotation[1][1] * platform_acceleration[1];
+    let t209 = mul_add(base_rotation[0][1], platform_acceleration[0], t208);
+    let t210 = mul_add(base_rotation[2][1], t204, t209);
+    let t211 = base_rotation[1][2] * platform_acceleration[1];
+    let t212 = mul_add(base_rotation[0][2], platform_acceleration[0], t211);
+    let t213 = mul_add(base_rotation[2][2], t204, t212);
     // angular acceleration of the platform
-    let t228 = base_rotation[1][0] * platform_acceleration[4];
-    let t229 = base_rotation[0][0] * platform_acceleration[3] + t228;
-    let t230 = base_rotation[2][0] * platform_acceleration[5] + t229;
-    let t231 = base_rotation[1][1] * platform_acceleration[4];
-    let t232 = base_rotation[0][1] * platform_acceleration[3] + t231;
-    let t233 = base_rotation[2][1] * platform_acceleration[5] + t232;
-    let t234 = base_rotation[1][2] * platform_acceleration[4];
-    let t235 = base_rotation[0][2] * platform_acceleration[3] + t234;
-    let t236 = base_rotation[2][2] * platform_acceleration[5] + t235;
+    let t214 = base_rotation[1][0] * platform_acceleration[4];
+    let t215 = mul_add(base_rotation[0][0], platform_acceleration[3], t214);
+    let t216 = mul_add(base_rotation[2][0], platform_acceleration[5], t215);
+    let t217 = base_rotation[1][1] * platform_acceleration[4];
+    let t218 = mul_add(base_rotation[0][1], platform_acceleration[3], t217);
+    let t219 = mul_add(base_rotation[2][1], platform_acceleration[5], t218);
+    let t220 = base_rotation[1][2] * platform_acceleration[4];
+    let t221 = mul_add(base_rotation[0][2], platform_acceleration[3], t220);
+    let t222 = mul_add(base_rotation[2][2], platform_acceleration[5], t221);
     // acceleration per platform coordinate of points of the platform
-    let t237 = t129 * t135;
-    let t238 = t233 + t237;
-    let t239 = t129 * t132;
-    let t240 = t236 - t239;
-    let t241 = t132 * t132;
-    let t242 = t135 * t135;
-    let t243 = t241 + t242;
-    let t244 = t21 * t238 - (t12 * t240 + t3 * t243);
-    let t245 = t15 * t240;
-    let t246 = t6 * t243;
-    let t247 = t24 * t238;
-    let t248 = t27 * t238 - (t18 * t240 + t9 * t243);
-    let t249 = t132 * t135;
-    let t250 = t230 - t249;
-    let t251 = t236 + t239;
-    let t252 = t129 * t129;
-    let t253 = t242 + t252;
-    let t254 = t21 * t250 - (t3 * t251 - t12 * t253);
-    let t255 = t6 * t251;
-    let t256 = t15 * t253;
-    let t257 = t24 * t250;
-    let t258 = t27 * t250 - (t9 * t251 - t18 * t253);
-    let t259 = t241 + t252;
-    let t260 = t233 - t237;
-    let t261 = t230 + t249;
-    let t262 = t21 * t259 + (t3 * t260 - t12 * t261);
-    let t263 = t24 * t259 + (t6 * t260 - t15 * t261);
-    let t264 = t27 * t259 + (t9 * t260 - t18 * t261);
+    let t223 = neg_mul_add(t126, t129, t222);
+    let t224 = mul_add(t126, t132, t219);
+    let t225 = mul_add(t129, t129, t132 * t132);
+    let t226 = mul_sub(t21, t224, mul_add(t12, t223, t3 * t225));
+    let t227 = t6 * t225;
+    let t228 = mul_sub(t27, t224, mul_add(t18, t223, t9 * t225));
+    let t229 = mul_add(t126, t129, t222);
+    let t230 = neg_mul_add(t129, t132, t216);
+    let t231 = t126 * t126;
+    let t232 = mul_add(t132, t132, t231);
+    let t233 = mul_sub(t21, t230, mul_sub(t3, t229, t12 * t232));
+    let t234 = t15 * t232;
+    let t235 = mul_sub(t27, t230, mul_sub(t9, t229, t18 * t232));
+    let t236 = mul_add(t129, t129, t231);
+    let t237 = neg_mul_add(t126, t132, t219);
+    let t238 = mul_add(t129, t132, t216);
+    let t239 = mul_add(t21, t236, mul_sub(t3, t237, t12 * t238));
+    let t240 = mul_add(t24, t236, mul_sub(t6, t237, t15 * t238));
+    let t241 = mul_add(t27, t236, mul_sub(t9, t237, t18 * t238));
     // acceleration of the platform origin relative to the base
-    let t265 = t36 * t209 - (t34 * t207 + (t32 * t205 + (t190 - t221)));
-    let t266 = t265 + c(2.0) * (t123 * t150 - t126 * t147);
-    let t267 = t36 * t214 + (t34 * t212 - (t32 * t210 - (t193 - t224)));
-    let t268 = t267 - c(2.0) * (t126 * t144 - t120 * t150);
-    let t269 = t32 * t215;
-    let t270 = t34 * t216;
-    let t271 = t36 * t217;
-    let t272 = t120 * t147;
-    let t273 = t123 * t144;
+    let t242 = mul_sub(t120, t147, t123 * t144);
+    let t243 = mul_add(t34, t195, mul_add(t32, t194, t181 - t207));
+    let t244 = mul_add(c(2.0), t242, mul_sub(t36, t196, t243));
+    let t245 = mul_sub(t123, t141, t117 * t147);
+    let t246 = mul_sub(t34, t199, mul_sub(t32, t197, t184 - t210));
+    let t247 = neg_mul_add(c(2.0), t245, mul_add(t36, t200, t246));
+    let t248 = t120 * t141;
     // second derivative of the relative rotation
-    let t274 = t136 * t138;
-    let t275 = t120 * t138 - (t126 * t136 - (t199 - t233));
-    let t276 = t274 - t275;
-    let t277 = t136 * t137;
-    let t278 = t123 * t136 - (t120 * t137 - (t202 - t236));
-    let t279 = t277 + t278;
-    let t280 = t137 * t137;
-    let t281 = t138 * t138;
-    let t282 = t280 + t281;
-    let t283 = t21 * t276 + (t12 * t279 - t3 * t282);
-    let t284 = t24 * t276 + (t15 * t279 - t6 * t282);
-    let t285 = t137 * t138;
-    let t286 = t126 * t137 - (t123 * t138 - (t196 - t230));
-    let t287 = t285 + t286;
-    let t288 = t277 - t278;
-    let t289 = t136 * t136;
-    let t290 = t281 + t289;
-    let t291 = t21 * t287 + (t3 * t288 - t12 * t290);
-    let t292 = t24 * t287 + (t6 * t288 - t15 * t290);
-    let t293 = t280 + t289;
-    let t294 = t274 + t275;
-    let t295 = t285 - t286;
-    let t296 = t21 * t293 - (t3 * t294 + t12 * t295);
-    let t297 = t24 * t293 - (t6 * t294 + t15 * t295);
+    let t249 = mul_sub(t117, t135, mul_sub(t123, t133, t190 - t219));
+    let t250 = mul_sub(t133, t135, t249);
+    let t251 = mul_sub(t120, t133, mul_sub(t117, t134, t193 - t222));
+    let t252 = mul_add(t133, t134, t251);
+    let t253 = mul_add(t134, t134, t135 * t135);
+    let t254 = mul_add(t21, t250, mul_sub(t12, t252, t3 * t253));
+    let t255 = mul_add(t24, t250, mul_sub(t15, t252, t6 * t253));
+    let t256 = mul_sub(t123, t134, mul_sub(t120, t135, t187 - t216));
+    let t257 = mul_add(t134, t135, t256);
+    let t258 = mul_sub(t133, t134, t251);
+    let t259 = t133 * t133;
+    let t260 = mul_add(t135, t135, t259);
+    let t261 = mul_add(t21, t257, mul_sub(t3, t258, t12 * t260));
+    let t262 = mul_add(t24, t257, mul_sub(t6, t258, t15 * t260));
+    let t263 = mul_add(t134, t134, t259);
+    let t264 = mul_add(t133, t135, t249);
+    let t265 = mul_sub(t134, t135, t256);
+    let t266 = mul_sub(t21, t263, mul_add(t3, t264, t12 * t265));
+    let t267 = mul_sub(t24, t263, mul_add(t6, t264, t15 * t265));
     // leg 1: acceleration of the platform joint relative to the base
-    let t298 = t266 + c(0.115911) * t283;
-    let t299 = c(0.031058) * t284;
-    let t300 = t298 - t299;
-    let t301 = t268 - c(0.115911) * t291;
-    let t302 = c(0.031058) * t292;
-    let t303 = t301 + t302;
+    let t268 = mul_add(c(0.115911), t254, t244);
+    let t269 = neg_mul_add(c(0.031058), t255, t268);
+    let t270 = neg_mul_add(c(0.115911), t261, t247);
+    let t271 = mul_add(c(0.031058), t262, t270);
     // leg 2: acceleration of the platform joint relative to the base
-    let t304 = t298 + t299;
-    let t305 = t301 - t302;
+    let t272 = mul_add(c(0.031058), t255, t268);
+    let t273 = neg_mul_add(c(0.031058), t262, t270);
     // leg 3: acceleration of the platform joint relative to the base
-    let t306 = t266 - c(0.031058) * t283;
-    let t307 = c(0.115911) * t284;
-    let t308 = t306 + t307;
-    let t309 = t268 + c(0.031058) * t291;
-    let t310 = c(0.115911) * t292;
-    let t311 = t309 - t310;
+    let t274 = neg_mul_add(c(0.031058), t254, t244);
+    let t275 = mul_add(c(0.115911), t255, t274);
+    let t276 = mul_add(c(0.031058), t261, t247);
+    let t277 = neg_mul_add(c(0.115911), t262, t276);
     // leg 4: acceleration of the platform joint relative to the base
-    let t312 = t266 - c(0.084853) * t283;
-    let t313 = c(0.084853) * t284;
-    let t314 = t312 + t313;
-    let t315 = t268 + c(0.084853) * t291;
-    let t316 = c(0.084853) * t292;
-    let t317 = t315 - t316;
+    let t278 = neg_mul_add(c(0.084853), t254, t244);
+    let t279 = mul_add(c(0.084853), t255, t278);
+    let t280 = mul_add(c(0.084853), t261, t247);
+    let t281 = neg_mul_add(c(0.084853), t262, t280);
     // leg 5: acceleration of the platform joint relative to the base
-    let t318 = t312 - t313;
-    let t319 = t315 + t316;
+    let t282 = neg_mul_add(c(0.084853), t255, t278);
+    let t283 = mul_add(c(0.084853), t262, t280);
     // leg 6: acceleration of the platform joint relative to the base
-    let t320 = t306 - t307;
-    let t321 = t309 + t310;
+    let t284 = neg_mul_add(c(0.115911), t255, t274);
+    let t285 = mul_add(c(0.115911), t262, t276);
     // leg 1: actuator acceleration d''
-    let t322 = t48 * t303 - (t47 * t300 + (t159 * t159 + t162 * t162));
-    let t323 = t89 * (t181 * t181 - t322);
+    let t286 = mul_add(t44, t269, mul_add(t155, t155, t157 * t157));
+    let t287 = mul_sub(t172, t172, mul_sub(t45, t271, t286));
     // leg 2: actuator acceleration d''
-    let t324 = t53 * t305 + (t52 * t304 - (t163 * t163 + t164 * t164));
-    let t325 = t92 * (t182 * t182 - t324);
+    let t288 = mul_sub(t49, t272, mul_add(t158, t158, t159 * t159));
+    let t289 = mul_sub(t173, t173, mul_add(t50, t273, t288));
     // leg 3: actuator acceleration d''
-    let t326 = t65 * t311 - (t64 * t308 - (t167 * t167 + t170 * t170));
-    let t327 = t95 * (t183 * t183 + t326);
+    let t290 = mul_sub(t58, t275, mul_add(t161, t161, t163 * t163));
+    let t291 = mul_add(t174, t174, mul_sub(t59, t277, t290));
     // leg 4: actuator acceleration d''
-    let t328 = t77 * t317 - (t76 * t314 - (t173 * t173 + t176 * t176));
-    let t329 = t98 * (t184 * t184 + t328);
+    let t292 = mul_sub(t67, t279, mul_add(t165, t165, t167 * t167));
+    let t293 = mul_add(t175, t175, mul_sub(t68, t281, t292));
     // leg 5: actuator acceleration d''
-    let t330 = t82 * t319 - (t81 * t318 - (t177 * t177 + t178 * t178));
-    let t331 = t101 * (t185 * t185 + t330);
+    let t294 = mul_sub(t72, t282, mul_add(t168, t168, t169 * t169));
+    let t295 = mul_add(t176, t176, mul_sub(t73, t283, t294));
     // leg 6: actuator acceleration d''
-    let t332 = t87 * t321 - (t86 * t320 - (t179 * t179 + t180 * t180));
-    let t333 = t104 * (t186 * t186 + t332);
+    let t296 = mul_sub(t77, t284, mul_add(t170, t170, t171 * t171));
+    let t297 = mul_add(t177, t177, mul_sub(t78, t285, t296));
     // leg 1: leg inertia less weight along the actuator
-    let t334 = t90 * t209;
-    let t335 = c(2.0) * t150;
-    let t336 = t335 + t155 * c(0.231822);
-    let t337 = t156 * c(0.062116);
-    let t338 = t336 - (t337 - c(2.0) * t181);
-    let t339 = t123 * t338;
-    let t340 = t90 * t214;
-    let t341 = t120 * t338;
-    let t342 = t271 - (t270 + (t227 - t269)) - c(2.0) * (t272 - t273);
-    let t343 = c(0.12276) * t216 - c(0.031058) * t297;
-    let t344 = t342 + (c(0.131644) * t215 + c(0.115911) * t296);
-    let t345 = t344 + (t343 - (t323 + t90 * t217));
+    let t298 = c(2.0) * t147;
+    let t299 = mul_add(t152, c(0.231822), t298);
+    let t300 = t153 * c(0.062116);
+    let t301 = t299 - neg_mul_add(c(2.0), t172, t300);
+    let t302 = t120 * t301;
+    let t303 = t117 * t301;
+    let t304 = mul_add(t34, t202, neg_mul_add(t32, t201, t213));
+    let t305 = mul_sub(t36, t203, t304);
+    let t306 = neg_mul_add(c(2.0), mul_sub(t117, t144, t248), t305);
+    let t307 = mul_sub(c(0.12276), t202, c(0.031058) * t267);
+    let t308 = t306 + mul_add(c(0.131644), t201, c(0.115911) * t266);
+    let t309 = t308 + (t307 - mul_add(t81, t287, t82 * t203));
     // leg 1: remaining leg inertia less weight at the platform joint
-    let t346 = c(0.17066666666666666) * t190;
-    let t347 = t346 - t205 * c(0.022467242666666668);
-    let t348 = t207 * c(0.020951039999999997);
-    let t349 = t347 + t348 - c(0.17066666666666666) * (t334 + t339);
-    let t350 = c(0.17066666666666666) * t193;
-    let t351 = t350 + t210 * c(0.022467242666666668);
-    let t352 = t212 * c(0.020951039999999997);
-    let t353 = t351 + t352 + c(0.17066666666666666) * (t340 + t341);
+    let t310 = c(0.17066666666666666) * t181;
+    let t311 = neg_mul_add(t194, c(0.022467242666666668), t310);
+    let t312 = mul_add(t195, c(0.020951039999999997), t311);
+    let t313 = neg_mul_add(c(0.17066666666666666), mul_add(t82, t196, t302), t312);
+    let t314 = c(0.17066666666666666) * t184;
+    let t315 = mul_add(t197, c(0.022467242666666668), t314);
+    let t316 = mul_add(t199, c(0.020951039999999997), t315);
+    let t317 = mul_add(c(0.17066666666666666), mul_add(t82, t200, t303), t316);
     // leg 2: leg inertia less weight along the actuator
-    let t354 = t93 * t209;
-    let t355 = t336 + (t337 - c(2.0) * t182);
-    let t356 = t123 * t355;
-    let t357 = t93 * t214;
-    let t358 = t120 * t355;
-    let t359 = t93 * t217 - (t344 - (t325 + t343));
+    let t318 = t299 + neg_mul_add(c(2.0), t173, t300);
+    let t319 = t120 * t318;
+    let t320 = t117 * t318;
+    let t321 = mul_sub(t86, t203, t308 - mul_add(t85, t289, t307));
     // leg 2: remaining leg inertia less weight at the platform joint
-    let t360 = t347 - t348 - c(0.17066666666666666) * (t354 + t356);
-    let t361 = t351 - t352 + c(0.17066666666666666) * (t357 + t358);
+    let t322 = neg_mul_add(t195, c(0.020951039999999997), t311);
+    let t323 = neg_mul_add(c(0.17066666666666666), mul_add(t86, t196, t319), t322);
+    let t324 = neg_mul_add(t199, c(0.020951039999999997), t315);
+    let t325 = mul_add(c(0.17066666666666666), mul_add(t86, t200, t320), t324);
     // leg 3: leg inertia less weight along the actuator
-    let t362 = t96 * t209;
-    let t363 = t335 - t155 * c(0.062116);
-    let t364 = t156 * c(0.231822);
-    let t365 = t363 + (t364 - c(2.0) * t183);
-    let t366 = t123 * t365;
-    let t367 = t96 * t214;
-    let t368 = t120 * t365;
-    let t369 = c(0.175387) * t216 - c(0.115911) * t297;
-    let t370 = t342 + (c(0.040491) * t215 - c(0.031058) * t296);
-    let t371 = t370 - (t369 + (t327 + t96 * t217));
+    let t326 = neg_mul_add(t152, c(0.062116), t298);
+    let t327 = t153 * c(0.231822);
+    let t328 = t326 + neg_mul_add(c(2.0), t174, t327);
+    let t329 = t120 * t328;
+    let t330 = t117 * t328;
+    let t331 = mul_sub(c(0.175387), t202, c(0.115911) * t267);
+    let t332 = t306 + mul_sub(c(0.040491), t201, c(0.031058) * t266);
+    let t333 = t332 - (t331 + mul_add(t89, t291, t90 * t203));
     // leg 3: remaining leg inertia less weight at the platform joint
-    let t372 = t346 - t205 * c(0.006910464);
-    let t373 = t207 * c(0.029932714666666662);
-    let t374 = t372 - t373 - c(0.17066666666666666) * (t362 + t366);
-    let t375 = t350 + t210 * c(0.006910464);
-    let t376 = t212 * c(0.029932714666666662);
-    let t377 = t375 - t376 + c(0.17066666666666666) * (t367 + t368);
+    let t334 = neg_mul_add(t194, c(0.006910464), t310);
+    let t335 = neg_mul_add(t195, c(0.029932714666666662), t334);
+    let t336 = neg_mul_add(c(0.17066666666666666), mul_add(t90, t196, t329), t335);
+    let t337 = mul_add(t197, c(0.006910464), t314);
+    let t338 = neg_mul_add(t199, c(0.029932714666666662), t337);
+    let t339 = mul_add(c(0.17066666666666666), mul_add(t90, t200, t330), t338);
     // leg 4: leg inertia less weight along the actuator
-    let t378 = t99 * t209;
-    let t379 = t335 - t155 * c(0.169706);
-    let t380 = t156 * c(0.169706);
-    let t381 = t379 + (t380 - c(2.0) * t184);
-    let t382 = t123 * t381;
-    let t383 = t99 * t214;
-    let t384 = t120 * t381;
-    let t385 = c(0.052627) * t216 - c(0.084853) * t297;
-    let t386 = t342 - (c(0.172135) * t215 + c(0.084853) * t296);
-    let t387 = t386 - (t385 + (t329 + t99 * t217));
+    let t340 = neg_mul_add(t152, c(0.169706), t298);
+    let t341 = t153 * c(0.169706);
+    let t342 = t340 + neg_mul_add(c(2.0), t175, t341);
+    let t343 = t120 * t342;
+    let t344 = t117 * t342;
+    let t345 = mul_sub(c(0.052627), t202, c(0.084853) * t267);
+    let t346 = t306 - mul_add(c(0.172135), t201, c(0.084853) * t266);
+    let t347 = t346 - (t345 + mul_add(t93, t293, t94 * t203));
     // leg 4: remaining leg inertia less weight at the platform joint
-    let t388 = t346 + t205 * c(0.029377706666666666);
-    let t389 = t207 * c(0.008981674666666667);
-    let t390 = t388 - t389 - c(0.17066666666666666) * (t378 + t382);
-    let t391 = t350 - t210 * c(0.029377706666666666);
-    let t392 = t212 * c(0.008981674666666667);
-    let t393 = t391 - t392 + c(0.17066666666666666) * (t383 + t384);
+    let t348 = mul_add(t194, c(0.029377706666666666), t310);
+    let t349 = neg_mul_add(t195, c(0.008981674666666667), t348);
+    let t350 = neg_mul_add(c(0.17066666666666666), mul_add(t94, t196, t343), t349);
+    let t351 = neg_mul_add(t197, c(0.029377706666666666), t314);
+    let t352 = neg_mul_add(t199, c(0.008981674666666667), t351);
+    let t353 = mul_add(c(0.17066666666666666), mul_add(t94, t200, t344), t352);
     // leg 5: leg inertia less weight along the actuator
-    let t394 = t102 * t209;
-    let t395 = t379 - (t380 + c(2.0) * t185);
-    let t396 = t123 * t395;
-    let t397 = t102 * t214;
-    let t398 = t120 * t395;
-    let t399 = t102 * t217 - (t386 - (t331 - t385));
+    let t354 = t340 - mul_add(c(2.0), t176, t341);
+    let t355 = t120 * t354;
+    let t356 = t117 * t354;
+    let t357 = mul_sub(t98, t203, t346 - mul_sub(t97, t295, t345));
     // leg 5: remaining leg inertia less weight at the platform joint
-    let t400 = t388 + t389 - c(0.17066666666666666) * (t394 + t396);
-    let t401 = t391 + t392 + c(0.17066666666666666) * (t397 + t398);
+    let t358 = mul_add(t195, c(0.008981674666666667), t348);
+    let t359 = neg_mul_add(c(0.17066666666666666), mul_add(t98, t196, t355), t358);
+    let t360 = mul_add(t199, c(0.008981674666666667), t351);
+    let t361 = mul_add(c(0.17066666666666666), mul_add(t98, t200, t356), t360);
     // leg 6: leg inertia less weight along the actuator
-    let t402 = t105 * t209;
-    let t403 = t363 - (t364 + c(2.0) * t186);
-    let t404 = t123 * t403;
-    let t405 = t105 * t214;
-    let t406 = t120 * t403;
-    let t407 = t105 * t217 - (t370 - (t333 - t369));
+    let t362 = t326 - mul_add(c(2.0), t177, t327);
+    let t363 = t120 * t362;
+    let t364 = t117 * t362;
+    let t365 = mul_sub(t102, t203, t332 - mul_sub(t101, t297, t331));
     // leg 6: remaining leg inertia less weight at the platform joint
-    let t408 = t372 + t373 - c(0.17066666666666666) * (t402 + t404);
-    let t409 = t375 + t376 + c(0.17066666666666666) * (t405 + t406);
+    let t366 = mul_add(t195, c(0.029932714666666662), t334);
+    let t367 = neg_mul_add(c(0.17066666666666666), mul_add(t102, t196, t363), t366);
+    let t368 = mul_add(t199, c(0.029932714666666662), t337);
+    let t369 = mul_add(c(0.17066666666666666), mul_add(t102, t200, t364), t368);
     // leg 1: row of the actuator Jacobian in base coordinates
-    let t410 = t45 * t107;
-    let t411 = t45 * t106;
-    let t412 = t39 * t107;
-    let t413 = t42 * t106;
+    let t370 = t40 * t103;
     // leg 2: row of the actuator Jacobian in base coordinates
-    let t414 = t51 * t109;
-    let t415 = t51 * t108;
-    let t416 = t49 * t109;
-    let t417 = t50 * t108;
+    let t371 = t47 * t105;
     // leg 3: row of the actuator Jacobian in base coordinates
-    let t418 = t62 * t111;
-    let t419 = t62 * t110;
-    let t420 = t56 * t111;
-    let t421 = t59 * t110;
+    let t372 = t54 * t107;
     // leg 4: row of the actuator Jacobian in base coordinates
-    let t422 = t71 + t74 * t113;
-    let t423 = t68 + t74 * t112;
-    let t424 = t68 * t113 - t71 * t112;
-    // leg 5: row of the actuator Jacobian in base coordinates
-    let t425 = t80 * t115;
-    let t426 = t80 * t114;
-    let t427 = t78 * t115;
-    let t428 = t79 * t114;
-    // leg 6: row of the actuator Jacobian in base coordinates
-    let t429 = t85 * t117;
-    let t430 = t85 * t116;
-    let t431 = t83 * t117;
-    let t432 = t84 * t116;
+    let t373 = mul_add(t65, t110, t63);
+    let t374 = mul_add(t65, t109, t61);
+    let t375 = mul_sub(t61, t110, t63 * t109);
     // its first moments by platform coordinate
-    let t433 = t349 + t360;
-    let t434 = t374 + t408;
-    let t435 = t221 * c(1.734723475976807e-18) - c(0.03224559378363733) * t244;
-    let t436 = c(0.084853) * t390;
-    let t437 = c(0.084853) * t400;
-    let t438 = t435 + t436 + t437 - c(0.115911) * t433 + c(0.031058) * t434;
-    let t439 = t436 - t437 - c(0.031058) * (t349 - t360);
-    let t440 = c(0.03224559378363734) * (t247 - (t245 + t246));
-    let t441 = t439 + c(0.115911) * (t374 - t408) + t440;
-    let t442 = t353 + t361;
-    let t443 = t377 + t409;
-    let t444 = t224 * c(1.734723475976807e-18) + c(0.03224559378363733) * t254;
-    let t445 = c(0.084853) * t393;
-    let t446 = c(0.084853) * t401;
-    let t447 = t444 + t445 + t446 - c(0.115911) * t442 + c(0.031058) * t443;
-    let t448 = t445 - t446 - c(0.031058) * (t353 - t361);
-    let t449 = c(0.03224559378363734) * (t257 - (t255 - t256));
-    let t450 = t448 + c(0.115911) * (t377 - t409) - t449;
-    let t451 = t345 - t359;
-    let t452 = t371 - t407;
-    let t453 = t387 - t399;
-    let t454 = t227 * c(1.734723475976807e-18) + c(0.03224559378363733) * t262;
-    let t455 = t454 + t451 * c(0.019782143999999998);
-    let t456 = t455 - t452 * c(0.005300565333333333);
-    let t457 = t456 - t453 * c(0.014481578666666666);
-    let t458 = c(0.005300565333333333) * (t345 + t359);
-    let t459 = c(0.019782143999999998) * (t371 + t407);
-    let t460 = c(0.03224559378363734) * t263 - t458 + t459;
-    let t461 = t460 + c(0.014481578666666666) * (t387 + t399);
+    let t376 = t313 + t323;
+    let t377 = t336 + t367;
+    let t378 = mul_sub(t207, c(1.734723475976807e-18), c(0.03224559378363733) * t226);
+    let t379 = mul_add(c(0.084853), t359, mul_add(c(0.084853), t350, t378));
+    let t380 = mul_add(c(0.031058), t377, neg_mul_add(c(0.115911), t376, t379));
+    let t381 = mul_sub(t24, t224, mul_add(t15, t223, t227));
+    let t382 = mul_sub(c(0.084853), t350, c(0.084853) * t359);
+    let t383 = neg_mul_add(c(0.031058), t313 - t323, t382);
+    let t384 = mul_add(c(0.115911), t336 - t367, t383);
+    let t385 = mul_add(c(0.03224559378363734), t381, t384);
+    let t386 = t317 + t325;
+    let t387 = t339 + t369;
+    let t388 = mul_add(t210, c(1.734723475976807e-18), c(0.03224559378363733) * t233);
+    let t389 = mul_add(c(0.084853), t361, mul_add(c(0.084853), t353, t388));
+    let t390 = mul_add(c(0.031058), t387, neg_mul_add(c(0.115911), t386, t389));
+    let t391 = mul_sub(t24, t230, mul_sub(t6, t229, t234));
+    let t392 = mul_sub(c(0.084853), t353, c(0.084853) * t361);
+    let t393 = neg_mul_add(c(0.031058), t317 - t325, t392);
+    let t394 = mul_add(c(0.115911), t339 - t369, t393);
+    let t395 = neg_mul_add(c(0.03224559378363734), t391, t394);
+    let t396 = t309 - t321;
+    let t397 = t333 - t365;
+    let t398 = t347 - t357;
+    let t399 = mul_add(t213, c(1.734723475976807e-18), c(0.03224559378363733) * t239);
+    let t400 = mul_add(t396, c(0.019782143999999998), t399);
+    let t401 = neg_mul_add(t397, c(0.005300565333333333), t400);
+    let t402 = neg_mul_add(t398, c(0.014481578666666666), t401);
+    let t403 = c(0.005300565333333333) * (t309 + t321);
+    let t404 = mul_sub(c(0.03224559378363734), t240, t403);
+    let t405 = mul_add(c(0.019782143999999998), t333 + t365, t404);
+    let t406 = mul_add(c(0.014481578666666666), t347 + t357, t405);
     // inertia less external wrench that the actuators must balance
-    let t462 = base_rotation[1][0] * external_wrench[1];
-    let t463 = base_rotation[0][0] * external_wrench[0] + t462;
-    let t464 = base_rotation[2][0] * external_wrench[2] + t463;
-    let t465 = base_rotation[1][1] * external_wrench[1];
-    let t466 = base_rotation[0][1] * external_wrench[0] + t465;
-    let t467 = base_rotation[2][1] * external_wrench[2] + t466;
-    let t468 = base_rotation[1][2] * external_wrench[1];
-    let t469 = base_rotation[0][2] * external_wrench[0] + t468;
-    let t470 = base_rotation[2][2] * external_wrench[2] + t469;
-    let t471 = c(8.139999999999999) * t227 + t262 * c(1.734723475976807e-18);
-    let t472 = c(0.17066666666666666) * (t453 + (t451 + t452));
-    let t473 = t470 - (t471 - c(0.188852) * t264) + t472;
-    let t474 = t12 * t457;
-    let t475 = t21 * t447;
-    let t476 = t15 * t461;
-    let t477 = t24 * t450;
-    let t478 = c(0.188852) * t227 - c(0.013354412) * t264 - c(0.031) * t470;
-    let t479 = t18 * t478;
-    let t480 = c(0.188852) * t224 - c(0.013354412) * t258 - c(0.031) * t467;
-    let t481 = t27 * t480;
-    let t482 = base_rotation[0][0] * external_wrench[3];
-    let t483 = base_rotation[1][0] * external_wrench[4];
-    let t484 = base_rotation[2][0] * external_wrench[5];
-    let t485 = t21 * t438;
-    let t486 = t3 * t457;
-    let t487 = t24 * t441;
-    let t488 = t6 * t461;
-    let t489 = c(0.188852) * t221 + c(0.013354412) * t248 - c(0.031) * t464;
-    let t490 = t27 * t489;
-    let t491 = t9 * t478;
-    let t492 = base_rotation[0][1] * external_wrench[3];
-    let t493 = base_rotation[1][1] * external_wrench[4];
-    let t494 = base_rotation[2][1] * external_wrench[5];
-    let t495 = t3 * t447;
-    let t496 = t12 * t438;
-    let t497 = t6 * t450;
-    let t498 = t15 * t441;
-    let t499 = t9 * t480;
-    let t500 = t18 * t489;
-    let t501 = base_rotation[0][2] * external_wrench[3];
-    let t502 = base_rotation[1][2] * external_wrench[4];
-    let t503 = base_rotation[2][2] * external_wrench[5];
+    let t407 = base_rotation[1][0] * external_wrench[1];
+    let t408 = mul_add(base_rotation[0][0], external_wrench[0], t407);
+    let t409 = mul_add(base_rotation[2][0], external_wrench[2], t408);
+    let t410 = base_rotation[1][1] * external_wrench[1];
+    let t411 = mul_add(base_rotation[0][1], external_wrench[0], t410);
+    let t412 = mul_add(base_rotation[2][1], external_wrench[2], t411);
+    let t413 = base_rotation[1][2] * external_wrench[1];
+    let t414 = mul_add(base_rotation[0][2], external_wrench[0], t413);
+    let t415 = mul_add(base_rotation[2][2], external_wrench[2], t414);
+    let t416 = mul_add(c(8.139999999999999), t213, t239 * c(1.734723475976807e-18));
+    let t417 = t415 - neg_mul_add(c(0.188852), t241, t416);
+    let t418 = mul_add(c(0.17066666666666666), t398 + (t396 + t397), t417);
+    let t419 = t21 * t390;
+    let t420 = mul_sub(c(0.188852), t213, c(0.013354412) * t241);
+    let t421 = neg_mul_add(c(0.031), t415, t420);
+    let t422 = mul_sub(c(0.188852), t210, c(0.013354412) * t235);
+    let t423 = neg_mul_add(c(0.031), t412, t422);
+    let t424 = t3 * t402;
+    let t425 = mul_add(c(0.188852), t207, c(0.013354412) * t228);
+    let t426 = neg_mul_add(c(0.031), t409, t425);
+    let t427 = t12 * t380;
     // force along the actuator that balances the remaining wrench
-    let t504 = t493 + (t492 + (t491 - (t490 + (t488 + (t487 - (t485 - t486))))));
-    let t505 = t423 * t473 - (t494 + t504);
-    let t506 = c(1.0) / (t423 + (t49 + t415));
-    let t507 = (t422 + (t50 - t414)) * t506;
-    let t508 = t483 + (t482 + (t481 - (t479 - (t477 + (t476 + (t474 - t475))))));
-    let t509 = t505 * t507 - (t422 * t473 + (t484 + t508));
-    let t510 = t426 + (t78 - t423);
-    let t511 = (t109 + t113) * t506;
-    let t512 = c(1.0) / (t510 * t507 - (t425 + (t79 - t422)));
-    let t513 = (t510 * t511 + (t113 - t115)) * t512;
-    let t514 = c(8.139999999999999) * t224 + t254 * c(1.734723475976807e-18);
-    let t515 = t443 + (t442 + (t401 + (t393 + (t514 - c(0.188852) * t258))));
-    let t516 = t509 * t513 - (t505 * t511 - (t113 * t473 + (t467 - t515)));
-    let t517 = t423 + (t39 - t411);
-    let t518 = t517 * t507 - (t422 + (t42 - t410));
-    let t519 = (t424 - (t416 + t417)) * t506;
-    let t520 = (t510 * t519 + (t428 + (t424 - t427))) * t512;
-    let t521 = c(1.0) / (t518 * t513 - (t517 * t511 - (t107 + t113)));
-    let t522 = (t518 * t520 - (t517 * t519 - (t424 - (t412 - t413)))) * t521;
-    let t523 = t502 + (t501 + (t500 - (t499 - (t498 - (t497 - (t495 - t496))))));
-    let t524 = t509 * t520 - (t505 * t519 - (t424 * t473 - (t503 + t523)));
-    let t525 = t516 * t522 - t524;
-    let t526 = t430 + (t83 - t423);
-    let t527 = t526 * t507 - (t429 + (t84 - t422));
-    let t528 = t527 * t513 - (t526 * t511 + (t113 - t117));
-    let t529 = (t108 - t112) * t506;
-    let t530 = (t510 * t529 - (t112 - t114)) * t512;
-    let t531 = (t518 * t530 - (t517 * t529 + (t106 + t112))) * t521;
-    let t532 = t528 * t531 - (t527 * t530 - (t526 * t529 - (t112 - t116)));
-    let t533 = t527 * t520 - (t526 * t519 + (t432 + (t424 - t431)));
-    let t534 = c(1.0) / (t528 * t522 - t533);
-    let t535 = t532 * t534;
-    let t536 = c(8.139999999999999) * t221 - t244 * c(1.734723475976807e-18);
-    let t537 = t434 + (t433 + (t400 + (t390 + (t536 + c(0.188852) * t248))));
-    let t538 = t509 * t530 - (t505 * t529 + (t112 * t473 + (t464 - t537)));
-    let t539 = t525 * t535 - (t516 * t531 - t538);
-    let t540 = t423 - (t56 + t419);
-    let t541 = t540 * t507 - (t422 - (t59 + t418));
-    let t542 = t541 * t513 - (t540 * t511 + (t111 - t113));
-    let t543 = t541 * t520 - (t540 * t519 - (t424 - (t420 - t421)));
-    let t544 = t542 * t522 - t543;
-    let t545 = t542 * t531 - (t541 * t530 - (t540 * t529 - (t110 - t112)));
-    let t546 = t539 * (c(1.0) / (t544 * t535 - t545));
-    let t547 = t534 * (t525 - t544 * t546);
-    let t548 = t521 * (t542 * t546 - (t516 - t528 * t547));
-    let t549 = t512 * (t541 * t546 + (t527 * t547 - (t509 + t518 * t548)));
-    let t550 = t526 * t547 - (t517 * t548 + (t505 + t510 * t549));
-    let t551 = t506 * (t540 * t546 + t550);
+    let t428 = c(1.0) / (t374 + mul_add(t48, t105, t46));
+    let t429 = t374 + neg_mul_add(t42, t103, t38);
+    let t430 = (t373 + neg_mul_add(t48, t106, t47)) * t428;
+    let t431 = mul_sub(t429, t430, t373 + neg_mul_add(t42, t104, t40));
+    let t432 = mul_add(t71, t111, t69 - t374);
+    let t433 = mul_add(t50, t85, t110) * t428;
+    let t434 = c(1.0) / mul_sub(t432, t430, mul_add(t71, t112, t70 - t373));
+    let t435 = mul_add(t432, t433, neg_mul_add(t73, t97, t110)) * t434;
+    let t436 = mul_sub(t429, t433, mul_add(t45, t81, t110));
+    let t437 = c(1.0) / mul_sub(t431, t435, t436);
+    let t438 = mul_add(t76, t113, t74 - t374);
+    let t439 = mul_sub(t438, t430, mul_add(t76, t114, t75 - t373));
+    let t440 = mul_add(t438, t433, neg_mul_add(t78, t101, t110));
+    let t441 = mul_sub(t439, t435, t440);
+    let t442 = (t375 - mul_add(t46, t106, t371)) * t428;
+    let t443 = mul_add(t70, t111, neg_mul_add(t69, t112, t375));
+    let t444 = mul_add(t432, t442, t443) * t434;
+    let t445 = mul_sub(t429, t442, t375 - mul_sub(t38, t104, t370));
+    let t446 = mul_sub(t431, t444, t445) * t437;
+    let t447 = mul_add(t75, t113, neg_mul_add(t74, t114, t375));
+    let t448 = mul_sub(t439, t444, mul_add(t438, t442, t447));
+    let t449 = c(1.0) / mul_sub(t441, t446, t448);
+    let t450 = mul_sub(t24, t385, mul_sub(t21, t380, t424));
+    let t451 = mul_add(t27, t426, mul_add(t6, t406, t450));
+    let t452 = mul_sub(t9, t421, t451);
+    let t453 = mul_add(base_rotation[0][1], external_wrench[3], t452);
+    let t454 = mul_add(base_rotation[1][1], external_wrench[4], t453);
+    let t455 = mul_add(base_rotation[2][1], external_wrench[5], t454);
+    let t456 = mul_sub(t374, t418, t455);
+    let t457 = mul_add(t15, t406, mul_sub(t12, t402, t419));
+    let t458 = mul_sub(t18, t421, mul_add(t24, t395, t457));
+    let t459 = mul_sub(t27, t423, t458);
+    let t460 = mul_add(base_rotation[0][0], external_wrench[3], t459);
+    let t461 = mul_add(base_rotation[1][0], external_wrench[4], t460);
+    let t462 = mul_add(base_rotation[2][0], external_wrench[5], t461);
+    let t463 = mul_sub(t456, t430, mul_add(t373, t418, t462));
+    let t464 = mul_add(c(8.139999999999999), t210, t233 * c(1.734723475976807e-18));
+    let t465 = t386 + (t361 + (t353 + neg_mul_add(c(0.188852), t235, t464)));
+    let t466 = mul_sub(t456, t433, mul_add(t110, t418, t412 - (t387 + t465)));
+    let t467 = mul_sub(t463, t435, t466);
+    let t468 = mul_sub(t6, t395, mul_sub(t3, t390, t427));
+    let t469 = mul_sub(t9, t423, mul_sub(t15, t385, t468));
+    let t470 = mul_sub(t18, t426, t469);
+    let t471 = mul_add(base_rotation[0][2], external_wrench[3], t470);
+    let t472 = mul_add(base_rotation[1][2], external_wrench[4], t471);
+    let t473 = mul_add(base_rotation[2][2], external_wrench[5], t472);
+    let t474 = mul_sub(t456, t442, mul_sub(t375, t418, t473));
+    let t475 = mul_sub(t467, t446, mul_sub(t463, t444, t474));
+    let t476 = mul_sub(t49, t85, t109) * t428;
+    let t477 = mul_sub(t432, t476, neg_mul_add(t72, t97, t109)) * t434;
+    let t478 = mul_add(t429, t476, mul_add(t44, t81, t109));
+    let t479 = mul_sub(t431, t477, t478) * t437;
+    let t480 = mul_sub(t438, t476, neg_mul_add(t77, t101, t109));
+    let t481 = mul_sub(t441, t479, mul_sub(t439, t477, t480)) * t449;
+    let t482 = mul_sub(c(8.139999999999999), t207, t226 * c(1.734723475976807e-18));
+    let t483 = t377 + (t376 + (t359 + (t350 + mul_add(c(0.188852), t228, t482))));
+    let t484 = mul_add(t456, t476, mul_add(t109, t418, t409 - t483));
+    let t485 = mul_sub(t467, t479, mul_sub(t463, t477, t484));
+    let t486 = mul_sub(t475, t481, t485);
+    let t487 = t374 - mul_add(t56, t107, t52);
+    let t488 = mul_sub(t487, t430, t373 - mul_add(t56, t108, t54));
+    let t489 = mul_add(t487, t433, mul_sub(t59, t89, t110));
+    let t490 = mul_sub(t488, t435, t489);
+    let t491 = mul_sub(t487, t442, t375 - mul_sub(t52, t108, t372));
+    let t492 = mul_sub(t490, t446, mul_sub(t488, t444, t491));
+    let t493 = mul_sub(t487, t476, mul_sub(t58, t89, t109));
+    let t494 = mul_sub(t490, t479, mul_sub(t488, t477, t493));
+    let t495 = c(1.0) / mul_sub(t492, t481, t494);
+    let t496 = t486 * t495;
+    let t497 = neg_mul_add(t492, t496, t475);
+    let t498 = t449 * t497;
+    let t499 = mul_sub(t490, t496, neg_mul_add(t441, t498, t467));
+    let t500 = t437 * t499;
+    let t501 = mul_sub(t439, t498, mul_add(t431, t500, t463));
+    let t502 = t434 * mul_add(t488, t496, t501);
+    let t503 = mul_add(t429, t500, mul_add(t432, t502, t456));
+    let t504 = mul_add(t487, t496, mul_sub(t438, t498, t503));
     // leg 1: actuator forces F
-    let t552 = c(4268.068200000001) - t217 * c(0.03055);
-    let t553 = t552 - c(0.17066666666666666) * t227;
-    let t554 = t553 + t262 * c(0.019782143999999998);
-    let t555 = t263 * c(0.005300565333333333);
-    let t556 = t548 - (c(21555.9) * t90 - t555 + t345 * c(0.9523333333333334));
-    inverse_dynamics[0] = t556 - t554;
+    let t505 = neg_mul_add(t203, c(0.03055), c(4268.068200000001));
+    let t506 = neg_mul_add(c(0.17066666666666666), t213, t505);
+    let t507 = mul_add(t239, c(0.019782143999999998), t506);
+    let t508 = t240 * c(0.005300565333333333);
+    let t509 = mul_add(t309, c(0.9523333333333334), mul_sub(c(21555.9), t82, t508));
+    inverse_dynamics[0] = mul_sub(t437, t499, t509) - t507;
     // leg 2: actuator forces F
-    let t557 = t551 - (t555 + c(21555.9) * t93 - t359 * c(0.9523333333333334));
-    inverse_dynamics[1] = t557 - t554;
+    let t510 = mul_add(c(21555.9), t86, t508);
+    let t511 = mul_sub(t428, t504, neg_mul_add(t321, c(0.9523333333333334), t510));
+    inverse_dynamics[1] = t511 - t507;
     // leg 3: actuator forces F
-    let t558 = t553 - t262 * c(0.005300565333333333);
-    let t559 = t263 * c(0.019782143999999998);
-    let t560 = t96 * c(-21555.9) - t559 - t371 * c(0.9523333333333334) - t546;
-    inverse_dynamics[2] = t560 - t558;
+    let t512 = neg_mul_add(t239, c(0.005300565333333333), t506);
+    let t513 = t240 * c(0.019782143999999998);
+    let t514 = mul_sub(t90, c(-21555.9), t513);
+    let t515 = neg_mul_add(t333, c(0.9523333333333334), t514);
+    inverse_dynamics[2] = neg_mul_add(t486, t495, t515) - t512;
     // leg 4: actuator forces F
-    let t561 = t549 - t263 * c(0.014481578666666666);
-    let t562 = t553 - t262 * c(0.014481578666666666);
-    let t563 = t546 - (t473 + (c(21555.9) * t99 + t387 * c(0.9523333333333334)));
-    inverse_dynamics[3] = t561 - (t551 + (t548 + (t547 - t563))) - t562;
-    // leg 6: actuator forces F
-    let t564 = t547 + (t559 - c(21555.9) * t105 + t407 * c(0.9523333333333334));
-    inverse_dynamics[5] = t564 - t558;
+    let t516 = neg_mul_add(t240, c(0.014481578666666666), t502);
+    let t517 = neg_mul_add(t239, c(0.014481578666666666), t506);
+    let t518 = t418 + mul_add(c(21555.9), t94, t347 * c(0.9523333333333334));
+    let t519 = mul_sub(t449, t497, mul_sub(t486, t495, t518));
+    inverse_dynamics[3] = t516 - mul_add(t428, t504, mul_add(t437, t499, t519)) - t517;
     // leg 5: actuator forces F
-    inverse_dynamics[4] = t399 * c(0.9523333333333334) - c(21555.9) * t102 - t561 - t562;
+    let t520 = neg_mul_add(c(21555.9), t98, t357 * c(0.9523333333333334)) - t516;
+    inverse_dynamics[4] = t520 - t517;
+    // leg 6: actuator forces F
+    let t521 = neg_mul_add(c(21555.9), t102, t513);
+    let t522 = mul_add(t449, t497, mul_add(t365, c(0.9523333333333334), t521));
+    inverse_dynamics[5] = t522 - t512;
 }
