@@ -45,7 +45,7 @@ fn changes(node: Node) -> &'static [Change] {
         // Exact zeros are structure, such as the base's angular acceleration in the bias; 0.1 % of zero is no change.
         Node::Constant(0.0) => &[],
         Node::Constant(_) => &[ConstantLarger],
-        Node::Input { .. } | Node::Solution { .. } => &[],
+        Node::Input { .. } | Node::Solution { .. } | Node::Lanes(_) | Node::Lane(..) => &[],
         Node::Unary(..) => &[OtherSign, OperationDropped],
         Node::Binary(..) | Node::Ternary(..) => &[OtherSign, FirstOperandDropped, SecondOperandDropped],
     }

@@ -3,8 +3,8 @@
 //
 // What models can compute: one trait per function.
 //
-// graph     uhp.json, sha256 681cf4434cab11670af96653d8c96f220cec2462c26e5b794f5948e0a98ffee3
-// graph     ups.json, sha256 189ee6e20b9380f4cf3986c52f6c089d7abb639c5b5ce8d3f6d0e67256f8b29b
+// graph     uhp.json, sha256 3fa7a568542e8c17ddbd075abc0fc81e48eba699e5a6ee483839f0b617c87e5e
+// graph     ups.json, sha256 27999f255f376684ee29e3492b608cdff8b06c2d22a2745ecbff5f8014828e0f
 //           derived by CasADi 3.8.2
 
 /// A model that has `rod_alignment`.
