@@ -3,8 +3,8 @@
 //
 // What models can compute: one trait per function.
 //
-// graph     uhp.json, sha256 681cf4434cab11670af96653d8c96f220cec2462c26e5b794f5948e0a98ffee3
-// graph     ups.json, sha256 189ee6e20b9380f4cf3986c52f6c089d7abb639c5b5ce8d3f6d0e67256f8b29b
+// graph     uhp.json, sha256 cf18c1d20fe8c559db64bd928552127b80c54c42f7e3712c906f5c8aa8a5192f
+// graph     ups.json, sha256 7ad09c2bcb86b5bcb1429a84971a1e88c4a0ceb2fb47f226c4bfeabc41717a67
 //           derived by CasADi 3.8.2
 
 /// A model that has `rod_alignment`.
