@@ -51,7 +51,7 @@ INTERMEDIATES = table("intermediate", True, [
 ]) + table("intermediate", False, [
     ("legs_axial_inertia", (6, 6), INERTIA_6, "O", "part of the legs' mass matrix on the side of the axes"),
     ("legs_axial_coriolis", (6, 6), CORIOLIS_6, "O", "part of the legs' Coriolis matrix on the side of the axes"),
-    ("coupled_force", (3, 6), "kg, kg m", "O", "part of that matrix by the couplings' force"),
+    ("coupled_force", (3, 6), "kg, kg m", "O", "forces of the rods' couplings along the axes, by the platform speeds"),
     ("coupling_moment", (3,), "kg m", "O", "first moment of the rods' couplings by the Hooke joint"),
     ("coupling_second_moment", (3, 3), "kg m^2", "O", "their moment by platform joint and Hooke joint"),
 ])

@@ -3,8 +3,8 @@
 //
 // What models can compute: one trait per function.
 //
-// graph     uhp.json, sha256 cf18c1d20fe8c559db64bd928552127b80c54c42f7e3712c906f5c8aa8a5192f
-// graph     ups.json, sha256 7ad09c2bcb86b5bcb1429a84971a1e88c4a0ceb2fb47f226c4bfeabc41717a67
+// graph     uhp.json, sha256 530a85b289e887279aec2bfb84d0f8d61f15d076013649de29d3ef5defea6a6b
+// graph     ups.json, sha256 d817b90bf96e107e818a8271484815dcec27218954cca6102cd4fc6a4cc2ac83
 //           derived by CasADi 3.8.2
 
 /// A model that has `rod_alignment`.

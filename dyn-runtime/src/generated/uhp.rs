@@ -3,7 +3,7 @@
 //
 // Dynamics of any `uhp` platform, all numbers given at run time.
 //
-// graph     uhp.json, sha256 cf18c1d20fe8c559db64bd928552127b80c54c42f7e3712c906f5c8aa8a5192f
+// graph     uhp.json, sha256 530a85b289e887279aec2bfb84d0f8d61f15d076013649de29d3ef5defea6a6b
 //           derived by CasADi 3.8.2
 //
 // operations (+ - * / sqrt; a change of sign is not counted)

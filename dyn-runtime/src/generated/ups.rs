@@ -3,7 +3,7 @@
 //
 // Dynamics of any `ups` platform, all numbers given at run time.
 //
-// graph     ups.json, sha256 7ad09c2bcb86b5bcb1429a84971a1e88c4a0ceb2fb47f226c4bfeabc41717a67
+// graph     ups.json, sha256 d817b90bf96e107e818a8271484815dcec27218954cca6102cd4fc6a4cc2ac83
 //           derived by CasADi 3.8.2
 //
 // operations (+ - * / sqrt; a change of sign is not counted)
