@@ -3,8 +3,8 @@
 //
 // What models can compute: one trait per function.
 //
-// graph     uhp.json, sha256 3fa7a568542e8c17ddbd075abc0fc81e48eba699e5a6ee483839f0b617c87e5e
-// graph     ups.json, sha256 27999f255f376684ee29e3492b608cdff8b06c2d22a2745ecbff5f8014828e0f
+// graph     uhp.json, sha256 530a85b289e887279aec2bfb84d0f8d61f15d076013649de29d3ef5defea6a6b
+// graph     ups.json, sha256 d817b90bf96e107e818a8271484815dcec27218954cca6102cd4fc6a4cc2ac83
 //           derived by CasADi 3.8.2
 
 /// A model that has `rod_alignment`.
