@@ -1,0 +1,121 @@
+"""Writes the C peers of a platform and an index of them, for `cargo xtask bench` to compile."""
+
+import argparse
+import json
+import sys
+from pathlib import Path
+
+import casadi as ca
+import numpy as np
+
+from derivation.functions import functions
+from derivation.legs import LEG_TYPES
+from derivation.symbols import symbols_of
+
+from . import naive, same, solve
+
+FUNCTIONS = ("inverse_dynamics", "forward_dynamics", "matrices")
+# Blocks of a mass matrix that are tried: forces first, moments first.
+FORCE_FIRST, MOMENT_FIRST = [0, 1, 2, 3, 4, 5], [3, 4, 5, 0, 1, 2]
+# Results of ways and formulations agree to this part of the largest number before anything is written.
+TOLERANCE = 1e-9
+
+
+def pivot_order(explained: dict) -> tuple[list[int], list[int]]:
+    """The order that dyn-gen chose for the solve of inverse dynamics, from `dyn-gen explain --json`."""
+    for system in explained["eliminations"]:
+        if system["function"] == "inverse_dynamics":
+            return system["rows"], system["columns"]
+    raise KeyError("no linear system of inverse_dynamics in what dyn-gen explained")
+
+
+def evaluate(names, columns, outputs, states) -> np.ndarray:
+    function = ca.Function("value", columns, [ca.vertcat(*outputs)])
+    return np.array([np.array(function(*(state[name] for name in names))).ravel() for state in states])
+
+
+def candidates(name: str, symbols, leg, platform: dict, order, states):
+    """(implementation, way, expression) of everything that is measured for a function."""
+    row = next(function for function in functions(leg) if function.name == name)
+    general = lambda matrix, right: solve.lu(matrix, right, *order)
+    ways = {"elimination": (general, solve.ldl)}
+    if name == "inverse_dynamics":
+        halves = solve.block_order(_wrench_maps(row, symbols, platform, states))
+        ways["blocks"] = (lambda matrix, right: solve.blocks(matrix, right, *halves), solve.ldl)
+    elif name == "forward_dynamics":
+        for way, first in (("blocks, forces first", FORCE_FIRST), ("blocks, moments first", MOMENT_FIRST)):
+            ways[way] = (general, lambda matrix, right, first=first: solve.blocks(matrix, right, first, first))
+    for way, (of_general, of_definite) in ways.items():
+        def written_out(step, matrix, right, of_general=of_general, of_definite=of_definite):
+            return (of_definite if step.symmetric_positive_definite else of_general)(matrix, right)
+        yield "casadi_c_same", way, same.expression(row, symbols, platform, written_out)
+    yield "casadi_c_naive", "elimination", naive.expression(name, symbols, platform, general)
+
+
+def _wrench_maps(row, symbols, platform, states) -> np.ndarray:
+    """The matrix of inverse dynamics' linear system at every state."""
+    seen = []
+
+    def look(step, matrix, right):
+        seen.append(matrix)
+        return right
+
+    names, columns, _ = same.expression(row, symbols, platform, look)
+    function = ca.Function("matrix", columns, seen)
+    return np.array([np.array(function(*(state[name] for name in names))) for state in states])
+
+
+def operations(function: ca.Function) -> int:
+    ignored = (ca.OP_CONST, ca.OP_INPUT, ca.OP_OUTPUT, ca.OP_NEG)
+    return sum(function.instruction_id(k) not in ignored for k in range(function.n_instructions()))
+
+
+def main() -> int:
+    parser = argparse.ArgumentParser(prog="python -m peers", description=__doc__)
+    parser.add_argument("--platform", type=Path, required=True, help="from dyn-gen resolve")
+    parser.add_argument("--explained", type=Path, required=True, help="from dyn-gen explain --json")
+    parser.add_argument("--states", type=Path, required=True, help="JSON list of states by name, flat arrays")
+    parser.add_argument("--folder", type=Path, required=True, help="folder to write into")
+    options = parser.parse_args()
+    platform = json.loads(options.platform.read_text(encoding="utf-8"))
+    order = pivot_order(json.loads(options.explained.read_text(encoding="utf-8")))
+    states = json.loads(options.states.read_text(encoding="utf-8"))
+    if platform["leg_type"] != "uhp":
+        print(f"error: peers know legs of type uhp, not {platform['leg_type']}", file=sys.stderr)
+        return 1
+    leg = LEG_TYPES[platform["leg_type"]]
+    symbols = symbols_of(leg)
+    options.folder.mkdir(parents=True, exist_ok=True)
+    index = []
+    for name in FUNCTIONS:
+        expected = None
+        for number, (implementation, way, (names, columns, outputs)) in enumerate(
+            candidates(name, symbols, leg, platform, order, states)
+        ):
+            values = evaluate(names, columns, outputs, states)
+            expected = values if expected is None else expected
+            error = (np.abs(values - expected).max(axis=1) / np.abs(expected).max(axis=1)).max()
+            if not error <= TOLERANCE:
+                print(f"error: {name} by {implementation} ({way}) differs by {error:.1e}", file=sys.stderr)
+                return 1
+            symbol = f"{implementation}_{name}_{number}"
+            function = ca.Function(symbol, columns, ca.cse([ca.vertcat(*outputs)]))
+            _write(function, options.folder)
+            count = operations(function)
+            print(f"{name:<17} {implementation:<15} {way:<22} {count:>6} operations, differs by {error:.0e}")
+            index.append({
+                "function": name, "implementation": implementation, "way": way, "symbol": symbol, "source": f"{symbol}.c",
+                "inputs": names, "outputs": values.shape[1], "operations": count,
+            })
+    (options.folder / "index.json").write_text(json.dumps(index, indent=1) + "\n", encoding="utf-8")
+    return 0
+
+
+def _write(function: ca.Function, folder: Path) -> None:
+    generator = ca.CodeGenerator(f"{function.name()}.c")
+    generator.add(function)
+    generator.generate(f"{folder}/")
+
+
+if __name__ == "__main__":
+    sys.exit(main())
