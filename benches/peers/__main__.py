@@ -17,7 +17,7 @@ from . import naive, same, solve
 FUNCTIONS = ("inverse_dynamics", "forward_dynamics", "matrices")
 # Blocks of a mass matrix that are tried: forces first, moments first.
 FORCE_FIRST, MOMENT_FIRST = [0, 1, 2, 3, 4, 5], [3, 4, 5, 0, 1, 2]
-# Results of ways and formulations agree to this part of the largest number before anything is written.
+# Results agree with those of dyn-gen to this part of the largest number, or nothing is written.
 TOLERANCE = 1e-9
 
 
@@ -34,9 +34,9 @@ def evaluate(names, columns, outputs, states) -> np.ndarray:
     return np.array([np.array(function(*(state[name] for name in names))).ravel() for state in states])
 
 
-def candidates(name: str, symbols, leg, platform: dict, order, states):
-    """(implementation, way, expression) of everything that is measured for a function."""
-    row = next(function for function in functions(leg) if function.name == name)
+def candidates(row, symbols, platform: dict, order, states):
+    """(implementation, way, expression) of everything that is measured for a function, a row of the derivation's table."""
+    name = row.name
     general = lambda matrix, right: solve.lu(matrix, right, *order)
     ways = {"elimination": (general, solve.ldl)}
     if name == "inverse_dynamics":
@@ -72,14 +72,13 @@ def operations(function: ca.Function) -> int:
 
 def main() -> int:
     parser = argparse.ArgumentParser(prog="python -m peers", description=__doc__)
-    parser.add_argument("--platform", type=Path, required=True, help="from dyn-gen resolve")
     parser.add_argument("--explained", type=Path, required=True, help="from dyn-gen explain --json")
-    parser.add_argument("--states", type=Path, required=True, help="JSON list of states by name, flat arrays")
+    parser.add_argument("--vectors", type=Path, required=True, help="from dyn-gen vectors: numbers, states and results")
     parser.add_argument("--folder", type=Path, required=True, help="folder to write into")
     options = parser.parse_args()
-    platform = json.loads(options.platform.read_text(encoding="utf-8"))
+    vectors = json.loads(options.vectors.read_text(encoding="utf-8"))
     order = pivot_order(json.loads(options.explained.read_text(encoding="utf-8")))
-    states = json.loads(options.states.read_text(encoding="utf-8"))
+    platform, states = vectors["platform"], [state(case) for case in vectors["cases"]]
     if platform["leg_type"] != "uhp":
         print(f"error: peers know legs of type uhp, not {platform['leg_type']}", file=sys.stderr)
         return 1
@@ -88,33 +87,47 @@ def main() -> int:
     options.folder.mkdir(parents=True, exist_ok=True)
     index = []
     for name in FUNCTIONS:
-        expected = None
+        row = next(function for function in functions(leg) if function.name == name)
+        expected = np.array([np.concatenate([np.ravel(case["outputs"][o]) for o in row.outputs]) for case in vectors["cases"]])
         for number, (implementation, way, (names, columns, outputs)) in enumerate(
-            candidates(name, symbols, leg, platform, order, states)
+            candidates(row, symbols, platform, order, states)
         ):
             values = evaluate(names, columns, outputs, states)
-            expected = values if expected is None else expected
             error = (np.abs(values - expected).max(axis=1) / np.abs(expected).max(axis=1)).max()
             if not error <= TOLERANCE:
-                print(f"error: {name} by {implementation} ({way}) differs by {error:.1e}", file=sys.stderr)
+                print(f"error: {name} by {implementation} ({way}) differs from dyn-gen by {error:.1e}", file=sys.stderr)
                 return 1
             symbol = f"{implementation}_{name}_{number}"
             function = ca.Function(symbol, columns, ca.cse([ca.vertcat(*outputs)]))
-            _write(function, options.folder)
+            write(function, options.folder)
             count = operations(function)
-            print(f"{name:<17} {implementation:<15} {way:<22} {count:>6} operations, differs by {error:.0e}")
+            print(f"{name:<17} {implementation:<15} {way:<22} {count:>6} operations, differs from dyn-gen by {error:.0e}")
             index.append({
-                "function": name, "implementation": implementation, "way": way, "symbol": symbol, "source": f"{symbol}.c",
-                "inputs": names, "outputs": values.shape[1], "operations": count,
+                "function": name, "implementation": implementation, "way": way, "symbol": symbol,
+                "inputs": names, "operations": count,
             })
     (options.folder / "index.json").write_text(json.dumps(index, indent=1) + "\n", encoding="utf-8")
     return 0
 
 
-def _write(function: ca.Function, folder: Path) -> None:
+def state(case: dict) -> dict[str, list[float]]:
+    """A case of dyn-gen's vectors as inputs by name."""
+    moving = [(body, key) for body in ("base", "platform") for key in ("position", "rotation", "velocity", "acceleration")]
+    named = {f"{body}_{key}": np.ravel(case[body][key]) for body, key in moving}
+    return named | {key: np.ravel(case[key]) for key in ("actuator_force", "external_wrench")}
+
+
+def write(function: ca.Function, folder: Path) -> None:
+    """C with one entry, named by the macro PEER, that everything else may be inlined into.
+
+    CasADi's own entries become static by the macro CASADI_SYMBOL_EXPORT: compiled twice, they would collide. A function of
+    scalars needs no work arrays.
+    """
     generator = ca.CodeGenerator(f"{function.name()}.c")
     generator.add(function)
     generator.generate(f"{folder}/")
+    with (folder / f"{function.name()}.c").open("a", encoding="utf-8") as file:
+        file.write("\nvoid PEER(const casadi_real** arg, casadi_real** res) { casadi_f0(arg, res, 0, 0, 0); }\n")
 
 
 if __name__ == "__main__":
