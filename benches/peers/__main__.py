@@ -1,4 +1,4 @@
-"""Writes the C peers of a platform and an index of them, for `cargo xtask bench` to compile."""
+"""Writes the C peers of a platform, for `cargo xtask bench` to compile, and `index.tsv`: function, implementation, way, symbol."""
 
 import argparse
 import json
@@ -102,11 +102,9 @@ def main() -> int:
             write(function, options.folder)
             count = operations(function)
             print(f"{name:<17} {implementation:<15} {way:<22} {count:>6} operations, differs from dyn-gen by {error:.0e}")
-            index.append({
-                "function": name, "implementation": implementation, "way": way, "symbol": symbol,
-                "inputs": names, "operations": count,
-            })
-    (options.folder / "index.json").write_text(json.dumps(index, indent=1) + "\n", encoding="utf-8")
+            index.append((name, implementation, way, symbol))
+    text = "".join("\t".join(row) + "\n" for row in index)
+    (options.folder / "index.tsv").write_text(text, encoding="utf-8")
     return 0
 
 
