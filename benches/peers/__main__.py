@@ -2,6 +2,7 @@
 
 import argparse
 import json
+import re
 import sys
 from pathlib import Path
 
@@ -118,14 +119,14 @@ def state(case: dict) -> dict[str, list[float]]:
 def write(function: ca.Function, folder: Path) -> None:
     """C with one entry, named by the macro PEER, that everything else may be inlined into.
 
-    CasADi's own entries become static by the macro CASADI_SYMBOL_EXPORT: compiled twice, they would collide. A function of
-    scalars needs no work arrays.
+    CasADi's own functions become static, its entries by the macro CASADI_SYMBOL_EXPORT: compiled twice, they would collide. A
+    function of scalars needs no work arrays.
     """
     generator = ca.CodeGenerator(f"{function.name()}.c")
     generator.add(function)
-    generator.generate(f"{folder}/")
-    with (folder / f"{function.name()}.c").open("a", encoding="utf-8") as file:
-        file.write("\nvoid PEER(const casadi_real** arg, casadi_real** res) { casadi_f0(arg, res, 0, 0, 0); }\n")
+    text = re.sub(r"^casadi_real (?=casadi_\w+\()", "static casadi_real ", generator.dump(), flags=re.MULTILINE)
+    entry = "void PEER(const casadi_real** arg, casadi_real** res) { casadi_f0(arg, res, 0, 0, 0); }"
+    (folder / f"{function.name()}.c").write_text(f"{text}\n{entry}\n", encoding="utf-8")
 
 
 if __name__ == "__main__":

@@ -93,7 +93,7 @@ def main() -> None:
     cases = []
     for number, case in enumerate(vectors["cases"]):
         state = {f"{body}_{key}": flat(value) for body in ("base", "platform") for key, value in case[body].items()}
-        state |= {key: flat(case[key]) for key in ("actuator_force", "external_wrench")}
+        state |= {key: flat(case[key]) for key in ("actuator_force", "external_wrench", "reference_velocity")}
         if number % 2:
             state = {key: [single(value) for value in values] for key, values in state.items()}
         known = {key: [Decimal(value) for value in values] for key, values in (parameters | state).items()}

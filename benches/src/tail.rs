@@ -65,7 +65,7 @@ fn empty_interval() -> u64 {
 }
 
 fn times(count: usize, mut run: impl FnMut()) -> Histogram<u64> {
-    let mut histogram = Histogram::new(3).expect("three digits are possible");
+    let mut histogram = Histogram::new_with_bounds(1, 1_000_000_000, 3).expect("bounds in order");
     for _ in 0..count {
         let start = Instant::now();
         run();

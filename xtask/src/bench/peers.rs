@@ -108,7 +108,6 @@ fn compile_casadi(
                 compile.args(["-O3", &format!("-march={processor}"), "-c"]);
                 compile.args(Some(liberty).filter(|flag| !flag.is_empty()));
                 compile.args(["-DCASADI_SYMBOL_EXPORT=static", &format!("-DPEER={entry}")]);
-                compile.arg(format!("-DCASADI_CODEGEN_PREFIX={entry}"));
                 compile.arg(inputs.join("c").join(symbol).with_extension("c")).arg("-o").arg(&object);
                 let one = Instant::now();
                 succeed(&mut compile)?;
