@@ -5,6 +5,8 @@ use std::fmt::Write as _;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
+use std::sync::Mutex;
+use std::thread;
 use std::time::Instant;
 
 use super::{one_line, say};
@@ -39,22 +41,18 @@ struct Source {
 pub fn prepare(inputs: &Path, folder: &Path, processor: &str) -> Result<PathBuf, Failure> {
     say(&format!("preparing peers for {processor}"));
     fs::create_dir_all(folder).map_err(|error| unusable(folder, &error))?;
-    let mut objects = Vec::new();
     let mut table = Table::default();
     match casadi_sources(inputs) {
-        Ok(sources) => compile_casadi(inputs, folder, processor, &sources, &mut objects, &mut table)?,
+        Ok(sources) => table.peers = compile_casadi(inputs, folder, processor, &sources)?,
         Err(failure) => println!("absent: casadi_c_same, casadi_c_naive: {}", one_line(&failure)),
     }
     match pinocchio(folder) {
-        Ok(object) => {
-            objects.push(object);
-            table.pinocchio = true;
-        }
+        Ok(object) => table.pinocchio = Some(object),
         Err(reason) => println!("absent: pinocchio: {reason}"),
     }
     let library = folder.join("libpeers.a");
     let _ = fs::remove_file(&library);
-    succeed(Command::new("ar").arg("crs").arg(&library).args(&objects))?;
+    succeed(Command::new("ar").arg("crs").arg(&library).args(table.objects()))?;
     let path = folder.join("peers.rs");
     fs::write(&path, table.text()).map_err(|error| unusable(&path, &error))?;
     Ok(folder.to_owned())
@@ -85,42 +83,81 @@ fn casadi_sources(inputs: &Path) -> Result<Vec<Source>, Failure> {
     sources.ok_or_else(|| Failure::new(format!("{}: not an index", index.display()), ""))
 }
 
-/// Every source by every compiler with all flags.
+/// A compiler to be run.
+struct Job {
+    peer: Entry,
+    command: Command,
+}
+
+/// Every source by every compiler with all flags, as many at once as there are processors.
 fn compile_casadi(
     inputs: &Path,
     folder: &Path,
     processor: &str,
     sources: &[Source],
-    objects: &mut Vec<PathBuf>,
-    table: &mut Table,
-) -> Result<(), Failure> {
+) -> Result<Vec<Entry>, Failure> {
+    let mut jobs = Vec::new();
     for (compiler, _, package) in COMPILERS {
         if !is_installed(compiler) {
             println!("absent: peers compiled by {compiler}: not installed (apt-get install {package})");
             continue;
         }
-        let started = Instant::now();
-        for Source { function, implementation, way, symbol } in sources {
-            for (suffix, liberty) in LIBERTIES {
-                let entry = format!("{symbol}_{compiler}_{suffix}");
-                let object = folder.join(&entry).with_extension("o");
-                let mut compile = Command::new(compiler);
-                compile.args(["-O3", &format!("-march={processor}"), "-c"]);
-                compile.args(Some(liberty).filter(|flag| !flag.is_empty()));
-                compile.args(["-DCASADI_SYMBOL_EXPORT=static", &format!("-DPEER={entry}")]);
-                compile.arg(inputs.join("c").join(symbol).with_extension("c")).arg("-o").arg(&object);
-                let one = Instant::now();
-                succeed(&mut compile)?;
-                let flags = format!("-O3 -march={processor} {liberty}");
-                let variant = format!("{way}, {compiler} {}", flags.trim_end());
-                table.peers.push((function.clone(), implementation.clone(), variant, entry));
-                table.seconds.push(one.elapsed().as_secs_f64());
-                objects.push(object);
-            }
+        for source in sources {
+            jobs.extend(LIBERTIES.map(|liberty| job(inputs, folder, processor, source, compiler, liberty)));
         }
-        println!("{compiler}: {} files, {:.1} s", 2 * sources.len(), started.elapsed().as_secs_f64());
     }
-    Ok(())
+    println!("compiling {} variants of CasADi's C", jobs.len());
+    let queue = Mutex::new(jobs.into_iter());
+    let next = || queue.lock().ok()?.next();
+    let work = || {
+        let mut done = Vec::new();
+        while let Some(Job { mut peer, mut command }) = next() {
+            let started = Instant::now();
+            succeed(&mut command)?;
+            peer.seconds = started.elapsed().as_secs_f64();
+            done.push(peer);
+        }
+        Ok(done)
+    };
+    let count = thread::available_parallelism().map_or(1, usize::from);
+    let results: Vec<Result<Vec<Entry>, Failure>> = thread::scope(|scope| {
+        let workers: Vec<_> = (0..count).map(|_| scope.spawn(work)).collect();
+        let died = |_| Err(Failure::new("a thread that compiles peers died", ""));
+        workers.into_iter().map(|worker| worker.join().unwrap_or_else(died)).collect()
+    });
+    let mut peers = Vec::new();
+    for result in results {
+        peers.extend(result?);
+    }
+    peers.sort_by(|one, other| one.symbol.cmp(&other.symbol));
+    Ok(peers)
+}
+
+fn job(
+    inputs: &Path,
+    folder: &Path,
+    processor: &str,
+    source: &Source,
+    compiler: &str,
+    (suffix, liberty): (&str, &str),
+) -> Job {
+    let symbol = format!("{}_{compiler}_{suffix}", source.symbol);
+    let object = folder.join(&symbol).with_extension("o");
+    let mut command = Command::new(compiler);
+    command.args(["-O3", &format!("-march={processor}"), "-c"]);
+    command.args(Some(liberty).filter(|flag| !flag.is_empty()));
+    command.args(["-DCASADI_SYMBOL_EXPORT=static", &format!("-DPEER={symbol}")]);
+    command.arg(inputs.join("c").join(&source.symbol).with_extension("c")).arg("-o").arg(&object);
+    let flags = format!("-O3 -march={processor} {liberty}");
+    let peer = Entry {
+        function: source.function.clone(),
+        implementation: source.implementation.clone(),
+        variant: format!("{}, {compiler} {}", source.way, flags.trim_end()),
+        symbol,
+        object,
+        seconds: 0.0,
+    };
+    Job { peer, command }
 }
 
 /// Pinocchio's part, compiled once: a minute or two, so an object younger than its source is kept. Or why there is none.
@@ -162,44 +199,64 @@ fn is_installed(program: &str) -> bool {
     status.is_ok_and(|status| status.success())
 }
 
-/// The tables of `benches/src/peers.rs`.
+/// A compiled peer.
+struct Entry {
+    function: String,
+    implementation: String,
+    variant: String,
+    symbol: String,
+    object: PathBuf,
+    /// What it took to compile.
+    seconds: f64,
+}
+
+/// What is in the library, and the tables of `benches/src/peers.rs`.
 #[derive(Default)]
 struct Table {
-    /// Function, implementation, variant, entry.
-    peers: Vec<(String, String, String, String)>,
-    /// What each took to compile.
-    seconds: Vec<f64>,
-    pinocchio: bool,
+    peers: Vec<Entry>,
+    /// Pinocchio's object.
+    pinocchio: Option<PathBuf>,
 }
 
 impl Table {
+    fn objects(&self) -> impl Iterator<Item = &Path> {
+        self.peers.iter().map(|peer| &peer.object).chain(&self.pinocchio).map(PathBuf::as_path)
+    }
+
     fn text(&self) -> String {
         let mut text = String::from("unsafe extern \"C\" {\n");
-        for (_, _, _, entry) in &self.peers {
-            let _ = writeln!(text, "    fn {entry}(inputs: *const *const f64, outputs: *const *mut f64);");
+        for Entry { symbol, .. } in &self.peers {
+            let _ = writeln!(text, "    fn {symbol}(inputs: *const *const f64, outputs: *const *mut f64);");
         }
-        if self.pinocchio {
-            text += "    fn pinocchio_new(numbers: *const f64, states: *const f64, count: usize) -> *mut c_void;\n";
-            text += "    fn pinocchio_forward_dynamics(peer: *mut c_void, state: *const f64, index: usize, output: *mut f64);\n";
-            text += "    fn pinocchio_free(peer: *mut c_void);\n";
+        if self.pinocchio.is_some() {
+            text += PINOCCHIO_ENTRIES;
         }
         text += "}\nstatic PEERS: &[Peer] = &[\n";
-        for ((function, implementation, variant, entry), seconds) in self.peers.iter().zip(&self.seconds) {
+        for Entry { function, implementation, variant, symbol, seconds, .. } in &self.peers {
             let _ = writeln!(
                 text,
-                "    // compiled in {seconds:.2} s\n    Peer {{ function: {function:?}, implementation: {implementation:?}, \
-                 variant: {variant:?}, entry: {entry} }},"
+                "    // compiled in {seconds:.2} s\n    Peer {{ function: {function:?}, implementation: \
+                 {implementation:?}, variant: {variant:?}, entry: {symbol} }},"
             );
         }
-        text += "];\nstatic PINOCCHIO: Option<PinocchioFunctions> = ";
-        text += if self.pinocchio {
-            "Some(PinocchioFunctions { new: pinocchio_new, forward_dynamics: pinocchio_forward_dynamics, free: pinocchio_free });\n"
-        } else {
-            "None;\n"
-        };
+        text += "];\n";
+        text += if self.pinocchio.is_some() { PINOCCHIO_TABLE } else { NO_PINOCCHIO };
         text
     }
 }
+
+/// Declarations of the entries of benches/peers/pinocchio_peer.cpp.
+const PINOCCHIO_ENTRIES: &str = "    \
+    fn pinocchio_new(numbers: *const f64, states: *const f64, count: usize) -> *mut c_void;
+    fn pinocchio_forward_dynamics(peer: *mut c_void, state: *const f64, index: usize, output: *mut f64);
+    fn pinocchio_free(peer: *mut c_void);
+";
+/// The table of them.
+const PINOCCHIO_TABLE: &str = "static PINOCCHIO: Option<PinocchioFunctions> = Some(PinocchioFunctions {
+    new: pinocchio_new, forward_dynamics: pinocchio_forward_dynamics, free: pinocchio_free,
+});
+";
+const NO_PINOCCHIO: &str = "static PINOCCHIO: Option<PinocchioFunctions> = None;\n";
 
 fn unusable(path: &Path, error: &std::io::Error) -> Failure {
     Failure::new(format!("{}: {error}", path.display()), "")
@@ -213,9 +270,16 @@ mod tests {
     fn the_table_declares_what_it_lists() {
         let mut table = Table::default();
         assert!(table.text().contains("PEERS: &[Peer] = &[\n];") && table.text().contains("= None;"));
-        table.peers.push(("matrices".into(), "casadi_c_same".into(), "gcc -O3".into(), "entry_1".into()));
-        table.seconds.push(1.5);
-        table.pinocchio = true;
+        table.peers.push(Entry {
+            function: "matrices".into(),
+            implementation: "casadi_c_same".into(),
+            variant: "gcc -O3".into(),
+            symbol: "entry_1".into(),
+            object: "entry_1.o".into(),
+            seconds: 1.5,
+        });
+        table.pinocchio = Some("pinocchio.o".into());
+        assert_eq!(table.objects().count(), 2);
         let text = table.text();
         for expected in ["fn entry_1(", "entry: entry_1", "variant: \"gcc -O3\"", "new: pinocchio_new"] {
             assert!(text.contains(expected), "{text}");
