@@ -152,7 +152,7 @@ impl Judge<'_> {
             };
             for (found, expected) in found.chunks(size).zip(expected.chunks(size)) {
                 let error = relative_error(found, expected);
-                if !(error / tolerance <= worst.error / worst.tolerance) {
+                if error / tolerance > worst.error / worst.tolerance {
                     worst = Accuracy { case, error, tolerance };
                 }
             }
@@ -216,15 +216,17 @@ impl Visitor for Judge<'_> {
     }
 }
 
-/// Largest difference over the largest expected number.
+/// Largest difference over the largest expected number; infinite where a number is missing or none.
 fn relative_error(found: &[f64], expected: &[f64]) -> f64 {
     let largest = expected.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
-    // A NaN is no small error.
     let difference = |(x, y): (&f64, &f64)| if (x - y).is_nan() { f64::INFINITY } else { (x - y).abs() };
-    if found.len() != expected.len() {
-        return f64::INFINITY;
+    let most = found.iter().zip(expected).map(difference).fold(0.0, f64::max);
+    match (found.len() == expected.len(), most == 0.0) {
+        (false, _) => f64::INFINITY,
+        // At rest the Coriolis matrices are zero, exactly.
+        (true, true) => 0.0,
+        (true, false) => most / largest,
     }
-    found.iter().zip(expected).map(difference).fold(0.0, f64::max) / largest
 }
 
 /// Condition of a row-major 6 x 6 matrix in the spectral norm.
@@ -267,6 +269,8 @@ mod tests {
     #[test]
     fn what_is_not_a_number_is_no_small_error() {
         assert_eq!(relative_error(&[f64::NAN, 1.0], &[1.0, 1.0]), f64::INFINITY);
+        assert_eq!(relative_error(&[1.0], &[1.0, 1.0]), f64::INFINITY);
         assert_eq!(relative_error(&[1.5, 2.0], &[1.0, 2.0]), 0.25);
+        assert_eq!(relative_error(&[0.0], &[0.0]), 0.0);
     }
 }

@@ -99,7 +99,7 @@ pub fn visit(function: &str, platform: &Platform, states: &States, visitor: &mut
             cases.own("coriolis_matrices", coriolis_matrices, coriolis_matrices, reference);
         }
         "jacobian_dp" => cases.own("jacobian_dp", jacobian_dp, jacobian_dp, dyn_reference::jacobian_dp),
-        "inverse_dynamics_from_angles" => cases.from_angles(),
+        "inverse_dynamics_from_angles" => cases.turned_by_angles(),
         unknown => panic!("no function `{unknown}`; there are {}", FUNCTIONS.join(", ")),
     }
 }
@@ -218,7 +218,7 @@ impl<V: Visitor> Cases<'_, V> {
     }
 
     /// Rotations from the paper's angles, then inverse dynamics.
-    fn from_angles(&mut self) {
+    fn turned_by_angles(&mut self) {
         let case =
             |implementation| Case { function: "inverse_dynamics_from_angles", implementation, variant: "" };
         let states = angles::states(self.states);

@@ -16,11 +16,11 @@ pub fn text(release: &Path, model: &Path, peers: &Path) -> Option<String> {
     let mut text = format!("{:<58} {:>10} {:>12}\n", "function", "code bytes", "frame bytes");
     let own = functions(&program).ok()?;
     let rows = own.iter().filter(|(name, _)| {
-        let of = |function: &&str| {
+        let of = |function: &str| {
             name.ends_with(&format!("::{function}"))
                 && (name.contains("generated") || name.contains("reference"))
         };
-        FUNCTIONS.iter().any(|function| of(&function))
+        FUNCTIONS.iter().any(|function| of(function))
     });
     for (name, (size, frame)) in rows {
         text += &format!("{name:<58} {size:>10} {frame:>12}\n");
