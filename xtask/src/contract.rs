@@ -66,7 +66,7 @@ fn ways_to_panic(object: &Path) -> Result<Vec<String>, Failure> {
 }
 
 /// Bytes of code and of the stack frame of every function.
-fn functions(object: &Path) -> Result<BTreeMap<String, (u64, u64)>, Failure> {
+pub fn functions(object: &Path) -> Result<BTreeMap<String, (u64, u64)>, Failure> {
     let listing =
         run(Command::new("objdump").args(["--disassemble", "--demangle", "--no-show-raw-insn"]).arg(object))?;
     let mut functions = BTreeMap::new();
