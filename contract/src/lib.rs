@@ -116,7 +116,6 @@ pub extern "C" fn unchecked(poses: &[[f64; 3]; 2], rotations: &[[[f64; 3]; 3]; 2
 }
 
 /// What the check must find.
-#[cfg(feature = "can_panic")]
 #[unsafe(no_mangle)]
 pub extern "C" fn can_panic(numbers: &[f64; 6], index: usize) -> f64 {
     numbers[index]
