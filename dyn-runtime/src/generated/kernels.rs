@@ -3,8 +3,8 @@
 //
 // What models can compute: one trait per function.
 //
-// graph     uhp.json, sha256 681cf4434cab11670af96653d8c96f220cec2462c26e5b794f5948e0a98ffee3
-// graph     ups.json, sha256 189ee6e20b9380f4cf3986c52f6c089d7abb639c5b5ce8d3f6d0e67256f8b29b
+// graph     uhp.json, sha256 530a85b289e887279aec2bfb84d0f8d61f15d076013649de29d3ef5defea6a6b
+// graph     ups.json, sha256 d817b90bf96e107e818a8271484815dcec27218954cca6102cd4fc6a4cc2ac83
 //           derived by CasADi 3.8.2
 
 /// A model that has `rod_alignment`.

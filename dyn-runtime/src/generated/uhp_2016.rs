@@ -3,7 +3,7 @@
 //
 // Dynamics of the platform `uhp_2016`, every number baked in.
 //
-// graph     uhp.json, sha256 681cf4434cab11670af96653d8c96f220cec2462c26e5b794f5948e0a98ffee3
+// graph     uhp.json, sha256 530a85b289e887279aec2bfb84d0f8d61f15d076013649de29d3ef5defea6a6b
 //           derived by CasADi 3.8.2
 // platform  uhp_2016, sha256 of its resolved numbers b8134078fa1f34e5f609cc3dfb62aea03f363b944f89b1a9c1f48d524d56338e
 //
@@ -17,13 +17,13 @@
 // jacobian_dp                      579         180
 // jacobian_db                      597         180
 // mass_matrix_p                   1475         526
-// mass_matrix_b                   2325        1135
-// coriolis_matrices               3939        1843
+// mass_matrix_b                   2718         796
+// coriolis_matrices               5116        1785
 // stiffness_matrices              1266         594
-// matrices                        5264        2651
+// matrices                        6237        2197
 // passive_forces                  1398         295
 // bias                            2386         675
-// equation_of_motion              6434        3182
+// equation_of_motion              7407        2728
 // inverse_dynamics                2409         798
 // actuator_geometry                591         210
 // control                         3425        1297
@@ -7130,604 +7130,408 @@ pub fn mass_matrix_b<T: Scalar>(
     let t148 = mul_add(base_rotation[1][1], t87, t147);
     let t149 = neg_mul_add(base_rotation[2][0], t86, base_rotation[2][2]);
     let t150 = mul_add(base_rotation[2][1], t87, t149);
-    // leg 1: mass matrix of the leg in the speeds of its joint
-    let t151 = base_rotation[0][2] * c(0.17066666666666666);
-    let t152 = mul_add(t95, c(0.4761666666666667), t151);
-    let t153 = t95 * t152;
-    let t154 = c(2.0) * t153;
-    let t155 = base_rotation[1][2] * c(0.17066666666666666);
-    let t156 = mul_add(t97, c(0.4761666666666667), t155);
-    let t157 = mul_add(t95, t156, t97 * t152);
-    let t158 = base_rotation[2][2] * c(0.17066666666666666);
-    let t159 = mul_add(t99, c(0.4761666666666667), t158);
-    let t160 = mul_add(t95, t159, t99 * t152);
-    let t161 = t97 * t156;
-    let t162 = c(2.0) * t161;
-    let t163 = mul_add(t97, t159, t99 * t156);
-    let t164 = t99 * t159;
-    let t165 = c(2.0) * t164;
-    // leg 1: leg inertia between joint and base speeds
-    let t166 = base_rotation[0][2] * c(1.123);
-    let t167 = mul_add(t95, t166, c(0.17066666666666666));
-    let t168 = base_rotation[1][2] * c(1.123);
-    let t169 = t95 * t168;
-    let t170 = base_rotation[2][2] * c(1.123);
-    let t171 = t95 * t170;
-    let t172 = base_rotation[1][1] * c(0.12275970481124972);
-    let t173 = mul_add(base_rotation[1][2], c(0.03055), t20 * c(0.17066666666666666));
-    let t174 = base_rotation[2][1] * c(0.12275970481124972);
-    let t175 = mul_add(base_rotation[2][2], c(0.03055), t21 * c(0.17066666666666666));
-    let t176 = mul_sub(base_rotation[1][0], c(0.1316436662914507), t172);
-    let t177 = mul_sub(base_rotation[1][2], t53, t176);
-    let t178 = mul_sub(t91, c(0.17066666666666666), t177 * c(0.9523333333333334));
-    let t179 = t173 - t178;
-    let t180 = mul_sub(base_rotation[2][0], c(0.1316436662914507), t174);
-    let t181 = mul_sub(base_rotation[2][2], t53, t180);
-    let t182 = mul_sub(t93, c(0.17066666666666666), c(0.9523333333333334) * t181);
-    let t183 = t175 - t182;
-    let t184 = mul_sub(base_rotation[2][2], t179, base_rotation[1][2] * t183);
-    let t185 = t95 * t184;
-    let t186 = base_rotation[0][1] * c(0.12275970481124972);
-    let t187 = mul_add(base_rotation[0][2], c(0.03055), t19 * c(0.17066666666666666));
-    let t188 = mul_sub(base_rotation[0][0], c(0.1316436662914507), t186);
-    let t189 = mul_sub(base_rotation[0][2], t53, t188);
-    let t190 = mul_sub(t89, c(0.17066666666666666), c(0.9523333333333334) * t189);
-    let t191 = t187 - t190;
-    let t192 = mul_sub(base_rotation[0][2], t183, base_rotation[2][2] * t191);
-    let t193 = c(0.17066666666666666) * t181;
-    let t194 = mul_add(t95, t192, t193);
-    let t195 = mul_sub(base_rotation[1][2], t191, base_rotation[0][2] * t179);
-    let t196 = c(0.17066666666666666) * t177;
-    let t197 = mul_sub(t95, t195, t196);
-    let t198 = t97 * t166;
-    let t199 = mul_add(t97, t168, c(0.17066666666666666));
-    let t200 = t97 * t170;
-    let t201 = neg_mul_add(t97, t184, t193);
-    let t202 = t97 * t192;
-    let t203 = c(0.17066666666666666) * t189;
-    let t204 = mul_add(t97, t195, t203);
-    let t205 = t99 * t166;
-    let t206 = t99 * t168;
-    let t207 = mul_add(t99, t170, c(0.17066666666666666));
-    let t208 = mul_add(t99, t184, t196);
-    let t209 = neg_mul_add(t99, t192, t203);
-    let t210 = t99 * t195;
-    // leg 2: mass matrix of the leg in the speeds of its joint
-    let t211 = neg_mul_add(t104, c(0.4761666666666667), t151);
-    let t212 = c(2.0) * (t104 * t211);
-    let t213 = neg_mul_add(t106, c(0.4761666666666667), t155);
-    let t214 = mul_add(t104, t213, t106 * t211);
-    let t215 = neg_mul_add(t108, c(0.4761666666666667), t158);
-    let t216 = mul_add(t104, t215, t108 * t211);
-    let t217 = c(2.0) * (t106 * t213);
-    let t218 = mul_add(t106, t215, t108 * t213);
-    let t219 = c(2.0) * (t108 * t215);
-    // leg 2: leg inertia between joint and base speeds
-    let t220 = neg_mul_add(t104, t166, c(0.17066666666666666));
-    let t221 = t104 * t168;
-    let t222 = t104 * t170;
-    let t223 = mul_add(base_rotation[1][0], c(0.1316436662914507), t172);
-    let t224 = mul_sub(base_rotation[1][2], t57, t223);
-    let t225 = mul_sub(t101, c(0.17066666666666666), c(0.9523333333333334) * t224);
-    let t226 = t173 - t225;
-    let t227 = mul_add(base_rotation[2][0], c(0.1316436662914507), t174);
-    let t228 = mul_sub(base_rotation[2][2], t57, t227);
-    let t229 = mul_sub(t102, c(0.17066666666666666), c(0.9523333333333334) * t228);
-    let t230 = t175 - t229;
-    let t231 = mul_sub(base_rotation[2][2], t226, base_rotation[1][2] * t230);
-    let t232 = t104 * t231;
-    let t233 = mul_add(base_rotation[0][0], c(0.1316436662914507), t186);
-    let t234 = mul_sub(base_rotation[0][2], t57, t233);
-    let t235 = mul_sub(t100, c(0.17066666666666666), c(0.9523333333333334) * t234);
-    let t236 = t187 - t235;
-    let t237 = mul_sub(base_rotation[0][2], t230, base_rotation[2][2] * t236);
-    let t238 = c(0.17066666666666666) * t228;
-    let t239 = mul_sub(t104, t237, t238);
-    let t240 = mul_sub(base_rotation[1][2], t236, base_rotation[0][2] * t226);
-    let t241 = c(0.17066666666666666) * t224;
-    let t242 = mul_add(t104, t240, t241);
-    let t243 = t106 * t166;
-    let t244 = neg_mul_add(t106, t168, c(0.17066666666666666));
-    let t245 = t106 * t170;
-    let t246 = mul_add(t106, t231, t238);
-    let t247 = t106 * t237;
-    let t248 = c(0.17066666666666666) * t234;
-    let t249 = mul_sub(t106, t240, t248);
-    let t250 = t108 * t166;
-    let t251 = t108 * t168;
-    let t252 = neg_mul_add(t108, t170, c(0.17066666666666666));
-    let t253 = neg_mul_add(t108, t231, t241);
-    let t254 = mul_add(t108, t237, t248);
-    let t255 = t108 * t240;
-    // leg 3: mass matrix of the leg in the speeds of its joint
-    let t256 = neg_mul_add(t116, c(0.4761666666666667), t151);
-    let t257 = t116 * t256;
-    let t258 = c(2.0) * t257;
-    let t259 = neg_mul_add(t118, c(0.4761666666666667), t155);
-    let t260 = mul_add(t116, t259, t118 * t256);
-    let t261 = neg_mul_add(t120, c(0.4761666666666667), t158);
-    let t262 = mul_add(t116, t261, t120 * t256);
-    let t263 = t118 * t259;
-    let t264 = c(2.0) * t263;
-    let t265 = mul_add(t118, t261, t120 * t259);
-    let t266 = t120 * t261;
-    let t267 = c(2.0) * t266;
-    // leg 3: leg inertia between joint and base speeds
-    let t268 = neg_mul_add(t116, t166, c(0.17066666666666666));
-    let t269 = t116 * t168;
-    let t270 = t116 * t170;
-    let t271 = base_rotation[1][1] * c(0.17538661166134234);
-    let t272 = base_rotation[2][1] * c(0.17538661166134234);
-    let t273 = mul_add(base_rotation[1][0], c(0.040491189781895726), t271);
-    let t274 = mul_sub(base_rotation[1][2], t62, t273);
-    let t275 = mul_add(t112, c(0.17066666666666666), c(0.9523333333333334) * t274);
-    let t276 = t173 + t275;
-    let t277 = mul_add(base_rotation[2][0], c(0.040491189781895726), t272);
-    let t278 = mul_sub(base_rotation[2][2], t62, t277);
-    let t279 = mul_add(t114, c(0.17066666666666666), c(0.9523333333333334) * t278);
-    let t280 = t175 + t279;
-    let t281 = mul_sub(base_rotation[2][2], t276, base_rotation[1][2] * t280);
-    let t282 = t116 * t281;
-    let t283 = base_rotation[0][1] * c(0.17538661166134234);
-    let t284 = mul_add(base_rotation[0][0], c(0.040491189781895726), t283);
-    let t285 = mul_sub(base_rotation[0][2], t62, t284);
-    let t286 = mul_add(t110, c(0.17066666666666666), c(0.9523333333333334) * t285);
-    let t287 = t187 + t286;
-    let t288 = mul_sub(base_rotation[0][2], t280, base_rotation[2][2] * t287);
-    let t289 = c(0.17066666666666666) * t278;
-    let t290 = mul_sub(t116, t288, t289);
-    let t291 = mul_sub(base_rotation[1][2], t287, base_rotation[0][2] * t276);
-    let t292 = c(0.17066666666666666) * t274;
-    let t293 = mul_add(t116, t291, t292);
-    let t294 = t118 * t166;
-    let t295 = neg_mul_add(t118, t168, c(0.17066666666666666));
-    let t296 = t118 * t170;
-    let t297 = mul_add(t118, t281, t289);
-    let t298 = t118 * t288;
-    let t299 = c(0.17066666666666666) * t285;
-    let t300 = mul_sub(t118, t291, t299);
-    let t301 = t120 * t166;
-    let t302 = t120 * t168;
-    let t303 = neg_mul_add(t120, t170, c(0.17066666666666666));
-    let t304 = neg_mul_add(t120, t281, t292);
-    let t305 = mul_add(t120, t288, t299);
-    let t306 = t120 * t291;
-    // leg 4: mass matrix of the leg in the speeds of its joint
-    let t307 = neg_mul_add(t128, c(0.4761666666666667), t151);
-    let t308 = t128 * t307;
-    let t309 = c(2.0) * t308;
-    let t310 = neg_mul_add(t130, c(0.4761666666666667), t155);
-    let t311 = mul_add(t128, t310, t130 * t307);
-    let t312 = neg_mul_add(t132, c(0.4761666666666667), t158);
-    let t313 = mul_add(t128, t312, t132 * t307);
-    let t314 = t130 * t310;
-    let t315 = c(2.0) * t314;
-    let t316 = mul_add(t130, t312, t132 * t310);
-    let t317 = t132 * t312;
-    let t318 = c(2.0) * t317;
-    // leg 4: leg inertia between joint and base speeds
-    let t319 = neg_mul_add(t128, t166, c(0.17066666666666666));
-    let t320 = t128 * t168;
-    let t321 = t128 * t170;
-    let t322 = base_rotation[1][1] * c(0.052626906850092664);
-    let t323 = base_rotation[2][1] * c(0.052626906850092664);
-    let t324 = mul_sub(base_rotation[1][0], c(0.17213485607334636), t322);
-    let t325 = mul_add(base_rotation[1][2], t67, t324);
-    let t326 = mul_add(t124, c(0.17066666666666666), c(0.9523333333333334) * t325);
-    let t327 = t173 + t326;
-    let t328 = mul_sub(base_rotation[2][0], c(0.17213485607334636), t323);
-    let t329 = mul_add(base_rotation[2][2], t67, t328);
-    let t330 = mul_add(t126, c(0.17066666666666666), c(0.9523333333333334) * t329);
-    let t331 = t175 + t330;
-    let t332 = mul_sub(base_rotation[2][2], t327, base_rotation[1][2] * t331);
-    let t333 = t128 * t332;
-    let t334 = base_rotation[0][1] * c(0.052626906850092664);
-    let t335 = mul_sub(base_rotation[0][0], c(0.17213485607334636), t334);
-    let t336 = mul_add(base_rotation[0][2], t67, t335);
-    let t337 = mul_add(t122, c(0.17066666666666666), c(0.9523333333333334) * t336);
-    let t338 = t187 + t337;
-    let t339 = mul_sub(base_rotation[0][2], t331, base_rotation[2][2] * t338);
-    let t340 = c(0.17066666666666666) * t329;
-    let t341 = mul_sub(t128, t339, t340);
-    let t342 = mul_sub(base_rotation[1][2], t338, base_rotation[0][2] * t327);
-    let t343 = c(0.17066666666666666) * t325;
-    let t344 = mul_add(t128, t342, t343);
-    let t345 = t130 * t166;
-    let t346 = neg_mul_add(t130, t168, c(0.17066666666666666));
-    let t347 = t130 * t170;
-    let t348 = mul_add(t130, t332, t340);
-    let t349 = t130 * t339;
-    let t350 = c(0.17066666666666666) * t336;
-    let t351 = mul_sub(t130, t342, t350);
-    let t352 = t132 * t166;
-    let t353 = t132 * t168;
-    let t354 = neg_mul_add(t132, t170, c(0.17066666666666666));
-    let t355 = neg_mul_add(t132, t332, t343);
-    let t356 = mul_add(t132, t339, t350);
-    let t357 = t132 * t342;
-    // leg 5: mass matrix of the leg in the speeds of its joint
-    let t358 = mul_add(t137, c(0.4761666666666667), t151);
-    let t359 = t137 * t358;
-    let t360 = c(2.0) * t359;
-    let t361 = mul_add(t139, c(0.4761666666666667), t155);
-    let t362 = mul_add(t137, t361, t139 * t358);
-    let t363 = mul_add(t141, c(0.4761666666666667), t158);
-    let t364 = mul_add(t137, t363, t141 * t358);
-    let t365 = t139 * t361;
-    let t366 = c(2.0) * t365;
-    let t367 = mul_add(t139, t363, t141 * t361);
-    let t368 = t141 * t363;
-    let t369 = c(2.0) * t368;
-    // leg 5: leg inertia between joint and base speeds
-    let t370 = mul_add(t137, t166, c(0.17066666666666666));
-    let t371 = t137 * t168;
-    let t372 = t137 * t170;
-    let t373 = mul_add(base_rotation[1][0], c(0.17213485607334636), t322);
-    let t374 = mul_add(base_rotation[1][2], t71, t373);
-    let t375 = mul_add(t134, c(0.17066666666666666), c(0.9523333333333334) * t374);
-    let t376 = t173 + t375;
-    let t377 = mul_add(base_rotation[2][0], c(0.17213485607334636), t323);
-    let t378 = mul_add(base_rotation[2][2], t71, t377);
-    let t379 = mul_add(t135, c(0.17066666666666666), c(0.9523333333333334) * t378);
-    let t380 = t175 + t379;
-    let t381 = mul_sub(base_rotation[2][2], t376, base_rotation[1][2] * t380);
-    let t382 = t137 * t381;
-    let t383 = mul_add(base_rotation[0][0], c(0.17213485607334636), t334);
-    let t384 = mul_add(base_rotation[0][2], t71, t383);
-    let t385 = mul_add(t133, c(0.17066666666666666), c(0.9523333333333334) * t384);
-    let t386 = t187 + t385;
-    let t387 = mul_sub(base_rotation[0][2], t380, base_rotation[2][2] * t386);
-    let t388 = c(0.17066666666666666) * t378;
-    let t389 = mul_add(t137, t387, t388);
-    let t390 = mul_sub(base_rotation[1][2], t386, base_rotation[0][2] * t376);
-    let t391 = c(0.17066666666666666) * t374;
-    let t392 = mul_sub(t137, t390, t391);
-    let t393 = t139 * t166;
-    let t394 = mul_add(t139, t168, c(0.17066666666666666));
-    let t395 = t139 * t170;
-    let t396 = neg_mul_add(t139, t381, t388);
-    let t397 = t139 * t387;
-    let t398 = c(0.17066666666666666) * t384;
-    let t399 = mul_add(t139, t390, t398);
-    let t400 = t141 * t166;
-    let t401 = t141 * t168;
-    let t402 = mul_add(t141, t170, c(0.17066666666666666));
-    let t403 = mul_add(t141, t381, t391);
-    let t404 = neg_mul_add(t141, t387, t398);
-    let t405 = t141 * t390;
-    // leg 6: mass matrix of the leg in the speeds of its joint
-    let t406 = mul_add(t146, c(0.4761666666666667), t151);
-    let t407 = t146 * t406;
-    let t408 = c(2.0) * t407;
-    let t409 = mul_add(t148, c(0.4761666666666667), t155);
-    let t410 = mul_add(t146, t409, t148 * t406);
-    let t411 = mul_add(t150, c(0.4761666666666667), t158);
-    let t412 = mul_add(t146, t411, t150 * t406);
-    let t413 = t148 * t409;
-    let t414 = c(2.0) * t413;
-    let t415 = mul_add(t148, t411, t150 * t409);
-    let t416 = t150 * t411;
-    let t417 = c(2.0) * t416;
-    // leg 6: leg inertia between joint and base speeds
-    let t418 = mul_add(t146, t166, c(0.17066666666666666));
-    let t419 = t146 * t168;
-    let t420 = t146 * t170;
-    let t421 = mul_sub(base_rotation[1][0], c(0.040491189781895726), t271);
-    let t422 = mul_sub(base_rotation[1][2], t75, t421);
-    let t423 = mul_add(t143, c(0.17066666666666666), c(0.9523333333333334) * t422);
-    let t424 = t173 + t423;
-    let t425 = mul_sub(base_rotation[2][0], c(0.040491189781895726), t272);
-    let t426 = mul_sub(base_rotation[2][2], t75, t425);
-    let t427 = mul_add(t144, c(0.17066666666666666), c(0.9523333333333334) * t426);
-    let t428 = t175 + t427;
-    let t429 = mul_sub(base_rotation[2][2], t424, base_rotation[1][2] * t428);
-    let t430 = t146 * t429;
-    let t431 = mul_sub(base_rotation[0][0], c(0.040491189781895726), t283);
-    let t432 = mul_sub(base_rotation[0][2], t75, t431);
-    let t433 = mul_add(t142, c(0.17066666666666666), c(0.9523333333333334) * t432);
-    let t434 = t187 + t433;
-    let t435 = mul_sub(base_rotation[0][2], t428, base_rotation[2][2] * t434);
-    let t436 = c(0.17066666666666666) * t426;
-    let t437 = mul_add(t146, t435, t436);
-    let t438 = mul_sub(base_rotation[1][2], t434, base_rotation[0][2] * t424);
-    let t439 = c(0.17066666666666666) * t422;
-    let t440 = mul_sub(t146, t438, t439);
-    let t441 = t148 * t166;
-    let t442 = mul_add(t148, t168, c(0.17066666666666666));
-    let t443 = t148 * t170;
-    let t444 = neg_mul_add(t148, t429, t436);
-    let t445 = t148 * t435;
-    let t446 = c(0.17066666666666666) * t432;
-    let t447 = mul_add(t148, t438, t446);
-    let t448 = t150 * t166;
-    let t449 = t150 * t168;
-    let t450 = mul_add(t150, t170, c(0.17066666666666666));
-    let t451 = mul_add(t150, t429, t439);
-    let t452 = neg_mul_add(t150, t435, t446);
-    let t453 = t150 * t438;
-    // mass matrix of the legs
-    let t454 = mul_sub(c(2.0), t257, mul_sub(c(2.0), t153, t212));
-    let t455 = mul_sub(c(2.0), t359, mul_add(c(2.0), t308, t454));
-    let t456 = mul_add(c(2.0), t407, t455);
-    let t457 = t410 + (t362 - (t311 + (t260 - (t157 - t214))));
-    let t458 = t412 + (t364 - (t313 + (t262 - (t160 - t216))));
-    let t459 = mul_sub(t102, t214, mul_sub(t93, t157, t91 * t160));
-    let t460 = mul_add(t114, t260, mul_sub(t101, t216, t459));
-    let t461 = mul_sub(t126, t311, mul_sub(t112, t262, t460));
-    let t462 = mul_add(t135, t362, mul_sub(t124, t313, t461));
-    let t463 = mul_sub(t144, t410, mul_sub(t134, t364, t462));
-    let t464 = mul_sub(t143, t412, t463);
-    let t465 = mul_sub(t100, t216, t102 * t212);
-    let t466 = mul_sub(t110, t262, t114 * t258);
-    let t467 = mul_sub(t122, t313, t126 * t309);
-    let t468 = mul_sub(t133, t364, t135 * t360);
-    let t469 = mul_sub(t142, t412, t144 * t408);
-    let t470 = mul_sub(t89, t160, t93 * t154);
-    let t471 = t469 + (t468 - (t467 + (t466 + (t470 - t465))));
-    let t472 = mul_sub(t91, t154, t89 * t157);
-    let t473 = mul_sub(t101, t212, t100 * t214);
-    let t474 = mul_sub(t112, t258, t110 * t260);
-    let t475 = mul_sub(t124, t309, t122 * t311);
-    let t476 = mul_sub(t134, t360, t133 * t362);
-    let t477 = mul_sub(t143, t408, t142 * t410);
-    let t478 = t477 + (t476 - (t475 + (t474 + (t472 - t473))));
-    let t479 = mul_sub(c(2.0), t263, mul_sub(c(2.0), t161, t217));
-    let t480 = mul_sub(c(2.0), t365, mul_add(c(2.0), t314, t479));
-    let t481 = mul_add(c(2.0), t413, t480);
-    let t482 = t415 + (t367 - (t316 + (t265 - (t163 - t218))));
-    let t483 = mul_sub(t93, t162, t91 * t163);
-    let t484 = mul_sub(t102, t217, t101 * t218);
-    let t485 = mul_sub(t114, t264, t112 * t265);
-    let t486 = mul_sub(t126, t315, t124 * t316);
-    let t487 = mul_sub(t135, t366, t134 * t367);
-    let t488 = mul_sub(t144, t414, t143 * t415);
-    let t489 = t488 + (t487 - (t486 + (t485 + (t483 - t484))));
-    let t490 = t142 * t415;
-    let t491 = mul_sub(t144, t410, t490);
-    let t492 = t133 * t367;
-    let t493 = mul_sub(t135, t362, t492);
-    let t494 = t122 * t316;
-    let t495 = mul_sub(t126, t311, t494);
-    let t496 = t110 * t265;
-    let t497 = mul_sub(t114, t260, t496);
-    let t498 = t89 * t163;
-    let t499 = mul_sub(t93, t157, t498);
-    let t500 = t100 * t218;
-    let t501 = mul_sub(t102, t214, t500);
-    let t502 = t491 + (t493 - (t495 + (t497 + (t499 - t501))));
-    let t503 = mul_sub(t101, t214, t100 * t217);
-    let t504 = mul_sub(t112, t260, t110 * t264);
-    let t505 = mul_sub(t124, t311, t122 * t315);
-    let t506 = mul_sub(t134, t362, t133 * t366);
-    let t507 = mul_sub(t143, t410, t142 * t414);
-    let t508 = mul_sub(t91, t157, t89 * t162);
-    let t509 = t507 + (t506 - (t505 + (t504 + (t508 - t503))));
-    let t510 = mul_sub(c(2.0), t266, mul_sub(c(2.0), t164, t219));
-    let t511 = mul_sub(c(2.0), t368, mul_add(c(2.0), t317, t510));
-    let t512 = mul_add(c(2.0), t416, t511);
-    let t513 = mul_sub(t102, t218, t101 * t219);
-    let t514 = mul_sub(t114, t265, t112 * t267);
-    let t515 = mul_sub(t126, t316, t124 * t318);
-    let t516 = mul_sub(t135, t367, t134 * t369);
-    let t517 = mul_sub(t144, t415, t143 * t417);
-    let t518 = mul_sub(t93, t163, t91 * t165);
-    let t519 = t517 + (t516 - (t515 + (t514 + (t518 - t513))));
-    let t520 = mul_sub(t89, t165, t93 * t160);
-    let t521 = mul_sub(t100, t219, t102 * t216);
-    let t522 = mul_sub(t110, t267, t114 * t262);
-    let t523 = mul_sub(t122, t318, t126 * t313);
-    let t524 = mul_sub(t133, t369, t135 * t364);
-    let t525 = mul_sub(t142, t417, t144 * t412);
-    let t526 = t525 + (t524 - (t523 + (t522 + (t520 - t521))));
-    let t527 = mul_sub(t143, t412, t490);
-    let t528 = mul_sub(t134, t364, t492);
-    let t529 = mul_sub(t124, t313, t494);
-    let t530 = mul_sub(t112, t262, t496);
-    let t531 = mul_sub(t91, t160, t498);
-    let t532 = mul_sub(t101, t216, t500);
-    let t533 = t527 + (t528 - (t529 + (t530 + (t531 - t532))));
-    let t534 = t91 * t518;
-    let t535 = mul_sub(t102, t501, mul_add(t93, t499, t91 * t520));
-    let t536 = mul_add(t114, t497, mul_add(t101, t521, t535));
-    let t537 = mul_add(t126, t495, mul_add(t112, t522, t536));
-    let t538 = mul_sub(t135, t493, mul_add(t124, t523, t537));
-    let t539 = mul_add(t144, t491, mul_add(t134, t524, t538));
-    let t540 = mul_add(t143, t525, t539);
-    let t541 = mul_sub(t102, t503, mul_sub(t93, t508, t91 * t531));
-    let t542 = mul_sub(t114, t504, mul_sub(t101, t532, t541));
-    let t543 = mul_sub(t126, t505, mul_sub(t112, t530, t542));
-    let t544 = mul_add(t135, t506, mul_sub(t124, t529, t543));
-    let t545 = mul_sub(t144, t507, mul_sub(t134, t528, t544));
-    let t546 = mul_sub(t143, t527, t545);
-    let t547 = t93 * t470;
-    let t548 = mul_sub(t100, t532, mul_sub(t89, t531, t93 * t472));
-    let t549 = mul_sub(t110, t530, mul_sub(t102, t473, t548));
-    let t550 = mul_sub(t122, t529, mul_sub(t114, t474, t549));
-    let t551 = mul_add(t133, t528, mul_sub(t126, t475, t550));
-    let t552 = mul_sub(t142, t527, mul_sub(t135, t476, t551));
-    let t553 = mul_sub(t144, t477, t552);
-    let t554 = t89 * t508;
+    // leg 1: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+    let t151 = mul_sub(t91, t99, t93 * t97);
+    let t152 = mul_sub(t93, t95, t89 * t99);
+    let t153 = mul_sub(t89, t97, t91 * t95);
+    // leg 2: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+    let t154 = mul_sub(t101, t108, t102 * t106);
+    let t155 = mul_sub(t102, t104, t100 * t108);
+    let t156 = mul_sub(t100, t106, t101 * t104);
+    // leg 3: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+    let t157 = mul_sub(t112, t120, t114 * t118);
+    let t158 = mul_sub(t114, t116, t110 * t120);
+    let t159 = mul_sub(t110, t118, t112 * t116);
+    // leg 4: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+    let t160 = mul_sub(t124, t132, t126 * t130);
+    let t161 = mul_sub(t126, t128, t122 * t132);
+    let t162 = mul_sub(t122, t130, t124 * t128);
+    // leg 5: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+    let t163 = mul_sub(t134, t141, t135 * t139);
+    let t164 = mul_sub(t135, t137, t133 * t141);
+    let t165 = mul_sub(t133, t139, t134 * t137);
+    // leg 6: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+    let t166 = mul_sub(t143, t150, t144 * t148);
+    let t167 = mul_sub(t144, t146, t142 * t150);
+    let t168 = mul_sub(t142, t148, t143 * t146);
+    // leg 1: rod's coupling times axis, a force at the platform joint
+    let t169 = base_rotation[0][2] * c(0.17066666666666666);
+    let t170 = base_rotation[1][2] * c(0.17066666666666666);
+    let t171 = base_rotation[2][2] * c(0.17066666666666666);
+    // leg 1: moment of that force
+    let t172 = mul_sub(t91, t171, t93 * t170);
+    let t173 = mul_sub(t93, t169, t89 * t171);
+    let t174 = mul_sub(t89, t170, t91 * t169);
+    // leg 2: moment of that force
+    let t175 = mul_sub(t101, t171, t102 * t170);
+    let t176 = mul_sub(t102, t169, t100 * t171);
+    let t177 = mul_sub(t100, t170, t101 * t169);
+    // leg 3: moment of that force
+    let t178 = mul_sub(t112, t171, t114 * t170);
+    let t179 = mul_sub(t114, t169, t110 * t171);
+    let t180 = mul_sub(t110, t170, t112 * t169);
+    // leg 4: moment of that force
+    let t181 = mul_sub(t124, t171, t126 * t170);
+    let t182 = mul_sub(t126, t169, t122 * t171);
+    let t183 = mul_sub(t122, t170, t124 * t169);
+    // leg 5: moment of that force
+    let t184 = mul_sub(t134, t171, t135 * t170);
+    let t185 = mul_sub(t135, t169, t133 * t171);
+    let t186 = mul_sub(t133, t170, t134 * t169);
+    // leg 6: moment of that force
+    let t187 = mul_sub(t143, t171, t144 * t170);
+    let t188 = mul_sub(t144, t169, t142 * t171);
+    let t189 = mul_sub(t142, t170, t143 * t169);
+    // part of the legs' mass matrix on the side of the axes
+    let t190 = t95 - t104;
+    let t191 = t116 - t146;
+    let t192 = t128 - t137;
+    let t193 = t192 - (t190 - t191);
+    let t194 = c(0.17066666666666666) * t193;
+    let t195 = t146 * c(0.9523333333333334);
+    let t196 = t137 * c(0.9523333333333334);
+    let t197 = t128 * c(0.9523333333333334);
+    let t198 = t116 * c(0.9523333333333334);
+    let t199 = t95 * c(0.9523333333333334);
+    let t200 = t104 * c(0.9523333333333334);
+    let t201 = mul_add(t116, t198, mul_add(t95, t199, t104 * t200));
+    let t202 = mul_add(t137, t196, mul_add(t128, t197, t201));
+    let t203 = mul_sub(base_rotation[0][2], t194, mul_add(t146, t195, t202));
+    let t204 = t97 - t106;
+    let t205 = t118 - t148;
+    let t206 = t130 - t139;
+    let t207 = t206 - (t204 - t205);
+    let t208 = c(0.17066666666666666) * t207;
+    let t209 = mul_add(t118, t198, mul_add(t97, t199, t106 * t200));
+    let t210 = mul_add(t139, t196, mul_add(t130, t197, t209));
+    let t211 = mul_add(t148, t195, t210);
+    let t212 = neg_mul_add(base_rotation[0][2], t208, t211);
+    let t213 = t99 - t108;
+    let t214 = t120 - t150;
+    let t215 = t132 - t141;
+    let t216 = t215 - (t213 - t214);
+    let t217 = c(0.17066666666666666) * t216;
+    let t218 = mul_add(t120, t198, mul_add(t99, t199, t108 * t200));
+    let t219 = mul_add(t141, t196, mul_add(t132, t197, t218));
+    let t220 = mul_add(t150, t195, t219);
+    let t221 = neg_mul_add(base_rotation[0][2], t217, t220);
+    let t222 = mul_sub(t157, t198, mul_add(t151, t199, t154 * t200));
+    let t223 = mul_add(t163, t196, mul_add(t160, t197, t222));
+    let t224 = mul_add(t166, t195, t223);
+    let t225 = t151 - t154;
+    let t226 = t157 - t166;
+    let t227 = t160 - t163;
+    let t228 = t227 + (t225 + t226);
+    let t229 = c(0.17066666666666666) * t228;
+    let t230 = mul_sub(t158, t198, mul_add(t152, t199, t155 * t200));
+    let t231 = mul_add(t164, t196, mul_add(t161, t197, t230));
+    let t232 = mul_add(t167, t195, t231);
+    let t233 = t152 - t155;
+    let t234 = t158 - t167;
+    let t235 = t161 - t164;
+    let t236 = t235 + (t233 + t234);
+    let t237 = c(0.17066666666666666) * t236;
+    let t238 = mul_sub(t159, t198, mul_add(t153, t199, t156 * t200));
+    let t239 = mul_add(t165, t196, mul_add(t162, t197, t238));
+    let t240 = mul_add(t168, t195, t239);
+    let t241 = t153 - t156;
+    let t242 = t159 - t168;
+    let t243 = t162 - t165;
+    let t244 = t243 + (t241 + t242);
+    let t245 = c(0.17066666666666666) * t244;
+    let t246 = neg_mul_add(base_rotation[1][2], t194, t211);
+    let t247 = t148 * c(0.9523333333333334);
+    let t248 = t139 * c(0.9523333333333334);
+    let t249 = t130 * c(0.9523333333333334);
+    let t250 = t118 * c(0.9523333333333334);
+    let t251 = t97 * c(0.9523333333333334);
+    let t252 = t106 * c(0.9523333333333334);
+    let t253 = mul_add(t118, t250, mul_add(t97, t251, t106 * t252));
+    let t254 = mul_add(t139, t248, mul_add(t130, t249, t253));
+    let t255 = mul_sub(base_rotation[1][2], t208, mul_add(t148, t247, t254));
+    let t256 = mul_add(t120, t250, mul_add(t99, t251, t108 * t252));
+    let t257 = mul_add(t141, t248, mul_add(t132, t249, t256));
+    let t258 = mul_add(t150, t247, t257);
+    let t259 = neg_mul_add(base_rotation[1][2], t217, t258);
+    let t260 = mul_sub(t157, t250, mul_add(t151, t251, t154 * t252));
+    let t261 = mul_add(t163, t248, mul_add(t160, t249, t260));
+    let t262 = mul_add(t166, t247, t261);
+    let t263 = mul_sub(t158, t250, mul_add(t152, t251, t155 * t252));
+    let t264 = mul_add(t164, t248, mul_add(t161, t249, t263));
+    let t265 = mul_add(t167, t247, t264);
+    let t266 = mul_sub(t159, t250, mul_add(t153, t251, t156 * t252));
+    let t267 = mul_add(t165, t248, mul_add(t162, t249, t266));
+    let t268 = mul_add(t168, t247, t267);
+    let t269 = neg_mul_add(base_rotation[2][2], t194, t220);
+    let t270 = neg_mul_add(base_rotation[2][2], t208, t258);
+    let t271 = t150 * c(0.9523333333333334);
+    let t272 = t141 * c(0.9523333333333334);
+    let t273 = t132 * c(0.9523333333333334);
+    let t274 = t120 * c(0.9523333333333334);
+    let t275 = t99 * c(0.9523333333333334);
+    let t276 = t108 * c(0.9523333333333334);
+    let t277 = mul_add(t120, t274, mul_add(t99, t275, t108 * t276));
+    let t278 = mul_add(t141, t272, mul_add(t132, t273, t277));
+    let t279 = mul_sub(base_rotation[2][2], t217, mul_add(t150, t271, t278));
+    let t280 = mul_sub(t157, t274, mul_add(t151, t275, t154 * t276));
+    let t281 = mul_add(t163, t272, mul_add(t160, t273, t280));
+    let t282 = mul_add(t166, t271, t281);
+    let t283 = mul_sub(t158, t274, mul_add(t152, t275, t155 * t276));
+    let t284 = mul_add(t164, t272, mul_add(t161, t273, t283));
+    let t285 = mul_add(t167, t271, t284);
+    let t286 = mul_sub(t159, t274, mul_add(t153, t275, t156 * t276));
+    let t287 = mul_add(t165, t272, mul_add(t162, t273, t286));
+    let t288 = mul_add(t168, t271, t287);
+    let t289 = mul_add(t104, t175, neg_mul_add(t95, t172, t224));
+    let t290 = mul_add(t128, t181, mul_sub(t116, t178, t289));
+    let t291 = mul_add(t146, t187, mul_sub(t137, t184, t290));
+    let t292 = mul_add(t106, t175, neg_mul_add(t97, t172, t262));
+    let t293 = mul_add(t130, t181, mul_sub(t118, t178, t292));
+    let t294 = mul_add(t148, t187, mul_sub(t139, t184, t293));
+    let t295 = mul_add(t108, t175, neg_mul_add(t99, t172, t282));
+    let t296 = mul_add(t132, t181, mul_sub(t120, t178, t295));
+    let t297 = mul_add(t150, t187, mul_sub(t141, t184, t296));
+    let t298 = t151 * c(0.9523333333333334);
+    let t299 = t154 * c(0.9523333333333334);
+    let t300 = t154 * t299;
+    let t301 = t157 * c(0.9523333333333334);
+    let t302 = t160 * c(0.9523333333333334);
+    let t303 = t163 * c(0.9523333333333334);
+    let t304 = t166 * c(0.9523333333333334);
+    let t305 = mul_add(t158, t301, mul_add(t152, t298, t155 * t299));
+    let t306 = mul_add(t164, t303, mul_add(t161, t302, t305));
+    let t307 = mul_add(t167, t304, t306);
+    let t308 = mul_add(t159, t301, mul_add(t153, t298, t156 * t299));
+    let t309 = mul_add(t165, t303, mul_add(t162, t302, t308));
+    let t310 = mul_add(t168, t304, t309);
+    let t311 = mul_add(t104, t176, neg_mul_add(t95, t173, t232));
+    let t312 = mul_add(t128, t182, mul_sub(t116, t179, t311));
+    let t313 = mul_add(t146, t188, mul_sub(t137, t185, t312));
+    let t314 = mul_add(t106, t176, neg_mul_add(t97, t173, t265));
+    let t315 = mul_add(t130, t182, mul_sub(t118, t179, t314));
+    let t316 = mul_add(t148, t188, mul_sub(t139, t185, t315));
+    let t317 = mul_add(t108, t176, neg_mul_add(t99, t173, t285));
+    let t318 = mul_add(t132, t182, mul_sub(t120, t179, t317));
+    let t319 = mul_add(t150, t188, mul_sub(t141, t185, t318));
+    let t320 = t152 * c(0.9523333333333334);
+    let t321 = t155 * c(0.9523333333333334);
+    let t322 = t155 * t321;
+    let t323 = t158 * c(0.9523333333333334);
+    let t324 = t161 * c(0.9523333333333334);
+    let t325 = t164 * c(0.9523333333333334);
+    let t326 = t167 * c(0.9523333333333334);
+    let t327 = mul_add(t159, t323, mul_add(t153, t320, t156 * t321));
+    let t328 = mul_add(t165, t325, mul_add(t162, t324, t327));
+    let t329 = mul_add(t168, t326, t328);
+    let t330 = mul_add(t104, t177, neg_mul_add(t95, t174, t240));
+    let t331 = mul_add(t128, t183, mul_sub(t116, t180, t330));
+    let t332 = mul_add(t146, t189, mul_sub(t137, t186, t331));
+    let t333 = mul_add(t106, t177, neg_mul_add(t97, t174, t268));
+    let t334 = mul_add(t130, t183, mul_sub(t118, t180, t333));
+    let t335 = mul_add(t148, t189, mul_sub(t139, t186, t334));
+    let t336 = mul_add(t108, t177, neg_mul_add(t99, t174, t288));
+    let t337 = mul_add(t132, t183, mul_sub(t120, t180, t336));
+    let t338 = mul_add(t150, t189, mul_sub(t141, t186, t337));
+    let t339 = t153 * c(0.9523333333333334);
+    let t340 = t156 * (t156 * c(0.9523333333333334));
+    let t341 = t159 * c(0.9523333333333334);
+    let t342 = t162 * c(0.9523333333333334);
+    let t343 = t165 * c(0.9523333333333334);
+    let t344 = t168 * c(0.9523333333333334);
+    // first moment of the rods' couplings by the Hooke joint
+    let t345 = t53 + t57;
+    let t346 = t62 + t75;
+    let t347 = t67 + t71;
+    let t348 = c(0.17066666666666666) * (t347 + (t345 + t346));
+    let t349 = base_rotation[0][0] * c(1.5612511283791264e-17);
+    let t350 = mul_sub(base_rotation[0][2], t348, t349);
+    let t351 = base_rotation[1][0] * c(1.5612511283791264e-17);
+    let t352 = mul_sub(base_rotation[1][2], t348, t351);
+    let t353 = base_rotation[2][0] * c(1.5612511283791264e-17);
+    let t354 = mul_sub(base_rotation[2][2], t348, t353);
+    // their moment by platform joint and Hooke joint
+    let t355 = mul_sub(t345, c(0.019782160922400118), t346 * c(0.005300614043699622));
+    let t356 = neg_mul_add(t347, c(0.01448154687870049), t355);
+    let t357 = base_rotation[0][0] * c(0.009764694018945443);
+    let t358 = mul_sub(base_rotation[0][2], t356, t357);
+    let t359 = c(0.019782160922400118) * (t62 - t75);
+    let t360 = mul_sub(c(0.005300614043699624), t53 - t57, t359);
+    let t361 = neg_mul_add(c(0.014481546878700494), t67 - t71, t360);
+    let t362 = base_rotation[0][1] * c(0.009764694018945445);
+    let t363 = mul_add(base_rotation[0][2], t361, t362);
+    let t364 = mul_sub(platform_rotation[0][0], t358, platform_rotation[0][1] * t363);
+    let t365 = base_rotation[1][0] * c(0.009764694018945443);
+    let t366 = mul_sub(base_rotation[1][2], t356, t365);
+    let t367 = base_rotation[1][1] * c(0.009764694018945445);
+    let t368 = mul_add(base_rotation[1][2], t361, t367);
+    let t369 = base_rotation[2][0] * c(0.009764694018945443);
+    let t370 = mul_sub(base_rotation[2][2], t356, t369);
+    let t371 = base_rotation[2][1] * c(0.009764694018945445);
+    let t372 = mul_add(base_rotation[2][2], t361, t371);
+    let t373 = mul_sub(platform_rotation[1][0], t366, platform_rotation[1][1] * t368);
+    let t374 = platform_rotation[2][1] * t372;
     // mass matrix M_b that couples the base acceleration
-    mass_matrix_b[0][0] = t456 - (t418 + (t370 + (t319 + (t268 + (t167 + t220)))));
-    let t555 = mul_sub(t116, t168, mul_sub(t95, t168, t221));
-    let t556 = mul_sub(t137, t168, mul_add(t128, t168, t555));
-    mass_matrix_b[0][1] = t457 - mul_add(t146, t168, t556);
-    let t557 = mul_sub(t116, t170, mul_sub(t95, t170, t222));
-    let t558 = mul_sub(t137, t170, mul_add(t128, t170, t557));
-    mass_matrix_b[0][2] = t458 - mul_add(t146, t170, t558);
-    let t559 = mul_sub(t116, t281, mul_sub(t95, t184, t232));
-    let t560 = mul_sub(t137, t381, mul_add(t128, t332, t559));
-    let t561 = mul_sub(t21, t457, t464 - mul_add(t146, t429, t560));
-    mass_matrix_b[0][3] = neg_mul_add(t20, t458, t561);
-    let t562 = t471 + (t437 + (t389 - (t341 + (t290 - (t194 - t239)))));
-    mass_matrix_b[0][4] = neg_mul_add(t21, t456, mul_add(t19, t458, t562));
-    let t563 = t478 + (t440 + (t392 - (t344 + (t293 - (t197 - t242)))));
-    mass_matrix_b[0][5] = neg_mul_add(t19, t457, mul_add(t20, t456, t563));
-    let t564 = mul_sub(t118, t166, mul_sub(t97, t166, t243));
-    let t565 = mul_sub(t139, t166, mul_add(t130, t166, t564));
-    mass_matrix_b[1][0] = t457 - mul_add(t148, t166, t565);
-    mass_matrix_b[1][1] = t481 - (t442 + (t394 + (t346 + (t295 + (t199 + t244)))));
-    let t566 = mul_sub(t118, t170, mul_sub(t97, t170, t245));
-    let t567 = mul_sub(t139, t170, mul_add(t130, t170, t566));
-    mass_matrix_b[1][2] = t482 - mul_add(t148, t170, t567);
-    let t568 = t489 - (t444 + (t396 + (t348 + (t297 + (t201 + t246)))));
-    mass_matrix_b[1][3] = neg_mul_add(t20, t482, mul_add(t21, t481, t568));
-    let t569 = mul_sub(t118, t288, mul_sub(t97, t192, t247));
-    let t570 = mul_sub(t139, t387, mul_add(t130, t339, t569));
-    let t571 = mul_add(t21, t457, t502 - mul_add(t148, t435, t570));
-    mass_matrix_b[1][4] = mul_sub(t19, t482, t571);
-    let t572 = t509 + (t447 + (t399 - (t351 + (t300 - (t204 - t249)))));
-    mass_matrix_b[1][5] = neg_mul_add(t19, t481, mul_add(t20, t457, t572));
-    let t573 = mul_sub(t120, t166, mul_sub(t99, t166, t250));
-    let t574 = mul_sub(t141, t166, mul_add(t132, t166, t573));
-    mass_matrix_b[2][0] = t458 - mul_add(t150, t166, t574);
-    let t575 = mul_sub(t120, t168, mul_sub(t99, t168, t251));
-    let t576 = mul_sub(t141, t168, mul_add(t132, t168, t575));
-    mass_matrix_b[2][1] = t482 - mul_add(t150, t168, t576);
-    mass_matrix_b[2][2] = t512 - (t450 + (t402 + (t354 + (t303 + (t207 + t252)))));
-    let t577 = t519 + (t451 + (t403 + (t355 + (t304 + (t208 + t253)))));
-    mass_matrix_b[2][3] = neg_mul_add(t20, t512, mul_add(t21, t482, t577));
-    let t578 = t526 - (t452 + (t404 + (t356 + (t305 + (t209 + t254)))));
-    mass_matrix_b[2][4] = neg_mul_add(t21, t458, mul_add(t19, t512, t578));
-    let t579 = mul_sub(t120, t291, mul_sub(t99, t195, t255));
-    let t580 = mul_sub(t141, t390, mul_add(t132, t342, t579));
-    let t581 = mul_add(t20, t458, t533 + mul_add(t150, t438, t580));
-    mass_matrix_b[2][5] = neg_mul_add(t19, t482, t581);
-    let t582 = mul_sub(t93, t198, mul_add(t91, t205, t464));
-    let t583 = mul_sub(t102, t243, mul_add(t101, t250, t582));
-    let t584 = mul_sub(t114, t294, mul_add(t112, t301, t583));
-    let t585 = mul_sub(t126, t345, mul_sub(t124, t352, t584));
-    let t586 = mul_sub(t135, t393, mul_add(t134, t400, t585));
-    mass_matrix_b[3][0] = neg_mul_add(t144, t441, mul_sub(t143, t448, t586));
-    let t587 = mul_add(t93, t199, neg_mul_add(t91, t206, t489));
-    let t588 = mul_add(t102, t244, mul_add(t101, t251, t587));
-    let t589 = mul_add(t114, t295, mul_sub(t112, t302, t588));
-    let t590 = mul_add(t126, t346, mul_add(t124, t353, t589));
-    let t591 = mul_sub(t135, t394, mul_sub(t134, t401, t590));
-    mass_matrix_b[3][1] = neg_mul_add(t144, t442, mul_sub(t143, t449, t591));
-    let t592 = mul_add(t93, t200, neg_mul_add(t91, t207, t519));
-    let t593 = mul_add(t102, t245, mul_sub(t101, t252, t592));
-    let t594 = mul_add(t114, t296, mul_sub(t112, t303, t593));
-    let t595 = mul_add(t126, t347, mul_add(t124, t354, t594));
-    let t596 = mul_sub(t135, t395, mul_add(t134, t402, t595));
-    mass_matrix_b[3][2] = neg_mul_add(t144, t443, mul_sub(t143, t450, t596));
-    let t597 = mul_sub(t102, t484, mul_sub(t93, t483, t534));
-    let t598 = mul_sub(t114, t485, mul_sub(t101, t513, t597));
-    let t599 = mul_sub(t126, t486, mul_sub(t112, t514, t598));
-    let t600 = mul_add(t135, t487, mul_sub(t124, t515, t599));
-    let t601 = mul_sub(t144, t488, mul_sub(t134, t516, t600));
-    let t602 = mul_sub(t21, t489, mul_sub(t143, t517, t601));
-    let t603 = mul_sub(t91, t208, mul_sub(t20, t519, t602));
-    let t604 = mul_add(t101, t253, mul_add(t93, t201, t603));
-    let t605 = neg_mul_add(t112, t304, mul_add(t102, t246, t604));
-    let t606 = neg_mul_add(t124, t355, neg_mul_add(t114, t297, t605));
-    let t607 = neg_mul_add(t134, t403, neg_mul_add(t126, t348, t606));
-    let t608 = neg_mul_add(t143, t451, neg_mul_add(t135, t396, t607));
-    mass_matrix_b[3][3] = neg_mul_add(t144, t444, t608);
-    let t609 = mul_sub(t21, t464, neg_mul_add(t19, t519, t540));
-    let t610 = mul_add(t93, t202, mul_sub(t91, t209, t609));
-    let t611 = mul_sub(t102, t247, mul_add(t101, t254, t610));
-    let t612 = mul_sub(t114, t298, mul_add(t112, t305, t611));
-    let t613 = mul_sub(t126, t349, mul_sub(t124, t356, t612));
-    let t614 = mul_add(t135, t397, mul_sub(t134, t404, t613));
-    mass_matrix_b[3][4] = mul_add(t144, t445, mul_add(t143, t452, t614));
-    let t615 = mul_add(t19, t489, mul_add(t20, t464, t546));
-    let t616 = mul_sub(t93, t204, mul_sub(t91, t210, t615));
-    let t617 = mul_sub(t102, t249, mul_add(t101, t255, t616));
-    let t618 = mul_sub(t114, t300, mul_add(t112, t306, t617));
-    let t619 = mul_sub(t126, t351, mul_sub(t124, t357, t618));
-    let t620 = mul_sub(t135, t399, mul_add(t134, t405, t619));
-    mass_matrix_b[3][5] = mul_sub(t144, t447, mul_sub(t143, t453, t620));
-    let t621 = mul_add(t89, t205, neg_mul_add(t93, t167, t471));
-    let t622 = mul_add(t100, t250, mul_sub(t102, t220, t621));
-    let t623 = mul_add(t110, t301, mul_sub(t114, t268, t622));
-    let t624 = mul_add(t122, t352, mul_add(t126, t319, t623));
-    let t625 = mul_sub(t133, t400, mul_add(t135, t370, t624));
-    mass_matrix_b[4][0] = neg_mul_add(t142, t448, mul_sub(t144, t418, t625));
-    let t626 = mul_sub(t89, t206, mul_add(t93, t169, t502));
-    let t627 = mul_sub(t100, t251, mul_add(t102, t221, t626));
-    let t628 = mul_sub(t110, t302, mul_add(t114, t269, t627));
-    let t629 = mul_sub(t122, t353, mul_sub(t126, t320, t628));
-    let t630 = mul_sub(t133, t401, mul_add(t135, t371, t629));
-    mass_matrix_b[4][1] = neg_mul_add(t142, t449, mul_sub(t144, t419, t630));
-    let t631 = mul_add(t89, t207, neg_mul_add(t93, t171, t526));
-    let t632 = mul_add(t100, t252, mul_add(t102, t222, t631));
-    let t633 = mul_add(t110, t303, mul_sub(t114, t270, t632));
-    let t634 = mul_add(t122, t354, mul_add(t126, t321, t633));
-    let t635 = mul_sub(t133, t402, mul_sub(t135, t372, t634));
-    mass_matrix_b[4][2] = neg_mul_add(t142, t450, mul_sub(t144, t420, t635));
-    let t636 = mul_add(t20, t526, mul_add(t21, t502, t540));
-    let t637 = mul_sub(t89, t208, mul_sub(t93, t185, t636));
-    let t638 = mul_add(t100, t253, mul_add(t102, t232, t637));
-    let t639 = mul_add(t110, t304, mul_sub(t114, t282, t638));
-    let t640 = mul_add(t122, t355, mul_add(t126, t333, t639));
-    let t641 = mul_sub(t133, t403, mul_sub(t135, t382, t640));
-    mass_matrix_b[4][3] = mul_sub(t142, t451, mul_sub(t144, t430, t641));
-    let t642 = mul_sub(t100, t521, mul_sub(t89, t520, t547));
-    let t643 = mul_sub(t110, t522, mul_sub(t102, t465, t642));
-    let t644 = mul_sub(t122, t523, mul_sub(t114, t466, t643));
-    let t645 = mul_add(t133, t524, mul_sub(t126, t467, t644));
-    let t646 = mul_sub(t142, t525, mul_sub(t135, t468, t645));
-    let t647 = mul_sub(t19, t526, mul_sub(t144, t469, t646));
-    let t648 = mul_sub(t93, t194, mul_sub(t21, t471, t647));
-    let t649 = mul_sub(t102, t239, mul_add(t89, t209, t648));
-    let t650 = mul_add(t114, t290, mul_sub(t100, t254, t649));
-    let t651 = mul_sub(t126, t341, mul_sub(t110, t305, t650));
-    let t652 = neg_mul_add(t135, t389, neg_mul_add(t122, t356, t651));
-    let t653 = neg_mul_add(t144, t437, neg_mul_add(t133, t404, t652));
-    mass_matrix_b[4][4] = neg_mul_add(t142, t452, t653);
-    let t654 = mul_sub(t19, t502, neg_mul_add(t20, t471, t553));
-    let t655 = mul_sub(t89, t210, mul_add(t93, t197, t654));
-    let t656 = mul_sub(t100, t255, mul_add(t102, t242, t655));
-    let t657 = mul_sub(t110, t306, mul_add(t114, t293, t656));
-    let t658 = mul_sub(t122, t357, mul_sub(t126, t344, t657));
-    let t659 = mul_sub(t133, t405, mul_add(t135, t392, t658));
-    mass_matrix_b[4][5] = mul_sub(t142, t453, mul_sub(t144, t440, t659));
-    let t660 = mul_add(t91, t167, neg_mul_add(t89, t198, t478));
-    let t661 = mul_add(t101, t220, mul_add(t100, t243, t660));
-    let t662 = mul_add(t112, t268, mul_sub(t110, t294, t661));
-    let t663 = mul_add(t124, t319, mul_add(t122, t345, t662));
-    let t664 = mul_sub(t134, t370, mul_sub(t133, t393, t663));
-    mass_matrix_b[5][0] = neg_mul_add(t143, t418, mul_sub(t142, t441, t664));
-    let t665 = mul_add(t91, t169, neg_mul_add(t89, t199, t509));
-    let t666 = mul_add(t101, t221, mul_sub(t100, t244, t665));
-    let t667 = mul_add(t112, t269, mul_sub(t110, t295, t666));
-    let t668 = mul_add(t124, t320, mul_add(t122, t346, t667));
-    let t669 = mul_sub(t134, t371, mul_add(t133, t394, t668));
-    mass_matrix_b[5][1] = neg_mul_add(t143, t419, mul_sub(t142, t442, t669));
-    let t670 = mul_add(t91, t171, neg_mul_add(t89, t200, t533));
-    let t671 = mul_sub(t101, t222, mul_add(t100, t245, t670));
-    let t672 = mul_sub(t112, t270, mul_add(t110, t296, t671));
-    let t673 = mul_sub(t124, t321, mul_sub(t122, t347, t672));
-    let t674 = mul_sub(t134, t372, mul_add(t133, t395, t673));
-    mass_matrix_b[5][2] = neg_mul_add(t143, t420, mul_sub(t142, t443, t674));
-    let t675 = mul_add(t20, t533, neg_mul_add(t21, t509, t546));
-    let t676 = mul_add(t91, t185, mul_add(t89, t201, t675));
-    let t677 = mul_sub(t101, t232, mul_add(t100, t246, t676));
-    let t678 = mul_sub(t112, t282, mul_add(t110, t297, t677));
-    let t679 = mul_sub(t124, t333, mul_sub(t122, t348, t678));
-    let t680 = mul_add(t134, t382, mul_sub(t133, t396, t679));
-    mass_matrix_b[5][3] = mul_add(t143, t430, mul_add(t142, t444, t680));
-    let t681 = mul_add(t21, t478, neg_mul_add(t19, t533, t553));
-    let t682 = mul_sub(t91, t194, mul_sub(t89, t202, t681));
-    let t683 = mul_sub(t101, t239, mul_add(t100, t247, t682));
-    let t684 = mul_sub(t112, t290, mul_add(t110, t298, t683));
-    let t685 = mul_sub(t124, t341, mul_sub(t122, t349, t684));
-    let t686 = mul_sub(t134, t389, mul_add(t133, t397, t685));
-    mass_matrix_b[5][4] = mul_sub(t143, t437, mul_sub(t142, t445, t686));
-    let t687 = mul_sub(t101, t473, mul_sub(t91, t472, t554));
-    let t688 = mul_sub(t112, t474, mul_sub(t100, t503, t687));
-    let t689 = mul_sub(t124, t475, mul_sub(t110, t504, t688));
-    let t690 = mul_add(t134, t476, mul_sub(t122, t505, t689));
-    let t691 = mul_sub(t143, t477, mul_sub(t133, t506, t690));
-    let t692 = mul_sub(t20, t478, mul_sub(t142, t507, t691));
-    let t693 = mul_sub(t89, t204, mul_sub(t19, t509, t692));
-    let t694 = mul_add(t100, t249, mul_sub(t91, t197, t693));
-    let t695 = mul_add(t110, t300, mul_sub(t101, t242, t694));
-    let t696 = mul_sub(t122, t351, mul_sub(t112, t293, t695));
-    let t697 = mul_add(t133, t399, mul_sub(t124, t344, t696));
-    let t698 = mul_sub(t142, t447, mul_sub(t134, t392, t697));
-    mass_matrix_b[5][5] = mul_sub(t143, t440, t698);
+    let t375 = c(0.9523333333333334) * t193;
+    mass_matrix_b[0][0] = mul_sub(base_rotation[0][2], t375, c(1.024) + t203);
+    mass_matrix_b[0][1] = mul_add(base_rotation[1][2], t375, t212);
+    mass_matrix_b[0][2] = mul_add(base_rotation[2][2], t375, t221);
+    let t376 = mul_sub(t190, c(0.1253686515315582), t191 * c(0.03856110973562536));
+    let t377 = mul_add(t192, c(0.16392976126718353), t376);
+    let t378 = c(0.16702651650548503) * (t116 + t146);
+    let t379 = mul_add(c(0.11690815888191348), t95 + t104, t378);
+    let t380 = mul_add(c(0.05011835762357158), t128 + t137, t379);
+    let t381 = mul_sub(t21, t212, neg_mul_add(base_rotation[0][2], t229, t224));
+    let t382 = mul_sub(base_rotation[0][0], t380, mul_sub(t20, t221, t381));
+    mass_matrix_b[0][3] = mul_add(base_rotation[0][1], t377, t382);
+    let t383 = t354 - neg_mul_add(base_rotation[0][2], t237, t232);
+    let t384 = mul_add(t21, t203, mul_add(t19, t221, t383));
+    let t385 = mul_add(base_rotation[1][0], t380, t384);
+    mass_matrix_b[0][4] = mul_add(base_rotation[1][1], t377, t385);
+    let t386 = t352 + neg_mul_add(base_rotation[0][2], t245, t240);
+    let t387 = mul_add(t19, t212, mul_add(t20, t203, t386));
+    let t388 = mul_sub(base_rotation[2][0], t380, t387);
+    mass_matrix_b[0][5] = mul_add(base_rotation[2][1], t377, t388);
+    let t389 = c(0.9523333333333334) * t207;
+    mass_matrix_b[1][0] = mul_add(base_rotation[0][2], t389, t246);
+    mass_matrix_b[1][1] = mul_sub(base_rotation[1][2], t389, c(1.024) + t255);
+    mass_matrix_b[1][2] = mul_add(base_rotation[2][2], t389, t259);
+    let t390 = mul_sub(t204, c(0.1253686515315582), t205 * c(0.03856110973562536));
+    let t391 = mul_add(t206, c(0.16392976126718353), t390);
+    let t392 = c(0.16702651650548503) * (t118 + t148);
+    let t393 = mul_add(c(0.11690815888191348), t97 + t106, t392);
+    let t394 = mul_add(c(0.05011835762357158), t130 + t139, t393);
+    let t395 = t354 + neg_mul_add(base_rotation[1][2], t229, t262);
+    let t396 = mul_add(t20, t259, mul_add(t21, t255, t395));
+    let t397 = mul_sub(base_rotation[0][0], t394, t396);
+    mass_matrix_b[1][3] = mul_add(base_rotation[0][1], t391, t397);
+    let t398 = mul_sub(t19, t259, neg_mul_add(base_rotation[1][2], t237, t265));
+    let t399 = mul_sub(base_rotation[1][0], t394, mul_sub(t21, t246, t398));
+    mass_matrix_b[1][4] = mul_add(base_rotation[1][1], t391, t399);
+    let t400 = t350 - neg_mul_add(base_rotation[1][2], t245, t268);
+    let t401 = mul_add(t19, t255, mul_add(t20, t246, t400));
+    let t402 = mul_add(base_rotation[2][0], t394, t401);
+    mass_matrix_b[1][5] = mul_add(base_rotation[2][1], t391, t402);
+    let t403 = c(0.9523333333333334) * t216;
+    mass_matrix_b[2][0] = mul_add(base_rotation[0][2], t403, t269);
+    mass_matrix_b[2][1] = mul_add(base_rotation[1][2], t403, t270);
+    mass_matrix_b[2][2] = mul_sub(base_rotation[2][2], t403, c(1.024) + t279);
+    let t404 = mul_sub(t213, c(0.1253686515315582), t214 * c(0.03856110973562536));
+    let t405 = mul_add(t215, c(0.16392976126718353), t404);
+    let t406 = c(0.16702651650548503) * (t120 + t150);
+    let t407 = mul_add(c(0.11690815888191348), t99 + t108, t406);
+    let t408 = mul_add(c(0.05011835762357158), t132 + t141, t407);
+    let t409 = t352 - neg_mul_add(base_rotation[2][2], t229, t282);
+    let t410 = mul_add(t20, t279, mul_add(t21, t270, t409));
+    let t411 = mul_add(base_rotation[0][0], t408, t410);
+    mass_matrix_b[2][3] = mul_add(base_rotation[0][1], t405, t411);
+    let t412 = t350 + neg_mul_add(base_rotation[2][2], t237, t285);
+    let t413 = mul_add(t21, t269, mul_add(t19, t279, t412));
+    let t414 = mul_sub(base_rotation[1][0], t408, t413);
+    mass_matrix_b[2][4] = mul_add(base_rotation[1][1], t405, t414);
+    let t415 = mul_sub(t20, t269, neg_mul_add(base_rotation[2][2], t245, t288));
+    let t416 = mul_sub(base_rotation[2][0], t408, mul_sub(t19, t270, t415));
+    mass_matrix_b[2][5] = mul_add(base_rotation[2][1], t405, t416);
+    let t417 = c(0.9523333333333334) * t228;
+    mass_matrix_b[3][0] = -mul_add(base_rotation[0][2], t417, t291);
+    let t418 = platform_rotation[2][1] * c(3.469446951953614e-18);
+    let t419 = mul_add(platform_rotation[2][0], c(8.673617379884035e-18), t418);
+    mass_matrix_b[3][1] = t419 - mul_add(base_rotation[1][2], t417, t294);
+    let t420 = platform_rotation[1][1] * c(3.469446951953614e-18);
+    let t421 = mul_add(platform_rotation[1][0], c(8.673617379884035e-18), t420);
+    mass_matrix_b[3][2] = -(t421 + mul_add(base_rotation[2][2], t417, t297));
+    let t422 = t364 + t373;
+    let t423 = t422 + mul_sub(platform_rotation[2][0], t370, t374);
+    let t424 = mul_add(t225, c(0.1253686515315582), t226 * c(0.03856110973562536));
+    let t425 = neg_mul_add(t227, c(0.16392976126718353), t424);
+    let t426 = c(0.16702651650548503) * (t157 + t166);
+    let t427 = mul_sub(c(0.11690815888191348), t151 + t154, t426);
+    let t428 = neg_mul_add(c(0.05011835762357158), t160 + t163, t427);
+    let t429 = mul_add(t157, t301, mul_add(t151, t298, t300));
+    let t430 = mul_add(t163, t303, mul_add(t160, t302, t429));
+    let t431 = mul_add(t151, t172, mul_add(t166, t304, t430));
+    let t432 = mul_add(t157, t178, mul_sub(t154, t175, t431));
+    let t433 = mul_sub(t163, t184, mul_add(t160, t181, t432));
+    let t434 = mul_add(t21, t294, t364 - mul_add(t166, t187, t433));
+    let t435 = mul_add(base_rotation[0][0], t428, mul_sub(t20, t297, t434));
+    mass_matrix_b[3][3] = t423 + mul_add(base_rotation[0][1], t425, t435);
+    let t436 = mul_sub(t155, t175, mul_add(t152, t172, t307));
+    let t437 = mul_add(t161, t181, mul_add(t158, t178, t436));
+    let t438 = mul_add(t167, t187, mul_sub(t164, t184, t437));
+    let t439 = mul_sub(platform_rotation[1][0], t358, t438);
+    let t440 = mul_sub(t19, t297, mul_sub(platform_rotation[1][1], t363, t439));
+    let t441 = mul_add(base_rotation[1][0], t428, mul_sub(t21, t291, t440));
+    mass_matrix_b[3][4] = mul_add(base_rotation[1][1], t425, t441);
+    let t442 = mul_sub(t156, t175, mul_add(t153, t172, t310));
+    let t443 = mul_add(t162, t181, mul_add(t159, t178, t442));
+    let t444 = mul_add(t168, t187, mul_sub(t165, t184, t443));
+    let t445 = mul_sub(platform_rotation[2][0], t358, t444);
+    let t446 = mul_sub(t20, t291, mul_sub(platform_rotation[2][1], t363, t445));
+    let t447 = mul_add(base_rotation[2][0], t428, mul_sub(t19, t294, t446));
+    mass_matrix_b[3][5] = mul_add(base_rotation[2][1], t425, t447);
+    let t448 = c(0.9523333333333334) * t236;
+    mass_matrix_b[4][0] = -mul_add(base_rotation[0][2], t448, t313 + t419);
+    mass_matrix_b[4][1] = -mul_add(base_rotation[1][2], t448, t316);
+    let t449 = platform_rotation[0][1] * c(3.469446951953614e-18);
+    let t450 = mul_add(platform_rotation[0][0], c(8.673617379884035e-18), t449);
+    mass_matrix_b[4][2] = t450 - mul_add(base_rotation[2][2], t448, t319);
+    let t451 = mul_add(t233, c(0.1253686515315582), t234 * c(0.03856110973562536));
+    let t452 = neg_mul_add(t235, c(0.16392976126718353), t451);
+    let t453 = c(0.16702651650548503) * (t158 + t167);
+    let t454 = mul_sub(c(0.11690815888191348), t152 + t155, t453);
+    let t455 = neg_mul_add(c(0.05011835762357158), t161 + t164, t454);
+    let t456 = mul_sub(t154, t176, mul_add(t151, t173, t307));
+    let t457 = mul_add(t160, t182, mul_add(t157, t179, t456));
+    let t458 = mul_add(t166, t188, mul_sub(t163, t185, t457));
+    let t459 = mul_sub(platform_rotation[0][0], t366, t458);
+    let t460 = mul_sub(t21, t316, mul_sub(platform_rotation[0][1], t368, t459));
+    let t461 = mul_add(base_rotation[0][0], t455, mul_sub(t20, t319, t460));
+    mass_matrix_b[4][3] = mul_add(base_rotation[0][1], t452, t461);
+    let t462 = mul_add(t158, t323, mul_add(t152, t320, t322));
+    let t463 = mul_add(t164, t325, mul_add(t161, t324, t462));
+    let t464 = mul_add(t152, t173, mul_add(t167, t326, t463));
+    let t465 = mul_add(t158, t179, mul_sub(t155, t176, t464));
+    let t466 = mul_sub(t164, t185, mul_add(t161, t182, t465));
+    let t467 = mul_sub(t19, t319, t423 - (t373 - mul_add(t167, t188, t466)));
+    let t468 = mul_add(base_rotation[1][0], t455, mul_sub(t21, t313, t467));
+    mass_matrix_b[4][4] = mul_add(base_rotation[1][1], t452, t468);
+    let t469 = mul_sub(t156, t176, mul_add(t153, t173, t329));
+    let t470 = mul_add(t162, t182, mul_add(t159, t179, t469));
+    let t471 = mul_add(t168, t188, mul_sub(t165, t185, t470));
+    let t472 = mul_sub(platform_rotation[2][0], t366, t471);
+    let t473 = mul_sub(t20, t313, mul_sub(platform_rotation[2][1], t368, t472));
+    let t474 = mul_add(base_rotation[2][0], t455, mul_sub(t19, t316, t473));
+    mass_matrix_b[4][5] = mul_add(base_rotation[2][1], t452, t474);
+    let t475 = c(0.9523333333333334) * t244;
+    mass_matrix_b[5][0] = neg_mul_add(base_rotation[0][2], t475, t421 - t332);
+    mass_matrix_b[5][1] = -mul_add(base_rotation[1][2], t475, t335 + t450);
+    mass_matrix_b[5][2] = -mul_add(base_rotation[2][2], t475, t338);
+    let t476 = mul_add(t241, c(0.1253686515315582), t242 * c(0.03856110973562536));
+    let t477 = neg_mul_add(t243, c(0.16392976126718353), t476);
+    let t478 = c(0.16702651650548503) * (t159 + t168);
+    let t479 = mul_sub(c(0.11690815888191348), t153 + t156, t478);
+    let t480 = neg_mul_add(c(0.05011835762357158), t162 + t165, t479);
+    let t481 = mul_sub(t154, t177, mul_add(t151, t174, t310));
+    let t482 = mul_add(t160, t183, mul_add(t157, t180, t481));
+    let t483 = mul_add(t166, t189, mul_sub(t163, t186, t482));
+    let t484 = mul_sub(platform_rotation[0][0], t370, t483);
+    let t485 = mul_sub(t21, t335, mul_sub(platform_rotation[0][1], t372, t484));
+    let t486 = mul_add(base_rotation[0][0], t480, mul_sub(t20, t338, t485));
+    mass_matrix_b[5][3] = mul_add(base_rotation[0][1], t477, t486);
+    let t487 = mul_sub(t155, t177, mul_add(t152, t174, t329));
+    let t488 = mul_add(t161, t183, mul_add(t158, t180, t487));
+    let t489 = mul_add(t167, t189, mul_sub(t164, t186, t488));
+    let t490 = mul_sub(platform_rotation[1][0], t370, t489);
+    let t491 = mul_sub(t19, t338, mul_sub(platform_rotation[1][1], t372, t490));
+    let t492 = mul_add(base_rotation[1][0], t480, mul_sub(t21, t332, t491));
+    mass_matrix_b[5][4] = mul_add(base_rotation[1][1], t477, t492);
+    let t493 = mul_add(t159, t341, mul_add(t153, t339, t340));
+    let t494 = mul_add(t165, t343, mul_add(t162, t342, t493));
+    let t495 = mul_add(t153, t174, mul_add(t168, t344, t494));
+    let t496 = mul_add(t159, t180, mul_sub(t156, t177, t495));
+    let t497 = mul_sub(t165, t186, mul_add(t162, t183, t496));
+    let t498 = mul_sub(t20, t332, t422 + mul_add(t168, t189, t497));
+    let t499 = mul_add(base_rotation[2][0], t480, mul_sub(t19, t335, t498));
+    mass_matrix_b[5][5] = mul_add(base_rotation[2][1], t477, t499);
 }
 
 /// Coriolis matrices C_p and C_b, equation (49).
@@ -7761,162 +7565,147 @@ pub fn coriolis_matrices<T: Scalar>(
         t19,
         t20,
         t21,
-        t89,
-        t91,
-        t93,
         t95,
         t97,
         t99,
-        t100,
-        t101,
-        t102,
-        t110,
-        t112,
-        t114,
+        t104,
+        t106,
+        t108,
         t116,
         t118,
         t120,
-        t122,
-        t124,
-        t126,
         t128,
         t130,
         t132,
-        t133,
-        t134,
-        t135,
         t137,
         t139,
         t141,
-        t142,
-        t143,
-        t144,
         t146,
         t148,
         t150,
-        t252,
-        t253,
-        t254,
-        t261,
+        t151,
+        t152,
+        t153,
+        t154,
+        t155,
+        t156,
+        t157,
+        t158,
+        t159,
+        t160,
+        t161,
+        t162,
+        t163,
+        t164,
+        t165,
+        t166,
+        t167,
+        t168,
+        t201,
+        t208,
+        t215,
+        t226,
+        t236,
+        t241,
+        t246,
+        t248,
+        t258,
         t267,
         t273,
-        t276,
-        t277,
-        t283,
-        t287,
-        t293,
-        t296,
-        t302,
-        t308,
+        t279,
+        t285,
+        t291,
+        t297,
+        t303,
         t309,
-        t328,
-        t329,
-        t330,
-        t494,
-        t495,
-        t501,
-        t503,
-        t504,
-        t506,
-        t507,
-        t508,
-        t510,
+        t315,
+        t334,
+        t335,
+        t336,
+        t372,
+        t374,
+        t377,
+        t380,
+        t382,
+        t384,
         t511,
         t512,
         t513,
-        t535,
-        t542,
-        t545,
-        t546,
+        t520,
+        t521,
+        t522,
+        t529,
+        t530,
+        t531,
+        t538,
+        t539,
+        t540,
         t547,
+        t548,
         t549,
-        t550,
-        t551,
-        t552,
+        t556,
+        t557,
+        t558,
+        t567,
         t573,
-        t574,
         t579,
-        t581,
-        t582,
-        t584,
         t585,
-        t586,
-        t588,
-        t589,
-        t590,
         t591,
-        t612,
+        t597,
+        t601,
+        t605,
+        t609,
         t613,
-        t618,
-        t620,
+        t617,
         t621,
-        t623,
-        t624,
         t625,
-        t627,
-        t628,
         t629,
-        t630,
+        t633,
+        t637,
+        t641,
+        t645,
         t651,
-        t652,
         t657,
-        t659,
-        t660,
-        t662,
         t663,
-        t664,
-        t666,
-        t667,
-        t668,
         t669,
-        t690,
-        t691,
-        t696,
-        t698,
+        t675,
+        t681,
+        t687,
+        t693,
         t699,
-        t701,
-        t702,
-        t703,
         t705,
-        t706,
-        t707,
-        t708,
-        t709,
-        t710,
         t711,
-        t726,
-        t740,
-        t754,
-        t755,
-        t756,
-        t757,
-        t771,
-        t784,
-        t798,
-        t799,
-        t800,
-        t801,
-        t815,
+        t717,
+        t723,
+        t729,
+        t735,
+        t741,
+        t747,
+        t753,
+        t783,
+        t785,
+        t787,
+        t797,
+        t802,
+        t807,
+        t808,
+        t809,
+        t810,
+        t811,
+        t812,
+        t813,
+        t816,
+        t818,
+        t820,
+        t821,
+        t824,
+        t826,
         t829,
-        t842,
-        t848,
-        t854,
-        t860,
-        t866,
-        t872,
-        t878,
-        t884,
-        t890,
-        t896,
-        t902,
-        t908,
-        t914,
-        t920,
-        t926,
-        t932,
-        t938,
-        t944,
-        t950,
+        t831,
+        t833,
+        t834,
+        t836,
+        t837,
     ) = {
         // rotation of the platform seen from the base
         let t1 = base_rotation[1][0] * platform_rotation[1][0];
@@ -8112,1260 +7901,1355 @@ pub fn coriolis_matrices<T: Scalar>(
         let t148 = mul_add(base_rotation[1][1], t87, t147);
         let t149 = neg_mul_add(base_rotation[2][0], t86, base_rotation[2][2]);
         let t150 = mul_add(base_rotation[2][1], t87, t149);
-        // leg 1: mass matrix of the leg in the speeds of its joint
-        let t151 = base_rotation[0][2] * c(0.17066666666666666);
-        let t152 = mul_add(t95, c(0.4761666666666667), t151);
-        let t153 = t95 * t152;
-        let t154 = c(2.0) * t153;
-        let t155 = base_rotation[1][2] * c(0.17066666666666666);
-        let t156 = mul_add(t97, c(0.4761666666666667), t155);
-        let t157 = mul_add(t95, t156, t97 * t152);
-        let t158 = base_rotation[2][2] * c(0.17066666666666666);
-        let t159 = mul_add(t99, c(0.4761666666666667), t158);
-        let t160 = mul_add(t95, t159, t99 * t152);
-        let t161 = t97 * t156;
-        let t162 = c(2.0) * t161;
-        let t163 = mul_add(t97, t159, t99 * t156);
-        let t164 = t99 * t159;
-        let t165 = c(2.0) * t164;
-        // leg 1: leg inertia between joint and base speeds
-        let t166 = base_rotation[1][1] * c(0.12275970481124972);
-        let t167 = mul_sub(base_rotation[1][0], c(0.1316436662914507), t166);
-        let t168 = base_rotation[2][1] * c(0.12275970481124972);
-        let t169 = mul_sub(base_rotation[2][0], c(0.1316436662914507), t168);
-        let t170 = base_rotation[0][1] * c(0.12275970481124972);
-        let t171 = mul_sub(base_rotation[0][0], c(0.1316436662914507), t170);
-        // leg 2: mass matrix of the leg in the speeds of its joint
-        let t172 = neg_mul_add(t104, c(0.4761666666666667), t151);
-        let t173 = c(2.0) * (t104 * t172);
-        let t174 = neg_mul_add(t106, c(0.4761666666666667), t155);
-        let t175 = mul_add(t104, t174, t106 * t172);
-        let t176 = neg_mul_add(t108, c(0.4761666666666667), t158);
-        let t177 = mul_add(t104, t176, t108 * t172);
-        let t178 = c(2.0) * (t106 * t174);
-        let t179 = mul_add(t106, t176, t108 * t174);
-        let t180 = c(2.0) * (t108 * t176);
-        // leg 2: leg inertia between joint and base speeds
-        let t181 = mul_add(base_rotation[1][0], c(0.1316436662914507), t166);
-        let t182 = mul_add(base_rotation[2][0], c(0.1316436662914507), t168);
-        let t183 = mul_add(base_rotation[0][0], c(0.1316436662914507), t170);
-        // leg 3: mass matrix of the leg in the speeds of its joint
-        let t184 = neg_mul_add(t116, c(0.4761666666666667), t151);
-        let t185 = t116 * t184;
-        let t186 = c(2.0) * t185;
-        let t187 = neg_mul_add(t118, c(0.4761666666666667), t155);
-        let t188 = mul_add(t116, t187, t118 * t184);
-        let t189 = neg_mul_add(t120, c(0.4761666666666667), t158);
-        let t190 = mul_add(t116, t189, t120 * t184);
-        let t191 = t118 * t187;
-        let t192 = c(2.0) * t191;
-        let t193 = mul_add(t118, t189, t120 * t187);
-        let t194 = t120 * t189;
-        let t195 = c(2.0) * t194;
-        // leg 3: leg inertia between joint and base speeds
-        let t196 = base_rotation[1][1] * c(0.17538661166134234);
-        let t197 = mul_add(base_rotation[1][0], c(0.040491189781895726), t196);
-        let t198 = base_rotation[2][1] * c(0.17538661166134234);
-        let t199 = mul_add(base_rotation[2][0], c(0.040491189781895726), t198);
-        let t200 = base_rotation[0][1] * c(0.17538661166134234);
-        let t201 = mul_add(base_rotation[0][0], c(0.040491189781895726), t200);
-        // leg 4: mass matrix of the leg in the speeds of its joint
-        let t202 = neg_mul_add(t128, c(0.4761666666666667), t151);
-        let t203 = t128 * t202;
-        let t204 = c(2.0) * t203;
-        let t205 = neg_mul_add(t130, c(0.4761666666666667), t155);
-        let t206 = mul_add(t128, t205, t130 * t202);
-        let t207 = neg_mul_add(t132, c(0.4761666666666667), t158);
-        let t208 = mul_add(t128, t207, t132 * t202);
-        let t209 = t130 * t205;
-        let t210 = c(2.0) * t209;
-        let t211 = mul_add(t130, t207, t132 * t205);
-        let t212 = t132 * t207;
-        let t213 = c(2.0) * t212;
-        // leg 4: leg inertia between joint and base speeds
-        let t214 = base_rotation[1][1] * c(0.052626906850092664);
-        let t215 = mul_sub(base_rotation[1][0], c(0.17213485607334636), t214);
-        let t216 = base_rotation[2][1] * c(0.052626906850092664);
-        let t217 = mul_sub(base_rotation[2][0], c(0.17213485607334636), t216);
-        let t218 = base_rotation[0][1] * c(0.052626906850092664);
-        let t219 = mul_sub(base_rotation[0][0], c(0.17213485607334636), t218);
-        // leg 5: mass matrix of the leg in the speeds of its joint
-        let t220 = mul_add(t137, c(0.4761666666666667), t151);
-        let t221 = t137 * t220;
-        let t222 = c(2.0) * t221;
-        let t223 = mul_add(t139, c(0.4761666666666667), t155);
-        let t224 = mul_add(t137, t223, t139 * t220);
-        let t225 = mul_add(t141, c(0.4761666666666667), t158);
-        let t226 = mul_add(t137, t225, t141 * t220);
-        let t227 = t139 * t223;
-        let t228 = c(2.0) * t227;
-        let t229 = mul_add(t139, t225, t141 * t223);
-        let t230 = t141 * t225;
-        let t231 = c(2.0) * t230;
-        // leg 5: leg inertia between joint and base speeds
-        let t232 = mul_add(base_rotation[1][0], c(0.17213485607334636), t214);
-        let t233 = mul_add(base_rotation[2][0], c(0.17213485607334636), t216);
-        let t234 = mul_add(base_rotation[0][0], c(0.17213485607334636), t218);
-        // leg 6: mass matrix of the leg in the speeds of its joint
-        let t235 = mul_add(t146, c(0.4761666666666667), t151);
-        let t236 = t146 * t235;
-        let t237 = c(2.0) * t236;
-        let t238 = mul_add(t148, c(0.4761666666666667), t155);
-        let t239 = mul_add(t146, t238, t148 * t235);
-        let t240 = mul_add(t150, c(0.4761666666666667), t158);
-        let t241 = mul_add(t146, t240, t150 * t235);
-        let t242 = t148 * t238;
-        let t243 = c(2.0) * t242;
-        let t244 = mul_add(t148, t240, t150 * t238);
-        let t245 = t150 * t240;
-        let t246 = c(2.0) * t245;
-        // leg 6: leg inertia between joint and base speeds
-        let t247 = mul_sub(base_rotation[1][0], c(0.040491189781895726), t196);
-        let t248 = mul_sub(base_rotation[2][0], c(0.040491189781895726), t198);
-        let t249 = mul_sub(base_rotation[0][0], c(0.040491189781895726), t200);
-        // mass matrix of the legs
-        let t250 = mul_sub(c(2.0), t185, mul_sub(c(2.0), t153, t173));
-        let t251 = mul_sub(c(2.0), t221, mul_add(c(2.0), t203, t250));
-        let t252 = mul_add(c(2.0), t236, t251);
-        let t253 = t239 + (t224 - (t206 + (t188 - (t157 - t175))));
-        let t254 = t241 + (t226 - (t208 + (t190 - (t160 - t177))));
-        let t255 = mul_add(t114, t188, t126 * t206);
-        let t256 = mul_sub(t93, t157, t102 * t175) + t255;
-        let t257 = mul_add(t135, t224, t144 * t239) - t256;
-        let t258 = mul_add(t112, t190, t124 * t208);
-        let t259 = mul_sub(t91, t160, t101 * t177) + t258;
-        let t260 = mul_add(t134, t226, t143 * t241) - t259;
-        let t261 = t257 - t260;
-        let t262 = mul_sub(t100, t177, mul_sub(t89, t160, t93 * t154));
-        let t263 = mul_add(t110, t190, mul_sub(t102, t173, t262));
-        let t264 = mul_sub(t122, t208, mul_sub(t114, t186, t263));
-        let t265 = mul_add(t133, t226, mul_sub(t126, t204, t264));
-        let t266 = mul_sub(t142, t241, mul_sub(t135, t222, t265));
-        let t267 = mul_sub(t144, t237, t266);
-        let t268 = mul_sub(t101, t173, mul_sub(t91, t154, t89 * t157));
-        let t269 = mul_add(t112, t186, mul_sub(t100, t175, t268));
-        let t270 = mul_sub(t124, t204, mul_sub(t110, t188, t269));
-        let t271 = mul_add(t134, t222, mul_sub(t122, t206, t270));
-        let t272 = mul_sub(t143, t237, mul_sub(t133, t224, t271));
-        let t273 = mul_sub(t142, t239, t272);
-        let t274 = mul_sub(c(2.0), t191, mul_sub(c(2.0), t161, t178));
-        let t275 = mul_sub(c(2.0), t227, mul_add(c(2.0), t209, t274));
-        let t276 = mul_add(c(2.0), t242, t275);
-        let t277 = t244 + (t229 - (t211 + (t193 - (t163 - t179))));
-        let t278 = mul_sub(t102, t178, mul_sub(t93, t162, t91 * t163));
-        let t279 = mul_add(t114, t192, mul_sub(t101, t179, t278));
-        let t280 = mul_sub(t126, t210, mul_sub(t112, t193, t279));
-        let t281 = mul_add(t135, t228, mul_sub(t124, t211, t280));
-        let t282 = mul_sub(t144, t243, mul_sub(t134, t229, t281));
-        let t283 = mul_sub(t143, t244, t282);
-        let t284 = mul_add(t110, t193, t122 * t211);
-        let t285 = mul_sub(t89, t163, t100 * t179) + t284;
-        let t286 = mul_add(t133, t229, t142 * t244) - t285;
-        let t287 = t257 - t286;
-        let t288 = mul_sub(t101, t175, mul_sub(t91, t157, t89 * t162));
-        let t289 = mul_add(t112, t188, mul_sub(t100, t178, t288));
-        let t290 = mul_sub(t124, t206, mul_sub(t110, t192, t289));
-        let t291 = mul_add(t134, t224, mul_sub(t122, t210, t290));
-        let t292 = mul_sub(t143, t239, mul_sub(t133, t228, t291));
-        let t293 = mul_sub(t142, t243, t292);
-        let t294 = mul_sub(c(2.0), t194, mul_sub(c(2.0), t164, t180));
-        let t295 = mul_sub(c(2.0), t230, mul_add(c(2.0), t212, t294));
-        let t296 = mul_add(c(2.0), t245, t295);
-        let t297 = mul_sub(t102, t179, mul_sub(t93, t163, t91 * t165));
-        let t298 = mul_add(t114, t193, mul_sub(t101, t180, t297));
-        let t299 = mul_sub(t126, t211, mul_sub(t112, t195, t298));
-        let t300 = mul_add(t135, t229, mul_sub(t124, t213, t299));
-        let t301 = mul_sub(t144, t244, mul_sub(t134, t231, t300));
-        let t302 = mul_sub(t143, t246, t301);
-        let t303 = mul_sub(t100, t180, mul_sub(t89, t165, t93 * t160));
-        let t304 = mul_add(t110, t195, mul_sub(t102, t177, t303));
-        let t305 = mul_sub(t122, t213, mul_sub(t114, t190, t304));
-        let t306 = mul_add(t133, t231, mul_sub(t126, t208, t305));
-        let t307 = mul_sub(t142, t246, mul_sub(t135, t226, t306));
-        let t308 = mul_sub(t144, t241, t307);
-        let t309 = t260 - t286;
+        // leg 1: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+        let t151 = mul_sub(t91, t99, t93 * t97);
+        let t152 = mul_sub(t93, t95, t89 * t99);
+        let t153 = mul_sub(t89, t97, t91 * t95);
+        // leg 2: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+        let t154 = mul_sub(t101, t108, t102 * t106);
+        let t155 = mul_sub(t102, t104, t100 * t108);
+        let t156 = mul_sub(t100, t106, t101 * t104);
+        // leg 3: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+        let t157 = mul_sub(t112, t120, t114 * t118);
+        let t158 = mul_sub(t114, t116, t110 * t120);
+        let t159 = mul_sub(t110, t118, t112 * t116);
+        // leg 4: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+        let t160 = mul_sub(t124, t132, t126 * t130);
+        let t161 = mul_sub(t126, t128, t122 * t132);
+        let t162 = mul_sub(t122, t130, t124 * t128);
+        // leg 5: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+        let t163 = mul_sub(t134, t141, t135 * t139);
+        let t164 = mul_sub(t135, t137, t133 * t141);
+        let t165 = mul_sub(t133, t139, t134 * t137);
+        // leg 6: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+        let t166 = mul_sub(t143, t150, t144 * t148);
+        let t167 = mul_sub(t144, t146, t142 * t150);
+        let t168 = mul_sub(t142, t148, t143 * t146);
+        // leg 1: rod's coupling times axis, a force at the platform joint
+        let t169 = base_rotation[0][2] * c(0.17066666666666666);
+        let t170 = base_rotation[1][2] * c(0.17066666666666666);
+        let t171 = base_rotation[2][2] * c(0.17066666666666666);
+        // leg 1: moment of that force
+        let t172 = mul_sub(t91, t171, t93 * t170);
+        let t173 = mul_sub(t93, t169, t89 * t171);
+        let t174 = mul_sub(t89, t170, t91 * t169);
+        // leg 2: moment of that force
+        let t175 = mul_sub(t101, t171, t102 * t170);
+        let t176 = mul_sub(t102, t169, t100 * t171);
+        let t177 = mul_sub(t100, t170, t101 * t169);
+        // leg 3: moment of that force
+        let t178 = mul_sub(t112, t171, t114 * t170);
+        let t179 = mul_sub(t114, t169, t110 * t171);
+        let t180 = mul_sub(t110, t170, t112 * t169);
+        // leg 4: moment of that force
+        let t181 = mul_sub(t124, t171, t126 * t170);
+        let t182 = mul_sub(t126, t169, t122 * t171);
+        let t183 = mul_sub(t122, t170, t124 * t169);
+        // leg 5: moment of that force
+        let t184 = mul_sub(t134, t171, t135 * t170);
+        let t185 = mul_sub(t135, t169, t133 * t171);
+        let t186 = mul_sub(t133, t170, t134 * t169);
+        // leg 6: moment of that force
+        let t187 = mul_sub(t143, t171, t144 * t170);
+        let t188 = mul_sub(t144, t169, t142 * t171);
+        let t189 = mul_sub(t142, t170, t143 * t169);
+        // part of the legs' mass matrix on the side of the axes
+        let t190 = t95 * c(0.9523333333333334);
+        let t191 = t104 * c(0.9523333333333334);
+        let t192 = t116 * c(0.9523333333333334);
+        let t193 = t128 * c(0.9523333333333334);
+        let t194 = t137 * c(0.9523333333333334);
+        let t195 = t146 * c(0.9523333333333334);
+        let t196 = t137 + t146 + (t95 - t104 - (t116 + t128));
+        let t197 = c(0.17066666666666666) * t196;
+        let t198 = base_rotation[0][2] * t197;
+        let t199 = mul_add(t116, t192, mul_add(t95, t190, t104 * t191));
+        let t200 = mul_add(t137, t194, mul_add(t128, t193, t199));
+        let t201 = mul_add(base_rotation[0][2], t197, mul_add(t146, t195, t200));
+        let t202 = t139 + t148 + (t97 - t106 - (t118 + t130));
+        let t203 = c(0.17066666666666666) * t202;
+        let t204 = base_rotation[0][2] * t203;
+        let t205 = mul_add(t118, t192, mul_add(t97, t190, t106 * t191));
+        let t206 = mul_add(t139, t194, mul_add(t130, t193, t205));
+        let t207 = mul_add(t148, t195, t206);
+        let t208 = mul_add(base_rotation[0][2], t203, t207);
+        let t209 = t141 + t150 + (t99 - t108 - (t120 + t132));
+        let t210 = c(0.17066666666666666) * t209;
+        let t211 = base_rotation[0][2] * t210;
+        let t212 = mul_add(t120, t192, mul_add(t99, t190, t108 * t191));
+        let t213 = mul_add(t141, t194, mul_add(t132, t193, t212));
+        let t214 = mul_add(t150, t195, t213);
+        let t215 = mul_add(base_rotation[0][2], t210, t214);
+        let t216 = t163 + t166 - (t151 - t154 + (t157 + t160));
+        let t217 = c(0.17066666666666666) * t216;
+        let t218 = base_rotation[0][2] * t217;
+        let t219 = t164 + t167 - (t152 - t155 + (t158 + t161));
+        let t220 = c(0.17066666666666666) * t219;
+        let t221 = base_rotation[0][2] * t220;
+        let t222 = t165 + t168 - (t153 - t156 + (t159 + t162));
+        let t223 = c(0.17066666666666666) * t222;
+        let t224 = base_rotation[0][2] * t223;
+        let t225 = base_rotation[1][2] * t197;
+        let t226 = mul_add(base_rotation[1][2], t197, t207);
+        let t227 = t97 * c(0.9523333333333334);
+        let t228 = t106 * c(0.9523333333333334);
+        let t229 = t118 * c(0.9523333333333334);
+        let t230 = t130 * c(0.9523333333333334);
+        let t231 = t139 * c(0.9523333333333334);
+        let t232 = t148 * c(0.9523333333333334);
+        let t233 = base_rotation[1][2] * t203;
+        let t234 = mul_add(t118, t229, mul_add(t97, t227, t106 * t228));
+        let t235 = mul_add(t139, t231, mul_add(t130, t230, t234));
+        let t236 = mul_add(base_rotation[1][2], t203, mul_add(t148, t232, t235));
+        let t237 = base_rotation[1][2] * t210;
+        let t238 = mul_add(t120, t229, mul_add(t99, t227, t108 * t228));
+        let t239 = mul_add(t141, t231, mul_add(t132, t230, t238));
+        let t240 = mul_add(t150, t232, t239);
+        let t241 = mul_add(base_rotation[1][2], t210, t240);
+        let t242 = base_rotation[1][2] * t217;
+        let t243 = base_rotation[1][2] * t220;
+        let t244 = base_rotation[1][2] * t223;
+        let t245 = base_rotation[2][2] * t197;
+        let t246 = mul_add(base_rotation[2][2], t197, t214);
+        let t247 = base_rotation[2][2] * t203;
+        let t248 = mul_add(base_rotation[2][2], t203, t240);
+        let t249 = t99 * c(0.9523333333333334);
+        let t250 = t108 * c(0.9523333333333334);
+        let t251 = t120 * c(0.9523333333333334);
+        let t252 = t132 * c(0.9523333333333334);
+        let t253 = t141 * c(0.9523333333333334);
+        let t254 = t150 * c(0.9523333333333334);
+        let t255 = base_rotation[2][2] * t210;
+        let t256 = mul_add(t120, t251, mul_add(t99, t249, t108 * t250));
+        let t257 = mul_add(t141, t253, mul_add(t132, t252, t256));
+        let t258 = mul_add(base_rotation[2][2], t210, mul_add(t150, t254, t257));
+        let t259 = base_rotation[2][2] * t217;
+        let t260 = base_rotation[2][2] * t220;
+        let t261 = base_rotation[2][2] * t223;
+        let t262 = mul_sub(t157, t192, mul_add(t151, t190, t154 * t191));
+        let t263 = mul_add(t163, t194, mul_add(t160, t193, t262));
+        let t264 = mul_sub(t95, t172, mul_add(t166, t195, t263));
+        let t265 = mul_sub(t116, t178, mul_sub(t104, t175, t264));
+        let t266 = mul_sub(t137, t184, mul_add(t128, t181, t265));
+        let t267 = mul_add(t146, t187, t266);
+        let t268 = mul_sub(t157, t229, mul_add(t151, t227, t154 * t228));
+        let t269 = mul_add(t163, t231, mul_add(t160, t230, t268));
+        let t270 = mul_sub(t97, t172, mul_add(t166, t232, t269));
+        let t271 = mul_sub(t118, t178, mul_sub(t106, t175, t270));
+        let t272 = mul_sub(t139, t184, mul_add(t130, t181, t271));
+        let t273 = mul_add(t148, t187, t272);
+        let t274 = mul_sub(t157, t251, mul_add(t151, t249, t154 * t250));
+        let t275 = mul_add(t163, t253, mul_add(t160, t252, t274));
+        let t276 = mul_sub(t99, t172, mul_add(t166, t254, t275));
+        let t277 = mul_sub(t120, t178, mul_sub(t108, t175, t276));
+        let t278 = mul_sub(t141, t184, mul_add(t132, t181, t277));
+        let t279 = mul_add(t150, t187, t278);
+        let t280 = mul_sub(t158, t192, mul_add(t152, t190, t155 * t191));
+        let t281 = mul_add(t164, t194, mul_add(t161, t193, t280));
+        let t282 = mul_sub(t95, t173, mul_add(t167, t195, t281));
+        let t283 = mul_sub(t116, t179, mul_sub(t104, t176, t282));
+        let t284 = mul_sub(t137, t185, mul_add(t128, t182, t283));
+        let t285 = mul_add(t146, t188, t284);
+        let t286 = mul_sub(t158, t229, mul_add(t152, t227, t155 * t228));
+        let t287 = mul_add(t164, t231, mul_add(t161, t230, t286));
+        let t288 = mul_sub(t97, t173, mul_add(t167, t232, t287));
+        let t289 = mul_sub(t118, t179, mul_sub(t106, t176, t288));
+        let t290 = mul_sub(t139, t185, mul_add(t130, t182, t289));
+        let t291 = mul_add(t148, t188, t290);
+        let t292 = mul_sub(t158, t251, mul_add(t152, t249, t155 * t250));
+        let t293 = mul_add(t164, t253, mul_add(t161, t252, t292));
+        let t294 = mul_sub(t99, t173, mul_add(t167, t254, t293));
+        let t295 = mul_sub(t120, t179, mul_sub(t108, t176, t294));
+        let t296 = mul_sub(t141, t185, mul_add(t132, t182, t295));
+        let t297 = mul_add(t150, t188, t296);
+        let t298 = mul_sub(t159, t192, mul_add(t153, t190, t156 * t191));
+        let t299 = mul_add(t165, t194, mul_add(t162, t193, t298));
+        let t300 = mul_sub(t95, t174, mul_add(t168, t195, t299));
+        let t301 = mul_sub(t116, t180, mul_sub(t104, t177, t300));
+        let t302 = mul_sub(t137, t186, mul_add(t128, t183, t301));
+        let t303 = mul_add(t146, t189, t302);
+        let t304 = mul_sub(t159, t229, mul_add(t153, t227, t156 * t228));
+        let t305 = mul_add(t165, t231, mul_add(t162, t230, t304));
+        let t306 = mul_sub(t97, t174, mul_add(t168, t232, t305));
+        let t307 = mul_sub(t118, t180, mul_sub(t106, t177, t306));
+        let t308 = mul_sub(t139, t186, mul_add(t130, t183, t307));
+        let t309 = mul_add(t148, t189, t308);
+        let t310 = mul_sub(t159, t251, mul_add(t153, t249, t156 * t250));
+        let t311 = mul_add(t165, t253, mul_add(t162, t252, t310));
+        let t312 = mul_sub(t99, t174, mul_add(t168, t254, t311));
+        let t313 = mul_sub(t120, t180, mul_sub(t108, t177, t312));
+        let t314 = mul_sub(t141, t186, mul_add(t132, t183, t313));
+        let t315 = mul_add(t150, t189, t314);
         // angular velocity of the base
-        let t310 = base_rotation[1][0] * base_velocity[4];
-        let t311 = mul_add(base_rotation[0][0], base_velocity[3], t310);
-        let t312 = mul_add(base_rotation[2][0], base_velocity[5], t311);
-        let t313 = base_rotation[1][1] * base_velocity[4];
-        let t314 = mul_add(base_rotation[0][1], base_velocity[3], t313);
-        let t315 = mul_add(base_rotation[2][1], base_velocity[5], t314);
-        let t316 = base_rotation[1][2] * base_velocity[4];
-        let t317 = mul_add(base_rotation[0][2], base_velocity[3], t316);
-        let t318 = mul_add(base_rotation[2][2], base_velocity[5], t317);
+        let t316 = base_rotation[1][0] * base_velocity[4];
+        let t317 = mul_add(base_rotation[0][0], base_velocity[3], t316);
+        let t318 = mul_add(base_rotation[2][0], base_velocity[5], t317);
+        let t319 = base_rotation[1][1] * base_velocity[4];
+        let t320 = mul_add(base_rotation[0][1], base_velocity[3], t319);
+        let t321 = mul_add(base_rotation[2][1], base_velocity[5], t320);
+        let t322 = base_rotation[1][2] * base_velocity[4];
+        let t323 = mul_add(base_rotation[0][2], base_velocity[3], t322);
+        let t324 = mul_add(base_rotation[2][2], base_velocity[5], t323);
         // angular velocity of the platform relative to the base
-        let t319 = neg_mul_add(base_rotation[0][0], platform_velocity[3], t312);
-        let t320 = mul_sub(base_rotation[1][0], platform_velocity[4], t319);
-        let t321 = mul_add(base_rotation[2][0], platform_velocity[5], t320);
-        let t322 = neg_mul_add(base_rotation[0][1], platform_velocity[3], t315);
-        let t323 = mul_sub(base_rotation[1][1], platform_velocity[4], t322);
-        let t324 = mul_add(base_rotation[2][1], platform_velocity[5], t323);
-        let t325 = neg_mul_add(base_rotation[0][2], platform_velocity[3], t318);
-        let t326 = mul_sub(base_rotation[1][2], platform_velocity[4], t325);
-        let t327 = mul_add(base_rotation[2][2], platform_velocity[5], t326);
+        let t325 = neg_mul_add(base_rotation[0][0], platform_velocity[3], t318);
+        let t326 = mul_sub(base_rotation[1][0], platform_velocity[4], t325);
+        let t327 = mul_add(base_rotation[2][0], platform_velocity[5], t326);
+        let t328 = neg_mul_add(base_rotation[0][1], platform_velocity[3], t321);
+        let t329 = mul_sub(base_rotation[1][1], platform_velocity[4], t328);
+        let t330 = mul_add(base_rotation[2][1], platform_velocity[5], t329);
+        let t331 = neg_mul_add(base_rotation[0][2], platform_velocity[3], t324);
+        let t332 = mul_sub(base_rotation[1][2], platform_velocity[4], t331);
+        let t333 = mul_add(base_rotation[2][2], platform_velocity[5], t332);
         // velocity of the platform origin relative to the base
-        let t328 = base_velocity[0] - platform_velocity[0];
-        let t329 = base_velocity[1] - platform_velocity[1];
-        let t330 = base_velocity[2] - platform_velocity[2];
-        let t331 = mul_add(base_rotation[0][0], t328, base_rotation[1][0] * t329);
-        let t332 = mul_sub(t27, t315, mul_add(base_rotation[2][0], t330, t331));
-        let t333 = mul_sub(t25, t318, t332);
-        let t334 = mul_add(base_rotation[0][1], t328, base_rotation[1][1] * t329);
-        let t335 = mul_sub(t23, t318, mul_add(base_rotation[2][1], t330, t334));
-        let t336 = mul_sub(t27, t312, t335);
-        let t337 = mul_add(base_rotation[0][2], t328, base_rotation[1][2] * t329);
-        let t338 = mul_sub(t25, t312, mul_add(base_rotation[2][2], t330, t337));
-        let t339 = mul_sub(t23, t315, t338);
+        let t334 = base_velocity[0] - platform_velocity[0];
+        let t335 = base_velocity[1] - platform_velocity[1];
+        let t336 = base_velocity[2] - platform_velocity[2];
+        let t337 = mul_add(base_rotation[0][0], t334, base_rotation[1][0] * t335);
+        let t338 = mul_sub(t27, t321, mul_add(base_rotation[2][0], t336, t337));
+        let t339 = mul_sub(t25, t324, t338);
+        let t340 = mul_add(base_rotation[0][1], t334, base_rotation[1][1] * t335);
+        let t341 = mul_sub(t23, t324, mul_add(base_rotation[2][1], t336, t340));
+        let t342 = mul_sub(t27, t318, t341);
+        let t343 = mul_add(base_rotation[0][2], t334, base_rotation[1][2] * t335);
+        let t344 = mul_sub(t25, t318, mul_add(base_rotation[2][2], t336, t343));
+        let t345 = mul_sub(t23, t321, t344);
         // rate of the relative rotation
-        let t340 = mul_sub(t15, t324, t9 * t327);
-        let t341 = mul_sub(t18, t324, t12 * t327);
-        let t342 = mul_sub(t3, t327, t15 * t321);
-        let t343 = mul_sub(t6, t327, t18 * t321);
-        let t344 = mul_sub(t9, t321, t3 * t324);
-        let t345 = mul_sub(t12, t321, t6 * t324);
+        let t346 = mul_sub(t15, t330, t9 * t333);
+        let t347 = mul_sub(t18, t330, t12 * t333);
+        let t348 = mul_sub(t3, t333, t15 * t327);
+        let t349 = mul_sub(t6, t333, t18 * t327);
+        let t350 = mul_sub(t9, t327, t3 * t330);
+        let t351 = mul_sub(t12, t327, t6 * t330);
         // leg 1: velocity of the platform joint relative to the base
-        let t346 = neg_mul_add(c(0.1159110991546882), t340, t333);
-        let t347 = mul_add(c(0.03105828541230249), t341, t346);
-        let t348 = neg_mul_add(c(0.1159110991546882), t342, t336);
-        let t349 = mul_add(c(0.03105828541230249), t343, t348);
+        let t352 = neg_mul_add(c(0.1159110991546882), t346, t339);
+        let t353 = mul_add(c(0.03105828541230249), t347, t352);
+        let t354 = neg_mul_add(c(0.1159110991546882), t348, t342);
+        let t355 = mul_add(c(0.03105828541230249), t349, t354);
         // leg 2: velocity of the platform joint relative to the base
-        let t350 = neg_mul_add(c(0.03105828541230249), t341, t346);
-        let t351 = neg_mul_add(c(0.03105828541230249), t343, t348);
+        let t356 = neg_mul_add(c(0.03105828541230249), t347, t352);
+        let t357 = neg_mul_add(c(0.03105828541230249), t349, t354);
         // leg 3: velocity of the platform joint relative to the base
-        let t352 = mul_add(c(0.031058285412302475), t340, t333);
-        let t353 = neg_mul_add(c(0.1159110991546882), t341, t352);
-        let t354 = mul_add(c(0.031058285412302475), t342, t336);
-        let t355 = neg_mul_add(c(0.1159110991546882), t343, t354);
+        let t358 = mul_add(c(0.031058285412302475), t346, t339);
+        let t359 = neg_mul_add(c(0.1159110991546882), t347, t358);
+        let t360 = mul_add(c(0.031058285412302475), t348, t342);
+        let t361 = neg_mul_add(c(0.1159110991546882), t349, t360);
         // leg 4: velocity of the platform joint relative to the base
-        let t356 = mul_add(c(0.0848528137423857), t340, t333);
-        let t357 = neg_mul_add(c(0.08485281374238571), t341, t356);
-        let t358 = mul_add(c(0.0848528137423857), t342, t336);
-        let t359 = neg_mul_add(c(0.08485281374238571), t343, t358);
+        let t362 = mul_add(c(0.0848528137423857), t346, t339);
+        let t363 = neg_mul_add(c(0.08485281374238571), t347, t362);
+        let t364 = mul_add(c(0.0848528137423857), t348, t342);
+        let t365 = neg_mul_add(c(0.08485281374238571), t349, t364);
         // leg 5: velocity of the platform joint relative to the base
-        let t360 = mul_add(c(0.08485281374238571), t341, t356);
-        let t361 = mul_add(c(0.08485281374238571), t343, t358);
+        let t366 = mul_add(c(0.08485281374238571), t347, t362);
+        let t367 = mul_add(c(0.08485281374238571), t349, t364);
         // leg 6: velocity of the platform joint relative to the base
-        let t362 = mul_add(c(0.1159110991546882), t341, t352);
-        let t363 = mul_add(c(0.1159110991546882), t343, t354);
+        let t368 = mul_add(c(0.1159110991546882), t347, t358);
+        let t369 = mul_add(c(0.1159110991546882), t349, t360);
         // leg 1: rate of the rod's extent along the actuator axis
-        let t364 = t51 * mul_sub(t29, t347, t32 * t349);
+        let t370 = t51 * mul_sub(t29, t353, t32 * t355);
         // leg 1: actuator velocity d'
-        let t365 = neg_mul_add(c(0.1159110991546882), t344, t339);
-        let t366 = t365 - neg_mul_add(c(0.03105828541230249), t345, t364);
+        let t371 = neg_mul_add(c(0.1159110991546882), t350, t345);
+        let t372 = t371 - neg_mul_add(c(0.03105828541230249), t351, t370);
         // leg 2: rate of the rod's extent along the actuator axis
-        let t367 = t56 * mul_add(t33, t350, t34 * t351);
+        let t373 = t56 * mul_add(t33, t356, t34 * t357);
         // leg 2: actuator velocity d'
-        let t368 = t365 - mul_add(c(0.03105828541230249), t345, t367);
+        let t374 = t371 - mul_add(c(0.03105828541230249), t351, t373);
         // leg 3: rate of the rod's extent along the actuator axis
-        let t369 = t60 * mul_add(t36, t353, t39 * t355);
+        let t375 = t60 * mul_add(t36, t359, t39 * t361);
         // leg 3: actuator velocity d'
-        let t370 = mul_add(c(0.031058285412302475), t344, t339);
-        let t371 = t370 - mul_add(c(0.1159110991546882), t345, t369);
+        let t376 = mul_add(c(0.031058285412302475), t350, t345);
+        let t377 = t376 - mul_add(c(0.1159110991546882), t351, t375);
         // leg 4: rate of the rod's extent along the actuator axis
-        let t372 = t65 * mul_add(t41, t357, t44 * t359);
+        let t378 = t65 * mul_add(t41, t363, t44 * t365);
         // leg 4: actuator velocity d'
-        let t373 = mul_add(c(0.0848528137423857), t344, t339);
-        let t374 = t373 - mul_add(c(0.08485281374238571), t345, t372);
+        let t379 = mul_add(c(0.0848528137423857), t350, t345);
+        let t380 = t379 - mul_add(c(0.08485281374238571), t351, t378);
         // leg 5: rate of the rod's extent along the actuator axis
-        let t375 = t70 * mul_sub(t45, t360, t46 * t361);
+        let t381 = t70 * mul_sub(t45, t366, t46 * t367);
         // leg 5: actuator velocity d'
-        let t376 = t373 + mul_sub(c(0.08485281374238571), t345, t375);
+        let t382 = t379 + mul_sub(c(0.08485281374238571), t351, t381);
         // leg 6: rate of the rod's extent along the actuator axis
-        let t377 = t74 * mul_sub(t47, t362, t48 * t363);
+        let t383 = t74 * mul_sub(t47, t368, t48 * t369);
         // leg 6: actuator velocity d'
-        let t378 = t370 + mul_sub(c(0.1159110991546882), t345, t377);
+        let t384 = t376 + mul_sub(c(0.1159110991546882), t351, t383);
         // leg 1: inertial rate of that gradient
-        let t379 = mul_add(t77, t312, t76 * t315);
-        let t380 = neg_mul_add(t51, mul_add(t76, t364, t347), t315);
-        let t381 = mul_sub(t77, t318, t380);
-        let t382 = mul_add(t51, neg_mul_add(t77, t364, t349), t312);
-        let t383 = mul_add(t76, t318, t382);
-        let t384 = mul_add(base_rotation[0][0], t381, base_rotation[0][1] * t383);
-        let t385 = mul_sub(base_rotation[0][2], t379, t384);
-        let t386 = mul_add(base_rotation[1][0], t381, base_rotation[1][1] * t383);
-        let t387 = mul_sub(base_rotation[1][2], t379, t386);
-        let t388 = mul_add(base_rotation[2][0], t381, base_rotation[2][1] * t383);
-        let t389 = mul_sub(base_rotation[2][2], t379, t388);
+        let t385 = mul_add(t77, t318, t76 * t321);
+        let t386 = neg_mul_add(t51, mul_add(t76, t370, t353), t321);
+        let t387 = mul_sub(t77, t324, t386);
+        let t388 = mul_add(t51, neg_mul_add(t77, t370, t355), t318);
+        let t389 = mul_add(t76, t324, t388);
+        let t390 = mul_add(base_rotation[0][0], t387, base_rotation[0][1] * t389);
+        let t391 = mul_sub(base_rotation[0][2], t385, t390);
+        let t392 = mul_add(base_rotation[1][0], t387, base_rotation[1][1] * t389);
+        let t393 = mul_sub(base_rotation[1][2], t385, t392);
+        let t394 = mul_add(base_rotation[2][0], t387, base_rotation[2][1] * t389);
+        let t395 = mul_sub(base_rotation[2][2], t385, t394);
         // leg 2: inertial rate of that gradient
-        let t390 = mul_sub(t79, t312, t78 * t315);
-        let t391 = neg_mul_add(t56, mul_add(t78, t367, t350), t315);
-        let t392 = mul_add(t79, t318, t391);
-        let t393 = mul_add(t56, mul_add(t79, t367, t351), t312);
-        let t394 = mul_add(t78, t318, t393);
-        let t395 = mul_sub(base_rotation[0][0], t392, base_rotation[0][1] * t394);
-        let t396 = mul_sub(base_rotation[0][2], t390, t395);
-        let t397 = mul_sub(base_rotation[1][0], t392, base_rotation[1][1] * t394);
-        let t398 = mul_sub(base_rotation[1][2], t390, t397);
-        let t399 = mul_sub(base_rotation[2][0], t392, base_rotation[2][1] * t394);
-        let t400 = mul_sub(base_rotation[2][2], t390, t399);
+        let t396 = mul_sub(t79, t318, t78 * t321);
+        let t397 = neg_mul_add(t56, mul_add(t78, t373, t356), t321);
+        let t398 = mul_add(t79, t324, t397);
+        let t399 = mul_add(t56, mul_add(t79, t373, t357), t318);
+        let t400 = mul_add(t78, t324, t399);
+        let t401 = mul_sub(base_rotation[0][0], t398, base_rotation[0][1] * t400);
+        let t402 = mul_sub(base_rotation[0][2], t396, t401);
+        let t403 = mul_sub(base_rotation[1][0], t398, base_rotation[1][1] * t400);
+        let t404 = mul_sub(base_rotation[1][2], t396, t403);
+        let t405 = mul_sub(base_rotation[2][0], t398, base_rotation[2][1] * t400);
+        let t406 = mul_sub(base_rotation[2][2], t396, t405);
         // leg 3: inertial rate of that gradient
-        let t401 = mul_sub(t81, t312, t80 * t315);
-        let t402 = neg_mul_add(t60, mul_add(t80, t369, t353), t315);
-        let t403 = mul_add(t81, t318, t402);
-        let t404 = mul_add(t60, mul_add(t81, t369, t355), t312);
-        let t405 = mul_add(t80, t318, t404);
-        let t406 = mul_sub(base_rotation[0][0], t403, base_rotation[0][1] * t405);
-        let t407 = mul_sub(base_rotation[0][2], t401, t406);
-        let t408 = mul_sub(base_rotation[1][0], t403, base_rotation[1][1] * t405);
-        let t409 = mul_sub(base_rotation[1][2], t401, t408);
-        let t410 = mul_sub(base_rotation[2][0], t403, base_rotation[2][1] * t405);
-        let t411 = mul_sub(base_rotation[2][2], t401, t410);
+        let t407 = mul_sub(t81, t318, t80 * t321);
+        let t408 = neg_mul_add(t60, mul_add(t80, t375, t359), t321);
+        let t409 = mul_add(t81, t324, t408);
+        let t410 = mul_add(t60, mul_add(t81, t375, t361), t318);
+        let t411 = mul_add(t80, t324, t410);
+        let t412 = mul_sub(base_rotation[0][0], t409, base_rotation[0][1] * t411);
+        let t413 = mul_sub(base_rotation[0][2], t407, t412);
+        let t414 = mul_sub(base_rotation[1][0], t409, base_rotation[1][1] * t411);
+        let t415 = mul_sub(base_rotation[1][2], t407, t414);
+        let t416 = mul_sub(base_rotation[2][0], t409, base_rotation[2][1] * t411);
+        let t417 = mul_sub(base_rotation[2][2], t407, t416);
         // leg 4: inertial rate of that gradient
-        let t412 = mul_sub(t83, t312, t82 * t315);
-        let t413 = neg_mul_add(t65, mul_add(t82, t372, t357), t315);
-        let t414 = mul_add(t83, t318, t413);
-        let t415 = mul_add(t65, mul_add(t83, t372, t359), t312);
-        let t416 = mul_add(t82, t318, t415);
-        let t417 = mul_sub(base_rotation[0][0], t414, base_rotation[0][1] * t416);
-        let t418 = mul_sub(base_rotation[0][2], t412, t417);
-        let t419 = mul_sub(base_rotation[1][0], t414, base_rotation[1][1] * t416);
-        let t420 = mul_sub(base_rotation[1][2], t412, t419);
-        let t421 = mul_sub(base_rotation[2][0], t414, base_rotation[2][1] * t416);
-        let t422 = mul_sub(base_rotation[2][2], t412, t421);
+        let t418 = mul_sub(t83, t318, t82 * t321);
+        let t419 = neg_mul_add(t65, mul_add(t82, t378, t363), t321);
+        let t420 = mul_add(t83, t324, t419);
+        let t421 = mul_add(t65, mul_add(t83, t378, t365), t318);
+        let t422 = mul_add(t82, t324, t421);
+        let t423 = mul_sub(base_rotation[0][0], t420, base_rotation[0][1] * t422);
+        let t424 = mul_sub(base_rotation[0][2], t418, t423);
+        let t425 = mul_sub(base_rotation[1][0], t420, base_rotation[1][1] * t422);
+        let t426 = mul_sub(base_rotation[1][2], t418, t425);
+        let t427 = mul_sub(base_rotation[2][0], t420, base_rotation[2][1] * t422);
+        let t428 = mul_sub(base_rotation[2][2], t418, t427);
         // leg 5: inertial rate of that gradient
-        let t423 = mul_add(t85, t312, t84 * t315);
-        let t424 = neg_mul_add(t70, mul_add(t84, t375, t360), t315);
-        let t425 = mul_sub(t85, t318, t424);
-        let t426 = mul_add(t70, neg_mul_add(t85, t375, t361), t312);
-        let t427 = mul_add(t84, t318, t426);
-        let t428 = mul_add(base_rotation[0][0], t425, base_rotation[0][1] * t427);
-        let t429 = mul_sub(base_rotation[0][2], t423, t428);
-        let t430 = mul_add(base_rotation[1][0], t425, base_rotation[1][1] * t427);
-        let t431 = mul_sub(base_rotation[1][2], t423, t430);
-        let t432 = mul_add(base_rotation[2][0], t425, base_rotation[2][1] * t427);
-        let t433 = mul_sub(base_rotation[2][2], t423, t432);
+        let t429 = mul_add(t85, t318, t84 * t321);
+        let t430 = neg_mul_add(t70, mul_add(t84, t381, t366), t321);
+        let t431 = mul_sub(t85, t324, t430);
+        let t432 = mul_add(t70, neg_mul_add(t85, t381, t367), t318);
+        let t433 = mul_add(t84, t324, t432);
+        let t434 = mul_add(base_rotation[0][0], t431, base_rotation[0][1] * t433);
+        let t435 = mul_sub(base_rotation[0][2], t429, t434);
+        let t436 = mul_add(base_rotation[1][0], t431, base_rotation[1][1] * t433);
+        let t437 = mul_sub(base_rotation[1][2], t429, t436);
+        let t438 = mul_add(base_rotation[2][0], t431, base_rotation[2][1] * t433);
+        let t439 = mul_sub(base_rotation[2][2], t429, t438);
         // leg 6: inertial rate of that gradient
-        let t434 = mul_add(t87, t312, t86 * t315);
-        let t435 = neg_mul_add(t74, mul_add(t86, t377, t362), t315);
-        let t436 = mul_sub(t87, t318, t435);
-        let t437 = mul_add(t74, neg_mul_add(t87, t377, t363), t312);
-        let t438 = mul_add(t86, t318, t437);
-        let t439 = mul_add(base_rotation[0][0], t436, base_rotation[0][1] * t438);
-        let t440 = mul_sub(base_rotation[0][2], t434, t439);
-        let t441 = mul_add(base_rotation[1][0], t436, base_rotation[1][1] * t438);
-        let t442 = mul_sub(base_rotation[1][2], t434, t441);
-        let t443 = mul_add(base_rotation[2][0], t436, base_rotation[2][1] * t438);
-        let t444 = mul_sub(base_rotation[2][2], t434, t443);
+        let t440 = mul_add(t87, t318, t86 * t321);
+        let t441 = neg_mul_add(t74, mul_add(t86, t383, t368), t321);
+        let t442 = mul_sub(t87, t324, t441);
+        let t443 = mul_add(t74, neg_mul_add(t87, t383, t369), t318);
+        let t444 = mul_add(t86, t324, t443);
+        let t445 = mul_add(base_rotation[0][0], t442, base_rotation[0][1] * t444);
+        let t446 = mul_sub(base_rotation[0][2], t440, t445);
+        let t447 = mul_add(base_rotation[1][0], t442, base_rotation[1][1] * t444);
+        let t448 = mul_sub(base_rotation[1][2], t440, t447);
+        let t449 = mul_add(base_rotation[2][0], t442, base_rotation[2][1] * t444);
+        let t450 = mul_sub(base_rotation[2][2], t440, t449);
         // leg 1: rate of the platform lever
-        let t445 = mul_sub(platform_velocity[4], t93, platform_velocity[5] * t91);
-        let t446 = mul_sub(platform_velocity[5], t89, platform_velocity[3] * t93);
-        let t447 = mul_sub(platform_velocity[3], t91, platform_velocity[4] * t89);
+        let t451 = mul_sub(platform_velocity[4], t93, platform_velocity[5] * t91);
+        let t452 = mul_sub(platform_velocity[5], t89, platform_velocity[3] * t93);
+        let t453 = mul_sub(platform_velocity[3], t91, platform_velocity[4] * t89);
         // leg 2: rate of the platform lever
-        let t448 = mul_sub(platform_velocity[4], t102, platform_velocity[5] * t101);
-        let t449 = mul_sub(platform_velocity[5], t100, platform_velocity[3] * t102);
-        let t450 = mul_sub(platform_velocity[3], t101, platform_velocity[4] * t100);
+        let t454 = mul_sub(platform_velocity[4], t102, platform_velocity[5] * t101);
+        let t455 = mul_sub(platform_velocity[5], t100, platform_velocity[3] * t102);
+        let t456 = mul_sub(platform_velocity[3], t101, platform_velocity[4] * t100);
         // leg 3: rate of the platform lever
-        let t451 = mul_sub(platform_velocity[4], t114, platform_velocity[5] * t112);
-        let t452 = mul_sub(platform_velocity[5], t110, platform_velocity[3] * t114);
-        let t453 = mul_sub(platform_velocity[3], t112, platform_velocity[4] * t110);
+        let t457 = mul_sub(platform_velocity[4], t114, platform_velocity[5] * t112);
+        let t458 = mul_sub(platform_velocity[5], t110, platform_velocity[3] * t114);
+        let t459 = mul_sub(platform_velocity[3], t112, platform_velocity[4] * t110);
         // leg 4: rate of the platform lever
-        let t454 = mul_sub(platform_velocity[4], t126, platform_velocity[5] * t124);
-        let t455 = mul_sub(platform_velocity[5], t122, platform_velocity[3] * t126);
-        let t456 = mul_sub(platform_velocity[3], t124, platform_velocity[4] * t122);
+        let t460 = mul_sub(platform_velocity[4], t126, platform_velocity[5] * t124);
+        let t461 = mul_sub(platform_velocity[5], t122, platform_velocity[3] * t126);
+        let t462 = mul_sub(platform_velocity[3], t124, platform_velocity[4] * t122);
         // leg 5: rate of the platform lever
-        let t457 = mul_sub(platform_velocity[4], t135, platform_velocity[5] * t134);
-        let t458 = mul_sub(platform_velocity[5], t133, platform_velocity[3] * t135);
-        let t459 = mul_sub(platform_velocity[3], t134, platform_velocity[4] * t133);
+        let t463 = mul_sub(platform_velocity[4], t135, platform_velocity[5] * t134);
+        let t464 = mul_sub(platform_velocity[5], t133, platform_velocity[3] * t135);
+        let t465 = mul_sub(platform_velocity[3], t134, platform_velocity[4] * t133);
         // leg 6: rate of the platform lever
-        let t460 = mul_sub(platform_velocity[4], t144, platform_velocity[5] * t143);
-        let t461 = mul_sub(platform_velocity[5], t142, platform_velocity[3] * t144);
-        let t462 = mul_sub(platform_velocity[3], t143, platform_velocity[4] * t142);
-        // leg 1: Coriolis matrix of the leg in the speeds of its joint
-        let t463 = base_rotation[1][2] * base_velocity[5];
-        let t464 = mul_sub(base_rotation[2][2], base_velocity[4], t463);
-        let t465 = c(0.17066666666666666) * t464;
-        let t466 = mul_add(t95, c(0.9523333333333334), t151);
-        let t467 = mul_add(t385, t466, t95 * t465);
-        let t468 = mul_add(t387, t466, t97 * t465);
-        let t469 = mul_add(t389, t466, t99 * t465);
-        let t470 = base_rotation[2][2] * base_velocity[3];
-        let t471 = mul_sub(base_rotation[0][2], base_velocity[5], t470);
-        let t472 = c(0.17066666666666666) * t471;
-        let t473 = mul_add(t97, c(0.9523333333333334), t155);
-        let t474 = mul_add(t385, t473, t95 * t472);
-        let t475 = mul_add(t387, t473, t97 * t472);
-        let t476 = mul_add(t389, t473, t99 * t472);
-        let t477 = base_rotation[0][2] * base_velocity[4];
-        let t478 = mul_sub(base_rotation[1][2], base_velocity[3], t477);
-        let t479 = c(0.17066666666666666) * t478;
-        let t480 = mul_add(t99, c(0.9523333333333334), t158);
-        let t481 = mul_add(t385, t480, t95 * t479);
-        let t482 = mul_add(t387, t480, t97 * t479);
-        let t483 = mul_add(t389, t480, t99 * t479);
-        // leg 1: Coriolis matrix between joint and base angular velocity
-        let t484 = mul_add(c(0.17066666666666666), t329, t471 * c(0.03055));
-        let t485 = mul_add(c(0.17066666666666666), t330, t478 * c(0.03055));
-        let t486 = mul_sub(base_velocity[5], t171, base_velocity[3] * t169);
-        let t487 = mul_add(base_rotation[1][2], t366, mul_sub(t53, t471, t486));
-        let t488 = mul_sub(c(0.17066666666666666), t446, c(0.9523333333333334) * t487);
-        let t489 = t484 - t488;
-        let t490 = mul_sub(base_velocity[3], t167, base_velocity[4] * t171);
-        let t491 = mul_add(base_rotation[2][2], t366, mul_sub(t53, t478, t490));
-        let t492 = mul_sub(c(0.17066666666666666), t447, c(0.9523333333333334) * t491);
-        let t493 = t485 - t492;
-        let t494 = mul_sub(base_rotation[2][2], t489, base_rotation[1][2] * t493);
-        let t495 = t95 * t494;
-        let t496 = mul_add(c(0.17066666666666666), t328, t464 * c(0.03055));
-        let t497 = mul_sub(base_velocity[4], t169, base_velocity[5] * t167);
-        let t498 = mul_add(base_rotation[0][2], t366, mul_sub(t53, t464, t497));
-        let t499 = mul_sub(c(0.17066666666666666), t445, c(0.9523333333333334) * t498);
-        let t500 = t496 - t499;
-        let t501 = mul_sub(base_rotation[0][2], t493, base_rotation[2][2] * t500);
-        let t502 = c(0.17066666666666666) * t491;
-        let t503 = mul_add(t95, t501, t502);
-        let t504 = mul_sub(base_rotation[1][2], t500, base_rotation[0][2] * t489);
-        let t505 = c(0.17066666666666666) * t487;
-        let t506 = mul_sub(t95, t504, t505);
-        let t507 = neg_mul_add(t97, t494, t502);
-        let t508 = t97 * t501;
-        let t509 = c(0.17066666666666666) * t498;
-        let t510 = mul_add(t97, t504, t509);
-        let t511 = mul_add(t99, t494, t505);
-        let t512 = neg_mul_add(t99, t501, t509);
-        let t513 = t99 * t504;
-        // leg 2: Coriolis matrix of the leg in the speeds of its joint
-        let t514 = neg_mul_add(t104, c(0.9523333333333334), t151);
-        let t515 = mul_add(t396, t514, t104 * t465);
-        let t516 = mul_add(t398, t514, t106 * t465);
-        let t517 = mul_add(t400, t514, t108 * t465);
-        let t518 = neg_mul_add(t106, c(0.9523333333333334), t155);
-        let t519 = mul_add(t396, t518, t104 * t472);
-        let t520 = mul_add(t398, t518, t106 * t472);
-        let t521 = mul_add(t400, t518, t108 * t472);
-        let t522 = neg_mul_add(t108, c(0.9523333333333334), t158);
-        let t523 = mul_add(t396, t522, t104 * t479);
-        let t524 = mul_add(t398, t522, t106 * t479);
-        let t525 = mul_add(t400, t522, t108 * t479);
-        // leg 2: Coriolis matrix between joint and base angular velocity
-        let t526 = mul_sub(base_velocity[5], t183, base_velocity[3] * t182);
-        let t527 = mul_add(base_rotation[1][2], t368, mul_sub(t57, t471, t526));
-        let t528 = mul_sub(c(0.17066666666666666), t449, c(0.9523333333333334) * t527);
-        let t529 = t484 - t528;
-        let t530 = mul_sub(base_velocity[3], t181, base_velocity[4] * t183);
-        let t531 = mul_add(base_rotation[2][2], t368, mul_sub(t57, t478, t530));
-        let t532 = mul_sub(c(0.17066666666666666), t450, c(0.9523333333333334) * t531);
-        let t533 = t485 - t532;
-        let t534 = mul_sub(base_rotation[2][2], t529, base_rotation[1][2] * t533);
-        let t535 = t104 * t534;
-        let t536 = mul_sub(base_velocity[4], t182, base_velocity[5] * t181);
-        let t537 = mul_add(base_rotation[0][2], t368, mul_sub(t57, t464, t536));
-        let t538 = mul_sub(c(0.17066666666666666), t448, c(0.9523333333333334) * t537);
-        let t539 = t496 - t538;
-        let t540 = mul_sub(base_rotation[0][2], t533, base_rotation[2][2] * t539);
-        let t541 = c(0.17066666666666666) * t531;
-        let t542 = mul_sub(t104, t540, t541);
-        let t543 = mul_sub(base_rotation[1][2], t539, base_rotation[0][2] * t529);
-        let t544 = c(0.17066666666666666) * t527;
-        let t545 = mul_add(t104, t543, t544);
-        let t546 = mul_add(t106, t534, t541);
-        let t547 = t106 * t540;
-        let t548 = c(0.17066666666666666) * t537;
-        let t549 = mul_sub(t106, t543, t548);
-        let t550 = neg_mul_add(t108, t534, t544);
-        let t551 = mul_add(t108, t540, t548);
-        let t552 = t108 * t543;
-        // leg 3: Coriolis matrix of the leg in the speeds of its joint
-        let t553 = neg_mul_add(t116, c(0.9523333333333334), t151);
-        let t554 = mul_add(t407, t553, t116 * t465);
-        let t555 = mul_add(t409, t553, t118 * t465);
-        let t556 = mul_add(t411, t553, t120 * t465);
-        let t557 = neg_mul_add(t118, c(0.9523333333333334), t155);
-        let t558 = mul_add(t407, t557, t116 * t472);
-        let t559 = mul_add(t409, t557, t118 * t472);
-        let t560 = mul_add(t411, t557, t120 * t472);
-        let t561 = neg_mul_add(t120, c(0.9523333333333334), t158);
-        let t562 = mul_add(t407, t561, t116 * t479);
-        let t563 = mul_add(t409, t561, t118 * t479);
-        let t564 = mul_add(t411, t561, t120 * t479);
-        // leg 3: Coriolis matrix between joint and base angular velocity
-        let t565 = mul_sub(base_velocity[5], t201, base_velocity[3] * t199);
-        let t566 = mul_add(base_rotation[1][2], t371, mul_sub(t62, t471, t565));
-        let t567 = mul_add(c(0.17066666666666666), t452, c(0.9523333333333334) * t566);
-        let t568 = t484 + t567;
-        let t569 = mul_sub(base_velocity[3], t197, base_velocity[4] * t201);
-        let t570 = mul_add(base_rotation[2][2], t371, mul_sub(t62, t478, t569));
-        let t571 = mul_add(c(0.17066666666666666), t453, c(0.9523333333333334) * t570);
-        let t572 = t485 + t571;
-        let t573 = mul_sub(base_rotation[2][2], t568, base_rotation[1][2] * t572);
-        let t574 = t116 * t573;
-        let t575 = mul_sub(base_velocity[4], t199, base_velocity[5] * t197);
-        let t576 = mul_add(base_rotation[0][2], t371, mul_sub(t62, t464, t575));
-        let t577 = mul_add(c(0.17066666666666666), t451, c(0.9523333333333334) * t576);
-        let t578 = t496 + t577;
-        let t579 = mul_sub(base_rotation[0][2], t572, base_rotation[2][2] * t578);
-        let t580 = c(0.17066666666666666) * t570;
-        let t581 = mul_sub(t116, t579, t580);
-        let t582 = mul_sub(base_rotation[1][2], t578, base_rotation[0][2] * t568);
-        let t583 = c(0.17066666666666666) * t566;
-        let t584 = mul_add(t116, t582, t583);
-        let t585 = mul_add(t118, t573, t580);
-        let t586 = t118 * t579;
-        let t587 = c(0.17066666666666666) * t576;
-        let t588 = mul_sub(t118, t582, t587);
-        let t589 = neg_mul_add(t120, t573, t583);
-        let t590 = mul_add(t120, t579, t587);
-        let t591 = t120 * t582;
-        // leg 4: Coriolis matrix of the leg in the speeds of its joint
-        let t592 = neg_mul_add(t128, c(0.9523333333333334), t151);
-        let t593 = mul_add(t418, t592, t128 * t465);
-        let t594 = mul_add(t420, t592, t130 * t465);
-        let t595 = mul_add(t422, t592, t132 * t465);
-        let t596 = neg_mul_add(t130, c(0.9523333333333334), t155);
-        let t597 = mul_add(t418, t596, t128 * t472);
-        let t598 = mul_add(t420, t596, t130 * t472);
-        let t599 = mul_add(t422, t596, t132 * t472);
-        let t600 = neg_mul_add(t132, c(0.9523333333333334), t158);
-        let t601 = mul_add(t418, t600, t128 * t479);
-        let t602 = mul_add(t420, t600, t130 * t479);
-        let t603 = mul_add(t422, t600, t132 * t479);
-        // leg 4: Coriolis matrix between joint and base angular velocity
-        let t604 = mul_sub(base_velocity[5], t219, base_velocity[3] * t217);
-        let t605 = mul_add(base_rotation[1][2], t374, mul_add(t67, t471, t604));
-        let t606 = mul_add(c(0.17066666666666666), t455, c(0.9523333333333334) * t605);
-        let t607 = t484 + t606;
-        let t608 = mul_sub(base_velocity[3], t215, base_velocity[4] * t219);
-        let t609 = mul_add(base_rotation[2][2], t374, mul_add(t67, t478, t608));
-        let t610 = mul_add(c(0.17066666666666666), t456, c(0.9523333333333334) * t609);
-        let t611 = t485 + t610;
-        let t612 = mul_sub(base_rotation[2][2], t607, base_rotation[1][2] * t611);
-        let t613 = t128 * t612;
-        let t614 = mul_sub(base_velocity[4], t217, base_velocity[5] * t215);
-        let t615 = mul_add(base_rotation[0][2], t374, mul_add(t67, t464, t614));
-        let t616 = mul_add(c(0.17066666666666666), t454, c(0.9523333333333334) * t615);
-        let t617 = t496 + t616;
-        let t618 = mul_sub(base_rotation[0][2], t611, base_rotation[2][2] * t617);
-        let t619 = c(0.17066666666666666) * t609;
-        let t620 = mul_sub(t128, t618, t619);
-        let t621 = mul_sub(base_rotation[1][2], t617, base_rotation[0][2] * t607);
-        let t622 = c(0.17066666666666666) * t605;
-        let t623 = mul_add(t128, t621, t622);
-        let t624 = mul_add(t130, t612, t619);
-        let t625 = t130 * t618;
-        let t626 = c(0.17066666666666666) * t615;
-        let t627 = mul_sub(t130, t621, t626);
-        let t628 = neg_mul_add(t132, t612, t622);
-        let t629 = mul_add(t132, t618, t626);
-        let t630 = t132 * t621;
-        // leg 5: Coriolis matrix of the leg in the speeds of its joint
-        let t631 = mul_add(t137, c(0.9523333333333334), t151);
-        let t632 = mul_add(t429, t631, t137 * t465);
-        let t633 = mul_add(t431, t631, t139 * t465);
-        let t634 = mul_add(t433, t631, t141 * t465);
-        let t635 = mul_add(t139, c(0.9523333333333334), t155);
-        let t636 = mul_add(t429, t635, t137 * t472);
-        let t637 = mul_add(t431, t635, t139 * t472);
-        let t638 = mul_add(t433, t635, t141 * t472);
-        let t639 = mul_add(t141, c(0.9523333333333334), t158);
-        let t640 = mul_add(t429, t639, t137 * t479);
-        let t641 = mul_add(t431, t639, t139 * t479);
-        let t642 = mul_add(t433, t639, t141 * t479);
-        // leg 5: Coriolis matrix between joint and base angular velocity
-        let t643 = mul_sub(base_velocity[5], t234, base_velocity[3] * t233);
-        let t644 = mul_add(base_rotation[1][2], t376, mul_add(t71, t471, t643));
-        let t645 = mul_add(c(0.17066666666666666), t458, c(0.9523333333333334) * t644);
-        let t646 = t484 + t645;
-        let t647 = mul_sub(base_velocity[3], t232, base_velocity[4] * t234);
-        let t648 = mul_add(base_rotation[2][2], t376, mul_add(t71, t478, t647));
-        let t649 = mul_add(c(0.17066666666666666), t459, c(0.9523333333333334) * t648);
-        let t650 = t485 + t649;
-        let t651 = mul_sub(base_rotation[2][2], t646, base_rotation[1][2] * t650);
-        let t652 = t137 * t651;
-        let t653 = mul_sub(base_velocity[4], t233, base_velocity[5] * t232);
-        let t654 = mul_add(base_rotation[0][2], t376, mul_add(t71, t464, t653));
-        let t655 = mul_add(c(0.17066666666666666), t457, c(0.9523333333333334) * t654);
-        let t656 = t496 + t655;
-        let t657 = mul_sub(base_rotation[0][2], t650, base_rotation[2][2] * t656);
-        let t658 = c(0.17066666666666666) * t648;
-        let t659 = mul_add(t137, t657, t658);
-        let t660 = mul_sub(base_rotation[1][2], t656, base_rotation[0][2] * t646);
-        let t661 = c(0.17066666666666666) * t644;
-        let t662 = mul_sub(t137, t660, t661);
-        let t663 = neg_mul_add(t139, t651, t658);
-        let t664 = t139 * t657;
-        let t665 = c(0.17066666666666666) * t654;
-        let t666 = mul_add(t139, t660, t665);
-        let t667 = mul_add(t141, t651, t661);
-        let t668 = neg_mul_add(t141, t657, t665);
-        let t669 = t141 * t660;
-        // leg 6: Coriolis matrix of the leg in the speeds of its joint
-        let t670 = mul_add(t146, c(0.9523333333333334), t151);
-        let t671 = mul_add(t440, t670, t146 * t465);
-        let t672 = mul_add(t442, t670, t148 * t465);
-        let t673 = mul_add(t444, t670, t150 * t465);
-        let t674 = mul_add(t148, c(0.9523333333333334), t155);
-        let t675 = mul_add(t440, t674, t146 * t472);
-        let t676 = mul_add(t442, t674, t148 * t472);
-        let t677 = mul_add(t444, t674, t150 * t472);
-        let t678 = mul_add(t150, c(0.9523333333333334), t158);
-        let t679 = mul_add(t440, t678, t146 * t479);
-        let t680 = mul_add(t442, t678, t148 * t479);
-        let t681 = mul_add(t444, t678, t150 * t479);
-        // leg 6: Coriolis matrix between joint and base angular velocity
-        let t682 = mul_sub(base_velocity[5], t249, base_velocity[3] * t248);
-        let t683 = mul_add(base_rotation[1][2], t378, mul_sub(t75, t471, t682));
-        let t684 = mul_add(c(0.17066666666666666), t461, c(0.9523333333333334) * t683);
-        let t685 = t484 + t684;
-        let t686 = mul_sub(base_velocity[3], t247, base_velocity[4] * t249);
-        let t687 = mul_add(base_rotation[2][2], t378, mul_sub(t75, t478, t686));
-        let t688 = mul_add(c(0.17066666666666666), t462, c(0.9523333333333334) * t687);
-        let t689 = t485 + t688;
-        let t690 = mul_sub(base_rotation[2][2], t685, base_rotation[1][2] * t689);
-        let t691 = t146 * t690;
-        let t692 = mul_sub(base_velocity[4], t248, base_velocity[5] * t247);
-        let t693 = mul_add(base_rotation[0][2], t378, mul_sub(t75, t464, t692));
-        let t694 = mul_add(c(0.17066666666666666), t460, c(0.9523333333333334) * t693);
-        let t695 = t496 + t694;
-        let t696 = mul_sub(base_rotation[0][2], t689, base_rotation[2][2] * t695);
-        let t697 = c(0.17066666666666666) * t687;
-        let t698 = mul_add(t146, t696, t697);
-        let t699 = mul_sub(base_rotation[1][2], t695, base_rotation[0][2] * t685);
-        let t700 = c(0.17066666666666666) * t683;
-        let t701 = mul_sub(t146, t699, t700);
-        let t702 = neg_mul_add(t148, t690, t697);
-        let t703 = t148 * t696;
-        let t704 = c(0.17066666666666666) * t693;
-        let t705 = mul_add(t148, t699, t704);
-        let t706 = mul_add(t150, t690, t700);
-        let t707 = neg_mul_add(t150, t696, t704);
-        let t708 = t150 * t699;
+        let t466 = mul_sub(platform_velocity[4], t144, platform_velocity[5] * t143);
+        let t467 = mul_sub(platform_velocity[5], t142, platform_velocity[3] * t144);
+        let t468 = mul_sub(platform_velocity[3], t143, platform_velocity[4] * t142);
+        // leg 1: inertial rate of the row of the actuator Jacobian
+        let t469 = mul_add(t91, t395, mul_sub(t99, t452, t97 * t453));
+        let t470 = mul_sub(t93, t393, t469);
+        let t471 = mul_add(t93, t391, mul_sub(t95, t453, t99 * t451));
+        let t472 = mul_sub(t89, t395, t471);
+        let t473 = mul_add(t89, t393, mul_sub(t97, t451, t95 * t452));
+        let t474 = mul_sub(t91, t391, t473);
+        // leg 2: inertial rate of the row of the actuator Jacobian
+        let t475 = mul_add(t101, t406, mul_sub(t108, t455, t106 * t456));
+        let t476 = mul_sub(t102, t404, t475);
+        let t477 = mul_add(t102, t402, mul_sub(t104, t456, t108 * t454));
+        let t478 = mul_sub(t100, t406, t477);
+        let t479 = mul_add(t100, t404, mul_sub(t106, t454, t104 * t455));
+        let t480 = mul_sub(t101, t402, t479);
+        // leg 3: inertial rate of the row of the actuator Jacobian
+        let t481 = mul_add(t112, t417, mul_sub(t120, t458, t118 * t459));
+        let t482 = mul_sub(t114, t415, t481);
+        let t483 = mul_add(t114, t413, mul_sub(t116, t459, t120 * t457));
+        let t484 = mul_sub(t110, t417, t483);
+        let t485 = mul_add(t110, t415, mul_sub(t118, t457, t116 * t458));
+        let t486 = mul_sub(t112, t413, t485);
+        // leg 4: inertial rate of the row of the actuator Jacobian
+        let t487 = mul_add(t124, t428, mul_sub(t132, t461, t130 * t462));
+        let t488 = mul_sub(t126, t426, t487);
+        let t489 = mul_add(t126, t424, mul_sub(t128, t462, t132 * t460));
+        let t490 = mul_sub(t122, t428, t489);
+        let t491 = mul_add(t122, t426, mul_sub(t130, t460, t128 * t461));
+        let t492 = mul_sub(t124, t424, t491);
+        // leg 5: inertial rate of the row of the actuator Jacobian
+        let t493 = mul_add(t134, t439, mul_sub(t141, t464, t139 * t465));
+        let t494 = mul_sub(t135, t437, t493);
+        let t495 = mul_add(t135, t435, mul_sub(t137, t465, t141 * t463));
+        let t496 = mul_sub(t133, t439, t495);
+        let t497 = mul_add(t133, t437, mul_sub(t139, t463, t137 * t464));
+        let t498 = mul_sub(t134, t435, t497);
+        // leg 6: inertial rate of the row of the actuator Jacobian
+        let t499 = mul_add(t143, t450, mul_sub(t150, t467, t148 * t468));
+        let t500 = mul_sub(t144, t448, t499);
+        let t501 = mul_add(t144, t446, mul_sub(t146, t468, t150 * t466));
+        let t502 = mul_sub(t142, t450, t501);
+        let t503 = mul_add(t142, t448, mul_sub(t148, t466, t146 * t467));
+        let t504 = mul_sub(t143, t446, t503);
+        // leg 1: moment of that force's rate
+        let t505 = mul_sub(base_velocity[3], t170, base_velocity[4] * t169);
+        let t506 = mul_sub(base_velocity[5], t169, base_velocity[3] * t171);
+        let t507 = mul_sub(t91, t505, t93 * t506);
+        let t508 = mul_sub(base_velocity[4], t171, base_velocity[5] * t170);
+        let t509 = mul_sub(t93, t508, t89 * t505);
+        let t510 = mul_sub(t89, t506, t91 * t508);
+        // leg 1: moment of that force by the rate of the lever
+        let t511 = mul_sub(t171, t452, t170 * t453);
+        let t512 = mul_sub(t169, t453, t171 * t451);
+        let t513 = mul_sub(t170, t451, t169 * t452);
+        // leg 1: moment of the force along the axis that an acceleration of the actuator takes
+        let t514 = mul_add(t151, c(0.9523333333333334), t172);
+        let t515 = mul_add(t152, c(0.9523333333333334), t173);
+        let t516 = mul_add(t153, c(0.9523333333333334), t174);
+        // leg 2: moment of that force's rate
+        let t517 = mul_sub(t101, t505, t102 * t506);
+        let t518 = mul_sub(t102, t508, t100 * t505);
+        let t519 = mul_sub(t100, t506, t101 * t508);
+        // leg 2: moment of that force by the rate of the lever
+        let t520 = mul_sub(t171, t455, t170 * t456);
+        let t521 = mul_sub(t169, t456, t171 * t454);
+        let t522 = mul_sub(t170, t454, t169 * t455);
+        // leg 2: moment of the force along the axis that an acceleration of the actuator takes
+        let t523 = neg_mul_add(t154, c(0.9523333333333334), t175);
+        let t524 = neg_mul_add(t155, c(0.9523333333333334), t176);
+        let t525 = neg_mul_add(t156, c(0.9523333333333334), t177);
+        // leg 3: moment of that force's rate
+        let t526 = mul_sub(t112, t505, t114 * t506);
+        let t527 = mul_sub(t114, t508, t110 * t505);
+        let t528 = mul_sub(t110, t506, t112 * t508);
+        // leg 3: moment of that force by the rate of the lever
+        let t529 = mul_sub(t171, t458, t170 * t459);
+        let t530 = mul_sub(t169, t459, t171 * t457);
+        let t531 = mul_sub(t170, t457, t169 * t458);
+        // leg 3: moment of the force along the axis that an acceleration of the actuator takes
+        let t532 = neg_mul_add(t157, c(0.9523333333333334), t178);
+        let t533 = neg_mul_add(t158, c(0.9523333333333334), t179);
+        let t534 = neg_mul_add(t159, c(0.9523333333333334), t180);
+        // leg 4: moment of that force's rate
+        let t535 = mul_sub(t124, t505, t126 * t506);
+        let t536 = mul_sub(t126, t508, t122 * t505);
+        let t537 = mul_sub(t122, t506, t124 * t508);
+        // leg 4: moment of that force by the rate of the lever
+        let t538 = mul_sub(t171, t461, t170 * t462);
+        let t539 = mul_sub(t169, t462, t171 * t460);
+        let t540 = mul_sub(t170, t460, t169 * t461);
+        // leg 4: moment of the force along the axis that an acceleration of the actuator takes
+        let t541 = neg_mul_add(t160, c(0.9523333333333334), t181);
+        let t542 = neg_mul_add(t161, c(0.9523333333333334), t182);
+        let t543 = neg_mul_add(t162, c(0.9523333333333334), t183);
+        // leg 5: moment of that force's rate
+        let t544 = mul_sub(t134, t505, t135 * t506);
+        let t545 = mul_sub(t135, t508, t133 * t505);
+        let t546 = mul_sub(t133, t506, t134 * t508);
+        // leg 5: moment of that force by the rate of the lever
+        let t547 = mul_sub(t171, t464, t170 * t465);
+        let t548 = mul_sub(t169, t465, t171 * t463);
+        let t549 = mul_sub(t170, t463, t169 * t464);
+        // leg 5: moment of the force along the axis that an acceleration of the actuator takes
+        let t550 = mul_add(t163, c(0.9523333333333334), t184);
+        let t551 = mul_add(t164, c(0.9523333333333334), t185);
+        let t552 = mul_add(t165, c(0.9523333333333334), t186);
+        // leg 6: moment of that force's rate
+        let t553 = mul_sub(t143, t505, t144 * t506);
+        let t554 = mul_sub(t144, t508, t142 * t505);
+        let t555 = mul_sub(t142, t506, t143 * t508);
+        // leg 6: moment of that force by the rate of the lever
+        let t556 = mul_sub(t171, t467, t170 * t468);
+        let t557 = mul_sub(t169, t468, t171 * t466);
+        let t558 = mul_sub(t170, t466, t169 * t467);
+        // leg 6: moment of the force along the axis that an acceleration of the actuator takes
+        let t559 = mul_add(t166, c(0.9523333333333334), t187);
+        let t560 = mul_add(t167, c(0.9523333333333334), t188);
+        let t561 = mul_add(t168, c(0.9523333333333334), t189);
+        // part of the legs' Coriolis matrix on the side of the axes
+        let t562 = t435 + t446 + (t391 - t402 - (t413 + t424));
+        let t563 = c(0.17066666666666666) * t562;
+        let t564 = mul_add(t192, t413, mul_add(t190, t391, t191 * t402));
+        let t565 = mul_add(t194, t435, mul_add(t193, t424, t564));
+        let t566 = mul_add(base_rotation[0][2], t563, mul_add(t195, t446, t565));
+        let t567 = mul_sub(
+            base_velocity[5],
+            t225,
+            mul_add(base_velocity[4], t245, t566),
+        );
+        let t568 = t437 + t448 + (t393 - t404 - (t415 + t426));
+        let t569 = c(0.17066666666666666) * t568;
+        let t570 = mul_add(t192, t415, mul_add(t190, t393, t191 * t404));
+        let t571 = mul_add(t194, t437, mul_add(t193, t426, t570));
+        let t572 = mul_add(base_rotation[0][2], t569, mul_add(t195, t448, t571));
+        let t573 = mul_sub(
+            base_velocity[5],
+            t233,
+            mul_add(base_velocity[4], t247, t572),
+        );
+        let t574 = t439 + t450 + (t395 - t406 - (t417 + t428));
+        let t575 = c(0.17066666666666666) * t574;
+        let t576 = mul_add(t192, t417, mul_add(t190, t395, t191 * t406));
+        let t577 = mul_add(t194, t439, mul_add(t193, t428, t576));
+        let t578 = mul_add(base_rotation[0][2], t575, mul_add(t195, t450, t577));
+        let t579 = mul_sub(
+            base_velocity[5],
+            t237,
+            mul_add(base_velocity[4], t255, t578),
+        );
+        let t580 = t494 + t500 - (t470 - t476 + (t482 + t488));
+        let t581 = c(0.17066666666666666) * t580;
+        let t582 = mul_sub(t192, t482, mul_add(t190, t470, t191 * t476));
+        let t583 = mul_add(t194, t494, mul_add(t193, t488, t582));
+        let t584 = mul_add(base_rotation[0][2], t581, mul_add(t195, t500, t583));
+        let t585 = mul_sub(
+            base_velocity[5],
+            t242,
+            mul_sub(base_velocity[4], t259, t584),
+        );
+        let t586 = t496 + t502 - (t472 - t478 + (t484 + t490));
+        let t587 = c(0.17066666666666666) * t586;
+        let t588 = mul_sub(t192, t484, mul_add(t190, t472, t191 * t478));
+        let t589 = mul_add(t194, t496, mul_add(t193, t490, t588));
+        let t590 = mul_add(base_rotation[0][2], t587, mul_add(t195, t502, t589));
+        let t591 = mul_sub(
+            base_velocity[5],
+            t243,
+            mul_sub(base_velocity[4], t260, t590),
+        );
+        let t592 = t498 + t504 - (t474 - t480 + (t486 + t492));
+        let t593 = c(0.17066666666666666) * t592;
+        let t594 = mul_sub(t192, t486, mul_add(t190, t474, t191 * t480));
+        let t595 = mul_add(t194, t498, mul_add(t193, t492, t594));
+        let t596 = mul_add(base_rotation[0][2], t593, mul_add(t195, t504, t595));
+        let t597 = mul_sub(
+            base_velocity[5],
+            t244,
+            mul_sub(base_velocity[4], t261, t596),
+        );
+        let t598 = mul_add(t229, t413, mul_add(t227, t391, t228 * t402));
+        let t599 = mul_add(t231, t435, mul_add(t230, t424, t598));
+        let t600 = mul_add(base_rotation[1][2], t563, mul_add(t232, t446, t599));
+        let t601 = mul_sub(
+            base_velocity[3],
+            t245,
+            mul_add(base_velocity[5], t198, t600),
+        );
+        let t602 = mul_add(t229, t415, mul_add(t227, t393, t228 * t404));
+        let t603 = mul_add(t231, t437, mul_add(t230, t426, t602));
+        let t604 = mul_add(base_rotation[1][2], t569, mul_add(t232, t448, t603));
+        let t605 = mul_sub(
+            base_velocity[3],
+            t247,
+            mul_add(base_velocity[5], t204, t604),
+        );
+        let t606 = mul_add(t229, t417, mul_add(t227, t395, t228 * t406));
+        let t607 = mul_add(t231, t439, mul_add(t230, t428, t606));
+        let t608 = mul_add(base_rotation[1][2], t575, mul_add(t232, t450, t607));
+        let t609 = mul_sub(
+            base_velocity[3],
+            t255,
+            mul_add(base_velocity[5], t211, t608),
+        );
+        let t610 = mul_sub(t229, t482, mul_add(t227, t470, t228 * t476));
+        let t611 = mul_add(t231, t494, mul_add(t230, t488, t610));
+        let t612 = mul_add(base_rotation[1][2], t581, mul_add(t232, t500, t611));
+        let t613 = mul_sub(
+            base_velocity[3],
+            t259,
+            mul_sub(base_velocity[5], t218, t612),
+        );
+        let t614 = mul_sub(t229, t484, mul_add(t227, t472, t228 * t478));
+        let t615 = mul_add(t231, t496, mul_add(t230, t490, t614));
+        let t616 = mul_add(base_rotation[1][2], t587, mul_add(t232, t502, t615));
+        let t617 = mul_sub(
+            base_velocity[3],
+            t260,
+            mul_sub(base_velocity[5], t221, t616),
+        );
+        let t618 = mul_sub(t229, t486, mul_add(t227, t474, t228 * t480));
+        let t619 = mul_add(t231, t498, mul_add(t230, t492, t618));
+        let t620 = mul_add(base_rotation[1][2], t593, mul_add(t232, t504, t619));
+        let t621 = mul_sub(
+            base_velocity[3],
+            t261,
+            mul_sub(base_velocity[5], t224, t620),
+        );
+        let t622 = mul_add(t251, t413, mul_add(t249, t391, t250 * t402));
+        let t623 = mul_add(t253, t435, mul_add(t252, t424, t622));
+        let t624 = mul_add(base_rotation[2][2], t563, mul_add(t254, t446, t623));
+        let t625 = mul_sub(
+            base_velocity[4],
+            t198,
+            mul_add(base_velocity[3], t225, t624),
+        );
+        let t626 = mul_add(t251, t415, mul_add(t249, t393, t250 * t404));
+        let t627 = mul_add(t253, t437, mul_add(t252, t426, t626));
+        let t628 = mul_add(base_rotation[2][2], t569, mul_add(t254, t448, t627));
+        let t629 = mul_sub(
+            base_velocity[4],
+            t204,
+            mul_add(base_velocity[3], t233, t628),
+        );
+        let t630 = mul_add(t251, t417, mul_add(t249, t395, t250 * t406));
+        let t631 = mul_add(t253, t439, mul_add(t252, t428, t630));
+        let t632 = mul_add(base_rotation[2][2], t575, mul_add(t254, t450, t631));
+        let t633 = mul_sub(
+            base_velocity[4],
+            t211,
+            mul_add(base_velocity[3], t237, t632),
+        );
+        let t634 = mul_sub(t251, t482, mul_add(t249, t470, t250 * t476));
+        let t635 = mul_add(t253, t494, mul_add(t252, t488, t634));
+        let t636 = mul_add(base_rotation[2][2], t581, mul_add(t254, t500, t635));
+        let t637 = mul_sub(
+            base_velocity[4],
+            t218,
+            mul_sub(base_velocity[3], t242, t636),
+        );
+        let t638 = mul_sub(t251, t484, mul_add(t249, t472, t250 * t478));
+        let t639 = mul_add(t253, t496, mul_add(t252, t490, t638));
+        let t640 = mul_add(base_rotation[2][2], t587, mul_add(t254, t502, t639));
+        let t641 = mul_sub(
+            base_velocity[4],
+            t221,
+            mul_sub(base_velocity[3], t243, t640),
+        );
+        let t642 = mul_sub(t251, t486, mul_add(t249, t474, t250 * t480));
+        let t643 = mul_add(t253, t498, mul_add(t252, t492, t642));
+        let t644 = mul_add(base_rotation[2][2], t593, mul_add(t254, t504, t643));
+        let t645 = mul_sub(
+            base_velocity[4],
+            t224,
+            mul_sub(base_velocity[3], t244, t644),
+        );
+        let t646 = mul_add(t413, t532, mul_sub(t391, t514, t402 * t523));
+        let t647 = mul_sub(t435, t550, mul_add(t424, t541, t646));
+        let t648 = mul_sub(t95, t507, mul_add(t446, t559, t647));
+        let t649 = mul_sub(t116, t526, mul_sub(t104, t517, t648));
+        let t650 = mul_sub(t137, t544, mul_add(t128, t535, t649));
+        let t651 = mul_add(t146, t553, t650);
+        let t652 = mul_add(t415, t532, mul_sub(t393, t514, t404 * t523));
+        let t653 = mul_sub(t437, t550, mul_add(t426, t541, t652));
+        let t654 = mul_sub(t97, t507, mul_add(t448, t559, t653));
+        let t655 = mul_sub(t118, t526, mul_sub(t106, t517, t654));
+        let t656 = mul_sub(t139, t544, mul_add(t130, t535, t655));
+        let t657 = mul_add(t148, t553, t656);
+        let t658 = mul_add(t417, t532, mul_sub(t395, t514, t406 * t523));
+        let t659 = mul_sub(t439, t550, mul_add(t428, t541, t658));
+        let t660 = mul_sub(t99, t507, mul_add(t450, t559, t659));
+        let t661 = mul_sub(t120, t526, mul_sub(t108, t517, t660));
+        let t662 = mul_sub(t141, t544, mul_add(t132, t535, t661));
+        let t663 = mul_add(t150, t553, t662);
+        let t664 = mul_sub(t482, t532, mul_sub(t470, t514, t476 * t523));
+        let t665 = mul_sub(t494, t550, mul_add(t488, t541, t664));
+        let t666 = mul_sub(t151, t507, mul_add(t500, t559, t665));
+        let t667 = mul_add(t157, t526, mul_sub(t154, t517, t666));
+        let t668 = mul_sub(t163, t544, mul_add(t160, t535, t667));
+        let t669 = mul_add(t166, t553, t668);
+        let t670 = mul_sub(t484, t532, mul_sub(t472, t514, t478 * t523));
+        let t671 = mul_sub(t496, t550, mul_add(t490, t541, t670));
+        let t672 = mul_sub(t152, t507, mul_add(t502, t559, t671));
+        let t673 = mul_add(t158, t526, mul_sub(t155, t517, t672));
+        let t674 = mul_sub(t164, t544, mul_add(t161, t535, t673));
+        let t675 = mul_add(t167, t553, t674);
+        let t676 = mul_sub(t486, t532, mul_sub(t474, t514, t480 * t523));
+        let t677 = mul_sub(t498, t550, mul_add(t492, t541, t676));
+        let t678 = mul_sub(t153, t507, mul_add(t504, t559, t677));
+        let t679 = mul_add(t159, t526, mul_sub(t156, t517, t678));
+        let t680 = mul_sub(t165, t544, mul_add(t162, t535, t679));
+        let t681 = mul_add(t168, t553, t680);
+        let t682 = mul_add(t413, t533, mul_sub(t391, t515, t402 * t524));
+        let t683 = mul_sub(t435, t551, mul_add(t424, t542, t682));
+        let t684 = mul_sub(t95, t509, mul_add(t446, t560, t683));
+        let t685 = mul_sub(t116, t527, mul_sub(t104, t518, t684));
+        let t686 = mul_sub(t137, t545, mul_add(t128, t536, t685));
+        let t687 = mul_add(t146, t554, t686);
+        let t688 = mul_add(t415, t533, mul_sub(t393, t515, t404 * t524));
+        let t689 = mul_sub(t437, t551, mul_add(t426, t542, t688));
+        let t690 = mul_sub(t97, t509, mul_add(t448, t560, t689));
+        let t691 = mul_sub(t118, t527, mul_sub(t106, t518, t690));
+        let t692 = mul_sub(t139, t545, mul_add(t130, t536, t691));
+        let t693 = mul_add(t148, t554, t692);
+        let t694 = mul_add(t417, t533, mul_sub(t395, t515, t406 * t524));
+        let t695 = mul_sub(t439, t551, mul_add(t428, t542, t694));
+        let t696 = mul_sub(t99, t509, mul_add(t450, t560, t695));
+        let t697 = mul_sub(t120, t527, mul_sub(t108, t518, t696));
+        let t698 = mul_sub(t141, t545, mul_add(t132, t536, t697));
+        let t699 = mul_add(t150, t554, t698);
+        let t700 = mul_sub(t482, t533, mul_sub(t470, t515, t476 * t524));
+        let t701 = mul_sub(t494, t551, mul_add(t488, t542, t700));
+        let t702 = mul_sub(t151, t509, mul_add(t500, t560, t701));
+        let t703 = mul_add(t157, t527, mul_sub(t154, t518, t702));
+        let t704 = mul_sub(t163, t545, mul_add(t160, t536, t703));
+        let t705 = mul_add(t166, t554, t704);
+        let t706 = mul_sub(t484, t533, mul_sub(t472, t515, t478 * t524));
+        let t707 = mul_sub(t496, t551, mul_add(t490, t542, t706));
+        let t708 = mul_sub(t152, t509, mul_add(t502, t560, t707));
+        let t709 = mul_add(t158, t527, mul_sub(t155, t518, t708));
+        let t710 = mul_sub(t164, t545, mul_add(t161, t536, t709));
+        let t711 = mul_add(t167, t554, t710);
+        let t712 = mul_sub(t486, t533, mul_sub(t474, t515, t480 * t524));
+        let t713 = mul_sub(t498, t551, mul_add(t492, t542, t712));
+        let t714 = mul_sub(t153, t509, mul_add(t504, t560, t713));
+        let t715 = mul_add(t159, t527, mul_sub(t156, t518, t714));
+        let t716 = mul_sub(t165, t545, mul_add(t162, t536, t715));
+        let t717 = mul_add(t168, t554, t716);
+        let t718 = mul_add(t413, t534, mul_sub(t391, t516, t402 * t525));
+        let t719 = mul_sub(t435, t552, mul_add(t424, t543, t718));
+        let t720 = mul_sub(t95, t510, mul_add(t446, t561, t719));
+        let t721 = mul_sub(t116, t528, mul_sub(t104, t519, t720));
+        let t722 = mul_sub(t137, t546, mul_add(t128, t537, t721));
+        let t723 = mul_add(t146, t555, t722);
+        let t724 = mul_add(t415, t534, mul_sub(t393, t516, t404 * t525));
+        let t725 = mul_sub(t437, t552, mul_add(t426, t543, t724));
+        let t726 = mul_sub(t97, t510, mul_add(t448, t561, t725));
+        let t727 = mul_sub(t118, t528, mul_sub(t106, t519, t726));
+        let t728 = mul_sub(t139, t546, mul_add(t130, t537, t727));
+        let t729 = mul_add(t148, t555, t728);
+        let t730 = mul_add(t417, t534, mul_sub(t395, t516, t406 * t525));
+        let t731 = mul_sub(t439, t552, mul_add(t428, t543, t730));
+        let t732 = mul_sub(t99, t510, mul_add(t450, t561, t731));
+        let t733 = mul_sub(t120, t528, mul_sub(t108, t519, t732));
+        let t734 = mul_sub(t141, t546, mul_add(t132, t537, t733));
+        let t735 = mul_add(t150, t555, t734);
+        let t736 = mul_sub(t482, t534, mul_sub(t470, t516, t476 * t525));
+        let t737 = mul_sub(t494, t552, mul_add(t488, t543, t736));
+        let t738 = mul_sub(t151, t510, mul_add(t500, t561, t737));
+        let t739 = mul_add(t157, t528, mul_sub(t154, t519, t738));
+        let t740 = mul_sub(t163, t546, mul_add(t160, t537, t739));
+        let t741 = mul_add(t166, t555, t740);
+        let t742 = mul_sub(t484, t534, mul_sub(t472, t516, t478 * t525));
+        let t743 = mul_sub(t496, t552, mul_add(t490, t543, t742));
+        let t744 = mul_sub(t152, t510, mul_add(t502, t561, t743));
+        let t745 = mul_add(t158, t528, mul_sub(t155, t519, t744));
+        let t746 = mul_sub(t164, t546, mul_add(t161, t537, t745));
+        let t747 = mul_add(t167, t555, t746);
+        let t748 = mul_sub(t486, t534, mul_sub(t474, t516, t480 * t525));
+        let t749 = mul_sub(t498, t552, mul_add(t492, t543, t748));
+        let t750 = mul_sub(t153, t510, mul_add(t504, t561, t749));
+        let t751 = mul_add(t159, t528, mul_sub(t156, t519, t750));
+        let t752 = mul_sub(t165, t546, mul_add(t162, t537, t751));
+        let t753 = mul_add(t168, t555, t752);
+        let t754 = -t567;
+        coriolis_matrix_p[0][0] = t754;
+        coriolis_matrix_b[0][0] = t754;
+        let t755 = -t573;
+        coriolis_matrix_p[0][1] = t755;
+        coriolis_matrix_b[0][1] = t755;
+        let t756 = -t579;
+        coriolis_matrix_p[0][2] = t756;
+        coriolis_matrix_b[0][2] = t756;
+        let t757 = -t601;
+        coriolis_matrix_p[1][0] = t757;
+        coriolis_matrix_b[1][0] = t757;
+        let t758 = -t605;
+        coriolis_matrix_p[1][1] = t758;
+        coriolis_matrix_b[1][1] = t758;
+        let t759 = -t609;
+        coriolis_matrix_p[1][2] = t759;
+        coriolis_matrix_b[1][2] = t759;
+        let t760 = -t625;
+        coriolis_matrix_p[2][0] = t760;
+        coriolis_matrix_b[2][0] = t760;
+        let t761 = -t629;
+        coriolis_matrix_p[2][1] = t761;
+        coriolis_matrix_b[2][1] = t761;
+        let t762 = -t633;
+        coriolis_matrix_p[2][2] = t762;
+        coriolis_matrix_b[2][2] = t762;
+        let t763 = -t651;
+        coriolis_matrix_p[3][0] = t763;
+        coriolis_matrix_b[3][0] = t763;
+        let t764 = -t657;
+        coriolis_matrix_p[3][1] = t764;
+        coriolis_matrix_b[3][1] = t764;
+        let t765 = -t663;
+        coriolis_matrix_p[3][2] = t765;
+        coriolis_matrix_b[3][2] = t765;
+        let t766 = -t687;
+        coriolis_matrix_p[4][0] = t766;
+        coriolis_matrix_b[4][0] = t766;
+        let t767 = -t693;
+        coriolis_matrix_p[4][1] = t767;
+        coriolis_matrix_b[4][1] = t767;
+        let t768 = -t699;
+        coriolis_matrix_p[4][2] = t768;
+        coriolis_matrix_b[4][2] = t768;
+        let t769 = -t723;
+        coriolis_matrix_p[5][0] = t769;
+        coriolis_matrix_b[5][0] = t769;
+        let t770 = -t729;
+        coriolis_matrix_p[5][1] = t770;
+        coriolis_matrix_b[5][1] = t770;
+        let t771 = -t735;
+        coriolis_matrix_p[5][2] = t771;
+        coriolis_matrix_b[5][2] = t771;
         // Coriolis matrix of the legs
-        let t709 = t671 + (t632 - (t593 + (t554 - (t467 - t515))));
-        coriolis_matrix_p[0][0] = t709;
-        coriolis_matrix_b[0][0] = t709;
-        let t710 = t672 + (t633 - (t594 + (t555 - (t468 - t516))));
-        coriolis_matrix_p[0][1] = t710;
-        coriolis_matrix_b[0][1] = t710;
-        let t711 = t673 + (t634 - (t595 + (t556 - (t469 - t517))));
-        coriolis_matrix_p[0][2] = t711;
-        coriolis_matrix_b[0][2] = t711;
-        let t712 = mul_add(t239, t462, mul_sub(t144, t672, t143 * t673));
-        let t713 = mul_sub(t241, t461, t712);
-        let t714 = mul_add(t224, t459, mul_sub(t135, t633, t134 * t634));
-        let t715 = mul_sub(t226, t458, t714);
-        let t716 = mul_add(t206, t456, mul_sub(t126, t594, t124 * t595));
-        let t717 = mul_sub(t208, t455, t716);
-        let t718 = mul_add(t188, t453, mul_sub(t114, t555, t112 * t556));
-        let t719 = mul_sub(t190, t452, t718);
-        let t720 = t91 * t469;
-        let t721 = mul_add(t157, t447, mul_sub(t93, t468, t720));
-        let t722 = mul_sub(t160, t446, t721);
-        let t723 = t102 * t516;
-        let t724 = mul_add(t175, t450, neg_mul_add(t101, t517, t723));
-        let t725 = mul_sub(t177, t449, t724);
-        let t726 = t713 + (t715 - (t717 + (t719 + (t722 - t725))));
-        let t727 = mul_add(t241, t460, mul_sub(t142, t673, t144 * t671));
-        let t728 = mul_sub(t237, t462, t727);
-        let t729 = mul_add(t226, t457, mul_sub(t133, t634, t135 * t632));
-        let t730 = mul_sub(t222, t459, t729);
-        let t731 = mul_add(t208, t454, mul_sub(t122, t595, t126 * t593));
-        let t732 = mul_sub(t204, t456, t731);
-        let t733 = mul_add(t190, t451, mul_sub(t110, t556, t114 * t554));
-        let t734 = mul_sub(t186, t453, t733);
-        let t735 = mul_add(t160, t445, mul_sub(t89, t469, t93 * t467));
-        let t736 = mul_sub(t154, t447, t735);
-        let t737 = t102 * t515;
-        let t738 = mul_add(t177, t448, mul_sub(t100, t517, t737));
-        let t739 = mul_sub(t173, t450, t738);
-        let t740 = t728 + (t730 - (t732 + (t734 + (t736 - t739))));
-        let t741 = mul_add(t237, t461, neg_mul_add(t142, t672, t143 * t671));
-        let t742 = mul_sub(t239, t460, t741);
-        let t743 = mul_add(t222, t458, neg_mul_add(t133, t633, t134 * t632));
-        let t744 = mul_sub(t224, t457, t743);
-        let t745 = mul_add(t204, t455, neg_mul_add(t122, t594, t124 * t593));
-        let t746 = mul_sub(t206, t454, t745);
-        let t747 = mul_add(t186, t452, neg_mul_add(t110, t555, t112 * t554));
-        let t748 = mul_sub(t188, t451, t747);
-        let t749 = mul_add(t154, t446, neg_mul_add(t89, t468, t91 * t467));
-        let t750 = mul_sub(t157, t445, t749);
-        let t751 = t101 * t515;
-        let t752 = mul_add(t173, t449, neg_mul_add(t100, t516, t751));
-        let t753 = mul_sub(t175, t448, t752);
-        let t754 = t742 + (t744 - (t746 + (t748 + (t750 - t753))));
-        let t755 = t675 + (t636 - (t597 + (t558 - (t474 - t519))));
-        coriolis_matrix_p[1][0] = t755;
-        coriolis_matrix_b[1][0] = t755;
-        let t756 = t676 + (t637 - (t598 + (t559 - (t475 - t520))));
-        coriolis_matrix_p[1][1] = t756;
-        coriolis_matrix_b[1][1] = t756;
-        let t757 = t677 + (t638 - (t599 + (t560 - (t476 - t521))));
-        coriolis_matrix_p[1][2] = t757;
-        coriolis_matrix_b[1][2] = t757;
-        let t758 = mul_add(t243, t462, neg_mul_add(t143, t677, t144 * t676));
-        let t759 = mul_sub(t244, t461, t758);
-        let t760 = mul_add(t228, t459, neg_mul_add(t134, t638, t135 * t637));
-        let t761 = mul_sub(t229, t458, t760);
-        let t762 = mul_add(t210, t456, neg_mul_add(t124, t599, t126 * t598));
-        let t763 = mul_sub(t211, t455, t762);
-        let t764 = mul_add(t192, t453, neg_mul_add(t112, t560, t114 * t559));
-        let t765 = mul_sub(t193, t452, t764);
-        let t766 = mul_add(t162, t447, neg_mul_add(t91, t476, t93 * t475));
-        let t767 = mul_sub(t163, t446, t766);
-        let t768 = t102 * t520;
-        let t769 = mul_add(t178, t450, neg_mul_add(t101, t521, t768));
-        let t770 = mul_sub(t179, t449, t769);
-        let t771 = t759 + (t761 - (t763 + (t765 + (t767 - t770))));
-        let t772 = mul_add(t144, t675, mul_sub(t239, t462, t142 * t677));
-        let t773 = mul_sub(t244, t460, t772);
-        let t774 = mul_add(t135, t636, mul_sub(t224, t459, t133 * t638));
-        let t775 = mul_sub(t229, t457, t774);
-        let t776 = mul_add(t126, t597, mul_sub(t206, t456, t122 * t599));
-        let t777 = mul_sub(t211, t454, t776);
-        let t778 = mul_add(t114, t558, mul_sub(t188, t453, t110 * t560));
-        let t779 = mul_sub(t193, t451, t778);
-        let t780 = mul_add(t93, t474, mul_sub(t157, t447, t89 * t476));
-        let t781 = mul_sub(t163, t445, t780);
-        let t782 = mul_add(t102, t519, mul_sub(t175, t450, t100 * t521));
-        let t783 = mul_sub(t179, t448, t782);
-        let t784 = t773 + (t775 - (t777 + (t779 + (t781 - t783))));
-        coriolis_matrix_p[1][4] = t784;
-        let t785 = mul_add(t239, t461, mul_sub(t143, t675, t142 * t676));
-        let t786 = mul_sub(t243, t460, t785);
-        let t787 = mul_add(t224, t458, mul_sub(t134, t636, t133 * t637));
-        let t788 = mul_sub(t228, t457, t787);
-        let t789 = mul_add(t206, t455, mul_sub(t124, t597, t122 * t598));
-        let t790 = mul_sub(t210, t454, t789);
-        let t791 = mul_add(t188, t452, mul_sub(t112, t558, t110 * t559));
-        let t792 = mul_sub(t192, t451, t791);
-        let t793 = mul_add(t157, t446, mul_sub(t91, t474, t89 * t475));
-        let t794 = mul_sub(t162, t445, t793);
-        let t795 = t100 * t520;
-        let t796 = mul_add(t175, t449, mul_sub(t101, t519, t795));
-        let t797 = mul_sub(t178, t448, t796);
-        let t798 = t786 + (t788 - (t790 + (t792 + (t794 - t797))));
-        let t799 = t679 + (t640 - (t601 + (t562 - (t481 - t523))));
-        coriolis_matrix_p[2][0] = t799;
-        coriolis_matrix_b[2][0] = t799;
-        let t800 = t680 + (t641 - (t602 + (t563 - (t482 - t524))));
-        coriolis_matrix_p[2][1] = t800;
-        coriolis_matrix_b[2][1] = t800;
-        let t801 = t681 + (t642 - (t603 + (t564 - (t483 - t525))));
-        coriolis_matrix_p[2][2] = t801;
-        coriolis_matrix_b[2][2] = t801;
-        let t802 = mul_add(t244, t462, mul_sub(t144, t680, t143 * t681));
-        let t803 = mul_sub(t246, t461, t802);
-        let t804 = mul_add(t229, t459, mul_sub(t135, t641, t134 * t642));
-        let t805 = mul_sub(t231, t458, t804);
-        let t806 = mul_add(t211, t456, mul_sub(t126, t602, t124 * t603));
-        let t807 = mul_sub(t213, t455, t806);
-        let t808 = mul_add(t193, t453, mul_sub(t114, t563, t112 * t564));
-        let t809 = mul_sub(t195, t452, t808);
-        let t810 = mul_add(t163, t447, mul_sub(t93, t482, t91 * t483));
-        let t811 = mul_sub(t165, t446, t810);
-        let t812 = t101 * t525;
-        let t813 = mul_add(t179, t450, mul_sub(t102, t524, t812));
-        let t814 = mul_sub(t180, t449, t813);
-        let t815 = t803 + (t805 - (t807 + (t809 + (t811 - t814))));
-        let t816 = mul_add(t246, t460, neg_mul_add(t144, t679, t142 * t681));
-        let t817 = mul_sub(t241, t462, t816);
-        let t818 = mul_add(t231, t457, neg_mul_add(t135, t640, t133 * t642));
-        let t819 = mul_sub(t226, t459, t818);
-        let t820 = mul_add(t213, t454, neg_mul_add(t126, t601, t122 * t603));
-        let t821 = mul_sub(t208, t456, t820);
-        let t822 = mul_add(t195, t451, neg_mul_add(t114, t562, t110 * t564));
-        let t823 = mul_sub(t190, t453, t822);
-        let t824 = mul_add(t165, t445, neg_mul_add(t93, t481, t89 * t483));
-        let t825 = mul_sub(t160, t447, t824);
-        let t826 = t100 * t525;
-        let t827 = mul_add(t180, t448, neg_mul_add(t102, t523, t826));
-        let t828 = mul_sub(t177, t450, t827);
-        let t829 = t817 + (t819 - (t821 + (t823 + (t825 - t828))));
-        let t830 = mul_add(t143, t679, mul_sub(t241, t461, t244 * t460));
-        let t831 = mul_sub(t142, t680, t830);
-        let t832 = mul_add(t134, t640, mul_sub(t226, t458, t229 * t457));
-        let t833 = mul_sub(t133, t641, t832);
-        let t834 = mul_add(t124, t601, mul_sub(t208, t455, t211 * t454));
-        let t835 = mul_sub(t122, t602, t834);
-        let t836 = mul_add(t112, t562, mul_sub(t190, t452, t193 * t451));
-        let t837 = mul_sub(t110, t563, t836);
-        let t838 = mul_add(t91, t481, mul_sub(t160, t446, t163 * t445));
-        let t839 = mul_sub(t89, t482, t838);
-        let t840 = mul_add(t101, t523, mul_sub(t177, t449, t179 * t448));
-        let t841 = mul_sub(t100, t524, t840);
-        let t842 = t831 + (t833 - (t835 + (t837 + (t839 - t841))));
-        let t843 = mul_add(t114, t558, mul_sub(t93, t474, t102 * t519));
-        let t844 = mul_sub(t135, t636, mul_add(t126, t597, t843));
-        let t845 = mul_add(t91, t481, mul_add(t144, t675, t844));
-        let t846 = mul_sub(t112, t562, mul_sub(t101, t523, t845));
-        let t847 = mul_sub(t134, t640, mul_add(t124, t601, t846));
-        let t848 = mul_add(t143, t679, t847);
-        let t849 = mul_add(t114, t559, mul_sub(t93, t475, t768));
-        let t850 = mul_sub(t135, t637, mul_add(t126, t598, t849));
-        let t851 = mul_add(t91, t482, mul_add(t144, t676, t850));
-        let t852 = mul_sub(t112, t563, mul_sub(t101, t524, t851));
-        let t853 = mul_sub(t134, t641, mul_add(t124, t602, t852));
-        let t854 = mul_add(t143, t680, t853);
-        let t855 = mul_add(t112, t564, mul_sub(t91, t483, t812));
-        let t856 = mul_sub(t134, t642, mul_add(t124, t603, t855));
-        let t857 = mul_add(t93, t476, mul_add(t143, t681, t856));
-        let t858 = mul_sub(t114, t560, mul_sub(t102, t521, t857));
-        let t859 = mul_sub(t135, t638, mul_add(t126, t599, t858));
-        let t860 = mul_add(t144, t677, t859);
-        coriolis_matrix_p[3][2] = t860;
-        coriolis_matrix_b[3][2] = t860;
-        let t861 = mul_sub(t102, t770, mul_sub(t93, t767, t91 * t811));
-        let t862 = mul_sub(t114, t765, mul_sub(t101, t814, t861));
-        let t863 = mul_sub(t126, t763, mul_sub(t112, t809, t862));
-        let t864 = mul_add(t135, t761, mul_sub(t124, t807, t863));
-        let t865 = mul_sub(t144, t759, mul_sub(t134, t805, t864));
-        let t866 = mul_sub(t143, t803, t865);
-        let t867 = mul_sub(t102, t783, mul_add(t93, t781, t91 * t825));
-        let t868 = mul_add(t114, t779, mul_add(t101, t828, t867));
-        let t869 = mul_add(t126, t777, mul_add(t112, t823, t868));
-        let t870 = mul_sub(t135, t775, mul_add(t124, t821, t869));
-        let t871 = mul_add(t144, t773, mul_add(t134, t819, t870));
-        let t872 = mul_add(t143, t817, t871);
-        let t873 = mul_sub(t102, t797, mul_sub(t93, t794, t91 * t839));
-        let t874 = mul_sub(t114, t792, mul_sub(t101, t841, t873));
-        let t875 = mul_sub(t126, t790, mul_sub(t112, t837, t874));
-        let t876 = mul_add(t135, t788, mul_sub(t124, t835, t875));
-        let t877 = mul_sub(t144, t786, mul_sub(t134, t833, t876));
-        let t878 = mul_sub(t143, t831, t877);
-        let t879 = mul_add(t114, t554, mul_sub(t93, t467, t737));
-        let t880 = mul_sub(t135, t632, mul_add(t126, t593, t879));
-        let t881 = mul_add(t89, t481, mul_add(t144, t671, t880));
-        let t882 = mul_sub(t110, t562, mul_sub(t100, t523, t881));
-        let t883 = mul_sub(t133, t640, mul_add(t122, t601, t882));
-        let t884 = mul_add(t142, t679, t883);
-        coriolis_matrix_p[4][0] = t884;
-        coriolis_matrix_b[4][0] = t884;
-        let t885 = mul_add(t114, t555, mul_sub(t93, t468, t723));
-        let t886 = mul_sub(t135, t633, mul_add(t126, t594, t885));
-        let t887 = mul_add(t89, t482, mul_add(t144, t672, t886));
-        let t888 = mul_sub(t110, t563, mul_sub(t100, t524, t887));
-        let t889 = mul_sub(t133, t641, mul_add(t122, t602, t888));
-        let t890 = mul_add(t142, t680, t889);
-        coriolis_matrix_p[4][1] = t890;
-        coriolis_matrix_b[4][1] = t890;
-        let t891 = mul_add(t110, t564, mul_sub(t89, t483, t826));
-        let t892 = mul_sub(t133, t642, mul_add(t122, t603, t891));
-        let t893 = mul_add(t93, t469, mul_add(t142, t681, t892));
-        let t894 = mul_sub(t114, t556, mul_sub(t102, t517, t893));
-        let t895 = mul_sub(t135, t634, mul_add(t126, t595, t894));
-        let t896 = mul_add(t144, t673, t895);
-        let t897 = mul_sub(t100, t814, mul_sub(t89, t811, t93 * t722));
-        let t898 = mul_sub(t110, t809, mul_sub(t102, t725, t897));
-        let t899 = mul_sub(t122, t807, mul_sub(t114, t719, t898));
-        let t900 = mul_add(t133, t805, mul_sub(t126, t717, t899));
-        let t901 = mul_sub(t142, t803, mul_sub(t135, t715, t900));
-        let t902 = mul_sub(t144, t713, t901);
-        let t903 = mul_sub(t100, t828, mul_sub(t89, t825, t93 * t736));
-        let t904 = mul_sub(t110, t823, mul_sub(t102, t739, t903));
-        let t905 = mul_sub(t122, t821, mul_sub(t114, t734, t904));
-        let t906 = mul_add(t133, t819, mul_sub(t126, t732, t905));
-        let t907 = mul_sub(t142, t817, mul_sub(t135, t730, t906));
-        let t908 = mul_sub(t144, t728, t907);
-        let t909 = mul_sub(t100, t841, mul_sub(t89, t839, t93 * t750));
-        let t910 = mul_sub(t110, t837, mul_sub(t102, t753, t909));
-        let t911 = mul_sub(t122, t835, mul_sub(t114, t748, t910));
-        let t912 = mul_add(t133, t833, mul_sub(t126, t746, t911));
-        let t913 = mul_sub(t142, t831, mul_sub(t135, t744, t912));
-        let t914 = mul_sub(t144, t742, t913);
-        let t915 = mul_add(t112, t554, mul_sub(t91, t467, t751));
-        let t916 = mul_sub(t134, t632, mul_add(t124, t593, t915));
-        let t917 = mul_add(t89, t474, mul_add(t143, t671, t916));
-        let t918 = mul_sub(t110, t558, mul_sub(t100, t519, t917));
-        let t919 = mul_sub(t133, t636, mul_add(t122, t597, t918));
-        let t920 = mul_add(t142, t675, t919);
-        let t921 = mul_add(t110, t559, mul_sub(t89, t475, t795));
-        let t922 = mul_sub(t133, t637, mul_add(t122, t598, t921));
-        let t923 = mul_add(t91, t468, mul_add(t142, t676, t922));
-        let t924 = mul_sub(t112, t555, mul_sub(t101, t516, t923));
-        let t925 = mul_sub(t134, t633, mul_add(t124, t594, t924));
-        let t926 = mul_add(t143, t672, t925);
-        coriolis_matrix_p[5][1] = t926;
-        coriolis_matrix_b[5][1] = t926;
-        let t927 = mul_add(t112, t556, neg_mul_add(t101, t517, t720));
-        let t928 = mul_sub(t134, t634, mul_add(t124, t595, t927));
-        let t929 = mul_add(t89, t476, mul_add(t143, t673, t928));
-        let t930 = mul_sub(t110, t560, mul_sub(t100, t521, t929));
-        let t931 = mul_sub(t133, t638, mul_add(t122, t599, t930));
-        let t932 = mul_add(t142, t677, t931);
-        let t933 = mul_sub(t101, t725, mul_sub(t91, t722, t89 * t767));
-        let t934 = mul_sub(t112, t719, mul_sub(t100, t770, t933));
-        let t935 = mul_sub(t124, t717, mul_sub(t110, t765, t934));
-        let t936 = mul_add(t134, t715, mul_sub(t122, t763, t935));
-        let t937 = mul_sub(t143, t713, mul_sub(t133, t761, t936));
-        let t938 = mul_sub(t142, t759, t937);
-        let t939 = mul_sub(t101, t739, mul_add(t91, t736, t89 * t781));
-        let t940 = mul_add(t112, t734, mul_add(t100, t783, t939));
-        let t941 = mul_add(t124, t732, mul_add(t110, t779, t940));
-        let t942 = mul_sub(t134, t730, mul_add(t122, t777, t941));
-        let t943 = mul_add(t143, t728, mul_add(t133, t775, t942));
-        let t944 = mul_add(t142, t773, t943);
-        let t945 = mul_sub(t101, t753, mul_sub(t91, t750, t89 * t794));
-        let t946 = mul_sub(t112, t748, mul_sub(t100, t797, t945));
-        let t947 = mul_sub(t124, t746, mul_sub(t110, t792, t946));
-        let t948 = mul_add(t134, t744, mul_sub(t122, t790, t947));
-        let t949 = mul_sub(t143, t742, mul_sub(t133, t788, t948));
-        let t950 = mul_sub(t142, t786, t949);
-        coriolis_matrix_p[0][3] = -t726;
-        coriolis_matrix_p[2][5] = -t842;
-        let t951 = -t848;
-        coriolis_matrix_p[3][0] = t951;
-        coriolis_matrix_b[3][0] = t951;
-        let t952 = -t854;
-        coriolis_matrix_p[3][1] = t952;
-        coriolis_matrix_b[3][1] = t952;
-        let t953 = -t896;
-        coriolis_matrix_p[4][2] = t953;
-        coriolis_matrix_b[4][2] = t953;
-        let t954 = -t920;
-        coriolis_matrix_p[5][0] = t954;
-        coriolis_matrix_b[5][0] = t954;
-        let t955 = -t932;
-        coriolis_matrix_p[5][2] = t955;
-        coriolis_matrix_b[5][2] = t955;
+        let t772 = mul_sub(t104, t520, mul_add(t95, t511, t585));
+        let t773 = mul_add(t128, t538, mul_sub(t116, t529, t772));
+        coriolis_matrix_p[0][3] = neg_mul_add(t146, t556, neg_mul_add(t137, t547, t773));
+        let t774 = mul_sub(t106, t521, mul_add(t97, t512, t617));
+        let t775 = mul_add(t130, t539, mul_sub(t118, t530, t774));
+        coriolis_matrix_p[1][4] = neg_mul_add(t148, t557, neg_mul_add(t139, t548, t775));
+        let t776 = mul_sub(t108, t522, mul_add(t99, t513, t645));
+        let t777 = mul_add(t132, t540, mul_sub(t120, t531, t776));
+        coriolis_matrix_p[2][5] = neg_mul_add(t150, t558, neg_mul_add(t141, t549, t777));
+        // first moment of the rods' couplings by the Hooke joint
+        let t778 = t53 + t57;
+        let t779 = t62 + t75;
+        let t780 = t67 + t71;
+        let t781 = c(0.17066666666666666) * (t780 + (t778 + t779));
+        let t782 = base_rotation[0][0] * c(1.5612511283791264e-17);
+        let t783 = mul_sub(base_rotation[0][2], t781, t782);
+        let t784 = base_rotation[1][0] * c(1.5612511283791264e-17);
+        let t785 = mul_sub(base_rotation[1][2], t781, t784);
+        let t786 = base_rotation[2][0] * c(1.5612511283791264e-17);
+        let t787 = mul_sub(base_rotation[2][2], t781, t786);
+        // their moment by platform joint and Hooke joint
+        let t788 = mul_sub(
+            t778,
+            c(0.019782160922400118),
+            t779 * c(0.005300614043699622),
+        );
+        let t789 = neg_mul_add(t780, c(0.01448154687870049), t788);
+        let t790 = base_rotation[0][0] * c(0.009764694018945443);
+        let t791 = mul_sub(base_rotation[0][2], t789, t790);
+        let t792 = c(0.019782160922400118) * (t62 - t75);
+        let t793 = mul_sub(c(0.005300614043699624), t53 - t57, t792);
+        let t794 = neg_mul_add(c(0.014481546878700494), t67 - t71, t793);
+        let t795 = base_rotation[0][1] * c(0.009764694018945445);
+        let t796 = mul_add(base_rotation[0][2], t794, t795);
+        let t797 = mul_sub(
+            platform_rotation[0][0],
+            t791,
+            platform_rotation[0][1] * t796,
+        );
+        let t798 = base_rotation[1][0] * c(0.009764694018945443);
+        let t799 = mul_sub(base_rotation[1][2], t789, t798);
+        let t800 = base_rotation[1][1] * c(0.009764694018945445);
+        let t801 = mul_add(base_rotation[1][2], t794, t800);
+        let t802 = mul_sub(
+            platform_rotation[0][0],
+            t799,
+            platform_rotation[0][1] * t801,
+        );
+        let t803 = base_rotation[2][0] * c(0.009764694018945443);
+        let t804 = mul_sub(base_rotation[2][2], t789, t803);
+        let t805 = base_rotation[2][1] * c(0.009764694018945445);
+        let t806 = mul_add(base_rotation[2][2], t794, t805);
+        let t807 = mul_sub(
+            platform_rotation[0][0],
+            t804,
+            platform_rotation[0][1] * t806,
+        );
+        let t808 = mul_sub(
+            platform_rotation[1][0],
+            t791,
+            platform_rotation[1][1] * t796,
+        );
+        let t809 = mul_sub(
+            platform_rotation[1][0],
+            t799,
+            platform_rotation[1][1] * t801,
+        );
+        let t810 = mul_sub(
+            platform_rotation[1][0],
+            t804,
+            platform_rotation[1][1] * t806,
+        );
+        let t811 = mul_sub(
+            platform_rotation[2][0],
+            t791,
+            platform_rotation[2][1] * t796,
+        );
+        let t812 = mul_sub(
+            platform_rotation[2][0],
+            t799,
+            platform_rotation[2][1] * t801,
+        );
+        let t813 = mul_sub(
+            platform_rotation[2][0],
+            t804,
+            platform_rotation[2][1] * t806,
+        );
+        // leg 1: rate of the sliding masses' first moment, its moment about the axis
+        let t814 = t324 * c(0.1253686515315582);
+        let t815 = mul_add(t53, c(0.9523333333333334), c(0.03055));
+        let t816 = mul_add(t318, t815, t814);
+        let t817 = t324 * c(0.11690815888191348);
+        let t818 = mul_sub(t321, t815, t817);
+        // leg 2: rate of the sliding masses' first moment, its moment about the axis
+        let t819 = mul_add(t57, c(0.9523333333333334), c(0.03055));
+        let t820 = mul_add(t318, t819, t814);
+        let t821 = mul_add(t321, t819, t817);
+        // leg 3: rate of the sliding masses' first moment, its moment about the axis
+        let t822 = t324 * c(0.03856110973562536);
+        let t823 = mul_add(t62, c(0.9523333333333334), c(0.03055));
+        let t824 = mul_add(t318, t823, t822);
+        let t825 = t324 * c(0.16702651650548503);
+        let t826 = mul_add(t321, t823, t825);
+        // leg 4: rate of the sliding masses' first moment, its moment about the axis
+        let t827 = t324 * c(0.16392976126718353);
+        let t828 = mul_add(t67, c(0.9523333333333334), c(0.03055));
+        let t829 = mul_sub(t318, t828, t827);
+        let t830 = t324 * c(0.05011835762357158);
+        let t831 = mul_add(t321, t828, t830);
+        // leg 5: rate of the sliding masses' first moment, its moment about the axis
+        let t832 = mul_add(t71, c(0.9523333333333334), c(0.03055));
+        let t833 = neg_mul_add(t318, t832, t827);
+        let t834 = neg_mul_add(t321, t832, t830);
+        // leg 6: rate of the sliding masses' first moment, its moment about the axis
+        let t835 = mul_add(t75, c(0.9523333333333334), c(0.03055));
+        let t836 = mul_add(t318, t835, t822);
+        let t837 = neg_mul_add(t321, t835, t825);
         (
             t19,
             t20,
             t21,
-            t89,
-            t91,
-            t93,
             t95,
             t97,
             t99,
-            t100,
-            t101,
-            t102,
-            t110,
-            t112,
-            t114,
+            t104,
+            t106,
+            t108,
             t116,
             t118,
             t120,
-            t122,
-            t124,
-            t126,
             t128,
             t130,
             t132,
-            t133,
-            t134,
-            t135,
             t137,
             t139,
             t141,
-            t142,
-            t143,
-            t144,
             t146,
             t148,
             t150,
-            t252,
-            t253,
-            t254,
-            t261,
+            t151,
+            t152,
+            t153,
+            t154,
+            t155,
+            t156,
+            t157,
+            t158,
+            t159,
+            t160,
+            t161,
+            t162,
+            t163,
+            t164,
+            t165,
+            t166,
+            t167,
+            t168,
+            t201,
+            t208,
+            t215,
+            t226,
+            t236,
+            t241,
+            t246,
+            t248,
+            t258,
             t267,
             t273,
-            t276,
-            t277,
-            t283,
-            t287,
-            t293,
-            t296,
-            t302,
-            t308,
+            t279,
+            t285,
+            t291,
+            t297,
+            t303,
             t309,
-            t328,
-            t329,
-            t330,
-            t494,
-            t495,
-            t501,
-            t503,
-            t504,
-            t506,
-            t507,
-            t508,
-            t510,
+            t315,
+            t334,
+            t335,
+            t336,
+            t372,
+            t374,
+            t377,
+            t380,
+            t382,
+            t384,
             t511,
             t512,
             t513,
-            t535,
-            t542,
-            t545,
-            t546,
+            t520,
+            t521,
+            t522,
+            t529,
+            t530,
+            t531,
+            t538,
+            t539,
+            t540,
             t547,
+            t548,
             t549,
-            t550,
-            t551,
-            t552,
+            t556,
+            t557,
+            t558,
+            t567,
             t573,
-            t574,
             t579,
-            t581,
-            t582,
-            t584,
             t585,
-            t586,
-            t588,
-            t589,
-            t590,
             t591,
-            t612,
+            t597,
+            t601,
+            t605,
+            t609,
             t613,
-            t618,
-            t620,
+            t617,
             t621,
-            t623,
-            t624,
             t625,
-            t627,
-            t628,
             t629,
-            t630,
+            t633,
+            t637,
+            t641,
+            t645,
             t651,
-            t652,
             t657,
-            t659,
-            t660,
-            t662,
             t663,
-            t664,
-            t666,
-            t667,
-            t668,
             t669,
-            t690,
-            t691,
-            t696,
-            t698,
+            t675,
+            t681,
+            t687,
+            t693,
             t699,
-            t701,
-            t702,
-            t703,
             t705,
-            t706,
-            t707,
-            t708,
-            t709,
-            t710,
             t711,
-            t726,
-            t740,
-            t754,
-            t755,
-            t756,
-            t757,
-            t771,
-            t784,
-            t798,
-            t799,
-            t800,
-            t801,
-            t815,
+            t717,
+            t723,
+            t729,
+            t735,
+            t741,
+            t747,
+            t753,
+            t783,
+            t785,
+            t787,
+            t797,
+            t802,
+            t807,
+            t808,
+            t809,
+            t810,
+            t811,
+            t812,
+            t813,
+            t816,
+            t818,
+            t820,
+            t821,
+            t824,
+            t826,
             t829,
-            t842,
-            t848,
-            t854,
-            t860,
-            t866,
-            t872,
-            t878,
-            t884,
-            t890,
-            t896,
-            t902,
-            t908,
-            t914,
-            t920,
-            t926,
-            t932,
-            t938,
-            t944,
-            t950,
+            t831,
+            t833,
+            t834,
+            t836,
+            t837,
         )
     };
     {
-        // Coriolis matrix C_p, natural factorisation
-        let t956 = platform_rotation[1][1] * c(6.938893903907228e-18);
-        let t957 = mul_add(platform_rotation[1][0], c(2.2551405187698492e-17), t956);
-        let t958 = mul_add(platform_rotation[1][2], c(0.188852), t957);
-        let t959 = platform_rotation[0][1] * c(6.938893903907228e-18);
-        let t960 = mul_add(platform_rotation[0][0], c(2.2551405187698492e-17), t959);
-        let t961 = mul_add(platform_rotation[0][2], c(0.188852), t960);
-        let t962 = mul_sub(platform_velocity[3], t958, platform_velocity[4] * t961);
-        coriolis_matrix_p[0][4] = t962 - t740;
-        let t963 = platform_rotation[2][1] * c(6.938893903907228e-18);
-        let t964 = mul_add(platform_rotation[2][0], c(2.2551405187698492e-17), t963);
-        let t965 = mul_add(platform_rotation[2][2], c(0.188852), t964);
-        let t966 = mul_sub(platform_velocity[5], t961, platform_velocity[3] * t965);
-        coriolis_matrix_p[0][5] = -(t754 + t966);
-        coriolis_matrix_p[1][3] = -(t771 + t962);
-        let t967 = mul_sub(platform_velocity[4], t965, platform_velocity[5] * t958);
-        coriolis_matrix_p[1][5] = t967 - t798;
-        coriolis_matrix_p[2][3] = t966 - t815;
-        coriolis_matrix_p[2][4] = -(t829 + t967);
-        let t968 = platform_rotation[0][2] * c(0.013354412);
-        let t969 = platform_rotation[0][0] * c(0.032245600000000006);
-        let t970 = platform_rotation[0][1] * c(0.032245600000000006);
-        let t971 = mul_add(
-            platform_rotation[2][0],
-            t969,
-            platform_rotation[2][1] * t970,
-        );
-        let t972 = mul_add(platform_rotation[2][2], t968, t971);
-        let t973 = mul_add(
-            platform_rotation[1][0],
-            t969,
-            platform_rotation[1][1] * t970,
-        );
-        let t974 = mul_add(platform_rotation[1][2], t968, t973);
-        let t975 = mul_add(platform_velocity[5], t974, t866);
-        coriolis_matrix_p[3][3] = neg_mul_add(platform_velocity[4], t972, t975);
-        let t976 = platform_rotation[1][2] * c(0.013354412);
-        let t977 = platform_rotation[1][0] * c(0.032245600000000006);
-        let t978 = platform_rotation[1][1] * c(0.032245600000000006);
-        let t979 = mul_add(
-            platform_rotation[2][0],
-            t977,
-            platform_rotation[2][1] * t978,
-        );
-        let t980 = mul_add(platform_rotation[2][2], t976, t979);
-        let t981 = neg_mul_add(platform_rotation[1][0], t977, c(0.0425));
-        let t982 = mul_sub(platform_rotation[1][1], t978, t981);
-        let t983 = mul_add(platform_rotation[1][2], t976, t982);
-        let t984 = mul_add(platform_velocity[5], t983, t872);
-        coriolis_matrix_p[3][4] = neg_mul_add(platform_velocity[4], t980, t984);
-        let t985 = platform_rotation[2][2] * c(0.013354412);
-        let t986 = platform_rotation[2][1] * c(0.032245600000000006);
-        let t987 = platform_rotation[2][0] * c(0.032245600000000006);
-        let t988 = neg_mul_add(platform_rotation[2][0], t987, c(0.0425));
-        let t989 = mul_sub(platform_rotation[2][1], t986, t988);
-        let t990 = mul_add(platform_rotation[2][2], t985, t989);
-        let t991 = mul_add(platform_velocity[5], t980, t878);
-        coriolis_matrix_p[3][5] = neg_mul_add(platform_velocity[4], t990, t991);
-        let t992 = neg_mul_add(platform_rotation[0][0], t969, c(0.0425));
-        let t993 = mul_sub(platform_rotation[0][1], t970, t992);
-        let t994 = mul_add(platform_rotation[0][2], t968, t993);
-        let t995 = neg_mul_add(platform_velocity[5], t994, t902);
-        coriolis_matrix_p[4][3] = mul_add(platform_velocity[3], t972, t995);
-        let t996 = neg_mul_add(platform_velocity[5], t974, t908);
-        coriolis_matrix_p[4][4] = mul_add(platform_velocity[3], t980, t996);
-        let t997 = neg_mul_add(platform_velocity[5], t972, t914);
-        coriolis_matrix_p[4][5] = mul_add(platform_velocity[3], t990, t997);
-        let t998 = mul_add(platform_velocity[4], t994, t938);
-        coriolis_matrix_p[5][3] = neg_mul_add(platform_velocity[3], t974, t998);
-        let t999 = mul_sub(platform_velocity[4], t974, t944);
-        coriolis_matrix_p[5][4] = neg_mul_add(platform_velocity[3], t983, t999);
-        let t1000 = mul_add(platform_velocity[4], t972, t950);
-        coriolis_matrix_p[5][5] = neg_mul_add(platform_velocity[3], t980, t1000);
         // Coriolis matrix C_b, natural factorisation
-        let t1001 = mul_sub(t116, t573, mul_sub(t95, t494, t535));
-        let t1002 = mul_sub(t137, t651, mul_add(t128, t612, t1001));
-        let t1003 = mul_sub(t21, t710, t726 - mul_add(t146, t690, t1002));
-        let t1004 = mul_sub(t253, t330, mul_sub(t20, t711, t1003));
-        coriolis_matrix_b[0][3] = neg_mul_add(t254, t329, t1004);
-        let t1005 = t740 - (t698 + (t659 - (t620 + (t581 - (t503 - t542)))));
-        let t1006 = mul_sub(t21, t709, mul_sub(t19, t711, t1005));
-        coriolis_matrix_b[0][4] = neg_mul_add(t252, t330, mul_sub(t254, t328, t1006));
-        let t1007 = t754 - (t701 + (t662 - (t623 + (t584 - (t506 - t545)))));
-        let t1008 = mul_sub(t19, t710, mul_sub(t20, t709, t1007));
-        coriolis_matrix_b[0][5] = neg_mul_add(t253, t328, mul_sub(t252, t329, t1008));
-        let t1009 = t771 + (t702 + (t663 + (t624 + (t585 + (t507 + t546)))));
-        let t1010 = mul_sub(t20, t757, mul_sub(t21, t756, t1009));
-        coriolis_matrix_b[1][3] = neg_mul_add(t277, t329, mul_sub(t276, t330, t1010));
-        let t1011 = mul_sub(t118, t579, mul_sub(t97, t501, t547));
-        let t1012 = mul_sub(t139, t657, mul_add(t130, t618, t1011));
-        let t1013 = mul_sub(t253, t330, t784 + mul_add(t148, t696, t1012));
-        let t1014 = mul_sub(t21, t755, mul_sub(t19, t757, t1013));
-        coriolis_matrix_b[1][4] = mul_sub(t277, t328, t1014);
-        let t1015 = t798 - (t705 + (t666 - (t627 + (t588 - (t510 - t549)))));
-        let t1016 = mul_sub(t19, t756, mul_sub(t20, t755, t1015));
-        coriolis_matrix_b[1][5] = neg_mul_add(t276, t328, mul_sub(t253, t329, t1016));
-        let t1017 = t815 - (t706 + (t667 + (t628 + (t589 + (t511 + t550)))));
-        let t1018 = mul_sub(t20, t801, mul_sub(t21, t800, t1017));
-        coriolis_matrix_b[2][3] = neg_mul_add(t296, t329, mul_sub(t277, t330, t1018));
-        let t1019 = t829 + (t707 + (t668 + (t629 + (t590 + (t512 + t551)))));
-        let t1020 = mul_sub(t21, t799, mul_sub(t19, t801, t1019));
-        coriolis_matrix_b[2][4] = neg_mul_add(t254, t330, mul_sub(t296, t328, t1020));
-        let t1021 = mul_sub(t120, t582, mul_sub(t99, t504, t552));
-        let t1022 = mul_sub(t141, t660, mul_add(t132, t621, t1021));
-        let t1023 = mul_sub(t254, t329, t842 - mul_add(t150, t699, t1022));
-        let t1024 = mul_sub(t20, t799, mul_sub(t277, t328, t1023));
-        coriolis_matrix_b[2][5] = neg_mul_add(t19, t800, t1024);
-        let t1025 = mul_sub(t20, t860, neg_mul_add(t21, t854, t866));
-        let t1026 = mul_sub(t302, t329, mul_add(t283, t330, t1025));
-        let t1027 = mul_add(t93, t507, mul_add(t91, t511, t1026));
-        let t1028 = mul_add(t102, t546, mul_add(t101, t550, t1027));
-        let t1029 = neg_mul_add(t114, t585, neg_mul_add(t112, t589, t1028));
-        let t1030 = neg_mul_add(t126, t624, neg_mul_add(t124, t628, t1029));
-        let t1031 = neg_mul_add(t135, t663, neg_mul_add(t134, t667, t1030));
-        coriolis_matrix_b[3][3] = neg_mul_add(
-            t144,
-            t702,
-            neg_mul_add(t143, t706, t1031),
+        let t838 = mul_sub(t116, t826, mul_sub(t95, t818, t104 * t821));
+        let t839 = mul_add(t137, t834, mul_add(t128, t831, t838));
+        let t840 = mul_add(t146, t837, t839);
+        let t841 = mul_sub(t116, t824, mul_sub(t95, t816, t104 * t820));
+        let t842 = mul_add(t137, t833, mul_add(t128, t829, t841));
+        let t843 = mul_sub(t146, t836, t842);
+        let t844 = mul_add(t20, t579, neg_mul_add(t21, t573, t585));
+        let t845 = mul_sub(base_rotation[0][0], t843, t844);
+        let t846 = mul_add(t208, t336, mul_sub(base_rotation[0][1], t840, t845));
+        coriolis_matrix_b[0][3] = neg_mul_add(t215, t335, t846);
+        let t847 = t380 + t382;
+        let t848 = t372 + t374;
+        let t849 = t377 + t384;
+        let t850 = c(0.17066666666666666) * (t847 + (t848 + t849));
+        let t851 = mul_sub(base_velocity[3], t785, base_velocity[4] * t783);
+        let t852 = mul_add(base_rotation[2][2], t850, t851);
+        let t853 = mul_add(t21, t567, neg_mul_add(t19, t579, t591));
+        let t854 = mul_sub(base_rotation[1][0], t843, t853);
+        let t855 = mul_add(t215, t334, mul_sub(base_rotation[1][1], t840, t854));
+        coriolis_matrix_b[0][4] = t852 - mul_sub(t201, t336, t855);
+        let t856 = mul_add(t19, t573, neg_mul_add(t20, t567, t597));
+        let t857 = mul_sub(base_rotation[2][0], t843, t856);
+        let t858 = mul_add(t201, t335, mul_sub(base_rotation[2][1], t840, t857));
+        let t859 = mul_sub(base_velocity[5], t783, base_velocity[3] * t787);
+        let t860 = mul_add(base_rotation[1][2], t850, t859);
+        coriolis_matrix_b[0][5] = neg_mul_add(t208, t334, t858) - t860;
+        let t861 = mul_sub(t118, t826, mul_sub(t97, t818, t106 * t821));
+        let t862 = mul_add(t139, t834, mul_add(t130, t831, t861));
+        let t863 = mul_add(t148, t837, t862);
+        let t864 = mul_sub(t118, t824, mul_sub(t97, t816, t106 * t820));
+        let t865 = mul_add(t139, t833, mul_add(t130, t829, t864));
+        let t866 = mul_sub(t148, t836, t865);
+        let t867 = mul_sub(t20, t609, mul_sub(t21, t605, t613 - t852));
+        let t868 = mul_sub(base_rotation[0][0], t866, t867);
+        let t869 = mul_add(t236, t336, mul_sub(base_rotation[0][1], t863, t868));
+        coriolis_matrix_b[1][3] = neg_mul_add(t241, t335, t869);
+        let t870 = mul_add(t21, t601, neg_mul_add(t19, t609, t617));
+        let t871 = mul_sub(base_rotation[1][0], t866, t870);
+        let t872 = mul_add(t241, t334, mul_sub(base_rotation[1][1], t863, t871));
+        coriolis_matrix_b[1][4] = neg_mul_add(t226, t336, t872);
+        let t873 = mul_sub(base_velocity[4], t787, base_velocity[5] * t785);
+        let t874 = mul_add(base_rotation[0][2], t850, t873);
+        let t875 = mul_add(t19, t605, neg_mul_add(t20, t601, t621));
+        let t876 = mul_sub(base_rotation[2][0], t866, t875);
+        let t877 = mul_add(t226, t335, mul_sub(base_rotation[2][1], t863, t876));
+        coriolis_matrix_b[1][5] = t874 - mul_sub(t236, t334, t877);
+        let t878 = mul_sub(t120, t826, mul_sub(t99, t818, t108 * t821));
+        let t879 = mul_add(t141, t834, mul_add(t132, t831, t878));
+        let t880 = mul_add(t150, t837, t879);
+        let t881 = mul_sub(t120, t824, mul_sub(t99, t816, t108 * t820));
+        let t882 = mul_add(t141, t833, mul_add(t132, t829, t881));
+        let t883 = mul_sub(t150, t836, t882);
+        let t884 = mul_sub(t20, t633, mul_sub(t21, t629, t637 + t860));
+        let t885 = mul_sub(base_rotation[0][0], t883, t884);
+        let t886 = mul_add(t248, t336, mul_sub(base_rotation[0][1], t880, t885));
+        coriolis_matrix_b[2][3] = neg_mul_add(t258, t335, t886);
+        let t887 = mul_sub(t21, t625, mul_sub(t19, t633, t641 - t874));
+        let t888 = mul_sub(base_rotation[1][0], t883, t887);
+        let t889 = mul_add(t258, t334, mul_sub(base_rotation[1][1], t880, t888));
+        coriolis_matrix_b[2][4] = neg_mul_add(t246, t336, t889);
+        let t890 = mul_add(t19, t629, neg_mul_add(t20, t625, t645));
+        let t891 = mul_sub(base_rotation[2][0], t883, t890);
+        let t892 = mul_add(t246, t335, mul_sub(base_rotation[2][1], t880, t891));
+        coriolis_matrix_b[2][5] = neg_mul_add(t248, t334, t892);
+        let t893 = mul_sub(
+            c(0.019782160922400118),
+            t848,
+            c(0.005300614043699622) * t849,
         );
-        let t1032 = mul_add(t21, t848, mul_add(t19, t860, t872));
-        let t1033 = mul_add(t261, t330, mul_sub(t302, t328, t1032));
-        let t1034 = mul_add(t93, t508, mul_add(t91, t512, t1033));
-        let t1035 = mul_sub(t102, t547, mul_add(t101, t551, t1034));
-        let t1036 = mul_sub(t114, t586, mul_add(t112, t590, t1035));
-        let t1037 = mul_sub(t126, t625, mul_sub(t124, t629, t1036));
-        let t1038 = mul_add(t135, t664, mul_sub(t134, t668, t1037));
-        coriolis_matrix_b[3][4] = mul_add(t144, t703, mul_add(t143, t707, t1038));
-        let t1039 = mul_add(t19, t854, neg_mul_add(t20, t848, t878));
-        let t1040 = mul_add(t283, t328, mul_add(t261, t329, t1039));
-        let t1041 = mul_sub(t93, t510, mul_add(t91, t513, t1040));
-        let t1042 = mul_sub(t102, t549, mul_add(t101, t552, t1041));
-        let t1043 = mul_sub(t114, t588, mul_add(t112, t591, t1042));
-        let t1044 = mul_sub(t126, t627, mul_sub(t124, t630, t1043));
-        let t1045 = mul_sub(t135, t666, mul_add(t134, t669, t1044));
-        coriolis_matrix_b[3][5] = mul_sub(t144, t705, mul_sub(t143, t708, t1045));
-        let t1046 = mul_add(t20, t896, mul_add(t21, t890, t902));
-        let t1047 = mul_sub(t308, t329, mul_sub(t287, t330, t1046));
-        let t1048 = mul_sub(t89, t511, mul_add(t93, t495, t1047));
-        let t1049 = mul_add(t100, t550, mul_add(t102, t535, t1048));
-        let t1050 = mul_add(t110, t589, mul_sub(t114, t574, t1049));
-        let t1051 = mul_add(t122, t628, mul_add(t126, t613, t1050));
-        let t1052 = mul_sub(t133, t667, mul_sub(t135, t652, t1051));
-        coriolis_matrix_b[4][3] = mul_sub(t142, t706, mul_sub(t144, t691, t1052));
-        let t1053 = mul_sub(t21, t884, neg_mul_add(t19, t896, t908));
-        let t1054 = mul_sub(t267, t330, mul_add(t308, t328, t1053));
-        let t1055 = mul_add(t89, t512, mul_add(t93, t503, t1054));
-        let t1056 = mul_sub(t100, t551, mul_sub(t102, t542, t1055));
-        let t1057 = mul_sub(t110, t590, mul_add(t114, t581, t1056));
-        let t1058 = neg_mul_add(t122, t629, mul_sub(t126, t620, t1057));
-        let t1059 = neg_mul_add(t133, t668, neg_mul_add(t135, t659, t1058));
-        coriolis_matrix_b[4][4] = neg_mul_add(
-            t142,
-            t707,
-            neg_mul_add(t144, t698, t1059),
+        let t894 = neg_mul_add(c(0.01448154687870049), t847, t893);
+        let t895 = c(0.019782160922400118) * (t377 - t384);
+        let t896 = mul_sub(c(0.005300614043699624), t372 - t374, t895);
+        let t897 = neg_mul_add(c(0.014481546878700494), t380 - t382, t896);
+        let t898 = mul_sub(
+            platform_rotation[2][0],
+            t894,
+            platform_rotation[2][1] * t897,
         );
-        let t1060 = mul_sub(t19, t890, mul_add(t20, t884, t914));
-        let t1061 = mul_sub(t287, t328, mul_add(t267, t329, t1060));
-        let t1062 = mul_sub(t89, t513, mul_add(t93, t506, t1061));
-        let t1063 = mul_sub(t100, t552, mul_add(t102, t545, t1062));
-        let t1064 = mul_sub(t110, t591, mul_add(t114, t584, t1063));
-        let t1065 = mul_sub(t122, t630, mul_sub(t126, t623, t1064));
-        let t1066 = mul_sub(t133, t669, mul_add(t135, t662, t1065));
-        coriolis_matrix_b[4][5] = mul_sub(t142, t708, mul_sub(t144, t701, t1066));
-        let t1067 = mul_add(t20, t932, mul_add(t21, t926, t938));
-        let t1068 = mul_add(t309, t329, mul_sub(t293, t330, t1067));
-        let t1069 = mul_add(t91, t495, mul_add(t89, t507, t1068));
-        let t1070 = mul_sub(t101, t535, mul_add(t100, t546, t1069));
-        let t1071 = mul_sub(t112, t574, mul_add(t110, t585, t1070));
-        let t1072 = mul_sub(t124, t613, mul_sub(t122, t624, t1071));
-        let t1073 = mul_add(t134, t652, mul_sub(t133, t663, t1072));
-        coriolis_matrix_b[5][3] = mul_add(t143, t691, mul_add(t142, t702, t1073));
-        let t1074 = mul_sub(t21, t920, mul_add(t19, t932, t944));
-        let t1075 = mul_add(t273, t330, mul_add(t309, t328, t1074));
-        let t1076 = mul_sub(t91, t503, mul_add(t89, t508, t1075));
-        let t1077 = mul_sub(t101, t542, mul_add(t100, t547, t1076));
-        let t1078 = mul_sub(t112, t581, mul_add(t110, t586, t1077));
-        let t1079 = mul_sub(t124, t620, mul_sub(t122, t625, t1078));
-        let t1080 = mul_sub(t134, t659, mul_add(t133, t664, t1079));
-        coriolis_matrix_b[5][4] = mul_sub(t143, t698, mul_sub(t142, t703, t1080));
-        let t1081 = mul_sub(t19, t926, neg_mul_add(t20, t920, t950));
-        let t1082 = mul_sub(t293, t328, mul_add(t273, t329, t1081));
-        let t1083 = mul_sub(t91, t506, mul_add(t89, t510, t1082));
-        let t1084 = mul_sub(t101, t545, mul_add(t100, t549, t1083));
-        let t1085 = mul_sub(t112, t584, mul_add(t110, t588, t1084));
-        let t1086 = mul_sub(t124, t623, mul_sub(t122, t627, t1085));
-        let t1087 = mul_sub(t134, t662, mul_add(t133, t666, t1086));
-        coriolis_matrix_b[5][5] = mul_sub(t143, t701, mul_sub(t142, t705, t1087));
+        let t899 = mul_sub(
+            platform_rotation[0][0],
+            t894,
+            platform_rotation[0][1] * t897,
+        );
+        let t900 = mul_sub(base_rotation[0][2], t899, base_velocity[5] * t802);
+        let t901 = mul_add(base_velocity[4], t807, t900);
+        let t902 = mul_sub(
+            platform_rotation[1][0],
+            t894,
+            platform_rotation[1][1] * t897,
+        );
+        let t903 = mul_sub(base_rotation[1][2], t902, base_velocity[3] * t810);
+        let t904 = mul_add(base_velocity[5], t808, t903);
+        let t905 = t901 + t904;
+        let t906 = mul_add(base_rotation[2][2], t898, t905);
+        let t907 = mul_sub(
+            base_velocity[3],
+            t812,
+            mul_sub(base_velocity[4], t811, t906),
+        );
+        let t908 = mul_add(t157, t826, mul_sub(t151, t818, t154 * t821));
+        let t909 = mul_add(t163, t834, mul_add(t160, t831, t908));
+        let t910 = mul_add(t166, t837, t909);
+        let t911 = mul_add(t157, t824, mul_sub(t151, t816, t154 * t820));
+        let t912 = mul_add(t163, t833, mul_add(t160, t829, t911));
+        let t913 = mul_sub(t166, t836, t912);
+        let t914 = mul_add(t20, t663, neg_mul_add(t21, t657, t669));
+        let t915 = mul_add(base_rotation[0][0], t913, t914);
+        let t916 = mul_add(t273, t336, mul_sub(base_rotation[0][1], t910, t915));
+        coriolis_matrix_b[3][3] = t907 - (t901 - mul_sub(t279, t335, t916));
+        let t917 = mul_add(t21, t651, neg_mul_add(t19, t663, t675));
+        let t918 = mul_add(base_rotation[1][0], t913, t917);
+        let t919 = mul_add(t279, t334, mul_sub(base_rotation[1][1], t910, t918));
+        let t920 = mul_sub(base_rotation[0][2], t902, mul_sub(t267, t336, t919));
+        let t921 = mul_sub(base_velocity[5], t809, t920);
+        coriolis_matrix_b[3][4] = neg_mul_add(base_velocity[4], t810, t921);
+        let t922 = mul_add(t19, t657, neg_mul_add(t20, t651, t681));
+        let t923 = mul_add(base_rotation[2][0], t913, t922);
+        let t924 = mul_add(t267, t335, mul_sub(base_rotation[2][1], t910, t923));
+        let t925 = mul_sub(base_rotation[0][2], t898, mul_sub(t273, t334, t924));
+        let t926 = mul_sub(base_velocity[5], t812, t925);
+        coriolis_matrix_b[3][5] = neg_mul_add(base_velocity[4], t813, t926);
+        let t927 = mul_add(t158, t826, mul_sub(t152, t818, t155 * t821));
+        let t928 = mul_add(t164, t834, mul_add(t161, t831, t927));
+        let t929 = mul_add(t167, t837, t928);
+        let t930 = mul_add(t158, t824, mul_sub(t152, t816, t155 * t820));
+        let t931 = mul_add(t164, t833, mul_add(t161, t829, t930));
+        let t932 = mul_sub(t167, t836, t931);
+        let t933 = mul_add(t20, t699, neg_mul_add(t21, t693, t705));
+        let t934 = mul_add(base_rotation[0][0], t932, t933);
+        let t935 = mul_add(t291, t336, mul_sub(base_rotation[0][1], t929, t934));
+        let t936 = mul_sub(base_rotation[1][2], t899, mul_sub(t297, t335, t935));
+        let t937 = mul_sub(base_velocity[3], t807, t936);
+        coriolis_matrix_b[4][3] = neg_mul_add(base_velocity[5], t797, t937);
+        let t938 = mul_sub(t21, t687, mul_sub(t19, t699, t907 + (t711 - t904)));
+        let t939 = mul_add(base_rotation[1][0], t932, t938);
+        let t940 = mul_add(t297, t334, mul_sub(base_rotation[1][1], t929, t939));
+        coriolis_matrix_b[4][4] = mul_sub(t285, t336, t940);
+        let t941 = mul_add(t19, t693, neg_mul_add(t20, t687, t717));
+        let t942 = mul_add(base_rotation[2][0], t932, t941);
+        let t943 = mul_add(t285, t335, mul_sub(base_rotation[2][1], t929, t942));
+        let t944 = mul_sub(base_rotation[1][2], t898, mul_sub(t291, t334, t943));
+        let t945 = mul_sub(base_velocity[3], t813, t944);
+        coriolis_matrix_b[4][5] = neg_mul_add(base_velocity[5], t811, t945);
+        let t946 = mul_add(t159, t826, mul_sub(t153, t818, t156 * t821));
+        let t947 = mul_add(t165, t834, mul_add(t162, t831, t946));
+        let t948 = mul_add(t168, t837, t947);
+        let t949 = mul_add(t159, t824, mul_sub(t153, t816, t156 * t820));
+        let t950 = mul_add(t165, t833, mul_add(t162, t829, t949));
+        let t951 = mul_sub(t168, t836, t950);
+        let t952 = mul_add(t20, t735, neg_mul_add(t21, t729, t741));
+        let t953 = mul_add(base_rotation[0][0], t951, t952);
+        let t954 = mul_add(t309, t336, mul_sub(base_rotation[0][1], t948, t953));
+        let t955 = mul_sub(base_rotation[2][2], t899, mul_sub(t315, t335, t954));
+        let t956 = mul_sub(base_velocity[4], t797, t955);
+        coriolis_matrix_b[5][3] = neg_mul_add(base_velocity[3], t802, t956);
+        let t957 = mul_add(t21, t723, neg_mul_add(t19, t735, t747));
+        let t958 = mul_add(base_rotation[1][0], t951, t957);
+        let t959 = mul_add(t315, t334, mul_sub(base_rotation[1][1], t948, t958));
+        let t960 = mul_sub(base_rotation[2][2], t902, mul_sub(t303, t336, t959));
+        let t961 = mul_sub(base_velocity[4], t808, t960);
+        coriolis_matrix_b[5][4] = neg_mul_add(base_velocity[3], t809, t961);
+        let t962 = mul_sub(t19, t729, mul_sub(t20, t723, t753 + t905));
+        let t963 = mul_add(base_rotation[2][0], t951, t962);
+        let t964 = mul_add(t303, t335, mul_sub(base_rotation[2][1], t948, t963));
+        coriolis_matrix_b[5][5] = mul_sub(t309, t334, t964);
+        // Coriolis matrix C_p, natural factorisation
+        let t965 = platform_rotation[1][1] * c(6.938893903907228e-18);
+        let t966 = mul_add(platform_rotation[1][0], c(2.2551405187698492e-17), t965);
+        let t967 = mul_add(platform_rotation[1][2], c(0.188852), t966);
+        let t968 = platform_rotation[0][1] * c(6.938893903907228e-18);
+        let t969 = mul_add(platform_rotation[0][0], c(2.2551405187698492e-17), t968);
+        let t970 = mul_add(platform_rotation[0][2], c(0.188852), t969);
+        let t971 = mul_sub(platform_velocity[3], t967, platform_velocity[4] * t970);
+        let t972 = mul_sub(t104, t521, mul_add(t95, t512, t591));
+        let t973 = mul_add(t128, t539, mul_sub(t116, t530, t972));
+        coriolis_matrix_p[0][4] = t971 - mul_add(t146, t557, mul_sub(t137, t548, t973));
+        let t974 = mul_sub(t104, t522, mul_add(t95, t513, t597));
+        let t975 = mul_add(t128, t540, mul_sub(t116, t531, t974));
+        let t976 = platform_rotation[2][1] * c(6.938893903907228e-18);
+        let t977 = mul_add(platform_rotation[2][0], c(2.2551405187698492e-17), t976);
+        let t978 = mul_add(platform_rotation[2][2], c(0.188852), t977);
+        let t979 = mul_sub(platform_velocity[5], t970, platform_velocity[3] * t978);
+        coriolis_matrix_p[0][5] = neg_mul_add(t146, t558, neg_mul_add(t137, t549, t975))
+            - t979;
+        let t980 = mul_sub(t106, t520, mul_add(t97, t511, t613));
+        let t981 = mul_add(t130, t538, mul_sub(t118, t529, t980));
+        coriolis_matrix_p[1][3] = neg_mul_add(t148, t556, neg_mul_add(t139, t547, t981))
+            - t971;
+        let t982 = mul_sub(platform_velocity[4], t978, platform_velocity[5] * t967);
+        let t983 = mul_sub(t106, t522, mul_add(t97, t513, t621));
+        let t984 = mul_add(t130, t540, mul_sub(t118, t531, t983));
+        coriolis_matrix_p[1][5] = t982 - mul_add(t148, t558, mul_sub(t139, t549, t984));
+        let t985 = mul_sub(t108, t520, mul_add(t99, t511, t637));
+        let t986 = mul_add(t132, t538, mul_sub(t120, t529, t985));
+        coriolis_matrix_p[2][3] = t979 - mul_add(t150, t556, mul_sub(t141, t547, t986));
+        let t987 = mul_sub(t108, t521, mul_add(t99, t512, t641));
+        let t988 = mul_add(t132, t539, mul_sub(t120, t530, t987));
+        coriolis_matrix_p[2][4] = neg_mul_add(t150, t557, neg_mul_add(t141, t548, t988))
+            - t982;
+        let t989 = platform_rotation[0][2] * c(0.013354412);
+        let t990 = platform_rotation[0][0] * c(0.032245600000000006);
+        let t991 = platform_rotation[0][1] * c(0.032245600000000006);
+        let t992 = mul_add(
+            platform_rotation[2][0],
+            t990,
+            platform_rotation[2][1] * t991,
+        );
+        let t993 = mul_add(platform_rotation[2][2], t989, t992);
+        let t994 = mul_add(
+            platform_rotation[1][0],
+            t990,
+            platform_rotation[1][1] * t991,
+        );
+        let t995 = mul_add(platform_rotation[1][2], t989, t994);
+        let t996 = mul_sub(t154, t520, mul_add(t151, t511, t669));
+        let t997 = mul_add(t160, t538, mul_add(t157, t529, t996));
+        let t998 = mul_add(t166, t556, mul_sub(t163, t547, t997));
+        let t999 = mul_add(platform_velocity[5], t995, t998);
+        coriolis_matrix_p[3][3] = neg_mul_add(platform_velocity[4], t993, t999);
+        let t1000 = platform_rotation[1][2] * c(0.013354412);
+        let t1001 = platform_rotation[1][0] * c(0.032245600000000006);
+        let t1002 = platform_rotation[1][1] * c(0.032245600000000006);
+        let t1003 = mul_add(
+            platform_rotation[2][0],
+            t1001,
+            platform_rotation[2][1] * t1002,
+        );
+        let t1004 = mul_add(platform_rotation[2][2], t1000, t1003);
+        let t1005 = neg_mul_add(platform_rotation[1][0], t1001, c(0.0425));
+        let t1006 = mul_sub(platform_rotation[1][1], t1002, t1005);
+        let t1007 = mul_add(platform_rotation[1][2], t1000, t1006);
+        let t1008 = mul_sub(t154, t521, mul_add(t151, t512, t675));
+        let t1009 = mul_add(t160, t539, mul_add(t157, t530, t1008));
+        let t1010 = mul_add(t166, t557, mul_sub(t163, t548, t1009));
+        let t1011 = mul_add(platform_velocity[5], t1007, t1010);
+        coriolis_matrix_p[3][4] = neg_mul_add(platform_velocity[4], t1004, t1011);
+        let t1012 = platform_rotation[2][2] * c(0.013354412);
+        let t1013 = platform_rotation[2][1] * c(0.032245600000000006);
+        let t1014 = platform_rotation[2][0] * c(0.032245600000000006);
+        let t1015 = neg_mul_add(platform_rotation[2][0], t1014, c(0.0425));
+        let t1016 = mul_sub(platform_rotation[2][1], t1013, t1015);
+        let t1017 = mul_add(platform_rotation[2][2], t1012, t1016);
+        let t1018 = mul_sub(t154, t522, mul_add(t151, t513, t681));
+        let t1019 = mul_add(t160, t540, mul_add(t157, t531, t1018));
+        let t1020 = mul_add(t166, t558, mul_sub(t163, t549, t1019));
+        let t1021 = mul_add(platform_velocity[5], t1004, t1020);
+        coriolis_matrix_p[3][5] = neg_mul_add(platform_velocity[4], t1017, t1021);
+        let t1022 = neg_mul_add(platform_rotation[0][0], t990, c(0.0425));
+        let t1023 = mul_sub(platform_rotation[0][1], t991, t1022);
+        let t1024 = mul_add(platform_rotation[0][2], t989, t1023);
+        let t1025 = mul_sub(t155, t520, mul_add(t152, t511, t705));
+        let t1026 = mul_add(t161, t538, mul_add(t158, t529, t1025));
+        let t1027 = mul_add(t167, t556, mul_sub(t164, t547, t1026));
+        let t1028 = mul_sub(platform_velocity[5], t1024, t1027);
+        coriolis_matrix_p[4][3] = mul_sub(platform_velocity[3], t993, t1028);
+        let t1029 = mul_sub(t155, t521, mul_add(t152, t512, t711));
+        let t1030 = mul_add(t161, t539, mul_add(t158, t530, t1029));
+        let t1031 = mul_add(t167, t557, mul_sub(t164, t548, t1030));
+        let t1032 = mul_sub(platform_velocity[5], t995, t1031);
+        coriolis_matrix_p[4][4] = mul_sub(platform_velocity[3], t1004, t1032);
+        let t1033 = mul_sub(t155, t522, mul_add(t152, t513, t717));
+        let t1034 = mul_add(t161, t540, mul_add(t158, t531, t1033));
+        let t1035 = mul_add(t167, t558, mul_sub(t164, t549, t1034));
+        let t1036 = mul_sub(platform_velocity[5], t993, t1035);
+        coriolis_matrix_p[4][5] = mul_sub(platform_velocity[3], t1017, t1036);
+        let t1037 = mul_sub(t156, t520, mul_add(t153, t511, t741));
+        let t1038 = mul_add(t162, t538, mul_add(t159, t529, t1037));
+        let t1039 = mul_add(t168, t556, mul_sub(t165, t547, t1038));
+        let t1040 = mul_add(platform_velocity[4], t1024, t1039);
+        coriolis_matrix_p[5][3] = neg_mul_add(platform_velocity[3], t995, t1040);
+        let t1041 = mul_sub(t156, t521, mul_add(t153, t512, t747));
+        let t1042 = mul_add(t162, t539, mul_add(t159, t530, t1041));
+        let t1043 = mul_add(t168, t557, mul_sub(t165, t548, t1042));
+        let t1044 = mul_add(platform_velocity[4], t995, t1043);
+        coriolis_matrix_p[5][4] = neg_mul_add(platform_velocity[3], t1007, t1044);
+        let t1045 = mul_sub(t156, t522, mul_add(t153, t513, t753));
+        let t1046 = mul_add(t162, t540, mul_add(t159, t531, t1045));
+        let t1047 = mul_add(t168, t558, mul_sub(t165, t549, t1046));
+        let t1048 = mul_add(platform_velocity[4], t993, t1047);
+        coriolis_matrix_p[5][5] = neg_mul_add(platform_velocity[3], t1004, t1048);
     }
 }
 
@@ -9929,58 +9813,37 @@ pub fn matrices<T: Scalar>(
         t62,
         t67,
         t71,
-        t74,
         t75,
-        t86,
-        t87,
-        t89,
-        t91,
-        t93,
         t94,
         t95,
         t96,
         t98,
         t100,
         t102,
-        t103,
-        t104,
-        t105,
         t106,
         t107,
         t108,
         t110,
         t112,
         t114,
-        t119,
-        t121,
-        t123,
         t124,
         t125,
         t126,
         t128,
         t130,
         t132,
-        t137,
-        t139,
-        t141,
         t142,
         t143,
         t144,
         t146,
         t148,
         t150,
-        t154,
-        t155,
-        t156,
         t157,
         t158,
         t159,
         t161,
         t163,
         t165,
-        t166,
-        t167,
-        t168,
         t169,
         t170,
         t171,
@@ -9988,116 +9851,200 @@ pub fn matrices<T: Scalar>(
         t175,
         t177,
         t178,
+        t179,
+        t180,
         t181,
         t182,
+        t183,
         t184,
         t185,
+        t186,
         t187,
+        t188,
         t189,
         t190,
+        t191,
         t192,
-        t200,
-        t203,
-        t214,
-        t239,
+        t193,
+        t194,
+        t195,
+        t217,
+        t218,
+        t219,
+        t220,
+        t221,
+        t222,
+        t228,
+        t231,
+        t237,
         t241,
-        t243,
-        t244,
-        t245,
-        t246,
-        t250,
+        t247,
         t251,
-        t260,
+        t257,
+        t267,
+        t277,
+        t282,
+        t283,
+        t284,
         t285,
+        t286,
         t287,
+        t288,
         t289,
-        t291,
-        t292,
+        t290,
+        t293,
         t294,
+        t298,
         t299,
-        t301,
-        t311,
-        t336,
+        t304,
+        t309,
+        t314,
+        t315,
+        t316,
+        t317,
+        t318,
+        t319,
+        t320,
+        t321,
+        t322,
+        t323,
+        t324,
+        t327,
+        t328,
+        t333,
         t338,
-        t340,
-        t342,
-        t343,
-        t345,
+        t346,
         t350,
-        t352,
-        t362,
-        t387,
-        t389,
-        t391,
-        t393,
-        t394,
-        t396,
-        t400,
-        t401,
-        t410,
-        t435,
-        t437,
-        t439,
-        t441,
-        t442,
-        t444,
-        t448,
-        t449,
+        t354,
+        t382,
+        t386,
+        t390,
+        t415,
+        t419,
+        t423,
+        t447,
+        t450,
+        t453,
         t458,
-        t483,
-        t484,
-        t485,
+        t460,
+        t462,
+        t467,
+        t469,
+        t474,
+        t489,
         t491,
-        t498,
-        t505,
+        t493,
+        t503,
         t508,
-        t509,
+        t513,
+        t514,
+        t515,
         t516,
-        t529,
-        t536,
-        t539,
-        t546,
-        t553,
-        t560,
-        t601,
-        t604,
-        t607,
-        t612,
-        t614,
-        t616,
-        t621,
-        t623,
-        t628,
+        t517,
+        t518,
+        t519,
+        t602,
+        t605,
+        t608,
+        t618,
+        t619,
+        t620,
+        t656,
+        t658,
+        t661,
+        t664,
+        t666,
+        t668,
+        t675,
+        t677,
+        t679,
+        t686,
+        t688,
+        t690,
+        t697,
+        t699,
+        t701,
+        t708,
+        t710,
+        t712,
+        t719,
+        t721,
+        t723,
+        t730,
+        t732,
+        t734,
+        t754,
+        t756,
+        t758,
+        t760,
+        t762,
+        t764,
         t766,
-        t769,
+        t768,
+        t770,
         t772,
+        t774,
+        t776,
+        t778,
+        t780,
         t782,
-        t783,
         t784,
+        t786,
+        t788,
+        t791,
+        t793,
+        t794,
+        t795,
+        t796,
+        t797,
+        t798,
+        t799,
+        t800,
+        t801,
+        t802,
+        t803,
+        t804,
+        t805,
+        t806,
+        t807,
+        t808,
+        t809,
+        t810,
+        t811,
+        t812,
+        t813,
+        t814,
+        t815,
         t816,
         t817,
+        t818,
+        t819,
         t820,
+        t821,
         t822,
+        t823,
+        t824,
         t825,
+        t826,
+        t827,
         t828,
+        t829,
         t830,
         t831,
         t832,
+        t833,
+        t834,
+        t835,
+        t836,
+        t837,
+        t838,
         t839,
+        t840,
         t841,
+        t842,
         t843,
-        t850,
-        t852,
-        t854,
-        t861,
-        t863,
-        t865,
-        t872,
-        t874,
-        t876,
-        t883,
-        t885,
-        t887,
+        t844,
+        t845,
     ) = {
         // rotation of the platform seen from the base
         let t1 = base_rotation[1][0] * platform_rotation[1][0];
@@ -10362,854 +10309,917 @@ pub fn matrices<T: Scalar>(
         let t177 = mul_add(base_rotation[2][1], t87, t176);
         jacobian_dp[5][2] = t177;
         jacobian_db[5][2] = t177;
-        // leg 1: mass matrix of the leg in the speeds of its joint
-        let t178 = base_rotation[0][2] * c(0.17066666666666666);
-        let t179 = mul_add(t98, c(0.4761666666666667), t178);
-        let t180 = t98 * t179;
-        let t181 = c(2.0) * t180;
-        let t182 = base_rotation[1][2] * c(0.17066666666666666);
-        let t183 = mul_add(t100, c(0.4761666666666667), t182);
-        let t184 = mul_add(t98, t183, t100 * t179);
-        let t185 = base_rotation[2][2] * c(0.17066666666666666);
-        let t186 = mul_add(t102, c(0.4761666666666667), t185);
-        let t187 = mul_add(t98, t186, t102 * t179);
-        let t188 = t100 * t183;
-        let t189 = c(2.0) * t188;
-        let t190 = mul_add(t100, t186, t102 * t183);
-        let t191 = t102 * t186;
-        let t192 = c(2.0) * t191;
-        // leg 1: leg inertia between joint and base speeds
-        let t193 = base_rotation[0][2] * c(1.123);
-        let t194 = mul_add(t98, t193, c(0.17066666666666666));
-        let t195 = base_rotation[1][2] * c(1.123);
-        let t196 = t98 * t195;
-        let t197 = base_rotation[2][2] * c(1.123);
-        let t198 = t98 * t197;
-        let t199 = base_rotation[1][1] * c(0.12275970481124972);
-        let t200 = mul_sub(base_rotation[1][0], c(0.1316436662914507), t199);
-        let t201 = base_rotation[1][2] * c(0.03055);
-        let t202 = base_rotation[2][1] * c(0.12275970481124972);
-        let t203 = mul_sub(base_rotation[2][0], c(0.1316436662914507), t202);
-        let t204 = base_rotation[2][2] * c(0.03055);
-        let t205 = neg_mul_add(base_rotation[1][2], t53, t200);
-        let t206 = mul_add(t95, c(0.17066666666666666), t201);
-        let t207 = neg_mul_add(c(0.9523333333333334), t205, t206);
-        let t208 = neg_mul_add(base_rotation[2][2], t53, t203);
-        let t209 = mul_add(t96, c(0.17066666666666666), t204);
-        let t210 = neg_mul_add(c(0.9523333333333334), t208, t209);
-        let t211 = mul_sub(base_rotation[2][2], t207, base_rotation[1][2] * t210);
-        let t212 = t98 * t211;
-        let t213 = base_rotation[0][1] * c(0.12275970481124972);
-        let t214 = mul_sub(base_rotation[0][0], c(0.1316436662914507), t213);
-        let t215 = base_rotation[0][2] * c(0.03055);
-        let t216 = neg_mul_add(base_rotation[0][2], t53, t214);
-        let t217 = mul_add(t94, c(0.17066666666666666), t215);
-        let t218 = neg_mul_add(c(0.9523333333333334), t216, t217);
-        let t219 = mul_sub(base_rotation[0][2], t210, base_rotation[2][2] * t218);
-        let t220 = c(0.17066666666666666) * t208;
-        let t221 = mul_sub(t98, t219, t220);
-        let t222 = mul_sub(base_rotation[1][2], t218, base_rotation[0][2] * t207);
-        let t223 = c(0.17066666666666666) * t205;
-        let t224 = mul_add(t98, t222, t223);
-        let t225 = t100 * t193;
-        let t226 = mul_add(t100, t195, c(0.17066666666666666));
-        let t227 = t100 * t197;
-        let t228 = mul_add(t100, t211, t220);
-        let t229 = t100 * t219;
-        let t230 = c(0.17066666666666666) * t216;
-        let t231 = mul_sub(t100, t222, t230);
-        let t232 = t102 * t193;
-        let t233 = t102 * t195;
-        let t234 = mul_add(t102, t197, c(0.17066666666666666));
-        let t235 = neg_mul_add(t102, t211, t223);
-        let t236 = mul_add(t102, t219, t230);
-        let t237 = t102 * t222;
-        // leg 2: mass matrix of the leg in the speeds of its joint
-        let t238 = neg_mul_add(t110, c(0.4761666666666667), t178);
-        let t239 = c(2.0) * (t110 * t238);
-        let t240 = neg_mul_add(t112, c(0.4761666666666667), t182);
-        let t241 = mul_add(t110, t240, t112 * t238);
-        let t242 = neg_mul_add(t114, c(0.4761666666666667), t185);
-        let t243 = mul_add(t110, t242, t114 * t238);
-        let t244 = c(2.0) * (t112 * t240);
-        let t245 = mul_add(t112, t242, t114 * t240);
-        let t246 = c(2.0) * (t114 * t242);
-        // leg 2: leg inertia between joint and base speeds
-        let t247 = neg_mul_add(t110, t193, c(0.17066666666666666));
-        let t248 = t110 * t195;
-        let t249 = t110 * t197;
-        let t250 = mul_add(base_rotation[1][0], c(0.1316436662914507), t199);
-        let t251 = mul_add(base_rotation[2][0], c(0.1316436662914507), t202);
-        let t252 = neg_mul_add(base_rotation[1][2], t57, t250);
-        let t253 = mul_add(t107, c(0.17066666666666666), t201);
-        let t254 = neg_mul_add(c(0.9523333333333334), t252, t253);
-        let t255 = neg_mul_add(base_rotation[2][2], t57, t251);
-        let t256 = mul_add(t108, c(0.17066666666666666), t204);
-        let t257 = neg_mul_add(c(0.9523333333333334), t255, t256);
-        let t258 = mul_sub(base_rotation[2][2], t254, base_rotation[1][2] * t257);
-        let t259 = t110 * t258;
-        let t260 = mul_add(base_rotation[0][0], c(0.1316436662914507), t213);
-        let t261 = neg_mul_add(base_rotation[0][2], t57, t260);
-        let t262 = mul_add(t106, c(0.17066666666666666), t215);
-        let t263 = neg_mul_add(c(0.9523333333333334), t261, t262);
-        let t264 = mul_sub(base_rotation[0][2], t257, base_rotation[2][2] * t263);
-        let t265 = c(0.17066666666666666) * t255;
-        let t266 = mul_add(t110, t264, t265);
-        let t267 = mul_sub(base_rotation[1][2], t263, base_rotation[0][2] * t254);
-        let t268 = c(0.17066666666666666) * t252;
-        let t269 = mul_sub(t110, t267, t268);
-        let t270 = t112 * t193;
-        let t271 = neg_mul_add(t112, t195, c(0.17066666666666666));
-        let t272 = t112 * t197;
-        let t273 = neg_mul_add(t112, t258, t265);
-        let t274 = t112 * t264;
-        let t275 = c(0.17066666666666666) * t261;
-        let t276 = mul_add(t112, t267, t275);
-        let t277 = t114 * t193;
-        let t278 = t114 * t195;
-        let t279 = neg_mul_add(t114, t197, c(0.17066666666666666));
-        let t280 = mul_add(t114, t258, t268);
-        let t281 = neg_mul_add(t114, t264, t275);
-        let t282 = t114 * t267;
-        // leg 3: mass matrix of the leg in the speeds of its joint
-        let t283 = neg_mul_add(t128, c(0.4761666666666667), t178);
-        let t284 = t128 * t283;
-        let t285 = c(2.0) * t284;
-        let t286 = neg_mul_add(t130, c(0.4761666666666667), t182);
-        let t287 = mul_add(t128, t286, t130 * t283);
-        let t288 = neg_mul_add(t132, c(0.4761666666666667), t185);
-        let t289 = mul_add(t128, t288, t132 * t283);
-        let t290 = t130 * t286;
-        let t291 = c(2.0) * t290;
-        let t292 = mul_add(t130, t288, t132 * t286);
-        let t293 = t132 * t288;
-        let t294 = c(2.0) * t293;
-        // leg 3: leg inertia between joint and base speeds
-        let t295 = neg_mul_add(t128, t193, c(0.17066666666666666));
-        let t296 = t128 * t195;
-        let t297 = t128 * t197;
-        let t298 = base_rotation[1][1] * c(0.17538661166134234);
-        let t299 = mul_add(base_rotation[1][0], c(0.040491189781895726), t298);
-        let t300 = base_rotation[2][1] * c(0.17538661166134234);
-        let t301 = mul_add(base_rotation[2][0], c(0.040491189781895726), t300);
-        let t302 = neg_mul_add(base_rotation[1][2], t62, t299);
-        let t303 = mul_add(t125, c(0.17066666666666666), t201);
-        let t304 = neg_mul_add(c(0.9523333333333334), t302, t303);
-        let t305 = neg_mul_add(base_rotation[2][2], t62, t301);
-        let t306 = mul_add(t126, c(0.17066666666666666), t204);
-        let t307 = neg_mul_add(c(0.9523333333333334), t305, t306);
-        let t308 = mul_sub(base_rotation[2][2], t304, base_rotation[1][2] * t307);
-        let t309 = t128 * t308;
-        let t310 = base_rotation[0][1] * c(0.17538661166134234);
-        let t311 = mul_add(base_rotation[0][0], c(0.040491189781895726), t310);
-        let t312 = neg_mul_add(base_rotation[0][2], t62, t311);
-        let t313 = mul_add(t124, c(0.17066666666666666), t215);
-        let t314 = neg_mul_add(c(0.9523333333333334), t312, t313);
-        let t315 = mul_sub(base_rotation[0][2], t307, base_rotation[2][2] * t314);
-        let t316 = c(0.17066666666666666) * t305;
-        let t317 = mul_add(t128, t315, t316);
-        let t318 = mul_sub(base_rotation[1][2], t314, base_rotation[0][2] * t304);
-        let t319 = c(0.17066666666666666) * t302;
-        let t320 = mul_sub(t128, t318, t319);
-        let t321 = t130 * t193;
-        let t322 = neg_mul_add(t130, t195, c(0.17066666666666666));
-        let t323 = t130 * t197;
-        let t324 = neg_mul_add(t130, t308, t316);
-        let t325 = t130 * t315;
-        let t326 = c(0.17066666666666666) * t312;
-        let t327 = mul_add(t130, t318, t326);
-        let t328 = t132 * t193;
-        let t329 = t132 * t195;
-        let t330 = neg_mul_add(t132, t197, c(0.17066666666666666));
-        let t331 = mul_add(t132, t308, t319);
-        let t332 = neg_mul_add(t132, t315, t326);
-        let t333 = t132 * t318;
-        // leg 4: mass matrix of the leg in the speeds of its joint
-        let t334 = neg_mul_add(t146, c(0.4761666666666667), t178);
-        let t335 = t146 * t334;
-        let t336 = c(2.0) * t335;
-        let t337 = neg_mul_add(t148, c(0.4761666666666667), t182);
-        let t338 = mul_add(t146, t337, t148 * t334);
-        let t339 = neg_mul_add(t150, c(0.4761666666666667), t185);
-        let t340 = mul_add(t146, t339, t150 * t334);
-        let t341 = t148 * t337;
-        let t342 = c(2.0) * t341;
-        let t343 = mul_add(t148, t339, t150 * t337);
-        let t344 = t150 * t339;
-        let t345 = c(2.0) * t344;
-        // leg 4: leg inertia between joint and base speeds
-        let t346 = neg_mul_add(t146, t193, c(0.17066666666666666));
-        let t347 = t146 * t195;
-        let t348 = t146 * t197;
-        let t349 = base_rotation[1][1] * c(0.052626906850092664);
-        let t350 = mul_sub(base_rotation[1][0], c(0.17213485607334636), t349);
-        let t351 = base_rotation[2][1] * c(0.052626906850092664);
-        let t352 = mul_sub(base_rotation[2][0], c(0.17213485607334636), t351);
-        let t353 = mul_add(base_rotation[1][2], t67, t350);
-        let t354 = mul_add(t143, c(0.17066666666666666), t201);
-        let t355 = mul_add(c(0.9523333333333334), t353, t354);
-        let t356 = mul_add(base_rotation[2][2], t67, t352);
-        let t357 = mul_add(t144, c(0.17066666666666666), t204);
-        let t358 = mul_add(c(0.9523333333333334), t356, t357);
-        let t359 = mul_sub(base_rotation[2][2], t355, base_rotation[1][2] * t358);
-        let t360 = t146 * t359;
-        let t361 = base_rotation[0][1] * c(0.052626906850092664);
-        let t362 = mul_sub(base_rotation[0][0], c(0.17213485607334636), t361);
-        let t363 = mul_add(base_rotation[0][2], t67, t362);
-        let t364 = mul_add(t142, c(0.17066666666666666), t215);
-        let t365 = mul_add(c(0.9523333333333334), t363, t364);
-        let t366 = mul_sub(base_rotation[0][2], t358, base_rotation[2][2] * t365);
-        let t367 = c(0.17066666666666666) * t356;
-        let t368 = mul_sub(t146, t366, t367);
-        let t369 = mul_sub(base_rotation[1][2], t365, base_rotation[0][2] * t355);
-        let t370 = c(0.17066666666666666) * t353;
-        let t371 = mul_add(t146, t369, t370);
-        let t372 = t148 * t193;
-        let t373 = neg_mul_add(t148, t195, c(0.17066666666666666));
-        let t374 = t148 * t197;
-        let t375 = mul_add(t148, t359, t367);
-        let t376 = t148 * t366;
-        let t377 = c(0.17066666666666666) * t363;
-        let t378 = mul_sub(t148, t369, t377);
-        let t379 = t150 * t193;
-        let t380 = t150 * t195;
-        let t381 = neg_mul_add(t150, t197, c(0.17066666666666666));
-        let t382 = neg_mul_add(t150, t359, t370);
-        let t383 = mul_add(t150, t366, t377);
-        let t384 = t150 * t369;
-        // leg 5: mass matrix of the leg in the speeds of its joint
-        let t385 = mul_add(t161, c(0.4761666666666667), t178);
-        let t386 = t161 * t385;
-        let t387 = c(2.0) * t386;
-        let t388 = mul_add(t163, c(0.4761666666666667), t182);
-        let t389 = mul_add(t161, t388, t163 * t385);
-        let t390 = mul_add(t165, c(0.4761666666666667), t185);
-        let t391 = mul_add(t161, t390, t165 * t385);
-        let t392 = t163 * t388;
-        let t393 = c(2.0) * t392;
-        let t394 = mul_add(t163, t390, t165 * t388);
-        let t395 = t165 * t390;
-        let t396 = c(2.0) * t395;
-        // leg 5: leg inertia between joint and base speeds
-        let t397 = mul_add(t161, t193, c(0.17066666666666666));
-        let t398 = t161 * t195;
-        let t399 = t161 * t197;
-        let t400 = mul_add(base_rotation[1][0], c(0.17213485607334636), t349);
-        let t401 = mul_add(base_rotation[2][0], c(0.17213485607334636), t351);
-        let t402 = mul_add(base_rotation[1][2], t71, t400);
-        let t403 = mul_add(t158, c(0.17066666666666666), t201);
-        let t404 = mul_add(c(0.9523333333333334), t402, t403);
-        let t405 = mul_add(base_rotation[2][2], t71, t401);
-        let t406 = mul_add(t159, c(0.17066666666666666), t204);
-        let t407 = mul_add(c(0.9523333333333334), t405, t406);
-        let t408 = mul_sub(base_rotation[2][2], t404, base_rotation[1][2] * t407);
-        let t409 = t161 * t408;
-        let t410 = mul_add(base_rotation[0][0], c(0.17213485607334636), t361);
-        let t411 = mul_add(base_rotation[0][2], t71, t410);
-        let t412 = mul_add(t157, c(0.17066666666666666), t215);
-        let t413 = mul_add(c(0.9523333333333334), t411, t412);
-        let t414 = mul_sub(base_rotation[0][2], t407, base_rotation[2][2] * t413);
-        let t415 = c(0.17066666666666666) * t405;
-        let t416 = mul_add(t161, t414, t415);
-        let t417 = mul_sub(base_rotation[1][2], t413, base_rotation[0][2] * t404);
-        let t418 = c(0.17066666666666666) * t402;
-        let t419 = mul_sub(t161, t417, t418);
-        let t420 = t163 * t193;
-        let t421 = mul_add(t163, t195, c(0.17066666666666666));
-        let t422 = t163 * t197;
-        let t423 = neg_mul_add(t163, t408, t415);
-        let t424 = t163 * t414;
-        let t425 = c(0.17066666666666666) * t411;
-        let t426 = mul_add(t163, t417, t425);
-        let t427 = t165 * t193;
-        let t428 = t165 * t195;
-        let t429 = mul_add(t165, t197, c(0.17066666666666666));
-        let t430 = mul_add(t165, t408, t418);
-        let t431 = neg_mul_add(t165, t414, t425);
-        let t432 = t165 * t417;
-        // leg 6: mass matrix of the leg in the speeds of its joint
-        let t433 = mul_add(t173, c(0.4761666666666667), t178);
-        let t434 = t173 * t433;
-        let t435 = c(2.0) * t434;
-        let t436 = mul_add(t175, c(0.4761666666666667), t182);
-        let t437 = mul_add(t173, t436, t175 * t433);
-        let t438 = mul_add(t177, c(0.4761666666666667), t185);
-        let t439 = mul_add(t173, t438, t177 * t433);
-        let t440 = t175 * t436;
-        let t441 = c(2.0) * t440;
-        let t442 = mul_add(t175, t438, t177 * t436);
-        let t443 = t177 * t438;
-        let t444 = c(2.0) * t443;
-        // leg 6: leg inertia between joint and base speeds
-        let t445 = mul_add(t173, t193, c(0.17066666666666666));
-        let t446 = t173 * t195;
-        let t447 = t173 * t197;
-        let t448 = mul_sub(base_rotation[1][0], c(0.040491189781895726), t298);
-        let t449 = mul_sub(base_rotation[2][0], c(0.040491189781895726), t300);
-        let t450 = neg_mul_add(base_rotation[1][2], t75, t448);
-        let t451 = mul_add(t170, c(0.17066666666666666), t201);
-        let t452 = neg_mul_add(c(0.9523333333333334), t450, t451);
-        let t453 = neg_mul_add(base_rotation[2][2], t75, t449);
-        let t454 = mul_add(t171, c(0.17066666666666666), t204);
-        let t455 = neg_mul_add(c(0.9523333333333334), t453, t454);
-        let t456 = mul_sub(base_rotation[2][2], t452, base_rotation[1][2] * t455);
-        let t457 = t173 * t456;
-        let t458 = mul_sub(base_rotation[0][0], c(0.040491189781895726), t310);
-        let t459 = neg_mul_add(base_rotation[0][2], t75, t458);
-        let t460 = mul_add(t169, c(0.17066666666666666), t215);
-        let t461 = neg_mul_add(c(0.9523333333333334), t459, t460);
-        let t462 = mul_sub(base_rotation[0][2], t455, base_rotation[2][2] * t461);
-        let t463 = c(0.17066666666666666) * t453;
-        let t464 = mul_sub(t173, t462, t463);
-        let t465 = mul_sub(base_rotation[1][2], t461, base_rotation[0][2] * t452);
-        let t466 = c(0.17066666666666666) * t450;
-        let t467 = mul_add(t173, t465, t466);
-        let t468 = t175 * t193;
-        let t469 = mul_add(t175, t195, c(0.17066666666666666));
-        let t470 = t175 * t197;
-        let t471 = mul_add(t175, t456, t463);
-        let t472 = t175 * t462;
-        let t473 = c(0.17066666666666666) * t459;
-        let t474 = mul_sub(t175, t465, t473);
-        let t475 = t177 * t193;
-        let t476 = t177 * t195;
-        let t477 = mul_add(t177, t197, c(0.17066666666666666));
-        let t478 = neg_mul_add(t177, t456, t466);
-        let t479 = mul_add(t177, t462, t473);
-        let t480 = t177 * t465;
+        // leg 1: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+        let t178 = mul_sub(t91, t102, t93 * t100);
+        jacobian_dp[0][3] = t178;
+        let t179 = mul_sub(t93, t98, t89 * t102);
+        jacobian_dp[0][4] = t179;
+        let t180 = mul_sub(t89, t100, t91 * t98);
+        jacobian_dp[0][5] = t180;
+        // leg 2: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+        let t181 = mul_sub(t104, t114, t105 * t112);
+        let t182 = mul_sub(t105, t110, t103 * t114);
+        let t183 = mul_sub(t103, t112, t104 * t110);
+        jacobian_dp[1][3] = -t181;
+        jacobian_dp[1][4] = -t182;
+        jacobian_dp[1][5] = -t183;
+        // leg 3: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+        let t184 = mul_sub(t121, t132, t123 * t130);
+        jacobian_dp[2][3] = t184;
+        let t185 = mul_sub(t123, t128, t119 * t132);
+        jacobian_dp[2][4] = t185;
+        let t186 = mul_sub(t119, t130, t121 * t128);
+        jacobian_dp[2][5] = t186;
+        // leg 4: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+        let t187 = mul_sub(t139, t150, t141 * t148);
+        jacobian_dp[3][3] = t187;
+        let t188 = mul_sub(t141, t146, t137 * t150);
+        jacobian_dp[3][4] = t188;
+        let t189 = mul_sub(t137, t148, t139 * t146);
+        jacobian_dp[3][5] = t189;
+        // leg 5: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+        let t190 = mul_sub(t155, t165, t156 * t163);
+        let t191 = mul_sub(t156, t161, t154 * t165);
+        let t192 = mul_sub(t154, t163, t155 * t161);
+        jacobian_dp[4][3] = -t190;
+        jacobian_dp[4][4] = -t191;
+        jacobian_dp[4][5] = -t192;
+        // leg 6: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+        let t193 = mul_sub(t167, t177, t168 * t175);
+        let t194 = mul_sub(t168, t173, t166 * t177);
+        let t195 = mul_sub(t166, t175, t167 * t173);
+        jacobian_dp[5][3] = -t193;
+        jacobian_dp[5][4] = -t194;
+        jacobian_dp[5][5] = -t195;
+        // leg 1: rod's coupling times axis, a force at the platform joint
+        let t196 = base_rotation[0][2] * c(0.17066666666666666);
+        let t197 = base_rotation[1][2] * c(0.17066666666666666);
+        let t198 = base_rotation[2][2] * c(0.17066666666666666);
+        // leg 1: moment of that force
+        let t199 = mul_sub(t91, t198, t93 * t197);
+        let t200 = mul_sub(t93, t196, t89 * t198);
+        let t201 = mul_sub(t89, t197, t91 * t196);
+        // leg 2: moment of that force
+        let t202 = mul_sub(t104, t198, t105 * t197);
+        let t203 = mul_sub(t105, t196, t103 * t198);
+        let t204 = mul_sub(t103, t197, t104 * t196);
+        // leg 3: moment of that force
+        let t205 = mul_sub(t121, t198, t123 * t197);
+        let t206 = mul_sub(t123, t196, t119 * t198);
+        let t207 = mul_sub(t119, t197, t121 * t196);
+        // leg 4: moment of that force
+        let t208 = mul_sub(t139, t198, t141 * t197);
+        let t209 = mul_sub(t141, t196, t137 * t198);
+        let t210 = mul_sub(t137, t197, t139 * t196);
+        // leg 5: moment of that force
+        let t211 = mul_sub(t155, t198, t156 * t197);
+        let t212 = mul_sub(t156, t196, t154 * t198);
+        let t213 = mul_sub(t154, t197, t155 * t196);
+        // leg 6: moment of that force
+        let t214 = mul_sub(t167, t198, t168 * t197);
+        let t215 = mul_sub(t168, t196, t166 * t198);
+        let t216 = mul_sub(t166, t197, t167 * t196);
+        // part of the legs' mass matrix on the side of the axes
+        let t217 = t98 * c(0.9523333333333334);
+        let t218 = t110 * c(0.9523333333333334);
+        let t219 = t128 * c(0.9523333333333334);
+        let t220 = t146 * c(0.9523333333333334);
+        let t221 = t161 * c(0.9523333333333334);
+        let t222 = t173 * c(0.9523333333333334);
+        let t223 = t98 - t110;
+        let t224 = t128 - t173;
+        let t225 = t146 - t161;
+        let t226 = t225 - (t223 - t224);
+        let t227 = c(0.17066666666666666) * t226;
+        let t228 = base_rotation[0][2] * t227;
+        let t229 = mul_add(t128, t219, mul_add(t98, t217, t110 * t218));
+        let t230 = mul_add(t161, t221, mul_add(t146, t220, t229));
+        let t231 = mul_sub(base_rotation[0][2], t227, mul_add(t173, t222, t230));
+        let t232 = t100 - t112;
+        let t233 = t130 - t175;
+        let t234 = t148 - t163;
+        let t235 = t234 - (t232 - t233);
+        let t236 = c(0.17066666666666666) * t235;
+        let t237 = base_rotation[0][2] * t236;
+        let t238 = mul_add(t130, t219, mul_add(t100, t217, t112 * t218));
+        let t239 = mul_add(t163, t221, mul_add(t148, t220, t238));
+        let t240 = mul_add(t175, t222, t239);
+        let t241 = neg_mul_add(base_rotation[0][2], t236, t240);
+        let t242 = t102 - t114;
+        let t243 = t132 - t177;
+        let t244 = t150 - t165;
+        let t245 = t244 - (t242 - t243);
+        let t246 = c(0.17066666666666666) * t245;
+        let t247 = base_rotation[0][2] * t246;
+        let t248 = mul_add(t132, t219, mul_add(t102, t217, t114 * t218));
+        let t249 = mul_add(t165, t221, mul_add(t150, t220, t248));
+        let t250 = mul_add(t177, t222, t249);
+        let t251 = neg_mul_add(base_rotation[0][2], t246, t250);
+        let t252 = t178 - t181;
+        let t253 = t184 - t193;
+        let t254 = t187 - t190;
+        let t255 = t254 + (t252 + t253);
+        let t256 = c(0.17066666666666666) * t255;
+        let t257 = base_rotation[0][2] * t256;
+        let t258 = mul_sub(t184, t219, mul_add(t178, t217, t181 * t218));
+        let t259 = mul_add(t190, t221, mul_add(t187, t220, t258));
+        let t260 = mul_add(t193, t222, t259);
+        let t261 = neg_mul_add(base_rotation[0][2], t256, t260);
+        let t262 = t179 - t182;
+        let t263 = t185 - t194;
+        let t264 = t188 - t191;
+        let t265 = t264 + (t262 + t263);
+        let t266 = c(0.17066666666666666) * t265;
+        let t267 = base_rotation[0][2] * t266;
+        let t268 = mul_sub(t185, t219, mul_add(t179, t217, t182 * t218));
+        let t269 = mul_add(t191, t221, mul_add(t188, t220, t268));
+        let t270 = mul_add(t194, t222, t269);
+        let t271 = neg_mul_add(base_rotation[0][2], t266, t270);
+        let t272 = t180 - t183;
+        let t273 = t186 - t195;
+        let t274 = t189 - t192;
+        let t275 = t274 + (t272 + t273);
+        let t276 = c(0.17066666666666666) * t275;
+        let t277 = base_rotation[0][2] * t276;
+        let t278 = mul_sub(t186, t219, mul_add(t180, t217, t183 * t218));
+        let t279 = mul_add(t192, t221, mul_add(t189, t220, t278));
+        let t280 = mul_add(t195, t222, t279);
+        let t281 = neg_mul_add(base_rotation[0][2], t276, t280);
+        let t282 = base_rotation[1][2] * t227;
+        let t283 = neg_mul_add(base_rotation[1][2], t227, t240);
+        let t284 = t100 * c(0.9523333333333334);
+        let t285 = t112 * c(0.9523333333333334);
+        let t286 = t130 * c(0.9523333333333334);
+        let t287 = t148 * c(0.9523333333333334);
+        let t288 = t163 * c(0.9523333333333334);
+        let t289 = t175 * c(0.9523333333333334);
+        let t290 = base_rotation[1][2] * t236;
+        let t291 = mul_add(t130, t286, mul_add(t100, t284, t112 * t285));
+        let t292 = mul_add(t163, t288, mul_add(t148, t287, t291));
+        let t293 = mul_sub(base_rotation[1][2], t236, mul_add(t175, t289, t292));
+        let t294 = base_rotation[1][2] * t246;
+        let t295 = mul_add(t132, t286, mul_add(t102, t284, t114 * t285));
+        let t296 = mul_add(t165, t288, mul_add(t150, t287, t295));
+        let t297 = mul_add(t177, t289, t296);
+        let t298 = neg_mul_add(base_rotation[1][2], t246, t297);
+        let t299 = base_rotation[1][2] * t256;
+        let t300 = mul_sub(t184, t286, mul_add(t178, t284, t181 * t285));
+        let t301 = mul_add(t190, t288, mul_add(t187, t287, t300));
+        let t302 = mul_add(t193, t289, t301);
+        let t303 = neg_mul_add(base_rotation[1][2], t256, t302);
+        let t304 = base_rotation[1][2] * t266;
+        let t305 = mul_sub(t185, t286, mul_add(t179, t284, t182 * t285));
+        let t306 = mul_add(t191, t288, mul_add(t188, t287, t305));
+        let t307 = mul_add(t194, t289, t306);
+        let t308 = neg_mul_add(base_rotation[1][2], t266, t307);
+        let t309 = base_rotation[1][2] * t276;
+        let t310 = mul_sub(t186, t286, mul_add(t180, t284, t183 * t285));
+        let t311 = mul_add(t192, t288, mul_add(t189, t287, t310));
+        let t312 = mul_add(t195, t289, t311);
+        let t313 = neg_mul_add(base_rotation[1][2], t276, t312);
+        let t314 = base_rotation[2][2] * t227;
+        let t315 = neg_mul_add(base_rotation[2][2], t227, t250);
+        let t316 = base_rotation[2][2] * t236;
+        let t317 = neg_mul_add(base_rotation[2][2], t236, t297);
+        let t318 = t102 * c(0.9523333333333334);
+        let t319 = t114 * c(0.9523333333333334);
+        let t320 = t132 * c(0.9523333333333334);
+        let t321 = t150 * c(0.9523333333333334);
+        let t322 = t165 * c(0.9523333333333334);
+        let t323 = t177 * c(0.9523333333333334);
+        let t324 = base_rotation[2][2] * t246;
+        let t325 = mul_add(t132, t320, mul_add(t102, t318, t114 * t319));
+        let t326 = mul_add(t165, t322, mul_add(t150, t321, t325));
+        let t327 = mul_sub(base_rotation[2][2], t246, mul_add(t177, t323, t326));
+        let t328 = base_rotation[2][2] * t256;
+        let t329 = mul_sub(t184, t320, mul_add(t178, t318, t181 * t319));
+        let t330 = mul_add(t190, t322, mul_add(t187, t321, t329));
+        let t331 = mul_add(t193, t323, t330);
+        let t332 = neg_mul_add(base_rotation[2][2], t256, t331);
+        let t333 = base_rotation[2][2] * t266;
+        let t334 = mul_sub(t185, t320, mul_add(t179, t318, t182 * t319));
+        let t335 = mul_add(t191, t322, mul_add(t188, t321, t334));
+        let t336 = mul_add(t194, t323, t335);
+        let t337 = neg_mul_add(base_rotation[2][2], t266, t336);
+        let t338 = base_rotation[2][2] * t276;
+        let t339 = mul_sub(t186, t320, mul_add(t180, t318, t183 * t319));
+        let t340 = mul_add(t192, t322, mul_add(t189, t321, t339));
+        let t341 = mul_add(t195, t323, t340);
+        let t342 = neg_mul_add(base_rotation[2][2], t276, t341);
+        let t343 = mul_add(t128, t205, mul_sub(t98, t199, t110 * t202));
+        let t344 = mul_sub(t161, t211, mul_add(t146, t208, t343));
+        let t345 = mul_add(t173, t214, t344);
+        let t346 = t260 + t345;
+        let t347 = mul_add(t130, t205, mul_sub(t100, t199, t112 * t202));
+        let t348 = mul_sub(t163, t211, mul_add(t148, t208, t347));
+        let t349 = mul_add(t175, t214, t348);
+        let t350 = t302 + t349;
+        let t351 = mul_add(t132, t205, mul_sub(t102, t199, t114 * t202));
+        let t352 = mul_sub(t165, t211, mul_add(t150, t208, t351));
+        let t353 = mul_add(t177, t214, t352);
+        let t354 = t331 + t353;
+        let t355 = mul_sub(t184, t205, mul_sub(t178, t199, t181 * t202));
+        let t356 = mul_sub(t190, t211, mul_add(t187, t208, t355));
+        let t357 = mul_add(t193, t214, t356);
+        let t358 = t193 * c(0.9523333333333334);
+        let t359 = t190 * c(0.9523333333333334);
+        let t360 = t187 * c(0.9523333333333334);
+        let t361 = t184 * c(0.9523333333333334);
+        let t362 = t178 * c(0.9523333333333334);
+        let t363 = t181 * c(0.9523333333333334);
+        let t364 = mul_add(t184, t361, mul_add(t178, t362, t181 * t363));
+        let t365 = mul_add(t190, t359, mul_add(t187, t360, t364));
+        let t366 = t357 + mul_add(t193, t358, t365);
+        let t367 = mul_add(t185, t361, mul_add(t179, t362, t182 * t363));
+        let t368 = mul_add(t191, t359, mul_add(t188, t360, t367));
+        let t369 = mul_add(t194, t358, t368);
+        let t370 = mul_sub(t182, t202, mul_add(t179, t199, t369));
+        let t371 = mul_add(t188, t208, mul_add(t185, t205, t370));
+        let t372 = mul_add(t194, t214, mul_sub(t191, t211, t371));
+        let t373 = mul_add(t186, t361, mul_add(t180, t362, t183 * t363));
+        let t374 = mul_add(t192, t359, mul_add(t189, t360, t373));
+        let t375 = mul_add(t195, t358, t374);
+        let t376 = mul_sub(t183, t202, mul_add(t180, t199, t375));
+        let t377 = mul_add(t189, t208, mul_add(t186, t205, t376));
+        let t378 = mul_add(t195, t214, mul_sub(t192, t211, t377));
+        let t379 = mul_add(t128, t206, mul_sub(t98, t200, t110 * t203));
+        let t380 = mul_sub(t161, t212, mul_add(t146, t209, t379));
+        let t381 = mul_add(t173, t215, t380);
+        let t382 = t270 + t381;
+        let t383 = mul_add(t130, t206, mul_sub(t100, t200, t112 * t203));
+        let t384 = mul_sub(t163, t212, mul_add(t148, t209, t383));
+        let t385 = mul_add(t175, t215, t384);
+        let t386 = t307 + t385;
+        let t387 = mul_add(t132, t206, mul_sub(t102, t200, t114 * t203));
+        let t388 = mul_sub(t165, t212, mul_add(t150, t209, t387));
+        let t389 = mul_add(t177, t215, t388);
+        let t390 = t336 + t389;
+        let t391 = mul_sub(t184, t206, mul_sub(t178, t200, t181 * t203));
+        let t392 = mul_sub(t190, t212, mul_add(t187, t209, t391));
+        let t393 = mul_add(t193, t215, t392);
+        let t394 = mul_sub(t185, t206, mul_sub(t179, t200, t182 * t203));
+        let t395 = mul_sub(t191, t212, mul_add(t188, t209, t394));
+        let t396 = mul_add(t194, t215, t395);
+        let t397 = t194 * c(0.9523333333333334);
+        let t398 = t191 * c(0.9523333333333334);
+        let t399 = t188 * c(0.9523333333333334);
+        let t400 = t185 * c(0.9523333333333334);
+        let t401 = t179 * c(0.9523333333333334);
+        let t402 = t182 * c(0.9523333333333334);
+        let t403 = mul_add(t185, t400, mul_add(t179, t401, t182 * t402));
+        let t404 = mul_add(t191, t398, mul_add(t188, t399, t403));
+        let t405 = t396 + mul_add(t194, t397, t404);
+        let t406 = mul_add(t186, t400, mul_add(t180, t401, t183 * t402));
+        let t407 = mul_add(t192, t398, mul_add(t189, t399, t406));
+        let t408 = mul_add(t195, t397, t407);
+        let t409 = mul_sub(t183, t203, mul_add(t180, t200, t408));
+        let t410 = mul_add(t189, t209, mul_add(t186, t206, t409));
+        let t411 = mul_add(t195, t215, mul_sub(t192, t212, t410));
+        let t412 = mul_add(t128, t207, mul_sub(t98, t201, t110 * t204));
+        let t413 = mul_sub(t161, t213, mul_add(t146, t210, t412));
+        let t414 = mul_add(t173, t216, t413);
+        let t415 = t280 + t414;
+        let t416 = mul_add(t130, t207, mul_sub(t100, t201, t112 * t204));
+        let t417 = mul_sub(t163, t213, mul_add(t148, t210, t416));
+        let t418 = mul_add(t175, t216, t417);
+        let t419 = t312 + t418;
+        let t420 = mul_add(t132, t207, mul_sub(t102, t201, t114 * t204));
+        let t421 = mul_sub(t165, t213, mul_add(t150, t210, t420));
+        let t422 = mul_add(t177, t216, t421);
+        let t423 = t341 + t422;
+        let t424 = mul_sub(t184, t207, mul_sub(t178, t201, t181 * t204));
+        let t425 = mul_sub(t190, t213, mul_add(t187, t210, t424));
+        let t426 = mul_add(t193, t216, t425);
+        let t427 = mul_sub(t185, t207, mul_sub(t179, t201, t182 * t204));
+        let t428 = mul_sub(t191, t213, mul_add(t188, t210, t427));
+        let t429 = mul_add(t194, t216, t428);
+        let t430 = mul_sub(t186, t207, mul_sub(t180, t201, t183 * t204));
+        let t431 = mul_sub(t192, t213, mul_add(t189, t210, t430));
+        let t432 = mul_add(t195, t216, t431);
+        let t433 = t183 * (t183 * c(0.9523333333333334));
+        let t434 = mul_add(t180, t180 * c(0.9523333333333334), t433);
+        let t435 = mul_add(t186, t186 * c(0.9523333333333334), t434);
+        let t436 = mul_add(t189, t189 * c(0.9523333333333334), t435);
+        let t437 = mul_add(t192, t192 * c(0.9523333333333334), t436);
+        let t438 = t432 + mul_add(t195, t195 * c(0.9523333333333334), t437);
         // mass matrix of the legs
-        let t481 = mul_sub(c(2.0), t284, mul_sub(c(2.0), t180, t239));
-        let t482 = mul_sub(c(2.0), t386, mul_add(c(2.0), t335, t481));
-        let t483 = mul_add(c(2.0), t434, t482);
-        let t484 = t437 + (t389 - (t338 + (t287 - (t184 - t241))));
-        mass_matrix_p[0][1] = t484;
-        mass_matrix_p[1][0] = t484;
-        let t485 = t439 + (t391 - (t340 + (t289 - (t187 - t243))));
-        mass_matrix_p[0][2] = t485;
-        mass_matrix_p[2][0] = t485;
-        let t486 = mul_sub(t105, t241, mul_sub(t93, t184, t91 * t187));
-        let t487 = mul_add(t123, t287, mul_sub(t104, t243, t486));
-        let t488 = mul_sub(t141, t338, mul_sub(t121, t289, t487));
-        let t489 = mul_add(t156, t389, mul_sub(t139, t340, t488));
-        let t490 = mul_sub(t168, t437, mul_sub(t155, t391, t489));
-        let t491 = mul_sub(t167, t439, t490);
-        let t492 = mul_sub(t166, t439, t168 * t435);
-        let t493 = mul_sub(t154, t391, t156 * t387);
-        let t494 = mul_sub(t137, t340, t141 * t336);
-        let t495 = mul_sub(t119, t289, t123 * t285);
-        let t496 = mul_sub(t89, t187, t93 * t181);
-        let t497 = mul_sub(t103, t243, t105 * t239);
-        let t498 = t492 + (t493 - (t494 + (t495 + (t496 - t497))));
-        let t499 = mul_sub(t167, t435, t166 * t437);
-        let t500 = mul_sub(t155, t387, t154 * t389);
-        let t501 = mul_sub(t139, t336, t137 * t338);
-        let t502 = mul_sub(t121, t285, t119 * t287);
-        let t503 = mul_sub(t91, t181, t89 * t184);
-        let t504 = mul_sub(t104, t239, t103 * t241);
-        let t505 = t499 + (t500 - (t501 + (t502 + (t503 - t504))));
-        let t506 = mul_sub(c(2.0), t290, mul_sub(c(2.0), t188, t244));
-        let t507 = mul_sub(c(2.0), t392, mul_add(c(2.0), t341, t506));
-        let t508 = mul_add(c(2.0), t440, t507);
-        let t509 = t442 + (t394 - (t343 + (t292 - (t190 - t245))));
-        mass_matrix_p[1][2] = t509;
-        mass_matrix_p[2][1] = t509;
-        let t510 = mul_sub(t168, t441, t167 * t442);
-        let t511 = mul_sub(t156, t393, t155 * t394);
-        let t512 = mul_sub(t141, t342, t139 * t343);
-        let t513 = mul_sub(t123, t291, t121 * t292);
-        let t514 = mul_sub(t93, t189, t91 * t190);
-        let t515 = mul_sub(t105, t244, t104 * t245);
-        let t516 = t510 + (t511 - (t512 + (t513 + (t514 - t515))));
-        let t517 = t166 * t442;
-        let t518 = mul_sub(t168, t437, t517);
-        let t519 = t154 * t394;
-        let t520 = mul_sub(t156, t389, t519);
-        let t521 = t137 * t343;
-        let t522 = mul_sub(t141, t338, t521);
-        let t523 = t119 * t292;
-        let t524 = mul_sub(t123, t287, t523);
-        let t525 = t89 * t190;
-        let t526 = mul_sub(t93, t184, t525);
-        let t527 = t103 * t245;
-        let t528 = mul_sub(t105, t241, t527);
-        let t529 = t518 + (t520 - (t522 + (t524 + (t526 - t528))));
-        let t530 = mul_sub(t167, t437, t166 * t441);
-        let t531 = mul_sub(t155, t389, t154 * t393);
-        let t532 = mul_sub(t139, t338, t137 * t342);
-        let t533 = mul_sub(t121, t287, t119 * t291);
-        let t534 = mul_sub(t91, t184, t89 * t189);
-        let t535 = mul_sub(t104, t241, t103 * t244);
-        let t536 = t530 + (t531 - (t532 + (t533 + (t534 - t535))));
-        let t537 = mul_sub(c(2.0), t293, mul_sub(c(2.0), t191, t246));
-        let t538 = mul_sub(c(2.0), t395, mul_add(c(2.0), t344, t537));
-        let t539 = mul_add(c(2.0), t443, t538);
-        let t540 = mul_sub(t168, t442, t167 * t444);
-        let t541 = mul_sub(t156, t394, t155 * t396);
-        let t542 = mul_sub(t141, t343, t139 * t345);
-        let t543 = mul_sub(t123, t292, t121 * t294);
-        let t544 = mul_sub(t93, t190, t91 * t192);
-        let t545 = mul_sub(t105, t245, t104 * t246);
-        let t546 = t540 + (t541 - (t542 + (t543 + (t544 - t545))));
-        let t547 = mul_sub(t166, t444, t168 * t439);
-        let t548 = mul_sub(t154, t396, t156 * t391);
-        let t549 = mul_sub(t137, t345, t141 * t340);
-        let t550 = mul_sub(t119, t294, t123 * t289);
-        let t551 = mul_sub(t89, t192, t93 * t187);
-        let t552 = mul_sub(t103, t246, t105 * t243);
-        let t553 = t547 + (t548 - (t549 + (t550 + (t551 - t552))));
-        let t554 = mul_sub(t167, t439, t517);
-        let t555 = mul_sub(t155, t391, t519);
-        let t556 = mul_sub(t139, t340, t521);
-        let t557 = mul_sub(t121, t289, t523);
-        let t558 = mul_sub(t91, t187, t525);
-        let t559 = mul_sub(t104, t243, t527);
-        let t560 = t554 + (t555 - (t556 + (t557 + (t558 - t559))));
-        mass_matrix_p[2][5] = t560;
-        mass_matrix_p[5][2] = t560;
-        let t561 = mul_sub(t105, t515, mul_sub(t93, t514, t91 * t544));
-        let t562 = mul_sub(t123, t513, mul_sub(t104, t545, t561));
-        let t563 = mul_sub(t141, t512, mul_sub(t121, t543, t562));
-        let t564 = mul_add(t156, t511, mul_sub(t139, t542, t563));
-        let t565 = mul_sub(t168, t510, mul_sub(t155, t541, t564));
-        let t566 = mul_sub(t167, t540, t565);
-        let t567 = mul_sub(t105, t528, mul_add(t93, t526, t91 * t551));
-        let t568 = mul_add(t123, t524, mul_add(t104, t552, t567));
-        let t569 = mul_add(t141, t522, mul_add(t121, t550, t568));
-        let t570 = mul_sub(t156, t520, mul_add(t139, t549, t569));
-        let t571 = mul_add(t168, t518, mul_add(t155, t548, t570));
-        let t572 = mul_add(t167, t547, t571);
-        let t573 = mul_sub(t105, t535, mul_sub(t93, t534, t91 * t558));
-        let t574 = mul_sub(t123, t533, mul_sub(t104, t559, t573));
-        let t575 = mul_sub(t141, t532, mul_sub(t121, t557, t574));
-        let t576 = mul_add(t156, t531, mul_sub(t139, t556, t575));
-        let t577 = mul_sub(t168, t530, mul_sub(t155, t555, t576));
-        let t578 = mul_sub(t167, t554, t577);
-        let t579 = mul_sub(t103, t552, mul_sub(t89, t551, t93 * t496));
-        let t580 = mul_sub(t119, t550, mul_sub(t105, t497, t579));
-        let t581 = mul_sub(t137, t549, mul_sub(t123, t495, t580));
-        let t582 = mul_add(t154, t548, mul_sub(t141, t494, t581));
-        let t583 = mul_sub(t166, t547, mul_sub(t156, t493, t582));
-        let t584 = mul_sub(t168, t492, t583);
-        let t585 = mul_sub(t103, t559, mul_sub(t89, t558, t93 * t503));
-        let t586 = mul_sub(t119, t557, mul_sub(t105, t504, t585));
-        let t587 = mul_sub(t137, t556, mul_sub(t123, t502, t586));
-        let t588 = mul_add(t154, t555, mul_sub(t141, t501, t587));
-        let t589 = mul_sub(t166, t554, mul_sub(t156, t500, t588));
-        let t590 = mul_sub(t168, t499, t589);
-        let t591 = mul_sub(t104, t504, mul_sub(t91, t503, t89 * t534));
-        let t592 = mul_sub(t121, t502, mul_sub(t103, t535, t591));
-        let t593 = mul_sub(t139, t501, mul_sub(t119, t533, t592));
-        let t594 = mul_add(t155, t500, mul_sub(t137, t532, t593));
-        let t595 = mul_sub(t167, t499, mul_sub(t154, t531, t594));
-        let t596 = mul_sub(t166, t530, t595);
-        let t597 = -t491;
-        mass_matrix_p[0][3] = t597;
-        mass_matrix_p[3][0] = t597;
-        let t598 = -t529;
-        mass_matrix_p[1][4] = t598;
-        mass_matrix_p[4][1] = t598;
+        let t439 = neg_mul_add(base_rotation[1][2], t227, t241);
+        mass_matrix_p[0][1] = t439;
+        mass_matrix_p[1][0] = t439;
+        let t440 = neg_mul_add(base_rotation[2][2], t227, t251);
+        mass_matrix_p[0][2] = t440;
+        mass_matrix_p[2][0] = t440;
+        let t441 = -(t261 + t345);
+        mass_matrix_p[0][3] = t441;
+        mass_matrix_p[3][0] = t441;
+        let t442 = neg_mul_add(base_rotation[2][2], t236, t298);
+        mass_matrix_p[1][2] = t442;
+        mass_matrix_p[2][1] = t442;
+        let t443 = -(t308 + t385);
+        mass_matrix_p[1][4] = t443;
+        mass_matrix_p[4][1] = t443;
+        let t444 = -(t342 + t422);
+        mass_matrix_p[2][5] = t444;
+        mass_matrix_p[5][2] = t444;
         // mass matrix M_p of the platform
-        let t599 = platform_rotation[2][1] * c(6.938893903907228e-18);
-        let t600 = mul_add(platform_rotation[2][0], c(2.2551405187698492e-17), t599);
-        let t601 = mul_add(platform_rotation[2][2], c(0.188852), t600);
-        let t602 = platform_rotation[1][1] * c(6.938893903907228e-18);
-        let t603 = mul_add(platform_rotation[1][0], c(2.2551405187698492e-17), t602);
-        let t604 = mul_add(platform_rotation[1][2], c(0.188852), t603);
-        let t605 = platform_rotation[0][1] * c(6.938893903907228e-18);
-        let t606 = mul_add(platform_rotation[0][0], c(2.2551405187698492e-17), t605);
-        let t607 = mul_add(platform_rotation[0][2], c(0.188852), t606);
-        let t608 = platform_rotation[0][2] * c(0.013354412);
-        let t609 = platform_rotation[0][0] * c(0.032245600000000006);
-        let t610 = platform_rotation[0][1] * c(0.032245600000000006);
-        let t611 = mul_add(
+        let t445 = platform_rotation[2][1] * c(6.938893903907228e-18);
+        let t446 = mul_add(platform_rotation[2][0], c(2.2551405187698492e-17), t445);
+        let t447 = mul_add(platform_rotation[2][2], c(0.188852), t446);
+        let t448 = platform_rotation[1][1] * c(6.938893903907228e-18);
+        let t449 = mul_add(platform_rotation[1][0], c(2.2551405187698492e-17), t448);
+        let t450 = mul_add(platform_rotation[1][2], c(0.188852), t449);
+        let t451 = platform_rotation[0][1] * c(6.938893903907228e-18);
+        let t452 = mul_add(platform_rotation[0][0], c(2.2551405187698492e-17), t451);
+        let t453 = mul_add(platform_rotation[0][2], c(0.188852), t452);
+        let t454 = platform_rotation[0][2] * c(0.013354412);
+        let t455 = platform_rotation[0][0] * c(0.032245600000000006);
+        let t456 = platform_rotation[0][1] * c(0.032245600000000006);
+        let t457 = mul_add(
             platform_rotation[0][0],
-            t609,
-            platform_rotation[0][1] * t610,
+            t455,
+            platform_rotation[0][1] * t456,
         );
-        let t612 = mul_add(platform_rotation[0][2], t608, t611);
-        let t613 = mul_add(
+        let t458 = mul_add(platform_rotation[0][2], t454, t457);
+        let t459 = mul_add(
             platform_rotation[1][0],
-            t609,
-            platform_rotation[1][1] * t610,
+            t455,
+            platform_rotation[1][1] * t456,
         );
-        let t614 = mul_add(platform_rotation[1][2], t608, t613);
-        let t615 = mul_add(
+        let t460 = mul_add(platform_rotation[1][2], t454, t459);
+        let t461 = mul_add(
             platform_rotation[2][0],
-            t609,
-            platform_rotation[2][1] * t610,
+            t455,
+            platform_rotation[2][1] * t456,
         );
-        let t616 = mul_add(platform_rotation[2][2], t608, t615);
-        let t617 = platform_rotation[1][2] * c(0.013354412);
-        let t618 = platform_rotation[1][0] * c(0.032245600000000006);
-        let t619 = platform_rotation[1][1] * c(0.032245600000000006);
-        let t620 = mul_add(
+        let t462 = mul_add(platform_rotation[2][2], t454, t461);
+        let t463 = platform_rotation[1][2] * c(0.013354412);
+        let t464 = platform_rotation[1][0] * c(0.032245600000000006);
+        let t465 = platform_rotation[1][1] * c(0.032245600000000006);
+        let t466 = mul_add(
             platform_rotation[1][0],
-            t618,
-            platform_rotation[1][1] * t619,
+            t464,
+            platform_rotation[1][1] * t465,
         );
-        let t621 = mul_add(platform_rotation[1][2], t617, t620);
-        let t622 = mul_add(
+        let t467 = mul_add(platform_rotation[1][2], t463, t466);
+        let t468 = mul_add(
             platform_rotation[2][0],
-            t618,
-            platform_rotation[2][1] * t619,
+            t464,
+            platform_rotation[2][1] * t465,
         );
-        let t623 = mul_add(platform_rotation[2][2], t617, t622);
-        let t624 = platform_rotation[2][2] * c(0.013354412);
-        let t625 = platform_rotation[2][0] * c(0.032245600000000006);
-        let t626 = platform_rotation[2][1] * c(0.032245600000000006);
-        let t627 = mul_add(
+        let t469 = mul_add(platform_rotation[2][2], t463, t468);
+        let t470 = platform_rotation[2][2] * c(0.013354412);
+        let t471 = platform_rotation[2][0] * c(0.032245600000000006);
+        let t472 = platform_rotation[2][1] * c(0.032245600000000006);
+        let t473 = mul_add(
             platform_rotation[2][0],
-            t625,
-            platform_rotation[2][1] * t626,
+            t471,
+            platform_rotation[2][1] * t472,
         );
-        let t628 = mul_add(platform_rotation[2][2], t624, t627);
-        mass_matrix_p[0][0] = c(8.139999999999999) + t483;
-        let t629 = t498 + t601;
-        mass_matrix_p[0][4] = t629;
-        mass_matrix_p[4][0] = t629;
-        let t630 = t505 - t604;
-        mass_matrix_p[0][5] = t630;
-        mass_matrix_p[5][0] = t630;
-        mass_matrix_p[1][1] = c(8.139999999999999) + t508;
-        let t631 = t516 - t601;
-        mass_matrix_p[1][3] = t631;
-        mass_matrix_p[3][1] = t631;
-        let t632 = t536 + t607;
-        mass_matrix_p[1][5] = t632;
-        mass_matrix_p[5][1] = t632;
-        mass_matrix_p[2][2] = c(8.139999999999999) + t539;
-        let t633 = t546 + t604;
-        mass_matrix_p[2][3] = t633;
-        mass_matrix_p[3][2] = t633;
-        let t634 = t553 - t607;
-        mass_matrix_p[2][4] = t634;
-        mass_matrix_p[4][2] = t634;
-        mass_matrix_p[3][3] = c(0.07784561200000001) - t566 - t612;
-        let t635 = -(t572 + t614);
-        mass_matrix_p[3][4] = t635;
-        mass_matrix_p[4][3] = t635;
-        let t636 = -(t578 + t616);
-        mass_matrix_p[3][5] = t636;
-        mass_matrix_p[5][3] = t636;
-        mass_matrix_p[4][4] = c(0.07784561200000001) - t584 - t621;
-        let t637 = -(t590 + t623);
-        mass_matrix_p[4][5] = t637;
-        mass_matrix_p[5][4] = t637;
-        mass_matrix_p[5][5] = c(0.07784561200000001) - t596 - t628;
+        let t474 = mul_add(platform_rotation[2][2], t470, t473);
+        mass_matrix_p[0][0] = neg_mul_add(
+            base_rotation[0][2],
+            t227,
+            c(8.139999999999999),
+        ) - t231;
+        let t475 = t447 - (t271 + t381);
+        mass_matrix_p[0][4] = t475;
+        mass_matrix_p[4][0] = t475;
+        let t476 = -(t450 + (t281 + t414));
+        mass_matrix_p[0][5] = t476;
+        mass_matrix_p[5][0] = t476;
+        mass_matrix_p[1][1] = neg_mul_add(
+            base_rotation[1][2],
+            t236,
+            c(8.139999999999999),
+        ) - t293;
+        let t477 = -(t447 + (t303 + t349));
+        mass_matrix_p[1][3] = t477;
+        mass_matrix_p[3][1] = t477;
+        let t478 = t453 - (t313 + t418);
+        mass_matrix_p[1][5] = t478;
+        mass_matrix_p[5][1] = t478;
+        mass_matrix_p[2][2] = neg_mul_add(
+            base_rotation[2][2],
+            t246,
+            c(8.139999999999999),
+        ) - t327;
+        let t479 = t450 - (t332 + t353);
+        mass_matrix_p[2][3] = t479;
+        mass_matrix_p[3][2] = t479;
+        let t480 = -(t453 + (t337 + t389));
+        mass_matrix_p[2][4] = t480;
+        mass_matrix_p[4][2] = t480;
+        mass_matrix_p[3][3] = t366 + (t357 + c(0.07784561200000001)) - t458;
+        let t481 = t372 + t393 - t460;
+        mass_matrix_p[3][4] = t481;
+        mass_matrix_p[4][3] = t481;
+        let t482 = t378 + t426 - t462;
+        mass_matrix_p[3][5] = t482;
+        mass_matrix_p[5][3] = t482;
+        mass_matrix_p[4][4] = t405 + (t396 + c(0.07784561200000001)) - t467;
+        let t483 = t411 + t429 - t469;
+        mass_matrix_p[4][5] = t483;
+        mass_matrix_p[5][4] = t483;
+        mass_matrix_p[5][5] = t438 + (t432 + c(0.07784561200000001)) - t474;
+        // first moment of the rods' couplings by the Hooke joint
+        let t484 = t53 + t57;
+        let t485 = t62 + t75;
+        let t486 = t67 + t71;
+        let t487 = c(0.17066666666666666) * (t486 + (t484 + t485));
+        let t488 = base_rotation[0][0] * c(1.5612511283791264e-17);
+        let t489 = mul_sub(base_rotation[0][2], t487, t488);
+        let t490 = base_rotation[1][0] * c(1.5612511283791264e-17);
+        let t491 = mul_sub(base_rotation[1][2], t487, t490);
+        let t492 = base_rotation[2][0] * c(1.5612511283791264e-17);
+        let t493 = mul_sub(base_rotation[2][2], t487, t492);
+        // their moment by platform joint and Hooke joint
+        let t494 = mul_sub(
+            t484,
+            c(0.019782160922400118),
+            t485 * c(0.005300614043699622),
+        );
+        let t495 = neg_mul_add(t486, c(0.01448154687870049), t494);
+        let t496 = base_rotation[0][0] * c(0.009764694018945443);
+        let t497 = mul_sub(base_rotation[0][2], t495, t496);
+        let t498 = c(0.019782160922400118) * (t62 - t75);
+        let t499 = mul_sub(c(0.005300614043699624), t53 - t57, t498);
+        let t500 = neg_mul_add(c(0.014481546878700494), t67 - t71, t499);
+        let t501 = base_rotation[0][1] * c(0.009764694018945445);
+        let t502 = mul_add(base_rotation[0][2], t500, t501);
+        let t503 = mul_sub(
+            platform_rotation[0][0],
+            t497,
+            platform_rotation[0][1] * t502,
+        );
+        let t504 = base_rotation[1][0] * c(0.009764694018945443);
+        let t505 = mul_sub(base_rotation[1][2], t495, t504);
+        let t506 = base_rotation[1][1] * c(0.009764694018945445);
+        let t507 = mul_add(base_rotation[1][2], t500, t506);
+        let t508 = mul_sub(
+            platform_rotation[0][0],
+            t505,
+            platform_rotation[0][1] * t507,
+        );
+        let t509 = base_rotation[2][0] * c(0.009764694018945443);
+        let t510 = mul_sub(base_rotation[2][2], t495, t509);
+        let t511 = base_rotation[2][1] * c(0.009764694018945445);
+        let t512 = mul_add(base_rotation[2][2], t500, t511);
+        let t513 = mul_sub(
+            platform_rotation[0][0],
+            t510,
+            platform_rotation[0][1] * t512,
+        );
+        let t514 = mul_sub(
+            platform_rotation[1][0],
+            t497,
+            platform_rotation[1][1] * t502,
+        );
+        let t515 = mul_sub(
+            platform_rotation[1][0],
+            t505,
+            platform_rotation[1][1] * t507,
+        );
+        let t516 = mul_sub(
+            platform_rotation[1][0],
+            t510,
+            platform_rotation[1][1] * t512,
+        );
+        let t517 = mul_sub(
+            platform_rotation[2][0],
+            t497,
+            platform_rotation[2][1] * t502,
+        );
+        let t518 = mul_sub(
+            platform_rotation[2][0],
+            t505,
+            platform_rotation[2][1] * t507,
+        );
+        let t519 = mul_sub(
+            platform_rotation[2][0],
+            t510,
+            platform_rotation[2][1] * t512,
+        );
         // mass matrix M_b that couples the base acceleration
-        mass_matrix_b[0][0] = t483 - (t445 + (t397 + (t346 + (t295 + (t194 + t247)))));
-        let t638 = mul_sub(t128, t195, mul_sub(t98, t195, t248));
-        let t639 = mul_sub(t161, t195, mul_add(t146, t195, t638));
-        mass_matrix_b[0][1] = t484 - mul_add(t173, t195, t639);
-        let t640 = mul_sub(t128, t197, mul_sub(t98, t197, t249));
-        let t641 = mul_sub(t161, t197, mul_add(t146, t197, t640));
-        mass_matrix_b[0][2] = t485 - mul_add(t173, t197, t641);
-        let t642 = mul_sub(t128, t308, mul_sub(t98, t211, t259));
-        let t643 = mul_sub(t161, t408, mul_add(t146, t359, t642));
-        let t644 = mul_sub(t21, t484, t491 - mul_add(t173, t456, t643));
-        mass_matrix_b[0][3] = neg_mul_add(t20, t485, t644);
-        let t645 = t498 + (t464 + (t416 - (t368 + (t317 - (t221 - t266)))));
-        mass_matrix_b[0][4] = neg_mul_add(t21, t483, mul_add(t19, t485, t645));
-        let t646 = t505 + (t467 + (t419 - (t371 + (t320 - (t224 - t269)))));
-        mass_matrix_b[0][5] = neg_mul_add(t19, t484, mul_add(t20, t483, t646));
-        let t647 = mul_sub(t130, t193, mul_sub(t100, t193, t270));
-        let t648 = mul_sub(t163, t193, mul_add(t148, t193, t647));
-        mass_matrix_b[1][0] = t484 - mul_add(t175, t193, t648);
-        mass_matrix_b[1][1] = t508 - (t469 + (t421 + (t373 + (t322 + (t226 + t271)))));
-        let t649 = mul_sub(t130, t197, mul_sub(t100, t197, t272));
-        let t650 = mul_sub(t163, t197, mul_add(t148, t197, t649));
-        mass_matrix_b[1][2] = t509 - mul_add(t175, t197, t650);
-        let t651 = t516 + (t471 - (t423 + (t375 - (t324 + (t228 + t273)))));
-        mass_matrix_b[1][3] = neg_mul_add(t20, t509, mul_add(t21, t508, t651));
-        let t652 = mul_sub(t130, t315, mul_sub(t100, t219, t274));
-        let t653 = mul_sub(t163, t414, mul_add(t148, t366, t652));
-        let t654 = mul_add(t21, t484, t529 - mul_add(t175, t462, t653));
-        mass_matrix_b[1][4] = mul_sub(t19, t509, t654);
-        let t655 = t536 + (t474 + (t426 - (t378 + (t327 - (t231 - t276)))));
-        mass_matrix_b[1][5] = neg_mul_add(t19, t508, mul_add(t20, t484, t655));
-        let t656 = mul_sub(t132, t193, mul_sub(t102, t193, t277));
-        let t657 = mul_sub(t165, t193, mul_add(t150, t193, t656));
-        mass_matrix_b[2][0] = t485 - mul_add(t177, t193, t657);
-        let t658 = mul_sub(t132, t195, mul_sub(t102, t195, t278));
-        let t659 = mul_sub(t165, t195, mul_add(t150, t195, t658));
-        mass_matrix_b[2][1] = t509 - mul_add(t177, t195, t659);
-        mass_matrix_b[2][2] = t539 - (t477 + (t429 + (t381 + (t330 + (t234 + t279)))));
-        let t660 = t546 - (t478 - (t430 + (t382 - (t331 + (t235 + t280)))));
-        mass_matrix_b[2][3] = neg_mul_add(t20, t539, mul_add(t21, t509, t660));
-        let t661 = t553 + (t479 - (t431 + (t383 - (t332 + (t236 + t281)))));
-        mass_matrix_b[2][4] = neg_mul_add(t21, t485, mul_add(t19, t539, t661));
-        let t662 = mul_sub(t132, t318, mul_sub(t102, t222, t282));
-        let t663 = mul_sub(t165, t417, mul_add(t150, t369, t662));
-        let t664 = mul_add(t20, t485, t560 + mul_add(t177, t465, t663));
-        mass_matrix_b[2][5] = neg_mul_add(t19, t509, t664);
-        let t665 = mul_sub(t93, t225, mul_add(t91, t232, t491));
-        let t666 = mul_sub(t105, t270, mul_add(t104, t277, t665));
-        let t667 = mul_sub(t123, t321, mul_add(t121, t328, t666));
-        let t668 = mul_sub(t141, t372, mul_sub(t139, t379, t667));
-        let t669 = mul_sub(t156, t420, mul_add(t155, t427, t668));
-        mass_matrix_b[3][0] = neg_mul_add(t168, t468, mul_sub(t167, t475, t669));
-        let t670 = mul_add(t93, t226, neg_mul_add(t91, t233, t516));
-        let t671 = mul_add(t105, t271, mul_add(t104, t278, t670));
-        let t672 = mul_add(t123, t322, mul_sub(t121, t329, t671));
-        let t673 = mul_add(t141, t373, mul_add(t139, t380, t672));
-        let t674 = mul_sub(t156, t421, mul_sub(t155, t428, t673));
-        mass_matrix_b[3][1] = neg_mul_add(t168, t469, mul_sub(t167, t476, t674));
-        let t675 = mul_add(t93, t227, neg_mul_add(t91, t234, t546));
-        let t676 = mul_add(t105, t272, mul_sub(t104, t279, t675));
-        let t677 = mul_add(t123, t323, mul_sub(t121, t330, t676));
-        let t678 = mul_add(t141, t374, mul_add(t139, t381, t677));
-        let t679 = mul_sub(t156, t422, mul_add(t155, t429, t678));
-        mass_matrix_b[3][2] = neg_mul_add(t168, t470, mul_sub(t167, t477, t679));
-        let t680 = mul_add(t20, t546, neg_mul_add(t21, t516, t566));
-        let t681 = mul_add(t93, t228, mul_add(t91, t235, t680));
-        let t682 = mul_add(t105, t273, mul_add(t104, t280, t681));
-        let t683 = mul_add(t123, t324, mul_sub(t121, t331, t682));
-        let t684 = mul_add(t141, t375, mul_sub(t139, t382, t683));
-        let t685 = mul_add(t156, t423, mul_add(t155, t430, t684));
-        mass_matrix_b[3][3] = mul_add(t168, t471, mul_sub(t167, t478, t685));
-        let t686 = mul_sub(t21, t491, neg_mul_add(t19, t546, t572));
-        let t687 = mul_sub(t93, t229, mul_add(t91, t236, t686));
-        let t688 = mul_add(t105, t274, mul_sub(t104, t281, t687));
-        let t689 = mul_add(t123, t325, mul_sub(t121, t332, t688));
-        let t690 = mul_sub(t141, t376, mul_sub(t139, t383, t689));
-        let t691 = mul_add(t156, t424, mul_sub(t155, t431, t690));
-        mass_matrix_b[3][4] = mul_sub(t168, t472, mul_sub(t167, t479, t691));
-        let t692 = mul_add(t19, t516, mul_add(t20, t491, t578));
-        let t693 = mul_sub(t93, t231, mul_sub(t91, t237, t692));
-        let t694 = mul_sub(t105, t276, mul_add(t104, t282, t693));
-        let t695 = mul_sub(t123, t327, mul_add(t121, t333, t694));
-        let t696 = mul_sub(t141, t378, mul_sub(t139, t384, t695));
-        let t697 = mul_sub(t156, t426, mul_add(t155, t432, t696));
-        mass_matrix_b[3][5] = mul_sub(t168, t474, mul_sub(t167, t480, t697));
-        let t698 = mul_add(t89, t232, neg_mul_add(t93, t194, t498));
-        let t699 = mul_add(t103, t277, mul_sub(t105, t247, t698));
-        let t700 = mul_add(t119, t328, mul_sub(t123, t295, t699));
-        let t701 = mul_add(t137, t379, mul_add(t141, t346, t700));
-        let t702 = mul_sub(t154, t427, mul_add(t156, t397, t701));
-        mass_matrix_b[4][0] = neg_mul_add(t166, t475, mul_sub(t168, t445, t702));
-        let t703 = mul_sub(t89, t233, mul_add(t93, t196, t529));
-        let t704 = mul_sub(t103, t278, mul_add(t105, t248, t703));
-        let t705 = mul_sub(t119, t329, mul_add(t123, t296, t704));
-        let t706 = mul_sub(t137, t380, mul_sub(t141, t347, t705));
-        let t707 = mul_sub(t154, t428, mul_add(t156, t398, t706));
-        mass_matrix_b[4][1] = neg_mul_add(t166, t476, mul_sub(t168, t446, t707));
-        let t708 = mul_add(t89, t234, neg_mul_add(t93, t198, t553));
-        let t709 = mul_add(t103, t279, mul_add(t105, t249, t708));
-        let t710 = mul_add(t119, t330, mul_sub(t123, t297, t709));
-        let t711 = mul_add(t137, t381, mul_add(t141, t348, t710));
-        let t712 = mul_sub(t154, t429, mul_sub(t156, t399, t711));
-        mass_matrix_b[4][2] = neg_mul_add(t166, t477, mul_sub(t168, t447, t712));
-        let t713 = mul_add(t20, t553, mul_add(t21, t529, t572));
-        let t714 = mul_add(t89, t235, mul_sub(t93, t212, t713));
-        let t715 = mul_sub(t103, t280, mul_sub(t105, t259, t714));
-        let t716 = mul_sub(t119, t331, mul_add(t123, t309, t715));
-        let t717 = mul_add(t137, t382, mul_sub(t141, t360, t716));
-        let t718 = mul_sub(t154, t430, mul_sub(t156, t409, t717));
-        mass_matrix_b[4][3] = neg_mul_add(t166, t478, neg_mul_add(t168, t457, t718));
-        let t719 = mul_add(t21, t498, neg_mul_add(t19, t553, t584));
-        let t720 = mul_sub(t89, t236, mul_sub(t93, t221, t719));
-        let t721 = mul_add(t103, t281, mul_add(t105, t266, t720));
-        let t722 = mul_add(t119, t332, mul_sub(t123, t317, t721));
-        let t723 = mul_sub(t137, t383, mul_add(t141, t368, t722));
-        let t724 = mul_add(t154, t431, mul_add(t156, t416, t723));
-        mass_matrix_b[4][4] = mul_sub(t166, t479, mul_add(t168, t464, t724));
-        let t725 = mul_sub(t19, t529, neg_mul_add(t20, t498, t590));
-        let t726 = mul_sub(t89, t237, mul_add(t93, t224, t725));
-        let t727 = mul_sub(t103, t282, mul_add(t105, t269, t726));
-        let t728 = mul_sub(t119, t333, mul_add(t123, t320, t727));
-        let t729 = mul_sub(t137, t384, mul_sub(t141, t371, t728));
-        let t730 = mul_sub(t154, t432, mul_add(t156, t419, t729));
-        mass_matrix_b[4][5] = mul_sub(t166, t480, mul_sub(t168, t467, t730));
-        let t731 = mul_add(t91, t194, neg_mul_add(t89, t225, t505));
-        let t732 = mul_add(t104, t247, mul_add(t103, t270, t731));
-        let t733 = mul_add(t121, t295, mul_sub(t119, t321, t732));
-        let t734 = mul_add(t139, t346, mul_add(t137, t372, t733));
-        let t735 = mul_sub(t155, t397, mul_sub(t154, t420, t734));
-        mass_matrix_b[5][0] = neg_mul_add(t167, t445, mul_sub(t166, t468, t735));
-        let t736 = mul_add(t91, t196, neg_mul_add(t89, t226, t536));
-        let t737 = mul_add(t104, t248, mul_sub(t103, t271, t736));
-        let t738 = mul_add(t121, t296, mul_sub(t119, t322, t737));
-        let t739 = mul_add(t139, t347, mul_add(t137, t373, t738));
-        let t740 = mul_sub(t155, t398, mul_add(t154, t421, t739));
-        mass_matrix_b[5][1] = neg_mul_add(t167, t446, mul_sub(t166, t469, t740));
-        let t741 = mul_add(t91, t198, neg_mul_add(t89, t227, t560));
-        let t742 = mul_sub(t104, t249, mul_add(t103, t272, t741));
-        let t743 = mul_sub(t121, t297, mul_add(t119, t323, t742));
-        let t744 = mul_sub(t139, t348, mul_sub(t137, t374, t743));
-        let t745 = mul_sub(t155, t399, mul_add(t154, t422, t744));
-        mass_matrix_b[5][2] = neg_mul_add(t167, t447, mul_sub(t166, t470, t745));
-        let t746 = mul_add(t20, t560, neg_mul_add(t21, t536, t578));
-        let t747 = mul_sub(t91, t212, mul_sub(t89, t228, t746));
-        let t748 = mul_add(t104, t259, mul_sub(t103, t273, t747));
-        let t749 = mul_add(t121, t309, mul_sub(t119, t324, t748));
-        let t750 = mul_sub(t139, t360, mul_sub(t137, t375, t749));
-        let t751 = mul_add(t155, t409, mul_sub(t154, t423, t750));
-        mass_matrix_b[5][3] = mul_sub(t167, t457, mul_sub(t166, t471, t751));
-        let t752 = mul_add(t21, t505, neg_mul_add(t19, t560, t590));
-        let t753 = mul_sub(t91, t221, mul_sub(t89, t229, t752));
-        let t754 = mul_sub(t104, t266, mul_add(t103, t274, t753));
-        let t755 = mul_sub(t121, t317, mul_add(t119, t325, t754));
-        let t756 = mul_sub(t139, t368, mul_sub(t137, t376, t755));
-        let t757 = mul_sub(t155, t416, mul_add(t154, t424, t756));
-        mass_matrix_b[5][4] = mul_sub(t167, t464, mul_sub(t166, t472, t757));
-        let t758 = mul_add(t19, t536, neg_mul_add(t20, t505, t596));
-        let t759 = mul_sub(t91, t224, mul_sub(t89, t231, t758));
-        let t760 = mul_sub(t104, t269, mul_add(t103, t276, t759));
-        let t761 = mul_sub(t121, t320, mul_add(t119, t327, t760));
-        let t762 = mul_sub(t139, t371, mul_sub(t137, t378, t761));
-        let t763 = mul_sub(t155, t419, mul_add(t154, t426, t762));
-        mass_matrix_b[5][5] = mul_sub(t167, t467, mul_sub(t166, t474, t763));
+        let t520 = c(0.9523333333333334) * t226;
+        mass_matrix_b[0][0] = mul_sub(base_rotation[0][2], t520, c(1.024) + t231);
+        mass_matrix_b[0][1] = mul_add(base_rotation[1][2], t520, t241);
+        mass_matrix_b[0][2] = mul_add(base_rotation[2][2], t520, t251);
+        let t521 = mul_sub(t223, c(0.1253686515315582), t224 * c(0.03856110973562536));
+        let t522 = mul_add(t225, c(0.16392976126718353), t521);
+        let t523 = c(0.16702651650548503) * (t128 + t173);
+        let t524 = mul_add(c(0.11690815888191348), t98 + t110, t523);
+        let t525 = mul_add(c(0.05011835762357158), t146 + t161, t524);
+        let t526 = mul_add(t20, t251, neg_mul_add(t21, t241, t261));
+        let t527 = mul_sub(base_rotation[0][0], t525, t526);
+        mass_matrix_b[0][3] = mul_add(base_rotation[0][1], t522, t527);
+        let t528 = mul_add(t21, t231, mul_sub(t19, t251, t271 - t493));
+        let t529 = mul_add(base_rotation[1][0], t525, t528);
+        mass_matrix_b[0][4] = mul_add(base_rotation[1][1], t522, t529);
+        let t530 = mul_add(t19, t241, mul_add(t20, t231, t281 + t491));
+        let t531 = mul_sub(base_rotation[2][0], t525, t530);
+        mass_matrix_b[0][5] = mul_add(base_rotation[2][1], t522, t531);
+        let t532 = c(0.9523333333333334) * t235;
+        mass_matrix_b[1][0] = mul_add(base_rotation[0][2], t532, t283);
+        mass_matrix_b[1][1] = mul_sub(base_rotation[1][2], t532, c(1.024) + t293);
+        mass_matrix_b[1][2] = mul_add(base_rotation[2][2], t532, t298);
+        let t533 = mul_sub(t232, c(0.1253686515315582), t233 * c(0.03856110973562536));
+        let t534 = mul_add(t234, c(0.16392976126718353), t533);
+        let t535 = c(0.16702651650548503) * (t130 + t175);
+        let t536 = mul_add(c(0.11690815888191348), t100 + t112, t535);
+        let t537 = mul_add(c(0.05011835762357158), t148 + t163, t536);
+        let t538 = mul_add(t20, t298, mul_add(t21, t293, t303 + t493));
+        let t539 = mul_sub(base_rotation[0][0], t537, t538);
+        mass_matrix_b[1][3] = mul_add(base_rotation[0][1], t534, t539);
+        let t540 = mul_add(t21, t283, neg_mul_add(t19, t298, t308));
+        let t541 = mul_sub(base_rotation[1][0], t537, t540);
+        mass_matrix_b[1][4] = mul_add(base_rotation[1][1], t534, t541);
+        let t542 = mul_add(t19, t293, mul_sub(t20, t283, t313 - t489));
+        let t543 = mul_add(base_rotation[2][0], t537, t542);
+        mass_matrix_b[1][5] = mul_add(base_rotation[2][1], t534, t543);
+        let t544 = c(0.9523333333333334) * t245;
+        mass_matrix_b[2][0] = mul_add(base_rotation[0][2], t544, t315);
+        mass_matrix_b[2][1] = mul_add(base_rotation[1][2], t544, t317);
+        mass_matrix_b[2][2] = mul_sub(base_rotation[2][2], t544, c(1.024) + t327);
+        let t545 = mul_sub(t242, c(0.1253686515315582), t243 * c(0.03856110973562536));
+        let t546 = mul_add(t244, c(0.16392976126718353), t545);
+        let t547 = c(0.16702651650548503) * (t132 + t177);
+        let t548 = mul_add(c(0.11690815888191348), t102 + t114, t547);
+        let t549 = mul_add(c(0.05011835762357158), t150 + t165, t548);
+        let t550 = mul_add(t20, t327, mul_sub(t21, t317, t332 - t491));
+        let t551 = mul_add(base_rotation[0][0], t549, t550);
+        mass_matrix_b[2][3] = mul_add(base_rotation[0][1], t546, t551);
+        let t552 = mul_add(t21, t315, mul_add(t19, t327, t337 + t489));
+        let t553 = mul_sub(base_rotation[1][0], t549, t552);
+        mass_matrix_b[2][4] = mul_add(base_rotation[1][1], t546, t553);
+        let t554 = mul_add(t19, t317, neg_mul_add(t20, t315, t342));
+        let t555 = mul_sub(base_rotation[2][0], t549, t554);
+        mass_matrix_b[2][5] = mul_add(base_rotation[2][1], t546, t555);
+        let t556 = c(0.9523333333333334) * t255;
+        mass_matrix_b[3][0] = -mul_add(base_rotation[0][2], t556, t346);
+        let t557 = platform_rotation[2][1] * c(3.469446951953614e-18);
+        let t558 = mul_add(platform_rotation[2][0], c(8.673617379884035e-18), t557);
+        mass_matrix_b[3][1] = t558 - mul_add(base_rotation[1][2], t556, t350);
+        let t559 = platform_rotation[1][1] * c(3.469446951953614e-18);
+        let t560 = mul_add(platform_rotation[1][0], c(8.673617379884035e-18), t559);
+        mass_matrix_b[3][2] = -(t560 + mul_add(base_rotation[2][2], t556, t354));
+        let t561 = t503 + t515;
+        let t562 = t519 + t561;
+        let t563 = mul_add(t252, c(0.1253686515315582), t253 * c(0.03856110973562536));
+        let t564 = neg_mul_add(t254, c(0.16392976126718353), t563);
+        let t565 = c(0.16702651650548503) * (t184 + t193);
+        let t566 = mul_sub(c(0.11690815888191348), t178 + t181, t565);
+        let t567 = neg_mul_add(c(0.05011835762357158), t187 + t190, t566);
+        let t568 = mul_sub(t20, t354, mul_sub(t21, t350, t366 - t503));
+        let t569 = mul_add(base_rotation[0][0], t567, t568);
+        mass_matrix_b[3][3] = t562 + mul_add(base_rotation[0][1], t564, t569);
+        let t570 = mul_sub(t21, t346, mul_sub(t19, t354, t372 - t514));
+        let t571 = mul_add(base_rotation[1][0], t567, t570);
+        mass_matrix_b[3][4] = mul_add(base_rotation[1][1], t564, t571);
+        let t572 = mul_sub(t19, t350, mul_sub(t20, t346, t378 - t517));
+        let t573 = mul_add(base_rotation[2][0], t567, t572);
+        mass_matrix_b[3][5] = mul_add(base_rotation[2][1], t564, t573);
+        let t574 = c(0.9523333333333334) * t265;
+        mass_matrix_b[4][0] = -mul_add(base_rotation[0][2], t574, t382 + t558);
+        mass_matrix_b[4][1] = -mul_add(base_rotation[1][2], t574, t386);
+        let t575 = platform_rotation[0][1] * c(3.469446951953614e-18);
+        let t576 = mul_add(platform_rotation[0][0], c(8.673617379884035e-18), t575);
+        mass_matrix_b[4][2] = t576 - mul_add(base_rotation[2][2], t574, t390);
+        let t577 = mul_add(t262, c(0.1253686515315582), t263 * c(0.03856110973562536));
+        let t578 = neg_mul_add(t264, c(0.16392976126718353), t577);
+        let t579 = c(0.16702651650548503) * (t185 + t194);
+        let t580 = mul_sub(c(0.11690815888191348), t179 + t182, t579);
+        let t581 = neg_mul_add(c(0.05011835762357158), t188 + t191, t580);
+        let t582 = mul_sub(t20, t390, mul_add(t21, t386, t508 - (t369 + t393)));
+        let t583 = mul_add(base_rotation[0][0], t581, t582);
+        mass_matrix_b[4][3] = mul_add(base_rotation[0][1], t578, t583);
+        let t584 = mul_sub(t21, t382, mul_sub(t19, t390, t562 + (t405 - t515)));
+        let t585 = mul_add(base_rotation[1][0], t581, t584);
+        mass_matrix_b[4][4] = mul_add(base_rotation[1][1], t578, t585);
+        let t586 = mul_sub(t19, t386, mul_sub(t20, t382, t411 - t518));
+        let t587 = mul_add(base_rotation[2][0], t581, t586);
+        mass_matrix_b[4][5] = mul_add(base_rotation[2][1], t578, t587);
+        let t588 = c(0.9523333333333334) * t275;
+        mass_matrix_b[5][0] = neg_mul_add(base_rotation[0][2], t588, t560 - t415);
+        mass_matrix_b[5][1] = -mul_add(base_rotation[1][2], t588, t419 + t576);
+        mass_matrix_b[5][2] = -mul_add(base_rotation[2][2], t588, t423);
+        let t589 = mul_add(t272, c(0.1253686515315582), t273 * c(0.03856110973562536));
+        let t590 = neg_mul_add(t274, c(0.16392976126718353), t589);
+        let t591 = c(0.16702651650548503) * (t186 + t195);
+        let t592 = mul_sub(c(0.11690815888191348), t180 + t183, t591);
+        let t593 = neg_mul_add(c(0.05011835762357158), t189 + t192, t592);
+        let t594 = mul_sub(t20, t423, mul_add(t21, t419, t513 - (t375 + t426)));
+        let t595 = mul_add(base_rotation[0][0], t593, t594);
+        mass_matrix_b[5][3] = mul_add(base_rotation[0][1], t590, t595);
+        let t596 = mul_sub(t21, t415, mul_add(t19, t423, t516 - (t408 + t429)));
+        let t597 = mul_add(base_rotation[1][0], t593, t596);
+        mass_matrix_b[5][4] = mul_add(base_rotation[1][1], t590, t597);
+        let t598 = mul_sub(t19, t419, mul_sub(t20, t415, t438 + t561));
+        let t599 = mul_add(base_rotation[2][0], t593, t598);
+        mass_matrix_b[5][5] = mul_add(base_rotation[2][1], t590, t599);
         // angular velocity of the base
-        let t764 = base_rotation[1][0] * base_velocity[4];
-        let t765 = mul_add(base_rotation[0][0], base_velocity[3], t764);
-        let t766 = mul_add(base_rotation[2][0], base_velocity[5], t765);
-        let t767 = base_rotation[1][1] * base_velocity[4];
-        let t768 = mul_add(base_rotation[0][1], base_velocity[3], t767);
-        let t769 = mul_add(base_rotation[2][1], base_velocity[5], t768);
-        let t770 = base_rotation[1][2] * base_velocity[4];
-        let t771 = mul_add(base_rotation[0][2], base_velocity[3], t770);
-        let t772 = mul_add(base_rotation[2][2], base_velocity[5], t771);
+        let t600 = base_rotation[1][0] * base_velocity[4];
+        let t601 = mul_add(base_rotation[0][0], base_velocity[3], t600);
+        let t602 = mul_add(base_rotation[2][0], base_velocity[5], t601);
+        let t603 = base_rotation[1][1] * base_velocity[4];
+        let t604 = mul_add(base_rotation[0][1], base_velocity[3], t603);
+        let t605 = mul_add(base_rotation[2][1], base_velocity[5], t604);
+        let t606 = base_rotation[1][2] * base_velocity[4];
+        let t607 = mul_add(base_rotation[0][2], base_velocity[3], t606);
+        let t608 = mul_add(base_rotation[2][2], base_velocity[5], t607);
         // angular velocity of the platform relative to the base
-        let t773 = neg_mul_add(base_rotation[0][0], platform_velocity[3], t766);
-        let t774 = mul_sub(base_rotation[1][0], platform_velocity[4], t773);
-        let t775 = mul_add(base_rotation[2][0], platform_velocity[5], t774);
-        let t776 = neg_mul_add(base_rotation[0][1], platform_velocity[3], t769);
-        let t777 = mul_sub(base_rotation[1][1], platform_velocity[4], t776);
-        let t778 = mul_add(base_rotation[2][1], platform_velocity[5], t777);
-        let t779 = neg_mul_add(base_rotation[0][2], platform_velocity[3], t772);
-        let t780 = mul_sub(base_rotation[1][2], platform_velocity[4], t779);
-        let t781 = mul_add(base_rotation[2][2], platform_velocity[5], t780);
+        let t609 = neg_mul_add(base_rotation[0][0], platform_velocity[3], t602);
+        let t610 = mul_sub(base_rotation[1][0], platform_velocity[4], t609);
+        let t611 = mul_add(base_rotation[2][0], platform_velocity[5], t610);
+        let t612 = neg_mul_add(base_rotation[0][1], platform_velocity[3], t605);
+        let t613 = mul_sub(base_rotation[1][1], platform_velocity[4], t612);
+        let t614 = mul_add(base_rotation[2][1], platform_velocity[5], t613);
+        let t615 = neg_mul_add(base_rotation[0][2], platform_velocity[3], t608);
+        let t616 = mul_sub(base_rotation[1][2], platform_velocity[4], t615);
+        let t617 = mul_add(base_rotation[2][2], platform_velocity[5], t616);
         // velocity of the platform origin relative to the base
-        let t782 = base_velocity[0] - platform_velocity[0];
-        let t783 = base_velocity[1] - platform_velocity[1];
-        let t784 = base_velocity[2] - platform_velocity[2];
-        let t785 = mul_add(base_rotation[0][0], t782, base_rotation[1][0] * t783);
-        let t786 = mul_sub(t27, t769, mul_add(base_rotation[2][0], t784, t785));
-        let t787 = mul_sub(t25, t772, t786);
-        let t788 = mul_add(base_rotation[0][1], t782, base_rotation[1][1] * t783);
-        let t789 = mul_sub(t23, t772, mul_add(base_rotation[2][1], t784, t788));
-        let t790 = mul_sub(t27, t766, t789);
-        let t791 = mul_add(base_rotation[0][2], t782, base_rotation[1][2] * t783);
-        let t792 = mul_sub(t25, t766, mul_add(base_rotation[2][2], t784, t791));
-        let t793 = mul_sub(t23, t769, t792);
+        let t618 = base_velocity[0] - platform_velocity[0];
+        let t619 = base_velocity[1] - platform_velocity[1];
+        let t620 = base_velocity[2] - platform_velocity[2];
+        let t621 = mul_add(base_rotation[0][0], t618, base_rotation[1][0] * t619);
+        let t622 = mul_sub(t27, t605, mul_add(base_rotation[2][0], t620, t621));
+        let t623 = mul_sub(t25, t608, t622);
+        let t624 = mul_add(base_rotation[0][1], t618, base_rotation[1][1] * t619);
+        let t625 = mul_sub(t23, t608, mul_add(base_rotation[2][1], t620, t624));
+        let t626 = mul_sub(t27, t602, t625);
+        let t627 = mul_add(base_rotation[0][2], t618, base_rotation[1][2] * t619);
+        let t628 = mul_sub(t25, t602, mul_add(base_rotation[2][2], t620, t627));
+        let t629 = mul_sub(t23, t605, t628);
         // rate of the relative rotation
-        let t794 = mul_sub(t15, t778, t9 * t781);
-        let t795 = mul_sub(t18, t778, t12 * t781);
-        let t796 = mul_sub(t3, t781, t15 * t775);
-        let t797 = mul_sub(t6, t781, t18 * t775);
-        let t798 = mul_sub(t9, t775, t3 * t778);
-        let t799 = mul_sub(t12, t775, t6 * t778);
+        let t630 = mul_sub(t15, t614, t9 * t617);
+        let t631 = mul_sub(t18, t614, t12 * t617);
+        let t632 = mul_sub(t3, t617, t15 * t611);
+        let t633 = mul_sub(t6, t617, t18 * t611);
+        let t634 = mul_sub(t9, t611, t3 * t614);
+        let t635 = mul_sub(t12, t611, t6 * t614);
         // leg 1: velocity of the platform joint relative to the base
-        let t800 = neg_mul_add(c(0.1159110991546882), t794, t787);
-        let t801 = mul_add(c(0.03105828541230249), t795, t800);
-        let t802 = neg_mul_add(c(0.1159110991546882), t796, t790);
-        let t803 = mul_add(c(0.03105828541230249), t797, t802);
+        let t636 = neg_mul_add(c(0.1159110991546882), t630, t623);
+        let t637 = mul_add(c(0.03105828541230249), t631, t636);
+        let t638 = neg_mul_add(c(0.1159110991546882), t632, t626);
+        let t639 = mul_add(c(0.03105828541230249), t633, t638);
         // leg 2: velocity of the platform joint relative to the base
-        let t804 = neg_mul_add(c(0.03105828541230249), t795, t800);
-        let t805 = neg_mul_add(c(0.03105828541230249), t797, t802);
+        let t640 = neg_mul_add(c(0.03105828541230249), t631, t636);
+        let t641 = neg_mul_add(c(0.03105828541230249), t633, t638);
         // leg 3: velocity of the platform joint relative to the base
-        let t806 = mul_add(c(0.031058285412302475), t794, t787);
-        let t807 = neg_mul_add(c(0.1159110991546882), t795, t806);
-        let t808 = mul_add(c(0.031058285412302475), t796, t790);
-        let t809 = neg_mul_add(c(0.1159110991546882), t797, t808);
+        let t642 = mul_add(c(0.031058285412302475), t630, t623);
+        let t643 = neg_mul_add(c(0.1159110991546882), t631, t642);
+        let t644 = mul_add(c(0.031058285412302475), t632, t626);
+        let t645 = neg_mul_add(c(0.1159110991546882), t633, t644);
         // leg 4: velocity of the platform joint relative to the base
-        let t810 = mul_add(c(0.0848528137423857), t794, t787);
-        let t811 = neg_mul_add(c(0.08485281374238571), t795, t810);
-        let t812 = mul_add(c(0.0848528137423857), t796, t790);
-        let t813 = neg_mul_add(c(0.08485281374238571), t797, t812);
+        let t646 = mul_add(c(0.0848528137423857), t630, t623);
+        let t647 = neg_mul_add(c(0.08485281374238571), t631, t646);
+        let t648 = mul_add(c(0.0848528137423857), t632, t626);
+        let t649 = neg_mul_add(c(0.08485281374238571), t633, t648);
         // leg 5: velocity of the platform joint relative to the base
-        let t814 = mul_add(c(0.08485281374238571), t795, t810);
-        let t815 = mul_add(c(0.08485281374238571), t797, t812);
+        let t650 = mul_add(c(0.08485281374238571), t631, t646);
+        let t651 = mul_add(c(0.08485281374238571), t633, t648);
         // leg 6: velocity of the platform joint relative to the base
-        let t816 = mul_add(c(0.1159110991546882), t795, t806);
-        let t817 = mul_add(c(0.1159110991546882), t797, t808);
+        let t652 = mul_add(c(0.1159110991546882), t631, t642);
+        let t653 = mul_add(c(0.1159110991546882), t633, t644);
         // leg 1: rate of the rod's extent along the actuator axis
-        let t818 = t51 * mul_sub(t29, t801, t32 * t803);
+        let t654 = t51 * mul_sub(t29, t637, t32 * t639);
         // leg 1: actuator velocity d'
-        let t819 = neg_mul_add(c(0.1159110991546882), t798, t793);
-        let t820 = t819 - neg_mul_add(c(0.03105828541230249), t799, t818);
+        let t655 = neg_mul_add(c(0.1159110991546882), t634, t629);
+        let t656 = t655 - neg_mul_add(c(0.03105828541230249), t635, t654);
         // leg 2: rate of the rod's extent along the actuator axis
-        let t821 = t56 * mul_add(t33, t804, t34 * t805);
+        let t657 = t56 * mul_add(t33, t640, t34 * t641);
         // leg 2: actuator velocity d'
-        let t822 = t819 - mul_add(c(0.03105828541230249), t799, t821);
+        let t658 = t655 - mul_add(c(0.03105828541230249), t635, t657);
         // leg 3: rate of the rod's extent along the actuator axis
-        let t823 = t60 * mul_add(t36, t807, t39 * t809);
+        let t659 = t60 * mul_add(t36, t643, t39 * t645);
         // leg 3: actuator velocity d'
-        let t824 = mul_add(c(0.031058285412302475), t798, t793);
-        let t825 = t824 - mul_add(c(0.1159110991546882), t799, t823);
+        let t660 = mul_add(c(0.031058285412302475), t634, t629);
+        let t661 = t660 - mul_add(c(0.1159110991546882), t635, t659);
         // leg 4: rate of the rod's extent along the actuator axis
-        let t826 = t65 * mul_add(t41, t811, t44 * t813);
+        let t662 = t65 * mul_add(t41, t647, t44 * t649);
         // leg 4: actuator velocity d'
-        let t827 = mul_add(c(0.0848528137423857), t798, t793);
-        let t828 = t827 - mul_add(c(0.08485281374238571), t799, t826);
+        let t663 = mul_add(c(0.0848528137423857), t634, t629);
+        let t664 = t663 - mul_add(c(0.08485281374238571), t635, t662);
         // leg 5: rate of the rod's extent along the actuator axis
-        let t829 = t70 * mul_sub(t45, t814, t46 * t815);
+        let t665 = t70 * mul_sub(t45, t650, t46 * t651);
         // leg 5: actuator velocity d'
-        let t830 = t827 + mul_sub(c(0.08485281374238571), t799, t829);
+        let t666 = t663 + mul_sub(c(0.08485281374238571), t635, t665);
         // leg 6: rate of the rod's extent along the actuator axis
-        let t831 = t74 * mul_sub(t47, t816, t48 * t817);
+        let t667 = t74 * mul_sub(t47, t652, t48 * t653);
         // leg 6: actuator velocity d'
-        let t832 = t824 + mul_sub(c(0.1159110991546882), t799, t831);
+        let t668 = t660 + mul_sub(c(0.1159110991546882), t635, t667);
         // leg 1: inertial rate of that gradient
-        let t833 = mul_add(t77, t766, t76 * t769);
-        let t834 = neg_mul_add(t51, mul_add(t76, t818, t801), t769);
-        let t835 = mul_sub(t77, t772, t834);
-        let t836 = mul_add(t51, neg_mul_add(t77, t818, t803), t766);
-        let t837 = mul_add(t76, t772, t836);
-        let t838 = mul_add(base_rotation[0][0], t835, base_rotation[0][1] * t837);
-        let t839 = mul_sub(base_rotation[0][2], t833, t838);
-        let t840 = mul_add(base_rotation[1][0], t835, base_rotation[1][1] * t837);
-        let t841 = mul_sub(base_rotation[1][2], t833, t840);
-        let t842 = mul_add(base_rotation[2][0], t835, base_rotation[2][1] * t837);
-        let t843 = mul_sub(base_rotation[2][2], t833, t842);
+        let t669 = mul_add(t77, t602, t76 * t605);
+        let t670 = neg_mul_add(t51, mul_add(t76, t654, t637), t605);
+        let t671 = mul_sub(t77, t608, t670);
+        let t672 = mul_add(t51, neg_mul_add(t77, t654, t639), t602);
+        let t673 = mul_add(t76, t608, t672);
+        let t674 = mul_add(base_rotation[0][0], t671, base_rotation[0][1] * t673);
+        let t675 = mul_sub(base_rotation[0][2], t669, t674);
+        let t676 = mul_add(base_rotation[1][0], t671, base_rotation[1][1] * t673);
+        let t677 = mul_sub(base_rotation[1][2], t669, t676);
+        let t678 = mul_add(base_rotation[2][0], t671, base_rotation[2][1] * t673);
+        let t679 = mul_sub(base_rotation[2][2], t669, t678);
         // leg 2: inertial rate of that gradient
-        let t844 = mul_sub(t79, t766, t78 * t769);
-        let t845 = neg_mul_add(t56, mul_add(t78, t821, t804), t769);
-        let t846 = mul_add(t79, t772, t845);
-        let t847 = mul_add(t56, mul_add(t79, t821, t805), t766);
-        let t848 = mul_add(t78, t772, t847);
-        let t849 = mul_sub(base_rotation[0][0], t846, base_rotation[0][1] * t848);
-        let t850 = mul_sub(base_rotation[0][2], t844, t849);
-        let t851 = mul_sub(base_rotation[1][0], t846, base_rotation[1][1] * t848);
-        let t852 = mul_sub(base_rotation[1][2], t844, t851);
-        let t853 = mul_sub(base_rotation[2][0], t846, base_rotation[2][1] * t848);
-        let t854 = mul_sub(base_rotation[2][2], t844, t853);
+        let t680 = mul_sub(t79, t602, t78 * t605);
+        let t681 = neg_mul_add(t56, mul_add(t78, t657, t640), t605);
+        let t682 = mul_add(t79, t608, t681);
+        let t683 = mul_add(t56, mul_add(t79, t657, t641), t602);
+        let t684 = mul_add(t78, t608, t683);
+        let t685 = mul_sub(base_rotation[0][0], t682, base_rotation[0][1] * t684);
+        let t686 = mul_sub(base_rotation[0][2], t680, t685);
+        let t687 = mul_sub(base_rotation[1][0], t682, base_rotation[1][1] * t684);
+        let t688 = mul_sub(base_rotation[1][2], t680, t687);
+        let t689 = mul_sub(base_rotation[2][0], t682, base_rotation[2][1] * t684);
+        let t690 = mul_sub(base_rotation[2][2], t680, t689);
         // leg 3: inertial rate of that gradient
-        let t855 = mul_sub(t81, t766, t80 * t769);
-        let t856 = neg_mul_add(t60, mul_add(t80, t823, t807), t769);
-        let t857 = mul_add(t81, t772, t856);
-        let t858 = mul_add(t60, mul_add(t81, t823, t809), t766);
-        let t859 = mul_add(t80, t772, t858);
-        let t860 = mul_sub(base_rotation[0][0], t857, base_rotation[0][1] * t859);
-        let t861 = mul_sub(base_rotation[0][2], t855, t860);
-        let t862 = mul_sub(base_rotation[1][0], t857, base_rotation[1][1] * t859);
-        let t863 = mul_sub(base_rotation[1][2], t855, t862);
-        let t864 = mul_sub(base_rotation[2][0], t857, base_rotation[2][1] * t859);
-        let t865 = mul_sub(base_rotation[2][2], t855, t864);
+        let t691 = mul_sub(t81, t602, t80 * t605);
+        let t692 = neg_mul_add(t60, mul_add(t80, t659, t643), t605);
+        let t693 = mul_add(t81, t608, t692);
+        let t694 = mul_add(t60, mul_add(t81, t659, t645), t602);
+        let t695 = mul_add(t80, t608, t694);
+        let t696 = mul_sub(base_rotation[0][0], t693, base_rotation[0][1] * t695);
+        let t697 = mul_sub(base_rotation[0][2], t691, t696);
+        let t698 = mul_sub(base_rotation[1][0], t693, base_rotation[1][1] * t695);
+        let t699 = mul_sub(base_rotation[1][2], t691, t698);
+        let t700 = mul_sub(base_rotation[2][0], t693, base_rotation[2][1] * t695);
+        let t701 = mul_sub(base_rotation[2][2], t691, t700);
         // leg 4: inertial rate of that gradient
-        let t866 = mul_sub(t83, t766, t82 * t769);
-        let t867 = neg_mul_add(t65, mul_add(t82, t826, t811), t769);
-        let t868 = mul_add(t83, t772, t867);
-        let t869 = mul_add(t65, mul_add(t83, t826, t813), t766);
-        let t870 = mul_add(t82, t772, t869);
-        let t871 = mul_sub(base_rotation[0][0], t868, base_rotation[0][1] * t870);
-        let t872 = mul_sub(base_rotation[0][2], t866, t871);
-        let t873 = mul_sub(base_rotation[1][0], t868, base_rotation[1][1] * t870);
-        let t874 = mul_sub(base_rotation[1][2], t866, t873);
-        let t875 = mul_sub(base_rotation[2][0], t868, base_rotation[2][1] * t870);
-        let t876 = mul_sub(base_rotation[2][2], t866, t875);
+        let t702 = mul_sub(t83, t602, t82 * t605);
+        let t703 = neg_mul_add(t65, mul_add(t82, t662, t647), t605);
+        let t704 = mul_add(t83, t608, t703);
+        let t705 = mul_add(t65, mul_add(t83, t662, t649), t602);
+        let t706 = mul_add(t82, t608, t705);
+        let t707 = mul_sub(base_rotation[0][0], t704, base_rotation[0][1] * t706);
+        let t708 = mul_sub(base_rotation[0][2], t702, t707);
+        let t709 = mul_sub(base_rotation[1][0], t704, base_rotation[1][1] * t706);
+        let t710 = mul_sub(base_rotation[1][2], t702, t709);
+        let t711 = mul_sub(base_rotation[2][0], t704, base_rotation[2][1] * t706);
+        let t712 = mul_sub(base_rotation[2][2], t702, t711);
         // leg 5: inertial rate of that gradient
-        let t877 = mul_add(t85, t766, t84 * t769);
-        let t878 = neg_mul_add(t70, mul_add(t84, t829, t814), t769);
-        let t879 = mul_sub(t85, t772, t878);
-        let t880 = mul_add(t70, neg_mul_add(t85, t829, t815), t766);
-        let t881 = mul_add(t84, t772, t880);
-        let t882 = mul_add(base_rotation[0][0], t879, base_rotation[0][1] * t881);
-        let t883 = mul_sub(base_rotation[0][2], t877, t882);
-        let t884 = mul_add(base_rotation[1][0], t879, base_rotation[1][1] * t881);
-        let t885 = mul_sub(base_rotation[1][2], t877, t884);
-        let t886 = mul_add(base_rotation[2][0], t879, base_rotation[2][1] * t881);
-        let t887 = mul_sub(base_rotation[2][2], t877, t886);
+        let t713 = mul_add(t85, t602, t84 * t605);
+        let t714 = neg_mul_add(t70, mul_add(t84, t665, t650), t605);
+        let t715 = mul_sub(t85, t608, t714);
+        let t716 = mul_add(t70, neg_mul_add(t85, t665, t651), t602);
+        let t717 = mul_add(t84, t608, t716);
+        let t718 = mul_add(base_rotation[0][0], t715, base_rotation[0][1] * t717);
+        let t719 = mul_sub(base_rotation[0][2], t713, t718);
+        let t720 = mul_add(base_rotation[1][0], t715, base_rotation[1][1] * t717);
+        let t721 = mul_sub(base_rotation[1][2], t713, t720);
+        let t722 = mul_add(base_rotation[2][0], t715, base_rotation[2][1] * t717);
+        let t723 = mul_sub(base_rotation[2][2], t713, t722);
+        // leg 6: inertial rate of that gradient
+        let t724 = mul_add(t87, t602, t86 * t605);
+        let t725 = neg_mul_add(t74, mul_add(t86, t667, t652), t605);
+        let t726 = mul_sub(t87, t608, t725);
+        let t727 = mul_add(t74, neg_mul_add(t87, t667, t653), t602);
+        let t728 = mul_add(t86, t608, t727);
+        let t729 = mul_add(base_rotation[0][0], t726, base_rotation[0][1] * t728);
+        let t730 = mul_sub(base_rotation[0][2], t724, t729);
+        let t731 = mul_add(base_rotation[1][0], t726, base_rotation[1][1] * t728);
+        let t732 = mul_sub(base_rotation[1][2], t724, t731);
+        let t733 = mul_add(base_rotation[2][0], t726, base_rotation[2][1] * t728);
+        let t734 = mul_sub(base_rotation[2][2], t724, t733);
+        // leg 1: rate of the platform lever
+        let t735 = mul_sub(platform_velocity[4], t93, platform_velocity[5] * t91);
+        let t736 = mul_sub(platform_velocity[5], t89, platform_velocity[3] * t93);
+        let t737 = mul_sub(platform_velocity[3], t91, platform_velocity[4] * t89);
+        // leg 2: rate of the platform lever
+        let t738 = mul_sub(platform_velocity[4], t105, platform_velocity[5] * t104);
+        let t739 = mul_sub(platform_velocity[5], t103, platform_velocity[3] * t105);
+        let t740 = mul_sub(platform_velocity[3], t104, platform_velocity[4] * t103);
+        // leg 3: rate of the platform lever
+        let t741 = mul_sub(platform_velocity[4], t123, platform_velocity[5] * t121);
+        let t742 = mul_sub(platform_velocity[5], t119, platform_velocity[3] * t123);
+        let t743 = mul_sub(platform_velocity[3], t121, platform_velocity[4] * t119);
+        // leg 4: rate of the platform lever
+        let t744 = mul_sub(platform_velocity[4], t141, platform_velocity[5] * t139);
+        let t745 = mul_sub(platform_velocity[5], t137, platform_velocity[3] * t141);
+        let t746 = mul_sub(platform_velocity[3], t139, platform_velocity[4] * t137);
+        // leg 5: rate of the platform lever
+        let t747 = mul_sub(platform_velocity[4], t156, platform_velocity[5] * t155);
+        let t748 = mul_sub(platform_velocity[5], t154, platform_velocity[3] * t156);
+        let t749 = mul_sub(platform_velocity[3], t155, platform_velocity[4] * t154);
+        // leg 6: rate of the platform lever
+        let t750 = mul_sub(platform_velocity[4], t168, platform_velocity[5] * t167);
+        let t751 = mul_sub(platform_velocity[5], t166, platform_velocity[3] * t168);
+        let t752 = mul_sub(platform_velocity[3], t167, platform_velocity[4] * t166);
+        // leg 1: inertial rate of the row of the actuator Jacobian
+        let t753 = mul_add(t91, t679, mul_sub(t102, t736, t100 * t737));
+        let t754 = mul_sub(t93, t677, t753);
+        let t755 = mul_add(t93, t675, mul_sub(t98, t737, t102 * t735));
+        let t756 = mul_sub(t89, t679, t755);
+        let t757 = mul_add(t89, t677, mul_sub(t100, t735, t98 * t736));
+        let t758 = mul_sub(t91, t675, t757);
+        // leg 2: inertial rate of the row of the actuator Jacobian
+        let t759 = mul_add(t104, t690, mul_sub(t114, t739, t112 * t740));
+        let t760 = mul_sub(t105, t688, t759);
+        let t761 = mul_add(t105, t686, mul_sub(t110, t740, t114 * t738));
+        let t762 = mul_sub(t103, t690, t761);
+        let t763 = mul_add(t103, t688, mul_sub(t112, t738, t110 * t739));
+        let t764 = mul_sub(t104, t686, t763);
+        // leg 3: inertial rate of the row of the actuator Jacobian
+        let t765 = mul_add(t121, t701, mul_sub(t132, t742, t130 * t743));
+        let t766 = mul_sub(t123, t699, t765);
+        let t767 = mul_add(t123, t697, mul_sub(t128, t743, t132 * t741));
+        let t768 = mul_sub(t119, t701, t767);
+        let t769 = mul_add(t119, t699, mul_sub(t130, t741, t128 * t742));
+        let t770 = mul_sub(t121, t697, t769);
+        // leg 4: inertial rate of the row of the actuator Jacobian
+        let t771 = mul_add(t139, t712, mul_sub(t150, t745, t148 * t746));
+        let t772 = mul_sub(t141, t710, t771);
+        let t773 = mul_add(t141, t708, mul_sub(t146, t746, t150 * t744));
+        let t774 = mul_sub(t137, t712, t773);
+        let t775 = mul_add(t137, t710, mul_sub(t148, t744, t146 * t745));
+        let t776 = mul_sub(t139, t708, t775);
+        // leg 5: inertial rate of the row of the actuator Jacobian
+        let t777 = mul_add(t155, t723, mul_sub(t165, t748, t163 * t749));
+        let t778 = mul_sub(t156, t721, t777);
+        let t779 = mul_add(t156, t719, mul_sub(t161, t749, t165 * t747));
+        let t780 = mul_sub(t154, t723, t779);
+        let t781 = mul_add(t154, t721, mul_sub(t163, t747, t161 * t748));
+        let t782 = mul_sub(t155, t719, t781);
+        // leg 6: inertial rate of the row of the actuator Jacobian
+        let t783 = mul_add(t167, t734, mul_sub(t177, t751, t175 * t752));
+        let t784 = mul_sub(t168, t732, t783);
+        let t785 = mul_add(t168, t730, mul_sub(t173, t752, t177 * t750));
+        let t786 = mul_sub(t166, t734, t785);
+        let t787 = mul_add(t166, t732, mul_sub(t175, t750, t173 * t751));
+        let t788 = mul_sub(t167, t730, t787);
+        // leg 1: moment of that force's rate
+        let t789 = mul_sub(base_velocity[3], t197, base_velocity[4] * t196);
+        let t790 = mul_sub(base_velocity[5], t196, base_velocity[3] * t198);
+        let t791 = mul_sub(t91, t789, t93 * t790);
+        let t792 = mul_sub(base_velocity[4], t198, base_velocity[5] * t197);
+        let t793 = mul_sub(t93, t792, t89 * t789);
+        let t794 = mul_sub(t89, t790, t91 * t792);
+        // leg 1: moment of that force by the rate of the lever
+        let t795 = mul_sub(t198, t736, t197 * t737);
+        let t796 = mul_sub(t196, t737, t198 * t735);
+        let t797 = mul_sub(t197, t735, t196 * t736);
+        // leg 1: moment of the force along the axis that an acceleration of the actuator takes
+        let t798 = mul_add(t178, c(0.9523333333333334), t199);
+        let t799 = mul_add(t179, c(0.9523333333333334), t200);
+        let t800 = mul_add(t180, c(0.9523333333333334), t201);
+        // leg 2: moment of that force's rate
+        let t801 = mul_sub(t104, t789, t105 * t790);
+        let t802 = mul_sub(t105, t792, t103 * t789);
+        let t803 = mul_sub(t103, t790, t104 * t792);
+        // leg 2: moment of that force by the rate of the lever
+        let t804 = mul_sub(t198, t739, t197 * t740);
+        let t805 = mul_sub(t196, t740, t198 * t738);
+        let t806 = mul_sub(t197, t738, t196 * t739);
+        // leg 2: moment of the force along the axis that an acceleration of the actuator takes
+        let t807 = neg_mul_add(t181, c(0.9523333333333334), t202);
+        let t808 = neg_mul_add(t182, c(0.9523333333333334), t203);
+        let t809 = neg_mul_add(t183, c(0.9523333333333334), t204);
+        // leg 3: moment of that force's rate
+        let t810 = mul_sub(t121, t789, t123 * t790);
+        let t811 = mul_sub(t123, t792, t119 * t789);
+        let t812 = mul_sub(t119, t790, t121 * t792);
+        // leg 3: moment of that force by the rate of the lever
+        let t813 = mul_sub(t198, t742, t197 * t743);
+        let t814 = mul_sub(t196, t743, t198 * t741);
+        let t815 = mul_sub(t197, t741, t196 * t742);
+        // leg 3: moment of the force along the axis that an acceleration of the actuator takes
+        let t816 = neg_mul_add(t184, c(0.9523333333333334), t205);
+        let t817 = neg_mul_add(t185, c(0.9523333333333334), t206);
+        let t818 = neg_mul_add(t186, c(0.9523333333333334), t207);
+        // leg 4: moment of that force's rate
+        let t819 = mul_sub(t139, t789, t141 * t790);
+        let t820 = mul_sub(t141, t792, t137 * t789);
+        let t821 = mul_sub(t137, t790, t139 * t792);
+        // leg 4: moment of that force by the rate of the lever
+        let t822 = mul_sub(t198, t745, t197 * t746);
+        let t823 = mul_sub(t196, t746, t198 * t744);
+        let t824 = mul_sub(t197, t744, t196 * t745);
+        // leg 4: moment of the force along the axis that an acceleration of the actuator takes
+        let t825 = neg_mul_add(t187, c(0.9523333333333334), t208);
+        let t826 = neg_mul_add(t188, c(0.9523333333333334), t209);
+        let t827 = neg_mul_add(t189, c(0.9523333333333334), t210);
+        // leg 5: moment of that force's rate
+        let t828 = mul_sub(t155, t789, t156 * t790);
+        let t829 = mul_sub(t156, t792, t154 * t789);
+        let t830 = mul_sub(t154, t790, t155 * t792);
+        // leg 5: moment of that force by the rate of the lever
+        let t831 = mul_sub(t198, t748, t197 * t749);
+        let t832 = mul_sub(t196, t749, t198 * t747);
+        let t833 = mul_sub(t197, t747, t196 * t748);
+        // leg 5: moment of the force along the axis that an acceleration of the actuator takes
+        let t834 = mul_add(t190, c(0.9523333333333334), t211);
+        let t835 = mul_add(t191, c(0.9523333333333334), t212);
+        let t836 = mul_add(t192, c(0.9523333333333334), t213);
+        // leg 6: moment of that force's rate
+        let t837 = mul_sub(t167, t789, t168 * t790);
+        let t838 = mul_sub(t168, t792, t166 * t789);
+        let t839 = mul_sub(t166, t790, t167 * t792);
+        // leg 6: moment of that force by the rate of the lever
+        let t840 = mul_sub(t198, t751, t197 * t752);
+        let t841 = mul_sub(t196, t752, t198 * t750);
+        let t842 = mul_sub(t197, t750, t196 * t751);
+        // leg 6: moment of the force along the axis that an acceleration of the actuator takes
+        let t843 = mul_add(t193, c(0.9523333333333334), t214);
+        let t844 = mul_add(t194, c(0.9523333333333334), t215);
+        let t845 = mul_add(t195, c(0.9523333333333334), t216);
         (
             t19,
             t20,
@@ -11219,58 +11229,37 @@ pub fn matrices<T: Scalar>(
             t62,
             t67,
             t71,
-            t74,
             t75,
-            t86,
-            t87,
-            t89,
-            t91,
-            t93,
             t94,
             t95,
             t96,
             t98,
             t100,
             t102,
-            t103,
-            t104,
-            t105,
             t106,
             t107,
             t108,
             t110,
             t112,
             t114,
-            t119,
-            t121,
-            t123,
             t124,
             t125,
             t126,
             t128,
             t130,
             t132,
-            t137,
-            t139,
-            t141,
             t142,
             t143,
             t144,
             t146,
             t148,
             t150,
-            t154,
-            t155,
-            t156,
             t157,
             t158,
             t159,
             t161,
             t163,
             t165,
-            t166,
-            t167,
-            t168,
             t169,
             t170,
             t171,
@@ -11278,869 +11267,807 @@ pub fn matrices<T: Scalar>(
             t175,
             t177,
             t178,
+            t179,
+            t180,
             t181,
             t182,
+            t183,
             t184,
             t185,
+            t186,
             t187,
+            t188,
             t189,
             t190,
+            t191,
             t192,
-            t200,
-            t203,
-            t214,
-            t239,
+            t193,
+            t194,
+            t195,
+            t217,
+            t218,
+            t219,
+            t220,
+            t221,
+            t222,
+            t228,
+            t231,
+            t237,
             t241,
-            t243,
-            t244,
-            t245,
-            t246,
-            t250,
+            t247,
             t251,
-            t260,
+            t257,
+            t267,
+            t277,
+            t282,
+            t283,
+            t284,
             t285,
+            t286,
             t287,
+            t288,
             t289,
-            t291,
-            t292,
+            t290,
+            t293,
             t294,
+            t298,
             t299,
-            t301,
-            t311,
-            t336,
+            t304,
+            t309,
+            t314,
+            t315,
+            t316,
+            t317,
+            t318,
+            t319,
+            t320,
+            t321,
+            t322,
+            t323,
+            t324,
+            t327,
+            t328,
+            t333,
             t338,
-            t340,
-            t342,
-            t343,
-            t345,
+            t346,
             t350,
-            t352,
-            t362,
-            t387,
-            t389,
-            t391,
-            t393,
-            t394,
-            t396,
-            t400,
-            t401,
-            t410,
-            t435,
-            t437,
-            t439,
-            t441,
-            t442,
-            t444,
-            t448,
-            t449,
+            t354,
+            t382,
+            t386,
+            t390,
+            t415,
+            t419,
+            t423,
+            t447,
+            t450,
+            t453,
             t458,
-            t483,
-            t484,
-            t485,
+            t460,
+            t462,
+            t467,
+            t469,
+            t474,
+            t489,
             t491,
-            t498,
-            t505,
+            t493,
+            t503,
             t508,
-            t509,
+            t513,
+            t514,
+            t515,
             t516,
-            t529,
-            t536,
-            t539,
-            t546,
-            t553,
-            t560,
-            t601,
-            t604,
-            t607,
-            t612,
-            t614,
-            t616,
-            t621,
-            t623,
-            t628,
+            t517,
+            t518,
+            t519,
+            t602,
+            t605,
+            t608,
+            t618,
+            t619,
+            t620,
+            t656,
+            t658,
+            t661,
+            t664,
+            t666,
+            t668,
+            t675,
+            t677,
+            t679,
+            t686,
+            t688,
+            t690,
+            t697,
+            t699,
+            t701,
+            t708,
+            t710,
+            t712,
+            t719,
+            t721,
+            t723,
+            t730,
+            t732,
+            t734,
+            t754,
+            t756,
+            t758,
+            t760,
+            t762,
+            t764,
             t766,
-            t769,
+            t768,
+            t770,
             t772,
+            t774,
+            t776,
+            t778,
+            t780,
             t782,
-            t783,
             t784,
+            t786,
+            t788,
+            t791,
+            t793,
+            t794,
+            t795,
+            t796,
+            t797,
+            t798,
+            t799,
+            t800,
+            t801,
+            t802,
+            t803,
+            t804,
+            t805,
+            t806,
+            t807,
+            t808,
+            t809,
+            t810,
+            t811,
+            t812,
+            t813,
+            t814,
+            t815,
             t816,
             t817,
+            t818,
+            t819,
             t820,
+            t821,
             t822,
+            t823,
+            t824,
             t825,
+            t826,
+            t827,
             t828,
+            t829,
             t830,
             t831,
             t832,
+            t833,
+            t834,
+            t835,
+            t836,
+            t837,
+            t838,
             t839,
+            t840,
             t841,
+            t842,
             t843,
-            t850,
-            t852,
-            t854,
-            t861,
-            t863,
-            t865,
-            t872,
-            t874,
-            t876,
-            t883,
-            t885,
-            t887,
+            t844,
+            t845,
         )
     };
     {
-        // leg 6: inertial rate of that gradient
-        let t888 = mul_add(t87, t766, t86 * t769);
-        let t889 = neg_mul_add(t74, mul_add(t86, t831, t816), t769);
-        let t890 = mul_sub(t87, t772, t889);
-        let t891 = mul_add(t74, neg_mul_add(t87, t831, t817), t766);
-        let t892 = mul_add(t86, t772, t891);
-        let t893 = mul_add(base_rotation[0][0], t890, base_rotation[0][1] * t892);
-        let t894 = mul_sub(base_rotation[0][2], t888, t893);
-        let t895 = mul_add(base_rotation[1][0], t890, base_rotation[1][1] * t892);
-        let t896 = mul_sub(base_rotation[1][2], t888, t895);
-        let t897 = mul_add(base_rotation[2][0], t890, base_rotation[2][1] * t892);
-        let t898 = mul_sub(base_rotation[2][2], t888, t897);
-        // leg 1: rate of the platform lever
-        let t899 = mul_sub(platform_velocity[4], t93, platform_velocity[5] * t91);
-        let t900 = mul_sub(platform_velocity[5], t89, platform_velocity[3] * t93);
-        let t901 = mul_sub(platform_velocity[3], t91, platform_velocity[4] * t89);
-        // leg 2: rate of the platform lever
-        let t902 = mul_sub(platform_velocity[4], t105, platform_velocity[5] * t104);
-        let t903 = mul_sub(platform_velocity[5], t103, platform_velocity[3] * t105);
-        let t904 = mul_sub(platform_velocity[3], t104, platform_velocity[4] * t103);
-        // leg 3: rate of the platform lever
-        let t905 = mul_sub(platform_velocity[4], t123, platform_velocity[5] * t121);
-        let t906 = mul_sub(platform_velocity[5], t119, platform_velocity[3] * t123);
-        let t907 = mul_sub(platform_velocity[3], t121, platform_velocity[4] * t119);
-        // leg 4: rate of the platform lever
-        let t908 = mul_sub(platform_velocity[4], t141, platform_velocity[5] * t139);
-        let t909 = mul_sub(platform_velocity[5], t137, platform_velocity[3] * t141);
-        let t910 = mul_sub(platform_velocity[3], t139, platform_velocity[4] * t137);
-        // leg 5: rate of the platform lever
-        let t911 = mul_sub(platform_velocity[4], t156, platform_velocity[5] * t155);
-        let t912 = mul_sub(platform_velocity[5], t154, platform_velocity[3] * t156);
-        let t913 = mul_sub(platform_velocity[3], t155, platform_velocity[4] * t154);
-        // leg 6: rate of the platform lever
-        let t914 = mul_sub(platform_velocity[4], t168, platform_velocity[5] * t167);
-        let t915 = mul_sub(platform_velocity[5], t166, platform_velocity[3] * t168);
-        let t916 = mul_sub(platform_velocity[3], t167, platform_velocity[4] * t166);
-        // leg 1: Coriolis matrix of the leg in the speeds of its joint
-        let t917 = base_rotation[1][2] * base_velocity[5];
-        let t918 = mul_sub(base_rotation[2][2], base_velocity[4], t917);
-        let t919 = c(0.17066666666666666) * t918;
-        let t920 = mul_add(t98, c(0.9523333333333334), t178);
-        let t921 = mul_add(t839, t920, t98 * t919);
-        let t922 = mul_add(t841, t920, t100 * t919);
-        let t923 = mul_add(t843, t920, t102 * t919);
-        let t924 = base_rotation[2][2] * base_velocity[3];
-        let t925 = mul_sub(base_rotation[0][2], base_velocity[5], t924);
-        let t926 = c(0.17066666666666666) * t925;
-        let t927 = mul_add(t100, c(0.9523333333333334), t182);
-        let t928 = mul_add(t839, t927, t98 * t926);
-        let t929 = mul_add(t841, t927, t100 * t926);
-        let t930 = mul_add(t843, t927, t102 * t926);
-        let t931 = base_rotation[0][2] * base_velocity[4];
-        let t932 = mul_sub(base_rotation[1][2], base_velocity[3], t931);
-        let t933 = c(0.17066666666666666) * t932;
-        let t934 = mul_add(t102, c(0.9523333333333334), t185);
-        let t935 = mul_add(t839, t934, t98 * t933);
-        let t936 = mul_add(t841, t934, t100 * t933);
-        let t937 = mul_add(t843, t934, t102 * t933);
-        // leg 1: Coriolis matrix between joint and base angular velocity
-        let t938 = mul_add(c(0.17066666666666666), t783, c(0.03055) * t925);
-        let t939 = mul_add(c(0.17066666666666666), t784, c(0.03055) * t932);
-        let t940 = mul_sub(base_velocity[5], t214, base_velocity[3] * t203);
-        let t941 = mul_add(base_rotation[1][2], t820, mul_sub(t53, t925, t940));
-        let t942 = mul_sub(c(0.17066666666666666), t900, c(0.9523333333333334) * t941);
-        let t943 = t938 - t942;
-        let t944 = mul_sub(base_velocity[3], t200, base_velocity[4] * t214);
-        let t945 = mul_add(base_rotation[2][2], t820, mul_sub(t53, t932, t944));
-        let t946 = mul_sub(c(0.17066666666666666), t901, c(0.9523333333333334) * t945);
-        let t947 = t939 - t946;
-        let t948 = mul_sub(base_rotation[2][2], t943, base_rotation[1][2] * t947);
-        let t949 = t98 * t948;
-        let t950 = mul_add(c(0.17066666666666666), t782, c(0.03055) * t918);
-        let t951 = mul_sub(base_velocity[4], t203, base_velocity[5] * t200);
-        let t952 = mul_add(base_rotation[0][2], t820, mul_sub(t53, t918, t951));
-        let t953 = mul_sub(c(0.17066666666666666), t899, c(0.9523333333333334) * t952);
-        let t954 = t950 - t953;
-        let t955 = mul_sub(base_rotation[0][2], t947, base_rotation[2][2] * t954);
-        let t956 = c(0.17066666666666666) * t945;
-        let t957 = mul_add(t98, t955, t956);
-        let t958 = mul_sub(base_rotation[1][2], t954, base_rotation[0][2] * t943);
-        let t959 = c(0.17066666666666666) * t941;
-        let t960 = mul_sub(t98, t958, t959);
-        let t961 = neg_mul_add(t100, t948, t956);
-        let t962 = t100 * t955;
-        let t963 = c(0.17066666666666666) * t952;
-        let t964 = mul_add(t100, t958, t963);
-        let t965 = mul_add(t102, t948, t959);
-        let t966 = neg_mul_add(t102, t955, t963);
-        let t967 = t102 * t958;
-        // leg 2: Coriolis matrix of the leg in the speeds of its joint
-        let t968 = neg_mul_add(t110, c(0.9523333333333334), t178);
-        let t969 = mul_add(t850, t968, t110 * t919);
-        let t970 = mul_add(t852, t968, t112 * t919);
-        let t971 = mul_add(t854, t968, t114 * t919);
-        let t972 = neg_mul_add(t112, c(0.9523333333333334), t182);
-        let t973 = mul_add(t850, t972, t110 * t926);
-        let t974 = mul_add(t852, t972, t112 * t926);
-        let t975 = mul_add(t854, t972, t114 * t926);
-        let t976 = neg_mul_add(t114, c(0.9523333333333334), t185);
-        let t977 = mul_add(t850, t976, t110 * t933);
-        let t978 = mul_add(t852, t976, t112 * t933);
-        let t979 = mul_add(t854, t976, t114 * t933);
-        // leg 2: Coriolis matrix between joint and base angular velocity
-        let t980 = mul_sub(base_velocity[5], t260, base_velocity[3] * t251);
-        let t981 = mul_add(base_rotation[1][2], t822, mul_sub(t57, t925, t980));
-        let t982 = mul_sub(c(0.17066666666666666), t903, c(0.9523333333333334) * t981);
-        let t983 = t938 - t982;
-        let t984 = mul_sub(base_velocity[3], t250, base_velocity[4] * t260);
-        let t985 = mul_add(base_rotation[2][2], t822, mul_sub(t57, t932, t984));
-        let t986 = mul_sub(c(0.17066666666666666), t904, c(0.9523333333333334) * t985);
-        let t987 = t939 - t986;
-        let t988 = mul_sub(base_rotation[2][2], t983, base_rotation[1][2] * t987);
-        let t989 = t110 * t988;
-        let t990 = mul_sub(base_velocity[4], t251, base_velocity[5] * t250);
-        let t991 = mul_add(base_rotation[0][2], t822, mul_sub(t57, t918, t990));
-        let t992 = mul_sub(c(0.17066666666666666), t902, c(0.9523333333333334) * t991);
-        let t993 = t950 - t992;
-        let t994 = mul_sub(base_rotation[0][2], t987, base_rotation[2][2] * t993);
-        let t995 = c(0.17066666666666666) * t985;
-        let t996 = mul_sub(t110, t994, t995);
-        let t997 = mul_sub(base_rotation[1][2], t993, base_rotation[0][2] * t983);
-        let t998 = c(0.17066666666666666) * t981;
-        let t999 = mul_add(t110, t997, t998);
-        let t1000 = mul_add(t112, t988, t995);
-        let t1001 = t112 * t994;
-        let t1002 = c(0.17066666666666666) * t991;
-        let t1003 = mul_sub(t112, t997, t1002);
-        let t1004 = neg_mul_add(t114, t988, t998);
-        let t1005 = mul_add(t114, t994, t1002);
-        let t1006 = t114 * t997;
-        // leg 3: Coriolis matrix of the leg in the speeds of its joint
-        let t1007 = neg_mul_add(t128, c(0.9523333333333334), t178);
-        let t1008 = mul_add(t861, t1007, t128 * t919);
-        let t1009 = mul_add(t863, t1007, t130 * t919);
-        let t1010 = mul_add(t865, t1007, t132 * t919);
-        let t1011 = neg_mul_add(t130, c(0.9523333333333334), t182);
-        let t1012 = mul_add(t861, t1011, t128 * t926);
-        let t1013 = mul_add(t863, t1011, t130 * t926);
-        let t1014 = mul_add(t865, t1011, t132 * t926);
-        let t1015 = neg_mul_add(t132, c(0.9523333333333334), t185);
-        let t1016 = mul_add(t861, t1015, t128 * t933);
-        let t1017 = mul_add(t863, t1015, t130 * t933);
-        let t1018 = mul_add(t865, t1015, t132 * t933);
-        // leg 3: Coriolis matrix between joint and base angular velocity
-        let t1019 = mul_sub(base_velocity[5], t311, base_velocity[3] * t301);
-        let t1020 = mul_add(base_rotation[1][2], t825, mul_sub(t62, t925, t1019));
-        let t1021 = mul_add(c(0.17066666666666666), t906, c(0.9523333333333334) * t1020);
-        let t1022 = t938 + t1021;
-        let t1023 = mul_sub(base_velocity[3], t299, base_velocity[4] * t311);
-        let t1024 = mul_add(base_rotation[2][2], t825, mul_sub(t62, t932, t1023));
-        let t1025 = mul_add(c(0.17066666666666666), t907, c(0.9523333333333334) * t1024);
-        let t1026 = t939 + t1025;
-        let t1027 = mul_sub(base_rotation[2][2], t1022, base_rotation[1][2] * t1026);
-        let t1028 = t128 * t1027;
-        let t1029 = mul_sub(base_velocity[4], t301, base_velocity[5] * t299);
-        let t1030 = mul_add(base_rotation[0][2], t825, mul_sub(t62, t918, t1029));
-        let t1031 = mul_add(c(0.17066666666666666), t905, c(0.9523333333333334) * t1030);
-        let t1032 = t950 + t1031;
-        let t1033 = mul_sub(base_rotation[0][2], t1026, base_rotation[2][2] * t1032);
-        let t1034 = c(0.17066666666666666) * t1024;
-        let t1035 = mul_sub(t128, t1033, t1034);
-        let t1036 = mul_sub(base_rotation[1][2], t1032, base_rotation[0][2] * t1022);
-        let t1037 = c(0.17066666666666666) * t1020;
-        let t1038 = mul_add(t128, t1036, t1037);
-        let t1039 = mul_add(t130, t1027, t1034);
-        let t1040 = t130 * t1033;
-        let t1041 = c(0.17066666666666666) * t1030;
-        let t1042 = mul_sub(t130, t1036, t1041);
-        let t1043 = neg_mul_add(t132, t1027, t1037);
-        let t1044 = mul_add(t132, t1033, t1041);
-        let t1045 = t132 * t1036;
-        // leg 4: Coriolis matrix of the leg in the speeds of its joint
-        let t1046 = neg_mul_add(t146, c(0.9523333333333334), t178);
-        let t1047 = mul_add(t872, t1046, t146 * t919);
-        let t1048 = mul_add(t874, t1046, t148 * t919);
-        let t1049 = mul_add(t876, t1046, t150 * t919);
-        let t1050 = neg_mul_add(t148, c(0.9523333333333334), t182);
-        let t1051 = mul_add(t872, t1050, t146 * t926);
-        let t1052 = mul_add(t874, t1050, t148 * t926);
-        let t1053 = mul_add(t876, t1050, t150 * t926);
-        let t1054 = neg_mul_add(t150, c(0.9523333333333334), t185);
-        let t1055 = mul_add(t872, t1054, t146 * t933);
-        let t1056 = mul_add(t874, t1054, t148 * t933);
-        let t1057 = mul_add(t876, t1054, t150 * t933);
-        // leg 4: Coriolis matrix between joint and base angular velocity
-        let t1058 = mul_sub(base_velocity[5], t362, base_velocity[3] * t352);
-        let t1059 = mul_add(base_rotation[1][2], t828, mul_add(t67, t925, t1058));
-        let t1060 = mul_add(c(0.17066666666666666), t909, c(0.9523333333333334) * t1059);
-        let t1061 = t938 + t1060;
-        let t1062 = mul_sub(base_velocity[3], t350, base_velocity[4] * t362);
-        let t1063 = mul_add(base_rotation[2][2], t828, mul_add(t67, t932, t1062));
-        let t1064 = mul_add(c(0.17066666666666666), t910, c(0.9523333333333334) * t1063);
-        let t1065 = t939 + t1064;
-        let t1066 = mul_sub(base_rotation[2][2], t1061, base_rotation[1][2] * t1065);
-        let t1067 = t146 * t1066;
-        let t1068 = mul_sub(base_velocity[4], t352, base_velocity[5] * t350);
-        let t1069 = mul_add(base_rotation[0][2], t828, mul_add(t67, t918, t1068));
-        let t1070 = mul_add(c(0.17066666666666666), t908, c(0.9523333333333334) * t1069);
-        let t1071 = t950 + t1070;
-        let t1072 = mul_sub(base_rotation[0][2], t1065, base_rotation[2][2] * t1071);
-        let t1073 = c(0.17066666666666666) * t1063;
-        let t1074 = mul_sub(t146, t1072, t1073);
-        let t1075 = mul_sub(base_rotation[1][2], t1071, base_rotation[0][2] * t1061);
-        let t1076 = c(0.17066666666666666) * t1059;
-        let t1077 = mul_add(t146, t1075, t1076);
-        let t1078 = mul_add(t148, t1066, t1073);
-        let t1079 = t148 * t1072;
-        let t1080 = c(0.17066666666666666) * t1069;
-        let t1081 = mul_sub(t148, t1075, t1080);
-        let t1082 = neg_mul_add(t150, t1066, t1076);
-        let t1083 = mul_add(t150, t1072, t1080);
-        let t1084 = t150 * t1075;
-        // leg 5: Coriolis matrix of the leg in the speeds of its joint
-        let t1085 = mul_add(t161, c(0.9523333333333334), t178);
-        let t1086 = mul_add(t883, t1085, t161 * t919);
-        let t1087 = mul_add(t885, t1085, t163 * t919);
-        let t1088 = mul_add(t887, t1085, t165 * t919);
-        let t1089 = mul_add(t163, c(0.9523333333333334), t182);
-        let t1090 = mul_add(t883, t1089, t161 * t926);
-        let t1091 = mul_add(t885, t1089, t163 * t926);
-        let t1092 = mul_add(t887, t1089, t165 * t926);
-        let t1093 = mul_add(t165, c(0.9523333333333334), t185);
-        let t1094 = mul_add(t883, t1093, t161 * t933);
-        let t1095 = mul_add(t885, t1093, t163 * t933);
-        let t1096 = mul_add(t887, t1093, t165 * t933);
-        // leg 5: Coriolis matrix between joint and base angular velocity
-        let t1097 = mul_sub(base_velocity[5], t410, base_velocity[3] * t401);
-        let t1098 = mul_add(base_rotation[1][2], t830, mul_add(t71, t925, t1097));
-        let t1099 = mul_add(c(0.17066666666666666), t912, c(0.9523333333333334) * t1098);
-        let t1100 = t938 + t1099;
-        let t1101 = mul_sub(base_velocity[3], t400, base_velocity[4] * t410);
-        let t1102 = mul_add(base_rotation[2][2], t830, mul_add(t71, t932, t1101));
-        let t1103 = mul_add(c(0.17066666666666666), t913, c(0.9523333333333334) * t1102);
-        let t1104 = t939 + t1103;
-        let t1105 = mul_sub(base_rotation[2][2], t1100, base_rotation[1][2] * t1104);
-        let t1106 = t161 * t1105;
-        let t1107 = mul_sub(base_velocity[4], t401, base_velocity[5] * t400);
-        let t1108 = mul_add(base_rotation[0][2], t830, mul_add(t71, t918, t1107));
-        let t1109 = mul_add(c(0.17066666666666666), t911, c(0.9523333333333334) * t1108);
-        let t1110 = t950 + t1109;
-        let t1111 = mul_sub(base_rotation[0][2], t1104, base_rotation[2][2] * t1110);
-        let t1112 = c(0.17066666666666666) * t1102;
-        let t1113 = mul_add(t161, t1111, t1112);
-        let t1114 = mul_sub(base_rotation[1][2], t1110, base_rotation[0][2] * t1100);
-        let t1115 = c(0.17066666666666666) * t1098;
-        let t1116 = mul_sub(t161, t1114, t1115);
-        let t1117 = neg_mul_add(t163, t1105, t1112);
-        let t1118 = t163 * t1111;
-        let t1119 = c(0.17066666666666666) * t1108;
-        let t1120 = mul_add(t163, t1114, t1119);
-        let t1121 = mul_add(t165, t1105, t1115);
-        let t1122 = neg_mul_add(t165, t1111, t1119);
-        let t1123 = t165 * t1114;
-        // leg 6: Coriolis matrix of the leg in the speeds of its joint
-        let t1124 = mul_add(t173, c(0.9523333333333334), t178);
-        let t1125 = mul_add(t894, t1124, t173 * t919);
-        let t1126 = mul_add(t896, t1124, t175 * t919);
-        let t1127 = mul_add(t898, t1124, t177 * t919);
-        let t1128 = mul_add(t175, c(0.9523333333333334), t182);
-        let t1129 = mul_add(t894, t1128, t173 * t926);
-        let t1130 = mul_add(t896, t1128, t175 * t926);
-        let t1131 = mul_add(t898, t1128, t177 * t926);
-        let t1132 = mul_add(t177, c(0.9523333333333334), t185);
-        let t1133 = mul_add(t894, t1132, t173 * t933);
-        let t1134 = mul_add(t896, t1132, t175 * t933);
-        let t1135 = mul_add(t898, t1132, t177 * t933);
-        // leg 6: Coriolis matrix between joint and base angular velocity
-        let t1136 = mul_sub(base_velocity[5], t458, base_velocity[3] * t449);
-        let t1137 = mul_add(base_rotation[1][2], t832, mul_sub(t75, t925, t1136));
-        let t1138 = mul_add(c(0.17066666666666666), t915, c(0.9523333333333334) * t1137);
-        let t1139 = t938 + t1138;
-        let t1140 = mul_sub(base_velocity[3], t448, base_velocity[4] * t458);
-        let t1141 = mul_add(base_rotation[2][2], t832, mul_sub(t75, t932, t1140));
-        let t1142 = mul_add(c(0.17066666666666666), t916, c(0.9523333333333334) * t1141);
-        let t1143 = t939 + t1142;
-        let t1144 = mul_sub(base_rotation[2][2], t1139, base_rotation[1][2] * t1143);
-        let t1145 = t173 * t1144;
-        let t1146 = mul_sub(base_velocity[4], t449, base_velocity[5] * t448);
-        let t1147 = mul_add(base_rotation[0][2], t832, mul_sub(t75, t918, t1146));
-        let t1148 = mul_add(c(0.17066666666666666), t914, c(0.9523333333333334) * t1147);
-        let t1149 = t950 + t1148;
-        let t1150 = mul_sub(base_rotation[0][2], t1143, base_rotation[2][2] * t1149);
-        let t1151 = c(0.17066666666666666) * t1141;
-        let t1152 = mul_add(t173, t1150, t1151);
-        let t1153 = mul_sub(base_rotation[1][2], t1149, base_rotation[0][2] * t1139);
-        let t1154 = c(0.17066666666666666) * t1137;
-        let t1155 = mul_sub(t173, t1153, t1154);
-        let t1156 = neg_mul_add(t175, t1144, t1151);
-        let t1157 = t175 * t1150;
-        let t1158 = c(0.17066666666666666) * t1147;
-        let t1159 = mul_add(t175, t1153, t1158);
-        let t1160 = mul_add(t177, t1144, t1154);
-        let t1161 = neg_mul_add(t177, t1150, t1158);
-        let t1162 = t177 * t1153;
+        // part of the legs' Coriolis matrix on the side of the axes
+        let t846 = t719 + t730 + (t675 - t686 - (t697 + t708));
+        let t847 = c(0.17066666666666666) * t846;
+        let t848 = mul_add(t219, t697, mul_add(t217, t675, t218 * t686));
+        let t849 = mul_add(t221, t719, mul_add(t220, t708, t848));
+        let t850 = mul_add(base_rotation[0][2], t847, mul_add(t222, t730, t849));
+        let t851 = mul_sub(
+            base_velocity[5],
+            t282,
+            mul_sub(base_velocity[4], t314, t850),
+        );
+        coriolis_matrix_p[0][0] = t851;
+        coriolis_matrix_b[0][0] = t851;
+        let t852 = t721 + t732 + (t677 - t688 - (t699 + t710));
+        let t853 = c(0.17066666666666666) * t852;
+        let t854 = mul_add(t219, t699, mul_add(t217, t677, t218 * t688));
+        let t855 = mul_add(t221, t721, mul_add(t220, t710, t854));
+        let t856 = mul_add(base_rotation[0][2], t853, mul_add(t222, t732, t855));
+        let t857 = mul_sub(
+            base_velocity[5],
+            t290,
+            mul_sub(base_velocity[4], t316, t856),
+        );
+        coriolis_matrix_p[0][1] = t857;
+        coriolis_matrix_b[0][1] = t857;
+        let t858 = t723 + t734 + (t679 - t690 - (t701 + t712));
+        let t859 = c(0.17066666666666666) * t858;
+        let t860 = mul_add(t219, t701, mul_add(t217, t679, t218 * t690));
+        let t861 = mul_add(t221, t723, mul_add(t220, t712, t860));
+        let t862 = mul_add(base_rotation[0][2], t859, mul_add(t222, t734, t861));
+        let t863 = mul_sub(
+            base_velocity[5],
+            t294,
+            mul_sub(base_velocity[4], t324, t862),
+        );
+        coriolis_matrix_p[0][2] = t863;
+        coriolis_matrix_b[0][2] = t863;
+        let t864 = t778 + t784 - (t754 - t760 + (t766 + t772));
+        let t865 = c(0.17066666666666666) * t864;
+        let t866 = mul_sub(t219, t766, mul_add(t217, t754, t218 * t760));
+        let t867 = mul_add(t221, t778, mul_add(t220, t772, t866));
+        let t868 = mul_add(base_rotation[0][2], t865, mul_add(t222, t784, t867));
+        let t869 = mul_sub(
+            base_velocity[5],
+            t299,
+            mul_add(base_velocity[4], t328, t868),
+        );
+        let t870 = t780 + t786 - (t756 - t762 + (t768 + t774));
+        let t871 = c(0.17066666666666666) * t870;
+        let t872 = mul_sub(t219, t768, mul_add(t217, t756, t218 * t762));
+        let t873 = mul_add(t221, t780, mul_add(t220, t774, t872));
+        let t874 = mul_add(base_rotation[0][2], t871, mul_add(t222, t786, t873));
+        let t875 = mul_sub(
+            base_velocity[5],
+            t304,
+            mul_add(base_velocity[4], t333, t874),
+        );
+        let t876 = t782 + t788 - (t758 - t764 + (t770 + t776));
+        let t877 = c(0.17066666666666666) * t876;
+        let t878 = mul_sub(t219, t770, mul_add(t217, t758, t218 * t764));
+        let t879 = mul_add(t221, t782, mul_add(t220, t776, t878));
+        let t880 = mul_add(base_rotation[0][2], t877, mul_add(t222, t788, t879));
+        let t881 = mul_sub(
+            base_velocity[5],
+            t309,
+            mul_add(base_velocity[4], t338, t880),
+        );
+        let t882 = mul_add(t286, t697, mul_add(t284, t675, t285 * t686));
+        let t883 = mul_add(t288, t719, mul_add(t287, t708, t882));
+        let t884 = mul_add(base_rotation[1][2], t847, mul_add(t289, t730, t883));
+        let t885 = mul_sub(
+            base_velocity[3],
+            t314,
+            mul_sub(base_velocity[5], t228, t884),
+        );
+        coriolis_matrix_p[1][0] = t885;
+        coriolis_matrix_b[1][0] = t885;
+        let t886 = mul_add(t286, t699, mul_add(t284, t677, t285 * t688));
+        let t887 = mul_add(t288, t721, mul_add(t287, t710, t886));
+        let t888 = mul_add(base_rotation[1][2], t853, mul_add(t289, t732, t887));
+        let t889 = mul_sub(
+            base_velocity[3],
+            t316,
+            mul_sub(base_velocity[5], t237, t888),
+        );
+        coriolis_matrix_p[1][1] = t889;
+        coriolis_matrix_b[1][1] = t889;
+        let t890 = mul_add(t286, t701, mul_add(t284, t679, t285 * t690));
+        let t891 = mul_add(t288, t723, mul_add(t287, t712, t890));
+        let t892 = mul_add(base_rotation[1][2], t859, mul_add(t289, t734, t891));
+        let t893 = mul_sub(
+            base_velocity[3],
+            t324,
+            mul_sub(base_velocity[5], t247, t892),
+        );
+        coriolis_matrix_p[1][2] = t893;
+        coriolis_matrix_b[1][2] = t893;
+        let t894 = mul_sub(t286, t766, mul_add(t284, t754, t285 * t760));
+        let t895 = mul_add(t288, t778, mul_add(t287, t772, t894));
+        let t896 = mul_add(base_rotation[1][2], t865, mul_add(t289, t784, t895));
+        let t897 = mul_sub(
+            base_velocity[3],
+            t328,
+            mul_add(base_velocity[5], t257, t896),
+        );
+        let t898 = mul_sub(t286, t768, mul_add(t284, t756, t285 * t762));
+        let t899 = mul_add(t288, t780, mul_add(t287, t774, t898));
+        let t900 = mul_add(base_rotation[1][2], t871, mul_add(t289, t786, t899));
+        let t901 = mul_sub(
+            base_velocity[3],
+            t333,
+            mul_add(base_velocity[5], t267, t900),
+        );
+        let t902 = mul_sub(t286, t770, mul_add(t284, t758, t285 * t764));
+        let t903 = mul_add(t288, t782, mul_add(t287, t776, t902));
+        let t904 = mul_add(base_rotation[1][2], t877, mul_add(t289, t788, t903));
+        let t905 = mul_sub(
+            base_velocity[3],
+            t338,
+            mul_add(base_velocity[5], t277, t904),
+        );
+        let t906 = mul_add(t320, t697, mul_add(t318, t675, t319 * t686));
+        let t907 = mul_add(t322, t719, mul_add(t321, t708, t906));
+        let t908 = mul_add(base_rotation[2][2], t847, mul_add(t323, t730, t907));
+        let t909 = mul_sub(
+            base_velocity[4],
+            t228,
+            mul_sub(base_velocity[3], t282, t908),
+        );
+        coriolis_matrix_p[2][0] = t909;
+        coriolis_matrix_b[2][0] = t909;
+        let t910 = mul_add(t320, t699, mul_add(t318, t677, t319 * t688));
+        let t911 = mul_add(t322, t721, mul_add(t321, t710, t910));
+        let t912 = mul_add(base_rotation[2][2], t853, mul_add(t323, t732, t911));
+        let t913 = mul_sub(
+            base_velocity[4],
+            t237,
+            mul_sub(base_velocity[3], t290, t912),
+        );
+        coriolis_matrix_p[2][1] = t913;
+        coriolis_matrix_b[2][1] = t913;
+        let t914 = mul_add(t320, t701, mul_add(t318, t679, t319 * t690));
+        let t915 = mul_add(t322, t723, mul_add(t321, t712, t914));
+        let t916 = mul_add(base_rotation[2][2], t859, mul_add(t323, t734, t915));
+        let t917 = mul_sub(
+            base_velocity[4],
+            t247,
+            mul_sub(base_velocity[3], t294, t916),
+        );
+        coriolis_matrix_p[2][2] = t917;
+        coriolis_matrix_b[2][2] = t917;
+        let t918 = mul_sub(t320, t766, mul_add(t318, t754, t319 * t760));
+        let t919 = mul_add(t322, t778, mul_add(t321, t772, t918));
+        let t920 = mul_add(base_rotation[2][2], t865, mul_add(t323, t784, t919));
+        let t921 = mul_sub(
+            base_velocity[4],
+            t257,
+            mul_add(base_velocity[3], t299, t920),
+        );
+        let t922 = mul_sub(t320, t768, mul_add(t318, t756, t319 * t762));
+        let t923 = mul_add(t322, t780, mul_add(t321, t774, t922));
+        let t924 = mul_add(base_rotation[2][2], t871, mul_add(t323, t786, t923));
+        let t925 = mul_sub(
+            base_velocity[4],
+            t267,
+            mul_add(base_velocity[3], t304, t924),
+        );
+        let t926 = mul_sub(t320, t770, mul_add(t318, t758, t319 * t764));
+        let t927 = mul_add(t322, t782, mul_add(t321, t776, t926));
+        let t928 = mul_add(base_rotation[2][2], t877, mul_add(t323, t788, t927));
+        let t929 = mul_sub(
+            base_velocity[4],
+            t277,
+            mul_add(base_velocity[3], t309, t928),
+        );
+        let t930 = mul_add(t697, t816, mul_sub(t675, t798, t686 * t807));
+        let t931 = mul_sub(t719, t834, mul_add(t708, t825, t930));
+        let t932 = mul_sub(t98, t791, mul_add(t730, t843, t931));
+        let t933 = mul_sub(t128, t810, mul_sub(t110, t801, t932));
+        let t934 = mul_sub(t161, t828, mul_add(t146, t819, t933));
+        let t935 = mul_add(t173, t837, t934);
+        let t936 = mul_add(t699, t816, mul_sub(t677, t798, t688 * t807));
+        let t937 = mul_sub(t721, t834, mul_add(t710, t825, t936));
+        let t938 = mul_sub(t100, t791, mul_add(t732, t843, t937));
+        let t939 = mul_sub(t130, t810, mul_sub(t112, t801, t938));
+        let t940 = mul_sub(t163, t828, mul_add(t148, t819, t939));
+        let t941 = mul_add(t175, t837, t940);
+        let t942 = mul_add(t701, t816, mul_sub(t679, t798, t690 * t807));
+        let t943 = mul_sub(t723, t834, mul_add(t712, t825, t942));
+        let t944 = mul_sub(t102, t791, mul_add(t734, t843, t943));
+        let t945 = mul_sub(t132, t810, mul_sub(t114, t801, t944));
+        let t946 = mul_sub(t165, t828, mul_add(t150, t819, t945));
+        let t947 = mul_add(t177, t837, t946);
+        let t948 = mul_sub(t766, t816, mul_sub(t754, t798, t760 * t807));
+        let t949 = mul_sub(t778, t834, mul_add(t772, t825, t948));
+        let t950 = mul_sub(t178, t791, mul_add(t784, t843, t949));
+        let t951 = mul_add(t184, t810, mul_sub(t181, t801, t950));
+        let t952 = mul_sub(t190, t828, mul_add(t187, t819, t951));
+        let t953 = mul_add(t193, t837, t952);
+        let t954 = mul_sub(t768, t816, mul_sub(t756, t798, t762 * t807));
+        let t955 = mul_sub(t780, t834, mul_add(t774, t825, t954));
+        let t956 = mul_sub(t179, t791, mul_add(t786, t843, t955));
+        let t957 = mul_add(t185, t810, mul_sub(t182, t801, t956));
+        let t958 = mul_sub(t191, t828, mul_add(t188, t819, t957));
+        let t959 = mul_add(t194, t837, t958);
+        let t960 = mul_sub(t770, t816, mul_sub(t758, t798, t764 * t807));
+        let t961 = mul_sub(t782, t834, mul_add(t776, t825, t960));
+        let t962 = mul_sub(t180, t791, mul_add(t788, t843, t961));
+        let t963 = mul_add(t186, t810, mul_sub(t183, t801, t962));
+        let t964 = mul_sub(t192, t828, mul_add(t189, t819, t963));
+        let t965 = mul_add(t195, t837, t964);
+        let t966 = mul_add(t697, t817, mul_sub(t675, t799, t686 * t808));
+        let t967 = mul_sub(t719, t835, mul_add(t708, t826, t966));
+        let t968 = mul_sub(t98, t793, mul_add(t730, t844, t967));
+        let t969 = mul_sub(t128, t811, mul_sub(t110, t802, t968));
+        let t970 = mul_sub(t161, t829, mul_add(t146, t820, t969));
+        let t971 = mul_add(t173, t838, t970);
+        let t972 = mul_add(t699, t817, mul_sub(t677, t799, t688 * t808));
+        let t973 = mul_sub(t721, t835, mul_add(t710, t826, t972));
+        let t974 = mul_sub(t100, t793, mul_add(t732, t844, t973));
+        let t975 = mul_sub(t130, t811, mul_sub(t112, t802, t974));
+        let t976 = mul_sub(t163, t829, mul_add(t148, t820, t975));
+        let t977 = mul_add(t175, t838, t976);
+        let t978 = mul_add(t701, t817, mul_sub(t679, t799, t690 * t808));
+        let t979 = mul_sub(t723, t835, mul_add(t712, t826, t978));
+        let t980 = mul_sub(t102, t793, mul_add(t734, t844, t979));
+        let t981 = mul_sub(t132, t811, mul_sub(t114, t802, t980));
+        let t982 = mul_sub(t165, t829, mul_add(t150, t820, t981));
+        let t983 = mul_add(t177, t838, t982);
+        let t984 = mul_sub(t766, t817, mul_sub(t754, t799, t760 * t808));
+        let t985 = mul_sub(t778, t835, mul_add(t772, t826, t984));
+        let t986 = mul_sub(t178, t793, mul_add(t784, t844, t985));
+        let t987 = mul_add(t184, t811, mul_sub(t181, t802, t986));
+        let t988 = mul_sub(t190, t829, mul_add(t187, t820, t987));
+        let t989 = mul_add(t193, t838, t988);
+        let t990 = mul_sub(t768, t817, mul_sub(t756, t799, t762 * t808));
+        let t991 = mul_sub(t780, t835, mul_add(t774, t826, t990));
+        let t992 = mul_sub(t179, t793, mul_add(t786, t844, t991));
+        let t993 = mul_add(t185, t811, mul_sub(t182, t802, t992));
+        let t994 = mul_sub(t191, t829, mul_add(t188, t820, t993));
+        let t995 = mul_add(t194, t838, t994);
+        let t996 = mul_sub(t770, t817, mul_sub(t758, t799, t764 * t808));
+        let t997 = mul_sub(t782, t835, mul_add(t776, t826, t996));
+        let t998 = mul_sub(t180, t793, mul_add(t788, t844, t997));
+        let t999 = mul_add(t186, t811, mul_sub(t183, t802, t998));
+        let t1000 = mul_sub(t192, t829, mul_add(t189, t820, t999));
+        let t1001 = mul_add(t195, t838, t1000);
+        let t1002 = mul_add(t697, t818, mul_sub(t675, t800, t686 * t809));
+        let t1003 = mul_sub(t719, t836, mul_add(t708, t827, t1002));
+        let t1004 = mul_sub(t98, t794, mul_add(t730, t845, t1003));
+        let t1005 = mul_sub(t128, t812, mul_sub(t110, t803, t1004));
+        let t1006 = mul_sub(t161, t830, mul_add(t146, t821, t1005));
+        let t1007 = mul_add(t173, t839, t1006);
+        let t1008 = mul_add(t699, t818, mul_sub(t677, t800, t688 * t809));
+        let t1009 = mul_sub(t721, t836, mul_add(t710, t827, t1008));
+        let t1010 = mul_sub(t100, t794, mul_add(t732, t845, t1009));
+        let t1011 = mul_sub(t130, t812, mul_sub(t112, t803, t1010));
+        let t1012 = mul_sub(t163, t830, mul_add(t148, t821, t1011));
+        let t1013 = mul_add(t175, t839, t1012);
+        let t1014 = mul_add(t701, t818, mul_sub(t679, t800, t690 * t809));
+        let t1015 = mul_sub(t723, t836, mul_add(t712, t827, t1014));
+        let t1016 = mul_sub(t102, t794, mul_add(t734, t845, t1015));
+        let t1017 = mul_sub(t132, t812, mul_sub(t114, t803, t1016));
+        let t1018 = mul_sub(t165, t830, mul_add(t150, t821, t1017));
+        let t1019 = mul_add(t177, t839, t1018);
+        let t1020 = mul_sub(t766, t818, mul_sub(t754, t800, t760 * t809));
+        let t1021 = mul_sub(t778, t836, mul_add(t772, t827, t1020));
+        let t1022 = mul_sub(t178, t794, mul_add(t784, t845, t1021));
+        let t1023 = mul_add(t184, t812, mul_sub(t181, t803, t1022));
+        let t1024 = mul_sub(t190, t830, mul_add(t187, t821, t1023));
+        let t1025 = mul_add(t193, t839, t1024);
+        let t1026 = mul_sub(t768, t818, mul_sub(t756, t800, t762 * t809));
+        let t1027 = mul_sub(t780, t836, mul_add(t774, t827, t1026));
+        let t1028 = mul_sub(t179, t794, mul_add(t786, t845, t1027));
+        let t1029 = mul_add(t185, t812, mul_sub(t182, t803, t1028));
+        let t1030 = mul_sub(t191, t830, mul_add(t188, t821, t1029));
+        let t1031 = mul_add(t194, t839, t1030);
+        let t1032 = mul_sub(t770, t818, mul_sub(t758, t800, t764 * t809));
+        let t1033 = mul_sub(t782, t836, mul_add(t776, t827, t1032));
+        let t1034 = mul_sub(t180, t794, mul_add(t788, t845, t1033));
+        let t1035 = mul_add(t186, t812, mul_sub(t183, t803, t1034));
+        let t1036 = mul_sub(t192, t830, mul_add(t189, t821, t1035));
+        let t1037 = mul_add(t195, t839, t1036);
+        let t1038 = -t935;
+        coriolis_matrix_p[3][0] = t1038;
+        coriolis_matrix_b[3][0] = t1038;
+        let t1039 = -t941;
+        coriolis_matrix_p[3][1] = t1039;
+        coriolis_matrix_b[3][1] = t1039;
+        let t1040 = -t947;
+        coriolis_matrix_p[3][2] = t1040;
+        coriolis_matrix_b[3][2] = t1040;
+        let t1041 = -t971;
+        coriolis_matrix_p[4][0] = t1041;
+        coriolis_matrix_b[4][0] = t1041;
+        let t1042 = -t977;
+        coriolis_matrix_p[4][1] = t1042;
+        coriolis_matrix_b[4][1] = t1042;
+        let t1043 = -t983;
+        coriolis_matrix_p[4][2] = t1043;
+        coriolis_matrix_b[4][2] = t1043;
+        let t1044 = -t1007;
+        coriolis_matrix_p[5][0] = t1044;
+        coriolis_matrix_b[5][0] = t1044;
+        let t1045 = -t1013;
+        coriolis_matrix_p[5][1] = t1045;
+        coriolis_matrix_b[5][1] = t1045;
+        let t1046 = -t1019;
+        coriolis_matrix_p[5][2] = t1046;
+        coriolis_matrix_b[5][2] = t1046;
         // Coriolis matrix of the legs
-        let t1163 = t1125 + (t1086 - (t1047 + (t1008 - (t921 - t969))));
-        coriolis_matrix_p[0][0] = t1163;
-        coriolis_matrix_b[0][0] = t1163;
-        let t1164 = t1126 + (t1087 - (t1048 + (t1009 - (t922 - t970))));
-        coriolis_matrix_p[0][1] = t1164;
-        coriolis_matrix_b[0][1] = t1164;
-        let t1165 = t1127 + (t1088 - (t1049 + (t1010 - (t923 - t971))));
-        coriolis_matrix_p[0][2] = t1165;
-        coriolis_matrix_b[0][2] = t1165;
-        let t1166 = mul_add(t437, t916, mul_sub(t168, t1126, t167 * t1127));
-        let t1167 = mul_sub(t439, t915, t1166);
-        let t1168 = mul_add(t389, t913, mul_sub(t156, t1087, t155 * t1088));
-        let t1169 = mul_sub(t391, t912, t1168);
-        let t1170 = mul_add(t338, t910, mul_sub(t141, t1048, t139 * t1049));
-        let t1171 = mul_sub(t340, t909, t1170);
-        let t1172 = mul_add(t287, t907, mul_sub(t123, t1009, t121 * t1010));
-        let t1173 = mul_sub(t289, t906, t1172);
-        let t1174 = t91 * t923;
-        let t1175 = mul_add(t184, t901, mul_sub(t93, t922, t1174));
-        let t1176 = mul_sub(t187, t900, t1175);
-        let t1177 = t105 * t970;
-        let t1178 = mul_add(t241, t904, neg_mul_add(t104, t971, t1177));
-        let t1179 = mul_sub(t243, t903, t1178);
-        let t1180 = t1167 + (t1169 - (t1171 + (t1173 + (t1176 - t1179))));
-        let t1181 = mul_add(t439, t914, mul_sub(t166, t1127, t168 * t1125));
-        let t1182 = mul_sub(t435, t916, t1181);
-        let t1183 = mul_add(t391, t911, mul_sub(t154, t1088, t156 * t1086));
-        let t1184 = mul_sub(t387, t913, t1183);
-        let t1185 = mul_add(t340, t908, mul_sub(t137, t1049, t141 * t1047));
-        let t1186 = mul_sub(t336, t910, t1185);
-        let t1187 = mul_add(t289, t905, mul_sub(t119, t1010, t123 * t1008));
-        let t1188 = mul_sub(t285, t907, t1187);
-        let t1189 = mul_add(t187, t899, mul_sub(t89, t923, t93 * t921));
-        let t1190 = mul_sub(t181, t901, t1189);
-        let t1191 = t105 * t969;
-        let t1192 = mul_add(t243, t902, mul_sub(t103, t971, t1191));
-        let t1193 = mul_sub(t239, t904, t1192);
-        let t1194 = t1182 + (t1184 - (t1186 + (t1188 + (t1190 - t1193))));
-        let t1195 = mul_add(t435, t915, neg_mul_add(t166, t1126, t167 * t1125));
-        let t1196 = mul_sub(t437, t914, t1195);
-        let t1197 = mul_add(t387, t912, neg_mul_add(t154, t1087, t155 * t1086));
-        let t1198 = mul_sub(t389, t911, t1197);
-        let t1199 = mul_add(t336, t909, neg_mul_add(t137, t1048, t139 * t1047));
-        let t1200 = mul_sub(t338, t908, t1199);
-        let t1201 = mul_add(t285, t906, neg_mul_add(t119, t1009, t121 * t1008));
-        let t1202 = mul_sub(t287, t905, t1201);
-        let t1203 = mul_add(t181, t900, neg_mul_add(t89, t922, t91 * t921));
-        let t1204 = mul_sub(t184, t899, t1203);
-        let t1205 = t104 * t969;
-        let t1206 = mul_add(t239, t903, neg_mul_add(t103, t970, t1205));
-        let t1207 = mul_sub(t241, t902, t1206);
-        let t1208 = t1196 + (t1198 - (t1200 + (t1202 + (t1204 - t1207))));
-        let t1209 = t1129 + (t1090 - (t1051 + (t1012 - (t928 - t973))));
-        coriolis_matrix_p[1][0] = t1209;
-        coriolis_matrix_b[1][0] = t1209;
-        let t1210 = t1130 + (t1091 - (t1052 + (t1013 - (t929 - t974))));
-        coriolis_matrix_p[1][1] = t1210;
-        coriolis_matrix_b[1][1] = t1210;
-        let t1211 = t1131 + (t1092 - (t1053 + (t1014 - (t930 - t975))));
-        coriolis_matrix_p[1][2] = t1211;
-        coriolis_matrix_b[1][2] = t1211;
-        let t1212 = mul_add(t441, t916, neg_mul_add(t167, t1131, t168 * t1130));
-        let t1213 = mul_sub(t442, t915, t1212);
-        let t1214 = mul_add(t393, t913, neg_mul_add(t155, t1092, t156 * t1091));
-        let t1215 = mul_sub(t394, t912, t1214);
-        let t1216 = mul_add(t342, t910, neg_mul_add(t139, t1053, t141 * t1052));
-        let t1217 = mul_sub(t343, t909, t1216);
-        let t1218 = mul_add(t291, t907, neg_mul_add(t121, t1014, t123 * t1013));
-        let t1219 = mul_sub(t292, t906, t1218);
-        let t1220 = mul_add(t189, t901, neg_mul_add(t91, t930, t93 * t929));
-        let t1221 = mul_sub(t190, t900, t1220);
-        let t1222 = t105 * t974;
-        let t1223 = mul_add(t244, t904, neg_mul_add(t104, t975, t1222));
-        let t1224 = mul_sub(t245, t903, t1223);
-        let t1225 = t1213 + (t1215 - (t1217 + (t1219 + (t1221 - t1224))));
-        let t1226 = mul_add(t168, t1129, mul_sub(t437, t916, t166 * t1131));
-        let t1227 = mul_sub(t442, t914, t1226);
-        let t1228 = mul_add(t156, t1090, mul_sub(t389, t913, t154 * t1092));
-        let t1229 = mul_sub(t394, t911, t1228);
-        let t1230 = mul_add(t141, t1051, mul_sub(t338, t910, t137 * t1053));
-        let t1231 = mul_sub(t343, t908, t1230);
-        let t1232 = mul_add(t123, t1012, mul_sub(t287, t907, t119 * t1014));
-        let t1233 = mul_sub(t292, t905, t1232);
-        let t1234 = mul_add(t93, t928, mul_sub(t184, t901, t89 * t930));
-        let t1235 = mul_sub(t190, t899, t1234);
-        let t1236 = mul_add(t105, t973, mul_sub(t241, t904, t103 * t975));
-        let t1237 = mul_sub(t245, t902, t1236);
-        let t1238 = t1227 + (t1229 - (t1231 + (t1233 + (t1235 - t1237))));
-        coriolis_matrix_p[1][4] = t1238;
-        let t1239 = mul_add(t437, t915, mul_sub(t167, t1129, t166 * t1130));
-        let t1240 = mul_sub(t441, t914, t1239);
-        let t1241 = mul_add(t389, t912, mul_sub(t155, t1090, t154 * t1091));
-        let t1242 = mul_sub(t393, t911, t1241);
-        let t1243 = mul_add(t338, t909, mul_sub(t139, t1051, t137 * t1052));
-        let t1244 = mul_sub(t342, t908, t1243);
-        let t1245 = mul_add(t287, t906, mul_sub(t121, t1012, t119 * t1013));
-        let t1246 = mul_sub(t291, t905, t1245);
-        let t1247 = mul_add(t184, t900, mul_sub(t91, t928, t89 * t929));
-        let t1248 = mul_sub(t189, t899, t1247);
-        let t1249 = t103 * t974;
-        let t1250 = mul_add(t241, t903, mul_sub(t104, t973, t1249));
-        let t1251 = mul_sub(t244, t902, t1250);
-        let t1252 = t1240 + (t1242 - (t1244 + (t1246 + (t1248 - t1251))));
-        let t1253 = t1133 + (t1094 - (t1055 + (t1016 - (t935 - t977))));
-        coriolis_matrix_p[2][0] = t1253;
-        coriolis_matrix_b[2][0] = t1253;
-        let t1254 = t1134 + (t1095 - (t1056 + (t1017 - (t936 - t978))));
-        coriolis_matrix_p[2][1] = t1254;
-        coriolis_matrix_b[2][1] = t1254;
-        let t1255 = t1135 + (t1096 - (t1057 + (t1018 - (t937 - t979))));
-        coriolis_matrix_p[2][2] = t1255;
-        coriolis_matrix_b[2][2] = t1255;
-        let t1256 = mul_add(t442, t916, mul_sub(t168, t1134, t167 * t1135));
-        let t1257 = mul_sub(t444, t915, t1256);
-        let t1258 = mul_add(t394, t913, mul_sub(t156, t1095, t155 * t1096));
-        let t1259 = mul_sub(t396, t912, t1258);
-        let t1260 = mul_add(t343, t910, mul_sub(t141, t1056, t139 * t1057));
-        let t1261 = mul_sub(t345, t909, t1260);
-        let t1262 = mul_add(t292, t907, mul_sub(t123, t1017, t121 * t1018));
-        let t1263 = mul_sub(t294, t906, t1262);
-        let t1264 = mul_add(t190, t901, mul_sub(t93, t936, t91 * t937));
-        let t1265 = mul_sub(t192, t900, t1264);
-        let t1266 = t104 * t979;
-        let t1267 = mul_add(t245, t904, mul_sub(t105, t978, t1266));
-        let t1268 = mul_sub(t246, t903, t1267);
-        let t1269 = t1257 + (t1259 - (t1261 + (t1263 + (t1265 - t1268))));
-        let t1270 = mul_add(t444, t914, neg_mul_add(t168, t1133, t166 * t1135));
-        let t1271 = mul_sub(t439, t916, t1270);
-        let t1272 = mul_add(t396, t911, neg_mul_add(t156, t1094, t154 * t1096));
-        let t1273 = mul_sub(t391, t913, t1272);
-        let t1274 = mul_add(t345, t908, neg_mul_add(t141, t1055, t137 * t1057));
-        let t1275 = mul_sub(t340, t910, t1274);
-        let t1276 = mul_add(t294, t905, neg_mul_add(t123, t1016, t119 * t1018));
-        let t1277 = mul_sub(t289, t907, t1276);
-        let t1278 = mul_add(t192, t899, neg_mul_add(t93, t935, t89 * t937));
-        let t1279 = mul_sub(t187, t901, t1278);
-        let t1280 = t103 * t979;
-        let t1281 = mul_add(t246, t902, neg_mul_add(t105, t977, t1280));
-        let t1282 = mul_sub(t243, t904, t1281);
-        let t1283 = t1271 + (t1273 - (t1275 + (t1277 + (t1279 - t1282))));
-        let t1284 = mul_add(t167, t1133, mul_sub(t439, t915, t442 * t914));
-        let t1285 = mul_sub(t166, t1134, t1284);
-        let t1286 = mul_add(t155, t1094, mul_sub(t391, t912, t394 * t911));
-        let t1287 = mul_sub(t154, t1095, t1286);
-        let t1288 = mul_add(t139, t1055, mul_sub(t340, t909, t343 * t908));
-        let t1289 = mul_sub(t137, t1056, t1288);
-        let t1290 = mul_add(t121, t1016, mul_sub(t289, t906, t292 * t905));
-        let t1291 = mul_sub(t119, t1017, t1290);
-        let t1292 = mul_add(t91, t935, mul_sub(t187, t900, t190 * t899));
-        let t1293 = mul_sub(t89, t936, t1292);
-        let t1294 = mul_add(t104, t977, mul_sub(t243, t903, t245 * t902));
-        let t1295 = mul_sub(t103, t978, t1294);
-        let t1296 = t1285 + (t1287 - (t1289 + (t1291 + (t1293 - t1295))));
-        let t1297 = mul_add(t123, t1012, mul_sub(t93, t928, t105 * t973));
-        let t1298 = mul_sub(t156, t1090, mul_add(t141, t1051, t1297));
-        let t1299 = mul_add(t91, t935, mul_add(t168, t1129, t1298));
-        let t1300 = mul_sub(t121, t1016, mul_sub(t104, t977, t1299));
-        let t1301 = mul_sub(t155, t1094, mul_add(t139, t1055, t1300));
-        let t1302 = mul_add(t167, t1133, t1301);
-        let t1303 = mul_add(t123, t1013, mul_sub(t93, t929, t1222));
-        let t1304 = mul_sub(t156, t1091, mul_add(t141, t1052, t1303));
-        let t1305 = mul_add(t91, t936, mul_add(t168, t1130, t1304));
-        let t1306 = mul_sub(t121, t1017, mul_sub(t104, t978, t1305));
-        let t1307 = mul_sub(t155, t1095, mul_add(t139, t1056, t1306));
-        let t1308 = mul_add(t167, t1134, t1307);
-        let t1309 = mul_add(t121, t1018, mul_sub(t91, t937, t1266));
-        let t1310 = mul_sub(t155, t1096, mul_add(t139, t1057, t1309));
-        let t1311 = mul_add(t93, t930, mul_add(t167, t1135, t1310));
-        let t1312 = mul_sub(t123, t1014, mul_sub(t105, t975, t1311));
-        let t1313 = mul_sub(t156, t1092, mul_add(t141, t1053, t1312));
-        let t1314 = mul_add(t168, t1131, t1313);
-        coriolis_matrix_p[3][2] = t1314;
-        coriolis_matrix_b[3][2] = t1314;
-        let t1315 = mul_sub(t105, t1224, mul_sub(t93, t1221, t91 * t1265));
-        let t1316 = mul_sub(t123, t1219, mul_sub(t104, t1268, t1315));
-        let t1317 = mul_sub(t141, t1217, mul_sub(t121, t1263, t1316));
-        let t1318 = mul_add(t156, t1215, mul_sub(t139, t1261, t1317));
-        let t1319 = mul_sub(t168, t1213, mul_sub(t155, t1259, t1318));
-        let t1320 = mul_sub(t167, t1257, t1319);
-        let t1321 = mul_sub(t105, t1237, mul_add(t93, t1235, t91 * t1279));
-        let t1322 = mul_add(t123, t1233, mul_add(t104, t1282, t1321));
-        let t1323 = mul_add(t141, t1231, mul_add(t121, t1277, t1322));
-        let t1324 = mul_sub(t156, t1229, mul_add(t139, t1275, t1323));
-        let t1325 = mul_add(t168, t1227, mul_add(t155, t1273, t1324));
-        let t1326 = mul_add(t167, t1271, t1325);
-        let t1327 = mul_sub(t105, t1251, mul_sub(t93, t1248, t91 * t1293));
-        let t1328 = mul_sub(t123, t1246, mul_sub(t104, t1295, t1327));
-        let t1329 = mul_sub(t141, t1244, mul_sub(t121, t1291, t1328));
-        let t1330 = mul_add(t156, t1242, mul_sub(t139, t1289, t1329));
-        let t1331 = mul_sub(t168, t1240, mul_sub(t155, t1287, t1330));
-        let t1332 = mul_sub(t167, t1285, t1331);
-        let t1333 = mul_add(t123, t1008, mul_sub(t93, t921, t1191));
-        let t1334 = mul_sub(t156, t1086, mul_add(t141, t1047, t1333));
-        let t1335 = mul_add(t89, t935, mul_add(t168, t1125, t1334));
-        let t1336 = mul_sub(t119, t1016, mul_sub(t103, t977, t1335));
-        let t1337 = mul_sub(t154, t1094, mul_add(t137, t1055, t1336));
-        let t1338 = mul_add(t166, t1133, t1337);
-        coriolis_matrix_p[4][0] = t1338;
-        coriolis_matrix_b[4][0] = t1338;
-        let t1339 = mul_add(t123, t1009, mul_sub(t93, t922, t1177));
-        let t1340 = mul_sub(t156, t1087, mul_add(t141, t1048, t1339));
-        let t1341 = mul_add(t89, t936, mul_add(t168, t1126, t1340));
-        let t1342 = mul_sub(t119, t1017, mul_sub(t103, t978, t1341));
-        let t1343 = mul_sub(t154, t1095, mul_add(t137, t1056, t1342));
-        let t1344 = mul_add(t166, t1134, t1343);
-        coriolis_matrix_p[4][1] = t1344;
-        coriolis_matrix_b[4][1] = t1344;
-        let t1345 = mul_add(t119, t1018, mul_sub(t89, t937, t1280));
-        let t1346 = mul_sub(t154, t1096, mul_add(t137, t1057, t1345));
-        let t1347 = mul_add(t93, t923, mul_add(t166, t1135, t1346));
-        let t1348 = mul_sub(t123, t1010, mul_sub(t105, t971, t1347));
-        let t1349 = mul_sub(t156, t1088, mul_add(t141, t1049, t1348));
-        let t1350 = mul_add(t168, t1127, t1349);
-        let t1351 = mul_sub(t103, t1268, mul_sub(t89, t1265, t93 * t1176));
-        let t1352 = mul_sub(t119, t1263, mul_sub(t105, t1179, t1351));
-        let t1353 = mul_sub(t137, t1261, mul_sub(t123, t1173, t1352));
-        let t1354 = mul_add(t154, t1259, mul_sub(t141, t1171, t1353));
-        let t1355 = mul_sub(t166, t1257, mul_sub(t156, t1169, t1354));
-        let t1356 = mul_sub(t168, t1167, t1355);
-        let t1357 = mul_sub(t103, t1282, mul_sub(t89, t1279, t93 * t1190));
-        let t1358 = mul_sub(t119, t1277, mul_sub(t105, t1193, t1357));
-        let t1359 = mul_sub(t137, t1275, mul_sub(t123, t1188, t1358));
-        let t1360 = mul_add(t154, t1273, mul_sub(t141, t1186, t1359));
-        let t1361 = mul_sub(t166, t1271, mul_sub(t156, t1184, t1360));
-        let t1362 = mul_sub(t168, t1182, t1361);
-        let t1363 = mul_sub(t103, t1295, mul_sub(t89, t1293, t93 * t1204));
-        let t1364 = mul_sub(t119, t1291, mul_sub(t105, t1207, t1363));
-        let t1365 = mul_sub(t137, t1289, mul_sub(t123, t1202, t1364));
-        let t1366 = mul_add(t154, t1287, mul_sub(t141, t1200, t1365));
-        let t1367 = mul_sub(t166, t1285, mul_sub(t156, t1198, t1366));
-        let t1368 = mul_sub(t168, t1196, t1367);
-        let t1369 = mul_add(t121, t1008, mul_sub(t91, t921, t1205));
-        let t1370 = mul_sub(t155, t1086, mul_add(t139, t1047, t1369));
-        let t1371 = mul_add(t89, t928, mul_add(t167, t1125, t1370));
-        let t1372 = mul_sub(t119, t1012, mul_sub(t103, t973, t1371));
-        let t1373 = mul_sub(t154, t1090, mul_add(t137, t1051, t1372));
-        let t1374 = mul_add(t166, t1129, t1373);
-        let t1375 = mul_add(t119, t1013, mul_sub(t89, t929, t1249));
-        let t1376 = mul_sub(t154, t1091, mul_add(t137, t1052, t1375));
-        let t1377 = mul_add(t91, t922, mul_add(t166, t1130, t1376));
-        let t1378 = mul_sub(t121, t1009, mul_sub(t104, t970, t1377));
-        let t1379 = mul_sub(t155, t1087, mul_add(t139, t1048, t1378));
-        let t1380 = mul_add(t167, t1126, t1379);
-        coriolis_matrix_p[5][1] = t1380;
-        coriolis_matrix_b[5][1] = t1380;
-        let t1381 = mul_add(t121, t1010, neg_mul_add(t104, t971, t1174));
-        let t1382 = mul_sub(t155, t1088, mul_add(t139, t1049, t1381));
-        let t1383 = mul_add(t89, t930, mul_add(t167, t1127, t1382));
-        let t1384 = mul_sub(t119, t1014, mul_sub(t103, t975, t1383));
-        let t1385 = mul_sub(t154, t1092, mul_add(t137, t1053, t1384));
-        let t1386 = mul_add(t166, t1131, t1385);
-        let t1387 = mul_sub(t104, t1179, mul_sub(t91, t1176, t89 * t1221));
-        let t1388 = mul_sub(t121, t1173, mul_sub(t103, t1224, t1387));
-        let t1389 = mul_sub(t139, t1171, mul_sub(t119, t1219, t1388));
-        let t1390 = mul_add(t155, t1169, mul_sub(t137, t1217, t1389));
-        let t1391 = mul_sub(t167, t1167, mul_sub(t154, t1215, t1390));
-        let t1392 = mul_sub(t166, t1213, t1391);
-        let t1393 = mul_sub(t104, t1193, mul_add(t91, t1190, t89 * t1235));
-        let t1394 = mul_add(t121, t1188, mul_add(t103, t1237, t1393));
-        let t1395 = mul_add(t139, t1186, mul_add(t119, t1233, t1394));
-        let t1396 = mul_sub(t155, t1184, mul_add(t137, t1231, t1395));
-        let t1397 = mul_add(t167, t1182, mul_add(t154, t1229, t1396));
-        let t1398 = mul_add(t166, t1227, t1397);
-        let t1399 = mul_sub(t104, t1207, mul_sub(t91, t1204, t89 * t1248));
-        let t1400 = mul_sub(t121, t1202, mul_sub(t103, t1251, t1399));
-        let t1401 = mul_sub(t139, t1200, mul_sub(t119, t1246, t1400));
-        let t1402 = mul_add(t155, t1198, mul_sub(t137, t1244, t1401));
-        let t1403 = mul_sub(t167, t1196, mul_sub(t154, t1242, t1402));
-        let t1404 = mul_sub(t166, t1240, t1403);
-        coriolis_matrix_p[0][3] = -t1180;
-        coriolis_matrix_p[2][5] = -t1296;
-        let t1405 = -t1302;
-        coriolis_matrix_p[3][0] = t1405;
-        coriolis_matrix_b[3][0] = t1405;
-        let t1406 = -t1308;
-        coriolis_matrix_p[3][1] = t1406;
-        coriolis_matrix_b[3][1] = t1406;
-        let t1407 = -t1350;
-        coriolis_matrix_p[4][2] = t1407;
-        coriolis_matrix_b[4][2] = t1407;
-        let t1408 = -t1374;
-        coriolis_matrix_p[5][0] = t1408;
-        coriolis_matrix_b[5][0] = t1408;
-        let t1409 = -t1386;
-        coriolis_matrix_p[5][2] = t1409;
-        coriolis_matrix_b[5][2] = t1409;
-        // Coriolis matrix C_p, natural factorisation
-        let t1410 = mul_sub(platform_velocity[3], t604, platform_velocity[4] * t607);
-        coriolis_matrix_p[0][4] = t1410 - t1194;
-        let t1411 = mul_sub(platform_velocity[5], t607, platform_velocity[3] * t601);
-        coriolis_matrix_p[0][5] = -(t1208 + t1411);
-        coriolis_matrix_p[1][3] = -(t1225 + t1410);
-        let t1412 = mul_sub(platform_velocity[4], t601, platform_velocity[5] * t604);
-        coriolis_matrix_p[1][5] = t1412 - t1252;
-        coriolis_matrix_p[2][3] = t1411 - t1269;
-        coriolis_matrix_p[2][4] = -(t1283 + t1412);
-        let t1413 = mul_add(platform_velocity[5], t614, t1320);
-        coriolis_matrix_p[3][3] = neg_mul_add(platform_velocity[4], t616, t1413);
-        let t1414 = c(0.0425) - t621;
-        let t1415 = neg_mul_add(platform_velocity[5], t1414, t1326);
-        coriolis_matrix_p[3][4] = neg_mul_add(platform_velocity[4], t623, t1415);
-        let t1416 = c(0.0425) - t628;
-        let t1417 = mul_add(platform_velocity[5], t623, t1332);
-        coriolis_matrix_p[3][5] = mul_add(platform_velocity[4], t1416, t1417);
-        let t1418 = c(0.0425) - t612;
-        let t1419 = mul_add(platform_velocity[5], t1418, t1356);
-        coriolis_matrix_p[4][3] = mul_add(platform_velocity[3], t616, t1419);
-        let t1420 = neg_mul_add(platform_velocity[5], t614, t1362);
-        coriolis_matrix_p[4][4] = mul_add(platform_velocity[3], t623, t1420);
-        let t1421 = neg_mul_add(platform_velocity[5], t616, t1368);
-        coriolis_matrix_p[4][5] = neg_mul_add(platform_velocity[3], t1416, t1421);
-        let t1422 = neg_mul_add(platform_velocity[4], t1418, t1392);
-        coriolis_matrix_p[5][3] = neg_mul_add(platform_velocity[3], t614, t1422);
-        let t1423 = neg_mul_add(platform_velocity[4], t614, t1398);
-        coriolis_matrix_p[5][4] = mul_sub(platform_velocity[3], t1414, t1423);
-        let t1424 = mul_add(platform_velocity[4], t616, t1404);
-        coriolis_matrix_p[5][5] = neg_mul_add(platform_velocity[3], t623, t1424);
+        let t1047 = mul_add(t110, t804, neg_mul_add(t98, t795, t869));
+        let t1048 = mul_add(t146, t822, mul_sub(t128, t813, t1047));
+        coriolis_matrix_p[0][3] = neg_mul_add(
+            t173,
+            t840,
+            neg_mul_add(t161, t831, t1048),
+        );
+        let t1049 = mul_add(t112, t805, neg_mul_add(t100, t796, t901));
+        let t1050 = mul_add(t148, t823, mul_sub(t130, t814, t1049));
+        coriolis_matrix_p[1][4] = neg_mul_add(
+            t175,
+            t841,
+            neg_mul_add(t163, t832, t1050),
+        );
+        let t1051 = mul_add(t114, t806, neg_mul_add(t102, t797, t929));
+        let t1052 = mul_add(t150, t824, mul_sub(t132, t815, t1051));
+        coriolis_matrix_p[2][5] = neg_mul_add(
+            t177,
+            t842,
+            neg_mul_add(t165, t833, t1052),
+        );
+        // leg 1: rate of the sliding masses' first moment, its moment about the axis
+        let t1053 = c(0.1253686515315582) * t608;
+        let t1054 = mul_add(t53, c(0.9523333333333334), c(0.03055));
+        let t1055 = mul_add(t602, t1054, t1053);
+        let t1056 = c(0.11690815888191348) * t608;
+        let t1057 = mul_sub(t605, t1054, t1056);
+        // leg 2: rate of the sliding masses' first moment, its moment about the axis
+        let t1058 = mul_add(t57, c(0.9523333333333334), c(0.03055));
+        let t1059 = mul_add(t602, t1058, t1053);
+        let t1060 = mul_add(t605, t1058, t1056);
+        // leg 3: rate of the sliding masses' first moment, its moment about the axis
+        let t1061 = c(0.03856110973562536) * t608;
+        let t1062 = mul_add(t62, c(0.9523333333333334), c(0.03055));
+        let t1063 = mul_add(t602, t1062, t1061);
+        let t1064 = c(0.16702651650548503) * t608;
+        let t1065 = mul_add(t605, t1062, t1064);
+        // leg 4: rate of the sliding masses' first moment, its moment about the axis
+        let t1066 = c(0.16392976126718353) * t608;
+        let t1067 = mul_add(t67, c(0.9523333333333334), c(0.03055));
+        let t1068 = mul_sub(t602, t1067, t1066);
+        let t1069 = c(0.05011835762357158) * t608;
+        let t1070 = mul_add(t605, t1067, t1069);
+        // leg 5: rate of the sliding masses' first moment, its moment about the axis
+        let t1071 = mul_add(t71, c(0.9523333333333334), c(0.03055));
+        let t1072 = neg_mul_add(t602, t1071, t1066);
+        let t1073 = neg_mul_add(t605, t1071, t1069);
+        // leg 6: rate of the sliding masses' first moment, its moment about the axis
+        let t1074 = mul_add(t75, c(0.9523333333333334), c(0.03055));
+        let t1075 = mul_add(t602, t1074, t1061);
+        let t1076 = neg_mul_add(t605, t1074, t1064);
         // Coriolis matrix C_b, natural factorisation
-        let t1425 = mul_sub(t128, t1027, mul_sub(t98, t948, t989));
-        let t1426 = mul_sub(t161, t1105, mul_add(t146, t1066, t1425));
-        let t1427 = mul_sub(t21, t1164, t1180 - mul_add(t173, t1144, t1426));
-        let t1428 = mul_sub(t484, t784, mul_sub(t20, t1165, t1427));
-        coriolis_matrix_b[0][3] = neg_mul_add(t485, t783, t1428);
-        let t1429 = t1194 - (t1152 + (t1113 - (t1074 + (t1035 - (t957 - t996)))));
-        let t1430 = mul_sub(t21, t1163, mul_sub(t19, t1165, t1429));
-        coriolis_matrix_b[0][4] = neg_mul_add(t483, t784, mul_sub(t485, t782, t1430));
-        let t1431 = t1208 - (t1155 + (t1116 - (t1077 + (t1038 - (t960 - t999)))));
-        let t1432 = mul_sub(t19, t1164, mul_sub(t20, t1163, t1431));
-        coriolis_matrix_b[0][5] = neg_mul_add(t484, t782, mul_sub(t483, t783, t1432));
-        let t1433 = t1225 + (t1156 + (t1117 + (t1078 + (t1039 + (t961 + t1000)))));
-        let t1434 = mul_sub(t20, t1211, mul_sub(t21, t1210, t1433));
-        coriolis_matrix_b[1][3] = neg_mul_add(t509, t783, mul_sub(t508, t784, t1434));
-        let t1435 = mul_sub(t130, t1033, mul_sub(t100, t955, t1001));
-        let t1436 = mul_sub(t163, t1111, mul_add(t148, t1072, t1435));
-        let t1437 = mul_sub(t484, t784, t1238 + mul_add(t175, t1150, t1436));
-        let t1438 = mul_sub(t21, t1209, mul_sub(t19, t1211, t1437));
-        coriolis_matrix_b[1][4] = mul_sub(t509, t782, t1438);
-        let t1439 = t1252 - (t1159 + (t1120 - (t1081 + (t1042 - (t964 - t1003)))));
-        let t1440 = mul_sub(t19, t1210, mul_sub(t20, t1209, t1439));
-        coriolis_matrix_b[1][5] = neg_mul_add(t508, t782, mul_sub(t484, t783, t1440));
-        let t1441 = t1269 - (t1160 + (t1121 + (t1082 + (t1043 + (t965 + t1004)))));
-        let t1442 = mul_sub(t20, t1255, mul_sub(t21, t1254, t1441));
-        coriolis_matrix_b[2][3] = neg_mul_add(t539, t783, mul_sub(t509, t784, t1442));
-        let t1443 = t1283 + (t1161 + (t1122 + (t1083 + (t1044 + (t966 + t1005)))));
-        let t1444 = mul_sub(t21, t1253, mul_sub(t19, t1255, t1443));
-        coriolis_matrix_b[2][4] = neg_mul_add(t485, t784, mul_sub(t539, t782, t1444));
-        let t1445 = mul_sub(t132, t1036, mul_sub(t102, t958, t1006));
-        let t1446 = mul_sub(t165, t1114, mul_add(t150, t1075, t1445));
-        let t1447 = mul_sub(t485, t783, t1296 - mul_add(t177, t1153, t1446));
-        let t1448 = mul_sub(t20, t1253, mul_sub(t509, t782, t1447));
-        coriolis_matrix_b[2][5] = neg_mul_add(t19, t1254, t1448);
-        let t1449 = mul_sub(t20, t1314, neg_mul_add(t21, t1308, t1320));
-        let t1450 = mul_sub(t546, t783, mul_sub(t516, t784, t1449));
-        let t1451 = mul_add(t93, t961, mul_sub(t91, t965, t1450));
-        let t1452 = mul_add(t105, t1000, mul_add(t104, t1004, t1451));
-        let t1453 = neg_mul_add(t123, t1039, neg_mul_add(t121, t1043, t1452));
-        let t1454 = neg_mul_add(t141, t1078, neg_mul_add(t139, t1082, t1453));
-        let t1455 = neg_mul_add(t156, t1117, neg_mul_add(t155, t1121, t1454));
-        coriolis_matrix_b[3][3] = neg_mul_add(
-            t168,
-            t1156,
-            neg_mul_add(t167, t1160, t1455),
+        let t1077 = mul_sub(t128, t1065, mul_sub(t98, t1057, t110 * t1060));
+        let t1078 = mul_add(t161, t1073, mul_add(t146, t1070, t1077));
+        let t1079 = mul_add(t173, t1076, t1078);
+        let t1080 = mul_sub(t128, t1063, mul_sub(t98, t1055, t110 * t1059));
+        let t1081 = mul_add(t161, t1072, mul_add(t146, t1068, t1080));
+        let t1082 = mul_sub(t173, t1075, t1081);
+        let t1083 = mul_add(t20, t863, neg_mul_add(t21, t857, t869));
+        let t1084 = mul_add(base_rotation[0][0], t1082, t1083);
+        let t1085 = mul_add(t241, t620, mul_sub(base_rotation[0][1], t1079, t1084));
+        coriolis_matrix_b[0][3] = neg_mul_add(t251, t619, t1085);
+        let t1086 = t664 + t666;
+        let t1087 = t656 + t658;
+        let t1088 = t661 + t668;
+        let t1089 = c(0.17066666666666666) * (t1086 + (t1087 + t1088));
+        let t1090 = mul_sub(base_velocity[3], t491, base_velocity[4] * t489);
+        let t1091 = mul_add(base_rotation[2][2], t1089, t1090);
+        let t1092 = mul_add(t21, t851, neg_mul_add(t19, t863, t875));
+        let t1093 = mul_add(base_rotation[1][0], t1082, t1092);
+        let t1094 = mul_add(t251, t618, mul_sub(base_rotation[1][1], t1079, t1093));
+        coriolis_matrix_b[0][4] = t1091 + mul_add(t231, t620, t1094);
+        let t1095 = mul_add(t19, t857, neg_mul_add(t20, t851, t881));
+        let t1096 = mul_add(base_rotation[2][0], t1082, t1095);
+        let t1097 = neg_mul_add(t231, t619, mul_sub(base_rotation[2][1], t1079, t1096));
+        let t1098 = mul_sub(base_velocity[5], t489, base_velocity[3] * t493);
+        let t1099 = mul_add(base_rotation[1][2], t1089, t1098);
+        coriolis_matrix_b[0][5] = neg_mul_add(t241, t618, t1097) - t1099;
+        let t1100 = mul_sub(t130, t1065, mul_sub(t100, t1057, t112 * t1060));
+        let t1101 = mul_add(t163, t1073, mul_add(t148, t1070, t1100));
+        let t1102 = mul_add(t175, t1076, t1101);
+        let t1103 = mul_sub(t130, t1063, mul_sub(t100, t1055, t112 * t1059));
+        let t1104 = mul_add(t163, t1072, mul_add(t148, t1068, t1103));
+        let t1105 = mul_sub(t175, t1075, t1104);
+        let t1106 = mul_sub(t20, t893, mul_sub(t21, t889, t897 + t1091));
+        let t1107 = mul_add(base_rotation[0][0], t1105, t1106);
+        let t1108 = neg_mul_add(t293, t620, mul_sub(base_rotation[0][1], t1102, t1107));
+        coriolis_matrix_b[1][3] = neg_mul_add(t298, t619, t1108);
+        let t1109 = mul_add(t21, t885, neg_mul_add(t19, t893, t901));
+        let t1110 = mul_add(base_rotation[1][0], t1105, t1109);
+        let t1111 = mul_add(t298, t618, mul_sub(base_rotation[1][1], t1102, t1110));
+        coriolis_matrix_b[1][4] = neg_mul_add(t283, t620, t1111);
+        let t1112 = mul_sub(base_velocity[4], t493, base_velocity[5] * t491);
+        let t1113 = mul_add(base_rotation[0][2], t1089, t1112);
+        let t1114 = mul_add(t19, t889, neg_mul_add(t20, t885, t905));
+        let t1115 = mul_add(base_rotation[2][0], t1105, t1114);
+        let t1116 = mul_add(t283, t619, mul_sub(base_rotation[2][1], t1102, t1115));
+        coriolis_matrix_b[1][5] = t1113 + mul_add(t293, t618, t1116);
+        let t1117 = mul_sub(t132, t1065, mul_sub(t102, t1057, t114 * t1060));
+        let t1118 = mul_add(t165, t1073, mul_add(t150, t1070, t1117));
+        let t1119 = mul_add(t177, t1076, t1118);
+        let t1120 = mul_sub(t132, t1063, mul_sub(t102, t1055, t114 * t1059));
+        let t1121 = mul_add(t165, t1072, mul_add(t150, t1068, t1120));
+        let t1122 = mul_sub(t177, t1075, t1121);
+        let t1123 = mul_sub(t20, t917, mul_sub(t21, t913, t921 - t1099));
+        let t1124 = mul_add(base_rotation[0][0], t1122, t1123);
+        let t1125 = mul_add(t317, t620, mul_sub(base_rotation[0][1], t1119, t1124));
+        coriolis_matrix_b[2][3] = mul_add(t327, t619, t1125);
+        let t1126 = mul_sub(t21, t909, mul_sub(t19, t917, t925 + t1113));
+        let t1127 = mul_add(base_rotation[1][0], t1122, t1126);
+        let t1128 = neg_mul_add(t327, t618, mul_sub(base_rotation[1][1], t1119, t1127));
+        coriolis_matrix_b[2][4] = neg_mul_add(t315, t620, t1128);
+        let t1129 = mul_add(t19, t913, neg_mul_add(t20, t909, t929));
+        let t1130 = mul_add(base_rotation[2][0], t1122, t1129);
+        let t1131 = mul_add(t315, t619, mul_sub(base_rotation[2][1], t1119, t1130));
+        coriolis_matrix_b[2][5] = neg_mul_add(t317, t618, t1131);
+        let t1132 = mul_sub(
+            c(0.019782160922400118),
+            t1087,
+            c(0.005300614043699622) * t1088,
         );
-        let t1456 = mul_add(t21, t1302, mul_add(t19, t1314, t1326));
-        let t1457 = mul_add(t491, t784, mul_add(t546, t782, t1456));
-        let t1458 = mul_add(t93, t962, mul_sub(t91, t966, t1457));
-        let t1459 = mul_sub(t105, t1001, mul_add(t104, t1005, t1458));
-        let t1460 = mul_sub(t123, t1040, mul_add(t121, t1044, t1459));
-        let t1461 = mul_sub(t141, t1079, mul_sub(t139, t1083, t1460));
-        let t1462 = mul_add(t156, t1118, mul_sub(t155, t1122, t1461));
-        coriolis_matrix_b[3][4] = mul_add(t168, t1157, mul_add(t167, t1161, t1462));
-        let t1463 = mul_add(t19, t1308, neg_mul_add(t20, t1302, t1332));
-        let t1464 = mul_add(t516, t782, mul_sub(t491, t783, t1463));
-        let t1465 = mul_sub(t93, t964, mul_sub(t91, t967, t1464));
-        let t1466 = mul_sub(t105, t1003, mul_add(t104, t1006, t1465));
-        let t1467 = mul_sub(t123, t1042, mul_add(t121, t1045, t1466));
-        let t1468 = mul_sub(t141, t1081, mul_sub(t139, t1084, t1467));
-        let t1469 = mul_sub(t156, t1120, mul_add(t155, t1123, t1468));
-        coriolis_matrix_b[3][5] = mul_sub(t168, t1159, mul_sub(t167, t1162, t1469));
-        let t1470 = mul_add(t20, t1350, mul_add(t21, t1344, t1356));
-        let t1471 = mul_add(t553, t783, mul_sub(t529, t784, t1470));
-        let t1472 = mul_sub(t89, t965, mul_sub(t93, t949, t1471));
-        let t1473 = mul_add(t103, t1004, mul_add(t105, t989, t1472));
-        let t1474 = mul_add(t119, t1043, mul_sub(t123, t1028, t1473));
-        let t1475 = mul_add(t137, t1082, mul_add(t141, t1067, t1474));
-        let t1476 = mul_sub(t154, t1121, mul_sub(t156, t1106, t1475));
-        coriolis_matrix_b[4][3] = mul_sub(t166, t1160, mul_sub(t168, t1145, t1476));
-        let t1477 = mul_sub(t21, t1338, neg_mul_add(t19, t1350, t1362));
-        let t1478 = mul_sub(t498, t784, mul_sub(t553, t782, t1477));
-        let t1479 = mul_add(t89, t966, mul_sub(t93, t957, t1478));
-        let t1480 = mul_sub(t103, t1005, mul_sub(t105, t996, t1479));
-        let t1481 = mul_sub(t119, t1044, mul_add(t123, t1035, t1480));
-        let t1482 = neg_mul_add(t137, t1083, mul_sub(t141, t1074, t1481));
-        let t1483 = neg_mul_add(t154, t1122, neg_mul_add(t156, t1113, t1482));
-        coriolis_matrix_b[4][4] = neg_mul_add(
-            t166,
-            t1161,
-            neg_mul_add(t168, t1152, t1483),
+        let t1133 = neg_mul_add(c(0.01448154687870049), t1086, t1132);
+        let t1134 = c(0.019782160922400118) * (t661 - t668);
+        let t1135 = mul_sub(c(0.005300614043699624), t656 - t658, t1134);
+        let t1136 = neg_mul_add(c(0.014481546878700494), t664 - t666, t1135);
+        let t1137 = mul_sub(
+            platform_rotation[2][0],
+            t1133,
+            platform_rotation[2][1] * t1136,
         );
-        let t1484 = mul_sub(t19, t1344, mul_add(t20, t1338, t1368));
-        let t1485 = mul_add(t529, t782, mul_sub(t498, t783, t1484));
-        let t1486 = mul_sub(t89, t967, mul_add(t93, t960, t1485));
-        let t1487 = mul_sub(t103, t1006, mul_add(t105, t999, t1486));
-        let t1488 = mul_sub(t119, t1045, mul_add(t123, t1038, t1487));
-        let t1489 = mul_sub(t137, t1084, mul_sub(t141, t1077, t1488));
-        let t1490 = mul_sub(t154, t1123, mul_add(t156, t1116, t1489));
-        coriolis_matrix_b[4][5] = mul_sub(t166, t1162, mul_sub(t168, t1155, t1490));
-        let t1491 = mul_add(t20, t1386, mul_add(t21, t1380, t1392));
-        let t1492 = mul_sub(t560, t783, mul_add(t536, t784, t1491));
-        let t1493 = mul_add(t91, t949, mul_add(t89, t961, t1492));
-        let t1494 = mul_sub(t104, t989, mul_add(t103, t1000, t1493));
-        let t1495 = mul_sub(t121, t1028, mul_add(t119, t1039, t1494));
-        let t1496 = mul_sub(t139, t1067, mul_sub(t137, t1078, t1495));
-        let t1497 = mul_add(t155, t1106, mul_sub(t154, t1117, t1496));
-        coriolis_matrix_b[5][3] = mul_add(t167, t1145, mul_add(t166, t1156, t1497));
-        let t1498 = mul_sub(t21, t1374, mul_add(t19, t1386, t1398));
-        let t1499 = mul_sub(t505, t784, mul_add(t560, t782, t1498));
-        let t1500 = mul_sub(t91, t957, mul_sub(t89, t962, t1499));
-        let t1501 = mul_sub(t104, t996, mul_add(t103, t1001, t1500));
-        let t1502 = mul_sub(t121, t1035, mul_add(t119, t1040, t1501));
-        let t1503 = mul_sub(t139, t1074, mul_sub(t137, t1079, t1502));
-        let t1504 = mul_sub(t155, t1113, mul_add(t154, t1118, t1503));
-        coriolis_matrix_b[5][4] = mul_sub(t167, t1152, mul_sub(t166, t1157, t1504));
-        let t1505 = mul_sub(t19, t1380, neg_mul_add(t20, t1374, t1404));
-        let t1506 = mul_sub(t536, t782, mul_sub(t505, t783, t1505));
-        let t1507 = mul_sub(t91, t960, mul_sub(t89, t964, t1506));
-        let t1508 = mul_sub(t104, t999, mul_add(t103, t1003, t1507));
-        let t1509 = mul_sub(t121, t1038, mul_add(t119, t1042, t1508));
-        let t1510 = mul_sub(t139, t1077, mul_sub(t137, t1081, t1509));
-        let t1511 = mul_sub(t155, t1116, mul_add(t154, t1120, t1510));
-        coriolis_matrix_b[5][5] = mul_sub(t167, t1155, mul_sub(t166, t1159, t1511));
-        // leg 1: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
-        jacobian_dp[0][3] = mul_sub(t91, t102, t93 * t100);
-        jacobian_dp[0][4] = mul_sub(t93, t98, t89 * t102);
-        jacobian_dp[0][5] = mul_sub(t89, t100, t91 * t98);
-        // leg 2: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
-        jacobian_dp[1][3] = neg_mul_add(t104, t114, t105 * t112);
-        jacobian_dp[1][4] = neg_mul_add(t105, t110, t103 * t114);
-        jacobian_dp[1][5] = neg_mul_add(t103, t112, t104 * t110);
-        // leg 3: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
-        jacobian_dp[2][3] = mul_sub(t121, t132, t123 * t130);
-        jacobian_dp[2][4] = mul_sub(t123, t128, t119 * t132);
-        jacobian_dp[2][5] = mul_sub(t119, t130, t121 * t128);
-        // leg 4: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
-        jacobian_dp[3][3] = mul_sub(t139, t150, t141 * t148);
-        jacobian_dp[3][4] = mul_sub(t141, t146, t137 * t150);
-        jacobian_dp[3][5] = mul_sub(t137, t148, t139 * t146);
-        // leg 5: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
-        jacobian_dp[4][3] = neg_mul_add(t155, t165, t156 * t163);
-        jacobian_dp[4][4] = neg_mul_add(t156, t161, t154 * t165);
-        jacobian_dp[4][5] = neg_mul_add(t154, t163, t155 * t161);
-        // leg 6: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
-        jacobian_dp[5][3] = neg_mul_add(t167, t177, t168 * t175);
-        jacobian_dp[5][4] = neg_mul_add(t168, t173, t166 * t177);
-        jacobian_dp[5][5] = neg_mul_add(t166, t175, t167 * t173);
+        let t1138 = mul_sub(
+            platform_rotation[0][0],
+            t1133,
+            platform_rotation[0][1] * t1136,
+        );
+        let t1139 = mul_sub(base_rotation[0][2], t1138, base_velocity[5] * t508);
+        let t1140 = mul_add(base_velocity[4], t513, t1139);
+        let t1141 = mul_sub(
+            platform_rotation[1][0],
+            t1133,
+            platform_rotation[1][1] * t1136,
+        );
+        let t1142 = mul_sub(base_rotation[1][2], t1141, base_velocity[3] * t516);
+        let t1143 = mul_add(base_velocity[5], t514, t1142);
+        let t1144 = t1140 + t1143;
+        let t1145 = mul_add(base_rotation[2][2], t1137, t1144);
+        let t1146 = mul_sub(
+            base_velocity[3],
+            t518,
+            mul_sub(base_velocity[4], t517, t1145),
+        );
+        let t1147 = mul_add(t184, t1065, mul_sub(t178, t1057, t181 * t1060));
+        let t1148 = mul_add(t190, t1073, mul_add(t187, t1070, t1147));
+        let t1149 = mul_add(t193, t1076, t1148);
+        let t1150 = mul_add(t184, t1063, mul_sub(t178, t1055, t181 * t1059));
+        let t1151 = mul_add(t190, t1072, mul_add(t187, t1068, t1150));
+        let t1152 = mul_sub(t193, t1075, t1151);
+        let t1153 = mul_add(t20, t947, neg_mul_add(t21, t941, t953));
+        let t1154 = mul_add(base_rotation[0][0], t1152, t1153);
+        let t1155 = mul_add(t350, t620, mul_sub(base_rotation[0][1], t1149, t1154));
+        coriolis_matrix_b[3][3] = t1146 - (t1140 - mul_sub(t354, t619, t1155));
+        let t1156 = mul_add(t21, t935, neg_mul_add(t19, t947, t959));
+        let t1157 = mul_add(base_rotation[1][0], t1152, t1156);
+        let t1158 = mul_add(t354, t618, mul_sub(base_rotation[1][1], t1149, t1157));
+        let t1159 = mul_sub(base_rotation[0][2], t1141, mul_sub(t346, t620, t1158));
+        let t1160 = mul_sub(base_velocity[5], t515, t1159);
+        coriolis_matrix_b[3][4] = neg_mul_add(base_velocity[4], t516, t1160);
+        let t1161 = mul_add(t19, t941, neg_mul_add(t20, t935, t965));
+        let t1162 = mul_add(base_rotation[2][0], t1152, t1161);
+        let t1163 = mul_add(t346, t619, mul_sub(base_rotation[2][1], t1149, t1162));
+        let t1164 = mul_sub(base_rotation[0][2], t1137, mul_sub(t350, t618, t1163));
+        let t1165 = mul_sub(base_velocity[5], t518, t1164);
+        coriolis_matrix_b[3][5] = neg_mul_add(base_velocity[4], t519, t1165);
+        let t1166 = mul_add(t185, t1065, mul_sub(t179, t1057, t182 * t1060));
+        let t1167 = mul_add(t191, t1073, mul_add(t188, t1070, t1166));
+        let t1168 = mul_add(t194, t1076, t1167);
+        let t1169 = mul_add(t185, t1063, mul_sub(t179, t1055, t182 * t1059));
+        let t1170 = mul_add(t191, t1072, mul_add(t188, t1068, t1169));
+        let t1171 = mul_sub(t194, t1075, t1170);
+        let t1172 = mul_add(t20, t983, neg_mul_add(t21, t977, t989));
+        let t1173 = mul_add(base_rotation[0][0], t1171, t1172);
+        let t1174 = mul_add(t386, t620, mul_sub(base_rotation[0][1], t1168, t1173));
+        let t1175 = mul_sub(base_rotation[1][2], t1138, mul_sub(t390, t619, t1174));
+        let t1176 = mul_sub(base_velocity[3], t513, t1175);
+        coriolis_matrix_b[4][3] = neg_mul_add(base_velocity[5], t503, t1176);
+        let t1177 = mul_sub(t21, t971, mul_sub(t19, t983, t1146 + (t995 - t1143)));
+        let t1178 = mul_add(base_rotation[1][0], t1171, t1177);
+        let t1179 = mul_add(t390, t618, mul_sub(base_rotation[1][1], t1168, t1178));
+        coriolis_matrix_b[4][4] = mul_sub(t382, t620, t1179);
+        let t1180 = mul_add(t19, t977, neg_mul_add(t20, t971, t1001));
+        let t1181 = mul_add(base_rotation[2][0], t1171, t1180);
+        let t1182 = mul_add(t382, t619, mul_sub(base_rotation[2][1], t1168, t1181));
+        let t1183 = mul_sub(base_rotation[1][2], t1137, mul_sub(t386, t618, t1182));
+        let t1184 = mul_sub(base_velocity[3], t519, t1183);
+        coriolis_matrix_b[4][5] = neg_mul_add(base_velocity[5], t517, t1184);
+        let t1185 = mul_add(t186, t1065, mul_sub(t180, t1057, t183 * t1060));
+        let t1186 = mul_add(t192, t1073, mul_add(t189, t1070, t1185));
+        let t1187 = mul_add(t195, t1076, t1186);
+        let t1188 = mul_add(t186, t1063, mul_sub(t180, t1055, t183 * t1059));
+        let t1189 = mul_add(t192, t1072, mul_add(t189, t1068, t1188));
+        let t1190 = mul_sub(t195, t1075, t1189);
+        let t1191 = mul_add(t20, t1019, neg_mul_add(t21, t1013, t1025));
+        let t1192 = mul_add(base_rotation[0][0], t1190, t1191);
+        let t1193 = mul_add(t419, t620, mul_sub(base_rotation[0][1], t1187, t1192));
+        let t1194 = mul_sub(base_rotation[2][2], t1138, mul_sub(t423, t619, t1193));
+        let t1195 = mul_sub(base_velocity[4], t503, t1194);
+        coriolis_matrix_b[5][3] = neg_mul_add(base_velocity[3], t508, t1195);
+        let t1196 = mul_add(t21, t1007, neg_mul_add(t19, t1019, t1031));
+        let t1197 = mul_add(base_rotation[1][0], t1190, t1196);
+        let t1198 = mul_add(t423, t618, mul_sub(base_rotation[1][1], t1187, t1197));
+        let t1199 = mul_sub(base_rotation[2][2], t1141, mul_sub(t415, t620, t1198));
+        let t1200 = mul_sub(base_velocity[4], t514, t1199);
+        coriolis_matrix_b[5][4] = neg_mul_add(base_velocity[3], t515, t1200);
+        let t1201 = mul_sub(t19, t1013, mul_sub(t20, t1007, t1037 + t1144));
+        let t1202 = mul_add(base_rotation[2][0], t1190, t1201);
+        let t1203 = mul_add(t415, t619, mul_sub(base_rotation[2][1], t1187, t1202));
+        coriolis_matrix_b[5][5] = mul_sub(t419, t618, t1203);
+        // Coriolis matrix C_p, natural factorisation
+        let t1204 = mul_sub(platform_velocity[3], t450, platform_velocity[4] * t453);
+        let t1205 = mul_add(t110, t805, neg_mul_add(t98, t796, t875));
+        let t1206 = mul_add(t146, t823, mul_sub(t128, t814, t1205));
+        coriolis_matrix_p[0][4] = t1204
+            - mul_add(t173, t841, mul_sub(t161, t832, t1206));
+        let t1207 = mul_add(t110, t806, neg_mul_add(t98, t797, t881));
+        let t1208 = mul_add(t146, t824, mul_sub(t128, t815, t1207));
+        let t1209 = mul_sub(platform_velocity[5], t453, platform_velocity[3] * t447);
+        coriolis_matrix_p[0][5] = neg_mul_add(t173, t842, neg_mul_add(t161, t833, t1208))
+            - t1209;
+        let t1210 = mul_add(t112, t804, neg_mul_add(t100, t795, t897));
+        let t1211 = mul_add(t148, t822, mul_sub(t130, t813, t1210));
+        coriolis_matrix_p[1][3] = neg_mul_add(t175, t840, neg_mul_add(t163, t831, t1211))
+            - t1204;
+        let t1212 = mul_sub(platform_velocity[4], t447, platform_velocity[5] * t450);
+        let t1213 = mul_add(t112, t806, neg_mul_add(t100, t797, t905));
+        let t1214 = mul_add(t148, t824, mul_sub(t130, t815, t1213));
+        coriolis_matrix_p[1][5] = t1212
+            - mul_add(t175, t842, mul_sub(t163, t833, t1214));
+        let t1215 = mul_add(t114, t804, neg_mul_add(t102, t795, t921));
+        let t1216 = mul_add(t150, t822, mul_sub(t132, t813, t1215));
+        coriolis_matrix_p[2][3] = t1209
+            - mul_add(t177, t840, mul_sub(t165, t831, t1216));
+        let t1217 = mul_add(t114, t805, neg_mul_add(t102, t796, t925));
+        let t1218 = mul_add(t150, t823, mul_sub(t132, t814, t1217));
+        coriolis_matrix_p[2][4] = neg_mul_add(t177, t841, neg_mul_add(t165, t832, t1218))
+            - t1212;
+        let t1219 = mul_sub(t181, t804, mul_add(t178, t795, t953));
+        let t1220 = mul_add(t187, t822, mul_add(t184, t813, t1219));
+        let t1221 = mul_add(t193, t840, mul_sub(t190, t831, t1220));
+        let t1222 = mul_add(platform_velocity[5], t460, t1221);
+        coriolis_matrix_p[3][3] = neg_mul_add(platform_velocity[4], t462, t1222);
+        let t1223 = c(0.0425) - t467;
+        let t1224 = mul_sub(t181, t805, mul_add(t178, t796, t959));
+        let t1225 = mul_add(t187, t823, mul_add(t184, t814, t1224));
+        let t1226 = mul_add(t193, t841, mul_sub(t190, t832, t1225));
+        let t1227 = neg_mul_add(platform_velocity[5], t1223, t1226);
+        coriolis_matrix_p[3][4] = neg_mul_add(platform_velocity[4], t469, t1227);
+        let t1228 = c(0.0425) - t474;
+        let t1229 = mul_sub(t181, t806, mul_add(t178, t797, t965));
+        let t1230 = mul_add(t187, t824, mul_add(t184, t815, t1229));
+        let t1231 = mul_add(t193, t842, mul_sub(t190, t833, t1230));
+        let t1232 = mul_add(platform_velocity[5], t469, t1231);
+        coriolis_matrix_p[3][5] = mul_add(platform_velocity[4], t1228, t1232);
+        let t1233 = c(0.0425) - t458;
+        let t1234 = mul_sub(t182, t804, mul_add(t179, t795, t989));
+        let t1235 = mul_add(t188, t822, mul_add(t185, t813, t1234));
+        let t1236 = mul_add(t194, t840, mul_sub(t191, t831, t1235));
+        let t1237 = mul_add(platform_velocity[5], t1233, t1236);
+        coriolis_matrix_p[4][3] = mul_add(platform_velocity[3], t462, t1237);
+        let t1238 = mul_sub(t182, t805, mul_add(t179, t796, t995));
+        let t1239 = mul_add(t188, t823, mul_add(t185, t814, t1238));
+        let t1240 = mul_add(t194, t841, mul_sub(t191, t832, t1239));
+        let t1241 = mul_sub(platform_velocity[5], t460, t1240);
+        coriolis_matrix_p[4][4] = mul_sub(platform_velocity[3], t469, t1241);
+        let t1242 = mul_sub(t182, t806, mul_add(t179, t797, t1001));
+        let t1243 = mul_add(t188, t824, mul_add(t185, t815, t1242));
+        let t1244 = mul_add(t194, t842, mul_sub(t191, t833, t1243));
+        let t1245 = neg_mul_add(platform_velocity[5], t462, t1244);
+        coriolis_matrix_p[4][5] = neg_mul_add(platform_velocity[3], t1228, t1245);
+        let t1246 = mul_sub(t183, t804, mul_add(t180, t795, t1025));
+        let t1247 = mul_add(t189, t822, mul_add(t186, t813, t1246));
+        let t1248 = mul_add(t195, t840, mul_sub(t192, t831, t1247));
+        let t1249 = neg_mul_add(platform_velocity[4], t1233, t1248);
+        coriolis_matrix_p[5][3] = neg_mul_add(platform_velocity[3], t460, t1249);
+        let t1250 = mul_sub(t183, t805, mul_add(t180, t796, t1031));
+        let t1251 = mul_add(t189, t823, mul_add(t186, t814, t1250));
+        let t1252 = mul_add(t195, t841, mul_sub(t192, t832, t1251));
+        let t1253 = mul_add(platform_velocity[4], t460, t1252);
+        coriolis_matrix_p[5][4] = mul_add(platform_velocity[3], t1223, t1253);
+        let t1254 = mul_sub(t183, t806, mul_add(t180, t797, t1037));
+        let t1255 = mul_add(t189, t824, mul_add(t186, t815, t1254));
+        let t1256 = mul_add(t195, t842, mul_sub(t192, t833, t1255));
+        let t1257 = mul_add(platform_velocity[4], t462, t1256);
+        coriolis_matrix_p[5][5] = neg_mul_add(platform_velocity[3], t469, t1257);
         // leg 1: actuator Jacobian of the base
         jacobian_db[0][3] = neg_mul_add(t95, t102, t96 * t100);
         jacobian_db[0][4] = neg_mul_add(t96, t98, t94 * t102);
@@ -13101,67 +13028,34 @@ pub fn equation_of_motion<T: Scalar>(
         t19,
         t20,
         t21,
-        t33,
-        t34,
-        t36,
-        t39,
-        t41,
-        t44,
-        t45,
-        t46,
-        t47,
-        t48,
-        t51,
         t53,
-        t56,
         t57,
-        t60,
         t62,
-        t65,
         t67,
-        t70,
         t71,
-        t74,
         t75,
-        t76,
-        t77,
-        t78,
-        t79,
-        t80,
-        t81,
-        t82,
-        t83,
-        t84,
-        t85,
-        t86,
-        t87,
         t89,
         t91,
-        t93,
         t98,
         t100,
         t102,
         t103,
         t104,
-        t105,
         t110,
         t112,
         t114,
         t119,
         t121,
-        t123,
         t128,
         t130,
         t132,
         t137,
         t139,
-        t141,
         t146,
         t148,
         t150,
         t154,
         t155,
-        t156,
         t161,
         t163,
         t165,
@@ -13208,110 +13102,185 @@ pub fn equation_of_motion<T: Scalar>(
         t212,
         t213,
         t214,
-        t217,
-        t218,
-        t220,
-        t221,
-        t223,
-        t225,
-        t226,
-        t228,
+        t215,
+        t216,
+        t232,
+        t233,
+        t234,
+        t235,
         t236,
+        t237,
+        t238,
         t239,
-        t250,
+        t240,
+        t246,
+        t249,
+        t255,
+        t259,
+        t265,
+        t269,
         t275,
-        t277,
-        t279,
-        t280,
-        t281,
-        t282,
-        t286,
-        t287,
-        t296,
-        t321,
-        t323,
-        t325,
+        t285,
+        t295,
+        t300,
+        t301,
+        t302,
+        t303,
+        t304,
+        t305,
+        t306,
+        t307,
+        t308,
+        t311,
+        t312,
+        t316,
+        t317,
+        t322,
         t327,
-        t328,
-        t330,
+        t332,
+        t333,
+        t334,
         t335,
+        t336,
         t337,
-        t347,
+        t338,
+        t339,
+        t340,
+        t341,
+        t342,
+        t345,
+        t346,
+        t351,
+        t356,
+        t364,
+        t368,
         t372,
-        t374,
-        t376,
-        t378,
-        t379,
-        t381,
-        t386,
-        t388,
-        t398,
-        t423,
-        t425,
-        t427,
-        t429,
-        t430,
-        t432,
-        t436,
+        t400,
+        t404,
+        t408,
+        t433,
         t437,
-        t446,
+        t441,
+        t465,
+        t468,
         t471,
-        t473,
-        t475,
-        t477,
+        t476,
         t478,
         t480,
-        t484,
         t485,
-        t494,
-        t519,
-        t520,
+        t487,
+        t492,
+        t507,
+        t509,
+        t511,
         t521,
-        t527,
+        t526,
+        t531,
+        t532,
+        t533,
         t534,
-        t541,
-        t544,
-        t545,
-        t552,
-        t565,
-        t572,
-        t575,
-        t582,
-        t589,
-        t596,
+        t535,
+        t536,
+        t537,
+        t620,
+        t623,
+        t626,
+        t636,
         t637,
-        t640,
-        t643,
-        t648,
-        t650,
-        t652,
-        t657,
-        t659,
-        t664,
+        t638,
+        t674,
+        t676,
+        t679,
+        t682,
+        t684,
+        t686,
+        t693,
+        t695,
+        t697,
+        t704,
+        t706,
+        t708,
+        t715,
+        t717,
+        t719,
+        t726,
+        t728,
+        t730,
+        t737,
+        t739,
+        t741,
+        t748,
+        t750,
+        t752,
+        t768,
+        t769,
+        t770,
+        t772,
+        t774,
+        t776,
+        t778,
+        t780,
+        t782,
+        t784,
+        t786,
+        t788,
+        t790,
+        t792,
+        t794,
+        t796,
+        t798,
+        t800,
         t802,
-        t805,
+        t804,
+        t806,
+        t807,
         t808,
+        t809,
+        t810,
+        t811,
+        t812,
+        t813,
+        t814,
+        t815,
+        t816,
+        t817,
         t818,
         t819,
         t820,
+        t821,
+        t822,
+        t823,
+        t824,
+        t825,
+        t826,
+        t827,
+        t828,
         t829,
+        t830,
+        t831,
+        t832,
+        t833,
         t834,
         t835,
+        t836,
         t837,
+        t838,
         t839,
         t840,
         t841,
+        t842,
         t843,
+        t844,
         t845,
+        t846,
         t847,
+        t848,
         t849,
         t850,
         t851,
         t852,
         t853,
         t854,
-        t855,
-        t856,
     ) = {
         // rotation of the platform seen from the base
         let t1 = base_rotation[1][0] * platform_rotation[1][0];
@@ -13660,837 +13629,895 @@ pub fn equation_of_motion<T: Scalar>(
         jacobian_db[5][3] = -t211;
         jacobian_db[5][4] = -t212;
         jacobian_db[5][5] = -t213;
-        // leg 1: mass matrix of the leg in the speeds of its joint
+        // leg 1: rod's coupling times axis, a force at the platform joint
         let t214 = base_rotation[0][2] * c(0.17066666666666666);
-        let t215 = mul_add(t98, c(0.4761666666666667), t214);
-        let t216 = t98 * t215;
-        let t217 = c(2.0) * t216;
-        let t218 = base_rotation[1][2] * c(0.17066666666666666);
-        let t219 = mul_add(t100, c(0.4761666666666667), t218);
-        let t220 = mul_add(t98, t219, t100 * t215);
-        let t221 = base_rotation[2][2] * c(0.17066666666666666);
-        let t222 = mul_add(t102, c(0.4761666666666667), t221);
-        let t223 = mul_add(t98, t222, t102 * t215);
-        let t224 = t100 * t219;
-        let t225 = c(2.0) * t224;
-        let t226 = mul_add(t100, t222, t102 * t219);
-        let t227 = t102 * t222;
-        let t228 = c(2.0) * t227;
-        // leg 1: leg inertia between joint and base speeds
-        let t229 = base_rotation[0][2] * c(1.123);
-        let t230 = mul_add(t98, t229, c(0.17066666666666666));
-        let t231 = base_rotation[1][2] * c(1.123);
-        let t232 = t98 * t231;
-        let t233 = base_rotation[2][2] * c(1.123);
-        let t234 = t98 * t233;
-        let t235 = base_rotation[1][1] * c(0.12275970481124972);
-        let t236 = mul_sub(base_rotation[1][0], c(0.1316436662914507), t235);
-        let t237 = base_rotation[1][2] * c(0.03055);
-        let t238 = base_rotation[2][1] * c(0.12275970481124972);
-        let t239 = mul_sub(base_rotation[2][0], c(0.1316436662914507), t238);
-        let t240 = base_rotation[2][2] * c(0.03055);
-        let t241 = neg_mul_add(base_rotation[1][2], t53, t236);
-        let t242 = mul_add(t95, c(0.17066666666666666), t237);
-        let t243 = neg_mul_add(c(0.9523333333333334), t241, t242);
-        let t244 = neg_mul_add(base_rotation[2][2], t53, t239);
-        let t245 = mul_add(t96, c(0.17066666666666666), t240);
-        let t246 = neg_mul_add(c(0.9523333333333334), t244, t245);
-        let t247 = mul_sub(base_rotation[2][2], t243, base_rotation[1][2] * t246);
-        let t248 = t98 * t247;
-        let t249 = base_rotation[0][1] * c(0.12275970481124972);
-        let t250 = mul_sub(base_rotation[0][0], c(0.1316436662914507), t249);
-        let t251 = base_rotation[0][2] * c(0.03055);
-        let t252 = neg_mul_add(base_rotation[0][2], t53, t250);
-        let t253 = mul_add(t94, c(0.17066666666666666), t251);
-        let t254 = neg_mul_add(c(0.9523333333333334), t252, t253);
-        let t255 = mul_sub(base_rotation[0][2], t246, base_rotation[2][2] * t254);
-        let t256 = c(0.17066666666666666) * t244;
-        let t257 = mul_sub(t98, t255, t256);
-        let t258 = mul_sub(base_rotation[1][2], t254, base_rotation[0][2] * t243);
-        let t259 = c(0.17066666666666666) * t241;
-        let t260 = mul_add(t98, t258, t259);
-        let t261 = t100 * t229;
-        let t262 = mul_add(t100, t231, c(0.17066666666666666));
-        let t263 = t100 * t233;
-        let t264 = mul_add(t100, t247, t256);
-        let t265 = t100 * t255;
-        let t266 = c(0.17066666666666666) * t252;
-        let t267 = mul_sub(t100, t258, t266);
-        let t268 = t102 * t229;
-        let t269 = t102 * t231;
-        let t270 = mul_add(t102, t233, c(0.17066666666666666));
-        let t271 = neg_mul_add(t102, t247, t259);
-        let t272 = mul_add(t102, t255, t266);
-        let t273 = t102 * t258;
-        // leg 2: mass matrix of the leg in the speeds of its joint
-        let t274 = neg_mul_add(t110, c(0.4761666666666667), t214);
-        let t275 = c(2.0) * (t110 * t274);
-        let t276 = neg_mul_add(t112, c(0.4761666666666667), t218);
-        let t277 = mul_add(t110, t276, t112 * t274);
-        let t278 = neg_mul_add(t114, c(0.4761666666666667), t221);
-        let t279 = mul_add(t110, t278, t114 * t274);
-        let t280 = c(2.0) * (t112 * t276);
-        let t281 = mul_add(t112, t278, t114 * t276);
-        let t282 = c(2.0) * (t114 * t278);
-        // leg 2: leg inertia between joint and base speeds
-        let t283 = neg_mul_add(t110, t229, c(0.17066666666666666));
-        let t284 = t110 * t231;
-        let t285 = t110 * t233;
-        let t286 = mul_add(base_rotation[1][0], c(0.1316436662914507), t235);
-        let t287 = mul_add(base_rotation[2][0], c(0.1316436662914507), t238);
-        let t288 = neg_mul_add(base_rotation[1][2], t57, t286);
-        let t289 = mul_add(t107, c(0.17066666666666666), t237);
-        let t290 = neg_mul_add(c(0.9523333333333334), t288, t289);
-        let t291 = neg_mul_add(base_rotation[2][2], t57, t287);
-        let t292 = mul_add(t108, c(0.17066666666666666), t240);
-        let t293 = neg_mul_add(c(0.9523333333333334), t291, t292);
-        let t294 = mul_sub(base_rotation[2][2], t290, base_rotation[1][2] * t293);
-        let t295 = t110 * t294;
-        let t296 = mul_add(base_rotation[0][0], c(0.1316436662914507), t249);
-        let t297 = neg_mul_add(base_rotation[0][2], t57, t296);
-        let t298 = mul_add(t106, c(0.17066666666666666), t251);
-        let t299 = neg_mul_add(c(0.9523333333333334), t297, t298);
-        let t300 = mul_sub(base_rotation[0][2], t293, base_rotation[2][2] * t299);
-        let t301 = c(0.17066666666666666) * t291;
-        let t302 = mul_add(t110, t300, t301);
-        let t303 = mul_sub(base_rotation[1][2], t299, base_rotation[0][2] * t290);
-        let t304 = c(0.17066666666666666) * t288;
-        let t305 = mul_sub(t110, t303, t304);
-        let t306 = t112 * t229;
-        let t307 = neg_mul_add(t112, t231, c(0.17066666666666666));
-        let t308 = t112 * t233;
-        let t309 = neg_mul_add(t112, t294, t301);
-        let t310 = t112 * t300;
-        let t311 = c(0.17066666666666666) * t297;
-        let t312 = mul_add(t112, t303, t311);
-        let t313 = t114 * t229;
-        let t314 = t114 * t231;
-        let t315 = neg_mul_add(t114, t233, c(0.17066666666666666));
-        let t316 = mul_add(t114, t294, t304);
-        let t317 = neg_mul_add(t114, t300, t311);
-        let t318 = t114 * t303;
-        // leg 3: mass matrix of the leg in the speeds of its joint
-        let t319 = neg_mul_add(t128, c(0.4761666666666667), t214);
-        let t320 = t128 * t319;
-        let t321 = c(2.0) * t320;
-        let t322 = neg_mul_add(t130, c(0.4761666666666667), t218);
-        let t323 = mul_add(t128, t322, t130 * t319);
-        let t324 = neg_mul_add(t132, c(0.4761666666666667), t221);
-        let t325 = mul_add(t128, t324, t132 * t319);
-        let t326 = t130 * t322;
-        let t327 = c(2.0) * t326;
-        let t328 = mul_add(t130, t324, t132 * t322);
-        let t329 = t132 * t324;
-        let t330 = c(2.0) * t329;
-        // leg 3: leg inertia between joint and base speeds
-        let t331 = neg_mul_add(t128, t229, c(0.17066666666666666));
-        let t332 = t128 * t231;
-        let t333 = t128 * t233;
-        let t334 = base_rotation[1][1] * c(0.17538661166134234);
-        let t335 = mul_add(base_rotation[1][0], c(0.040491189781895726), t334);
-        let t336 = base_rotation[2][1] * c(0.17538661166134234);
-        let t337 = mul_add(base_rotation[2][0], c(0.040491189781895726), t336);
-        let t338 = neg_mul_add(base_rotation[1][2], t62, t335);
-        let t339 = mul_add(t125, c(0.17066666666666666), t237);
-        let t340 = neg_mul_add(c(0.9523333333333334), t338, t339);
-        let t341 = neg_mul_add(base_rotation[2][2], t62, t337);
-        let t342 = mul_add(t126, c(0.17066666666666666), t240);
-        let t343 = neg_mul_add(c(0.9523333333333334), t341, t342);
-        let t344 = mul_sub(base_rotation[2][2], t340, base_rotation[1][2] * t343);
-        let t345 = t128 * t344;
-        let t346 = base_rotation[0][1] * c(0.17538661166134234);
-        let t347 = mul_add(base_rotation[0][0], c(0.040491189781895726), t346);
-        let t348 = neg_mul_add(base_rotation[0][2], t62, t347);
-        let t349 = mul_add(t124, c(0.17066666666666666), t251);
-        let t350 = neg_mul_add(c(0.9523333333333334), t348, t349);
-        let t351 = mul_sub(base_rotation[0][2], t343, base_rotation[2][2] * t350);
-        let t352 = c(0.17066666666666666) * t341;
-        let t353 = mul_add(t128, t351, t352);
-        let t354 = mul_sub(base_rotation[1][2], t350, base_rotation[0][2] * t340);
-        let t355 = c(0.17066666666666666) * t338;
-        let t356 = mul_sub(t128, t354, t355);
-        let t357 = t130 * t229;
-        let t358 = neg_mul_add(t130, t231, c(0.17066666666666666));
-        let t359 = t130 * t233;
-        let t360 = neg_mul_add(t130, t344, t352);
-        let t361 = t130 * t351;
-        let t362 = c(0.17066666666666666) * t348;
-        let t363 = mul_add(t130, t354, t362);
-        let t364 = t132 * t229;
-        let t365 = t132 * t231;
-        let t366 = neg_mul_add(t132, t233, c(0.17066666666666666));
-        let t367 = mul_add(t132, t344, t355);
-        let t368 = neg_mul_add(t132, t351, t362);
-        let t369 = t132 * t354;
-        // leg 4: mass matrix of the leg in the speeds of its joint
-        let t370 = neg_mul_add(t146, c(0.4761666666666667), t214);
-        let t371 = t146 * t370;
-        let t372 = c(2.0) * t371;
-        let t373 = neg_mul_add(t148, c(0.4761666666666667), t218);
-        let t374 = mul_add(t146, t373, t148 * t370);
-        let t375 = neg_mul_add(t150, c(0.4761666666666667), t221);
-        let t376 = mul_add(t146, t375, t150 * t370);
-        let t377 = t148 * t373;
-        let t378 = c(2.0) * t377;
-        let t379 = mul_add(t148, t375, t150 * t373);
-        let t380 = t150 * t375;
-        let t381 = c(2.0) * t380;
-        // leg 4: leg inertia between joint and base speeds
-        let t382 = neg_mul_add(t146, t229, c(0.17066666666666666));
-        let t383 = t146 * t231;
-        let t384 = t146 * t233;
-        let t385 = base_rotation[1][1] * c(0.052626906850092664);
-        let t386 = mul_sub(base_rotation[1][0], c(0.17213485607334636), t385);
-        let t387 = base_rotation[2][1] * c(0.052626906850092664);
-        let t388 = mul_sub(base_rotation[2][0], c(0.17213485607334636), t387);
-        let t389 = mul_add(base_rotation[1][2], t67, t386);
-        let t390 = mul_add(t143, c(0.17066666666666666), t237);
-        let t391 = mul_add(c(0.9523333333333334), t389, t390);
-        let t392 = mul_add(base_rotation[2][2], t67, t388);
-        let t393 = mul_add(t144, c(0.17066666666666666), t240);
-        let t394 = mul_add(c(0.9523333333333334), t392, t393);
-        let t395 = mul_sub(base_rotation[2][2], t391, base_rotation[1][2] * t394);
-        let t396 = t146 * t395;
-        let t397 = base_rotation[0][1] * c(0.052626906850092664);
-        let t398 = mul_sub(base_rotation[0][0], c(0.17213485607334636), t397);
-        let t399 = mul_add(base_rotation[0][2], t67, t398);
-        let t400 = mul_add(t142, c(0.17066666666666666), t251);
-        let t401 = mul_add(c(0.9523333333333334), t399, t400);
-        let t402 = mul_sub(base_rotation[0][2], t394, base_rotation[2][2] * t401);
-        let t403 = c(0.17066666666666666) * t392;
-        let t404 = mul_sub(t146, t402, t403);
-        let t405 = mul_sub(base_rotation[1][2], t401, base_rotation[0][2] * t391);
-        let t406 = c(0.17066666666666666) * t389;
-        let t407 = mul_add(t146, t405, t406);
-        let t408 = t148 * t229;
-        let t409 = neg_mul_add(t148, t231, c(0.17066666666666666));
-        let t410 = t148 * t233;
-        let t411 = mul_add(t148, t395, t403);
-        let t412 = t148 * t402;
-        let t413 = c(0.17066666666666666) * t399;
-        let t414 = mul_sub(t148, t405, t413);
-        let t415 = t150 * t229;
-        let t416 = t150 * t231;
-        let t417 = neg_mul_add(t150, t233, c(0.17066666666666666));
-        let t418 = neg_mul_add(t150, t395, t406);
-        let t419 = mul_add(t150, t402, t413);
-        let t420 = t150 * t405;
-        // leg 5: mass matrix of the leg in the speeds of its joint
-        let t421 = mul_add(t161, c(0.4761666666666667), t214);
-        let t422 = t161 * t421;
-        let t423 = c(2.0) * t422;
-        let t424 = mul_add(t163, c(0.4761666666666667), t218);
-        let t425 = mul_add(t161, t424, t163 * t421);
-        let t426 = mul_add(t165, c(0.4761666666666667), t221);
-        let t427 = mul_add(t161, t426, t165 * t421);
-        let t428 = t163 * t424;
-        let t429 = c(2.0) * t428;
-        let t430 = mul_add(t163, t426, t165 * t424);
-        let t431 = t165 * t426;
-        let t432 = c(2.0) * t431;
-        // leg 5: leg inertia between joint and base speeds
-        let t433 = mul_add(t161, t229, c(0.17066666666666666));
-        let t434 = t161 * t231;
-        let t435 = t161 * t233;
-        let t436 = mul_add(base_rotation[1][0], c(0.17213485607334636), t385);
-        let t437 = mul_add(base_rotation[2][0], c(0.17213485607334636), t387);
-        let t438 = mul_add(base_rotation[1][2], t71, t436);
-        let t439 = mul_add(t158, c(0.17066666666666666), t237);
-        let t440 = mul_add(c(0.9523333333333334), t438, t439);
-        let t441 = mul_add(base_rotation[2][2], t71, t437);
-        let t442 = mul_add(t159, c(0.17066666666666666), t240);
-        let t443 = mul_add(c(0.9523333333333334), t441, t442);
-        let t444 = mul_sub(base_rotation[2][2], t440, base_rotation[1][2] * t443);
-        let t445 = t161 * t444;
-        let t446 = mul_add(base_rotation[0][0], c(0.17213485607334636), t397);
-        let t447 = mul_add(base_rotation[0][2], t71, t446);
-        let t448 = mul_add(t157, c(0.17066666666666666), t251);
-        let t449 = mul_add(c(0.9523333333333334), t447, t448);
-        let t450 = mul_sub(base_rotation[0][2], t443, base_rotation[2][2] * t449);
-        let t451 = c(0.17066666666666666) * t441;
-        let t452 = mul_add(t161, t450, t451);
-        let t453 = mul_sub(base_rotation[1][2], t449, base_rotation[0][2] * t440);
-        let t454 = c(0.17066666666666666) * t438;
-        let t455 = mul_sub(t161, t453, t454);
-        let t456 = t163 * t229;
-        let t457 = mul_add(t163, t231, c(0.17066666666666666));
-        let t458 = t163 * t233;
-        let t459 = neg_mul_add(t163, t444, t451);
-        let t460 = t163 * t450;
-        let t461 = c(0.17066666666666666) * t447;
-        let t462 = mul_add(t163, t453, t461);
-        let t463 = t165 * t229;
-        let t464 = t165 * t231;
-        let t465 = mul_add(t165, t233, c(0.17066666666666666));
-        let t466 = mul_add(t165, t444, t454);
-        let t467 = neg_mul_add(t165, t450, t461);
-        let t468 = t165 * t453;
-        // leg 6: mass matrix of the leg in the speeds of its joint
-        let t469 = mul_add(t173, c(0.4761666666666667), t214);
-        let t470 = t173 * t469;
-        let t471 = c(2.0) * t470;
-        let t472 = mul_add(t175, c(0.4761666666666667), t218);
-        let t473 = mul_add(t173, t472, t175 * t469);
-        let t474 = mul_add(t177, c(0.4761666666666667), t221);
-        let t475 = mul_add(t173, t474, t177 * t469);
-        let t476 = t175 * t472;
-        let t477 = c(2.0) * t476;
-        let t478 = mul_add(t175, t474, t177 * t472);
-        let t479 = t177 * t474;
-        let t480 = c(2.0) * t479;
-        // leg 6: leg inertia between joint and base speeds
-        let t481 = mul_add(t173, t229, c(0.17066666666666666));
-        let t482 = t173 * t231;
-        let t483 = t173 * t233;
-        let t484 = mul_sub(base_rotation[1][0], c(0.040491189781895726), t334);
-        let t485 = mul_sub(base_rotation[2][0], c(0.040491189781895726), t336);
-        let t486 = neg_mul_add(base_rotation[1][2], t75, t484);
-        let t487 = mul_add(t170, c(0.17066666666666666), t237);
-        let t488 = neg_mul_add(c(0.9523333333333334), t486, t487);
-        let t489 = neg_mul_add(base_rotation[2][2], t75, t485);
-        let t490 = mul_add(t171, c(0.17066666666666666), t240);
-        let t491 = neg_mul_add(c(0.9523333333333334), t489, t490);
-        let t492 = mul_sub(base_rotation[2][2], t488, base_rotation[1][2] * t491);
-        let t493 = t173 * t492;
-        let t494 = mul_sub(base_rotation[0][0], c(0.040491189781895726), t346);
-        let t495 = neg_mul_add(base_rotation[0][2], t75, t494);
-        let t496 = mul_add(t169, c(0.17066666666666666), t251);
-        let t497 = neg_mul_add(c(0.9523333333333334), t495, t496);
-        let t498 = mul_sub(base_rotation[0][2], t491, base_rotation[2][2] * t497);
-        let t499 = c(0.17066666666666666) * t489;
-        let t500 = mul_sub(t173, t498, t499);
-        let t501 = mul_sub(base_rotation[1][2], t497, base_rotation[0][2] * t488);
-        let t502 = c(0.17066666666666666) * t486;
-        let t503 = mul_add(t173, t501, t502);
-        let t504 = t175 * t229;
-        let t505 = mul_add(t175, t231, c(0.17066666666666666));
-        let t506 = t175 * t233;
-        let t507 = mul_add(t175, t492, t499);
-        let t508 = t175 * t498;
-        let t509 = c(0.17066666666666666) * t495;
-        let t510 = mul_sub(t175, t501, t509);
-        let t511 = t177 * t229;
-        let t512 = t177 * t231;
-        let t513 = mul_add(t177, t233, c(0.17066666666666666));
-        let t514 = neg_mul_add(t177, t492, t502);
-        let t515 = mul_add(t177, t498, t509);
-        let t516 = t177 * t501;
+        let t215 = base_rotation[1][2] * c(0.17066666666666666);
+        let t216 = base_rotation[2][2] * c(0.17066666666666666);
+        // leg 1: moment of that force
+        let t217 = mul_sub(t91, t216, t93 * t215);
+        let t218 = mul_sub(t93, t214, t89 * t216);
+        let t219 = mul_sub(t89, t215, t91 * t214);
+        // leg 2: moment of that force
+        let t220 = mul_sub(t104, t216, t105 * t215);
+        let t221 = mul_sub(t105, t214, t103 * t216);
+        let t222 = mul_sub(t103, t215, t104 * t214);
+        // leg 3: moment of that force
+        let t223 = mul_sub(t121, t216, t123 * t215);
+        let t224 = mul_sub(t123, t214, t119 * t216);
+        let t225 = mul_sub(t119, t215, t121 * t214);
+        // leg 4: moment of that force
+        let t226 = mul_sub(t139, t216, t141 * t215);
+        let t227 = mul_sub(t141, t214, t137 * t216);
+        let t228 = mul_sub(t137, t215, t139 * t214);
+        // leg 5: moment of that force
+        let t229 = mul_sub(t155, t216, t156 * t215);
+        let t230 = mul_sub(t156, t214, t154 * t216);
+        let t231 = mul_sub(t154, t215, t155 * t214);
+        // leg 6: moment of that force
+        let t232 = mul_sub(t167, t216, t168 * t215);
+        let t233 = mul_sub(t168, t214, t166 * t216);
+        let t234 = mul_sub(t166, t215, t167 * t214);
+        // part of the legs' mass matrix on the side of the axes
+        let t235 = t98 * c(0.9523333333333334);
+        let t236 = t110 * c(0.9523333333333334);
+        let t237 = t128 * c(0.9523333333333334);
+        let t238 = t146 * c(0.9523333333333334);
+        let t239 = t161 * c(0.9523333333333334);
+        let t240 = t173 * c(0.9523333333333334);
+        let t241 = t98 - t110;
+        let t242 = t128 - t173;
+        let t243 = t146 - t161;
+        let t244 = t243 - (t241 - t242);
+        let t245 = c(0.17066666666666666) * t244;
+        let t246 = base_rotation[0][2] * t245;
+        let t247 = mul_add(t128, t237, mul_add(t98, t235, t110 * t236));
+        let t248 = mul_add(t161, t239, mul_add(t146, t238, t247));
+        let t249 = mul_sub(base_rotation[0][2], t245, mul_add(t173, t240, t248));
+        let t250 = t100 - t112;
+        let t251 = t130 - t175;
+        let t252 = t148 - t163;
+        let t253 = t252 - (t250 - t251);
+        let t254 = c(0.17066666666666666) * t253;
+        let t255 = base_rotation[0][2] * t254;
+        let t256 = mul_add(t130, t237, mul_add(t100, t235, t112 * t236));
+        let t257 = mul_add(t163, t239, mul_add(t148, t238, t256));
+        let t258 = mul_add(t175, t240, t257);
+        let t259 = neg_mul_add(base_rotation[0][2], t254, t258);
+        let t260 = t102 - t114;
+        let t261 = t132 - t177;
+        let t262 = t150 - t165;
+        let t263 = t262 - (t260 - t261);
+        let t264 = c(0.17066666666666666) * t263;
+        let t265 = base_rotation[0][2] * t264;
+        let t266 = mul_add(t132, t237, mul_add(t102, t235, t114 * t236));
+        let t267 = mul_add(t165, t239, mul_add(t150, t238, t266));
+        let t268 = mul_add(t177, t240, t267);
+        let t269 = neg_mul_add(base_rotation[0][2], t264, t268);
+        let t270 = t178 - t184;
+        let t271 = t190 - t208;
+        let t272 = t196 - t202;
+        let t273 = t272 + (t270 + t271);
+        let t274 = c(0.17066666666666666) * t273;
+        let t275 = base_rotation[0][2] * t274;
+        let t276 = mul_sub(t190, t237, mul_add(t178, t235, t184 * t236));
+        let t277 = mul_add(t202, t239, mul_add(t196, t238, t276));
+        let t278 = mul_add(t208, t240, t277);
+        let t279 = neg_mul_add(base_rotation[0][2], t274, t278);
+        let t280 = t179 - t185;
+        let t281 = t191 - t209;
+        let t282 = t197 - t203;
+        let t283 = t282 + (t280 + t281);
+        let t284 = c(0.17066666666666666) * t283;
+        let t285 = base_rotation[0][2] * t284;
+        let t286 = mul_sub(t191, t237, mul_add(t179, t235, t185 * t236));
+        let t287 = mul_add(t203, t239, mul_add(t197, t238, t286));
+        let t288 = mul_add(t209, t240, t287);
+        let t289 = neg_mul_add(base_rotation[0][2], t284, t288);
+        let t290 = t180 - t186;
+        let t291 = t192 - t210;
+        let t292 = t198 - t204;
+        let t293 = t292 + (t290 + t291);
+        let t294 = c(0.17066666666666666) * t293;
+        let t295 = base_rotation[0][2] * t294;
+        let t296 = mul_sub(t192, t237, mul_add(t180, t235, t186 * t236));
+        let t297 = mul_add(t204, t239, mul_add(t198, t238, t296));
+        let t298 = mul_add(t210, t240, t297);
+        let t299 = neg_mul_add(base_rotation[0][2], t294, t298);
+        let t300 = base_rotation[1][2] * t245;
+        let t301 = neg_mul_add(base_rotation[1][2], t245, t258);
+        let t302 = t100 * c(0.9523333333333334);
+        let t303 = t112 * c(0.9523333333333334);
+        let t304 = t130 * c(0.9523333333333334);
+        let t305 = t148 * c(0.9523333333333334);
+        let t306 = t163 * c(0.9523333333333334);
+        let t307 = t175 * c(0.9523333333333334);
+        let t308 = base_rotation[1][2] * t254;
+        let t309 = mul_add(t130, t304, mul_add(t100, t302, t112 * t303));
+        let t310 = mul_add(t163, t306, mul_add(t148, t305, t309));
+        let t311 = mul_sub(base_rotation[1][2], t254, mul_add(t175, t307, t310));
+        let t312 = base_rotation[1][2] * t264;
+        let t313 = mul_add(t132, t304, mul_add(t102, t302, t114 * t303));
+        let t314 = mul_add(t165, t306, mul_add(t150, t305, t313));
+        let t315 = mul_add(t177, t307, t314);
+        let t316 = neg_mul_add(base_rotation[1][2], t264, t315);
+        let t317 = base_rotation[1][2] * t274;
+        let t318 = mul_sub(t190, t304, mul_add(t178, t302, t184 * t303));
+        let t319 = mul_add(t202, t306, mul_add(t196, t305, t318));
+        let t320 = mul_add(t208, t307, t319);
+        let t321 = neg_mul_add(base_rotation[1][2], t274, t320);
+        let t322 = base_rotation[1][2] * t284;
+        let t323 = mul_sub(t191, t304, mul_add(t179, t302, t185 * t303));
+        let t324 = mul_add(t203, t306, mul_add(t197, t305, t323));
+        let t325 = mul_add(t209, t307, t324);
+        let t326 = neg_mul_add(base_rotation[1][2], t284, t325);
+        let t327 = base_rotation[1][2] * t294;
+        let t328 = mul_sub(t192, t304, mul_add(t180, t302, t186 * t303));
+        let t329 = mul_add(t204, t306, mul_add(t198, t305, t328));
+        let t330 = mul_add(t210, t307, t329);
+        let t331 = neg_mul_add(base_rotation[1][2], t294, t330);
+        let t332 = base_rotation[2][2] * t245;
+        let t333 = neg_mul_add(base_rotation[2][2], t245, t268);
+        let t334 = base_rotation[2][2] * t254;
+        let t335 = neg_mul_add(base_rotation[2][2], t254, t315);
+        let t336 = t102 * c(0.9523333333333334);
+        let t337 = t114 * c(0.9523333333333334);
+        let t338 = t132 * c(0.9523333333333334);
+        let t339 = t150 * c(0.9523333333333334);
+        let t340 = t165 * c(0.9523333333333334);
+        let t341 = t177 * c(0.9523333333333334);
+        let t342 = base_rotation[2][2] * t264;
+        let t343 = mul_add(t132, t338, mul_add(t102, t336, t114 * t337));
+        let t344 = mul_add(t165, t340, mul_add(t150, t339, t343));
+        let t345 = mul_sub(base_rotation[2][2], t264, mul_add(t177, t341, t344));
+        let t346 = base_rotation[2][2] * t274;
+        let t347 = mul_sub(t190, t338, mul_add(t178, t336, t184 * t337));
+        let t348 = mul_add(t202, t340, mul_add(t196, t339, t347));
+        let t349 = mul_add(t208, t341, t348);
+        let t350 = neg_mul_add(base_rotation[2][2], t274, t349);
+        let t351 = base_rotation[2][2] * t284;
+        let t352 = mul_sub(t191, t338, mul_add(t179, t336, t185 * t337));
+        let t353 = mul_add(t203, t340, mul_add(t197, t339, t352));
+        let t354 = mul_add(t209, t341, t353);
+        let t355 = neg_mul_add(base_rotation[2][2], t284, t354);
+        let t356 = base_rotation[2][2] * t294;
+        let t357 = mul_sub(t192, t338, mul_add(t180, t336, t186 * t337));
+        let t358 = mul_add(t204, t340, mul_add(t198, t339, t357));
+        let t359 = mul_add(t210, t341, t358);
+        let t360 = neg_mul_add(base_rotation[2][2], t294, t359);
+        let t361 = mul_add(t128, t223, mul_sub(t98, t217, t110 * t220));
+        let t362 = mul_sub(t161, t229, mul_add(t146, t226, t361));
+        let t363 = mul_add(t173, t232, t362);
+        let t364 = t278 + t363;
+        let t365 = mul_add(t130, t223, mul_sub(t100, t217, t112 * t220));
+        let t366 = mul_sub(t163, t229, mul_add(t148, t226, t365));
+        let t367 = mul_add(t175, t232, t366);
+        let t368 = t320 + t367;
+        let t369 = mul_add(t132, t223, mul_sub(t102, t217, t114 * t220));
+        let t370 = mul_sub(t165, t229, mul_add(t150, t226, t369));
+        let t371 = mul_add(t177, t232, t370);
+        let t372 = t349 + t371;
+        let t373 = mul_sub(t190, t223, mul_sub(t178, t217, t184 * t220));
+        let t374 = mul_sub(t202, t229, mul_add(t196, t226, t373));
+        let t375 = mul_add(t208, t232, t374);
+        let t376 = t208 * c(0.9523333333333334);
+        let t377 = t202 * c(0.9523333333333334);
+        let t378 = t196 * c(0.9523333333333334);
+        let t379 = t190 * c(0.9523333333333334);
+        let t380 = t178 * c(0.9523333333333334);
+        let t381 = t184 * c(0.9523333333333334);
+        let t382 = mul_add(t190, t379, mul_add(t178, t380, t184 * t381));
+        let t383 = mul_add(t202, t377, mul_add(t196, t378, t382));
+        let t384 = t375 + mul_add(t208, t376, t383);
+        let t385 = mul_add(t191, t379, mul_add(t179, t380, t185 * t381));
+        let t386 = mul_add(t203, t377, mul_add(t197, t378, t385));
+        let t387 = mul_add(t209, t376, t386);
+        let t388 = mul_sub(t185, t220, mul_add(t179, t217, t387));
+        let t389 = mul_add(t197, t226, mul_add(t191, t223, t388));
+        let t390 = mul_add(t209, t232, mul_sub(t203, t229, t389));
+        let t391 = mul_add(t192, t379, mul_add(t180, t380, t186 * t381));
+        let t392 = mul_add(t204, t377, mul_add(t198, t378, t391));
+        let t393 = mul_add(t210, t376, t392);
+        let t394 = mul_sub(t186, t220, mul_add(t180, t217, t393));
+        let t395 = mul_add(t198, t226, mul_add(t192, t223, t394));
+        let t396 = mul_add(t210, t232, mul_sub(t204, t229, t395));
+        let t397 = mul_add(t128, t224, mul_sub(t98, t218, t110 * t221));
+        let t398 = mul_sub(t161, t230, mul_add(t146, t227, t397));
+        let t399 = mul_add(t173, t233, t398);
+        let t400 = t288 + t399;
+        let t401 = mul_add(t130, t224, mul_sub(t100, t218, t112 * t221));
+        let t402 = mul_sub(t163, t230, mul_add(t148, t227, t401));
+        let t403 = mul_add(t175, t233, t402);
+        let t404 = t325 + t403;
+        let t405 = mul_add(t132, t224, mul_sub(t102, t218, t114 * t221));
+        let t406 = mul_sub(t165, t230, mul_add(t150, t227, t405));
+        let t407 = mul_add(t177, t233, t406);
+        let t408 = t354 + t407;
+        let t409 = mul_sub(t190, t224, mul_sub(t178, t218, t184 * t221));
+        let t410 = mul_sub(t202, t230, mul_add(t196, t227, t409));
+        let t411 = mul_add(t208, t233, t410);
+        let t412 = mul_sub(t191, t224, mul_sub(t179, t218, t185 * t221));
+        let t413 = mul_sub(t203, t230, mul_add(t197, t227, t412));
+        let t414 = mul_add(t209, t233, t413);
+        let t415 = t209 * c(0.9523333333333334);
+        let t416 = t203 * c(0.9523333333333334);
+        let t417 = t197 * c(0.9523333333333334);
+        let t418 = t191 * c(0.9523333333333334);
+        let t419 = t179 * c(0.9523333333333334);
+        let t420 = t185 * c(0.9523333333333334);
+        let t421 = mul_add(t191, t418, mul_add(t179, t419, t185 * t420));
+        let t422 = mul_add(t203, t416, mul_add(t197, t417, t421));
+        let t423 = t414 + mul_add(t209, t415, t422);
+        let t424 = mul_add(t192, t418, mul_add(t180, t419, t186 * t420));
+        let t425 = mul_add(t204, t416, mul_add(t198, t417, t424));
+        let t426 = mul_add(t210, t415, t425);
+        let t427 = mul_sub(t186, t221, mul_add(t180, t218, t426));
+        let t428 = mul_add(t198, t227, mul_add(t192, t224, t427));
+        let t429 = mul_add(t210, t233, mul_sub(t204, t230, t428));
+        let t430 = mul_add(t128, t225, mul_sub(t98, t219, t110 * t222));
+        let t431 = mul_sub(t161, t231, mul_add(t146, t228, t430));
+        let t432 = mul_add(t173, t234, t431);
+        let t433 = t298 + t432;
+        let t434 = mul_add(t130, t225, mul_sub(t100, t219, t112 * t222));
+        let t435 = mul_sub(t163, t231, mul_add(t148, t228, t434));
+        let t436 = mul_add(t175, t234, t435);
+        let t437 = t330 + t436;
+        let t438 = mul_add(t132, t225, mul_sub(t102, t219, t114 * t222));
+        let t439 = mul_sub(t165, t231, mul_add(t150, t228, t438));
+        let t440 = mul_add(t177, t234, t439);
+        let t441 = t359 + t440;
+        let t442 = mul_sub(t190, t225, mul_sub(t178, t219, t184 * t222));
+        let t443 = mul_sub(t202, t231, mul_add(t196, t228, t442));
+        let t444 = mul_add(t208, t234, t443);
+        let t445 = mul_sub(t191, t225, mul_sub(t179, t219, t185 * t222));
+        let t446 = mul_sub(t203, t231, mul_add(t197, t228, t445));
+        let t447 = mul_add(t209, t234, t446);
+        let t448 = mul_sub(t192, t225, mul_sub(t180, t219, t186 * t222));
+        let t449 = mul_sub(t204, t231, mul_add(t198, t228, t448));
+        let t450 = mul_add(t210, t234, t449);
+        let t451 = t186 * (t186 * c(0.9523333333333334));
+        let t452 = mul_add(t180, t180 * c(0.9523333333333334), t451);
+        let t453 = mul_add(t192, t192 * c(0.9523333333333334), t452);
+        let t454 = mul_add(t198, t198 * c(0.9523333333333334), t453);
+        let t455 = mul_add(t204, t204 * c(0.9523333333333334), t454);
+        let t456 = t450 + mul_add(t210, t210 * c(0.9523333333333334), t455);
         // mass matrix of the legs
-        let t517 = mul_sub(c(2.0), t320, mul_sub(c(2.0), t216, t275));
-        let t518 = mul_sub(c(2.0), t422, mul_add(c(2.0), t371, t517));
-        let t519 = mul_add(c(2.0), t470, t518);
-        let t520 = t473 + (t425 - (t374 + (t323 - (t220 - t277))));
-        mass_matrix_p[0][1] = t520;
-        mass_matrix_p[1][0] = t520;
-        let t521 = t475 + (t427 - (t376 + (t325 - (t223 - t279))));
-        mass_matrix_p[0][2] = t521;
-        mass_matrix_p[2][0] = t521;
-        let t522 = mul_sub(t105, t277, mul_sub(t93, t220, t91 * t223));
-        let t523 = mul_add(t123, t323, mul_sub(t104, t279, t522));
-        let t524 = mul_sub(t141, t374, mul_sub(t121, t325, t523));
-        let t525 = mul_add(t156, t425, mul_sub(t139, t376, t524));
-        let t526 = mul_sub(t168, t473, mul_sub(t155, t427, t525));
-        let t527 = mul_sub(t167, t475, t526);
-        let t528 = mul_sub(t166, t475, t168 * t471);
-        let t529 = mul_sub(t154, t427, t156 * t423);
-        let t530 = mul_sub(t137, t376, t141 * t372);
-        let t531 = mul_sub(t119, t325, t123 * t321);
-        let t532 = mul_sub(t89, t223, t93 * t217);
-        let t533 = mul_sub(t103, t279, t105 * t275);
-        let t534 = t528 + (t529 - (t530 + (t531 + (t532 - t533))));
-        let t535 = mul_sub(t167, t471, t166 * t473);
-        let t536 = mul_sub(t155, t423, t154 * t425);
-        let t537 = mul_sub(t139, t372, t137 * t374);
-        let t538 = mul_sub(t121, t321, t119 * t323);
-        let t539 = mul_sub(t91, t217, t89 * t220);
-        let t540 = mul_sub(t104, t275, t103 * t277);
-        let t541 = t535 + (t536 - (t537 + (t538 + (t539 - t540))));
-        let t542 = mul_sub(c(2.0), t326, mul_sub(c(2.0), t224, t280));
-        let t543 = mul_sub(c(2.0), t428, mul_add(c(2.0), t377, t542));
-        let t544 = mul_add(c(2.0), t476, t543);
-        let t545 = t478 + (t430 - (t379 + (t328 - (t226 - t281))));
-        mass_matrix_p[1][2] = t545;
-        mass_matrix_p[2][1] = t545;
-        let t546 = mul_sub(t168, t477, t167 * t478);
-        let t547 = mul_sub(t156, t429, t155 * t430);
-        let t548 = mul_sub(t141, t378, t139 * t379);
-        let t549 = mul_sub(t123, t327, t121 * t328);
-        let t550 = mul_sub(t93, t225, t91 * t226);
-        let t551 = mul_sub(t105, t280, t104 * t281);
-        let t552 = t546 + (t547 - (t548 + (t549 + (t550 - t551))));
-        let t553 = t166 * t478;
-        let t554 = mul_sub(t168, t473, t553);
-        let t555 = t154 * t430;
-        let t556 = mul_sub(t156, t425, t555);
-        let t557 = t137 * t379;
-        let t558 = mul_sub(t141, t374, t557);
-        let t559 = t119 * t328;
-        let t560 = mul_sub(t123, t323, t559);
-        let t561 = t89 * t226;
-        let t562 = mul_sub(t93, t220, t561);
-        let t563 = t103 * t281;
-        let t564 = mul_sub(t105, t277, t563);
-        let t565 = t554 + (t556 - (t558 + (t560 + (t562 - t564))));
-        let t566 = mul_sub(t167, t473, t166 * t477);
-        let t567 = mul_sub(t155, t425, t154 * t429);
-        let t568 = mul_sub(t139, t374, t137 * t378);
-        let t569 = mul_sub(t121, t323, t119 * t327);
-        let t570 = mul_sub(t91, t220, t89 * t225);
-        let t571 = mul_sub(t104, t277, t103 * t280);
-        let t572 = t566 + (t567 - (t568 + (t569 + (t570 - t571))));
-        let t573 = mul_sub(c(2.0), t329, mul_sub(c(2.0), t227, t282));
-        let t574 = mul_sub(c(2.0), t431, mul_add(c(2.0), t380, t573));
-        let t575 = mul_add(c(2.0), t479, t574);
-        let t576 = mul_sub(t168, t478, t167 * t480);
-        let t577 = mul_sub(t156, t430, t155 * t432);
-        let t578 = mul_sub(t141, t379, t139 * t381);
-        let t579 = mul_sub(t123, t328, t121 * t330);
-        let t580 = mul_sub(t93, t226, t91 * t228);
-        let t581 = mul_sub(t105, t281, t104 * t282);
-        let t582 = t576 + (t577 - (t578 + (t579 + (t580 - t581))));
-        let t583 = mul_sub(t166, t480, t168 * t475);
-        let t584 = mul_sub(t154, t432, t156 * t427);
-        let t585 = mul_sub(t137, t381, t141 * t376);
-        let t586 = mul_sub(t119, t330, t123 * t325);
-        let t587 = mul_sub(t89, t228, t93 * t223);
-        let t588 = mul_sub(t103, t282, t105 * t279);
-        let t589 = t583 + (t584 - (t585 + (t586 + (t587 - t588))));
-        let t590 = mul_sub(t167, t475, t553);
-        let t591 = mul_sub(t155, t427, t555);
-        let t592 = mul_sub(t139, t376, t557);
-        let t593 = mul_sub(t121, t325, t559);
-        let t594 = mul_sub(t91, t223, t561);
-        let t595 = mul_sub(t104, t279, t563);
-        let t596 = t590 + (t591 - (t592 + (t593 + (t594 - t595))));
-        mass_matrix_p[2][5] = t596;
-        mass_matrix_p[5][2] = t596;
-        let t597 = mul_sub(t105, t551, mul_sub(t93, t550, t91 * t580));
-        let t598 = mul_sub(t123, t549, mul_sub(t104, t581, t597));
-        let t599 = mul_sub(t141, t548, mul_sub(t121, t579, t598));
-        let t600 = mul_add(t156, t547, mul_sub(t139, t578, t599));
-        let t601 = mul_sub(t168, t546, mul_sub(t155, t577, t600));
-        let t602 = mul_sub(t167, t576, t601);
-        let t603 = mul_sub(t105, t564, mul_add(t93, t562, t91 * t587));
-        let t604 = mul_add(t123, t560, mul_add(t104, t588, t603));
-        let t605 = mul_add(t141, t558, mul_add(t121, t586, t604));
-        let t606 = mul_sub(t156, t556, mul_add(t139, t585, t605));
-        let t607 = mul_add(t168, t554, mul_add(t155, t584, t606));
-        let t608 = mul_add(t167, t583, t607);
-        let t609 = mul_sub(t105, t571, mul_sub(t93, t570, t91 * t594));
-        let t610 = mul_sub(t123, t569, mul_sub(t104, t595, t609));
-        let t611 = mul_sub(t141, t568, mul_sub(t121, t593, t610));
-        let t612 = mul_add(t156, t567, mul_sub(t139, t592, t611));
-        let t613 = mul_sub(t168, t566, mul_sub(t155, t591, t612));
-        let t614 = mul_sub(t167, t590, t613);
-        let t615 = mul_sub(t103, t588, mul_sub(t89, t587, t93 * t532));
-        let t616 = mul_sub(t119, t586, mul_sub(t105, t533, t615));
-        let t617 = mul_sub(t137, t585, mul_sub(t123, t531, t616));
-        let t618 = mul_add(t154, t584, mul_sub(t141, t530, t617));
-        let t619 = mul_sub(t166, t583, mul_sub(t156, t529, t618));
-        let t620 = mul_sub(t168, t528, t619);
-        let t621 = mul_sub(t103, t595, mul_sub(t89, t594, t93 * t539));
-        let t622 = mul_sub(t119, t593, mul_sub(t105, t540, t621));
-        let t623 = mul_sub(t137, t592, mul_sub(t123, t538, t622));
-        let t624 = mul_add(t154, t591, mul_sub(t141, t537, t623));
-        let t625 = mul_sub(t166, t590, mul_sub(t156, t536, t624));
-        let t626 = mul_sub(t168, t535, t625);
-        let t627 = mul_sub(t104, t540, mul_sub(t91, t539, t89 * t570));
-        let t628 = mul_sub(t121, t538, mul_sub(t103, t571, t627));
-        let t629 = mul_sub(t139, t537, mul_sub(t119, t569, t628));
-        let t630 = mul_add(t155, t536, mul_sub(t137, t568, t629));
-        let t631 = mul_sub(t167, t535, mul_sub(t154, t567, t630));
-        let t632 = mul_sub(t166, t566, t631);
-        let t633 = -t527;
-        mass_matrix_p[0][3] = t633;
-        mass_matrix_p[3][0] = t633;
-        let t634 = -t565;
-        mass_matrix_p[1][4] = t634;
-        mass_matrix_p[4][1] = t634;
+        let t457 = neg_mul_add(base_rotation[1][2], t245, t259);
+        mass_matrix_p[0][1] = t457;
+        mass_matrix_p[1][0] = t457;
+        let t458 = neg_mul_add(base_rotation[2][2], t245, t269);
+        mass_matrix_p[0][2] = t458;
+        mass_matrix_p[2][0] = t458;
+        let t459 = -(t279 + t363);
+        mass_matrix_p[0][3] = t459;
+        mass_matrix_p[3][0] = t459;
+        let t460 = neg_mul_add(base_rotation[2][2], t254, t316);
+        mass_matrix_p[1][2] = t460;
+        mass_matrix_p[2][1] = t460;
+        let t461 = -(t326 + t403);
+        mass_matrix_p[1][4] = t461;
+        mass_matrix_p[4][1] = t461;
+        let t462 = -(t360 + t440);
+        mass_matrix_p[2][5] = t462;
+        mass_matrix_p[5][2] = t462;
         // mass matrix M_p of the platform
-        let t635 = platform_rotation[2][1] * c(6.938893903907228e-18);
-        let t636 = mul_add(platform_rotation[2][0], c(2.2551405187698492e-17), t635);
-        let t637 = mul_add(platform_rotation[2][2], c(0.188852), t636);
-        let t638 = platform_rotation[1][1] * c(6.938893903907228e-18);
-        let t639 = mul_add(platform_rotation[1][0], c(2.2551405187698492e-17), t638);
-        let t640 = mul_add(platform_rotation[1][2], c(0.188852), t639);
-        let t641 = platform_rotation[0][1] * c(6.938893903907228e-18);
-        let t642 = mul_add(platform_rotation[0][0], c(2.2551405187698492e-17), t641);
-        let t643 = mul_add(platform_rotation[0][2], c(0.188852), t642);
-        let t644 = platform_rotation[0][2] * c(0.013354412);
-        let t645 = platform_rotation[0][0] * c(0.032245600000000006);
-        let t646 = platform_rotation[0][1] * c(0.032245600000000006);
-        let t647 = mul_add(
+        let t463 = platform_rotation[2][1] * c(6.938893903907228e-18);
+        let t464 = mul_add(platform_rotation[2][0], c(2.2551405187698492e-17), t463);
+        let t465 = mul_add(platform_rotation[2][2], c(0.188852), t464);
+        let t466 = platform_rotation[1][1] * c(6.938893903907228e-18);
+        let t467 = mul_add(platform_rotation[1][0], c(2.2551405187698492e-17), t466);
+        let t468 = mul_add(platform_rotation[1][2], c(0.188852), t467);
+        let t469 = platform_rotation[0][1] * c(6.938893903907228e-18);
+        let t470 = mul_add(platform_rotation[0][0], c(2.2551405187698492e-17), t469);
+        let t471 = mul_add(platform_rotation[0][2], c(0.188852), t470);
+        let t472 = platform_rotation[0][2] * c(0.013354412);
+        let t473 = platform_rotation[0][0] * c(0.032245600000000006);
+        let t474 = platform_rotation[0][1] * c(0.032245600000000006);
+        let t475 = mul_add(
             platform_rotation[0][0],
-            t645,
-            platform_rotation[0][1] * t646,
+            t473,
+            platform_rotation[0][1] * t474,
         );
-        let t648 = mul_add(platform_rotation[0][2], t644, t647);
-        let t649 = mul_add(
+        let t476 = mul_add(platform_rotation[0][2], t472, t475);
+        let t477 = mul_add(
             platform_rotation[1][0],
-            t645,
-            platform_rotation[1][1] * t646,
+            t473,
+            platform_rotation[1][1] * t474,
         );
-        let t650 = mul_add(platform_rotation[1][2], t644, t649);
-        let t651 = mul_add(
+        let t478 = mul_add(platform_rotation[1][2], t472, t477);
+        let t479 = mul_add(
             platform_rotation[2][0],
-            t645,
-            platform_rotation[2][1] * t646,
+            t473,
+            platform_rotation[2][1] * t474,
         );
-        let t652 = mul_add(platform_rotation[2][2], t644, t651);
-        let t653 = platform_rotation[1][2] * c(0.013354412);
-        let t654 = platform_rotation[1][0] * c(0.032245600000000006);
-        let t655 = platform_rotation[1][1] * c(0.032245600000000006);
-        let t656 = mul_add(
+        let t480 = mul_add(platform_rotation[2][2], t472, t479);
+        let t481 = platform_rotation[1][2] * c(0.013354412);
+        let t482 = platform_rotation[1][0] * c(0.032245600000000006);
+        let t483 = platform_rotation[1][1] * c(0.032245600000000006);
+        let t484 = mul_add(
             platform_rotation[1][0],
-            t654,
-            platform_rotation[1][1] * t655,
+            t482,
+            platform_rotation[1][1] * t483,
         );
-        let t657 = mul_add(platform_rotation[1][2], t653, t656);
-        let t658 = mul_add(
+        let t485 = mul_add(platform_rotation[1][2], t481, t484);
+        let t486 = mul_add(
             platform_rotation[2][0],
-            t654,
-            platform_rotation[2][1] * t655,
+            t482,
+            platform_rotation[2][1] * t483,
         );
-        let t659 = mul_add(platform_rotation[2][2], t653, t658);
-        let t660 = platform_rotation[2][2] * c(0.013354412);
-        let t661 = platform_rotation[2][0] * c(0.032245600000000006);
-        let t662 = platform_rotation[2][1] * c(0.032245600000000006);
-        let t663 = mul_add(
+        let t487 = mul_add(platform_rotation[2][2], t481, t486);
+        let t488 = platform_rotation[2][2] * c(0.013354412);
+        let t489 = platform_rotation[2][0] * c(0.032245600000000006);
+        let t490 = platform_rotation[2][1] * c(0.032245600000000006);
+        let t491 = mul_add(
             platform_rotation[2][0],
-            t661,
-            platform_rotation[2][1] * t662,
+            t489,
+            platform_rotation[2][1] * t490,
         );
-        let t664 = mul_add(platform_rotation[2][2], t660, t663);
-        mass_matrix_p[0][0] = c(8.139999999999999) + t519;
-        let t665 = t534 + t637;
-        mass_matrix_p[0][4] = t665;
-        mass_matrix_p[4][0] = t665;
-        let t666 = t541 - t640;
-        mass_matrix_p[0][5] = t666;
-        mass_matrix_p[5][0] = t666;
-        mass_matrix_p[1][1] = c(8.139999999999999) + t544;
-        let t667 = t552 - t637;
-        mass_matrix_p[1][3] = t667;
-        mass_matrix_p[3][1] = t667;
-        let t668 = t572 + t643;
-        mass_matrix_p[1][5] = t668;
-        mass_matrix_p[5][1] = t668;
-        mass_matrix_p[2][2] = c(8.139999999999999) + t575;
-        let t669 = t582 + t640;
-        mass_matrix_p[2][3] = t669;
-        mass_matrix_p[3][2] = t669;
-        let t670 = t589 - t643;
-        mass_matrix_p[2][4] = t670;
-        mass_matrix_p[4][2] = t670;
-        mass_matrix_p[3][3] = c(0.07784561200000001) - t602 - t648;
-        let t671 = -(t608 + t650);
-        mass_matrix_p[3][4] = t671;
-        mass_matrix_p[4][3] = t671;
-        let t672 = -(t614 + t652);
-        mass_matrix_p[3][5] = t672;
-        mass_matrix_p[5][3] = t672;
-        mass_matrix_p[4][4] = c(0.07784561200000001) - t620 - t657;
-        let t673 = -(t626 + t659);
-        mass_matrix_p[4][5] = t673;
-        mass_matrix_p[5][4] = t673;
-        mass_matrix_p[5][5] = c(0.07784561200000001) - t632 - t664;
+        let t492 = mul_add(platform_rotation[2][2], t488, t491);
+        mass_matrix_p[0][0] = neg_mul_add(
+            base_rotation[0][2],
+            t245,
+            c(8.139999999999999),
+        ) - t249;
+        let t493 = t465 - (t289 + t399);
+        mass_matrix_p[0][4] = t493;
+        mass_matrix_p[4][0] = t493;
+        let t494 = -(t468 + (t299 + t432));
+        mass_matrix_p[0][5] = t494;
+        mass_matrix_p[5][0] = t494;
+        mass_matrix_p[1][1] = neg_mul_add(
+            base_rotation[1][2],
+            t254,
+            c(8.139999999999999),
+        ) - t311;
+        let t495 = -(t465 + (t321 + t367));
+        mass_matrix_p[1][3] = t495;
+        mass_matrix_p[3][1] = t495;
+        let t496 = t471 - (t331 + t436);
+        mass_matrix_p[1][5] = t496;
+        mass_matrix_p[5][1] = t496;
+        mass_matrix_p[2][2] = neg_mul_add(
+            base_rotation[2][2],
+            t264,
+            c(8.139999999999999),
+        ) - t345;
+        let t497 = t468 - (t350 + t371);
+        mass_matrix_p[2][3] = t497;
+        mass_matrix_p[3][2] = t497;
+        let t498 = -(t471 + (t355 + t407));
+        mass_matrix_p[2][4] = t498;
+        mass_matrix_p[4][2] = t498;
+        mass_matrix_p[3][3] = t384 + (t375 + c(0.07784561200000001)) - t476;
+        let t499 = t390 + t411 - t478;
+        mass_matrix_p[3][4] = t499;
+        mass_matrix_p[4][3] = t499;
+        let t500 = t396 + t444 - t480;
+        mass_matrix_p[3][5] = t500;
+        mass_matrix_p[5][3] = t500;
+        mass_matrix_p[4][4] = t423 + (t414 + c(0.07784561200000001)) - t485;
+        let t501 = t429 + t447 - t487;
+        mass_matrix_p[4][5] = t501;
+        mass_matrix_p[5][4] = t501;
+        mass_matrix_p[5][5] = t456 + (t450 + c(0.07784561200000001)) - t492;
+        // first moment of the rods' couplings by the Hooke joint
+        let t502 = t53 + t57;
+        let t503 = t62 + t75;
+        let t504 = t67 + t71;
+        let t505 = c(0.17066666666666666) * (t504 + (t502 + t503));
+        let t506 = base_rotation[0][0] * c(1.5612511283791264e-17);
+        let t507 = mul_sub(base_rotation[0][2], t505, t506);
+        let t508 = base_rotation[1][0] * c(1.5612511283791264e-17);
+        let t509 = mul_sub(base_rotation[1][2], t505, t508);
+        let t510 = base_rotation[2][0] * c(1.5612511283791264e-17);
+        let t511 = mul_sub(base_rotation[2][2], t505, t510);
+        // their moment by platform joint and Hooke joint
+        let t512 = mul_sub(
+            t502,
+            c(0.019782160922400118),
+            t503 * c(0.005300614043699622),
+        );
+        let t513 = neg_mul_add(t504, c(0.01448154687870049), t512);
+        let t514 = base_rotation[0][0] * c(0.009764694018945443);
+        let t515 = mul_sub(base_rotation[0][2], t513, t514);
+        let t516 = c(0.019782160922400118) * (t62 - t75);
+        let t517 = mul_sub(c(0.005300614043699624), t53 - t57, t516);
+        let t518 = neg_mul_add(c(0.014481546878700494), t67 - t71, t517);
+        let t519 = base_rotation[0][1] * c(0.009764694018945445);
+        let t520 = mul_add(base_rotation[0][2], t518, t519);
+        let t521 = mul_sub(
+            platform_rotation[0][0],
+            t515,
+            platform_rotation[0][1] * t520,
+        );
+        let t522 = base_rotation[1][0] * c(0.009764694018945443);
+        let t523 = mul_sub(base_rotation[1][2], t513, t522);
+        let t524 = base_rotation[1][1] * c(0.009764694018945445);
+        let t525 = mul_add(base_rotation[1][2], t518, t524);
+        let t526 = mul_sub(
+            platform_rotation[0][0],
+            t523,
+            platform_rotation[0][1] * t525,
+        );
+        let t527 = base_rotation[2][0] * c(0.009764694018945443);
+        let t528 = mul_sub(base_rotation[2][2], t513, t527);
+        let t529 = base_rotation[2][1] * c(0.009764694018945445);
+        let t530 = mul_add(base_rotation[2][2], t518, t529);
+        let t531 = mul_sub(
+            platform_rotation[0][0],
+            t528,
+            platform_rotation[0][1] * t530,
+        );
+        let t532 = mul_sub(
+            platform_rotation[1][0],
+            t515,
+            platform_rotation[1][1] * t520,
+        );
+        let t533 = mul_sub(
+            platform_rotation[1][0],
+            t523,
+            platform_rotation[1][1] * t525,
+        );
+        let t534 = mul_sub(
+            platform_rotation[1][0],
+            t528,
+            platform_rotation[1][1] * t530,
+        );
+        let t535 = mul_sub(
+            platform_rotation[2][0],
+            t515,
+            platform_rotation[2][1] * t520,
+        );
+        let t536 = mul_sub(
+            platform_rotation[2][0],
+            t523,
+            platform_rotation[2][1] * t525,
+        );
+        let t537 = mul_sub(
+            platform_rotation[2][0],
+            t528,
+            platform_rotation[2][1] * t530,
+        );
         // mass matrix M_b that couples the base acceleration
-        mass_matrix_b[0][0] = t519 - (t481 + (t433 + (t382 + (t331 + (t230 + t283)))));
-        let t674 = mul_sub(t128, t231, mul_sub(t98, t231, t284));
-        let t675 = mul_sub(t161, t231, mul_add(t146, t231, t674));
-        mass_matrix_b[0][1] = t520 - mul_add(t173, t231, t675);
-        let t676 = mul_sub(t128, t233, mul_sub(t98, t233, t285));
-        let t677 = mul_sub(t161, t233, mul_add(t146, t233, t676));
-        mass_matrix_b[0][2] = t521 - mul_add(t173, t233, t677);
-        let t678 = mul_sub(t128, t344, mul_sub(t98, t247, t295));
-        let t679 = mul_sub(t161, t444, mul_add(t146, t395, t678));
-        let t680 = mul_sub(t21, t520, t527 - mul_add(t173, t492, t679));
-        mass_matrix_b[0][3] = neg_mul_add(t20, t521, t680);
-        let t681 = t534 + (t500 + (t452 - (t404 + (t353 - (t257 - t302)))));
-        mass_matrix_b[0][4] = neg_mul_add(t21, t519, mul_add(t19, t521, t681));
-        let t682 = t541 + (t503 + (t455 - (t407 + (t356 - (t260 - t305)))));
-        mass_matrix_b[0][5] = neg_mul_add(t19, t520, mul_add(t20, t519, t682));
-        let t683 = mul_sub(t130, t229, mul_sub(t100, t229, t306));
-        let t684 = mul_sub(t163, t229, mul_add(t148, t229, t683));
-        mass_matrix_b[1][0] = t520 - mul_add(t175, t229, t684);
-        mass_matrix_b[1][1] = t544 - (t505 + (t457 + (t409 + (t358 + (t262 + t307)))));
-        let t685 = mul_sub(t130, t233, mul_sub(t100, t233, t308));
-        let t686 = mul_sub(t163, t233, mul_add(t148, t233, t685));
-        mass_matrix_b[1][2] = t545 - mul_add(t175, t233, t686);
-        let t687 = t552 + (t507 - (t459 + (t411 - (t360 + (t264 + t309)))));
-        mass_matrix_b[1][3] = neg_mul_add(t20, t545, mul_add(t21, t544, t687));
-        let t688 = mul_sub(t130, t351, mul_sub(t100, t255, t310));
-        let t689 = mul_sub(t163, t450, mul_add(t148, t402, t688));
-        let t690 = mul_add(t21, t520, t565 - mul_add(t175, t498, t689));
-        mass_matrix_b[1][4] = mul_sub(t19, t545, t690);
-        let t691 = t572 + (t510 + (t462 - (t414 + (t363 - (t267 - t312)))));
-        mass_matrix_b[1][5] = neg_mul_add(t19, t544, mul_add(t20, t520, t691));
-        let t692 = mul_sub(t132, t229, mul_sub(t102, t229, t313));
-        let t693 = mul_sub(t165, t229, mul_add(t150, t229, t692));
-        mass_matrix_b[2][0] = t521 - mul_add(t177, t229, t693);
-        let t694 = mul_sub(t132, t231, mul_sub(t102, t231, t314));
-        let t695 = mul_sub(t165, t231, mul_add(t150, t231, t694));
-        mass_matrix_b[2][1] = t545 - mul_add(t177, t231, t695);
-        mass_matrix_b[2][2] = t575 - (t513 + (t465 + (t417 + (t366 + (t270 + t315)))));
-        let t696 = t582 - (t514 - (t466 + (t418 - (t367 + (t271 + t316)))));
-        mass_matrix_b[2][3] = neg_mul_add(t20, t575, mul_add(t21, t545, t696));
-        let t697 = t589 + (t515 - (t467 + (t419 - (t368 + (t272 + t317)))));
-        mass_matrix_b[2][4] = neg_mul_add(t21, t521, mul_add(t19, t575, t697));
-        let t698 = mul_sub(t132, t354, mul_sub(t102, t258, t318));
-        let t699 = mul_sub(t165, t453, mul_add(t150, t405, t698));
-        let t700 = mul_add(t20, t521, t596 + mul_add(t177, t501, t699));
-        mass_matrix_b[2][5] = neg_mul_add(t19, t545, t700);
-        let t701 = mul_sub(t93, t261, mul_add(t91, t268, t527));
-        let t702 = mul_sub(t105, t306, mul_add(t104, t313, t701));
-        let t703 = mul_sub(t123, t357, mul_add(t121, t364, t702));
-        let t704 = mul_sub(t141, t408, mul_sub(t139, t415, t703));
-        let t705 = mul_sub(t156, t456, mul_add(t155, t463, t704));
-        mass_matrix_b[3][0] = neg_mul_add(t168, t504, mul_sub(t167, t511, t705));
-        let t706 = mul_add(t93, t262, neg_mul_add(t91, t269, t552));
-        let t707 = mul_add(t105, t307, mul_add(t104, t314, t706));
-        let t708 = mul_add(t123, t358, mul_sub(t121, t365, t707));
-        let t709 = mul_add(t141, t409, mul_add(t139, t416, t708));
-        let t710 = mul_sub(t156, t457, mul_sub(t155, t464, t709));
-        mass_matrix_b[3][1] = neg_mul_add(t168, t505, mul_sub(t167, t512, t710));
-        let t711 = mul_add(t93, t263, neg_mul_add(t91, t270, t582));
-        let t712 = mul_add(t105, t308, mul_sub(t104, t315, t711));
-        let t713 = mul_add(t123, t359, mul_sub(t121, t366, t712));
-        let t714 = mul_add(t141, t410, mul_add(t139, t417, t713));
-        let t715 = mul_sub(t156, t458, mul_add(t155, t465, t714));
-        mass_matrix_b[3][2] = neg_mul_add(t168, t506, mul_sub(t167, t513, t715));
-        let t716 = mul_add(t20, t582, neg_mul_add(t21, t552, t602));
-        let t717 = mul_add(t93, t264, mul_add(t91, t271, t716));
-        let t718 = mul_add(t105, t309, mul_add(t104, t316, t717));
-        let t719 = mul_add(t123, t360, mul_sub(t121, t367, t718));
-        let t720 = mul_add(t141, t411, mul_sub(t139, t418, t719));
-        let t721 = mul_add(t156, t459, mul_add(t155, t466, t720));
-        mass_matrix_b[3][3] = mul_add(t168, t507, mul_sub(t167, t514, t721));
-        let t722 = mul_sub(t21, t527, neg_mul_add(t19, t582, t608));
-        let t723 = mul_sub(t93, t265, mul_add(t91, t272, t722));
-        let t724 = mul_add(t105, t310, mul_sub(t104, t317, t723));
-        let t725 = mul_add(t123, t361, mul_sub(t121, t368, t724));
-        let t726 = mul_sub(t141, t412, mul_sub(t139, t419, t725));
-        let t727 = mul_add(t156, t460, mul_sub(t155, t467, t726));
-        mass_matrix_b[3][4] = mul_sub(t168, t508, mul_sub(t167, t515, t727));
-        let t728 = mul_add(t19, t552, mul_add(t20, t527, t614));
-        let t729 = mul_sub(t93, t267, mul_sub(t91, t273, t728));
-        let t730 = mul_sub(t105, t312, mul_add(t104, t318, t729));
-        let t731 = mul_sub(t123, t363, mul_add(t121, t369, t730));
-        let t732 = mul_sub(t141, t414, mul_sub(t139, t420, t731));
-        let t733 = mul_sub(t156, t462, mul_add(t155, t468, t732));
-        mass_matrix_b[3][5] = mul_sub(t168, t510, mul_sub(t167, t516, t733));
-        let t734 = mul_add(t89, t268, neg_mul_add(t93, t230, t534));
-        let t735 = mul_add(t103, t313, mul_sub(t105, t283, t734));
-        let t736 = mul_add(t119, t364, mul_sub(t123, t331, t735));
-        let t737 = mul_add(t137, t415, mul_add(t141, t382, t736));
-        let t738 = mul_sub(t154, t463, mul_add(t156, t433, t737));
-        mass_matrix_b[4][0] = neg_mul_add(t166, t511, mul_sub(t168, t481, t738));
-        let t739 = mul_sub(t89, t269, mul_add(t93, t232, t565));
-        let t740 = mul_sub(t103, t314, mul_add(t105, t284, t739));
-        let t741 = mul_sub(t119, t365, mul_add(t123, t332, t740));
-        let t742 = mul_sub(t137, t416, mul_sub(t141, t383, t741));
-        let t743 = mul_sub(t154, t464, mul_add(t156, t434, t742));
-        mass_matrix_b[4][1] = neg_mul_add(t166, t512, mul_sub(t168, t482, t743));
-        let t744 = mul_add(t89, t270, neg_mul_add(t93, t234, t589));
-        let t745 = mul_add(t103, t315, mul_add(t105, t285, t744));
-        let t746 = mul_add(t119, t366, mul_sub(t123, t333, t745));
-        let t747 = mul_add(t137, t417, mul_add(t141, t384, t746));
-        let t748 = mul_sub(t154, t465, mul_sub(t156, t435, t747));
-        mass_matrix_b[4][2] = neg_mul_add(t166, t513, mul_sub(t168, t483, t748));
-        let t749 = mul_add(t20, t589, mul_add(t21, t565, t608));
-        let t750 = mul_add(t89, t271, mul_sub(t93, t248, t749));
-        let t751 = mul_sub(t103, t316, mul_sub(t105, t295, t750));
-        let t752 = mul_sub(t119, t367, mul_add(t123, t345, t751));
-        let t753 = mul_add(t137, t418, mul_sub(t141, t396, t752));
-        let t754 = mul_sub(t154, t466, mul_sub(t156, t445, t753));
-        mass_matrix_b[4][3] = neg_mul_add(t166, t514, neg_mul_add(t168, t493, t754));
-        let t755 = mul_add(t21, t534, neg_mul_add(t19, t589, t620));
-        let t756 = mul_sub(t89, t272, mul_sub(t93, t257, t755));
-        let t757 = mul_add(t103, t317, mul_add(t105, t302, t756));
-        let t758 = mul_add(t119, t368, mul_sub(t123, t353, t757));
-        let t759 = mul_sub(t137, t419, mul_add(t141, t404, t758));
-        let t760 = mul_add(t154, t467, mul_add(t156, t452, t759));
-        mass_matrix_b[4][4] = mul_sub(t166, t515, mul_add(t168, t500, t760));
-        let t761 = mul_sub(t19, t565, neg_mul_add(t20, t534, t626));
-        let t762 = mul_sub(t89, t273, mul_add(t93, t260, t761));
-        let t763 = mul_sub(t103, t318, mul_add(t105, t305, t762));
-        let t764 = mul_sub(t119, t369, mul_add(t123, t356, t763));
-        let t765 = mul_sub(t137, t420, mul_sub(t141, t407, t764));
-        let t766 = mul_sub(t154, t468, mul_add(t156, t455, t765));
-        mass_matrix_b[4][5] = mul_sub(t166, t516, mul_sub(t168, t503, t766));
-        let t767 = mul_add(t91, t230, neg_mul_add(t89, t261, t541));
-        let t768 = mul_add(t104, t283, mul_add(t103, t306, t767));
-        let t769 = mul_add(t121, t331, mul_sub(t119, t357, t768));
-        let t770 = mul_add(t139, t382, mul_add(t137, t408, t769));
-        let t771 = mul_sub(t155, t433, mul_sub(t154, t456, t770));
-        mass_matrix_b[5][0] = neg_mul_add(t167, t481, mul_sub(t166, t504, t771));
-        let t772 = mul_add(t91, t232, neg_mul_add(t89, t262, t572));
-        let t773 = mul_add(t104, t284, mul_sub(t103, t307, t772));
-        let t774 = mul_add(t121, t332, mul_sub(t119, t358, t773));
-        let t775 = mul_add(t139, t383, mul_add(t137, t409, t774));
-        let t776 = mul_sub(t155, t434, mul_add(t154, t457, t775));
-        mass_matrix_b[5][1] = neg_mul_add(t167, t482, mul_sub(t166, t505, t776));
-        let t777 = mul_add(t91, t234, neg_mul_add(t89, t263, t596));
-        let t778 = mul_sub(t104, t285, mul_add(t103, t308, t777));
-        let t779 = mul_sub(t121, t333, mul_add(t119, t359, t778));
-        let t780 = mul_sub(t139, t384, mul_sub(t137, t410, t779));
-        let t781 = mul_sub(t155, t435, mul_add(t154, t458, t780));
-        mass_matrix_b[5][2] = neg_mul_add(t167, t483, mul_sub(t166, t506, t781));
-        let t782 = mul_add(t20, t596, neg_mul_add(t21, t572, t614));
-        let t783 = mul_sub(t91, t248, mul_sub(t89, t264, t782));
-        let t784 = mul_add(t104, t295, mul_sub(t103, t309, t783));
-        let t785 = mul_add(t121, t345, mul_sub(t119, t360, t784));
-        let t786 = mul_sub(t139, t396, mul_sub(t137, t411, t785));
-        let t787 = mul_add(t155, t445, mul_sub(t154, t459, t786));
-        mass_matrix_b[5][3] = mul_sub(t167, t493, mul_sub(t166, t507, t787));
-        let t788 = mul_add(t21, t541, neg_mul_add(t19, t596, t626));
-        let t789 = mul_sub(t91, t257, mul_sub(t89, t265, t788));
-        let t790 = mul_sub(t104, t302, mul_add(t103, t310, t789));
-        let t791 = mul_sub(t121, t353, mul_add(t119, t361, t790));
-        let t792 = mul_sub(t139, t404, mul_sub(t137, t412, t791));
-        let t793 = mul_sub(t155, t452, mul_add(t154, t460, t792));
-        mass_matrix_b[5][4] = mul_sub(t167, t500, mul_sub(t166, t508, t793));
-        let t794 = mul_add(t19, t572, neg_mul_add(t20, t541, t632));
-        let t795 = mul_sub(t91, t260, mul_sub(t89, t267, t794));
-        let t796 = mul_sub(t104, t305, mul_add(t103, t312, t795));
-        let t797 = mul_sub(t121, t356, mul_add(t119, t363, t796));
-        let t798 = mul_sub(t139, t407, mul_sub(t137, t414, t797));
-        let t799 = mul_sub(t155, t455, mul_add(t154, t462, t798));
-        mass_matrix_b[5][5] = mul_sub(t167, t503, mul_sub(t166, t510, t799));
+        let t538 = c(0.9523333333333334) * t244;
+        mass_matrix_b[0][0] = mul_sub(base_rotation[0][2], t538, c(1.024) + t249);
+        mass_matrix_b[0][1] = mul_add(base_rotation[1][2], t538, t259);
+        mass_matrix_b[0][2] = mul_add(base_rotation[2][2], t538, t269);
+        let t539 = mul_sub(t241, c(0.1253686515315582), t242 * c(0.03856110973562536));
+        let t540 = mul_add(t243, c(0.16392976126718353), t539);
+        let t541 = c(0.16702651650548503) * (t128 + t173);
+        let t542 = mul_add(c(0.11690815888191348), t98 + t110, t541);
+        let t543 = mul_add(c(0.05011835762357158), t146 + t161, t542);
+        let t544 = mul_add(t20, t269, neg_mul_add(t21, t259, t279));
+        let t545 = mul_sub(base_rotation[0][0], t543, t544);
+        mass_matrix_b[0][3] = mul_add(base_rotation[0][1], t540, t545);
+        let t546 = mul_add(t21, t249, mul_sub(t19, t269, t289 - t511));
+        let t547 = mul_add(base_rotation[1][0], t543, t546);
+        mass_matrix_b[0][4] = mul_add(base_rotation[1][1], t540, t547);
+        let t548 = mul_add(t19, t259, mul_add(t20, t249, t299 + t509));
+        let t549 = mul_sub(base_rotation[2][0], t543, t548);
+        mass_matrix_b[0][5] = mul_add(base_rotation[2][1], t540, t549);
+        let t550 = c(0.9523333333333334) * t253;
+        mass_matrix_b[1][0] = mul_add(base_rotation[0][2], t550, t301);
+        mass_matrix_b[1][1] = mul_sub(base_rotation[1][2], t550, c(1.024) + t311);
+        mass_matrix_b[1][2] = mul_add(base_rotation[2][2], t550, t316);
+        let t551 = mul_sub(t250, c(0.1253686515315582), t251 * c(0.03856110973562536));
+        let t552 = mul_add(t252, c(0.16392976126718353), t551);
+        let t553 = c(0.16702651650548503) * (t130 + t175);
+        let t554 = mul_add(c(0.11690815888191348), t100 + t112, t553);
+        let t555 = mul_add(c(0.05011835762357158), t148 + t163, t554);
+        let t556 = mul_add(t20, t316, mul_add(t21, t311, t321 + t511));
+        let t557 = mul_sub(base_rotation[0][0], t555, t556);
+        mass_matrix_b[1][3] = mul_add(base_rotation[0][1], t552, t557);
+        let t558 = mul_add(t21, t301, neg_mul_add(t19, t316, t326));
+        let t559 = mul_sub(base_rotation[1][0], t555, t558);
+        mass_matrix_b[1][4] = mul_add(base_rotation[1][1], t552, t559);
+        let t560 = mul_add(t19, t311, mul_sub(t20, t301, t331 - t507));
+        let t561 = mul_add(base_rotation[2][0], t555, t560);
+        mass_matrix_b[1][5] = mul_add(base_rotation[2][1], t552, t561);
+        let t562 = c(0.9523333333333334) * t263;
+        mass_matrix_b[2][0] = mul_add(base_rotation[0][2], t562, t333);
+        mass_matrix_b[2][1] = mul_add(base_rotation[1][2], t562, t335);
+        mass_matrix_b[2][2] = mul_sub(base_rotation[2][2], t562, c(1.024) + t345);
+        let t563 = mul_sub(t260, c(0.1253686515315582), t261 * c(0.03856110973562536));
+        let t564 = mul_add(t262, c(0.16392976126718353), t563);
+        let t565 = c(0.16702651650548503) * (t132 + t177);
+        let t566 = mul_add(c(0.11690815888191348), t102 + t114, t565);
+        let t567 = mul_add(c(0.05011835762357158), t150 + t165, t566);
+        let t568 = mul_add(t20, t345, mul_sub(t21, t335, t350 - t509));
+        let t569 = mul_add(base_rotation[0][0], t567, t568);
+        mass_matrix_b[2][3] = mul_add(base_rotation[0][1], t564, t569);
+        let t570 = mul_add(t21, t333, mul_add(t19, t345, t355 + t507));
+        let t571 = mul_sub(base_rotation[1][0], t567, t570);
+        mass_matrix_b[2][4] = mul_add(base_rotation[1][1], t564, t571);
+        let t572 = mul_add(t19, t335, neg_mul_add(t20, t333, t360));
+        let t573 = mul_sub(base_rotation[2][0], t567, t572);
+        mass_matrix_b[2][5] = mul_add(base_rotation[2][1], t564, t573);
+        let t574 = c(0.9523333333333334) * t273;
+        mass_matrix_b[3][0] = -mul_add(base_rotation[0][2], t574, t364);
+        let t575 = platform_rotation[2][1] * c(3.469446951953614e-18);
+        let t576 = mul_add(platform_rotation[2][0], c(8.673617379884035e-18), t575);
+        mass_matrix_b[3][1] = t576 - mul_add(base_rotation[1][2], t574, t368);
+        let t577 = platform_rotation[1][1] * c(3.469446951953614e-18);
+        let t578 = mul_add(platform_rotation[1][0], c(8.673617379884035e-18), t577);
+        mass_matrix_b[3][2] = -(t578 + mul_add(base_rotation[2][2], t574, t372));
+        let t579 = t521 + t533;
+        let t580 = t537 + t579;
+        let t581 = mul_add(t270, c(0.1253686515315582), t271 * c(0.03856110973562536));
+        let t582 = neg_mul_add(t272, c(0.16392976126718353), t581);
+        let t583 = c(0.16702651650548503) * (t190 + t208);
+        let t584 = mul_sub(c(0.11690815888191348), t178 + t184, t583);
+        let t585 = neg_mul_add(c(0.05011835762357158), t196 + t202, t584);
+        let t586 = mul_sub(t20, t372, mul_sub(t21, t368, t384 - t521));
+        let t587 = mul_add(base_rotation[0][0], t585, t586);
+        mass_matrix_b[3][3] = t580 + mul_add(base_rotation[0][1], t582, t587);
+        let t588 = mul_sub(t21, t364, mul_sub(t19, t372, t390 - t532));
+        let t589 = mul_add(base_rotation[1][0], t585, t588);
+        mass_matrix_b[3][4] = mul_add(base_rotation[1][1], t582, t589);
+        let t590 = mul_sub(t19, t368, mul_sub(t20, t364, t396 - t535));
+        let t591 = mul_add(base_rotation[2][0], t585, t590);
+        mass_matrix_b[3][5] = mul_add(base_rotation[2][1], t582, t591);
+        let t592 = c(0.9523333333333334) * t283;
+        mass_matrix_b[4][0] = -mul_add(base_rotation[0][2], t592, t400 + t576);
+        mass_matrix_b[4][1] = -mul_add(base_rotation[1][2], t592, t404);
+        let t593 = platform_rotation[0][1] * c(3.469446951953614e-18);
+        let t594 = mul_add(platform_rotation[0][0], c(8.673617379884035e-18), t593);
+        mass_matrix_b[4][2] = t594 - mul_add(base_rotation[2][2], t592, t408);
+        let t595 = mul_add(t280, c(0.1253686515315582), t281 * c(0.03856110973562536));
+        let t596 = neg_mul_add(t282, c(0.16392976126718353), t595);
+        let t597 = c(0.16702651650548503) * (t191 + t209);
+        let t598 = mul_sub(c(0.11690815888191348), t179 + t185, t597);
+        let t599 = neg_mul_add(c(0.05011835762357158), t197 + t203, t598);
+        let t600 = mul_sub(t20, t408, mul_add(t21, t404, t526 - (t387 + t411)));
+        let t601 = mul_add(base_rotation[0][0], t599, t600);
+        mass_matrix_b[4][3] = mul_add(base_rotation[0][1], t596, t601);
+        let t602 = mul_sub(t21, t400, mul_sub(t19, t408, t580 + (t423 - t533)));
+        let t603 = mul_add(base_rotation[1][0], t599, t602);
+        mass_matrix_b[4][4] = mul_add(base_rotation[1][1], t596, t603);
+        let t604 = mul_sub(t19, t404, mul_sub(t20, t400, t429 - t536));
+        let t605 = mul_add(base_rotation[2][0], t599, t604);
+        mass_matrix_b[4][5] = mul_add(base_rotation[2][1], t596, t605);
+        let t606 = c(0.9523333333333334) * t293;
+        mass_matrix_b[5][0] = neg_mul_add(base_rotation[0][2], t606, t578 - t433);
+        mass_matrix_b[5][1] = -mul_add(base_rotation[1][2], t606, t437 + t594);
+        mass_matrix_b[5][2] = -mul_add(base_rotation[2][2], t606, t441);
+        let t607 = mul_add(t290, c(0.1253686515315582), t291 * c(0.03856110973562536));
+        let t608 = neg_mul_add(t292, c(0.16392976126718353), t607);
+        let t609 = c(0.16702651650548503) * (t192 + t210);
+        let t610 = mul_sub(c(0.11690815888191348), t180 + t186, t609);
+        let t611 = neg_mul_add(c(0.05011835762357158), t198 + t204, t610);
+        let t612 = mul_sub(t20, t441, mul_add(t21, t437, t531 - (t393 + t444)));
+        let t613 = mul_add(base_rotation[0][0], t611, t612);
+        mass_matrix_b[5][3] = mul_add(base_rotation[0][1], t608, t613);
+        let t614 = mul_sub(t21, t433, mul_add(t19, t441, t534 - (t426 + t447)));
+        let t615 = mul_add(base_rotation[1][0], t611, t614);
+        mass_matrix_b[5][4] = mul_add(base_rotation[1][1], t608, t615);
+        let t616 = mul_sub(t19, t437, mul_sub(t20, t433, t456 + t579));
+        let t617 = mul_add(base_rotation[2][0], t611, t616);
+        mass_matrix_b[5][5] = mul_add(base_rotation[2][1], t608, t617);
         // angular velocity of the base
-        let t800 = base_rotation[1][0] * base_velocity[4];
-        let t801 = mul_add(base_rotation[0][0], base_velocity[3], t800);
-        let t802 = mul_add(base_rotation[2][0], base_velocity[5], t801);
-        let t803 = base_rotation[1][1] * base_velocity[4];
-        let t804 = mul_add(base_rotation[0][1], base_velocity[3], t803);
-        let t805 = mul_add(base_rotation[2][1], base_velocity[5], t804);
-        let t806 = base_rotation[1][2] * base_velocity[4];
-        let t807 = mul_add(base_rotation[0][2], base_velocity[3], t806);
-        let t808 = mul_add(base_rotation[2][2], base_velocity[5], t807);
+        let t618 = base_rotation[1][0] * base_velocity[4];
+        let t619 = mul_add(base_rotation[0][0], base_velocity[3], t618);
+        let t620 = mul_add(base_rotation[2][0], base_velocity[5], t619);
+        let t621 = base_rotation[1][1] * base_velocity[4];
+        let t622 = mul_add(base_rotation[0][1], base_velocity[3], t621);
+        let t623 = mul_add(base_rotation[2][1], base_velocity[5], t622);
+        let t624 = base_rotation[1][2] * base_velocity[4];
+        let t625 = mul_add(base_rotation[0][2], base_velocity[3], t624);
+        let t626 = mul_add(base_rotation[2][2], base_velocity[5], t625);
         // angular velocity of the platform relative to the base
-        let t809 = neg_mul_add(base_rotation[0][0], platform_velocity[3], t802);
-        let t810 = mul_sub(base_rotation[1][0], platform_velocity[4], t809);
-        let t811 = mul_add(base_rotation[2][0], platform_velocity[5], t810);
-        let t812 = neg_mul_add(base_rotation[0][1], platform_velocity[3], t805);
-        let t813 = mul_sub(base_rotation[1][1], platform_velocity[4], t812);
-        let t814 = mul_add(base_rotation[2][1], platform_velocity[5], t813);
-        let t815 = neg_mul_add(base_rotation[0][2], platform_velocity[3], t808);
-        let t816 = mul_sub(base_rotation[1][2], platform_velocity[4], t815);
-        let t817 = mul_add(base_rotation[2][2], platform_velocity[5], t816);
+        let t627 = neg_mul_add(base_rotation[0][0], platform_velocity[3], t620);
+        let t628 = mul_sub(base_rotation[1][0], platform_velocity[4], t627);
+        let t629 = mul_add(base_rotation[2][0], platform_velocity[5], t628);
+        let t630 = neg_mul_add(base_rotation[0][1], platform_velocity[3], t623);
+        let t631 = mul_sub(base_rotation[1][1], platform_velocity[4], t630);
+        let t632 = mul_add(base_rotation[2][1], platform_velocity[5], t631);
+        let t633 = neg_mul_add(base_rotation[0][2], platform_velocity[3], t626);
+        let t634 = mul_sub(base_rotation[1][2], platform_velocity[4], t633);
+        let t635 = mul_add(base_rotation[2][2], platform_velocity[5], t634);
         // velocity of the platform origin relative to the base
-        let t818 = base_velocity[0] - platform_velocity[0];
-        let t819 = base_velocity[1] - platform_velocity[1];
-        let t820 = base_velocity[2] - platform_velocity[2];
-        let t821 = mul_add(base_rotation[0][0], t818, base_rotation[1][0] * t819);
-        let t822 = mul_sub(t27, t805, mul_add(base_rotation[2][0], t820, t821));
-        let t823 = mul_sub(t25, t808, t822);
-        let t824 = mul_add(base_rotation[0][1], t818, base_rotation[1][1] * t819);
-        let t825 = mul_sub(t23, t808, mul_add(base_rotation[2][1], t820, t824));
-        let t826 = mul_sub(t27, t802, t825);
-        let t827 = mul_add(base_rotation[0][2], t818, base_rotation[1][2] * t819);
-        let t828 = mul_sub(t25, t802, mul_add(base_rotation[2][2], t820, t827));
-        let t829 = mul_sub(t23, t805, t828);
+        let t636 = base_velocity[0] - platform_velocity[0];
+        let t637 = base_velocity[1] - platform_velocity[1];
+        let t638 = base_velocity[2] - platform_velocity[2];
+        let t639 = mul_add(base_rotation[0][0], t636, base_rotation[1][0] * t637);
+        let t640 = mul_sub(t27, t623, mul_add(base_rotation[2][0], t638, t639));
+        let t641 = mul_sub(t25, t626, t640);
+        let t642 = mul_add(base_rotation[0][1], t636, base_rotation[1][1] * t637);
+        let t643 = mul_sub(t23, t626, mul_add(base_rotation[2][1], t638, t642));
+        let t644 = mul_sub(t27, t620, t643);
+        let t645 = mul_add(base_rotation[0][2], t636, base_rotation[1][2] * t637);
+        let t646 = mul_sub(t25, t620, mul_add(base_rotation[2][2], t638, t645));
+        let t647 = mul_sub(t23, t623, t646);
         // rate of the relative rotation
-        let t830 = mul_sub(t15, t814, t9 * t817);
-        let t831 = mul_sub(t18, t814, t12 * t817);
-        let t832 = mul_sub(t3, t817, t15 * t811);
-        let t833 = mul_sub(t6, t817, t18 * t811);
-        let t834 = mul_sub(t9, t811, t3 * t814);
-        let t835 = mul_sub(t12, t811, t6 * t814);
+        let t648 = mul_sub(t15, t632, t9 * t635);
+        let t649 = mul_sub(t18, t632, t12 * t635);
+        let t650 = mul_sub(t3, t635, t15 * t629);
+        let t651 = mul_sub(t6, t635, t18 * t629);
+        let t652 = mul_sub(t9, t629, t3 * t632);
+        let t653 = mul_sub(t12, t629, t6 * t632);
         // leg 1: velocity of the platform joint relative to the base
-        let t836 = neg_mul_add(c(0.1159110991546882), t830, t823);
-        let t837 = mul_add(c(0.03105828541230249), t831, t836);
-        let t838 = neg_mul_add(c(0.1159110991546882), t832, t826);
-        let t839 = mul_add(c(0.03105828541230249), t833, t838);
+        let t654 = neg_mul_add(c(0.1159110991546882), t648, t641);
+        let t655 = mul_add(c(0.03105828541230249), t649, t654);
+        let t656 = neg_mul_add(c(0.1159110991546882), t650, t644);
+        let t657 = mul_add(c(0.03105828541230249), t651, t656);
         // leg 2: velocity of the platform joint relative to the base
-        let t840 = neg_mul_add(c(0.03105828541230249), t831, t836);
-        let t841 = neg_mul_add(c(0.03105828541230249), t833, t838);
+        let t658 = neg_mul_add(c(0.03105828541230249), t649, t654);
+        let t659 = neg_mul_add(c(0.03105828541230249), t651, t656);
         // leg 3: velocity of the platform joint relative to the base
-        let t842 = mul_add(c(0.031058285412302475), t830, t823);
-        let t843 = neg_mul_add(c(0.1159110991546882), t831, t842);
-        let t844 = mul_add(c(0.031058285412302475), t832, t826);
-        let t845 = neg_mul_add(c(0.1159110991546882), t833, t844);
+        let t660 = mul_add(c(0.031058285412302475), t648, t641);
+        let t661 = neg_mul_add(c(0.1159110991546882), t649, t660);
+        let t662 = mul_add(c(0.031058285412302475), t650, t644);
+        let t663 = neg_mul_add(c(0.1159110991546882), t651, t662);
         // leg 4: velocity of the platform joint relative to the base
-        let t846 = mul_add(c(0.0848528137423857), t830, t823);
-        let t847 = neg_mul_add(c(0.08485281374238571), t831, t846);
-        let t848 = mul_add(c(0.0848528137423857), t832, t826);
-        let t849 = neg_mul_add(c(0.08485281374238571), t833, t848);
+        let t664 = mul_add(c(0.0848528137423857), t648, t641);
+        let t665 = neg_mul_add(c(0.08485281374238571), t649, t664);
+        let t666 = mul_add(c(0.0848528137423857), t650, t644);
+        let t667 = neg_mul_add(c(0.08485281374238571), t651, t666);
         // leg 5: velocity of the platform joint relative to the base
-        let t850 = mul_add(c(0.08485281374238571), t831, t846);
-        let t851 = mul_add(c(0.08485281374238571), t833, t848);
+        let t668 = mul_add(c(0.08485281374238571), t649, t664);
+        let t669 = mul_add(c(0.08485281374238571), t651, t666);
         // leg 6: velocity of the platform joint relative to the base
-        let t852 = mul_add(c(0.1159110991546882), t831, t842);
-        let t853 = mul_add(c(0.1159110991546882), t833, t844);
+        let t670 = mul_add(c(0.1159110991546882), t649, t660);
+        let t671 = mul_add(c(0.1159110991546882), t651, t662);
         // leg 1: rate of the rod's extent along the actuator axis
-        let t854 = t51 * mul_sub(t29, t837, t32 * t839);
+        let t672 = t51 * mul_sub(t29, t655, t32 * t657);
         // leg 1: actuator velocity d'
-        let t855 = neg_mul_add(c(0.1159110991546882), t834, t829);
-        let t856 = t855 - neg_mul_add(c(0.03105828541230249), t835, t854);
+        let t673 = neg_mul_add(c(0.1159110991546882), t652, t647);
+        let t674 = t673 - neg_mul_add(c(0.03105828541230249), t653, t672);
+        // leg 2: rate of the rod's extent along the actuator axis
+        let t675 = t56 * mul_add(t33, t658, t34 * t659);
+        // leg 2: actuator velocity d'
+        let t676 = t673 - mul_add(c(0.03105828541230249), t653, t675);
+        // leg 3: rate of the rod's extent along the actuator axis
+        let t677 = t60 * mul_add(t36, t661, t39 * t663);
+        // leg 3: actuator velocity d'
+        let t678 = mul_add(c(0.031058285412302475), t652, t647);
+        let t679 = t678 - mul_add(c(0.1159110991546882), t653, t677);
+        // leg 4: rate of the rod's extent along the actuator axis
+        let t680 = t65 * mul_add(t41, t665, t44 * t667);
+        // leg 4: actuator velocity d'
+        let t681 = mul_add(c(0.0848528137423857), t652, t647);
+        let t682 = t681 - mul_add(c(0.08485281374238571), t653, t680);
+        // leg 5: rate of the rod's extent along the actuator axis
+        let t683 = t70 * mul_sub(t45, t668, t46 * t669);
+        // leg 5: actuator velocity d'
+        let t684 = t681 + mul_sub(c(0.08485281374238571), t653, t683);
+        // leg 6: rate of the rod's extent along the actuator axis
+        let t685 = t74 * mul_sub(t47, t670, t48 * t671);
+        // leg 6: actuator velocity d'
+        let t686 = t678 + mul_sub(c(0.1159110991546882), t653, t685);
+        // leg 1: inertial rate of that gradient
+        let t687 = mul_add(t77, t620, t76 * t623);
+        let t688 = neg_mul_add(t51, mul_add(t76, t672, t655), t623);
+        let t689 = mul_sub(t77, t626, t688);
+        let t690 = mul_add(t51, neg_mul_add(t77, t672, t657), t620);
+        let t691 = mul_add(t76, t626, t690);
+        let t692 = mul_add(base_rotation[0][0], t689, base_rotation[0][1] * t691);
+        let t693 = mul_sub(base_rotation[0][2], t687, t692);
+        let t694 = mul_add(base_rotation[1][0], t689, base_rotation[1][1] * t691);
+        let t695 = mul_sub(base_rotation[1][2], t687, t694);
+        let t696 = mul_add(base_rotation[2][0], t689, base_rotation[2][1] * t691);
+        let t697 = mul_sub(base_rotation[2][2], t687, t696);
+        // leg 2: inertial rate of that gradient
+        let t698 = mul_sub(t79, t620, t78 * t623);
+        let t699 = neg_mul_add(t56, mul_add(t78, t675, t658), t623);
+        let t700 = mul_add(t79, t626, t699);
+        let t701 = mul_add(t56, mul_add(t79, t675, t659), t620);
+        let t702 = mul_add(t78, t626, t701);
+        let t703 = mul_sub(base_rotation[0][0], t700, base_rotation[0][1] * t702);
+        let t704 = mul_sub(base_rotation[0][2], t698, t703);
+        let t705 = mul_sub(base_rotation[1][0], t700, base_rotation[1][1] * t702);
+        let t706 = mul_sub(base_rotation[1][2], t698, t705);
+        let t707 = mul_sub(base_rotation[2][0], t700, base_rotation[2][1] * t702);
+        let t708 = mul_sub(base_rotation[2][2], t698, t707);
+        // leg 3: inertial rate of that gradient
+        let t709 = mul_sub(t81, t620, t80 * t623);
+        let t710 = neg_mul_add(t60, mul_add(t80, t677, t661), t623);
+        let t711 = mul_add(t81, t626, t710);
+        let t712 = mul_add(t60, mul_add(t81, t677, t663), t620);
+        let t713 = mul_add(t80, t626, t712);
+        let t714 = mul_sub(base_rotation[0][0], t711, base_rotation[0][1] * t713);
+        let t715 = mul_sub(base_rotation[0][2], t709, t714);
+        let t716 = mul_sub(base_rotation[1][0], t711, base_rotation[1][1] * t713);
+        let t717 = mul_sub(base_rotation[1][2], t709, t716);
+        let t718 = mul_sub(base_rotation[2][0], t711, base_rotation[2][1] * t713);
+        let t719 = mul_sub(base_rotation[2][2], t709, t718);
+        // leg 4: inertial rate of that gradient
+        let t720 = mul_sub(t83, t620, t82 * t623);
+        let t721 = neg_mul_add(t65, mul_add(t82, t680, t665), t623);
+        let t722 = mul_add(t83, t626, t721);
+        let t723 = mul_add(t65, mul_add(t83, t680, t667), t620);
+        let t724 = mul_add(t82, t626, t723);
+        let t725 = mul_sub(base_rotation[0][0], t722, base_rotation[0][1] * t724);
+        let t726 = mul_sub(base_rotation[0][2], t720, t725);
+        let t727 = mul_sub(base_rotation[1][0], t722, base_rotation[1][1] * t724);
+        let t728 = mul_sub(base_rotation[1][2], t720, t727);
+        let t729 = mul_sub(base_rotation[2][0], t722, base_rotation[2][1] * t724);
+        let t730 = mul_sub(base_rotation[2][2], t720, t729);
+        // leg 5: inertial rate of that gradient
+        let t731 = mul_add(t85, t620, t84 * t623);
+        let t732 = neg_mul_add(t70, mul_add(t84, t683, t668), t623);
+        let t733 = mul_sub(t85, t626, t732);
+        let t734 = mul_add(t70, neg_mul_add(t85, t683, t669), t620);
+        let t735 = mul_add(t84, t626, t734);
+        let t736 = mul_add(base_rotation[0][0], t733, base_rotation[0][1] * t735);
+        let t737 = mul_sub(base_rotation[0][2], t731, t736);
+        let t738 = mul_add(base_rotation[1][0], t733, base_rotation[1][1] * t735);
+        let t739 = mul_sub(base_rotation[1][2], t731, t738);
+        let t740 = mul_add(base_rotation[2][0], t733, base_rotation[2][1] * t735);
+        let t741 = mul_sub(base_rotation[2][2], t731, t740);
+        // leg 6: inertial rate of that gradient
+        let t742 = mul_add(t87, t620, t86 * t623);
+        let t743 = neg_mul_add(t74, mul_add(t86, t685, t670), t623);
+        let t744 = mul_sub(t87, t626, t743);
+        let t745 = mul_add(t74, neg_mul_add(t87, t685, t671), t620);
+        let t746 = mul_add(t86, t626, t745);
+        let t747 = mul_add(base_rotation[0][0], t744, base_rotation[0][1] * t746);
+        let t748 = mul_sub(base_rotation[0][2], t742, t747);
+        let t749 = mul_add(base_rotation[1][0], t744, base_rotation[1][1] * t746);
+        let t750 = mul_sub(base_rotation[1][2], t742, t749);
+        let t751 = mul_add(base_rotation[2][0], t744, base_rotation[2][1] * t746);
+        let t752 = mul_sub(base_rotation[2][2], t742, t751);
+        // leg 1: rate of the platform lever
+        let t753 = mul_sub(platform_velocity[4], t93, platform_velocity[5] * t91);
+        let t754 = mul_sub(platform_velocity[5], t89, platform_velocity[3] * t93);
+        let t755 = mul_sub(platform_velocity[3], t91, platform_velocity[4] * t89);
+        // leg 2: rate of the platform lever
+        let t756 = mul_sub(platform_velocity[4], t105, platform_velocity[5] * t104);
+        let t757 = mul_sub(platform_velocity[5], t103, platform_velocity[3] * t105);
+        let t758 = mul_sub(platform_velocity[3], t104, platform_velocity[4] * t103);
+        // leg 3: rate of the platform lever
+        let t759 = mul_sub(platform_velocity[4], t123, platform_velocity[5] * t121);
+        let t760 = mul_sub(platform_velocity[5], t119, platform_velocity[3] * t123);
+        let t761 = mul_sub(platform_velocity[3], t121, platform_velocity[4] * t119);
+        // leg 4: rate of the platform lever
+        let t762 = mul_sub(platform_velocity[4], t141, platform_velocity[5] * t139);
+        let t763 = mul_sub(platform_velocity[5], t137, platform_velocity[3] * t141);
+        let t764 = mul_sub(platform_velocity[3], t139, platform_velocity[4] * t137);
+        // leg 5: rate of the platform lever
+        let t765 = mul_sub(platform_velocity[4], t156, platform_velocity[5] * t155);
+        let t766 = mul_sub(platform_velocity[5], t154, platform_velocity[3] * t156);
+        let t767 = mul_sub(platform_velocity[3], t155, platform_velocity[4] * t154);
+        // leg 6: rate of the platform lever
+        let t768 = mul_sub(platform_velocity[4], t168, platform_velocity[5] * t167);
+        let t769 = mul_sub(platform_velocity[5], t166, platform_velocity[3] * t168);
+        let t770 = mul_sub(platform_velocity[3], t167, platform_velocity[4] * t166);
+        // leg 1: inertial rate of the row of the actuator Jacobian
+        let t771 = mul_add(t91, t697, mul_sub(t102, t754, t100 * t755));
+        let t772 = mul_sub(t93, t695, t771);
+        let t773 = mul_add(t93, t693, mul_sub(t98, t755, t102 * t753));
+        let t774 = mul_sub(t89, t697, t773);
+        let t775 = mul_add(t89, t695, mul_sub(t100, t753, t98 * t754));
+        let t776 = mul_sub(t91, t693, t775);
+        // leg 2: inertial rate of the row of the actuator Jacobian
+        let t777 = mul_add(t104, t708, mul_sub(t114, t757, t112 * t758));
+        let t778 = mul_sub(t105, t706, t777);
+        let t779 = mul_add(t105, t704, mul_sub(t110, t758, t114 * t756));
+        let t780 = mul_sub(t103, t708, t779);
+        let t781 = mul_add(t103, t706, mul_sub(t112, t756, t110 * t757));
+        let t782 = mul_sub(t104, t704, t781);
+        // leg 3: inertial rate of the row of the actuator Jacobian
+        let t783 = mul_add(t121, t719, mul_sub(t132, t760, t130 * t761));
+        let t784 = mul_sub(t123, t717, t783);
+        let t785 = mul_add(t123, t715, mul_sub(t128, t761, t132 * t759));
+        let t786 = mul_sub(t119, t719, t785);
+        let t787 = mul_add(t119, t717, mul_sub(t130, t759, t128 * t760));
+        let t788 = mul_sub(t121, t715, t787);
+        // leg 4: inertial rate of the row of the actuator Jacobian
+        let t789 = mul_add(t139, t730, mul_sub(t150, t763, t148 * t764));
+        let t790 = mul_sub(t141, t728, t789);
+        let t791 = mul_add(t141, t726, mul_sub(t146, t764, t150 * t762));
+        let t792 = mul_sub(t137, t730, t791);
+        let t793 = mul_add(t137, t728, mul_sub(t148, t762, t146 * t763));
+        let t794 = mul_sub(t139, t726, t793);
+        // leg 5: inertial rate of the row of the actuator Jacobian
+        let t795 = mul_add(t155, t741, mul_sub(t165, t766, t163 * t767));
+        let t796 = mul_sub(t156, t739, t795);
+        let t797 = mul_add(t156, t737, mul_sub(t161, t767, t165 * t765));
+        let t798 = mul_sub(t154, t741, t797);
+        let t799 = mul_add(t154, t739, mul_sub(t163, t765, t161 * t766));
+        let t800 = mul_sub(t155, t737, t799);
+        // leg 6: inertial rate of the row of the actuator Jacobian
+        let t801 = mul_add(t167, t752, mul_sub(t177, t769, t175 * t770));
+        let t802 = mul_sub(t168, t750, t801);
+        let t803 = mul_add(t168, t748, mul_sub(t173, t770, t177 * t768));
+        let t804 = mul_sub(t166, t752, t803);
+        let t805 = mul_add(t166, t750, mul_sub(t175, t768, t173 * t769));
+        let t806 = mul_sub(t167, t748, t805);
+        // leg 1: moment of that force's rate
+        let t807 = mul_sub(base_velocity[3], t215, base_velocity[4] * t214);
+        let t808 = mul_sub(base_velocity[5], t214, base_velocity[3] * t216);
+        let t809 = mul_sub(t91, t807, t93 * t808);
+        let t810 = mul_sub(base_velocity[4], t216, base_velocity[5] * t215);
+        let t811 = mul_sub(t93, t810, t89 * t807);
+        let t812 = mul_sub(t89, t808, t91 * t810);
+        // leg 1: moment of that force by the rate of the lever
+        let t813 = mul_sub(t216, t754, t215 * t755);
+        let t814 = mul_sub(t214, t755, t216 * t753);
+        let t815 = mul_sub(t215, t753, t214 * t754);
+        // leg 1: moment of the force along the axis that an acceleration of the actuator takes
+        let t816 = mul_add(t178, c(0.9523333333333334), t217);
+        let t817 = mul_add(t179, c(0.9523333333333334), t218);
+        let t818 = mul_add(t180, c(0.9523333333333334), t219);
+        // leg 2: moment of that force's rate
+        let t819 = mul_sub(t104, t807, t105 * t808);
+        let t820 = mul_sub(t105, t810, t103 * t807);
+        let t821 = mul_sub(t103, t808, t104 * t810);
+        // leg 2: moment of that force by the rate of the lever
+        let t822 = mul_sub(t216, t757, t215 * t758);
+        let t823 = mul_sub(t214, t758, t216 * t756);
+        let t824 = mul_sub(t215, t756, t214 * t757);
+        // leg 2: moment of the force along the axis that an acceleration of the actuator takes
+        let t825 = neg_mul_add(t184, c(0.9523333333333334), t220);
+        let t826 = neg_mul_add(t185, c(0.9523333333333334), t221);
+        let t827 = neg_mul_add(t186, c(0.9523333333333334), t222);
+        // leg 3: moment of that force's rate
+        let t828 = mul_sub(t121, t807, t123 * t808);
+        let t829 = mul_sub(t123, t810, t119 * t807);
+        let t830 = mul_sub(t119, t808, t121 * t810);
+        // leg 3: moment of that force by the rate of the lever
+        let t831 = mul_sub(t216, t760, t215 * t761);
+        let t832 = mul_sub(t214, t761, t216 * t759);
+        let t833 = mul_sub(t215, t759, t214 * t760);
+        // leg 3: moment of the force along the axis that an acceleration of the actuator takes
+        let t834 = neg_mul_add(t190, c(0.9523333333333334), t223);
+        let t835 = neg_mul_add(t191, c(0.9523333333333334), t224);
+        let t836 = neg_mul_add(t192, c(0.9523333333333334), t225);
+        // leg 4: moment of that force's rate
+        let t837 = mul_sub(t139, t807, t141 * t808);
+        let t838 = mul_sub(t141, t810, t137 * t807);
+        let t839 = mul_sub(t137, t808, t139 * t810);
+        // leg 4: moment of that force by the rate of the lever
+        let t840 = mul_sub(t216, t763, t215 * t764);
+        let t841 = mul_sub(t214, t764, t216 * t762);
+        let t842 = mul_sub(t215, t762, t214 * t763);
+        // leg 4: moment of the force along the axis that an acceleration of the actuator takes
+        let t843 = neg_mul_add(t196, c(0.9523333333333334), t226);
+        let t844 = neg_mul_add(t197, c(0.9523333333333334), t227);
+        let t845 = neg_mul_add(t198, c(0.9523333333333334), t228);
+        // leg 5: moment of that force's rate
+        let t846 = mul_sub(t155, t807, t156 * t808);
+        let t847 = mul_sub(t156, t810, t154 * t807);
+        let t848 = mul_sub(t154, t808, t155 * t810);
+        // leg 5: moment of that force by the rate of the lever
+        let t849 = mul_sub(t216, t766, t215 * t767);
+        let t850 = mul_sub(t214, t767, t216 * t765);
+        let t851 = mul_sub(t215, t765, t214 * t766);
+        // leg 5: moment of the force along the axis that an acceleration of the actuator takes
+        let t852 = mul_add(t202, c(0.9523333333333334), t229);
+        let t853 = mul_add(t203, c(0.9523333333333334), t230);
+        let t854 = mul_add(t204, c(0.9523333333333334), t231);
         (
             t19,
             t20,
             t21,
-            t33,
-            t34,
-            t36,
-            t39,
-            t41,
-            t44,
-            t45,
-            t46,
-            t47,
-            t48,
-            t51,
             t53,
-            t56,
             t57,
-            t60,
             t62,
-            t65,
             t67,
-            t70,
             t71,
-            t74,
             t75,
-            t76,
-            t77,
-            t78,
-            t79,
-            t80,
-            t81,
-            t82,
-            t83,
-            t84,
-            t85,
-            t86,
-            t87,
             t89,
             t91,
-            t93,
             t98,
             t100,
             t102,
             t103,
             t104,
-            t105,
             t110,
             t112,
             t114,
             t119,
             t121,
-            t123,
             t128,
             t130,
             t132,
             t137,
             t139,
-            t141,
             t146,
             t148,
             t150,
             t154,
             t155,
-            t156,
             t161,
             t163,
             t165,
@@ -14537,1524 +14564,1275 @@ pub fn equation_of_motion<T: Scalar>(
             t212,
             t213,
             t214,
-            t217,
-            t218,
-            t220,
-            t221,
-            t223,
-            t225,
-            t226,
-            t228,
+            t215,
+            t216,
+            t232,
+            t233,
+            t234,
+            t235,
             t236,
+            t237,
+            t238,
             t239,
-            t250,
+            t240,
+            t246,
+            t249,
+            t255,
+            t259,
+            t265,
+            t269,
             t275,
-            t277,
-            t279,
-            t280,
-            t281,
-            t282,
-            t286,
-            t287,
-            t296,
-            t321,
-            t323,
-            t325,
+            t285,
+            t295,
+            t300,
+            t301,
+            t302,
+            t303,
+            t304,
+            t305,
+            t306,
+            t307,
+            t308,
+            t311,
+            t312,
+            t316,
+            t317,
+            t322,
             t327,
-            t328,
-            t330,
+            t332,
+            t333,
+            t334,
             t335,
+            t336,
             t337,
-            t347,
+            t338,
+            t339,
+            t340,
+            t341,
+            t342,
+            t345,
+            t346,
+            t351,
+            t356,
+            t364,
+            t368,
             t372,
-            t374,
-            t376,
-            t378,
-            t379,
-            t381,
-            t386,
-            t388,
-            t398,
-            t423,
-            t425,
-            t427,
-            t429,
-            t430,
-            t432,
-            t436,
+            t400,
+            t404,
+            t408,
+            t433,
             t437,
-            t446,
+            t441,
+            t465,
+            t468,
             t471,
-            t473,
-            t475,
-            t477,
+            t476,
             t478,
             t480,
-            t484,
             t485,
-            t494,
-            t519,
-            t520,
+            t487,
+            t492,
+            t507,
+            t509,
+            t511,
             t521,
-            t527,
+            t526,
+            t531,
+            t532,
+            t533,
             t534,
-            t541,
-            t544,
-            t545,
-            t552,
-            t565,
-            t572,
-            t575,
-            t582,
-            t589,
-            t596,
+            t535,
+            t536,
+            t537,
+            t620,
+            t623,
+            t626,
+            t636,
             t637,
-            t640,
-            t643,
-            t648,
-            t650,
-            t652,
-            t657,
-            t659,
-            t664,
+            t638,
+            t674,
+            t676,
+            t679,
+            t682,
+            t684,
+            t686,
+            t693,
+            t695,
+            t697,
+            t704,
+            t706,
+            t708,
+            t715,
+            t717,
+            t719,
+            t726,
+            t728,
+            t730,
+            t737,
+            t739,
+            t741,
+            t748,
+            t750,
+            t752,
+            t768,
+            t769,
+            t770,
+            t772,
+            t774,
+            t776,
+            t778,
+            t780,
+            t782,
+            t784,
+            t786,
+            t788,
+            t790,
+            t792,
+            t794,
+            t796,
+            t798,
+            t800,
             t802,
-            t805,
+            t804,
+            t806,
+            t807,
             t808,
+            t809,
+            t810,
+            t811,
+            t812,
+            t813,
+            t814,
+            t815,
+            t816,
+            t817,
             t818,
             t819,
             t820,
+            t821,
+            t822,
+            t823,
+            t824,
+            t825,
+            t826,
+            t827,
+            t828,
             t829,
+            t830,
+            t831,
+            t832,
+            t833,
             t834,
             t835,
+            t836,
             t837,
+            t838,
             t839,
             t840,
             t841,
+            t842,
             t843,
+            t844,
             t845,
+            t846,
             t847,
+            t848,
             t849,
             t850,
             t851,
             t852,
             t853,
             t854,
-            t855,
-            t856,
-        )
-    };
-    let (
-        t1199,
-        t1200,
-        t1201,
-        t1216,
-        t1245,
-        t1246,
-        t1247,
-        t1274,
-        t1289,
-        t1290,
-        t1291,
-        t1332,
-        t1338,
-        t1344,
-        t1350,
-        t1374,
-        t1380,
-        t1386,
-        t1410,
-        t1416,
-        t1422,
-        t1447,
-        t1449,
-        t1450,
-        t1452,
-        t1453,
-        t1454,
-        t1456,
-        t1459,
-        t1462,
-        t1465,
-        t1467,
-        t1469,
-        t1471,
-        t1473,
-        t1475,
-        t1480,
-        t1483,
-        t1486,
-        t1489,
-        t1494,
-        t1497,
-        t1500,
-        t1503,
-        t1508,
-        t1516,
-        t1524,
-        t1532,
-        t1540,
-        t1548,
-        t1556,
-        t1564,
-        t1572,
-        t1580,
-        t1581,
-        t1582,
-        t1583,
-        t1584,
-        t1585,
-        t1586,
-        t1587,
-        t1588,
-        t1589,
-        t1590,
-        t1591,
-        t1592,
-        t1593,
-        t1594,
-        t1595,
-        t1596,
-        t1597,
-        t1598,
-    ) = {
-        // leg 2: rate of the rod's extent along the actuator axis
-        let t857 = t56 * mul_add(t33, t840, t34 * t841);
-        // leg 2: actuator velocity d'
-        let t858 = t855 - mul_add(c(0.03105828541230249), t835, t857);
-        // leg 3: rate of the rod's extent along the actuator axis
-        let t859 = t60 * mul_add(t36, t843, t39 * t845);
-        // leg 3: actuator velocity d'
-        let t860 = mul_add(c(0.031058285412302475), t834, t829);
-        let t861 = t860 - mul_add(c(0.1159110991546882), t835, t859);
-        // leg 4: rate of the rod's extent along the actuator axis
-        let t862 = t65 * mul_add(t41, t847, t44 * t849);
-        // leg 4: actuator velocity d'
-        let t863 = mul_add(c(0.0848528137423857), t834, t829);
-        let t864 = t863 - mul_add(c(0.08485281374238571), t835, t862);
-        // leg 5: rate of the rod's extent along the actuator axis
-        let t865 = t70 * mul_sub(t45, t850, t46 * t851);
-        // leg 5: actuator velocity d'
-        let t866 = t863 + mul_sub(c(0.08485281374238571), t835, t865);
-        // leg 6: rate of the rod's extent along the actuator axis
-        let t867 = t74 * mul_sub(t47, t852, t48 * t853);
-        // leg 6: actuator velocity d'
-        let t868 = t860 + mul_sub(c(0.1159110991546882), t835, t867);
-        // leg 1: inertial rate of that gradient
-        let t869 = mul_add(t77, t802, t76 * t805);
-        let t870 = neg_mul_add(t51, mul_add(t76, t854, t837), t805);
-        let t871 = mul_sub(t77, t808, t870);
-        let t872 = mul_add(t51, neg_mul_add(t77, t854, t839), t802);
-        let t873 = mul_add(t76, t808, t872);
-        let t874 = mul_add(base_rotation[0][0], t871, base_rotation[0][1] * t873);
-        let t875 = mul_sub(base_rotation[0][2], t869, t874);
-        let t876 = mul_add(base_rotation[1][0], t871, base_rotation[1][1] * t873);
-        let t877 = mul_sub(base_rotation[1][2], t869, t876);
-        let t878 = mul_add(base_rotation[2][0], t871, base_rotation[2][1] * t873);
-        let t879 = mul_sub(base_rotation[2][2], t869, t878);
-        // leg 2: inertial rate of that gradient
-        let t880 = mul_sub(t79, t802, t78 * t805);
-        let t881 = neg_mul_add(t56, mul_add(t78, t857, t840), t805);
-        let t882 = mul_add(t79, t808, t881);
-        let t883 = mul_add(t56, mul_add(t79, t857, t841), t802);
-        let t884 = mul_add(t78, t808, t883);
-        let t885 = mul_sub(base_rotation[0][0], t882, base_rotation[0][1] * t884);
-        let t886 = mul_sub(base_rotation[0][2], t880, t885);
-        let t887 = mul_sub(base_rotation[1][0], t882, base_rotation[1][1] * t884);
-        let t888 = mul_sub(base_rotation[1][2], t880, t887);
-        let t889 = mul_sub(base_rotation[2][0], t882, base_rotation[2][1] * t884);
-        let t890 = mul_sub(base_rotation[2][2], t880, t889);
-        // leg 3: inertial rate of that gradient
-        let t891 = mul_sub(t81, t802, t80 * t805);
-        let t892 = neg_mul_add(t60, mul_add(t80, t859, t843), t805);
-        let t893 = mul_add(t81, t808, t892);
-        let t894 = mul_add(t60, mul_add(t81, t859, t845), t802);
-        let t895 = mul_add(t80, t808, t894);
-        let t896 = mul_sub(base_rotation[0][0], t893, base_rotation[0][1] * t895);
-        let t897 = mul_sub(base_rotation[0][2], t891, t896);
-        let t898 = mul_sub(base_rotation[1][0], t893, base_rotation[1][1] * t895);
-        let t899 = mul_sub(base_rotation[1][2], t891, t898);
-        let t900 = mul_sub(base_rotation[2][0], t893, base_rotation[2][1] * t895);
-        let t901 = mul_sub(base_rotation[2][2], t891, t900);
-        // leg 4: inertial rate of that gradient
-        let t902 = mul_sub(t83, t802, t82 * t805);
-        let t903 = neg_mul_add(t65, mul_add(t82, t862, t847), t805);
-        let t904 = mul_add(t83, t808, t903);
-        let t905 = mul_add(t65, mul_add(t83, t862, t849), t802);
-        let t906 = mul_add(t82, t808, t905);
-        let t907 = mul_sub(base_rotation[0][0], t904, base_rotation[0][1] * t906);
-        let t908 = mul_sub(base_rotation[0][2], t902, t907);
-        let t909 = mul_sub(base_rotation[1][0], t904, base_rotation[1][1] * t906);
-        let t910 = mul_sub(base_rotation[1][2], t902, t909);
-        let t911 = mul_sub(base_rotation[2][0], t904, base_rotation[2][1] * t906);
-        let t912 = mul_sub(base_rotation[2][2], t902, t911);
-        // leg 5: inertial rate of that gradient
-        let t913 = mul_add(t85, t802, t84 * t805);
-        let t914 = neg_mul_add(t70, mul_add(t84, t865, t850), t805);
-        let t915 = mul_sub(t85, t808, t914);
-        let t916 = mul_add(t70, neg_mul_add(t85, t865, t851), t802);
-        let t917 = mul_add(t84, t808, t916);
-        let t918 = mul_add(base_rotation[0][0], t915, base_rotation[0][1] * t917);
-        let t919 = mul_sub(base_rotation[0][2], t913, t918);
-        let t920 = mul_add(base_rotation[1][0], t915, base_rotation[1][1] * t917);
-        let t921 = mul_sub(base_rotation[1][2], t913, t920);
-        let t922 = mul_add(base_rotation[2][0], t915, base_rotation[2][1] * t917);
-        let t923 = mul_sub(base_rotation[2][2], t913, t922);
-        // leg 6: inertial rate of that gradient
-        let t924 = mul_add(t87, t802, t86 * t805);
-        let t925 = neg_mul_add(t74, mul_add(t86, t867, t852), t805);
-        let t926 = mul_sub(t87, t808, t925);
-        let t927 = mul_add(t74, neg_mul_add(t87, t867, t853), t802);
-        let t928 = mul_add(t86, t808, t927);
-        let t929 = mul_add(base_rotation[0][0], t926, base_rotation[0][1] * t928);
-        let t930 = mul_sub(base_rotation[0][2], t924, t929);
-        let t931 = mul_add(base_rotation[1][0], t926, base_rotation[1][1] * t928);
-        let t932 = mul_sub(base_rotation[1][2], t924, t931);
-        let t933 = mul_add(base_rotation[2][0], t926, base_rotation[2][1] * t928);
-        let t934 = mul_sub(base_rotation[2][2], t924, t933);
-        // leg 1: rate of the platform lever
-        let t935 = mul_sub(platform_velocity[4], t93, platform_velocity[5] * t91);
-        let t936 = mul_sub(platform_velocity[5], t89, platform_velocity[3] * t93);
-        let t937 = mul_sub(platform_velocity[3], t91, platform_velocity[4] * t89);
-        // leg 2: rate of the platform lever
-        let t938 = mul_sub(platform_velocity[4], t105, platform_velocity[5] * t104);
-        let t939 = mul_sub(platform_velocity[5], t103, platform_velocity[3] * t105);
-        let t940 = mul_sub(platform_velocity[3], t104, platform_velocity[4] * t103);
-        // leg 3: rate of the platform lever
-        let t941 = mul_sub(platform_velocity[4], t123, platform_velocity[5] * t121);
-        let t942 = mul_sub(platform_velocity[5], t119, platform_velocity[3] * t123);
-        let t943 = mul_sub(platform_velocity[3], t121, platform_velocity[4] * t119);
-        // leg 4: rate of the platform lever
-        let t944 = mul_sub(platform_velocity[4], t141, platform_velocity[5] * t139);
-        let t945 = mul_sub(platform_velocity[5], t137, platform_velocity[3] * t141);
-        let t946 = mul_sub(platform_velocity[3], t139, platform_velocity[4] * t137);
-        // leg 5: rate of the platform lever
-        let t947 = mul_sub(platform_velocity[4], t156, platform_velocity[5] * t155);
-        let t948 = mul_sub(platform_velocity[5], t154, platform_velocity[3] * t156);
-        let t949 = mul_sub(platform_velocity[3], t155, platform_velocity[4] * t154);
-        // leg 6: rate of the platform lever
-        let t950 = mul_sub(platform_velocity[4], t168, platform_velocity[5] * t167);
-        let t951 = mul_sub(platform_velocity[5], t166, platform_velocity[3] * t168);
-        let t952 = mul_sub(platform_velocity[3], t167, platform_velocity[4] * t166);
-        // leg 1: Coriolis matrix of the leg in the speeds of its joint
-        let t953 = base_rotation[1][2] * base_velocity[5];
-        let t954 = mul_sub(base_rotation[2][2], base_velocity[4], t953);
-        let t955 = c(0.17066666666666666) * t954;
-        let t956 = mul_add(t98, c(0.9523333333333334), t214);
-        let t957 = mul_add(t875, t956, t98 * t955);
-        let t958 = mul_add(t877, t956, t100 * t955);
-        let t959 = mul_add(t879, t956, t102 * t955);
-        let t960 = base_rotation[2][2] * base_velocity[3];
-        let t961 = mul_sub(base_rotation[0][2], base_velocity[5], t960);
-        let t962 = c(0.17066666666666666) * t961;
-        let t963 = mul_add(t100, c(0.9523333333333334), t218);
-        let t964 = mul_add(t875, t963, t98 * t962);
-        let t965 = mul_add(t877, t963, t100 * t962);
-        let t966 = mul_add(t879, t963, t102 * t962);
-        let t967 = base_rotation[0][2] * base_velocity[4];
-        let t968 = mul_sub(base_rotation[1][2], base_velocity[3], t967);
-        let t969 = c(0.17066666666666666) * t968;
-        let t970 = mul_add(t102, c(0.9523333333333334), t221);
-        let t971 = mul_add(t875, t970, t98 * t969);
-        let t972 = mul_add(t877, t970, t100 * t969);
-        let t973 = mul_add(t879, t970, t102 * t969);
-        // leg 1: Coriolis matrix between joint and base angular velocity
-        let t974 = mul_add(c(0.17066666666666666), t819, c(0.03055) * t961);
-        let t975 = mul_add(c(0.17066666666666666), t820, c(0.03055) * t968);
-        let t976 = mul_sub(base_velocity[5], t250, base_velocity[3] * t239);
-        let t977 = mul_add(base_rotation[1][2], t856, mul_sub(t53, t961, t976));
-        let t978 = mul_sub(c(0.17066666666666666), t936, c(0.9523333333333334) * t977);
-        let t979 = t974 - t978;
-        let t980 = mul_sub(base_velocity[3], t236, base_velocity[4] * t250);
-        let t981 = mul_add(base_rotation[2][2], t856, mul_sub(t53, t968, t980));
-        let t982 = mul_sub(c(0.17066666666666666), t937, c(0.9523333333333334) * t981);
-        let t983 = t975 - t982;
-        let t984 = mul_sub(base_rotation[2][2], t979, base_rotation[1][2] * t983);
-        let t985 = t98 * t984;
-        let t986 = mul_add(c(0.17066666666666666), t818, c(0.03055) * t954);
-        let t987 = mul_sub(base_velocity[4], t239, base_velocity[5] * t236);
-        let t988 = mul_add(base_rotation[0][2], t856, mul_sub(t53, t954, t987));
-        let t989 = mul_sub(c(0.17066666666666666), t935, c(0.9523333333333334) * t988);
-        let t990 = t986 - t989;
-        let t991 = mul_sub(base_rotation[0][2], t983, base_rotation[2][2] * t990);
-        let t992 = c(0.17066666666666666) * t981;
-        let t993 = mul_add(t98, t991, t992);
-        let t994 = mul_sub(base_rotation[1][2], t990, base_rotation[0][2] * t979);
-        let t995 = c(0.17066666666666666) * t977;
-        let t996 = mul_sub(t98, t994, t995);
-        let t997 = neg_mul_add(t100, t984, t992);
-        let t998 = t100 * t991;
-        let t999 = c(0.17066666666666666) * t988;
-        let t1000 = mul_add(t100, t994, t999);
-        let t1001 = mul_add(t102, t984, t995);
-        let t1002 = neg_mul_add(t102, t991, t999);
-        let t1003 = t102 * t994;
-        // leg 2: Coriolis matrix of the leg in the speeds of its joint
-        let t1004 = neg_mul_add(t110, c(0.9523333333333334), t214);
-        let t1005 = mul_add(t886, t1004, t110 * t955);
-        let t1006 = mul_add(t888, t1004, t112 * t955);
-        let t1007 = mul_add(t890, t1004, t114 * t955);
-        let t1008 = neg_mul_add(t112, c(0.9523333333333334), t218);
-        let t1009 = mul_add(t886, t1008, t110 * t962);
-        let t1010 = mul_add(t888, t1008, t112 * t962);
-        let t1011 = mul_add(t890, t1008, t114 * t962);
-        let t1012 = neg_mul_add(t114, c(0.9523333333333334), t221);
-        let t1013 = mul_add(t886, t1012, t110 * t969);
-        let t1014 = mul_add(t888, t1012, t112 * t969);
-        let t1015 = mul_add(t890, t1012, t114 * t969);
-        // leg 2: Coriolis matrix between joint and base angular velocity
-        let t1016 = mul_sub(base_velocity[5], t296, base_velocity[3] * t287);
-        let t1017 = mul_add(base_rotation[1][2], t858, mul_sub(t57, t961, t1016));
-        let t1018 = mul_sub(c(0.17066666666666666), t939, c(0.9523333333333334) * t1017);
-        let t1019 = t974 - t1018;
-        let t1020 = mul_sub(base_velocity[3], t286, base_velocity[4] * t296);
-        let t1021 = mul_add(base_rotation[2][2], t858, mul_sub(t57, t968, t1020));
-        let t1022 = mul_sub(c(0.17066666666666666), t940, c(0.9523333333333334) * t1021);
-        let t1023 = t975 - t1022;
-        let t1024 = mul_sub(base_rotation[2][2], t1019, base_rotation[1][2] * t1023);
-        let t1025 = t110 * t1024;
-        let t1026 = mul_sub(base_velocity[4], t287, base_velocity[5] * t286);
-        let t1027 = mul_add(base_rotation[0][2], t858, mul_sub(t57, t954, t1026));
-        let t1028 = mul_sub(c(0.17066666666666666), t938, c(0.9523333333333334) * t1027);
-        let t1029 = t986 - t1028;
-        let t1030 = mul_sub(base_rotation[0][2], t1023, base_rotation[2][2] * t1029);
-        let t1031 = c(0.17066666666666666) * t1021;
-        let t1032 = mul_sub(t110, t1030, t1031);
-        let t1033 = mul_sub(base_rotation[1][2], t1029, base_rotation[0][2] * t1019);
-        let t1034 = c(0.17066666666666666) * t1017;
-        let t1035 = mul_add(t110, t1033, t1034);
-        let t1036 = mul_add(t112, t1024, t1031);
-        let t1037 = t112 * t1030;
-        let t1038 = c(0.17066666666666666) * t1027;
-        let t1039 = mul_sub(t112, t1033, t1038);
-        let t1040 = neg_mul_add(t114, t1024, t1034);
-        let t1041 = mul_add(t114, t1030, t1038);
-        let t1042 = t114 * t1033;
-        // leg 3: Coriolis matrix of the leg in the speeds of its joint
-        let t1043 = neg_mul_add(t128, c(0.9523333333333334), t214);
-        let t1044 = mul_add(t897, t1043, t128 * t955);
-        let t1045 = mul_add(t899, t1043, t130 * t955);
-        let t1046 = mul_add(t901, t1043, t132 * t955);
-        let t1047 = neg_mul_add(t130, c(0.9523333333333334), t218);
-        let t1048 = mul_add(t897, t1047, t128 * t962);
-        let t1049 = mul_add(t899, t1047, t130 * t962);
-        let t1050 = mul_add(t901, t1047, t132 * t962);
-        let t1051 = neg_mul_add(t132, c(0.9523333333333334), t221);
-        let t1052 = mul_add(t897, t1051, t128 * t969);
-        let t1053 = mul_add(t899, t1051, t130 * t969);
-        let t1054 = mul_add(t901, t1051, t132 * t969);
-        // leg 3: Coriolis matrix between joint and base angular velocity
-        let t1055 = mul_sub(base_velocity[5], t347, base_velocity[3] * t337);
-        let t1056 = mul_add(base_rotation[1][2], t861, mul_sub(t62, t961, t1055));
-        let t1057 = mul_add(c(0.17066666666666666), t942, c(0.9523333333333334) * t1056);
-        let t1058 = t974 + t1057;
-        let t1059 = mul_sub(base_velocity[3], t335, base_velocity[4] * t347);
-        let t1060 = mul_add(base_rotation[2][2], t861, mul_sub(t62, t968, t1059));
-        let t1061 = mul_add(c(0.17066666666666666), t943, c(0.9523333333333334) * t1060);
-        let t1062 = t975 + t1061;
-        let t1063 = mul_sub(base_rotation[2][2], t1058, base_rotation[1][2] * t1062);
-        let t1064 = t128 * t1063;
-        let t1065 = mul_sub(base_velocity[4], t337, base_velocity[5] * t335);
-        let t1066 = mul_add(base_rotation[0][2], t861, mul_sub(t62, t954, t1065));
-        let t1067 = mul_add(c(0.17066666666666666), t941, c(0.9523333333333334) * t1066);
-        let t1068 = t986 + t1067;
-        let t1069 = mul_sub(base_rotation[0][2], t1062, base_rotation[2][2] * t1068);
-        let t1070 = c(0.17066666666666666) * t1060;
-        let t1071 = mul_sub(t128, t1069, t1070);
-        let t1072 = mul_sub(base_rotation[1][2], t1068, base_rotation[0][2] * t1058);
-        let t1073 = c(0.17066666666666666) * t1056;
-        let t1074 = mul_add(t128, t1072, t1073);
-        let t1075 = mul_add(t130, t1063, t1070);
-        let t1076 = t130 * t1069;
-        let t1077 = c(0.17066666666666666) * t1066;
-        let t1078 = mul_sub(t130, t1072, t1077);
-        let t1079 = neg_mul_add(t132, t1063, t1073);
-        let t1080 = mul_add(t132, t1069, t1077);
-        let t1081 = t132 * t1072;
-        // leg 4: Coriolis matrix of the leg in the speeds of its joint
-        let t1082 = neg_mul_add(t146, c(0.9523333333333334), t214);
-        let t1083 = mul_add(t908, t1082, t146 * t955);
-        let t1084 = mul_add(t910, t1082, t148 * t955);
-        let t1085 = mul_add(t912, t1082, t150 * t955);
-        let t1086 = neg_mul_add(t148, c(0.9523333333333334), t218);
-        let t1087 = mul_add(t908, t1086, t146 * t962);
-        let t1088 = mul_add(t910, t1086, t148 * t962);
-        let t1089 = mul_add(t912, t1086, t150 * t962);
-        let t1090 = neg_mul_add(t150, c(0.9523333333333334), t221);
-        let t1091 = mul_add(t908, t1090, t146 * t969);
-        let t1092 = mul_add(t910, t1090, t148 * t969);
-        let t1093 = mul_add(t912, t1090, t150 * t969);
-        // leg 4: Coriolis matrix between joint and base angular velocity
-        let t1094 = mul_sub(base_velocity[5], t398, base_velocity[3] * t388);
-        let t1095 = mul_add(base_rotation[1][2], t864, mul_add(t67, t961, t1094));
-        let t1096 = mul_add(c(0.17066666666666666), t945, c(0.9523333333333334) * t1095);
-        let t1097 = t974 + t1096;
-        let t1098 = mul_sub(base_velocity[3], t386, base_velocity[4] * t398);
-        let t1099 = mul_add(base_rotation[2][2], t864, mul_add(t67, t968, t1098));
-        let t1100 = mul_add(c(0.17066666666666666), t946, c(0.9523333333333334) * t1099);
-        let t1101 = t975 + t1100;
-        let t1102 = mul_sub(base_rotation[2][2], t1097, base_rotation[1][2] * t1101);
-        let t1103 = t146 * t1102;
-        let t1104 = mul_sub(base_velocity[4], t388, base_velocity[5] * t386);
-        let t1105 = mul_add(base_rotation[0][2], t864, mul_add(t67, t954, t1104));
-        let t1106 = mul_add(c(0.17066666666666666), t944, c(0.9523333333333334) * t1105);
-        let t1107 = t986 + t1106;
-        let t1108 = mul_sub(base_rotation[0][2], t1101, base_rotation[2][2] * t1107);
-        let t1109 = c(0.17066666666666666) * t1099;
-        let t1110 = mul_sub(t146, t1108, t1109);
-        let t1111 = mul_sub(base_rotation[1][2], t1107, base_rotation[0][2] * t1097);
-        let t1112 = c(0.17066666666666666) * t1095;
-        let t1113 = mul_add(t146, t1111, t1112);
-        let t1114 = mul_add(t148, t1102, t1109);
-        let t1115 = t148 * t1108;
-        let t1116 = c(0.17066666666666666) * t1105;
-        let t1117 = mul_sub(t148, t1111, t1116);
-        let t1118 = neg_mul_add(t150, t1102, t1112);
-        let t1119 = mul_add(t150, t1108, t1116);
-        let t1120 = t150 * t1111;
-        // leg 5: Coriolis matrix of the leg in the speeds of its joint
-        let t1121 = mul_add(t161, c(0.9523333333333334), t214);
-        let t1122 = mul_add(t919, t1121, t161 * t955);
-        let t1123 = mul_add(t921, t1121, t163 * t955);
-        let t1124 = mul_add(t923, t1121, t165 * t955);
-        let t1125 = mul_add(t163, c(0.9523333333333334), t218);
-        let t1126 = mul_add(t919, t1125, t161 * t962);
-        let t1127 = mul_add(t921, t1125, t163 * t962);
-        let t1128 = mul_add(t923, t1125, t165 * t962);
-        let t1129 = mul_add(t165, c(0.9523333333333334), t221);
-        let t1130 = mul_add(t919, t1129, t161 * t969);
-        let t1131 = mul_add(t921, t1129, t163 * t969);
-        let t1132 = mul_add(t923, t1129, t165 * t969);
-        // leg 5: Coriolis matrix between joint and base angular velocity
-        let t1133 = mul_sub(base_velocity[5], t446, base_velocity[3] * t437);
-        let t1134 = mul_add(base_rotation[1][2], t866, mul_add(t71, t961, t1133));
-        let t1135 = mul_add(c(0.17066666666666666), t948, c(0.9523333333333334) * t1134);
-        let t1136 = t974 + t1135;
-        let t1137 = mul_sub(base_velocity[3], t436, base_velocity[4] * t446);
-        let t1138 = mul_add(base_rotation[2][2], t866, mul_add(t71, t968, t1137));
-        let t1139 = mul_add(c(0.17066666666666666), t949, c(0.9523333333333334) * t1138);
-        let t1140 = t975 + t1139;
-        let t1141 = mul_sub(base_rotation[2][2], t1136, base_rotation[1][2] * t1140);
-        let t1142 = t161 * t1141;
-        let t1143 = mul_sub(base_velocity[4], t437, base_velocity[5] * t436);
-        let t1144 = mul_add(base_rotation[0][2], t866, mul_add(t71, t954, t1143));
-        let t1145 = mul_add(c(0.17066666666666666), t947, c(0.9523333333333334) * t1144);
-        let t1146 = t986 + t1145;
-        let t1147 = mul_sub(base_rotation[0][2], t1140, base_rotation[2][2] * t1146);
-        let t1148 = c(0.17066666666666666) * t1138;
-        let t1149 = mul_add(t161, t1147, t1148);
-        let t1150 = mul_sub(base_rotation[1][2], t1146, base_rotation[0][2] * t1136);
-        let t1151 = c(0.17066666666666666) * t1134;
-        let t1152 = mul_sub(t161, t1150, t1151);
-        let t1153 = neg_mul_add(t163, t1141, t1148);
-        let t1154 = t163 * t1147;
-        let t1155 = c(0.17066666666666666) * t1144;
-        let t1156 = mul_add(t163, t1150, t1155);
-        let t1157 = mul_add(t165, t1141, t1151);
-        let t1158 = neg_mul_add(t165, t1147, t1155);
-        let t1159 = t165 * t1150;
-        // leg 6: Coriolis matrix of the leg in the speeds of its joint
-        let t1160 = mul_add(t173, c(0.9523333333333334), t214);
-        let t1161 = mul_add(t930, t1160, t173 * t955);
-        let t1162 = mul_add(t932, t1160, t175 * t955);
-        let t1163 = mul_add(t934, t1160, t177 * t955);
-        let t1164 = mul_add(t175, c(0.9523333333333334), t218);
-        let t1165 = mul_add(t930, t1164, t173 * t962);
-        let t1166 = mul_add(t932, t1164, t175 * t962);
-        let t1167 = mul_add(t934, t1164, t177 * t962);
-        let t1168 = mul_add(t177, c(0.9523333333333334), t221);
-        let t1169 = mul_add(t930, t1168, t173 * t969);
-        let t1170 = mul_add(t932, t1168, t175 * t969);
-        let t1171 = mul_add(t934, t1168, t177 * t969);
-        // leg 6: Coriolis matrix between joint and base angular velocity
-        let t1172 = mul_sub(base_velocity[5], t494, base_velocity[3] * t485);
-        let t1173 = mul_add(base_rotation[1][2], t868, mul_sub(t75, t961, t1172));
-        let t1174 = mul_add(c(0.17066666666666666), t951, c(0.9523333333333334) * t1173);
-        let t1175 = t974 + t1174;
-        let t1176 = mul_sub(base_velocity[3], t484, base_velocity[4] * t494);
-        let t1177 = mul_add(base_rotation[2][2], t868, mul_sub(t75, t968, t1176));
-        let t1178 = mul_add(c(0.17066666666666666), t952, c(0.9523333333333334) * t1177);
-        let t1179 = t975 + t1178;
-        let t1180 = mul_sub(base_rotation[2][2], t1175, base_rotation[1][2] * t1179);
-        let t1181 = t173 * t1180;
-        let t1182 = mul_sub(base_velocity[4], t485, base_velocity[5] * t484);
-        let t1183 = mul_add(base_rotation[0][2], t868, mul_sub(t75, t954, t1182));
-        let t1184 = mul_add(c(0.17066666666666666), t950, c(0.9523333333333334) * t1183);
-        let t1185 = t986 + t1184;
-        let t1186 = mul_sub(base_rotation[0][2], t1179, base_rotation[2][2] * t1185);
-        let t1187 = c(0.17066666666666666) * t1177;
-        let t1188 = mul_add(t173, t1186, t1187);
-        let t1189 = mul_sub(base_rotation[1][2], t1185, base_rotation[0][2] * t1175);
-        let t1190 = c(0.17066666666666666) * t1173;
-        let t1191 = mul_sub(t173, t1189, t1190);
-        let t1192 = neg_mul_add(t175, t1180, t1187);
-        let t1193 = t175 * t1186;
-        let t1194 = c(0.17066666666666666) * t1183;
-        let t1195 = mul_add(t175, t1189, t1194);
-        let t1196 = mul_add(t177, t1180, t1190);
-        let t1197 = neg_mul_add(t177, t1186, t1194);
-        let t1198 = t177 * t1189;
-        // Coriolis matrix of the legs
-        let t1199 = t1161 + (t1122 - (t1083 + (t1044 - (t957 - t1005))));
-        coriolis_matrix_p[0][0] = t1199;
-        coriolis_matrix_b[0][0] = t1199;
-        let t1200 = t1162 + (t1123 - (t1084 + (t1045 - (t958 - t1006))));
-        coriolis_matrix_p[0][1] = t1200;
-        coriolis_matrix_b[0][1] = t1200;
-        let t1201 = t1163 + (t1124 - (t1085 + (t1046 - (t959 - t1007))));
-        coriolis_matrix_p[0][2] = t1201;
-        coriolis_matrix_b[0][2] = t1201;
-        let t1202 = mul_add(t473, t952, mul_sub(t168, t1162, t167 * t1163));
-        let t1203 = mul_sub(t475, t951, t1202);
-        let t1204 = mul_add(t425, t949, mul_sub(t156, t1123, t155 * t1124));
-        let t1205 = mul_sub(t427, t948, t1204);
-        let t1206 = mul_add(t374, t946, mul_sub(t141, t1084, t139 * t1085));
-        let t1207 = mul_sub(t376, t945, t1206);
-        let t1208 = mul_add(t323, t943, mul_sub(t123, t1045, t121 * t1046));
-        let t1209 = mul_sub(t325, t942, t1208);
-        let t1210 = t91 * t959;
-        let t1211 = mul_add(t220, t937, mul_sub(t93, t958, t1210));
-        let t1212 = mul_sub(t223, t936, t1211);
-        let t1213 = t105 * t1006;
-        let t1214 = mul_add(t277, t940, neg_mul_add(t104, t1007, t1213));
-        let t1215 = mul_sub(t279, t939, t1214);
-        let t1216 = t1203 + (t1205 - (t1207 + (t1209 + (t1212 - t1215))));
-        let t1217 = mul_add(t475, t950, mul_sub(t166, t1163, t168 * t1161));
-        let t1218 = mul_sub(t471, t952, t1217);
-        let t1219 = mul_add(t427, t947, mul_sub(t154, t1124, t156 * t1122));
-        let t1220 = mul_sub(t423, t949, t1219);
-        let t1221 = mul_add(t376, t944, mul_sub(t137, t1085, t141 * t1083));
-        let t1222 = mul_sub(t372, t946, t1221);
-        let t1223 = mul_add(t325, t941, mul_sub(t119, t1046, t123 * t1044));
-        let t1224 = mul_sub(t321, t943, t1223);
-        let t1225 = mul_add(t223, t935, mul_sub(t89, t959, t93 * t957));
-        let t1226 = mul_sub(t217, t937, t1225);
-        let t1227 = t105 * t1005;
-        let t1228 = mul_add(t279, t938, mul_sub(t103, t1007, t1227));
-        let t1229 = mul_sub(t275, t940, t1228);
-        let t1230 = t1218 + (t1220 - (t1222 + (t1224 + (t1226 - t1229))));
-        let t1231 = mul_add(t471, t951, neg_mul_add(t166, t1162, t167 * t1161));
-        let t1232 = mul_sub(t473, t950, t1231);
-        let t1233 = mul_add(t423, t948, neg_mul_add(t154, t1123, t155 * t1122));
-        let t1234 = mul_sub(t425, t947, t1233);
-        let t1235 = mul_add(t372, t945, neg_mul_add(t137, t1084, t139 * t1083));
-        let t1236 = mul_sub(t374, t944, t1235);
-        let t1237 = mul_add(t321, t942, neg_mul_add(t119, t1045, t121 * t1044));
-        let t1238 = mul_sub(t323, t941, t1237);
-        let t1239 = mul_add(t217, t936, neg_mul_add(t89, t958, t91 * t957));
-        let t1240 = mul_sub(t220, t935, t1239);
-        let t1241 = t104 * t1005;
-        let t1242 = mul_add(t275, t939, neg_mul_add(t103, t1006, t1241));
-        let t1243 = mul_sub(t277, t938, t1242);
-        let t1244 = t1232 + (t1234 - (t1236 + (t1238 + (t1240 - t1243))));
-        let t1245 = t1165 + (t1126 - (t1087 + (t1048 - (t964 - t1009))));
-        coriolis_matrix_p[1][0] = t1245;
-        coriolis_matrix_b[1][0] = t1245;
-        let t1246 = t1166 + (t1127 - (t1088 + (t1049 - (t965 - t1010))));
-        coriolis_matrix_p[1][1] = t1246;
-        coriolis_matrix_b[1][1] = t1246;
-        let t1247 = t1167 + (t1128 - (t1089 + (t1050 - (t966 - t1011))));
-        coriolis_matrix_p[1][2] = t1247;
-        coriolis_matrix_b[1][2] = t1247;
-        let t1248 = mul_add(t477, t952, neg_mul_add(t167, t1167, t168 * t1166));
-        let t1249 = mul_sub(t478, t951, t1248);
-        let t1250 = mul_add(t429, t949, neg_mul_add(t155, t1128, t156 * t1127));
-        let t1251 = mul_sub(t430, t948, t1250);
-        let t1252 = mul_add(t378, t946, neg_mul_add(t139, t1089, t141 * t1088));
-        let t1253 = mul_sub(t379, t945, t1252);
-        let t1254 = mul_add(t327, t943, neg_mul_add(t121, t1050, t123 * t1049));
-        let t1255 = mul_sub(t328, t942, t1254);
-        let t1256 = mul_add(t225, t937, neg_mul_add(t91, t966, t93 * t965));
-        let t1257 = mul_sub(t226, t936, t1256);
-        let t1258 = t105 * t1010;
-        let t1259 = mul_add(t280, t940, neg_mul_add(t104, t1011, t1258));
-        let t1260 = mul_sub(t281, t939, t1259);
-        let t1261 = t1249 + (t1251 - (t1253 + (t1255 + (t1257 - t1260))));
-        let t1262 = mul_add(t168, t1165, mul_sub(t473, t952, t166 * t1167));
-        let t1263 = mul_sub(t478, t950, t1262);
-        let t1264 = mul_add(t156, t1126, mul_sub(t425, t949, t154 * t1128));
-        let t1265 = mul_sub(t430, t947, t1264);
-        let t1266 = mul_add(t141, t1087, mul_sub(t374, t946, t137 * t1089));
-        let t1267 = mul_sub(t379, t944, t1266);
-        let t1268 = mul_add(t123, t1048, mul_sub(t323, t943, t119 * t1050));
-        let t1269 = mul_sub(t328, t941, t1268);
-        let t1270 = mul_add(t93, t964, mul_sub(t220, t937, t89 * t966));
-        let t1271 = mul_sub(t226, t935, t1270);
-        let t1272 = mul_add(t105, t1009, mul_sub(t277, t940, t103 * t1011));
-        let t1273 = mul_sub(t281, t938, t1272);
-        let t1274 = t1263 + (t1265 - (t1267 + (t1269 + (t1271 - t1273))));
-        coriolis_matrix_p[1][4] = t1274;
-        let t1275 = mul_add(t473, t951, mul_sub(t167, t1165, t166 * t1166));
-        let t1276 = mul_sub(t477, t950, t1275);
-        let t1277 = mul_add(t425, t948, mul_sub(t155, t1126, t154 * t1127));
-        let t1278 = mul_sub(t429, t947, t1277);
-        let t1279 = mul_add(t374, t945, mul_sub(t139, t1087, t137 * t1088));
-        let t1280 = mul_sub(t378, t944, t1279);
-        let t1281 = mul_add(t323, t942, mul_sub(t121, t1048, t119 * t1049));
-        let t1282 = mul_sub(t327, t941, t1281);
-        let t1283 = mul_add(t220, t936, mul_sub(t91, t964, t89 * t965));
-        let t1284 = mul_sub(t225, t935, t1283);
-        let t1285 = t103 * t1010;
-        let t1286 = mul_add(t277, t939, mul_sub(t104, t1009, t1285));
-        let t1287 = mul_sub(t280, t938, t1286);
-        let t1288 = t1276 + (t1278 - (t1280 + (t1282 + (t1284 - t1287))));
-        let t1289 = t1169 + (t1130 - (t1091 + (t1052 - (t971 - t1013))));
-        coriolis_matrix_p[2][0] = t1289;
-        coriolis_matrix_b[2][0] = t1289;
-        let t1290 = t1170 + (t1131 - (t1092 + (t1053 - (t972 - t1014))));
-        coriolis_matrix_p[2][1] = t1290;
-        coriolis_matrix_b[2][1] = t1290;
-        let t1291 = t1171 + (t1132 - (t1093 + (t1054 - (t973 - t1015))));
-        coriolis_matrix_p[2][2] = t1291;
-        coriolis_matrix_b[2][2] = t1291;
-        let t1292 = mul_add(t478, t952, mul_sub(t168, t1170, t167 * t1171));
-        let t1293 = mul_sub(t480, t951, t1292);
-        let t1294 = mul_add(t430, t949, mul_sub(t156, t1131, t155 * t1132));
-        let t1295 = mul_sub(t432, t948, t1294);
-        let t1296 = mul_add(t379, t946, mul_sub(t141, t1092, t139 * t1093));
-        let t1297 = mul_sub(t381, t945, t1296);
-        let t1298 = mul_add(t328, t943, mul_sub(t123, t1053, t121 * t1054));
-        let t1299 = mul_sub(t330, t942, t1298);
-        let t1300 = mul_add(t226, t937, mul_sub(t93, t972, t91 * t973));
-        let t1301 = mul_sub(t228, t936, t1300);
-        let t1302 = t104 * t1015;
-        let t1303 = mul_add(t281, t940, mul_sub(t105, t1014, t1302));
-        let t1304 = mul_sub(t282, t939, t1303);
-        let t1305 = t1293 + (t1295 - (t1297 + (t1299 + (t1301 - t1304))));
-        let t1306 = mul_add(t480, t950, neg_mul_add(t168, t1169, t166 * t1171));
-        let t1307 = mul_sub(t475, t952, t1306);
-        let t1308 = mul_add(t432, t947, neg_mul_add(t156, t1130, t154 * t1132));
-        let t1309 = mul_sub(t427, t949, t1308);
-        let t1310 = mul_add(t381, t944, neg_mul_add(t141, t1091, t137 * t1093));
-        let t1311 = mul_sub(t376, t946, t1310);
-        let t1312 = mul_add(t330, t941, neg_mul_add(t123, t1052, t119 * t1054));
-        let t1313 = mul_sub(t325, t943, t1312);
-        let t1314 = mul_add(t228, t935, neg_mul_add(t93, t971, t89 * t973));
-        let t1315 = mul_sub(t223, t937, t1314);
-        let t1316 = t103 * t1015;
-        let t1317 = mul_add(t282, t938, neg_mul_add(t105, t1013, t1316));
-        let t1318 = mul_sub(t279, t940, t1317);
-        let t1319 = t1307 + (t1309 - (t1311 + (t1313 + (t1315 - t1318))));
-        let t1320 = mul_add(t167, t1169, mul_sub(t475, t951, t478 * t950));
-        let t1321 = mul_sub(t166, t1170, t1320);
-        let t1322 = mul_add(t155, t1130, mul_sub(t427, t948, t430 * t947));
-        let t1323 = mul_sub(t154, t1131, t1322);
-        let t1324 = mul_add(t139, t1091, mul_sub(t376, t945, t379 * t944));
-        let t1325 = mul_sub(t137, t1092, t1324);
-        let t1326 = mul_add(t121, t1052, mul_sub(t325, t942, t328 * t941));
-        let t1327 = mul_sub(t119, t1053, t1326);
-        let t1328 = mul_add(t91, t971, mul_sub(t223, t936, t226 * t935));
-        let t1329 = mul_sub(t89, t972, t1328);
-        let t1330 = mul_add(t104, t1013, mul_sub(t279, t939, t281 * t938));
-        let t1331 = mul_sub(t103, t1014, t1330);
-        let t1332 = t1321 + (t1323 - (t1325 + (t1327 + (t1329 - t1331))));
-        let t1333 = mul_add(t123, t1048, mul_sub(t93, t964, t105 * t1009));
-        let t1334 = mul_sub(t156, t1126, mul_add(t141, t1087, t1333));
-        let t1335 = mul_add(t91, t971, mul_add(t168, t1165, t1334));
-        let t1336 = mul_sub(t121, t1052, mul_sub(t104, t1013, t1335));
-        let t1337 = mul_sub(t155, t1130, mul_add(t139, t1091, t1336));
-        let t1338 = mul_add(t167, t1169, t1337);
-        let t1339 = mul_add(t123, t1049, mul_sub(t93, t965, t1258));
-        let t1340 = mul_sub(t156, t1127, mul_add(t141, t1088, t1339));
-        let t1341 = mul_add(t91, t972, mul_add(t168, t1166, t1340));
-        let t1342 = mul_sub(t121, t1053, mul_sub(t104, t1014, t1341));
-        let t1343 = mul_sub(t155, t1131, mul_add(t139, t1092, t1342));
-        let t1344 = mul_add(t167, t1170, t1343);
-        let t1345 = mul_add(t121, t1054, mul_sub(t91, t973, t1302));
-        let t1346 = mul_sub(t155, t1132, mul_add(t139, t1093, t1345));
-        let t1347 = mul_add(t93, t966, mul_add(t167, t1171, t1346));
-        let t1348 = mul_sub(t123, t1050, mul_sub(t105, t1011, t1347));
-        let t1349 = mul_sub(t156, t1128, mul_add(t141, t1089, t1348));
-        let t1350 = mul_add(t168, t1167, t1349);
-        coriolis_matrix_p[3][2] = t1350;
-        coriolis_matrix_b[3][2] = t1350;
-        let t1351 = mul_sub(t105, t1260, mul_sub(t93, t1257, t91 * t1301));
-        let t1352 = mul_sub(t123, t1255, mul_sub(t104, t1304, t1351));
-        let t1353 = mul_sub(t141, t1253, mul_sub(t121, t1299, t1352));
-        let t1354 = mul_add(t156, t1251, mul_sub(t139, t1297, t1353));
-        let t1355 = mul_sub(t168, t1249, mul_sub(t155, t1295, t1354));
-        let t1356 = mul_sub(t167, t1293, t1355);
-        let t1357 = mul_sub(t105, t1273, mul_add(t93, t1271, t91 * t1315));
-        let t1358 = mul_add(t123, t1269, mul_add(t104, t1318, t1357));
-        let t1359 = mul_add(t141, t1267, mul_add(t121, t1313, t1358));
-        let t1360 = mul_sub(t156, t1265, mul_add(t139, t1311, t1359));
-        let t1361 = mul_add(t168, t1263, mul_add(t155, t1309, t1360));
-        let t1362 = mul_add(t167, t1307, t1361);
-        let t1363 = mul_sub(t105, t1287, mul_sub(t93, t1284, t91 * t1329));
-        let t1364 = mul_sub(t123, t1282, mul_sub(t104, t1331, t1363));
-        let t1365 = mul_sub(t141, t1280, mul_sub(t121, t1327, t1364));
-        let t1366 = mul_add(t156, t1278, mul_sub(t139, t1325, t1365));
-        let t1367 = mul_sub(t168, t1276, mul_sub(t155, t1323, t1366));
-        let t1368 = mul_sub(t167, t1321, t1367);
-        let t1369 = mul_add(t123, t1044, mul_sub(t93, t957, t1227));
-        let t1370 = mul_sub(t156, t1122, mul_add(t141, t1083, t1369));
-        let t1371 = mul_add(t89, t971, mul_add(t168, t1161, t1370));
-        let t1372 = mul_sub(t119, t1052, mul_sub(t103, t1013, t1371));
-        let t1373 = mul_sub(t154, t1130, mul_add(t137, t1091, t1372));
-        let t1374 = mul_add(t166, t1169, t1373);
-        coriolis_matrix_p[4][0] = t1374;
-        coriolis_matrix_b[4][0] = t1374;
-        let t1375 = mul_add(t123, t1045, mul_sub(t93, t958, t1213));
-        let t1376 = mul_sub(t156, t1123, mul_add(t141, t1084, t1375));
-        let t1377 = mul_add(t89, t972, mul_add(t168, t1162, t1376));
-        let t1378 = mul_sub(t119, t1053, mul_sub(t103, t1014, t1377));
-        let t1379 = mul_sub(t154, t1131, mul_add(t137, t1092, t1378));
-        let t1380 = mul_add(t166, t1170, t1379);
-        coriolis_matrix_p[4][1] = t1380;
-        coriolis_matrix_b[4][1] = t1380;
-        let t1381 = mul_add(t119, t1054, mul_sub(t89, t973, t1316));
-        let t1382 = mul_sub(t154, t1132, mul_add(t137, t1093, t1381));
-        let t1383 = mul_add(t93, t959, mul_add(t166, t1171, t1382));
-        let t1384 = mul_sub(t123, t1046, mul_sub(t105, t1007, t1383));
-        let t1385 = mul_sub(t156, t1124, mul_add(t141, t1085, t1384));
-        let t1386 = mul_add(t168, t1163, t1385);
-        let t1387 = mul_sub(t103, t1304, mul_sub(t89, t1301, t93 * t1212));
-        let t1388 = mul_sub(t119, t1299, mul_sub(t105, t1215, t1387));
-        let t1389 = mul_sub(t137, t1297, mul_sub(t123, t1209, t1388));
-        let t1390 = mul_add(t154, t1295, mul_sub(t141, t1207, t1389));
-        let t1391 = mul_sub(t166, t1293, mul_sub(t156, t1205, t1390));
-        let t1392 = mul_sub(t168, t1203, t1391);
-        let t1393 = mul_sub(t103, t1318, mul_sub(t89, t1315, t93 * t1226));
-        let t1394 = mul_sub(t119, t1313, mul_sub(t105, t1229, t1393));
-        let t1395 = mul_sub(t137, t1311, mul_sub(t123, t1224, t1394));
-        let t1396 = mul_add(t154, t1309, mul_sub(t141, t1222, t1395));
-        let t1397 = mul_sub(t166, t1307, mul_sub(t156, t1220, t1396));
-        let t1398 = mul_sub(t168, t1218, t1397);
-        let t1399 = mul_sub(t103, t1331, mul_sub(t89, t1329, t93 * t1240));
-        let t1400 = mul_sub(t119, t1327, mul_sub(t105, t1243, t1399));
-        let t1401 = mul_sub(t137, t1325, mul_sub(t123, t1238, t1400));
-        let t1402 = mul_add(t154, t1323, mul_sub(t141, t1236, t1401));
-        let t1403 = mul_sub(t166, t1321, mul_sub(t156, t1234, t1402));
-        let t1404 = mul_sub(t168, t1232, t1403);
-        let t1405 = mul_add(t121, t1044, mul_sub(t91, t957, t1241));
-        let t1406 = mul_sub(t155, t1122, mul_add(t139, t1083, t1405));
-        let t1407 = mul_add(t89, t964, mul_add(t167, t1161, t1406));
-        let t1408 = mul_sub(t119, t1048, mul_sub(t103, t1009, t1407));
-        let t1409 = mul_sub(t154, t1126, mul_add(t137, t1087, t1408));
-        let t1410 = mul_add(t166, t1165, t1409);
-        let t1411 = mul_add(t119, t1049, mul_sub(t89, t965, t1285));
-        let t1412 = mul_sub(t154, t1127, mul_add(t137, t1088, t1411));
-        let t1413 = mul_add(t91, t958, mul_add(t166, t1166, t1412));
-        let t1414 = mul_sub(t121, t1045, mul_sub(t104, t1006, t1413));
-        let t1415 = mul_sub(t155, t1123, mul_add(t139, t1084, t1414));
-        let t1416 = mul_add(t167, t1162, t1415);
-        coriolis_matrix_p[5][1] = t1416;
-        coriolis_matrix_b[5][1] = t1416;
-        let t1417 = mul_add(t121, t1046, neg_mul_add(t104, t1007, t1210));
-        let t1418 = mul_sub(t155, t1124, mul_add(t139, t1085, t1417));
-        let t1419 = mul_add(t89, t966, mul_add(t167, t1163, t1418));
-        let t1420 = mul_sub(t119, t1050, mul_sub(t103, t1011, t1419));
-        let t1421 = mul_sub(t154, t1128, mul_add(t137, t1089, t1420));
-        let t1422 = mul_add(t166, t1167, t1421);
-        let t1423 = mul_sub(t104, t1215, mul_sub(t91, t1212, t89 * t1257));
-        let t1424 = mul_sub(t121, t1209, mul_sub(t103, t1260, t1423));
-        let t1425 = mul_sub(t139, t1207, mul_sub(t119, t1255, t1424));
-        let t1426 = mul_add(t155, t1205, mul_sub(t137, t1253, t1425));
-        let t1427 = mul_sub(t167, t1203, mul_sub(t154, t1251, t1426));
-        let t1428 = mul_sub(t166, t1249, t1427);
-        let t1429 = mul_sub(t104, t1229, mul_add(t91, t1226, t89 * t1271));
-        let t1430 = mul_add(t121, t1224, mul_add(t103, t1273, t1429));
-        let t1431 = mul_add(t139, t1222, mul_add(t119, t1269, t1430));
-        let t1432 = mul_sub(t155, t1220, mul_add(t137, t1267, t1431));
-        let t1433 = mul_add(t167, t1218, mul_add(t154, t1265, t1432));
-        let t1434 = mul_add(t166, t1263, t1433);
-        let t1435 = mul_sub(t104, t1243, mul_sub(t91, t1240, t89 * t1284));
-        let t1436 = mul_sub(t121, t1238, mul_sub(t103, t1287, t1435));
-        let t1437 = mul_sub(t139, t1236, mul_sub(t119, t1282, t1436));
-        let t1438 = mul_add(t155, t1234, mul_sub(t137, t1280, t1437));
-        let t1439 = mul_sub(t167, t1232, mul_sub(t154, t1278, t1438));
-        let t1440 = mul_sub(t166, t1276, t1439);
-        coriolis_matrix_p[0][3] = -t1216;
-        coriolis_matrix_p[2][5] = -t1332;
-        let t1441 = -t1338;
-        coriolis_matrix_p[3][0] = t1441;
-        coriolis_matrix_b[3][0] = t1441;
-        let t1442 = -t1344;
-        coriolis_matrix_p[3][1] = t1442;
-        coriolis_matrix_b[3][1] = t1442;
-        let t1443 = -t1386;
-        coriolis_matrix_p[4][2] = t1443;
-        coriolis_matrix_b[4][2] = t1443;
-        let t1444 = -t1410;
-        coriolis_matrix_p[5][0] = t1444;
-        coriolis_matrix_b[5][0] = t1444;
-        let t1445 = -t1422;
-        coriolis_matrix_p[5][2] = t1445;
-        coriolis_matrix_b[5][2] = t1445;
-        // Coriolis matrix C_p, natural factorisation
-        let t1446 = mul_sub(platform_velocity[3], t640, platform_velocity[4] * t643);
-        let t1447 = t1230 - t1446;
-        let t1448 = mul_sub(platform_velocity[5], t643, platform_velocity[3] * t637);
-        let t1449 = t1244 + t1448;
-        let t1450 = t1261 + t1446;
-        let t1451 = mul_sub(platform_velocity[4], t637, platform_velocity[5] * t640);
-        let t1452 = t1288 - t1451;
-        let t1453 = t1305 - t1448;
-        let t1454 = t1319 + t1451;
-        let t1455 = mul_add(platform_velocity[5], t650, t1356);
-        let t1456 = mul_sub(platform_velocity[4], t652, t1455);
-        let t1457 = c(0.0425) - t657;
-        let t1458 = neg_mul_add(platform_velocity[5], t1457, t1362);
-        let t1459 = mul_sub(platform_velocity[4], t659, t1458);
-        let t1460 = c(0.0425) - t664;
-        let t1461 = mul_add(platform_velocity[5], t659, t1368);
-        let t1462 = mul_add(platform_velocity[4], t1460, t1461);
-        coriolis_matrix_p[3][5] = t1462;
-        let t1463 = c(0.0425) - t648;
-        let t1464 = mul_add(platform_velocity[5], t1463, t1392);
-        let t1465 = mul_add(platform_velocity[3], t652, t1464);
-        coriolis_matrix_p[4][3] = t1465;
-        let t1466 = neg_mul_add(platform_velocity[5], t650, t1398);
-        let t1467 = mul_add(platform_velocity[3], t659, t1466);
-        coriolis_matrix_p[4][4] = t1467;
-        let t1468 = neg_mul_add(platform_velocity[5], t652, t1404);
-        let t1469 = mul_sub(platform_velocity[3], t1460, t1468);
-        let t1470 = neg_mul_add(platform_velocity[4], t1463, t1428);
-        let t1471 = mul_sub(platform_velocity[3], t650, t1470);
-        let t1472 = neg_mul_add(platform_velocity[4], t650, t1434);
-        let t1473 = mul_sub(platform_velocity[3], t1457, t1472);
-        coriolis_matrix_p[5][4] = t1473;
-        let t1474 = mul_add(platform_velocity[4], t652, t1440);
-        let t1475 = mul_sub(platform_velocity[3], t659, t1474);
-        coriolis_matrix_p[0][4] = -t1447;
-        coriolis_matrix_p[0][5] = -t1449;
-        coriolis_matrix_p[1][3] = -t1450;
-        coriolis_matrix_p[1][5] = -t1452;
-        coriolis_matrix_p[2][3] = -t1453;
-        coriolis_matrix_p[2][4] = -t1454;
-        coriolis_matrix_p[3][3] = -t1456;
-        coriolis_matrix_p[3][4] = -t1459;
-        coriolis_matrix_p[4][5] = -t1469;
-        coriolis_matrix_p[5][3] = -t1471;
-        coriolis_matrix_p[5][5] = -t1475;
-        // Coriolis matrix C_b, natural factorisation
-        let t1476 = mul_sub(t128, t1063, mul_sub(t98, t984, t1025));
-        let t1477 = mul_sub(t161, t1141, mul_add(t146, t1102, t1476));
-        let t1478 = mul_sub(t21, t1200, t1216 - mul_add(t173, t1180, t1477));
-        let t1479 = mul_sub(t520, t820, mul_sub(t20, t1201, t1478));
-        let t1480 = mul_sub(t521, t819, t1479);
-        let t1481 = t1230 - (t1188 + (t1149 - (t1110 + (t1071 - (t993 - t1032)))));
-        let t1482 = mul_sub(t21, t1199, mul_sub(t19, t1201, t1481));
-        let t1483 = mul_sub(t519, t820, mul_sub(t521, t818, t1482));
-        let t1484 = t1244 - (t1191 + (t1152 - (t1113 + (t1074 - (t996 - t1035)))));
-        let t1485 = mul_sub(t19, t1200, mul_sub(t20, t1199, t1484));
-        let t1486 = mul_sub(t520, t818, mul_sub(t519, t819, t1485));
-        let t1487 = t1261 + (t1192 + (t1153 + (t1114 + (t1075 + (t997 + t1036)))));
-        let t1488 = mul_sub(t20, t1247, mul_sub(t21, t1246, t1487));
-        let t1489 = mul_sub(t545, t819, mul_sub(t544, t820, t1488));
-        let t1490 = mul_sub(t130, t1069, mul_sub(t100, t991, t1037));
-        let t1491 = mul_sub(t163, t1147, mul_add(t148, t1108, t1490));
-        let t1492 = mul_sub(t520, t820, t1274 + mul_add(t175, t1186, t1491));
-        let t1493 = mul_sub(t21, t1245, mul_sub(t19, t1247, t1492));
-        let t1494 = mul_sub(t545, t818, t1493);
-        coriolis_matrix_b[1][4] = t1494;
-        let t1495 = t1288 - (t1195 + (t1156 - (t1117 + (t1078 - (t1000 - t1039)))));
-        let t1496 = mul_sub(t19, t1246, mul_sub(t20, t1245, t1495));
-        let t1497 = mul_sub(t544, t818, mul_sub(t520, t819, t1496));
-        let t1498 = t1305 - (t1196 + (t1157 + (t1118 + (t1079 + (t1001 + t1040)))));
-        let t1499 = mul_sub(t20, t1291, mul_sub(t21, t1290, t1498));
-        let t1500 = mul_sub(t575, t819, mul_sub(t545, t820, t1499));
-        let t1501 = t1319 + (t1197 + (t1158 + (t1119 + (t1080 + (t1002 + t1041)))));
-        let t1502 = mul_sub(t21, t1289, mul_sub(t19, t1291, t1501));
-        let t1503 = mul_sub(t521, t820, mul_sub(t575, t818, t1502));
-        let t1504 = mul_sub(t132, t1072, mul_sub(t102, t994, t1042));
-        let t1505 = mul_sub(t165, t1150, mul_add(t150, t1111, t1504));
-        let t1506 = mul_sub(t521, t819, t1332 - mul_add(t177, t1189, t1505));
-        let t1507 = mul_sub(t20, t1289, mul_sub(t545, t818, t1506));
-        let t1508 = mul_sub(t19, t1290, t1507);
-        let t1509 = mul_sub(t20, t1350, neg_mul_add(t21, t1344, t1356));
-        let t1510 = mul_sub(t582, t819, mul_sub(t552, t820, t1509));
-        let t1511 = mul_add(t93, t997, mul_sub(t91, t1001, t1510));
-        let t1512 = mul_add(t105, t1036, mul_add(t104, t1040, t1511));
-        let t1513 = mul_add(t123, t1075, mul_sub(t121, t1079, t1512));
-        let t1514 = mul_add(t141, t1114, mul_add(t139, t1118, t1513));
-        let t1515 = mul_add(t156, t1153, mul_add(t155, t1157, t1514));
-        let t1516 = mul_add(t168, t1192, mul_add(t167, t1196, t1515));
-        let t1517 = mul_add(t21, t1338, mul_add(t19, t1350, t1362));
-        let t1518 = mul_add(t527, t820, mul_add(t582, t818, t1517));
-        let t1519 = mul_add(t93, t998, mul_sub(t91, t1002, t1518));
-        let t1520 = mul_sub(t105, t1037, mul_add(t104, t1041, t1519));
-        let t1521 = mul_sub(t123, t1076, mul_add(t121, t1080, t1520));
-        let t1522 = mul_sub(t141, t1115, mul_sub(t139, t1119, t1521));
-        let t1523 = mul_add(t156, t1154, mul_sub(t155, t1158, t1522));
-        let t1524 = mul_add(t168, t1193, mul_add(t167, t1197, t1523));
-        coriolis_matrix_b[3][4] = t1524;
-        let t1525 = mul_add(t19, t1344, neg_mul_add(t20, t1338, t1368));
-        let t1526 = mul_add(t552, t818, mul_sub(t527, t819, t1525));
-        let t1527 = mul_sub(t93, t1000, mul_sub(t91, t1003, t1526));
-        let t1528 = mul_sub(t105, t1039, mul_add(t104, t1042, t1527));
-        let t1529 = mul_sub(t123, t1078, mul_add(t121, t1081, t1528));
-        let t1530 = mul_sub(t141, t1117, mul_sub(t139, t1120, t1529));
-        let t1531 = mul_sub(t156, t1156, mul_add(t155, t1159, t1530));
-        let t1532 = mul_sub(t168, t1195, mul_sub(t167, t1198, t1531));
-        coriolis_matrix_b[3][5] = t1532;
-        let t1533 = mul_add(t20, t1386, mul_add(t21, t1380, t1392));
-        let t1534 = mul_add(t589, t819, mul_sub(t565, t820, t1533));
-        let t1535 = mul_sub(t89, t1001, mul_sub(t93, t985, t1534));
-        let t1536 = mul_add(t103, t1040, mul_add(t105, t1025, t1535));
-        let t1537 = mul_add(t119, t1079, mul_sub(t123, t1064, t1536));
-        let t1538 = mul_add(t137, t1118, mul_add(t141, t1103, t1537));
-        let t1539 = mul_sub(t154, t1157, mul_sub(t156, t1142, t1538));
-        let t1540 = mul_sub(t166, t1196, mul_sub(t168, t1181, t1539));
-        coriolis_matrix_b[4][3] = t1540;
-        let t1541 = mul_sub(t21, t1374, neg_mul_add(t19, t1386, t1398));
-        let t1542 = mul_sub(t534, t820, mul_sub(t589, t818, t1541));
-        let t1543 = mul_add(t89, t1002, mul_sub(t93, t993, t1542));
-        let t1544 = mul_sub(t103, t1041, mul_sub(t105, t1032, t1543));
-        let t1545 = mul_sub(t119, t1080, mul_add(t123, t1071, t1544));
-        let t1546 = mul_sub(t137, t1119, mul_sub(t141, t1110, t1545));
-        let t1547 = mul_add(t154, t1158, mul_add(t156, t1149, t1546));
-        let t1548 = mul_add(t166, t1197, mul_add(t168, t1188, t1547));
-        let t1549 = mul_sub(t19, t1380, mul_add(t20, t1374, t1404));
-        let t1550 = mul_add(t565, t818, mul_sub(t534, t819, t1549));
-        let t1551 = mul_sub(t89, t1003, mul_add(t93, t996, t1550));
-        let t1552 = mul_sub(t103, t1042, mul_add(t105, t1035, t1551));
-        let t1553 = mul_sub(t119, t1081, mul_add(t123, t1074, t1552));
-        let t1554 = mul_sub(t137, t1120, mul_sub(t141, t1113, t1553));
-        let t1555 = mul_sub(t154, t1159, mul_add(t156, t1152, t1554));
-        let t1556 = mul_sub(t166, t1198, mul_sub(t168, t1191, t1555));
-        coriolis_matrix_b[4][5] = t1556;
-        let t1557 = mul_add(t20, t1422, mul_add(t21, t1416, t1428));
-        let t1558 = mul_sub(t596, t819, mul_add(t572, t820, t1557));
-        let t1559 = mul_add(t91, t985, mul_add(t89, t997, t1558));
-        let t1560 = mul_sub(t104, t1025, mul_add(t103, t1036, t1559));
-        let t1561 = mul_sub(t121, t1064, mul_add(t119, t1075, t1560));
-        let t1562 = mul_sub(t139, t1103, mul_sub(t137, t1114, t1561));
-        let t1563 = mul_add(t155, t1142, mul_sub(t154, t1153, t1562));
-        let t1564 = mul_add(t167, t1181, mul_add(t166, t1192, t1563));
-        coriolis_matrix_b[5][3] = t1564;
-        let t1565 = mul_sub(t21, t1410, mul_add(t19, t1422, t1434));
-        let t1566 = mul_sub(t541, t820, mul_add(t596, t818, t1565));
-        let t1567 = mul_sub(t91, t993, mul_sub(t89, t998, t1566));
-        let t1568 = mul_sub(t104, t1032, mul_add(t103, t1037, t1567));
-        let t1569 = mul_sub(t121, t1071, mul_add(t119, t1076, t1568));
-        let t1570 = mul_sub(t139, t1110, mul_sub(t137, t1115, t1569));
-        let t1571 = mul_sub(t155, t1149, mul_add(t154, t1154, t1570));
-        let t1572 = mul_sub(t167, t1188, mul_sub(t166, t1193, t1571));
-        coriolis_matrix_b[5][4] = t1572;
-        let t1573 = mul_sub(t19, t1416, neg_mul_add(t20, t1410, t1440));
-        let t1574 = mul_sub(t572, t818, mul_sub(t541, t819, t1573));
-        let t1575 = mul_sub(t91, t996, mul_sub(t89, t1000, t1574));
-        let t1576 = mul_sub(t104, t1035, mul_add(t103, t1039, t1575));
-        let t1577 = mul_sub(t121, t1074, mul_add(t119, t1078, t1576));
-        let t1578 = mul_sub(t139, t1113, mul_sub(t137, t1117, t1577));
-        let t1579 = mul_sub(t155, t1152, mul_add(t154, t1156, t1578));
-        let t1580 = mul_sub(t167, t1191, mul_sub(t166, t1195, t1579));
-        coriolis_matrix_b[5][5] = t1580;
-        coriolis_matrix_b[0][3] = -t1480;
-        coriolis_matrix_b[0][4] = -t1483;
-        coriolis_matrix_b[0][5] = -t1486;
-        coriolis_matrix_b[1][3] = -t1489;
-        coriolis_matrix_b[1][5] = -t1497;
-        coriolis_matrix_b[2][3] = -t1500;
-        coriolis_matrix_b[2][4] = -t1503;
-        coriolis_matrix_b[2][5] = -t1508;
-        coriolis_matrix_b[3][3] = -t1516;
-        coriolis_matrix_b[4][4] = -t1548;
-        // linearised stiffness K_p = J_dp^T k_e J_dp
-        let t1581 = c(21555.9) * t98;
-        let t1582 = c(21555.9) * t110;
-        let t1583 = c(21555.9) * t128;
-        let t1584 = c(21555.9) * t146;
-        let t1585 = c(21555.9) * t161;
-        let t1586 = c(21555.9) * t173;
-        let t1587 = c(21555.9) * t100;
-        let t1588 = c(21555.9) * t112;
-        let t1589 = c(21555.9) * t130;
-        let t1590 = c(21555.9) * t148;
-        let t1591 = c(21555.9) * t163;
-        let t1592 = c(21555.9) * t175;
-        let t1593 = c(21555.9) * t102;
-        let t1594 = c(21555.9) * t114;
-        let t1595 = c(21555.9) * t132;
-        let t1596 = c(21555.9) * t150;
-        let t1597 = c(21555.9) * t165;
-        let t1598 = c(21555.9) * t177;
-        let t1599 = mul_add(t128, t1583, mul_add(t98, t1581, t110 * t1582));
-        let t1600 = mul_add(t161, t1585, mul_add(t146, t1584, t1599));
-        let t1601 = mul_add(t173, t1586, t1600);
-        stiffness_matrix_p[0][0] = t1601;
-        stiffness_matrix_b[0][0] = t1601;
-        let t1602 = mul_add(t128, t1589, mul_add(t98, t1587, t110 * t1588));
-        let t1603 = mul_add(t161, t1591, mul_add(t146, t1590, t1602));
-        let t1604 = mul_add(t173, t1592, t1603);
-        stiffness_matrix_p[0][1] = t1604;
-        stiffness_matrix_p[1][0] = t1604;
-        stiffness_matrix_b[0][1] = t1604;
-        let t1605 = mul_add(t128, t1595, mul_add(t98, t1593, t110 * t1594));
-        let t1606 = mul_add(t161, t1597, mul_add(t146, t1596, t1605));
-        let t1607 = mul_add(t173, t1598, t1606);
-        stiffness_matrix_p[0][2] = t1607;
-        stiffness_matrix_p[2][0] = t1607;
-        stiffness_matrix_b[0][2] = t1607;
-        let t1608 = c(21555.9) * t208;
-        let t1609 = c(21555.9) * t202;
-        let t1610 = c(21555.9) * t196;
-        let t1611 = c(21555.9) * t190;
-        let t1612 = c(21555.9) * t178;
-        let t1613 = c(21555.9) * t184;
-        let t1614 = neg_mul_add(t128, t1611, mul_add(t98, t1612, t110 * t1613));
-        let t1615 = neg_mul_add(t161, t1609, neg_mul_add(t146, t1610, t1614));
-        let t1616 = neg_mul_add(t173, t1608, t1615);
-        stiffness_matrix_p[0][3] = t1616;
-        stiffness_matrix_p[3][0] = t1616;
-        let t1617 = c(21555.9) * t209;
-        let t1618 = c(21555.9) * t203;
-        let t1619 = c(21555.9) * t197;
-        let t1620 = c(21555.9) * t191;
-        let t1621 = c(21555.9) * t179;
-        let t1622 = c(21555.9) * t185;
-        let t1623 = neg_mul_add(t128, t1620, mul_add(t98, t1621, t110 * t1622));
-        let t1624 = neg_mul_add(t161, t1618, neg_mul_add(t146, t1619, t1623));
-        let t1625 = neg_mul_add(t173, t1617, t1624);
-        stiffness_matrix_p[0][4] = t1625;
-        stiffness_matrix_p[4][0] = t1625;
-        let t1626 = c(21555.9) * t210;
-        let t1627 = c(21555.9) * t204;
-        let t1628 = c(21555.9) * t198;
-        let t1629 = c(21555.9) * t192;
-        let t1630 = c(21555.9) * t180;
-        let t1631 = c(21555.9) * t186;
-        let t1632 = neg_mul_add(t128, t1629, mul_add(t98, t1630, t110 * t1631));
-        let t1633 = neg_mul_add(t161, t1627, neg_mul_add(t146, t1628, t1632));
-        let t1634 = neg_mul_add(t173, t1626, t1633);
-        stiffness_matrix_p[0][5] = t1634;
-        stiffness_matrix_p[5][0] = t1634;
-        let t1635 = mul_add(t130, t1589, mul_add(t100, t1587, t112 * t1588));
-        let t1636 = mul_add(t163, t1591, mul_add(t148, t1590, t1635));
-        let t1637 = mul_add(t175, t1592, t1636);
-        stiffness_matrix_p[1][1] = t1637;
-        stiffness_matrix_b[1][1] = t1637;
-        let t1638 = mul_add(t130, t1595, mul_add(t100, t1593, t112 * t1594));
-        let t1639 = mul_add(t163, t1597, mul_add(t148, t1596, t1638));
-        let t1640 = mul_add(t175, t1598, t1639);
-        stiffness_matrix_p[1][2] = t1640;
-        stiffness_matrix_p[2][1] = t1640;
-        stiffness_matrix_b[1][2] = t1640;
-        let t1641 = neg_mul_add(t130, t1611, mul_add(t100, t1612, t112 * t1613));
-        let t1642 = neg_mul_add(t163, t1609, neg_mul_add(t148, t1610, t1641));
-        let t1643 = neg_mul_add(t175, t1608, t1642);
-        stiffness_matrix_p[1][3] = t1643;
-        stiffness_matrix_p[3][1] = t1643;
-        let t1644 = neg_mul_add(t130, t1620, mul_add(t100, t1621, t112 * t1622));
-        let t1645 = neg_mul_add(t163, t1618, neg_mul_add(t148, t1619, t1644));
-        let t1646 = neg_mul_add(t175, t1617, t1645);
-        stiffness_matrix_p[1][4] = t1646;
-        stiffness_matrix_p[4][1] = t1646;
-        let t1647 = neg_mul_add(t130, t1629, mul_add(t100, t1630, t112 * t1631));
-        let t1648 = neg_mul_add(t163, t1627, neg_mul_add(t148, t1628, t1647));
-        let t1649 = neg_mul_add(t175, t1626, t1648);
-        stiffness_matrix_p[1][5] = t1649;
-        stiffness_matrix_p[5][1] = t1649;
-        let t1650 = mul_add(t132, t1595, mul_add(t102, t1593, t114 * t1594));
-        let t1651 = mul_add(t165, t1597, mul_add(t150, t1596, t1650));
-        let t1652 = mul_add(t177, t1598, t1651);
-        stiffness_matrix_p[2][2] = t1652;
-        stiffness_matrix_b[2][2] = t1652;
-        let t1653 = neg_mul_add(t132, t1611, mul_add(t102, t1612, t114 * t1613));
-        let t1654 = neg_mul_add(t165, t1609, neg_mul_add(t150, t1610, t1653));
-        let t1655 = neg_mul_add(t177, t1608, t1654);
-        stiffness_matrix_p[2][3] = t1655;
-        stiffness_matrix_p[3][2] = t1655;
-        let t1656 = neg_mul_add(t132, t1620, mul_add(t102, t1621, t114 * t1622));
-        let t1657 = neg_mul_add(t165, t1618, neg_mul_add(t150, t1619, t1656));
-        let t1658 = neg_mul_add(t177, t1617, t1657);
-        stiffness_matrix_p[2][4] = t1658;
-        stiffness_matrix_p[4][2] = t1658;
-        let t1659 = neg_mul_add(t132, t1629, mul_add(t102, t1630, t114 * t1631));
-        let t1660 = neg_mul_add(t165, t1627, neg_mul_add(t150, t1628, t1659));
-        let t1661 = neg_mul_add(t177, t1626, t1660);
-        stiffness_matrix_p[2][5] = t1661;
-        stiffness_matrix_p[5][2] = t1661;
-        let t1662 = mul_add(t190, t1611, mul_add(t178, t1612, t184 * t1613));
-        let t1663 = mul_add(t202, t1609, mul_add(t196, t1610, t1662));
-        stiffness_matrix_p[3][3] = mul_add(t208, t1608, t1663);
-        let t1664 = mul_add(t190, t1620, mul_add(t178, t1621, t184 * t1622));
-        let t1665 = mul_add(t202, t1618, mul_add(t196, t1619, t1664));
-        let t1666 = mul_add(t208, t1617, t1665);
-        stiffness_matrix_p[3][4] = t1666;
-        stiffness_matrix_p[4][3] = t1666;
-        let t1667 = mul_add(t190, t1629, mul_add(t178, t1630, t184 * t1631));
-        let t1668 = mul_add(t202, t1627, mul_add(t196, t1628, t1667));
-        let t1669 = mul_add(t208, t1626, t1668);
-        stiffness_matrix_p[3][5] = t1669;
-        stiffness_matrix_p[5][3] = t1669;
-        let t1670 = mul_add(t191, t1620, mul_add(t179, t1621, t185 * t1622));
-        let t1671 = mul_add(t203, t1618, mul_add(t197, t1619, t1670));
-        stiffness_matrix_p[4][4] = mul_add(t209, t1617, t1671);
-        let t1672 = mul_add(t191, t1629, mul_add(t179, t1630, t185 * t1631));
-        let t1673 = mul_add(t203, t1627, mul_add(t197, t1628, t1672));
-        let t1674 = mul_add(t209, t1626, t1673);
-        stiffness_matrix_p[4][5] = t1674;
-        stiffness_matrix_p[5][4] = t1674;
-        let t1675 = mul_add(t192, t1629, mul_add(t180, t1630, t186 * t1631));
-        let t1676 = mul_add(t204, t1627, mul_add(t198, t1628, t1675));
-        stiffness_matrix_p[5][5] = mul_add(t210, t1626, t1676);
-        (
-            t1199,
-            t1200,
-            t1201,
-            t1216,
-            t1245,
-            t1246,
-            t1247,
-            t1274,
-            t1289,
-            t1290,
-            t1291,
-            t1332,
-            t1338,
-            t1344,
-            t1350,
-            t1374,
-            t1380,
-            t1386,
-            t1410,
-            t1416,
-            t1422,
-            t1447,
-            t1449,
-            t1450,
-            t1452,
-            t1453,
-            t1454,
-            t1456,
-            t1459,
-            t1462,
-            t1465,
-            t1467,
-            t1469,
-            t1471,
-            t1473,
-            t1475,
-            t1480,
-            t1483,
-            t1486,
-            t1489,
-            t1494,
-            t1497,
-            t1500,
-            t1503,
-            t1508,
-            t1516,
-            t1524,
-            t1532,
-            t1540,
-            t1548,
-            t1556,
-            t1564,
-            t1572,
-            t1580,
-            t1581,
-            t1582,
-            t1583,
-            t1584,
-            t1585,
-            t1586,
-            t1587,
-            t1588,
-            t1589,
-            t1590,
-            t1591,
-            t1592,
-            t1593,
-            t1594,
-            t1595,
-            t1596,
-            t1597,
-            t1598,
         )
     };
     {
+        // leg 6: moment of that force's rate
+        let t855 = mul_sub(t167, t807, t168 * t808);
+        let t856 = mul_sub(t168, t810, t166 * t807);
+        let t857 = mul_sub(t166, t808, t167 * t810);
+        // leg 6: moment of that force by the rate of the lever
+        let t858 = mul_sub(t216, t769, t215 * t770);
+        let t859 = mul_sub(t214, t770, t216 * t768);
+        let t860 = mul_sub(t215, t768, t214 * t769);
+        // leg 6: moment of the force along the axis that an acceleration of the actuator takes
+        let t861 = mul_add(t208, c(0.9523333333333334), t232);
+        let t862 = mul_add(t209, c(0.9523333333333334), t233);
+        let t863 = mul_add(t210, c(0.9523333333333334), t234);
+        // part of the legs' Coriolis matrix on the side of the axes
+        let t864 = t737 + t748 + (t693 - t704 - (t715 + t726));
+        let t865 = c(0.17066666666666666) * t864;
+        let t866 = mul_add(t237, t715, mul_add(t235, t693, t236 * t704));
+        let t867 = mul_add(t239, t737, mul_add(t238, t726, t866));
+        let t868 = mul_add(base_rotation[0][2], t865, mul_add(t240, t748, t867));
+        let t869 = mul_sub(
+            base_velocity[5],
+            t300,
+            mul_sub(base_velocity[4], t332, t868),
+        );
+        coriolis_matrix_p[0][0] = t869;
+        coriolis_matrix_b[0][0] = t869;
+        let t870 = t739 + t750 + (t695 - t706 - (t717 + t728));
+        let t871 = c(0.17066666666666666) * t870;
+        let t872 = mul_add(t237, t717, mul_add(t235, t695, t236 * t706));
+        let t873 = mul_add(t239, t739, mul_add(t238, t728, t872));
+        let t874 = mul_add(base_rotation[0][2], t871, mul_add(t240, t750, t873));
+        let t875 = mul_sub(
+            base_velocity[5],
+            t308,
+            mul_sub(base_velocity[4], t334, t874),
+        );
+        coriolis_matrix_p[0][1] = t875;
+        coriolis_matrix_b[0][1] = t875;
+        let t876 = t741 + t752 + (t697 - t708 - (t719 + t730));
+        let t877 = c(0.17066666666666666) * t876;
+        let t878 = mul_add(t237, t719, mul_add(t235, t697, t236 * t708));
+        let t879 = mul_add(t239, t741, mul_add(t238, t730, t878));
+        let t880 = mul_add(base_rotation[0][2], t877, mul_add(t240, t752, t879));
+        let t881 = mul_sub(
+            base_velocity[5],
+            t312,
+            mul_sub(base_velocity[4], t342, t880),
+        );
+        coriolis_matrix_p[0][2] = t881;
+        coriolis_matrix_b[0][2] = t881;
+        let t882 = t796 + t802 - (t772 - t778 + (t784 + t790));
+        let t883 = c(0.17066666666666666) * t882;
+        let t884 = mul_sub(t237, t784, mul_add(t235, t772, t236 * t778));
+        let t885 = mul_add(t239, t796, mul_add(t238, t790, t884));
+        let t886 = mul_add(base_rotation[0][2], t883, mul_add(t240, t802, t885));
+        let t887 = mul_sub(
+            base_velocity[5],
+            t317,
+            mul_add(base_velocity[4], t346, t886),
+        );
+        let t888 = t798 + t804 - (t774 - t780 + (t786 + t792));
+        let t889 = c(0.17066666666666666) * t888;
+        let t890 = mul_sub(t237, t786, mul_add(t235, t774, t236 * t780));
+        let t891 = mul_add(t239, t798, mul_add(t238, t792, t890));
+        let t892 = mul_add(base_rotation[0][2], t889, mul_add(t240, t804, t891));
+        let t893 = mul_sub(
+            base_velocity[5],
+            t322,
+            mul_add(base_velocity[4], t351, t892),
+        );
+        let t894 = t800 + t806 - (t776 - t782 + (t788 + t794));
+        let t895 = c(0.17066666666666666) * t894;
+        let t896 = mul_sub(t237, t788, mul_add(t235, t776, t236 * t782));
+        let t897 = mul_add(t239, t800, mul_add(t238, t794, t896));
+        let t898 = mul_add(base_rotation[0][2], t895, mul_add(t240, t806, t897));
+        let t899 = mul_sub(
+            base_velocity[5],
+            t327,
+            mul_add(base_velocity[4], t356, t898),
+        );
+        let t900 = mul_add(t304, t715, mul_add(t302, t693, t303 * t704));
+        let t901 = mul_add(t306, t737, mul_add(t305, t726, t900));
+        let t902 = mul_add(base_rotation[1][2], t865, mul_add(t307, t748, t901));
+        let t903 = mul_sub(
+            base_velocity[3],
+            t332,
+            mul_sub(base_velocity[5], t246, t902),
+        );
+        coriolis_matrix_p[1][0] = t903;
+        coriolis_matrix_b[1][0] = t903;
+        let t904 = mul_add(t304, t717, mul_add(t302, t695, t303 * t706));
+        let t905 = mul_add(t306, t739, mul_add(t305, t728, t904));
+        let t906 = mul_add(base_rotation[1][2], t871, mul_add(t307, t750, t905));
+        let t907 = mul_sub(
+            base_velocity[3],
+            t334,
+            mul_sub(base_velocity[5], t255, t906),
+        );
+        coriolis_matrix_p[1][1] = t907;
+        coriolis_matrix_b[1][1] = t907;
+        let t908 = mul_add(t304, t719, mul_add(t302, t697, t303 * t708));
+        let t909 = mul_add(t306, t741, mul_add(t305, t730, t908));
+        let t910 = mul_add(base_rotation[1][2], t877, mul_add(t307, t752, t909));
+        let t911 = mul_sub(
+            base_velocity[3],
+            t342,
+            mul_sub(base_velocity[5], t265, t910),
+        );
+        coriolis_matrix_p[1][2] = t911;
+        coriolis_matrix_b[1][2] = t911;
+        let t912 = mul_sub(t304, t784, mul_add(t302, t772, t303 * t778));
+        let t913 = mul_add(t306, t796, mul_add(t305, t790, t912));
+        let t914 = mul_add(base_rotation[1][2], t883, mul_add(t307, t802, t913));
+        let t915 = mul_sub(
+            base_velocity[3],
+            t346,
+            mul_add(base_velocity[5], t275, t914),
+        );
+        let t916 = mul_sub(t304, t786, mul_add(t302, t774, t303 * t780));
+        let t917 = mul_add(t306, t798, mul_add(t305, t792, t916));
+        let t918 = mul_add(base_rotation[1][2], t889, mul_add(t307, t804, t917));
+        let t919 = mul_sub(
+            base_velocity[3],
+            t351,
+            mul_add(base_velocity[5], t285, t918),
+        );
+        let t920 = mul_sub(t304, t788, mul_add(t302, t776, t303 * t782));
+        let t921 = mul_add(t306, t800, mul_add(t305, t794, t920));
+        let t922 = mul_add(base_rotation[1][2], t895, mul_add(t307, t806, t921));
+        let t923 = mul_sub(
+            base_velocity[3],
+            t356,
+            mul_add(base_velocity[5], t295, t922),
+        );
+        let t924 = mul_add(t338, t715, mul_add(t336, t693, t337 * t704));
+        let t925 = mul_add(t340, t737, mul_add(t339, t726, t924));
+        let t926 = mul_add(base_rotation[2][2], t865, mul_add(t341, t748, t925));
+        let t927 = mul_sub(
+            base_velocity[4],
+            t246,
+            mul_sub(base_velocity[3], t300, t926),
+        );
+        coriolis_matrix_p[2][0] = t927;
+        coriolis_matrix_b[2][0] = t927;
+        let t928 = mul_add(t338, t717, mul_add(t336, t695, t337 * t706));
+        let t929 = mul_add(t340, t739, mul_add(t339, t728, t928));
+        let t930 = mul_add(base_rotation[2][2], t871, mul_add(t341, t750, t929));
+        let t931 = mul_sub(
+            base_velocity[4],
+            t255,
+            mul_sub(base_velocity[3], t308, t930),
+        );
+        coriolis_matrix_p[2][1] = t931;
+        coriolis_matrix_b[2][1] = t931;
+        let t932 = mul_add(t338, t719, mul_add(t336, t697, t337 * t708));
+        let t933 = mul_add(t340, t741, mul_add(t339, t730, t932));
+        let t934 = mul_add(base_rotation[2][2], t877, mul_add(t341, t752, t933));
+        let t935 = mul_sub(
+            base_velocity[4],
+            t265,
+            mul_sub(base_velocity[3], t312, t934),
+        );
+        coriolis_matrix_p[2][2] = t935;
+        coriolis_matrix_b[2][2] = t935;
+        let t936 = mul_sub(t338, t784, mul_add(t336, t772, t337 * t778));
+        let t937 = mul_add(t340, t796, mul_add(t339, t790, t936));
+        let t938 = mul_add(base_rotation[2][2], t883, mul_add(t341, t802, t937));
+        let t939 = mul_sub(
+            base_velocity[4],
+            t275,
+            mul_add(base_velocity[3], t317, t938),
+        );
+        let t940 = mul_sub(t338, t786, mul_add(t336, t774, t337 * t780));
+        let t941 = mul_add(t340, t798, mul_add(t339, t792, t940));
+        let t942 = mul_add(base_rotation[2][2], t889, mul_add(t341, t804, t941));
+        let t943 = mul_sub(
+            base_velocity[4],
+            t285,
+            mul_add(base_velocity[3], t322, t942),
+        );
+        let t944 = mul_sub(t338, t788, mul_add(t336, t776, t337 * t782));
+        let t945 = mul_add(t340, t800, mul_add(t339, t794, t944));
+        let t946 = mul_add(base_rotation[2][2], t895, mul_add(t341, t806, t945));
+        let t947 = mul_sub(
+            base_velocity[4],
+            t295,
+            mul_add(base_velocity[3], t327, t946),
+        );
+        let t948 = mul_add(t715, t834, mul_sub(t693, t816, t704 * t825));
+        let t949 = mul_sub(t737, t852, mul_add(t726, t843, t948));
+        let t950 = mul_sub(t98, t809, mul_add(t748, t861, t949));
+        let t951 = mul_sub(t128, t828, mul_sub(t110, t819, t950));
+        let t952 = mul_sub(t161, t846, mul_add(t146, t837, t951));
+        let t953 = mul_add(t173, t855, t952);
+        let t954 = mul_add(t717, t834, mul_sub(t695, t816, t706 * t825));
+        let t955 = mul_sub(t739, t852, mul_add(t728, t843, t954));
+        let t956 = mul_sub(t100, t809, mul_add(t750, t861, t955));
+        let t957 = mul_sub(t130, t828, mul_sub(t112, t819, t956));
+        let t958 = mul_sub(t163, t846, mul_add(t148, t837, t957));
+        let t959 = mul_add(t175, t855, t958);
+        let t960 = mul_add(t719, t834, mul_sub(t697, t816, t708 * t825));
+        let t961 = mul_sub(t741, t852, mul_add(t730, t843, t960));
+        let t962 = mul_sub(t102, t809, mul_add(t752, t861, t961));
+        let t963 = mul_sub(t132, t828, mul_sub(t114, t819, t962));
+        let t964 = mul_sub(t165, t846, mul_add(t150, t837, t963));
+        let t965 = mul_add(t177, t855, t964);
+        let t966 = mul_sub(t784, t834, mul_sub(t772, t816, t778 * t825));
+        let t967 = mul_sub(t796, t852, mul_add(t790, t843, t966));
+        let t968 = mul_sub(t178, t809, mul_add(t802, t861, t967));
+        let t969 = mul_add(t190, t828, mul_sub(t184, t819, t968));
+        let t970 = mul_sub(t202, t846, mul_add(t196, t837, t969));
+        let t971 = mul_add(t208, t855, t970);
+        let t972 = mul_sub(t786, t834, mul_sub(t774, t816, t780 * t825));
+        let t973 = mul_sub(t798, t852, mul_add(t792, t843, t972));
+        let t974 = mul_sub(t179, t809, mul_add(t804, t861, t973));
+        let t975 = mul_add(t191, t828, mul_sub(t185, t819, t974));
+        let t976 = mul_sub(t203, t846, mul_add(t197, t837, t975));
+        let t977 = mul_add(t209, t855, t976);
+        let t978 = mul_sub(t788, t834, mul_sub(t776, t816, t782 * t825));
+        let t979 = mul_sub(t800, t852, mul_add(t794, t843, t978));
+        let t980 = mul_sub(t180, t809, mul_add(t806, t861, t979));
+        let t981 = mul_add(t192, t828, mul_sub(t186, t819, t980));
+        let t982 = mul_sub(t204, t846, mul_add(t198, t837, t981));
+        let t983 = mul_add(t210, t855, t982);
+        let t984 = mul_add(t715, t835, mul_sub(t693, t817, t704 * t826));
+        let t985 = mul_sub(t737, t853, mul_add(t726, t844, t984));
+        let t986 = mul_sub(t98, t811, mul_add(t748, t862, t985));
+        let t987 = mul_sub(t128, t829, mul_sub(t110, t820, t986));
+        let t988 = mul_sub(t161, t847, mul_add(t146, t838, t987));
+        let t989 = mul_add(t173, t856, t988);
+        let t990 = mul_add(t717, t835, mul_sub(t695, t817, t706 * t826));
+        let t991 = mul_sub(t739, t853, mul_add(t728, t844, t990));
+        let t992 = mul_sub(t100, t811, mul_add(t750, t862, t991));
+        let t993 = mul_sub(t130, t829, mul_sub(t112, t820, t992));
+        let t994 = mul_sub(t163, t847, mul_add(t148, t838, t993));
+        let t995 = mul_add(t175, t856, t994);
+        let t996 = mul_add(t719, t835, mul_sub(t697, t817, t708 * t826));
+        let t997 = mul_sub(t741, t853, mul_add(t730, t844, t996));
+        let t998 = mul_sub(t102, t811, mul_add(t752, t862, t997));
+        let t999 = mul_sub(t132, t829, mul_sub(t114, t820, t998));
+        let t1000 = mul_sub(t165, t847, mul_add(t150, t838, t999));
+        let t1001 = mul_add(t177, t856, t1000);
+        let t1002 = mul_sub(t784, t835, mul_sub(t772, t817, t778 * t826));
+        let t1003 = mul_sub(t796, t853, mul_add(t790, t844, t1002));
+        let t1004 = mul_sub(t178, t811, mul_add(t802, t862, t1003));
+        let t1005 = mul_add(t190, t829, mul_sub(t184, t820, t1004));
+        let t1006 = mul_sub(t202, t847, mul_add(t196, t838, t1005));
+        let t1007 = mul_add(t208, t856, t1006);
+        let t1008 = mul_sub(t786, t835, mul_sub(t774, t817, t780 * t826));
+        let t1009 = mul_sub(t798, t853, mul_add(t792, t844, t1008));
+        let t1010 = mul_sub(t179, t811, mul_add(t804, t862, t1009));
+        let t1011 = mul_add(t191, t829, mul_sub(t185, t820, t1010));
+        let t1012 = mul_sub(t203, t847, mul_add(t197, t838, t1011));
+        let t1013 = mul_add(t209, t856, t1012);
+        let t1014 = mul_sub(t788, t835, mul_sub(t776, t817, t782 * t826));
+        let t1015 = mul_sub(t800, t853, mul_add(t794, t844, t1014));
+        let t1016 = mul_sub(t180, t811, mul_add(t806, t862, t1015));
+        let t1017 = mul_add(t192, t829, mul_sub(t186, t820, t1016));
+        let t1018 = mul_sub(t204, t847, mul_add(t198, t838, t1017));
+        let t1019 = mul_add(t210, t856, t1018);
+        let t1020 = mul_add(t715, t836, mul_sub(t693, t818, t704 * t827));
+        let t1021 = mul_sub(t737, t854, mul_add(t726, t845, t1020));
+        let t1022 = mul_sub(t98, t812, mul_add(t748, t863, t1021));
+        let t1023 = mul_sub(t128, t830, mul_sub(t110, t821, t1022));
+        let t1024 = mul_sub(t161, t848, mul_add(t146, t839, t1023));
+        let t1025 = mul_add(t173, t857, t1024);
+        let t1026 = mul_add(t717, t836, mul_sub(t695, t818, t706 * t827));
+        let t1027 = mul_sub(t739, t854, mul_add(t728, t845, t1026));
+        let t1028 = mul_sub(t100, t812, mul_add(t750, t863, t1027));
+        let t1029 = mul_sub(t130, t830, mul_sub(t112, t821, t1028));
+        let t1030 = mul_sub(t163, t848, mul_add(t148, t839, t1029));
+        let t1031 = mul_add(t175, t857, t1030);
+        let t1032 = mul_add(t719, t836, mul_sub(t697, t818, t708 * t827));
+        let t1033 = mul_sub(t741, t854, mul_add(t730, t845, t1032));
+        let t1034 = mul_sub(t102, t812, mul_add(t752, t863, t1033));
+        let t1035 = mul_sub(t132, t830, mul_sub(t114, t821, t1034));
+        let t1036 = mul_sub(t165, t848, mul_add(t150, t839, t1035));
+        let t1037 = mul_add(t177, t857, t1036);
+        let t1038 = mul_sub(t784, t836, mul_sub(t772, t818, t778 * t827));
+        let t1039 = mul_sub(t796, t854, mul_add(t790, t845, t1038));
+        let t1040 = mul_sub(t178, t812, mul_add(t802, t863, t1039));
+        let t1041 = mul_add(t190, t830, mul_sub(t184, t821, t1040));
+        let t1042 = mul_sub(t202, t848, mul_add(t196, t839, t1041));
+        let t1043 = mul_add(t208, t857, t1042);
+        let t1044 = mul_sub(t786, t836, mul_sub(t774, t818, t780 * t827));
+        let t1045 = mul_sub(t798, t854, mul_add(t792, t845, t1044));
+        let t1046 = mul_sub(t179, t812, mul_add(t804, t863, t1045));
+        let t1047 = mul_add(t191, t830, mul_sub(t185, t821, t1046));
+        let t1048 = mul_sub(t203, t848, mul_add(t197, t839, t1047));
+        let t1049 = mul_add(t209, t857, t1048);
+        let t1050 = mul_sub(t788, t836, mul_sub(t776, t818, t782 * t827));
+        let t1051 = mul_sub(t800, t854, mul_add(t794, t845, t1050));
+        let t1052 = mul_sub(t180, t812, mul_add(t806, t863, t1051));
+        let t1053 = mul_add(t192, t830, mul_sub(t186, t821, t1052));
+        let t1054 = mul_sub(t204, t848, mul_add(t198, t839, t1053));
+        let t1055 = mul_add(t210, t857, t1054);
+        let t1056 = -t953;
+        coriolis_matrix_p[3][0] = t1056;
+        coriolis_matrix_b[3][0] = t1056;
+        let t1057 = -t959;
+        coriolis_matrix_p[3][1] = t1057;
+        coriolis_matrix_b[3][1] = t1057;
+        let t1058 = -t965;
+        coriolis_matrix_p[3][2] = t1058;
+        coriolis_matrix_b[3][2] = t1058;
+        let t1059 = -t989;
+        coriolis_matrix_p[4][0] = t1059;
+        coriolis_matrix_b[4][0] = t1059;
+        let t1060 = -t995;
+        coriolis_matrix_p[4][1] = t1060;
+        coriolis_matrix_b[4][1] = t1060;
+        let t1061 = -t1001;
+        coriolis_matrix_p[4][2] = t1061;
+        coriolis_matrix_b[4][2] = t1061;
+        let t1062 = -t1025;
+        coriolis_matrix_p[5][0] = t1062;
+        coriolis_matrix_b[5][0] = t1062;
+        let t1063 = -t1031;
+        coriolis_matrix_p[5][1] = t1063;
+        coriolis_matrix_b[5][1] = t1063;
+        let t1064 = -t1037;
+        coriolis_matrix_p[5][2] = t1064;
+        coriolis_matrix_b[5][2] = t1064;
+        // Coriolis matrix of the legs
+        let t1065 = mul_add(t110, t822, neg_mul_add(t98, t813, t887));
+        let t1066 = mul_add(t146, t840, mul_sub(t128, t831, t1065));
+        let t1067 = mul_add(t173, t858, mul_sub(t161, t849, t1066));
+        let t1068 = mul_add(t112, t823, neg_mul_add(t100, t814, t919));
+        let t1069 = mul_add(t148, t841, mul_sub(t130, t832, t1068));
+        let t1070 = mul_add(t175, t859, mul_sub(t163, t850, t1069));
+        let t1071 = mul_add(t114, t824, neg_mul_add(t102, t815, t947));
+        let t1072 = mul_add(t150, t842, mul_sub(t132, t833, t1071));
+        let t1073 = mul_add(t177, t860, mul_sub(t165, t851, t1072));
+        coriolis_matrix_p[0][3] = -t1067;
+        coriolis_matrix_p[1][4] = -t1070;
+        coriolis_matrix_p[2][5] = -t1073;
+        // leg 1: rate of the sliding masses' first moment, its moment about the axis
+        let t1074 = c(0.1253686515315582) * t626;
+        let t1075 = mul_add(t53, c(0.9523333333333334), c(0.03055));
+        let t1076 = mul_add(t620, t1075, t1074);
+        let t1077 = c(0.11690815888191348) * t626;
+        let t1078 = mul_sub(t623, t1075, t1077);
+        // leg 2: rate of the sliding masses' first moment, its moment about the axis
+        let t1079 = mul_add(t57, c(0.9523333333333334), c(0.03055));
+        let t1080 = mul_add(t620, t1079, t1074);
+        let t1081 = mul_add(t623, t1079, t1077);
+        // leg 3: rate of the sliding masses' first moment, its moment about the axis
+        let t1082 = c(0.03856110973562536) * t626;
+        let t1083 = mul_add(t62, c(0.9523333333333334), c(0.03055));
+        let t1084 = mul_add(t620, t1083, t1082);
+        let t1085 = c(0.16702651650548503) * t626;
+        let t1086 = mul_add(t623, t1083, t1085);
+        // leg 4: rate of the sliding masses' first moment, its moment about the axis
+        let t1087 = c(0.16392976126718353) * t626;
+        let t1088 = mul_add(t67, c(0.9523333333333334), c(0.03055));
+        let t1089 = mul_sub(t620, t1088, t1087);
+        let t1090 = c(0.05011835762357158) * t626;
+        let t1091 = mul_add(t623, t1088, t1090);
+        // leg 5: rate of the sliding masses' first moment, its moment about the axis
+        let t1092 = mul_add(t71, c(0.9523333333333334), c(0.03055));
+        let t1093 = neg_mul_add(t620, t1092, t1087);
+        let t1094 = neg_mul_add(t623, t1092, t1090);
+        // leg 6: rate of the sliding masses' first moment, its moment about the axis
+        let t1095 = mul_add(t75, c(0.9523333333333334), c(0.03055));
+        let t1096 = mul_add(t620, t1095, t1082);
+        let t1097 = neg_mul_add(t623, t1095, t1085);
+        // Coriolis matrix C_b, natural factorisation
+        let t1098 = mul_sub(t128, t1086, mul_sub(t98, t1078, t110 * t1081));
+        let t1099 = mul_add(t161, t1094, mul_add(t146, t1091, t1098));
+        let t1100 = mul_add(t173, t1097, t1099);
+        let t1101 = mul_sub(t128, t1084, mul_sub(t98, t1076, t110 * t1080));
+        let t1102 = mul_add(t161, t1093, mul_add(t146, t1089, t1101));
+        let t1103 = mul_sub(t173, t1096, t1102);
+        let t1104 = mul_add(t20, t881, neg_mul_add(t21, t875, t887));
+        let t1105 = mul_add(base_rotation[0][0], t1103, t1104);
+        let t1106 = mul_add(t259, t638, mul_sub(base_rotation[0][1], t1100, t1105));
+        let t1107 = mul_sub(t269, t637, t1106);
+        let t1108 = t682 + t684;
+        let t1109 = t674 + t676;
+        let t1110 = t679 + t686;
+        let t1111 = c(0.17066666666666666) * (t1108 + (t1109 + t1110));
+        let t1112 = mul_sub(base_velocity[3], t509, base_velocity[4] * t507);
+        let t1113 = mul_add(base_rotation[2][2], t1111, t1112);
+        let t1114 = mul_add(t21, t869, neg_mul_add(t19, t881, t893));
+        let t1115 = mul_add(base_rotation[1][0], t1103, t1114);
+        let t1116 = mul_add(t269, t636, mul_sub(base_rotation[1][1], t1100, t1115));
+        let t1117 = t1113 + mul_add(t249, t638, t1116);
+        coriolis_matrix_b[0][4] = t1117;
+        let t1118 = mul_sub(base_velocity[5], t507, base_velocity[3] * t511);
+        let t1119 = mul_add(base_rotation[1][2], t1111, t1118);
+        let t1120 = mul_add(t19, t875, neg_mul_add(t20, t869, t899));
+        let t1121 = mul_add(base_rotation[2][0], t1103, t1120);
+        let t1122 = mul_sub(t249, t637, mul_sub(base_rotation[2][1], t1100, t1121));
+        let t1123 = t1119 + mul_add(t259, t636, t1122);
+        let t1124 = mul_sub(t130, t1086, mul_sub(t100, t1078, t112 * t1081));
+        let t1125 = mul_add(t163, t1094, mul_add(t148, t1091, t1124));
+        let t1126 = mul_add(t175, t1097, t1125);
+        let t1127 = mul_sub(t130, t1084, mul_sub(t100, t1076, t112 * t1080));
+        let t1128 = mul_add(t163, t1093, mul_add(t148, t1089, t1127));
+        let t1129 = mul_sub(t175, t1096, t1128);
+        let t1130 = mul_sub(t20, t911, mul_sub(t21, t907, t915 + t1113));
+        let t1131 = mul_add(base_rotation[0][0], t1129, t1130);
+        let t1132 = mul_sub(t311, t638, mul_sub(base_rotation[0][1], t1126, t1131));
+        let t1133 = mul_add(t316, t637, t1132);
+        let t1134 = mul_add(t21, t903, neg_mul_add(t19, t911, t919));
+        let t1135 = mul_add(base_rotation[1][0], t1129, t1134);
+        let t1136 = mul_add(t316, t636, mul_sub(base_rotation[1][1], t1126, t1135));
+        let t1137 = mul_sub(t301, t638, t1136);
+        let t1138 = mul_sub(base_velocity[4], t511, base_velocity[5] * t509);
+        let t1139 = mul_add(base_rotation[0][2], t1111, t1138);
+        let t1140 = mul_add(t19, t907, neg_mul_add(t20, t903, t923));
+        let t1141 = mul_add(base_rotation[2][0], t1129, t1140);
+        let t1142 = mul_add(t301, t637, mul_sub(base_rotation[2][1], t1126, t1141));
+        let t1143 = t1139 + mul_add(t311, t636, t1142);
+        coriolis_matrix_b[1][5] = t1143;
+        let t1144 = mul_sub(t132, t1086, mul_sub(t102, t1078, t114 * t1081));
+        let t1145 = mul_add(t165, t1094, mul_add(t150, t1091, t1144));
+        let t1146 = mul_add(t177, t1097, t1145);
+        let t1147 = mul_sub(t132, t1084, mul_sub(t102, t1076, t114 * t1080));
+        let t1148 = mul_add(t165, t1093, mul_add(t150, t1089, t1147));
+        let t1149 = mul_sub(t177, t1096, t1148);
+        let t1150 = mul_sub(t20, t935, mul_sub(t21, t931, t939 - t1119));
+        let t1151 = mul_add(base_rotation[0][0], t1149, t1150);
+        let t1152 = mul_add(t335, t638, mul_sub(base_rotation[0][1], t1146, t1151));
+        let t1153 = mul_add(t345, t637, t1152);
+        coriolis_matrix_b[2][3] = t1153;
+        let t1154 = mul_sub(t21, t927, mul_sub(t19, t935, t943 + t1139));
+        let t1155 = mul_add(base_rotation[1][0], t1149, t1154);
+        let t1156 = mul_sub(t345, t636, mul_sub(base_rotation[1][1], t1146, t1155));
+        let t1157 = mul_add(t333, t638, t1156);
+        let t1158 = mul_add(t19, t931, neg_mul_add(t20, t927, t947));
+        let t1159 = mul_add(base_rotation[2][0], t1149, t1158);
+        let t1160 = mul_add(t333, t637, mul_sub(base_rotation[2][1], t1146, t1159));
+        let t1161 = mul_sub(t335, t636, t1160);
+        let t1162 = mul_sub(
+            c(0.019782160922400118),
+            t1109,
+            c(0.005300614043699622) * t1110,
+        );
+        let t1163 = neg_mul_add(c(0.01448154687870049), t1108, t1162);
+        let t1164 = c(0.019782160922400118) * (t679 - t686);
+        let t1165 = mul_sub(c(0.005300614043699624), t674 - t676, t1164);
+        let t1166 = neg_mul_add(c(0.014481546878700494), t682 - t684, t1165);
+        let t1167 = mul_sub(
+            platform_rotation[2][0],
+            t1163,
+            platform_rotation[2][1] * t1166,
+        );
+        let t1168 = mul_sub(
+            platform_rotation[0][0],
+            t1163,
+            platform_rotation[0][1] * t1166,
+        );
+        let t1169 = mul_sub(base_rotation[0][2], t1168, base_velocity[5] * t526);
+        let t1170 = mul_add(base_velocity[4], t531, t1169);
+        let t1171 = mul_sub(
+            platform_rotation[1][0],
+            t1163,
+            platform_rotation[1][1] * t1166,
+        );
+        let t1172 = mul_sub(base_rotation[1][2], t1171, base_velocity[3] * t534);
+        let t1173 = mul_add(base_velocity[5], t532, t1172);
+        let t1174 = t1170 + t1173;
+        let t1175 = mul_add(base_rotation[2][2], t1167, t1174);
+        let t1176 = mul_sub(
+            base_velocity[3],
+            t536,
+            mul_sub(base_velocity[4], t535, t1175),
+        );
+        let t1177 = mul_add(t190, t1086, mul_sub(t178, t1078, t184 * t1081));
+        let t1178 = mul_add(t202, t1094, mul_add(t196, t1091, t1177));
+        let t1179 = mul_add(t208, t1097, t1178);
+        let t1180 = mul_add(t190, t1084, mul_sub(t178, t1076, t184 * t1080));
+        let t1181 = mul_add(t202, t1093, mul_add(t196, t1089, t1180));
+        let t1182 = mul_sub(t208, t1096, t1181);
+        let t1183 = mul_add(t20, t965, neg_mul_add(t21, t959, t971));
+        let t1184 = mul_add(base_rotation[0][0], t1182, t1183);
+        let t1185 = mul_add(t368, t638, mul_sub(base_rotation[0][1], t1179, t1184));
+        let t1186 = t1176 - (t1170 - mul_sub(t372, t637, t1185));
+        coriolis_matrix_b[3][3] = t1186;
+        let t1187 = mul_add(t21, t953, neg_mul_add(t19, t965, t977));
+        let t1188 = mul_add(base_rotation[1][0], t1182, t1187);
+        let t1189 = mul_add(t372, t636, mul_sub(base_rotation[1][1], t1179, t1188));
+        let t1190 = mul_sub(base_rotation[0][2], t1171, mul_sub(t364, t638, t1189));
+        let t1191 = mul_sub(
+            base_velocity[4],
+            t534,
+            mul_sub(base_velocity[5], t533, t1190),
+        );
+        let t1192 = mul_add(t19, t959, neg_mul_add(t20, t953, t983));
+        let t1193 = mul_add(base_rotation[2][0], t1182, t1192);
+        let t1194 = mul_add(t364, t637, mul_sub(base_rotation[2][1], t1179, t1193));
+        let t1195 = mul_sub(base_rotation[0][2], t1167, mul_sub(t368, t636, t1194));
+        let t1196 = mul_sub(
+            base_velocity[4],
+            t537,
+            mul_sub(base_velocity[5], t536, t1195),
+        );
+        let t1197 = mul_add(t191, t1086, mul_sub(t179, t1078, t185 * t1081));
+        let t1198 = mul_add(t203, t1094, mul_add(t197, t1091, t1197));
+        let t1199 = mul_add(t209, t1097, t1198);
+        let t1200 = mul_add(t191, t1084, mul_sub(t179, t1076, t185 * t1080));
+        let t1201 = mul_add(t203, t1093, mul_add(t197, t1089, t1200));
+        let t1202 = mul_sub(t209, t1096, t1201);
+        let t1203 = mul_add(t20, t1001, neg_mul_add(t21, t995, t1007));
+        let t1204 = mul_add(base_rotation[0][0], t1202, t1203);
+        let t1205 = mul_add(t404, t638, mul_sub(base_rotation[0][1], t1199, t1204));
+        let t1206 = mul_sub(base_rotation[1][2], t1168, mul_sub(t408, t637, t1205));
+        let t1207 = mul_sub(
+            base_velocity[5],
+            t521,
+            mul_sub(base_velocity[3], t531, t1206),
+        );
+        let t1208 = mul_sub(t21, t989, mul_sub(t19, t1001, t1176 + (t1013 - t1173)));
+        let t1209 = mul_add(base_rotation[1][0], t1202, t1208);
+        let t1210 = mul_add(t408, t636, mul_sub(base_rotation[1][1], t1199, t1209));
+        let t1211 = mul_sub(t400, t638, t1210);
+        coriolis_matrix_b[4][4] = t1211;
+        let t1212 = mul_add(t19, t995, neg_mul_add(t20, t989, t1019));
+        let t1213 = mul_add(base_rotation[2][0], t1202, t1212);
+        let t1214 = mul_add(t400, t637, mul_sub(base_rotation[2][1], t1199, t1213));
+        let t1215 = mul_sub(base_rotation[1][2], t1167, mul_sub(t404, t636, t1214));
+        let t1216 = mul_sub(
+            base_velocity[5],
+            t535,
+            mul_sub(base_velocity[3], t537, t1215),
+        );
+        let t1217 = mul_add(t192, t1086, mul_sub(t180, t1078, t186 * t1081));
+        let t1218 = mul_add(t204, t1094, mul_add(t198, t1091, t1217));
+        let t1219 = mul_add(t210, t1097, t1218);
+        let t1220 = mul_add(t192, t1084, mul_sub(t180, t1076, t186 * t1080));
+        let t1221 = mul_add(t204, t1093, mul_add(t198, t1089, t1220));
+        let t1222 = mul_sub(t210, t1096, t1221);
+        let t1223 = mul_add(t20, t1037, neg_mul_add(t21, t1031, t1043));
+        let t1224 = mul_add(base_rotation[0][0], t1222, t1223);
+        let t1225 = mul_add(t437, t638, mul_sub(base_rotation[0][1], t1219, t1224));
+        let t1226 = mul_sub(base_rotation[2][2], t1168, mul_sub(t441, t637, t1225));
+        let t1227 = mul_sub(
+            base_velocity[3],
+            t526,
+            mul_sub(base_velocity[4], t521, t1226),
+        );
+        let t1228 = mul_add(t21, t1025, neg_mul_add(t19, t1037, t1049));
+        let t1229 = mul_add(base_rotation[1][0], t1222, t1228);
+        let t1230 = mul_add(t441, t636, mul_sub(base_rotation[1][1], t1219, t1229));
+        let t1231 = mul_sub(base_rotation[2][2], t1171, mul_sub(t433, t638, t1230));
+        let t1232 = mul_sub(
+            base_velocity[3],
+            t533,
+            mul_sub(base_velocity[4], t532, t1231),
+        );
+        let t1233 = mul_sub(t19, t1031, mul_sub(t20, t1025, t1055 + t1174));
+        let t1234 = mul_add(base_rotation[2][0], t1222, t1233);
+        let t1235 = mul_add(t433, t637, mul_sub(base_rotation[2][1], t1219, t1234));
+        let t1236 = mul_sub(t437, t636, t1235);
+        coriolis_matrix_b[5][5] = t1236;
+        coriolis_matrix_b[0][3] = -t1107;
+        coriolis_matrix_b[0][5] = -t1123;
+        coriolis_matrix_b[1][3] = -t1133;
+        coriolis_matrix_b[1][4] = -t1137;
+        coriolis_matrix_b[2][4] = -t1157;
+        coriolis_matrix_b[2][5] = -t1161;
+        coriolis_matrix_b[3][4] = -t1191;
+        coriolis_matrix_b[3][5] = -t1196;
+        coriolis_matrix_b[4][3] = -t1207;
+        coriolis_matrix_b[4][5] = -t1216;
+        coriolis_matrix_b[5][3] = -t1227;
+        coriolis_matrix_b[5][4] = -t1232;
+        // Coriolis matrix C_p, natural factorisation
+        let t1237 = mul_sub(platform_velocity[3], t468, platform_velocity[4] * t471);
+        let t1238 = mul_add(t110, t823, neg_mul_add(t98, t814, t893));
+        let t1239 = mul_add(t146, t841, mul_sub(t128, t832, t1238));
+        let t1240 = t1237 - mul_add(t173, t859, mul_sub(t161, t850, t1239));
+        coriolis_matrix_p[0][4] = t1240;
+        let t1241 = mul_sub(platform_velocity[5], t471, platform_velocity[3] * t465);
+        let t1242 = mul_add(t110, t824, neg_mul_add(t98, t815, t899));
+        let t1243 = mul_add(t146, t842, mul_sub(t128, t833, t1242));
+        let t1244 = t1241 + mul_add(t173, t860, mul_sub(t161, t851, t1243));
+        let t1245 = mul_add(t112, t822, neg_mul_add(t100, t813, t915));
+        let t1246 = mul_add(t148, t840, mul_sub(t130, t831, t1245));
+        let t1247 = t1237 + mul_add(t175, t858, mul_sub(t163, t849, t1246));
+        let t1248 = mul_sub(platform_velocity[4], t465, platform_velocity[5] * t468);
+        let t1249 = mul_add(t112, t824, neg_mul_add(t100, t815, t923));
+        let t1250 = mul_add(t148, t842, mul_sub(t130, t833, t1249));
+        let t1251 = t1248 - mul_add(t175, t860, mul_sub(t163, t851, t1250));
+        coriolis_matrix_p[1][5] = t1251;
+        let t1252 = mul_add(t114, t822, neg_mul_add(t102, t813, t939));
+        let t1253 = mul_add(t150, t840, mul_sub(t132, t831, t1252));
+        let t1254 = t1241 - mul_add(t177, t858, mul_sub(t165, t849, t1253));
+        coriolis_matrix_p[2][3] = t1254;
+        let t1255 = mul_add(t114, t823, neg_mul_add(t102, t814, t943));
+        let t1256 = mul_add(t150, t841, mul_sub(t132, t832, t1255));
+        let t1257 = t1248 + mul_add(t177, t859, mul_sub(t165, t850, t1256));
+        let t1258 = mul_sub(t184, t822, mul_add(t178, t813, t971));
+        let t1259 = mul_add(t196, t840, mul_add(t190, t831, t1258));
+        let t1260 = mul_add(t208, t858, mul_sub(t202, t849, t1259));
+        let t1261 = mul_add(platform_velocity[5], t478, t1260);
+        let t1262 = mul_sub(platform_velocity[4], t480, t1261);
+        let t1263 = c(0.0425) - t485;
+        let t1264 = mul_sub(t184, t823, mul_add(t178, t814, t977));
+        let t1265 = mul_add(t196, t841, mul_add(t190, t832, t1264));
+        let t1266 = mul_add(t208, t859, mul_sub(t202, t850, t1265));
+        let t1267 = mul_sub(platform_velocity[5], t1263, t1266);
+        let t1268 = mul_add(platform_velocity[4], t487, t1267);
+        let t1269 = c(0.0425) - t492;
+        let t1270 = mul_sub(t184, t824, mul_add(t178, t815, t983));
+        let t1271 = mul_add(t196, t842, mul_add(t190, t833, t1270));
+        let t1272 = mul_add(t208, t860, mul_sub(t202, t851, t1271));
+        let t1273 = mul_add(platform_velocity[5], t487, t1272);
+        let t1274 = mul_add(platform_velocity[4], t1269, t1273);
+        coriolis_matrix_p[3][5] = t1274;
+        let t1275 = c(0.0425) - t476;
+        let t1276 = mul_sub(t185, t822, mul_add(t179, t813, t1007));
+        let t1277 = mul_add(t197, t840, mul_add(t191, t831, t1276));
+        let t1278 = mul_add(t209, t858, mul_sub(t203, t849, t1277));
+        let t1279 = mul_add(platform_velocity[5], t1275, t1278);
+        let t1280 = mul_add(platform_velocity[3], t480, t1279);
+        coriolis_matrix_p[4][3] = t1280;
+        let t1281 = mul_sub(t185, t823, mul_add(t179, t814, t1013));
+        let t1282 = mul_add(t197, t841, mul_add(t191, t832, t1281));
+        let t1283 = mul_add(t209, t859, mul_sub(t203, t850, t1282));
+        let t1284 = mul_sub(platform_velocity[5], t478, t1283);
+        let t1285 = mul_sub(platform_velocity[3], t487, t1284);
+        coriolis_matrix_p[4][4] = t1285;
+        let t1286 = mul_sub(t185, t824, mul_add(t179, t815, t1019));
+        let t1287 = mul_add(t197, t842, mul_add(t191, t833, t1286));
+        let t1288 = mul_add(t209, t860, mul_sub(t203, t851, t1287));
+        let t1289 = mul_sub(platform_velocity[5], t480, t1288);
+        let t1290 = mul_add(platform_velocity[3], t1269, t1289);
+        let t1291 = mul_sub(t186, t822, mul_add(t180, t813, t1043));
+        let t1292 = mul_add(t198, t840, mul_add(t192, t831, t1291));
+        let t1293 = mul_add(t210, t858, mul_sub(t204, t849, t1292));
+        let t1294 = mul_sub(platform_velocity[4], t1275, t1293);
+        let t1295 = mul_add(platform_velocity[3], t478, t1294);
+        let t1296 = mul_sub(t186, t823, mul_add(t180, t814, t1049));
+        let t1297 = mul_add(t198, t841, mul_add(t192, t832, t1296));
+        let t1298 = mul_add(t210, t859, mul_sub(t204, t850, t1297));
+        let t1299 = mul_add(platform_velocity[4], t478, t1298);
+        let t1300 = mul_add(platform_velocity[3], t1263, t1299);
+        coriolis_matrix_p[5][4] = t1300;
+        let t1301 = mul_sub(t186, t824, mul_add(t180, t815, t1055));
+        let t1302 = mul_add(t198, t842, mul_add(t192, t833, t1301));
+        let t1303 = mul_add(t210, t860, mul_sub(t204, t851, t1302));
+        let t1304 = mul_add(platform_velocity[4], t480, t1303);
+        let t1305 = mul_sub(platform_velocity[3], t487, t1304);
+        coriolis_matrix_p[0][5] = -t1244;
+        coriolis_matrix_p[1][3] = -t1247;
+        coriolis_matrix_p[2][4] = -t1257;
+        coriolis_matrix_p[3][3] = -t1262;
+        coriolis_matrix_p[3][4] = -t1268;
+        coriolis_matrix_p[4][5] = -t1290;
+        coriolis_matrix_p[5][3] = -t1295;
+        coriolis_matrix_p[5][5] = -t1305;
+        // linearised stiffness K_p = J_dp^T k_e J_dp
+        let t1306 = c(21555.9) * t98;
+        let t1307 = c(21555.9) * t110;
+        let t1308 = c(21555.9) * t128;
+        let t1309 = c(21555.9) * t146;
+        let t1310 = c(21555.9) * t161;
+        let t1311 = c(21555.9) * t173;
+        let t1312 = c(21555.9) * t100;
+        let t1313 = c(21555.9) * t112;
+        let t1314 = c(21555.9) * t130;
+        let t1315 = c(21555.9) * t148;
+        let t1316 = c(21555.9) * t163;
+        let t1317 = c(21555.9) * t175;
+        let t1318 = c(21555.9) * t102;
+        let t1319 = c(21555.9) * t114;
+        let t1320 = c(21555.9) * t132;
+        let t1321 = c(21555.9) * t150;
+        let t1322 = c(21555.9) * t165;
+        let t1323 = c(21555.9) * t177;
+        let t1324 = mul_add(t128, t1308, mul_add(t98, t1306, t110 * t1307));
+        let t1325 = mul_add(t161, t1310, mul_add(t146, t1309, t1324));
+        let t1326 = mul_add(t173, t1311, t1325);
+        stiffness_matrix_p[0][0] = t1326;
+        stiffness_matrix_b[0][0] = t1326;
+        let t1327 = mul_add(t128, t1314, mul_add(t98, t1312, t110 * t1313));
+        let t1328 = mul_add(t161, t1316, mul_add(t146, t1315, t1327));
+        let t1329 = mul_add(t173, t1317, t1328);
+        stiffness_matrix_p[0][1] = t1329;
+        stiffness_matrix_p[1][0] = t1329;
+        stiffness_matrix_b[0][1] = t1329;
+        let t1330 = mul_add(t128, t1320, mul_add(t98, t1318, t110 * t1319));
+        let t1331 = mul_add(t161, t1322, mul_add(t146, t1321, t1330));
+        let t1332 = mul_add(t173, t1323, t1331);
+        stiffness_matrix_p[0][2] = t1332;
+        stiffness_matrix_p[2][0] = t1332;
+        stiffness_matrix_b[0][2] = t1332;
+        let t1333 = c(21555.9) * t208;
+        let t1334 = c(21555.9) * t202;
+        let t1335 = c(21555.9) * t196;
+        let t1336 = c(21555.9) * t190;
+        let t1337 = c(21555.9) * t178;
+        let t1338 = c(21555.9) * t184;
+        let t1339 = neg_mul_add(t128, t1336, mul_add(t98, t1337, t110 * t1338));
+        let t1340 = neg_mul_add(t161, t1334, neg_mul_add(t146, t1335, t1339));
+        let t1341 = neg_mul_add(t173, t1333, t1340);
+        stiffness_matrix_p[0][3] = t1341;
+        stiffness_matrix_p[3][0] = t1341;
+        let t1342 = c(21555.9) * t209;
+        let t1343 = c(21555.9) * t203;
+        let t1344 = c(21555.9) * t197;
+        let t1345 = c(21555.9) * t191;
+        let t1346 = c(21555.9) * t179;
+        let t1347 = c(21555.9) * t185;
+        let t1348 = neg_mul_add(t128, t1345, mul_add(t98, t1346, t110 * t1347));
+        let t1349 = neg_mul_add(t161, t1343, neg_mul_add(t146, t1344, t1348));
+        let t1350 = neg_mul_add(t173, t1342, t1349);
+        stiffness_matrix_p[0][4] = t1350;
+        stiffness_matrix_p[4][0] = t1350;
+        let t1351 = c(21555.9) * t210;
+        let t1352 = c(21555.9) * t204;
+        let t1353 = c(21555.9) * t198;
+        let t1354 = c(21555.9) * t192;
+        let t1355 = c(21555.9) * t180;
+        let t1356 = c(21555.9) * t186;
+        let t1357 = neg_mul_add(t128, t1354, mul_add(t98, t1355, t110 * t1356));
+        let t1358 = neg_mul_add(t161, t1352, neg_mul_add(t146, t1353, t1357));
+        let t1359 = neg_mul_add(t173, t1351, t1358);
+        stiffness_matrix_p[0][5] = t1359;
+        stiffness_matrix_p[5][0] = t1359;
+        let t1360 = mul_add(t130, t1314, mul_add(t100, t1312, t112 * t1313));
+        let t1361 = mul_add(t163, t1316, mul_add(t148, t1315, t1360));
+        let t1362 = mul_add(t175, t1317, t1361);
+        stiffness_matrix_p[1][1] = t1362;
+        stiffness_matrix_b[1][1] = t1362;
+        let t1363 = mul_add(t130, t1320, mul_add(t100, t1318, t112 * t1319));
+        let t1364 = mul_add(t163, t1322, mul_add(t148, t1321, t1363));
+        let t1365 = mul_add(t175, t1323, t1364);
+        stiffness_matrix_p[1][2] = t1365;
+        stiffness_matrix_p[2][1] = t1365;
+        stiffness_matrix_b[1][2] = t1365;
+        let t1366 = neg_mul_add(t130, t1336, mul_add(t100, t1337, t112 * t1338));
+        let t1367 = neg_mul_add(t163, t1334, neg_mul_add(t148, t1335, t1366));
+        let t1368 = neg_mul_add(t175, t1333, t1367);
+        stiffness_matrix_p[1][3] = t1368;
+        stiffness_matrix_p[3][1] = t1368;
+        let t1369 = neg_mul_add(t130, t1345, mul_add(t100, t1346, t112 * t1347));
+        let t1370 = neg_mul_add(t163, t1343, neg_mul_add(t148, t1344, t1369));
+        let t1371 = neg_mul_add(t175, t1342, t1370);
+        stiffness_matrix_p[1][4] = t1371;
+        stiffness_matrix_p[4][1] = t1371;
+        let t1372 = neg_mul_add(t130, t1354, mul_add(t100, t1355, t112 * t1356));
+        let t1373 = neg_mul_add(t163, t1352, neg_mul_add(t148, t1353, t1372));
+        let t1374 = neg_mul_add(t175, t1351, t1373);
+        stiffness_matrix_p[1][5] = t1374;
+        stiffness_matrix_p[5][1] = t1374;
+        let t1375 = mul_add(t132, t1320, mul_add(t102, t1318, t114 * t1319));
+        let t1376 = mul_add(t165, t1322, mul_add(t150, t1321, t1375));
+        let t1377 = mul_add(t177, t1323, t1376);
+        stiffness_matrix_p[2][2] = t1377;
+        stiffness_matrix_b[2][2] = t1377;
+        let t1378 = neg_mul_add(t132, t1336, mul_add(t102, t1337, t114 * t1338));
+        let t1379 = neg_mul_add(t165, t1334, neg_mul_add(t150, t1335, t1378));
+        let t1380 = neg_mul_add(t177, t1333, t1379);
+        stiffness_matrix_p[2][3] = t1380;
+        stiffness_matrix_p[3][2] = t1380;
+        let t1381 = neg_mul_add(t132, t1345, mul_add(t102, t1346, t114 * t1347));
+        let t1382 = neg_mul_add(t165, t1343, neg_mul_add(t150, t1344, t1381));
+        let t1383 = neg_mul_add(t177, t1342, t1382);
+        stiffness_matrix_p[2][4] = t1383;
+        stiffness_matrix_p[4][2] = t1383;
+        let t1384 = neg_mul_add(t132, t1354, mul_add(t102, t1355, t114 * t1356));
+        let t1385 = neg_mul_add(t165, t1352, neg_mul_add(t150, t1353, t1384));
+        let t1386 = neg_mul_add(t177, t1351, t1385);
+        stiffness_matrix_p[2][5] = t1386;
+        stiffness_matrix_p[5][2] = t1386;
+        let t1387 = mul_add(t190, t1336, mul_add(t178, t1337, t184 * t1338));
+        let t1388 = mul_add(t202, t1334, mul_add(t196, t1335, t1387));
+        stiffness_matrix_p[3][3] = mul_add(t208, t1333, t1388);
+        let t1389 = mul_add(t190, t1345, mul_add(t178, t1346, t184 * t1347));
+        let t1390 = mul_add(t202, t1343, mul_add(t196, t1344, t1389));
+        let t1391 = mul_add(t208, t1342, t1390);
+        stiffness_matrix_p[3][4] = t1391;
+        stiffness_matrix_p[4][3] = t1391;
+        let t1392 = mul_add(t190, t1354, mul_add(t178, t1355, t184 * t1356));
+        let t1393 = mul_add(t202, t1352, mul_add(t196, t1353, t1392));
+        let t1394 = mul_add(t208, t1351, t1393);
+        stiffness_matrix_p[3][5] = t1394;
+        stiffness_matrix_p[5][3] = t1394;
+        let t1395 = mul_add(t191, t1345, mul_add(t179, t1346, t185 * t1347));
+        let t1396 = mul_add(t203, t1343, mul_add(t197, t1344, t1395));
+        stiffness_matrix_p[4][4] = mul_add(t209, t1342, t1396);
+        let t1397 = mul_add(t191, t1354, mul_add(t179, t1355, t185 * t1356));
+        let t1398 = mul_add(t203, t1352, mul_add(t197, t1353, t1397));
+        let t1399 = mul_add(t209, t1351, t1398);
+        stiffness_matrix_p[4][5] = t1399;
+        stiffness_matrix_p[5][4] = t1399;
+        let t1400 = mul_add(t192, t1354, mul_add(t180, t1355, t186 * t1356));
+        let t1401 = mul_add(t204, t1352, mul_add(t198, t1353, t1400));
+        stiffness_matrix_p[5][5] = mul_add(t210, t1351, t1401);
         // linearised stiffness K_b = J_dp^T k_e J_db
-        let t1677 = c(21555.9) * t211;
-        let t1678 = c(21555.9) * t205;
-        let t1679 = c(21555.9) * t199;
-        let t1680 = c(21555.9) * t193;
-        let t1681 = c(21555.9) * t181;
-        let t1682 = c(21555.9) * t187;
-        let t1683 = mul_add(t128, t1680, mul_add(t98, t1681, t110 * t1682));
-        let t1684 = mul_add(t161, t1678, mul_add(t146, t1679, t1683));
-        stiffness_matrix_b[0][3] = -mul_add(t173, t1677, t1684);
-        let t1685 = c(21555.9) * t212;
-        let t1686 = c(21555.9) * t206;
-        let t1687 = c(21555.9) * t200;
-        let t1688 = c(21555.9) * t194;
-        let t1689 = c(21555.9) * t182;
-        let t1690 = c(21555.9) * t188;
-        let t1691 = mul_add(t128, t1688, mul_add(t98, t1689, t110 * t1690));
-        let t1692 = mul_add(t161, t1686, mul_add(t146, t1687, t1691));
-        stiffness_matrix_b[0][4] = -mul_add(t173, t1685, t1692);
-        let t1693 = c(21555.9) * t213;
-        let t1694 = c(21555.9) * t207;
-        let t1695 = c(21555.9) * t201;
-        let t1696 = c(21555.9) * t195;
-        let t1697 = c(21555.9) * t183;
-        let t1698 = c(21555.9) * t189;
-        let t1699 = mul_add(t128, t1696, mul_add(t98, t1697, t110 * t1698));
-        let t1700 = mul_add(t161, t1694, mul_add(t146, t1695, t1699));
-        stiffness_matrix_b[0][5] = -mul_add(t173, t1693, t1700);
-        let t1701 = mul_add(t130, t1583, mul_add(t100, t1581, t112 * t1582));
-        let t1702 = mul_add(t163, t1585, mul_add(t148, t1584, t1701));
-        stiffness_matrix_b[1][0] = mul_add(t175, t1586, t1702);
-        let t1703 = mul_add(t130, t1680, mul_add(t100, t1681, t112 * t1682));
-        let t1704 = mul_add(t163, t1678, mul_add(t148, t1679, t1703));
-        stiffness_matrix_b[1][3] = -mul_add(t175, t1677, t1704);
-        let t1705 = mul_add(t130, t1688, mul_add(t100, t1689, t112 * t1690));
-        let t1706 = mul_add(t163, t1686, mul_add(t148, t1687, t1705));
-        stiffness_matrix_b[1][4] = -mul_add(t175, t1685, t1706);
-        let t1707 = mul_add(t130, t1696, mul_add(t100, t1697, t112 * t1698));
-        let t1708 = mul_add(t163, t1694, mul_add(t148, t1695, t1707));
-        stiffness_matrix_b[1][5] = -mul_add(t175, t1693, t1708);
-        let t1709 = mul_add(t132, t1583, mul_add(t102, t1581, t114 * t1582));
-        let t1710 = mul_add(t165, t1585, mul_add(t150, t1584, t1709));
-        stiffness_matrix_b[2][0] = mul_add(t177, t1586, t1710);
-        let t1711 = mul_add(t132, t1589, mul_add(t102, t1587, t114 * t1588));
-        let t1712 = mul_add(t165, t1591, mul_add(t150, t1590, t1711));
-        stiffness_matrix_b[2][1] = mul_add(t177, t1592, t1712);
-        let t1713 = mul_add(t132, t1680, mul_add(t102, t1681, t114 * t1682));
-        let t1714 = mul_add(t165, t1678, mul_add(t150, t1679, t1713));
-        stiffness_matrix_b[2][3] = -mul_add(t177, t1677, t1714);
-        let t1715 = mul_add(t132, t1688, mul_add(t102, t1689, t114 * t1690));
-        let t1716 = mul_add(t165, t1686, mul_add(t150, t1687, t1715));
-        stiffness_matrix_b[2][4] = -mul_add(t177, t1685, t1716);
-        let t1717 = mul_add(t132, t1696, mul_add(t102, t1697, t114 * t1698));
-        let t1718 = mul_add(t165, t1694, mul_add(t150, t1695, t1717));
-        stiffness_matrix_b[2][5] = -mul_add(t177, t1693, t1718);
-        let t1719 = neg_mul_add(t190, t1583, mul_add(t178, t1581, t184 * t1582));
-        let t1720 = neg_mul_add(t202, t1585, neg_mul_add(t196, t1584, t1719));
-        stiffness_matrix_b[3][0] = neg_mul_add(t208, t1586, t1720);
-        let t1721 = neg_mul_add(t190, t1589, mul_add(t178, t1587, t184 * t1588));
-        let t1722 = neg_mul_add(t202, t1591, neg_mul_add(t196, t1590, t1721));
-        stiffness_matrix_b[3][1] = neg_mul_add(t208, t1592, t1722);
-        let t1723 = neg_mul_add(t190, t1595, mul_add(t178, t1593, t184 * t1594));
-        let t1724 = neg_mul_add(t202, t1597, neg_mul_add(t196, t1596, t1723));
-        stiffness_matrix_b[3][2] = neg_mul_add(t208, t1598, t1724);
-        let t1725 = mul_sub(t190, t1680, mul_add(t178, t1681, t184 * t1682));
-        let t1726 = mul_add(t202, t1678, mul_add(t196, t1679, t1725));
-        stiffness_matrix_b[3][3] = mul_add(t208, t1677, t1726);
-        let t1727 = mul_sub(t190, t1688, mul_add(t178, t1689, t184 * t1690));
-        let t1728 = mul_add(t202, t1686, mul_add(t196, t1687, t1727));
-        stiffness_matrix_b[3][4] = mul_add(t208, t1685, t1728);
-        let t1729 = mul_sub(t190, t1696, mul_add(t178, t1697, t184 * t1698));
-        let t1730 = mul_add(t202, t1694, mul_add(t196, t1695, t1729));
-        stiffness_matrix_b[3][5] = mul_add(t208, t1693, t1730);
-        let t1731 = neg_mul_add(t191, t1583, mul_add(t179, t1581, t185 * t1582));
-        let t1732 = neg_mul_add(t203, t1585, neg_mul_add(t197, t1584, t1731));
-        stiffness_matrix_b[4][0] = neg_mul_add(t209, t1586, t1732);
-        let t1733 = neg_mul_add(t191, t1589, mul_add(t179, t1587, t185 * t1588));
-        let t1734 = neg_mul_add(t203, t1591, neg_mul_add(t197, t1590, t1733));
-        stiffness_matrix_b[4][1] = neg_mul_add(t209, t1592, t1734);
-        let t1735 = neg_mul_add(t191, t1595, mul_add(t179, t1593, t185 * t1594));
-        let t1736 = neg_mul_add(t203, t1597, neg_mul_add(t197, t1596, t1735));
-        stiffness_matrix_b[4][2] = neg_mul_add(t209, t1598, t1736);
-        let t1737 = mul_sub(t191, t1680, mul_add(t179, t1681, t185 * t1682));
-        let t1738 = mul_add(t203, t1678, mul_add(t197, t1679, t1737));
-        stiffness_matrix_b[4][3] = mul_add(t209, t1677, t1738);
-        let t1739 = mul_sub(t191, t1688, mul_add(t179, t1689, t185 * t1690));
-        let t1740 = mul_add(t203, t1686, mul_add(t197, t1687, t1739));
-        stiffness_matrix_b[4][4] = mul_add(t209, t1685, t1740);
-        let t1741 = mul_sub(t191, t1696, mul_add(t179, t1697, t185 * t1698));
-        let t1742 = mul_add(t203, t1694, mul_add(t197, t1695, t1741));
-        stiffness_matrix_b[4][5] = mul_add(t209, t1693, t1742);
-        let t1743 = neg_mul_add(t192, t1583, mul_add(t180, t1581, t186 * t1582));
-        let t1744 = neg_mul_add(t204, t1585, neg_mul_add(t198, t1584, t1743));
-        stiffness_matrix_b[5][0] = neg_mul_add(t210, t1586, t1744);
-        let t1745 = neg_mul_add(t192, t1589, mul_add(t180, t1587, t186 * t1588));
-        let t1746 = neg_mul_add(t204, t1591, neg_mul_add(t198, t1590, t1745));
-        stiffness_matrix_b[5][1] = neg_mul_add(t210, t1592, t1746);
-        let t1747 = neg_mul_add(t192, t1595, mul_add(t180, t1593, t186 * t1594));
-        let t1748 = neg_mul_add(t204, t1597, neg_mul_add(t198, t1596, t1747));
-        stiffness_matrix_b[5][2] = neg_mul_add(t210, t1598, t1748);
-        let t1749 = mul_sub(t192, t1680, mul_add(t180, t1681, t186 * t1682));
-        let t1750 = mul_add(t204, t1678, mul_add(t198, t1679, t1749));
-        stiffness_matrix_b[5][3] = mul_add(t210, t1677, t1750);
-        let t1751 = mul_sub(t192, t1688, mul_add(t180, t1689, t186 * t1690));
-        let t1752 = mul_add(t204, t1686, mul_add(t198, t1687, t1751));
-        stiffness_matrix_b[5][4] = mul_add(t210, t1685, t1752);
-        let t1753 = mul_sub(t192, t1696, mul_add(t180, t1697, t186 * t1698));
-        let t1754 = mul_add(t204, t1694, mul_add(t198, t1695, t1753));
-        stiffness_matrix_b[5][5] = mul_add(t210, t1693, t1754);
+        let t1402 = c(21555.9) * t211;
+        let t1403 = c(21555.9) * t205;
+        let t1404 = c(21555.9) * t199;
+        let t1405 = c(21555.9) * t193;
+        let t1406 = c(21555.9) * t181;
+        let t1407 = c(21555.9) * t187;
+        let t1408 = mul_add(t128, t1405, mul_add(t98, t1406, t110 * t1407));
+        let t1409 = mul_add(t161, t1403, mul_add(t146, t1404, t1408));
+        stiffness_matrix_b[0][3] = -mul_add(t173, t1402, t1409);
+        let t1410 = c(21555.9) * t212;
+        let t1411 = c(21555.9) * t206;
+        let t1412 = c(21555.9) * t200;
+        let t1413 = c(21555.9) * t194;
+        let t1414 = c(21555.9) * t182;
+        let t1415 = c(21555.9) * t188;
+        let t1416 = mul_add(t128, t1413, mul_add(t98, t1414, t110 * t1415));
+        let t1417 = mul_add(t161, t1411, mul_add(t146, t1412, t1416));
+        stiffness_matrix_b[0][4] = -mul_add(t173, t1410, t1417);
+        let t1418 = c(21555.9) * t213;
+        let t1419 = c(21555.9) * t207;
+        let t1420 = c(21555.9) * t201;
+        let t1421 = c(21555.9) * t195;
+        let t1422 = c(21555.9) * t183;
+        let t1423 = c(21555.9) * t189;
+        let t1424 = mul_add(t128, t1421, mul_add(t98, t1422, t110 * t1423));
+        let t1425 = mul_add(t161, t1419, mul_add(t146, t1420, t1424));
+        stiffness_matrix_b[0][5] = -mul_add(t173, t1418, t1425);
+        let t1426 = mul_add(t130, t1308, mul_add(t100, t1306, t112 * t1307));
+        let t1427 = mul_add(t163, t1310, mul_add(t148, t1309, t1426));
+        stiffness_matrix_b[1][0] = mul_add(t175, t1311, t1427);
+        let t1428 = mul_add(t130, t1405, mul_add(t100, t1406, t112 * t1407));
+        let t1429 = mul_add(t163, t1403, mul_add(t148, t1404, t1428));
+        stiffness_matrix_b[1][3] = -mul_add(t175, t1402, t1429);
+        let t1430 = mul_add(t130, t1413, mul_add(t100, t1414, t112 * t1415));
+        let t1431 = mul_add(t163, t1411, mul_add(t148, t1412, t1430));
+        stiffness_matrix_b[1][4] = -mul_add(t175, t1410, t1431);
+        let t1432 = mul_add(t130, t1421, mul_add(t100, t1422, t112 * t1423));
+        let t1433 = mul_add(t163, t1419, mul_add(t148, t1420, t1432));
+        stiffness_matrix_b[1][5] = -mul_add(t175, t1418, t1433);
+        let t1434 = mul_add(t132, t1308, mul_add(t102, t1306, t114 * t1307));
+        let t1435 = mul_add(t165, t1310, mul_add(t150, t1309, t1434));
+        stiffness_matrix_b[2][0] = mul_add(t177, t1311, t1435);
+        let t1436 = mul_add(t132, t1314, mul_add(t102, t1312, t114 * t1313));
+        let t1437 = mul_add(t165, t1316, mul_add(t150, t1315, t1436));
+        stiffness_matrix_b[2][1] = mul_add(t177, t1317, t1437);
+        let t1438 = mul_add(t132, t1405, mul_add(t102, t1406, t114 * t1407));
+        let t1439 = mul_add(t165, t1403, mul_add(t150, t1404, t1438));
+        stiffness_matrix_b[2][3] = -mul_add(t177, t1402, t1439);
+        let t1440 = mul_add(t132, t1413, mul_add(t102, t1414, t114 * t1415));
+        let t1441 = mul_add(t165, t1411, mul_add(t150, t1412, t1440));
+        stiffness_matrix_b[2][4] = -mul_add(t177, t1410, t1441);
+        let t1442 = mul_add(t132, t1421, mul_add(t102, t1422, t114 * t1423));
+        let t1443 = mul_add(t165, t1419, mul_add(t150, t1420, t1442));
+        stiffness_matrix_b[2][5] = -mul_add(t177, t1418, t1443);
+        let t1444 = neg_mul_add(t190, t1308, mul_add(t178, t1306, t184 * t1307));
+        let t1445 = neg_mul_add(t202, t1310, neg_mul_add(t196, t1309, t1444));
+        stiffness_matrix_b[3][0] = neg_mul_add(t208, t1311, t1445);
+        let t1446 = neg_mul_add(t190, t1314, mul_add(t178, t1312, t184 * t1313));
+        let t1447 = neg_mul_add(t202, t1316, neg_mul_add(t196, t1315, t1446));
+        stiffness_matrix_b[3][1] = neg_mul_add(t208, t1317, t1447);
+        let t1448 = neg_mul_add(t190, t1320, mul_add(t178, t1318, t184 * t1319));
+        let t1449 = neg_mul_add(t202, t1322, neg_mul_add(t196, t1321, t1448));
+        stiffness_matrix_b[3][2] = neg_mul_add(t208, t1323, t1449);
+        let t1450 = mul_sub(t190, t1405, mul_add(t178, t1406, t184 * t1407));
+        let t1451 = mul_add(t202, t1403, mul_add(t196, t1404, t1450));
+        stiffness_matrix_b[3][3] = mul_add(t208, t1402, t1451);
+        let t1452 = mul_sub(t190, t1413, mul_add(t178, t1414, t184 * t1415));
+        let t1453 = mul_add(t202, t1411, mul_add(t196, t1412, t1452));
+        stiffness_matrix_b[3][4] = mul_add(t208, t1410, t1453);
+        let t1454 = mul_sub(t190, t1421, mul_add(t178, t1422, t184 * t1423));
+        let t1455 = mul_add(t202, t1419, mul_add(t196, t1420, t1454));
+        stiffness_matrix_b[3][5] = mul_add(t208, t1418, t1455);
+        let t1456 = neg_mul_add(t191, t1308, mul_add(t179, t1306, t185 * t1307));
+        let t1457 = neg_mul_add(t203, t1310, neg_mul_add(t197, t1309, t1456));
+        stiffness_matrix_b[4][0] = neg_mul_add(t209, t1311, t1457);
+        let t1458 = neg_mul_add(t191, t1314, mul_add(t179, t1312, t185 * t1313));
+        let t1459 = neg_mul_add(t203, t1316, neg_mul_add(t197, t1315, t1458));
+        stiffness_matrix_b[4][1] = neg_mul_add(t209, t1317, t1459);
+        let t1460 = neg_mul_add(t191, t1320, mul_add(t179, t1318, t185 * t1319));
+        let t1461 = neg_mul_add(t203, t1322, neg_mul_add(t197, t1321, t1460));
+        stiffness_matrix_b[4][2] = neg_mul_add(t209, t1323, t1461);
+        let t1462 = mul_sub(t191, t1405, mul_add(t179, t1406, t185 * t1407));
+        let t1463 = mul_add(t203, t1403, mul_add(t197, t1404, t1462));
+        stiffness_matrix_b[4][3] = mul_add(t209, t1402, t1463);
+        let t1464 = mul_sub(t191, t1413, mul_add(t179, t1414, t185 * t1415));
+        let t1465 = mul_add(t203, t1411, mul_add(t197, t1412, t1464));
+        stiffness_matrix_b[4][4] = mul_add(t209, t1410, t1465);
+        let t1466 = mul_sub(t191, t1421, mul_add(t179, t1422, t185 * t1423));
+        let t1467 = mul_add(t203, t1419, mul_add(t197, t1420, t1466));
+        stiffness_matrix_b[4][5] = mul_add(t209, t1418, t1467);
+        let t1468 = neg_mul_add(t192, t1308, mul_add(t180, t1306, t186 * t1307));
+        let t1469 = neg_mul_add(t204, t1310, neg_mul_add(t198, t1309, t1468));
+        stiffness_matrix_b[5][0] = neg_mul_add(t210, t1311, t1469);
+        let t1470 = neg_mul_add(t192, t1314, mul_add(t180, t1312, t186 * t1313));
+        let t1471 = neg_mul_add(t204, t1316, neg_mul_add(t198, t1315, t1470));
+        stiffness_matrix_b[5][1] = neg_mul_add(t210, t1317, t1471);
+        let t1472 = neg_mul_add(t192, t1320, mul_add(t180, t1318, t186 * t1319));
+        let t1473 = neg_mul_add(t204, t1322, neg_mul_add(t198, t1321, t1472));
+        stiffness_matrix_b[5][2] = neg_mul_add(t210, t1323, t1473);
+        let t1474 = mul_sub(t192, t1405, mul_add(t180, t1406, t186 * t1407));
+        let t1475 = mul_add(t204, t1403, mul_add(t198, t1404, t1474));
+        stiffness_matrix_b[5][3] = mul_add(t210, t1402, t1475);
+        let t1476 = mul_sub(t192, t1413, mul_add(t180, t1414, t186 * t1415));
+        let t1477 = mul_add(t204, t1411, mul_add(t198, t1412, t1476));
+        stiffness_matrix_b[5][4] = mul_add(t210, t1410, t1477);
+        let t1478 = mul_sub(t192, t1421, mul_add(t180, t1422, t186 * t1423));
+        let t1479 = mul_add(t204, t1419, mul_add(t198, t1420, t1478));
+        stiffness_matrix_b[5][5] = mul_add(t210, t1418, t1479);
         // leg 1: weight of the leg along the actuator
-        let t1755 = base_rotation[2][2] * c(11.016630000000001);
+        let t1480 = base_rotation[2][2] * c(11.016630000000001);
         // generalised spring force J_dp^T k_e (d - d0), left side
-        let t1756 = mul_add(c(21555.9), t75, c(4268.068200000001));
-        let t1757 = mul_add(c(21555.9), t71, c(4268.068200000001));
-        let t1758 = mul_add(c(21555.9), t67, c(4268.068200000001));
-        let t1759 = mul_add(c(21555.9), t62, c(4268.068200000001));
-        let t1760 = mul_add(c(21555.9), t53, c(4268.068200000001));
-        let t1761 = mul_add(c(21555.9), t57, c(4268.068200000001));
-        let t1762 = mul_sub(t128, t1759, mul_sub(t98, t1760, t110 * t1761));
-        let t1763 = mul_sub(t161, t1757, mul_add(t146, t1758, t1762));
-        let t1764 = mul_add(t173, t1756, t1763);
-        let t1765 = mul_sub(t130, t1759, mul_sub(t100, t1760, t112 * t1761));
-        let t1766 = mul_sub(t163, t1757, mul_add(t148, t1758, t1765));
-        let t1767 = mul_add(t175, t1756, t1766);
-        let t1768 = mul_sub(t132, t1759, mul_sub(t102, t1760, t114 * t1761));
-        let t1769 = mul_sub(t165, t1757, mul_add(t150, t1758, t1768));
-        let t1770 = mul_add(t177, t1756, t1769);
-        let t1771 = mul_add(t190, t1759, mul_sub(t178, t1760, t184 * t1761));
-        let t1772 = mul_sub(t202, t1757, mul_add(t196, t1758, t1771));
-        let t1773 = mul_add(t208, t1756, t1772);
-        spring_force[3] = t1773;
-        let t1774 = mul_add(t191, t1759, mul_sub(t179, t1760, t185 * t1761));
-        let t1775 = mul_sub(t203, t1757, mul_add(t197, t1758, t1774));
-        let t1776 = mul_add(t209, t1756, t1775);
-        spring_force[4] = t1776;
-        let t1777 = mul_add(t192, t1759, mul_sub(t180, t1760, t186 * t1761));
-        let t1778 = mul_sub(t204, t1757, mul_add(t198, t1758, t1777));
-        let t1779 = mul_add(t210, t1756, t1778);
-        spring_force[5] = t1779;
-        spring_force[0] = -t1764;
-        spring_force[1] = -t1767;
-        spring_force[2] = -t1770;
+        let t1481 = mul_add(c(21555.9), t75, c(4268.068200000001));
+        let t1482 = mul_add(c(21555.9), t71, c(4268.068200000001));
+        let t1483 = mul_add(c(21555.9), t67, c(4268.068200000001));
+        let t1484 = mul_add(c(21555.9), t62, c(4268.068200000001));
+        let t1485 = mul_add(c(21555.9), t53, c(4268.068200000001));
+        let t1486 = mul_add(c(21555.9), t57, c(4268.068200000001));
+        let t1487 = mul_sub(t128, t1484, mul_sub(t98, t1485, t110 * t1486));
+        let t1488 = mul_sub(t161, t1482, mul_add(t146, t1483, t1487));
+        let t1489 = mul_add(t173, t1481, t1488);
+        let t1490 = mul_sub(t130, t1484, mul_sub(t100, t1485, t112 * t1486));
+        let t1491 = mul_sub(t163, t1482, mul_add(t148, t1483, t1490));
+        let t1492 = mul_add(t175, t1481, t1491);
+        let t1493 = mul_sub(t132, t1484, mul_sub(t102, t1485, t114 * t1486));
+        let t1494 = mul_sub(t165, t1482, mul_add(t150, t1483, t1493));
+        let t1495 = mul_add(t177, t1481, t1494);
+        let t1496 = mul_add(t190, t1484, mul_sub(t178, t1485, t184 * t1486));
+        let t1497 = mul_sub(t202, t1482, mul_add(t196, t1483, t1496));
+        let t1498 = mul_add(t208, t1481, t1497);
+        spring_force[3] = t1498;
+        let t1499 = mul_add(t191, t1484, mul_sub(t179, t1485, t185 * t1486));
+        let t1500 = mul_sub(t203, t1482, mul_add(t197, t1483, t1499));
+        let t1501 = mul_add(t209, t1481, t1500);
+        spring_force[4] = t1501;
+        let t1502 = mul_add(t192, t1484, mul_sub(t180, t1485, t186 * t1486));
+        let t1503 = mul_sub(t204, t1482, mul_add(t198, t1483, t1502));
+        let t1504 = mul_add(t210, t1481, t1503);
+        spring_force[5] = t1504;
+        spring_force[0] = -t1489;
+        spring_force[1] = -t1492;
+        spring_force[2] = -t1495;
         // generalised gravity, left side of the equation of motion
-        let t1780 = mul_sub(t128, t1755, mul_sub(t98, t1755, t110 * t1755));
-        let t1781 = mul_sub(t161, t1755, mul_add(t146, t1755, t1780));
-        let t1782 = mul_add(t173, t1755, t1781);
-        gravity_force[0] = t1782;
-        let t1783 = mul_sub(t130, t1755, mul_sub(t100, t1755, t112 * t1755));
-        let t1784 = mul_sub(t163, t1755, mul_add(t148, t1755, t1783));
-        let t1785 = mul_add(t175, t1755, t1784);
-        gravity_force[1] = t1785;
-        let t1786 = mul_sub(t114, t1755, mul_add(t102, t1755, c(89.89884)));
-        let t1787 = mul_add(t150, t1755, mul_add(t132, t1755, t1786));
-        let t1788 = mul_add(t177, t1755, mul_sub(t165, t1755, t1787));
-        gravity_force[2] = t1788;
-        let t1789 = t155 + t167 - (t91 + t104 - (t121 + t139));
-        let t1790 = mul_add(t178, t1755, platform_rotation[1][2] * c(1.85263812));
-        let t1791 = mul_sub(t190, t1755, mul_sub(t184, t1755, t1790));
-        let t1792 = mul_sub(t202, t1755, mul_add(t196, t1755, t1791));
-        let t1793 = mul_add(c(5.0227200000000005), t1789, mul_add(t208, t1755, t1792));
-        let t1794 = t154 + t166 - (t89 + t103 - (t119 + t137));
-        let t1795 = mul_sub(t179, t1755, platform_rotation[0][2] * c(1.85263812));
-        let t1796 = mul_sub(t191, t1755, mul_sub(t185, t1755, t1795));
-        let t1797 = mul_sub(t203, t1755, mul_add(t197, t1755, t1796));
-        let t1798 = neg_mul_add(
+        let t1505 = mul_sub(t128, t1480, mul_sub(t98, t1480, t110 * t1480));
+        let t1506 = mul_sub(t161, t1480, mul_add(t146, t1480, t1505));
+        let t1507 = mul_add(t173, t1480, t1506);
+        gravity_force[0] = t1507;
+        let t1508 = mul_sub(t130, t1480, mul_sub(t100, t1480, t112 * t1480));
+        let t1509 = mul_sub(t163, t1480, mul_add(t148, t1480, t1508));
+        let t1510 = mul_add(t175, t1480, t1509);
+        gravity_force[1] = t1510;
+        let t1511 = mul_sub(t114, t1480, mul_add(t102, t1480, c(89.89884)));
+        let t1512 = mul_add(t150, t1480, mul_add(t132, t1480, t1511));
+        let t1513 = mul_add(t177, t1480, mul_sub(t165, t1480, t1512));
+        gravity_force[2] = t1513;
+        let t1514 = t155 + t167 - (t91 + t104 - (t121 + t139));
+        let t1515 = mul_add(t178, t1480, platform_rotation[1][2] * c(1.85263812));
+        let t1516 = mul_sub(t190, t1480, mul_sub(t184, t1480, t1515));
+        let t1517 = mul_sub(t202, t1480, mul_add(t196, t1480, t1516));
+        let t1518 = mul_add(c(5.0227200000000005), t1514, mul_add(t208, t1480, t1517));
+        let t1519 = t154 + t166 - (t89 + t103 - (t119 + t137));
+        let t1520 = mul_sub(t179, t1480, platform_rotation[0][2] * c(1.85263812));
+        let t1521 = mul_sub(t191, t1480, mul_sub(t185, t1480, t1520));
+        let t1522 = mul_sub(t203, t1480, mul_add(t197, t1480, t1521));
+        let t1523 = neg_mul_add(
             c(5.0227200000000005),
-            t1794,
-            mul_add(t209, t1755, t1797),
+            t1519,
+            mul_add(t209, t1480, t1522),
         );
-        let t1799 = mul_add(t192, t1755, mul_sub(t180, t1755, t186 * t1755));
-        let t1800 = mul_sub(t204, t1755, mul_add(t198, t1755, t1799));
-        let t1801 = mul_add(t210, t1755, t1800);
-        gravity_force[3] = -t1793;
-        gravity_force[4] = -t1798;
-        gravity_force[5] = -t1801;
+        let t1524 = mul_add(t192, t1480, mul_sub(t180, t1480, t186 * t1480));
+        let t1525 = mul_sub(t204, t1480, mul_add(t198, t1480, t1524));
+        let t1526 = mul_add(t210, t1480, t1525);
+        gravity_force[3] = -t1518;
+        gravity_force[4] = -t1523;
+        gravity_force[5] = -t1526;
         // C_p v_p - C_b v_b + gravity, spring and damping force
-        let t1802 = mul_sub(platform_velocity[0], t1199, t1764 - t1782);
-        let t1803 = mul_add(platform_velocity[1], t1200, t1802);
-        let t1804 = mul_add(platform_velocity[2], t1201, t1803);
-        let t1805 = mul_sub(platform_velocity[3], t1216, t1804);
-        let t1806 = mul_add(platform_velocity[4], t1447, t1805);
-        let t1807 = mul_add(platform_velocity[5], t1449, t1806);
-        let t1808 = mul_add(
+        let t1527 = mul_sub(platform_velocity[0], t869, t1489 - t1507);
+        let t1528 = mul_add(platform_velocity[1], t875, t1527);
+        let t1529 = mul_add(platform_velocity[2], t881, t1528);
+        let t1530 = mul_sub(platform_velocity[3], t1067, t1529);
+        let t1531 = mul_sub(platform_velocity[4], t1240, t1530);
+        let t1532 = mul_sub(platform_velocity[5], t1244, t1531);
+        let t1533 = mul_add(
             base_velocity[1],
-            t1200,
-            mul_add(base_velocity[0], t1199, t1807),
+            t875,
+            mul_add(base_velocity[0], t869, t1532),
         );
-        let t1809 = mul_sub(
+        let t1534 = mul_sub(
             base_velocity[3],
-            t1480,
-            mul_add(base_velocity[2], t1201, t1808),
+            t1107,
+            mul_add(base_velocity[2], t881, t1533),
         );
-        bias[0] = mul_add(
+        bias[0] = mul_sub(
             base_velocity[5],
-            t1486,
-            mul_add(base_velocity[4], t1483, t1809),
+            t1123,
+            mul_sub(base_velocity[4], t1117, t1534),
         );
-        let t1810 = mul_sub(platform_velocity[0], t1245, t1767 - t1785);
-        let t1811 = mul_add(platform_velocity[1], t1246, t1810);
-        let t1812 = mul_add(platform_velocity[2], t1247, t1811);
-        let t1813 = mul_sub(platform_velocity[3], t1450, t1812);
-        let t1814 = mul_sub(platform_velocity[4], t1274, t1813);
-        let t1815 = mul_sub(platform_velocity[5], t1452, t1814);
-        let t1816 = mul_add(
+        let t1535 = mul_sub(platform_velocity[0], t903, t1492 - t1510);
+        let t1536 = mul_add(platform_velocity[1], t907, t1535);
+        let t1537 = mul_add(platform_velocity[2], t911, t1536);
+        let t1538 = mul_sub(platform_velocity[3], t1247, t1537);
+        let t1539 = mul_add(platform_velocity[4], t1070, t1538);
+        let t1540 = mul_sub(platform_velocity[5], t1251, t1539);
+        let t1541 = mul_add(
             base_velocity[1],
-            t1246,
-            mul_add(base_velocity[0], t1245, t1815),
+            t907,
+            mul_sub(base_velocity[0], t903, t1540),
         );
-        let t1817 = mul_sub(
+        let t1542 = mul_sub(
             base_velocity[3],
-            t1489,
-            mul_add(base_velocity[2], t1247, t1816),
+            t1133,
+            mul_add(base_velocity[2], t911, t1541),
         );
-        bias[1] = mul_sub(
-            base_velocity[5],
-            t1497,
-            mul_sub(base_velocity[4], t1494, t1817),
-        );
-        let t1818 = mul_sub(platform_velocity[0], t1289, t1770 - t1788);
-        let t1819 = mul_add(platform_velocity[1], t1290, t1818);
-        let t1820 = mul_add(platform_velocity[2], t1291, t1819);
-        let t1821 = mul_sub(platform_velocity[3], t1453, t1820);
-        let t1822 = mul_add(platform_velocity[4], t1454, t1821);
-        let t1823 = mul_add(platform_velocity[5], t1332, t1822);
-        let t1824 = mul_add(
+        let t1543 = mul_add(base_velocity[4], t1137, t1542);
+        bias[1] = neg_mul_add(base_velocity[5], t1143, t1543);
+        let t1544 = mul_sub(platform_velocity[0], t927, t1495 - t1513);
+        let t1545 = mul_add(platform_velocity[1], t931, t1544);
+        let t1546 = mul_add(platform_velocity[2], t935, t1545);
+        let t1547 = mul_add(platform_velocity[3], t1254, t1546);
+        let t1548 = mul_sub(platform_velocity[4], t1257, t1547);
+        let t1549 = mul_add(platform_velocity[5], t1073, t1548);
+        let t1550 = mul_add(
             base_velocity[1],
-            t1290,
-            mul_add(base_velocity[0], t1289, t1823),
+            t931,
+            mul_add(base_velocity[0], t927, t1549),
         );
-        let t1825 = mul_sub(
+        let t1551 = mul_add(
             base_velocity[3],
-            t1500,
-            mul_add(base_velocity[2], t1291, t1824),
+            t1153,
+            mul_add(base_velocity[2], t935, t1550),
         );
         bias[2] = mul_add(
             base_velocity[5],
-            t1508,
-            mul_add(base_velocity[4], t1503, t1825),
+            t1161,
+            mul_sub(base_velocity[4], t1157, t1551),
         );
-        let t1826 = mul_sub(platform_velocity[0], t1338, t1773 - t1793);
-        let t1827 = mul_add(platform_velocity[1], t1344, t1826);
-        let t1828 = mul_sub(platform_velocity[2], t1350, t1827);
-        let t1829 = mul_sub(platform_velocity[3], t1456, t1828);
-        let t1830 = mul_add(platform_velocity[4], t1459, t1829);
-        let t1831 = mul_sub(platform_velocity[5], t1462, t1830);
-        let t1832 = mul_add(
+        let t1552 = mul_sub(platform_velocity[0], t953, t1498 - t1518);
+        let t1553 = mul_add(platform_velocity[1], t959, t1552);
+        let t1554 = mul_add(platform_velocity[2], t965, t1553);
+        let t1555 = mul_add(platform_velocity[3], t1262, t1554);
+        let t1556 = mul_add(platform_velocity[4], t1268, t1555);
+        let t1557 = mul_sub(platform_velocity[5], t1274, t1556);
+        let t1558 = mul_add(
             base_velocity[1],
-            t1344,
-            mul_add(base_velocity[0], t1338, t1831),
+            t959,
+            mul_add(base_velocity[0], t953, t1557),
         );
-        let t1833 = mul_sub(
+        let t1559 = mul_sub(
             base_velocity[3],
-            t1516,
-            mul_sub(base_velocity[2], t1350, t1832),
+            t1186,
+            mul_add(base_velocity[2], t965, t1558),
         );
-        let t1834 = neg_mul_add(base_velocity[4], t1524, t1833);
-        bias[3] = neg_mul_add(base_velocity[5], t1532, t1834);
-        let t1835 = mul_add(platform_velocity[0], t1374, t1776 - t1798);
-        let t1836 = mul_add(platform_velocity[1], t1380, t1835);
-        let t1837 = mul_sub(platform_velocity[2], t1386, t1836);
-        let t1838 = mul_sub(platform_velocity[3], t1465, t1837);
-        let t1839 = mul_add(platform_velocity[4], t1467, t1838);
-        let t1840 = mul_sub(platform_velocity[5], t1469, t1839);
-        let t1841 = mul_add(
+        bias[3] = mul_add(
+            base_velocity[5],
+            t1196,
+            mul_sub(base_velocity[4], t1191, t1559),
+        );
+        let t1560 = mul_sub(platform_velocity[0], t989, t1501 - t1523);
+        let t1561 = mul_add(platform_velocity[1], t995, t1560);
+        let t1562 = mul_add(platform_velocity[2], t1001, t1561);
+        let t1563 = mul_sub(platform_velocity[3], t1280, t1562);
+        let t1564 = mul_add(platform_velocity[4], t1285, t1563);
+        let t1565 = mul_sub(platform_velocity[5], t1290, t1564);
+        let t1566 = mul_add(
             base_velocity[1],
-            t1380,
-            mul_add(base_velocity[0], t1374, t1840),
+            t995,
+            mul_sub(base_velocity[0], t989, t1565),
         );
-        let t1842 = mul_sub(
+        let t1567 = mul_add(
             base_velocity[3],
-            t1540,
-            mul_sub(base_velocity[2], t1386, t1841),
+            t1207,
+            mul_add(base_velocity[2], t1001, t1566),
         );
-        let t1843 = mul_sub(base_velocity[4], t1548, t1842);
-        bias[4] = neg_mul_add(base_velocity[5], t1556, t1843);
-        let t1844 = mul_sub(platform_velocity[0], t1410, t1779 - t1801);
-        let t1845 = mul_sub(platform_velocity[1], t1416, t1844);
-        let t1846 = mul_sub(platform_velocity[2], t1422, t1845);
-        let t1847 = mul_add(platform_velocity[3], t1471, t1846);
-        let t1848 = mul_sub(platform_velocity[4], t1473, t1847);
-        let t1849 = mul_sub(platform_velocity[5], t1475, t1848);
-        let t1850 = mul_sub(
+        bias[4] = mul_sub(
+            base_velocity[5],
+            t1216,
+            mul_sub(base_velocity[4], t1211, t1567),
+        );
+        let t1568 = mul_sub(platform_velocity[0], t1025, t1504 - t1526);
+        let t1569 = mul_add(platform_velocity[1], t1031, t1568);
+        let t1570 = mul_add(platform_velocity[2], t1037, t1569);
+        let t1571 = mul_add(platform_velocity[3], t1295, t1570);
+        let t1572 = mul_sub(platform_velocity[4], t1300, t1571);
+        let t1573 = mul_sub(platform_velocity[5], t1305, t1572);
+        let t1574 = mul_add(
             base_velocity[1],
-            t1416,
-            mul_sub(base_velocity[0], t1410, t1849),
+            t1031,
+            mul_sub(base_velocity[0], t1025, t1573),
         );
-        let t1851 = mul_sub(base_velocity[2], t1422, t1850);
-        let t1852 = neg_mul_add(base_velocity[3], t1564, t1851);
-        let t1853 = neg_mul_add(base_velocity[4], t1572, t1852);
-        bias[5] = neg_mul_add(base_velocity[5], t1580, t1853);
+        let t1575 = mul_add(
+            base_velocity[3],
+            t1227,
+            mul_add(base_velocity[2], t1037, t1574),
+        );
+        let t1576 = mul_add(base_velocity[4], t1232, t1575);
+        bias[5] = neg_mul_add(base_velocity[5], t1236, t1576);
         // constant and copied elements
         damping_force[0] = c(0.0);
         damping_force[1] = c(0.0);
@@ -20198,29 +19976,29 @@ pub fn forward_dynamics<T: Scalar>(
     let t415 = mul_add(t217, c(0.019782160922400118), t414);
     let t416 = mul_add(c(21555.9), t82, actuator_force[0]);
     let t417 = neg_mul_add(t218, c(0.005300614043699624), t416);
-    let t418 = t415 + mul_add(t288, c(0.9523333333333334), t417);
+    let t418 = t415 + mul_add(c(0.9523333333333334), t288, t417);
     // leg 2: force along the actuator that reaches the platform
     let t419 = mul_add(c(21555.9), t86, actuator_force[1]);
     let t420 = mul_add(t218, c(0.005300614043699624), t419);
-    let t421 = t415 + neg_mul_add(t300, c(0.9523333333333334), t420);
+    let t421 = t415 + neg_mul_add(c(0.9523333333333334), t300, t420);
     // leg 3: force along the actuator that reaches the platform
     let t422 = neg_mul_add(t217, c(0.005300614043699622), t414);
     let t423 = mul_add(c(21555.9), t90, actuator_force[2]);
     let t424 = mul_add(t218, c(0.019782160922400118), t423);
-    let t425 = t422 + mul_add(t313, c(0.9523333333333334), t424);
+    let t425 = t422 + mul_add(c(0.9523333333333334), t313, t424);
     // leg 4: force along the actuator that reaches the platform
     let t426 = neg_mul_add(t217, c(0.01448154687870049), t414);
     let t427 = mul_add(c(21555.9), t94, actuator_force[3]);
     let t428 = mul_add(t218, c(0.014481546878700494), t427);
-    let t429 = t426 + mul_add(t328, c(0.9523333333333334), t428);
+    let t429 = t426 + mul_add(c(0.9523333333333334), t328, t428);
     // leg 5: force along the actuator that reaches the platform
     let t430 = mul_add(c(21555.9), t98, actuator_force[4]);
     let t431 = mul_sub(t218, c(0.014481546878700494), t430);
-    let t432 = t426 - mul_add(t338, c(0.9523333333333334), t431);
+    let t432 = t426 - mul_add(c(0.9523333333333334), t338, t431);
     // leg 6: force along the actuator that reaches the platform
     let t433 = mul_add(c(21555.9), t102, actuator_force[5]);
     let t434 = mul_sub(t218, c(0.019782160922400118), t433);
-    let t435 = t422 - mul_add(t346, c(0.9523333333333334), t434);
+    let t435 = t422 - mul_add(c(0.9523333333333334), t346, t434);
     // wrench left at the trial acceleration
     let t436 = c(6.938893903907228e-18) * t208;
     let t437 = mul_add(c(2.2551405187698492e-17), t207, t436);
@@ -20297,15 +20075,15 @@ pub fn forward_dynamics<T: Scalar>(
     let t501 = mul_add(t109, t495, mul_sub(t107, t493, t500));
     let t502 = mul_add(t113, t499, mul_add(t111, t497, t501));
     let t503 = t74 * c(0.03058499591646249);
-    let t504 = t353 * c(0.9523333333333334);
+    let t504 = c(0.9523333333333334) * t353;
     let t505 = t15 * c(6.938893903907228e-18);
     let t506 = mul_add(t12, c(2.2551405187698492e-17), t505);
     let t507 = mul_add(t18, c(0.188852), t506);
-    let t508 = t356 * c(0.9523333333333334);
-    let t509 = t359 * c(0.9523333333333334);
-    let t510 = t362 * c(0.9523333333333334);
-    let t511 = t365 * c(0.9523333333333334);
-    let t512 = t368 * c(0.9523333333333334);
+    let t508 = c(0.9523333333333334) * t356;
+    let t509 = c(0.9523333333333334) * t359;
+    let t510 = c(0.9523333333333334) * t362;
+    let t511 = c(0.9523333333333334) * t365;
+    let t512 = c(0.9523333333333334) * t368;
     let t513 = mul_sub(t105, t508, mul_sub(t103, t504, t507));
     let t514 = mul_add(t109, t510, mul_add(t107, t509, t513));
     let t515 = mul_add(t113, t512, mul_add(t111, t511, t514));

@@ -3,7 +3,7 @@
 //
 // Dynamics of any `ups` platform, all numbers given at run time.
 //
-// graph     ups.json, sha256 189ee6e20b9380f4cf3986c52f6c089d7abb639c5b5ce8d3f6d0e67256f8b29b
+// graph     ups.json, sha256 d817b90bf96e107e818a8271484815dcec27218954cca6102cd4fc6a4cc2ac83
 //           derived by CasADi 3.8.2
 //
 // operations (+ - * / sqrt; a change of sign is not counted)
@@ -11305,21 +11305,21 @@ pub fn coriolis_matrices<T: Scalar>(
         t751,
         t752,
         t753,
+        t754,
+        t755,
+        t756,
         t757,
         t758,
         t759,
+        t760,
+        t761,
+        t762,
         t763,
         t764,
         t765,
-        t769,
-        t770,
-        t771,
-        t775,
-        t776,
-        t777,
-        t781,
-        t782,
-        t783,
+        t766,
+        t767,
+        t768,
         t784,
         t785,
         t786,
@@ -12498,50 +12498,50 @@ pub fn coriolis_matrices<T: Scalar>(
         let t751 = mul_sub(platform_velocity[4], t147, platform_velocity[5] * t144);
         let t752 = mul_sub(platform_velocity[5], t141, platform_velocity[3] * t147);
         let t753 = mul_sub(platform_velocity[3], t144, platform_velocity[4] * t141);
-        // leg 1: velocity of the platform joint less that of the base origin
-        let t754 = t598 - t751;
-        let t755 = t599 - t752;
-        let t756 = t600 - t753;
         // leg 2: rate of the platform lever
-        let t757 = mul_sub(platform_velocity[4], t162, platform_velocity[5] * t159);
-        let t758 = mul_sub(platform_velocity[5], t156, platform_velocity[3] * t162);
-        let t759 = mul_sub(platform_velocity[3], t159, platform_velocity[4] * t156);
-        // leg 2: velocity of the platform joint less that of the base origin
-        let t760 = t598 - t757;
-        let t761 = t599 - t758;
-        let t762 = t600 - t759;
+        let t754 = mul_sub(platform_velocity[4], t162, platform_velocity[5] * t159);
+        let t755 = mul_sub(platform_velocity[5], t156, platform_velocity[3] * t162);
+        let t756 = mul_sub(platform_velocity[3], t159, platform_velocity[4] * t156);
         // leg 3: rate of the platform lever
-        let t763 = mul_sub(platform_velocity[4], t177, platform_velocity[5] * t174);
-        let t764 = mul_sub(platform_velocity[5], t171, platform_velocity[3] * t177);
-        let t765 = mul_sub(platform_velocity[3], t174, platform_velocity[4] * t171);
-        // leg 3: velocity of the platform joint less that of the base origin
-        let t766 = t598 - t763;
-        let t767 = t599 - t764;
-        let t768 = t600 - t765;
+        let t757 = mul_sub(platform_velocity[4], t177, platform_velocity[5] * t174);
+        let t758 = mul_sub(platform_velocity[5], t171, platform_velocity[3] * t177);
+        let t759 = mul_sub(platform_velocity[3], t174, platform_velocity[4] * t171);
         // leg 4: rate of the platform lever
-        let t769 = mul_sub(platform_velocity[4], t192, platform_velocity[5] * t189);
-        let t770 = mul_sub(platform_velocity[5], t186, platform_velocity[3] * t192);
-        let t771 = mul_sub(platform_velocity[3], t189, platform_velocity[4] * t186);
-        // leg 4: velocity of the platform joint less that of the base origin
-        let t772 = t598 - t769;
-        let t773 = t599 - t770;
-        let t774 = t600 - t771;
+        let t760 = mul_sub(platform_velocity[4], t192, platform_velocity[5] * t189);
+        let t761 = mul_sub(platform_velocity[5], t186, platform_velocity[3] * t192);
+        let t762 = mul_sub(platform_velocity[3], t189, platform_velocity[4] * t186);
         // leg 5: rate of the platform lever
-        let t775 = mul_sub(platform_velocity[4], t207, platform_velocity[5] * t204);
-        let t776 = mul_sub(platform_velocity[5], t201, platform_velocity[3] * t207);
-        let t777 = mul_sub(platform_velocity[3], t204, platform_velocity[4] * t201);
-        // leg 5: velocity of the platform joint less that of the base origin
-        let t778 = t598 - t775;
-        let t779 = t599 - t776;
-        let t780 = t600 - t777;
+        let t763 = mul_sub(platform_velocity[4], t207, platform_velocity[5] * t204);
+        let t764 = mul_sub(platform_velocity[5], t201, platform_velocity[3] * t207);
+        let t765 = mul_sub(platform_velocity[3], t204, platform_velocity[4] * t201);
         // leg 6: rate of the platform lever
-        let t781 = mul_sub(platform_velocity[4], t222, platform_velocity[5] * t219);
-        let t782 = mul_sub(platform_velocity[5], t216, platform_velocity[3] * t222);
-        let t783 = mul_sub(platform_velocity[3], t219, platform_velocity[4] * t216);
+        let t766 = mul_sub(platform_velocity[4], t222, platform_velocity[5] * t219);
+        let t767 = mul_sub(platform_velocity[5], t216, platform_velocity[3] * t222);
+        let t768 = mul_sub(platform_velocity[3], t219, platform_velocity[4] * t216);
+        // leg 1: velocity of the platform joint less that of the base origin
+        let t769 = t598 - t751;
+        let t770 = t599 - t752;
+        let t771 = t600 - t753;
+        // leg 2: velocity of the platform joint less that of the base origin
+        let t772 = t598 - t754;
+        let t773 = t599 - t755;
+        let t774 = t600 - t756;
+        // leg 3: velocity of the platform joint less that of the base origin
+        let t775 = t598 - t757;
+        let t776 = t599 - t758;
+        let t777 = t600 - t759;
+        // leg 4: velocity of the platform joint less that of the base origin
+        let t778 = t598 - t760;
+        let t779 = t599 - t761;
+        let t780 = t600 - t762;
+        // leg 5: velocity of the platform joint less that of the base origin
+        let t781 = t598 - t763;
+        let t782 = t599 - t764;
+        let t783 = t600 - t765;
         // leg 6: velocity of the platform joint less that of the base origin
-        let t784 = t598 - t781;
-        let t785 = t599 - t782;
-        let t786 = t600 - t783;
+        let t784 = t598 - t766;
+        let t785 = t599 - t767;
+        let t786 = t600 - t768;
         // leg 1: Coriolis matrix of the leg in the speeds of its joint
         let t787 = t110 * (t110 * t673);
         let t788 = mul_sub(t233, t110 * t787, t230 * t787);
@@ -12562,13 +12562,13 @@ pub fn coriolis_matrices<T: Scalar>(
         let t803 = mul_sub(t153, t800, mul_add(t690, t799, t788));
         // leg 1: Coriolis matrix between joint and base angular velocity
         let t804 = t384 * mul_sub(base_velocity[5], t394, base_velocity[3] * t391);
-        let t805 = mul_sub(t388, t688, mul_add(t370, t755, t804));
+        let t805 = mul_sub(t388, t688, mul_add(t370, t770, t804));
         let t806 = t384 * mul_sub(base_velocity[3], t387, base_velocity[4] * t394);
-        let t807 = mul_sub(t388, t690, mul_add(t370, t756, t806));
+        let t807 = mul_sub(t388, t690, mul_add(t370, t771, t806));
         let t808 = mul_sub(t153, t805, t151 * t807);
         let t809 = t149 * t808;
         let t810 = t384 * mul_sub(base_velocity[4], t391, base_velocity[5] * t387);
-        let t811 = mul_sub(t388, t686, mul_add(t370, t754, t810));
+        let t811 = mul_sub(t388, t686, mul_add(t370, t769, t810));
         let t812 = mul_sub(t149, t807, t153 * t811);
         let t813 = neg_mul_add(t230, t690, t807);
         let t814 = mul_sub(t149, t812, t813);
@@ -12602,13 +12602,13 @@ pub fn coriolis_matrices<T: Scalar>(
         let t841 = mul_sub(t168, t838, mul_add(t702, t837, t826));
         // leg 2: Coriolis matrix between joint and base angular velocity
         let t842 = t409 * mul_sub(base_velocity[5], t419, base_velocity[3] * t416);
-        let t843 = mul_sub(t413, t700, mul_add(t395, t761, t842));
+        let t843 = mul_sub(t413, t700, mul_add(t395, t773, t842));
         let t844 = t409 * mul_sub(base_velocity[3], t412, base_velocity[4] * t419);
-        let t845 = mul_sub(t413, t702, mul_add(t395, t762, t844));
+        let t845 = mul_sub(t413, t702, mul_add(t395, t774, t844));
         let t846 = mul_sub(t168, t843, t166 * t845);
         let t847 = t164 * t846;
         let t848 = t409 * mul_sub(base_velocity[4], t416, base_velocity[5] * t412);
-        let t849 = mul_sub(t413, t698, mul_add(t395, t760, t848));
+        let t849 = mul_sub(t413, t698, mul_add(t395, t772, t848));
         let t850 = mul_sub(t164, t845, t168 * t849);
         let t851 = neg_mul_add(t235, t702, t845);
         let t852 = mul_sub(t164, t850, t851);
@@ -12642,13 +12642,13 @@ pub fn coriolis_matrices<T: Scalar>(
         let t879 = mul_sub(t183, t876, mul_add(t714, t875, t864));
         // leg 3: Coriolis matrix between joint and base angular velocity
         let t880 = t434 * mul_sub(base_velocity[5], t444, base_velocity[3] * t441);
-        let t881 = mul_sub(t438, t712, mul_add(t420, t767, t880));
+        let t881 = mul_sub(t438, t712, mul_add(t420, t776, t880));
         let t882 = t434 * mul_sub(base_velocity[3], t437, base_velocity[4] * t444);
-        let t883 = mul_sub(t438, t714, mul_add(t420, t768, t882));
+        let t883 = mul_sub(t438, t714, mul_add(t420, t777, t882));
         let t884 = mul_sub(t183, t881, t181 * t883);
         let t885 = t179 * t884;
         let t886 = t434 * mul_sub(base_velocity[4], t441, base_velocity[5] * t437);
-        let t887 = mul_sub(t438, t710, mul_add(t420, t766, t886));
+        let t887 = mul_sub(t438, t710, mul_add(t420, t775, t886));
         let t888 = mul_sub(t179, t883, t183 * t887);
         let t889 = neg_mul_add(t240, t714, t883);
         let t890 = mul_sub(t179, t888, t889);
@@ -12682,13 +12682,13 @@ pub fn coriolis_matrices<T: Scalar>(
         let t917 = mul_sub(t198, t914, mul_add(t726, t913, t902));
         // leg 4: Coriolis matrix between joint and base angular velocity
         let t918 = t459 * mul_sub(base_velocity[5], t469, base_velocity[3] * t466);
-        let t919 = mul_sub(t463, t724, mul_add(t445, t773, t918));
+        let t919 = mul_sub(t463, t724, mul_add(t445, t779, t918));
         let t920 = t459 * mul_sub(base_velocity[3], t462, base_velocity[4] * t469);
-        let t921 = mul_sub(t463, t726, mul_add(t445, t774, t920));
+        let t921 = mul_sub(t463, t726, mul_add(t445, t780, t920));
         let t922 = mul_sub(t198, t919, t196 * t921);
         let t923 = t194 * t922;
         let t924 = t459 * mul_sub(base_velocity[4], t466, base_velocity[5] * t462);
-        let t925 = mul_sub(t463, t722, mul_add(t445, t772, t924));
+        let t925 = mul_sub(t463, t722, mul_add(t445, t778, t924));
         let t926 = mul_sub(t194, t921, t198 * t925);
         let t927 = neg_mul_add(t245, t726, t921);
         let t928 = mul_sub(t194, t926, t927);
@@ -12722,13 +12722,13 @@ pub fn coriolis_matrices<T: Scalar>(
         let t955 = mul_sub(t213, t952, mul_add(t738, t951, t940));
         // leg 5: Coriolis matrix between joint and base angular velocity
         let t956 = t484 * mul_sub(base_velocity[5], t494, base_velocity[3] * t491);
-        let t957 = mul_sub(t488, t736, mul_add(t470, t779, t956));
+        let t957 = mul_sub(t488, t736, mul_add(t470, t782, t956));
         let t958 = t484 * mul_sub(base_velocity[3], t487, base_velocity[4] * t494);
-        let t959 = mul_sub(t488, t738, mul_add(t470, t780, t958));
+        let t959 = mul_sub(t488, t738, mul_add(t470, t783, t958));
         let t960 = mul_sub(t213, t957, t211 * t959);
         let t961 = t209 * t960;
         let t962 = t484 * mul_sub(base_velocity[4], t491, base_velocity[5] * t487);
-        let t963 = mul_sub(t488, t734, mul_add(t470, t778, t962));
+        let t963 = mul_sub(t488, t734, mul_add(t470, t781, t962));
         let t964 = mul_sub(t209, t959, t213 * t963);
         let t965 = neg_mul_add(t250, t738, t959);
         let t966 = mul_sub(t209, t964, t965);
@@ -12874,21 +12874,21 @@ pub fn coriolis_matrices<T: Scalar>(
             t751,
             t752,
             t753,
+            t754,
+            t755,
+            t756,
             t757,
             t758,
             t759,
+            t760,
+            t761,
+            t762,
             t763,
             t764,
             t765,
-            t769,
-            t770,
-            t771,
-            t775,
-            t776,
-            t777,
-            t781,
-            t782,
-            t783,
+            t766,
+            t767,
+            t768,
             t784,
             t785,
             t786,
@@ -13034,140 +13034,140 @@ pub fn coriolis_matrices<T: Scalar>(
         coriolis_matrix_b[0][0] = t1015;
         let t1016 = t982 + (t944 + (t906 + (t868 + (t792 + t830))));
         let t1017 = t983 + (t945 + (t907 + (t869 + (t793 + t831))));
-        let t1018 = mul_sub(t503, t783, mul_sub(t222, t982, t219 * t983));
-        let t1019 = mul_sub(t504, t782, t1018);
-        let t1020 = mul_sub(t478, t777, mul_sub(t207, t944, t204 * t945));
-        let t1021 = mul_sub(t479, t776, t1020);
-        let t1022 = mul_sub(t453, t771, mul_sub(t192, t906, t189 * t907));
-        let t1023 = mul_sub(t454, t770, t1022);
-        let t1024 = mul_sub(t428, t765, mul_sub(t177, t868, t174 * t869));
-        let t1025 = mul_sub(t429, t764, t1024);
+        let t1018 = mul_sub(t503, t768, mul_sub(t222, t982, t219 * t983));
+        let t1019 = mul_sub(t504, t767, t1018);
+        let t1020 = mul_sub(t478, t765, mul_sub(t207, t944, t204 * t945));
+        let t1021 = mul_sub(t479, t764, t1020);
+        let t1022 = mul_sub(t453, t762, mul_sub(t192, t906, t189 * t907));
+        let t1023 = mul_sub(t454, t761, t1022);
+        let t1024 = mul_sub(t428, t759, mul_sub(t177, t868, t174 * t869));
+        let t1025 = mul_sub(t429, t758, t1024);
         let t1026 = t144 * t793;
         let t1027 = mul_sub(t378, t753, mul_sub(t147, t792, t1026));
         let t1028 = mul_sub(t379, t752, t1027);
         let t1029 = t162 * t830;
-        let t1030 = mul_sub(t403, t759, neg_mul_add(t159, t831, t1029));
-        let t1031 = mul_sub(t404, t758, t1030);
+        let t1030 = mul_sub(t403, t756, neg_mul_add(t159, t831, t1029));
+        let t1031 = mul_sub(t404, t755, t1030);
         let t1032 = t1019 + (t1021 + (t1023 + (t1025 + (t1028 + t1031))));
         coriolis_matrix_p[0][3] = t1032;
-        let t1033 = mul_sub(t504, t781, mul_add(t216, t983, t222 * t981));
-        let t1034 = mul_sub(t502, t783, t1033);
-        let t1035 = mul_sub(t479, t775, mul_add(t201, t945, t207 * t943));
-        let t1036 = mul_sub(t477, t777, t1035);
-        let t1037 = mul_sub(t454, t769, mul_add(t186, t907, t192 * t905));
-        let t1038 = mul_sub(t452, t771, t1037);
-        let t1039 = mul_sub(t429, t763, mul_add(t171, t869, t177 * t867));
-        let t1040 = mul_sub(t427, t765, t1039);
+        let t1033 = mul_sub(t504, t766, mul_add(t216, t983, t222 * t981));
+        let t1034 = mul_sub(t502, t768, t1033);
+        let t1035 = mul_sub(t479, t763, mul_add(t201, t945, t207 * t943));
+        let t1036 = mul_sub(t477, t765, t1035);
+        let t1037 = mul_sub(t454, t760, mul_add(t186, t907, t192 * t905));
+        let t1038 = mul_sub(t452, t762, t1037);
+        let t1039 = mul_sub(t429, t757, mul_add(t171, t869, t177 * t867));
+        let t1040 = mul_sub(t427, t759, t1039);
         let t1041 = mul_sub(t379, t751, mul_add(t141, t793, t147 * t791));
         let t1042 = mul_sub(t377, t753, t1041);
         let t1043 = t162 * t829;
-        let t1044 = mul_sub(t404, t757, mul_add(t156, t831, t1043));
-        let t1045 = mul_sub(t402, t759, t1044);
+        let t1044 = mul_sub(t404, t754, mul_add(t156, t831, t1043));
+        let t1045 = mul_sub(t402, t756, t1044);
         let t1046 = t1034 + (t1036 + (t1038 + (t1040 + (t1042 + t1045))));
-        let t1047 = mul_add(t502, t782, mul_add(t216, t982, t219 * t981));
-        let t1048 = mul_sub(t503, t781, t1047);
-        let t1049 = mul_add(t477, t776, mul_add(t201, t944, t204 * t943));
-        let t1050 = mul_sub(t478, t775, t1049);
-        let t1051 = mul_add(t452, t770, mul_add(t186, t906, t189 * t905));
-        let t1052 = mul_sub(t453, t769, t1051);
-        let t1053 = mul_add(t427, t764, mul_add(t171, t868, t174 * t867));
-        let t1054 = mul_sub(t428, t763, t1053);
+        let t1047 = mul_add(t502, t767, mul_add(t216, t982, t219 * t981));
+        let t1048 = mul_sub(t503, t766, t1047);
+        let t1049 = mul_add(t477, t764, mul_add(t201, t944, t204 * t943));
+        let t1050 = mul_sub(t478, t763, t1049);
+        let t1051 = mul_add(t452, t761, mul_add(t186, t906, t189 * t905));
+        let t1052 = mul_sub(t453, t760, t1051);
+        let t1053 = mul_add(t427, t758, mul_add(t171, t868, t174 * t867));
+        let t1054 = mul_sub(t428, t757, t1053);
         let t1055 = mul_add(t377, t752, mul_add(t141, t792, t144 * t791));
         let t1056 = mul_sub(t378, t751, t1055);
         let t1057 = t159 * t829;
-        let t1058 = mul_add(t402, t758, mul_add(t156, t830, t1057));
-        let t1059 = mul_sub(t403, t757, t1058);
+        let t1058 = mul_add(t402, t755, mul_add(t156, t830, t1057));
+        let t1059 = mul_sub(t403, t754, t1058);
         let t1060 = t1048 + (t1050 + (t1052 + (t1054 + (t1056 + t1059))));
         let t1061 = t986 + (t948 + (t910 + (t872 + (t796 + t834))));
         let t1062 = t987 + (t949 + (t911 + (t873 + (t797 + t835))));
         coriolis_matrix_p[1][1] = t1062;
         coriolis_matrix_b[1][1] = t1062;
         let t1063 = t988 + (t950 + (t912 + (t874 + (t798 + t836))));
-        let t1064 = mul_add(t506, t783, mul_add(t219, t988, t222 * t987));
-        let t1065 = mul_sub(t507, t782, t1064);
-        let t1066 = mul_add(t481, t777, mul_add(t204, t950, t207 * t949));
-        let t1067 = mul_sub(t482, t776, t1066);
-        let t1068 = mul_add(t456, t771, mul_add(t189, t912, t192 * t911));
-        let t1069 = mul_sub(t457, t770, t1068);
-        let t1070 = mul_add(t431, t765, mul_add(t174, t874, t177 * t873));
-        let t1071 = mul_sub(t432, t764, t1070);
+        let t1064 = mul_add(t506, t768, mul_add(t219, t988, t222 * t987));
+        let t1065 = mul_sub(t507, t767, t1064);
+        let t1066 = mul_add(t481, t765, mul_add(t204, t950, t207 * t949));
+        let t1067 = mul_sub(t482, t764, t1066);
+        let t1068 = mul_add(t456, t762, mul_add(t189, t912, t192 * t911));
+        let t1069 = mul_sub(t457, t761, t1068);
+        let t1070 = mul_add(t431, t759, mul_add(t174, t874, t177 * t873));
+        let t1071 = mul_sub(t432, t758, t1070);
         let t1072 = mul_add(t381, t753, mul_add(t144, t798, t147 * t797));
         let t1073 = mul_sub(t382, t752, t1072);
         let t1074 = t162 * t835;
-        let t1075 = mul_add(t406, t759, mul_add(t159, t836, t1074));
-        let t1076 = mul_sub(t407, t758, t1075);
+        let t1075 = mul_add(t406, t756, mul_add(t159, t836, t1074));
+        let t1076 = mul_sub(t407, t755, t1075);
         let t1077 = t1065 + (t1067 + (t1069 + (t1071 + (t1073 + t1076))));
-        let t1078 = mul_sub(t222, t986, mul_add(t503, t783, t216 * t988));
-        let t1079 = mul_add(t507, t781, t1078);
-        let t1080 = mul_sub(t207, t948, mul_add(t478, t777, t201 * t950));
-        let t1081 = mul_add(t482, t775, t1080);
-        let t1082 = mul_sub(t192, t910, mul_add(t453, t771, t186 * t912));
-        let t1083 = mul_add(t457, t769, t1082);
-        let t1084 = mul_sub(t177, t872, mul_add(t428, t765, t171 * t874));
-        let t1085 = mul_add(t432, t763, t1084);
+        let t1078 = mul_sub(t222, t986, mul_add(t503, t768, t216 * t988));
+        let t1079 = mul_add(t507, t766, t1078);
+        let t1080 = mul_sub(t207, t948, mul_add(t478, t765, t201 * t950));
+        let t1081 = mul_add(t482, t763, t1080);
+        let t1082 = mul_sub(t192, t910, mul_add(t453, t762, t186 * t912));
+        let t1083 = mul_add(t457, t760, t1082);
+        let t1084 = mul_sub(t177, t872, mul_add(t428, t759, t171 * t874));
+        let t1085 = mul_add(t432, t757, t1084);
         let t1086 = mul_sub(t147, t796, mul_add(t378, t753, t141 * t798));
         let t1087 = mul_add(t382, t751, t1086);
-        let t1088 = mul_sub(t162, t834, mul_add(t403, t759, t156 * t836));
-        let t1089 = mul_add(t407, t757, t1088);
+        let t1088 = mul_sub(t162, t834, mul_add(t403, t756, t156 * t836));
+        let t1089 = mul_add(t407, t754, t1088);
         let t1090 = t1079 + (t1081 + (t1083 + (t1085 + (t1087 + t1089))));
-        let t1091 = mul_sub(t503, t782, mul_add(t219, t986, t216 * t987));
-        let t1092 = mul_sub(t506, t781, t1091);
-        let t1093 = mul_sub(t478, t776, mul_add(t204, t948, t201 * t949));
-        let t1094 = mul_sub(t481, t775, t1093);
-        let t1095 = mul_sub(t453, t770, mul_add(t189, t910, t186 * t911));
-        let t1096 = mul_sub(t456, t769, t1095);
-        let t1097 = mul_sub(t428, t764, mul_add(t174, t872, t171 * t873));
-        let t1098 = mul_sub(t431, t763, t1097);
+        let t1091 = mul_sub(t503, t767, mul_add(t219, t986, t216 * t987));
+        let t1092 = mul_sub(t506, t766, t1091);
+        let t1093 = mul_sub(t478, t764, mul_add(t204, t948, t201 * t949));
+        let t1094 = mul_sub(t481, t763, t1093);
+        let t1095 = mul_sub(t453, t761, mul_add(t189, t910, t186 * t911));
+        let t1096 = mul_sub(t456, t760, t1095);
+        let t1097 = mul_sub(t428, t758, mul_add(t174, t872, t171 * t873));
+        let t1098 = mul_sub(t431, t757, t1097);
         let t1099 = mul_sub(t378, t752, mul_add(t144, t796, t141 * t797));
         let t1100 = mul_sub(t381, t751, t1099);
         let t1101 = t156 * t835;
-        let t1102 = mul_sub(t403, t758, mul_add(t159, t834, t1101));
-        let t1103 = mul_sub(t406, t757, t1102);
+        let t1102 = mul_sub(t403, t755, mul_add(t159, t834, t1101));
+        let t1103 = mul_sub(t406, t754, t1102);
         let t1104 = t1092 + (t1094 + (t1096 + (t1098 + (t1100 + t1103))));
         let t1105 = t991 + (t953 + (t915 + (t877 + (t801 + t839))));
         let t1106 = t992 + (t954 + (t916 + (t878 + (t802 + t840))));
         let t1107 = t993 + (t955 + (t917 + (t879 + (t803 + t841))));
         coriolis_matrix_p[2][2] = t1107;
         coriolis_matrix_b[2][2] = t1107;
-        let t1108 = mul_sub(t507, t783, mul_add(t222, t992, t219 * t993));
-        let t1109 = mul_sub(t508, t782, t1108);
-        let t1110 = mul_sub(t482, t777, mul_add(t207, t954, t204 * t955));
-        let t1111 = mul_sub(t483, t776, t1110);
-        let t1112 = mul_sub(t457, t771, mul_add(t192, t916, t189 * t917));
-        let t1113 = mul_sub(t458, t770, t1112);
-        let t1114 = mul_sub(t432, t765, mul_add(t177, t878, t174 * t879));
-        let t1115 = mul_sub(t433, t764, t1114);
+        let t1108 = mul_sub(t507, t768, mul_add(t222, t992, t219 * t993));
+        let t1109 = mul_sub(t508, t767, t1108);
+        let t1110 = mul_sub(t482, t765, mul_add(t207, t954, t204 * t955));
+        let t1111 = mul_sub(t483, t764, t1110);
+        let t1112 = mul_sub(t457, t762, mul_add(t192, t916, t189 * t917));
+        let t1113 = mul_sub(t458, t761, t1112);
+        let t1114 = mul_sub(t432, t759, mul_add(t177, t878, t174 * t879));
+        let t1115 = mul_sub(t433, t758, t1114);
         let t1116 = mul_sub(t382, t753, mul_add(t147, t802, t144 * t803));
         let t1117 = mul_sub(t383, t752, t1116);
         let t1118 = t159 * t841;
-        let t1119 = mul_sub(t407, t759, mul_add(t162, t840, t1118));
-        let t1120 = mul_sub(t408, t758, t1119);
+        let t1119 = mul_sub(t407, t756, mul_add(t162, t840, t1118));
+        let t1120 = mul_sub(t408, t755, t1119);
         let t1121 = t1109 + (t1111 + (t1113 + (t1115 + (t1117 + t1120))));
-        let t1122 = mul_add(t508, t781, mul_add(t222, t991, t216 * t993));
-        let t1123 = mul_sub(t504, t783, t1122);
-        let t1124 = mul_add(t483, t775, mul_add(t207, t953, t201 * t955));
-        let t1125 = mul_sub(t479, t777, t1124);
-        let t1126 = mul_add(t458, t769, mul_add(t192, t915, t186 * t917));
-        let t1127 = mul_sub(t454, t771, t1126);
-        let t1128 = mul_add(t433, t763, mul_add(t177, t877, t171 * t879));
-        let t1129 = mul_sub(t429, t765, t1128);
+        let t1122 = mul_add(t508, t766, mul_add(t222, t991, t216 * t993));
+        let t1123 = mul_sub(t504, t768, t1122);
+        let t1124 = mul_add(t483, t763, mul_add(t207, t953, t201 * t955));
+        let t1125 = mul_sub(t479, t765, t1124);
+        let t1126 = mul_add(t458, t760, mul_add(t192, t915, t186 * t917));
+        let t1127 = mul_sub(t454, t762, t1126);
+        let t1128 = mul_add(t433, t757, mul_add(t177, t877, t171 * t879));
+        let t1129 = mul_sub(t429, t759, t1128);
         let t1130 = mul_add(t383, t751, mul_add(t147, t801, t141 * t803));
         let t1131 = mul_sub(t379, t753, t1130);
         let t1132 = t156 * t841;
-        let t1133 = mul_add(t408, t757, mul_add(t162, t839, t1132));
-        let t1134 = mul_sub(t404, t759, t1133);
+        let t1133 = mul_add(t408, t754, mul_add(t162, t839, t1132));
+        let t1134 = mul_sub(t404, t756, t1133);
         let t1135 = t1123 + (t1125 + (t1127 + (t1129 + (t1131 + t1134))));
-        let t1136 = mul_sub(t219, t991, mul_sub(t504, t782, t507 * t781));
+        let t1136 = mul_sub(t219, t991, mul_sub(t504, t767, t507 * t766));
         let t1137 = mul_sub(t216, t992, t1136);
-        let t1138 = mul_sub(t204, t953, mul_sub(t479, t776, t482 * t775));
+        let t1138 = mul_sub(t204, t953, mul_sub(t479, t764, t482 * t763));
         let t1139 = mul_sub(t201, t954, t1138);
-        let t1140 = mul_sub(t189, t915, mul_sub(t454, t770, t457 * t769));
+        let t1140 = mul_sub(t189, t915, mul_sub(t454, t761, t457 * t760));
         let t1141 = mul_sub(t186, t916, t1140);
-        let t1142 = mul_sub(t174, t877, mul_sub(t429, t764, t432 * t763));
+        let t1142 = mul_sub(t174, t877, mul_sub(t429, t758, t432 * t757));
         let t1143 = mul_sub(t171, t878, t1142);
         let t1144 = mul_sub(t144, t801, mul_sub(t379, t752, t382 * t751));
         let t1145 = mul_sub(t141, t802, t1144);
-        let t1146 = mul_sub(t159, t839, mul_sub(t404, t758, t407 * t757));
+        let t1146 = mul_sub(t159, t839, mul_sub(t404, t755, t407 * t754));
         let t1147 = mul_sub(t156, t840, t1146);
         let t1148 = t1137 + (t1139 + (t1141 + (t1143 + (t1145 + t1147))));
         let t1149 = mul_add(t177, t872, mul_add(t147, t796, t162 * t834));
@@ -13321,243 +13321,243 @@ pub fn coriolis_matrices<T: Scalar>(
         let t1267 = -t1238;
         coriolis_matrix_p[5][2] = t1267;
         coriolis_matrix_b[5][2] = t1267;
+        // Coriolis matrix C_b, natural factorisation
+        let t1268 = mul_add(t179, t884, mul_add(t149, t808, t847));
+        let t1269 = mul_add(t209, t960, mul_add(t194, t922, t1268));
+        let t1270 = mul_sub(t30, t1016, t1032 - mul_add(t224, t998, t1269));
+        let t1271 = mul_add(t523, t600, mul_sub(t29, t1017, t1270));
+        coriolis_matrix_b[0][3] = neg_mul_add(t526, t599, t1271);
+        let t1272 = t1046 - (t1004 + (t966 + (t928 + (t890 + (t814 + t852)))));
+        let t1273 = mul_add(t30, t1015, mul_sub(t28, t1017, t1272));
+        coriolis_matrix_b[0][4] = neg_mul_add(t520, t600, mul_sub(t526, t598, t1273));
+        let t1274 = t1060 - (t1007 + (t969 + (t931 + (t893 + (t817 + t855)))));
+        let t1275 = mul_add(t28, t1016, mul_add(t29, t1015, t1274));
+        coriolis_matrix_b[0][5] = neg_mul_add(t523, t598, mul_add(t520, t599, t1275));
+        let t1276 = t1077 - (t1008 + (t970 + (t932 + (t894 + (t818 + t856)))));
+        let t1277 = mul_add(t29, t1063, mul_add(t30, t1062, t1276));
+        coriolis_matrix_b[1][3] = neg_mul_add(t549, t599, mul_add(t546, t600, t1277));
+        let t1278 = mul_add(t181, t888, mul_add(t151, t812, t857));
+        let t1279 = mul_add(t211, t964, mul_add(t196, t926, t1278));
+        let t1280 = mul_add(t523, t600, t1090 + mul_add(t226, t1002, t1279));
+        let t1281 = mul_sub(t30, t1061, mul_add(t28, t1063, t1280));
+        coriolis_matrix_b[1][4] = mul_add(t549, t598, t1281);
+        let t1282 = t1104 - (t1011 + (t973 + (t935 + (t897 + (t821 + t859)))));
+        let t1283 = mul_add(t28, t1062, mul_sub(t29, t1061, t1282));
+        coriolis_matrix_b[1][5] = neg_mul_add(t546, t598, mul_sub(t523, t599, t1283));
+        let t1284 = t1121 + (t1012 + (t974 + (t936 + (t898 + (t822 + t860)))));
+        let t1285 = mul_add(t29, t1107, mul_sub(t30, t1106, t1284));
+        coriolis_matrix_b[2][3] = neg_mul_add(t566, t599, mul_sub(t549, t600, t1285));
+        let t1286 = t1135 - (t1013 + (t975 + (t937 + (t899 + (t823 + t861)))));
+        let t1287 = mul_add(t30, t1105, mul_add(t28, t1107, t1286));
+        coriolis_matrix_b[2][4] = neg_mul_add(t526, t600, mul_add(t566, t598, t1287));
+        let t1288 = mul_add(t183, t891, mul_add(t153, t815, t862));
+        let t1289 = mul_add(t213, t967, mul_add(t198, t929, t1288));
+        let t1290 = mul_sub(t526, t599, t1148 + mul_add(t228, t1005, t1289));
+        let t1291 = mul_add(t29, t1105, mul_sub(t549, t598, t1290));
+        coriolis_matrix_b[2][5] = mul_sub(t28, t1106, t1291);
+        let t1292 = mul_sub(t29, t1166, neg_mul_add(t30, t1160, t1172));
+        let t1293 = mul_sub(t572, t599, mul_sub(t555, t600, t1292));
+        let t1294 = mul_add(t147, t818, mul_sub(t144, t822, t1293));
+        let t1295 = mul_add(t162, t856, mul_add(t159, t860, t1294));
+        let t1296 = mul_add(t177, t894, mul_add(t174, t898, t1295));
+        let t1297 = mul_add(t192, t932, mul_add(t189, t936, t1296));
+        let t1298 = mul_add(t207, t970, mul_add(t204, t974, t1297));
+        coriolis_matrix_b[3][3] = mul_add(t222, t1008, mul_add(t219, t1012, t1298));
+        let t1299 = mul_add(t30, t1154, mul_add(t28, t1166, t1178));
+        let t1300 = mul_add(t533, t600, mul_add(t572, t598, t1299));
+        let t1301 = mul_sub(t147, t819, mul_sub(t144, t823, t1300));
+        let t1302 = mul_sub(t162, t857, mul_sub(t159, t861, t1301));
+        let t1303 = mul_sub(t177, t895, mul_sub(t174, t899, t1302));
+        let t1304 = mul_sub(t192, t933, mul_sub(t189, t937, t1303));
+        let t1305 = mul_sub(t207, t971, mul_sub(t204, t975, t1304));
+        coriolis_matrix_b[3][4] = mul_sub(t222, t1009, mul_sub(t219, t1013, t1305));
+        let t1306 = mul_sub(t28, t1160, mul_add(t29, t1154, t1184));
+        let t1307 = mul_add(t555, t598, mul_sub(t533, t599, t1306));
+        let t1308 = mul_sub(t147, t821, mul_add(t144, t824, t1307));
+        let t1309 = mul_sub(t162, t859, mul_sub(t159, t862, t1308));
+        let t1310 = mul_sub(t177, t897, mul_sub(t174, t900, t1309));
+        let t1311 = mul_sub(t192, t935, mul_sub(t189, t938, t1310));
+        let t1312 = mul_sub(t207, t973, mul_sub(t204, t976, t1311));
+        coriolis_matrix_b[3][5] = mul_sub(t222, t1011, mul_sub(t219, t1014, t1312));
+        let t1313 = mul_add(t29, t1202, mul_add(t30, t1196, t1208));
+        let t1314 = neg_mul_add(t578, t599, mul_add(t559, t600, t1313));
+        let t1315 = neg_mul_add(t141, t822, neg_mul_add(t147, t809, t1314));
+        let t1316 = neg_mul_add(t156, t860, neg_mul_add(t162, t847, t1315));
+        let t1317 = neg_mul_add(t171, t898, neg_mul_add(t177, t885, t1316));
+        let t1318 = neg_mul_add(t186, t936, neg_mul_add(t192, t923, t1317));
+        let t1319 = neg_mul_add(t201, t974, neg_mul_add(t207, t961, t1318));
+        coriolis_matrix_b[4][3] = neg_mul_add(
+            t216,
+            t1012,
+            neg_mul_add(t222, t999, t1319),
+        );
+        let t1320 = mul_sub(t30, t1190, neg_mul_add(t28, t1202, t1214));
+        let t1321 = mul_sub(t539, t600, mul_sub(t578, t598, t1320));
+        let t1322 = mul_sub(t141, t823, mul_add(t147, t814, t1321));
+        let t1323 = mul_sub(t156, t861, mul_sub(t162, t852, t1322));
+        let t1324 = mul_sub(t171, t899, mul_sub(t177, t890, t1323));
+        let t1325 = mul_sub(t186, t937, mul_sub(t192, t928, t1324));
+        let t1326 = mul_sub(t201, t975, mul_sub(t207, t966, t1325));
+        coriolis_matrix_b[4][4] = mul_sub(t216, t1013, mul_sub(t222, t1004, t1326));
+        let t1327 = mul_sub(t28, t1196, mul_add(t29, t1190, t1220));
+        let t1328 = mul_sub(t559, t598, mul_sub(t539, t599, t1327));
+        let t1329 = mul_sub(t141, t824, mul_add(t147, t817, t1328));
+        let t1330 = mul_sub(t156, t862, mul_sub(t162, t855, t1329));
+        let t1331 = mul_sub(t171, t900, mul_sub(t177, t893, t1330));
+        let t1332 = mul_sub(t186, t938, mul_sub(t192, t931, t1331));
+        let t1333 = mul_sub(t201, t976, mul_sub(t207, t969, t1332));
+        coriolis_matrix_b[4][5] = mul_sub(t216, t1014, mul_sub(t222, t1007, t1333));
+        let t1334 = mul_add(t29, t1238, mul_add(t30, t1232, t1244));
+        let t1335 = mul_add(t579, t599, mul_add(t565, t600, t1334));
+        let t1336 = mul_sub(t144, t809, mul_sub(t141, t818, t1335));
+        let t1337 = mul_sub(t159, t847, mul_sub(t156, t856, t1336));
+        let t1338 = mul_sub(t174, t885, mul_sub(t171, t894, t1337));
+        let t1339 = mul_sub(t189, t923, mul_sub(t186, t932, t1338));
+        let t1340 = mul_sub(t204, t961, mul_sub(t201, t970, t1339));
+        coriolis_matrix_b[5][3] = mul_sub(t219, t999, mul_sub(t216, t1008, t1340));
+        let t1341 = mul_sub(t30, t1226, mul_add(t28, t1238, t1250));
+        let t1342 = mul_add(t545, t600, mul_sub(t579, t598, t1341));
+        let t1343 = mul_sub(t144, t814, mul_add(t141, t819, t1342));
+        let t1344 = mul_sub(t159, t852, mul_sub(t156, t857, t1343));
+        let t1345 = mul_sub(t174, t890, mul_sub(t171, t895, t1344));
+        let t1346 = mul_sub(t189, t928, mul_sub(t186, t933, t1345));
+        let t1347 = mul_sub(t204, t966, mul_sub(t201, t971, t1346));
+        coriolis_matrix_b[5][4] = mul_sub(t219, t1004, mul_sub(t216, t1009, t1347));
+        let t1348 = mul_sub(t28, t1232, neg_mul_add(t29, t1226, t1256));
+        let t1349 = mul_sub(t565, t598, mul_sub(t545, t599, t1348));
+        let t1350 = mul_sub(t144, t817, mul_add(t141, t821, t1349));
+        let t1351 = mul_sub(t159, t855, mul_sub(t156, t859, t1350));
+        let t1352 = mul_sub(t174, t893, mul_sub(t171, t897, t1351));
+        let t1353 = mul_sub(t189, t931, mul_sub(t186, t935, t1352));
+        let t1354 = mul_sub(t204, t969, mul_sub(t201, t973, t1353));
+        coriolis_matrix_b[5][5] = mul_sub(t219, t1007, mul_sub(t216, t1011, t1354));
         // Coriolis matrix C_p, natural factorisation
-        let t1268 = mul_add(
+        let t1355 = mul_add(
             platform_rotation[1][0],
             t265,
             platform_rotation[1][1] * t272,
         );
-        let t1269 = mul_add(platform_rotation[1][2], t279, t1268);
-        let t1270 = mul_add(
+        let t1356 = mul_add(platform_rotation[1][2], t279, t1355);
+        let t1357 = mul_add(
             platform_rotation[0][0],
             t265,
             platform_rotation[0][1] * t272,
         );
-        let t1271 = mul_add(platform_rotation[0][2], t279, t1270);
-        let t1272 = mul_sub(platform_velocity[3], t1269, platform_velocity[4] * t1271);
-        coriolis_matrix_p[0][4] = t1046 + t1272;
-        let t1273 = mul_add(
+        let t1358 = mul_add(platform_rotation[0][2], t279, t1357);
+        let t1359 = mul_sub(platform_velocity[3], t1356, platform_velocity[4] * t1358);
+        coriolis_matrix_p[0][4] = t1046 + t1359;
+        let t1360 = mul_add(
             platform_rotation[2][0],
             t265,
             platform_rotation[2][1] * t272,
         );
-        let t1274 = mul_add(platform_rotation[2][2], t279, t1273);
-        let t1275 = mul_sub(platform_velocity[5], t1271, platform_velocity[3] * t1274);
-        coriolis_matrix_p[0][5] = t1060 - t1275;
-        coriolis_matrix_p[1][3] = t1077 - t1272;
-        let t1276 = mul_sub(platform_velocity[4], t1274, platform_velocity[5] * t1269);
-        coriolis_matrix_p[1][5] = t1104 + t1276;
-        coriolis_matrix_p[2][3] = t1121 + t1275;
-        coriolis_matrix_p[2][4] = t1135 - t1276;
-        let t1277 = mul_add(
+        let t1361 = mul_add(platform_rotation[2][2], t279, t1360);
+        let t1362 = mul_sub(platform_velocity[5], t1358, platform_velocity[3] * t1361);
+        coriolis_matrix_p[0][5] = t1060 - t1362;
+        coriolis_matrix_p[1][3] = t1077 - t1359;
+        let t1363 = mul_sub(platform_velocity[4], t1361, platform_velocity[5] * t1356);
+        coriolis_matrix_p[1][5] = t1104 + t1363;
+        coriolis_matrix_p[2][3] = t1121 + t1362;
+        coriolis_matrix_p[2][4] = t1135 - t1363;
+        let t1364 = mul_add(
             platform_rotation[0][0],
             t325,
             platform_rotation[0][1] * t354,
         );
-        let t1278 = mul_add(platform_rotation[0][2], t369, t1277);
-        let t1279 = mul_add(
+        let t1365 = mul_add(platform_rotation[0][2], t369, t1364);
+        let t1366 = mul_add(
             platform_rotation[0][0],
             t297,
             platform_rotation[0][1] * t311,
         );
-        let t1280 = mul_add(platform_rotation[0][2], t325, t1279);
-        let t1281 = mul_add(
+        let t1367 = mul_add(platform_rotation[0][2], t325, t1366);
+        let t1368 = mul_add(
             platform_rotation[0][0],
             t311,
             platform_rotation[0][1] * t340,
         );
-        let t1282 = mul_add(platform_rotation[0][2], t354, t1281);
-        let t1283 = mul_add(
+        let t1369 = mul_add(platform_rotation[0][2], t354, t1368);
+        let t1370 = mul_add(
             platform_rotation[2][0],
-            t1280,
-            platform_rotation[2][1] * t1282,
+            t1367,
+            platform_rotation[2][1] * t1369,
         );
-        let t1284 = mul_add(platform_rotation[2][2], t1278, t1283);
-        let t1285 = mul_add(
+        let t1371 = mul_add(platform_rotation[2][2], t1365, t1370);
+        let t1372 = mul_add(
             platform_rotation[1][0],
-            t1280,
-            platform_rotation[1][1] * t1282,
+            t1367,
+            platform_rotation[1][1] * t1369,
         );
-        let t1286 = mul_add(platform_rotation[1][2], t1278, t1285);
-        let t1287 = mul_add(platform_velocity[5], t1286, t1172);
-        coriolis_matrix_p[3][3] = neg_mul_add(platform_velocity[4], t1284, t1287);
-        let t1288 = mul_add(
+        let t1373 = mul_add(platform_rotation[1][2], t1365, t1372);
+        let t1374 = mul_add(platform_velocity[5], t1373, t1172);
+        coriolis_matrix_p[3][3] = neg_mul_add(platform_velocity[4], t1371, t1374);
+        let t1375 = mul_add(
             platform_rotation[1][0],
             t325,
             platform_rotation[1][1] * t354,
         );
-        let t1289 = mul_add(platform_rotation[1][2], t369, t1288);
-        let t1290 = mul_add(
+        let t1376 = mul_add(platform_rotation[1][2], t369, t1375);
+        let t1377 = mul_add(
             platform_rotation[1][0],
             t297,
             platform_rotation[1][1] * t311,
         );
-        let t1291 = mul_add(platform_rotation[1][2], t325, t1290);
-        let t1292 = mul_add(
+        let t1378 = mul_add(platform_rotation[1][2], t325, t1377);
+        let t1379 = mul_add(
             platform_rotation[1][0],
             t311,
             platform_rotation[1][1] * t340,
         );
-        let t1293 = mul_add(platform_rotation[1][2], t354, t1292);
-        let t1294 = mul_add(
+        let t1380 = mul_add(platform_rotation[1][2], t354, t1379);
+        let t1381 = mul_add(
             platform_rotation[2][0],
-            t1291,
-            platform_rotation[2][1] * t1293,
+            t1378,
+            platform_rotation[2][1] * t1380,
         );
-        let t1295 = mul_add(platform_rotation[2][2], t1289, t1294);
-        let t1296 = neg_mul_add(platform_rotation[1][0], t1291, t282);
-        let t1297 = mul_sub(platform_rotation[1][1], t1293, t1296);
-        let t1298 = mul_add(platform_rotation[1][2], t1289, t1297);
-        let t1299 = mul_add(platform_velocity[5], t1298, t1178);
-        coriolis_matrix_p[3][4] = neg_mul_add(platform_velocity[4], t1295, t1299);
-        let t1300 = mul_add(
+        let t1382 = mul_add(platform_rotation[2][2], t1376, t1381);
+        let t1383 = neg_mul_add(platform_rotation[1][0], t1378, t282);
+        let t1384 = mul_sub(platform_rotation[1][1], t1380, t1383);
+        let t1385 = mul_add(platform_rotation[1][2], t1376, t1384);
+        let t1386 = mul_add(platform_velocity[5], t1385, t1178);
+        coriolis_matrix_p[3][4] = neg_mul_add(platform_velocity[4], t1382, t1386);
+        let t1387 = mul_add(
             platform_rotation[2][0],
             t325,
             platform_rotation[2][1] * t354,
         );
-        let t1301 = mul_add(platform_rotation[2][2], t369, t1300);
-        let t1302 = mul_add(
+        let t1388 = mul_add(platform_rotation[2][2], t369, t1387);
+        let t1389 = mul_add(
             platform_rotation[2][0],
             t311,
             platform_rotation[2][1] * t340,
         );
-        let t1303 = mul_add(platform_rotation[2][2], t354, t1302);
-        let t1304 = mul_add(
+        let t1390 = mul_add(platform_rotation[2][2], t354, t1389);
+        let t1391 = mul_add(
             platform_rotation[2][0],
             t297,
             platform_rotation[2][1] * t311,
         );
-        let t1305 = mul_add(platform_rotation[2][2], t325, t1304);
-        let t1306 = neg_mul_add(platform_rotation[2][0], t1305, t282);
-        let t1307 = mul_sub(platform_rotation[2][1], t1303, t1306);
-        let t1308 = mul_add(platform_rotation[2][2], t1301, t1307);
-        let t1309 = mul_sub(platform_velocity[5], t1295, t1184);
-        coriolis_matrix_p[3][5] = neg_mul_add(platform_velocity[4], t1308, t1309);
-        let t1310 = neg_mul_add(platform_rotation[0][0], t1280, t282);
-        let t1311 = mul_sub(platform_rotation[0][1], t1282, t1310);
-        let t1312 = mul_add(platform_rotation[0][2], t1278, t1311);
-        let t1313 = neg_mul_add(platform_velocity[5], t1312, t1208);
-        coriolis_matrix_p[4][3] = mul_add(platform_velocity[3], t1284, t1313);
-        let t1314 = neg_mul_add(platform_velocity[5], t1286, t1214);
-        coriolis_matrix_p[4][4] = mul_add(platform_velocity[3], t1295, t1314);
-        let t1315 = neg_mul_add(platform_velocity[5], t1284, t1220);
-        coriolis_matrix_p[4][5] = mul_add(platform_velocity[3], t1308, t1315);
-        let t1316 = mul_add(platform_velocity[4], t1312, t1244);
-        coriolis_matrix_p[5][3] = neg_mul_add(platform_velocity[3], t1286, t1316);
-        let t1317 = mul_sub(platform_velocity[4], t1286, t1250);
-        coriolis_matrix_p[5][4] = neg_mul_add(platform_velocity[3], t1298, t1317);
-        let t1318 = mul_add(platform_velocity[4], t1284, t1256);
-        coriolis_matrix_p[5][5] = neg_mul_add(platform_velocity[3], t1295, t1318);
-        // Coriolis matrix C_b, natural factorisation
-        let t1319 = mul_add(t179, t884, mul_add(t149, t808, t847));
-        let t1320 = mul_add(t209, t960, mul_add(t194, t922, t1319));
-        let t1321 = mul_sub(t30, t1016, t1032 - mul_add(t224, t998, t1320));
-        let t1322 = mul_add(t523, t600, mul_sub(t29, t1017, t1321));
-        coriolis_matrix_b[0][3] = neg_mul_add(t526, t599, t1322);
-        let t1323 = t1046 - (t1004 + (t966 + (t928 + (t890 + (t814 + t852)))));
-        let t1324 = mul_add(t30, t1015, mul_sub(t28, t1017, t1323));
-        coriolis_matrix_b[0][4] = neg_mul_add(t520, t600, mul_sub(t526, t598, t1324));
-        let t1325 = t1060 - (t1007 + (t969 + (t931 + (t893 + (t817 + t855)))));
-        let t1326 = mul_add(t28, t1016, mul_add(t29, t1015, t1325));
-        coriolis_matrix_b[0][5] = neg_mul_add(t523, t598, mul_add(t520, t599, t1326));
-        let t1327 = t1077 - (t1008 + (t970 + (t932 + (t894 + (t818 + t856)))));
-        let t1328 = mul_add(t29, t1063, mul_add(t30, t1062, t1327));
-        coriolis_matrix_b[1][3] = neg_mul_add(t549, t599, mul_add(t546, t600, t1328));
-        let t1329 = mul_add(t181, t888, mul_add(t151, t812, t857));
-        let t1330 = mul_add(t211, t964, mul_add(t196, t926, t1329));
-        let t1331 = mul_add(t523, t600, t1090 + mul_add(t226, t1002, t1330));
-        let t1332 = mul_sub(t30, t1061, mul_add(t28, t1063, t1331));
-        coriolis_matrix_b[1][4] = mul_add(t549, t598, t1332);
-        let t1333 = t1104 - (t1011 + (t973 + (t935 + (t897 + (t821 + t859)))));
-        let t1334 = mul_add(t28, t1062, mul_sub(t29, t1061, t1333));
-        coriolis_matrix_b[1][5] = neg_mul_add(t546, t598, mul_sub(t523, t599, t1334));
-        let t1335 = t1121 + (t1012 + (t974 + (t936 + (t898 + (t822 + t860)))));
-        let t1336 = mul_add(t29, t1107, mul_sub(t30, t1106, t1335));
-        coriolis_matrix_b[2][3] = neg_mul_add(t566, t599, mul_sub(t549, t600, t1336));
-        let t1337 = t1135 - (t1013 + (t975 + (t937 + (t899 + (t823 + t861)))));
-        let t1338 = mul_add(t30, t1105, mul_add(t28, t1107, t1337));
-        coriolis_matrix_b[2][4] = neg_mul_add(t526, t600, mul_add(t566, t598, t1338));
-        let t1339 = mul_add(t183, t891, mul_add(t153, t815, t862));
-        let t1340 = mul_add(t213, t967, mul_add(t198, t929, t1339));
-        let t1341 = mul_sub(t526, t599, t1148 + mul_add(t228, t1005, t1340));
-        let t1342 = mul_add(t29, t1105, mul_sub(t549, t598, t1341));
-        coriolis_matrix_b[2][5] = mul_sub(t28, t1106, t1342);
-        let t1343 = mul_sub(t29, t1166, neg_mul_add(t30, t1160, t1172));
-        let t1344 = mul_sub(t572, t599, mul_sub(t555, t600, t1343));
-        let t1345 = mul_add(t147, t818, mul_sub(t144, t822, t1344));
-        let t1346 = mul_add(t162, t856, mul_add(t159, t860, t1345));
-        let t1347 = mul_add(t177, t894, mul_add(t174, t898, t1346));
-        let t1348 = mul_add(t192, t932, mul_add(t189, t936, t1347));
-        let t1349 = mul_add(t207, t970, mul_add(t204, t974, t1348));
-        coriolis_matrix_b[3][3] = mul_add(t222, t1008, mul_add(t219, t1012, t1349));
-        let t1350 = mul_add(t30, t1154, mul_add(t28, t1166, t1178));
-        let t1351 = mul_add(t533, t600, mul_add(t572, t598, t1350));
-        let t1352 = mul_sub(t147, t819, mul_sub(t144, t823, t1351));
-        let t1353 = mul_sub(t162, t857, mul_sub(t159, t861, t1352));
-        let t1354 = mul_sub(t177, t895, mul_sub(t174, t899, t1353));
-        let t1355 = mul_sub(t192, t933, mul_sub(t189, t937, t1354));
-        let t1356 = mul_sub(t207, t971, mul_sub(t204, t975, t1355));
-        coriolis_matrix_b[3][4] = mul_sub(t222, t1009, mul_sub(t219, t1013, t1356));
-        let t1357 = mul_sub(t28, t1160, mul_add(t29, t1154, t1184));
-        let t1358 = mul_add(t555, t598, mul_sub(t533, t599, t1357));
-        let t1359 = mul_sub(t147, t821, mul_add(t144, t824, t1358));
-        let t1360 = mul_sub(t162, t859, mul_sub(t159, t862, t1359));
-        let t1361 = mul_sub(t177, t897, mul_sub(t174, t900, t1360));
-        let t1362 = mul_sub(t192, t935, mul_sub(t189, t938, t1361));
-        let t1363 = mul_sub(t207, t973, mul_sub(t204, t976, t1362));
-        coriolis_matrix_b[3][5] = mul_sub(t222, t1011, mul_sub(t219, t1014, t1363));
-        let t1364 = mul_add(t29, t1202, mul_add(t30, t1196, t1208));
-        let t1365 = neg_mul_add(t578, t599, mul_add(t559, t600, t1364));
-        let t1366 = neg_mul_add(t141, t822, neg_mul_add(t147, t809, t1365));
-        let t1367 = neg_mul_add(t156, t860, neg_mul_add(t162, t847, t1366));
-        let t1368 = neg_mul_add(t171, t898, neg_mul_add(t177, t885, t1367));
-        let t1369 = neg_mul_add(t186, t936, neg_mul_add(t192, t923, t1368));
-        let t1370 = neg_mul_add(t201, t974, neg_mul_add(t207, t961, t1369));
-        coriolis_matrix_b[4][3] = neg_mul_add(
-            t216,
-            t1012,
-            neg_mul_add(t222, t999, t1370),
-        );
-        let t1371 = mul_sub(t30, t1190, neg_mul_add(t28, t1202, t1214));
-        let t1372 = mul_sub(t539, t600, mul_sub(t578, t598, t1371));
-        let t1373 = mul_sub(t141, t823, mul_add(t147, t814, t1372));
-        let t1374 = mul_sub(t156, t861, mul_sub(t162, t852, t1373));
-        let t1375 = mul_sub(t171, t899, mul_sub(t177, t890, t1374));
-        let t1376 = mul_sub(t186, t937, mul_sub(t192, t928, t1375));
-        let t1377 = mul_sub(t201, t975, mul_sub(t207, t966, t1376));
-        coriolis_matrix_b[4][4] = mul_sub(t216, t1013, mul_sub(t222, t1004, t1377));
-        let t1378 = mul_sub(t28, t1196, mul_add(t29, t1190, t1220));
-        let t1379 = mul_sub(t559, t598, mul_sub(t539, t599, t1378));
-        let t1380 = mul_sub(t141, t824, mul_add(t147, t817, t1379));
-        let t1381 = mul_sub(t156, t862, mul_sub(t162, t855, t1380));
-        let t1382 = mul_sub(t171, t900, mul_sub(t177, t893, t1381));
-        let t1383 = mul_sub(t186, t938, mul_sub(t192, t931, t1382));
-        let t1384 = mul_sub(t201, t976, mul_sub(t207, t969, t1383));
-        coriolis_matrix_b[4][5] = mul_sub(t216, t1014, mul_sub(t222, t1007, t1384));
-        let t1385 = mul_add(t29, t1238, mul_add(t30, t1232, t1244));
-        let t1386 = mul_add(t579, t599, mul_add(t565, t600, t1385));
-        let t1387 = mul_sub(t144, t809, mul_sub(t141, t818, t1386));
-        let t1388 = mul_sub(t159, t847, mul_sub(t156, t856, t1387));
-        let t1389 = mul_sub(t174, t885, mul_sub(t171, t894, t1388));
-        let t1390 = mul_sub(t189, t923, mul_sub(t186, t932, t1389));
-        let t1391 = mul_sub(t204, t961, mul_sub(t201, t970, t1390));
-        coriolis_matrix_b[5][3] = mul_sub(t219, t999, mul_sub(t216, t1008, t1391));
-        let t1392 = mul_sub(t30, t1226, mul_add(t28, t1238, t1250));
-        let t1393 = mul_add(t545, t600, mul_sub(t579, t598, t1392));
-        let t1394 = mul_sub(t144, t814, mul_add(t141, t819, t1393));
-        let t1395 = mul_sub(t159, t852, mul_sub(t156, t857, t1394));
-        let t1396 = mul_sub(t174, t890, mul_sub(t171, t895, t1395));
-        let t1397 = mul_sub(t189, t928, mul_sub(t186, t933, t1396));
-        let t1398 = mul_sub(t204, t966, mul_sub(t201, t971, t1397));
-        coriolis_matrix_b[5][4] = mul_sub(t219, t1004, mul_sub(t216, t1009, t1398));
-        let t1399 = mul_sub(t28, t1232, neg_mul_add(t29, t1226, t1256));
-        let t1400 = mul_sub(t565, t598, mul_sub(t545, t599, t1399));
-        let t1401 = mul_sub(t144, t817, mul_add(t141, t821, t1400));
-        let t1402 = mul_sub(t159, t855, mul_sub(t156, t859, t1401));
-        let t1403 = mul_sub(t174, t893, mul_sub(t171, t897, t1402));
-        let t1404 = mul_sub(t189, t931, mul_sub(t186, t935, t1403));
-        let t1405 = mul_sub(t204, t969, mul_sub(t201, t973, t1404));
-        coriolis_matrix_b[5][5] = mul_sub(t219, t1007, mul_sub(t216, t1011, t1405));
+        let t1392 = mul_add(platform_rotation[2][2], t325, t1391);
+        let t1393 = neg_mul_add(platform_rotation[2][0], t1392, t282);
+        let t1394 = mul_sub(platform_rotation[2][1], t1390, t1393);
+        let t1395 = mul_add(platform_rotation[2][2], t1388, t1394);
+        let t1396 = mul_sub(platform_velocity[5], t1382, t1184);
+        coriolis_matrix_p[3][5] = neg_mul_add(platform_velocity[4], t1395, t1396);
+        let t1397 = neg_mul_add(platform_rotation[0][0], t1367, t282);
+        let t1398 = mul_sub(platform_rotation[0][1], t1369, t1397);
+        let t1399 = mul_add(platform_rotation[0][2], t1365, t1398);
+        let t1400 = neg_mul_add(platform_velocity[5], t1399, t1208);
+        coriolis_matrix_p[4][3] = mul_add(platform_velocity[3], t1371, t1400);
+        let t1401 = neg_mul_add(platform_velocity[5], t1373, t1214);
+        coriolis_matrix_p[4][4] = mul_add(platform_velocity[3], t1382, t1401);
+        let t1402 = neg_mul_add(platform_velocity[5], t1371, t1220);
+        coriolis_matrix_p[4][5] = mul_add(platform_velocity[3], t1395, t1402);
+        let t1403 = mul_add(platform_velocity[4], t1399, t1244);
+        coriolis_matrix_p[5][3] = neg_mul_add(platform_velocity[3], t1373, t1403);
+        let t1404 = mul_sub(platform_velocity[4], t1373, t1250);
+        coriolis_matrix_p[5][4] = neg_mul_add(platform_velocity[3], t1385, t1404);
+        let t1405 = mul_add(platform_velocity[4], t1371, t1256);
+        coriolis_matrix_p[5][5] = neg_mul_add(platform_velocity[3], t1382, t1405);
     }
 }
 
@@ -16280,111 +16280,18 @@ pub fn matrices<T: Scalar>(
         )
     };
     let (
-        t1034,
-        t1035,
-        t1036,
-        t1244,
-        t1245,
-        t1248,
-        t1250,
-        t1251,
-        t1253,
-        t1254,
-        t1255,
-        t1257,
-        t1258,
-        t1259,
-        t1260,
-        t1283,
-        t1288,
-        t1291,
-        t1292,
-        t1293,
-        t1295,
-        t1296,
-        t1297,
-        t1298,
-        t1320,
-        t1321,
-        t1324,
-        t1326,
-        t1327,
-        t1329,
-        t1330,
-        t1331,
-        t1333,
-        t1334,
-        t1335,
-        t1336,
-        t1358,
-        t1359,
-        t1362,
-        t1364,
-        t1365,
-        t1367,
-        t1368,
-        t1369,
-        t1371,
-        t1372,
-        t1373,
-        t1374,
-        t1396,
-        t1397,
-        t1400,
-        t1402,
-        t1403,
-        t1405,
-        t1406,
-        t1407,
-        t1409,
-        t1410,
-        t1411,
-        t1412,
-        t1434,
-        t1435,
-        t1438,
-        t1440,
-        t1441,
-        t1443,
-        t1444,
-        t1445,
-        t1447,
-        t1448,
-        t1449,
-        t1450,
-        t1451,
-        t1452,
-        t1453,
-        t1468,
         t1482,
         t1496,
-        t1497,
-        t1498,
-        t1499,
         t1513,
-        t1526,
         t1540,
-        t1541,
-        t1542,
-        t1543,
         t1557,
         t1571,
-        t1584,
-        t1590,
-        t1596,
-        t1602,
         t1608,
         t1614,
         t1620,
-        t1626,
-        t1632,
-        t1638,
         t1644,
         t1650,
         t1656,
-        t1662,
-        t1668,
-        t1674,
         t1680,
         t1686,
         t1692,
@@ -16749,50 +16656,50 @@ pub fn matrices<T: Scalar>(
         let t1187 = mul_sub(platform_velocity[4], t147, platform_velocity[5] * t144);
         let t1188 = mul_sub(platform_velocity[5], t141, platform_velocity[3] * t147);
         let t1189 = mul_sub(platform_velocity[3], t144, platform_velocity[4] * t141);
-        // leg 1: velocity of the platform joint less that of the base origin
-        let t1190 = t1034 - t1187;
-        let t1191 = t1035 - t1188;
-        let t1192 = t1036 - t1189;
         // leg 2: rate of the platform lever
-        let t1193 = mul_sub(platform_velocity[4], t165, platform_velocity[5] * t162);
-        let t1194 = mul_sub(platform_velocity[5], t159, platform_velocity[3] * t165);
-        let t1195 = mul_sub(platform_velocity[3], t162, platform_velocity[4] * t159);
-        // leg 2: velocity of the platform joint less that of the base origin
-        let t1196 = t1034 - t1193;
-        let t1197 = t1035 - t1194;
-        let t1198 = t1036 - t1195;
+        let t1190 = mul_sub(platform_velocity[4], t165, platform_velocity[5] * t162);
+        let t1191 = mul_sub(platform_velocity[5], t159, platform_velocity[3] * t165);
+        let t1192 = mul_sub(platform_velocity[3], t162, platform_velocity[4] * t159);
         // leg 3: rate of the platform lever
-        let t1199 = mul_sub(platform_velocity[4], t183, platform_velocity[5] * t180);
-        let t1200 = mul_sub(platform_velocity[5], t177, platform_velocity[3] * t183);
-        let t1201 = mul_sub(platform_velocity[3], t180, platform_velocity[4] * t177);
-        // leg 3: velocity of the platform joint less that of the base origin
-        let t1202 = t1034 - t1199;
-        let t1203 = t1035 - t1200;
-        let t1204 = t1036 - t1201;
+        let t1193 = mul_sub(platform_velocity[4], t183, platform_velocity[5] * t180);
+        let t1194 = mul_sub(platform_velocity[5], t177, platform_velocity[3] * t183);
+        let t1195 = mul_sub(platform_velocity[3], t180, platform_velocity[4] * t177);
         // leg 4: rate of the platform lever
-        let t1205 = mul_sub(platform_velocity[4], t201, platform_velocity[5] * t198);
-        let t1206 = mul_sub(platform_velocity[5], t195, platform_velocity[3] * t201);
-        let t1207 = mul_sub(platform_velocity[3], t198, platform_velocity[4] * t195);
-        // leg 4: velocity of the platform joint less that of the base origin
-        let t1208 = t1034 - t1205;
-        let t1209 = t1035 - t1206;
-        let t1210 = t1036 - t1207;
+        let t1196 = mul_sub(platform_velocity[4], t201, platform_velocity[5] * t198);
+        let t1197 = mul_sub(platform_velocity[5], t195, platform_velocity[3] * t201);
+        let t1198 = mul_sub(platform_velocity[3], t198, platform_velocity[4] * t195);
         // leg 5: rate of the platform lever
-        let t1211 = mul_sub(platform_velocity[4], t219, platform_velocity[5] * t216);
-        let t1212 = mul_sub(platform_velocity[5], t213, platform_velocity[3] * t219);
-        let t1213 = mul_sub(platform_velocity[3], t216, platform_velocity[4] * t213);
-        // leg 5: velocity of the platform joint less that of the base origin
-        let t1214 = t1034 - t1211;
-        let t1215 = t1035 - t1212;
-        let t1216 = t1036 - t1213;
+        let t1199 = mul_sub(platform_velocity[4], t219, platform_velocity[5] * t216);
+        let t1200 = mul_sub(platform_velocity[5], t213, platform_velocity[3] * t219);
+        let t1201 = mul_sub(platform_velocity[3], t216, platform_velocity[4] * t213);
         // leg 6: rate of the platform lever
-        let t1217 = mul_sub(platform_velocity[4], t237, platform_velocity[5] * t234);
-        let t1218 = mul_sub(platform_velocity[5], t231, platform_velocity[3] * t237);
-        let t1219 = mul_sub(platform_velocity[3], t234, platform_velocity[4] * t231);
+        let t1202 = mul_sub(platform_velocity[4], t237, platform_velocity[5] * t234);
+        let t1203 = mul_sub(platform_velocity[5], t231, platform_velocity[3] * t237);
+        let t1204 = mul_sub(platform_velocity[3], t234, platform_velocity[4] * t231);
+        // leg 1: velocity of the platform joint less that of the base origin
+        let t1205 = t1034 - t1187;
+        let t1206 = t1035 - t1188;
+        let t1207 = t1036 - t1189;
+        // leg 2: velocity of the platform joint less that of the base origin
+        let t1208 = t1034 - t1190;
+        let t1209 = t1035 - t1191;
+        let t1210 = t1036 - t1192;
+        // leg 3: velocity of the platform joint less that of the base origin
+        let t1211 = t1034 - t1193;
+        let t1212 = t1035 - t1194;
+        let t1213 = t1036 - t1195;
+        // leg 4: velocity of the platform joint less that of the base origin
+        let t1214 = t1034 - t1196;
+        let t1215 = t1035 - t1197;
+        let t1216 = t1036 - t1198;
+        // leg 5: velocity of the platform joint less that of the base origin
+        let t1217 = t1034 - t1199;
+        let t1218 = t1035 - t1200;
+        let t1219 = t1036 - t1201;
         // leg 6: velocity of the platform joint less that of the base origin
-        let t1220 = t1034 - t1217;
-        let t1221 = t1035 - t1218;
-        let t1222 = t1036 - t1219;
+        let t1220 = t1034 - t1202;
+        let t1221 = t1035 - t1203;
+        let t1222 = t1036 - t1204;
         // leg 1: Coriolis matrix of the leg in the speeds of its joint
         let t1223 = t110 * (t110 * t1109);
         let t1224 = mul_sub(t251, t110 * t1223, t248 * t1223);
@@ -16813,13 +16720,13 @@ pub fn matrices<T: Scalar>(
         let t1239 = mul_sub(t156, t1236, mul_add(t1126, t1235, t1224));
         // leg 1: Coriolis matrix between joint and base angular velocity
         let t1240 = t405 * mul_sub(base_velocity[5], t426, base_velocity[3] * t419);
-        let t1241 = mul_sub(t416, t1124, mul_add(t391, t1191, t1240));
+        let t1241 = mul_sub(t416, t1124, mul_add(t391, t1206, t1240));
         let t1242 = t405 * mul_sub(base_velocity[3], t415, base_velocity[4] * t426);
-        let t1243 = mul_sub(t416, t1126, mul_add(t391, t1192, t1242));
+        let t1243 = mul_sub(t416, t1126, mul_add(t391, t1207, t1242));
         let t1244 = mul_sub(t156, t1241, t154 * t1243);
         let t1245 = t152 * t1244;
         let t1246 = t405 * mul_sub(base_velocity[4], t419, base_velocity[5] * t415);
-        let t1247 = mul_sub(t416, t1122, mul_add(t391, t1190, t1246));
+        let t1247 = mul_sub(t416, t1122, mul_add(t391, t1205, t1246));
         let t1248 = mul_sub(t152, t1243, t156 * t1247);
         let t1249 = neg_mul_add(t248, t1126, t1243);
         let t1250 = mul_sub(t152, t1248, t1249);
@@ -16853,13 +16760,13 @@ pub fn matrices<T: Scalar>(
         let t1277 = mul_sub(t174, t1274, mul_add(t1138, t1273, t1262));
         // leg 2: Coriolis matrix between joint and base angular velocity
         let t1278 = t461 * mul_sub(base_velocity[5], t482, base_velocity[3] * t475);
-        let t1279 = mul_sub(t472, t1136, mul_add(t447, t1197, t1278));
+        let t1279 = mul_sub(t472, t1136, mul_add(t447, t1209, t1278));
         let t1280 = t461 * mul_sub(base_velocity[3], t471, base_velocity[4] * t482);
-        let t1281 = mul_sub(t472, t1138, mul_add(t447, t1198, t1280));
+        let t1281 = mul_sub(t472, t1138, mul_add(t447, t1210, t1280));
         let t1282 = mul_sub(t174, t1279, t172 * t1281);
         let t1283 = t170 * t1282;
         let t1284 = t461 * mul_sub(base_velocity[4], t475, base_velocity[5] * t471);
-        let t1285 = mul_sub(t472, t1134, mul_add(t447, t1196, t1284));
+        let t1285 = mul_sub(t472, t1134, mul_add(t447, t1208, t1284));
         let t1286 = mul_sub(t170, t1281, t174 * t1285);
         let t1287 = neg_mul_add(t253, t1138, t1281);
         let t1288 = mul_sub(t170, t1286, t1287);
@@ -16893,13 +16800,13 @@ pub fn matrices<T: Scalar>(
         let t1315 = mul_sub(t192, t1312, mul_add(t1150, t1311, t1300));
         // leg 3: Coriolis matrix between joint and base angular velocity
         let t1316 = t517 * mul_sub(base_velocity[5], t538, base_velocity[3] * t531);
-        let t1317 = mul_sub(t528, t1148, mul_add(t503, t1203, t1316));
+        let t1317 = mul_sub(t528, t1148, mul_add(t503, t1212, t1316));
         let t1318 = t517 * mul_sub(base_velocity[3], t527, base_velocity[4] * t538);
-        let t1319 = mul_sub(t528, t1150, mul_add(t503, t1204, t1318));
+        let t1319 = mul_sub(t528, t1150, mul_add(t503, t1213, t1318));
         let t1320 = mul_sub(t192, t1317, t190 * t1319);
         let t1321 = t188 * t1320;
         let t1322 = t517 * mul_sub(base_velocity[4], t531, base_velocity[5] * t527);
-        let t1323 = mul_sub(t528, t1146, mul_add(t503, t1202, t1322));
+        let t1323 = mul_sub(t528, t1146, mul_add(t503, t1211, t1322));
         let t1324 = mul_sub(t188, t1319, t192 * t1323);
         let t1325 = neg_mul_add(t258, t1150, t1319);
         let t1326 = mul_sub(t188, t1324, t1325);
@@ -16933,13 +16840,13 @@ pub fn matrices<T: Scalar>(
         let t1353 = mul_sub(t210, t1350, mul_add(t1162, t1349, t1338));
         // leg 4: Coriolis matrix between joint and base angular velocity
         let t1354 = t573 * mul_sub(base_velocity[5], t594, base_velocity[3] * t587);
-        let t1355 = mul_sub(t584, t1160, mul_add(t559, t1209, t1354));
+        let t1355 = mul_sub(t584, t1160, mul_add(t559, t1215, t1354));
         let t1356 = t573 * mul_sub(base_velocity[3], t583, base_velocity[4] * t594);
-        let t1357 = mul_sub(t584, t1162, mul_add(t559, t1210, t1356));
+        let t1357 = mul_sub(t584, t1162, mul_add(t559, t1216, t1356));
         let t1358 = mul_sub(t210, t1355, t208 * t1357);
         let t1359 = t206 * t1358;
         let t1360 = t573 * mul_sub(base_velocity[4], t587, base_velocity[5] * t583);
-        let t1361 = mul_sub(t584, t1158, mul_add(t559, t1208, t1360));
+        let t1361 = mul_sub(t584, t1158, mul_add(t559, t1214, t1360));
         let t1362 = mul_sub(t206, t1357, t210 * t1361);
         let t1363 = neg_mul_add(t263, t1162, t1357);
         let t1364 = mul_sub(t206, t1362, t1363);
@@ -16973,13 +16880,13 @@ pub fn matrices<T: Scalar>(
         let t1391 = mul_sub(t228, t1388, mul_add(t1174, t1387, t1376));
         // leg 5: Coriolis matrix between joint and base angular velocity
         let t1392 = t629 * mul_sub(base_velocity[5], t650, base_velocity[3] * t643);
-        let t1393 = mul_sub(t640, t1172, mul_add(t615, t1215, t1392));
+        let t1393 = mul_sub(t640, t1172, mul_add(t615, t1218, t1392));
         let t1394 = t629 * mul_sub(base_velocity[3], t639, base_velocity[4] * t650);
-        let t1395 = mul_sub(t640, t1174, mul_add(t615, t1216, t1394));
+        let t1395 = mul_sub(t640, t1174, mul_add(t615, t1219, t1394));
         let t1396 = mul_sub(t228, t1393, t226 * t1395);
         let t1397 = t224 * t1396;
         let t1398 = t629 * mul_sub(base_velocity[4], t643, base_velocity[5] * t639);
-        let t1399 = mul_sub(t640, t1170, mul_add(t615, t1214, t1398));
+        let t1399 = mul_sub(t640, t1170, mul_add(t615, t1217, t1398));
         let t1400 = mul_sub(t224, t1395, t228 * t1399);
         let t1401 = neg_mul_add(t268, t1174, t1395);
         let t1402 = mul_sub(t224, t1400, t1401);
@@ -17039,140 +16946,140 @@ pub fn matrices<T: Scalar>(
         coriolis_matrix_b[0][0] = t1451;
         let t1452 = t1418 + (t1380 + (t1342 + (t1304 + (t1228 + t1266))));
         let t1453 = t1419 + (t1381 + (t1343 + (t1305 + (t1229 + t1267))));
-        let t1454 = mul_sub(t679, t1219, mul_sub(t237, t1418, t234 * t1419));
-        let t1455 = mul_sub(t680, t1218, t1454);
-        let t1456 = mul_sub(t623, t1213, mul_sub(t219, t1380, t216 * t1381));
-        let t1457 = mul_sub(t624, t1212, t1456);
-        let t1458 = mul_sub(t567, t1207, mul_sub(t201, t1342, t198 * t1343));
-        let t1459 = mul_sub(t568, t1206, t1458);
-        let t1460 = mul_sub(t511, t1201, mul_sub(t183, t1304, t180 * t1305));
-        let t1461 = mul_sub(t512, t1200, t1460);
+        let t1454 = mul_sub(t679, t1204, mul_sub(t237, t1418, t234 * t1419));
+        let t1455 = mul_sub(t680, t1203, t1454);
+        let t1456 = mul_sub(t623, t1201, mul_sub(t219, t1380, t216 * t1381));
+        let t1457 = mul_sub(t624, t1200, t1456);
+        let t1458 = mul_sub(t567, t1198, mul_sub(t201, t1342, t198 * t1343));
+        let t1459 = mul_sub(t568, t1197, t1458);
+        let t1460 = mul_sub(t511, t1195, mul_sub(t183, t1304, t180 * t1305));
+        let t1461 = mul_sub(t512, t1194, t1460);
         let t1462 = t144 * t1229;
         let t1463 = mul_sub(t399, t1189, mul_sub(t147, t1228, t1462));
         let t1464 = mul_sub(t400, t1188, t1463);
         let t1465 = t165 * t1266;
-        let t1466 = mul_sub(t455, t1195, neg_mul_add(t162, t1267, t1465));
-        let t1467 = mul_sub(t456, t1194, t1466);
+        let t1466 = mul_sub(t455, t1192, neg_mul_add(t162, t1267, t1465));
+        let t1467 = mul_sub(t456, t1191, t1466);
         let t1468 = t1455 + (t1457 + (t1459 + (t1461 + (t1464 + t1467))));
         coriolis_matrix_p[0][3] = t1468;
-        let t1469 = mul_sub(t680, t1217, mul_add(t231, t1419, t237 * t1417));
-        let t1470 = mul_sub(t678, t1219, t1469);
-        let t1471 = mul_sub(t624, t1211, mul_add(t213, t1381, t219 * t1379));
-        let t1472 = mul_sub(t622, t1213, t1471);
-        let t1473 = mul_sub(t568, t1205, mul_add(t195, t1343, t201 * t1341));
-        let t1474 = mul_sub(t566, t1207, t1473);
-        let t1475 = mul_sub(t512, t1199, mul_add(t177, t1305, t183 * t1303));
-        let t1476 = mul_sub(t510, t1201, t1475);
+        let t1469 = mul_sub(t680, t1202, mul_add(t231, t1419, t237 * t1417));
+        let t1470 = mul_sub(t678, t1204, t1469);
+        let t1471 = mul_sub(t624, t1199, mul_add(t213, t1381, t219 * t1379));
+        let t1472 = mul_sub(t622, t1201, t1471);
+        let t1473 = mul_sub(t568, t1196, mul_add(t195, t1343, t201 * t1341));
+        let t1474 = mul_sub(t566, t1198, t1473);
+        let t1475 = mul_sub(t512, t1193, mul_add(t177, t1305, t183 * t1303));
+        let t1476 = mul_sub(t510, t1195, t1475);
         let t1477 = mul_sub(t400, t1187, mul_add(t141, t1229, t147 * t1227));
         let t1478 = mul_sub(t398, t1189, t1477);
         let t1479 = t165 * t1265;
-        let t1480 = mul_sub(t456, t1193, mul_add(t159, t1267, t1479));
-        let t1481 = mul_sub(t454, t1195, t1480);
+        let t1480 = mul_sub(t456, t1190, mul_add(t159, t1267, t1479));
+        let t1481 = mul_sub(t454, t1192, t1480);
         let t1482 = t1470 + (t1472 + (t1474 + (t1476 + (t1478 + t1481))));
-        let t1483 = mul_add(t678, t1218, mul_add(t231, t1418, t234 * t1417));
-        let t1484 = mul_sub(t679, t1217, t1483);
-        let t1485 = mul_add(t622, t1212, mul_add(t213, t1380, t216 * t1379));
-        let t1486 = mul_sub(t623, t1211, t1485);
-        let t1487 = mul_add(t566, t1206, mul_add(t195, t1342, t198 * t1341));
-        let t1488 = mul_sub(t567, t1205, t1487);
-        let t1489 = mul_add(t510, t1200, mul_add(t177, t1304, t180 * t1303));
-        let t1490 = mul_sub(t511, t1199, t1489);
+        let t1483 = mul_add(t678, t1203, mul_add(t231, t1418, t234 * t1417));
+        let t1484 = mul_sub(t679, t1202, t1483);
+        let t1485 = mul_add(t622, t1200, mul_add(t213, t1380, t216 * t1379));
+        let t1486 = mul_sub(t623, t1199, t1485);
+        let t1487 = mul_add(t566, t1197, mul_add(t195, t1342, t198 * t1341));
+        let t1488 = mul_sub(t567, t1196, t1487);
+        let t1489 = mul_add(t510, t1194, mul_add(t177, t1304, t180 * t1303));
+        let t1490 = mul_sub(t511, t1193, t1489);
         let t1491 = mul_add(t398, t1188, mul_add(t141, t1228, t144 * t1227));
         let t1492 = mul_sub(t399, t1187, t1491);
         let t1493 = t162 * t1265;
-        let t1494 = mul_add(t454, t1194, mul_add(t159, t1266, t1493));
-        let t1495 = mul_sub(t455, t1193, t1494);
+        let t1494 = mul_add(t454, t1191, mul_add(t159, t1266, t1493));
+        let t1495 = mul_sub(t455, t1190, t1494);
         let t1496 = t1484 + (t1486 + (t1488 + (t1490 + (t1492 + t1495))));
         let t1497 = t1422 + (t1384 + (t1346 + (t1308 + (t1232 + t1270))));
         let t1498 = t1423 + (t1385 + (t1347 + (t1309 + (t1233 + t1271))));
         coriolis_matrix_p[1][1] = t1498;
         coriolis_matrix_b[1][1] = t1498;
         let t1499 = t1424 + (t1386 + (t1348 + (t1310 + (t1234 + t1272))));
-        let t1500 = mul_add(t682, t1219, mul_add(t234, t1424, t237 * t1423));
-        let t1501 = mul_sub(t683, t1218, t1500);
-        let t1502 = mul_add(t626, t1213, mul_add(t216, t1386, t219 * t1385));
-        let t1503 = mul_sub(t627, t1212, t1502);
-        let t1504 = mul_add(t570, t1207, mul_add(t198, t1348, t201 * t1347));
-        let t1505 = mul_sub(t571, t1206, t1504);
-        let t1506 = mul_add(t514, t1201, mul_add(t180, t1310, t183 * t1309));
-        let t1507 = mul_sub(t515, t1200, t1506);
+        let t1500 = mul_add(t682, t1204, mul_add(t234, t1424, t237 * t1423));
+        let t1501 = mul_sub(t683, t1203, t1500);
+        let t1502 = mul_add(t626, t1201, mul_add(t216, t1386, t219 * t1385));
+        let t1503 = mul_sub(t627, t1200, t1502);
+        let t1504 = mul_add(t570, t1198, mul_add(t198, t1348, t201 * t1347));
+        let t1505 = mul_sub(t571, t1197, t1504);
+        let t1506 = mul_add(t514, t1195, mul_add(t180, t1310, t183 * t1309));
+        let t1507 = mul_sub(t515, t1194, t1506);
         let t1508 = mul_add(t402, t1189, mul_add(t144, t1234, t147 * t1233));
         let t1509 = mul_sub(t403, t1188, t1508);
         let t1510 = t165 * t1271;
-        let t1511 = mul_add(t458, t1195, mul_add(t162, t1272, t1510));
-        let t1512 = mul_sub(t459, t1194, t1511);
+        let t1511 = mul_add(t458, t1192, mul_add(t162, t1272, t1510));
+        let t1512 = mul_sub(t459, t1191, t1511);
         let t1513 = t1501 + (t1503 + (t1505 + (t1507 + (t1509 + t1512))));
-        let t1514 = mul_sub(t237, t1422, mul_add(t679, t1219, t231 * t1424));
-        let t1515 = mul_add(t683, t1217, t1514);
-        let t1516 = mul_sub(t219, t1384, mul_add(t623, t1213, t213 * t1386));
-        let t1517 = mul_add(t627, t1211, t1516);
-        let t1518 = mul_sub(t201, t1346, mul_add(t567, t1207, t195 * t1348));
-        let t1519 = mul_add(t571, t1205, t1518);
-        let t1520 = mul_sub(t183, t1308, mul_add(t511, t1201, t177 * t1310));
-        let t1521 = mul_add(t515, t1199, t1520);
+        let t1514 = mul_sub(t237, t1422, mul_add(t679, t1204, t231 * t1424));
+        let t1515 = mul_add(t683, t1202, t1514);
+        let t1516 = mul_sub(t219, t1384, mul_add(t623, t1201, t213 * t1386));
+        let t1517 = mul_add(t627, t1199, t1516);
+        let t1518 = mul_sub(t201, t1346, mul_add(t567, t1198, t195 * t1348));
+        let t1519 = mul_add(t571, t1196, t1518);
+        let t1520 = mul_sub(t183, t1308, mul_add(t511, t1195, t177 * t1310));
+        let t1521 = mul_add(t515, t1193, t1520);
         let t1522 = mul_sub(t147, t1232, mul_add(t399, t1189, t141 * t1234));
         let t1523 = mul_add(t403, t1187, t1522);
-        let t1524 = mul_sub(t165, t1270, mul_add(t455, t1195, t159 * t1272));
-        let t1525 = mul_add(t459, t1193, t1524);
+        let t1524 = mul_sub(t165, t1270, mul_add(t455, t1192, t159 * t1272));
+        let t1525 = mul_add(t459, t1190, t1524);
         let t1526 = t1515 + (t1517 + (t1519 + (t1521 + (t1523 + t1525))));
-        let t1527 = mul_sub(t679, t1218, mul_add(t234, t1422, t231 * t1423));
-        let t1528 = mul_sub(t682, t1217, t1527);
-        let t1529 = mul_sub(t623, t1212, mul_add(t216, t1384, t213 * t1385));
-        let t1530 = mul_sub(t626, t1211, t1529);
-        let t1531 = mul_sub(t567, t1206, mul_add(t198, t1346, t195 * t1347));
-        let t1532 = mul_sub(t570, t1205, t1531);
-        let t1533 = mul_sub(t511, t1200, mul_add(t180, t1308, t177 * t1309));
-        let t1534 = mul_sub(t514, t1199, t1533);
+        let t1527 = mul_sub(t679, t1203, mul_add(t234, t1422, t231 * t1423));
+        let t1528 = mul_sub(t682, t1202, t1527);
+        let t1529 = mul_sub(t623, t1200, mul_add(t216, t1384, t213 * t1385));
+        let t1530 = mul_sub(t626, t1199, t1529);
+        let t1531 = mul_sub(t567, t1197, mul_add(t198, t1346, t195 * t1347));
+        let t1532 = mul_sub(t570, t1196, t1531);
+        let t1533 = mul_sub(t511, t1194, mul_add(t180, t1308, t177 * t1309));
+        let t1534 = mul_sub(t514, t1193, t1533);
         let t1535 = mul_sub(t399, t1188, mul_add(t144, t1232, t141 * t1233));
         let t1536 = mul_sub(t402, t1187, t1535);
         let t1537 = t159 * t1271;
-        let t1538 = mul_sub(t455, t1194, mul_add(t162, t1270, t1537));
-        let t1539 = mul_sub(t458, t1193, t1538);
+        let t1538 = mul_sub(t455, t1191, mul_add(t162, t1270, t1537));
+        let t1539 = mul_sub(t458, t1190, t1538);
         let t1540 = t1528 + (t1530 + (t1532 + (t1534 + (t1536 + t1539))));
         let t1541 = t1427 + (t1389 + (t1351 + (t1313 + (t1237 + t1275))));
         let t1542 = t1428 + (t1390 + (t1352 + (t1314 + (t1238 + t1276))));
         let t1543 = t1429 + (t1391 + (t1353 + (t1315 + (t1239 + t1277))));
         coriolis_matrix_p[2][2] = t1543;
         coriolis_matrix_b[2][2] = t1543;
-        let t1544 = mul_sub(t683, t1219, mul_add(t237, t1428, t234 * t1429));
-        let t1545 = mul_sub(t684, t1218, t1544);
-        let t1546 = mul_sub(t627, t1213, mul_add(t219, t1390, t216 * t1391));
-        let t1547 = mul_sub(t628, t1212, t1546);
-        let t1548 = mul_sub(t571, t1207, mul_add(t201, t1352, t198 * t1353));
-        let t1549 = mul_sub(t572, t1206, t1548);
-        let t1550 = mul_sub(t515, t1201, mul_add(t183, t1314, t180 * t1315));
-        let t1551 = mul_sub(t516, t1200, t1550);
+        let t1544 = mul_sub(t683, t1204, mul_add(t237, t1428, t234 * t1429));
+        let t1545 = mul_sub(t684, t1203, t1544);
+        let t1546 = mul_sub(t627, t1201, mul_add(t219, t1390, t216 * t1391));
+        let t1547 = mul_sub(t628, t1200, t1546);
+        let t1548 = mul_sub(t571, t1198, mul_add(t201, t1352, t198 * t1353));
+        let t1549 = mul_sub(t572, t1197, t1548);
+        let t1550 = mul_sub(t515, t1195, mul_add(t183, t1314, t180 * t1315));
+        let t1551 = mul_sub(t516, t1194, t1550);
         let t1552 = mul_sub(t403, t1189, mul_add(t147, t1238, t144 * t1239));
         let t1553 = mul_sub(t404, t1188, t1552);
         let t1554 = t162 * t1277;
-        let t1555 = mul_sub(t459, t1195, mul_add(t165, t1276, t1554));
-        let t1556 = mul_sub(t460, t1194, t1555);
+        let t1555 = mul_sub(t459, t1192, mul_add(t165, t1276, t1554));
+        let t1556 = mul_sub(t460, t1191, t1555);
         let t1557 = t1545 + (t1547 + (t1549 + (t1551 + (t1553 + t1556))));
-        let t1558 = mul_add(t684, t1217, mul_add(t237, t1427, t231 * t1429));
-        let t1559 = mul_sub(t680, t1219, t1558);
-        let t1560 = mul_add(t628, t1211, mul_add(t219, t1389, t213 * t1391));
-        let t1561 = mul_sub(t624, t1213, t1560);
-        let t1562 = mul_add(t572, t1205, mul_add(t201, t1351, t195 * t1353));
-        let t1563 = mul_sub(t568, t1207, t1562);
-        let t1564 = mul_add(t516, t1199, mul_add(t183, t1313, t177 * t1315));
-        let t1565 = mul_sub(t512, t1201, t1564);
+        let t1558 = mul_add(t684, t1202, mul_add(t237, t1427, t231 * t1429));
+        let t1559 = mul_sub(t680, t1204, t1558);
+        let t1560 = mul_add(t628, t1199, mul_add(t219, t1389, t213 * t1391));
+        let t1561 = mul_sub(t624, t1201, t1560);
+        let t1562 = mul_add(t572, t1196, mul_add(t201, t1351, t195 * t1353));
+        let t1563 = mul_sub(t568, t1198, t1562);
+        let t1564 = mul_add(t516, t1193, mul_add(t183, t1313, t177 * t1315));
+        let t1565 = mul_sub(t512, t1195, t1564);
         let t1566 = mul_add(t404, t1187, mul_add(t147, t1237, t141 * t1239));
         let t1567 = mul_sub(t400, t1189, t1566);
         let t1568 = t159 * t1277;
-        let t1569 = mul_add(t460, t1193, mul_add(t165, t1275, t1568));
-        let t1570 = mul_sub(t456, t1195, t1569);
+        let t1569 = mul_add(t460, t1190, mul_add(t165, t1275, t1568));
+        let t1570 = mul_sub(t456, t1192, t1569);
         let t1571 = t1559 + (t1561 + (t1563 + (t1565 + (t1567 + t1570))));
-        let t1572 = mul_sub(t234, t1427, mul_sub(t680, t1218, t683 * t1217));
+        let t1572 = mul_sub(t234, t1427, mul_sub(t680, t1203, t683 * t1202));
         let t1573 = mul_sub(t231, t1428, t1572);
-        let t1574 = mul_sub(t216, t1389, mul_sub(t624, t1212, t627 * t1211));
+        let t1574 = mul_sub(t216, t1389, mul_sub(t624, t1200, t627 * t1199));
         let t1575 = mul_sub(t213, t1390, t1574);
-        let t1576 = mul_sub(t198, t1351, mul_sub(t568, t1206, t571 * t1205));
+        let t1576 = mul_sub(t198, t1351, mul_sub(t568, t1197, t571 * t1196));
         let t1577 = mul_sub(t195, t1352, t1576);
-        let t1578 = mul_sub(t180, t1313, mul_sub(t512, t1200, t515 * t1199));
+        let t1578 = mul_sub(t180, t1313, mul_sub(t512, t1194, t515 * t1193));
         let t1579 = mul_sub(t177, t1314, t1578);
         let t1580 = mul_sub(t144, t1237, mul_sub(t400, t1188, t403 * t1187));
         let t1581 = mul_sub(t141, t1238, t1580);
-        let t1582 = mul_sub(t162, t1275, mul_sub(t456, t1194, t459 * t1193));
+        let t1582 = mul_sub(t162, t1275, mul_sub(t456, t1191, t459 * t1190));
         let t1583 = mul_sub(t159, t1276, t1582);
         let t1584 = t1573 + (t1575 + (t1577 + (t1579 + (t1581 + t1583))));
         let t1585 = mul_add(t183, t1308, mul_add(t147, t1232, t165 * t1270));
@@ -17326,259 +17233,166 @@ pub fn matrices<T: Scalar>(
         let t1703 = -t1674;
         coriolis_matrix_p[5][2] = t1703;
         coriolis_matrix_b[5][2] = t1703;
-        // Coriolis matrix C_p, natural factorisation
-        let t1704 = mul_sub(platform_velocity[3], t847, platform_velocity[4] * t849);
-        coriolis_matrix_p[0][4] = t1482 + t1704;
-        let t1705 = mul_sub(platform_velocity[5], t849, platform_velocity[3] * t845);
-        coriolis_matrix_p[0][5] = t1496 - t1705;
-        coriolis_matrix_p[1][3] = t1513 - t1704;
-        let t1706 = mul_sub(platform_velocity[4], t845, platform_velocity[5] * t847);
-        coriolis_matrix_p[1][5] = t1540 + t1706;
-        coriolis_matrix_p[2][3] = t1557 + t1705;
-        coriolis_matrix_p[2][4] = t1571 - t1706;
-        let t1707 = mul_add(platform_velocity[5], t859, t1608);
-        coriolis_matrix_p[3][3] = neg_mul_add(platform_velocity[4], t861, t1707);
-        let t1708 = mul_sub(c(0.5), t303, t869);
-        let t1709 = neg_mul_add(platform_velocity[5], t1708, t1614);
-        coriolis_matrix_p[3][4] = neg_mul_add(platform_velocity[4], t871, t1709);
-        let t1710 = mul_sub(c(0.5), t303, t879);
-        let t1711 = neg_mul_add(platform_velocity[5], t871, t1620);
-        coriolis_matrix_p[3][5] = mul_sub(platform_velocity[4], t1710, t1711);
-        let t1712 = mul_sub(c(0.5), t303, t857);
-        let t1713 = mul_add(platform_velocity[5], t1712, t1644);
-        coriolis_matrix_p[4][3] = mul_add(platform_velocity[3], t861, t1713);
-        let t1714 = neg_mul_add(platform_velocity[5], t859, t1650);
-        coriolis_matrix_p[4][4] = mul_add(platform_velocity[3], t871, t1714);
-        let t1715 = neg_mul_add(platform_velocity[5], t861, t1656);
-        coriolis_matrix_p[4][5] = neg_mul_add(platform_velocity[3], t1710, t1715);
-        let t1716 = neg_mul_add(platform_velocity[4], t1712, t1680);
-        coriolis_matrix_p[5][3] = neg_mul_add(platform_velocity[3], t859, t1716);
-        let t1717 = neg_mul_add(platform_velocity[4], t859, t1686);
-        coriolis_matrix_p[5][4] = mul_sub(platform_velocity[3], t1708, t1717);
-        let t1718 = mul_add(platform_velocity[4], t861, t1692);
-        coriolis_matrix_p[5][5] = neg_mul_add(platform_velocity[3], t871, t1718);
-        (
-            t1034,
-            t1035,
-            t1036,
-            t1244,
-            t1245,
-            t1248,
-            t1250,
-            t1251,
-            t1253,
-            t1254,
-            t1255,
-            t1257,
-            t1258,
-            t1259,
-            t1260,
-            t1283,
-            t1288,
-            t1291,
-            t1292,
-            t1293,
-            t1295,
-            t1296,
-            t1297,
-            t1298,
-            t1320,
-            t1321,
-            t1324,
-            t1326,
-            t1327,
-            t1329,
-            t1330,
-            t1331,
-            t1333,
-            t1334,
-            t1335,
-            t1336,
-            t1358,
-            t1359,
-            t1362,
-            t1364,
-            t1365,
-            t1367,
-            t1368,
-            t1369,
-            t1371,
-            t1372,
-            t1373,
-            t1374,
-            t1396,
-            t1397,
-            t1400,
-            t1402,
-            t1403,
-            t1405,
-            t1406,
-            t1407,
-            t1409,
-            t1410,
-            t1411,
-            t1412,
-            t1434,
-            t1435,
-            t1438,
-            t1440,
-            t1441,
-            t1443,
-            t1444,
-            t1445,
-            t1447,
+        // Coriolis matrix C_b, natural factorisation
+        let t1704 = mul_add(t188, t1320, mul_add(t152, t1244, t1283));
+        let t1705 = mul_add(t224, t1396, mul_add(t206, t1358, t1704));
+        let t1706 = mul_sub(t30, t1452, t1468 - mul_add(t242, t1434, t1705));
+        let t1707 = mul_add(t730, t1036, mul_sub(t29, t1453, t1706));
+        coriolis_matrix_b[0][3] = neg_mul_add(t733, t1035, t1707);
+        let t1708 = t1482 - (t1440 + (t1402 + (t1364 + (t1326 + (t1250 + t1288)))));
+        let t1709 = mul_add(t30, t1451, mul_sub(t28, t1453, t1708));
+        coriolis_matrix_b[0][4] = neg_mul_add(t727, t1036, mul_sub(t733, t1034, t1709));
+        let t1710 = t1496 - (t1443 + (t1405 + (t1367 + (t1329 + (t1253 + t1291)))));
+        let t1711 = mul_add(t28, t1452, mul_add(t29, t1451, t1710));
+        coriolis_matrix_b[0][5] = neg_mul_add(t730, t1034, mul_add(t727, t1035, t1711));
+        let t1712 = t1513 - (t1444 + (t1406 + (t1368 + (t1330 + (t1254 + t1292)))));
+        let t1713 = mul_add(t29, t1499, mul_add(t30, t1498, t1712));
+        coriolis_matrix_b[1][3] = neg_mul_add(t757, t1035, mul_add(t754, t1036, t1713));
+        let t1714 = mul_add(t190, t1324, mul_add(t154, t1248, t1293));
+        let t1715 = mul_add(t226, t1400, mul_add(t208, t1362, t1714));
+        let t1716 = mul_add(t730, t1036, t1526 + mul_add(t244, t1438, t1715));
+        let t1717 = mul_sub(t30, t1497, mul_add(t28, t1499, t1716));
+        coriolis_matrix_b[1][4] = mul_add(t757, t1034, t1717);
+        let t1718 = t1540 - (t1447 + (t1409 + (t1371 + (t1333 + (t1257 + t1295)))));
+        let t1719 = mul_add(t28, t1498, mul_sub(t29, t1497, t1718));
+        coriolis_matrix_b[1][5] = neg_mul_add(t754, t1034, mul_sub(t730, t1035, t1719));
+        let t1720 = t1557 + (t1448 + (t1410 + (t1372 + (t1334 + (t1258 + t1296)))));
+        let t1721 = mul_add(t29, t1543, mul_sub(t30, t1542, t1720));
+        coriolis_matrix_b[2][3] = neg_mul_add(t785, t1035, mul_sub(t757, t1036, t1721));
+        let t1722 = t1571 - (t1449 + (t1411 + (t1373 + (t1335 + (t1259 + t1297)))));
+        let t1723 = mul_add(t30, t1541, mul_add(t28, t1543, t1722));
+        coriolis_matrix_b[2][4] = neg_mul_add(t733, t1036, mul_add(t785, t1034, t1723));
+        let t1724 = mul_add(t192, t1327, mul_add(t156, t1251, t1298));
+        let t1725 = mul_add(t228, t1403, mul_add(t210, t1365, t1724));
+        let t1726 = mul_sub(t733, t1035, t1584 + mul_add(t246, t1441, t1725));
+        let t1727 = mul_add(t29, t1541, mul_sub(t757, t1034, t1726));
+        coriolis_matrix_b[2][5] = mul_sub(t28, t1542, t1727);
+        let t1728 = mul_sub(t29, t1602, neg_mul_add(t30, t1596, t1608));
+        let t1729 = mul_sub(t792, t1035, mul_add(t764, t1036, t1728));
+        let t1730 = mul_add(t147, t1254, mul_add(t144, t1258, t1729));
+        let t1731 = mul_add(t165, t1292, mul_add(t162, t1296, t1730));
+        let t1732 = mul_add(t183, t1330, mul_add(t180, t1334, t1731));
+        let t1733 = mul_add(t201, t1368, mul_add(t198, t1372, t1732));
+        let t1734 = mul_add(t219, t1406, mul_add(t216, t1410, t1733));
+        coriolis_matrix_b[3][3] = mul_add(t237, t1444, mul_add(t234, t1448, t1734));
+        let t1735 = mul_add(t30, t1590, mul_add(t28, t1602, t1614));
+        let t1736 = mul_add(t739, t1036, mul_sub(t792, t1034, t1735));
+        let t1737 = mul_sub(t147, t1255, mul_add(t144, t1259, t1736));
+        let t1738 = mul_sub(t165, t1293, mul_sub(t162, t1297, t1737));
+        let t1739 = mul_sub(t183, t1331, mul_sub(t180, t1335, t1738));
+        let t1740 = mul_sub(t201, t1369, mul_sub(t198, t1373, t1739));
+        let t1741 = mul_sub(t219, t1407, mul_sub(t216, t1411, t1740));
+        coriolis_matrix_b[3][4] = mul_sub(t237, t1445, mul_sub(t234, t1449, t1741));
+        let t1742 = mul_sub(t28, t1596, mul_add(t29, t1590, t1620));
+        let t1743 = mul_add(t764, t1034, mul_add(t739, t1035, t1742));
+        let t1744 = mul_sub(t147, t1257, mul_sub(t144, t1260, t1743));
+        let t1745 = mul_sub(t165, t1295, mul_sub(t162, t1298, t1744));
+        let t1746 = mul_sub(t183, t1333, mul_sub(t180, t1336, t1745));
+        let t1747 = mul_sub(t201, t1371, mul_sub(t198, t1374, t1746));
+        let t1748 = mul_sub(t219, t1409, mul_sub(t216, t1412, t1747));
+        coriolis_matrix_b[3][5] = mul_sub(t237, t1447, mul_sub(t234, t1450, t1748));
+        let t1749 = mul_add(t29, t1638, mul_add(t30, t1632, t1644));
+        let t1750 = mul_add(t799, t1035, mul_add(t777, t1036, t1749));
+        let t1751 = neg_mul_add(t141, t1258, neg_mul_add(t147, t1245, t1750));
+        let t1752 = neg_mul_add(t159, t1296, neg_mul_add(t165, t1283, t1751));
+        let t1753 = neg_mul_add(t177, t1334, neg_mul_add(t183, t1321, t1752));
+        let t1754 = neg_mul_add(t195, t1372, neg_mul_add(t201, t1359, t1753));
+        let t1755 = neg_mul_add(t213, t1410, neg_mul_add(t219, t1397, t1754));
+        coriolis_matrix_b[4][3] = neg_mul_add(
+            t231,
             t1448,
-            t1449,
-            t1450,
-            t1451,
-            t1452,
-            t1453,
-            t1468,
+            neg_mul_add(t237, t1435, t1755),
+        );
+        let t1756 = mul_sub(t30, t1626, neg_mul_add(t28, t1638, t1650));
+        let t1757 = mul_sub(t746, t1036, mul_add(t799, t1034, t1756));
+        let t1758 = mul_sub(t141, t1259, mul_sub(t147, t1250, t1757));
+        let t1759 = mul_sub(t159, t1297, mul_sub(t165, t1288, t1758));
+        let t1760 = mul_sub(t177, t1335, mul_sub(t183, t1326, t1759));
+        let t1761 = mul_sub(t195, t1373, mul_sub(t201, t1364, t1760));
+        let t1762 = mul_sub(t213, t1411, mul_sub(t219, t1402, t1761));
+        coriolis_matrix_b[4][4] = mul_sub(t231, t1449, mul_sub(t237, t1440, t1762));
+        let t1763 = mul_sub(t28, t1632, mul_add(t29, t1626, t1656));
+        let t1764 = mul_add(t777, t1034, mul_add(t746, t1035, t1763));
+        let t1765 = mul_sub(t141, t1260, mul_add(t147, t1253, t1764));
+        let t1766 = mul_sub(t159, t1298, mul_sub(t165, t1291, t1765));
+        let t1767 = mul_sub(t177, t1336, mul_sub(t183, t1329, t1766));
+        let t1768 = mul_sub(t195, t1374, mul_sub(t201, t1367, t1767));
+        let t1769 = mul_sub(t213, t1412, mul_sub(t219, t1405, t1768));
+        coriolis_matrix_b[4][5] = mul_sub(t231, t1450, mul_sub(t237, t1443, t1769));
+        let t1770 = mul_add(t29, t1674, mul_add(t30, t1668, t1680));
+        let t1771 = mul_sub(t806, t1035, mul_sub(t784, t1036, t1770));
+        let t1772 = mul_sub(t144, t1245, mul_sub(t141, t1254, t1771));
+        let t1773 = mul_sub(t162, t1283, mul_sub(t159, t1292, t1772));
+        let t1774 = mul_sub(t180, t1321, mul_sub(t177, t1330, t1773));
+        let t1775 = mul_sub(t198, t1359, mul_sub(t195, t1368, t1774));
+        let t1776 = mul_sub(t216, t1397, mul_sub(t213, t1406, t1775));
+        coriolis_matrix_b[5][3] = mul_sub(t234, t1435, mul_sub(t231, t1444, t1776));
+        let t1777 = mul_sub(t30, t1662, mul_add(t28, t1674, t1686));
+        let t1778 = mul_sub(t753, t1036, mul_sub(t806, t1034, t1777));
+        let t1779 = mul_sub(t144, t1250, mul_sub(t141, t1255, t1778));
+        let t1780 = mul_sub(t162, t1288, mul_sub(t159, t1293, t1779));
+        let t1781 = mul_sub(t180, t1326, mul_sub(t177, t1331, t1780));
+        let t1782 = mul_sub(t198, t1364, mul_sub(t195, t1369, t1781));
+        let t1783 = mul_sub(t216, t1402, mul_sub(t213, t1407, t1782));
+        coriolis_matrix_b[5][4] = mul_sub(t234, t1440, mul_sub(t231, t1445, t1783));
+        let t1784 = mul_sub(t28, t1668, neg_mul_add(t29, t1662, t1692));
+        let t1785 = mul_sub(t784, t1034, mul_add(t753, t1035, t1784));
+        let t1786 = mul_sub(t144, t1253, mul_sub(t141, t1257, t1785));
+        let t1787 = mul_sub(t162, t1291, mul_sub(t159, t1295, t1786));
+        let t1788 = mul_sub(t180, t1329, mul_sub(t177, t1333, t1787));
+        let t1789 = mul_sub(t198, t1367, mul_sub(t195, t1371, t1788));
+        let t1790 = mul_sub(t216, t1405, mul_sub(t213, t1409, t1789));
+        coriolis_matrix_b[5][5] = mul_sub(t234, t1443, mul_sub(t231, t1447, t1790));
+        (
             t1482,
             t1496,
-            t1497,
-            t1498,
-            t1499,
             t1513,
-            t1526,
             t1540,
-            t1541,
-            t1542,
-            t1543,
             t1557,
             t1571,
-            t1584,
-            t1590,
-            t1596,
-            t1602,
             t1608,
             t1614,
             t1620,
-            t1626,
-            t1632,
-            t1638,
             t1644,
             t1650,
             t1656,
-            t1662,
-            t1668,
-            t1674,
             t1680,
             t1686,
             t1692,
         )
     };
     {
-        // Coriolis matrix C_b, natural factorisation
-        let t1719 = mul_add(t188, t1320, mul_add(t152, t1244, t1283));
-        let t1720 = mul_add(t224, t1396, mul_add(t206, t1358, t1719));
-        let t1721 = mul_sub(t30, t1452, t1468 - mul_add(t242, t1434, t1720));
-        let t1722 = mul_add(t730, t1036, mul_sub(t29, t1453, t1721));
-        coriolis_matrix_b[0][3] = neg_mul_add(t733, t1035, t1722);
-        let t1723 = t1482 - (t1440 + (t1402 + (t1364 + (t1326 + (t1250 + t1288)))));
-        let t1724 = mul_add(t30, t1451, mul_sub(t28, t1453, t1723));
-        coriolis_matrix_b[0][4] = neg_mul_add(t727, t1036, mul_sub(t733, t1034, t1724));
-        let t1725 = t1496 - (t1443 + (t1405 + (t1367 + (t1329 + (t1253 + t1291)))));
-        let t1726 = mul_add(t28, t1452, mul_add(t29, t1451, t1725));
-        coriolis_matrix_b[0][5] = neg_mul_add(t730, t1034, mul_add(t727, t1035, t1726));
-        let t1727 = t1513 - (t1444 + (t1406 + (t1368 + (t1330 + (t1254 + t1292)))));
-        let t1728 = mul_add(t29, t1499, mul_add(t30, t1498, t1727));
-        coriolis_matrix_b[1][3] = neg_mul_add(t757, t1035, mul_add(t754, t1036, t1728));
-        let t1729 = mul_add(t190, t1324, mul_add(t154, t1248, t1293));
-        let t1730 = mul_add(t226, t1400, mul_add(t208, t1362, t1729));
-        let t1731 = mul_add(t730, t1036, t1526 + mul_add(t244, t1438, t1730));
-        let t1732 = mul_sub(t30, t1497, mul_add(t28, t1499, t1731));
-        coriolis_matrix_b[1][4] = mul_add(t757, t1034, t1732);
-        let t1733 = t1540 - (t1447 + (t1409 + (t1371 + (t1333 + (t1257 + t1295)))));
-        let t1734 = mul_add(t28, t1498, mul_sub(t29, t1497, t1733));
-        coriolis_matrix_b[1][5] = neg_mul_add(t754, t1034, mul_sub(t730, t1035, t1734));
-        let t1735 = t1557 + (t1448 + (t1410 + (t1372 + (t1334 + (t1258 + t1296)))));
-        let t1736 = mul_add(t29, t1543, mul_sub(t30, t1542, t1735));
-        coriolis_matrix_b[2][3] = neg_mul_add(t785, t1035, mul_sub(t757, t1036, t1736));
-        let t1737 = t1571 - (t1449 + (t1411 + (t1373 + (t1335 + (t1259 + t1297)))));
-        let t1738 = mul_add(t30, t1541, mul_add(t28, t1543, t1737));
-        coriolis_matrix_b[2][4] = neg_mul_add(t733, t1036, mul_add(t785, t1034, t1738));
-        let t1739 = mul_add(t192, t1327, mul_add(t156, t1251, t1298));
-        let t1740 = mul_add(t228, t1403, mul_add(t210, t1365, t1739));
-        let t1741 = mul_sub(t733, t1035, t1584 + mul_add(t246, t1441, t1740));
-        let t1742 = mul_add(t29, t1541, mul_sub(t757, t1034, t1741));
-        coriolis_matrix_b[2][5] = mul_sub(t28, t1542, t1742);
-        let t1743 = mul_sub(t29, t1602, neg_mul_add(t30, t1596, t1608));
-        let t1744 = mul_sub(t792, t1035, mul_add(t764, t1036, t1743));
-        let t1745 = mul_add(t147, t1254, mul_add(t144, t1258, t1744));
-        let t1746 = mul_add(t165, t1292, mul_add(t162, t1296, t1745));
-        let t1747 = mul_add(t183, t1330, mul_add(t180, t1334, t1746));
-        let t1748 = mul_add(t201, t1368, mul_add(t198, t1372, t1747));
-        let t1749 = mul_add(t219, t1406, mul_add(t216, t1410, t1748));
-        coriolis_matrix_b[3][3] = mul_add(t237, t1444, mul_add(t234, t1448, t1749));
-        let t1750 = mul_add(t30, t1590, mul_add(t28, t1602, t1614));
-        let t1751 = mul_add(t739, t1036, mul_sub(t792, t1034, t1750));
-        let t1752 = mul_sub(t147, t1255, mul_add(t144, t1259, t1751));
-        let t1753 = mul_sub(t165, t1293, mul_sub(t162, t1297, t1752));
-        let t1754 = mul_sub(t183, t1331, mul_sub(t180, t1335, t1753));
-        let t1755 = mul_sub(t201, t1369, mul_sub(t198, t1373, t1754));
-        let t1756 = mul_sub(t219, t1407, mul_sub(t216, t1411, t1755));
-        coriolis_matrix_b[3][4] = mul_sub(t237, t1445, mul_sub(t234, t1449, t1756));
-        let t1757 = mul_sub(t28, t1596, mul_add(t29, t1590, t1620));
-        let t1758 = mul_add(t764, t1034, mul_add(t739, t1035, t1757));
-        let t1759 = mul_sub(t147, t1257, mul_sub(t144, t1260, t1758));
-        let t1760 = mul_sub(t165, t1295, mul_sub(t162, t1298, t1759));
-        let t1761 = mul_sub(t183, t1333, mul_sub(t180, t1336, t1760));
-        let t1762 = mul_sub(t201, t1371, mul_sub(t198, t1374, t1761));
-        let t1763 = mul_sub(t219, t1409, mul_sub(t216, t1412, t1762));
-        coriolis_matrix_b[3][5] = mul_sub(t237, t1447, mul_sub(t234, t1450, t1763));
-        let t1764 = mul_add(t29, t1638, mul_add(t30, t1632, t1644));
-        let t1765 = mul_add(t799, t1035, mul_add(t777, t1036, t1764));
-        let t1766 = neg_mul_add(t141, t1258, neg_mul_add(t147, t1245, t1765));
-        let t1767 = neg_mul_add(t159, t1296, neg_mul_add(t165, t1283, t1766));
-        let t1768 = neg_mul_add(t177, t1334, neg_mul_add(t183, t1321, t1767));
-        let t1769 = neg_mul_add(t195, t1372, neg_mul_add(t201, t1359, t1768));
-        let t1770 = neg_mul_add(t213, t1410, neg_mul_add(t219, t1397, t1769));
-        coriolis_matrix_b[4][3] = neg_mul_add(
-            t231,
-            t1448,
-            neg_mul_add(t237, t1435, t1770),
-        );
-        let t1771 = mul_sub(t30, t1626, neg_mul_add(t28, t1638, t1650));
-        let t1772 = mul_sub(t746, t1036, mul_add(t799, t1034, t1771));
-        let t1773 = mul_sub(t141, t1259, mul_sub(t147, t1250, t1772));
-        let t1774 = mul_sub(t159, t1297, mul_sub(t165, t1288, t1773));
-        let t1775 = mul_sub(t177, t1335, mul_sub(t183, t1326, t1774));
-        let t1776 = mul_sub(t195, t1373, mul_sub(t201, t1364, t1775));
-        let t1777 = mul_sub(t213, t1411, mul_sub(t219, t1402, t1776));
-        coriolis_matrix_b[4][4] = mul_sub(t231, t1449, mul_sub(t237, t1440, t1777));
-        let t1778 = mul_sub(t28, t1632, mul_add(t29, t1626, t1656));
-        let t1779 = mul_add(t777, t1034, mul_add(t746, t1035, t1778));
-        let t1780 = mul_sub(t141, t1260, mul_add(t147, t1253, t1779));
-        let t1781 = mul_sub(t159, t1298, mul_sub(t165, t1291, t1780));
-        let t1782 = mul_sub(t177, t1336, mul_sub(t183, t1329, t1781));
-        let t1783 = mul_sub(t195, t1374, mul_sub(t201, t1367, t1782));
-        let t1784 = mul_sub(t213, t1412, mul_sub(t219, t1405, t1783));
-        coriolis_matrix_b[4][5] = mul_sub(t231, t1450, mul_sub(t237, t1443, t1784));
-        let t1785 = mul_add(t29, t1674, mul_add(t30, t1668, t1680));
-        let t1786 = mul_sub(t806, t1035, mul_sub(t784, t1036, t1785));
-        let t1787 = mul_sub(t144, t1245, mul_sub(t141, t1254, t1786));
-        let t1788 = mul_sub(t162, t1283, mul_sub(t159, t1292, t1787));
-        let t1789 = mul_sub(t180, t1321, mul_sub(t177, t1330, t1788));
-        let t1790 = mul_sub(t198, t1359, mul_sub(t195, t1368, t1789));
-        let t1791 = mul_sub(t216, t1397, mul_sub(t213, t1406, t1790));
-        coriolis_matrix_b[5][3] = mul_sub(t234, t1435, mul_sub(t231, t1444, t1791));
-        let t1792 = mul_sub(t30, t1662, mul_add(t28, t1674, t1686));
-        let t1793 = mul_sub(t753, t1036, mul_sub(t806, t1034, t1792));
-        let t1794 = mul_sub(t144, t1250, mul_sub(t141, t1255, t1793));
-        let t1795 = mul_sub(t162, t1288, mul_sub(t159, t1293, t1794));
-        let t1796 = mul_sub(t180, t1326, mul_sub(t177, t1331, t1795));
-        let t1797 = mul_sub(t198, t1364, mul_sub(t195, t1369, t1796));
-        let t1798 = mul_sub(t216, t1402, mul_sub(t213, t1407, t1797));
-        coriolis_matrix_b[5][4] = mul_sub(t234, t1440, mul_sub(t231, t1445, t1798));
-        let t1799 = mul_sub(t28, t1668, neg_mul_add(t29, t1662, t1692));
-        let t1800 = mul_sub(t784, t1034, mul_add(t753, t1035, t1799));
-        let t1801 = mul_sub(t144, t1253, mul_sub(t141, t1257, t1800));
-        let t1802 = mul_sub(t162, t1291, mul_sub(t159, t1295, t1801));
-        let t1803 = mul_sub(t180, t1329, mul_sub(t177, t1333, t1802));
-        let t1804 = mul_sub(t198, t1367, mul_sub(t195, t1371, t1803));
-        let t1805 = mul_sub(t216, t1405, mul_sub(t213, t1409, t1804));
-        coriolis_matrix_b[5][5] = mul_sub(t234, t1443, mul_sub(t231, t1447, t1805));
+        // Coriolis matrix C_p, natural factorisation
+        let t1791 = mul_sub(platform_velocity[3], t847, platform_velocity[4] * t849);
+        coriolis_matrix_p[0][4] = t1482 + t1791;
+        let t1792 = mul_sub(platform_velocity[5], t849, platform_velocity[3] * t845);
+        coriolis_matrix_p[0][5] = t1496 - t1792;
+        coriolis_matrix_p[1][3] = t1513 - t1791;
+        let t1793 = mul_sub(platform_velocity[4], t845, platform_velocity[5] * t847);
+        coriolis_matrix_p[1][5] = t1540 + t1793;
+        coriolis_matrix_p[2][3] = t1557 + t1792;
+        coriolis_matrix_p[2][4] = t1571 - t1793;
+        let t1794 = mul_add(platform_velocity[5], t859, t1608);
+        coriolis_matrix_p[3][3] = neg_mul_add(platform_velocity[4], t861, t1794);
+        let t1795 = mul_sub(c(0.5), t303, t869);
+        let t1796 = neg_mul_add(platform_velocity[5], t1795, t1614);
+        coriolis_matrix_p[3][4] = neg_mul_add(platform_velocity[4], t871, t1796);
+        let t1797 = mul_sub(c(0.5), t303, t879);
+        let t1798 = neg_mul_add(platform_velocity[5], t871, t1620);
+        coriolis_matrix_p[3][5] = mul_sub(platform_velocity[4], t1797, t1798);
+        let t1799 = mul_sub(c(0.5), t303, t857);
+        let t1800 = mul_add(platform_velocity[5], t1799, t1644);
+        coriolis_matrix_p[4][3] = mul_add(platform_velocity[3], t861, t1800);
+        let t1801 = neg_mul_add(platform_velocity[5], t859, t1650);
+        coriolis_matrix_p[4][4] = mul_add(platform_velocity[3], t871, t1801);
+        let t1802 = neg_mul_add(platform_velocity[5], t861, t1656);
+        coriolis_matrix_p[4][5] = neg_mul_add(platform_velocity[3], t1797, t1802);
+        let t1803 = neg_mul_add(platform_velocity[4], t1799, t1680);
+        coriolis_matrix_p[5][3] = neg_mul_add(platform_velocity[3], t859, t1803);
+        let t1804 = neg_mul_add(platform_velocity[4], t859, t1686);
+        coriolis_matrix_p[5][4] = mul_sub(platform_velocity[3], t1795, t1804);
+        let t1805 = mul_add(platform_velocity[4], t861, t1692);
+        coriolis_matrix_p[5][5] = neg_mul_add(platform_velocity[3], t871, t1805);
         // leg 1: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
         jacobian_dp[0][3] = mul_sub(t144, t156, t147 * t154);
         jacobian_dp[0][4] = mul_sub(t147, t152, t141 * t156);
@@ -21990,50 +21804,50 @@ pub fn equation_of_motion<T: Scalar>(
         let t1223 = mul_sub(platform_velocity[4], t147, platform_velocity[5] * t144);
         let t1224 = mul_sub(platform_velocity[5], t141, platform_velocity[3] * t147);
         let t1225 = mul_sub(platform_velocity[3], t144, platform_velocity[4] * t141);
-        // leg 1: velocity of the platform joint less that of the base origin
-        let t1226 = t1070 - t1223;
-        let t1227 = t1071 - t1224;
-        let t1228 = t1072 - t1225;
         // leg 2: rate of the platform lever
-        let t1229 = mul_sub(platform_velocity[4], t165, platform_velocity[5] * t162);
-        let t1230 = mul_sub(platform_velocity[5], t159, platform_velocity[3] * t165);
-        let t1231 = mul_sub(platform_velocity[3], t162, platform_velocity[4] * t159);
-        // leg 2: velocity of the platform joint less that of the base origin
-        let t1232 = t1070 - t1229;
-        let t1233 = t1071 - t1230;
-        let t1234 = t1072 - t1231;
+        let t1226 = mul_sub(platform_velocity[4], t165, platform_velocity[5] * t162);
+        let t1227 = mul_sub(platform_velocity[5], t159, platform_velocity[3] * t165);
+        let t1228 = mul_sub(platform_velocity[3], t162, platform_velocity[4] * t159);
         // leg 3: rate of the platform lever
-        let t1235 = mul_sub(platform_velocity[4], t183, platform_velocity[5] * t180);
-        let t1236 = mul_sub(platform_velocity[5], t177, platform_velocity[3] * t183);
-        let t1237 = mul_sub(platform_velocity[3], t180, platform_velocity[4] * t177);
-        // leg 3: velocity of the platform joint less that of the base origin
-        let t1238 = t1070 - t1235;
-        let t1239 = t1071 - t1236;
-        let t1240 = t1072 - t1237;
+        let t1229 = mul_sub(platform_velocity[4], t183, platform_velocity[5] * t180);
+        let t1230 = mul_sub(platform_velocity[5], t177, platform_velocity[3] * t183);
+        let t1231 = mul_sub(platform_velocity[3], t180, platform_velocity[4] * t177);
         // leg 4: rate of the platform lever
-        let t1241 = mul_sub(platform_velocity[4], t201, platform_velocity[5] * t198);
-        let t1242 = mul_sub(platform_velocity[5], t195, platform_velocity[3] * t201);
-        let t1243 = mul_sub(platform_velocity[3], t198, platform_velocity[4] * t195);
-        // leg 4: velocity of the platform joint less that of the base origin
-        let t1244 = t1070 - t1241;
-        let t1245 = t1071 - t1242;
-        let t1246 = t1072 - t1243;
+        let t1232 = mul_sub(platform_velocity[4], t201, platform_velocity[5] * t198);
+        let t1233 = mul_sub(platform_velocity[5], t195, platform_velocity[3] * t201);
+        let t1234 = mul_sub(platform_velocity[3], t198, platform_velocity[4] * t195);
         // leg 5: rate of the platform lever
-        let t1247 = mul_sub(platform_velocity[4], t219, platform_velocity[5] * t216);
-        let t1248 = mul_sub(platform_velocity[5], t213, platform_velocity[3] * t219);
-        let t1249 = mul_sub(platform_velocity[3], t216, platform_velocity[4] * t213);
-        // leg 5: velocity of the platform joint less that of the base origin
-        let t1250 = t1070 - t1247;
-        let t1251 = t1071 - t1248;
-        let t1252 = t1072 - t1249;
+        let t1235 = mul_sub(platform_velocity[4], t219, platform_velocity[5] * t216);
+        let t1236 = mul_sub(platform_velocity[5], t213, platform_velocity[3] * t219);
+        let t1237 = mul_sub(platform_velocity[3], t216, platform_velocity[4] * t213);
         // leg 6: rate of the platform lever
-        let t1253 = mul_sub(platform_velocity[4], t237, platform_velocity[5] * t234);
-        let t1254 = mul_sub(platform_velocity[5], t231, platform_velocity[3] * t237);
-        let t1255 = mul_sub(platform_velocity[3], t234, platform_velocity[4] * t231);
+        let t1238 = mul_sub(platform_velocity[4], t237, platform_velocity[5] * t234);
+        let t1239 = mul_sub(platform_velocity[5], t231, platform_velocity[3] * t237);
+        let t1240 = mul_sub(platform_velocity[3], t234, platform_velocity[4] * t231);
+        // leg 1: velocity of the platform joint less that of the base origin
+        let t1241 = t1070 - t1223;
+        let t1242 = t1071 - t1224;
+        let t1243 = t1072 - t1225;
+        // leg 2: velocity of the platform joint less that of the base origin
+        let t1244 = t1070 - t1226;
+        let t1245 = t1071 - t1227;
+        let t1246 = t1072 - t1228;
+        // leg 3: velocity of the platform joint less that of the base origin
+        let t1247 = t1070 - t1229;
+        let t1248 = t1071 - t1230;
+        let t1249 = t1072 - t1231;
+        // leg 4: velocity of the platform joint less that of the base origin
+        let t1250 = t1070 - t1232;
+        let t1251 = t1071 - t1233;
+        let t1252 = t1072 - t1234;
+        // leg 5: velocity of the platform joint less that of the base origin
+        let t1253 = t1070 - t1235;
+        let t1254 = t1071 - t1236;
+        let t1255 = t1072 - t1237;
         // leg 6: velocity of the platform joint less that of the base origin
-        let t1256 = t1070 - t1253;
-        let t1257 = t1071 - t1254;
-        let t1258 = t1072 - t1255;
+        let t1256 = t1070 - t1238;
+        let t1257 = t1071 - t1239;
+        let t1258 = t1072 - t1240;
         // leg 1: Coriolis matrix of the leg in the speeds of its joint
         let t1259 = t110 * (t110 * t1145);
         let t1260 = mul_sub(t287, t110 * t1259, t284 * t1259);
@@ -22054,13 +21868,13 @@ pub fn equation_of_motion<T: Scalar>(
         let t1275 = mul_sub(t156, t1272, mul_add(t1162, t1271, t1260));
         // leg 1: Coriolis matrix between joint and base angular velocity
         let t1276 = t441 * mul_sub(base_velocity[5], t462, base_velocity[3] * t455);
-        let t1277 = mul_sub(t452, t1160, mul_add(t427, t1227, t1276));
+        let t1277 = mul_sub(t452, t1160, mul_add(t427, t1242, t1276));
         let t1278 = t441 * mul_sub(base_velocity[3], t451, base_velocity[4] * t462);
-        let t1279 = mul_sub(t452, t1162, mul_add(t427, t1228, t1278));
+        let t1279 = mul_sub(t452, t1162, mul_add(t427, t1243, t1278));
         let t1280 = mul_sub(t156, t1277, t154 * t1279);
         let t1281 = t152 * t1280;
         let t1282 = t441 * mul_sub(base_velocity[4], t455, base_velocity[5] * t451);
-        let t1283 = mul_sub(t452, t1158, mul_add(t427, t1226, t1282));
+        let t1283 = mul_sub(t452, t1158, mul_add(t427, t1241, t1282));
         let t1284 = mul_sub(t152, t1279, t156 * t1283);
         let t1285 = neg_mul_add(t284, t1162, t1279);
         let t1286 = mul_sub(t152, t1284, t1285);
@@ -22094,13 +21908,13 @@ pub fn equation_of_motion<T: Scalar>(
         let t1313 = mul_sub(t174, t1310, mul_add(t1174, t1309, t1298));
         // leg 2: Coriolis matrix between joint and base angular velocity
         let t1314 = t497 * mul_sub(base_velocity[5], t518, base_velocity[3] * t511);
-        let t1315 = mul_sub(t508, t1172, mul_add(t483, t1233, t1314));
+        let t1315 = mul_sub(t508, t1172, mul_add(t483, t1245, t1314));
         let t1316 = t497 * mul_sub(base_velocity[3], t507, base_velocity[4] * t518);
-        let t1317 = mul_sub(t508, t1174, mul_add(t483, t1234, t1316));
+        let t1317 = mul_sub(t508, t1174, mul_add(t483, t1246, t1316));
         let t1318 = mul_sub(t174, t1315, t172 * t1317);
         let t1319 = t170 * t1318;
         let t1320 = t497 * mul_sub(base_velocity[4], t511, base_velocity[5] * t507);
-        let t1321 = mul_sub(t508, t1170, mul_add(t483, t1232, t1320));
+        let t1321 = mul_sub(t508, t1170, mul_add(t483, t1244, t1320));
         let t1322 = mul_sub(t170, t1317, t174 * t1321);
         let t1323 = neg_mul_add(t289, t1174, t1317);
         let t1324 = mul_sub(t170, t1322, t1323);
@@ -22134,13 +21948,13 @@ pub fn equation_of_motion<T: Scalar>(
         let t1351 = mul_sub(t192, t1348, mul_add(t1186, t1347, t1336));
         // leg 3: Coriolis matrix between joint and base angular velocity
         let t1352 = t553 * mul_sub(base_velocity[5], t574, base_velocity[3] * t567);
-        let t1353 = mul_sub(t564, t1184, mul_add(t539, t1239, t1352));
+        let t1353 = mul_sub(t564, t1184, mul_add(t539, t1248, t1352));
         let t1354 = t553 * mul_sub(base_velocity[3], t563, base_velocity[4] * t574);
-        let t1355 = mul_sub(t564, t1186, mul_add(t539, t1240, t1354));
+        let t1355 = mul_sub(t564, t1186, mul_add(t539, t1249, t1354));
         let t1356 = mul_sub(t192, t1353, t190 * t1355);
         let t1357 = t188 * t1356;
         let t1358 = t553 * mul_sub(base_velocity[4], t567, base_velocity[5] * t563);
-        let t1359 = mul_sub(t564, t1182, mul_add(t539, t1238, t1358));
+        let t1359 = mul_sub(t564, t1182, mul_add(t539, t1247, t1358));
         let t1360 = mul_sub(t188, t1355, t192 * t1359);
         let t1361 = neg_mul_add(t294, t1186, t1355);
         let t1362 = mul_sub(t188, t1360, t1361);
@@ -22174,13 +21988,13 @@ pub fn equation_of_motion<T: Scalar>(
         let t1389 = mul_sub(t210, t1386, mul_add(t1198, t1385, t1374));
         // leg 4: Coriolis matrix between joint and base angular velocity
         let t1390 = t609 * mul_sub(base_velocity[5], t630, base_velocity[3] * t623);
-        let t1391 = mul_sub(t620, t1196, mul_add(t595, t1245, t1390));
+        let t1391 = mul_sub(t620, t1196, mul_add(t595, t1251, t1390));
         let t1392 = t609 * mul_sub(base_velocity[3], t619, base_velocity[4] * t630);
-        let t1393 = mul_sub(t620, t1198, mul_add(t595, t1246, t1392));
+        let t1393 = mul_sub(t620, t1198, mul_add(t595, t1252, t1392));
         let t1394 = mul_sub(t210, t1391, t208 * t1393);
         let t1395 = t206 * t1394;
         let t1396 = t609 * mul_sub(base_velocity[4], t623, base_velocity[5] * t619);
-        let t1397 = mul_sub(t620, t1194, mul_add(t595, t1244, t1396));
+        let t1397 = mul_sub(t620, t1194, mul_add(t595, t1250, t1396));
         let t1398 = mul_sub(t206, t1393, t210 * t1397);
         let t1399 = neg_mul_add(t299, t1198, t1393);
         let t1400 = mul_sub(t206, t1398, t1399);
@@ -22214,13 +22028,13 @@ pub fn equation_of_motion<T: Scalar>(
         let t1427 = mul_sub(t228, t1424, mul_add(t1210, t1423, t1412));
         // leg 5: Coriolis matrix between joint and base angular velocity
         let t1428 = t665 * mul_sub(base_velocity[5], t686, base_velocity[3] * t679);
-        let t1429 = mul_sub(t676, t1208, mul_add(t651, t1251, t1428));
+        let t1429 = mul_sub(t676, t1208, mul_add(t651, t1254, t1428));
         let t1430 = t665 * mul_sub(base_velocity[3], t675, base_velocity[4] * t686);
-        let t1431 = mul_sub(t676, t1210, mul_add(t651, t1252, t1430));
+        let t1431 = mul_sub(t676, t1210, mul_add(t651, t1255, t1430));
         let t1432 = mul_sub(t228, t1429, t226 * t1431);
         let t1433 = t224 * t1432;
         let t1434 = t665 * mul_sub(base_velocity[4], t679, base_velocity[5] * t675);
-        let t1435 = mul_sub(t676, t1206, mul_add(t651, t1250, t1434));
+        let t1435 = mul_sub(t676, t1206, mul_add(t651, t1253, t1434));
         let t1436 = mul_sub(t224, t1431, t228 * t1435);
         let t1437 = neg_mul_add(t304, t1210, t1431);
         let t1438 = mul_sub(t224, t1436, t1437);
@@ -22280,140 +22094,140 @@ pub fn equation_of_motion<T: Scalar>(
         coriolis_matrix_b[0][0] = t1487;
         let t1488 = t1454 + (t1416 + (t1378 + (t1340 + (t1264 + t1302))));
         let t1489 = t1455 + (t1417 + (t1379 + (t1341 + (t1265 + t1303))));
-        let t1490 = mul_sub(t715, t1255, mul_sub(t237, t1454, t234 * t1455));
-        let t1491 = mul_sub(t716, t1254, t1490);
-        let t1492 = mul_sub(t659, t1249, mul_sub(t219, t1416, t216 * t1417));
-        let t1493 = mul_sub(t660, t1248, t1492);
-        let t1494 = mul_sub(t603, t1243, mul_sub(t201, t1378, t198 * t1379));
-        let t1495 = mul_sub(t604, t1242, t1494);
-        let t1496 = mul_sub(t547, t1237, mul_sub(t183, t1340, t180 * t1341));
-        let t1497 = mul_sub(t548, t1236, t1496);
+        let t1490 = mul_sub(t715, t1240, mul_sub(t237, t1454, t234 * t1455));
+        let t1491 = mul_sub(t716, t1239, t1490);
+        let t1492 = mul_sub(t659, t1237, mul_sub(t219, t1416, t216 * t1417));
+        let t1493 = mul_sub(t660, t1236, t1492);
+        let t1494 = mul_sub(t603, t1234, mul_sub(t201, t1378, t198 * t1379));
+        let t1495 = mul_sub(t604, t1233, t1494);
+        let t1496 = mul_sub(t547, t1231, mul_sub(t183, t1340, t180 * t1341));
+        let t1497 = mul_sub(t548, t1230, t1496);
         let t1498 = t144 * t1265;
         let t1499 = mul_sub(t435, t1225, mul_sub(t147, t1264, t1498));
         let t1500 = mul_sub(t436, t1224, t1499);
         let t1501 = t165 * t1302;
-        let t1502 = mul_sub(t491, t1231, neg_mul_add(t162, t1303, t1501));
-        let t1503 = mul_sub(t492, t1230, t1502);
+        let t1502 = mul_sub(t491, t1228, neg_mul_add(t162, t1303, t1501));
+        let t1503 = mul_sub(t492, t1227, t1502);
         let t1504 = t1491 + (t1493 + (t1495 + (t1497 + (t1500 + t1503))));
         coriolis_matrix_p[0][3] = t1504;
-        let t1505 = mul_sub(t716, t1253, mul_add(t231, t1455, t237 * t1453));
-        let t1506 = mul_sub(t714, t1255, t1505);
-        let t1507 = mul_sub(t660, t1247, mul_add(t213, t1417, t219 * t1415));
-        let t1508 = mul_sub(t658, t1249, t1507);
-        let t1509 = mul_sub(t604, t1241, mul_add(t195, t1379, t201 * t1377));
-        let t1510 = mul_sub(t602, t1243, t1509);
-        let t1511 = mul_sub(t548, t1235, mul_add(t177, t1341, t183 * t1339));
-        let t1512 = mul_sub(t546, t1237, t1511);
+        let t1505 = mul_sub(t716, t1238, mul_add(t231, t1455, t237 * t1453));
+        let t1506 = mul_sub(t714, t1240, t1505);
+        let t1507 = mul_sub(t660, t1235, mul_add(t213, t1417, t219 * t1415));
+        let t1508 = mul_sub(t658, t1237, t1507);
+        let t1509 = mul_sub(t604, t1232, mul_add(t195, t1379, t201 * t1377));
+        let t1510 = mul_sub(t602, t1234, t1509);
+        let t1511 = mul_sub(t548, t1229, mul_add(t177, t1341, t183 * t1339));
+        let t1512 = mul_sub(t546, t1231, t1511);
         let t1513 = mul_sub(t436, t1223, mul_add(t141, t1265, t147 * t1263));
         let t1514 = mul_sub(t434, t1225, t1513);
         let t1515 = t165 * t1301;
-        let t1516 = mul_sub(t492, t1229, mul_add(t159, t1303, t1515));
-        let t1517 = mul_sub(t490, t1231, t1516);
+        let t1516 = mul_sub(t492, t1226, mul_add(t159, t1303, t1515));
+        let t1517 = mul_sub(t490, t1228, t1516);
         let t1518 = t1506 + (t1508 + (t1510 + (t1512 + (t1514 + t1517))));
-        let t1519 = mul_add(t714, t1254, mul_add(t231, t1454, t234 * t1453));
-        let t1520 = mul_sub(t715, t1253, t1519);
-        let t1521 = mul_add(t658, t1248, mul_add(t213, t1416, t216 * t1415));
-        let t1522 = mul_sub(t659, t1247, t1521);
-        let t1523 = mul_add(t602, t1242, mul_add(t195, t1378, t198 * t1377));
-        let t1524 = mul_sub(t603, t1241, t1523);
-        let t1525 = mul_add(t546, t1236, mul_add(t177, t1340, t180 * t1339));
-        let t1526 = mul_sub(t547, t1235, t1525);
+        let t1519 = mul_add(t714, t1239, mul_add(t231, t1454, t234 * t1453));
+        let t1520 = mul_sub(t715, t1238, t1519);
+        let t1521 = mul_add(t658, t1236, mul_add(t213, t1416, t216 * t1415));
+        let t1522 = mul_sub(t659, t1235, t1521);
+        let t1523 = mul_add(t602, t1233, mul_add(t195, t1378, t198 * t1377));
+        let t1524 = mul_sub(t603, t1232, t1523);
+        let t1525 = mul_add(t546, t1230, mul_add(t177, t1340, t180 * t1339));
+        let t1526 = mul_sub(t547, t1229, t1525);
         let t1527 = mul_add(t434, t1224, mul_add(t141, t1264, t144 * t1263));
         let t1528 = mul_sub(t435, t1223, t1527);
         let t1529 = t162 * t1301;
-        let t1530 = mul_add(t490, t1230, mul_add(t159, t1302, t1529));
-        let t1531 = mul_sub(t491, t1229, t1530);
+        let t1530 = mul_add(t490, t1227, mul_add(t159, t1302, t1529));
+        let t1531 = mul_sub(t491, t1226, t1530);
         let t1532 = t1520 + (t1522 + (t1524 + (t1526 + (t1528 + t1531))));
         let t1533 = t1458 + (t1420 + (t1382 + (t1344 + (t1268 + t1306))));
         let t1534 = t1459 + (t1421 + (t1383 + (t1345 + (t1269 + t1307))));
         coriolis_matrix_p[1][1] = t1534;
         coriolis_matrix_b[1][1] = t1534;
         let t1535 = t1460 + (t1422 + (t1384 + (t1346 + (t1270 + t1308))));
-        let t1536 = mul_add(t718, t1255, mul_add(t234, t1460, t237 * t1459));
-        let t1537 = mul_sub(t719, t1254, t1536);
-        let t1538 = mul_add(t662, t1249, mul_add(t216, t1422, t219 * t1421));
-        let t1539 = mul_sub(t663, t1248, t1538);
-        let t1540 = mul_add(t606, t1243, mul_add(t198, t1384, t201 * t1383));
-        let t1541 = mul_sub(t607, t1242, t1540);
-        let t1542 = mul_add(t550, t1237, mul_add(t180, t1346, t183 * t1345));
-        let t1543 = mul_sub(t551, t1236, t1542);
+        let t1536 = mul_add(t718, t1240, mul_add(t234, t1460, t237 * t1459));
+        let t1537 = mul_sub(t719, t1239, t1536);
+        let t1538 = mul_add(t662, t1237, mul_add(t216, t1422, t219 * t1421));
+        let t1539 = mul_sub(t663, t1236, t1538);
+        let t1540 = mul_add(t606, t1234, mul_add(t198, t1384, t201 * t1383));
+        let t1541 = mul_sub(t607, t1233, t1540);
+        let t1542 = mul_add(t550, t1231, mul_add(t180, t1346, t183 * t1345));
+        let t1543 = mul_sub(t551, t1230, t1542);
         let t1544 = mul_add(t438, t1225, mul_add(t144, t1270, t147 * t1269));
         let t1545 = mul_sub(t439, t1224, t1544);
         let t1546 = t165 * t1307;
-        let t1547 = mul_add(t494, t1231, mul_add(t162, t1308, t1546));
-        let t1548 = mul_sub(t495, t1230, t1547);
+        let t1547 = mul_add(t494, t1228, mul_add(t162, t1308, t1546));
+        let t1548 = mul_sub(t495, t1227, t1547);
         let t1549 = t1537 + (t1539 + (t1541 + (t1543 + (t1545 + t1548))));
-        let t1550 = mul_sub(t237, t1458, mul_add(t715, t1255, t231 * t1460));
-        let t1551 = mul_add(t719, t1253, t1550);
-        let t1552 = mul_sub(t219, t1420, mul_add(t659, t1249, t213 * t1422));
-        let t1553 = mul_add(t663, t1247, t1552);
-        let t1554 = mul_sub(t201, t1382, mul_add(t603, t1243, t195 * t1384));
-        let t1555 = mul_add(t607, t1241, t1554);
-        let t1556 = mul_sub(t183, t1344, mul_add(t547, t1237, t177 * t1346));
-        let t1557 = mul_add(t551, t1235, t1556);
+        let t1550 = mul_sub(t237, t1458, mul_add(t715, t1240, t231 * t1460));
+        let t1551 = mul_add(t719, t1238, t1550);
+        let t1552 = mul_sub(t219, t1420, mul_add(t659, t1237, t213 * t1422));
+        let t1553 = mul_add(t663, t1235, t1552);
+        let t1554 = mul_sub(t201, t1382, mul_add(t603, t1234, t195 * t1384));
+        let t1555 = mul_add(t607, t1232, t1554);
+        let t1556 = mul_sub(t183, t1344, mul_add(t547, t1231, t177 * t1346));
+        let t1557 = mul_add(t551, t1229, t1556);
         let t1558 = mul_sub(t147, t1268, mul_add(t435, t1225, t141 * t1270));
         let t1559 = mul_add(t439, t1223, t1558);
-        let t1560 = mul_sub(t165, t1306, mul_add(t491, t1231, t159 * t1308));
-        let t1561 = mul_add(t495, t1229, t1560);
+        let t1560 = mul_sub(t165, t1306, mul_add(t491, t1228, t159 * t1308));
+        let t1561 = mul_add(t495, t1226, t1560);
         let t1562 = t1551 + (t1553 + (t1555 + (t1557 + (t1559 + t1561))));
-        let t1563 = mul_sub(t715, t1254, mul_add(t234, t1458, t231 * t1459));
-        let t1564 = mul_sub(t718, t1253, t1563);
-        let t1565 = mul_sub(t659, t1248, mul_add(t216, t1420, t213 * t1421));
-        let t1566 = mul_sub(t662, t1247, t1565);
-        let t1567 = mul_sub(t603, t1242, mul_add(t198, t1382, t195 * t1383));
-        let t1568 = mul_sub(t606, t1241, t1567);
-        let t1569 = mul_sub(t547, t1236, mul_add(t180, t1344, t177 * t1345));
-        let t1570 = mul_sub(t550, t1235, t1569);
+        let t1563 = mul_sub(t715, t1239, mul_add(t234, t1458, t231 * t1459));
+        let t1564 = mul_sub(t718, t1238, t1563);
+        let t1565 = mul_sub(t659, t1236, mul_add(t216, t1420, t213 * t1421));
+        let t1566 = mul_sub(t662, t1235, t1565);
+        let t1567 = mul_sub(t603, t1233, mul_add(t198, t1382, t195 * t1383));
+        let t1568 = mul_sub(t606, t1232, t1567);
+        let t1569 = mul_sub(t547, t1230, mul_add(t180, t1344, t177 * t1345));
+        let t1570 = mul_sub(t550, t1229, t1569);
         let t1571 = mul_sub(t435, t1224, mul_add(t144, t1268, t141 * t1269));
         let t1572 = mul_sub(t438, t1223, t1571);
         let t1573 = t159 * t1307;
-        let t1574 = mul_sub(t491, t1230, mul_add(t162, t1306, t1573));
-        let t1575 = mul_sub(t494, t1229, t1574);
+        let t1574 = mul_sub(t491, t1227, mul_add(t162, t1306, t1573));
+        let t1575 = mul_sub(t494, t1226, t1574);
         let t1576 = t1564 + (t1566 + (t1568 + (t1570 + (t1572 + t1575))));
         let t1577 = t1463 + (t1425 + (t1387 + (t1349 + (t1273 + t1311))));
         let t1578 = t1464 + (t1426 + (t1388 + (t1350 + (t1274 + t1312))));
         let t1579 = t1465 + (t1427 + (t1389 + (t1351 + (t1275 + t1313))));
         coriolis_matrix_p[2][2] = t1579;
         coriolis_matrix_b[2][2] = t1579;
-        let t1580 = mul_sub(t719, t1255, mul_add(t237, t1464, t234 * t1465));
-        let t1581 = mul_sub(t720, t1254, t1580);
-        let t1582 = mul_sub(t663, t1249, mul_add(t219, t1426, t216 * t1427));
-        let t1583 = mul_sub(t664, t1248, t1582);
-        let t1584 = mul_sub(t607, t1243, mul_add(t201, t1388, t198 * t1389));
-        let t1585 = mul_sub(t608, t1242, t1584);
-        let t1586 = mul_sub(t551, t1237, mul_add(t183, t1350, t180 * t1351));
-        let t1587 = mul_sub(t552, t1236, t1586);
+        let t1580 = mul_sub(t719, t1240, mul_add(t237, t1464, t234 * t1465));
+        let t1581 = mul_sub(t720, t1239, t1580);
+        let t1582 = mul_sub(t663, t1237, mul_add(t219, t1426, t216 * t1427));
+        let t1583 = mul_sub(t664, t1236, t1582);
+        let t1584 = mul_sub(t607, t1234, mul_add(t201, t1388, t198 * t1389));
+        let t1585 = mul_sub(t608, t1233, t1584);
+        let t1586 = mul_sub(t551, t1231, mul_add(t183, t1350, t180 * t1351));
+        let t1587 = mul_sub(t552, t1230, t1586);
         let t1588 = mul_sub(t439, t1225, mul_add(t147, t1274, t144 * t1275));
         let t1589 = mul_sub(t440, t1224, t1588);
         let t1590 = t162 * t1313;
-        let t1591 = mul_sub(t495, t1231, mul_add(t165, t1312, t1590));
-        let t1592 = mul_sub(t496, t1230, t1591);
+        let t1591 = mul_sub(t495, t1228, mul_add(t165, t1312, t1590));
+        let t1592 = mul_sub(t496, t1227, t1591);
         let t1593 = t1581 + (t1583 + (t1585 + (t1587 + (t1589 + t1592))));
-        let t1594 = mul_add(t720, t1253, mul_add(t237, t1463, t231 * t1465));
-        let t1595 = mul_sub(t716, t1255, t1594);
-        let t1596 = mul_add(t664, t1247, mul_add(t219, t1425, t213 * t1427));
-        let t1597 = mul_sub(t660, t1249, t1596);
-        let t1598 = mul_add(t608, t1241, mul_add(t201, t1387, t195 * t1389));
-        let t1599 = mul_sub(t604, t1243, t1598);
-        let t1600 = mul_add(t552, t1235, mul_add(t183, t1349, t177 * t1351));
-        let t1601 = mul_sub(t548, t1237, t1600);
+        let t1594 = mul_add(t720, t1238, mul_add(t237, t1463, t231 * t1465));
+        let t1595 = mul_sub(t716, t1240, t1594);
+        let t1596 = mul_add(t664, t1235, mul_add(t219, t1425, t213 * t1427));
+        let t1597 = mul_sub(t660, t1237, t1596);
+        let t1598 = mul_add(t608, t1232, mul_add(t201, t1387, t195 * t1389));
+        let t1599 = mul_sub(t604, t1234, t1598);
+        let t1600 = mul_add(t552, t1229, mul_add(t183, t1349, t177 * t1351));
+        let t1601 = mul_sub(t548, t1231, t1600);
         let t1602 = mul_add(t440, t1223, mul_add(t147, t1273, t141 * t1275));
         let t1603 = mul_sub(t436, t1225, t1602);
         let t1604 = t159 * t1313;
-        let t1605 = mul_add(t496, t1229, mul_add(t165, t1311, t1604));
-        let t1606 = mul_sub(t492, t1231, t1605);
+        let t1605 = mul_add(t496, t1226, mul_add(t165, t1311, t1604));
+        let t1606 = mul_sub(t492, t1228, t1605);
         let t1607 = t1595 + (t1597 + (t1599 + (t1601 + (t1603 + t1606))));
-        let t1608 = mul_sub(t234, t1463, mul_sub(t716, t1254, t719 * t1253));
+        let t1608 = mul_sub(t234, t1463, mul_sub(t716, t1239, t719 * t1238));
         let t1609 = mul_sub(t231, t1464, t1608);
-        let t1610 = mul_sub(t216, t1425, mul_sub(t660, t1248, t663 * t1247));
+        let t1610 = mul_sub(t216, t1425, mul_sub(t660, t1236, t663 * t1235));
         let t1611 = mul_sub(t213, t1426, t1610);
-        let t1612 = mul_sub(t198, t1387, mul_sub(t604, t1242, t607 * t1241));
+        let t1612 = mul_sub(t198, t1387, mul_sub(t604, t1233, t607 * t1232));
         let t1613 = mul_sub(t195, t1388, t1612);
-        let t1614 = mul_sub(t180, t1349, mul_sub(t548, t1236, t551 * t1235));
+        let t1614 = mul_sub(t180, t1349, mul_sub(t548, t1230, t551 * t1229));
         let t1615 = mul_sub(t177, t1350, t1614);
         let t1616 = mul_sub(t144, t1273, mul_sub(t436, t1224, t439 * t1223));
         let t1617 = mul_sub(t141, t1274, t1616);
-        let t1618 = mul_sub(t162, t1311, mul_sub(t492, t1230, t495 * t1229));
+        let t1618 = mul_sub(t162, t1311, mul_sub(t492, t1227, t495 * t1226));
         let t1619 = mul_sub(t159, t1312, t1618);
         let t1620 = t1609 + (t1611 + (t1613 + (t1615 + (t1617 + t1619))));
         let t1621 = mul_add(t183, t1344, mul_add(t147, t1268, t165 * t1306));
@@ -22694,176 +22508,176 @@ pub fn equation_of_motion<T: Scalar>(
         )
     };
     {
-        // Coriolis matrix C_p, natural factorisation
-        let t1740 = mul_sub(platform_velocity[3], t883, platform_velocity[4] * t885);
-        let t1741 = t1518 + t1740;
-        coriolis_matrix_p[0][4] = t1741;
-        let t1742 = mul_sub(platform_velocity[5], t885, platform_velocity[3] * t881);
-        let t1743 = t1532 - t1742;
-        coriolis_matrix_p[0][5] = t1743;
-        let t1744 = t1549 - t1740;
-        coriolis_matrix_p[1][3] = t1744;
-        let t1745 = mul_sub(platform_velocity[4], t881, platform_velocity[5] * t883);
-        let t1746 = t1576 + t1745;
-        coriolis_matrix_p[1][5] = t1746;
-        let t1747 = t1593 + t1742;
-        coriolis_matrix_p[2][3] = t1747;
-        let t1748 = t1607 - t1745;
-        coriolis_matrix_p[2][4] = t1748;
-        let t1749 = mul_add(platform_velocity[5], t895, t1644);
-        let t1750 = mul_sub(platform_velocity[4], t897, t1749);
-        let t1751 = mul_sub(c(0.5), t339, t905);
-        let t1752 = neg_mul_add(platform_velocity[5], t1751, t1650);
-        let t1753 = mul_sub(platform_velocity[4], t907, t1752);
-        let t1754 = mul_sub(c(0.5), t339, t915);
-        let t1755 = neg_mul_add(platform_velocity[5], t907, t1656);
-        let t1756 = mul_sub(platform_velocity[4], t1754, t1755);
-        coriolis_matrix_p[3][5] = t1756;
-        let t1757 = mul_sub(c(0.5), t339, t893);
-        let t1758 = mul_add(platform_velocity[5], t1757, t1680);
-        let t1759 = mul_add(platform_velocity[3], t897, t1758);
-        coriolis_matrix_p[4][3] = t1759;
-        let t1760 = neg_mul_add(platform_velocity[5], t895, t1686);
-        let t1761 = mul_add(platform_velocity[3], t907, t1760);
-        coriolis_matrix_p[4][4] = t1761;
-        let t1762 = neg_mul_add(platform_velocity[5], t897, t1692);
-        let t1763 = mul_sub(platform_velocity[3], t1754, t1762);
-        let t1764 = neg_mul_add(platform_velocity[4], t1757, t1716);
-        let t1765 = mul_sub(platform_velocity[3], t895, t1764);
-        let t1766 = neg_mul_add(platform_velocity[4], t895, t1722);
-        let t1767 = mul_sub(platform_velocity[3], t1751, t1766);
-        coriolis_matrix_p[5][4] = t1767;
-        let t1768 = mul_add(platform_velocity[4], t897, t1728);
-        let t1769 = mul_sub(platform_velocity[3], t907, t1768);
-        coriolis_matrix_p[3][3] = -t1750;
-        coriolis_matrix_p[3][4] = -t1753;
-        coriolis_matrix_p[4][5] = -t1763;
-        coriolis_matrix_p[5][3] = -t1765;
-        coriolis_matrix_p[5][5] = -t1769;
         // Coriolis matrix C_b, natural factorisation
-        let t1770 = mul_add(t188, t1356, mul_add(t152, t1280, t1319));
-        let t1771 = mul_add(t224, t1432, mul_add(t206, t1394, t1770));
-        let t1772 = mul_sub(t30, t1488, t1504 - mul_add(t242, t1470, t1771));
-        let t1773 = mul_add(t766, t1072, mul_sub(t29, t1489, t1772));
-        let t1774 = mul_sub(t769, t1071, t1773);
-        let t1775 = t1518 - (t1476 + (t1438 + (t1400 + (t1362 + (t1286 + t1324)))));
-        let t1776 = mul_add(t30, t1487, mul_sub(t28, t1489, t1775));
-        let t1777 = mul_sub(t763, t1072, mul_sub(t769, t1070, t1776));
-        let t1778 = t1532 - (t1479 + (t1441 + (t1403 + (t1365 + (t1289 + t1327)))));
-        let t1779 = mul_add(t28, t1488, mul_add(t29, t1487, t1778));
-        let t1780 = mul_sub(t766, t1070, mul_add(t763, t1071, t1779));
-        let t1781 = t1549 - (t1480 + (t1442 + (t1404 + (t1366 + (t1290 + t1328)))));
-        let t1782 = mul_add(t29, t1535, mul_add(t30, t1534, t1781));
-        let t1783 = mul_sub(t793, t1071, mul_add(t790, t1072, t1782));
-        let t1784 = mul_add(t190, t1360, mul_add(t154, t1284, t1329));
-        let t1785 = mul_add(t226, t1436, mul_add(t208, t1398, t1784));
-        let t1786 = mul_add(t766, t1072, t1562 + mul_add(t244, t1474, t1785));
-        let t1787 = mul_sub(t30, t1533, mul_add(t28, t1535, t1786));
-        let t1788 = mul_add(t793, t1070, t1787);
-        coriolis_matrix_b[1][4] = t1788;
-        let t1789 = t1576 - (t1483 + (t1445 + (t1407 + (t1369 + (t1293 + t1331)))));
-        let t1790 = mul_add(t28, t1534, mul_sub(t29, t1533, t1789));
-        let t1791 = mul_sub(t790, t1070, mul_sub(t766, t1071, t1790));
-        let t1792 = t1593 + (t1484 + (t1446 + (t1408 + (t1370 + (t1294 + t1332)))));
-        let t1793 = mul_add(t29, t1579, mul_sub(t30, t1578, t1792));
-        let t1794 = mul_sub(t821, t1071, mul_sub(t793, t1072, t1793));
-        let t1795 = t1607 - (t1485 + (t1447 + (t1409 + (t1371 + (t1295 + t1333)))));
-        let t1796 = mul_add(t30, t1577, mul_add(t28, t1579, t1795));
-        let t1797 = mul_sub(t769, t1072, mul_add(t821, t1070, t1796));
-        let t1798 = mul_add(t192, t1363, mul_add(t156, t1287, t1334));
-        let t1799 = mul_add(t228, t1439, mul_add(t210, t1401, t1798));
-        let t1800 = mul_sub(t769, t1071, t1620 + mul_add(t246, t1477, t1799));
-        let t1801 = mul_add(t29, t1577, mul_sub(t793, t1070, t1800));
-        let t1802 = mul_sub(t28, t1578, t1801);
-        coriolis_matrix_b[2][5] = t1802;
-        let t1803 = mul_sub(t29, t1638, neg_mul_add(t30, t1632, t1644));
-        let t1804 = mul_sub(t828, t1071, mul_add(t800, t1072, t1803));
-        let t1805 = mul_add(t147, t1290, mul_add(t144, t1294, t1804));
-        let t1806 = mul_add(t165, t1328, mul_add(t162, t1332, t1805));
-        let t1807 = mul_add(t183, t1366, mul_add(t180, t1370, t1806));
-        let t1808 = mul_add(t201, t1404, mul_add(t198, t1408, t1807));
-        let t1809 = mul_add(t219, t1442, mul_add(t216, t1446, t1808));
-        let t1810 = mul_add(t237, t1480, mul_add(t234, t1484, t1809));
-        coriolis_matrix_b[3][3] = t1810;
-        let t1811 = mul_add(t30, t1626, mul_add(t28, t1638, t1650));
-        let t1812 = mul_add(t775, t1072, mul_sub(t828, t1070, t1811));
-        let t1813 = mul_sub(t147, t1291, mul_add(t144, t1295, t1812));
-        let t1814 = mul_sub(t165, t1329, mul_sub(t162, t1333, t1813));
-        let t1815 = mul_sub(t183, t1367, mul_sub(t180, t1371, t1814));
-        let t1816 = mul_sub(t201, t1405, mul_sub(t198, t1409, t1815));
-        let t1817 = mul_sub(t219, t1443, mul_sub(t216, t1447, t1816));
-        let t1818 = mul_sub(t237, t1481, mul_sub(t234, t1485, t1817));
-        coriolis_matrix_b[3][4] = t1818;
-        let t1819 = mul_sub(t28, t1632, mul_add(t29, t1626, t1656));
-        let t1820 = mul_add(t800, t1070, mul_add(t775, t1071, t1819));
-        let t1821 = mul_sub(t147, t1293, mul_sub(t144, t1296, t1820));
-        let t1822 = mul_sub(t165, t1331, mul_sub(t162, t1334, t1821));
-        let t1823 = mul_sub(t183, t1369, mul_sub(t180, t1372, t1822));
-        let t1824 = mul_sub(t201, t1407, mul_sub(t198, t1410, t1823));
-        let t1825 = mul_sub(t219, t1445, mul_sub(t216, t1448, t1824));
-        let t1826 = mul_sub(t237, t1483, mul_sub(t234, t1486, t1825));
-        coriolis_matrix_b[3][5] = t1826;
-        let t1827 = mul_add(t29, t1674, mul_add(t30, t1668, t1680));
-        let t1828 = mul_add(t835, t1071, mul_add(t813, t1072, t1827));
-        let t1829 = mul_add(t141, t1294, mul_sub(t147, t1281, t1828));
-        let t1830 = mul_add(t159, t1332, mul_add(t165, t1319, t1829));
-        let t1831 = mul_add(t177, t1370, mul_add(t183, t1357, t1830));
-        let t1832 = mul_add(t195, t1408, mul_add(t201, t1395, t1831));
-        let t1833 = mul_add(t213, t1446, mul_add(t219, t1433, t1832));
-        let t1834 = mul_add(t231, t1484, mul_add(t237, t1471, t1833));
-        let t1835 = mul_sub(t30, t1662, neg_mul_add(t28, t1674, t1686));
-        let t1836 = mul_sub(t782, t1072, mul_add(t835, t1070, t1835));
-        let t1837 = mul_sub(t141, t1295, mul_sub(t147, t1286, t1836));
-        let t1838 = mul_sub(t159, t1333, mul_sub(t165, t1324, t1837));
-        let t1839 = mul_sub(t177, t1371, mul_sub(t183, t1362, t1838));
-        let t1840 = mul_sub(t195, t1409, mul_sub(t201, t1400, t1839));
-        let t1841 = mul_sub(t213, t1447, mul_sub(t219, t1438, t1840));
-        let t1842 = mul_sub(t231, t1485, mul_sub(t237, t1476, t1841));
-        coriolis_matrix_b[4][4] = t1842;
-        let t1843 = mul_sub(t28, t1668, mul_add(t29, t1662, t1692));
-        let t1844 = mul_add(t813, t1070, mul_add(t782, t1071, t1843));
-        let t1845 = mul_sub(t141, t1296, mul_add(t147, t1289, t1844));
-        let t1846 = mul_sub(t159, t1334, mul_sub(t165, t1327, t1845));
-        let t1847 = mul_sub(t177, t1372, mul_sub(t183, t1365, t1846));
-        let t1848 = mul_sub(t195, t1410, mul_sub(t201, t1403, t1847));
-        let t1849 = mul_sub(t213, t1448, mul_sub(t219, t1441, t1848));
-        let t1850 = mul_sub(t231, t1486, mul_sub(t237, t1479, t1849));
-        coriolis_matrix_b[4][5] = t1850;
-        let t1851 = mul_add(t29, t1710, mul_add(t30, t1704, t1716));
-        let t1852 = mul_sub(t842, t1071, mul_sub(t820, t1072, t1851));
-        let t1853 = mul_sub(t144, t1281, mul_sub(t141, t1290, t1852));
-        let t1854 = mul_sub(t162, t1319, mul_sub(t159, t1328, t1853));
-        let t1855 = mul_sub(t180, t1357, mul_sub(t177, t1366, t1854));
-        let t1856 = mul_sub(t198, t1395, mul_sub(t195, t1404, t1855));
-        let t1857 = mul_sub(t216, t1433, mul_sub(t213, t1442, t1856));
-        let t1858 = mul_sub(t234, t1471, mul_sub(t231, t1480, t1857));
-        coriolis_matrix_b[5][3] = t1858;
-        let t1859 = mul_sub(t30, t1698, mul_add(t28, t1710, t1722));
-        let t1860 = mul_sub(t789, t1072, mul_sub(t842, t1070, t1859));
-        let t1861 = mul_sub(t144, t1286, mul_sub(t141, t1291, t1860));
-        let t1862 = mul_sub(t162, t1324, mul_sub(t159, t1329, t1861));
-        let t1863 = mul_sub(t180, t1362, mul_sub(t177, t1367, t1862));
-        let t1864 = mul_sub(t198, t1400, mul_sub(t195, t1405, t1863));
-        let t1865 = mul_sub(t216, t1438, mul_sub(t213, t1443, t1864));
-        let t1866 = mul_sub(t234, t1476, mul_sub(t231, t1481, t1865));
-        coriolis_matrix_b[5][4] = t1866;
-        let t1867 = mul_sub(t28, t1704, neg_mul_add(t29, t1698, t1728));
-        let t1868 = mul_sub(t820, t1070, mul_add(t789, t1071, t1867));
-        let t1869 = mul_sub(t144, t1289, mul_sub(t141, t1293, t1868));
-        let t1870 = mul_sub(t162, t1327, mul_sub(t159, t1331, t1869));
-        let t1871 = mul_sub(t180, t1365, mul_sub(t177, t1369, t1870));
-        let t1872 = mul_sub(t198, t1403, mul_sub(t195, t1407, t1871));
-        let t1873 = mul_sub(t216, t1441, mul_sub(t213, t1445, t1872));
-        let t1874 = mul_sub(t234, t1479, mul_sub(t231, t1483, t1873));
-        coriolis_matrix_b[5][5] = t1874;
-        coriolis_matrix_b[0][3] = -t1774;
-        coriolis_matrix_b[0][4] = -t1777;
-        coriolis_matrix_b[0][5] = -t1780;
-        coriolis_matrix_b[1][3] = -t1783;
-        coriolis_matrix_b[1][5] = -t1791;
-        coriolis_matrix_b[2][3] = -t1794;
-        coriolis_matrix_b[2][4] = -t1797;
-        coriolis_matrix_b[4][3] = -t1834;
+        let t1740 = mul_add(t188, t1356, mul_add(t152, t1280, t1319));
+        let t1741 = mul_add(t224, t1432, mul_add(t206, t1394, t1740));
+        let t1742 = mul_sub(t30, t1488, t1504 - mul_add(t242, t1470, t1741));
+        let t1743 = mul_add(t766, t1072, mul_sub(t29, t1489, t1742));
+        let t1744 = mul_sub(t769, t1071, t1743);
+        let t1745 = t1518 - (t1476 + (t1438 + (t1400 + (t1362 + (t1286 + t1324)))));
+        let t1746 = mul_add(t30, t1487, mul_sub(t28, t1489, t1745));
+        let t1747 = mul_sub(t763, t1072, mul_sub(t769, t1070, t1746));
+        let t1748 = t1532 - (t1479 + (t1441 + (t1403 + (t1365 + (t1289 + t1327)))));
+        let t1749 = mul_add(t28, t1488, mul_add(t29, t1487, t1748));
+        let t1750 = mul_sub(t766, t1070, mul_add(t763, t1071, t1749));
+        let t1751 = t1549 - (t1480 + (t1442 + (t1404 + (t1366 + (t1290 + t1328)))));
+        let t1752 = mul_add(t29, t1535, mul_add(t30, t1534, t1751));
+        let t1753 = mul_sub(t793, t1071, mul_add(t790, t1072, t1752));
+        let t1754 = mul_add(t190, t1360, mul_add(t154, t1284, t1329));
+        let t1755 = mul_add(t226, t1436, mul_add(t208, t1398, t1754));
+        let t1756 = mul_add(t766, t1072, t1562 + mul_add(t244, t1474, t1755));
+        let t1757 = mul_sub(t30, t1533, mul_add(t28, t1535, t1756));
+        let t1758 = mul_add(t793, t1070, t1757);
+        coriolis_matrix_b[1][4] = t1758;
+        let t1759 = t1576 - (t1483 + (t1445 + (t1407 + (t1369 + (t1293 + t1331)))));
+        let t1760 = mul_add(t28, t1534, mul_sub(t29, t1533, t1759));
+        let t1761 = mul_sub(t790, t1070, mul_sub(t766, t1071, t1760));
+        let t1762 = t1593 + (t1484 + (t1446 + (t1408 + (t1370 + (t1294 + t1332)))));
+        let t1763 = mul_add(t29, t1579, mul_sub(t30, t1578, t1762));
+        let t1764 = mul_sub(t821, t1071, mul_sub(t793, t1072, t1763));
+        let t1765 = t1607 - (t1485 + (t1447 + (t1409 + (t1371 + (t1295 + t1333)))));
+        let t1766 = mul_add(t30, t1577, mul_add(t28, t1579, t1765));
+        let t1767 = mul_sub(t769, t1072, mul_add(t821, t1070, t1766));
+        let t1768 = mul_add(t192, t1363, mul_add(t156, t1287, t1334));
+        let t1769 = mul_add(t228, t1439, mul_add(t210, t1401, t1768));
+        let t1770 = mul_sub(t769, t1071, t1620 + mul_add(t246, t1477, t1769));
+        let t1771 = mul_add(t29, t1577, mul_sub(t793, t1070, t1770));
+        let t1772 = mul_sub(t28, t1578, t1771);
+        coriolis_matrix_b[2][5] = t1772;
+        let t1773 = mul_sub(t29, t1638, neg_mul_add(t30, t1632, t1644));
+        let t1774 = mul_sub(t828, t1071, mul_add(t800, t1072, t1773));
+        let t1775 = mul_add(t147, t1290, mul_add(t144, t1294, t1774));
+        let t1776 = mul_add(t165, t1328, mul_add(t162, t1332, t1775));
+        let t1777 = mul_add(t183, t1366, mul_add(t180, t1370, t1776));
+        let t1778 = mul_add(t201, t1404, mul_add(t198, t1408, t1777));
+        let t1779 = mul_add(t219, t1442, mul_add(t216, t1446, t1778));
+        let t1780 = mul_add(t237, t1480, mul_add(t234, t1484, t1779));
+        coriolis_matrix_b[3][3] = t1780;
+        let t1781 = mul_add(t30, t1626, mul_add(t28, t1638, t1650));
+        let t1782 = mul_add(t775, t1072, mul_sub(t828, t1070, t1781));
+        let t1783 = mul_sub(t147, t1291, mul_add(t144, t1295, t1782));
+        let t1784 = mul_sub(t165, t1329, mul_sub(t162, t1333, t1783));
+        let t1785 = mul_sub(t183, t1367, mul_sub(t180, t1371, t1784));
+        let t1786 = mul_sub(t201, t1405, mul_sub(t198, t1409, t1785));
+        let t1787 = mul_sub(t219, t1443, mul_sub(t216, t1447, t1786));
+        let t1788 = mul_sub(t237, t1481, mul_sub(t234, t1485, t1787));
+        coriolis_matrix_b[3][4] = t1788;
+        let t1789 = mul_sub(t28, t1632, mul_add(t29, t1626, t1656));
+        let t1790 = mul_add(t800, t1070, mul_add(t775, t1071, t1789));
+        let t1791 = mul_sub(t147, t1293, mul_sub(t144, t1296, t1790));
+        let t1792 = mul_sub(t165, t1331, mul_sub(t162, t1334, t1791));
+        let t1793 = mul_sub(t183, t1369, mul_sub(t180, t1372, t1792));
+        let t1794 = mul_sub(t201, t1407, mul_sub(t198, t1410, t1793));
+        let t1795 = mul_sub(t219, t1445, mul_sub(t216, t1448, t1794));
+        let t1796 = mul_sub(t237, t1483, mul_sub(t234, t1486, t1795));
+        coriolis_matrix_b[3][5] = t1796;
+        let t1797 = mul_add(t29, t1674, mul_add(t30, t1668, t1680));
+        let t1798 = mul_add(t835, t1071, mul_add(t813, t1072, t1797));
+        let t1799 = mul_add(t141, t1294, mul_sub(t147, t1281, t1798));
+        let t1800 = mul_add(t159, t1332, mul_add(t165, t1319, t1799));
+        let t1801 = mul_add(t177, t1370, mul_add(t183, t1357, t1800));
+        let t1802 = mul_add(t195, t1408, mul_add(t201, t1395, t1801));
+        let t1803 = mul_add(t213, t1446, mul_add(t219, t1433, t1802));
+        let t1804 = mul_add(t231, t1484, mul_add(t237, t1471, t1803));
+        let t1805 = mul_sub(t30, t1662, neg_mul_add(t28, t1674, t1686));
+        let t1806 = mul_sub(t782, t1072, mul_add(t835, t1070, t1805));
+        let t1807 = mul_sub(t141, t1295, mul_sub(t147, t1286, t1806));
+        let t1808 = mul_sub(t159, t1333, mul_sub(t165, t1324, t1807));
+        let t1809 = mul_sub(t177, t1371, mul_sub(t183, t1362, t1808));
+        let t1810 = mul_sub(t195, t1409, mul_sub(t201, t1400, t1809));
+        let t1811 = mul_sub(t213, t1447, mul_sub(t219, t1438, t1810));
+        let t1812 = mul_sub(t231, t1485, mul_sub(t237, t1476, t1811));
+        coriolis_matrix_b[4][4] = t1812;
+        let t1813 = mul_sub(t28, t1668, mul_add(t29, t1662, t1692));
+        let t1814 = mul_add(t813, t1070, mul_add(t782, t1071, t1813));
+        let t1815 = mul_sub(t141, t1296, mul_add(t147, t1289, t1814));
+        let t1816 = mul_sub(t159, t1334, mul_sub(t165, t1327, t1815));
+        let t1817 = mul_sub(t177, t1372, mul_sub(t183, t1365, t1816));
+        let t1818 = mul_sub(t195, t1410, mul_sub(t201, t1403, t1817));
+        let t1819 = mul_sub(t213, t1448, mul_sub(t219, t1441, t1818));
+        let t1820 = mul_sub(t231, t1486, mul_sub(t237, t1479, t1819));
+        coriolis_matrix_b[4][5] = t1820;
+        let t1821 = mul_add(t29, t1710, mul_add(t30, t1704, t1716));
+        let t1822 = mul_sub(t842, t1071, mul_sub(t820, t1072, t1821));
+        let t1823 = mul_sub(t144, t1281, mul_sub(t141, t1290, t1822));
+        let t1824 = mul_sub(t162, t1319, mul_sub(t159, t1328, t1823));
+        let t1825 = mul_sub(t180, t1357, mul_sub(t177, t1366, t1824));
+        let t1826 = mul_sub(t198, t1395, mul_sub(t195, t1404, t1825));
+        let t1827 = mul_sub(t216, t1433, mul_sub(t213, t1442, t1826));
+        let t1828 = mul_sub(t234, t1471, mul_sub(t231, t1480, t1827));
+        coriolis_matrix_b[5][3] = t1828;
+        let t1829 = mul_sub(t30, t1698, mul_add(t28, t1710, t1722));
+        let t1830 = mul_sub(t789, t1072, mul_sub(t842, t1070, t1829));
+        let t1831 = mul_sub(t144, t1286, mul_sub(t141, t1291, t1830));
+        let t1832 = mul_sub(t162, t1324, mul_sub(t159, t1329, t1831));
+        let t1833 = mul_sub(t180, t1362, mul_sub(t177, t1367, t1832));
+        let t1834 = mul_sub(t198, t1400, mul_sub(t195, t1405, t1833));
+        let t1835 = mul_sub(t216, t1438, mul_sub(t213, t1443, t1834));
+        let t1836 = mul_sub(t234, t1476, mul_sub(t231, t1481, t1835));
+        coriolis_matrix_b[5][4] = t1836;
+        let t1837 = mul_sub(t28, t1704, neg_mul_add(t29, t1698, t1728));
+        let t1838 = mul_sub(t820, t1070, mul_add(t789, t1071, t1837));
+        let t1839 = mul_sub(t144, t1289, mul_sub(t141, t1293, t1838));
+        let t1840 = mul_sub(t162, t1327, mul_sub(t159, t1331, t1839));
+        let t1841 = mul_sub(t180, t1365, mul_sub(t177, t1369, t1840));
+        let t1842 = mul_sub(t198, t1403, mul_sub(t195, t1407, t1841));
+        let t1843 = mul_sub(t216, t1441, mul_sub(t213, t1445, t1842));
+        let t1844 = mul_sub(t234, t1479, mul_sub(t231, t1483, t1843));
+        coriolis_matrix_b[5][5] = t1844;
+        coriolis_matrix_b[0][3] = -t1744;
+        coriolis_matrix_b[0][4] = -t1747;
+        coriolis_matrix_b[0][5] = -t1750;
+        coriolis_matrix_b[1][3] = -t1753;
+        coriolis_matrix_b[1][5] = -t1761;
+        coriolis_matrix_b[2][3] = -t1764;
+        coriolis_matrix_b[2][4] = -t1767;
+        coriolis_matrix_b[4][3] = -t1804;
+        // Coriolis matrix C_p, natural factorisation
+        let t1845 = mul_sub(platform_velocity[3], t883, platform_velocity[4] * t885);
+        let t1846 = t1518 + t1845;
+        coriolis_matrix_p[0][4] = t1846;
+        let t1847 = mul_sub(platform_velocity[5], t885, platform_velocity[3] * t881);
+        let t1848 = t1532 - t1847;
+        coriolis_matrix_p[0][5] = t1848;
+        let t1849 = t1549 - t1845;
+        coriolis_matrix_p[1][3] = t1849;
+        let t1850 = mul_sub(platform_velocity[4], t881, platform_velocity[5] * t883);
+        let t1851 = t1576 + t1850;
+        coriolis_matrix_p[1][5] = t1851;
+        let t1852 = t1593 + t1847;
+        coriolis_matrix_p[2][3] = t1852;
+        let t1853 = t1607 - t1850;
+        coriolis_matrix_p[2][4] = t1853;
+        let t1854 = mul_add(platform_velocity[5], t895, t1644);
+        let t1855 = mul_sub(platform_velocity[4], t897, t1854);
+        let t1856 = mul_sub(c(0.5), t339, t905);
+        let t1857 = neg_mul_add(platform_velocity[5], t1856, t1650);
+        let t1858 = mul_sub(platform_velocity[4], t907, t1857);
+        let t1859 = mul_sub(c(0.5), t339, t915);
+        let t1860 = neg_mul_add(platform_velocity[5], t907, t1656);
+        let t1861 = mul_sub(platform_velocity[4], t1859, t1860);
+        coriolis_matrix_p[3][5] = t1861;
+        let t1862 = mul_sub(c(0.5), t339, t893);
+        let t1863 = mul_add(platform_velocity[5], t1862, t1680);
+        let t1864 = mul_add(platform_velocity[3], t897, t1863);
+        coriolis_matrix_p[4][3] = t1864;
+        let t1865 = neg_mul_add(platform_velocity[5], t895, t1686);
+        let t1866 = mul_add(platform_velocity[3], t907, t1865);
+        coriolis_matrix_p[4][4] = t1866;
+        let t1867 = neg_mul_add(platform_velocity[5], t897, t1692);
+        let t1868 = mul_sub(platform_velocity[3], t1859, t1867);
+        let t1869 = neg_mul_add(platform_velocity[4], t1862, t1716);
+        let t1870 = mul_sub(platform_velocity[3], t895, t1869);
+        let t1871 = neg_mul_add(platform_velocity[4], t895, t1722);
+        let t1872 = mul_sub(platform_velocity[3], t1856, t1871);
+        coriolis_matrix_p[5][4] = t1872;
+        let t1873 = mul_add(platform_velocity[4], t897, t1728);
+        let t1874 = mul_sub(platform_velocity[3], t907, t1873);
+        coriolis_matrix_p[3][3] = -t1855;
+        coriolis_matrix_p[3][4] = -t1858;
+        coriolis_matrix_p[4][5] = -t1868;
+        coriolis_matrix_p[5][3] = -t1870;
+        coriolis_matrix_p[5][5] = -t1874;
         // linearised stiffness K_p = J_dp^T k_e J_dp
         let t1875 = parameters.axial_stiffness[0] * t152;
         let t1876 = parameters.axial_stiffness[1] * t170;
@@ -23333,8 +23147,8 @@ pub fn equation_of_motion<T: Scalar>(
         let t2209 = mul_sub(platform_velocity[1], t1488, t2208);
         let t2210 = mul_add(platform_velocity[2], t1489, t2209);
         let t2211 = mul_sub(platform_velocity[3], t1504, t2210);
-        let t2212 = mul_add(platform_velocity[4], t1741, t2211);
-        let t2213 = mul_add(platform_velocity[5], t1743, t2212);
+        let t2212 = mul_add(platform_velocity[4], t1846, t2211);
+        let t2213 = mul_add(platform_velocity[5], t1848, t2212);
         let t2214 = mul_sub(
             base_velocity[1],
             t1488,
@@ -23342,20 +23156,20 @@ pub fn equation_of_motion<T: Scalar>(
         );
         let t2215 = mul_add(
             base_velocity[3],
-            t1774,
+            t1744,
             mul_add(base_velocity[2], t1489, t2214),
         );
         bias[0] = mul_add(
             base_velocity[5],
-            t1780,
-            mul_add(base_velocity[4], t1777, t2215),
+            t1750,
+            mul_add(base_velocity[4], t1747, t2215),
         );
         let t2216 = mul_sub(platform_velocity[0], t1533, t2156 - (t2102 - t2126));
         let t2217 = mul_sub(platform_velocity[1], t1534, t2216);
         let t2218 = mul_sub(platform_velocity[2], t1535, t2217);
-        let t2219 = mul_sub(platform_velocity[3], t1744, t2218);
+        let t2219 = mul_sub(platform_velocity[3], t1849, t2218);
         let t2220 = mul_sub(platform_velocity[4], t1562, t2219);
-        let t2221 = mul_sub(platform_velocity[5], t1746, t2220);
+        let t2221 = mul_sub(platform_velocity[5], t1851, t2220);
         let t2222 = mul_sub(
             base_velocity[1],
             t1534,
@@ -23363,19 +23177,19 @@ pub fn equation_of_motion<T: Scalar>(
         );
         let t2223 = mul_add(
             base_velocity[3],
-            t1783,
+            t1753,
             mul_sub(base_velocity[2], t1535, t2222),
         );
         bias[1] = mul_sub(
             base_velocity[5],
-            t1791,
-            mul_sub(base_velocity[4], t1788, t2223),
+            t1761,
+            mul_sub(base_velocity[4], t1758, t2223),
         );
         let t2224 = mul_sub(platform_velocity[0], t1577, t2165 - (t2105 - t2129));
         let t2225 = mul_add(platform_velocity[1], t1578, t2224);
         let t2226 = mul_sub(platform_velocity[2], t1579, t2225);
-        let t2227 = mul_add(platform_velocity[3], t1747, t2226);
-        let t2228 = mul_add(platform_velocity[4], t1748, t2227);
+        let t2227 = mul_add(platform_velocity[3], t1852, t2226);
+        let t2228 = mul_add(platform_velocity[4], t1853, t2227);
         let t2229 = mul_sub(platform_velocity[5], t1620, t2228);
         let t2230 = mul_add(
             base_velocity[1],
@@ -23384,32 +23198,32 @@ pub fn equation_of_motion<T: Scalar>(
         );
         let t2231 = mul_sub(
             base_velocity[3],
-            t1794,
+            t1764,
             mul_sub(base_velocity[2], t1579, t2230),
         );
-        let t2232 = mul_add(base_velocity[4], t1797, t2231);
-        bias[2] = neg_mul_add(base_velocity[5], t1802, t2232);
+        let t2232 = mul_add(base_velocity[4], t1767, t2231);
+        bias[2] = neg_mul_add(base_velocity[5], t1772, t2232);
         let t2233 = mul_sub(platform_velocity[0], t1626, t2183 - (t2108 - t2132));
         let t2234 = mul_add(platform_velocity[1], t1632, t2233);
         let t2235 = mul_sub(platform_velocity[2], t1638, t2234);
-        let t2236 = mul_sub(platform_velocity[3], t1750, t2235);
-        let t2237 = mul_add(platform_velocity[4], t1753, t2236);
-        let t2238 = mul_sub(platform_velocity[5], t1756, t2237);
+        let t2236 = mul_sub(platform_velocity[3], t1855, t2235);
+        let t2237 = mul_add(platform_velocity[4], t1858, t2236);
+        let t2238 = mul_sub(platform_velocity[5], t1861, t2237);
         let t2239 = mul_add(
             base_velocity[1],
             t1632,
             mul_add(base_velocity[0], t1626, t2238),
         );
         let t2240 = neg_mul_add(base_velocity[2], t1638, t2239);
-        let t2241 = neg_mul_add(base_velocity[3], t1810, t2240);
-        let t2242 = neg_mul_add(base_velocity[4], t1818, t2241);
-        bias[3] = neg_mul_add(base_velocity[5], t1826, t2242);
+        let t2241 = neg_mul_add(base_velocity[3], t1780, t2240);
+        let t2242 = neg_mul_add(base_velocity[4], t1788, t2241);
+        bias[3] = neg_mul_add(base_velocity[5], t1796, t2242);
         let t2243 = mul_add(platform_velocity[0], t1662, t2197 - (t2111 - t2135));
         let t2244 = mul_add(platform_velocity[1], t1668, t2243);
         let t2245 = mul_sub(platform_velocity[2], t1674, t2244);
-        let t2246 = mul_sub(platform_velocity[3], t1759, t2245);
-        let t2247 = mul_add(platform_velocity[4], t1761, t2246);
-        let t2248 = mul_sub(platform_velocity[5], t1763, t2247);
+        let t2246 = mul_sub(platform_velocity[3], t1864, t2245);
+        let t2247 = mul_add(platform_velocity[4], t1866, t2246);
+        let t2248 = mul_sub(platform_velocity[5], t1868, t2247);
         let t2249 = mul_add(
             base_velocity[1],
             t1668,
@@ -23417,26 +23231,26 @@ pub fn equation_of_motion<T: Scalar>(
         );
         let t2250 = mul_add(
             base_velocity[3],
-            t1834,
+            t1804,
             mul_sub(base_velocity[2], t1674, t2249),
         );
-        let t2251 = neg_mul_add(base_velocity[4], t1842, t2250);
-        bias[4] = neg_mul_add(base_velocity[5], t1850, t2251);
+        let t2251 = neg_mul_add(base_velocity[4], t1812, t2250);
+        bias[4] = neg_mul_add(base_velocity[5], t1820, t2251);
         let t2252 = mul_sub(platform_velocity[0], t1698, t2207 - (t2114 - t2138));
         let t2253 = mul_sub(platform_velocity[1], t1704, t2252);
         let t2254 = mul_sub(platform_velocity[2], t1710, t2253);
-        let t2255 = mul_add(platform_velocity[3], t1765, t2254);
-        let t2256 = mul_sub(platform_velocity[4], t1767, t2255);
-        let t2257 = mul_sub(platform_velocity[5], t1769, t2256);
+        let t2255 = mul_add(platform_velocity[3], t1870, t2254);
+        let t2256 = mul_sub(platform_velocity[4], t1872, t2255);
+        let t2257 = mul_sub(platform_velocity[5], t1874, t2256);
         let t2258 = mul_sub(
             base_velocity[1],
             t1704,
             mul_sub(base_velocity[0], t1698, t2257),
         );
         let t2259 = mul_sub(base_velocity[2], t1710, t2258);
-        let t2260 = neg_mul_add(base_velocity[3], t1858, t2259);
-        let t2261 = neg_mul_add(base_velocity[4], t1866, t2260);
-        bias[5] = neg_mul_add(base_velocity[5], t1874, t2261);
+        let t2260 = neg_mul_add(base_velocity[3], t1828, t2259);
+        let t2261 = neg_mul_add(base_velocity[4], t1836, t2260);
+        bias[5] = neg_mul_add(base_velocity[5], t1844, t2261);
     }
 }
 
