@@ -38,7 +38,7 @@ pub struct Control<T = f64> {
 
 impl<M: kernels::RodAlignment<T>, T: Real> Hexapod<M, T> {
     /// Lengths, rates, J_dp, M_p, bias and the forces F for `platform_acceleration`, in one call that costs
-    /// about 1.7 times inverse dynamics alone (18), (30), (32), (49). Depends on poses, velocities and
+    /// about 1.6 times inverse dynamics alone (18), (30), (32), (49). Depends on poses, velocities and
     /// accelerations of both bodies and on the external wrench.
     ///
     /// # Errors
