@@ -100,6 +100,12 @@ impl<M: RodAlignment<T>, T: Real> Hexapod<M, T> {
         base: &PoseArrays<T>,
         platform: &PoseArrays<T>,
     ) -> Result<[T; 6], Error> {
+        let rod_alignment = self.unjudged_alignment(base, platform);
+        check::mechanism(&rod_alignment, &base.position, &platform.position)?;
+        Ok(rod_alignment)
+    }
+
+    fn unjudged_alignment(&self, base: &PoseArrays<T>, platform: &PoseArrays<T>) -> [T; 6] {
         let mut rod_alignment = [T::zero(); 6];
         self.model.rod_alignment(
             &base.position,
@@ -108,8 +114,7 @@ impl<M: RodAlignment<T>, T: Real> Hexapod<M, T> {
             &platform.rotation,
             &mut rod_alignment,
         );
-        check::mechanism(&rod_alignment, &base.position, &platform.position)?;
-        Ok(rod_alignment)
+        rod_alignment
     }
 
     /// J_dp can be inverted at these poses.
@@ -141,7 +146,7 @@ impl<M: RodAlignment<T>, T: Real> Hexapod<M, T> {
         platform: &PlatformState<T>,
     ) -> Result<(PoseArrays<T>, PoseArrays<T>), Error> {
         let (base, platform) = checked_poses(base, platform)?;
-        check::reach(&self.alignment_at(&base, &platform)?)?;
+        check::in_reach(&self.unjudged_alignment(&base, &platform), &base.position, &platform.position)?;
         Ok((base, platform))
     }
 
@@ -182,10 +187,13 @@ pub(crate) fn checked_pose<T: Real>(
 ) -> Result<PoseArrays<T>, Error> {
     let arrays = PoseArrays {
         position: check::finite(position, pose.position_m.into())?,
-        rotation: check::finite(rotation, rotation_rows(&pose.rotation))?,
+        rotation: rotation_rows(&pose.rotation),
     };
     match check::rotation_defect(pose.rotation.matrix()) {
         None => Ok(arrays),
-        Some(defect) => Err(Error::NotARotation { input: rotation, defect }),
+        Some(defect) => {
+            check::finite(rotation, arrays.rotation)?;
+            Err(Error::NotARotation { input: rotation, defect })
+        }
     }
 }

@@ -96,6 +96,7 @@ pub use nalgebra;
 
 mod arrays;
 mod base_reaction;
+mod blocks;
 mod check;
 mod control;
 mod energy;

@@ -55,9 +55,10 @@ enum Task {
     ///
     /// Pinocchio and MuJoCo are installed from `tests/engines/requirements.lock` into an environment of their own.
     Vectors(vectors::Options),
-    /// Show that no call of the runtime crate can panic, and the code and stack that each takes
+    /// Show that no call of the runtime crate can panic, the code and stack that each takes, and that debug and release agree
     ///
-    /// Needs binutils (nm, ar, objdump). The frame is that of the function alone: the deepest call adds those it calls.
+    /// Needs binutils (ar, objdump) and an x86-64. Stack and instructions are those of the worst way through a call and all that it calls, whatever
+    /// the numbers: loops over legs six times, steps of forward kinematics as often as they are allowed.
     Contract,
     /// Build the C library without operating system, for this machine, a Cortex-M and WebAssembly, and look into it
     ///

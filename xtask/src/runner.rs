@@ -7,6 +7,7 @@ use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
 use crate::bare;
+use crate::contract;
 use crate::steps::{Action, Step};
 use crate::workspace;
 
@@ -101,6 +102,7 @@ fn perform(action: &Action) -> Result<String, Failure> {
             }
         }
         Action::Bare => bare::if_ready(),
+        Action::Contract => contract::if_possible(),
         Action::Python { program, arguments } => {
             let environment = workspace::environment(program.environment, program.lock_file)?;
             let mut python = environment.command();
@@ -199,6 +201,7 @@ pub fn command_line(action: &Action) -> String {
             format!("RUSTDOCFLAGS='--deny warnings' cargo {}", arguments.join(" "))
         }
         Action::Bare => "cargo xtask bare".into(),
+        Action::Contract => "cargo xtask contract".into(),
         Action::Python { program, arguments } => {
             let (folder, environment) = (program.folder, program.environment);
             format!("(in {folder}/, Python of target/python/{environment}-*) python {}", arguments.join(" "))

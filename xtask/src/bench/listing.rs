@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 use std::time::Instant;
 
-use crate::contract::functions;
+use crate::contract::sizes;
 
 /// The functions that peers have too.
 const FUNCTIONS: [&str; 3] = ["inverse_dynamics", "forward_dynamics", "matrices"];
@@ -14,18 +14,18 @@ const FUNCTIONS: [&str; 3] = ["inverse_dynamics", "forward_dynamics", "matrices"
 pub fn text(release: &Path, model: &Path, peers: &Path) -> Option<String> {
     let program = newest(&release.join("deps"), "dynamics-")?;
     let mut text = format!("{:<58} {:>10} {:>12}\n", "function", "code bytes", "frame bytes");
-    let own = functions(&program).ok()?;
-    let rows = own.iter().filter(|(name, _)| {
+    let own = sizes(&program).ok()?;
+    let rows = own.iter().filter(|(name, ..)| {
         let of = |function: &str| {
             name.ends_with(&format!("::{function}"))
                 && (name.contains("generated") || name.contains("reference"))
         };
         FUNCTIONS.iter().any(|function| of(function))
     });
-    for (name, (size, frame)) in rows {
+    for (name, size, frame) in rows {
         text += &format!("{name:<58} {size:>10} {frame:>12}\n");
     }
-    for (name, (size, frame)) in functions(&peers.join("libpeers.a")).unwrap_or_default() {
+    for (name, size, frame) in sizes(&peers.join("libpeers.a")).unwrap_or_default() {
         if name.starts_with("casadi_c") && (name.ends_with("_strict") || name.ends_with("_fast")) {
             text += &format!("{name:<58} {size:>10} {frame:>12}\n");
         }
