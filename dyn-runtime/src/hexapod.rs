@@ -100,16 +100,7 @@ impl<M: RodAlignment<T>, T: Real> Hexapod<M, T> {
         base: &PoseArrays<T>,
         platform: &PoseArrays<T>,
     ) -> Result<[T; 6], Error> {
-        let mut rod_alignment = [T::zero(); 6];
-        self.model.rod_alignment(
-            &base.position,
-            &base.rotation,
-            &platform.position,
-            &platform.rotation,
-            &mut rod_alignment,
-        );
-        check::mechanism(&rod_alignment, &base.position, &platform.position)?;
-        Ok(rod_alignment)
+        alignment_of(&self.model, base, platform)
     }
 
     /// J_dp can be inverted at these poses.
@@ -156,6 +147,24 @@ impl<M: RodAlignment<T>, T: Real> Hexapod<M, T> {
         let (base, platform) = self.poses(base, platform)?;
         Ok((base.moving(base_velocity), platform.moving(platform_velocity)))
     }
+}
+
+/// [`Hexapod::alignment_at`] of a model.
+pub(crate) fn alignment_of<M: RodAlignment<T>, T: Real>(
+    model: &M,
+    base: &PoseArrays<T>,
+    platform: &PoseArrays<T>,
+) -> Result<[T; 6], Error> {
+    let mut rod_alignment = [T::zero(); 6];
+    model.rod_alignment(
+        &base.position,
+        &base.rotation,
+        &platform.position,
+        &platform.rotation,
+        &mut rod_alignment,
+    );
+    check::mechanism(&rod_alignment, &base.position, &platform.position)?;
+    Ok(rod_alignment)
 }
 
 impl<T> PoseArrays<T> {

@@ -86,7 +86,8 @@
 //! Off by default. With it, square roots come from `std` instead of libm; results keep their bits.
 
 #![no_std]
-#![forbid(unsafe_code)]
+// One module is excepted, with its reasons: `lanes`.
+#![deny(unsafe_code)]
 
 #[cfg(feature = "std")]
 extern crate std;
@@ -115,8 +116,10 @@ mod real;
 mod state;
 
 pub mod angles;
+pub mod batch;
 pub mod current;
 pub mod float;
+pub mod lanes;
 pub mod parameter;
 pub mod solve;
 pub mod ups;

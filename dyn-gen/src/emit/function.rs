@@ -34,6 +34,7 @@ pub fn function(graph: &Graph, with_parameters: bool) -> Result<String, EmitErro
         quote! {
             #documentation
             #allow
+            #[inline(always)]
             pub fn #name<#scalar: Scalar>(#parameters #(#arguments),*) {
                 #constant
             }

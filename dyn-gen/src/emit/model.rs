@@ -8,9 +8,9 @@ use quote::{format_ident, quote};
 use super::function::allow;
 use super::names::{PARAMETERS, SCALAR, check_type_names, identifier, type_identifier};
 use super::print::source;
-use super::setters;
 use super::signature::{Signature, array_type, documentation, symbol_line};
 use super::{EmitError, Header, RuntimePath};
+use super::{generic, setters};
 use crate::graph::Symbol;
 
 /// A type of number that a model computes with.
@@ -126,6 +126,7 @@ fn items(model: &Model) -> Result<Vec<TokenStream>, EmitError> {
             items.push(implementation(model, signature, scalar, &inline)?);
         }
     }
+    items.extend(generic::items(model)?);
     Ok(items)
 }
 
