@@ -5,19 +5,21 @@
 //! ```
 
 use std::hint::black_box;
-use std::time::Instant;
+use std::time;
 
-use dyn_runtime::batch::{BaseColumns, Batch, Column, ColumnMut, MatricesMut, PlatformColumns, States, Status};
+use dyn_runtime::batch::{
+    BaseColumns, Batch, Column, ColumnMut, Instant, MatricesMut, PlatformColumns, Simulated, States, Status,
+};
 use dyn_runtime::kernels::{RodAlignment, generic};
 use dyn_runtime::lanes::{InLanes, Instructions, Number};
 use dyn_runtime::models::{Parameters, Uhp, Uhp2016};
 use dyn_runtime::nalgebra::Vector3;
-use dyn_runtime::Pose;
+use dyn_runtime::{BaseMotion, Pose};
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64;
 
 /// No power of two: components of such a length would lie in the same lines of a cache.
-const STATES: usize = 1000;
+const STATES: usize = 1080;
 const BATCHES: usize = 100;
 
 /// The inputs of many states as arrays of structures, and the same by components.
@@ -49,7 +51,8 @@ impl<S: Number> Inputs<S> {
         let [(base_positions, base_rotations), (platform_positions, platform_rotations)] = bodies;
         let sixes = [1.0, 5.0, 1.0, 5.0, 10.0]
             .map(|size| (0..STATES).map(|_| std::array::from_fn(|_| numbers(size))).collect::<Vec<_>>());
-        let (positions, rotations) = ([base_positions, platform_positions], [base_rotations, platform_rotations]);
+        let (positions, rotations) =
+            ([base_positions, platform_positions], [base_rotations, platform_rotations]);
         Self {
             positions_by_component: positions.each_ref().map(|states: &Vec<_>| by_component(states)),
             rotations_by_component: rotations.each_ref().map(|states: &Vec<_>| by_component(states)),
@@ -96,7 +99,7 @@ impl<S: Number> Inputs<S> {
 fn time(mut run: impl FnMut()) -> f64 {
     let least = (0..BATCHES)
         .map(|_| {
-            let start = Instant::now();
+            let start = time::Instant::now();
             run();
             start.elapsed().as_secs_f64()
         })
@@ -104,34 +107,53 @@ fn time(mut run: impl FnMut()) -> f64 {
     least * 1e9 / STATES as f64
 }
 
-fn measure<S: Number, M>(model: &M, name: &str, instructions: Instructions)
+/// Inverse and forward dynamics, by component and by state.
+fn dynamics<S: Number, M>(model: &M, name: &str, instructions: Instructions)
 where
     M: InLanes<S>
         + RodAlignment<S>
         + generic::RodAlignment
         + generic::InverseDynamics
         + generic::ForwardDynamics
-        + generic::Matrices
         + Sync,
 {
     let inputs = Inputs::<S>::new();
     let mut six = vec![[S::zero(); 6]; STATES];
-    let mut matrices: [Vec<[S; 36]>; 6] = std::array::from_fn(|_| vec![[S::zero(); 36]; STATES]);
     let mut status: Vec<Status> = vec![Ok(()); STATES];
     let batch = Batch::new(model).with_instructions(instructions);
-    for by_component in [true, false] {
+    for (layout, by_component) in [("by component", true), ("by state", false)] {
         let states = inputs.states(by_component);
         let acceleration = inputs.six(3, by_component);
         let wrench = inputs.six(4, by_component);
         let inverse = time(|| {
             let out = output(&mut six, by_component);
-            black_box(&batch).inverse_dynamics(&states, acceleration, wrench, out, &mut status).expect("lengths");
+            black_box(&batch)
+                .inverse_dynamics(&states, acceleration, wrench, out, &mut status)
+                .expect("lengths");
         });
         let forward = time(|| {
             let out = output(&mut six, by_component);
-            black_box(&batch).forward_dynamics(&states, acceleration, wrench, out, &mut status).expect("lengths");
+            black_box(&batch)
+                .forward_dynamics(&states, acceleration, wrench, out, &mut status)
+                .expect("lengths");
         });
-        let matrices = time(|| {
+        assert!(status.iter().all(Result::is_ok));
+        println!(
+            "{:8} {name:16} {layout:12} inverse {inverse:6.1}  forward {forward:6.1}",
+            instructions.name()
+        );
+    }
+}
+
+/// The matrices of the baked model.
+fn matrices(instructions: Instructions) {
+    let inputs = Inputs::<f64>::new();
+    let mut matrices: [Vec<[f64; 36]>; 6] = std::array::from_fn(|_| vec![[0.0; 36]; STATES]);
+    let mut status: Vec<Status> = vec![Ok(()); STATES];
+    let batch = Batch::new(&Uhp2016).with_instructions(instructions);
+    for (layout, by_component) in [("by component", true), ("by state", false)] {
+        let states = inputs.states(by_component);
+        let time = time(|| {
             let [a, b, c, d, e, f] = matrices.each_mut().map(|matrices| output(matrices, by_component));
             let out = MatricesMut {
                 mass_matrix_p: a,
@@ -143,13 +165,51 @@ where
             };
             black_box(&batch).matrices(&states, out, &mut status).expect("lengths");
         });
-        assert!(status.iter().all(Result::is_ok));
-        let layout = if by_component { "by component" } else { "by state" };
-        println!(
-            "{:9} {name:17} {layout:13} inverse {inverse:6.1}  forward {forward:6.1}  matrices {matrices:6.1}",
-            instructions.name()
-        );
+        println!("{:8} baked, f64       {layout:12} matrices {time:6.1}", instructions.name());
     }
+}
+
+/// A step of a simulation in which the base and the forces are the same for all platforms.
+fn steps<M>(model: &M, name: &str, instructions: Instructions)
+where
+    M: InLanes<f64> + RodAlignment + generic::RodAlignment + generic::ForwardDynamics + Sync,
+{
+    const STEPS: usize = 10;
+    let inputs = Inputs::<f64>::new();
+    let instant = Instant {
+        base: BaseColumns::same(&BaseMotion::at_rest(Pose::identity())),
+        actuator_force: Column::same([30.5; 6]),
+        external_wrench: Column::same([0.0; 6]),
+    };
+    let instants = [instant; 2 * STEPS + 1];
+    let mut status: Vec<Status> = vec![Ok(()); STATES];
+    let mut made = vec![0; STATES];
+    let mut times = Vec::new();
+    let batch = Batch::new(model).with_instructions(instructions);
+    for batch in [batch, batch.in_parallel()] {
+        times.push(time(|| {
+            let mut position = inputs.positions[1].clone();
+            let mut rotation = inputs.rotations[1].clone();
+            let mut velocity = inputs.sixes[2].clone();
+            let simulated = Simulated {
+                position: ColumnMut::states(&mut position),
+                rotation: ColumnMut::states(&mut rotation),
+                velocity: ColumnMut::states(&mut velocity),
+                rms_acceleration: None,
+                peak_acceleration: None,
+                steps: &mut made,
+            };
+            black_box(&batch).simulate(1e-4, &instants, simulated, &mut status).expect("lengths");
+        }));
+    }
+    assert!(made.iter().all(|made| *made == STEPS), "{:?}", status.iter().find(|status| status.is_err()));
+    let [one, all] = times[..] else { unreachable!("two batches") };
+    println!(
+        "{:8} {name:16} step {:6.1}  in all threads {:6.1}",
+        instructions.name(),
+        one / STEPS as f64,
+        all / STEPS as f64
+    );
 }
 
 fn output<S: Number, const N: usize>(states: &mut [[S; N]], by_component: bool) -> ColumnMut<'_, S, N> {
@@ -204,8 +264,10 @@ fn numbers_of_a_platform() -> Vec<(&'static str, Vec<f64>)> {
 fn main() {
     println!("nanoseconds per state, least of {BATCHES} batches of {STATES} states");
     for instructions in Instructions::available() {
-        measure::<f64, _>(&Uhp2016, "baked, f64", instructions);
-        measure::<f32, _>(&Uhp2016, "baked, f32", instructions);
-        measure::<f64, _>(&Uhp { parameters: parameters() }, "at run time, f64", instructions);
+        dynamics::<f64, _>(&Uhp2016, "baked, f64", instructions);
+        matrices(instructions);
+        dynamics::<f32, _>(&Uhp2016, "baked, f32", instructions);
+        steps(&Uhp2016, "baked, f64", instructions);
+        dynamics::<f64, _>(&Uhp { parameters: parameters() }, "at run time, f64", instructions);
     }
 }

@@ -3,7 +3,7 @@
 use core::array;
 
 use super::LengthError;
-use crate::lanes::{Lanes, Number};
+use crate::lanes::{Components, ComponentsMut, Lanes, Number};
 
 /// One input of every state: N numbers per state. 3x3 rotations are nine numbers, row by row.
 #[derive(Clone, Copy, Debug)]
@@ -13,7 +13,7 @@ pub struct Column<'a, S, const N: usize>(Layout<'a, S, N>);
 enum Layout<'a, S, const N: usize> {
     Same([S; N]),
     States(&'a [[S; N]]),
-    Components([&'a [S]; N]),
+    Components(Components<'a, S, N>),
 }
 
 impl<'a, S: Number, const N: usize> Column<'a, S, N> {
@@ -29,17 +29,17 @@ impl<'a, S: Number, const N: usize> Column<'a, S, N> {
 
     /// Structure of arrays: for each number a slice with that of every state.
     pub fn components(components: [&'a [S]; N]) -> Self {
-        Self(Layout::Components(components))
+        Self(Layout::Components(Components::new(components)))
     }
 
     /// Structure of arrays in one slice: the first number of every state, then the second of every state, ... A number of
     /// elements that is no multiple of N fits no batch.
     pub fn component_major(numbers: &'a [S]) -> Self {
         let states = numbers.len().div_ceil(N);
-        Self(Layout::Components(array::from_fn(|component| {
+        Self::components(array::from_fn(|component| {
             let rest = numbers.get(component * states..).unwrap_or_default();
             &rest[..states.min(rest.len())]
-        })))
+        }))
     }
 
     /// Whether it is one for `states` states; `argument` is its name.
@@ -47,7 +47,7 @@ impl<'a, S: Number, const N: usize> Column<'a, S, N> {
         match &self.0 {
             Layout::Same(_) => Ok(()),
             Layout::States(numbers) => check(argument, states, [numbers.len()]),
-            Layout::Components(numbers) => check(argument, states, numbers.map(<[S]>::len)),
+            Layout::Components(numbers) => check(argument, states, numbers.slices().map(<[S]>::len)),
         }
     }
 
@@ -56,7 +56,7 @@ impl<'a, S: Number, const N: usize> Column<'a, S, N> {
     pub(super) fn load<T: Lanes<Number = S>>(&self, first: usize) -> [T; N] {
         match &self.0 {
             Layout::Same(numbers) => numbers.map(T::splat),
-            Layout::Components(numbers) => numbers.map(|numbers| T::load(&numbers[first..])),
+            Layout::Components(numbers) => numbers.load(first),
             Layout::States(states) => match states.get(first..first + T::COUNT) {
                 Some(states) => array::from_fn(|k| T::from_fn(|lane| states[lane][k])),
                 None => {
@@ -71,23 +71,7 @@ impl<'a, S: Number, const N: usize> Column<'a, S, N> {
         match &self.0 {
             Layout::Same(numbers) => *numbers,
             Layout::States(states) => states[state],
-            Layout::Components(numbers) => numbers.map(|numbers| numbers[state]),
-        }
-    }
-
-    /// Of the states before `state`, and of the others.
-    #[cfg(feature = "rayon")]
-    pub(super) fn split(self, state: usize) -> (Self, Self) {
-        match self.0 {
-            Layout::Same(_) => (self, self),
-            Layout::States(states) => {
-                let (before, after) = states.split_at(state);
-                (Self::states(before), Self::states(after))
-            }
-            Layout::Components(numbers) => (
-                Self::components(numbers.map(|numbers| &numbers[..state])),
-                Self::components(numbers.map(|numbers| &numbers[state..])),
-            ),
+            Layout::Components(numbers) => numbers.slices().map(|numbers| numbers[state]),
         }
     }
 }
@@ -99,7 +83,7 @@ pub struct ColumnMut<'a, S, const N: usize>(LayoutMut<'a, S, N>);
 #[derive(Debug)]
 enum LayoutMut<'a, S, const N: usize> {
     States(&'a mut [[S; N]]),
-    Components([&'a mut [S]; N]),
+    Components(ComponentsMut<'a, S, N>),
 }
 
 impl<'a, S: Number, const N: usize> ColumnMut<'a, S, N> {
@@ -110,27 +94,25 @@ impl<'a, S: Number, const N: usize> ColumnMut<'a, S, N> {
 
     /// Structure of arrays, see [`Column::components`].
     pub fn components(components: [&'a mut [S]; N]) -> Self {
-        Self(LayoutMut::Components(components))
+        Self(LayoutMut::Components(ComponentsMut::new(components)))
     }
 
     /// Structure of arrays in one slice, see [`Column::component_major`].
     pub fn component_major(numbers: &'a mut [S]) -> Self {
         let states = numbers.len().div_ceil(N);
         let mut rest = numbers;
-        Self(LayoutMut::Components(array::from_fn(|_| {
+        Self::components(array::from_fn(|_| {
             let (component, after) =
                 core::mem::take(&mut rest).split_at_mut_checked(states).unwrap_or_default();
             rest = after;
             component
-        })))
+        }))
     }
 
     pub(super) fn check(&self, argument: &'static str, states: usize) -> Result<(), LengthError> {
         match &self.0 {
             LayoutMut::States(numbers) => check(argument, states, [numbers.len()]),
-            LayoutMut::Components(numbers) => {
-                check(argument, states, numbers.each_ref().map(|numbers| numbers.len()))
-            }
+            LayoutMut::Components(numbers) => check(argument, states, numbers.slices().map(<[S]>::len)),
         }
     }
 
@@ -139,7 +121,15 @@ impl<'a, S: Number, const N: usize> ColumnMut<'a, S, N> {
     pub(super) fn load<T: Lanes<Number = S>>(&self, first: usize) -> [T; N] {
         match &self.0 {
             LayoutMut::States(states) => Column::states(states).load(first),
-            LayoutMut::Components(numbers) => array::from_fn(|k| T::load(&numbers[k][first..])),
+            LayoutMut::Components(numbers) => numbers.load(first),
+        }
+    }
+
+    /// As [`Column::at`].
+    pub(super) fn at(&self, state: usize) -> [S; N] {
+        match &self.0 {
+            LayoutMut::States(states) => states[state],
+            LayoutMut::Components(numbers) => numbers.slices().map(|numbers| numbers[state]),
         }
     }
 
@@ -148,19 +138,9 @@ impl<'a, S: Number, const N: usize> ColumnMut<'a, S, N> {
     pub(super) fn store<T: Lanes<Number = S>>(&mut self, first: usize, numbers: &[T; N], lanes: u32) {
         let all = lanes == all_lanes::<T>();
         match &mut self.0 {
-            LayoutMut::Components(components) if all => {
-                for (component, number) in components.iter_mut().zip(numbers) {
-                    number.store(&mut component[first..]);
-                }
-            }
             LayoutMut::Components(components) => {
-                for (component, number) in components.iter_mut().zip(numbers) {
-                    let component = &mut component[first..];
-                    number.for_each(|lane, number| {
-                        if let Some(place) = component.get_mut(lane).filter(|_| lanes >> lane & 1 == 1) {
-                            *place = number;
-                        }
-                    });
+                if !all || !components.store(first, numbers) {
+                    components.store_some(first, numbers, lanes);
                 }
             }
             LayoutMut::States(states) => {
@@ -185,7 +165,7 @@ impl<'a, S: Number, const N: usize> ColumnMut<'a, S, N> {
         }
     }
 
-    /// As [`Column::split`].
+    /// The states before `state`, and the others.
     #[cfg(feature = "rayon")]
     pub(super) fn split(self, state: usize) -> (Self, Self) {
         match self.0 {
@@ -196,7 +176,7 @@ impl<'a, S: Number, const N: usize> ColumnMut<'a, S, N> {
             LayoutMut::Components(numbers) => {
                 let mut after = array::from_fn(|_| Default::default());
                 let mut parts = after.iter_mut();
-                let before = numbers.map(|numbers| {
+                let before = numbers.into_slices().map(|numbers| {
                     let (before, rest) = numbers.split_at_mut(state);
                     if let Some(part) = parts.next() {
                         *part = rest;

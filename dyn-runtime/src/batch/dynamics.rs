@@ -16,6 +16,8 @@ macro_rules! dynamics {
             pub external_wrench: Column<'a, S, 6>,
             pub $output: ColumnMut<'a, S, 6>,
             pub status: &'a mut [Status],
+            /// Index of the first state in the inputs.
+            pub offset: usize,
         }
 
         impl<M, S: Number> Kernel<S> for $kernel<'_, M, S>
@@ -26,14 +28,15 @@ macro_rules! dynamics {
 
             #[inline(always)]
             fn run<T: Lanes<Number = S>>(self) {
-                let Self { models, states, $input, external_wrench, mut $output, status } = self;
+                let Self { models, states, $input, external_wrench, mut $output, status, offset } = self;
                 if status.is_empty() {
                     return;
                 }
-                let mut parameters = models.load::<S, T>(0);
+                let mut parameters = models.load::<S, T>(offset);
                 for first in (0..status.len()).step_by(T::COUNT) {
-                    models.reload::<S, T>(first, &mut parameters);
-                    let (base, platform) = states.load::<T>(first);
+                    let input = offset + first;
+                    models.reload::<S, T>(input, &mut parameters);
+                    let (base, platform) = states.load::<T>(input);
                     let mut result = [T::constant(0.0); 6];
                     <M as generic::$kernel>::$function(
                         &parameters,
@@ -44,14 +47,14 @@ macro_rules! dynamics {
                         &platform.position,
                         &platform.rotation,
                         &platform.velocity,
-                        &$input.load(first),
-                        &external_wrench.load(first),
+                        &$input.load(input),
+                        &external_wrench.load(input),
                         &mut result,
                     );
                     let reached = reached::<M, T>(&parameters, &base, &platform);
                     let finite = finite(&result);
                     let kept = settle::<T>(&mut status[first..], reached & finite, finite, |lane| {
-                        let state = first + lane;
+                        let state = input + lane;
                         states
                             .examined(
                                 models.of(state),
@@ -81,29 +84,12 @@ macro_rules! dynamics {
             }
 
             fn split(self, state: usize) -> (Self, Self) {
-                let models = self.models.split(state);
-                let states = self.states.split(state);
-                let $input = self.$input.split(state);
-                let external_wrench = self.external_wrench.split(state);
-                let $output = self.$output.split(state);
-                let status = self.status.split_at_mut(state);
+                let ($output, after) = self.$output.split(state);
+                let (status, status_after) = self.status.split_at_mut(state);
+                let offset = self.offset + state;
                 (
-                    Self {
-                        models: models.0,
-                        states: states.0,
-                        $input: $input.0,
-                        external_wrench: external_wrench.0,
-                        $output: $output.0,
-                        status: status.0,
-                    },
-                    Self {
-                        models: models.1,
-                        states: states.1,
-                        $input: $input.1,
-                        external_wrench: external_wrench.1,
-                        $output: $output.1,
-                        status: status.1,
-                    },
+                    Self { $output, status, ..self },
+                    Self { $output: after, status: status_after, offset, ..self },
                 )
             }
         }

@@ -33,6 +33,34 @@ impl<S: Number> MatricesMut<'_, S> {
         self.coriolis_matrix_b.check("coriolis_matrix_b", states)?;
         self.jacobian_db.check("jacobian_db", states)
     }
+
+    #[cfg(feature = "rayon")]
+    fn split(self, state: usize) -> (Self, Self) {
+        let (mass_matrix_p, mass_p_after) = self.mass_matrix_p.split(state);
+        let (coriolis_matrix_p, coriolis_p_after) = self.coriolis_matrix_p.split(state);
+        let (jacobian_dp, jacobian_p_after) = self.jacobian_dp.split(state);
+        let (mass_matrix_b, mass_b_after) = self.mass_matrix_b.split(state);
+        let (coriolis_matrix_b, coriolis_b_after) = self.coriolis_matrix_b.split(state);
+        let (jacobian_db, jacobian_b_after) = self.jacobian_db.split(state);
+        (
+            Self {
+                mass_matrix_p,
+                coriolis_matrix_p,
+                jacobian_dp,
+                mass_matrix_b,
+                coriolis_matrix_b,
+                jacobian_db,
+            },
+            Self {
+                mass_matrix_p: mass_p_after,
+                coriolis_matrix_p: coriolis_p_after,
+                jacobian_dp: jacobian_p_after,
+                mass_matrix_b: mass_b_after,
+                coriolis_matrix_b: coriolis_b_after,
+                jacobian_db: jacobian_b_after,
+            },
+        )
+    }
 }
 
 pub(super) struct Matrices<'a, M, S> {
@@ -40,6 +68,8 @@ pub(super) struct Matrices<'a, M, S> {
     pub states: States<'a, S>,
     pub matrices: MatricesMut<'a, S>,
     pub status: &'a mut [Status],
+    /// Index of the first state in the inputs.
+    pub offset: usize,
 }
 
 impl<M, S: Number> Kernel<S> for Matrices<'_, M, S>
@@ -50,14 +80,15 @@ where
 
     #[inline(always)]
     fn run<T: Lanes<Number = S>>(self) {
-        let Self { models, states, mut matrices, status } = self;
+        let Self { models, states, mut matrices, status, offset } = self;
         if status.is_empty() {
             return;
         }
-        let mut parameters = models.load::<S, T>(0);
+        let mut parameters = models.load::<S, T>(offset);
         for first in (0..status.len()).step_by(T::COUNT) {
-            models.reload::<S, T>(first, &mut parameters);
-            let (base, platform) = states.load::<T>(first);
+            let input = offset + first;
+            models.reload::<S, T>(input, &mut parameters);
+            let (base, platform) = states.load::<T>(input);
             let [mut mass_p, mut coriolis_p, mut jacobian_p, mut mass_b, mut coriolis_b, mut jacobian_b] =
                 [[[T::constant(0.0); 6]; 6]; 6];
             <M as generic::Matrices>::matrices(
@@ -79,7 +110,7 @@ where
             // Every matrix has a row or a column in which all inputs meet.
             let finite = finite(coriolis_p.as_flattened()) & finite(coriolis_b.as_flattened());
             let kept = settle::<T>(&mut status[first..], reached & finite, finite, |lane| {
-                let state = first + lane;
+                let state = input + lane;
                 states
                     .examined(
                         models.of(state),
@@ -111,42 +142,12 @@ where
     }
 
     fn split(self, state: usize) -> (Self, Self) {
-        let models = self.models.split(state);
-        let states = self.states.split(state);
-        let mass_matrix_p = self.matrices.mass_matrix_p.split(state);
-        let coriolis_matrix_p = self.matrices.coriolis_matrix_p.split(state);
-        let jacobian_dp = self.matrices.jacobian_dp.split(state);
-        let mass_matrix_b = self.matrices.mass_matrix_b.split(state);
-        let coriolis_matrix_b = self.matrices.coriolis_matrix_b.split(state);
-        let jacobian_db = self.matrices.jacobian_db.split(state);
-        let status = self.status.split_at_mut(state);
+        let (matrices, matrices_after) = self.matrices.split(state);
+        let (status, status_after) = self.status.split_at_mut(state);
+        let offset = self.offset + state;
         (
-            Self {
-                models: models.0,
-                states: states.0,
-                matrices: MatricesMut {
-                    mass_matrix_p: mass_matrix_p.0,
-                    coriolis_matrix_p: coriolis_matrix_p.0,
-                    jacobian_dp: jacobian_dp.0,
-                    mass_matrix_b: mass_matrix_b.0,
-                    coriolis_matrix_b: coriolis_matrix_b.0,
-                    jacobian_db: jacobian_db.0,
-                },
-                status: status.0,
-            },
-            Self {
-                models: models.1,
-                states: states.1,
-                matrices: MatricesMut {
-                    mass_matrix_p: mass_matrix_p.1,
-                    coriolis_matrix_p: coriolis_matrix_p.1,
-                    jacobian_dp: jacobian_dp.1,
-                    mass_matrix_b: mass_matrix_b.1,
-                    coriolis_matrix_b: coriolis_matrix_b.1,
-                    jacobian_db: jacobian_db.1,
-                },
-                status: status.1,
-            },
+            Self { matrices, status, ..self },
+            Self { matrices: matrices_after, status: status_after, offset, ..self },
         )
     }
 }

@@ -46,25 +46,14 @@ impl<'a, M> Models<'a, M> {
         }
     }
 
-    /// The same for a group of states after the first, where that changes anything.
+    /// The same for another group of states, where that changes anything.
     #[inline(always)]
     pub fn reload<S: Number, T: Lanes<Number = S>>(self, first: usize, parameters: &mut M::Parameters<T>)
     where
         M: InLanes<S>,
     {
-        if matches!(self, Self::Each(_)) && first > 0 {
+        if matches!(self, Self::Each(_)) {
             *parameters = self.load(first);
-        }
-    }
-
-    #[cfg(feature = "rayon")]
-    pub fn split(self, state: usize) -> (Self, Self) {
-        match self {
-            Self::One(_) => (self, self),
-            Self::Each(models) => {
-                let (before, after) = models.split_at(state);
-                (Self::Each(before), Self::Each(after))
-            }
         }
     }
 }

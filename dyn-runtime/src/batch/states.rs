@@ -91,23 +91,6 @@ impl<S: Number> BaseColumns<'_, S> {
             acceleration: self.acceleration.load(first),
         }
     }
-
-    #[cfg(feature = "rayon")]
-    pub(super) fn split(self, state: usize) -> (Self, Self) {
-        let (position, position_after) = self.position.split(state);
-        let (rotation, rotation_after) = self.rotation.split(state);
-        let (velocity, velocity_after) = self.velocity.split(state);
-        let (acceleration, acceleration_after) = self.acceleration.split(state);
-        (
-            Self { position, rotation, velocity, acceleration },
-            Self {
-                position: position_after,
-                rotation: rotation_after,
-                velocity: velocity_after,
-                acceleration: acceleration_after,
-            },
-        )
-    }
 }
 
 impl<S: Number> PlatformColumns<'_, S> {
@@ -125,17 +108,6 @@ impl<S: Number> PlatformColumns<'_, S> {
             velocity: self.velocity.load(first),
         }
     }
-
-    #[cfg(feature = "rayon")]
-    pub(super) fn split(self, state: usize) -> (Self, Self) {
-        let (position, position_after) = self.position.split(state);
-        let (rotation, rotation_after) = self.rotation.split(state);
-        let (velocity, velocity_after) = self.velocity.split(state);
-        (
-            Self { position, rotation, velocity },
-            Self { position: position_after, rotation: rotation_after, velocity: velocity_after },
-        )
-    }
 }
 
 impl<S: Number> States<'_, S> {
@@ -147,13 +119,6 @@ impl<S: Number> States<'_, S> {
     #[inline(always)]
     pub(super) fn load<T: Lanes<Number = S>>(&self, first: usize) -> (BaseLanes<T>, PlatformLanes<T>) {
         (self.base.load(first), self.platform.load(first))
-    }
-
-    #[cfg(feature = "rayon")]
-    pub(super) fn split(self, state: usize) -> (Self, Self) {
-        let (base, base_after) = self.base.split(state);
-        let (platform, platform_after) = self.platform.split(state);
-        (Self { base, platform }, Self { base: base_after, platform: platform_after })
     }
 
     /// What [`Hexapod`](crate::Hexapod) refuses in the poses of a state and in these other inputs, conditioning of J_dp

@@ -9,7 +9,7 @@
 //! |-|-|-|-|
 //! | AVX-512 (F, VL, DQ) | 8 | 16 | rounded once |
 //! | AVX2 and FMA | 4 | 8 | rounded once |
-//! | portable | 4 | 8 | as [`Scalar::multiply_add`] of the number |
+//! | portable | 1 | 1 | as compiled, see [`Scalar::multiply_add`] |
 //!
 //! With the feature `std` a program built for plain x86-64 asks the processor; without it, the instructions for which
 //! the program is compiled are taken. A lane computes what a single number does, bit for bit, with multiply-adds
@@ -44,17 +44,20 @@
 //!
 //! Intrinsics of `core::arch` are unsafe because a processor may lack them. The types made of them are private to
 //! this module: nobody can name or make one, except a kernel that [`Instructions::run`] calls with it, and an
-//! [`Instructions`] is only made for a processor that has them.
+//! [`Instructions`] is only made for a processor that has them. Besides, lanes are loaded from several slices of a
+//! length that was checked once.
 
 // The only unsafe code of this crate, see above.
 #![allow(unsafe_code)]
 
+mod components;
 mod model;
-mod portable;
+mod single;
 mod solve;
 #[cfg(target_arch = "x86_64")]
 mod x86;
 
+pub(crate) use components::{Components, ComponentsMut};
 pub use model::{Generic, InLanes};
 
 use crate::float::Scalar;
@@ -196,7 +199,7 @@ pub fn run<S: Number, K: Kernel<S>>(kernel: K) -> K::Output {
 }
 
 macro_rules! number {
-    ($number:ident, $portable:literal, $avx2:ident, $avx512:ident) => {
+    ($number:ident, $avx2:ident, $avx512:ident) => {
         impl Number for $number {
             #[inline]
             fn run_with<K: Kernel<Self>>(instructions: Instructions, kernel: K) -> K::Output {
@@ -207,16 +210,17 @@ macro_rules! number {
                     // SAFETY: the same.
                     #[cfg(target_arch = "x86_64")]
                     Set::Avx2 => unsafe { x86::run_avx2::<_, x86::$avx2, K>(kernel) },
-                    Set::Portable => kernel.run::<portable::Array<$number, $portable>>(),
+                    Set::Portable => kernel.run::<$number>(),
                 }
             }
         }
     };
 }
-number!(f64, 4, F64x4, F64x8);
-number!(f32, 8, F32x8, F32x16);
+number!(f64, F64x4, F64x8);
+number!(f32, F32x8, F32x16);
 
 /// The first numbers of a slice that is shorter than there are lanes.
+#[cfg(target_arch = "x86_64")]
 fn filled<S: Number, const N: usize>(numbers: &[S]) -> [S; N] {
     let mut lanes = [numbers.last().copied().unwrap_or(S::zero()); N];
     for (lane, number) in lanes.iter_mut().zip(numbers) {
