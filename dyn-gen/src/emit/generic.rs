@@ -31,8 +31,7 @@ pub(super) fn items(model: &Model) -> Result<Vec<TokenStream>, EmitError> {
         let fields = model.parameters.iter().map(|symbol| {
             let field = identifier(model.name, &symbol.name)?;
             let depth = 0..symbol.shape.len();
-            let indices: Vec<Ident> =
-                depth.map(|k| format_ident!("i{k}")).collect();
+            let indices: Vec<Ident> = depth.map(|k| format_ident!("i{k}")).collect();
             let number = quote!(T::from_fn(|lane| of_lane(lane).parameters.#field #([#indices])*));
             let array = indices
                 .iter()

@@ -82,7 +82,7 @@ pub fn model_file(header: &Header, model: &Model) -> Result<String, EmitError> {
 fn items(model: &Model) -> Result<Vec<TokenStream>, EmitError> {
     let runtime = model.runtime.tokens();
     let name = type_identifier(model.name)?;
-    if ["Parameters", "Scalar", SCALAR].iter().any(|taken| name == taken) {
+    if ["Parameters", "Scalar", "S", SCALAR].iter().any(|taken| name == taken) {
         return Err(EmitError::Name {
             function: model.name.into(),
             name: name.to_string(),
