@@ -100,7 +100,9 @@ impl<M: RodAlignment<T>, T: Real> Hexapod<M, T> {
         base: &PoseArrays<T>,
         platform: &PoseArrays<T>,
     ) -> Result<[T; 6], Error> {
-        alignment_of(&self.model, base, platform)
+        let rod_alignment = unjudged_alignment(&self.model, base, platform);
+        check::mechanism(&rod_alignment, &base.position, &platform.position)?;
+        Ok(rod_alignment)
     }
 
     /// J_dp can be inverted at these poses.
@@ -132,7 +134,11 @@ impl<M: RodAlignment<T>, T: Real> Hexapod<M, T> {
         platform: &PlatformState<T>,
     ) -> Result<(PoseArrays<T>, PoseArrays<T>), Error> {
         let (base, platform) = checked_poses(base, platform)?;
-        check::in_reach(&unjudged_alignment(&self.model, &base, &platform), &base.position, &platform.position)?;
+        check::in_reach(
+            &unjudged_alignment(&self.model, &base, &platform),
+            &base.position,
+            &platform.position,
+        )?;
         Ok((base, platform))
     }
 
@@ -149,18 +155,8 @@ impl<M: RodAlignment<T>, T: Real> Hexapod<M, T> {
     }
 }
 
-/// [`Hexapod::alignment_at`] of a model.
-pub(crate) fn alignment_of<M: RodAlignment<T>, T: Real>(
-    model: &M,
-    base: &PoseArrays<T>,
-    platform: &PoseArrays<T>,
-) -> Result<[T; 6], Error> {
-    let rod_alignment = unjudged_alignment(model, base, platform);
-    check::mechanism(&rod_alignment, &base.position, &platform.position)?;
-    Ok(rod_alignment)
-}
-
-fn unjudged_alignment<M: RodAlignment<T>, T: Real>(
+/// `(u.a)^2` of a model at these poses, whatever its value.
+pub(crate) fn unjudged_alignment<M: RodAlignment<T>, T: Real>(
     model: &M,
     base: &PoseArrays<T>,
     platform: &PoseArrays<T>,
