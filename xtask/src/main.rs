@@ -1,6 +1,7 @@
 //! The workspace's own commands: orchestration only, each step is a command one can also type.
 
 mod bare;
+mod bench;
 mod contract;
 mod runner;
 mod steps;
@@ -44,14 +45,12 @@ enum Task {
         #[arg(long)]
         bare: bool,
     },
-    /// Measure: criterion benchmarks of generated code beside the hand-written reference
+    /// Measure: generated code beside the hand-written reference, CasADi's own C and Pinocchio
     ///
-    /// Close other programs first, and compare figures of one and the same run only. Prints the table of ratios; criterion's
-    /// report lies in `target/criterion/report/index.html`.
-    Bench {
-        /// Measure only what contains this text
-        filter: Option<String>,
-    },
+    /// Prepares the peers under `target/bench/` (gcc, clang, Python with the network the first time; what is missing is said and
+    /// left out), compiles everything for this very processor, checks that all agree, measures, and prints the table of
+    /// ratios, which it writes as JSON and as a plot too. Close other programs first.
+    Bench(bench::Options),
     /// Recompute the test vectors of the multibody engines and compare with the committed ones (long)
     ///
     /// Pinocchio and MuJoCo are installed from `tests/engines/requirements.lock` into an environment of their own.
@@ -87,7 +86,7 @@ fn main() -> ExitCode {
     let result = match CommandLine::parse().command {
         Task::Run(selection) => perform("run", RUN, &selection),
         Task::Test { selection, bare } => fetched(bare).and_then(|()| perform("test", TEST, &selection)),
-        Task::Bench { filter } => runner::bench(filter.as_deref()),
+        Task::Bench(options) => bench::bench(&options),
         Task::Vectors(options) => vectors::compare_or_write(&options),
         Task::Contract => contract::check(),
         Task::Bare(options) => bare::bare(&options),

@@ -79,22 +79,6 @@ pub fn list(steps: &[Step]) {
     }
 }
 
-/// Runs the benchmarks, all or those that contain `filter`, and prints their ratios.
-pub fn bench(filter: Option<&str>) -> Result<(), Failure> {
-    println!("One run's figures compare with each other, not with another run's.\n");
-    let _ = io::stdout().flush();
-    let mut measure = workspace::cargo();
-    measure.args(["bench", "--package", "dyn-benches"]);
-    if let Some(filter) = filter {
-        measure.args(["--", filter]);
-    }
-    succeed(&mut measure)?;
-    succeed(workspace::cargo().args(["run", "--release", "--package", "dyn-benches", "--bin", "ratios"]))?;
-    let report = dyn_python::target_directory(&workspace::root()).join("criterion/report/index.html");
-    println!("\nreport: {}", report.display());
-    Ok(())
-}
-
 fn perform(action: &Action) -> Result<String, Failure> {
     let mut cargo = workspace::cargo();
     match *action {

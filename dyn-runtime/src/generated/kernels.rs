@@ -3,8 +3,8 @@
 //
 // What models can compute: one trait per function.
 //
-// graph     uhp.json, sha256 530a85b289e887279aec2bfb84d0f8d61f15d076013649de29d3ef5defea6a6b
-// graph     ups.json, sha256 d817b90bf96e107e818a8271484815dcec27218954cca6102cd4fc6a4cc2ac83
+// graph     uhp.json, sha256 9db36ee49fe28b6c0a6e83ba1480d822588bc2a842fed7e4e4db5293dd101808
+// graph     ups.json, sha256 1b52493f65aa14be0b4a913a41122d6ac8ede015ba2c7eef37b43f979dbbb2dc
 //           derived by CasADi 3.8.2
 
 /// A model that has `rod_alignment`.

@@ -3,17 +3,17 @@
 //
 // Dynamics of the platform `uhp_2016`, every number baked in.
 //
-// graph     uhp.json, sha256 530a85b289e887279aec2bfb84d0f8d61f15d076013649de29d3ef5defea6a6b
+// graph     uhp.json, sha256 9db36ee49fe28b6c0a6e83ba1480d822588bc2a842fed7e4e4db5293dd101808
 //           derived by CasADi 3.8.2
 // platform  uhp_2016, sha256 of its resolved numbers b8134078fa1f34e5f609cc3dfb62aea03f363b944f89b1a9c1f48d524d56338e
 //
 // operations (+ - * / sqrt; a change of sign is not counted)
 // function                  as derived  as printed
 // rod_alignment                    303          63
-// leg_kinematics                  1815         702
-// body_kinematics                 2853        1224
+// leg_kinematics                  1818         697
+// body_kinematics                 2856        1219
 // partial_velocities              1608         867
-// generalised_forces              3660        1512
+// generalised_forces              3663        1507
 // jacobian_dp                      579         180
 // jacobian_db                      597         180
 // mass_matrix_p                   1475         526
@@ -22,14 +22,14 @@
 // stiffness_matrices              1266         594
 // matrices                        6237        2197
 // passive_forces                  1398         295
-// bias                            2386         675
+// bias                            2389         671
 // equation_of_motion              7407        2728
-// inverse_dynamics                2409         798
+// inverse_dynamics                2442         809
 // actuator_geometry                591         210
-// control                         3425        1297
-// passive_inverse_dynamics        3075        1046
-// base_reaction                   2475         812
-// forward_dynamics                3282        1039
+// control                         3428        1293
+// passive_inverse_dynamics        3108        1057
+// base_reaction                   2508         823
+// forward_dynamics                3285        1035
 // energy                          1769         549
 //
 // linear systems: growth of rounding errors in a fixed order of pivots, at the worst state
@@ -41,6 +41,8 @@
 use crate::float::{Scalar, mul_add, mul_sub, neg_mul_add, sqrt};
 #[allow(unused_imports)]
 use crate::solve::solve_general;
+#[allow(unused_imports)]
+use crate::triple::Triple;
 
 /// The platform `uhp_2016`, every number baked in.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -369,19 +371,13 @@ impl crate::kernels::Matrices for Uhp2016 {
         coriolis_matrix_b: &mut [[f64; 6]; 6],
         jacobian_db: &mut [[f64; 6]; 6],
     ) {
-        self::matrices(
-            base_position,
-            base_rotation,
-            base_velocity,
-            platform_position,
-            platform_rotation,
-            platform_velocity,
-            mass_matrix_p,
-            coriolis_matrix_p,
-            jacobian_dp,
-            mass_matrix_b,
-            coriolis_matrix_b,
-            jacobian_db,
+        crate::single_state!(
+            matrices_in_lanes, matrices; base_position : [f64; 3], base_rotation : [[f64;
+            3]; 3], base_velocity : [f64; 6], platform_position : [f64; 3],
+            platform_rotation : [[f64; 3]; 3], platform_velocity : [f64; 6];
+            mass_matrix_p : [[f64; 6]; 6], coriolis_matrix_p : [[f64; 6]; 6], jacobian_dp
+            : [[f64; 6]; 6], mass_matrix_b : [[f64; 6]; 6], coriolis_matrix_b : [[f64;
+            6]; 6], jacobian_db : [[f64; 6]; 6]
         );
     }
 }
@@ -499,17 +495,12 @@ impl crate::kernels::InverseDynamics for Uhp2016 {
         external_wrench: &[f64; 6],
         inverse_dynamics: &mut [f64; 6],
     ) {
-        self::inverse_dynamics(
-            base_position,
-            base_rotation,
-            base_velocity,
-            base_acceleration,
-            platform_position,
-            platform_rotation,
-            platform_velocity,
-            platform_acceleration,
-            external_wrench,
-            inverse_dynamics,
+        crate::single_state!(
+            inverse_dynamics_in_lanes, inverse_dynamics; base_position : [f64; 3],
+            base_rotation : [[f64; 3]; 3], base_velocity : [f64; 6], base_acceleration :
+            [f64; 6], platform_position : [f64; 3], platform_rotation : [[f64; 3]; 3],
+            platform_velocity : [f64; 6], platform_acceleration : [f64; 6],
+            external_wrench : [f64; 6]; inverse_dynamics : [f64; 6]
         );
     }
 }
@@ -558,22 +549,14 @@ impl crate::kernels::Control for Uhp2016 {
         total_bias: &mut [f64; 6],
         inverse_dynamics: &mut [f64; 6],
     ) {
-        self::control(
-            base_position,
-            base_rotation,
-            base_velocity,
-            base_acceleration,
-            platform_position,
-            platform_rotation,
-            platform_velocity,
-            platform_acceleration,
-            external_wrench,
-            actuator_length,
-            actuator_velocity,
-            jacobian_dp,
-            mass_matrix_p,
-            total_bias,
-            inverse_dynamics,
+        crate::single_state!(
+            control_in_lanes, control; base_position : [f64; 3], base_rotation : [[f64;
+            3]; 3], base_velocity : [f64; 6], base_acceleration : [f64; 6],
+            platform_position : [f64; 3], platform_rotation : [[f64; 3]; 3],
+            platform_velocity : [f64; 6], platform_acceleration : [f64; 6],
+            external_wrench : [f64; 6]; actuator_length : [f64; 6], actuator_velocity :
+            [f64; 6], jacobian_dp : [[f64; 6]; 6], mass_matrix_p : [[f64; 6]; 6],
+            total_bias : [f64; 6], inverse_dynamics : [f64; 6]
         );
     }
 }
@@ -655,17 +638,12 @@ impl crate::kernels::ForwardDynamics for Uhp2016 {
         external_wrench: &[f64; 6],
         forward_dynamics: &mut [f64; 6],
     ) {
-        self::forward_dynamics(
-            base_position,
-            base_rotation,
-            base_velocity,
-            base_acceleration,
-            platform_position,
-            platform_rotation,
-            platform_velocity,
-            actuator_force,
-            external_wrench,
-            forward_dynamics,
+        crate::single_state!(
+            forward_dynamics_in_lanes, forward_dynamics; base_position : [f64; 3],
+            base_rotation : [[f64; 3]; 3], base_velocity : [f64; 6], base_acceleration :
+            [f64; 6], platform_position : [f64; 3], platform_rotation : [[f64; 3]; 3],
+            platform_velocity : [f64; 6], actuator_force : [f64; 6], external_wrench :
+            [f64; 6]; forward_dynamics : [f64; 6]
         );
     }
 }
@@ -1787,514 +1765,510 @@ pub fn leg_kinematics<T: Scalar>(
     let t191 = mul_sub(base_rotation[1][1], platform_acceleration[4], t190);
     let t192 = mul_add(base_rotation[2][1], platform_acceleration[5], t191);
     let t193 = mul_sub(t78, t93, mul_sub(t84, t87, t192));
-    let t194 = mul_add(t87, t93, t193);
-    let t195 = neg_mul_add(base_rotation[0][2], platform_acceleration[3], t157);
-    let t196 = mul_sub(base_rotation[1][2], platform_acceleration[4], t195);
-    let t197 = mul_add(base_rotation[2][2], platform_acceleration[5], t196);
-    let t198 = mul_sub(t81, t87, mul_sub(t78, t90, t197));
-    let t199 = mul_sub(t87, t90, t198);
-    let t200 = mul_add(t90, t90, t93 * t93);
-    let t201 = mul_add(t15, t194, mul_sub(t9, t199, t3 * t200));
-    let t202 = mul_add(t18, t194, mul_sub(t12, t199, t6 * t200));
-    let t203 = neg_mul_add(base_rotation[0][0], platform_acceleration[3], t151);
-    let t204 = mul_sub(base_rotation[1][0], platform_acceleration[4], t203);
-    let t205 = mul_add(base_rotation[2][0], platform_acceleration[5], t204);
-    let t206 = mul_sub(t84, t90, mul_sub(t81, t93, t205));
-    let t207 = mul_sub(t90, t93, t206);
-    let t208 = mul_add(t87, t90, t198);
-    let t209 = t87 * t87;
-    let t210 = mul_add(t93, t93, t209);
-    let t211 = mul_add(t15, t207, mul_sub(t3, t208, t9 * t210));
-    let t212 = mul_add(t18, t207, mul_sub(t6, t208, t12 * t210));
-    let t213 = mul_add(t90, t90, t209);
-    let t214 = mul_sub(t87, t93, t193);
-    let t215 = mul_add(t90, t93, t206);
-    let t216 = mul_sub(t15, t213, mul_add(t3, t214, t9 * t215));
-    let t217 = mul_sub(t18, t213, mul_add(t6, t214, t12 * t215));
+    let t194 = neg_mul_add(base_rotation[0][2], platform_acceleration[3], t157);
+    let t195 = mul_sub(base_rotation[1][2], platform_acceleration[4], t194);
+    let t196 = mul_add(base_rotation[2][2], platform_acceleration[5], t195);
+    let t197 = mul_sub(t81, t87, mul_sub(t78, t90, t196));
+    let t198 = mul_add(t90, t110, mul_sub(t15, t193, t9 * t197));
+    let t199 = mul_sub(t93, t108, t198);
+    let t200 = mul_add(t90, t111, mul_sub(t18, t193, t12 * t197));
+    let t201 = mul_sub(t93, t109, t200);
+    let t202 = neg_mul_add(base_rotation[0][0], platform_acceleration[3], t151);
+    let t203 = mul_sub(base_rotation[1][0], platform_acceleration[4], t202);
+    let t204 = mul_add(base_rotation[2][0], platform_acceleration[5], t203);
+    let t205 = mul_sub(t84, t90, mul_sub(t81, t93, t204));
+    let t206 = mul_add(t93, t106, mul_sub(t3, t197, t15 * t205));
+    let t207 = mul_sub(t87, t110, t206);
+    let t208 = mul_add(t93, t107, mul_sub(t6, t197, t18 * t205));
+    let t209 = mul_sub(t87, t111, t208);
+    let t210 = mul_add(t87, t108, mul_sub(t9, t205, t3 * t193));
+    let t211 = mul_sub(t90, t106, t210);
+    let t212 = mul_add(t87, t109, mul_sub(t12, t205, t6 * t193));
+    let t213 = mul_sub(t90, t107, t212);
     // leg 1: acceleration of the platform joint relative to the base
-    let t218 = mul_add(c(0.1159110991546882), t201, t175);
-    let t219 = neg_mul_add(c(0.03105828541230249), t202, t218);
-    let t220 = neg_mul_add(c(0.1159110991546882), t211, t182);
-    let t221 = mul_add(c(0.03105828541230249), t212, t220);
+    let t214 = neg_mul_add(c(0.1159110991546882), t199, t175);
+    let t215 = mul_add(c(0.03105828541230249), t201, t214);
+    let t216 = mul_add(c(0.1159110991546882), t207, t182);
+    let t217 = neg_mul_add(c(0.03105828541230249), t209, t216);
     // leg 2: acceleration of the platform joint relative to the base
-    let t222 = mul_add(c(0.03105828541230249), t202, t218);
-    let t223 = neg_mul_add(c(0.03105828541230249), t212, t220);
+    let t218 = neg_mul_add(c(0.03105828541230249), t201, t214);
+    let t219 = mul_add(c(0.03105828541230249), t209, t216);
     // leg 3: acceleration of the platform joint relative to the base
-    let t224 = neg_mul_add(c(0.031058285412302475), t201, t175);
-    let t225 = mul_add(c(0.1159110991546882), t202, t224);
-    let t226 = mul_add(c(0.031058285412302475), t211, t182);
-    let t227 = neg_mul_add(c(0.1159110991546882), t212, t226);
+    let t220 = mul_add(c(0.031058285412302475), t199, t175);
+    let t221 = neg_mul_add(c(0.1159110991546882), t201, t220);
+    let t222 = neg_mul_add(c(0.031058285412302475), t207, t182);
+    let t223 = mul_add(c(0.1159110991546882), t209, t222);
     // leg 4: acceleration of the platform joint relative to the base
-    let t228 = neg_mul_add(c(0.0848528137423857), t201, t175);
-    let t229 = mul_add(c(0.08485281374238571), t202, t228);
-    let t230 = mul_add(c(0.0848528137423857), t211, t182);
-    let t231 = neg_mul_add(c(0.08485281374238571), t212, t230);
+    let t224 = mul_add(c(0.0848528137423857), t199, t175);
+    let t225 = neg_mul_add(c(0.08485281374238571), t201, t224);
+    let t226 = neg_mul_add(c(0.0848528137423857), t207, t182);
+    let t227 = mul_add(c(0.08485281374238571), t209, t226);
     // leg 5: acceleration of the platform joint relative to the base
-    let t232 = neg_mul_add(c(0.08485281374238571), t202, t228);
-    let t233 = mul_add(c(0.08485281374238571), t212, t230);
+    let t228 = mul_add(c(0.08485281374238571), t201, t224);
+    let t229 = neg_mul_add(c(0.08485281374238571), t209, t226);
     // leg 6: acceleration of the platform joint relative to the base
-    let t234 = neg_mul_add(c(0.1159110991546882), t202, t224);
-    let t235 = mul_add(c(0.1159110991546882), t212, t226);
+    let t230 = mul_add(c(0.1159110991546882), t201, t220);
+    let t231 = neg_mul_add(c(0.1159110991546882), t209, t222);
     // leg 1: actuator acceleration d''
-    let t236 = mul_add(c(0.1159110991546882), t216, t189);
-    let t237 = c(0.03105828541230249) * t217;
-    let t238 = mul_sub(t29, t219, mul_add(t113, t113, t115 * t115));
-    let t239 = mul_sub(t130, t130, mul_add(t32, t221, t238));
-    actuator_acceleration[0] = mul_add(t51, t239, t237) - t236;
+    let t232 = mul_add(c(0.1159110991546882), t211, t189);
+    let t233 = c(0.03105828541230249) * t213;
+    let t234 = mul_sub(t29, t215, mul_add(t113, t113, t115 * t115));
+    let t235 = mul_sub(t130, t130, mul_add(t32, t217, t234));
+    actuator_acceleration[0] = mul_add(t51, t235, t233) - t232;
     // leg 2: actuator acceleration d''
-    let t240 = mul_sub(t33, t222, mul_add(t116, t116, t117 * t117));
-    let t241 = mul_add(t133, t133, mul_sub(t34, t223, t240));
-    actuator_acceleration[1] = mul_sub(t56, t241, t237) - t236;
+    let t236 = mul_sub(t33, t218, mul_add(t116, t116, t117 * t117));
+    let t237 = mul_add(t133, t133, mul_sub(t34, t219, t236));
+    actuator_acceleration[1] = mul_sub(t56, t237, t233) - t232;
     // leg 3: actuator acceleration d''
-    let t242 = neg_mul_add(c(0.031058285412302475), t216, t189);
-    let t243 = c(0.1159110991546882) * t217;
-    let t244 = mul_sub(t36, t225, mul_add(t119, t119, t121 * t121));
-    let t245 = mul_add(t135, t135, mul_sub(t39, t227, t244));
-    actuator_acceleration[2] = mul_sub(t60, t245, t243) - t242;
+    let t238 = neg_mul_add(c(0.031058285412302475), t211, t189);
+    let t239 = c(0.1159110991546882) * t213;
+    let t240 = mul_sub(t36, t221, mul_add(t119, t119, t121 * t121));
+    let t241 = mul_add(t135, t135, mul_sub(t39, t223, t240));
+    actuator_acceleration[2] = mul_sub(t60, t241, t239) - t238;
     // leg 4: actuator acceleration d''
-    let t246 = neg_mul_add(c(0.0848528137423857), t216, t189);
-    let t247 = c(0.08485281374238571) * t217;
-    let t248 = mul_sub(t41, t229, mul_add(t123, t123, t125 * t125));
-    let t249 = mul_add(t138, t138, mul_sub(t44, t231, t248));
-    actuator_acceleration[3] = mul_sub(t65, t249, t247) - t246;
+    let t242 = neg_mul_add(c(0.0848528137423857), t211, t189);
+    let t243 = c(0.08485281374238571) * t213;
+    let t244 = mul_sub(t41, t225, mul_add(t123, t123, t125 * t125));
+    let t245 = mul_add(t138, t138, mul_sub(t44, t227, t244));
+    actuator_acceleration[3] = mul_sub(t65, t245, t243) - t242;
     // leg 5: actuator acceleration d''
-    let t250 = mul_sub(t45, t232, mul_add(t126, t126, t127 * t127));
-    let t251 = mul_sub(t141, t141, mul_add(t46, t233, t250));
-    actuator_acceleration[4] = mul_add(t70, t251, t247) - t246;
+    let t246 = mul_sub(t45, t228, mul_add(t126, t126, t127 * t127));
+    let t247 = mul_sub(t141, t141, mul_add(t46, t229, t246));
+    actuator_acceleration[4] = mul_add(t70, t247, t243) - t242;
     // leg 6: actuator acceleration d''
-    let t252 = mul_sub(t47, t234, mul_add(t128, t128, t129 * t129));
-    let t253 = mul_sub(t143, t143, mul_add(t48, t235, t252));
-    actuator_acceleration[5] = mul_add(t74, t253, t243) - t242;
+    let t248 = mul_sub(t47, t230, mul_add(t128, t128, t129 * t129));
+    let t249 = mul_sub(t143, t143, mul_add(t48, t231, t248));
+    actuator_acceleration[5] = mul_add(t74, t249, t239) - t238;
     // leg 1: rod direction u, from the Hooke joint to the platform joint
-    let t254 = t50 * c(4.8543689320388355);
-    let t255 = t29 * c(4.8543689320388355);
-    let t256 = t32 * c(4.8543689320388355);
-    let t257 = mul_sub(base_rotation[0][0], t255, base_rotation[0][1] * t256);
-    let t258 = mul_sub(base_rotation[0][2], t254, t257);
-    rod_direction[0][0] = t258;
-    let t259 = mul_sub(base_rotation[1][0], t255, base_rotation[1][1] * t256);
-    let t260 = mul_sub(base_rotation[1][2], t254, t259);
-    rod_direction[0][1] = t260;
-    let t261 = mul_sub(base_rotation[2][0], t255, base_rotation[2][1] * t256);
-    let t262 = mul_sub(base_rotation[2][2], t254, t261);
-    rod_direction[0][2] = t262;
+    let t250 = t50 * c(4.8543689320388355);
+    let t251 = t29 * c(4.8543689320388355);
+    let t252 = t32 * c(4.8543689320388355);
+    let t253 = mul_sub(base_rotation[0][0], t251, base_rotation[0][1] * t252);
+    let t254 = mul_sub(base_rotation[0][2], t250, t253);
+    rod_direction[0][0] = t254;
+    let t255 = mul_sub(base_rotation[1][0], t251, base_rotation[1][1] * t252);
+    let t256 = mul_sub(base_rotation[1][2], t250, t255);
+    rod_direction[0][1] = t256;
+    let t257 = mul_sub(base_rotation[2][0], t251, base_rotation[2][1] * t252);
+    let t258 = mul_sub(base_rotation[2][2], t250, t257);
+    rod_direction[0][2] = t258;
     // leg 2: rod direction u, from the Hooke joint to the platform joint
-    let t263 = t55 * c(4.8543689320388355);
-    let t264 = t33 * c(4.8543689320388355);
-    let t265 = t34 * c(4.8543689320388355);
-    let t266 = mul_add(base_rotation[0][0], t264, base_rotation[0][1] * t265);
-    let t267 = mul_sub(base_rotation[0][2], t263, t266);
-    rod_direction[1][0] = t267;
-    let t268 = mul_add(base_rotation[1][0], t264, base_rotation[1][1] * t265);
-    let t269 = mul_sub(base_rotation[1][2], t263, t268);
-    rod_direction[1][1] = t269;
-    let t270 = mul_add(base_rotation[2][0], t264, base_rotation[2][1] * t265);
-    let t271 = mul_sub(base_rotation[2][2], t263, t270);
-    rod_direction[1][2] = t271;
+    let t259 = t55 * c(4.8543689320388355);
+    let t260 = t33 * c(4.8543689320388355);
+    let t261 = t34 * c(4.8543689320388355);
+    let t262 = mul_add(base_rotation[0][0], t260, base_rotation[0][1] * t261);
+    let t263 = mul_sub(base_rotation[0][2], t259, t262);
+    rod_direction[1][0] = t263;
+    let t264 = mul_add(base_rotation[1][0], t260, base_rotation[1][1] * t261);
+    let t265 = mul_sub(base_rotation[1][2], t259, t264);
+    rod_direction[1][1] = t265;
+    let t266 = mul_add(base_rotation[2][0], t260, base_rotation[2][1] * t261);
+    let t267 = mul_sub(base_rotation[2][2], t259, t266);
+    rod_direction[1][2] = t267;
     // leg 3: rod direction u, from the Hooke joint to the platform joint
-    let t272 = t59 * c(4.8543689320388355);
-    let t273 = t36 * c(4.8543689320388355);
-    let t274 = t39 * c(4.8543689320388355);
-    let t275 = mul_add(base_rotation[0][0], t273, base_rotation[0][1] * t274);
-    let t276 = mul_sub(base_rotation[0][2], t272, t275);
-    rod_direction[2][0] = t276;
-    let t277 = mul_add(base_rotation[1][0], t273, base_rotation[1][1] * t274);
-    let t278 = mul_sub(base_rotation[1][2], t272, t277);
-    rod_direction[2][1] = t278;
-    let t279 = mul_add(base_rotation[2][0], t273, base_rotation[2][1] * t274);
-    let t280 = mul_sub(base_rotation[2][2], t272, t279);
-    rod_direction[2][2] = t280;
+    let t268 = t59 * c(4.8543689320388355);
+    let t269 = t36 * c(4.8543689320388355);
+    let t270 = t39 * c(4.8543689320388355);
+    let t271 = mul_add(base_rotation[0][0], t269, base_rotation[0][1] * t270);
+    let t272 = mul_sub(base_rotation[0][2], t268, t271);
+    rod_direction[2][0] = t272;
+    let t273 = mul_add(base_rotation[1][0], t269, base_rotation[1][1] * t270);
+    let t274 = mul_sub(base_rotation[1][2], t268, t273);
+    rod_direction[2][1] = t274;
+    let t275 = mul_add(base_rotation[2][0], t269, base_rotation[2][1] * t270);
+    let t276 = mul_sub(base_rotation[2][2], t268, t275);
+    rod_direction[2][2] = t276;
     // leg 4: rod direction u, from the Hooke joint to the platform joint
-    let t281 = t64 * c(4.8543689320388355);
-    let t282 = t41 * c(4.8543689320388355);
-    let t283 = t44 * c(4.8543689320388355);
-    let t284 = mul_add(base_rotation[0][0], t282, base_rotation[0][1] * t283);
-    let t285 = mul_sub(base_rotation[0][2], t281, t284);
-    rod_direction[3][0] = t285;
-    let t286 = mul_add(base_rotation[1][0], t282, base_rotation[1][1] * t283);
-    let t287 = mul_sub(base_rotation[1][2], t281, t286);
-    rod_direction[3][1] = t287;
-    let t288 = mul_add(base_rotation[2][0], t282, base_rotation[2][1] * t283);
-    let t289 = mul_sub(base_rotation[2][2], t281, t288);
-    rod_direction[3][2] = t289;
+    let t277 = t64 * c(4.8543689320388355);
+    let t278 = t41 * c(4.8543689320388355);
+    let t279 = t44 * c(4.8543689320388355);
+    let t280 = mul_add(base_rotation[0][0], t278, base_rotation[0][1] * t279);
+    let t281 = mul_sub(base_rotation[0][2], t277, t280);
+    rod_direction[3][0] = t281;
+    let t282 = mul_add(base_rotation[1][0], t278, base_rotation[1][1] * t279);
+    let t283 = mul_sub(base_rotation[1][2], t277, t282);
+    rod_direction[3][1] = t283;
+    let t284 = mul_add(base_rotation[2][0], t278, base_rotation[2][1] * t279);
+    let t285 = mul_sub(base_rotation[2][2], t277, t284);
+    rod_direction[3][2] = t285;
     // leg 5: rod direction u, from the Hooke joint to the platform joint
-    let t290 = t69 * c(4.8543689320388355);
-    let t291 = t45 * c(4.8543689320388355);
-    let t292 = t46 * c(4.8543689320388355);
-    let t293 = mul_sub(base_rotation[0][0], t291, base_rotation[0][1] * t292);
-    let t294 = mul_sub(base_rotation[0][2], t290, t293);
-    rod_direction[4][0] = t294;
-    let t295 = mul_sub(base_rotation[1][0], t291, base_rotation[1][1] * t292);
-    let t296 = mul_sub(base_rotation[1][2], t290, t295);
-    rod_direction[4][1] = t296;
-    let t297 = mul_sub(base_rotation[2][0], t291, base_rotation[2][1] * t292);
-    let t298 = mul_sub(base_rotation[2][2], t290, t297);
-    rod_direction[4][2] = t298;
+    let t286 = t69 * c(4.8543689320388355);
+    let t287 = t45 * c(4.8543689320388355);
+    let t288 = t46 * c(4.8543689320388355);
+    let t289 = mul_sub(base_rotation[0][0], t287, base_rotation[0][1] * t288);
+    let t290 = mul_sub(base_rotation[0][2], t286, t289);
+    rod_direction[4][0] = t290;
+    let t291 = mul_sub(base_rotation[1][0], t287, base_rotation[1][1] * t288);
+    let t292 = mul_sub(base_rotation[1][2], t286, t291);
+    rod_direction[4][1] = t292;
+    let t293 = mul_sub(base_rotation[2][0], t287, base_rotation[2][1] * t288);
+    let t294 = mul_sub(base_rotation[2][2], t286, t293);
+    rod_direction[4][2] = t294;
     // leg 6: rod direction u, from the Hooke joint to the platform joint
-    let t299 = t73 * c(4.8543689320388355);
-    let t300 = t47 * c(4.8543689320388355);
-    let t301 = t48 * c(4.8543689320388355);
-    let t302 = mul_sub(base_rotation[0][0], t300, base_rotation[0][1] * t301);
-    let t303 = mul_sub(base_rotation[0][2], t299, t302);
-    rod_direction[5][0] = t303;
-    let t304 = mul_sub(base_rotation[1][0], t300, base_rotation[1][1] * t301);
-    let t305 = mul_sub(base_rotation[1][2], t299, t304);
-    rod_direction[5][1] = t305;
-    let t306 = mul_sub(base_rotation[2][0], t300, base_rotation[2][1] * t301);
-    let t307 = mul_sub(base_rotation[2][2], t299, t306);
-    rod_direction[5][2] = t307;
+    let t295 = t73 * c(4.8543689320388355);
+    let t296 = t47 * c(4.8543689320388355);
+    let t297 = t48 * c(4.8543689320388355);
+    let t298 = mul_sub(base_rotation[0][0], t296, base_rotation[0][1] * t297);
+    let t299 = mul_sub(base_rotation[0][2], t295, t298);
+    rod_direction[5][0] = t299;
+    let t300 = mul_sub(base_rotation[1][0], t296, base_rotation[1][1] * t297);
+    let t301 = mul_sub(base_rotation[1][2], t295, t300);
+    rod_direction[5][1] = t301;
+    let t302 = mul_sub(base_rotation[2][0], t296, base_rotation[2][1] * t297);
+    let t303 = mul_sub(base_rotation[2][2], t295, t302);
+    rod_direction[5][2] = t303;
     // leg 1: Hooke joint
-    let t308 = base_rotation[0][1] * c(0.12275970481124972);
-    let t309 = mul_sub(base_rotation[0][0], c(0.1316436662914507), t308);
-    let t310 = mul_sub(base_rotation[0][2], t53, t309);
-    let t311 = base_rotation[1][1] * c(0.12275970481124972);
-    let t312 = mul_sub(base_rotation[1][0], c(0.1316436662914507), t311);
-    let t313 = mul_sub(base_rotation[1][2], t53, t312);
-    let t314 = base_rotation[2][1] * c(0.12275970481124972);
-    let t315 = mul_sub(base_rotation[2][0], c(0.1316436662914507), t314);
-    let t316 = mul_sub(base_rotation[2][2], t53, t315);
-    hooke_joint_position[0][0] = base_position[0] - t310;
-    hooke_joint_position[0][1] = base_position[1] - t313;
-    hooke_joint_position[0][2] = base_position[2] - t316;
+    let t304 = base_rotation[0][1] * c(0.12275970481124972);
+    let t305 = mul_sub(base_rotation[0][0], c(0.1316436662914507), t304);
+    let t306 = mul_sub(base_rotation[0][2], t53, t305);
+    let t307 = base_rotation[1][1] * c(0.12275970481124972);
+    let t308 = mul_sub(base_rotation[1][0], c(0.1316436662914507), t307);
+    let t309 = mul_sub(base_rotation[1][2], t53, t308);
+    let t310 = base_rotation[2][1] * c(0.12275970481124972);
+    let t311 = mul_sub(base_rotation[2][0], c(0.1316436662914507), t310);
+    let t312 = mul_sub(base_rotation[2][2], t53, t311);
+    hooke_joint_position[0][0] = base_position[0] - t306;
+    hooke_joint_position[0][1] = base_position[1] - t309;
+    hooke_joint_position[0][2] = base_position[2] - t312;
     // leg 1: platform joint
-    let t317 = platform_rotation[0][1] * c(0.03105828541230249);
-    let t318 = mul_sub(platform_rotation[0][0], c(0.1159110991546882), t317);
-    let t319 = platform_rotation[1][1] * c(0.03105828541230249);
-    let t320 = mul_sub(platform_rotation[1][0], c(0.1159110991546882), t319);
-    let t321 = platform_rotation[2][1] * c(0.03105828541230249);
-    let t322 = mul_sub(platform_rotation[2][0], c(0.1159110991546882), t321);
-    platform_joint_position[0][0] = platform_position[0] + t318;
-    platform_joint_position[0][1] = platform_position[1] + t320;
-    platform_joint_position[0][2] = platform_position[2] + t322;
+    let t313 = platform_rotation[0][1] * c(0.03105828541230249);
+    let t314 = mul_sub(platform_rotation[0][0], c(0.1159110991546882), t313);
+    let t315 = platform_rotation[1][1] * c(0.03105828541230249);
+    let t316 = mul_sub(platform_rotation[1][0], c(0.1159110991546882), t315);
+    let t317 = platform_rotation[2][1] * c(0.03105828541230249);
+    let t318 = mul_sub(platform_rotation[2][0], c(0.1159110991546882), t317);
+    platform_joint_position[0][0] = platform_position[0] + t314;
+    platform_joint_position[0][1] = platform_position[1] + t316;
+    platform_joint_position[0][2] = platform_position[2] + t318;
     // leg 1: velocity of the Hooke joint
-    let t323 = base_velocity[5] * t313;
-    let t324 = base_velocity[3] * t316;
-    let t325 = base_velocity[4] * t310;
+    let t319 = base_velocity[5] * t309;
+    let t320 = base_velocity[3] * t312;
+    let t321 = base_velocity[4] * t306;
     // leg 1: angular velocity w_s of the rod, without spin
-    let t326 = mul_sub(base_velocity[3], t313, t325);
-    let t327 = mul_add(base_rotation[2][2], t132, t326);
-    let t328 = mul_add(platform_velocity[3], t320, t327);
-    let t329 = t96 + mul_sub(platform_velocity[4], t318, t328);
-    let t330 = mul_sub(base_velocity[5], t310, t324);
-    let t331 = mul_add(base_rotation[1][2], t132, t330);
-    let t332 = mul_add(platform_velocity[5], t318, t331);
-    let t333 = t95 + mul_sub(platform_velocity[3], t322, t332);
-    let t334 = t262 * t333;
-    let t335 = mul_sub(base_velocity[4], t316, t323);
-    let t336 = mul_add(base_rotation[0][2], t132, t335);
-    let t337 = mul_add(platform_velocity[4], t322, t336);
-    let t338 = t94 + mul_sub(platform_velocity[5], t320, t337);
-    let t339 = t258 * t329;
-    let t340 = t260 * t338;
+    let t322 = mul_sub(base_velocity[3], t309, t321);
+    let t323 = mul_add(base_rotation[2][2], t132, t322);
+    let t324 = mul_add(platform_velocity[3], t316, t323);
+    let t325 = t96 + mul_sub(platform_velocity[4], t314, t324);
+    let t326 = mul_sub(base_velocity[5], t306, t320);
+    let t327 = mul_add(base_rotation[1][2], t132, t326);
+    let t328 = mul_add(platform_velocity[5], t314, t327);
+    let t329 = t95 + mul_sub(platform_velocity[3], t318, t328);
+    let t330 = t258 * t329;
+    let t331 = mul_sub(base_velocity[4], t312, t319);
+    let t332 = mul_add(base_rotation[0][2], t132, t331);
+    let t333 = mul_add(platform_velocity[4], t318, t332);
+    let t334 = t94 + mul_sub(platform_velocity[5], t316, t333);
+    let t335 = t254 * t325;
+    let t336 = t256 * t334;
     // leg 1: platform's angular velocity relative to the rod, w_p - w_s
-    let t341 = mul_sub(t260, t329, t334);
+    let t337 = mul_sub(t256, t325, t330);
     platform_joint_rate[0][0] = mul_add(
         c(4.8543689320388355),
-        t341,
+        t337,
         platform_velocity[3],
     );
-    let t342 = mul_sub(t262, t338, t339);
+    let t338 = mul_sub(t258, t334, t335);
     platform_joint_rate[0][1] = mul_add(
         c(4.8543689320388355),
-        t342,
+        t338,
         platform_velocity[4],
     );
-    let t343 = mul_sub(t258, t333, t340);
+    let t339 = mul_sub(t254, t329, t336);
     platform_joint_rate[0][2] = mul_add(
         c(4.8543689320388355),
-        t343,
+        t339,
         platform_velocity[5],
     );
     // leg 2: Hooke joint
-    let t344 = mul_add(base_rotation[0][0], c(0.1316436662914507), t308);
-    let t345 = mul_sub(base_rotation[0][2], t57, t344);
-    let t346 = mul_add(base_rotation[1][0], c(0.1316436662914507), t311);
-    let t347 = mul_sub(base_rotation[1][2], t57, t346);
-    let t348 = mul_add(base_rotation[2][0], c(0.1316436662914507), t314);
-    let t349 = mul_sub(base_rotation[2][2], t57, t348);
-    hooke_joint_position[1][0] = base_position[0] - t345;
-    hooke_joint_position[1][1] = base_position[1] - t347;
-    hooke_joint_position[1][2] = base_position[2] - t349;
+    let t340 = mul_add(base_rotation[0][0], c(0.1316436662914507), t304);
+    let t341 = mul_sub(base_rotation[0][2], t57, t340);
+    let t342 = mul_add(base_rotation[1][0], c(0.1316436662914507), t307);
+    let t343 = mul_sub(base_rotation[1][2], t57, t342);
+    let t344 = mul_add(base_rotation[2][0], c(0.1316436662914507), t310);
+    let t345 = mul_sub(base_rotation[2][2], t57, t344);
+    hooke_joint_position[1][0] = base_position[0] - t341;
+    hooke_joint_position[1][1] = base_position[1] - t343;
+    hooke_joint_position[1][2] = base_position[2] - t345;
     // leg 2: platform joint
-    let t350 = mul_add(platform_rotation[0][0], c(0.1159110991546882), t317);
-    let t351 = mul_add(platform_rotation[1][0], c(0.1159110991546882), t319);
-    let t352 = mul_add(platform_rotation[2][0], c(0.1159110991546882), t321);
-    platform_joint_position[1][0] = platform_position[0] + t350;
-    platform_joint_position[1][1] = platform_position[1] + t351;
-    platform_joint_position[1][2] = platform_position[2] + t352;
+    let t346 = mul_add(platform_rotation[0][0], c(0.1159110991546882), t313);
+    let t347 = mul_add(platform_rotation[1][0], c(0.1159110991546882), t315);
+    let t348 = mul_add(platform_rotation[2][0], c(0.1159110991546882), t317);
+    platform_joint_position[1][0] = platform_position[0] + t346;
+    platform_joint_position[1][1] = platform_position[1] + t347;
+    platform_joint_position[1][2] = platform_position[2] + t348;
     // leg 2: velocity of the Hooke joint
-    let t353 = base_velocity[5] * t347;
-    let t354 = base_velocity[3] * t349;
-    let t355 = base_velocity[4] * t345;
+    let t349 = base_velocity[5] * t343;
+    let t350 = base_velocity[3] * t345;
+    let t351 = base_velocity[4] * t341;
     // leg 2: angular velocity w_s of the rod, without spin
-    let t356 = mul_sub(base_velocity[3], t347, t355);
-    let t357 = mul_add(base_rotation[2][2], t134, t356);
-    let t358 = mul_add(platform_velocity[3], t351, t357);
-    let t359 = t96 + mul_sub(platform_velocity[4], t350, t358);
-    let t360 = mul_sub(base_velocity[5], t345, t354);
-    let t361 = mul_add(base_rotation[1][2], t134, t360);
-    let t362 = mul_add(platform_velocity[5], t350, t361);
-    let t363 = t95 + mul_sub(platform_velocity[3], t352, t362);
-    let t364 = t271 * t363;
-    let t365 = mul_sub(base_velocity[4], t349, t353);
-    let t366 = mul_add(base_rotation[0][2], t134, t365);
-    let t367 = mul_add(platform_velocity[4], t352, t366);
-    let t368 = t94 + mul_sub(platform_velocity[5], t351, t367);
-    let t369 = t267 * t359;
-    let t370 = t269 * t368;
+    let t352 = mul_sub(base_velocity[3], t343, t351);
+    let t353 = mul_add(base_rotation[2][2], t134, t352);
+    let t354 = mul_add(platform_velocity[3], t347, t353);
+    let t355 = t96 + mul_sub(platform_velocity[4], t346, t354);
+    let t356 = mul_sub(base_velocity[5], t341, t350);
+    let t357 = mul_add(base_rotation[1][2], t134, t356);
+    let t358 = mul_add(platform_velocity[5], t346, t357);
+    let t359 = t95 + mul_sub(platform_velocity[3], t348, t358);
+    let t360 = t267 * t359;
+    let t361 = mul_sub(base_velocity[4], t345, t349);
+    let t362 = mul_add(base_rotation[0][2], t134, t361);
+    let t363 = mul_add(platform_velocity[4], t348, t362);
+    let t364 = t94 + mul_sub(platform_velocity[5], t347, t363);
+    let t365 = t263 * t355;
+    let t366 = t265 * t364;
     // leg 2: platform's angular velocity relative to the rod, w_p - w_s
-    let t371 = mul_sub(t269, t359, t364);
+    let t367 = mul_sub(t265, t355, t360);
     platform_joint_rate[1][0] = mul_add(
         c(4.8543689320388355),
-        t371,
+        t367,
         platform_velocity[3],
     );
-    let t372 = mul_sub(t271, t368, t369);
+    let t368 = mul_sub(t267, t364, t365);
     platform_joint_rate[1][1] = mul_add(
         c(4.8543689320388355),
-        t372,
+        t368,
         platform_velocity[4],
     );
-    let t373 = mul_sub(t267, t363, t370);
+    let t369 = mul_sub(t263, t359, t366);
     platform_joint_rate[1][2] = mul_add(
         c(4.8543689320388355),
-        t373,
+        t369,
         platform_velocity[5],
     );
     // leg 3: Hooke joint
-    let t374 = base_rotation[0][1] * c(0.17538661166134234);
-    let t375 = mul_add(base_rotation[0][0], c(0.040491189781895726), t374);
-    let t376 = mul_sub(base_rotation[0][2], t62, t375);
-    let t377 = base_rotation[1][1] * c(0.17538661166134234);
-    let t378 = mul_add(base_rotation[1][0], c(0.040491189781895726), t377);
-    let t379 = mul_sub(base_rotation[1][2], t62, t378);
-    let t380 = base_rotation[2][1] * c(0.17538661166134234);
-    let t381 = mul_add(base_rotation[2][0], c(0.040491189781895726), t380);
-    let t382 = mul_sub(base_rotation[2][2], t62, t381);
-    hooke_joint_position[2][0] = base_position[0] - t376;
-    hooke_joint_position[2][1] = base_position[1] - t379;
-    hooke_joint_position[2][2] = base_position[2] - t382;
+    let t370 = base_rotation[0][1] * c(0.17538661166134234);
+    let t371 = mul_add(base_rotation[0][0], c(0.040491189781895726), t370);
+    let t372 = mul_sub(base_rotation[0][2], t62, t371);
+    let t373 = base_rotation[1][1] * c(0.17538661166134234);
+    let t374 = mul_add(base_rotation[1][0], c(0.040491189781895726), t373);
+    let t375 = mul_sub(base_rotation[1][2], t62, t374);
+    let t376 = base_rotation[2][1] * c(0.17538661166134234);
+    let t377 = mul_add(base_rotation[2][0], c(0.040491189781895726), t376);
+    let t378 = mul_sub(base_rotation[2][2], t62, t377);
+    hooke_joint_position[2][0] = base_position[0] - t372;
+    hooke_joint_position[2][1] = base_position[1] - t375;
+    hooke_joint_position[2][2] = base_position[2] - t378;
     // leg 3: platform joint
-    let t383 = platform_rotation[0][1] * c(0.1159110991546882);
-    let t384 = mul_sub(platform_rotation[0][0], c(0.031058285412302475), t383);
-    let t385 = platform_rotation[1][1] * c(0.1159110991546882);
-    let t386 = mul_sub(platform_rotation[1][0], c(0.031058285412302475), t385);
-    let t387 = platform_rotation[2][1] * c(0.1159110991546882);
-    let t388 = mul_sub(platform_rotation[2][0], c(0.031058285412302475), t387);
-    platform_joint_position[2][0] = platform_position[0] - t384;
-    platform_joint_position[2][1] = platform_position[1] - t386;
-    platform_joint_position[2][2] = platform_position[2] - t388;
+    let t379 = platform_rotation[0][1] * c(0.1159110991546882);
+    let t380 = mul_sub(platform_rotation[0][0], c(0.031058285412302475), t379);
+    let t381 = platform_rotation[1][1] * c(0.1159110991546882);
+    let t382 = mul_sub(platform_rotation[1][0], c(0.031058285412302475), t381);
+    let t383 = platform_rotation[2][1] * c(0.1159110991546882);
+    let t384 = mul_sub(platform_rotation[2][0], c(0.031058285412302475), t383);
+    platform_joint_position[2][0] = platform_position[0] - t380;
+    platform_joint_position[2][1] = platform_position[1] - t382;
+    platform_joint_position[2][2] = platform_position[2] - t384;
     // leg 3: velocity of the Hooke joint
-    let t389 = base_velocity[5] * t379;
-    let t390 = base_velocity[3] * t382;
-    let t391 = base_velocity[4] * t376;
+    let t385 = base_velocity[5] * t375;
+    let t386 = base_velocity[3] * t378;
+    let t387 = base_velocity[4] * t372;
     // leg 3: angular velocity w_s of the rod, without spin
-    let t392 = mul_sub(base_velocity[3], t379, t391);
-    let t393 = mul_add(base_rotation[2][2], t137, t392);
-    let t394 = mul_sub(platform_velocity[3], t386, t393);
-    let t395 = t96 - mul_sub(platform_velocity[4], t384, t394);
-    let t396 = mul_sub(base_velocity[5], t376, t390);
-    let t397 = mul_add(base_rotation[1][2], t137, t396);
-    let t398 = mul_sub(platform_velocity[5], t384, t397);
-    let t399 = t95 - mul_sub(platform_velocity[3], t388, t398);
-    let t400 = t280 * t399;
-    let t401 = mul_sub(base_velocity[4], t382, t389);
-    let t402 = mul_add(base_rotation[0][2], t137, t401);
-    let t403 = mul_sub(platform_velocity[4], t388, t402);
-    let t404 = t94 - mul_sub(platform_velocity[5], t386, t403);
-    let t405 = t276 * t395;
-    let t406 = t278 * t404;
+    let t388 = mul_sub(base_velocity[3], t375, t387);
+    let t389 = mul_add(base_rotation[2][2], t137, t388);
+    let t390 = mul_sub(platform_velocity[3], t382, t389);
+    let t391 = t96 - mul_sub(platform_velocity[4], t380, t390);
+    let t392 = mul_sub(base_velocity[5], t372, t386);
+    let t393 = mul_add(base_rotation[1][2], t137, t392);
+    let t394 = mul_sub(platform_velocity[5], t380, t393);
+    let t395 = t95 - mul_sub(platform_velocity[3], t384, t394);
+    let t396 = t276 * t395;
+    let t397 = mul_sub(base_velocity[4], t378, t385);
+    let t398 = mul_add(base_rotation[0][2], t137, t397);
+    let t399 = mul_sub(platform_velocity[4], t384, t398);
+    let t400 = t94 - mul_sub(platform_velocity[5], t382, t399);
+    let t401 = t272 * t391;
+    let t402 = t274 * t400;
     // leg 3: platform's angular velocity relative to the rod, w_p - w_s
-    let t407 = mul_sub(t278, t395, t400);
+    let t403 = mul_sub(t274, t391, t396);
     platform_joint_rate[2][0] = mul_add(
         c(4.8543689320388355),
-        t407,
+        t403,
         platform_velocity[3],
     );
-    let t408 = mul_sub(t280, t404, t405);
+    let t404 = mul_sub(t276, t400, t401);
     platform_joint_rate[2][1] = mul_add(
         c(4.8543689320388355),
-        t408,
+        t404,
         platform_velocity[4],
     );
-    let t409 = mul_sub(t276, t399, t406);
+    let t405 = mul_sub(t272, t395, t402);
     platform_joint_rate[2][2] = mul_add(
         c(4.8543689320388355),
-        t409,
+        t405,
         platform_velocity[5],
     );
     // leg 4: Hooke joint
-    let t410 = base_rotation[0][1] * c(0.052626906850092664);
-    let t411 = mul_sub(base_rotation[0][0], c(0.17213485607334636), t410);
-    let t412 = mul_add(base_rotation[0][2], t67, t411);
-    let t413 = base_rotation[1][1] * c(0.052626906850092664);
-    let t414 = mul_sub(base_rotation[1][0], c(0.17213485607334636), t413);
-    let t415 = mul_add(base_rotation[1][2], t67, t414);
-    let t416 = base_rotation[2][1] * c(0.052626906850092664);
-    let t417 = mul_sub(base_rotation[2][0], c(0.17213485607334636), t416);
-    let t418 = mul_add(base_rotation[2][2], t67, t417);
-    hooke_joint_position[3][0] = base_position[0] - t412;
-    hooke_joint_position[3][1] = base_position[1] - t415;
-    hooke_joint_position[3][2] = base_position[2] - t418;
+    let t406 = base_rotation[0][1] * c(0.052626906850092664);
+    let t407 = mul_sub(base_rotation[0][0], c(0.17213485607334636), t406);
+    let t408 = mul_add(base_rotation[0][2], t67, t407);
+    let t409 = base_rotation[1][1] * c(0.052626906850092664);
+    let t410 = mul_sub(base_rotation[1][0], c(0.17213485607334636), t409);
+    let t411 = mul_add(base_rotation[1][2], t67, t410);
+    let t412 = base_rotation[2][1] * c(0.052626906850092664);
+    let t413 = mul_sub(base_rotation[2][0], c(0.17213485607334636), t412);
+    let t414 = mul_add(base_rotation[2][2], t67, t413);
+    hooke_joint_position[3][0] = base_position[0] - t408;
+    hooke_joint_position[3][1] = base_position[1] - t411;
+    hooke_joint_position[3][2] = base_position[2] - t414;
     // leg 4: platform joint
-    let t419 = platform_rotation[0][1] * c(0.08485281374238571);
-    let t420 = mul_sub(platform_rotation[0][0], c(0.0848528137423857), t419);
-    let t421 = platform_rotation[1][1] * c(0.08485281374238571);
-    let t422 = mul_sub(platform_rotation[1][0], c(0.0848528137423857), t421);
-    let t423 = platform_rotation[2][1] * c(0.08485281374238571);
-    let t424 = mul_sub(platform_rotation[2][0], c(0.0848528137423857), t423);
-    platform_joint_position[3][0] = platform_position[0] - t420;
-    platform_joint_position[3][1] = platform_position[1] - t422;
-    platform_joint_position[3][2] = platform_position[2] - t424;
+    let t415 = platform_rotation[0][1] * c(0.08485281374238571);
+    let t416 = mul_sub(platform_rotation[0][0], c(0.0848528137423857), t415);
+    let t417 = platform_rotation[1][1] * c(0.08485281374238571);
+    let t418 = mul_sub(platform_rotation[1][0], c(0.0848528137423857), t417);
+    let t419 = platform_rotation[2][1] * c(0.08485281374238571);
+    let t420 = mul_sub(platform_rotation[2][0], c(0.0848528137423857), t419);
+    platform_joint_position[3][0] = platform_position[0] - t416;
+    platform_joint_position[3][1] = platform_position[1] - t418;
+    platform_joint_position[3][2] = platform_position[2] - t420;
     // leg 4: velocity of the Hooke joint
-    let t425 = base_velocity[5] * t415;
-    let t426 = base_velocity[3] * t418;
-    let t427 = base_velocity[4] * t412;
+    let t421 = base_velocity[5] * t411;
+    let t422 = base_velocity[3] * t414;
+    let t423 = base_velocity[4] * t408;
     // leg 4: angular velocity w_s of the rod, without spin
-    let t428 = mul_sub(base_velocity[3], t415, t427);
-    let t429 = mul_add(base_rotation[2][2], t140, t428);
-    let t430 = mul_sub(platform_velocity[3], t422, t429);
-    let t431 = t96 - mul_sub(platform_velocity[4], t420, t430);
-    let t432 = mul_sub(base_velocity[5], t412, t426);
-    let t433 = mul_add(base_rotation[1][2], t140, t432);
-    let t434 = mul_sub(platform_velocity[5], t420, t433);
-    let t435 = t95 - mul_sub(platform_velocity[3], t424, t434);
-    let t436 = t289 * t435;
-    let t437 = mul_sub(base_velocity[4], t418, t425);
-    let t438 = mul_add(base_rotation[0][2], t140, t437);
-    let t439 = mul_sub(platform_velocity[4], t424, t438);
-    let t440 = t94 - mul_sub(platform_velocity[5], t422, t439);
-    let t441 = t285 * t431;
-    let t442 = t287 * t440;
+    let t424 = mul_sub(base_velocity[3], t411, t423);
+    let t425 = mul_add(base_rotation[2][2], t140, t424);
+    let t426 = mul_sub(platform_velocity[3], t418, t425);
+    let t427 = t96 - mul_sub(platform_velocity[4], t416, t426);
+    let t428 = mul_sub(base_velocity[5], t408, t422);
+    let t429 = mul_add(base_rotation[1][2], t140, t428);
+    let t430 = mul_sub(platform_velocity[5], t416, t429);
+    let t431 = t95 - mul_sub(platform_velocity[3], t420, t430);
+    let t432 = t285 * t431;
+    let t433 = mul_sub(base_velocity[4], t414, t421);
+    let t434 = mul_add(base_rotation[0][2], t140, t433);
+    let t435 = mul_sub(platform_velocity[4], t420, t434);
+    let t436 = t94 - mul_sub(platform_velocity[5], t418, t435);
+    let t437 = t281 * t427;
+    let t438 = t283 * t436;
     // leg 4: platform's angular velocity relative to the rod, w_p - w_s
-    let t443 = mul_sub(t287, t431, t436);
+    let t439 = mul_sub(t283, t427, t432);
     platform_joint_rate[3][0] = mul_add(
         c(4.8543689320388355),
-        t443,
+        t439,
         platform_velocity[3],
     );
-    let t444 = mul_sub(t289, t440, t441);
+    let t440 = mul_sub(t285, t436, t437);
     platform_joint_rate[3][1] = mul_add(
         c(4.8543689320388355),
-        t444,
+        t440,
         platform_velocity[4],
     );
-    let t445 = mul_sub(t285, t435, t442);
+    let t441 = mul_sub(t281, t431, t438);
     platform_joint_rate[3][2] = mul_add(
         c(4.8543689320388355),
-        t445,
+        t441,
         platform_velocity[5],
     );
     // leg 5: Hooke joint
-    let t446 = mul_add(base_rotation[0][0], c(0.17213485607334636), t410);
-    let t447 = mul_add(base_rotation[0][2], t71, t446);
-    let t448 = mul_add(base_rotation[1][0], c(0.17213485607334636), t413);
-    let t449 = mul_add(base_rotation[1][2], t71, t448);
-    let t450 = mul_add(base_rotation[2][0], c(0.17213485607334636), t416);
-    let t451 = mul_add(base_rotation[2][2], t71, t450);
-    hooke_joint_position[4][0] = base_position[0] - t447;
-    hooke_joint_position[4][1] = base_position[1] - t449;
-    hooke_joint_position[4][2] = base_position[2] - t451;
+    let t442 = mul_add(base_rotation[0][0], c(0.17213485607334636), t406);
+    let t443 = mul_add(base_rotation[0][2], t71, t442);
+    let t444 = mul_add(base_rotation[1][0], c(0.17213485607334636), t409);
+    let t445 = mul_add(base_rotation[1][2], t71, t444);
+    let t446 = mul_add(base_rotation[2][0], c(0.17213485607334636), t412);
+    let t447 = mul_add(base_rotation[2][2], t71, t446);
+    hooke_joint_position[4][0] = base_position[0] - t443;
+    hooke_joint_position[4][1] = base_position[1] - t445;
+    hooke_joint_position[4][2] = base_position[2] - t447;
     // leg 5: platform joint
-    let t452 = mul_add(platform_rotation[0][0], c(0.0848528137423857), t419);
-    let t453 = mul_add(platform_rotation[1][0], c(0.0848528137423857), t421);
-    let t454 = mul_add(platform_rotation[2][0], c(0.0848528137423857), t423);
-    platform_joint_position[4][0] = platform_position[0] - t452;
-    platform_joint_position[4][1] = platform_position[1] - t453;
-    platform_joint_position[4][2] = platform_position[2] - t454;
+    let t448 = mul_add(platform_rotation[0][0], c(0.0848528137423857), t415);
+    let t449 = mul_add(platform_rotation[1][0], c(0.0848528137423857), t417);
+    let t450 = mul_add(platform_rotation[2][0], c(0.0848528137423857), t419);
+    platform_joint_position[4][0] = platform_position[0] - t448;
+    platform_joint_position[4][1] = platform_position[1] - t449;
+    platform_joint_position[4][2] = platform_position[2] - t450;
     // leg 5: velocity of the Hooke joint
-    let t455 = base_velocity[5] * t449;
-    let t456 = base_velocity[3] * t451;
-    let t457 = base_velocity[4] * t447;
+    let t451 = base_velocity[5] * t445;
+    let t452 = base_velocity[3] * t447;
+    let t453 = base_velocity[4] * t443;
     // leg 5: angular velocity w_s of the rod, without spin
-    let t458 = mul_sub(base_velocity[3], t449, t457);
-    let t459 = mul_add(base_rotation[2][2], t142, t458);
-    let t460 = mul_sub(platform_velocity[3], t453, t459);
-    let t461 = t96 - mul_sub(platform_velocity[4], t452, t460);
-    let t462 = mul_sub(base_velocity[5], t447, t456);
-    let t463 = mul_add(base_rotation[1][2], t142, t462);
-    let t464 = mul_sub(platform_velocity[5], t452, t463);
-    let t465 = t95 - mul_sub(platform_velocity[3], t454, t464);
-    let t466 = t298 * t465;
-    let t467 = mul_sub(base_velocity[4], t451, t455);
-    let t468 = mul_add(base_rotation[0][2], t142, t467);
-    let t469 = mul_sub(platform_velocity[4], t454, t468);
-    let t470 = t94 - mul_sub(platform_velocity[5], t453, t469);
-    let t471 = t294 * t461;
-    let t472 = t296 * t470;
+    let t454 = mul_sub(base_velocity[3], t445, t453);
+    let t455 = mul_add(base_rotation[2][2], t142, t454);
+    let t456 = mul_sub(platform_velocity[3], t449, t455);
+    let t457 = t96 - mul_sub(platform_velocity[4], t448, t456);
+    let t458 = mul_sub(base_velocity[5], t443, t452);
+    let t459 = mul_add(base_rotation[1][2], t142, t458);
+    let t460 = mul_sub(platform_velocity[5], t448, t459);
+    let t461 = t95 - mul_sub(platform_velocity[3], t450, t460);
+    let t462 = t294 * t461;
+    let t463 = mul_sub(base_velocity[4], t447, t451);
+    let t464 = mul_add(base_rotation[0][2], t142, t463);
+    let t465 = mul_sub(platform_velocity[4], t450, t464);
+    let t466 = t94 - mul_sub(platform_velocity[5], t449, t465);
+    let t467 = t290 * t457;
+    let t468 = t292 * t466;
     // leg 5: platform's angular velocity relative to the rod, w_p - w_s
-    let t473 = mul_sub(t296, t461, t466);
+    let t469 = mul_sub(t292, t457, t462);
     platform_joint_rate[4][0] = mul_add(
         c(4.8543689320388355),
-        t473,
+        t469,
         platform_velocity[3],
     );
-    let t474 = mul_sub(t298, t470, t471);
+    let t470 = mul_sub(t294, t466, t467);
     platform_joint_rate[4][1] = mul_add(
         c(4.8543689320388355),
-        t474,
+        t470,
         platform_velocity[4],
     );
-    let t475 = mul_sub(t294, t465, t472);
+    let t471 = mul_sub(t290, t461, t468);
     platform_joint_rate[4][2] = mul_add(
         c(4.8543689320388355),
-        t475,
+        t471,
         platform_velocity[5],
     );
     // leg 6: Hooke joint
-    let t476 = mul_sub(base_rotation[0][0], c(0.040491189781895726), t374);
-    let t477 = mul_sub(base_rotation[0][2], t75, t476);
-    let t478 = mul_sub(base_rotation[1][0], c(0.040491189781895726), t377);
-    let t479 = mul_sub(base_rotation[1][2], t75, t478);
-    let t480 = mul_sub(base_rotation[2][0], c(0.040491189781895726), t380);
-    let t481 = mul_sub(base_rotation[2][2], t75, t480);
-    hooke_joint_position[5][0] = base_position[0] - t477;
-    hooke_joint_position[5][1] = base_position[1] - t479;
-    hooke_joint_position[5][2] = base_position[2] - t481;
+    let t472 = mul_sub(base_rotation[0][0], c(0.040491189781895726), t370);
+    let t473 = mul_sub(base_rotation[0][2], t75, t472);
+    let t474 = mul_sub(base_rotation[1][0], c(0.040491189781895726), t373);
+    let t475 = mul_sub(base_rotation[1][2], t75, t474);
+    let t476 = mul_sub(base_rotation[2][0], c(0.040491189781895726), t376);
+    let t477 = mul_sub(base_rotation[2][2], t75, t476);
+    hooke_joint_position[5][0] = base_position[0] - t473;
+    hooke_joint_position[5][1] = base_position[1] - t475;
+    hooke_joint_position[5][2] = base_position[2] - t477;
     // leg 6: platform joint
-    let t482 = mul_add(platform_rotation[0][0], c(0.031058285412302475), t383);
-    let t483 = mul_add(platform_rotation[1][0], c(0.031058285412302475), t385);
-    let t484 = mul_add(platform_rotation[2][0], c(0.031058285412302475), t387);
-    platform_joint_position[5][0] = platform_position[0] - t482;
-    platform_joint_position[5][1] = platform_position[1] - t483;
-    platform_joint_position[5][2] = platform_position[2] - t484;
+    let t478 = mul_add(platform_rotation[0][0], c(0.031058285412302475), t379);
+    let t479 = mul_add(platform_rotation[1][0], c(0.031058285412302475), t381);
+    let t480 = mul_add(platform_rotation[2][0], c(0.031058285412302475), t383);
+    platform_joint_position[5][0] = platform_position[0] - t478;
+    platform_joint_position[5][1] = platform_position[1] - t479;
+    platform_joint_position[5][2] = platform_position[2] - t480;
     // leg 6: velocity of the Hooke joint
-    let t485 = base_velocity[5] * t479;
-    let t486 = base_velocity[3] * t481;
-    let t487 = base_velocity[4] * t477;
+    let t481 = base_velocity[5] * t475;
+    let t482 = base_velocity[3] * t477;
+    let t483 = base_velocity[4] * t473;
     // leg 6: angular velocity w_s of the rod, without spin
-    let t488 = mul_sub(base_velocity[3], t479, t487);
-    let t489 = mul_add(base_rotation[2][2], t144, t488);
-    let t490 = mul_sub(platform_velocity[3], t483, t489);
-    let t491 = t96 - mul_sub(platform_velocity[4], t482, t490);
-    let t492 = mul_sub(base_velocity[5], t477, t486);
-    let t493 = mul_add(base_rotation[1][2], t144, t492);
-    let t494 = mul_sub(platform_velocity[5], t482, t493);
-    let t495 = t95 - mul_sub(platform_velocity[3], t484, t494);
-    let t496 = t307 * t495;
-    let t497 = mul_sub(base_velocity[4], t481, t485);
-    let t498 = mul_add(base_rotation[0][2], t144, t497);
-    let t499 = mul_sub(platform_velocity[4], t484, t498);
-    let t500 = t94 - mul_sub(platform_velocity[5], t483, t499);
-    let t501 = t303 * t491;
-    let t502 = t305 * t500;
+    let t484 = mul_sub(base_velocity[3], t475, t483);
+    let t485 = mul_add(base_rotation[2][2], t144, t484);
+    let t486 = mul_sub(platform_velocity[3], t479, t485);
+    let t487 = t96 - mul_sub(platform_velocity[4], t478, t486);
+    let t488 = mul_sub(base_velocity[5], t473, t482);
+    let t489 = mul_add(base_rotation[1][2], t144, t488);
+    let t490 = mul_sub(platform_velocity[5], t478, t489);
+    let t491 = t95 - mul_sub(platform_velocity[3], t480, t490);
+    let t492 = t303 * t491;
+    let t493 = mul_sub(base_velocity[4], t477, t481);
+    let t494 = mul_add(base_rotation[0][2], t144, t493);
+    let t495 = mul_sub(platform_velocity[4], t480, t494);
+    let t496 = t94 - mul_sub(platform_velocity[5], t479, t495);
+    let t497 = t299 * t487;
+    let t498 = t301 * t496;
     // leg 6: platform's angular velocity relative to the rod, w_p - w_s
-    let t503 = mul_sub(t305, t491, t496);
+    let t499 = mul_sub(t301, t487, t492);
     platform_joint_rate[5][0] = mul_add(
         c(4.8543689320388355),
-        t503,
+        t499,
         platform_velocity[3],
     );
-    let t504 = mul_sub(t307, t500, t501);
+    let t500 = mul_sub(t303, t496, t497);
     platform_joint_rate[5][1] = mul_add(
         c(4.8543689320388355),
-        t504,
+        t500,
         platform_velocity[4],
     );
-    let t505 = mul_sub(t303, t495, t502);
+    let t501 = mul_sub(t299, t491, t498);
     platform_joint_rate[5][2] = mul_add(
         c(4.8543689320388355),
-        t505,
+        t501,
         platform_velocity[5],
     );
 }
@@ -2595,684 +2569,680 @@ pub fn body_kinematics<T: Scalar>(
     let t191 = mul_sub(base_rotation[1][1], platform_acceleration[4], t190);
     let t192 = mul_add(base_rotation[2][1], platform_acceleration[5], t191);
     let t193 = mul_sub(t78, t93, mul_sub(t84, t87, t192));
-    let t194 = mul_add(t87, t93, t193);
-    let t195 = neg_mul_add(base_rotation[0][2], platform_acceleration[3], t157);
-    let t196 = mul_sub(base_rotation[1][2], platform_acceleration[4], t195);
-    let t197 = mul_add(base_rotation[2][2], platform_acceleration[5], t196);
-    let t198 = mul_sub(t81, t87, mul_sub(t78, t90, t197));
-    let t199 = mul_sub(t87, t90, t198);
-    let t200 = mul_add(t90, t90, t93 * t93);
-    let t201 = mul_add(t15, t194, mul_sub(t9, t199, t3 * t200));
-    let t202 = mul_add(t18, t194, mul_sub(t12, t199, t6 * t200));
-    let t203 = neg_mul_add(base_rotation[0][0], platform_acceleration[3], t151);
-    let t204 = mul_sub(base_rotation[1][0], platform_acceleration[4], t203);
-    let t205 = mul_add(base_rotation[2][0], platform_acceleration[5], t204);
-    let t206 = mul_sub(t84, t90, mul_sub(t81, t93, t205));
-    let t207 = mul_sub(t90, t93, t206);
-    let t208 = mul_add(t87, t90, t198);
-    let t209 = t87 * t87;
-    let t210 = mul_add(t93, t93, t209);
-    let t211 = mul_add(t15, t207, mul_sub(t3, t208, t9 * t210));
-    let t212 = mul_add(t18, t207, mul_sub(t6, t208, t12 * t210));
-    let t213 = mul_add(t90, t90, t209);
-    let t214 = mul_sub(t87, t93, t193);
-    let t215 = mul_add(t90, t93, t206);
-    let t216 = mul_sub(t15, t213, mul_add(t3, t214, t9 * t215));
-    let t217 = mul_sub(t18, t213, mul_add(t6, t214, t12 * t215));
+    let t194 = neg_mul_add(base_rotation[0][2], platform_acceleration[3], t157);
+    let t195 = mul_sub(base_rotation[1][2], platform_acceleration[4], t194);
+    let t196 = mul_add(base_rotation[2][2], platform_acceleration[5], t195);
+    let t197 = mul_sub(t81, t87, mul_sub(t78, t90, t196));
+    let t198 = mul_add(t90, t110, mul_sub(t15, t193, t9 * t197));
+    let t199 = mul_sub(t93, t108, t198);
+    let t200 = mul_add(t90, t111, mul_sub(t18, t193, t12 * t197));
+    let t201 = mul_sub(t93, t109, t200);
+    let t202 = neg_mul_add(base_rotation[0][0], platform_acceleration[3], t151);
+    let t203 = mul_sub(base_rotation[1][0], platform_acceleration[4], t202);
+    let t204 = mul_add(base_rotation[2][0], platform_acceleration[5], t203);
+    let t205 = mul_sub(t84, t90, mul_sub(t81, t93, t204));
+    let t206 = mul_add(t93, t106, mul_sub(t3, t197, t15 * t205));
+    let t207 = mul_sub(t87, t110, t206);
+    let t208 = mul_add(t93, t107, mul_sub(t6, t197, t18 * t205));
+    let t209 = mul_sub(t87, t111, t208);
+    let t210 = mul_add(t87, t108, mul_sub(t9, t205, t3 * t193));
+    let t211 = mul_sub(t90, t106, t210);
+    let t212 = mul_add(t87, t109, mul_sub(t12, t205, t6 * t193));
+    let t213 = mul_sub(t90, t107, t212);
     // leg 1: acceleration of the platform joint relative to the base
-    let t218 = mul_add(c(0.1159110991546882), t201, t175);
-    let t219 = neg_mul_add(c(0.03105828541230249), t202, t218);
-    let t220 = neg_mul_add(c(0.1159110991546882), t211, t182);
-    let t221 = mul_add(c(0.03105828541230249), t212, t220);
+    let t214 = neg_mul_add(c(0.1159110991546882), t199, t175);
+    let t215 = mul_add(c(0.03105828541230249), t201, t214);
+    let t216 = mul_add(c(0.1159110991546882), t207, t182);
+    let t217 = neg_mul_add(c(0.03105828541230249), t209, t216);
     // leg 2: acceleration of the platform joint relative to the base
-    let t222 = mul_add(c(0.03105828541230249), t202, t218);
-    let t223 = neg_mul_add(c(0.03105828541230249), t212, t220);
+    let t218 = neg_mul_add(c(0.03105828541230249), t201, t214);
+    let t219 = mul_add(c(0.03105828541230249), t209, t216);
     // leg 3: acceleration of the platform joint relative to the base
-    let t224 = neg_mul_add(c(0.031058285412302475), t201, t175);
-    let t225 = mul_add(c(0.1159110991546882), t202, t224);
-    let t226 = mul_add(c(0.031058285412302475), t211, t182);
-    let t227 = neg_mul_add(c(0.1159110991546882), t212, t226);
+    let t220 = mul_add(c(0.031058285412302475), t199, t175);
+    let t221 = neg_mul_add(c(0.1159110991546882), t201, t220);
+    let t222 = neg_mul_add(c(0.031058285412302475), t207, t182);
+    let t223 = mul_add(c(0.1159110991546882), t209, t222);
     // leg 4: acceleration of the platform joint relative to the base
-    let t228 = neg_mul_add(c(0.0848528137423857), t201, t175);
-    let t229 = mul_add(c(0.08485281374238571), t202, t228);
-    let t230 = mul_add(c(0.0848528137423857), t211, t182);
-    let t231 = neg_mul_add(c(0.08485281374238571), t212, t230);
+    let t224 = mul_add(c(0.0848528137423857), t199, t175);
+    let t225 = neg_mul_add(c(0.08485281374238571), t201, t224);
+    let t226 = neg_mul_add(c(0.0848528137423857), t207, t182);
+    let t227 = mul_add(c(0.08485281374238571), t209, t226);
     // leg 5: acceleration of the platform joint relative to the base
-    let t232 = neg_mul_add(c(0.08485281374238571), t202, t228);
-    let t233 = mul_add(c(0.08485281374238571), t212, t230);
+    let t228 = mul_add(c(0.08485281374238571), t201, t224);
+    let t229 = neg_mul_add(c(0.08485281374238571), t209, t226);
     // leg 6: acceleration of the platform joint relative to the base
-    let t234 = neg_mul_add(c(0.1159110991546882), t202, t224);
-    let t235 = mul_add(c(0.1159110991546882), t212, t226);
+    let t230 = mul_add(c(0.1159110991546882), t201, t220);
+    let t231 = neg_mul_add(c(0.1159110991546882), t209, t222);
     // leg 1: actuator acceleration d''
-    let t236 = mul_add(c(0.1159110991546882), t216, t189);
-    let t237 = c(0.03105828541230249) * t217;
-    let t238 = mul_sub(t29, t219, mul_add(t113, t113, t115 * t115));
-    let t239 = mul_sub(t130, t130, mul_add(t32, t221, t238));
-    let t240 = t236 - mul_add(t51, t239, t237);
+    let t232 = mul_add(c(0.1159110991546882), t211, t189);
+    let t233 = c(0.03105828541230249) * t213;
+    let t234 = mul_sub(t29, t215, mul_add(t113, t113, t115 * t115));
+    let t235 = mul_sub(t130, t130, mul_add(t32, t217, t234));
+    let t236 = t232 - mul_add(t51, t235, t233);
     // leg 2: actuator acceleration d''
-    let t241 = mul_sub(t33, t222, mul_add(t116, t116, t117 * t117));
-    let t242 = mul_add(t133, t133, mul_sub(t34, t223, t241));
-    let t243 = t236 + neg_mul_add(t56, t242, t237);
+    let t237 = mul_sub(t33, t218, mul_add(t116, t116, t117 * t117));
+    let t238 = mul_add(t133, t133, mul_sub(t34, t219, t237));
+    let t239 = t232 + neg_mul_add(t56, t238, t233);
     // leg 3: actuator acceleration d''
-    let t244 = neg_mul_add(c(0.031058285412302475), t216, t189);
-    let t245 = c(0.1159110991546882) * t217;
-    let t246 = mul_sub(t36, t225, mul_add(t119, t119, t121 * t121));
-    let t247 = mul_add(t135, t135, mul_sub(t39, t227, t246));
-    let t248 = t244 - mul_sub(t60, t247, t245);
+    let t240 = neg_mul_add(c(0.031058285412302475), t211, t189);
+    let t241 = c(0.1159110991546882) * t213;
+    let t242 = mul_sub(t36, t221, mul_add(t119, t119, t121 * t121));
+    let t243 = mul_add(t135, t135, mul_sub(t39, t223, t242));
+    let t244 = t240 - mul_sub(t60, t243, t241);
     // leg 4: actuator acceleration d''
-    let t249 = neg_mul_add(c(0.0848528137423857), t216, t189);
-    let t250 = c(0.08485281374238571) * t217;
-    let t251 = mul_sub(t41, t229, mul_add(t123, t123, t125 * t125));
-    let t252 = mul_add(t138, t138, mul_sub(t44, t231, t251));
-    let t253 = t249 - mul_sub(t65, t252, t250);
+    let t245 = neg_mul_add(c(0.0848528137423857), t211, t189);
+    let t246 = c(0.08485281374238571) * t213;
+    let t247 = mul_sub(t41, t225, mul_add(t123, t123, t125 * t125));
+    let t248 = mul_add(t138, t138, mul_sub(t44, t227, t247));
+    let t249 = t245 - mul_sub(t65, t248, t246);
     // leg 5: actuator acceleration d''
-    let t254 = mul_sub(t45, t232, mul_add(t126, t126, t127 * t127));
-    let t255 = mul_sub(t141, t141, mul_add(t46, t233, t254));
-    let t256 = t249 - mul_add(t70, t255, t250);
+    let t250 = mul_sub(t45, t228, mul_add(t126, t126, t127 * t127));
+    let t251 = mul_sub(t141, t141, mul_add(t46, t229, t250));
+    let t252 = t245 - mul_add(t70, t251, t246);
     // leg 6: actuator acceleration d''
-    let t257 = mul_sub(t47, t234, mul_add(t128, t128, t129 * t129));
-    let t258 = mul_sub(t143, t143, mul_add(t48, t235, t257));
-    let t259 = t244 - mul_add(t74, t258, t245);
+    let t253 = mul_sub(t47, t230, mul_add(t128, t128, t129 * t129));
+    let t254 = mul_sub(t143, t143, mul_add(t48, t231, t253));
+    let t255 = t240 - mul_add(t74, t254, t241);
     // leg 1: rod direction u, from the Hooke joint to the platform joint
-    let t260 = t50 * c(4.8543689320388355);
-    let t261 = t29 * c(4.8543689320388355);
-    let t262 = t32 * c(4.8543689320388355);
-    let t263 = mul_sub(base_rotation[0][0], t261, base_rotation[0][1] * t262);
-    let t264 = mul_sub(base_rotation[0][2], t260, t263);
-    let t265 = mul_sub(base_rotation[1][0], t261, base_rotation[1][1] * t262);
-    let t266 = mul_sub(base_rotation[1][2], t260, t265);
-    let t267 = mul_sub(base_rotation[2][0], t261, base_rotation[2][1] * t262);
-    let t268 = mul_sub(base_rotation[2][2], t260, t267);
+    let t256 = t50 * c(4.8543689320388355);
+    let t257 = t29 * c(4.8543689320388355);
+    let t258 = t32 * c(4.8543689320388355);
+    let t259 = mul_sub(base_rotation[0][0], t257, base_rotation[0][1] * t258);
+    let t260 = mul_sub(base_rotation[0][2], t256, t259);
+    let t261 = mul_sub(base_rotation[1][0], t257, base_rotation[1][1] * t258);
+    let t262 = mul_sub(base_rotation[1][2], t256, t261);
+    let t263 = mul_sub(base_rotation[2][0], t257, base_rotation[2][1] * t258);
+    let t264 = mul_sub(base_rotation[2][2], t256, t263);
     // leg 2: rod direction u, from the Hooke joint to the platform joint
-    let t269 = t55 * c(4.8543689320388355);
-    let t270 = t33 * c(4.8543689320388355);
-    let t271 = t34 * c(4.8543689320388355);
-    let t272 = mul_add(base_rotation[0][0], t270, base_rotation[0][1] * t271);
-    let t273 = mul_sub(base_rotation[0][2], t269, t272);
-    let t274 = mul_add(base_rotation[1][0], t270, base_rotation[1][1] * t271);
-    let t275 = mul_sub(base_rotation[1][2], t269, t274);
-    let t276 = mul_add(base_rotation[2][0], t270, base_rotation[2][1] * t271);
-    let t277 = mul_sub(base_rotation[2][2], t269, t276);
+    let t265 = t55 * c(4.8543689320388355);
+    let t266 = t33 * c(4.8543689320388355);
+    let t267 = t34 * c(4.8543689320388355);
+    let t268 = mul_add(base_rotation[0][0], t266, base_rotation[0][1] * t267);
+    let t269 = mul_sub(base_rotation[0][2], t265, t268);
+    let t270 = mul_add(base_rotation[1][0], t266, base_rotation[1][1] * t267);
+    let t271 = mul_sub(base_rotation[1][2], t265, t270);
+    let t272 = mul_add(base_rotation[2][0], t266, base_rotation[2][1] * t267);
+    let t273 = mul_sub(base_rotation[2][2], t265, t272);
     // leg 3: rod direction u, from the Hooke joint to the platform joint
-    let t278 = t59 * c(4.8543689320388355);
-    let t279 = t36 * c(4.8543689320388355);
-    let t280 = t39 * c(4.8543689320388355);
-    let t281 = mul_add(base_rotation[0][0], t279, base_rotation[0][1] * t280);
-    let t282 = mul_sub(base_rotation[0][2], t278, t281);
-    let t283 = mul_add(base_rotation[1][0], t279, base_rotation[1][1] * t280);
-    let t284 = mul_sub(base_rotation[1][2], t278, t283);
-    let t285 = mul_add(base_rotation[2][0], t279, base_rotation[2][1] * t280);
-    let t286 = mul_sub(base_rotation[2][2], t278, t285);
+    let t274 = t59 * c(4.8543689320388355);
+    let t275 = t36 * c(4.8543689320388355);
+    let t276 = t39 * c(4.8543689320388355);
+    let t277 = mul_add(base_rotation[0][0], t275, base_rotation[0][1] * t276);
+    let t278 = mul_sub(base_rotation[0][2], t274, t277);
+    let t279 = mul_add(base_rotation[1][0], t275, base_rotation[1][1] * t276);
+    let t280 = mul_sub(base_rotation[1][2], t274, t279);
+    let t281 = mul_add(base_rotation[2][0], t275, base_rotation[2][1] * t276);
+    let t282 = mul_sub(base_rotation[2][2], t274, t281);
     // leg 4: rod direction u, from the Hooke joint to the platform joint
-    let t287 = t64 * c(4.8543689320388355);
-    let t288 = t41 * c(4.8543689320388355);
-    let t289 = t44 * c(4.8543689320388355);
-    let t290 = mul_add(base_rotation[0][0], t288, base_rotation[0][1] * t289);
-    let t291 = mul_sub(base_rotation[0][2], t287, t290);
-    let t292 = mul_add(base_rotation[1][0], t288, base_rotation[1][1] * t289);
-    let t293 = mul_sub(base_rotation[1][2], t287, t292);
-    let t294 = mul_add(base_rotation[2][0], t288, base_rotation[2][1] * t289);
-    let t295 = mul_sub(base_rotation[2][2], t287, t294);
+    let t283 = t64 * c(4.8543689320388355);
+    let t284 = t41 * c(4.8543689320388355);
+    let t285 = t44 * c(4.8543689320388355);
+    let t286 = mul_add(base_rotation[0][0], t284, base_rotation[0][1] * t285);
+    let t287 = mul_sub(base_rotation[0][2], t283, t286);
+    let t288 = mul_add(base_rotation[1][0], t284, base_rotation[1][1] * t285);
+    let t289 = mul_sub(base_rotation[1][2], t283, t288);
+    let t290 = mul_add(base_rotation[2][0], t284, base_rotation[2][1] * t285);
+    let t291 = mul_sub(base_rotation[2][2], t283, t290);
     // leg 5: rod direction u, from the Hooke joint to the platform joint
-    let t296 = t69 * c(4.8543689320388355);
-    let t297 = t45 * c(4.8543689320388355);
-    let t298 = t46 * c(4.8543689320388355);
-    let t299 = mul_sub(base_rotation[0][0], t297, base_rotation[0][1] * t298);
-    let t300 = mul_sub(base_rotation[0][2], t296, t299);
-    let t301 = mul_sub(base_rotation[1][0], t297, base_rotation[1][1] * t298);
-    let t302 = mul_sub(base_rotation[1][2], t296, t301);
-    let t303 = mul_sub(base_rotation[2][0], t297, base_rotation[2][1] * t298);
-    let t304 = mul_sub(base_rotation[2][2], t296, t303);
+    let t292 = t69 * c(4.8543689320388355);
+    let t293 = t45 * c(4.8543689320388355);
+    let t294 = t46 * c(4.8543689320388355);
+    let t295 = mul_sub(base_rotation[0][0], t293, base_rotation[0][1] * t294);
+    let t296 = mul_sub(base_rotation[0][2], t292, t295);
+    let t297 = mul_sub(base_rotation[1][0], t293, base_rotation[1][1] * t294);
+    let t298 = mul_sub(base_rotation[1][2], t292, t297);
+    let t299 = mul_sub(base_rotation[2][0], t293, base_rotation[2][1] * t294);
+    let t300 = mul_sub(base_rotation[2][2], t292, t299);
     // leg 6: rod direction u, from the Hooke joint to the platform joint
-    let t305 = t73 * c(4.8543689320388355);
-    let t306 = t47 * c(4.8543689320388355);
-    let t307 = t48 * c(4.8543689320388355);
-    let t308 = mul_sub(base_rotation[0][0], t306, base_rotation[0][1] * t307);
-    let t309 = mul_sub(base_rotation[0][2], t305, t308);
-    let t310 = mul_sub(base_rotation[1][0], t306, base_rotation[1][1] * t307);
-    let t311 = mul_sub(base_rotation[1][2], t305, t310);
-    let t312 = mul_sub(base_rotation[2][0], t306, base_rotation[2][1] * t307);
-    let t313 = mul_sub(base_rotation[2][2], t305, t312);
+    let t301 = t73 * c(4.8543689320388355);
+    let t302 = t47 * c(4.8543689320388355);
+    let t303 = t48 * c(4.8543689320388355);
+    let t304 = mul_sub(base_rotation[0][0], t302, base_rotation[0][1] * t303);
+    let t305 = mul_sub(base_rotation[0][2], t301, t304);
+    let t306 = mul_sub(base_rotation[1][0], t302, base_rotation[1][1] * t303);
+    let t307 = mul_sub(base_rotation[1][2], t301, t306);
+    let t308 = mul_sub(base_rotation[2][0], t302, base_rotation[2][1] * t303);
+    let t309 = mul_sub(base_rotation[2][2], t301, t308);
     // leg 1: Hooke joint
-    let t314 = base_rotation[0][1] * c(0.12275970481124972);
-    let t315 = mul_sub(base_rotation[0][0], c(0.1316436662914507), t314);
-    let t316 = neg_mul_add(base_rotation[0][2], t53, t315);
-    let t317 = base_position[0] + t316;
-    let t318 = base_rotation[1][1] * c(0.12275970481124972);
-    let t319 = mul_sub(base_rotation[1][0], c(0.1316436662914507), t318);
-    let t320 = neg_mul_add(base_rotation[1][2], t53, t319);
-    let t321 = base_position[1] + t320;
-    let t322 = base_rotation[2][1] * c(0.12275970481124972);
-    let t323 = mul_sub(base_rotation[2][0], c(0.1316436662914507), t322);
-    let t324 = neg_mul_add(base_rotation[2][2], t53, t323);
-    let t325 = base_position[2] + t324;
+    let t310 = base_rotation[0][1] * c(0.12275970481124972);
+    let t311 = mul_sub(base_rotation[0][0], c(0.1316436662914507), t310);
+    let t312 = neg_mul_add(base_rotation[0][2], t53, t311);
+    let t313 = base_position[0] + t312;
+    let t314 = base_rotation[1][1] * c(0.12275970481124972);
+    let t315 = mul_sub(base_rotation[1][0], c(0.1316436662914507), t314);
+    let t316 = neg_mul_add(base_rotation[1][2], t53, t315);
+    let t317 = base_position[1] + t316;
+    let t318 = base_rotation[2][1] * c(0.12275970481124972);
+    let t319 = mul_sub(base_rotation[2][0], c(0.1316436662914507), t318);
+    let t320 = neg_mul_add(base_rotation[2][2], t53, t319);
+    let t321 = base_position[2] + t320;
     // leg 1: platform joint
-    let t326 = platform_rotation[0][1] * c(0.03105828541230249);
-    let t327 = mul_sub(platform_rotation[0][0], c(0.1159110991546882), t326);
-    let t328 = platform_rotation[1][1] * c(0.03105828541230249);
-    let t329 = mul_sub(platform_rotation[1][0], c(0.1159110991546882), t328);
-    let t330 = platform_rotation[2][1] * c(0.03105828541230249);
-    let t331 = mul_sub(platform_rotation[2][0], c(0.1159110991546882), t330);
+    let t322 = platform_rotation[0][1] * c(0.03105828541230249);
+    let t323 = mul_sub(platform_rotation[0][0], c(0.1159110991546882), t322);
+    let t324 = platform_rotation[1][1] * c(0.03105828541230249);
+    let t325 = mul_sub(platform_rotation[1][0], c(0.1159110991546882), t324);
+    let t326 = platform_rotation[2][1] * c(0.03105828541230249);
+    let t327 = mul_sub(platform_rotation[2][0], c(0.1159110991546882), t326);
     // leg 1: velocity of the Hooke joint
-    let t332 = mul_add(base_velocity[4], t324, base_velocity[0]);
-    let t333 = mul_sub(base_velocity[5], t320, t332);
-    let t334 = mul_add(base_rotation[0][2], t132, t333);
-    let t335 = mul_add(base_velocity[5], t316, base_velocity[1]);
-    let t336 = mul_sub(base_velocity[3], t324, t335);
-    let t337 = mul_add(base_rotation[1][2], t132, t336);
-    let t338 = mul_add(base_velocity[3], t320, base_velocity[2]);
-    let t339 = mul_sub(base_velocity[4], t316, t338);
-    let t340 = mul_add(base_rotation[2][2], t132, t339);
+    let t328 = mul_add(base_velocity[4], t320, base_velocity[0]);
+    let t329 = mul_sub(base_velocity[5], t316, t328);
+    let t330 = mul_add(base_rotation[0][2], t132, t329);
+    let t331 = mul_add(base_velocity[5], t312, base_velocity[1]);
+    let t332 = mul_sub(base_velocity[3], t320, t331);
+    let t333 = mul_add(base_rotation[1][2], t132, t332);
+    let t334 = mul_add(base_velocity[3], t316, base_velocity[2]);
+    let t335 = mul_sub(base_velocity[4], t312, t334);
+    let t336 = mul_add(base_rotation[2][2], t132, t335);
     // leg 1: velocity of the platform joint
-    let t341 = mul_sub(platform_velocity[4], t331, platform_velocity[5] * t329);
-    let t342 = platform_velocity[0] + t341;
-    let t343 = mul_sub(platform_velocity[5], t327, platform_velocity[3] * t331);
-    let t344 = platform_velocity[1] + t343;
-    let t345 = mul_sub(platform_velocity[3], t329, platform_velocity[4] * t327);
-    let t346 = platform_velocity[2] + t345;
+    let t337 = mul_sub(platform_velocity[4], t327, platform_velocity[5] * t325);
+    let t338 = platform_velocity[0] + t337;
+    let t339 = mul_sub(platform_velocity[5], t323, platform_velocity[3] * t327);
+    let t340 = platform_velocity[1] + t339;
+    let t341 = mul_sub(platform_velocity[3], t325, platform_velocity[4] * t323);
+    let t342 = platform_velocity[2] + t341;
     // leg 1: angular velocity w_s of the rod, without spin
-    let t347 = t340 + t346;
-    let t348 = t337 + t344;
+    let t343 = t336 + t342;
+    let t344 = t333 + t340;
     rod_angular_velocity[0][0] = c(4.8543689320388355)
-        * mul_sub(t266, t347, t268 * t348);
-    let t349 = t334 + t342;
+        * mul_sub(t262, t343, t264 * t344);
+    let t345 = t330 + t338;
     rod_angular_velocity[0][1] = c(4.8543689320388355)
-        * mul_sub(t268, t349, t264 * t347);
+        * mul_sub(t264, t345, t260 * t343);
     rod_angular_velocity[0][2] = c(4.8543689320388355)
-        * mul_sub(t264, t348, t266 * t349);
+        * mul_sub(t260, t344, t262 * t345);
     // leg 2: Hooke joint
-    let t350 = mul_add(base_rotation[0][0], c(0.1316436662914507), t314);
-    let t351 = neg_mul_add(base_rotation[0][2], t57, t350);
-    let t352 = base_position[0] + t351;
-    let t353 = mul_add(base_rotation[1][0], c(0.1316436662914507), t318);
-    let t354 = neg_mul_add(base_rotation[1][2], t57, t353);
-    let t355 = base_position[1] + t354;
-    let t356 = mul_add(base_rotation[2][0], c(0.1316436662914507), t322);
-    let t357 = neg_mul_add(base_rotation[2][2], t57, t356);
-    let t358 = base_position[2] + t357;
+    let t346 = mul_add(base_rotation[0][0], c(0.1316436662914507), t310);
+    let t347 = neg_mul_add(base_rotation[0][2], t57, t346);
+    let t348 = base_position[0] + t347;
+    let t349 = mul_add(base_rotation[1][0], c(0.1316436662914507), t314);
+    let t350 = neg_mul_add(base_rotation[1][2], t57, t349);
+    let t351 = base_position[1] + t350;
+    let t352 = mul_add(base_rotation[2][0], c(0.1316436662914507), t318);
+    let t353 = neg_mul_add(base_rotation[2][2], t57, t352);
+    let t354 = base_position[2] + t353;
     // leg 2: platform joint
-    let t359 = mul_add(platform_rotation[0][0], c(0.1159110991546882), t326);
-    let t360 = mul_add(platform_rotation[1][0], c(0.1159110991546882), t328);
-    let t361 = mul_add(platform_rotation[2][0], c(0.1159110991546882), t330);
+    let t355 = mul_add(platform_rotation[0][0], c(0.1159110991546882), t322);
+    let t356 = mul_add(platform_rotation[1][0], c(0.1159110991546882), t324);
+    let t357 = mul_add(platform_rotation[2][0], c(0.1159110991546882), t326);
     // leg 2: velocity of the Hooke joint
-    let t362 = mul_add(base_velocity[4], t357, base_velocity[0]);
-    let t363 = mul_sub(base_velocity[5], t354, t362);
-    let t364 = mul_add(base_rotation[0][2], t134, t363);
-    let t365 = mul_add(base_velocity[5], t351, base_velocity[1]);
-    let t366 = mul_sub(base_velocity[3], t357, t365);
-    let t367 = mul_add(base_rotation[1][2], t134, t366);
-    let t368 = mul_add(base_velocity[3], t354, base_velocity[2]);
-    let t369 = mul_sub(base_velocity[4], t351, t368);
-    let t370 = mul_add(base_rotation[2][2], t134, t369);
+    let t358 = mul_add(base_velocity[4], t353, base_velocity[0]);
+    let t359 = mul_sub(base_velocity[5], t350, t358);
+    let t360 = mul_add(base_rotation[0][2], t134, t359);
+    let t361 = mul_add(base_velocity[5], t347, base_velocity[1]);
+    let t362 = mul_sub(base_velocity[3], t353, t361);
+    let t363 = mul_add(base_rotation[1][2], t134, t362);
+    let t364 = mul_add(base_velocity[3], t350, base_velocity[2]);
+    let t365 = mul_sub(base_velocity[4], t347, t364);
+    let t366 = mul_add(base_rotation[2][2], t134, t365);
     // leg 2: velocity of the platform joint
-    let t371 = mul_sub(platform_velocity[4], t361, platform_velocity[5] * t360);
-    let t372 = platform_velocity[0] + t371;
-    let t373 = mul_sub(platform_velocity[5], t359, platform_velocity[3] * t361);
-    let t374 = platform_velocity[1] + t373;
-    let t375 = mul_sub(platform_velocity[3], t360, platform_velocity[4] * t359);
-    let t376 = platform_velocity[2] + t375;
+    let t367 = mul_sub(platform_velocity[4], t357, platform_velocity[5] * t356);
+    let t368 = platform_velocity[0] + t367;
+    let t369 = mul_sub(platform_velocity[5], t355, platform_velocity[3] * t357);
+    let t370 = platform_velocity[1] + t369;
+    let t371 = mul_sub(platform_velocity[3], t356, platform_velocity[4] * t355);
+    let t372 = platform_velocity[2] + t371;
     // leg 2: angular velocity w_s of the rod, without spin
-    let t377 = t370 + t376;
-    let t378 = t367 + t374;
+    let t373 = t366 + t372;
+    let t374 = t363 + t370;
     rod_angular_velocity[1][0] = c(4.8543689320388355)
-        * mul_sub(t275, t377, t277 * t378);
-    let t379 = t364 + t372;
+        * mul_sub(t271, t373, t273 * t374);
+    let t375 = t360 + t368;
     rod_angular_velocity[1][1] = c(4.8543689320388355)
-        * mul_sub(t277, t379, t273 * t377);
+        * mul_sub(t273, t375, t269 * t373);
     rod_angular_velocity[1][2] = c(4.8543689320388355)
-        * mul_sub(t273, t378, t275 * t379);
+        * mul_sub(t269, t374, t271 * t375);
     // leg 3: Hooke joint
-    let t380 = base_rotation[0][1] * c(0.17538661166134234);
-    let t381 = mul_add(base_rotation[0][0], c(0.040491189781895726), t380);
-    let t382 = neg_mul_add(base_rotation[0][2], t62, t381);
-    let t383 = base_position[0] + t382;
-    let t384 = base_rotation[1][1] * c(0.17538661166134234);
-    let t385 = mul_add(base_rotation[1][0], c(0.040491189781895726), t384);
-    let t386 = neg_mul_add(base_rotation[1][2], t62, t385);
-    let t387 = base_position[1] + t386;
-    let t388 = base_rotation[2][1] * c(0.17538661166134234);
-    let t389 = mul_add(base_rotation[2][0], c(0.040491189781895726), t388);
-    let t390 = neg_mul_add(base_rotation[2][2], t62, t389);
-    let t391 = base_position[2] + t390;
+    let t376 = base_rotation[0][1] * c(0.17538661166134234);
+    let t377 = mul_add(base_rotation[0][0], c(0.040491189781895726), t376);
+    let t378 = neg_mul_add(base_rotation[0][2], t62, t377);
+    let t379 = base_position[0] + t378;
+    let t380 = base_rotation[1][1] * c(0.17538661166134234);
+    let t381 = mul_add(base_rotation[1][0], c(0.040491189781895726), t380);
+    let t382 = neg_mul_add(base_rotation[1][2], t62, t381);
+    let t383 = base_position[1] + t382;
+    let t384 = base_rotation[2][1] * c(0.17538661166134234);
+    let t385 = mul_add(base_rotation[2][0], c(0.040491189781895726), t384);
+    let t386 = neg_mul_add(base_rotation[2][2], t62, t385);
+    let t387 = base_position[2] + t386;
     // leg 3: platform joint
-    let t392 = platform_rotation[0][1] * c(0.1159110991546882);
-    let t393 = mul_sub(platform_rotation[0][0], c(0.031058285412302475), t392);
-    let t394 = platform_rotation[1][1] * c(0.1159110991546882);
-    let t395 = mul_sub(platform_rotation[1][0], c(0.031058285412302475), t394);
-    let t396 = platform_rotation[2][1] * c(0.1159110991546882);
-    let t397 = mul_sub(platform_rotation[2][0], c(0.031058285412302475), t396);
+    let t388 = platform_rotation[0][1] * c(0.1159110991546882);
+    let t389 = mul_sub(platform_rotation[0][0], c(0.031058285412302475), t388);
+    let t390 = platform_rotation[1][1] * c(0.1159110991546882);
+    let t391 = mul_sub(platform_rotation[1][0], c(0.031058285412302475), t390);
+    let t392 = platform_rotation[2][1] * c(0.1159110991546882);
+    let t393 = mul_sub(platform_rotation[2][0], c(0.031058285412302475), t392);
     // leg 3: velocity of the Hooke joint
-    let t398 = mul_add(base_velocity[4], t390, base_velocity[0]);
-    let t399 = mul_sub(base_velocity[5], t386, t398);
-    let t400 = mul_add(base_rotation[0][2], t137, t399);
-    let t401 = mul_add(base_velocity[5], t382, base_velocity[1]);
-    let t402 = mul_sub(base_velocity[3], t390, t401);
-    let t403 = mul_add(base_rotation[1][2], t137, t402);
-    let t404 = mul_add(base_velocity[3], t386, base_velocity[2]);
-    let t405 = mul_sub(base_velocity[4], t382, t404);
-    let t406 = mul_add(base_rotation[2][2], t137, t405);
+    let t394 = mul_add(base_velocity[4], t386, base_velocity[0]);
+    let t395 = mul_sub(base_velocity[5], t382, t394);
+    let t396 = mul_add(base_rotation[0][2], t137, t395);
+    let t397 = mul_add(base_velocity[5], t378, base_velocity[1]);
+    let t398 = mul_sub(base_velocity[3], t386, t397);
+    let t399 = mul_add(base_rotation[1][2], t137, t398);
+    let t400 = mul_add(base_velocity[3], t382, base_velocity[2]);
+    let t401 = mul_sub(base_velocity[4], t378, t400);
+    let t402 = mul_add(base_rotation[2][2], t137, t401);
     // leg 3: velocity of the platform joint
-    let t407 = mul_sub(platform_velocity[4], t397, platform_velocity[5] * t395);
-    let t408 = platform_velocity[0] - t407;
-    let t409 = mul_sub(platform_velocity[5], t393, platform_velocity[3] * t397);
-    let t410 = platform_velocity[1] - t409;
-    let t411 = mul_sub(platform_velocity[3], t395, platform_velocity[4] * t393);
-    let t412 = platform_velocity[2] - t411;
+    let t403 = mul_sub(platform_velocity[4], t393, platform_velocity[5] * t391);
+    let t404 = platform_velocity[0] - t403;
+    let t405 = mul_sub(platform_velocity[5], t389, platform_velocity[3] * t393);
+    let t406 = platform_velocity[1] - t405;
+    let t407 = mul_sub(platform_velocity[3], t391, platform_velocity[4] * t389);
+    let t408 = platform_velocity[2] - t407;
     // leg 3: angular velocity w_s of the rod, without spin
-    let t413 = t406 + t412;
-    let t414 = t403 + t410;
+    let t409 = t402 + t408;
+    let t410 = t399 + t406;
     rod_angular_velocity[2][0] = c(4.8543689320388355)
-        * mul_sub(t284, t413, t286 * t414);
-    let t415 = t400 + t408;
+        * mul_sub(t280, t409, t282 * t410);
+    let t411 = t396 + t404;
     rod_angular_velocity[2][1] = c(4.8543689320388355)
-        * mul_sub(t286, t415, t282 * t413);
+        * mul_sub(t282, t411, t278 * t409);
     rod_angular_velocity[2][2] = c(4.8543689320388355)
-        * mul_sub(t282, t414, t284 * t415);
+        * mul_sub(t278, t410, t280 * t411);
     // leg 4: Hooke joint
-    let t416 = base_rotation[0][1] * c(0.052626906850092664);
-    let t417 = mul_sub(base_rotation[0][0], c(0.17213485607334636), t416);
-    let t418 = mul_add(base_rotation[0][2], t67, t417);
-    let t419 = base_position[0] - t418;
-    let t420 = base_rotation[1][1] * c(0.052626906850092664);
-    let t421 = mul_sub(base_rotation[1][0], c(0.17213485607334636), t420);
-    let t422 = mul_add(base_rotation[1][2], t67, t421);
-    let t423 = base_position[1] - t422;
-    let t424 = base_rotation[2][1] * c(0.052626906850092664);
-    let t425 = mul_sub(base_rotation[2][0], c(0.17213485607334636), t424);
-    let t426 = mul_add(base_rotation[2][2], t67, t425);
-    let t427 = base_position[2] - t426;
+    let t412 = base_rotation[0][1] * c(0.052626906850092664);
+    let t413 = mul_sub(base_rotation[0][0], c(0.17213485607334636), t412);
+    let t414 = mul_add(base_rotation[0][2], t67, t413);
+    let t415 = base_position[0] - t414;
+    let t416 = base_rotation[1][1] * c(0.052626906850092664);
+    let t417 = mul_sub(base_rotation[1][0], c(0.17213485607334636), t416);
+    let t418 = mul_add(base_rotation[1][2], t67, t417);
+    let t419 = base_position[1] - t418;
+    let t420 = base_rotation[2][1] * c(0.052626906850092664);
+    let t421 = mul_sub(base_rotation[2][0], c(0.17213485607334636), t420);
+    let t422 = mul_add(base_rotation[2][2], t67, t421);
+    let t423 = base_position[2] - t422;
     // leg 4: platform joint
-    let t428 = platform_rotation[0][1] * c(0.08485281374238571);
-    let t429 = mul_sub(platform_rotation[0][0], c(0.0848528137423857), t428);
-    let t430 = platform_rotation[1][1] * c(0.08485281374238571);
-    let t431 = mul_sub(platform_rotation[1][0], c(0.0848528137423857), t430);
-    let t432 = platform_rotation[2][1] * c(0.08485281374238571);
-    let t433 = mul_sub(platform_rotation[2][0], c(0.0848528137423857), t432);
+    let t424 = platform_rotation[0][1] * c(0.08485281374238571);
+    let t425 = mul_sub(platform_rotation[0][0], c(0.0848528137423857), t424);
+    let t426 = platform_rotation[1][1] * c(0.08485281374238571);
+    let t427 = mul_sub(platform_rotation[1][0], c(0.0848528137423857), t426);
+    let t428 = platform_rotation[2][1] * c(0.08485281374238571);
+    let t429 = mul_sub(platform_rotation[2][0], c(0.0848528137423857), t428);
     // leg 4: velocity of the Hooke joint
-    let t434 = neg_mul_add(base_velocity[4], t426, base_velocity[0]);
-    let t435 = mul_add(base_velocity[5], t422, t434);
-    let t436 = mul_sub(base_rotation[0][2], t140, t435);
-    let t437 = neg_mul_add(base_velocity[5], t418, base_velocity[1]);
-    let t438 = mul_add(base_velocity[3], t426, t437);
-    let t439 = mul_sub(base_rotation[1][2], t140, t438);
-    let t440 = neg_mul_add(base_velocity[3], t422, base_velocity[2]);
-    let t441 = mul_add(base_velocity[4], t418, t440);
-    let t442 = mul_sub(base_rotation[2][2], t140, t441);
+    let t430 = neg_mul_add(base_velocity[4], t422, base_velocity[0]);
+    let t431 = mul_add(base_velocity[5], t418, t430);
+    let t432 = mul_sub(base_rotation[0][2], t140, t431);
+    let t433 = neg_mul_add(base_velocity[5], t414, base_velocity[1]);
+    let t434 = mul_add(base_velocity[3], t422, t433);
+    let t435 = mul_sub(base_rotation[1][2], t140, t434);
+    let t436 = neg_mul_add(base_velocity[3], t418, base_velocity[2]);
+    let t437 = mul_add(base_velocity[4], t414, t436);
+    let t438 = mul_sub(base_rotation[2][2], t140, t437);
     // leg 4: velocity of the platform joint
-    let t443 = mul_sub(platform_velocity[4], t433, platform_velocity[5] * t431);
-    let t444 = platform_velocity[0] - t443;
-    let t445 = mul_sub(platform_velocity[5], t429, platform_velocity[3] * t433);
-    let t446 = platform_velocity[1] - t445;
-    let t447 = mul_sub(platform_velocity[3], t431, platform_velocity[4] * t429);
-    let t448 = platform_velocity[2] - t447;
+    let t439 = mul_sub(platform_velocity[4], t429, platform_velocity[5] * t427);
+    let t440 = platform_velocity[0] - t439;
+    let t441 = mul_sub(platform_velocity[5], t425, platform_velocity[3] * t429);
+    let t442 = platform_velocity[1] - t441;
+    let t443 = mul_sub(platform_velocity[3], t427, platform_velocity[4] * t425);
+    let t444 = platform_velocity[2] - t443;
     // leg 4: angular velocity w_s of the rod, without spin
-    let t449 = t442 + t448;
-    let t450 = t439 + t446;
+    let t445 = t438 + t444;
+    let t446 = t435 + t442;
     rod_angular_velocity[3][0] = c(4.8543689320388355)
-        * mul_sub(t293, t449, t295 * t450);
-    let t451 = t436 + t444;
+        * mul_sub(t289, t445, t291 * t446);
+    let t447 = t432 + t440;
     rod_angular_velocity[3][1] = c(4.8543689320388355)
-        * mul_sub(t295, t451, t291 * t449);
+        * mul_sub(t291, t447, t287 * t445);
     rod_angular_velocity[3][2] = c(4.8543689320388355)
-        * mul_sub(t291, t450, t293 * t451);
+        * mul_sub(t287, t446, t289 * t447);
     // leg 5: Hooke joint
-    let t452 = mul_add(base_rotation[0][0], c(0.17213485607334636), t416);
-    let t453 = mul_add(base_rotation[0][2], t71, t452);
-    let t454 = base_position[0] - t453;
-    let t455 = mul_add(base_rotation[1][0], c(0.17213485607334636), t420);
-    let t456 = mul_add(base_rotation[1][2], t71, t455);
-    let t457 = base_position[1] - t456;
-    let t458 = mul_add(base_rotation[2][0], c(0.17213485607334636), t424);
-    let t459 = mul_add(base_rotation[2][2], t71, t458);
-    let t460 = base_position[2] - t459;
+    let t448 = mul_add(base_rotation[0][0], c(0.17213485607334636), t412);
+    let t449 = mul_add(base_rotation[0][2], t71, t448);
+    let t450 = base_position[0] - t449;
+    let t451 = mul_add(base_rotation[1][0], c(0.17213485607334636), t416);
+    let t452 = mul_add(base_rotation[1][2], t71, t451);
+    let t453 = base_position[1] - t452;
+    let t454 = mul_add(base_rotation[2][0], c(0.17213485607334636), t420);
+    let t455 = mul_add(base_rotation[2][2], t71, t454);
+    let t456 = base_position[2] - t455;
     // leg 5: platform joint
-    let t461 = mul_add(platform_rotation[0][0], c(0.0848528137423857), t428);
-    let t462 = mul_add(platform_rotation[1][0], c(0.0848528137423857), t430);
-    let t463 = mul_add(platform_rotation[2][0], c(0.0848528137423857), t432);
+    let t457 = mul_add(platform_rotation[0][0], c(0.0848528137423857), t424);
+    let t458 = mul_add(platform_rotation[1][0], c(0.0848528137423857), t426);
+    let t459 = mul_add(platform_rotation[2][0], c(0.0848528137423857), t428);
     // leg 5: velocity of the Hooke joint
-    let t464 = neg_mul_add(base_velocity[4], t459, base_velocity[0]);
-    let t465 = mul_add(base_velocity[5], t456, t464);
-    let t466 = mul_sub(base_rotation[0][2], t142, t465);
-    let t467 = neg_mul_add(base_velocity[5], t453, base_velocity[1]);
-    let t468 = mul_add(base_velocity[3], t459, t467);
-    let t469 = mul_sub(base_rotation[1][2], t142, t468);
-    let t470 = neg_mul_add(base_velocity[3], t456, base_velocity[2]);
-    let t471 = mul_add(base_velocity[4], t453, t470);
-    let t472 = mul_sub(base_rotation[2][2], t142, t471);
+    let t460 = neg_mul_add(base_velocity[4], t455, base_velocity[0]);
+    let t461 = mul_add(base_velocity[5], t452, t460);
+    let t462 = mul_sub(base_rotation[0][2], t142, t461);
+    let t463 = neg_mul_add(base_velocity[5], t449, base_velocity[1]);
+    let t464 = mul_add(base_velocity[3], t455, t463);
+    let t465 = mul_sub(base_rotation[1][2], t142, t464);
+    let t466 = neg_mul_add(base_velocity[3], t452, base_velocity[2]);
+    let t467 = mul_add(base_velocity[4], t449, t466);
+    let t468 = mul_sub(base_rotation[2][2], t142, t467);
     // leg 5: velocity of the platform joint
-    let t473 = mul_sub(platform_velocity[4], t463, platform_velocity[5] * t462);
-    let t474 = platform_velocity[0] - t473;
-    let t475 = mul_sub(platform_velocity[5], t461, platform_velocity[3] * t463);
-    let t476 = platform_velocity[1] - t475;
-    let t477 = mul_sub(platform_velocity[3], t462, platform_velocity[4] * t461);
-    let t478 = platform_velocity[2] - t477;
+    let t469 = mul_sub(platform_velocity[4], t459, platform_velocity[5] * t458);
+    let t470 = platform_velocity[0] - t469;
+    let t471 = mul_sub(platform_velocity[5], t457, platform_velocity[3] * t459);
+    let t472 = platform_velocity[1] - t471;
+    let t473 = mul_sub(platform_velocity[3], t458, platform_velocity[4] * t457);
+    let t474 = platform_velocity[2] - t473;
     // leg 5: angular velocity w_s of the rod, without spin
-    let t479 = t472 + t478;
-    let t480 = t469 + t476;
+    let t475 = t468 + t474;
+    let t476 = t465 + t472;
     rod_angular_velocity[4][0] = c(4.8543689320388355)
-        * mul_sub(t302, t479, t304 * t480);
-    let t481 = t466 + t474;
+        * mul_sub(t298, t475, t300 * t476);
+    let t477 = t462 + t470;
     rod_angular_velocity[4][1] = c(4.8543689320388355)
-        * mul_sub(t304, t481, t300 * t479);
+        * mul_sub(t300, t477, t296 * t475);
     rod_angular_velocity[4][2] = c(4.8543689320388355)
-        * mul_sub(t300, t480, t302 * t481);
+        * mul_sub(t296, t476, t298 * t477);
     // leg 6: Hooke joint
-    let t482 = mul_sub(base_rotation[0][0], c(0.040491189781895726), t380);
-    let t483 = neg_mul_add(base_rotation[0][2], t75, t482);
-    let t484 = base_position[0] + t483;
-    let t485 = mul_sub(base_rotation[1][0], c(0.040491189781895726), t384);
-    let t486 = neg_mul_add(base_rotation[1][2], t75, t485);
-    let t487 = base_position[1] + t486;
-    let t488 = mul_sub(base_rotation[2][0], c(0.040491189781895726), t388);
-    let t489 = neg_mul_add(base_rotation[2][2], t75, t488);
-    let t490 = base_position[2] + t489;
+    let t478 = mul_sub(base_rotation[0][0], c(0.040491189781895726), t376);
+    let t479 = neg_mul_add(base_rotation[0][2], t75, t478);
+    let t480 = base_position[0] + t479;
+    let t481 = mul_sub(base_rotation[1][0], c(0.040491189781895726), t380);
+    let t482 = neg_mul_add(base_rotation[1][2], t75, t481);
+    let t483 = base_position[1] + t482;
+    let t484 = mul_sub(base_rotation[2][0], c(0.040491189781895726), t384);
+    let t485 = neg_mul_add(base_rotation[2][2], t75, t484);
+    let t486 = base_position[2] + t485;
     // leg 6: platform joint
-    let t491 = mul_add(platform_rotation[0][0], c(0.031058285412302475), t392);
-    let t492 = mul_add(platform_rotation[1][0], c(0.031058285412302475), t394);
-    let t493 = mul_add(platform_rotation[2][0], c(0.031058285412302475), t396);
+    let t487 = mul_add(platform_rotation[0][0], c(0.031058285412302475), t388);
+    let t488 = mul_add(platform_rotation[1][0], c(0.031058285412302475), t390);
+    let t489 = mul_add(platform_rotation[2][0], c(0.031058285412302475), t392);
     // leg 6: velocity of the Hooke joint
-    let t494 = mul_add(base_velocity[4], t489, base_velocity[0]);
-    let t495 = mul_sub(base_velocity[5], t486, t494);
-    let t496 = mul_add(base_rotation[0][2], t144, t495);
-    let t497 = mul_add(base_velocity[5], t483, base_velocity[1]);
-    let t498 = mul_sub(base_velocity[3], t489, t497);
-    let t499 = mul_add(base_rotation[1][2], t144, t498);
-    let t500 = mul_add(base_velocity[3], t486, base_velocity[2]);
-    let t501 = mul_sub(base_velocity[4], t483, t500);
-    let t502 = mul_add(base_rotation[2][2], t144, t501);
+    let t490 = mul_add(base_velocity[4], t485, base_velocity[0]);
+    let t491 = mul_sub(base_velocity[5], t482, t490);
+    let t492 = mul_add(base_rotation[0][2], t144, t491);
+    let t493 = mul_add(base_velocity[5], t479, base_velocity[1]);
+    let t494 = mul_sub(base_velocity[3], t485, t493);
+    let t495 = mul_add(base_rotation[1][2], t144, t494);
+    let t496 = mul_add(base_velocity[3], t482, base_velocity[2]);
+    let t497 = mul_sub(base_velocity[4], t479, t496);
+    let t498 = mul_add(base_rotation[2][2], t144, t497);
     // leg 6: velocity of the platform joint
-    let t503 = mul_sub(platform_velocity[4], t493, platform_velocity[5] * t492);
-    let t504 = platform_velocity[0] - t503;
-    let t505 = mul_sub(platform_velocity[5], t491, platform_velocity[3] * t493);
-    let t506 = platform_velocity[1] - t505;
-    let t507 = mul_sub(platform_velocity[3], t492, platform_velocity[4] * t491);
-    let t508 = platform_velocity[2] - t507;
+    let t499 = mul_sub(platform_velocity[4], t489, platform_velocity[5] * t488);
+    let t500 = platform_velocity[0] - t499;
+    let t501 = mul_sub(platform_velocity[5], t487, platform_velocity[3] * t489);
+    let t502 = platform_velocity[1] - t501;
+    let t503 = mul_sub(platform_velocity[3], t488, platform_velocity[4] * t487);
+    let t504 = platform_velocity[2] - t503;
     // leg 6: angular velocity w_s of the rod, without spin
-    let t509 = t502 + t508;
-    let t510 = t499 + t506;
+    let t505 = t498 + t504;
+    let t506 = t495 + t502;
     rod_angular_velocity[5][0] = c(4.8543689320388355)
-        * mul_sub(t311, t509, t313 * t510);
-    let t511 = t496 + t504;
+        * mul_sub(t307, t505, t309 * t506);
+    let t507 = t492 + t500;
     rod_angular_velocity[5][1] = c(4.8543689320388355)
-        * mul_sub(t313, t511, t309 * t509);
+        * mul_sub(t309, t507, t305 * t505);
     rod_angular_velocity[5][2] = c(4.8543689320388355)
-        * mul_sub(t309, t510, t311 * t511);
+        * mul_sub(t305, t506, t307 * t507);
     // leg 1: centre of mass of the rod
-    let t512 = platform_position[0] * c(0.5);
-    let t513 = platform_position[1] * c(0.5);
-    let t514 = platform_position[2] * c(0.5);
-    rod_com_position[0][0] = mul_add(c(0.5), t317 + t327, t512);
-    rod_com_position[0][1] = mul_add(c(0.5), t321 + t329, t513);
-    rod_com_position[0][2] = mul_add(c(0.5), t325 + t331, t514);
+    let t508 = platform_position[0] * c(0.5);
+    let t509 = platform_position[1] * c(0.5);
+    let t510 = platform_position[2] * c(0.5);
+    rod_com_position[0][0] = mul_add(c(0.5), t313 + t323, t508);
+    rod_com_position[0][1] = mul_add(c(0.5), t317 + t325, t509);
+    rod_com_position[0][2] = mul_add(c(0.5), t321 + t327, t510);
     // leg 1: velocity of the mover
-    let t515 = base_rotation[1][2] * base_velocity[5];
-    let t516 = mul_sub(base_rotation[2][2], base_velocity[4], t515);
-    let t517 = base_rotation[2][2] * base_velocity[3];
-    let t518 = mul_sub(base_rotation[0][2], base_velocity[5], t517);
-    let t519 = base_rotation[0][2] * base_velocity[4];
-    let t520 = mul_sub(base_rotation[1][2], base_velocity[3], t519);
-    mover_velocity[0][0] = -mul_add(c(0.05), t516, t334);
-    mover_velocity[0][1] = -mul_add(c(0.05), t518, t337);
-    mover_velocity[0][2] = -mul_add(c(0.05), t520, t340);
+    let t511 = base_rotation[1][2] * base_velocity[5];
+    let t512 = mul_sub(base_rotation[2][2], base_velocity[4], t511);
+    let t513 = base_rotation[2][2] * base_velocity[3];
+    let t514 = mul_sub(base_rotation[0][2], base_velocity[5], t513);
+    let t515 = base_rotation[0][2] * base_velocity[4];
+    let t516 = mul_sub(base_rotation[1][2], base_velocity[3], t515);
+    mover_velocity[0][0] = -mul_add(c(0.05), t512, t330);
+    mover_velocity[0][1] = -mul_add(c(0.05), t514, t333);
+    mover_velocity[0][2] = -mul_add(c(0.05), t516, t336);
     // leg 1: angular acceleration of the rod
-    let t521 = mul_add(platform_acceleration[3], t329, platform_acceleration[2]);
-    let t522 = mul_sub(platform_acceleration[4], t327, t521);
-    let t523 = mul_sub(platform_velocity[3], t343, t522);
-    let t524 = mul_sub(platform_velocity[4], t341, t523);
-    let t525 = base_rotation[0][2] * base_acceleration[4];
-    let t526 = mul_sub(base_rotation[1][2], base_acceleration[3], t525);
-    let t527 = mul_sub(base_velocity[4], t516, mul_add(base_velocity[3], t518, t526));
-    let t528 = t132 * c(2.0);
-    let t529 = mul_sub(base_velocity[4], t323, base_velocity[5] * t319);
-    let t530 = mul_sub(base_velocity[5], t315, base_velocity[3] * t323);
-    let t531 = mul_add(base_acceleration[3], t319, base_acceleration[2]);
-    let t532 = mul_sub(base_acceleration[4], t315, t531);
-    let t533 = mul_sub(base_velocity[4], t529, mul_sub(base_velocity[3], t530, t532));
-    let t534 = mul_sub(t520, t528, mul_sub(t53, t527, t533));
-    let t535 = mul_add(base_rotation[2][2], t240, t534);
-    let t536 = mul_add(platform_acceleration[5], t327, platform_acceleration[1]);
-    let t537 = mul_sub(platform_acceleration[3], t331, t536);
-    let t538 = mul_sub(platform_velocity[5], t341, t537);
-    let t539 = mul_sub(platform_velocity[3], t345, t538);
-    let t540 = base_rotation[2][2] * base_acceleration[3];
-    let t541 = mul_sub(base_rotation[0][2], base_acceleration[5], t540);
-    let t542 = mul_sub(base_velocity[3], t520, mul_add(base_velocity[5], t516, t541));
-    let t543 = mul_sub(base_velocity[3], t319, base_velocity[4] * t315);
-    let t544 = mul_add(base_acceleration[5], t315, base_acceleration[1]);
-    let t545 = mul_sub(base_acceleration[3], t323, t544);
-    let t546 = mul_sub(base_velocity[3], t543, mul_sub(base_velocity[5], t529, t545));
-    let t547 = mul_sub(t518, t528, mul_sub(t53, t542, t546));
-    let t548 = mul_add(base_rotation[1][2], t240, t547);
-    let t549 = mul_add(platform_acceleration[4], t331, platform_acceleration[0]);
-    let t550 = mul_sub(platform_acceleration[5], t329, t549);
-    let t551 = mul_sub(platform_velocity[4], t345, t550);
-    let t552 = mul_sub(platform_velocity[5], t343, t551);
-    let t553 = base_rotation[1][2] * base_acceleration[5];
-    let t554 = mul_sub(base_rotation[2][2], base_acceleration[4], t553);
-    let t555 = mul_sub(base_velocity[5], t518, mul_add(base_velocity[4], t520, t554));
-    let t556 = mul_add(base_acceleration[4], t323, base_acceleration[0]);
-    let t557 = mul_sub(base_acceleration[5], t319, t556);
-    let t558 = mul_sub(base_velocity[5], t530, mul_sub(base_velocity[4], t543, t557));
-    let t559 = mul_sub(t516, t528, mul_sub(t53, t555, t558));
-    let t560 = mul_add(base_rotation[0][2], t240, t559);
-    let t561 = t524 - t535;
-    let t562 = t539 - t548;
-    rod_angular_acceleration[0][0] = mul_sub(t266, t561, t268 * t562)
+    let t517 = mul_add(platform_acceleration[3], t325, platform_acceleration[2]);
+    let t518 = mul_sub(platform_acceleration[4], t323, t517);
+    let t519 = mul_sub(platform_velocity[3], t339, t518);
+    let t520 = mul_sub(platform_velocity[4], t337, t519);
+    let t521 = base_rotation[0][2] * base_acceleration[4];
+    let t522 = mul_sub(base_rotation[1][2], base_acceleration[3], t521);
+    let t523 = mul_sub(base_velocity[4], t512, mul_add(base_velocity[3], t514, t522));
+    let t524 = t132 * c(2.0);
+    let t525 = mul_sub(base_velocity[4], t319, base_velocity[5] * t315);
+    let t526 = mul_sub(base_velocity[5], t311, base_velocity[3] * t319);
+    let t527 = mul_add(base_acceleration[3], t315, base_acceleration[2]);
+    let t528 = mul_sub(base_acceleration[4], t311, t527);
+    let t529 = mul_sub(base_velocity[4], t525, mul_sub(base_velocity[3], t526, t528));
+    let t530 = mul_sub(t516, t524, mul_sub(t53, t523, t529));
+    let t531 = mul_add(base_rotation[2][2], t236, t530);
+    let t532 = mul_add(platform_acceleration[5], t323, platform_acceleration[1]);
+    let t533 = mul_sub(platform_acceleration[3], t327, t532);
+    let t534 = mul_sub(platform_velocity[5], t337, t533);
+    let t535 = mul_sub(platform_velocity[3], t341, t534);
+    let t536 = base_rotation[2][2] * base_acceleration[3];
+    let t537 = mul_sub(base_rotation[0][2], base_acceleration[5], t536);
+    let t538 = mul_sub(base_velocity[3], t516, mul_add(base_velocity[5], t512, t537));
+    let t539 = mul_sub(base_velocity[3], t315, base_velocity[4] * t311);
+    let t540 = mul_add(base_acceleration[5], t311, base_acceleration[1]);
+    let t541 = mul_sub(base_acceleration[3], t319, t540);
+    let t542 = mul_sub(base_velocity[3], t539, mul_sub(base_velocity[5], t525, t541));
+    let t543 = mul_sub(t514, t524, mul_sub(t53, t538, t542));
+    let t544 = mul_add(base_rotation[1][2], t236, t543);
+    let t545 = mul_add(platform_acceleration[4], t327, platform_acceleration[0]);
+    let t546 = mul_sub(platform_acceleration[5], t325, t545);
+    let t547 = mul_sub(platform_velocity[4], t341, t546);
+    let t548 = mul_sub(platform_velocity[5], t339, t547);
+    let t549 = base_rotation[1][2] * base_acceleration[5];
+    let t550 = mul_sub(base_rotation[2][2], base_acceleration[4], t549);
+    let t551 = mul_sub(base_velocity[5], t514, mul_add(base_velocity[4], t516, t550));
+    let t552 = mul_add(base_acceleration[4], t319, base_acceleration[0]);
+    let t553 = mul_sub(base_acceleration[5], t315, t552);
+    let t554 = mul_sub(base_velocity[5], t526, mul_sub(base_velocity[4], t539, t553));
+    let t555 = mul_sub(t512, t524, mul_sub(t53, t551, t554));
+    let t556 = mul_add(base_rotation[0][2], t236, t555);
+    let t557 = t520 - t531;
+    let t558 = t535 - t544;
+    rod_angular_acceleration[0][0] = mul_sub(t262, t557, t264 * t558)
         * c(-4.8543689320388355);
-    let t563 = t552 - t560;
+    let t559 = t548 - t556;
     rod_angular_acceleration[0][1] = c(-4.8543689320388355)
-        * mul_sub(t268, t563, t264 * t561);
+        * mul_sub(t264, t559, t260 * t557);
     rod_angular_acceleration[0][2] = c(-4.8543689320388355)
-        * mul_sub(t264, t562, t266 * t563);
+        * mul_sub(t260, t558, t262 * t559);
     // leg 2: angular acceleration of the rod
-    let t564 = mul_add(platform_acceleration[3], t360, platform_acceleration[2]);
-    let t565 = mul_sub(platform_acceleration[4], t359, t564);
-    let t566 = mul_sub(platform_velocity[3], t373, t565);
-    let t567 = mul_sub(platform_velocity[4], t371, t566);
-    let t568 = t134 * c(2.0);
-    let t569 = mul_sub(base_velocity[4], t356, base_velocity[5] * t353);
-    let t570 = mul_sub(base_velocity[5], t350, base_velocity[3] * t356);
-    let t571 = mul_add(base_acceleration[3], t353, base_acceleration[2]);
-    let t572 = mul_sub(base_acceleration[4], t350, t571);
-    let t573 = mul_sub(base_velocity[4], t569, mul_sub(base_velocity[3], t570, t572));
-    let t574 = mul_sub(t520, t568, mul_sub(t57, t527, t573));
-    let t575 = mul_add(base_rotation[2][2], t243, t574);
-    let t576 = mul_add(platform_acceleration[5], t359, platform_acceleration[1]);
-    let t577 = mul_sub(platform_acceleration[3], t361, t576);
-    let t578 = mul_sub(platform_velocity[5], t371, t577);
-    let t579 = mul_sub(platform_velocity[3], t375, t578);
-    let t580 = mul_sub(base_velocity[3], t353, base_velocity[4] * t350);
-    let t581 = mul_add(base_acceleration[5], t350, base_acceleration[1]);
-    let t582 = mul_sub(base_acceleration[3], t356, t581);
-    let t583 = mul_sub(base_velocity[3], t580, mul_sub(base_velocity[5], t569, t582));
-    let t584 = mul_sub(t518, t568, mul_sub(t57, t542, t583));
-    let t585 = mul_add(base_rotation[1][2], t243, t584);
-    let t586 = mul_add(platform_acceleration[4], t361, platform_acceleration[0]);
-    let t587 = mul_sub(platform_acceleration[5], t360, t586);
-    let t588 = mul_sub(platform_velocity[4], t375, t587);
-    let t589 = mul_sub(platform_velocity[5], t373, t588);
-    let t590 = mul_add(base_acceleration[4], t356, base_acceleration[0]);
-    let t591 = mul_sub(base_acceleration[5], t353, t590);
-    let t592 = mul_sub(base_velocity[5], t570, mul_sub(base_velocity[4], t580, t591));
-    let t593 = mul_sub(t516, t568, mul_sub(t57, t555, t592));
-    let t594 = mul_add(base_rotation[0][2], t243, t593);
-    let t595 = t567 - t575;
-    let t596 = t579 - t585;
+    let t560 = mul_add(platform_acceleration[3], t356, platform_acceleration[2]);
+    let t561 = mul_sub(platform_acceleration[4], t355, t560);
+    let t562 = mul_sub(platform_velocity[3], t369, t561);
+    let t563 = mul_sub(platform_velocity[4], t367, t562);
+    let t564 = t134 * c(2.0);
+    let t565 = mul_sub(base_velocity[4], t352, base_velocity[5] * t349);
+    let t566 = mul_sub(base_velocity[5], t346, base_velocity[3] * t352);
+    let t567 = mul_add(base_acceleration[3], t349, base_acceleration[2]);
+    let t568 = mul_sub(base_acceleration[4], t346, t567);
+    let t569 = mul_sub(base_velocity[4], t565, mul_sub(base_velocity[3], t566, t568));
+    let t570 = mul_sub(t516, t564, mul_sub(t57, t523, t569));
+    let t571 = mul_add(base_rotation[2][2], t239, t570);
+    let t572 = mul_add(platform_acceleration[5], t355, platform_acceleration[1]);
+    let t573 = mul_sub(platform_acceleration[3], t357, t572);
+    let t574 = mul_sub(platform_velocity[5], t367, t573);
+    let t575 = mul_sub(platform_velocity[3], t371, t574);
+    let t576 = mul_sub(base_velocity[3], t349, base_velocity[4] * t346);
+    let t577 = mul_add(base_acceleration[5], t346, base_acceleration[1]);
+    let t578 = mul_sub(base_acceleration[3], t352, t577);
+    let t579 = mul_sub(base_velocity[3], t576, mul_sub(base_velocity[5], t565, t578));
+    let t580 = mul_sub(t514, t564, mul_sub(t57, t538, t579));
+    let t581 = mul_add(base_rotation[1][2], t239, t580);
+    let t582 = mul_add(platform_acceleration[4], t357, platform_acceleration[0]);
+    let t583 = mul_sub(platform_acceleration[5], t356, t582);
+    let t584 = mul_sub(platform_velocity[4], t371, t583);
+    let t585 = mul_sub(platform_velocity[5], t369, t584);
+    let t586 = mul_add(base_acceleration[4], t352, base_acceleration[0]);
+    let t587 = mul_sub(base_acceleration[5], t349, t586);
+    let t588 = mul_sub(base_velocity[5], t566, mul_sub(base_velocity[4], t576, t587));
+    let t589 = mul_sub(t512, t564, mul_sub(t57, t551, t588));
+    let t590 = mul_add(base_rotation[0][2], t239, t589);
+    let t591 = t563 - t571;
+    let t592 = t575 - t581;
     rod_angular_acceleration[1][0] = c(-4.8543689320388355)
-        * mul_sub(t275, t595, t277 * t596);
-    let t597 = t589 - t594;
+        * mul_sub(t271, t591, t273 * t592);
+    let t593 = t585 - t590;
     rod_angular_acceleration[1][1] = c(-4.8543689320388355)
-        * mul_sub(t277, t597, t273 * t595);
+        * mul_sub(t273, t593, t269 * t591);
     rod_angular_acceleration[1][2] = c(-4.8543689320388355)
-        * mul_sub(t273, t596, t275 * t597);
+        * mul_sub(t269, t592, t271 * t593);
     // leg 3: angular acceleration of the rod
-    let t598 = neg_mul_add(platform_acceleration[3], t395, platform_acceleration[2]);
-    let t599 = mul_add(platform_acceleration[4], t393, t598);
-    let t600 = mul_sub(platform_velocity[3], t409, t599);
-    let t601 = mul_sub(platform_velocity[4], t407, t600);
-    let t602 = t137 * c(2.0);
-    let t603 = mul_sub(base_velocity[4], t389, base_velocity[5] * t385);
-    let t604 = mul_sub(base_velocity[5], t381, base_velocity[3] * t389);
-    let t605 = mul_add(base_acceleration[3], t385, base_acceleration[2]);
-    let t606 = mul_sub(base_acceleration[4], t381, t605);
-    let t607 = mul_sub(base_velocity[4], t603, mul_sub(base_velocity[3], t604, t606));
-    let t608 = mul_sub(t520, t602, mul_sub(t62, t527, t607));
-    let t609 = mul_add(base_rotation[2][2], t248, t608);
-    let t610 = neg_mul_add(platform_acceleration[5], t393, platform_acceleration[1]);
-    let t611 = mul_add(platform_acceleration[3], t397, t610);
-    let t612 = mul_sub(platform_velocity[5], t407, t611);
-    let t613 = mul_sub(platform_velocity[3], t411, t612);
-    let t614 = mul_sub(base_velocity[3], t385, base_velocity[4] * t381);
-    let t615 = mul_add(base_acceleration[5], t381, base_acceleration[1]);
-    let t616 = mul_sub(base_acceleration[3], t389, t615);
-    let t617 = mul_sub(base_velocity[3], t614, mul_sub(base_velocity[5], t603, t616));
-    let t618 = mul_sub(t518, t602, mul_sub(t62, t542, t617));
-    let t619 = mul_add(base_rotation[1][2], t248, t618);
-    let t620 = neg_mul_add(platform_acceleration[4], t397, platform_acceleration[0]);
-    let t621 = mul_add(platform_acceleration[5], t395, t620);
-    let t622 = mul_sub(platform_velocity[4], t411, t621);
-    let t623 = mul_sub(platform_velocity[5], t409, t622);
-    let t624 = mul_add(base_acceleration[4], t389, base_acceleration[0]);
-    let t625 = mul_sub(base_acceleration[5], t385, t624);
-    let t626 = mul_sub(base_velocity[5], t604, mul_sub(base_velocity[4], t614, t625));
-    let t627 = mul_sub(t516, t602, mul_sub(t62, t555, t626));
-    let t628 = mul_add(base_rotation[0][2], t248, t627);
-    let t629 = t601 + t609;
-    let t630 = t613 + t619;
+    let t594 = neg_mul_add(platform_acceleration[3], t391, platform_acceleration[2]);
+    let t595 = mul_add(platform_acceleration[4], t389, t594);
+    let t596 = mul_sub(platform_velocity[3], t405, t595);
+    let t597 = mul_sub(platform_velocity[4], t403, t596);
+    let t598 = t137 * c(2.0);
+    let t599 = mul_sub(base_velocity[4], t385, base_velocity[5] * t381);
+    let t600 = mul_sub(base_velocity[5], t377, base_velocity[3] * t385);
+    let t601 = mul_add(base_acceleration[3], t381, base_acceleration[2]);
+    let t602 = mul_sub(base_acceleration[4], t377, t601);
+    let t603 = mul_sub(base_velocity[4], t599, mul_sub(base_velocity[3], t600, t602));
+    let t604 = mul_sub(t516, t598, mul_sub(t62, t523, t603));
+    let t605 = mul_add(base_rotation[2][2], t244, t604);
+    let t606 = neg_mul_add(platform_acceleration[5], t389, platform_acceleration[1]);
+    let t607 = mul_add(platform_acceleration[3], t393, t606);
+    let t608 = mul_sub(platform_velocity[5], t403, t607);
+    let t609 = mul_sub(platform_velocity[3], t407, t608);
+    let t610 = mul_sub(base_velocity[3], t381, base_velocity[4] * t377);
+    let t611 = mul_add(base_acceleration[5], t377, base_acceleration[1]);
+    let t612 = mul_sub(base_acceleration[3], t385, t611);
+    let t613 = mul_sub(base_velocity[3], t610, mul_sub(base_velocity[5], t599, t612));
+    let t614 = mul_sub(t514, t598, mul_sub(t62, t538, t613));
+    let t615 = mul_add(base_rotation[1][2], t244, t614);
+    let t616 = neg_mul_add(platform_acceleration[4], t393, platform_acceleration[0]);
+    let t617 = mul_add(platform_acceleration[5], t391, t616);
+    let t618 = mul_sub(platform_velocity[4], t407, t617);
+    let t619 = mul_sub(platform_velocity[5], t405, t618);
+    let t620 = mul_add(base_acceleration[4], t385, base_acceleration[0]);
+    let t621 = mul_sub(base_acceleration[5], t381, t620);
+    let t622 = mul_sub(base_velocity[5], t600, mul_sub(base_velocity[4], t610, t621));
+    let t623 = mul_sub(t512, t598, mul_sub(t62, t551, t622));
+    let t624 = mul_add(base_rotation[0][2], t244, t623);
+    let t625 = t597 + t605;
+    let t626 = t609 + t615;
     rod_angular_acceleration[2][0] = c(4.8543689320388355)
-        * mul_sub(t284, t629, t286 * t630);
-    let t631 = t623 + t628;
+        * mul_sub(t280, t625, t282 * t626);
+    let t627 = t619 + t624;
     rod_angular_acceleration[2][1] = c(4.8543689320388355)
-        * mul_sub(t286, t631, t282 * t629);
+        * mul_sub(t282, t627, t278 * t625);
     rod_angular_acceleration[2][2] = c(4.8543689320388355)
-        * mul_sub(t282, t630, t284 * t631);
+        * mul_sub(t278, t626, t280 * t627);
     // leg 4: angular acceleration of the rod
-    let t632 = neg_mul_add(platform_acceleration[3], t431, platform_acceleration[2]);
-    let t633 = mul_add(platform_acceleration[4], t429, t632);
-    let t634 = mul_sub(platform_velocity[3], t445, t633);
-    let t635 = mul_sub(platform_velocity[4], t443, t634);
-    let t636 = t140 * c(2.0);
-    let t637 = mul_sub(base_velocity[4], t425, base_velocity[5] * t421);
-    let t638 = mul_sub(base_velocity[5], t417, base_velocity[3] * t425);
-    let t639 = neg_mul_add(base_acceleration[3], t421, base_acceleration[2]);
-    let t640 = mul_add(base_acceleration[4], t417, t639);
-    let t641 = mul_sub(base_velocity[4], t637, mul_sub(base_velocity[3], t638, t640));
-    let t642 = mul_sub(t520, t636, mul_add(t67, t527, t641));
-    let t643 = mul_add(base_rotation[2][2], t253, t642);
-    let t644 = neg_mul_add(platform_acceleration[5], t429, platform_acceleration[1]);
-    let t645 = mul_add(platform_acceleration[3], t433, t644);
-    let t646 = mul_sub(platform_velocity[5], t443, t645);
-    let t647 = mul_sub(platform_velocity[3], t447, t646);
-    let t648 = mul_sub(base_velocity[3], t421, base_velocity[4] * t417);
-    let t649 = neg_mul_add(base_acceleration[5], t417, base_acceleration[1]);
-    let t650 = mul_add(base_acceleration[3], t425, t649);
-    let t651 = mul_sub(base_velocity[3], t648, mul_sub(base_velocity[5], t637, t650));
-    let t652 = mul_sub(t518, t636, mul_add(t67, t542, t651));
-    let t653 = mul_add(base_rotation[1][2], t253, t652);
-    let t654 = neg_mul_add(platform_acceleration[4], t433, platform_acceleration[0]);
-    let t655 = mul_add(platform_acceleration[5], t431, t654);
-    let t656 = mul_sub(platform_velocity[4], t447, t655);
-    let t657 = mul_sub(platform_velocity[5], t445, t656);
-    let t658 = neg_mul_add(base_acceleration[4], t425, base_acceleration[0]);
-    let t659 = mul_add(base_acceleration[5], t421, t658);
-    let t660 = mul_sub(base_velocity[5], t638, mul_sub(base_velocity[4], t648, t659));
-    let t661 = mul_sub(t516, t636, mul_add(t67, t555, t660));
-    let t662 = mul_add(base_rotation[0][2], t253, t661);
-    let t663 = t635 + t643;
-    let t664 = t647 + t653;
+    let t628 = neg_mul_add(platform_acceleration[3], t427, platform_acceleration[2]);
+    let t629 = mul_add(platform_acceleration[4], t425, t628);
+    let t630 = mul_sub(platform_velocity[3], t441, t629);
+    let t631 = mul_sub(platform_velocity[4], t439, t630);
+    let t632 = t140 * c(2.0);
+    let t633 = mul_sub(base_velocity[4], t421, base_velocity[5] * t417);
+    let t634 = mul_sub(base_velocity[5], t413, base_velocity[3] * t421);
+    let t635 = neg_mul_add(base_acceleration[3], t417, base_acceleration[2]);
+    let t636 = mul_add(base_acceleration[4], t413, t635);
+    let t637 = mul_sub(base_velocity[4], t633, mul_sub(base_velocity[3], t634, t636));
+    let t638 = mul_sub(t516, t632, mul_add(t67, t523, t637));
+    let t639 = mul_add(base_rotation[2][2], t249, t638);
+    let t640 = neg_mul_add(platform_acceleration[5], t425, platform_acceleration[1]);
+    let t641 = mul_add(platform_acceleration[3], t429, t640);
+    let t642 = mul_sub(platform_velocity[5], t439, t641);
+    let t643 = mul_sub(platform_velocity[3], t443, t642);
+    let t644 = mul_sub(base_velocity[3], t417, base_velocity[4] * t413);
+    let t645 = neg_mul_add(base_acceleration[5], t413, base_acceleration[1]);
+    let t646 = mul_add(base_acceleration[3], t421, t645);
+    let t647 = mul_sub(base_velocity[3], t644, mul_sub(base_velocity[5], t633, t646));
+    let t648 = mul_sub(t514, t632, mul_add(t67, t538, t647));
+    let t649 = mul_add(base_rotation[1][2], t249, t648);
+    let t650 = neg_mul_add(platform_acceleration[4], t429, platform_acceleration[0]);
+    let t651 = mul_add(platform_acceleration[5], t427, t650);
+    let t652 = mul_sub(platform_velocity[4], t443, t651);
+    let t653 = mul_sub(platform_velocity[5], t441, t652);
+    let t654 = neg_mul_add(base_acceleration[4], t421, base_acceleration[0]);
+    let t655 = mul_add(base_acceleration[5], t417, t654);
+    let t656 = mul_sub(base_velocity[5], t634, mul_sub(base_velocity[4], t644, t655));
+    let t657 = mul_sub(t512, t632, mul_add(t67, t551, t656));
+    let t658 = mul_add(base_rotation[0][2], t249, t657);
+    let t659 = t631 + t639;
+    let t660 = t643 + t649;
     rod_angular_acceleration[3][0] = c(4.8543689320388355)
-        * mul_sub(t293, t663, t295 * t664);
-    let t665 = t657 + t662;
+        * mul_sub(t289, t659, t291 * t660);
+    let t661 = t653 + t658;
     rod_angular_acceleration[3][1] = c(4.8543689320388355)
-        * mul_sub(t295, t665, t291 * t663);
+        * mul_sub(t291, t661, t287 * t659);
     rod_angular_acceleration[3][2] = c(4.8543689320388355)
-        * mul_sub(t291, t664, t293 * t665);
+        * mul_sub(t287, t660, t289 * t661);
     // leg 5: angular acceleration of the rod
-    let t666 = neg_mul_add(platform_acceleration[3], t462, platform_acceleration[2]);
-    let t667 = mul_add(platform_acceleration[4], t461, t666);
-    let t668 = mul_sub(platform_velocity[3], t475, t667);
-    let t669 = mul_sub(platform_velocity[4], t473, t668);
-    let t670 = t142 * c(2.0);
-    let t671 = mul_sub(base_velocity[4], t458, base_velocity[5] * t455);
-    let t672 = mul_sub(base_velocity[5], t452, base_velocity[3] * t458);
-    let t673 = neg_mul_add(base_acceleration[3], t455, base_acceleration[2]);
-    let t674 = mul_add(base_acceleration[4], t452, t673);
-    let t675 = mul_sub(base_velocity[4], t671, mul_sub(base_velocity[3], t672, t674));
-    let t676 = mul_sub(t520, t670, mul_add(t71, t527, t675));
-    let t677 = mul_add(base_rotation[2][2], t256, t676);
-    let t678 = neg_mul_add(platform_acceleration[5], t461, platform_acceleration[1]);
-    let t679 = mul_add(platform_acceleration[3], t463, t678);
-    let t680 = mul_sub(platform_velocity[5], t473, t679);
-    let t681 = mul_sub(platform_velocity[3], t477, t680);
-    let t682 = mul_sub(base_velocity[3], t455, base_velocity[4] * t452);
-    let t683 = neg_mul_add(base_acceleration[5], t452, base_acceleration[1]);
-    let t684 = mul_add(base_acceleration[3], t458, t683);
-    let t685 = mul_sub(base_velocity[3], t682, mul_sub(base_velocity[5], t671, t684));
-    let t686 = mul_sub(t518, t670, mul_add(t71, t542, t685));
-    let t687 = mul_add(base_rotation[1][2], t256, t686);
-    let t688 = neg_mul_add(platform_acceleration[4], t463, platform_acceleration[0]);
-    let t689 = mul_add(platform_acceleration[5], t462, t688);
-    let t690 = mul_sub(platform_velocity[4], t477, t689);
-    let t691 = mul_sub(platform_velocity[5], t475, t690);
-    let t692 = neg_mul_add(base_acceleration[4], t458, base_acceleration[0]);
-    let t693 = mul_add(base_acceleration[5], t455, t692);
-    let t694 = mul_sub(base_velocity[5], t672, mul_sub(base_velocity[4], t682, t693));
-    let t695 = mul_sub(t516, t670, mul_add(t71, t555, t694));
-    let t696 = mul_add(base_rotation[0][2], t256, t695);
-    let t697 = t669 + t677;
-    let t698 = t681 + t687;
+    let t662 = neg_mul_add(platform_acceleration[3], t458, platform_acceleration[2]);
+    let t663 = mul_add(platform_acceleration[4], t457, t662);
+    let t664 = mul_sub(platform_velocity[3], t471, t663);
+    let t665 = mul_sub(platform_velocity[4], t469, t664);
+    let t666 = t142 * c(2.0);
+    let t667 = mul_sub(base_velocity[4], t454, base_velocity[5] * t451);
+    let t668 = mul_sub(base_velocity[5], t448, base_velocity[3] * t454);
+    let t669 = neg_mul_add(base_acceleration[3], t451, base_acceleration[2]);
+    let t670 = mul_add(base_acceleration[4], t448, t669);
+    let t671 = mul_sub(base_velocity[4], t667, mul_sub(base_velocity[3], t668, t670));
+    let t672 = mul_sub(t516, t666, mul_add(t71, t523, t671));
+    let t673 = mul_add(base_rotation[2][2], t252, t672);
+    let t674 = neg_mul_add(platform_acceleration[5], t457, platform_acceleration[1]);
+    let t675 = mul_add(platform_acceleration[3], t459, t674);
+    let t676 = mul_sub(platform_velocity[5], t469, t675);
+    let t677 = mul_sub(platform_velocity[3], t473, t676);
+    let t678 = mul_sub(base_velocity[3], t451, base_velocity[4] * t448);
+    let t679 = neg_mul_add(base_acceleration[5], t448, base_acceleration[1]);
+    let t680 = mul_add(base_acceleration[3], t454, t679);
+    let t681 = mul_sub(base_velocity[3], t678, mul_sub(base_velocity[5], t667, t680));
+    let t682 = mul_sub(t514, t666, mul_add(t71, t538, t681));
+    let t683 = mul_add(base_rotation[1][2], t252, t682);
+    let t684 = neg_mul_add(platform_acceleration[4], t459, platform_acceleration[0]);
+    let t685 = mul_add(platform_acceleration[5], t458, t684);
+    let t686 = mul_sub(platform_velocity[4], t473, t685);
+    let t687 = mul_sub(platform_velocity[5], t471, t686);
+    let t688 = neg_mul_add(base_acceleration[4], t454, base_acceleration[0]);
+    let t689 = mul_add(base_acceleration[5], t451, t688);
+    let t690 = mul_sub(base_velocity[5], t668, mul_sub(base_velocity[4], t678, t689));
+    let t691 = mul_sub(t512, t666, mul_add(t71, t551, t690));
+    let t692 = mul_add(base_rotation[0][2], t252, t691);
+    let t693 = t665 + t673;
+    let t694 = t677 + t683;
     rod_angular_acceleration[4][0] = c(4.8543689320388355)
-        * mul_sub(t302, t697, t304 * t698);
-    let t699 = t691 + t696;
+        * mul_sub(t298, t693, t300 * t694);
+    let t695 = t687 + t692;
     rod_angular_acceleration[4][1] = c(4.8543689320388355)
-        * mul_sub(t304, t699, t300 * t697);
+        * mul_sub(t300, t695, t296 * t693);
     rod_angular_acceleration[4][2] = c(4.8543689320388355)
-        * mul_sub(t300, t698, t302 * t699);
+        * mul_sub(t296, t694, t298 * t695);
     // leg 6: angular acceleration of the rod
-    let t700 = neg_mul_add(platform_acceleration[3], t492, platform_acceleration[2]);
-    let t701 = mul_add(platform_acceleration[4], t491, t700);
-    let t702 = mul_sub(platform_velocity[3], t505, t701);
-    let t703 = mul_sub(platform_velocity[4], t503, t702);
-    let t704 = t144 * c(2.0);
-    let t705 = mul_sub(base_velocity[4], t488, base_velocity[5] * t485);
-    let t706 = mul_sub(base_velocity[5], t482, base_velocity[3] * t488);
-    let t707 = mul_add(base_acceleration[3], t485, base_acceleration[2]);
-    let t708 = mul_sub(base_acceleration[4], t482, t707);
-    let t709 = mul_sub(base_velocity[4], t705, mul_sub(base_velocity[3], t706, t708));
-    let t710 = mul_sub(t520, t704, mul_sub(t75, t527, t709));
-    let t711 = mul_add(base_rotation[2][2], t259, t710);
-    let t712 = neg_mul_add(platform_acceleration[5], t491, platform_acceleration[1]);
-    let t713 = mul_add(platform_acceleration[3], t493, t712);
-    let t714 = mul_sub(platform_velocity[5], t503, t713);
-    let t715 = mul_sub(platform_velocity[3], t507, t714);
-    let t716 = mul_sub(base_velocity[3], t485, base_velocity[4] * t482);
-    let t717 = mul_add(base_acceleration[5], t482, base_acceleration[1]);
-    let t718 = mul_sub(base_acceleration[3], t488, t717);
-    let t719 = mul_sub(base_velocity[3], t716, mul_sub(base_velocity[5], t705, t718));
-    let t720 = mul_sub(t518, t704, mul_sub(t75, t542, t719));
-    let t721 = mul_add(base_rotation[1][2], t259, t720);
-    let t722 = neg_mul_add(platform_acceleration[4], t493, platform_acceleration[0]);
-    let t723 = mul_add(platform_acceleration[5], t492, t722);
-    let t724 = mul_sub(platform_velocity[4], t507, t723);
-    let t725 = mul_sub(platform_velocity[5], t505, t724);
-    let t726 = mul_add(base_acceleration[4], t488, base_acceleration[0]);
-    let t727 = mul_sub(base_acceleration[5], t485, t726);
-    let t728 = mul_sub(base_velocity[5], t706, mul_sub(base_velocity[4], t716, t727));
-    let t729 = mul_sub(t516, t704, mul_sub(t75, t555, t728));
-    let t730 = mul_add(base_rotation[0][2], t259, t729);
-    let t731 = t703 + t711;
-    let t732 = t715 + t721;
+    let t696 = neg_mul_add(platform_acceleration[3], t488, platform_acceleration[2]);
+    let t697 = mul_add(platform_acceleration[4], t487, t696);
+    let t698 = mul_sub(platform_velocity[3], t501, t697);
+    let t699 = mul_sub(platform_velocity[4], t499, t698);
+    let t700 = t144 * c(2.0);
+    let t701 = mul_sub(base_velocity[4], t484, base_velocity[5] * t481);
+    let t702 = mul_sub(base_velocity[5], t478, base_velocity[3] * t484);
+    let t703 = mul_add(base_acceleration[3], t481, base_acceleration[2]);
+    let t704 = mul_sub(base_acceleration[4], t478, t703);
+    let t705 = mul_sub(base_velocity[4], t701, mul_sub(base_velocity[3], t702, t704));
+    let t706 = mul_sub(t516, t700, mul_sub(t75, t523, t705));
+    let t707 = mul_add(base_rotation[2][2], t255, t706);
+    let t708 = neg_mul_add(platform_acceleration[5], t487, platform_acceleration[1]);
+    let t709 = mul_add(platform_acceleration[3], t489, t708);
+    let t710 = mul_sub(platform_velocity[5], t499, t709);
+    let t711 = mul_sub(platform_velocity[3], t503, t710);
+    let t712 = mul_sub(base_velocity[3], t481, base_velocity[4] * t478);
+    let t713 = mul_add(base_acceleration[5], t478, base_acceleration[1]);
+    let t714 = mul_sub(base_acceleration[3], t484, t713);
+    let t715 = mul_sub(base_velocity[3], t712, mul_sub(base_velocity[5], t701, t714));
+    let t716 = mul_sub(t514, t700, mul_sub(t75, t538, t715));
+    let t717 = mul_add(base_rotation[1][2], t255, t716);
+    let t718 = neg_mul_add(platform_acceleration[4], t489, platform_acceleration[0]);
+    let t719 = mul_add(platform_acceleration[5], t488, t718);
+    let t720 = mul_sub(platform_velocity[4], t503, t719);
+    let t721 = mul_sub(platform_velocity[5], t501, t720);
+    let t722 = mul_add(base_acceleration[4], t484, base_acceleration[0]);
+    let t723 = mul_sub(base_acceleration[5], t481, t722);
+    let t724 = mul_sub(base_velocity[5], t702, mul_sub(base_velocity[4], t712, t723));
+    let t725 = mul_sub(t512, t700, mul_sub(t75, t551, t724));
+    let t726 = mul_add(base_rotation[0][2], t255, t725);
+    let t727 = t699 + t707;
+    let t728 = t711 + t717;
     rod_angular_acceleration[5][0] = c(4.8543689320388355)
-        * mul_sub(t311, t731, t313 * t732);
-    let t733 = t725 + t730;
+        * mul_sub(t307, t727, t309 * t728);
+    let t729 = t721 + t726;
     rod_angular_acceleration[5][1] = c(4.8543689320388355)
-        * mul_sub(t313, t733, t309 * t731);
+        * mul_sub(t309, t729, t305 * t727);
     rod_angular_acceleration[5][2] = c(4.8543689320388355)
-        * mul_sub(t309, t732, t311 * t733);
+        * mul_sub(t305, t728, t307 * t729);
     // centre of mass of the payload
-    let t734 = platform_rotation[0][2] * c(0.031);
-    let t735 = platform_rotation[1][2] * c(0.031);
-    let t736 = platform_rotation[2][2] * c(0.031);
+    let t730 = platform_rotation[0][2] * c(0.031);
+    let t731 = platform_rotation[1][2] * c(0.031);
+    let t732 = platform_rotation[2][2] * c(0.031);
     payload_com_position[0] = mul_add(
         platform_rotation[0][2],
         c(0.031),
@@ -3289,161 +3259,161 @@ pub fn body_kinematics<T: Scalar>(
         platform_position[2],
     );
     // velocity of the payload's centre of mass
-    let t737 = mul_sub(platform_velocity[4], t736, platform_velocity[5] * t735);
-    let t738 = mul_sub(platform_velocity[5], t734, platform_velocity[3] * t736);
-    let t739 = mul_sub(platform_velocity[3], t735, platform_velocity[4] * t734);
-    payload_com_velocity[0] = platform_velocity[0] + t737;
-    payload_com_velocity[1] = platform_velocity[1] + t738;
-    payload_com_velocity[2] = platform_velocity[2] + t739;
+    let t733 = mul_sub(platform_velocity[4], t732, platform_velocity[5] * t731);
+    let t734 = mul_sub(platform_velocity[5], t730, platform_velocity[3] * t732);
+    let t735 = mul_sub(platform_velocity[3], t731, platform_velocity[4] * t730);
+    payload_com_velocity[0] = platform_velocity[0] + t733;
+    payload_com_velocity[1] = platform_velocity[1] + t734;
+    payload_com_velocity[2] = platform_velocity[2] + t735;
     // acceleration of the payload's centre of mass
-    let t740 = mul_add(platform_acceleration[4], t736, platform_acceleration[0]);
-    let t741 = mul_sub(platform_acceleration[5], t735, t740);
-    let t742 = mul_sub(platform_velocity[4], t739, t741);
-    payload_com_acceleration[0] = neg_mul_add(platform_velocity[5], t738, t742);
-    let t743 = mul_add(platform_acceleration[5], t734, platform_acceleration[1]);
-    let t744 = mul_sub(platform_acceleration[3], t736, t743);
-    let t745 = mul_sub(platform_velocity[5], t737, t744);
-    payload_com_acceleration[1] = neg_mul_add(platform_velocity[3], t739, t745);
-    let t746 = mul_add(platform_acceleration[3], t735, platform_acceleration[2]);
-    let t747 = mul_sub(platform_acceleration[4], t734, t746);
-    let t748 = mul_sub(platform_velocity[3], t738, t747);
-    payload_com_acceleration[2] = neg_mul_add(platform_velocity[4], t737, t748);
+    let t736 = mul_add(platform_acceleration[4], t732, platform_acceleration[0]);
+    let t737 = mul_sub(platform_acceleration[5], t731, t736);
+    let t738 = mul_sub(platform_velocity[4], t735, t737);
+    payload_com_acceleration[0] = neg_mul_add(platform_velocity[5], t734, t738);
+    let t739 = mul_add(platform_acceleration[5], t730, platform_acceleration[1]);
+    let t740 = mul_sub(platform_acceleration[3], t732, t739);
+    let t741 = mul_sub(platform_velocity[5], t733, t740);
+    payload_com_acceleration[1] = neg_mul_add(platform_velocity[3], t735, t741);
+    let t742 = mul_add(platform_acceleration[3], t731, platform_acceleration[2]);
+    let t743 = mul_sub(platform_acceleration[4], t730, t742);
+    let t744 = mul_sub(platform_velocity[3], t734, t743);
+    payload_com_acceleration[2] = neg_mul_add(platform_velocity[4], t733, t744);
     // leg 2: centre of mass of the rod
-    rod_com_position[1][0] = mul_add(c(0.5), t352 + t359, t512);
-    rod_com_position[1][1] = mul_add(c(0.5), t355 + t360, t513);
-    rod_com_position[1][2] = mul_add(c(0.5), t358 + t361, t514);
+    rod_com_position[1][0] = mul_add(c(0.5), t348 + t355, t508);
+    rod_com_position[1][1] = mul_add(c(0.5), t351 + t356, t509);
+    rod_com_position[1][2] = mul_add(c(0.5), t354 + t357, t510);
     // leg 3: centre of mass of the rod
-    rod_com_position[2][0] = mul_add(c(0.5), t383 - t393, t512);
-    rod_com_position[2][1] = mul_add(c(0.5), t387 - t395, t513);
-    rod_com_position[2][2] = mul_add(c(0.5), t391 - t397, t514);
+    rod_com_position[2][0] = mul_add(c(0.5), t379 - t389, t508);
+    rod_com_position[2][1] = mul_add(c(0.5), t383 - t391, t509);
+    rod_com_position[2][2] = mul_add(c(0.5), t387 - t393, t510);
     // leg 4: centre of mass of the rod
-    rod_com_position[3][0] = mul_add(c(0.5), t419 - t429, t512);
-    rod_com_position[3][1] = mul_add(c(0.5), t423 - t431, t513);
-    rod_com_position[3][2] = mul_add(c(0.5), t427 - t433, t514);
+    rod_com_position[3][0] = mul_add(c(0.5), t415 - t425, t508);
+    rod_com_position[3][1] = mul_add(c(0.5), t419 - t427, t509);
+    rod_com_position[3][2] = mul_add(c(0.5), t423 - t429, t510);
     // leg 5: centre of mass of the rod
-    rod_com_position[4][0] = mul_add(c(0.5), t454 - t461, t512);
-    rod_com_position[4][1] = mul_add(c(0.5), t457 - t462, t513);
-    rod_com_position[4][2] = mul_add(c(0.5), t460 - t463, t514);
+    rod_com_position[4][0] = mul_add(c(0.5), t450 - t457, t508);
+    rod_com_position[4][1] = mul_add(c(0.5), t453 - t458, t509);
+    rod_com_position[4][2] = mul_add(c(0.5), t456 - t459, t510);
     // leg 6: centre of mass of the rod
-    rod_com_position[5][0] = mul_add(c(0.5), t484 - t491, t512);
-    rod_com_position[5][1] = mul_add(c(0.5), t487 - t492, t513);
-    rod_com_position[5][2] = mul_add(c(0.5), t490 - t493, t514);
+    rod_com_position[5][0] = mul_add(c(0.5), t480 - t487, t508);
+    rod_com_position[5][1] = mul_add(c(0.5), t483 - t488, t509);
+    rod_com_position[5][2] = mul_add(c(0.5), t486 - t489, t510);
     // leg 1: velocity of the rod's centre of mass
-    rod_com_velocity[0][0] = (t334 - t342) * c(-0.5);
-    rod_com_velocity[0][1] = c(-0.5) * (t337 - t344);
-    rod_com_velocity[0][2] = c(-0.5) * (t340 - t346);
+    rod_com_velocity[0][0] = (t330 - t338) * c(-0.5);
+    rod_com_velocity[0][1] = c(-0.5) * (t333 - t340);
+    rod_com_velocity[0][2] = c(-0.5) * (t336 - t342);
     // leg 2: velocity of the rod's centre of mass
-    rod_com_velocity[1][0] = c(-0.5) * (t364 - t372);
-    rod_com_velocity[1][1] = c(-0.5) * (t367 - t374);
-    rod_com_velocity[1][2] = c(-0.5) * (t370 - t376);
+    rod_com_velocity[1][0] = c(-0.5) * (t360 - t368);
+    rod_com_velocity[1][1] = c(-0.5) * (t363 - t370);
+    rod_com_velocity[1][2] = c(-0.5) * (t366 - t372);
     // leg 3: velocity of the rod's centre of mass
-    rod_com_velocity[2][0] = c(-0.5) * (t400 - t408);
-    rod_com_velocity[2][1] = c(-0.5) * (t403 - t410);
-    rod_com_velocity[2][2] = c(-0.5) * (t406 - t412);
+    rod_com_velocity[2][0] = c(-0.5) * (t396 - t404);
+    rod_com_velocity[2][1] = c(-0.5) * (t399 - t406);
+    rod_com_velocity[2][2] = c(-0.5) * (t402 - t408);
     // leg 4: velocity of the rod's centre of mass
-    rod_com_velocity[3][0] = c(-0.5) * (t436 - t444);
-    rod_com_velocity[3][1] = c(-0.5) * (t439 - t446);
-    rod_com_velocity[3][2] = c(-0.5) * (t442 - t448);
+    rod_com_velocity[3][0] = c(-0.5) * (t432 - t440);
+    rod_com_velocity[3][1] = c(-0.5) * (t435 - t442);
+    rod_com_velocity[3][2] = c(-0.5) * (t438 - t444);
     // leg 5: velocity of the rod's centre of mass
-    rod_com_velocity[4][0] = c(-0.5) * (t466 - t474);
-    rod_com_velocity[4][1] = c(-0.5) * (t469 - t476);
-    rod_com_velocity[4][2] = c(-0.5) * (t472 - t478);
+    rod_com_velocity[4][0] = c(-0.5) * (t462 - t470);
+    rod_com_velocity[4][1] = c(-0.5) * (t465 - t472);
+    rod_com_velocity[4][2] = c(-0.5) * (t468 - t474);
     // leg 6: velocity of the rod's centre of mass
-    rod_com_velocity[5][0] = c(-0.5) * (t496 - t504);
-    rod_com_velocity[5][1] = c(-0.5) * (t499 - t506);
-    rod_com_velocity[5][2] = c(-0.5) * (t502 - t508);
+    rod_com_velocity[5][0] = c(-0.5) * (t492 - t500);
+    rod_com_velocity[5][1] = c(-0.5) * (t495 - t502);
+    rod_com_velocity[5][2] = c(-0.5) * (t498 - t504);
     // leg 1: acceleration of the rod's centre of mass
-    rod_com_acceleration[0][0] = c(-0.5) * (t552 + t560);
-    rod_com_acceleration[0][1] = c(-0.5) * (t539 + t548);
-    rod_com_acceleration[0][2] = c(-0.5) * (t524 + t535);
+    rod_com_acceleration[0][0] = c(-0.5) * (t548 + t556);
+    rod_com_acceleration[0][1] = c(-0.5) * (t535 + t544);
+    rod_com_acceleration[0][2] = c(-0.5) * (t520 + t531);
     // leg 2: acceleration of the rod's centre of mass
-    rod_com_acceleration[1][0] = c(-0.5) * (t589 + t594);
-    rod_com_acceleration[1][1] = c(-0.5) * (t579 + t585);
-    rod_com_acceleration[1][2] = c(-0.5) * (t567 + t575);
+    rod_com_acceleration[1][0] = c(-0.5) * (t585 + t590);
+    rod_com_acceleration[1][1] = c(-0.5) * (t575 + t581);
+    rod_com_acceleration[1][2] = c(-0.5) * (t563 + t571);
     // leg 3: acceleration of the rod's centre of mass
-    rod_com_acceleration[2][0] = c(0.5) * (t623 - t628);
-    rod_com_acceleration[2][1] = c(0.5) * (t613 - t619);
-    rod_com_acceleration[2][2] = c(0.5) * (t601 - t609);
+    rod_com_acceleration[2][0] = c(0.5) * (t619 - t624);
+    rod_com_acceleration[2][1] = c(0.5) * (t609 - t615);
+    rod_com_acceleration[2][2] = c(0.5) * (t597 - t605);
     // leg 4: acceleration of the rod's centre of mass
-    rod_com_acceleration[3][0] = c(0.5) * (t657 - t662);
-    rod_com_acceleration[3][1] = c(0.5) * (t647 - t653);
-    rod_com_acceleration[3][2] = c(0.5) * (t635 - t643);
+    rod_com_acceleration[3][0] = c(0.5) * (t653 - t658);
+    rod_com_acceleration[3][1] = c(0.5) * (t643 - t649);
+    rod_com_acceleration[3][2] = c(0.5) * (t631 - t639);
     // leg 5: acceleration of the rod's centre of mass
-    rod_com_acceleration[4][0] = c(0.5) * (t691 - t696);
-    rod_com_acceleration[4][1] = c(0.5) * (t681 - t687);
-    rod_com_acceleration[4][2] = c(0.5) * (t669 - t677);
+    rod_com_acceleration[4][0] = c(0.5) * (t687 - t692);
+    rod_com_acceleration[4][1] = c(0.5) * (t677 - t683);
+    rod_com_acceleration[4][2] = c(0.5) * (t665 - t673);
     // leg 6: acceleration of the rod's centre of mass
-    rod_com_acceleration[5][0] = c(0.5) * (t725 - t730);
-    rod_com_acceleration[5][1] = c(0.5) * (t715 - t721);
-    rod_com_acceleration[5][2] = c(0.5) * (t703 - t711);
+    rod_com_acceleration[5][0] = c(0.5) * (t721 - t726);
+    rod_com_acceleration[5][1] = c(0.5) * (t711 - t717);
+    rod_com_acceleration[5][2] = c(0.5) * (t699 - t707);
     // leg 1: centre of mass of the mover
-    mover_position[0][0] = neg_mul_add(base_rotation[0][2], c(0.05), t317);
-    mover_position[0][1] = neg_mul_add(base_rotation[1][2], c(0.05), t321);
-    mover_position[0][2] = neg_mul_add(base_rotation[2][2], c(0.05), t325);
+    mover_position[0][0] = neg_mul_add(base_rotation[0][2], c(0.05), t313);
+    mover_position[0][1] = neg_mul_add(base_rotation[1][2], c(0.05), t317);
+    mover_position[0][2] = neg_mul_add(base_rotation[2][2], c(0.05), t321);
     // leg 2: centre of mass of the mover
-    mover_position[1][0] = neg_mul_add(base_rotation[0][2], c(0.05), t352);
-    mover_position[1][1] = neg_mul_add(base_rotation[1][2], c(0.05), t355);
-    mover_position[1][2] = neg_mul_add(base_rotation[2][2], c(0.05), t358);
+    mover_position[1][0] = neg_mul_add(base_rotation[0][2], c(0.05), t348);
+    mover_position[1][1] = neg_mul_add(base_rotation[1][2], c(0.05), t351);
+    mover_position[1][2] = neg_mul_add(base_rotation[2][2], c(0.05), t354);
     // leg 3: centre of mass of the mover
-    mover_position[2][0] = neg_mul_add(base_rotation[0][2], c(0.05), t383);
-    mover_position[2][1] = neg_mul_add(base_rotation[1][2], c(0.05), t387);
-    mover_position[2][2] = neg_mul_add(base_rotation[2][2], c(0.05), t391);
+    mover_position[2][0] = neg_mul_add(base_rotation[0][2], c(0.05), t379);
+    mover_position[2][1] = neg_mul_add(base_rotation[1][2], c(0.05), t383);
+    mover_position[2][2] = neg_mul_add(base_rotation[2][2], c(0.05), t387);
     // leg 4: centre of mass of the mover
-    mover_position[3][0] = neg_mul_add(base_rotation[0][2], c(0.05), t419);
-    mover_position[3][1] = neg_mul_add(base_rotation[1][2], c(0.05), t423);
-    mover_position[3][2] = neg_mul_add(base_rotation[2][2], c(0.05), t427);
+    mover_position[3][0] = neg_mul_add(base_rotation[0][2], c(0.05), t415);
+    mover_position[3][1] = neg_mul_add(base_rotation[1][2], c(0.05), t419);
+    mover_position[3][2] = neg_mul_add(base_rotation[2][2], c(0.05), t423);
     // leg 5: centre of mass of the mover
-    mover_position[4][0] = neg_mul_add(base_rotation[0][2], c(0.05), t454);
-    mover_position[4][1] = neg_mul_add(base_rotation[1][2], c(0.05), t457);
-    mover_position[4][2] = neg_mul_add(base_rotation[2][2], c(0.05), t460);
+    mover_position[4][0] = neg_mul_add(base_rotation[0][2], c(0.05), t450);
+    mover_position[4][1] = neg_mul_add(base_rotation[1][2], c(0.05), t453);
+    mover_position[4][2] = neg_mul_add(base_rotation[2][2], c(0.05), t456);
     // leg 6: centre of mass of the mover
-    mover_position[5][0] = neg_mul_add(base_rotation[0][2], c(0.05), t484);
-    mover_position[5][1] = neg_mul_add(base_rotation[1][2], c(0.05), t487);
-    mover_position[5][2] = neg_mul_add(base_rotation[2][2], c(0.05), t490);
+    mover_position[5][0] = neg_mul_add(base_rotation[0][2], c(0.05), t480);
+    mover_position[5][1] = neg_mul_add(base_rotation[1][2], c(0.05), t483);
+    mover_position[5][2] = neg_mul_add(base_rotation[2][2], c(0.05), t486);
     // leg 2: velocity of the mover
-    mover_velocity[1][0] = -mul_add(c(0.05), t516, t364);
-    mover_velocity[1][1] = -mul_add(c(0.05), t518, t367);
-    mover_velocity[1][2] = -mul_add(c(0.05), t520, t370);
+    mover_velocity[1][0] = -mul_add(c(0.05), t512, t360);
+    mover_velocity[1][1] = -mul_add(c(0.05), t514, t363);
+    mover_velocity[1][2] = -mul_add(c(0.05), t516, t366);
     // leg 3: velocity of the mover
-    mover_velocity[2][0] = -mul_add(c(0.05), t516, t400);
-    mover_velocity[2][1] = -mul_add(c(0.05), t518, t403);
-    mover_velocity[2][2] = -mul_add(c(0.05), t520, t406);
+    mover_velocity[2][0] = -mul_add(c(0.05), t512, t396);
+    mover_velocity[2][1] = -mul_add(c(0.05), t514, t399);
+    mover_velocity[2][2] = -mul_add(c(0.05), t516, t402);
     // leg 4: velocity of the mover
-    mover_velocity[3][0] = -mul_add(c(0.05), t516, t436);
-    mover_velocity[3][1] = -mul_add(c(0.05), t518, t439);
-    mover_velocity[3][2] = -mul_add(c(0.05), t520, t442);
+    mover_velocity[3][0] = -mul_add(c(0.05), t512, t432);
+    mover_velocity[3][1] = -mul_add(c(0.05), t514, t435);
+    mover_velocity[3][2] = -mul_add(c(0.05), t516, t438);
     // leg 5: velocity of the mover
-    mover_velocity[4][0] = -mul_add(c(0.05), t516, t466);
-    mover_velocity[4][1] = -mul_add(c(0.05), t518, t469);
-    mover_velocity[4][2] = -mul_add(c(0.05), t520, t472);
+    mover_velocity[4][0] = -mul_add(c(0.05), t512, t462);
+    mover_velocity[4][1] = -mul_add(c(0.05), t514, t465);
+    mover_velocity[4][2] = -mul_add(c(0.05), t516, t468);
     // leg 6: velocity of the mover
-    mover_velocity[5][0] = -mul_add(c(0.05), t516, t496);
-    mover_velocity[5][1] = -mul_add(c(0.05), t518, t499);
-    mover_velocity[5][2] = -mul_add(c(0.05), t520, t502);
+    mover_velocity[5][0] = -mul_add(c(0.05), t512, t492);
+    mover_velocity[5][1] = -mul_add(c(0.05), t514, t495);
+    mover_velocity[5][2] = -mul_add(c(0.05), t516, t498);
     // leg 1: acceleration of the mover
-    mover_acceleration[0][0] = mul_sub(c(0.05), t555, t560);
-    mover_acceleration[0][1] = mul_sub(c(0.05), t542, t548);
-    mover_acceleration[0][2] = mul_sub(c(0.05), t527, t535);
+    mover_acceleration[0][0] = mul_sub(c(0.05), t551, t556);
+    mover_acceleration[0][1] = mul_sub(c(0.05), t538, t544);
+    mover_acceleration[0][2] = mul_sub(c(0.05), t523, t531);
     // leg 2: acceleration of the mover
-    mover_acceleration[1][0] = mul_sub(c(0.05), t555, t594);
-    mover_acceleration[1][1] = mul_sub(c(0.05), t542, t585);
-    mover_acceleration[1][2] = mul_sub(c(0.05), t527, t575);
+    mover_acceleration[1][0] = mul_sub(c(0.05), t551, t590);
+    mover_acceleration[1][1] = mul_sub(c(0.05), t538, t581);
+    mover_acceleration[1][2] = mul_sub(c(0.05), t523, t571);
     // leg 3: acceleration of the mover
-    mover_acceleration[2][0] = mul_sub(c(0.05), t555, t628);
-    mover_acceleration[2][1] = mul_sub(c(0.05), t542, t619);
-    mover_acceleration[2][2] = mul_sub(c(0.05), t527, t609);
+    mover_acceleration[2][0] = mul_sub(c(0.05), t551, t624);
+    mover_acceleration[2][1] = mul_sub(c(0.05), t538, t615);
+    mover_acceleration[2][2] = mul_sub(c(0.05), t523, t605);
     // leg 4: acceleration of the mover
-    mover_acceleration[3][0] = mul_sub(c(0.05), t555, t662);
-    mover_acceleration[3][1] = mul_sub(c(0.05), t542, t653);
-    mover_acceleration[3][2] = mul_sub(c(0.05), t527, t643);
+    mover_acceleration[3][0] = mul_sub(c(0.05), t551, t658);
+    mover_acceleration[3][1] = mul_sub(c(0.05), t538, t649);
+    mover_acceleration[3][2] = mul_sub(c(0.05), t523, t639);
     // leg 5: acceleration of the mover
-    mover_acceleration[4][0] = mul_sub(c(0.05), t555, t696);
-    mover_acceleration[4][1] = mul_sub(c(0.05), t542, t687);
-    mover_acceleration[4][2] = mul_sub(c(0.05), t527, t677);
+    mover_acceleration[4][0] = mul_sub(c(0.05), t551, t692);
+    mover_acceleration[4][1] = mul_sub(c(0.05), t538, t683);
+    mover_acceleration[4][2] = mul_sub(c(0.05), t523, t673);
     // leg 6: acceleration of the mover
-    mover_acceleration[5][0] = mul_sub(c(0.05), t555, t730);
-    mover_acceleration[5][1] = mul_sub(c(0.05), t542, t721);
-    mover_acceleration[5][2] = mul_sub(c(0.05), t527, t711);
+    mover_acceleration[5][0] = mul_sub(c(0.05), t551, t726);
+    mover_acceleration[5][1] = mul_sub(c(0.05), t538, t717);
+    mover_acceleration[5][2] = mul_sub(c(0.05), t523, t707);
 }
 
 /// Partial velocities and partial angular velocities of every body, equation (33)-(38).
@@ -4443,48 +4413,37 @@ pub fn generalised_forces<T: Scalar>(
     let (
         t71,
         t75,
-        t303,
-        t305,
-        t307,
+        t308,
+        t310,
         t312,
-        t314,
-        t316,
-        t335,
-        t336,
-        t348,
-        t350,
-        t363,
-        t365,
-        t374,
-        t375,
-        t376,
-        t383,
-        t384,
-        t385,
-        t562,
-        t570,
-        t571,
-        t575,
-        t581,
-        t582,
-        t583,
-        t587,
-        t592,
-        t593,
-        t594,
+        t331,
+        t332,
+        t344,
+        t346,
+        t359,
+        t361,
+        t370,
+        t371,
+        t379,
+        t380,
+        t381,
+        t566,
+        t577,
+        t588,
         t595,
-        t599,
-        t607,
+        t603,
+        t604,
         t608,
-        t612,
-        t618,
-        t619,
+        t614,
+        t615,
+        t616,
         t620,
-        t624,
-        t629,
-        t630,
-        t631,
-        t632,
+        t625,
+        t626,
+        t627,
+        t628,
+        t645,
+        t647,
         t649,
         t651,
         t653,
@@ -4498,8 +4457,10 @@ pub fn generalised_forces<T: Scalar>(
         t669,
         t671,
         t673,
-        t675,
         t677,
+        t678,
+        t679,
+        t680,
         t681,
         t682,
         t683,
@@ -4511,14 +4472,10 @@ pub fn generalised_forces<T: Scalar>(
         t689,
         t690,
         t691,
-        t692,
-        t693,
-        t694,
-        t695,
-        t757,
-        t786,
-        t787,
-        t788,
+        t753,
+        t782,
+        t783,
+        t784,
     ) = {
         // rotation of the platform seen from the base
         let t1 = base_rotation[1][0] * platform_rotation[1][0];
@@ -4770,1035 +4727,1050 @@ pub fn generalised_forces<T: Scalar>(
         let t194 = mul_sub(base_rotation[1][1], platform_acceleration[4], t193);
         let t195 = mul_add(base_rotation[2][1], platform_acceleration[5], t194);
         let t196 = mul_sub(t90, t105, mul_sub(t96, t99, t195));
-        let t197 = mul_add(t99, t105, t196);
-        let t198 = neg_mul_add(base_rotation[0][2], platform_acceleration[3], t160);
-        let t199 = mul_sub(base_rotation[1][2], platform_acceleration[4], t198);
-        let t200 = mul_add(base_rotation[2][2], platform_acceleration[5], t199);
-        let t201 = mul_sub(t93, t99, mul_sub(t90, t102, t200));
-        let t202 = mul_sub(t99, t102, t201);
-        let t203 = mul_add(t102, t102, t105 * t105);
-        let t204 = mul_add(t15, t197, mul_sub(t9, t202, t3 * t203));
-        let t205 = mul_add(t18, t197, mul_sub(t12, t202, t6 * t203));
-        let t206 = neg_mul_add(base_rotation[0][0], platform_acceleration[3], t154);
-        let t207 = mul_sub(base_rotation[1][0], platform_acceleration[4], t206);
-        let t208 = mul_add(base_rotation[2][0], platform_acceleration[5], t207);
-        let t209 = mul_sub(t96, t102, mul_sub(t93, t105, t208));
-        let t210 = mul_sub(t102, t105, t209);
-        let t211 = mul_add(t99, t102, t201);
-        let t212 = t99 * t99;
-        let t213 = mul_add(t105, t105, t212);
-        let t214 = mul_add(t15, t210, mul_sub(t3, t211, t9 * t213));
-        let t215 = mul_add(t18, t210, mul_sub(t6, t211, t12 * t213));
-        let t216 = mul_add(t102, t102, t212);
-        let t217 = mul_sub(t99, t105, t196);
-        let t218 = mul_add(t102, t105, t209);
-        let t219 = mul_sub(t15, t216, mul_add(t3, t217, t9 * t218));
-        let t220 = mul_sub(t18, t216, mul_add(t6, t217, t12 * t218));
+        let t197 = neg_mul_add(base_rotation[0][2], platform_acceleration[3], t160);
+        let t198 = mul_sub(base_rotation[1][2], platform_acceleration[4], t197);
+        let t199 = mul_add(base_rotation[2][2], platform_acceleration[5], t198);
+        let t200 = mul_sub(t93, t99, mul_sub(t90, t102, t199));
+        let t201 = mul_add(t102, t122, mul_sub(t15, t196, t9 * t200));
+        let t202 = mul_sub(t105, t120, t201);
+        let t203 = mul_add(t102, t123, mul_sub(t18, t196, t12 * t200));
+        let t204 = mul_sub(t105, t121, t203);
+        let t205 = neg_mul_add(base_rotation[0][0], platform_acceleration[3], t154);
+        let t206 = mul_sub(base_rotation[1][0], platform_acceleration[4], t205);
+        let t207 = mul_add(base_rotation[2][0], platform_acceleration[5], t206);
+        let t208 = mul_sub(t96, t102, mul_sub(t93, t105, t207));
+        let t209 = mul_add(t105, t118, mul_sub(t3, t200, t15 * t208));
+        let t210 = mul_sub(t99, t122, t209);
+        let t211 = mul_add(t105, t119, mul_sub(t6, t200, t18 * t208));
+        let t212 = mul_sub(t99, t123, t211);
+        let t213 = mul_add(t99, t120, mul_sub(t9, t208, t3 * t196));
+        let t214 = mul_sub(t102, t118, t213);
+        let t215 = mul_add(t99, t121, mul_sub(t12, t208, t6 * t196));
+        let t216 = mul_sub(t102, t119, t215);
         // leg 1: acceleration of the platform joint relative to the base
-        let t221 = mul_add(c(0.1159110991546882), t204, t178);
-        let t222 = neg_mul_add(c(0.03105828541230249), t205, t221);
-        let t223 = neg_mul_add(c(0.1159110991546882), t214, t185);
-        let t224 = mul_add(c(0.03105828541230249), t215, t223);
+        let t217 = neg_mul_add(c(0.1159110991546882), t202, t178);
+        let t218 = mul_add(c(0.03105828541230249), t204, t217);
+        let t219 = mul_add(c(0.1159110991546882), t210, t185);
+        let t220 = neg_mul_add(c(0.03105828541230249), t212, t219);
         // leg 2: acceleration of the platform joint relative to the base
-        let t225 = mul_add(c(0.03105828541230249), t205, t221);
-        let t226 = neg_mul_add(c(0.03105828541230249), t215, t223);
+        let t221 = neg_mul_add(c(0.03105828541230249), t204, t217);
+        let t222 = mul_add(c(0.03105828541230249), t212, t219);
         // leg 3: acceleration of the platform joint relative to the base
-        let t227 = neg_mul_add(c(0.031058285412302475), t204, t178);
-        let t228 = mul_add(c(0.1159110991546882), t205, t227);
-        let t229 = mul_add(c(0.031058285412302475), t214, t185);
-        let t230 = neg_mul_add(c(0.1159110991546882), t215, t229);
+        let t223 = mul_add(c(0.031058285412302475), t202, t178);
+        let t224 = neg_mul_add(c(0.1159110991546882), t204, t223);
+        let t225 = neg_mul_add(c(0.031058285412302475), t210, t185);
+        let t226 = mul_add(c(0.1159110991546882), t212, t225);
         // leg 4: acceleration of the platform joint relative to the base
-        let t231 = neg_mul_add(c(0.0848528137423857), t204, t178);
-        let t232 = mul_add(c(0.08485281374238571), t205, t231);
-        let t233 = mul_add(c(0.0848528137423857), t214, t185);
-        let t234 = neg_mul_add(c(0.08485281374238571), t215, t233);
+        let t227 = mul_add(c(0.0848528137423857), t202, t178);
+        let t228 = neg_mul_add(c(0.08485281374238571), t204, t227);
+        let t229 = neg_mul_add(c(0.0848528137423857), t210, t185);
+        let t230 = mul_add(c(0.08485281374238571), t212, t229);
         // leg 5: acceleration of the platform joint relative to the base
-        let t235 = neg_mul_add(c(0.08485281374238571), t205, t231);
-        let t236 = mul_add(c(0.08485281374238571), t215, t233);
+        let t231 = mul_add(c(0.08485281374238571), t204, t227);
+        let t232 = neg_mul_add(c(0.08485281374238571), t212, t229);
         // leg 6: acceleration of the platform joint relative to the base
-        let t237 = neg_mul_add(c(0.1159110991546882), t205, t227);
-        let t238 = mul_add(c(0.1159110991546882), t215, t229);
+        let t233 = mul_add(c(0.1159110991546882), t204, t223);
+        let t234 = neg_mul_add(c(0.1159110991546882), t212, t225);
         // leg 1: actuator acceleration d''
-        let t239 = mul_add(c(0.1159110991546882), t219, t192);
-        let t240 = c(0.03105828541230249) * t220;
-        let t241 = mul_sub(t29, t222, mul_add(t125, t125, t127 * t127));
-        let t242 = mul_sub(t142, t142, mul_add(t32, t224, t241));
-        let t243 = t239 - mul_add(t51, t242, t240);
+        let t235 = mul_add(c(0.1159110991546882), t214, t192);
+        let t236 = c(0.03105828541230249) * t216;
+        let t237 = mul_sub(t29, t218, mul_add(t125, t125, t127 * t127));
+        let t238 = mul_sub(t142, t142, mul_add(t32, t220, t237));
+        let t239 = t235 - mul_add(t51, t238, t236);
         // leg 2: actuator acceleration d''
-        let t244 = mul_sub(t33, t225, mul_add(t128, t128, t129 * t129));
-        let t245 = mul_add(t143, t143, mul_sub(t34, t226, t244));
-        let t246 = t239 + neg_mul_add(t56, t245, t240);
+        let t240 = mul_sub(t33, t221, mul_add(t128, t128, t129 * t129));
+        let t241 = mul_add(t143, t143, mul_sub(t34, t222, t240));
+        let t242 = t235 + neg_mul_add(t56, t241, t236);
         // leg 3: actuator acceleration d''
-        let t247 = neg_mul_add(c(0.031058285412302475), t219, t192);
-        let t248 = c(0.1159110991546882) * t220;
-        let t249 = mul_sub(t36, t228, mul_add(t131, t131, t133 * t133));
-        let t250 = mul_add(t144, t144, mul_sub(t39, t230, t249));
-        let t251 = t247 - mul_sub(t60, t250, t248);
+        let t243 = neg_mul_add(c(0.031058285412302475), t214, t192);
+        let t244 = c(0.1159110991546882) * t216;
+        let t245 = mul_sub(t36, t224, mul_add(t131, t131, t133 * t133));
+        let t246 = mul_add(t144, t144, mul_sub(t39, t226, t245));
+        let t247 = t243 - mul_sub(t60, t246, t244);
         // leg 4: actuator acceleration d''
-        let t252 = neg_mul_add(c(0.0848528137423857), t219, t192);
-        let t253 = c(0.08485281374238571) * t220;
-        let t254 = mul_sub(t41, t232, mul_add(t135, t135, t137 * t137));
-        let t255 = mul_add(t145, t145, mul_sub(t44, t234, t254));
-        let t256 = t252 - mul_sub(t65, t255, t253);
+        let t248 = neg_mul_add(c(0.0848528137423857), t214, t192);
+        let t249 = c(0.08485281374238571) * t216;
+        let t250 = mul_sub(t41, t228, mul_add(t135, t135, t137 * t137));
+        let t251 = mul_add(t145, t145, mul_sub(t44, t230, t250));
+        let t252 = t248 - mul_sub(t65, t251, t249);
         // leg 5: actuator acceleration d''
-        let t257 = mul_sub(t45, t235, mul_add(t138, t138, t139 * t139));
-        let t258 = mul_sub(t146, t146, mul_add(t46, t236, t257));
-        let t259 = t252 - mul_add(t70, t258, t253);
+        let t253 = mul_sub(t45, t231, mul_add(t138, t138, t139 * t139));
+        let t254 = mul_sub(t146, t146, mul_add(t46, t232, t253));
+        let t255 = t248 - mul_add(t70, t254, t249);
         // leg 6: actuator acceleration d''
-        let t260 = mul_sub(t47, t237, mul_add(t140, t140, t141 * t141));
-        let t261 = mul_sub(t147, t147, mul_add(t48, t238, t260));
-        let t262 = t247 - mul_add(t74, t261, t248);
+        let t256 = mul_sub(t47, t233, mul_add(t140, t140, t141 * t141));
+        let t257 = mul_sub(t147, t147, mul_add(t48, t234, t256));
+        let t258 = t243 - mul_add(t74, t257, t244);
         // leg 1: rod direction u, from the Hooke joint to the platform joint
-        let t263 = t50 * c(4.8543689320388355);
-        let t264 = t29 * c(4.8543689320388355);
-        let t265 = t32 * c(4.8543689320388355);
-        let t266 = mul_sub(base_rotation[0][0], t264, base_rotation[0][1] * t265);
-        let t267 = mul_sub(base_rotation[0][2], t263, t266);
-        let t268 = mul_sub(base_rotation[1][0], t264, base_rotation[1][1] * t265);
-        let t269 = mul_sub(base_rotation[1][2], t263, t268);
-        let t270 = mul_sub(base_rotation[2][0], t264, base_rotation[2][1] * t265);
-        let t271 = mul_sub(base_rotation[2][2], t263, t270);
+        let t259 = t50 * c(4.8543689320388355);
+        let t260 = t29 * c(4.8543689320388355);
+        let t261 = t32 * c(4.8543689320388355);
+        let t262 = mul_sub(base_rotation[0][0], t260, base_rotation[0][1] * t261);
+        let t263 = mul_sub(base_rotation[0][2], t259, t262);
+        let t264 = mul_sub(base_rotation[1][0], t260, base_rotation[1][1] * t261);
+        let t265 = mul_sub(base_rotation[1][2], t259, t264);
+        let t266 = mul_sub(base_rotation[2][0], t260, base_rotation[2][1] * t261);
+        let t267 = mul_sub(base_rotation[2][2], t259, t266);
         // leg 2: rod direction u, from the Hooke joint to the platform joint
-        let t272 = t55 * c(4.8543689320388355);
-        let t273 = t33 * c(4.8543689320388355);
-        let t274 = t34 * c(4.8543689320388355);
-        let t275 = mul_add(base_rotation[0][0], t273, base_rotation[0][1] * t274);
-        let t276 = mul_sub(base_rotation[0][2], t272, t275);
-        let t277 = mul_add(base_rotation[1][0], t273, base_rotation[1][1] * t274);
-        let t278 = mul_sub(base_rotation[1][2], t272, t277);
-        let t279 = mul_add(base_rotation[2][0], t273, base_rotation[2][1] * t274);
-        let t280 = mul_sub(base_rotation[2][2], t272, t279);
+        let t268 = t55 * c(4.8543689320388355);
+        let t269 = t33 * c(4.8543689320388355);
+        let t270 = t34 * c(4.8543689320388355);
+        let t271 = mul_add(base_rotation[0][0], t269, base_rotation[0][1] * t270);
+        let t272 = mul_sub(base_rotation[0][2], t268, t271);
+        let t273 = mul_add(base_rotation[1][0], t269, base_rotation[1][1] * t270);
+        let t274 = mul_sub(base_rotation[1][2], t268, t273);
+        let t275 = mul_add(base_rotation[2][0], t269, base_rotation[2][1] * t270);
+        let t276 = mul_sub(base_rotation[2][2], t268, t275);
         // leg 3: rod direction u, from the Hooke joint to the platform joint
-        let t281 = t59 * c(4.8543689320388355);
-        let t282 = t36 * c(4.8543689320388355);
-        let t283 = t39 * c(4.8543689320388355);
-        let t284 = mul_add(base_rotation[0][0], t282, base_rotation[0][1] * t283);
-        let t285 = mul_sub(base_rotation[0][2], t281, t284);
-        let t286 = mul_add(base_rotation[1][0], t282, base_rotation[1][1] * t283);
-        let t287 = mul_sub(base_rotation[1][2], t281, t286);
-        let t288 = mul_add(base_rotation[2][0], t282, base_rotation[2][1] * t283);
-        let t289 = mul_sub(base_rotation[2][2], t281, t288);
+        let t277 = t59 * c(4.8543689320388355);
+        let t278 = t36 * c(4.8543689320388355);
+        let t279 = t39 * c(4.8543689320388355);
+        let t280 = mul_add(base_rotation[0][0], t278, base_rotation[0][1] * t279);
+        let t281 = mul_sub(base_rotation[0][2], t277, t280);
+        let t282 = mul_add(base_rotation[1][0], t278, base_rotation[1][1] * t279);
+        let t283 = mul_sub(base_rotation[1][2], t277, t282);
+        let t284 = mul_add(base_rotation[2][0], t278, base_rotation[2][1] * t279);
+        let t285 = mul_sub(base_rotation[2][2], t277, t284);
         // leg 4: rod direction u, from the Hooke joint to the platform joint
-        let t290 = t64 * c(4.8543689320388355);
-        let t291 = t41 * c(4.8543689320388355);
-        let t292 = t44 * c(4.8543689320388355);
-        let t293 = mul_add(base_rotation[0][0], t291, base_rotation[0][1] * t292);
-        let t294 = mul_sub(base_rotation[0][2], t290, t293);
-        let t295 = mul_add(base_rotation[1][0], t291, base_rotation[1][1] * t292);
-        let t296 = mul_sub(base_rotation[1][2], t290, t295);
-        let t297 = mul_add(base_rotation[2][0], t291, base_rotation[2][1] * t292);
-        let t298 = mul_sub(base_rotation[2][2], t290, t297);
+        let t286 = t64 * c(4.8543689320388355);
+        let t287 = t41 * c(4.8543689320388355);
+        let t288 = t44 * c(4.8543689320388355);
+        let t289 = mul_add(base_rotation[0][0], t287, base_rotation[0][1] * t288);
+        let t290 = mul_sub(base_rotation[0][2], t286, t289);
+        let t291 = mul_add(base_rotation[1][0], t287, base_rotation[1][1] * t288);
+        let t292 = mul_sub(base_rotation[1][2], t286, t291);
+        let t293 = mul_add(base_rotation[2][0], t287, base_rotation[2][1] * t288);
+        let t294 = mul_sub(base_rotation[2][2], t286, t293);
         // leg 5: rod direction u, from the Hooke joint to the platform joint
-        let t299 = t69 * c(4.8543689320388355);
-        let t300 = t45 * c(4.8543689320388355);
-        let t301 = t46 * c(4.8543689320388355);
-        let t302 = mul_sub(base_rotation[0][0], t300, base_rotation[0][1] * t301);
-        let t303 = mul_sub(base_rotation[0][2], t299, t302);
-        let t304 = mul_sub(base_rotation[1][0], t300, base_rotation[1][1] * t301);
-        let t305 = mul_sub(base_rotation[1][2], t299, t304);
-        let t306 = mul_sub(base_rotation[2][0], t300, base_rotation[2][1] * t301);
-        let t307 = mul_sub(base_rotation[2][2], t299, t306);
+        let t295 = t69 * c(4.8543689320388355);
+        let t296 = t45 * c(4.8543689320388355);
+        let t297 = t46 * c(4.8543689320388355);
+        let t298 = mul_sub(base_rotation[0][0], t296, base_rotation[0][1] * t297);
+        let t299 = mul_sub(base_rotation[0][2], t295, t298);
+        let t300 = mul_sub(base_rotation[1][0], t296, base_rotation[1][1] * t297);
+        let t301 = mul_sub(base_rotation[1][2], t295, t300);
+        let t302 = mul_sub(base_rotation[2][0], t296, base_rotation[2][1] * t297);
+        let t303 = mul_sub(base_rotation[2][2], t295, t302);
         // leg 6: rod direction u, from the Hooke joint to the platform joint
-        let t308 = t73 * c(4.8543689320388355);
-        let t309 = t47 * c(4.8543689320388355);
-        let t310 = t48 * c(4.8543689320388355);
-        let t311 = mul_sub(base_rotation[0][0], t309, base_rotation[0][1] * t310);
-        let t312 = mul_sub(base_rotation[0][2], t308, t311);
-        let t313 = mul_sub(base_rotation[1][0], t309, base_rotation[1][1] * t310);
-        let t314 = mul_sub(base_rotation[1][2], t308, t313);
-        let t315 = mul_sub(base_rotation[2][0], t309, base_rotation[2][1] * t310);
-        let t316 = mul_sub(base_rotation[2][2], t308, t315);
+        let t304 = t73 * c(4.8543689320388355);
+        let t305 = t47 * c(4.8543689320388355);
+        let t306 = t48 * c(4.8543689320388355);
+        let t307 = mul_sub(base_rotation[0][0], t305, base_rotation[0][1] * t306);
+        let t308 = mul_sub(base_rotation[0][2], t304, t307);
+        let t309 = mul_sub(base_rotation[1][0], t305, base_rotation[1][1] * t306);
+        let t310 = mul_sub(base_rotation[1][2], t304, t309);
+        let t311 = mul_sub(base_rotation[2][0], t305, base_rotation[2][1] * t306);
+        let t312 = mul_sub(base_rotation[2][2], t304, t311);
         // leg 1: Hooke joint
-        let t317 = base_rotation[0][1] * c(0.12275970481124972);
-        let t318 = mul_sub(base_rotation[0][0], c(0.1316436662914507), t317);
-        let t319 = base_rotation[1][1] * c(0.12275970481124972);
-        let t320 = mul_sub(base_rotation[1][0], c(0.1316436662914507), t319);
-        let t321 = base_rotation[2][1] * c(0.12275970481124972);
-        let t322 = mul_sub(base_rotation[2][0], c(0.1316436662914507), t321);
+        let t313 = base_rotation[0][1] * c(0.12275970481124972);
+        let t314 = mul_sub(base_rotation[0][0], c(0.1316436662914507), t313);
+        let t315 = base_rotation[1][1] * c(0.12275970481124972);
+        let t316 = mul_sub(base_rotation[1][0], c(0.1316436662914507), t315);
+        let t317 = base_rotation[2][1] * c(0.12275970481124972);
+        let t318 = mul_sub(base_rotation[2][0], c(0.1316436662914507), t317);
         // leg 1: platform joint
-        let t323 = platform_rotation[0][1] * c(0.03105828541230249);
-        let t324 = mul_sub(platform_rotation[0][0], c(0.1159110991546882), t323);
-        let t325 = platform_rotation[1][1] * c(0.03105828541230249);
-        let t326 = mul_sub(platform_rotation[1][0], c(0.1159110991546882), t325);
-        let t327 = platform_rotation[2][1] * c(0.03105828541230249);
-        let t328 = mul_sub(platform_rotation[2][0], c(0.1159110991546882), t327);
+        let t319 = platform_rotation[0][1] * c(0.03105828541230249);
+        let t320 = mul_sub(platform_rotation[0][0], c(0.1159110991546882), t319);
+        let t321 = platform_rotation[1][1] * c(0.03105828541230249);
+        let t322 = mul_sub(platform_rotation[1][0], c(0.1159110991546882), t321);
+        let t323 = platform_rotation[2][1] * c(0.03105828541230249);
+        let t324 = mul_sub(platform_rotation[2][0], c(0.1159110991546882), t323);
         // leg 1: velocity of the platform joint
-        let t329 = mul_sub(platform_velocity[4], t328, platform_velocity[5] * t326);
-        let t330 = mul_sub(platform_velocity[5], t324, platform_velocity[3] * t328);
-        let t331 = mul_sub(platform_velocity[3], t326, platform_velocity[4] * t324);
+        let t325 = mul_sub(platform_velocity[4], t324, platform_velocity[5] * t322);
+        let t326 = mul_sub(platform_velocity[5], t320, platform_velocity[3] * t324);
+        let t327 = mul_sub(platform_velocity[3], t322, platform_velocity[4] * t320);
         // leg 2: Hooke joint
-        let t332 = mul_add(base_rotation[0][0], c(0.1316436662914507), t317);
-        let t333 = mul_add(base_rotation[1][0], c(0.1316436662914507), t319);
-        let t334 = mul_add(base_rotation[2][0], c(0.1316436662914507), t321);
+        let t328 = mul_add(base_rotation[0][0], c(0.1316436662914507), t313);
+        let t329 = mul_add(base_rotation[1][0], c(0.1316436662914507), t315);
+        let t330 = mul_add(base_rotation[2][0], c(0.1316436662914507), t317);
         // leg 2: platform joint
-        let t335 = mul_add(platform_rotation[0][0], c(0.1159110991546882), t323);
-        let t336 = mul_add(platform_rotation[1][0], c(0.1159110991546882), t325);
-        let t337 = mul_add(platform_rotation[2][0], c(0.1159110991546882), t327);
+        let t331 = mul_add(platform_rotation[0][0], c(0.1159110991546882), t319);
+        let t332 = mul_add(platform_rotation[1][0], c(0.1159110991546882), t321);
+        let t333 = mul_add(platform_rotation[2][0], c(0.1159110991546882), t323);
         // leg 2: velocity of the platform joint
-        let t338 = mul_sub(platform_velocity[4], t337, platform_velocity[5] * t336);
-        let t339 = mul_sub(platform_velocity[5], t335, platform_velocity[3] * t337);
-        let t340 = mul_sub(platform_velocity[3], t336, platform_velocity[4] * t335);
+        let t334 = mul_sub(platform_velocity[4], t333, platform_velocity[5] * t332);
+        let t335 = mul_sub(platform_velocity[5], t331, platform_velocity[3] * t333);
+        let t336 = mul_sub(platform_velocity[3], t332, platform_velocity[4] * t331);
         // leg 3: Hooke joint
-        let t341 = base_rotation[0][1] * c(0.17538661166134234);
-        let t342 = mul_add(base_rotation[0][0], c(0.040491189781895726), t341);
-        let t343 = base_rotation[1][1] * c(0.17538661166134234);
-        let t344 = mul_add(base_rotation[1][0], c(0.040491189781895726), t343);
-        let t345 = base_rotation[2][1] * c(0.17538661166134234);
-        let t346 = mul_add(base_rotation[2][0], c(0.040491189781895726), t345);
+        let t337 = base_rotation[0][1] * c(0.17538661166134234);
+        let t338 = mul_add(base_rotation[0][0], c(0.040491189781895726), t337);
+        let t339 = base_rotation[1][1] * c(0.17538661166134234);
+        let t340 = mul_add(base_rotation[1][0], c(0.040491189781895726), t339);
+        let t341 = base_rotation[2][1] * c(0.17538661166134234);
+        let t342 = mul_add(base_rotation[2][0], c(0.040491189781895726), t341);
         // leg 3: platform joint
-        let t347 = platform_rotation[0][1] * c(0.1159110991546882);
-        let t348 = mul_sub(platform_rotation[0][0], c(0.031058285412302475), t347);
-        let t349 = platform_rotation[1][1] * c(0.1159110991546882);
-        let t350 = mul_sub(platform_rotation[1][0], c(0.031058285412302475), t349);
-        let t351 = platform_rotation[2][1] * c(0.1159110991546882);
-        let t352 = mul_sub(platform_rotation[2][0], c(0.031058285412302475), t351);
+        let t343 = platform_rotation[0][1] * c(0.1159110991546882);
+        let t344 = mul_sub(platform_rotation[0][0], c(0.031058285412302475), t343);
+        let t345 = platform_rotation[1][1] * c(0.1159110991546882);
+        let t346 = mul_sub(platform_rotation[1][0], c(0.031058285412302475), t345);
+        let t347 = platform_rotation[2][1] * c(0.1159110991546882);
+        let t348 = mul_sub(platform_rotation[2][0], c(0.031058285412302475), t347);
         // leg 3: velocity of the platform joint
-        let t353 = mul_sub(platform_velocity[4], t352, platform_velocity[5] * t350);
-        let t354 = mul_sub(platform_velocity[5], t348, platform_velocity[3] * t352);
-        let t355 = mul_sub(platform_velocity[3], t350, platform_velocity[4] * t348);
+        let t349 = mul_sub(platform_velocity[4], t348, platform_velocity[5] * t346);
+        let t350 = mul_sub(platform_velocity[5], t344, platform_velocity[3] * t348);
+        let t351 = mul_sub(platform_velocity[3], t346, platform_velocity[4] * t344);
         // leg 4: Hooke joint
-        let t356 = base_rotation[0][1] * c(0.052626906850092664);
-        let t357 = mul_sub(base_rotation[0][0], c(0.17213485607334636), t356);
-        let t358 = base_rotation[1][1] * c(0.052626906850092664);
-        let t359 = mul_sub(base_rotation[1][0], c(0.17213485607334636), t358);
-        let t360 = base_rotation[2][1] * c(0.052626906850092664);
-        let t361 = mul_sub(base_rotation[2][0], c(0.17213485607334636), t360);
+        let t352 = base_rotation[0][1] * c(0.052626906850092664);
+        let t353 = mul_sub(base_rotation[0][0], c(0.17213485607334636), t352);
+        let t354 = base_rotation[1][1] * c(0.052626906850092664);
+        let t355 = mul_sub(base_rotation[1][0], c(0.17213485607334636), t354);
+        let t356 = base_rotation[2][1] * c(0.052626906850092664);
+        let t357 = mul_sub(base_rotation[2][0], c(0.17213485607334636), t356);
         // leg 4: platform joint
-        let t362 = platform_rotation[0][1] * c(0.08485281374238571);
-        let t363 = mul_sub(platform_rotation[0][0], c(0.0848528137423857), t362);
-        let t364 = platform_rotation[1][1] * c(0.08485281374238571);
-        let t365 = mul_sub(platform_rotation[1][0], c(0.0848528137423857), t364);
-        let t366 = platform_rotation[2][1] * c(0.08485281374238571);
-        let t367 = mul_sub(platform_rotation[2][0], c(0.0848528137423857), t366);
+        let t358 = platform_rotation[0][1] * c(0.08485281374238571);
+        let t359 = mul_sub(platform_rotation[0][0], c(0.0848528137423857), t358);
+        let t360 = platform_rotation[1][1] * c(0.08485281374238571);
+        let t361 = mul_sub(platform_rotation[1][0], c(0.0848528137423857), t360);
+        let t362 = platform_rotation[2][1] * c(0.08485281374238571);
+        let t363 = mul_sub(platform_rotation[2][0], c(0.0848528137423857), t362);
         // leg 4: velocity of the platform joint
-        let t368 = mul_sub(platform_velocity[4], t367, platform_velocity[5] * t365);
-        let t369 = mul_sub(platform_velocity[5], t363, platform_velocity[3] * t367);
-        let t370 = mul_sub(platform_velocity[3], t365, platform_velocity[4] * t363);
+        let t364 = mul_sub(platform_velocity[4], t363, platform_velocity[5] * t361);
+        let t365 = mul_sub(platform_velocity[5], t359, platform_velocity[3] * t363);
+        let t366 = mul_sub(platform_velocity[3], t361, platform_velocity[4] * t359);
         // leg 5: Hooke joint
-        let t371 = mul_add(base_rotation[0][0], c(0.17213485607334636), t356);
-        let t372 = mul_add(base_rotation[1][0], c(0.17213485607334636), t358);
-        let t373 = mul_add(base_rotation[2][0], c(0.17213485607334636), t360);
+        let t367 = mul_add(base_rotation[0][0], c(0.17213485607334636), t352);
+        let t368 = mul_add(base_rotation[1][0], c(0.17213485607334636), t354);
+        let t369 = mul_add(base_rotation[2][0], c(0.17213485607334636), t356);
         // leg 5: platform joint
-        let t374 = mul_add(platform_rotation[0][0], c(0.0848528137423857), t362);
-        let t375 = mul_add(platform_rotation[1][0], c(0.0848528137423857), t364);
-        let t376 = mul_add(platform_rotation[2][0], c(0.0848528137423857), t366);
+        let t370 = mul_add(platform_rotation[0][0], c(0.0848528137423857), t358);
+        let t371 = mul_add(platform_rotation[1][0], c(0.0848528137423857), t360);
+        let t372 = mul_add(platform_rotation[2][0], c(0.0848528137423857), t362);
         // leg 5: velocity of the platform joint
-        let t377 = mul_sub(platform_velocity[4], t376, platform_velocity[5] * t375);
-        let t378 = mul_sub(platform_velocity[5], t374, platform_velocity[3] * t376);
-        let t379 = mul_sub(platform_velocity[3], t375, platform_velocity[4] * t374);
+        let t373 = mul_sub(platform_velocity[4], t372, platform_velocity[5] * t371);
+        let t374 = mul_sub(platform_velocity[5], t370, platform_velocity[3] * t372);
+        let t375 = mul_sub(platform_velocity[3], t371, platform_velocity[4] * t370);
         // leg 6: Hooke joint
-        let t380 = mul_sub(base_rotation[0][0], c(0.040491189781895726), t341);
-        let t381 = mul_sub(base_rotation[1][0], c(0.040491189781895726), t343);
-        let t382 = mul_sub(base_rotation[2][0], c(0.040491189781895726), t345);
+        let t376 = mul_sub(base_rotation[0][0], c(0.040491189781895726), t337);
+        let t377 = mul_sub(base_rotation[1][0], c(0.040491189781895726), t339);
+        let t378 = mul_sub(base_rotation[2][0], c(0.040491189781895726), t341);
         // leg 6: platform joint
-        let t383 = mul_add(platform_rotation[0][0], c(0.031058285412302475), t347);
-        let t384 = mul_add(platform_rotation[1][0], c(0.031058285412302475), t349);
-        let t385 = mul_add(platform_rotation[2][0], c(0.031058285412302475), t351);
+        let t379 = mul_add(platform_rotation[0][0], c(0.031058285412302475), t343);
+        let t380 = mul_add(platform_rotation[1][0], c(0.031058285412302475), t345);
+        let t381 = mul_add(platform_rotation[2][0], c(0.031058285412302475), t347);
         // leg 6: velocity of the platform joint
-        let t386 = mul_sub(platform_velocity[4], t385, platform_velocity[5] * t384);
-        let t387 = mul_sub(platform_velocity[5], t383, platform_velocity[3] * t385);
-        let t388 = mul_sub(platform_velocity[3], t384, platform_velocity[4] * t383);
+        let t382 = mul_sub(platform_velocity[4], t381, platform_velocity[5] * t380);
+        let t383 = mul_sub(platform_velocity[5], t379, platform_velocity[3] * t381);
+        let t384 = mul_sub(platform_velocity[3], t380, platform_velocity[4] * t379);
         // leg 1: angular acceleration of the rod
-        let t389 = mul_add(platform_acceleration[3], t326, platform_acceleration[2]);
-        let t390 = mul_sub(platform_acceleration[4], t324, t389);
-        let t391 = mul_sub(platform_velocity[3], t330, t390);
-        let t392 = mul_sub(platform_velocity[4], t329, t391);
-        let t393 = base_rotation[2][2] * base_velocity[3];
-        let t394 = mul_sub(base_rotation[0][2], base_velocity[5], t393);
-        let t395 = base_rotation[1][2] * base_velocity[5];
-        let t396 = mul_sub(base_rotation[2][2], base_velocity[4], t395);
-        let t397 = base_rotation[0][2] * base_acceleration[4];
-        let t398 = mul_sub(base_rotation[1][2], base_acceleration[3], t397);
-        let t399 = mul_sub(
+        let t385 = mul_add(platform_acceleration[3], t322, platform_acceleration[2]);
+        let t386 = mul_sub(platform_acceleration[4], t320, t385);
+        let t387 = mul_sub(platform_velocity[3], t326, t386);
+        let t388 = mul_sub(platform_velocity[4], t325, t387);
+        let t389 = base_rotation[2][2] * base_velocity[3];
+        let t390 = mul_sub(base_rotation[0][2], base_velocity[5], t389);
+        let t391 = base_rotation[1][2] * base_velocity[5];
+        let t392 = mul_sub(base_rotation[2][2], base_velocity[4], t391);
+        let t393 = base_rotation[0][2] * base_acceleration[4];
+        let t394 = mul_sub(base_rotation[1][2], base_acceleration[3], t393);
+        let t395 = mul_sub(
             base_velocity[4],
-            t396,
-            mul_add(base_velocity[3], t394, t398),
+            t392,
+            mul_add(base_velocity[3], t390, t394),
         );
-        let t400 = t117 * c(2.0);
-        let t401 = neg_mul_add(t122, c(0.2318221983093764), t400);
-        let t402 = t123 * c(0.06211657082460498);
-        let t403 = base_rotation[0][2] * base_velocity[4];
-        let t404 = mul_sub(base_rotation[1][2], base_velocity[3], t403);
-        let t405 = t401 + neg_mul_add(t142, c(2.0), t402);
-        let t406 = mul_sub(base_velocity[4], t322, base_velocity[5] * t320);
-        let t407 = mul_sub(base_velocity[5], t318, base_velocity[3] * t322);
-        let t408 = mul_add(base_acceleration[3], t320, base_acceleration[2]);
-        let t409 = mul_sub(base_acceleration[4], t318, t408);
-        let t410 = mul_sub(
+        let t396 = t117 * c(2.0);
+        let t397 = neg_mul_add(t122, c(0.2318221983093764), t396);
+        let t398 = t123 * c(0.06211657082460498);
+        let t399 = base_rotation[0][2] * base_velocity[4];
+        let t400 = mul_sub(base_rotation[1][2], base_velocity[3], t399);
+        let t401 = t397 + neg_mul_add(t142, c(2.0), t398);
+        let t402 = mul_sub(base_velocity[4], t318, base_velocity[5] * t316);
+        let t403 = mul_sub(base_velocity[5], t314, base_velocity[3] * t318);
+        let t404 = mul_add(base_acceleration[3], t316, base_acceleration[2]);
+        let t405 = mul_sub(base_acceleration[4], t314, t404);
+        let t406 = mul_sub(
             base_velocity[4],
-            t406,
-            mul_sub(base_velocity[3], t407, t409),
+            t402,
+            mul_sub(base_velocity[3], t403, t405),
         );
-        let t411 = mul_sub(t405, t404, mul_sub(t53, t399, t410));
-        let t412 = mul_add(base_rotation[2][2], t243, t411);
-        let t413 = t392 - t412;
-        let t414 = mul_add(platform_acceleration[5], t324, platform_acceleration[1]);
-        let t415 = mul_sub(platform_acceleration[3], t328, t414);
-        let t416 = mul_sub(platform_velocity[5], t329, t415);
-        let t417 = mul_sub(platform_velocity[3], t331, t416);
-        let t418 = base_rotation[2][2] * base_acceleration[3];
-        let t419 = mul_sub(base_rotation[0][2], base_acceleration[5], t418);
+        let t407 = mul_sub(t401, t400, mul_sub(t53, t395, t406));
+        let t408 = mul_add(base_rotation[2][2], t239, t407);
+        let t409 = t388 - t408;
+        let t410 = mul_add(platform_acceleration[5], t320, platform_acceleration[1]);
+        let t411 = mul_sub(platform_acceleration[3], t324, t410);
+        let t412 = mul_sub(platform_velocity[5], t325, t411);
+        let t413 = mul_sub(platform_velocity[3], t327, t412);
+        let t414 = base_rotation[2][2] * base_acceleration[3];
+        let t415 = mul_sub(base_rotation[0][2], base_acceleration[5], t414);
+        let t416 = mul_sub(
+            base_velocity[3],
+            t400,
+            mul_add(base_velocity[5], t392, t415),
+        );
+        let t417 = mul_sub(base_velocity[3], t316, base_velocity[4] * t314);
+        let t418 = mul_add(base_acceleration[5], t314, base_acceleration[1]);
+        let t419 = mul_sub(base_acceleration[3], t318, t418);
         let t420 = mul_sub(
             base_velocity[3],
-            t404,
-            mul_add(base_velocity[5], t396, t419),
+            t417,
+            mul_sub(base_velocity[5], t402, t419),
         );
-        let t421 = mul_sub(base_velocity[3], t320, base_velocity[4] * t318);
-        let t422 = mul_add(base_acceleration[5], t318, base_acceleration[1]);
-        let t423 = mul_sub(base_acceleration[3], t322, t422);
-        let t424 = mul_sub(
-            base_velocity[3],
-            t421,
-            mul_sub(base_velocity[5], t406, t423),
-        );
-        let t425 = mul_sub(t394, t405, mul_sub(t53, t420, t424));
-        let t426 = mul_add(base_rotation[1][2], t243, t425);
-        let t427 = t417 - t426;
-        let t428 = t271 * t427;
-        let t429 = mul_add(platform_acceleration[4], t328, platform_acceleration[0]);
-        let t430 = mul_sub(platform_acceleration[5], t326, t429);
-        let t431 = mul_sub(platform_velocity[4], t331, t430);
-        let t432 = mul_sub(platform_velocity[5], t330, t431);
-        let t433 = base_rotation[1][2] * base_acceleration[5];
-        let t434 = mul_sub(base_rotation[2][2], base_acceleration[4], t433);
-        let t435 = mul_sub(
+        let t421 = mul_sub(t390, t401, mul_sub(t53, t416, t420));
+        let t422 = mul_add(base_rotation[1][2], t239, t421);
+        let t423 = t413 - t422;
+        let t424 = t267 * t423;
+        let t425 = mul_add(platform_acceleration[4], t324, platform_acceleration[0]);
+        let t426 = mul_sub(platform_acceleration[5], t322, t425);
+        let t427 = mul_sub(platform_velocity[4], t327, t426);
+        let t428 = mul_sub(platform_velocity[5], t326, t427);
+        let t429 = base_rotation[1][2] * base_acceleration[5];
+        let t430 = mul_sub(base_rotation[2][2], base_acceleration[4], t429);
+        let t431 = mul_sub(
             base_velocity[5],
-            t394,
-            mul_add(base_velocity[4], t404, t434),
+            t390,
+            mul_add(base_velocity[4], t400, t430),
         );
-        let t436 = mul_add(base_acceleration[4], t322, base_acceleration[0]);
-        let t437 = mul_sub(base_acceleration[5], t320, t436);
-        let t438 = mul_sub(
+        let t432 = mul_add(base_acceleration[4], t318, base_acceleration[0]);
+        let t433 = mul_sub(base_acceleration[5], t316, t432);
+        let t434 = mul_sub(
             base_velocity[5],
-            t407,
-            mul_sub(base_velocity[4], t421, t437),
+            t403,
+            mul_sub(base_velocity[4], t417, t433),
         );
-        let t439 = mul_sub(t396, t405, mul_sub(t53, t435, t438));
-        let t440 = mul_add(base_rotation[0][2], t243, t439);
-        let t441 = t432 - t440;
-        let t442 = t267 * t413;
-        let t443 = t269 * t441;
+        let t435 = mul_sub(t392, t401, mul_sub(t53, t431, t434));
+        let t436 = mul_add(base_rotation[0][2], t239, t435);
+        let t437 = t428 - t436;
+        let t438 = t263 * t409;
+        let t439 = t265 * t437;
         // leg 2: angular acceleration of the rod
-        let t444 = mul_add(platform_acceleration[3], t336, platform_acceleration[2]);
-        let t445 = mul_sub(platform_acceleration[4], t335, t444);
-        let t446 = mul_sub(platform_velocity[3], t339, t445);
-        let t447 = mul_sub(platform_velocity[4], t338, t446);
-        let t448 = t401 - mul_add(t143, c(2.0), t402);
-        let t449 = mul_sub(base_velocity[4], t334, base_velocity[5] * t333);
-        let t450 = mul_sub(base_velocity[5], t332, base_velocity[3] * t334);
-        let t451 = mul_add(base_acceleration[3], t333, base_acceleration[2]);
-        let t452 = mul_sub(base_acceleration[4], t332, t451);
-        let t453 = mul_sub(
+        let t440 = mul_add(platform_acceleration[3], t332, platform_acceleration[2]);
+        let t441 = mul_sub(platform_acceleration[4], t331, t440);
+        let t442 = mul_sub(platform_velocity[3], t335, t441);
+        let t443 = mul_sub(platform_velocity[4], t334, t442);
+        let t444 = t397 - mul_add(t143, c(2.0), t398);
+        let t445 = mul_sub(base_velocity[4], t330, base_velocity[5] * t329);
+        let t446 = mul_sub(base_velocity[5], t328, base_velocity[3] * t330);
+        let t447 = mul_add(base_acceleration[3], t329, base_acceleration[2]);
+        let t448 = mul_sub(base_acceleration[4], t328, t447);
+        let t449 = mul_sub(
             base_velocity[4],
-            t449,
-            mul_sub(base_velocity[3], t450, t452),
+            t445,
+            mul_sub(base_velocity[3], t446, t448),
         );
-        let t454 = mul_sub(t404, t448, mul_sub(t57, t399, t453));
-        let t455 = mul_add(base_rotation[2][2], t246, t454);
-        let t456 = t447 - t455;
-        let t457 = mul_add(platform_acceleration[5], t335, platform_acceleration[1]);
-        let t458 = mul_sub(platform_acceleration[3], t337, t457);
-        let t459 = mul_sub(platform_velocity[5], t338, t458);
-        let t460 = mul_sub(platform_velocity[3], t340, t459);
-        let t461 = mul_sub(base_velocity[3], t333, base_velocity[4] * t332);
-        let t462 = mul_add(base_acceleration[5], t332, base_acceleration[1]);
-        let t463 = mul_sub(base_acceleration[3], t334, t462);
-        let t464 = mul_sub(
+        let t450 = mul_sub(t400, t444, mul_sub(t57, t395, t449));
+        let t451 = mul_add(base_rotation[2][2], t242, t450);
+        let t452 = t443 - t451;
+        let t453 = mul_add(platform_acceleration[5], t331, platform_acceleration[1]);
+        let t454 = mul_sub(platform_acceleration[3], t333, t453);
+        let t455 = mul_sub(platform_velocity[5], t334, t454);
+        let t456 = mul_sub(platform_velocity[3], t336, t455);
+        let t457 = mul_sub(base_velocity[3], t329, base_velocity[4] * t328);
+        let t458 = mul_add(base_acceleration[5], t328, base_acceleration[1]);
+        let t459 = mul_sub(base_acceleration[3], t330, t458);
+        let t460 = mul_sub(
             base_velocity[3],
-            t461,
-            mul_sub(base_velocity[5], t449, t463),
+            t457,
+            mul_sub(base_velocity[5], t445, t459),
         );
-        let t465 = mul_sub(t394, t448, mul_sub(t57, t420, t464));
-        let t466 = mul_add(base_rotation[1][2], t246, t465);
-        let t467 = t460 - t466;
-        let t468 = t280 * t467;
-        let t469 = mul_add(platform_acceleration[4], t337, platform_acceleration[0]);
-        let t470 = mul_sub(platform_acceleration[5], t336, t469);
-        let t471 = mul_sub(platform_velocity[4], t340, t470);
-        let t472 = mul_sub(platform_velocity[5], t339, t471);
-        let t473 = mul_add(base_acceleration[4], t334, base_acceleration[0]);
-        let t474 = mul_sub(base_acceleration[5], t333, t473);
-        let t475 = mul_sub(
+        let t461 = mul_sub(t390, t444, mul_sub(t57, t416, t460));
+        let t462 = mul_add(base_rotation[1][2], t242, t461);
+        let t463 = t456 - t462;
+        let t464 = t276 * t463;
+        let t465 = mul_add(platform_acceleration[4], t333, platform_acceleration[0]);
+        let t466 = mul_sub(platform_acceleration[5], t332, t465);
+        let t467 = mul_sub(platform_velocity[4], t336, t466);
+        let t468 = mul_sub(platform_velocity[5], t335, t467);
+        let t469 = mul_add(base_acceleration[4], t330, base_acceleration[0]);
+        let t470 = mul_sub(base_acceleration[5], t329, t469);
+        let t471 = mul_sub(
             base_velocity[5],
-            t450,
-            mul_sub(base_velocity[4], t461, t474),
+            t446,
+            mul_sub(base_velocity[4], t457, t470),
         );
-        let t476 = mul_sub(t396, t448, mul_sub(t57, t435, t475));
-        let t477 = mul_add(base_rotation[0][2], t246, t476);
-        let t478 = t472 - t477;
-        let t479 = t276 * t456;
-        let t480 = t278 * t478;
+        let t472 = mul_sub(t392, t444, mul_sub(t57, t431, t471));
+        let t473 = mul_add(base_rotation[0][2], t242, t472);
+        let t474 = t468 - t473;
+        let t475 = t272 * t452;
+        let t476 = t274 * t474;
         // leg 3: angular acceleration of the rod
-        let t481 = neg_mul_add(platform_acceleration[3], t350, platform_acceleration[2]);
-        let t482 = mul_add(platform_acceleration[4], t348, t481);
-        let t483 = mul_sub(platform_velocity[3], t354, t482);
-        let t484 = mul_sub(platform_velocity[4], t353, t483);
-        let t485 = mul_add(t122, c(0.06211657082460495), t400);
-        let t486 = t123 * c(0.2318221983093764);
-        let t487 = t485 - mul_add(t144, c(2.0), t486);
-        let t488 = mul_sub(base_velocity[4], t346, base_velocity[5] * t344);
-        let t489 = mul_sub(base_velocity[5], t342, base_velocity[3] * t346);
-        let t490 = mul_add(base_acceleration[3], t344, base_acceleration[2]);
-        let t491 = mul_sub(base_acceleration[4], t342, t490);
-        let t492 = mul_sub(
+        let t477 = neg_mul_add(platform_acceleration[3], t346, platform_acceleration[2]);
+        let t478 = mul_add(platform_acceleration[4], t344, t477);
+        let t479 = mul_sub(platform_velocity[3], t350, t478);
+        let t480 = mul_sub(platform_velocity[4], t349, t479);
+        let t481 = mul_add(t122, c(0.06211657082460495), t396);
+        let t482 = t123 * c(0.2318221983093764);
+        let t483 = t481 - mul_add(t144, c(2.0), t482);
+        let t484 = mul_sub(base_velocity[4], t342, base_velocity[5] * t340);
+        let t485 = mul_sub(base_velocity[5], t338, base_velocity[3] * t342);
+        let t486 = mul_add(base_acceleration[3], t340, base_acceleration[2]);
+        let t487 = mul_sub(base_acceleration[4], t338, t486);
+        let t488 = mul_sub(
             base_velocity[4],
-            t488,
-            mul_sub(base_velocity[3], t489, t491),
+            t484,
+            mul_sub(base_velocity[3], t485, t487),
         );
-        let t493 = mul_sub(t404, t487, mul_sub(t62, t399, t492));
-        let t494 = mul_add(base_rotation[2][2], t251, t493);
-        let t495 = t484 + t494;
-        let t496 = neg_mul_add(platform_acceleration[5], t348, platform_acceleration[1]);
-        let t497 = mul_add(platform_acceleration[3], t352, t496);
-        let t498 = mul_sub(platform_velocity[5], t353, t497);
-        let t499 = mul_sub(platform_velocity[3], t355, t498);
-        let t500 = mul_sub(base_velocity[3], t344, base_velocity[4] * t342);
-        let t501 = mul_add(base_acceleration[5], t342, base_acceleration[1]);
-        let t502 = mul_sub(base_acceleration[3], t346, t501);
-        let t503 = mul_sub(
+        let t489 = mul_sub(t400, t483, mul_sub(t62, t395, t488));
+        let t490 = mul_add(base_rotation[2][2], t247, t489);
+        let t491 = t480 + t490;
+        let t492 = neg_mul_add(platform_acceleration[5], t344, platform_acceleration[1]);
+        let t493 = mul_add(platform_acceleration[3], t348, t492);
+        let t494 = mul_sub(platform_velocity[5], t349, t493);
+        let t495 = mul_sub(platform_velocity[3], t351, t494);
+        let t496 = mul_sub(base_velocity[3], t340, base_velocity[4] * t338);
+        let t497 = mul_add(base_acceleration[5], t338, base_acceleration[1]);
+        let t498 = mul_sub(base_acceleration[3], t342, t497);
+        let t499 = mul_sub(
             base_velocity[3],
-            t500,
-            mul_sub(base_velocity[5], t488, t502),
+            t496,
+            mul_sub(base_velocity[5], t484, t498),
         );
-        let t504 = mul_sub(t394, t487, mul_sub(t62, t420, t503));
-        let t505 = mul_add(base_rotation[1][2], t251, t504);
-        let t506 = t499 + t505;
-        let t507 = t289 * t506;
-        let t508 = neg_mul_add(platform_acceleration[4], t352, platform_acceleration[0]);
-        let t509 = mul_add(platform_acceleration[5], t350, t508);
-        let t510 = mul_sub(platform_velocity[4], t355, t509);
-        let t511 = mul_sub(platform_velocity[5], t354, t510);
-        let t512 = mul_add(base_acceleration[4], t346, base_acceleration[0]);
-        let t513 = mul_sub(base_acceleration[5], t344, t512);
-        let t514 = mul_sub(
+        let t500 = mul_sub(t390, t483, mul_sub(t62, t416, t499));
+        let t501 = mul_add(base_rotation[1][2], t247, t500);
+        let t502 = t495 + t501;
+        let t503 = t285 * t502;
+        let t504 = neg_mul_add(platform_acceleration[4], t348, platform_acceleration[0]);
+        let t505 = mul_add(platform_acceleration[5], t346, t504);
+        let t506 = mul_sub(platform_velocity[4], t351, t505);
+        let t507 = mul_sub(platform_velocity[5], t350, t506);
+        let t508 = mul_add(base_acceleration[4], t342, base_acceleration[0]);
+        let t509 = mul_sub(base_acceleration[5], t340, t508);
+        let t510 = mul_sub(
             base_velocity[5],
-            t489,
-            mul_sub(base_velocity[4], t500, t513),
+            t485,
+            mul_sub(base_velocity[4], t496, t509),
         );
-        let t515 = mul_sub(t396, t487, mul_sub(t62, t435, t514));
-        let t516 = mul_add(base_rotation[0][2], t251, t515);
-        let t517 = t511 + t516;
-        let t518 = t285 * t495;
-        let t519 = t287 * t517;
+        let t511 = mul_sub(t392, t483, mul_sub(t62, t431, t510));
+        let t512 = mul_add(base_rotation[0][2], t247, t511);
+        let t513 = t507 + t512;
+        let t514 = t281 * t491;
+        let t515 = t283 * t513;
         // leg 4: angular acceleration of the rod
-        let t520 = neg_mul_add(platform_acceleration[3], t365, platform_acceleration[2]);
-        let t521 = mul_add(platform_acceleration[4], t363, t520);
-        let t522 = mul_sub(platform_velocity[3], t369, t521);
-        let t523 = mul_sub(platform_velocity[4], t368, t522);
-        let t524 = mul_add(t122, c(0.1697056274847714), t400);
-        let t525 = t123 * c(0.16970562748477142);
-        let t526 = t524 - mul_add(t145, c(2.0), t525);
-        let t527 = mul_sub(base_velocity[4], t361, base_velocity[5] * t359);
-        let t528 = mul_sub(base_velocity[5], t357, base_velocity[3] * t361);
-        let t529 = neg_mul_add(base_acceleration[3], t359, base_acceleration[2]);
-        let t530 = mul_add(base_acceleration[4], t357, t529);
-        let t531 = mul_sub(
+        let t516 = neg_mul_add(platform_acceleration[3], t361, platform_acceleration[2]);
+        let t517 = mul_add(platform_acceleration[4], t359, t516);
+        let t518 = mul_sub(platform_velocity[3], t365, t517);
+        let t519 = mul_sub(platform_velocity[4], t364, t518);
+        let t520 = mul_add(t122, c(0.1697056274847714), t396);
+        let t521 = t123 * c(0.16970562748477142);
+        let t522 = t520 - mul_add(t145, c(2.0), t521);
+        let t523 = mul_sub(base_velocity[4], t357, base_velocity[5] * t355);
+        let t524 = mul_sub(base_velocity[5], t353, base_velocity[3] * t357);
+        let t525 = neg_mul_add(base_acceleration[3], t355, base_acceleration[2]);
+        let t526 = mul_add(base_acceleration[4], t353, t525);
+        let t527 = mul_sub(
             base_velocity[4],
-            t527,
-            mul_sub(base_velocity[3], t528, t530),
+            t523,
+            mul_sub(base_velocity[3], t524, t526),
         );
-        let t532 = mul_sub(t404, t526, mul_add(t67, t399, t531));
-        let t533 = mul_add(base_rotation[2][2], t256, t532);
-        let t534 = t523 + t533;
-        let t535 = neg_mul_add(platform_acceleration[5], t363, platform_acceleration[1]);
-        let t536 = mul_add(platform_acceleration[3], t367, t535);
-        let t537 = mul_sub(platform_velocity[5], t368, t536);
-        let t538 = mul_sub(platform_velocity[3], t370, t537);
-        let t539 = mul_sub(base_velocity[3], t359, base_velocity[4] * t357);
-        let t540 = neg_mul_add(base_acceleration[5], t357, base_acceleration[1]);
-        let t541 = mul_add(base_acceleration[3], t361, t540);
-        let t542 = mul_sub(
+        let t528 = mul_sub(t400, t522, mul_add(t67, t395, t527));
+        let t529 = mul_add(base_rotation[2][2], t252, t528);
+        let t530 = t519 + t529;
+        let t531 = neg_mul_add(platform_acceleration[5], t359, platform_acceleration[1]);
+        let t532 = mul_add(platform_acceleration[3], t363, t531);
+        let t533 = mul_sub(platform_velocity[5], t364, t532);
+        let t534 = mul_sub(platform_velocity[3], t366, t533);
+        let t535 = mul_sub(base_velocity[3], t355, base_velocity[4] * t353);
+        let t536 = neg_mul_add(base_acceleration[5], t353, base_acceleration[1]);
+        let t537 = mul_add(base_acceleration[3], t357, t536);
+        let t538 = mul_sub(
             base_velocity[3],
-            t539,
-            mul_sub(base_velocity[5], t527, t541),
+            t535,
+            mul_sub(base_velocity[5], t523, t537),
         );
-        let t543 = mul_sub(t394, t526, mul_add(t67, t420, t542));
-        let t544 = mul_add(base_rotation[1][2], t256, t543);
-        let t545 = t538 + t544;
-        let t546 = t298 * t545;
-        let t547 = neg_mul_add(platform_acceleration[4], t367, platform_acceleration[0]);
-        let t548 = mul_add(platform_acceleration[5], t365, t547);
-        let t549 = mul_sub(platform_velocity[4], t370, t548);
-        let t550 = mul_sub(platform_velocity[5], t369, t549);
-        let t551 = neg_mul_add(base_acceleration[4], t361, base_acceleration[0]);
-        let t552 = mul_add(base_acceleration[5], t359, t551);
-        let t553 = mul_sub(
+        let t539 = mul_sub(t390, t522, mul_add(t67, t416, t538));
+        let t540 = mul_add(base_rotation[1][2], t252, t539);
+        let t541 = t534 + t540;
+        let t542 = t294 * t541;
+        let t543 = neg_mul_add(platform_acceleration[4], t363, platform_acceleration[0]);
+        let t544 = mul_add(platform_acceleration[5], t361, t543);
+        let t545 = mul_sub(platform_velocity[4], t366, t544);
+        let t546 = mul_sub(platform_velocity[5], t365, t545);
+        let t547 = neg_mul_add(base_acceleration[4], t357, base_acceleration[0]);
+        let t548 = mul_add(base_acceleration[5], t355, t547);
+        let t549 = mul_sub(
             base_velocity[5],
-            t528,
-            mul_sub(base_velocity[4], t539, t552),
+            t524,
+            mul_sub(base_velocity[4], t535, t548),
         );
-        let t554 = mul_sub(t396, t526, mul_add(t67, t435, t553));
-        let t555 = mul_add(base_rotation[0][2], t256, t554);
-        let t556 = t550 + t555;
-        let t557 = t294 * t534;
-        let t558 = t296 * t556;
+        let t550 = mul_sub(t392, t522, mul_add(t67, t431, t549));
+        let t551 = mul_add(base_rotation[0][2], t252, t550);
+        let t552 = t546 + t551;
+        let t553 = t290 * t530;
+        let t554 = t292 * t552;
         // leg 5: angular acceleration of the rod
-        let t559 = neg_mul_add(platform_acceleration[3], t375, platform_acceleration[2]);
-        let t560 = mul_add(platform_acceleration[4], t374, t559);
-        let t561 = mul_sub(platform_velocity[3], t378, t560);
-        let t562 = mul_sub(platform_velocity[4], t377, t561);
-        let t563 = t524 + neg_mul_add(t146, c(2.0), t525);
-        let t564 = mul_sub(base_velocity[4], t373, base_velocity[5] * t372);
-        let t565 = mul_sub(base_velocity[5], t371, base_velocity[3] * t373);
-        let t566 = neg_mul_add(base_acceleration[3], t372, base_acceleration[2]);
-        let t567 = mul_add(base_acceleration[4], t371, t566);
-        let t568 = mul_sub(
+        let t555 = neg_mul_add(platform_acceleration[3], t371, platform_acceleration[2]);
+        let t556 = mul_add(platform_acceleration[4], t370, t555);
+        let t557 = mul_sub(platform_velocity[3], t374, t556);
+        let t558 = mul_sub(platform_velocity[4], t373, t557);
+        let t559 = t520 + neg_mul_add(t146, c(2.0), t521);
+        let t560 = mul_sub(base_velocity[4], t369, base_velocity[5] * t368);
+        let t561 = mul_sub(base_velocity[5], t367, base_velocity[3] * t369);
+        let t562 = neg_mul_add(base_acceleration[3], t368, base_acceleration[2]);
+        let t563 = mul_add(base_acceleration[4], t367, t562);
+        let t564 = mul_sub(
             base_velocity[4],
-            t564,
-            mul_sub(base_velocity[3], t565, t567),
+            t560,
+            mul_sub(base_velocity[3], t561, t563),
         );
-        let t569 = mul_sub(t404, t563, mul_add(t71, t399, t568));
-        let t570 = mul_add(base_rotation[2][2], t259, t569);
-        let t571 = t562 + t570;
-        let t572 = neg_mul_add(platform_acceleration[5], t374, platform_acceleration[1]);
-        let t573 = mul_add(platform_acceleration[3], t376, t572);
-        let t574 = mul_sub(platform_velocity[5], t377, t573);
-        let t575 = mul_sub(platform_velocity[3], t379, t574);
-        let t576 = mul_sub(base_velocity[3], t372, base_velocity[4] * t371);
-        let t577 = neg_mul_add(base_acceleration[5], t371, base_acceleration[1]);
-        let t578 = mul_add(base_acceleration[3], t373, t577);
-        let t579 = mul_sub(
+        let t565 = mul_sub(t400, t559, mul_add(t71, t395, t564));
+        let t566 = mul_add(base_rotation[2][2], t255, t565);
+        let t567 = t558 + t566;
+        let t568 = neg_mul_add(platform_acceleration[5], t370, platform_acceleration[1]);
+        let t569 = mul_add(platform_acceleration[3], t372, t568);
+        let t570 = mul_sub(platform_velocity[5], t373, t569);
+        let t571 = mul_sub(platform_velocity[3], t375, t570);
+        let t572 = mul_sub(base_velocity[3], t368, base_velocity[4] * t367);
+        let t573 = neg_mul_add(base_acceleration[5], t367, base_acceleration[1]);
+        let t574 = mul_add(base_acceleration[3], t369, t573);
+        let t575 = mul_sub(
             base_velocity[3],
-            t576,
-            mul_sub(base_velocity[5], t564, t578),
+            t572,
+            mul_sub(base_velocity[5], t560, t574),
         );
-        let t580 = mul_sub(t394, t563, mul_add(t71, t420, t579));
-        let t581 = mul_add(base_rotation[1][2], t259, t580);
-        let t582 = t575 + t581;
-        let t583 = t307 * t582;
-        let t584 = neg_mul_add(platform_acceleration[4], t376, platform_acceleration[0]);
-        let t585 = mul_add(platform_acceleration[5], t375, t584);
-        let t586 = mul_sub(platform_velocity[4], t379, t585);
-        let t587 = mul_sub(platform_velocity[5], t378, t586);
-        let t588 = neg_mul_add(base_acceleration[4], t373, base_acceleration[0]);
-        let t589 = mul_add(base_acceleration[5], t372, t588);
-        let t590 = mul_sub(
+        let t576 = mul_sub(t390, t559, mul_add(t71, t416, t575));
+        let t577 = mul_add(base_rotation[1][2], t255, t576);
+        let t578 = t571 + t577;
+        let t579 = t303 * t578;
+        let t580 = neg_mul_add(platform_acceleration[4], t372, platform_acceleration[0]);
+        let t581 = mul_add(platform_acceleration[5], t371, t580);
+        let t582 = mul_sub(platform_velocity[4], t375, t581);
+        let t583 = mul_sub(platform_velocity[5], t374, t582);
+        let t584 = neg_mul_add(base_acceleration[4], t369, base_acceleration[0]);
+        let t585 = mul_add(base_acceleration[5], t368, t584);
+        let t586 = mul_sub(
             base_velocity[5],
-            t565,
-            mul_sub(base_velocity[4], t576, t589),
+            t561,
+            mul_sub(base_velocity[4], t572, t585),
         );
-        let t591 = mul_sub(t396, t563, mul_add(t71, t435, t590));
-        let t592 = mul_add(base_rotation[0][2], t259, t591);
-        let t593 = t587 + t592;
-        let t594 = t303 * t571;
-        let t595 = t305 * t593;
+        let t587 = mul_sub(t392, t559, mul_add(t71, t431, t586));
+        let t588 = mul_add(base_rotation[0][2], t255, t587);
+        let t589 = t583 + t588;
+        let t590 = t299 * t567;
+        let t591 = t301 * t589;
         // leg 6: angular acceleration of the rod
-        let t596 = neg_mul_add(platform_acceleration[3], t384, platform_acceleration[2]);
-        let t597 = mul_add(platform_acceleration[4], t383, t596);
-        let t598 = mul_sub(platform_velocity[3], t387, t597);
-        let t599 = mul_sub(platform_velocity[4], t386, t598);
-        let t600 = t485 + neg_mul_add(t147, c(2.0), t486);
-        let t601 = mul_sub(base_velocity[4], t382, base_velocity[5] * t381);
-        let t602 = mul_sub(base_velocity[5], t380, base_velocity[3] * t382);
-        let t603 = mul_add(base_acceleration[3], t381, base_acceleration[2]);
-        let t604 = mul_sub(base_acceleration[4], t380, t603);
-        let t605 = mul_sub(
+        let t592 = neg_mul_add(platform_acceleration[3], t380, platform_acceleration[2]);
+        let t593 = mul_add(platform_acceleration[4], t379, t592);
+        let t594 = mul_sub(platform_velocity[3], t383, t593);
+        let t595 = mul_sub(platform_velocity[4], t382, t594);
+        let t596 = t481 + neg_mul_add(t147, c(2.0), t482);
+        let t597 = mul_sub(base_velocity[4], t378, base_velocity[5] * t377);
+        let t598 = mul_sub(base_velocity[5], t376, base_velocity[3] * t378);
+        let t599 = mul_add(base_acceleration[3], t377, base_acceleration[2]);
+        let t600 = mul_sub(base_acceleration[4], t376, t599);
+        let t601 = mul_sub(
             base_velocity[4],
-            t601,
-            mul_sub(base_velocity[3], t602, t604),
+            t597,
+            mul_sub(base_velocity[3], t598, t600),
         );
-        let t606 = mul_sub(t404, t600, mul_sub(t75, t399, t605));
-        let t607 = mul_add(base_rotation[2][2], t262, t606);
-        let t608 = t599 + t607;
-        let t609 = neg_mul_add(platform_acceleration[5], t383, platform_acceleration[1]);
-        let t610 = mul_add(platform_acceleration[3], t385, t609);
-        let t611 = mul_sub(platform_velocity[5], t386, t610);
-        let t612 = mul_sub(platform_velocity[3], t388, t611);
-        let t613 = mul_sub(base_velocity[3], t381, base_velocity[4] * t380);
-        let t614 = mul_add(base_acceleration[5], t380, base_acceleration[1]);
-        let t615 = mul_sub(base_acceleration[3], t382, t614);
-        let t616 = mul_sub(
+        let t602 = mul_sub(t400, t596, mul_sub(t75, t395, t601));
+        let t603 = mul_add(base_rotation[2][2], t258, t602);
+        let t604 = t595 + t603;
+        let t605 = neg_mul_add(platform_acceleration[5], t379, platform_acceleration[1]);
+        let t606 = mul_add(platform_acceleration[3], t381, t605);
+        let t607 = mul_sub(platform_velocity[5], t382, t606);
+        let t608 = mul_sub(platform_velocity[3], t384, t607);
+        let t609 = mul_sub(base_velocity[3], t377, base_velocity[4] * t376);
+        let t610 = mul_add(base_acceleration[5], t376, base_acceleration[1]);
+        let t611 = mul_sub(base_acceleration[3], t378, t610);
+        let t612 = mul_sub(
             base_velocity[3],
-            t613,
-            mul_sub(base_velocity[5], t601, t615),
+            t609,
+            mul_sub(base_velocity[5], t597, t611),
         );
-        let t617 = mul_sub(t394, t600, mul_sub(t75, t420, t616));
-        let t618 = mul_add(base_rotation[1][2], t262, t617);
-        let t619 = t612 + t618;
-        let t620 = t316 * t619;
-        let t621 = neg_mul_add(platform_acceleration[4], t385, platform_acceleration[0]);
-        let t622 = mul_add(platform_acceleration[5], t384, t621);
-        let t623 = mul_sub(platform_velocity[4], t388, t622);
-        let t624 = mul_sub(platform_velocity[5], t387, t623);
-        let t625 = mul_add(base_acceleration[4], t382, base_acceleration[0]);
-        let t626 = mul_sub(base_acceleration[5], t381, t625);
-        let t627 = mul_sub(
+        let t613 = mul_sub(t390, t596, mul_sub(t75, t416, t612));
+        let t614 = mul_add(base_rotation[1][2], t258, t613);
+        let t615 = t608 + t614;
+        let t616 = t312 * t615;
+        let t617 = neg_mul_add(platform_acceleration[4], t381, platform_acceleration[0]);
+        let t618 = mul_add(platform_acceleration[5], t380, t617);
+        let t619 = mul_sub(platform_velocity[4], t384, t618);
+        let t620 = mul_sub(platform_velocity[5], t383, t619);
+        let t621 = mul_add(base_acceleration[4], t378, base_acceleration[0]);
+        let t622 = mul_sub(base_acceleration[5], t377, t621);
+        let t623 = mul_sub(
             base_velocity[5],
-            t602,
-            mul_sub(base_velocity[4], t613, t626),
+            t598,
+            mul_sub(base_velocity[4], t609, t622),
         );
-        let t628 = mul_sub(t396, t600, mul_sub(t75, t435, t627));
-        let t629 = mul_add(base_rotation[0][2], t262, t628);
-        let t630 = t624 + t629;
-        let t631 = t312 * t608;
-        let t632 = t314 * t630;
+        let t624 = mul_sub(t392, t596, mul_sub(t75, t431, t623));
+        let t625 = mul_add(base_rotation[0][2], t258, t624);
+        let t626 = t620 + t625;
+        let t627 = t308 * t604;
+        let t628 = t310 * t626;
         // centre of mass of the payload
-        let t633 = platform_rotation[0][2] * c(0.031);
-        let t634 = platform_rotation[1][2] * c(0.031);
-        let t635 = platform_rotation[2][2] * c(0.031);
+        let t629 = platform_rotation[0][2] * c(0.031);
+        let t630 = platform_rotation[1][2] * c(0.031);
+        let t631 = platform_rotation[2][2] * c(0.031);
         // velocity of the payload's centre of mass
-        let t636 = mul_sub(platform_velocity[4], t635, platform_velocity[5] * t634);
-        let t637 = mul_sub(platform_velocity[5], t633, platform_velocity[3] * t635);
-        let t638 = mul_sub(platform_velocity[3], t634, platform_velocity[4] * t633);
+        let t632 = mul_sub(platform_velocity[4], t631, platform_velocity[5] * t630);
+        let t633 = mul_sub(platform_velocity[5], t629, platform_velocity[3] * t631);
+        let t634 = mul_sub(platform_velocity[3], t630, platform_velocity[4] * t629);
         // acceleration of the payload's centre of mass
-        let t639 = platform_velocity[4] * t638;
-        let t640 = platform_velocity[5] * t636;
-        let t641 = platform_velocity[3] * t637;
+        let t635 = platform_velocity[4] * t634;
+        let t636 = platform_velocity[5] * t632;
+        let t637 = platform_velocity[3] * t633;
         // leg 1: gradient of the actuator length
-        let t642 = neg_mul_add(base_rotation[0][0], t76, base_rotation[0][2]);
-        let t643 = mul_add(base_rotation[0][1], t77, t642);
-        let t644 = neg_mul_add(base_rotation[1][0], t76, base_rotation[1][2]);
-        let t645 = mul_add(base_rotation[1][1], t77, t644);
-        let t646 = neg_mul_add(base_rotation[2][0], t76, base_rotation[2][2]);
-        let t647 = mul_add(base_rotation[2][1], t77, t646);
+        let t638 = neg_mul_add(base_rotation[0][0], t76, base_rotation[0][2]);
+        let t639 = mul_add(base_rotation[0][1], t77, t638);
+        let t640 = neg_mul_add(base_rotation[1][0], t76, base_rotation[1][2]);
+        let t641 = mul_add(base_rotation[1][1], t77, t640);
+        let t642 = neg_mul_add(base_rotation[2][0], t76, base_rotation[2][2]);
+        let t643 = mul_add(base_rotation[2][1], t77, t642);
         // leg 2: gradient of the actuator length
-        let t648 = neg_mul_add(base_rotation[0][0], t78, base_rotation[0][2]);
-        let t649 = mul_sub(base_rotation[0][1], t79, t648);
-        let t650 = neg_mul_add(base_rotation[1][0], t78, base_rotation[1][2]);
-        let t651 = mul_sub(base_rotation[1][1], t79, t650);
-        let t652 = neg_mul_add(base_rotation[2][0], t78, base_rotation[2][2]);
-        let t653 = mul_sub(base_rotation[2][1], t79, t652);
+        let t644 = neg_mul_add(base_rotation[0][0], t78, base_rotation[0][2]);
+        let t645 = mul_sub(base_rotation[0][1], t79, t644);
+        let t646 = neg_mul_add(base_rotation[1][0], t78, base_rotation[1][2]);
+        let t647 = mul_sub(base_rotation[1][1], t79, t646);
+        let t648 = neg_mul_add(base_rotation[2][0], t78, base_rotation[2][2]);
+        let t649 = mul_sub(base_rotation[2][1], t79, t648);
         // leg 3: gradient of the actuator length
-        let t654 = neg_mul_add(base_rotation[0][0], t80, base_rotation[0][2]);
-        let t655 = mul_sub(base_rotation[0][1], t81, t654);
-        let t656 = neg_mul_add(base_rotation[1][0], t80, base_rotation[1][2]);
-        let t657 = mul_sub(base_rotation[1][1], t81, t656);
-        let t658 = neg_mul_add(base_rotation[2][0], t80, base_rotation[2][2]);
-        let t659 = mul_sub(base_rotation[2][1], t81, t658);
+        let t650 = neg_mul_add(base_rotation[0][0], t80, base_rotation[0][2]);
+        let t651 = mul_sub(base_rotation[0][1], t81, t650);
+        let t652 = neg_mul_add(base_rotation[1][0], t80, base_rotation[1][2]);
+        let t653 = mul_sub(base_rotation[1][1], t81, t652);
+        let t654 = neg_mul_add(base_rotation[2][0], t80, base_rotation[2][2]);
+        let t655 = mul_sub(base_rotation[2][1], t81, t654);
         // leg 4: gradient of the actuator length
-        let t660 = neg_mul_add(base_rotation[0][0], t82, base_rotation[0][2]);
-        let t661 = mul_sub(base_rotation[0][1], t83, t660);
-        let t662 = neg_mul_add(base_rotation[1][0], t82, base_rotation[1][2]);
-        let t663 = mul_sub(base_rotation[1][1], t83, t662);
-        let t664 = neg_mul_add(base_rotation[2][0], t82, base_rotation[2][2]);
-        let t665 = mul_sub(base_rotation[2][1], t83, t664);
+        let t656 = neg_mul_add(base_rotation[0][0], t82, base_rotation[0][2]);
+        let t657 = mul_sub(base_rotation[0][1], t83, t656);
+        let t658 = neg_mul_add(base_rotation[1][0], t82, base_rotation[1][2]);
+        let t659 = mul_sub(base_rotation[1][1], t83, t658);
+        let t660 = neg_mul_add(base_rotation[2][0], t82, base_rotation[2][2]);
+        let t661 = mul_sub(base_rotation[2][1], t83, t660);
         // leg 5: gradient of the actuator length
-        let t666 = neg_mul_add(base_rotation[0][0], t84, base_rotation[0][2]);
-        let t667 = mul_add(base_rotation[0][1], t85, t666);
-        let t668 = neg_mul_add(base_rotation[1][0], t84, base_rotation[1][2]);
-        let t669 = mul_add(base_rotation[1][1], t85, t668);
-        let t670 = neg_mul_add(base_rotation[2][0], t84, base_rotation[2][2]);
-        let t671 = mul_add(base_rotation[2][1], t85, t670);
+        let t662 = neg_mul_add(base_rotation[0][0], t84, base_rotation[0][2]);
+        let t663 = mul_add(base_rotation[0][1], t85, t662);
+        let t664 = neg_mul_add(base_rotation[1][0], t84, base_rotation[1][2]);
+        let t665 = mul_add(base_rotation[1][1], t85, t664);
+        let t666 = neg_mul_add(base_rotation[2][0], t84, base_rotation[2][2]);
+        let t667 = mul_add(base_rotation[2][1], t85, t666);
         // leg 6: gradient of the actuator length
-        let t672 = neg_mul_add(base_rotation[0][0], t86, base_rotation[0][2]);
-        let t673 = mul_add(base_rotation[0][1], t87, t672);
-        let t674 = neg_mul_add(base_rotation[1][0], t86, base_rotation[1][2]);
-        let t675 = mul_add(base_rotation[1][1], t87, t674);
-        let t676 = neg_mul_add(base_rotation[2][0], t86, base_rotation[2][2]);
-        let t677 = mul_add(base_rotation[2][1], t87, t676);
+        let t668 = neg_mul_add(base_rotation[0][0], t86, base_rotation[0][2]);
+        let t669 = mul_add(base_rotation[0][1], t87, t668);
+        let t670 = neg_mul_add(base_rotation[1][0], t86, base_rotation[1][2]);
+        let t671 = mul_add(base_rotation[1][1], t87, t670);
+        let t672 = neg_mul_add(base_rotation[2][0], t86, base_rotation[2][2]);
+        let t673 = mul_add(base_rotation[2][1], t87, t672);
         // leg 1: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
-        let t678 = mul_sub(t326, t647, t328 * t645);
-        let t679 = mul_sub(t328, t643, t324 * t647);
-        let t680 = mul_sub(t324, t645, t326 * t643);
+        let t674 = mul_sub(t322, t643, t324 * t641);
+        let t675 = mul_sub(t324, t639, t320 * t643);
+        let t676 = mul_sub(t320, t641, t322 * t639);
         // leg 2: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
-        let t681 = mul_sub(t336, t653, t337 * t651);
-        let t682 = mul_sub(t337, t649, t335 * t653);
-        let t683 = mul_sub(t335, t651, t336 * t649);
+        let t677 = mul_sub(t332, t649, t333 * t647);
+        let t678 = mul_sub(t333, t645, t331 * t649);
+        let t679 = mul_sub(t331, t647, t332 * t645);
         // leg 3: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
-        let t684 = mul_sub(t350, t659, t352 * t657);
-        let t685 = mul_sub(t352, t655, t348 * t659);
-        let t686 = mul_sub(t348, t657, t350 * t655);
+        let t680 = mul_sub(t346, t655, t348 * t653);
+        let t681 = mul_sub(t348, t651, t344 * t655);
+        let t682 = mul_sub(t344, t653, t346 * t651);
         // leg 4: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
-        let t687 = mul_sub(t365, t665, t367 * t663);
-        let t688 = mul_sub(t367, t661, t363 * t665);
-        let t689 = mul_sub(t363, t663, t365 * t661);
+        let t683 = mul_sub(t361, t661, t363 * t659);
+        let t684 = mul_sub(t363, t657, t359 * t661);
+        let t685 = mul_sub(t359, t659, t361 * t657);
         // leg 5: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
-        let t690 = mul_sub(t375, t671, t376 * t669);
-        let t691 = mul_sub(t376, t667, t374 * t671);
-        let t692 = mul_sub(t374, t669, t375 * t667);
+        let t686 = mul_sub(t371, t667, t372 * t665);
+        let t687 = mul_sub(t372, t663, t370 * t667);
+        let t688 = mul_sub(t370, t665, t371 * t663);
         // leg 6: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
-        let t693 = mul_sub(t384, t677, t385 * t675);
-        let t694 = mul_sub(t385, t673, t383 * t677);
-        let t695 = mul_sub(t383, t675, t384 * t673);
+        let t689 = mul_sub(t380, t673, t381 * t671);
+        let t690 = mul_sub(t381, t669, t379 * t673);
+        let t691 = mul_sub(t379, t671, t380 * t669);
         // generalised active force of the payload: gravity, external wrench
-        let t696 = external_wrench[2] - c(59.76252);
-        payload_active_force[2] = t696;
-        let t697 = mul_add(t634, t696, external_wrench[3]);
-        payload_active_force[3] = neg_mul_add(external_wrench[1], t635, t697);
-        let t698 = mul_add(external_wrench[0], t635, external_wrench[4]);
-        payload_active_force[4] = neg_mul_add(t633, t696, t698);
-        let t699 = mul_add(external_wrench[1], t633, external_wrench[5]);
-        payload_active_force[5] = neg_mul_add(external_wrench[0], t634, t699);
+        let t692 = external_wrench[2] - c(59.76252);
+        payload_active_force[2] = t692;
+        let t693 = mul_add(t630, t692, external_wrench[3]);
+        payload_active_force[3] = neg_mul_add(external_wrench[1], t631, t693);
+        let t694 = mul_add(external_wrench[0], t631, external_wrench[4]);
+        payload_active_force[4] = neg_mul_add(t629, t692, t694);
+        let t695 = mul_add(external_wrench[1], t629, external_wrench[5]);
+        payload_active_force[5] = neg_mul_add(external_wrench[0], t630, t695);
         // generalised inertia force of the payload
-        let t700 = mul_sub(platform_acceleration[5], t634, t639);
-        let t701 = mul_add(platform_acceleration[4], t635, platform_acceleration[0]);
-        let t702 = c(6.092) * (t700 + mul_sub(platform_velocity[5], t637, t701));
-        payload_inertia_force[0] = t702;
-        let t703 = mul_sub(platform_acceleration[3], t635, t640);
-        let t704 = mul_add(platform_acceleration[5], t633, platform_acceleration[1]);
-        let t705 = c(6.092) * (t703 + mul_sub(platform_velocity[3], t638, t704));
-        payload_inertia_force[1] = t705;
-        let t706 = mul_sub(platform_acceleration[4], t633, t641);
-        let t707 = mul_add(platform_acceleration[3], t634, platform_acceleration[2]);
-        let t708 = c(6.092) * (t706 + mul_sub(platform_velocity[4], t636, t707));
-        payload_inertia_force[2] = t708;
-        let t709 = platform_rotation[1][2] * c(0.035);
-        let t710 = platform_rotation[1][0] * c(0.025);
-        let t711 = platform_rotation[1][1] * c(0.025);
+        let t696 = mul_sub(platform_acceleration[5], t630, t635);
+        let t697 = mul_add(platform_acceleration[4], t631, platform_acceleration[0]);
+        let t698 = c(6.092) * (t696 + mul_sub(platform_velocity[5], t633, t697));
+        payload_inertia_force[0] = t698;
+        let t699 = mul_sub(platform_acceleration[3], t631, t636);
+        let t700 = mul_add(platform_acceleration[5], t629, platform_acceleration[1]);
+        let t701 = c(6.092) * (t699 + mul_sub(platform_velocity[3], t634, t700));
+        payload_inertia_force[1] = t701;
+        let t702 = mul_sub(platform_acceleration[4], t629, t637);
+        let t703 = mul_add(platform_acceleration[3], t630, platform_acceleration[2]);
+        let t704 = c(6.092) * (t702 + mul_sub(platform_velocity[4], t632, t703));
+        payload_inertia_force[2] = t704;
+        let t705 = platform_rotation[1][2] * c(0.035);
+        let t706 = platform_rotation[1][0] * c(0.025);
+        let t707 = platform_rotation[1][1] * c(0.025);
+        let t708 = mul_add(
+            platform_rotation[2][0],
+            t706,
+            platform_rotation[2][1] * t707,
+        );
+        let t709 = mul_add(platform_rotation[2][2], t705, t708);
+        let t710 = mul_add(
+            platform_rotation[0][0],
+            t706,
+            platform_rotation[0][1] * t707,
+        );
+        let t711 = mul_add(platform_rotation[0][2], t705, t710);
         let t712 = mul_add(
-            platform_rotation[2][0],
-            t710,
-            platform_rotation[2][1] * t711,
-        );
-        let t713 = mul_add(platform_rotation[2][2], t709, t712);
-        let t714 = mul_add(
-            platform_rotation[0][0],
-            t710,
-            platform_rotation[0][1] * t711,
-        );
-        let t715 = mul_add(platform_rotation[0][2], t709, t714);
-        let t716 = mul_add(
             platform_rotation[1][0],
-            t710,
-            platform_rotation[1][1] * t711,
+            t706,
+            platform_rotation[1][1] * t707,
         );
-        let t717 = mul_add(platform_rotation[1][2], t709, t716);
-        let t718 = mul_add(platform_velocity[3], t715, platform_velocity[4] * t717);
-        let t719 = mul_add(platform_velocity[5], t713, t718);
-        let t720 = platform_rotation[2][2] * c(0.035);
-        let t721 = platform_rotation[2][0] * c(0.025);
-        let t722 = platform_rotation[2][1] * c(0.025);
+        let t713 = mul_add(platform_rotation[1][2], t705, t712);
+        let t714 = mul_add(platform_velocity[3], t711, platform_velocity[4] * t713);
+        let t715 = mul_add(platform_velocity[5], t709, t714);
+        let t716 = platform_rotation[2][2] * c(0.035);
+        let t717 = platform_rotation[2][0] * c(0.025);
+        let t718 = platform_rotation[2][1] * c(0.025);
+        let t719 = mul_add(
+            platform_rotation[2][0],
+            t717,
+            platform_rotation[2][1] * t718,
+        );
+        let t720 = mul_add(platform_rotation[2][2], t716, t719);
+        let t721 = mul_add(
+            platform_rotation[0][0],
+            t717,
+            platform_rotation[0][1] * t718,
+        );
+        let t722 = mul_add(platform_rotation[0][2], t716, t721);
         let t723 = mul_add(
-            platform_rotation[2][0],
-            t721,
-            platform_rotation[2][1] * t722,
-        );
-        let t724 = mul_add(platform_rotation[2][2], t720, t723);
-        let t725 = mul_add(
-            platform_rotation[0][0],
-            t721,
-            platform_rotation[0][1] * t722,
-        );
-        let t726 = mul_add(platform_rotation[0][2], t720, t725);
-        let t727 = mul_add(
             platform_rotation[1][0],
-            t721,
-            platform_rotation[1][1] * t722,
+            t717,
+            platform_rotation[1][1] * t718,
         );
-        let t728 = mul_add(platform_rotation[1][2], t720, t727);
-        let t729 = mul_add(platform_velocity[3], t726, platform_velocity[4] * t728);
-        let t730 = mul_add(platform_velocity[5], t724, t729);
-        let t731 = platform_rotation[0][2] * c(0.035);
-        let t732 = platform_rotation[0][0] * c(0.025);
-        let t733 = platform_rotation[0][1] * c(0.025);
+        let t724 = mul_add(platform_rotation[1][2], t716, t723);
+        let t725 = mul_add(platform_velocity[3], t722, platform_velocity[4] * t724);
+        let t726 = mul_add(platform_velocity[5], t720, t725);
+        let t727 = platform_rotation[0][2] * c(0.035);
+        let t728 = platform_rotation[0][0] * c(0.025);
+        let t729 = platform_rotation[0][1] * c(0.025);
+        let t730 = mul_add(
+            platform_rotation[2][0],
+            t728,
+            platform_rotation[2][1] * t729,
+        );
+        let t731 = mul_add(platform_rotation[2][2], t727, t730);
+        let t732 = mul_add(
+            platform_rotation[1][0],
+            t728,
+            platform_rotation[1][1] * t729,
+        );
+        let t733 = mul_add(platform_rotation[1][2], t727, t732);
         let t734 = mul_add(
-            platform_rotation[2][0],
-            t732,
-            platform_rotation[2][1] * t733,
-        );
-        let t735 = mul_add(platform_rotation[2][2], t731, t734);
-        let t736 = mul_add(
-            platform_rotation[1][0],
-            t732,
-            platform_rotation[1][1] * t733,
-        );
-        let t737 = mul_add(platform_rotation[1][2], t731, t736);
-        let t738 = mul_add(
             platform_rotation[0][0],
-            t732,
-            platform_rotation[0][1] * t733,
+            t728,
+            platform_rotation[0][1] * t729,
         );
-        let t739 = mul_add(platform_rotation[0][2], t731, t738);
-        let t740 = mul_sub(t634, t708, t635 * t705);
-        let t741 = mul_sub(platform_acceleration[3], t739, t740);
-        let t742 = mul_add(platform_acceleration[4], t737, t741);
-        let t743 = mul_add(platform_acceleration[5], t735, t742);
-        let t744 = mul_add(platform_velocity[4], t730, t743);
-        payload_inertia_force[3] = mul_sub(platform_velocity[5], t719, t744);
-        let t745 = mul_add(platform_velocity[3], t739, platform_velocity[4] * t737);
-        let t746 = mul_add(platform_velocity[5], t735, t745);
-        let t747 = mul_sub(t635, t702, t633 * t708);
-        let t748 = mul_sub(platform_acceleration[3], t715, t747);
-        let t749 = mul_add(platform_acceleration[4], t717, t748);
-        let t750 = mul_add(platform_acceleration[5], t713, t749);
-        let t751 = mul_add(platform_velocity[5], t746, t750);
-        payload_inertia_force[4] = mul_sub(platform_velocity[3], t730, t751);
-        let t752 = mul_sub(t633, t705, t634 * t702);
-        let t753 = mul_sub(platform_acceleration[3], t726, t752);
-        let t754 = mul_add(platform_acceleration[4], t728, t753);
-        let t755 = mul_add(platform_acceleration[5], t724, t754);
-        let t756 = mul_add(platform_velocity[3], t719, t755);
-        payload_inertia_force[5] = mul_sub(platform_velocity[4], t746, t756);
+        let t735 = mul_add(platform_rotation[0][2], t727, t734);
+        let t736 = mul_sub(t630, t704, t631 * t701);
+        let t737 = mul_sub(platform_acceleration[3], t735, t736);
+        let t738 = mul_add(platform_acceleration[4], t733, t737);
+        let t739 = mul_add(platform_acceleration[5], t731, t738);
+        let t740 = mul_add(platform_velocity[4], t726, t739);
+        payload_inertia_force[3] = mul_sub(platform_velocity[5], t715, t740);
+        let t741 = mul_add(platform_velocity[3], t735, platform_velocity[4] * t733);
+        let t742 = mul_add(platform_velocity[5], t731, t741);
+        let t743 = mul_sub(t631, t698, t629 * t704);
+        let t744 = mul_sub(platform_acceleration[3], t711, t743);
+        let t745 = mul_add(platform_acceleration[4], t713, t744);
+        let t746 = mul_add(platform_acceleration[5], t709, t745);
+        let t747 = mul_add(platform_velocity[5], t742, t746);
+        payload_inertia_force[4] = mul_sub(platform_velocity[3], t726, t747);
+        let t748 = mul_sub(t629, t701, t630 * t698);
+        let t749 = mul_sub(platform_acceleration[3], t722, t748);
+        let t750 = mul_add(platform_acceleration[4], t724, t749);
+        let t751 = mul_add(platform_acceleration[5], t720, t750);
+        let t752 = mul_add(platform_velocity[3], t715, t751);
+        payload_inertia_force[5] = mul_sub(platform_velocity[4], t742, t752);
         // leg 1: generalised active force of the rod: gravity
-        let t757 = base_rotation[2][2] * c(5.0227200000000005);
-        rod_active_force[0][0] = -(t643 * t757);
-        rod_active_force[0][1] = -(t645 * t757);
-        rod_active_force[0][2] = neg_mul_add(t647, t757, c(-5.0227200000000005));
-        rod_active_force[0][3] = neg_mul_add(t678, t757, t326 * c(-5.0227200000000005));
-        rod_active_force[0][4] = neg_mul_add(t679, t757, t324 * c(5.0227200000000005));
-        rod_active_force[0][5] = -(t680 * t757);
+        let t753 = base_rotation[2][2] * c(5.0227200000000005);
+        rod_active_force[0][0] = -(t639 * t753);
+        rod_active_force[0][1] = -(t641 * t753);
+        rod_active_force[0][2] = neg_mul_add(t643, t753, c(-5.0227200000000005));
+        rod_active_force[0][3] = neg_mul_add(t674, t753, t322 * c(-5.0227200000000005));
+        rod_active_force[0][4] = neg_mul_add(t675, t753, t320 * c(5.0227200000000005));
+        rod_active_force[0][5] = -(t676 * t753);
         // leg 1: generalised inertia force of the rod
-        let t758 = c(0.08533333333333336) * mul_sub(t269, t413, t428);
-        let t759 = mul_sub(t271, t441, t442) * c(0.08533333333333336);
-        let t760 = mul_sub(t269, t758, t267 * t759);
-        let t761 = c(0.08533333333333336) * mul_sub(t267, t427, t443);
-        let t762 = mul_sub(t271, t759, t269 * t761);
-        let t763 = mul_sub(t267, t761, t271 * t758);
-        let t764 = mul_add(base_rotation[0][2], t762, base_rotation[1][2] * t763);
-        let t765 = mul_add(base_rotation[2][2], t760, t764);
-        let t766 = (t432 + t440) * c(0.256);
-        let t767 = t392 + t412;
-        let t768 = c(0.256) * t767;
-        let t769 = t417 + t426;
-        let t770 = c(0.256) * t769;
-        let t771 = mul_add(base_rotation[2][2], t768, base_rotation[1][2] * t770);
-        let t772 = mul_add(base_rotation[0][2], t766, t771);
+        let t754 = c(0.08533333333333336) * mul_sub(t265, t409, t424);
+        let t755 = mul_sub(t267, t437, t438) * c(0.08533333333333336);
+        let t756 = mul_sub(t265, t754, t263 * t755);
+        let t757 = c(0.08533333333333336) * mul_sub(t263, t423, t439);
+        let t758 = mul_sub(t267, t755, t265 * t757);
+        let t759 = mul_sub(t263, t757, t267 * t754);
+        let t760 = mul_add(base_rotation[0][2], t758, base_rotation[1][2] * t759);
+        let t761 = mul_add(base_rotation[2][2], t756, t760);
+        let t762 = (t428 + t436) * c(0.256);
+        let t763 = t388 + t408;
+        let t764 = c(0.256) * t763;
+        let t765 = t413 + t422;
+        let t766 = c(0.256) * t765;
+        let t767 = mul_add(base_rotation[2][2], t764, base_rotation[1][2] * t766);
+        let t768 = mul_add(base_rotation[0][2], t762, t767);
         rod_inertia_force[0][0] = neg_mul_add(
-            t643,
-            t765,
-            t762 + mul_add(t643, t772, t766),
+            t639,
+            t761,
+            t758 + mul_add(t639, t768, t762),
         );
-        let t773 = mul_add(t645, t772, mul_add(c(0.256), t769, t763));
-        rod_inertia_force[0][1] = neg_mul_add(t645, t765, t773);
-        let t774 = mul_add(t647, t772, mul_add(c(0.256), t767, t760));
-        rod_inertia_force[0][2] = neg_mul_add(t647, t765, t774);
-        let t775 = mul_add(t678, t772, mul_sub(t326, t768, t328 * t770));
-        let t776 = neg_mul_add(t328, t763, mul_add(t326, t760, t775));
-        rod_inertia_force[0][3] = neg_mul_add(t678, t765, t776);
-        let t777 = mul_add(t679, t772, mul_sub(t328, t766, t324 * t768));
-        let t778 = neg_mul_add(t679, t765, mul_add(t328, t762, t777));
-        rod_inertia_force[0][4] = neg_mul_add(t324, t760, t778);
-        let t779 = mul_add(t680, t772, mul_sub(t324, t770, t326 * t766));
-        let t780 = neg_mul_add(t326, t762, mul_add(t324, t763, t779));
-        rod_inertia_force[0][5] = neg_mul_add(t680, t765, t780);
+        let t769 = mul_add(t641, t768, mul_add(c(0.256), t765, t759));
+        rod_inertia_force[0][1] = neg_mul_add(t641, t761, t769);
+        let t770 = mul_add(t643, t768, mul_add(c(0.256), t763, t756));
+        rod_inertia_force[0][2] = neg_mul_add(t643, t761, t770);
+        let t771 = mul_add(t674, t768, mul_sub(t322, t764, t324 * t766));
+        let t772 = neg_mul_add(t324, t759, mul_add(t322, t756, t771));
+        rod_inertia_force[0][3] = neg_mul_add(t674, t761, t772);
+        let t773 = mul_add(t675, t768, mul_sub(t324, t762, t320 * t764));
+        let t774 = neg_mul_add(t675, t761, mul_add(t324, t758, t773));
+        rod_inertia_force[0][4] = neg_mul_add(t320, t756, t774);
+        let t775 = mul_add(t676, t768, mul_sub(t320, t766, t322 * t762));
+        let t776 = neg_mul_add(t322, t758, mul_add(t320, t759, t775));
+        rod_inertia_force[0][5] = neg_mul_add(t676, t761, t776);
         // leg 1: generalised active force of the mover: gravity, actuator, spring, damper
-        let t781 = mul_add(c(21555.9), t53, actuator_force[0] + c(4268.068200000001));
-        let t782 = mul_sub(base_rotation[2][2], t781, c(5.9939100000000005));
-        let t783 = base_rotation[1][2] * (base_rotation[1][2] * t781);
-        let t784 = mul_add(base_rotation[2][2], t782, t783);
-        let t785 = mul_add(base_rotation[0][2], base_rotation[0][2] * t781, t784);
-        mover_active_force[0][0] = t643 * t785;
-        mover_active_force[0][1] = t645 * t785;
-        mover_active_force[0][2] = t647 * t785;
-        mover_active_force[0][3] = t678 * t785;
-        mover_active_force[0][4] = t679 * t785;
-        mover_active_force[0][5] = t680 * t785;
+        let t777 = mul_add(c(21555.9), t53, actuator_force[0] + c(4268.068200000001));
+        let t778 = mul_sub(base_rotation[2][2], t777, c(5.9939100000000005));
+        let t779 = base_rotation[1][2] * (base_rotation[1][2] * t777);
+        let t780 = mul_add(base_rotation[2][2], t778, t779);
+        let t781 = mul_add(base_rotation[0][2], base_rotation[0][2] * t777, t780);
+        mover_active_force[0][0] = t639 * t781;
+        mover_active_force[0][1] = t641 * t781;
+        mover_active_force[0][2] = t643 * t781;
+        mover_active_force[0][3] = t674 * t781;
+        mover_active_force[0][4] = t675 * t781;
+        mover_active_force[0][5] = t676 * t781;
         // leg 1: generalised inertia force of the mover
-        let t786 = t399 * c(0.03055);
-        let t787 = t420 * c(0.03055);
-        let t788 = t435 * c(0.03055);
-        let t789 = base_rotation[1][2] * neg_mul_add(c(0.611), t426, t787);
-        let t790 = mul_add(base_rotation[2][2], neg_mul_add(c(0.611), t412, t786), t789);
-        let t791 = mul_add(base_rotation[0][2], neg_mul_add(c(0.611), t440, t788), t790);
-        mover_inertia_force[0][0] = -(t643 * t791);
-        mover_inertia_force[0][1] = -(t645 * t791);
-        mover_inertia_force[0][2] = -(t647 * t791);
-        mover_inertia_force[0][3] = -(t678 * t791);
-        mover_inertia_force[0][4] = -(t679 * t791);
-        mover_inertia_force[0][5] = -(t680 * t791);
+        let t782 = t395 * c(0.03055);
+        let t783 = t416 * c(0.03055);
+        let t784 = t431 * c(0.03055);
+        let t785 = base_rotation[1][2] * neg_mul_add(c(0.611), t422, t783);
+        let t786 = mul_add(base_rotation[2][2], neg_mul_add(c(0.611), t408, t782), t785);
+        let t787 = mul_add(base_rotation[0][2], neg_mul_add(c(0.611), t436, t784), t786);
+        mover_inertia_force[0][0] = -(t639 * t787);
+        mover_inertia_force[0][1] = -(t641 * t787);
+        mover_inertia_force[0][2] = -(t643 * t787);
+        mover_inertia_force[0][3] = -(t674 * t787);
+        mover_inertia_force[0][4] = -(t675 * t787);
+        mover_inertia_force[0][5] = -(t676 * t787);
         // leg 2: generalised inertia force of the rod
-        let t792 = c(0.08533333333333336) * mul_sub(t278, t456, t468);
-        let t793 = c(0.08533333333333336) * mul_sub(t280, t478, t479);
-        let t794 = mul_sub(t278, t792, t276 * t793);
-        let t795 = c(0.08533333333333336) * mul_sub(t276, t467, t480);
-        let t796 = mul_sub(t280, t793, t278 * t795);
-        let t797 = mul_sub(t276, t795, t280 * t792);
-        let t798 = mul_add(base_rotation[0][2], t796, base_rotation[1][2] * t797);
-        let t799 = mul_add(base_rotation[2][2], t794, t798);
-        let t800 = c(0.256) * (t472 + t477);
-        let t801 = t447 + t455;
-        let t802 = c(0.256) * t801;
-        let t803 = t460 + t466;
-        let t804 = c(0.256) * t803;
-        let t805 = mul_add(base_rotation[2][2], t802, base_rotation[1][2] * t804);
-        let t806 = mul_add(base_rotation[0][2], t800, t805);
+        let t788 = c(0.08533333333333336) * mul_sub(t274, t452, t464);
+        let t789 = c(0.08533333333333336) * mul_sub(t276, t474, t475);
+        let t790 = mul_sub(t274, t788, t272 * t789);
+        let t791 = c(0.08533333333333336) * mul_sub(t272, t463, t476);
+        let t792 = mul_sub(t276, t789, t274 * t791);
+        let t793 = mul_sub(t272, t791, t276 * t788);
+        let t794 = mul_add(base_rotation[0][2], t792, base_rotation[1][2] * t793);
+        let t795 = mul_add(base_rotation[2][2], t790, t794);
+        let t796 = c(0.256) * (t468 + t473);
+        let t797 = t443 + t451;
+        let t798 = c(0.256) * t797;
+        let t799 = t456 + t462;
+        let t800 = c(0.256) * t799;
+        let t801 = mul_add(base_rotation[2][2], t798, base_rotation[1][2] * t800);
+        let t802 = mul_add(base_rotation[0][2], t796, t801);
         rod_inertia_force[1][0] = mul_add(
-            t649,
-            t799,
-            t796 + neg_mul_add(t649, t806, t800),
+            t645,
+            t795,
+            t792 + neg_mul_add(t645, t802, t796),
         );
-        let t807 = mul_sub(t651, t806, mul_add(c(0.256), t803, t797));
-        rod_inertia_force[1][1] = mul_sub(t651, t799, t807);
-        let t808 = mul_sub(t653, t806, mul_add(c(0.256), t801, t794));
-        rod_inertia_force[1][2] = mul_sub(t653, t799, t808);
-        let t809 = mul_sub(t681, t806, mul_sub(t336, t802, t337 * t804));
-        let t810 = mul_sub(t337, t797, mul_sub(t336, t794, t809));
-        rod_inertia_force[1][3] = mul_sub(t681, t799, t810);
-        let t811 = mul_sub(t682, t806, mul_sub(t337, t800, t335 * t802));
-        let t812 = mul_add(t682, t799, mul_sub(t337, t796, t811));
-        rod_inertia_force[1][4] = neg_mul_add(t335, t794, t812);
-        let t813 = mul_sub(t683, t806, mul_sub(t335, t804, t336 * t800));
-        let t814 = mul_sub(t336, t796, mul_sub(t335, t797, t813));
-        rod_inertia_force[1][5] = mul_sub(t683, t799, t814);
+        let t803 = mul_sub(t647, t802, mul_add(c(0.256), t799, t793));
+        rod_inertia_force[1][1] = mul_sub(t647, t795, t803);
+        let t804 = mul_sub(t649, t802, mul_add(c(0.256), t797, t790));
+        rod_inertia_force[1][2] = mul_sub(t649, t795, t804);
+        let t805 = mul_sub(t677, t802, mul_sub(t332, t798, t333 * t800));
+        let t806 = mul_sub(t333, t793, mul_sub(t332, t790, t805));
+        rod_inertia_force[1][3] = mul_sub(t677, t795, t806);
+        let t807 = mul_sub(t678, t802, mul_sub(t333, t796, t331 * t798));
+        let t808 = mul_add(t678, t795, mul_sub(t333, t792, t807));
+        rod_inertia_force[1][4] = neg_mul_add(t331, t790, t808);
+        let t809 = mul_sub(t679, t802, mul_sub(t331, t800, t332 * t796));
+        let t810 = mul_sub(t332, t792, mul_sub(t331, t793, t809));
+        rod_inertia_force[1][5] = mul_sub(t679, t795, t810);
         // leg 2: generalised active force of the mover: gravity, actuator, spring, damper
-        let t815 = mul_add(c(21555.9), t57, actuator_force[1] + c(4268.068200000001));
-        let t816 = neg_mul_add(base_rotation[2][2], t815, c(5.9939100000000005));
-        let t817 = base_rotation[1][2] * (base_rotation[1][2] * t815);
-        let t818 = mul_sub(base_rotation[2][2], t816, t817);
-        let t819 = mul_sub(base_rotation[0][2], base_rotation[0][2] * t815, t818);
-        mover_active_force[1][0] = -(t649 * t819);
-        mover_active_force[1][1] = -(t651 * t819);
-        mover_active_force[1][2] = -(t653 * t819);
-        mover_active_force[1][3] = -(t681 * t819);
-        mover_active_force[1][4] = -(t682 * t819);
-        mover_active_force[1][5] = -(t683 * t819);
+        let t811 = mul_add(c(21555.9), t57, actuator_force[1] + c(4268.068200000001));
+        let t812 = neg_mul_add(base_rotation[2][2], t811, c(5.9939100000000005));
+        let t813 = base_rotation[1][2] * (base_rotation[1][2] * t811);
+        let t814 = mul_sub(base_rotation[2][2], t812, t813);
+        let t815 = mul_sub(base_rotation[0][2], base_rotation[0][2] * t811, t814);
+        mover_active_force[1][0] = -(t645 * t815);
+        mover_active_force[1][1] = -(t647 * t815);
+        mover_active_force[1][2] = -(t649 * t815);
+        mover_active_force[1][3] = -(t677 * t815);
+        mover_active_force[1][4] = -(t678 * t815);
+        mover_active_force[1][5] = -(t679 * t815);
         // leg 2: generalised inertia force of the mover
-        let t820 = base_rotation[1][2] * neg_mul_add(c(0.611), t466, t787);
-        let t821 = mul_add(base_rotation[2][2], neg_mul_add(c(0.611), t455, t786), t820);
-        let t822 = mul_add(base_rotation[0][2], neg_mul_add(c(0.611), t477, t788), t821);
-        mover_inertia_force[1][0] = t649 * t822;
-        mover_inertia_force[1][1] = t651 * t822;
-        mover_inertia_force[1][2] = t653 * t822;
-        mover_inertia_force[1][3] = t681 * t822;
-        mover_inertia_force[1][4] = t682 * t822;
-        mover_inertia_force[1][5] = t683 * t822;
+        let t816 = base_rotation[1][2] * neg_mul_add(c(0.611), t462, t783);
+        let t817 = mul_add(base_rotation[2][2], neg_mul_add(c(0.611), t451, t782), t816);
+        let t818 = mul_add(base_rotation[0][2], neg_mul_add(c(0.611), t473, t784), t817);
+        mover_inertia_force[1][0] = t645 * t818;
+        mover_inertia_force[1][1] = t647 * t818;
+        mover_inertia_force[1][2] = t649 * t818;
+        mover_inertia_force[1][3] = t677 * t818;
+        mover_inertia_force[1][4] = t678 * t818;
+        mover_inertia_force[1][5] = t679 * t818;
         // leg 3: generalised inertia force of the rod
-        let t823 = c(0.08533333333333336) * mul_sub(t287, t495, t507);
-        let t824 = c(0.08533333333333336) * mul_sub(t289, t517, t518);
-        let t825 = mul_sub(t287, t823, t285 * t824);
-        let t826 = c(0.08533333333333336) * mul_sub(t285, t506, t519);
-        let t827 = mul_sub(t289, t824, t287 * t826);
-        let t828 = mul_sub(t285, t826, t289 * t823);
-        let t829 = mul_add(base_rotation[0][2], t827, base_rotation[1][2] * t828);
-        let t830 = mul_add(base_rotation[2][2], t825, t829);
-        let t831 = c(0.256) * (t511 - t516);
-        let t832 = t484 - t494;
-        let t833 = c(0.256) * t832;
-        let t834 = t499 - t505;
-        let t835 = c(0.256) * t834;
-        let t836 = mul_add(base_rotation[2][2], t833, base_rotation[1][2] * t835);
-        let t837 = mul_add(base_rotation[0][2], t831, t836);
+        let t819 = c(0.08533333333333336) * mul_sub(t283, t491, t503);
+        let t820 = c(0.08533333333333336) * mul_sub(t285, t513, t514);
+        let t821 = mul_sub(t283, t819, t281 * t820);
+        let t822 = c(0.08533333333333336) * mul_sub(t281, t502, t515);
+        let t823 = mul_sub(t285, t820, t283 * t822);
+        let t824 = mul_sub(t281, t822, t285 * t819);
+        let t825 = mul_add(base_rotation[0][2], t823, base_rotation[1][2] * t824);
+        let t826 = mul_add(base_rotation[2][2], t821, t825);
+        let t827 = c(0.256) * (t507 - t512);
+        let t828 = t480 - t490;
+        let t829 = c(0.256) * t828;
+        let t830 = t495 - t501;
+        let t831 = c(0.256) * t830;
+        let t832 = mul_add(base_rotation[2][2], t829, base_rotation[1][2] * t831);
+        let t833 = mul_add(base_rotation[0][2], t827, t832);
         rod_inertia_force[2][0] = neg_mul_add(
-            t655,
-            t830,
-            mul_sub(t655, t837, t831) - t827,
+            t651,
+            t826,
+            mul_sub(t651, t833, t827) - t823,
         );
-        let t838 = mul_sub(t657, t837, mul_add(c(0.256), t834, t828));
-        rod_inertia_force[2][1] = neg_mul_add(t657, t830, t838);
-        let t839 = mul_sub(t659, t837, mul_add(c(0.256), t832, t825));
-        rod_inertia_force[2][2] = neg_mul_add(t659, t830, t839);
-        let t840 = mul_sub(t684, t837, mul_sub(t350, t833, t352 * t835));
-        let t841 = mul_sub(t352, t828, mul_sub(t350, t825, t840));
-        rod_inertia_force[2][3] = mul_sub(t684, t830, t841);
-        let t842 = mul_sub(t685, t837, mul_sub(t352, t831, t348 * t833));
-        let t843 = mul_add(t685, t830, mul_sub(t352, t827, t842));
-        rod_inertia_force[2][4] = neg_mul_add(t348, t825, t843);
-        let t844 = mul_sub(t686, t837, mul_sub(t348, t835, t350 * t831));
-        let t845 = mul_sub(t350, t827, mul_sub(t348, t828, t844));
-        rod_inertia_force[2][5] = mul_sub(t686, t830, t845);
+        let t834 = mul_sub(t653, t833, mul_add(c(0.256), t830, t824));
+        rod_inertia_force[2][1] = neg_mul_add(t653, t826, t834);
+        let t835 = mul_sub(t655, t833, mul_add(c(0.256), t828, t821));
+        rod_inertia_force[2][2] = neg_mul_add(t655, t826, t835);
+        let t836 = mul_sub(t680, t833, mul_sub(t346, t829, t348 * t831));
+        let t837 = mul_sub(t348, t824, mul_sub(t346, t821, t836));
+        rod_inertia_force[2][3] = mul_sub(t680, t826, t837);
+        let t838 = mul_sub(t681, t833, mul_sub(t348, t827, t344 * t829));
+        let t839 = mul_add(t681, t826, mul_sub(t348, t823, t838));
+        rod_inertia_force[2][4] = neg_mul_add(t344, t821, t839);
+        let t840 = mul_sub(t682, t833, mul_sub(t344, t831, t346 * t827));
+        let t841 = mul_sub(t346, t823, mul_sub(t344, t824, t840));
+        rod_inertia_force[2][5] = mul_sub(t682, t826, t841);
         // leg 3: generalised active force of the mover: gravity, actuator, spring, damper
-        let t846 = mul_add(c(21555.9), t62, actuator_force[2] + c(4268.068200000001));
-        let t847 = neg_mul_add(base_rotation[2][2], t846, c(5.9939100000000005));
-        let t848 = base_rotation[1][2] * (base_rotation[1][2] * t846);
-        let t849 = mul_sub(base_rotation[2][2], t847, t848);
-        let t850 = mul_sub(base_rotation[0][2], base_rotation[0][2] * t846, t849);
-        mover_active_force[2][0] = -(t655 * t850);
-        mover_active_force[2][1] = -(t657 * t850);
-        mover_active_force[2][2] = -(t659 * t850);
-        mover_active_force[2][3] = t684 * t850;
-        mover_active_force[2][4] = t685 * t850;
-        mover_active_force[2][5] = t686 * t850;
+        let t842 = mul_add(c(21555.9), t62, actuator_force[2] + c(4268.068200000001));
+        let t843 = neg_mul_add(base_rotation[2][2], t842, c(5.9939100000000005));
+        let t844 = base_rotation[1][2] * (base_rotation[1][2] * t842);
+        let t845 = mul_sub(base_rotation[2][2], t843, t844);
+        let t846 = mul_sub(base_rotation[0][2], base_rotation[0][2] * t842, t845);
+        mover_active_force[2][0] = -(t651 * t846);
+        mover_active_force[2][1] = -(t653 * t846);
+        mover_active_force[2][2] = -(t655 * t846);
+        mover_active_force[2][3] = t680 * t846;
+        mover_active_force[2][4] = t681 * t846;
+        mover_active_force[2][5] = t682 * t846;
         // leg 3: generalised inertia force of the mover
-        let t851 = base_rotation[1][2] * neg_mul_add(c(0.611), t505, t787);
-        let t852 = mul_add(base_rotation[2][2], neg_mul_add(c(0.611), t494, t786), t851);
-        let t853 = mul_add(base_rotation[0][2], neg_mul_add(c(0.611), t516, t788), t852);
-        mover_inertia_force[2][0] = t655 * t853;
-        mover_inertia_force[2][1] = t657 * t853;
-        mover_inertia_force[2][2] = t659 * t853;
-        mover_inertia_force[2][3] = -(t684 * t853);
-        mover_inertia_force[2][4] = -(t685 * t853);
-        mover_inertia_force[2][5] = -(t686 * t853);
+        let t847 = base_rotation[1][2] * neg_mul_add(c(0.611), t501, t783);
+        let t848 = mul_add(base_rotation[2][2], neg_mul_add(c(0.611), t490, t782), t847);
+        let t849 = mul_add(base_rotation[0][2], neg_mul_add(c(0.611), t512, t784), t848);
+        mover_inertia_force[2][0] = t651 * t849;
+        mover_inertia_force[2][1] = t653 * t849;
+        mover_inertia_force[2][2] = t655 * t849;
+        mover_inertia_force[2][3] = -(t680 * t849);
+        mover_inertia_force[2][4] = -(t681 * t849);
+        mover_inertia_force[2][5] = -(t682 * t849);
         // leg 4: generalised inertia force of the rod
-        let t854 = c(0.08533333333333336) * mul_sub(t296, t534, t546);
-        let t855 = c(0.08533333333333336) * mul_sub(t298, t556, t557);
-        let t856 = mul_sub(t296, t854, t294 * t855);
-        let t857 = c(0.08533333333333336) * mul_sub(t294, t545, t558);
-        let t858 = mul_sub(t298, t855, t296 * t857);
-        let t859 = mul_sub(t294, t857, t298 * t854);
-        let t860 = mul_add(base_rotation[0][2], t858, base_rotation[1][2] * t859);
-        let t861 = mul_add(base_rotation[2][2], t856, t860);
-        let t862 = c(0.256) * (t550 - t555);
-        let t863 = t523 - t533;
-        let t864 = c(0.256) * t863;
-        let t865 = t538 - t544;
-        let t866 = c(0.256) * t865;
-        let t867 = mul_add(base_rotation[2][2], t864, base_rotation[1][2] * t866);
-        let t868 = mul_add(base_rotation[0][2], t862, t867);
+        let t850 = c(0.08533333333333336) * mul_sub(t292, t530, t542);
+        let t851 = c(0.08533333333333336) * mul_sub(t294, t552, t553);
+        let t852 = mul_sub(t292, t850, t290 * t851);
+        let t853 = c(0.08533333333333336) * mul_sub(t290, t541, t554);
+        let t854 = mul_sub(t294, t851, t292 * t853);
+        let t855 = mul_sub(t290, t853, t294 * t850);
+        let t856 = mul_add(base_rotation[0][2], t854, base_rotation[1][2] * t855);
+        let t857 = mul_add(base_rotation[2][2], t852, t856);
+        let t858 = c(0.256) * (t546 - t551);
+        let t859 = t519 - t529;
+        let t860 = c(0.256) * t859;
+        let t861 = t534 - t540;
+        let t862 = c(0.256) * t861;
+        let t863 = mul_add(base_rotation[2][2], t860, base_rotation[1][2] * t862);
+        let t864 = mul_add(base_rotation[0][2], t858, t863);
         rod_inertia_force[3][0] = neg_mul_add(
-            t661,
-            t861,
-            mul_sub(t661, t868, t862) - t858,
+            t657,
+            t857,
+            mul_sub(t657, t864, t858) - t854,
         );
-        let t869 = mul_sub(t663, t868, mul_add(c(0.256), t865, t859));
-        rod_inertia_force[3][1] = neg_mul_add(t663, t861, t869);
-        let t870 = mul_sub(t665, t868, mul_add(c(0.256), t863, t856));
-        rod_inertia_force[3][2] = neg_mul_add(t665, t861, t870);
-        let t871 = mul_sub(t687, t868, mul_sub(t365, t864, t367 * t866));
-        let t872 = mul_sub(t367, t859, mul_sub(t365, t856, t871));
-        rod_inertia_force[3][3] = mul_sub(t687, t861, t872);
-        let t873 = mul_sub(t688, t868, mul_sub(t367, t862, t363 * t864));
-        let t874 = mul_add(t688, t861, mul_sub(t367, t858, t873));
-        rod_inertia_force[3][4] = neg_mul_add(t363, t856, t874);
-        let t875 = mul_sub(t689, t868, mul_sub(t363, t866, t365 * t862));
-        let t876 = mul_sub(t365, t858, mul_sub(t363, t859, t875));
-        rod_inertia_force[3][5] = mul_sub(t689, t861, t876);
+        let t865 = mul_sub(t659, t864, mul_add(c(0.256), t861, t855));
+        rod_inertia_force[3][1] = neg_mul_add(t659, t857, t865);
+        let t866 = mul_sub(t661, t864, mul_add(c(0.256), t859, t852));
+        rod_inertia_force[3][2] = neg_mul_add(t661, t857, t866);
+        let t867 = mul_sub(t683, t864, mul_sub(t361, t860, t363 * t862));
+        let t868 = mul_sub(t363, t855, mul_sub(t361, t852, t867));
+        rod_inertia_force[3][3] = mul_sub(t683, t857, t868);
+        let t869 = mul_sub(t684, t864, mul_sub(t363, t858, t359 * t860));
+        let t870 = mul_add(t684, t857, mul_sub(t363, t854, t869));
+        rod_inertia_force[3][4] = neg_mul_add(t359, t852, t870);
+        let t871 = mul_sub(t685, t864, mul_sub(t359, t862, t361 * t858));
+        let t872 = mul_sub(t361, t854, mul_sub(t359, t855, t871));
+        rod_inertia_force[3][5] = mul_sub(t685, t857, t872);
         // leg 4: generalised active force of the mover: gravity, actuator, spring, damper
-        let t877 = mul_add(c(21555.9), t67, actuator_force[3] + c(4268.068200000001));
-        let t878 = neg_mul_add(base_rotation[2][2], t877, c(5.9939100000000005));
-        let t879 = base_rotation[1][2] * (base_rotation[1][2] * t877);
-        let t880 = mul_sub(base_rotation[2][2], t878, t879);
-        let t881 = mul_sub(base_rotation[0][2], base_rotation[0][2] * t877, t880);
-        mover_active_force[3][0] = -(t661 * t881);
-        mover_active_force[3][1] = -(t663 * t881);
-        mover_active_force[3][2] = -(t665 * t881);
-        mover_active_force[3][3] = t687 * t881;
-        mover_active_force[3][4] = t688 * t881;
-        mover_active_force[3][5] = t689 * t881;
+        let t873 = mul_add(c(21555.9), t67, actuator_force[3] + c(4268.068200000001));
+        let t874 = neg_mul_add(base_rotation[2][2], t873, c(5.9939100000000005));
+        let t875 = base_rotation[1][2] * (base_rotation[1][2] * t873);
+        let t876 = mul_sub(base_rotation[2][2], t874, t875);
+        let t877 = mul_sub(base_rotation[0][2], base_rotation[0][2] * t873, t876);
+        mover_active_force[3][0] = -(t657 * t877);
+        mover_active_force[3][1] = -(t659 * t877);
+        mover_active_force[3][2] = -(t661 * t877);
+        mover_active_force[3][3] = t683 * t877;
+        mover_active_force[3][4] = t684 * t877;
+        mover_active_force[3][5] = t685 * t877;
         // leg 4: generalised inertia force of the mover
-        let t882 = base_rotation[1][2] * neg_mul_add(c(0.611), t544, t787);
-        let t883 = mul_add(base_rotation[2][2], neg_mul_add(c(0.611), t533, t786), t882);
-        let t884 = mul_add(base_rotation[0][2], neg_mul_add(c(0.611), t555, t788), t883);
-        mover_inertia_force[3][0] = t661 * t884;
-        mover_inertia_force[3][1] = t663 * t884;
-        mover_inertia_force[3][2] = t665 * t884;
-        mover_inertia_force[3][3] = -(t687 * t884);
-        mover_inertia_force[3][4] = -(t688 * t884);
-        mover_inertia_force[3][5] = -(t689 * t884);
+        let t878 = base_rotation[1][2] * neg_mul_add(c(0.611), t540, t783);
+        let t879 = mul_add(base_rotation[2][2], neg_mul_add(c(0.611), t529, t782), t878);
+        let t880 = mul_add(base_rotation[0][2], neg_mul_add(c(0.611), t551, t784), t879);
+        mover_inertia_force[3][0] = t657 * t880;
+        mover_inertia_force[3][1] = t659 * t880;
+        mover_inertia_force[3][2] = t661 * t880;
+        mover_inertia_force[3][3] = -(t683 * t880);
+        mover_inertia_force[3][4] = -(t684 * t880);
+        mover_inertia_force[3][5] = -(t685 * t880);
+        // leg 5: generalised inertia force of the rod
+        let t881 = c(0.08533333333333336) * mul_sub(t301, t567, t579);
+        let t882 = c(0.08533333333333336) * mul_sub(t303, t589, t590);
+        let t883 = mul_sub(t301, t881, t299 * t882);
+        let t884 = c(0.08533333333333336) * mul_sub(t299, t578, t591);
+        let t885 = mul_sub(t303, t882, t301 * t884);
+        let t886 = mul_sub(t299, t884, t303 * t881);
+        let t887 = mul_add(base_rotation[0][2], t885, base_rotation[1][2] * t886);
+        let t888 = mul_add(base_rotation[2][2], t883, t887);
+        let t889 = c(0.256) * (t583 - t588);
+        let t890 = t558 - t566;
+        let t891 = c(0.256) * t890;
+        let t892 = t571 - t577;
+        let t893 = c(0.256) * t892;
+        let t894 = mul_add(base_rotation[2][2], t891, base_rotation[1][2] * t893);
+        let t895 = mul_add(base_rotation[0][2], t889, t894);
+        rod_inertia_force[4][0] = mul_sub(t663, t888, t885 + mul_add(t663, t895, t889));
+        let t896 = mul_add(t665, t895, mul_add(c(0.256), t892, t886));
+        rod_inertia_force[4][1] = mul_sub(t665, t888, t896);
+        let t897 = mul_add(t667, t895, mul_add(c(0.256), t890, t883));
+        rod_inertia_force[4][2] = mul_sub(t667, t888, t897);
+        let t898 = mul_add(t686, t895, mul_sub(t371, t891, t372 * t893));
+        let t899 = neg_mul_add(t372, t886, mul_add(t371, t883, t898));
+        rod_inertia_force[4][3] = neg_mul_add(t686, t888, t899);
+        let t900 = mul_add(t687, t895, mul_sub(t372, t889, t370 * t891));
+        let t901 = neg_mul_add(t687, t888, mul_add(t372, t885, t900));
+        rod_inertia_force[4][4] = neg_mul_add(t370, t883, t901);
+        let t902 = mul_add(t688, t895, mul_sub(t370, t893, t371 * t889));
+        let t903 = neg_mul_add(t371, t885, mul_add(t370, t886, t902));
+        rod_inertia_force[4][5] = neg_mul_add(t688, t888, t903);
         (
             t71,
             t75,
-            t303,
-            t305,
-            t307,
+            t308,
+            t310,
             t312,
-            t314,
-            t316,
-            t335,
-            t336,
-            t348,
-            t350,
-            t363,
-            t365,
-            t374,
-            t375,
-            t376,
-            t383,
-            t384,
-            t385,
-            t562,
-            t570,
-            t571,
-            t575,
-            t581,
-            t582,
-            t583,
-            t587,
-            t592,
-            t593,
-            t594,
+            t331,
+            t332,
+            t344,
+            t346,
+            t359,
+            t361,
+            t370,
+            t371,
+            t379,
+            t380,
+            t381,
+            t566,
+            t577,
+            t588,
             t595,
-            t599,
-            t607,
+            t603,
+            t604,
             t608,
-            t612,
-            t618,
-            t619,
+            t614,
+            t615,
+            t616,
             t620,
-            t624,
-            t629,
-            t630,
-            t631,
-            t632,
+            t625,
+            t626,
+            t627,
+            t628,
+            t645,
+            t647,
             t649,
             t651,
             t653,
@@ -5812,8 +5784,10 @@ pub fn generalised_forces<T: Scalar>(
             t669,
             t671,
             t673,
-            t675,
             t677,
+            t678,
+            t679,
+            t680,
             t681,
             t682,
             t683,
@@ -5825,156 +5799,122 @@ pub fn generalised_forces<T: Scalar>(
             t689,
             t690,
             t691,
-            t692,
-            t693,
-            t694,
-            t695,
-            t757,
-            t786,
-            t787,
-            t788,
+            t753,
+            t782,
+            t783,
+            t784,
         )
     };
     {
-        // leg 5: generalised inertia force of the rod
-        let t885 = c(0.08533333333333336) * mul_sub(t305, t571, t583);
-        let t886 = c(0.08533333333333336) * mul_sub(t307, t593, t594);
-        let t887 = mul_sub(t305, t885, t303 * t886);
-        let t888 = c(0.08533333333333336) * mul_sub(t303, t582, t595);
-        let t889 = mul_sub(t307, t886, t305 * t888);
-        let t890 = mul_sub(t303, t888, t307 * t885);
-        let t891 = mul_add(base_rotation[0][2], t889, base_rotation[1][2] * t890);
-        let t892 = mul_add(base_rotation[2][2], t887, t891);
-        let t893 = c(0.256) * (t587 - t592);
-        let t894 = t562 - t570;
-        let t895 = c(0.256) * t894;
-        let t896 = t575 - t581;
-        let t897 = c(0.256) * t896;
-        let t898 = mul_add(base_rotation[2][2], t895, base_rotation[1][2] * t897);
-        let t899 = mul_add(base_rotation[0][2], t893, t898);
-        rod_inertia_force[4][0] = mul_sub(t667, t892, t889 + mul_add(t667, t899, t893));
-        let t900 = mul_add(t669, t899, mul_add(c(0.256), t896, t890));
-        rod_inertia_force[4][1] = mul_sub(t669, t892, t900);
-        let t901 = mul_add(t671, t899, mul_add(c(0.256), t894, t887));
-        rod_inertia_force[4][2] = mul_sub(t671, t892, t901);
-        let t902 = mul_add(t690, t899, mul_sub(t375, t895, t376 * t897));
-        let t903 = neg_mul_add(t376, t890, mul_add(t375, t887, t902));
-        rod_inertia_force[4][3] = neg_mul_add(t690, t892, t903);
-        let t904 = mul_add(t691, t899, mul_sub(t376, t893, t374 * t895));
-        let t905 = neg_mul_add(t691, t892, mul_add(t376, t889, t904));
-        rod_inertia_force[4][4] = neg_mul_add(t374, t887, t905);
-        let t906 = mul_add(t692, t899, mul_sub(t374, t897, t375 * t893));
-        let t907 = neg_mul_add(t375, t889, mul_add(t374, t890, t906));
-        rod_inertia_force[4][5] = neg_mul_add(t692, t892, t907);
         // leg 5: generalised active force of the mover: gravity, actuator, spring, damper
-        let t908 = mul_add(c(21555.9), t71, actuator_force[4] + c(4268.068200000001));
-        let t909 = neg_mul_add(base_rotation[2][2], t908, c(5.9939100000000005));
-        let t910 = base_rotation[1][2] * (base_rotation[1][2] * t908);
-        let t911 = mul_sub(base_rotation[2][2], t909, t910);
-        let t912 = mul_sub(base_rotation[0][2], base_rotation[0][2] * t908, t911);
-        mover_active_force[4][0] = t667 * t912;
-        mover_active_force[4][1] = t669 * t912;
-        mover_active_force[4][2] = t671 * t912;
-        mover_active_force[4][3] = -(t690 * t912);
-        mover_active_force[4][4] = -(t691 * t912);
-        mover_active_force[4][5] = -(t692 * t912);
+        let t904 = mul_add(c(21555.9), t71, actuator_force[4] + c(4268.068200000001));
+        let t905 = neg_mul_add(base_rotation[2][2], t904, c(5.9939100000000005));
+        let t906 = base_rotation[1][2] * (base_rotation[1][2] * t904);
+        let t907 = mul_sub(base_rotation[2][2], t905, t906);
+        let t908 = mul_sub(base_rotation[0][2], base_rotation[0][2] * t904, t907);
+        mover_active_force[4][0] = t663 * t908;
+        mover_active_force[4][1] = t665 * t908;
+        mover_active_force[4][2] = t667 * t908;
+        mover_active_force[4][3] = -(t686 * t908);
+        mover_active_force[4][4] = -(t687 * t908);
+        mover_active_force[4][5] = -(t688 * t908);
         // leg 5: generalised inertia force of the mover
-        let t913 = base_rotation[1][2] * neg_mul_add(c(0.611), t581, t787);
-        let t914 = mul_add(base_rotation[2][2], neg_mul_add(c(0.611), t570, t786), t913);
-        let t915 = mul_add(base_rotation[0][2], neg_mul_add(c(0.611), t592, t788), t914);
-        mover_inertia_force[4][0] = -(t667 * t915);
-        mover_inertia_force[4][1] = -(t669 * t915);
-        mover_inertia_force[4][2] = -(t671 * t915);
-        mover_inertia_force[4][3] = t690 * t915;
-        mover_inertia_force[4][4] = t691 * t915;
-        mover_inertia_force[4][5] = t692 * t915;
+        let t909 = base_rotation[1][2] * neg_mul_add(c(0.611), t577, t783);
+        let t910 = mul_add(base_rotation[2][2], neg_mul_add(c(0.611), t566, t782), t909);
+        let t911 = mul_add(base_rotation[0][2], neg_mul_add(c(0.611), t588, t784), t910);
+        mover_inertia_force[4][0] = -(t663 * t911);
+        mover_inertia_force[4][1] = -(t665 * t911);
+        mover_inertia_force[4][2] = -(t667 * t911);
+        mover_inertia_force[4][3] = t686 * t911;
+        mover_inertia_force[4][4] = t687 * t911;
+        mover_inertia_force[4][5] = t688 * t911;
         // leg 6: generalised inertia force of the rod
-        let t916 = c(0.08533333333333336) * mul_sub(t314, t608, t620);
-        let t917 = c(0.08533333333333336) * mul_sub(t316, t630, t631);
-        let t918 = mul_sub(t314, t916, t312 * t917);
-        let t919 = c(0.08533333333333336) * mul_sub(t312, t619, t632);
-        let t920 = mul_sub(t316, t917, t314 * t919);
-        let t921 = mul_sub(t312, t919, t316 * t916);
-        let t922 = mul_add(base_rotation[0][2], t920, base_rotation[1][2] * t921);
-        let t923 = mul_add(base_rotation[2][2], t918, t922);
-        let t924 = c(0.256) * (t624 - t629);
-        let t925 = t599 - t607;
-        let t926 = c(0.256) * t925;
-        let t927 = t612 - t618;
-        let t928 = c(0.256) * t927;
-        let t929 = mul_add(base_rotation[2][2], t926, base_rotation[1][2] * t928);
-        let t930 = mul_add(base_rotation[0][2], t924, t929);
-        rod_inertia_force[5][0] = mul_sub(t673, t923, t920 + mul_add(t673, t930, t924));
-        let t931 = mul_add(t675, t930, mul_add(c(0.256), t927, t921));
-        rod_inertia_force[5][1] = mul_sub(t675, t923, t931);
-        let t932 = mul_add(t677, t930, mul_add(c(0.256), t925, t918));
-        rod_inertia_force[5][2] = mul_sub(t677, t923, t932);
-        let t933 = mul_add(t693, t930, mul_sub(t384, t926, t385 * t928));
-        let t934 = neg_mul_add(t385, t921, mul_add(t384, t918, t933));
-        rod_inertia_force[5][3] = neg_mul_add(t693, t923, t934);
-        let t935 = mul_add(t694, t930, mul_sub(t385, t924, t383 * t926));
-        let t936 = neg_mul_add(t694, t923, mul_add(t385, t920, t935));
-        rod_inertia_force[5][4] = neg_mul_add(t383, t918, t936);
-        let t937 = mul_add(t695, t930, mul_sub(t383, t928, t384 * t924));
-        let t938 = neg_mul_add(t384, t920, mul_add(t383, t921, t937));
-        rod_inertia_force[5][5] = neg_mul_add(t695, t923, t938);
+        let t912 = c(0.08533333333333336) * mul_sub(t310, t604, t616);
+        let t913 = c(0.08533333333333336) * mul_sub(t312, t626, t627);
+        let t914 = mul_sub(t310, t912, t308 * t913);
+        let t915 = c(0.08533333333333336) * mul_sub(t308, t615, t628);
+        let t916 = mul_sub(t312, t913, t310 * t915);
+        let t917 = mul_sub(t308, t915, t312 * t912);
+        let t918 = mul_add(base_rotation[0][2], t916, base_rotation[1][2] * t917);
+        let t919 = mul_add(base_rotation[2][2], t914, t918);
+        let t920 = c(0.256) * (t620 - t625);
+        let t921 = t595 - t603;
+        let t922 = c(0.256) * t921;
+        let t923 = t608 - t614;
+        let t924 = c(0.256) * t923;
+        let t925 = mul_add(base_rotation[2][2], t922, base_rotation[1][2] * t924);
+        let t926 = mul_add(base_rotation[0][2], t920, t925);
+        rod_inertia_force[5][0] = mul_sub(t669, t919, t916 + mul_add(t669, t926, t920));
+        let t927 = mul_add(t671, t926, mul_add(c(0.256), t923, t917));
+        rod_inertia_force[5][1] = mul_sub(t671, t919, t927);
+        let t928 = mul_add(t673, t926, mul_add(c(0.256), t921, t914));
+        rod_inertia_force[5][2] = mul_sub(t673, t919, t928);
+        let t929 = mul_add(t689, t926, mul_sub(t380, t922, t381 * t924));
+        let t930 = neg_mul_add(t381, t917, mul_add(t380, t914, t929));
+        rod_inertia_force[5][3] = neg_mul_add(t689, t919, t930);
+        let t931 = mul_add(t690, t926, mul_sub(t381, t920, t379 * t922));
+        let t932 = neg_mul_add(t690, t919, mul_add(t381, t916, t931));
+        rod_inertia_force[5][4] = neg_mul_add(t379, t914, t932);
+        let t933 = mul_add(t691, t926, mul_sub(t379, t924, t380 * t920));
+        let t934 = neg_mul_add(t380, t916, mul_add(t379, t917, t933));
+        rod_inertia_force[5][5] = neg_mul_add(t691, t919, t934);
         // leg 6: generalised active force of the mover: gravity, actuator, spring, damper
-        let t939 = mul_add(c(21555.9), t75, actuator_force[5] + c(4268.068200000001));
-        let t940 = neg_mul_add(base_rotation[2][2], t939, c(5.9939100000000005));
-        let t941 = base_rotation[1][2] * (base_rotation[1][2] * t939);
-        let t942 = mul_sub(base_rotation[2][2], t940, t941);
-        let t943 = mul_sub(base_rotation[0][2], base_rotation[0][2] * t939, t942);
-        mover_active_force[5][0] = t673 * t943;
-        mover_active_force[5][1] = t675 * t943;
-        mover_active_force[5][2] = t677 * t943;
-        mover_active_force[5][3] = -(t693 * t943);
-        mover_active_force[5][4] = -(t694 * t943);
-        mover_active_force[5][5] = -(t695 * t943);
+        let t935 = mul_add(c(21555.9), t75, actuator_force[5] + c(4268.068200000001));
+        let t936 = neg_mul_add(base_rotation[2][2], t935, c(5.9939100000000005));
+        let t937 = base_rotation[1][2] * (base_rotation[1][2] * t935);
+        let t938 = mul_sub(base_rotation[2][2], t936, t937);
+        let t939 = mul_sub(base_rotation[0][2], base_rotation[0][2] * t935, t938);
+        mover_active_force[5][0] = t669 * t939;
+        mover_active_force[5][1] = t671 * t939;
+        mover_active_force[5][2] = t673 * t939;
+        mover_active_force[5][3] = -(t689 * t939);
+        mover_active_force[5][4] = -(t690 * t939);
+        mover_active_force[5][5] = -(t691 * t939);
         // leg 6: generalised inertia force of the mover
-        let t944 = base_rotation[1][2] * neg_mul_add(c(0.611), t618, t787);
-        let t945 = mul_add(base_rotation[2][2], neg_mul_add(c(0.611), t607, t786), t944);
-        let t946 = mul_add(base_rotation[0][2], neg_mul_add(c(0.611), t629, t788), t945);
-        mover_inertia_force[5][0] = -(t673 * t946);
-        mover_inertia_force[5][1] = -(t675 * t946);
-        mover_inertia_force[5][2] = -(t677 * t946);
-        mover_inertia_force[5][3] = t693 * t946;
-        mover_inertia_force[5][4] = t694 * t946;
-        mover_inertia_force[5][5] = t695 * t946;
+        let t940 = base_rotation[1][2] * neg_mul_add(c(0.611), t614, t783);
+        let t941 = mul_add(base_rotation[2][2], neg_mul_add(c(0.611), t603, t782), t940);
+        let t942 = mul_add(base_rotation[0][2], neg_mul_add(c(0.611), t625, t784), t941);
+        mover_inertia_force[5][0] = -(t669 * t942);
+        mover_inertia_force[5][1] = -(t671 * t942);
+        mover_inertia_force[5][2] = -(t673 * t942);
+        mover_inertia_force[5][3] = t689 * t942;
+        mover_inertia_force[5][4] = t690 * t942;
+        mover_inertia_force[5][5] = t691 * t942;
         // leg 2: generalised active force of the rod: gravity
-        rod_active_force[1][0] = t649 * t757;
-        rod_active_force[1][1] = t651 * t757;
-        rod_active_force[1][2] = mul_sub(t653, t757, c(5.0227200000000005));
-        rod_active_force[1][3] = mul_sub(t681, t757, t336 * c(5.0227200000000005));
-        rod_active_force[1][4] = mul_add(t682, t757, t335 * c(5.0227200000000005));
-        rod_active_force[1][5] = t683 * t757;
+        rod_active_force[1][0] = t645 * t753;
+        rod_active_force[1][1] = t647 * t753;
+        rod_active_force[1][2] = mul_sub(t649, t753, c(5.0227200000000005));
+        rod_active_force[1][3] = mul_sub(t677, t753, t332 * c(5.0227200000000005));
+        rod_active_force[1][4] = mul_add(t678, t753, t331 * c(5.0227200000000005));
+        rod_active_force[1][5] = t679 * t753;
         // leg 3: generalised active force of the rod: gravity
-        rod_active_force[2][0] = t655 * t757;
-        rod_active_force[2][1] = t657 * t757;
-        rod_active_force[2][2] = mul_sub(t659, t757, c(5.0227200000000005));
-        rod_active_force[2][3] = neg_mul_add(t684, t757, t350 * c(5.0227200000000005));
-        rod_active_force[2][4] = neg_mul_add(t685, t757, t348 * c(-5.0227200000000005));
-        rod_active_force[2][5] = -(t686 * t757);
+        rod_active_force[2][0] = t651 * t753;
+        rod_active_force[2][1] = t653 * t753;
+        rod_active_force[2][2] = mul_sub(t655, t753, c(5.0227200000000005));
+        rod_active_force[2][3] = neg_mul_add(t680, t753, t346 * c(5.0227200000000005));
+        rod_active_force[2][4] = neg_mul_add(t681, t753, t344 * c(-5.0227200000000005));
+        rod_active_force[2][5] = -(t682 * t753);
         // leg 4: generalised active force of the rod: gravity
-        rod_active_force[3][0] = t661 * t757;
-        rod_active_force[3][1] = t663 * t757;
-        rod_active_force[3][2] = mul_sub(t665, t757, c(5.0227200000000005));
-        rod_active_force[3][3] = neg_mul_add(t687, t757, t365 * c(5.0227200000000005));
-        rod_active_force[3][4] = neg_mul_add(t688, t757, t363 * c(-5.0227200000000005));
-        rod_active_force[3][5] = -(t689 * t757);
+        rod_active_force[3][0] = t657 * t753;
+        rod_active_force[3][1] = t659 * t753;
+        rod_active_force[3][2] = mul_sub(t661, t753, c(5.0227200000000005));
+        rod_active_force[3][3] = neg_mul_add(t683, t753, t361 * c(5.0227200000000005));
+        rod_active_force[3][4] = neg_mul_add(t684, t753, t359 * c(-5.0227200000000005));
+        rod_active_force[3][5] = -(t685 * t753);
         // leg 5: generalised active force of the rod: gravity
-        rod_active_force[4][0] = -(t667 * t757);
-        rod_active_force[4][1] = -(t669 * t757);
-        rod_active_force[4][2] = neg_mul_add(t671, t757, c(-5.0227200000000005));
-        rod_active_force[4][3] = mul_add(t690, t757, t375 * c(5.0227200000000005));
-        rod_active_force[4][4] = mul_sub(t691, t757, t374 * c(5.0227200000000005));
-        rod_active_force[4][5] = t692 * t757;
+        rod_active_force[4][0] = -(t663 * t753);
+        rod_active_force[4][1] = -(t665 * t753);
+        rod_active_force[4][2] = neg_mul_add(t667, t753, c(-5.0227200000000005));
+        rod_active_force[4][3] = mul_add(t686, t753, t371 * c(5.0227200000000005));
+        rod_active_force[4][4] = mul_sub(t687, t753, t370 * c(5.0227200000000005));
+        rod_active_force[4][5] = t688 * t753;
         // leg 6: generalised active force of the rod: gravity
-        rod_active_force[5][0] = -(t673 * t757);
-        rod_active_force[5][1] = -(t675 * t757);
-        rod_active_force[5][2] = neg_mul_add(t677, t757, c(-5.0227200000000005));
-        rod_active_force[5][3] = mul_add(t693, t757, t384 * c(5.0227200000000005));
-        rod_active_force[5][4] = mul_sub(t694, t757, t383 * c(5.0227200000000005));
-        rod_active_force[5][5] = t695 * t757;
+        rod_active_force[5][0] = -(t669 * t753);
+        rod_active_force[5][1] = -(t671 * t753);
+        rod_active_force[5][2] = neg_mul_add(t673, t753, c(-5.0227200000000005));
+        rod_active_force[5][3] = mul_add(t689, t753, t380 * c(5.0227200000000005));
+        rod_active_force[5][4] = mul_sub(t690, t753, t379 * c(5.0227200000000005));
+        rod_active_force[5][5] = t691 * t753;
         // constant and copied elements
         payload_active_force[0] = external_wrench[0];
         payload_active_force[1] = external_wrench[1];
@@ -12660,321 +12600,319 @@ pub fn bias<T: Scalar>(
     let t183 = t120 * t123;
     let t184 = mul_add(t120, t120, t181);
     // acceleration per platform coordinate of points of the platform
-    let t185 = t126 * t132;
-    let t186 = t126 * t129;
-    let t187 = mul_add(t129, t129, t132 * t132);
-    let t188 = mul_add(t21, t185, mul_sub(t12, t186, t3 * t187));
-    let t189 = mul_add(t24, t185, mul_sub(t15, t186, t6 * t187));
-    let t190 = mul_add(t27, t185, mul_sub(t18, t186, t9 * t187));
-    let t191 = t129 * t132;
-    let t192 = t126 * t126;
-    let t193 = mul_add(t132, t132, t192);
-    let t194 = mul_add(t21, t191, mul_sub(t3, t186, t12 * t193));
-    let t195 = mul_add(t24, t191, mul_sub(t6, t186, t15 * t193));
-    let t196 = mul_add(t27, t191, mul_sub(t9, t186, t18 * t193));
-    let t197 = mul_add(t129, t129, t192);
-    let t198 = mul_sub(t21, t197, mul_add(t3, t185, t12 * t191));
-    let t199 = mul_sub(t24, t197, mul_add(t6, t185, t15 * t191));
-    let t200 = mul_sub(t27, t197, mul_add(t9, t185, t18 * t191));
+    let t185 = mul_sub(t12, t126, t3 * t129);
+    let t186 = mul_sub(t3, t132, t21 * t126);
+    let t187 = mul_sub(t129, t185, t132 * t186);
+    let t188 = mul_sub(t15, t126, t6 * t129);
+    let t189 = mul_sub(t6, t132, t24 * t126);
+    let t190 = mul_sub(t129, t188, t132 * t189);
+    let t191 = mul_sub(t18, t126, t9 * t129);
+    let t192 = mul_sub(t9, t132, t27 * t126);
+    let t193 = mul_sub(t129, t191, t132 * t192);
+    let t194 = mul_sub(t21, t129, t12 * t132);
+    let t195 = mul_sub(t132, t194, t126 * t185);
+    let t196 = mul_sub(t24, t129, t15 * t132);
+    let t197 = mul_sub(t132, t196, t126 * t188);
+    let t198 = mul_sub(t27, t129, t18 * t132);
+    let t199 = mul_sub(t132, t198, t126 * t191);
+    let t200 = mul_sub(t126, t186, t129 * t194);
+    let t201 = mul_sub(t126, t189, t129 * t196);
+    let t202 = mul_sub(t126, t192, t129 * t198);
     // acceleration of the platform origin relative to the base
-    let t201 = mul_sub(t36, t180, mul_sub(t32, t178, t34 * t179));
-    let t202 = mul_add(c(2.0), mul_sub(t120, t147, t123 * t144), t201);
-    let t203 = mul_add(t36, t183, mul_sub(t32, t179, t34 * t182));
-    let t204 = mul_add(c(2.0), mul_sub(t123, t141, t117 * t147), t203);
-    let t205 = t120 * t141;
+    let t203 = mul_sub(t36, t180, mul_sub(t32, t178, t34 * t179));
+    let t204 = mul_add(c(2.0), mul_sub(t120, t147, t123 * t144), t203);
+    let t205 = mul_add(t36, t183, mul_sub(t32, t179, t34 * t182));
+    let t206 = mul_add(c(2.0), mul_sub(t123, t141, t117 * t147), t205);
+    let t207 = t120 * t141;
     // second derivative of the relative rotation
-    let t206 = mul_sub(t123, t133, t117 * t135);
-    let t207 = mul_add(t133, t135, t206);
-    let t208 = mul_sub(t117, t134, t120 * t133);
-    let t209 = mul_sub(t133, t134, t208);
-    let t210 = mul_add(t134, t134, t135 * t135);
-    let t211 = mul_add(t21, t207, mul_sub(t12, t209, t3 * t210));
-    let t212 = mul_add(t24, t207, mul_sub(t15, t209, t6 * t210));
-    let t213 = mul_sub(t120, t135, t123 * t134);
-    let t214 = mul_sub(t134, t135, t213);
-    let t215 = mul_add(t133, t134, t208);
-    let t216 = t133 * t133;
-    let t217 = mul_add(t135, t135, t216);
-    let t218 = mul_add(t21, t214, mul_sub(t3, t215, t12 * t217));
-    let t219 = mul_add(t24, t214, mul_sub(t6, t215, t15 * t217));
-    let t220 = mul_add(t134, t134, t216);
-    let t221 = mul_sub(t133, t135, t206);
-    let t222 = mul_add(t134, t135, t213);
-    let t223 = mul_sub(t21, t220, mul_add(t3, t221, t12 * t222));
-    let t224 = mul_sub(t24, t220, mul_add(t6, t221, t15 * t222));
+    let t208 = mul_sub(t123, t133, t117 * t135);
+    let t209 = mul_sub(t117, t134, t120 * t133);
+    let t210 = mul_add(t134, t152, mul_sub(t21, t208, t12 * t209));
+    let t211 = mul_sub(t135, t150, t210);
+    let t212 = mul_add(t134, t153, mul_sub(t24, t208, t15 * t209));
+    let t213 = mul_sub(t135, t151, t212);
+    let t214 = mul_sub(t120, t135, t123 * t134);
+    let t215 = mul_add(t135, t148, mul_sub(t3, t209, t21 * t214));
+    let t216 = mul_sub(t133, t152, t215);
+    let t217 = mul_add(t135, t149, mul_sub(t6, t209, t24 * t214));
+    let t218 = mul_sub(t133, t153, t217);
+    let t219 = mul_add(t133, t150, mul_sub(t12, t214, t3 * t208));
+    let t220 = mul_sub(t134, t148, t219);
+    let t221 = mul_add(t133, t151, mul_sub(t15, t214, t6 * t208));
+    let t222 = mul_sub(t134, t149, t221);
     // leg 1: acceleration of the platform joint relative to the base
-    let t225 = mul_add(c(0.1159110991546882), t211, t202);
-    let t226 = neg_mul_add(c(0.03105828541230249), t212, t225);
-    let t227 = mul_add(c(0.1159110991546882), t218, t204);
-    let t228 = neg_mul_add(c(0.03105828541230249), t219, t227);
+    let t223 = neg_mul_add(c(0.1159110991546882), t211, t204);
+    let t224 = mul_add(c(0.03105828541230249), t213, t223);
+    let t225 = neg_mul_add(c(0.1159110991546882), t216, t206);
+    let t226 = mul_add(c(0.03105828541230249), t218, t225);
     // leg 2: acceleration of the platform joint relative to the base
-    let t229 = mul_add(c(0.03105828541230249), t212, t225);
-    let t230 = mul_add(c(0.03105828541230249), t219, t227);
+    let t227 = neg_mul_add(c(0.03105828541230249), t213, t223);
+    let t228 = neg_mul_add(c(0.03105828541230249), t218, t225);
     // leg 3: acceleration of the platform joint relative to the base
-    let t231 = neg_mul_add(c(0.031058285412302475), t211, t202);
-    let t232 = mul_add(c(0.1159110991546882), t212, t231);
-    let t233 = neg_mul_add(c(0.031058285412302475), t218, t204);
-    let t234 = mul_add(c(0.1159110991546882), t219, t233);
+    let t229 = mul_add(c(0.031058285412302475), t211, t204);
+    let t230 = neg_mul_add(c(0.1159110991546882), t213, t229);
+    let t231 = mul_add(c(0.031058285412302475), t216, t206);
+    let t232 = neg_mul_add(c(0.1159110991546882), t218, t231);
     // leg 4: acceleration of the platform joint relative to the base
-    let t235 = neg_mul_add(c(0.0848528137423857), t211, t202);
-    let t236 = mul_add(c(0.08485281374238571), t212, t235);
-    let t237 = neg_mul_add(c(0.0848528137423857), t218, t204);
-    let t238 = mul_add(c(0.08485281374238571), t219, t237);
+    let t233 = mul_add(c(0.0848528137423857), t211, t204);
+    let t234 = neg_mul_add(c(0.08485281374238571), t213, t233);
+    let t235 = mul_add(c(0.0848528137423857), t216, t206);
+    let t236 = neg_mul_add(c(0.08485281374238571), t218, t235);
     // leg 5: acceleration of the platform joint relative to the base
-    let t239 = neg_mul_add(c(0.08485281374238571), t212, t235);
-    let t240 = neg_mul_add(c(0.08485281374238571), t219, t237);
+    let t237 = mul_add(c(0.08485281374238571), t213, t233);
+    let t238 = mul_add(c(0.08485281374238571), t218, t235);
     // leg 6: acceleration of the platform joint relative to the base
-    let t241 = neg_mul_add(c(0.1159110991546882), t212, t231);
-    let t242 = neg_mul_add(c(0.1159110991546882), t219, t233);
+    let t239 = mul_add(c(0.1159110991546882), t213, t229);
+    let t240 = mul_add(c(0.1159110991546882), t218, t231);
     // leg 1: actuator acceleration d''
-    let t243 = mul_add(t44, t226, mul_add(t155, t155, t157 * t157));
-    let t244 = mul_add(t172, t172, mul_add(t45, t228, t243));
+    let t241 = mul_add(t44, t224, mul_add(t155, t155, t157 * t157));
+    let t242 = mul_add(t172, t172, mul_add(t45, t226, t241));
     // leg 2: actuator acceleration d''
-    let t245 = mul_sub(t49, t229, mul_add(t158, t158, t159 * t159));
-    let t246 = mul_add(t173, t173, mul_sub(t50, t230, t245));
+    let t243 = mul_sub(t49, t227, mul_add(t158, t158, t159 * t159));
+    let t244 = mul_add(t173, t173, mul_sub(t50, t228, t243));
     // leg 3: actuator acceleration d''
-    let t247 = mul_sub(t58, t232, mul_add(t161, t161, t163 * t163));
-    let t248 = mul_sub(t174, t174, mul_add(t59, t234, t247));
+    let t245 = mul_sub(t58, t230, mul_add(t161, t161, t163 * t163));
+    let t246 = mul_sub(t174, t174, mul_add(t59, t232, t245));
     // leg 4: actuator acceleration d''
-    let t249 = mul_sub(t67, t236, mul_add(t165, t165, t167 * t167));
-    let t250 = mul_sub(t175, t175, mul_add(t68, t238, t249));
+    let t247 = mul_sub(t67, t234, mul_add(t165, t165, t167 * t167));
+    let t248 = mul_sub(t175, t175, mul_add(t68, t236, t247));
     // leg 5: actuator acceleration d''
-    let t251 = mul_sub(t72, t239, mul_add(t168, t168, t169 * t169));
-    let t252 = mul_sub(t176, t176, mul_add(t73, t240, t251));
+    let t249 = mul_sub(t72, t237, mul_add(t168, t168, t169 * t169));
+    let t250 = mul_sub(t176, t176, mul_add(t73, t238, t249));
     // leg 6: actuator acceleration d''
-    let t253 = mul_sub(t77, t241, mul_add(t170, t170, t171 * t171));
-    let t254 = mul_sub(t177, t177, mul_add(t78, t242, t253));
+    let t251 = mul_sub(t77, t239, mul_add(t170, t170, t171 * t171));
+    let t252 = mul_sub(t177, t177, mul_add(t78, t240, t251));
     // leg 1: leg inertia less weight along the actuator
-    let t255 = c(2.0) * t147;
-    let t256 = mul_add(t152, c(0.2318221983093764), t255);
-    let t257 = t153 * c(0.06211657082460498);
-    let t258 = t256 - neg_mul_add(c(2.0), t172, t257);
-    let t259 = t120 * t258;
-    let t260 = t117 * t258;
-    let t261 = mul_add(t32, t180, base_rotation[2][2] * c(9.81));
-    let t262 = mul_sub(t36, t184, mul_add(t34, t183, t261));
-    let t263 = neg_mul_add(c(2.0), mul_sub(t117, t144, t205), t262);
-    let t264 = mul_sub(c(0.12275970481124972), t183, c(0.03105828541230249) * t224);
-    let t265 = mul_sub(c(0.1316436662914507), t180, c(0.1159110991546882) * t223);
-    let t266 = t263 - t265;
-    let t267 = t266 + (t264 - mul_add(t81, t244, t82 * t184));
+    let t253 = c(2.0) * t147;
+    let t254 = mul_add(t152, c(0.2318221983093764), t253);
+    let t255 = t153 * c(0.06211657082460498);
+    let t256 = t254 - neg_mul_add(c(2.0), t172, t255);
+    let t257 = t120 * t256;
+    let t258 = t117 * t256;
+    let t259 = mul_add(t32, t180, base_rotation[2][2] * c(9.81));
+    let t260 = mul_sub(t36, t184, mul_add(t34, t183, t259));
+    let t261 = neg_mul_add(c(2.0), mul_sub(t117, t144, t207), t260);
+    let t262 = mul_sub(c(0.12275970481124972), t183, c(0.03105828541230249) * t222);
+    let t263 = mul_sub(c(0.1316436662914507), t180, c(0.1159110991546882) * t220);
+    let t264 = t261 - t263;
+    let t265 = t264 + (t262 - mul_add(t81, t242, t82 * t184));
     // leg 1: remaining leg inertia less weight at the platform joint
-    let t268 = base_rotation[2][0] * c(1.67424);
-    let t269 = neg_mul_add(t178, c(0.022467185713740918), t268);
-    let t270 = neg_mul_add(t179, c(0.02095098962111995), t269);
-    let t271 = neg_mul_add(c(0.17066666666666666), mul_add(t82, t180, t259), t270);
-    let t272 = base_rotation[2][1] * c(1.67424);
-    let t273 = mul_add(t179, c(0.022467185713740918), t272);
-    let t274 = mul_add(t182, c(0.02095098962111995), t273);
-    let t275 = neg_mul_add(c(0.17066666666666666), mul_sub(t82, t183, t260), t274);
+    let t266 = base_rotation[2][0] * c(1.67424);
+    let t267 = neg_mul_add(t178, c(0.022467185713740918), t266);
+    let t268 = neg_mul_add(t179, c(0.02095098962111995), t267);
+    let t269 = neg_mul_add(c(0.17066666666666666), mul_add(t82, t180, t257), t268);
+    let t270 = base_rotation[2][1] * c(1.67424);
+    let t271 = mul_add(t179, c(0.022467185713740918), t270);
+    let t272 = mul_add(t182, c(0.02095098962111995), t271);
+    let t273 = neg_mul_add(c(0.17066666666666666), mul_sub(t82, t183, t258), t272);
     // leg 2: leg inertia less weight along the actuator
-    let t276 = t256 + neg_mul_add(c(2.0), t173, t257);
-    let t277 = t120 * t276;
-    let t278 = t117 * t276;
-    let t279 = mul_sub(t86, t184, t266 - mul_add(t85, t246, t264));
+    let t274 = t254 + neg_mul_add(c(2.0), t173, t255);
+    let t275 = t120 * t274;
+    let t276 = t117 * t274;
+    let t277 = mul_sub(t86, t184, t264 - mul_add(t85, t244, t262));
     // leg 2: remaining leg inertia less weight at the platform joint
-    let t280 = mul_add(t179, c(0.02095098962111995), t269);
-    let t281 = neg_mul_add(c(0.17066666666666666), mul_add(t86, t180, t277), t280);
-    let t282 = neg_mul_add(t182, c(0.02095098962111995), t273);
-    let t283 = neg_mul_add(c(0.17066666666666666), mul_sub(t86, t183, t278), t282);
+    let t278 = mul_add(t179, c(0.02095098962111995), t267);
+    let t279 = neg_mul_add(c(0.17066666666666666), mul_add(t86, t180, t275), t278);
+    let t280 = neg_mul_add(t182, c(0.02095098962111995), t271);
+    let t281 = neg_mul_add(c(0.17066666666666666), mul_sub(t86, t183, t276), t280);
     // leg 3: leg inertia less weight along the actuator
-    let t284 = neg_mul_add(t152, c(0.06211657082460495), t255);
-    let t285 = t153 * c(0.2318221983093764);
-    let t286 = t284 + neg_mul_add(c(2.0), t174, t285);
-    let t287 = t120 * t286;
-    let t288 = t117 * t286;
-    let t289 = mul_sub(c(0.17538661166134234), t183, c(0.1159110991546882) * t224);
-    let t290 = mul_add(c(0.040491189781895726), t180, c(0.031058285412302475) * t223);
-    let t291 = t263 - t290;
-    let t292 = t291 - (t289 + mul_add(t89, t248, t90 * t184));
+    let t282 = neg_mul_add(t152, c(0.06211657082460495), t253);
+    let t283 = t153 * c(0.2318221983093764);
+    let t284 = t282 + neg_mul_add(c(2.0), t174, t283);
+    let t285 = t120 * t284;
+    let t286 = t117 * t284;
+    let t287 = mul_sub(c(0.17538661166134234), t183, c(0.1159110991546882) * t222);
+    let t288 = mul_add(c(0.040491189781895726), t180, c(0.031058285412302475) * t220);
+    let t289 = t261 - t288;
+    let t290 = t289 - (t287 + mul_add(t89, t246, t90 * t184));
     // leg 3: remaining leg inertia less weight at the platform joint
-    let t293 = neg_mul_add(t178, c(0.006910496389443537), t268);
-    let t294 = mul_add(t179, c(0.029932648390202425), t293);
-    let t295 = neg_mul_add(c(0.17066666666666666), mul_add(t90, t180, t287), t294);
-    let t296 = mul_add(t179, c(0.006910496389443537), t272);
-    let t297 = neg_mul_add(t182, c(0.029932648390202425), t296);
-    let t298 = neg_mul_add(c(0.17066666666666666), mul_sub(t90, t183, t288), t297);
+    let t291 = neg_mul_add(t178, c(0.006910496389443537), t266);
+    let t292 = mul_add(t179, c(0.029932648390202425), t291);
+    let t293 = neg_mul_add(c(0.17066666666666666), mul_add(t90, t180, t285), t292);
+    let t294 = mul_add(t179, c(0.006910496389443537), t270);
+    let t295 = neg_mul_add(t182, c(0.029932648390202425), t294);
+    let t296 = neg_mul_add(c(0.17066666666666666), mul_sub(t90, t183, t286), t295);
     // leg 4: leg inertia less weight along the actuator
-    let t299 = neg_mul_add(t152, c(0.1697056274847714), t255);
-    let t300 = t153 * c(0.16970562748477142);
-    let t301 = t299 + neg_mul_add(c(2.0), t175, t300);
-    let t302 = t120 * t301;
-    let t303 = t117 * t301;
-    let t304 = mul_sub(c(0.052626906850092664), t183, c(0.08485281374238571) * t224);
-    let t305 = mul_sub(c(0.17213485607334636), t180, c(0.0848528137423857) * t223);
-    let t306 = t263 + t305;
-    let t307 = t306 - (t304 + mul_add(t93, t250, t94 * t184));
+    let t297 = neg_mul_add(t152, c(0.1697056274847714), t253);
+    let t298 = t153 * c(0.16970562748477142);
+    let t299 = t297 + neg_mul_add(c(2.0), t175, t298);
+    let t300 = t120 * t299;
+    let t301 = t117 * t299;
+    let t302 = mul_sub(c(0.052626906850092664), t183, c(0.08485281374238571) * t222);
+    let t303 = mul_sub(c(0.17213485607334636), t180, c(0.0848528137423857) * t220);
+    let t304 = t261 + t303;
+    let t305 = t304 - (t302 + mul_add(t93, t248, t94 * t184));
     // leg 4: remaining leg inertia less weight at the platform joint
-    let t308 = mul_add(t178, c(0.029377682103184446), t268);
-    let t309 = mul_add(t179, c(0.008981658769082482), t308);
-    let t310 = neg_mul_add(c(0.17066666666666666), mul_add(t94, t180, t302), t309);
-    let t311 = neg_mul_add(t179, c(0.029377682103184446), t272);
-    let t312 = neg_mul_add(t182, c(0.008981658769082482), t311);
-    let t313 = neg_mul_add(c(0.17066666666666666), mul_sub(t94, t183, t303), t312);
+    let t306 = mul_add(t178, c(0.029377682103184446), t266);
+    let t307 = mul_add(t179, c(0.008981658769082482), t306);
+    let t308 = neg_mul_add(c(0.17066666666666666), mul_add(t94, t180, t300), t307);
+    let t309 = neg_mul_add(t179, c(0.029377682103184446), t270);
+    let t310 = neg_mul_add(t182, c(0.008981658769082482), t309);
+    let t311 = neg_mul_add(c(0.17066666666666666), mul_sub(t94, t183, t301), t310);
     // leg 5: leg inertia less weight along the actuator
-    let t314 = t299 - mul_add(c(2.0), t176, t300);
-    let t315 = t120 * t314;
-    let t316 = t117 * t314;
-    let t317 = mul_sub(t98, t184, t306 - mul_sub(t97, t252, t304));
+    let t312 = t297 - mul_add(c(2.0), t176, t298);
+    let t313 = t120 * t312;
+    let t314 = t117 * t312;
+    let t315 = mul_sub(t98, t184, t304 - mul_sub(t97, t250, t302));
     // leg 5: remaining leg inertia less weight at the platform joint
-    let t318 = neg_mul_add(t179, c(0.008981658769082482), t308);
-    let t319 = neg_mul_add(c(0.17066666666666666), mul_add(t98, t180, t315), t318);
-    let t320 = mul_add(t182, c(0.008981658769082482), t311);
-    let t321 = neg_mul_add(c(0.17066666666666666), mul_sub(t98, t183, t316), t320);
+    let t316 = neg_mul_add(t179, c(0.008981658769082482), t306);
+    let t317 = neg_mul_add(c(0.17066666666666666), mul_add(t98, t180, t313), t316);
+    let t318 = mul_add(t182, c(0.008981658769082482), t309);
+    let t319 = neg_mul_add(c(0.17066666666666666), mul_sub(t98, t183, t314), t318);
     // leg 6: leg inertia less weight along the actuator
-    let t322 = t284 - mul_add(c(2.0), t177, t285);
-    let t323 = t120 * t322;
-    let t324 = t117 * t322;
-    let t325 = mul_sub(t102, t184, t291 - mul_sub(t101, t254, t289));
+    let t320 = t282 - mul_add(c(2.0), t177, t283);
+    let t321 = t120 * t320;
+    let t322 = t117 * t320;
+    let t323 = mul_sub(t102, t184, t289 - mul_sub(t101, t252, t287));
     // leg 6: remaining leg inertia less weight at the platform joint
-    let t326 = neg_mul_add(t179, c(0.029932648390202425), t293);
-    let t327 = neg_mul_add(c(0.17066666666666666), mul_add(t102, t180, t323), t326);
-    let t328 = mul_add(t182, c(0.029932648390202425), t296);
-    let t329 = neg_mul_add(c(0.17066666666666666), mul_sub(t102, t183, t324), t328);
+    let t324 = neg_mul_add(t179, c(0.029932648390202425), t291);
+    let t325 = neg_mul_add(c(0.17066666666666666), mul_add(t102, t180, t321), t324);
+    let t326 = mul_add(t182, c(0.029932648390202425), t294);
+    let t327 = neg_mul_add(c(0.17066666666666666), mul_sub(t102, t183, t322), t326);
     // leg 1: row of the actuator Jacobian in base coordinates
-    let t330 = neg_mul_add(t42, t104, t40);
-    let t331 = neg_mul_add(t42, t103, t38);
-    let t332 = mul_sub(t38, t104, t40 * t103);
+    let t328 = neg_mul_add(t42, t104, t40);
+    let t329 = neg_mul_add(t42, t103, t38);
+    let t330 = mul_sub(t38, t104, t40 * t103);
     // leg 2: row of the actuator Jacobian in base coordinates
-    let t333 = neg_mul_add(t48, t106, t47);
-    let t334 = mul_add(t48, t105, t46);
-    let t335 = mul_add(t46, t106, t47 * t105);
+    let t331 = neg_mul_add(t48, t106, t47);
+    let t332 = mul_add(t48, t105, t46);
+    let t333 = mul_add(t46, t106, t47 * t105);
     // leg 3: row of the actuator Jacobian in base coordinates
-    let t336 = mul_add(t56, t108, t54);
-    let t337 = mul_add(t56, t107, t52);
-    let t338 = mul_sub(t52, t108, t54 * t107);
+    let t334 = mul_add(t56, t108, t54);
+    let t335 = mul_add(t56, t107, t52);
+    let t336 = mul_sub(t52, t108, t54 * t107);
     // leg 4: row of the actuator Jacobian in base coordinates
-    let t339 = mul_add(t65, t110, t63);
-    let t340 = mul_add(t65, t109, t61);
-    let t341 = mul_sub(t61, t110, t63 * t109);
+    let t337 = mul_add(t65, t110, t63);
+    let t338 = mul_add(t65, t109, t61);
+    let t339 = mul_sub(t61, t110, t63 * t109);
     // leg 5: row of the actuator Jacobian in base coordinates
-    let t342 = mul_add(t71, t112, t70);
-    let t343 = mul_add(t71, t111, t69);
-    let t344 = mul_sub(t69, t112, t70 * t111);
+    let t340 = mul_add(t71, t112, t70);
+    let t341 = mul_add(t71, t111, t69);
+    let t342 = mul_sub(t69, t112, t70 * t111);
     // leg 6: row of the actuator Jacobian in base coordinates
-    let t345 = mul_add(t76, t114, t75);
-    let t346 = mul_add(t76, t113, t74);
-    let t347 = mul_sub(t74, t114, t75 * t113);
+    let t343 = mul_add(t76, t114, t75);
+    let t344 = mul_add(t76, t113, t74);
+    let t345 = mul_sub(t74, t114, t75 * t113);
     // its first moments by platform coordinate
-    let t348 = t271 + t281;
-    let t349 = t295 + t327;
-    let t350 = t310 + t319;
-    let t351 = c(0.032245600000000006) * t188;
-    let t352 = mul_add(base_rotation[2][0], c(2.212292848913222e-16), t351);
-    let t353 = mul_add(c(0.1159110991546882), t348, t352);
-    let t354 = neg_mul_add(c(0.031058285412302475), t349, t353);
-    let t355 = neg_mul_add(c(0.0848528137423857), t350, t354);
-    let t356 = c(0.032245600000000006) * t189;
-    let t357 = mul_add(base_rotation[2][0], c(6.807054919732991e-17), t356);
-    let t358 = neg_mul_add(c(0.03105828541230249), t271 - t281, t357);
-    let t359 = mul_add(c(0.1159110991546882), t295 - t327, t358);
-    let t360 = mul_add(c(0.08485281374238571), t310 - t319, t359);
-    let t361 = mul_add(base_rotation[2][0], c(1.85263812), c(0.013354412) * t190);
-    let t362 = t275 + t283;
-    let t363 = t298 + t329;
-    let t364 = t313 + t321;
-    let t365 = c(0.032245600000000006) * t194;
-    let t366 = mul_add(base_rotation[2][1], c(2.212292848913222e-16), t365);
-    let t367 = mul_add(c(0.1159110991546882), t362, t366);
-    let t368 = neg_mul_add(c(0.031058285412302475), t363, t367);
-    let t369 = neg_mul_add(c(0.0848528137423857), t364, t368);
-    let t370 = c(0.032245600000000006) * t195;
-    let t371 = mul_add(base_rotation[2][1], c(6.807054919732991e-17), t370);
-    let t372 = neg_mul_add(c(0.03105828541230249), t275 - t283, t371);
-    let t373 = mul_add(c(0.1159110991546882), t298 - t329, t372);
-    let t374 = mul_add(c(0.08485281374238571), t313 - t321, t373);
-    let t375 = mul_add(base_rotation[2][1], c(1.85263812), c(0.013354412) * t196);
-    let t376 = t267 - t279;
-    let t377 = t292 - t325;
-    let t378 = t307 - t317;
-    let t379 = c(0.032245600000000006) * t198;
-    let t380 = mul_sub(base_rotation[2][2], c(2.212292848913222e-16), t379);
-    let t381 = neg_mul_add(t376, c(0.019782160922400118), t380);
-    let t382 = mul_add(t377, c(0.005300614043699622), t381);
-    let t383 = mul_add(t378, c(0.01448154687870049), t382);
-    let t384 = c(0.032245600000000006) * t199;
-    let t385 = mul_sub(base_rotation[2][2], c(6.807054919732991e-17), t384);
-    let t386 = mul_add(c(0.005300614043699624), t267 + t279, t385);
-    let t387 = neg_mul_add(c(0.019782160922400118), t292 + t325, t386);
-    let t388 = neg_mul_add(c(0.014481546878700494), t307 + t317, t387);
-    let t389 = mul_sub(base_rotation[2][2], c(1.85263812), c(0.013354412) * t200);
+    let t346 = t269 + t279;
+    let t347 = t293 + t325;
+    let t348 = t308 + t317;
+    let t349 = c(0.032245600000000006) * t187;
+    let t350 = mul_add(base_rotation[2][0], c(2.212292848913222e-16), t349);
+    let t351 = mul_add(c(0.1159110991546882), t346, t350);
+    let t352 = neg_mul_add(c(0.031058285412302475), t347, t351);
+    let t353 = neg_mul_add(c(0.0848528137423857), t348, t352);
+    let t354 = c(0.032245600000000006) * t190;
+    let t355 = mul_add(base_rotation[2][0], c(6.807054919732991e-17), t354);
+    let t356 = neg_mul_add(c(0.03105828541230249), t269 - t279, t355);
+    let t357 = mul_add(c(0.1159110991546882), t293 - t325, t356);
+    let t358 = mul_add(c(0.08485281374238571), t308 - t317, t357);
+    let t359 = mul_add(base_rotation[2][0], c(1.85263812), c(0.013354412) * t193);
+    let t360 = t273 + t281;
+    let t361 = t296 + t327;
+    let t362 = t311 + t319;
+    let t363 = c(0.032245600000000006) * t195;
+    let t364 = mul_add(base_rotation[2][1], c(2.212292848913222e-16), t363);
+    let t365 = mul_add(c(0.1159110991546882), t360, t364);
+    let t366 = neg_mul_add(c(0.031058285412302475), t361, t365);
+    let t367 = neg_mul_add(c(0.0848528137423857), t362, t366);
+    let t368 = c(0.032245600000000006) * t197;
+    let t369 = mul_add(base_rotation[2][1], c(6.807054919732991e-17), t368);
+    let t370 = neg_mul_add(c(0.03105828541230249), t273 - t281, t369);
+    let t371 = mul_add(c(0.1159110991546882), t296 - t327, t370);
+    let t372 = mul_add(c(0.08485281374238571), t311 - t319, t371);
+    let t373 = mul_add(base_rotation[2][1], c(1.85263812), c(0.013354412) * t199);
+    let t374 = t265 - t277;
+    let t375 = t290 - t323;
+    let t376 = t305 - t315;
+    let t377 = c(0.032245600000000006) * t200;
+    let t378 = mul_add(base_rotation[2][2], c(2.212292848913222e-16), t377);
+    let t379 = neg_mul_add(t374, c(0.019782160922400118), t378);
+    let t380 = mul_add(t375, c(0.005300614043699622), t379);
+    let t381 = mul_add(t376, c(0.01448154687870049), t380);
+    let t382 = c(0.032245600000000006) * t201;
+    let t383 = mul_add(base_rotation[2][2], c(6.807054919732991e-17), t382);
+    let t384 = mul_add(c(0.005300614043699624), t265 + t277, t383);
+    let t385 = neg_mul_add(c(0.019782160922400118), t290 + t323, t384);
+    let t386 = neg_mul_add(c(0.014481546878700494), t305 + t315, t385);
+    let t387 = mul_add(base_rotation[2][2], c(1.85263812), c(0.013354412) * t202);
     // leg 1: force along the actuator that reaches the platform
-    let t390 = neg_mul_add(base_rotation[2][2], c(1.67424), c(4268.068200000001));
-    let t391 = neg_mul_add(t184, c(0.03055), t390);
-    let t392 = mul_add(t198, c(0.019782160922400118), t391);
-    let t393 = t199 * c(0.005300614043699624);
-    let t394 = mul_add(t267, c(0.9523333333333334), mul_sub(c(21555.9), t82, t393));
-    let t395 = t392 + t394;
+    let t388 = neg_mul_add(base_rotation[2][2], c(1.67424), c(4268.068200000001));
+    let t389 = neg_mul_add(t184, c(0.03055), t388);
+    let t390 = neg_mul_add(t200, c(0.019782160922400118), t389);
+    let t391 = t201 * c(0.005300614043699624);
+    let t392 = mul_add(t265, c(0.9523333333333334), mul_add(c(21555.9), t82, t391));
+    let t393 = t390 + t392;
     // leg 2: force along the actuator that reaches the platform
-    let t396 = mul_add(c(21555.9), t86, t393);
-    let t397 = t392 + neg_mul_add(t279, c(0.9523333333333334), t396);
+    let t394 = neg_mul_add(c(21555.9), t86, t391);
+    let t395 = t390 - mul_add(t277, c(0.9523333333333334), t394);
     // leg 3: force along the actuator that reaches the platform
-    let t398 = neg_mul_add(t198, c(0.005300614043699622), t391);
-    let t399 = t199 * c(0.019782160922400118);
-    let t400 = mul_add(t292, c(0.9523333333333334), mul_add(c(21555.9), t90, t399));
-    let t401 = t398 + t400;
+    let t396 = mul_add(t200, c(0.005300614043699622), t389);
+    let t397 = t201 * c(0.019782160922400118);
+    let t398 = mul_add(t290, c(0.9523333333333334), mul_sub(c(21555.9), t90, t397));
+    let t399 = t396 + t398;
     // leg 4: force along the actuator that reaches the platform
-    let t402 = neg_mul_add(t198, c(0.01448154687870049), t391);
-    let t403 = t199 * c(0.014481546878700494);
-    let t404 = mul_add(t307, c(0.9523333333333334), mul_add(c(21555.9), t94, t403));
-    let t405 = t402 + t404;
+    let t400 = mul_add(t200, c(0.01448154687870049), t389);
+    let t401 = t201 * c(0.014481546878700494);
+    let t402 = mul_add(t305, c(0.9523333333333334), mul_sub(c(21555.9), t94, t401));
+    let t403 = t400 + t402;
     // leg 5: force along the actuator that reaches the platform
-    let t406 = neg_mul_add(c(21555.9), t98, t403);
-    let t407 = t402 - mul_add(t317, c(0.9523333333333334), t406);
+    let t404 = mul_add(c(21555.9), t98, t401);
+    let t405 = t400 + neg_mul_add(t315, c(0.9523333333333334), t404);
     // leg 6: force along the actuator that reaches the platform
-    let t408 = neg_mul_add(c(21555.9), t102, t399);
-    let t409 = t398 - mul_add(t325, c(0.9523333333333334), t408);
+    let t406 = mul_add(c(21555.9), t102, t397);
+    let t407 = t396 + neg_mul_add(t323, c(0.9523333333333334), t406);
     // C_p v_p - C_b v_b + gravity, spring and damping force
-    let t410 = c(2.2551405187698492e-17) * t198;
-    let t411 = mul_sub(base_rotation[2][2], c(79.8534), t410);
-    let t412 = neg_mul_add(c(6.938893903907228e-18), t199, t411);
-    let t413 = t401 + (t397 + (t395 - neg_mul_add(c(0.188852), t200, t412)));
-    let t414 = t409 + (t407 + (t405 + t413));
-    let t415 = mul_add(c(0.17066666666666666), t378 + (t376 + t377), t414);
-    let t416 = c(2.2551405187698492e-17) * t188;
-    let t417 = mul_add(base_rotation[2][0], c(79.8534), t416);
-    let t418 = mul_add(c(6.938893903907228e-18), t189, t417);
-    let t419 = t350 + (t349 + (t348 + mul_add(c(0.188852), t190, t418)));
-    let t420 = mul_sub(t105, t397, mul_sub(t103, t395, t419));
-    let t421 = mul_add(t109, t405, mul_add(t107, t401, t420));
-    let t422 = mul_add(t113, t409, mul_add(t111, t407, t421));
-    let t423 = c(2.2551405187698492e-17) * t194;
-    let t424 = mul_add(base_rotation[2][1], c(79.8534), t423);
-    let t425 = mul_add(c(6.938893903907228e-18), t195, t424);
-    let t426 = t364 + (t363 + (t362 + mul_add(c(0.188852), t196, t425)));
-    let t427 = mul_add(t106, t397, mul_sub(t104, t395, t426));
-    let t428 = mul_add(t110, t405, mul_sub(t108, t401, t427));
-    let t429 = mul_add(t114, t409, mul_add(t112, t407, t428));
-    let t430 = mul_add(base_rotation[0][0], t422, base_rotation[0][1] * t429);
-    bias[0] = neg_mul_add(base_rotation[0][2], t415, t430);
-    let t431 = mul_add(base_rotation[1][0], t422, base_rotation[1][1] * t429);
-    bias[1] = neg_mul_add(base_rotation[1][2], t415, t431);
-    let t432 = mul_add(base_rotation[2][0], t422, base_rotation[2][1] * t429);
-    bias[2] = neg_mul_add(base_rotation[2][2], t415, t432);
-    let t433 = mul_add(t6, t374, mul_sub(t3, t369, t12 * t355));
-    let t434 = mul_sub(t9, t375, mul_sub(t15, t360, t433));
-    let t435 = mul_add(t332, t395, mul_sub(t18, t361, t434));
-    let t436 = mul_add(t338, t401, mul_add(t335, t397, t435));
-    let t437 = mul_add(t344, t407, mul_add(t341, t405, t436));
-    let t438 = mul_add(t347, t409, t437);
-    let t439 = mul_add(t15, t388, mul_sub(t12, t383, t21 * t369));
-    let t440 = mul_sub(t18, t389, mul_sub(t24, t374, t439));
-    let t441 = mul_add(t330, t395, mul_sub(t27, t375, t440));
-    let t442 = mul_sub(t336, t401, mul_add(t333, t397, t441));
-    let t443 = mul_add(t342, t407, mul_add(t339, t405, t442));
-    let t444 = mul_add(t345, t409, t443);
-    let t445 = mul_add(t24, t360, mul_sub(t21, t355, t3 * t383));
-    let t446 = mul_sub(t27, t361, mul_sub(t6, t388, t445));
-    let t447 = mul_sub(t331, t395, mul_sub(t9, t389, t446));
-    let t448 = mul_sub(t337, t401, mul_add(t334, t397, t447));
-    let t449 = mul_add(t343, t407, mul_add(t340, t405, t448));
-    let t450 = mul_add(t346, t409, t449);
-    let t451 = mul_sub(base_rotation[0][0], t444, base_rotation[0][1] * t450);
-    bias[3] = neg_mul_add(base_rotation[0][2], t438, t451);
-    let t452 = mul_sub(base_rotation[1][0], t444, base_rotation[1][1] * t450);
-    bias[4] = neg_mul_add(base_rotation[1][2], t438, t452);
-    let t453 = mul_sub(base_rotation[2][0], t444, base_rotation[2][1] * t450);
-    bias[5] = neg_mul_add(base_rotation[2][2], t438, t453);
+    let t408 = c(2.2551405187698492e-17) * t200;
+    let t409 = mul_add(base_rotation[2][2], c(79.8534), t408);
+    let t410 = mul_add(c(6.938893903907228e-18), t201, t409);
+    let t411 = t403 + (t399 + (t395 + (t393 - mul_add(c(0.188852), t202, t410))));
+    let t412 = t407 + (t405 + t411);
+    let t413 = mul_add(c(0.17066666666666666), t376 + (t374 + t375), t412);
+    let t414 = c(2.2551405187698492e-17) * t187;
+    let t415 = mul_add(base_rotation[2][0], c(79.8534), t414);
+    let t416 = mul_add(c(6.938893903907228e-18), t190, t415);
+    let t417 = t348 + (t347 + (t346 + mul_add(c(0.188852), t193, t416)));
+    let t418 = mul_sub(t105, t395, mul_sub(t103, t393, t417));
+    let t419 = mul_add(t109, t403, mul_add(t107, t399, t418));
+    let t420 = mul_add(t113, t407, mul_add(t111, t405, t419));
+    let t421 = c(2.2551405187698492e-17) * t195;
+    let t422 = mul_add(base_rotation[2][1], c(79.8534), t421);
+    let t423 = mul_add(c(6.938893903907228e-18), t197, t422);
+    let t424 = t362 + (t361 + (t360 + mul_add(c(0.188852), t199, t423)));
+    let t425 = mul_add(t106, t395, mul_sub(t104, t393, t424));
+    let t426 = mul_add(t110, t403, mul_sub(t108, t399, t425));
+    let t427 = mul_add(t114, t407, mul_add(t112, t405, t426));
+    let t428 = mul_add(base_rotation[0][0], t420, base_rotation[0][1] * t427);
+    bias[0] = neg_mul_add(base_rotation[0][2], t413, t428);
+    let t429 = mul_add(base_rotation[1][0], t420, base_rotation[1][1] * t427);
+    bias[1] = neg_mul_add(base_rotation[1][2], t413, t429);
+    let t430 = mul_add(base_rotation[2][0], t420, base_rotation[2][1] * t427);
+    bias[2] = neg_mul_add(base_rotation[2][2], t413, t430);
+    let t431 = mul_add(t6, t372, mul_sub(t3, t367, t12 * t353));
+    let t432 = mul_sub(t9, t373, mul_sub(t15, t358, t431));
+    let t433 = mul_add(t330, t393, mul_sub(t18, t359, t432));
+    let t434 = mul_add(t336, t399, mul_add(t333, t395, t433));
+    let t435 = mul_add(t342, t405, mul_add(t339, t403, t434));
+    let t436 = mul_add(t345, t407, t435);
+    let t437 = mul_add(t15, t386, mul_sub(t12, t381, t21 * t367));
+    let t438 = mul_sub(t18, t387, mul_sub(t24, t372, t437));
+    let t439 = mul_add(t328, t393, mul_sub(t27, t373, t438));
+    let t440 = mul_sub(t334, t399, mul_add(t331, t395, t439));
+    let t441 = mul_add(t340, t405, mul_add(t337, t403, t440));
+    let t442 = mul_add(t343, t407, t441);
+    let t443 = mul_add(t24, t358, mul_sub(t21, t353, t3 * t381));
+    let t444 = mul_sub(t27, t359, mul_sub(t6, t386, t443));
+    let t445 = mul_sub(t329, t393, mul_sub(t9, t387, t444));
+    let t446 = mul_sub(t335, t399, mul_add(t332, t395, t445));
+    let t447 = mul_add(t341, t405, mul_add(t338, t403, t446));
+    let t448 = mul_add(t344, t407, t447);
+    let t449 = mul_sub(base_rotation[0][0], t442, base_rotation[0][1] * t448);
+    bias[3] = neg_mul_add(base_rotation[0][2], t436, t449);
+    let t450 = mul_sub(base_rotation[1][0], t442, base_rotation[1][1] * t448);
+    bias[4] = neg_mul_add(base_rotation[1][2], t436, t450);
+    let t451 = mul_sub(base_rotation[2][0], t442, base_rotation[2][1] * t448);
+    bias[5] = neg_mul_add(base_rotation[2][2], t436, t451);
 }
 
 /// The whole of (49) in one call, equation (49).
@@ -16157,359 +16095,363 @@ pub fn inverse_dynamics<T: Scalar>(
     let t221 = mul_add(base_rotation[0][2], platform_acceleration[3], t220);
     let t222 = mul_add(base_rotation[2][2], platform_acceleration[5], t221);
     // acceleration per platform coordinate of points of the platform
-    let t223 = mul_add(t126, t132, t219);
-    let t224 = neg_mul_add(t126, t129, t222);
-    let t225 = mul_add(t129, t129, t132 * t132);
-    let t226 = mul_sub(t21, t223, mul_add(t12, t224, t3 * t225));
-    let t227 = mul_sub(t24, t223, mul_add(t15, t224, t6 * t225));
-    let t228 = mul_sub(t27, t223, mul_add(t18, t224, t9 * t225));
-    let t229 = neg_mul_add(t129, t132, t216);
-    let t230 = mul_add(t126, t129, t222);
-    let t231 = t126 * t126;
-    let t232 = mul_add(t132, t132, t231);
-    let t233 = mul_sub(t21, t229, mul_sub(t3, t230, t12 * t232));
-    let t234 = mul_sub(t24, t229, mul_sub(t6, t230, t15 * t232));
-    let t235 = mul_sub(t27, t229, mul_sub(t9, t230, t18 * t232));
-    let t236 = mul_add(t129, t129, t231);
-    let t237 = neg_mul_add(t126, t132, t219);
-    let t238 = mul_add(t129, t132, t216);
-    let t239 = mul_add(t21, t236, mul_sub(t3, t237, t12 * t238));
-    let t240 = mul_add(t24, t236, mul_sub(t6, t237, t15 * t238));
-    let t241 = mul_add(t27, t236, mul_sub(t9, t237, t18 * t238));
+    let t223 = mul_sub(t3, t132, t21 * t126);
+    let t224 = mul_sub(t12, t126, t3 * t129);
+    let t225 = mul_add(t129, t224, mul_sub(t21, t219, t12 * t222));
+    let t226 = mul_sub(t132, t223, t225);
+    let t227 = mul_sub(t6, t132, t24 * t126);
+    let t228 = mul_sub(t15, t126, t6 * t129);
+    let t229 = mul_add(t129, t228, mul_sub(t24, t219, t15 * t222));
+    let t230 = mul_sub(t132, t227, t229);
+    let t231 = mul_sub(t9, t132, t27 * t126);
+    let t232 = mul_sub(t18, t126, t9 * t129);
+    let t233 = mul_add(t129, t232, mul_sub(t27, t219, t18 * t222));
+    let t234 = mul_sub(t132, t231, t233);
+    let t235 = mul_sub(t21, t129, t12 * t132);
+    let t236 = mul_add(t132, t235, mul_sub(t3, t222, t21 * t216));
+    let t237 = mul_sub(t126, t224, t236);
+    let t238 = mul_sub(t24, t129, t15 * t132);
+    let t239 = mul_add(t132, t238, mul_sub(t6, t222, t24 * t216));
+    let t240 = mul_sub(t126, t228, t239);
+    let t241 = mul_sub(t27, t129, t18 * t132);
+    let t242 = mul_add(t132, t241, mul_sub(t9, t222, t27 * t216));
+    let t243 = mul_sub(t126, t232, t242);
+    let t244 = mul_add(t126, t223, mul_sub(t12, t216, t3 * t219));
+    let t245 = mul_sub(t129, t235, t244);
+    let t246 = mul_add(t126, t227, mul_sub(t15, t216, t6 * t219));
+    let t247 = mul_sub(t129, t238, t246);
+    let t248 = mul_add(t126, t231, mul_sub(t18, t216, t9 * t219));
+    let t249 = mul_sub(t129, t241, t248);
     // acceleration of the platform origin relative to the base
-    let t242 = mul_sub(t120, t147, t123 * t144);
-    let t243 = mul_add(t34, t195, mul_add(t32, t194, t181 - t207));
-    let t244 = mul_add(c(2.0), t242, mul_sub(t36, t196, t243));
-    let t245 = mul_sub(t123, t141, t117 * t147);
-    let t246 = mul_sub(t34, t199, mul_sub(t32, t197, t184 - t210));
-    let t247 = neg_mul_add(c(2.0), t245, mul_add(t36, t200, t246));
-    let t248 = t120 * t141;
+    let t250 = mul_sub(t120, t147, t123 * t144);
+    let t251 = mul_add(t34, t195, mul_add(t32, t194, t181 - t207));
+    let t252 = mul_add(c(2.0), t250, mul_sub(t36, t196, t251));
+    let t253 = mul_sub(t123, t141, t117 * t147);
+    let t254 = mul_sub(t34, t199, mul_sub(t32, t197, t184 - t210));
+    let t255 = neg_mul_add(c(2.0), t253, mul_add(t36, t200, t254));
+    let t256 = t120 * t141;
     // second derivative of the relative rotation
-    let t249 = mul_sub(t117, t135, mul_sub(t123, t133, t190 - t219));
-    let t250 = mul_sub(t133, t135, t249);
-    let t251 = mul_sub(t120, t133, mul_sub(t117, t134, t193 - t222));
-    let t252 = mul_add(t133, t134, t251);
-    let t253 = mul_add(t134, t134, t135 * t135);
-    let t254 = mul_add(t21, t250, mul_sub(t12, t252, t3 * t253));
-    let t255 = mul_add(t24, t250, mul_sub(t15, t252, t6 * t253));
-    let t256 = mul_sub(t123, t134, mul_sub(t120, t135, t187 - t216));
-    let t257 = mul_add(t134, t135, t256);
-    let t258 = mul_sub(t133, t134, t251);
-    let t259 = t133 * t133;
-    let t260 = mul_add(t135, t135, t259);
-    let t261 = mul_add(t21, t257, mul_sub(t3, t258, t12 * t260));
-    let t262 = mul_add(t24, t257, mul_sub(t6, t258, t15 * t260));
-    let t263 = mul_add(t134, t134, t259);
-    let t264 = mul_add(t133, t135, t249);
-    let t265 = mul_sub(t134, t135, t256);
-    let t266 = mul_sub(t21, t263, mul_add(t3, t264, t12 * t265));
-    let t267 = mul_sub(t24, t263, mul_add(t6, t264, t15 * t265));
+    let t257 = mul_sub(t117, t135, mul_sub(t123, t133, t190 - t219));
+    let t258 = mul_sub(t120, t133, mul_sub(t117, t134, t193 - t222));
+    let t259 = mul_sub(t134, t152, mul_sub(t21, t257, t12 * t258));
+    let t260 = mul_sub(t135, t150, t259);
+    let t261 = mul_sub(t134, t153, mul_sub(t24, t257, t15 * t258));
+    let t262 = mul_sub(t135, t151, t261);
+    let t263 = mul_sub(t123, t134, mul_sub(t120, t135, t187 - t216));
+    let t264 = mul_sub(t135, t148, mul_sub(t3, t258, t21 * t263));
+    let t265 = mul_sub(t133, t152, t264);
+    let t266 = mul_sub(t135, t149, mul_sub(t6, t258, t24 * t263));
+    let t267 = mul_sub(t133, t153, t266);
+    let t268 = mul_sub(t133, t150, mul_sub(t12, t263, t3 * t257));
+    let t269 = mul_sub(t134, t148, t268);
+    let t270 = mul_sub(t133, t151, mul_sub(t15, t263, t6 * t257));
+    let t271 = mul_sub(t134, t149, t270);
     // leg 1: acceleration of the platform joint relative to the base
-    let t268 = mul_add(c(0.1159110991546882), t254, t244);
-    let t269 = neg_mul_add(c(0.03105828541230249), t255, t268);
-    let t270 = neg_mul_add(c(0.1159110991546882), t261, t247);
-    let t271 = mul_add(c(0.03105828541230249), t262, t270);
+    let t272 = neg_mul_add(c(0.1159110991546882), t260, t252);
+    let t273 = mul_add(c(0.03105828541230249), t262, t272);
+    let t274 = mul_add(c(0.1159110991546882), t265, t255);
+    let t275 = neg_mul_add(c(0.03105828541230249), t267, t274);
     // leg 2: acceleration of the platform joint relative to the base
-    let t272 = mul_add(c(0.03105828541230249), t255, t268);
-    let t273 = neg_mul_add(c(0.03105828541230249), t262, t270);
+    let t276 = neg_mul_add(c(0.03105828541230249), t262, t272);
+    let t277 = mul_add(c(0.03105828541230249), t267, t274);
     // leg 3: acceleration of the platform joint relative to the base
-    let t274 = neg_mul_add(c(0.031058285412302475), t254, t244);
-    let t275 = mul_add(c(0.1159110991546882), t255, t274);
-    let t276 = mul_add(c(0.031058285412302475), t261, t247);
-    let t277 = neg_mul_add(c(0.1159110991546882), t262, t276);
+    let t278 = mul_add(c(0.031058285412302475), t260, t252);
+    let t279 = neg_mul_add(c(0.1159110991546882), t262, t278);
+    let t280 = neg_mul_add(c(0.031058285412302475), t265, t255);
+    let t281 = mul_add(c(0.1159110991546882), t267, t280);
     // leg 4: acceleration of the platform joint relative to the base
-    let t278 = neg_mul_add(c(0.0848528137423857), t254, t244);
-    let t279 = mul_add(c(0.08485281374238571), t255, t278);
-    let t280 = mul_add(c(0.0848528137423857), t261, t247);
-    let t281 = neg_mul_add(c(0.08485281374238571), t262, t280);
+    let t282 = mul_add(c(0.0848528137423857), t260, t252);
+    let t283 = neg_mul_add(c(0.08485281374238571), t262, t282);
+    let t284 = neg_mul_add(c(0.0848528137423857), t265, t255);
+    let t285 = mul_add(c(0.08485281374238571), t267, t284);
     // leg 5: acceleration of the platform joint relative to the base
-    let t282 = neg_mul_add(c(0.08485281374238571), t255, t278);
-    let t283 = mul_add(c(0.08485281374238571), t262, t280);
+    let t286 = mul_add(c(0.08485281374238571), t262, t282);
+    let t287 = neg_mul_add(c(0.08485281374238571), t267, t284);
     // leg 6: acceleration of the platform joint relative to the base
-    let t284 = neg_mul_add(c(0.1159110991546882), t255, t274);
-    let t285 = mul_add(c(0.1159110991546882), t262, t276);
+    let t288 = mul_add(c(0.1159110991546882), t262, t278);
+    let t289 = neg_mul_add(c(0.1159110991546882), t267, t280);
     // leg 1: actuator acceleration d''
-    let t286 = mul_add(t44, t269, mul_add(t155, t155, t157 * t157));
-    let t287 = mul_sub(t172, t172, mul_sub(t45, t271, t286));
+    let t290 = mul_add(t44, t273, mul_add(t155, t155, t157 * t157));
+    let t291 = mul_sub(t172, t172, mul_sub(t45, t275, t290));
     // leg 2: actuator acceleration d''
-    let t288 = mul_sub(t49, t272, mul_add(t158, t158, t159 * t159));
-    let t289 = mul_sub(t173, t173, mul_add(t50, t273, t288));
+    let t292 = mul_sub(t49, t276, mul_add(t158, t158, t159 * t159));
+    let t293 = mul_sub(t173, t173, mul_add(t50, t277, t292));
     // leg 3: actuator acceleration d''
-    let t290 = mul_sub(t58, t275, mul_add(t161, t161, t163 * t163));
-    let t291 = mul_add(t174, t174, mul_sub(t59, t277, t290));
+    let t294 = mul_sub(t58, t279, mul_add(t161, t161, t163 * t163));
+    let t295 = mul_add(t174, t174, mul_sub(t59, t281, t294));
     // leg 4: actuator acceleration d''
-    let t292 = mul_sub(t67, t279, mul_add(t165, t165, t167 * t167));
-    let t293 = mul_add(t175, t175, mul_sub(t68, t281, t292));
+    let t296 = mul_sub(t67, t283, mul_add(t165, t165, t167 * t167));
+    let t297 = mul_add(t175, t175, mul_sub(t68, t285, t296));
     // leg 5: actuator acceleration d''
-    let t294 = mul_sub(t72, t282, mul_add(t168, t168, t169 * t169));
-    let t295 = mul_add(t176, t176, mul_sub(t73, t283, t294));
+    let t298 = mul_sub(t72, t286, mul_add(t168, t168, t169 * t169));
+    let t299 = mul_add(t176, t176, mul_sub(t73, t287, t298));
     // leg 6: actuator acceleration d''
-    let t296 = mul_sub(t77, t284, mul_add(t170, t170, t171 * t171));
-    let t297 = mul_add(t177, t177, mul_sub(t78, t285, t296));
+    let t300 = mul_sub(t77, t288, mul_add(t170, t170, t171 * t171));
+    let t301 = mul_add(t177, t177, mul_sub(t78, t289, t300));
     // leg 1: leg inertia less weight along the actuator
-    let t298 = c(2.0) * t147;
-    let t299 = mul_add(t152, c(0.2318221983093764), t298);
-    let t300 = t153 * c(0.06211657082460498);
-    let t301 = t299 - neg_mul_add(c(2.0), t172, t300);
-    let t302 = t120 * t301;
-    let t303 = t117 * t301;
-    let t304 = mul_add(t34, t202, neg_mul_add(t32, t201, t213));
-    let t305 = mul_sub(t36, t203, t304);
-    let t306 = neg_mul_add(c(2.0), mul_sub(t117, t144, t248), t305);
-    let t307 = mul_sub(c(0.12275970481124972), t202, c(0.03105828541230249) * t267);
-    let t308 = mul_add(c(0.1316436662914507), t201, c(0.1159110991546882) * t266);
-    let t309 = t306 + t308;
-    let t310 = t309 + (t307 - mul_add(t81, t287, t82 * t203));
+    let t302 = c(2.0) * t147;
+    let t303 = mul_add(t152, c(0.2318221983093764), t302);
+    let t304 = t153 * c(0.06211657082460498);
+    let t305 = t303 - neg_mul_add(c(2.0), t172, t304);
+    let t306 = t120 * t305;
+    let t307 = t117 * t305;
+    let t308 = mul_add(t34, t202, neg_mul_add(t32, t201, t213));
+    let t309 = mul_sub(t36, t203, t308);
+    let t310 = neg_mul_add(c(2.0), mul_sub(t117, t144, t256), t309);
+    let t311 = mul_sub(c(0.12275970481124972), t202, c(0.03105828541230249) * t271);
+    let t312 = mul_add(c(0.1316436662914507), t201, c(0.1159110991546882) * t269);
+    let t313 = t310 + t312;
+    let t314 = t313 + (t311 - mul_add(t81, t291, t82 * t203));
     // leg 1: remaining leg inertia less weight at the platform joint
-    let t311 = c(0.17066666666666666) * t181;
-    let t312 = neg_mul_add(t194, c(0.022467185713740918), t311);
-    let t313 = mul_add(t195, c(0.02095098962111995), t312);
-    let t314 = neg_mul_add(c(0.17066666666666666), mul_add(t82, t196, t302), t313);
-    let t315 = c(0.17066666666666666) * t184;
-    let t316 = mul_add(t197, c(0.022467185713740918), t315);
-    let t317 = mul_add(t199, c(0.02095098962111995), t316);
-    let t318 = mul_add(c(0.17066666666666666), mul_add(t82, t200, t303), t317);
+    let t315 = c(0.17066666666666666) * t181;
+    let t316 = neg_mul_add(t194, c(0.022467185713740918), t315);
+    let t317 = mul_add(t195, c(0.02095098962111995), t316);
+    let t318 = neg_mul_add(c(0.17066666666666666), mul_add(t82, t196, t306), t317);
+    let t319 = c(0.17066666666666666) * t184;
+    let t320 = mul_add(t197, c(0.022467185713740918), t319);
+    let t321 = mul_add(t199, c(0.02095098962111995), t320);
+    let t322 = mul_add(c(0.17066666666666666), mul_add(t82, t200, t307), t321);
     // leg 2: leg inertia less weight along the actuator
-    let t319 = t299 + neg_mul_add(c(2.0), t173, t300);
-    let t320 = t120 * t319;
-    let t321 = t117 * t319;
-    let t322 = mul_sub(t86, t203, t309 - mul_add(t85, t289, t307));
+    let t323 = t303 + neg_mul_add(c(2.0), t173, t304);
+    let t324 = t120 * t323;
+    let t325 = t117 * t323;
+    let t326 = mul_sub(t86, t203, t313 - mul_add(t85, t293, t311));
     // leg 2: remaining leg inertia less weight at the platform joint
-    let t323 = neg_mul_add(t195, c(0.02095098962111995), t312);
-    let t324 = neg_mul_add(c(0.17066666666666666), mul_add(t86, t196, t320), t323);
-    let t325 = neg_mul_add(t199, c(0.02095098962111995), t316);
-    let t326 = mul_add(c(0.17066666666666666), mul_add(t86, t200, t321), t325);
+    let t327 = neg_mul_add(t195, c(0.02095098962111995), t316);
+    let t328 = neg_mul_add(c(0.17066666666666666), mul_add(t86, t196, t324), t327);
+    let t329 = neg_mul_add(t199, c(0.02095098962111995), t320);
+    let t330 = mul_add(c(0.17066666666666666), mul_add(t86, t200, t325), t329);
     // leg 3: leg inertia less weight along the actuator
-    let t327 = neg_mul_add(t152, c(0.06211657082460495), t298);
-    let t328 = t153 * c(0.2318221983093764);
-    let t329 = t327 + neg_mul_add(c(2.0), t174, t328);
-    let t330 = t120 * t329;
-    let t331 = t117 * t329;
-    let t332 = mul_sub(c(0.17538661166134234), t202, c(0.1159110991546882) * t267);
-    let t333 = mul_sub(c(0.040491189781895726), t201, c(0.031058285412302475) * t266);
-    let t334 = t306 + t333;
-    let t335 = t334 - (t332 + mul_add(t89, t291, t90 * t203));
+    let t331 = neg_mul_add(t152, c(0.06211657082460495), t302);
+    let t332 = t153 * c(0.2318221983093764);
+    let t333 = t331 + neg_mul_add(c(2.0), t174, t332);
+    let t334 = t120 * t333;
+    let t335 = t117 * t333;
+    let t336 = mul_sub(c(0.17538661166134234), t202, c(0.1159110991546882) * t271);
+    let t337 = mul_sub(c(0.040491189781895726), t201, c(0.031058285412302475) * t269);
+    let t338 = t310 + t337;
+    let t339 = t338 - (t336 + mul_add(t89, t295, t90 * t203));
     // leg 3: remaining leg inertia less weight at the platform joint
-    let t336 = neg_mul_add(t194, c(0.006910496389443537), t311);
-    let t337 = neg_mul_add(t195, c(0.029932648390202425), t336);
-    let t338 = neg_mul_add(c(0.17066666666666666), mul_add(t90, t196, t330), t337);
-    let t339 = mul_add(t197, c(0.006910496389443537), t315);
-    let t340 = neg_mul_add(t199, c(0.029932648390202425), t339);
-    let t341 = mul_add(c(0.17066666666666666), mul_add(t90, t200, t331), t340);
+    let t340 = neg_mul_add(t194, c(0.006910496389443537), t315);
+    let t341 = neg_mul_add(t195, c(0.029932648390202425), t340);
+    let t342 = neg_mul_add(c(0.17066666666666666), mul_add(t90, t196, t334), t341);
+    let t343 = mul_add(t197, c(0.006910496389443537), t319);
+    let t344 = neg_mul_add(t199, c(0.029932648390202425), t343);
+    let t345 = mul_add(c(0.17066666666666666), mul_add(t90, t200, t335), t344);
     // leg 4: leg inertia less weight along the actuator
-    let t342 = neg_mul_add(t152, c(0.1697056274847714), t298);
-    let t343 = t153 * c(0.16970562748477142);
-    let t344 = t342 + neg_mul_add(c(2.0), t175, t343);
-    let t345 = t120 * t344;
-    let t346 = t117 * t344;
-    let t347 = mul_sub(c(0.052626906850092664), t202, c(0.08485281374238571) * t267);
-    let t348 = mul_add(c(0.17213485607334636), t201, c(0.0848528137423857) * t266);
-    let t349 = t306 - t348;
-    let t350 = t349 - (t347 + mul_add(t93, t293, t94 * t203));
+    let t346 = neg_mul_add(t152, c(0.1697056274847714), t302);
+    let t347 = t153 * c(0.16970562748477142);
+    let t348 = t346 + neg_mul_add(c(2.0), t175, t347);
+    let t349 = t120 * t348;
+    let t350 = t117 * t348;
+    let t351 = mul_sub(c(0.052626906850092664), t202, c(0.08485281374238571) * t271);
+    let t352 = mul_add(c(0.17213485607334636), t201, c(0.0848528137423857) * t269);
+    let t353 = t310 - t352;
+    let t354 = t353 - (t351 + mul_add(t93, t297, t94 * t203));
     // leg 4: remaining leg inertia less weight at the platform joint
-    let t351 = mul_add(t194, c(0.029377682103184446), t311);
-    let t352 = neg_mul_add(t195, c(0.008981658769082482), t351);
-    let t353 = neg_mul_add(c(0.17066666666666666), mul_add(t94, t196, t345), t352);
-    let t354 = neg_mul_add(t197, c(0.029377682103184446), t315);
-    let t355 = neg_mul_add(t199, c(0.008981658769082482), t354);
-    let t356 = mul_add(c(0.17066666666666666), mul_add(t94, t200, t346), t355);
+    let t355 = mul_add(t194, c(0.029377682103184446), t315);
+    let t356 = neg_mul_add(t195, c(0.008981658769082482), t355);
+    let t357 = neg_mul_add(c(0.17066666666666666), mul_add(t94, t196, t349), t356);
+    let t358 = neg_mul_add(t197, c(0.029377682103184446), t319);
+    let t359 = neg_mul_add(t199, c(0.008981658769082482), t358);
+    let t360 = mul_add(c(0.17066666666666666), mul_add(t94, t200, t350), t359);
     // leg 5: leg inertia less weight along the actuator
-    let t357 = t342 - mul_add(c(2.0), t176, t343);
-    let t358 = t120 * t357;
-    let t359 = t117 * t357;
-    let t360 = mul_sub(t98, t203, t349 - mul_sub(t97, t295, t347));
+    let t361 = t346 - mul_add(c(2.0), t176, t347);
+    let t362 = t120 * t361;
+    let t363 = t117 * t361;
+    let t364 = mul_sub(t98, t203, t353 - mul_sub(t97, t299, t351));
     // leg 5: remaining leg inertia less weight at the platform joint
-    let t361 = mul_add(t195, c(0.008981658769082482), t351);
-    let t362 = neg_mul_add(c(0.17066666666666666), mul_add(t98, t196, t358), t361);
-    let t363 = mul_add(t199, c(0.008981658769082482), t354);
-    let t364 = mul_add(c(0.17066666666666666), mul_add(t98, t200, t359), t363);
+    let t365 = mul_add(t195, c(0.008981658769082482), t355);
+    let t366 = neg_mul_add(c(0.17066666666666666), mul_add(t98, t196, t362), t365);
+    let t367 = mul_add(t199, c(0.008981658769082482), t358);
+    let t368 = mul_add(c(0.17066666666666666), mul_add(t98, t200, t363), t367);
     // leg 6: leg inertia less weight along the actuator
-    let t365 = t327 - mul_add(c(2.0), t177, t328);
-    let t366 = t120 * t365;
-    let t367 = t117 * t365;
-    let t368 = mul_sub(t102, t203, t334 - mul_sub(t101, t297, t332));
+    let t369 = t331 - mul_add(c(2.0), t177, t332);
+    let t370 = t120 * t369;
+    let t371 = t117 * t369;
+    let t372 = mul_sub(t102, t203, t338 - mul_sub(t101, t301, t336));
     // leg 6: remaining leg inertia less weight at the platform joint
-    let t369 = mul_add(t195, c(0.029932648390202425), t336);
-    let t370 = neg_mul_add(c(0.17066666666666666), mul_add(t102, t196, t366), t369);
-    let t371 = mul_add(t199, c(0.029932648390202425), t339);
-    let t372 = mul_add(c(0.17066666666666666), mul_add(t102, t200, t367), t371);
+    let t373 = mul_add(t195, c(0.029932648390202425), t340);
+    let t374 = neg_mul_add(c(0.17066666666666666), mul_add(t102, t196, t370), t373);
+    let t375 = mul_add(t199, c(0.029932648390202425), t343);
+    let t376 = mul_add(c(0.17066666666666666), mul_add(t102, t200, t371), t375);
     // leg 1: row of the actuator Jacobian in base coordinates
-    let t373 = t40 * t103;
+    let t377 = t40 * t103;
     // leg 2: row of the actuator Jacobian in base coordinates
-    let t374 = t47 * t105;
+    let t378 = t47 * t105;
     // leg 3: row of the actuator Jacobian in base coordinates
-    let t375 = t54 * t107;
+    let t379 = t54 * t107;
     // leg 4: row of the actuator Jacobian in base coordinates
-    let t376 = mul_add(t65, t110, t63);
-    let t377 = mul_add(t65, t109, t61);
-    let t378 = mul_sub(t61, t110, t63 * t109);
+    let t380 = mul_add(t65, t110, t63);
+    let t381 = mul_add(t65, t109, t61);
+    let t382 = mul_sub(t61, t110, t63 * t109);
     // its first moments by platform coordinate
-    let t379 = t314 + t324;
-    let t380 = t338 + t370;
-    let t381 = t353 + t362;
-    let t382 = mul_add(c(2.2551405187698492e-17), t207, c(0.032245600000000006) * t226);
-    let t383 = mul_add(c(0.1159110991546882), t379, t382);
-    let t384 = neg_mul_add(c(0.031058285412302475), t380, t383);
-    let t385 = neg_mul_add(c(0.0848528137423857), t381, t384);
-    let t386 = mul_add(c(6.938893903907228e-18), t207, c(0.032245600000000006) * t227);
-    let t387 = neg_mul_add(c(0.03105828541230249), t314 - t324, t386);
-    let t388 = mul_add(c(0.1159110991546882), t338 - t370, t387);
-    let t389 = mul_add(c(0.08485281374238571), t353 - t362, t388);
-    let t390 = t318 + t326;
-    let t391 = t341 + t372;
-    let t392 = t356 + t364;
-    let t393 = mul_sub(c(2.2551405187698492e-17), t210, c(0.032245600000000006) * t233);
-    let t394 = mul_add(c(0.1159110991546882), t390, t393);
-    let t395 = neg_mul_add(c(0.031058285412302475), t391, t394);
-    let t396 = neg_mul_add(c(0.0848528137423857), t392, t395);
-    let t397 = mul_sub(c(6.938893903907228e-18), t210, c(0.032245600000000006) * t234);
-    let t398 = neg_mul_add(c(0.03105828541230249), t318 - t326, t397);
-    let t399 = mul_add(c(0.1159110991546882), t341 - t372, t398);
-    let t400 = mul_add(c(0.08485281374238571), t356 - t364, t399);
-    let t401 = t310 - t322;
-    let t402 = t335 - t368;
-    let t403 = t350 - t360;
-    let t404 = mul_sub(c(2.2551405187698492e-17), t213, c(0.032245600000000006) * t239);
-    let t405 = neg_mul_add(t401, c(0.019782160922400118), t404);
-    let t406 = mul_add(t402, c(0.005300614043699622), t405);
-    let t407 = mul_add(t403, c(0.01448154687870049), t406);
-    let t408 = mul_sub(c(6.938893903907228e-18), t213, c(0.032245600000000006) * t240);
-    let t409 = mul_add(c(0.005300614043699624), t310 + t322, t408);
-    let t410 = neg_mul_add(c(0.019782160922400118), t335 + t368, t409);
-    let t411 = neg_mul_add(c(0.014481546878700494), t350 + t360, t410);
+    let t383 = t318 + t328;
+    let t384 = t342 + t374;
+    let t385 = t357 + t366;
+    let t386 = mul_sub(c(2.2551405187698492e-17), t207, c(0.032245600000000006) * t226);
+    let t387 = mul_add(c(0.1159110991546882), t383, t386);
+    let t388 = neg_mul_add(c(0.031058285412302475), t384, t387);
+    let t389 = neg_mul_add(c(0.0848528137423857), t385, t388);
+    let t390 = mul_sub(c(6.938893903907228e-18), t207, c(0.032245600000000006) * t230);
+    let t391 = neg_mul_add(c(0.03105828541230249), t318 - t328, t390);
+    let t392 = mul_add(c(0.1159110991546882), t342 - t374, t391);
+    let t393 = mul_add(c(0.08485281374238571), t357 - t366, t392);
+    let t394 = t322 + t330;
+    let t395 = t345 + t376;
+    let t396 = t360 + t368;
+    let t397 = mul_sub(c(2.2551405187698492e-17), t210, c(0.032245600000000006) * t237);
+    let t398 = mul_add(c(0.1159110991546882), t394, t397);
+    let t399 = neg_mul_add(c(0.031058285412302475), t395, t398);
+    let t400 = neg_mul_add(c(0.0848528137423857), t396, t399);
+    let t401 = mul_sub(c(6.938893903907228e-18), t210, c(0.032245600000000006) * t240);
+    let t402 = neg_mul_add(c(0.03105828541230249), t322 - t330, t401);
+    let t403 = mul_add(c(0.1159110991546882), t345 - t376, t402);
+    let t404 = mul_add(c(0.08485281374238571), t360 - t368, t403);
+    let t405 = t314 - t326;
+    let t406 = t339 - t372;
+    let t407 = t354 - t364;
+    let t408 = mul_sub(c(2.2551405187698492e-17), t213, c(0.032245600000000006) * t245);
+    let t409 = neg_mul_add(t405, c(0.019782160922400118), t408);
+    let t410 = mul_add(t406, c(0.005300614043699622), t409);
+    let t411 = mul_add(t407, c(0.01448154687870049), t410);
+    let t412 = mul_sub(c(6.938893903907228e-18), t213, c(0.032245600000000006) * t247);
+    let t413 = mul_add(c(0.005300614043699624), t314 + t326, t412);
+    let t414 = neg_mul_add(c(0.019782160922400118), t339 + t372, t413);
+    let t415 = neg_mul_add(c(0.014481546878700494), t354 + t364, t414);
     // inertia less external wrench that the actuators must balance
-    let t412 = base_rotation[1][0] * external_wrench[1];
-    let t413 = mul_add(base_rotation[0][0], external_wrench[0], t412);
-    let t414 = mul_add(base_rotation[2][0], external_wrench[2], t413);
-    let t415 = base_rotation[1][1] * external_wrench[1];
-    let t416 = mul_add(base_rotation[0][1], external_wrench[0], t415);
-    let t417 = mul_add(base_rotation[2][1], external_wrench[2], t416);
-    let t418 = base_rotation[1][2] * external_wrench[1];
-    let t419 = mul_add(base_rotation[0][2], external_wrench[0], t418);
-    let t420 = mul_add(base_rotation[2][2], external_wrench[2], t419);
-    let t421 = mul_sub(c(8.139999999999999), t213, c(2.2551405187698492e-17) * t239);
-    let t422 = neg_mul_add(c(6.938893903907228e-18), t240, t421);
-    let t423 = t420 - neg_mul_add(c(0.188852), t241, t422);
-    let t424 = mul_add(c(0.17066666666666666), t403 + (t401 + t402), t423);
-    let t425 = t21 * t396;
-    let t426 = mul_sub(c(0.188852), t213, c(0.013354412) * t241);
-    let t427 = neg_mul_add(c(0.031), t420, t426);
-    let t428 = mul_sub(c(0.188852), t210, c(0.013354412) * t235);
-    let t429 = neg_mul_add(c(0.031), t417, t428);
-    let t430 = t3 * t407;
-    let t431 = mul_add(c(0.188852), t207, c(0.013354412) * t228);
-    let t432 = neg_mul_add(c(0.031), t414, t431);
-    let t433 = t12 * t385;
+    let t416 = base_rotation[1][0] * external_wrench[1];
+    let t417 = mul_add(base_rotation[0][0], external_wrench[0], t416);
+    let t418 = mul_add(base_rotation[2][0], external_wrench[2], t417);
+    let t419 = base_rotation[1][1] * external_wrench[1];
+    let t420 = mul_add(base_rotation[0][1], external_wrench[0], t419);
+    let t421 = mul_add(base_rotation[2][1], external_wrench[2], t420);
+    let t422 = base_rotation[1][2] * external_wrench[1];
+    let t423 = mul_add(base_rotation[0][2], external_wrench[0], t422);
+    let t424 = mul_add(base_rotation[2][2], external_wrench[2], t423);
+    let t425 = mul_sub(c(8.139999999999999), t213, c(2.2551405187698492e-17) * t245);
+    let t426 = neg_mul_add(c(6.938893903907228e-18), t247, t425);
+    let t427 = t424 - neg_mul_add(c(0.188852), t249, t426);
+    let t428 = mul_add(c(0.17066666666666666), t407 + (t405 + t406), t427);
+    let t429 = t21 * t400;
+    let t430 = mul_sub(c(0.188852), t213, c(0.013354412) * t249);
+    let t431 = neg_mul_add(c(0.031), t424, t430);
+    let t432 = mul_sub(c(0.188852), t210, c(0.013354412) * t243);
+    let t433 = neg_mul_add(c(0.031), t421, t432);
+    let t434 = t3 * t411;
+    let t435 = mul_sub(c(0.188852), t207, c(0.013354412) * t234);
+    let t436 = neg_mul_add(c(0.031), t418, t435);
+    let t437 = t12 * t389;
     // force along the actuator that balances the remaining wrench
-    let t434 = c(1.0) / (t377 + mul_add(t48, t105, t46));
-    let t435 = t377 + neg_mul_add(t42, t103, t38);
-    let t436 = (t376 + neg_mul_add(t48, t106, t47)) * t434;
-    let t437 = mul_sub(t435, t436, t376 + neg_mul_add(t42, t104, t40));
-    let t438 = mul_add(t71, t111, t69 - t377);
-    let t439 = mul_add(t50, t85, t110) * t434;
-    let t440 = c(1.0) / mul_sub(t438, t436, mul_add(t71, t112, t70 - t376));
-    let t441 = mul_add(t438, t439, neg_mul_add(t73, t97, t110)) * t440;
-    let t442 = mul_sub(t435, t439, mul_add(t45, t81, t110));
-    let t443 = c(1.0) / mul_sub(t437, t441, t442);
-    let t444 = mul_add(t76, t113, t74 - t377);
-    let t445 = mul_sub(t444, t436, mul_add(t76, t114, t75 - t376));
-    let t446 = mul_add(t444, t439, neg_mul_add(t78, t101, t110));
-    let t447 = mul_sub(t445, t441, t446);
-    let t448 = (t378 - mul_add(t46, t106, t374)) * t434;
-    let t449 = mul_add(t70, t111, neg_mul_add(t69, t112, t378));
-    let t450 = mul_add(t438, t448, t449) * t440;
-    let t451 = mul_sub(t435, t448, t378 - mul_sub(t38, t104, t373));
-    let t452 = mul_sub(t437, t450, t451) * t443;
-    let t453 = mul_add(t75, t113, neg_mul_add(t74, t114, t378));
-    let t454 = mul_sub(t445, t450, mul_add(t444, t448, t453));
-    let t455 = c(1.0) / mul_sub(t447, t452, t454);
-    let t456 = mul_add(t24, t389, mul_sub(t21, t385, t430));
-    let t457 = mul_sub(t27, t432, mul_sub(t6, t411, t456));
-    let t458 = mul_sub(t9, t427, t457);
-    let t459 = mul_add(base_rotation[0][1], external_wrench[3], t458);
-    let t460 = mul_add(base_rotation[1][1], external_wrench[4], t459);
-    let t461 = mul_add(base_rotation[2][1], external_wrench[5], t460);
-    let t462 = mul_sub(t377, t424, t461);
-    let t463 = mul_add(t15, t411, mul_sub(t12, t407, t425));
-    let t464 = mul_sub(t18, t427, mul_sub(t24, t400, t463));
-    let t465 = mul_sub(t27, t429, t464);
-    let t466 = mul_add(base_rotation[0][0], external_wrench[3], t465);
-    let t467 = mul_add(base_rotation[1][0], external_wrench[4], t466);
-    let t468 = mul_add(base_rotation[2][0], external_wrench[5], t467);
-    let t469 = mul_sub(t462, t436, mul_add(t376, t424, t468));
-    let t470 = mul_sub(c(8.139999999999999), t210, c(2.2551405187698492e-17) * t233);
-    let t471 = neg_mul_add(c(6.938893903907228e-18), t234, t470);
-    let t472 = t392 + (t391 + (t390 + neg_mul_add(c(0.188852), t235, t471)));
-    let t473 = mul_sub(t462, t439, mul_add(t110, t424, t417 - t472));
-    let t474 = mul_sub(t469, t441, t473);
-    let t475 = mul_add(t6, t400, mul_sub(t3, t396, t433));
-    let t476 = mul_sub(t9, t429, mul_sub(t15, t389, t475));
-    let t477 = mul_sub(t18, t432, t476);
-    let t478 = mul_add(base_rotation[0][2], external_wrench[3], t477);
-    let t479 = mul_add(base_rotation[1][2], external_wrench[4], t478);
-    let t480 = mul_add(base_rotation[2][2], external_wrench[5], t479);
-    let t481 = mul_sub(t462, t448, mul_sub(t378, t424, t480));
-    let t482 = mul_sub(t474, t452, mul_sub(t469, t450, t481));
-    let t483 = mul_sub(t49, t85, t109) * t434;
-    let t484 = mul_sub(t438, t483, neg_mul_add(t72, t97, t109)) * t440;
-    let t485 = mul_add(t435, t483, mul_add(t44, t81, t109));
-    let t486 = mul_sub(t437, t484, t485) * t443;
-    let t487 = mul_sub(t444, t483, neg_mul_add(t77, t101, t109));
-    let t488 = mul_sub(t447, t486, mul_sub(t445, t484, t487)) * t455;
-    let t489 = mul_add(c(8.139999999999999), t207, c(2.2551405187698492e-17) * t226);
-    let t490 = mul_add(c(6.938893903907228e-18), t227, t489);
-    let t491 = t414 - (t381 + (t380 + (t379 + mul_add(c(0.188852), t228, t490))));
-    let t492 = mul_add(t462, t483, mul_add(t109, t424, t491));
-    let t493 = mul_sub(t474, t486, mul_sub(t469, t484, t492));
-    let t494 = mul_sub(t482, t488, t493);
-    let t495 = t377 - mul_add(t56, t107, t52);
-    let t496 = mul_sub(t495, t436, t376 - mul_add(t56, t108, t54));
-    let t497 = mul_add(t495, t439, mul_sub(t59, t89, t110));
-    let t498 = mul_sub(t496, t441, t497);
-    let t499 = mul_sub(t495, t448, t378 - mul_sub(t52, t108, t375));
-    let t500 = mul_sub(t498, t452, mul_sub(t496, t450, t499));
-    let t501 = mul_sub(t495, t483, mul_sub(t58, t89, t109));
-    let t502 = mul_sub(t498, t486, mul_sub(t496, t484, t501));
-    let t503 = c(1.0) / mul_sub(t500, t488, t502);
-    let t504 = t494 * t503;
-    let t505 = neg_mul_add(t500, t504, t482);
-    let t506 = t455 * t505;
-    let t507 = mul_sub(t498, t504, neg_mul_add(t447, t506, t474));
-    let t508 = t443 * t507;
-    let t509 = mul_sub(t445, t506, mul_add(t437, t508, t469));
-    let t510 = t440 * mul_add(t496, t504, t509);
-    let t511 = mul_add(t435, t508, mul_add(t438, t510, t462));
-    let t512 = mul_add(t495, t504, mul_sub(t444, t506, t511));
+    let t438 = c(1.0) / (t381 + mul_add(t48, t105, t46));
+    let t439 = t381 + neg_mul_add(t42, t103, t38);
+    let t440 = (t380 + neg_mul_add(t48, t106, t47)) * t438;
+    let t441 = mul_sub(t439, t440, t380 + neg_mul_add(t42, t104, t40));
+    let t442 = mul_add(t71, t111, t69 - t381);
+    let t443 = mul_add(t50, t85, t110) * t438;
+    let t444 = c(1.0) / mul_sub(t442, t440, mul_add(t71, t112, t70 - t380));
+    let t445 = mul_add(t442, t443, neg_mul_add(t73, t97, t110)) * t444;
+    let t446 = mul_sub(t439, t443, mul_add(t45, t81, t110));
+    let t447 = c(1.0) / mul_sub(t441, t445, t446);
+    let t448 = mul_add(t76, t113, t74 - t381);
+    let t449 = mul_sub(t448, t440, mul_add(t76, t114, t75 - t380));
+    let t450 = mul_add(t448, t443, neg_mul_add(t78, t101, t110));
+    let t451 = mul_sub(t449, t445, t450);
+    let t452 = (t382 - mul_add(t46, t106, t378)) * t438;
+    let t453 = mul_add(t70, t111, neg_mul_add(t69, t112, t382));
+    let t454 = mul_add(t442, t452, t453) * t444;
+    let t455 = mul_sub(t439, t452, t382 - mul_sub(t38, t104, t377));
+    let t456 = mul_sub(t441, t454, t455) * t447;
+    let t457 = mul_add(t75, t113, neg_mul_add(t74, t114, t382));
+    let t458 = mul_sub(t449, t454, mul_add(t448, t452, t457));
+    let t459 = c(1.0) / mul_sub(t451, t456, t458);
+    let t460 = mul_add(t24, t393, mul_sub(t21, t389, t434));
+    let t461 = mul_sub(t27, t436, mul_sub(t6, t415, t460));
+    let t462 = mul_sub(t9, t431, t461);
+    let t463 = mul_add(base_rotation[0][1], external_wrench[3], t462);
+    let t464 = mul_add(base_rotation[1][1], external_wrench[4], t463);
+    let t465 = mul_add(base_rotation[2][1], external_wrench[5], t464);
+    let t466 = mul_sub(t381, t428, t465);
+    let t467 = mul_add(t15, t415, mul_sub(t12, t411, t429));
+    let t468 = mul_sub(t18, t431, mul_sub(t24, t404, t467));
+    let t469 = mul_sub(t27, t433, t468);
+    let t470 = mul_add(base_rotation[0][0], external_wrench[3], t469);
+    let t471 = mul_add(base_rotation[1][0], external_wrench[4], t470);
+    let t472 = mul_add(base_rotation[2][0], external_wrench[5], t471);
+    let t473 = mul_sub(t466, t440, mul_add(t380, t428, t472));
+    let t474 = mul_sub(c(8.139999999999999), t210, c(2.2551405187698492e-17) * t237);
+    let t475 = neg_mul_add(c(6.938893903907228e-18), t240, t474);
+    let t476 = t396 + (t395 + (t394 + neg_mul_add(c(0.188852), t243, t475)));
+    let t477 = mul_sub(t466, t443, mul_add(t110, t428, t421 - t476));
+    let t478 = mul_sub(t473, t445, t477);
+    let t479 = mul_add(t6, t404, mul_sub(t3, t400, t437));
+    let t480 = mul_sub(t9, t433, mul_sub(t15, t393, t479));
+    let t481 = mul_sub(t18, t436, t480);
+    let t482 = mul_add(base_rotation[0][2], external_wrench[3], t481);
+    let t483 = mul_add(base_rotation[1][2], external_wrench[4], t482);
+    let t484 = mul_add(base_rotation[2][2], external_wrench[5], t483);
+    let t485 = mul_sub(t466, t452, mul_sub(t382, t428, t484));
+    let t486 = mul_sub(t478, t456, mul_sub(t473, t454, t485));
+    let t487 = mul_sub(t49, t85, t109) * t438;
+    let t488 = mul_sub(t442, t487, neg_mul_add(t72, t97, t109)) * t444;
+    let t489 = mul_add(t439, t487, mul_add(t44, t81, t109));
+    let t490 = mul_sub(t441, t488, t489) * t447;
+    let t491 = mul_sub(t448, t487, neg_mul_add(t77, t101, t109));
+    let t492 = mul_sub(t451, t490, mul_sub(t449, t488, t491)) * t459;
+    let t493 = mul_sub(c(8.139999999999999), t207, c(2.2551405187698492e-17) * t226);
+    let t494 = neg_mul_add(c(6.938893903907228e-18), t230, t493);
+    let t495 = t385 + (t384 + (t383 + neg_mul_add(c(0.188852), t234, t494)));
+    let t496 = mul_add(t466, t487, mul_add(t109, t428, t418 - t495));
+    let t497 = mul_sub(t478, t490, mul_sub(t473, t488, t496));
+    let t498 = mul_sub(t486, t492, t497);
+    let t499 = t381 - mul_add(t56, t107, t52);
+    let t500 = mul_sub(t499, t440, t380 - mul_add(t56, t108, t54));
+    let t501 = mul_add(t499, t443, mul_sub(t59, t89, t110));
+    let t502 = mul_sub(t500, t445, t501);
+    let t503 = mul_sub(t499, t452, t382 - mul_sub(t52, t108, t379));
+    let t504 = mul_sub(t502, t456, mul_sub(t500, t454, t503));
+    let t505 = mul_sub(t499, t487, mul_sub(t58, t89, t109));
+    let t506 = mul_sub(t502, t490, mul_sub(t500, t488, t505));
+    let t507 = c(1.0) / mul_sub(t504, t492, t506);
+    let t508 = t498 * t507;
+    let t509 = neg_mul_add(t504, t508, t486);
+    let t510 = t459 * t509;
+    let t511 = mul_sub(t502, t508, neg_mul_add(t451, t510, t478));
+    let t512 = t447 * t511;
+    let t513 = mul_sub(t449, t510, mul_add(t441, t512, t473));
+    let t514 = t444 * mul_add(t500, t508, t513);
+    let t515 = mul_add(t439, t512, mul_add(t442, t514, t466));
+    let t516 = mul_add(t499, t508, mul_sub(t448, t510, t515));
     // leg 1: actuator forces F
-    let t513 = neg_mul_add(t203, c(0.03055), c(4268.068200000001));
-    let t514 = neg_mul_add(c(0.17066666666666666), t213, t513);
-    let t515 = mul_add(t239, c(0.019782160922400118), t514);
-    let t516 = t240 * c(0.005300614043699624);
-    let t517 = mul_add(t310, c(0.9523333333333334), mul_sub(c(21555.9), t82, t516));
-    inverse_dynamics[0] = mul_sub(t443, t507, t517) - t515;
+    let t517 = neg_mul_add(t203, c(0.03055), c(4268.068200000001));
+    let t518 = neg_mul_add(c(0.17066666666666666), t213, t517);
+    let t519 = mul_add(t245, c(0.019782160922400118), t518);
+    let t520 = t247 * c(0.005300614043699624);
+    let t521 = mul_add(t314, c(0.9523333333333334), mul_sub(c(21555.9), t82, t520));
+    inverse_dynamics[0] = mul_sub(t447, t511, t521) - t519;
     // leg 2: actuator forces F
-    let t518 = mul_add(c(21555.9), t86, t516);
-    let t519 = mul_sub(t434, t512, neg_mul_add(t322, c(0.9523333333333334), t518));
-    inverse_dynamics[1] = t519 - t515;
+    let t522 = mul_add(c(21555.9), t86, t520);
+    let t523 = mul_sub(t438, t516, neg_mul_add(t326, c(0.9523333333333334), t522));
+    inverse_dynamics[1] = t523 - t519;
     // leg 3: actuator forces F
-    let t520 = neg_mul_add(t239, c(0.005300614043699622), t514);
-    let t521 = t240 * c(0.019782160922400118);
-    let t522 = mul_sub(t90, c(-21555.9), t521);
-    let t523 = neg_mul_add(t335, c(0.9523333333333334), t522);
-    inverse_dynamics[2] = neg_mul_add(t494, t503, t523) - t520;
+    let t524 = neg_mul_add(t245, c(0.005300614043699622), t518);
+    let t525 = t247 * c(0.019782160922400118);
+    let t526 = mul_sub(t90, c(-21555.9), t525);
+    let t527 = neg_mul_add(t339, c(0.9523333333333334), t526);
+    inverse_dynamics[2] = neg_mul_add(t498, t507, t527) - t524;
     // leg 4: actuator forces F
-    let t524 = neg_mul_add(t240, c(0.014481546878700494), t510);
-    let t525 = neg_mul_add(t239, c(0.01448154687870049), t514);
-    let t526 = t424 + mul_add(c(21555.9), t94, t350 * c(0.9523333333333334));
-    let t527 = mul_sub(t455, t505, mul_sub(t494, t503, t526));
-    inverse_dynamics[3] = t524 - mul_add(t434, t512, mul_add(t443, t507, t527)) - t525;
+    let t528 = neg_mul_add(t247, c(0.014481546878700494), t514);
+    let t529 = neg_mul_add(t245, c(0.01448154687870049), t518);
+    let t530 = t428 + mul_add(c(21555.9), t94, t354 * c(0.9523333333333334));
+    let t531 = mul_sub(t459, t509, mul_sub(t498, t507, t530));
+    inverse_dynamics[3] = t528 - mul_add(t438, t516, mul_add(t447, t511, t531)) - t529;
     // leg 5: actuator forces F
-    let t528 = neg_mul_add(c(21555.9), t98, t360 * c(0.9523333333333334)) - t524;
-    inverse_dynamics[4] = t528 - t525;
+    let t532 = neg_mul_add(c(21555.9), t98, t364 * c(0.9523333333333334)) - t528;
+    inverse_dynamics[4] = t532 - t529;
     // leg 6: actuator forces F
-    let t529 = neg_mul_add(c(21555.9), t102, t521);
-    let t530 = mul_add(t455, t505, mul_add(t368, c(0.9523333333333334), t529));
-    inverse_dynamics[5] = t530 - t520;
+    let t533 = neg_mul_add(c(21555.9), t102, t525);
+    let t534 = mul_add(t459, t509, mul_add(t372, c(0.9523333333333334), t533));
+    inverse_dynamics[5] = t534 - t524;
 }
 
 /// Actuator lengths with their gradients, for forward kinematics, equation (18), (32).
@@ -17510,409 +17452,407 @@ pub fn control<T: Scalar>(
     let t512 = mul_add(t418, t421, t497);
     let t513 = mul_add(t418, t418, t508);
     // acceleration per platform coordinate of points of the platform
-    let t514 = t424 * t430;
-    let t515 = t424 * t427;
-    let t516 = mul_add(t427, t427, t430 * t430);
-    let t517 = mul_add(t21, t514, mul_sub(t12, t515, t3 * t516));
-    let t518 = mul_add(t24, t514, mul_sub(t15, t515, t6 * t516));
-    let t519 = mul_add(t27, t514, mul_sub(t18, t515, t9 * t516));
-    let t520 = t427 * t430;
-    let t521 = t424 * t424;
-    let t522 = mul_add(t430, t430, t521);
-    let t523 = mul_add(t21, t520, mul_sub(t3, t515, t12 * t522));
-    let t524 = mul_add(t24, t520, mul_sub(t6, t515, t15 * t522));
-    let t525 = mul_add(t27, t520, mul_sub(t9, t515, t18 * t522));
-    let t526 = mul_add(t427, t427, t521);
-    let t527 = mul_sub(t21, t526, mul_add(t3, t514, t12 * t520));
-    let t528 = mul_sub(t24, t526, mul_add(t6, t514, t15 * t520));
-    let t529 = mul_sub(t27, t526, mul_add(t9, t514, t18 * t520));
+    let t514 = mul_sub(t12, t424, t3 * t427);
+    let t515 = mul_sub(t3, t430, t21 * t424);
+    let t516 = mul_sub(t427, t514, t430 * t515);
+    let t517 = mul_sub(t15, t424, t6 * t427);
+    let t518 = mul_sub(t6, t430, t24 * t424);
+    let t519 = mul_sub(t427, t517, t430 * t518);
+    let t520 = mul_sub(t18, t424, t9 * t427);
+    let t521 = mul_sub(t9, t430, t27 * t424);
+    let t522 = mul_sub(t427, t520, t430 * t521);
+    let t523 = mul_sub(t21, t427, t12 * t430);
+    let t524 = mul_sub(t430, t523, t424 * t514);
+    let t525 = mul_sub(t24, t427, t15 * t430);
+    let t526 = mul_sub(t430, t525, t424 * t517);
+    let t527 = mul_sub(t27, t427, t18 * t430);
+    let t528 = mul_sub(t430, t527, t424 * t520);
+    let t529 = mul_sub(t424, t515, t427 * t523);
+    let t530 = mul_sub(t424, t518, t427 * t525);
+    let t531 = mul_sub(t424, t521, t427 * t527);
     // acceleration of the platform origin relative to the base
-    let t530 = mul_add(t32, t504, neg_mul_add(base_rotation[2][0], c(9.81), t491));
-    let t531 = mul_sub(t36, t506, mul_add(t34, t505, t530));
-    let t532 = mul_add(c(2.0), mul_sub(t418, t445, t421 * t442), t531);
-    let t533 = mul_sub(t32, t507, neg_mul_add(base_rotation[2][1], c(9.81), t494));
-    let t534 = mul_add(t36, t510, mul_sub(t34, t509, t533));
-    let t535 = neg_mul_add(c(2.0), mul_sub(t421, t439, t415 * t445), t534);
-    let t536 = t418 * t439;
+    let t532 = mul_add(t32, t504, neg_mul_add(base_rotation[2][0], c(9.81), t491));
+    let t533 = mul_sub(t36, t506, mul_add(t34, t505, t532));
+    let t534 = mul_add(c(2.0), mul_sub(t418, t445, t421 * t442), t533);
+    let t535 = mul_sub(t32, t507, neg_mul_add(base_rotation[2][1], c(9.81), t494));
+    let t536 = mul_add(t36, t510, mul_sub(t34, t509, t535));
+    let t537 = neg_mul_add(c(2.0), mul_sub(t421, t439, t415 * t445), t536);
+    let t538 = t418 * t439;
     // second derivative of the relative rotation
-    let t537 = mul_add(t415, t433, neg_mul_add(t421, t431, t500));
-    let t538 = mul_sub(t431, t433, t537);
-    let t539 = mul_add(t418, t431, neg_mul_add(t415, t432, t503));
-    let t540 = mul_add(t431, t432, t539);
-    let t541 = mul_add(t432, t432, t433 * t433);
-    let t542 = mul_add(t21, t538, mul_sub(t12, t540, t3 * t541));
-    let t543 = mul_add(t24, t538, mul_sub(t15, t540, t6 * t541));
-    let t544 = mul_add(t421, t432, neg_mul_add(t418, t433, t497));
-    let t545 = mul_add(t432, t433, t544);
-    let t546 = mul_sub(t431, t432, t539);
-    let t547 = t431 * t431;
-    let t548 = mul_add(t433, t433, t547);
-    let t549 = mul_add(t21, t545, mul_sub(t3, t546, t12 * t548));
-    let t550 = mul_add(t24, t545, mul_sub(t6, t546, t15 * t548));
-    let t551 = mul_add(t432, t432, t547);
-    let t552 = mul_add(t431, t433, t537);
-    let t553 = mul_sub(t432, t433, t544);
-    let t554 = mul_sub(t21, t551, mul_add(t3, t552, t12 * t553));
-    let t555 = mul_sub(t24, t551, mul_add(t6, t552, t15 * t553));
+    let t539 = mul_add(t415, t433, neg_mul_add(t421, t431, t500));
+    let t540 = mul_add(t418, t431, neg_mul_add(t415, t432, t503));
+    let t541 = mul_sub(t432, t450, mul_sub(t21, t539, t12 * t540));
+    let t542 = mul_sub(t433, t448, t541);
+    let t543 = mul_sub(t432, t451, mul_sub(t24, t539, t15 * t540));
+    let t544 = mul_sub(t433, t449, t543);
+    let t545 = mul_add(t421, t432, neg_mul_add(t418, t433, t497));
+    let t546 = mul_sub(t433, t446, mul_sub(t3, t540, t21 * t545));
+    let t547 = mul_sub(t431, t450, t546);
+    let t548 = mul_sub(t433, t447, mul_sub(t6, t540, t24 * t545));
+    let t549 = mul_sub(t431, t451, t548);
+    let t550 = mul_sub(t431, t448, mul_sub(t12, t545, t3 * t539));
+    let t551 = mul_sub(t432, t446, t550);
+    let t552 = mul_sub(t431, t449, mul_sub(t15, t545, t6 * t539));
+    let t553 = mul_sub(t432, t447, t552);
     // leg 1: acceleration of the platform joint relative to the base
-    let t556 = mul_add(c(0.1159110991546882), t542, t532);
-    let t557 = neg_mul_add(c(0.03105828541230249), t543, t556);
-    let t558 = neg_mul_add(c(0.1159110991546882), t549, t535);
-    let t559 = mul_add(c(0.03105828541230249), t550, t558);
+    let t554 = neg_mul_add(c(0.1159110991546882), t542, t534);
+    let t555 = mul_add(c(0.03105828541230249), t544, t554);
+    let t556 = mul_add(c(0.1159110991546882), t547, t537);
+    let t557 = neg_mul_add(c(0.03105828541230249), t549, t556);
     // leg 2: acceleration of the platform joint relative to the base
-    let t560 = mul_add(c(0.03105828541230249), t543, t556);
-    let t561 = neg_mul_add(c(0.03105828541230249), t550, t558);
+    let t558 = neg_mul_add(c(0.03105828541230249), t544, t554);
+    let t559 = mul_add(c(0.03105828541230249), t549, t556);
     // leg 3: acceleration of the platform joint relative to the base
-    let t562 = neg_mul_add(c(0.031058285412302475), t542, t532);
-    let t563 = mul_add(c(0.1159110991546882), t543, t562);
-    let t564 = mul_add(c(0.031058285412302475), t549, t535);
-    let t565 = neg_mul_add(c(0.1159110991546882), t550, t564);
+    let t560 = mul_add(c(0.031058285412302475), t542, t534);
+    let t561 = neg_mul_add(c(0.1159110991546882), t544, t560);
+    let t562 = neg_mul_add(c(0.031058285412302475), t547, t537);
+    let t563 = mul_add(c(0.1159110991546882), t549, t562);
     // leg 4: acceleration of the platform joint relative to the base
-    let t566 = neg_mul_add(c(0.0848528137423857), t542, t532);
-    let t567 = mul_add(c(0.08485281374238571), t543, t566);
-    let t568 = mul_add(c(0.0848528137423857), t549, t535);
-    let t569 = neg_mul_add(c(0.08485281374238571), t550, t568);
+    let t564 = mul_add(c(0.0848528137423857), t542, t534);
+    let t565 = neg_mul_add(c(0.08485281374238571), t544, t564);
+    let t566 = neg_mul_add(c(0.0848528137423857), t547, t537);
+    let t567 = mul_add(c(0.08485281374238571), t549, t566);
     // leg 5: acceleration of the platform joint relative to the base
-    let t570 = neg_mul_add(c(0.08485281374238571), t543, t566);
-    let t571 = mul_add(c(0.08485281374238571), t550, t568);
+    let t568 = mul_add(c(0.08485281374238571), t544, t564);
+    let t569 = neg_mul_add(c(0.08485281374238571), t549, t566);
     // leg 6: acceleration of the platform joint relative to the base
-    let t572 = neg_mul_add(c(0.1159110991546882), t543, t562);
-    let t573 = mul_add(c(0.1159110991546882), t550, t564);
+    let t570 = mul_add(c(0.1159110991546882), t544, t560);
+    let t571 = neg_mul_add(c(0.1159110991546882), t549, t562);
     // leg 1: actuator acceleration d''
-    let t574 = mul_sub(t38, t557, mul_add(t453, t453, t455 * t455));
-    let t575 = mul_sub(t470, t470, mul_add(t41, t559, t574));
+    let t572 = mul_sub(t38, t555, mul_add(t453, t453, t455 * t455));
+    let t573 = mul_sub(t470, t470, mul_add(t41, t557, t572));
     // leg 2: actuator acceleration d''
-    let t576 = mul_sub(t42, t560, mul_add(t456, t456, t457 * t457));
-    let t577 = mul_add(t474, t474, mul_sub(t43, t561, t576));
+    let t574 = mul_sub(t42, t558, mul_add(t456, t456, t457 * t457));
+    let t575 = mul_add(t474, t474, mul_sub(t43, t559, t574));
     // leg 3: actuator acceleration d''
-    let t578 = mul_sub(t45, t563, mul_add(t459, t459, t461 * t461));
-    let t579 = mul_add(t476, t476, mul_sub(t48, t565, t578));
+    let t576 = mul_sub(t45, t561, mul_add(t459, t459, t461 * t461));
+    let t577 = mul_add(t476, t476, mul_sub(t48, t563, t576));
     // leg 4: actuator acceleration d''
-    let t580 = mul_sub(t50, t567, mul_add(t463, t463, t465 * t465));
-    let t581 = mul_add(t479, t479, mul_sub(t53, t569, t580));
+    let t578 = mul_sub(t50, t565, mul_add(t463, t463, t465 * t465));
+    let t579 = mul_add(t479, t479, mul_sub(t53, t567, t578));
     // leg 5: actuator acceleration d''
-    let t582 = mul_sub(t54, t570, mul_add(t466, t466, t467 * t467));
-    let t583 = mul_sub(t483, t483, mul_add(t55, t571, t582));
+    let t580 = mul_sub(t54, t568, mul_add(t466, t466, t467 * t467));
+    let t581 = mul_sub(t483, t483, mul_add(t55, t569, t580));
     // leg 6: actuator acceleration d''
-    let t584 = mul_sub(t56, t572, mul_add(t468, t468, t469 * t469));
-    let t585 = mul_sub(t486, t486, mul_add(t57, t573, t584));
+    let t582 = mul_sub(t56, t570, mul_add(t468, t468, t469 * t469));
+    let t583 = mul_sub(t486, t486, mul_add(t57, t571, t582));
     // leg 1: leg inertia less weight along the actuator
-    let t586 = c(2.0) * t472;
-    let t587 = t418 * t586;
-    let t588 = t415 * t586;
-    let t589 = mul_sub(t32, t511, base_rotation[2][2] * c(9.81));
-    let t590 = mul_sub(t36, t513, mul_sub(t34, t512, t589));
-    let t591 = neg_mul_add(c(2.0), mul_sub(t415, t442, t536), t590);
-    let t592 = mul_sub(c(0.12275970481124972), t512, c(0.03105828541230249) * t555);
-    let t593 = mul_add(c(0.1316436662914507), t511, c(0.1159110991546882) * t554);
-    let t594 = t591 + t593;
-    let t595 = t594 + (t592 - mul_add(t60, t575, t62 * t513));
+    let t584 = c(2.0) * t472;
+    let t585 = t418 * t584;
+    let t586 = t415 * t584;
+    let t587 = mul_sub(t32, t511, base_rotation[2][2] * c(9.81));
+    let t588 = mul_sub(t36, t513, mul_sub(t34, t512, t587));
+    let t589 = neg_mul_add(c(2.0), mul_sub(t415, t442, t538), t588);
+    let t590 = mul_sub(c(0.12275970481124972), t512, c(0.03105828541230249) * t553);
+    let t591 = mul_add(c(0.1316436662914507), t511, c(0.1159110991546882) * t551);
+    let t592 = t589 + t591;
+    let t593 = t592 + (t590 - mul_add(t60, t573, t62 * t513));
     // leg 1: remaining leg inertia less weight at the platform joint
-    let t596 = c(0.17066666666666666) * t491;
-    let t597 = neg_mul_add(t504, c(0.022467185713740918), t596);
-    let t598 = mul_add(t505, c(0.02095098962111995), t597);
-    let t599 = neg_mul_add(c(0.17066666666666666), mul_add(t62, t506, t587), t598);
-    let t600 = c(0.17066666666666666) * t494;
-    let t601 = mul_add(t507, c(0.022467185713740918), t600);
-    let t602 = mul_add(t509, c(0.02095098962111995), t601);
-    let t603 = mul_add(c(0.17066666666666666), mul_add(t62, t510, t588), t602);
+    let t594 = c(0.17066666666666666) * t491;
+    let t595 = neg_mul_add(t504, c(0.022467185713740918), t594);
+    let t596 = mul_add(t505, c(0.02095098962111995), t595);
+    let t597 = neg_mul_add(c(0.17066666666666666), mul_add(t62, t506, t585), t596);
+    let t598 = c(0.17066666666666666) * t494;
+    let t599 = mul_add(t507, c(0.022467185713740918), t598);
+    let t600 = mul_add(t509, c(0.02095098962111995), t599);
+    let t601 = mul_add(c(0.17066666666666666), mul_add(t62, t510, t586), t600);
     // leg 2: leg inertia less weight along the actuator
-    let t604 = c(2.0) * t475;
-    let t605 = t418 * t604;
-    let t606 = t415 * t604;
-    let t607 = mul_sub(t66, t513, t594 - mul_add(t65, t577, t592));
+    let t602 = c(2.0) * t475;
+    let t603 = t418 * t602;
+    let t604 = t415 * t602;
+    let t605 = mul_sub(t66, t513, t592 - mul_add(t65, t575, t590));
     // leg 2: remaining leg inertia less weight at the platform joint
-    let t608 = neg_mul_add(t505, c(0.02095098962111995), t597);
-    let t609 = neg_mul_add(c(0.17066666666666666), mul_sub(t66, t506, t605), t608);
-    let t610 = neg_mul_add(t509, c(0.02095098962111995), t601);
-    let t611 = mul_add(c(0.17066666666666666), mul_sub(t66, t510, t606), t610);
+    let t606 = neg_mul_add(t505, c(0.02095098962111995), t595);
+    let t607 = neg_mul_add(c(0.17066666666666666), mul_sub(t66, t506, t603), t606);
+    let t608 = neg_mul_add(t509, c(0.02095098962111995), t599);
+    let t609 = mul_add(c(0.17066666666666666), mul_sub(t66, t510, t604), t608);
     // leg 3: leg inertia less weight along the actuator
-    let t612 = c(2.0) * t478;
-    let t613 = t418 * t612;
-    let t614 = t415 * t612;
-    let t615 = mul_sub(c(0.17538661166134234), t512, c(0.1159110991546882) * t555);
-    let t616 = mul_sub(c(0.040491189781895726), t511, c(0.031058285412302475) * t554);
-    let t617 = t591 + t616;
-    let t618 = t617 - (t615 + mul_add(t69, t579, t71 * t513));
+    let t610 = c(2.0) * t478;
+    let t611 = t418 * t610;
+    let t612 = t415 * t610;
+    let t613 = mul_sub(c(0.17538661166134234), t512, c(0.1159110991546882) * t553);
+    let t614 = mul_sub(c(0.040491189781895726), t511, c(0.031058285412302475) * t551);
+    let t615 = t589 + t614;
+    let t616 = t615 - (t613 + mul_add(t69, t577, t71 * t513));
     // leg 3: remaining leg inertia less weight at the platform joint
-    let t619 = neg_mul_add(t504, c(0.006910496389443537), t596);
-    let t620 = neg_mul_add(t505, c(0.029932648390202425), t619);
-    let t621 = neg_mul_add(c(0.17066666666666666), mul_add(t71, t506, t613), t620);
-    let t622 = mul_add(t507, c(0.006910496389443537), t600);
-    let t623 = neg_mul_add(t509, c(0.029932648390202425), t622);
-    let t624 = mul_add(c(0.17066666666666666), mul_add(t71, t510, t614), t623);
+    let t617 = neg_mul_add(t504, c(0.006910496389443537), t594);
+    let t618 = neg_mul_add(t505, c(0.029932648390202425), t617);
+    let t619 = neg_mul_add(c(0.17066666666666666), mul_add(t71, t506, t611), t618);
+    let t620 = mul_add(t507, c(0.006910496389443537), t598);
+    let t621 = neg_mul_add(t509, c(0.029932648390202425), t620);
+    let t622 = mul_add(c(0.17066666666666666), mul_add(t71, t510, t612), t621);
     // leg 4: leg inertia less weight along the actuator
-    let t625 = c(2.0) * t481;
-    let t626 = t418 * t625;
-    let t627 = t415 * t625;
-    let t628 = mul_sub(c(0.052626906850092664), t512, c(0.08485281374238571) * t555);
-    let t629 = mul_add(c(0.17213485607334636), t511, c(0.0848528137423857) * t554);
-    let t630 = t591 - t629;
-    let t631 = t630 - (t628 + mul_add(t74, t581, t76 * t513));
+    let t623 = c(2.0) * t481;
+    let t624 = t418 * t623;
+    let t625 = t415 * t623;
+    let t626 = mul_sub(c(0.052626906850092664), t512, c(0.08485281374238571) * t553);
+    let t627 = mul_add(c(0.17213485607334636), t511, c(0.0848528137423857) * t551);
+    let t628 = t589 - t627;
+    let t629 = t628 - (t626 + mul_add(t74, t579, t76 * t513));
     // leg 4: remaining leg inertia less weight at the platform joint
-    let t632 = mul_add(t504, c(0.029377682103184446), t596);
-    let t633 = neg_mul_add(t505, c(0.008981658769082482), t632);
-    let t634 = neg_mul_add(c(0.17066666666666666), mul_add(t76, t506, t626), t633);
-    let t635 = neg_mul_add(t507, c(0.029377682103184446), t600);
-    let t636 = neg_mul_add(t509, c(0.008981658769082482), t635);
-    let t637 = mul_add(c(0.17066666666666666), mul_add(t76, t510, t627), t636);
+    let t630 = mul_add(t504, c(0.029377682103184446), t594);
+    let t631 = neg_mul_add(t505, c(0.008981658769082482), t630);
+    let t632 = neg_mul_add(c(0.17066666666666666), mul_add(t76, t506, t624), t631);
+    let t633 = neg_mul_add(t507, c(0.029377682103184446), t598);
+    let t634 = neg_mul_add(t509, c(0.008981658769082482), t633);
+    let t635 = mul_add(c(0.17066666666666666), mul_add(t76, t510, t625), t634);
     // leg 5: leg inertia less weight along the actuator
-    let t638 = c(2.0) * t484;
-    let t639 = t418 * t638;
-    let t640 = t415 * t638;
-    let t641 = mul_sub(t80, t513, t630 - mul_sub(t79, t583, t628));
+    let t636 = c(2.0) * t484;
+    let t637 = t418 * t636;
+    let t638 = t415 * t636;
+    let t639 = mul_sub(t80, t513, t628 - mul_sub(t79, t581, t626));
     // leg 5: remaining leg inertia less weight at the platform joint
-    let t642 = mul_add(t505, c(0.008981658769082482), t632);
-    let t643 = neg_mul_add(c(0.17066666666666666), mul_sub(t80, t506, t639), t642);
-    let t644 = mul_add(t509, c(0.008981658769082482), t635);
-    let t645 = mul_add(c(0.17066666666666666), mul_sub(t80, t510, t640), t644);
+    let t640 = mul_add(t505, c(0.008981658769082482), t630);
+    let t641 = neg_mul_add(c(0.17066666666666666), mul_sub(t80, t506, t637), t640);
+    let t642 = mul_add(t509, c(0.008981658769082482), t633);
+    let t643 = mul_add(c(0.17066666666666666), mul_sub(t80, t510, t638), t642);
     // leg 6: leg inertia less weight along the actuator
-    let t646 = c(2.0) * t487;
-    let t647 = t418 * t646;
-    let t648 = t415 * t646;
-    let t649 = mul_sub(t84, t513, t617 - mul_sub(t83, t585, t615));
+    let t644 = c(2.0) * t487;
+    let t645 = t418 * t644;
+    let t646 = t415 * t644;
+    let t647 = mul_sub(t84, t513, t615 - mul_sub(t83, t583, t613));
     // leg 6: remaining leg inertia less weight at the platform joint
-    let t650 = mul_add(t505, c(0.029932648390202425), t619);
-    let t651 = neg_mul_add(c(0.17066666666666666), mul_sub(t84, t506, t647), t650);
-    let t652 = mul_add(t509, c(0.029932648390202425), t622);
-    let t653 = mul_add(c(0.17066666666666666), mul_sub(t84, t510, t648), t652);
+    let t648 = mul_add(t505, c(0.029932648390202425), t617);
+    let t649 = neg_mul_add(c(0.17066666666666666), mul_sub(t84, t506, t645), t648);
+    let t650 = mul_add(t509, c(0.029932648390202425), t620);
+    let t651 = mul_add(c(0.17066666666666666), mul_sub(t84, t510, t646), t650);
     // inertia force less weight, without the actuators' own shares
-    let t654 = t599 + t609;
-    let t655 = t621 + t651;
-    let t656 = t634 + t643;
-    let t657 = c(2.2551405187698492e-17) * t517;
-    let t658 = mul_add(base_rotation[2][0], c(79.8534), t657);
-    let t659 = mul_add(c(6.938893903907228e-18), t518, t658);
-    let t660 = t656 + (t655 + (t654 + mul_add(c(0.188852), t519, t659)));
-    let t661 = t603 + t611;
-    let t662 = t624 + t653;
-    let t663 = t637 + t645;
-    let t664 = c(2.2551405187698492e-17) * t523;
-    let t665 = mul_add(base_rotation[2][1], c(79.8534), t664);
-    let t666 = mul_add(c(6.938893903907228e-18), t524, t665);
-    let t667 = t663 + (t662 + (t661 + mul_add(c(0.188852), t525, t666)));
-    let t668 = t595 - t607;
-    let t669 = t618 - t649;
-    let t670 = t631 - t641;
-    let t671 = c(2.2551405187698492e-17) * t527;
-    let t672 = mul_sub(base_rotation[2][2], c(79.8534), t671);
-    let t673 = neg_mul_add(c(6.938893903907228e-18), t528, t672);
-    let t674 = neg_mul_add(c(0.188852), t529, t673);
-    let t675 = neg_mul_add(c(0.17066666666666666), t670 + (t668 + t669), t674);
+    let t652 = t597 + t607;
+    let t653 = t619 + t649;
+    let t654 = t632 + t641;
+    let t655 = c(2.2551405187698492e-17) * t516;
+    let t656 = mul_add(base_rotation[2][0], c(79.8534), t655);
+    let t657 = mul_add(c(6.938893903907228e-18), t519, t656);
+    let t658 = t654 + (t653 + (t652 + mul_add(c(0.188852), t522, t657)));
+    let t659 = t601 + t609;
+    let t660 = t622 + t651;
+    let t661 = t635 + t643;
+    let t662 = c(2.2551405187698492e-17) * t524;
+    let t663 = mul_add(base_rotation[2][1], c(79.8534), t662);
+    let t664 = mul_add(c(6.938893903907228e-18), t526, t663);
+    let t665 = t661 + (t660 + (t659 + mul_add(c(0.188852), t528, t664)));
+    let t666 = t593 - t605;
+    let t667 = t616 - t647;
+    let t668 = t629 - t639;
+    let t669 = c(2.2551405187698492e-17) * t529;
+    let t670 = mul_add(base_rotation[2][2], c(79.8534), t669);
+    let t671 = mul_add(c(6.938893903907228e-18), t530, t670);
+    let t672 = mul_add(c(0.188852), t531, t671);
+    let t673 = neg_mul_add(c(0.17066666666666666), t668 + (t666 + t667), t672);
     // its first moments by platform coordinate
-    let t676 = c(0.032245600000000006) * t517;
-    let t677 = mul_add(base_rotation[2][0], c(2.212292848913222e-16), t676);
-    let t678 = mul_add(c(0.1159110991546882), t654, t677);
-    let t679 = neg_mul_add(c(0.031058285412302475), t655, t678);
-    let t680 = neg_mul_add(c(0.0848528137423857), t656, t679);
-    let t681 = c(0.032245600000000006) * t518;
-    let t682 = mul_add(base_rotation[2][0], c(6.807054919732991e-17), t681);
-    let t683 = neg_mul_add(c(0.03105828541230249), t599 - t609, t682);
-    let t684 = mul_add(c(0.1159110991546882), t621 - t651, t683);
-    let t685 = mul_add(c(0.08485281374238571), t634 - t643, t684);
-    let t686 = mul_add(base_rotation[2][0], c(1.85263812), c(0.013354412) * t519);
-    let t687 = c(0.032245600000000006) * t523;
-    let t688 = mul_add(base_rotation[2][1], c(2.212292848913222e-16), t687);
-    let t689 = mul_add(c(0.1159110991546882), t661, t688);
-    let t690 = neg_mul_add(c(0.031058285412302475), t662, t689);
-    let t691 = neg_mul_add(c(0.0848528137423857), t663, t690);
-    let t692 = c(0.032245600000000006) * t524;
-    let t693 = mul_add(base_rotation[2][1], c(6.807054919732991e-17), t692);
-    let t694 = neg_mul_add(c(0.03105828541230249), t603 - t611, t693);
-    let t695 = mul_add(c(0.1159110991546882), t624 - t653, t694);
-    let t696 = mul_add(c(0.08485281374238571), t637 - t645, t695);
-    let t697 = mul_add(base_rotation[2][1], c(1.85263812), c(0.013354412) * t525);
-    let t698 = c(0.032245600000000006) * t527;
-    let t699 = mul_sub(base_rotation[2][2], c(2.212292848913222e-16), t698);
-    let t700 = neg_mul_add(t668, c(0.019782160922400118), t699);
-    let t701 = mul_add(t669, c(0.005300614043699622), t700);
-    let t702 = mul_add(t670, c(0.01448154687870049), t701);
-    let t703 = c(0.032245600000000006) * t528;
-    let t704 = mul_sub(base_rotation[2][2], c(6.807054919732991e-17), t703);
-    let t705 = mul_add(c(0.005300614043699624), t595 + t607, t704);
-    let t706 = neg_mul_add(c(0.019782160922400118), t618 + t649, t705);
-    let t707 = neg_mul_add(c(0.014481546878700494), t631 + t641, t706);
-    let t708 = mul_sub(base_rotation[2][2], c(1.85263812), c(0.013354412) * t529);
+    let t674 = c(0.032245600000000006) * t516;
+    let t675 = mul_add(base_rotation[2][0], c(2.212292848913222e-16), t674);
+    let t676 = mul_add(c(0.1159110991546882), t652, t675);
+    let t677 = neg_mul_add(c(0.031058285412302475), t653, t676);
+    let t678 = neg_mul_add(c(0.0848528137423857), t654, t677);
+    let t679 = c(0.032245600000000006) * t519;
+    let t680 = mul_add(base_rotation[2][0], c(6.807054919732991e-17), t679);
+    let t681 = neg_mul_add(c(0.03105828541230249), t597 - t607, t680);
+    let t682 = mul_add(c(0.1159110991546882), t619 - t649, t681);
+    let t683 = mul_add(c(0.08485281374238571), t632 - t641, t682);
+    let t684 = mul_add(base_rotation[2][0], c(1.85263812), c(0.013354412) * t522);
+    let t685 = c(0.032245600000000006) * t524;
+    let t686 = mul_add(base_rotation[2][1], c(2.212292848913222e-16), t685);
+    let t687 = mul_add(c(0.1159110991546882), t659, t686);
+    let t688 = neg_mul_add(c(0.031058285412302475), t660, t687);
+    let t689 = neg_mul_add(c(0.0848528137423857), t661, t688);
+    let t690 = c(0.032245600000000006) * t526;
+    let t691 = mul_add(base_rotation[2][1], c(6.807054919732991e-17), t690);
+    let t692 = neg_mul_add(c(0.03105828541230249), t601 - t609, t691);
+    let t693 = mul_add(c(0.1159110991546882), t622 - t651, t692);
+    let t694 = mul_add(c(0.08485281374238571), t635 - t643, t693);
+    let t695 = mul_add(base_rotation[2][1], c(1.85263812), c(0.013354412) * t528);
+    let t696 = c(0.032245600000000006) * t529;
+    let t697 = mul_add(base_rotation[2][2], c(2.212292848913222e-16), t696);
+    let t698 = neg_mul_add(t666, c(0.019782160922400118), t697);
+    let t699 = mul_add(t667, c(0.005300614043699622), t698);
+    let t700 = mul_add(t668, c(0.01448154687870049), t699);
+    let t701 = c(0.032245600000000006) * t530;
+    let t702 = mul_add(base_rotation[2][2], c(6.807054919732991e-17), t701);
+    let t703 = mul_add(c(0.005300614043699624), t593 + t605, t702);
+    let t704 = neg_mul_add(c(0.019782160922400118), t616 + t647, t703);
+    let t705 = neg_mul_add(c(0.014481546878700494), t629 + t639, t704);
+    let t706 = mul_add(base_rotation[2][2], c(1.85263812), c(0.013354412) * t531);
     // leg 1: force along the actuator that reaches the platform
-    let t709 = neg_mul_add(base_rotation[2][2], c(1.67424), c(4268.068200000001));
-    let t710 = neg_mul_add(t513, c(0.03055), t709);
-    let t711 = mul_add(t527, c(0.019782160922400118), t710);
-    let t712 = t528 * c(0.005300614043699624);
-    let t713 = mul_add(t595, c(0.9523333333333334), mul_sub(c(21555.9), t62, t712));
-    let t714 = t711 + t713;
+    let t707 = neg_mul_add(base_rotation[2][2], c(1.67424), c(4268.068200000001));
+    let t708 = neg_mul_add(t513, c(0.03055), t707);
+    let t709 = neg_mul_add(t529, c(0.019782160922400118), t708);
+    let t710 = t530 * c(0.005300614043699624);
+    let t711 = mul_add(t593, c(0.9523333333333334), mul_add(c(21555.9), t62, t710));
+    let t712 = t709 + t711;
     // leg 2: force along the actuator that reaches the platform
-    let t715 = mul_add(c(21555.9), t66, t712);
-    let t716 = t711 + neg_mul_add(t607, c(0.9523333333333334), t715);
+    let t713 = neg_mul_add(c(21555.9), t66, t710);
+    let t714 = t709 - mul_add(t605, c(0.9523333333333334), t713);
     // leg 3: force along the actuator that reaches the platform
-    let t717 = neg_mul_add(t527, c(0.005300614043699622), t710);
-    let t718 = t528 * c(0.019782160922400118);
-    let t719 = mul_add(t618, c(0.9523333333333334), mul_add(c(21555.9), t71, t718));
-    let t720 = t717 + t719;
+    let t715 = mul_add(t529, c(0.005300614043699622), t708);
+    let t716 = t530 * c(0.019782160922400118);
+    let t717 = mul_add(t616, c(0.9523333333333334), mul_sub(c(21555.9), t71, t716));
+    let t718 = t715 + t717;
     // leg 4: force along the actuator that reaches the platform
-    let t721 = neg_mul_add(t527, c(0.01448154687870049), t710);
-    let t722 = t528 * c(0.014481546878700494);
-    let t723 = mul_add(t631, c(0.9523333333333334), mul_add(c(21555.9), t76, t722));
-    let t724 = t721 + t723;
+    let t719 = mul_add(t529, c(0.01448154687870049), t708);
+    let t720 = t530 * c(0.014481546878700494);
+    let t721 = mul_add(t629, c(0.9523333333333334), mul_sub(c(21555.9), t76, t720));
+    let t722 = t719 + t721;
     // leg 5: force along the actuator that reaches the platform
-    let t725 = neg_mul_add(c(21555.9), t80, t722);
-    let t726 = t721 - mul_add(t641, c(0.9523333333333334), t725);
+    let t723 = mul_add(c(21555.9), t80, t720);
+    let t724 = t719 + neg_mul_add(t639, c(0.9523333333333334), t723);
     // leg 6: force along the actuator that reaches the platform
-    let t727 = neg_mul_add(c(21555.9), t84, t718);
-    let t728 = t717 - mul_add(t649, c(0.9523333333333334), t727);
+    let t725 = mul_add(c(21555.9), t84, t716);
+    let t726 = t715 + neg_mul_add(t647, c(0.9523333333333334), t725);
     // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
-    let t729 = mul_add(base_rotation[0][0], t660, base_rotation[0][1] * t667);
-    let t730 = mul_sub(t104, t714, mul_add(base_rotation[0][2], t675, t729));
-    let t731 = mul_add(t125, t720, mul_sub(t113, t716, t730));
-    let t732 = mul_sub(t146, t726, mul_add(t137, t724, t731));
-    let t733 = mul_add(t155, t728, t732);
-    let t734 = mul_add(base_rotation[1][0], t660, base_rotation[1][1] * t667);
-    let t735 = mul_sub(t106, t714, mul_add(base_rotation[1][2], t675, t734));
-    let t736 = mul_add(t127, t720, mul_sub(t115, t716, t735));
-    let t737 = mul_sub(t148, t726, mul_add(t139, t724, t736));
-    let t738 = mul_add(t157, t728, t737);
-    let t739 = mul_add(base_rotation[2][0], t660, base_rotation[2][1] * t667);
-    let t740 = mul_sub(t108, t714, mul_add(base_rotation[2][2], t675, t739));
-    let t741 = mul_add(t129, t720, mul_sub(t117, t716, t740));
-    let t742 = mul_sub(t150, t726, mul_add(t141, t724, t741));
-    let t743 = mul_add(t159, t728, t742);
-    let t744 = mul_add(t6, t696, mul_sub(t3, t691, t12 * t680));
-    let t745 = mul_sub(t9, t697, mul_sub(t15, t685, t744));
-    let t746 = mul_sub(t18, t686, t745);
-    let t747 = mul_add(t15, t707, mul_sub(t12, t702, t21 * t691));
-    let t748 = mul_sub(t18, t708, mul_sub(t24, t696, t747));
-    let t749 = mul_sub(t27, t697, t748);
-    let t750 = mul_add(t24, t685, mul_sub(t21, t680, t3 * t702));
-    let t751 = mul_sub(t27, t686, mul_sub(t6, t707, t750));
-    let t752 = mul_sub(t9, t708, t751);
-    let t753 = mul_add(base_rotation[0][0], t749, base_rotation[0][1] * t752);
-    let t754 = mul_add(t160, t714, mul_add(base_rotation[0][2], t746, t753));
-    let t755 = mul_sub(t166, t720, mul_sub(t163, t716, t754));
-    let t756 = mul_sub(t172, t726, mul_add(t169, t724, t755));
-    let t757 = mul_add(t175, t728, t756);
-    total_bias[3] = t757;
-    let t758 = mul_add(base_rotation[1][0], t749, base_rotation[1][1] * t752);
-    let t759 = mul_add(t161, t714, mul_add(base_rotation[1][2], t746, t758));
-    let t760 = mul_sub(t167, t720, mul_sub(t164, t716, t759));
-    let t761 = mul_sub(t173, t726, mul_add(t170, t724, t760));
-    let t762 = mul_add(t176, t728, t761);
-    total_bias[4] = t762;
-    let t763 = mul_add(base_rotation[2][0], t749, base_rotation[2][1] * t752);
-    let t764 = mul_add(t162, t714, mul_add(base_rotation[2][2], t746, t763));
-    let t765 = mul_sub(t168, t720, mul_sub(t165, t716, t764));
-    let t766 = mul_sub(t174, t726, mul_add(t171, t724, t765));
-    let t767 = mul_add(t177, t728, t766);
-    total_bias[5] = t767;
-    total_bias[0] = -t733;
-    total_bias[1] = -t738;
-    total_bias[2] = -t743;
+    let t727 = mul_add(base_rotation[0][0], t658, base_rotation[0][1] * t665);
+    let t728 = mul_sub(t104, t712, mul_add(base_rotation[0][2], t673, t727));
+    let t729 = mul_add(t125, t718, mul_sub(t113, t714, t728));
+    let t730 = mul_sub(t146, t724, mul_add(t137, t722, t729));
+    let t731 = mul_add(t155, t726, t730);
+    let t732 = mul_add(base_rotation[1][0], t658, base_rotation[1][1] * t665);
+    let t733 = mul_sub(t106, t712, mul_add(base_rotation[1][2], t673, t732));
+    let t734 = mul_add(t127, t718, mul_sub(t115, t714, t733));
+    let t735 = mul_sub(t148, t724, mul_add(t139, t722, t734));
+    let t736 = mul_add(t157, t726, t735);
+    let t737 = mul_add(base_rotation[2][0], t658, base_rotation[2][1] * t665);
+    let t738 = mul_sub(t108, t712, mul_add(base_rotation[2][2], t673, t737));
+    let t739 = mul_add(t129, t718, mul_sub(t117, t714, t738));
+    let t740 = mul_sub(t150, t724, mul_add(t141, t722, t739));
+    let t741 = mul_add(t159, t726, t740);
+    let t742 = mul_add(t6, t694, mul_sub(t3, t689, t12 * t678));
+    let t743 = mul_sub(t9, t695, mul_sub(t15, t683, t742));
+    let t744 = mul_sub(t18, t684, t743);
+    let t745 = mul_add(t15, t705, mul_sub(t12, t700, t21 * t689));
+    let t746 = mul_sub(t18, t706, mul_sub(t24, t694, t745));
+    let t747 = mul_sub(t27, t695, t746);
+    let t748 = mul_add(t24, t683, mul_sub(t21, t678, t3 * t700));
+    let t749 = mul_sub(t27, t684, mul_sub(t6, t705, t748));
+    let t750 = mul_sub(t9, t706, t749);
+    let t751 = mul_add(base_rotation[0][0], t747, base_rotation[0][1] * t750);
+    let t752 = mul_add(t160, t712, mul_add(base_rotation[0][2], t744, t751));
+    let t753 = mul_sub(t166, t718, mul_sub(t163, t714, t752));
+    let t754 = mul_sub(t172, t724, mul_add(t169, t722, t753));
+    let t755 = mul_add(t175, t726, t754);
+    total_bias[3] = t755;
+    let t756 = mul_add(base_rotation[1][0], t747, base_rotation[1][1] * t750);
+    let t757 = mul_add(t161, t712, mul_add(base_rotation[1][2], t744, t756));
+    let t758 = mul_sub(t167, t718, mul_sub(t164, t714, t757));
+    let t759 = mul_sub(t173, t724, mul_add(t170, t722, t758));
+    let t760 = mul_add(t176, t726, t759);
+    total_bias[4] = t760;
+    let t761 = mul_add(base_rotation[2][0], t747, base_rotation[2][1] * t750);
+    let t762 = mul_add(t162, t712, mul_add(base_rotation[2][2], t744, t761));
+    let t763 = mul_sub(t168, t718, mul_sub(t165, t714, t762));
+    let t764 = mul_sub(t174, t724, mul_add(t171, t722, t763));
+    let t765 = mul_add(t177, t726, t764);
+    total_bias[5] = t765;
+    total_bias[0] = -t731;
+    total_bias[1] = -t736;
+    total_bias[2] = -t741;
     // inertia less external wrench that the actuators must balance
-    let t768 = mul_sub(platform_acceleration[0], t325, external_wrench[0] + t733);
-    let t769 = mul_add(platform_acceleration[1], t253, t768);
-    let t770 = mul_add(platform_acceleration[2], t254, t769);
-    let t771 = mul_sub(platform_acceleration[3], t260, t770);
-    let t772 = mul_sub(platform_acceleration[4], t329, t771);
-    let t773 = mul_sub(platform_acceleration[5], t333, t772);
-    let t774 = platform_rotation[1][2] * c(0.031);
-    let t775 = platform_rotation[2][2] * c(0.031);
-    let t776 = platform_rotation[0][2] * c(0.031);
+    let t766 = mul_sub(platform_acceleration[0], t325, external_wrench[0] + t731);
+    let t767 = mul_add(platform_acceleration[1], t253, t766);
+    let t768 = mul_add(platform_acceleration[2], t254, t767);
+    let t769 = mul_sub(platform_acceleration[3], t260, t768);
+    let t770 = mul_sub(platform_acceleration[4], t329, t769);
+    let t771 = mul_sub(platform_acceleration[5], t333, t770);
+    let t772 = platform_rotation[1][2] * c(0.031);
+    let t773 = platform_rotation[2][2] * c(0.031);
+    let t774 = platform_rotation[0][2] * c(0.031);
     // force along the actuator that balances the remaining wrench
-    let t777 = c(1.0) / t155;
-    let t778 = t175 * t777;
-    let t779 = mul_add(platform_acceleration[0], t260, external_wrench[3] - t757);
-    let t780 = mul_add(platform_acceleration[1], t337, t779);
-    let t781 = mul_sub(platform_acceleration[2], t345, t780);
-    let t782 = mul_sub(platform_acceleration[3], t358, t781);
-    let t783 = mul_add(platform_acceleration[4], t366, t782);
-    let t784 = mul_add(platform_acceleration[5], t374, t783);
-    let t785 = mul_add(external_wrench[2], t774, t784);
-    let t786 = mul_sub(t773, t778, mul_sub(external_wrench[1], t775, t785));
-    let t787 = t177 * t777;
-    let t788 = c(1.0) / neg_mul_add(t146, t778, t172);
-    let t789 = neg_mul_add(t146, t787, t174) * t788;
-    let t790 = mul_add(platform_acceleration[0], t333, external_wrench[5] - t767);
-    let t791 = mul_sub(platform_acceleration[1], t341, t790);
-    let t792 = mul_add(platform_acceleration[2], t317, t791);
-    let t793 = mul_sub(platform_acceleration[3], t374, t792);
-    let t794 = mul_add(platform_acceleration[4], t394, t793);
-    let t795 = mul_add(platform_acceleration[5], t406, t794);
-    let t796 = mul_add(external_wrench[1], t776, t795);
-    let t797 = mul_sub(t773, t787, mul_sub(external_wrench[0], t774, t796));
-    let t798 = mul_sub(t786, t789, t797);
-    let t799 = neg_mul_add(t137, t778, t169);
-    let t800 = t159 * t777;
-    let t801 = neg_mul_add(t146, t800, t150) * t788;
-    let t802 = c(1.0) / mul_sub(t799, t789, neg_mul_add(t137, t787, t171));
-    let t803 = mul_sub(t799, t801, neg_mul_add(t137, t800, t141)) * t802;
-    let t804 = mul_sub(platform_acceleration[0], t254, external_wrench[2] + t743);
-    let t805 = mul_add(platform_acceleration[1], t273, t804);
-    let t806 = mul_add(platform_acceleration[2], t344, t805);
-    let t807 = mul_add(platform_acceleration[3], t345, t806);
-    let t808 = mul_sub(platform_acceleration[4], t346, t807);
-    let t809 = mul_add(t773, t800, mul_sub(platform_acceleration[5], t317, t808));
-    let t810 = mul_sub(t798, t803, mul_sub(t786, t801, t809));
-    let t811 = neg_mul_add(t125, t778, t166);
-    let t812 = mul_sub(t811, t789, neg_mul_add(t125, t787, t168));
-    let t813 = t176 * t777;
-    let t814 = neg_mul_add(t146, t813, t173) * t788;
-    let t815 = mul_sub(t799, t814, neg_mul_add(t137, t813, t170)) * t802;
-    let t816 = mul_sub(t811, t814, neg_mul_add(t125, t813, t167));
-    let t817 = mul_sub(t811, t801, neg_mul_add(t125, t800, t129));
-    let t818 = c(1.0) / mul_sub(t812, t803, t817);
-    let t819 = mul_sub(t812, t815, t816) * t818;
-    let t820 = mul_sub(platform_acceleration[0], t329, external_wrench[4] - t762);
-    let t821 = mul_sub(platform_acceleration[1], t292, t820);
-    let t822 = mul_add(platform_acceleration[2], t346, t821);
-    let t823 = mul_add(platform_acceleration[3], t366, t822);
-    let t824 = mul_add(platform_acceleration[4], t386, t823);
-    let t825 = mul_add(platform_acceleration[5], t394, t824);
-    let t826 = mul_add(external_wrench[0], t775, t825);
-    let t827 = mul_sub(t773, t813, mul_sub(external_wrench[2], t776, t826));
-    let t828 = mul_sub(t798, t815, mul_sub(t786, t814, t827));
-    let t829 = mul_sub(t810, t819, t828);
-    let t830 = mul_add(t113, t778, t163);
-    let t831 = mul_sub(t830, t789, mul_add(t113, t787, t165));
-    let t832 = mul_add(t830, t801, neg_mul_add(t113, t800, t117));
-    let t833 = mul_sub(t831, t803, t832);
-    let t834 = t157 * t777;
-    let t835 = neg_mul_add(t146, t834, t148) * t788;
-    let t836 = mul_sub(t799, t835, neg_mul_add(t137, t834, t139)) * t802;
-    let t837 = mul_sub(t811, t835, neg_mul_add(t125, t834, t127));
-    let t838 = mul_sub(t812, t836, t837) * t818;
-    let t839 = mul_add(t830, t835, neg_mul_add(t113, t834, t115));
-    let t840 = mul_sub(t830, t814, mul_add(t113, t813, t164));
-    let t841 = c(1.0) / mul_sub(t833, t819, mul_sub(t831, t815, t840));
-    let t842 = mul_sub(t833, t838, mul_sub(t831, t836, t839)) * t841;
-    let t843 = mul_sub(platform_acceleration[0], t253, external_wrench[1] + t738);
-    let t844 = mul_add(platform_acceleration[1], t336, t843);
-    let t845 = mul_add(platform_acceleration[2], t273, t844);
-    let t846 = mul_sub(platform_acceleration[3], t337, t845);
-    let t847 = mul_add(platform_acceleration[4], t292, t846);
-    let t848 = mul_add(t773, t834, mul_sub(platform_acceleration[5], t341, t847));
-    let t849 = mul_sub(t798, t836, mul_sub(t786, t835, t848));
-    let t850 = mul_sub(t829, t842, mul_sub(t810, t838, t849));
-    let t851 = mul_add(t104, t778, t160);
-    let t852 = mul_sub(t851, t789, mul_add(t104, t787, t162));
-    let t853 = mul_add(t851, t801, neg_mul_add(t104, t800, t108));
-    let t854 = mul_sub(t852, t803, t853);
-    let t855 = mul_sub(t851, t814, mul_add(t104, t813, t161));
-    let t856 = mul_sub(t854, t819, mul_sub(t852, t815, t855));
-    let t857 = mul_add(t851, t835, neg_mul_add(t104, t834, t106));
-    let t858 = mul_sub(t854, t838, mul_sub(t852, t836, t857));
-    let t859 = t850 * (c(1.0) / mul_sub(t856, t842, t858));
-    inverse_dynamics[0] = -t859;
-    let t860 = t841 * neg_mul_add(t856, t859, t829);
-    inverse_dynamics[1] = t860;
-    let t861 = t818 * mul_sub(t854, t859, neg_mul_add(t833, t860, t810));
-    inverse_dynamics[2] = t861;
-    let t862 = mul_sub(t831, t860, mul_add(t812, t861, t798));
-    let t863 = t802 * mul_add(t852, t859, t862);
-    inverse_dynamics[3] = t863;
-    let t864 = mul_add(t811, t861, mul_add(t799, t863, t786));
-    let t865 = t788 * mul_add(t851, t859, mul_sub(t830, t860, t864));
-    inverse_dynamics[4] = -t865;
-    let t866 = mul_sub(t137, t863, neg_mul_add(t146, t865, t773));
-    let t867 = mul_add(t113, t860, mul_add(t125, t861, t866));
-    inverse_dynamics[5] = t777 * mul_add(t104, t859, t867);
+    let t775 = c(1.0) / t155;
+    let t776 = t175 * t775;
+    let t777 = mul_add(platform_acceleration[0], t260, external_wrench[3] - t755);
+    let t778 = mul_add(platform_acceleration[1], t337, t777);
+    let t779 = mul_sub(platform_acceleration[2], t345, t778);
+    let t780 = mul_sub(platform_acceleration[3], t358, t779);
+    let t781 = mul_add(platform_acceleration[4], t366, t780);
+    let t782 = mul_add(platform_acceleration[5], t374, t781);
+    let t783 = mul_add(external_wrench[2], t772, t782);
+    let t784 = mul_sub(t771, t776, mul_sub(external_wrench[1], t773, t783));
+    let t785 = t177 * t775;
+    let t786 = c(1.0) / neg_mul_add(t146, t776, t172);
+    let t787 = neg_mul_add(t146, t785, t174) * t786;
+    let t788 = mul_add(platform_acceleration[0], t333, external_wrench[5] - t765);
+    let t789 = mul_sub(platform_acceleration[1], t341, t788);
+    let t790 = mul_add(platform_acceleration[2], t317, t789);
+    let t791 = mul_sub(platform_acceleration[3], t374, t790);
+    let t792 = mul_add(platform_acceleration[4], t394, t791);
+    let t793 = mul_add(platform_acceleration[5], t406, t792);
+    let t794 = mul_add(external_wrench[1], t774, t793);
+    let t795 = mul_sub(t771, t785, mul_sub(external_wrench[0], t772, t794));
+    let t796 = mul_sub(t784, t787, t795);
+    let t797 = neg_mul_add(t137, t776, t169);
+    let t798 = t159 * t775;
+    let t799 = neg_mul_add(t146, t798, t150) * t786;
+    let t800 = c(1.0) / mul_sub(t797, t787, neg_mul_add(t137, t785, t171));
+    let t801 = mul_sub(t797, t799, neg_mul_add(t137, t798, t141)) * t800;
+    let t802 = mul_sub(platform_acceleration[0], t254, external_wrench[2] + t741);
+    let t803 = mul_add(platform_acceleration[1], t273, t802);
+    let t804 = mul_add(platform_acceleration[2], t344, t803);
+    let t805 = mul_add(platform_acceleration[3], t345, t804);
+    let t806 = mul_sub(platform_acceleration[4], t346, t805);
+    let t807 = mul_add(t771, t798, mul_sub(platform_acceleration[5], t317, t806));
+    let t808 = mul_sub(t796, t801, mul_sub(t784, t799, t807));
+    let t809 = neg_mul_add(t125, t776, t166);
+    let t810 = mul_sub(t809, t787, neg_mul_add(t125, t785, t168));
+    let t811 = t176 * t775;
+    let t812 = neg_mul_add(t146, t811, t173) * t786;
+    let t813 = mul_sub(t797, t812, neg_mul_add(t137, t811, t170)) * t800;
+    let t814 = mul_sub(t809, t812, neg_mul_add(t125, t811, t167));
+    let t815 = mul_sub(t809, t799, neg_mul_add(t125, t798, t129));
+    let t816 = c(1.0) / mul_sub(t810, t801, t815);
+    let t817 = mul_sub(t810, t813, t814) * t816;
+    let t818 = mul_sub(platform_acceleration[0], t329, external_wrench[4] - t760);
+    let t819 = mul_sub(platform_acceleration[1], t292, t818);
+    let t820 = mul_add(platform_acceleration[2], t346, t819);
+    let t821 = mul_add(platform_acceleration[3], t366, t820);
+    let t822 = mul_add(platform_acceleration[4], t386, t821);
+    let t823 = mul_add(platform_acceleration[5], t394, t822);
+    let t824 = mul_add(external_wrench[0], t773, t823);
+    let t825 = mul_sub(t771, t811, mul_sub(external_wrench[2], t774, t824));
+    let t826 = mul_sub(t796, t813, mul_sub(t784, t812, t825));
+    let t827 = mul_sub(t808, t817, t826);
+    let t828 = mul_add(t113, t776, t163);
+    let t829 = mul_sub(t828, t787, mul_add(t113, t785, t165));
+    let t830 = mul_add(t828, t799, neg_mul_add(t113, t798, t117));
+    let t831 = mul_sub(t829, t801, t830);
+    let t832 = t157 * t775;
+    let t833 = neg_mul_add(t146, t832, t148) * t786;
+    let t834 = mul_sub(t797, t833, neg_mul_add(t137, t832, t139)) * t800;
+    let t835 = mul_sub(t809, t833, neg_mul_add(t125, t832, t127));
+    let t836 = mul_sub(t810, t834, t835) * t816;
+    let t837 = mul_add(t828, t833, neg_mul_add(t113, t832, t115));
+    let t838 = mul_sub(t828, t812, mul_add(t113, t811, t164));
+    let t839 = c(1.0) / mul_sub(t831, t817, mul_sub(t829, t813, t838));
+    let t840 = mul_sub(t831, t836, mul_sub(t829, t834, t837)) * t839;
+    let t841 = mul_sub(platform_acceleration[0], t253, external_wrench[1] + t736);
+    let t842 = mul_add(platform_acceleration[1], t336, t841);
+    let t843 = mul_add(platform_acceleration[2], t273, t842);
+    let t844 = mul_sub(platform_acceleration[3], t337, t843);
+    let t845 = mul_add(platform_acceleration[4], t292, t844);
+    let t846 = mul_add(t771, t832, mul_sub(platform_acceleration[5], t341, t845));
+    let t847 = mul_sub(t796, t834, mul_sub(t784, t833, t846));
+    let t848 = mul_sub(t827, t840, mul_sub(t808, t836, t847));
+    let t849 = mul_add(t104, t776, t160);
+    let t850 = mul_sub(t849, t787, mul_add(t104, t785, t162));
+    let t851 = mul_add(t849, t799, neg_mul_add(t104, t798, t108));
+    let t852 = mul_sub(t850, t801, t851);
+    let t853 = mul_sub(t849, t812, mul_add(t104, t811, t161));
+    let t854 = mul_sub(t852, t817, mul_sub(t850, t813, t853));
+    let t855 = mul_add(t849, t833, neg_mul_add(t104, t832, t106));
+    let t856 = mul_sub(t852, t836, mul_sub(t850, t834, t855));
+    let t857 = t848 * (c(1.0) / mul_sub(t854, t840, t856));
+    inverse_dynamics[0] = -t857;
+    let t858 = t839 * neg_mul_add(t854, t857, t827);
+    inverse_dynamics[1] = t858;
+    let t859 = t816 * mul_sub(t852, t857, neg_mul_add(t831, t858, t808));
+    inverse_dynamics[2] = t859;
+    let t860 = mul_sub(t829, t858, mul_add(t810, t859, t796));
+    let t861 = t800 * mul_add(t850, t857, t860);
+    inverse_dynamics[3] = t861;
+    let t862 = mul_add(t809, t859, mul_add(t797, t861, t784));
+    let t863 = t786 * mul_add(t849, t857, mul_sub(t828, t858, t862));
+    inverse_dynamics[4] = -t863;
+    let t864 = mul_sub(t137, t861, neg_mul_add(t146, t863, t771));
+    let t865 = mul_add(t113, t858, mul_add(t125, t859, t864));
+    inverse_dynamics[5] = t775 * mul_add(t104, t857, t865);
 }
 
 /// Actuator forces at reference speeds and accelerations, for passivity-based control, equation (49).
@@ -18267,497 +18207,498 @@ pub fn passive_inverse_dynamics<T: Scalar>(
     let t251 = mul_add(base_rotation[0][2], platform_acceleration[3], t250);
     let t252 = mul_add(base_rotation[2][2], platform_acceleration[5], t251);
     // acceleration per platform coordinate of points of the platform
-    let t253 = neg_mul_add(t126, t129, t252);
-    let t254 = mul_add(t129, t129, t132 * t132);
-    let t255 = t3 * t254;
-    let t256 = mul_add(t126, t132, t249);
-    let t257 = t6 * t254;
-    let t258 = t9 * t254;
-    let t259 = mul_add(t126, t129, t252);
-    let t260 = t126 * t126;
-    let t261 = mul_add(t132, t132, t260);
-    let t262 = t12 * t261;
-    let t263 = neg_mul_add(t129, t132, t246);
-    let t264 = t15 * t261;
-    let t265 = t18 * t261;
-    let t266 = neg_mul_add(t126, t132, t249);
-    let t267 = mul_add(t129, t129, t260);
-    let t268 = mul_add(t129, t132, t246);
-    let t269 = mul_add(t21, t267, mul_sub(t3, t266, t12 * t268));
-    let t270 = mul_add(t24, t267, mul_sub(t6, t266, t15 * t268));
-    let t271 = t18 * t268;
+    let t253 = t12 * t252;
+    let t254 = mul_sub(t12, t126, t3 * t129);
+    let t255 = mul_sub(t3, t132, t21 * t126);
+    let t256 = t15 * t252;
+    let t257 = mul_sub(t15, t126, t6 * t129);
+    let t258 = mul_sub(t6, t132, t24 * t126);
+    let t259 = t18 * t252;
+    let t260 = mul_sub(t18, t126, t9 * t129);
+    let t261 = mul_sub(t9, t132, t27 * t126);
+    let t262 = t21 * t246;
+    let t263 = mul_sub(t21, t129, t12 * t132);
+    let t264 = t24 * t246;
+    let t265 = mul_sub(t24, t129, t15 * t132);
+    let t266 = t27 * t246;
+    let t267 = mul_sub(t27, t129, t18 * t132);
+    let t268 = mul_add(t126, t255, mul_sub(t12, t246, t3 * t249));
+    let t269 = mul_sub(t129, t263, t268);
+    let t270 = mul_add(t126, t258, mul_sub(t15, t246, t6 * t249));
+    let t271 = mul_sub(t129, t265, t270);
+    let t272 = t9 * t249;
     // acceleration of the platform origin relative to the base
-    let t272 = mul_sub(t120, t147, t123 * t144);
-    let t273 = mul_add(t34, t225, mul_add(t32, t224, t211 - t237));
-    let t274 = mul_add(c(2.0), t272, mul_sub(t36, t226, t273));
-    let t275 = mul_sub(t123, t141, t117 * t147);
-    let t276 = mul_sub(t34, t229, mul_sub(t32, t227, t214 - t240));
-    let t277 = neg_mul_add(c(2.0), t275, mul_add(t36, t230, t276));
-    let t278 = t120 * t141;
+    let t273 = mul_sub(t120, t147, t123 * t144);
+    let t274 = mul_add(t34, t225, mul_add(t32, t224, t211 - t237));
+    let t275 = mul_add(c(2.0), t273, mul_sub(t36, t226, t274));
+    let t276 = mul_sub(t123, t141, t117 * t147);
+    let t277 = mul_sub(t34, t229, mul_sub(t32, t227, t214 - t240));
+    let t278 = neg_mul_add(c(2.0), t276, mul_add(t36, t230, t277));
+    let t279 = t120 * t141;
     // second derivative of the relative rotation
-    let t279 = mul_sub(t117, t135, mul_sub(t123, t133, t220 - t249));
-    let t280 = mul_sub(t133, t135, t279);
+    let t280 = mul_sub(t117, t135, mul_sub(t123, t133, t220 - t249));
     let t281 = mul_sub(t120, t133, mul_sub(t117, t134, t223 - t252));
-    let t282 = mul_add(t133, t134, t281);
-    let t283 = mul_add(t134, t134, t135 * t135);
-    let t284 = mul_add(t21, t280, mul_sub(t12, t282, t3 * t283));
-    let t285 = mul_add(t24, t280, mul_sub(t15, t282, t6 * t283));
+    let t282 = mul_sub(t134, t152, mul_sub(t21, t280, t12 * t281));
+    let t283 = mul_sub(t135, t150, t282);
+    let t284 = mul_sub(t134, t153, mul_sub(t24, t280, t15 * t281));
+    let t285 = mul_sub(t135, t151, t284);
     let t286 = mul_sub(t123, t134, mul_sub(t120, t135, t217 - t246));
-    let t287 = mul_add(t134, t135, t286);
-    let t288 = mul_sub(t133, t134, t281);
-    let t289 = t133 * t133;
-    let t290 = mul_add(t135, t135, t289);
-    let t291 = mul_add(t21, t287, mul_sub(t3, t288, t12 * t290));
-    let t292 = mul_add(t24, t287, mul_sub(t6, t288, t15 * t290));
-    let t293 = mul_add(t134, t134, t289);
-    let t294 = mul_add(t133, t135, t279);
-    let t295 = mul_sub(t134, t135, t286);
-    let t296 = mul_sub(t21, t293, mul_add(t3, t294, t12 * t295));
-    let t297 = mul_sub(t24, t293, mul_add(t6, t294, t15 * t295));
+    let t287 = mul_sub(t135, t148, mul_sub(t3, t281, t21 * t286));
+    let t288 = mul_sub(t133, t152, t287);
+    let t289 = mul_sub(t135, t149, mul_sub(t6, t281, t24 * t286));
+    let t290 = mul_sub(t133, t153, t289);
+    let t291 = mul_sub(t133, t150, mul_sub(t12, t286, t3 * t280));
+    let t292 = mul_sub(t134, t148, t291);
+    let t293 = mul_sub(t133, t151, mul_sub(t15, t286, t6 * t280));
+    let t294 = mul_sub(t134, t149, t293);
     // leg 1: acceleration of the platform joint relative to the base
-    let t298 = mul_add(c(0.1159110991546882), t284, t274);
-    let t299 = neg_mul_add(c(0.03105828541230249), t285, t298);
-    let t300 = neg_mul_add(c(0.1159110991546882), t291, t277);
-    let t301 = mul_add(c(0.03105828541230249), t292, t300);
+    let t295 = neg_mul_add(c(0.1159110991546882), t283, t275);
+    let t296 = mul_add(c(0.03105828541230249), t285, t295);
+    let t297 = mul_add(c(0.1159110991546882), t288, t278);
+    let t298 = neg_mul_add(c(0.03105828541230249), t290, t297);
     // leg 2: acceleration of the platform joint relative to the base
-    let t302 = mul_add(c(0.03105828541230249), t285, t298);
-    let t303 = neg_mul_add(c(0.03105828541230249), t292, t300);
+    let t299 = neg_mul_add(c(0.03105828541230249), t285, t295);
+    let t300 = mul_add(c(0.03105828541230249), t290, t297);
     // leg 3: acceleration of the platform joint relative to the base
-    let t304 = neg_mul_add(c(0.031058285412302475), t284, t274);
-    let t305 = mul_add(c(0.1159110991546882), t285, t304);
-    let t306 = mul_add(c(0.031058285412302475), t291, t277);
-    let t307 = neg_mul_add(c(0.1159110991546882), t292, t306);
+    let t301 = mul_add(c(0.031058285412302475), t283, t275);
+    let t302 = neg_mul_add(c(0.1159110991546882), t285, t301);
+    let t303 = neg_mul_add(c(0.031058285412302475), t288, t278);
+    let t304 = mul_add(c(0.1159110991546882), t290, t303);
     // leg 4: acceleration of the platform joint relative to the base
-    let t308 = neg_mul_add(c(0.0848528137423857), t284, t274);
-    let t309 = mul_add(c(0.08485281374238571), t285, t308);
-    let t310 = mul_add(c(0.0848528137423857), t291, t277);
-    let t311 = neg_mul_add(c(0.08485281374238571), t292, t310);
+    let t305 = mul_add(c(0.0848528137423857), t283, t275);
+    let t306 = neg_mul_add(c(0.08485281374238571), t285, t305);
+    let t307 = neg_mul_add(c(0.0848528137423857), t288, t278);
+    let t308 = mul_add(c(0.08485281374238571), t290, t307);
     // leg 5: acceleration of the platform joint relative to the base
-    let t312 = neg_mul_add(c(0.08485281374238571), t285, t308);
-    let t313 = mul_add(c(0.08485281374238571), t292, t310);
+    let t309 = mul_add(c(0.08485281374238571), t285, t305);
+    let t310 = neg_mul_add(c(0.08485281374238571), t290, t307);
     // leg 6: acceleration of the platform joint relative to the base
-    let t314 = neg_mul_add(c(0.1159110991546882), t285, t304);
-    let t315 = mul_add(c(0.1159110991546882), t292, t306);
+    let t311 = mul_add(c(0.1159110991546882), t285, t301);
+    let t312 = neg_mul_add(c(0.1159110991546882), t290, t303);
     // leg 1: actuator acceleration d''
-    let t316 = mul_add(t44, t299, mul_add(t155, t155, t157 * t157));
-    let t317 = mul_sub(t172, t172, mul_sub(t45, t301, t316));
+    let t313 = mul_add(t44, t296, mul_add(t155, t155, t157 * t157));
+    let t314 = mul_sub(t172, t172, mul_sub(t45, t298, t313));
     // leg 2: actuator acceleration d''
-    let t318 = mul_sub(t49, t302, mul_add(t158, t158, t159 * t159));
-    let t319 = mul_sub(t173, t173, mul_add(t50, t303, t318));
+    let t315 = mul_sub(t49, t299, mul_add(t158, t158, t159 * t159));
+    let t316 = mul_sub(t173, t173, mul_add(t50, t300, t315));
     // leg 3: actuator acceleration d''
-    let t320 = mul_sub(t58, t305, mul_add(t161, t161, t163 * t163));
-    let t321 = mul_add(t174, t174, mul_sub(t59, t307, t320));
+    let t317 = mul_sub(t58, t302, mul_add(t161, t161, t163 * t163));
+    let t318 = mul_add(t174, t174, mul_sub(t59, t304, t317));
     // leg 4: actuator acceleration d''
-    let t322 = mul_sub(t67, t309, mul_add(t165, t165, t167 * t167));
-    let t323 = mul_add(t175, t175, mul_sub(t68, t311, t322));
+    let t319 = mul_sub(t67, t306, mul_add(t165, t165, t167 * t167));
+    let t320 = mul_add(t175, t175, mul_sub(t68, t308, t319));
     // leg 5: actuator acceleration d''
-    let t324 = mul_sub(t72, t312, mul_add(t168, t168, t169 * t169));
-    let t325 = mul_add(t176, t176, mul_sub(t73, t313, t324));
+    let t321 = mul_sub(t72, t309, mul_add(t168, t168, t169 * t169));
+    let t322 = mul_add(t176, t176, mul_sub(t73, t310, t321));
     // leg 6: actuator acceleration d''
-    let t326 = mul_sub(t77, t314, mul_add(t170, t170, t171 * t171));
-    let t327 = mul_add(t177, t177, mul_sub(t78, t315, t326));
+    let t323 = mul_sub(t77, t311, mul_add(t170, t170, t171 * t171));
+    let t324 = mul_add(t177, t177, mul_sub(t78, t312, t323));
     // reference less actual velocity of the platform origin
-    let t328 = platform_velocity[2] - reference_velocity[2];
-    let t329 = platform_velocity[0] - reference_velocity[0];
-    let t330 = platform_velocity[1] - reference_velocity[1];
-    let t331 = mul_add(base_rotation[0][0], t329, base_rotation[1][0] * t330);
-    let t332 = mul_add(base_rotation[2][0], t328, t331);
-    let t333 = mul_add(base_rotation[0][1], t329, base_rotation[1][1] * t330);
-    let t334 = mul_add(base_rotation[2][1], t328, t333);
-    let t335 = mul_add(base_rotation[0][2], t329, base_rotation[1][2] * t330);
-    let t336 = mul_add(base_rotation[2][2], t328, t335);
+    let t325 = platform_velocity[2] - reference_velocity[2];
+    let t326 = platform_velocity[0] - reference_velocity[0];
+    let t327 = platform_velocity[1] - reference_velocity[1];
+    let t328 = mul_add(base_rotation[0][0], t326, base_rotation[1][0] * t327);
+    let t329 = mul_add(base_rotation[2][0], t325, t328);
+    let t330 = mul_add(base_rotation[0][1], t326, base_rotation[1][1] * t327);
+    let t331 = mul_add(base_rotation[2][1], t325, t330);
+    let t332 = mul_add(base_rotation[0][2], t326, base_rotation[1][2] * t327);
+    let t333 = mul_add(base_rotation[2][2], t325, t332);
     // reference less actual angular velocity of the platform
-    let t337 = platform_velocity[5] - reference_velocity[5];
-    let t338 = platform_velocity[3] - reference_velocity[3];
-    let t339 = platform_velocity[4] - reference_velocity[4];
-    let t340 = mul_add(base_rotation[0][0], t338, base_rotation[1][0] * t339);
-    let t341 = mul_add(base_rotation[2][0], t337, t340);
-    let t342 = mul_add(base_rotation[0][1], t338, base_rotation[1][1] * t339);
-    let t343 = mul_add(base_rotation[2][1], t337, t342);
-    let t344 = mul_add(base_rotation[0][2], t338, base_rotation[1][2] * t339);
-    let t345 = mul_add(base_rotation[2][2], t337, t344);
+    let t334 = platform_velocity[5] - reference_velocity[5];
+    let t335 = platform_velocity[3] - reference_velocity[3];
+    let t336 = platform_velocity[4] - reference_velocity[4];
+    let t337 = mul_add(base_rotation[0][0], t335, base_rotation[1][0] * t336);
+    let t338 = mul_add(base_rotation[2][0], t334, t337);
+    let t339 = mul_add(base_rotation[0][1], t335, base_rotation[1][1] * t336);
+    let t340 = mul_add(base_rotation[2][1], t334, t339);
+    let t341 = mul_add(base_rotation[0][2], t335, base_rotation[1][2] * t336);
+    let t342 = mul_add(base_rotation[2][2], t334, t341);
     // what that adds to the acceleration per platform coordinate
-    let t346 = t126 * t343;
-    let t347 = mul_add(t132, t345, t129 * t343);
-    let t348 = t126 * t345;
-    let t349 = mul_add(t21, t348, mul_sub(t12, t346, t3 * t347));
-    let t350 = mul_add(t24, t348, mul_sub(t15, t346, t6 * t347));
-    let t351 = t129 * t341;
-    let t352 = t126 * t341;
-    let t353 = mul_add(t132, t345, t352);
-    let t354 = t129 * t345;
-    let t355 = mul_add(t21, t354, mul_sub(t3, t351, t12 * t353));
-    let t356 = mul_add(t24, t354, mul_sub(t6, t351, t15 * t353));
-    let t357 = t132 * t341;
-    let t358 = t132 * t343;
-    let t359 = mul_add(t129, t343, t352);
-    let t360 = mul_sub(t21, t359, mul_add(t3, t357, t12 * t358));
-    let t361 = mul_sub(t24, t359, mul_add(t6, t357, t15 * t358));
+    let t343 = t126 * t340;
+    let t344 = mul_add(t132, t342, t129 * t340);
+    let t345 = t126 * t342;
+    let t346 = mul_add(t21, t345, mul_sub(t12, t343, t3 * t344));
+    let t347 = mul_add(t24, t345, mul_sub(t15, t343, t6 * t344));
+    let t348 = t129 * t338;
+    let t349 = t126 * t338;
+    let t350 = mul_add(t132, t342, t349);
+    let t351 = t129 * t342;
+    let t352 = mul_add(t21, t351, mul_sub(t3, t348, t12 * t350));
+    let t353 = mul_add(t24, t351, mul_sub(t6, t348, t15 * t350));
+    let t354 = t132 * t338;
+    let t355 = t132 * t340;
+    let t356 = mul_add(t129, t340, t349);
+    let t357 = mul_sub(t21, t356, mul_add(t3, t354, t12 * t355));
+    let t358 = mul_sub(t24, t356, mul_add(t6, t354, t15 * t355));
     // leg 1: leg inertia less weight along the actuator
-    let t362 = c(2.0) * t147;
-    let t363 = mul_add(t152, c(0.2318221983093764), t362);
-    let t364 = t153 * c(0.06211657082460498);
-    let t365 = t363 - neg_mul_add(c(2.0), t172, t364);
-    let t366 = t120 * t365;
-    let t367 = c(0.03105828541230249) * t350;
-    let t368 = c(0.03105828541230249) * t356;
-    let t369 = c(0.03105828541230249) * t361;
-    let t370 = mul_sub(c(0.1159110991546882), t360, t369);
-    let t371 = mul_sub(t42, t341, mul_add(t38, t345, t334));
-    let t372 = mul_sub(t40, t345, mul_add(t42, t343, t332));
-    let t373 = mul_sub(t38, t343, mul_add(t40, t341, t336));
-    let t374 = mul_add(t104, t371, mul_add(t103, t372, t373));
-    let t375 = t117 * t365;
-    let t376 = mul_add(t34, t232, neg_mul_add(t32, t231, t243));
-    let t377 = mul_sub(t36, t233, t376);
-    let t378 = neg_mul_add(c(2.0), mul_sub(t117, t144, t278), t377);
-    let t379 = mul_sub(c(0.12275970481124972), t232, c(0.03105828541230249) * t297);
-    let t380 = mul_add(c(0.1316436662914507), t231, c(0.1159110991546882) * t296);
-    let t381 = t378 + t380;
-    let t382 = mul_sub(c(0.1159110991546882), t349, t367);
-    let t383 = mul_add(t181, t371, mul_sub(t81, t317, t179 * t372));
-    let t384 = mul_sub(t103, t382, mul_add(t182, t373, t383));
-    let t385 = mul_add(t104, mul_sub(c(0.1159110991546882), t355, t368), t384);
-    let t386 = t381 + (t379 - mul_add(t82, t233, t370 - t385));
+    let t359 = c(2.0) * t147;
+    let t360 = mul_add(t152, c(0.2318221983093764), t359);
+    let t361 = t153 * c(0.06211657082460498);
+    let t362 = t360 - neg_mul_add(c(2.0), t172, t361);
+    let t363 = t120 * t362;
+    let t364 = c(0.03105828541230249) * t347;
+    let t365 = c(0.03105828541230249) * t353;
+    let t366 = c(0.03105828541230249) * t358;
+    let t367 = mul_sub(c(0.1159110991546882), t357, t366);
+    let t368 = mul_sub(t42, t338, mul_add(t38, t342, t331));
+    let t369 = mul_sub(t40, t342, mul_add(t42, t340, t329));
+    let t370 = mul_sub(t38, t340, mul_add(t40, t338, t333));
+    let t371 = mul_add(t104, t368, mul_add(t103, t369, t370));
+    let t372 = t117 * t362;
+    let t373 = mul_add(t34, t232, neg_mul_add(t32, t231, t243));
+    let t374 = mul_sub(t36, t233, t373);
+    let t375 = neg_mul_add(c(2.0), mul_sub(t117, t144, t279), t374);
+    let t376 = mul_sub(c(0.12275970481124972), t232, c(0.03105828541230249) * t294);
+    let t377 = mul_add(c(0.1316436662914507), t231, c(0.1159110991546882) * t292);
+    let t378 = t375 + t377;
+    let t379 = mul_sub(c(0.1159110991546882), t346, t364);
+    let t380 = mul_add(t181, t368, mul_sub(t81, t314, t179 * t369));
+    let t381 = mul_sub(t103, t379, mul_add(t182, t370, t380));
+    let t382 = mul_add(t104, mul_sub(c(0.1159110991546882), t352, t365), t381);
+    let t383 = t378 + (t376 - mul_add(t82, t233, t367 - t382));
     // leg 1: remaining leg inertia less weight at the platform joint
-    let t387 = c(0.17066666666666666) * t211;
-    let t388 = neg_mul_add(t224, c(0.022467185713740918), t387);
-    let t389 = mul_sub(t120, t374, mul_add(t82, t226, t366));
-    let t390 = mul_add(t225, c(0.02095098962111995), t388);
-    let t391 = mul_add(c(0.17066666666666666), t389, t390);
-    let t392 = c(0.17066666666666666) * t214;
-    let t393 = mul_add(t227, c(0.022467185713740918), t392);
-    let t394 = mul_sub(t117, t374, mul_add(t82, t230, t375));
-    let t395 = mul_add(t229, c(0.02095098962111995), t393);
-    let t396 = neg_mul_add(c(0.17066666666666666), t394, t395);
+    let t384 = c(0.17066666666666666) * t211;
+    let t385 = neg_mul_add(t224, c(0.022467185713740918), t384);
+    let t386 = mul_sub(t120, t371, mul_add(t82, t226, t363));
+    let t387 = mul_add(t225, c(0.02095098962111995), t385);
+    let t388 = mul_add(c(0.17066666666666666), t386, t387);
+    let t389 = c(0.17066666666666666) * t214;
+    let t390 = mul_add(t227, c(0.022467185713740918), t389);
+    let t391 = mul_sub(t117, t371, mul_add(t82, t230, t372));
+    let t392 = mul_add(t229, c(0.02095098962111995), t390);
+    let t393 = neg_mul_add(c(0.17066666666666666), t391, t392);
     // leg 2: leg inertia less weight along the actuator
-    let t397 = t363 + neg_mul_add(c(2.0), t173, t364);
-    let t398 = t120 * t397;
-    let t399 = mul_add(c(0.1159110991546882), t360, t369);
-    let t400 = mul_sub(t48, t341, mul_add(t46, t345, t334));
-    let t401 = mul_sub(t47, t345, mul_add(t48, t343, t332));
-    let t402 = mul_sub(t46, t343, mul_add(t47, t341, t336));
-    let t403 = mul_add(t106, t400, neg_mul_add(t105, t401, t402));
-    let t404 = t117 * t397;
-    let t405 = mul_add(t184, t401, t381 - mul_add(t85, t319, t379));
-    let t406 = mul_sub(t187, t402, mul_add(t186, t400, t405));
-    let t407 = mul_add(t105, mul_add(c(0.1159110991546882), t349, t367), t406);
-    let t408 = mul_sub(t106, mul_add(c(0.1159110991546882), t355, t368), t407);
-    let t409 = mul_add(t86, t233, t399 - t408);
+    let t394 = t360 + neg_mul_add(c(2.0), t173, t361);
+    let t395 = t120 * t394;
+    let t396 = mul_add(c(0.1159110991546882), t357, t366);
+    let t397 = mul_sub(t48, t338, mul_add(t46, t342, t331));
+    let t398 = mul_sub(t47, t342, mul_add(t48, t340, t329));
+    let t399 = mul_sub(t46, t340, mul_add(t47, t338, t333));
+    let t400 = mul_add(t106, t397, neg_mul_add(t105, t398, t399));
+    let t401 = t117 * t394;
+    let t402 = mul_add(t184, t398, t378 - mul_add(t85, t316, t376));
+    let t403 = mul_sub(t187, t399, mul_add(t186, t397, t402));
+    let t404 = mul_add(t105, mul_add(c(0.1159110991546882), t346, t364), t403);
+    let t405 = mul_sub(t106, mul_add(c(0.1159110991546882), t352, t365), t404);
+    let t406 = mul_add(t86, t233, t396 - t405);
     // leg 2: remaining leg inertia less weight at the platform joint
-    let t410 = mul_sub(t120, t403, mul_add(t86, t226, t398));
-    let t411 = neg_mul_add(t225, c(0.02095098962111995), t388);
-    let t412 = mul_add(c(0.17066666666666666), t410, t411);
-    let t413 = mul_sub(t117, t403, mul_add(t86, t230, t404));
-    let t414 = neg_mul_add(t229, c(0.02095098962111995), t393);
-    let t415 = neg_mul_add(c(0.17066666666666666), t413, t414);
+    let t407 = mul_sub(t120, t400, mul_add(t86, t226, t395));
+    let t408 = neg_mul_add(t225, c(0.02095098962111995), t385);
+    let t409 = mul_add(c(0.17066666666666666), t407, t408);
+    let t410 = mul_sub(t117, t400, mul_add(t86, t230, t401));
+    let t411 = neg_mul_add(t229, c(0.02095098962111995), t390);
+    let t412 = neg_mul_add(c(0.17066666666666666), t410, t411);
     // leg 3: leg inertia less weight along the actuator
-    let t416 = neg_mul_add(t152, c(0.06211657082460495), t362);
-    let t417 = t153 * c(0.2318221983093764);
-    let t418 = t416 + neg_mul_add(c(2.0), t174, t417);
-    let t419 = t120 * t418;
-    let t420 = c(0.1159110991546882) * t350;
-    let t421 = c(0.1159110991546882) * t356;
-    let t422 = c(0.1159110991546882) * t361;
-    let t423 = mul_sub(c(0.031058285412302475), t360, t422);
-    let t424 = mul_add(t56, t341, neg_mul_add(t52, t345, t334));
-    let t425 = mul_add(t54, t345, neg_mul_add(t56, t343, t332));
-    let t426 = mul_add(t52, t343, neg_mul_add(t54, t341, t336));
-    let t427 = mul_sub(t108, t424, neg_mul_add(t107, t425, t426));
-    let t428 = t117 * t418;
-    let t429 = mul_sub(c(0.17538661166134234), t232, c(0.1159110991546882) * t297);
-    let t430 = mul_sub(c(0.040491189781895726), t231, c(0.031058285412302475) * t296);
-    let t431 = t378 + t430;
-    let t432 = mul_sub(c(0.031058285412302475), t349, t420);
-    let t433 = mul_add(t191, t424, mul_sub(t89, t321, t189 * t425));
-    let t434 = mul_sub(t107, t432, mul_add(t192, t426, t433));
-    let t435 = mul_add(t108, mul_sub(c(0.031058285412302475), t355, t421), t434);
-    let t436 = t431 - (t429 + mul_sub(t90, t233, t423 + t435));
+    let t413 = neg_mul_add(t152, c(0.06211657082460495), t359);
+    let t414 = t153 * c(0.2318221983093764);
+    let t415 = t413 + neg_mul_add(c(2.0), t174, t414);
+    let t416 = t120 * t415;
+    let t417 = c(0.1159110991546882) * t347;
+    let t418 = c(0.1159110991546882) * t353;
+    let t419 = c(0.1159110991546882) * t358;
+    let t420 = mul_sub(c(0.031058285412302475), t357, t419);
+    let t421 = mul_add(t56, t338, neg_mul_add(t52, t342, t331));
+    let t422 = mul_add(t54, t342, neg_mul_add(t56, t340, t329));
+    let t423 = mul_add(t52, t340, neg_mul_add(t54, t338, t333));
+    let t424 = mul_sub(t108, t421, neg_mul_add(t107, t422, t423));
+    let t425 = t117 * t415;
+    let t426 = mul_sub(c(0.17538661166134234), t232, c(0.1159110991546882) * t294);
+    let t427 = mul_sub(c(0.040491189781895726), t231, c(0.031058285412302475) * t292);
+    let t428 = t375 + t427;
+    let t429 = mul_sub(c(0.031058285412302475), t346, t417);
+    let t430 = mul_add(t191, t421, mul_sub(t89, t318, t189 * t422));
+    let t431 = mul_sub(t107, t429, mul_add(t192, t423, t430));
+    let t432 = mul_add(t108, mul_sub(c(0.031058285412302475), t352, t418), t431);
+    let t433 = t428 - (t426 + mul_sub(t90, t233, t420 + t432));
     // leg 3: remaining leg inertia less weight at the platform joint
-    let t437 = neg_mul_add(t224, c(0.006910496389443537), t387);
-    let t438 = mul_sub(t120, t427, mul_add(t90, t226, t419));
-    let t439 = neg_mul_add(t225, c(0.029932648390202425), t437);
-    let t440 = mul_add(c(0.17066666666666666), t438, t439);
-    let t441 = mul_add(t227, c(0.006910496389443537), t392);
-    let t442 = mul_sub(t117, t427, mul_add(t90, t230, t428));
-    let t443 = neg_mul_add(t229, c(0.029932648390202425), t441);
-    let t444 = neg_mul_add(c(0.17066666666666666), t442, t443);
+    let t434 = neg_mul_add(t224, c(0.006910496389443537), t384);
+    let t435 = mul_sub(t120, t424, mul_add(t90, t226, t416));
+    let t436 = neg_mul_add(t225, c(0.029932648390202425), t434);
+    let t437 = mul_add(c(0.17066666666666666), t435, t436);
+    let t438 = mul_add(t227, c(0.006910496389443537), t389);
+    let t439 = mul_sub(t117, t424, mul_add(t90, t230, t425));
+    let t440 = neg_mul_add(t229, c(0.029932648390202425), t438);
+    let t441 = neg_mul_add(c(0.17066666666666666), t439, t440);
     // leg 4: leg inertia less weight along the actuator
-    let t445 = neg_mul_add(t152, c(0.1697056274847714), t362);
-    let t446 = t153 * c(0.16970562748477142);
-    let t447 = t445 + neg_mul_add(c(2.0), t175, t446);
-    let t448 = t120 * t447;
-    let t449 = c(0.08485281374238571) * t350;
-    let t450 = c(0.08485281374238571) * t356;
-    let t451 = c(0.08485281374238571) * t361;
-    let t452 = mul_sub(c(0.0848528137423857), t360, t451);
-    let t453 = mul_add(t65, t341, neg_mul_add(t61, t345, t334));
-    let t454 = mul_add(t63, t345, neg_mul_add(t65, t343, t332));
-    let t455 = mul_add(t61, t343, neg_mul_add(t63, t341, t336));
-    let t456 = mul_sub(t110, t453, neg_mul_add(t109, t454, t455));
-    let t457 = t117 * t447;
-    let t458 = mul_sub(c(0.052626906850092664), t232, c(0.08485281374238571) * t297);
-    let t459 = mul_add(c(0.17213485607334636), t231, c(0.0848528137423857) * t296);
-    let t460 = t378 - t459;
-    let t461 = mul_sub(c(0.0848528137423857), t349, t449);
-    let t462 = mul_add(t196, t453, mul_sub(t93, t323, t194 * t454));
-    let t463 = mul_sub(t109, t461, mul_add(t197, t455, t462));
-    let t464 = mul_add(t110, mul_sub(c(0.0848528137423857), t355, t450), t463);
-    let t465 = t460 - (t458 + mul_sub(t94, t233, t452 + t464));
+    let t442 = neg_mul_add(t152, c(0.1697056274847714), t359);
+    let t443 = t153 * c(0.16970562748477142);
+    let t444 = t442 + neg_mul_add(c(2.0), t175, t443);
+    let t445 = t120 * t444;
+    let t446 = c(0.08485281374238571) * t347;
+    let t447 = c(0.08485281374238571) * t353;
+    let t448 = c(0.08485281374238571) * t358;
+    let t449 = mul_sub(c(0.0848528137423857), t357, t448);
+    let t450 = mul_add(t65, t338, neg_mul_add(t61, t342, t331));
+    let t451 = mul_add(t63, t342, neg_mul_add(t65, t340, t329));
+    let t452 = mul_add(t61, t340, neg_mul_add(t63, t338, t333));
+    let t453 = mul_sub(t110, t450, neg_mul_add(t109, t451, t452));
+    let t454 = t117 * t444;
+    let t455 = mul_sub(c(0.052626906850092664), t232, c(0.08485281374238571) * t294);
+    let t456 = mul_add(c(0.17213485607334636), t231, c(0.0848528137423857) * t292);
+    let t457 = t375 - t456;
+    let t458 = mul_sub(c(0.0848528137423857), t346, t446);
+    let t459 = mul_add(t196, t450, mul_sub(t93, t320, t194 * t451));
+    let t460 = mul_sub(t109, t458, mul_add(t197, t452, t459));
+    let t461 = mul_add(t110, mul_sub(c(0.0848528137423857), t352, t447), t460);
+    let t462 = t457 - (t455 + mul_sub(t94, t233, t449 + t461));
     // leg 4: remaining leg inertia less weight at the platform joint
-    let t466 = mul_add(t224, c(0.029377682103184446), t387);
-    let t467 = mul_sub(t120, t456, mul_add(t94, t226, t448));
-    let t468 = neg_mul_add(t225, c(0.008981658769082482), t466);
-    let t469 = mul_add(c(0.17066666666666666), t467, t468);
-    let t470 = neg_mul_add(t227, c(0.029377682103184446), t392);
-    let t471 = mul_sub(t117, t456, mul_add(t94, t230, t457));
-    let t472 = neg_mul_add(t229, c(0.008981658769082482), t470);
-    let t473 = neg_mul_add(c(0.17066666666666666), t471, t472);
+    let t463 = mul_add(t224, c(0.029377682103184446), t384);
+    let t464 = mul_sub(t120, t453, mul_add(t94, t226, t445));
+    let t465 = neg_mul_add(t225, c(0.008981658769082482), t463);
+    let t466 = mul_add(c(0.17066666666666666), t464, t465);
+    let t467 = neg_mul_add(t227, c(0.029377682103184446), t389);
+    let t468 = mul_sub(t117, t453, mul_add(t94, t230, t454));
+    let t469 = neg_mul_add(t229, c(0.008981658769082482), t467);
+    let t470 = neg_mul_add(c(0.17066666666666666), t468, t469);
     // leg 5: leg inertia less weight along the actuator
-    let t474 = t445 - mul_add(c(2.0), t176, t446);
-    let t475 = t120 * t474;
-    let t476 = mul_add(c(0.0848528137423857), t360, t451);
-    let t477 = mul_add(t71, t341, neg_mul_add(t69, t345, t334));
-    let t478 = mul_add(t70, t345, neg_mul_add(t71, t343, t332));
-    let t479 = mul_add(t69, t343, neg_mul_add(t70, t341, t336));
-    let t480 = mul_sub(t112, t477, neg_mul_add(t111, t478, t479));
-    let t481 = t117 * t474;
-    let t482 = mul_add(t199, t478, t460 - mul_sub(t97, t325, t458));
-    let t483 = mul_add(t202, t479, mul_sub(t201, t477, t482));
-    let t484 = mul_sub(t111, mul_add(c(0.0848528137423857), t349, t449), t483);
-    let t485 = mul_add(t112, mul_add(c(0.0848528137423857), t355, t450), t484);
-    let t486 = mul_sub(t98, t233, t476 + t485);
+    let t471 = t442 - mul_add(c(2.0), t176, t443);
+    let t472 = t120 * t471;
+    let t473 = mul_add(c(0.0848528137423857), t357, t448);
+    let t474 = mul_add(t71, t338, neg_mul_add(t69, t342, t331));
+    let t475 = mul_add(t70, t342, neg_mul_add(t71, t340, t329));
+    let t476 = mul_add(t69, t340, neg_mul_add(t70, t338, t333));
+    let t477 = mul_sub(t112, t474, neg_mul_add(t111, t475, t476));
+    let t478 = t117 * t471;
+    let t479 = mul_add(t199, t475, t457 - mul_sub(t97, t322, t455));
+    let t480 = mul_add(t202, t476, mul_sub(t201, t474, t479));
+    let t481 = mul_sub(t111, mul_add(c(0.0848528137423857), t346, t446), t480);
+    let t482 = mul_add(t112, mul_add(c(0.0848528137423857), t352, t447), t481);
+    let t483 = mul_sub(t98, t233, t473 + t482);
     // leg 5: remaining leg inertia less weight at the platform joint
-    let t487 = mul_sub(t120, t480, mul_add(t98, t226, t475));
-    let t488 = mul_add(t225, c(0.008981658769082482), t466);
-    let t489 = mul_add(c(0.17066666666666666), t487, t488);
-    let t490 = mul_sub(t117, t480, mul_add(t98, t230, t481));
-    let t491 = mul_add(t229, c(0.008981658769082482), t470);
-    let t492 = neg_mul_add(c(0.17066666666666666), t490, t491);
+    let t484 = mul_sub(t120, t477, mul_add(t98, t226, t472));
+    let t485 = mul_add(t225, c(0.008981658769082482), t463);
+    let t486 = mul_add(c(0.17066666666666666), t484, t485);
+    let t487 = mul_sub(t117, t477, mul_add(t98, t230, t478));
+    let t488 = mul_add(t229, c(0.008981658769082482), t467);
+    let t489 = neg_mul_add(c(0.17066666666666666), t487, t488);
     // leg 6: leg inertia less weight along the actuator
-    let t493 = t416 - mul_add(c(2.0), t177, t417);
-    let t494 = t120 * t493;
-    let t495 = mul_add(c(0.031058285412302475), t360, t422);
-    let t496 = mul_add(t76, t341, neg_mul_add(t74, t345, t334));
-    let t497 = mul_add(t75, t345, neg_mul_add(t76, t343, t332));
-    let t498 = mul_add(t74, t343, neg_mul_add(t75, t341, t336));
-    let t499 = mul_sub(t114, t496, neg_mul_add(t113, t497, t498));
-    let t500 = t117 * t493;
-    let t501 = mul_add(t204, t497, t431 - mul_sub(t101, t327, t429));
-    let t502 = mul_add(t207, t498, mul_sub(t206, t496, t501));
-    let t503 = mul_sub(t113, mul_add(c(0.031058285412302475), t349, t420), t502);
-    let t504 = mul_add(t114, mul_add(c(0.031058285412302475), t355, t421), t503);
-    let t505 = mul_sub(t102, t233, t495 + t504);
+    let t490 = t413 - mul_add(c(2.0), t177, t414);
+    let t491 = t120 * t490;
+    let t492 = mul_add(c(0.031058285412302475), t357, t419);
+    let t493 = mul_add(t76, t338, neg_mul_add(t74, t342, t331));
+    let t494 = mul_add(t75, t342, neg_mul_add(t76, t340, t329));
+    let t495 = mul_add(t74, t340, neg_mul_add(t75, t338, t333));
+    let t496 = mul_sub(t114, t493, neg_mul_add(t113, t494, t495));
+    let t497 = t117 * t490;
+    let t498 = mul_add(t204, t494, t428 - mul_sub(t101, t324, t426));
+    let t499 = mul_add(t207, t495, mul_sub(t206, t493, t498));
+    let t500 = mul_sub(t113, mul_add(c(0.031058285412302475), t346, t417), t499);
+    let t501 = mul_add(t114, mul_add(c(0.031058285412302475), t352, t418), t500);
+    let t502 = mul_sub(t102, t233, t492 + t501);
     // leg 6: remaining leg inertia less weight at the platform joint
-    let t506 = mul_sub(t120, t499, mul_add(t102, t226, t494));
-    let t507 = mul_add(t225, c(0.029932648390202425), t437);
-    let t508 = mul_add(c(0.17066666666666666), t506, t507);
-    let t509 = mul_sub(t117, t499, mul_add(t102, t230, t500));
-    let t510 = mul_add(t229, c(0.029932648390202425), t441);
-    let t511 = neg_mul_add(c(0.17066666666666666), t509, t510);
+    let t503 = mul_sub(t120, t496, mul_add(t102, t226, t491));
+    let t504 = mul_add(t225, c(0.029932648390202425), t434);
+    let t505 = mul_add(c(0.17066666666666666), t503, t504);
+    let t506 = mul_sub(t117, t496, mul_add(t102, t230, t497));
+    let t507 = mul_add(t229, c(0.029932648390202425), t438);
+    let t508 = neg_mul_add(c(0.17066666666666666), t506, t507);
     // leg 1: row of the actuator Jacobian in base coordinates
-    let t512 = t40 * t103;
+    let t509 = t40 * t103;
     // leg 2: row of the actuator Jacobian in base coordinates
-    let t513 = t47 * t105;
+    let t510 = t47 * t105;
     // leg 3: row of the actuator Jacobian in base coordinates
-    let t514 = t54 * t107;
+    let t511 = t54 * t107;
     // leg 4: row of the actuator Jacobian in base coordinates
-    let t515 = mul_add(t65, t110, t63);
-    let t516 = mul_add(t65, t109, t61);
-    let t517 = mul_sub(t61, t110, t63 * t109);
+    let t512 = mul_add(t65, t110, t63);
+    let t513 = mul_add(t65, t109, t61);
+    let t514 = mul_sub(t61, t110, t63 * t109);
     // inertia less external wrench that the actuators must balance
-    let t518 = base_rotation[1][0] * external_wrench[1];
-    let t519 = mul_add(base_rotation[0][0], external_wrench[0], t518);
-    let t520 = mul_add(base_rotation[2][0], external_wrench[2], t519);
-    let t521 = base_rotation[1][1] * external_wrench[1];
-    let t522 = mul_add(base_rotation[0][1], external_wrench[0], t521);
-    let t523 = mul_add(base_rotation[2][1], external_wrench[2], t522);
-    let t524 = t465 - t486;
-    let t525 = t386 - t409;
-    let t526 = t436 - t505;
-    let t527 = mul_add(t27, t267, mul_sub(t9, t266, t271));
-    let t528 = mul_add(t18, t358, mul_add(t9, t357, t527));
-    let t529 = mul_sub(t27, t359, t528);
-    let t530 = t270 - t361;
-    let t531 = t269 - t360;
-    let t532 = base_rotation[1][2] * external_wrench[1];
-    let t533 = mul_add(base_rotation[0][2], external_wrench[0], t532);
-    let t534 = mul_add(base_rotation[2][2], external_wrench[2], t533);
-    let t535 = neg_mul_add(c(8.139999999999999), t243, t534);
-    let t536 = mul_add(c(2.2551405187698492e-17), t531, t535);
-    let t537 = mul_add(c(6.938893903907228e-18), t530, t536);
-    let t538 = neg_mul_add(c(0.188852), t529, t537);
-    let t539 = mul_add(c(0.17066666666666666), t524 + (t525 + t526), t538);
-    let t540 = mul_sub(c(2.2551405187698492e-17), t243, c(0.032245600000000006) * t531);
-    let t541 = neg_mul_add(t525, c(0.019782160922400118), t540);
-    let t542 = mul_add(t526, c(0.005300614043699622), t541);
-    let t543 = mul_add(t524, c(0.01448154687870049), t542);
-    let t544 = t355 + mul_sub(t21, t263, mul_sub(t3, t259, t262));
-    let t545 = t396 + t415;
-    let t546 = t444 + t511;
-    let t547 = t473 + t492;
-    let t548 = mul_sub(c(2.2551405187698492e-17), t240, c(0.032245600000000006) * t544);
-    let t549 = mul_add(c(0.1159110991546882), t545, t548);
-    let t550 = neg_mul_add(c(0.031058285412302475), t546, t549);
-    let t551 = neg_mul_add(c(0.0848528137423857), t547, t550);
-    let t552 = t21 * t551;
-    let t553 = mul_sub(c(6.938893903907228e-18), t243, c(0.032245600000000006) * t530);
-    let t554 = mul_add(c(0.005300614043699624), t386 + t409, t553);
-    let t555 = neg_mul_add(c(0.019782160922400118), t436 + t505, t554);
-    let t556 = neg_mul_add(c(0.014481546878700494), t465 + t486, t555);
-    let t557 = t356 + mul_sub(t24, t263, mul_sub(t6, t259, t264));
-    let t558 = mul_sub(c(6.938893903907228e-18), t240, c(0.032245600000000006) * t557);
-    let t559 = neg_mul_add(c(0.03105828541230249), t396 - t415, t558);
-    let t560 = mul_add(c(0.1159110991546882), t444 - t511, t559);
-    let t561 = mul_add(c(0.08485281374238571), t473 - t492, t560);
-    let t562 = mul_sub(c(0.188852), t243, c(0.031) * t534);
-    let t563 = mul_add(c(0.013354412), t529, t562);
-    let t564 = mul_sub(t27, t263, mul_sub(t9, t259, t265));
-    let t565 = mul_sub(t18, t353, mul_add(t9, t351, t564));
-    let t566 = mul_sub(t27, t354, t565);
-    let t567 = mul_sub(c(0.188852), t240, c(0.031) * t523);
-    let t568 = neg_mul_add(c(0.013354412), t566, t567);
-    let t569 = t349 - mul_sub(t21, t256, mul_add(t12, t253, t255));
-    let t570 = t391 + t412;
-    let t571 = t440 + t508;
-    let t572 = t469 + t489;
+    let t515 = base_rotation[1][0] * external_wrench[1];
+    let t516 = mul_add(base_rotation[0][0], external_wrench[0], t515);
+    let t517 = mul_add(base_rotation[2][0], external_wrench[2], t516);
+    let t518 = base_rotation[1][1] * external_wrench[1];
+    let t519 = mul_add(base_rotation[0][1], external_wrench[0], t518);
+    let t520 = mul_add(base_rotation[2][1], external_wrench[2], t519);
+    let t521 = t462 - t483;
+    let t522 = t383 - t406;
+    let t523 = t433 - t502;
+    let t524 = mul_add(t126, t261, mul_sub(t18, t246, t272));
+    let t525 = mul_add(t9, t354, mul_sub(t129, t267, t524));
+    let t526 = mul_sub(t27, t356, mul_add(t18, t355, t525));
+    let t527 = t271 - t358;
+    let t528 = t269 - t357;
+    let t529 = base_rotation[1][2] * external_wrench[1];
+    let t530 = mul_add(base_rotation[0][2], external_wrench[0], t529);
+    let t531 = mul_add(base_rotation[2][2], external_wrench[2], t530);
+    let t532 = neg_mul_add(c(8.139999999999999), t243, t531);
+    let t533 = mul_add(c(2.2551405187698492e-17), t528, t532);
+    let t534 = mul_add(c(6.938893903907228e-18), t527, t533);
+    let t535 = neg_mul_add(c(0.188852), t526, t534);
+    let t536 = mul_add(c(0.17066666666666666), t521 + (t522 + t523), t535);
+    let t537 = mul_sub(c(2.2551405187698492e-17), t243, c(0.032245600000000006) * t528);
+    let t538 = neg_mul_add(t522, c(0.019782160922400118), t537);
+    let t539 = mul_add(t523, c(0.005300614043699622), t538);
+    let t540 = mul_add(t521, c(0.01448154687870049), t539);
+    let t541 = mul_add(t132, t263, mul_sub(t3, t252, t262));
+    let t542 = t352 + mul_sub(t126, t254, t541);
+    let t543 = t393 + t412;
+    let t544 = t441 + t508;
+    let t545 = t470 + t489;
+    let t546 = mul_sub(c(2.2551405187698492e-17), t240, c(0.032245600000000006) * t542);
+    let t547 = mul_add(c(0.1159110991546882), t543, t546);
+    let t548 = neg_mul_add(c(0.031058285412302475), t544, t547);
+    let t549 = neg_mul_add(c(0.0848528137423857), t545, t548);
+    let t550 = t21 * t549;
+    let t551 = mul_sub(c(6.938893903907228e-18), t243, c(0.032245600000000006) * t527);
+    let t552 = mul_add(c(0.005300614043699624), t383 + t406, t551);
+    let t553 = neg_mul_add(c(0.019782160922400118), t433 + t502, t552);
+    let t554 = neg_mul_add(c(0.014481546878700494), t462 + t483, t553);
+    let t555 = mul_add(t132, t265, mul_sub(t6, t252, t264));
+    let t556 = t353 + mul_sub(t126, t257, t555);
+    let t557 = mul_sub(c(6.938893903907228e-18), t240, c(0.032245600000000006) * t556);
+    let t558 = neg_mul_add(c(0.03105828541230249), t393 - t412, t557);
+    let t559 = mul_add(c(0.1159110991546882), t441 - t508, t558);
+    let t560 = mul_add(c(0.08485281374238571), t470 - t489, t559);
+    let t561 = mul_sub(c(0.188852), t243, c(0.031) * t531);
+    let t562 = mul_add(c(0.013354412), t526, t561);
+    let t563 = mul_add(t132, t267, mul_sub(t9, t252, t266));
+    let t564 = mul_add(t9, t348, mul_sub(t126, t260, t563));
+    let t565 = mul_sub(t27, t351, mul_sub(t18, t350, t564));
+    let t566 = mul_sub(c(0.188852), t240, c(0.031) * t520);
+    let t567 = neg_mul_add(c(0.013354412), t565, t566);
+    let t568 = mul_add(t129, t254, mul_sub(t21, t249, t253));
+    let t569 = t346 + mul_sub(t132, t255, t568);
+    let t570 = t388 + t409;
+    let t571 = t437 + t505;
+    let t572 = t466 + t486;
     let t573 = mul_sub(c(2.2551405187698492e-17), t237, c(0.032245600000000006) * t569);
     let t574 = mul_add(c(0.1159110991546882), t570, t573);
     let t575 = neg_mul_add(c(0.031058285412302475), t571, t574);
     let t576 = neg_mul_add(c(0.0848528137423857), t572, t575);
-    let t577 = t3 * t543;
-    let t578 = t350 - mul_sub(t24, t256, mul_add(t15, t253, t257));
-    let t579 = mul_sub(c(6.938893903907228e-18), t237, c(0.032245600000000006) * t578);
-    let t580 = neg_mul_add(c(0.03105828541230249), t391 - t412, t579);
-    let t581 = mul_add(c(0.1159110991546882), t440 - t508, t580);
-    let t582 = mul_add(c(0.08485281374238571), t469 - t489, t581);
-    let t583 = mul_sub(t27, t256, mul_add(t18, t253, t258));
-    let t584 = mul_sub(t9, t347, mul_sub(t18, t346, t583));
-    let t585 = mul_sub(t27, t348, t584);
-    let t586 = mul_sub(c(0.188852), t237, c(0.031) * t520);
-    let t587 = neg_mul_add(c(0.013354412), t585, t586);
-    let t588 = t12 * t576;
+    let t577 = t3 * t540;
+    let t578 = mul_add(t129, t257, mul_sub(t24, t249, t256));
+    let t579 = t347 + mul_sub(t132, t258, t578);
+    let t580 = mul_sub(c(6.938893903907228e-18), t237, c(0.032245600000000006) * t579);
+    let t581 = neg_mul_add(c(0.03105828541230249), t388 - t409, t580);
+    let t582 = mul_add(c(0.1159110991546882), t437 - t505, t581);
+    let t583 = mul_add(c(0.08485281374238571), t466 - t486, t582);
+    let t584 = mul_add(t129, t260, mul_sub(t27, t249, t259));
+    let t585 = mul_add(t18, t343, mul_sub(t132, t261, t584));
+    let t586 = mul_sub(t27, t345, mul_sub(t9, t344, t585));
+    let t587 = mul_sub(c(0.188852), t237, c(0.031) * t517);
+    let t588 = neg_mul_add(c(0.013354412), t586, t587);
+    let t589 = t12 * t576;
     // force along the actuator that balances the remaining wrench
-    let t589 = c(1.0) / (t516 + mul_add(t48, t105, t46));
-    let t590 = t516 + neg_mul_add(t42, t103, t38);
-    let t591 = (t515 + neg_mul_add(t48, t106, t47)) * t589;
-    let t592 = mul_sub(t590, t591, t515 + neg_mul_add(t42, t104, t40));
-    let t593 = mul_add(t71, t111, t69 - t516);
-    let t594 = mul_add(t50, t85, t110) * t589;
-    let t595 = c(1.0) / mul_sub(t593, t591, mul_add(t71, t112, t70 - t515));
-    let t596 = mul_add(t593, t594, neg_mul_add(t73, t97, t110)) * t595;
-    let t597 = mul_sub(t590, t594, mul_add(t45, t81, t110));
-    let t598 = c(1.0) / mul_sub(t592, t596, t597);
-    let t599 = mul_add(t76, t113, t74 - t516);
-    let t600 = mul_sub(t599, t591, mul_add(t76, t114, t75 - t515));
-    let t601 = mul_add(t599, t594, neg_mul_add(t78, t101, t110));
-    let t602 = mul_sub(t600, t596, t601);
-    let t603 = (t517 - mul_add(t46, t106, t513)) * t589;
-    let t604 = mul_add(t70, t111, neg_mul_add(t69, t112, t517));
-    let t605 = mul_add(t593, t603, t604) * t595;
-    let t606 = mul_sub(t590, t603, t517 - mul_sub(t38, t104, t512));
-    let t607 = mul_sub(t592, t605, t606) * t598;
-    let t608 = mul_add(t75, t113, neg_mul_add(t74, t114, t517));
-    let t609 = mul_sub(t600, t605, mul_add(t599, t603, t608));
-    let t610 = c(1.0) / mul_sub(t602, t607, t609);
-    let t611 = mul_add(t24, t582, mul_sub(t21, t576, t577));
-    let t612 = mul_sub(t27, t587, mul_sub(t6, t556, t611));
-    let t613 = mul_sub(t9, t563, t612);
-    let t614 = mul_add(base_rotation[0][1], external_wrench[3], t613);
-    let t615 = mul_add(base_rotation[1][1], external_wrench[4], t614);
-    let t616 = mul_add(base_rotation[2][1], external_wrench[5], t615);
-    let t617 = mul_sub(t516, t539, t616);
-    let t618 = mul_add(c(0.0425), mul_sub(t126, t345, t357), t617);
-    let t619 = mul_add(t15, t556, mul_sub(t12, t543, t552));
-    let t620 = mul_sub(t18, t563, mul_sub(t24, t561, t619));
-    let t621 = mul_sub(t27, t568, t620);
-    let t622 = mul_add(base_rotation[0][0], external_wrench[3], t621);
-    let t623 = mul_add(base_rotation[1][0], external_wrench[4], t622);
-    let t624 = mul_add(base_rotation[2][0], external_wrench[5], t623);
-    let t625 = mul_sub(t618, t591, mul_add(t515, t539, t624));
-    let t626 = neg_mul_add(c(0.0425), mul_sub(t129, t345, t358), t625);
-    let t627 = neg_mul_add(c(8.139999999999999), t240, t523);
-    let t628 = t546 + (t545 - mul_add(c(2.2551405187698492e-17), t544, t627));
-    let t629 = neg_mul_add(c(6.938893903907228e-18), t557, t547 + t628);
-    let t630 = mul_sub(t110, t539, neg_mul_add(c(0.188852), t566, t629));
-    let t631 = mul_sub(t626, t596, mul_sub(t618, t594, t630));
-    let t632 = mul_add(t6, t561, mul_sub(t3, t551, t588));
-    let t633 = mul_sub(t9, t568, mul_sub(t15, t582, t632));
-    let t634 = mul_sub(t18, t587, t633);
-    let t635 = mul_add(base_rotation[0][2], external_wrench[3], t634);
-    let t636 = mul_add(base_rotation[1][2], external_wrench[4], t635);
-    let t637 = mul_add(base_rotation[2][2], external_wrench[5], t636);
-    let t638 = mul_sub(t618, t603, mul_sub(t517, t539, t637));
-    let t639 = mul_sub(t631, t607, mul_sub(t626, t605, t638));
-    let t640 = mul_add(c(0.0425), mul_sub(t126, t343, t351), t639);
-    let t641 = mul_sub(t49, t85, t109) * t589;
-    let t642 = mul_sub(t593, t641, neg_mul_add(t72, t97, t109)) * t595;
-    let t643 = mul_add(t590, t641, mul_add(t44, t81, t109));
-    let t644 = mul_sub(t592, t642, t643) * t598;
-    let t645 = mul_sub(t599, t641, neg_mul_add(t77, t101, t109));
-    let t646 = mul_sub(t602, t644, mul_sub(t600, t642, t645)) * t610;
-    let t647 = neg_mul_add(c(8.139999999999999), t237, t520);
-    let t648 = t571 + (t570 - mul_add(c(2.2551405187698492e-17), t569, t647));
-    let t649 = neg_mul_add(c(6.938893903907228e-18), t578, t572 + t648);
-    let t650 = mul_sub(t109, t539, neg_mul_add(c(0.188852), t585, t649));
-    let t651 = mul_sub(t626, t642, mul_add(t618, t641, t650));
-    let t652 = mul_sub(t640, t646, mul_sub(t631, t644, t651));
-    let t653 = t516 - mul_add(t56, t107, t52);
-    let t654 = mul_sub(t653, t591, t515 - mul_add(t56, t108, t54));
-    let t655 = mul_add(t653, t594, mul_sub(t59, t89, t110));
-    let t656 = mul_sub(t654, t596, t655);
-    let t657 = mul_sub(t653, t603, t517 - mul_sub(t52, t108, t514));
-    let t658 = mul_sub(t656, t607, mul_sub(t654, t605, t657));
-    let t659 = mul_sub(t653, t641, mul_sub(t58, t89, t109));
-    let t660 = mul_sub(t656, t644, mul_sub(t654, t642, t659));
-    let t661 = c(1.0) / mul_sub(t658, t646, t660);
-    let t662 = t652 * t661;
-    let t663 = neg_mul_add(t658, t662, t640);
-    let t664 = t610 * t663;
-    let t665 = mul_sub(t656, t662, neg_mul_add(t602, t664, t631));
-    let t666 = t598 * t665;
-    let t667 = mul_sub(t600, t664, mul_add(t592, t666, t626));
-    let t668 = t595 * mul_add(t654, t662, t667);
-    let t669 = mul_add(t590, t666, mul_add(t593, t668, t618));
-    let t670 = mul_add(t653, t662, mul_sub(t599, t664, t669));
+    let t590 = c(1.0) / (t513 + mul_add(t48, t105, t46));
+    let t591 = t513 + neg_mul_add(t42, t103, t38);
+    let t592 = (t512 + neg_mul_add(t48, t106, t47)) * t590;
+    let t593 = mul_sub(t591, t592, t512 + neg_mul_add(t42, t104, t40));
+    let t594 = mul_add(t71, t111, t69 - t513);
+    let t595 = mul_add(t50, t85, t110) * t590;
+    let t596 = c(1.0) / mul_sub(t594, t592, mul_add(t71, t112, t70 - t512));
+    let t597 = mul_add(t594, t595, neg_mul_add(t73, t97, t110)) * t596;
+    let t598 = mul_sub(t591, t595, mul_add(t45, t81, t110));
+    let t599 = c(1.0) / mul_sub(t593, t597, t598);
+    let t600 = mul_add(t76, t113, t74 - t513);
+    let t601 = mul_sub(t600, t592, mul_add(t76, t114, t75 - t512));
+    let t602 = mul_add(t600, t595, neg_mul_add(t78, t101, t110));
+    let t603 = mul_sub(t601, t597, t602);
+    let t604 = (t514 - mul_add(t46, t106, t510)) * t590;
+    let t605 = mul_add(t70, t111, neg_mul_add(t69, t112, t514));
+    let t606 = mul_add(t594, t604, t605) * t596;
+    let t607 = mul_sub(t591, t604, t514 - mul_sub(t38, t104, t509));
+    let t608 = mul_sub(t593, t606, t607) * t599;
+    let t609 = mul_add(t75, t113, neg_mul_add(t74, t114, t514));
+    let t610 = mul_sub(t601, t606, mul_add(t600, t604, t609));
+    let t611 = c(1.0) / mul_sub(t603, t608, t610);
+    let t612 = mul_add(t24, t583, mul_sub(t21, t576, t577));
+    let t613 = mul_sub(t27, t588, mul_sub(t6, t554, t612));
+    let t614 = mul_sub(t9, t562, t613);
+    let t615 = mul_add(base_rotation[0][1], external_wrench[3], t614);
+    let t616 = mul_add(base_rotation[1][1], external_wrench[4], t615);
+    let t617 = mul_add(base_rotation[2][1], external_wrench[5], t616);
+    let t618 = mul_sub(t513, t536, t617);
+    let t619 = mul_add(c(0.0425), mul_sub(t126, t342, t354), t618);
+    let t620 = mul_add(t15, t554, mul_sub(t12, t540, t550));
+    let t621 = mul_sub(t18, t562, mul_sub(t24, t560, t620));
+    let t622 = mul_sub(t27, t567, t621);
+    let t623 = mul_add(base_rotation[0][0], external_wrench[3], t622);
+    let t624 = mul_add(base_rotation[1][0], external_wrench[4], t623);
+    let t625 = mul_add(base_rotation[2][0], external_wrench[5], t624);
+    let t626 = mul_sub(t619, t592, mul_add(t512, t536, t625));
+    let t627 = neg_mul_add(c(0.0425), mul_sub(t129, t342, t355), t626);
+    let t628 = neg_mul_add(c(8.139999999999999), t240, t520);
+    let t629 = t544 + (t543 - mul_add(c(2.2551405187698492e-17), t542, t628));
+    let t630 = neg_mul_add(c(6.938893903907228e-18), t556, t545 + t629);
+    let t631 = mul_sub(t110, t536, neg_mul_add(c(0.188852), t565, t630));
+    let t632 = mul_sub(t627, t597, mul_sub(t619, t595, t631));
+    let t633 = mul_add(t6, t560, mul_sub(t3, t549, t589));
+    let t634 = mul_sub(t9, t567, mul_sub(t15, t583, t633));
+    let t635 = mul_sub(t18, t588, t634);
+    let t636 = mul_add(base_rotation[0][2], external_wrench[3], t635);
+    let t637 = mul_add(base_rotation[1][2], external_wrench[4], t636);
+    let t638 = mul_add(base_rotation[2][2], external_wrench[5], t637);
+    let t639 = mul_sub(t619, t604, mul_sub(t514, t536, t638));
+    let t640 = mul_sub(t632, t608, mul_sub(t627, t606, t639));
+    let t641 = mul_add(c(0.0425), mul_sub(t126, t340, t348), t640);
+    let t642 = mul_sub(t49, t85, t109) * t590;
+    let t643 = mul_sub(t594, t642, neg_mul_add(t72, t97, t109)) * t596;
+    let t644 = mul_add(t591, t642, mul_add(t44, t81, t109));
+    let t645 = mul_sub(t593, t643, t644) * t599;
+    let t646 = mul_sub(t600, t642, neg_mul_add(t77, t101, t109));
+    let t647 = mul_sub(t603, t645, mul_sub(t601, t643, t646)) * t611;
+    let t648 = neg_mul_add(c(8.139999999999999), t237, t517);
+    let t649 = t571 + (t570 - mul_add(c(2.2551405187698492e-17), t569, t648));
+    let t650 = neg_mul_add(c(6.938893903907228e-18), t579, t572 + t649);
+    let t651 = mul_sub(t109, t536, neg_mul_add(c(0.188852), t586, t650));
+    let t652 = mul_sub(t627, t643, mul_add(t619, t642, t651));
+    let t653 = mul_sub(t641, t647, mul_sub(t632, t645, t652));
+    let t654 = t513 - mul_add(t56, t107, t52);
+    let t655 = mul_sub(t654, t592, t512 - mul_add(t56, t108, t54));
+    let t656 = mul_add(t654, t595, mul_sub(t59, t89, t110));
+    let t657 = mul_sub(t655, t597, t656);
+    let t658 = mul_sub(t654, t604, t514 - mul_sub(t52, t108, t511));
+    let t659 = mul_sub(t657, t608, mul_sub(t655, t606, t658));
+    let t660 = mul_sub(t654, t642, mul_sub(t58, t89, t109));
+    let t661 = mul_sub(t657, t645, mul_sub(t655, t643, t660));
+    let t662 = c(1.0) / mul_sub(t659, t647, t661);
+    let t663 = t653 * t662;
+    let t664 = neg_mul_add(t659, t663, t641);
+    let t665 = t611 * t664;
+    let t666 = mul_sub(t657, t663, neg_mul_add(t603, t665, t632));
+    let t667 = t599 * t666;
+    let t668 = mul_sub(t601, t665, mul_add(t593, t667, t627));
+    let t669 = t596 * mul_add(t655, t663, t668);
+    let t670 = mul_add(t591, t667, mul_add(t594, t669, t619));
+    let t671 = mul_add(t654, t663, mul_sub(t600, t665, t670));
     // leg 1: actuator forces F at reference speeds
-    let t671 = neg_mul_add(t233, c(0.03055), c(4268.068200000001));
-    let t672 = neg_mul_add(c(0.17066666666666666), t243, t671);
-    let t673 = mul_add(t269, c(0.019782160922400118), t672);
-    let t674 = t270 * c(0.005300614043699624);
-    let t675 = mul_sub(c(21555.9), t82, t674);
-    let t676 = neg_mul_add(c(0.17066666666666666), t370, t675);
-    let t677 = mul_sub(t598, t665, mul_add(t386, c(0.9523333333333334), t676));
-    passive_inverse_dynamics[0] = t677 - t673;
+    let t672 = neg_mul_add(t233, c(0.03055), c(4268.068200000001));
+    let t673 = neg_mul_add(c(0.17066666666666666), t243, t672);
+    let t674 = mul_add(t269, c(0.019782160922400118), t673);
+    let t675 = t271 * c(0.005300614043699624);
+    let t676 = mul_sub(c(21555.9), t82, t675);
+    let t677 = neg_mul_add(c(0.17066666666666666), t367, t676);
+    let t678 = mul_sub(t599, t666, mul_add(t383, c(0.9523333333333334), t677));
+    passive_inverse_dynamics[0] = t678 - t674;
     // leg 2: actuator forces F at reference speeds
-    let t678 = mul_add(c(21555.9), t86, t674);
-    let t679 = neg_mul_add(c(0.17066666666666666), t399, t678);
-    let t680 = mul_sub(t589, t670, neg_mul_add(t409, c(0.9523333333333334), t679));
-    passive_inverse_dynamics[1] = t680 - t673;
+    let t679 = mul_add(c(21555.9), t86, t675);
+    let t680 = neg_mul_add(c(0.17066666666666666), t396, t679);
+    let t681 = mul_sub(t590, t671, neg_mul_add(t406, c(0.9523333333333334), t680));
+    passive_inverse_dynamics[1] = t681 - t674;
     // leg 3: actuator forces F at reference speeds
-    let t681 = neg_mul_add(t269, c(0.005300614043699622), t672);
-    let t682 = t270 * c(0.019782160922400118);
-    let t683 = mul_sub(t90, c(-21555.9), t682);
-    let t684 = neg_mul_add(c(0.17066666666666666), t423, t683);
-    let t685 = neg_mul_add(t436, c(0.9523333333333334), t684);
-    passive_inverse_dynamics[2] = neg_mul_add(t652, t661, t685) - t681;
+    let t682 = neg_mul_add(t269, c(0.005300614043699622), t673);
+    let t683 = t271 * c(0.019782160922400118);
+    let t684 = mul_sub(t90, c(-21555.9), t683);
+    let t685 = neg_mul_add(c(0.17066666666666666), t420, t684);
+    let t686 = neg_mul_add(t433, c(0.9523333333333334), t685);
+    passive_inverse_dynamics[2] = neg_mul_add(t653, t662, t686) - t682;
     // leg 4: actuator forces F at reference speeds
-    let t686 = neg_mul_add(t270, c(0.014481546878700494), t668);
-    let t687 = neg_mul_add(t269, c(0.01448154687870049), t672);
-    let t688 = mul_add(c(21555.9), t94, c(0.17066666666666666) * t452);
-    let t689 = t539 + mul_add(t465, c(0.9523333333333334), t688);
-    let t690 = mul_sub(t610, t663, mul_sub(t652, t661, t689));
-    passive_inverse_dynamics[3] = t686 - mul_add(t589, t670, mul_add(t598, t665, t690))
-        - t687;
+    let t687 = neg_mul_add(t271, c(0.014481546878700494), t669);
+    let t688 = neg_mul_add(t269, c(0.01448154687870049), t673);
+    let t689 = mul_add(c(21555.9), t94, c(0.17066666666666666) * t449);
+    let t690 = t536 + mul_add(t462, c(0.9523333333333334), t689);
+    let t691 = mul_sub(t611, t664, mul_sub(t653, t662, t690));
+    passive_inverse_dynamics[3] = t687 - mul_add(t590, t671, mul_add(t599, t666, t691))
+        - t688;
     // leg 5: actuator forces F at reference speeds
-    let t691 = mul_add(c(21555.9), t98, c(0.17066666666666666) * t476);
-    passive_inverse_dynamics[4] = mul_sub(t486, c(0.9523333333333334), t691) - t686
-        - t687;
+    let t692 = mul_add(c(21555.9), t98, c(0.17066666666666666) * t473);
+    passive_inverse_dynamics[4] = mul_sub(t483, c(0.9523333333333334), t692) - t687
+        - t688;
     // leg 6: actuator forces F at reference speeds
-    let t692 = neg_mul_add(c(21555.9), t102, t682);
-    let t693 = neg_mul_add(c(0.17066666666666666), t495, t692);
-    let t694 = mul_add(t610, t663, mul_add(t505, c(0.9523333333333334), t693));
-    passive_inverse_dynamics[5] = t694 - t681;
+    let t693 = neg_mul_add(c(21555.9), t102, t683);
+    let t694 = neg_mul_add(c(0.17066666666666666), t492, t693);
+    let t695 = mul_add(t611, t664, mul_add(t502, c(0.9523333333333334), t694));
+    passive_inverse_dynamics[5] = t695 - t682;
 }
 
 /// Wrench of the base on the mechanism.
@@ -19038,400 +18979,404 @@ pub fn base_reaction<T: Scalar>(
     let t197 = mul_add(base_rotation[0][2], platform_acceleration[3], t196);
     let t198 = mul_add(base_rotation[2][2], platform_acceleration[5], t197);
     // acceleration per platform coordinate of points of the platform
-    let t199 = mul_add(t102, t108, t195);
-    let t200 = neg_mul_add(t102, t105, t198);
-    let t201 = mul_add(t105, t105, t108 * t108);
-    let t202 = mul_sub(t21, t199, mul_add(t12, t200, t3 * t201));
-    let t203 = mul_sub(t24, t199, mul_add(t15, t200, t6 * t201));
-    let t204 = mul_sub(t27, t199, mul_add(t18, t200, t9 * t201));
-    let t205 = neg_mul_add(t105, t108, t192);
-    let t206 = mul_add(t102, t105, t198);
-    let t207 = t102 * t102;
-    let t208 = mul_add(t108, t108, t207);
-    let t209 = mul_sub(t21, t205, mul_sub(t3, t206, t12 * t208));
-    let t210 = mul_sub(t24, t205, mul_sub(t6, t206, t15 * t208));
-    let t211 = mul_sub(t27, t205, mul_sub(t9, t206, t18 * t208));
-    let t212 = mul_add(t105, t105, t207);
-    let t213 = neg_mul_add(t102, t108, t195);
-    let t214 = mul_add(t105, t108, t192);
-    let t215 = mul_add(t21, t212, mul_sub(t3, t213, t12 * t214));
-    let t216 = mul_add(t24, t212, mul_sub(t6, t213, t15 * t214));
-    let t217 = mul_add(t27, t212, mul_sub(t9, t213, t18 * t214));
+    let t199 = mul_sub(t3, t108, t21 * t102);
+    let t200 = mul_sub(t12, t102, t3 * t105);
+    let t201 = mul_add(t105, t200, mul_sub(t21, t195, t12 * t198));
+    let t202 = mul_sub(t108, t199, t201);
+    let t203 = mul_sub(t6, t108, t24 * t102);
+    let t204 = mul_sub(t15, t102, t6 * t105);
+    let t205 = mul_add(t105, t204, mul_sub(t24, t195, t15 * t198));
+    let t206 = mul_sub(t108, t203, t205);
+    let t207 = mul_sub(t9, t108, t27 * t102);
+    let t208 = mul_sub(t18, t102, t9 * t105);
+    let t209 = mul_add(t105, t208, mul_sub(t27, t195, t18 * t198));
+    let t210 = mul_sub(t108, t207, t209);
+    let t211 = mul_sub(t21, t105, t12 * t108);
+    let t212 = mul_add(t108, t211, mul_sub(t3, t198, t21 * t192));
+    let t213 = mul_sub(t102, t200, t212);
+    let t214 = mul_sub(t24, t105, t15 * t108);
+    let t215 = mul_add(t108, t214, mul_sub(t6, t198, t24 * t192));
+    let t216 = mul_sub(t102, t204, t215);
+    let t217 = mul_sub(t27, t105, t18 * t108);
+    let t218 = mul_add(t108, t217, mul_sub(t9, t198, t27 * t192));
+    let t219 = mul_sub(t102, t208, t218);
+    let t220 = mul_add(t102, t199, mul_sub(t12, t192, t3 * t195));
+    let t221 = mul_sub(t105, t211, t220);
+    let t222 = mul_add(t102, t203, mul_sub(t15, t192, t6 * t195));
+    let t223 = mul_sub(t105, t214, t222);
+    let t224 = mul_add(t102, t207, mul_sub(t18, t192, t9 * t195));
+    let t225 = mul_sub(t105, t217, t224);
     // acceleration of the platform origin relative to the base
-    let t218 = mul_sub(t96, t123, t99 * t120);
-    let t219 = mul_add(t34, t171, mul_add(t32, t170, t157 - t183));
-    let t220 = mul_add(c(2.0), t218, mul_sub(t36, t172, t219));
-    let t221 = mul_sub(t99, t117, t93 * t123);
-    let t222 = mul_sub(t34, t175, mul_sub(t32, t173, t160 - t186));
-    let t223 = neg_mul_add(c(2.0), t221, mul_add(t36, t176, t222));
-    let t224 = t96 * t117;
+    let t226 = mul_sub(t96, t123, t99 * t120);
+    let t227 = mul_add(t34, t171, mul_add(t32, t170, t157 - t183));
+    let t228 = mul_add(c(2.0), t226, mul_sub(t36, t172, t227));
+    let t229 = mul_sub(t99, t117, t93 * t123);
+    let t230 = mul_sub(t34, t175, mul_sub(t32, t173, t160 - t186));
+    let t231 = neg_mul_add(c(2.0), t229, mul_add(t36, t176, t230));
+    let t232 = t96 * t117;
     // second derivative of the relative rotation
-    let t225 = mul_sub(t93, t111, mul_sub(t99, t109, t166 - t195));
-    let t226 = mul_sub(t109, t111, t225);
-    let t227 = mul_sub(t96, t109, mul_sub(t93, t110, t169 - t198));
-    let t228 = mul_add(t109, t110, t227);
-    let t229 = mul_add(t110, t110, t111 * t111);
-    let t230 = mul_add(t21, t226, mul_sub(t12, t228, t3 * t229));
-    let t231 = mul_add(t24, t226, mul_sub(t15, t228, t6 * t229));
-    let t232 = mul_sub(t99, t110, mul_sub(t96, t111, t163 - t192));
-    let t233 = mul_add(t110, t111, t232);
-    let t234 = mul_sub(t109, t110, t227);
-    let t235 = t109 * t109;
-    let t236 = mul_add(t111, t111, t235);
-    let t237 = mul_add(t21, t233, mul_sub(t3, t234, t12 * t236));
-    let t238 = mul_add(t24, t233, mul_sub(t6, t234, t15 * t236));
-    let t239 = mul_add(t110, t110, t235);
-    let t240 = mul_add(t109, t111, t225);
-    let t241 = mul_sub(t110, t111, t232);
-    let t242 = mul_sub(t21, t239, mul_add(t3, t240, t12 * t241));
-    let t243 = mul_sub(t24, t239, mul_add(t6, t240, t15 * t241));
+    let t233 = mul_sub(t93, t111, mul_sub(t99, t109, t166 - t195));
+    let t234 = mul_sub(t96, t109, mul_sub(t93, t110, t169 - t198));
+    let t235 = mul_sub(t110, t128, mul_sub(t21, t233, t12 * t234));
+    let t236 = mul_sub(t111, t126, t235);
+    let t237 = mul_sub(t110, t129, mul_sub(t24, t233, t15 * t234));
+    let t238 = mul_sub(t111, t127, t237);
+    let t239 = mul_sub(t99, t110, mul_sub(t96, t111, t163 - t192));
+    let t240 = mul_sub(t111, t124, mul_sub(t3, t234, t21 * t239));
+    let t241 = mul_sub(t109, t128, t240);
+    let t242 = mul_sub(t111, t125, mul_sub(t6, t234, t24 * t239));
+    let t243 = mul_sub(t109, t129, t242);
+    let t244 = mul_sub(t109, t126, mul_sub(t12, t239, t3 * t233));
+    let t245 = mul_sub(t110, t124, t244);
+    let t246 = mul_sub(t109, t127, mul_sub(t15, t239, t6 * t233));
+    let t247 = mul_sub(t110, t125, t246);
     // leg 1: acceleration of the platform joint relative to the base
-    let t244 = mul_add(c(0.1159110991546882), t230, t220);
-    let t245 = neg_mul_add(c(0.03105828541230249), t231, t244);
-    let t246 = neg_mul_add(c(0.1159110991546882), t237, t223);
-    let t247 = mul_add(c(0.03105828541230249), t238, t246);
+    let t248 = neg_mul_add(c(0.1159110991546882), t236, t228);
+    let t249 = mul_add(c(0.03105828541230249), t238, t248);
+    let t250 = mul_add(c(0.1159110991546882), t241, t231);
+    let t251 = neg_mul_add(c(0.03105828541230249), t243, t250);
     // leg 2: acceleration of the platform joint relative to the base
-    let t248 = mul_add(c(0.03105828541230249), t231, t244);
-    let t249 = neg_mul_add(c(0.03105828541230249), t238, t246);
+    let t252 = neg_mul_add(c(0.03105828541230249), t238, t248);
+    let t253 = mul_add(c(0.03105828541230249), t243, t250);
     // leg 3: acceleration of the platform joint relative to the base
-    let t250 = neg_mul_add(c(0.031058285412302475), t230, t220);
-    let t251 = mul_add(c(0.1159110991546882), t231, t250);
-    let t252 = mul_add(c(0.031058285412302475), t237, t223);
-    let t253 = neg_mul_add(c(0.1159110991546882), t238, t252);
+    let t254 = mul_add(c(0.031058285412302475), t236, t228);
+    let t255 = neg_mul_add(c(0.1159110991546882), t238, t254);
+    let t256 = neg_mul_add(c(0.031058285412302475), t241, t231);
+    let t257 = mul_add(c(0.1159110991546882), t243, t256);
     // leg 4: acceleration of the platform joint relative to the base
-    let t254 = neg_mul_add(c(0.0848528137423857), t230, t220);
-    let t255 = mul_add(c(0.08485281374238571), t231, t254);
-    let t256 = mul_add(c(0.0848528137423857), t237, t223);
-    let t257 = neg_mul_add(c(0.08485281374238571), t238, t256);
+    let t258 = mul_add(c(0.0848528137423857), t236, t228);
+    let t259 = neg_mul_add(c(0.08485281374238571), t238, t258);
+    let t260 = neg_mul_add(c(0.0848528137423857), t241, t231);
+    let t261 = mul_add(c(0.08485281374238571), t243, t260);
     // leg 5: acceleration of the platform joint relative to the base
-    let t258 = neg_mul_add(c(0.08485281374238571), t231, t254);
-    let t259 = mul_add(c(0.08485281374238571), t238, t256);
+    let t262 = mul_add(c(0.08485281374238571), t238, t258);
+    let t263 = neg_mul_add(c(0.08485281374238571), t243, t260);
     // leg 6: acceleration of the platform joint relative to the base
-    let t260 = neg_mul_add(c(0.1159110991546882), t231, t250);
-    let t261 = mul_add(c(0.1159110991546882), t238, t252);
+    let t264 = mul_add(c(0.1159110991546882), t238, t254);
+    let t265 = neg_mul_add(c(0.1159110991546882), t243, t256);
     // leg 1: actuator acceleration d''
-    let t262 = mul_sub(t38, t245, mul_add(t131, t131, t133 * t133));
-    let t263 = mul_sub(t148, t148, mul_add(t41, t247, t262));
+    let t266 = mul_sub(t38, t249, mul_add(t131, t131, t133 * t133));
+    let t267 = mul_sub(t148, t148, mul_add(t41, t251, t266));
     // leg 2: actuator acceleration d''
-    let t264 = mul_sub(t44, t248, mul_add(t134, t134, t135 * t135));
-    let t265 = mul_add(t149, t149, mul_sub(t45, t249, t264));
+    let t268 = mul_sub(t44, t252, mul_add(t134, t134, t135 * t135));
+    let t269 = mul_add(t149, t149, mul_sub(t45, t253, t268));
     // leg 3: actuator acceleration d''
-    let t266 = mul_sub(t48, t251, mul_add(t137, t137, t139 * t139));
-    let t267 = mul_add(t150, t150, mul_sub(t51, t253, t266));
+    let t270 = mul_sub(t48, t255, mul_add(t137, t137, t139 * t139));
+    let t271 = mul_add(t150, t150, mul_sub(t51, t257, t270));
     // leg 4: actuator acceleration d''
-    let t268 = mul_sub(t55, t255, mul_add(t141, t141, t143 * t143));
-    let t269 = mul_add(t151, t151, mul_sub(t58, t257, t268));
+    let t272 = mul_sub(t55, t259, mul_add(t141, t141, t143 * t143));
+    let t273 = mul_add(t151, t151, mul_sub(t58, t261, t272));
     // leg 5: actuator acceleration d''
-    let t270 = mul_sub(t61, t258, mul_add(t144, t144, t145 * t145));
-    let t271 = mul_sub(t152, t152, mul_add(t62, t259, t270));
+    let t274 = mul_sub(t61, t262, mul_add(t144, t144, t145 * t145));
+    let t275 = mul_sub(t152, t152, mul_add(t62, t263, t274));
     // leg 6: actuator acceleration d''
-    let t272 = mul_sub(t64, t260, mul_add(t146, t146, t147 * t147));
-    let t273 = mul_sub(t153, t153, mul_add(t65, t261, t272));
+    let t276 = mul_sub(t64, t264, mul_add(t146, t146, t147 * t147));
+    let t277 = mul_sub(t153, t153, mul_add(t65, t265, t276));
     // leg 1: inertia less weight of the whole leg
-    let t274 = c(2.0) * t123;
-    let t275 = mul_add(t128, c(0.2318221983093764), t274);
-    let t276 = t129 * c(0.06211657082460498);
-    let t277 = neg_mul_add(c(0.1316436662914507), t170, t157);
-    let t278 = t275 - mul_add(c(2.0), t148, t276);
-    let t279 = mul_sub(t70, t172, c(0.12275970481124972) * t171);
-    let t280 = t277 - mul_add(t96, t278, t279);
-    let t281 = c(0.17066666666666666) * t183;
-    let t282 = mul_add(t202, c(0.019782160922400118), t281);
-    let t283 = neg_mul_add(c(0.3413333333333334), t280, t203 * c(0.005300614043699624));
-    let t284 = t282 - t283;
-    let t285 = c(0.17066666666666666) * t280;
-    let t286 = t172 * c(0.03055);
-    let t287 = neg_mul_add(c(0.611), t280, t286);
-    let t288 = mul_add(c(0.1316436662914507), t173, t160);
-    let t289 = mul_add(t70, t176, c(0.12275970481124972) * t175);
-    let t290 = t288 + mul_add(t93, t278, t289);
-    let t291 = c(0.17066666666666666) * t186;
-    let t292 = neg_mul_add(t209, c(0.019782160922400118), t291);
-    let t293 = mul_add(c(0.3413333333333334), t290, t210 * c(0.005300614043699624));
-    let t294 = t292 + t293;
-    let t295 = c(0.17066666666666666) * t290;
-    let t296 = t176 * c(0.03055);
-    let t297 = mul_add(c(0.611), t290, t296);
-    let t298 = mul_add(t34, t178, neg_mul_add(t32, t177, t189));
-    let t299 = mul_sub(t36, t179, t298);
-    let t300 = neg_mul_add(c(2.0), mul_sub(t93, t120, t224), t299);
-    let t301 = mul_sub(c(0.12275970481124972), t178, c(0.03105828541230249) * t243);
-    let t302 = mul_add(c(0.1316436662914507), t177, c(0.1159110991546882) * t242);
-    let t303 = t300 + t302;
-    let t304 = t303 + (t301 - mul_add(t69, t263, t70 * t179));
-    let t305 = c(0.17066666666666666) * t304;
+    let t278 = c(2.0) * t123;
+    let t279 = mul_add(t128, c(0.2318221983093764), t278);
+    let t280 = t129 * c(0.06211657082460498);
+    let t281 = neg_mul_add(c(0.1316436662914507), t170, t157);
+    let t282 = t279 - mul_add(c(2.0), t148, t280);
+    let t283 = mul_sub(t70, t172, c(0.12275970481124972) * t171);
+    let t284 = t281 - mul_add(t96, t282, t283);
+    let t285 = c(0.17066666666666666) * t183;
+    let t286 = neg_mul_add(t202, c(0.019782160922400118), t285);
+    let t287 = mul_add(c(0.3413333333333334), t284, t206 * c(0.005300614043699624));
+    let t288 = t286 + t287;
+    let t289 = c(0.17066666666666666) * t284;
+    let t290 = t172 * c(0.03055);
+    let t291 = neg_mul_add(c(0.611), t284, t290);
+    let t292 = mul_add(c(0.1316436662914507), t173, t160);
+    let t293 = mul_add(t70, t176, c(0.12275970481124972) * t175);
+    let t294 = t292 + mul_add(t93, t282, t293);
+    let t295 = c(0.17066666666666666) * t186;
+    let t296 = neg_mul_add(t213, c(0.019782160922400118), t295);
+    let t297 = mul_add(c(0.3413333333333334), t294, t216 * c(0.005300614043699624));
+    let t298 = t296 + t297;
+    let t299 = c(0.17066666666666666) * t294;
+    let t300 = t176 * c(0.03055);
+    let t301 = mul_add(c(0.611), t294, t300);
+    let t302 = mul_add(t34, t178, neg_mul_add(t32, t177, t189));
+    let t303 = mul_sub(t36, t179, t302);
+    let t304 = neg_mul_add(c(2.0), mul_sub(t93, t120, t232), t303);
+    let t305 = mul_sub(c(0.12275970481124972), t178, c(0.03105828541230249) * t247);
+    let t306 = mul_add(c(0.1316436662914507), t177, c(0.1159110991546882) * t245);
+    let t307 = t304 + t306;
+    let t308 = t307 + (t305 - mul_add(t69, t267, t70 * t179));
+    let t309 = c(0.17066666666666666) * t308;
     // leg 1: its moment about the base origin
-    let t306 = c(0.12275970481124972) - t41;
-    let t307 = t305 * t306;
-    let t308 = c(0.05) + t70;
-    let t309 = t43 * t285;
-    let t310 = c(0.1316436662914507) - t38;
-    let t311 = t285 * t306;
+    let t310 = c(0.12275970481124972) - t41;
+    let t311 = t309 * t310;
+    let t312 = c(0.05) + t70;
+    let t313 = t43 * t289;
+    let t314 = c(0.1316436662914507) - t38;
+    let t315 = t289 * t310;
     // leg 2: inertia less weight of the whole leg
-    let t312 = t275 + neg_mul_add(c(2.0), t149, t276);
-    let t313 = mul_sub(t74, t172, neg_mul_add(c(0.12275970481124972), t171, t277));
-    let t314 = mul_add(t96, t312, t313);
-    let t315 = mul_add(t203, c(0.005300614043699624), t282);
-    let t316 = neg_mul_add(c(0.3413333333333334), t314, t315);
-    let t317 = c(0.17066666666666666) * t314;
-    let t318 = mul_add(c(0.611), t314, t286);
-    let t319 = mul_add(t74, t176, neg_mul_add(c(0.12275970481124972), t175, t288));
-    let t320 = mul_add(t93, t312, t319);
-    let t321 = neg_mul_add(t210, c(0.005300614043699624), t292);
-    let t322 = mul_add(c(0.3413333333333334), t320, t321);
-    let t323 = c(0.17066666666666666) * t320;
-    let t324 = mul_add(c(0.611), t320, t296);
-    let t325 = mul_sub(t74, t179, t303 - mul_add(t73, t265, t301));
-    let t326 = c(0.17066666666666666) * t325;
+    let t316 = t279 + neg_mul_add(c(2.0), t149, t280);
+    let t317 = mul_sub(t74, t172, neg_mul_add(c(0.12275970481124972), t171, t281));
+    let t318 = mul_add(t96, t316, t317);
+    let t319 = neg_mul_add(t206, c(0.005300614043699624), t286);
+    let t320 = neg_mul_add(c(0.3413333333333334), t318, t319);
+    let t321 = c(0.17066666666666666) * t318;
+    let t322 = mul_add(c(0.611), t318, t290);
+    let t323 = mul_add(t74, t176, neg_mul_add(c(0.12275970481124972), t175, t292));
+    let t324 = mul_add(t93, t316, t323);
+    let t325 = neg_mul_add(t216, c(0.005300614043699624), t296);
+    let t326 = mul_add(c(0.3413333333333334), t324, t325);
+    let t327 = c(0.17066666666666666) * t324;
+    let t328 = mul_add(c(0.611), t324, t300);
+    let t329 = mul_sub(t74, t179, t307 - mul_add(t73, t269, t305));
+    let t330 = c(0.17066666666666666) * t329;
     // leg 2: its moment about the base origin
-    let t327 = c(0.12275970481124972) - t45;
-    let t328 = c(0.05) + t74;
-    let t329 = c(0.1316436662914507) - t44;
+    let t331 = c(0.12275970481124972) - t45;
+    let t332 = c(0.05) + t74;
+    let t333 = c(0.1316436662914507) - t44;
     // leg 3: inertia less weight of the whole leg
-    let t330 = neg_mul_add(t128, c(0.06211657082460495), t274);
-    let t331 = t129 * c(0.2318221983093764);
-    let t332 = neg_mul_add(c(0.040491189781895726), t170, t157);
-    let t333 = t330 + neg_mul_add(c(2.0), t150, t331);
-    let t334 = mul_add(t78, t172, c(0.17538661166134234) * t171);
-    let t335 = t332 - mul_add(t96, t333, t334);
-    let t336 = neg_mul_add(t202, c(0.005300614043699622), t281);
-    let t337 = mul_add(c(0.3413333333333334), t335, t203 * c(0.019782160922400118));
-    let t338 = t336 + t337;
-    let t339 = c(0.17066666666666666) * t335;
-    let t340 = neg_mul_add(c(0.611), t335, t286);
-    let t341 = mul_add(c(0.040491189781895726), t173, t160);
-    let t342 = mul_sub(t78, t176, c(0.17538661166134234) * t175);
-    let t343 = t341 + mul_add(t93, t333, t342);
-    let t344 = mul_add(t209, c(0.005300614043699622), t291);
-    let t345 = neg_mul_add(c(0.3413333333333334), t343, t210 * c(0.019782160922400118));
-    let t346 = t344 - t345;
-    let t347 = c(0.17066666666666666) * t343;
-    let t348 = mul_add(c(0.611), t343, t296);
-    let t349 = mul_sub(c(0.17538661166134234), t178, c(0.1159110991546882) * t243);
-    let t350 = mul_sub(c(0.040491189781895726), t177, c(0.031058285412302475) * t242);
-    let t351 = t300 + t350;
-    let t352 = t351 - (t349 + mul_add(t77, t267, t78 * t179));
-    let t353 = c(0.17066666666666666) * t352;
+    let t334 = neg_mul_add(t128, c(0.06211657082460495), t278);
+    let t335 = t129 * c(0.2318221983093764);
+    let t336 = neg_mul_add(c(0.040491189781895726), t170, t157);
+    let t337 = t334 + neg_mul_add(c(2.0), t150, t335);
+    let t338 = mul_add(t78, t172, c(0.17538661166134234) * t171);
+    let t339 = t336 - mul_add(t96, t337, t338);
+    let t340 = mul_add(t202, c(0.005300614043699622), t285);
+    let t341 = neg_mul_add(c(0.3413333333333334), t339, t206 * c(0.019782160922400118));
+    let t342 = t340 - t341;
+    let t343 = c(0.17066666666666666) * t339;
+    let t344 = neg_mul_add(c(0.611), t339, t290);
+    let t345 = mul_add(c(0.040491189781895726), t173, t160);
+    let t346 = mul_sub(t78, t176, c(0.17538661166134234) * t175);
+    let t347 = t345 + mul_add(t93, t337, t346);
+    let t348 = mul_add(t213, c(0.005300614043699622), t295);
+    let t349 = neg_mul_add(c(0.3413333333333334), t347, t216 * c(0.019782160922400118));
+    let t350 = t348 - t349;
+    let t351 = c(0.17066666666666666) * t347;
+    let t352 = mul_add(c(0.611), t347, t300);
+    let t353 = mul_sub(c(0.17538661166134234), t178, c(0.1159110991546882) * t247);
+    let t354 = mul_sub(c(0.040491189781895726), t177, c(0.031058285412302475) * t245);
+    let t355 = t304 + t354;
+    let t356 = t355 - (t353 + mul_add(t77, t271, t78 * t179));
+    let t357 = c(0.17066666666666666) * t356;
     // leg 3: its moment about the base origin
-    let t354 = c(0.17538661166134234) - t51;
-    let t355 = c(0.05) + t78;
-    let t356 = c(0.040491189781895726) - t48;
+    let t358 = c(0.17538661166134234) - t51;
+    let t359 = c(0.05) + t78;
+    let t360 = c(0.040491189781895726) - t48;
     // leg 4: inertia less weight of the whole leg
-    let t357 = neg_mul_add(t128, c(0.1697056274847714), t274);
-    let t358 = t129 * c(0.16970562748477142);
-    let t359 = mul_add(c(0.17213485607334636), t170, t157);
-    let t360 = t357 + neg_mul_add(c(2.0), t151, t358);
-    let t361 = mul_add(t82, t172, c(0.052626906850092664) * t171);
-    let t362 = t359 - mul_add(t96, t360, t361);
-    let t363 = neg_mul_add(t202, c(0.01448154687870049), t281);
-    let t364 = mul_add(c(0.3413333333333334), t362, t203 * c(0.014481546878700494));
-    let t365 = t363 + t364;
-    let t366 = c(0.17066666666666666) * t362;
-    let t367 = neg_mul_add(c(0.611), t362, t286);
-    let t368 = neg_mul_add(c(0.17213485607334636), t173, t160);
-    let t369 = mul_sub(t82, t176, c(0.052626906850092664) * t175);
-    let t370 = t368 + mul_add(t93, t360, t369);
-    let t371 = mul_add(t209, c(0.01448154687870049), t291);
-    let t372 = neg_mul_add(c(0.3413333333333334), t370, t210 * c(0.014481546878700494));
-    let t373 = t371 - t372;
-    let t374 = c(0.17066666666666666) * t370;
-    let t375 = mul_add(c(0.611), t370, t296);
-    let t376 = mul_sub(c(0.052626906850092664), t178, c(0.08485281374238571) * t243);
-    let t377 = mul_add(c(0.17213485607334636), t177, c(0.0848528137423857) * t242);
-    let t378 = t300 - t377;
-    let t379 = t378 - (t376 + mul_add(t81, t269, t82 * t179));
-    let t380 = c(0.17066666666666666) * t379;
+    let t361 = neg_mul_add(t128, c(0.1697056274847714), t278);
+    let t362 = t129 * c(0.16970562748477142);
+    let t363 = mul_add(c(0.17213485607334636), t170, t157);
+    let t364 = t361 + neg_mul_add(c(2.0), t151, t362);
+    let t365 = mul_add(t82, t172, c(0.052626906850092664) * t171);
+    let t366 = t363 - mul_add(t96, t364, t365);
+    let t367 = mul_add(t202, c(0.01448154687870049), t285);
+    let t368 = neg_mul_add(c(0.3413333333333334), t366, t206 * c(0.014481546878700494));
+    let t369 = t367 - t368;
+    let t370 = c(0.17066666666666666) * t366;
+    let t371 = neg_mul_add(c(0.611), t366, t290);
+    let t372 = neg_mul_add(c(0.17213485607334636), t173, t160);
+    let t373 = mul_sub(t82, t176, c(0.052626906850092664) * t175);
+    let t374 = t372 + mul_add(t93, t364, t373);
+    let t375 = mul_add(t213, c(0.01448154687870049), t295);
+    let t376 = neg_mul_add(c(0.3413333333333334), t374, t216 * c(0.014481546878700494));
+    let t377 = t375 - t376;
+    let t378 = c(0.17066666666666666) * t374;
+    let t379 = mul_add(c(0.611), t374, t300);
+    let t380 = mul_sub(c(0.052626906850092664), t178, c(0.08485281374238571) * t247);
+    let t381 = mul_add(c(0.17213485607334636), t177, c(0.0848528137423857) * t245);
+    let t382 = t304 - t381;
+    let t383 = t382 - (t380 + mul_add(t81, t273, t82 * t179));
+    let t384 = c(0.17066666666666666) * t383;
     // leg 4: its moment about the base origin
-    let t381 = c(0.052626906850092664) - t58;
-    let t382 = c(0.05) + t82;
-    let t383 = c(0.17213485607334636) + t55;
+    let t385 = c(0.052626906850092664) - t58;
+    let t386 = c(0.05) + t82;
+    let t387 = c(0.17213485607334636) + t55;
     // leg 5: inertia less weight of the whole leg
-    let t384 = t357 - mul_add(c(2.0), t152, t358);
-    let t385 = mul_sub(t86, t172, mul_add(c(0.052626906850092664), t171, t359));
-    let t386 = mul_add(t96, t384, t385);
-    let t387 = neg_mul_add(t203, c(0.014481546878700494), t363);
-    let t388 = neg_mul_add(c(0.3413333333333334), t386, t387);
-    let t389 = c(0.17066666666666666) * t386;
-    let t390 = mul_add(c(0.611), t386, t286);
-    let t391 = mul_add(t86, t176, mul_add(c(0.052626906850092664), t175, t368));
-    let t392 = mul_add(t93, t384, t391);
-    let t393 = mul_add(t210, c(0.014481546878700494), t371);
-    let t394 = mul_add(c(0.3413333333333334), t392, t393);
-    let t395 = c(0.17066666666666666) * t392;
-    let t396 = mul_add(c(0.611), t392, t296);
-    let t397 = mul_sub(t86, t179, t378 - mul_sub(t85, t271, t376));
-    let t398 = c(0.17066666666666666) * t397;
+    let t388 = t361 - mul_add(c(2.0), t152, t362);
+    let t389 = mul_sub(t86, t172, mul_add(c(0.052626906850092664), t171, t363));
+    let t390 = mul_add(t96, t388, t389);
+    let t391 = mul_add(t206, c(0.014481546878700494), t367);
+    let t392 = neg_mul_add(c(0.3413333333333334), t390, t391);
+    let t393 = c(0.17066666666666666) * t390;
+    let t394 = mul_add(c(0.611), t390, t290);
+    let t395 = mul_add(t86, t176, mul_add(c(0.052626906850092664), t175, t372));
+    let t396 = mul_add(t93, t388, t395);
+    let t397 = mul_add(t216, c(0.014481546878700494), t375);
+    let t398 = mul_add(c(0.3413333333333334), t396, t397);
+    let t399 = c(0.17066666666666666) * t396;
+    let t400 = mul_add(c(0.611), t396, t300);
+    let t401 = mul_sub(t86, t179, t382 - mul_sub(t85, t275, t380));
+    let t402 = c(0.17066666666666666) * t401;
     // leg 5: its moment about the base origin
-    let t399 = c(0.052626906850092664) - t62;
-    let t400 = c(0.05) + t86;
-    let t401 = c(0.17213485607334636) + t61;
+    let t403 = c(0.052626906850092664) - t62;
+    let t404 = c(0.05) + t86;
+    let t405 = c(0.17213485607334636) + t61;
     // leg 6: inertia less weight of the whole leg
-    let t402 = t330 - mul_add(c(2.0), t153, t331);
-    let t403 = mul_sub(t90, t172, mul_add(c(0.17538661166134234), t171, t332));
-    let t404 = mul_add(t96, t402, t403);
-    let t405 = neg_mul_add(t203, c(0.019782160922400118), t336);
-    let t406 = neg_mul_add(c(0.3413333333333334), t404, t405);
-    let t407 = c(0.17066666666666666) * t404;
-    let t408 = mul_add(c(0.611), t404, t286);
-    let t409 = mul_add(t90, t176, mul_add(c(0.17538661166134234), t175, t341));
-    let t410 = mul_add(t93, t402, t409);
-    let t411 = mul_add(t210, c(0.019782160922400118), t344);
-    let t412 = mul_add(c(0.3413333333333334), t410, t411);
-    let t413 = c(0.17066666666666666) * t410;
-    let t414 = mul_add(c(0.611), t410, t296);
-    let t415 = mul_sub(t90, t179, t351 - mul_sub(t89, t273, t349));
-    let t416 = c(0.17066666666666666) * t415;
+    let t406 = t334 - mul_add(c(2.0), t153, t335);
+    let t407 = mul_sub(t90, t172, mul_add(c(0.17538661166134234), t171, t336));
+    let t408 = mul_add(t96, t406, t407);
+    let t409 = mul_add(t206, c(0.019782160922400118), t340);
+    let t410 = neg_mul_add(c(0.3413333333333334), t408, t409);
+    let t411 = c(0.17066666666666666) * t408;
+    let t412 = mul_add(c(0.611), t408, t290);
+    let t413 = mul_add(t90, t176, mul_add(c(0.17538661166134234), t175, t345));
+    let t414 = mul_add(t93, t406, t413);
+    let t415 = mul_add(t216, c(0.019782160922400118), t348);
+    let t416 = mul_add(c(0.3413333333333334), t414, t415);
+    let t417 = c(0.17066666666666666) * t414;
+    let t418 = mul_add(c(0.611), t414, t300);
+    let t419 = mul_sub(t90, t179, t355 - mul_sub(t89, t277, t353));
+    let t420 = c(0.17066666666666666) * t419;
     // leg 6: its moment about the base origin
-    let t417 = c(0.17538661166134234) - t65;
-    let t418 = c(0.05) + t90;
-    let t419 = c(0.040491189781895726) - t64;
+    let t421 = c(0.17538661166134234) - t65;
+    let t422 = c(0.05) + t90;
+    let t423 = c(0.040491189781895726) - t64;
     // wrench of the base on the mechanism, moments about the base origin
-    let t420 = mul_add(t179, c(0.03055), c(0.17066666666666666) * t189);
-    let t421 = mul_add(t215, c(0.01448154687870049), t420);
-    let t422 = t216 * c(0.014481546878700494);
-    let t423 = t421 - mul_add(t379, c(0.9523333333333334), t422);
-    let t424 = t421 + mul_add(t397, c(0.9523333333333334), t422);
-    let t425 = t423 + t424;
-    let t426 = mul_add(t215, c(0.005300614043699622), t420);
-    let t427 = t216 * c(0.019782160922400118);
-    let t428 = t426 - mul_add(t352, c(0.9523333333333334), t427);
-    let t429 = t426 + mul_add(t415, c(0.9523333333333334), t427);
-    let t430 = t428 + t429;
-    let t431 = neg_mul_add(t215, c(0.019782160922400118), t420);
-    let t432 = t216 * c(0.005300614043699624);
-    let t433 = t431 + neg_mul_add(t304, c(0.9523333333333334), t432);
-    let t434 = t431 - neg_mul_add(t325, c(0.9523333333333334), t432);
-    let t435 = t433 + t434;
-    let t436 = base_rotation[1][2] * external_wrench[1];
-    let t437 = mul_add(base_rotation[0][2], external_wrench[0], t436);
-    let t438 = mul_add(base_rotation[2][2], external_wrench[2], t437);
-    let t439 = mul_sub(c(8.139999999999999), t189, c(2.2551405187698492e-17) * t215);
-    let t440 = neg_mul_add(c(6.938893903907228e-18), t216, t439);
-    let t441 = t438 - neg_mul_add(c(0.188852), t217, t440);
-    let t442 = mul_sub(c(0.17066666666666666), t304, t326);
-    let t443 = mul_add(c(0.17066666666666666), t352, t442);
-    let t444 = mul_add(c(0.17066666666666666), t379, t443);
-    let t445 = mul_sub(c(0.17066666666666666), t397, t444);
-    let t446 = t430 + (t435 - (t441 - mul_add(c(0.17066666666666666), t415, t445)));
-    let t447 = t425 + t446;
-    let t448 = t406 - t408;
-    let t449 = t388 - t390;
-    let t450 = t365 - t367;
-    let t451 = t338 - t340;
-    let t452 = t316 - t318;
-    let t453 = t284 - t287;
-    let t454 = base_rotation[1][0] * external_wrench[1];
-    let t455 = mul_add(base_rotation[0][0], external_wrench[0], t454);
-    let t456 = mul_add(base_rotation[2][0], external_wrench[2], t455);
-    let t457 = mul_add(c(8.139999999999999), t183, c(2.2551405187698492e-17) * t202);
-    let t458 = mul_add(c(6.938893903907228e-18), t203, t457);
-    let t459 = t456 - mul_add(c(0.188852), t204, t458);
-    let t460 = mul_sub(c(0.17066666666666666), t280, t317);
-    let t461 = mul_add(c(0.17066666666666666), t335, t460);
-    let t462 = mul_add(c(0.17066666666666666), t362, t461);
-    let t463 = mul_sub(c(0.17066666666666666), t386, t462);
-    let t464 = t452 + (t453 - (t459 + mul_add(c(0.17066666666666666), t404, t463)));
-    let t465 = t448 + (t449 + (t450 + (t451 + t464)));
-    let t466 = t396 + (t394 + (t373 + t375));
-    let t467 = t414 + (t412 + (t346 + t348));
-    let t468 = t324 + (t322 + (t294 + t297));
-    let t469 = base_rotation[1][1] * external_wrench[1];
-    let t470 = mul_add(base_rotation[0][1], external_wrench[0], t469);
-    let t471 = mul_add(base_rotation[2][1], external_wrench[2], t470);
-    let t472 = mul_sub(c(8.139999999999999), t186, c(2.2551405187698492e-17) * t209);
-    let t473 = neg_mul_add(c(6.938893903907228e-18), t210, t472);
-    let t474 = t471 - neg_mul_add(c(0.188852), t211, t473);
-    let t475 = mul_add(c(0.17066666666666666), t290, t323);
-    let t476 = mul_add(c(0.17066666666666666), t343, t475);
-    let t477 = mul_add(c(0.17066666666666666), t370, t476);
-    let t478 = mul_add(c(0.17066666666666666), t392, t477);
-    let t479 = t467 + (t468 - (t474 - mul_add(c(0.17066666666666666), t410, t478)));
-    let t480 = t466 + t479;
-    let t481 = mul_add(base_rotation[0][0], t465, base_rotation[0][1] * t480);
-    base_wrench[0] = mul_add(base_rotation[0][2], t447, t481);
-    let t482 = mul_add(base_rotation[1][0], t465, base_rotation[1][1] * t480);
-    base_wrench[1] = mul_add(base_rotation[1][2], t447, t482);
-    let t483 = mul_add(base_rotation[2][0], t465, base_rotation[2][1] * t480);
-    base_wrench[2] = mul_add(base_rotation[2][2], t447, t483);
-    let t484 = mul_add(c(0.188852), t183, c(0.013354412) * t204);
-    let t485 = neg_mul_add(c(0.031), t456, t484);
-    let t486 = mul_sub(c(0.188852), t186, c(0.013354412) * t211);
-    let t487 = neg_mul_add(c(0.031), t471, t486);
-    let t488 = mul_add(c(6.938893903907228e-18), t183, c(0.032245600000000006) * t203);
-    let t489 = mul_sub(c(6.938893903907228e-18), t186, c(0.032245600000000006) * t210);
-    let t490 = mul_add(c(2.2551405187698492e-17), t183, c(0.032245600000000006) * t202);
-    let t491 = mul_sub(c(2.2551405187698492e-17), t186, c(0.032245600000000006) * t209);
-    let t492 = mul_add(t323, t329, mul_add(t295, t310, t311));
-    let t493 = mul_add(t347, t356, mul_add(t317, t327, t492));
-    let t494 = mul_add(t374, t383, mul_sub(t339, t354, t493));
-    let t495 = mul_add(t395, t401, mul_add(t366, t381, t494));
-    let t496 = mul_sub(t413, t419, mul_add(t389, t399, t495));
-    let t497 = neg_mul_add(c(0.1316436662914507), t468, mul_sub(t407, t417, t496));
-    let t498 = neg_mul_add(c(0.040491189781895726), t467, t497);
-    let t499 = mul_sub(t3, t491, mul_add(c(0.17213485607334636), t466, t498));
-    let t500 = mul_sub(t6, t489, mul_sub(t12, t490, t499));
-    let t501 = mul_sub(t9, t487, mul_sub(t15, t488, t500));
-    let t502 = mul_sub(t32, t474, mul_sub(t18, t485, t501));
-    let t503 = mul_sub(t34, t459, t502);
-    let t504 = mul_add(base_rotation[0][2], external_wrench[3], t503);
-    let t505 = mul_add(base_rotation[1][2], external_wrench[4], t504);
-    let t506 = mul_add(base_rotation[2][2], external_wrench[5], t505);
-    let t507 = neg_mul_add(c(0.12275970481124972), t453 - t452, t506);
-    let t508 = mul_add(c(0.17538661166134234), t451 - t448, t507);
-    let t509 = mul_add(c(0.052626906850092664), t450 - t449, t508);
-    let t510 = mul_sub(c(0.188852), t189, c(0.013354412) * t217);
-    let t511 = neg_mul_add(c(0.031), t438, t510);
-    let t512 = mul_sub(c(6.938893903907228e-18), t189, c(0.032245600000000006) * t216);
-    let t513 = mul_sub(c(2.2551405187698492e-17), t189, c(0.032245600000000006) * t215);
-    let t514 = mul_add(t43, t295, mul_add(t70, t294, t307));
-    let t515 = mul_add(t74, t322, mul_add(t297, t308, t514));
-    let t516 = mul_add(t46, t323, mul_add(t326, t327, t515));
-    let t517 = mul_add(t78, t346, mul_add(t324, t328, t516));
-    let t518 = mul_sub(t53, t347, mul_sub(t353, t354, t517));
-    let t519 = mul_add(t82, t373, mul_add(t348, t355, t518));
-    let t520 = mul_sub(t60, t374, mul_sub(t380, t381, t519));
-    let t521 = mul_add(t86, t394, mul_add(t375, t382, t520));
-    let t522 = mul_sub(t63, t395, mul_sub(t398, t399, t521));
-    let t523 = mul_add(t90, t412, mul_add(t396, t400, t522));
-    let t524 = mul_sub(t66, t413, mul_sub(t416, t417, t523));
-    let t525 = mul_add(t12, t513, mul_add(t414, t418, t524));
-    let t526 = mul_sub(t15, t512, mul_sub(t21, t491, t525));
-    let t527 = mul_sub(t18, t511, mul_sub(t24, t489, t526));
-    let t528 = mul_sub(t34, t441, mul_sub(t27, t487, t527));
-    let t529 = mul_sub(t36, t474, t528);
-    let t530 = mul_add(base_rotation[0][0], external_wrench[3], t529);
-    let t531 = mul_add(base_rotation[1][0], external_wrench[4], t530);
-    let t532 = mul_add(base_rotation[2][0], external_wrench[5], t531);
-    let t533 = mul_add(c(0.12275970481124972), t433 - t434, t532);
-    let t534 = neg_mul_add(c(0.17538661166134234), t428 - t429, t533);
-    let t535 = neg_mul_add(c(0.052626906850092664), t423 - t424, t534);
-    let t536 = mul_sub(t305, t310, mul_add(t70, t284, t309));
-    let t537 = mul_sub(t74, t316, mul_add(t287, t308, t536));
-    let t538 = mul_sub(t326, t329, mul_sub(t46, t317, t537));
-    let t539 = mul_sub(t78, t338, mul_sub(t318, t328, t538));
-    let t540 = mul_sub(t353, t356, mul_add(t53, t339, t539));
-    let t541 = mul_sub(t82, t365, mul_add(t340, t355, t540));
-    let t542 = mul_add(t380, t383, mul_add(t60, t366, t541));
-    let t543 = mul_sub(t86, t388, mul_sub(t367, t382, t542));
-    let t544 = mul_add(t398, t401, mul_sub(t63, t389, t543));
-    let t545 = mul_sub(t90, t406, mul_add(t390, t400, t544));
-    let t546 = mul_sub(t416, t419, mul_sub(t66, t407, t545));
-    let t547 = neg_mul_add(c(0.1316436662914507), t435, mul_sub(t408, t418, t546));
-    let t548 = neg_mul_add(c(0.040491189781895726), t430, t547);
-    let t549 = mul_add(t21, t490, mul_add(c(0.17213485607334636), t425, t548));
-    let t550 = mul_sub(t24, t488, mul_sub(t3, t513, t549));
-    let t551 = mul_sub(t27, t485, mul_sub(t6, t512, t550));
-    let t552 = mul_sub(t36, t459, mul_sub(t9, t511, t551));
-    let t553 = mul_sub(t32, t441, t552);
-    let t554 = mul_add(base_rotation[0][1], external_wrench[3], t553);
-    let t555 = mul_add(base_rotation[1][1], external_wrench[4], t554);
-    let t556 = mul_add(base_rotation[2][1], external_wrench[5], t555);
-    let t557 = mul_add(base_rotation[0][0], t535, base_rotation[0][1] * t556);
-    base_wrench[3] = -mul_add(base_rotation[0][2], t509, t557);
-    let t558 = mul_add(base_rotation[1][0], t535, base_rotation[1][1] * t556);
-    base_wrench[4] = -mul_add(base_rotation[1][2], t509, t558);
-    let t559 = mul_add(base_rotation[2][0], t535, base_rotation[2][1] * t556);
-    base_wrench[5] = -mul_add(base_rotation[2][2], t509, t559);
+    let t424 = mul_add(t179, c(0.03055), c(0.17066666666666666) * t189);
+    let t425 = mul_add(t221, c(0.01448154687870049), t424);
+    let t426 = t223 * c(0.014481546878700494);
+    let t427 = t425 - mul_add(t383, c(0.9523333333333334), t426);
+    let t428 = t425 + mul_add(t401, c(0.9523333333333334), t426);
+    let t429 = t427 + t428;
+    let t430 = mul_add(t221, c(0.005300614043699622), t424);
+    let t431 = t223 * c(0.019782160922400118);
+    let t432 = t430 - mul_add(t356, c(0.9523333333333334), t431);
+    let t433 = t430 + mul_add(t419, c(0.9523333333333334), t431);
+    let t434 = t432 + t433;
+    let t435 = neg_mul_add(t221, c(0.019782160922400118), t424);
+    let t436 = t223 * c(0.005300614043699624);
+    let t437 = t435 + neg_mul_add(t308, c(0.9523333333333334), t436);
+    let t438 = t435 - neg_mul_add(t329, c(0.9523333333333334), t436);
+    let t439 = t437 + t438;
+    let t440 = base_rotation[1][2] * external_wrench[1];
+    let t441 = mul_add(base_rotation[0][2], external_wrench[0], t440);
+    let t442 = mul_add(base_rotation[2][2], external_wrench[2], t441);
+    let t443 = mul_sub(c(8.139999999999999), t189, c(2.2551405187698492e-17) * t221);
+    let t444 = neg_mul_add(c(6.938893903907228e-18), t223, t443);
+    let t445 = t442 - neg_mul_add(c(0.188852), t225, t444);
+    let t446 = mul_sub(c(0.17066666666666666), t308, t330);
+    let t447 = mul_add(c(0.17066666666666666), t356, t446);
+    let t448 = mul_add(c(0.17066666666666666), t383, t447);
+    let t449 = mul_sub(c(0.17066666666666666), t401, t448);
+    let t450 = t434 + (t439 - (t445 - mul_add(c(0.17066666666666666), t419, t449)));
+    let t451 = t429 + t450;
+    let t452 = t410 - t412;
+    let t453 = t392 - t394;
+    let t454 = t369 - t371;
+    let t455 = t342 - t344;
+    let t456 = t320 - t322;
+    let t457 = t288 - t291;
+    let t458 = base_rotation[1][0] * external_wrench[1];
+    let t459 = mul_add(base_rotation[0][0], external_wrench[0], t458);
+    let t460 = mul_add(base_rotation[2][0], external_wrench[2], t459);
+    let t461 = mul_sub(c(8.139999999999999), t183, c(2.2551405187698492e-17) * t202);
+    let t462 = neg_mul_add(c(6.938893903907228e-18), t206, t461);
+    let t463 = t460 - neg_mul_add(c(0.188852), t210, t462);
+    let t464 = mul_sub(c(0.17066666666666666), t284, t321);
+    let t465 = mul_add(c(0.17066666666666666), t339, t464);
+    let t466 = mul_add(c(0.17066666666666666), t366, t465);
+    let t467 = mul_sub(c(0.17066666666666666), t390, t466);
+    let t468 = t456 + (t457 - (t463 + mul_add(c(0.17066666666666666), t408, t467)));
+    let t469 = t452 + (t453 + (t454 + (t455 + t468)));
+    let t470 = t400 + (t398 + (t377 + t379));
+    let t471 = t418 + (t416 + (t350 + t352));
+    let t472 = t328 + (t326 + (t298 + t301));
+    let t473 = base_rotation[1][1] * external_wrench[1];
+    let t474 = mul_add(base_rotation[0][1], external_wrench[0], t473);
+    let t475 = mul_add(base_rotation[2][1], external_wrench[2], t474);
+    let t476 = mul_sub(c(8.139999999999999), t186, c(2.2551405187698492e-17) * t213);
+    let t477 = neg_mul_add(c(6.938893903907228e-18), t216, t476);
+    let t478 = t475 - neg_mul_add(c(0.188852), t219, t477);
+    let t479 = mul_add(c(0.17066666666666666), t294, t327);
+    let t480 = mul_add(c(0.17066666666666666), t347, t479);
+    let t481 = mul_add(c(0.17066666666666666), t374, t480);
+    let t482 = mul_add(c(0.17066666666666666), t396, t481);
+    let t483 = t471 + (t472 - (t478 - mul_add(c(0.17066666666666666), t414, t482)));
+    let t484 = t470 + t483;
+    let t485 = mul_add(base_rotation[0][0], t469, base_rotation[0][1] * t484);
+    base_wrench[0] = mul_add(base_rotation[0][2], t451, t485);
+    let t486 = mul_add(base_rotation[1][0], t469, base_rotation[1][1] * t484);
+    base_wrench[1] = mul_add(base_rotation[1][2], t451, t486);
+    let t487 = mul_add(base_rotation[2][0], t469, base_rotation[2][1] * t484);
+    base_wrench[2] = mul_add(base_rotation[2][2], t451, t487);
+    let t488 = mul_sub(c(0.188852), t183, c(0.013354412) * t210);
+    let t489 = neg_mul_add(c(0.031), t460, t488);
+    let t490 = mul_sub(c(0.188852), t186, c(0.013354412) * t219);
+    let t491 = neg_mul_add(c(0.031), t475, t490);
+    let t492 = mul_sub(c(6.938893903907228e-18), t183, c(0.032245600000000006) * t206);
+    let t493 = mul_sub(c(6.938893903907228e-18), t186, c(0.032245600000000006) * t216);
+    let t494 = mul_sub(c(2.2551405187698492e-17), t183, c(0.032245600000000006) * t202);
+    let t495 = mul_sub(c(2.2551405187698492e-17), t186, c(0.032245600000000006) * t213);
+    let t496 = mul_add(t327, t333, mul_add(t299, t314, t315));
+    let t497 = mul_add(t351, t360, mul_add(t321, t331, t496));
+    let t498 = mul_add(t378, t387, mul_sub(t343, t358, t497));
+    let t499 = mul_add(t399, t405, mul_add(t370, t385, t498));
+    let t500 = mul_sub(t417, t423, mul_add(t393, t403, t499));
+    let t501 = neg_mul_add(c(0.1316436662914507), t472, mul_sub(t411, t421, t500));
+    let t502 = neg_mul_add(c(0.040491189781895726), t471, t501);
+    let t503 = mul_sub(t3, t495, mul_add(c(0.17213485607334636), t470, t502));
+    let t504 = mul_sub(t6, t493, mul_sub(t12, t494, t503));
+    let t505 = mul_sub(t9, t491, mul_sub(t15, t492, t504));
+    let t506 = mul_sub(t32, t478, mul_sub(t18, t489, t505));
+    let t507 = mul_sub(t34, t463, t506);
+    let t508 = mul_add(base_rotation[0][2], external_wrench[3], t507);
+    let t509 = mul_add(base_rotation[1][2], external_wrench[4], t508);
+    let t510 = mul_add(base_rotation[2][2], external_wrench[5], t509);
+    let t511 = neg_mul_add(c(0.12275970481124972), t457 - t456, t510);
+    let t512 = mul_add(c(0.17538661166134234), t455 - t452, t511);
+    let t513 = mul_add(c(0.052626906850092664), t454 - t453, t512);
+    let t514 = mul_sub(c(0.188852), t189, c(0.013354412) * t225);
+    let t515 = neg_mul_add(c(0.031), t442, t514);
+    let t516 = mul_sub(c(6.938893903907228e-18), t189, c(0.032245600000000006) * t223);
+    let t517 = mul_sub(c(2.2551405187698492e-17), t189, c(0.032245600000000006) * t221);
+    let t518 = mul_add(t43, t299, mul_add(t70, t298, t311));
+    let t519 = mul_add(t74, t326, mul_add(t301, t312, t518));
+    let t520 = mul_add(t46, t327, mul_add(t330, t331, t519));
+    let t521 = mul_add(t78, t350, mul_add(t328, t332, t520));
+    let t522 = mul_sub(t53, t351, mul_sub(t357, t358, t521));
+    let t523 = mul_add(t82, t377, mul_add(t352, t359, t522));
+    let t524 = mul_sub(t60, t378, mul_sub(t384, t385, t523));
+    let t525 = mul_add(t86, t398, mul_add(t379, t386, t524));
+    let t526 = mul_sub(t63, t399, mul_sub(t402, t403, t525));
+    let t527 = mul_add(t90, t416, mul_add(t400, t404, t526));
+    let t528 = mul_sub(t66, t417, mul_sub(t420, t421, t527));
+    let t529 = mul_add(t12, t517, mul_add(t418, t422, t528));
+    let t530 = mul_sub(t15, t516, mul_sub(t21, t495, t529));
+    let t531 = mul_sub(t18, t515, mul_sub(t24, t493, t530));
+    let t532 = mul_sub(t34, t445, mul_sub(t27, t491, t531));
+    let t533 = mul_sub(t36, t478, t532);
+    let t534 = mul_add(base_rotation[0][0], external_wrench[3], t533);
+    let t535 = mul_add(base_rotation[1][0], external_wrench[4], t534);
+    let t536 = mul_add(base_rotation[2][0], external_wrench[5], t535);
+    let t537 = mul_add(c(0.12275970481124972), t437 - t438, t536);
+    let t538 = neg_mul_add(c(0.17538661166134234), t432 - t433, t537);
+    let t539 = neg_mul_add(c(0.052626906850092664), t427 - t428, t538);
+    let t540 = mul_sub(t309, t314, mul_add(t70, t288, t313));
+    let t541 = mul_sub(t74, t320, mul_add(t291, t312, t540));
+    let t542 = mul_sub(t330, t333, mul_sub(t46, t321, t541));
+    let t543 = mul_sub(t78, t342, mul_sub(t322, t332, t542));
+    let t544 = mul_sub(t357, t360, mul_add(t53, t343, t543));
+    let t545 = mul_sub(t82, t369, mul_add(t344, t359, t544));
+    let t546 = mul_add(t384, t387, mul_add(t60, t370, t545));
+    let t547 = mul_sub(t86, t392, mul_sub(t371, t386, t546));
+    let t548 = mul_add(t402, t405, mul_sub(t63, t393, t547));
+    let t549 = mul_sub(t90, t410, mul_add(t394, t404, t548));
+    let t550 = mul_sub(t420, t423, mul_sub(t66, t411, t549));
+    let t551 = neg_mul_add(c(0.1316436662914507), t439, mul_sub(t412, t422, t550));
+    let t552 = neg_mul_add(c(0.040491189781895726), t434, t551);
+    let t553 = mul_add(t21, t494, mul_add(c(0.17213485607334636), t429, t552));
+    let t554 = mul_sub(t24, t492, mul_sub(t3, t517, t553));
+    let t555 = mul_sub(t27, t489, mul_sub(t6, t516, t554));
+    let t556 = mul_sub(t36, t463, mul_sub(t9, t515, t555));
+    let t557 = mul_sub(t32, t445, t556);
+    let t558 = mul_add(base_rotation[0][1], external_wrench[3], t557);
+    let t559 = mul_add(base_rotation[1][1], external_wrench[4], t558);
+    let t560 = mul_add(base_rotation[2][1], external_wrench[5], t559);
+    let t561 = mul_add(base_rotation[0][0], t539, base_rotation[0][1] * t560);
+    base_wrench[3] = -mul_add(base_rotation[0][2], t513, t561);
+    let t562 = mul_add(base_rotation[1][0], t539, base_rotation[1][1] * t560);
+    base_wrench[4] = -mul_add(base_rotation[1][2], t513, t562);
+    let t563 = mul_add(base_rotation[2][0], t539, base_rotation[2][1] * t560);
+    base_wrench[5] = -mul_add(base_rotation[2][2], t513, t563);
 }
 
 /// Platform acceleration for given actuator forces, equation (49).
@@ -19727,554 +19672,552 @@ pub fn forward_dynamics<T: Scalar>(
     let t202 = mul_add(t120, t123, t187);
     let t203 = mul_add(t120, t120, t198);
     // acceleration per platform coordinate of points of the platform
-    let t204 = t126 * t132;
-    let t205 = t126 * t129;
-    let t206 = mul_add(t129, t129, t132 * t132);
-    let t207 = mul_add(t21, t204, mul_sub(t12, t205, t3 * t206));
-    let t208 = mul_add(t24, t204, mul_sub(t15, t205, t6 * t206));
-    let t209 = mul_add(t27, t204, mul_sub(t18, t205, t9 * t206));
-    let t210 = t129 * t132;
-    let t211 = t126 * t126;
-    let t212 = mul_add(t132, t132, t211);
-    let t213 = mul_add(t21, t210, mul_sub(t3, t205, t12 * t212));
-    let t214 = mul_add(t24, t210, mul_sub(t6, t205, t15 * t212));
-    let t215 = mul_add(t27, t210, mul_sub(t9, t205, t18 * t212));
-    let t216 = mul_add(t129, t129, t211);
-    let t217 = mul_sub(t21, t216, mul_add(t3, t204, t12 * t210));
-    let t218 = mul_sub(t24, t216, mul_add(t6, t204, t15 * t210));
-    let t219 = mul_sub(t27, t216, mul_add(t9, t204, t18 * t210));
+    let t204 = mul_sub(t12, t126, t3 * t129);
+    let t205 = mul_sub(t3, t132, t21 * t126);
+    let t206 = mul_sub(t129, t204, t132 * t205);
+    let t207 = mul_sub(t15, t126, t6 * t129);
+    let t208 = mul_sub(t6, t132, t24 * t126);
+    let t209 = mul_sub(t129, t207, t132 * t208);
+    let t210 = mul_sub(t18, t126, t9 * t129);
+    let t211 = mul_sub(t9, t132, t27 * t126);
+    let t212 = mul_sub(t129, t210, t132 * t211);
+    let t213 = mul_sub(t21, t129, t12 * t132);
+    let t214 = mul_sub(t132, t213, t126 * t204);
+    let t215 = mul_sub(t24, t129, t15 * t132);
+    let t216 = mul_sub(t132, t215, t126 * t207);
+    let t217 = mul_sub(t27, t129, t18 * t132);
+    let t218 = mul_sub(t132, t217, t126 * t210);
+    let t219 = mul_sub(t126, t205, t129 * t213);
+    let t220 = mul_sub(t126, t208, t129 * t215);
+    let t221 = mul_sub(t126, t211, t129 * t217);
     // acceleration of the platform origin relative to the base
-    let t220 = mul_sub(t120, t147, t123 * t144);
-    let t221 = mul_add(t34, t195, mul_add(t32, t194, t181));
-    let t222 = mul_add(c(2.0), t220, mul_sub(t36, t196, t221));
-    let t223 = mul_sub(t123, t141, t117 * t147);
-    let t224 = mul_add(t34, t199, neg_mul_add(t32, t197, t184));
-    let t225 = neg_mul_add(c(2.0), t223, mul_add(t36, t200, t224));
-    let t226 = t34 * t202;
-    let t227 = t120 * t141;
+    let t222 = mul_sub(t120, t147, t123 * t144);
+    let t223 = mul_add(t34, t195, mul_add(t32, t194, t181));
+    let t224 = mul_add(c(2.0), t222, mul_sub(t36, t196, t223));
+    let t225 = mul_sub(t123, t141, t117 * t147);
+    let t226 = mul_add(t34, t199, neg_mul_add(t32, t197, t184));
+    let t227 = neg_mul_add(c(2.0), t225, mul_add(t36, t200, t226));
+    let t228 = t34 * t202;
+    let t229 = t120 * t141;
     // second derivative of the relative rotation
-    let t228 = mul_add(t117, t135, neg_mul_add(t123, t133, t190));
-    let t229 = mul_sub(t133, t135, t228);
-    let t230 = mul_add(t120, t133, neg_mul_add(t117, t134, t193));
-    let t231 = mul_add(t133, t134, t230);
-    let t232 = mul_add(t134, t134, t135 * t135);
-    let t233 = mul_add(t21, t229, mul_sub(t12, t231, t3 * t232));
-    let t234 = mul_add(t24, t229, mul_sub(t15, t231, t6 * t232));
-    let t235 = mul_add(t123, t134, neg_mul_add(t120, t135, t187));
-    let t236 = mul_add(t134, t135, t235);
-    let t237 = mul_sub(t133, t134, t230);
-    let t238 = t133 * t133;
-    let t239 = mul_add(t135, t135, t238);
-    let t240 = mul_add(t21, t236, mul_sub(t3, t237, t12 * t239));
-    let t241 = mul_add(t24, t236, mul_sub(t6, t237, t15 * t239));
-    let t242 = mul_add(t134, t134, t238);
-    let t243 = mul_add(t133, t135, t228);
-    let t244 = mul_sub(t134, t135, t235);
-    let t245 = mul_sub(t21, t242, mul_add(t3, t243, t12 * t244));
-    let t246 = mul_sub(t24, t242, mul_add(t6, t243, t15 * t244));
+    let t230 = mul_add(t117, t135, neg_mul_add(t123, t133, t190));
+    let t231 = mul_add(t120, t133, neg_mul_add(t117, t134, t193));
+    let t232 = mul_sub(t134, t152, mul_sub(t21, t230, t12 * t231));
+    let t233 = mul_sub(t135, t150, t232);
+    let t234 = mul_sub(t134, t153, mul_sub(t24, t230, t15 * t231));
+    let t235 = mul_sub(t135, t151, t234);
+    let t236 = mul_add(t123, t134, neg_mul_add(t120, t135, t187));
+    let t237 = mul_sub(t135, t148, mul_sub(t3, t231, t21 * t236));
+    let t238 = mul_sub(t133, t152, t237);
+    let t239 = mul_sub(t135, t149, mul_sub(t6, t231, t24 * t236));
+    let t240 = mul_sub(t133, t153, t239);
+    let t241 = mul_sub(t133, t150, mul_sub(t12, t236, t3 * t230));
+    let t242 = mul_sub(t134, t148, t241);
+    let t243 = mul_sub(t133, t151, mul_sub(t15, t236, t6 * t230));
+    let t244 = mul_sub(t134, t149, t243);
     // leg 1: acceleration of the platform joint relative to the base
-    let t247 = mul_add(c(0.1159110991546882), t233, t222);
-    let t248 = neg_mul_add(c(0.03105828541230249), t234, t247);
-    let t249 = neg_mul_add(c(0.1159110991546882), t240, t225);
-    let t250 = mul_add(c(0.03105828541230249), t241, t249);
+    let t245 = neg_mul_add(c(0.1159110991546882), t233, t224);
+    let t246 = mul_add(c(0.03105828541230249), t235, t245);
+    let t247 = mul_add(c(0.1159110991546882), t238, t227);
+    let t248 = neg_mul_add(c(0.03105828541230249), t240, t247);
     // leg 2: acceleration of the platform joint relative to the base
-    let t251 = mul_add(c(0.03105828541230249), t234, t247);
-    let t252 = neg_mul_add(c(0.03105828541230249), t241, t249);
+    let t249 = neg_mul_add(c(0.03105828541230249), t235, t245);
+    let t250 = mul_add(c(0.03105828541230249), t240, t247);
     // leg 3: acceleration of the platform joint relative to the base
-    let t253 = neg_mul_add(c(0.031058285412302475), t233, t222);
-    let t254 = mul_add(c(0.1159110991546882), t234, t253);
-    let t255 = mul_add(c(0.031058285412302475), t240, t225);
-    let t256 = neg_mul_add(c(0.1159110991546882), t241, t255);
+    let t251 = mul_add(c(0.031058285412302475), t233, t224);
+    let t252 = neg_mul_add(c(0.1159110991546882), t235, t251);
+    let t253 = neg_mul_add(c(0.031058285412302475), t238, t227);
+    let t254 = mul_add(c(0.1159110991546882), t240, t253);
     // leg 4: acceleration of the platform joint relative to the base
-    let t257 = neg_mul_add(c(0.0848528137423857), t233, t222);
-    let t258 = mul_add(c(0.08485281374238571), t234, t257);
-    let t259 = mul_add(c(0.0848528137423857), t240, t225);
-    let t260 = neg_mul_add(c(0.08485281374238571), t241, t259);
+    let t255 = mul_add(c(0.0848528137423857), t233, t224);
+    let t256 = neg_mul_add(c(0.08485281374238571), t235, t255);
+    let t257 = neg_mul_add(c(0.0848528137423857), t238, t227);
+    let t258 = mul_add(c(0.08485281374238571), t240, t257);
     // leg 5: acceleration of the platform joint relative to the base
-    let t261 = neg_mul_add(c(0.08485281374238571), t234, t257);
-    let t262 = mul_add(c(0.08485281374238571), t241, t259);
+    let t259 = mul_add(c(0.08485281374238571), t235, t255);
+    let t260 = neg_mul_add(c(0.08485281374238571), t240, t257);
     // leg 6: acceleration of the platform joint relative to the base
-    let t263 = neg_mul_add(c(0.1159110991546882), t234, t253);
-    let t264 = mul_add(c(0.1159110991546882), t241, t255);
+    let t261 = mul_add(c(0.1159110991546882), t235, t251);
+    let t262 = neg_mul_add(c(0.1159110991546882), t240, t253);
     // leg 1: actuator acceleration d''
-    let t265 = mul_add(t44, t248, mul_add(t155, t155, t157 * t157));
-    let t266 = mul_sub(t172, t172, mul_sub(t45, t250, t265));
+    let t263 = mul_add(t44, t246, mul_add(t155, t155, t157 * t157));
+    let t264 = mul_sub(t172, t172, mul_sub(t45, t248, t263));
     // leg 2: actuator acceleration d''
-    let t267 = mul_sub(t49, t251, mul_add(t158, t158, t159 * t159));
-    let t268 = mul_sub(t173, t173, mul_add(t50, t252, t267));
+    let t265 = mul_sub(t49, t249, mul_add(t158, t158, t159 * t159));
+    let t266 = mul_sub(t173, t173, mul_add(t50, t250, t265));
     // leg 3: actuator acceleration d''
-    let t269 = mul_sub(t58, t254, mul_add(t161, t161, t163 * t163));
-    let t270 = mul_add(t174, t174, mul_sub(t59, t256, t269));
+    let t267 = mul_sub(t58, t252, mul_add(t161, t161, t163 * t163));
+    let t268 = mul_add(t174, t174, mul_sub(t59, t254, t267));
     // leg 4: actuator acceleration d''
-    let t271 = mul_sub(t67, t258, mul_add(t165, t165, t167 * t167));
-    let t272 = mul_add(t175, t175, mul_sub(t68, t260, t271));
+    let t269 = mul_sub(t67, t256, mul_add(t165, t165, t167 * t167));
+    let t270 = mul_add(t175, t175, mul_sub(t68, t258, t269));
     // leg 5: actuator acceleration d''
-    let t273 = mul_sub(t72, t261, mul_add(t168, t168, t169 * t169));
-    let t274 = mul_add(t176, t176, mul_sub(t73, t262, t273));
+    let t271 = mul_sub(t72, t259, mul_add(t168, t168, t169 * t169));
+    let t272 = mul_add(t176, t176, mul_sub(t73, t260, t271));
     // leg 6: actuator acceleration d''
-    let t275 = mul_sub(t77, t263, mul_add(t170, t170, t171 * t171));
-    let t276 = mul_add(t177, t177, mul_sub(t78, t264, t275));
+    let t273 = mul_sub(t77, t261, mul_add(t170, t170, t171 * t171));
+    let t274 = mul_add(t177, t177, mul_sub(t78, t262, t273));
     // leg 1: leg inertia less weight along the actuator
-    let t277 = c(2.0) * t147;
-    let t278 = mul_add(t152, c(0.2318221983093764), t277);
-    let t279 = t153 * c(0.06211657082460498);
-    let t280 = t278 - neg_mul_add(c(2.0), t172, t279);
-    let t281 = t120 * t280;
-    let t282 = t117 * t280;
-    let t283 = mul_add(t36, t203, mul_sub(t32, t201, t226));
-    let t284 = neg_mul_add(c(2.0), mul_sub(t117, t144, t227), t283);
-    let t285 = mul_sub(c(0.12275970481124972), t202, c(0.03105828541230249) * t246);
-    let t286 = mul_add(c(0.1316436662914507), t201, c(0.1159110991546882) * t245);
-    let t287 = t284 + t286;
-    let t288 = t287 + (t285 - mul_add(t81, t266, t82 * t203));
+    let t275 = c(2.0) * t147;
+    let t276 = mul_add(t152, c(0.2318221983093764), t275);
+    let t277 = t153 * c(0.06211657082460498);
+    let t278 = t276 - neg_mul_add(c(2.0), t172, t277);
+    let t279 = t120 * t278;
+    let t280 = t117 * t278;
+    let t281 = mul_add(t36, t203, mul_sub(t32, t201, t228));
+    let t282 = neg_mul_add(c(2.0), mul_sub(t117, t144, t229), t281);
+    let t283 = mul_sub(c(0.12275970481124972), t202, c(0.03105828541230249) * t244);
+    let t284 = mul_add(c(0.1316436662914507), t201, c(0.1159110991546882) * t242);
+    let t285 = t282 + t284;
+    let t286 = t285 + (t283 - mul_add(t81, t264, t82 * t203));
     // leg 1: remaining leg inertia less weight at the platform joint
-    let t289 = c(0.17066666666666666) * t181;
-    let t290 = neg_mul_add(t194, c(0.022467185713740918), t289);
-    let t291 = mul_add(t195, c(0.02095098962111995), t290);
-    let t292 = neg_mul_add(c(0.17066666666666666), mul_add(t82, t196, t281), t291);
-    let t293 = c(0.17066666666666666) * t184;
-    let t294 = mul_add(t197, c(0.022467185713740918), t293);
-    let t295 = mul_add(t199, c(0.02095098962111995), t294);
-    let t296 = mul_add(c(0.17066666666666666), mul_add(t82, t200, t282), t295);
+    let t287 = c(0.17066666666666666) * t181;
+    let t288 = neg_mul_add(t194, c(0.022467185713740918), t287);
+    let t289 = mul_add(t195, c(0.02095098962111995), t288);
+    let t290 = neg_mul_add(c(0.17066666666666666), mul_add(t82, t196, t279), t289);
+    let t291 = c(0.17066666666666666) * t184;
+    let t292 = mul_add(t197, c(0.022467185713740918), t291);
+    let t293 = mul_add(t199, c(0.02095098962111995), t292);
+    let t294 = mul_add(c(0.17066666666666666), mul_add(t82, t200, t280), t293);
     // leg 2: leg inertia less weight along the actuator
-    let t297 = t278 + neg_mul_add(c(2.0), t173, t279);
-    let t298 = t120 * t297;
-    let t299 = t117 * t297;
-    let t300 = mul_sub(t86, t203, t287 - mul_add(t85, t268, t285));
+    let t295 = t276 + neg_mul_add(c(2.0), t173, t277);
+    let t296 = t120 * t295;
+    let t297 = t117 * t295;
+    let t298 = mul_sub(t86, t203, t285 - mul_add(t85, t266, t283));
     // leg 2: remaining leg inertia less weight at the platform joint
-    let t301 = neg_mul_add(t195, c(0.02095098962111995), t290);
-    let t302 = neg_mul_add(c(0.17066666666666666), mul_add(t86, t196, t298), t301);
-    let t303 = neg_mul_add(t199, c(0.02095098962111995), t294);
-    let t304 = mul_add(c(0.17066666666666666), mul_add(t86, t200, t299), t303);
+    let t299 = neg_mul_add(t195, c(0.02095098962111995), t288);
+    let t300 = neg_mul_add(c(0.17066666666666666), mul_add(t86, t196, t296), t299);
+    let t301 = neg_mul_add(t199, c(0.02095098962111995), t292);
+    let t302 = mul_add(c(0.17066666666666666), mul_add(t86, t200, t297), t301);
     // leg 3: leg inertia less weight along the actuator
-    let t305 = neg_mul_add(t152, c(0.06211657082460495), t277);
-    let t306 = t153 * c(0.2318221983093764);
-    let t307 = t305 + neg_mul_add(c(2.0), t174, t306);
-    let t308 = t120 * t307;
-    let t309 = t117 * t307;
-    let t310 = mul_sub(c(0.17538661166134234), t202, c(0.1159110991546882) * t246);
-    let t311 = mul_sub(c(0.040491189781895726), t201, c(0.031058285412302475) * t245);
-    let t312 = t284 + t311;
-    let t313 = t312 - (t310 + mul_add(t89, t270, t90 * t203));
+    let t303 = neg_mul_add(t152, c(0.06211657082460495), t275);
+    let t304 = t153 * c(0.2318221983093764);
+    let t305 = t303 + neg_mul_add(c(2.0), t174, t304);
+    let t306 = t120 * t305;
+    let t307 = t117 * t305;
+    let t308 = mul_sub(c(0.17538661166134234), t202, c(0.1159110991546882) * t244);
+    let t309 = mul_sub(c(0.040491189781895726), t201, c(0.031058285412302475) * t242);
+    let t310 = t282 + t309;
+    let t311 = t310 - (t308 + mul_add(t89, t268, t90 * t203));
     // leg 3: remaining leg inertia less weight at the platform joint
-    let t314 = neg_mul_add(t194, c(0.006910496389443537), t289);
-    let t315 = neg_mul_add(t195, c(0.029932648390202425), t314);
-    let t316 = neg_mul_add(c(0.17066666666666666), mul_add(t90, t196, t308), t315);
-    let t317 = mul_add(t197, c(0.006910496389443537), t293);
-    let t318 = neg_mul_add(t199, c(0.029932648390202425), t317);
-    let t319 = mul_add(c(0.17066666666666666), mul_add(t90, t200, t309), t318);
+    let t312 = neg_mul_add(t194, c(0.006910496389443537), t287);
+    let t313 = neg_mul_add(t195, c(0.029932648390202425), t312);
+    let t314 = neg_mul_add(c(0.17066666666666666), mul_add(t90, t196, t306), t313);
+    let t315 = mul_add(t197, c(0.006910496389443537), t291);
+    let t316 = neg_mul_add(t199, c(0.029932648390202425), t315);
+    let t317 = mul_add(c(0.17066666666666666), mul_add(t90, t200, t307), t316);
     // leg 4: leg inertia less weight along the actuator
-    let t320 = neg_mul_add(t152, c(0.1697056274847714), t277);
-    let t321 = t153 * c(0.16970562748477142);
-    let t322 = t320 + neg_mul_add(c(2.0), t175, t321);
-    let t323 = t120 * t322;
-    let t324 = t117 * t322;
-    let t325 = mul_sub(c(0.052626906850092664), t202, c(0.08485281374238571) * t246);
-    let t326 = mul_add(c(0.17213485607334636), t201, c(0.0848528137423857) * t245);
-    let t327 = t284 - t326;
-    let t328 = t327 - (t325 + mul_add(t93, t272, t94 * t203));
+    let t318 = neg_mul_add(t152, c(0.1697056274847714), t275);
+    let t319 = t153 * c(0.16970562748477142);
+    let t320 = t318 + neg_mul_add(c(2.0), t175, t319);
+    let t321 = t120 * t320;
+    let t322 = t117 * t320;
+    let t323 = mul_sub(c(0.052626906850092664), t202, c(0.08485281374238571) * t244);
+    let t324 = mul_add(c(0.17213485607334636), t201, c(0.0848528137423857) * t242);
+    let t325 = t282 - t324;
+    let t326 = t325 - (t323 + mul_add(t93, t270, t94 * t203));
     // leg 4: remaining leg inertia less weight at the platform joint
-    let t329 = mul_add(t194, c(0.029377682103184446), t289);
-    let t330 = neg_mul_add(t195, c(0.008981658769082482), t329);
-    let t331 = neg_mul_add(c(0.17066666666666666), mul_add(t94, t196, t323), t330);
-    let t332 = neg_mul_add(t197, c(0.029377682103184446), t293);
-    let t333 = neg_mul_add(t199, c(0.008981658769082482), t332);
-    let t334 = mul_add(c(0.17066666666666666), mul_add(t94, t200, t324), t333);
+    let t327 = mul_add(t194, c(0.029377682103184446), t287);
+    let t328 = neg_mul_add(t195, c(0.008981658769082482), t327);
+    let t329 = neg_mul_add(c(0.17066666666666666), mul_add(t94, t196, t321), t328);
+    let t330 = neg_mul_add(t197, c(0.029377682103184446), t291);
+    let t331 = neg_mul_add(t199, c(0.008981658769082482), t330);
+    let t332 = mul_add(c(0.17066666666666666), mul_add(t94, t200, t322), t331);
     // leg 5: leg inertia less weight along the actuator
-    let t335 = t320 - mul_add(c(2.0), t176, t321);
-    let t336 = t120 * t335;
-    let t337 = t117 * t335;
-    let t338 = mul_sub(t98, t203, t327 - mul_sub(t97, t274, t325));
+    let t333 = t318 - mul_add(c(2.0), t176, t319);
+    let t334 = t120 * t333;
+    let t335 = t117 * t333;
+    let t336 = mul_sub(t98, t203, t325 - mul_sub(t97, t272, t323));
     // leg 5: remaining leg inertia less weight at the platform joint
-    let t339 = mul_add(t195, c(0.008981658769082482), t329);
-    let t340 = neg_mul_add(c(0.17066666666666666), mul_add(t98, t196, t336), t339);
-    let t341 = mul_add(t199, c(0.008981658769082482), t332);
-    let t342 = mul_add(c(0.17066666666666666), mul_add(t98, t200, t337), t341);
+    let t337 = mul_add(t195, c(0.008981658769082482), t327);
+    let t338 = neg_mul_add(c(0.17066666666666666), mul_add(t98, t196, t334), t337);
+    let t339 = mul_add(t199, c(0.008981658769082482), t330);
+    let t340 = mul_add(c(0.17066666666666666), mul_add(t98, t200, t335), t339);
     // leg 6: leg inertia less weight along the actuator
-    let t343 = t305 - mul_add(c(2.0), t177, t306);
-    let t344 = t120 * t343;
-    let t345 = t117 * t343;
-    let t346 = mul_sub(t102, t203, t312 - mul_sub(t101, t276, t310));
+    let t341 = t303 - mul_add(c(2.0), t177, t304);
+    let t342 = t120 * t341;
+    let t343 = t117 * t341;
+    let t344 = mul_sub(t102, t203, t310 - mul_sub(t101, t274, t308));
     // leg 6: remaining leg inertia less weight at the platform joint
-    let t347 = mul_add(t195, c(0.029932648390202425), t314);
-    let t348 = neg_mul_add(c(0.17066666666666666), mul_add(t102, t196, t344), t347);
-    let t349 = mul_add(t199, c(0.029932648390202425), t317);
-    let t350 = mul_add(c(0.17066666666666666), mul_add(t102, t200, t345), t349);
+    let t345 = mul_add(t195, c(0.029932648390202425), t312);
+    let t346 = neg_mul_add(c(0.17066666666666666), mul_add(t102, t196, t342), t345);
+    let t347 = mul_add(t199, c(0.029932648390202425), t315);
+    let t348 = mul_add(c(0.17066666666666666), mul_add(t102, t200, t343), t347);
     // leg 1: row of the actuator Jacobian in base coordinates
-    let t351 = neg_mul_add(t42, t104, t40);
-    let t352 = neg_mul_add(t42, t103, t38);
-    let t353 = mul_sub(t38, t104, t40 * t103);
+    let t349 = neg_mul_add(t42, t104, t40);
+    let t350 = neg_mul_add(t42, t103, t38);
+    let t351 = mul_sub(t38, t104, t40 * t103);
     // leg 2: row of the actuator Jacobian in base coordinates
-    let t354 = neg_mul_add(t48, t106, t47);
-    let t355 = mul_add(t48, t105, t46);
-    let t356 = mul_add(t46, t106, t47 * t105);
+    let t352 = neg_mul_add(t48, t106, t47);
+    let t353 = mul_add(t48, t105, t46);
+    let t354 = mul_add(t46, t106, t47 * t105);
     // leg 3: row of the actuator Jacobian in base coordinates
-    let t357 = mul_add(t56, t108, t54);
-    let t358 = mul_add(t56, t107, t52);
-    let t359 = mul_sub(t52, t108, t54 * t107);
+    let t355 = mul_add(t56, t108, t54);
+    let t356 = mul_add(t56, t107, t52);
+    let t357 = mul_sub(t52, t108, t54 * t107);
     // leg 4: row of the actuator Jacobian in base coordinates
-    let t360 = mul_add(t65, t110, t63);
-    let t361 = mul_add(t65, t109, t61);
-    let t362 = mul_sub(t61, t110, t63 * t109);
+    let t358 = mul_add(t65, t110, t63);
+    let t359 = mul_add(t65, t109, t61);
+    let t360 = mul_sub(t61, t110, t63 * t109);
     // leg 5: row of the actuator Jacobian in base coordinates
-    let t363 = mul_add(t71, t112, t70);
-    let t364 = mul_add(t71, t111, t69);
-    let t365 = mul_sub(t69, t112, t70 * t111);
+    let t361 = mul_add(t71, t112, t70);
+    let t362 = mul_add(t71, t111, t69);
+    let t363 = mul_sub(t69, t112, t70 * t111);
     // leg 6: row of the actuator Jacobian in base coordinates
-    let t366 = mul_add(t76, t114, t75);
-    let t367 = mul_add(t76, t113, t74);
-    let t368 = mul_sub(t74, t114, t75 * t113);
+    let t364 = mul_add(t76, t114, t75);
+    let t365 = mul_add(t76, t113, t74);
+    let t366 = mul_sub(t74, t114, t75 * t113);
     // its first moments by platform coordinate
-    let t369 = t292 + t302;
-    let t370 = t316 + t348;
-    let t371 = t331 + t340;
-    let t372 = mul_add(c(0.032245600000000006), t207, c(0.1159110991546882) * t369);
-    let t373 = neg_mul_add(c(0.031058285412302475), t370, t372);
-    let t374 = neg_mul_add(c(0.0848528137423857), t371, t373);
-    let t375 = c(0.03105828541230249) * (t292 - t302);
-    let t376 = mul_sub(c(0.032245600000000006), t208, t375);
-    let t377 = mul_add(c(0.1159110991546882), t316 - t348, t376);
-    let t378 = mul_add(c(0.08485281374238571), t331 - t340, t377);
-    let t379 = t296 + t304;
-    let t380 = t319 + t350;
-    let t381 = t334 + t342;
-    let t382 = mul_add(c(0.032245600000000006), t213, c(0.1159110991546882) * t379);
-    let t383 = neg_mul_add(c(0.031058285412302475), t380, t382);
-    let t384 = neg_mul_add(c(0.0848528137423857), t381, t383);
-    let t385 = c(0.03105828541230249) * (t296 - t304);
-    let t386 = mul_sub(c(0.032245600000000006), t214, t385);
-    let t387 = mul_add(c(0.1159110991546882), t319 - t350, t386);
-    let t388 = mul_add(c(0.08485281374238571), t334 - t342, t387);
-    let t389 = t288 - t300;
-    let t390 = t313 - t346;
-    let t391 = t328 - t338;
-    let t392 = mul_add(c(0.032245600000000006), t217, t389 * c(0.019782160922400118));
-    let t393 = neg_mul_add(t390, c(0.005300614043699622), t392);
-    let t394 = neg_mul_add(t391, c(0.01448154687870049), t393);
-    let t395 = c(0.005300614043699624) * (t288 + t300);
-    let t396 = mul_sub(c(0.032245600000000006), t218, t395);
-    let t397 = mul_add(c(0.019782160922400118), t313 + t346, t396);
-    let t398 = mul_add(c(0.014481546878700494), t328 + t338, t397);
+    let t367 = t290 + t300;
+    let t368 = t314 + t346;
+    let t369 = t329 + t338;
+    let t370 = mul_add(c(0.032245600000000006), t206, c(0.1159110991546882) * t367);
+    let t371 = neg_mul_add(c(0.031058285412302475), t368, t370);
+    let t372 = neg_mul_add(c(0.0848528137423857), t369, t371);
+    let t373 = c(0.03105828541230249) * (t290 - t300);
+    let t374 = mul_sub(c(0.032245600000000006), t209, t373);
+    let t375 = mul_add(c(0.1159110991546882), t314 - t346, t374);
+    let t376 = mul_add(c(0.08485281374238571), t329 - t338, t375);
+    let t377 = t294 + t302;
+    let t378 = t317 + t348;
+    let t379 = t332 + t340;
+    let t380 = mul_add(c(0.032245600000000006), t214, c(0.1159110991546882) * t377);
+    let t381 = neg_mul_add(c(0.031058285412302475), t378, t380);
+    let t382 = neg_mul_add(c(0.0848528137423857), t379, t381);
+    let t383 = c(0.03105828541230249) * (t294 - t302);
+    let t384 = mul_sub(c(0.032245600000000006), t216, t383);
+    let t385 = mul_add(c(0.1159110991546882), t317 - t348, t384);
+    let t386 = mul_add(c(0.08485281374238571), t332 - t340, t385);
+    let t387 = t286 - t298;
+    let t388 = t311 - t344;
+    let t389 = t326 - t336;
+    let t390 = mul_sub(c(0.032245600000000006), t219, t387 * c(0.019782160922400118));
+    let t391 = mul_add(t388, c(0.005300614043699622), t390);
+    let t392 = mul_add(t389, c(0.01448154687870049), t391);
+    let t393 = c(0.005300614043699624) * (t286 + t298);
+    let t394 = mul_add(c(0.032245600000000006), t220, t393);
+    let t395 = neg_mul_add(c(0.019782160922400118), t311 + t344, t394);
+    let t396 = neg_mul_add(c(0.014481546878700494), t326 + t336, t395);
     // inertia less external wrench that the actuators must balance
-    let t399 = base_rotation[1][0] * external_wrench[1];
-    let t400 = mul_add(base_rotation[0][0], external_wrench[0], t399);
-    let t401 = mul_add(base_rotation[2][0], external_wrench[2], t400);
-    let t402 = base_rotation[1][1] * external_wrench[1];
-    let t403 = mul_add(base_rotation[0][1], external_wrench[0], t402);
-    let t404 = mul_add(base_rotation[2][1], external_wrench[2], t403);
-    let t405 = base_rotation[1][2] * external_wrench[1];
-    let t406 = mul_add(base_rotation[0][2], external_wrench[0], t405);
-    let t407 = mul_add(base_rotation[2][2], external_wrench[2], t406);
-    let t408 = t21 * t384;
-    let t409 = mul_add(c(0.013354412), t219, c(0.031) * t407);
-    let t410 = mul_sub(c(0.013354412), t215, c(0.031) * t404);
-    let t411 = t3 * t394;
-    let t412 = mul_sub(c(0.013354412), t209, c(0.031) * t401);
-    let t413 = t12 * t374;
+    let t397 = base_rotation[1][0] * external_wrench[1];
+    let t398 = mul_add(base_rotation[0][0], external_wrench[0], t397);
+    let t399 = mul_add(base_rotation[2][0], external_wrench[2], t398);
+    let t400 = base_rotation[1][1] * external_wrench[1];
+    let t401 = mul_add(base_rotation[0][1], external_wrench[0], t400);
+    let t402 = mul_add(base_rotation[2][1], external_wrench[2], t401);
+    let t403 = base_rotation[1][2] * external_wrench[1];
+    let t404 = mul_add(base_rotation[0][2], external_wrench[0], t403);
+    let t405 = mul_add(base_rotation[2][2], external_wrench[2], t404);
+    let t406 = t21 * t382;
+    let t407 = mul_sub(c(0.013354412), t221, c(0.031) * t405);
+    let t408 = mul_sub(c(0.013354412), t218, c(0.031) * t402);
+    let t409 = t3 * t392;
+    let t410 = mul_sub(c(0.013354412), t212, c(0.031) * t399);
+    let t411 = t12 * t372;
     // leg 1: force along the actuator that reaches the platform
-    let t414 = neg_mul_add(t203, c(0.03055), c(4268.068200000001));
-    let t415 = mul_add(t217, c(0.019782160922400118), t414);
-    let t416 = mul_add(c(21555.9), t82, actuator_force[0]);
-    let t417 = neg_mul_add(t218, c(0.005300614043699624), t416);
-    let t418 = t415 + mul_add(c(0.9523333333333334), t288, t417);
+    let t412 = neg_mul_add(t203, c(0.03055), c(4268.068200000001));
+    let t413 = neg_mul_add(t219, c(0.019782160922400118), t412);
+    let t414 = mul_add(c(21555.9), t82, actuator_force[0]);
+    let t415 = mul_add(t220, c(0.005300614043699624), t414);
+    let t416 = t413 + mul_add(c(0.9523333333333334), t286, t415);
     // leg 2: force along the actuator that reaches the platform
-    let t419 = mul_add(c(21555.9), t86, actuator_force[1]);
-    let t420 = mul_add(t218, c(0.005300614043699624), t419);
-    let t421 = t415 + neg_mul_add(c(0.9523333333333334), t300, t420);
+    let t417 = mul_add(c(21555.9), t86, actuator_force[1]);
+    let t418 = mul_sub(t220, c(0.005300614043699624), t417);
+    let t419 = t413 - mul_add(c(0.9523333333333334), t298, t418);
     // leg 3: force along the actuator that reaches the platform
-    let t422 = neg_mul_add(t217, c(0.005300614043699622), t414);
-    let t423 = mul_add(c(21555.9), t90, actuator_force[2]);
-    let t424 = mul_add(t218, c(0.019782160922400118), t423);
-    let t425 = t422 + mul_add(c(0.9523333333333334), t313, t424);
+    let t420 = mul_add(t219, c(0.005300614043699622), t412);
+    let t421 = mul_add(c(21555.9), t90, actuator_force[2]);
+    let t422 = neg_mul_add(t220, c(0.019782160922400118), t421);
+    let t423 = t420 + mul_add(c(0.9523333333333334), t311, t422);
     // leg 4: force along the actuator that reaches the platform
-    let t426 = neg_mul_add(t217, c(0.01448154687870049), t414);
-    let t427 = mul_add(c(21555.9), t94, actuator_force[3]);
-    let t428 = mul_add(t218, c(0.014481546878700494), t427);
-    let t429 = t426 + mul_add(c(0.9523333333333334), t328, t428);
+    let t424 = mul_add(t219, c(0.01448154687870049), t412);
+    let t425 = mul_add(c(21555.9), t94, actuator_force[3]);
+    let t426 = neg_mul_add(t220, c(0.014481546878700494), t425);
+    let t427 = t424 + mul_add(c(0.9523333333333334), t326, t426);
     // leg 5: force along the actuator that reaches the platform
-    let t430 = mul_add(c(21555.9), t98, actuator_force[4]);
-    let t431 = mul_sub(t218, c(0.014481546878700494), t430);
-    let t432 = t426 - mul_add(c(0.9523333333333334), t338, t431);
+    let t428 = mul_add(c(21555.9), t98, actuator_force[4]);
+    let t429 = mul_add(t220, c(0.014481546878700494), t428);
+    let t430 = t424 + neg_mul_add(c(0.9523333333333334), t336, t429);
     // leg 6: force along the actuator that reaches the platform
-    let t433 = mul_add(c(21555.9), t102, actuator_force[5]);
-    let t434 = mul_sub(t218, c(0.019782160922400118), t433);
-    let t435 = t422 - mul_add(c(0.9523333333333334), t346, t434);
+    let t431 = mul_add(c(21555.9), t102, actuator_force[5]);
+    let t432 = mul_add(t220, c(0.019782160922400118), t431);
+    let t433 = t420 + neg_mul_add(c(0.9523333333333334), t344, t432);
     // wrench left at the trial acceleration
-    let t436 = c(6.938893903907228e-18) * t208;
-    let t437 = mul_add(c(2.2551405187698492e-17), t207, t436);
-    let t438 = t401 - (t371 + (t370 + (t369 + mul_add(c(0.188852), t209, t437))));
-    let t439 = mul_sub(t105, t421, mul_add(t103, t418, t438));
-    let t440 = mul_add(t109, t429, mul_add(t107, t425, t439));
-    let t441 = mul_add(t113, t435, mul_add(t111, t432, t440));
+    let t434 = c(6.938893903907228e-18) * t209;
+    let t435 = mul_add(c(2.2551405187698492e-17), t206, t434);
+    let t436 = t399 - (t369 + (t368 + (t367 + mul_add(c(0.188852), t212, t435))));
+    let t437 = mul_sub(t105, t419, mul_add(t103, t416, t436));
+    let t438 = mul_add(t109, t427, mul_add(t107, t423, t437));
+    let t439 = mul_add(t113, t433, mul_add(t111, t430, t438));
     // leg 1: the vectors that are squared, in the platform speeds
-    let t442 = mul_add(t40, c(0.1792089604480224), t351);
-    let t443 = mul_add(t38, c(0.1792089604480224), t352);
+    let t440 = mul_add(t40, c(0.1792089604480224), t349);
+    let t441 = mul_add(t38, c(0.1792089604480224), t350);
     // leg 2: the vectors that are squared, in the platform speeds
-    let t444 = mul_add(t47, c(0.1792089604480224), t354);
-    let t445 = mul_add(t46, c(0.1792089604480224), t355);
+    let t442 = mul_add(t47, c(0.1792089604480224), t352);
+    let t443 = mul_add(t46, c(0.1792089604480224), t353);
     // leg 3: the vectors that are squared, in the platform speeds
-    let t446 = mul_add(t54, c(0.1792089604480224), t357);
-    let t447 = mul_add(t52, c(0.1792089604480224), t358);
+    let t444 = mul_add(t54, c(0.1792089604480224), t355);
+    let t445 = mul_add(t52, c(0.1792089604480224), t356);
     // leg 4: the vectors that are squared, in the platform speeds
-    let t448 = mul_add(t63, c(0.1792089604480224), t360);
-    let t449 = mul_add(t61, c(0.1792089604480224), t361);
+    let t446 = mul_add(t63, c(0.1792089604480224), t358);
+    let t447 = mul_add(t61, c(0.1792089604480224), t359);
     // leg 5: the vectors that are squared, in the platform speeds
-    let t450 = mul_add(t70, c(0.1792089604480224), t363);
-    let t451 = mul_add(t69, c(0.1792089604480224), t364);
+    let t448 = mul_add(t70, c(0.1792089604480224), t361);
+    let t449 = mul_add(t69, c(0.1792089604480224), t362);
     // leg 6: the vectors that are squared, in the platform speeds
-    let t452 = mul_add(t75, c(0.1792089604480224), t366);
-    let t453 = mul_add(t74, c(0.1792089604480224), t367);
+    let t450 = mul_add(t75, c(0.1792089604480224), t364);
+    let t451 = mul_add(t74, c(0.1792089604480224), t365);
     // mass matrix in base coordinates
-    let t454 = mul_add(t103, t103 * c(0.9523333333333334), c(8.139999999999999));
-    let t455 = mul_add(t105, t105 * c(0.9523333333333334), t454);
-    let t456 = mul_add(t107, t107 * c(0.9523333333333334), t455);
-    let t457 = mul_add(t109, t109 * c(0.9523333333333334), t456);
-    let t458 = mul_add(t111, t111 * c(0.9523333333333334), t457);
-    let t459 = mul_add(t113, t113 * c(0.9523333333333334), t458);
-    let t460 = t104 * c(0.9523333333333334);
-    let t461 = t106 * c(0.9523333333333334);
-    let t462 = t108 * c(0.9523333333333334);
-    let t463 = t110 * c(0.9523333333333334);
-    let t464 = t112 * c(0.9523333333333334);
-    let t465 = t114 * c(0.9523333333333334);
-    let t466 = mul_add(t107, t462, mul_sub(t103, t460, t105 * t461));
-    let t467 = mul_add(t111, t464, mul_add(t109, t463, t466));
-    let t468 = mul_add(t113, t465, t467);
-    let t469 = mul_sub(t44, t81, t105) - mul_add(t58, t89, t109);
-    let t470 = c(1.1230000000000002) * (mul_add(t72, t97, t113) - t469);
+    let t452 = mul_add(t103, t103 * c(0.9523333333333334), c(8.139999999999999));
+    let t453 = mul_add(t105, t105 * c(0.9523333333333334), t452);
+    let t454 = mul_add(t107, t107 * c(0.9523333333333334), t453);
+    let t455 = mul_add(t109, t109 * c(0.9523333333333334), t454);
+    let t456 = mul_add(t111, t111 * c(0.9523333333333334), t455);
+    let t457 = mul_add(t113, t113 * c(0.9523333333333334), t456);
+    let t458 = t104 * c(0.9523333333333334);
+    let t459 = t106 * c(0.9523333333333334);
+    let t460 = t108 * c(0.9523333333333334);
+    let t461 = t110 * c(0.9523333333333334);
+    let t462 = t112 * c(0.9523333333333334);
+    let t463 = t114 * c(0.9523333333333334);
+    let t464 = mul_add(t107, t460, mul_sub(t103, t458, t105 * t459));
+    let t465 = mul_add(t111, t462, mul_add(t109, t461, t464));
+    let t466 = mul_add(t113, t463, t465);
+    let t467 = mul_sub(t44, t81, t105) - mul_add(t58, t89, t109);
+    let t468 = c(1.1230000000000002) * (mul_add(t72, t97, t113) - t467);
+    let t469 = c(0.9523333333333334) * t440;
+    let t470 = t40 * c(0.03058499591646249);
     let t471 = c(0.9523333333333334) * t442;
-    let t472 = t40 * c(0.03058499591646249);
+    let t472 = t47 * c(0.03058499591646249);
     let t473 = c(0.9523333333333334) * t444;
-    let t474 = t47 * c(0.03058499591646249);
+    let t474 = t54 * c(0.03058499591646249);
     let t475 = c(0.9523333333333334) * t446;
-    let t476 = t54 * c(0.03058499591646249);
+    let t476 = t63 * c(0.03058499591646249);
     let t477 = c(0.9523333333333334) * t448;
-    let t478 = t63 * c(0.03058499591646249);
+    let t478 = t70 * c(0.03058499591646249);
     let t479 = c(0.9523333333333334) * t450;
-    let t480 = t70 * c(0.03058499591646249);
-    let t481 = c(0.9523333333333334) * t452;
-    let t482 = mul_add(t107, t475, mul_sub(t103, t471, t105 * t473));
-    let t483 = mul_add(t111, t479, mul_add(t109, t477, t482));
-    let t484 = mul_add(t113, t481, t483);
-    let t485 = t75 * c(0.03058499591646249);
-    let t486 = t24 * c(6.938893903907228e-18);
-    let t487 = mul_add(t21, c(2.2551405187698492e-17), t486);
-    let t488 = mul_add(t27, c(0.188852), t487);
+    let t480 = mul_add(t107, t473, mul_sub(t103, t469, t105 * t471));
+    let t481 = mul_add(t111, t477, mul_add(t109, t475, t480));
+    let t482 = mul_add(t113, t479, t481);
+    let t483 = t75 * c(0.03058499591646249);
+    let t484 = t24 * c(6.938893903907228e-18);
+    let t485 = mul_add(t21, c(2.2551405187698492e-17), t484);
+    let t486 = mul_add(t27, c(0.188852), t485);
+    let t487 = c(0.9523333333333334) * t441;
+    let t488 = t38 * c(0.03058499591646249);
     let t489 = c(0.9523333333333334) * t443;
-    let t490 = t38 * c(0.03058499591646249);
+    let t490 = t46 * c(0.03058499591646249);
     let t491 = c(0.9523333333333334) * t445;
-    let t492 = t46 * c(0.03058499591646249);
+    let t492 = t52 * c(0.03058499591646249);
     let t493 = c(0.9523333333333334) * t447;
-    let t494 = t52 * c(0.03058499591646249);
+    let t494 = t61 * c(0.03058499591646249);
     let t495 = c(0.9523333333333334) * t449;
-    let t496 = t61 * c(0.03058499591646249);
+    let t496 = t69 * c(0.03058499591646249);
     let t497 = c(0.9523333333333334) * t451;
-    let t498 = t69 * c(0.03058499591646249);
-    let t499 = c(0.9523333333333334) * t453;
-    let t500 = mul_add(t105, t491, neg_mul_add(t103, t489, t488));
-    let t501 = mul_add(t109, t495, mul_sub(t107, t493, t500));
-    let t502 = mul_add(t113, t499, mul_add(t111, t497, t501));
-    let t503 = t74 * c(0.03058499591646249);
-    let t504 = c(0.9523333333333334) * t353;
-    let t505 = t15 * c(6.938893903907228e-18);
-    let t506 = mul_add(t12, c(2.2551405187698492e-17), t505);
-    let t507 = mul_add(t18, c(0.188852), t506);
-    let t508 = c(0.9523333333333334) * t356;
-    let t509 = c(0.9523333333333334) * t359;
-    let t510 = c(0.9523333333333334) * t362;
-    let t511 = c(0.9523333333333334) * t365;
-    let t512 = c(0.9523333333333334) * t368;
-    let t513 = mul_sub(t105, t508, mul_sub(t103, t504, t507));
-    let t514 = mul_add(t109, t510, mul_add(t107, t509, t513));
-    let t515 = mul_add(t113, t512, mul_add(t111, t511, t514));
-    let t516 = t106 * t491;
-    let t517 = t6 * c(6.938893903907228e-18);
-    let t518 = mul_add(t3, c(2.2551405187698492e-17), t517);
-    let t519 = mul_add(t9, c(0.188852), t518);
-    let t520 = t3 * c(0.032245600000000006);
-    let t521 = t6 * c(0.032245600000000006);
-    let t522 = t9 * c(0.013354412);
-    let t523 = t12 * t520;
-    let t524 = t21 * t520;
-    let t525 = t12 * c(0.032245600000000006);
-    let t526 = t15 * c(0.032245600000000006);
-    let t527 = t18 * c(0.013354412);
-    let t528 = t21 * t525;
-    let t529 = t21 * c(0.032245600000000006);
-    let t530 = t24 * c(0.032245600000000006);
-    let t531 = t27 * c(0.013354412);
+    let t498 = mul_add(t105, t489, neg_mul_add(t103, t487, t486));
+    let t499 = mul_add(t109, t493, mul_sub(t107, t491, t498));
+    let t500 = mul_add(t113, t497, mul_add(t111, t495, t499));
+    let t501 = t74 * c(0.03058499591646249);
+    let t502 = c(0.9523333333333334) * t351;
+    let t503 = t15 * c(6.938893903907228e-18);
+    let t504 = mul_add(t12, c(2.2551405187698492e-17), t503);
+    let t505 = mul_add(t18, c(0.188852), t504);
+    let t506 = c(0.9523333333333334) * t354;
+    let t507 = c(0.9523333333333334) * t357;
+    let t508 = c(0.9523333333333334) * t360;
+    let t509 = c(0.9523333333333334) * t363;
+    let t510 = c(0.9523333333333334) * t366;
+    let t511 = mul_sub(t105, t506, mul_sub(t103, t502, t505));
+    let t512 = mul_add(t109, t508, mul_add(t107, t507, t511));
+    let t513 = mul_add(t113, t510, mul_add(t111, t509, t512));
+    let t514 = t106 * t489;
+    let t515 = t6 * c(6.938893903907228e-18);
+    let t516 = mul_add(t3, c(2.2551405187698492e-17), t515);
+    let t517 = mul_add(t9, c(0.188852), t516);
+    let t518 = t3 * c(0.032245600000000006);
+    let t519 = t6 * c(0.032245600000000006);
+    let t520 = t9 * c(0.013354412);
+    let t521 = t12 * t518;
+    let t522 = t21 * t518;
+    let t523 = t12 * c(0.032245600000000006);
+    let t524 = t15 * c(0.032245600000000006);
+    let t525 = t18 * c(0.013354412);
+    let t526 = t21 * t523;
+    let t527 = t21 * c(0.032245600000000006);
+    let t528 = t24 * c(0.032245600000000006);
+    let t529 = t27 * c(0.013354412);
     // acceleration that removes the residual wrench
-    let t532 = c(1.0) / t459;
-    let t533 = t468 * t532;
-    let t534 = c(6.938893903907228e-18) * t214;
-    let t535 = mul_add(c(2.2551405187698492e-17), t213, t534);
-    let t536 = t404 - (t381 + (t380 + (t379 + mul_add(c(0.188852), t215, t535))));
-    let t537 = mul_add(t106, t421, mul_add(t104, t418, t536));
-    let t538 = mul_add(t110, t429, mul_sub(t108, t425, t537));
-    let t539 = mul_add(t114, t435, mul_add(t112, t432, t538));
-    let t540 = mul_sub(t441, t533, t539);
-    let t541 = t470 * t532;
-    let t542 = mul_add(t45, t81, t106) - mul_add(t59, t89, t110);
-    let t543 = c(1.1230000000000002) * (mul_add(t73, t97, t114) - t542);
-    let t544 = mul_sub(t468, t541, t543);
-    let t545 = mul_add(t106, t461, mul_add(t104, t460, c(8.139999999999999)));
-    let t546 = mul_add(t110, t463, mul_add(t108, t462, t545));
-    let t547 = mul_add(t114, t465, mul_add(t112, t464, t546));
-    let t548 = c(1.0) / mul_sub(t468, t533, t547);
-    let t549 = t544 * t548;
-    let t550 = c(6.938893903907228e-18) * t218;
-    let t551 = mul_add(c(2.2551405187698492e-17), t217, t550);
-    let t552 = t425 + (t421 + (t418 + (t407 + mul_add(c(0.188852), t219, t551))));
-    let t553 = mul_sub(t441, t541, t435 + (t432 + (t429 + t552)));
-    let t554 = mul_sub(t540, t549, t553);
-    let t555 = mul_add(c(0.17066666666666666), t391 + (t389 + t390), t554);
-    let t556 = t450 + t452 - (t442 + t444 - (t446 + t448));
-    let t557 = t484 * t532;
-    let t558 = mul_sub(t106, t473, neg_mul_add(t104, t471, t488));
-    let t559 = mul_add(t110, t477, mul_add(t108, t475, t558));
-    let t560 = mul_add(t114, t481, mul_add(t112, t479, t559));
-    let t561 = mul_sub(t468, t557, t560);
-    let t562 = t561 * t548;
-    let t563 = mul_add(t40, c(0.03058499591646249), t474);
-    let t564 = mul_sub(t54, c(0.03058499591646249), t563);
-    let t565 = mul_add(t63, c(0.03058499591646249), t564);
-    let t566 = mul_add(t70, c(0.03058499591646249), t565);
-    let t567 = t507 + mul_add(t75, c(0.03058499591646249), t566);
-    let t568 = mul_sub(t544, t562, mul_add(t470, t557, t567));
-    let t569 = mul_add(c(1.1230000000000002), t556, t568);
-    let t570 = c(1.0) / mul_add(t544, t549, neg_mul_add(t470, t541, c(15.902)));
-    let t571 = t569 * t570;
-    let t572 = mul_add(t15, t398, mul_add(t12, t394, t408));
-    let t573 = mul_add(t18, t409, mul_add(t24, t388, t572));
-    let t574 = mul_add(t27, t410, t573);
-    let t575 = mul_add(base_rotation[0][0], external_wrench[3], t574);
-    let t576 = mul_add(base_rotation[1][0], external_wrench[4], t575);
-    let t577 = mul_add(base_rotation[2][0], external_wrench[5], t576);
-    let t578 = mul_add(t354, t421, mul_add(t351, t418, t577));
-    let t579 = mul_add(t360, t429, mul_sub(t357, t425, t578));
-    let t580 = mul_add(t366, t435, mul_add(t363, t432, t579));
-    let t581 = mul_sub(t540, t562, mul_sub(t441, t557, t580));
-    let t582 = mul_sub(t555, t571, t581);
-    let t583 = t451 + t453 - (t443 + t445 - (t447 + t449));
-    let t584 = t502 * t532;
-    let t585 = mul_add(t108, t493, mul_add(t104, t489, t516));
-    let t586 = mul_add(t112, t497, mul_add(t110, t495, t585));
-    let t587 = mul_sub(t468, t584, mul_add(t114, t499, t586));
-    let t588 = t587 * t548;
-    let t589 = mul_add(t38, c(0.03058499591646249), t492);
-    let t590 = mul_sub(t52, c(0.03058499591646249), t589);
-    let t591 = mul_add(t61, c(0.03058499591646249), t590);
-    let t592 = mul_add(t69, c(0.03058499591646249), t591);
-    let t593 = t519 + mul_add(t74, c(0.03058499591646249), t592);
-    let t594 = mul_sub(t544, t588, mul_add(t470, t584, t593));
-    let t595 = mul_add(c(1.1230000000000002), t583, t594);
-    let t596 = t595 * t570;
-    let t597 = mul_add(t15, t521, mul_add(t442, t489, t523));
-    let t598 = mul_sub(t40, t490, mul_add(t18, t522, t597));
-    let t599 = mul_sub(t47, t492, mul_sub(t444, t491, t598));
-    let t600 = mul_sub(t54, t494, mul_sub(t446, t493, t599));
-    let t601 = mul_sub(t63, t496, mul_sub(t448, t495, t600));
-    let t602 = mul_sub(t70, t498, mul_sub(t450, t497, t601));
-    let t603 = mul_sub(t75, t503, mul_sub(t452, t499, t602));
-    let t604 = mul_sub(t561, t588, mul_add(t484, t584, t603));
-    let t605 = mul_sub(t569, t596, t604);
-    let t606 = mul_sub(t6, t521, neg_mul_add(t3, t520, c(0.07784561200000001)));
-    let t607 = mul_sub(t442, t471, mul_add(t9, t522, t606));
-    let t608 = mul_sub(t444, t473, mul_sub(t40, t472, t607));
-    let t609 = mul_sub(t446, t475, mul_sub(t47, t474, t608));
-    let t610 = mul_sub(t448, t477, mul_sub(t54, t476, t609));
-    let t611 = mul_sub(t450, t479, mul_sub(t63, t478, t610));
-    let t612 = mul_sub(t452, t481, mul_sub(t70, t480, t611));
-    let t613 = mul_add(t484, t557, mul_sub(t75, t485, t612));
-    let t614 = c(1.0) / mul_sub(t569, t571, mul_sub(t561, t562, t613));
-    let t615 = t605 * t614;
-    let t616 = mul_add(t24, t378, mul_add(t21, t374, t411));
-    let t617 = mul_add(t27, t412, mul_add(t6, t398, t616));
-    let t618 = mul_add(t9, t409, t617);
-    let t619 = mul_sub(base_rotation[0][1], external_wrench[3], t618);
-    let t620 = mul_add(base_rotation[1][1], external_wrench[4], t619);
-    let t621 = mul_add(base_rotation[2][1], external_wrench[5], t620);
-    let t622 = mul_add(t355, t421, mul_sub(t352, t418, t621));
-    let t623 = mul_add(t361, t429, mul_sub(t358, t425, t622));
-    let t624 = mul_add(t367, t435, mul_add(t364, t432, t623));
-    let t625 = mul_sub(t540, t588, mul_sub(t441, t584, t624));
-    let t626 = mul_sub(t582, t615, mul_sub(t555, t596, t625));
-    let t627 = t365 + t368 + (t353 + t356 + (t359 + t362));
-    let t628 = t515 * t532;
-    let t629 = mul_add(t106, t508, mul_add(t104, t504, t519));
-    let t630 = mul_add(t110, t510, mul_sub(t108, t509, t629));
-    let t631 = mul_add(t114, t512, mul_add(t112, t511, t630));
-    let t632 = mul_sub(t468, t628, t631);
-    let t633 = t632 * t548;
-    let t634 = mul_sub(t470, t628, t544 * t633);
-    let t635 = neg_mul_add(c(1.1230000000000002), t627, t634);
-    let t636 = t635 * t570;
-    let t637 = mul_sub(t24, t521, mul_sub(t442, t504, t524));
-    let t638 = mul_sub(t444, t508, mul_add(t27, t522, t637));
-    let t639 = mul_add(t448, t510, mul_sub(t446, t509, t638));
-    let t640 = mul_add(t452, t512, mul_add(t450, t511, t639));
-    let t641 = mul_sub(t561, t633, mul_sub(t484, t628, t640));
-    let t642 = mul_add(t569, t636, t641);
-    let t643 = t642 * t614;
-    let t644 = mul_add(t24, t526, mul_add(t443, t504, t528));
-    let t645 = mul_add(t445, t508, mul_add(t27, t527, t644));
-    let t646 = mul_add(t449, t510, mul_sub(t447, t509, t645));
-    let t647 = mul_add(t453, t512, mul_add(t451, t511, t646));
-    let t648 = mul_sub(t587, t633, mul_sub(t502, t628, t647));
-    let t649 = mul_sub(t605, t643, mul_add(t595, t636, t648));
-    let t650 = mul_sub(t15, t526, neg_mul_add(t12, t525, c(0.07784561200000001)));
-    let t651 = mul_sub(t443, t489, mul_add(t18, t527, t650));
-    let t652 = mul_sub(t445, t491, mul_sub(t38, t490, t651));
-    let t653 = mul_sub(t447, t493, mul_sub(t46, t492, t652));
-    let t654 = mul_sub(t449, t495, mul_sub(t52, t494, t653));
-    let t655 = mul_sub(t451, t497, mul_sub(t61, t496, t654));
-    let t656 = mul_sub(t453, t499, mul_sub(t69, t498, t655));
-    let t657 = mul_add(t502, t584, mul_sub(t74, t503, t656));
-    let t658 = mul_sub(t595, t596, mul_sub(t587, t588, t657));
-    let t659 = c(1.0) / mul_sub(t605, t615, t658);
-    let t660 = t649 * t659;
-    let t661 = mul_add(t6, t388, mul_sub(t3, t384, t413));
-    let t662 = mul_sub(t9, t410, mul_sub(t15, t378, t661));
-    let t663 = mul_sub(t18, t412, t662);
-    let t664 = mul_add(base_rotation[0][2], external_wrench[3], t663);
-    let t665 = mul_add(base_rotation[1][2], external_wrench[4], t664);
-    let t666 = mul_add(base_rotation[2][2], external_wrench[5], t665);
-    let t667 = mul_add(t356, t421, mul_add(t353, t418, t666));
-    let t668 = mul_add(t362, t429, mul_add(t359, t425, t667));
-    let t669 = mul_add(t368, t435, mul_add(t365, t432, t668));
-    let t670 = mul_sub(t540, t633, mul_sub(t441, t628, t669));
-    let t671 = mul_sub(t582, t643, mul_add(t555, t636, t670));
-    let t672 = mul_sub(t24, t530, neg_mul_add(t21, t529, c(0.07784561200000001)));
-    let t673 = mul_sub(t353, t504, mul_add(t27, t531, t672));
-    let t674 = mul_add(t359, t509, mul_add(t356, t508, t673));
-    let t675 = mul_add(t365, t511, mul_add(t362, t510, t674));
-    let t676 = mul_sub(t515, t628, mul_add(t368, t512, t675));
-    let t677 = mul_sub(t635, t636, mul_sub(t632, t633, t676));
-    let t678 = c(1.0) / mul_sub(t649, t660, mul_sub(t642, t643, t677));
-    let t679 = mul_sub(t626, t660, t671) * t678;
-    let t680 = mul_sub(t626, t659, t660 * t679);
-    let t681 = mul_sub(t643, t679, mul_sub(t582, t614, t615 * t680));
-    let t682 = mul_sub(t596, t680, mul_add(t555, t570, t571 * t681));
-    let t683 = mul_add(t636, t679, t682);
-    let t684 = mul_add(t562, t681, mul_add(t540, t548, t549 * t683));
-    let t685 = mul_sub(t633, t679, mul_sub(t588, t680, t684));
-    let t686 = mul_add(t541, t683, mul_sub(t441, t532, t533 * t685));
-    let t687 = mul_sub(t584, t680, mul_add(t557, t681, t686));
-    let t688 = mul_sub(t628, t679, t687);
+    let t530 = c(1.0) / t457;
+    let t531 = t466 * t530;
+    let t532 = c(6.938893903907228e-18) * t216;
+    let t533 = mul_add(c(2.2551405187698492e-17), t214, t532);
+    let t534 = t402 - (t379 + (t378 + (t377 + mul_add(c(0.188852), t218, t533))));
+    let t535 = mul_add(t106, t419, mul_add(t104, t416, t534));
+    let t536 = mul_add(t110, t427, mul_sub(t108, t423, t535));
+    let t537 = mul_add(t114, t433, mul_add(t112, t430, t536));
+    let t538 = mul_sub(t439, t531, t537);
+    let t539 = t468 * t530;
+    let t540 = mul_add(t45, t81, t106) - mul_add(t59, t89, t110);
+    let t541 = c(1.1230000000000002) * (mul_add(t73, t97, t114) - t540);
+    let t542 = mul_sub(t466, t539, t541);
+    let t543 = mul_add(t106, t459, mul_add(t104, t458, c(8.139999999999999)));
+    let t544 = mul_add(t110, t461, mul_add(t108, t460, t543));
+    let t545 = mul_add(t114, t463, mul_add(t112, t462, t544));
+    let t546 = c(1.0) / mul_sub(t466, t531, t545);
+    let t547 = t542 * t546;
+    let t548 = c(6.938893903907228e-18) * t220;
+    let t549 = mul_add(c(2.2551405187698492e-17), t219, t548);
+    let t550 = t423 + (t419 + (t416 + (t405 - mul_add(c(0.188852), t221, t549))));
+    let t551 = mul_sub(t439, t539, t433 + (t430 + (t427 + t550)));
+    let t552 = mul_sub(t538, t547, t551);
+    let t553 = mul_add(c(0.17066666666666666), t389 + (t387 + t388), t552);
+    let t554 = t448 + t450 - (t440 + t442 - (t444 + t446));
+    let t555 = t482 * t530;
+    let t556 = mul_sub(t106, t471, neg_mul_add(t104, t469, t486));
+    let t557 = mul_add(t110, t475, mul_add(t108, t473, t556));
+    let t558 = mul_add(t114, t479, mul_add(t112, t477, t557));
+    let t559 = mul_sub(t466, t555, t558);
+    let t560 = t559 * t546;
+    let t561 = mul_add(t40, c(0.03058499591646249), t472);
+    let t562 = mul_sub(t54, c(0.03058499591646249), t561);
+    let t563 = mul_add(t63, c(0.03058499591646249), t562);
+    let t564 = mul_add(t70, c(0.03058499591646249), t563);
+    let t565 = t505 + mul_add(t75, c(0.03058499591646249), t564);
+    let t566 = mul_sub(t542, t560, mul_add(t468, t555, t565));
+    let t567 = mul_add(c(1.1230000000000002), t554, t566);
+    let t568 = c(1.0) / mul_add(t542, t547, neg_mul_add(t468, t539, c(15.902)));
+    let t569 = t567 * t568;
+    let t570 = mul_add(t15, t396, mul_sub(t12, t392, t406));
+    let t571 = mul_sub(t18, t407, mul_sub(t24, t386, t570));
+    let t572 = mul_sub(t27, t408, t571);
+    let t573 = mul_add(base_rotation[0][0], external_wrench[3], t572);
+    let t574 = mul_add(base_rotation[1][0], external_wrench[4], t573);
+    let t575 = mul_add(base_rotation[2][0], external_wrench[5], t574);
+    let t576 = mul_add(t352, t419, mul_add(t349, t416, t575));
+    let t577 = mul_add(t358, t427, mul_sub(t355, t423, t576));
+    let t578 = mul_add(t364, t433, mul_add(t361, t430, t577));
+    let t579 = mul_sub(t538, t560, mul_sub(t439, t555, t578));
+    let t580 = mul_sub(t553, t569, t579);
+    let t581 = t449 + t451 - (t441 + t443 - (t445 + t447));
+    let t582 = t500 * t530;
+    let t583 = mul_add(t108, t491, mul_add(t104, t487, t514));
+    let t584 = mul_add(t112, t495, mul_add(t110, t493, t583));
+    let t585 = mul_sub(t466, t582, mul_add(t114, t497, t584));
+    let t586 = t585 * t546;
+    let t587 = mul_add(t38, c(0.03058499591646249), t490);
+    let t588 = mul_sub(t52, c(0.03058499591646249), t587);
+    let t589 = mul_add(t61, c(0.03058499591646249), t588);
+    let t590 = mul_add(t69, c(0.03058499591646249), t589);
+    let t591 = t517 + mul_add(t74, c(0.03058499591646249), t590);
+    let t592 = mul_sub(t542, t586, mul_add(t468, t582, t591));
+    let t593 = mul_add(c(1.1230000000000002), t581, t592);
+    let t594 = t593 * t568;
+    let t595 = mul_add(t15, t519, mul_add(t440, t487, t521));
+    let t596 = mul_sub(t40, t488, mul_add(t18, t520, t595));
+    let t597 = mul_sub(t47, t490, mul_sub(t442, t489, t596));
+    let t598 = mul_sub(t54, t492, mul_sub(t444, t491, t597));
+    let t599 = mul_sub(t63, t494, mul_sub(t446, t493, t598));
+    let t600 = mul_sub(t70, t496, mul_sub(t448, t495, t599));
+    let t601 = mul_sub(t75, t501, mul_sub(t450, t497, t600));
+    let t602 = mul_sub(t559, t586, mul_add(t482, t582, t601));
+    let t603 = mul_sub(t567, t594, t602);
+    let t604 = mul_sub(t6, t519, neg_mul_add(t3, t518, c(0.07784561200000001)));
+    let t605 = mul_sub(t440, t469, mul_add(t9, t520, t604));
+    let t606 = mul_sub(t442, t471, mul_sub(t40, t470, t605));
+    let t607 = mul_sub(t444, t473, mul_sub(t47, t472, t606));
+    let t608 = mul_sub(t446, t475, mul_sub(t54, t474, t607));
+    let t609 = mul_sub(t448, t477, mul_sub(t63, t476, t608));
+    let t610 = mul_sub(t450, t479, mul_sub(t70, t478, t609));
+    let t611 = mul_add(t482, t555, mul_sub(t75, t483, t610));
+    let t612 = c(1.0) / mul_sub(t567, t569, mul_sub(t559, t560, t611));
+    let t613 = t603 * t612;
+    let t614 = mul_add(t24, t376, mul_sub(t21, t372, t409));
+    let t615 = mul_sub(t27, t410, mul_sub(t6, t396, t614));
+    let t616 = mul_sub(t9, t407, t615);
+    let t617 = mul_add(base_rotation[0][1], external_wrench[3], t616);
+    let t618 = mul_add(base_rotation[1][1], external_wrench[4], t617);
+    let t619 = mul_add(base_rotation[2][1], external_wrench[5], t618);
+    let t620 = mul_add(t353, t419, mul_sub(t350, t416, t619));
+    let t621 = mul_add(t359, t427, mul_sub(t356, t423, t620));
+    let t622 = mul_add(t365, t433, mul_add(t362, t430, t621));
+    let t623 = mul_sub(t538, t586, mul_sub(t439, t582, t622));
+    let t624 = mul_sub(t580, t613, mul_sub(t553, t594, t623));
+    let t625 = t363 + t366 + (t351 + t354 + (t357 + t360));
+    let t626 = t513 * t530;
+    let t627 = mul_add(t106, t506, mul_add(t104, t502, t517));
+    let t628 = mul_add(t110, t508, mul_sub(t108, t507, t627));
+    let t629 = mul_add(t114, t510, mul_add(t112, t509, t628));
+    let t630 = mul_sub(t466, t626, t629);
+    let t631 = t630 * t546;
+    let t632 = mul_sub(t468, t626, t542 * t631);
+    let t633 = neg_mul_add(c(1.1230000000000002), t625, t632);
+    let t634 = t633 * t568;
+    let t635 = mul_sub(t24, t519, mul_sub(t440, t502, t522));
+    let t636 = mul_sub(t442, t506, mul_add(t27, t520, t635));
+    let t637 = mul_add(t446, t508, mul_sub(t444, t507, t636));
+    let t638 = mul_add(t450, t510, mul_add(t448, t509, t637));
+    let t639 = mul_sub(t559, t631, mul_sub(t482, t626, t638));
+    let t640 = mul_add(t567, t634, t639);
+    let t641 = t640 * t612;
+    let t642 = mul_add(t24, t524, mul_add(t441, t502, t526));
+    let t643 = mul_add(t443, t506, mul_add(t27, t525, t642));
+    let t644 = mul_add(t447, t508, mul_sub(t445, t507, t643));
+    let t645 = mul_add(t451, t510, mul_add(t449, t509, t644));
+    let t646 = mul_sub(t585, t631, mul_sub(t500, t626, t645));
+    let t647 = mul_sub(t603, t641, mul_add(t593, t634, t646));
+    let t648 = mul_sub(t15, t524, neg_mul_add(t12, t523, c(0.07784561200000001)));
+    let t649 = mul_sub(t441, t487, mul_add(t18, t525, t648));
+    let t650 = mul_sub(t443, t489, mul_sub(t38, t488, t649));
+    let t651 = mul_sub(t445, t491, mul_sub(t46, t490, t650));
+    let t652 = mul_sub(t447, t493, mul_sub(t52, t492, t651));
+    let t653 = mul_sub(t449, t495, mul_sub(t61, t494, t652));
+    let t654 = mul_sub(t451, t497, mul_sub(t69, t496, t653));
+    let t655 = mul_add(t500, t582, mul_sub(t74, t501, t654));
+    let t656 = mul_sub(t593, t594, mul_sub(t585, t586, t655));
+    let t657 = c(1.0) / mul_sub(t603, t613, t656);
+    let t658 = t647 * t657;
+    let t659 = mul_add(t6, t386, mul_sub(t3, t382, t411));
+    let t660 = mul_sub(t9, t408, mul_sub(t15, t376, t659));
+    let t661 = mul_sub(t18, t410, t660);
+    let t662 = mul_add(base_rotation[0][2], external_wrench[3], t661);
+    let t663 = mul_add(base_rotation[1][2], external_wrench[4], t662);
+    let t664 = mul_add(base_rotation[2][2], external_wrench[5], t663);
+    let t665 = mul_add(t354, t419, mul_add(t351, t416, t664));
+    let t666 = mul_add(t360, t427, mul_add(t357, t423, t665));
+    let t667 = mul_add(t366, t433, mul_add(t363, t430, t666));
+    let t668 = mul_sub(t538, t631, mul_sub(t439, t626, t667));
+    let t669 = mul_sub(t580, t641, mul_add(t553, t634, t668));
+    let t670 = mul_sub(t24, t528, neg_mul_add(t21, t527, c(0.07784561200000001)));
+    let t671 = mul_sub(t351, t502, mul_add(t27, t529, t670));
+    let t672 = mul_add(t357, t507, mul_add(t354, t506, t671));
+    let t673 = mul_add(t363, t509, mul_add(t360, t508, t672));
+    let t674 = mul_sub(t513, t626, mul_add(t366, t510, t673));
+    let t675 = mul_sub(t633, t634, mul_sub(t630, t631, t674));
+    let t676 = c(1.0) / mul_sub(t647, t658, mul_sub(t640, t641, t675));
+    let t677 = mul_sub(t624, t658, t669) * t676;
+    let t678 = mul_sub(t624, t657, t658 * t677);
+    let t679 = mul_sub(t641, t677, mul_sub(t580, t612, t613 * t678));
+    let t680 = mul_sub(t594, t678, mul_add(t553, t568, t569 * t679));
+    let t681 = mul_add(t634, t677, t680);
+    let t682 = mul_add(t560, t679, mul_add(t538, t546, t547 * t681));
+    let t683 = mul_sub(t631, t677, mul_sub(t586, t678, t682));
+    let t684 = mul_add(t539, t681, mul_sub(t439, t530, t531 * t683));
+    let t685 = mul_sub(t582, t678, mul_add(t555, t679, t684));
+    let t686 = mul_sub(t626, t677, t685);
     // platform acceleration v_p'
-    let t689 = mul_add(base_rotation[0][0], t688, base_rotation[0][1] * t685);
-    forward_dynamics[0] = -mul_add(base_rotation[0][2], t683, t689);
-    let t690 = mul_add(base_rotation[1][0], t688, base_rotation[1][1] * t685);
-    forward_dynamics[1] = -mul_add(base_rotation[1][2], t683, t690);
-    let t691 = neg_mul_add(base_rotation[2][0], t688, c(-9.81));
-    let t692 = neg_mul_add(base_rotation[2][1], t685, t691);
-    forward_dynamics[2] = neg_mul_add(base_rotation[2][2], t683, t692);
-    let t693 = mul_add(base_rotation[0][0], t681, base_rotation[0][1] * t680);
-    forward_dynamics[3] = neg_mul_add(base_rotation[0][2], t679, t693);
-    let t694 = mul_add(base_rotation[1][0], t681, base_rotation[1][1] * t680);
-    forward_dynamics[4] = neg_mul_add(base_rotation[1][2], t679, t694);
-    let t695 = mul_add(base_rotation[2][0], t681, base_rotation[2][1] * t680);
-    forward_dynamics[5] = neg_mul_add(base_rotation[2][2], t679, t695);
+    let t687 = mul_add(base_rotation[0][0], t686, base_rotation[0][1] * t683);
+    forward_dynamics[0] = -mul_add(base_rotation[0][2], t681, t687);
+    let t688 = mul_add(base_rotation[1][0], t686, base_rotation[1][1] * t683);
+    forward_dynamics[1] = -mul_add(base_rotation[1][2], t681, t688);
+    let t689 = neg_mul_add(base_rotation[2][0], t686, c(-9.81));
+    let t690 = neg_mul_add(base_rotation[2][1], t683, t689);
+    forward_dynamics[2] = neg_mul_add(base_rotation[2][2], t681, t690);
+    let t691 = mul_add(base_rotation[0][0], t679, base_rotation[0][1] * t678);
+    forward_dynamics[3] = neg_mul_add(base_rotation[0][2], t677, t691);
+    let t692 = mul_add(base_rotation[1][0], t679, base_rotation[1][1] * t678);
+    forward_dynamics[4] = neg_mul_add(base_rotation[1][2], t677, t692);
+    let t693 = mul_add(base_rotation[2][0], t679, base_rotation[2][1] * t678);
+    forward_dynamics[5] = neg_mul_add(base_rotation[2][2], t677, t693);
 }
 
 /// Kinetic and potential energy.
@@ -20802,4 +20745,4817 @@ pub fn energy<T: Scalar>(
     let t429 = neg_mul_add(c(11.016630000000001), t424, t428);
     let t430 = neg_mul_add(c(5.0227200000000005), t423, t429);
     *potential_energy = mul_add(c(0.5), mul_add(t341, t342, t378) + t422, t430);
+}
+
+/// Mass matrices, Coriolis matrices and actuator Jacobians in one call, equation (31), (32), (49).
+///
+/// Inputs:
+///
+/// - `base_position`: 3, m, frame O: origin of the base frame.
+/// - `base_rotation`: 3x3, dimensionless, frame B -> O: rotation of the base, equation (2).
+/// - `base_velocity`: 6, m/s, rad/s, frame O: base velocity \[r_b'; w_b\], w_b the angular velocity.
+/// - `platform_position`: 3, m, frame O: centre of the platform's joint circle.
+/// - `platform_rotation`: 3x3, dimensionless, frame P -> O: rotation of the platform, equation (2).
+/// - `platform_velocity`: 6, m/s, rad/s, frame O: platform velocity \[r_p'; w_p\], the generalised speeds.
+///
+/// Outputs:
+///
+/// - `mass_matrix_p`: 6x6, kg, kg m, kg m^2, frame O: mass matrix M_p of the platform, equation (49).
+/// - `coriolis_matrix_p`: 6x6, kg/s, kg m/s, kg m^2/s, frame O: Coriolis matrix C_p, natural factorisation, equation (49).
+/// - `jacobian_dp`: 6x6, 1, m, frame O: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b, equation (32).
+/// - `mass_matrix_b`: 6x6, kg, kg m, kg m^2, frame O: mass matrix M_b that couples the base acceleration, equation (49).
+/// - `coriolis_matrix_b`: 6x6, kg/s, kg m/s, kg m^2/s, frame O: Coriolis matrix C_b, natural factorisation, equation (49).
+/// - `jacobian_db`: 6x6, 1, m, frame O: actuator Jacobian of the base, equation (31).
+#[allow(clippy::all, clippy::pedantic, unused_variables)]
+#[inline(always)]
+pub fn matrices_in_lanes<P: Triple>(
+    base_position: &[P::Lane; 3],
+    base_rotation: &[[P::Lane; 3]; 3],
+    base_velocity: &[P::Lane; 6],
+    platform_position: &[P::Lane; 3],
+    platform_rotation: &[[P::Lane; 3]; 3],
+    platform_velocity: &[P::Lane; 6],
+    mass_matrix_p: &mut [[P::Lane; 6]; 6],
+    coriolis_matrix_p: &mut [[P::Lane; 6]; 6],
+    jacobian_dp: &mut [[P::Lane; 6]; 6],
+    mass_matrix_b: &mut [[P::Lane; 6]; 6],
+    coriolis_matrix_b: &mut [[P::Lane; 6]; 6],
+    jacobian_db: &mut [[P::Lane; 6]; 6],
+) {
+    let c = <P::Lane as Scalar>::constant;
+    let w = <P as Scalar>::constant;
+    let (
+        t60,
+        t61,
+        t62,
+        t63,
+        t64,
+        t65,
+        t79,
+        t81,
+        t83,
+        t86,
+        t87,
+        t88,
+        t188,
+        t197,
+        t205,
+        t253,
+        t287,
+        t322,
+        t323,
+        t326,
+        t334,
+        t344,
+        t368,
+        t536,
+        t539,
+        t545,
+        t563,
+        t564,
+        t565,
+        t664,
+        t677,
+        t691,
+        t732,
+        t749,
+        t772,
+        t818,
+        t820,
+        t821,
+        t822,
+        t823,
+        t824,
+        t825,
+        t827,
+        t829,
+        t830,
+        t831,
+        t832,
+        t833,
+        t834,
+        t836,
+        t838,
+        t839,
+        t840,
+        t841,
+        t842,
+        t843,
+        t845,
+        t846,
+        t849,
+        t850,
+        t851,
+        t852,
+        t854,
+        t856,
+        t857,
+        t858,
+        t859,
+        t860,
+        t861,
+    ) = {
+        // constant and copied elements
+        let t1 = P::triple([
+            base_rotation[1][0],
+            base_rotation[1][1],
+            base_rotation[1][2],
+        ]);
+        let t2 = P::triple([
+            base_rotation[0][0],
+            base_rotation[0][1],
+            base_rotation[0][2],
+        ]);
+        // platform origin seen from the base
+        let t3 = platform_position[1] - base_position[1];
+        // constant and copied elements
+        let t4 = P::triple([
+            base_rotation[2][0],
+            base_rotation[2][1],
+            base_rotation[2][2],
+        ]);
+        // platform origin seen from the base
+        let t5 = platform_position[0] - base_position[0];
+        let t6 = platform_position[2] - base_position[2];
+        // rotation of the platform seen from the base
+        let t7 = mul_add(
+            t2,
+            P::splat(platform_rotation[0][1]),
+            t1 * P::splat(platform_rotation[1][1]),
+        );
+        let t8 = mul_add(
+            t2,
+            P::splat(platform_rotation[0][0]),
+            t1 * P::splat(platform_rotation[1][0]),
+        );
+        // constant and copied elements
+        let t9 = P::triple([
+            c(-0.03105828541230249),
+            c(0.03105828541230249),
+            c(0.1159110991546882),
+        ]);
+        let t10 = P::triple([
+            c(0.1159110991546882),
+            c(0.1159110991546882),
+            c(-0.031058285412302475),
+        ]);
+        // rotation of the platform seen from the base
+        let t11 = mul_add(t4, P::splat(platform_rotation[2][1]), t7);
+        let t12 = mul_add(t4, P::splat(platform_rotation[2][0]), t8);
+        // constant and copied elements
+        let t13 = P::triple([
+            c(0.08485281374238571),
+            c(-0.08485281374238571),
+            c(-0.1159110991546882),
+        ]);
+        let t14 = P::triple([
+            c(-0.0848528137423857),
+            c(-0.0848528137423857),
+            c(-0.031058285412302475),
+        ]);
+        // platform origin seen from the base
+        let t15 = mul_add(
+            t4,
+            P::splat(t6),
+            mul_add(t2, P::splat(t5), t1 * P::splat(t3)),
+        );
+        // legs 1, 2, 3: platform joint from the base point
+        let t16 = P::triple([
+            c(-0.1316436662914507),
+            c(-0.1316436662914507),
+            c(-0.040491189781895726),
+        ]);
+        // legs 4, 5, 6: platform joint from the platform origin
+        let t17 = mul_add(
+            t14,
+            P::splat(P::lane(t12, 0)),
+            t13 * P::splat(P::lane(t11, 0)),
+        );
+        let t18 = mul_add(
+            t14,
+            P::splat(P::lane(t12, 1)),
+            t13 * P::splat(P::lane(t11, 1)),
+        );
+        // legs 1, 2, 3: platform joint from the platform origin
+        let t19 = mul_add(
+            t10,
+            P::splat(P::lane(t12, 1)),
+            t9 * P::splat(P::lane(t11, 1)),
+        );
+        let t20 = mul_add(
+            t10,
+            P::splat(P::lane(t12, 0)),
+            t9 * P::splat(P::lane(t11, 0)),
+        );
+        // legs 4, 5, 6: platform joint from the base point
+        let t21 = P::triple([
+            c(-0.052626906850092664),
+            c(0.052626906850092664),
+            c(0.17538661166134234),
+        ]);
+        let t22 = P::triple([
+            c(0.17213485607334636),
+            c(0.17213485607334636),
+            c(-0.040491189781895726),
+        ]);
+        // legs 1, 2, 3: platform joint from the base point
+        let t23 = P::triple([
+            c(0.12275970481124972),
+            c(-0.12275970481124972),
+            c(-0.17538661166134234),
+        ]);
+        // legs 4, 5, 6: platform joint from the base point
+        let t24 = t22 + (P::splat(P::lane(t15, 0)) + t17);
+        // legs 4, 5, 6: platform joint from the platform origin
+        let t25 = mul_add(
+            t14,
+            P::splat(P::lane(t12, 2)),
+            t13 * P::splat(P::lane(t11, 2)),
+        );
+        // legs 1, 2, 3: platform joint from the base point
+        let t26 = t16 + (P::splat(P::lane(t15, 0)) + t20);
+        // legs 4, 5, 6: platform joint from the base point
+        let t27 = t21 + (t18 + P::splat(P::lane(t15, 1)));
+        // legs 1, 2, 3: platform joint from the base point
+        let t28 = t23 + (t19 + P::splat(P::lane(t15, 1)));
+        // legs 1, 2, 3: platform joint from the platform origin
+        let t29 = mul_add(
+            t10,
+            P::splat(P::lane(t12, 2)),
+            t9 * P::splat(P::lane(t11, 2)),
+        );
+        // legs 4, 5, 6: platform joint from the base point
+        let t30 = P::splat(P::lane(t15, 2)) + t25;
+        // legs 1, 2, 3: platform joint from the base point
+        let t31 = P::splat(P::lane(t15, 2)) + t29;
+        // legs 4, 5, 6: platform joint from the platform origin
+        let t32 = mul_add(
+            P::splat(platform_rotation[0][0]),
+            t14,
+            P::splat(platform_rotation[0][1]) * t13,
+        );
+        let t33 = mul_add(
+            P::splat(platform_rotation[1][0]),
+            t14,
+            P::splat(platform_rotation[1][1]) * t13,
+        );
+        // legs 1, 2, 3: platform joint from the platform origin
+        let t34 = mul_add(
+            P::splat(platform_rotation[2][0]),
+            t10,
+            P::splat(platform_rotation[2][1]) * t9,
+        );
+        let t35 = mul_add(
+            P::splat(platform_rotation[0][0]),
+            t10,
+            P::splat(platform_rotation[0][1]) * t9,
+        );
+        // legs 4, 5, 6: platform joint from the platform origin
+        let t36 = mul_add(
+            P::splat(platform_rotation[2][0]),
+            t14,
+            P::splat(platform_rotation[2][1]) * t13,
+        );
+        // legs 1, 2, 3: platform joint from the platform origin
+        let t37 = mul_add(
+            P::splat(platform_rotation[1][0]),
+            t10,
+            P::splat(platform_rotation[1][1]) * t9,
+        );
+        // legs 4, 5, 6: platform joint from the base origin
+        let t38 = P::splat(t5) + t32;
+        let t39 = P::splat(t3) + t33;
+        // legs 4, 5, 6: extent of the rod along the actuator axis
+        let t40 = sqrt(w(0.042435999999999995) - mul_add(t24, t24, t27 * t27));
+        // legs 1, 2, 3: extent of the rod along the actuator axis
+        let t41 = sqrt(w(0.042435999999999995) - mul_add(t26, t26, t28 * t28));
+        // legs 1, 2, 3: platform joint from the base origin
+        let t42 = P::splat(t5) + t35;
+        let t43 = P::splat(t6) + t34;
+        // legs 4, 5, 6: platform joint from the base origin
+        let t44 = P::splat(t6) + t36;
+        // legs 1, 2, 3: platform joint from the base origin
+        let t45 = P::splat(t3) + t37;
+        // legs 4, 5, 6: reciprocal of that extent
+        let t46 = w(1.0) / t40;
+        // legs 1, 2, 3: reciprocal of that extent
+        let t47 = w(1.0) / t41;
+        // legs 4, 5, 6: actuator length d
+        let t48 = t30 - t40;
+        // legs 1, 2, 3: actuator length d
+        let t49 = t31 - t41;
+        // legs 4, 5, 6: gradient of the actuator length by the platform joint
+        let t50 = t27 * t46;
+        let t51 = t24 * t46;
+        // legs 1, 2, 3: gradient of the actuator length by the platform joint
+        let t52 = t28 * t47;
+        let t53 = t26 * t47;
+        // legs 4, 5, 6: gradient of the actuator length
+        let t54 = mul_add(
+            P::splat(base_rotation[0][0]),
+            t51,
+            P::splat(base_rotation[0][1]) * t50,
+        );
+        let t55 = mul_add(
+            P::splat(base_rotation[1][0]),
+            t51,
+            P::splat(base_rotation[1][1]) * t50,
+        );
+        // legs 1, 2, 3: gradient of the actuator length
+        let t56 = mul_add(
+            P::splat(base_rotation[0][0]),
+            t53,
+            P::splat(base_rotation[0][1]) * t52,
+        );
+        // legs 4, 5, 6: gradient of the actuator length
+        let t57 = mul_add(
+            P::splat(base_rotation[2][0]),
+            t51,
+            P::splat(base_rotation[2][1]) * t50,
+        );
+        // legs 1, 2, 3: gradient of the actuator length
+        let t58 = mul_add(
+            P::splat(base_rotation[1][0]),
+            t53,
+            P::splat(base_rotation[1][1]) * t52,
+        );
+        let t59 = mul_add(
+            P::splat(base_rotation[2][0]),
+            t53,
+            P::splat(base_rotation[2][1]) * t52,
+        );
+        // legs 4, 5, 6: gradient of the actuator length
+        let t60 = P::splat(base_rotation[0][2]) + t54;
+        let t61 = P::splat(base_rotation[1][2]) + t55;
+        // legs 1, 2, 3: gradient of the actuator length
+        let t62 = P::splat(base_rotation[0][2]) + t56;
+        // legs 4, 5, 6: gradient of the actuator length
+        let t63 = P::splat(base_rotation[2][2]) + t57;
+        // legs 1, 2, 3: gradient of the actuator length
+        let t64 = P::splat(base_rotation[1][2]) + t58;
+        let t65 = P::splat(base_rotation[2][2]) + t59;
+        // legs 4, 5, 6: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+        let t66 = mul_sub(t32, t61, t33 * t60);
+        let t67 = mul_sub(t33, t63, t36 * t61);
+        // legs 1, 2, 3: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+        let t68 = mul_sub(t35, t64, t37 * t62);
+        // legs 4, 5, 6: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+        let t69 = mul_sub(t36, t60, t32 * t63);
+        // legs 1, 2, 3: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+        let t70 = mul_sub(t37, t65, t34 * t64);
+        // legs 1, 2, 3: rod's coupling times axis, a force at the platform joint
+        let t71 = base_rotation[0][2] * c(0.17066666666666666);
+        let t72 = base_rotation[1][2] * c(0.17066666666666666);
+        let t73 = base_rotation[2][2] * c(0.17066666666666666);
+        // legs 1, 2, 3: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+        let t74 = mul_sub(t34, t62, t35 * t65);
+        // legs 1, 2, 3: moment of that force
+        let t75 = mul_sub(t37, P::splat(t73), t34 * P::splat(t72));
+        let t76 = mul_sub(t34, P::splat(t71), t35 * P::splat(t73));
+        // legs 4, 5, 6: moment of that force
+        let t77 = mul_sub(t33, P::splat(t73), t36 * P::splat(t72));
+        let t78 = mul_sub(t36, P::splat(t71), t32 * P::splat(t73));
+        // legs 1, 2, 3: actuator Jacobian of the base
+        let t79 = mul_sub(t45, t65, t43 * t64);
+        // legs 1, 2, 3: moment of that force
+        let t80 = mul_sub(t35, P::splat(t72), t37 * P::splat(t71));
+        // legs 4, 5, 6: actuator Jacobian of the base
+        let t81 = mul_sub(t39, t63, t44 * t61);
+        // part of the legs' mass matrix on the side of the axes
+        let t82 = t62 * w(0.9523333333333334);
+        // legs 1, 2, 3: actuator Jacobian of the base
+        let t83 = mul_sub(t43, t62, t42 * t65);
+        // part of the legs' mass matrix on the side of the axes
+        let t84 = t60 * w(0.9523333333333334);
+        // legs 4, 5, 6: moment of that force
+        let t85 = mul_sub(t32, P::splat(t72), t33 * P::splat(t71));
+        // legs 4, 5, 6: actuator Jacobian of the base
+        let t86 = mul_sub(t44, t60, t38 * t63);
+        // legs 1, 2, 3: actuator Jacobian of the base
+        let t87 = mul_sub(t42, t64, t45 * t62);
+        // legs 4, 5, 6: actuator Jacobian of the base
+        let t88 = mul_sub(t38, t61, t39 * t60);
+        // part of the legs' mass matrix on the side of the axes
+        let t89 = t61 * w(0.9523333333333334);
+        let t90 = t64 * w(0.9523333333333334);
+        let t91 = mul_add(t62, t82, t60 * t84);
+        let t92 = mul_add(t64, t82, t61 * t84);
+        let t93 = mul_add(t65, t82, t63 * t84);
+        let t94 = mul_add(t64, t90, t61 * t89);
+        let t95 = mul_add(t65, t90, t63 * t89);
+        let t96 = mul_add(t62, w(0.17066666666666666), t60 * w(0.17066666666666666));
+        let t97 = w(0.9523333333333334) * t65;
+        let t98 = mul_add(t64, w(0.17066666666666666), t61 * w(0.17066666666666666));
+        let t99 = t63 * w(0.9523333333333334);
+        let t100 = mul_add(w(0.17066666666666666), t65, t63 * w(0.17066666666666666));
+        let t101 = mul_add(t70, t82, t67 * t84);
+        let t102 = mul_add(t74, t82, t69 * t84);
+        let t103 = mul_add(t68, t82, t66 * t84);
+        let t104 = mul_add(t70, t90, t67 * t89);
+        let t105 = mul_add(t74, t90, t69 * t89);
+        let t106 = mul_add(t68, t90, t66 * t89);
+        let t107 = mul_add(t70, t97, t67 * t99);
+        let t108 = mul_add(t74, t97, t69 * t99);
+        let t109 = mul_add(t65, t97, t63 * t99);
+        let t110 = mul_add(w(0.17066666666666666), t70, w(0.17066666666666666) * t67);
+        let t111 = mul_add(t68, t97, t66 * t99);
+        let t112 = mul_add(w(0.17066666666666666), t74, w(0.17066666666666666) * t69);
+        let t113 = w(0.9523333333333334) * t70;
+        let t114 = mul_add(w(0.17066666666666666), t68, w(0.17066666666666666) * t66);
+        let t115 = w(0.9523333333333334) * t67;
+        let t116 = w(0.9523333333333334) * t69;
+        let t117 = mul_add(t70, t113, t67 * t115);
+        let t118 = mul_add(t74, t113, t69 * t115);
+        let t119 = mul_add(t68, t113, t66 * t115);
+        let t120 = mul_add(t70, t75, t67 * t77);
+        let t121 = mul_add(t74, t75, t69 * t77);
+        let t122 = mul_add(t68, t75, t66 * t77);
+        let t123 = mul_add(t70, t76, t67 * t78);
+        let t124 = w(0.9523333333333334) * t74;
+        let t125 = mul_add(t62, t75, t60 * t77);
+        let t126 = mul_add(t64, t75, t61 * t77);
+        let t127 = mul_add(t65, t75, t63 * t77);
+        let t128 = mul_add(t74, t76, t69 * t78);
+        let t129 = mul_add(t68, t76, t66 * t78);
+        let t130 = mul_add(t70, t80, t67 * t85);
+        let t131 = mul_add(t74, t80, t69 * t85);
+        let t132 = mul_add(t62, t76, t60 * t78);
+        let t133 = mul_add(t64, t76, t61 * t78);
+        let t134 = mul_add(t65, t76, t63 * t78);
+        let t135 = mul_add(t68, t80, t66 * t85);
+        let t136 = mul_add(t62, t80, t60 * t85);
+        let t137 = mul_add(t64, t80, t61 * t85);
+        let t138 = mul_add(t65, t80, t63 * t85);
+        let t139 = mul_add(t74, t124, t69 * t116);
+        let t140 = mul_add(t68, t124, t66 * t116);
+        let t141 = P::triple([P::lane(t91, 1), P::lane(t92, 1), P::lane(t93, 1)]);
+        let t142 = P::triple([P::lane(t91, 0), P::lane(t92, 0), P::lane(t93, 0)]) + t141;
+        let t143 = w(0.9523333333333334) * t66;
+        let t144 = P::triple([P::lane(t91, 2), P::lane(t92, 2), P::lane(t93, 2)]) + t142;
+        let t145 = P::triple([P::lane(t96, 1), P::lane(t98, 1), P::lane(t100, 1)]);
+        let t146 = P::triple([P::lane(t96, 0), P::lane(t98, 0), P::lane(t100, 0)])
+            + t145;
+        let t147 = mul_add(t68, w(0.9523333333333334) * t68, t66 * t143);
+        let t148 = P::triple([P::lane(t101, 1), P::lane(t102, 1), P::lane(t103, 1)]);
+        let t149 = P::triple([P::lane(t96, 2), P::lane(t98, 2), P::lane(t100, 2)])
+            + t146;
+        let t150 = P::triple([P::lane(t101, 0), P::lane(t102, 0), P::lane(t103, 0)])
+            + t148;
+        let t151 = P::splat(base_rotation[0][2]) * t149;
+        let t152 = t150
+            + P::triple([P::lane(t101, 2), P::lane(t102, 2), P::lane(t103, 2)]);
+        let t153 = mul_add(P::splat(base_rotation[0][2]), t149, t144);
+        let t154 = P::splat(base_rotation[1][2]) * t149;
+        let t155 = P::lane(t95, 1) + P::lane(t95, 0);
+        let t156 = P::triple([c(0.0), P::lane(t94, 1) + P::lane(t94, 0), t155]);
+        let t157 = P::triple([P::lane(t144, 1), P::lane(t94, 2), P::lane(t95, 2)])
+            + t156;
+        let t158 = mul_add(P::splat(base_rotation[1][2]), t149, t157);
+        let t159 = P::triple([P::lane(t110, 1), P::lane(t112, 1), P::lane(t114, 1)]);
+        let t160 = P::triple([P::lane(t110, 0), P::lane(t112, 0), P::lane(t114, 0)])
+            + t159;
+        let t161 = t160
+            + P::triple([P::lane(t110, 2), P::lane(t112, 2), P::lane(t114, 2)]);
+        let t162 = P::triple([P::lane(t104, 1), P::lane(t105, 1), P::lane(t106, 1)]);
+        let t163 = P::triple([P::lane(t104, 0), P::lane(t105, 0), P::lane(t106, 0)])
+            + t162;
+        let t164 = P::splat(base_rotation[0][2]) * t161;
+        let t165 = P::splat(base_rotation[1][2]) * t161;
+        let t166 = mul_add(P::splat(base_rotation[0][2]), t161, t152);
+        let t167 = P::triple([P::lane(t107, 1), P::lane(t108, 1), P::lane(t111, 1)]);
+        let t168 = P::triple([P::lane(t107, 0), P::lane(t108, 0), P::lane(t111, 0)])
+            + t167;
+        let t169 = P::triple([P::lane(t104, 2), P::lane(t105, 2), P::lane(t106, 2)])
+            + t163;
+        let t170 = t168
+            + P::triple([P::lane(t107, 2), P::lane(t108, 2), P::lane(t111, 2)]);
+        let t171 = P::splat(base_rotation[2][2]) * t149;
+        let t172 = P::splat(base_rotation[2][2]) * t161;
+        let t173 = P::triple([c(0.0), c(0.0), P::lane(t109, 1) + P::lane(t109, 0)]);
+        let t174 = P::triple([P::lane(t144, 2), P::lane(t157, 2), P::lane(t109, 2)])
+            + t173;
+        let t175 = mul_add(P::splat(base_rotation[1][2]), t161, t169);
+        let t176 = mul_add(P::splat(base_rotation[2][2]), t149, t174);
+        let t177 = mul_add(P::splat(base_rotation[2][2]), t161, t170);
+        let t178 = P::triple([P::lane(t117, 1), P::lane(t118, 1), P::lane(t119, 1)]);
+        let t179 = P::triple([P::lane(t117, 0), P::lane(t118, 0), P::lane(t119, 0)])
+            + t178;
+        let t180 = P::triple([P::lane(t120, 1), P::lane(t121, 1), P::lane(t122, 1)]);
+        let t181 = P::triple([P::lane(t125, 1), P::lane(t126, 1), P::lane(t127, 1)]);
+        let t182 = P::triple([P::lane(t117, 2), P::lane(t118, 2), P::lane(t119, 2)])
+            + t179;
+        let t183 = P::triple([P::lane(t120, 0), P::lane(t121, 0), P::lane(t122, 0)])
+            + t180;
+        let t184 = P::triple([P::lane(t125, 0), P::lane(t126, 0), P::lane(t127, 0)])
+            + t181;
+        let t185 = t183
+            + P::triple([P::lane(t120, 2), P::lane(t121, 2), P::lane(t122, 2)]);
+        let t186 = P::triple([P::lane(t125, 2), P::lane(t126, 2), P::lane(t127, 2)])
+            + t184;
+        let t187 = t182 + t185;
+        let t188 = P::triple([P::lane(t152, 0), P::lane(t169, 0), P::lane(t170, 0)])
+            + t186;
+        let t189 = P::triple([P::lane(t132, 1), P::lane(t133, 1), P::lane(t134, 1)]);
+        let t190 = P::triple([P::lane(t132, 0), P::lane(t133, 0), P::lane(t134, 0)])
+            + t189;
+        let t191 = P::lane(t140, 1) + P::lane(t140, 0);
+        let t192 = t190
+            + P::triple([P::lane(t132, 2), P::lane(t133, 2), P::lane(t134, 2)]);
+        let t193 = P::triple([P::lane(t123, 1), P::lane(t128, 1), P::lane(t129, 1)]);
+        let t194 = P::triple([c(0.0), P::lane(t139, 1) + P::lane(t139, 0), t191]);
+        let t195 = P::triple([P::lane(t123, 0), P::lane(t128, 0), P::lane(t129, 0)])
+            + t193;
+        let t196 = P::triple([P::lane(t182, 1), P::lane(t139, 2), P::lane(t140, 2)])
+            + t194;
+        let t197 = t192
+            + P::triple([P::lane(t152, 1), P::lane(t169, 1), P::lane(t170, 1)]);
+        let t198 = P::triple([P::lane(t136, 1), P::lane(t137, 1), P::lane(t138, 1)]);
+        let t199 = P::triple([P::lane(t136, 0), P::lane(t137, 0), P::lane(t138, 0)])
+            + t198;
+        let t200 = t195
+            + P::triple([P::lane(t123, 2), P::lane(t128, 2), P::lane(t129, 2)]);
+        let t201 = t199
+            + P::triple([P::lane(t136, 2), P::lane(t137, 2), P::lane(t138, 2)]);
+        let t202 = t196 + t200;
+        let t203 = P::triple([P::lane(t130, 1), P::lane(t131, 1), P::lane(t135, 1)]);
+        let t204 = P::triple([P::lane(t130, 0), P::lane(t131, 0), P::lane(t135, 0)])
+            + t203;
+        let t205 = t201
+            + P::triple([P::lane(t152, 2), P::lane(t169, 2), P::lane(t170, 2)]);
+        let t206 = P::triple([P::lane(t151, 0), P::lane(t154, 0), P::lane(t171, 0)]);
+        let t207 = t204
+            + P::triple([P::lane(t130, 2), P::lane(t131, 2), P::lane(t135, 2)]);
+        // mass matrix of the legs
+        let t208 = t153 + t206;
+        // part of the legs' mass matrix on the side of the axes
+        let t209 = P::triple([c(0.0), c(0.0), P::lane(t147, 1) + P::lane(t147, 0)]);
+        let t210 = t207
+            + (P::triple([P::lane(t182, 2), P::lane(t196, 2), P::lane(t147, 2)]) + t209);
+        // mass matrix of the legs
+        let t211 = P::triple([P::lane(t208, 1), P::lane(t154, 1), P::lane(t158, 2)]);
+        let t212 = P::triple([c(0.0), P::lane(t158, 1), P::lane(t171, 1)]) + t211;
+        // part of the legs' mass matrix on the side of the axes
+        let t213 = P::triple([P::lane(t186, 0), P::lane(t192, 0), P::lane(t201, 0)]);
+        let t214 = P::triple([P::lane(t186, 1), P::lane(t192, 1), P::lane(t201, 1)]);
+        // mass matrix of the legs
+        let t215 = t166 + t213;
+        // part of the legs' mass matrix on the side of the axes
+        let t216 = P::triple([P::lane(t185, 0), P::lane(t200, 0), P::lane(t207, 0)]);
+        // mass matrix of the legs
+        let t217 = t187 + t216;
+        let t218 = P::triple([P::lane(t208, 2), P::lane(t212, 2), P::lane(t171, 2)]);
+        // part of the legs' mass matrix on the side of the axes
+        let t219 = P::triple([P::lane(t186, 2), P::lane(t192, 2), P::lane(t201, 2)]);
+        // mass matrix of the legs
+        let t220 = t175 + t214;
+        let t221 = P::triple([c(0.0), c(0.0), P::lane(t176, 2)]) + t218;
+        let t222 = t177 + t219;
+        let t223 = P::triple([P::lane(t217, 1), P::lane(t200, 1), P::lane(t202, 2)]);
+        let t224 = P::triple([c(0.0), P::lane(t202, 1), P::lane(t207, 1)]) + t223;
+        // first moment of the rods' couplings by the Hooke joint
+        let t225 = P::triple([
+            c(-0.02095098962111995),
+            c(0.02095098962111995),
+            c(0.029932648390202425),
+        ]);
+        let t226 = P::triple([
+            c(0.008981658769082482),
+            c(-0.008981658769082482),
+            c(-0.029932648390202425),
+        ]);
+        let t227 = P::triple([
+            c(0.022467185713740918),
+            c(0.022467185713740918),
+            c(0.006910496389443537),
+        ]);
+        let t228 = t225 + t226;
+        let t229 = P::triple([
+            c(-0.029377682103184446),
+            c(-0.029377682103184446),
+            c(0.006910496389443537),
+        ]);
+        let t230 = t227 + t229;
+        // constant and copied elements
+        let t231 = P::triple([
+            base_rotation[0][0],
+            base_rotation[1][0],
+            base_rotation[2][0],
+        ]);
+        // mass matrix of the legs
+        let t232 = P::triple([P::lane(t217, 2), P::lane(t224, 2), P::lane(t207, 2)]);
+        // mass matrix M_p of the platform
+        let t233 = P::triple([c(0.0), c(8.139999999999999), c(0.0)]);
+        // first moment of the rods' couplings by the Hooke joint
+        let t234 = mul_add(t49, w(0.17066666666666666), t48 * w(0.17066666666666666));
+        // constant and copied elements
+        let t235 = P::triple([
+            base_rotation[0][1],
+            base_rotation[1][1],
+            base_rotation[2][1],
+        ]);
+        // mass matrix of the legs
+        let t236 = t212 + t233;
+        let t237 = t221 + P::triple([c(0.0), c(0.0), c(8.139999999999999)]);
+        // mass of payload and platform-side leg ends
+        let t238 = P::triple([c(8.139999999999999), c(0.0), c(0.0)]);
+        // their moment by platform joint and Hooke joint
+        let t239 = P::triple([
+            c(0.0026041961909922173),
+            c(0.0026041961909922173),
+            c(-0.00021462816920402313),
+        ]);
+        let t240 = P::triple([
+            c(-0.01448154687870049),
+            c(-0.01448154687870049),
+            c(-0.005300614043699622),
+        ]);
+        let t241 = P::triple([
+            c(0.0024927789876845272),
+            c(0.0024927789876845272),
+            c(-0.00021462816920402313),
+        ]);
+        let t242 = P::triple([
+            c(0.019782160922400118),
+            c(0.019782160922400118),
+            c(-0.005300614043699622),
+        ]);
+        let t243 = t239 + t241;
+        let t244 = P::triple([
+            c(-0.002428452235362478),
+            c(0.002428452235362478),
+            c(-0.0009296567368490032),
+        ]);
+        let t245 = P::triple([
+            c(-0.0007621190186306209),
+            c(0.0007621190186306209),
+            c(0.0009296567368490032),
+        ]);
+        let t246 = t244 + t245;
+        // constant and copied elements
+        let t247 = P::triple([
+            base_rotation[0][2],
+            base_rotation[1][2],
+            base_rotation[2][2],
+        ]);
+        // first moment of the rods' couplings by the Hooke joint
+        let t248 = t235
+            * P::splat(P::lane(t228, 2) + (P::lane(t228, 1) + P::lane(t228, 0)));
+        // their moment by platform joint and Hooke joint
+        let t249 = mul_add(t49, t242, t48 * t240);
+        // first moment of the rods' couplings by the Hooke joint
+        let t250 = mul_add(
+            t231,
+            P::splat(P::lane(t230, 2) + (P::lane(t230, 1) + P::lane(t230, 0))),
+            t248,
+        );
+        // their moment by platform joint and Hooke joint
+        let t251 = P::triple([
+            c(-0.0006977922663085704),
+            c(0.0006977922663085704),
+            c(0.0008010032322049046),
+        ]);
+        let t252 = P::triple([
+            c(-0.005300614043699624),
+            c(0.005300614043699624),
+            c(0.019782160922400118),
+        ]);
+        // first moment of the rods' couplings by the Hooke joint
+        let t253 = mul_add(
+            t247,
+            P::splat(P::lane(t234, 2) + (P::lane(t234, 1) + P::lane(t234, 0))),
+            t250,
+        );
+        // their moment by platform joint and Hooke joint
+        let t254 = P::triple([
+            c(0.0006507018153229305),
+            c(0.0006507018153229305),
+            c(0.0034695261755191714),
+        ]);
+        let t255 = P::triple([
+            c(0.000762119018630621),
+            c(0.000762119018630621),
+            c(0.0034695261755191714),
+        ]);
+        let t256 = P::triple([
+            c(0.014481546878700494),
+            c(-0.014481546878700494),
+            c(-0.019782160922400118),
+        ]);
+        let t257 = t254 + t255;
+        let t258 = P::triple([
+            c(-0.0024927789876845277),
+            c(0.0024927789876845277),
+            c(-0.0008010032322049046),
+        ]);
+        let t259 = t251 + t258;
+        let t260 = mul_add(t49, t252, t48 * t256);
+        let t261 = P::lane(t257, 2) + (P::lane(t257, 1) + P::lane(t257, 0));
+        let t262 = P::lane(t246, 2) + (P::lane(t246, 1) + P::lane(t246, 0));
+        let t263 = P::lane(t259, 2) + (P::lane(t259, 1) + P::lane(t259, 0));
+        // constant and copied elements
+        let t264 = P::triple([
+            platform_rotation[0][1],
+            platform_rotation[1][1],
+            platform_rotation[2][1],
+        ]);
+        // their moment by platform joint and Hooke joint
+        let t265 = P::lane(t243, 2) + (P::lane(t243, 1) + P::lane(t243, 0));
+        // constant and copied elements
+        let t266 = P::triple([
+            platform_rotation[0][0],
+            platform_rotation[1][0],
+            platform_rotation[2][0],
+        ]);
+        // their moment by platform joint and Hooke joint
+        let t267 = P::mul_add(base_rotation[0][0], t265, base_rotation[0][1] * t262);
+        let t268 = P::lane(t249, 2) + (P::lane(t249, 1) + P::lane(t249, 0));
+        let t269 = P::mul_add(base_rotation[0][0], t263, base_rotation[0][1] * t261);
+        let t270 = P::mul_add(base_rotation[1][0], t263, base_rotation[1][1] * t261);
+        let t271 = P::mul_add(base_rotation[1][0], t265, base_rotation[1][1] * t262);
+        let t272 = P::lane(t260, 2) + (P::lane(t260, 1) + P::lane(t260, 0));
+        // mass matrix M_b that couples the base acceleration
+        let t273 = P::triple([
+            c(0.05011835762357158),
+            c(-0.05011835762357158),
+            c(-0.16702651650548503),
+        ]);
+        let t274 = P::triple([
+            c(-0.11690815888191348),
+            c(0.11690815888191348),
+            c(0.16702651650548503),
+        ]);
+        // their moment by platform joint and Hooke joint
+        let t275 = P::mul_add(base_rotation[2][0], t263, base_rotation[2][1] * t261);
+        let t276 = P::mul_add(base_rotation[2][0], t265, base_rotation[2][1] * t262);
+        // mass matrix M_b that couples the base acceleration
+        let t277 = mul_add(t62, t274, t60 * t273);
+        let t278 = mul_add(t62, w(0.9523333333333334), t84);
+        // their moment by platform joint and Hooke joint
+        let t279 = t264 * P::splat(P::mul_add(base_rotation[0][2], t272, t269));
+        let t280 = t264 * P::splat(P::mul_add(base_rotation[1][2], t272, t270));
+        let t281 = mul_add(
+            t266,
+            P::splat(P::mul_add(base_rotation[0][2], t268, t267)),
+            t279,
+        );
+        // mass matrix M_b that couples the base acceleration
+        let t282 = P::triple([c(-0.0), c(0.0), c(0.0)]);
+        let t283 = P::triple([
+            c(0.16392976126718353),
+            c(0.16392976126718353),
+            c(-0.03856110973562536),
+        ]);
+        // their moment by platform joint and Hooke joint
+        let t284 = t264 * P::splat(P::mul_add(base_rotation[2][2], t272, t275));
+        // mass matrix M_b that couples the base acceleration
+        let t285 = P::triple([
+            c(-0.1253686515315582),
+            c(-0.1253686515315582),
+            c(-0.03856110973562536),
+        ]);
+        // their moment by platform joint and Hooke joint
+        let t286 = mul_add(
+            t266,
+            P::splat(P::mul_add(base_rotation[1][2], t268, t271)),
+            t280,
+        );
+        let t287 = mul_add(
+            t266,
+            P::splat(P::mul_add(base_rotation[2][2], t268, t276)),
+            t284,
+        );
+        // mass matrix M_b that couples the base acceleration
+        let t288 = mul_add(t62, t285, t60 * t283);
+        let t289 = mul_add(t70, t285, t67 * t283);
+        let t290 = mul_add(t74, t285, t69 * t283);
+        let t291 = mul_add(t70, t274, t67 * t273);
+        let t292 = mul_add(t74, t274, t69 * t273);
+        let t293 = mul_add(t64, t285, t61 * t283);
+        let t294 = mul_add(t65, t285, t63 * t283);
+        let t295 = t67 * t282;
+        let t296 = mul_add(t68, t285, t66 * t283);
+        let t297 = t69 * t282;
+        let t298 = mul_add(t64, t274, t61 * t273);
+        let t299 = mul_add(t65, t274, t63 * t273);
+        let t300 = mul_add(t68, t274, t66 * t273);
+        let t301 = mul_add(t64, w(0.9523333333333334), t89);
+        let t302 = mul_add(w(0.9523333333333334), t65, t99);
+        let t303 = t60 * t282;
+        let t304 = t61 * t282;
+        let t305 = t63 * t282;
+        let t306 = t66 * t282;
+        let t307 = mul_add(w(0.9523333333333334), t70, t115);
+        let t308 = mul_add(w(0.9523333333333334), t74, t116);
+        let t309 = mul_add(w(0.9523333333333334), t68, t143);
+        let t310 = P::lane(t278, 2) + (P::lane(t278, 1) + P::lane(t278, 0));
+        let t311 = P::lane(t301, 2) + (P::lane(t301, 1) + P::lane(t301, 0));
+        let t312 = P::lane(t302, 2) + (P::lane(t302, 0) + P::lane(t302, 1));
+        let t313 = P::neg_mul_add(base_rotation[0][2], t310, P::lane(t153, 0));
+        let t314 = P::neg_mul_add(base_rotation[1][2], t311, P::lane(t158, 1));
+        let t315 = base_rotation[2][2] * t310;
+        let t316 = P::neg_mul_add(base_rotation[2][2], t312, P::lane(t176, 2));
+        let t317 = base_rotation[2][2] * t311;
+        let t318 = base_rotation[1][2] * t312;
+        let t319 = P::triple([c(1.024), base_rotation[1][2] * t310, t315]);
+        // part of the legs' mass matrix on the side of the axes
+        let t320 = P::triple([P::lane(t158, 0), t314, P::lane(t158, 2)]);
+        let t321 = P::triple([P::lane(t176, 0), P::lane(t176, 1), t316]);
+        // mass matrix M_b that couples the base acceleration
+        let t322 = P::triple([t313, P::lane(t153, 1), P::lane(t153, 2)]) - t319;
+        let t323 = t320 - P::triple([base_rotation[0][2] * t311, c(1.024), t317]);
+        let t324 = P::lane(t289, 2) + (P::lane(t289, 1) + P::lane(t289, 0));
+        let t325 = P::lane(t291, 2) + (P::lane(t291, 1) + P::lane(t291, 0));
+        let t326 = t321 - P::triple([base_rotation[0][2] * t312, t318, c(1.024)]);
+        let t327 = P::lane(t295, 2) + (P::lane(t295, 1) + P::lane(t295, 0));
+        let t328 = P::lane(t187, 0)
+            - P::mul_sub(t6, P::lane(t188, 1), t3 * P::lane(t188, 2));
+        let t329 = base_rotation[1][0] * t325;
+        let t330 = base_rotation[2][0] * t325;
+        let t331 = P::mul_add(base_rotation[0][0], t325, base_rotation[0][1] * t324);
+        // constant and copied elements
+        let t332 = P::triple([
+            platform_rotation[2][2],
+            base_rotation[1][1],
+            base_rotation[2][1],
+        ]);
+        // their moment by platform joint and Hooke joint
+        let t333 = P::triple([P::lane(t287, 2), t329, t330]);
+        // mass matrix M_b that couples the base acceleration
+        let t334 = P::lane(t281, 0) + P::lane(t286, 1);
+        // their moment by platform joint and Hooke joint
+        let t335 = mul_add(t332, P::triple([c(0.0), t324, t324]), t333);
+        // mass matrix M_b that couples the base acceleration
+        let t336 = base_rotation[2][2] * t327;
+        let t337 = P::lane(t187, 1)
+            - P::mul_sub(t5, P::lane(t188, 2), t6 * P::lane(t188, 0));
+        let t338 = P::lane(t187, 2)
+            - P::mul_sub(t3, P::lane(t188, 0), t5 * P::lane(t188, 1));
+        let t339 = t328 - P::mul_add(base_rotation[0][2], t327, t331);
+        // their moment by platform joint and Hooke joint
+        let t340 = P::triple([P::lane(t281, 0), t337, t338]);
+        // mass matrix M_b that couples the base acceleration
+        let t341 = t340 - (t335 + P::triple([t334, base_rotation[1][2] * t327, t336]));
+        let t342 = P::lane(t290, 1) + P::lane(t290, 0);
+        let t343 = P::lane(t292, 2) + (P::lane(t292, 1) + P::lane(t292, 0));
+        let t344 = t341 + P::triple([t339, P::lane(t281, 1), P::lane(t281, 2)]);
+        let t345 = base_rotation[1][1] * (P::lane(t290, 2) + t342);
+        let t346 = P::lane(t297, 2) + (P::lane(t297, 1) + P::lane(t297, 0));
+        let t347 = P::mul_add(base_rotation[1][0], t343, t345);
+        let t348 = P::lane(t202, 1)
+            - P::mul_sub(t5, P::lane(t197, 2), t6 * P::lane(t197, 0));
+        let t349 = base_rotation[2][0] * t343;
+        let t350 = P::triple([P::lane(t290, 2), c(0.0), P::lane(t290, 2)]);
+        // constant and copied elements
+        let t351 = P::triple([
+            base_rotation[0][1],
+            platform_rotation[2][2],
+            base_rotation[2][1],
+        ]);
+        // mass matrix M_b that couples the base acceleration
+        let t352 = P::triple([base_rotation[0][0] * t343, P::lane(t287, 2), t349]);
+        let t353 = base_rotation[2][2] * t346;
+        // angular velocity of the base
+        let t354 = mul_add(
+            t2,
+            P::splat(base_velocity[3]),
+            t1 * P::splat(base_velocity[4]),
+        );
+        // mass matrix M_b that couples the base acceleration
+        let t355 = mul_add(t351, t350 + P::triple([t342, c(0.0), t342]), t352);
+        let t356 = P::lane(t202, 0)
+            - P::mul_sub(t6, P::lane(t197, 1), t3 * P::lane(t197, 2));
+        let t357 = P::lane(t202, 2)
+            - P::mul_sub(t3, P::lane(t197, 0), t5 * P::lane(t197, 1));
+        let t358 = t348 - P::mul_add(base_rotation[1][2], t346, t347);
+        // angular velocity of the base
+        let t359 = mul_add(t4, P::splat(base_velocity[5]), t354);
+        // mass matrix M_b that couples the base acceleration
+        let t360 = t355 + P::triple([base_rotation[0][2] * t346, t334, t353]);
+        // their moment by platform joint and Hooke joint
+        let t361 = P::triple([P::lane(t286, 0), t358, P::lane(t286, 2)]);
+        // velocity of the platform origin relative to the base
+        let t362 = platform_velocity[1] - base_velocity[1];
+        let t363 = platform_velocity[0] - base_velocity[0];
+        let t364 = platform_velocity[2] - base_velocity[2];
+        // angular velocity of the platform
+        let t365 = mul_add(
+            t2,
+            P::splat(platform_velocity[3]),
+            t1 * P::splat(platform_velocity[4]),
+        );
+        // platform origin seen from the base
+        let t366 = P::triple([P::lane(t15, 2), P::lane(t15, 0), P::lane(t15, 1)]);
+        // angular velocity of the platform
+        let t367 = mul_add(t4, P::splat(platform_velocity[5]), t365);
+        // mass matrix M_b that couples the base acceleration
+        let t368 = t361 + (P::triple([t356, P::lane(t286, 1), t357]) - t360);
+        // rotation of the platform seen from the base
+        let t369 = P::triple([P::lane(t12, 1), P::lane(t12, 2), P::lane(t12, 0)]);
+        // platform origin seen from the base
+        let t370 = P::triple([P::lane(t15, 1), P::lane(t15, 2), P::lane(t15, 0)]);
+        // angular velocity of the base
+        let t371 = P::triple([P::lane(t359, 2), P::lane(t359, 0), P::lane(t359, 1)]);
+        // rotation of the platform seen from the base
+        let t372 = P::triple([P::lane(t12, 2), P::lane(t12, 0), P::lane(t12, 1)]);
+        // angular velocity of the base
+        let t373 = P::triple([P::lane(t359, 1), P::lane(t359, 2), P::lane(t359, 0)]);
+        // angular velocity of the platform relative to the base
+        let t374 = t359 - t367;
+        // rotation of the platform seen from the base
+        let t375 = P::triple([P::lane(t11, 1), P::lane(t11, 2), P::lane(t11, 0)]);
+        let t376 = P::triple([P::lane(t11, 2), P::lane(t11, 0), P::lane(t11, 1)]);
+        // velocity of the platform origin relative to the base
+        let t377 = mul_add(
+            t4,
+            P::splat(t364),
+            mul_add(t2, P::splat(t363), t1 * P::splat(t362)),
+        );
+        let t378 = t377 - mul_sub(t366, t373, t370 * t371);
+        // angular velocity of the platform relative to the base
+        let t379 = P::triple([P::lane(t374, 2), P::lane(t374, 0), P::lane(t374, 1)]);
+        let t380 = P::triple([P::lane(t374, 1), P::lane(t374, 2), P::lane(t374, 0)]);
+        // rate of the relative rotation
+        let t381 = mul_sub(t376, t380, t375 * t379);
+        let t382 = mul_sub(t372, t380, t369 * t379);
+        // legs 4, 5, 6: velocity of the platform joint relative to the base
+        let t383 = P::splat(P::lane(t378, 0))
+            - mul_add(t14, P::splat(P::lane(t382, 0)), t13 * P::splat(P::lane(t381, 0)));
+        // legs 1, 2, 3: velocity of the platform joint relative to the base
+        let t384 = P::splat(P::lane(t378, 0))
+            - mul_add(t10, P::splat(P::lane(t382, 0)), t9 * P::splat(P::lane(t381, 0)));
+        // legs 4, 5, 6: velocity of the platform joint relative to the base
+        let t385 = P::splat(P::lane(t378, 1))
+            - mul_add(t14, P::splat(P::lane(t382, 1)), t13 * P::splat(P::lane(t381, 1)));
+        // legs 1, 2, 3: velocity of the platform joint relative to the base
+        let t386 = P::splat(P::lane(t378, 1))
+            - mul_add(t10, P::splat(P::lane(t382, 1)), t9 * P::splat(P::lane(t381, 1)));
+        // legs 4, 5, 6: inertial rate of that gradient
+        let t387 = neg_mul_add(
+            t51,
+            P::splat(P::lane(t359, 2)),
+            P::splat(P::lane(t359, 0)),
+        );
+        let t388 = neg_mul_add(
+            t50,
+            P::splat(P::lane(t359, 2)),
+            P::splat(P::lane(t359, 1)),
+        );
+        // legs 1, 2, 3: inertial rate of that gradient
+        let t389 = neg_mul_add(
+            t53,
+            P::splat(P::lane(t359, 2)),
+            P::splat(P::lane(t359, 0)),
+        );
+        let t390 = neg_mul_add(
+            t52,
+            P::splat(P::lane(t359, 2)),
+            P::splat(P::lane(t359, 1)),
+        );
+        // legs 4, 5, 6: velocity of the platform joint relative to the base
+        let t391 = P::splat(P::lane(t378, 2))
+            - mul_add(t14, P::splat(P::lane(t382, 2)), t13 * P::splat(P::lane(t381, 2)));
+        // legs 4, 5, 6: rate of the rod's extent along the actuator axis
+        let t392 = mul_add(t24, t383, t27 * t385);
+        // legs 1, 2, 3: rate of the rod's extent along the actuator axis
+        let t393 = mul_add(t26, t384, t28 * t386);
+        // legs 1, 2, 3: velocity of the platform joint relative to the base
+        let t394 = P::splat(P::lane(t378, 2))
+            - mul_add(t10, P::splat(P::lane(t382, 2)), t9 * P::splat(P::lane(t381, 2)));
+        // legs 4, 5, 6: inertial rate of that gradient
+        let t395 = mul_sub(
+            t50,
+            P::splat(P::lane(t359, 0)),
+            t51 * P::splat(P::lane(t359, 1)),
+        );
+        // legs 4, 5, 6: rate of the rod's extent along the actuator axis
+        let t396 = t46 * t392;
+        // legs 1, 2, 3: rate of the rod's extent along the actuator axis
+        let t397 = t47 * t393;
+        // legs 4, 5, 6: actuator velocity d'
+        let t398 = mul_add(t46, t392, t391);
+        // legs 1, 2, 3: actuator velocity d'
+        let t399 = mul_add(t47, t393, t394);
+        // legs 1, 2, 3: inertial rate of that gradient
+        let t400 = mul_sub(
+            t52,
+            P::splat(P::lane(t359, 0)),
+            t53 * P::splat(P::lane(t359, 1)),
+        );
+        // legs 4, 5, 6: rate of the platform lever
+        let t401 = mul_sub(
+            t36,
+            P::splat(platform_velocity[4]),
+            t33 * P::splat(platform_velocity[5]),
+        );
+        let t402 = mul_sub(
+            t32,
+            P::splat(platform_velocity[5]),
+            t36 * P::splat(platform_velocity[3]),
+        );
+        // legs 4, 5, 6: inertial rate of that gradient
+        let t403 = mul_sub(t46, mul_add(t50, t396, t385), t387);
+        let t404 = mul_add(t46, mul_add(t51, t396, t383), t388);
+        // legs 1, 2, 3: inertial rate of that gradient
+        let t405 = mul_sub(t47, mul_add(t52, t397, t386), t389);
+        let t406 = mul_add(t47, mul_add(t53, t397, t384), t390);
+        // legs 4, 5, 6: rate of the platform lever
+        let t407 = mul_sub(
+            t33,
+            P::splat(platform_velocity[3]),
+            t32 * P::splat(platform_velocity[4]),
+        );
+        // legs 1, 2, 3: rate of the platform lever
+        let t408 = mul_sub(
+            t34,
+            P::splat(platform_velocity[4]),
+            t37 * P::splat(platform_velocity[5]),
+        );
+        let t409 = mul_sub(
+            t35,
+            P::splat(platform_velocity[5]),
+            t34 * P::splat(platform_velocity[3]),
+        );
+        let t410 = mul_sub(
+            t37,
+            P::splat(platform_velocity[3]),
+            t35 * P::splat(platform_velocity[4]),
+        );
+        // legs 4, 5, 6: inertial rate of that gradient
+        let t411 = mul_add(
+            P::splat(base_rotation[0][0]),
+            t404,
+            P::splat(base_rotation[0][1]) * t403,
+        );
+        let t412 = mul_add(
+            P::splat(base_rotation[1][0]),
+            t404,
+            P::splat(base_rotation[1][1]) * t403,
+        );
+        let t413 = mul_add(
+            P::splat(base_rotation[2][0]),
+            t404,
+            P::splat(base_rotation[2][1]) * t403,
+        );
+        // legs 1, 2, 3: inertial rate of that gradient
+        let t414 = mul_add(
+            P::splat(base_rotation[0][0]),
+            t406,
+            P::splat(base_rotation[0][1]) * t405,
+        );
+        let t415 = mul_add(
+            P::splat(base_rotation[1][0]),
+            t406,
+            P::splat(base_rotation[1][1]) * t405,
+        );
+        let t416 = mul_add(
+            P::splat(base_rotation[2][0]),
+            t406,
+            P::splat(base_rotation[2][1]) * t405,
+        );
+        // legs 4, 5, 6: inertial rate of that gradient
+        let t417 = mul_add(P::splat(base_rotation[0][2]), t395, t411);
+        let t418 = mul_add(P::splat(base_rotation[1][2]), t395, t412);
+        let t419 = mul_add(P::splat(base_rotation[2][2]), t395, t413);
+        // legs 1, 2, 3: inertial rate of that gradient
+        let t420 = mul_add(P::splat(base_rotation[0][2]), t400, t414);
+        let t421 = mul_add(P::splat(base_rotation[1][2]), t400, t415);
+        let t422 = mul_add(P::splat(base_rotation[2][2]), t400, t416);
+        // legs 4, 5, 6: inertial rate of the row of the actuator Jacobian
+        let t423 = mul_sub(t33, t419, t36 * t418);
+        let t424 = mul_sub(t36, t417, t32 * t419);
+        let t425 = mul_sub(t32, t418, t33 * t417);
+        // legs 1, 2, 3: moment of that force's rate
+        let t426 = P::mul_sub(t72, base_velocity[3], t71 * base_velocity[4]);
+        // legs 1, 2, 3: inertial rate of the row of the actuator Jacobian
+        let t427 = mul_sub(t37, t422, t34 * t421);
+        let t428 = mul_sub(t34, t420, t35 * t422);
+        // legs 1, 2, 3: moment of that force's rate
+        let t429 = P::mul_sub(t71, base_velocity[5], t73 * base_velocity[3]);
+        // legs 1, 2, 3: inertial rate of the row of the actuator Jacobian
+        let t430 = mul_sub(t35, t421, t37 * t420);
+        // legs 4, 5, 6: inertial rate of the row of the actuator Jacobian
+        let t431 = mul_sub(t63, t402, t61 * t407) + t423;
+        let t432 = mul_sub(t60, t407, t63 * t401) + t424;
+        let t433 = mul_sub(t61, t401, t60 * t402) + t425;
+        // legs 1, 2, 3: inertial rate of the row of the actuator Jacobian
+        let t434 = mul_sub(t65, t409, t64 * t410) + t427;
+        let t435 = mul_sub(t62, t410, t65 * t408) + t428;
+        // legs 1, 2, 3: moment of that force's rate
+        let t436 = P::mul_sub(t73, base_velocity[4], t72 * base_velocity[5]);
+        // legs 1, 2, 3: inertial rate of the row of the actuator Jacobian
+        let t437 = mul_sub(t64, t408, t62 * t409) + t430;
+        // legs 1, 2, 3: moment of that force's rate
+        let t438 = mul_sub(t37, P::splat(t426), t34 * P::splat(t429));
+        // legs 1, 2, 3: moment of the force along the axis that an acceleration of the actuator takes
+        let t439 = mul_add(w(0.9523333333333334), t70, t75);
+        let t440 = mul_add(w(0.9523333333333334), t74, t76);
+        let t441 = mul_add(w(0.9523333333333334), t68, t80);
+        // legs 4, 5, 6: moment of the force along the axis that an acceleration of the actuator takes
+        let t442 = mul_add(w(0.9523333333333334), t67, t77);
+        // legs 1, 2, 3: moment of that force's rate
+        let t443 = mul_sub(t34, P::splat(t436), t35 * P::splat(t426));
+        // legs 4, 5, 6: moment of the force along the axis that an acceleration of the actuator takes
+        let t444 = mul_add(w(0.9523333333333334), t69, t78);
+        let t445 = mul_add(w(0.9523333333333334), t66, t85);
+        // legs 4, 5, 6: moment of that force's rate
+        let t446 = mul_sub(t33, P::splat(t426), t36 * P::splat(t429));
+        // legs 1, 2, 3: moment of that force's rate
+        let t447 = mul_sub(t35, P::splat(t429), t37 * P::splat(t436));
+        // part of the legs' Coriolis matrix on the side of the axes
+        let t448 = mul_add(t82, t420, t84 * t417);
+        // legs 4, 5, 6: moment of that force's rate
+        let t449 = mul_sub(t36, P::splat(t436), t32 * P::splat(t426));
+        // part of the legs' Coriolis matrix on the side of the axes
+        let t450 = mul_add(w(0.17066666666666666), t420, w(0.17066666666666666) * t417);
+        let t451 = mul_add(t82, t421, t84 * t418);
+        let t452 = mul_add(w(0.17066666666666666), t421, w(0.17066666666666666) * t418);
+        // legs 4, 5, 6: moment of that force's rate
+        let t453 = mul_sub(t32, P::splat(t429), t33 * P::splat(t436));
+        // part of the legs' Coriolis matrix on the side of the axes
+        let t454 = mul_add(t82, t422, t84 * t419);
+        let t455 = mul_add(w(0.17066666666666666), t422, w(0.17066666666666666) * t419);
+        // legs 4, 5, 6: moment of that force by the rate of the lever
+        let t456 = mul_sub(P::splat(t73), t402, P::splat(t72) * t407);
+        let t457 = mul_sub(P::splat(t71), t407, P::splat(t73) * t401);
+        let t458 = mul_sub(P::splat(t72), t401, P::splat(t71) * t402);
+        // legs 1, 2, 3: moment of that force by the rate of the lever
+        let t459 = mul_sub(P::splat(t73), t409, P::splat(t72) * t410);
+        // part of the legs' Coriolis matrix on the side of the axes
+        let t460 = mul_add(t82, t434, t84 * t431);
+        // legs 1, 2, 3: moment of that force by the rate of the lever
+        let t461 = mul_sub(P::splat(t71), t410, P::splat(t73) * t408);
+        // part of the legs' Coriolis matrix on the side of the axes
+        let t462 = mul_add(w(0.17066666666666666), t434, w(0.17066666666666666) * t431);
+        let t463 = mul_add(t82, t435, t84 * t432);
+        // legs 1, 2, 3: moment of that force by the rate of the lever
+        let t464 = mul_sub(P::splat(t72), t408, P::splat(t71) * t409);
+        // part of the legs' Coriolis matrix on the side of the axes
+        let t465 = mul_add(t90, t420, t89 * t417);
+        let t466 = mul_add(t90, t421, t89 * t418);
+        let t467 = mul_add(t90, t422, t89 * t419);
+        let t468 = mul_add(t97, t420, t99 * t417);
+        let t469 = mul_add(t97, t421, t99 * t418);
+        let t470 = mul_add(t97, t422, t99 * t419);
+        let t471 = mul_add(w(0.17066666666666666), t435, w(0.17066666666666666) * t432);
+        let t472 = mul_add(t82, t437, t84 * t433);
+        let t473 = mul_add(w(0.17066666666666666), t437, w(0.17066666666666666) * t433);
+        let t474 = mul_add(t90, t434, t89 * t431);
+        let t475 = mul_add(t90, t435, t89 * t432);
+        let t476 = mul_add(t417, t442, mul_add(t420, t439, t62 * t438));
+        let t477 = mul_add(t90, t437, t89 * t433);
+        let t478 = mul_add(t418, t442, mul_add(t421, t439, t64 * t438));
+        let t479 = mul_add(t419, t442, mul_add(t422, t439, t65 * t438));
+        let t480 = mul_add(t97, t434, t99 * t431);
+        let t481 = mul_add(t97, t435, t99 * t432);
+        let t482 = mul_add(t97, t437, t99 * t433);
+        let t483 = mul_add(t60, t446, t476);
+        let t484 = mul_add(t417, t444, mul_add(t420, t440, t62 * t443));
+        let t485 = mul_add(t61, t446, t478);
+        let t486 = mul_add(t63, t446, t479);
+        let t487 = mul_add(t431, t442, mul_add(t434, t439, t70 * t438));
+        let t488 = mul_add(t418, t444, mul_add(t421, t440, t64 * t443));
+        let t489 = mul_add(t419, t444, mul_add(t422, t440, t65 * t443));
+        let t490 = mul_add(t60, t449, t484);
+        let t491 = mul_add(t432, t442, mul_add(t435, t439, t74 * t438));
+        let t492 = mul_add(t433, t442, mul_add(t437, t439, t68 * t438));
+        let t493 = mul_add(t431, t444, mul_add(t434, t440, t70 * t443));
+        let t494 = mul_add(t67, t446, t487);
+        let t495 = mul_add(t61, t449, t488);
+        let t496 = mul_add(t63, t449, t489);
+        let t497 = mul_add(t432, t444, mul_add(t435, t440, t74 * t443));
+        let t498 = mul_add(t69, t446, t491);
+        let t499 = mul_add(t66, t446, t492);
+        let t500 = mul_add(t433, t444, mul_add(t437, t440, t68 * t443));
+        let t501 = mul_add(t417, t445, mul_add(t420, t441, t62 * t447));
+        let t502 = mul_add(t67, t449, t493);
+        let t503 = mul_add(t418, t445, mul_add(t421, t441, t64 * t447));
+        let t504 = mul_add(t419, t445, mul_add(t422, t441, t65 * t447));
+        let t505 = mul_add(t60, t453, t501);
+        let t506 = mul_add(t431, t445, mul_add(t434, t441, t70 * t447));
+        let t507 = mul_add(t432, t445, mul_add(t435, t441, t74 * t447));
+        let t508 = mul_add(t69, t449, t497);
+        let t509 = mul_add(t61, t453, t503);
+        let t510 = mul_add(t63, t453, t504);
+        let t511 = mul_add(t433, t445, mul_add(t437, t441, t68 * t447));
+        let t512 = mul_add(t66, t449, t500);
+        let t513 = P::triple([P::lane(t448, 1), P::lane(t451, 1), P::lane(t454, 1)]);
+        let t514 = mul_add(t67, t453, t506);
+        let t515 = P::triple([P::lane(t448, 0), P::lane(t451, 0), P::lane(t454, 0)])
+            + t513;
+        let t516 = mul_add(t69, t453, t507);
+        let t517 = P::triple([P::lane(t448, 2), P::lane(t451, 2), P::lane(t454, 2)])
+            + t515;
+        let t518 = mul_add(t66, t453, t511);
+        let t519 = P::triple([P::lane(t465, 1), P::lane(t466, 1), P::lane(t467, 1)]);
+        let t520 = P::triple([P::lane(t465, 0), P::lane(t466, 0), P::lane(t467, 0)])
+            + t519;
+        let t521 = t520
+            + P::triple([P::lane(t465, 2), P::lane(t466, 2), P::lane(t467, 2)]);
+        let t522 = P::triple([P::lane(t460, 1), P::lane(t463, 1), P::lane(t472, 1)]);
+        let t523 = P::triple([P::lane(t460, 0), P::lane(t463, 0), P::lane(t472, 0)])
+            + t522;
+        let t524 = P::triple([P::lane(t474, 1), P::lane(t475, 1), P::lane(t477, 1)]);
+        let t525 = P::triple([P::lane(t460, 2), P::lane(t463, 2), P::lane(t472, 2)])
+            + t523;
+        let t526 = P::triple([P::lane(t468, 1), P::lane(t469, 1), P::lane(t470, 1)]);
+        let t527 = P::triple([P::lane(t468, 0), P::lane(t469, 0), P::lane(t470, 0)])
+            + t526;
+        let t528 = t527
+            + P::triple([P::lane(t468, 2), P::lane(t469, 2), P::lane(t470, 2)]);
+        let t529 = P::triple([P::lane(t480, 1), P::lane(t481, 1), P::lane(t482, 1)]);
+        let t530 = P::triple([P::lane(t474, 0), P::lane(t475, 0), P::lane(t477, 0)])
+            + t524;
+        let t531 = P::triple([P::lane(t480, 0), P::lane(t481, 0), P::lane(t482, 0)])
+            + t529;
+        let t532 = P::triple([P::lane(t474, 2), P::lane(t475, 2), P::lane(t477, 2)])
+            + t530;
+        let t533 = P::triple([P::lane(t483, 1), P::lane(t485, 1), P::lane(t486, 1)]);
+        let t534 = P::triple([P::lane(t483, 0), P::lane(t485, 0), P::lane(t486, 0)])
+            + t533;
+        let t535 = t531
+            + P::triple([P::lane(t480, 2), P::lane(t481, 2), P::lane(t482, 2)]);
+        let t536 = t534
+            + P::triple([P::lane(t483, 2), P::lane(t485, 2), P::lane(t486, 2)]);
+        let t537 = P::triple([P::lane(t490, 1), P::lane(t495, 1), P::lane(t496, 1)]);
+        let t538 = P::triple([P::lane(t490, 0), P::lane(t495, 0), P::lane(t496, 0)])
+            + t537;
+        let t539 = t538
+            + P::triple([P::lane(t490, 2), P::lane(t495, 2), P::lane(t496, 2)]);
+        let t540 = P::triple([P::lane(t494, 1), P::lane(t498, 1), P::lane(t499, 1)]);
+        let t541 = P::triple([P::lane(t494, 0), P::lane(t498, 0), P::lane(t499, 0)])
+            + t540;
+        let t542 = t541
+            + P::triple([P::lane(t494, 2), P::lane(t498, 2), P::lane(t499, 2)]);
+        let t543 = P::triple([P::lane(t505, 1), P::lane(t509, 1), P::lane(t510, 1)]);
+        let t544 = P::triple([P::lane(t505, 0), P::lane(t509, 0), P::lane(t510, 0)])
+            + t543;
+        let t545 = t544
+            + P::triple([P::lane(t505, 2), P::lane(t509, 2), P::lane(t510, 2)]);
+        let t546 = P::triple([P::lane(t502, 1), P::lane(t508, 1), P::lane(t512, 1)]);
+        let t547 = P::triple([P::lane(t502, 0), P::lane(t508, 0), P::lane(t512, 0)])
+            + t546;
+        let t548 = P::triple([P::lane(t514, 1), P::lane(t516, 1), P::lane(t518, 1)]);
+        let t549 = P::triple([P::lane(t502, 2), P::lane(t508, 2), P::lane(t512, 2)])
+            + t547;
+        let t550 = P::triple([P::lane(t450, 1), P::lane(t452, 1), P::lane(t455, 1)]);
+        let t551 = P::triple([P::lane(t450, 0), P::lane(t452, 0), P::lane(t455, 0)])
+            + t550;
+        let t552 = t551
+            + P::triple([P::lane(t450, 2), P::lane(t452, 2), P::lane(t455, 2)]);
+        let t553 = P::triple([P::lane(t514, 0), P::lane(t516, 0), P::lane(t518, 0)])
+            + t548;
+        let t554 = mul_add(P::splat(base_rotation[0][2]), t552, t517);
+        let t555 = P::triple([P::lane(t462, 1), P::lane(t471, 1), P::lane(t473, 1)]);
+        let t556 = P::triple([P::lane(t514, 2), P::lane(t516, 2), P::lane(t518, 2)])
+            + t553;
+        let t557 = mul_add(P::splat(base_rotation[1][2]), t552, t521);
+        let t558 = mul_add(P::splat(base_rotation[2][2]), t552, t528);
+        let t559 = mul_add(t171, P::splat(base_velocity[4]), t554);
+        let t560 = P::triple([P::lane(t462, 0), P::lane(t471, 0), P::lane(t473, 0)])
+            + t555;
+        let t561 = mul_add(t151, P::splat(base_velocity[5]), t557);
+        let t562 = mul_add(t154, P::splat(base_velocity[3]), t558);
+        let t563 = neg_mul_add(t154, P::splat(base_velocity[5]), t559);
+        let t564 = neg_mul_add(t171, P::splat(base_velocity[3]), t561);
+        let t565 = neg_mul_add(t151, P::splat(base_velocity[4]), t562);
+        let t566 = P::triple([P::lane(t462, 2), P::lane(t471, 2), P::lane(t473, 2)])
+            + t560;
+        // Coriolis matrix of the legs
+        let t567 = mul_add(t62, t459, t60 * t456);
+        let t568 = mul_add(t62, t461, t60 * t457);
+        let t569 = mul_add(t62, t464, t60 * t458);
+        let t570 = mul_add(t64, t459, t61 * t456);
+        let t571 = mul_add(t64, t461, t61 * t457);
+        let t572 = mul_add(t64, t464, t61 * t458);
+        let t573 = mul_add(t65, t459, t63 * t456);
+        // part of the legs' Coriolis matrix on the side of the axes
+        let t574 = mul_add(P::splat(base_rotation[0][2]), t566, t525);
+        // Coriolis matrix of the legs
+        let t575 = mul_add(t65, t461, t63 * t457);
+        // part of the legs' Coriolis matrix on the side of the axes
+        let t576 = mul_add(P::splat(base_rotation[1][2]), t566, t532);
+        let t577 = mul_add(P::splat(base_rotation[2][2]), t566, t535);
+        let t578 = mul_add(t172, P::splat(base_velocity[4]), t574);
+        let t579 = mul_add(t164, P::splat(base_velocity[5]), t576);
+        let t580 = mul_add(t165, P::splat(base_velocity[3]), t577);
+        let t581 = neg_mul_add(t165, P::splat(base_velocity[5]), t578);
+        // Coriolis matrix of the legs
+        let t582 = mul_add(t65, t464, t63 * t458);
+        // part of the legs' Coriolis matrix on the side of the axes
+        let t583 = neg_mul_add(t172, P::splat(base_velocity[3]), t579);
+        // Coriolis matrix of the legs
+        let t584 = mul_add(t70, t459, t67 * t456);
+        let t585 = mul_add(t70, t461, t67 * t457);
+        let t586 = mul_add(t70, t464, t67 * t458);
+        let t587 = mul_add(t74, t459, t69 * t456);
+        let t588 = mul_add(t74, t461, t69 * t457);
+        // part of the legs' Coriolis matrix on the side of the axes
+        let t589 = neg_mul_add(t164, P::splat(base_velocity[4]), t580);
+        // Coriolis matrix of the legs
+        let t590 = mul_add(t74, t464, t69 * t458);
+        let t591 = mul_add(t68, t459, t66 * t456);
+        let t592 = mul_add(t68, t461, t66 * t457);
+        let t593 = mul_add(t68, t464, t66 * t458);
+        let t594 = P::triple([P::lane(t567, 1), P::lane(t568, 1), P::lane(t569, 1)]);
+        let t595 = P::triple([P::lane(t570, 1), P::lane(t571, 1), P::lane(t572, 1)]);
+        let t596 = P::triple([P::lane(t567, 0), P::lane(t568, 0), P::lane(t569, 0)])
+            + t594;
+        let t597 = P::triple([P::lane(t570, 0), P::lane(t571, 0), P::lane(t572, 0)])
+            + t595;
+        let t598 = P::triple([P::lane(t584, 1), P::lane(t585, 1), P::lane(t586, 1)]);
+        let t599 = P::triple([P::lane(t584, 0), P::lane(t585, 0), P::lane(t586, 0)])
+            + t598;
+        let t600 = P::triple([P::lane(t573, 1), P::lane(t575, 1), P::lane(t582, 1)]);
+        let t601 = P::triple([P::lane(t587, 1), P::lane(t588, 1), P::lane(t590, 1)]);
+        let t602 = P::triple([P::lane(t587, 0), P::lane(t588, 0), P::lane(t590, 0)])
+            + t601;
+        let t603 = P::triple([P::lane(t573, 0), P::lane(t575, 0), P::lane(t582, 0)])
+            + t600;
+        // legs 4, 5, 6: rate of the sliding masses' first moment, its moment about the axis
+        let t604 = neg_mul_add(t48, w(0.9523333333333334), w(0.03055));
+        // legs 1, 2, 3: rate of the sliding masses' first moment, its moment about the axis
+        let t605 = mul_sub(t49, w(0.9523333333333334), w(0.03055));
+        // legs 4, 5, 6: rate of the sliding masses' first moment, its moment about the axis
+        let t606 = P::triple([
+            c(-0.16392976126718353),
+            c(-0.16392976126718353),
+            c(0.03856110973562536),
+        ]);
+        // legs 1, 2, 3: rate of the sliding masses' first moment, its moment about the axis
+        let t607 = P::triple([
+            c(0.1253686515315582),
+            c(0.1253686515315582),
+            c(0.03856110973562536),
+        ]);
+        // legs 4, 5, 6: rate of the sliding masses' first moment, its moment about the axis
+        let t608 = mul_add(
+            P::splat(P::lane(t359, 2)),
+            t606,
+            P::splat(P::lane(t359, 0)) * t604,
+        );
+        // legs 1, 2, 3: rate of the sliding masses' first moment, its moment about the axis
+        let t609 = mul_sub(
+            P::splat(P::lane(t359, 2)),
+            t607,
+            P::splat(P::lane(t359, 0)) * t605,
+        );
+        // Coriolis matrix of the legs
+        let t610 = P::triple([P::lane(t591, 1), P::lane(t592, 1), P::lane(t593, 1)]);
+        let t611 = t542
+            + (t599 + P::triple([P::lane(t584, 2), P::lane(t585, 2), P::lane(t586, 2)]));
+        let t612 = P::triple([P::lane(t591, 0), P::lane(t592, 0), P::lane(t593, 0)])
+            + t610;
+        // legs 1, 2, 3: rate of the sliding masses' first moment, its moment about the axis
+        let t613 = mul_sub(
+            P::splat(P::lane(t359, 1)),
+            t605,
+            t274 * P::splat(P::lane(t359, 2)),
+        );
+        // legs 4, 5, 6: rate of the sliding masses' first moment, its moment about the axis
+        let t614 = mul_add(
+            P::splat(P::lane(t359, 1)),
+            t604,
+            t273 * P::splat(P::lane(t359, 2)),
+        );
+        // Coriolis matrix of the legs
+        let t615 = t549
+            + (t602 + P::triple([P::lane(t587, 2), P::lane(t588, 2), P::lane(t590, 2)]));
+        // Coriolis matrix C_b, natural factorisation
+        let t616 = mul_add(t62, t609, t60 * t608);
+        let t617 = mul_add(t64, t609, t61 * t608);
+        let t618 = mul_add(w(0.17066666666666666), t399, w(0.17066666666666666) * t398);
+        // Coriolis matrix of the legs
+        let t619 = t556
+            + (t612 + P::triple([P::lane(t591, 2), P::lane(t592, 2), P::lane(t593, 2)]));
+        let t620 = t581
+            + (t596 + P::triple([P::lane(t567, 2), P::lane(t568, 2), P::lane(t569, 2)]));
+        let t621 = t583
+            + (t597 + P::triple([P::lane(t570, 2), P::lane(t571, 2), P::lane(t572, 2)]));
+        let t622 = t589
+            + (P::triple([P::lane(t573, 2), P::lane(t575, 2), P::lane(t582, 2)]) + t603);
+        // Coriolis matrix C_b, natural factorisation
+        let t623 = t399 * P::triple([c(0.0), c(0.0), c(-0.0)]);
+        let t624 = mul_add(t282, t399, t398 * P::triple([c(0.0), c(-0.0), c(-0.0)]));
+        let t625 = mul_add(t252, t399, t256 * t398);
+        let t626 = mul_add(t242, t399, t240 * t398);
+        let t627 = mul_sub(t62, t613, t60 * t614);
+        let t628 = mul_sub(t64, t613, t61 * t614);
+        let t629 = mul_sub(t65, t613, t63 * t614);
+        let t630 = mul_sub(t68, t613, t66 * t614);
+        let t631 = mul_sub(t70, t613, t67 * t614);
+        let t632 = mul_sub(t74, t613, t69 * t614);
+        let t633 = mul_add(t65, t609, t63 * t608);
+        let t634 = mul_add(t68, t609, t66 * t608);
+        let t635 = mul_add(t70, t609, t67 * t608);
+        let t636 = mul_add(t74, t609, t69 * t608);
+        // platform origin seen from the base
+        let t637 = P::triple([t3, t6, t5]);
+        // Coriolis matrix C_b, natural factorisation
+        let t638 = P::lane(t627, 2) + (P::lane(t627, 1) + P::lane(t627, 0));
+        let t639 = P::lane(t616, 2) + (P::lane(t616, 1) + P::lane(t616, 0));
+        // part of the legs' Coriolis matrix on the side of the axes
+        let t640 = P::triple([P::lane(t563, 2), P::lane(t563, 0), P::lane(t563, 1)]);
+        // platform origin seen from the base
+        let t641 = P::triple([t6, t5, t3]);
+        // Coriolis matrix C_b, natural factorisation
+        let t642 = base_velocity[4] * P::lane(t253, 0);
+        // part of the legs' Coriolis matrix on the side of the axes
+        let t643 = P::triple([P::lane(t563, 1), P::lane(t563, 2), P::lane(t563, 0)]);
+        // Coriolis matrix C_b, natural factorisation
+        let t644 = P::mul_sub(base_rotation[1][0], t639, base_rotation[1][1] * t638);
+        let t645 = P::mul_sub(base_velocity[3], P::lane(t253, 1), t642);
+        let t646 = P::mul_sub(base_rotation[0][0], t639, base_rotation[0][1] * t638);
+        let t647 = P::lane(t618, 2) + (P::lane(t618, 1) + P::lane(t618, 0));
+        let t648 = t646 + P::mul_sub(P::lane(t153, 1), t364, P::lane(t153, 2) * t362);
+        let t649 = t581 - mul_sub(t641, t643, t637 * t640);
+        let t650 = base_velocity[3] * P::lane(t253, 2);
+        let t651 = P::mul_add(base_rotation[2][2], t647, t645);
+        let t652 = P::lane(t617, 2) + (P::lane(t617, 1) + P::lane(t617, 0));
+        let t653 = P::mul_sub(base_rotation[2][0], t639, base_rotation[2][1] * t638);
+        let t654 = P::mul_sub(base_velocity[5], P::lane(t253, 0), t650);
+        // part of the legs' Coriolis matrix on the side of the axes
+        let t655 = P::triple([P::lane(t564, 2), P::lane(t564, 0), P::lane(t564, 1)]);
+        let t656 = P::triple([P::lane(t564, 1), P::lane(t564, 2), P::lane(t564, 0)]);
+        // Coriolis matrix C_b, natural factorisation
+        let t657 = P::mul_sub(P::lane(t153, 2), t363, P::lane(t153, 0) * t364) + t644
+            + t651;
+        let t658 = P::lane(t628, 2) + (P::lane(t628, 1) + P::lane(t628, 0));
+        let t659 = P::mul_add(base_rotation[1][2], t647, t654);
+        let t660 = t653 + P::mul_sub(P::lane(t153, 0), t362, P::lane(t153, 1) * t363)
+            - t659;
+        let t661 = P::mul_sub(base_rotation[0][0], t652, base_rotation[0][1] * t658);
+        let t662 = t583 - mul_sub(t641, t656, t637 * t655);
+        let t663 = P::mul_sub(base_rotation[1][0], t652, base_rotation[1][1] * t658);
+        let t664 = t649 - P::triple([t648, t657, t660]);
+        let t665 = base_velocity[5] * P::lane(t253, 1);
+        let t666 = P::mul_sub(base_velocity[4], P::lane(t253, 2), t665);
+        let t667 = P::mul_sub(base_rotation[2][0], t652, base_rotation[2][1] * t658);
+        let t668 = P::lane(t633, 2) + (P::lane(t633, 1) + P::lane(t633, 0));
+        // part of the legs' Coriolis matrix on the side of the axes
+        let t669 = P::triple([P::lane(t565, 2), P::lane(t565, 0), P::lane(t565, 1)]);
+        let t670 = P::triple([P::lane(t565, 1), P::lane(t565, 2), P::lane(t565, 0)]);
+        // Coriolis matrix C_b, natural factorisation
+        let t671 = P::mul_add(base_rotation[0][2], t647, t666);
+        let t672 = P::mul_sub(P::lane(t158, 1), t364, P::lane(t158, 2) * t362) + t661
+            - t651;
+        let t673 = P::mul_sub(P::lane(t158, 2), t363, P::lane(t158, 0) * t364) + t663;
+        let t674 = t671
+            + (t667 + P::mul_sub(P::lane(t158, 0), t362, P::lane(t158, 1) * t363));
+        let t675 = P::lane(t629, 2) + (P::lane(t629, 1) + P::lane(t629, 0));
+        let t676 = t589 - mul_sub(t641, t670, t637 * t669);
+        let t677 = t662 - P::triple([t672, t673, t674]);
+        let t678 = P::mul_sub(base_rotation[0][0], t668, base_rotation[0][1] * t675);
+        let t679 = P::mul_sub(base_rotation[1][0], t668, base_rotation[1][1] * t675);
+        // part of the legs' Coriolis matrix on the side of the axes
+        let t680 = P::triple([P::lane(t536, 2), P::lane(t536, 0), P::lane(t536, 1)]);
+        // Coriolis matrix C_b, natural factorisation
+        let t681 = P::mul_sub(base_rotation[2][0], t668, base_rotation[2][1] * t675);
+        // part of the legs' Coriolis matrix on the side of the axes
+        let t682 = P::triple([P::lane(t536, 1), P::lane(t536, 2), P::lane(t536, 0)]);
+        // Coriolis matrix C_b, natural factorisation
+        let t683 = t659
+            + (P::mul_sub(P::lane(t176, 1), t364, P::lane(t176, 2) * t362) + t678);
+        // part of the legs' mass matrix on the side of the axes
+        let t684 = P::triple([P::lane(t188, 1), P::lane(t188, 2), P::lane(t188, 0)]);
+        // velocity of the platform origin relative to the base
+        let t685 = P::triple([t364, t363, t362]);
+        // Coriolis matrix C_b, natural factorisation
+        let t686 = P::mul_sub(P::lane(t176, 2), t363, P::lane(t176, 0) * t364) + t679
+            - t671;
+        // part of the legs' mass matrix on the side of the axes
+        let t687 = P::triple([P::lane(t188, 2), P::lane(t188, 0), P::lane(t188, 1)]);
+        // velocity of the platform origin relative to the base
+        let t688 = P::triple([t362, t364, t363]);
+        // Coriolis matrix C_b, natural factorisation
+        let t689 = t681 + P::mul_sub(P::lane(t176, 0), t362, P::lane(t176, 1) * t363);
+        let t690 = t235
+            * P::splat(P::lane(t631, 2) + (P::lane(t631, 0) + P::lane(t631, 1)));
+        let t691 = t676 - P::triple([t683, t686, t689]);
+        let t692 = mul_sub(
+            t231,
+            P::splat(P::lane(t635, 2) + (P::lane(t635, 1) + P::lane(t635, 0))),
+            t690,
+        );
+        let t693 = P::lane(t624, 2) + (P::lane(t624, 1) + P::lane(t624, 0));
+        let t694 = P::lane(t623, 2) + (P::lane(t623, 0) + P::lane(t623, 1));
+        let t695 = P::lane(t625, 2) + (P::lane(t625, 1) + P::lane(t625, 0));
+        let t696 = P::lane(t626, 2) + (P::lane(t626, 1) + P::lane(t626, 0));
+        let t697 = base_velocity[4] * P::lane(t287, 0);
+        let t698 = P::mul_add(
+            platform_rotation[0][0],
+            t694,
+            platform_rotation[0][1] * t693,
+        );
+        let t699 = P::mul_sub(P::lane(t286, 0), base_velocity[5], t697);
+        let t700 = P::mul_add(
+            platform_rotation[1][0],
+            t694,
+            platform_rotation[1][1] * t693,
+        );
+        let t701 = P::mul_add(
+            platform_rotation[2][0],
+            t694,
+            platform_rotation[2][1] * t693,
+        );
+        let t702 = P::mul_add(
+            platform_rotation[0][0],
+            t696,
+            platform_rotation[0][1] * t695,
+        );
+        let t703 = P::mul_add(
+            platform_rotation[1][0],
+            t696,
+            platform_rotation[1][1] * t695,
+        );
+        let t704 = P::mul_add(base_rotation[0][0], t698, base_rotation[0][1] * t698);
+        let t705 = P::lane(t281, 1) * base_velocity[5];
+        let t706 = P::mul_add(
+            platform_rotation[2][0],
+            t696,
+            platform_rotation[2][1] * t695,
+        );
+        let t707 = P::mul_add(base_rotation[0][0], t700, base_rotation[0][1] * t700);
+        let t708 = P::mul_add(base_rotation[1][0], t700, base_rotation[1][1] * t700);
+        let t709 = P::mul_add(base_rotation[2][0], t701, base_rotation[2][1] * t701);
+        let t710 = P::mul_sub(base_velocity[3], P::lane(t287, 1), t705);
+        let t711 = P::lane(t286, 2) * base_velocity[3];
+        let t712 = P::mul_add(base_rotation[0][0], t701, base_rotation[0][1] * t701);
+        let t713 = P::mul_add(base_rotation[0][2], t702, t704) - t699;
+        let t714 = P::mul_sub(P::lane(t281, 2), base_velocity[4], t711);
+        let t715 = base_velocity[4] * P::lane(t287, 1);
+        let t716 = P::lane(t287, 2) * base_velocity[4];
+        let t717 = P::mul_add(base_rotation[1][2], t703, t708) - t710;
+        let t718 = P::mul_add(base_rotation[0][2], t706, t712);
+        let t719 = P::mul_sub(P::lane(t286, 2), base_velocity[5], t716);
+        let t720 = t713 + t717;
+        // part of the legs' Coriolis matrix on the side of the axes
+        let t721 = P::triple([P::lane(t539, 2), P::lane(t539, 0), P::lane(t539, 1)]);
+        let t722 = P::triple([P::lane(t539, 1), P::lane(t539, 2), P::lane(t539, 0)]);
+        // Coriolis matrix C_b, natural factorisation
+        let t723 = P::triple([t713, P::mul_add(base_rotation[0][2], t703, t707), t718]);
+        // part of the legs' mass matrix on the side of the axes
+        let t724 = P::triple([P::lane(t197, 1), P::lane(t197, 2), P::lane(t197, 0)]);
+        // Coriolis matrix C_b, natural factorisation
+        let t725 = P::mul_add(base_rotation[2][2], t706, t709) - t714 + t720;
+        // part of the legs' mass matrix on the side of the axes
+        let t726 = P::triple([P::lane(t197, 2), P::lane(t197, 0), P::lane(t197, 1)]);
+        // Coriolis matrix C_b, natural factorisation
+        let t727 = P::triple([
+            t725,
+            P::mul_sub(P::lane(t286, 1), base_velocity[5], t715),
+            t719,
+        ]);
+        let t728 = P::mul_add(base_rotation[1][0], t698, base_rotation[1][1] * t698);
+        let t729 = t235
+            * P::splat(P::lane(t632, 2) + (P::lane(t632, 1) + P::lane(t632, 0)));
+        let t730 = mul_sub(t684, t685, t687 * t688) + t692 - (t723 - t727);
+        let t731 = mul_sub(
+            t231,
+            P::splat(P::lane(t636, 2) + (P::lane(t636, 1) + P::lane(t636, 0))),
+            t729,
+        );
+        let t732 = t542 - mul_sub(t641, t682, t637 * t680) - t730;
+        let t733 = P::mul_add(base_rotation[1][0], t701, base_rotation[1][1] * t701);
+        let t734 = P::lane(t281, 0) * base_velocity[5];
+        let t735 = P::lane(t281, 2) * base_velocity[5];
+        let t736 = P::lane(t634, 2) + (P::lane(t634, 1) + P::lane(t634, 0));
+        let t737 = P::mul_add(base_rotation[1][2], t706, t733);
+        let t738 = P::mul_sub(P::lane(t287, 2), base_velocity[3], t735);
+        // part of the legs' Coriolis matrix on the side of the axes
+        let t739 = P::triple([P::lane(t545, 2), P::lane(t545, 0), P::lane(t545, 1)]);
+        let t740 = P::triple([P::lane(t545, 1), P::lane(t545, 2), P::lane(t545, 0)]);
+        // Coriolis matrix C_b, natural factorisation
+        let t741 = P::triple([P::mul_add(base_rotation[1][2], t702, t728), t717, t737]);
+        let t742 = P::lane(t630, 2) + (P::lane(t630, 1) + P::lane(t630, 0));
+        let t743 = P::triple([
+            P::mul_sub(base_velocity[3], P::lane(t287, 0), t734),
+            t725,
+            t738,
+        ]);
+        let t744 = P::mul_add(base_rotation[2][0], t698, base_rotation[2][1] * t698);
+        let t745 = mul_sub(t685, t724, t688 * t726) + t731 - (t741 - t743);
+        let t746 = P::lane(t286, 0) * base_velocity[3];
+        let t747 = t556 - mul_sub(t641, t740, t637 * t739);
+        let t748 = P::mul_sub(base_rotation[0][0], t736, base_rotation[0][1] * t742);
+        let t749 = t549 - mul_sub(t641, t722, t637 * t721) - t745;
+        let t750 = P::lane(t286, 1) * base_velocity[3];
+        let t751 = P::mul_add(base_rotation[2][0], t700, base_rotation[2][1] * t700);
+        let t752 = P::mul_sub(P::lane(t281, 0), base_velocity[4], t746);
+        let t753 = P::mul_sub(base_rotation[1][0], t736, base_rotation[1][1] * t742);
+        let t754 = P::mul_sub(P::lane(t281, 1), base_velocity[4], t750);
+        let t755 = P::mul_sub(base_rotation[2][0], t736, base_rotation[2][1] * t742);
+        let t756 = t748 + P::mul_sub(t364, P::lane(t205, 1), t362 * P::lane(t205, 2));
+        // mass matrix M_p of the platform
+        let t757 = platform_rotation[2][1] * c(6.938893903907228e-18);
+        let t758 = platform_rotation[1][1] * c(6.938893903907228e-18);
+        // Coriolis matrix C_b, natural factorisation
+        let t759 = t753 + P::mul_sub(t363, P::lane(t205, 2), t364 * P::lane(t205, 0));
+        // mass matrix M_p of the platform
+        let t760 = P::mul_add(platform_rotation[2][0], c(2.2551405187698492e-17), t757);
+        let t761 = P::mul_add(platform_rotation[1][0], c(2.2551405187698492e-17), t758);
+        // Coriolis matrix C_b, natural factorisation
+        let t762 = t756 - (P::mul_add(base_rotation[2][2], t702, t744) - t752);
+        // mass matrix M_p of the platform
+        let t763 = platform_rotation[0][0] * c(0.032245600000000006);
+        let t764 = platform_rotation[0][1] * c(6.938893903907228e-18);
+        // Coriolis matrix C_b, natural factorisation
+        let t765 = t720
+            + (t755 + P::mul_sub(t362, P::lane(t205, 0), t363 * P::lane(t205, 1)));
+        // mass matrix M_p of the platform
+        let t766 = P::mul_add(platform_rotation[2][2], c(0.188852), t760);
+        let t767 = P::mul_add(platform_rotation[1][2], c(0.188852), t761);
+        // Coriolis matrix C_b, natural factorisation
+        let t768 = t759 - (P::mul_add(base_rotation[2][2], t703, t751) - t754);
+        // mass matrix M_p of the platform
+        let t769 = platform_rotation[0][1] * c(0.032245600000000006);
+        let t770 = P::mul_add(platform_rotation[0][0], c(2.2551405187698492e-17), t764);
+        let t771 = platform_rotation[0][2] * c(0.013354412);
+        // Coriolis matrix C_b, natural factorisation
+        let t772 = t747 - P::triple([t762, t768, t765]);
+        // mass matrix M_p of the platform
+        let t773 = P::mul_add(platform_rotation[0][2], c(0.188852), t770);
+        let t774 = P::lane(t215, 1) + t766;
+        mass_matrix_p[0][4] = t774;
+        mass_matrix_p[4][0] = t774;
+        let t775 = platform_rotation[1][0] * c(0.032245600000000006);
+        let t776 = P::mul_add(
+            platform_rotation[0][0],
+            t763,
+            platform_rotation[0][1] * t769,
+        );
+        let t777 = P::mul_add(
+            platform_rotation[1][0],
+            t763,
+            platform_rotation[1][1] * t769,
+        );
+        let t778 = P::mul_add(
+            platform_rotation[2][0],
+            t763,
+            platform_rotation[2][1] * t769,
+        );
+        let t779 = P::lane(t215, 2) - t767;
+        mass_matrix_p[0][5] = t779;
+        mass_matrix_p[5][0] = t779;
+        let t780 = platform_rotation[1][1] * c(0.032245600000000006);
+        let t781 = P::lane(t220, 0) - t766;
+        mass_matrix_p[1][3] = t781;
+        mass_matrix_p[3][1] = t781;
+        let t782 = platform_rotation[1][2] * c(0.013354412);
+        let t783 = P::mul_add(platform_rotation[0][2], t771, t776);
+        let t784 = P::mul_add(platform_rotation[1][2], t771, t777);
+        let t785 = P::mul_add(platform_rotation[2][2], t771, t778);
+        let t786 = P::lane(t220, 2) + t773;
+        mass_matrix_p[1][5] = t786;
+        mass_matrix_p[5][1] = t786;
+        let t787 = P::lane(t222, 0) + t767;
+        mass_matrix_p[2][3] = t787;
+        mass_matrix_p[3][2] = t787;
+        let t788 = P::lane(t222, 1) - t773;
+        mass_matrix_p[2][4] = t788;
+        mass_matrix_p[4][2] = t788;
+        let t789 = platform_rotation[2][1] * c(0.032245600000000006);
+        let t790 = P::mul_add(
+            platform_rotation[1][0],
+            t775,
+            platform_rotation[1][1] * t780,
+        );
+        let t791 = platform_rotation[2][0] * c(0.032245600000000006);
+        let t792 = P::mul_add(
+            platform_rotation[2][0],
+            t775,
+            platform_rotation[2][1] * t780,
+        );
+        let t793 = platform_rotation[2][2] * c(0.013354412);
+        let t794 = P::lane(t217, 1) - t784;
+        mass_matrix_p[3][4] = t794;
+        mass_matrix_p[4][3] = t794;
+        let t795 = P::mul_add(platform_rotation[1][2], t782, t790);
+        let t796 = P::lane(t217, 2) - t785;
+        mass_matrix_p[3][5] = t796;
+        mass_matrix_p[5][3] = t796;
+        let t797 = P::mul_add(platform_rotation[2][2], t782, t792);
+        let t798 = P::mul_add(
+            platform_rotation[2][0],
+            t791,
+            platform_rotation[2][1] * t789,
+        );
+        let t799 = P::mul_add(platform_rotation[2][2], t793, t798);
+        // Coriolis matrix C_p, natural factorisation
+        let t800 = P::mul_sub(platform_velocity[3], t767, platform_velocity[4] * t773);
+        let t801 = P::mul_sub(platform_velocity[5], t773, platform_velocity[3] * t766);
+        let t802 = P::mul_sub(platform_velocity[4], t766, platform_velocity[5] * t767);
+        // mass matrix M_p of the platform
+        let t803 = P::lane(t224, 2) - t797;
+        mass_matrix_p[4][5] = t803;
+        mass_matrix_p[5][4] = t803;
+        let t804 = c(0.07784561200000001) - t799;
+        // Coriolis matrix C_p, natural factorisation
+        let t805 = t795 - c(0.0425);
+        let t806 = P::mul_add(platform_velocity[5], t784, P::lane(t611, 0));
+        let t807 = P::mul_add(platform_velocity[5], t805, P::lane(t611, 1));
+        let t808 = t799 - c(0.0425);
+        let t809 = t783 - c(0.0425);
+        let t810 = P::mul_add(platform_velocity[5], t797, P::lane(t611, 2));
+        let t811 = P::mul_add(platform_velocity[3], t797, P::lane(t615, 1));
+        let t812 = P::neg_mul_add(platform_velocity[5], t785, P::lane(t615, 2));
+        let t813 = P::neg_mul_add(platform_velocity[5], t809, P::lane(t615, 0));
+        let t814 = P::mul_add(platform_velocity[4], t809, P::lane(t619, 0));
+        let t815 = P::mul_add(platform_velocity[4], t784, P::lane(t619, 1));
+        let t816 = P::mul_add(platform_velocity[4], t785, P::lane(t619, 2));
+        // mass matrix M_b that couples the base acceleration
+        let t817 = P::lane(t277, 2) + (P::lane(t277, 1) + P::lane(t277, 0));
+        let t818 = P::lane(t166, 0)
+            - P::mul_sub(t6, P::lane(t153, 1), t3 * P::lane(t153, 2));
+        let t819 = P::lane(t288, 2) + (P::lane(t288, 0) + P::lane(t288, 1));
+        let t820 = P::lane(t303, 2) + (P::lane(t303, 1) + P::lane(t303, 0));
+        let t821 = P::lane(t166, 1)
+            - P::mul_sub(t5, P::lane(t153, 2), t6 * P::lane(t153, 0));
+        let t822 = P::mul_add(base_rotation[1][0], t817, base_rotation[1][1] * t819);
+        let t823 = P::mul_add(base_rotation[2][0], t817, base_rotation[2][1] * t819);
+        let t824 = P::mul_add(base_rotation[0][0], t817, base_rotation[0][1] * t819);
+        let t825 = P::lane(t166, 2)
+            - P::mul_sub(t3, P::lane(t153, 0), t5 * P::lane(t153, 1));
+        let t826 = P::lane(t298, 2) + (P::lane(t298, 1) + P::lane(t298, 0));
+        let t827 = P::lane(t175, 0)
+            - P::mul_sub(t6, P::lane(t158, 1), t3 * P::lane(t158, 2));
+        let t828 = P::lane(t293, 2) + (P::lane(t293, 1) + P::lane(t293, 0));
+        let t829 = P::lane(t304, 2) + (P::lane(t304, 1) + P::lane(t304, 0));
+        let t830 = P::lane(t175, 1)
+            - P::mul_sub(t5, P::lane(t158, 2), t6 * P::lane(t158, 0));
+        let t831 = P::mul_add(base_rotation[0][0], t826, base_rotation[0][1] * t828);
+        let t832 = P::mul_add(base_rotation[2][0], t826, base_rotation[2][1] * t828);
+        let t833 = P::mul_add(base_rotation[1][0], t826, base_rotation[1][1] * t828);
+        let t834 = P::lane(t175, 2)
+            - P::mul_sub(t3, P::lane(t158, 0), t5 * P::lane(t158, 1));
+        let t835 = P::lane(t299, 2) + (P::lane(t299, 1) + P::lane(t299, 0));
+        let t836 = P::lane(t177, 0)
+            - P::mul_sub(t6, P::lane(t176, 1), t3 * P::lane(t176, 2));
+        let t837 = P::lane(t294, 2) + (P::lane(t294, 1) + P::lane(t294, 0));
+        let t838 = P::lane(t305, 2) + (P::lane(t305, 1) + P::lane(t305, 0));
+        let t839 = P::lane(t177, 1)
+            - P::mul_sub(t5, P::lane(t176, 2), t6 * P::lane(t176, 0));
+        let t840 = P::mul_add(base_rotation[0][0], t835, base_rotation[0][1] * t837);
+        let t841 = P::mul_add(base_rotation[1][0], t835, base_rotation[1][1] * t837);
+        let t842 = P::mul_add(base_rotation[2][0], t835, base_rotation[2][1] * t837);
+        let t843 = P::lane(t307, 2) + (P::lane(t307, 0) + P::lane(t307, 1));
+        let t844 = platform_rotation[2][1] * c(3.469446951953614e-18);
+        let t845 = P::lane(t177, 2)
+            - P::mul_sub(t3, P::lane(t176, 0), t5 * P::lane(t176, 1));
+        let t846 = P::mul_add(platform_rotation[2][0], c(8.673617379884035e-18), t844);
+        let t847 = platform_rotation[1][1] * c(3.469446951953614e-18);
+        let t848 = platform_rotation[0][1] * c(3.469446951953614e-18);
+        let t849 = P::mul_add(platform_rotation[1][0], c(8.673617379884035e-18), t847);
+        let t850 = P::mul_add(platform_rotation[0][0], c(8.673617379884035e-18), t848);
+        let t851 = P::lane(t308, 2) + (P::lane(t308, 0) + P::lane(t308, 1));
+        let t852 = P::lane(t309, 2) + (P::lane(t309, 1) + P::lane(t309, 0));
+        let t853 = P::lane(t300, 2) + (P::lane(t300, 1) + P::lane(t300, 0));
+        let t854 = P::lane(t210, 0)
+            - P::mul_sub(t6, P::lane(t205, 1), t3 * P::lane(t205, 2));
+        let t855 = P::lane(t296, 2) + (P::lane(t296, 0) + P::lane(t296, 1));
+        let t856 = P::lane(t306, 2) + (P::lane(t306, 1) + P::lane(t306, 0));
+        let t857 = P::lane(t210, 1)
+            - P::mul_sub(t5, P::lane(t205, 2), t6 * P::lane(t205, 0));
+        let t858 = P::lane(t210, 2)
+            - P::mul_sub(t3, P::lane(t205, 0), t5 * P::lane(t205, 1));
+        let t859 = P::mul_add(base_rotation[0][0], t853, base_rotation[0][1] * t855);
+        let t860 = P::mul_add(base_rotation[1][0], t853, base_rotation[1][1] * t855);
+        let t861 = P::mul_add(base_rotation[2][0], t853, base_rotation[2][1] * t855);
+        // mass matrix M_p of the platform
+        mass_matrix_p[0][0] = P::lane(t208 + t238, 0);
+        // mass matrix of the legs
+        mass_matrix_p[0][1] = P::lane(t208, 1);
+        mass_matrix_p[0][2] = P::lane(t208, 2);
+        mass_matrix_p[0][3] = P::lane(t215, 0);
+        mass_matrix_p[1][0] = P::lane(t208, 1);
+        // mass matrix M_p of the platform
+        mass_matrix_p[1][1] = P::lane(t236, 1);
+        // mass matrix of the legs
+        mass_matrix_p[1][2] = P::lane(t212, 2);
+        mass_matrix_p[1][4] = P::lane(t220, 1);
+        mass_matrix_p[2][0] = P::lane(t208, 2);
+        mass_matrix_p[2][1] = P::lane(t212, 2);
+        // mass matrix M_p of the platform
+        mass_matrix_p[2][2] = P::lane(t237, 2);
+        // mass matrix of the legs
+        mass_matrix_p[2][5] = P::lane(t222, 2);
+        mass_matrix_p[3][0] = P::lane(t215, 0);
+        // mass matrix M_p of the platform
+        mass_matrix_p[3][3] = P::lane(t217, 0) + (c(0.07784561200000001) - t783);
+        // mass matrix of the legs
+        mass_matrix_p[4][1] = P::lane(t220, 1);
+        // mass matrix M_p of the platform
+        mass_matrix_p[4][4] = P::lane(t224, 1) + (c(0.07784561200000001) - t795);
+        // mass matrix of the legs
+        mass_matrix_p[5][2] = P::lane(t222, 2);
+        // mass matrix M_p of the platform
+        mass_matrix_p[5][5] = P::lane(
+            P::triple([c(0.0), c(0.0), P::lane(t210, 2)]) + t232,
+            2,
+        ) + t804;
+        // part of the legs' Coriolis matrix on the side of the axes
+        coriolis_matrix_p[0][0] = P::lane(t563, 0);
+        coriolis_matrix_p[0][1] = P::lane(t563, 1);
+        coriolis_matrix_p[0][2] = P::lane(t563, 2);
+        // Coriolis matrix of the legs
+        coriolis_matrix_p[0][3] = P::lane(t620, 0);
+        // Coriolis matrix C_p, natural factorisation
+        coriolis_matrix_p[0][4] = P::lane(t620, 1) + t800;
+        coriolis_matrix_p[0][5] = P::lane(t620, 2) - t801;
+        // part of the legs' Coriolis matrix on the side of the axes
+        coriolis_matrix_p[1][0] = P::lane(t564, 0);
+        coriolis_matrix_p[1][1] = P::lane(t564, 1);
+        coriolis_matrix_p[1][2] = P::lane(t564, 2);
+        // Coriolis matrix C_p, natural factorisation
+        coriolis_matrix_p[1][3] = P::lane(t621, 0) - t800;
+        // Coriolis matrix of the legs
+        coriolis_matrix_p[1][4] = P::lane(t621, 1);
+        // Coriolis matrix C_p, natural factorisation
+        coriolis_matrix_p[1][5] = P::lane(t621, 2) + t802;
+        // part of the legs' Coriolis matrix on the side of the axes
+        coriolis_matrix_p[2][0] = P::lane(t565, 0);
+        coriolis_matrix_p[2][1] = P::lane(t565, 1);
+        coriolis_matrix_p[2][2] = P::lane(t565, 2);
+        // Coriolis matrix C_p, natural factorisation
+        coriolis_matrix_p[2][3] = t801 + P::lane(t622, 0);
+        coriolis_matrix_p[2][4] = P::lane(t622, 1) - t802;
+        // Coriolis matrix of the legs
+        coriolis_matrix_p[2][5] = P::lane(t622, 2);
+        // part of the legs' Coriolis matrix on the side of the axes
+        coriolis_matrix_p[3][0] = P::lane(t536, 0);
+        coriolis_matrix_p[3][1] = P::lane(t536, 1);
+        coriolis_matrix_p[3][2] = P::lane(t536, 2);
+        // Coriolis matrix C_p, natural factorisation
+        coriolis_matrix_p[3][3] = P::neg_mul_add(platform_velocity[4], t785, t806);
+        coriolis_matrix_p[3][4] = P::neg_mul_add(platform_velocity[4], t797, t807);
+        coriolis_matrix_p[3][5] = P::neg_mul_add(platform_velocity[4], t808, t810);
+        // part of the legs' Coriolis matrix on the side of the axes
+        coriolis_matrix_p[4][0] = P::lane(t539, 0);
+        coriolis_matrix_p[4][1] = P::lane(t539, 1);
+        coriolis_matrix_p[4][2] = P::lane(t539, 2);
+        // Coriolis matrix C_p, natural factorisation
+        coriolis_matrix_p[4][3] = P::mul_add(platform_velocity[3], t785, t813);
+        coriolis_matrix_p[4][4] = P::neg_mul_add(platform_velocity[5], t784, t811);
+        coriolis_matrix_p[4][5] = P::mul_add(platform_velocity[3], t808, t812);
+        // part of the legs' Coriolis matrix on the side of the axes
+        coriolis_matrix_p[5][0] = P::lane(t545, 0);
+        coriolis_matrix_p[5][1] = P::lane(t545, 1);
+        coriolis_matrix_p[5][2] = P::lane(t545, 2);
+        // Coriolis matrix C_p, natural factorisation
+        coriolis_matrix_p[5][3] = P::neg_mul_add(platform_velocity[3], t784, t814);
+        coriolis_matrix_p[5][4] = P::neg_mul_add(platform_velocity[3], t805, t815);
+        coriolis_matrix_p[5][5] = P::neg_mul_add(platform_velocity[3], t797, t816);
+        // leg 1: gradient of the actuator length
+        jacobian_dp[0][0] = P::lane(t62, 0);
+        jacobian_dp[0][1] = P::lane(t64, 0);
+        jacobian_dp[0][2] = P::lane(t65, 0);
+        // leg 1: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+        jacobian_dp[0][3] = P::lane(t70, 0);
+        jacobian_dp[0][4] = P::lane(t74, 0);
+        jacobian_dp[0][5] = P::lane(t68, 0);
+        // leg 2: gradient of the actuator length
+        jacobian_dp[1][0] = P::lane(t62, 1);
+        jacobian_dp[1][1] = P::lane(t64, 1);
+        jacobian_dp[1][2] = P::lane(t65, 1);
+        // leg 2: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+        jacobian_dp[1][3] = P::lane(t70, 1);
+        jacobian_dp[1][4] = P::lane(t74, 1);
+        jacobian_dp[1][5] = P::lane(t68, 1);
+        // leg 3: gradient of the actuator length
+        jacobian_dp[2][0] = P::lane(t62, 2);
+        jacobian_dp[2][1] = P::lane(t64, 2);
+        jacobian_dp[2][2] = P::lane(t65, 2);
+        // leg 3: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+        jacobian_dp[2][3] = P::lane(t70, 2);
+        jacobian_dp[2][4] = P::lane(t74, 2);
+        jacobian_dp[2][5] = P::lane(t68, 2);
+        // leg 4: gradient of the actuator length
+        jacobian_dp[3][0] = P::lane(t60, 0);
+        jacobian_dp[3][1] = P::lane(t61, 0);
+        jacobian_dp[3][2] = P::lane(t63, 0);
+        // leg 4: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+        jacobian_dp[3][3] = P::lane(t67, 0);
+        jacobian_dp[3][4] = P::lane(t69, 0);
+        jacobian_dp[3][5] = P::lane(t66, 0);
+        // leg 5: gradient of the actuator length
+        jacobian_dp[4][0] = P::lane(t60, 1);
+        jacobian_dp[4][1] = P::lane(t61, 1);
+        jacobian_dp[4][2] = P::lane(t63, 1);
+        // leg 5: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+        jacobian_dp[4][3] = P::lane(t67, 1);
+        jacobian_dp[4][4] = P::lane(t69, 1);
+        jacobian_dp[4][5] = P::lane(t66, 1);
+        // leg 6: gradient of the actuator length
+        jacobian_dp[5][0] = P::lane(t60, 2);
+        jacobian_dp[5][1] = P::lane(t61, 2);
+        jacobian_dp[5][2] = P::lane(t63, 2);
+        // leg 6: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+        jacobian_dp[5][3] = P::lane(t67, 2);
+        jacobian_dp[5][4] = P::lane(t69, 2);
+        jacobian_dp[5][5] = P::lane(t66, 2);
+        (
+            t60,
+            t61,
+            t62,
+            t63,
+            t64,
+            t65,
+            t79,
+            t81,
+            t83,
+            t86,
+            t87,
+            t88,
+            t188,
+            t197,
+            t205,
+            t253,
+            t287,
+            t322,
+            t323,
+            t326,
+            t334,
+            t344,
+            t368,
+            t536,
+            t539,
+            t545,
+            t563,
+            t564,
+            t565,
+            t664,
+            t677,
+            t691,
+            t732,
+            t749,
+            t772,
+            t818,
+            t820,
+            t821,
+            t822,
+            t823,
+            t824,
+            t825,
+            t827,
+            t829,
+            t830,
+            t831,
+            t832,
+            t833,
+            t834,
+            t836,
+            t838,
+            t839,
+            t840,
+            t841,
+            t842,
+            t843,
+            t845,
+            t846,
+            t849,
+            t850,
+            t851,
+            t852,
+            t854,
+            t856,
+            t857,
+            t858,
+            t859,
+            t860,
+            t861,
+        )
+    };
+    {
+        // mass matrix M_b that couples the base acceleration
+        mass_matrix_b[0][0] = P::lane(t322, 0);
+        mass_matrix_b[0][1] = P::lane(t322, 1);
+        mass_matrix_b[0][2] = P::lane(t322, 2);
+        mass_matrix_b[0][3] = t818 - P::mul_add(base_rotation[0][2], t820, t824);
+        mass_matrix_b[0][4] = t821 - P::mul_add(base_rotation[1][2], t820, t822)
+            - P::lane(t253, 2);
+        mass_matrix_b[0][5] = P::lane(t253, 1)
+            + (t825 - P::mul_add(base_rotation[2][2], t820, t823));
+        mass_matrix_b[1][0] = P::lane(t323, 0);
+        mass_matrix_b[1][1] = P::lane(t323, 1);
+        mass_matrix_b[1][2] = P::lane(t323, 2);
+        mass_matrix_b[1][3] = P::lane(t253, 2)
+            + (t827 - P::mul_add(base_rotation[0][2], t829, t831));
+        mass_matrix_b[1][4] = t830 - P::mul_add(base_rotation[1][2], t829, t833);
+        mass_matrix_b[1][5] = t834 - P::mul_add(base_rotation[2][2], t829, t832)
+            - P::lane(t253, 0);
+        mass_matrix_b[2][0] = P::lane(t326, 0);
+        mass_matrix_b[2][1] = P::lane(t326, 1);
+        mass_matrix_b[2][2] = P::lane(t326, 2);
+        mass_matrix_b[2][3] = t836 - P::mul_add(base_rotation[0][2], t838, t840)
+            - P::lane(t253, 1);
+        mass_matrix_b[2][4] = P::lane(t253, 0)
+            + (t839 - P::mul_add(base_rotation[1][2], t838, t841));
+        mass_matrix_b[2][5] = t845 - P::mul_add(base_rotation[2][2], t838, t842);
+        mass_matrix_b[3][0] = P::neg_mul_add(
+            base_rotation[0][2],
+            t843,
+            P::lane(t188, 0),
+        );
+        mass_matrix_b[3][1] = P::neg_mul_add(base_rotation[1][2], t843, P::lane(t188, 1))
+            + t846;
+        mass_matrix_b[3][2] = P::neg_mul_add(base_rotation[2][2], t843, P::lane(t188, 2))
+            - t849;
+        mass_matrix_b[3][3] = P::lane(t344, 0);
+        mass_matrix_b[3][4] = P::lane(t344, 1);
+        mass_matrix_b[3][5] = P::lane(t344, 2);
+        mass_matrix_b[4][0] = P::neg_mul_add(base_rotation[0][2], t851, P::lane(t197, 0))
+            - t846;
+        mass_matrix_b[4][1] = P::neg_mul_add(
+            base_rotation[1][2],
+            t851,
+            P::lane(t197, 1),
+        );
+        mass_matrix_b[4][2] = t850
+            + P::neg_mul_add(base_rotation[2][2], t851, P::lane(t197, 2));
+        mass_matrix_b[4][3] = P::lane(t368, 0);
+        mass_matrix_b[4][4] = P::lane(t368, 1);
+        mass_matrix_b[4][5] = P::lane(t368, 2);
+        mass_matrix_b[5][0] = t849
+            + P::neg_mul_add(base_rotation[0][2], t852, P::lane(t205, 0));
+        mass_matrix_b[5][1] = P::neg_mul_add(base_rotation[1][2], t852, P::lane(t205, 1))
+            - t850;
+        mass_matrix_b[5][2] = P::neg_mul_add(
+            base_rotation[2][2],
+            t852,
+            P::lane(t205, 2),
+        );
+        mass_matrix_b[5][3] = P::lane(t287, 0)
+            + (t854 - P::mul_add(base_rotation[0][2], t856, t859));
+        mass_matrix_b[5][4] = P::lane(t287, 1)
+            + (t857 - P::mul_add(base_rotation[1][2], t856, t860));
+        mass_matrix_b[5][5] = t858 - P::mul_add(base_rotation[2][2], t856, t861) - t334;
+        // part of the legs' Coriolis matrix on the side of the axes
+        coriolis_matrix_b[0][0] = P::lane(t563, 0);
+        coriolis_matrix_b[0][1] = P::lane(t563, 1);
+        coriolis_matrix_b[0][2] = P::lane(t563, 2);
+        // Coriolis matrix C_b, natural factorisation
+        coriolis_matrix_b[0][3] = P::lane(t664, 0);
+        coriolis_matrix_b[0][4] = P::lane(t664, 1);
+        coriolis_matrix_b[0][5] = P::lane(t664, 2);
+        // part of the legs' Coriolis matrix on the side of the axes
+        coriolis_matrix_b[1][0] = P::lane(t564, 0);
+        coriolis_matrix_b[1][1] = P::lane(t564, 1);
+        coriolis_matrix_b[1][2] = P::lane(t564, 2);
+        // Coriolis matrix C_b, natural factorisation
+        coriolis_matrix_b[1][3] = P::lane(t677, 0);
+        coriolis_matrix_b[1][4] = P::lane(t677, 1);
+        coriolis_matrix_b[1][5] = P::lane(t677, 2);
+        // part of the legs' Coriolis matrix on the side of the axes
+        coriolis_matrix_b[2][0] = P::lane(t565, 0);
+        coriolis_matrix_b[2][1] = P::lane(t565, 1);
+        coriolis_matrix_b[2][2] = P::lane(t565, 2);
+        // Coriolis matrix C_b, natural factorisation
+        coriolis_matrix_b[2][3] = P::lane(t691, 0);
+        coriolis_matrix_b[2][4] = P::lane(t691, 1);
+        coriolis_matrix_b[2][5] = P::lane(t691, 2);
+        // part of the legs' Coriolis matrix on the side of the axes
+        coriolis_matrix_b[3][0] = P::lane(t536, 0);
+        coriolis_matrix_b[3][1] = P::lane(t536, 1);
+        coriolis_matrix_b[3][2] = P::lane(t536, 2);
+        // Coriolis matrix C_b, natural factorisation
+        coriolis_matrix_b[3][3] = P::lane(t732, 0);
+        coriolis_matrix_b[3][4] = P::lane(t732, 1);
+        coriolis_matrix_b[3][5] = P::lane(t732, 2);
+        // part of the legs' Coriolis matrix on the side of the axes
+        coriolis_matrix_b[4][0] = P::lane(t539, 0);
+        coriolis_matrix_b[4][1] = P::lane(t539, 1);
+        coriolis_matrix_b[4][2] = P::lane(t539, 2);
+        // Coriolis matrix C_b, natural factorisation
+        coriolis_matrix_b[4][3] = P::lane(t749, 0);
+        coriolis_matrix_b[4][4] = P::lane(t749, 1);
+        coriolis_matrix_b[4][5] = P::lane(t749, 2);
+        // part of the legs' Coriolis matrix on the side of the axes
+        coriolis_matrix_b[5][0] = P::lane(t545, 0);
+        coriolis_matrix_b[5][1] = P::lane(t545, 1);
+        coriolis_matrix_b[5][2] = P::lane(t545, 2);
+        // Coriolis matrix C_b, natural factorisation
+        coriolis_matrix_b[5][3] = P::lane(t772, 0);
+        coriolis_matrix_b[5][4] = P::lane(t772, 1);
+        coriolis_matrix_b[5][5] = P::lane(t772, 2);
+        // leg 1: gradient of the actuator length
+        jacobian_db[0][0] = P::lane(t62, 0);
+        jacobian_db[0][1] = P::lane(t64, 0);
+        jacobian_db[0][2] = P::lane(t65, 0);
+        // leg 1: actuator Jacobian of the base
+        jacobian_db[0][3] = P::lane(t79, 0);
+        jacobian_db[0][4] = P::lane(t83, 0);
+        jacobian_db[0][5] = P::lane(t87, 0);
+        // leg 2: gradient of the actuator length
+        jacobian_db[1][0] = P::lane(t62, 1);
+        jacobian_db[1][1] = P::lane(t64, 1);
+        jacobian_db[1][2] = P::lane(t65, 1);
+        // leg 2: actuator Jacobian of the base
+        jacobian_db[1][3] = P::lane(t79, 1);
+        jacobian_db[1][4] = P::lane(t83, 1);
+        jacobian_db[1][5] = P::lane(t87, 1);
+        // leg 3: gradient of the actuator length
+        jacobian_db[2][0] = P::lane(t62, 2);
+        jacobian_db[2][1] = P::lane(t64, 2);
+        jacobian_db[2][2] = P::lane(t65, 2);
+        // leg 3: actuator Jacobian of the base
+        jacobian_db[2][3] = P::lane(t79, 2);
+        jacobian_db[2][4] = P::lane(t83, 2);
+        jacobian_db[2][5] = P::lane(t87, 2);
+        // leg 4: gradient of the actuator length
+        jacobian_db[3][0] = P::lane(t60, 0);
+        jacobian_db[3][1] = P::lane(t61, 0);
+        jacobian_db[3][2] = P::lane(t63, 0);
+        // leg 4: actuator Jacobian of the base
+        jacobian_db[3][3] = P::lane(t81, 0);
+        jacobian_db[3][4] = P::lane(t86, 0);
+        jacobian_db[3][5] = P::lane(t88, 0);
+        // leg 5: gradient of the actuator length
+        jacobian_db[4][0] = P::lane(t60, 1);
+        jacobian_db[4][1] = P::lane(t61, 1);
+        jacobian_db[4][2] = P::lane(t63, 1);
+        // leg 5: actuator Jacobian of the base
+        jacobian_db[4][3] = P::lane(t81, 1);
+        jacobian_db[4][4] = P::lane(t86, 1);
+        jacobian_db[4][5] = P::lane(t88, 1);
+        // leg 6: gradient of the actuator length
+        jacobian_db[5][0] = P::lane(t60, 2);
+        jacobian_db[5][1] = P::lane(t61, 2);
+        jacobian_db[5][2] = P::lane(t63, 2);
+        // leg 6: actuator Jacobian of the base
+        jacobian_db[5][3] = P::lane(t81, 2);
+        jacobian_db[5][4] = P::lane(t86, 2);
+        jacobian_db[5][5] = P::lane(t88, 2);
+    }
+}
+
+/// Actuator forces for a given platform acceleration, equation (49).
+///
+/// Inputs:
+///
+/// - `base_position`: 3, m, frame O: origin of the base frame.
+/// - `base_rotation`: 3x3, dimensionless, frame B -> O: rotation of the base, equation (2).
+/// - `base_velocity`: 6, m/s, rad/s, frame O: base velocity \[r_b'; w_b\], w_b the angular velocity.
+/// - `base_acceleration`: 6, m/s^2, rad/s^2, frame O: base acceleration \[r_b''; w_b'\].
+/// - `platform_position`: 3, m, frame O: centre of the platform's joint circle.
+/// - `platform_rotation`: 3x3, dimensionless, frame P -> O: rotation of the platform, equation (2).
+/// - `platform_velocity`: 6, m/s, rad/s, frame O: platform velocity \[r_p'; w_p\], the generalised speeds.
+/// - `platform_acceleration`: 6, m/s^2, rad/s^2, frame O: platform acceleration \[r_p''; w_p'\].
+/// - `external_wrench`: 6, N, N m, frame O: external force and moment \[F_D; M_D\] at the payload's centre of mass.
+///
+/// Outputs:
+///
+/// - `inverse_dynamics`: 6, N: actuator forces F, equation (49).
+#[allow(clippy::all, clippy::pedantic, unused_variables)]
+#[inline(always)]
+pub fn inverse_dynamics_in_lanes<P: Triple>(
+    base_position: &[P::Lane; 3],
+    base_rotation: &[[P::Lane; 3]; 3],
+    base_velocity: &[P::Lane; 6],
+    base_acceleration: &[P::Lane; 6],
+    platform_position: &[P::Lane; 3],
+    platform_rotation: &[[P::Lane; 3]; 3],
+    platform_velocity: &[P::Lane; 6],
+    platform_acceleration: &[P::Lane; 6],
+    external_wrench: &[P::Lane; 6],
+    inverse_dynamics: &mut [P::Lane; 6],
+) {
+    let c = <P::Lane as Scalar>::constant;
+    let w = <P as Scalar>::constant;
+    // constant and copied elements
+    let t1 = P::triple([base_rotation[1][0], base_rotation[1][1], base_rotation[1][2]]);
+    let t2 = P::triple([base_rotation[0][0], base_rotation[0][1], base_rotation[0][2]]);
+    let t3 = P::triple([base_rotation[2][0], base_rotation[2][1], base_rotation[2][2]]);
+    // rotation of the platform seen from the base
+    let t4 = mul_add(
+        t2,
+        P::splat(platform_rotation[0][1]),
+        t1 * P::splat(platform_rotation[1][1]),
+    );
+    let t5 = mul_add(
+        t2,
+        P::splat(platform_rotation[0][0]),
+        t1 * P::splat(platform_rotation[1][0]),
+    );
+    // platform origin seen from the base
+    let t6 = t1 * P::splat(platform_position[1] - base_position[1]);
+    // constant and copied elements
+    let t7 = P::triple([
+        c(0.1159110991546882),
+        c(-0.031058285412302475),
+        c(-0.0848528137423857),
+    ]);
+    // rotation of the platform seen from the base
+    let t8 = mul_add(t3, P::splat(platform_rotation[2][1]), t4);
+    let t9 = mul_add(t3, P::splat(platform_rotation[2][0]), t5);
+    // platform origin seen from the base
+    let t10 = mul_add(t2, P::splat(platform_position[0] - base_position[0]), t6);
+    // constant and copied elements
+    let t11 = P::triple([
+        c(-0.03105828541230249),
+        c(0.1159110991546882),
+        c(-0.08485281374238571),
+    ]);
+    let t12 = P::triple([
+        c(0.1159110991546882),
+        c(-0.0848528137423857),
+        c(-0.031058285412302475),
+    ]);
+    // rotation of the platform seen from the base
+    let t13 = mul_add(
+        t2,
+        P::splat(platform_rotation[0][2]),
+        t1 * P::splat(platform_rotation[1][2]),
+    );
+    // constant and copied elements
+    let t14 = P::triple([
+        c(0.03105828541230249),
+        c(0.08485281374238571),
+        c(-0.1159110991546882),
+    ]);
+    // platform origin seen from the base
+    let t15 = mul_add(t3, P::splat(platform_position[2] - base_position[2]), t10);
+    // rotation of the platform seen from the base
+    let t16 = mul_add(t3, P::splat(platform_rotation[2][2]), t13);
+    // legs 1, 3, 5: platform joint from the platform origin
+    let t17 = mul_add(t7, P::splat(P::lane(t9, 0)), t11 * P::splat(P::lane(t8, 0)));
+    // constant and copied elements
+    let t18 = P::triple([
+        c(0.1316436662914507),
+        c(0.040491189781895726),
+        c(-0.17213485607334636),
+    ]);
+    // legs 2, 4, 6: platform joint from the platform origin
+    let t19 = mul_add(t12, P::splat(P::lane(t9, 0)), t14 * P::splat(P::lane(t8, 0)));
+    let t20 = mul_add(t12, P::splat(P::lane(t9, 1)), t14 * P::splat(P::lane(t8, 1)));
+    // legs 1, 3, 5: platform joint from the platform origin
+    let t21 = mul_add(t7, P::splat(P::lane(t9, 1)), t11 * P::splat(P::lane(t8, 1)));
+    // legs 2, 4, 6: platform joint from the platform origin
+    let t22 = mul_add(t12, P::splat(P::lane(t9, 2)), t14 * P::splat(P::lane(t8, 2)));
+    // legs 1, 3, 5: platform joint from the platform origin
+    let t23 = mul_add(t7, P::splat(P::lane(t9, 2)), t11 * P::splat(P::lane(t8, 2)));
+    // legs 2, 4, 6: platform joint from the base point
+    let t24 = P::triple([
+        c(-0.12275970481124972),
+        c(-0.052626906850092664),
+        c(0.17538661166134234),
+    ]);
+    let t25 = P::triple([
+        c(-0.1316436662914507),
+        c(0.17213485607334636),
+        c(-0.040491189781895726),
+    ]);
+    // legs 1, 3, 5: platform joint from the base point
+    let t26 = P::triple([
+        c(0.12275970481124972),
+        c(-0.17538661166134234),
+        c(0.052626906850092664),
+    ]);
+    let t27 = P::triple([
+        c(-0.1316436662914507),
+        c(-0.040491189781895726),
+        c(0.17213485607334636),
+    ]);
+    // constant and copied elements
+    let t28 = P::triple([
+        c(0.12275970481124972),
+        c(0.052626906850092664),
+        c(-0.17538661166134234),
+    ]);
+    // legs 2, 4, 6: platform joint from the base point
+    let t29 = P::splat(P::lane(t15, 0)) + t19 + t25;
+    // legs 1, 3, 5: platform joint from the base point
+    let t30 = P::splat(P::lane(t15, 0)) + t17 + t27;
+    // constant and copied elements
+    let t31 = P::triple([
+        c(0.1316436662914507),
+        c(-0.17213485607334636),
+        c(0.040491189781895726),
+    ]);
+    // legs 2, 4, 6: platform joint from the base point
+    let t32 = t22 + P::splat(P::lane(t15, 2));
+    let t33 = t24 + (t20 + P::splat(P::lane(t15, 1)));
+    // legs 1, 3, 5: platform joint from the base point
+    let t34 = t26 + (t21 + P::splat(P::lane(t15, 1)));
+    // constant and copied elements
+    let t35 = P::triple([
+        c(-0.12275970481124972),
+        c(0.17538661166134234),
+        c(-0.052626906850092664),
+    ]);
+    // legs 1, 3, 5: platform joint from the base point
+    let t36 = t23 + P::splat(P::lane(t15, 2));
+    // angular velocity of the base
+    let t37 = mul_add(t2, P::splat(base_velocity[3]), t1 * P::splat(base_velocity[4]));
+    let t38 = mul_add(t3, P::splat(base_velocity[5]), t37);
+    // angular velocity of the platform
+    let t39 = mul_add(
+        t2,
+        P::splat(platform_velocity[3]),
+        t1 * P::splat(platform_velocity[4]),
+    );
+    // legs 2, 4, 6: extent of the rod along the actuator axis
+    let t40 = sqrt(w(0.042435999999999995) - mul_add(t29, t29, t33 * t33));
+    // legs 1, 3, 5: extent of the rod along the actuator axis
+    let t41 = sqrt(w(0.042435999999999995) - mul_add(t30, t30, t34 * t34));
+    // angular velocity of the platform
+    let t42 = mul_add(t3, P::splat(platform_velocity[5]), t39);
+    // angular velocity of the platform relative to the base
+    let t43 = t38 - t42;
+    // legs 2, 4, 6: reciprocal of that extent
+    let t44 = w(1.0) / t40;
+    // legs 1, 3, 5: reciprocal of that extent
+    let t45 = w(1.0) / t41;
+    // legs 2, 4, 6: actuator length d
+    let t46 = t32 - t40;
+    // legs 1, 3, 5: actuator length d
+    let t47 = t36 - t41;
+    // legs 2, 4, 6: gradient of the actuator length by the platform joint
+    let t48 = t33 * t44;
+    // legs 1, 3, 5: gradient of the actuator length by the platform joint
+    let t49 = t30 * t45;
+    // velocity of the platform origin relative to the base
+    let t50 = t1 * P::splat(platform_velocity[1] - base_velocity[1]);
+    // legs 1, 3, 5: gradient of the actuator length by the platform joint
+    let t51 = t34 * t45;
+    // legs 2, 4, 6: gradient of the actuator length by the platform joint
+    let t52 = t29 * t44;
+    // rotation of the platform seen from the base
+    let t53 = P::triple([P::lane(t8, 1), P::lane(t8, 2), P::lane(t8, 0)]);
+    // velocity of the platform origin relative to the base
+    let t54 = mul_add(t2, P::splat(platform_velocity[0] - base_velocity[0]), t50);
+    // platform origin seen from the base
+    let t55 = P::triple([P::lane(t15, 1), P::lane(t15, 2), P::lane(t15, 0)]);
+    // angular velocity of the base
+    let t56 = P::triple([P::lane(t38, 2), P::lane(t38, 0), P::lane(t38, 1)]);
+    // rotation of the platform seen from the base
+    let t57 = P::triple([P::lane(t9, 1), P::lane(t9, 2), P::lane(t9, 0)]);
+    let t58 = P::triple([P::lane(t8, 2), P::lane(t8, 0), P::lane(t8, 1)]);
+    // angular velocity of the platform relative to the base
+    let t59 = P::triple([P::lane(t43, 2), P::lane(t43, 0), P::lane(t43, 1)]);
+    let t60 = P::triple([P::lane(t43, 1), P::lane(t43, 2), P::lane(t43, 0)]);
+    // platform origin seen from the base
+    let t61 = P::triple([P::lane(t15, 2), P::lane(t15, 0), P::lane(t15, 1)]);
+    // angular velocity of the base
+    let t62 = P::triple([P::lane(t38, 1), P::lane(t38, 2), P::lane(t38, 0)]);
+    // rate of the relative rotation
+    let t63 = mul_sub(t58, t60, t53 * t59);
+    // rotation of the platform seen from the base
+    let t64 = P::triple([P::lane(t9, 2), P::lane(t9, 0), P::lane(t9, 1)]);
+    // velocity of the platform origin relative to the base
+    let t65 = mul_add(t3, P::splat(platform_velocity[2] - base_velocity[2]), t54);
+    // rate of the relative rotation
+    let t66 = mul_sub(t60, t64, t57 * t59);
+    // rotation of the platform seen from the base
+    let t67 = P::triple([P::lane(t16, 1), P::lane(t16, 2), P::lane(t16, 0)]);
+    let t68 = P::triple([P::lane(t16, 2), P::lane(t16, 0), P::lane(t16, 1)]);
+    // velocity of the platform origin relative to the base
+    let t69 = t65 - mul_sub(t61, t62, t55 * t56);
+    // legs 2, 4, 6: velocity of the platform joint relative to the base
+    let t70 = P::splat(P::lane(t69, 1))
+        - mul_add(t12, P::splat(P::lane(t66, 1)), t14 * P::splat(P::lane(t63, 1)));
+    let t71 = P::splat(P::lane(t69, 0))
+        - mul_add(t12, P::splat(P::lane(t66, 0)), t14 * P::splat(P::lane(t63, 0)));
+    // legs 1, 3, 5: velocity of the platform joint relative to the base
+    let t72 = P::splat(P::lane(t69, 1))
+        - mul_add(t7, P::splat(P::lane(t66, 1)), t11 * P::splat(P::lane(t63, 1)));
+    let t73 = P::splat(P::lane(t69, 0))
+        - mul_add(t7, P::splat(P::lane(t66, 0)), t11 * P::splat(P::lane(t63, 0)));
+    // angular velocity of the base
+    let t74 = P::triple([P::lane(t38, 2), P::lane(t38, 2), P::lane(t38, 0)]);
+    let t75 = P::triple([P::lane(t38, 1), P::lane(t38, 0), P::lane(t38, 1)]);
+    // angular acceleration of the base
+    let t76 = mul_add(
+        t2,
+        P::splat(base_acceleration[3]),
+        t1 * P::splat(base_acceleration[4]),
+    );
+    // legs 2, 4, 6: rate of the rod's extent along the actuator axis
+    let t77 = mul_add(t29, t71, t33 * t70);
+    // acceleration per base coordinate of points that move with the base
+    let t78 = mul_add(t75, t75, t74 * t74);
+    // acceleration of the base origin less gravity
+    let t79 = mul_add(
+        t2,
+        P::splat(base_acceleration[0]),
+        t1 * P::splat(base_acceleration[1]),
+    );
+    // legs 2, 4, 6: velocity of the platform joint relative to the base
+    let t80 = P::splat(P::lane(t69, 2))
+        - mul_add(t12, P::splat(P::lane(t66, 2)), t14 * P::splat(P::lane(t63, 2)));
+    // legs 1, 3, 5: velocity of the platform joint relative to the base
+    let t81 = P::splat(P::lane(t69, 2))
+        - mul_add(t7, P::splat(P::lane(t66, 2)), t11 * P::splat(P::lane(t63, 2)));
+    // angular velocity of the base
+    let t82 = P::triple([P::lane(t38, 0), P::lane(t38, 2), P::lane(t38, 0)]);
+    // angular acceleration of the base
+    let t83 = mul_add(t3, P::splat(base_acceleration[5]), t76);
+    // angular velocity of the base
+    let t84 = P::triple([P::lane(t38, 1), P::lane(t38, 1), P::lane(t38, 2)]);
+    // legs 1, 3, 5: rate of the rod's extent along the actuator axis
+    let t85 = mul_add(t30, t73, t34 * t72);
+    // acceleration per base coordinate of points that move with the base
+    let t86 = t82 * t84;
+    // acceleration of the base origin less gravity
+    let t87 = mul_add(t3, P::splat(base_acceleration[2] + c(9.81)), t79);
+    // legs 2, 4, 6: rate of the rod's extent along the actuator axis
+    let t88 = t44 * t77;
+    // legs 2, 4, 6: actuator velocity d'
+    let t89 = mul_add(t44, t77, t80);
+    // legs 1, 3, 5: rate of the rod's extent along the actuator axis
+    let t90 = t45 * t85;
+    // legs 1, 3, 5: actuator velocity d'
+    let t91 = mul_add(t45, t85, t81);
+    // angular acceleration of the base
+    let t92 = P::triple([P::lane(t83, 1), P::lane(t83, 2), P::lane(t83, 0)]);
+    let t93 = P::triple([P::lane(t83, 2), P::lane(t83, 0), P::lane(t83, 1)]);
+    // angular acceleration of the platform
+    let t94 = mul_add(
+        t2,
+        P::splat(platform_acceleration[3]),
+        t1 * P::splat(platform_acceleration[4]),
+    );
+    // acceleration per base coordinate of points that move with the base
+    let t95 = mul_sub(t82, t84, t93);
+    let t96 = t92 + P::triple([P::lane(t86, 2), P::lane(t86, 0), P::lane(t86, 1)]);
+    // acceleration of the platform origin less gravity
+    let t97 = mul_add(
+        t2,
+        P::splat(platform_acceleration[0]),
+        t1 * P::splat(platform_acceleration[1]),
+    );
+    // angular acceleration of the platform
+    let t98 = mul_add(t3, P::splat(platform_acceleration[5]), t94);
+    // acceleration of the platform origin less gravity
+    let t99 = mul_add(t3, P::splat(c(9.81) + platform_acceleration[2]), t97);
+    // angular velocity of the platform
+    let t100 = P::triple([P::lane(t42, 1), P::lane(t42, 2), P::lane(t42, 0)]);
+    let t101 = P::triple([P::lane(t42, 2), P::lane(t42, 0), P::lane(t42, 1)]);
+    // angular acceleration of the platform
+    let t102 = P::triple([P::lane(t98, 1), P::lane(t98, 2), P::lane(t98, 0)]);
+    // acceleration per platform coordinate of points of the platform
+    let t103 = mul_sub(t42, t57, t9 * t100);
+    let t104 = mul_sub(t42, t53, t8 * t100);
+    // angular acceleration of the platform
+    let t105 = P::triple([P::lane(t98, 2), P::lane(t98, 0), P::lane(t98, 1)]);
+    // acceleration per platform coordinate of points of the platform
+    let t106 = mul_sub(t42, t67, t16 * t100);
+    let t107 = t101 * P::triple([P::lane(t103, 2), P::lane(t103, 0), P::lane(t103, 1)]);
+    // acceleration per base coordinate of points that move with the base
+    let t108 = P::triple([-P::lane(t78, 0), P::lane(t96, 1), P::lane(t95, 2)]);
+    // acceleration per platform coordinate of points of the platform
+    let t109 = t101 * P::triple([P::lane(t104, 2), P::lane(t104, 0), P::lane(t104, 1)]);
+    let t110 = t101 * P::triple([P::lane(t106, 2), P::lane(t106, 0), P::lane(t106, 1)]);
+    let t111 = mul_sub(t64, t102, t57 * t105) + mul_sub(t100, t103, t107);
+    let t112 = mul_sub(t58, t102, t53 * t105) + mul_sub(t100, t104, t109);
+    // acceleration per base coordinate of points that move with the base
+    let t113 = P::triple([P::lane(t95, 0), -P::lane(t78, 1), P::lane(t96, 2)]);
+    let t114 = P::triple([P::lane(t96, 0), P::lane(t95, 1), -P::lane(t78, 2)]);
+    // velocity of the platform origin relative to the base
+    let t115 = P::triple([P::lane(t69, 1), P::lane(t69, 2), P::lane(t69, 0)]);
+    let t116 = P::triple([P::lane(t69, 2), P::lane(t69, 0), P::lane(t69, 1)]);
+    // acceleration per platform coordinate of points of the platform
+    let t117 = mul_sub(t68, t102, t67 * t105) + mul_sub(t100, t106, t110);
+    // rate of the relative rotation
+    let t118 = P::triple([P::lane(t66, 1), P::lane(t66, 2), P::lane(t66, 0)]);
+    // acceleration of the platform origin relative to the base
+    let t119 = mul_add(
+        P::splat(P::lane(t15, 0)),
+        t108,
+        P::splat(P::lane(t15, 1)) * t113,
+    );
+    // second derivative of the relative rotation
+    let t120 = t92 - t102 - mul_sub(t43, t56, t38 * t59);
+    // rate of the relative rotation
+    let t121 = P::triple([P::lane(t63, 1), P::lane(t63, 2), P::lane(t63, 0)]);
+    let t122 = P::triple([P::lane(t63, 2), P::lane(t63, 0), P::lane(t63, 1)]);
+    let t123 = P::triple([P::lane(t66, 2), P::lane(t66, 0), P::lane(t66, 1)]);
+    // second derivative of the relative rotation
+    let t124 = mul_sub(t60, t122, t59 * t121);
+    let t125 = mul_sub(t60, t123, t59 * t118);
+    let t126 = P::triple([P::lane(t120, 1), P::lane(t120, 2), P::lane(t120, 0)]);
+    // acceleration of the platform origin relative to the base
+    let t127 = t87 - t99 + mul_add(P::splat(P::lane(t15, 2)), t114, t119);
+    let t128 = mul_add(w(2.0), mul_sub(t62, t116, t56 * t115), t127);
+    // second derivative of the relative rotation
+    let t129 = mul_sub(t58, t120, t53 * t126) - t124;
+    let t130 = mul_sub(t64, t120, t57 * t126) - t125;
+    // legs 2, 4, 6: acceleration of the platform joint relative to the base
+    let t131 = P::splat(P::lane(t128, 0))
+        + mul_add(t12, P::splat(P::lane(t130, 0)), t14 * P::splat(P::lane(t129, 0)));
+    // legs 1, 3, 5: acceleration of the platform joint relative to the base
+    let t132 = P::splat(P::lane(t128, 0))
+        + mul_add(t7, P::splat(P::lane(t130, 0)), t11 * P::splat(P::lane(t129, 0)));
+    // legs 2, 4, 6: acceleration of the platform joint relative to the base
+    let t133 = P::splat(P::lane(t128, 1))
+        + mul_add(t12, P::splat(P::lane(t130, 1)), t14 * P::splat(P::lane(t129, 1)));
+    // legs 1, 3, 5: acceleration of the platform joint relative to the base
+    let t134 = P::splat(P::lane(t128, 1))
+        + mul_add(t7, P::splat(P::lane(t130, 1)), t11 * P::splat(P::lane(t129, 1)));
+    // legs 1, 3, 5: leg inertia less weight along the actuator
+    let t135 = mul_sub(t18, P::splat(P::lane(t78, 0)), t35 * P::splat(P::lane(t95, 0)));
+    let t136 = mul_sub(t18, P::splat(P::lane(t96, 1)), t35 * P::splat(P::lane(t78, 1)));
+    // legs 2, 4, 6: actuator acceleration d''
+    let t137 = mul_add(t29, t131, t33 * t133);
+    // legs 1, 3, 5: actuator acceleration d''
+    let t138 = mul_add(t30, t132, t34 * t134);
+    // legs 2, 4, 6: acceleration of the platform joint relative to the base
+    let t139 = P::splat(P::lane(t128, 2))
+        + mul_add(t12, P::splat(P::lane(t130, 2)), t14 * P::splat(P::lane(t129, 2)));
+    // legs 1, 3, 5: acceleration of the platform joint relative to the base
+    let t140 = P::splat(P::lane(t128, 2))
+        + mul_add(t7, P::splat(P::lane(t130, 2)), t11 * P::splat(P::lane(t129, 2)));
+    // legs 1, 3, 5: leg inertia less weight along the actuator
+    let t141 = mul_add(t18, P::splat(P::lane(t95, 2)), t35 * P::splat(P::lane(t96, 2)));
+    let t142 = t91 * w(2.0);
+    // legs 2, 4, 6: actuator acceleration d''
+    let t143 = mul_add(t88, t88, mul_add(t71, t71, t70 * t70) - t137);
+    // legs 1, 3, 5: actuator acceleration d''
+    let t144 = mul_add(t90, t90, mul_add(t73, t73, t72 * t72) - t138);
+    // legs 1, 3, 5: leg inertia less weight along the actuator
+    let t145 = P::splat(P::lane(t87, 0))
+        - neg_mul_add(t47, P::splat(P::lane(t96, 0)), t135);
+    let t146 = P::splat(P::lane(t87, 1)) + mul_add(t47, P::splat(P::lane(t95, 1)), t136);
+    // legs 2, 4, 6: actuator acceleration d''
+    let t147 = neg_mul_add(t44, t143, t139);
+    // legs 1, 3, 5: actuator acceleration d''
+    let t148 = neg_mul_add(t45, t144, t140);
+    // legs 2, 4, 6: leg inertia less weight along the actuator
+    let t149 = t89 * w(2.0);
+    // legs 1, 3, 5: leg inertia less weight along the actuator
+    let t150 = mul_add(P::splat(P::lane(t38, 1)), t142, t145);
+    // legs 2, 4, 6: leg inertia less weight along the actuator
+    let t151 = mul_sub(t31, P::splat(P::lane(t78, 0)), t28 * P::splat(P::lane(t95, 0)));
+    // legs 1, 3, 5: leg inertia less weight along the actuator
+    let t152 = neg_mul_add(P::splat(P::lane(t38, 0)), t142, t146);
+    // legs 2, 4, 6: leg inertia less weight along the actuator
+    let t153 = mul_sub(t31, P::splat(P::lane(t96, 1)), t28 * P::splat(P::lane(t78, 1)));
+    let t154 = mul_add(t31, P::splat(P::lane(t95, 2)), t28 * P::splat(P::lane(t96, 2)));
+    // legs 1, 3, 5: leg inertia less weight along the actuator
+    let t155 = t148
+        - (P::splat(P::lane(t87, 2))
+            + neg_mul_add(t47, P::splat(P::lane(t78, 2)), t141));
+    // legs 1, 3, 5: remaining leg inertia less weight at the platform joint
+    let t156 = w(0.17066666666666666) * t150;
+    // legs 2, 4, 6: leg inertia less weight along the actuator
+    let t157 = P::splat(P::lane(t87, 0))
+        - neg_mul_add(t46, P::splat(P::lane(t96, 0)), t151);
+    let t158 = P::splat(P::lane(t87, 1)) + mul_add(t46, P::splat(P::lane(t95, 1)), t153);
+    let t159 = mul_add(P::splat(P::lane(t38, 1)), t149, t157);
+    let t160 = neg_mul_add(P::splat(P::lane(t38, 0)), t149, t158);
+    let t161 = t147
+        - (P::splat(P::lane(t87, 2))
+            + neg_mul_add(t46, P::splat(P::lane(t78, 2)), t154));
+    // legs 1, 3, 5: leg inertia less weight along the actuator
+    let t162 = P::splat(P::lane(t99, 2))
+        + mul_add(t7, P::splat(P::lane(t111, 2)), t11 * P::splat(P::lane(t112, 2)));
+    // legs 1, 3, 5: remaining leg inertia less weight at the platform joint
+    let t163 = w(0.17066666666666666) * t152;
+    // legs 2, 4, 6: leg inertia less weight along the actuator
+    let t164 = P::splat(P::lane(t99, 2))
+        + mul_add(t12, P::splat(P::lane(t111, 2)), t14 * P::splat(P::lane(t112, 2)));
+    // legs 2, 4, 6: remaining leg inertia less weight at the platform joint
+    let t165 = w(0.17066666666666666) * t159;
+    let t166 = w(0.17066666666666666) * t160;
+    // legs 1, 3, 5: leg inertia less weight along the actuator
+    let t167 = mul_sub(w(0.3413333333333334), t155, w(0.17066666666666666) * t162);
+    // legs 2, 4, 6: remaining leg inertia less weight at the platform joint
+    let t168 = w(0.17066666666666666) * t161;
+    // legs 1, 3, 5: remaining leg inertia less weight at the platform joint
+    let t169 = w(0.17066666666666666) * t155;
+    // legs 2, 4, 6: leg inertia less weight along the actuator
+    let t170 = mul_sub(w(0.3413333333333334), t161, w(0.17066666666666666) * t164);
+    // legs 1, 3, 5: leg inertia less weight along the actuator
+    let t171 = mul_add(
+        w(0.611),
+        neg_mul_add(P::splat(P::lane(t78, 2)), w(0.05), t155),
+        t167,
+    );
+    // inertia force less weight, without the actuators' own shares
+    let t172 = mul_add(w(0.17066666666666666), t155, t168);
+    let t173 = mul_add(w(0.17066666666666666), t150, t165);
+    let t174 = mul_add(w(0.17066666666666666), t152, t166);
+    // legs 1, 3, 5: row of the actuator Jacobian in base coordinates
+    let t175 = neg_mul_add(t23, t49, t17);
+    // legs 2, 4, 6: row of the actuator Jacobian in base coordinates
+    let t176 = neg_mul_add(t22, t52, t19);
+    // legs 1, 3, 5: row of the actuator Jacobian in base coordinates
+    let t177 = neg_mul_add(t23, t51, t21);
+    let t178 = mul_sub(t17, t51, t21 * t49);
+    // legs 2, 4, 6: row of the actuator Jacobian in base coordinates
+    let t179 = mul_sub(t19, t48, t20 * t52);
+    let t180 = neg_mul_add(t22, t48, t20);
+    // legs 2, 4, 6: leg inertia less weight along the actuator
+    let t181 = neg_mul_add(
+        w(0.611),
+        mul_sub(P::splat(P::lane(t78, 2)), w(0.05), t161),
+        t170,
+    );
+    // legs 1, 3, 5: spring and damper force along the actuator
+    let t182 = t47 - w(0.198);
+    // legs 2, 4, 6: spring and damper force along the actuator
+    let t183 = t46 - w(0.198);
+    // inertia force less weight, without the actuators' own shares
+    let t184 = P::triple([P::lane(t173, 1), P::lane(t174, 1), -P::lane(t172, 1)]);
+    // its first moments by platform coordinate
+    let t185 = mul_add(t7, t169, t12 * t168);
+    // inertia force less weight, without the actuators' own shares
+    let t186 = P::triple([P::lane(t173, 0), P::lane(t174, 0), -P::lane(t172, 0)]) + t184;
+    // its first moments by platform coordinate
+    let t187 = mul_add(t11, t169, t14 * t168);
+    let t188 = mul_add(t7, t156, t12 * t165);
+    let t189 = mul_add(t11, t156, t14 * t165);
+    let t190 = mul_add(t7, t163, t12 * t166);
+    let t191 = mul_add(t11, t163, t14 * t166);
+    // inertia force less weight, without the actuators' own shares
+    let t192 = P::triple([P::lane(t173, 2), P::lane(t174, 2), -P::lane(t172, 2)]) + t186;
+    let t193 = mul_add(t99, w(8.139999999999999), t192);
+    // its first moments by platform coordinate
+    let t194 = P::triple([P::lane(t188, 1), P::lane(t190, 1), -P::lane(t185, 1)]);
+    // inertia force less weight, without the actuators' own shares
+    let t195 = mul_add(w(2.2551405187698492e-17), t111, t193);
+    // its first moments by platform coordinate
+    let t196 = P::triple([P::lane(t188, 0), P::lane(t190, 0), -P::lane(t185, 0)]) + t194;
+    // inertia force less weight, without the actuators' own shares
+    let t197 = mul_add(w(6.938893903907228e-18), t112, t195);
+    // its first moments by platform coordinate
+    let t198 = t196 + P::triple([P::lane(t188, 2), P::lane(t190, 2), -P::lane(t185, 2)]);
+    // inertia force less weight, without the actuators' own shares
+    let t199 = mul_add(w(0.188852), t117, t197);
+    // its first moments by platform coordinate
+    let t200 = P::triple([P::lane(t189, 1), P::lane(t191, 1), -P::lane(t187, 1)]);
+    // inertia less external wrench that the actuators must balance
+    let t201 = mul_add(
+        t2,
+        P::splat(external_wrench[0]),
+        t1 * P::splat(external_wrench[1]),
+    );
+    // its first moments by platform coordinate
+    let t202 = P::triple([P::lane(t189, 0), P::lane(t191, 0), -P::lane(t187, 0)]) + t200;
+    let t203 = mul_add(w(2.2551405187698492e-17), t99, t198);
+    let t204 = t202 + P::triple([P::lane(t189, 2), P::lane(t191, 2), -P::lane(t187, 2)]);
+    // inertia less external wrench that the actuators must balance
+    let t205 = mul_add(t3, P::splat(external_wrench[2]), t201);
+    // its first moments by platform coordinate
+    let t206 = mul_add(w(0.013354412), t117, w(0.188852) * t99);
+    let t207 = mul_add(w(6.938893903907228e-18), t99, t204);
+    let t208 = mul_add(w(0.032245600000000006), t111, t203);
+    // inertia less external wrench that the actuators must balance
+    let t209 = t199 - t205;
+    // its first moments by platform coordinate
+    let t210 = mul_add(w(0.032245600000000006), t112, t207);
+    // inertia less external wrench that the actuators must balance
+    let t211 = P::triple([P::lane(t205, 2), P::lane(t205, 0), P::lane(t205, 1)]);
+    // its first moments by platform coordinate
+    let t212 = P::triple([P::lane(t206, 2), P::lane(t206, 0), P::lane(t206, 1)]);
+    // inertia less external wrench that the actuators must balance
+    let t213 = neg_mul_add(w(0.031), t211, t212);
+    // its first moments by platform coordinate
+    let t214 = P::triple([P::lane(t208, 2), P::lane(t208, 0), P::lane(t208, 1)]);
+    // inertia less external wrench that the actuators must balance
+    let t215 = t64 * P::triple([P::lane(t208, 1), P::lane(t208, 2), P::lane(t208, 0)]);
+    let t216 = t58 * P::triple([P::lane(t210, 1), P::lane(t210, 2), P::lane(t210, 0)]);
+    // its first moments by platform coordinate
+    let t217 = P::triple([P::lane(t210, 2), P::lane(t210, 0), P::lane(t210, 1)]);
+    // inertia less external wrench that the actuators must balance
+    let t218 = t68 * P::triple([P::lane(t213, 2), P::lane(t213, 0), P::lane(t213, 1)]);
+    let t219 = mul_add(
+        t2,
+        P::splat(external_wrench[3]),
+        t1 * P::splat(external_wrench[4]),
+    );
+    let t220 = mul_sub(t57, t214, t215) + mul_sub(t53, t217, t216);
+    // legs 3, 5, 1: gradient of the actuator length by the platform joint
+    let t221 = P::triple([P::lane(t51, 1), P::lane(t51, 2), P::lane(t51, 0)]);
+    // legs 5, 1, 3: gradient of the actuator length by the platform joint
+    let t222 = P::triple([P::lane(t51, 2), P::lane(t51, 0), P::lane(t51, 1)]);
+    let t223 = P::triple([P::lane(t49, 2), P::lane(t49, 0), P::lane(t49, 1)]);
+    // force along the actuator that balances the remaining wrench
+    let t224 = t221 - t222;
+    // inertia less external wrench that the actuators must balance
+    let t225 = mul_add(t3, P::splat(external_wrench[5]), t219);
+    // legs 3, 5, 1: gradient of the actuator length by the platform joint
+    let t226 = P::triple([P::lane(t49, 1), P::lane(t49, 2), P::lane(t49, 0)]);
+    // force along the actuator that balances the remaining wrench
+    let t227 = t223 - t226;
+    // inertia less external wrench that the actuators must balance
+    let t228 = mul_sub(t67, t213, t218) + t220 - t225;
+    // force along the actuator that balances the remaining wrench
+    let t229 = mul_sub(t222, t226, t221 * t223);
+    let t230 = P::mul_add(
+        P::lane(t49, 0),
+        P::lane(t224, 0),
+        P::lane(t49, 1) * P::lane(t224, 1),
+    );
+    let t231 = P::splat(P::lane(t229, 0))
+        + mul_add(t52, P::splat(P::lane(t224, 0)), t48 * P::splat(P::lane(t227, 0)));
+    let t232 = P::mul_add(P::lane(t49, 2), P::lane(t224, 2), t230);
+    let t233 = mul_add(
+        t224,
+        P::splat(P::lane(t209, 0)),
+        t227 * P::splat(P::lane(t209, 1)),
+    );
+    let t234 = P::splat(P::lane(t229, 1))
+        + mul_add(t52, P::splat(P::lane(t224, 1)), t48 * P::splat(P::lane(t227, 1)));
+    let t235 = P::splat(P::lane(t229, 2))
+        + mul_add(t52, P::splat(P::lane(t224, 2)), t48 * P::splat(P::lane(t227, 2)));
+    // leg 1: row of the actuator Jacobian in base coordinates
+    let t236 = P::triple([P::lane(t177, 0), -P::lane(t175, 0), P::lane(t178, 0)]);
+    // force along the actuator that balances the remaining wrench
+    let t237 = mul_sub(t176, P::splat(t232), P::splat(P::lane(t175, 0)) * t231);
+    let t238 = mul_sub(t179, P::splat(t232), P::splat(P::lane(t178, 0)) * t231);
+    let t239 = mul_add(t229, P::splat(P::lane(t209, 2)), t233);
+    let t240 = mul_sub(t180, P::splat(t232), P::splat(P::lane(t177, 0)) * t231);
+    // leg 3: row of the actuator Jacobian in base coordinates
+    let t241 = P::triple([P::lane(t177, 1), -P::lane(t175, 1), P::lane(t178, 1)]);
+    // leg 5: row of the actuator Jacobian in base coordinates
+    let t242 = P::triple([P::lane(t177, 2), -P::lane(t175, 2), P::lane(t178, 2)]);
+    // force along the actuator that balances the remaining wrench
+    let t243 = neg_mul_add(P::splat(P::lane(t175, 1)), t234, t237);
+    let t244 = neg_mul_add(P::splat(P::lane(t178, 1)), t234, t238);
+    let t245 = neg_mul_add(P::splat(P::lane(t177, 1)), t234, t240);
+    let t246 = neg_mul_add(P::splat(P::lane(t175, 2)), t235, t243);
+    let t247 = neg_mul_add(P::splat(P::lane(t178, 2)), t235, t244);
+    let t248 = neg_mul_add(P::splat(P::lane(t177, 2)), t235, t245);
+    let t249 = mul_sub(t228, P::splat(t232), t236 * P::splat(P::lane(t239, 0)));
+    let t250 = neg_mul_add(t241, P::splat(P::lane(t239, 1)), t249);
+    let t251 = P::triple([P::lane(t246, 2), P::lane(t246, 0), P::lane(t246, 1)]);
+    let t252 = P::triple([P::lane(t246, 1), P::lane(t246, 2), P::lane(t246, 0)]);
+    let t253 = P::triple([P::lane(t247, 1), P::lane(t247, 2), P::lane(t247, 0)]);
+    let t254 = P::triple([P::lane(t247, 2), P::lane(t247, 0), P::lane(t247, 1)]);
+    let t255 = neg_mul_add(t242, P::splat(P::lane(t239, 2)), t250);
+    let t256 = P::triple([P::lane(t248, 1), P::lane(t248, 2), P::lane(t248, 0)]);
+    let t257 = mul_sub(t252, t254, t251 * t253);
+    let t258 = P::triple([P::lane(t248, 2), P::lane(t248, 0), P::lane(t248, 1)]);
+    let t259 = mul_sub(t251, t256, t252 * t258);
+    let t260 = c(1.0) / t232;
+    let t261 = P::triple([P::lane(t231, 0), P::lane(t234, 0), P::lane(t235, 0)]);
+    let t262 = P::splat(P::lane(t255, 1)) * mul_sub(t253, t258, t254 * t256);
+    let t263 = P::mul_add(
+        P::lane(t248, 0),
+        P::lane(t257, 0),
+        P::lane(t248, 1) * P::lane(t257, 1),
+    );
+    let t264 = P::triple([P::lane(t231, 1), P::lane(t234, 1), P::lane(t235, 1)]);
+    let t265 = mul_add(
+        t259,
+        P::splat(P::lane(t255, 2)),
+        mul_sub(t257, P::splat(P::lane(t255, 0)), t262),
+    );
+    let t266 = P::triple([P::lane(t231, 2), P::lane(t234, 2), P::lane(t235, 2)]);
+    let t267 = c(1.0) / P::mul_add(P::lane(t248, 2), P::lane(t257, 2), t263);
+    let t268 = t265 * P::splat(t267);
+    // legs 2, 4, 6: actuator forces F
+    let t269 = mul_sub(t265, P::splat(t267), neg_mul_add(t183, w(21555.9), t181));
+    // force along the actuator that balances the remaining wrench
+    let t270 = neg_mul_add(t261, P::splat(P::lane(t268, 0)), t239);
+    let t271 = neg_mul_add(t264, P::splat(P::lane(t268, 1)), t270);
+    let t272 = neg_mul_add(t266, P::splat(P::lane(t268, 2)), t271);
+    // legs 1, 3, 5: actuator forces F
+    let t273 = mul_sub(P::splat(t260), t272, neg_mul_add(t182, w(21555.9), t171));
+    // leg 1: actuator forces F
+    inverse_dynamics[0] = P::lane(t273, 0);
+    // leg 2: actuator forces F
+    inverse_dynamics[1] = P::lane(t269, 0);
+    // leg 3: actuator forces F
+    inverse_dynamics[2] = P::lane(t273, 1);
+    // leg 4: actuator forces F
+    inverse_dynamics[3] = P::lane(t269, 1);
+    // leg 5: actuator forces F
+    inverse_dynamics[4] = P::lane(t273, 2);
+    // leg 6: actuator forces F
+    inverse_dynamics[5] = P::lane(t269, 2);
+}
+
+/// What a controller by inverse dynamics needs, in one call, equation (18), (30), (32), (49).
+///
+/// Inputs:
+///
+/// - `base_position`: 3, m, frame O: origin of the base frame.
+/// - `base_rotation`: 3x3, dimensionless, frame B -> O: rotation of the base, equation (2).
+/// - `base_velocity`: 6, m/s, rad/s, frame O: base velocity \[r_b'; w_b\], w_b the angular velocity.
+/// - `base_acceleration`: 6, m/s^2, rad/s^2, frame O: base acceleration \[r_b''; w_b'\].
+/// - `platform_position`: 3, m, frame O: centre of the platform's joint circle.
+/// - `platform_rotation`: 3x3, dimensionless, frame P -> O: rotation of the platform, equation (2).
+/// - `platform_velocity`: 6, m/s, rad/s, frame O: platform velocity \[r_p'; w_p\], the generalised speeds.
+/// - `platform_acceleration`: 6, m/s^2, rad/s^2, frame O: platform acceleration \[r_p''; w_p'\].
+/// - `external_wrench`: 6, N, N m, frame O: external force and moment \[F_D; M_D\] at the payload's centre of mass.
+///
+/// Outputs:
+///
+/// - `actuator_length`: 6, m: actuator length d, equation (18).
+/// - `actuator_velocity`: 6, m/s: actuator velocity d', equation (30).
+/// - `jacobian_dp`: 6x6, 1, m, frame O: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b, equation (32).
+/// - `mass_matrix_p`: 6x6, kg, kg m, kg m^2, frame O: mass matrix M_p of the platform, equation (49).
+/// - `total_bias`: 6, N, N m, frame O: bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext, equation (49).
+/// - `inverse_dynamics`: 6, N: actuator forces F, equation (49).
+#[allow(clippy::all, clippy::pedantic, unused_variables)]
+#[inline(always)]
+pub fn control_in_lanes<P: Triple>(
+    base_position: &[P::Lane; 3],
+    base_rotation: &[[P::Lane; 3]; 3],
+    base_velocity: &[P::Lane; 6],
+    base_acceleration: &[P::Lane; 6],
+    platform_position: &[P::Lane; 3],
+    platform_rotation: &[[P::Lane; 3]; 3],
+    platform_velocity: &[P::Lane; 6],
+    platform_acceleration: &[P::Lane; 6],
+    external_wrench: &[P::Lane; 6],
+    actuator_length: &mut [P::Lane; 6],
+    actuator_velocity: &mut [P::Lane; 6],
+    jacobian_dp: &mut [[P::Lane; 6]; 6],
+    mass_matrix_p: &mut [[P::Lane; 6]; 6],
+    total_bias: &mut [P::Lane; 6],
+    inverse_dynamics: &mut [P::Lane; 6],
+) {
+    let c = <P::Lane as Scalar>::constant;
+    let w = <P as Scalar>::constant;
+    // constant and copied elements
+    let t1 = P::triple([base_rotation[1][0], base_rotation[1][1], base_rotation[1][2]]);
+    let t2 = P::triple([base_rotation[0][0], base_rotation[0][1], base_rotation[0][2]]);
+    let t3 = P::triple([base_rotation[2][0], base_rotation[2][1], base_rotation[2][2]]);
+    // rotation of the platform seen from the base
+    let t4 = mul_add(
+        t2,
+        P::splat(platform_rotation[0][1]),
+        t1 * P::splat(platform_rotation[1][1]),
+    );
+    let t5 = mul_add(
+        t2,
+        P::splat(platform_rotation[0][0]),
+        t1 * P::splat(platform_rotation[1][0]),
+    );
+    // platform origin seen from the base
+    let t6 = t1 * P::splat(platform_position[1] - base_position[1]);
+    // constant and copied elements
+    let t7 = P::triple([
+        c(0.1159110991546882),
+        c(-0.0848528137423857),
+        c(-0.031058285412302475),
+    ]);
+    // rotation of the platform seen from the base
+    let t8 = mul_add(t3, P::splat(platform_rotation[2][1]), t4);
+    let t9 = mul_add(t3, P::splat(platform_rotation[2][0]), t5);
+    // platform origin seen from the base
+    let t10 = mul_add(t2, P::splat(platform_position[0] - base_position[0]), t6);
+    // constant and copied elements
+    let t11 = P::triple([
+        c(0.03105828541230249),
+        c(-0.08485281374238571),
+        c(-0.1159110991546882),
+    ]);
+    let t12 = P::triple([
+        c(0.1159110991546882),
+        c(-0.031058285412302475),
+        c(-0.0848528137423857),
+    ]);
+    // rotation of the platform seen from the base
+    let t13 = mul_add(
+        t2,
+        P::splat(platform_rotation[0][2]),
+        t1 * P::splat(platform_rotation[1][2]),
+    );
+    // platform origin seen from the base
+    let t14 = mul_add(t3, P::splat(platform_position[2] - base_position[2]), t10);
+    // rotation of the platform seen from the base
+    let t15 = mul_add(t3, P::splat(platform_rotation[2][2]), t13);
+    // constant and copied elements
+    let t16 = P::triple([
+        c(-0.03105828541230249),
+        c(0.1159110991546882),
+        c(0.08485281374238571),
+    ]);
+    // legs 2, 5, 6: platform joint from the platform origin
+    let t17 = mul_add(t7, P::splat(P::lane(t9, 0)), t11 * P::splat(P::lane(t8, 0)));
+    // legs 1, 3, 4: platform joint from the platform origin
+    let t18 = mul_add(t12, P::splat(P::lane(t9, 0)), P::splat(P::lane(t8, 0)) * t16);
+    // constant and copied elements
+    let t19 = P::triple([
+        c(0.1316436662914507),
+        c(-0.17213485607334636),
+        c(0.040491189781895726),
+    ]);
+    // legs 2, 5, 6: platform joint from the platform origin
+    let t20 = mul_add(t7, P::splat(P::lane(t9, 1)), t11 * P::splat(P::lane(t8, 1)));
+    // legs 1, 3, 4: platform joint from the platform origin
+    let t21 = mul_add(t12, P::splat(P::lane(t9, 1)), P::splat(P::lane(t8, 1)) * t16);
+    // legs 2, 5, 6: platform joint from the base point
+    let t22 = P::triple([
+        c(-0.12275970481124972),
+        c(0.052626906850092664),
+        c(0.17538661166134234),
+    ]);
+    let t23 = P::triple([
+        c(-0.1316436662914507),
+        c(0.17213485607334636),
+        c(-0.040491189781895726),
+    ]);
+    // legs 1, 3, 4: platform joint from the base point
+    let t24 = P::triple([
+        c(-0.1316436662914507),
+        c(-0.040491189781895726),
+        c(0.17213485607334636),
+    ]);
+    // legs 2, 5, 6: platform joint from the base point
+    let t25 = t17 + P::splat(P::lane(t14, 0)) + t23;
+    // legs 1, 3, 4: platform joint from the platform origin
+    let t26 = mul_add(t12, P::splat(P::lane(t9, 2)), t16 * P::splat(P::lane(t8, 2)));
+    // legs 2, 5, 6: platform joint from the platform origin
+    let t27 = mul_add(t7, P::splat(P::lane(t9, 2)), t11 * P::splat(P::lane(t8, 2)));
+    // legs 1, 3, 4: platform joint from the base point
+    let t28 = P::triple([
+        c(0.12275970481124972),
+        c(-0.17538661166134234),
+        c(-0.052626906850092664),
+    ]);
+    let t29 = P::splat(P::lane(t14, 0)) + t18 + t24;
+    // constant and copied elements
+    let t30 = P::triple([
+        c(-0.12275970481124972),
+        c(0.17538661166134234),
+        c(0.052626906850092664),
+    ]);
+    // legs 2, 5, 6: platform joint from the base point
+    let t31 = t22 + (t20 + P::splat(P::lane(t14, 1)));
+    // legs 1, 3, 4: platform joint from the base point
+    let t32 = t21 + P::splat(P::lane(t14, 1)) + t28;
+    // constant and copied elements
+    let t33 = P::triple([
+        c(0.1316436662914507),
+        c(0.040491189781895726),
+        c(-0.17213485607334636),
+    ]);
+    let t34 = P::triple([
+        c(0.12275970481124972),
+        c(-0.052626906850092664),
+        c(-0.17538661166134234),
+    ]);
+    // legs 1, 3, 4: platform joint from the base point
+    let t35 = t26 + P::splat(P::lane(t14, 2));
+    // legs 2, 5, 6: platform joint from the base point
+    let t36 = t27 + P::splat(P::lane(t14, 2));
+    // legs 2, 5, 6: platform joint from the platform origin
+    let t37 = mul_add(
+        P::splat(platform_rotation[2][0]),
+        t7,
+        P::splat(platform_rotation[2][1]) * t11,
+    );
+    let t38 = mul_add(
+        P::splat(platform_rotation[0][0]),
+        t7,
+        P::splat(platform_rotation[0][1]) * t11,
+    );
+    let t39 = mul_add(
+        P::splat(platform_rotation[1][0]),
+        t7,
+        P::splat(platform_rotation[1][1]) * t11,
+    );
+    // legs 1, 3, 4: platform joint from the platform origin
+    let t40 = mul_add(
+        P::splat(platform_rotation[0][0]),
+        t12,
+        P::splat(platform_rotation[0][1]) * t16,
+    );
+    let t41 = mul_add(
+        P::splat(platform_rotation[1][0]),
+        t12,
+        P::splat(platform_rotation[1][1]) * t16,
+    );
+    let t42 = mul_add(
+        P::splat(platform_rotation[2][0]),
+        t12,
+        P::splat(platform_rotation[2][1]) * t16,
+    );
+    // legs 2, 5, 6: extent of the rod along the actuator axis
+    let t43 = sqrt(w(0.042435999999999995) - mul_add(t25, t25, t31 * t31));
+    // legs 1, 3, 4: extent of the rod along the actuator axis
+    let t44 = sqrt(w(0.042435999999999995) - mul_add(t29, t29, t32 * t32));
+    // legs 2, 5, 6: reciprocal of that extent
+    let t45 = w(1.0) / t43;
+    // legs 1, 3, 4: reciprocal of that extent
+    let t46 = w(1.0) / t44;
+    // legs 1, 3, 4: actuator length d
+    let t47 = t35 - t44;
+    // legs 2, 5, 6: actuator length d
+    let t48 = t36 - t43;
+    // legs 2, 5, 6: gradient of the actuator length by the platform joint
+    let t49 = t31 * t45;
+    // legs 1, 3, 4: gradient of the actuator length by the platform joint
+    let t50 = t32 * t46;
+    // legs 2, 5, 6: gradient of the actuator length by the platform joint
+    let t51 = t25 * t45;
+    // legs 1, 3, 4: gradient of the actuator length by the platform joint
+    let t52 = t29 * t46;
+    // legs 2, 5, 6: gradient of the actuator length
+    let t53 = mul_add(
+        P::splat(base_rotation[0][0]),
+        t51,
+        P::splat(base_rotation[0][1]) * t49,
+    );
+    // legs 1, 3, 4: gradient of the actuator length
+    let t54 = mul_add(
+        P::splat(base_rotation[0][0]),
+        t52,
+        P::splat(base_rotation[0][1]) * t50,
+    );
+    // legs 2, 5, 6: gradient of the actuator length
+    let t55 = mul_add(
+        P::splat(base_rotation[1][0]),
+        t51,
+        P::splat(base_rotation[1][1]) * t49,
+    );
+    let t56 = mul_add(
+        P::splat(base_rotation[2][0]),
+        t51,
+        P::splat(base_rotation[2][1]) * t49,
+    );
+    // legs 1, 3, 4: gradient of the actuator length
+    let t57 = mul_add(
+        P::splat(base_rotation[1][0]),
+        t52,
+        P::splat(base_rotation[1][1]) * t50,
+    );
+    let t58 = mul_add(
+        P::splat(base_rotation[2][0]),
+        t52,
+        P::splat(base_rotation[2][1]) * t50,
+    );
+    // legs 2, 5, 6: gradient of the actuator length
+    let t59 = P::splat(base_rotation[0][2]) + t53;
+    // legs 1, 3, 4: gradient of the actuator length
+    let t60 = P::splat(base_rotation[0][2]) + t54;
+    // legs 2, 5, 6: gradient of the actuator length
+    let t61 = P::splat(base_rotation[1][2]) + t55;
+    // legs 2, 5, 6: mass matrix of the leg in the speeds of its joint
+    let t62 = base_rotation[0][2] * c(0.17066666666666666);
+    // legs 2, 5, 6: gradient of the actuator length
+    let t63 = P::splat(base_rotation[2][2]) + t56;
+    // legs 1, 3, 4: gradient of the actuator length
+    let t64 = P::splat(base_rotation[1][2]) + t57;
+    // legs 2, 5, 6: mass matrix of the leg in the speeds of its joint
+    let t65 = base_rotation[1][2] * c(0.17066666666666666);
+    // legs 1, 3, 4: gradient of the actuator length
+    let t66 = P::splat(base_rotation[2][2]) + t58;
+    // legs 2, 5, 6: mass matrix of the leg in the speeds of its joint
+    let t67 = mul_add(t59, w(0.4761666666666667), P::splat(t62));
+    // legs 1, 3, 4: mass matrix of the leg in the speeds of its joint
+    let t68 = mul_add(t60, w(0.4761666666666667), P::splat(t62));
+    // legs 2, 5, 6: mass matrix of the leg in the speeds of its joint
+    let t69 = mul_add(t61, w(0.4761666666666667), P::splat(t65));
+    let t70 = t59 * t67;
+    // legs 1, 3, 4: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+    let t71 = mul_sub(t41, t66, t42 * t64);
+    let t72 = mul_sub(t42, t60, t40 * t66);
+    let t73 = mul_sub(t40, t64, t41 * t60);
+    // legs 2, 5, 6: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+    let t74 = mul_sub(t39, t63, t37 * t61);
+    // legs 1, 3, 4: mass matrix of the leg in the speeds of its joint
+    let t75 = mul_add(t64, w(0.4761666666666667), P::splat(t65));
+    let t76 = w(2.0) * (t60 * t68);
+    // legs 2, 5, 6: mass matrix of the leg in the speeds of its joint
+    let t77 = mul_add(t59, t69, t61 * t67);
+    let t78 = w(2.0) * t70;
+    // legs 2, 5, 6: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+    let t79 = mul_sub(t37, t59, t38 * t63);
+    // legs 2, 5, 6: mass matrix of the leg in the speeds of its joint
+    let t80 = base_rotation[2][2] * c(0.17066666666666666);
+    // legs 1, 3, 4: mass matrix of the leg in the speeds of its joint
+    let t81 = mul_add(t60, t75, t64 * t68);
+    // legs 2, 5, 6: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+    let t82 = mul_sub(t38, t61, t39 * t59);
+    // legs 2, 5, 6: mass matrix of the leg in the speeds of its joint
+    let t83 = mul_add(t63, w(0.4761666666666667), P::splat(t80));
+    // legs 1, 3, 4: mass matrix of the leg in the speeds of its joint
+    let t84 = mul_add(t66, w(0.4761666666666667), P::splat(t80));
+    // legs 2, 5, 6: mass matrix of the leg in the speeds of its joint
+    let t85 = t61 * t69;
+    // mass matrix of the legs
+    let t86 = mul_add(w(2.0), t70, t76);
+    let t87 = t77 + t81;
+    // legs 2, 5, 6: mass matrix of the leg in the speeds of its joint
+    let t88 = t63 * t83;
+    let t89 = mul_add(t59, t83, t63 * t67);
+    // legs 1, 3, 4: mass matrix of the leg in the speeds of its joint
+    let t90 = mul_add(t60, t84, t66 * t68);
+    // legs 2, 5, 6: mass matrix of the leg in the speeds of its joint
+    let t91 = mul_add(t61, t83, t63 * t69);
+    let t92 = w(2.0) * t85;
+    // legs 1, 3, 4: mass matrix of the leg in the speeds of its joint
+    let t93 = mul_add(t64, t84, t66 * t75);
+    // legs 2, 5, 6: mass matrix of the leg in the speeds of its joint
+    let t94 = w(2.0) * t88;
+    // legs 1, 3, 4: mass matrix of the leg in the speeds of its joint
+    let t95 = w(2.0) * (t64 * t75);
+    // mass matrix of the legs
+    let t96 = t89 + t90;
+    let t97 = t38 * t91;
+    let t98 = mul_add(w(2.0), t85, t95);
+    let t99 = t40 * t93;
+    let t100 = t91 + t93;
+    let t101 = mul_sub(t39, t89, t97);
+    let t102 = mul_sub(t37, t91, t39 * t94);
+    let t103 = mul_sub(t37, t77, t97);
+    let t104 = mul_sub(t37, t92, t39 * t91);
+    // legs 1, 3, 4: mass matrix of the leg in the speeds of its joint
+    let t105 = w(2.0) * (t66 * t84);
+    // mass matrix of the legs
+    let t106 = mul_sub(t42, t81, t99);
+    let t107 = mul_sub(t42, t95, t41 * t93);
+    let t108 = mul_sub(t38, t94, t37 * t89);
+    let t109 = mul_add(w(2.0), t88, t105);
+    let t110 = mul_sub(t41, t90, t99);
+    let t111 = mul_add(t42, t81, mul_sub(t37, t77, t39 * t89));
+    let t112 = mul_sub(t42, t93, t41 * t105);
+    let t113 = t103 + t106;
+    let t114 = t101 + t110;
+    let t115 = mul_add(t42, t107, mul_sub(t37, t104, t39 * t102));
+    let t116 = neg_mul_add(t41, t90, t111);
+    let t117 = mul_sub(t39, t77, t38 * t92);
+    let t118 = mul_sub(t41, t81, t40 * t95);
+    let t119 = mul_sub(t40, t105, t42 * t90);
+    let t120 = mul_sub(t38, t89, t37 * t78);
+    let t121 = mul_sub(t39, t78, t38 * t77);
+    let t122 = neg_mul_add(t41, t112, t115);
+    let t123 = mul_add(t42, t106, mul_add(t37, t103, t39 * t108));
+    let t124 = mul_sub(t40, t90, t42 * t76);
+    let t125 = mul_add(t41, t119, t123);
+    let t126 = mul_add(t42, t118, mul_sub(t37, t117, t39 * t101));
+    let t127 = mul_sub(t41, t76, t40 * t81);
+    let t128 = neg_mul_add(t41, t110, t126);
+    let t129 = mul_add(t40, t119, mul_sub(t38, t108, t37 * t120));
+    let t130 = mul_add(t40, t110, mul_sub(t38, t101, t37 * t121));
+    let t131 = mul_add(t41, t127, mul_sub(t39, t121, t38 * t117));
+    let t132 = P::triple([P::lane(t86, 1), P::lane(t87, 1), P::lane(t96, 1)]);
+    let t133 = neg_mul_add(t42, t124, t129);
+    let t134 = P::triple([P::lane(t86, 0), P::lane(t87, 0), P::lane(t96, 0)]) + t132;
+    let t135 = P::triple([P::lane(t86, 2), P::lane(t87, 2), P::lane(t96, 2)]) + t134;
+    let t136 = neg_mul_add(t42, t127, t130);
+    let t137 = P::lane(t100, 1) + P::lane(t100, 0);
+    let t138 = neg_mul_add(t40, t118, t131);
+    let t139 = P::triple([c(0.0), P::lane(t98, 1) + P::lane(t98, 0), t137]);
+    let t140 = t139 + P::triple([P::lane(t135, 1), P::lane(t98, 2), P::lane(t100, 2)]);
+    let t141 = P::triple([c(0.0), c(0.0), P::lane(t109, 1) + P::lane(t109, 0)]);
+    let t142 = P::triple([P::lane(t122, 1), -P::lane(t125, 1), P::lane(t128, 1)]);
+    let t143 = P::triple([P::lane(t122, 0), -P::lane(t125, 0), P::lane(t128, 0)]) + t142;
+    let t144 = t141 + P::triple([P::lane(t135, 2), P::lane(t140, 2), P::lane(t109, 2)]);
+    // mass matrix M_p of the platform
+    let t145 = t104 + t107;
+    let t146 = t102 + t112;
+    let t147 = t108 + t119;
+    let t148 = t120 + t124;
+    // mass of payload and platform-side leg ends
+    let t149 = P::triple([c(8.139999999999999), c(0.0), c(0.0)]);
+    // mass matrix M_p of the platform
+    let t150 = t121 + t127;
+    let t151 = t117 + t118;
+    // mass matrix of the legs
+    let t152 = t143 + P::triple([P::lane(t122, 2), -P::lane(t125, 2), P::lane(t128, 2)]);
+    // mass matrix M_p of the platform
+    let t153 = t135 + t149;
+    let t154 = P::triple([c(0.0), c(8.139999999999999), c(0.0)]);
+    // mass matrix of the legs
+    let t155 = t140 + t154;
+    let t156 = P::lane(t136, 1) + P::lane(t136, 0);
+    let t157 = t144 + P::triple([c(0.0), c(0.0), c(8.139999999999999)]);
+    let t158 = P::triple([c(0.0), P::lane(t133, 1) + P::lane(t133, 0), t156]);
+    let t159 = P::triple([P::lane(t152, 1), P::lane(t133, 2), P::lane(t136, 2)]) + t158;
+    // mass matrix M_p of the platform
+    let t160 = t152 + P::triple([c(0.07784561200000001), c(0.0), c(0.0)]);
+    let t161 = platform_rotation[0][0] * c(0.032245600000000006);
+    // constant and copied elements
+    let t162 = P::triple([
+        platform_rotation[0][0],
+        platform_rotation[1][0],
+        platform_rotation[2][0],
+    ]);
+    // mass matrix M_p of the platform
+    let t163 = P::triple([c(0.0), c(0.07784561200000001), c(0.0)]);
+    let t164 = platform_rotation[0][1] * c(0.032245600000000006);
+    // mass matrix of the legs
+    let t165 = P::triple([c(0.0), c(0.0), P::lane(t138, 1) + P::lane(t138, 0)]);
+    let t166 = t159 + t163;
+    // constant and copied elements
+    let t167 = P::triple([
+        platform_rotation[0][1],
+        platform_rotation[1][1],
+        platform_rotation[2][1],
+    ]);
+    let t168 = P::triple([
+        platform_rotation[0][0],
+        platform_rotation[1][0],
+        platform_rotation[1][0],
+    ]);
+    let t169 = P::triple([
+        platform_rotation[1][0],
+        platform_rotation[1][0],
+        platform_rotation[2][0],
+    ]);
+    // mass matrix M_p of the platform
+    let t170 = neg_mul_add(
+        P::splat(t164),
+        t167,
+        neg_mul_add(P::splat(t161), t162, t160),
+    );
+    // constant and copied elements
+    let t171 = P::triple([
+        platform_rotation[0][1],
+        platform_rotation[1][1],
+        platform_rotation[1][1],
+    ]);
+    // mass matrix M_p of the platform
+    let t172 = P::triple([c(0.0), c(0.0), c(0.07784561200000001)]);
+    // angular velocity of the base
+    let t173 = mul_add(t2, P::splat(base_velocity[3]), t1 * P::splat(base_velocity[4]));
+    // mass matrix M_p of the platform
+    let t174 = neg_mul_add(w(0.032245600000000006) * t168, t169, t166);
+    // mass matrix of the legs
+    let t175 = t165 + P::triple([P::lane(t152, 2), P::lane(t159, 2), P::lane(t138, 2)])
+        + t172;
+    // mass matrix M_p of the platform
+    let t176 = w(0.032245600000000006) * t162;
+    // constant and copied elements
+    let t177 = P::triple([
+        platform_rotation[0][2],
+        platform_rotation[1][2],
+        platform_rotation[2][2],
+    ]);
+    let t178 = P::triple([
+        platform_rotation[1][1],
+        platform_rotation[1][1],
+        platform_rotation[2][1],
+    ]);
+    // mass matrix M_p of the platform
+    let t179 = neg_mul_add(
+        P::splat(platform_rotation[0][2] * c(0.013354412)),
+        t177,
+        t170,
+    );
+    // angular velocity of the base
+    let t180 = mul_add(t3, P::splat(base_velocity[5]), t173);
+    // constant and copied elements
+    let t181 = P::triple([
+        platform_rotation[0][2],
+        platform_rotation[1][2],
+        platform_rotation[1][2],
+    ]);
+    // mass matrix M_p of the platform
+    let t182 = neg_mul_add(w(0.032245600000000006) * t171, t178, t174);
+    // angular velocity of the platform
+    let t183 = mul_add(
+        t2,
+        P::splat(platform_velocity[3]),
+        t1 * P::splat(platform_velocity[4]),
+    );
+    // mass matrix M_p of the platform
+    let t184 = neg_mul_add(P::splat(platform_rotation[2][0]), t176, t175);
+    let t185 = w(0.032245600000000006) * t167;
+    // constant and copied elements
+    let t186 = P::triple([
+        platform_rotation[1][2],
+        platform_rotation[1][2],
+        platform_rotation[2][2],
+    ]);
+    // velocity of the platform origin relative to the base
+    let t187 = t1 * P::splat(platform_velocity[1] - base_velocity[1]);
+    // angular velocity of the platform
+    let t188 = mul_add(t3, P::splat(platform_velocity[5]), t183);
+    // mass matrix M_p of the platform
+    let t189 = neg_mul_add(w(0.013354412) * t181, t186, t182);
+    // velocity of the platform origin relative to the base
+    let t190 = mul_add(t2, P::splat(platform_velocity[0] - base_velocity[0]), t187);
+    // platform origin seen from the base
+    let t191 = P::triple([P::lane(t14, 2), P::lane(t14, 0), P::lane(t14, 1)]);
+    // mass matrix M_p of the platform
+    let t192 = neg_mul_add(P::splat(platform_rotation[2][1]), t185, t184);
+    // angular velocity of the platform relative to the base
+    let t193 = t180 - t188;
+    // velocity of the platform origin relative to the base
+    let t194 = mul_add(t3, P::splat(platform_velocity[2] - base_velocity[2]), t190);
+    // mass matrix M_p of the platform
+    let t195 = neg_mul_add(
+        P::splat(platform_rotation[2][2]),
+        w(0.013354412) * t177,
+        t192,
+    );
+    // angular velocity of the base
+    let t196 = P::triple([P::lane(t180, 2), P::lane(t180, 0), P::lane(t180, 1)]);
+    // rotation of the platform seen from the base
+    let t197 = P::triple([P::lane(t8, 1), P::lane(t8, 2), P::lane(t8, 0)]);
+    // platform origin seen from the base
+    let t198 = P::triple([P::lane(t14, 1), P::lane(t14, 2), P::lane(t14, 0)]);
+    // rotation of the platform seen from the base
+    let t199 = P::triple([P::lane(t9, 1), P::lane(t9, 2), P::lane(t9, 0)]);
+    let t200 = P::triple([P::lane(t8, 2), P::lane(t8, 0), P::lane(t8, 1)]);
+    // angular velocity of the platform relative to the base
+    let t201 = P::triple([P::lane(t193, 2), P::lane(t193, 0), P::lane(t193, 1)]);
+    let t202 = P::triple([P::lane(t193, 1), P::lane(t193, 2), P::lane(t193, 0)]);
+    // angular velocity of the base
+    let t203 = P::triple([P::lane(t180, 1), P::lane(t180, 2), P::lane(t180, 0)]);
+    // rotation of the platform seen from the base
+    let t204 = P::triple([P::lane(t9, 2), P::lane(t9, 0), P::lane(t9, 1)]);
+    let t205 = P::triple([P::lane(t15, 1), P::lane(t15, 2), P::lane(t15, 0)]);
+    // rate of the relative rotation
+    let t206 = mul_sub(t200, t202, t197 * t201);
+    let t207 = mul_sub(t202, t204, t199 * t201);
+    // velocity of the platform origin relative to the base
+    let t208 = t194 - mul_sub(t191, t203, t196 * t198);
+    // legs 1, 3, 4: velocity of the platform joint relative to the base
+    let t209 = P::splat(P::lane(t208, 1))
+        - mul_add(t12, P::splat(P::lane(t207, 1)), t16 * P::splat(P::lane(t206, 1)));
+    let t210 = P::splat(P::lane(t208, 0))
+        - mul_add(t12, P::splat(P::lane(t207, 0)), t16 * P::splat(P::lane(t206, 0)));
+    // legs 2, 5, 6: velocity of the platform joint relative to the base
+    let t211 = P::splat(P::lane(t208, 1))
+        - mul_add(t7, P::splat(P::lane(t207, 1)), t11 * P::splat(P::lane(t206, 1)));
+    let t212 = P::splat(P::lane(t208, 0))
+        - mul_add(t7, P::splat(P::lane(t207, 0)), t11 * P::splat(P::lane(t206, 0)));
+    // angular velocity of the base
+    let t213 = P::triple([P::lane(t180, 2), P::lane(t180, 2), P::lane(t180, 0)]);
+    let t214 = P::triple([P::lane(t180, 1), P::lane(t180, 0), P::lane(t180, 1)]);
+    // angular acceleration of the base
+    let t215 = mul_add(
+        t2,
+        P::splat(base_acceleration[3]),
+        t1 * P::splat(base_acceleration[4]),
+    );
+    // acceleration per base coordinate of points that move with the base
+    let t216 = mul_add(t214, t214, t213 * t213);
+    // acceleration of the base origin less gravity
+    let t217 = mul_add(
+        t2,
+        P::splat(base_acceleration[0]),
+        t1 * P::splat(base_acceleration[1]),
+    );
+    // legs 1, 3, 4: velocity of the platform joint relative to the base
+    let t218 = P::splat(P::lane(t208, 2))
+        - mul_add(t12, P::splat(P::lane(t207, 2)), t16 * P::splat(P::lane(t206, 2)));
+    // legs 2, 5, 6: velocity of the platform joint relative to the base
+    let t219 = P::splat(P::lane(t208, 2))
+        - mul_add(t7, P::splat(P::lane(t207, 2)), t11 * P::splat(P::lane(t206, 2)));
+    // angular velocity of the base
+    let t220 = P::triple([P::lane(t180, 0), P::lane(t180, 2), P::lane(t180, 0)]);
+    // angular acceleration of the base
+    let t221 = mul_add(t3, P::splat(base_acceleration[5]), t215);
+    // angular velocity of the base
+    let t222 = P::triple([P::lane(t180, 1), P::lane(t180, 1), P::lane(t180, 2)]);
+    // legs 1, 3, 4: rate of the rod's extent along the actuator axis
+    let t223 = mul_add(t29, t210, t32 * t209);
+    // acceleration per base coordinate of points that move with the base
+    let t224 = t220 * t222;
+    // acceleration of the base origin less gravity
+    let t225 = mul_add(t3, P::splat(base_acceleration[2] + c(9.81)), t217);
+    // legs 2, 5, 6: rate of the rod's extent along the actuator axis
+    let t226 = mul_add(t25, t212, t31 * t211);
+    // legs 1, 3, 4: rate of the rod's extent along the actuator axis
+    let t227 = t46 * t223;
+    // legs 1, 3, 4: actuator velocity d'
+    let t228 = mul_add(t46, t223, t218);
+    // legs 2, 5, 6: rate of the rod's extent along the actuator axis
+    let t229 = t45 * t226;
+    // legs 2, 5, 6: actuator velocity d'
+    let t230 = mul_add(t45, t226, t219);
+    // angular acceleration of the base
+    let t231 = P::triple([P::lane(t221, 1), P::lane(t221, 2), P::lane(t221, 0)]);
+    let t232 = P::triple([P::lane(t221, 2), P::lane(t221, 0), P::lane(t221, 1)]);
+    // acceleration per base coordinate of points that move with the base
+    let t233 = mul_sub(t220, t222, t232);
+    // acceleration of the platform origin less gravity
+    let t234 = t3 * w(9.81);
+    // acceleration per base coordinate of points that move with the base
+    let t235 = t231 + P::triple([P::lane(t224, 2), P::lane(t224, 0), P::lane(t224, 1)]);
+    // angular velocity of the platform
+    let t236 = P::triple([P::lane(t188, 1), P::lane(t188, 2), P::lane(t188, 0)]);
+    let t237 = P::triple([P::lane(t188, 2), P::lane(t188, 0), P::lane(t188, 1)]);
+    // acceleration per base coordinate of points that move with the base
+    let t238 = P::triple([-P::lane(t216, 0), P::lane(t235, 1), P::lane(t233, 2)]);
+    // acceleration per platform coordinate of points of the platform
+    let t239 = mul_sub(t188, t197, t8 * t236);
+    let t240 = mul_sub(t188, t199, t9 * t236);
+    let t241 = mul_sub(t188, t205, t15 * t236);
+    let t242 = t237 * P::triple([P::lane(t239, 2), P::lane(t239, 0), P::lane(t239, 1)]);
+    // acceleration per base coordinate of points that move with the base
+    let t243 = P::triple([P::lane(t233, 0), -P::lane(t216, 1), P::lane(t235, 2)]);
+    // acceleration per platform coordinate of points of the platform
+    let t244 = t237 * P::triple([P::lane(t240, 2), P::lane(t240, 0), P::lane(t240, 1)]);
+    let t245 = mul_sub(t236, t239, t242);
+    let t246 = t237 * P::triple([P::lane(t241, 2), P::lane(t241, 0), P::lane(t241, 1)]);
+    let t247 = mul_sub(t236, t240, t244);
+    // acceleration of the platform origin relative to the base
+    let t248 = mul_add(
+        P::splat(P::lane(t14, 0)),
+        t238,
+        P::splat(P::lane(t14, 1)) * t243,
+    );
+    // velocity of the platform origin relative to the base
+    let t249 = P::triple([P::lane(t208, 1), P::lane(t208, 2), P::lane(t208, 0)]);
+    let t250 = P::triple([P::lane(t208, 2), P::lane(t208, 0), P::lane(t208, 1)]);
+    // acceleration per platform coordinate of points of the platform
+    let t251 = mul_sub(t236, t241, t246);
+    // rate of the relative rotation
+    let t252 = P::triple([P::lane(t206, 1), P::lane(t206, 2), P::lane(t206, 0)]);
+    let t253 = P::triple([P::lane(t207, 1), P::lane(t207, 2), P::lane(t207, 0)]);
+    // second derivative of the relative rotation
+    let t254 = t231 - mul_sub(t193, t196, t180 * t201);
+    // rate of the relative rotation
+    let t255 = P::triple([P::lane(t206, 2), P::lane(t206, 0), P::lane(t206, 1)]);
+    // acceleration per base coordinate of points that move with the base
+    let t256 = P::triple([P::lane(t235, 0), P::lane(t233, 1), -P::lane(t216, 2)]);
+    // rate of the relative rotation
+    let t257 = P::triple([P::lane(t207, 2), P::lane(t207, 0), P::lane(t207, 1)]);
+    // second derivative of the relative rotation
+    let t258 = mul_sub(t202, t255, t201 * t252);
+    // acceleration of the platform origin relative to the base
+    let t259 = mul_add(P::splat(P::lane(t14, 2)), t256, t248);
+    // second derivative of the relative rotation
+    let t260 = mul_sub(t202, t257, t201 * t253);
+    let t261 = P::triple([P::lane(t254, 1), P::lane(t254, 2), P::lane(t254, 0)]);
+    // acceleration of the platform origin relative to the base
+    let t262 = neg_mul_add(t3, w(9.81), t225) + t259;
+    let t263 = mul_add(w(2.0), mul_sub(t203, t250, t196 * t249), t262);
+    // second derivative of the relative rotation
+    let t264 = mul_sub(t200, t254, t197 * t261) - t258;
+    let t265 = mul_sub(t204, t254, t199 * t261) - t260;
+    // legs 1, 3, 4: acceleration of the platform joint relative to the base
+    let t266 = P::splat(P::lane(t263, 0))
+        + mul_add(t12, P::splat(P::lane(t265, 0)), t16 * P::splat(P::lane(t264, 0)));
+    // legs 2, 5, 6: acceleration of the platform joint relative to the base
+    let t267 = P::splat(P::lane(t263, 0))
+        + mul_add(t7, P::splat(P::lane(t265, 0)), t11 * P::splat(P::lane(t264, 0)));
+    // legs 1, 3, 4: acceleration of the platform joint relative to the base
+    let t268 = P::splat(P::lane(t263, 1))
+        + mul_add(t12, P::splat(P::lane(t265, 1)), t16 * P::splat(P::lane(t264, 1)));
+    // legs 2, 5, 6: acceleration of the platform joint relative to the base
+    let t269 = P::splat(P::lane(t263, 1))
+        + mul_add(t7, P::splat(P::lane(t265, 1)), t11 * P::splat(P::lane(t264, 1)));
+    // legs 2, 5, 6: leg inertia less weight along the actuator
+    let t270 = mul_sub(
+        t19,
+        P::splat(P::lane(t216, 0)),
+        t34 * P::splat(P::lane(t233, 0)),
+    );
+    let t271 = mul_sub(
+        t19,
+        P::splat(P::lane(t235, 1)),
+        t34 * P::splat(P::lane(t216, 1)),
+    );
+    // legs 1, 3, 4: actuator acceleration d''
+    let t272 = mul_add(t29, t266, t32 * t268);
+    // legs 2, 5, 6: actuator acceleration d''
+    let t273 = mul_add(t25, t267, t31 * t269);
+    // legs 1, 3, 4: acceleration of the platform joint relative to the base
+    let t274 = P::splat(P::lane(t263, 2))
+        + mul_add(t12, P::splat(P::lane(t265, 2)), t16 * P::splat(P::lane(t264, 2)));
+    // legs 2, 5, 6: acceleration of the platform joint relative to the base
+    let t275 = P::splat(P::lane(t263, 2))
+        + mul_add(t7, P::splat(P::lane(t265, 2)), t11 * P::splat(P::lane(t264, 2)));
+    // legs 2, 5, 6: leg inertia less weight along the actuator
+    let t276 = mul_add(
+        t19,
+        P::splat(P::lane(t233, 2)),
+        t34 * P::splat(P::lane(t235, 2)),
+    );
+    let t277 = w(2.0) * t230;
+    // legs 1, 3, 4: actuator acceleration d''
+    let t278 = mul_add(t227, t227, mul_add(t210, t210, t209 * t209) - t272);
+    // legs 2, 5, 6: actuator acceleration d''
+    let t279 = mul_add(t229, t229, mul_add(t212, t212, t211 * t211) - t273);
+    // legs 2, 5, 6: leg inertia less weight along the actuator
+    let t280 = P::splat(P::lane(t225, 0))
+        - neg_mul_add(t48, P::splat(P::lane(t235, 0)), t270);
+    let t281 = P::splat(P::lane(t225, 1))
+        + mul_add(t48, P::splat(P::lane(t233, 1)), t271);
+    // legs 1, 3, 4: actuator acceleration d''
+    let t282 = neg_mul_add(t46, t278, t274);
+    // legs 2, 5, 6: actuator acceleration d''
+    let t283 = neg_mul_add(t45, t279, t275);
+    // legs 1, 3, 4: leg inertia less weight along the actuator
+    let t284 = w(2.0) * t228;
+    // legs 2, 5, 6: leg inertia less weight along the actuator
+    let t285 = mul_add(P::splat(P::lane(t180, 1)), t277, t280);
+    // legs 1, 3, 4: leg inertia less weight along the actuator
+    let t286 = mul_sub(
+        t33,
+        P::splat(P::lane(t216, 0)),
+        t30 * P::splat(P::lane(t233, 0)),
+    );
+    // legs 2, 5, 6: leg inertia less weight along the actuator
+    let t287 = neg_mul_add(P::splat(P::lane(t180, 0)), t277, t281);
+    // legs 1, 3, 4: leg inertia less weight along the actuator
+    let t288 = mul_sub(
+        t33,
+        P::splat(P::lane(t235, 1)),
+        t30 * P::splat(P::lane(t216, 1)),
+    );
+    let t289 = mul_add(
+        t33,
+        P::splat(P::lane(t233, 2)),
+        t30 * P::splat(P::lane(t235, 2)),
+    );
+    // legs 2, 5, 6: leg inertia less weight along the actuator
+    let t290 = t283
+        - (P::splat(P::lane(t225, 2))
+            + neg_mul_add(t48, P::splat(P::lane(t216, 2)), t276));
+    // legs 2, 5, 6: remaining leg inertia less weight at the platform joint
+    let t291 = w(0.17066666666666666) * t285;
+    // legs 2, 5, 6: leg inertia less weight along the actuator
+    let t292 = P::splat(P::lane(t234, 2))
+        + mul_add(t7, P::splat(P::lane(t247, 2)), t11 * P::splat(P::lane(t245, 2)));
+    // legs 1, 3, 4: leg inertia less weight along the actuator
+    let t293 = P::splat(P::lane(t225, 0))
+        - neg_mul_add(t47, P::splat(P::lane(t235, 0)), t286);
+    let t294 = P::splat(P::lane(t234, 2))
+        + mul_add(t12, P::splat(P::lane(t247, 2)), t16 * P::splat(P::lane(t245, 2)));
+    // legs 2, 5, 6: remaining leg inertia less weight at the platform joint
+    let t295 = w(0.17066666666666666) * t287;
+    // legs 1, 3, 4: leg inertia less weight along the actuator
+    let t296 = P::splat(P::lane(t225, 1))
+        + mul_add(t47, P::splat(P::lane(t233, 1)), t288);
+    let t297 = mul_add(P::splat(P::lane(t180, 1)), t284, t293);
+    let t298 = neg_mul_add(P::splat(P::lane(t180, 0)), t284, t296);
+    let t299 = t282
+        - (P::splat(P::lane(t225, 2))
+            + neg_mul_add(t47, P::splat(P::lane(t216, 2)), t289));
+    // legs 1, 3, 4: remaining leg inertia less weight at the platform joint
+    let t300 = w(0.17066666666666666) * t297;
+    // legs 2, 5, 6: leg inertia less weight along the actuator
+    let t301 = mul_sub(w(0.3413333333333334), t290, w(0.17066666666666666) * t292);
+    // legs 2, 5, 6: remaining leg inertia less weight at the platform joint
+    let t302 = w(0.17066666666666666) * t290;
+    // legs 1, 3, 4: remaining leg inertia less weight at the platform joint
+    let t303 = w(0.17066666666666666) * t299;
+    let t304 = w(0.17066666666666666) * t298;
+    // legs 1, 3, 4: leg inertia less weight along the actuator
+    let t305 = mul_sub(w(0.3413333333333334), t299, w(0.17066666666666666) * t294);
+    // legs 2, 5, 6: leg inertia less weight along the actuator
+    let t306 = mul_add(
+        w(0.611),
+        neg_mul_add(P::splat(P::lane(t216, 2)), w(0.05), t290),
+        t301,
+    );
+    // inertia force less weight, without the actuators' own shares
+    let t307 = mul_add(w(0.17066666666666666), t290, t303);
+    let t308 = mul_add(w(0.17066666666666666), t285, t300);
+    let t309 = mul_add(w(0.17066666666666666), t287, t304);
+    // legs 1, 3, 4: spring and damper force along the actuator
+    let t310 = t47 - w(0.198);
+    // legs 1, 3, 4: leg inertia less weight along the actuator
+    let t311 = neg_mul_add(
+        w(0.611),
+        mul_sub(P::splat(P::lane(t216, 2)), w(0.05), t299),
+        t305,
+    );
+    // legs 2, 5, 6: spring and damper force along the actuator
+    let t312 = t48 - w(0.198);
+    // inertia force less weight, without the actuators' own shares
+    let t313 = P::triple([P::lane(t308, 1), P::lane(t309, 1), -P::lane(t307, 1)]);
+    let t314 = P::triple([P::lane(t308, 0), P::lane(t309, 0), -P::lane(t307, 0)]) + t313;
+    // its first moments by platform coordinate
+    let t315 = mul_add(t12, t303, t7 * t302);
+    // inertia force less weight, without the actuators' own shares
+    let t316 = t314 + P::triple([P::lane(t308, 2), P::lane(t309, 2), -P::lane(t307, 2)]);
+    // its first moments by platform coordinate
+    let t317 = mul_add(t16, t303, t11 * t302);
+    let t318 = mul_add(t12, t300, t7 * t291);
+    let t319 = mul_add(t16, t300, t11 * t291);
+    let t320 = mul_add(t12, t304, t7 * t295);
+    let t321 = mul_add(t16, t304, t11 * t295);
+    // inertia force less weight, without the actuators' own shares
+    let t322 = mul_add(w(8.139999999999999), t234, t316);
+    let t323 = mul_add(w(2.2551405187698492e-17), t247, t322);
+    // its first moments by platform coordinate
+    let t324 = P::triple([P::lane(t318, 1), P::lane(t320, 1), -P::lane(t315, 1)]);
+    let t325 = P::triple([P::lane(t318, 0), P::lane(t320, 0), -P::lane(t315, 0)]) + t324;
+    // inertia force less weight, without the actuators' own shares
+    let t326 = mul_add(w(6.938893903907228e-18), t245, t323);
+    // its first moments by platform coordinate
+    let t327 = t325 + P::triple([P::lane(t318, 2), P::lane(t320, 2), -P::lane(t315, 2)]);
+    // inertia force less weight, without the actuators' own shares
+    let t328 = mul_add(w(0.188852), t251, t326);
+    // legs 1, 3, 4: force along the actuator that reaches the platform
+    let t329 = neg_mul_add(t310, w(21555.9), t311);
+    // legs 2, 5, 6: force along the actuator that reaches the platform
+    let t330 = neg_mul_add(w(21555.9), t312, t306);
+    // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
+    let t331 = mul_add(t59, t330, t60 * t329);
+    let t332 = mul_add(t61, t330, t64 * t329);
+    let t333 = mul_add(t63, t330, t66 * t329);
+    // its first moments by platform coordinate
+    let t334 = P::triple([P::lane(t319, 1), P::lane(t321, 1), -P::lane(t317, 1)]);
+    let t335 = P::triple([P::lane(t319, 0), P::lane(t321, 0), -P::lane(t317, 0)]) + t334;
+    let t336 = t335 + P::triple([P::lane(t319, 2), P::lane(t321, 2), -P::lane(t317, 2)]);
+    let t337 = mul_add(w(2.2551405187698492e-17), t234, t327);
+    let t338 = mul_add(w(6.938893903907228e-18), t234, t336);
+    let t339 = mul_add(w(0.032245600000000006), t247, t337);
+    // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
+    let t340 = P::triple([P::lane(t331, 1), P::lane(t332, 1), P::lane(t333, 1)]);
+    // its first moments by platform coordinate
+    let t341 = mul_add(w(0.032245600000000006), t245, t338);
+    // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
+    let t342 = P::triple([P::lane(t331, 0), P::lane(t332, 0), P::lane(t333, 0)]) + t340;
+    // its first moments by platform coordinate
+    let t343 = mul_add(w(0.013354412), t251, w(0.188852) * t234);
+    // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
+    let t344 = mul_add(t74, t330, t71 * t329);
+    let t345 = mul_add(t79, t330, t72 * t329);
+    let t346 = mul_add(t82, t330, t73 * t329);
+    let t347 = P::triple([P::lane(t331, 2), P::lane(t332, 2), P::lane(t333, 2)]) + t342;
+    // constant and copied elements
+    let t348 = P::triple([
+        base_rotation[0][0],
+        base_rotation[1][0],
+        base_rotation[2][0],
+    ]);
+    let t349 = P::triple([
+        base_rotation[0][1],
+        base_rotation[1][1],
+        base_rotation[2][1],
+    ]);
+    let t350 = P::triple([
+        base_rotation[0][2],
+        base_rotation[1][2],
+        base_rotation[2][2],
+    ]);
+    // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
+    let t351 = mul_sub(
+        P::splat(P::lane(t328, 1)),
+        t349,
+        neg_mul_add(P::splat(P::lane(t328, 0)), t348, t347),
+    );
+    let t352 = mul_add(P::splat(P::lane(t328, 2)), t350, t351);
+    let t353 = P::triple([P::lane(t344, 1), P::lane(t345, 1), P::lane(t346, 1)]);
+    let t354 = P::triple([P::lane(t344, 0), P::lane(t345, 0), P::lane(t346, 0)]) + t353;
+    let t355 = t354 + P::triple([P::lane(t344, 2), P::lane(t345, 2), P::lane(t346, 2)]);
+    let t356 = P::mul_sub(
+        P::lane(t9, 1),
+        P::lane(t339, 2),
+        P::lane(t9, 2) * P::lane(t339, 1),
+    );
+    let t357 = P::mul_sub(
+        P::lane(t8, 1),
+        P::lane(t341, 2),
+        P::lane(t8, 2) * P::lane(t341, 1),
+    );
+    let t358 = P::mul_sub(
+        P::lane(t9, 0),
+        P::lane(t339, 1),
+        P::lane(t9, 1) * P::lane(t339, 0),
+    );
+    let t359 = P::mul_sub(
+        P::lane(t8, 0),
+        P::lane(t341, 1),
+        P::lane(t8, 1) * P::lane(t341, 0),
+    );
+    let t360 = P::mul_sub(
+        P::lane(t15, 1),
+        P::lane(t343, 2),
+        P::lane(t15, 2) * P::lane(t343, 1),
+    );
+    let t361 = P::mul_sub(
+        P::lane(t9, 2),
+        P::lane(t339, 0),
+        P::lane(t9, 0) * P::lane(t339, 2),
+    );
+    let t362 = P::mul_sub(
+        P::lane(t8, 2),
+        P::lane(t341, 0),
+        P::lane(t8, 0) * P::lane(t341, 2),
+    );
+    let t363 = P::mul_sub(
+        P::lane(t15, 2),
+        P::lane(t343, 0),
+        P::lane(t15, 0) * P::lane(t343, 2),
+    );
+    let t364 = P::mul_sub(
+        P::lane(t15, 0),
+        P::lane(t343, 1),
+        P::lane(t15, 1) * P::lane(t343, 0),
+    );
+    // inertia less external wrench that the actuators must balance
+    let t365 = mul_add(
+        t153,
+        P::splat(platform_acceleration[0]),
+        t155 * P::splat(platform_acceleration[1]),
+    );
+    // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
+    let t366 = neg_mul_add(t348, P::splat(t360 + (t356 + t357)), t355);
+    // mass matrix M_p of the platform
+    let t367 = platform_rotation[2][1] * c(6.938893903907228e-18);
+    let t368 = platform_rotation[1][1] * c(6.938893903907228e-18);
+    let t369 = P::mul_add(platform_rotation[2][0], c(2.2551405187698492e-17), t367);
+    let t370 = P::mul_add(platform_rotation[1][0], c(2.2551405187698492e-17), t368);
+    // inertia less external wrench that the actuators must balance
+    let t371 = mul_add(t157, P::splat(platform_acceleration[2]), t365);
+    // mass matrix M_p of the platform
+    let t372 = P::mul_add(platform_rotation[2][2], c(0.188852), t369);
+    let t373 = P::mul_add(platform_rotation[1][2], c(0.188852), t370);
+    // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
+    let t374 = mul_sub(t349, P::splat(t363 + (t361 + t362)), t366);
+    let t375 = mul_add(t350, P::splat(t358 + t359 + t364), t374);
+    // mass matrix of the legs
+    let t376 = -(P::lane(t116, 2) + (P::lane(t116, 1) + P::lane(t116, 0)));
+    mass_matrix_p[0][3] = t376;
+    mass_matrix_p[3][0] = t376;
+    // mass matrix M_p of the platform
+    let t377 = platform_rotation[0][1] * c(6.938893903907228e-18);
+    let t378 = -(t372 + (P::lane(t145, 2) + (P::lane(t145, 1) + P::lane(t145, 0))));
+    mass_matrix_p[1][3] = t378;
+    mass_matrix_p[3][1] = t378;
+    let t379 = P::mul_add(platform_rotation[0][0], c(2.2551405187698492e-17), t377);
+    let t380 = t373 - (P::lane(t146, 2) + (P::lane(t146, 0) + P::lane(t146, 1)));
+    mass_matrix_p[2][3] = t380;
+    mass_matrix_p[3][2] = t380;
+    let t381 = P::mul_add(platform_rotation[0][2], c(0.188852), t379);
+    // mass matrix of the legs
+    let t382 = P::triple([t376, t378, t380]);
+    // inertia less external wrench that the actuators must balance
+    let t383 = mul_add(P::splat(platform_acceleration[3]), t382, t371);
+    // mass matrix M_p of the platform
+    let t384 = t372 - (P::lane(t148, 2) + (P::lane(t148, 1) + P::lane(t148, 0)));
+    mass_matrix_p[0][4] = t384;
+    mass_matrix_p[4][0] = t384;
+    // mass matrix of the legs
+    let t385 = P::lane(t113, 2) + (P::lane(t113, 1) + P::lane(t113, 0));
+    mass_matrix_p[1][4] = t385;
+    mass_matrix_p[4][1] = t385;
+    // mass matrix M_p of the platform
+    let t386 = -(P::lane(t147, 2) + (P::lane(t147, 1) + P::lane(t147, 0)) + t381);
+    mass_matrix_p[2][4] = t386;
+    mass_matrix_p[4][2] = t386;
+    // constant and copied elements
+    let t387 = P::triple([external_wrench[0], external_wrench[1], external_wrench[2]]);
+    // mass matrix M_p of the platform
+    let t388 = P::triple([t384, t385, t386]);
+    // inertia less external wrench that the actuators must balance
+    let t389 = mul_add(P::splat(platform_acceleration[4]), t388, t383);
+    // mass matrix M_p of the platform
+    let t390 = t381 - (P::lane(t151, 2) + (P::lane(t151, 1) + P::lane(t151, 0)));
+    mass_matrix_p[1][5] = t390;
+    mass_matrix_p[5][1] = t390;
+    let t391 = -(t373 + (P::lane(t150, 2) + (P::lane(t150, 0) + P::lane(t150, 1))));
+    mass_matrix_p[0][5] = t391;
+    mass_matrix_p[5][0] = t391;
+    // constant and copied elements
+    let t392 = P::triple([
+        platform_rotation[1][2],
+        platform_rotation[2][2],
+        platform_rotation[0][2],
+    ]);
+    // mass matrix of the legs
+    let t393 = P::triple([t376, t384, t391]);
+    let t394 = -(P::lane(t114, 2) + (P::lane(t114, 1) + P::lane(t114, 0)));
+    mass_matrix_p[2][5] = t394;
+    mass_matrix_p[5][2] = t394;
+    // mass matrix M_p of the platform
+    let t395 = P::triple([t378, t385, t390]);
+    let t396 = P::triple([t391, t390, t394]);
+    let t397 = P::triple([t380, t386, t394]);
+    // inertia less external wrench that the actuators must balance
+    let t398 = t392 * w(0.031);
+    // constant and copied elements
+    let t399 = P::triple([external_wrench[1], external_wrench[2], external_wrench[0]]);
+    let t400 = P::triple([external_wrench[2], external_wrench[0], external_wrench[1]]);
+    // inertia less external wrench that the actuators must balance
+    let t401 = mul_add(
+        P::splat(platform_acceleration[0]),
+        t393,
+        P::splat(platform_acceleration[1]) * t395,
+    );
+    // constant and copied elements
+    let t402 = P::triple([external_wrench[3], external_wrench[4], external_wrench[5]]);
+    // inertia less external wrench that the actuators must balance
+    let t403 = mul_add(P::splat(platform_acceleration[2]), t397, t401);
+    let t404 = t352 + mul_add(P::splat(platform_acceleration[5]), t396, t389) - t387;
+    let t405 = mul_add(t179, P::splat(platform_acceleration[3]), t403);
+    let t406 = t399 * P::triple([P::lane(t398, 1), P::lane(t398, 2), P::lane(t398, 0)]);
+    let t407 = mul_add(t189, P::splat(platform_acceleration[4]), t405);
+    let t408 = t375 + mul_add(t195, P::splat(platform_acceleration[5]), t407);
+    let t409 = t408 - (t402 + mul_sub(t398, t400, t406));
+    // legs 6, 2, 5: gradient of the actuator length
+    let t410 = P::triple([P::lane(t63, 2), P::lane(t63, 0), P::lane(t63, 1)]);
+    // legs 5, 6, 2: gradient of the actuator length
+    let t411 = P::triple([P::lane(t63, 1), P::lane(t63, 2), P::lane(t63, 0)]);
+    // legs 6, 2, 5: gradient of the actuator length
+    let t412 = P::triple([P::lane(t61, 2), P::lane(t61, 0), P::lane(t61, 1)]);
+    // legs 5, 6, 2: gradient of the actuator length
+    let t413 = P::triple([P::lane(t61, 1), P::lane(t61, 2), P::lane(t61, 0)]);
+    // force along the actuator that balances the remaining wrench
+    let t414 = mul_sub(t410, t413, t411 * t412);
+    // legs 5, 6, 2: gradient of the actuator length
+    let t415 = P::triple([P::lane(t59, 1), P::lane(t59, 2), P::lane(t59, 0)]);
+    // legs 6, 2, 5: gradient of the actuator length
+    let t416 = P::triple([P::lane(t59, 2), P::lane(t59, 0), P::lane(t59, 1)]);
+    // force along the actuator that balances the remaining wrench
+    let t417 = mul_sub(t411, t416, t410 * t415);
+    let t418 = mul_sub(t412, t415, t413 * t416);
+    let t419 = P::mul_add(
+        P::lane(t59, 0),
+        P::lane(t414, 0),
+        P::lane(t59, 1) * P::lane(t414, 1),
+    );
+    let t420 = mul_add(
+        t60,
+        P::splat(P::lane(t414, 0)),
+        t64 * P::splat(P::lane(t417, 0)),
+    );
+    let t421 = P::mul_add(P::lane(t59, 2), P::lane(t414, 2), t419);
+    let t422 = mul_add(
+        t414,
+        P::splat(P::lane(t404, 0)),
+        t417 * P::splat(P::lane(t404, 1)),
+    );
+    let t423 = mul_add(
+        t60,
+        P::splat(P::lane(t414, 1)),
+        t64 * P::splat(P::lane(t417, 1)),
+    );
+    let t424 = mul_add(
+        t60,
+        P::splat(P::lane(t414, 2)),
+        t64 * P::splat(P::lane(t417, 2)),
+    );
+    let t425 = mul_add(t66, P::splat(P::lane(t418, 0)), t420);
+    // leg 2: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+    let t426 = P::triple([P::lane(t74, 0), P::lane(t79, 0), P::lane(t82, 0)]);
+    // force along the actuator that balances the remaining wrench
+    let t427 = mul_add(t418, P::splat(P::lane(t404, 2)), t422);
+    let t428 = mul_add(t66, P::splat(P::lane(t418, 1)), t423);
+    // leg 5: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+    let t429 = P::triple([P::lane(t74, 1), P::lane(t79, 1), P::lane(t82, 1)]);
+    // force along the actuator that balances the remaining wrench
+    let t430 = mul_add(t66, P::splat(P::lane(t418, 2)), t424);
+    // leg 6: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+    let t431 = P::triple([P::lane(t74, 2), P::lane(t79, 2), P::lane(t82, 2)]);
+    // force along the actuator that balances the remaining wrench
+    let t432 = mul_sub(t72, P::splat(t421), P::splat(P::lane(t79, 0)) * t425);
+    let t433 = mul_sub(t73, P::splat(t421), P::splat(P::lane(t82, 0)) * t425);
+    let t434 = mul_sub(t71, P::splat(t421), P::splat(P::lane(t74, 0)) * t425);
+    let t435 = neg_mul_add(P::splat(P::lane(t79, 1)), t428, t432);
+    let t436 = neg_mul_add(P::splat(P::lane(t82, 1)), t428, t433);
+    let t437 = neg_mul_add(P::splat(P::lane(t74, 1)), t428, t434);
+    let t438 = mul_sub(t409, P::splat(t421), t426 * P::splat(P::lane(t427, 0)));
+    let t439 = neg_mul_add(P::splat(P::lane(t79, 2)), t430, t435);
+    let t440 = neg_mul_add(P::splat(P::lane(t82, 2)), t430, t436);
+    let t441 = neg_mul_add(P::splat(P::lane(t74, 2)), t430, t437);
+    let t442 = neg_mul_add(t429, P::splat(P::lane(t427, 1)), t438);
+    let t443 = P::triple([P::lane(t439, 2), P::lane(t439, 0), P::lane(t439, 1)]);
+    let t444 = P::triple([P::lane(t439, 1), P::lane(t439, 2), P::lane(t439, 0)]);
+    let t445 = P::triple([P::lane(t440, 1), P::lane(t440, 2), P::lane(t440, 0)]);
+    let t446 = P::triple([P::lane(t440, 2), P::lane(t440, 0), P::lane(t440, 1)]);
+    let t447 = neg_mul_add(t431, P::splat(P::lane(t427, 2)), t442);
+    let t448 = P::triple([P::lane(t441, 1), P::lane(t441, 2), P::lane(t441, 0)]);
+    let t449 = P::triple([P::lane(t441, 2), P::lane(t441, 0), P::lane(t441, 1)]);
+    let t450 = mul_sub(t444, t446, t443 * t445);
+    let t451 = mul_sub(t443, t448, t444 * t449);
+    let t452 = P::splat(P::lane(t447, 1)) * mul_sub(t445, t449, t446 * t448);
+    let t453 = P::triple([P::lane(t425, 0), P::lane(t428, 0), P::lane(t430, 0)]);
+    let t454 = P::mul_add(
+        P::lane(t441, 0),
+        P::lane(t450, 0),
+        P::lane(t441, 1) * P::lane(t450, 1),
+    );
+    let t455 = mul_add(
+        t451,
+        P::splat(P::lane(t447, 2)),
+        mul_add(t450, P::splat(P::lane(t447, 0)), t452),
+    );
+    let t456 = P::triple([P::lane(t425, 1), P::lane(t428, 1), P::lane(t430, 1)]);
+    let t457 = P::triple([P::lane(t425, 2), P::lane(t428, 2), P::lane(t430, 2)]);
+    let t458 = t455
+        * P::splat(c(1.0) / P::mul_add(P::lane(t441, 2), P::lane(t450, 2), t454));
+    let t459 = neg_mul_add(t453, P::splat(P::lane(t458, 0)), t427);
+    let t460 = neg_mul_add(t456, P::splat(P::lane(t458, 1)), t459);
+    let t461 = P::splat(c(1.0) / t421)
+        * neg_mul_add(t457, P::splat(P::lane(t458, 2)), t460);
+    // leg 1: actuator length d
+    actuator_length[0] = P::lane(t47, 0);
+    // leg 2: actuator length d
+    actuator_length[1] = P::lane(t48, 0);
+    // leg 3: actuator length d
+    actuator_length[2] = P::lane(t47, 1);
+    // leg 4: actuator length d
+    actuator_length[3] = P::lane(t47, 2);
+    // leg 5: actuator length d
+    actuator_length[4] = P::lane(t48, 1);
+    // leg 6: actuator length d
+    actuator_length[5] = P::lane(t48, 2);
+    // leg 1: actuator velocity d'
+    actuator_velocity[0] = P::lane(t228, 0);
+    // leg 2: actuator velocity d'
+    actuator_velocity[1] = P::lane(t230, 0);
+    // leg 3: actuator velocity d'
+    actuator_velocity[2] = P::lane(t228, 1);
+    // leg 4: actuator velocity d'
+    actuator_velocity[3] = P::lane(t228, 2);
+    // leg 5: actuator velocity d'
+    actuator_velocity[4] = P::lane(t230, 1);
+    // leg 6: actuator velocity d'
+    actuator_velocity[5] = P::lane(t230, 2);
+    // leg 1: gradient of the actuator length
+    jacobian_dp[0][0] = P::lane(t60, 0);
+    jacobian_dp[0][1] = P::lane(t64, 0);
+    jacobian_dp[0][2] = P::lane(t66, 0);
+    // leg 1: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+    jacobian_dp[0][3] = P::lane(t71, 0);
+    jacobian_dp[0][4] = P::lane(t72, 0);
+    jacobian_dp[0][5] = P::lane(t73, 0);
+    // leg 2: gradient of the actuator length
+    jacobian_dp[1][0] = P::lane(t59, 0);
+    jacobian_dp[1][1] = P::lane(t61, 0);
+    jacobian_dp[1][2] = P::lane(t63, 0);
+    // leg 2: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+    jacobian_dp[1][3] = P::lane(t74, 0);
+    jacobian_dp[1][4] = P::lane(t79, 0);
+    jacobian_dp[1][5] = P::lane(t82, 0);
+    // leg 3: gradient of the actuator length
+    jacobian_dp[2][0] = P::lane(t60, 1);
+    jacobian_dp[2][1] = P::lane(t64, 1);
+    jacobian_dp[2][2] = P::lane(t66, 1);
+    // leg 3: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+    jacobian_dp[2][3] = P::lane(t71, 1);
+    jacobian_dp[2][4] = P::lane(t72, 1);
+    jacobian_dp[2][5] = P::lane(t73, 1);
+    // leg 4: gradient of the actuator length
+    jacobian_dp[3][0] = P::lane(t60, 2);
+    jacobian_dp[3][1] = P::lane(t64, 2);
+    jacobian_dp[3][2] = P::lane(t66, 2);
+    // leg 4: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+    jacobian_dp[3][3] = P::lane(t71, 2);
+    jacobian_dp[3][4] = P::lane(t72, 2);
+    jacobian_dp[3][5] = P::lane(t73, 2);
+    // leg 5: gradient of the actuator length
+    jacobian_dp[4][0] = P::lane(t59, 1);
+    jacobian_dp[4][1] = P::lane(t61, 1);
+    jacobian_dp[4][2] = P::lane(t63, 1);
+    // leg 5: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+    jacobian_dp[4][3] = P::lane(t74, 1);
+    jacobian_dp[4][4] = P::lane(t79, 1);
+    jacobian_dp[4][5] = P::lane(t82, 1);
+    // leg 6: gradient of the actuator length
+    jacobian_dp[5][0] = P::lane(t59, 2);
+    jacobian_dp[5][1] = P::lane(t61, 2);
+    jacobian_dp[5][2] = P::lane(t63, 2);
+    // leg 6: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+    jacobian_dp[5][3] = P::lane(t74, 2);
+    jacobian_dp[5][4] = P::lane(t79, 2);
+    jacobian_dp[5][5] = P::lane(t82, 2);
+    // mass matrix M_p of the platform
+    mass_matrix_p[0][0] = P::lane(t153, 0);
+    // mass matrix of the legs
+    mass_matrix_p[0][1] = P::lane(t135, 1);
+    mass_matrix_p[0][2] = P::lane(t135, 2);
+    mass_matrix_p[1][0] = P::lane(t135, 1);
+    // mass matrix M_p of the platform
+    mass_matrix_p[1][1] = P::lane(t155, 1);
+    // mass matrix of the legs
+    mass_matrix_p[1][2] = P::lane(t140, 2);
+    mass_matrix_p[2][0] = P::lane(t135, 2);
+    mass_matrix_p[2][1] = P::lane(t140, 2);
+    // mass matrix M_p of the platform
+    mass_matrix_p[2][2] = P::lane(t157, 2);
+    mass_matrix_p[3][3] = P::lane(t179, 0);
+    mass_matrix_p[3][4] = P::lane(t179, 1);
+    mass_matrix_p[3][5] = P::lane(t179, 2);
+    mass_matrix_p[4][3] = P::lane(t179, 1);
+    mass_matrix_p[4][4] = P::lane(t189, 1);
+    mass_matrix_p[4][5] = P::lane(t189, 2);
+    mass_matrix_p[5][3] = P::lane(t179, 2);
+    mass_matrix_p[5][4] = P::lane(t189, 2);
+    mass_matrix_p[5][5] = P::lane(t195, 2);
+    // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
+    total_bias[0] = P::lane(t352, 0);
+    total_bias[1] = P::lane(t352, 1);
+    total_bias[2] = P::lane(t352, 2);
+    total_bias[3] = P::lane(t375, 0);
+    total_bias[4] = P::lane(t375, 1);
+    total_bias[5] = P::lane(t375, 2);
+    // force along the actuator that balances the remaining wrench
+    inverse_dynamics[0] = P::lane(t458, 0);
+    inverse_dynamics[1] = P::lane(t461, 0);
+    inverse_dynamics[2] = P::lane(t458, 1);
+    inverse_dynamics[3] = P::lane(t458, 2);
+    inverse_dynamics[4] = P::lane(t461, 1);
+    inverse_dynamics[5] = P::lane(t461, 2);
+}
+
+/// Platform acceleration for given actuator forces, equation (49).
+///
+/// Inputs:
+///
+/// - `base_position`: 3, m, frame O: origin of the base frame.
+/// - `base_rotation`: 3x3, dimensionless, frame B -> O: rotation of the base, equation (2).
+/// - `base_velocity`: 6, m/s, rad/s, frame O: base velocity \[r_b'; w_b\], w_b the angular velocity.
+/// - `base_acceleration`: 6, m/s^2, rad/s^2, frame O: base acceleration \[r_b''; w_b'\].
+/// - `platform_position`: 3, m, frame O: centre of the platform's joint circle.
+/// - `platform_rotation`: 3x3, dimensionless, frame P -> O: rotation of the platform, equation (2).
+/// - `platform_velocity`: 6, m/s, rad/s, frame O: platform velocity \[r_p'; w_p\], the generalised speeds.
+/// - `actuator_force`: 6, N: actuator force along the actuator, positive to lengthen it.
+/// - `external_wrench`: 6, N, N m, frame O: external force and moment \[F_D; M_D\] at the payload's centre of mass.
+///
+/// Outputs:
+///
+/// - `forward_dynamics`: 6, m/s^2, rad/s^2, frame O: platform acceleration v_p', equation (49).
+#[allow(clippy::all, clippy::pedantic, unused_variables)]
+#[inline(always)]
+pub fn forward_dynamics_in_lanes<P: Triple>(
+    base_position: &[P::Lane; 3],
+    base_rotation: &[[P::Lane; 3]; 3],
+    base_velocity: &[P::Lane; 6],
+    base_acceleration: &[P::Lane; 6],
+    platform_position: &[P::Lane; 3],
+    platform_rotation: &[[P::Lane; 3]; 3],
+    platform_velocity: &[P::Lane; 6],
+    actuator_force: &[P::Lane; 6],
+    external_wrench: &[P::Lane; 6],
+    forward_dynamics: &mut [P::Lane; 6],
+) {
+    let c = <P::Lane as Scalar>::constant;
+    let w = <P as Scalar>::constant;
+    // constant and copied elements
+    let t1 = P::triple([base_rotation[1][0], base_rotation[1][1], base_rotation[1][2]]);
+    let t2 = P::triple([base_rotation[0][0], base_rotation[0][1], base_rotation[0][2]]);
+    let t3 = P::triple([base_rotation[2][0], base_rotation[2][1], base_rotation[2][2]]);
+    // rotation of the platform seen from the base
+    let t4 = mul_add(
+        t2,
+        P::splat(platform_rotation[0][1]),
+        t1 * P::splat(platform_rotation[1][1]),
+    );
+    let t5 = mul_add(
+        t2,
+        P::splat(platform_rotation[0][0]),
+        t1 * P::splat(platform_rotation[1][0]),
+    );
+    // platform origin seen from the base
+    let t6 = t1 * P::splat(platform_position[1] - base_position[1]);
+    // constant and copied elements
+    let t7 = P::triple([
+        c(0.1159110991546882),
+        c(0.1159110991546882),
+        c(-0.031058285412302475),
+    ]);
+    // rotation of the platform seen from the base
+    let t8 = mul_add(t3, P::splat(platform_rotation[2][1]), t4);
+    let t9 = mul_add(t3, P::splat(platform_rotation[2][0]), t5);
+    // platform origin seen from the base
+    let t10 = mul_add(t2, P::splat(platform_position[0] - base_position[0]), t6);
+    // constant and copied elements
+    let t11 = P::triple([
+        c(-0.03105828541230249),
+        c(0.03105828541230249),
+        c(0.1159110991546882),
+    ]);
+    let t12 = P::triple([
+        c(-0.0848528137423857),
+        c(-0.0848528137423857),
+        c(-0.031058285412302475),
+    ]);
+    // rotation of the platform seen from the base
+    let t13 = mul_add(
+        t2,
+        P::splat(platform_rotation[0][2]),
+        t1 * P::splat(platform_rotation[1][2]),
+    );
+    // platform origin seen from the base
+    let t14 = mul_add(t3, P::splat(platform_position[2] - base_position[2]), t10);
+    // rotation of the platform seen from the base
+    let t15 = mul_add(t3, P::splat(platform_rotation[2][2]), t13);
+    // constant and copied elements
+    let t16 = P::triple([
+        c(0.08485281374238571),
+        c(-0.08485281374238571),
+        c(-0.1159110991546882),
+    ]);
+    // legs 1, 2, 3: platform joint from the platform origin
+    let t17 = mul_add(t7, P::splat(P::lane(t9, 0)), t11 * P::splat(P::lane(t8, 0)));
+    // legs 4, 5, 6: platform joint from the platform origin
+    let t18 = mul_add(t12, P::splat(P::lane(t9, 0)), P::splat(P::lane(t8, 0)) * t16);
+    // constant and copied elements
+    let t19 = P::triple([
+        c(0.1316436662914507),
+        c(0.1316436662914507),
+        c(0.040491189781895726),
+    ]);
+    // legs 1, 2, 3: platform joint from the platform origin
+    let t20 = mul_add(t7, P::splat(P::lane(t9, 1)), t11 * P::splat(P::lane(t8, 1)));
+    // legs 4, 5, 6: platform joint from the platform origin
+    let t21 = mul_add(t12, P::splat(P::lane(t9, 1)), P::splat(P::lane(t8, 1)) * t16);
+    // legs 1, 2, 3: platform joint from the base point
+    let t22 = P::triple([
+        c(0.12275970481124972),
+        c(-0.12275970481124972),
+        c(-0.17538661166134234),
+    ]);
+    let t23 = P::triple([
+        c(-0.1316436662914507),
+        c(-0.1316436662914507),
+        c(-0.040491189781895726),
+    ]);
+    // legs 4, 5, 6: platform joint from the base point
+    let t24 = P::triple([
+        c(0.17213485607334636),
+        c(0.17213485607334636),
+        c(-0.040491189781895726),
+    ]);
+    // legs 1, 2, 3: platform joint from the base point
+    let t25 = t17 + P::splat(P::lane(t14, 0)) + t23;
+    // legs 1, 2, 3: platform joint from the platform origin
+    let t26 = mul_add(t7, P::splat(P::lane(t9, 2)), t11 * P::splat(P::lane(t8, 2)));
+    // legs 4, 5, 6: platform joint from the base point
+    let t27 = P::triple([
+        c(-0.052626906850092664),
+        c(0.052626906850092664),
+        c(0.17538661166134234),
+    ]);
+    let t28 = P::splat(P::lane(t14, 0)) + t18 + t24;
+    // constant and copied elements
+    let t29 = P::triple([
+        c(-0.12275970481124972),
+        c(0.12275970481124972),
+        c(0.17538661166134234),
+    ]);
+    // legs 4, 5, 6: platform joint from the platform origin
+    let t30 = mul_add(t12, P::splat(P::lane(t9, 2)), t16 * P::splat(P::lane(t8, 2)));
+    // legs 1, 2, 3: platform joint from the base point
+    let t31 = t22 + (t20 + P::splat(P::lane(t14, 1)));
+    // legs 4, 5, 6: platform joint from the base point
+    let t32 = t27 + (t21 + P::splat(P::lane(t14, 1)));
+    // constant and copied elements
+    let t33 = P::triple([
+        c(0.052626906850092664),
+        c(-0.052626906850092664),
+        c(-0.17538661166134234),
+    ]);
+    let t34 = P::triple([
+        c(-0.17213485607334636),
+        c(-0.17213485607334636),
+        c(0.040491189781895726),
+    ]);
+    // legs 1, 2, 3: platform joint from the base point
+    let t35 = t26 + P::splat(P::lane(t14, 2));
+    // legs 4, 5, 6: platform joint from the base point
+    let t36 = t30 + P::splat(P::lane(t14, 2));
+    // angular velocity of the base
+    let t37 = mul_add(t2, P::splat(base_velocity[3]), t1 * P::splat(base_velocity[4]));
+    let t38 = mul_add(t3, P::splat(base_velocity[5]), t37);
+    // legs 1, 2, 3: extent of the rod along the actuator axis
+    let t39 = sqrt(w(0.042435999999999995) - mul_add(t25, t25, t31 * t31));
+    // angular velocity of the platform
+    let t40 = mul_add(
+        t2,
+        P::splat(platform_velocity[3]),
+        t1 * P::splat(platform_velocity[4]),
+    );
+    // legs 4, 5, 6: extent of the rod along the actuator axis
+    let t41 = sqrt(w(0.042435999999999995) - mul_add(t28, t28, t32 * t32));
+    // angular velocity of the platform
+    let t42 = mul_add(t3, P::splat(platform_velocity[5]), t40);
+    // angular velocity of the platform relative to the base
+    let t43 = t38 - t42;
+    // legs 1, 2, 3: reciprocal of that extent
+    let t44 = w(1.0) / t39;
+    // legs 1, 2, 3: actuator length d
+    let t45 = t35 - t39;
+    // legs 4, 5, 6: reciprocal of that extent
+    let t46 = w(1.0) / t41;
+    // legs 4, 5, 6: actuator length d
+    let t47 = t36 - t41;
+    // legs 1, 2, 3: gradient of the actuator length by the platform joint
+    let t48 = t25 * t44;
+    // legs 4, 5, 6: gradient of the actuator length by the platform joint
+    let t49 = t32 * t46;
+    let t50 = t28 * t46;
+    // legs 1, 2, 3: gradient of the actuator length by the platform joint
+    let t51 = t31 * t44;
+    // velocity of the platform origin relative to the base
+    let t52 = t1 * P::splat(platform_velocity[1] - base_velocity[1]);
+    // rotation of the platform seen from the base
+    let t53 = P::triple([P::lane(t8, 1), P::lane(t8, 2), P::lane(t8, 0)]);
+    // platform origin seen from the base
+    let t54 = P::triple([P::lane(t14, 1), P::lane(t14, 2), P::lane(t14, 0)]);
+    // angular velocity of the base
+    let t55 = P::triple([P::lane(t38, 2), P::lane(t38, 0), P::lane(t38, 1)]);
+    // rotation of the platform seen from the base
+    let t56 = P::triple([P::lane(t9, 1), P::lane(t9, 2), P::lane(t9, 0)]);
+    let t57 = P::triple([P::lane(t8, 2), P::lane(t8, 0), P::lane(t8, 1)]);
+    // angular velocity of the platform relative to the base
+    let t58 = P::triple([P::lane(t43, 2), P::lane(t43, 0), P::lane(t43, 1)]);
+    // velocity of the platform origin relative to the base
+    let t59 = mul_add(t2, P::splat(platform_velocity[0] - base_velocity[0]), t52);
+    // angular velocity of the platform relative to the base
+    let t60 = P::triple([P::lane(t43, 1), P::lane(t43, 2), P::lane(t43, 0)]);
+    // platform origin seen from the base
+    let t61 = P::triple([P::lane(t14, 2), P::lane(t14, 0), P::lane(t14, 1)]);
+    // rate of the relative rotation
+    let t62 = mul_sub(t57, t60, t53 * t58);
+    // angular velocity of the base
+    let t63 = P::triple([P::lane(t38, 1), P::lane(t38, 2), P::lane(t38, 0)]);
+    // rotation of the platform seen from the base
+    let t64 = P::triple([P::lane(t9, 2), P::lane(t9, 0), P::lane(t9, 1)]);
+    // velocity of the platform origin relative to the base
+    let t65 = mul_add(t3, P::splat(platform_velocity[2] - base_velocity[2]), t59);
+    // rate of the relative rotation
+    let t66 = mul_sub(t60, t64, t56 * t58);
+    // rotation of the platform seen from the base
+    let t67 = P::triple([P::lane(t15, 1), P::lane(t15, 2), P::lane(t15, 0)]);
+    let t68 = P::triple([P::lane(t15, 2), P::lane(t15, 0), P::lane(t15, 1)]);
+    // velocity of the platform origin relative to the base
+    let t69 = t65 - mul_sub(t61, t63, t54 * t55);
+    // legs 1, 2, 3: velocity of the platform joint relative to the base
+    let t70 = P::splat(P::lane(t69, 1))
+        - mul_add(t7, P::splat(P::lane(t66, 1)), t11 * P::splat(P::lane(t62, 1)));
+    let t71 = P::splat(P::lane(t69, 0))
+        - mul_add(t7, P::splat(P::lane(t66, 0)), t11 * P::splat(P::lane(t62, 0)));
+    // legs 4, 5, 6: velocity of the platform joint relative to the base
+    let t72 = P::splat(P::lane(t69, 1))
+        - mul_add(t12, P::splat(P::lane(t66, 1)), t16 * P::splat(P::lane(t62, 1)));
+    let t73 = P::splat(P::lane(t69, 0))
+        - mul_add(t12, P::splat(P::lane(t66, 0)), t16 * P::splat(P::lane(t62, 0)));
+    // angular velocity of the base
+    let t74 = P::triple([P::lane(t38, 2), P::lane(t38, 2), P::lane(t38, 0)]);
+    let t75 = P::triple([P::lane(t38, 1), P::lane(t38, 0), P::lane(t38, 1)]);
+    // acceleration of the base origin less gravity
+    let t76 = mul_add(
+        t2,
+        P::splat(base_acceleration[0]),
+        t1 * P::splat(base_acceleration[1]),
+    );
+    // angular acceleration of the base
+    let t77 = mul_add(
+        t2,
+        P::splat(base_acceleration[3]),
+        t1 * P::splat(base_acceleration[4]),
+    );
+    // legs 1, 2, 3: rate of the rod's extent along the actuator axis
+    let t78 = mul_add(t25, t71, t31 * t70);
+    // legs 4, 5, 6: velocity of the platform joint relative to the base
+    let t79 = P::splat(P::lane(t69, 2))
+        - mul_add(t12, P::splat(P::lane(t66, 2)), t16 * P::splat(P::lane(t62, 2)));
+    // legs 1, 2, 3: velocity of the platform joint relative to the base
+    let t80 = P::splat(P::lane(t69, 2))
+        - mul_add(t7, P::splat(P::lane(t66, 2)), t11 * P::splat(P::lane(t62, 2)));
+    // angular velocity of the base
+    let t81 = P::triple([P::lane(t38, 0), P::lane(t38, 2), P::lane(t38, 0)]);
+    let t82 = P::triple([P::lane(t38, 1), P::lane(t38, 1), P::lane(t38, 2)]);
+    // acceleration per base coordinate of points that move with the base
+    let t83 = mul_add(t75, t75, t74 * t74);
+    // angular acceleration of the base
+    let t84 = mul_add(t3, P::splat(base_acceleration[5]), t77);
+    // acceleration per base coordinate of points that move with the base
+    let t85 = t81 * t82;
+    // acceleration of the base origin less gravity
+    let t86 = mul_add(t3, P::splat(base_acceleration[2] + c(9.81)), t76);
+    // legs 1, 2, 3: rate of the rod's extent along the actuator axis
+    let t87 = t44 * t78;
+    // legs 4, 5, 6: rate of the rod's extent along the actuator axis
+    let t88 = mul_add(t28, t73, t32 * t72);
+    // legs 1, 2, 3: actuator velocity d'
+    let t89 = mul_add(t44, t78, t80);
+    // legs 4, 5, 6: rate of the rod's extent along the actuator axis
+    let t90 = t46 * t88;
+    // legs 4, 5, 6: actuator velocity d'
+    let t91 = mul_add(t46, t88, t79);
+    // angular acceleration of the base
+    let t92 = P::triple([P::lane(t84, 1), P::lane(t84, 2), P::lane(t84, 0)]);
+    let t93 = P::triple([P::lane(t84, 2), P::lane(t84, 0), P::lane(t84, 1)]);
+    // acceleration per base coordinate of points that move with the base
+    let t94 = mul_sub(t81, t82, t93);
+    let t95 = t92 + P::triple([P::lane(t85, 2), P::lane(t85, 0), P::lane(t85, 1)]);
+    // angular velocity of the platform
+    let t96 = P::triple([P::lane(t42, 1), P::lane(t42, 2), P::lane(t42, 0)]);
+    let t97 = P::triple([P::lane(t42, 2), P::lane(t42, 0), P::lane(t42, 1)]);
+    // acceleration per platform coordinate of points of the platform
+    let t98 = mul_sub(t42, t53, t8 * t96);
+    // acceleration per base coordinate of points that move with the base
+    let t99 = P::triple([-P::lane(t83, 0), P::lane(t95, 1), P::lane(t94, 2)]);
+    // acceleration per platform coordinate of points of the platform
+    let t100 = mul_sub(t42, t56, t9 * t96);
+    let t101 = mul_sub(t42, t67, t15 * t96);
+    let t102 = t97 * P::triple([P::lane(t98, 2), P::lane(t98, 0), P::lane(t98, 1)]);
+    // acceleration per base coordinate of points that move with the base
+    let t103 = P::triple([P::lane(t94, 0), -P::lane(t83, 1), P::lane(t95, 2)]);
+    // acceleration per platform coordinate of points of the platform
+    let t104 = t97 * P::triple([P::lane(t100, 2), P::lane(t100, 0), P::lane(t100, 1)]);
+    let t105 = mul_sub(t96, t98, t102);
+    // acceleration of the platform origin relative to the base
+    let t106 = mul_add(P::splat(P::lane(t14, 0)), t99, P::splat(P::lane(t14, 1)) * t103);
+    // acceleration per platform coordinate of points of the platform
+    let t107 = mul_sub(t96, t100, t104);
+    // velocity of the platform origin relative to the base
+    let t108 = P::triple([P::lane(t69, 1), P::lane(t69, 2), P::lane(t69, 0)]);
+    let t109 = P::triple([P::lane(t69, 2), P::lane(t69, 0), P::lane(t69, 1)]);
+    // acceleration per platform coordinate of points of the platform
+    let t110 = t97 * P::triple([P::lane(t101, 2), P::lane(t101, 0), P::lane(t101, 1)]);
+    // acceleration per base coordinate of points that move with the base
+    let t111 = P::triple([P::lane(t95, 0), P::lane(t94, 1), -P::lane(t83, 2)]);
+    // second derivative of the relative rotation
+    let t112 = t92 - mul_sub(t43, t55, t38 * t58);
+    // acceleration per platform coordinate of points of the platform
+    let t113 = mul_sub(t96, t101, t110);
+    // rate of the relative rotation
+    let t114 = P::triple([P::lane(t62, 1), P::lane(t62, 2), P::lane(t62, 0)]);
+    let t115 = P::triple([P::lane(t66, 1), P::lane(t66, 2), P::lane(t66, 0)]);
+    let t116 = P::triple([P::lane(t62, 2), P::lane(t62, 0), P::lane(t62, 1)]);
+    // second derivative of the relative rotation
+    let t117 = mul_sub(t60, t116, t58 * t114);
+    // rate of the relative rotation
+    let t118 = P::triple([P::lane(t66, 2), P::lane(t66, 0), P::lane(t66, 1)]);
+    // acceleration of the platform origin relative to the base
+    let t119 = t86 + mul_add(P::splat(P::lane(t14, 2)), t111, t106);
+    // second derivative of the relative rotation
+    let t120 = P::triple([P::lane(t112, 1), P::lane(t112, 2), P::lane(t112, 0)]);
+    let t121 = mul_sub(t60, t118, t58 * t115);
+    // acceleration of the platform origin relative to the base
+    let t122 = mul_add(w(2.0), mul_sub(t63, t109, t55 * t108), t119);
+    // second derivative of the relative rotation
+    let t123 = mul_sub(t57, t112, t53 * t120) - t117;
+    let t124 = mul_sub(t64, t112, t56 * t120) - t121;
+    // legs 1, 2, 3: acceleration of the platform joint relative to the base
+    let t125 = P::splat(P::lane(t122, 0))
+        + mul_add(t7, P::splat(P::lane(t124, 0)), t11 * P::splat(P::lane(t123, 0)));
+    // legs 4, 5, 6: acceleration of the platform joint relative to the base
+    let t126 = P::splat(P::lane(t122, 0))
+        + mul_add(t12, P::splat(P::lane(t124, 0)), t16 * P::splat(P::lane(t123, 0)));
+    // legs 1, 2, 3: acceleration of the platform joint relative to the base
+    let t127 = P::splat(P::lane(t122, 1))
+        + mul_add(t7, P::splat(P::lane(t124, 1)), t11 * P::splat(P::lane(t123, 1)));
+    // legs 4, 5, 6: acceleration of the platform joint relative to the base
+    let t128 = P::splat(P::lane(t122, 1))
+        + mul_add(t12, P::splat(P::lane(t124, 1)), t16 * P::splat(P::lane(t123, 1)));
+    // legs 1, 2, 3: acceleration of the platform joint relative to the base
+    let t129 = P::splat(P::lane(t122, 2))
+        + mul_add(t7, P::splat(P::lane(t124, 2)), t11 * P::splat(P::lane(t123, 2)));
+    // legs 1, 2, 3: leg inertia less weight along the actuator
+    let t130 = mul_sub(t19, P::splat(P::lane(t83, 0)), t29 * P::splat(P::lane(t94, 0)));
+    // legs 1, 2, 3: actuator acceleration d''
+    let t131 = mul_add(t25, t125, t31 * t127);
+    // legs 4, 5, 6: actuator acceleration d''
+    let t132 = mul_add(t28, t126, t32 * t128);
+    // legs 4, 5, 6: acceleration of the platform joint relative to the base
+    let t133 = P::splat(P::lane(t122, 2))
+        + mul_add(t12, P::splat(P::lane(t124, 2)), t16 * P::splat(P::lane(t123, 2)));
+    // legs 1, 2, 3: leg inertia less weight along the actuator
+    let t134 = mul_sub(t19, P::splat(P::lane(t95, 1)), t29 * P::splat(P::lane(t83, 1)));
+    let t135 = mul_add(t19, P::splat(P::lane(t94, 2)), t29 * P::splat(P::lane(t95, 2)));
+    let t136 = t89 * w(2.0);
+    // legs 1, 2, 3: actuator acceleration d''
+    let t137 = mul_add(t87, t87, mul_add(t71, t71, t70 * t70) - t131);
+    // legs 4, 5, 6: actuator acceleration d''
+    let t138 = mul_add(t90, t90, mul_add(t73, t73, t72 * t72) - t132);
+    // legs 1, 2, 3: leg inertia less weight along the actuator
+    let t139 = P::splat(P::lane(t86, 0))
+        - neg_mul_add(t45, P::splat(P::lane(t95, 0)), t130);
+    let t140 = P::splat(P::lane(t86, 1)) + mul_add(t45, P::splat(P::lane(t94, 1)), t134);
+    // legs 1, 2, 3: actuator acceleration d''
+    let t141 = neg_mul_add(t44, t137, t129);
+    // legs 4, 5, 6: actuator acceleration d''
+    let t142 = neg_mul_add(t46, t138, t133);
+    // legs 4, 5, 6: leg inertia less weight along the actuator
+    let t143 = t91 * w(2.0);
+    // legs 1, 2, 3: leg inertia less weight along the actuator
+    let t144 = mul_add(P::splat(P::lane(t38, 1)), t136, t139);
+    // legs 4, 5, 6: leg inertia less weight along the actuator
+    let t145 = mul_sub(t34, P::splat(P::lane(t83, 0)), t33 * P::splat(P::lane(t94, 0)));
+    let t146 = mul_sub(t34, P::splat(P::lane(t95, 1)), t33 * P::splat(P::lane(t83, 1)));
+    // legs 1, 2, 3: leg inertia less weight along the actuator
+    let t147 = t141
+        - (P::splat(P::lane(t86, 2))
+            + neg_mul_add(t45, P::splat(P::lane(t83, 2)), t135));
+    let t148 = neg_mul_add(P::splat(P::lane(t38, 0)), t136, t140);
+    // legs 4, 5, 6: leg inertia less weight along the actuator
+    let t149 = mul_add(t34, P::splat(P::lane(t94, 2)), t33 * P::splat(P::lane(t95, 2)));
+    // legs 1, 2, 3: leg inertia less weight along the actuator
+    let t150 = mul_add(t7, P::splat(P::lane(t107, 2)), t11 * P::splat(P::lane(t105, 2)));
+    // legs 1, 2, 3: remaining leg inertia less weight at the platform joint
+    let t151 = w(0.17066666666666666) * t144;
+    let t152 = w(0.17066666666666666) * t148;
+    // legs 4, 5, 6: leg inertia less weight along the actuator
+    let t153 = mul_add(
+        t12,
+        P::splat(P::lane(t107, 2)),
+        t16 * P::splat(P::lane(t105, 2)),
+    );
+    // legs 1, 2, 3: remaining leg inertia less weight at the platform joint
+    let t154 = w(0.17066666666666666) * t147;
+    // legs 4, 5, 6: leg inertia less weight along the actuator
+    let t155 = P::splat(P::lane(t86, 0))
+        - neg_mul_add(t47, P::splat(P::lane(t95, 0)), t145);
+    let t156 = P::splat(P::lane(t86, 1)) + mul_add(t47, P::splat(P::lane(t94, 1)), t146);
+    // legs 1, 2, 3: leg inertia less weight along the actuator
+    let t157 = mul_sub(w(0.3413333333333334), t147, w(0.17066666666666666) * t150);
+    // legs 4, 5, 6: leg inertia less weight along the actuator
+    let t158 = mul_add(P::splat(P::lane(t38, 1)), t143, t155);
+    let t159 = neg_mul_add(P::splat(P::lane(t38, 0)), t143, t156);
+    let t160 = t142
+        - (P::splat(P::lane(t86, 2))
+            + neg_mul_add(t47, P::splat(P::lane(t83, 2)), t149));
+    // legs 1, 2, 3: leg inertia less weight along the actuator
+    let t161 = mul_add(
+        w(0.611),
+        neg_mul_add(P::splat(P::lane(t83, 2)), w(0.05), t147),
+        t157,
+    );
+    // legs 1, 2, 3: row of the actuator Jacobian in base coordinates
+    let t162 = neg_mul_add(t26, t51, t20);
+    let t163 = neg_mul_add(t26, t48, t17);
+    // legs 4, 5, 6: row of the actuator Jacobian in base coordinates
+    let t164 = neg_mul_add(t30, t49, t21);
+    let t165 = neg_mul_add(t30, t50, t18);
+    // legs 4, 5, 6: leg inertia less weight along the actuator
+    let t166 = mul_sub(w(0.3413333333333334), t160, w(0.17066666666666666) * t153);
+    // legs 1, 2, 3: spring and damper force along the actuator
+    let t167 = t45 - w(0.198);
+    // legs 4, 5, 6: remaining leg inertia less weight at the platform joint
+    let t168 = w(0.17066666666666666) * t160;
+    // legs 1, 2, 3: row of the actuator Jacobian in base coordinates
+    let t169 = mul_sub(t17, t51, t20 * t48);
+    // legs 4, 5, 6: row of the actuator Jacobian in base coordinates
+    let t170 = mul_sub(t18, t49, t21 * t50);
+    // legs 4, 5, 6: remaining leg inertia less weight at the platform joint
+    let t171 = w(0.17066666666666666) * t158;
+    let t172 = w(0.17066666666666666) * t159;
+    // legs 4, 5, 6: spring and damper force along the actuator
+    let t173 = t47 - w(0.198);
+    // legs 4, 5, 6: leg inertia less weight along the actuator
+    let t174 = neg_mul_add(
+        w(0.611),
+        mul_sub(P::splat(P::lane(t83, 2)), w(0.05), t160),
+        t166,
+    );
+    // its first moments by platform coordinate
+    let t175 = mul_add(t7, t154, t12 * t168);
+    let t176 = mul_add(t11, t154, t16 * t168);
+    let t177 = mul_add(t7, t151, t12 * t171);
+    let t178 = mul_add(t7, t152, t12 * t172);
+    let t179 = mul_add(t11, t151, t16 * t171);
+    let t180 = mul_add(t11, t152, t16 * t172);
+    let t181 = P::triple([P::lane(t177, 1), P::lane(t178, 1), -P::lane(t175, 1)]);
+    let t182 = P::triple([P::lane(t177, 0), P::lane(t178, 0), -P::lane(t175, 0)]) + t181;
+    // constant and copied elements
+    let t183 = P::triple([actuator_force[0], actuator_force[1], actuator_force[2]]);
+    // its first moments by platform coordinate
+    let t184 = t182 + P::triple([P::lane(t177, 2), P::lane(t178, 2), -P::lane(t175, 2)]);
+    // constant and copied elements
+    let t185 = P::triple([actuator_force[3], actuator_force[4], actuator_force[5]]);
+    // legs 1, 2, 3: force along the actuator that reaches the platform
+    let t186 = neg_mul_add(w(21555.9), t167, t161) + t183;
+    // its first moments by platform coordinate
+    let t187 = mul_add(w(0.032245600000000006), t107, t184);
+    let t188 = P::triple([P::lane(t179, 1), P::lane(t180, 1), -P::lane(t176, 1)]);
+    // legs 4, 5, 6: force along the actuator that reaches the platform
+    let t189 = t185 + neg_mul_add(w(21555.9), t173, t174);
+    // its first moments by platform coordinate
+    let t190 = P::triple([P::lane(t179, 0), P::lane(t180, 0), -P::lane(t176, 0)]) + t188;
+    let t191 = w(0.013354412) * t113;
+    // wrench left at the trial acceleration
+    let t192 = mul_sub(t50, t189, neg_mul_add(t48, t186, t151));
+    // its first moments by platform coordinate
+    let t193 = t190 + P::triple([P::lane(t179, 2), P::lane(t180, 2), -P::lane(t176, 2)]);
+    // wrench left at the trial acceleration
+    let t194 = mul_sub(t49, t189, neg_mul_add(t51, t186, t152));
+    let t195 = t189 + mul_add(w(0.17066666666666666), t147, t186);
+    let t196 = mul_add(t163, t186, t165 * t189);
+    let t197 = mul_sub(w(0.17066666666666666), t158, t192);
+    let t198 = mul_add(t162, t186, t164 * t189);
+    let t199 = mul_add(t169, t186, t170 * t189);
+    // its first moments by platform coordinate
+    let t200 = mul_add(w(0.032245600000000006), t105, t193);
+    // wrench left at the trial acceleration
+    let t201 = mul_add(w(0.17066666666666666), t160, t195);
+    let t202 = mul_sub(w(0.17066666666666666), t159, t194);
+    let t203 = P::triple([-P::lane(t197, 1), -P::lane(t202, 1), P::lane(t201, 1)]);
+    let t204 = P::triple([-P::lane(t197, 0), -P::lane(t202, 0), P::lane(t201, 0)])
+        + t203;
+    let t205 = t204
+        + P::triple([-P::lane(t197, 2), -P::lane(t202, 2), P::lane(t201, 2)]);
+    let t206 = P::triple([P::lane(t198, 1), -P::lane(t196, 1), P::lane(t199, 1)]);
+    // inertia less external wrench that the actuators must balance
+    let t207 = mul_add(
+        t2,
+        P::splat(external_wrench[0]),
+        t1 * P::splat(external_wrench[1]),
+    );
+    // wrench left at the trial acceleration
+    let t208 = P::triple([P::lane(t198, 0), -P::lane(t196, 0), P::lane(t199, 0)]) + t206;
+    let t209 = neg_mul_add(w(2.2551405187698492e-17), t107, t205);
+    let t210 = P::triple([P::lane(t198, 2), -P::lane(t196, 2), P::lane(t199, 2)]) + t208;
+    // inertia less external wrench that the actuators must balance
+    let t211 = mul_add(t3, P::splat(external_wrench[2]), t207);
+    let t212 = P::triple([P::lane(t187, 2), P::lane(t187, 0), P::lane(t187, 1)]);
+    // its first moments by platform coordinate
+    let t213 = P::triple([P::lane(t187, 1), P::lane(t187, 2), P::lane(t187, 0)]);
+    // wrench left at the trial acceleration
+    let t214 = neg_mul_add(w(6.938893903907228e-18), t105, t209);
+    // its first moments by platform coordinate
+    let t215 = P::triple([P::lane(t191, 1), P::lane(t191, 2), P::lane(t191, 0)]);
+    // inertia less external wrench that the actuators must balance
+    let t216 = P::triple([P::lane(t200, 2), P::lane(t200, 0), P::lane(t200, 1)]);
+    // its first moments by platform coordinate
+    let t217 = P::triple([P::lane(t200, 1), P::lane(t200, 2), P::lane(t200, 0)]);
+    // wrench left at the trial acceleration
+    let t218 = mul_add(t64, t213, neg_mul_add(t56, t212, t210));
+    // inertia less external wrench that the actuators must balance
+    let t219 = P::triple([P::lane(t211, 1), P::lane(t211, 2), P::lane(t211, 0)]);
+    let t220 = neg_mul_add(w(0.031), t219, t215);
+    // wrench left at the trial acceleration
+    let t221 = t211 + neg_mul_add(w(0.188852), t113, t214);
+    // mass matrix in base coordinates
+    let t222 = w(0.9523333333333334) * t49;
+    let t223 = w(0.9523333333333334) * t51;
+    // legs 1, 2, 3: the vectors that are squared, in the platform speeds
+    let t224 = mul_add(t20, w(0.1792089604480224), t162);
+    // mass matrix in base coordinates
+    let t225 = t48 * (w(0.9523333333333334) * t48);
+    // legs 1, 2, 3: the vectors that are squared, in the platform speeds
+    let t226 = mul_add(t17, w(0.1792089604480224), t163);
+    // legs 4, 5, 6: the vectors that are squared, in the platform speeds
+    let t227 = mul_add(t21, w(0.1792089604480224), t164);
+    // mass matrix in base coordinates
+    let t228 = mul_add(t48, w(1.1230000000000002), t50 * w(1.1230000000000002));
+    // legs 4, 5, 6: the vectors that are squared, in the platform speeds
+    let t229 = mul_add(t18, w(0.1792089604480224), t165);
+    // mass matrix in base coordinates
+    let t230 = mul_add(t50, w(0.9523333333333334) * t50, t225);
+    let t231 = mul_add(t48, t223, t50 * t222);
+    let t232 = w(0.9523333333333334) * t224;
+    // wrench left at the trial acceleration
+    let t233 = mul_add(t57, t217, neg_mul_add(t53, t216, t218));
+    // mass matrix in base coordinates
+    let t234 = t20 * w(0.03058499591646249);
+    let t235 = w(0.9523333333333334) * t227;
+    // inertia less external wrench that the actuators must balance
+    let t236 = P::triple([P::lane(t220, 1), P::lane(t220, 2), P::lane(t220, 0)]);
+    // mass matrix in base coordinates
+    let t237 = t18 * w(0.03058499591646249);
+    let t238 = w(0.9523333333333334) * t229;
+    let t239 = mul_add(t48, t232, t50 * t235);
+    // wrench left at the trial acceleration
+    let t240 = mul_add(t68, t220, neg_mul_add(t67, t236, t233));
+    // mass matrix in base coordinates
+    let t241 = w(0.9523333333333334) * t226;
+    // wrench left at the trial acceleration
+    let t242 = mul_add(t2, P::splat(external_wrench[3]), t240);
+    let t243 = mul_add(t1, P::splat(external_wrench[4]), t242);
+    // mass matrix in base coordinates
+    let t244 = t17 * w(0.03058499591646249);
+    // wrench left at the trial acceleration
+    let t245 = mul_add(t3, P::splat(external_wrench[5]), t243);
+    // mass matrix in base coordinates
+    let t246 = w(0.9523333333333334) * t169;
+    let t247 = w(0.9523333333333334) * t170;
+    let t248 = mul_add(t49, t222, t51 * t223);
+    let t249 = mul_add(t51, w(1.1230000000000002), t49 * w(1.1230000000000002));
+    let t250 = neg_mul_add(t232, w(1.1792089604480225), t234);
+    let t251 = neg_mul_add(w(1.1792089604480225), t241, t244);
+    let t252 = mul_add(t227, t235, mul_sub(t224, t232, t20 * t234));
+    let t253 = mul_add(t51, t241, t49 * t238);
+    let t254 = mul_add(t49, t235, t51 * t232);
+    let t255 = mul_add(t49, t247, t51 * t246);
+    let t256 = mul_add(t50, t238, t48 * t241);
+    let t257 = mul_add(t227, t238, mul_sub(t224, t241, t20 * t244));
+    let t258 = mul_sub(w(1.1792089604480225), t235, t250);
+    let t259 = mul_sub(t21, t21 * w(0.03058499591646249), t252);
+    let t260 = mul_add(t50, t247, t48 * t246);
+    let t261 = mul_sub(t21, t237, t257);
+    let t262 = mul_add(t227, t247, t224 * t246);
+    let t263 = mul_sub(w(1.1792089604480225), t238, t251);
+    let t264 = mul_add(t229, t247, t226 * t246);
+    let t265 = mul_sub(t21, w(0.03058499591646249), t258);
+    let t266 = mul_sub(t18, w(0.03058499591646249), t263);
+    let t267 = mul_add(t229, t238, mul_sub(t226, t241, t17 * t244));
+    let t268 = mul_add(w(1.1792089604480225), t246, w(1.1792089604480225) * t247);
+    let t269 = mul_add(t170, t247, t169 * t246);
+    let t270 = P::triple([P::lane(t230, 1), P::lane(t231, 1), P::lane(t228, 1)]);
+    let t271 = P::triple([P::lane(t230, 0), P::lane(t231, 0), P::lane(t228, 0)]) + t270;
+    let t272 = mul_sub(t18, t237, t267);
+    let t273 = P::triple([P::lane(t230, 2), P::lane(t231, 2), P::lane(t228, 2)]) + t271;
+    let t274 = P::lane(t249, 1) + P::lane(t249, 0);
+    let t275 = P::triple([c(0.0), P::lane(t248, 1) + P::lane(t248, 0), t274]);
+    let t276 = t275 + P::triple([P::lane(t273, 1), P::lane(t248, 2), P::lane(t249, 2)]);
+    let t277 = P::triple([P::lane(t239, 1), -P::lane(t256, 1), P::lane(t260, 1)]);
+    let t278 = P::triple([P::lane(t239, 0), -P::lane(t256, 0), P::lane(t260, 0)]) + t277;
+    let t279 = P::triple([P::lane(t254, 1), -P::lane(t253, 1), P::lane(t255, 1)]);
+    let t280 = t278 + P::triple([P::lane(t239, 2), -P::lane(t256, 2), P::lane(t260, 2)]);
+    let t281 = P::triple([P::lane(t254, 0), -P::lane(t253, 0), P::lane(t255, 0)]) + t279;
+    let t282 = P::triple([P::lane(t273, 2), P::lane(t276, 2), c(2.5873333333333344)]);
+    let t283 = P::triple([c(0.0), c(0.0), c(5.174666666666669)]) + t282;
+    let t284 = P::triple([P::lane(t254, 2), -P::lane(t253, 2), P::lane(t255, 2)]) + t281;
+    let t285 = P::triple([-P::lane(t265, 1), P::lane(t266, 1), P::lane(t268, 1)]);
+    let t286 = P::triple([-P::lane(t265, 0), P::lane(t266, 0), P::lane(t268, 0)]) + t285;
+    let t287 = P::triple([-P::lane(t259, 1), P::lane(t261, 1), P::lane(t262, 1)]);
+    let t288 = P::triple([-P::lane(t259, 0), P::lane(t261, 0), P::lane(t262, 0)]) + t287;
+    let t289 = t286 + P::triple([-P::lane(t265, 2), P::lane(t266, 2), P::lane(t268, 2)]);
+    let t290 = P::triple([-P::lane(t259, 2), P::lane(t261, 2), P::lane(t262, 2)]) + t288;
+    let t291 = -(P::lane(t264, 1) + P::lane(t264, 0));
+    // mass of payload and platform-side leg ends
+    let t292 = P::triple([c(8.139999999999999), c(0.0), c(0.0)]);
+    // mass matrix in base coordinates
+    let t293 = P::triple([P::lane(t290, 1), -P::lane(t272, 2), -P::lane(t264, 2)]);
+    let t294 = P::triple([c(0.0), -(P::lane(t272, 1) + P::lane(t272, 0)), t291]) + t293;
+    // rotation of the platform seen from the base
+    let t295 = P::triple([P::lane(t9, 0), P::lane(t9, 1), P::lane(t9, 1)]);
+    let t296 = P::triple([P::lane(t9, 1), P::lane(t9, 1), P::lane(t9, 2)]);
+    // mass matrix in base coordinates
+    let t297 = P::triple([c(0.0), c(0.0), P::lane(t269, 1) + P::lane(t269, 0)]);
+    let t298 = t294 + P::triple([c(0.0), c(0.07784561200000001), c(0.0)]);
+    // rotation of the platform seen from the base
+    let t299 = P::triple([P::lane(t8, 0), P::lane(t8, 1), P::lane(t8, 1)]);
+    let t300 = P::triple([P::lane(t8, 1), P::lane(t8, 1), P::lane(t8, 2)]);
+    let t301 = P::triple([P::lane(t15, 0), P::lane(t15, 1), P::lane(t15, 1)]);
+    // mass matrix in base coordinates
+    let t302 = t297 + P::triple([P::lane(t290, 2), P::lane(t294, 2), P::lane(t269, 2)]);
+    let t303 = neg_mul_add(t296, w(0.032245600000000006) * t295, t298);
+    let t304 = t302 + P::triple([c(0.0), c(0.0), c(0.07784561200000001)]);
+    // rotation of the platform seen from the base
+    let t305 = P::triple([P::lane(t15, 1), P::lane(t15, 1), P::lane(t15, 2)]);
+    // mass matrix in base coordinates
+    let t306 = neg_mul_add(t300, w(0.032245600000000006) * t299, t303);
+    let t307 = neg_mul_add(P::splat(P::lane(t9, 2)), t9 * w(0.032245600000000006), t304);
+    let t308 = t290 + P::triple([c(0.07784561200000001), c(0.0), c(0.0)]);
+    let t309 = P::triple([
+        P::lane(t276 + P::triple([c(0.0), c(8.139999999999999), c(0.0)]), 1),
+        P::lane(t273, 2),
+        P::lane(t273, 1),
+    ]);
+    let t310 = neg_mul_add(w(0.013354412) * t301, t305, t306);
+    let t311 = neg_mul_add(P::splat(P::lane(t8, 2)), t8 * w(0.032245600000000006), t307);
+    let t312 = neg_mul_add(t9, P::splat(P::lane(t9, 0) * c(0.032245600000000006)), t308);
+    let t313 = P::triple([P::lane(t276, 2), P::lane(t273, 1), P::lane(t273, 2)]);
+    let t314 = P::triple([
+        P::lane(t283 + P::triple([c(0.0), c(0.0), c(8.139999999999999)]), 2),
+        P::lane(t276, 2),
+        P::lane(t276, 2),
+    ]);
+    let t315 = neg_mul_add(P::splat(P::lane(t15, 2)), t15 * w(0.013354412), t311);
+    let t316 = neg_mul_add(t8, P::splat(P::lane(t8, 0) * c(0.032245600000000006)), t312);
+    let t317 = P::triple([
+        P::lane(t276, 2),
+        P::lane(t283 + P::triple([c(0.0), c(0.0), c(8.139999999999999)]), 2),
+        P::lane(t276 + P::triple([c(0.0), c(8.139999999999999), c(0.0)]), 1),
+    ]);
+    let t318 = neg_mul_add(t15, P::splat(P::lane(t15, 0) * c(0.013354412)), t316);
+    let t319 = P::lane(t8, 2) * c(6.938893903907228e-18);
+    let t320 = P::lane(t8, 0) * c(6.938893903907228e-18);
+    let t321 = P::lane(t8, 1) * c(6.938893903907228e-18);
+    // acceleration that removes the residual wrench
+    let t322 = mul_sub(t309, t314, t313 * t317);
+    // mass matrix in base coordinates
+    let t323 = P::triple([
+        P::lane(t283 + P::triple([c(0.0), c(0.0), c(8.139999999999999)]), 2),
+        P::lane(t273, 2),
+        P::lane(t276, 2),
+    ]);
+    let t324 = P::mul_add(P::lane(t9, 2), c(2.2551405187698492e-17), t319);
+    let t325 = P::mul_add(P::lane(t9, 0), c(2.2551405187698492e-17), t320);
+    let t326 = P::mul_add(P::lane(t9, 1), c(2.2551405187698492e-17), t321);
+    let t327 = P::triple([P::lane(t273, 1), P::lane(t273, 2), P::lane(t273 + t292, 0)]);
+    let t328 = P::triple([P::lane(t273, 2), P::lane(t273 + t292, 0), P::lane(t273, 2)]);
+    let t329 = P::triple([
+        P::lane(t276, 2),
+        P::lane(t283 + P::triple([c(0.0), c(0.0), c(8.139999999999999)]), 2),
+        P::lane(t273, 1),
+    ]);
+    let t330 = P::mul_add(P::lane(t15, 2), c(0.188852), t324);
+    let t331 = P::mul_add(P::lane(t15, 0), c(0.188852), t325);
+    let t332 = P::mul_add(P::lane(t15, 1), c(0.188852), t326);
+    // acceleration that removes the residual wrench
+    let t333 = mul_sub(t328, t329, t323 * t327);
+    // mass matrix in base coordinates
+    let t334 = P::triple([P::lane(t273, 2), P::lane(t273 + t292, 0), P::lane(t273, 1)]);
+    let t335 = P::triple([
+        P::lane(t276 + P::triple([c(0.0), c(8.139999999999999), c(0.0)]), 1),
+        P::lane(t276, 2),
+        P::lane(t273, 1),
+    ]);
+    let t336 = P::lane(t284, 0) - t330;
+    let t337 = P::lane(t284, 2) + t331;
+    let t338 = P::lane(t280, 1) + t330;
+    let t339 = P::lane(t280, 2) - t332;
+    let t340 = P::lane(t289, 0) + t332;
+    let t341 = P::lane(t289, 1) - t331;
+    let t342 = P::triple([t336, P::lane(t284, 1), t337]);
+    let t343 = P::triple([P::lane(t273, 1), P::lane(t273, 1), P::lane(t273 + t292, 0)]);
+    let t344 = P::triple([P::lane(t280, 0), t338, t339]);
+    let t345 = P::triple([t340, t341, P::lane(t289, 2)]);
+    let t346 = P::triple([
+        P::lane(t276, 2),
+        P::lane(t273, 2),
+        P::lane(t276 + P::triple([c(0.0), c(8.139999999999999), c(0.0)]), 1),
+    ]);
+    // acceleration that removes the residual wrench
+    let t347 = mul_add(
+        P::splat(P::lane(t322, 0)),
+        t344,
+        P::splat(P::lane(t322, 1)) * t342,
+    );
+    let t348 = mul_sub(t343, t346, t334 * t335);
+    let t349 = P::lane(t273, 1) * P::lane(t322, 1);
+    let t350 = P::mul_add(P::lane(t273 + t292, 0), P::lane(t322, 0), t349);
+    let t351 = mul_add(P::splat(P::lane(t322, 2)), t345, t347);
+    let t352 = mul_add(
+        P::splat(P::lane(t322, 1)),
+        t344,
+        t342 * P::splat(P::lane(t333, 1)),
+    );
+    let t353 = mul_add(
+        P::splat(P::lane(t322, 2)),
+        t344,
+        t342 * P::splat(P::lane(t333, 2)),
+    );
+    let t354 = P::mul_add(P::lane(t273, 2), P::lane(t322, 2), t350);
+    let t355 = mul_add(t345, P::splat(P::lane(t333, 2)), t352);
+    let t356 = mul_add(t345, P::splat(P::lane(t348, 2)), t353);
+    let t357 = mul_add(
+        t322,
+        P::splat(P::lane(t221, 0)),
+        t333 * P::splat(P::lane(t221, 1)),
+    );
+    let t358 = mul_add(t348, P::splat(P::lane(t221, 2)), t357);
+    let t359 = neg_mul_add(
+        P::splat(P::lane(t284, 1)),
+        t355,
+        mul_sub(t310, P::splat(t354), P::splat(t338) * t351),
+    );
+    let t360 = neg_mul_add(
+        P::splat(t337),
+        t355,
+        mul_sub(t315, P::splat(t354), P::splat(t339) * t351),
+    );
+    let t361 = neg_mul_add(
+        P::splat(t336),
+        t355,
+        mul_sub(t318, P::splat(t354), P::splat(P::lane(t280, 0)) * t351),
+    );
+    let t362 = neg_mul_add(P::splat(t341), t356, t359);
+    let t363 = neg_mul_add(P::splat(P::lane(t289, 2)), t356, t360);
+    let t364 = neg_mul_add(P::splat(t340), t356, t361);
+    let t365 = mul_sub(t245, P::splat(t354), t344 * P::splat(P::lane(t358, 0)));
+    let t366 = P::triple([P::lane(t362, 2), P::lane(t362, 0), P::lane(t362, 1)]);
+    let t367 = P::triple([P::lane(t362, 1), P::lane(t362, 2), P::lane(t362, 0)]);
+    let t368 = P::triple([P::lane(t363, 1), P::lane(t363, 2), P::lane(t363, 0)]);
+    let t369 = P::triple([P::lane(t363, 2), P::lane(t363, 0), P::lane(t363, 1)]);
+    let t370 = neg_mul_add(t342, P::splat(P::lane(t358, 1)), t365);
+    let t371 = P::triple([P::lane(t364, 1), P::lane(t364, 2), P::lane(t364, 0)]);
+    let t372 = mul_sub(t367, t369, t366 * t368);
+    let t373 = P::triple([P::lane(t364, 2), P::lane(t364, 0), P::lane(t364, 1)]);
+    let t374 = neg_mul_add(t345, P::splat(P::lane(t358, 2)), t370);
+    let t375 = mul_sub(t366, t371, t367 * t373);
+    let t376 = mul_sub(t368, t373, t369 * t371) * P::splat(P::lane(t374, 1));
+    let t377 = P::triple([P::lane(t351, 0), P::lane(t355, 0), P::lane(t356, 0)]);
+    let t378 = P::mul_add(
+        P::lane(t364, 0),
+        P::lane(t372, 0),
+        P::lane(t364, 1) * P::lane(t372, 1),
+    );
+    // constant and copied elements
+    let t379 = P::triple([c(0.0), c(0.0), c(-9.81)]);
+    let t380 = P::triple([
+        base_rotation[0][0],
+        base_rotation[1][0],
+        base_rotation[2][0],
+    ]);
+    // acceleration that removes the residual wrench
+    let t381 = P::triple([P::lane(t351, 1), P::lane(t355, 1), P::lane(t356, 1)]);
+    let t382 = mul_add(
+        t375,
+        P::splat(P::lane(t374, 2)),
+        mul_add(t372, P::splat(P::lane(t374, 0)), t376),
+    );
+    let t383 = P::triple([P::lane(t351, 2), P::lane(t355, 2), P::lane(t356, 2)]);
+    // constant and copied elements
+    let t384 = P::triple([
+        base_rotation[0][1],
+        base_rotation[1][1],
+        base_rotation[2][1],
+    ]);
+    let t385 = P::triple([
+        base_rotation[0][2],
+        base_rotation[1][2],
+        base_rotation[2][2],
+    ]);
+    // acceleration that removes the residual wrench
+    let t386 = t382
+        * P::splat(c(1.0) / P::mul_add(P::lane(t364, 2), P::lane(t372, 2), t378));
+    let t387 = neg_mul_add(t377, P::splat(P::lane(t386, 0)), t358);
+    let t388 = neg_mul_add(t381, P::splat(P::lane(t386, 1)), t387);
+    // platform acceleration v_p'
+    let t389 = mul_add(
+        t380,
+        P::splat(P::lane(t386, 0)),
+        t384 * P::splat(P::lane(t386, 1)),
+    );
+    let t390 = mul_add(t385, P::splat(P::lane(t386, 2)), t389);
+    // acceleration that removes the residual wrench
+    let t391 = P::splat(c(1.0) / t354)
+        * neg_mul_add(t383, P::splat(P::lane(t386, 2)), t388);
+    // platform acceleration v_p'
+    let t392 = mul_add(
+        t380,
+        P::splat(P::lane(t391, 0)),
+        t384 * P::splat(P::lane(t391, 1)),
+    );
+    let t393 = t379 + mul_add(t385, P::splat(P::lane(t391, 2)), t392);
+    forward_dynamics[0] = P::lane(t393, 0);
+    forward_dynamics[1] = P::lane(t393, 1);
+    forward_dynamics[2] = P::lane(t393, 2);
+    forward_dynamics[3] = P::lane(t390, 0);
+    forward_dynamics[4] = P::lane(t390, 1);
+    forward_dynamics[5] = P::lane(t390, 2);
 }

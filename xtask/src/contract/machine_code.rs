@@ -69,6 +69,11 @@ impl MachineCode {
         self.functions.keys().map(String::as_str)
     }
 
+    /// Name, bytes of code and bytes of its own frame of every function.
+    pub fn sizes(&self) -> impl Iterator<Item = (&str, u64, u64)> {
+        self.functions.iter().map(|(name, function)| (name.as_str(), function.size, function.frame))
+    }
+
     /// Names that `function` and what it calls call, inside the object or not.
     pub fn reached(&self, function: &str) -> BTreeSet<String> {
         let (mut reached, mut waiting) = (BTreeSet::new(), vec![function.to_owned()]);

@@ -3,6 +3,7 @@
 
 mod machine_code;
 
+use std::path::Path;
 use std::process::Command;
 
 use self::machine_code::MachineCode;
@@ -23,6 +24,14 @@ pub fn if_possible() -> Result<String, Failure> {
 pub fn check() -> Result<(), Failure> {
     no_panic()?;
     same_bits()
+}
+
+/// Name, bytes of code and bytes of its own frame of every function of an object, archive or program.
+pub fn sizes(object: &Path) -> Result<Vec<(String, u64, u64)>, Failure> {
+    let listing =
+        run(Command::new("objdump").args(["--disassemble", "--demangle", "--no-show-raw-insn"]).arg(object))?;
+    let code = MachineCode::read(&listing);
+    Ok(code.sizes().map(|(name, size, frame)| (name.to_owned(), size, frame)).collect())
 }
 
 /// Every call of the C library for every test vector, by all its models, gives the same bits whether it is compiled for debugging or for
