@@ -36,6 +36,18 @@
 // inverse_dynamics, axial_reaction: 10.7 (51 states sampled)
 // control, axial_reaction: 54.5 (51 states sampled)
 // passive_inverse_dynamics, axial_reaction: 10.7 (51 states sampled)
+//
+// evidence
+// 1000 states over the workspace, seed 2016: every output agrees with the graph as derived and with
+// hand-written dynamics to a relative error below 1e-12
+// laws that hold at all of them:
+//   M_p = M_p^T
+//   M_p > 0: condition number, diagonal scaled to 1
+//   M_p' - 2 C_p is skew
+//   T = v_p^T M_p v_p / 2, base at rest
+//   (T + V)' = F.d' + W_ext.v_p - D.v_p, base at rest
+//   M_p v_p' + bias = J_dp^T F + W_ext + M_b v_b' (49)
+//   forward dynamics of the inverse dynamics' forces give v_p'
 
 #[allow(unused_imports)]
 use crate::float::{Scalar, mul_add, mul_sub, neg_mul_add, sqrt};
