@@ -22,13 +22,15 @@ pub fn choose(graph: &Graph, context: &Context, legs: usize) -> Partition {
     let Some(solve) = system.filter(|solve| solve.right_hand_side.len() == 6 && legs == 6) else {
         return in_order;
     };
-    let matrices = sampled_matrices(graph, solve, context);
-    let growth = |legs: &[usize]| matrices.iter().map(|matrix| growth(matrix, legs)).fold(0.0, f64::max);
+    let references: Vec<Reference> =
+        sampled_matrices(graph, solve, context).iter().map(Reference::new).collect();
+    let growth =
+        |legs: &[usize]| references.iter().map(|reference| reference.growth(legs)).fold(0.0, f64::max);
     // Exchanging the halves is a choice of its own: the first block is inverted as it is.
     let candidates = (0..64_usize).filter(|set| set.count_ones() == 3).map(|set| {
         let (first, second): (Vec<_>, Vec<_>) = (0..6).partition(|leg| set >> leg & 1 == 1);
         let legs = [first, second].concat();
-        Partition { growth: growth(&legs), legs, states: matrices.len() }
+        Partition { growth: growth(&legs), legs, states: references.len() }
     });
     candidates.min_by(|a, b| a.growth.total_cmp(&b.growth)).unwrap_or(in_order)
 }
@@ -92,26 +94,49 @@ fn solve_in_blocks(matrix: &[[f64; 6]; 6], right: &[f64; 6], legs: &[usize]) -> 
     solution
 }
 
-/// How much worse than rounding of the matrix the solution is, for a right-hand side along each axis.
-fn growth(matrix: &[[f64; 6]; 6], legs: &[usize]) -> f64 {
-    let mut worst = 0.0_f64;
-    for axis in 0..6 {
-        let right: [f64; 6] = std::array::from_fn(|row| f64::from(u8::from(row == axis)));
-        let x = solve_in_blocks(matrix, &right, legs);
-        let mut exact = right.to_vec();
-        solve_general(&mut matrix.concat(), &mut exact, &mut Vec::new());
-        // A change of each entry by half a unit in the last place changes x by up to |A^-1| |A| |x| times that.
-        let mut moved = [0.0; 6];
-        for column in 0..6 {
-            let mut unit: Vec<f64> =
-                (0..6).map(|row| matrix[row][column].abs() * exact[column].abs()).collect();
-            solve_general(&mut matrix.concat(), &mut unit, &mut Vec::new());
-            moved.iter_mut().zip(unit).for_each(|(sum, x)| *sum += x.abs());
-        }
-        let allowed = moved.iter().chain(&exact).fold(0.0_f64, |most, x| most.max(x.abs())) * f64::EPSILON;
-        let error = x.iter().zip(&exact).fold(0.0_f64, |most, (x, exact)| most.max((x - exact).abs()));
-        let ratio = error / allowed;
-        worst = if ratio.is_nan() { f64::INFINITY } else { worst.max(ratio) };
+/// A right-hand side along each axis with what is known of its solution whatever the partition.
+struct Reference {
+    matrix: [[f64; 6]; 6],
+    /// By pivoting.
+    exact: [[f64; 6]; 6],
+    /// What rounding of the matrix changes of it at most.
+    allowed: [f64; 6],
+}
+
+impl Reference {
+    fn new(matrix: &[[f64; 6]; 6]) -> Reference {
+        let solved = |right: [f64; 6]| {
+            let mut solution = right;
+            solve_general(&mut matrix.concat(), &mut solution, &mut Vec::new());
+            solution
+        };
+        let exact: [[f64; 6]; 6] = std::array::from_fn(|axis| solved(along(axis)));
+        let allowed = exact.map(|exact| {
+            // A change of each entry by half a unit in the last place changes x by up to |A^-1| |A| |x| times that.
+            let mut moved = [0.0; 6];
+            for column in 0..6 {
+                let unit = solved(std::array::from_fn(|row| matrix[row][column].abs() * exact[column].abs()));
+                moved.iter_mut().zip(unit).for_each(|(sum, x)| *sum += x.abs());
+            }
+            moved.iter().chain(&exact).fold(0.0_f64, |most, x| most.max(x.abs())) * f64::EPSILON
+        });
+        Reference { matrix: *matrix, exact, allowed }
     }
-    worst
+
+    /// How much worse than rounding of the matrix the solution is.
+    fn growth(&self, legs: &[usize]) -> f64 {
+        let mut worst = 0.0_f64;
+        for axis in 0..6 {
+            let x = solve_in_blocks(&self.matrix, &along(axis), legs);
+            let errors = x.iter().zip(&self.exact[axis]).map(|(x, exact)| (x - exact).abs());
+            let ratio = errors.fold(0.0_f64, f64::max) / self.allowed[axis];
+            worst = if ratio.is_nan() { f64::INFINITY } else { worst.max(ratio) };
+        }
+        worst
+    }
+}
+
+/// The unit vector along an axis.
+fn along(axis: usize) -> [f64; 6] {
+    std::array::from_fn(|row| f64::from(u8::from(row == axis)))
 }

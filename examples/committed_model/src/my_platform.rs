@@ -96,6 +96,90 @@ impl ::dyn_runtime::kernels::InverseDynamics for MyPlatform {
     }
 }
 
+impl ::dyn_runtime::lanes::Generic for MyPlatform {
+    type Parameters<T: Scalar> = ();
+}
+
+impl<S: ::dyn_runtime::lanes::Number> ::dyn_runtime::lanes::InLanes<S> for MyPlatform {
+    #[inline(always)]
+    fn in_lanes<'a, T: ::dyn_runtime::lanes::Lanes<Number = S>>(
+        _: impl Fn(usize) -> &'a Self,
+    ) {}
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl ::dyn_runtime::kernels::generic::RodAlignment for MyPlatform {
+    #[inline(always)]
+    fn rod_alignment<T: Scalar>(
+        _: &(),
+        base_position: &[T; 3],
+        base_rotation: &[[T; 3]; 3],
+        platform_position: &[T; 3],
+        platform_rotation: &[[T; 3]; 3],
+        rod_alignment: &mut [T; 6],
+    ) {
+        self::rod_alignment(
+            base_position,
+            base_rotation,
+            platform_position,
+            platform_rotation,
+            rod_alignment,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl ::dyn_runtime::kernels::generic::JacobianDp for MyPlatform {
+    #[inline(always)]
+    fn jacobian_dp<T: Scalar>(
+        _: &(),
+        base_position: &[T; 3],
+        base_rotation: &[[T; 3]; 3],
+        platform_position: &[T; 3],
+        platform_rotation: &[[T; 3]; 3],
+        jacobian_dp: &mut [[T; 6]; 6],
+    ) {
+        self::jacobian_dp(
+            base_position,
+            base_rotation,
+            platform_position,
+            platform_rotation,
+            jacobian_dp,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl ::dyn_runtime::kernels::generic::InverseDynamics for MyPlatform {
+    #[inline(always)]
+    fn inverse_dynamics<T: Scalar>(
+        _: &(),
+        base_position: &[T; 3],
+        base_rotation: &[[T; 3]; 3],
+        base_velocity: &[T; 6],
+        base_acceleration: &[T; 6],
+        platform_position: &[T; 3],
+        platform_rotation: &[[T; 3]; 3],
+        platform_velocity: &[T; 6],
+        platform_acceleration: &[T; 6],
+        external_wrench: &[T; 6],
+        inverse_dynamics: &mut [T; 6],
+    ) {
+        self::inverse_dynamics(
+            base_position,
+            base_rotation,
+            base_velocity,
+            base_acceleration,
+            platform_position,
+            platform_rotation,
+            platform_velocity,
+            platform_acceleration,
+            external_wrench,
+            inverse_dynamics,
+        );
+    }
+}
+
 /// Squared cosine between each rod and the line of its actuator's force, equation (18).
 ///
 /// Inputs:
@@ -109,6 +193,7 @@ impl ::dyn_runtime::kernels::InverseDynamics for MyPlatform {
 ///
 /// - `rod_alignment`: 6, dimensionless: squared cosine between rod and line of the actuator's force; negative out of reach, equation (18).
 #[allow(clippy::all, clippy::pedantic, unused_variables)]
+#[inline(always)]
 pub fn rod_alignment<T: Scalar>(
     base_position: &[T; 3],
     base_rotation: &[[T; 3]; 3],
@@ -228,6 +313,7 @@ pub fn rod_alignment<T: Scalar>(
 ///
 /// - `jacobian_dp`: 6x6, 1, m, frame O: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b, equation (32).
 #[allow(clippy::all, clippy::pedantic, unused_variables)]
+#[inline(always)]
 pub fn jacobian_dp<T: Scalar>(
     base_position: &[T; 3],
     base_rotation: &[[T; 3]; 3],
@@ -469,6 +555,7 @@ pub fn jacobian_dp<T: Scalar>(
 ///
 /// - `inverse_dynamics`: 6, N: actuator forces F, equation (49).
 #[allow(clippy::all, clippy::pedantic, unused_variables)]
+#[inline(always)]
 pub fn inverse_dynamics<T: Scalar>(
     base_position: &[T; 3],
     base_rotation: &[[T; 3]; 3],
@@ -1699,646 +1786,4 @@ pub fn inverse_dynamics_in_lanes<P: Triple>(
     inverse_dynamics[4] = P::lane(t270, 1);
     // leg 6: actuator forces F
     inverse_dynamics[5] = P::lane(t270, 2);
-}
-
-/// Actuator forces for a given platform acceleration, equation (49).
-///
-/// Inputs:
-///
-/// - `base_position`: 3, m, frame O: origin of the base frame.
-/// - `base_rotation`: 3x3, dimensionless, frame B -> O: rotation of the base, equation (2).
-/// - `base_velocity`: 6, m/s, rad/s, frame O: base velocity \[r_b'; w_b\], w_b the angular velocity.
-/// - `base_acceleration`: 6, m/s^2, rad/s^2, frame O: base acceleration \[r_b''; w_b'\].
-/// - `platform_position`: 3, m, frame O: centre of the platform's joint circle.
-/// - `platform_rotation`: 3x3, dimensionless, frame P -> O: rotation of the platform, equation (2).
-/// - `platform_velocity`: 6, m/s, rad/s, frame O: platform velocity \[r_p'; w_p\], the generalised speeds.
-/// - `platform_acceleration`: 6, m/s^2, rad/s^2, frame O: platform acceleration \[r_p''; w_p'\].
-/// - `external_wrench`: 6, N, N m, frame O: external force and moment \[F_D; M_D\] at the payload's centre of mass.
-///
-/// Outputs:
-///
-/// - `inverse_dynamics`: 6, N: actuator forces F, equation (49).
-#[allow(clippy::all, clippy::pedantic, unused_variables)]
-#[inline(always)]
-pub fn inverse_dynamics_in_lanes<P: Triple>(
-    base_position: &[P::Lane; 3],
-    base_rotation: &[[P::Lane; 3]; 3],
-    base_velocity: &[P::Lane; 6],
-    base_acceleration: &[P::Lane; 6],
-    platform_position: &[P::Lane; 3],
-    platform_rotation: &[[P::Lane; 3]; 3],
-    platform_velocity: &[P::Lane; 6],
-    platform_acceleration: &[P::Lane; 6],
-    external_wrench: &[P::Lane; 6],
-    inverse_dynamics: &mut [P::Lane; 6],
-) {
-    let c = <P::Lane as Scalar>::constant;
-    let w = <P as Scalar>::constant;
-    // constant and copied elements
-    let t1 = P::triple([base_rotation[1][0], base_rotation[1][1], base_rotation[1][2]]);
-    let t2 = P::triple([base_rotation[0][0], base_rotation[0][1], base_rotation[0][2]]);
-    let t3 = P::triple([base_rotation[2][0], base_rotation[2][1], base_rotation[2][2]]);
-    // rotation of the platform seen from the base
-    let t4 = mul_add(
-        t2,
-        P::splat(platform_rotation[0][1]),
-        t1 * P::splat(platform_rotation[1][1]),
-    );
-    let t5 = mul_add(
-        t2,
-        P::splat(platform_rotation[0][0]),
-        t1 * P::splat(platform_rotation[1][0]),
-    );
-    // platform origin seen from the base
-    let t6 = t1 * P::splat(platform_position[1] - base_position[1]);
-    // constant and copied elements
-    let t7 = P::triple([c(0.115911), c(-0.084853), c(-0.031058)]);
-    // rotation of the platform seen from the base
-    let t8 = mul_add(t3, P::splat(platform_rotation[2][1]), t4);
-    let t9 = mul_add(t3, P::splat(platform_rotation[2][0]), t5);
-    // platform origin seen from the base
-    let t10 = mul_add(t2, P::splat(platform_position[0] - base_position[0]), t6);
-    // constant and copied elements
-    let t11 = P::triple([c(-0.031058), c(0.115911), c(0.084853)]);
-    let t12 = P::triple([c(0.031058), c(-0.084853), c(-0.115911)]);
-    let t13 = P::triple([c(0.115911), c(-0.031058), c(-0.084853)]);
-    // rotation of the platform seen from the base
-    let t14 = mul_add(
-        t2,
-        P::splat(platform_rotation[0][2]),
-        t1 * P::splat(platform_rotation[1][2]),
-    );
-    // platform origin seen from the base
-    let t15 = mul_add(t3, P::splat(platform_position[2] - base_position[2]), t10);
-    // rotation of the platform seen from the base
-    let t16 = mul_add(t3, P::splat(platform_rotation[2][2]), t14);
-    // legs 1, 3, 4: platform joint from the platform origin
-    let t17 = mul_add(t13, P::splat(P::lane(t9, 0)), t11 * P::splat(P::lane(t8, 0)));
-    // legs 2, 5, 6: platform joint from the platform origin
-    let t18 = mul_add(t7, P::splat(P::lane(t9, 0)), t12 * P::splat(P::lane(t8, 0)));
-    // legs 2, 5, 6: platform joint from the base point
-    let t19 = P::triple([c(-0.131644), c(0.172135), c(-0.040491)]);
-    // constant and copied elements
-    let t20 = P::triple([c(0.131644), c(-0.172135), c(0.040491)]);
-    // legs 1, 3, 4: platform joint from the platform origin
-    let t21 = mul_add(t13, P::splat(P::lane(t9, 1)), t11 * P::splat(P::lane(t8, 1)));
-    // legs 2, 5, 6: platform joint from the platform origin
-    let t22 = mul_add(t7, P::splat(P::lane(t9, 1)), t12 * P::splat(P::lane(t8, 1)));
-    // legs 1, 3, 4: platform joint from the platform origin
-    let t23 = mul_add(t13, P::splat(P::lane(t9, 2)), t11 * P::splat(P::lane(t8, 2)));
-    // legs 2, 5, 6: platform joint from the platform origin
-    let t24 = mul_add(t7, P::splat(P::lane(t9, 2)), t12 * P::splat(P::lane(t8, 2)));
-    // legs 1, 3, 4: platform joint from the base point
-    let t25 = P::triple([c(-0.131644), c(-0.040491), c(0.172135)]);
-    // legs 2, 5, 6: platform joint from the base point
-    let t26 = t19 + (P::splat(P::lane(t15, 0)) + t18);
-    // constant and copied elements
-    let t27 = P::triple([c(0.131644), c(0.040491), c(-0.172135)]);
-    let t28 = P::triple([c(0.12276), c(-0.052627), c(-0.175387)]);
-    // legs 1, 3, 4: platform joint from the base point
-    let t29 = t17 + P::splat(P::lane(t15, 0)) + t25;
-    let t30 = P::triple([c(0.12276), c(-0.175387), c(-0.052627)]);
-    // constant and copied elements
-    let t31 = P::triple([c(-0.12276), c(0.175387), c(0.052627)]);
-    // legs 1, 3, 4: platform joint from the base point
-    let t32 = t21 + P::splat(P::lane(t15, 1)) + t30;
-    // legs 2, 5, 6: platform joint from the base point
-    let t33 = P::triple([c(-0.12276), c(0.052627), c(0.175387)])
-        + (t22 + P::splat(P::lane(t15, 1)));
-    // angular velocity of the base
-    let t34 = mul_add(t2, P::splat(base_velocity[3]), t1 * P::splat(base_velocity[4]));
-    // legs 1, 3, 4: platform joint from the base point
-    let t35 = t23 + P::splat(P::lane(t15, 2));
-    // legs 2, 5, 6: platform joint from the base point
-    let t36 = t24 + P::splat(P::lane(t15, 2));
-    // angular velocity of the base
-    let t37 = mul_add(t3, P::splat(base_velocity[5]), t34);
-    // angular velocity of the platform
-    let t38 = mul_add(
-        t2,
-        P::splat(platform_velocity[3]),
-        t1 * P::splat(platform_velocity[4]),
-    );
-    // legs 1, 3, 4: extent of the rod along the actuator axis
-    let t39 = sqrt(w(0.042435999999999995) - mul_add(t29, t29, t32 * t32));
-    // legs 2, 5, 6: extent of the rod along the actuator axis
-    let t40 = sqrt(w(0.042435999999999995) - mul_add(t26, t26, t33 * t33));
-    // angular velocity of the platform
-    let t41 = mul_add(t3, P::splat(platform_velocity[5]), t38);
-    // angular velocity of the platform relative to the base
-    let t42 = t37 - t41;
-    // legs 1, 3, 4: reciprocal of that extent
-    let t43 = w(1.0) / t39;
-    // legs 2, 5, 6: reciprocal of that extent
-    let t44 = w(1.0) / t40;
-    // legs 1, 3, 4: actuator length d
-    let t45 = t35 - t39;
-    // legs 2, 5, 6: actuator length d
-    let t46 = t36 - t40;
-    // velocity of the platform origin relative to the base
-    let t47 = t1 * P::splat(platform_velocity[1] - base_velocity[1]);
-    // legs 1, 3, 4: gradient of the actuator length by the platform joint
-    let t48 = t32 * t43;
-    // legs 2, 5, 6: gradient of the actuator length by the platform joint
-    let t49 = t26 * t44;
-    // velocity of the platform origin relative to the base
-    let t50 = mul_add(t2, P::splat(platform_velocity[0] - base_velocity[0]), t47);
-    // legs 2, 5, 6: gradient of the actuator length by the platform joint
-    let t51 = t33 * t44;
-    // legs 1, 3, 4: gradient of the actuator length by the platform joint
-    let t52 = t29 * t43;
-    // platform origin seen from the base
-    let t53 = P::triple([P::lane(t15, 1), P::lane(t15, 2), P::lane(t15, 0)]);
-    let t54 = P::triple([P::lane(t15, 2), P::lane(t15, 0), P::lane(t15, 1)]);
-    // angular velocity of the base
-    let t55 = P::triple([P::lane(t37, 2), P::lane(t37, 0), P::lane(t37, 1)]);
-    let t56 = P::triple([P::lane(t37, 1), P::lane(t37, 2), P::lane(t37, 0)]);
-    // velocity of the platform origin relative to the base
-    let t57 = mul_add(t3, P::splat(platform_velocity[2] - base_velocity[2]), t50);
-    // rotation of the platform seen from the base
-    let t58 = P::triple([P::lane(t8, 1), P::lane(t8, 2), P::lane(t8, 0)]);
-    let t59 = P::triple([P::lane(t9, 1), P::lane(t9, 2), P::lane(t9, 0)]);
-    let t60 = P::triple([P::lane(t8, 2), P::lane(t8, 0), P::lane(t8, 1)]);
-    // angular velocity of the platform relative to the base
-    let t61 = P::triple([P::lane(t42, 2), P::lane(t42, 0), P::lane(t42, 1)]);
-    let t62 = P::triple([P::lane(t42, 1), P::lane(t42, 2), P::lane(t42, 0)]);
-    // rotation of the platform seen from the base
-    let t63 = P::triple([P::lane(t9, 2), P::lane(t9, 0), P::lane(t9, 1)]);
-    let t64 = P::triple([P::lane(t16, 2), P::lane(t16, 0), P::lane(t16, 1)]);
-    let t65 = P::triple([P::lane(t16, 1), P::lane(t16, 2), P::lane(t16, 0)]);
-    // rate of the relative rotation
-    let t66 = mul_sub(t60, t62, t58 * t61);
-    // velocity of the platform origin relative to the base
-    let t67 = t57 - mul_sub(t54, t56, t53 * t55);
-    // rate of the relative rotation
-    let t68 = mul_sub(t62, t63, t59 * t61);
-    // legs 1, 3, 4: velocity of the platform joint relative to the base
-    let t69 = P::splat(P::lane(t67, 0))
-        - mul_add(t13, P::splat(P::lane(t68, 0)), t11 * P::splat(P::lane(t66, 0)));
-    // legs 2, 5, 6: velocity of the platform joint relative to the base
-    let t70 = P::splat(P::lane(t67, 0))
-        - mul_add(t7, P::splat(P::lane(t68, 0)), t12 * P::splat(P::lane(t66, 0)));
-    // legs 1, 3, 4: velocity of the platform joint relative to the base
-    let t71 = P::splat(P::lane(t67, 1))
-        - mul_add(t13, P::splat(P::lane(t68, 1)), t11 * P::splat(P::lane(t66, 1)));
-    // legs 2, 5, 6: velocity of the platform joint relative to the base
-    let t72 = P::splat(P::lane(t67, 1))
-        - mul_add(t7, P::splat(P::lane(t68, 1)), t12 * P::splat(P::lane(t66, 1)));
-    // angular velocity of the base
-    let t73 = P::triple([P::lane(t37, 2), P::lane(t37, 2), P::lane(t37, 0)]);
-    let t74 = P::triple([P::lane(t37, 1), P::lane(t37, 0), P::lane(t37, 1)]);
-    // acceleration of the base origin less gravity
-    let t75 = mul_add(
-        t2,
-        P::splat(base_acceleration[0]),
-        t1 * P::splat(base_acceleration[1]),
-    );
-    // angular acceleration of the base
-    let t76 = mul_add(
-        t2,
-        P::splat(base_acceleration[3]),
-        t1 * P::splat(base_acceleration[4]),
-    );
-    // acceleration per base coordinate of points that move with the base
-    let t77 = mul_add(t74, t74, t73 * t73);
-    // legs 1, 3, 4: rate of the rod's extent along the actuator axis
-    let t78 = mul_add(t29, t69, t32 * t71);
-    // acceleration of the base origin less gravity
-    let t79 = mul_add(t3, P::splat(base_acceleration[2] + c(9.81)), t75);
-    // legs 2, 5, 6: rate of the rod's extent along the actuator axis
-    let t80 = mul_add(t26, t70, t33 * t72);
-    // angular acceleration of the base
-    let t81 = mul_add(t3, P::splat(base_acceleration[5]), t76);
-    // legs 1, 3, 4: velocity of the platform joint relative to the base
-    let t82 = P::splat(P::lane(t67, 2))
-        - mul_add(t13, P::splat(P::lane(t68, 2)), t11 * P::splat(P::lane(t66, 2)));
-    // legs 2, 5, 6: velocity of the platform joint relative to the base
-    let t83 = P::splat(P::lane(t67, 2))
-        - mul_add(t7, P::splat(P::lane(t68, 2)), t12 * P::splat(P::lane(t66, 2)));
-    // angular velocity of the base
-    let t84 = P::triple([P::lane(t37, 0), P::lane(t37, 2), P::lane(t37, 0)]);
-    let t85 = P::triple([P::lane(t37, 1), P::lane(t37, 1), P::lane(t37, 2)]);
-    // legs 1, 3, 4: rate of the rod's extent along the actuator axis
-    let t86 = t43 * t78;
-    // acceleration per base coordinate of points that move with the base
-    let t87 = t84 * t85;
-    // legs 2, 5, 6: rate of the rod's extent along the actuator axis
-    let t88 = t44 * t80;
-    // legs 1, 3, 4: actuator velocity d'
-    let t89 = mul_add(t43, t78, t82);
-    // legs 2, 5, 6: actuator velocity d'
-    let t90 = mul_add(t44, t80, t83);
-    // angular acceleration of the base
-    let t91 = P::triple([P::lane(t81, 1), P::lane(t81, 2), P::lane(t81, 0)]);
-    let t92 = P::triple([P::lane(t81, 2), P::lane(t81, 0), P::lane(t81, 1)]);
-    // angular acceleration of the platform
-    let t93 = mul_add(
-        t2,
-        P::splat(platform_acceleration[3]),
-        t1 * P::splat(platform_acceleration[4]),
-    );
-    // acceleration per base coordinate of points that move with the base
-    let t94 = mul_sub(t84, t85, t92);
-    let t95 = t91 + P::triple([P::lane(t87, 2), P::lane(t87, 0), P::lane(t87, 1)]);
-    // angular acceleration of the platform
-    let t96 = mul_add(t3, P::splat(platform_acceleration[5]), t93);
-    // acceleration of the platform origin less gravity
-    let t97 = mul_add(
-        t2,
-        P::splat(platform_acceleration[0]),
-        t1 * P::splat(platform_acceleration[1]),
-    );
-    // velocity of the platform origin relative to the base
-    let t98 = P::triple([P::lane(t67, 1), P::lane(t67, 2), P::lane(t67, 0)]);
-    // acceleration per base coordinate of points that move with the base
-    let t99 = P::triple([P::lane(t94, 0), -P::lane(t77, 1), P::lane(t95, 2)]);
-    let t100 = P::triple([-P::lane(t77, 0), P::lane(t95, 1), P::lane(t94, 2)]);
-    // acceleration of the platform origin less gravity
-    let t101 = mul_add(t3, P::splat(c(9.81) + platform_acceleration[2]), t97);
-    // acceleration of the platform origin relative to the base
-    let t102 = mul_add(P::splat(P::lane(t15, 0)), t100, P::splat(P::lane(t15, 1)) * t99);
-    // acceleration per base coordinate of points that move with the base
-    let t103 = P::triple([P::lane(t95, 0), P::lane(t94, 1), -P::lane(t77, 2)]);
-    // velocity of the platform origin relative to the base
-    let t104 = P::triple([P::lane(t67, 2), P::lane(t67, 0), P::lane(t67, 1)]);
-    // second derivative of the relative rotation
-    let t105 = P::mul_sub(
-        P::lane(t37, 0),
-        P::lane(t42, 1),
-        P::lane(t37, 1) * P::lane(t42, 0),
-    );
-    let t106 = P::lane(t81, 2) - P::lane(t96, 2) - t105;
-    let t107 = P::mul_add(
-        P::lane(t42, 1),
-        P::lane(t42, 1),
-        P::lane(t42, 2) * P::lane(t42, 2),
-    );
-    let t108 = P::mul_sub(
-        P::lane(t37, 2),
-        P::lane(t42, 0),
-        P::lane(t37, 0) * P::lane(t42, 2),
-    );
-    // acceleration of the platform origin relative to the base
-    let t109 = t79 - t101 + mul_add(P::splat(P::lane(t15, 2)), t103, t102);
-    // second derivative of the relative rotation
-    let t110 = P::mul_sub(P::lane(t42, 0), P::lane(t42, 1), t106);
-    let t111 = P::mul_add(P::lane(t42, 0), P::lane(t42, 1), t106);
-    let t112 = P::lane(t81, 1) - P::lane(t96, 1) - t108;
-    // acceleration of the platform origin relative to the base
-    let t113 = mul_add(mul_sub(t56, t104, t55 * t98), w(2.0), t109);
-    // second derivative of the relative rotation
-    let t114 = P::lane(t42, 0) * P::lane(t42, 0);
-    let t115 = P::mul_sub(P::lane(t8, 1), t111, P::lane(t8, 0) * t107);
-    let t116 = P::mul_sub(P::lane(t42, 0), P::lane(t42, 2), t112);
-    let t117 = P::mul_sub(P::lane(t9, 1), t111, P::lane(t9, 0) * t107);
-    let t118 = P::mul_add(P::lane(t42, 2), P::lane(t42, 2), t114);
-    let t119 = P::mul_add(P::lane(t8, 2), t116, t115);
-    let t120 = P::mul_add(P::lane(t9, 2), t116, t117);
-    let t121 = P::mul_sub(
-        P::lane(t37, 1),
-        P::lane(t42, 2),
-        P::lane(t37, 2) * P::lane(t42, 1),
-    );
-    let t122 = P::mul_add(P::lane(t42, 0), P::lane(t42, 2), t112);
-    let t123 = P::lane(t81, 0) - P::lane(t96, 0) - t121;
-    let t124 = P::mul_sub(P::lane(t8, 0), t110, P::lane(t8, 1) * t118);
-    let t125 = P::mul_sub(P::lane(t9, 0), t110, P::lane(t9, 1) * t118);
-    let t126 = P::mul_add(P::lane(t42, 1), P::lane(t42, 2), t123);
-    let t127 = P::mul_sub(P::lane(t42, 1), P::lane(t42, 2), t123);
-    // legs 1, 3, 4: acceleration of the platform joint relative to the base
-    let t128 = P::splat(P::lane(t113, 0))
-        - mul_add(t13, P::splat(t120), t11 * P::splat(t119));
-    // legs 2, 5, 6: acceleration of the platform joint relative to the base
-    let t129 = P::splat(P::lane(t113, 0))
-        - mul_add(t7, P::splat(t120), t12 * P::splat(t119));
-    // second derivative of the relative rotation
-    let t130 = P::mul_add(P::lane(t8, 2), t126, t124);
-    let t131 = P::mul_add(P::lane(t9, 2), t126, t125);
-    let t132 = P::mul_add(P::lane(t42, 1), P::lane(t42, 1), t114);
-    let t133 = P::mul_add(P::lane(t8, 0), t122, P::lane(t8, 1) * t127);
-    let t134 = P::mul_add(P::lane(t9, 0), t122, P::lane(t9, 1) * t127);
-    let t135 = P::neg_mul_add(P::lane(t8, 2), t132, t133);
-    let t136 = P::neg_mul_add(P::lane(t9, 2), t132, t134);
-    // legs 1, 3, 4: acceleration of the platform joint relative to the base
-    let t137 = P::splat(P::lane(t113, 1))
-        - mul_add(t13, P::splat(t131), t11 * P::splat(t130));
-    // legs 2, 5, 6: acceleration of the platform joint relative to the base
-    let t138 = P::splat(P::lane(t113, 1))
-        - mul_add(t7, P::splat(t131), t12 * P::splat(t130));
-    // legs 2, 5, 6: leg inertia less weight along the actuator
-    let t139 = mul_sub(t20, P::splat(P::lane(t77, 0)), t28 * P::splat(P::lane(t94, 0)));
-    let t140 = t90 * w(2.0);
-    // legs 1, 3, 4: actuator acceleration d''
-    let t141 = mul_add(t29, t128, t32 * t137);
-    // legs 2, 5, 6: actuator acceleration d''
-    let t142 = mul_add(t26, t129, t33 * t138);
-    // legs 1, 3, 4: acceleration of the platform joint relative to the base
-    let t143 = P::splat(P::lane(t113, 2))
-        - mul_add(t13, P::splat(t136), t11 * P::splat(t135));
-    // legs 2, 5, 6: acceleration of the platform joint relative to the base
-    let t144 = P::splat(P::lane(t113, 2))
-        - mul_add(t7, P::splat(t136), t12 * P::splat(t135));
-    // acceleration per platform coordinate of points of the platform
-    let t145 = P::mul_add(P::lane(t41, 2), P::lane(t41, 0), P::lane(t96, 1));
-    // legs 2, 5, 6: leg inertia less weight along the actuator
-    let t146 = P::splat(P::lane(t79, 0))
-        - neg_mul_add(t46, P::splat(P::lane(t95, 0)), t139);
-    // acceleration per platform coordinate of points of the platform
-    let t147 = P::neg_mul_add(P::lane(t41, 0), P::lane(t41, 1), P::lane(t96, 2));
-    // legs 1, 3, 4: actuator acceleration d''
-    let t148 = mul_add(t86, t86, mul_add(t69, t69, t71 * t71) - t141);
-    // legs 2, 5, 6: actuator acceleration d''
-    let t149 = mul_add(t88, t88, mul_add(t70, t70, t72 * t72) - t142);
-    // acceleration per platform coordinate of points of the platform
-    let t150 = P::mul_add(
-        P::lane(t41, 1),
-        P::lane(t41, 1),
-        P::lane(t41, 2) * P::lane(t41, 2),
-    );
-    // legs 2, 5, 6: leg inertia less weight along the actuator
-    let t151 = mul_add(P::splat(P::lane(t37, 1)), t140, t146);
-    // legs 1, 3, 4: actuator acceleration d''
-    let t152 = neg_mul_add(t43, t148, t143);
-    // legs 2, 5, 6: actuator acceleration d''
-    let t153 = neg_mul_add(t44, t149, t144);
-    // acceleration per platform coordinate of points of the platform
-    let t154 = P::lane(t41, 0) * P::lane(t41, 0);
-    let t155 = P::mul_add(P::lane(t41, 0), P::lane(t41, 1), P::lane(t96, 2));
-    // legs 2, 5, 6: leg inertia less weight along the actuator
-    let t156 = mul_sub(t20, P::splat(P::lane(t95, 1)), t28 * P::splat(P::lane(t77, 1)));
-    // acceleration per platform coordinate of points of the platform
-    let t157 = P::neg_mul_add(P::lane(t41, 2), P::lane(t41, 1), P::lane(t96, 0));
-    let t158 = P::mul_add(P::lane(t41, 2), P::lane(t41, 2), t154);
-    let t159 = P::mul_add(P::lane(t9, 1), t147, P::lane(t9, 0) * t150);
-    let t160 = P::mul_add(P::lane(t16, 1), t147, P::lane(t16, 0) * t150);
-    let t161 = P::mul_add(P::lane(t8, 1), t147, P::lane(t8, 0) * t150);
-    // legs 2, 5, 6: leg inertia less weight along the actuator
-    let t162 = mul_add(t20, P::splat(P::lane(t94, 2)), t28 * P::splat(P::lane(t95, 2)));
-    let t163 = P::splat(P::lane(t79, 1)) + mul_add(t46, P::splat(P::lane(t94, 1)), t156);
-    // acceleration per platform coordinate of points of the platform
-    let t164 = P::mul_sub(P::lane(t9, 0), t155, P::lane(t9, 1) * t158);
-    let t165 = P::mul_sub(P::lane(t16, 0), t155, P::lane(t16, 1) * t158);
-    let t166 = P::mul_sub(P::lane(t8, 0), t155, P::lane(t8, 1) * t158);
-    let t167 = P::mul_add(P::lane(t41, 2), P::lane(t41, 1), P::lane(t96, 0));
-    // legs 2, 5, 6: leg inertia less weight along the actuator
-    let t168 = neg_mul_add(P::splat(P::lane(t37, 0)), t140, t163);
-    // acceleration per platform coordinate of points of the platform
-    let t169 = P::neg_mul_add(P::lane(t41, 2), P::lane(t41, 0), P::lane(t96, 1));
-    let t170 = P::neg_mul_add(P::lane(t9, 2), t157, t164);
-    let t171 = P::neg_mul_add(P::lane(t16, 2), t157, t165);
-    let t172 = P::neg_mul_add(P::lane(t8, 2), t157, t166);
-    // legs 1, 3, 4: leg inertia less weight along the actuator
-    let t173 = t89 * w(2.0);
-    let t174 = mul_sub(t27, P::splat(P::lane(t77, 0)), t31 * P::splat(P::lane(t94, 0)));
-    // acceleration per platform coordinate of points of the platform
-    let t175 = P::mul_add(P::lane(t41, 1), P::lane(t41, 1), t154);
-    // legs 2, 5, 6: leg inertia less weight along the actuator
-    let t176 = t153
-        - (P::splat(P::lane(t79, 2))
-            + neg_mul_add(t46, P::splat(P::lane(t77, 2)), t162));
-    // legs 1, 3, 4: leg inertia less weight along the actuator
-    let t177 = mul_sub(t27, P::splat(P::lane(t95, 1)), t31 * P::splat(P::lane(t77, 1)));
-    // acceleration per platform coordinate of points of the platform
-    let t178 = P::mul_sub(P::lane(t9, 0), t169, P::lane(t9, 1) * t167);
-    let t179 = P::neg_mul_add(P::lane(t16, 0), t169, P::lane(t16, 1) * t167);
-    // legs 1, 3, 4: leg inertia less weight along the actuator
-    let t180 = mul_add(t27, P::splat(P::lane(t94, 2)), t31 * P::splat(P::lane(t95, 2)));
-    // acceleration per platform coordinate of points of the platform
-    let t181 = P::mul_add(P::lane(t9, 2), t175, t178);
-    let t182 = P::neg_mul_add(P::lane(t16, 2), t175, t179);
-    let t183 = P::mul_sub(P::lane(t8, 0), t169, P::lane(t8, 1) * t167);
-    // legs 1, 3, 4: leg inertia less weight along the actuator
-    let t184 = P::splat(P::lane(t79, 0))
-        - neg_mul_add(t45, P::splat(P::lane(t95, 0)), t174);
-    let t185 = P::splat(P::lane(t79, 1)) + mul_add(t45, P::splat(P::lane(t94, 1)), t177);
-    let t186 = mul_add(P::splat(P::lane(t37, 1)), t173, t184);
-    // acceleration per platform coordinate of points of the platform
-    let t187 = P::mul_add(P::lane(t8, 2), t175, t183);
-    // legs 1, 3, 4: leg inertia less weight along the actuator
-    let t188 = neg_mul_add(P::splat(P::lane(t37, 0)), t173, t185);
-    let t189 = t152
-        - (P::splat(P::lane(t79, 2))
-            + neg_mul_add(t45, P::splat(P::lane(t77, 2)), t180));
-    // legs 1, 3, 4: remaining leg inertia less weight at the platform joint
-    let t190 = w(0.17066666666666666) * t186;
-    // legs 2, 5, 6: remaining leg inertia less weight at the platform joint
-    let t191 = w(0.17066666666666666) * t151;
-    // legs 2, 5, 6: leg inertia less weight along the actuator
-    let t192 = P::splat(P::lane(t101, 2))
-        - mul_add(t7, P::splat(t181), t12 * P::splat(t187));
-    // legs 2, 5, 6: remaining leg inertia less weight at the platform joint
-    let t193 = w(0.17066666666666666) * t168;
-    // legs 1, 3, 4: leg inertia less weight along the actuator
-    let t194 = P::splat(P::lane(t101, 2))
-        - mul_add(t13, P::splat(t181), t11 * P::splat(t187));
-    // legs 1, 3, 4: remaining leg inertia less weight at the platform joint
-    let t195 = w(0.17066666666666666) * t188;
-    // legs 2, 5, 6: leg inertia less weight along the actuator
-    let t196 = mul_sub(w(0.3413333333333334), t176, w(0.17066666666666666) * t192);
-    // legs 1, 3, 4: remaining leg inertia less weight at the platform joint
-    let t197 = w(0.17066666666666666) * t189;
-    // legs 2, 5, 6: remaining leg inertia less weight at the platform joint
-    let t198 = w(0.17066666666666666) * t176;
-    // legs 1, 3, 4: leg inertia less weight along the actuator
-    let t199 = mul_sub(w(0.3413333333333334), t189, w(0.17066666666666666) * t194);
-    // legs 2, 5, 6: leg inertia less weight along the actuator
-    let t200 = mul_add(
-        w(0.611),
-        neg_mul_add(P::splat(P::lane(t77, 2)), w(0.05), t176),
-        t196,
-    );
-    // inertia force less weight, without the actuators' own shares
-    let t201 = mul_add(w(0.17066666666666666), t176, t197);
-    let t202 = mul_add(w(0.17066666666666666), t151, t190);
-    let t203 = mul_add(w(0.17066666666666666), t168, t195);
-    // legs 2, 5, 6: row of the actuator Jacobian in base coordinates
-    let t204 = neg_mul_add(t24, t49, t18);
-    // legs 1, 3, 4: row of the actuator Jacobian in base coordinates
-    let t205 = neg_mul_add(t23, t52, t17);
-    // legs 2, 5, 6: row of the actuator Jacobian in base coordinates
-    let t206 = neg_mul_add(t24, t51, t22);
-    let t207 = mul_sub(t18, t51, t22 * t49);
-    // legs 1, 3, 4: row of the actuator Jacobian in base coordinates
-    let t208 = mul_sub(t17, t48, t21 * t52);
-    let t209 = neg_mul_add(t23, t48, t21);
-    // legs 1, 3, 4: leg inertia less weight along the actuator
-    let t210 = neg_mul_add(
-        w(0.611),
-        mul_sub(P::splat(P::lane(t77, 2)), w(0.05), t189),
-        t199,
-    );
-    // legs 2, 5, 6: spring and damper force along the actuator
-    let t211 = t46 - w(0.198);
-    // legs 1, 3, 4: spring and damper force along the actuator
-    let t212 = t45 - w(0.198);
-    // its first moments by platform coordinate
-    let t213 = mul_add(t13, t197, t7 * t198);
-    let t214 = mul_add(t13, t190, t7 * t191);
-    let t215 = mul_add(t13, t195, t7 * t193);
-    // inertia force less weight, without the actuators' own shares
-    let t216 = P::triple([P::lane(t202, 1), P::lane(t203, 1), -P::lane(t201, 1)]);
-    // its first moments by platform coordinate
-    let t217 = mul_add(t11, t197, t12 * t198);
-    // inertia force less weight, without the actuators' own shares
-    let t218 = P::triple([P::lane(t202, 0), P::lane(t203, 0), -P::lane(t201, 0)]) + t216;
-    // its first moments by platform coordinate
-    let t219 = mul_add(t11, t190, t12 * t191);
-    let t220 = mul_add(t11, t195, t12 * t193);
-    // inertia force less weight, without the actuators' own shares
-    let t221 = P::triple([P::lane(t202, 2), P::lane(t203, 2), -P::lane(t201, 2)]) + t218;
-    // acceleration per platform coordinate of points of the platform
-    let t222 = P::triple([P::mul_sub(P::lane(t16, 2), t145, t160), t171, t182]);
-    // inertia force less weight, without the actuators' own shares
-    let t223 = mul_add(t101, w(8.139999999999999), t221);
-    // acceleration per platform coordinate of points of the platform
-    let t224 = P::triple([P::mul_sub(P::lane(t9, 2), t145, t159), t170, -t181]);
-    let t225 = P::triple([P::mul_sub(P::lane(t8, 2), t145, t161), t172, -t187]);
-    // inertia force less weight, without the actuators' own shares
-    let t226 = mul_sub(t224, w(1.734723475976807e-18), t223);
-    // its first moments by platform coordinate
-    let t227 = P::triple([P::lane(t214, 1), P::lane(t215, 1), -P::lane(t213, 1)]);
-    // inertia force less weight, without the actuators' own shares
-    let t228 = mul_sub(w(0.188852), t222, t226);
-    // its first moments by platform coordinate
-    let t229 = P::triple([P::lane(t214, 0), P::lane(t215, 0), -P::lane(t213, 0)]) + t227;
-    // inertia less external wrench that the actuators must balance
-    let t230 = mul_add(
-        t2,
-        P::splat(external_wrench[0]),
-        t1 * P::splat(external_wrench[1]),
-    );
-    // its first moments by platform coordinate
-    let t231 = P::triple([P::lane(t214, 2), P::lane(t215, 2), -P::lane(t213, 2)]) + t229;
-    let t232 = P::triple([P::lane(t219, 1), P::lane(t220, 1), -P::lane(t217, 1)]);
-    let t233 = mul_add(w(0.013354412), t222, w(0.188852) * t101);
-    let t234 = P::triple([P::lane(t219, 0), P::lane(t220, 0), -P::lane(t217, 0)]) + t232;
-    // inertia less external wrench that the actuators must balance
-    let t235 = mul_add(t3, P::splat(external_wrench[2]), t230);
-    // its first moments by platform coordinate
-    let t236 = neg_mul_add(t101, w(1.734723475976807e-18), t231);
-    let t237 = t234 + P::triple([P::lane(t219, 2), P::lane(t220, 2), -P::lane(t217, 2)]);
-    let t238 = mul_add(w(0.03224559378363733), t224, t236);
-    let t239 = mul_add(w(0.03224559378363734), t225, t237);
-    // inertia less external wrench that the actuators must balance
-    let t240 = t228 - t235;
-    let t241 = P::triple([P::lane(t235, 2), P::lane(t235, 0), P::lane(t235, 1)]);
-    // its first moments by platform coordinate
-    let t242 = P::triple([P::lane(t233, 2), P::lane(t233, 0), P::lane(t233, 1)]);
-    // inertia less external wrench that the actuators must balance
-    let t243 = neg_mul_add(w(0.031), t241, t242);
-    // its first moments by platform coordinate
-    let t244 = P::triple([P::lane(t238, 2), P::lane(t238, 0), P::lane(t238, 1)]);
-    // inertia less external wrench that the actuators must balance
-    let t245 = t63 * P::triple([P::lane(t238, 1), P::lane(t238, 2), P::lane(t238, 0)]);
-    let t246 = t60 * P::triple([P::lane(t239, 1), P::lane(t239, 2), P::lane(t239, 0)]);
-    // its first moments by platform coordinate
-    let t247 = P::triple([P::lane(t239, 2), P::lane(t239, 0), P::lane(t239, 1)]);
-    // inertia less external wrench that the actuators must balance
-    let t248 = t64 * P::triple([P::lane(t243, 2), P::lane(t243, 0), P::lane(t243, 1)]);
-    let t249 = mul_add(
-        t2,
-        P::splat(external_wrench[3]),
-        t1 * P::splat(external_wrench[4]),
-    );
-    let t250 = mul_sub(t59, t244, t245) + mul_sub(t58, t247, t246);
-    // legs 5, 6, 2: gradient of the actuator length by the platform joint
-    let t251 = P::triple([P::lane(t51, 1), P::lane(t51, 2), P::lane(t51, 0)]);
-    // legs 6, 2, 5: gradient of the actuator length by the platform joint
-    let t252 = P::triple([P::lane(t51, 2), P::lane(t51, 0), P::lane(t51, 1)]);
-    let t253 = P::triple([P::lane(t49, 2), P::lane(t49, 0), P::lane(t49, 1)]);
-    // force along the actuator that balances the remaining wrench
-    let t254 = t251 - t252;
-    // inertia less external wrench that the actuators must balance
-    let t255 = mul_add(t3, P::splat(external_wrench[5]), t249);
-    // legs 5, 6, 2: gradient of the actuator length by the platform joint
-    let t256 = P::triple([P::lane(t49, 1), P::lane(t49, 2), P::lane(t49, 0)]);
-    // force along the actuator that balances the remaining wrench
-    let t257 = t253 - t256;
-    // inertia less external wrench that the actuators must balance
-    let t258 = mul_sub(t65, t243, t248) + t250 - t255;
-    // force along the actuator that balances the remaining wrench
-    let t259 = mul_sub(t252, t256, t251 * t253);
-    let t260 = P::mul_add(
-        P::lane(t49, 0),
-        P::lane(t254, 0),
-        P::lane(t49, 1) * P::lane(t254, 1),
-    );
-    let t261 = P::splat(P::lane(t259, 0))
-        + mul_add(t52, P::splat(P::lane(t254, 0)), t48 * P::splat(P::lane(t257, 0)));
-    let t262 = P::mul_add(P::lane(t49, 2), P::lane(t254, 2), t260);
-    let t263 = mul_add(
-        t254,
-        P::splat(P::lane(t240, 0)),
-        t257 * P::splat(P::lane(t240, 1)),
-    );
-    let t264 = P::splat(P::lane(t259, 1))
-        + mul_add(t52, P::splat(P::lane(t254, 1)), t48 * P::splat(P::lane(t257, 1)));
-    let t265 = P::splat(P::lane(t259, 2))
-        + mul_add(t52, P::splat(P::lane(t254, 2)), t48 * P::splat(P::lane(t257, 2)));
-    // leg 2: row of the actuator Jacobian in base coordinates
-    let t266 = P::triple([P::lane(t206, 0), -P::lane(t204, 0), P::lane(t207, 0)]);
-    // force along the actuator that balances the remaining wrench
-    let t267 = mul_sub(t205, P::splat(t262), P::splat(P::lane(t204, 0)) * t261);
-    let t268 = mul_sub(t208, P::splat(t262), P::splat(P::lane(t207, 0)) * t261);
-    let t269 = mul_add(t259, P::splat(P::lane(t240, 2)), t263);
-    let t270 = mul_sub(t209, P::splat(t262), P::splat(P::lane(t206, 0)) * t261);
-    // leg 5: row of the actuator Jacobian in base coordinates
-    let t271 = P::triple([P::lane(t206, 1), -P::lane(t204, 1), P::lane(t207, 1)]);
-    // leg 6: row of the actuator Jacobian in base coordinates
-    let t272 = P::triple([P::lane(t206, 2), -P::lane(t204, 2), P::lane(t207, 2)]);
-    // force along the actuator that balances the remaining wrench
-    let t273 = neg_mul_add(P::splat(P::lane(t204, 1)), t264, t267);
-    let t274 = neg_mul_add(P::splat(P::lane(t207, 1)), t264, t268);
-    let t275 = neg_mul_add(P::splat(P::lane(t206, 1)), t264, t270);
-    let t276 = neg_mul_add(P::splat(P::lane(t204, 2)), t265, t273);
-    let t277 = neg_mul_add(P::splat(P::lane(t207, 2)), t265, t274);
-    let t278 = neg_mul_add(P::splat(P::lane(t206, 2)), t265, t275);
-    let t279 = mul_sub(t258, P::splat(t262), t266 * P::splat(P::lane(t269, 0)));
-    let t280 = neg_mul_add(t271, P::splat(P::lane(t269, 1)), t279);
-    let t281 = P::triple([P::lane(t276, 2), P::lane(t276, 0), P::lane(t276, 1)]);
-    let t282 = P::triple([P::lane(t276, 1), P::lane(t276, 2), P::lane(t276, 0)]);
-    let t283 = P::triple([P::lane(t277, 1), P::lane(t277, 2), P::lane(t277, 0)]);
-    let t284 = P::triple([P::lane(t277, 2), P::lane(t277, 0), P::lane(t277, 1)]);
-    let t285 = neg_mul_add(t272, P::splat(P::lane(t269, 2)), t280);
-    let t286 = P::triple([P::lane(t278, 1), P::lane(t278, 2), P::lane(t278, 0)]);
-    let t287 = mul_sub(t282, t284, t281 * t283);
-    let t288 = P::triple([P::lane(t278, 2), P::lane(t278, 0), P::lane(t278, 1)]);
-    let t289 = mul_sub(t281, t286, t282 * t288);
-    let t290 = c(1.0) / t262;
-    let t291 = P::triple([P::lane(t261, 0), P::lane(t264, 0), P::lane(t265, 0)]);
-    let t292 = P::splat(P::lane(t285, 1)) * mul_sub(t283, t288, t284 * t286);
-    let t293 = P::mul_add(
-        P::lane(t278, 0),
-        P::lane(t287, 0),
-        P::lane(t278, 1) * P::lane(t287, 1),
-    );
-    let t294 = P::triple([P::lane(t261, 1), P::lane(t264, 1), P::lane(t265, 1)]);
-    let t295 = mul_add(
-        t289,
-        P::splat(P::lane(t285, 2)),
-        mul_sub(t287, P::splat(P::lane(t285, 0)), t292),
-    );
-    let t296 = P::triple([P::lane(t261, 2), P::lane(t264, 2), P::lane(t265, 2)]);
-    let t297 = c(1.0) / P::mul_add(P::lane(t278, 2), P::lane(t287, 2), t293);
-    let t298 = t295 * P::splat(t297);
-    // legs 1, 3, 4: actuator forces F
-    let t299 = mul_sub(t295, P::splat(t297), neg_mul_add(t212, w(21555.9), t210));
-    // force along the actuator that balances the remaining wrench
-    let t300 = neg_mul_add(t291, P::splat(P::lane(t298, 0)), t269);
-    let t301 = neg_mul_add(t294, P::splat(P::lane(t298, 1)), t300);
-    let t302 = neg_mul_add(t296, P::splat(P::lane(t298, 2)), t301);
-    // legs 2, 5, 6: actuator forces F
-    let t303 = mul_sub(P::splat(t290), t302, neg_mul_add(t211, w(21555.9), t200));
-    // leg 1: actuator forces F
-    inverse_dynamics[0] = P::lane(t299, 0);
-    // leg 2: actuator forces F
-    inverse_dynamics[1] = P::lane(t303, 0);
-    // leg 3: actuator forces F
-    inverse_dynamics[2] = P::lane(t299, 1);
-    // leg 4: actuator forces F
-    inverse_dynamics[3] = P::lane(t299, 2);
-    // leg 5: actuator forces F
-    inverse_dynamics[4] = P::lane(t303, 1);
-    // leg 6: actuator forces F
-    inverse_dynamics[5] = P::lane(t303, 2);
 }
