@@ -100,21 +100,9 @@ impl<M: RodAlignment<T>, T: Real> Hexapod<M, T> {
         base: &PoseArrays<T>,
         platform: &PoseArrays<T>,
     ) -> Result<[T; 6], Error> {
-        let rod_alignment = self.unjudged_alignment(base, platform);
+        let rod_alignment = unjudged_alignment(&self.model, base, platform);
         check::mechanism(&rod_alignment, &base.position, &platform.position)?;
         Ok(rod_alignment)
-    }
-
-    fn unjudged_alignment(&self, base: &PoseArrays<T>, platform: &PoseArrays<T>) -> [T; 6] {
-        let mut rod_alignment = [T::zero(); 6];
-        self.model.rod_alignment(
-            &base.position,
-            &base.rotation,
-            &platform.position,
-            &platform.rotation,
-            &mut rod_alignment,
-        );
-        rod_alignment
     }
 
     /// J_dp can be inverted at these poses.
@@ -146,7 +134,11 @@ impl<M: RodAlignment<T>, T: Real> Hexapod<M, T> {
         platform: &PlatformState<T>,
     ) -> Result<(PoseArrays<T>, PoseArrays<T>), Error> {
         let (base, platform) = checked_poses(base, platform)?;
-        check::in_reach(&self.unjudged_alignment(&base, &platform), &base.position, &platform.position)?;
+        check::in_reach(
+            &unjudged_alignment(&self.model, &base, &platform),
+            &base.position,
+            &platform.position,
+        )?;
         Ok((base, platform))
     }
 
@@ -161,6 +153,23 @@ impl<M: RodAlignment<T>, T: Real> Hexapod<M, T> {
         let (base, platform) = self.poses(base, platform)?;
         Ok((base.moving(base_velocity), platform.moving(platform_velocity)))
     }
+}
+
+/// `(u.a)^2` of a model at these poses, whatever its value.
+pub(crate) fn unjudged_alignment<M: RodAlignment<T>, T: Real>(
+    model: &M,
+    base: &PoseArrays<T>,
+    platform: &PoseArrays<T>,
+) -> [T; 6] {
+    let mut rod_alignment = [T::zero(); 6];
+    model.rod_alignment(
+        &base.position,
+        &base.rotation,
+        &platform.position,
+        &platform.rotation,
+        &mut rod_alignment,
+    );
+    rod_alignment
 }
 
 impl<T> PoseArrays<T> {

@@ -59,6 +59,7 @@
 //! | every body by itself | [`Hexapod::body_kinematics`], [`Hexapod::partial_velocities`], [`Hexapod::generalised_forces`]; with legs `ups` [`Hexapod::ups_body_kinematics`] and so on |
 //! | how far a pose is from a leg's limit | [`Hexapod::rod_alignment`] |
 //! | energy | [`Hexapod::energy`] |
+//! | many states, simulations or platforms at once | [`batch::Batch`] |
 //!
 //! # Models
 //!
@@ -81,9 +82,10 @@
 //! returns `f32`, refuses at the thresholds of `f32` (see [`Real`]), and knows its forces to about five
 //! digits. Generated free functions take any [`float::Scalar`].
 //!
-//! # Feature `std`
+//! # Features
 //!
-//! Off by default. With it, square roots come from `std` instead of libm; results keep their bits.
+//! Off by default. `std`: square roots come from `std` instead of libm, results keep their bits; batches ask the processor for
+//! its instructions. `rayon`: batches in several threads.
 
 #![no_std]
 // Lanes are made of intrinsics: two modules allow them and say why. Generated code forbids it.
@@ -117,8 +119,10 @@ mod real;
 mod state;
 
 pub mod angles;
+pub mod batch;
 pub mod current;
 pub mod float;
+pub mod lanes;
 pub mod parameter;
 pub mod solve;
 pub mod triple;

@@ -42,14 +42,12 @@ pub fn function(graph: &Graph, with_parameters: bool) -> Result<String, EmitErro
     });
     // Every model has the same signatures: what its numbers make unnecessary stays an argument.
     let allow = allow(quote!(unused_variables));
-    // Code in lanes must be compiled for the processor's registers: it is inlined where that is so.
-    let inline = in_lanes.then(|| quote!(#[inline(always)]));
     let mut item: syn::ItemFn = parse(
         &graph.name,
         quote! {
             #documentation
             #allow
-            #inline
+            #[inline(always)]
             pub fn #name<#generics>(#parameters #(#arguments),*) {
                 #constant
             }

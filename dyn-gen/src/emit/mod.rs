@@ -7,6 +7,7 @@
 //! | `body`, `expression` | the inside: statements and section comments, expressions |
 //! | `placement`, `schedule`, `blocks` | which values get a name, in which order, in which block |
 //! | `function`, `model`, `kernels`, `header` | a free function; the files and their first lines |
+//! | `generic` | a model's functions for any type of number, its parameters in lanes |
 //! | `setters` | checked access to the parameters of a model |
 //! | `names`, `tree`, `print` | identifiers; pieces of syntax; syntax to text |
 
@@ -15,6 +16,7 @@ mod body;
 mod error;
 mod expression;
 mod function;
+mod generic;
 mod header;
 mod kernels;
 mod model;

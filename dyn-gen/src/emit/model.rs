@@ -8,9 +8,9 @@ use quote::{format_ident, quote};
 use super::function::{allow, name_in_lanes};
 use super::names::{PARAMETERS, SCALAR, SCALARS_IN_LANES, check_type_names, identifier, type_identifier};
 use super::print::source;
-use super::setters;
 use super::signature::{Signature, array_type, documentation, symbol_line};
 use super::{EmitError, Header, RuntimePath};
+use super::{generic, setters};
 use crate::graph::Symbol;
 
 /// A type of number that a model computes with.
@@ -84,7 +84,7 @@ pub fn model_file(header: &Header, model: &Model) -> Result<String, EmitError> {
 fn items(model: &Model) -> Result<Vec<TokenStream>, EmitError> {
     let runtime = model.runtime.tokens();
     let name = type_identifier(model.name)?;
-    if ["Parameters", "Scalar", "Triple", SCALAR, SCALARS_IN_LANES].iter().any(|taken| name == taken) {
+    if ["Parameters", "Scalar", "Triple", "S", SCALAR, SCALARS_IN_LANES].iter().any(|taken| name == taken) {
         return Err(EmitError::Name {
             function: model.name.into(),
             name: name.to_string(),
@@ -130,6 +130,7 @@ fn items(model: &Model) -> Result<Vec<TokenStream>, EmitError> {
             items.push(implementation(model, signature, scalar, &inline)?);
         }
     }
+    items.extend(generic::items(model)?);
     Ok(items)
 }
 

@@ -36,6 +36,23 @@ mod float {
 mod triple {
     pub trait Triple {}
 }
+mod lanes {
+    pub trait Number: crate::float::Scalar + 'static {}
+    impl Number for f64 {}
+    impl Number for f32 {}
+    pub trait Lanes: crate::float::Scalar {
+        type Number: Number;
+        fn from_fn(number: impl FnMut(usize) -> Self::Number) -> Self;
+    }
+    pub trait Generic {
+        type Parameters<T: crate::float::Scalar>: Copy;
+    }
+    pub trait InLanes<S: Number>: Generic {
+        fn in_lanes<'a, T: Lanes<Number = S>>(of_lane: impl Fn(usize) -> &'a Self) -> Self::Parameters<T>
+        where
+            Self: 'a;
+    }
+}
 mod solve {
     pub fn solve_general<T: crate::float::Scalar, const N: usize>(matrix: &[[T; N]; N], rhs: &[T; N]) -> [T; N] {
         T::solve(matrix, rhs)

@@ -48,6 +48,7 @@ fn a_small_function() {
         ///
         /// - `rod_direction`: 3, dimensionless, frame O: rod direction, equation (17).
         #[allow(clippy::all, clippy::pedantic, unused_variables)]
+        #[inline(always)]
         pub fn rod_direction<T: Scalar>(
             parameters: &Parameters<T>,
             platform_position: &[T; 3],
@@ -176,6 +177,35 @@ fn a_model_file() {
             #[inline]
             fn rod_direction(&self, platform_position: &[f32; 3], rod_direction: &mut [f32; 3]) {
                 self::rod_direction(&self.parameters, platform_position, rod_direction);
+            }
+        }
+
+        impl<S> crate::lanes::Generic for TestModel<S> {
+            type Parameters<T: Scalar> = Parameters<T>;
+        }
+
+        impl<S: crate::lanes::Number> crate::lanes::InLanes<S> for TestModel<S> {
+            #[inline(always)]
+            fn in_lanes<'a, T: crate::lanes::Lanes<Number = S>>(
+                of_lane: impl Fn(usize) -> &'a Self,
+            ) -> Parameters<T> {
+                Parameters {
+                    rod_length: core::array::from_fn(|i0| T::from_fn(|lane| {
+                        of_lane(lane).parameters.rod_length[i0]
+                    })),
+                }
+            }
+        }
+
+        #[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+        impl<S> crate::kernels::generic::RodDirection for TestModel<S> {
+            #[inline(always)]
+            fn rod_direction<T: Scalar>(
+                parameters: &Parameters<T>,
+                platform_position: &[T; 3],
+                rod_direction: &mut [T; 3],
+            ) {
+                self::rod_direction(parameters, platform_position, rod_direction);
             }
         }
 

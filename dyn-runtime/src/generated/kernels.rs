@@ -901,3 +901,472 @@ pub mod ups {
         );
     }
 }
+
+/// The same functions for any type of number, such as [lanes](crate::lanes). Code is made where they are called.
+pub mod generic {
+    /// A model that has `rod_alignment` for any type of number.
+    #[allow(clippy::all, clippy::pedantic)]
+    pub trait RodAlignment: crate::lanes::Generic {
+        /// [`rod_alignment`](crate::kernels::RodAlignment::rod_alignment), with parameters of the same type of number.
+        fn rod_alignment<T: crate::float::Scalar>(
+            parameters: &Self::Parameters<T>,
+            base_position: &[T; 3],
+            base_rotation: &[[T; 3]; 3],
+            platform_position: &[T; 3],
+            platform_rotation: &[[T; 3]; 3],
+            rod_alignment: &mut [T; 6],
+        );
+    }
+    /// A model that has `leg_kinematics` for any type of number.
+    #[allow(clippy::all, clippy::pedantic)]
+    pub trait LegKinematics: crate::lanes::Generic {
+        /// [`leg_kinematics`](crate::kernels::LegKinematics::leg_kinematics), with parameters of the same type of number.
+        fn leg_kinematics<T: crate::float::Scalar>(
+            parameters: &Self::Parameters<T>,
+            base_position: &[T; 3],
+            base_rotation: &[[T; 3]; 3],
+            base_velocity: &[T; 6],
+            base_acceleration: &[T; 6],
+            platform_position: &[T; 3],
+            platform_rotation: &[[T; 3]; 3],
+            platform_velocity: &[T; 6],
+            platform_acceleration: &[T; 6],
+            actuator_length: &mut [T; 6],
+            actuator_velocity: &mut [T; 6],
+            actuator_acceleration: &mut [T; 6],
+            rod_direction: &mut [[T; 3]; 6],
+            hooke_joint_position: &mut [[T; 3]; 6],
+            platform_joint_position: &mut [[T; 3]; 6],
+            platform_joint_rate: &mut [[T; 3]; 6],
+        );
+    }
+    /// A model that has `jacobian_dp` for any type of number.
+    #[allow(clippy::all, clippy::pedantic)]
+    pub trait JacobianDp: crate::lanes::Generic {
+        /// [`jacobian_dp`](crate::kernels::JacobianDp::jacobian_dp), with parameters of the same type of number.
+        fn jacobian_dp<T: crate::float::Scalar>(
+            parameters: &Self::Parameters<T>,
+            base_position: &[T; 3],
+            base_rotation: &[[T; 3]; 3],
+            platform_position: &[T; 3],
+            platform_rotation: &[[T; 3]; 3],
+            jacobian_dp: &mut [[T; 6]; 6],
+        );
+    }
+    /// A model that has `jacobian_db` for any type of number.
+    #[allow(clippy::all, clippy::pedantic)]
+    pub trait JacobianDb: crate::lanes::Generic {
+        /// [`jacobian_db`](crate::kernels::JacobianDb::jacobian_db), with parameters of the same type of number.
+        fn jacobian_db<T: crate::float::Scalar>(
+            parameters: &Self::Parameters<T>,
+            base_position: &[T; 3],
+            base_rotation: &[[T; 3]; 3],
+            platform_position: &[T; 3],
+            platform_rotation: &[[T; 3]; 3],
+            jacobian_db: &mut [[T; 6]; 6],
+        );
+    }
+    /// A model that has `mass_matrix_p` for any type of number.
+    #[allow(clippy::all, clippy::pedantic)]
+    pub trait MassMatrixP: crate::lanes::Generic {
+        /// [`mass_matrix_p`](crate::kernels::MassMatrixP::mass_matrix_p), with parameters of the same type of number.
+        fn mass_matrix_p<T: crate::float::Scalar>(
+            parameters: &Self::Parameters<T>,
+            base_position: &[T; 3],
+            base_rotation: &[[T; 3]; 3],
+            platform_position: &[T; 3],
+            platform_rotation: &[[T; 3]; 3],
+            mass_matrix_p: &mut [[T; 6]; 6],
+        );
+    }
+    /// A model that has `mass_matrix_b` for any type of number.
+    #[allow(clippy::all, clippy::pedantic)]
+    pub trait MassMatrixB: crate::lanes::Generic {
+        /// [`mass_matrix_b`](crate::kernels::MassMatrixB::mass_matrix_b), with parameters of the same type of number.
+        fn mass_matrix_b<T: crate::float::Scalar>(
+            parameters: &Self::Parameters<T>,
+            base_position: &[T; 3],
+            base_rotation: &[[T; 3]; 3],
+            platform_position: &[T; 3],
+            platform_rotation: &[[T; 3]; 3],
+            mass_matrix_b: &mut [[T; 6]; 6],
+        );
+    }
+    /// A model that has `coriolis_matrices` for any type of number.
+    #[allow(clippy::all, clippy::pedantic)]
+    pub trait CoriolisMatrices: crate::lanes::Generic {
+        /// [`coriolis_matrices`](crate::kernels::CoriolisMatrices::coriolis_matrices), with parameters of the same type of number.
+        fn coriolis_matrices<T: crate::float::Scalar>(
+            parameters: &Self::Parameters<T>,
+            base_position: &[T; 3],
+            base_rotation: &[[T; 3]; 3],
+            base_velocity: &[T; 6],
+            platform_position: &[T; 3],
+            platform_rotation: &[[T; 3]; 3],
+            platform_velocity: &[T; 6],
+            coriolis_matrix_p: &mut [[T; 6]; 6],
+            coriolis_matrix_b: &mut [[T; 6]; 6],
+        );
+    }
+    /// A model that has `stiffness_matrices` for any type of number.
+    #[allow(clippy::all, clippy::pedantic)]
+    pub trait StiffnessMatrices: crate::lanes::Generic {
+        /// [`stiffness_matrices`](crate::kernels::StiffnessMatrices::stiffness_matrices), with parameters of the same type of number.
+        fn stiffness_matrices<T: crate::float::Scalar>(
+            parameters: &Self::Parameters<T>,
+            base_position: &[T; 3],
+            base_rotation: &[[T; 3]; 3],
+            platform_position: &[T; 3],
+            platform_rotation: &[[T; 3]; 3],
+            stiffness_matrix_p: &mut [[T; 6]; 6],
+            stiffness_matrix_b: &mut [[T; 6]; 6],
+        );
+    }
+    /// A model that has `matrices` for any type of number.
+    #[allow(clippy::all, clippy::pedantic)]
+    pub trait Matrices: crate::lanes::Generic {
+        /// [`matrices`](crate::kernels::Matrices::matrices), with parameters of the same type of number.
+        fn matrices<T: crate::float::Scalar>(
+            parameters: &Self::Parameters<T>,
+            base_position: &[T; 3],
+            base_rotation: &[[T; 3]; 3],
+            base_velocity: &[T; 6],
+            platform_position: &[T; 3],
+            platform_rotation: &[[T; 3]; 3],
+            platform_velocity: &[T; 6],
+            mass_matrix_p: &mut [[T; 6]; 6],
+            coriolis_matrix_p: &mut [[T; 6]; 6],
+            jacobian_dp: &mut [[T; 6]; 6],
+            mass_matrix_b: &mut [[T; 6]; 6],
+            coriolis_matrix_b: &mut [[T; 6]; 6],
+            jacobian_db: &mut [[T; 6]; 6],
+        );
+    }
+    /// A model that has `passive_forces` for any type of number.
+    #[allow(clippy::all, clippy::pedantic)]
+    pub trait PassiveForces: crate::lanes::Generic {
+        /// [`passive_forces`](crate::kernels::PassiveForces::passive_forces), with parameters of the same type of number.
+        fn passive_forces<T: crate::float::Scalar>(
+            parameters: &Self::Parameters<T>,
+            base_position: &[T; 3],
+            base_rotation: &[[T; 3]; 3],
+            base_velocity: &[T; 6],
+            platform_position: &[T; 3],
+            platform_rotation: &[[T; 3]; 3],
+            platform_velocity: &[T; 6],
+            gravity_force: &mut [T; 6],
+            spring_force: &mut [T; 6],
+            damping_force: &mut [T; 6],
+        );
+    }
+    /// A model that has `bias` for any type of number.
+    #[allow(clippy::all, clippy::pedantic)]
+    pub trait Bias: crate::lanes::Generic {
+        /// [`bias`](crate::kernels::Bias::bias), with parameters of the same type of number.
+        fn bias<T: crate::float::Scalar>(
+            parameters: &Self::Parameters<T>,
+            base_position: &[T; 3],
+            base_rotation: &[[T; 3]; 3],
+            base_velocity: &[T; 6],
+            platform_position: &[T; 3],
+            platform_rotation: &[[T; 3]; 3],
+            platform_velocity: &[T; 6],
+            bias: &mut [T; 6],
+        );
+    }
+    /// A model that has `equation_of_motion` for any type of number.
+    #[allow(clippy::all, clippy::pedantic)]
+    pub trait EquationOfMotion: crate::lanes::Generic {
+        /// [`equation_of_motion`](crate::kernels::EquationOfMotion::equation_of_motion), with parameters of the same type of number.
+        fn equation_of_motion<T: crate::float::Scalar>(
+            parameters: &Self::Parameters<T>,
+            base_position: &[T; 3],
+            base_rotation: &[[T; 3]; 3],
+            base_velocity: &[T; 6],
+            platform_position: &[T; 3],
+            platform_rotation: &[[T; 3]; 3],
+            platform_velocity: &[T; 6],
+            mass_matrix_p: &mut [[T; 6]; 6],
+            coriolis_matrix_p: &mut [[T; 6]; 6],
+            stiffness_matrix_p: &mut [[T; 6]; 6],
+            jacobian_dp: &mut [[T; 6]; 6],
+            mass_matrix_b: &mut [[T; 6]; 6],
+            coriolis_matrix_b: &mut [[T; 6]; 6],
+            stiffness_matrix_b: &mut [[T; 6]; 6],
+            jacobian_db: &mut [[T; 6]; 6],
+            gravity_force: &mut [T; 6],
+            spring_force: &mut [T; 6],
+            damping_force: &mut [T; 6],
+            bias: &mut [T; 6],
+        );
+    }
+    /// A model that has `inverse_dynamics` for any type of number.
+    #[allow(clippy::all, clippy::pedantic)]
+    pub trait InverseDynamics: crate::lanes::Generic {
+        /// [`inverse_dynamics`](crate::kernels::InverseDynamics::inverse_dynamics), with parameters of the same type of number.
+        fn inverse_dynamics<T: crate::float::Scalar>(
+            parameters: &Self::Parameters<T>,
+            base_position: &[T; 3],
+            base_rotation: &[[T; 3]; 3],
+            base_velocity: &[T; 6],
+            base_acceleration: &[T; 6],
+            platform_position: &[T; 3],
+            platform_rotation: &[[T; 3]; 3],
+            platform_velocity: &[T; 6],
+            platform_acceleration: &[T; 6],
+            external_wrench: &[T; 6],
+            inverse_dynamics: &mut [T; 6],
+        );
+    }
+    /// A model that has `actuator_geometry` for any type of number.
+    #[allow(clippy::all, clippy::pedantic)]
+    pub trait ActuatorGeometry: crate::lanes::Generic {
+        /// [`actuator_geometry`](crate::kernels::ActuatorGeometry::actuator_geometry), with parameters of the same type of number.
+        fn actuator_geometry<T: crate::float::Scalar>(
+            parameters: &Self::Parameters<T>,
+            base_position: &[T; 3],
+            base_rotation: &[[T; 3]; 3],
+            platform_position: &[T; 3],
+            platform_rotation: &[[T; 3]; 3],
+            rod_alignment: &mut [T; 6],
+            actuator_length: &mut [T; 6],
+            jacobian_dp: &mut [[T; 6]; 6],
+        );
+    }
+    /// A model that has `control` for any type of number.
+    #[allow(clippy::all, clippy::pedantic)]
+    pub trait Control: crate::lanes::Generic {
+        /// [`control`](crate::kernels::Control::control), with parameters of the same type of number.
+        fn control<T: crate::float::Scalar>(
+            parameters: &Self::Parameters<T>,
+            base_position: &[T; 3],
+            base_rotation: &[[T; 3]; 3],
+            base_velocity: &[T; 6],
+            base_acceleration: &[T; 6],
+            platform_position: &[T; 3],
+            platform_rotation: &[[T; 3]; 3],
+            platform_velocity: &[T; 6],
+            platform_acceleration: &[T; 6],
+            external_wrench: &[T; 6],
+            actuator_length: &mut [T; 6],
+            actuator_velocity: &mut [T; 6],
+            jacobian_dp: &mut [[T; 6]; 6],
+            mass_matrix_p: &mut [[T; 6]; 6],
+            total_bias: &mut [T; 6],
+            inverse_dynamics: &mut [T; 6],
+        );
+    }
+    /// A model that has `passive_inverse_dynamics` for any type of number.
+    #[allow(clippy::all, clippy::pedantic)]
+    pub trait PassiveInverseDynamics: crate::lanes::Generic {
+        /// [`passive_inverse_dynamics`](crate::kernels::PassiveInverseDynamics::passive_inverse_dynamics), with parameters of the same type of number.
+        fn passive_inverse_dynamics<T: crate::float::Scalar>(
+            parameters: &Self::Parameters<T>,
+            base_position: &[T; 3],
+            base_rotation: &[[T; 3]; 3],
+            base_velocity: &[T; 6],
+            base_acceleration: &[T; 6],
+            platform_position: &[T; 3],
+            platform_rotation: &[[T; 3]; 3],
+            platform_velocity: &[T; 6],
+            platform_acceleration: &[T; 6],
+            reference_velocity: &[T; 6],
+            external_wrench: &[T; 6],
+            passive_inverse_dynamics: &mut [T; 6],
+        );
+    }
+    /// A model that has `base_reaction` for any type of number.
+    #[allow(clippy::all, clippy::pedantic)]
+    pub trait BaseReaction: crate::lanes::Generic {
+        /// [`base_reaction`](crate::kernels::BaseReaction::base_reaction), with parameters of the same type of number.
+        fn base_reaction<T: crate::float::Scalar>(
+            parameters: &Self::Parameters<T>,
+            base_position: &[T; 3],
+            base_rotation: &[[T; 3]; 3],
+            base_velocity: &[T; 6],
+            base_acceleration: &[T; 6],
+            platform_position: &[T; 3],
+            platform_rotation: &[[T; 3]; 3],
+            platform_velocity: &[T; 6],
+            platform_acceleration: &[T; 6],
+            external_wrench: &[T; 6],
+            base_wrench: &mut [T; 6],
+        );
+    }
+    /// A model that has `forward_dynamics` for any type of number.
+    #[allow(clippy::all, clippy::pedantic)]
+    pub trait ForwardDynamics: crate::lanes::Generic {
+        /// [`forward_dynamics`](crate::kernels::ForwardDynamics::forward_dynamics), with parameters of the same type of number.
+        fn forward_dynamics<T: crate::float::Scalar>(
+            parameters: &Self::Parameters<T>,
+            base_position: &[T; 3],
+            base_rotation: &[[T; 3]; 3],
+            base_velocity: &[T; 6],
+            base_acceleration: &[T; 6],
+            platform_position: &[T; 3],
+            platform_rotation: &[[T; 3]; 3],
+            platform_velocity: &[T; 6],
+            actuator_force: &[T; 6],
+            external_wrench: &[T; 6],
+            forward_dynamics: &mut [T; 6],
+        );
+    }
+    /// A model that has `energy` for any type of number.
+    #[allow(clippy::all, clippy::pedantic)]
+    pub trait Energy: crate::lanes::Generic {
+        /// [`energy`](crate::kernels::Energy::energy), with parameters of the same type of number.
+        fn energy<T: crate::float::Scalar>(
+            parameters: &Self::Parameters<T>,
+            base_position: &[T; 3],
+            base_rotation: &[[T; 3]; 3],
+            base_velocity: &[T; 6],
+            platform_position: &[T; 3],
+            platform_rotation: &[[T; 3]; 3],
+            platform_velocity: &[T; 6],
+            kinetic_energy: &mut T,
+            potential_energy: &mut T,
+        );
+    }
+    /// Functions whose outputs belong to legs of type `uhp`.
+    pub mod uhp {
+        /// A model that has `body_kinematics` for any type of number.
+        #[allow(clippy::all, clippy::pedantic)]
+        pub trait BodyKinematics: crate::lanes::Generic {
+            /// [`body_kinematics`](crate::kernels::uhp::BodyKinematics::body_kinematics), with parameters of the same type of number.
+            fn body_kinematics<T: crate::float::Scalar>(
+                parameters: &Self::Parameters<T>,
+                base_position: &[T; 3],
+                base_rotation: &[[T; 3]; 3],
+                base_velocity: &[T; 6],
+                base_acceleration: &[T; 6],
+                platform_position: &[T; 3],
+                platform_rotation: &[[T; 3]; 3],
+                platform_velocity: &[T; 6],
+                platform_acceleration: &[T; 6],
+                payload_com_position: &mut [T; 3],
+                payload_com_velocity: &mut [T; 3],
+                payload_com_acceleration: &mut [T; 3],
+                rod_angular_velocity: &mut [[T; 3]; 6],
+                rod_angular_acceleration: &mut [[T; 3]; 6],
+                rod_com_position: &mut [[T; 3]; 6],
+                rod_com_velocity: &mut [[T; 3]; 6],
+                rod_com_acceleration: &mut [[T; 3]; 6],
+                mover_position: &mut [[T; 3]; 6],
+                mover_velocity: &mut [[T; 3]; 6],
+                mover_acceleration: &mut [[T; 3]; 6],
+            );
+        }
+        /// A model that has `partial_velocities` for any type of number.
+        #[allow(clippy::all, clippy::pedantic)]
+        pub trait PartialVelocities: crate::lanes::Generic {
+            /// [`partial_velocities`](crate::kernels::uhp::PartialVelocities::partial_velocities), with parameters of the same type of number.
+            fn partial_velocities<T: crate::float::Scalar>(
+                parameters: &Self::Parameters<T>,
+                base_position: &[T; 3],
+                base_rotation: &[[T; 3]; 3],
+                platform_position: &[T; 3],
+                platform_rotation: &[[T; 3]; 3],
+                payload_partial_velocity: &mut [[T; 6]; 3],
+                payload_partial_angular_velocity: &mut [[T; 6]; 3],
+                rod_partial_velocity: &mut [[[T; 6]; 3]; 6],
+                rod_partial_angular_velocity: &mut [[[T; 6]; 3]; 6],
+                mover_partial_velocity: &mut [[[T; 6]; 3]; 6],
+            );
+        }
+        /// A model that has `generalised_forces` for any type of number.
+        #[allow(clippy::all, clippy::pedantic)]
+        pub trait GeneralisedForces: crate::lanes::Generic {
+            /// [`generalised_forces`](crate::kernels::uhp::GeneralisedForces::generalised_forces), with parameters of the same type of number.
+            fn generalised_forces<T: crate::float::Scalar>(
+                parameters: &Self::Parameters<T>,
+                base_position: &[T; 3],
+                base_rotation: &[[T; 3]; 3],
+                base_velocity: &[T; 6],
+                base_acceleration: &[T; 6],
+                platform_position: &[T; 3],
+                platform_rotation: &[[T; 3]; 3],
+                platform_velocity: &[T; 6],
+                platform_acceleration: &[T; 6],
+                actuator_force: &[T; 6],
+                external_wrench: &[T; 6],
+                payload_active_force: &mut [T; 6],
+                payload_inertia_force: &mut [T; 6],
+                rod_active_force: &mut [[T; 6]; 6],
+                rod_inertia_force: &mut [[T; 6]; 6],
+                mover_active_force: &mut [[T; 6]; 6],
+                mover_inertia_force: &mut [[T; 6]; 6],
+            );
+        }
+    }
+    /// Functions whose outputs belong to legs of type `ups`.
+    pub mod ups {
+        /// A model that has `body_kinematics` for any type of number.
+        #[allow(clippy::all, clippy::pedantic)]
+        pub trait BodyKinematics: crate::lanes::Generic {
+            /// [`body_kinematics`](crate::kernels::ups::BodyKinematics::body_kinematics), with parameters of the same type of number.
+            fn body_kinematics<T: crate::float::Scalar>(
+                parameters: &Self::Parameters<T>,
+                base_position: &[T; 3],
+                base_rotation: &[[T; 3]; 3],
+                base_velocity: &[T; 6],
+                base_acceleration: &[T; 6],
+                platform_position: &[T; 3],
+                platform_rotation: &[[T; 3]; 3],
+                platform_velocity: &[T; 6],
+                platform_acceleration: &[T; 6],
+                payload_com_position: &mut [T; 3],
+                payload_com_velocity: &mut [T; 3],
+                payload_com_acceleration: &mut [T; 3],
+                leg_angular_velocity: &mut [[T; 3]; 6],
+                leg_angular_acceleration: &mut [[T; 3]; 6],
+                lower_com_position: &mut [[T; 3]; 6],
+                lower_com_velocity: &mut [[T; 3]; 6],
+                lower_com_acceleration: &mut [[T; 3]; 6],
+                upper_com_position: &mut [[T; 3]; 6],
+                upper_com_velocity: &mut [[T; 3]; 6],
+                upper_com_acceleration: &mut [[T; 3]; 6],
+            );
+        }
+        /// A model that has `partial_velocities` for any type of number.
+        #[allow(clippy::all, clippy::pedantic)]
+        pub trait PartialVelocities: crate::lanes::Generic {
+            /// [`partial_velocities`](crate::kernels::ups::PartialVelocities::partial_velocities), with parameters of the same type of number.
+            fn partial_velocities<T: crate::float::Scalar>(
+                parameters: &Self::Parameters<T>,
+                base_position: &[T; 3],
+                base_rotation: &[[T; 3]; 3],
+                platform_position: &[T; 3],
+                platform_rotation: &[[T; 3]; 3],
+                payload_partial_velocity: &mut [[T; 6]; 3],
+                payload_partial_angular_velocity: &mut [[T; 6]; 3],
+                lower_partial_velocity: &mut [[[T; 6]; 3]; 6],
+                upper_partial_velocity: &mut [[[T; 6]; 3]; 6],
+                leg_partial_angular_velocity: &mut [[[T; 6]; 3]; 6],
+            );
+        }
+        /// A model that has `generalised_forces` for any type of number.
+        #[allow(clippy::all, clippy::pedantic)]
+        pub trait GeneralisedForces: crate::lanes::Generic {
+            /// [`generalised_forces`](crate::kernels::ups::GeneralisedForces::generalised_forces), with parameters of the same type of number.
+            fn generalised_forces<T: crate::float::Scalar>(
+                parameters: &Self::Parameters<T>,
+                base_position: &[T; 3],
+                base_rotation: &[[T; 3]; 3],
+                base_velocity: &[T; 6],
+                base_acceleration: &[T; 6],
+                platform_position: &[T; 3],
+                platform_rotation: &[[T; 3]; 3],
+                platform_velocity: &[T; 6],
+                platform_acceleration: &[T; 6],
+                actuator_force: &[T; 6],
+                external_wrench: &[T; 6],
+                payload_active_force: &mut [T; 6],
+                payload_inertia_force: &mut [T; 6],
+                lower_active_force: &mut [[T; 6]; 6],
+                lower_inertia_force: &mut [[T; 6]; 6],
+                upper_active_force: &mut [[T; 6]; 6],
+                upper_inertia_force: &mut [[T; 6]; 6],
+            );
+        }
+    }
+}

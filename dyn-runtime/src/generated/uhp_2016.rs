@@ -1358,6 +1358,687 @@ impl crate::kernels::Energy<f32> for Uhp2016 {
     }
 }
 
+impl crate::lanes::Generic for Uhp2016 {
+    type Parameters<T: Scalar> = ();
+}
+
+impl<S: crate::lanes::Number> crate::lanes::InLanes<S> for Uhp2016 {
+    #[inline(always)]
+    fn in_lanes<'a, T: crate::lanes::Lanes<Number = S>>(_: impl Fn(usize) -> &'a Self) {}
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::generic::RodAlignment for Uhp2016 {
+    #[inline(always)]
+    fn rod_alignment<T: Scalar>(
+        _: &(),
+        base_position: &[T; 3],
+        base_rotation: &[[T; 3]; 3],
+        platform_position: &[T; 3],
+        platform_rotation: &[[T; 3]; 3],
+        rod_alignment: &mut [T; 6],
+    ) {
+        self::rod_alignment(
+            base_position,
+            base_rotation,
+            platform_position,
+            platform_rotation,
+            rod_alignment,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::generic::LegKinematics for Uhp2016 {
+    #[inline(always)]
+    fn leg_kinematics<T: Scalar>(
+        _: &(),
+        base_position: &[T; 3],
+        base_rotation: &[[T; 3]; 3],
+        base_velocity: &[T; 6],
+        base_acceleration: &[T; 6],
+        platform_position: &[T; 3],
+        platform_rotation: &[[T; 3]; 3],
+        platform_velocity: &[T; 6],
+        platform_acceleration: &[T; 6],
+        actuator_length: &mut [T; 6],
+        actuator_velocity: &mut [T; 6],
+        actuator_acceleration: &mut [T; 6],
+        rod_direction: &mut [[T; 3]; 6],
+        hooke_joint_position: &mut [[T; 3]; 6],
+        platform_joint_position: &mut [[T; 3]; 6],
+        platform_joint_rate: &mut [[T; 3]; 6],
+    ) {
+        self::leg_kinematics(
+            base_position,
+            base_rotation,
+            base_velocity,
+            base_acceleration,
+            platform_position,
+            platform_rotation,
+            platform_velocity,
+            platform_acceleration,
+            actuator_length,
+            actuator_velocity,
+            actuator_acceleration,
+            rod_direction,
+            hooke_joint_position,
+            platform_joint_position,
+            platform_joint_rate,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::generic::uhp::BodyKinematics for Uhp2016 {
+    #[inline(always)]
+    fn body_kinematics<T: Scalar>(
+        _: &(),
+        base_position: &[T; 3],
+        base_rotation: &[[T; 3]; 3],
+        base_velocity: &[T; 6],
+        base_acceleration: &[T; 6],
+        platform_position: &[T; 3],
+        platform_rotation: &[[T; 3]; 3],
+        platform_velocity: &[T; 6],
+        platform_acceleration: &[T; 6],
+        payload_com_position: &mut [T; 3],
+        payload_com_velocity: &mut [T; 3],
+        payload_com_acceleration: &mut [T; 3],
+        rod_angular_velocity: &mut [[T; 3]; 6],
+        rod_angular_acceleration: &mut [[T; 3]; 6],
+        rod_com_position: &mut [[T; 3]; 6],
+        rod_com_velocity: &mut [[T; 3]; 6],
+        rod_com_acceleration: &mut [[T; 3]; 6],
+        mover_position: &mut [[T; 3]; 6],
+        mover_velocity: &mut [[T; 3]; 6],
+        mover_acceleration: &mut [[T; 3]; 6],
+    ) {
+        self::body_kinematics(
+            base_position,
+            base_rotation,
+            base_velocity,
+            base_acceleration,
+            platform_position,
+            platform_rotation,
+            platform_velocity,
+            platform_acceleration,
+            payload_com_position,
+            payload_com_velocity,
+            payload_com_acceleration,
+            rod_angular_velocity,
+            rod_angular_acceleration,
+            rod_com_position,
+            rod_com_velocity,
+            rod_com_acceleration,
+            mover_position,
+            mover_velocity,
+            mover_acceleration,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::generic::uhp::PartialVelocities for Uhp2016 {
+    #[inline(always)]
+    fn partial_velocities<T: Scalar>(
+        _: &(),
+        base_position: &[T; 3],
+        base_rotation: &[[T; 3]; 3],
+        platform_position: &[T; 3],
+        platform_rotation: &[[T; 3]; 3],
+        payload_partial_velocity: &mut [[T; 6]; 3],
+        payload_partial_angular_velocity: &mut [[T; 6]; 3],
+        rod_partial_velocity: &mut [[[T; 6]; 3]; 6],
+        rod_partial_angular_velocity: &mut [[[T; 6]; 3]; 6],
+        mover_partial_velocity: &mut [[[T; 6]; 3]; 6],
+    ) {
+        self::partial_velocities(
+            base_position,
+            base_rotation,
+            platform_position,
+            platform_rotation,
+            payload_partial_velocity,
+            payload_partial_angular_velocity,
+            rod_partial_velocity,
+            rod_partial_angular_velocity,
+            mover_partial_velocity,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::generic::uhp::GeneralisedForces for Uhp2016 {
+    #[inline(always)]
+    fn generalised_forces<T: Scalar>(
+        _: &(),
+        base_position: &[T; 3],
+        base_rotation: &[[T; 3]; 3],
+        base_velocity: &[T; 6],
+        base_acceleration: &[T; 6],
+        platform_position: &[T; 3],
+        platform_rotation: &[[T; 3]; 3],
+        platform_velocity: &[T; 6],
+        platform_acceleration: &[T; 6],
+        actuator_force: &[T; 6],
+        external_wrench: &[T; 6],
+        payload_active_force: &mut [T; 6],
+        payload_inertia_force: &mut [T; 6],
+        rod_active_force: &mut [[T; 6]; 6],
+        rod_inertia_force: &mut [[T; 6]; 6],
+        mover_active_force: &mut [[T; 6]; 6],
+        mover_inertia_force: &mut [[T; 6]; 6],
+    ) {
+        self::generalised_forces(
+            base_position,
+            base_rotation,
+            base_velocity,
+            base_acceleration,
+            platform_position,
+            platform_rotation,
+            platform_velocity,
+            platform_acceleration,
+            actuator_force,
+            external_wrench,
+            payload_active_force,
+            payload_inertia_force,
+            rod_active_force,
+            rod_inertia_force,
+            mover_active_force,
+            mover_inertia_force,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::generic::JacobianDp for Uhp2016 {
+    #[inline(always)]
+    fn jacobian_dp<T: Scalar>(
+        _: &(),
+        base_position: &[T; 3],
+        base_rotation: &[[T; 3]; 3],
+        platform_position: &[T; 3],
+        platform_rotation: &[[T; 3]; 3],
+        jacobian_dp: &mut [[T; 6]; 6],
+    ) {
+        self::jacobian_dp(
+            base_position,
+            base_rotation,
+            platform_position,
+            platform_rotation,
+            jacobian_dp,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::generic::JacobianDb for Uhp2016 {
+    #[inline(always)]
+    fn jacobian_db<T: Scalar>(
+        _: &(),
+        base_position: &[T; 3],
+        base_rotation: &[[T; 3]; 3],
+        platform_position: &[T; 3],
+        platform_rotation: &[[T; 3]; 3],
+        jacobian_db: &mut [[T; 6]; 6],
+    ) {
+        self::jacobian_db(
+            base_position,
+            base_rotation,
+            platform_position,
+            platform_rotation,
+            jacobian_db,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::generic::MassMatrixP for Uhp2016 {
+    #[inline(always)]
+    fn mass_matrix_p<T: Scalar>(
+        _: &(),
+        base_position: &[T; 3],
+        base_rotation: &[[T; 3]; 3],
+        platform_position: &[T; 3],
+        platform_rotation: &[[T; 3]; 3],
+        mass_matrix_p: &mut [[T; 6]; 6],
+    ) {
+        self::mass_matrix_p(
+            base_position,
+            base_rotation,
+            platform_position,
+            platform_rotation,
+            mass_matrix_p,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::generic::MassMatrixB for Uhp2016 {
+    #[inline(always)]
+    fn mass_matrix_b<T: Scalar>(
+        _: &(),
+        base_position: &[T; 3],
+        base_rotation: &[[T; 3]; 3],
+        platform_position: &[T; 3],
+        platform_rotation: &[[T; 3]; 3],
+        mass_matrix_b: &mut [[T; 6]; 6],
+    ) {
+        self::mass_matrix_b(
+            base_position,
+            base_rotation,
+            platform_position,
+            platform_rotation,
+            mass_matrix_b,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::generic::CoriolisMatrices for Uhp2016 {
+    #[inline(always)]
+    fn coriolis_matrices<T: Scalar>(
+        _: &(),
+        base_position: &[T; 3],
+        base_rotation: &[[T; 3]; 3],
+        base_velocity: &[T; 6],
+        platform_position: &[T; 3],
+        platform_rotation: &[[T; 3]; 3],
+        platform_velocity: &[T; 6],
+        coriolis_matrix_p: &mut [[T; 6]; 6],
+        coriolis_matrix_b: &mut [[T; 6]; 6],
+    ) {
+        self::coriolis_matrices(
+            base_position,
+            base_rotation,
+            base_velocity,
+            platform_position,
+            platform_rotation,
+            platform_velocity,
+            coriolis_matrix_p,
+            coriolis_matrix_b,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::generic::StiffnessMatrices for Uhp2016 {
+    #[inline(always)]
+    fn stiffness_matrices<T: Scalar>(
+        _: &(),
+        base_position: &[T; 3],
+        base_rotation: &[[T; 3]; 3],
+        platform_position: &[T; 3],
+        platform_rotation: &[[T; 3]; 3],
+        stiffness_matrix_p: &mut [[T; 6]; 6],
+        stiffness_matrix_b: &mut [[T; 6]; 6],
+    ) {
+        self::stiffness_matrices(
+            base_position,
+            base_rotation,
+            platform_position,
+            platform_rotation,
+            stiffness_matrix_p,
+            stiffness_matrix_b,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::generic::Matrices for Uhp2016 {
+    #[inline(always)]
+    fn matrices<T: Scalar>(
+        _: &(),
+        base_position: &[T; 3],
+        base_rotation: &[[T; 3]; 3],
+        base_velocity: &[T; 6],
+        platform_position: &[T; 3],
+        platform_rotation: &[[T; 3]; 3],
+        platform_velocity: &[T; 6],
+        mass_matrix_p: &mut [[T; 6]; 6],
+        coriolis_matrix_p: &mut [[T; 6]; 6],
+        jacobian_dp: &mut [[T; 6]; 6],
+        mass_matrix_b: &mut [[T; 6]; 6],
+        coriolis_matrix_b: &mut [[T; 6]; 6],
+        jacobian_db: &mut [[T; 6]; 6],
+    ) {
+        self::matrices(
+            base_position,
+            base_rotation,
+            base_velocity,
+            platform_position,
+            platform_rotation,
+            platform_velocity,
+            mass_matrix_p,
+            coriolis_matrix_p,
+            jacobian_dp,
+            mass_matrix_b,
+            coriolis_matrix_b,
+            jacobian_db,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::generic::PassiveForces for Uhp2016 {
+    #[inline(always)]
+    fn passive_forces<T: Scalar>(
+        _: &(),
+        base_position: &[T; 3],
+        base_rotation: &[[T; 3]; 3],
+        base_velocity: &[T; 6],
+        platform_position: &[T; 3],
+        platform_rotation: &[[T; 3]; 3],
+        platform_velocity: &[T; 6],
+        gravity_force: &mut [T; 6],
+        spring_force: &mut [T; 6],
+        damping_force: &mut [T; 6],
+    ) {
+        self::passive_forces(
+            base_position,
+            base_rotation,
+            base_velocity,
+            platform_position,
+            platform_rotation,
+            platform_velocity,
+            gravity_force,
+            spring_force,
+            damping_force,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::generic::Bias for Uhp2016 {
+    #[inline(always)]
+    fn bias<T: Scalar>(
+        _: &(),
+        base_position: &[T; 3],
+        base_rotation: &[[T; 3]; 3],
+        base_velocity: &[T; 6],
+        platform_position: &[T; 3],
+        platform_rotation: &[[T; 3]; 3],
+        platform_velocity: &[T; 6],
+        bias: &mut [T; 6],
+    ) {
+        self::bias(
+            base_position,
+            base_rotation,
+            base_velocity,
+            platform_position,
+            platform_rotation,
+            platform_velocity,
+            bias,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::generic::EquationOfMotion for Uhp2016 {
+    #[inline(always)]
+    fn equation_of_motion<T: Scalar>(
+        _: &(),
+        base_position: &[T; 3],
+        base_rotation: &[[T; 3]; 3],
+        base_velocity: &[T; 6],
+        platform_position: &[T; 3],
+        platform_rotation: &[[T; 3]; 3],
+        platform_velocity: &[T; 6],
+        mass_matrix_p: &mut [[T; 6]; 6],
+        coriolis_matrix_p: &mut [[T; 6]; 6],
+        stiffness_matrix_p: &mut [[T; 6]; 6],
+        jacobian_dp: &mut [[T; 6]; 6],
+        mass_matrix_b: &mut [[T; 6]; 6],
+        coriolis_matrix_b: &mut [[T; 6]; 6],
+        stiffness_matrix_b: &mut [[T; 6]; 6],
+        jacobian_db: &mut [[T; 6]; 6],
+        gravity_force: &mut [T; 6],
+        spring_force: &mut [T; 6],
+        damping_force: &mut [T; 6],
+        bias: &mut [T; 6],
+    ) {
+        self::equation_of_motion(
+            base_position,
+            base_rotation,
+            base_velocity,
+            platform_position,
+            platform_rotation,
+            platform_velocity,
+            mass_matrix_p,
+            coriolis_matrix_p,
+            stiffness_matrix_p,
+            jacobian_dp,
+            mass_matrix_b,
+            coriolis_matrix_b,
+            stiffness_matrix_b,
+            jacobian_db,
+            gravity_force,
+            spring_force,
+            damping_force,
+            bias,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::generic::InverseDynamics for Uhp2016 {
+    #[inline(always)]
+    fn inverse_dynamics<T: Scalar>(
+        _: &(),
+        base_position: &[T; 3],
+        base_rotation: &[[T; 3]; 3],
+        base_velocity: &[T; 6],
+        base_acceleration: &[T; 6],
+        platform_position: &[T; 3],
+        platform_rotation: &[[T; 3]; 3],
+        platform_velocity: &[T; 6],
+        platform_acceleration: &[T; 6],
+        external_wrench: &[T; 6],
+        inverse_dynamics: &mut [T; 6],
+    ) {
+        self::inverse_dynamics(
+            base_position,
+            base_rotation,
+            base_velocity,
+            base_acceleration,
+            platform_position,
+            platform_rotation,
+            platform_velocity,
+            platform_acceleration,
+            external_wrench,
+            inverse_dynamics,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::generic::ActuatorGeometry for Uhp2016 {
+    #[inline(always)]
+    fn actuator_geometry<T: Scalar>(
+        _: &(),
+        base_position: &[T; 3],
+        base_rotation: &[[T; 3]; 3],
+        platform_position: &[T; 3],
+        platform_rotation: &[[T; 3]; 3],
+        rod_alignment: &mut [T; 6],
+        actuator_length: &mut [T; 6],
+        jacobian_dp: &mut [[T; 6]; 6],
+    ) {
+        self::actuator_geometry(
+            base_position,
+            base_rotation,
+            platform_position,
+            platform_rotation,
+            rod_alignment,
+            actuator_length,
+            jacobian_dp,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::generic::Control for Uhp2016 {
+    #[inline(always)]
+    fn control<T: Scalar>(
+        _: &(),
+        base_position: &[T; 3],
+        base_rotation: &[[T; 3]; 3],
+        base_velocity: &[T; 6],
+        base_acceleration: &[T; 6],
+        platform_position: &[T; 3],
+        platform_rotation: &[[T; 3]; 3],
+        platform_velocity: &[T; 6],
+        platform_acceleration: &[T; 6],
+        external_wrench: &[T; 6],
+        actuator_length: &mut [T; 6],
+        actuator_velocity: &mut [T; 6],
+        jacobian_dp: &mut [[T; 6]; 6],
+        mass_matrix_p: &mut [[T; 6]; 6],
+        total_bias: &mut [T; 6],
+        inverse_dynamics: &mut [T; 6],
+    ) {
+        self::control(
+            base_position,
+            base_rotation,
+            base_velocity,
+            base_acceleration,
+            platform_position,
+            platform_rotation,
+            platform_velocity,
+            platform_acceleration,
+            external_wrench,
+            actuator_length,
+            actuator_velocity,
+            jacobian_dp,
+            mass_matrix_p,
+            total_bias,
+            inverse_dynamics,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::generic::PassiveInverseDynamics for Uhp2016 {
+    #[inline(always)]
+    fn passive_inverse_dynamics<T: Scalar>(
+        _: &(),
+        base_position: &[T; 3],
+        base_rotation: &[[T; 3]; 3],
+        base_velocity: &[T; 6],
+        base_acceleration: &[T; 6],
+        platform_position: &[T; 3],
+        platform_rotation: &[[T; 3]; 3],
+        platform_velocity: &[T; 6],
+        platform_acceleration: &[T; 6],
+        reference_velocity: &[T; 6],
+        external_wrench: &[T; 6],
+        passive_inverse_dynamics: &mut [T; 6],
+    ) {
+        self::passive_inverse_dynamics(
+            base_position,
+            base_rotation,
+            base_velocity,
+            base_acceleration,
+            platform_position,
+            platform_rotation,
+            platform_velocity,
+            platform_acceleration,
+            reference_velocity,
+            external_wrench,
+            passive_inverse_dynamics,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::generic::BaseReaction for Uhp2016 {
+    #[inline(always)]
+    fn base_reaction<T: Scalar>(
+        _: &(),
+        base_position: &[T; 3],
+        base_rotation: &[[T; 3]; 3],
+        base_velocity: &[T; 6],
+        base_acceleration: &[T; 6],
+        platform_position: &[T; 3],
+        platform_rotation: &[[T; 3]; 3],
+        platform_velocity: &[T; 6],
+        platform_acceleration: &[T; 6],
+        external_wrench: &[T; 6],
+        base_wrench: &mut [T; 6],
+    ) {
+        self::base_reaction(
+            base_position,
+            base_rotation,
+            base_velocity,
+            base_acceleration,
+            platform_position,
+            platform_rotation,
+            platform_velocity,
+            platform_acceleration,
+            external_wrench,
+            base_wrench,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::generic::ForwardDynamics for Uhp2016 {
+    #[inline(always)]
+    fn forward_dynamics<T: Scalar>(
+        _: &(),
+        base_position: &[T; 3],
+        base_rotation: &[[T; 3]; 3],
+        base_velocity: &[T; 6],
+        base_acceleration: &[T; 6],
+        platform_position: &[T; 3],
+        platform_rotation: &[[T; 3]; 3],
+        platform_velocity: &[T; 6],
+        actuator_force: &[T; 6],
+        external_wrench: &[T; 6],
+        forward_dynamics: &mut [T; 6],
+    ) {
+        self::forward_dynamics(
+            base_position,
+            base_rotation,
+            base_velocity,
+            base_acceleration,
+            platform_position,
+            platform_rotation,
+            platform_velocity,
+            actuator_force,
+            external_wrench,
+            forward_dynamics,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl crate::kernels::generic::Energy for Uhp2016 {
+    #[inline(always)]
+    fn energy<T: Scalar>(
+        _: &(),
+        base_position: &[T; 3],
+        base_rotation: &[[T; 3]; 3],
+        base_velocity: &[T; 6],
+        platform_position: &[T; 3],
+        platform_rotation: &[[T; 3]; 3],
+        platform_velocity: &[T; 6],
+        kinetic_energy: &mut T,
+        potential_energy: &mut T,
+    ) {
+        self::energy(
+            base_position,
+            base_rotation,
+            base_velocity,
+            platform_position,
+            platform_rotation,
+            platform_velocity,
+            kinetic_energy,
+            potential_energy,
+        );
+    }
+}
+
 /// Squared cosine between each rod and the line of its actuator's force, equation (18).
 ///
 /// Inputs:
@@ -1371,6 +2052,7 @@ impl crate::kernels::Energy<f32> for Uhp2016 {
 ///
 /// - `rod_alignment`: 6, dimensionless: squared cosine between rod and line of the actuator's force; negative out of reach, equation (18).
 #[allow(clippy::all, clippy::pedantic, unused_variables)]
+#[inline(always)]
 pub fn rod_alignment<T: Scalar>(
     base_position: &[T; 3],
     base_rotation: &[[T; 3]; 3],
@@ -1500,6 +2182,7 @@ pub fn rod_alignment<T: Scalar>(
 /// - `platform_joint_position`: 6x3, m, frame O: platform joint, equation (14).
 /// - `platform_joint_rate`: 6x3, rad/s, frame O: platform's angular velocity relative to the rod, w_p - w_s, equation (23).
 #[allow(clippy::all, clippy::pedantic, unused_variables)]
+#[inline(always)]
 pub fn leg_kinematics<T: Scalar>(
     base_position: &[T; 3],
     base_rotation: &[[T; 3]; 3],
@@ -2312,6 +2995,7 @@ pub fn leg_kinematics<T: Scalar>(
 /// - `mover_velocity`: 6x3, m/s, frame O: velocity of the mover, equation (24)-(26).
 /// - `mover_acceleration`: 6x3, m/s^2, frame O: acceleration of the mover, equation (24)-(26).
 #[allow(clippy::all, clippy::pedantic, unused_variables)]
+#[inline(always)]
 pub fn body_kinematics<T: Scalar>(
     base_position: &[T; 3],
     base_rotation: &[[T; 3]; 3],
@@ -3445,6 +4129,7 @@ pub fn body_kinematics<T: Scalar>(
 /// - `rod_partial_angular_velocity`: 6x3x6, 1/m, 1, frame O: partial angular velocities of the rod, equation (33)-(38).
 /// - `mover_partial_velocity`: 6x3x6, 1, m, frame O: partial velocities of the mover, equation (33)-(38).
 #[allow(clippy::all, clippy::pedantic, unused_variables)]
+#[inline(always)]
 pub fn partial_velocities<T: Scalar>(
     base_position: &[T; 3],
     base_rotation: &[[T; 3]; 3],
@@ -4403,6 +5088,7 @@ pub fn partial_velocities<T: Scalar>(
 /// - `mover_active_force`: 6x6, N, N m, frame O: generalised active force of the mover: gravity, actuator, spring, damper, equation (39)-(46).
 /// - `mover_inertia_force`: 6x6, N, N m, frame O: generalised inertia force of the mover, equation (39)-(46).
 #[allow(clippy::all, clippy::pedantic, unused_variables)]
+#[inline(always)]
 pub fn generalised_forces<T: Scalar>(
     base_position: &[T; 3],
     base_rotation: &[[T; 3]; 3],
@@ -5946,6 +6632,7 @@ pub fn generalised_forces<T: Scalar>(
 ///
 /// - `jacobian_dp`: 6x6, 1, m, frame O: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b, equation (32).
 #[allow(clippy::all, clippy::pedantic, unused_variables)]
+#[inline(always)]
 pub fn jacobian_dp<T: Scalar>(
     base_position: &[T; 3],
     base_rotation: &[[T; 3]; 3],
@@ -6182,6 +6869,7 @@ pub fn jacobian_dp<T: Scalar>(
 ///
 /// - `jacobian_db`: 6x6, 1, m, frame O: actuator Jacobian of the base, equation (31).
 #[allow(clippy::all, clippy::pedantic, unused_variables)]
+#[inline(always)]
 pub fn jacobian_db<T: Scalar>(
     base_position: &[T; 3],
     base_rotation: &[[T; 3]; 3],
@@ -6418,6 +7106,7 @@ pub fn jacobian_db<T: Scalar>(
 ///
 /// - `mass_matrix_p`: 6x6, kg, kg m, kg m^2, frame O: mass matrix M_p of the platform, equation (49).
 #[allow(clippy::all, clippy::pedantic, unused_variables)]
+#[inline(always)]
 pub fn mass_matrix_p<T: Scalar>(
     base_position: &[T; 3],
     base_rotation: &[[T; 3]; 3],
@@ -6880,6 +7569,7 @@ pub fn mass_matrix_p<T: Scalar>(
 ///
 /// - `mass_matrix_b`: 6x6, kg, kg m, kg m^2, frame O: mass matrix M_b that couples the base acceleration, equation (49).
 #[allow(clippy::all, clippy::pedantic, unused_variables)]
+#[inline(always)]
 pub fn mass_matrix_b<T: Scalar>(
     base_position: &[T; 3],
     base_rotation: &[[T; 3]; 3],
@@ -7502,6 +8192,7 @@ pub fn mass_matrix_b<T: Scalar>(
 /// - `coriolis_matrix_p`: 6x6, kg/s, kg m/s, kg m^2/s, frame O: Coriolis matrix C_p, natural factorisation, equation (49).
 /// - `coriolis_matrix_b`: 6x6, kg/s, kg m/s, kg m^2/s, frame O: Coriolis matrix C_b, natural factorisation, equation (49).
 #[allow(clippy::all, clippy::pedantic, unused_variables)]
+#[inline(always)]
 pub fn coriolis_matrices<T: Scalar>(
     base_position: &[T; 3],
     base_rotation: &[[T; 3]; 3],
@@ -9219,6 +9910,7 @@ pub fn coriolis_matrices<T: Scalar>(
 /// - `stiffness_matrix_p`: 6x6, N/m, N, N m, frame O: linearised stiffness K_p = J_dp^T k_e J_dp, equation (49).
 /// - `stiffness_matrix_b`: 6x6, N/m, N, N m, frame O: linearised stiffness K_b = J_dp^T k_e J_db, equation (49).
 #[allow(clippy::all, clippy::pedantic, unused_variables)]
+#[inline(always)]
 pub fn stiffness_matrices<T: Scalar>(
     base_position: &[T; 3],
     base_rotation: &[[T; 3]; 3],
@@ -9741,6 +10433,7 @@ pub fn stiffness_matrices<T: Scalar>(
 /// - `coriolis_matrix_b`: 6x6, kg/s, kg m/s, kg m^2/s, frame O: Coriolis matrix C_b, natural factorisation, equation (49).
 /// - `jacobian_db`: 6x6, 1, m, frame O: actuator Jacobian of the base, equation (31).
 #[allow(clippy::all, clippy::pedantic, unused_variables)]
+#[inline(always)]
 pub fn matrices<T: Scalar>(
     base_position: &[T; 3],
     base_rotation: &[[T; 3]; 3],
@@ -12064,6 +12757,7 @@ pub fn matrices<T: Scalar>(
 /// - `spring_force`: 6, N, N m, frame O: generalised spring force J_dp^T k_e (d - d0), left side, equation (39)-(46).
 /// - `damping_force`: 6, N, N m, frame O: generalised damping force J_dp^T c_e d', left side, equation (39)-(46).
 #[allow(clippy::all, clippy::pedantic, unused_variables)]
+#[inline(always)]
 pub fn passive_forces<T: Scalar>(
     base_position: &[T; 3],
     base_rotation: &[[T; 3]; 3],
@@ -12361,6 +13055,7 @@ pub fn passive_forces<T: Scalar>(
 ///
 /// - `bias`: 6, N, N m, frame O: C_p v_p - C_b v_b + gravity, spring and damping force, equation (49).
 #[allow(clippy::all, clippy::pedantic, unused_variables)]
+#[inline(always)]
 pub fn bias<T: Scalar>(
     base_position: &[T; 3],
     base_rotation: &[[T; 3]; 3],
@@ -12953,6 +13648,7 @@ pub fn bias<T: Scalar>(
 /// - `damping_force`: 6, N, N m, frame O: generalised damping force J_dp^T c_e d', left side, equation (39)-(46).
 /// - `bias`: 6, N, N m, frame O: C_p v_p - C_b v_b + gravity, spring and damping force, equation (49).
 #[allow(clippy::all, clippy::pedantic, unused_variables)]
+#[inline(always)]
 pub fn equation_of_motion<T: Scalar>(
     base_position: &[T; 3],
     base_rotation: &[[T; 3]; 3],
@@ -15811,6 +16507,7 @@ pub fn equation_of_motion<T: Scalar>(
 ///
 /// - `inverse_dynamics`: 6, N: actuator forces F, equation (49).
 #[allow(clippy::all, clippy::pedantic, unused_variables)]
+#[inline(always)]
 pub fn inverse_dynamics<T: Scalar>(
     base_position: &[T; 3],
     base_rotation: &[[T; 3]; 3],
@@ -16481,6 +17178,7 @@ pub fn inverse_dynamics<T: Scalar>(
 /// - `actuator_length`: 6, m: actuator length d, equation (18).
 /// - `jacobian_dp`: 6x6, 1, m, frame O: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b, equation (32).
 #[allow(clippy::all, clippy::pedantic, unused_variables)]
+#[inline(always)]
 pub fn actuator_geometry<T: Scalar>(
     base_position: &[T; 3],
     base_rotation: &[[T; 3]; 3],
@@ -16764,6 +17462,7 @@ pub fn actuator_geometry<T: Scalar>(
 /// - `total_bias`: 6, N, N m, frame O: bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext, equation (49).
 /// - `inverse_dynamics`: 6, N: actuator forces F, equation (49).
 #[allow(clippy::all, clippy::pedantic, unused_variables)]
+#[inline(always)]
 pub fn control<T: Scalar>(
     base_position: &[T; 3],
     base_rotation: &[[T; 3]; 3],
@@ -17886,6 +18585,7 @@ pub fn control<T: Scalar>(
 ///
 /// - `passive_inverse_dynamics`: 6, N: actuator forces F at reference speeds, equation (49).
 #[allow(clippy::all, clippy::pedantic, unused_variables)]
+#[inline(always)]
 pub fn passive_inverse_dynamics<T: Scalar>(
     base_position: &[T; 3],
     base_rotation: &[[T; 3]; 3],
@@ -18731,6 +19431,7 @@ pub fn passive_inverse_dynamics<T: Scalar>(
 ///
 /// - `base_wrench`: 6, N, N m, frame O: wrench of the base on the mechanism, moments about the base origin.
 #[allow(clippy::all, clippy::pedantic, unused_variables)]
+#[inline(always)]
 pub fn base_reaction<T: Scalar>(
     base_position: &[T; 3],
     base_rotation: &[[T; 3]; 3],
@@ -19409,6 +20110,7 @@ pub fn base_reaction<T: Scalar>(
 ///
 /// - `forward_dynamics`: 6, m/s^2, rad/s^2, frame O: platform acceleration v_p', equation (49).
 #[allow(clippy::all, clippy::pedantic, unused_variables)]
+#[inline(always)]
 pub fn forward_dynamics<T: Scalar>(
     base_position: &[T; 3],
     base_rotation: &[[T; 3]; 3],
@@ -20248,6 +20950,7 @@ pub fn forward_dynamics<T: Scalar>(
 /// - `kinetic_energy`: scalar, J: kinetic energy of all moving bodies.
 /// - `potential_energy`: scalar, J: potential energy of gravity and springs.
 #[allow(clippy::all, clippy::pedantic, unused_variables)]
+#[inline(always)]
 pub fn energy<T: Scalar>(
     base_position: &[T; 3],
     base_rotation: &[[T; 3]; 3],

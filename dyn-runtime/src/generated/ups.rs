@@ -1834,6 +1834,757 @@ impl crate::kernels::Energy<f32> for Ups<f32> {
     }
 }
 
+impl<S> crate::lanes::Generic for Ups<S> {
+    type Parameters<T: Scalar> = Parameters<T>;
+}
+
+impl<S: crate::lanes::Number> crate::lanes::InLanes<S> for Ups<S> {
+    #[inline(always)]
+    fn in_lanes<'a, T: crate::lanes::Lanes<Number = S>>(
+        of_lane: impl Fn(usize) -> &'a Self,
+    ) -> Parameters<T> {
+        Parameters {
+            base_point: core::array::from_fn(|i0| core::array::from_fn(|i1| T::from_fn(|
+                lane|
+            of_lane(lane).parameters.base_point[i0][i1]))),
+            platform_point: core::array::from_fn(|i0| core::array::from_fn(|i1| T::from_fn(|
+                lane|
+            of_lane(lane).parameters.platform_point[i0][i1]))),
+            lower_mass: core::array::from_fn(|i0| T::from_fn(|lane| {
+                of_lane(lane).parameters.lower_mass[i0]
+            })),
+            lower_com_distance: core::array::from_fn(|i0| T::from_fn(|lane| {
+                of_lane(lane).parameters.lower_com_distance[i0]
+            })),
+            lower_inertia: core::array::from_fn(|i0| T::from_fn(|lane| {
+                of_lane(lane).parameters.lower_inertia[i0]
+            })),
+            upper_mass: core::array::from_fn(|i0| T::from_fn(|lane| {
+                of_lane(lane).parameters.upper_mass[i0]
+            })),
+            upper_com_distance: core::array::from_fn(|i0| T::from_fn(|lane| {
+                of_lane(lane).parameters.upper_com_distance[i0]
+            })),
+            upper_inertia: core::array::from_fn(|i0| T::from_fn(|lane| {
+                of_lane(lane).parameters.upper_inertia[i0]
+            })),
+            rest_length: core::array::from_fn(|i0| T::from_fn(|lane| {
+                of_lane(lane).parameters.rest_length[i0]
+            })),
+            axial_stiffness: core::array::from_fn(|i0| T::from_fn(|lane| {
+                of_lane(lane).parameters.axial_stiffness[i0]
+            })),
+            axial_damping: core::array::from_fn(|i0| T::from_fn(|lane| {
+                of_lane(lane).parameters.axial_damping[i0]
+            })),
+            payload_mass: T::from_fn(|lane| of_lane(lane).parameters.payload_mass),
+            payload_com: core::array::from_fn(|i0| T::from_fn(|lane| {
+                of_lane(lane).parameters.payload_com[i0]
+            })),
+            payload_inertia: core::array::from_fn(|i0| core::array::from_fn(|i1| T::from_fn(|
+                lane|
+            of_lane(lane).parameters.payload_inertia[i0][i1]))),
+            gravity: core::array::from_fn(|i0| T::from_fn(|lane| {
+                of_lane(lane).parameters.gravity[i0]
+            })),
+        }
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl<S> crate::kernels::generic::RodAlignment for Ups<S> {
+    #[inline(always)]
+    fn rod_alignment<T: Scalar>(
+        parameters: &Parameters<T>,
+        base_position: &[T; 3],
+        base_rotation: &[[T; 3]; 3],
+        platform_position: &[T; 3],
+        platform_rotation: &[[T; 3]; 3],
+        rod_alignment: &mut [T; 6],
+    ) {
+        self::rod_alignment(
+            parameters,
+            base_position,
+            base_rotation,
+            platform_position,
+            platform_rotation,
+            rod_alignment,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl<S> crate::kernels::generic::LegKinematics for Ups<S> {
+    #[inline(always)]
+    fn leg_kinematics<T: Scalar>(
+        parameters: &Parameters<T>,
+        base_position: &[T; 3],
+        base_rotation: &[[T; 3]; 3],
+        base_velocity: &[T; 6],
+        base_acceleration: &[T; 6],
+        platform_position: &[T; 3],
+        platform_rotation: &[[T; 3]; 3],
+        platform_velocity: &[T; 6],
+        platform_acceleration: &[T; 6],
+        actuator_length: &mut [T; 6],
+        actuator_velocity: &mut [T; 6],
+        actuator_acceleration: &mut [T; 6],
+        rod_direction: &mut [[T; 3]; 6],
+        hooke_joint_position: &mut [[T; 3]; 6],
+        platform_joint_position: &mut [[T; 3]; 6],
+        platform_joint_rate: &mut [[T; 3]; 6],
+    ) {
+        self::leg_kinematics(
+            parameters,
+            base_position,
+            base_rotation,
+            base_velocity,
+            base_acceleration,
+            platform_position,
+            platform_rotation,
+            platform_velocity,
+            platform_acceleration,
+            actuator_length,
+            actuator_velocity,
+            actuator_acceleration,
+            rod_direction,
+            hooke_joint_position,
+            platform_joint_position,
+            platform_joint_rate,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl<S> crate::kernels::generic::ups::BodyKinematics for Ups<S> {
+    #[inline(always)]
+    fn body_kinematics<T: Scalar>(
+        parameters: &Parameters<T>,
+        base_position: &[T; 3],
+        base_rotation: &[[T; 3]; 3],
+        base_velocity: &[T; 6],
+        base_acceleration: &[T; 6],
+        platform_position: &[T; 3],
+        platform_rotation: &[[T; 3]; 3],
+        platform_velocity: &[T; 6],
+        platform_acceleration: &[T; 6],
+        payload_com_position: &mut [T; 3],
+        payload_com_velocity: &mut [T; 3],
+        payload_com_acceleration: &mut [T; 3],
+        leg_angular_velocity: &mut [[T; 3]; 6],
+        leg_angular_acceleration: &mut [[T; 3]; 6],
+        lower_com_position: &mut [[T; 3]; 6],
+        lower_com_velocity: &mut [[T; 3]; 6],
+        lower_com_acceleration: &mut [[T; 3]; 6],
+        upper_com_position: &mut [[T; 3]; 6],
+        upper_com_velocity: &mut [[T; 3]; 6],
+        upper_com_acceleration: &mut [[T; 3]; 6],
+    ) {
+        self::body_kinematics(
+            parameters,
+            base_position,
+            base_rotation,
+            base_velocity,
+            base_acceleration,
+            platform_position,
+            platform_rotation,
+            platform_velocity,
+            platform_acceleration,
+            payload_com_position,
+            payload_com_velocity,
+            payload_com_acceleration,
+            leg_angular_velocity,
+            leg_angular_acceleration,
+            lower_com_position,
+            lower_com_velocity,
+            lower_com_acceleration,
+            upper_com_position,
+            upper_com_velocity,
+            upper_com_acceleration,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl<S> crate::kernels::generic::ups::PartialVelocities for Ups<S> {
+    #[inline(always)]
+    fn partial_velocities<T: Scalar>(
+        parameters: &Parameters<T>,
+        base_position: &[T; 3],
+        base_rotation: &[[T; 3]; 3],
+        platform_position: &[T; 3],
+        platform_rotation: &[[T; 3]; 3],
+        payload_partial_velocity: &mut [[T; 6]; 3],
+        payload_partial_angular_velocity: &mut [[T; 6]; 3],
+        lower_partial_velocity: &mut [[[T; 6]; 3]; 6],
+        upper_partial_velocity: &mut [[[T; 6]; 3]; 6],
+        leg_partial_angular_velocity: &mut [[[T; 6]; 3]; 6],
+    ) {
+        self::partial_velocities(
+            parameters,
+            base_position,
+            base_rotation,
+            platform_position,
+            platform_rotation,
+            payload_partial_velocity,
+            payload_partial_angular_velocity,
+            lower_partial_velocity,
+            upper_partial_velocity,
+            leg_partial_angular_velocity,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl<S> crate::kernels::generic::ups::GeneralisedForces for Ups<S> {
+    #[inline(always)]
+    fn generalised_forces<T: Scalar>(
+        parameters: &Parameters<T>,
+        base_position: &[T; 3],
+        base_rotation: &[[T; 3]; 3],
+        base_velocity: &[T; 6],
+        base_acceleration: &[T; 6],
+        platform_position: &[T; 3],
+        platform_rotation: &[[T; 3]; 3],
+        platform_velocity: &[T; 6],
+        platform_acceleration: &[T; 6],
+        actuator_force: &[T; 6],
+        external_wrench: &[T; 6],
+        payload_active_force: &mut [T; 6],
+        payload_inertia_force: &mut [T; 6],
+        lower_active_force: &mut [[T; 6]; 6],
+        lower_inertia_force: &mut [[T; 6]; 6],
+        upper_active_force: &mut [[T; 6]; 6],
+        upper_inertia_force: &mut [[T; 6]; 6],
+    ) {
+        self::generalised_forces(
+            parameters,
+            base_position,
+            base_rotation,
+            base_velocity,
+            base_acceleration,
+            platform_position,
+            platform_rotation,
+            platform_velocity,
+            platform_acceleration,
+            actuator_force,
+            external_wrench,
+            payload_active_force,
+            payload_inertia_force,
+            lower_active_force,
+            lower_inertia_force,
+            upper_active_force,
+            upper_inertia_force,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl<S> crate::kernels::generic::JacobianDp for Ups<S> {
+    #[inline(always)]
+    fn jacobian_dp<T: Scalar>(
+        parameters: &Parameters<T>,
+        base_position: &[T; 3],
+        base_rotation: &[[T; 3]; 3],
+        platform_position: &[T; 3],
+        platform_rotation: &[[T; 3]; 3],
+        jacobian_dp: &mut [[T; 6]; 6],
+    ) {
+        self::jacobian_dp(
+            parameters,
+            base_position,
+            base_rotation,
+            platform_position,
+            platform_rotation,
+            jacobian_dp,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl<S> crate::kernels::generic::JacobianDb for Ups<S> {
+    #[inline(always)]
+    fn jacobian_db<T: Scalar>(
+        parameters: &Parameters<T>,
+        base_position: &[T; 3],
+        base_rotation: &[[T; 3]; 3],
+        platform_position: &[T; 3],
+        platform_rotation: &[[T; 3]; 3],
+        jacobian_db: &mut [[T; 6]; 6],
+    ) {
+        self::jacobian_db(
+            parameters,
+            base_position,
+            base_rotation,
+            platform_position,
+            platform_rotation,
+            jacobian_db,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl<S> crate::kernels::generic::MassMatrixP for Ups<S> {
+    #[inline(always)]
+    fn mass_matrix_p<T: Scalar>(
+        parameters: &Parameters<T>,
+        base_position: &[T; 3],
+        base_rotation: &[[T; 3]; 3],
+        platform_position: &[T; 3],
+        platform_rotation: &[[T; 3]; 3],
+        mass_matrix_p: &mut [[T; 6]; 6],
+    ) {
+        self::mass_matrix_p(
+            parameters,
+            base_position,
+            base_rotation,
+            platform_position,
+            platform_rotation,
+            mass_matrix_p,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl<S> crate::kernels::generic::MassMatrixB for Ups<S> {
+    #[inline(always)]
+    fn mass_matrix_b<T: Scalar>(
+        parameters: &Parameters<T>,
+        base_position: &[T; 3],
+        base_rotation: &[[T; 3]; 3],
+        platform_position: &[T; 3],
+        platform_rotation: &[[T; 3]; 3],
+        mass_matrix_b: &mut [[T; 6]; 6],
+    ) {
+        self::mass_matrix_b(
+            parameters,
+            base_position,
+            base_rotation,
+            platform_position,
+            platform_rotation,
+            mass_matrix_b,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl<S> crate::kernels::generic::CoriolisMatrices for Ups<S> {
+    #[inline(always)]
+    fn coriolis_matrices<T: Scalar>(
+        parameters: &Parameters<T>,
+        base_position: &[T; 3],
+        base_rotation: &[[T; 3]; 3],
+        base_velocity: &[T; 6],
+        platform_position: &[T; 3],
+        platform_rotation: &[[T; 3]; 3],
+        platform_velocity: &[T; 6],
+        coriolis_matrix_p: &mut [[T; 6]; 6],
+        coriolis_matrix_b: &mut [[T; 6]; 6],
+    ) {
+        self::coriolis_matrices(
+            parameters,
+            base_position,
+            base_rotation,
+            base_velocity,
+            platform_position,
+            platform_rotation,
+            platform_velocity,
+            coriolis_matrix_p,
+            coriolis_matrix_b,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl<S> crate::kernels::generic::StiffnessMatrices for Ups<S> {
+    #[inline(always)]
+    fn stiffness_matrices<T: Scalar>(
+        parameters: &Parameters<T>,
+        base_position: &[T; 3],
+        base_rotation: &[[T; 3]; 3],
+        platform_position: &[T; 3],
+        platform_rotation: &[[T; 3]; 3],
+        stiffness_matrix_p: &mut [[T; 6]; 6],
+        stiffness_matrix_b: &mut [[T; 6]; 6],
+    ) {
+        self::stiffness_matrices(
+            parameters,
+            base_position,
+            base_rotation,
+            platform_position,
+            platform_rotation,
+            stiffness_matrix_p,
+            stiffness_matrix_b,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl<S> crate::kernels::generic::Matrices for Ups<S> {
+    #[inline(always)]
+    fn matrices<T: Scalar>(
+        parameters: &Parameters<T>,
+        base_position: &[T; 3],
+        base_rotation: &[[T; 3]; 3],
+        base_velocity: &[T; 6],
+        platform_position: &[T; 3],
+        platform_rotation: &[[T; 3]; 3],
+        platform_velocity: &[T; 6],
+        mass_matrix_p: &mut [[T; 6]; 6],
+        coriolis_matrix_p: &mut [[T; 6]; 6],
+        jacobian_dp: &mut [[T; 6]; 6],
+        mass_matrix_b: &mut [[T; 6]; 6],
+        coriolis_matrix_b: &mut [[T; 6]; 6],
+        jacobian_db: &mut [[T; 6]; 6],
+    ) {
+        self::matrices(
+            parameters,
+            base_position,
+            base_rotation,
+            base_velocity,
+            platform_position,
+            platform_rotation,
+            platform_velocity,
+            mass_matrix_p,
+            coriolis_matrix_p,
+            jacobian_dp,
+            mass_matrix_b,
+            coriolis_matrix_b,
+            jacobian_db,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl<S> crate::kernels::generic::PassiveForces for Ups<S> {
+    #[inline(always)]
+    fn passive_forces<T: Scalar>(
+        parameters: &Parameters<T>,
+        base_position: &[T; 3],
+        base_rotation: &[[T; 3]; 3],
+        base_velocity: &[T; 6],
+        platform_position: &[T; 3],
+        platform_rotation: &[[T; 3]; 3],
+        platform_velocity: &[T; 6],
+        gravity_force: &mut [T; 6],
+        spring_force: &mut [T; 6],
+        damping_force: &mut [T; 6],
+    ) {
+        self::passive_forces(
+            parameters,
+            base_position,
+            base_rotation,
+            base_velocity,
+            platform_position,
+            platform_rotation,
+            platform_velocity,
+            gravity_force,
+            spring_force,
+            damping_force,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl<S> crate::kernels::generic::Bias for Ups<S> {
+    #[inline(always)]
+    fn bias<T: Scalar>(
+        parameters: &Parameters<T>,
+        base_position: &[T; 3],
+        base_rotation: &[[T; 3]; 3],
+        base_velocity: &[T; 6],
+        platform_position: &[T; 3],
+        platform_rotation: &[[T; 3]; 3],
+        platform_velocity: &[T; 6],
+        bias: &mut [T; 6],
+    ) {
+        self::bias(
+            parameters,
+            base_position,
+            base_rotation,
+            base_velocity,
+            platform_position,
+            platform_rotation,
+            platform_velocity,
+            bias,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl<S> crate::kernels::generic::EquationOfMotion for Ups<S> {
+    #[inline(always)]
+    fn equation_of_motion<T: Scalar>(
+        parameters: &Parameters<T>,
+        base_position: &[T; 3],
+        base_rotation: &[[T; 3]; 3],
+        base_velocity: &[T; 6],
+        platform_position: &[T; 3],
+        platform_rotation: &[[T; 3]; 3],
+        platform_velocity: &[T; 6],
+        mass_matrix_p: &mut [[T; 6]; 6],
+        coriolis_matrix_p: &mut [[T; 6]; 6],
+        stiffness_matrix_p: &mut [[T; 6]; 6],
+        jacobian_dp: &mut [[T; 6]; 6],
+        mass_matrix_b: &mut [[T; 6]; 6],
+        coriolis_matrix_b: &mut [[T; 6]; 6],
+        stiffness_matrix_b: &mut [[T; 6]; 6],
+        jacobian_db: &mut [[T; 6]; 6],
+        gravity_force: &mut [T; 6],
+        spring_force: &mut [T; 6],
+        damping_force: &mut [T; 6],
+        bias: &mut [T; 6],
+    ) {
+        self::equation_of_motion(
+            parameters,
+            base_position,
+            base_rotation,
+            base_velocity,
+            platform_position,
+            platform_rotation,
+            platform_velocity,
+            mass_matrix_p,
+            coriolis_matrix_p,
+            stiffness_matrix_p,
+            jacobian_dp,
+            mass_matrix_b,
+            coriolis_matrix_b,
+            stiffness_matrix_b,
+            jacobian_db,
+            gravity_force,
+            spring_force,
+            damping_force,
+            bias,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl<S> crate::kernels::generic::InverseDynamics for Ups<S> {
+    #[inline(always)]
+    fn inverse_dynamics<T: Scalar>(
+        parameters: &Parameters<T>,
+        base_position: &[T; 3],
+        base_rotation: &[[T; 3]; 3],
+        base_velocity: &[T; 6],
+        base_acceleration: &[T; 6],
+        platform_position: &[T; 3],
+        platform_rotation: &[[T; 3]; 3],
+        platform_velocity: &[T; 6],
+        platform_acceleration: &[T; 6],
+        external_wrench: &[T; 6],
+        inverse_dynamics: &mut [T; 6],
+    ) {
+        self::inverse_dynamics(
+            parameters,
+            base_position,
+            base_rotation,
+            base_velocity,
+            base_acceleration,
+            platform_position,
+            platform_rotation,
+            platform_velocity,
+            platform_acceleration,
+            external_wrench,
+            inverse_dynamics,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl<S> crate::kernels::generic::ActuatorGeometry for Ups<S> {
+    #[inline(always)]
+    fn actuator_geometry<T: Scalar>(
+        parameters: &Parameters<T>,
+        base_position: &[T; 3],
+        base_rotation: &[[T; 3]; 3],
+        platform_position: &[T; 3],
+        platform_rotation: &[[T; 3]; 3],
+        rod_alignment: &mut [T; 6],
+        actuator_length: &mut [T; 6],
+        jacobian_dp: &mut [[T; 6]; 6],
+    ) {
+        self::actuator_geometry(
+            parameters,
+            base_position,
+            base_rotation,
+            platform_position,
+            platform_rotation,
+            rod_alignment,
+            actuator_length,
+            jacobian_dp,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl<S> crate::kernels::generic::Control for Ups<S> {
+    #[inline(always)]
+    fn control<T: Scalar>(
+        parameters: &Parameters<T>,
+        base_position: &[T; 3],
+        base_rotation: &[[T; 3]; 3],
+        base_velocity: &[T; 6],
+        base_acceleration: &[T; 6],
+        platform_position: &[T; 3],
+        platform_rotation: &[[T; 3]; 3],
+        platform_velocity: &[T; 6],
+        platform_acceleration: &[T; 6],
+        external_wrench: &[T; 6],
+        actuator_length: &mut [T; 6],
+        actuator_velocity: &mut [T; 6],
+        jacobian_dp: &mut [[T; 6]; 6],
+        mass_matrix_p: &mut [[T; 6]; 6],
+        total_bias: &mut [T; 6],
+        inverse_dynamics: &mut [T; 6],
+    ) {
+        self::control(
+            parameters,
+            base_position,
+            base_rotation,
+            base_velocity,
+            base_acceleration,
+            platform_position,
+            platform_rotation,
+            platform_velocity,
+            platform_acceleration,
+            external_wrench,
+            actuator_length,
+            actuator_velocity,
+            jacobian_dp,
+            mass_matrix_p,
+            total_bias,
+            inverse_dynamics,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl<S> crate::kernels::generic::PassiveInverseDynamics for Ups<S> {
+    #[inline(always)]
+    fn passive_inverse_dynamics<T: Scalar>(
+        parameters: &Parameters<T>,
+        base_position: &[T; 3],
+        base_rotation: &[[T; 3]; 3],
+        base_velocity: &[T; 6],
+        base_acceleration: &[T; 6],
+        platform_position: &[T; 3],
+        platform_rotation: &[[T; 3]; 3],
+        platform_velocity: &[T; 6],
+        platform_acceleration: &[T; 6],
+        reference_velocity: &[T; 6],
+        external_wrench: &[T; 6],
+        passive_inverse_dynamics: &mut [T; 6],
+    ) {
+        self::passive_inverse_dynamics(
+            parameters,
+            base_position,
+            base_rotation,
+            base_velocity,
+            base_acceleration,
+            platform_position,
+            platform_rotation,
+            platform_velocity,
+            platform_acceleration,
+            reference_velocity,
+            external_wrench,
+            passive_inverse_dynamics,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl<S> crate::kernels::generic::BaseReaction for Ups<S> {
+    #[inline(always)]
+    fn base_reaction<T: Scalar>(
+        parameters: &Parameters<T>,
+        base_position: &[T; 3],
+        base_rotation: &[[T; 3]; 3],
+        base_velocity: &[T; 6],
+        base_acceleration: &[T; 6],
+        platform_position: &[T; 3],
+        platform_rotation: &[[T; 3]; 3],
+        platform_velocity: &[T; 6],
+        platform_acceleration: &[T; 6],
+        external_wrench: &[T; 6],
+        base_wrench: &mut [T; 6],
+    ) {
+        self::base_reaction(
+            parameters,
+            base_position,
+            base_rotation,
+            base_velocity,
+            base_acceleration,
+            platform_position,
+            platform_rotation,
+            platform_velocity,
+            platform_acceleration,
+            external_wrench,
+            base_wrench,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl<S> crate::kernels::generic::ForwardDynamics for Ups<S> {
+    #[inline(always)]
+    fn forward_dynamics<T: Scalar>(
+        parameters: &Parameters<T>,
+        base_position: &[T; 3],
+        base_rotation: &[[T; 3]; 3],
+        base_velocity: &[T; 6],
+        base_acceleration: &[T; 6],
+        platform_position: &[T; 3],
+        platform_rotation: &[[T; 3]; 3],
+        platform_velocity: &[T; 6],
+        actuator_force: &[T; 6],
+        external_wrench: &[T; 6],
+        forward_dynamics: &mut [T; 6],
+    ) {
+        self::forward_dynamics(
+            parameters,
+            base_position,
+            base_rotation,
+            base_velocity,
+            base_acceleration,
+            platform_position,
+            platform_rotation,
+            platform_velocity,
+            actuator_force,
+            external_wrench,
+            forward_dynamics,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl<S> crate::kernels::generic::Energy for Ups<S> {
+    #[inline(always)]
+    fn energy<T: Scalar>(
+        parameters: &Parameters<T>,
+        base_position: &[T; 3],
+        base_rotation: &[[T; 3]; 3],
+        base_velocity: &[T; 6],
+        platform_position: &[T; 3],
+        platform_rotation: &[[T; 3]; 3],
+        platform_velocity: &[T; 6],
+        kinetic_energy: &mut T,
+        potential_energy: &mut T,
+    ) {
+        self::energy(
+            parameters,
+            base_position,
+            base_rotation,
+            base_velocity,
+            platform_position,
+            platform_rotation,
+            platform_velocity,
+            kinetic_energy,
+            potential_energy,
+        );
+    }
+}
+
 /// Squared cosine between each rod and the line of its actuator's force, equation (18).
 ///
 /// Inputs:
@@ -1847,6 +2598,7 @@ impl crate::kernels::Energy<f32> for Ups<f32> {
 ///
 /// - `rod_alignment`: 6, dimensionless: squared cosine between rod and line of the actuator's force; negative out of reach, equation (18).
 #[allow(clippy::all, clippy::pedantic, unused_variables)]
+#[inline(always)]
 pub fn rod_alignment<T: Scalar>(
     parameters: &Parameters<T>,
     base_position: &[T; 3],
@@ -2051,6 +2803,7 @@ pub fn rod_alignment<T: Scalar>(
 /// - `platform_joint_position`: 6x3, m, frame O: platform joint, equation (14).
 /// - `platform_joint_rate`: 6x3, rad/s, frame O: platform's angular velocity relative to the rod, w_p - w_s, equation (23).
 #[allow(clippy::all, clippy::pedantic, unused_variables)]
+#[inline(always)]
 pub fn leg_kinematics<T: Scalar>(
     parameters: &Parameters<T>,
     base_position: &[T; 3],
@@ -2998,6 +3751,7 @@ pub fn leg_kinematics<T: Scalar>(
 /// - `upper_com_velocity`: 6x3, m/s, frame O: velocity of the upper part's centre of mass.
 /// - `upper_com_acceleration`: 6x3, m/s^2, frame O: acceleration of the upper part's centre of mass.
 #[allow(clippy::all, clippy::pedantic, unused_variables)]
+#[inline(always)]
 pub fn body_kinematics<T: Scalar>(
     parameters: &Parameters<T>,
     base_position: &[T; 3],
@@ -5059,6 +5813,7 @@ pub fn body_kinematics<T: Scalar>(
 /// - `upper_partial_velocity`: 6x3x6, 1, m, frame O: partial velocities of the upper part's centre of mass, equation (33)-(38).
 /// - `leg_partial_angular_velocity`: 6x3x6, 1/m, 1, frame O: partial angular velocities of the leg, equation (33)-(38).
 #[allow(clippy::all, clippy::pedantic, unused_variables)]
+#[inline(always)]
 pub fn partial_velocities<T: Scalar>(
     parameters: &Parameters<T>,
     base_position: &[T; 3],
@@ -6179,6 +6934,7 @@ pub fn partial_velocities<T: Scalar>(
 /// - `upper_active_force`: 6x6, N, N m, frame O: generalised active force of the upper part: gravity, actuator, spring, damper, equation (39)-(46).
 /// - `upper_inertia_force`: 6x6, N, N m, frame O: generalised inertia force of the upper part, equation (39)-(46).
 #[allow(clippy::all, clippy::pedantic, unused_variables)]
+#[inline(always)]
 pub fn generalised_forces<T: Scalar>(
     parameters: &Parameters<T>,
     base_position: &[T; 3],
@@ -8835,6 +9591,7 @@ pub fn generalised_forces<T: Scalar>(
 ///
 /// - `jacobian_dp`: 6x6, 1, m, frame O: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b, equation (32).
 #[allow(clippy::all, clippy::pedantic, unused_variables)]
+#[inline(always)]
 pub fn jacobian_dp<T: Scalar>(
     parameters: &Parameters<T>,
     base_position: &[T; 3],
@@ -9167,6 +9924,7 @@ pub fn jacobian_dp<T: Scalar>(
 ///
 /// - `jacobian_db`: 6x6, 1, m, frame O: actuator Jacobian of the base, equation (31).
 #[allow(clippy::all, clippy::pedantic, unused_variables)]
+#[inline(always)]
 pub fn jacobian_db<T: Scalar>(
     parameters: &Parameters<T>,
     base_position: &[T; 3],
@@ -9523,6 +10281,7 @@ pub fn jacobian_db<T: Scalar>(
 ///
 /// - `mass_matrix_p`: 6x6, kg, kg m, kg m^2, frame O: mass matrix M_p of the platform, equation (49).
 #[allow(clippy::all, clippy::pedantic, unused_variables)]
+#[inline(always)]
 pub fn mass_matrix_p<T: Scalar>(
     parameters: &Parameters<T>,
     base_position: &[T; 3],
@@ -10245,6 +11004,7 @@ pub fn mass_matrix_p<T: Scalar>(
 ///
 /// - `mass_matrix_b`: 6x6, kg, kg m, kg m^2, frame O: mass matrix M_b that couples the base acceleration, equation (49).
 #[allow(clippy::all, clippy::pedantic, unused_variables)]
+#[inline(always)]
 pub fn mass_matrix_b<T: Scalar>(
     parameters: &Parameters<T>,
     base_position: &[T; 3],
@@ -11217,6 +11977,7 @@ pub fn mass_matrix_b<T: Scalar>(
 /// - `coriolis_matrix_p`: 6x6, kg/s, kg m/s, kg m^2/s, frame O: Coriolis matrix C_p, natural factorisation, equation (49).
 /// - `coriolis_matrix_b`: 6x6, kg/s, kg m/s, kg m^2/s, frame O: Coriolis matrix C_b, natural factorisation, equation (49).
 #[allow(clippy::all, clippy::pedantic, unused_variables)]
+#[inline(always)]
 pub fn coriolis_matrices<T: Scalar>(
     parameters: &Parameters<T>,
     base_position: &[T; 3],
@@ -13613,6 +14374,7 @@ pub fn coriolis_matrices<T: Scalar>(
 /// - `stiffness_matrix_p`: 6x6, N/m, N, N m, frame O: linearised stiffness K_p = J_dp^T k_e J_dp, equation (49).
 /// - `stiffness_matrix_b`: 6x6, N/m, N, N m, frame O: linearised stiffness K_b = J_dp^T k_e J_db, equation (49).
 #[allow(clippy::all, clippy::pedantic, unused_variables)]
+#[inline(always)]
 pub fn stiffness_matrices<T: Scalar>(
     parameters: &Parameters<T>,
     base_position: &[T; 3],
@@ -14231,6 +14993,7 @@ pub fn stiffness_matrices<T: Scalar>(
 /// - `coriolis_matrix_b`: 6x6, kg/s, kg m/s, kg m^2/s, frame O: Coriolis matrix C_b, natural factorisation, equation (49).
 /// - `jacobian_db`: 6x6, 1, m, frame O: actuator Jacobian of the base, equation (31).
 #[allow(clippy::all, clippy::pedantic, unused_variables)]
+#[inline(always)]
 pub fn matrices<T: Scalar>(
     parameters: &Parameters<T>,
     base_position: &[T; 3],
@@ -17499,6 +18262,7 @@ pub fn matrices<T: Scalar>(
 /// - `spring_force`: 6, N, N m, frame O: generalised spring force J_dp^T k_e (d - d0), left side, equation (39)-(46).
 /// - `damping_force`: 6, N, N m, frame O: generalised damping force J_dp^T c_e d', left side, equation (39)-(46).
 #[allow(clippy::all, clippy::pedantic, unused_variables)]
+#[inline(always)]
 pub fn passive_forces<T: Scalar>(
     parameters: &Parameters<T>,
     base_position: &[T; 3],
@@ -18121,6 +18885,7 @@ pub fn passive_forces<T: Scalar>(
 ///
 /// - `bias`: 6, N, N m, frame O: C_p v_p - C_b v_b + gravity, spring and damping force, equation (49).
 #[allow(clippy::all, clippy::pedantic, unused_variables)]
+#[inline(always)]
 pub fn bias<T: Scalar>(
     parameters: &Parameters<T>,
     base_position: &[T; 3],
@@ -19133,6 +19898,7 @@ pub fn bias<T: Scalar>(
 /// - `damping_force`: 6, N, N m, frame O: generalised damping force J_dp^T c_e d', left side, equation (39)-(46).
 /// - `bias`: 6, N, N m, frame O: C_p v_p - C_b v_b + gravity, spring and damping force, equation (49).
 #[allow(clippy::all, clippy::pedantic, unused_variables)]
+#[inline(always)]
 pub fn equation_of_motion<T: Scalar>(
     parameters: &Parameters<T>,
     base_position: &[T; 3],
@@ -23312,6 +24078,7 @@ pub fn equation_of_motion<T: Scalar>(
 ///
 /// - `inverse_dynamics`: 6, N: actuator forces F, equation (49).
 #[allow(clippy::all, clippy::pedantic, unused_variables)]
+#[inline(always)]
 pub fn inverse_dynamics<T: Scalar>(
     parameters: &Parameters<T>,
     base_position: &[T; 3],
@@ -24382,6 +25149,7 @@ pub fn inverse_dynamics<T: Scalar>(
 /// - `actuator_length`: 6, m: actuator length d, equation (18).
 /// - `jacobian_dp`: 6x6, 1, m, frame O: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b, equation (32).
 #[allow(clippy::all, clippy::pedantic, unused_variables)]
+#[inline(always)]
 pub fn actuator_geometry<T: Scalar>(
     parameters: &Parameters<T>,
     base_position: &[T; 3],
@@ -24738,6 +25506,7 @@ pub fn actuator_geometry<T: Scalar>(
 /// - `total_bias`: 6, N, N m, frame O: bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext, equation (49).
 /// - `inverse_dynamics`: 6, N: actuator forces F, equation (49).
 #[allow(clippy::all, clippy::pedantic, unused_variables)]
+#[inline(always)]
 pub fn control<T: Scalar>(
     parameters: &Parameters<T>,
     base_position: &[T; 3],
@@ -26947,6 +27716,7 @@ pub fn control<T: Scalar>(
 ///
 /// - `passive_inverse_dynamics`: 6, N: actuator forces F at reference speeds, equation (49).
 #[allow(clippy::all, clippy::pedantic, unused_variables)]
+#[inline(always)]
 pub fn passive_inverse_dynamics<T: Scalar>(
     parameters: &Parameters<T>,
     base_position: &[T; 3],
@@ -28573,6 +29343,7 @@ pub fn passive_inverse_dynamics<T: Scalar>(
 ///
 /// - `base_wrench`: 6, N, N m, frame O: wrench of the base on the mechanism, moments about the base origin.
 #[allow(clippy::all, clippy::pedantic, unused_variables)]
+#[inline(always)]
 pub fn base_reaction<T: Scalar>(
     parameters: &Parameters<T>,
     base_position: &[T; 3],
@@ -29648,6 +30419,7 @@ pub fn base_reaction<T: Scalar>(
 ///
 /// - `forward_dynamics`: 6, m/s^2, rad/s^2, frame O: platform acceleration v_p', equation (49).
 #[allow(clippy::all, clippy::pedantic, unused_variables)]
+#[inline(always)]
 pub fn forward_dynamics<T: Scalar>(
     parameters: &Parameters<T>,
     base_position: &[T; 3],
@@ -31265,6 +32037,7 @@ pub fn forward_dynamics<T: Scalar>(
 /// - `kinetic_energy`: scalar, J: kinetic energy of all moving bodies.
 /// - `potential_energy`: scalar, J: potential energy of gravity and springs.
 #[allow(clippy::all, clippy::pedantic, unused_variables)]
+#[inline(always)]
 pub fn energy<T: Scalar>(
     parameters: &Parameters<T>,
     base_position: &[T; 3],

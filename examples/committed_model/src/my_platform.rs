@@ -96,6 +96,90 @@ impl ::dyn_runtime::kernels::InverseDynamics for MyPlatform {
     }
 }
 
+impl ::dyn_runtime::lanes::Generic for MyPlatform {
+    type Parameters<T: Scalar> = ();
+}
+
+impl<S: ::dyn_runtime::lanes::Number> ::dyn_runtime::lanes::InLanes<S> for MyPlatform {
+    #[inline(always)]
+    fn in_lanes<'a, T: ::dyn_runtime::lanes::Lanes<Number = S>>(
+        _: impl Fn(usize) -> &'a Self,
+    ) {}
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl ::dyn_runtime::kernels::generic::RodAlignment for MyPlatform {
+    #[inline(always)]
+    fn rod_alignment<T: Scalar>(
+        _: &(),
+        base_position: &[T; 3],
+        base_rotation: &[[T; 3]; 3],
+        platform_position: &[T; 3],
+        platform_rotation: &[[T; 3]; 3],
+        rod_alignment: &mut [T; 6],
+    ) {
+        self::rod_alignment(
+            base_position,
+            base_rotation,
+            platform_position,
+            platform_rotation,
+            rod_alignment,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl ::dyn_runtime::kernels::generic::JacobianDp for MyPlatform {
+    #[inline(always)]
+    fn jacobian_dp<T: Scalar>(
+        _: &(),
+        base_position: &[T; 3],
+        base_rotation: &[[T; 3]; 3],
+        platform_position: &[T; 3],
+        platform_rotation: &[[T; 3]; 3],
+        jacobian_dp: &mut [[T; 6]; 6],
+    ) {
+        self::jacobian_dp(
+            base_position,
+            base_rotation,
+            platform_position,
+            platform_rotation,
+            jacobian_dp,
+        );
+    }
+}
+
+#[allow(clippy::all, clippy::pedantic, unused_qualifications)]
+impl ::dyn_runtime::kernels::generic::InverseDynamics for MyPlatform {
+    #[inline(always)]
+    fn inverse_dynamics<T: Scalar>(
+        _: &(),
+        base_position: &[T; 3],
+        base_rotation: &[[T; 3]; 3],
+        base_velocity: &[T; 6],
+        base_acceleration: &[T; 6],
+        platform_position: &[T; 3],
+        platform_rotation: &[[T; 3]; 3],
+        platform_velocity: &[T; 6],
+        platform_acceleration: &[T; 6],
+        external_wrench: &[T; 6],
+        inverse_dynamics: &mut [T; 6],
+    ) {
+        self::inverse_dynamics(
+            base_position,
+            base_rotation,
+            base_velocity,
+            base_acceleration,
+            platform_position,
+            platform_rotation,
+            platform_velocity,
+            platform_acceleration,
+            external_wrench,
+            inverse_dynamics,
+        );
+    }
+}
+
 /// Squared cosine between each rod and the line of its actuator's force, equation (18).
 ///
 /// Inputs:
@@ -109,6 +193,7 @@ impl ::dyn_runtime::kernels::InverseDynamics for MyPlatform {
 ///
 /// - `rod_alignment`: 6, dimensionless: squared cosine between rod and line of the actuator's force; negative out of reach, equation (18).
 #[allow(clippy::all, clippy::pedantic, unused_variables)]
+#[inline(always)]
 pub fn rod_alignment<T: Scalar>(
     base_position: &[T; 3],
     base_rotation: &[[T; 3]; 3],
@@ -228,6 +313,7 @@ pub fn rod_alignment<T: Scalar>(
 ///
 /// - `jacobian_dp`: 6x6, 1, m, frame O: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b, equation (32).
 #[allow(clippy::all, clippy::pedantic, unused_variables)]
+#[inline(always)]
 pub fn jacobian_dp<T: Scalar>(
     base_position: &[T; 3],
     base_rotation: &[[T; 3]; 3],
@@ -469,6 +555,7 @@ pub fn jacobian_dp<T: Scalar>(
 ///
 /// - `inverse_dynamics`: 6, N: actuator forces F, equation (49).
 #[allow(clippy::all, clippy::pedantic, unused_variables)]
+#[inline(always)]
 pub fn inverse_dynamics<T: Scalar>(
     base_position: &[T; 3],
     base_rotation: &[[T; 3]; 3],

@@ -1,0 +1,101 @@
+//! Rotations within a step, for any number of lanes, without a branch; the formulas are those of rotation vectors,
+//! `R = exp([phi]x)`.
+
+use crate::float::{Scalar, mul_add};
+
+/// Coefficients of the series up to an angle of [`MAX_TURN_RAD`]; the first one left out is below `1/20!`.
+const TERMS: usize = 9;
+
+/// Largest turn within a step.
+pub(super) const MAX_TURN_RAD: f64 = 1.0;
+
+/// `sin s/s` as a series in `s^2`.
+const SINC: [f64; TERMS] = alternating_reciprocal_factorials(1);
+/// `(1 - cos s)/s^2` as a series in `s^2`.
+const A: [f64; TERMS] = alternating_reciprocal_factorials(2);
+
+/// `(-1)^k / (2 k + first)!`
+const fn alternating_reciprocal_factorials(first: usize) -> [f64; TERMS] {
+    let mut values = [0.0; TERMS];
+    let mut k = 0;
+    while k < TERMS {
+        let mut factorial = 1.0;
+        let mut n = 2;
+        while n <= 2 * k + first {
+            factorial *= n as f64;
+            n += 1;
+        }
+        values[k] = if k % 2 == 0 { 1.0 / factorial } else { -1.0 / factorial };
+        k += 1;
+    }
+    values
+}
+
+#[inline(always)]
+fn polynomial<T: Scalar>(coefficients: &[f64; TERMS], x: T) -> T {
+    let mut value = T::constant(coefficients[TERMS - 1]);
+    for coefficient in coefficients.iter().rev().skip(1) {
+        value = mul_add(value, x, T::constant(*coefficient));
+    }
+    value
+}
+
+/// `a . b`
+#[inline(always)]
+pub(super) fn dot<T: Scalar>(a: [T; 3], b: [T; 3]) -> T {
+    mul_add(a[2], b[2], mul_add(a[1], b[1], a[0] * b[0]))
+}
+
+#[inline(always)]
+fn cross<T: Scalar>([ax, ay, az]: [T; 3], [bx, by, bz]: [T; 3]) -> [T; 3] {
+    [ay * bz - az * by, az * bx - ax * bz, ax * by - ay * bx]
+}
+
+/// Product of two matrices.
+#[inline(always)]
+fn product<T: Scalar>(a: &[[T; 3]; 3], b: &[[T; 3]; 3]) -> [[T; 3]; 3] {
+    let column = |k: usize| [b[0][k], b[1][k], b[2][k]];
+    let columns = [column(0), column(1), column(2)];
+    a.map(|row| columns.map(|column| dot(row, column)))
+}
+
+/// `exp([phi]x) R` for `|phi|` up to [`MAX_TURN_RAD`].
+#[inline(always)]
+pub(super) fn turned<T: Scalar>(phi: [T; 3], rotation: &[[T; 3]; 3]) -> [[T; 3]; 3] {
+    let square = dot(phi, phi);
+    let (sinc, a) = (polynomial(&SINC, square), polynomial(&A, square));
+    let one = T::constant(1.0);
+    let [x, y, z] = phi;
+    let [sx, sy, sz] = phi.map(|number| sinc * number);
+    let [ax, ay, az] = phi.map(|number| a * number);
+    let (axy, axz, ayz) = (ax * y, ax * z, ay * z);
+    let (axx, ayy, azz) = (ax * x, ay * y, az * z);
+    let turn = [
+        [one - (ayy + azz), axy - sz, axz + sy],
+        [axy + sz, one - (axx + azz), ayz - sx],
+        [axz - sy, ayz + sx, one - (axx + ayy)],
+    ];
+    product(&turn, rotation)
+}
+
+/// The rate of the rotation vector `phi` under angular velocity `w`, up to the second commutator:
+/// `phi' = w - phi x w/2 + phi x (phi x w)/12`; what is left out is of fourth order in `phi`.
+#[inline(always)]
+pub(super) fn rotation_vector_rate<T: Scalar>(phi: [T; 3], w: [T; 3]) -> [T; 3] {
+    let once = cross(phi, w);
+    let twice = cross(phi, once);
+    let (half, twelfth) = (T::constant(-0.5), T::constant(1.0 / 12.0));
+    [0, 1, 2].map(|k| mul_add(twice[k], twelfth, mul_add(once[k], half, w[k])))
+}
+
+/// The rotation nearest to a product of rotations, for errors of rounding: `R (3 - R^T R)/2`, one step of Newton's
+/// iteration.
+#[inline(always)]
+pub(super) fn orthonormalised<T: Scalar>(rotation: &[[T; 3]; 3]) -> [[T; 3]; 3] {
+    let column = |k: usize| [rotation[0][k], rotation[1][k], rotation[2][k]];
+    let columns = [column(0), column(1), column(2)];
+    let square = columns.map(|row| columns.map(|column| dot(row, column)));
+    let (three_halves, half) = (T::constant(1.5), T::constant(0.5));
+    let correction = product(rotation, &square);
+    [0, 1, 2].map(|i| [0, 1, 2].map(|k| rotation[i][k] * three_halves - correction[i][k] * half))
+}

@@ -1,0 +1,253 @@
+//! Simulations of a batch: the states stay in lanes from the first step to the last.
+
+use super::column::all_lanes;
+use super::models::Models;
+use super::states::{PlatformLanes, finite, flat, reached, rows};
+use super::step::{Load, step};
+use super::{BaseColumns, Column, ColumnMut, LengthError, PlatformColumns, States, Status};
+use crate::error::{Error, Input};
+use crate::float::{Scalar, mul_add};
+use crate::kernels::{RodAlignment, generic};
+use crate::lanes::{InLanes, Kernel, Lanes, Number};
+
+/// What acts on many platforms at one time of a simulation.
+#[derive(Clone, Copy, Debug)]
+pub struct Instant<'a, S> {
+    /// The base.
+    pub base: BaseColumns<'a, S>,
+    /// F, N.
+    pub actuator_force: Column<'a, S, 6>,
+    /// `[F_D; M_D]` at the payload's centre of mass, N and N m.
+    pub external_wrench: Column<'a, S, 6>,
+}
+
+/// Platforms that are simulated, and what is found out about them.
+#[derive(Debug)]
+pub struct Simulated<'a, S> {
+    /// Origin of P, m: where each begins, then where it ends.
+    pub position: ColumnMut<'a, S, 3>,
+    /// P to O, row by row: as it begins, then as it ends.
+    pub rotation: ColumnMut<'a, S, 9>,
+    /// `[r'; w]`, m/s and rad/s: as it begins, then as it ends.
+    pub velocity: ColumnMut<'a, S, 6>,
+    /// Root mean square of each component of v_p' over the beginnings of all steps made, m/s^2 and rad/s^2; 0 if none was.
+    pub rms_acceleration: Option<ColumnMut<'a, S, 6>>,
+    /// Largest magnitude of each component of v_p' at these times, m/s^2 and rad/s^2.
+    pub peak_acceleration: Option<ColumnMut<'a, S, 6>>,
+    /// How many steps were made.
+    pub steps: &'a mut [usize],
+}
+
+impl<S: Number> Instant<'_, S> {
+    pub(super) fn check(&self, states: usize) -> Result<(), LengthError> {
+        self.base.check(states)?;
+        self.actuator_force.check("actuator_force", states)?;
+        self.external_wrench.check("external_wrench", states)
+    }
+
+    #[inline(always)]
+    fn load<T: Lanes<Number = S>>(&self, first: usize) -> Load<T> {
+        Load {
+            base: self.base.load(first),
+            actuator_force: self.actuator_force.load(first),
+            external_wrench: self.external_wrench.load(first),
+        }
+    }
+}
+
+impl<S: Number> Simulated<'_, S> {
+    pub(super) fn check(&self, states: usize) -> Result<(), LengthError> {
+        self.position.check("position", states)?;
+        self.rotation.check("rotation", states)?;
+        self.velocity.check("velocity", states)?;
+        if let Some(column) = &self.rms_acceleration {
+            column.check("rms_acceleration", states)?;
+        }
+        if let Some(column) = &self.peak_acceleration {
+            column.check("peak_acceleration", states)?;
+        }
+        match self.steps.len() {
+            found if found != states => Err(LengthError { argument: "steps", expected: states, found }),
+            _ => Ok(()),
+        }
+    }
+
+    #[cfg(feature = "rayon")]
+    fn split(self, state: usize) -> (Self, Self) {
+        let (position, position_after) = self.position.split(state);
+        let (rotation, rotation_after) = self.rotation.split(state);
+        let (velocity, velocity_after) = self.velocity.split(state);
+        let (rms_acceleration, rms_after) = self.rms_acceleration.map(|column| column.split(state)).unzip();
+        let (peak_acceleration, peak_after) =
+            self.peak_acceleration.map(|column| column.split(state)).unzip();
+        let (steps, steps_after) = self.steps.split_at_mut(state);
+        (
+            Self { position, rotation, velocity, rms_acceleration, peak_acceleration, steps },
+            Self {
+                position: position_after,
+                rotation: rotation_after,
+                velocity: velocity_after,
+                rms_acceleration: rms_after,
+                peak_acceleration: peak_after,
+                steps: steps_after,
+            },
+        )
+    }
+}
+
+pub(super) struct Simulation<'a, M, S> {
+    pub models: Models<'a, M>,
+    pub step_s: S,
+    pub instants: &'a [Instant<'a, S>],
+    pub simulated: Simulated<'a, S>,
+    pub status: &'a mut [Status],
+    /// Index of the first state in the inputs.
+    pub offset: usize,
+}
+
+/// One group of platforms on its way.
+struct Group<T> {
+    platform: PlatformLanes<T>,
+    /// 1 where a platform still moves, 0 where it has stopped.
+    moving: T,
+    steps: T,
+    squares: [T; 6],
+    peaks: [T; 6],
+}
+
+impl<M, S: Number> Kernel<S> for Simulation<'_, M, S>
+where
+    M: InLanes<S> + RodAlignment<S> + generic::RodAlignment + generic::ForwardDynamics,
+{
+    type Output = ();
+
+    #[inline(always)]
+    fn run<T: Lanes<Number = S>>(self) {
+        let Self { models, step_s, instants, mut simulated, status, offset } = self;
+        if status.is_empty() {
+            return;
+        }
+        let (zero, one) = (T::constant(0.0), T::constant(1.0));
+        let mut parameters = models.load::<S, T>(offset);
+        for first in (0..status.len()).step_by(T::COUNT) {
+            let input = offset + first;
+            models.reload::<S, T>(input, &mut parameters);
+            let mut group = Group {
+                platform: PlatformLanes {
+                    position: simulated.position.load(first),
+                    rotation: rows(simulated.rotation.load(first)),
+                    velocity: simulated.velocity.load(first),
+                },
+                moving: one,
+                steps: zero,
+                squares: [zero; 6],
+                peaks: [zero; 6],
+            };
+            for instants in instants.windows(3).step_by(2) {
+                let load = |stage: usize| instants[[0, 1, 1, 2][stage]].load::<T>(input);
+                let reached = reached::<M, T>(&parameters, &load(0).base, &group.platform);
+                let (end, acceleration, sound) =
+                    step::<M, T>(&parameters, &group.platform, T::splat(step_s), load);
+                let sound = sound & reached & finite(&acceleration);
+                group.advance(&end, &acceleration, sound);
+            }
+            let all = all_lanes::<T>();
+            simulated.position.store(first, &group.platform.position, all);
+            simulated.rotation.store(first, &flat(group.platform.rotation), all);
+            simulated.velocity.store(first, &group.platform.velocity, all);
+            if let Some(column) = &mut simulated.rms_acceleration {
+                let count = T::select(group.steps.less_than(one), one, group.steps);
+                column.store(first, &group.squares.map(|square| (square / count).square_root()), all);
+            }
+            if let Some(column) = &mut simulated.peak_acceleration {
+                column.store(first, &group.peaks, all);
+            }
+            let steps = &mut simulated.steps[first..];
+            group.steps.for_each(|lane, made| {
+                if let Some(steps) = steps.get_mut(lane) {
+                    *steps = made.to_f64() as usize;
+                }
+            });
+            let wanted = instants.len().saturating_sub(1) / 2;
+            for (state, status) in status.iter_mut().enumerate().skip(first).take(T::COUNT) {
+                *status = match instants.get(2 * simulated.steps[state]) {
+                    Some(instant) if simulated.steps[state] < wanted => {
+                        Err(why_stopped(models, instant, &simulated, state, offset + state))
+                    }
+                    _ => Ok(()),
+                };
+            }
+        }
+    }
+}
+
+impl<T: Lanes> Group<T> {
+    /// The lanes in which the step was sound go on to `end`, the others stay.
+    #[inline(always)]
+    fn advance(&mut self, end: &PlatformLanes<T>, acceleration: &[T; 6], sound: u32) {
+        let (zero, half) = (T::constant(0.0), T::constant(0.5));
+        if sound != all_lanes::<T>() {
+            let sound =
+                T::from_fn(|lane| T::Number::constant(if sound >> lane & 1 == 1 { 1.0 } else { 0.0 }));
+            self.moving = T::select(half.less_than(sound), self.moving, zero);
+        }
+        let moving = half.less_than(self.moving);
+        let choose = |new: &T, old: &mut T| *old = T::select(moving, *new, *old);
+        end.position.iter().zip(&mut self.platform.position).for_each(|(new, old)| choose(new, old));
+        end.velocity.iter().zip(&mut self.platform.velocity).for_each(|(new, old)| choose(new, old));
+        let rotation = self.platform.rotation.as_flattened_mut();
+        end.rotation.as_flattened().iter().zip(rotation).for_each(|(new, old)| choose(new, old));
+        self.steps = self.steps + self.moving;
+        for (k, component) in acceleration.iter().enumerate() {
+            let size = T::select(moving, component.absolute(), zero);
+            self.squares[k] = mul_add(size, size, self.squares[k]);
+            self.peaks[k] = T::select(self.peaks[k].less_than(size), size, self.peaks[k]);
+        }
+    }
+}
+
+/// What is wrong with a state from which no step could be made; `state` is its index in `simulated`, `input` in the inputs.
+#[cold]
+#[inline(never)]
+fn why_stopped<M: RodAlignment<S>, S: Number>(
+    models: Models<M>,
+    instant: &Instant<S>,
+    simulated: &Simulated<S>,
+    state: usize,
+    input: usize,
+) -> Error {
+    let platform = PlatformColumns {
+        position: Column::same(simulated.position.at(state)),
+        rotation: Column::same(simulated.rotation.at(state)),
+        velocity: Column::same(simulated.velocity.at(state)),
+    };
+    let states = States { base: instant.base, platform };
+    let others = [
+        (Input::BaseAcceleration, instant.base.acceleration.at(input)),
+        (Input::ActuatorForce, instant.actuator_force.at(input)),
+        (Input::ExternalWrench, instant.external_wrench.at(input)),
+        (Input::BaseVelocity, instant.base.velocity.at(input)),
+        (Input::PlatformVelocity, platform.velocity.at(input)),
+    ];
+    states.examined(models.of(input), input, &others).err().unwrap_or(Error::NonFiniteResult)
+}
+
+#[cfg(feature = "rayon")]
+impl<M, S: Number> super::Job<S> for Simulation<'_, M, S>
+where
+    M: InLanes<S> + RodAlignment<S> + generic::RodAlignment + generic::ForwardDynamics + Sync,
+{
+    fn count(&self) -> usize {
+        self.status.len()
+    }
+
+    fn split(self, state: usize) -> (Self, Self) {
+        let (simulated, simulated_after) = self.simulated.split(state);
+        let (status, status_after) = self.status.split_at_mut(state);
+        let offset = self.offset + state;
+        (
+            Self { simulated, status, ..self },
+            Self { simulated: simulated_after, status: status_after, offset, ..self },
+        )
+    }
+}

@@ -1,0 +1,77 @@
+//! Linear systems in lanes: [`solve::solve_general`](crate::solve::solve_general) with pivots chosen per lane.
+
+use super::Lanes;
+
+/// The same steps in the same order as [`solve::by_elimination`](crate::solve), so that each lane gets its bits.
+#[inline(always)]
+pub(super) fn by_elimination<T: Lanes, const N: usize>(
+    matrix: &[[T; N]; N],
+    right_hand_side: &[T; N],
+) -> [T; N] {
+    let (mut rows, mut right) = (*matrix, *right_hand_side);
+    let mut scales = [T::constant(0.0); N];
+    for (scale, row) in scales.iter_mut().zip(&rows) {
+        for element in row {
+            *scale = larger(*scale, element.absolute());
+        }
+    }
+    for column in 0..N {
+        exchange_for_largest(&mut rows, &mut right, &mut scales, column);
+        let (pivot, known) = (rows[column], right[column]);
+        for below in column + 1..N {
+            let factor = rows[below][column] / pivot[column];
+            for k in column + 1..N {
+                rows[below][k] = rows[below][k] - factor * pivot[k];
+            }
+            right[below] = right[below] - factor * known;
+        }
+    }
+    for i in (0..N).rev() {
+        let mut sum = right[i];
+        for k in i + 1..N {
+            sum = sum - rows[i][k] * right[k];
+        }
+        right[i] = sum / rows[i][i];
+    }
+    right
+}
+
+/// As [`f64::max`]: the other one where one is NaN.
+#[inline(always)]
+fn larger<T: Lanes>(largest: T, number: T) -> T {
+    T::select(largest.less_than(number), number, largest)
+}
+
+/// Puts the row with the relatively largest coefficient in `column` into the pivot's place.
+#[inline(always)]
+fn exchange_for_largest<T: Lanes, const N: usize>(
+    rows: &mut [[T; N]; N],
+    right: &mut [T; N],
+    scales: &mut [T; N],
+    column: usize,
+) {
+    // The chosen row as a number per lane.
+    let mut chosen = T::constant(column as f64);
+    let mut largest = rows[column][column].absolute() / scales[column];
+    for below in column + 1..N {
+        let size = rows[below][column].absolute() / scales[below];
+        let better = largest.less_than(size);
+        largest = T::select(better, size, largest);
+        chosen = T::select(better, T::constant(below as f64), chosen);
+    }
+    for below in column + 1..N {
+        let here = (chosen - T::constant(below as f64)).absolute().less_than(T::constant(0.5));
+        let exchange = |a: &mut T, b: &mut T| {
+            (*a, *b) = (T::select(here, *b, *a), T::select(here, *a, *b));
+        };
+        let (above, from_below) = rows.split_at_mut(below);
+        let (pivot, row) = (&mut above[column], &mut from_below[0]);
+        for k in column..N {
+            exchange(&mut pivot[k], &mut row[k]);
+        }
+        let (above, from_below) = right.split_at_mut(below);
+        exchange(&mut above[column], &mut from_below[0]);
+        let (above, from_below) = scales.split_at_mut(below);
+        exchange(&mut above[column], &mut from_below[0]);
+    }
+}
