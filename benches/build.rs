@@ -1,7 +1,16 @@
-//! Tells the crate how it is compiled, because instruction counts compare only under the same compiler and flags.
+//! Tells the crate how it is compiled, because instruction counts compare only under the same compiler and flags; which
+//! platform is measured; and, with the feature `peers`, where other people's code for it lies.
+//!
+//! `cargo xtask bench` sets `DYN_BENCHES_PLATFORM` (a platform file), `DYN_BENCHES_MODEL` (what dyn-gen generated for it) and
+//! `DYN_PEERS` (a folder it filled). Without them: the paper's platform, and no peers.
 
 use std::env::var;
+use std::path::{Path, PathBuf};
 use std::process::Command;
+use std::{env, fs};
+
+/// The tables of `src/peers.rs` without peers.
+const NO_PEERS: &str = "static PEERS: &[Peer] = &[];\nstatic PINOCCHIO: Option<PinocchioFunctions> = None;\n";
 
 fn main() {
     let rustc = var("RUSTC").expect("cargo sets RUSTC");
@@ -19,6 +28,52 @@ fn main() {
         set("CARGO_CFG_TARGET_FEATURE"),
     );
     println!("cargo::rerun-if-changed=build.rs");
+    let out = PathBuf::from(var("OUT_DIR").expect("cargo sets OUT_DIR"));
+    write(&out.join("model.rs"), &model());
+    write(&out.join("peers.rs"), &peers());
+}
+
+/// The module of the model that is measured, and its platform file for the program.
+fn model() -> String {
+    let (platform, model) = (given("DYN_BENCHES_PLATFORM"), given("DYN_BENCHES_MODEL"));
+    let default =
+        Path::new(&var("CARGO_MANIFEST_DIR").expect("cargo sets it")).join("../platforms/uhp_2016.toml");
+    println!("cargo::rustc-env=DYN_BENCHES_PLATFORM={}", platform.as_deref().unwrap_or(&default).display());
+    let Some(model) = model.filter(|_| platform.is_some()) else {
+        return "pub use dyn_runtime::models::Uhp2016 as Baked;\n".into();
+    };
+    let text = fs::read_to_string(&model).unwrap_or_else(|error| panic!("{}: {error}", model.display()));
+    let name = text.split("pub struct ").nth(1).and_then(|rest| rest.split([';', ' ', '<']).next());
+    let name = name.unwrap_or_else(|| panic!("{}: no model", model.display()));
+    format!("#[path = {model:?}]\n#[rustfmt::skip]\nmod generated;\npub use generated::{name} as Baked;\n")
+}
+
+/// Declarations of the peers in `DYN_PEERS`; links them.
+fn peers() -> String {
+    let folder = given("DYN_PEERS").filter(|_| env::var_os("CARGO_FEATURE_PEERS").is_some());
+    let Some(folder) = folder else { return NO_PEERS.into() };
+    let table = folder.join("peers.rs");
+    let text = fs::read_to_string(&table).unwrap_or_else(|error| panic!("{}: {error}", table.display()));
+    println!("cargo::rustc-link-search=native={}", folder.display());
+    println!("cargo::rustc-link-lib=static=peers");
+    if text.contains("pinocchio_new") {
+        println!("cargo::rustc-link-lib=dylib=stdc++");
+    }
+    println!("cargo::rustc-link-lib=dylib=m");
+    text
+}
+
+/// A path in an environment variable, watched.
+fn given(name: &str) -> Option<PathBuf> {
+    println!("cargo::rerun-if-env-changed={name}");
+    let path = env::var_os(name).filter(|value| !value.is_empty()).map(PathBuf::from)?;
+    let watched = if path.is_dir() { path.join("peers.rs") } else { path.clone() };
+    println!("cargo::rerun-if-changed={}", watched.display());
+    Some(path)
+}
+
+fn write(path: &Path, text: &str) {
+    fs::write(path, text).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
 }
 
 /// The values of `-C` alone: flags about warnings change no instruction.

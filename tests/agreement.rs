@@ -5,11 +5,14 @@ use std::collections::BTreeSet;
 
 use dyn_gen::Numbers;
 use dyn_gen::deviation::Scale;
-use dyn_gen::graph::Environment;
+use dyn_gen::graph::{Environment, Graph, Rounding};
+use dyn_gen::pack::unpack;
 use dyn_gen::sample::Kind;
 use dyn_platform::Platform;
+use dyn_runtime::models::uhp_2016;
+use dyn_runtime::triple::{Portable, in_registers};
 use dyn_tests::comparison::Comparison;
-use dyn_tests::compiled::{self, Model};
+use dyn_tests::compiled::{self, Model, array};
 use dyn_tests::platforms::{self, graph_file};
 use dyn_tests::reference;
 
@@ -89,16 +92,73 @@ fn compiled_baked_models_give_the_interpreter_s_bits() {
         let platform = platforms::platform(name);
         let file = graph_file(platform.leg_type);
         let functions = dyn_gen::optimise(&file.program, &Numbers::baked(&platform), None).unwrap();
+        let in_lanes = functions.iter().map(|f| f.in_lanes.as_ref().map(|packed| unpack(&packed.graph)));
+        let in_lanes: Vec<Option<Graph>> = in_lanes.collect();
         for (kind, state) in platforms::states(&file, &platform, 5) {
-            for function in &functions {
+            for (function, in_lanes) in functions.iter().zip(&in_lanes) {
                 let compiled = model.call(&function.graph.name, &state);
-                for (output, interpreted) in function.graph.evaluate(&state).unwrap() {
+                // A model takes registers of three numbers where the processor has them, and rounds once there.
+                let (graph, rounding) = match in_lanes {
+                    Some(graph) if in_registers() => (graph, Rounding::Fused),
+                    _ => (&function.graph, AS_COMPILED),
+                };
+                for (output, interpreted) in graph.evaluate_with(rounding, &state).unwrap() {
                     let same =
                         compiled[&output].iter().zip(&interpreted).all(|(a, b)| a.to_bits() == b.to_bits());
                     assert!(same, "{name}, {kind:?}: {}, {output}", function.graph.name);
                 }
             }
         }
+    }
+}
+
+/// How single numbers round multiply-adds in this build.
+const AS_COMPILED: Rounding = if cfg!(target_feature = "fma") { Rounding::Fused } else { Rounding::Separate };
+
+/// What a processor without such registers computes: the function without lanes, and arrays as lanes.
+#[test]
+fn functions_without_registers_give_the_interpreter_s_bits() {
+    let platform = platforms::platform("uhp_2016");
+    let file = graph_file(platform.leg_type);
+    let names = ["inverse_dynamics".to_owned()];
+    let functions = dyn_gen::optimise(&file.program, &Numbers::baked(&platform), Some(&names)).unwrap();
+    let packed = functions[0].in_lanes.as_ref().expect("inverse dynamics is generated in lanes");
+    let in_arrays = unpack(&packed.graph);
+    for (kind, state) in platforms::states(&file, &platform, 5) {
+        let bits = |function: fn(
+            &[f64; 3],
+            &[[f64; 3]; 3],
+            &[f64; 6],
+            &[f64; 6],
+            &[f64; 3],
+            &[[f64; 3]; 3],
+            &[f64; 6],
+            &[f64; 6],
+            &[f64; 6],
+            &mut [f64; 6],
+        )| {
+            let mut forces = [f64::NAN; 6];
+            function(
+                &array(&state["base_position"]),
+                &array(&state["base_rotation"]),
+                &array(&state["base_velocity"]),
+                &array(&state["base_acceleration"]),
+                &array(&state["platform_position"]),
+                &array(&state["platform_rotation"]),
+                &array(&state["platform_velocity"]),
+                &array(&state["platform_acceleration"]),
+                &array(&state["external_wrench"]),
+                &mut forces,
+            );
+            forces.map(f64::to_bits).to_vec()
+        };
+        let interpreted = |graph: &Graph| -> Vec<u64> {
+            let outputs = graph.evaluate_with(AS_COMPILED, &state).unwrap();
+            outputs["inverse_dynamics"].iter().map(|x| x.to_bits()).collect()
+        };
+        let in_lanes = bits(uhp_2016::inverse_dynamics_in_lanes::<Portable<f64>>);
+        assert_eq!(in_lanes, interpreted(&in_arrays), "{kind:?}, in lanes");
+        assert_eq!(bits(uhp_2016::inverse_dynamics::<f64>), interpreted(&functions[0].graph), "{kind:?}");
     }
 }
 

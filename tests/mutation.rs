@@ -45,7 +45,7 @@ fn changes(node: Node) -> &'static [Change] {
         // Exact zeros are structure, such as the base's angular acceleration in the bias; 0.1 % of zero is no change.
         Node::Constant(0.0) => &[],
         Node::Constant(_) => &[ConstantLarger],
-        Node::Input { .. } | Node::Solution { .. } => &[],
+        Node::Input { .. } | Node::Solution { .. } | Node::Lanes(_) | Node::Lane(..) => &[],
         Node::Unary(..) => &[OtherSign, OperationDropped],
         Node::Binary(..) | Node::Ternary(..) => &[OtherSign, FirstOperandDropped, SecondOperandDropped],
     }
@@ -110,7 +110,14 @@ fn cases(leg_type: LegType, program: &Program) -> Vec<Case> {
         LegType::Ups => &["ups_everything", "ups_regular"],
     };
     for name in names {
-        let platform = platforms::platform(name);
+        let mut platform = platforms::platform(name);
+        if *name == "tilted_axes" {
+            // Joints out of their planes, or products of a height with a tilt would be zero for some leg on every platform.
+            for leg in 0..6 {
+                platform.parameters.base_point[leg][2] += 0.01 - 0.003 * leg as f64;
+                platform.parameters.platform_point[leg][2] -= 0.012 - 0.005 * leg as f64;
+            }
+        }
         let numbers = reference::parameters(&platform);
         for mut state in sampled_states(program, &platform, &[(Kind::Large, 2)], platforms::SEED).unwrap() {
             let expected = reference::outputs(&numbers, &reference::state(&state));

@@ -1,48 +1,72 @@
-//! Times of generated code beside the hand-written reference: ids `FUNCTION/IMPLEMENTATION/{throughput,latency}`.
+//! Times of generated code beside everything it is compared with: ids `FUNCTION/IMPLEMENTATION/{throughput,latency}`.
 
+use std::path::Path;
 use std::time::Duration;
 
 use criterion::measurement::WallTime;
 use criterion::{BenchmarkGroup, BenchmarkId, Criterion};
-use dyn_benches::CODEGEN;
+use dyn_benches::accuracy::{self, Exact};
 use dyn_benches::call::{Call, latency, throughput};
-use dyn_benches::cases::{FUNCTIONS, Visitor, check_agreement, visit};
+use dyn_benches::cases::{Case, FUNCTIONS, IMPLEMENTATIONS, Visitor, all, check_agreement, visit};
+use dyn_benches::results::{SINGLE_CALLS, VARIANTS, results_folder, write_own};
+use dyn_benches::selection::Selection;
 use dyn_benches::states::{COUNT, States, platform, sampled};
+use dyn_benches::{CODEGEN, tail};
 
 fn main() {
     println!("compiled by {CODEGEN}");
     let platform = platform();
     let states = States::new(&sampled(&platform));
     check_agreement(&platform, &states);
+    let cases = all(&platform, &states);
+    let absent = |name: &&&str| cases.iter().all(|case| case.implementation != **name);
+    for name in IMPLEMENTATIONS.iter().filter(absent) {
+        println!("absent: {name}");
+    }
+    // `DYN_EXACT` is set by `cargo xtask bench --platform`.
+    let exact = std::env::var_os("DYN_EXACT").map_or_else(Exact::committed, |path| Path::new(&path).into());
+    match Exact::read(&exact, &platform) {
+        Ok(exact) => println!("\nrounding errors\n{}", accuracy::text(&exact.judge(&platform))),
+        Err(reason) => println!("absent: rounding errors: {reason}"),
+    }
 
-    // 36 cases: short enough to stay within a few minutes, in which a machine hardly changes its mood.
+    let selection = Selection::measure(&platform, &states);
+    // Short enough to stay within a few minutes, in which a machine hardly changes its mood.
     let mut criterion = Criterion::default()
-        .warm_up_time(Duration::from_secs(1))
+        .warm_up_time(Duration::from_millis(500))
         .measurement_time(Duration::from_secs(2))
         .configure_from_args();
     for function in FUNCTIONS {
-        let mut timer = Timer(criterion.benchmark_group(function));
+        let mut timer = Timer { group: criterion.benchmark_group(function), selection: &selection };
         visit(function, &platform, &states, &mut timer);
-        timer.0.finish();
+        timer.group.finish();
     }
     criterion.final_summary();
+
+    let folder = results_folder();
+    let written = write_own(&folder, VARIANTS, &selection.variants())
+        .and_then(|()| write_own(&folder, SINGLE_CALLS, &tail::measure(&platform, &states, &selection)));
+    if let Err(reason) = written {
+        eprintln!("error: {reason}");
+    }
 }
 
-struct Timer<'a>(BenchmarkGroup<'a, WallTime>);
+struct Timer<'a> {
+    group: BenchmarkGroup<'a, WallTime>,
+    selection: &'a Selection,
+}
 
 impl Visitor for Timer<'_> {
-    fn visit<C: Call>(
-        &mut self,
-        _: &'static str,
-        implementation: &'static str,
-        states: &[C::State; COUNT],
-        mut call: C,
-    ) {
-        let mut run = throughput(&mut call, states);
-        self.0
-            .bench_function(BenchmarkId::new(implementation, "throughput"), |bencher| bencher.iter(&mut run));
-        drop(run);
-        let mut run = latency(&mut call, states);
-        self.0.bench_function(BenchmarkId::new(implementation, "latency"), |bencher| bencher.iter(&mut run));
+    fn visit<C: Call>(&mut self, case: Case, states: &[C::State; COUNT], mut call: C) {
+        if self.selection.is_best(case, "throughput") {
+            let mut run = throughput(&mut call, states);
+            let id = BenchmarkId::new(case.implementation, "throughput");
+            self.group.bench_function(id, |bencher| bencher.iter(&mut run));
+        }
+        if self.selection.is_best(case, "latency") {
+            let mut run = latency(&mut call, states);
+            let id = BenchmarkId::new(case.implementation, "latency");
+            self.group.bench_function(id, |bencher| bencher.iter(&mut run));
+        }
     }
 }

@@ -4,66 +4,123 @@ use dyn_platform::Platform;
 use dyn_runtime::kernels::{
     CoriolisMatrices, ForwardDynamics, InverseDynamics, JacobianDp, MassMatrixP, Matrices,
 };
-use dyn_runtime::models::{Uhp, Uhp2016};
+use dyn_runtime::models::Uhp;
 
+use crate::angles;
 use crate::call::{Call, Generated, Reference};
+use crate::model::Baked;
 use crate::output::Output;
+use crate::peers::{Peer, Pinocchio};
 use crate::states::{COUNT, Inputs, States, reference_parameters, runtime_model};
 
-/// Every function, in the order of tables.
-pub const FUNCTIONS: [&str; 6] =
-    ["inverse_dynamics", "forward_dynamics", "matrices", "mass_matrix_p", "coriolis_matrices", "jacobian_dp"];
+/// Every function, in the order of tables. The last is inverse dynamics with the rotations given by the paper's angles.
+pub const FUNCTIONS: [&str; 7] = [
+    "inverse_dynamics",
+    "forward_dynamics",
+    "matrices",
+    "mass_matrix_p",
+    "coriolis_matrices",
+    "jacobian_dp",
+    "inverse_dynamics_from_angles",
+];
 
-/// Every implementation: numbers baked in, parameters at run time, written by hand.
-pub const IMPLEMENTATIONS: [&str; 3] = ["generated", "generated_runtime", "reference"];
+/// Every implementation, in the order of tables; not each has every function. Numbers baked in, six legs in lanes, many states
+/// in lanes, parameters at run time, written by hand, C by CasADi of the same graph and of the naive one, Pinocchio.
+pub const IMPLEMENTATIONS: [&str; 8] = [
+    "generated",
+    "generated_lanes",
+    "generated_batch",
+    "generated_runtime",
+    "reference",
+    "casadi_c_same",
+    "casadi_c_naive",
+    "pinocchio",
+];
+
+/// A function of an implementation.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Case {
+    /// One of [`FUNCTIONS`].
+    pub function: &'static str,
+    /// One of [`IMPLEMENTATIONS`].
+    pub implementation: &'static str,
+    /// Which of several ways to write and compile it; empty where there is one.
+    pub variant: &'static str,
+}
 
 /// Does something with a function of each implementation.
 pub trait Visitor {
-    /// With this implementation. `call` with `states[i]` computes the same whatever the implementation.
-    fn visit<C: Call>(
-        &mut self,
-        function: &'static str,
-        implementation: &'static str,
-        states: &[C::State; COUNT],
-        call: C,
-    );
+    /// With this one. `call` with `states[i]` computes the same whatever the implementation.
+    fn visit<C: Call>(&mut self, case: Case, states: &[C::State; COUNT], call: C);
 }
 
-/// Shows `visitor` one of [`FUNCTIONS`] by every implementation for `platform`, which must be the one whose numbers
-/// are baked in.
+/// Shows `visitor` one of [`FUNCTIONS`] by every implementation that is there for `platform`, which must be the one whose
+/// numbers are baked in.
 ///
 /// # Panics
 /// If there is no such function.
 pub fn visit(function: &str, platform: &Platform, states: &States, visitor: &mut impl Visitor) {
-    let mut cases =
-        Cases { states, visitor, model: runtime_model(platform), parameters: reference_parameters(platform) };
+    let mut cases = Cases {
+        platform,
+        states,
+        visitor,
+        model: runtime_model(platform),
+        parameters: reference_parameters(platform),
+    };
     match function {
         "inverse_dynamics" => {
-            cases.visit(
+            cases.own(
                 "inverse_dynamics",
                 inverse_dynamics,
                 inverse_dynamics,
                 dyn_reference::inverse_dynamics,
             );
+            cases.peers::<[f64; 6], 9>("inverse_dynamics", inverse_dynamics_inputs);
         }
         "forward_dynamics" => {
-            cases.visit(
+            cases.own(
                 "forward_dynamics",
                 forward_dynamics,
                 forward_dynamics,
                 dyn_reference::forward_dynamics,
             );
+            cases.peers::<[f64; 6], 9>("forward_dynamics", forward_dynamics_inputs);
+            cases.pinocchio();
         }
-        "matrices" => cases.visit("matrices", matrices, matrices, dyn_reference::matrices),
+        "matrices" => {
+            cases.own("matrices", matrices, matrices, dyn_reference::matrices);
+            cases.peers::<[Matrix; 6], 6>("matrices", matrices_inputs);
+        }
         "mass_matrix_p" => {
-            cases.visit("mass_matrix_p", mass_matrix_p, mass_matrix_p, dyn_reference::mass_matrix_p);
+            cases.own("mass_matrix_p", mass_matrix_p, mass_matrix_p, dyn_reference::mass_matrix_p);
         }
         "coriolis_matrices" => {
             let reference = dyn_reference::coriolis_matrices;
-            cases.visit("coriolis_matrices", coriolis_matrices, coriolis_matrices, reference);
+            cases.own("coriolis_matrices", coriolis_matrices, coriolis_matrices, reference);
         }
-        "jacobian_dp" => cases.visit("jacobian_dp", jacobian_dp, jacobian_dp, dyn_reference::jacobian_dp),
+        "jacobian_dp" => cases.own("jacobian_dp", jacobian_dp, jacobian_dp, dyn_reference::jacobian_dp),
+        "inverse_dynamics_from_angles" => cases.turned_by_angles(),
         unknown => panic!("no function `{unknown}`; there are {}", FUNCTIONS.join(", ")),
+    }
+}
+
+/// Everything that there is to measure, peers included where they are linked.
+pub fn all(platform: &Platform, states: &States) -> Vec<Case> {
+    let mut names = Names::default();
+    for function in FUNCTIONS {
+        visit(function, platform, states, &mut names);
+    }
+    names.cases
+}
+
+#[derive(Default)]
+struct Names {
+    cases: Vec<Case>,
+}
+
+impl Visitor for Names {
+    fn visit<C: Call>(&mut self, case: Case, _: &[C::State; COUNT], _: C) {
+        self.cases.push(case);
     }
 }
 
@@ -86,13 +143,7 @@ struct Agreement {
 }
 
 impl Visitor for Agreement {
-    fn visit<C: Call>(
-        &mut self,
-        function: &'static str,
-        implementation: &'static str,
-        states: &[C::State; COUNT],
-        mut call: C,
-    ) {
+    fn visit<C: Call>(&mut self, case: Case, states: &[C::State; COUNT], mut call: C) {
         let results: Vec<Vec<f64>> = states
             .iter()
             .map(|state| {
@@ -110,7 +161,10 @@ impl Visitor for Agreement {
             let agree = |(x, y): (&f64, &f64)| (x - y).abs() <= 1e-9 * largest;
             assert!(
                 found.len() == expected.len() && found.iter().zip(expected).all(agree),
-                "{function}: {implementation} and {} differ at state {index}",
+                "{}: {} {} and {} differ at state {index}",
+                case.function,
+                case.implementation,
+                case.variant,
                 IMPLEMENTATIONS[0]
             );
         }
@@ -118,6 +172,7 @@ impl Visitor for Agreement {
 }
 
 struct Cases<'a, V> {
+    platform: &'a Platform,
     states: &'a States,
     visitor: &'a mut V,
     model: Uhp,
@@ -125,27 +180,77 @@ struct Cases<'a, V> {
 }
 
 impl<V: Visitor> Cases<'_, V> {
-    fn visit<O: Output + Default, R: Output>(
+    /// What this workspace has for every function.
+    fn own<O: Output + Default, R: Output>(
         &mut self,
-        name: &'static str,
-        baked: impl Fn(&Uhp2016, &Inputs, &mut O),
+        function: &'static str,
+        baked: impl Fn(&Baked, &Inputs, &mut O),
         runtime: impl Fn(&Uhp, &Inputs, &mut O),
         reference: impl Fn(&dyn_reference::Parameters, &dyn_reference::State) -> R,
     ) {
-        let [generated, generated_runtime, by_hand] = IMPLEMENTATIONS;
+        let case = |implementation| Case { function, implementation, variant: "" };
         let states = self.states;
-        let baked = Generated { model: Uhp2016, function: baked, output: O::default() };
-        self.visitor.visit(name, generated, &states.inputs, baked);
+        let baked = Generated { model: Baked, function: baked, output: O::default() };
+        self.visitor.visit(case("generated"), &states.inputs, baked);
         let runtime = Generated { model: self.model, function: runtime, output: O::default() };
-        self.visitor.visit(name, generated_runtime, &states.inputs, runtime);
+        self.visitor.visit(case("generated_runtime"), &states.inputs, runtime);
         let reference = Reference { parameters: self.parameters, function: reference };
-        self.visitor.visit(name, by_hand, &states.reference, reference);
+        self.visitor.visit(case("reference"), &states.reference, reference);
+    }
+
+    /// C by CasADi, every variant that is linked.
+    fn peers<O: Output + Default, const N: usize>(
+        &mut self,
+        function: &'static str,
+        inputs: impl Fn(&Inputs) -> [*const f64; N] + Copy,
+    ) {
+        for peer in Peer::all().iter().filter(|peer| peer.function == function) {
+            let case = Case { function, implementation: peer.implementation, variant: peer.variant };
+            self.visitor.visit(case, &self.states.inputs, peer.call::<_, O, N>(inputs));
+        }
+    }
+
+    fn pinocchio(&mut self) {
+        if let Some((peer, states)) = Pinocchio::new(self.platform, &self.states.inputs) {
+            let case = Case { function: "forward_dynamics", implementation: "pinocchio", variant: "" };
+            self.visitor.visit(case, &states, peer);
+        }
+    }
+
+    /// Rotations from the paper's angles, then inverse dynamics.
+    fn turned_by_angles(&mut self) {
+        let case =
+            |implementation| Case { function: "inverse_dynamics_from_angles", implementation, variant: "" };
+        let states = angles::states(self.states);
+        let generated = angles::Generated { model: Baked, output: [0.0; 6] };
+        self.visitor.visit(case("generated"), &states, generated);
+        let runtime = angles::Generated { model: self.model, output: [0.0; 6] };
+        self.visitor.visit(case("generated_runtime"), &states, runtime);
+        let reference = angles::Reference { parameters: self.parameters };
+        self.visitor.visit(case("reference"), &states, reference);
     }
 }
 
-type Matrix = [[f64; 6]; 6];
+type Matrix<T = f64> = [[T; 6]; 6];
 
-fn inverse_dynamics(model: &impl InverseDynamics, state: &Inputs, output: &mut [f64; 6]) {
+/// Addresses of an array's inputs in the order of the function's arguments.
+macro_rules! addresses {
+    ($function:ident: $count:literal, $($input:ident),*) => {
+        fn $function(state: &Inputs) -> [*const f64; $count] {
+            [$((&raw const state.$input).cast()),*]
+        }
+    };
+}
+
+addresses!(inverse_dynamics_inputs: 9, base_position, base_rotation, base_velocity, base_acceleration, platform_position,
+    platform_rotation, platform_velocity, platform_acceleration, external_wrench);
+addresses!(forward_dynamics_inputs: 9, base_position, base_rotation, base_velocity, base_acceleration, platform_position,
+    platform_rotation, platform_velocity, actuator_force, external_wrench);
+addresses!(matrices_inputs: 6, base_position, base_rotation, base_velocity, platform_position, platform_rotation,
+    platform_velocity);
+
+/// Calls a model with a state.
+pub(crate) fn inverse_dynamics<T>(model: &impl InverseDynamics<T>, state: &Inputs<T>, output: &mut [T; 6]) {
     model.inverse_dynamics(
         &state.base_position,
         &state.base_rotation,
@@ -160,7 +265,8 @@ fn inverse_dynamics(model: &impl InverseDynamics, state: &Inputs, output: &mut [
     );
 }
 
-fn forward_dynamics(model: &impl ForwardDynamics, state: &Inputs, output: &mut [f64; 6]) {
+/// Calls a model with a state.
+pub(crate) fn forward_dynamics<T>(model: &impl ForwardDynamics<T>, state: &Inputs<T>, output: &mut [T; 6]) {
     model.forward_dynamics(
         &state.base_position,
         &state.base_rotation,
@@ -175,7 +281,8 @@ fn forward_dynamics(model: &impl ForwardDynamics, state: &Inputs, output: &mut [
     );
 }
 
-fn matrices(model: &impl Matrices, state: &Inputs, output: &mut [Matrix; 6]) {
+/// Calls a model with a state.
+pub(crate) fn matrices<T>(model: &impl Matrices<T>, state: &Inputs<T>, output: &mut [Matrix<T>; 6]) {
     let [mass_p, coriolis_p, jacobian_dp, mass_b, coriolis_b, jacobian_db] = output;
     model.matrices(
         &state.base_position,

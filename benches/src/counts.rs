@@ -10,7 +10,7 @@ use std::process::{Command, Stdio};
 use dyn_gen::graph::Environment;
 
 use crate::call::{Call, throughput};
-use crate::cases::{FUNCTIONS, IMPLEMENTATIONS, Visitor, visit};
+use crate::cases::{Case, Visitor, all, visit};
 use crate::states::{COUNT, States, platform, sampled};
 
 /// Instructions per call, mean over the states, by function and implementation.
@@ -32,6 +32,8 @@ pub struct Workload<'a> {
     pub function: &'a str,
     /// One of [`IMPLEMENTATIONS`].
     pub implementation: &'a str,
+    /// Which of its variants; empty where there is one.
+    pub variant: &'a str,
     /// How often to go through the states.
     pub passes: usize,
 }
@@ -45,18 +47,22 @@ pub fn count_all(
     arguments: impl Fn(&Workload<'_>) -> Vec<String>,
     mut progress: impl FnMut(&str, &str),
 ) -> Result<Counts, CountError> {
-    let states = serde_json::to_vec(&sampled(&platform())).map_err(failed)?;
+    let platform = platform();
+    let sampled = sampled(&platform);
+    let states = serde_json::to_vec(&sampled).map_err(failed)?;
     let mut counts = Counts::new();
-    for function in FUNCTIONS {
-        for implementation in IMPLEMENTATIONS {
-            progress(function, implementation);
-            let [once, twice] = [1, 2].map(|passes| {
-                instructions(&arguments(&Workload { function, implementation, passes }), &states)
-            });
-            let per_call = twice?.saturating_sub(once?) as f64 / COUNT as f64;
-            let row = counts.entry(function.to_owned()).or_default();
-            row.insert(implementation.to_owned(), per_call.round() as u64);
-        }
+    for Case { function, implementation, variant } in all(&platform, &States::new(&sampled)) {
+        progress(function, implementation);
+        let [once, twice] = [1, 2].map(|passes| {
+            instructions(&arguments(&Workload { function, implementation, variant, passes }), &states)
+        });
+        let per_call = twice?.saturating_sub(once?) as f64 / COUNT as f64;
+        let counted = per_call.round() as u64;
+        // Of several variants the shortest one counts.
+        let row = counts.entry(function.to_owned()).or_default();
+        row.entry(implementation.to_owned())
+            .and_modify(|least| *least = counted.min(*least))
+            .or_insert(counted);
     }
     Ok(counts)
 }
@@ -116,14 +122,8 @@ struct Passes<'a> {
 }
 
 impl Visitor for Passes<'_> {
-    fn visit<C: Call>(
-        &mut self,
-        _: &'static str,
-        implementation: &'static str,
-        states: &[C::State; COUNT],
-        mut call: C,
-    ) {
-        if implementation == self.workload.implementation {
+    fn visit<C: Call>(&mut self, case: Case, states: &[C::State; COUNT], mut call: C) {
+        if case.implementation == self.workload.implementation && case.variant == self.workload.variant {
             self.found = true;
             let mut once = throughput(&mut call, states);
             (0..self.workload.passes * COUNT).for_each(|_| once());

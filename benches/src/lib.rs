@@ -7,15 +7,23 @@
 //! | [`output`] | results that differ in type, read alike |
 //! | [`call`] | one call of one function by one implementation; the loops around it |
 //! | [`cases`] | the table of functions and implementations |
+//! | [`angles`] | rotations given by angles |
+//! | [`peers`] | other people's code for the same functions |
+//! | [`accuracy`] | rounding errors, against fifty digits |
+//! | [`selection`] | the fastest of several ways to compile a peer |
+//! | [`tail`] | times of single calls: median and 99th percentile |
 //! | [`counts`] | instructions per call, by callgrind |
 //! | [`budget`] | counts that may not grow |
-//! | [`ratios`] | ratios from criterion's results |
+//! | [`results`], [`ratios`] | criterion's results, and ratios from them |
+//! | [`ratio_plot`] | those as a plot |
 //! | [`bundle`] | everything that a controller asks of the model in a cycle |
 //! | [`control_loop`], [`machine`], [`loop_plot`] | the same in a loop at 10 kHz: times, circumstances, plot |
 //! | [`table`] | text tables |
 //!
 //! `benches/dynamics.rs` measures times, `instruction_counts` counts, `ratios` sums up, `control_loop` runs a loop.
 
+pub mod accuracy;
+pub mod angles;
 pub mod budget;
 pub mod bundle;
 pub mod call;
@@ -25,9 +33,19 @@ pub mod counts;
 pub mod loop_plot;
 pub mod machine;
 pub mod output;
+pub mod peers;
+pub mod ratio_plot;
 pub mod ratios;
+pub mod results;
+pub mod selection;
 pub mod states;
 pub mod table;
+pub mod tail;
+
+/// The model that is measured with its numbers baked in.
+pub mod model {
+    include!(concat!(env!("OUT_DIR"), "/model.rs"));
+}
 
 /// Compiler, target, optimisation, target features and flags of this build.
 pub const CODEGEN: &str = env!("DYN_BENCHES_CODEGEN");

@@ -1,46 +1,70 @@
-//! Ratios from the results that criterion left behind.
+//! Times and ratios from the results that a run left behind.
 
 use std::collections::BTreeMap;
-use std::fs;
-use std::path::{Path, PathBuf};
-use std::time::{Duration, SystemTime};
+use std::path::Path;
+use std::time::Duration;
 
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
 use crate::cases::{FUNCTIONS, IMPLEMENTATIONS};
+use crate::results::{self, MEASURES, SINGLE_CALLS, Time, VARIANTS, processor};
+use crate::selection::Variant;
 use crate::table;
+use crate::tail::Tails;
 
-/// The two ways to measure, in the order of tables.
-pub const MEASURES: [&str; 2] = ["throughput", "latency"];
+/// Results further apart in time than this are taken for results of different runs; a whole run takes some minutes.
+const ONE_RUN: Duration = Duration::from_secs(30 * 60);
 
-/// How many times faster than the reference the baked model shall be.
-pub const TARGETS: [(&str, f64); 2] = [("inverse_dynamics", 4.0), ("forward_dynamics", 6.0)];
-
-/// Results further apart in time than this are taken for results of different runs; a whole run takes a few minutes.
-const ONE_RUN: Duration = Duration::from_secs(20 * 60);
-
-/// How far the median of a quiet machine lies above the fastest sample at most.
-const QUIET: f64 = 1.1;
-
-/// A time per call, in nanoseconds: criterion's median with its 95 % confidence interval, and the fastest sample.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct Time {
-    /// Median over criterion's samples.
-    pub median: f64,
-    /// Lower end of the interval.
-    pub low: f64,
-    /// Upper end of the interval.
-    pub high: f64,
-    /// The sample that was disturbed least.
-    pub fastest: f64,
+/// What is compared: our side, one of several where the better one counts.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Ours {
+    /// One state per call, numbers baked in: flat code or legs in lanes, whichever is faster.
+    SingleState,
+    /// Many states per call.
+    Batch,
+    /// Parameters at run time.
+    RunTime,
 }
 
-impl Time {
-    /// Whether something else kept the machine busy.
-    fn disturbed(&self) -> bool {
-        self.median > QUIET * self.fastest
+impl Ours {
+    fn implementations(self) -> &'static [&'static str] {
+        match self {
+            Self::SingleState => &["generated", "generated_lanes"],
+            Self::Batch => &["generated_batch"],
+            Self::RunTime => &["generated_runtime"],
+        }
+    }
+
+    fn name(self) -> &'static str {
+        match self {
+            Self::SingleState => "single state",
+            Self::Batch => "batch",
+            Self::RunTime => "run time",
+        }
     }
 }
+
+/// A row of [`COMPARISONS`]: measure, ours, the other, and for inverse dynamics, forward dynamics and matrices how many times
+/// faster ours shall be; zero where nothing is asked.
+type Comparison = (&'static str, Ours, &'static str, [f64; 3]);
+
+/// Every ratio that is formed, with the factors that this workspace aims at.
+const COMPARISONS: [Comparison; 9] = [
+    ("latency", Ours::SingleState, "casadi_c_same", [1.6, 1.6, 1.4]),
+    ("throughput", Ours::SingleState, "casadi_c_same", [1.9, 1.9, 1.5]),
+    ("throughput", Ours::SingleState, "casadi_c_naive", [7.0, 50.0, 15.0]),
+    ("throughput", Ours::SingleState, "reference", [9.0, 14.0, 9.0]),
+    ("latency", Ours::SingleState, "reference", [0.0; 3]),
+    ("throughput", Ours::SingleState, "pinocchio", [0.0, 90.0, 0.0]),
+    ("throughput", Ours::Batch, "casadi_c_same", [6.0, 6.0, 4.0]),
+    ("throughput", Ours::RunTime, "reference", [0.0; 3]),
+    // Run-time parameters cost at most 1.35 times the baked model.
+    ("throughput", Ours::RunTime, "generated", [1.0 / 1.35, 1.0 / 1.35, 1.0 / 1.35]),
+];
+
+/// The functions that [`COMPARISONS`] has factors for.
+const AIMED: [&str; 3] = ["inverse_dynamics", "forward_dynamics", "matrices"];
 
 /// One function measured in one way.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -51,12 +75,30 @@ pub struct Row {
     pub measure: String,
     /// Times in nanoseconds by implementation; what was not measured is absent.
     pub nanoseconds: BTreeMap<String, Time>,
-    /// Reference over each generated implementation, medians.
-    pub faster_than_reference: BTreeMap<String, f64>,
-    /// What the baked model's ratio shall be.
+}
+
+/// How many times faster ours is.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Ratio {
+    /// The function.
+    pub function: String,
+    /// One of [`MEASURES`].
+    pub measure: String,
+    /// Our side.
+    pub ours: Ours,
+    /// The other implementation.
+    pub against: String,
+    /// Its median over ours; nothing where one of them was not measured.
+    pub ratio: Option<f64>,
+    /// What it shall be.
     pub target: Option<f64>,
-    /// Whether it is; absent without target or without both times.
-    pub met: Option<bool>,
+}
+
+impl Ratio {
+    /// Whether the target is met; absent without target or without both times.
+    pub fn met(&self) -> Option<bool> {
+        Some(self.ratio? >= self.target?)
+    }
 }
 
 /// Everything found.
@@ -68,46 +110,18 @@ pub struct Summary {
     pub one_run: bool,
     /// By function and measure.
     pub rows: Vec<Row>,
-}
-
-/// The part of criterion's `estimates.json` that is read.
-#[derive(Deserialize)]
-struct Estimates {
-    median: Estimate,
-}
-
-#[derive(Deserialize)]
-struct Estimate {
-    point_estimate: f64,
-    confidence_interval: Interval,
-}
-
-#[derive(Deserialize)]
-struct Interval {
-    lower_bound: f64,
-    upper_bound: f64,
-}
-
-/// The part of criterion's `sample.json` that is read: calls and nanoseconds of each sample.
-#[derive(Deserialize)]
-struct Samples {
-    iters: Vec<f64>,
-    times: Vec<f64>,
-}
-
-/// Where criterion leaves its results: `CRITERION_HOME`, or `criterion` in cargo's target folder.
-pub fn results_folder() -> PathBuf {
-    let folder = |name: &str| std::env::var_os(name).filter(|value| !value.is_empty()).map(PathBuf::from);
-    folder("CRITERION_HOME").unwrap_or_else(|| {
-        let target = folder("CARGO_TARGET_DIR");
-        target.unwrap_or_else(|| Path::new(env!("CARGO_MANIFEST_DIR")).join("../target")).join("criterion")
-    })
+    /// Every comparison.
+    pub ratios: Vec<Ratio>,
+    /// Nanoseconds of single calls.
+    pub single_calls: Tails,
+    /// Every way in which peers were compiled, from the short run that chose among them.
+    pub variants: Vec<Variant>,
 }
 
 /// Reads the results in `folder`.
 ///
 /// # Errors
-/// If there are none, or one is not what criterion writes; in words.
+/// If there are none, or one is not what the benchmark writes; in words.
 pub fn summarise(folder: &Path) -> Result<Summary, String> {
     let mut taken = Vec::new();
     let mut rows = Vec::new();
@@ -116,112 +130,69 @@ pub fn summarise(folder: &Path) -> Result<Summary, String> {
             let mut nanoseconds = BTreeMap::new();
             for implementation in IMPLEMENTATIONS {
                 let path = folder.join(function).join(implementation).join(measure).join("new");
-                if let Some((time, when)) = read(&path)? {
+                if let Some((time, when)) = results::read(&path)? {
                     nanoseconds.insert(implementation.to_owned(), time);
                     taken.push(when);
                 }
             }
-            rows.push(Row::new(function, measure, nanoseconds));
+            rows.push(Row { function: function.to_owned(), measure: measure.to_owned(), nanoseconds });
         }
     }
     let (Some(first), Some(last)) = (taken.iter().min(), taken.iter().max()) else {
-        return Err(format!("{}: no results\n help: cargo bench --package dyn-benches", folder.display()));
+        return Err(format!("{}: no results\n help: cargo xtask bench", folder.display()));
     };
     let one_run = last.duration_since(*first).is_ok_and(|apart| apart <= ONE_RUN);
-    Ok(Summary { processor: processor(), one_run, rows })
+    let ratios = ratios(&rows);
+    Ok(Summary {
+        processor: processor(),
+        one_run,
+        rows,
+        ratios,
+        single_calls: results::read_own(folder, SINGLE_CALLS)?,
+        variants: results::read_own(folder, VARIANTS)?,
+    })
 }
 
-/// The result in a folder and when it was written, or nothing if it was not measured.
-fn read(folder: &Path) -> Result<Option<(Time, SystemTime)>, String> {
-    let path = folder.join("estimates.json");
-    let Ok(text) = fs::read_to_string(&path) else { return Ok(None) };
-    let when =
-        fs::metadata(&path).and_then(|file| file.modified()).map_err(|error| refusal(&path, &error))?;
-    let Estimates { median: Estimate { point_estimate: median, confidence_interval: interval } } =
-        serde_json::from_str(&text).map_err(|error| refusal(&path, &error))?;
-    let path = folder.join("sample.json");
-    let text = fs::read_to_string(&path).map_err(|error| refusal(&path, &error))?;
-    let Samples { iters, times } = serde_json::from_str(&text).map_err(|error| refusal(&path, &error))?;
-    let per_call = times.iter().zip(&iters).map(|(time, calls)| time / calls);
-    let fastest = per_call.fold(f64::INFINITY, f64::min);
-    Ok(Some((Time { median, low: interval.lower_bound, high: interval.upper_bound, fastest }, when)))
-}
-
-fn refusal(path: &Path, reason: &dyn std::fmt::Display) -> String {
-    format!("{}: {reason}", path.display())
-}
-
-/// Linux's name of the processor.
-fn processor() -> Option<String> {
-    let text = fs::read_to_string("/proc/cpuinfo").ok()?;
-    let line = text.lines().find(|line| line.starts_with("model name"))?;
-    Some(line.split_once(':')?.1.trim().to_owned())
-}
-
-impl Row {
-    fn new(function: &str, measure: &str, nanoseconds: BTreeMap<String, Time>) -> Self {
-        let [baked, _, reference] = IMPLEMENTATIONS;
-        let by_hand = nanoseconds.get(reference).map(|time| time.median);
-        let generated = nanoseconds.iter().filter(|(name, _)| *name != reference);
-        let faster_than_reference: BTreeMap<String, f64> =
-            generated.filter_map(|(name, time)| Some((name.clone(), by_hand? / time.median))).collect();
-        let target = TARGETS.iter().find(|(name, _)| *name == function).map(|&(_, target)| target);
-        let met = target.and_then(|target| Some(*faster_than_reference.get(baked)? >= target));
-        Self {
-            function: function.to_owned(),
-            measure: measure.to_owned(),
-            nanoseconds,
-            faster_than_reference,
-            target,
-            met,
+fn ratios(rows: &[Row]) -> Vec<Ratio> {
+    let mut ratios = Vec::new();
+    for function in FUNCTIONS {
+        let aim = AIMED.iter().position(|&name| name == function);
+        for (measure, ours, against, targets) in COMPARISONS {
+            let target = aim.map(|index| targets[index]).filter(|&target| target > 0.0);
+            let row = rows.iter().find(|row| row.function == function && row.measure == measure);
+            let time = |name: &str| Some(row?.nanoseconds.get(name)?.median);
+            let best = ours.implementations().iter().filter_map(|&name| time(name)).min_by(f64::total_cmp);
+            let ratio = time(against).zip(best).map(|(other, best)| other / best);
+            if target.is_some() || ratio.is_some() {
+                ratios.push(Ratio {
+                    function: function.to_owned(),
+                    measure: measure.to_owned(),
+                    ours,
+                    against: against.to_owned(),
+                    ratio,
+                    target,
+                });
+            }
         }
     }
+    ratios
 }
 
 impl Summary {
-    /// The table, and what one must know to read it.
+    /// The tables, and what one must know to read them.
     pub fn text(&self) -> String {
-        let [baked, runtime, _] = IMPLEMENTATIONS;
-        let absent = || "absent".to_owned();
-        let rows: Vec<Vec<String>> = self
-            .rows
-            .iter()
-            .map(|row| {
-                let time = |name: &str| {
-                    row.nanoseconds.get(name).map_or_else(absent, |time| {
-                        format!("{:.1}{}", time.median, if time.disturbed() { "*" } else { " " })
-                    })
-                };
-                let ratio = |name: &str| {
-                    row.faster_than_reference.get(name).map_or_else(absent, |ratio| format!("{ratio:.2}"))
-                };
-                let target = match (row.target, row.met) {
-                    (None, _) => String::new(),
-                    (Some(target), None) => format!("{target} not measured"),
-                    (Some(target), Some(true)) => format!("{target} met"),
-                    (Some(target), Some(false)) => format!("{target} MISSED"),
-                };
-                let names = [row.function.clone(), row.measure.clone()];
-                names
-                    .into_iter()
-                    .chain(IMPLEMENTATIONS.map(time))
-                    .chain([ratio(baked), ratio(runtime), target])
-                    .collect()
-            })
-            .collect();
-        let heading = [
-            "function",
-            "measure",
-            "generated",
-            "generated_runtime",
-            "reference",
-            "reference/generated",
-            "reference/generated_runtime",
-            "target",
-        ];
         let processor = self.processor.as_deref().unwrap_or("unnamed processor");
-        let mut text = format!("nanoseconds per call (median) and ratios, {processor}\n");
-        text += &table::text(&heading, &rows, 2);
+        let mut text = format!("nanoseconds per call (median), {processor}\n{}", self.times());
+        text += &format!("\nhow many times faster\n{}", self.ratio_table());
+        if !self.single_calls.is_empty() {
+            text += &format!("\nnanoseconds of single calls, median / 99th percentile\n{}", self.tails());
+        }
+        if !self.variants.is_empty() {
+            text += &format!(
+                "\nvariants of peers, nanoseconds per call in a short run\n{}",
+                self.variant_table()
+            );
+        }
         let mut times = self.rows.iter().flat_map(|row| row.nanoseconds.values());
         if times.any(Time::disturbed) {
             text +=
@@ -233,10 +204,79 @@ impl Summary {
         }
         text
     }
+
+    fn times(&self) -> String {
+        let time = |row: &Row, name: &str| {
+            row.nanoseconds.get(name).map_or_else(
+                || "absent".to_owned(),
+                |time| format!("{:.1}{}", time.median, if time.disturbed() { "*" } else { " " }),
+            )
+        };
+        let cells = |row: &Row| {
+            let names = [row.function.clone(), row.measure.clone()];
+            names.into_iter().chain(IMPLEMENTATIONS.map(|name| time(row, name))).collect()
+        };
+        let heading: Vec<&str> = ["function", "measure"].into_iter().chain(IMPLEMENTATIONS).collect();
+        table::text(&heading, &self.rows.iter().map(cells).collect::<Vec<_>>(), 2)
+    }
+
+    fn ratio_table(&self) -> String {
+        let cells = |row: &Ratio| {
+            let verdict = match (row.target, row.met()) {
+                (None, _) => String::new(),
+                (Some(target), None) => format!("{target:.2} not measured"),
+                (Some(target), Some(true)) => format!("{target:.2} met"),
+                (Some(target), Some(false)) => format!("{target:.2} MISSED"),
+            };
+            let ratio = row.ratio.map_or_else(|| "absent".into(), |ratio| format!("{ratio:.2}"));
+            vec![
+                row.function.clone(),
+                row.measure.clone(),
+                row.ours.name().into(),
+                row.against.clone(),
+                ratio,
+                verdict,
+            ]
+        };
+        let heading = ["function", "measure", "ours", "against", "ratio", "target"];
+        table::text(&heading, &self.ratios.iter().map(cells).collect::<Vec<_>>(), 4)
+    }
+
+    fn tails(&self) -> String {
+        let cell = |function: &str, name: &str| {
+            let tail = self.single_calls.get(function).and_then(|row| row.get(name));
+            tail.map_or_else(|| "absent".into(), |tail| format!("{} / {}", tail.median, tail.p99))
+        };
+        let functions = FUNCTIONS.iter().filter(|&&function| self.single_calls.contains_key(function));
+        let rows = functions.map(|&function| {
+            let cells = IMPLEMENTATIONS.map(|name| cell(function, name));
+            [function.to_owned()].into_iter().chain(cells).collect()
+        });
+        let heading: Vec<&str> = ["function"].into_iter().chain(IMPLEMENTATIONS).collect();
+        table::text(&heading, &rows.collect::<Vec<_>>(), 1)
+    }
+
+    fn variant_table(&self) -> String {
+        let cells = |row: &Variant| {
+            let cell = |measure: &str| {
+                let time = row.nanoseconds.get(measure).copied().unwrap_or(f64::NAN);
+                let best = row.best.get(measure).copied().unwrap_or(false);
+                format!("{time:.1}{}", if best { " best" } else { "     " })
+            };
+            let [throughput, latency] = MEASURES.map(cell);
+            vec![row.function.clone(), row.implementation.clone(), row.variant.clone(), throughput, latency]
+        };
+        let heading = ["function", "implementation", "variant", "throughput", "latency"];
+        table::text(&heading, &self.variants.iter().map(cells).collect::<Vec<_>>(), 3)
+    }
 }
 
 #[cfg(test)]
 mod tests {
+    use std::fs;
+    use std::path::PathBuf;
+    use std::time::SystemTime;
+
     use super::*;
 
     /// Leaves a result like criterion's: two samples, one as fast as the median.
@@ -260,28 +300,33 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         for (id, median) in [
             ("inverse_dynamics/generated/throughput", 100.0),
-            ("inverse_dynamics/generated_runtime/throughput", 200.0),
-            ("inverse_dynamics/reference/throughput", 400.0),
+            ("inverse_dynamics/generated_lanes/throughput", 80.0),
+            ("inverse_dynamics/generated_runtime/throughput", 150.0),
+            ("inverse_dynamics/reference/throughput", 800.0),
+            ("inverse_dynamics/casadi_c_same/throughput", 136.0),
             ("forward_dynamics/generated/latency", 100.0),
-            ("forward_dynamics/reference/latency", 599.0),
-            ("forward_dynamics/generated/throughput", 100.0),
         ] {
             write(folder.path(), id, median);
         }
         let summary = summarise(folder.path()).unwrap();
         assert!(summary.one_run);
-        let row = |function, measure| {
-            summary.rows.iter().find(|row| row.function == function && row.measure == measure).unwrap()
+        let ratio = |ours, against| {
+            let same = |row: &&Ratio| {
+                row.function == "inverse_dynamics"
+                    && row.measure == "throughput"
+                    && row.ours == ours
+                    && row.against == against
+            };
+            summary.ratios.iter().find(same).unwrap()
         };
-        let inverse = row("inverse_dynamics", "throughput");
-        assert_eq!(inverse.faster_than_reference["generated"], 4.0);
-        assert_eq!(inverse.faster_than_reference["generated_runtime"], 2.0);
-        assert_eq!(inverse.met, Some(true));
-        assert_eq!(row("forward_dynamics", "latency").met, Some(false));
-        assert_eq!(row("forward_dynamics", "throughput").met, None);
-        assert_eq!(row("jacobian_dp", "latency").nanoseconds.len(), 0);
+        // The faster of two single-state implementations counts.
+        assert_eq!(ratio(Ours::SingleState, "reference").ratio, Some(10.0));
+        assert_eq!(ratio(Ours::SingleState, "reference").met(), Some(true));
+        assert_eq!(ratio(Ours::SingleState, "casadi_c_same").met(), Some(false));
+        assert_eq!(ratio(Ours::Batch, "casadi_c_same").met(), None);
+        assert_eq!(ratio(Ours::RunTime, "generated").met(), Some(false));
         let text = summary.text();
-        for expected in ["4 met", "6 MISSED", "6 not measured", "absent"] {
+        for expected in ["9.00 met", "1.90 MISSED", "6.00 not measured", "absent"] {
             assert!(text.contains(expected), "{text}");
         }
         assert!(!text.contains("disturbed"), "{text}");
@@ -317,7 +362,7 @@ mod tests {
     #[test]
     fn nothing_measured_and_nonsense_are_errors() {
         let folder = tempfile::tempdir().unwrap();
-        assert!(summarise(folder.path()).unwrap_err().contains("cargo bench"));
+        assert!(summarise(folder.path()).unwrap_err().contains("xtask bench"));
         let path = write(folder.path(), "matrices/reference/latency", 1.0);
         fs::write(path.join("estimates.json"), "{}").unwrap();
         assert!(summarise(folder.path()).unwrap_err().contains("estimates.json"));

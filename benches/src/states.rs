@@ -17,20 +17,21 @@ pub const COUNT: usize = 64;
 /// Seed of the states.
 pub const SEED: u64 = 2016;
 
-/// A state as generated functions take it; names, units and frames as in their documentation.
+/// A state as generated functions take it; names, units and frames as in their documentation. Peers read it by this layout.
 #[derive(Clone, Copy, Debug)]
 #[allow(missing_docs)]
-pub struct Inputs {
-    pub base_position: [f64; 3],
-    pub base_rotation: [[f64; 3]; 3],
-    pub base_velocity: [f64; 6],
-    pub base_acceleration: [f64; 6],
-    pub platform_position: [f64; 3],
-    pub platform_rotation: [[f64; 3]; 3],
-    pub platform_velocity: [f64; 6],
-    pub platform_acceleration: [f64; 6],
-    pub actuator_force: [f64; 6],
-    pub external_wrench: [f64; 6],
+#[repr(C)]
+pub struct Inputs<T = f64> {
+    pub base_position: [T; 3],
+    pub base_rotation: [[T; 3]; 3],
+    pub base_velocity: [T; 6],
+    pub base_acceleration: [T; 6],
+    pub platform_position: [T; 3],
+    pub platform_rotation: [[T; 3]; 3],
+    pub platform_velocity: [T; 6],
+    pub platform_acceleration: [T; 6],
+    pub actuator_force: [T; 6],
+    pub external_wrench: [T; 6],
 }
 
 /// The states in both forms; the same index is the same state.
@@ -41,10 +42,10 @@ pub struct States {
     pub reference: Box<[State; COUNT]>,
 }
 
-/// The platform of the paper, from its file.
+/// The platform whose numbers are baked in: the paper's, or that of `cargo xtask bench --platform`.
 pub fn platform() -> Platform {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../platforms/uhp_2016.toml");
-    Platform::from_file(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()))
+    let path = Path::new(env!("DYN_BENCHES_PLATFORM"));
+    Platform::from_file(path).unwrap_or_else(|error| panic!("{}: {error}", path.display()))
 }
 
 /// [`COUNT`] states of `platform` by name: half near home with moderate rates, half anywhere with large ones.
@@ -86,6 +87,24 @@ impl Inputs {
             platform_acceleration: row(state, "platform_acceleration"),
             actuator_force: row(state, "actuator_force"),
             external_wrench: row(state, "external_wrench"),
+        }
+    }
+
+    /// In single precision.
+    pub fn narrowed(&self) -> Inputs<f32> {
+        let narrow = |values: [f64; 6]| values.map(|value| value as f32);
+        let vector = |values: [f64; 3]| values.map(|value| value as f32);
+        Inputs {
+            base_position: vector(self.base_position),
+            base_rotation: self.base_rotation.map(vector),
+            base_velocity: narrow(self.base_velocity),
+            base_acceleration: narrow(self.base_acceleration),
+            platform_position: vector(self.platform_position),
+            platform_rotation: self.platform_rotation.map(vector),
+            platform_velocity: narrow(self.platform_velocity),
+            platform_acceleration: narrow(self.platform_acceleration),
+            actuator_force: narrow(self.actuator_force),
+            external_wrench: narrow(self.external_wrench),
         }
     }
 }

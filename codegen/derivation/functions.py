@@ -42,11 +42,9 @@ def functions(leg) -> list[Function]:
     fields = (motion.base_acceleration_field, motion.platform_acceleration_field)
 
     merged = (leg.leg_masses, payload.merged_payload)
-    mass = (*jacobians, *merged, leg.leg_inertia, matrices.legs_mass_matrix)
-    coriolis = (
-        *rates, matrices.joint_rates_in_o, leg.leg_inertia_rates,
-        matrices.legs_coriolis_matrix, matrices.coriolis_matrix_p, matrices.coriolis_matrix_b,
-    )
+    mass = (*jacobians, *merged, *leg.MASS_MATRIX)
+    inertia = (*jacobians, *merged, *leg.LEGS_INERTIA)
+    coriolis = (*rates, matrices.joint_rates_in_o, *leg.CORIOLIS_MATRICES, matrices.coriolis_matrix_p)
     passive = (leg.leg_masses, leg.leg_weight, matrices.spring_and_damping_force, matrices.gravity_force)
 
     leg_forces = (*acceleration, leg.leg_inertia_forces, forces.passive_axial_force, forces.jacobian_row)
@@ -86,11 +84,11 @@ def functions(leg) -> list[Function]:
         Function("mass_matrix_p", "mass matrix of the platform", "(49)", ("mass_matrix_p",), (*mass, matrices.mass_matrix_p)),
         Function(
             "mass_matrix_b", "mass matrix that couples the base acceleration", "(49)",
-            ("mass_matrix_b",), (*mass, matrices.mass_matrix_b),
+            ("mass_matrix_b",), (*inertia, *leg.MASS_MATRIX_B),
         ),
         Function(
             "coriolis_matrices", "Coriolis matrices C_p and C_b", "(49)",
-            ("coriolis_matrix_p", "coriolis_matrix_b"), (*mass, *coriolis),
+            ("coriolis_matrix_p", "coriolis_matrix_b"), (*inertia, *coriolis),
         ),
         Function(
             "stiffness_matrices", "linearised stiffness matrices K_p and K_b", "(49)",
@@ -98,7 +96,7 @@ def functions(leg) -> list[Function]:
         ),
         Function(
             "matrices", "mass matrices, Coriolis matrices and actuator Jacobians in one call", "(31), (32), (49)",
-            MATRICES, (*mass, matrices.mass_matrix_p, matrices.mass_matrix_b, *coriolis),
+            MATRICES, (*inertia, matrices.mass_matrix_p, *leg.MASS_MATRIX_B, *coriolis),
         ),
         Function(
             "passive_forces", "generalised gravity, spring and damping forces", "(40), (41)",
@@ -115,7 +113,7 @@ def functions(leg) -> list[Function]:
             ("mass_matrix_p", "coriolis_matrix_p", "stiffness_matrix_p", "jacobian_dp",
              "mass_matrix_b", "coriolis_matrix_b", "stiffness_matrix_b", "jacobian_db",
              "gravity_force", "spring_force", "damping_force", "bias"),
-            (*mass, matrices.mass_matrix_p, matrices.mass_matrix_b, *coriolis, matrices.stiffness_matrices, *passive,
+            (*inertia, matrices.mass_matrix_p, *leg.MASS_MATRIX_B, *coriolis, matrices.stiffness_matrices, *passive,
              matrices.bias_from_matrices),
         ),
         Function(

@@ -6,6 +6,8 @@ Coriolis counterparts P, Q of each leg:
 
     M_p = sum U^T N U + payload          M_b = (sum U^T N U) X - sum U^T L
     C_p = sum U^T (P U + N U') + payload C_b = (sum U^T (P U + N U')) X + (sum U^T N U) X' - sum U^T Q
+
+A leg type may offer a shorter way to the same matrices (see `fixed_axes`).
 """
 
 import casadi as ca
@@ -48,15 +50,19 @@ def joint_in_o(base_rotation, base_position, platform_position, platform_rotatio
 
 @leg_stage
 def joint_rates_in_o(
-    base_rotation, base_velocity, platform_velocity, platform_lever_o, length_gradient_rate,
+    base_rotation, platform_velocity, platform_lever_o, length_gradient_rate,
 ):
-    """rates of platform joint and length gradient in O."""
-    lever_rate = cross(platform_velocity[3:], platform_lever_o)
+    """rates of lever and length gradient in O."""
     return {
-        "platform_lever_rate_o": lever_rate,
-        "joint_velocity_o": (platform_velocity[:3] - base_velocity[:3]) + lever_rate,
+        "platform_lever_rate_o": cross(platform_velocity[3:], platform_lever_o),
         "length_gradient_rate_o": base_rotation @ length_gradient_rate,
     }
+
+
+@leg_stage
+def joint_motion_in_o(base_velocity, platform_velocity, platform_lever_rate_o):
+    """velocity of the platform joint in O."""
+    return {"joint_velocity_o": (platform_velocity[:3] - base_velocity[:3]) + platform_lever_rate_o}
 
 
 @leg_stage

@@ -6,7 +6,7 @@ relative to the base has inertial acceleration A_B + G_b y + 2 w_b x y' + y'', w
 
 import casadi as ca
 
-from .rotations import acceleration_field, cross, skew
+from .rotations import accelerated, acceleration_field, cross, skew
 from .stages import leg_stage, platform_stage
 
 
@@ -53,7 +53,7 @@ def platform_acceleration_field(base_rotation, platform_acceleration, gravity, p
     return {
         "platform_origin_acceleration": base_rotation.T @ (platform_acceleration[:3] - gravity),
         "platform_rate_derivative": derivative,
-        "platform_field": acceleration_field(platform_rate, derivative) @ relative_rotation,
+        "platform_field": accelerated(platform_rate, derivative, relative_rotation),
     }
 
 
@@ -75,7 +75,7 @@ def steady_platform_field(base_rotation, gravity, platform_rate, relative_rotati
     return {
         "platform_origin_acceleration": -(base_rotation.T @ gravity),
         "platform_rate_derivative": zero,
-        "platform_field": acceleration_field(platform_rate, zero) @ relative_rotation,
+        "platform_field": accelerated(platform_rate, zero, relative_rotation),
     }
 
 
@@ -86,7 +86,7 @@ def trial_platform_field(platform_rate, relative_rotation):
     return {
         "platform_origin_acceleration": zero,
         "platform_rate_derivative": zero,
-        "platform_field": acceleration_field(platform_rate, zero) @ relative_rotation,
+        "platform_field": accelerated(platform_rate, zero, relative_rotation),
     }
 
 
@@ -101,7 +101,7 @@ def relative_acceleration(
     return {
         "relative_acceleration":
             platform_origin_acceleration - base_origin_acceleration - base_field @ relative_position - coriolis,
-        "rotation_acceleration": acceleration_field(relative_rate, rate_derivative) @ relative_rotation,
+        "rotation_acceleration": accelerated(relative_rate, rate_derivative, relative_rotation),
     }
 
 

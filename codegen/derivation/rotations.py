@@ -42,6 +42,12 @@ def acceleration_field(rate: ca.SX, rate_derivative: ca.SX) -> ca.SX:
     return centripetal + skew(rate_derivative)
 
 
+def accelerated(rate: ca.SX, rate_derivative: ca.SX, vectors: ca.SX) -> ca.SX:
+    """w' x y + w x (w x y) for each column y of `vectors`: `acceleration_field` times them, vector by vector."""
+    columns = (vectors[:, k] for k in range(vectors.shape[1]))
+    return ca.horzcat(*(cross(rate_derivative, y) + cross(rate, cross(rate, y)) for y in columns))
+
+
 def levers_cross(rotation: ca.SX, moments: ca.SX) -> ca.SX:
     """sum_k e_k x m_k for the columns e_k of `rotation` and m_k of `moments`.
 

@@ -92,9 +92,6 @@ LEG_INTERFACE = table("intermediate", True, [
     ("leg_inertia_force", (3,), "N", "B", "inertia less weight of the whole leg"),
     ("leg_inertia_moment", (3,), "N m", "B", "its moment about the base origin"),
     ("joint_inertia", (3, 3), "kg", "O", "mass matrix of the leg in the speeds of its joint"),
-    ("joint_inertia_rate", (3, 3), "kg/s", "O", "Coriolis matrix of the leg in the speeds of its joint"),
-    ("joint_base_inertia", (3, 6), "kg, kg m", "O", "leg inertia between joint and base speeds"),
-    ("joint_base_inertia_rate", (3, 3), "kg m/s", "O", "Coriolis matrix between joint and base angular velocity"),
     ("axial_weight", (), "N", "-", "weight of the leg along the actuator"),
     ("joint_weight_o", (3,), "N", "O", "remaining weight of the leg at the platform joint"),
     ("leg_kinetic_energy", (), "J", "-", "kinetic energy of the leg"),
@@ -109,7 +106,6 @@ DYNAMICS = table("intermediate", True, [
     ("platform_lever_o", (3,), "m", "O", "platform joint from the platform origin"),
     ("platform_lever_rate_o", (3,), "m/s", "O", "rate of the platform lever"),
     ("joint_position_o", (3,), "m", "O", "platform joint from the base origin"),
-    ("joint_velocity_o", (3,), "m/s", "O", "velocity of the platform joint less that of the base origin"),
     ("length_gradient_o", (3,), "1", "O", "gradient of the actuator length"),
     ("length_gradient_rate_o", (3,), "1/s", "O", "inertial rate of that gradient"),
 ]) + table("intermediate", False, [

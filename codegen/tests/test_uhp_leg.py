@@ -73,8 +73,9 @@ def test_rod_ends_carry_the_rods_inertia():
     """End masses and coupling give the kinetic energy of a rod with transverse inertia and no spin."""
     rng = generator(3)
     mass, inertia, length, k = 1.3, 0.02, 0.4, 0.37
-    ends = uhp.rod_ends.derive(ca.SX(mass), ca.SX(inertia), ca.SX(length), ca.SX(k))
+    ends = uhp.rod_ends.derive(ca.SX(mass), ca.SX(inertia), ca.SX(length), ca.SX(k), ca.SX(0.7))
     A1, A2, B = (float(ends[name]) for name in ("hooke_end_mass", "platform_end_mass", "rod_coupling"))
+    assert float(ends["axial_mass"]) == pytest.approx(A1 + 0.7, rel=1e-15)
     u = rotation(rng)[:, 0]
     com_velocity, angular = rng.normal(size=3), rng.normal(size=3)
     angular -= u * (u @ angular)

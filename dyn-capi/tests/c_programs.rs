@@ -1,4 +1,5 @@
-//! C programs, compiled strictly, linked statically and dynamically, run.
+//! C programs, compiled strictly, linked statically and dynamically, run. In single precision with
+//! `cargo test -p dyn-capi --features f32 --test c_programs`.
 #![cfg(unix)]
 
 mod support;

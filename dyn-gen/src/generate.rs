@@ -6,6 +6,7 @@ use crate::emit::{self, CountRow, Elimination, Header, Model, RuntimePath, Scala
 use crate::error::GenerateError;
 use crate::evidence::{self, Evidence, Sampling};
 use crate::graph::{Function, Graph, OperationCount, Program, Symbol};
+use crate::pack::{Packed, pack};
 use crate::passes::{Context, PassReport, PivotOrder, run_passes};
 use crate::sample::Kind;
 use crate::workspace::{parameters, sampled_states};
@@ -21,6 +22,9 @@ const PIVOT_SEED: u64 = 1;
 /// Largest [`PivotOrder::growth`] of an elimination that is printed: of the sixteen digits of a double four may be lost to the
 /// fixed order of the pivots. Sound platforms stay below 100.
 pub const MOST_GROWTH: f64 = 1e4;
+
+/// Functions that are also printed in lanes: those that a control loop or a simulation waits for.
+pub const IN_LANES: [&str; 4] = ["inverse_dynamics", "forward_dynamics", "matrices", "control"];
 
 /// What to generate.
 #[derive(Clone, PartialEq, Eq, Debug)]
@@ -62,6 +66,8 @@ pub struct GeneratedFunction {
     pub passes: Vec<PassReport>,
     /// The graph that is printed.
     pub graph: Graph,
+    /// The same function in lanes, if it is also printed so.
+    pub in_lanes: Option<Packed>,
 }
 
 impl GeneratedFunction {
@@ -110,8 +116,16 @@ pub fn generate(
         let value = |symbol: &Symbol| platform.parameter(&symbol.name).unwrap_or_default();
         parameters.iter().map(value).collect::<Vec<_>>()
     });
-    let print = |function: &GeneratedFunction| emit::function(&function.graph, !parameters.is_empty());
-    let sources = parallel::map(&functions, print).into_iter().collect::<Result<Vec<_>, _>>()?;
+    let in_lanes = functions.iter().filter_map(|function| function.in_lanes.as_ref());
+    let graphs: Vec<&Graph> = functions
+        .iter()
+        .map(|function| &function.graph)
+        .chain(in_lanes.map(|packed| &packed.graph))
+        .collect();
+    let print = |graph: &&Graph| emit::function(graph, !parameters.is_empty());
+    let sources = parallel::map(&graphs, print).into_iter().collect::<Result<Vec<_>, _>>()?;
+    let with_lanes = functions.iter().filter(|function| function.in_lanes.is_some());
+    let in_lanes: Vec<String> = with_lanes.map(|function| function.graph.name.clone()).collect();
     // A trait promises all outputs: a function with some of them is a free function only.
     let has_all = |function: &&GeneratedFunction| {
         let all = program.function(&function.graph.name).map(|whole| whole.outputs.len());
@@ -130,6 +144,7 @@ pub fn generate(
         defaults: defaults.as_deref(),
         signatures: &signatures,
         functions: &sources,
+        in_lanes: &in_lanes,
     };
     let source = emit::model_file(&header(file, numbers, options, &functions, evidence.as_ref())?, &model)?;
     stages.end("print");
@@ -164,11 +179,14 @@ pub fn optimise(
 ) -> Result<Vec<GeneratedFunction>, GenerateError> {
     let chosen = choose(program, names)?;
     let context = context(program, numbers)?;
+    let baked = numbers.platform().is_some() && numbers.run_time_parameters(program)?.is_empty();
     let functions = parallel::map(&chosen, |function| {
         let graph = program.flatten(function);
         let before = graph.operation_count();
         let (graph, passes) = run_passes(&graph, &context);
-        GeneratedFunction { before, passes, graph }
+        let in_lanes =
+            (baked && IN_LANES.contains(&function.name.as_str())).then(|| pack(program, function, &context));
+        GeneratedFunction { before, passes, graph, in_lanes }
     });
     functions.iter().try_for_each(GeneratedFunction::check_growth)?;
     Ok(functions)

@@ -26,6 +26,7 @@ pub mod graph;
 mod graph_file;
 mod numbers;
 pub mod output;
+pub mod pack;
 mod parallel;
 pub mod passes;
 pub mod sample;
@@ -35,7 +36,9 @@ mod workspace;
 
 pub use build_script::{Build, BuildError};
 pub use error::GenerateError;
-pub use generate::{Generated, GeneratedFunction, MOST_GROWTH, Options, generate, kernels, optimise};
+pub use generate::{
+    Generated, GeneratedFunction, IN_LANES, MOST_GROWTH, Options, generate, kernels, optimise,
+};
 pub use graph_file::{GraphFile, sha256};
 pub use numbers::Numbers;
 pub use workspace::{sampled_states, state_at};

@@ -23,7 +23,7 @@ pub struct Workspace<'a> {
     /// The platform's home pose relative to the base.
     pub home: Pose,
     /// For a platform pose relative to the base, the smallest (u.a)^2 over the legs: 1 for a rod along its actuator, 0 for one
-    /// perpendicular to it, negative out of reach.
+    /// perpendicular to it, negative out of reach. 1 - c^2 where that is less, with c the largest used share of a stroke.
     pub alignment: &'a dyn Fn(&Pose) -> f64,
     /// For a platform pose relative to the base, the condition number of J_dp, moments over the radius of the platform
     /// joints so that forces and moments compare. Anything that is not a number counts as infinite.
@@ -39,8 +39,9 @@ pub enum Kind {
     /// Up to 2 cm and 0.1 rad from home, less where legs do not reach that far; base nearly level, moderate rates.
     Random,
     /// Base turned up to 1.2 rad, platform where the least u.a is between 0.4 and 0.95 of that at home, several m/s and rad/s.
+    /// Where a stroke limits the reach, sqrt(1 - c^2) stands for u.a, with c the share of it that is used.
     Large,
-    /// As large, with a leg at u.a between 0.1 and 0.2.
+    /// As large, with a leg at u.a between 0.1 and 0.2: at the end of its stroke or its rod nearly across.
     NearEdge,
 }
 

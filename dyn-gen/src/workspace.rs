@@ -5,7 +5,7 @@ use std::cell::RefCell;
 use dyn_platform::{LegType, Platform};
 
 use crate::error::GenerateError;
-use crate::graph::{Environment, Evaluator, Graph, Program, Role, Symbol, solve_general};
+use crate::graph::{Environment, Evaluator, Function, Graph, Program, Role, Symbol, solve_general};
 use crate::passes::{Context, PASSES};
 use crate::sample::{Kind, Pose, Workspace, states};
 
@@ -13,8 +13,10 @@ use crate::sample::{Kind, Pose, Workspace, states};
 const ALIGNMENT: (&str, usize) = ("rod_alignment", 6);
 /// The function of a graph file that gives the matrix of the linear system of actuator forces, and its number of results.
 const JACOBIAN: (&str, usize) = ("jacobian_dp", 36);
+/// The output of a graph file that gives actuator lengths, and its number of results.
+const LENGTH: (&str, usize) = ("actuator_length", 6);
 
-/// `count` states of every kind in `kinds` for `platform`, the same for the same seed.
+/// `count` states of every kind in `kinds` for `platform`, the same for the same seed, within the stroke that its file gives.
 ///
 /// # Errors
 /// If the graph file lacks `rod_alignment` or `jacobian_dp`, if it and the platform differ in their parameters or it and
@@ -30,10 +32,8 @@ pub fn sampled_states(
     check_inputs(program, &state_at(&home))?;
     let legs = AtRest::new(program, ALIGNMENT, &parameters)?;
     let condition = jacobian_condition(program, platform, &parameters)?;
-    let most = |pose: &Pose| match platform.leg_type {
-        LegType::Uhp => 1.0,
-        LegType::Ups => telescopic_reach(platform, pose),
-    };
+    let stroke = Stroke::new(program, platform, &parameters)?;
+    let most = |pose: &Pose| stroke.as_ref().map_or(1.0, |stroke| stroke.reach(pose));
     let alignment = |pose: &Pose| {
         // Out of reach may also be NaN, which must not pass for aligned.
         let aligned = legs.at(pose).into_iter();
@@ -139,12 +139,38 @@ impl AtRest {
         (name, length): (&'static str, usize),
         parameters: &Environment,
     ) -> Result<AtRest, GenerateError> {
-        let refuse = |problem: String| Err(GenerateError::Sampling { name, problem });
-        let Some(function) = program.function(name) else { return refuse("is not in the graph file".into()) };
+        let Some(function) = program.function(name) else {
+            return Err(GenerateError::Sampling { name, problem: "is not in the graph file".into() });
+        };
+        AtRest::of_function(program, function, (name, length), parameters)
+    }
+
+    /// One output, of whichever function has it first.
+    fn output(
+        program: &Program,
+        (name, length): (&'static str, usize),
+        parameters: &Environment,
+    ) -> Result<AtRest, GenerateError> {
+        let has = |function: &&Function| function.outputs.iter().any(|output| output == name);
+        let Some(function) = program.functions.iter().find(has) else {
+            return Err(GenerateError::Sampling { name, problem: "is no output of the graph file".into() });
+        };
+        let mut function = function.clone();
+        function.outputs.retain(|output| output == name);
+        AtRest::of_function(program, &function, (name, length), parameters)
+    }
+
+    fn of_function(
+        program: &Program,
+        function: &Function,
+        (name, length): (&'static str, usize),
+        parameters: &Environment,
+    ) -> Result<AtRest, GenerateError> {
         let graph = program.flatten(function);
         let found: usize = graph.outputs.iter().map(|output| output.nodes.len()).sum();
         if found != length {
-            return refuse(format!("gives {found} numbers instead of {length}"));
+            let problem = format!("gives {found} numbers instead of {length}");
+            return Err(GenerateError::Sampling { name, problem });
         }
         // It is asked a hundred times for one pose on a ray: passes that keep every bit make it a third as long.
         let context = Context { parameters: parameters.clone(), states: Vec::new() };
@@ -176,26 +202,59 @@ impl AtRest {
     }
 }
 
-/// Change of length, as a fraction of the length at home, that counts as a telescopic leg's reach.
-const STROKE: f64 = 0.6;
+/// Change of length, as a fraction of the length at home, that counts as the stroke of a telescopic leg whose platform file
+/// gives none.
+const TELESCOPIC_STROKE: f64 = 0.6;
 
-/// What stands for (u.a)^2 where legs are telescopic and so aligned with their actuators wherever they are: for the leg whose
-/// length differs most from that at home, 1 at home, 0 at the end of its stroke, negative beyond.
-fn telescopic_reach(platform: &Platform, pose: &Pose) -> f64 {
-    let home = Pose { position: platform.home.position, rotation: platform.home.rotation };
-    let lengths = |pose: &Pose| -> [f64; 6] {
-        std::array::from_fn(|leg| {
-            let (p, b) = (platform.parameters.platform_point[leg], platform.parameters.base_point[leg]);
-            let span = |k: usize| {
-                let turned: f64 = (0..3).map(|j| pose.rotation[k][j] * p[j]).sum();
-                pose.position[k] + turned - b[k]
-            };
-            (0..3).map(|k| span(k) * span(k)).sum::<f64>().sqrt()
-        })
-    };
-    let changes =
-        lengths(pose).into_iter().zip(lengths(&home)).map(|(now, home)| (now / home - 1.0) / STROKE);
-    changes.map(|change| 1.0 - change * change).fold(1.0, f64::min)
+/// Where lengths limit the reach of legs.
+struct Stroke {
+    /// Actuator lengths, m.
+    lengths: AtRest,
+    at_home: Vec<f64>,
+    shortest: [f64; 6],
+    longest: [f64; 6],
+}
+
+impl Stroke {
+    /// That of the platform file or, for legs whose reach nothing else limits, [`TELESCOPIC_STROKE`]; none where no length is
+    /// limited.
+    fn new(
+        program: &Program,
+        platform: &Platform,
+        parameters: &Environment,
+    ) -> Result<Option<Stroke>, GenerateError> {
+        let otherwise = match platform.leg_type {
+            // The rod perpendicular to its actuator comes first.
+            LegType::Uhp => f64::INFINITY,
+            LegType::Ups => TELESCOPIC_STROKE,
+        };
+        let (minimum, maximum) = (platform.limits.minimum_length, platform.limits.maximum_length);
+        if otherwise.is_infinite() && minimum.iter().chain(&maximum).all(Option::is_none) {
+            return Ok(None);
+        }
+        let lengths = AtRest::output(program, LENGTH, parameters)?;
+        let at_home =
+            lengths.at(&Pose { position: platform.home.position, rotation: platform.home.rotation });
+        let end = |limit: Option<f64>, leg: usize, side: f64| {
+            limit.unwrap_or_else(|| at_home[leg] + side * otherwise * at_home[leg].abs())
+        };
+        let shortest = std::array::from_fn(|leg| end(minimum[leg], leg, -1.0));
+        let longest = std::array::from_fn(|leg| end(maximum[leg], leg, 1.0));
+        Ok(Some(Stroke { lengths, at_home, shortest, longest }))
+    }
+
+    /// What stands for (u.a)^2 where lengths limit the reach: for the leg that has used most of its stroke, 1 at home, 0 at the
+    /// end, negative beyond.
+    fn reach(&self, pose: &Pose) -> f64 {
+        let now = self.lengths.at(pose);
+        let used = |leg: usize| {
+            let (now, home) = (now[leg], self.at_home[leg]);
+            let end = if now < home { self.shortest[leg] } else { self.longest[leg] };
+            (now - home) / (end - home)
+        };
+        // Out of reach there is no length, and rod_alignment says so.
+        (0..6).map(|leg| 1.0 - used(leg) * used(leg)).fold(1.0, f64::min)
+    }
 }
 
 /// Root mean square distance of the platform joints from the platform's origin, m.

@@ -4,8 +4,8 @@ mod common;
 
 use dyn_gen::graph::{Environment, Program, solve_general};
 use dyn_gen::sample::{Kind, LARGEST_CONDITION, NoPose, Pose, Workspace, states};
-use dyn_gen::{GenerateError, sampled_states};
-use dyn_platform::Platform;
+use dyn_gen::{GenerateError, GraphFile, sampled_states};
+use dyn_platform::{Platform, Starter, starter};
 
 fn sampled(kind: Kind, count: usize, seed: u64) -> Vec<Environment> {
     sampled_states(&common::program(), &common::platform(), &[(kind, count)], seed).unwrap()
@@ -143,6 +143,47 @@ fn the_edge_is_found_from_a_home_beyond_it() {
     for state in states(&workspace, Kind::NearEdge, 10, 1).unwrap() {
         let cosine = alignment(&relative(&state)).sqrt();
         assert!((0.1 - 1e-9..0.2 + 1e-9).contains(&cosine), "{cosine}");
+    }
+}
+
+/// Lengths of the actuators at states of these kinds, of the starter platform with this stroke.
+fn lengths_with_stroke(which: Starter, stroke: &str, kind: Kind) -> (Vec<f64>, Vec<[f64; 6]>) {
+    let text = starter(which).replacen("\n[legs]", &format!("\n[legs]\n{stroke}#"), 1);
+    let platform = Platform::from_toml("stroke.toml", &text).unwrap();
+    let program = GraphFile::of(platform.leg_type).unwrap().program;
+    let function = program.function("leg_kinematics").unwrap();
+    let length = |mut state: Environment| -> [f64; 6] {
+        state.extend(common::parameters(&program, &platform));
+        program.evaluate(function, &state).unwrap()["actuator_length"].as_slice().try_into().unwrap()
+    };
+    let sampled = |kind, count| sampled_states(&program, &platform, &[(kind, count)], 5).unwrap();
+    let home = length(sampled(Kind::Home, 1).remove(0));
+    (home.to_vec(), sampled(kind, 60).into_iter().map(length).collect())
+}
+
+/// The worst leg of each state uses as much of its stroke as the kind says, and none is past it.
+#[test]
+fn states_are_within_the_stroke_of_the_platform_file() {
+    for (which, shorter, longer) in [(Starter::Paper, 0.01, 0.02), (Starter::Ups, 0.03, 0.05)] {
+        let (home, _) = lengths_with_stroke(which, "", Kind::Home);
+        let (shortest, longest) = (home[0] - shorter, home[0] + longer);
+        let stroke = format!("minimum_length_m = {shortest}\nmaximum_length_m = {longest}\n");
+        for (kind, least, most) in
+            [(Kind::Random, 0.0, 0.935), (Kind::Large, 0.3, 0.935), (Kind::NearEdge, 0.979, 0.996)]
+        {
+            let (home, lengths) = lengths_with_stroke(which, &stroke, kind);
+            let mut ends = [false; 2];
+            for lengths in lengths {
+                let used = (0..6).map(|leg| {
+                    let change = lengths[leg] - home[leg];
+                    if change < 0.0 { (-change / shorter, 0) } else { (change / longer, 1) }
+                });
+                let (worst, end) = used.max_by(|(a, _), (b, _)| a.total_cmp(b)).unwrap();
+                ends[end] = true;
+                assert!((least..most).contains(&worst), "{which:?}, {kind:?}: {worst} of the stroke");
+            }
+            assert_eq!(ends, [true; 2], "{which:?}, {kind:?}: both ends of the stroke");
+        }
     }
 }
 

@@ -2,6 +2,7 @@
 
 use nalgebra::{Rotation3, SMatrix, SVector, Vector3};
 
+use crate::float::Scalar;
 use crate::real::Real;
 
 /// What a checked call returns for an output of a generated function: the same numbers with their meaning.
@@ -36,16 +37,20 @@ impl<Leg: FromRows<Rows>, Rows> FromRows<[Rows; 6]> for [Leg; 6] {
 }
 
 /// Row-major elements of a rotation.
+#[inline]
 pub(crate) fn rotation_rows<T: Real>(rotation: &Rotation3<T>) -> [[T; 3]; 3] {
-    rotation.matrix().transpose().into()
+    let r = rotation.matrix();
+    [[r.m11, r.m12, r.m13], [r.m21, r.m22, r.m23], [r.m31, r.m32, r.m33]]
 }
 
 /// The six numbers of a twist, an acceleration or a wrench.
+#[inline]
 pub(crate) fn stacked<T: Real>(upper: &Vector3<T>, lower: &Vector3<T>) -> [T; 6] {
     [upper.x, upper.y, upper.z, lower.x, lower.y, lower.z]
 }
 
 /// The two halves of six such numbers.
+#[inline]
 pub(crate) fn halves<T: Real>(stacked: &[T; 6]) -> (Vector3<T>, Vector3<T>) {
     let [a, b, c, d, e, f] = *stacked;
     (Vector3::new(a, b, c), Vector3::new(d, e, f))
@@ -53,18 +58,31 @@ pub(crate) fn halves<T: Real>(stacked: &[T; 6]) -> (Vector3<T>, Vector3<T>) {
 
 /// Whether no element is NaN or infinite, for numbers and arrays of any depth.
 pub(crate) trait AllFinite {
-    fn all_finite(&self) -> bool;
+    type Number: Real;
+
+    /// Zero, or NaN where an element is not finite: two operations for each element and no comparison.
+    fn vanishing(&self) -> Self::Number;
+
+    #[inline]
+    fn all_finite(&self) -> bool {
+        self.vanishing() == <Self::Number as Scalar>::constant(0.0)
+    }
 }
 
 impl<T: Real> AllFinite for T {
-    fn all_finite(&self) -> bool {
-        self.is_finite()
+    type Number = T;
+
+    #[inline]
+    fn vanishing(&self) -> T {
+        *self * T::zero()
     }
 }
 
 impl<Element: AllFinite, const N: usize> AllFinite for [Element; N] {
-    fn all_finite(&self) -> bool {
-        // Without a way out in the middle: a few comparisons at once are faster than one after the other.
-        self.iter().fold(true, |all, element| all & element.all_finite())
+    type Number = Element::Number;
+
+    #[inline]
+    fn vanishing(&self) -> Element::Number {
+        self.iter().fold(<Element::Number as Scalar>::constant(0.0), |sum, element| sum + element.vanishing())
     }
 }

@@ -3,6 +3,7 @@
 use nalgebra::Matrix3;
 
 use crate::arrays::AllFinite;
+use crate::blocks::Blocks;
 use crate::error::{Error, Input, NotARotation};
 use crate::float::sqrt;
 use crate::real::Real;
@@ -106,30 +107,52 @@ impl<T: Real> Scaled<T> {
 }
 
 /// `None` for a rotation.
+#[inline]
 pub(crate) fn rotation_defect<T: Real>(matrix: &Matrix3<T>) -> Option<NotARotation> {
+    if is_rotation(matrix) { None } else { Some(described(matrix)) }
+}
+
+#[inline]
+fn is_rotation<T: Real>(matrix: &Matrix3<T>) -> bool {
+    let [x, y, z]: [[T; 3]; 3] = (*matrix).into();
+    let dot = |a: &[T; 3], b: &[T; 3]| a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+    let (xx, yy, zz) = (dot(&x, &x) - T::one(), dot(&y, &y) - T::one(), dot(&z, &z) - T::one());
+    let (xy, yz, zx) = (dot(&x, &y), dot(&y, &z), dot(&z, &x));
+    let determinant =
+        dot(&x, &[y[1] * z[2] - y[2] * z[1], y[2] * z[0] - y[0] * z[2], y[0] * z[1] - y[1] * z[0]]);
+    let most = T::MAX_ROTATION_DEVIATION;
+    // No comparison holds for what is not a number; all at once, because one branch is faster than seven.
+    (xx.abs() <= most)
+        & (yy.abs() <= most)
+        & (zz.abs() <= most)
+        & (xy.abs() <= most)
+        & (yz.abs() <= most)
+        & (zx.abs() <= most)
+        & (determinant > T::zero())
+}
+
+/// What keeps a matrix from being a rotation.
+#[cold]
+fn described<T: Real>(matrix: &Matrix3<T>) -> NotARotation {
     let columns: [[T; 3]; 3] = (*matrix).into();
     let deviation = if columns.all_finite() {
         (matrix.transpose() * matrix - Matrix3::identity()).amax()
     } else {
         T::constant(f64::NAN)
     };
-    let determinant = matrix.determinant();
-    let is_rotation = deviation <= T::MAX_ROTATION_DEVIATION && determinant > T::zero();
-    if is_rotation {
-        None
-    } else {
-        Some(NotARotation { deviation: deviation.to_f64(), determinant: determinant.to_f64() })
-    }
+    NotARotation { deviation: deviation.to_f64(), determinant: matrix.determinant().to_f64() }
 }
 
 /// Passes an input on if all its elements are finite.
+#[inline]
 pub(crate) fn finite<Array: AllFinite>(input: Input, array: Array) -> Result<Array, Error> {
     if array.all_finite() { Ok(array) } else { Err(Error::NonFinite { input }) }
 }
 
 /// Passes the rest of a call if its outputs are finite.
-pub(crate) fn finite_result(outputs: &[&dyn AllFinite]) -> Result<(), Error> {
-    if outputs.iter().all(|output| output.all_finite()) { Ok(()) } else { Err(Error::NonFiniteResult) }
+#[inline]
+pub(crate) fn finite_result(outputs_are_finite: bool) -> Result<(), Error> {
+    if outputs_are_finite { Ok(()) } else { Err(Error::NonFiniteResult) }
 }
 
 /// The model has an alignment `(u_i.a_i)^2` for every leg, unless the poses are to blame.
@@ -149,8 +172,25 @@ pub(crate) fn mechanism<T: Real>(
     }
 }
 
+/// [`mechanism`] and [`reach`].
+#[inline]
+pub(crate) fn in_reach<T: Real>(
+    rod_alignment: &[T; 6],
+    base_position: &[T; 3],
+    platform_position: &[T; 3],
+) -> Result<(), Error> {
+    let stands =
+        |alignment: &T| (*alignment >= T::MIN_ROD_ALIGNMENT) & (*alignment - *alignment == T::zero());
+    if rod_alignment.iter().fold(true, |all, alignment| all & stands(alignment)) {
+        return Ok(());
+    }
+    mechanism(rod_alignment, base_position, platform_position)?;
+    reach(rod_alignment)
+}
+
 /// Every leg reaches the platform and stands well enough to drive it; `rod_alignment[i] = (u_i.a_i)^2`.
-pub(crate) fn reach<T: Real>(rod_alignment: &[T; 6]) -> Result<(), Error> {
+#[cold]
+fn reach<T: Real>(rod_alignment: &[T; 6]) -> Result<(), Error> {
     for (leg, alignment) in rod_alignment.iter().copied().enumerate() {
         // Poses so far apart that the distance overflows give NaN.
         if alignment < T::zero() || !alignment.is_finite() {
@@ -164,13 +204,26 @@ pub(crate) fn reach<T: Real>(rod_alignment: &[T; 6]) -> Result<(), Error> {
 }
 
 /// J_dp can be inverted.
+#[inline]
 pub(crate) fn invertible<T: Real>(jacobian_dp: &[[T; 6]; 6]) -> Result<(), Error> {
-    let scaled = Scaled::of(jacobian_dp);
-    scaled.judge(solve_even_rows(&scaled.rows, &[T::zero(); 6]).1)
+    if Blocks::of(jacobian_dp).is_some() {
+        Ok(())
+    } else {
+        judged_with_care(jacobian_dp, &[T::zero(); 6]).map(drop)
+    }
 }
 
 /// The twist with `J_dp twist = rates`, or why there is none.
 pub(crate) fn twist_of_rates<T: Real>(jacobian_dp: &[[T; 6]; 6], rates: &[T; 6]) -> Result<[T; 6], Error> {
+    match Blocks::of(jacobian_dp) {
+        Some(blocks) => Ok(blocks.solve(rates)),
+        None => judged_with_care(jacobian_dp, rates),
+    }
+}
+
+/// [`twist_of_rates`] by elimination with pivots, for layouts and poses that are none for [`Blocks`].
+#[cold]
+fn judged_with_care<T: Real>(jacobian_dp: &[[T; 6]; 6], rates: &[T; 6]) -> Result<[T; 6], Error> {
     let scaled = Scaled::of(jacobian_dp);
     let mut right = *rates;
     for (rate, factor) in right.iter_mut().zip(&scaled.row_factors) {

@@ -2,6 +2,7 @@
 
 use nalgebra::Vector6;
 
+use crate::arrays::AllFinite;
 use crate::check;
 use crate::error::{Error, Input};
 use crate::real::Real;
@@ -85,7 +86,7 @@ impl<T: Real> VoiceCoils<T> {
             *current = unlimited.max(-*limit).min(*limit);
             *force = *wanted * factor;
         }
-        check::finite_result(&[&current, &force])?;
+        check::finite_result(current.all_finite() & force.all_finite())?;
         let saturation = saturated.map(|leg| Saturation { factor, leg });
         Ok(Currents { current_a: current.into(), actuator_force_n: force.into(), saturation })
     }

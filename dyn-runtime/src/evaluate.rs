@@ -15,13 +15,13 @@ macro_rules! evaluate {
     ($self:ident.model.$function:ident($($input:expr),+ $(,)?) -> $result:ident { $($field:ident),+ $(,)? }) => {{
         $(let mut $field = Default::default();)+
         $self.model.$function($(&$input,)+ $(&mut $field),+);
-        $crate::check::finite_result(&[$(&$field),+])?;
+        $crate::check::finite_result($($crate::arrays::AllFinite::all_finite(&$field))&+)?;
         Ok($result { $($field: $crate::arrays::FromRows::from_rows(&$field)),+ })
     }};
     ($self:ident.model.$function:ident($($input:expr),+ $(,)?) -> $output:ident) => {{
         let mut $output = Default::default();
         $self.model.$function($(&$input,)+ &mut $output);
-        $crate::check::finite_result(&[&$output])?;
+        $crate::check::finite_result($crate::arrays::AllFinite::all_finite(&$output))?;
         Ok($crate::arrays::FromRows::from_rows(&$output))
     }};
 }

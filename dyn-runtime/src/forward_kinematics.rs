@@ -3,14 +3,17 @@
 //!
 //! Newton's method on the poses themselves: `J_dp delta = d - d(pose)` gives a twist, and the pose moves by it
 //! (position by its linear part, orientation by the Cayley transform of its angular part, a rotation without
-//! trigonometry). Steps that leave the workspace or bring the lengths no nearer are halved. Work is bounded:
+//! trigonometry). The last step keeps the Jacobian of the one before where that is near enough. Steps that leave the
+//! workspace or bring the lengths no nearer are halved. Work is bounded:
 //! [`MAX_ITERATIONS`] steps, each halved [`MAX_HALVINGS`] times at most.
 
 use nalgebra::{Matrix3, Rotation3, Vector3, Vector6};
 
-use crate::arrays::{FromRows, halves, rotation_rows};
+use crate::arrays::{AllFinite, FromRows, halves, rotation_rows};
+use crate::blocks::Blocks;
 use crate::check;
 use crate::error::{Error, Input};
+use crate::float::sqrt;
 use crate::hexapod::{Hexapod, PoseArrays, checked_pose};
 use crate::kernels;
 use crate::real::Real;
@@ -42,6 +45,21 @@ struct Actuators<T> {
     missing: [T; 6],
     /// Largest of them, m.
     residual: T,
+}
+
+/// What the last step leaves to the next.
+struct LastStep<T> {
+    /// The Jacobian that it was made with, where it is one for blocks.
+    blocks: Option<Blocks<T>>,
+    /// Largest missing length before it, m; 0 before the first step.
+    residual: T,
+}
+
+impl<T: Real> Actuators<T> {
+    /// To be filled in.
+    fn none() -> Self {
+        Self { jacobian_dp: [[T::zero(); 6]; 6], missing: [T::zero(); 6], residual: T::zero() }
+    }
 }
 
 impl<M: kernels::RodAlignment<T>, T: Real> Hexapod<M, T> {
@@ -91,79 +109,99 @@ impl<M: kernels::RodAlignment<T>, T: Real> Hexapod<M, T> {
             position_m: to_base * (start.position_m - base.position_m),
             rotation: to_base * start.rotation,
         };
-        let mut actuators = self.actuators(&pose, &lengths)?;
+        let mut actuators = Actuators::none();
+        self.actuators(&pose, &lengths, &mut actuators)?;
+        let mut last = LastStep { blocks: None, residual: T::zero() };
         let mut iterations = 0;
         while actuators.residual > T::LENGTH_RESIDUAL_M {
             if iterations == MAX_ITERATIONS {
                 return Err(no_convergence(iterations, actuators.residual));
             }
-            (pose, actuators) = self.step(&pose, &actuators, &lengths, iterations)?;
+            self.step(&mut pose, &mut actuators, &lengths, &mut last, iterations)?;
             iterations += 1;
         }
         pose.rotation = orthonormalised(&pose.rotation);
         Ok(ForwardKinematics { pose: base.compose(&pose), iterations, residual_m: actuators.residual })
     }
 
-    /// One Newton step, halved until it is a better pose.
+    /// One Newton step, halved until it leads to a better pose, with the actuators there.
     fn step(
         &self,
-        pose: &Pose<T>,
-        actuators: &Actuators<T>,
+        pose: &mut Pose<T>,
+        actuators: &mut Actuators<T>,
         lengths: &[T; 6],
+        last: &mut LastStep<T>,
         iterations: u32,
-    ) -> Result<(Pose<T>, Actuators<T>), Error>
+    ) -> Result<(), Error>
     where
         M: kernels::ActuatorGeometry<T>,
     {
-        let (linear, angular) = halves(&check::twist_of_rates(&actuators.jacobian_dp, &actuators.missing)?);
-        let turn = angular.norm();
+        let (from, residual) = (*pose, actuators.residual);
+        // A step from r_0 to r_1 was wrong by r_1 = c r_0^2; with the same Jacobian the next is by 2 c r_0 r_1.
+        let is_last = T::constant(4.0) * residual * residual < T::LENGTH_RESIDUAL_M * last.residual;
+        if !is_last {
+            last.blocks = Blocks::of(&actuators.jacobian_dp);
+        }
+        last.residual = residual;
+        let (linear, angular) = halves(&match &last.blocks {
+            Some(blocks) => blocks.solve(&actuators.missing),
+            None => check::twist_of_rates(&actuators.jacobian_dp, &actuators.missing)?,
+        });
+        let turn_squared = angular.norm_squared();
         let most = T::constant(MAX_TURN_RAD);
-        let mut share = if turn > most { most / turn } else { T::one() };
+        let mut share = if turn_squared > most * most { most / sqrt(turn_squared) } else { T::one() };
         let mut refusal = None;
         for _ in 0..=MAX_HALVINGS {
-            let next = Pose {
-                position_m: pose.position_m + linear * share,
-                rotation: cayley(&(angular * share)) * pose.rotation,
+            *pose = Pose {
+                position_m: from.position_m + linear * share,
+                rotation: cayley(&(angular * share)) * from.rotation,
             };
-            match self.actuators(&next, lengths) {
-                Ok(better) if better.residual < actuators.residual => return Ok((next, better)),
-                Ok(_) => refusal = None,
+            match self.actuators(pose, lengths, actuators) {
+                Ok(()) if actuators.residual < residual => return Ok(()),
+                Ok(()) => refusal = None,
                 Err(reason) => refusal = Some(reason),
             }
             share *= T::constant(0.5);
         }
-        Err(refusal.unwrap_or(no_convergence(iterations, actuators.residual)))
+        Err(refusal.unwrap_or(no_convergence(iterations, residual)))
     }
 
     /// The actuators at a pose relative to the base.
-    fn actuators(&self, relative: &Pose<T>, lengths: &[T; 6]) -> Result<Actuators<T>, Error>
+    fn actuators(
+        &self,
+        relative: &Pose<T>,
+        lengths: &[T; 6],
+        actuators: &mut Actuators<T>,
+    ) -> Result<(), Error>
     where
         M: kernels::ActuatorGeometry<T>,
     {
-        let base: PoseArrays<T> =
-            PoseArrays { position: [T::zero(); 3], rotation: rotation_rows(&Rotation3::identity()) };
+        let (zero, one) = (T::zero(), T::one());
+        let base = PoseArrays {
+            position: [zero; 3],
+            rotation: [[one, zero, zero], [zero, one, zero], [zero, zero, one]],
+        };
         let position = relative.position_m.into();
-        let [mut rod_alignment, mut missing] = [[T::zero(); 6]; 2];
-        let mut jacobian_dp = [[T::zero(); 6]; 6];
+        let mut rod_alignment = [zero; 6];
         self.model.actuator_geometry(
             &base.position,
             &base.rotation,
             &position,
             &rotation_rows(&relative.rotation),
             &mut rod_alignment,
-            &mut missing,
-            &mut jacobian_dp,
+            &mut actuators.missing,
+            &mut actuators.jacobian_dp,
         );
-        check::mechanism(&rod_alignment, &base.position, &position)?;
-        check::reach(&rod_alignment)?;
-        let mut residual = T::zero();
-        for (length, wanted) in missing.iter_mut().zip(lengths) {
+        check::in_reach(&rod_alignment, &base.position, &position)?;
+        let (mut largest, mut sum) = (zero, zero);
+        for (length, wanted) in actuators.missing.iter_mut().zip(lengths) {
             *length = *wanted - *length;
-            residual = residual.max(length.abs());
+            largest = largest.max(length.abs());
+            sum += length.abs();
         }
-        // In reach J_dp is finite; were it not, no step would come of it.
-        check::finite_result(&[&missing])?;
-        Ok(Actuators { jacobian_dp, missing, residual })
+        actuators.residual = largest;
+        // `max` drops what is not a number, a sum does not. In reach J_dp is finite; were it not, no step would come of it.
+        if sum.is_finite() { Ok(()) } else { Err(Error::NonFiniteResult) }
     }
 
     /// The platform's velocity from the rates of the actuators: `v_p` of `d' = J_dp v_p - J_db v_b` (30). Of
@@ -206,7 +244,7 @@ impl<M: kernels::RodAlignment<T>, T: Real> Hexapod<M, T> {
             }
         }
         let velocity = check::twist_of_rates(&jacobian_dp, &right)?;
-        check::finite_result(&[&velocity])?;
+        check::finite_result(velocity.all_finite())?;
         Ok(Twist::from_rows(&velocity))
     }
 }

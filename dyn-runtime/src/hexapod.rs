@@ -100,7 +100,9 @@ impl<M: RodAlignment<T>, T: Real> Hexapod<M, T> {
         base: &PoseArrays<T>,
         platform: &PoseArrays<T>,
     ) -> Result<[T; 6], Error> {
-        alignment_of(&self.model, base, platform)
+        let rod_alignment = unjudged_alignment(&self.model, base, platform);
+        check::mechanism(&rod_alignment, &base.position, &platform.position)?;
+        Ok(rod_alignment)
     }
 
     /// J_dp can be inverted at these poses.
@@ -132,7 +134,11 @@ impl<M: RodAlignment<T>, T: Real> Hexapod<M, T> {
         platform: &PlatformState<T>,
     ) -> Result<(PoseArrays<T>, PoseArrays<T>), Error> {
         let (base, platform) = checked_poses(base, platform)?;
-        check::reach(&self.alignment_at(&base, &platform)?)?;
+        check::in_reach(
+            &unjudged_alignment(&self.model, &base, &platform),
+            &base.position,
+            &platform.position,
+        )?;
         Ok((base, platform))
     }
 
@@ -149,12 +155,12 @@ impl<M: RodAlignment<T>, T: Real> Hexapod<M, T> {
     }
 }
 
-/// [`Hexapod::alignment_at`] of a model.
-pub(crate) fn alignment_of<M: RodAlignment<T>, T: Real>(
+/// `(u.a)^2` of a model at these poses, whatever its value.
+pub(crate) fn unjudged_alignment<M: RodAlignment<T>, T: Real>(
     model: &M,
     base: &PoseArrays<T>,
     platform: &PoseArrays<T>,
-) -> Result<[T; 6], Error> {
+) -> [T; 6] {
     let mut rod_alignment = [T::zero(); 6];
     model.rod_alignment(
         &base.position,
@@ -163,8 +169,7 @@ pub(crate) fn alignment_of<M: RodAlignment<T>, T: Real>(
         &platform.rotation,
         &mut rod_alignment,
     );
-    check::mechanism(&rod_alignment, &base.position, &platform.position)?;
-    Ok(rod_alignment)
+    rod_alignment
 }
 
 impl<T> PoseArrays<T> {
@@ -191,10 +196,13 @@ pub(crate) fn checked_pose<T: Real>(
 ) -> Result<PoseArrays<T>, Error> {
     let arrays = PoseArrays {
         position: check::finite(position, pose.position_m.into())?,
-        rotation: check::finite(rotation, rotation_rows(&pose.rotation))?,
+        rotation: rotation_rows(&pose.rotation),
     };
     match check::rotation_defect(pose.rotation.matrix()) {
         None => Ok(arrays),
-        Some(defect) => Err(Error::NotARotation { input: rotation, defect }),
+        Some(defect) => {
+            check::finite(rotation, arrays.rotation)?;
+            Err(Error::NotARotation { input: rotation, defect })
+        }
     }
 }

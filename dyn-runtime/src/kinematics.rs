@@ -2,6 +2,7 @@
 
 use nalgebra::{Matrix3x6, Vector3, Vector6};
 
+use crate::arrays::AllFinite;
 use crate::check::{finite, finite_result};
 use crate::error::{Error, Input};
 use crate::evaluate::evaluate;
@@ -86,7 +87,7 @@ impl<M: kernels::RodAlignment<T>, T: Real> Hexapod<M, T> {
     ) -> Result<Vector6<T>, Error> {
         let (b, p) = checked_poses(base, platform)?;
         let rod_alignment = self.alignment_at(&b, &p)?;
-        finite_result(&[&rod_alignment])?;
+        finite_result(rod_alignment.all_finite())?;
         Ok(rod_alignment.into())
     }
 

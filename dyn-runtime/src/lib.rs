@@ -88,7 +88,7 @@
 //! its instructions. `rayon`: batches in several threads.
 
 #![no_std]
-// One module is excepted, with its reasons: `lanes`.
+// Lanes are made of intrinsics: two modules allow them and say why. Generated code forbids it.
 #![deny(unsafe_code)]
 
 #[cfg(feature = "std")]
@@ -98,6 +98,7 @@ pub use nalgebra;
 
 mod arrays;
 mod base_reaction;
+mod blocks;
 mod check;
 mod control;
 mod energy;
@@ -124,6 +125,7 @@ pub mod float;
 pub mod lanes;
 pub mod parameter;
 pub mod solve;
+pub mod triple;
 pub mod ups;
 
 pub use base_reaction::BaseReaction;

@@ -2,6 +2,7 @@
 
 use nalgebra::{Vector3, Vector6};
 
+use crate::arrays::AllFinite;
 use crate::check::{self, finite, finite_result};
 use crate::error::{Error, Input};
 use crate::float::{atan2, sqrt};
@@ -173,7 +174,9 @@ impl<M: kernels::RodAlignment<T>, T: Real> Hexapod<M, T> {
             &mut rates,
         );
         self.model.jacobian_dp(&b.position, &b.rotation, &p.position, &p.rotation, &mut jacobian_dp);
-        finite_result(&[&lengths, &velocities, &directions, &jacobian_dp])?;
+        finite_result(
+            [lengths, velocities].all_finite() & directions.all_finite() & jacobian_dp.all_finite(),
+        )?;
         let (to_base, to_platform) = (base.pose.rotation.transpose(), platform.pose.rotation.transpose());
         let at_base = |leg: usize| to_base * Vector3::from(directions[leg]);
         let at_platform = |leg: usize| to_platform * Vector3::from(directions[leg]);

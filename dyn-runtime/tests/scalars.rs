@@ -43,6 +43,10 @@ impl Scalar for Pair {
         Self(self.0.map(f64::sqrt))
     }
 
+    fn multiply_add(self, factor: Self, addend: Self) -> Self {
+        self * factor + addend
+    }
+
     fn solve_general<const N: usize>(matrix: &[[Self; N]; N], right_hand_side: &[Self; N]) -> [Self; N] {
         let [first, second] = [0, 1].map(|lane| {
             let matrix = matrix.map(|row| row.map(|element| element.0[lane]));

@@ -7,13 +7,15 @@ use dyn_runtime::nalgebra::Vector6;
 use dyn_runtime::{BaseMotion, Error, PlatformState};
 
 use crate::compare;
+use crate::limits;
 use crate::mechanism::{self, Mechanism};
 use crate::motion::BodyMotion;
 use crate::outcome::{Outcome, Series};
 use crate::prototype::{self, PrototypeError};
 use crate::scenario::{Integrator, Scenario, Steering};
-use crate::simulate::{self, Drive, Run, Stop};
+use crate::simulate::{self, Drive, Run};
 use crate::spectrum::Plan;
+use crate::stop::Stop;
 
 /// Relative and absolute tolerance of the adaptive reference.
 pub const ADAPTIVE_TOLERANCE: f64 = 1e-12;
@@ -100,6 +102,7 @@ pub fn run(
     let (amplitude_tables, time_errors) = steps.time("spectra and comparison", |_| {
         compared(scenario, &prepared.target, &simulations, &mut warnings)
     });
+    warnings.extend(limits::exceeded(&scenario.platform, &*mechanism, drive, &simulations[0]));
     warnings.extend(stop.as_ref().map(ToString::to_string));
     warnings.extend(prototype_error.as_ref().map(PrototypeError::remark));
     let outcome = Outcome {

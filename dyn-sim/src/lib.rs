@@ -24,6 +24,7 @@
 //! | [`excitation`], [`rotation`], [`measured`], [`motion`] | what a body does at any time |
 //! | [`mechanism`] | the generated dynamics, baked or with parameters at run time |
 //! | [`integrator`], [`adaptive`], [`simulate`] | from forces to motion |
+//! | [`stop`], [`limits`] | what ends a motion, what it exceeds |
 //! | [`prototype`] | the same by an independent multibody engine |
 //! | [`spectrum`], [`compare`] | complex amplitudes, errors |
 //! | [`experiment`], [`outcome`] | all of it in order, and what it leaves |
@@ -34,6 +35,7 @@ pub mod compare;
 pub mod excitation;
 pub mod experiment;
 pub mod integrator;
+pub mod limits;
 pub mod measured;
 pub mod mechanism;
 pub mod motion;
@@ -44,3 +46,4 @@ pub mod rotation;
 pub mod scenario;
 pub mod simulate;
 pub mod spectrum;
+pub mod stop;

@@ -2,9 +2,10 @@
 
 use dyn_platform::Platform;
 use dyn_runtime::models::{Parameters, Uhp, Uhp2016};
-use dyn_runtime::nalgebra::{Vector3, Vector6};
+use dyn_runtime::nalgebra::{Matrix6, Vector3, Vector6};
 use dyn_runtime::{
-    Acceleration, BaseMotion, Error, Hexapod, MIN_ROD_ALIGNMENT, PlatformState, Wrench, kernels,
+    Acceleration, BaseMotion, Error, Hexapod, LegKinematics, Limits, MIN_ROD_ALIGNMENT, Monitor,
+    PlatformState, Wrench, kernels,
 };
 
 use crate::rotation::rows;
@@ -50,11 +51,26 @@ pub trait Mechanism {
         acceleration: &Acceleration,
     ) -> Result<Vector6<f64>, Error>;
 
-    /// d of each leg, m.
+    /// Lengths, rates and directions of the legs; accelerations are those of a base and a platform without any.
     ///
     /// # Errors
     /// Poses that the legs do not reach; see [`Hexapod`].
-    fn actuator_length(&self, base: &BaseMotion, platform: &PlatformState) -> Result<Vector6<f64>, Error>;
+    fn leg_kinematics(&self, base: &BaseMotion, platform: &PlatformState) -> Result<LegKinematics, Error>;
+
+    /// Determinant of J_dp (m^3), zero at a singular pose; not a number out of reach.
+    fn jacobian_determinant(&self, base: &BaseMotion, platform: &PlatformState) -> f64;
+
+    /// What is left of `limits` in this state under these forces (N).
+    ///
+    /// # Errors
+    /// Poses that the legs do not reach; see [`Hexapod`].
+    fn monitor(
+        &self,
+        base: &BaseMotion,
+        platform: &PlatformState,
+        actuator_force_n: &Vector6<f64>,
+        limits: &Limits,
+    ) -> Result<Monitor, Error>;
 }
 
 /// The generated functions that a simulation uses.
@@ -191,8 +207,32 @@ impl<M: Functions> Mechanism for Model<M> {
         self.hexapod.inverse_dynamics(&base, platform, &acceleration, &Wrench::zero())
     }
 
-    fn actuator_length(&self, base: &BaseMotion, platform: &PlatformState) -> Result<Vector6<f64>, Error> {
-        Ok(self.hexapod.leg_kinematics(base, platform, &Acceleration::zero())?.actuator_length_m)
+    fn leg_kinematics(&self, base: &BaseMotion, platform: &PlatformState) -> Result<LegKinematics, Error> {
+        let still = BaseMotion { acceleration: Acceleration::zero(), ..*base };
+        self.hexapod.leg_kinematics(&still, platform, &Acceleration::zero())
+    }
+
+    fn jacobian_determinant(&self, base: &BaseMotion, platform: &PlatformState) -> f64 {
+        let mut jacobian = [[0.0; 6]; 6];
+        self.hexapod.model.jacobian_dp(
+            base.pose.position_m.as_ref(),
+            &rows(&base.pose.rotation),
+            platform.pose.position_m.as_ref(),
+            &rows(&platform.pose.rotation),
+            &mut jacobian,
+        );
+        // By columns, but a transpose has the same determinant.
+        Matrix6::from(jacobian).determinant()
+    }
+
+    fn monitor(
+        &self,
+        base: &BaseMotion,
+        platform: &PlatformState,
+        actuator_force_n: &Vector6<f64>,
+        limits: &Limits,
+    ) -> Result<Monitor, Error> {
+        self.hexapod.monitor(base, platform, actuator_force_n, limits)
     }
 }
 

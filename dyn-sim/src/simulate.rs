@@ -1,7 +1,5 @@
 //! Forces from a target (inverse dynamics), motion from forces (forward dynamics).
 
-use std::fmt;
-
 use dyn_runtime::nalgebra::Vector6;
 use dyn_runtime::{Acceleration, BaseMotion, Error, PlatformState};
 
@@ -10,6 +8,7 @@ use crate::integrator::{self, Stage};
 use crate::mechanism::Mechanism;
 use crate::motion::{BodyMotion, Motion};
 use crate::outcome::Series;
+use crate::stop::{Stop, StopReason, Stroke, Watch};
 
 /// Fixed steps over a duration.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -44,86 +43,6 @@ pub struct Drive {
     pub actuator_force_n: Vec<Vector6<f64>>,
 }
 
-/// Lengths between which each actuator has to stay, m; infinite where nothing limits it.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Stroke {
-    /// Shortest d.
-    pub shortest_m: [f64; 6],
-    /// Longest d.
-    pub longest_m: [f64; 6],
-}
-
-impl Stroke {
-    /// The first leg whose actuator length is not allowed.
-    fn left_by(&self, lengths: &Vector6<f64>) -> Option<usize> {
-        (0..6).find(|leg| !(self.shortest_m[*leg]..=self.longest_m[*leg]).contains(&lengths[*leg]))
-    }
-
-    /// What a leg may have, in words.
-    fn allowed(&self, leg: usize) -> String {
-        let (shortest, longest) = (self.shortest_m[leg], self.longest_m[leg]);
-        match (shortest.is_finite(), longest.is_finite()) {
-            (true, true) => format!("{:.3} to {:.3} mm", 1e3 * shortest, 1e3 * longest),
-            (true, false) => format!("{:.3} mm or more", 1e3 * shortest),
-            (false, _) => format!("{:.3} mm or less", 1e3 * longest),
-        }
-    }
-}
-
-/// Why a motion ended early. What was computed before it is kept.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Stop {
-    /// What was being computed: "the target motion", "the simulation".
-    pub doing: &'static str,
-    /// When, s.
-    pub time_s: f64,
-    /// Why, with the leg.
-    pub reason: StopReason,
-}
-
-/// What ended a motion.
-#[derive(Clone, Debug, PartialEq)]
-pub enum StopReason {
-    /// A pose that the mechanism cannot have, or at which it cannot be driven.
-    Dynamics(Error),
-    /// An actuator at the end of its stroke.
-    Stroke {
-        /// Index of the leg, 0 to 5.
-        leg: usize,
-        /// d, m.
-        length_m: f64,
-        /// What was allowed.
-        stroke: Stroke,
-    },
-    /// The adaptive solver gave up.
-    Solver(String),
-}
-
-impl fmt::Display for Stop {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{} stops at {:.6} s: {}", self.doing, self.time_s, self.reason)
-    }
-}
-
-impl fmt::Display for StopReason {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Dynamics(error) => error.fmt(f),
-            Self::Stroke { leg, length_m, stroke } => write!(
-                f,
-                "leg {} (index {leg}) is past its stroke: the actuator would be {:.3} mm long, and may have {}; reduce \
-                 the motion, or change the limits in the platform file or the scenario",
-                leg + 1,
-                length_m * 1e3,
-                stroke.allowed(*leg),
-            ),
-            Self::Solver(said) => write!(f, "the adaptive integrator gave up: {said}"),
-        }
-    }
-}
-
-impl std::error::Error for Stop {}
-
 /// A simulated or prescribed motion of the platform.
 #[derive(Clone, Debug)]
 pub struct Run {
@@ -132,6 +51,9 @@ pub struct Run {
     /// Why it is shorter than the grid, if it is.
     pub stop: Option<Stop>,
 }
+
+/// The fixed-step simulation looks for a singular pose behind it once in so many steps: each look takes a tenth of a step.
+const LOOK_EVERY: usize = 8;
 
 /// Progress is told once in so many steps.
 const TELL_EVERY: usize = 256;
@@ -159,13 +81,16 @@ pub fn forces_along(
     mut progress: impl FnMut(f64),
 ) -> (Drive, Option<Stop>) {
     let mut drive = Drive { grid, base: Vec::new(), actuator_force_n: Vec::new() };
+    let mut watch = Watch::new(stroke);
     for (halves, (base, target)) in base.iter().zip(target).enumerate() {
         if halves % TELL_EVERY == 0 {
             progress(halves as f64 / (2 * grid.steps + 1) as f64);
         }
         let (base, platform) = (base.as_base(), target.as_platform());
-        let force = within_stroke(mechanism, &base, &platform, stroke).and_then(|()| {
-            mechanism.inverse_dynamics(&base, &platform, &target.acceleration).map_err(StopReason::Dynamics)
+        let force = watch.stroke(mechanism, &base, &platform).and_then(|()| {
+            let force = mechanism.inverse_dynamics(&base, &platform, &target.acceleration);
+            watch.singularity(mechanism, &base, &platform)?;
+            force.map_err(StopReason::Dynamics)
         });
         match force {
             Ok(force) => {
@@ -185,20 +110,6 @@ pub fn forces_along(
     (drive, None)
 }
 
-fn within_stroke(
-    mechanism: &dyn Mechanism,
-    base: &BaseMotion,
-    platform: &PlatformState,
-    stroke: Option<Stroke>,
-) -> Result<(), StopReason> {
-    let Some(stroke) = stroke else { return Ok(()) };
-    let lengths = mechanism.actuator_length(base, platform).map_err(StopReason::Dynamics)?;
-    match stroke.left_by(&lengths) {
-        Some(leg) => Err(StopReason::Stroke { leg, length_m: lengths[leg], stroke }),
-        None => Ok(()),
-    }
-}
-
 /// Simulates the platform by the fixed-step method of [`integrator`]; `progress` hears fractions.
 pub fn simulate(
     mechanism: &dyn Mechanism,
@@ -209,13 +120,17 @@ pub fn simulate(
 ) -> Run {
     let grid = drive.grid;
     let mut run = Recorder::new(grid.steps);
+    let mut watch = Watch::new(stroke);
     let mut state = *start;
     for k in 0..=grid.steps {
         let (base, force) = (&drive.base, &drive.actuator_force_n);
-        let next = within_stroke(mechanism, &drive.base[2 * k], &state, stroke).and_then(|()| {
+        let next = watch.stroke(mechanism, &base[2 * k], &state).and_then(|()| {
             let first = mechanism
                 .forward_dynamics(&base[2 * k], &state, &force[2 * k])
                 .map_err(StopReason::Dynamics)?;
+            if k % LOOK_EVERY == 0 {
+                watch.singularity(mechanism, &base[2 * k], &state)?;
+            }
             run.push(grid.time(k), &state, &first);
             if k == grid.steps {
                 return Ok(state);
@@ -258,11 +173,13 @@ pub fn simulate_adaptively(
     };
     let (states, failure) =
         adaptive::integrate(start, grid.step_s, grid.steps, tolerance, acceleration, progress);
+    let mut watch = Watch::new(stroke);
     for (k, state) in states.iter().enumerate() {
         let t = grid.time(k);
         let recorded = drive_at(t).map_err(StopReason::Dynamics).and_then(|(base, force)| {
-            within_stroke(mechanism, &base, state, stroke)?;
-            mechanism.forward_dynamics(&base, state, &force).map_err(StopReason::Dynamics)
+            watch.stroke(mechanism, &base, state)?;
+            let found = mechanism.forward_dynamics(&base, state, &force).map_err(StopReason::Dynamics)?;
+            watch.singularity(mechanism, &base, state).map(|()| found)
         });
         match recorded {
             Ok(acceleration) => run.push(t, state, &acceleration),
@@ -288,7 +205,11 @@ pub fn lengths(
     base: &[BaseMotion],
     platform: &[PlatformState],
 ) -> Result<Vec<[f64; 6]>, Error> {
-    base.iter().step_by(2).zip(platform).map(|(b, p)| Ok(mechanism.actuator_length(b, p)?.into())).collect()
+    base.iter()
+        .step_by(2)
+        .zip(platform)
+        .map(|(b, p)| Ok(mechanism.leg_kinematics(b, p)?.actuator_length_m.into()))
+        .collect()
 }
 
 /// Collects samples.

@@ -6,7 +6,7 @@ mod common;
 use dyn_platform::Platform;
 use dyn_runtime::models::Uhp;
 use dyn_runtime::nalgebra::{Vector3, Vector6};
-use dyn_runtime::{Acceleration, BaseMotion, Error, Hexapod, PlatformState};
+use dyn_runtime::{Acceleration, BaseMotion, Error, Hexapod, LegKinematics, Limits, Monitor, PlatformState};
 use dyn_sim::compare::time_errors;
 use dyn_sim::mechanism::{self, Mechanism, Model};
 use dyn_sim::scenario::Scenario;
@@ -71,8 +71,22 @@ impl Mechanism for Wrong {
         Ok(force + jacobian.transpose().lu().solve(&error).expect("a regular pose"))
     }
 
-    fn actuator_length(&self, base: &BaseMotion, platform: &PlatformState) -> Result<Vector6<f64>, Error> {
-        self.right.actuator_length(base, platform)
+    fn leg_kinematics(&self, base: &BaseMotion, platform: &PlatformState) -> Result<LegKinematics, Error> {
+        self.right.leg_kinematics(base, platform)
+    }
+
+    fn jacobian_determinant(&self, base: &BaseMotion, platform: &PlatformState) -> f64 {
+        self.right.jacobian_determinant(base, platform)
+    }
+
+    fn monitor(
+        &self,
+        base: &BaseMotion,
+        platform: &PlatformState,
+        actuator_force_n: &Vector6<f64>,
+        limits: &Limits,
+    ) -> Result<Monitor, Error> {
+        self.right.monitor(base, platform, actuator_force_n, limits)
     }
 }
 

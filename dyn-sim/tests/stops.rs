@@ -5,7 +5,7 @@ use std::process::Command;
 
 use dyn_sim::experiment::{self, Experiment, Silent};
 use dyn_sim::scenario::Scenario;
-use dyn_sim::simulate::StopReason;
+use dyn_sim::stop::StopReason;
 
 fn run(tables: &str) -> Experiment {
     let text = format!(
@@ -84,6 +84,77 @@ fn a_target_past_the_stroke_of_the_platform_file() {
     assert!(stop.contains("may have 190.000 to 210.000 mm;"), "{stop}");
     let stop = run("[limits]\nactuator_length_m = [0.195, 0.21]\n");
     assert!(stop.contains("may have 195.000 to 210.000 mm;"), "{stop}");
+}
+
+/// About y the legs of the default platform come into a singular pose at 1.09 rad, well within reach. No sample falls on
+/// it, and the force that the target would need there is finite at every sample.
+#[test]
+fn a_target_through_a_singular_pose() {
+    let experiment = run(
+        "[target]\nrelative_to = \"base\"\n[[target.harmonic]]\nfrequency_hz = 1.0\nrotation_rad = [0.0, 1.13, 0.0]\n",
+    );
+    keeps_what_came_before(&experiment);
+    let stop = experiment.stop.expect("a stop");
+    assert_eq!(stop.reason, StopReason::Singular, "{stop}");
+    let said = stop.to_string();
+    assert!(said.starts_with("the target motion stops at 0.2"), "{said}");
+    assert!(said.contains(" s: all legs together: just before they passed a singular pose"), "{said}");
+}
+
+#[test]
+fn a_free_platform_that_turns_into_a_singular_pose() {
+    for integrator in ["lie_rk4", "adaptive"] {
+        let experiment = run(&format!(
+            "integrator = \"{integrator}\"\n[free]\nrotation_rad = [0.0, 1.0, 0.0]\n\
+             angular_velocity_rad_per_s = [0.0, 20.0, 0.0]\n"
+        ));
+        let stop = experiment.stop.as_ref().expect("a stop");
+        assert_eq!(stop.reason, StopReason::Singular, "{integrator}: {stop}");
+        assert!(stop.to_string().starts_with("the simulation stops at 0.0"), "{integrator}: {stop}");
+        keeps_what_came_before(&experiment);
+    }
+}
+
+/// Limits of force, rate and joint angles end nothing: a warning says which leg exceeds them, when and by how much.
+#[test]
+fn limits_of_the_platform_file_that_only_warn() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let platform = Path::new(env!("CARGO_MANIFEST_DIR")).join("../platforms/uhp_2016.toml");
+    let text = std::fs::read_to_string(platform).expect("the default platform");
+    let warnings = |limits: &str, target: &str| {
+        let limited = text.replace("\n[legs]", &format!("\n[legs]\n{limits}"));
+        assert_ne!(text, limited);
+        std::fs::write(folder.path().join("limited.toml"), limited).expect("a file");
+        let scenario = format!(
+            "version = 1\nname = \"limits\"\nplatform = \"limited.toml\"\ngravity = true\nduration_s = 1.0\n\
+             step_s = 1e-3\n[target]\n[[target.harmonic]]\nfrequency_hz = 1.0\n{target}\n"
+        );
+        let scenario = Scenario::from_toml("stop.toml", &scenario, folder.path()).expect("a valid scenario");
+        let experiment = experiment::run(&scenario, None, "test", &mut Silent);
+        assert_eq!(experiment.stop, None);
+        experiment.outcome.warnings
+    };
+    // Straight up and down every leg moves at up to 2 pi 20 mm/s, keeps its rod's direction, and needs on top 30.493 N of
+    // home, 21 555.9 N/m 20 mm, less 15.902 kg (2 pi)^2 20 mm/s^2 / 6.
+    let lift = "linear_m = [0.0, 0.0, 0.02]";
+    let angles = "maximum_hooke_joint_angle_rad = 1e-6\nmaximum_platform_joint_angle_rad = 1e-6\n";
+    let said =
+        warnings(&format!("maximum_force_n = 460.0\nmaximum_velocity_m_per_s = 0.126\n{angles}"), lift);
+    assert_eq!(said, Vec::<String>::new());
+    let said =
+        warnings(&format!("maximum_force_n = 459.0\nmaximum_velocity_m_per_s = 0.125\n{angles}"), lift);
+    assert_eq!(said.len(), 2, "{said:?}");
+    let force = " needs 459.5184 N at 0.250000 s, beyond its limit of 459 N (`maximum_force_n`); a limit of this kind is \
+                 exceeded from 0.243000 s on";
+    assert!(said[0].starts_with("leg ") && said[0].ends_with(force), "{said:?}");
+    assert!(
+        said[1].contains(" moves at 0.1257 m/s at ") && said[1].contains("from 0.000000 s on"),
+        "{said:?}"
+    );
+    let said = warnings(angles, "rotation_rad = [0.0, 0.0, 0.01]");
+    assert_eq!(said.len(), 2, "{said:?}");
+    assert!(said[0].contains(" turns its Hooke joint by 0.0") && said[0].contains(" rad at "), "{said:?}");
+    assert!(said[1].contains(" turns its joint on the platform by 0.0"), "{said:?}");
 }
 
 #[test]

@@ -79,7 +79,9 @@ fn filled<T: Flat>() -> T {
     T::START
 }
 
-fn array<T: Flat>(values: &[f64]) -> T {
+/// An array of any shape from its elements, row-major.
+#[allow(private_bounds)]
+pub fn array<T: Flat>(values: &[f64]) -> T {
     let mut result = T::START;
     result.fill(&mut values.iter().copied());
     result

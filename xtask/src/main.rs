@@ -1,6 +1,7 @@
 //! The workspace's own commands: orchestration only, each step is a command one can also type.
 
 mod bare;
+mod bench;
 mod contract;
 mod runner;
 mod steps;
@@ -44,21 +45,20 @@ enum Task {
         #[arg(long)]
         bare: bool,
     },
-    /// Measure: criterion benchmarks of generated code beside the hand-written reference
+    /// Measure: generated code beside the hand-written reference, CasADi's own C and Pinocchio
     ///
-    /// Close other programs first, and compare figures of one and the same run only. Prints the table of ratios; criterion's
-    /// report lies in `target/criterion/report/index.html`.
-    Bench {
-        /// Measure only what contains this text
-        filter: Option<String>,
-    },
+    /// Prepares the peers under `target/bench/` (gcc, clang, Python with the network the first time; what is missing is said and
+    /// left out), compiles everything for this very processor, checks that all agree, measures, and prints the table of
+    /// ratios, which it writes as JSON and as a plot too. Close other programs first.
+    Bench(bench::Options),
     /// Recompute the test vectors of the multibody engines and compare with the committed ones (long)
     ///
     /// Pinocchio and MuJoCo are installed from `tests/engines/requirements.lock` into an environment of their own.
     Vectors(vectors::Options),
-    /// Show that no call of the runtime crate can panic, and the code and stack that each takes
+    /// Show that no call of the runtime crate can panic, the code and stack that each takes, and that debug and release agree
     ///
-    /// Needs binutils (nm, ar, objdump). The frame is that of the function alone: the deepest call adds those it calls.
+    /// Needs binutils (ar, objdump) and an x86-64. Stack and instructions are those of the worst way through a call and all that it calls, whatever
+    /// the numbers: loops over legs six times, steps of forward kinematics as often as they are allowed.
     Contract,
     /// Build the C library without operating system, for this machine, a Cortex-M and WebAssembly, and look into it
     ///
@@ -86,7 +86,7 @@ fn main() -> ExitCode {
     let result = match CommandLine::parse().command {
         Task::Run(selection) => perform("run", RUN, &selection),
         Task::Test { selection, bare } => fetched(bare).and_then(|()| perform("test", TEST, &selection)),
-        Task::Bench { filter } => runner::bench(filter.as_deref()),
+        Task::Bench(options) => bench::bench(&options),
         Task::Vectors(options) => vectors::compare_or_write(&options),
         Task::Contract => contract::check(),
         Task::Bare(options) => bare::bare(&options),

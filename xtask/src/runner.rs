@@ -7,6 +7,7 @@ use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
 use crate::bare;
+use crate::contract;
 use crate::steps::{Action, Step};
 use crate::workspace;
 
@@ -78,22 +79,6 @@ pub fn list(steps: &[Step]) {
     }
 }
 
-/// Runs the benchmarks, all or those that contain `filter`, and prints their ratios.
-pub fn bench(filter: Option<&str>) -> Result<(), Failure> {
-    println!("One run's figures compare with each other, not with another run's.\n");
-    let _ = io::stdout().flush();
-    let mut measure = workspace::cargo();
-    measure.args(["bench", "--package", "dyn-benches"]);
-    if let Some(filter) = filter {
-        measure.args(["--", filter]);
-    }
-    succeed(&mut measure)?;
-    succeed(workspace::cargo().args(["run", "--release", "--package", "dyn-benches", "--bin", "ratios"]))?;
-    let report = dyn_python::target_directory(&workspace::root()).join("criterion/report/index.html");
-    println!("\nreport: {}", report.display());
-    Ok(())
-}
-
 fn perform(action: &Action) -> Result<String, Failure> {
     let mut cargo = workspace::cargo();
     match *action {
@@ -117,6 +102,7 @@ fn perform(action: &Action) -> Result<String, Failure> {
             }
         }
         Action::Bare => bare::if_ready(),
+        Action::Contract => contract::if_possible(),
         Action::Python { program, arguments } => {
             let environment = workspace::environment(program.environment, program.lock_file)?;
             let mut python = environment.command();
@@ -215,6 +201,7 @@ pub fn command_line(action: &Action) -> String {
             format!("RUSTDOCFLAGS='--deny warnings' cargo {}", arguments.join(" "))
         }
         Action::Bare => "cargo xtask bare".into(),
+        Action::Contract => "cargo xtask contract".into(),
         Action::Python { program, arguments } => {
             let (folder, environment) = (program.folder, program.environment);
             format!("(in {folder}/, Python of target/python/{environment}-*) python {}", arguments.join(" "))

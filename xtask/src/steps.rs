@@ -32,6 +32,8 @@ pub enum Action {
     NoStd(&'static [&'static str]),
     /// What `cargo xtask bare` does, where its toolchain is there already.
     Bare,
+    /// What `cargo xtask contract` does, where binutils are.
+    Contract,
     /// `python ARGUMENTS` in a folder, in a Python environment of its own.
     Python {
         /// Where and with which packages.
@@ -153,6 +155,24 @@ pub const TEST: &[Step] = &[
         name: "bare",
         why: "the C library for machines without operating system: no panic, no recursion, WebAssembly as native",
         action: Action::Bare,
+    },
+    Step {
+        name: "contract",
+        why: "no call of the runtime crate can panic; the same bits in debug and release (needs binutils, else says so)",
+        action: Action::Contract,
+    },
+    Step {
+        name: "single-precision",
+        why: "the C programs with the library in single precision",
+        action: Action::CargoTests(&[
+            "test",
+            "--package",
+            "dyn-capi",
+            "--features",
+            "f32",
+            "--test",
+            "c_programs",
+        ]),
     },
     Step {
         name: "documentation",

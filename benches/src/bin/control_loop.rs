@@ -7,7 +7,7 @@ use std::process::ExitCode;
 use std::time::Duration;
 
 use clap::Parser;
-use dyn_benches::control_loop::{Run, Summary, run};
+use dyn_benches::control_loop::{Run, Summary, Waiting, run};
 use dyn_benches::loop_plot::{self, Curve};
 use dyn_benches::machine::Machine;
 use dyn_benches::states::{COUNT, States, platform, reference_parameters, sampled};
@@ -20,7 +20,8 @@ const MAX_RATIO: f64 = 3.0;
 /// Times of everything that a controller asks of the model, in a loop at 10 kHz
 ///
 /// In every cycle one state goes in, and lengths, rates, J_dp, M_p, bias and forces come out: by generated code with all
-/// checks, and by the reference. Each takes its turn, several times. Close other programs first.
+/// checks, and by the reference. Each takes its turn, several times. Close other programs first. While it waits for the next
+/// cycle the loop repeats the call of the last one, which is not measured.
 #[derive(Parser)]
 struct Arguments {
     /// Runs of each implementation; medians over them are reported
@@ -35,6 +36,9 @@ struct Arguments {
     /// Write a plot, SVG
     #[arg(long, value_name = "FILE")]
     plot: Option<PathBuf>,
+    /// Wait without repeating the last call: what a loop gets that leaves the processor to others between its cycles
+    #[arg(long)]
+    idle: bool,
     /// Fail if the time that 999 of 1000 cycles keep is more than 3 times the median
     #[arg(long)]
     check: bool,
@@ -65,6 +69,7 @@ fn measure(arguments: &Arguments) -> Result<ExitCode, Box<dyn Error>> {
     let typed = bundle::typed_states(&states);
     let parameters = reference_parameters(&platform);
     let duration = Duration::try_from_secs_f64(arguments.seconds)?;
+    let waiting = if arguments.idle { Waiting::Idle } else { Waiting::Rehearsing };
     let before = Machine::now();
 
     let mut generated: Vec<Run> = Vec::new();
@@ -72,7 +77,7 @@ fn measure(arguments: &Arguments) -> Result<ExitCode, Box<dyn Error>> {
     for number in 1..=arguments.runs {
         eprintln!("run {number} of {}", arguments.runs);
         let mut refused = false;
-        generated.push(run(duration, |cycle| {
+        generated.push(run(duration, waiting, |cycle| {
             let result = bundle::generated(&typed[cycle % COUNT]);
             refused |= result.is_err();
             let _ = black_box(result);
@@ -80,7 +85,7 @@ fn measure(arguments: &Arguments) -> Result<ExitCode, Box<dyn Error>> {
         if refused {
             return Err("a checked call refused a state that was sampled to be good".into());
         }
-        reference.push(run(duration, |cycle| {
+        reference.push(run(duration, waiting, |cycle| {
             black_box(bundle::reference(&parameters, &states.reference[cycle % COUNT]));
         })?);
     }

@@ -23,7 +23,7 @@ struct Arguments {
     #[arg(long)]
     json: bool,
     /// What runs under callgrind, with the states on standard input
-    #[arg(long, hide = true, num_args = 2, value_names = ["FUNCTION", "IMPLEMENTATION"])]
+    #[arg(long, hide = true, num_args = 3, value_names = ["FUNCTION", "IMPLEMENTATION", "VARIANT"])]
     workload: Option<Vec<String>>,
     /// How often the workload goes through the states
     #[arg(long, hide = true, default_value_t = 1)]
@@ -33,8 +33,8 @@ struct Arguments {
 fn main() -> ExitCode {
     let arguments = Arguments::parse();
     let result = match arguments.workload.as_deref() {
-        Some([function, implementation]) => {
-            run(&Workload { function, implementation, passes: arguments.passes })
+        Some([function, implementation, variant]) => {
+            run(&Workload { function, implementation, variant, passes: arguments.passes })
         }
         _ => count(&arguments),
     };
@@ -92,9 +92,9 @@ fn check() -> Result<(), CountError> {
 
 fn counted() -> Result<Budget, CountError> {
     let instructions_per_call = count_all(
-        |Workload { function, implementation, passes }| {
+        |Workload { function, implementation, variant, passes }| {
             let passes = passes.to_string();
-            ["--workload", function, implementation, "--passes", &passes].map(str::to_owned).into()
+            ["--workload", function, implementation, variant, "--passes", &passes].map(str::to_owned).into()
         },
         |function, implementation| eprintln!("counting {function} by {implementation}"),
     )?;
@@ -119,16 +119,11 @@ fn as_table(counts: &Counts) -> String {
     let rows: Vec<Vec<String>> = FUNCTIONS
         .iter()
         .map(|&function| {
-            let count = |implementation: &str| counts[function][implementation];
-            let [baked, runtime, reference] = IMPLEMENTATIONS.map(count);
-            let ratio = reference as f64 / baked as f64;
-            vec![
-                function.to_owned(),
-                baked.to_string(),
-                runtime.to_string(),
-                reference.to_string(),
-                format!("{ratio:.2}"),
-            ]
+            let count = |implementation: &str| counts.get(function)?.get(implementation).copied();
+            let cell = |implementation| count(implementation).map_or("absent".into(), |n| n.to_string());
+            let ratio = count("reference").zip(count("generated"));
+            let ratio = ratio.map_or("absent".into(), |(by, of)| format!("{:.2}", by as f64 / of as f64));
+            [function.to_owned()].into_iter().chain(IMPLEMENTATIONS.map(cell)).chain([ratio]).collect()
         })
         .collect();
     table::text(&heading, &rows, 1)

@@ -1,32 +1,29 @@
-//! Prints the ratios of times that criterion measured.
+//! Prints the times and ratios that a benchmark left behind, and writes them as JSON and as a plot.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use clap::Parser;
-use dyn_benches::ratios::{results_folder, summarise};
+use dyn_benches::ratio_plot;
+use dyn_benches::ratios::summarise;
+use dyn_benches::results::results_folder;
 
-/// Ratios between reference and generated code, from the last `cargo bench --package dyn-benches`
+/// Times and ratios of the last `cargo xtask bench`
 #[derive(Parser)]
 struct Arguments {
-    /// Print JSON instead of a table
+    /// Print JSON instead of tables
     #[arg(long)]
     json: bool,
     /// Criterion's folder, if it is not in cargo's target folder
     #[arg(long, value_name = "FOLDER")]
     results: Option<PathBuf>,
+    /// Write `ratios.json` and `ratios.svg` into this folder too
+    #[arg(long, value_name = "FOLDER")]
+    write: Option<PathBuf>,
 }
 
 fn main() -> ExitCode {
-    let arguments = Arguments::parse();
-    let result = summarise(&arguments.results.unwrap_or_else(results_folder)).and_then(|summary| {
-        if arguments.json {
-            serde_json::to_string_pretty(&summary).map(|text| text + "\n").map_err(|error| error.to_string())
-        } else {
-            Ok(summary.text())
-        }
-    });
-    match result {
+    match run(&Arguments::parse()) {
         Ok(text) => {
             print!("{text}");
             ExitCode::SUCCESS
@@ -36,4 +33,23 @@ fn main() -> ExitCode {
             ExitCode::FAILURE
         }
     }
+}
+
+fn run(arguments: &Arguments) -> Result<String, String> {
+    let summary = summarise(&arguments.results.clone().unwrap_or_else(results_folder))?;
+    let json = serde_json::to_string_pretty(&summary).map_err(|error| error.to_string())? + "\n";
+    let mut text = if arguments.json { json.clone() } else { summary.text() };
+    if let Some(folder) = &arguments.write {
+        let [data, plot] = ["ratios.json", "ratios.svg"].map(|name| folder.join(name));
+        std::fs::write(&data, json).map_err(|error| refusal(&data, &error))?;
+        ratio_plot::write(&plot, &summary).map_err(|error| refusal(&plot, &*error))?;
+        if !arguments.json {
+            text += &format!("\nwritten: {}\nwritten: {}\n", data.display(), plot.display());
+        }
+    }
+    Ok(text)
+}
+
+fn refusal(path: &Path, reason: &dyn std::error::Error) -> String {
+    format!("{}: {reason}", path.display())
 }

@@ -7,10 +7,10 @@ u = (n + h a)/s. Everything here is in base coordinates unless a name ends in `_
 
 import casadi as ca
 
-from .. import kane
+from .. import fixed_axes, kane, matrices
 from ..rotations import cross, dot
 from ..stages import leg_stage
-from ..symbols import WRENCH, table
+from ..symbols import CORIOLIS_6, INERTIA_6, WRENCH, table
 
 
 PARAMETERS = table("parameter", True, [
@@ -36,10 +36,24 @@ INTERMEDIATES = table("intermediate", True, [
     ("axial_span_rate", (), "m/s", "-", "rate of the rod's extent along the actuator axis"),
     ("hooke_end_mass", (), "kg", "-", "rod's end mass at the Hooke joint"),
     ("rod_coupling", (), "kg", "-", "rod's inertial coupling between its ends"),
+    ("axial_mass", (), "kg", "-", "mass that slides along the actuator axis: mover and rod's end"),
+    ("jacobian_dp_rate", (6,), "1/s, m/s", "O", "inertial rate of the row of the actuator Jacobian"),
+    ("sliding_moment_rate", (3,), "kg m/s", "B", "rate of the sliding masses' first moment, its moment about the axis"),
+    ("coupled_axis_o", (3,), "kg", "O", "rod's coupling times axis, a force at the platform joint"),
+    ("coupled_axis_moment", (3,), "kg m", "O", "moment of that force"),
+    ("turning_axis_moment", (3,), "kg m/s", "O", "moment of that force's rate"),
+    ("moving_axis_moment", (3,), "kg m/s", "O", "moment of that force by the rate of the lever"),
+    ("axial_moment", (3,), "kg m", "O", "moment of the force along the axis that an acceleration of the actuator takes"),
     ("inertia_weights", (2,), "kg", "-", "weights of the squares that make the leg's mass matrix"),
     ("inertia_rows", (2, 6), "1, m", "B", "the vectors that are squared, in the platform speeds"),
     ("hooke_joint_velocity", (3,), "m/s", "O", "velocity of the Hooke joint"),
     ("platform_joint_velocity", (3,), "m/s", "O", "velocity of the platform joint"),
+]) + table("intermediate", False, [
+    ("legs_axial_inertia", (6, 6), INERTIA_6, "O", "part of the legs' mass matrix on the side of the axes"),
+    ("legs_axial_coriolis", (6, 6), CORIOLIS_6, "O", "part of the legs' Coriolis matrix on the side of the axes"),
+    ("coupled_force", (3, 6), "kg, kg m", "O", "forces of the rods' couplings along the axes, by the platform speeds"),
+    ("coupling_moment", (3,), "kg m", "O", "first moment of the rods' couplings by the Hooke joint"),
+    ("coupling_second_moment", (3, 3), "kg m^2", "O", "their moment by platform joint and Hooke joint"),
 ])
 
 OUTPUTS = table("output", True, [
@@ -77,14 +91,15 @@ def _leg(hooke_end_mass, rod_coupling, mover_mass) -> kane.Leg:
 
 
 @leg_stage
-def rod_ends(rod_mass, rod_inertia, rod_length, rod_com_fraction):
-    """rod without spin as two end masses and a coupling, exact."""
+def rod_ends(rod_mass, rod_inertia, rod_length, rod_com_fraction, mover_mass):
+    """rod without spin as two end masses and a coupling, exact; the mass that slides."""
     k = rod_com_fraction
     transverse = rod_inertia / (rod_length * rod_length)
     return {
         "hooke_end_mass": rod_mass * (1 - k) * (1 - k) + transverse,
         "platform_end_mass": rod_mass * k * k + transverse,
         "rod_coupling": rod_mass * k * (1 - k) - transverse,
+        "axial_mass": rod_mass * (1 - k) * (1 - k) + transverse + mover_mass,
     }
 
 
@@ -228,37 +243,10 @@ def leg_inertia_squares(
 
 
 @leg_stage
-def leg_inertia(
-    base_rotation, base_point, actuator_axis, mover_mass, mover_offset, hooke_end_mass, rod_coupling,
-    actuator_length, length_gradient_o, joint_position_o,
-):
-    """mass matrices of the leg in the speeds of its joint and of the base."""
+def leg_inertia(base_rotation, actuator_axis, mover_mass, hooke_end_mass, rod_coupling, length_gradient_o):
+    """mass matrix of the leg in the speeds of its joint."""
     leg = _leg(hooke_end_mass, rod_coupling, mover_mass)
-    axis = base_rotation @ actuator_axis
-    hooke = base_rotation @ base_point + actuator_length * axis
-    positions = {"hooke": hooke, "joint": joint_position_o, "mover": hooke - mover_offset * axis}
-    return {
-        "joint_inertia": kane.joint_inertia(leg, axis, length_gradient_o),
-        "joint_base_inertia": kane.joint_base_inertia(leg, axis, length_gradient_o, positions),
-    }
-
-
-@leg_stage
-def leg_inertia_rates(
-    base_rotation, base_velocity, base_point, actuator_axis, mover_mass, mover_offset, hooke_end_mass, rod_coupling,
-    actuator_length, actuator_velocity, length_gradient_o, length_gradient_rate_o, joint_velocity_o,
-):
-    """Coriolis matrices of the leg in the speeds of its joint and of the base."""
-    leg = _leg(hooke_end_mass, rod_coupling, mover_mass)
-    axis = base_rotation @ actuator_axis
-    axis_rate = cross(base_velocity[3:], axis)
-    hooke = cross(base_velocity[3:], base_rotation @ base_point) + actuator_length * axis_rate + actuator_velocity * axis
-    velocities = {"hooke": hooke, "joint": joint_velocity_o, "mover": hooke - mover_offset * axis_rate}
-    return {
-        "joint_inertia_rate":
-            kane.joint_inertia_rate(leg, axis, axis_rate, length_gradient_o, length_gradient_rate_o),
-        "joint_base_inertia_rate": kane.joint_base_inertia_rate(leg, axis, length_gradient_o, velocities),
-    }
+    return {"joint_inertia": kane.joint_inertia(leg, base_rotation @ actuator_axis, length_gradient_o)}
 
 
 @leg_stage
@@ -428,6 +416,14 @@ def rod_and_mover_forces(
 
 # What the table of functions asks of a leg type beyond its share of the dynamics: its own bodies and joints.
 leg_masses = rod_ends
+# The mass matrix alone takes fewer operations from the joints' 3 x 3 matrices, all matrices together from 6-vectors.
+MASS_MATRIX = (leg_inertia, matrices.legs_mass_matrix)
+LEGS_INERTIA = (fixed_axes.coupled_axis, fixed_axes.legs_inertia)
+MASS_MATRIX_B = (fixed_axes.coupling_moments, fixed_axes.mass_matrix_b)
+CORIOLIS_MATRICES = (
+    fixed_axes.jacobian_rate, fixed_axes.coupled_axis_rates, fixed_axes.legs_coriolis_matrix, fixed_axes.coupling_moments,
+    fixed_axes.sliding_moment_rate, fixed_axes.coriolis_matrix_b,
+)
 # Whether `leg_inertia_squares` leaves a mass at the joint: all that moves with the joint alone is in `platform_end_mass`.
 JOINT_MASS = False
 JOINT_KINEMATICS = (rod_direction, rod_and_joint_kinematics)

@@ -9,7 +9,7 @@ in `_o`; rates of the direction are inertial.
 
 import casadi as ca
 
-from .. import kane
+from .. import kane, matrices
 from ..rotations import cross, dot
 from ..stages import leg_stage
 from ..symbols import WRENCH, table
@@ -36,6 +36,10 @@ INTERMEDIATES = table("intermediate", True, [
     ("joint_mass", (), "kg", "-", "leg inertia alike in all directions at the platform joint"),
     ("inertia_weights", (1,), "kg", "-", "weight of the square in the leg's mass matrix"),
     ("inertia_rows", (1, 6), "1, m", "B", "the vector that is squared, in the platform speeds"),
+    ("joint_inertia_rate", (3, 3), "kg/s", "O", "Coriolis matrix of the leg in the speeds of its joint"),
+    ("joint_base_inertia", (3, 6), "kg, kg m", "O", "leg inertia between joint and base speeds"),
+    ("joint_base_inertia_rate", (3, 3), "kg m/s", "O", "Coriolis matrix between joint and base angular velocity"),
+    ("joint_velocity_o", (3,), "m/s", "O", "velocity of the platform joint less that of the base origin"),
     ("base_joint_velocity", (3,), "m/s", "O", "velocity of the base joint"),
     ("platform_joint_velocity", (3,), "m/s", "O", "velocity of the platform joint"),
     ("direction_rate_o", (3,), "1/s", "O", "inertial rate of the leg's direction"),
@@ -416,6 +420,11 @@ def part_forces(
 
 
 # What the table of functions asks of a leg type beyond its share of the dynamics: its own bodies and joints.
+MASS_MATRIX = LEGS_INERTIA = (leg_inertia, matrices.legs_mass_matrix)
+MASS_MATRIX_B = (matrices.mass_matrix_b,)
+CORIOLIS_MATRICES = (
+    matrices.joint_motion_in_o, leg_inertia_rates, matrices.legs_coriolis_matrix, matrices.coriolis_matrix_b,
+)
 # Whether `leg_inertia_squares` leaves a mass at the joint.
 JOINT_MASS = True
 JOINT_KINEMATICS = (rod_direction, leg_and_joint_kinematics)

@@ -41,6 +41,28 @@ static int near(const dyn_real *found, const dyn_real *expected, int count)
     return good;
 }
 
+/* How many of some random lengths are refused because the steps lead nowhere, rather than out of reach. */
+static int leads_nowhere(const dyn_real length[6], const dyn_inputs *start)
+{
+    dyn_forward_kinematics_result found = { .struct_size = sizeof found };
+    dyn_info info = { .struct_size = sizeof info };
+    dyn_real apart[6];
+    unsigned long random = 1;
+    int leg, attempt, count = 0;
+
+    for (attempt = 0; attempt < 2000; attempt++) {
+        for (leg = 0; leg < 6; leg++) {
+            random = (random * 1103515245UL + 12345UL) & 0x7fffffffUL;
+            apart[leg] = length[leg] + (dyn_real)(0.6 * ((double)random / 0x7fffffff - 0.5));
+        }
+        if (dyn_forward_kinematics(&model, start, apart, &found, &info) == DYN_STATUS_NO_CONVERGENCE) {
+            check(info.value > 0, "how far off");
+            count++;
+        }
+    }
+    return count;
+}
+
 /* Lengths and rates of a moving platform lead back to its pose and velocity. */
 static void forward_kinematics(void)
 {
@@ -64,6 +86,7 @@ static void forward_kinematics(void)
     check(dyn_platform_velocity(&model, &there, legs.actuator_velocity, &back, &info) == DYN_STATUS_OK, "a velocity");
     check(near(back, velocity, 6), "which one");
 
+    check(leads_nowhere(legs.actuator_length, &start) > 0, "steps that lead nowhere");
     legs.actuator_length[0] += 1;
     found.iterations = 77;
     check(dyn_forward_kinematics(&model, &start, legs.actuator_length, &found, &info) != DYN_STATUS_OK, "one leg is a metre long");

@@ -36,6 +36,10 @@ fn libraries() -> PathBuf {
 pub fn compiler() -> Command {
     let mut command = Command::new(std::env::var_os("CC").unwrap_or_else(|| "cc".into()));
     command.args(STRICT).arg("-I").arg(folder().join("include"));
+    // As the library was built.
+    if cfg!(feature = "f32") {
+        command.arg("-DDYN_F32");
+    }
     command
 }
 

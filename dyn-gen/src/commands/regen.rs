@@ -4,9 +4,10 @@ use std::path::Path;
 
 use clap::Args;
 use dyn_gen::emit::{RuntimePath, Scalar};
+use dyn_gen::evidence::{Sampling, gather};
 use dyn_gen::output::{NewFile, write_all};
-use dyn_gen::{GraphFile, Numbers, Options, generate, kernels};
-use dyn_platform::{LegType, Platform};
+use dyn_gen::{GenerateError, GraphFile, Numbers, Options, generate, kernels, optimise};
+use dyn_platform::{LegType, Platform, Starter, starter};
 use miette::Result;
 
 use super::Outcome;
@@ -82,7 +83,7 @@ impl Regen {
     }
 }
 
-/// Every generated file of the runtime crate: kernel traits, the default platform with its numbers baked in, and a model of
+/// Every generated file of the runtime crate, its models examined: kernel traits, the default platform with its numbers baked in, and a model of
 /// every leg type with its numbers given at run time.
 fn generated_files(root: &Path, graphs: &[GraphFile]) -> Result<Vec<NewFile>> {
     let platform = Platform::from_file(root.join(PLATFORM))?;
@@ -93,13 +94,14 @@ fn generated_files(root: &Path, graphs: &[GraphFile]) -> Result<Vec<NewFile>> {
             scalars: vec![Scalar::F64, Scalar::F32],
             functions: None,
             command: COMMAND.into(),
-            evidence: None,
+            evidence: numbers.platform().map(|_| Sampling::default()),
         };
         Ok((name.to_owned(), generate(graph, numbers, &options)?.source))
     };
     let mut texts = vec![("kernels".to_owned(), kernels(graphs, COMMAND)?)];
     for graph in graphs {
         let leg_type = graph.program.name.as_str();
+        examine_with_numbers_at_run_time(graph)?;
         texts.push(model(graph, leg_type, &Numbers::at_run_time())?);
         if platform.leg_type.name() == leg_type {
             texts.push(model(graph, &platform.name, &Numbers::baked(&platform))?);
@@ -112,6 +114,24 @@ fn generated_files(root: &Path, graphs: &[GraphFile]) -> Result<Vec<NewFile>> {
     let mut files: Vec<NewFile> = texts.into_iter().map(file).collect();
     files.extend(example(root, graphs)?);
     Ok(files)
+}
+
+/// Examines the model that has all its numbers at run time, with those of a platform of its leg type.
+fn examine_with_numbers_at_run_time(graph: &GraphFile) -> Result<()> {
+    for which in Starter::ALL {
+        let platform = Platform::from_toml(which.name(), starter(which))?;
+        if platform.leg_type.name() != graph.program.name {
+            continue;
+        }
+        let functions = optimise(&graph.program, &Numbers::at_run_time(), None)?;
+        let numbers = Numbers::with_run_time(&platform, ["all"]);
+        let evidence = gather(&graph.program, &numbers, &functions, Sampling::default())?;
+        if !evidence.holds() {
+            return Err(GenerateError::Refused(Box::new(evidence)).into());
+        }
+        return Ok(());
+    }
+    miette::bail!("no starter platform has legs {:?}, with which to examine their model", graph.program.name)
 }
 
 /// The model of the example crate, with the options in its first lines; none in a repository without it.

@@ -7,7 +7,10 @@ use quote::format_ident;
 use syn::{BinOp, Expr};
 
 use super::EmitError;
-use super::names::{CONSTANT, PARAMETERS, SQRT, identifier, temporary};
+use super::names::{
+    CONSTANT, CONSTANT_IN_LANES, LANE, PARAMETERS, SCALARS_IN_LANES, SPLAT, SQRT, TRIPLE, identifier,
+    temporary,
+};
 use super::placement::Place;
 use super::schedule::{Statement, Step, Value};
 use super::signature::Signature;
@@ -24,6 +27,8 @@ pub struct Expressions<'a> {
     names: HashMap<Value, Ident>,
     constant: Ident,
     sqrt: Ident,
+    in_lanes: Vec<bool>,
+    graph_has_lanes: bool,
 }
 
 impl<'a> Expressions<'a> {
@@ -59,7 +64,20 @@ impl<'a> Expressions<'a> {
             names.insert(value, name);
         }
         let [parameters, constant, sqrt] = [PARAMETERS, CONSTANT, SQRT].map(|name| format_ident!("{name}"));
-        Ok(Expressions { graph, places, inputs, parameters, outputs, names, constant, sqrt })
+        let in_lanes = graph.in_lanes();
+        let graph_has_lanes = graph.has_lanes();
+        Ok(Expressions {
+            in_lanes,
+            graph_has_lanes,
+            graph,
+            places,
+            inputs,
+            parameters,
+            outputs,
+            names,
+            constant,
+            sqrt,
+        })
     }
 
     /// The name of a value that has one.
@@ -79,6 +97,24 @@ impl<'a> Expressions<'a> {
         match self.places[id.index()] {
             Place::Temporary => Ok(tree::path(self.name(&Value::Temporary(id)))),
             _ => self.definition(id),
+        }
+    }
+
+    /// A function of the type in lanes.
+    fn of_lanes(&self, function: &str) -> Expr {
+        tree::associated(&format_ident!("{SCALARS_IN_LANES}"), &format_ident!("{function}"))
+    }
+
+    /// `operand` where `user` reads it: in lanes if `user` is.
+    fn operand(&self, user: NodeId, operand: NodeId) -> Result<Expr, EmitError> {
+        if !self.in_lanes[user.index()] || self.in_lanes[operand.index()] {
+            return self.value(operand);
+        }
+        match self.graph.nodes[operand.index()] {
+            Node::Constant(value) if value.is_finite() => {
+                Ok(tree::call(&format_ident!("{CONSTANT_IN_LANES}"), [tree::number(value)]))
+            }
+            _ => Ok(tree::call_value(self.of_lanes(SPLAT), [self.value(operand)?])),
         }
     }
 
@@ -103,8 +139,8 @@ impl<'a> Expressions<'a> {
             Node::Solution { solve, element } => {
                 tree::index(tree::path(self.name(&Value::Solution(solve as usize))), element as usize)
             }
-            Node::Unary(Op::Sqrt, a) => tree::call(&self.sqrt, [self.value(a)?]),
-            Node::Unary(_, a) => tree::negative(self.value(a)?),
+            Node::Unary(Op::Sqrt, a) => tree::call(&self.sqrt, [self.operand(id, a)?]),
+            Node::Unary(_, a) => tree::negative(self.operand(id, a)?),
             Node::Binary(op, a, b) => {
                 let operator = match op {
                     Op::Mul => BinOp::Mul(Default::default()),
@@ -112,11 +148,22 @@ impl<'a> Expressions<'a> {
                     Op::Sub => BinOp::Sub(Default::default()),
                     _ => BinOp::Add(Default::default()),
                 };
-                tree::binary(operator, self.value(a)?, self.value(b)?)
+                tree::binary(operator, self.operand(id, a)?, self.operand(id, b)?)
+            }
+            Node::Lanes(lanes) => {
+                let lanes = lanes.iter().map(|lane| self.value(*lane)).collect::<Result<Vec<_>, _>>()?;
+                tree::call_value(self.of_lanes(TRIPLE), [tree::array(lanes)])
+            }
+            Node::Lane(a, lane) => {
+                tree::call_value(self.of_lanes(LANE), [self.value(a)?, tree::integer(lane.into())])
             }
             Node::Ternary(op, a, b, c) => {
-                let function = format_ident!("{}", op.info().name);
-                tree::call(&function, [self.value(a)?, self.value(b)?, self.value(c)?])
+                // Of single numbers in a function in lanes it is the lanes' type that knows how to.
+                let function = match self.graph_has_lanes && !self.in_lanes[id.index()] {
+                    true => self.of_lanes(op.info().name),
+                    false => tree::path(&format_ident!("{}", op.info().name)),
+                };
+                tree::call_value(function, [self.operand(id, a)?, self.operand(id, b)?, self.operand(id, c)?])
             }
         })
     }

@@ -5,8 +5,8 @@ use std::str::FromStr;
 use proc_macro2::TokenStream;
 use quote::{format_ident, quote};
 
-use super::function::allow;
-use super::names::{PARAMETERS, SCALAR, check_type_names, identifier, type_identifier};
+use super::function::{allow, name_in_lanes};
+use super::names::{PARAMETERS, SCALAR, SCALARS_IN_LANES, check_type_names, identifier, type_identifier};
 use super::print::source;
 use super::signature::{Signature, array_type, documentation, symbol_line};
 use super::{EmitError, Header, RuntimePath};
@@ -59,8 +59,10 @@ pub struct Model<'a> {
     pub defaults: Option<&'a [Vec<f64>]>,
     /// What callers see of each function.
     pub signatures: &'a [Signature],
-    /// Source of each function, as printed by [`super::function`].
+    /// Source of each function, as printed by [`super::function`], without lanes and then in lanes.
     pub functions: &'a [String],
+    /// Names of the functions that also exist in lanes.
+    pub in_lanes: &'a [String],
 }
 
 /// Text of the model's file.
@@ -82,7 +84,7 @@ pub fn model_file(header: &Header, model: &Model) -> Result<String, EmitError> {
 fn items(model: &Model) -> Result<Vec<TokenStream>, EmitError> {
     let runtime = model.runtime.tokens();
     let name = type_identifier(model.name)?;
-    if ["Parameters", "Scalar", "S", SCALAR].iter().any(|taken| name == taken) {
+    if ["Parameters", "Scalar", "Triple", "S", SCALAR, SCALARS_IN_LANES].iter().any(|taken| name == taken) {
         return Err(EmitError::Name {
             function: model.name.into(),
             name: name.to_string(),
@@ -95,6 +97,8 @@ fn items(model: &Model) -> Result<Vec<TokenStream>, EmitError> {
         use #runtime::float::{Scalar, mul_add, mul_sub, neg_mul_add, sqrt};
         #[allow(unused_imports)]
         use #runtime::solve::solve_general;
+        #[allow(unused_imports)]
+        use #runtime::triple::Triple;
     }];
     if model.parameters.is_empty() {
         let title = documentation(&[format!("The platform `{}`, every number baked in.", model.name)]);
@@ -200,13 +204,27 @@ fn implementation(
     let allow = allow(quote!(unused_qualifications));
     let field = format_ident!("{PARAMETERS}");
     let parameters = (!model.parameters.is_empty()).then(|| quote!(&self.#field,));
-    // `self::`: an output may have the function's name.
+    let in_lanes = scalar == Scalar::F64 && model.in_lanes.contains(&signature.name);
+    let body = if in_lanes {
+        let inputs = signature.inputs.iter().zip(&names);
+        let outputs = signature.outputs.iter().zip(&names[signature.inputs.len()..]);
+        let typed = |(symbol, name): (&Symbol, &proc_macro2::Ident)| {
+            let array = array_type(&quote!(#number), &symbol.shape);
+            quote!(#name: #array)
+        };
+        let (inputs, outputs) = (inputs.map(typed), outputs.map(typed));
+        let function_in_lanes = name_in_lanes(&function);
+        quote!(#runtime::single_state!(#function_in_lanes, #function; #(#inputs),*; #(#outputs),*);)
+    } else {
+        // `self::`: an output may have the function's name.
+        quote!(self::#function(#parameters #(#names),*);)
+    };
     Ok(quote! {
         #allow
         impl #runtime::kernels::#kernel #of_number for #model_name #of_model {
             #inline
             fn #function(&self, #(#arguments),*) {
-                self::#function(#parameters #(#names),*);
+                #body
             }
         }
     })

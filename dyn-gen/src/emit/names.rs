@@ -17,6 +17,16 @@ pub const CONSTANT: &str = "c";
 pub const SQRT: &str = "sqrt";
 /// The imported multiplications with an addition, by the names of their operations.
 pub const MULTIPLY_ADDITIONS: [&str; 3] = ["mul_add", "mul_sub", "neg_mul_add"];
+/// The type in lanes that a function in lanes computes with.
+pub const SCALARS_IN_LANES: &str = "P";
+/// What a function in lanes calls the conversion of a literal to its type in lanes.
+pub const CONSTANT_IN_LANES: &str = "w";
+/// The imported constructor of a value in lanes.
+pub const TRIPLE: &str = "triple";
+/// The imported access to a lane.
+pub const LANE: &str = "lane";
+/// The imported copy of a number to all lanes.
+pub const SPLAT: &str = "splat";
 /// The imported pivoted linear solver.
 pub const SOLVE_GENERAL: &str = "solve_general";
 
@@ -26,7 +36,9 @@ pub fn identifier(function: &str, name: &str) -> Result<Ident, EmitError> {
     if syn::parse_str::<Ident>(name).is_err() {
         return refuse("it is not an identifier of Rust");
     }
-    if [PARAMETERS, CONSTANT, SQRT, SOLVE_GENERAL].contains(&name) || MULTIPLY_ADDITIONS.contains(&name) {
+    if [PARAMETERS, CONSTANT, CONSTANT_IN_LANES, TRIPLE, LANE, SPLAT, SQRT, SOLVE_GENERAL].contains(&name)
+        || MULTIPLY_ADDITIONS.contains(&name)
+    {
         return refuse("the generated code uses it itself");
     }
     if is_temporary(name) {

@@ -7,7 +7,7 @@ use crate::graph::{Graph, Node, NodeId, Op};
 pub enum Place {
     /// No output needs it.
     Unused,
-    /// A literal, an element of an argument or of a solution: written wherever it is used.
+    /// A literal, an element of an argument or of a solution, a lane: written wherever it is used.
     Leaf,
     /// Used once, and short enough to stand in the expression that uses it.
     Inline,
@@ -33,8 +33,8 @@ pub fn place(graph: &Graph) -> Vec<Place> {
         let section = graph.section_of[index];
         let mut total = own_width(graph, node);
         places[index] = match node {
-            Node::Constant(_) | Node::Input { .. } | Node::Solution { .. } => Place::Leaf,
-            Node::Unary(..) | Node::Binary(..) | Node::Ternary(..) => Place::Temporary,
+            Node::Constant(_) | Node::Input { .. } | Node::Solution { .. } | Node::Lane(..) => Place::Leaf,
+            Node::Unary(..) | Node::Binary(..) | Node::Ternary(..) | Node::Lanes(_) => Place::Temporary,
         };
         let mut operands = operands(node);
         operands.sort_by_key(|operand| width[operand.0 as usize]);
@@ -65,7 +65,8 @@ pub fn place(graph: &Graph) -> Vec<Place> {
 pub fn operands(node: &Node) -> Vec<NodeId> {
     match *node {
         Node::Constant(_) | Node::Input { .. } | Node::Solution { .. } => Vec::new(),
-        Node::Unary(_, a) => vec![a],
+        Node::Unary(_, a) | Node::Lane(a, _) => vec![a],
+        Node::Lanes(lanes) => lanes.to_vec(),
         Node::Binary(_, a, b) => vec![a, b],
         Node::Ternary(_, a, b, c) => vec![a, b, c],
     }
@@ -120,6 +121,8 @@ fn own_width(graph: &Graph, node: &Node) -> u32 {
                 + if symbol.parameter { "parameters.".len() } else { 0 }
         }
         Node::Solution { solve, .. } => graph.solves[solve as usize].name.len() + 3,
+        Node::Lanes(_) => "triple([, , ])".len(),
+        Node::Lane(..) => "lane(, 0)".len(),
         Node::Unary(Op::Sqrt, _) => "sqrt()".len(),
         Node::Unary(..) => "-".len(),
         Node::Binary(..) => " + ".len(),

@@ -40,10 +40,14 @@ pub struct Statement {
 /// Every statement of the body, in order.
 ///
 /// Sections come in the order of their first node. Within a section the order is depth-first from the values that leave
-/// it, so that a value stands close to its use; an output is written as soon as it is known.
+/// it, so that a value stands close to its use; an output is written as soon as it is known. Graphs in lanes are in a good
+/// order already.
 pub fn schedule(graph: &Graph, places: &[Place]) -> Vec<Statement> {
     let units = Units::of(graph, places);
     let mut order = Order { units: &units, done: vec![false; units.statements.len()], list: Vec::new() };
+    if graph.has_lanes() {
+        (0..units.statements.len()).for_each(|unit| order.visit(unit));
+    }
     for section in units.sections() {
         // What the section needs from others comes first, so that the section itself is not interrupted.
         for &unit in &section {

@@ -32,6 +32,18 @@ pub fn index(array: Expr, index: usize) -> Expr {
     })
 }
 
+/// `7`
+pub fn integer(value: usize) -> Expr {
+    literal(Lit::Int(LitInt::new(&value.to_string(), Span::call_site())))
+}
+
+/// `Type::function`
+pub fn associated(of: &Ident, function: &Ident) -> Expr {
+    let mut path = syn::Path::from(of.clone());
+    path.segments.push(function.clone().into());
+    Expr::Path(syn::ExprPath { attrs: Vec::new(), qself: None, path })
+}
+
 /// A finite number with the fewest digits that read back as the same number.
 pub fn number(value: f64) -> Expr {
     let magnitude = literal(Lit::Float(LitFloat::new(&format!("{:?}", value.abs()), Span::call_site())));
@@ -73,9 +85,14 @@ pub fn binary(op: BinOp, left: Expr, right: Expr) -> Expr {
 
 /// `function(arguments)`
 pub fn call(function: &Ident, arguments: impl IntoIterator<Item = Expr>) -> Expr {
+    call_value(path(function), arguments)
+}
+
+/// `function(arguments)`
+pub fn call_value(function: Expr, arguments: impl IntoIterator<Item = Expr>) -> Expr {
     Expr::Call(syn::ExprCall {
         attrs: Vec::new(),
-        func: Box::new(path(function)),
+        func: Box::new(function),
         paren_token: token::Paren::default(),
         args: arguments.into_iter().collect(),
     })

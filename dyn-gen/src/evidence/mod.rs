@@ -19,6 +19,7 @@ use crate::error::GenerateError;
 use crate::generate::GeneratedFunction;
 use crate::graph::{Environment, EvaluationError, Program};
 use crate::numbers::Numbers;
+use crate::pack::unpack;
 use crate::parallel;
 use crate::sample::Kind;
 use crate::workspace::{parameters, sampled_states};
@@ -132,14 +133,26 @@ pub fn gather(
     let expected = parallel::map(&batches, |batch| oracle::expected(&program.name, batch, &names));
     let expected: Vec<Environment> =
         expected.into_iter().collect::<Result<Vec<_>, _>>().map_err(EvidenceError::from)?.concat();
-    let comparison = comparison::Comparison::new(program, functions, &names, &expected);
+    let examined = with_lanes(functions);
+    let comparison = comparison::Comparison::new(program, &examined, &names, &expected);
     let found = parallel::map(&(0..batches.len()).collect::<Vec<_>>(), |&k| {
         let first = k * crate::graph::LANES;
         comparison.examine(batches[k], first)
     });
     let found = found.into_iter().collect::<Result<Vec<_>, _>>()?;
-    let (outputs, laws) = comparison.worst_of(found);
+    let (mut outputs, laws) = comparison.worst_of(found);
+    let without_lanes: usize = functions.iter().map(|function| function.graph.outputs.len()).sum();
+    outputs[without_lanes..].iter_mut().for_each(|row| row.function.push_str(" in lanes"));
     Ok(Evidence { platform: platform.name.clone(), sampling, outputs, laws })
+}
+
+/// The functions, and after them those in lanes as functions of their own.
+fn with_lanes(functions: &[GeneratedFunction]) -> Vec<GeneratedFunction> {
+    let in_lanes = functions.iter().filter_map(|function| {
+        let graph = unpack(&function.in_lanes.as_ref()?.graph);
+        Some(GeneratedFunction { graph, in_lanes: None, passes: Vec::new(), ..*function })
+    });
+    functions.iter().cloned().chain(in_lanes).collect()
 }
 
 /// Other numbers that are as valid as these, by up to a tenth, or a thousandth where reach depends on them.

@@ -5,7 +5,7 @@ mod limits;
 mod modes;
 mod text;
 
-use dyn_platform::Platform;
+use dyn_platform::{Limits, Platform};
 use serde::Serialize;
 
 pub use conditioning::{Conditioning, RelativePose};
@@ -102,7 +102,9 @@ pub fn explain(
     let functions = optimise(program, numbers, names)?;
     let home = Home::new(program, platform)?;
     let accelerating = ("platform_acceleration", vec![0.0, 0.0, SAMPLE_ACCELERATION, 0.0, 0.0, 0.0]);
-    let cases = evidence::cases(program, platform, sampling)?;
+    // What the geometry alone allows: how much of that the limits leave is part of the explanation.
+    let unlimited = Platform { limits: Limits::default(), ..platform.clone() };
+    let cases = evidence::cases(program, &unlimited, sampling)?;
     let holding_force = home.output("inverse_dynamics", None)?;
     let at_run_time: Vec<String> =
         numbers.run_time_parameters(program)?.into_iter().map(|symbol| symbol.name.clone()).collect();

@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 
 use super::hasher::NodeHash;
-use super::{Graph, Node, NodeId, Op, Output, Solve, SolveKind};
+use super::{Graph, LANE_COUNT, Node, NodeId, Op, Output, Solve, SolveKind};
 
 /// What makes two nodes equal: constants by their bits, commutative operations in either order.
 #[derive(PartialEq, Eq, Hash)]
@@ -13,6 +13,8 @@ enum Key {
     Unary(Op, NodeId),
     Binary(Op, NodeId, NodeId),
     Ternary(Op, NodeId, NodeId, NodeId),
+    Lanes([NodeId; LANE_COUNT]),
+    Lane(NodeId, u8),
     Solution(u32, u32),
 }
 
@@ -22,6 +24,7 @@ enum Key {
 #[derive(Default)]
 pub struct Builder {
     nodes: Vec<Node>,
+    in_lanes: Vec<bool>,
     section_of: Vec<u32>,
     sections: Vec<String>,
     section: u32,
@@ -75,6 +78,11 @@ impl Builder {
         }
     }
 
+    /// Whether `id` has lanes.
+    pub fn has_lanes(&self, id: NodeId) -> bool {
+        self.in_lanes[id.index()]
+    }
+
     /// Number of nodes made so far.
     pub fn len(&self) -> usize {
         self.nodes.len()
@@ -99,6 +107,8 @@ impl Builder {
                 let (a, b) = if op.info().commutative && b < a { (b, a) } else { (a, b) };
                 (Key::Ternary(op, a, b, c), Node::Ternary(op, a, b, c))
             }
+            Node::Lanes(lanes) => (Key::Lanes(lanes), node),
+            Node::Lane(a, lane) => (Key::Lane(a, lane), node),
             Node::Solution { solve, element } => (Key::Solution(solve, element), node),
         };
         if let Some(known) = self.known.get(&key) {
@@ -106,6 +116,7 @@ impl Builder {
         }
         let id = NodeId(self.nodes.len() as u32);
         let sectionless = matches!(node, Node::Constant(_) | Node::Input { .. });
+        self.in_lanes.push(node.has_lanes(&self.in_lanes));
         self.nodes.push(node);
         self.section_of.push(if sectionless { 0 } else { self.section });
         self.known.insert(key, id);

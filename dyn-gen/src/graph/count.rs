@@ -57,7 +57,7 @@ impl Graph {
                 continue;
             }
             match *node {
-                Node::Constant(_) | Node::Input { .. } => {}
+                Node::Constant(_) | Node::Input { .. } | Node::Lanes(_) | Node::Lane(..) => {}
                 Node::Unary(op, _) | Node::Binary(op, _, _) | Node::Ternary(op, ..) => match op {
                     Op::Add | Op::Sub => count.additions += 1,
                     Op::Mul => count.multiplications += 1,

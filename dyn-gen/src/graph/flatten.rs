@@ -4,6 +4,29 @@ use std::collections::BTreeMap;
 
 use super::{Builder, Function, Graph, Node, NodeId, Output, Program, Solve, Step};
 
+/// Nodes of a flattened function that are computed alike.
+#[derive(Clone, PartialEq, Debug)]
+pub enum Group {
+    /// The elements of an array, row-major.
+    Array {
+        /// Its shape.
+        shape: Vec<usize>,
+        /// Its elements.
+        nodes: Vec<NodeId>,
+    },
+    /// The same element of every leg's array.
+    Legs(Vec<NodeId>),
+}
+
+impl Group {
+    /// Its nodes.
+    pub fn nodes(&self) -> &[NodeId] {
+        match self {
+            Group::Array { nodes, .. } | Group::Legs(nodes) => nodes,
+        }
+    }
+}
+
 /// The nodes of each symbol known so far, flat.
 type Known = BTreeMap<String, Vec<NodeId>>;
 
@@ -13,6 +36,12 @@ impl Program {
     /// Statements come call by call, leg by leg, output by output; a node belongs to the section of the output that needed it
     /// first. Values equal those of [`evaluate`](Self::evaluate) bit for bit.
     pub fn flatten(&self, function: &Function) -> Graph {
+        self.flatten_with_groups(function).0
+    }
+
+    /// [`flatten`](Self::flatten), and what its calls give, in order, as groups of nodes that are computed alike.
+    pub fn flatten_with_groups(&self, function: &Function) -> (Graph, Vec<Group>) {
+        let mut groups = Vec::new();
         let states = function.inputs.iter().map(|name| self.declared(name).symbol.clone());
         let inputs = states.chain(self.parameters_of(function).cloned()).collect::<Vec<_>>();
 
@@ -27,11 +56,15 @@ impl Program {
                 Step::Call { graph, over_legs: false } => {
                     let graph = &self.graphs[*graph];
                     let results = inline(graph, &mut builder, "", |symbol| &known[symbol]);
+                    groups.extend(graph.outputs.iter().zip(&results).map(|(output, nodes)| Group::Array {
+                        shape: output.symbol.shape.clone(),
+                        nodes: nodes.clone(),
+                    }));
                     let named = graph.outputs.iter().zip(results);
                     known.extend(named.map(|(output, nodes)| (output.symbol.name.clone(), nodes)));
                 }
                 Step::Call { graph, over_legs: true } => {
-                    self.inline_over_legs(&self.graphs[*graph], &mut builder, &mut known);
+                    self.inline_over_legs(&self.graphs[*graph], &mut builder, &mut known, &mut groups);
                 }
                 Step::Solve { solution, matrix, right_hand_side, kind } => {
                     let symbol = &self.declared(solution).symbol;
@@ -52,17 +85,24 @@ impl Program {
             Output { symbol, nodes: known[name].clone() }
         });
         let outputs = outputs.collect();
-        Graph {
+        let graph = Graph {
             name: function.name.clone(),
             meaning: function.meaning.clone(),
             equation: function.equation.clone(),
             inputs,
             outputs,
             ..builder.into_graph()
-        }
+        };
+        (graph, groups)
     }
 
-    fn inline_over_legs(&self, graph: &Graph, builder: &mut Builder, known: &mut Known) {
+    fn inline_over_legs(
+        &self,
+        graph: &Graph,
+        builder: &mut Builder,
+        known: &mut Known,
+        groups: &mut Vec<Group>,
+    ) {
         let mut collected = vec![Vec::new(); graph.outputs.len()];
         for leg in 0..self.leg_count {
             let results = inline(graph, builder, &format!("leg {}: ", leg + 1), |symbol| {
@@ -77,6 +117,11 @@ impl Program {
             for (collected, nodes) in collected.iter_mut().zip(results) {
                 collected.extend(nodes);
             }
+        }
+        for nodes in &collected {
+            let length = nodes.len() / self.leg_count;
+            let of_legs = |element| nodes.iter().skip(element).step_by(length).copied().collect();
+            groups.extend((0..length).map(|element| Group::Legs(of_legs(element))));
         }
         let named = graph.outputs.iter().zip(collected);
         known.extend(named.map(|(output, nodes)| (output.symbol.name.clone(), nodes)));
@@ -118,8 +163,10 @@ fn copy(node: Node, arguments: &[&[NodeId]], copies: &[Option<NodeId>], builder:
             let [a, b, c] = [a, b, c].map(|operand| copied(copies, operand));
             builder.insert(Node::Ternary(op, a, b, c))
         }
-        Node::Solution { .. } => {
-            unreachable!("solves are steps of functions, never nodes of a program's graphs")
+        Node::Lanes(_) | Node::Lane(..) | Node::Solution { .. } => {
+            unreachable!(
+                "lanes come later, and solves are steps of functions, never nodes of a program's graphs"
+            )
         }
     }
 }

@@ -67,7 +67,7 @@ impl Evaluator {
     /// Gives every node of `graph` its value and returns them all; `inputs[k]` are the elements of `graph.inputs[k]`.
     ///
     /// # Panics
-    /// If an input has too few elements or the graph breaks its invariants.
+    /// If an input has too few elements, the graph breaks its invariants, or it has lanes ([`unpack`](crate::pack::unpack) it).
     pub fn run(&mut self, graph: &Graph, inputs: &[&[f64]]) -> &[f64] {
         self.values.clear();
         self.values.reserve(graph.nodes.len());
@@ -85,6 +85,9 @@ impl Evaluator {
                 Node::Ternary(op, a, b, c) => {
                     let [a, b, c] = [a, b, c].map(|operand| self.values[operand.index()]);
                     op.apply(self.rounding, a, b, c)
+                }
+                Node::Lanes(_) | Node::Lane(..) => {
+                    panic!("graphs in lanes are unpacked before they are evaluated")
                 }
                 Node::Solution { solve, element } => {
                     if self.solved_at[solve as usize] == usize::MAX {
@@ -114,14 +117,23 @@ impl Evaluator {
 }
 
 impl Graph {
-    /// The outputs for named inputs.
+    /// The outputs for named inputs, products rounded before they are added.
     pub fn evaluate(&self, environment: &Environment) -> Result<Environment, EvaluationError> {
+        self.evaluate_with(Rounding::Separate, environment)
+    }
+
+    /// The outputs for named inputs.
+    pub fn evaluate_with(
+        &self,
+        rounding: Rounding,
+        environment: &Environment,
+    ) -> Result<Environment, EvaluationError> {
         let inputs = self
             .inputs
             .iter()
             .map(|symbol| lookup(&self.name, symbol, environment))
             .collect::<Result<Vec<_>, _>>()?;
-        let mut evaluator = Evaluator::new();
+        let mut evaluator = Evaluator::with_rounding(rounding);
         let values = evaluator.run(self, &inputs);
         let outputs = self.outputs.iter().map(|output| {
             (output.symbol.name.clone(), output.nodes.iter().map(|id| values[id.index()]).collect())

@@ -172,6 +172,9 @@ impl<N: Number> LaneEvaluator<N> {
                 Node::Ternary(op, a, b, c) => {
                     N::apply(op, values[a.index()], values[b.index()], values[c.index()])
                 }
+                Node::Lanes(_) | Node::Lane(..) => {
+                    panic!("graphs in lanes are unpacked before they are evaluated")
+                }
                 Node::Solution { solve, element } => {
                     let solution = solved[solve as usize]
                         .get_or_insert_with(|| solution(&graph.solves[solve as usize], values));

@@ -17,6 +17,7 @@ mod validate;
 
 pub use builder::Builder;
 pub use count::OperationCount;
+pub use flatten::Group;
 pub use format::FormatError;
 pub(crate) use hasher::NodeHash;
 pub use interpreter::{Environment, EvaluationError, Evaluator, solve_general, solve_symmetric};
@@ -53,6 +54,11 @@ pub enum Node {
     Binary(Op, NodeId, NodeId),
     /// A multiplication with an addition.
     Ternary(Op, NodeId, NodeId, NodeId),
+    /// Three numbers side by side, each in a lane. An operation with a value in lanes among its operands works lane by lane;
+    /// an operand without lanes is then the same in all of them.
+    Lanes([NodeId; LANE_COUNT]),
+    /// What a value in lanes has in this one.
+    Lane(NodeId, u8),
     /// Element `element` of the solution of [`Graph::solves`]`[solve]`.
     Solution {
         /// Index into [`Graph::solves`].
@@ -61,6 +67,22 @@ pub enum Node {
         element: u32,
     },
 }
+
+impl Node {
+    /// Whether it has lanes, if `in_lanes` tells it of its operands.
+    fn has_lanes(&self, in_lanes: &[bool]) -> bool {
+        match *self {
+            Node::Lanes(_) => true,
+            Node::Unary(_, a) => in_lanes[a.index()],
+            Node::Binary(_, a, b) => in_lanes[a.index()] || in_lanes[b.index()],
+            Node::Ternary(_, a, b, c) => [a, b, c].iter().any(|id| in_lanes[id.index()]),
+            Node::Constant(_) | Node::Input { .. } | Node::Lane(..) | Node::Solution { .. } => false,
+        }
+    }
+}
+
+/// Numbers side by side in [`Node::Lanes`]: the components of a vector, or three legs.
+pub const LANE_COUNT: usize = 3;
 
 /// How a linear system may be solved.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
@@ -162,7 +184,8 @@ impl Graph {
     pub fn for_each_operand(&self, node: Node, mut visit: impl FnMut(NodeId)) {
         match node {
             Node::Constant(_) | Node::Input { .. } => {}
-            Node::Unary(_, a) => visit(a),
+            Node::Unary(_, a) | Node::Lane(a, _) => visit(a),
+            Node::Lanes(lanes) => lanes.into_iter().for_each(visit),
             Node::Binary(_, a, b) => {
                 visit(a);
                 visit(b);
@@ -174,6 +197,20 @@ impl Graph {
             }
             Node::Solution { solve, .. } => self.solves[solve as usize].operands().for_each(visit),
         }
+    }
+
+    /// For each node whether it has lanes.
+    pub fn in_lanes(&self) -> Vec<bool> {
+        let mut in_lanes = Vec::with_capacity(self.nodes.len());
+        for node in &self.nodes {
+            in_lanes.push(node.has_lanes(&in_lanes));
+        }
+        in_lanes
+    }
+
+    /// Whether any node has lanes.
+    pub fn has_lanes(&self) -> bool {
+        self.nodes.iter().any(|node| matches!(node, Node::Lanes(_)))
     }
 
     /// Marks every node that the nodes already marked need.
@@ -224,7 +261,8 @@ impl Graph {
         };
         for reader in &mut self.nodes[node.index() + 1..] {
             match reader {
-                Node::Unary(_, a) => redirect(a),
+                Node::Unary(_, a) | Node::Lane(a, _) => redirect(a),
+                Node::Lanes(lanes) => lanes.iter_mut().for_each(redirect),
                 Node::Binary(_, a, b) => {
                     redirect(a);
                     redirect(b);

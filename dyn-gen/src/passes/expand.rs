@@ -18,8 +18,6 @@ pub fn expand(graph: &Graph, context: &Context, orders: &mut Vec<PivotOrder>) ->
         }
         builder.enter_section_index(graph.section_of[index]);
         let image = match graph.nodes[index] {
-            Node::Unary(op, a) => shared(&mut builder, Node::Unary(op, images.of(a))),
-            Node::Binary(op, a, b) => shared(&mut builder, Node::Binary(op, images.of(a), images.of(b))),
             Node::Solution { solve, element } => {
                 let solution = &mut solutions[solve as usize];
                 let solution = solution.get_or_insert_with(|| {
@@ -27,10 +25,10 @@ pub fn expand(graph: &Graph, context: &Context, orders: &mut Vec<PivotOrder>) ->
                 });
                 solution[element as usize]
             }
-            Node::Ternary(op, a, b, c) => {
-                builder.insert(Node::Ternary(op, images.of(a), images.of(b), images.of(c)))
+            node => {
+                let node = images.node(graph, &mut builder, node);
+                shared(&mut builder, node)
             }
-            leaf => builder.insert(leaf),
         };
         images.set(index, image);
     }

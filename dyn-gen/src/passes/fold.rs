@@ -1,6 +1,6 @@
 //! Operations on constants.
 
-use crate::graph::{Builder, Node, NodeId, Rounding};
+use crate::graph::{Builder, LANE_COUNT, Node, NodeId, Rounding};
 
 /// `node`, or the constant it is if all its operands are.
 ///
@@ -16,6 +16,39 @@ pub fn fold(builder: &mut Builder, node: Node) -> NodeId {
     };
     match value {
         Some(value) if value.is_finite() => builder.constant(value),
-        _ => builder.insert(node),
+        _ => in_lanes(builder, node).unwrap_or_else(|| builder.insert(node)),
     }
+}
+
+/// The operation lane by lane, if all its operands are constants in lanes.
+fn in_lanes(builder: &mut Builder, node: Node) -> Option<NodeId> {
+    let lanes = |builder: &Builder, id: NodeId| -> Option<[f64; LANE_COUNT]> {
+        match builder.node(id) {
+            Node::Constant(value) => Some([value; LANE_COUNT]),
+            Node::Lanes([x, y, z]) => {
+                Some([builder.constant_value(x)?, builder.constant_value(y)?, builder.constant_value(z)?])
+            }
+            _ => None,
+        }
+    };
+    let values: [f64; LANE_COUNT] = match node {
+        Node::Unary(op, a) => {
+            let a = lanes(builder, a)?;
+            std::array::from_fn(|lane| op.apply(Rounding::Separate, a[lane], 0.0, 0.0))
+        }
+        Node::Binary(op, a, b) => {
+            let (a, b) = (lanes(builder, a)?, lanes(builder, b)?);
+            std::array::from_fn(|lane| op.apply(Rounding::Separate, a[lane], b[lane], 0.0))
+        }
+        _ => return None,
+    };
+    if !values.iter().all(|value| value.is_finite()) {
+        return None;
+    }
+    let constants = values.map(|value| builder.constant(value));
+    Some(if constants.iter().all(|id| *id == constants[0]) {
+        constants[0]
+    } else {
+        builder.insert(Node::Lanes(constants))
+    })
 }

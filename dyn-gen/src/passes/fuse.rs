@@ -17,31 +17,23 @@ pub fn fuse(graph: &Graph) -> Graph {
             continue;
         }
         builder.enter_section_index(graph.section_of[index]);
-        let image = match graph.nodes[index] {
-            Node::Binary(op, a, b) => match choice[index] {
-                Some(product) => {
-                    let other = if product == a { b } else { a };
-                    let operation = match (op, product == a) {
-                        (Op::Add, _) => Op::MulAdd,
-                        (_, true) => Op::MulSub,
-                        (_, false) => Op::NegMulAdd,
-                    };
-                    let Node::Binary(_, x, y) = graph.nodes[product.index()] else {
-                        unreachable!("only products are chosen")
-                    };
-                    builder.insert(Node::Ternary(operation, images.of(x), images.of(y), images.of(other)))
-                }
-                None => builder.binary(op, images.of(a), images.of(b)),
-            },
-            Node::Unary(op, a) => builder.unary(op, images.of(a)),
-            Node::Ternary(op, a, b, c) => {
-                builder.insert(Node::Ternary(op, images.of(a), images.of(b), images.of(c)))
+        let image = match (graph.nodes[index], choice[index]) {
+            (Node::Binary(op, a, b), Some(product)) => {
+                let other = if product == a { b } else { a };
+                let operation = match (op, product == a) {
+                    (Op::Add, _) => Op::MulAdd,
+                    (_, true) => Op::MulSub,
+                    (_, false) => Op::NegMulAdd,
+                };
+                let Node::Binary(_, x, y) = graph.nodes[product.index()] else {
+                    unreachable!("only products are chosen")
+                };
+                builder.insert(Node::Ternary(operation, images.of(x), images.of(y), images.of(other)))
             }
-            Node::Solution { solve, element } => {
-                let solve = builder.solve(images.solve(&graph.solves[solve as usize]));
-                builder.solution(solve, element)
+            (node, _) => {
+                let node = images.node(graph, &mut builder, node);
+                builder.insert(node)
             }
-            leaf => builder.insert(leaf),
         };
         images.set(index, image);
     }

@@ -45,16 +45,10 @@ fn merge_once(graph: &Graph) -> Option<Graph> {
                 Some(row) => sums.node(&mut builder, &images, row),
                 None => continue,
             },
-            Node::Unary(op, a) => shared(&mut builder, Node::Unary(op, images.of(a))),
-            Node::Binary(op, a, b) => shared(&mut builder, Node::Binary(op, images.of(a), images.of(b))),
-            Node::Solution { solve, element } => {
-                let solve = builder.solve(images.solve(&graph.solves[solve as usize]));
-                builder.solution(solve, element)
+            node => {
+                let node = images.node(graph, &mut builder, node);
+                shared(&mut builder, node)
             }
-            Node::Ternary(op, a, b, c) => {
-                builder.insert(Node::Ternary(op, images.of(a), images.of(b), images.of(c)))
-            }
-            leaf => builder.insert(leaf),
         };
         images.set(index, image);
     }

@@ -27,6 +27,8 @@ mod simplify;
 use crate::graph::{Environment, Graph, OperationCount};
 
 pub use pivot::PivotOrder;
+pub(crate) use rewrite::Images;
+pub(crate) use simplify::simplified;
 
 /// Whether a pass keeps the bits.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -54,6 +56,8 @@ pub struct Pass {
     pub exactness: Exactness,
     /// What holds afterwards.
     pub after: &'static str,
+    /// Whether it also runs on graphs in lanes.
+    pub in_lanes: bool,
     /// Does it; what it decided goes into the list.
     pub run: fn(&Graph, &Context, &mut Vec<PivotOrder>) -> Graph,
 }
@@ -66,54 +70,63 @@ pub const PASSES: [Pass; 9] = [
         name: "bake",
         exactness: Exact,
         after: "no node reads a baked parameter; no operation has only constant operands, unless its value is not finite",
+        in_lanes: false,
         run: |graph, context, _| bake::bake(graph, context),
     },
     Pass {
         name: "simplify",
         exactness: Exact,
         after: "no operation has an operand that makes it trivial; negations stand only before roots, solves and outputs",
+        in_lanes: false,
         run: |graph, _, _| simplify::simplify(graph),
     },
     Pass {
         name: "share",
         exactness: Exact,
         after: "no two nodes are equal or opposite by their operands",
+        in_lanes: false,
         run: |graph, _, _| share::share(graph),
     },
     Pass {
         name: "expand",
         exactness: Rounding,
         after: "no symmetric positive definite solve is left, nor, given states, a general one free of parameters",
+        in_lanes: false,
         run: expand::expand,
     },
     Pass {
         name: "invert",
         exactness: Rounding,
         after: "no two divisions have the same divisor, and no divisor is constant",
+        in_lanes: true,
         run: |graph, _, _| invert::invert(graph),
     },
     Pass {
         name: "merge",
         exactness: Rounding,
         after: "in sums of weighted nodes no pair of terms is formed twice where forming it once is cheaper",
+        in_lanes: false,
         run: |graph, _, _| merge::merge(graph),
     },
     Pass {
         name: "settle",
         exactness: Exact,
         after: "no negation is left that a difference or a constant used nowhere else could take up",
+        in_lanes: true,
         run: |graph, _, _| settle::settle(graph),
     },
     Pass {
         name: "fuse",
         exactness: Exact,
         after: "no sum has a product among its operands, unless the other one is a product that is fused",
+        in_lanes: true,
         run: |graph, _, _| fuse::fuse(graph),
     },
     Pass {
         name: "prune",
         exactness: Exact,
         after: "every node and solve is needed by an output, and every parameter among the inputs is read",
+        in_lanes: true,
         run: |graph, _, _| prune::prune(graph),
     },
 ];
@@ -135,10 +148,23 @@ pub struct PassReport {
 
 /// Runs every pass in order.
 pub fn run_passes(graph: &Graph, context: &Context) -> (Graph, Vec<PassReport>) {
+    run(PASSES.iter(), graph, context)
+}
+
+/// Runs every pass that works on graphs in lanes, in order.
+pub fn run_passes_in_lanes(graph: &Graph, context: &Context) -> Graph {
+    run(PASSES.iter().filter(|pass| pass.in_lanes), graph, context).0
+}
+
+fn run<'a>(
+    passes: impl Iterator<Item = &'a Pass>,
+    graph: &Graph,
+    context: &Context,
+) -> (Graph, Vec<PassReport>) {
     let mut graph = graph.clone();
     let mut before = graph.operation_count();
     let mut reports = Vec::with_capacity(PASSES.len());
-    for pass in &PASSES {
+    for pass in passes {
         let mut pivot_orders = Vec::new();
         graph = (pass.run)(&graph, context, &mut pivot_orders);
         let after = graph.operation_count();

@@ -16,9 +16,30 @@ impl Images {
         self.0[node.index()].expect("operands come before their users")
     }
 
+    /// The new node for an old one, if it has one.
+    pub fn get(&self, node: NodeId) -> Option<NodeId> {
+        self.0[node.index()]
+    }
+
     /// Sets the new node for the old node at `index`.
     pub fn set(&mut self, index: usize, image: NodeId) {
         self.0[index] = Some(image);
+    }
+
+    /// The node with the images of its operands, its solve made if it has one.
+    pub fn node(&self, graph: &Graph, builder: &mut Builder, node: Node) -> Node {
+        match node {
+            Node::Unary(op, a) => Node::Unary(op, self.of(a)),
+            Node::Binary(op, a, b) => Node::Binary(op, self.of(a), self.of(b)),
+            Node::Ternary(op, a, b, c) => Node::Ternary(op, self.of(a), self.of(b), self.of(c)),
+            Node::Lanes(lanes) => Node::Lanes(lanes.map(|lane| self.of(lane))),
+            Node::Lane(a, lane) => Node::Lane(self.of(a), lane),
+            Node::Solution { solve, element } => {
+                let solve = builder.solve(self.solve(&graph.solves[solve as usize]));
+                Node::Solution { solve, element }
+            }
+            leaf @ (Node::Constant(_) | Node::Input { .. }) => leaf,
+        }
     }
 
     /// The solve with the images of its operands.
@@ -51,16 +72,7 @@ pub fn rewrite(graph: &Graph, mut construct: impl FnMut(&mut Builder, NodeId, No
             continue;
         }
         builder.enter_section_index(graph.section_of[index]);
-        let node = match graph.nodes[index] {
-            Node::Unary(op, a) => Node::Unary(op, images.of(a)),
-            Node::Binary(op, a, b) => Node::Binary(op, images.of(a), images.of(b)),
-            Node::Ternary(op, a, b, c) => Node::Ternary(op, images.of(a), images.of(b), images.of(c)),
-            Node::Solution { solve, element } => {
-                let solve = builder.solve(images.solve(&graph.solves[solve as usize]));
-                Node::Solution { solve, element }
-            }
-            leaf => leaf,
-        };
+        let node = images.node(graph, &mut builder, graph.nodes[index]);
         images.set(index, construct(&mut builder, NodeId(index as u32), node));
     }
     let outputs = images.outputs(graph);

@@ -21,16 +21,10 @@ pub fn settle(graph: &Graph) -> Graph {
                 let absorbed = Negation { graph, uses: &uses, images: &images }.of(&mut builder, x, DEPTH);
                 absorbed.unwrap_or_else(|| builder.unary(Op::Neg, images.of(x)))
             }
-            Node::Unary(op, a) => builder.unary(op, images.of(a)),
-            Node::Binary(op, a, b) => builder.binary(op, images.of(a), images.of(b)),
-            Node::Solution { solve, element } => {
-                let solve = builder.solve(images.solve(&graph.solves[solve as usize]));
-                builder.solution(solve, element)
+            node => {
+                let node = images.node(graph, &mut builder, node);
+                builder.insert(node)
             }
-            Node::Ternary(op, a, b, c) => {
-                builder.insert(Node::Ternary(op, images.of(a), images.of(b), images.of(c)))
-            }
-            leaf => builder.insert(leaf),
         };
         images.set(index, image);
     }

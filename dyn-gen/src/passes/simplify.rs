@@ -2,7 +2,7 @@
 
 use super::fold::fold;
 use super::rewrite::rewrite;
-use crate::graph::{Builder, Graph, Node, NodeId, Op};
+use crate::graph::{Builder, Graph, LANE_COUNT, Node, NodeId, Op};
 
 /// Applies the identities of this file to every node.
 pub fn simplify(graph: &Graph) -> Graph {
@@ -23,7 +23,45 @@ pub fn simplified(builder: &mut Builder, node: Node) -> NodeId {
         }
         Node::Binary(Op::Mul, a, b) => product(builder, a, b),
         Node::Binary(Op::Div, a, b) => quotient(builder, a, b),
+        Node::Lanes(lanes) => side_by_side(builder, lanes),
+        Node::Lane(a, lane) => in_lane(builder, a, lane),
         _ => fold(builder, node),
+    }
+}
+
+fn side_by_side(builder: &mut Builder, lanes: [NodeId; LANE_COUNT]) -> NodeId {
+    // The same in every lane: no lanes.
+    if lanes.iter().all(|lane| *lane == lanes[0]) {
+        return lanes[0];
+    }
+    let negations = lanes.map(|lane| match builder.node(lane) {
+        Node::Unary(Op::Neg, x) => Some(x),
+        _ => None,
+    });
+    match (lanes.map(|lane| builder.node(lane)), negations) {
+        // Lanes 0 to 2 of x: x
+        ([Node::Lane(x, 0), Node::Lane(y, 1), Node::Lane(z, 2)], _) if x == y && y == z => x,
+        // [-x, -y, -z] = -[x, y, z]
+        (_, [Some(x), Some(y), Some(z)]) => {
+            let opposite = side_by_side(builder, [x, y, z]);
+            negated(builder, opposite)
+        }
+        _ => builder.insert(Node::Lanes(lanes)),
+    }
+}
+
+fn in_lane(builder: &mut Builder, a: NodeId, lane: u8) -> NodeId {
+    match builder.node(a) {
+        // Lane k of [x0, x1, x2]: xk
+        Node::Lanes(lanes) => lanes[lane as usize],
+        // Lane k of -x: -(lane k of x)
+        Node::Unary(Op::Neg, x) => {
+            let opposite = in_lane(builder, x, lane);
+            negated(builder, opposite)
+        }
+        _ if builder.has_lanes(a) => builder.insert(Node::Lane(a, lane)),
+        // What has no lanes is the same in all of them.
+        _ => a,
     }
 }
 

@@ -116,6 +116,7 @@ pub fn error_bounds(graph: &Graph, values: &[f64]) -> Vec<f64> {
                 let [(a, x), (b, y), (c, z)] = [a, b, c].map(|id| (values[id.index()], errors[id.index()]));
                 own + UNIT * (a * b).abs().max(c.abs()) + x * b.abs() + y * a.abs() + z
             }
+            Node::Lanes(_) | Node::Lane(..) => unreachable!("these graphs have no lanes"),
             Node::Solution { .. } => f64::INFINITY,
         };
         errors.push(error);

@@ -129,6 +129,10 @@ pub fn print(graph: &Graph) -> String {
             Node::Ternary(op, a, b, c) => {
                 format!("{}({}, {}, {})", op.info().name, operand(a), operand(b), operand(c))
             }
+            Node::Lanes(lanes) => {
+                format!("[{}, {}, {}]", operand(lanes[0]), operand(lanes[1]), operand(lanes[2]))
+            }
+            Node::Lane(a, lane) => format!("{}.{lane}", operand(a)),
             Node::Solution { solve, element } => format!("{}[{element}]", graph.solves[solve as usize].name),
         };
         let operation = matches!(node, Node::Unary(..) | Node::Binary(..) | Node::Ternary(..));

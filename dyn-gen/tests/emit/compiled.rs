@@ -33,6 +33,9 @@ mod float {
     pub fn mul_sub<T: Scalar>(a: T, b: T, c: T) -> T { a * b - c }
     pub fn neg_mul_add<T: Scalar>(a: T, b: T, c: T) -> T { c - a * b }
 }
+mod triple {
+    pub trait Triple {}
+}
 mod lanes {
     pub trait Number: crate::float::Scalar + 'static {}
     impl Number for f64 {}

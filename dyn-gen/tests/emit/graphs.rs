@@ -66,6 +66,7 @@ pub fn model(graphs: &[Graph], parameters: &[Symbol]) -> String {
         defaults: None,
         signatures: &signatures,
         functions: &functions,
+        in_lanes: &[],
     };
     model_file(&header, &model).expect("a printable model")
 }

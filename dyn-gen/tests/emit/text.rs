@@ -92,6 +92,8 @@ fn a_model_file() {
         use crate::float::{Scalar, mul_add, mul_sub, neg_mul_add, sqrt};
         #[allow(unused_imports)]
         use crate::solve::solve_general;
+        #[allow(unused_imports)]
+        use crate::triple::Triple;
 
         /// Physical numbers of a platform; of a quantity that legs have, the leg is the first dimension.
         #[allow(dead_code)]

@@ -6,7 +6,7 @@ use super::{Column, LengthError, Status};
 use crate::arrays::rotation_rows;
 use crate::check;
 use crate::error::{Error, Input};
-use crate::hexapod::{PoseArrays, alignment_of, checked_pose};
+use crate::hexapod::{PoseArrays, checked_pose, unjudged_alignment};
 use crate::kernels::{JacobianDp, RodAlignment, generic};
 use crate::lanes::{InLanes, Lanes, Number};
 use crate::real::Real;
@@ -133,7 +133,7 @@ impl<S: Number> States<'_, S> {
             check::finite(*input, *numbers)?;
         }
         let (base, platform) = self.poses(state)?;
-        check::reach(&alignment_of(model, &base, &platform)?)
+        check::in_reach(&unjudged_alignment(model, &base, &platform), &base.position, &platform.position)
     }
 
     /// Whether J_dp of a state can be inverted.

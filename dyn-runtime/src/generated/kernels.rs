@@ -3,8 +3,8 @@
 //
 // What models can compute: one trait per function.
 //
-// graph     uhp.json, sha256 681cf4434cab11670af96653d8c96f220cec2462c26e5b794f5948e0a98ffee3
-// graph     ups.json, sha256 189ee6e20b9380f4cf3986c52f6c089d7abb639c5b5ce8d3f6d0e67256f8b29b
+// graph     uhp.json, sha256 9db36ee49fe28b6c0a6e83ba1480d822588bc2a842fed7e4e4db5293dd101808
+// graph     ups.json, sha256 1b52493f65aa14be0b4a913a41122d6ac8ede015ba2c7eef37b43f979dbbb2dc
 //           derived by CasADi 3.8.2
 
 /// A model that has `rod_alignment`.

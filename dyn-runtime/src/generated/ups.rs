@@ -3,16 +3,16 @@
 //
 // Dynamics of any `ups` platform, all numbers given at run time.
 //
-// graph     ups.json, sha256 189ee6e20b9380f4cf3986c52f6c089d7abb639c5b5ce8d3f6d0e67256f8b29b
+// graph     ups.json, sha256 1b52493f65aa14be0b4a913a41122d6ac8ede015ba2c7eef37b43f979dbbb2dc
 //           derived by CasADi 3.8.2
 //
 // operations (+ - * / sqrt; a change of sign is not counted)
 // function                  as derived  as printed
 // rod_alignment                    273         195
-// leg_kinematics                  1608         964
-// body_kinematics                 2370        1435
+// leg_kinematics                  1638         980
+// body_kinematics                 2400        1451
 // partial_velocities              1074         810
-// generalised_forces              3633        2281
+// generalised_forces              3663        2297
 // jacobian_dp                      483         321
 // jacobian_db                      501         339
 // mass_matrix_p                   1235         803
@@ -21,20 +21,22 @@
 // stiffness_matrices              1170         735
 // matrices                        4904        3054
 // passive_forces                  1134         759
-// bias                            1941        1155
+// bias                            1941        1156
 // equation_of_motion              6086        3756
-// inverse_dynamics                1962        1176
+// inverse_dynamics                1992        1192
 // actuator_geometry                531         339
-// control                         2846        1710
-// passive_inverse_dynamics        2592        1545
-// base_reaction                   2010        1374
-// forward_dynamics                2553        1576
+// control                         2846        1711
+// passive_inverse_dynamics        2622        1561
+// base_reaction                   2040        1399
+// forward_dynamics                2553        1577
 // energy                          1511         916
 
 #[allow(unused_imports)]
 use crate::float::{Scalar, mul_add, mul_sub, neg_mul_add, sqrt};
 #[allow(unused_imports)]
 use crate::solve::solve_general;
+#[allow(unused_imports)]
+use crate::triple::Triple;
 
 /// Physical numbers of a platform; of a quantity that legs have, the leg is the first dimension.
 #[allow(dead_code)]
@@ -3210,508 +3212,516 @@ pub fn leg_kinematics<T: Scalar>(
     let t321 = mul_add(base_rotation[0][2], platform_acceleration[3], t320);
     let t322 = mul_add(base_rotation[2][2], platform_acceleration[5], t321);
     // acceleration per platform coordinate of points of the platform
-    let t323 = mul_add(t150, t156, t319);
-    let t324 = neg_mul_add(t150, t153, t322);
-    let t325 = mul_add(t153, t153, t156 * t156);
-    let t326 = mul_sub(t21, t323, mul_add(t12, t324, t3 * t325));
-    let t327 = mul_sub(t24, t323, mul_add(t15, t324, t6 * t325));
-    let t328 = mul_sub(t27, t323, mul_add(t18, t324, t9 * t325));
-    let t329 = neg_mul_add(t153, t156, t316);
-    let t330 = mul_add(t150, t153, t322);
-    let t331 = t150 * t150;
-    let t332 = mul_add(t156, t156, t331);
-    let t333 = mul_sub(t21, t329, mul_sub(t3, t330, t12 * t332));
-    let t334 = mul_sub(t24, t329, mul_sub(t6, t330, t15 * t332));
-    let t335 = mul_sub(t27, t329, mul_sub(t9, t330, t18 * t332));
-    let t336 = mul_add(t153, t153, t331);
-    let t337 = neg_mul_add(t150, t156, t319);
-    let t338 = mul_add(t153, t156, t316);
-    let t339 = mul_add(t21, t336, mul_sub(t3, t337, t12 * t338));
-    let t340 = mul_add(t24, t336, mul_sub(t6, t337, t15 * t338));
-    let t341 = mul_add(t27, t336, mul_sub(t9, t337, t18 * t338));
+    let t323 = mul_sub(t3, t156, t21 * t150);
+    let t324 = mul_sub(t12, t150, t3 * t153);
+    let t325 = mul_add(t153, t324, mul_sub(t21, t319, t12 * t322));
+    let t326 = mul_sub(t156, t323, t325);
+    let t327 = mul_sub(t6, t156, t24 * t150);
+    let t328 = mul_sub(t15, t150, t6 * t153);
+    let t329 = mul_add(t153, t328, mul_sub(t24, t319, t15 * t322));
+    let t330 = mul_sub(t156, t327, t329);
+    let t331 = mul_sub(t9, t156, t27 * t150);
+    let t332 = mul_sub(t18, t150, t9 * t153);
+    let t333 = mul_add(t153, t332, mul_sub(t27, t319, t18 * t322));
+    let t334 = mul_sub(t156, t331, t333);
+    let t335 = mul_sub(t21, t153, t12 * t156);
+    let t336 = mul_add(t156, t335, mul_sub(t3, t322, t21 * t316));
+    let t337 = mul_sub(t150, t324, t336);
+    let t338 = mul_sub(t24, t153, t15 * t156);
+    let t339 = mul_add(t156, t338, mul_sub(t6, t322, t24 * t316));
+    let t340 = mul_sub(t150, t328, t339);
+    let t341 = mul_sub(t27, t153, t18 * t156);
+    let t342 = mul_add(t156, t341, mul_sub(t9, t322, t27 * t316));
+    let t343 = mul_sub(t150, t332, t342);
+    let t344 = mul_add(t150, t323, mul_sub(t12, t316, t3 * t319));
+    let t345 = mul_sub(t153, t335, t344);
+    let t346 = mul_add(t150, t327, mul_sub(t15, t316, t6 * t319));
+    let t347 = mul_sub(t153, t338, t346);
+    let t348 = mul_add(t150, t331, mul_sub(t18, t316, t9 * t319));
+    let t349 = mul_sub(t153, t341, t348);
     // leg 1: actuator acceleration d''
-    let t342 = t281 - t309;
-    let t343 = t283 - t311;
-    let t344 = t285 - t313;
-    let t345 = mul_add(t246, t246, mul_add(t242, t242, t244 * t244));
-    let t346 = parameters.platform_point[0][1] * t340;
-    let t347 = mul_add(parameters.platform_point[0][0], t339, t346);
-    let t348 = mul_add(parameters.platform_point[0][2], t341, t347);
-    let t349 = mul_sub(parameters.base_point[0][0], t302, t348);
-    let t350 = mul_sub(parameters.base_point[0][1], t303, t349);
-    let t351 = t344 - mul_sub(parameters.base_point[0][2], t304, t350);
-    let t352 = parameters.platform_point[0][1] * t327;
-    let t353 = mul_add(parameters.platform_point[0][0], t326, t352);
-    let t354 = mul_add(parameters.platform_point[0][2], t328, t353);
-    let t355 = mul_add(parameters.base_point[0][0], t295, t354);
-    let t356 = mul_add(parameters.base_point[0][1], t296, t355);
-    let t357 = t342 + mul_sub(parameters.base_point[0][2], t297, t356);
-    let t358 = parameters.platform_point[0][1] * t334;
-    let t359 = mul_add(parameters.platform_point[0][0], t333, t358);
-    let t360 = mul_add(parameters.platform_point[0][2], t335, t359);
-    let t361 = mul_add(parameters.base_point[0][0], t298, t360);
-    let t362 = mul_sub(parameters.base_point[0][1], t300, t361);
-    let t363 = t122 * (t343 - mul_add(parameters.base_point[0][2], t301, t362));
-    let t364 = mul_add(t123, t351, mul_add(t121, t357, t363));
-    actuator_acceleration[0] = mul_sub(t109, t345, t364);
+    let t350 = t281 - t309;
+    let t351 = t283 - t311;
+    let t352 = t285 - t313;
+    let t353 = mul_add(t246, t246, mul_add(t242, t242, t244 * t244));
+    let t354 = parameters.platform_point[0][1] * t347;
+    let t355 = mul_add(parameters.platform_point[0][0], t345, t354);
+    let t356 = mul_add(parameters.platform_point[0][2], t349, t355);
+    let t357 = mul_sub(parameters.base_point[0][0], t302, t356);
+    let t358 = mul_sub(parameters.base_point[0][1], t303, t357);
+    let t359 = t352 - mul_sub(parameters.base_point[0][2], t304, t358);
+    let t360 = parameters.platform_point[0][1] * t330;
+    let t361 = mul_add(parameters.platform_point[0][0], t326, t360);
+    let t362 = mul_add(parameters.platform_point[0][2], t334, t361);
+    let t363 = mul_sub(parameters.base_point[0][0], t295, t362);
+    let t364 = mul_add(parameters.base_point[0][1], t296, t363);
+    let t365 = t350 + mul_sub(parameters.base_point[0][2], t297, t364);
+    let t366 = parameters.platform_point[0][1] * t340;
+    let t367 = mul_add(parameters.platform_point[0][0], t337, t366);
+    let t368 = mul_add(parameters.platform_point[0][2], t343, t367);
+    let t369 = mul_add(parameters.base_point[0][0], t298, t368);
+    let t370 = mul_sub(parameters.base_point[0][1], t300, t369);
+    let t371 = t122 * (t351 - mul_add(parameters.base_point[0][2], t301, t370));
+    let t372 = mul_add(t123, t359, mul_add(t121, t365, t371));
+    actuator_acceleration[0] = mul_sub(t109, t353, t372);
     // leg 2: actuator acceleration d''
-    let t365 = mul_add(t252, t252, mul_add(t248, t248, t250 * t250));
-    let t366 = parameters.platform_point[1][1] * t340;
-    let t367 = mul_add(parameters.platform_point[1][0], t339, t366);
-    let t368 = mul_add(parameters.platform_point[1][2], t341, t367);
-    let t369 = mul_sub(parameters.base_point[1][0], t302, t368);
-    let t370 = mul_sub(parameters.base_point[1][1], t303, t369);
-    let t371 = t344 - mul_sub(parameters.base_point[1][2], t304, t370);
-    let t372 = parameters.platform_point[1][1] * t327;
-    let t373 = mul_add(parameters.platform_point[1][0], t326, t372);
-    let t374 = mul_add(parameters.platform_point[1][2], t328, t373);
-    let t375 = mul_add(parameters.base_point[1][0], t295, t374);
-    let t376 = mul_add(parameters.base_point[1][1], t296, t375);
-    let t377 = t342 + mul_sub(parameters.base_point[1][2], t297, t376);
-    let t378 = parameters.platform_point[1][1] * t334;
-    let t379 = mul_add(parameters.platform_point[1][0], t333, t378);
-    let t380 = mul_add(parameters.platform_point[1][2], t335, t379);
-    let t381 = mul_add(parameters.base_point[1][0], t298, t380);
-    let t382 = mul_sub(parameters.base_point[1][1], t300, t381);
-    let t383 = t125 * (t343 - mul_add(parameters.base_point[1][2], t301, t382));
-    let t384 = mul_add(t126, t371, mul_add(t124, t377, t383));
-    actuator_acceleration[1] = mul_sub(t111, t365, t384);
+    let t373 = mul_add(t252, t252, mul_add(t248, t248, t250 * t250));
+    let t374 = parameters.platform_point[1][1] * t347;
+    let t375 = mul_add(parameters.platform_point[1][0], t345, t374);
+    let t376 = mul_add(parameters.platform_point[1][2], t349, t375);
+    let t377 = mul_sub(parameters.base_point[1][0], t302, t376);
+    let t378 = mul_sub(parameters.base_point[1][1], t303, t377);
+    let t379 = t352 - mul_sub(parameters.base_point[1][2], t304, t378);
+    let t380 = parameters.platform_point[1][1] * t330;
+    let t381 = mul_add(parameters.platform_point[1][0], t326, t380);
+    let t382 = mul_add(parameters.platform_point[1][2], t334, t381);
+    let t383 = mul_sub(parameters.base_point[1][0], t295, t382);
+    let t384 = mul_add(parameters.base_point[1][1], t296, t383);
+    let t385 = t350 + mul_sub(parameters.base_point[1][2], t297, t384);
+    let t386 = parameters.platform_point[1][1] * t340;
+    let t387 = mul_add(parameters.platform_point[1][0], t337, t386);
+    let t388 = mul_add(parameters.platform_point[1][2], t343, t387);
+    let t389 = mul_add(parameters.base_point[1][0], t298, t388);
+    let t390 = mul_sub(parameters.base_point[1][1], t300, t389);
+    let t391 = t125 * (t351 - mul_add(parameters.base_point[1][2], t301, t390));
+    let t392 = mul_add(t126, t379, mul_add(t124, t385, t391));
+    actuator_acceleration[1] = mul_sub(t111, t373, t392);
     // leg 3: actuator acceleration d''
-    let t385 = mul_add(t258, t258, mul_add(t254, t254, t256 * t256));
-    let t386 = parameters.platform_point[2][1] * t340;
-    let t387 = mul_add(parameters.platform_point[2][0], t339, t386);
-    let t388 = mul_add(parameters.platform_point[2][2], t341, t387);
-    let t389 = mul_sub(parameters.base_point[2][0], t302, t388);
-    let t390 = mul_sub(parameters.base_point[2][1], t303, t389);
-    let t391 = t344 - mul_sub(parameters.base_point[2][2], t304, t390);
-    let t392 = parameters.platform_point[2][1] * t327;
-    let t393 = mul_add(parameters.platform_point[2][0], t326, t392);
-    let t394 = mul_add(parameters.platform_point[2][2], t328, t393);
-    let t395 = mul_add(parameters.base_point[2][0], t295, t394);
-    let t396 = mul_add(parameters.base_point[2][1], t296, t395);
-    let t397 = t342 + mul_sub(parameters.base_point[2][2], t297, t396);
-    let t398 = parameters.platform_point[2][1] * t334;
-    let t399 = mul_add(parameters.platform_point[2][0], t333, t398);
-    let t400 = mul_add(parameters.platform_point[2][2], t335, t399);
-    let t401 = mul_add(parameters.base_point[2][0], t298, t400);
-    let t402 = mul_sub(parameters.base_point[2][1], t300, t401);
-    let t403 = t128 * (t343 - mul_add(parameters.base_point[2][2], t301, t402));
-    let t404 = mul_add(t129, t391, mul_add(t127, t397, t403));
-    actuator_acceleration[2] = mul_sub(t113, t385, t404);
+    let t393 = mul_add(t258, t258, mul_add(t254, t254, t256 * t256));
+    let t394 = parameters.platform_point[2][1] * t347;
+    let t395 = mul_add(parameters.platform_point[2][0], t345, t394);
+    let t396 = mul_add(parameters.platform_point[2][2], t349, t395);
+    let t397 = mul_sub(parameters.base_point[2][0], t302, t396);
+    let t398 = mul_sub(parameters.base_point[2][1], t303, t397);
+    let t399 = t352 - mul_sub(parameters.base_point[2][2], t304, t398);
+    let t400 = parameters.platform_point[2][1] * t330;
+    let t401 = mul_add(parameters.platform_point[2][0], t326, t400);
+    let t402 = mul_add(parameters.platform_point[2][2], t334, t401);
+    let t403 = mul_sub(parameters.base_point[2][0], t295, t402);
+    let t404 = mul_add(parameters.base_point[2][1], t296, t403);
+    let t405 = t350 + mul_sub(parameters.base_point[2][2], t297, t404);
+    let t406 = parameters.platform_point[2][1] * t340;
+    let t407 = mul_add(parameters.platform_point[2][0], t337, t406);
+    let t408 = mul_add(parameters.platform_point[2][2], t343, t407);
+    let t409 = mul_add(parameters.base_point[2][0], t298, t408);
+    let t410 = mul_sub(parameters.base_point[2][1], t300, t409);
+    let t411 = t128 * (t351 - mul_add(parameters.base_point[2][2], t301, t410));
+    let t412 = mul_add(t129, t399, mul_add(t127, t405, t411));
+    actuator_acceleration[2] = mul_sub(t113, t393, t412);
     // leg 4: actuator acceleration d''
-    let t405 = mul_add(t264, t264, mul_add(t260, t260, t262 * t262));
-    let t406 = parameters.platform_point[3][1] * t340;
-    let t407 = mul_add(parameters.platform_point[3][0], t339, t406);
-    let t408 = mul_add(parameters.platform_point[3][2], t341, t407);
-    let t409 = mul_sub(parameters.base_point[3][0], t302, t408);
-    let t410 = mul_sub(parameters.base_point[3][1], t303, t409);
-    let t411 = t344 - mul_sub(parameters.base_point[3][2], t304, t410);
-    let t412 = parameters.platform_point[3][1] * t327;
-    let t413 = mul_add(parameters.platform_point[3][0], t326, t412);
-    let t414 = mul_add(parameters.platform_point[3][2], t328, t413);
-    let t415 = mul_add(parameters.base_point[3][0], t295, t414);
-    let t416 = mul_add(parameters.base_point[3][1], t296, t415);
-    let t417 = t342 + mul_sub(parameters.base_point[3][2], t297, t416);
-    let t418 = parameters.platform_point[3][1] * t334;
-    let t419 = mul_add(parameters.platform_point[3][0], t333, t418);
-    let t420 = mul_add(parameters.platform_point[3][2], t335, t419);
-    let t421 = mul_add(parameters.base_point[3][0], t298, t420);
-    let t422 = mul_sub(parameters.base_point[3][1], t300, t421);
-    let t423 = t131 * (t343 - mul_add(parameters.base_point[3][2], t301, t422));
-    let t424 = mul_add(t132, t411, mul_add(t130, t417, t423));
-    actuator_acceleration[3] = mul_sub(t115, t405, t424);
+    let t413 = mul_add(t264, t264, mul_add(t260, t260, t262 * t262));
+    let t414 = parameters.platform_point[3][1] * t347;
+    let t415 = mul_add(parameters.platform_point[3][0], t345, t414);
+    let t416 = mul_add(parameters.platform_point[3][2], t349, t415);
+    let t417 = mul_sub(parameters.base_point[3][0], t302, t416);
+    let t418 = mul_sub(parameters.base_point[3][1], t303, t417);
+    let t419 = t352 - mul_sub(parameters.base_point[3][2], t304, t418);
+    let t420 = parameters.platform_point[3][1] * t330;
+    let t421 = mul_add(parameters.platform_point[3][0], t326, t420);
+    let t422 = mul_add(parameters.platform_point[3][2], t334, t421);
+    let t423 = mul_sub(parameters.base_point[3][0], t295, t422);
+    let t424 = mul_add(parameters.base_point[3][1], t296, t423);
+    let t425 = t350 + mul_sub(parameters.base_point[3][2], t297, t424);
+    let t426 = parameters.platform_point[3][1] * t340;
+    let t427 = mul_add(parameters.platform_point[3][0], t337, t426);
+    let t428 = mul_add(parameters.platform_point[3][2], t343, t427);
+    let t429 = mul_add(parameters.base_point[3][0], t298, t428);
+    let t430 = mul_sub(parameters.base_point[3][1], t300, t429);
+    let t431 = t131 * (t351 - mul_add(parameters.base_point[3][2], t301, t430));
+    let t432 = mul_add(t132, t419, mul_add(t130, t425, t431));
+    actuator_acceleration[3] = mul_sub(t115, t413, t432);
     // leg 5: actuator acceleration d''
-    let t425 = mul_add(t270, t270, mul_add(t266, t266, t268 * t268));
-    let t426 = parameters.platform_point[4][1] * t340;
-    let t427 = mul_add(parameters.platform_point[4][0], t339, t426);
-    let t428 = mul_add(parameters.platform_point[4][2], t341, t427);
-    let t429 = mul_sub(parameters.base_point[4][0], t302, t428);
-    let t430 = mul_sub(parameters.base_point[4][1], t303, t429);
-    let t431 = t344 - mul_sub(parameters.base_point[4][2], t304, t430);
-    let t432 = parameters.platform_point[4][1] * t327;
-    let t433 = mul_add(parameters.platform_point[4][0], t326, t432);
-    let t434 = mul_add(parameters.platform_point[4][2], t328, t433);
-    let t435 = mul_add(parameters.base_point[4][0], t295, t434);
-    let t436 = mul_add(parameters.base_point[4][1], t296, t435);
-    let t437 = t342 + mul_sub(parameters.base_point[4][2], t297, t436);
-    let t438 = parameters.platform_point[4][1] * t334;
-    let t439 = mul_add(parameters.platform_point[4][0], t333, t438);
-    let t440 = mul_add(parameters.platform_point[4][2], t335, t439);
-    let t441 = mul_add(parameters.base_point[4][0], t298, t440);
-    let t442 = mul_sub(parameters.base_point[4][1], t300, t441);
-    let t443 = t134 * (t343 - mul_add(parameters.base_point[4][2], t301, t442));
-    let t444 = mul_add(t135, t431, mul_add(t133, t437, t443));
-    actuator_acceleration[4] = mul_sub(t117, t425, t444);
+    let t433 = mul_add(t270, t270, mul_add(t266, t266, t268 * t268));
+    let t434 = parameters.platform_point[4][1] * t347;
+    let t435 = mul_add(parameters.platform_point[4][0], t345, t434);
+    let t436 = mul_add(parameters.platform_point[4][2], t349, t435);
+    let t437 = mul_sub(parameters.base_point[4][0], t302, t436);
+    let t438 = mul_sub(parameters.base_point[4][1], t303, t437);
+    let t439 = t352 - mul_sub(parameters.base_point[4][2], t304, t438);
+    let t440 = parameters.platform_point[4][1] * t330;
+    let t441 = mul_add(parameters.platform_point[4][0], t326, t440);
+    let t442 = mul_add(parameters.platform_point[4][2], t334, t441);
+    let t443 = mul_sub(parameters.base_point[4][0], t295, t442);
+    let t444 = mul_add(parameters.base_point[4][1], t296, t443);
+    let t445 = t350 + mul_sub(parameters.base_point[4][2], t297, t444);
+    let t446 = parameters.platform_point[4][1] * t340;
+    let t447 = mul_add(parameters.platform_point[4][0], t337, t446);
+    let t448 = mul_add(parameters.platform_point[4][2], t343, t447);
+    let t449 = mul_add(parameters.base_point[4][0], t298, t448);
+    let t450 = mul_sub(parameters.base_point[4][1], t300, t449);
+    let t451 = t134 * (t351 - mul_add(parameters.base_point[4][2], t301, t450));
+    let t452 = mul_add(t135, t439, mul_add(t133, t445, t451));
+    actuator_acceleration[4] = mul_sub(t117, t433, t452);
     // leg 6: actuator acceleration d''
-    let t445 = mul_add(t276, t276, mul_add(t272, t272, t274 * t274));
-    let t446 = parameters.platform_point[5][1] * t340;
-    let t447 = mul_add(parameters.platform_point[5][0], t339, t446);
-    let t448 = mul_add(parameters.platform_point[5][2], t341, t447);
-    let t449 = mul_sub(parameters.base_point[5][0], t302, t448);
-    let t450 = mul_sub(parameters.base_point[5][1], t303, t449);
-    let t451 = t344 - mul_sub(parameters.base_point[5][2], t304, t450);
-    let t452 = parameters.platform_point[5][1] * t327;
-    let t453 = mul_add(parameters.platform_point[5][0], t326, t452);
-    let t454 = mul_add(parameters.platform_point[5][2], t328, t453);
-    let t455 = mul_add(parameters.base_point[5][0], t295, t454);
-    let t456 = mul_add(parameters.base_point[5][1], t296, t455);
-    let t457 = t342 + mul_sub(parameters.base_point[5][2], t297, t456);
-    let t458 = parameters.platform_point[5][1] * t334;
-    let t459 = mul_add(parameters.platform_point[5][0], t333, t458);
-    let t460 = mul_add(parameters.platform_point[5][2], t335, t459);
-    let t461 = mul_add(parameters.base_point[5][0], t298, t460);
-    let t462 = mul_sub(parameters.base_point[5][1], t300, t461);
-    let t463 = t137 * (t343 - mul_add(parameters.base_point[5][2], t301, t462));
-    let t464 = mul_add(t138, t451, mul_add(t136, t457, t463));
-    actuator_acceleration[5] = mul_sub(t119, t445, t464);
+    let t453 = mul_add(t276, t276, mul_add(t272, t272, t274 * t274));
+    let t454 = parameters.platform_point[5][1] * t347;
+    let t455 = mul_add(parameters.platform_point[5][0], t345, t454);
+    let t456 = mul_add(parameters.platform_point[5][2], t349, t455);
+    let t457 = mul_sub(parameters.base_point[5][0], t302, t456);
+    let t458 = mul_sub(parameters.base_point[5][1], t303, t457);
+    let t459 = t352 - mul_sub(parameters.base_point[5][2], t304, t458);
+    let t460 = parameters.platform_point[5][1] * t330;
+    let t461 = mul_add(parameters.platform_point[5][0], t326, t460);
+    let t462 = mul_add(parameters.platform_point[5][2], t334, t461);
+    let t463 = mul_sub(parameters.base_point[5][0], t295, t462);
+    let t464 = mul_add(parameters.base_point[5][1], t296, t463);
+    let t465 = t350 + mul_sub(parameters.base_point[5][2], t297, t464);
+    let t466 = parameters.platform_point[5][1] * t340;
+    let t467 = mul_add(parameters.platform_point[5][0], t337, t466);
+    let t468 = mul_add(parameters.platform_point[5][2], t343, t467);
+    let t469 = mul_add(parameters.base_point[5][0], t298, t468);
+    let t470 = mul_sub(parameters.base_point[5][1], t300, t469);
+    let t471 = t137 * (t351 - mul_add(parameters.base_point[5][2], t301, t470));
+    let t472 = mul_add(t138, t459, mul_add(t136, t465, t471));
+    actuator_acceleration[5] = mul_sub(t119, t453, t472);
     // leg 1: rod direction u, from the Hooke joint to the platform joint
-    let t465 = mul_add(base_rotation[0][0], t121, base_rotation[0][1] * t122);
-    let t466 = mul_add(base_rotation[0][2], t123, t465);
-    rod_direction[0][0] = t466;
-    let t467 = mul_add(base_rotation[1][0], t121, base_rotation[1][1] * t122);
-    let t468 = mul_add(base_rotation[1][2], t123, t467);
-    rod_direction[0][1] = t468;
-    let t469 = mul_add(base_rotation[2][0], t121, base_rotation[2][1] * t122);
-    let t470 = mul_add(base_rotation[2][2], t123, t469);
-    rod_direction[0][2] = t470;
+    let t473 = mul_add(base_rotation[0][0], t121, base_rotation[0][1] * t122);
+    let t474 = mul_add(base_rotation[0][2], t123, t473);
+    rod_direction[0][0] = t474;
+    let t475 = mul_add(base_rotation[1][0], t121, base_rotation[1][1] * t122);
+    let t476 = mul_add(base_rotation[1][2], t123, t475);
+    rod_direction[0][1] = t476;
+    let t477 = mul_add(base_rotation[2][0], t121, base_rotation[2][1] * t122);
+    let t478 = mul_add(base_rotation[2][2], t123, t477);
+    rod_direction[0][2] = t478;
     // leg 2: rod direction u, from the Hooke joint to the platform joint
-    let t471 = mul_add(base_rotation[0][0], t124, base_rotation[0][1] * t125);
-    let t472 = mul_add(base_rotation[0][2], t126, t471);
-    rod_direction[1][0] = t472;
-    let t473 = mul_add(base_rotation[1][0], t124, base_rotation[1][1] * t125);
-    let t474 = mul_add(base_rotation[1][2], t126, t473);
-    rod_direction[1][1] = t474;
-    let t475 = mul_add(base_rotation[2][0], t124, base_rotation[2][1] * t125);
-    let t476 = mul_add(base_rotation[2][2], t126, t475);
-    rod_direction[1][2] = t476;
+    let t479 = mul_add(base_rotation[0][0], t124, base_rotation[0][1] * t125);
+    let t480 = mul_add(base_rotation[0][2], t126, t479);
+    rod_direction[1][0] = t480;
+    let t481 = mul_add(base_rotation[1][0], t124, base_rotation[1][1] * t125);
+    let t482 = mul_add(base_rotation[1][2], t126, t481);
+    rod_direction[1][1] = t482;
+    let t483 = mul_add(base_rotation[2][0], t124, base_rotation[2][1] * t125);
+    let t484 = mul_add(base_rotation[2][2], t126, t483);
+    rod_direction[1][2] = t484;
     // leg 3: rod direction u, from the Hooke joint to the platform joint
-    let t477 = mul_add(base_rotation[0][0], t127, base_rotation[0][1] * t128);
-    let t478 = mul_add(base_rotation[0][2], t129, t477);
-    rod_direction[2][0] = t478;
-    let t479 = mul_add(base_rotation[1][0], t127, base_rotation[1][1] * t128);
-    let t480 = mul_add(base_rotation[1][2], t129, t479);
-    rod_direction[2][1] = t480;
-    let t481 = mul_add(base_rotation[2][0], t127, base_rotation[2][1] * t128);
-    let t482 = mul_add(base_rotation[2][2], t129, t481);
-    rod_direction[2][2] = t482;
+    let t485 = mul_add(base_rotation[0][0], t127, base_rotation[0][1] * t128);
+    let t486 = mul_add(base_rotation[0][2], t129, t485);
+    rod_direction[2][0] = t486;
+    let t487 = mul_add(base_rotation[1][0], t127, base_rotation[1][1] * t128);
+    let t488 = mul_add(base_rotation[1][2], t129, t487);
+    rod_direction[2][1] = t488;
+    let t489 = mul_add(base_rotation[2][0], t127, base_rotation[2][1] * t128);
+    let t490 = mul_add(base_rotation[2][2], t129, t489);
+    rod_direction[2][2] = t490;
     // leg 4: rod direction u, from the Hooke joint to the platform joint
-    let t483 = mul_add(base_rotation[0][0], t130, base_rotation[0][1] * t131);
-    let t484 = mul_add(base_rotation[0][2], t132, t483);
-    rod_direction[3][0] = t484;
-    let t485 = mul_add(base_rotation[1][0], t130, base_rotation[1][1] * t131);
-    let t486 = mul_add(base_rotation[1][2], t132, t485);
-    rod_direction[3][1] = t486;
-    let t487 = mul_add(base_rotation[2][0], t130, base_rotation[2][1] * t131);
-    let t488 = mul_add(base_rotation[2][2], t132, t487);
-    rod_direction[3][2] = t488;
+    let t491 = mul_add(base_rotation[0][0], t130, base_rotation[0][1] * t131);
+    let t492 = mul_add(base_rotation[0][2], t132, t491);
+    rod_direction[3][0] = t492;
+    let t493 = mul_add(base_rotation[1][0], t130, base_rotation[1][1] * t131);
+    let t494 = mul_add(base_rotation[1][2], t132, t493);
+    rod_direction[3][1] = t494;
+    let t495 = mul_add(base_rotation[2][0], t130, base_rotation[2][1] * t131);
+    let t496 = mul_add(base_rotation[2][2], t132, t495);
+    rod_direction[3][2] = t496;
     // leg 5: rod direction u, from the Hooke joint to the platform joint
-    let t489 = mul_add(base_rotation[0][0], t133, base_rotation[0][1] * t134);
-    let t490 = mul_add(base_rotation[0][2], t135, t489);
-    rod_direction[4][0] = t490;
-    let t491 = mul_add(base_rotation[1][0], t133, base_rotation[1][1] * t134);
-    let t492 = mul_add(base_rotation[1][2], t135, t491);
-    rod_direction[4][1] = t492;
-    let t493 = mul_add(base_rotation[2][0], t133, base_rotation[2][1] * t134);
-    let t494 = mul_add(base_rotation[2][2], t135, t493);
-    rod_direction[4][2] = t494;
+    let t497 = mul_add(base_rotation[0][0], t133, base_rotation[0][1] * t134);
+    let t498 = mul_add(base_rotation[0][2], t135, t497);
+    rod_direction[4][0] = t498;
+    let t499 = mul_add(base_rotation[1][0], t133, base_rotation[1][1] * t134);
+    let t500 = mul_add(base_rotation[1][2], t135, t499);
+    rod_direction[4][1] = t500;
+    let t501 = mul_add(base_rotation[2][0], t133, base_rotation[2][1] * t134);
+    let t502 = mul_add(base_rotation[2][2], t135, t501);
+    rod_direction[4][2] = t502;
     // leg 6: rod direction u, from the Hooke joint to the platform joint
-    let t495 = mul_add(base_rotation[0][0], t136, base_rotation[0][1] * t137);
-    let t496 = mul_add(base_rotation[0][2], t138, t495);
-    rod_direction[5][0] = t496;
-    let t497 = mul_add(base_rotation[1][0], t136, base_rotation[1][1] * t137);
-    let t498 = mul_add(base_rotation[1][2], t138, t497);
-    rod_direction[5][1] = t498;
-    let t499 = mul_add(base_rotation[2][0], t136, base_rotation[2][1] * t137);
-    let t500 = mul_add(base_rotation[2][2], t138, t499);
-    rod_direction[5][2] = t500;
+    let t503 = mul_add(base_rotation[0][0], t136, base_rotation[0][1] * t137);
+    let t504 = mul_add(base_rotation[0][2], t138, t503);
+    rod_direction[5][0] = t504;
+    let t505 = mul_add(base_rotation[1][0], t136, base_rotation[1][1] * t137);
+    let t506 = mul_add(base_rotation[1][2], t138, t505);
+    rod_direction[5][1] = t506;
+    let t507 = mul_add(base_rotation[2][0], t136, base_rotation[2][1] * t137);
+    let t508 = mul_add(base_rotation[2][2], t138, t507);
+    rod_direction[5][2] = t508;
     // leg 1: Hooke joint
-    let t501 = base_rotation[0][1] * parameters.base_point[0][1];
-    let t502 = mul_add(base_rotation[0][0], parameters.base_point[0][0], t501);
-    let t503 = mul_add(base_rotation[0][2], parameters.base_point[0][2], t502);
-    let t504 = base_rotation[1][1] * parameters.base_point[0][1];
-    let t505 = mul_add(base_rotation[1][0], parameters.base_point[0][0], t504);
-    let t506 = mul_add(base_rotation[1][2], parameters.base_point[0][2], t505);
-    let t507 = base_rotation[2][1] * parameters.base_point[0][1];
-    let t508 = mul_add(base_rotation[2][0], parameters.base_point[0][0], t507);
-    let t509 = mul_add(base_rotation[2][2], parameters.base_point[0][2], t508);
-    hooke_joint_position[0][0] = base_position[0] + t503;
-    hooke_joint_position[0][1] = base_position[1] + t506;
-    hooke_joint_position[0][2] = base_position[2] + t509;
+    let t509 = base_rotation[0][1] * parameters.base_point[0][1];
+    let t510 = mul_add(base_rotation[0][0], parameters.base_point[0][0], t509);
+    let t511 = mul_add(base_rotation[0][2], parameters.base_point[0][2], t510);
+    let t512 = base_rotation[1][1] * parameters.base_point[0][1];
+    let t513 = mul_add(base_rotation[1][0], parameters.base_point[0][0], t512);
+    let t514 = mul_add(base_rotation[1][2], parameters.base_point[0][2], t513);
+    let t515 = base_rotation[2][1] * parameters.base_point[0][1];
+    let t516 = mul_add(base_rotation[2][0], parameters.base_point[0][0], t515);
+    let t517 = mul_add(base_rotation[2][2], parameters.base_point[0][2], t516);
+    hooke_joint_position[0][0] = base_position[0] + t511;
+    hooke_joint_position[0][1] = base_position[1] + t514;
+    hooke_joint_position[0][2] = base_position[2] + t517;
     // leg 1: platform joint
-    let t510 = platform_rotation[0][1] * parameters.platform_point[0][1];
-    let t511 = mul_add(platform_rotation[0][0], parameters.platform_point[0][0], t510);
-    let t512 = mul_add(platform_rotation[0][2], parameters.platform_point[0][2], t511);
-    let t513 = platform_rotation[1][1] * parameters.platform_point[0][1];
-    let t514 = mul_add(platform_rotation[1][0], parameters.platform_point[0][0], t513);
-    let t515 = mul_add(platform_rotation[1][2], parameters.platform_point[0][2], t514);
-    let t516 = platform_rotation[2][1] * parameters.platform_point[0][1];
-    let t517 = mul_add(platform_rotation[2][0], parameters.platform_point[0][0], t516);
-    let t518 = mul_add(platform_rotation[2][2], parameters.platform_point[0][2], t517);
-    platform_joint_position[0][0] = platform_position[0] + t512;
-    platform_joint_position[0][1] = platform_position[1] + t515;
-    platform_joint_position[0][2] = platform_position[2] + t518;
+    let t518 = platform_rotation[0][1] * parameters.platform_point[0][1];
+    let t519 = mul_add(platform_rotation[0][0], parameters.platform_point[0][0], t518);
+    let t520 = mul_add(platform_rotation[0][2], parameters.platform_point[0][2], t519);
+    let t521 = platform_rotation[1][1] * parameters.platform_point[0][1];
+    let t522 = mul_add(platform_rotation[1][0], parameters.platform_point[0][0], t521);
+    let t523 = mul_add(platform_rotation[1][2], parameters.platform_point[0][2], t522);
+    let t524 = platform_rotation[2][1] * parameters.platform_point[0][1];
+    let t525 = mul_add(platform_rotation[2][0], parameters.platform_point[0][0], t524);
+    let t526 = mul_add(platform_rotation[2][2], parameters.platform_point[0][2], t525);
+    platform_joint_position[0][0] = platform_position[0] + t520;
+    platform_joint_position[0][1] = platform_position[1] + t523;
+    platform_joint_position[0][2] = platform_position[2] + t526;
     // leg 1: velocity of the base joint
-    let t519 = base_velocity[5] * t506;
-    let t520 = base_velocity[3] * t509;
-    let t521 = base_velocity[4] * t503;
+    let t527 = base_velocity[5] * t514;
+    let t528 = base_velocity[3] * t517;
+    let t529 = base_velocity[4] * t511;
     // leg 1: inertial rate of the leg's direction
-    let t522 = mul_sub(base_velocity[4], t509, t519);
-    let t523 = mul_sub(platform_velocity[4], t518, t522);
-    let t524 = t160 + mul_sub(platform_velocity[5], t515, t523);
-    let t525 = mul_sub(base_velocity[5], t503, t520);
-    let t526 = mul_sub(platform_velocity[5], t512, t525);
-    let t527 = t161 + mul_sub(platform_velocity[3], t518, t526);
-    let t528 = mul_sub(base_velocity[3], t506, t521);
-    let t529 = mul_sub(platform_velocity[3], t515, t528);
-    let t530 = t162 + mul_sub(platform_velocity[4], t512, t529);
+    let t530 = mul_sub(base_velocity[4], t517, t527);
+    let t531 = mul_sub(platform_velocity[4], t526, t530);
+    let t532 = t160 + mul_sub(platform_velocity[5], t523, t531);
+    let t533 = mul_sub(base_velocity[5], t511, t528);
+    let t534 = mul_sub(platform_velocity[5], t520, t533);
+    let t535 = t161 + mul_sub(platform_velocity[3], t526, t534);
+    let t536 = mul_sub(base_velocity[3], t514, t529);
+    let t537 = mul_sub(platform_velocity[3], t523, t536);
+    let t538 = t162 + mul_sub(platform_velocity[4], t520, t537);
     // leg 1: angular velocity w_s of the leg, without spin
-    let t531 = mul_sub(t468, t530, t470 * t527);
-    let t532 = mul_sub(t470, t524, t466 * t530);
-    let t533 = mul_sub(t466, t527, t468 * t524);
+    let t539 = mul_sub(t476, t538, t478 * t535);
+    let t540 = mul_sub(t478, t532, t474 * t538);
+    let t541 = mul_sub(t474, t535, t476 * t532);
     // leg 2: Hooke joint
-    let t534 = base_rotation[0][1] * parameters.base_point[1][1];
-    let t535 = mul_add(base_rotation[0][0], parameters.base_point[1][0], t534);
-    let t536 = mul_add(base_rotation[0][2], parameters.base_point[1][2], t535);
-    let t537 = base_rotation[1][1] * parameters.base_point[1][1];
-    let t538 = mul_add(base_rotation[1][0], parameters.base_point[1][0], t537);
-    let t539 = mul_add(base_rotation[1][2], parameters.base_point[1][2], t538);
-    let t540 = base_rotation[2][1] * parameters.base_point[1][1];
-    let t541 = mul_add(base_rotation[2][0], parameters.base_point[1][0], t540);
-    let t542 = mul_add(base_rotation[2][2], parameters.base_point[1][2], t541);
-    hooke_joint_position[1][0] = base_position[0] + t536;
-    hooke_joint_position[1][1] = base_position[1] + t539;
-    hooke_joint_position[1][2] = base_position[2] + t542;
+    let t542 = base_rotation[0][1] * parameters.base_point[1][1];
+    let t543 = mul_add(base_rotation[0][0], parameters.base_point[1][0], t542);
+    let t544 = mul_add(base_rotation[0][2], parameters.base_point[1][2], t543);
+    let t545 = base_rotation[1][1] * parameters.base_point[1][1];
+    let t546 = mul_add(base_rotation[1][0], parameters.base_point[1][0], t545);
+    let t547 = mul_add(base_rotation[1][2], parameters.base_point[1][2], t546);
+    let t548 = base_rotation[2][1] * parameters.base_point[1][1];
+    let t549 = mul_add(base_rotation[2][0], parameters.base_point[1][0], t548);
+    let t550 = mul_add(base_rotation[2][2], parameters.base_point[1][2], t549);
+    hooke_joint_position[1][0] = base_position[0] + t544;
+    hooke_joint_position[1][1] = base_position[1] + t547;
+    hooke_joint_position[1][2] = base_position[2] + t550;
     // leg 2: platform joint
-    let t543 = platform_rotation[0][1] * parameters.platform_point[1][1];
-    let t544 = mul_add(platform_rotation[0][0], parameters.platform_point[1][0], t543);
-    let t545 = mul_add(platform_rotation[0][2], parameters.platform_point[1][2], t544);
-    let t546 = platform_rotation[1][1] * parameters.platform_point[1][1];
-    let t547 = mul_add(platform_rotation[1][0], parameters.platform_point[1][0], t546);
-    let t548 = mul_add(platform_rotation[1][2], parameters.platform_point[1][2], t547);
-    let t549 = platform_rotation[2][1] * parameters.platform_point[1][1];
-    let t550 = mul_add(platform_rotation[2][0], parameters.platform_point[1][0], t549);
-    let t551 = mul_add(platform_rotation[2][2], parameters.platform_point[1][2], t550);
-    platform_joint_position[1][0] = platform_position[0] + t545;
-    platform_joint_position[1][1] = platform_position[1] + t548;
-    platform_joint_position[1][2] = platform_position[2] + t551;
+    let t551 = platform_rotation[0][1] * parameters.platform_point[1][1];
+    let t552 = mul_add(platform_rotation[0][0], parameters.platform_point[1][0], t551);
+    let t553 = mul_add(platform_rotation[0][2], parameters.platform_point[1][2], t552);
+    let t554 = platform_rotation[1][1] * parameters.platform_point[1][1];
+    let t555 = mul_add(platform_rotation[1][0], parameters.platform_point[1][0], t554);
+    let t556 = mul_add(platform_rotation[1][2], parameters.platform_point[1][2], t555);
+    let t557 = platform_rotation[2][1] * parameters.platform_point[1][1];
+    let t558 = mul_add(platform_rotation[2][0], parameters.platform_point[1][0], t557);
+    let t559 = mul_add(platform_rotation[2][2], parameters.platform_point[1][2], t558);
+    platform_joint_position[1][0] = platform_position[0] + t553;
+    platform_joint_position[1][1] = platform_position[1] + t556;
+    platform_joint_position[1][2] = platform_position[2] + t559;
     // leg 2: velocity of the base joint
-    let t552 = base_velocity[5] * t539;
-    let t553 = base_velocity[3] * t542;
-    let t554 = base_velocity[4] * t536;
+    let t560 = base_velocity[5] * t547;
+    let t561 = base_velocity[3] * t550;
+    let t562 = base_velocity[4] * t544;
     // leg 2: inertial rate of the leg's direction
-    let t555 = mul_sub(base_velocity[4], t542, t552);
-    let t556 = mul_sub(platform_velocity[4], t551, t555);
-    let t557 = t160 + mul_sub(platform_velocity[5], t548, t556);
-    let t558 = mul_sub(base_velocity[5], t536, t553);
-    let t559 = mul_sub(platform_velocity[5], t545, t558);
-    let t560 = t161 + mul_sub(platform_velocity[3], t551, t559);
-    let t561 = mul_sub(base_velocity[3], t539, t554);
-    let t562 = mul_sub(platform_velocity[3], t548, t561);
-    let t563 = t162 + mul_sub(platform_velocity[4], t545, t562);
+    let t563 = mul_sub(base_velocity[4], t550, t560);
+    let t564 = mul_sub(platform_velocity[4], t559, t563);
+    let t565 = t160 + mul_sub(platform_velocity[5], t556, t564);
+    let t566 = mul_sub(base_velocity[5], t544, t561);
+    let t567 = mul_sub(platform_velocity[5], t553, t566);
+    let t568 = t161 + mul_sub(platform_velocity[3], t559, t567);
+    let t569 = mul_sub(base_velocity[3], t547, t562);
+    let t570 = mul_sub(platform_velocity[3], t556, t569);
+    let t571 = t162 + mul_sub(platform_velocity[4], t553, t570);
     // leg 2: angular velocity w_s of the leg, without spin
-    let t564 = mul_sub(t474, t563, t476 * t560);
-    let t565 = mul_sub(t476, t557, t472 * t563);
-    let t566 = mul_sub(t472, t560, t474 * t557);
+    let t572 = mul_sub(t482, t571, t484 * t568);
+    let t573 = mul_sub(t484, t565, t480 * t571);
+    let t574 = mul_sub(t480, t568, t482 * t565);
     // leg 3: Hooke joint
-    let t567 = base_rotation[0][1] * parameters.base_point[2][1];
-    let t568 = mul_add(base_rotation[0][0], parameters.base_point[2][0], t567);
-    let t569 = mul_add(base_rotation[0][2], parameters.base_point[2][2], t568);
-    let t570 = base_rotation[1][1] * parameters.base_point[2][1];
-    let t571 = mul_add(base_rotation[1][0], parameters.base_point[2][0], t570);
-    let t572 = mul_add(base_rotation[1][2], parameters.base_point[2][2], t571);
-    let t573 = base_rotation[2][1] * parameters.base_point[2][1];
-    let t574 = mul_add(base_rotation[2][0], parameters.base_point[2][0], t573);
-    let t575 = mul_add(base_rotation[2][2], parameters.base_point[2][2], t574);
-    hooke_joint_position[2][0] = base_position[0] + t569;
-    hooke_joint_position[2][1] = base_position[1] + t572;
-    hooke_joint_position[2][2] = base_position[2] + t575;
+    let t575 = base_rotation[0][1] * parameters.base_point[2][1];
+    let t576 = mul_add(base_rotation[0][0], parameters.base_point[2][0], t575);
+    let t577 = mul_add(base_rotation[0][2], parameters.base_point[2][2], t576);
+    let t578 = base_rotation[1][1] * parameters.base_point[2][1];
+    let t579 = mul_add(base_rotation[1][0], parameters.base_point[2][0], t578);
+    let t580 = mul_add(base_rotation[1][2], parameters.base_point[2][2], t579);
+    let t581 = base_rotation[2][1] * parameters.base_point[2][1];
+    let t582 = mul_add(base_rotation[2][0], parameters.base_point[2][0], t581);
+    let t583 = mul_add(base_rotation[2][2], parameters.base_point[2][2], t582);
+    hooke_joint_position[2][0] = base_position[0] + t577;
+    hooke_joint_position[2][1] = base_position[1] + t580;
+    hooke_joint_position[2][2] = base_position[2] + t583;
     // leg 3: platform joint
-    let t576 = platform_rotation[0][1] * parameters.platform_point[2][1];
-    let t577 = mul_add(platform_rotation[0][0], parameters.platform_point[2][0], t576);
-    let t578 = mul_add(platform_rotation[0][2], parameters.platform_point[2][2], t577);
-    let t579 = platform_rotation[1][1] * parameters.platform_point[2][1];
-    let t580 = mul_add(platform_rotation[1][0], parameters.platform_point[2][0], t579);
-    let t581 = mul_add(platform_rotation[1][2], parameters.platform_point[2][2], t580);
-    let t582 = platform_rotation[2][1] * parameters.platform_point[2][1];
-    let t583 = mul_add(platform_rotation[2][0], parameters.platform_point[2][0], t582);
-    let t584 = mul_add(platform_rotation[2][2], parameters.platform_point[2][2], t583);
-    platform_joint_position[2][0] = platform_position[0] + t578;
-    platform_joint_position[2][1] = platform_position[1] + t581;
-    platform_joint_position[2][2] = platform_position[2] + t584;
+    let t584 = platform_rotation[0][1] * parameters.platform_point[2][1];
+    let t585 = mul_add(platform_rotation[0][0], parameters.platform_point[2][0], t584);
+    let t586 = mul_add(platform_rotation[0][2], parameters.platform_point[2][2], t585);
+    let t587 = platform_rotation[1][1] * parameters.platform_point[2][1];
+    let t588 = mul_add(platform_rotation[1][0], parameters.platform_point[2][0], t587);
+    let t589 = mul_add(platform_rotation[1][2], parameters.platform_point[2][2], t588);
+    let t590 = platform_rotation[2][1] * parameters.platform_point[2][1];
+    let t591 = mul_add(platform_rotation[2][0], parameters.platform_point[2][0], t590);
+    let t592 = mul_add(platform_rotation[2][2], parameters.platform_point[2][2], t591);
+    platform_joint_position[2][0] = platform_position[0] + t586;
+    platform_joint_position[2][1] = platform_position[1] + t589;
+    platform_joint_position[2][2] = platform_position[2] + t592;
     // leg 3: velocity of the base joint
-    let t585 = base_velocity[5] * t572;
-    let t586 = base_velocity[3] * t575;
-    let t587 = base_velocity[4] * t569;
+    let t593 = base_velocity[5] * t580;
+    let t594 = base_velocity[3] * t583;
+    let t595 = base_velocity[4] * t577;
     // leg 3: inertial rate of the leg's direction
-    let t588 = mul_sub(base_velocity[4], t575, t585);
-    let t589 = mul_sub(platform_velocity[4], t584, t588);
-    let t590 = t160 + mul_sub(platform_velocity[5], t581, t589);
-    let t591 = mul_sub(base_velocity[5], t569, t586);
-    let t592 = mul_sub(platform_velocity[5], t578, t591);
-    let t593 = t161 + mul_sub(platform_velocity[3], t584, t592);
-    let t594 = mul_sub(base_velocity[3], t572, t587);
-    let t595 = mul_sub(platform_velocity[3], t581, t594);
-    let t596 = t162 + mul_sub(platform_velocity[4], t578, t595);
+    let t596 = mul_sub(base_velocity[4], t583, t593);
+    let t597 = mul_sub(platform_velocity[4], t592, t596);
+    let t598 = t160 + mul_sub(platform_velocity[5], t589, t597);
+    let t599 = mul_sub(base_velocity[5], t577, t594);
+    let t600 = mul_sub(platform_velocity[5], t586, t599);
+    let t601 = t161 + mul_sub(platform_velocity[3], t592, t600);
+    let t602 = mul_sub(base_velocity[3], t580, t595);
+    let t603 = mul_sub(platform_velocity[3], t589, t602);
+    let t604 = t162 + mul_sub(platform_velocity[4], t586, t603);
     // leg 3: angular velocity w_s of the leg, without spin
-    let t597 = mul_sub(t480, t596, t482 * t593);
-    let t598 = mul_sub(t482, t590, t478 * t596);
-    let t599 = mul_sub(t478, t593, t480 * t590);
+    let t605 = mul_sub(t488, t604, t490 * t601);
+    let t606 = mul_sub(t490, t598, t486 * t604);
+    let t607 = mul_sub(t486, t601, t488 * t598);
     // leg 4: Hooke joint
-    let t600 = base_rotation[0][1] * parameters.base_point[3][1];
-    let t601 = mul_add(base_rotation[0][0], parameters.base_point[3][0], t600);
-    let t602 = mul_add(base_rotation[0][2], parameters.base_point[3][2], t601);
-    let t603 = base_rotation[1][1] * parameters.base_point[3][1];
-    let t604 = mul_add(base_rotation[1][0], parameters.base_point[3][0], t603);
-    let t605 = mul_add(base_rotation[1][2], parameters.base_point[3][2], t604);
-    let t606 = base_rotation[2][1] * parameters.base_point[3][1];
-    let t607 = mul_add(base_rotation[2][0], parameters.base_point[3][0], t606);
-    let t608 = mul_add(base_rotation[2][2], parameters.base_point[3][2], t607);
-    hooke_joint_position[3][0] = base_position[0] + t602;
-    hooke_joint_position[3][1] = base_position[1] + t605;
-    hooke_joint_position[3][2] = base_position[2] + t608;
+    let t608 = base_rotation[0][1] * parameters.base_point[3][1];
+    let t609 = mul_add(base_rotation[0][0], parameters.base_point[3][0], t608);
+    let t610 = mul_add(base_rotation[0][2], parameters.base_point[3][2], t609);
+    let t611 = base_rotation[1][1] * parameters.base_point[3][1];
+    let t612 = mul_add(base_rotation[1][0], parameters.base_point[3][0], t611);
+    let t613 = mul_add(base_rotation[1][2], parameters.base_point[3][2], t612);
+    let t614 = base_rotation[2][1] * parameters.base_point[3][1];
+    let t615 = mul_add(base_rotation[2][0], parameters.base_point[3][0], t614);
+    let t616 = mul_add(base_rotation[2][2], parameters.base_point[3][2], t615);
+    hooke_joint_position[3][0] = base_position[0] + t610;
+    hooke_joint_position[3][1] = base_position[1] + t613;
+    hooke_joint_position[3][2] = base_position[2] + t616;
     // leg 4: platform joint
-    let t609 = platform_rotation[0][1] * parameters.platform_point[3][1];
-    let t610 = mul_add(platform_rotation[0][0], parameters.platform_point[3][0], t609);
-    let t611 = mul_add(platform_rotation[0][2], parameters.platform_point[3][2], t610);
-    let t612 = platform_rotation[1][1] * parameters.platform_point[3][1];
-    let t613 = mul_add(platform_rotation[1][0], parameters.platform_point[3][0], t612);
-    let t614 = mul_add(platform_rotation[1][2], parameters.platform_point[3][2], t613);
-    let t615 = platform_rotation[2][1] * parameters.platform_point[3][1];
-    let t616 = mul_add(platform_rotation[2][0], parameters.platform_point[3][0], t615);
-    let t617 = mul_add(platform_rotation[2][2], parameters.platform_point[3][2], t616);
-    platform_joint_position[3][0] = platform_position[0] + t611;
-    platform_joint_position[3][1] = platform_position[1] + t614;
-    platform_joint_position[3][2] = platform_position[2] + t617;
+    let t617 = platform_rotation[0][1] * parameters.platform_point[3][1];
+    let t618 = mul_add(platform_rotation[0][0], parameters.platform_point[3][0], t617);
+    let t619 = mul_add(platform_rotation[0][2], parameters.platform_point[3][2], t618);
+    let t620 = platform_rotation[1][1] * parameters.platform_point[3][1];
+    let t621 = mul_add(platform_rotation[1][0], parameters.platform_point[3][0], t620);
+    let t622 = mul_add(platform_rotation[1][2], parameters.platform_point[3][2], t621);
+    let t623 = platform_rotation[2][1] * parameters.platform_point[3][1];
+    let t624 = mul_add(platform_rotation[2][0], parameters.platform_point[3][0], t623);
+    let t625 = mul_add(platform_rotation[2][2], parameters.platform_point[3][2], t624);
+    platform_joint_position[3][0] = platform_position[0] + t619;
+    platform_joint_position[3][1] = platform_position[1] + t622;
+    platform_joint_position[3][2] = platform_position[2] + t625;
     // leg 4: velocity of the base joint
-    let t618 = base_velocity[5] * t605;
-    let t619 = base_velocity[3] * t608;
-    let t620 = base_velocity[4] * t602;
+    let t626 = base_velocity[5] * t613;
+    let t627 = base_velocity[3] * t616;
+    let t628 = base_velocity[4] * t610;
     // leg 4: inertial rate of the leg's direction
-    let t621 = mul_sub(base_velocity[4], t608, t618);
-    let t622 = mul_sub(platform_velocity[4], t617, t621);
-    let t623 = t160 + mul_sub(platform_velocity[5], t614, t622);
-    let t624 = mul_sub(base_velocity[5], t602, t619);
-    let t625 = mul_sub(platform_velocity[5], t611, t624);
-    let t626 = t161 + mul_sub(platform_velocity[3], t617, t625);
-    let t627 = mul_sub(base_velocity[3], t605, t620);
-    let t628 = mul_sub(platform_velocity[3], t614, t627);
-    let t629 = t162 + mul_sub(platform_velocity[4], t611, t628);
+    let t629 = mul_sub(base_velocity[4], t616, t626);
+    let t630 = mul_sub(platform_velocity[4], t625, t629);
+    let t631 = t160 + mul_sub(platform_velocity[5], t622, t630);
+    let t632 = mul_sub(base_velocity[5], t610, t627);
+    let t633 = mul_sub(platform_velocity[5], t619, t632);
+    let t634 = t161 + mul_sub(platform_velocity[3], t625, t633);
+    let t635 = mul_sub(base_velocity[3], t613, t628);
+    let t636 = mul_sub(platform_velocity[3], t622, t635);
+    let t637 = t162 + mul_sub(platform_velocity[4], t619, t636);
     // leg 4: angular velocity w_s of the leg, without spin
-    let t630 = mul_sub(t486, t629, t488 * t626);
-    let t631 = mul_sub(t488, t623, t484 * t629);
-    let t632 = mul_sub(t484, t626, t486 * t623);
+    let t638 = mul_sub(t494, t637, t496 * t634);
+    let t639 = mul_sub(t496, t631, t492 * t637);
+    let t640 = mul_sub(t492, t634, t494 * t631);
     // leg 5: Hooke joint
-    let t633 = base_rotation[0][1] * parameters.base_point[4][1];
-    let t634 = mul_add(base_rotation[0][0], parameters.base_point[4][0], t633);
-    let t635 = mul_add(base_rotation[0][2], parameters.base_point[4][2], t634);
-    let t636 = base_rotation[1][1] * parameters.base_point[4][1];
-    let t637 = mul_add(base_rotation[1][0], parameters.base_point[4][0], t636);
-    let t638 = mul_add(base_rotation[1][2], parameters.base_point[4][2], t637);
-    let t639 = base_rotation[2][1] * parameters.base_point[4][1];
-    let t640 = mul_add(base_rotation[2][0], parameters.base_point[4][0], t639);
-    let t641 = mul_add(base_rotation[2][2], parameters.base_point[4][2], t640);
-    hooke_joint_position[4][0] = base_position[0] + t635;
-    hooke_joint_position[4][1] = base_position[1] + t638;
-    hooke_joint_position[4][2] = base_position[2] + t641;
+    let t641 = base_rotation[0][1] * parameters.base_point[4][1];
+    let t642 = mul_add(base_rotation[0][0], parameters.base_point[4][0], t641);
+    let t643 = mul_add(base_rotation[0][2], parameters.base_point[4][2], t642);
+    let t644 = base_rotation[1][1] * parameters.base_point[4][1];
+    let t645 = mul_add(base_rotation[1][0], parameters.base_point[4][0], t644);
+    let t646 = mul_add(base_rotation[1][2], parameters.base_point[4][2], t645);
+    let t647 = base_rotation[2][1] * parameters.base_point[4][1];
+    let t648 = mul_add(base_rotation[2][0], parameters.base_point[4][0], t647);
+    let t649 = mul_add(base_rotation[2][2], parameters.base_point[4][2], t648);
+    hooke_joint_position[4][0] = base_position[0] + t643;
+    hooke_joint_position[4][1] = base_position[1] + t646;
+    hooke_joint_position[4][2] = base_position[2] + t649;
     // leg 5: platform joint
-    let t642 = platform_rotation[0][1] * parameters.platform_point[4][1];
-    let t643 = mul_add(platform_rotation[0][0], parameters.platform_point[4][0], t642);
-    let t644 = mul_add(platform_rotation[0][2], parameters.platform_point[4][2], t643);
-    let t645 = platform_rotation[1][1] * parameters.platform_point[4][1];
-    let t646 = mul_add(platform_rotation[1][0], parameters.platform_point[4][0], t645);
-    let t647 = mul_add(platform_rotation[1][2], parameters.platform_point[4][2], t646);
-    let t648 = platform_rotation[2][1] * parameters.platform_point[4][1];
-    let t649 = mul_add(platform_rotation[2][0], parameters.platform_point[4][0], t648);
-    let t650 = mul_add(platform_rotation[2][2], parameters.platform_point[4][2], t649);
-    platform_joint_position[4][0] = platform_position[0] + t644;
-    platform_joint_position[4][1] = platform_position[1] + t647;
-    platform_joint_position[4][2] = platform_position[2] + t650;
+    let t650 = platform_rotation[0][1] * parameters.platform_point[4][1];
+    let t651 = mul_add(platform_rotation[0][0], parameters.platform_point[4][0], t650);
+    let t652 = mul_add(platform_rotation[0][2], parameters.platform_point[4][2], t651);
+    let t653 = platform_rotation[1][1] * parameters.platform_point[4][1];
+    let t654 = mul_add(platform_rotation[1][0], parameters.platform_point[4][0], t653);
+    let t655 = mul_add(platform_rotation[1][2], parameters.platform_point[4][2], t654);
+    let t656 = platform_rotation[2][1] * parameters.platform_point[4][1];
+    let t657 = mul_add(platform_rotation[2][0], parameters.platform_point[4][0], t656);
+    let t658 = mul_add(platform_rotation[2][2], parameters.platform_point[4][2], t657);
+    platform_joint_position[4][0] = platform_position[0] + t652;
+    platform_joint_position[4][1] = platform_position[1] + t655;
+    platform_joint_position[4][2] = platform_position[2] + t658;
     // leg 5: velocity of the base joint
-    let t651 = base_velocity[5] * t638;
-    let t652 = base_velocity[3] * t641;
-    let t653 = base_velocity[4] * t635;
+    let t659 = base_velocity[5] * t646;
+    let t660 = base_velocity[3] * t649;
+    let t661 = base_velocity[4] * t643;
     // leg 5: inertial rate of the leg's direction
-    let t654 = mul_sub(base_velocity[4], t641, t651);
-    let t655 = mul_sub(platform_velocity[4], t650, t654);
-    let t656 = t160 + mul_sub(platform_velocity[5], t647, t655);
-    let t657 = mul_sub(base_velocity[5], t635, t652);
-    let t658 = mul_sub(platform_velocity[5], t644, t657);
-    let t659 = t161 + mul_sub(platform_velocity[3], t650, t658);
-    let t660 = mul_sub(base_velocity[3], t638, t653);
-    let t661 = mul_sub(platform_velocity[3], t647, t660);
-    let t662 = t162 + mul_sub(platform_velocity[4], t644, t661);
+    let t662 = mul_sub(base_velocity[4], t649, t659);
+    let t663 = mul_sub(platform_velocity[4], t658, t662);
+    let t664 = t160 + mul_sub(platform_velocity[5], t655, t663);
+    let t665 = mul_sub(base_velocity[5], t643, t660);
+    let t666 = mul_sub(platform_velocity[5], t652, t665);
+    let t667 = t161 + mul_sub(platform_velocity[3], t658, t666);
+    let t668 = mul_sub(base_velocity[3], t646, t661);
+    let t669 = mul_sub(platform_velocity[3], t655, t668);
+    let t670 = t162 + mul_sub(platform_velocity[4], t652, t669);
     // leg 5: angular velocity w_s of the leg, without spin
-    let t663 = mul_sub(t492, t662, t494 * t659);
-    let t664 = mul_sub(t494, t656, t490 * t662);
-    let t665 = mul_sub(t490, t659, t492 * t656);
+    let t671 = mul_sub(t500, t670, t502 * t667);
+    let t672 = mul_sub(t502, t664, t498 * t670);
+    let t673 = mul_sub(t498, t667, t500 * t664);
     // leg 6: Hooke joint
-    let t666 = base_rotation[0][1] * parameters.base_point[5][1];
-    let t667 = mul_add(base_rotation[0][0], parameters.base_point[5][0], t666);
-    let t668 = mul_add(base_rotation[0][2], parameters.base_point[5][2], t667);
-    let t669 = base_rotation[1][1] * parameters.base_point[5][1];
-    let t670 = mul_add(base_rotation[1][0], parameters.base_point[5][0], t669);
-    let t671 = mul_add(base_rotation[1][2], parameters.base_point[5][2], t670);
-    let t672 = base_rotation[2][1] * parameters.base_point[5][1];
-    let t673 = mul_add(base_rotation[2][0], parameters.base_point[5][0], t672);
-    let t674 = mul_add(base_rotation[2][2], parameters.base_point[5][2], t673);
-    hooke_joint_position[5][0] = base_position[0] + t668;
-    hooke_joint_position[5][1] = base_position[1] + t671;
-    hooke_joint_position[5][2] = base_position[2] + t674;
+    let t674 = base_rotation[0][1] * parameters.base_point[5][1];
+    let t675 = mul_add(base_rotation[0][0], parameters.base_point[5][0], t674);
+    let t676 = mul_add(base_rotation[0][2], parameters.base_point[5][2], t675);
+    let t677 = base_rotation[1][1] * parameters.base_point[5][1];
+    let t678 = mul_add(base_rotation[1][0], parameters.base_point[5][0], t677);
+    let t679 = mul_add(base_rotation[1][2], parameters.base_point[5][2], t678);
+    let t680 = base_rotation[2][1] * parameters.base_point[5][1];
+    let t681 = mul_add(base_rotation[2][0], parameters.base_point[5][0], t680);
+    let t682 = mul_add(base_rotation[2][2], parameters.base_point[5][2], t681);
+    hooke_joint_position[5][0] = base_position[0] + t676;
+    hooke_joint_position[5][1] = base_position[1] + t679;
+    hooke_joint_position[5][2] = base_position[2] + t682;
     // leg 6: platform joint
-    let t675 = platform_rotation[0][1] * parameters.platform_point[5][1];
-    let t676 = mul_add(platform_rotation[0][0], parameters.platform_point[5][0], t675);
-    let t677 = mul_add(platform_rotation[0][2], parameters.platform_point[5][2], t676);
-    let t678 = platform_rotation[1][1] * parameters.platform_point[5][1];
-    let t679 = mul_add(platform_rotation[1][0], parameters.platform_point[5][0], t678);
-    let t680 = mul_add(platform_rotation[1][2], parameters.platform_point[5][2], t679);
-    let t681 = platform_rotation[2][1] * parameters.platform_point[5][1];
-    let t682 = mul_add(platform_rotation[2][0], parameters.platform_point[5][0], t681);
-    let t683 = mul_add(platform_rotation[2][2], parameters.platform_point[5][2], t682);
-    platform_joint_position[5][0] = platform_position[0] + t677;
-    platform_joint_position[5][1] = platform_position[1] + t680;
-    platform_joint_position[5][2] = platform_position[2] + t683;
+    let t683 = platform_rotation[0][1] * parameters.platform_point[5][1];
+    let t684 = mul_add(platform_rotation[0][0], parameters.platform_point[5][0], t683);
+    let t685 = mul_add(platform_rotation[0][2], parameters.platform_point[5][2], t684);
+    let t686 = platform_rotation[1][1] * parameters.platform_point[5][1];
+    let t687 = mul_add(platform_rotation[1][0], parameters.platform_point[5][0], t686);
+    let t688 = mul_add(platform_rotation[1][2], parameters.platform_point[5][2], t687);
+    let t689 = platform_rotation[2][1] * parameters.platform_point[5][1];
+    let t690 = mul_add(platform_rotation[2][0], parameters.platform_point[5][0], t689);
+    let t691 = mul_add(platform_rotation[2][2], parameters.platform_point[5][2], t690);
+    platform_joint_position[5][0] = platform_position[0] + t685;
+    platform_joint_position[5][1] = platform_position[1] + t688;
+    platform_joint_position[5][2] = platform_position[2] + t691;
     // leg 6: velocity of the base joint
-    let t684 = base_velocity[5] * t671;
-    let t685 = base_velocity[3] * t674;
-    let t686 = base_velocity[4] * t668;
+    let t692 = base_velocity[5] * t679;
+    let t693 = base_velocity[3] * t682;
+    let t694 = base_velocity[4] * t676;
     // leg 6: inertial rate of the leg's direction
-    let t687 = mul_sub(base_velocity[4], t674, t684);
-    let t688 = mul_sub(platform_velocity[4], t683, t687);
-    let t689 = t160 + mul_sub(platform_velocity[5], t680, t688);
-    let t690 = mul_sub(base_velocity[5], t668, t685);
-    let t691 = mul_sub(platform_velocity[5], t677, t690);
-    let t692 = t161 + mul_sub(platform_velocity[3], t683, t691);
-    let t693 = mul_sub(base_velocity[3], t671, t686);
-    let t694 = mul_sub(platform_velocity[3], t680, t693);
-    let t695 = t162 + mul_sub(platform_velocity[4], t677, t694);
+    let t695 = mul_sub(base_velocity[4], t682, t692);
+    let t696 = mul_sub(platform_velocity[4], t691, t695);
+    let t697 = t160 + mul_sub(platform_velocity[5], t688, t696);
+    let t698 = mul_sub(base_velocity[5], t676, t693);
+    let t699 = mul_sub(platform_velocity[5], t685, t698);
+    let t700 = t161 + mul_sub(platform_velocity[3], t691, t699);
+    let t701 = mul_sub(base_velocity[3], t679, t694);
+    let t702 = mul_sub(platform_velocity[3], t688, t701);
+    let t703 = t162 + mul_sub(platform_velocity[4], t685, t702);
     // leg 6: angular velocity w_s of the leg, without spin
-    let t696 = mul_sub(t498, t695, t500 * t692);
-    let t697 = mul_sub(t500, t689, t496 * t695);
-    let t698 = mul_sub(t496, t692, t498 * t689);
+    let t704 = mul_sub(t506, t703, t508 * t700);
+    let t705 = mul_sub(t508, t697, t504 * t703);
+    let t706 = mul_sub(t504, t700, t506 * t697);
     // leg 1: platform's angular velocity relative to the rod, w_p - w_s
-    platform_joint_rate[0][0] = mul_add(t110, t531, platform_velocity[3]);
-    platform_joint_rate[0][1] = mul_add(t110, t532, platform_velocity[4]);
-    platform_joint_rate[0][2] = mul_add(t110, t533, platform_velocity[5]);
+    platform_joint_rate[0][0] = mul_add(t110, t539, platform_velocity[3]);
+    platform_joint_rate[0][1] = mul_add(t110, t540, platform_velocity[4]);
+    platform_joint_rate[0][2] = mul_add(t110, t541, platform_velocity[5]);
     // leg 2: platform's angular velocity relative to the rod, w_p - w_s
-    platform_joint_rate[1][0] = mul_add(t112, t564, platform_velocity[3]);
-    platform_joint_rate[1][1] = mul_add(t112, t565, platform_velocity[4]);
-    platform_joint_rate[1][2] = mul_add(t112, t566, platform_velocity[5]);
+    platform_joint_rate[1][0] = mul_add(t112, t572, platform_velocity[3]);
+    platform_joint_rate[1][1] = mul_add(t112, t573, platform_velocity[4]);
+    platform_joint_rate[1][2] = mul_add(t112, t574, platform_velocity[5]);
     // leg 3: platform's angular velocity relative to the rod, w_p - w_s
-    platform_joint_rate[2][0] = mul_add(t114, t597, platform_velocity[3]);
-    platform_joint_rate[2][1] = mul_add(t114, t598, platform_velocity[4]);
-    platform_joint_rate[2][2] = mul_add(t114, t599, platform_velocity[5]);
+    platform_joint_rate[2][0] = mul_add(t114, t605, platform_velocity[3]);
+    platform_joint_rate[2][1] = mul_add(t114, t606, platform_velocity[4]);
+    platform_joint_rate[2][2] = mul_add(t114, t607, platform_velocity[5]);
     // leg 4: platform's angular velocity relative to the rod, w_p - w_s
-    platform_joint_rate[3][0] = mul_add(t116, t630, platform_velocity[3]);
-    platform_joint_rate[3][1] = mul_add(t116, t631, platform_velocity[4]);
-    platform_joint_rate[3][2] = mul_add(t116, t632, platform_velocity[5]);
+    platform_joint_rate[3][0] = mul_add(t116, t638, platform_velocity[3]);
+    platform_joint_rate[3][1] = mul_add(t116, t639, platform_velocity[4]);
+    platform_joint_rate[3][2] = mul_add(t116, t640, platform_velocity[5]);
     // leg 5: platform's angular velocity relative to the rod, w_p - w_s
-    platform_joint_rate[4][0] = mul_add(t118, t663, platform_velocity[3]);
-    platform_joint_rate[4][1] = mul_add(t118, t664, platform_velocity[4]);
-    platform_joint_rate[4][2] = mul_add(t118, t665, platform_velocity[5]);
+    platform_joint_rate[4][0] = mul_add(t118, t671, platform_velocity[3]);
+    platform_joint_rate[4][1] = mul_add(t118, t672, platform_velocity[4]);
+    platform_joint_rate[4][2] = mul_add(t118, t673, platform_velocity[5]);
     // leg 6: platform's angular velocity relative to the rod, w_p - w_s
-    platform_joint_rate[5][0] = mul_add(t120, t696, platform_velocity[3]);
-    platform_joint_rate[5][1] = mul_add(t120, t697, platform_velocity[4]);
-    platform_joint_rate[5][2] = mul_add(t120, t698, platform_velocity[5]);
+    platform_joint_rate[5][0] = mul_add(t120, t704, platform_velocity[3]);
+    platform_joint_rate[5][1] = mul_add(t120, t705, platform_velocity[4]);
+    platform_joint_rate[5][2] = mul_add(t120, t706, platform_velocity[5]);
 }
 
 /// Position, velocity and acceleration of every body, equation (11)-(13), (22), (24)-(29).
@@ -3766,108 +3776,114 @@ pub fn body_kinematics<T: Scalar>(
 ) {
     let c = T::constant;
     let (
-        t532,
         t534,
         t536,
         t538,
         t540,
         t542,
-        t568,
+        t544,
+        t546,
+        t548,
+        t550,
         t570,
         t572,
         t574,
         t576,
         t578,
-        t598,
-        t600,
-        t602,
-        t604,
+        t580,
+        t582,
+        t584,
+        t586,
         t606,
         t608,
         t610,
         t612,
         t614,
-        t634,
-        t636,
-        t638,
-        t640,
+        t616,
+        t618,
+        t620,
+        t622,
         t642,
         t644,
         t646,
         t648,
         t650,
-        t670,
-        t672,
-        t674,
-        t676,
+        t652,
+        t654,
+        t656,
+        t658,
         t678,
         t680,
         t682,
         t684,
         t686,
-        t706,
-        t708,
-        t710,
-        t712,
+        t688,
+        t690,
+        t692,
+        t694,
         t714,
         t716,
         t718,
         t720,
         t722,
-        t744,
-        t747,
-        t749,
-        t753,
-        t756,
+        t724,
+        t726,
+        t728,
+        t730,
+        t752,
+        t755,
         t757,
         t761,
         t764,
         t765,
         t769,
         t772,
-        t774,
-        t778,
-        t781,
+        t773,
+        t777,
+        t780,
         t782,
         t786,
         t789,
         t790,
         t794,
         t797,
-        t799,
-        t803,
-        t806,
+        t798,
+        t802,
+        t805,
         t807,
         t811,
         t814,
         t815,
         t819,
         t822,
-        t824,
-        t828,
-        t831,
+        t823,
+        t827,
+        t830,
         t832,
         t836,
         t839,
         t840,
         t844,
         t847,
-        t849,
-        t853,
-        t856,
+        t848,
+        t852,
+        t855,
         t857,
         t861,
         t864,
         t865,
         t869,
         t872,
-        t874,
-        t878,
-        t881,
+        t873,
+        t877,
+        t880,
         t882,
         t886,
         t889,
         t890,
+        t894,
+        t897,
+        t898,
     ) = {
         // rotation of the platform seen from the base
         let t1 = base_rotation[1][0] * platform_rotation[1][0];
@@ -4246,1522 +4262,1536 @@ pub fn body_kinematics<T: Scalar>(
         let t321 = mul_add(base_rotation[0][2], platform_acceleration[3], t320);
         let t322 = mul_add(base_rotation[2][2], platform_acceleration[5], t321);
         // acceleration per platform coordinate of points of the platform
-        let t323 = mul_add(t150, t156, t319);
-        let t324 = neg_mul_add(t150, t153, t322);
-        let t325 = mul_add(t153, t153, t156 * t156);
-        let t326 = mul_sub(t21, t323, mul_add(t12, t324, t3 * t325));
-        let t327 = mul_sub(t24, t323, mul_add(t15, t324, t6 * t325));
-        let t328 = mul_sub(t27, t323, mul_add(t18, t324, t9 * t325));
-        let t329 = neg_mul_add(t153, t156, t316);
-        let t330 = mul_add(t150, t153, t322);
-        let t331 = t150 * t150;
-        let t332 = mul_add(t156, t156, t331);
-        let t333 = mul_sub(t21, t329, mul_sub(t3, t330, t12 * t332));
-        let t334 = mul_sub(t24, t329, mul_sub(t6, t330, t15 * t332));
-        let t335 = mul_sub(t27, t329, mul_sub(t9, t330, t18 * t332));
-        let t336 = mul_add(t153, t153, t331);
-        let t337 = neg_mul_add(t150, t156, t319);
-        let t338 = mul_add(t153, t156, t316);
-        let t339 = mul_add(t21, t336, mul_sub(t3, t337, t12 * t338));
-        let t340 = mul_add(t24, t336, mul_sub(t6, t337, t15 * t338));
-        let t341 = mul_add(t27, t336, mul_sub(t9, t337, t18 * t338));
+        let t323 = mul_sub(t3, t156, t21 * t150);
+        let t324 = mul_sub(t12, t150, t3 * t153);
+        let t325 = mul_add(t153, t324, mul_sub(t21, t319, t12 * t322));
+        let t326 = mul_sub(t156, t323, t325);
+        let t327 = mul_sub(t6, t156, t24 * t150);
+        let t328 = mul_sub(t15, t150, t6 * t153);
+        let t329 = mul_add(t153, t328, mul_sub(t24, t319, t15 * t322));
+        let t330 = mul_sub(t156, t327, t329);
+        let t331 = mul_sub(t9, t156, t27 * t150);
+        let t332 = mul_sub(t18, t150, t9 * t153);
+        let t333 = mul_add(t153, t332, mul_sub(t27, t319, t18 * t322));
+        let t334 = mul_sub(t156, t331, t333);
+        let t335 = mul_sub(t21, t153, t12 * t156);
+        let t336 = mul_add(t156, t335, mul_sub(t3, t322, t21 * t316));
+        let t337 = mul_sub(t150, t324, t336);
+        let t338 = mul_sub(t24, t153, t15 * t156);
+        let t339 = mul_add(t156, t338, mul_sub(t6, t322, t24 * t316));
+        let t340 = mul_sub(t150, t328, t339);
+        let t341 = mul_sub(t27, t153, t18 * t156);
+        let t342 = mul_add(t156, t341, mul_sub(t9, t322, t27 * t316));
+        let t343 = mul_sub(t150, t332, t342);
+        let t344 = mul_add(t150, t323, mul_sub(t12, t316, t3 * t319));
+        let t345 = mul_sub(t153, t335, t344);
+        let t346 = mul_add(t150, t327, mul_sub(t15, t316, t6 * t319));
+        let t347 = mul_sub(t153, t338, t346);
+        let t348 = mul_add(t150, t331, mul_sub(t18, t316, t9 * t319));
+        let t349 = mul_sub(t153, t341, t348);
         // leg 1: actuator acceleration d''
-        let t342 = t281 - t309;
-        let t343 = t283 - t311;
-        let t344 = t285 - t313;
-        let t345 = mul_add(t246, t246, mul_add(t242, t242, t244 * t244));
-        let t346 = parameters.platform_point[0][1] * t340;
-        let t347 = mul_add(parameters.platform_point[0][0], t339, t346);
-        let t348 = mul_add(parameters.platform_point[0][2], t341, t347);
-        let t349 = mul_sub(parameters.base_point[0][0], t302, t348);
-        let t350 = mul_sub(parameters.base_point[0][1], t303, t349);
-        let t351 = t344 - mul_sub(parameters.base_point[0][2], t304, t350);
-        let t352 = parameters.platform_point[0][1] * t327;
-        let t353 = mul_add(parameters.platform_point[0][0], t326, t352);
-        let t354 = mul_add(parameters.platform_point[0][2], t328, t353);
-        let t355 = mul_add(parameters.base_point[0][0], t295, t354);
-        let t356 = mul_add(parameters.base_point[0][1], t296, t355);
-        let t357 = t342 + mul_sub(parameters.base_point[0][2], t297, t356);
-        let t358 = parameters.platform_point[0][1] * t334;
-        let t359 = mul_add(parameters.platform_point[0][0], t333, t358);
-        let t360 = mul_add(parameters.platform_point[0][2], t335, t359);
-        let t361 = mul_add(parameters.base_point[0][0], t298, t360);
-        let t362 = mul_sub(parameters.base_point[0][1], t300, t361);
-        let t363 = t122 * (t343 - mul_add(parameters.base_point[0][2], t301, t362));
-        let t364 = mul_add(t123, t351, mul_add(t121, t357, t363));
-        let t365 = mul_sub(t109, t345, t364);
+        let t350 = t281 - t309;
+        let t351 = t283 - t311;
+        let t352 = t285 - t313;
+        let t353 = mul_add(t246, t246, mul_add(t242, t242, t244 * t244));
+        let t354 = parameters.platform_point[0][1] * t347;
+        let t355 = mul_add(parameters.platform_point[0][0], t345, t354);
+        let t356 = mul_add(parameters.platform_point[0][2], t349, t355);
+        let t357 = mul_sub(parameters.base_point[0][0], t302, t356);
+        let t358 = mul_sub(parameters.base_point[0][1], t303, t357);
+        let t359 = t352 - mul_sub(parameters.base_point[0][2], t304, t358);
+        let t360 = parameters.platform_point[0][1] * t330;
+        let t361 = mul_add(parameters.platform_point[0][0], t326, t360);
+        let t362 = mul_add(parameters.platform_point[0][2], t334, t361);
+        let t363 = mul_sub(parameters.base_point[0][0], t295, t362);
+        let t364 = mul_add(parameters.base_point[0][1], t296, t363);
+        let t365 = t350 + mul_sub(parameters.base_point[0][2], t297, t364);
+        let t366 = parameters.platform_point[0][1] * t340;
+        let t367 = mul_add(parameters.platform_point[0][0], t337, t366);
+        let t368 = mul_add(parameters.platform_point[0][2], t343, t367);
+        let t369 = mul_add(parameters.base_point[0][0], t298, t368);
+        let t370 = mul_sub(parameters.base_point[0][1], t300, t369);
+        let t371 = t122 * (t351 - mul_add(parameters.base_point[0][2], t301, t370));
+        let t372 = mul_add(t123, t359, mul_add(t121, t365, t371));
+        let t373 = mul_sub(t109, t353, t372);
         // leg 2: actuator acceleration d''
-        let t366 = mul_add(t252, t252, mul_add(t248, t248, t250 * t250));
-        let t367 = parameters.platform_point[1][1] * t340;
-        let t368 = mul_add(parameters.platform_point[1][0], t339, t367);
-        let t369 = mul_add(parameters.platform_point[1][2], t341, t368);
-        let t370 = mul_sub(parameters.base_point[1][0], t302, t369);
-        let t371 = mul_sub(parameters.base_point[1][1], t303, t370);
-        let t372 = t344 - mul_sub(parameters.base_point[1][2], t304, t371);
-        let t373 = parameters.platform_point[1][1] * t327;
-        let t374 = mul_add(parameters.platform_point[1][0], t326, t373);
-        let t375 = mul_add(parameters.platform_point[1][2], t328, t374);
-        let t376 = mul_add(parameters.base_point[1][0], t295, t375);
-        let t377 = mul_add(parameters.base_point[1][1], t296, t376);
-        let t378 = t342 + mul_sub(parameters.base_point[1][2], t297, t377);
-        let t379 = parameters.platform_point[1][1] * t334;
-        let t380 = mul_add(parameters.platform_point[1][0], t333, t379);
-        let t381 = mul_add(parameters.platform_point[1][2], t335, t380);
-        let t382 = mul_add(parameters.base_point[1][0], t298, t381);
-        let t383 = mul_sub(parameters.base_point[1][1], t300, t382);
-        let t384 = t125 * (t343 - mul_add(parameters.base_point[1][2], t301, t383));
-        let t385 = mul_add(t126, t372, mul_add(t124, t378, t384));
-        let t386 = mul_sub(t111, t366, t385);
+        let t374 = mul_add(t252, t252, mul_add(t248, t248, t250 * t250));
+        let t375 = parameters.platform_point[1][1] * t347;
+        let t376 = mul_add(parameters.platform_point[1][0], t345, t375);
+        let t377 = mul_add(parameters.platform_point[1][2], t349, t376);
+        let t378 = mul_sub(parameters.base_point[1][0], t302, t377);
+        let t379 = mul_sub(parameters.base_point[1][1], t303, t378);
+        let t380 = t352 - mul_sub(parameters.base_point[1][2], t304, t379);
+        let t381 = parameters.platform_point[1][1] * t330;
+        let t382 = mul_add(parameters.platform_point[1][0], t326, t381);
+        let t383 = mul_add(parameters.platform_point[1][2], t334, t382);
+        let t384 = mul_sub(parameters.base_point[1][0], t295, t383);
+        let t385 = mul_add(parameters.base_point[1][1], t296, t384);
+        let t386 = t350 + mul_sub(parameters.base_point[1][2], t297, t385);
+        let t387 = parameters.platform_point[1][1] * t340;
+        let t388 = mul_add(parameters.platform_point[1][0], t337, t387);
+        let t389 = mul_add(parameters.platform_point[1][2], t343, t388);
+        let t390 = mul_add(parameters.base_point[1][0], t298, t389);
+        let t391 = mul_sub(parameters.base_point[1][1], t300, t390);
+        let t392 = t125 * (t351 - mul_add(parameters.base_point[1][2], t301, t391));
+        let t393 = mul_add(t126, t380, mul_add(t124, t386, t392));
+        let t394 = mul_sub(t111, t374, t393);
         // leg 3: actuator acceleration d''
-        let t387 = mul_add(t258, t258, mul_add(t254, t254, t256 * t256));
-        let t388 = parameters.platform_point[2][1] * t340;
-        let t389 = mul_add(parameters.platform_point[2][0], t339, t388);
-        let t390 = mul_add(parameters.platform_point[2][2], t341, t389);
-        let t391 = mul_sub(parameters.base_point[2][0], t302, t390);
-        let t392 = mul_sub(parameters.base_point[2][1], t303, t391);
-        let t393 = t344 - mul_sub(parameters.base_point[2][2], t304, t392);
-        let t394 = parameters.platform_point[2][1] * t327;
-        let t395 = mul_add(parameters.platform_point[2][0], t326, t394);
-        let t396 = mul_add(parameters.platform_point[2][2], t328, t395);
-        let t397 = mul_add(parameters.base_point[2][0], t295, t396);
-        let t398 = mul_add(parameters.base_point[2][1], t296, t397);
-        let t399 = t342 + mul_sub(parameters.base_point[2][2], t297, t398);
-        let t400 = parameters.platform_point[2][1] * t334;
-        let t401 = mul_add(parameters.platform_point[2][0], t333, t400);
-        let t402 = mul_add(parameters.platform_point[2][2], t335, t401);
-        let t403 = mul_add(parameters.base_point[2][0], t298, t402);
-        let t404 = mul_sub(parameters.base_point[2][1], t300, t403);
-        let t405 = t128 * (t343 - mul_add(parameters.base_point[2][2], t301, t404));
-        let t406 = mul_add(t129, t393, mul_add(t127, t399, t405));
-        let t407 = mul_sub(t113, t387, t406);
+        let t395 = mul_add(t258, t258, mul_add(t254, t254, t256 * t256));
+        let t396 = parameters.platform_point[2][1] * t347;
+        let t397 = mul_add(parameters.platform_point[2][0], t345, t396);
+        let t398 = mul_add(parameters.platform_point[2][2], t349, t397);
+        let t399 = mul_sub(parameters.base_point[2][0], t302, t398);
+        let t400 = mul_sub(parameters.base_point[2][1], t303, t399);
+        let t401 = t352 - mul_sub(parameters.base_point[2][2], t304, t400);
+        let t402 = parameters.platform_point[2][1] * t330;
+        let t403 = mul_add(parameters.platform_point[2][0], t326, t402);
+        let t404 = mul_add(parameters.platform_point[2][2], t334, t403);
+        let t405 = mul_sub(parameters.base_point[2][0], t295, t404);
+        let t406 = mul_add(parameters.base_point[2][1], t296, t405);
+        let t407 = t350 + mul_sub(parameters.base_point[2][2], t297, t406);
+        let t408 = parameters.platform_point[2][1] * t340;
+        let t409 = mul_add(parameters.platform_point[2][0], t337, t408);
+        let t410 = mul_add(parameters.platform_point[2][2], t343, t409);
+        let t411 = mul_add(parameters.base_point[2][0], t298, t410);
+        let t412 = mul_sub(parameters.base_point[2][1], t300, t411);
+        let t413 = t128 * (t351 - mul_add(parameters.base_point[2][2], t301, t412));
+        let t414 = mul_add(t129, t401, mul_add(t127, t407, t413));
+        let t415 = mul_sub(t113, t395, t414);
         // leg 4: actuator acceleration d''
-        let t408 = mul_add(t264, t264, mul_add(t260, t260, t262 * t262));
-        let t409 = parameters.platform_point[3][1] * t340;
-        let t410 = mul_add(parameters.platform_point[3][0], t339, t409);
-        let t411 = mul_add(parameters.platform_point[3][2], t341, t410);
-        let t412 = mul_sub(parameters.base_point[3][0], t302, t411);
-        let t413 = mul_sub(parameters.base_point[3][1], t303, t412);
-        let t414 = t344 - mul_sub(parameters.base_point[3][2], t304, t413);
-        let t415 = parameters.platform_point[3][1] * t327;
-        let t416 = mul_add(parameters.platform_point[3][0], t326, t415);
-        let t417 = mul_add(parameters.platform_point[3][2], t328, t416);
-        let t418 = mul_add(parameters.base_point[3][0], t295, t417);
-        let t419 = mul_add(parameters.base_point[3][1], t296, t418);
-        let t420 = t342 + mul_sub(parameters.base_point[3][2], t297, t419);
-        let t421 = parameters.platform_point[3][1] * t334;
-        let t422 = mul_add(parameters.platform_point[3][0], t333, t421);
-        let t423 = mul_add(parameters.platform_point[3][2], t335, t422);
-        let t424 = mul_add(parameters.base_point[3][0], t298, t423);
-        let t425 = mul_sub(parameters.base_point[3][1], t300, t424);
-        let t426 = t131 * (t343 - mul_add(parameters.base_point[3][2], t301, t425));
-        let t427 = mul_add(t132, t414, mul_add(t130, t420, t426));
-        let t428 = mul_sub(t115, t408, t427);
+        let t416 = mul_add(t264, t264, mul_add(t260, t260, t262 * t262));
+        let t417 = parameters.platform_point[3][1] * t347;
+        let t418 = mul_add(parameters.platform_point[3][0], t345, t417);
+        let t419 = mul_add(parameters.platform_point[3][2], t349, t418);
+        let t420 = mul_sub(parameters.base_point[3][0], t302, t419);
+        let t421 = mul_sub(parameters.base_point[3][1], t303, t420);
+        let t422 = t352 - mul_sub(parameters.base_point[3][2], t304, t421);
+        let t423 = parameters.platform_point[3][1] * t330;
+        let t424 = mul_add(parameters.platform_point[3][0], t326, t423);
+        let t425 = mul_add(parameters.platform_point[3][2], t334, t424);
+        let t426 = mul_sub(parameters.base_point[3][0], t295, t425);
+        let t427 = mul_add(parameters.base_point[3][1], t296, t426);
+        let t428 = t350 + mul_sub(parameters.base_point[3][2], t297, t427);
+        let t429 = parameters.platform_point[3][1] * t340;
+        let t430 = mul_add(parameters.platform_point[3][0], t337, t429);
+        let t431 = mul_add(parameters.platform_point[3][2], t343, t430);
+        let t432 = mul_add(parameters.base_point[3][0], t298, t431);
+        let t433 = mul_sub(parameters.base_point[3][1], t300, t432);
+        let t434 = t131 * (t351 - mul_add(parameters.base_point[3][2], t301, t433));
+        let t435 = mul_add(t132, t422, mul_add(t130, t428, t434));
+        let t436 = mul_sub(t115, t416, t435);
         // leg 5: actuator acceleration d''
-        let t429 = mul_add(t270, t270, mul_add(t266, t266, t268 * t268));
-        let t430 = parameters.platform_point[4][1] * t340;
-        let t431 = mul_add(parameters.platform_point[4][0], t339, t430);
-        let t432 = mul_add(parameters.platform_point[4][2], t341, t431);
-        let t433 = mul_sub(parameters.base_point[4][0], t302, t432);
-        let t434 = mul_sub(parameters.base_point[4][1], t303, t433);
-        let t435 = t344 - mul_sub(parameters.base_point[4][2], t304, t434);
-        let t436 = parameters.platform_point[4][1] * t327;
-        let t437 = mul_add(parameters.platform_point[4][0], t326, t436);
-        let t438 = mul_add(parameters.platform_point[4][2], t328, t437);
-        let t439 = mul_add(parameters.base_point[4][0], t295, t438);
-        let t440 = mul_add(parameters.base_point[4][1], t296, t439);
-        let t441 = t342 + mul_sub(parameters.base_point[4][2], t297, t440);
-        let t442 = parameters.platform_point[4][1] * t334;
-        let t443 = mul_add(parameters.platform_point[4][0], t333, t442);
-        let t444 = mul_add(parameters.platform_point[4][2], t335, t443);
-        let t445 = mul_add(parameters.base_point[4][0], t298, t444);
-        let t446 = mul_sub(parameters.base_point[4][1], t300, t445);
-        let t447 = t134 * (t343 - mul_add(parameters.base_point[4][2], t301, t446));
-        let t448 = mul_add(t135, t435, mul_add(t133, t441, t447));
-        let t449 = mul_sub(t117, t429, t448);
+        let t437 = mul_add(t270, t270, mul_add(t266, t266, t268 * t268));
+        let t438 = parameters.platform_point[4][1] * t347;
+        let t439 = mul_add(parameters.platform_point[4][0], t345, t438);
+        let t440 = mul_add(parameters.platform_point[4][2], t349, t439);
+        let t441 = mul_sub(parameters.base_point[4][0], t302, t440);
+        let t442 = mul_sub(parameters.base_point[4][1], t303, t441);
+        let t443 = t352 - mul_sub(parameters.base_point[4][2], t304, t442);
+        let t444 = parameters.platform_point[4][1] * t330;
+        let t445 = mul_add(parameters.platform_point[4][0], t326, t444);
+        let t446 = mul_add(parameters.platform_point[4][2], t334, t445);
+        let t447 = mul_sub(parameters.base_point[4][0], t295, t446);
+        let t448 = mul_add(parameters.base_point[4][1], t296, t447);
+        let t449 = t350 + mul_sub(parameters.base_point[4][2], t297, t448);
+        let t450 = parameters.platform_point[4][1] * t340;
+        let t451 = mul_add(parameters.platform_point[4][0], t337, t450);
+        let t452 = mul_add(parameters.platform_point[4][2], t343, t451);
+        let t453 = mul_add(parameters.base_point[4][0], t298, t452);
+        let t454 = mul_sub(parameters.base_point[4][1], t300, t453);
+        let t455 = t134 * (t351 - mul_add(parameters.base_point[4][2], t301, t454));
+        let t456 = mul_add(t135, t443, mul_add(t133, t449, t455));
+        let t457 = mul_sub(t117, t437, t456);
         // leg 6: actuator acceleration d''
-        let t450 = mul_add(t276, t276, mul_add(t272, t272, t274 * t274));
-        let t451 = parameters.platform_point[5][1] * t340;
-        let t452 = mul_add(parameters.platform_point[5][0], t339, t451);
-        let t453 = mul_add(parameters.platform_point[5][2], t341, t452);
-        let t454 = mul_sub(parameters.base_point[5][0], t302, t453);
-        let t455 = mul_sub(parameters.base_point[5][1], t303, t454);
-        let t456 = t344 - mul_sub(parameters.base_point[5][2], t304, t455);
-        let t457 = parameters.platform_point[5][1] * t327;
-        let t458 = mul_add(parameters.platform_point[5][0], t326, t457);
-        let t459 = mul_add(parameters.platform_point[5][2], t328, t458);
-        let t460 = mul_add(parameters.base_point[5][0], t295, t459);
-        let t461 = mul_add(parameters.base_point[5][1], t296, t460);
-        let t462 = t342 + mul_sub(parameters.base_point[5][2], t297, t461);
-        let t463 = parameters.platform_point[5][1] * t334;
-        let t464 = mul_add(parameters.platform_point[5][0], t333, t463);
-        let t465 = mul_add(parameters.platform_point[5][2], t335, t464);
-        let t466 = mul_add(parameters.base_point[5][0], t298, t465);
-        let t467 = mul_sub(parameters.base_point[5][1], t300, t466);
-        let t468 = t137 * (t343 - mul_add(parameters.base_point[5][2], t301, t467));
-        let t469 = mul_add(t138, t456, mul_add(t136, t462, t468));
-        let t470 = mul_sub(t119, t450, t469);
+        let t458 = mul_add(t276, t276, mul_add(t272, t272, t274 * t274));
+        let t459 = parameters.platform_point[5][1] * t347;
+        let t460 = mul_add(parameters.platform_point[5][0], t345, t459);
+        let t461 = mul_add(parameters.platform_point[5][2], t349, t460);
+        let t462 = mul_sub(parameters.base_point[5][0], t302, t461);
+        let t463 = mul_sub(parameters.base_point[5][1], t303, t462);
+        let t464 = t352 - mul_sub(parameters.base_point[5][2], t304, t463);
+        let t465 = parameters.platform_point[5][1] * t330;
+        let t466 = mul_add(parameters.platform_point[5][0], t326, t465);
+        let t467 = mul_add(parameters.platform_point[5][2], t334, t466);
+        let t468 = mul_sub(parameters.base_point[5][0], t295, t467);
+        let t469 = mul_add(parameters.base_point[5][1], t296, t468);
+        let t470 = t350 + mul_sub(parameters.base_point[5][2], t297, t469);
+        let t471 = parameters.platform_point[5][1] * t340;
+        let t472 = mul_add(parameters.platform_point[5][0], t337, t471);
+        let t473 = mul_add(parameters.platform_point[5][2], t343, t472);
+        let t474 = mul_add(parameters.base_point[5][0], t298, t473);
+        let t475 = mul_sub(parameters.base_point[5][1], t300, t474);
+        let t476 = t137 * (t351 - mul_add(parameters.base_point[5][2], t301, t475));
+        let t477 = mul_add(t138, t464, mul_add(t136, t470, t476));
+        let t478 = mul_sub(t119, t458, t477);
         // leg 1: rod direction u, from the Hooke joint to the platform joint
-        let t471 = mul_add(base_rotation[0][0], t121, base_rotation[0][1] * t122);
-        let t472 = mul_add(base_rotation[0][2], t123, t471);
-        let t473 = mul_add(base_rotation[1][0], t121, base_rotation[1][1] * t122);
-        let t474 = mul_add(base_rotation[1][2], t123, t473);
-        let t475 = mul_add(base_rotation[2][0], t121, base_rotation[2][1] * t122);
-        let t476 = mul_add(base_rotation[2][2], t123, t475);
+        let t479 = mul_add(base_rotation[0][0], t121, base_rotation[0][1] * t122);
+        let t480 = mul_add(base_rotation[0][2], t123, t479);
+        let t481 = mul_add(base_rotation[1][0], t121, base_rotation[1][1] * t122);
+        let t482 = mul_add(base_rotation[1][2], t123, t481);
+        let t483 = mul_add(base_rotation[2][0], t121, base_rotation[2][1] * t122);
+        let t484 = mul_add(base_rotation[2][2], t123, t483);
         // leg 2: rod direction u, from the Hooke joint to the platform joint
-        let t477 = mul_add(base_rotation[0][0], t124, base_rotation[0][1] * t125);
-        let t478 = mul_add(base_rotation[0][2], t126, t477);
-        let t479 = mul_add(base_rotation[1][0], t124, base_rotation[1][1] * t125);
-        let t480 = mul_add(base_rotation[1][2], t126, t479);
-        let t481 = mul_add(base_rotation[2][0], t124, base_rotation[2][1] * t125);
-        let t482 = mul_add(base_rotation[2][2], t126, t481);
+        let t485 = mul_add(base_rotation[0][0], t124, base_rotation[0][1] * t125);
+        let t486 = mul_add(base_rotation[0][2], t126, t485);
+        let t487 = mul_add(base_rotation[1][0], t124, base_rotation[1][1] * t125);
+        let t488 = mul_add(base_rotation[1][2], t126, t487);
+        let t489 = mul_add(base_rotation[2][0], t124, base_rotation[2][1] * t125);
+        let t490 = mul_add(base_rotation[2][2], t126, t489);
         // leg 3: rod direction u, from the Hooke joint to the platform joint
-        let t483 = mul_add(base_rotation[0][0], t127, base_rotation[0][1] * t128);
-        let t484 = mul_add(base_rotation[0][2], t129, t483);
-        let t485 = mul_add(base_rotation[1][0], t127, base_rotation[1][1] * t128);
-        let t486 = mul_add(base_rotation[1][2], t129, t485);
-        let t487 = mul_add(base_rotation[2][0], t127, base_rotation[2][1] * t128);
-        let t488 = mul_add(base_rotation[2][2], t129, t487);
+        let t491 = mul_add(base_rotation[0][0], t127, base_rotation[0][1] * t128);
+        let t492 = mul_add(base_rotation[0][2], t129, t491);
+        let t493 = mul_add(base_rotation[1][0], t127, base_rotation[1][1] * t128);
+        let t494 = mul_add(base_rotation[1][2], t129, t493);
+        let t495 = mul_add(base_rotation[2][0], t127, base_rotation[2][1] * t128);
+        let t496 = mul_add(base_rotation[2][2], t129, t495);
         // leg 4: rod direction u, from the Hooke joint to the platform joint
-        let t489 = mul_add(base_rotation[0][0], t130, base_rotation[0][1] * t131);
-        let t490 = mul_add(base_rotation[0][2], t132, t489);
-        let t491 = mul_add(base_rotation[1][0], t130, base_rotation[1][1] * t131);
-        let t492 = mul_add(base_rotation[1][2], t132, t491);
-        let t493 = mul_add(base_rotation[2][0], t130, base_rotation[2][1] * t131);
-        let t494 = mul_add(base_rotation[2][2], t132, t493);
+        let t497 = mul_add(base_rotation[0][0], t130, base_rotation[0][1] * t131);
+        let t498 = mul_add(base_rotation[0][2], t132, t497);
+        let t499 = mul_add(base_rotation[1][0], t130, base_rotation[1][1] * t131);
+        let t500 = mul_add(base_rotation[1][2], t132, t499);
+        let t501 = mul_add(base_rotation[2][0], t130, base_rotation[2][1] * t131);
+        let t502 = mul_add(base_rotation[2][2], t132, t501);
         // leg 5: rod direction u, from the Hooke joint to the platform joint
-        let t495 = mul_add(base_rotation[0][0], t133, base_rotation[0][1] * t134);
-        let t496 = mul_add(base_rotation[0][2], t135, t495);
-        let t497 = mul_add(base_rotation[1][0], t133, base_rotation[1][1] * t134);
-        let t498 = mul_add(base_rotation[1][2], t135, t497);
-        let t499 = mul_add(base_rotation[2][0], t133, base_rotation[2][1] * t134);
-        let t500 = mul_add(base_rotation[2][2], t135, t499);
+        let t503 = mul_add(base_rotation[0][0], t133, base_rotation[0][1] * t134);
+        let t504 = mul_add(base_rotation[0][2], t135, t503);
+        let t505 = mul_add(base_rotation[1][0], t133, base_rotation[1][1] * t134);
+        let t506 = mul_add(base_rotation[1][2], t135, t505);
+        let t507 = mul_add(base_rotation[2][0], t133, base_rotation[2][1] * t134);
+        let t508 = mul_add(base_rotation[2][2], t135, t507);
         // leg 6: rod direction u, from the Hooke joint to the platform joint
-        let t501 = mul_add(base_rotation[0][0], t136, base_rotation[0][1] * t137);
-        let t502 = mul_add(base_rotation[0][2], t138, t501);
-        let t503 = mul_add(base_rotation[1][0], t136, base_rotation[1][1] * t137);
-        let t504 = mul_add(base_rotation[1][2], t138, t503);
-        let t505 = mul_add(base_rotation[2][0], t136, base_rotation[2][1] * t137);
-        let t506 = mul_add(base_rotation[2][2], t138, t505);
+        let t509 = mul_add(base_rotation[0][0], t136, base_rotation[0][1] * t137);
+        let t510 = mul_add(base_rotation[0][2], t138, t509);
+        let t511 = mul_add(base_rotation[1][0], t136, base_rotation[1][1] * t137);
+        let t512 = mul_add(base_rotation[1][2], t138, t511);
+        let t513 = mul_add(base_rotation[2][0], t136, base_rotation[2][1] * t137);
+        let t514 = mul_add(base_rotation[2][2], t138, t513);
         // leg 1: Hooke joint
-        let t507 = base_rotation[0][1] * parameters.base_point[0][1];
-        let t508 = mul_add(base_rotation[0][0], parameters.base_point[0][0], t507);
-        let t509 = mul_add(base_rotation[0][2], parameters.base_point[0][2], t508);
-        let t510 = base_rotation[1][1] * parameters.base_point[0][1];
-        let t511 = mul_add(base_rotation[1][0], parameters.base_point[0][0], t510);
-        let t512 = mul_add(base_rotation[1][2], parameters.base_point[0][2], t511);
-        let t513 = base_rotation[2][1] * parameters.base_point[0][1];
-        let t514 = mul_add(base_rotation[2][0], parameters.base_point[0][0], t513);
-        let t515 = mul_add(base_rotation[2][2], parameters.base_point[0][2], t514);
+        let t515 = base_rotation[0][1] * parameters.base_point[0][1];
+        let t516 = mul_add(base_rotation[0][0], parameters.base_point[0][0], t515);
+        let t517 = mul_add(base_rotation[0][2], parameters.base_point[0][2], t516);
+        let t518 = base_rotation[1][1] * parameters.base_point[0][1];
+        let t519 = mul_add(base_rotation[1][0], parameters.base_point[0][0], t518);
+        let t520 = mul_add(base_rotation[1][2], parameters.base_point[0][2], t519);
+        let t521 = base_rotation[2][1] * parameters.base_point[0][1];
+        let t522 = mul_add(base_rotation[2][0], parameters.base_point[0][0], t521);
+        let t523 = mul_add(base_rotation[2][2], parameters.base_point[0][2], t522);
         // leg 1: platform joint
-        let t516 = platform_rotation[0][1] * parameters.platform_point[0][1];
-        let t517 = mul_add(
+        let t524 = platform_rotation[0][1] * parameters.platform_point[0][1];
+        let t525 = mul_add(
             platform_rotation[0][0],
             parameters.platform_point[0][0],
-            t516,
+            t524,
         );
-        let t518 = mul_add(
+        let t526 = mul_add(
             platform_rotation[0][2],
             parameters.platform_point[0][2],
-            t517,
+            t525,
         );
-        let t519 = platform_rotation[1][1] * parameters.platform_point[0][1];
-        let t520 = mul_add(
+        let t527 = platform_rotation[1][1] * parameters.platform_point[0][1];
+        let t528 = mul_add(
             platform_rotation[1][0],
             parameters.platform_point[0][0],
-            t519,
+            t527,
         );
-        let t521 = mul_add(
+        let t529 = mul_add(
             platform_rotation[1][2],
             parameters.platform_point[0][2],
-            t520,
+            t528,
         );
-        let t522 = platform_rotation[2][1] * parameters.platform_point[0][1];
-        let t523 = mul_add(
+        let t530 = platform_rotation[2][1] * parameters.platform_point[0][1];
+        let t531 = mul_add(
             platform_rotation[2][0],
             parameters.platform_point[0][0],
-            t522,
+            t530,
         );
-        let t524 = mul_add(
+        let t532 = mul_add(
             platform_rotation[2][2],
             parameters.platform_point[0][2],
-            t523,
+            t531,
         );
         // leg 1: velocity of the base joint
-        let t525 = mul_sub(base_velocity[4], t515, base_velocity[5] * t512);
-        let t526 = base_velocity[0] + t525;
-        let t527 = mul_sub(base_velocity[5], t509, base_velocity[3] * t515);
-        let t528 = base_velocity[1] + t527;
-        let t529 = mul_sub(base_velocity[3], t512, base_velocity[4] * t509);
-        let t530 = base_velocity[2] + t529;
+        let t533 = mul_sub(base_velocity[4], t523, base_velocity[5] * t520);
+        let t534 = base_velocity[0] + t533;
+        let t535 = mul_sub(base_velocity[5], t517, base_velocity[3] * t523);
+        let t536 = base_velocity[1] + t535;
+        let t537 = mul_sub(base_velocity[3], t520, base_velocity[4] * t517);
+        let t538 = base_velocity[2] + t537;
         // leg 1: velocity of the platform joint
-        let t531 = mul_sub(platform_velocity[4], t524, platform_velocity[5] * t521);
-        let t532 = platform_velocity[0] + t531;
-        let t533 = mul_sub(platform_velocity[5], t518, platform_velocity[3] * t524);
-        let t534 = platform_velocity[1] + t533;
-        let t535 = mul_sub(platform_velocity[3], t521, platform_velocity[4] * t518);
-        let t536 = platform_velocity[2] + t535;
+        let t539 = mul_sub(platform_velocity[4], t532, platform_velocity[5] * t529);
+        let t540 = platform_velocity[0] + t539;
+        let t541 = mul_sub(platform_velocity[5], t526, platform_velocity[3] * t532);
+        let t542 = platform_velocity[1] + t541;
+        let t543 = mul_sub(platform_velocity[3], t529, platform_velocity[4] * t526);
+        let t544 = platform_velocity[2] + t543;
         // leg 1: inertial rate of the leg's direction
-        let t537 = t526 - t532;
-        let t538 = t110 * neg_mul_add(t235, t472, t537);
-        let t539 = t528 - t534;
-        let t540 = t110 * neg_mul_add(t235, t474, t539);
-        let t541 = t530 - t536;
-        let t542 = t110 * neg_mul_add(t235, t476, t541);
+        let t545 = t534 - t540;
+        let t546 = t110 * neg_mul_add(t235, t480, t545);
+        let t547 = t536 - t542;
+        let t548 = t110 * neg_mul_add(t235, t482, t547);
+        let t549 = t538 - t544;
+        let t550 = t110 * neg_mul_add(t235, t484, t549);
         // leg 2: Hooke joint
-        let t543 = base_rotation[0][1] * parameters.base_point[1][1];
-        let t544 = mul_add(base_rotation[0][0], parameters.base_point[1][0], t543);
-        let t545 = mul_add(base_rotation[0][2], parameters.base_point[1][2], t544);
-        let t546 = base_rotation[1][1] * parameters.base_point[1][1];
-        let t547 = mul_add(base_rotation[1][0], parameters.base_point[1][0], t546);
-        let t548 = mul_add(base_rotation[1][2], parameters.base_point[1][2], t547);
-        let t549 = base_rotation[2][1] * parameters.base_point[1][1];
-        let t550 = mul_add(base_rotation[2][0], parameters.base_point[1][0], t549);
-        let t551 = mul_add(base_rotation[2][2], parameters.base_point[1][2], t550);
+        let t551 = base_rotation[0][1] * parameters.base_point[1][1];
+        let t552 = mul_add(base_rotation[0][0], parameters.base_point[1][0], t551);
+        let t553 = mul_add(base_rotation[0][2], parameters.base_point[1][2], t552);
+        let t554 = base_rotation[1][1] * parameters.base_point[1][1];
+        let t555 = mul_add(base_rotation[1][0], parameters.base_point[1][0], t554);
+        let t556 = mul_add(base_rotation[1][2], parameters.base_point[1][2], t555);
+        let t557 = base_rotation[2][1] * parameters.base_point[1][1];
+        let t558 = mul_add(base_rotation[2][0], parameters.base_point[1][0], t557);
+        let t559 = mul_add(base_rotation[2][2], parameters.base_point[1][2], t558);
         // leg 2: platform joint
-        let t552 = platform_rotation[0][1] * parameters.platform_point[1][1];
-        let t553 = mul_add(
+        let t560 = platform_rotation[0][1] * parameters.platform_point[1][1];
+        let t561 = mul_add(
             platform_rotation[0][0],
             parameters.platform_point[1][0],
-            t552,
+            t560,
         );
-        let t554 = mul_add(
+        let t562 = mul_add(
             platform_rotation[0][2],
             parameters.platform_point[1][2],
-            t553,
+            t561,
         );
-        let t555 = platform_rotation[1][1] * parameters.platform_point[1][1];
-        let t556 = mul_add(
+        let t563 = platform_rotation[1][1] * parameters.platform_point[1][1];
+        let t564 = mul_add(
             platform_rotation[1][0],
             parameters.platform_point[1][0],
-            t555,
+            t563,
         );
-        let t557 = mul_add(
+        let t565 = mul_add(
             platform_rotation[1][2],
             parameters.platform_point[1][2],
-            t556,
+            t564,
         );
-        let t558 = platform_rotation[2][1] * parameters.platform_point[1][1];
-        let t559 = mul_add(
+        let t566 = platform_rotation[2][1] * parameters.platform_point[1][1];
+        let t567 = mul_add(
             platform_rotation[2][0],
             parameters.platform_point[1][0],
-            t558,
+            t566,
         );
-        let t560 = mul_add(
+        let t568 = mul_add(
             platform_rotation[2][2],
             parameters.platform_point[1][2],
-            t559,
+            t567,
         );
         // leg 2: velocity of the base joint
-        let t561 = mul_sub(base_velocity[4], t551, base_velocity[5] * t548);
-        let t562 = base_velocity[0] + t561;
-        let t563 = mul_sub(base_velocity[5], t545, base_velocity[3] * t551);
-        let t564 = base_velocity[1] + t563;
-        let t565 = mul_sub(base_velocity[3], t548, base_velocity[4] * t545);
-        let t566 = base_velocity[2] + t565;
+        let t569 = mul_sub(base_velocity[4], t559, base_velocity[5] * t556);
+        let t570 = base_velocity[0] + t569;
+        let t571 = mul_sub(base_velocity[5], t553, base_velocity[3] * t559);
+        let t572 = base_velocity[1] + t571;
+        let t573 = mul_sub(base_velocity[3], t556, base_velocity[4] * t553);
+        let t574 = base_velocity[2] + t573;
         // leg 2: velocity of the platform joint
-        let t567 = mul_sub(platform_velocity[4], t560, platform_velocity[5] * t557);
-        let t568 = platform_velocity[0] + t567;
-        let t569 = mul_sub(platform_velocity[5], t554, platform_velocity[3] * t560);
-        let t570 = platform_velocity[1] + t569;
-        let t571 = mul_sub(platform_velocity[3], t557, platform_velocity[4] * t554);
-        let t572 = platform_velocity[2] + t571;
+        let t575 = mul_sub(platform_velocity[4], t568, platform_velocity[5] * t565);
+        let t576 = platform_velocity[0] + t575;
+        let t577 = mul_sub(platform_velocity[5], t562, platform_velocity[3] * t568);
+        let t578 = platform_velocity[1] + t577;
+        let t579 = mul_sub(platform_velocity[3], t565, platform_velocity[4] * t562);
+        let t580 = platform_velocity[2] + t579;
         // leg 2: inertial rate of the leg's direction
-        let t573 = t562 - t568;
-        let t574 = t112 * neg_mul_add(t236, t478, t573);
-        let t575 = t564 - t570;
-        let t576 = t112 * neg_mul_add(t236, t480, t575);
-        let t577 = t566 - t572;
-        let t578 = t112 * neg_mul_add(t236, t482, t577);
+        let t581 = t570 - t576;
+        let t582 = t112 * neg_mul_add(t236, t486, t581);
+        let t583 = t572 - t578;
+        let t584 = t112 * neg_mul_add(t236, t488, t583);
+        let t585 = t574 - t580;
+        let t586 = t112 * neg_mul_add(t236, t490, t585);
         // leg 3: Hooke joint
-        let t579 = base_rotation[0][1] * parameters.base_point[2][1];
-        let t580 = mul_add(base_rotation[0][0], parameters.base_point[2][0], t579);
-        let t581 = mul_add(base_rotation[0][2], parameters.base_point[2][2], t580);
-        let t582 = base_rotation[1][1] * parameters.base_point[2][1];
-        let t583 = mul_add(base_rotation[1][0], parameters.base_point[2][0], t582);
-        let t584 = mul_add(base_rotation[1][2], parameters.base_point[2][2], t583);
-        let t585 = base_rotation[2][1] * parameters.base_point[2][1];
-        let t586 = mul_add(base_rotation[2][0], parameters.base_point[2][0], t585);
-        let t587 = mul_add(base_rotation[2][2], parameters.base_point[2][2], t586);
+        let t587 = base_rotation[0][1] * parameters.base_point[2][1];
+        let t588 = mul_add(base_rotation[0][0], parameters.base_point[2][0], t587);
+        let t589 = mul_add(base_rotation[0][2], parameters.base_point[2][2], t588);
+        let t590 = base_rotation[1][1] * parameters.base_point[2][1];
+        let t591 = mul_add(base_rotation[1][0], parameters.base_point[2][0], t590);
+        let t592 = mul_add(base_rotation[1][2], parameters.base_point[2][2], t591);
+        let t593 = base_rotation[2][1] * parameters.base_point[2][1];
+        let t594 = mul_add(base_rotation[2][0], parameters.base_point[2][0], t593);
+        let t595 = mul_add(base_rotation[2][2], parameters.base_point[2][2], t594);
         // leg 3: platform joint
-        let t588 = platform_rotation[0][1] * parameters.platform_point[2][1];
-        let t589 = mul_add(
+        let t596 = platform_rotation[0][1] * parameters.platform_point[2][1];
+        let t597 = mul_add(
             platform_rotation[0][0],
             parameters.platform_point[2][0],
-            t588,
+            t596,
         );
-        let t590 = mul_add(
+        let t598 = mul_add(
             platform_rotation[0][2],
             parameters.platform_point[2][2],
-            t589,
+            t597,
         );
-        let t591 = platform_rotation[1][1] * parameters.platform_point[2][1];
-        let t592 = mul_add(
+        let t599 = platform_rotation[1][1] * parameters.platform_point[2][1];
+        let t600 = mul_add(
             platform_rotation[1][0],
             parameters.platform_point[2][0],
-            t591,
+            t599,
         );
-        let t593 = mul_add(
+        let t601 = mul_add(
             platform_rotation[1][2],
             parameters.platform_point[2][2],
-            t592,
+            t600,
         );
-        let t594 = platform_rotation[2][1] * parameters.platform_point[2][1];
-        let t595 = mul_add(
+        let t602 = platform_rotation[2][1] * parameters.platform_point[2][1];
+        let t603 = mul_add(
             platform_rotation[2][0],
             parameters.platform_point[2][0],
-            t594,
+            t602,
         );
-        let t596 = mul_add(
+        let t604 = mul_add(
             platform_rotation[2][2],
             parameters.platform_point[2][2],
-            t595,
+            t603,
         );
         // leg 3: velocity of the base joint
-        let t597 = mul_sub(base_velocity[4], t587, base_velocity[5] * t584);
-        let t598 = base_velocity[0] + t597;
-        let t599 = mul_sub(base_velocity[5], t581, base_velocity[3] * t587);
-        let t600 = base_velocity[1] + t599;
-        let t601 = mul_sub(base_velocity[3], t584, base_velocity[4] * t581);
-        let t602 = base_velocity[2] + t601;
+        let t605 = mul_sub(base_velocity[4], t595, base_velocity[5] * t592);
+        let t606 = base_velocity[0] + t605;
+        let t607 = mul_sub(base_velocity[5], t589, base_velocity[3] * t595);
+        let t608 = base_velocity[1] + t607;
+        let t609 = mul_sub(base_velocity[3], t592, base_velocity[4] * t589);
+        let t610 = base_velocity[2] + t609;
         // leg 3: velocity of the platform joint
-        let t603 = mul_sub(platform_velocity[4], t596, platform_velocity[5] * t593);
-        let t604 = platform_velocity[0] + t603;
-        let t605 = mul_sub(platform_velocity[5], t590, platform_velocity[3] * t596);
-        let t606 = platform_velocity[1] + t605;
-        let t607 = mul_sub(platform_velocity[3], t593, platform_velocity[4] * t590);
-        let t608 = platform_velocity[2] + t607;
+        let t611 = mul_sub(platform_velocity[4], t604, platform_velocity[5] * t601);
+        let t612 = platform_velocity[0] + t611;
+        let t613 = mul_sub(platform_velocity[5], t598, platform_velocity[3] * t604);
+        let t614 = platform_velocity[1] + t613;
+        let t615 = mul_sub(platform_velocity[3], t601, platform_velocity[4] * t598);
+        let t616 = platform_velocity[2] + t615;
         // leg 3: inertial rate of the leg's direction
-        let t609 = t598 - t604;
-        let t610 = t114 * neg_mul_add(t237, t484, t609);
-        let t611 = t600 - t606;
-        let t612 = t114 * neg_mul_add(t237, t486, t611);
-        let t613 = t602 - t608;
-        let t614 = t114 * neg_mul_add(t237, t488, t613);
+        let t617 = t606 - t612;
+        let t618 = t114 * neg_mul_add(t237, t492, t617);
+        let t619 = t608 - t614;
+        let t620 = t114 * neg_mul_add(t237, t494, t619);
+        let t621 = t610 - t616;
+        let t622 = t114 * neg_mul_add(t237, t496, t621);
         // leg 4: Hooke joint
-        let t615 = base_rotation[0][1] * parameters.base_point[3][1];
-        let t616 = mul_add(base_rotation[0][0], parameters.base_point[3][0], t615);
-        let t617 = mul_add(base_rotation[0][2], parameters.base_point[3][2], t616);
-        let t618 = base_rotation[1][1] * parameters.base_point[3][1];
-        let t619 = mul_add(base_rotation[1][0], parameters.base_point[3][0], t618);
-        let t620 = mul_add(base_rotation[1][2], parameters.base_point[3][2], t619);
-        let t621 = base_rotation[2][1] * parameters.base_point[3][1];
-        let t622 = mul_add(base_rotation[2][0], parameters.base_point[3][0], t621);
-        let t623 = mul_add(base_rotation[2][2], parameters.base_point[3][2], t622);
+        let t623 = base_rotation[0][1] * parameters.base_point[3][1];
+        let t624 = mul_add(base_rotation[0][0], parameters.base_point[3][0], t623);
+        let t625 = mul_add(base_rotation[0][2], parameters.base_point[3][2], t624);
+        let t626 = base_rotation[1][1] * parameters.base_point[3][1];
+        let t627 = mul_add(base_rotation[1][0], parameters.base_point[3][0], t626);
+        let t628 = mul_add(base_rotation[1][2], parameters.base_point[3][2], t627);
+        let t629 = base_rotation[2][1] * parameters.base_point[3][1];
+        let t630 = mul_add(base_rotation[2][0], parameters.base_point[3][0], t629);
+        let t631 = mul_add(base_rotation[2][2], parameters.base_point[3][2], t630);
         // leg 4: platform joint
-        let t624 = platform_rotation[0][1] * parameters.platform_point[3][1];
-        let t625 = mul_add(
+        let t632 = platform_rotation[0][1] * parameters.platform_point[3][1];
+        let t633 = mul_add(
             platform_rotation[0][0],
             parameters.platform_point[3][0],
-            t624,
+            t632,
         );
-        let t626 = mul_add(
+        let t634 = mul_add(
             platform_rotation[0][2],
             parameters.platform_point[3][2],
-            t625,
+            t633,
         );
-        let t627 = platform_rotation[1][1] * parameters.platform_point[3][1];
-        let t628 = mul_add(
+        let t635 = platform_rotation[1][1] * parameters.platform_point[3][1];
+        let t636 = mul_add(
             platform_rotation[1][0],
             parameters.platform_point[3][0],
-            t627,
+            t635,
         );
-        let t629 = mul_add(
+        let t637 = mul_add(
             platform_rotation[1][2],
             parameters.platform_point[3][2],
-            t628,
+            t636,
         );
-        let t630 = platform_rotation[2][1] * parameters.platform_point[3][1];
-        let t631 = mul_add(
+        let t638 = platform_rotation[2][1] * parameters.platform_point[3][1];
+        let t639 = mul_add(
             platform_rotation[2][0],
             parameters.platform_point[3][0],
-            t630,
+            t638,
         );
-        let t632 = mul_add(
+        let t640 = mul_add(
             platform_rotation[2][2],
             parameters.platform_point[3][2],
-            t631,
+            t639,
         );
         // leg 4: velocity of the base joint
-        let t633 = mul_sub(base_velocity[4], t623, base_velocity[5] * t620);
-        let t634 = base_velocity[0] + t633;
-        let t635 = mul_sub(base_velocity[5], t617, base_velocity[3] * t623);
-        let t636 = base_velocity[1] + t635;
-        let t637 = mul_sub(base_velocity[3], t620, base_velocity[4] * t617);
-        let t638 = base_velocity[2] + t637;
+        let t641 = mul_sub(base_velocity[4], t631, base_velocity[5] * t628);
+        let t642 = base_velocity[0] + t641;
+        let t643 = mul_sub(base_velocity[5], t625, base_velocity[3] * t631);
+        let t644 = base_velocity[1] + t643;
+        let t645 = mul_sub(base_velocity[3], t628, base_velocity[4] * t625);
+        let t646 = base_velocity[2] + t645;
         // leg 4: velocity of the platform joint
-        let t639 = mul_sub(platform_velocity[4], t632, platform_velocity[5] * t629);
-        let t640 = platform_velocity[0] + t639;
-        let t641 = mul_sub(platform_velocity[5], t626, platform_velocity[3] * t632);
-        let t642 = platform_velocity[1] + t641;
-        let t643 = mul_sub(platform_velocity[3], t629, platform_velocity[4] * t626);
-        let t644 = platform_velocity[2] + t643;
+        let t647 = mul_sub(platform_velocity[4], t640, platform_velocity[5] * t637);
+        let t648 = platform_velocity[0] + t647;
+        let t649 = mul_sub(platform_velocity[5], t634, platform_velocity[3] * t640);
+        let t650 = platform_velocity[1] + t649;
+        let t651 = mul_sub(platform_velocity[3], t637, platform_velocity[4] * t634);
+        let t652 = platform_velocity[2] + t651;
         // leg 4: inertial rate of the leg's direction
-        let t645 = t634 - t640;
-        let t646 = t116 * neg_mul_add(t238, t490, t645);
-        let t647 = t636 - t642;
-        let t648 = t116 * neg_mul_add(t238, t492, t647);
-        let t649 = t638 - t644;
-        let t650 = t116 * neg_mul_add(t238, t494, t649);
+        let t653 = t642 - t648;
+        let t654 = t116 * neg_mul_add(t238, t498, t653);
+        let t655 = t644 - t650;
+        let t656 = t116 * neg_mul_add(t238, t500, t655);
+        let t657 = t646 - t652;
+        let t658 = t116 * neg_mul_add(t238, t502, t657);
         // leg 5: Hooke joint
-        let t651 = base_rotation[0][1] * parameters.base_point[4][1];
-        let t652 = mul_add(base_rotation[0][0], parameters.base_point[4][0], t651);
-        let t653 = mul_add(base_rotation[0][2], parameters.base_point[4][2], t652);
-        let t654 = base_rotation[1][1] * parameters.base_point[4][1];
-        let t655 = mul_add(base_rotation[1][0], parameters.base_point[4][0], t654);
-        let t656 = mul_add(base_rotation[1][2], parameters.base_point[4][2], t655);
-        let t657 = base_rotation[2][1] * parameters.base_point[4][1];
-        let t658 = mul_add(base_rotation[2][0], parameters.base_point[4][0], t657);
-        let t659 = mul_add(base_rotation[2][2], parameters.base_point[4][2], t658);
+        let t659 = base_rotation[0][1] * parameters.base_point[4][1];
+        let t660 = mul_add(base_rotation[0][0], parameters.base_point[4][0], t659);
+        let t661 = mul_add(base_rotation[0][2], parameters.base_point[4][2], t660);
+        let t662 = base_rotation[1][1] * parameters.base_point[4][1];
+        let t663 = mul_add(base_rotation[1][0], parameters.base_point[4][0], t662);
+        let t664 = mul_add(base_rotation[1][2], parameters.base_point[4][2], t663);
+        let t665 = base_rotation[2][1] * parameters.base_point[4][1];
+        let t666 = mul_add(base_rotation[2][0], parameters.base_point[4][0], t665);
+        let t667 = mul_add(base_rotation[2][2], parameters.base_point[4][2], t666);
         // leg 5: platform joint
-        let t660 = platform_rotation[0][1] * parameters.platform_point[4][1];
-        let t661 = mul_add(
+        let t668 = platform_rotation[0][1] * parameters.platform_point[4][1];
+        let t669 = mul_add(
             platform_rotation[0][0],
             parameters.platform_point[4][0],
-            t660,
+            t668,
         );
-        let t662 = mul_add(
+        let t670 = mul_add(
             platform_rotation[0][2],
             parameters.platform_point[4][2],
-            t661,
+            t669,
         );
-        let t663 = platform_rotation[1][1] * parameters.platform_point[4][1];
-        let t664 = mul_add(
+        let t671 = platform_rotation[1][1] * parameters.platform_point[4][1];
+        let t672 = mul_add(
             platform_rotation[1][0],
             parameters.platform_point[4][0],
-            t663,
+            t671,
         );
-        let t665 = mul_add(
+        let t673 = mul_add(
             platform_rotation[1][2],
             parameters.platform_point[4][2],
-            t664,
+            t672,
         );
-        let t666 = platform_rotation[2][1] * parameters.platform_point[4][1];
-        let t667 = mul_add(
+        let t674 = platform_rotation[2][1] * parameters.platform_point[4][1];
+        let t675 = mul_add(
             platform_rotation[2][0],
             parameters.platform_point[4][0],
-            t666,
+            t674,
         );
-        let t668 = mul_add(
+        let t676 = mul_add(
             platform_rotation[2][2],
             parameters.platform_point[4][2],
-            t667,
+            t675,
         );
         // leg 5: velocity of the base joint
-        let t669 = mul_sub(base_velocity[4], t659, base_velocity[5] * t656);
-        let t670 = base_velocity[0] + t669;
-        let t671 = mul_sub(base_velocity[5], t653, base_velocity[3] * t659);
-        let t672 = base_velocity[1] + t671;
-        let t673 = mul_sub(base_velocity[3], t656, base_velocity[4] * t653);
-        let t674 = base_velocity[2] + t673;
+        let t677 = mul_sub(base_velocity[4], t667, base_velocity[5] * t664);
+        let t678 = base_velocity[0] + t677;
+        let t679 = mul_sub(base_velocity[5], t661, base_velocity[3] * t667);
+        let t680 = base_velocity[1] + t679;
+        let t681 = mul_sub(base_velocity[3], t664, base_velocity[4] * t661);
+        let t682 = base_velocity[2] + t681;
         // leg 5: velocity of the platform joint
-        let t675 = mul_sub(platform_velocity[4], t668, platform_velocity[5] * t665);
-        let t676 = platform_velocity[0] + t675;
-        let t677 = mul_sub(platform_velocity[5], t662, platform_velocity[3] * t668);
-        let t678 = platform_velocity[1] + t677;
-        let t679 = mul_sub(platform_velocity[3], t665, platform_velocity[4] * t662);
-        let t680 = platform_velocity[2] + t679;
+        let t683 = mul_sub(platform_velocity[4], t676, platform_velocity[5] * t673);
+        let t684 = platform_velocity[0] + t683;
+        let t685 = mul_sub(platform_velocity[5], t670, platform_velocity[3] * t676);
+        let t686 = platform_velocity[1] + t685;
+        let t687 = mul_sub(platform_velocity[3], t673, platform_velocity[4] * t670);
+        let t688 = platform_velocity[2] + t687;
         // leg 5: inertial rate of the leg's direction
-        let t681 = t670 - t676;
-        let t682 = t118 * neg_mul_add(t239, t496, t681);
-        let t683 = t672 - t678;
-        let t684 = t118 * neg_mul_add(t239, t498, t683);
-        let t685 = t674 - t680;
-        let t686 = t118 * neg_mul_add(t239, t500, t685);
+        let t689 = t678 - t684;
+        let t690 = t118 * neg_mul_add(t239, t504, t689);
+        let t691 = t680 - t686;
+        let t692 = t118 * neg_mul_add(t239, t506, t691);
+        let t693 = t682 - t688;
+        let t694 = t118 * neg_mul_add(t239, t508, t693);
         // leg 6: Hooke joint
-        let t687 = base_rotation[0][1] * parameters.base_point[5][1];
-        let t688 = mul_add(base_rotation[0][0], parameters.base_point[5][0], t687);
-        let t689 = mul_add(base_rotation[0][2], parameters.base_point[5][2], t688);
-        let t690 = base_rotation[1][1] * parameters.base_point[5][1];
-        let t691 = mul_add(base_rotation[1][0], parameters.base_point[5][0], t690);
-        let t692 = mul_add(base_rotation[1][2], parameters.base_point[5][2], t691);
-        let t693 = base_rotation[2][1] * parameters.base_point[5][1];
-        let t694 = mul_add(base_rotation[2][0], parameters.base_point[5][0], t693);
-        let t695 = mul_add(base_rotation[2][2], parameters.base_point[5][2], t694);
+        let t695 = base_rotation[0][1] * parameters.base_point[5][1];
+        let t696 = mul_add(base_rotation[0][0], parameters.base_point[5][0], t695);
+        let t697 = mul_add(base_rotation[0][2], parameters.base_point[5][2], t696);
+        let t698 = base_rotation[1][1] * parameters.base_point[5][1];
+        let t699 = mul_add(base_rotation[1][0], parameters.base_point[5][0], t698);
+        let t700 = mul_add(base_rotation[1][2], parameters.base_point[5][2], t699);
+        let t701 = base_rotation[2][1] * parameters.base_point[5][1];
+        let t702 = mul_add(base_rotation[2][0], parameters.base_point[5][0], t701);
+        let t703 = mul_add(base_rotation[2][2], parameters.base_point[5][2], t702);
         // leg 6: platform joint
-        let t696 = platform_rotation[0][1] * parameters.platform_point[5][1];
-        let t697 = mul_add(
+        let t704 = platform_rotation[0][1] * parameters.platform_point[5][1];
+        let t705 = mul_add(
             platform_rotation[0][0],
             parameters.platform_point[5][0],
-            t696,
+            t704,
         );
-        let t698 = mul_add(
+        let t706 = mul_add(
             platform_rotation[0][2],
             parameters.platform_point[5][2],
-            t697,
+            t705,
         );
-        let t699 = platform_rotation[1][1] * parameters.platform_point[5][1];
-        let t700 = mul_add(
+        let t707 = platform_rotation[1][1] * parameters.platform_point[5][1];
+        let t708 = mul_add(
             platform_rotation[1][0],
             parameters.platform_point[5][0],
-            t699,
+            t707,
         );
-        let t701 = mul_add(
+        let t709 = mul_add(
             platform_rotation[1][2],
             parameters.platform_point[5][2],
-            t700,
+            t708,
         );
-        let t702 = platform_rotation[2][1] * parameters.platform_point[5][1];
-        let t703 = mul_add(
+        let t710 = platform_rotation[2][1] * parameters.platform_point[5][1];
+        let t711 = mul_add(
             platform_rotation[2][0],
             parameters.platform_point[5][0],
-            t702,
+            t710,
         );
-        let t704 = mul_add(
+        let t712 = mul_add(
             platform_rotation[2][2],
             parameters.platform_point[5][2],
-            t703,
+            t711,
         );
         // leg 6: velocity of the base joint
-        let t705 = mul_sub(base_velocity[4], t695, base_velocity[5] * t692);
-        let t706 = base_velocity[0] + t705;
-        let t707 = mul_sub(base_velocity[5], t689, base_velocity[3] * t695);
-        let t708 = base_velocity[1] + t707;
-        let t709 = mul_sub(base_velocity[3], t692, base_velocity[4] * t689);
-        let t710 = base_velocity[2] + t709;
+        let t713 = mul_sub(base_velocity[4], t703, base_velocity[5] * t700);
+        let t714 = base_velocity[0] + t713;
+        let t715 = mul_sub(base_velocity[5], t697, base_velocity[3] * t703);
+        let t716 = base_velocity[1] + t715;
+        let t717 = mul_sub(base_velocity[3], t700, base_velocity[4] * t697);
+        let t718 = base_velocity[2] + t717;
         // leg 6: velocity of the platform joint
-        let t711 = mul_sub(platform_velocity[4], t704, platform_velocity[5] * t701);
-        let t712 = platform_velocity[0] + t711;
-        let t713 = mul_sub(platform_velocity[5], t698, platform_velocity[3] * t704);
-        let t714 = platform_velocity[1] + t713;
-        let t715 = mul_sub(platform_velocity[3], t701, platform_velocity[4] * t698);
-        let t716 = platform_velocity[2] + t715;
+        let t719 = mul_sub(platform_velocity[4], t712, platform_velocity[5] * t709);
+        let t720 = platform_velocity[0] + t719;
+        let t721 = mul_sub(platform_velocity[5], t706, platform_velocity[3] * t712);
+        let t722 = platform_velocity[1] + t721;
+        let t723 = mul_sub(platform_velocity[3], t709, platform_velocity[4] * t706);
+        let t724 = platform_velocity[2] + t723;
         // leg 6: inertial rate of the leg's direction
-        let t717 = t706 - t712;
-        let t718 = t120 * neg_mul_add(t240, t502, t717);
-        let t719 = t708 - t714;
-        let t720 = t120 * neg_mul_add(t240, t504, t719);
-        let t721 = t710 - t716;
-        let t722 = t120 * neg_mul_add(t240, t506, t721);
+        let t725 = t714 - t720;
+        let t726 = t120 * neg_mul_add(t240, t510, t725);
+        let t727 = t716 - t722;
+        let t728 = t120 * neg_mul_add(t240, t512, t727);
+        let t729 = t718 - t724;
+        let t730 = t120 * neg_mul_add(t240, t514, t729);
         // leg 1: centre of mass of the upper part
-        let t723 = platform_position[0] + t518;
+        let t731 = platform_position[0] + t526;
         upper_com_position[0][0] = neg_mul_add(
             parameters.upper_com_distance[0],
-            t472,
-            t723,
-        );
-        let t724 = platform_position[1] + t521;
-        upper_com_position[0][1] = neg_mul_add(
-            parameters.upper_com_distance[0],
-            t474,
-            t724,
-        );
-        let t725 = platform_position[2] + t524;
-        upper_com_position[0][2] = neg_mul_add(
-            parameters.upper_com_distance[0],
-            t476,
-            t725,
-        );
-        // leg 2: centre of mass of the upper part
-        let t726 = platform_position[0] + t554;
-        upper_com_position[1][0] = neg_mul_add(
-            parameters.upper_com_distance[1],
-            t478,
-            t726,
-        );
-        let t727 = platform_position[1] + t557;
-        upper_com_position[1][1] = neg_mul_add(
-            parameters.upper_com_distance[1],
             t480,
-            t727,
-        );
-        let t728 = platform_position[2] + t560;
-        upper_com_position[1][2] = neg_mul_add(
-            parameters.upper_com_distance[1],
-            t482,
-            t728,
-        );
-        // leg 3: centre of mass of the upper part
-        let t729 = platform_position[0] + t590;
-        upper_com_position[2][0] = neg_mul_add(
-            parameters.upper_com_distance[2],
-            t484,
-            t729,
-        );
-        let t730 = platform_position[1] + t593;
-        upper_com_position[2][1] = neg_mul_add(
-            parameters.upper_com_distance[2],
-            t486,
-            t730,
-        );
-        let t731 = platform_position[2] + t596;
-        upper_com_position[2][2] = neg_mul_add(
-            parameters.upper_com_distance[2],
-            t488,
             t731,
         );
-        // leg 4: centre of mass of the upper part
-        let t732 = platform_position[0] + t626;
-        upper_com_position[3][0] = neg_mul_add(
-            parameters.upper_com_distance[3],
-            t490,
+        let t732 = platform_position[1] + t529;
+        upper_com_position[0][1] = neg_mul_add(
+            parameters.upper_com_distance[0],
+            t482,
             t732,
         );
-        let t733 = platform_position[1] + t629;
-        upper_com_position[3][1] = neg_mul_add(
-            parameters.upper_com_distance[3],
-            t492,
+        let t733 = platform_position[2] + t532;
+        upper_com_position[0][2] = neg_mul_add(
+            parameters.upper_com_distance[0],
+            t484,
             t733,
         );
-        let t734 = platform_position[2] + t632;
-        upper_com_position[3][2] = neg_mul_add(
-            parameters.upper_com_distance[3],
-            t494,
+        // leg 2: centre of mass of the upper part
+        let t734 = platform_position[0] + t562;
+        upper_com_position[1][0] = neg_mul_add(
+            parameters.upper_com_distance[1],
+            t486,
             t734,
         );
-        // leg 5: centre of mass of the upper part
-        let t735 = platform_position[0] + t662;
-        upper_com_position[4][0] = neg_mul_add(
-            parameters.upper_com_distance[4],
-            t496,
+        let t735 = platform_position[1] + t565;
+        upper_com_position[1][1] = neg_mul_add(
+            parameters.upper_com_distance[1],
+            t488,
             t735,
         );
-        let t736 = platform_position[1] + t665;
-        upper_com_position[4][1] = neg_mul_add(
-            parameters.upper_com_distance[4],
-            t498,
+        let t736 = platform_position[2] + t568;
+        upper_com_position[1][2] = neg_mul_add(
+            parameters.upper_com_distance[1],
+            t490,
             t736,
         );
-        let t737 = platform_position[2] + t668;
-        upper_com_position[4][2] = neg_mul_add(
-            parameters.upper_com_distance[4],
-            t500,
+        // leg 3: centre of mass of the upper part
+        let t737 = platform_position[0] + t598;
+        upper_com_position[2][0] = neg_mul_add(
+            parameters.upper_com_distance[2],
+            t492,
             t737,
         );
-        // leg 6: centre of mass of the upper part
-        let t738 = platform_position[0] + t698;
-        upper_com_position[5][0] = neg_mul_add(
-            parameters.upper_com_distance[5],
-            t502,
+        let t738 = platform_position[1] + t601;
+        upper_com_position[2][1] = neg_mul_add(
+            parameters.upper_com_distance[2],
+            t494,
             t738,
         );
-        let t739 = platform_position[1] + t701;
-        upper_com_position[5][1] = neg_mul_add(
-            parameters.upper_com_distance[5],
-            t504,
+        let t739 = platform_position[2] + t604;
+        upper_com_position[2][2] = neg_mul_add(
+            parameters.upper_com_distance[2],
+            t496,
             t739,
         );
-        let t740 = platform_position[2] + t704;
-        upper_com_position[5][2] = neg_mul_add(
-            parameters.upper_com_distance[5],
-            t506,
+        // leg 4: centre of mass of the upper part
+        let t740 = platform_position[0] + t634;
+        upper_com_position[3][0] = neg_mul_add(
+            parameters.upper_com_distance[3],
+            t498,
             t740,
         );
+        let t741 = platform_position[1] + t637;
+        upper_com_position[3][1] = neg_mul_add(
+            parameters.upper_com_distance[3],
+            t500,
+            t741,
+        );
+        let t742 = platform_position[2] + t640;
+        upper_com_position[3][2] = neg_mul_add(
+            parameters.upper_com_distance[3],
+            t502,
+            t742,
+        );
+        // leg 5: centre of mass of the upper part
+        let t743 = platform_position[0] + t670;
+        upper_com_position[4][0] = neg_mul_add(
+            parameters.upper_com_distance[4],
+            t504,
+            t743,
+        );
+        let t744 = platform_position[1] + t673;
+        upper_com_position[4][1] = neg_mul_add(
+            parameters.upper_com_distance[4],
+            t506,
+            t744,
+        );
+        let t745 = platform_position[2] + t676;
+        upper_com_position[4][2] = neg_mul_add(
+            parameters.upper_com_distance[4],
+            t508,
+            t745,
+        );
+        // leg 6: centre of mass of the upper part
+        let t746 = platform_position[0] + t706;
+        upper_com_position[5][0] = neg_mul_add(
+            parameters.upper_com_distance[5],
+            t510,
+            t746,
+        );
+        let t747 = platform_position[1] + t709;
+        upper_com_position[5][1] = neg_mul_add(
+            parameters.upper_com_distance[5],
+            t512,
+            t747,
+        );
+        let t748 = platform_position[2] + t712;
+        upper_com_position[5][2] = neg_mul_add(
+            parameters.upper_com_distance[5],
+            t514,
+            t748,
+        );
         // leg 1: angular acceleration of the leg
-        let t741 = mul_add(platform_acceleration[3], t521, platform_acceleration[2]);
-        let t742 = mul_sub(platform_acceleration[4], t518, t741);
-        let t743 = mul_sub(platform_velocity[3], t533, t742);
-        let t744 = mul_sub(platform_velocity[4], t531, t743);
-        let t745 = mul_add(base_acceleration[3], t512, base_acceleration[2]);
-        let t746 = mul_sub(base_acceleration[4], t509, t745);
-        let t747 = mul_sub(
+        let t749 = mul_add(platform_acceleration[3], t529, platform_acceleration[2]);
+        let t750 = mul_sub(platform_acceleration[4], t526, t749);
+        let t751 = mul_sub(platform_velocity[3], t541, t750);
+        let t752 = mul_sub(platform_velocity[4], t539, t751);
+        let t753 = mul_add(base_acceleration[3], t520, base_acceleration[2]);
+        let t754 = mul_sub(base_acceleration[4], t517, t753);
+        let t755 = mul_sub(
             base_velocity[4],
-            t525,
-            mul_sub(base_velocity[3], t527, t746),
+            t533,
+            mul_sub(base_velocity[3], t535, t754),
         );
-        let t748 = t235 * c(2.0);
-        let t749 = t110 * mul_add(t542, t748, mul_add(t365, t476, t744 - t747));
-        let t750 = mul_add(platform_acceleration[5], t518, platform_acceleration[1]);
-        let t751 = mul_sub(platform_acceleration[3], t524, t750);
-        let t752 = mul_sub(platform_velocity[5], t531, t751);
-        let t753 = mul_sub(platform_velocity[3], t535, t752);
-        let t754 = mul_add(base_acceleration[5], t509, base_acceleration[1]);
-        let t755 = mul_sub(base_acceleration[3], t515, t754);
-        let t756 = mul_sub(
-            base_velocity[3],
-            t529,
-            mul_sub(base_velocity[5], t525, t755),
-        );
-        let t757 = t110 * mul_add(t540, t748, mul_add(t365, t474, t753 - t756));
-        let t758 = mul_add(platform_acceleration[4], t524, platform_acceleration[0]);
-        let t759 = mul_sub(platform_acceleration[5], t521, t758);
-        let t760 = mul_sub(platform_velocity[4], t535, t759);
-        let t761 = mul_sub(platform_velocity[5], t533, t760);
-        let t762 = mul_add(base_acceleration[4], t515, base_acceleration[0]);
-        let t763 = mul_sub(base_acceleration[5], t512, t762);
+        let t756 = t235 * c(2.0);
+        let t757 = t110 * mul_add(t550, t756, mul_add(t373, t484, t752 - t755));
+        let t758 = mul_add(platform_acceleration[5], t526, platform_acceleration[1]);
+        let t759 = mul_sub(platform_acceleration[3], t532, t758);
+        let t760 = mul_sub(platform_velocity[5], t539, t759);
+        let t761 = mul_sub(platform_velocity[3], t543, t760);
+        let t762 = mul_add(base_acceleration[5], t517, base_acceleration[1]);
+        let t763 = mul_sub(base_acceleration[3], t523, t762);
         let t764 = mul_sub(
-            base_velocity[5],
-            t527,
-            mul_sub(base_velocity[4], t529, t763),
+            base_velocity[3],
+            t537,
+            mul_sub(base_velocity[5], t533, t763),
         );
-        let t765 = t110 * mul_add(t538, t748, mul_add(t365, t472, t761 - t764));
-        leg_angular_acceleration[0][0] = neg_mul_add(t474, t749, t476 * t757);
-        leg_angular_acceleration[0][1] = neg_mul_add(t476, t765, t472 * t749);
-        leg_angular_acceleration[0][2] = neg_mul_add(t472, t757, t474 * t765);
-        // leg 2: angular acceleration of the leg
-        let t766 = mul_add(platform_acceleration[3], t557, platform_acceleration[2]);
-        let t767 = mul_sub(platform_acceleration[4], t554, t766);
-        let t768 = mul_sub(platform_velocity[3], t569, t767);
-        let t769 = mul_sub(platform_velocity[4], t567, t768);
-        let t770 = mul_add(base_acceleration[3], t548, base_acceleration[2]);
-        let t771 = mul_sub(base_acceleration[4], t545, t770);
+        let t765 = t110 * mul_add(t548, t756, mul_add(t373, t482, t761 - t764));
+        let t766 = mul_add(platform_acceleration[4], t532, platform_acceleration[0]);
+        let t767 = mul_sub(platform_acceleration[5], t529, t766);
+        let t768 = mul_sub(platform_velocity[4], t543, t767);
+        let t769 = mul_sub(platform_velocity[5], t541, t768);
+        let t770 = mul_add(base_acceleration[4], t523, base_acceleration[0]);
+        let t771 = mul_sub(base_acceleration[5], t520, t770);
         let t772 = mul_sub(
+            base_velocity[5],
+            t535,
+            mul_sub(base_velocity[4], t537, t771),
+        );
+        let t773 = t110 * mul_add(t546, t756, mul_add(t373, t480, t769 - t772));
+        leg_angular_acceleration[0][0] = neg_mul_add(t482, t757, t484 * t765);
+        leg_angular_acceleration[0][1] = neg_mul_add(t484, t773, t480 * t757);
+        leg_angular_acceleration[0][2] = neg_mul_add(t480, t765, t482 * t773);
+        // leg 2: angular acceleration of the leg
+        let t774 = mul_add(platform_acceleration[3], t565, platform_acceleration[2]);
+        let t775 = mul_sub(platform_acceleration[4], t562, t774);
+        let t776 = mul_sub(platform_velocity[3], t577, t775);
+        let t777 = mul_sub(platform_velocity[4], t575, t776);
+        let t778 = mul_add(base_acceleration[3], t556, base_acceleration[2]);
+        let t779 = mul_sub(base_acceleration[4], t553, t778);
+        let t780 = mul_sub(
             base_velocity[4],
-            t561,
-            mul_sub(base_velocity[3], t563, t771),
+            t569,
+            mul_sub(base_velocity[3], t571, t779),
         );
-        let t773 = t236 * c(2.0);
-        let t774 = t112 * mul_add(t578, t773, mul_add(t386, t482, t769 - t772));
-        let t775 = mul_add(platform_acceleration[5], t554, platform_acceleration[1]);
-        let t776 = mul_sub(platform_acceleration[3], t560, t775);
-        let t777 = mul_sub(platform_velocity[5], t567, t776);
-        let t778 = mul_sub(platform_velocity[3], t571, t777);
-        let t779 = mul_add(base_acceleration[5], t545, base_acceleration[1]);
-        let t780 = mul_sub(base_acceleration[3], t551, t779);
-        let t781 = mul_sub(
-            base_velocity[3],
-            t565,
-            mul_sub(base_velocity[5], t561, t780),
-        );
-        let t782 = t112 * mul_add(t576, t773, mul_add(t386, t480, t778 - t781));
-        let t783 = mul_add(platform_acceleration[4], t560, platform_acceleration[0]);
-        let t784 = mul_sub(platform_acceleration[5], t557, t783);
-        let t785 = mul_sub(platform_velocity[4], t571, t784);
-        let t786 = mul_sub(platform_velocity[5], t569, t785);
-        let t787 = mul_add(base_acceleration[4], t551, base_acceleration[0]);
-        let t788 = mul_sub(base_acceleration[5], t548, t787);
+        let t781 = t236 * c(2.0);
+        let t782 = t112 * mul_add(t586, t781, mul_add(t394, t490, t777 - t780));
+        let t783 = mul_add(platform_acceleration[5], t562, platform_acceleration[1]);
+        let t784 = mul_sub(platform_acceleration[3], t568, t783);
+        let t785 = mul_sub(platform_velocity[5], t575, t784);
+        let t786 = mul_sub(platform_velocity[3], t579, t785);
+        let t787 = mul_add(base_acceleration[5], t553, base_acceleration[1]);
+        let t788 = mul_sub(base_acceleration[3], t559, t787);
         let t789 = mul_sub(
-            base_velocity[5],
-            t563,
-            mul_sub(base_velocity[4], t565, t788),
+            base_velocity[3],
+            t573,
+            mul_sub(base_velocity[5], t569, t788),
         );
-        let t790 = t112 * mul_add(t574, t773, mul_add(t386, t478, t786 - t789));
-        leg_angular_acceleration[1][0] = neg_mul_add(t480, t774, t482 * t782);
-        leg_angular_acceleration[1][1] = neg_mul_add(t482, t790, t478 * t774);
-        leg_angular_acceleration[1][2] = neg_mul_add(t478, t782, t480 * t790);
-        // leg 3: angular acceleration of the leg
-        let t791 = mul_add(platform_acceleration[3], t593, platform_acceleration[2]);
-        let t792 = mul_sub(platform_acceleration[4], t590, t791);
-        let t793 = mul_sub(platform_velocity[3], t605, t792);
-        let t794 = mul_sub(platform_velocity[4], t603, t793);
-        let t795 = mul_add(base_acceleration[3], t584, base_acceleration[2]);
-        let t796 = mul_sub(base_acceleration[4], t581, t795);
+        let t790 = t112 * mul_add(t584, t781, mul_add(t394, t488, t786 - t789));
+        let t791 = mul_add(platform_acceleration[4], t568, platform_acceleration[0]);
+        let t792 = mul_sub(platform_acceleration[5], t565, t791);
+        let t793 = mul_sub(platform_velocity[4], t579, t792);
+        let t794 = mul_sub(platform_velocity[5], t577, t793);
+        let t795 = mul_add(base_acceleration[4], t559, base_acceleration[0]);
+        let t796 = mul_sub(base_acceleration[5], t556, t795);
         let t797 = mul_sub(
+            base_velocity[5],
+            t571,
+            mul_sub(base_velocity[4], t573, t796),
+        );
+        let t798 = t112 * mul_add(t582, t781, mul_add(t394, t486, t794 - t797));
+        leg_angular_acceleration[1][0] = neg_mul_add(t488, t782, t490 * t790);
+        leg_angular_acceleration[1][1] = neg_mul_add(t490, t798, t486 * t782);
+        leg_angular_acceleration[1][2] = neg_mul_add(t486, t790, t488 * t798);
+        // leg 3: angular acceleration of the leg
+        let t799 = mul_add(platform_acceleration[3], t601, platform_acceleration[2]);
+        let t800 = mul_sub(platform_acceleration[4], t598, t799);
+        let t801 = mul_sub(platform_velocity[3], t613, t800);
+        let t802 = mul_sub(platform_velocity[4], t611, t801);
+        let t803 = mul_add(base_acceleration[3], t592, base_acceleration[2]);
+        let t804 = mul_sub(base_acceleration[4], t589, t803);
+        let t805 = mul_sub(
             base_velocity[4],
-            t597,
-            mul_sub(base_velocity[3], t599, t796),
+            t605,
+            mul_sub(base_velocity[3], t607, t804),
         );
-        let t798 = t237 * c(2.0);
-        let t799 = t114 * mul_add(t614, t798, mul_add(t407, t488, t794 - t797));
-        let t800 = mul_add(platform_acceleration[5], t590, platform_acceleration[1]);
-        let t801 = mul_sub(platform_acceleration[3], t596, t800);
-        let t802 = mul_sub(platform_velocity[5], t603, t801);
-        let t803 = mul_sub(platform_velocity[3], t607, t802);
-        let t804 = mul_add(base_acceleration[5], t581, base_acceleration[1]);
-        let t805 = mul_sub(base_acceleration[3], t587, t804);
-        let t806 = mul_sub(
-            base_velocity[3],
-            t601,
-            mul_sub(base_velocity[5], t597, t805),
-        );
-        let t807 = t114 * mul_add(t612, t798, mul_add(t407, t486, t803 - t806));
-        let t808 = mul_add(platform_acceleration[4], t596, platform_acceleration[0]);
-        let t809 = mul_sub(platform_acceleration[5], t593, t808);
-        let t810 = mul_sub(platform_velocity[4], t607, t809);
-        let t811 = mul_sub(platform_velocity[5], t605, t810);
-        let t812 = mul_add(base_acceleration[4], t587, base_acceleration[0]);
-        let t813 = mul_sub(base_acceleration[5], t584, t812);
+        let t806 = t237 * c(2.0);
+        let t807 = t114 * mul_add(t622, t806, mul_add(t415, t496, t802 - t805));
+        let t808 = mul_add(platform_acceleration[5], t598, platform_acceleration[1]);
+        let t809 = mul_sub(platform_acceleration[3], t604, t808);
+        let t810 = mul_sub(platform_velocity[5], t611, t809);
+        let t811 = mul_sub(platform_velocity[3], t615, t810);
+        let t812 = mul_add(base_acceleration[5], t589, base_acceleration[1]);
+        let t813 = mul_sub(base_acceleration[3], t595, t812);
         let t814 = mul_sub(
-            base_velocity[5],
-            t599,
-            mul_sub(base_velocity[4], t601, t813),
+            base_velocity[3],
+            t609,
+            mul_sub(base_velocity[5], t605, t813),
         );
-        let t815 = t114 * mul_add(t610, t798, mul_add(t407, t484, t811 - t814));
-        leg_angular_acceleration[2][0] = neg_mul_add(t486, t799, t488 * t807);
-        leg_angular_acceleration[2][1] = neg_mul_add(t488, t815, t484 * t799);
-        leg_angular_acceleration[2][2] = neg_mul_add(t484, t807, t486 * t815);
-        // leg 4: angular acceleration of the leg
-        let t816 = mul_add(platform_acceleration[3], t629, platform_acceleration[2]);
-        let t817 = mul_sub(platform_acceleration[4], t626, t816);
-        let t818 = mul_sub(platform_velocity[3], t641, t817);
-        let t819 = mul_sub(platform_velocity[4], t639, t818);
-        let t820 = mul_add(base_acceleration[3], t620, base_acceleration[2]);
-        let t821 = mul_sub(base_acceleration[4], t617, t820);
+        let t815 = t114 * mul_add(t620, t806, mul_add(t415, t494, t811 - t814));
+        let t816 = mul_add(platform_acceleration[4], t604, platform_acceleration[0]);
+        let t817 = mul_sub(platform_acceleration[5], t601, t816);
+        let t818 = mul_sub(platform_velocity[4], t615, t817);
+        let t819 = mul_sub(platform_velocity[5], t613, t818);
+        let t820 = mul_add(base_acceleration[4], t595, base_acceleration[0]);
+        let t821 = mul_sub(base_acceleration[5], t592, t820);
         let t822 = mul_sub(
+            base_velocity[5],
+            t607,
+            mul_sub(base_velocity[4], t609, t821),
+        );
+        let t823 = t114 * mul_add(t618, t806, mul_add(t415, t492, t819 - t822));
+        leg_angular_acceleration[2][0] = neg_mul_add(t494, t807, t496 * t815);
+        leg_angular_acceleration[2][1] = neg_mul_add(t496, t823, t492 * t807);
+        leg_angular_acceleration[2][2] = neg_mul_add(t492, t815, t494 * t823);
+        // leg 4: angular acceleration of the leg
+        let t824 = mul_add(platform_acceleration[3], t637, platform_acceleration[2]);
+        let t825 = mul_sub(platform_acceleration[4], t634, t824);
+        let t826 = mul_sub(platform_velocity[3], t649, t825);
+        let t827 = mul_sub(platform_velocity[4], t647, t826);
+        let t828 = mul_add(base_acceleration[3], t628, base_acceleration[2]);
+        let t829 = mul_sub(base_acceleration[4], t625, t828);
+        let t830 = mul_sub(
             base_velocity[4],
-            t633,
-            mul_sub(base_velocity[3], t635, t821),
+            t641,
+            mul_sub(base_velocity[3], t643, t829),
         );
-        let t823 = t238 * c(2.0);
-        let t824 = t116 * mul_add(t650, t823, mul_add(t428, t494, t819 - t822));
-        let t825 = mul_add(platform_acceleration[5], t626, platform_acceleration[1]);
-        let t826 = mul_sub(platform_acceleration[3], t632, t825);
-        let t827 = mul_sub(platform_velocity[5], t639, t826);
-        let t828 = mul_sub(platform_velocity[3], t643, t827);
-        let t829 = mul_add(base_acceleration[5], t617, base_acceleration[1]);
-        let t830 = mul_sub(base_acceleration[3], t623, t829);
-        let t831 = mul_sub(
-            base_velocity[3],
-            t637,
-            mul_sub(base_velocity[5], t633, t830),
-        );
-        let t832 = t116 * mul_add(t648, t823, mul_add(t428, t492, t828 - t831));
-        let t833 = mul_add(platform_acceleration[4], t632, platform_acceleration[0]);
-        let t834 = mul_sub(platform_acceleration[5], t629, t833);
-        let t835 = mul_sub(platform_velocity[4], t643, t834);
-        let t836 = mul_sub(platform_velocity[5], t641, t835);
-        let t837 = mul_add(base_acceleration[4], t623, base_acceleration[0]);
-        let t838 = mul_sub(base_acceleration[5], t620, t837);
+        let t831 = t238 * c(2.0);
+        let t832 = t116 * mul_add(t658, t831, mul_add(t436, t502, t827 - t830));
+        let t833 = mul_add(platform_acceleration[5], t634, platform_acceleration[1]);
+        let t834 = mul_sub(platform_acceleration[3], t640, t833);
+        let t835 = mul_sub(platform_velocity[5], t647, t834);
+        let t836 = mul_sub(platform_velocity[3], t651, t835);
+        let t837 = mul_add(base_acceleration[5], t625, base_acceleration[1]);
+        let t838 = mul_sub(base_acceleration[3], t631, t837);
         let t839 = mul_sub(
-            base_velocity[5],
-            t635,
-            mul_sub(base_velocity[4], t637, t838),
+            base_velocity[3],
+            t645,
+            mul_sub(base_velocity[5], t641, t838),
         );
-        let t840 = t116 * mul_add(t646, t823, mul_add(t428, t490, t836 - t839));
-        leg_angular_acceleration[3][0] = neg_mul_add(t492, t824, t494 * t832);
-        leg_angular_acceleration[3][1] = neg_mul_add(t494, t840, t490 * t824);
-        leg_angular_acceleration[3][2] = neg_mul_add(t490, t832, t492 * t840);
-        // leg 5: angular acceleration of the leg
-        let t841 = mul_add(platform_acceleration[3], t665, platform_acceleration[2]);
-        let t842 = mul_sub(platform_acceleration[4], t662, t841);
-        let t843 = mul_sub(platform_velocity[3], t677, t842);
-        let t844 = mul_sub(platform_velocity[4], t675, t843);
-        let t845 = mul_add(base_acceleration[3], t656, base_acceleration[2]);
-        let t846 = mul_sub(base_acceleration[4], t653, t845);
+        let t840 = t116 * mul_add(t656, t831, mul_add(t436, t500, t836 - t839));
+        let t841 = mul_add(platform_acceleration[4], t640, platform_acceleration[0]);
+        let t842 = mul_sub(platform_acceleration[5], t637, t841);
+        let t843 = mul_sub(platform_velocity[4], t651, t842);
+        let t844 = mul_sub(platform_velocity[5], t649, t843);
+        let t845 = mul_add(base_acceleration[4], t631, base_acceleration[0]);
+        let t846 = mul_sub(base_acceleration[5], t628, t845);
         let t847 = mul_sub(
+            base_velocity[5],
+            t643,
+            mul_sub(base_velocity[4], t645, t846),
+        );
+        let t848 = t116 * mul_add(t654, t831, mul_add(t436, t498, t844 - t847));
+        leg_angular_acceleration[3][0] = neg_mul_add(t500, t832, t502 * t840);
+        leg_angular_acceleration[3][1] = neg_mul_add(t502, t848, t498 * t832);
+        leg_angular_acceleration[3][2] = neg_mul_add(t498, t840, t500 * t848);
+        // leg 5: angular acceleration of the leg
+        let t849 = mul_add(platform_acceleration[3], t673, platform_acceleration[2]);
+        let t850 = mul_sub(platform_acceleration[4], t670, t849);
+        let t851 = mul_sub(platform_velocity[3], t685, t850);
+        let t852 = mul_sub(platform_velocity[4], t683, t851);
+        let t853 = mul_add(base_acceleration[3], t664, base_acceleration[2]);
+        let t854 = mul_sub(base_acceleration[4], t661, t853);
+        let t855 = mul_sub(
             base_velocity[4],
-            t669,
-            mul_sub(base_velocity[3], t671, t846),
+            t677,
+            mul_sub(base_velocity[3], t679, t854),
         );
-        let t848 = t239 * c(2.0);
-        let t849 = t118 * mul_add(t686, t848, mul_add(t449, t500, t844 - t847));
-        let t850 = mul_add(platform_acceleration[5], t662, platform_acceleration[1]);
-        let t851 = mul_sub(platform_acceleration[3], t668, t850);
-        let t852 = mul_sub(platform_velocity[5], t675, t851);
-        let t853 = mul_sub(platform_velocity[3], t679, t852);
-        let t854 = mul_add(base_acceleration[5], t653, base_acceleration[1]);
-        let t855 = mul_sub(base_acceleration[3], t659, t854);
-        let t856 = mul_sub(
-            base_velocity[3],
-            t673,
-            mul_sub(base_velocity[5], t669, t855),
-        );
-        let t857 = t118 * mul_add(t684, t848, mul_add(t449, t498, t853 - t856));
-        let t858 = mul_add(platform_acceleration[4], t668, platform_acceleration[0]);
-        let t859 = mul_sub(platform_acceleration[5], t665, t858);
-        let t860 = mul_sub(platform_velocity[4], t679, t859);
-        let t861 = mul_sub(platform_velocity[5], t677, t860);
-        let t862 = mul_add(base_acceleration[4], t659, base_acceleration[0]);
-        let t863 = mul_sub(base_acceleration[5], t656, t862);
+        let t856 = t239 * c(2.0);
+        let t857 = t118 * mul_add(t694, t856, mul_add(t457, t508, t852 - t855));
+        let t858 = mul_add(platform_acceleration[5], t670, platform_acceleration[1]);
+        let t859 = mul_sub(platform_acceleration[3], t676, t858);
+        let t860 = mul_sub(platform_velocity[5], t683, t859);
+        let t861 = mul_sub(platform_velocity[3], t687, t860);
+        let t862 = mul_add(base_acceleration[5], t661, base_acceleration[1]);
+        let t863 = mul_sub(base_acceleration[3], t667, t862);
         let t864 = mul_sub(
-            base_velocity[5],
-            t671,
-            mul_sub(base_velocity[4], t673, t863),
-        );
-        let t865 = t118 * mul_add(t682, t848, mul_add(t449, t496, t861 - t864));
-        leg_angular_acceleration[4][0] = neg_mul_add(t498, t849, t500 * t857);
-        leg_angular_acceleration[4][1] = neg_mul_add(t500, t865, t496 * t849);
-        leg_angular_acceleration[4][2] = neg_mul_add(t496, t857, t498 * t865);
-        // leg 6: angular acceleration of the leg
-        let t866 = mul_add(platform_acceleration[3], t701, platform_acceleration[2]);
-        let t867 = mul_sub(platform_acceleration[4], t698, t866);
-        let t868 = mul_sub(platform_velocity[3], t713, t867);
-        let t869 = mul_sub(platform_velocity[4], t711, t868);
-        let t870 = mul_add(base_acceleration[3], t692, base_acceleration[2]);
-        let t871 = mul_sub(base_acceleration[4], t689, t870);
-        let t872 = mul_sub(
-            base_velocity[4],
-            t705,
-            mul_sub(base_velocity[3], t707, t871),
-        );
-        let t873 = t240 * c(2.0);
-        let t874 = t120 * mul_add(t722, t873, mul_add(t470, t506, t869 - t872));
-        let t875 = mul_add(platform_acceleration[5], t698, platform_acceleration[1]);
-        let t876 = mul_sub(platform_acceleration[3], t704, t875);
-        let t877 = mul_sub(platform_velocity[5], t711, t876);
-        let t878 = mul_sub(platform_velocity[3], t715, t877);
-        let t879 = mul_add(base_acceleration[5], t689, base_acceleration[1]);
-        let t880 = mul_sub(base_acceleration[3], t695, t879);
-        let t881 = mul_sub(
             base_velocity[3],
-            t709,
-            mul_sub(base_velocity[5], t705, t880),
+            t681,
+            mul_sub(base_velocity[5], t677, t863),
         );
-        let t882 = t120 * mul_add(t720, t873, mul_add(t470, t504, t878 - t881));
-        let t883 = mul_add(platform_acceleration[4], t704, platform_acceleration[0]);
-        let t884 = mul_sub(platform_acceleration[5], t701, t883);
-        let t885 = mul_sub(platform_velocity[4], t715, t884);
-        let t886 = mul_sub(platform_velocity[5], t713, t885);
-        let t887 = mul_add(base_acceleration[4], t695, base_acceleration[0]);
-        let t888 = mul_sub(base_acceleration[5], t692, t887);
-        let t889 = mul_sub(
+        let t865 = t118 * mul_add(t692, t856, mul_add(t457, t506, t861 - t864));
+        let t866 = mul_add(platform_acceleration[4], t676, platform_acceleration[0]);
+        let t867 = mul_sub(platform_acceleration[5], t673, t866);
+        let t868 = mul_sub(platform_velocity[4], t687, t867);
+        let t869 = mul_sub(platform_velocity[5], t685, t868);
+        let t870 = mul_add(base_acceleration[4], t667, base_acceleration[0]);
+        let t871 = mul_sub(base_acceleration[5], t664, t870);
+        let t872 = mul_sub(
             base_velocity[5],
-            t707,
-            mul_sub(base_velocity[4], t709, t888),
+            t679,
+            mul_sub(base_velocity[4], t681, t871),
         );
-        let t890 = t120 * mul_add(t718, t873, mul_add(t470, t502, t886 - t889));
-        leg_angular_acceleration[5][0] = neg_mul_add(t504, t874, t506 * t882);
-        leg_angular_acceleration[5][1] = neg_mul_add(t506, t890, t502 * t874);
-        leg_angular_acceleration[5][2] = neg_mul_add(t502, t882, t504 * t890);
+        let t873 = t118 * mul_add(t690, t856, mul_add(t457, t504, t869 - t872));
+        leg_angular_acceleration[4][0] = neg_mul_add(t506, t857, t508 * t865);
+        leg_angular_acceleration[4][1] = neg_mul_add(t508, t873, t504 * t857);
+        leg_angular_acceleration[4][2] = neg_mul_add(t504, t865, t506 * t873);
+        // leg 6: angular acceleration of the leg
+        let t874 = mul_add(platform_acceleration[3], t709, platform_acceleration[2]);
+        let t875 = mul_sub(platform_acceleration[4], t706, t874);
+        let t876 = mul_sub(platform_velocity[3], t721, t875);
+        let t877 = mul_sub(platform_velocity[4], t719, t876);
+        let t878 = mul_add(base_acceleration[3], t700, base_acceleration[2]);
+        let t879 = mul_sub(base_acceleration[4], t697, t878);
+        let t880 = mul_sub(
+            base_velocity[4],
+            t713,
+            mul_sub(base_velocity[3], t715, t879),
+        );
+        let t881 = t240 * c(2.0);
+        let t882 = t120 * mul_add(t730, t881, mul_add(t478, t514, t877 - t880));
+        let t883 = mul_add(platform_acceleration[5], t706, platform_acceleration[1]);
+        let t884 = mul_sub(platform_acceleration[3], t712, t883);
+        let t885 = mul_sub(platform_velocity[5], t719, t884);
+        let t886 = mul_sub(platform_velocity[3], t723, t885);
+        let t887 = mul_add(base_acceleration[5], t697, base_acceleration[1]);
+        let t888 = mul_sub(base_acceleration[3], t703, t887);
+        let t889 = mul_sub(
+            base_velocity[3],
+            t717,
+            mul_sub(base_velocity[5], t713, t888),
+        );
+        let t890 = t120 * mul_add(t728, t881, mul_add(t478, t512, t886 - t889));
+        let t891 = mul_add(platform_acceleration[4], t712, platform_acceleration[0]);
+        let t892 = mul_sub(platform_acceleration[5], t709, t891);
+        let t893 = mul_sub(platform_velocity[4], t723, t892);
+        let t894 = mul_sub(platform_velocity[5], t721, t893);
+        let t895 = mul_add(base_acceleration[4], t703, base_acceleration[0]);
+        let t896 = mul_sub(base_acceleration[5], t700, t895);
+        let t897 = mul_sub(
+            base_velocity[5],
+            t715,
+            mul_sub(base_velocity[4], t717, t896),
+        );
+        let t898 = t120 * mul_add(t726, t881, mul_add(t478, t510, t894 - t897));
+        leg_angular_acceleration[5][0] = neg_mul_add(t512, t882, t514 * t890);
+        leg_angular_acceleration[5][1] = neg_mul_add(t514, t898, t510 * t882);
+        leg_angular_acceleration[5][2] = neg_mul_add(t510, t890, t512 * t898);
         // centre of mass of the payload
-        let t891 = platform_rotation[0][1] * parameters.payload_com[1];
-        let t892 = mul_add(platform_rotation[0][0], parameters.payload_com[0], t891);
-        let t893 = mul_add(platform_rotation[0][2], parameters.payload_com[2], t892);
-        let t894 = platform_rotation[1][1] * parameters.payload_com[1];
-        let t895 = mul_add(platform_rotation[1][0], parameters.payload_com[0], t894);
-        let t896 = mul_add(platform_rotation[1][2], parameters.payload_com[2], t895);
-        let t897 = platform_rotation[2][1] * parameters.payload_com[1];
-        let t898 = mul_add(platform_rotation[2][0], parameters.payload_com[0], t897);
-        let t899 = mul_add(platform_rotation[2][2], parameters.payload_com[2], t898);
-        payload_com_position[0] = platform_position[0] + t893;
-        payload_com_position[1] = platform_position[1] + t896;
-        payload_com_position[2] = platform_position[2] + t899;
+        let t899 = platform_rotation[0][1] * parameters.payload_com[1];
+        let t900 = mul_add(platform_rotation[0][0], parameters.payload_com[0], t899);
+        let t901 = mul_add(platform_rotation[0][2], parameters.payload_com[2], t900);
+        let t902 = platform_rotation[1][1] * parameters.payload_com[1];
+        let t903 = mul_add(platform_rotation[1][0], parameters.payload_com[0], t902);
+        let t904 = mul_add(platform_rotation[1][2], parameters.payload_com[2], t903);
+        let t905 = platform_rotation[2][1] * parameters.payload_com[1];
+        let t906 = mul_add(platform_rotation[2][0], parameters.payload_com[0], t905);
+        let t907 = mul_add(platform_rotation[2][2], parameters.payload_com[2], t906);
+        payload_com_position[0] = platform_position[0] + t901;
+        payload_com_position[1] = platform_position[1] + t904;
+        payload_com_position[2] = platform_position[2] + t907;
         // velocity of the payload's centre of mass
-        let t900 = mul_sub(platform_velocity[4], t899, platform_velocity[5] * t896);
-        let t901 = mul_sub(platform_velocity[5], t893, platform_velocity[3] * t899);
-        let t902 = mul_sub(platform_velocity[3], t896, platform_velocity[4] * t893);
-        payload_com_velocity[0] = platform_velocity[0] + t900;
-        payload_com_velocity[1] = platform_velocity[1] + t901;
-        payload_com_velocity[2] = platform_velocity[2] + t902;
+        let t908 = mul_sub(platform_velocity[4], t907, platform_velocity[5] * t904);
+        let t909 = mul_sub(platform_velocity[5], t901, platform_velocity[3] * t907);
+        let t910 = mul_sub(platform_velocity[3], t904, platform_velocity[4] * t901);
+        payload_com_velocity[0] = platform_velocity[0] + t908;
+        payload_com_velocity[1] = platform_velocity[1] + t909;
+        payload_com_velocity[2] = platform_velocity[2] + t910;
         // acceleration of the payload's centre of mass
-        let t903 = mul_add(platform_acceleration[4], t899, platform_acceleration[0]);
-        let t904 = mul_sub(platform_acceleration[5], t896, t903);
-        let t905 = mul_sub(platform_velocity[4], t902, t904);
-        payload_com_acceleration[0] = neg_mul_add(platform_velocity[5], t901, t905);
-        let t906 = mul_add(platform_acceleration[5], t893, platform_acceleration[1]);
-        let t907 = mul_sub(platform_acceleration[3], t899, t906);
-        let t908 = mul_sub(platform_velocity[5], t900, t907);
-        payload_com_acceleration[1] = neg_mul_add(platform_velocity[3], t902, t908);
-        let t909 = mul_add(platform_acceleration[3], t896, platform_acceleration[2]);
-        let t910 = mul_sub(platform_acceleration[4], t893, t909);
-        let t911 = mul_sub(platform_velocity[3], t901, t910);
-        payload_com_acceleration[2] = neg_mul_add(platform_velocity[4], t900, t911);
+        let t911 = mul_add(platform_acceleration[4], t907, platform_acceleration[0]);
+        let t912 = mul_sub(platform_acceleration[5], t904, t911);
+        let t913 = mul_sub(platform_velocity[4], t910, t912);
+        payload_com_acceleration[0] = neg_mul_add(platform_velocity[5], t909, t913);
+        let t914 = mul_add(platform_acceleration[5], t901, platform_acceleration[1]);
+        let t915 = mul_sub(platform_acceleration[3], t907, t914);
+        let t916 = mul_sub(platform_velocity[5], t908, t915);
+        payload_com_acceleration[1] = neg_mul_add(platform_velocity[3], t910, t916);
+        let t917 = mul_add(platform_acceleration[3], t904, platform_acceleration[2]);
+        let t918 = mul_sub(platform_acceleration[4], t901, t917);
+        let t919 = mul_sub(platform_velocity[3], t909, t918);
+        payload_com_acceleration[2] = neg_mul_add(platform_velocity[4], t908, t919);
         // leg 1: angular velocity w_s of the leg, without spin
-        leg_angular_velocity[0][0] = t110 * neg_mul_add(t474, t541, t476 * t539);
-        leg_angular_velocity[0][1] = t110 * neg_mul_add(t476, t537, t472 * t541);
-        leg_angular_velocity[0][2] = t110 * neg_mul_add(t472, t539, t474 * t537);
+        leg_angular_velocity[0][0] = t110 * neg_mul_add(t482, t549, t484 * t547);
+        leg_angular_velocity[0][1] = t110 * neg_mul_add(t484, t545, t480 * t549);
+        leg_angular_velocity[0][2] = t110 * neg_mul_add(t480, t547, t482 * t545);
         // leg 2: angular velocity w_s of the leg, without spin
-        leg_angular_velocity[1][0] = t112 * neg_mul_add(t480, t577, t482 * t575);
-        leg_angular_velocity[1][1] = t112 * neg_mul_add(t482, t573, t478 * t577);
-        leg_angular_velocity[1][2] = t112 * neg_mul_add(t478, t575, t480 * t573);
+        leg_angular_velocity[1][0] = t112 * neg_mul_add(t488, t585, t490 * t583);
+        leg_angular_velocity[1][1] = t112 * neg_mul_add(t490, t581, t486 * t585);
+        leg_angular_velocity[1][2] = t112 * neg_mul_add(t486, t583, t488 * t581);
         // leg 3: angular velocity w_s of the leg, without spin
-        leg_angular_velocity[2][0] = t114 * neg_mul_add(t486, t613, t488 * t611);
-        leg_angular_velocity[2][1] = t114 * neg_mul_add(t488, t609, t484 * t613);
-        leg_angular_velocity[2][2] = t114 * neg_mul_add(t484, t611, t486 * t609);
+        leg_angular_velocity[2][0] = t114 * neg_mul_add(t494, t621, t496 * t619);
+        leg_angular_velocity[2][1] = t114 * neg_mul_add(t496, t617, t492 * t621);
+        leg_angular_velocity[2][2] = t114 * neg_mul_add(t492, t619, t494 * t617);
         // leg 4: angular velocity w_s of the leg, without spin
-        leg_angular_velocity[3][0] = t116 * neg_mul_add(t492, t649, t494 * t647);
-        leg_angular_velocity[3][1] = t116 * neg_mul_add(t494, t645, t490 * t649);
-        leg_angular_velocity[3][2] = t116 * neg_mul_add(t490, t647, t492 * t645);
+        leg_angular_velocity[3][0] = t116 * neg_mul_add(t500, t657, t502 * t655);
+        leg_angular_velocity[3][1] = t116 * neg_mul_add(t502, t653, t498 * t657);
+        leg_angular_velocity[3][2] = t116 * neg_mul_add(t498, t655, t500 * t653);
         // leg 5: angular velocity w_s of the leg, without spin
-        leg_angular_velocity[4][0] = t118 * neg_mul_add(t498, t685, t500 * t683);
-        leg_angular_velocity[4][1] = t118 * neg_mul_add(t500, t681, t496 * t685);
-        leg_angular_velocity[4][2] = t118 * neg_mul_add(t496, t683, t498 * t681);
+        leg_angular_velocity[4][0] = t118 * neg_mul_add(t506, t693, t508 * t691);
+        leg_angular_velocity[4][1] = t118 * neg_mul_add(t508, t689, t504 * t693);
+        leg_angular_velocity[4][2] = t118 * neg_mul_add(t504, t691, t506 * t689);
         // leg 6: angular velocity w_s of the leg, without spin
-        leg_angular_velocity[5][0] = t120 * neg_mul_add(t504, t721, t506 * t719);
-        leg_angular_velocity[5][1] = t120 * neg_mul_add(t506, t717, t502 * t721);
-        leg_angular_velocity[5][2] = t120 * neg_mul_add(t502, t719, t504 * t717);
+        leg_angular_velocity[5][0] = t120 * neg_mul_add(t512, t729, t514 * t727);
+        leg_angular_velocity[5][1] = t120 * neg_mul_add(t514, t725, t510 * t729);
+        leg_angular_velocity[5][2] = t120 * neg_mul_add(t510, t727, t512 * t725);
         // leg 1: centre of mass of the lower part
         lower_com_position[0][0] = mul_add(
             parameters.lower_com_distance[0],
-            t472,
-            base_position[0] + t509,
+            t480,
+            base_position[0] + t517,
         );
         lower_com_position[0][1] = mul_add(
             parameters.lower_com_distance[0],
-            t474,
-            base_position[1] + t512,
+            t482,
+            base_position[1] + t520,
         );
         lower_com_position[0][2] = mul_add(
             parameters.lower_com_distance[0],
-            t476,
-            base_position[2] + t515,
+            t484,
+            base_position[2] + t523,
         );
         // leg 2: centre of mass of the lower part
         lower_com_position[1][0] = mul_add(
             parameters.lower_com_distance[1],
-            t478,
-            base_position[0] + t545,
+            t486,
+            base_position[0] + t553,
         );
         lower_com_position[1][1] = mul_add(
             parameters.lower_com_distance[1],
-            t480,
-            base_position[1] + t548,
+            t488,
+            base_position[1] + t556,
         );
         lower_com_position[1][2] = mul_add(
             parameters.lower_com_distance[1],
-            t482,
-            base_position[2] + t551,
+            t490,
+            base_position[2] + t559,
         );
         // leg 3: centre of mass of the lower part
         lower_com_position[2][0] = mul_add(
             parameters.lower_com_distance[2],
-            t484,
-            base_position[0] + t581,
+            t492,
+            base_position[0] + t589,
         );
         lower_com_position[2][1] = mul_add(
             parameters.lower_com_distance[2],
-            t486,
-            base_position[1] + t584,
+            t494,
+            base_position[1] + t592,
         );
         lower_com_position[2][2] = mul_add(
             parameters.lower_com_distance[2],
-            t488,
-            base_position[2] + t587,
+            t496,
+            base_position[2] + t595,
         );
         // leg 4: centre of mass of the lower part
         lower_com_position[3][0] = mul_add(
             parameters.lower_com_distance[3],
-            t490,
-            base_position[0] + t617,
+            t498,
+            base_position[0] + t625,
         );
         lower_com_position[3][1] = mul_add(
             parameters.lower_com_distance[3],
-            t492,
-            base_position[1] + t620,
+            t500,
+            base_position[1] + t628,
         );
         lower_com_position[3][2] = mul_add(
             parameters.lower_com_distance[3],
-            t494,
-            base_position[2] + t623,
+            t502,
+            base_position[2] + t631,
         );
         // leg 5: centre of mass of the lower part
         lower_com_position[4][0] = mul_add(
             parameters.lower_com_distance[4],
-            t496,
-            base_position[0] + t653,
+            t504,
+            base_position[0] + t661,
         );
         lower_com_position[4][1] = mul_add(
             parameters.lower_com_distance[4],
-            t498,
-            base_position[1] + t656,
+            t506,
+            base_position[1] + t664,
         );
         lower_com_position[4][2] = mul_add(
             parameters.lower_com_distance[4],
-            t500,
-            base_position[2] + t659,
+            t508,
+            base_position[2] + t667,
         );
         // leg 6: centre of mass of the lower part
         lower_com_position[5][0] = mul_add(
             parameters.lower_com_distance[5],
-            t502,
-            base_position[0] + t689,
+            t510,
+            base_position[0] + t697,
         );
         lower_com_position[5][1] = mul_add(
             parameters.lower_com_distance[5],
-            t504,
-            base_position[1] + t692,
+            t512,
+            base_position[1] + t700,
         );
         lower_com_position[5][2] = mul_add(
             parameters.lower_com_distance[5],
-            t506,
-            base_position[2] + t695,
-        );
-        // leg 1: velocity of the lower part's centre of mass
-        lower_com_velocity[0][0] = neg_mul_add(
-            parameters.lower_com_distance[0],
-            t538,
-            t526,
-        );
-        lower_com_velocity[0][1] = neg_mul_add(
-            parameters.lower_com_distance[0],
-            t540,
-            t528,
-        );
-        lower_com_velocity[0][2] = neg_mul_add(
-            parameters.lower_com_distance[0],
-            t542,
-            t530,
-        );
-        // leg 2: velocity of the lower part's centre of mass
-        lower_com_velocity[1][0] = neg_mul_add(
-            parameters.lower_com_distance[1],
-            t574,
-            t562,
-        );
-        lower_com_velocity[1][1] = neg_mul_add(
-            parameters.lower_com_distance[1],
-            t576,
-            t564,
-        );
-        lower_com_velocity[1][2] = neg_mul_add(
-            parameters.lower_com_distance[1],
-            t578,
-            t566,
+            t514,
+            base_position[2] + t703,
         );
         (
-            t532,
             t534,
             t536,
             t538,
             t540,
             t542,
-            t568,
+            t544,
+            t546,
+            t548,
+            t550,
             t570,
             t572,
             t574,
             t576,
             t578,
-            t598,
-            t600,
-            t602,
-            t604,
+            t580,
+            t582,
+            t584,
+            t586,
             t606,
             t608,
             t610,
             t612,
             t614,
-            t634,
-            t636,
-            t638,
-            t640,
+            t616,
+            t618,
+            t620,
+            t622,
             t642,
             t644,
             t646,
             t648,
             t650,
-            t670,
-            t672,
-            t674,
-            t676,
+            t652,
+            t654,
+            t656,
+            t658,
             t678,
             t680,
             t682,
             t684,
             t686,
-            t706,
-            t708,
-            t710,
-            t712,
+            t688,
+            t690,
+            t692,
+            t694,
             t714,
             t716,
             t718,
             t720,
             t722,
-            t744,
-            t747,
-            t749,
-            t753,
-            t756,
+            t724,
+            t726,
+            t728,
+            t730,
+            t752,
+            t755,
             t757,
             t761,
             t764,
             t765,
             t769,
             t772,
-            t774,
-            t778,
-            t781,
+            t773,
+            t777,
+            t780,
             t782,
             t786,
             t789,
             t790,
             t794,
             t797,
-            t799,
-            t803,
-            t806,
+            t798,
+            t802,
+            t805,
             t807,
             t811,
             t814,
             t815,
             t819,
             t822,
-            t824,
-            t828,
-            t831,
+            t823,
+            t827,
+            t830,
             t832,
             t836,
             t839,
             t840,
             t844,
             t847,
-            t849,
-            t853,
-            t856,
+            t848,
+            t852,
+            t855,
             t857,
             t861,
             t864,
             t865,
             t869,
             t872,
-            t874,
-            t878,
-            t881,
+            t873,
+            t877,
+            t880,
             t882,
             t886,
             t889,
             t890,
+            t894,
+            t897,
+            t898,
         )
     };
     {
+        // leg 1: velocity of the lower part's centre of mass
+        lower_com_velocity[0][0] = neg_mul_add(
+            parameters.lower_com_distance[0],
+            t546,
+            t534,
+        );
+        lower_com_velocity[0][1] = neg_mul_add(
+            parameters.lower_com_distance[0],
+            t548,
+            t536,
+        );
+        lower_com_velocity[0][2] = neg_mul_add(
+            parameters.lower_com_distance[0],
+            t550,
+            t538,
+        );
+        // leg 2: velocity of the lower part's centre of mass
+        lower_com_velocity[1][0] = neg_mul_add(
+            parameters.lower_com_distance[1],
+            t582,
+            t570,
+        );
+        lower_com_velocity[1][1] = neg_mul_add(
+            parameters.lower_com_distance[1],
+            t584,
+            t572,
+        );
+        lower_com_velocity[1][2] = neg_mul_add(
+            parameters.lower_com_distance[1],
+            t586,
+            t574,
+        );
         // leg 3: velocity of the lower part's centre of mass
         lower_com_velocity[2][0] = neg_mul_add(
             parameters.lower_com_distance[2],
-            t610,
-            t598,
+            t618,
+            t606,
         );
         lower_com_velocity[2][1] = neg_mul_add(
             parameters.lower_com_distance[2],
-            t612,
-            t600,
+            t620,
+            t608,
         );
         lower_com_velocity[2][2] = neg_mul_add(
             parameters.lower_com_distance[2],
-            t614,
-            t602,
+            t622,
+            t610,
         );
         // leg 4: velocity of the lower part's centre of mass
         lower_com_velocity[3][0] = neg_mul_add(
             parameters.lower_com_distance[3],
-            t646,
-            t634,
+            t654,
+            t642,
         );
         lower_com_velocity[3][1] = neg_mul_add(
             parameters.lower_com_distance[3],
-            t648,
-            t636,
+            t656,
+            t644,
         );
         lower_com_velocity[3][2] = neg_mul_add(
             parameters.lower_com_distance[3],
-            t650,
-            t638,
+            t658,
+            t646,
         );
         // leg 5: velocity of the lower part's centre of mass
         lower_com_velocity[4][0] = neg_mul_add(
             parameters.lower_com_distance[4],
-            t682,
-            t670,
+            t690,
+            t678,
         );
         lower_com_velocity[4][1] = neg_mul_add(
             parameters.lower_com_distance[4],
-            t684,
-            t672,
+            t692,
+            t680,
         );
         lower_com_velocity[4][2] = neg_mul_add(
             parameters.lower_com_distance[4],
-            t686,
-            t674,
+            t694,
+            t682,
         );
         // leg 6: velocity of the lower part's centre of mass
         lower_com_velocity[5][0] = neg_mul_add(
             parameters.lower_com_distance[5],
-            t718,
-            t706,
+            t726,
+            t714,
         );
         lower_com_velocity[5][1] = neg_mul_add(
             parameters.lower_com_distance[5],
-            t720,
-            t708,
+            t728,
+            t716,
         );
         lower_com_velocity[5][2] = neg_mul_add(
             parameters.lower_com_distance[5],
-            t722,
-            t710,
+            t730,
+            t718,
         );
         // leg 1: acceleration of the lower part's centre of mass
         lower_com_acceleration[0][0] = -mul_add(
             parameters.lower_com_distance[0],
-            t765,
-            t764,
+            t773,
+            t772,
         );
         lower_com_acceleration[0][1] = -mul_add(
             parameters.lower_com_distance[0],
-            t757,
-            t756,
+            t765,
+            t764,
         );
         lower_com_acceleration[0][2] = -mul_add(
             parameters.lower_com_distance[0],
-            t749,
-            t747,
+            t757,
+            t755,
         );
         // leg 2: acceleration of the lower part's centre of mass
         lower_com_acceleration[1][0] = -mul_add(
             parameters.lower_com_distance[1],
-            t790,
-            t789,
+            t798,
+            t797,
         );
         lower_com_acceleration[1][1] = -mul_add(
             parameters.lower_com_distance[1],
-            t782,
-            t781,
+            t790,
+            t789,
         );
         lower_com_acceleration[1][2] = -mul_add(
             parameters.lower_com_distance[1],
-            t774,
-            t772,
+            t782,
+            t780,
         );
         // leg 3: acceleration of the lower part's centre of mass
         lower_com_acceleration[2][0] = -mul_add(
             parameters.lower_com_distance[2],
-            t815,
-            t814,
+            t823,
+            t822,
         );
         lower_com_acceleration[2][1] = -mul_add(
             parameters.lower_com_distance[2],
-            t807,
-            t806,
+            t815,
+            t814,
         );
         lower_com_acceleration[2][2] = -mul_add(
             parameters.lower_com_distance[2],
-            t799,
-            t797,
+            t807,
+            t805,
         );
         // leg 4: acceleration of the lower part's centre of mass
         lower_com_acceleration[3][0] = -mul_add(
             parameters.lower_com_distance[3],
-            t840,
-            t839,
+            t848,
+            t847,
         );
         lower_com_acceleration[3][1] = -mul_add(
             parameters.lower_com_distance[3],
-            t832,
-            t831,
+            t840,
+            t839,
         );
         lower_com_acceleration[3][2] = -mul_add(
             parameters.lower_com_distance[3],
-            t824,
-            t822,
+            t832,
+            t830,
         );
         // leg 5: acceleration of the lower part's centre of mass
         lower_com_acceleration[4][0] = -mul_add(
             parameters.lower_com_distance[4],
-            t865,
-            t864,
+            t873,
+            t872,
         );
         lower_com_acceleration[4][1] = -mul_add(
             parameters.lower_com_distance[4],
-            t857,
-            t856,
+            t865,
+            t864,
         );
         lower_com_acceleration[4][2] = -mul_add(
             parameters.lower_com_distance[4],
-            t849,
-            t847,
+            t857,
+            t855,
         );
         // leg 6: acceleration of the lower part's centre of mass
         lower_com_acceleration[5][0] = -mul_add(
             parameters.lower_com_distance[5],
-            t890,
-            t889,
+            t898,
+            t897,
         );
         lower_com_acceleration[5][1] = -mul_add(
             parameters.lower_com_distance[5],
-            t882,
-            t881,
+            t890,
+            t889,
         );
         lower_com_acceleration[5][2] = -mul_add(
             parameters.lower_com_distance[5],
-            t874,
-            t872,
+            t882,
+            t880,
         );
         // leg 1: velocity of the upper part's centre of mass
-        upper_com_velocity[0][0] = mul_add(parameters.upper_com_distance[0], t538, t532);
-        upper_com_velocity[0][1] = mul_add(parameters.upper_com_distance[0], t540, t534);
-        upper_com_velocity[0][2] = mul_add(parameters.upper_com_distance[0], t542, t536);
+        upper_com_velocity[0][0] = mul_add(parameters.upper_com_distance[0], t546, t540);
+        upper_com_velocity[0][1] = mul_add(parameters.upper_com_distance[0], t548, t542);
+        upper_com_velocity[0][2] = mul_add(parameters.upper_com_distance[0], t550, t544);
         // leg 2: velocity of the upper part's centre of mass
-        upper_com_velocity[1][0] = mul_add(parameters.upper_com_distance[1], t574, t568);
-        upper_com_velocity[1][1] = mul_add(parameters.upper_com_distance[1], t576, t570);
-        upper_com_velocity[1][2] = mul_add(parameters.upper_com_distance[1], t578, t572);
+        upper_com_velocity[1][0] = mul_add(parameters.upper_com_distance[1], t582, t576);
+        upper_com_velocity[1][1] = mul_add(parameters.upper_com_distance[1], t584, t578);
+        upper_com_velocity[1][2] = mul_add(parameters.upper_com_distance[1], t586, t580);
         // leg 3: velocity of the upper part's centre of mass
-        upper_com_velocity[2][0] = mul_add(parameters.upper_com_distance[2], t610, t604);
-        upper_com_velocity[2][1] = mul_add(parameters.upper_com_distance[2], t612, t606);
-        upper_com_velocity[2][2] = mul_add(parameters.upper_com_distance[2], t614, t608);
+        upper_com_velocity[2][0] = mul_add(parameters.upper_com_distance[2], t618, t612);
+        upper_com_velocity[2][1] = mul_add(parameters.upper_com_distance[2], t620, t614);
+        upper_com_velocity[2][2] = mul_add(parameters.upper_com_distance[2], t622, t616);
         // leg 4: velocity of the upper part's centre of mass
-        upper_com_velocity[3][0] = mul_add(parameters.upper_com_distance[3], t646, t640);
-        upper_com_velocity[3][1] = mul_add(parameters.upper_com_distance[3], t648, t642);
-        upper_com_velocity[3][2] = mul_add(parameters.upper_com_distance[3], t650, t644);
+        upper_com_velocity[3][0] = mul_add(parameters.upper_com_distance[3], t654, t648);
+        upper_com_velocity[3][1] = mul_add(parameters.upper_com_distance[3], t656, t650);
+        upper_com_velocity[3][2] = mul_add(parameters.upper_com_distance[3], t658, t652);
         // leg 5: velocity of the upper part's centre of mass
-        upper_com_velocity[4][0] = mul_add(parameters.upper_com_distance[4], t682, t676);
-        upper_com_velocity[4][1] = mul_add(parameters.upper_com_distance[4], t684, t678);
-        upper_com_velocity[4][2] = mul_add(parameters.upper_com_distance[4], t686, t680);
+        upper_com_velocity[4][0] = mul_add(parameters.upper_com_distance[4], t690, t684);
+        upper_com_velocity[4][1] = mul_add(parameters.upper_com_distance[4], t692, t686);
+        upper_com_velocity[4][2] = mul_add(parameters.upper_com_distance[4], t694, t688);
         // leg 6: velocity of the upper part's centre of mass
-        upper_com_velocity[5][0] = mul_add(parameters.upper_com_distance[5], t718, t712);
-        upper_com_velocity[5][1] = mul_add(parameters.upper_com_distance[5], t720, t714);
-        upper_com_velocity[5][2] = mul_add(parameters.upper_com_distance[5], t722, t716);
+        upper_com_velocity[5][0] = mul_add(parameters.upper_com_distance[5], t726, t720);
+        upper_com_velocity[5][1] = mul_add(parameters.upper_com_distance[5], t728, t722);
+        upper_com_velocity[5][2] = mul_add(parameters.upper_com_distance[5], t730, t724);
         // leg 1: acceleration of the upper part's centre of mass
         upper_com_acceleration[0][0] = mul_sub(
+            parameters.upper_com_distance[0],
+            t773,
+            t769,
+        );
+        upper_com_acceleration[0][1] = mul_sub(
             parameters.upper_com_distance[0],
             t765,
             t761,
         );
-        upper_com_acceleration[0][1] = mul_sub(
-            parameters.upper_com_distance[0],
-            t757,
-            t753,
-        );
         upper_com_acceleration[0][2] = mul_sub(
             parameters.upper_com_distance[0],
-            t749,
-            t744,
+            t757,
+            t752,
         );
         // leg 2: acceleration of the upper part's centre of mass
         upper_com_acceleration[1][0] = mul_sub(
             parameters.upper_com_distance[1],
-            t790,
-            t786,
+            t798,
+            t794,
         );
         upper_com_acceleration[1][1] = mul_sub(
             parameters.upper_com_distance[1],
-            t782,
-            t778,
+            t790,
+            t786,
         );
         upper_com_acceleration[1][2] = mul_sub(
             parameters.upper_com_distance[1],
-            t774,
-            t769,
+            t782,
+            t777,
         );
         // leg 3: acceleration of the upper part's centre of mass
         upper_com_acceleration[2][0] = mul_sub(
             parameters.upper_com_distance[2],
-            t815,
-            t811,
+            t823,
+            t819,
         );
         upper_com_acceleration[2][1] = mul_sub(
             parameters.upper_com_distance[2],
-            t807,
-            t803,
+            t815,
+            t811,
         );
         upper_com_acceleration[2][2] = mul_sub(
             parameters.upper_com_distance[2],
-            t799,
-            t794,
+            t807,
+            t802,
         );
         // leg 4: acceleration of the upper part's centre of mass
         upper_com_acceleration[3][0] = mul_sub(
             parameters.upper_com_distance[3],
-            t840,
-            t836,
+            t848,
+            t844,
         );
         upper_com_acceleration[3][1] = mul_sub(
             parameters.upper_com_distance[3],
-            t832,
-            t828,
+            t840,
+            t836,
         );
         upper_com_acceleration[3][2] = mul_sub(
             parameters.upper_com_distance[3],
-            t824,
-            t819,
+            t832,
+            t827,
         );
         // leg 5: acceleration of the upper part's centre of mass
         upper_com_acceleration[4][0] = mul_sub(
             parameters.upper_com_distance[4],
-            t865,
-            t861,
+            t873,
+            t869,
         );
         upper_com_acceleration[4][1] = mul_sub(
             parameters.upper_com_distance[4],
-            t857,
-            t853,
+            t865,
+            t861,
         );
         upper_com_acceleration[4][2] = mul_sub(
             parameters.upper_com_distance[4],
-            t849,
-            t844,
+            t857,
+            t852,
         );
         // leg 6: acceleration of the upper part's centre of mass
         upper_com_acceleration[5][0] = mul_sub(
             parameters.upper_com_distance[5],
-            t890,
-            t886,
+            t898,
+            t894,
         );
         upper_com_acceleration[5][1] = mul_sub(
             parameters.upper_com_distance[5],
-            t882,
-            t878,
+            t890,
+            t886,
         );
         upper_com_acceleration[5][2] = mul_sub(
             parameters.upper_com_distance[5],
-            t874,
-            t869,
+            t882,
+            t877,
         );
     }
 }
@@ -6938,10 +6968,6 @@ pub fn generalised_forces<T: Scalar>(
         t238,
         t239,
         t240,
-        t472,
-        t474,
-        t476,
-        t478,
         t480,
         t482,
         t484,
@@ -6956,91 +6982,87 @@ pub fn generalised_forces<T: Scalar>(
         t502,
         t504,
         t506,
-        t518,
-        t521,
-        t524,
-        t545,
-        t548,
-        t551,
-        t572,
-        t575,
-        t578,
-        t599,
-        t602,
-        t605,
-        t626,
-        t629,
-        t632,
-        t653,
-        t656,
-        t659,
-        t686,
-        t695,
-        t696,
-        t697,
-        t698,
-        t699,
-        t700,
-        t701,
-        t702,
-        t720,
-        t729,
-        t730,
-        t731,
-        t732,
-        t733,
-        t734,
-        t735,
-        t736,
-        t754,
-        t763,
-        t764,
-        t765,
-        t766,
-        t767,
-        t768,
-        t769,
-        t770,
-        t788,
-        t797,
-        t798,
-        t799,
-        t800,
-        t801,
-        t802,
-        t803,
-        t804,
-        t822,
-        t831,
-        t832,
-        t833,
-        t834,
-        t835,
-        t836,
-        t837,
-        t838,
-        t856,
-        t865,
-        t866,
-        t867,
-        t868,
-        t869,
-        t870,
-        t871,
-        t872,
+        t508,
+        t510,
+        t512,
+        t514,
+        t526,
+        t529,
+        t532,
+        t553,
+        t556,
+        t559,
+        t580,
+        t583,
+        t586,
+        t607,
+        t610,
+        t613,
+        t634,
+        t637,
+        t640,
+        t661,
+        t664,
+        t667,
+        t694,
+        t703,
+        t704,
+        t705,
+        t706,
+        t707,
+        t708,
+        t709,
+        t710,
+        t728,
+        t737,
+        t738,
+        t739,
+        t740,
+        t741,
+        t742,
+        t743,
+        t744,
+        t762,
+        t771,
+        t772,
+        t773,
+        t774,
+        t775,
+        t776,
+        t777,
+        t778,
+        t796,
+        t805,
+        t806,
+        t807,
+        t808,
+        t809,
+        t810,
+        t811,
+        t812,
+        t830,
+        t839,
+        t840,
+        t841,
+        t842,
+        t843,
+        t844,
+        t845,
+        t846,
+        t864,
+        t873,
+        t874,
         t875,
+        t876,
+        t877,
         t878,
-        t881,
-        t888,
-        t892,
+        t879,
+        t880,
+        t883,
+        t886,
+        t889,
         t896,
-        t897,
-        t898,
-        t899,
         t900,
-        t901,
-        t902,
-        t903,
         t904,
         t905,
         t906,
@@ -7058,6 +7080,14 @@ pub fn generalised_forces<T: Scalar>(
         t918,
         t919,
         t920,
+        t921,
+        t922,
+        t923,
+        t924,
+        t925,
+        t926,
+        t927,
+        t928,
     ) = {
         // rotation of the platform seen from the base
         let t1 = base_rotation[1][0] * platform_rotation[1][0];
@@ -7436,928 +7466,936 @@ pub fn generalised_forces<T: Scalar>(
         let t321 = mul_add(base_rotation[0][2], platform_acceleration[3], t320);
         let t322 = mul_add(base_rotation[2][2], platform_acceleration[5], t321);
         // acceleration per platform coordinate of points of the platform
-        let t323 = mul_add(t150, t156, t319);
-        let t324 = neg_mul_add(t150, t153, t322);
-        let t325 = mul_add(t153, t153, t156 * t156);
-        let t326 = mul_sub(t21, t323, mul_add(t12, t324, t3 * t325));
-        let t327 = mul_sub(t24, t323, mul_add(t15, t324, t6 * t325));
-        let t328 = mul_sub(t27, t323, mul_add(t18, t324, t9 * t325));
-        let t329 = neg_mul_add(t153, t156, t316);
-        let t330 = mul_add(t150, t153, t322);
-        let t331 = t150 * t150;
-        let t332 = mul_add(t156, t156, t331);
-        let t333 = mul_sub(t21, t329, mul_sub(t3, t330, t12 * t332));
-        let t334 = mul_sub(t24, t329, mul_sub(t6, t330, t15 * t332));
-        let t335 = mul_sub(t27, t329, mul_sub(t9, t330, t18 * t332));
-        let t336 = mul_add(t153, t153, t331);
-        let t337 = neg_mul_add(t150, t156, t319);
-        let t338 = mul_add(t153, t156, t316);
-        let t339 = mul_add(t21, t336, mul_sub(t3, t337, t12 * t338));
-        let t340 = mul_add(t24, t336, mul_sub(t6, t337, t15 * t338));
-        let t341 = mul_add(t27, t336, mul_sub(t9, t337, t18 * t338));
+        let t323 = mul_sub(t3, t156, t21 * t150);
+        let t324 = mul_sub(t12, t150, t3 * t153);
+        let t325 = mul_add(t153, t324, mul_sub(t21, t319, t12 * t322));
+        let t326 = mul_sub(t156, t323, t325);
+        let t327 = mul_sub(t6, t156, t24 * t150);
+        let t328 = mul_sub(t15, t150, t6 * t153);
+        let t329 = mul_add(t153, t328, mul_sub(t24, t319, t15 * t322));
+        let t330 = mul_sub(t156, t327, t329);
+        let t331 = mul_sub(t9, t156, t27 * t150);
+        let t332 = mul_sub(t18, t150, t9 * t153);
+        let t333 = mul_add(t153, t332, mul_sub(t27, t319, t18 * t322));
+        let t334 = mul_sub(t156, t331, t333);
+        let t335 = mul_sub(t21, t153, t12 * t156);
+        let t336 = mul_add(t156, t335, mul_sub(t3, t322, t21 * t316));
+        let t337 = mul_sub(t150, t324, t336);
+        let t338 = mul_sub(t24, t153, t15 * t156);
+        let t339 = mul_add(t156, t338, mul_sub(t6, t322, t24 * t316));
+        let t340 = mul_sub(t150, t328, t339);
+        let t341 = mul_sub(t27, t153, t18 * t156);
+        let t342 = mul_add(t156, t341, mul_sub(t9, t322, t27 * t316));
+        let t343 = mul_sub(t150, t332, t342);
+        let t344 = mul_add(t150, t323, mul_sub(t12, t316, t3 * t319));
+        let t345 = mul_sub(t153, t335, t344);
+        let t346 = mul_add(t150, t327, mul_sub(t15, t316, t6 * t319));
+        let t347 = mul_sub(t153, t338, t346);
+        let t348 = mul_add(t150, t331, mul_sub(t18, t316, t9 * t319));
+        let t349 = mul_sub(t153, t341, t348);
         // leg 1: actuator acceleration d''
-        let t342 = t281 - t309;
-        let t343 = t283 - t311;
-        let t344 = t285 - t313;
-        let t345 = mul_add(t246, t246, mul_add(t242, t242, t244 * t244));
-        let t346 = parameters.platform_point[0][1] * t340;
-        let t347 = mul_add(parameters.platform_point[0][0], t339, t346);
-        let t348 = mul_add(parameters.platform_point[0][2], t341, t347);
-        let t349 = mul_sub(parameters.base_point[0][0], t302, t348);
-        let t350 = mul_sub(parameters.base_point[0][1], t303, t349);
-        let t351 = t344 - mul_sub(parameters.base_point[0][2], t304, t350);
-        let t352 = parameters.platform_point[0][1] * t327;
-        let t353 = mul_add(parameters.platform_point[0][0], t326, t352);
-        let t354 = mul_add(parameters.platform_point[0][2], t328, t353);
-        let t355 = mul_add(parameters.base_point[0][0], t295, t354);
-        let t356 = mul_add(parameters.base_point[0][1], t296, t355);
-        let t357 = t342 + mul_sub(parameters.base_point[0][2], t297, t356);
-        let t358 = parameters.platform_point[0][1] * t334;
-        let t359 = mul_add(parameters.platform_point[0][0], t333, t358);
-        let t360 = mul_add(parameters.platform_point[0][2], t335, t359);
-        let t361 = mul_add(parameters.base_point[0][0], t298, t360);
-        let t362 = mul_sub(parameters.base_point[0][1], t300, t361);
-        let t363 = t122 * (t343 - mul_add(parameters.base_point[0][2], t301, t362));
-        let t364 = mul_add(t123, t351, mul_add(t121, t357, t363));
-        let t365 = mul_sub(t109, t345, t364);
+        let t350 = t281 - t309;
+        let t351 = t283 - t311;
+        let t352 = t285 - t313;
+        let t353 = mul_add(t246, t246, mul_add(t242, t242, t244 * t244));
+        let t354 = parameters.platform_point[0][1] * t347;
+        let t355 = mul_add(parameters.platform_point[0][0], t345, t354);
+        let t356 = mul_add(parameters.platform_point[0][2], t349, t355);
+        let t357 = mul_sub(parameters.base_point[0][0], t302, t356);
+        let t358 = mul_sub(parameters.base_point[0][1], t303, t357);
+        let t359 = t352 - mul_sub(parameters.base_point[0][2], t304, t358);
+        let t360 = parameters.platform_point[0][1] * t330;
+        let t361 = mul_add(parameters.platform_point[0][0], t326, t360);
+        let t362 = mul_add(parameters.platform_point[0][2], t334, t361);
+        let t363 = mul_sub(parameters.base_point[0][0], t295, t362);
+        let t364 = mul_add(parameters.base_point[0][1], t296, t363);
+        let t365 = t350 + mul_sub(parameters.base_point[0][2], t297, t364);
+        let t366 = parameters.platform_point[0][1] * t340;
+        let t367 = mul_add(parameters.platform_point[0][0], t337, t366);
+        let t368 = mul_add(parameters.platform_point[0][2], t343, t367);
+        let t369 = mul_add(parameters.base_point[0][0], t298, t368);
+        let t370 = mul_sub(parameters.base_point[0][1], t300, t369);
+        let t371 = t122 * (t351 - mul_add(parameters.base_point[0][2], t301, t370));
+        let t372 = mul_add(t123, t359, mul_add(t121, t365, t371));
+        let t373 = mul_sub(t109, t353, t372);
         // leg 2: actuator acceleration d''
-        let t366 = mul_add(t252, t252, mul_add(t248, t248, t250 * t250));
-        let t367 = parameters.platform_point[1][1] * t340;
-        let t368 = mul_add(parameters.platform_point[1][0], t339, t367);
-        let t369 = mul_add(parameters.platform_point[1][2], t341, t368);
-        let t370 = mul_sub(parameters.base_point[1][0], t302, t369);
-        let t371 = mul_sub(parameters.base_point[1][1], t303, t370);
-        let t372 = t344 - mul_sub(parameters.base_point[1][2], t304, t371);
-        let t373 = parameters.platform_point[1][1] * t327;
-        let t374 = mul_add(parameters.platform_point[1][0], t326, t373);
-        let t375 = mul_add(parameters.platform_point[1][2], t328, t374);
-        let t376 = mul_add(parameters.base_point[1][0], t295, t375);
-        let t377 = mul_add(parameters.base_point[1][1], t296, t376);
-        let t378 = t342 + mul_sub(parameters.base_point[1][2], t297, t377);
-        let t379 = parameters.platform_point[1][1] * t334;
-        let t380 = mul_add(parameters.platform_point[1][0], t333, t379);
-        let t381 = mul_add(parameters.platform_point[1][2], t335, t380);
-        let t382 = mul_add(parameters.base_point[1][0], t298, t381);
-        let t383 = mul_sub(parameters.base_point[1][1], t300, t382);
-        let t384 = t125 * (t343 - mul_add(parameters.base_point[1][2], t301, t383));
-        let t385 = mul_add(t126, t372, mul_add(t124, t378, t384));
-        let t386 = mul_sub(t111, t366, t385);
+        let t374 = mul_add(t252, t252, mul_add(t248, t248, t250 * t250));
+        let t375 = parameters.platform_point[1][1] * t347;
+        let t376 = mul_add(parameters.platform_point[1][0], t345, t375);
+        let t377 = mul_add(parameters.platform_point[1][2], t349, t376);
+        let t378 = mul_sub(parameters.base_point[1][0], t302, t377);
+        let t379 = mul_sub(parameters.base_point[1][1], t303, t378);
+        let t380 = t352 - mul_sub(parameters.base_point[1][2], t304, t379);
+        let t381 = parameters.platform_point[1][1] * t330;
+        let t382 = mul_add(parameters.platform_point[1][0], t326, t381);
+        let t383 = mul_add(parameters.platform_point[1][2], t334, t382);
+        let t384 = mul_sub(parameters.base_point[1][0], t295, t383);
+        let t385 = mul_add(parameters.base_point[1][1], t296, t384);
+        let t386 = t350 + mul_sub(parameters.base_point[1][2], t297, t385);
+        let t387 = parameters.platform_point[1][1] * t340;
+        let t388 = mul_add(parameters.platform_point[1][0], t337, t387);
+        let t389 = mul_add(parameters.platform_point[1][2], t343, t388);
+        let t390 = mul_add(parameters.base_point[1][0], t298, t389);
+        let t391 = mul_sub(parameters.base_point[1][1], t300, t390);
+        let t392 = t125 * (t351 - mul_add(parameters.base_point[1][2], t301, t391));
+        let t393 = mul_add(t126, t380, mul_add(t124, t386, t392));
+        let t394 = mul_sub(t111, t374, t393);
         // leg 3: actuator acceleration d''
-        let t387 = mul_add(t258, t258, mul_add(t254, t254, t256 * t256));
-        let t388 = parameters.platform_point[2][1] * t340;
-        let t389 = mul_add(parameters.platform_point[2][0], t339, t388);
-        let t390 = mul_add(parameters.platform_point[2][2], t341, t389);
-        let t391 = mul_sub(parameters.base_point[2][0], t302, t390);
-        let t392 = mul_sub(parameters.base_point[2][1], t303, t391);
-        let t393 = t344 - mul_sub(parameters.base_point[2][2], t304, t392);
-        let t394 = parameters.platform_point[2][1] * t327;
-        let t395 = mul_add(parameters.platform_point[2][0], t326, t394);
-        let t396 = mul_add(parameters.platform_point[2][2], t328, t395);
-        let t397 = mul_add(parameters.base_point[2][0], t295, t396);
-        let t398 = mul_add(parameters.base_point[2][1], t296, t397);
-        let t399 = t342 + mul_sub(parameters.base_point[2][2], t297, t398);
-        let t400 = parameters.platform_point[2][1] * t334;
-        let t401 = mul_add(parameters.platform_point[2][0], t333, t400);
-        let t402 = mul_add(parameters.platform_point[2][2], t335, t401);
-        let t403 = mul_add(parameters.base_point[2][0], t298, t402);
-        let t404 = mul_sub(parameters.base_point[2][1], t300, t403);
-        let t405 = t128 * (t343 - mul_add(parameters.base_point[2][2], t301, t404));
-        let t406 = mul_add(t129, t393, mul_add(t127, t399, t405));
-        let t407 = mul_sub(t113, t387, t406);
+        let t395 = mul_add(t258, t258, mul_add(t254, t254, t256 * t256));
+        let t396 = parameters.platform_point[2][1] * t347;
+        let t397 = mul_add(parameters.platform_point[2][0], t345, t396);
+        let t398 = mul_add(parameters.platform_point[2][2], t349, t397);
+        let t399 = mul_sub(parameters.base_point[2][0], t302, t398);
+        let t400 = mul_sub(parameters.base_point[2][1], t303, t399);
+        let t401 = t352 - mul_sub(parameters.base_point[2][2], t304, t400);
+        let t402 = parameters.platform_point[2][1] * t330;
+        let t403 = mul_add(parameters.platform_point[2][0], t326, t402);
+        let t404 = mul_add(parameters.platform_point[2][2], t334, t403);
+        let t405 = mul_sub(parameters.base_point[2][0], t295, t404);
+        let t406 = mul_add(parameters.base_point[2][1], t296, t405);
+        let t407 = t350 + mul_sub(parameters.base_point[2][2], t297, t406);
+        let t408 = parameters.platform_point[2][1] * t340;
+        let t409 = mul_add(parameters.platform_point[2][0], t337, t408);
+        let t410 = mul_add(parameters.platform_point[2][2], t343, t409);
+        let t411 = mul_add(parameters.base_point[2][0], t298, t410);
+        let t412 = mul_sub(parameters.base_point[2][1], t300, t411);
+        let t413 = t128 * (t351 - mul_add(parameters.base_point[2][2], t301, t412));
+        let t414 = mul_add(t129, t401, mul_add(t127, t407, t413));
+        let t415 = mul_sub(t113, t395, t414);
         // leg 4: actuator acceleration d''
-        let t408 = mul_add(t264, t264, mul_add(t260, t260, t262 * t262));
-        let t409 = parameters.platform_point[3][1] * t340;
-        let t410 = mul_add(parameters.platform_point[3][0], t339, t409);
-        let t411 = mul_add(parameters.platform_point[3][2], t341, t410);
-        let t412 = mul_sub(parameters.base_point[3][0], t302, t411);
-        let t413 = mul_sub(parameters.base_point[3][1], t303, t412);
-        let t414 = t344 - mul_sub(parameters.base_point[3][2], t304, t413);
-        let t415 = parameters.platform_point[3][1] * t327;
-        let t416 = mul_add(parameters.platform_point[3][0], t326, t415);
-        let t417 = mul_add(parameters.platform_point[3][2], t328, t416);
-        let t418 = mul_add(parameters.base_point[3][0], t295, t417);
-        let t419 = mul_add(parameters.base_point[3][1], t296, t418);
-        let t420 = t342 + mul_sub(parameters.base_point[3][2], t297, t419);
-        let t421 = parameters.platform_point[3][1] * t334;
-        let t422 = mul_add(parameters.platform_point[3][0], t333, t421);
-        let t423 = mul_add(parameters.platform_point[3][2], t335, t422);
-        let t424 = mul_add(parameters.base_point[3][0], t298, t423);
-        let t425 = mul_sub(parameters.base_point[3][1], t300, t424);
-        let t426 = t131 * (t343 - mul_add(parameters.base_point[3][2], t301, t425));
-        let t427 = mul_add(t132, t414, mul_add(t130, t420, t426));
-        let t428 = mul_sub(t115, t408, t427);
+        let t416 = mul_add(t264, t264, mul_add(t260, t260, t262 * t262));
+        let t417 = parameters.platform_point[3][1] * t347;
+        let t418 = mul_add(parameters.platform_point[3][0], t345, t417);
+        let t419 = mul_add(parameters.platform_point[3][2], t349, t418);
+        let t420 = mul_sub(parameters.base_point[3][0], t302, t419);
+        let t421 = mul_sub(parameters.base_point[3][1], t303, t420);
+        let t422 = t352 - mul_sub(parameters.base_point[3][2], t304, t421);
+        let t423 = parameters.platform_point[3][1] * t330;
+        let t424 = mul_add(parameters.platform_point[3][0], t326, t423);
+        let t425 = mul_add(parameters.platform_point[3][2], t334, t424);
+        let t426 = mul_sub(parameters.base_point[3][0], t295, t425);
+        let t427 = mul_add(parameters.base_point[3][1], t296, t426);
+        let t428 = t350 + mul_sub(parameters.base_point[3][2], t297, t427);
+        let t429 = parameters.platform_point[3][1] * t340;
+        let t430 = mul_add(parameters.platform_point[3][0], t337, t429);
+        let t431 = mul_add(parameters.platform_point[3][2], t343, t430);
+        let t432 = mul_add(parameters.base_point[3][0], t298, t431);
+        let t433 = mul_sub(parameters.base_point[3][1], t300, t432);
+        let t434 = t131 * (t351 - mul_add(parameters.base_point[3][2], t301, t433));
+        let t435 = mul_add(t132, t422, mul_add(t130, t428, t434));
+        let t436 = mul_sub(t115, t416, t435);
         // leg 5: actuator acceleration d''
-        let t429 = mul_add(t270, t270, mul_add(t266, t266, t268 * t268));
-        let t430 = parameters.platform_point[4][1] * t340;
-        let t431 = mul_add(parameters.platform_point[4][0], t339, t430);
-        let t432 = mul_add(parameters.platform_point[4][2], t341, t431);
-        let t433 = mul_sub(parameters.base_point[4][0], t302, t432);
-        let t434 = mul_sub(parameters.base_point[4][1], t303, t433);
-        let t435 = t344 - mul_sub(parameters.base_point[4][2], t304, t434);
-        let t436 = parameters.platform_point[4][1] * t327;
-        let t437 = mul_add(parameters.platform_point[4][0], t326, t436);
-        let t438 = mul_add(parameters.platform_point[4][2], t328, t437);
-        let t439 = mul_add(parameters.base_point[4][0], t295, t438);
-        let t440 = mul_add(parameters.base_point[4][1], t296, t439);
-        let t441 = t342 + mul_sub(parameters.base_point[4][2], t297, t440);
-        let t442 = parameters.platform_point[4][1] * t334;
-        let t443 = mul_add(parameters.platform_point[4][0], t333, t442);
-        let t444 = mul_add(parameters.platform_point[4][2], t335, t443);
-        let t445 = mul_add(parameters.base_point[4][0], t298, t444);
-        let t446 = mul_sub(parameters.base_point[4][1], t300, t445);
-        let t447 = t134 * (t343 - mul_add(parameters.base_point[4][2], t301, t446));
-        let t448 = mul_add(t135, t435, mul_add(t133, t441, t447));
-        let t449 = mul_sub(t117, t429, t448);
+        let t437 = mul_add(t270, t270, mul_add(t266, t266, t268 * t268));
+        let t438 = parameters.platform_point[4][1] * t347;
+        let t439 = mul_add(parameters.platform_point[4][0], t345, t438);
+        let t440 = mul_add(parameters.platform_point[4][2], t349, t439);
+        let t441 = mul_sub(parameters.base_point[4][0], t302, t440);
+        let t442 = mul_sub(parameters.base_point[4][1], t303, t441);
+        let t443 = t352 - mul_sub(parameters.base_point[4][2], t304, t442);
+        let t444 = parameters.platform_point[4][1] * t330;
+        let t445 = mul_add(parameters.platform_point[4][0], t326, t444);
+        let t446 = mul_add(parameters.platform_point[4][2], t334, t445);
+        let t447 = mul_sub(parameters.base_point[4][0], t295, t446);
+        let t448 = mul_add(parameters.base_point[4][1], t296, t447);
+        let t449 = t350 + mul_sub(parameters.base_point[4][2], t297, t448);
+        let t450 = parameters.platform_point[4][1] * t340;
+        let t451 = mul_add(parameters.platform_point[4][0], t337, t450);
+        let t452 = mul_add(parameters.platform_point[4][2], t343, t451);
+        let t453 = mul_add(parameters.base_point[4][0], t298, t452);
+        let t454 = mul_sub(parameters.base_point[4][1], t300, t453);
+        let t455 = t134 * (t351 - mul_add(parameters.base_point[4][2], t301, t454));
+        let t456 = mul_add(t135, t443, mul_add(t133, t449, t455));
+        let t457 = mul_sub(t117, t437, t456);
         // leg 6: actuator acceleration d''
-        let t450 = mul_add(t276, t276, mul_add(t272, t272, t274 * t274));
-        let t451 = parameters.platform_point[5][1] * t340;
-        let t452 = mul_add(parameters.platform_point[5][0], t339, t451);
-        let t453 = mul_add(parameters.platform_point[5][2], t341, t452);
-        let t454 = mul_sub(parameters.base_point[5][0], t302, t453);
-        let t455 = mul_sub(parameters.base_point[5][1], t303, t454);
-        let t456 = t344 - mul_sub(parameters.base_point[5][2], t304, t455);
-        let t457 = parameters.platform_point[5][1] * t327;
-        let t458 = mul_add(parameters.platform_point[5][0], t326, t457);
-        let t459 = mul_add(parameters.platform_point[5][2], t328, t458);
-        let t460 = mul_add(parameters.base_point[5][0], t295, t459);
-        let t461 = mul_add(parameters.base_point[5][1], t296, t460);
-        let t462 = t342 + mul_sub(parameters.base_point[5][2], t297, t461);
-        let t463 = parameters.platform_point[5][1] * t334;
-        let t464 = mul_add(parameters.platform_point[5][0], t333, t463);
-        let t465 = mul_add(parameters.platform_point[5][2], t335, t464);
-        let t466 = mul_add(parameters.base_point[5][0], t298, t465);
-        let t467 = mul_sub(parameters.base_point[5][1], t300, t466);
-        let t468 = t137 * (t343 - mul_add(parameters.base_point[5][2], t301, t467));
-        let t469 = mul_add(t138, t456, mul_add(t136, t462, t468));
-        let t470 = mul_sub(t119, t450, t469);
+        let t458 = mul_add(t276, t276, mul_add(t272, t272, t274 * t274));
+        let t459 = parameters.platform_point[5][1] * t347;
+        let t460 = mul_add(parameters.platform_point[5][0], t345, t459);
+        let t461 = mul_add(parameters.platform_point[5][2], t349, t460);
+        let t462 = mul_sub(parameters.base_point[5][0], t302, t461);
+        let t463 = mul_sub(parameters.base_point[5][1], t303, t462);
+        let t464 = t352 - mul_sub(parameters.base_point[5][2], t304, t463);
+        let t465 = parameters.platform_point[5][1] * t330;
+        let t466 = mul_add(parameters.platform_point[5][0], t326, t465);
+        let t467 = mul_add(parameters.platform_point[5][2], t334, t466);
+        let t468 = mul_sub(parameters.base_point[5][0], t295, t467);
+        let t469 = mul_add(parameters.base_point[5][1], t296, t468);
+        let t470 = t350 + mul_sub(parameters.base_point[5][2], t297, t469);
+        let t471 = parameters.platform_point[5][1] * t340;
+        let t472 = mul_add(parameters.platform_point[5][0], t337, t471);
+        let t473 = mul_add(parameters.platform_point[5][2], t343, t472);
+        let t474 = mul_add(parameters.base_point[5][0], t298, t473);
+        let t475 = mul_sub(parameters.base_point[5][1], t300, t474);
+        let t476 = t137 * (t351 - mul_add(parameters.base_point[5][2], t301, t475));
+        let t477 = mul_add(t138, t464, mul_add(t136, t470, t476));
+        let t478 = mul_sub(t119, t458, t477);
         // leg 1: rod direction u, from the Hooke joint to the platform joint
-        let t471 = mul_add(base_rotation[0][0], t121, base_rotation[0][1] * t122);
-        let t472 = mul_add(base_rotation[0][2], t123, t471);
-        let t473 = mul_add(base_rotation[1][0], t121, base_rotation[1][1] * t122);
-        let t474 = mul_add(base_rotation[1][2], t123, t473);
-        let t475 = mul_add(base_rotation[2][0], t121, base_rotation[2][1] * t122);
-        let t476 = mul_add(base_rotation[2][2], t123, t475);
+        let t479 = mul_add(base_rotation[0][0], t121, base_rotation[0][1] * t122);
+        let t480 = mul_add(base_rotation[0][2], t123, t479);
+        let t481 = mul_add(base_rotation[1][0], t121, base_rotation[1][1] * t122);
+        let t482 = mul_add(base_rotation[1][2], t123, t481);
+        let t483 = mul_add(base_rotation[2][0], t121, base_rotation[2][1] * t122);
+        let t484 = mul_add(base_rotation[2][2], t123, t483);
         // leg 2: rod direction u, from the Hooke joint to the platform joint
-        let t477 = mul_add(base_rotation[0][0], t124, base_rotation[0][1] * t125);
-        let t478 = mul_add(base_rotation[0][2], t126, t477);
-        let t479 = mul_add(base_rotation[1][0], t124, base_rotation[1][1] * t125);
-        let t480 = mul_add(base_rotation[1][2], t126, t479);
-        let t481 = mul_add(base_rotation[2][0], t124, base_rotation[2][1] * t125);
-        let t482 = mul_add(base_rotation[2][2], t126, t481);
+        let t485 = mul_add(base_rotation[0][0], t124, base_rotation[0][1] * t125);
+        let t486 = mul_add(base_rotation[0][2], t126, t485);
+        let t487 = mul_add(base_rotation[1][0], t124, base_rotation[1][1] * t125);
+        let t488 = mul_add(base_rotation[1][2], t126, t487);
+        let t489 = mul_add(base_rotation[2][0], t124, base_rotation[2][1] * t125);
+        let t490 = mul_add(base_rotation[2][2], t126, t489);
         // leg 3: rod direction u, from the Hooke joint to the platform joint
-        let t483 = mul_add(base_rotation[0][0], t127, base_rotation[0][1] * t128);
-        let t484 = mul_add(base_rotation[0][2], t129, t483);
-        let t485 = mul_add(base_rotation[1][0], t127, base_rotation[1][1] * t128);
-        let t486 = mul_add(base_rotation[1][2], t129, t485);
-        let t487 = mul_add(base_rotation[2][0], t127, base_rotation[2][1] * t128);
-        let t488 = mul_add(base_rotation[2][2], t129, t487);
+        let t491 = mul_add(base_rotation[0][0], t127, base_rotation[0][1] * t128);
+        let t492 = mul_add(base_rotation[0][2], t129, t491);
+        let t493 = mul_add(base_rotation[1][0], t127, base_rotation[1][1] * t128);
+        let t494 = mul_add(base_rotation[1][2], t129, t493);
+        let t495 = mul_add(base_rotation[2][0], t127, base_rotation[2][1] * t128);
+        let t496 = mul_add(base_rotation[2][2], t129, t495);
         // leg 4: rod direction u, from the Hooke joint to the platform joint
-        let t489 = mul_add(base_rotation[0][0], t130, base_rotation[0][1] * t131);
-        let t490 = mul_add(base_rotation[0][2], t132, t489);
-        let t491 = mul_add(base_rotation[1][0], t130, base_rotation[1][1] * t131);
-        let t492 = mul_add(base_rotation[1][2], t132, t491);
-        let t493 = mul_add(base_rotation[2][0], t130, base_rotation[2][1] * t131);
-        let t494 = mul_add(base_rotation[2][2], t132, t493);
+        let t497 = mul_add(base_rotation[0][0], t130, base_rotation[0][1] * t131);
+        let t498 = mul_add(base_rotation[0][2], t132, t497);
+        let t499 = mul_add(base_rotation[1][0], t130, base_rotation[1][1] * t131);
+        let t500 = mul_add(base_rotation[1][2], t132, t499);
+        let t501 = mul_add(base_rotation[2][0], t130, base_rotation[2][1] * t131);
+        let t502 = mul_add(base_rotation[2][2], t132, t501);
         // leg 5: rod direction u, from the Hooke joint to the platform joint
-        let t495 = mul_add(base_rotation[0][0], t133, base_rotation[0][1] * t134);
-        let t496 = mul_add(base_rotation[0][2], t135, t495);
-        let t497 = mul_add(base_rotation[1][0], t133, base_rotation[1][1] * t134);
-        let t498 = mul_add(base_rotation[1][2], t135, t497);
-        let t499 = mul_add(base_rotation[2][0], t133, base_rotation[2][1] * t134);
-        let t500 = mul_add(base_rotation[2][2], t135, t499);
+        let t503 = mul_add(base_rotation[0][0], t133, base_rotation[0][1] * t134);
+        let t504 = mul_add(base_rotation[0][2], t135, t503);
+        let t505 = mul_add(base_rotation[1][0], t133, base_rotation[1][1] * t134);
+        let t506 = mul_add(base_rotation[1][2], t135, t505);
+        let t507 = mul_add(base_rotation[2][0], t133, base_rotation[2][1] * t134);
+        let t508 = mul_add(base_rotation[2][2], t135, t507);
         // leg 6: rod direction u, from the Hooke joint to the platform joint
-        let t501 = mul_add(base_rotation[0][0], t136, base_rotation[0][1] * t137);
-        let t502 = mul_add(base_rotation[0][2], t138, t501);
-        let t503 = mul_add(base_rotation[1][0], t136, base_rotation[1][1] * t137);
-        let t504 = mul_add(base_rotation[1][2], t138, t503);
-        let t505 = mul_add(base_rotation[2][0], t136, base_rotation[2][1] * t137);
-        let t506 = mul_add(base_rotation[2][2], t138, t505);
+        let t509 = mul_add(base_rotation[0][0], t136, base_rotation[0][1] * t137);
+        let t510 = mul_add(base_rotation[0][2], t138, t509);
+        let t511 = mul_add(base_rotation[1][0], t136, base_rotation[1][1] * t137);
+        let t512 = mul_add(base_rotation[1][2], t138, t511);
+        let t513 = mul_add(base_rotation[2][0], t136, base_rotation[2][1] * t137);
+        let t514 = mul_add(base_rotation[2][2], t138, t513);
         // leg 1: Hooke joint
-        let t507 = base_rotation[0][1] * parameters.base_point[0][1];
-        let t508 = mul_add(base_rotation[0][0], parameters.base_point[0][0], t507);
-        let t509 = mul_add(base_rotation[0][2], parameters.base_point[0][2], t508);
-        let t510 = base_rotation[1][1] * parameters.base_point[0][1];
-        let t511 = mul_add(base_rotation[1][0], parameters.base_point[0][0], t510);
-        let t512 = mul_add(base_rotation[1][2], parameters.base_point[0][2], t511);
-        let t513 = base_rotation[2][1] * parameters.base_point[0][1];
-        let t514 = mul_add(base_rotation[2][0], parameters.base_point[0][0], t513);
-        let t515 = mul_add(base_rotation[2][2], parameters.base_point[0][2], t514);
+        let t515 = base_rotation[0][1] * parameters.base_point[0][1];
+        let t516 = mul_add(base_rotation[0][0], parameters.base_point[0][0], t515);
+        let t517 = mul_add(base_rotation[0][2], parameters.base_point[0][2], t516);
+        let t518 = base_rotation[1][1] * parameters.base_point[0][1];
+        let t519 = mul_add(base_rotation[1][0], parameters.base_point[0][0], t518);
+        let t520 = mul_add(base_rotation[1][2], parameters.base_point[0][2], t519);
+        let t521 = base_rotation[2][1] * parameters.base_point[0][1];
+        let t522 = mul_add(base_rotation[2][0], parameters.base_point[0][0], t521);
+        let t523 = mul_add(base_rotation[2][2], parameters.base_point[0][2], t522);
         // leg 1: platform joint
-        let t516 = platform_rotation[0][1] * parameters.platform_point[0][1];
-        let t517 = mul_add(
+        let t524 = platform_rotation[0][1] * parameters.platform_point[0][1];
+        let t525 = mul_add(
             platform_rotation[0][0],
             parameters.platform_point[0][0],
-            t516,
+            t524,
         );
-        let t518 = mul_add(
+        let t526 = mul_add(
             platform_rotation[0][2],
             parameters.platform_point[0][2],
-            t517,
+            t525,
         );
-        let t519 = platform_rotation[1][1] * parameters.platform_point[0][1];
-        let t520 = mul_add(
+        let t527 = platform_rotation[1][1] * parameters.platform_point[0][1];
+        let t528 = mul_add(
             platform_rotation[1][0],
             parameters.platform_point[0][0],
-            t519,
+            t527,
         );
-        let t521 = mul_add(
+        let t529 = mul_add(
             platform_rotation[1][2],
             parameters.platform_point[0][2],
-            t520,
+            t528,
         );
-        let t522 = platform_rotation[2][1] * parameters.platform_point[0][1];
-        let t523 = mul_add(
+        let t530 = platform_rotation[2][1] * parameters.platform_point[0][1];
+        let t531 = mul_add(
             platform_rotation[2][0],
             parameters.platform_point[0][0],
-            t522,
+            t530,
         );
-        let t524 = mul_add(
+        let t532 = mul_add(
             platform_rotation[2][2],
             parameters.platform_point[0][2],
-            t523,
+            t531,
         );
         // leg 1: velocity of the base joint
-        let t525 = mul_sub(base_velocity[4], t515, base_velocity[5] * t512);
-        let t526 = mul_sub(base_velocity[5], t509, base_velocity[3] * t515);
-        let t527 = mul_sub(base_velocity[3], t512, base_velocity[4] * t509);
+        let t533 = mul_sub(base_velocity[4], t523, base_velocity[5] * t520);
+        let t534 = mul_sub(base_velocity[5], t517, base_velocity[3] * t523);
+        let t535 = mul_sub(base_velocity[3], t520, base_velocity[4] * t517);
         // leg 1: velocity of the platform joint
-        let t528 = mul_sub(platform_velocity[4], t524, platform_velocity[5] * t521);
-        let t529 = mul_sub(platform_velocity[5], t518, platform_velocity[3] * t524);
-        let t530 = mul_sub(platform_velocity[3], t521, platform_velocity[4] * t518);
+        let t536 = mul_sub(platform_velocity[4], t532, platform_velocity[5] * t529);
+        let t537 = mul_sub(platform_velocity[5], t526, platform_velocity[3] * t532);
+        let t538 = mul_sub(platform_velocity[3], t529, platform_velocity[4] * t526);
         // leg 1: inertial rate of the leg's direction
-        let t531 = t110 * (t160 - mul_sub(t235, t472, t525 - t528));
-        let t532 = t110 * (t161 - mul_sub(t235, t474, t526 - t529));
-        let t533 = t110 * (t162 - mul_sub(t235, t476, t527 - t530));
+        let t539 = t110 * (t160 - mul_sub(t235, t480, t533 - t536));
+        let t540 = t110 * (t161 - mul_sub(t235, t482, t534 - t537));
+        let t541 = t110 * (t162 - mul_sub(t235, t484, t535 - t538));
         // leg 2: Hooke joint
-        let t534 = base_rotation[0][1] * parameters.base_point[1][1];
-        let t535 = mul_add(base_rotation[0][0], parameters.base_point[1][0], t534);
-        let t536 = mul_add(base_rotation[0][2], parameters.base_point[1][2], t535);
-        let t537 = base_rotation[1][1] * parameters.base_point[1][1];
-        let t538 = mul_add(base_rotation[1][0], parameters.base_point[1][0], t537);
-        let t539 = mul_add(base_rotation[1][2], parameters.base_point[1][2], t538);
-        let t540 = base_rotation[2][1] * parameters.base_point[1][1];
-        let t541 = mul_add(base_rotation[2][0], parameters.base_point[1][0], t540);
-        let t542 = mul_add(base_rotation[2][2], parameters.base_point[1][2], t541);
+        let t542 = base_rotation[0][1] * parameters.base_point[1][1];
+        let t543 = mul_add(base_rotation[0][0], parameters.base_point[1][0], t542);
+        let t544 = mul_add(base_rotation[0][2], parameters.base_point[1][2], t543);
+        let t545 = base_rotation[1][1] * parameters.base_point[1][1];
+        let t546 = mul_add(base_rotation[1][0], parameters.base_point[1][0], t545);
+        let t547 = mul_add(base_rotation[1][2], parameters.base_point[1][2], t546);
+        let t548 = base_rotation[2][1] * parameters.base_point[1][1];
+        let t549 = mul_add(base_rotation[2][0], parameters.base_point[1][0], t548);
+        let t550 = mul_add(base_rotation[2][2], parameters.base_point[1][2], t549);
         // leg 2: platform joint
-        let t543 = platform_rotation[0][1] * parameters.platform_point[1][1];
-        let t544 = mul_add(
+        let t551 = platform_rotation[0][1] * parameters.platform_point[1][1];
+        let t552 = mul_add(
             platform_rotation[0][0],
             parameters.platform_point[1][0],
-            t543,
+            t551,
         );
-        let t545 = mul_add(
+        let t553 = mul_add(
             platform_rotation[0][2],
             parameters.platform_point[1][2],
-            t544,
+            t552,
         );
-        let t546 = platform_rotation[1][1] * parameters.platform_point[1][1];
-        let t547 = mul_add(
+        let t554 = platform_rotation[1][1] * parameters.platform_point[1][1];
+        let t555 = mul_add(
             platform_rotation[1][0],
             parameters.platform_point[1][0],
-            t546,
+            t554,
         );
-        let t548 = mul_add(
+        let t556 = mul_add(
             platform_rotation[1][2],
             parameters.platform_point[1][2],
-            t547,
+            t555,
         );
-        let t549 = platform_rotation[2][1] * parameters.platform_point[1][1];
-        let t550 = mul_add(
+        let t557 = platform_rotation[2][1] * parameters.platform_point[1][1];
+        let t558 = mul_add(
             platform_rotation[2][0],
             parameters.platform_point[1][0],
-            t549,
+            t557,
         );
-        let t551 = mul_add(
+        let t559 = mul_add(
             platform_rotation[2][2],
             parameters.platform_point[1][2],
-            t550,
+            t558,
         );
         // leg 2: velocity of the base joint
-        let t552 = mul_sub(base_velocity[4], t542, base_velocity[5] * t539);
-        let t553 = mul_sub(base_velocity[5], t536, base_velocity[3] * t542);
-        let t554 = mul_sub(base_velocity[3], t539, base_velocity[4] * t536);
+        let t560 = mul_sub(base_velocity[4], t550, base_velocity[5] * t547);
+        let t561 = mul_sub(base_velocity[5], t544, base_velocity[3] * t550);
+        let t562 = mul_sub(base_velocity[3], t547, base_velocity[4] * t544);
         // leg 2: velocity of the platform joint
-        let t555 = mul_sub(platform_velocity[4], t551, platform_velocity[5] * t548);
-        let t556 = mul_sub(platform_velocity[5], t545, platform_velocity[3] * t551);
-        let t557 = mul_sub(platform_velocity[3], t548, platform_velocity[4] * t545);
+        let t563 = mul_sub(platform_velocity[4], t559, platform_velocity[5] * t556);
+        let t564 = mul_sub(platform_velocity[5], t553, platform_velocity[3] * t559);
+        let t565 = mul_sub(platform_velocity[3], t556, platform_velocity[4] * t553);
         // leg 2: inertial rate of the leg's direction
-        let t558 = t112 * (t160 - mul_sub(t236, t478, t552 - t555));
-        let t559 = t112 * (t161 - mul_sub(t236, t480, t553 - t556));
-        let t560 = t112 * (t162 - mul_sub(t236, t482, t554 - t557));
+        let t566 = t112 * (t160 - mul_sub(t236, t486, t560 - t563));
+        let t567 = t112 * (t161 - mul_sub(t236, t488, t561 - t564));
+        let t568 = t112 * (t162 - mul_sub(t236, t490, t562 - t565));
         // leg 3: Hooke joint
-        let t561 = base_rotation[0][1] * parameters.base_point[2][1];
-        let t562 = mul_add(base_rotation[0][0], parameters.base_point[2][0], t561);
-        let t563 = mul_add(base_rotation[0][2], parameters.base_point[2][2], t562);
-        let t564 = base_rotation[1][1] * parameters.base_point[2][1];
-        let t565 = mul_add(base_rotation[1][0], parameters.base_point[2][0], t564);
-        let t566 = mul_add(base_rotation[1][2], parameters.base_point[2][2], t565);
-        let t567 = base_rotation[2][1] * parameters.base_point[2][1];
-        let t568 = mul_add(base_rotation[2][0], parameters.base_point[2][0], t567);
-        let t569 = mul_add(base_rotation[2][2], parameters.base_point[2][2], t568);
+        let t569 = base_rotation[0][1] * parameters.base_point[2][1];
+        let t570 = mul_add(base_rotation[0][0], parameters.base_point[2][0], t569);
+        let t571 = mul_add(base_rotation[0][2], parameters.base_point[2][2], t570);
+        let t572 = base_rotation[1][1] * parameters.base_point[2][1];
+        let t573 = mul_add(base_rotation[1][0], parameters.base_point[2][0], t572);
+        let t574 = mul_add(base_rotation[1][2], parameters.base_point[2][2], t573);
+        let t575 = base_rotation[2][1] * parameters.base_point[2][1];
+        let t576 = mul_add(base_rotation[2][0], parameters.base_point[2][0], t575);
+        let t577 = mul_add(base_rotation[2][2], parameters.base_point[2][2], t576);
         // leg 3: platform joint
-        let t570 = platform_rotation[0][1] * parameters.platform_point[2][1];
-        let t571 = mul_add(
+        let t578 = platform_rotation[0][1] * parameters.platform_point[2][1];
+        let t579 = mul_add(
             platform_rotation[0][0],
             parameters.platform_point[2][0],
-            t570,
+            t578,
         );
-        let t572 = mul_add(
+        let t580 = mul_add(
             platform_rotation[0][2],
             parameters.platform_point[2][2],
-            t571,
+            t579,
         );
-        let t573 = platform_rotation[1][1] * parameters.platform_point[2][1];
-        let t574 = mul_add(
+        let t581 = platform_rotation[1][1] * parameters.platform_point[2][1];
+        let t582 = mul_add(
             platform_rotation[1][0],
             parameters.platform_point[2][0],
-            t573,
+            t581,
         );
-        let t575 = mul_add(
+        let t583 = mul_add(
             platform_rotation[1][2],
             parameters.platform_point[2][2],
-            t574,
+            t582,
         );
-        let t576 = platform_rotation[2][1] * parameters.platform_point[2][1];
-        let t577 = mul_add(
+        let t584 = platform_rotation[2][1] * parameters.platform_point[2][1];
+        let t585 = mul_add(
             platform_rotation[2][0],
             parameters.platform_point[2][0],
-            t576,
+            t584,
         );
-        let t578 = mul_add(
+        let t586 = mul_add(
             platform_rotation[2][2],
             parameters.platform_point[2][2],
-            t577,
+            t585,
         );
         // leg 3: velocity of the base joint
-        let t579 = mul_sub(base_velocity[4], t569, base_velocity[5] * t566);
-        let t580 = mul_sub(base_velocity[5], t563, base_velocity[3] * t569);
-        let t581 = mul_sub(base_velocity[3], t566, base_velocity[4] * t563);
+        let t587 = mul_sub(base_velocity[4], t577, base_velocity[5] * t574);
+        let t588 = mul_sub(base_velocity[5], t571, base_velocity[3] * t577);
+        let t589 = mul_sub(base_velocity[3], t574, base_velocity[4] * t571);
         // leg 3: velocity of the platform joint
-        let t582 = mul_sub(platform_velocity[4], t578, platform_velocity[5] * t575);
-        let t583 = mul_sub(platform_velocity[5], t572, platform_velocity[3] * t578);
-        let t584 = mul_sub(platform_velocity[3], t575, platform_velocity[4] * t572);
+        let t590 = mul_sub(platform_velocity[4], t586, platform_velocity[5] * t583);
+        let t591 = mul_sub(platform_velocity[5], t580, platform_velocity[3] * t586);
+        let t592 = mul_sub(platform_velocity[3], t583, platform_velocity[4] * t580);
         // leg 3: inertial rate of the leg's direction
-        let t585 = t114 * (t160 - mul_sub(t237, t484, t579 - t582));
-        let t586 = t114 * (t161 - mul_sub(t237, t486, t580 - t583));
-        let t587 = t114 * (t162 - mul_sub(t237, t488, t581 - t584));
+        let t593 = t114 * (t160 - mul_sub(t237, t492, t587 - t590));
+        let t594 = t114 * (t161 - mul_sub(t237, t494, t588 - t591));
+        let t595 = t114 * (t162 - mul_sub(t237, t496, t589 - t592));
         // leg 4: Hooke joint
-        let t588 = base_rotation[0][1] * parameters.base_point[3][1];
-        let t589 = mul_add(base_rotation[0][0], parameters.base_point[3][0], t588);
-        let t590 = mul_add(base_rotation[0][2], parameters.base_point[3][2], t589);
-        let t591 = base_rotation[1][1] * parameters.base_point[3][1];
-        let t592 = mul_add(base_rotation[1][0], parameters.base_point[3][0], t591);
-        let t593 = mul_add(base_rotation[1][2], parameters.base_point[3][2], t592);
-        let t594 = base_rotation[2][1] * parameters.base_point[3][1];
-        let t595 = mul_add(base_rotation[2][0], parameters.base_point[3][0], t594);
-        let t596 = mul_add(base_rotation[2][2], parameters.base_point[3][2], t595);
+        let t596 = base_rotation[0][1] * parameters.base_point[3][1];
+        let t597 = mul_add(base_rotation[0][0], parameters.base_point[3][0], t596);
+        let t598 = mul_add(base_rotation[0][2], parameters.base_point[3][2], t597);
+        let t599 = base_rotation[1][1] * parameters.base_point[3][1];
+        let t600 = mul_add(base_rotation[1][0], parameters.base_point[3][0], t599);
+        let t601 = mul_add(base_rotation[1][2], parameters.base_point[3][2], t600);
+        let t602 = base_rotation[2][1] * parameters.base_point[3][1];
+        let t603 = mul_add(base_rotation[2][0], parameters.base_point[3][0], t602);
+        let t604 = mul_add(base_rotation[2][2], parameters.base_point[3][2], t603);
         // leg 4: platform joint
-        let t597 = platform_rotation[0][1] * parameters.platform_point[3][1];
-        let t598 = mul_add(
+        let t605 = platform_rotation[0][1] * parameters.platform_point[3][1];
+        let t606 = mul_add(
             platform_rotation[0][0],
             parameters.platform_point[3][0],
-            t597,
+            t605,
         );
-        let t599 = mul_add(
+        let t607 = mul_add(
             platform_rotation[0][2],
             parameters.platform_point[3][2],
-            t598,
+            t606,
         );
-        let t600 = platform_rotation[1][1] * parameters.platform_point[3][1];
-        let t601 = mul_add(
+        let t608 = platform_rotation[1][1] * parameters.platform_point[3][1];
+        let t609 = mul_add(
             platform_rotation[1][0],
             parameters.platform_point[3][0],
-            t600,
+            t608,
         );
-        let t602 = mul_add(
+        let t610 = mul_add(
             platform_rotation[1][2],
             parameters.platform_point[3][2],
-            t601,
+            t609,
         );
-        let t603 = platform_rotation[2][1] * parameters.platform_point[3][1];
-        let t604 = mul_add(
+        let t611 = platform_rotation[2][1] * parameters.platform_point[3][1];
+        let t612 = mul_add(
             platform_rotation[2][0],
             parameters.platform_point[3][0],
-            t603,
+            t611,
         );
-        let t605 = mul_add(
+        let t613 = mul_add(
             platform_rotation[2][2],
             parameters.platform_point[3][2],
-            t604,
+            t612,
         );
         // leg 4: velocity of the base joint
-        let t606 = mul_sub(base_velocity[4], t596, base_velocity[5] * t593);
-        let t607 = mul_sub(base_velocity[5], t590, base_velocity[3] * t596);
-        let t608 = mul_sub(base_velocity[3], t593, base_velocity[4] * t590);
+        let t614 = mul_sub(base_velocity[4], t604, base_velocity[5] * t601);
+        let t615 = mul_sub(base_velocity[5], t598, base_velocity[3] * t604);
+        let t616 = mul_sub(base_velocity[3], t601, base_velocity[4] * t598);
         // leg 4: velocity of the platform joint
-        let t609 = mul_sub(platform_velocity[4], t605, platform_velocity[5] * t602);
-        let t610 = mul_sub(platform_velocity[5], t599, platform_velocity[3] * t605);
-        let t611 = mul_sub(platform_velocity[3], t602, platform_velocity[4] * t599);
+        let t617 = mul_sub(platform_velocity[4], t613, platform_velocity[5] * t610);
+        let t618 = mul_sub(platform_velocity[5], t607, platform_velocity[3] * t613);
+        let t619 = mul_sub(platform_velocity[3], t610, platform_velocity[4] * t607);
         // leg 4: inertial rate of the leg's direction
-        let t612 = t116 * (t160 - mul_sub(t238, t490, t606 - t609));
-        let t613 = t116 * (t161 - mul_sub(t238, t492, t607 - t610));
-        let t614 = t116 * (t162 - mul_sub(t238, t494, t608 - t611));
+        let t620 = t116 * (t160 - mul_sub(t238, t498, t614 - t617));
+        let t621 = t116 * (t161 - mul_sub(t238, t500, t615 - t618));
+        let t622 = t116 * (t162 - mul_sub(t238, t502, t616 - t619));
         // leg 5: Hooke joint
-        let t615 = base_rotation[0][1] * parameters.base_point[4][1];
-        let t616 = mul_add(base_rotation[0][0], parameters.base_point[4][0], t615);
-        let t617 = mul_add(base_rotation[0][2], parameters.base_point[4][2], t616);
-        let t618 = base_rotation[1][1] * parameters.base_point[4][1];
-        let t619 = mul_add(base_rotation[1][0], parameters.base_point[4][0], t618);
-        let t620 = mul_add(base_rotation[1][2], parameters.base_point[4][2], t619);
-        let t621 = base_rotation[2][1] * parameters.base_point[4][1];
-        let t622 = mul_add(base_rotation[2][0], parameters.base_point[4][0], t621);
-        let t623 = mul_add(base_rotation[2][2], parameters.base_point[4][2], t622);
+        let t623 = base_rotation[0][1] * parameters.base_point[4][1];
+        let t624 = mul_add(base_rotation[0][0], parameters.base_point[4][0], t623);
+        let t625 = mul_add(base_rotation[0][2], parameters.base_point[4][2], t624);
+        let t626 = base_rotation[1][1] * parameters.base_point[4][1];
+        let t627 = mul_add(base_rotation[1][0], parameters.base_point[4][0], t626);
+        let t628 = mul_add(base_rotation[1][2], parameters.base_point[4][2], t627);
+        let t629 = base_rotation[2][1] * parameters.base_point[4][1];
+        let t630 = mul_add(base_rotation[2][0], parameters.base_point[4][0], t629);
+        let t631 = mul_add(base_rotation[2][2], parameters.base_point[4][2], t630);
         // leg 5: platform joint
-        let t624 = platform_rotation[0][1] * parameters.platform_point[4][1];
-        let t625 = mul_add(
+        let t632 = platform_rotation[0][1] * parameters.platform_point[4][1];
+        let t633 = mul_add(
             platform_rotation[0][0],
             parameters.platform_point[4][0],
-            t624,
+            t632,
         );
-        let t626 = mul_add(
+        let t634 = mul_add(
             platform_rotation[0][2],
             parameters.platform_point[4][2],
-            t625,
+            t633,
         );
-        let t627 = platform_rotation[1][1] * parameters.platform_point[4][1];
-        let t628 = mul_add(
+        let t635 = platform_rotation[1][1] * parameters.platform_point[4][1];
+        let t636 = mul_add(
             platform_rotation[1][0],
             parameters.platform_point[4][0],
-            t627,
+            t635,
         );
-        let t629 = mul_add(
+        let t637 = mul_add(
             platform_rotation[1][2],
             parameters.platform_point[4][2],
-            t628,
+            t636,
         );
-        let t630 = platform_rotation[2][1] * parameters.platform_point[4][1];
-        let t631 = mul_add(
+        let t638 = platform_rotation[2][1] * parameters.platform_point[4][1];
+        let t639 = mul_add(
             platform_rotation[2][0],
             parameters.platform_point[4][0],
-            t630,
+            t638,
         );
-        let t632 = mul_add(
+        let t640 = mul_add(
             platform_rotation[2][2],
             parameters.platform_point[4][2],
-            t631,
+            t639,
         );
         // leg 5: velocity of the base joint
-        let t633 = mul_sub(base_velocity[4], t623, base_velocity[5] * t620);
-        let t634 = mul_sub(base_velocity[5], t617, base_velocity[3] * t623);
-        let t635 = mul_sub(base_velocity[3], t620, base_velocity[4] * t617);
+        let t641 = mul_sub(base_velocity[4], t631, base_velocity[5] * t628);
+        let t642 = mul_sub(base_velocity[5], t625, base_velocity[3] * t631);
+        let t643 = mul_sub(base_velocity[3], t628, base_velocity[4] * t625);
         // leg 5: velocity of the platform joint
-        let t636 = mul_sub(platform_velocity[4], t632, platform_velocity[5] * t629);
-        let t637 = mul_sub(platform_velocity[5], t626, platform_velocity[3] * t632);
-        let t638 = mul_sub(platform_velocity[3], t629, platform_velocity[4] * t626);
+        let t644 = mul_sub(platform_velocity[4], t640, platform_velocity[5] * t637);
+        let t645 = mul_sub(platform_velocity[5], t634, platform_velocity[3] * t640);
+        let t646 = mul_sub(platform_velocity[3], t637, platform_velocity[4] * t634);
         // leg 5: inertial rate of the leg's direction
-        let t639 = t118 * (t160 - mul_sub(t239, t496, t633 - t636));
-        let t640 = t118 * (t161 - mul_sub(t239, t498, t634 - t637));
-        let t641 = t118 * (t162 - mul_sub(t239, t500, t635 - t638));
+        let t647 = t118 * (t160 - mul_sub(t239, t504, t641 - t644));
+        let t648 = t118 * (t161 - mul_sub(t239, t506, t642 - t645));
+        let t649 = t118 * (t162 - mul_sub(t239, t508, t643 - t646));
         // leg 6: Hooke joint
-        let t642 = base_rotation[0][1] * parameters.base_point[5][1];
-        let t643 = mul_add(base_rotation[0][0], parameters.base_point[5][0], t642);
-        let t644 = mul_add(base_rotation[0][2], parameters.base_point[5][2], t643);
-        let t645 = base_rotation[1][1] * parameters.base_point[5][1];
-        let t646 = mul_add(base_rotation[1][0], parameters.base_point[5][0], t645);
-        let t647 = mul_add(base_rotation[1][2], parameters.base_point[5][2], t646);
-        let t648 = base_rotation[2][1] * parameters.base_point[5][1];
-        let t649 = mul_add(base_rotation[2][0], parameters.base_point[5][0], t648);
-        let t650 = mul_add(base_rotation[2][2], parameters.base_point[5][2], t649);
+        let t650 = base_rotation[0][1] * parameters.base_point[5][1];
+        let t651 = mul_add(base_rotation[0][0], parameters.base_point[5][0], t650);
+        let t652 = mul_add(base_rotation[0][2], parameters.base_point[5][2], t651);
+        let t653 = base_rotation[1][1] * parameters.base_point[5][1];
+        let t654 = mul_add(base_rotation[1][0], parameters.base_point[5][0], t653);
+        let t655 = mul_add(base_rotation[1][2], parameters.base_point[5][2], t654);
+        let t656 = base_rotation[2][1] * parameters.base_point[5][1];
+        let t657 = mul_add(base_rotation[2][0], parameters.base_point[5][0], t656);
+        let t658 = mul_add(base_rotation[2][2], parameters.base_point[5][2], t657);
         // leg 6: platform joint
-        let t651 = platform_rotation[0][1] * parameters.platform_point[5][1];
-        let t652 = mul_add(
+        let t659 = platform_rotation[0][1] * parameters.platform_point[5][1];
+        let t660 = mul_add(
             platform_rotation[0][0],
             parameters.platform_point[5][0],
-            t651,
+            t659,
         );
-        let t653 = mul_add(
+        let t661 = mul_add(
             platform_rotation[0][2],
             parameters.platform_point[5][2],
-            t652,
+            t660,
         );
-        let t654 = platform_rotation[1][1] * parameters.platform_point[5][1];
-        let t655 = mul_add(
+        let t662 = platform_rotation[1][1] * parameters.platform_point[5][1];
+        let t663 = mul_add(
             platform_rotation[1][0],
             parameters.platform_point[5][0],
-            t654,
+            t662,
         );
-        let t656 = mul_add(
+        let t664 = mul_add(
             platform_rotation[1][2],
             parameters.platform_point[5][2],
-            t655,
+            t663,
         );
-        let t657 = platform_rotation[2][1] * parameters.platform_point[5][1];
-        let t658 = mul_add(
+        let t665 = platform_rotation[2][1] * parameters.platform_point[5][1];
+        let t666 = mul_add(
             platform_rotation[2][0],
             parameters.platform_point[5][0],
-            t657,
+            t665,
         );
-        let t659 = mul_add(
+        let t667 = mul_add(
             platform_rotation[2][2],
             parameters.platform_point[5][2],
-            t658,
+            t666,
         );
         // leg 6: velocity of the base joint
-        let t660 = mul_sub(base_velocity[4], t650, base_velocity[5] * t647);
-        let t661 = mul_sub(base_velocity[5], t644, base_velocity[3] * t650);
-        let t662 = mul_sub(base_velocity[3], t647, base_velocity[4] * t644);
+        let t668 = mul_sub(base_velocity[4], t658, base_velocity[5] * t655);
+        let t669 = mul_sub(base_velocity[5], t652, base_velocity[3] * t658);
+        let t670 = mul_sub(base_velocity[3], t655, base_velocity[4] * t652);
         // leg 6: velocity of the platform joint
-        let t663 = mul_sub(platform_velocity[4], t659, platform_velocity[5] * t656);
-        let t664 = mul_sub(platform_velocity[5], t653, platform_velocity[3] * t659);
-        let t665 = mul_sub(platform_velocity[3], t656, platform_velocity[4] * t653);
+        let t671 = mul_sub(platform_velocity[4], t667, platform_velocity[5] * t664);
+        let t672 = mul_sub(platform_velocity[5], t661, platform_velocity[3] * t667);
+        let t673 = mul_sub(platform_velocity[3], t664, platform_velocity[4] * t661);
         // leg 6: inertial rate of the leg's direction
-        let t666 = t120 * (t160 - mul_sub(t240, t502, t660 - t663));
-        let t667 = t120 * (t161 - mul_sub(t240, t504, t661 - t664));
-        let t668 = t120 * (t162 - mul_sub(t240, t506, t662 - t665));
+        let t674 = t120 * (t160 - mul_sub(t240, t510, t668 - t671));
+        let t675 = t120 * (t161 - mul_sub(t240, t512, t669 - t672));
+        let t676 = t120 * (t162 - mul_sub(t240, t514, t670 - t673));
         // leg 1: angular acceleration of the leg
-        let t669 = mul_add(platform_acceleration[3], t521, platform_acceleration[2]);
-        let t670 = mul_sub(platform_acceleration[4], t518, t669);
-        let t671 = mul_sub(platform_velocity[3], t529, t670);
-        let t672 = mul_sub(platform_velocity[4], t528, t671);
-        let t673 = mul_add(base_acceleration[3], t512, base_acceleration[2]);
-        let t674 = mul_sub(base_acceleration[4], t509, t673);
-        let t675 = mul_sub(
+        let t677 = mul_add(platform_acceleration[3], t529, platform_acceleration[2]);
+        let t678 = mul_sub(platform_acceleration[4], t526, t677);
+        let t679 = mul_sub(platform_velocity[3], t537, t678);
+        let t680 = mul_sub(platform_velocity[4], t536, t679);
+        let t681 = mul_add(base_acceleration[3], t520, base_acceleration[2]);
+        let t682 = mul_sub(base_acceleration[4], t517, t681);
+        let t683 = mul_sub(
             base_velocity[4],
-            t525,
-            mul_sub(base_velocity[3], t526, t674),
+            t533,
+            mul_sub(base_velocity[3], t534, t682),
         );
-        let t676 = t235 * c(2.0);
-        let t677 = t110 * mul_add(t533, t676, mul_add(t365, t476, t672 - t675));
-        let t678 = mul_add(platform_acceleration[5], t518, platform_acceleration[1]);
-        let t679 = mul_sub(platform_acceleration[3], t524, t678);
-        let t680 = mul_sub(platform_velocity[5], t528, t679);
-        let t681 = mul_sub(platform_velocity[3], t530, t680);
-        let t682 = mul_add(base_acceleration[5], t509, base_acceleration[1]);
-        let t683 = mul_sub(base_acceleration[3], t515, t682);
-        let t684 = mul_sub(
+        let t684 = t235 * c(2.0);
+        let t685 = t110 * mul_add(t541, t684, mul_add(t373, t484, t680 - t683));
+        let t686 = mul_add(platform_acceleration[5], t526, platform_acceleration[1]);
+        let t687 = mul_sub(platform_acceleration[3], t532, t686);
+        let t688 = mul_sub(platform_velocity[5], t536, t687);
+        let t689 = mul_sub(platform_velocity[3], t538, t688);
+        let t690 = mul_add(base_acceleration[5], t517, base_acceleration[1]);
+        let t691 = mul_sub(base_acceleration[3], t523, t690);
+        let t692 = mul_sub(
             base_velocity[3],
-            t527,
-            mul_sub(base_velocity[5], t525, t683),
+            t535,
+            mul_sub(base_velocity[5], t533, t691),
         );
-        let t685 = t110 * mul_add(t532, t676, mul_add(t365, t474, t681 - t684));
-        let t686 = mul_sub(t474, t677, t476 * t685);
-        let t687 = mul_add(platform_acceleration[4], t524, platform_acceleration[0]);
-        let t688 = mul_sub(platform_acceleration[5], t521, t687);
-        let t689 = mul_sub(platform_velocity[4], t530, t688);
-        let t690 = mul_sub(platform_velocity[5], t529, t689);
-        let t691 = mul_add(base_acceleration[4], t515, base_acceleration[0]);
-        let t692 = mul_sub(base_acceleration[5], t512, t691);
-        let t693 = mul_sub(
+        let t693 = t110 * mul_add(t540, t684, mul_add(t373, t482, t689 - t692));
+        let t694 = mul_sub(t482, t685, t484 * t693);
+        let t695 = mul_add(platform_acceleration[4], t532, platform_acceleration[0]);
+        let t696 = mul_sub(platform_acceleration[5], t529, t695);
+        let t697 = mul_sub(platform_velocity[4], t538, t696);
+        let t698 = mul_sub(platform_velocity[5], t537, t697);
+        let t699 = mul_add(base_acceleration[4], t523, base_acceleration[0]);
+        let t700 = mul_sub(base_acceleration[5], t520, t699);
+        let t701 = mul_sub(
             base_velocity[5],
-            t526,
-            mul_sub(base_velocity[4], t527, t692),
+            t534,
+            mul_sub(base_velocity[4], t535, t700),
         );
-        let t694 = t110 * mul_add(t531, t676, mul_add(t365, t472, t690 - t693));
-        let t695 = mul_sub(t476, t694, t472 * t677);
-        let t696 = mul_sub(t472, t685, t474 * t694);
+        let t702 = t110 * mul_add(t539, t684, mul_add(t373, t480, t698 - t701));
+        let t703 = mul_sub(t484, t702, t480 * t685);
+        let t704 = mul_sub(t480, t693, t482 * t702);
         // leg 1: acceleration of the lower part's centre of mass
-        let t697 = mul_add(parameters.lower_com_distance[0], t694, t693);
-        let t698 = mul_add(parameters.lower_com_distance[0], t685, t684);
-        let t699 = mul_add(parameters.lower_com_distance[0], t677, t675);
+        let t705 = mul_add(parameters.lower_com_distance[0], t702, t701);
+        let t706 = mul_add(parameters.lower_com_distance[0], t693, t692);
+        let t707 = mul_add(parameters.lower_com_distance[0], t685, t683);
         // leg 1: acceleration of the upper part's centre of mass
-        let t700 = neg_mul_add(parameters.upper_com_distance[0], t694, t690);
-        let t701 = neg_mul_add(parameters.upper_com_distance[0], t685, t681);
-        let t702 = neg_mul_add(parameters.upper_com_distance[0], t677, t672);
+        let t708 = neg_mul_add(parameters.upper_com_distance[0], t702, t698);
+        let t709 = neg_mul_add(parameters.upper_com_distance[0], t693, t689);
+        let t710 = neg_mul_add(parameters.upper_com_distance[0], t685, t680);
         // leg 2: angular acceleration of the leg
-        let t703 = mul_add(platform_acceleration[3], t548, platform_acceleration[2]);
-        let t704 = mul_sub(platform_acceleration[4], t545, t703);
-        let t705 = mul_sub(platform_velocity[3], t556, t704);
-        let t706 = mul_sub(platform_velocity[4], t555, t705);
-        let t707 = mul_add(base_acceleration[3], t539, base_acceleration[2]);
-        let t708 = mul_sub(base_acceleration[4], t536, t707);
-        let t709 = mul_sub(
+        let t711 = mul_add(platform_acceleration[3], t556, platform_acceleration[2]);
+        let t712 = mul_sub(platform_acceleration[4], t553, t711);
+        let t713 = mul_sub(platform_velocity[3], t564, t712);
+        let t714 = mul_sub(platform_velocity[4], t563, t713);
+        let t715 = mul_add(base_acceleration[3], t547, base_acceleration[2]);
+        let t716 = mul_sub(base_acceleration[4], t544, t715);
+        let t717 = mul_sub(
             base_velocity[4],
-            t552,
-            mul_sub(base_velocity[3], t553, t708),
+            t560,
+            mul_sub(base_velocity[3], t561, t716),
         );
-        let t710 = t236 * c(2.0);
-        let t711 = t112 * mul_add(t560, t710, mul_add(t386, t482, t706 - t709));
-        let t712 = mul_add(platform_acceleration[5], t545, platform_acceleration[1]);
-        let t713 = mul_sub(platform_acceleration[3], t551, t712);
-        let t714 = mul_sub(platform_velocity[5], t555, t713);
-        let t715 = mul_sub(platform_velocity[3], t557, t714);
-        let t716 = mul_add(base_acceleration[5], t536, base_acceleration[1]);
-        let t717 = mul_sub(base_acceleration[3], t542, t716);
-        let t718 = mul_sub(
+        let t718 = t236 * c(2.0);
+        let t719 = t112 * mul_add(t568, t718, mul_add(t394, t490, t714 - t717));
+        let t720 = mul_add(platform_acceleration[5], t553, platform_acceleration[1]);
+        let t721 = mul_sub(platform_acceleration[3], t559, t720);
+        let t722 = mul_sub(platform_velocity[5], t563, t721);
+        let t723 = mul_sub(platform_velocity[3], t565, t722);
+        let t724 = mul_add(base_acceleration[5], t544, base_acceleration[1]);
+        let t725 = mul_sub(base_acceleration[3], t550, t724);
+        let t726 = mul_sub(
             base_velocity[3],
-            t554,
-            mul_sub(base_velocity[5], t552, t717),
+            t562,
+            mul_sub(base_velocity[5], t560, t725),
         );
-        let t719 = t112 * mul_add(t559, t710, mul_add(t386, t480, t715 - t718));
-        let t720 = mul_sub(t480, t711, t482 * t719);
-        let t721 = mul_add(platform_acceleration[4], t551, platform_acceleration[0]);
-        let t722 = mul_sub(platform_acceleration[5], t548, t721);
-        let t723 = mul_sub(platform_velocity[4], t557, t722);
-        let t724 = mul_sub(platform_velocity[5], t556, t723);
-        let t725 = mul_add(base_acceleration[4], t542, base_acceleration[0]);
-        let t726 = mul_sub(base_acceleration[5], t539, t725);
-        let t727 = mul_sub(
+        let t727 = t112 * mul_add(t567, t718, mul_add(t394, t488, t723 - t726));
+        let t728 = mul_sub(t488, t719, t490 * t727);
+        let t729 = mul_add(platform_acceleration[4], t559, platform_acceleration[0]);
+        let t730 = mul_sub(platform_acceleration[5], t556, t729);
+        let t731 = mul_sub(platform_velocity[4], t565, t730);
+        let t732 = mul_sub(platform_velocity[5], t564, t731);
+        let t733 = mul_add(base_acceleration[4], t550, base_acceleration[0]);
+        let t734 = mul_sub(base_acceleration[5], t547, t733);
+        let t735 = mul_sub(
             base_velocity[5],
-            t553,
-            mul_sub(base_velocity[4], t554, t726),
+            t561,
+            mul_sub(base_velocity[4], t562, t734),
         );
-        let t728 = t112 * mul_add(t558, t710, mul_add(t386, t478, t724 - t727));
-        let t729 = mul_sub(t482, t728, t478 * t711);
-        let t730 = mul_sub(t478, t719, t480 * t728);
+        let t736 = t112 * mul_add(t566, t718, mul_add(t394, t486, t732 - t735));
+        let t737 = mul_sub(t490, t736, t486 * t719);
+        let t738 = mul_sub(t486, t727, t488 * t736);
         // leg 2: acceleration of the lower part's centre of mass
-        let t731 = mul_add(parameters.lower_com_distance[1], t728, t727);
-        let t732 = mul_add(parameters.lower_com_distance[1], t719, t718);
-        let t733 = mul_add(parameters.lower_com_distance[1], t711, t709);
+        let t739 = mul_add(parameters.lower_com_distance[1], t736, t735);
+        let t740 = mul_add(parameters.lower_com_distance[1], t727, t726);
+        let t741 = mul_add(parameters.lower_com_distance[1], t719, t717);
         // leg 2: acceleration of the upper part's centre of mass
-        let t734 = neg_mul_add(parameters.upper_com_distance[1], t728, t724);
-        let t735 = neg_mul_add(parameters.upper_com_distance[1], t719, t715);
-        let t736 = neg_mul_add(parameters.upper_com_distance[1], t711, t706);
+        let t742 = neg_mul_add(parameters.upper_com_distance[1], t736, t732);
+        let t743 = neg_mul_add(parameters.upper_com_distance[1], t727, t723);
+        let t744 = neg_mul_add(parameters.upper_com_distance[1], t719, t714);
         // leg 3: angular acceleration of the leg
-        let t737 = mul_add(platform_acceleration[3], t575, platform_acceleration[2]);
-        let t738 = mul_sub(platform_acceleration[4], t572, t737);
-        let t739 = mul_sub(platform_velocity[3], t583, t738);
-        let t740 = mul_sub(platform_velocity[4], t582, t739);
-        let t741 = mul_add(base_acceleration[3], t566, base_acceleration[2]);
-        let t742 = mul_sub(base_acceleration[4], t563, t741);
-        let t743 = mul_sub(
+        let t745 = mul_add(platform_acceleration[3], t583, platform_acceleration[2]);
+        let t746 = mul_sub(platform_acceleration[4], t580, t745);
+        let t747 = mul_sub(platform_velocity[3], t591, t746);
+        let t748 = mul_sub(platform_velocity[4], t590, t747);
+        let t749 = mul_add(base_acceleration[3], t574, base_acceleration[2]);
+        let t750 = mul_sub(base_acceleration[4], t571, t749);
+        let t751 = mul_sub(
             base_velocity[4],
-            t579,
-            mul_sub(base_velocity[3], t580, t742),
+            t587,
+            mul_sub(base_velocity[3], t588, t750),
         );
-        let t744 = t237 * c(2.0);
-        let t745 = t114 * mul_add(t587, t744, mul_add(t407, t488, t740 - t743));
-        let t746 = mul_add(platform_acceleration[5], t572, platform_acceleration[1]);
-        let t747 = mul_sub(platform_acceleration[3], t578, t746);
-        let t748 = mul_sub(platform_velocity[5], t582, t747);
-        let t749 = mul_sub(platform_velocity[3], t584, t748);
-        let t750 = mul_add(base_acceleration[5], t563, base_acceleration[1]);
-        let t751 = mul_sub(base_acceleration[3], t569, t750);
-        let t752 = mul_sub(
+        let t752 = t237 * c(2.0);
+        let t753 = t114 * mul_add(t595, t752, mul_add(t415, t496, t748 - t751));
+        let t754 = mul_add(platform_acceleration[5], t580, platform_acceleration[1]);
+        let t755 = mul_sub(platform_acceleration[3], t586, t754);
+        let t756 = mul_sub(platform_velocity[5], t590, t755);
+        let t757 = mul_sub(platform_velocity[3], t592, t756);
+        let t758 = mul_add(base_acceleration[5], t571, base_acceleration[1]);
+        let t759 = mul_sub(base_acceleration[3], t577, t758);
+        let t760 = mul_sub(
             base_velocity[3],
-            t581,
-            mul_sub(base_velocity[5], t579, t751),
+            t589,
+            mul_sub(base_velocity[5], t587, t759),
         );
-        let t753 = t114 * mul_add(t586, t744, mul_add(t407, t486, t749 - t752));
-        let t754 = mul_sub(t486, t745, t488 * t753);
-        let t755 = mul_add(platform_acceleration[4], t578, platform_acceleration[0]);
-        let t756 = mul_sub(platform_acceleration[5], t575, t755);
-        let t757 = mul_sub(platform_velocity[4], t584, t756);
-        let t758 = mul_sub(platform_velocity[5], t583, t757);
-        let t759 = mul_add(base_acceleration[4], t569, base_acceleration[0]);
-        let t760 = mul_sub(base_acceleration[5], t566, t759);
-        let t761 = mul_sub(
+        let t761 = t114 * mul_add(t594, t752, mul_add(t415, t494, t757 - t760));
+        let t762 = mul_sub(t494, t753, t496 * t761);
+        let t763 = mul_add(platform_acceleration[4], t586, platform_acceleration[0]);
+        let t764 = mul_sub(platform_acceleration[5], t583, t763);
+        let t765 = mul_sub(platform_velocity[4], t592, t764);
+        let t766 = mul_sub(platform_velocity[5], t591, t765);
+        let t767 = mul_add(base_acceleration[4], t577, base_acceleration[0]);
+        let t768 = mul_sub(base_acceleration[5], t574, t767);
+        let t769 = mul_sub(
             base_velocity[5],
-            t580,
-            mul_sub(base_velocity[4], t581, t760),
+            t588,
+            mul_sub(base_velocity[4], t589, t768),
         );
-        let t762 = t114 * mul_add(t585, t744, mul_add(t407, t484, t758 - t761));
-        let t763 = mul_sub(t488, t762, t484 * t745);
-        let t764 = mul_sub(t484, t753, t486 * t762);
+        let t770 = t114 * mul_add(t593, t752, mul_add(t415, t492, t766 - t769));
+        let t771 = mul_sub(t496, t770, t492 * t753);
+        let t772 = mul_sub(t492, t761, t494 * t770);
         // leg 3: acceleration of the lower part's centre of mass
-        let t765 = mul_add(parameters.lower_com_distance[2], t762, t761);
-        let t766 = mul_add(parameters.lower_com_distance[2], t753, t752);
-        let t767 = mul_add(parameters.lower_com_distance[2], t745, t743);
+        let t773 = mul_add(parameters.lower_com_distance[2], t770, t769);
+        let t774 = mul_add(parameters.lower_com_distance[2], t761, t760);
+        let t775 = mul_add(parameters.lower_com_distance[2], t753, t751);
         // leg 3: acceleration of the upper part's centre of mass
-        let t768 = neg_mul_add(parameters.upper_com_distance[2], t762, t758);
-        let t769 = neg_mul_add(parameters.upper_com_distance[2], t753, t749);
-        let t770 = neg_mul_add(parameters.upper_com_distance[2], t745, t740);
+        let t776 = neg_mul_add(parameters.upper_com_distance[2], t770, t766);
+        let t777 = neg_mul_add(parameters.upper_com_distance[2], t761, t757);
+        let t778 = neg_mul_add(parameters.upper_com_distance[2], t753, t748);
         // leg 4: angular acceleration of the leg
-        let t771 = mul_add(platform_acceleration[3], t602, platform_acceleration[2]);
-        let t772 = mul_sub(platform_acceleration[4], t599, t771);
-        let t773 = mul_sub(platform_velocity[3], t610, t772);
-        let t774 = mul_sub(platform_velocity[4], t609, t773);
-        let t775 = mul_add(base_acceleration[3], t593, base_acceleration[2]);
-        let t776 = mul_sub(base_acceleration[4], t590, t775);
-        let t777 = mul_sub(
+        let t779 = mul_add(platform_acceleration[3], t610, platform_acceleration[2]);
+        let t780 = mul_sub(platform_acceleration[4], t607, t779);
+        let t781 = mul_sub(platform_velocity[3], t618, t780);
+        let t782 = mul_sub(platform_velocity[4], t617, t781);
+        let t783 = mul_add(base_acceleration[3], t601, base_acceleration[2]);
+        let t784 = mul_sub(base_acceleration[4], t598, t783);
+        let t785 = mul_sub(
             base_velocity[4],
-            t606,
-            mul_sub(base_velocity[3], t607, t776),
+            t614,
+            mul_sub(base_velocity[3], t615, t784),
         );
-        let t778 = t238 * c(2.0);
-        let t779 = t116 * mul_add(t614, t778, mul_add(t428, t494, t774 - t777));
-        let t780 = mul_add(platform_acceleration[5], t599, platform_acceleration[1]);
-        let t781 = mul_sub(platform_acceleration[3], t605, t780);
-        let t782 = mul_sub(platform_velocity[5], t609, t781);
-        let t783 = mul_sub(platform_velocity[3], t611, t782);
-        let t784 = mul_add(base_acceleration[5], t590, base_acceleration[1]);
-        let t785 = mul_sub(base_acceleration[3], t596, t784);
-        let t786 = mul_sub(
+        let t786 = t238 * c(2.0);
+        let t787 = t116 * mul_add(t622, t786, mul_add(t436, t502, t782 - t785));
+        let t788 = mul_add(platform_acceleration[5], t607, platform_acceleration[1]);
+        let t789 = mul_sub(platform_acceleration[3], t613, t788);
+        let t790 = mul_sub(platform_velocity[5], t617, t789);
+        let t791 = mul_sub(platform_velocity[3], t619, t790);
+        let t792 = mul_add(base_acceleration[5], t598, base_acceleration[1]);
+        let t793 = mul_sub(base_acceleration[3], t604, t792);
+        let t794 = mul_sub(
             base_velocity[3],
-            t608,
-            mul_sub(base_velocity[5], t606, t785),
+            t616,
+            mul_sub(base_velocity[5], t614, t793),
         );
-        let t787 = t116 * mul_add(t613, t778, mul_add(t428, t492, t783 - t786));
-        let t788 = mul_sub(t492, t779, t494 * t787);
-        let t789 = mul_add(platform_acceleration[4], t605, platform_acceleration[0]);
-        let t790 = mul_sub(platform_acceleration[5], t602, t789);
-        let t791 = mul_sub(platform_velocity[4], t611, t790);
-        let t792 = mul_sub(platform_velocity[5], t610, t791);
-        let t793 = mul_add(base_acceleration[4], t596, base_acceleration[0]);
-        let t794 = mul_sub(base_acceleration[5], t593, t793);
-        let t795 = mul_sub(
+        let t795 = t116 * mul_add(t621, t786, mul_add(t436, t500, t791 - t794));
+        let t796 = mul_sub(t500, t787, t502 * t795);
+        let t797 = mul_add(platform_acceleration[4], t613, platform_acceleration[0]);
+        let t798 = mul_sub(platform_acceleration[5], t610, t797);
+        let t799 = mul_sub(platform_velocity[4], t619, t798);
+        let t800 = mul_sub(platform_velocity[5], t618, t799);
+        let t801 = mul_add(base_acceleration[4], t604, base_acceleration[0]);
+        let t802 = mul_sub(base_acceleration[5], t601, t801);
+        let t803 = mul_sub(
             base_velocity[5],
-            t607,
-            mul_sub(base_velocity[4], t608, t794),
+            t615,
+            mul_sub(base_velocity[4], t616, t802),
         );
-        let t796 = t116 * mul_add(t612, t778, mul_add(t428, t490, t792 - t795));
-        let t797 = mul_sub(t494, t796, t490 * t779);
-        let t798 = mul_sub(t490, t787, t492 * t796);
+        let t804 = t116 * mul_add(t620, t786, mul_add(t436, t498, t800 - t803));
+        let t805 = mul_sub(t502, t804, t498 * t787);
+        let t806 = mul_sub(t498, t795, t500 * t804);
         // leg 4: acceleration of the lower part's centre of mass
-        let t799 = mul_add(parameters.lower_com_distance[3], t796, t795);
-        let t800 = mul_add(parameters.lower_com_distance[3], t787, t786);
-        let t801 = mul_add(parameters.lower_com_distance[3], t779, t777);
+        let t807 = mul_add(parameters.lower_com_distance[3], t804, t803);
+        let t808 = mul_add(parameters.lower_com_distance[3], t795, t794);
+        let t809 = mul_add(parameters.lower_com_distance[3], t787, t785);
         // leg 4: acceleration of the upper part's centre of mass
-        let t802 = neg_mul_add(parameters.upper_com_distance[3], t796, t792);
-        let t803 = neg_mul_add(parameters.upper_com_distance[3], t787, t783);
-        let t804 = neg_mul_add(parameters.upper_com_distance[3], t779, t774);
+        let t810 = neg_mul_add(parameters.upper_com_distance[3], t804, t800);
+        let t811 = neg_mul_add(parameters.upper_com_distance[3], t795, t791);
+        let t812 = neg_mul_add(parameters.upper_com_distance[3], t787, t782);
         // leg 5: angular acceleration of the leg
-        let t805 = mul_add(platform_acceleration[3], t629, platform_acceleration[2]);
-        let t806 = mul_sub(platform_acceleration[4], t626, t805);
-        let t807 = mul_sub(platform_velocity[3], t637, t806);
-        let t808 = mul_sub(platform_velocity[4], t636, t807);
-        let t809 = mul_add(base_acceleration[3], t620, base_acceleration[2]);
-        let t810 = mul_sub(base_acceleration[4], t617, t809);
-        let t811 = mul_sub(
+        let t813 = mul_add(platform_acceleration[3], t637, platform_acceleration[2]);
+        let t814 = mul_sub(platform_acceleration[4], t634, t813);
+        let t815 = mul_sub(platform_velocity[3], t645, t814);
+        let t816 = mul_sub(platform_velocity[4], t644, t815);
+        let t817 = mul_add(base_acceleration[3], t628, base_acceleration[2]);
+        let t818 = mul_sub(base_acceleration[4], t625, t817);
+        let t819 = mul_sub(
             base_velocity[4],
-            t633,
-            mul_sub(base_velocity[3], t634, t810),
+            t641,
+            mul_sub(base_velocity[3], t642, t818),
         );
-        let t812 = t239 * c(2.0);
-        let t813 = t118 * mul_add(t641, t812, mul_add(t449, t500, t808 - t811));
-        let t814 = mul_add(platform_acceleration[5], t626, platform_acceleration[1]);
-        let t815 = mul_sub(platform_acceleration[3], t632, t814);
-        let t816 = mul_sub(platform_velocity[5], t636, t815);
-        let t817 = mul_sub(platform_velocity[3], t638, t816);
-        let t818 = mul_add(base_acceleration[5], t617, base_acceleration[1]);
-        let t819 = mul_sub(base_acceleration[3], t623, t818);
-        let t820 = mul_sub(
+        let t820 = t239 * c(2.0);
+        let t821 = t118 * mul_add(t649, t820, mul_add(t457, t508, t816 - t819));
+        let t822 = mul_add(platform_acceleration[5], t634, platform_acceleration[1]);
+        let t823 = mul_sub(platform_acceleration[3], t640, t822);
+        let t824 = mul_sub(platform_velocity[5], t644, t823);
+        let t825 = mul_sub(platform_velocity[3], t646, t824);
+        let t826 = mul_add(base_acceleration[5], t625, base_acceleration[1]);
+        let t827 = mul_sub(base_acceleration[3], t631, t826);
+        let t828 = mul_sub(
             base_velocity[3],
-            t635,
-            mul_sub(base_velocity[5], t633, t819),
+            t643,
+            mul_sub(base_velocity[5], t641, t827),
         );
-        let t821 = t118 * mul_add(t640, t812, mul_add(t449, t498, t817 - t820));
-        let t822 = mul_sub(t498, t813, t500 * t821);
-        let t823 = mul_add(platform_acceleration[4], t632, platform_acceleration[0]);
-        let t824 = mul_sub(platform_acceleration[5], t629, t823);
-        let t825 = mul_sub(platform_velocity[4], t638, t824);
-        let t826 = mul_sub(platform_velocity[5], t637, t825);
-        let t827 = mul_add(base_acceleration[4], t623, base_acceleration[0]);
-        let t828 = mul_sub(base_acceleration[5], t620, t827);
-        let t829 = mul_sub(
+        let t829 = t118 * mul_add(t648, t820, mul_add(t457, t506, t825 - t828));
+        let t830 = mul_sub(t506, t821, t508 * t829);
+        let t831 = mul_add(platform_acceleration[4], t640, platform_acceleration[0]);
+        let t832 = mul_sub(platform_acceleration[5], t637, t831);
+        let t833 = mul_sub(platform_velocity[4], t646, t832);
+        let t834 = mul_sub(platform_velocity[5], t645, t833);
+        let t835 = mul_add(base_acceleration[4], t631, base_acceleration[0]);
+        let t836 = mul_sub(base_acceleration[5], t628, t835);
+        let t837 = mul_sub(
             base_velocity[5],
-            t634,
-            mul_sub(base_velocity[4], t635, t828),
+            t642,
+            mul_sub(base_velocity[4], t643, t836),
         );
-        let t830 = t118 * mul_add(t639, t812, mul_add(t449, t496, t826 - t829));
-        let t831 = mul_sub(t500, t830, t496 * t813);
-        let t832 = mul_sub(t496, t821, t498 * t830);
+        let t838 = t118 * mul_add(t647, t820, mul_add(t457, t504, t834 - t837));
+        let t839 = mul_sub(t508, t838, t504 * t821);
+        let t840 = mul_sub(t504, t829, t506 * t838);
         // leg 5: acceleration of the lower part's centre of mass
-        let t833 = mul_add(parameters.lower_com_distance[4], t830, t829);
-        let t834 = mul_add(parameters.lower_com_distance[4], t821, t820);
-        let t835 = mul_add(parameters.lower_com_distance[4], t813, t811);
+        let t841 = mul_add(parameters.lower_com_distance[4], t838, t837);
+        let t842 = mul_add(parameters.lower_com_distance[4], t829, t828);
+        let t843 = mul_add(parameters.lower_com_distance[4], t821, t819);
         // leg 5: acceleration of the upper part's centre of mass
-        let t836 = neg_mul_add(parameters.upper_com_distance[4], t830, t826);
-        let t837 = neg_mul_add(parameters.upper_com_distance[4], t821, t817);
-        let t838 = neg_mul_add(parameters.upper_com_distance[4], t813, t808);
+        let t844 = neg_mul_add(parameters.upper_com_distance[4], t838, t834);
+        let t845 = neg_mul_add(parameters.upper_com_distance[4], t829, t825);
+        let t846 = neg_mul_add(parameters.upper_com_distance[4], t821, t816);
         // leg 6: angular acceleration of the leg
-        let t839 = mul_add(platform_acceleration[3], t656, platform_acceleration[2]);
-        let t840 = mul_sub(platform_acceleration[4], t653, t839);
-        let t841 = mul_sub(platform_velocity[3], t664, t840);
-        let t842 = mul_sub(platform_velocity[4], t663, t841);
-        let t843 = mul_add(base_acceleration[3], t647, base_acceleration[2]);
-        let t844 = mul_sub(base_acceleration[4], t644, t843);
-        let t845 = mul_sub(
+        let t847 = mul_add(platform_acceleration[3], t664, platform_acceleration[2]);
+        let t848 = mul_sub(platform_acceleration[4], t661, t847);
+        let t849 = mul_sub(platform_velocity[3], t672, t848);
+        let t850 = mul_sub(platform_velocity[4], t671, t849);
+        let t851 = mul_add(base_acceleration[3], t655, base_acceleration[2]);
+        let t852 = mul_sub(base_acceleration[4], t652, t851);
+        let t853 = mul_sub(
             base_velocity[4],
-            t660,
-            mul_sub(base_velocity[3], t661, t844),
+            t668,
+            mul_sub(base_velocity[3], t669, t852),
         );
-        let t846 = t240 * c(2.0);
-        let t847 = t120 * mul_add(t668, t846, mul_add(t470, t506, t842 - t845));
-        let t848 = mul_add(platform_acceleration[5], t653, platform_acceleration[1]);
-        let t849 = mul_sub(platform_acceleration[3], t659, t848);
-        let t850 = mul_sub(platform_velocity[5], t663, t849);
-        let t851 = mul_sub(platform_velocity[3], t665, t850);
-        let t852 = mul_add(base_acceleration[5], t644, base_acceleration[1]);
-        let t853 = mul_sub(base_acceleration[3], t650, t852);
-        let t854 = mul_sub(
+        let t854 = t240 * c(2.0);
+        let t855 = t120 * mul_add(t676, t854, mul_add(t478, t514, t850 - t853));
+        let t856 = mul_add(platform_acceleration[5], t661, platform_acceleration[1]);
+        let t857 = mul_sub(platform_acceleration[3], t667, t856);
+        let t858 = mul_sub(platform_velocity[5], t671, t857);
+        let t859 = mul_sub(platform_velocity[3], t673, t858);
+        let t860 = mul_add(base_acceleration[5], t652, base_acceleration[1]);
+        let t861 = mul_sub(base_acceleration[3], t658, t860);
+        let t862 = mul_sub(
             base_velocity[3],
-            t662,
-            mul_sub(base_velocity[5], t660, t853),
+            t670,
+            mul_sub(base_velocity[5], t668, t861),
         );
-        let t855 = t120 * mul_add(t667, t846, mul_add(t470, t504, t851 - t854));
-        let t856 = mul_sub(t504, t847, t506 * t855);
-        let t857 = mul_add(platform_acceleration[4], t659, platform_acceleration[0]);
-        let t858 = mul_sub(platform_acceleration[5], t656, t857);
-        let t859 = mul_sub(platform_velocity[4], t665, t858);
-        let t860 = mul_sub(platform_velocity[5], t664, t859);
-        let t861 = mul_add(base_acceleration[4], t650, base_acceleration[0]);
-        let t862 = mul_sub(base_acceleration[5], t647, t861);
-        let t863 = mul_sub(
+        let t863 = t120 * mul_add(t675, t854, mul_add(t478, t512, t859 - t862));
+        let t864 = mul_sub(t512, t855, t514 * t863);
+        let t865 = mul_add(platform_acceleration[4], t667, platform_acceleration[0]);
+        let t866 = mul_sub(platform_acceleration[5], t664, t865);
+        let t867 = mul_sub(platform_velocity[4], t673, t866);
+        let t868 = mul_sub(platform_velocity[5], t672, t867);
+        let t869 = mul_add(base_acceleration[4], t658, base_acceleration[0]);
+        let t870 = mul_sub(base_acceleration[5], t655, t869);
+        let t871 = mul_sub(
             base_velocity[5],
-            t661,
-            mul_sub(base_velocity[4], t662, t862),
+            t669,
+            mul_sub(base_velocity[4], t670, t870),
         );
-        let t864 = t120 * mul_add(t666, t846, mul_add(t470, t502, t860 - t863));
-        let t865 = mul_sub(t506, t864, t502 * t847);
-        let t866 = mul_sub(t502, t855, t504 * t864);
+        let t872 = t120 * mul_add(t674, t854, mul_add(t478, t510, t868 - t871));
+        let t873 = mul_sub(t514, t872, t510 * t855);
+        let t874 = mul_sub(t510, t863, t512 * t872);
         // leg 6: acceleration of the lower part's centre of mass
-        let t867 = mul_add(parameters.lower_com_distance[5], t864, t863);
-        let t868 = mul_add(parameters.lower_com_distance[5], t855, t854);
-        let t869 = mul_add(parameters.lower_com_distance[5], t847, t845);
+        let t875 = mul_add(parameters.lower_com_distance[5], t872, t871);
+        let t876 = mul_add(parameters.lower_com_distance[5], t863, t862);
+        let t877 = mul_add(parameters.lower_com_distance[5], t855, t853);
         // leg 6: acceleration of the upper part's centre of mass
-        let t870 = neg_mul_add(parameters.upper_com_distance[5], t864, t860);
-        let t871 = neg_mul_add(parameters.upper_com_distance[5], t855, t851);
-        let t872 = neg_mul_add(parameters.upper_com_distance[5], t847, t842);
+        let t878 = neg_mul_add(parameters.upper_com_distance[5], t872, t868);
+        let t879 = neg_mul_add(parameters.upper_com_distance[5], t863, t859);
+        let t880 = neg_mul_add(parameters.upper_com_distance[5], t855, t850);
         // centre of mass of the payload
-        let t873 = platform_rotation[0][1] * parameters.payload_com[1];
-        let t874 = mul_add(platform_rotation[0][0], parameters.payload_com[0], t873);
-        let t875 = mul_add(platform_rotation[0][2], parameters.payload_com[2], t874);
-        let t876 = platform_rotation[1][1] * parameters.payload_com[1];
-        let t877 = mul_add(platform_rotation[1][0], parameters.payload_com[0], t876);
-        let t878 = mul_add(platform_rotation[1][2], parameters.payload_com[2], t877);
-        let t879 = platform_rotation[2][1] * parameters.payload_com[1];
-        let t880 = mul_add(platform_rotation[2][0], parameters.payload_com[0], t879);
-        let t881 = mul_add(platform_rotation[2][2], parameters.payload_com[2], t880);
+        let t881 = platform_rotation[0][1] * parameters.payload_com[1];
+        let t882 = mul_add(platform_rotation[0][0], parameters.payload_com[0], t881);
+        let t883 = mul_add(platform_rotation[0][2], parameters.payload_com[2], t882);
+        let t884 = platform_rotation[1][1] * parameters.payload_com[1];
+        let t885 = mul_add(platform_rotation[1][0], parameters.payload_com[0], t884);
+        let t886 = mul_add(platform_rotation[1][2], parameters.payload_com[2], t885);
+        let t887 = platform_rotation[2][1] * parameters.payload_com[1];
+        let t888 = mul_add(platform_rotation[2][0], parameters.payload_com[0], t887);
+        let t889 = mul_add(platform_rotation[2][2], parameters.payload_com[2], t888);
         // velocity of the payload's centre of mass
-        let t882 = mul_sub(platform_velocity[4], t881, platform_velocity[5] * t878);
-        let t883 = mul_sub(platform_velocity[5], t875, platform_velocity[3] * t881);
-        let t884 = mul_sub(platform_velocity[3], t878, platform_velocity[4] * t875);
+        let t890 = mul_sub(platform_velocity[4], t889, platform_velocity[5] * t886);
+        let t891 = mul_sub(platform_velocity[5], t883, platform_velocity[3] * t889);
+        let t892 = mul_sub(platform_velocity[3], t886, platform_velocity[4] * t883);
         // acceleration of the payload's centre of mass
-        let t885 = mul_add(platform_acceleration[4], t881, platform_acceleration[0]);
-        let t886 = mul_sub(platform_acceleration[5], t878, t885);
-        let t887 = mul_sub(platform_velocity[4], t884, t886);
-        let t888 = mul_sub(platform_velocity[5], t883, t887);
-        let t889 = mul_add(platform_acceleration[5], t875, platform_acceleration[1]);
-        let t890 = mul_sub(platform_acceleration[3], t881, t889);
-        let t891 = mul_sub(platform_velocity[5], t882, t890);
-        let t892 = mul_sub(platform_velocity[3], t884, t891);
-        let t893 = mul_add(platform_acceleration[3], t878, platform_acceleration[2]);
-        let t894 = mul_sub(platform_acceleration[4], t875, t893);
-        let t895 = mul_sub(platform_velocity[3], t883, t894);
-        let t896 = mul_sub(platform_velocity[4], t882, t895);
+        let t893 = mul_add(platform_acceleration[4], t889, platform_acceleration[0]);
+        let t894 = mul_sub(platform_acceleration[5], t886, t893);
+        let t895 = mul_sub(platform_velocity[4], t892, t894);
+        let t896 = mul_sub(platform_velocity[5], t891, t895);
+        let t897 = mul_add(platform_acceleration[5], t883, platform_acceleration[1]);
+        let t898 = mul_sub(platform_acceleration[3], t889, t897);
+        let t899 = mul_sub(platform_velocity[5], t890, t898);
+        let t900 = mul_sub(platform_velocity[3], t892, t899);
+        let t901 = mul_add(platform_acceleration[3], t886, platform_acceleration[2]);
+        let t902 = mul_sub(platform_acceleration[4], t883, t901);
+        let t903 = mul_sub(platform_velocity[3], t891, t902);
+        let t904 = mul_sub(platform_velocity[4], t890, t903);
         // leg 1: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
-        let t897 = mul_sub(t476, t521, t474 * t524);
-        let t898 = mul_sub(t472, t524, t476 * t518);
-        let t899 = mul_sub(t474, t518, t472 * t521);
+        let t905 = mul_sub(t484, t529, t482 * t532);
+        let t906 = mul_sub(t480, t532, t484 * t526);
+        let t907 = mul_sub(t482, t526, t480 * t529);
         // leg 2: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
-        let t900 = mul_sub(t482, t548, t480 * t551);
-        let t901 = mul_sub(t478, t551, t482 * t545);
-        let t902 = mul_sub(t480, t545, t478 * t548);
+        let t908 = mul_sub(t490, t556, t488 * t559);
+        let t909 = mul_sub(t486, t559, t490 * t553);
+        let t910 = mul_sub(t488, t553, t486 * t556);
         // leg 3: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
-        let t903 = mul_sub(t488, t575, t486 * t578);
-        let t904 = mul_sub(t484, t578, t488 * t572);
-        let t905 = mul_sub(t486, t572, t484 * t575);
+        let t911 = mul_sub(t496, t583, t494 * t586);
+        let t912 = mul_sub(t492, t586, t496 * t580);
+        let t913 = mul_sub(t494, t580, t492 * t583);
         // leg 4: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
-        let t906 = mul_sub(t494, t602, t492 * t605);
-        let t907 = mul_sub(t490, t605, t494 * t599);
-        let t908 = mul_sub(t492, t599, t490 * t602);
+        let t914 = mul_sub(t502, t610, t500 * t613);
+        let t915 = mul_sub(t498, t613, t502 * t607);
+        let t916 = mul_sub(t500, t607, t498 * t610);
         // leg 5: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
-        let t909 = mul_sub(t500, t629, t498 * t632);
-        let t910 = mul_sub(t496, t632, t500 * t626);
-        let t911 = mul_sub(t498, t626, t496 * t629);
+        let t917 = mul_sub(t508, t637, t506 * t640);
+        let t918 = mul_sub(t504, t640, t508 * t634);
+        let t919 = mul_sub(t506, t634, t504 * t637);
         // leg 6: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
-        let t912 = mul_sub(t506, t656, t504 * t659);
-        let t913 = mul_sub(t502, t659, t506 * t653);
-        let t914 = mul_sub(t504, t653, t502 * t656);
+        let t920 = mul_sub(t514, t664, t512 * t667);
+        let t921 = mul_sub(t510, t667, t514 * t661);
+        let t922 = mul_sub(t512, t661, t510 * t664);
         // leg 1: spring and damper force along the actuator
-        let t915 = parameters.rest_length[0] - t109;
+        let t923 = parameters.rest_length[0] - t109;
         // leg 2: spring and damper force along the actuator
-        let t916 = parameters.rest_length[1] - t111;
+        let t924 = parameters.rest_length[1] - t111;
         // leg 3: spring and damper force along the actuator
-        let t917 = parameters.rest_length[2] - t113;
+        let t925 = parameters.rest_length[2] - t113;
         // leg 4: spring and damper force along the actuator
-        let t918 = parameters.rest_length[3] - t115;
+        let t926 = parameters.rest_length[3] - t115;
         // leg 5: spring and damper force along the actuator
-        let t919 = parameters.rest_length[4] - t117;
+        let t927 = parameters.rest_length[4] - t117;
         // leg 6: spring and damper force along the actuator
-        let t920 = parameters.rest_length[5] - t119;
+        let t928 = parameters.rest_length[5] - t119;
         // generalised active force of the payload: gravity, external wrench
-        let t921 = mul_add(
+        let t929 = mul_add(
             parameters.payload_mass,
             parameters.gravity[0],
             external_wrench[0],
         );
-        payload_active_force[0] = t921;
-        let t922 = mul_add(
+        payload_active_force[0] = t929;
+        let t930 = mul_add(
             parameters.payload_mass,
             parameters.gravity[1],
             external_wrench[1],
         );
-        payload_active_force[1] = t922;
-        let t923 = mul_add(
+        payload_active_force[1] = t930;
+        let t931 = mul_add(
             parameters.payload_mass,
             parameters.gravity[2],
             external_wrench[2],
         );
-        payload_active_force[2] = t923;
+        payload_active_force[2] = t931;
         payload_active_force[3] = neg_mul_add(
-            t881,
-            t922,
-            mul_add(t878, t923, external_wrench[3]),
+            t889,
+            t930,
+            mul_add(t886, t931, external_wrench[3]),
         );
         payload_active_force[4] = neg_mul_add(
-            t875,
-            t923,
-            mul_add(t881, t921, external_wrench[4]),
+            t883,
+            t931,
+            mul_add(t889, t929, external_wrench[4]),
         );
         payload_active_force[5] = neg_mul_add(
-            t878,
-            t921,
-            mul_add(t875, t922, external_wrench[5]),
+            t886,
+            t929,
+            mul_add(t883, t930, external_wrench[5]),
         );
         (
             t110,
@@ -8372,10 +8410,6 @@ pub fn generalised_forces<T: Scalar>(
             t238,
             t239,
             t240,
-            t472,
-            t474,
-            t476,
-            t478,
             t480,
             t482,
             t484,
@@ -8390,91 +8424,87 @@ pub fn generalised_forces<T: Scalar>(
             t502,
             t504,
             t506,
-            t518,
-            t521,
-            t524,
-            t545,
-            t548,
-            t551,
-            t572,
-            t575,
-            t578,
-            t599,
-            t602,
-            t605,
-            t626,
-            t629,
-            t632,
-            t653,
-            t656,
-            t659,
-            t686,
-            t695,
-            t696,
-            t697,
-            t698,
-            t699,
-            t700,
-            t701,
-            t702,
-            t720,
-            t729,
-            t730,
-            t731,
-            t732,
-            t733,
-            t734,
-            t735,
-            t736,
-            t754,
-            t763,
-            t764,
-            t765,
-            t766,
-            t767,
-            t768,
-            t769,
-            t770,
-            t788,
-            t797,
-            t798,
-            t799,
-            t800,
-            t801,
-            t802,
-            t803,
-            t804,
-            t822,
-            t831,
-            t832,
-            t833,
-            t834,
-            t835,
-            t836,
-            t837,
-            t838,
-            t856,
-            t865,
-            t866,
-            t867,
-            t868,
-            t869,
-            t870,
-            t871,
-            t872,
+            t508,
+            t510,
+            t512,
+            t514,
+            t526,
+            t529,
+            t532,
+            t553,
+            t556,
+            t559,
+            t580,
+            t583,
+            t586,
+            t607,
+            t610,
+            t613,
+            t634,
+            t637,
+            t640,
+            t661,
+            t664,
+            t667,
+            t694,
+            t703,
+            t704,
+            t705,
+            t706,
+            t707,
+            t708,
+            t709,
+            t710,
+            t728,
+            t737,
+            t738,
+            t739,
+            t740,
+            t741,
+            t742,
+            t743,
+            t744,
+            t762,
+            t771,
+            t772,
+            t773,
+            t774,
+            t775,
+            t776,
+            t777,
+            t778,
+            t796,
+            t805,
+            t806,
+            t807,
+            t808,
+            t809,
+            t810,
+            t811,
+            t812,
+            t830,
+            t839,
+            t840,
+            t841,
+            t842,
+            t843,
+            t844,
+            t845,
+            t846,
+            t864,
+            t873,
+            t874,
             t875,
+            t876,
+            t877,
             t878,
-            t881,
-            t888,
-            t892,
+            t879,
+            t880,
+            t883,
+            t886,
+            t889,
             t896,
-            t897,
-            t898,
-            t899,
             t900,
-            t901,
-            t902,
-            t903,
             t904,
             t905,
             t906,
@@ -8492,1050 +8522,1058 @@ pub fn generalised_forces<T: Scalar>(
             t918,
             t919,
             t920,
+            t921,
+            t922,
+            t923,
+            t924,
+            t925,
+            t926,
+            t927,
+            t928,
         )
     };
     {
         // generalised inertia force of the payload
-        let t924 = parameters.payload_mass * t888;
-        payload_inertia_force[0] = t924;
-        let t925 = parameters.payload_mass * t892;
-        payload_inertia_force[1] = t925;
-        let t926 = parameters.payload_mass * t896;
-        payload_inertia_force[2] = t926;
-        let t927 = platform_rotation[1][1] * parameters.payload_inertia[1][2];
-        let t928 = mul_add(
-            platform_rotation[1][0],
-            parameters.payload_inertia[0][2],
-            t927,
-        );
-        let t929 = mul_add(
-            platform_rotation[1][2],
-            parameters.payload_inertia[2][2],
-            t928,
-        );
-        let t930 = platform_rotation[1][1] * parameters.payload_inertia[0][1];
-        let t931 = mul_add(
-            platform_rotation[1][0],
-            parameters.payload_inertia[0][0],
-            t930,
-        );
-        let t932 = mul_add(
-            platform_rotation[1][2],
-            parameters.payload_inertia[0][2],
-            t931,
-        );
-        let t933 = platform_rotation[1][1] * parameters.payload_inertia[1][1];
-        let t934 = mul_add(
-            platform_rotation[1][0],
-            parameters.payload_inertia[0][1],
-            t933,
-        );
-        let t935 = mul_add(
-            platform_rotation[1][2],
-            parameters.payload_inertia[1][2],
-            t934,
-        );
+        let t932 = parameters.payload_mass * t896;
+        payload_inertia_force[0] = t932;
+        let t933 = parameters.payload_mass * t900;
+        payload_inertia_force[1] = t933;
+        let t934 = parameters.payload_mass * t904;
+        payload_inertia_force[2] = t934;
+        let t935 = platform_rotation[1][1] * parameters.payload_inertia[1][2];
         let t936 = mul_add(
-            platform_rotation[2][0],
-            t932,
-            platform_rotation[2][1] * t935,
-        );
-        let t937 = mul_add(platform_rotation[2][2], t929, t936);
-        let t938 = mul_add(
-            platform_rotation[0][0],
-            t932,
-            platform_rotation[0][1] * t935,
-        );
-        let t939 = mul_add(platform_rotation[0][2], t929, t938);
-        let t940 = mul_add(
             platform_rotation[1][0],
-            t932,
-            platform_rotation[1][1] * t935,
-        );
-        let t941 = mul_add(platform_rotation[1][2], t929, t940);
-        let t942 = mul_add(platform_velocity[3], t939, platform_velocity[4] * t941);
-        let t943 = mul_add(platform_velocity[5], t937, t942);
-        let t944 = platform_rotation[2][1] * parameters.payload_inertia[1][2];
-        let t945 = mul_add(
-            platform_rotation[2][0],
             parameters.payload_inertia[0][2],
-            t944,
+            t935,
         );
-        let t946 = mul_add(
-            platform_rotation[2][2],
+        let t937 = mul_add(
+            platform_rotation[1][2],
             parameters.payload_inertia[2][2],
-            t945,
+            t936,
         );
-        let t947 = platform_rotation[2][1] * parameters.payload_inertia[0][1];
-        let t948 = mul_add(
-            platform_rotation[2][0],
+        let t938 = platform_rotation[1][1] * parameters.payload_inertia[0][1];
+        let t939 = mul_add(
+            platform_rotation[1][0],
             parameters.payload_inertia[0][0],
-            t947,
+            t938,
         );
-        let t949 = mul_add(
-            platform_rotation[2][2],
+        let t940 = mul_add(
+            platform_rotation[1][2],
             parameters.payload_inertia[0][2],
-            t948,
+            t939,
         );
-        let t950 = platform_rotation[2][1] * parameters.payload_inertia[1][1];
-        let t951 = mul_add(
-            platform_rotation[2][0],
+        let t941 = platform_rotation[1][1] * parameters.payload_inertia[1][1];
+        let t942 = mul_add(
+            platform_rotation[1][0],
             parameters.payload_inertia[0][1],
-            t950,
+            t941,
         );
-        let t952 = mul_add(
-            platform_rotation[2][2],
+        let t943 = mul_add(
+            platform_rotation[1][2],
             parameters.payload_inertia[1][2],
-            t951,
+            t942,
         );
+        let t944 = mul_add(
+            platform_rotation[2][0],
+            t940,
+            platform_rotation[2][1] * t943,
+        );
+        let t945 = mul_add(platform_rotation[2][2], t937, t944);
+        let t946 = mul_add(
+            platform_rotation[0][0],
+            t940,
+            platform_rotation[0][1] * t943,
+        );
+        let t947 = mul_add(platform_rotation[0][2], t937, t946);
+        let t948 = mul_add(
+            platform_rotation[1][0],
+            t940,
+            platform_rotation[1][1] * t943,
+        );
+        let t949 = mul_add(platform_rotation[1][2], t937, t948);
+        let t950 = mul_add(platform_velocity[3], t947, platform_velocity[4] * t949);
+        let t951 = mul_add(platform_velocity[5], t945, t950);
+        let t952 = platform_rotation[2][1] * parameters.payload_inertia[1][2];
         let t953 = mul_add(
             platform_rotation[2][0],
-            t949,
-            platform_rotation[2][1] * t952,
+            parameters.payload_inertia[0][2],
+            t952,
         );
-        let t954 = mul_add(platform_rotation[2][2], t946, t953);
-        let t955 = mul_add(
-            platform_rotation[0][0],
-            t949,
-            platform_rotation[0][1] * t952,
+        let t954 = mul_add(
+            platform_rotation[2][2],
+            parameters.payload_inertia[2][2],
+            t953,
         );
-        let t956 = mul_add(platform_rotation[0][2], t946, t955);
+        let t955 = platform_rotation[2][1] * parameters.payload_inertia[0][1];
+        let t956 = mul_add(
+            platform_rotation[2][0],
+            parameters.payload_inertia[0][0],
+            t955,
+        );
         let t957 = mul_add(
-            platform_rotation[1][0],
-            t949,
-            platform_rotation[1][1] * t952,
+            platform_rotation[2][2],
+            parameters.payload_inertia[0][2],
+            t956,
         );
-        let t958 = mul_add(platform_rotation[1][2], t946, t957);
-        let t959 = mul_add(platform_velocity[3], t956, platform_velocity[4] * t958);
-        let t960 = mul_add(platform_velocity[5], t954, t959);
-        let t961 = platform_rotation[0][1] * parameters.payload_inertia[1][2];
-        let t962 = mul_add(
+        let t958 = platform_rotation[2][1] * parameters.payload_inertia[1][1];
+        let t959 = mul_add(
+            platform_rotation[2][0],
+            parameters.payload_inertia[0][1],
+            t958,
+        );
+        let t960 = mul_add(
+            platform_rotation[2][2],
+            parameters.payload_inertia[1][2],
+            t959,
+        );
+        let t961 = mul_add(
+            platform_rotation[2][0],
+            t957,
+            platform_rotation[2][1] * t960,
+        );
+        let t962 = mul_add(platform_rotation[2][2], t954, t961);
+        let t963 = mul_add(
+            platform_rotation[0][0],
+            t957,
+            platform_rotation[0][1] * t960,
+        );
+        let t964 = mul_add(platform_rotation[0][2], t954, t963);
+        let t965 = mul_add(
+            platform_rotation[1][0],
+            t957,
+            platform_rotation[1][1] * t960,
+        );
+        let t966 = mul_add(platform_rotation[1][2], t954, t965);
+        let t967 = mul_add(platform_velocity[3], t964, platform_velocity[4] * t966);
+        let t968 = mul_add(platform_velocity[5], t962, t967);
+        let t969 = platform_rotation[0][1] * parameters.payload_inertia[1][2];
+        let t970 = mul_add(
             platform_rotation[0][0],
             parameters.payload_inertia[0][2],
-            t961,
+            t969,
         );
-        let t963 = mul_add(
+        let t971 = mul_add(
             platform_rotation[0][2],
             parameters.payload_inertia[2][2],
-            t962,
+            t970,
         );
-        let t964 = platform_rotation[0][1] * parameters.payload_inertia[0][1];
-        let t965 = mul_add(
+        let t972 = platform_rotation[0][1] * parameters.payload_inertia[0][1];
+        let t973 = mul_add(
             platform_rotation[0][0],
             parameters.payload_inertia[0][0],
-            t964,
+            t972,
         );
-        let t966 = mul_add(
+        let t974 = mul_add(
             platform_rotation[0][2],
             parameters.payload_inertia[0][2],
-            t965,
+            t973,
         );
-        let t967 = platform_rotation[0][1] * parameters.payload_inertia[1][1];
-        let t968 = mul_add(
+        let t975 = platform_rotation[0][1] * parameters.payload_inertia[1][1];
+        let t976 = mul_add(
             platform_rotation[0][0],
             parameters.payload_inertia[0][1],
-            t967,
+            t975,
         );
-        let t969 = mul_add(
+        let t977 = mul_add(
             platform_rotation[0][2],
             parameters.payload_inertia[1][2],
-            t968,
+            t976,
         );
-        let t970 = mul_add(
+        let t978 = mul_add(
             platform_rotation[2][0],
-            t966,
-            platform_rotation[2][1] * t969,
+            t974,
+            platform_rotation[2][1] * t977,
         );
-        let t971 = mul_add(platform_rotation[2][2], t963, t970);
-        let t972 = mul_add(
+        let t979 = mul_add(platform_rotation[2][2], t971, t978);
+        let t980 = mul_add(
             platform_rotation[1][0],
-            t966,
-            platform_rotation[1][1] * t969,
+            t974,
+            platform_rotation[1][1] * t977,
         );
-        let t973 = mul_add(platform_rotation[1][2], t963, t972);
-        let t974 = mul_add(
+        let t981 = mul_add(platform_rotation[1][2], t971, t980);
+        let t982 = mul_add(
             platform_rotation[0][0],
-            t966,
-            platform_rotation[0][1] * t969,
+            t974,
+            platform_rotation[0][1] * t977,
         );
-        let t975 = mul_add(platform_rotation[0][2], t963, t974);
-        let t976 = mul_sub(t878, t926, t881 * t925);
-        let t977 = mul_sub(platform_acceleration[3], t975, t976);
-        let t978 = mul_add(platform_acceleration[4], t973, t977);
-        let t979 = mul_add(platform_acceleration[5], t971, t978);
-        let t980 = mul_add(platform_velocity[4], t960, t979);
-        payload_inertia_force[3] = mul_sub(platform_velocity[5], t943, t980);
-        let t981 = mul_add(platform_velocity[3], t975, platform_velocity[4] * t973);
-        let t982 = mul_add(platform_velocity[5], t971, t981);
-        let t983 = mul_sub(t881, t924, t875 * t926);
-        let t984 = mul_sub(platform_acceleration[3], t939, t983);
-        let t985 = mul_add(platform_acceleration[4], t941, t984);
-        let t986 = mul_add(platform_acceleration[5], t937, t985);
-        let t987 = mul_add(platform_velocity[5], t982, t986);
-        payload_inertia_force[4] = mul_sub(platform_velocity[3], t960, t987);
-        let t988 = mul_sub(t875, t925, t878 * t924);
-        let t989 = mul_sub(platform_acceleration[3], t956, t988);
-        let t990 = mul_add(platform_acceleration[4], t958, t989);
-        let t991 = mul_add(platform_acceleration[5], t954, t990);
-        let t992 = mul_add(platform_velocity[3], t943, t991);
-        payload_inertia_force[5] = mul_sub(platform_velocity[4], t982, t992);
+        let t983 = mul_add(platform_rotation[0][2], t971, t982);
+        let t984 = mul_sub(t886, t934, t889 * t933);
+        let t985 = mul_sub(platform_acceleration[3], t983, t984);
+        let t986 = mul_add(platform_acceleration[4], t981, t985);
+        let t987 = mul_add(platform_acceleration[5], t979, t986);
+        let t988 = mul_add(platform_velocity[4], t968, t987);
+        payload_inertia_force[3] = mul_sub(platform_velocity[5], t951, t988);
+        let t989 = mul_add(platform_velocity[3], t983, platform_velocity[4] * t981);
+        let t990 = mul_add(platform_velocity[5], t979, t989);
+        let t991 = mul_sub(t889, t932, t883 * t934);
+        let t992 = mul_sub(platform_acceleration[3], t947, t991);
+        let t993 = mul_add(platform_acceleration[4], t949, t992);
+        let t994 = mul_add(platform_acceleration[5], t945, t993);
+        let t995 = mul_add(platform_velocity[5], t990, t994);
+        payload_inertia_force[4] = mul_sub(platform_velocity[3], t968, t995);
+        let t996 = mul_sub(t883, t933, t886 * t932);
+        let t997 = mul_sub(platform_acceleration[3], t964, t996);
+        let t998 = mul_add(platform_acceleration[4], t966, t997);
+        let t999 = mul_add(platform_acceleration[5], t962, t998);
+        let t1000 = mul_add(platform_velocity[3], t951, t999);
+        payload_inertia_force[5] = mul_sub(platform_velocity[4], t990, t1000);
         // leg 1: generalised active force of the lower part: gravity
-        let t993 = parameters.lower_mass[0] * parameters.gravity[0];
-        let t994 = t110 * (parameters.lower_com_distance[0] * t993);
-        let t995 = parameters.lower_mass[0] * parameters.gravity[2];
-        let t996 = t110 * (parameters.lower_com_distance[0] * t995);
-        let t997 = parameters.lower_mass[0] * parameters.gravity[1];
-        let t998 = t110 * (parameters.lower_com_distance[0] * t997);
-        let t999 = mul_add(t472, t994, mul_add(t476, t996, t474 * t998));
-        lower_active_force[0][0] = neg_mul_add(t472, t999, t994);
-        lower_active_force[0][1] = neg_mul_add(t474, t999, t998);
-        lower_active_force[0][2] = neg_mul_add(t476, t999, t996);
+        let t1001 = parameters.lower_mass[0] * parameters.gravity[0];
+        let t1002 = t110 * (parameters.lower_com_distance[0] * t1001);
+        let t1003 = parameters.lower_mass[0] * parameters.gravity[2];
+        let t1004 = t110 * (parameters.lower_com_distance[0] * t1003);
+        let t1005 = parameters.lower_mass[0] * parameters.gravity[1];
+        let t1006 = t110 * (parameters.lower_com_distance[0] * t1005);
+        let t1007 = mul_add(t480, t1002, mul_add(t484, t1004, t482 * t1006));
+        lower_active_force[0][0] = neg_mul_add(t480, t1007, t1002);
+        lower_active_force[0][1] = neg_mul_add(t482, t1007, t1006);
+        lower_active_force[0][2] = neg_mul_add(t484, t1007, t1004);
         lower_active_force[0][3] = neg_mul_add(
-            t897,
-            t999,
-            mul_sub(t521, t996, t524 * t998),
+            t905,
+            t1007,
+            mul_sub(t529, t1004, t532 * t1006),
         );
         lower_active_force[0][4] = neg_mul_add(
-            t898,
-            t999,
-            mul_sub(t524, t994, t518 * t996),
+            t906,
+            t1007,
+            mul_sub(t532, t1002, t526 * t1004),
         );
         lower_active_force[0][5] = neg_mul_add(
-            t521,
-            t994,
-            mul_sub(t518, t998, t899 * t999),
+            t529,
+            t1002,
+            mul_sub(t526, t1006, t907 * t1007),
         );
         // leg 1: generalised inertia force of the lower part
-        let t1000 = t110 * (parameters.lower_inertia[0] * t695);
-        let t1001 = t110 * (parameters.lower_inertia[0] * t696);
-        let t1002 = mul_sub(t476, t1000, t474 * t1001);
-        let t1003 = parameters.lower_com_distance[0] * (parameters.lower_mass[0] * t697);
-        let t1004 = t110 * t1003;
-        let t1005 = parameters.lower_com_distance[0] * (parameters.lower_mass[0] * t699);
-        let t1006 = t110 * t1005;
-        let t1007 = parameters.lower_com_distance[0] * (parameters.lower_mass[0] * t698);
-        let t1008 = t110 * t1007;
-        let t1009 = mul_add(t472, t1004, mul_add(t476, t1006, t474 * t1008));
-        lower_inertia_force[0][0] = t1002 + neg_mul_add(t472, t1009, t1004);
-        let t1010 = t110 * (parameters.lower_inertia[0] * t686);
-        let t1011 = mul_sub(t472, t1001, t476 * t1010);
-        lower_inertia_force[0][1] = t1011 + neg_mul_add(t474, t1009, t1008);
-        let t1012 = mul_sub(t474, t1010, t472 * t1000);
-        lower_inertia_force[0][2] = t1012 + neg_mul_add(t476, t1009, t1006);
-        let t1013 = mul_sub(t897, t1009, mul_sub(t521, t1006, t524 * t1008));
+        let t1008 = t110 * (parameters.lower_inertia[0] * t703);
+        let t1009 = t110 * (parameters.lower_inertia[0] * t704);
+        let t1010 = mul_sub(t484, t1008, t482 * t1009);
+        let t1011 = parameters.lower_com_distance[0] * (parameters.lower_mass[0] * t705);
+        let t1012 = t110 * t1011;
+        let t1013 = parameters.lower_com_distance[0] * (parameters.lower_mass[0] * t707);
+        let t1014 = t110 * t1013;
+        let t1015 = parameters.lower_com_distance[0] * (parameters.lower_mass[0] * t706);
+        let t1016 = t110 * t1015;
+        let t1017 = mul_add(t480, t1012, mul_add(t484, t1014, t482 * t1016));
+        lower_inertia_force[0][0] = t1010 + neg_mul_add(t480, t1017, t1012);
+        let t1018 = t110 * (parameters.lower_inertia[0] * t694);
+        let t1019 = mul_sub(t480, t1009, t484 * t1018);
+        lower_inertia_force[0][1] = t1019 + neg_mul_add(t482, t1017, t1016);
+        let t1020 = mul_sub(t482, t1018, t480 * t1008);
+        lower_inertia_force[0][2] = t1020 + neg_mul_add(t484, t1017, t1014);
+        let t1021 = mul_sub(t905, t1017, mul_sub(t529, t1014, t532 * t1016));
         lower_inertia_force[0][3] = neg_mul_add(
-            t524,
-            t1011,
-            mul_sub(t521, t1012, t1013),
+            t532,
+            t1019,
+            mul_sub(t529, t1020, t1021),
         );
-        let t1014 = mul_sub(t898, t1009, mul_sub(t524, t1004, t518 * t1006));
+        let t1022 = mul_sub(t906, t1017, mul_sub(t532, t1012, t526 * t1014));
         lower_inertia_force[0][4] = neg_mul_add(
-            t518,
-            t1012,
-            mul_sub(t524, t1002, t1014),
+            t526,
+            t1020,
+            mul_sub(t532, t1010, t1022),
         );
-        let t1015 = mul_sub(t521, t1004, mul_sub(t518, t1008, t899 * t1009));
+        let t1023 = mul_sub(t529, t1012, mul_sub(t526, t1016, t907 * t1017));
         lower_inertia_force[0][5] = neg_mul_add(
-            t521,
-            t1002,
-            mul_sub(t518, t1011, t1015),
+            t529,
+            t1010,
+            mul_sub(t526, t1019, t1023),
         );
         // leg 1: generalised active force of the upper part: gravity, actuator, spring, damper
-        let t1016 = mul_add(parameters.axial_stiffness[0], t915, actuator_force[0]);
-        let t1017 = mul_add(parameters.axial_damping[0], t235, t1016);
-        let t1018 = mul_add(
+        let t1024 = mul_add(parameters.axial_stiffness[0], t923, actuator_force[0]);
+        let t1025 = mul_add(parameters.axial_damping[0], t235, t1024);
+        let t1026 = mul_add(
             parameters.upper_mass[0],
             parameters.gravity[0],
-            t472 * t1017,
+            t480 * t1025,
         );
-        let t1019 = parameters.upper_com_distance[0] * t1018;
-        let t1020 = mul_add(
+        let t1027 = parameters.upper_com_distance[0] * t1026;
+        let t1028 = mul_add(
             parameters.upper_mass[0],
             parameters.gravity[2],
-            t476 * t1017,
+            t484 * t1025,
         );
-        let t1021 = parameters.upper_com_distance[0] * t1020;
-        let t1022 = mul_add(
+        let t1029 = parameters.upper_com_distance[0] * t1028;
+        let t1030 = mul_add(
             parameters.upper_mass[0],
             parameters.gravity[1],
-            t474 * t1017,
+            t482 * t1025,
         );
-        let t1023 = parameters.upper_com_distance[0] * t1022;
-        let t1024 = mul_add(t476, t110 * t1021, t474 * (t110 * t1023));
-        let t1025 = mul_add(t472, t110 * t1019, t1024);
-        let t1026 = neg_mul_add(t110, t1019, t1018);
-        upper_active_force[0][0] = mul_add(t472, t1025, t1026);
-        let t1027 = neg_mul_add(t110, t1023, t1022);
-        upper_active_force[0][1] = mul_add(t474, t1025, t1027);
-        let t1028 = neg_mul_add(t110, t1021, t1020);
-        upper_active_force[0][2] = mul_add(t476, t1025, t1028);
+        let t1031 = parameters.upper_com_distance[0] * t1030;
+        let t1032 = mul_add(t484, t110 * t1029, t482 * (t110 * t1031));
+        let t1033 = mul_add(t480, t110 * t1027, t1032);
+        let t1034 = neg_mul_add(t110, t1027, t1026);
+        upper_active_force[0][0] = mul_add(t480, t1033, t1034);
+        let t1035 = neg_mul_add(t110, t1031, t1030);
+        upper_active_force[0][1] = mul_add(t482, t1033, t1035);
+        let t1036 = neg_mul_add(t110, t1029, t1028);
+        upper_active_force[0][2] = mul_add(t484, t1033, t1036);
         upper_active_force[0][3] = mul_add(
-            t897,
-            t1025,
-            mul_sub(t521, t1028, t524 * t1027),
+            t905,
+            t1033,
+            mul_sub(t529, t1036, t532 * t1035),
         );
         upper_active_force[0][4] = mul_add(
-            t524,
-            t1026,
-            mul_sub(t898, t1025, t518 * t1028),
+            t532,
+            t1034,
+            mul_sub(t906, t1033, t526 * t1036),
         );
         upper_active_force[0][5] = neg_mul_add(
-            t521,
-            t1026,
-            mul_add(t518, t1027, t899 * t1025),
+            t529,
+            t1034,
+            mul_add(t526, t1035, t907 * t1033),
         );
         // leg 1: generalised inertia force of the upper part
-        let t1029 = t110 * (parameters.upper_inertia[0] * t695);
-        let t1030 = t110 * (parameters.upper_inertia[0] * t696);
-        let t1031 = mul_sub(t476, t1029, t474 * t1030);
-        let t1032 = parameters.upper_com_distance[0] * (parameters.upper_mass[0] * t700);
-        let t1033 = t110 * t1032;
-        let t1034 = parameters.upper_com_distance[0] * (parameters.upper_mass[0] * t702);
-        let t1035 = t110 * t1034;
-        let t1036 = parameters.upper_com_distance[0] * (parameters.upper_mass[0] * t701);
-        let t1037 = t110 * t1036;
-        let t1038 = mul_add(t472, t1033, mul_add(t476, t1035, t474 * t1037));
-        let t1039 = mul_sub(parameters.upper_mass[0], t700, t1033);
-        upper_inertia_force[0][0] = t1031 + mul_add(t472, t1038, t1039);
-        let t1040 = t110 * (parameters.upper_inertia[0] * t686);
-        let t1041 = mul_sub(t472, t1030, t476 * t1040);
-        let t1042 = mul_sub(parameters.upper_mass[0], t701, t1037);
-        upper_inertia_force[0][1] = t1041 + mul_add(t474, t1038, t1042);
-        let t1043 = mul_sub(t474, t1040, t472 * t1029);
-        let t1044 = mul_sub(parameters.upper_mass[0], t702, t1035);
-        upper_inertia_force[0][2] = t1043 + mul_add(t476, t1038, t1044);
-        let t1045 = mul_add(t897, t1038, mul_sub(t521, t1044, t524 * t1042));
+        let t1037 = t110 * (parameters.upper_inertia[0] * t703);
+        let t1038 = t110 * (parameters.upper_inertia[0] * t704);
+        let t1039 = mul_sub(t484, t1037, t482 * t1038);
+        let t1040 = parameters.upper_com_distance[0] * (parameters.upper_mass[0] * t708);
+        let t1041 = t110 * t1040;
+        let t1042 = parameters.upper_com_distance[0] * (parameters.upper_mass[0] * t710);
+        let t1043 = t110 * t1042;
+        let t1044 = parameters.upper_com_distance[0] * (parameters.upper_mass[0] * t709);
+        let t1045 = t110 * t1044;
+        let t1046 = mul_add(t480, t1041, mul_add(t484, t1043, t482 * t1045));
+        let t1047 = mul_sub(parameters.upper_mass[0], t708, t1041);
+        upper_inertia_force[0][0] = t1039 + mul_add(t480, t1046, t1047);
+        let t1048 = t110 * (parameters.upper_inertia[0] * t694);
+        let t1049 = mul_sub(t480, t1038, t484 * t1048);
+        let t1050 = mul_sub(parameters.upper_mass[0], t709, t1045);
+        upper_inertia_force[0][1] = t1049 + mul_add(t482, t1046, t1050);
+        let t1051 = mul_sub(t482, t1048, t480 * t1037);
+        let t1052 = mul_sub(parameters.upper_mass[0], t710, t1043);
+        upper_inertia_force[0][2] = t1051 + mul_add(t484, t1046, t1052);
+        let t1053 = mul_add(t905, t1046, mul_sub(t529, t1052, t532 * t1050));
         upper_inertia_force[0][3] = neg_mul_add(
-            t524,
-            t1041,
-            mul_add(t521, t1043, t1045),
+            t532,
+            t1049,
+            mul_add(t529, t1051, t1053),
         );
-        let t1046 = mul_add(t524, t1039, mul_sub(t898, t1038, t518 * t1044));
+        let t1054 = mul_add(t532, t1047, mul_sub(t906, t1046, t526 * t1052));
         upper_inertia_force[0][4] = neg_mul_add(
-            t518,
-            t1043,
-            mul_add(t524, t1031, t1046),
+            t526,
+            t1051,
+            mul_add(t532, t1039, t1054),
         );
-        let t1047 = mul_sub(t521, t1039, mul_add(t518, t1042, t899 * t1038));
+        let t1055 = mul_sub(t529, t1047, mul_add(t526, t1050, t907 * t1046));
         upper_inertia_force[0][5] = neg_mul_add(
-            t521,
-            t1031,
-            mul_sub(t518, t1041, t1047),
+            t529,
+            t1039,
+            mul_sub(t526, t1049, t1055),
         );
         // leg 2: generalised active force of the lower part: gravity
-        let t1048 = parameters.lower_mass[1] * parameters.gravity[0];
-        let t1049 = t112 * (parameters.lower_com_distance[1] * t1048);
-        let t1050 = parameters.lower_mass[1] * parameters.gravity[2];
-        let t1051 = t112 * (parameters.lower_com_distance[1] * t1050);
-        let t1052 = parameters.lower_mass[1] * parameters.gravity[1];
-        let t1053 = t112 * (parameters.lower_com_distance[1] * t1052);
-        let t1054 = mul_add(t478, t1049, mul_add(t482, t1051, t480 * t1053));
-        lower_active_force[1][0] = neg_mul_add(t478, t1054, t1049);
-        lower_active_force[1][1] = neg_mul_add(t480, t1054, t1053);
-        lower_active_force[1][2] = neg_mul_add(t482, t1054, t1051);
+        let t1056 = parameters.lower_mass[1] * parameters.gravity[0];
+        let t1057 = t112 * (parameters.lower_com_distance[1] * t1056);
+        let t1058 = parameters.lower_mass[1] * parameters.gravity[2];
+        let t1059 = t112 * (parameters.lower_com_distance[1] * t1058);
+        let t1060 = parameters.lower_mass[1] * parameters.gravity[1];
+        let t1061 = t112 * (parameters.lower_com_distance[1] * t1060);
+        let t1062 = mul_add(t486, t1057, mul_add(t490, t1059, t488 * t1061));
+        lower_active_force[1][0] = neg_mul_add(t486, t1062, t1057);
+        lower_active_force[1][1] = neg_mul_add(t488, t1062, t1061);
+        lower_active_force[1][2] = neg_mul_add(t490, t1062, t1059);
         lower_active_force[1][3] = neg_mul_add(
-            t900,
-            t1054,
-            mul_sub(t548, t1051, t551 * t1053),
+            t908,
+            t1062,
+            mul_sub(t556, t1059, t559 * t1061),
         );
         lower_active_force[1][4] = neg_mul_add(
-            t901,
-            t1054,
-            mul_sub(t551, t1049, t545 * t1051),
+            t909,
+            t1062,
+            mul_sub(t559, t1057, t553 * t1059),
         );
         lower_active_force[1][5] = neg_mul_add(
-            t548,
-            t1049,
-            mul_sub(t545, t1053, t902 * t1054),
+            t556,
+            t1057,
+            mul_sub(t553, t1061, t910 * t1062),
         );
         // leg 2: generalised inertia force of the lower part
-        let t1055 = t112 * (parameters.lower_inertia[1] * t729);
-        let t1056 = t112 * (parameters.lower_inertia[1] * t730);
-        let t1057 = mul_sub(t482, t1055, t480 * t1056);
-        let t1058 = parameters.lower_com_distance[1] * (parameters.lower_mass[1] * t731);
-        let t1059 = t112 * t1058;
-        let t1060 = parameters.lower_com_distance[1] * (parameters.lower_mass[1] * t733);
-        let t1061 = t112 * t1060;
-        let t1062 = parameters.lower_com_distance[1] * (parameters.lower_mass[1] * t732);
-        let t1063 = t112 * t1062;
-        let t1064 = mul_add(t478, t1059, mul_add(t482, t1061, t480 * t1063));
-        lower_inertia_force[1][0] = t1057 + neg_mul_add(t478, t1064, t1059);
-        let t1065 = t112 * (parameters.lower_inertia[1] * t720);
-        let t1066 = mul_sub(t478, t1056, t482 * t1065);
-        lower_inertia_force[1][1] = t1066 + neg_mul_add(t480, t1064, t1063);
-        let t1067 = mul_sub(t480, t1065, t478 * t1055);
-        lower_inertia_force[1][2] = t1067 + neg_mul_add(t482, t1064, t1061);
-        let t1068 = mul_sub(t900, t1064, mul_sub(t548, t1061, t551 * t1063));
+        let t1063 = t112 * (parameters.lower_inertia[1] * t737);
+        let t1064 = t112 * (parameters.lower_inertia[1] * t738);
+        let t1065 = mul_sub(t490, t1063, t488 * t1064);
+        let t1066 = parameters.lower_com_distance[1] * (parameters.lower_mass[1] * t739);
+        let t1067 = t112 * t1066;
+        let t1068 = parameters.lower_com_distance[1] * (parameters.lower_mass[1] * t741);
+        let t1069 = t112 * t1068;
+        let t1070 = parameters.lower_com_distance[1] * (parameters.lower_mass[1] * t740);
+        let t1071 = t112 * t1070;
+        let t1072 = mul_add(t486, t1067, mul_add(t490, t1069, t488 * t1071));
+        lower_inertia_force[1][0] = t1065 + neg_mul_add(t486, t1072, t1067);
+        let t1073 = t112 * (parameters.lower_inertia[1] * t728);
+        let t1074 = mul_sub(t486, t1064, t490 * t1073);
+        lower_inertia_force[1][1] = t1074 + neg_mul_add(t488, t1072, t1071);
+        let t1075 = mul_sub(t488, t1073, t486 * t1063);
+        lower_inertia_force[1][2] = t1075 + neg_mul_add(t490, t1072, t1069);
+        let t1076 = mul_sub(t908, t1072, mul_sub(t556, t1069, t559 * t1071));
         lower_inertia_force[1][3] = neg_mul_add(
-            t551,
-            t1066,
-            mul_sub(t548, t1067, t1068),
+            t559,
+            t1074,
+            mul_sub(t556, t1075, t1076),
         );
-        let t1069 = mul_sub(t901, t1064, mul_sub(t551, t1059, t545 * t1061));
+        let t1077 = mul_sub(t909, t1072, mul_sub(t559, t1067, t553 * t1069));
         lower_inertia_force[1][4] = neg_mul_add(
-            t545,
-            t1067,
-            mul_sub(t551, t1057, t1069),
+            t553,
+            t1075,
+            mul_sub(t559, t1065, t1077),
         );
-        let t1070 = mul_sub(t548, t1059, mul_sub(t545, t1063, t902 * t1064));
+        let t1078 = mul_sub(t556, t1067, mul_sub(t553, t1071, t910 * t1072));
         lower_inertia_force[1][5] = neg_mul_add(
-            t548,
-            t1057,
-            mul_sub(t545, t1066, t1070),
+            t556,
+            t1065,
+            mul_sub(t553, t1074, t1078),
         );
         // leg 2: generalised active force of the upper part: gravity, actuator, spring, damper
-        let t1071 = mul_add(parameters.axial_stiffness[1], t916, actuator_force[1]);
-        let t1072 = mul_add(parameters.axial_damping[1], t236, t1071);
-        let t1073 = mul_add(
+        let t1079 = mul_add(parameters.axial_stiffness[1], t924, actuator_force[1]);
+        let t1080 = mul_add(parameters.axial_damping[1], t236, t1079);
+        let t1081 = mul_add(
             parameters.upper_mass[1],
             parameters.gravity[0],
-            t478 * t1072,
+            t486 * t1080,
         );
-        let t1074 = parameters.upper_com_distance[1] * t1073;
-        let t1075 = mul_add(
+        let t1082 = parameters.upper_com_distance[1] * t1081;
+        let t1083 = mul_add(
             parameters.upper_mass[1],
             parameters.gravity[2],
-            t482 * t1072,
+            t490 * t1080,
         );
-        let t1076 = parameters.upper_com_distance[1] * t1075;
-        let t1077 = mul_add(
+        let t1084 = parameters.upper_com_distance[1] * t1083;
+        let t1085 = mul_add(
             parameters.upper_mass[1],
             parameters.gravity[1],
-            t480 * t1072,
+            t488 * t1080,
         );
-        let t1078 = parameters.upper_com_distance[1] * t1077;
-        let t1079 = mul_add(t482, t112 * t1076, t480 * (t112 * t1078));
-        let t1080 = mul_add(t478, t112 * t1074, t1079);
-        let t1081 = neg_mul_add(t112, t1074, t1073);
-        upper_active_force[1][0] = mul_add(t478, t1080, t1081);
-        let t1082 = neg_mul_add(t112, t1078, t1077);
-        upper_active_force[1][1] = mul_add(t480, t1080, t1082);
-        let t1083 = neg_mul_add(t112, t1076, t1075);
-        upper_active_force[1][2] = mul_add(t482, t1080, t1083);
+        let t1086 = parameters.upper_com_distance[1] * t1085;
+        let t1087 = mul_add(t490, t112 * t1084, t488 * (t112 * t1086));
+        let t1088 = mul_add(t486, t112 * t1082, t1087);
+        let t1089 = neg_mul_add(t112, t1082, t1081);
+        upper_active_force[1][0] = mul_add(t486, t1088, t1089);
+        let t1090 = neg_mul_add(t112, t1086, t1085);
+        upper_active_force[1][1] = mul_add(t488, t1088, t1090);
+        let t1091 = neg_mul_add(t112, t1084, t1083);
+        upper_active_force[1][2] = mul_add(t490, t1088, t1091);
         upper_active_force[1][3] = mul_add(
-            t900,
-            t1080,
-            mul_sub(t548, t1083, t551 * t1082),
+            t908,
+            t1088,
+            mul_sub(t556, t1091, t559 * t1090),
         );
         upper_active_force[1][4] = mul_add(
-            t551,
-            t1081,
-            mul_sub(t901, t1080, t545 * t1083),
+            t559,
+            t1089,
+            mul_sub(t909, t1088, t553 * t1091),
         );
         upper_active_force[1][5] = neg_mul_add(
-            t548,
-            t1081,
-            mul_add(t545, t1082, t902 * t1080),
+            t556,
+            t1089,
+            mul_add(t553, t1090, t910 * t1088),
         );
         // leg 2: generalised inertia force of the upper part
-        let t1084 = t112 * (parameters.upper_inertia[1] * t729);
-        let t1085 = t112 * (parameters.upper_inertia[1] * t730);
-        let t1086 = mul_sub(t482, t1084, t480 * t1085);
-        let t1087 = parameters.upper_com_distance[1] * (parameters.upper_mass[1] * t734);
-        let t1088 = t112 * t1087;
-        let t1089 = parameters.upper_com_distance[1] * (parameters.upper_mass[1] * t736);
-        let t1090 = t112 * t1089;
-        let t1091 = parameters.upper_com_distance[1] * (parameters.upper_mass[1] * t735);
-        let t1092 = t112 * t1091;
-        let t1093 = mul_add(t478, t1088, mul_add(t482, t1090, t480 * t1092));
-        let t1094 = mul_sub(parameters.upper_mass[1], t734, t1088);
-        upper_inertia_force[1][0] = t1086 + mul_add(t478, t1093, t1094);
-        let t1095 = t112 * (parameters.upper_inertia[1] * t720);
-        let t1096 = mul_sub(t478, t1085, t482 * t1095);
-        let t1097 = mul_sub(parameters.upper_mass[1], t735, t1092);
-        upper_inertia_force[1][1] = t1096 + mul_add(t480, t1093, t1097);
-        let t1098 = mul_sub(t480, t1095, t478 * t1084);
-        let t1099 = mul_sub(parameters.upper_mass[1], t736, t1090);
-        upper_inertia_force[1][2] = t1098 + mul_add(t482, t1093, t1099);
-        let t1100 = mul_add(t900, t1093, mul_sub(t548, t1099, t551 * t1097));
+        let t1092 = t112 * (parameters.upper_inertia[1] * t737);
+        let t1093 = t112 * (parameters.upper_inertia[1] * t738);
+        let t1094 = mul_sub(t490, t1092, t488 * t1093);
+        let t1095 = parameters.upper_com_distance[1] * (parameters.upper_mass[1] * t742);
+        let t1096 = t112 * t1095;
+        let t1097 = parameters.upper_com_distance[1] * (parameters.upper_mass[1] * t744);
+        let t1098 = t112 * t1097;
+        let t1099 = parameters.upper_com_distance[1] * (parameters.upper_mass[1] * t743);
+        let t1100 = t112 * t1099;
+        let t1101 = mul_add(t486, t1096, mul_add(t490, t1098, t488 * t1100));
+        let t1102 = mul_sub(parameters.upper_mass[1], t742, t1096);
+        upper_inertia_force[1][0] = t1094 + mul_add(t486, t1101, t1102);
+        let t1103 = t112 * (parameters.upper_inertia[1] * t728);
+        let t1104 = mul_sub(t486, t1093, t490 * t1103);
+        let t1105 = mul_sub(parameters.upper_mass[1], t743, t1100);
+        upper_inertia_force[1][1] = t1104 + mul_add(t488, t1101, t1105);
+        let t1106 = mul_sub(t488, t1103, t486 * t1092);
+        let t1107 = mul_sub(parameters.upper_mass[1], t744, t1098);
+        upper_inertia_force[1][2] = t1106 + mul_add(t490, t1101, t1107);
+        let t1108 = mul_add(t908, t1101, mul_sub(t556, t1107, t559 * t1105));
         upper_inertia_force[1][3] = neg_mul_add(
-            t551,
-            t1096,
-            mul_add(t548, t1098, t1100),
+            t559,
+            t1104,
+            mul_add(t556, t1106, t1108),
         );
-        let t1101 = mul_add(t551, t1094, mul_sub(t901, t1093, t545 * t1099));
+        let t1109 = mul_add(t559, t1102, mul_sub(t909, t1101, t553 * t1107));
         upper_inertia_force[1][4] = neg_mul_add(
-            t545,
-            t1098,
-            mul_add(t551, t1086, t1101),
+            t553,
+            t1106,
+            mul_add(t559, t1094, t1109),
         );
-        let t1102 = mul_sub(t548, t1094, mul_add(t545, t1097, t902 * t1093));
+        let t1110 = mul_sub(t556, t1102, mul_add(t553, t1105, t910 * t1101));
         upper_inertia_force[1][5] = neg_mul_add(
-            t548,
-            t1086,
-            mul_sub(t545, t1096, t1102),
+            t556,
+            t1094,
+            mul_sub(t553, t1104, t1110),
         );
         // leg 3: generalised active force of the lower part: gravity
-        let t1103 = parameters.lower_mass[2] * parameters.gravity[0];
-        let t1104 = t114 * (parameters.lower_com_distance[2] * t1103);
-        let t1105 = parameters.lower_mass[2] * parameters.gravity[2];
-        let t1106 = t114 * (parameters.lower_com_distance[2] * t1105);
-        let t1107 = parameters.lower_mass[2] * parameters.gravity[1];
-        let t1108 = t114 * (parameters.lower_com_distance[2] * t1107);
-        let t1109 = mul_add(t484, t1104, mul_add(t488, t1106, t486 * t1108));
-        lower_active_force[2][0] = neg_mul_add(t484, t1109, t1104);
-        lower_active_force[2][1] = neg_mul_add(t486, t1109, t1108);
-        lower_active_force[2][2] = neg_mul_add(t488, t1109, t1106);
+        let t1111 = parameters.lower_mass[2] * parameters.gravity[0];
+        let t1112 = t114 * (parameters.lower_com_distance[2] * t1111);
+        let t1113 = parameters.lower_mass[2] * parameters.gravity[2];
+        let t1114 = t114 * (parameters.lower_com_distance[2] * t1113);
+        let t1115 = parameters.lower_mass[2] * parameters.gravity[1];
+        let t1116 = t114 * (parameters.lower_com_distance[2] * t1115);
+        let t1117 = mul_add(t492, t1112, mul_add(t496, t1114, t494 * t1116));
+        lower_active_force[2][0] = neg_mul_add(t492, t1117, t1112);
+        lower_active_force[2][1] = neg_mul_add(t494, t1117, t1116);
+        lower_active_force[2][2] = neg_mul_add(t496, t1117, t1114);
         lower_active_force[2][3] = neg_mul_add(
-            t903,
-            t1109,
-            mul_sub(t575, t1106, t578 * t1108),
+            t911,
+            t1117,
+            mul_sub(t583, t1114, t586 * t1116),
         );
         lower_active_force[2][4] = neg_mul_add(
-            t904,
-            t1109,
-            mul_sub(t578, t1104, t572 * t1106),
+            t912,
+            t1117,
+            mul_sub(t586, t1112, t580 * t1114),
         );
         lower_active_force[2][5] = neg_mul_add(
-            t575,
-            t1104,
-            mul_sub(t572, t1108, t905 * t1109),
+            t583,
+            t1112,
+            mul_sub(t580, t1116, t913 * t1117),
         );
         // leg 3: generalised inertia force of the lower part
-        let t1110 = t114 * (parameters.lower_inertia[2] * t763);
-        let t1111 = t114 * (parameters.lower_inertia[2] * t764);
-        let t1112 = mul_sub(t488, t1110, t486 * t1111);
-        let t1113 = parameters.lower_com_distance[2] * (parameters.lower_mass[2] * t765);
-        let t1114 = t114 * t1113;
-        let t1115 = parameters.lower_com_distance[2] * (parameters.lower_mass[2] * t767);
-        let t1116 = t114 * t1115;
-        let t1117 = parameters.lower_com_distance[2] * (parameters.lower_mass[2] * t766);
-        let t1118 = t114 * t1117;
-        let t1119 = mul_add(t484, t1114, mul_add(t488, t1116, t486 * t1118));
-        lower_inertia_force[2][0] = t1112 + neg_mul_add(t484, t1119, t1114);
-        let t1120 = t114 * (parameters.lower_inertia[2] * t754);
-        let t1121 = mul_sub(t484, t1111, t488 * t1120);
-        lower_inertia_force[2][1] = t1121 + neg_mul_add(t486, t1119, t1118);
-        let t1122 = mul_sub(t486, t1120, t484 * t1110);
-        lower_inertia_force[2][2] = t1122 + neg_mul_add(t488, t1119, t1116);
-        let t1123 = mul_sub(t903, t1119, mul_sub(t575, t1116, t578 * t1118));
+        let t1118 = t114 * (parameters.lower_inertia[2] * t771);
+        let t1119 = t114 * (parameters.lower_inertia[2] * t772);
+        let t1120 = mul_sub(t496, t1118, t494 * t1119);
+        let t1121 = parameters.lower_com_distance[2] * (parameters.lower_mass[2] * t773);
+        let t1122 = t114 * t1121;
+        let t1123 = parameters.lower_com_distance[2] * (parameters.lower_mass[2] * t775);
+        let t1124 = t114 * t1123;
+        let t1125 = parameters.lower_com_distance[2] * (parameters.lower_mass[2] * t774);
+        let t1126 = t114 * t1125;
+        let t1127 = mul_add(t492, t1122, mul_add(t496, t1124, t494 * t1126));
+        lower_inertia_force[2][0] = t1120 + neg_mul_add(t492, t1127, t1122);
+        let t1128 = t114 * (parameters.lower_inertia[2] * t762);
+        let t1129 = mul_sub(t492, t1119, t496 * t1128);
+        lower_inertia_force[2][1] = t1129 + neg_mul_add(t494, t1127, t1126);
+        let t1130 = mul_sub(t494, t1128, t492 * t1118);
+        lower_inertia_force[2][2] = t1130 + neg_mul_add(t496, t1127, t1124);
+        let t1131 = mul_sub(t911, t1127, mul_sub(t583, t1124, t586 * t1126));
         lower_inertia_force[2][3] = neg_mul_add(
-            t578,
-            t1121,
-            mul_sub(t575, t1122, t1123),
+            t586,
+            t1129,
+            mul_sub(t583, t1130, t1131),
         );
-        let t1124 = mul_sub(t904, t1119, mul_sub(t578, t1114, t572 * t1116));
+        let t1132 = mul_sub(t912, t1127, mul_sub(t586, t1122, t580 * t1124));
         lower_inertia_force[2][4] = neg_mul_add(
-            t572,
-            t1122,
-            mul_sub(t578, t1112, t1124),
+            t580,
+            t1130,
+            mul_sub(t586, t1120, t1132),
         );
-        let t1125 = mul_sub(t575, t1114, mul_sub(t572, t1118, t905 * t1119));
+        let t1133 = mul_sub(t583, t1122, mul_sub(t580, t1126, t913 * t1127));
         lower_inertia_force[2][5] = neg_mul_add(
-            t575,
-            t1112,
-            mul_sub(t572, t1121, t1125),
+            t583,
+            t1120,
+            mul_sub(t580, t1129, t1133),
         );
         // leg 3: generalised active force of the upper part: gravity, actuator, spring, damper
-        let t1126 = mul_add(parameters.axial_stiffness[2], t917, actuator_force[2]);
-        let t1127 = mul_add(parameters.axial_damping[2], t237, t1126);
-        let t1128 = mul_add(
+        let t1134 = mul_add(parameters.axial_stiffness[2], t925, actuator_force[2]);
+        let t1135 = mul_add(parameters.axial_damping[2], t237, t1134);
+        let t1136 = mul_add(
             parameters.upper_mass[2],
             parameters.gravity[0],
-            t484 * t1127,
+            t492 * t1135,
         );
-        let t1129 = parameters.upper_com_distance[2] * t1128;
-        let t1130 = mul_add(
+        let t1137 = parameters.upper_com_distance[2] * t1136;
+        let t1138 = mul_add(
             parameters.upper_mass[2],
             parameters.gravity[2],
-            t488 * t1127,
+            t496 * t1135,
         );
-        let t1131 = parameters.upper_com_distance[2] * t1130;
-        let t1132 = mul_add(
+        let t1139 = parameters.upper_com_distance[2] * t1138;
+        let t1140 = mul_add(
             parameters.upper_mass[2],
             parameters.gravity[1],
-            t486 * t1127,
+            t494 * t1135,
         );
-        let t1133 = parameters.upper_com_distance[2] * t1132;
-        let t1134 = mul_add(t488, t114 * t1131, t486 * (t114 * t1133));
-        let t1135 = mul_add(t484, t114 * t1129, t1134);
-        let t1136 = neg_mul_add(t114, t1129, t1128);
-        upper_active_force[2][0] = mul_add(t484, t1135, t1136);
-        let t1137 = neg_mul_add(t114, t1133, t1132);
-        upper_active_force[2][1] = mul_add(t486, t1135, t1137);
-        let t1138 = neg_mul_add(t114, t1131, t1130);
-        upper_active_force[2][2] = mul_add(t488, t1135, t1138);
+        let t1141 = parameters.upper_com_distance[2] * t1140;
+        let t1142 = mul_add(t496, t114 * t1139, t494 * (t114 * t1141));
+        let t1143 = mul_add(t492, t114 * t1137, t1142);
+        let t1144 = neg_mul_add(t114, t1137, t1136);
+        upper_active_force[2][0] = mul_add(t492, t1143, t1144);
+        let t1145 = neg_mul_add(t114, t1141, t1140);
+        upper_active_force[2][1] = mul_add(t494, t1143, t1145);
+        let t1146 = neg_mul_add(t114, t1139, t1138);
+        upper_active_force[2][2] = mul_add(t496, t1143, t1146);
         upper_active_force[2][3] = mul_add(
-            t903,
-            t1135,
-            mul_sub(t575, t1138, t578 * t1137),
+            t911,
+            t1143,
+            mul_sub(t583, t1146, t586 * t1145),
         );
         upper_active_force[2][4] = mul_add(
-            t578,
-            t1136,
-            mul_sub(t904, t1135, t572 * t1138),
+            t586,
+            t1144,
+            mul_sub(t912, t1143, t580 * t1146),
         );
         upper_active_force[2][5] = neg_mul_add(
-            t575,
-            t1136,
-            mul_add(t572, t1137, t905 * t1135),
+            t583,
+            t1144,
+            mul_add(t580, t1145, t913 * t1143),
         );
         // leg 3: generalised inertia force of the upper part
-        let t1139 = t114 * (parameters.upper_inertia[2] * t763);
-        let t1140 = t114 * (parameters.upper_inertia[2] * t764);
-        let t1141 = mul_sub(t488, t1139, t486 * t1140);
-        let t1142 = parameters.upper_com_distance[2] * (parameters.upper_mass[2] * t768);
-        let t1143 = t114 * t1142;
-        let t1144 = parameters.upper_com_distance[2] * (parameters.upper_mass[2] * t770);
-        let t1145 = t114 * t1144;
-        let t1146 = parameters.upper_com_distance[2] * (parameters.upper_mass[2] * t769);
-        let t1147 = t114 * t1146;
-        let t1148 = mul_add(t484, t1143, mul_add(t488, t1145, t486 * t1147));
-        let t1149 = mul_sub(parameters.upper_mass[2], t768, t1143);
-        upper_inertia_force[2][0] = t1141 + mul_add(t484, t1148, t1149);
-        let t1150 = t114 * (parameters.upper_inertia[2] * t754);
-        let t1151 = mul_sub(t484, t1140, t488 * t1150);
-        let t1152 = mul_sub(parameters.upper_mass[2], t769, t1147);
-        upper_inertia_force[2][1] = t1151 + mul_add(t486, t1148, t1152);
-        let t1153 = mul_sub(t486, t1150, t484 * t1139);
-        let t1154 = mul_sub(parameters.upper_mass[2], t770, t1145);
-        upper_inertia_force[2][2] = t1153 + mul_add(t488, t1148, t1154);
-        let t1155 = mul_add(t903, t1148, mul_sub(t575, t1154, t578 * t1152));
+        let t1147 = t114 * (parameters.upper_inertia[2] * t771);
+        let t1148 = t114 * (parameters.upper_inertia[2] * t772);
+        let t1149 = mul_sub(t496, t1147, t494 * t1148);
+        let t1150 = parameters.upper_com_distance[2] * (parameters.upper_mass[2] * t776);
+        let t1151 = t114 * t1150;
+        let t1152 = parameters.upper_com_distance[2] * (parameters.upper_mass[2] * t778);
+        let t1153 = t114 * t1152;
+        let t1154 = parameters.upper_com_distance[2] * (parameters.upper_mass[2] * t777);
+        let t1155 = t114 * t1154;
+        let t1156 = mul_add(t492, t1151, mul_add(t496, t1153, t494 * t1155));
+        let t1157 = mul_sub(parameters.upper_mass[2], t776, t1151);
+        upper_inertia_force[2][0] = t1149 + mul_add(t492, t1156, t1157);
+        let t1158 = t114 * (parameters.upper_inertia[2] * t762);
+        let t1159 = mul_sub(t492, t1148, t496 * t1158);
+        let t1160 = mul_sub(parameters.upper_mass[2], t777, t1155);
+        upper_inertia_force[2][1] = t1159 + mul_add(t494, t1156, t1160);
+        let t1161 = mul_sub(t494, t1158, t492 * t1147);
+        let t1162 = mul_sub(parameters.upper_mass[2], t778, t1153);
+        upper_inertia_force[2][2] = t1161 + mul_add(t496, t1156, t1162);
+        let t1163 = mul_add(t911, t1156, mul_sub(t583, t1162, t586 * t1160));
         upper_inertia_force[2][3] = neg_mul_add(
-            t578,
-            t1151,
-            mul_add(t575, t1153, t1155),
+            t586,
+            t1159,
+            mul_add(t583, t1161, t1163),
         );
-        let t1156 = mul_add(t578, t1149, mul_sub(t904, t1148, t572 * t1154));
+        let t1164 = mul_add(t586, t1157, mul_sub(t912, t1156, t580 * t1162));
         upper_inertia_force[2][4] = neg_mul_add(
-            t572,
-            t1153,
-            mul_add(t578, t1141, t1156),
+            t580,
+            t1161,
+            mul_add(t586, t1149, t1164),
         );
-        let t1157 = mul_sub(t575, t1149, mul_add(t572, t1152, t905 * t1148));
+        let t1165 = mul_sub(t583, t1157, mul_add(t580, t1160, t913 * t1156));
         upper_inertia_force[2][5] = neg_mul_add(
-            t575,
-            t1141,
-            mul_sub(t572, t1151, t1157),
+            t583,
+            t1149,
+            mul_sub(t580, t1159, t1165),
         );
         // leg 4: generalised active force of the lower part: gravity
-        let t1158 = parameters.lower_mass[3] * parameters.gravity[0];
-        let t1159 = t116 * (parameters.lower_com_distance[3] * t1158);
-        let t1160 = parameters.lower_mass[3] * parameters.gravity[2];
-        let t1161 = t116 * (parameters.lower_com_distance[3] * t1160);
-        let t1162 = parameters.lower_mass[3] * parameters.gravity[1];
-        let t1163 = t116 * (parameters.lower_com_distance[3] * t1162);
-        let t1164 = mul_add(t490, t1159, mul_add(t494, t1161, t492 * t1163));
-        lower_active_force[3][0] = neg_mul_add(t490, t1164, t1159);
-        lower_active_force[3][1] = neg_mul_add(t492, t1164, t1163);
-        lower_active_force[3][2] = neg_mul_add(t494, t1164, t1161);
+        let t1166 = parameters.lower_mass[3] * parameters.gravity[0];
+        let t1167 = t116 * (parameters.lower_com_distance[3] * t1166);
+        let t1168 = parameters.lower_mass[3] * parameters.gravity[2];
+        let t1169 = t116 * (parameters.lower_com_distance[3] * t1168);
+        let t1170 = parameters.lower_mass[3] * parameters.gravity[1];
+        let t1171 = t116 * (parameters.lower_com_distance[3] * t1170);
+        let t1172 = mul_add(t498, t1167, mul_add(t502, t1169, t500 * t1171));
+        lower_active_force[3][0] = neg_mul_add(t498, t1172, t1167);
+        lower_active_force[3][1] = neg_mul_add(t500, t1172, t1171);
+        lower_active_force[3][2] = neg_mul_add(t502, t1172, t1169);
         lower_active_force[3][3] = neg_mul_add(
-            t906,
-            t1164,
-            mul_sub(t602, t1161, t605 * t1163),
+            t914,
+            t1172,
+            mul_sub(t610, t1169, t613 * t1171),
         );
         lower_active_force[3][4] = neg_mul_add(
-            t907,
-            t1164,
-            mul_sub(t605, t1159, t599 * t1161),
+            t915,
+            t1172,
+            mul_sub(t613, t1167, t607 * t1169),
         );
         lower_active_force[3][5] = neg_mul_add(
-            t602,
-            t1159,
-            mul_sub(t599, t1163, t908 * t1164),
+            t610,
+            t1167,
+            mul_sub(t607, t1171, t916 * t1172),
         );
         // leg 4: generalised inertia force of the lower part
-        let t1165 = t116 * (parameters.lower_inertia[3] * t797);
-        let t1166 = t116 * (parameters.lower_inertia[3] * t798);
-        let t1167 = mul_sub(t494, t1165, t492 * t1166);
-        let t1168 = parameters.lower_com_distance[3] * (parameters.lower_mass[3] * t799);
-        let t1169 = t116 * t1168;
-        let t1170 = parameters.lower_com_distance[3] * (parameters.lower_mass[3] * t801);
-        let t1171 = t116 * t1170;
-        let t1172 = parameters.lower_com_distance[3] * (parameters.lower_mass[3] * t800);
-        let t1173 = t116 * t1172;
-        let t1174 = mul_add(t490, t1169, mul_add(t494, t1171, t492 * t1173));
-        lower_inertia_force[3][0] = t1167 + neg_mul_add(t490, t1174, t1169);
-        let t1175 = t116 * (parameters.lower_inertia[3] * t788);
-        let t1176 = mul_sub(t490, t1166, t494 * t1175);
-        lower_inertia_force[3][1] = t1176 + neg_mul_add(t492, t1174, t1173);
-        let t1177 = mul_sub(t492, t1175, t490 * t1165);
-        lower_inertia_force[3][2] = t1177 + neg_mul_add(t494, t1174, t1171);
-        let t1178 = mul_sub(t906, t1174, mul_sub(t602, t1171, t605 * t1173));
+        let t1173 = t116 * (parameters.lower_inertia[3] * t805);
+        let t1174 = t116 * (parameters.lower_inertia[3] * t806);
+        let t1175 = mul_sub(t502, t1173, t500 * t1174);
+        let t1176 = parameters.lower_com_distance[3] * (parameters.lower_mass[3] * t807);
+        let t1177 = t116 * t1176;
+        let t1178 = parameters.lower_com_distance[3] * (parameters.lower_mass[3] * t809);
+        let t1179 = t116 * t1178;
+        let t1180 = parameters.lower_com_distance[3] * (parameters.lower_mass[3] * t808);
+        let t1181 = t116 * t1180;
+        let t1182 = mul_add(t498, t1177, mul_add(t502, t1179, t500 * t1181));
+        lower_inertia_force[3][0] = t1175 + neg_mul_add(t498, t1182, t1177);
+        let t1183 = t116 * (parameters.lower_inertia[3] * t796);
+        let t1184 = mul_sub(t498, t1174, t502 * t1183);
+        lower_inertia_force[3][1] = t1184 + neg_mul_add(t500, t1182, t1181);
+        let t1185 = mul_sub(t500, t1183, t498 * t1173);
+        lower_inertia_force[3][2] = t1185 + neg_mul_add(t502, t1182, t1179);
+        let t1186 = mul_sub(t914, t1182, mul_sub(t610, t1179, t613 * t1181));
         lower_inertia_force[3][3] = neg_mul_add(
-            t605,
-            t1176,
-            mul_sub(t602, t1177, t1178),
+            t613,
+            t1184,
+            mul_sub(t610, t1185, t1186),
         );
-        let t1179 = mul_sub(t907, t1174, mul_sub(t605, t1169, t599 * t1171));
+        let t1187 = mul_sub(t915, t1182, mul_sub(t613, t1177, t607 * t1179));
         lower_inertia_force[3][4] = neg_mul_add(
-            t599,
-            t1177,
-            mul_sub(t605, t1167, t1179),
+            t607,
+            t1185,
+            mul_sub(t613, t1175, t1187),
         );
-        let t1180 = mul_sub(t602, t1169, mul_sub(t599, t1173, t908 * t1174));
+        let t1188 = mul_sub(t610, t1177, mul_sub(t607, t1181, t916 * t1182));
         lower_inertia_force[3][5] = neg_mul_add(
-            t602,
-            t1167,
-            mul_sub(t599, t1176, t1180),
+            t610,
+            t1175,
+            mul_sub(t607, t1184, t1188),
         );
         // leg 4: generalised active force of the upper part: gravity, actuator, spring, damper
-        let t1181 = mul_add(parameters.axial_stiffness[3], t918, actuator_force[3]);
-        let t1182 = mul_add(parameters.axial_damping[3], t238, t1181);
-        let t1183 = mul_add(
+        let t1189 = mul_add(parameters.axial_stiffness[3], t926, actuator_force[3]);
+        let t1190 = mul_add(parameters.axial_damping[3], t238, t1189);
+        let t1191 = mul_add(
             parameters.upper_mass[3],
             parameters.gravity[0],
-            t490 * t1182,
+            t498 * t1190,
         );
-        let t1184 = parameters.upper_com_distance[3] * t1183;
-        let t1185 = mul_add(
+        let t1192 = parameters.upper_com_distance[3] * t1191;
+        let t1193 = mul_add(
             parameters.upper_mass[3],
             parameters.gravity[2],
-            t494 * t1182,
+            t502 * t1190,
         );
-        let t1186 = parameters.upper_com_distance[3] * t1185;
-        let t1187 = mul_add(
+        let t1194 = parameters.upper_com_distance[3] * t1193;
+        let t1195 = mul_add(
             parameters.upper_mass[3],
             parameters.gravity[1],
-            t492 * t1182,
+            t500 * t1190,
         );
-        let t1188 = parameters.upper_com_distance[3] * t1187;
-        let t1189 = mul_add(t494, t116 * t1186, t492 * (t116 * t1188));
-        let t1190 = mul_add(t490, t116 * t1184, t1189);
-        let t1191 = neg_mul_add(t116, t1184, t1183);
-        upper_active_force[3][0] = mul_add(t490, t1190, t1191);
-        let t1192 = neg_mul_add(t116, t1188, t1187);
-        upper_active_force[3][1] = mul_add(t492, t1190, t1192);
-        let t1193 = neg_mul_add(t116, t1186, t1185);
-        upper_active_force[3][2] = mul_add(t494, t1190, t1193);
+        let t1196 = parameters.upper_com_distance[3] * t1195;
+        let t1197 = mul_add(t502, t116 * t1194, t500 * (t116 * t1196));
+        let t1198 = mul_add(t498, t116 * t1192, t1197);
+        let t1199 = neg_mul_add(t116, t1192, t1191);
+        upper_active_force[3][0] = mul_add(t498, t1198, t1199);
+        let t1200 = neg_mul_add(t116, t1196, t1195);
+        upper_active_force[3][1] = mul_add(t500, t1198, t1200);
+        let t1201 = neg_mul_add(t116, t1194, t1193);
+        upper_active_force[3][2] = mul_add(t502, t1198, t1201);
         upper_active_force[3][3] = mul_add(
-            t906,
-            t1190,
-            mul_sub(t602, t1193, t605 * t1192),
+            t914,
+            t1198,
+            mul_sub(t610, t1201, t613 * t1200),
         );
         upper_active_force[3][4] = mul_add(
-            t605,
-            t1191,
-            mul_sub(t907, t1190, t599 * t1193),
+            t613,
+            t1199,
+            mul_sub(t915, t1198, t607 * t1201),
         );
         upper_active_force[3][5] = neg_mul_add(
-            t602,
-            t1191,
-            mul_add(t599, t1192, t908 * t1190),
+            t610,
+            t1199,
+            mul_add(t607, t1200, t916 * t1198),
         );
         // leg 4: generalised inertia force of the upper part
-        let t1194 = t116 * (parameters.upper_inertia[3] * t797);
-        let t1195 = t116 * (parameters.upper_inertia[3] * t798);
-        let t1196 = mul_sub(t494, t1194, t492 * t1195);
-        let t1197 = parameters.upper_com_distance[3] * (parameters.upper_mass[3] * t802);
-        let t1198 = t116 * t1197;
-        let t1199 = parameters.upper_com_distance[3] * (parameters.upper_mass[3] * t804);
-        let t1200 = t116 * t1199;
-        let t1201 = parameters.upper_com_distance[3] * (parameters.upper_mass[3] * t803);
-        let t1202 = t116 * t1201;
-        let t1203 = mul_add(t490, t1198, mul_add(t494, t1200, t492 * t1202));
-        let t1204 = mul_sub(parameters.upper_mass[3], t802, t1198);
-        upper_inertia_force[3][0] = t1196 + mul_add(t490, t1203, t1204);
-        let t1205 = t116 * (parameters.upper_inertia[3] * t788);
-        let t1206 = mul_sub(t490, t1195, t494 * t1205);
-        let t1207 = mul_sub(parameters.upper_mass[3], t803, t1202);
-        upper_inertia_force[3][1] = t1206 + mul_add(t492, t1203, t1207);
-        let t1208 = mul_sub(t492, t1205, t490 * t1194);
-        let t1209 = mul_sub(parameters.upper_mass[3], t804, t1200);
-        upper_inertia_force[3][2] = t1208 + mul_add(t494, t1203, t1209);
-        let t1210 = mul_add(t906, t1203, mul_sub(t602, t1209, t605 * t1207));
+        let t1202 = t116 * (parameters.upper_inertia[3] * t805);
+        let t1203 = t116 * (parameters.upper_inertia[3] * t806);
+        let t1204 = mul_sub(t502, t1202, t500 * t1203);
+        let t1205 = parameters.upper_com_distance[3] * (parameters.upper_mass[3] * t810);
+        let t1206 = t116 * t1205;
+        let t1207 = parameters.upper_com_distance[3] * (parameters.upper_mass[3] * t812);
+        let t1208 = t116 * t1207;
+        let t1209 = parameters.upper_com_distance[3] * (parameters.upper_mass[3] * t811);
+        let t1210 = t116 * t1209;
+        let t1211 = mul_add(t498, t1206, mul_add(t502, t1208, t500 * t1210));
+        let t1212 = mul_sub(parameters.upper_mass[3], t810, t1206);
+        upper_inertia_force[3][0] = t1204 + mul_add(t498, t1211, t1212);
+        let t1213 = t116 * (parameters.upper_inertia[3] * t796);
+        let t1214 = mul_sub(t498, t1203, t502 * t1213);
+        let t1215 = mul_sub(parameters.upper_mass[3], t811, t1210);
+        upper_inertia_force[3][1] = t1214 + mul_add(t500, t1211, t1215);
+        let t1216 = mul_sub(t500, t1213, t498 * t1202);
+        let t1217 = mul_sub(parameters.upper_mass[3], t812, t1208);
+        upper_inertia_force[3][2] = t1216 + mul_add(t502, t1211, t1217);
+        let t1218 = mul_add(t914, t1211, mul_sub(t610, t1217, t613 * t1215));
         upper_inertia_force[3][3] = neg_mul_add(
-            t605,
-            t1206,
-            mul_add(t602, t1208, t1210),
+            t613,
+            t1214,
+            mul_add(t610, t1216, t1218),
         );
-        let t1211 = mul_add(t605, t1204, mul_sub(t907, t1203, t599 * t1209));
+        let t1219 = mul_add(t613, t1212, mul_sub(t915, t1211, t607 * t1217));
         upper_inertia_force[3][4] = neg_mul_add(
-            t599,
-            t1208,
-            mul_add(t605, t1196, t1211),
+            t607,
+            t1216,
+            mul_add(t613, t1204, t1219),
         );
-        let t1212 = mul_sub(t602, t1204, mul_add(t599, t1207, t908 * t1203));
+        let t1220 = mul_sub(t610, t1212, mul_add(t607, t1215, t916 * t1211));
         upper_inertia_force[3][5] = neg_mul_add(
-            t602,
-            t1196,
-            mul_sub(t599, t1206, t1212),
+            t610,
+            t1204,
+            mul_sub(t607, t1214, t1220),
         );
         // leg 5: generalised active force of the lower part: gravity
-        let t1213 = parameters.lower_mass[4] * parameters.gravity[0];
-        let t1214 = t118 * (parameters.lower_com_distance[4] * t1213);
-        let t1215 = parameters.lower_mass[4] * parameters.gravity[2];
-        let t1216 = t118 * (parameters.lower_com_distance[4] * t1215);
-        let t1217 = parameters.lower_mass[4] * parameters.gravity[1];
-        let t1218 = t118 * (parameters.lower_com_distance[4] * t1217);
-        let t1219 = mul_add(t496, t1214, mul_add(t500, t1216, t498 * t1218));
-        lower_active_force[4][0] = neg_mul_add(t496, t1219, t1214);
-        lower_active_force[4][1] = neg_mul_add(t498, t1219, t1218);
-        lower_active_force[4][2] = neg_mul_add(t500, t1219, t1216);
+        let t1221 = parameters.lower_mass[4] * parameters.gravity[0];
+        let t1222 = t118 * (parameters.lower_com_distance[4] * t1221);
+        let t1223 = parameters.lower_mass[4] * parameters.gravity[2];
+        let t1224 = t118 * (parameters.lower_com_distance[4] * t1223);
+        let t1225 = parameters.lower_mass[4] * parameters.gravity[1];
+        let t1226 = t118 * (parameters.lower_com_distance[4] * t1225);
+        let t1227 = mul_add(t504, t1222, mul_add(t508, t1224, t506 * t1226));
+        lower_active_force[4][0] = neg_mul_add(t504, t1227, t1222);
+        lower_active_force[4][1] = neg_mul_add(t506, t1227, t1226);
+        lower_active_force[4][2] = neg_mul_add(t508, t1227, t1224);
         lower_active_force[4][3] = neg_mul_add(
-            t909,
-            t1219,
-            mul_sub(t629, t1216, t632 * t1218),
+            t917,
+            t1227,
+            mul_sub(t637, t1224, t640 * t1226),
         );
         lower_active_force[4][4] = neg_mul_add(
-            t910,
-            t1219,
-            mul_sub(t632, t1214, t626 * t1216),
+            t918,
+            t1227,
+            mul_sub(t640, t1222, t634 * t1224),
         );
         lower_active_force[4][5] = neg_mul_add(
-            t629,
-            t1214,
-            mul_sub(t626, t1218, t911 * t1219),
+            t637,
+            t1222,
+            mul_sub(t634, t1226, t919 * t1227),
         );
         // leg 5: generalised inertia force of the lower part
-        let t1220 = t118 * (parameters.lower_inertia[4] * t831);
-        let t1221 = t118 * (parameters.lower_inertia[4] * t832);
-        let t1222 = mul_sub(t500, t1220, t498 * t1221);
-        let t1223 = parameters.lower_com_distance[4] * (parameters.lower_mass[4] * t833);
-        let t1224 = t118 * t1223;
-        let t1225 = parameters.lower_com_distance[4] * (parameters.lower_mass[4] * t835);
-        let t1226 = t118 * t1225;
-        let t1227 = parameters.lower_com_distance[4] * (parameters.lower_mass[4] * t834);
-        let t1228 = t118 * t1227;
-        let t1229 = mul_add(t496, t1224, mul_add(t500, t1226, t498 * t1228));
-        lower_inertia_force[4][0] = t1222 + neg_mul_add(t496, t1229, t1224);
-        let t1230 = t118 * (parameters.lower_inertia[4] * t822);
-        let t1231 = mul_sub(t496, t1221, t500 * t1230);
-        lower_inertia_force[4][1] = t1231 + neg_mul_add(t498, t1229, t1228);
-        let t1232 = mul_sub(t498, t1230, t496 * t1220);
-        lower_inertia_force[4][2] = t1232 + neg_mul_add(t500, t1229, t1226);
-        let t1233 = mul_sub(t909, t1229, mul_sub(t629, t1226, t632 * t1228));
+        let t1228 = t118 * (parameters.lower_inertia[4] * t839);
+        let t1229 = t118 * (parameters.lower_inertia[4] * t840);
+        let t1230 = mul_sub(t508, t1228, t506 * t1229);
+        let t1231 = parameters.lower_com_distance[4] * (parameters.lower_mass[4] * t841);
+        let t1232 = t118 * t1231;
+        let t1233 = parameters.lower_com_distance[4] * (parameters.lower_mass[4] * t843);
+        let t1234 = t118 * t1233;
+        let t1235 = parameters.lower_com_distance[4] * (parameters.lower_mass[4] * t842);
+        let t1236 = t118 * t1235;
+        let t1237 = mul_add(t504, t1232, mul_add(t508, t1234, t506 * t1236));
+        lower_inertia_force[4][0] = t1230 + neg_mul_add(t504, t1237, t1232);
+        let t1238 = t118 * (parameters.lower_inertia[4] * t830);
+        let t1239 = mul_sub(t504, t1229, t508 * t1238);
+        lower_inertia_force[4][1] = t1239 + neg_mul_add(t506, t1237, t1236);
+        let t1240 = mul_sub(t506, t1238, t504 * t1228);
+        lower_inertia_force[4][2] = t1240 + neg_mul_add(t508, t1237, t1234);
+        let t1241 = mul_sub(t917, t1237, mul_sub(t637, t1234, t640 * t1236));
         lower_inertia_force[4][3] = neg_mul_add(
-            t632,
-            t1231,
-            mul_sub(t629, t1232, t1233),
+            t640,
+            t1239,
+            mul_sub(t637, t1240, t1241),
         );
-        let t1234 = mul_sub(t910, t1229, mul_sub(t632, t1224, t626 * t1226));
+        let t1242 = mul_sub(t918, t1237, mul_sub(t640, t1232, t634 * t1234));
         lower_inertia_force[4][4] = neg_mul_add(
-            t626,
-            t1232,
-            mul_sub(t632, t1222, t1234),
+            t634,
+            t1240,
+            mul_sub(t640, t1230, t1242),
         );
-        let t1235 = mul_sub(t629, t1224, mul_sub(t626, t1228, t911 * t1229));
+        let t1243 = mul_sub(t637, t1232, mul_sub(t634, t1236, t919 * t1237));
         lower_inertia_force[4][5] = neg_mul_add(
-            t629,
-            t1222,
-            mul_sub(t626, t1231, t1235),
+            t637,
+            t1230,
+            mul_sub(t634, t1239, t1243),
         );
         // leg 5: generalised active force of the upper part: gravity, actuator, spring, damper
-        let t1236 = mul_add(parameters.axial_stiffness[4], t919, actuator_force[4]);
-        let t1237 = mul_add(parameters.axial_damping[4], t239, t1236);
-        let t1238 = mul_add(
+        let t1244 = mul_add(parameters.axial_stiffness[4], t927, actuator_force[4]);
+        let t1245 = mul_add(parameters.axial_damping[4], t239, t1244);
+        let t1246 = mul_add(
             parameters.upper_mass[4],
             parameters.gravity[0],
-            t496 * t1237,
+            t504 * t1245,
         );
-        let t1239 = parameters.upper_com_distance[4] * t1238;
-        let t1240 = mul_add(
+        let t1247 = parameters.upper_com_distance[4] * t1246;
+        let t1248 = mul_add(
             parameters.upper_mass[4],
             parameters.gravity[2],
-            t500 * t1237,
+            t508 * t1245,
         );
-        let t1241 = parameters.upper_com_distance[4] * t1240;
-        let t1242 = mul_add(
+        let t1249 = parameters.upper_com_distance[4] * t1248;
+        let t1250 = mul_add(
             parameters.upper_mass[4],
             parameters.gravity[1],
-            t498 * t1237,
+            t506 * t1245,
         );
-        let t1243 = parameters.upper_com_distance[4] * t1242;
-        let t1244 = mul_add(t500, t118 * t1241, t498 * (t118 * t1243));
-        let t1245 = mul_add(t496, t118 * t1239, t1244);
-        let t1246 = neg_mul_add(t118, t1239, t1238);
-        upper_active_force[4][0] = mul_add(t496, t1245, t1246);
-        let t1247 = neg_mul_add(t118, t1243, t1242);
-        upper_active_force[4][1] = mul_add(t498, t1245, t1247);
-        let t1248 = neg_mul_add(t118, t1241, t1240);
-        upper_active_force[4][2] = mul_add(t500, t1245, t1248);
+        let t1251 = parameters.upper_com_distance[4] * t1250;
+        let t1252 = mul_add(t508, t118 * t1249, t506 * (t118 * t1251));
+        let t1253 = mul_add(t504, t118 * t1247, t1252);
+        let t1254 = neg_mul_add(t118, t1247, t1246);
+        upper_active_force[4][0] = mul_add(t504, t1253, t1254);
+        let t1255 = neg_mul_add(t118, t1251, t1250);
+        upper_active_force[4][1] = mul_add(t506, t1253, t1255);
+        let t1256 = neg_mul_add(t118, t1249, t1248);
+        upper_active_force[4][2] = mul_add(t508, t1253, t1256);
         upper_active_force[4][3] = mul_add(
-            t909,
-            t1245,
-            mul_sub(t629, t1248, t632 * t1247),
+            t917,
+            t1253,
+            mul_sub(t637, t1256, t640 * t1255),
         );
         upper_active_force[4][4] = mul_add(
-            t632,
-            t1246,
-            mul_sub(t910, t1245, t626 * t1248),
+            t640,
+            t1254,
+            mul_sub(t918, t1253, t634 * t1256),
         );
         upper_active_force[4][5] = neg_mul_add(
-            t629,
-            t1246,
-            mul_add(t626, t1247, t911 * t1245),
+            t637,
+            t1254,
+            mul_add(t634, t1255, t919 * t1253),
         );
         // leg 5: generalised inertia force of the upper part
-        let t1249 = t118 * (parameters.upper_inertia[4] * t831);
-        let t1250 = t118 * (parameters.upper_inertia[4] * t832);
-        let t1251 = mul_sub(t500, t1249, t498 * t1250);
-        let t1252 = parameters.upper_com_distance[4] * (parameters.upper_mass[4] * t836);
-        let t1253 = t118 * t1252;
-        let t1254 = parameters.upper_com_distance[4] * (parameters.upper_mass[4] * t838);
-        let t1255 = t118 * t1254;
-        let t1256 = parameters.upper_com_distance[4] * (parameters.upper_mass[4] * t837);
-        let t1257 = t118 * t1256;
-        let t1258 = mul_add(t496, t1253, mul_add(t500, t1255, t498 * t1257));
-        let t1259 = mul_sub(parameters.upper_mass[4], t836, t1253);
-        upper_inertia_force[4][0] = t1251 + mul_add(t496, t1258, t1259);
-        let t1260 = t118 * (parameters.upper_inertia[4] * t822);
-        let t1261 = mul_sub(t496, t1250, t500 * t1260);
-        let t1262 = mul_sub(parameters.upper_mass[4], t837, t1257);
-        upper_inertia_force[4][1] = t1261 + mul_add(t498, t1258, t1262);
-        let t1263 = mul_sub(t498, t1260, t496 * t1249);
-        let t1264 = mul_sub(parameters.upper_mass[4], t838, t1255);
-        upper_inertia_force[4][2] = t1263 + mul_add(t500, t1258, t1264);
-        let t1265 = mul_add(t909, t1258, mul_sub(t629, t1264, t632 * t1262));
+        let t1257 = t118 * (parameters.upper_inertia[4] * t839);
+        let t1258 = t118 * (parameters.upper_inertia[4] * t840);
+        let t1259 = mul_sub(t508, t1257, t506 * t1258);
+        let t1260 = parameters.upper_com_distance[4] * (parameters.upper_mass[4] * t844);
+        let t1261 = t118 * t1260;
+        let t1262 = parameters.upper_com_distance[4] * (parameters.upper_mass[4] * t846);
+        let t1263 = t118 * t1262;
+        let t1264 = parameters.upper_com_distance[4] * (parameters.upper_mass[4] * t845);
+        let t1265 = t118 * t1264;
+        let t1266 = mul_add(t504, t1261, mul_add(t508, t1263, t506 * t1265));
+        let t1267 = mul_sub(parameters.upper_mass[4], t844, t1261);
+        upper_inertia_force[4][0] = t1259 + mul_add(t504, t1266, t1267);
+        let t1268 = t118 * (parameters.upper_inertia[4] * t830);
+        let t1269 = mul_sub(t504, t1258, t508 * t1268);
+        let t1270 = mul_sub(parameters.upper_mass[4], t845, t1265);
+        upper_inertia_force[4][1] = t1269 + mul_add(t506, t1266, t1270);
+        let t1271 = mul_sub(t506, t1268, t504 * t1257);
+        let t1272 = mul_sub(parameters.upper_mass[4], t846, t1263);
+        upper_inertia_force[4][2] = t1271 + mul_add(t508, t1266, t1272);
+        let t1273 = mul_add(t917, t1266, mul_sub(t637, t1272, t640 * t1270));
         upper_inertia_force[4][3] = neg_mul_add(
-            t632,
-            t1261,
-            mul_add(t629, t1263, t1265),
+            t640,
+            t1269,
+            mul_add(t637, t1271, t1273),
         );
-        let t1266 = mul_add(t632, t1259, mul_sub(t910, t1258, t626 * t1264));
+        let t1274 = mul_add(t640, t1267, mul_sub(t918, t1266, t634 * t1272));
         upper_inertia_force[4][4] = neg_mul_add(
-            t626,
-            t1263,
-            mul_add(t632, t1251, t1266),
+            t634,
+            t1271,
+            mul_add(t640, t1259, t1274),
         );
-        let t1267 = mul_sub(t629, t1259, mul_add(t626, t1262, t911 * t1258));
+        let t1275 = mul_sub(t637, t1267, mul_add(t634, t1270, t919 * t1266));
         upper_inertia_force[4][5] = neg_mul_add(
-            t629,
-            t1251,
-            mul_sub(t626, t1261, t1267),
+            t637,
+            t1259,
+            mul_sub(t634, t1269, t1275),
         );
         // leg 6: generalised active force of the lower part: gravity
-        let t1268 = parameters.lower_mass[5] * parameters.gravity[0];
-        let t1269 = t120 * (parameters.lower_com_distance[5] * t1268);
-        let t1270 = parameters.lower_mass[5] * parameters.gravity[2];
-        let t1271 = t120 * (parameters.lower_com_distance[5] * t1270);
-        let t1272 = parameters.lower_mass[5] * parameters.gravity[1];
-        let t1273 = t120 * (parameters.lower_com_distance[5] * t1272);
-        let t1274 = mul_add(t502, t1269, mul_add(t506, t1271, t504 * t1273));
-        lower_active_force[5][0] = neg_mul_add(t502, t1274, t1269);
-        lower_active_force[5][1] = neg_mul_add(t504, t1274, t1273);
-        lower_active_force[5][2] = neg_mul_add(t506, t1274, t1271);
+        let t1276 = parameters.lower_mass[5] * parameters.gravity[0];
+        let t1277 = t120 * (parameters.lower_com_distance[5] * t1276);
+        let t1278 = parameters.lower_mass[5] * parameters.gravity[2];
+        let t1279 = t120 * (parameters.lower_com_distance[5] * t1278);
+        let t1280 = parameters.lower_mass[5] * parameters.gravity[1];
+        let t1281 = t120 * (parameters.lower_com_distance[5] * t1280);
+        let t1282 = mul_add(t510, t1277, mul_add(t514, t1279, t512 * t1281));
+        lower_active_force[5][0] = neg_mul_add(t510, t1282, t1277);
+        lower_active_force[5][1] = neg_mul_add(t512, t1282, t1281);
+        lower_active_force[5][2] = neg_mul_add(t514, t1282, t1279);
         lower_active_force[5][3] = neg_mul_add(
-            t912,
-            t1274,
-            mul_sub(t656, t1271, t659 * t1273),
+            t920,
+            t1282,
+            mul_sub(t664, t1279, t667 * t1281),
         );
         lower_active_force[5][4] = neg_mul_add(
-            t913,
-            t1274,
-            mul_sub(t659, t1269, t653 * t1271),
+            t921,
+            t1282,
+            mul_sub(t667, t1277, t661 * t1279),
         );
         lower_active_force[5][5] = neg_mul_add(
-            t656,
-            t1269,
-            mul_sub(t653, t1273, t914 * t1274),
+            t664,
+            t1277,
+            mul_sub(t661, t1281, t922 * t1282),
         );
         // leg 6: generalised inertia force of the lower part
-        let t1275 = t120 * (parameters.lower_inertia[5] * t865);
-        let t1276 = t120 * (parameters.lower_inertia[5] * t866);
-        let t1277 = mul_sub(t506, t1275, t504 * t1276);
-        let t1278 = parameters.lower_com_distance[5] * (parameters.lower_mass[5] * t867);
-        let t1279 = t120 * t1278;
-        let t1280 = parameters.lower_com_distance[5] * (parameters.lower_mass[5] * t869);
-        let t1281 = t120 * t1280;
-        let t1282 = parameters.lower_com_distance[5] * (parameters.lower_mass[5] * t868);
-        let t1283 = t120 * t1282;
-        let t1284 = mul_add(t502, t1279, mul_add(t506, t1281, t504 * t1283));
-        lower_inertia_force[5][0] = t1277 + neg_mul_add(t502, t1284, t1279);
-        let t1285 = t120 * (parameters.lower_inertia[5] * t856);
-        let t1286 = mul_sub(t502, t1276, t506 * t1285);
-        lower_inertia_force[5][1] = t1286 + neg_mul_add(t504, t1284, t1283);
-        let t1287 = mul_sub(t504, t1285, t502 * t1275);
-        lower_inertia_force[5][2] = t1287 + neg_mul_add(t506, t1284, t1281);
-        let t1288 = mul_sub(t912, t1284, mul_sub(t656, t1281, t659 * t1283));
+        let t1283 = t120 * (parameters.lower_inertia[5] * t873);
+        let t1284 = t120 * (parameters.lower_inertia[5] * t874);
+        let t1285 = mul_sub(t514, t1283, t512 * t1284);
+        let t1286 = parameters.lower_com_distance[5] * (parameters.lower_mass[5] * t875);
+        let t1287 = t120 * t1286;
+        let t1288 = parameters.lower_com_distance[5] * (parameters.lower_mass[5] * t877);
+        let t1289 = t120 * t1288;
+        let t1290 = parameters.lower_com_distance[5] * (parameters.lower_mass[5] * t876);
+        let t1291 = t120 * t1290;
+        let t1292 = mul_add(t510, t1287, mul_add(t514, t1289, t512 * t1291));
+        lower_inertia_force[5][0] = t1285 + neg_mul_add(t510, t1292, t1287);
+        let t1293 = t120 * (parameters.lower_inertia[5] * t864);
+        let t1294 = mul_sub(t510, t1284, t514 * t1293);
+        lower_inertia_force[5][1] = t1294 + neg_mul_add(t512, t1292, t1291);
+        let t1295 = mul_sub(t512, t1293, t510 * t1283);
+        lower_inertia_force[5][2] = t1295 + neg_mul_add(t514, t1292, t1289);
+        let t1296 = mul_sub(t920, t1292, mul_sub(t664, t1289, t667 * t1291));
         lower_inertia_force[5][3] = neg_mul_add(
-            t659,
-            t1286,
-            mul_sub(t656, t1287, t1288),
+            t667,
+            t1294,
+            mul_sub(t664, t1295, t1296),
         );
-        let t1289 = mul_sub(t913, t1284, mul_sub(t659, t1279, t653 * t1281));
+        let t1297 = mul_sub(t921, t1292, mul_sub(t667, t1287, t661 * t1289));
         lower_inertia_force[5][4] = neg_mul_add(
-            t653,
-            t1287,
-            mul_sub(t659, t1277, t1289),
+            t661,
+            t1295,
+            mul_sub(t667, t1285, t1297),
         );
-        let t1290 = mul_sub(t656, t1279, mul_sub(t653, t1283, t914 * t1284));
+        let t1298 = mul_sub(t664, t1287, mul_sub(t661, t1291, t922 * t1292));
         lower_inertia_force[5][5] = neg_mul_add(
-            t656,
-            t1277,
-            mul_sub(t653, t1286, t1290),
+            t664,
+            t1285,
+            mul_sub(t661, t1294, t1298),
         );
         // leg 6: generalised active force of the upper part: gravity, actuator, spring, damper
-        let t1291 = mul_add(parameters.axial_stiffness[5], t920, actuator_force[5]);
-        let t1292 = mul_add(parameters.axial_damping[5], t240, t1291);
-        let t1293 = mul_add(
+        let t1299 = mul_add(parameters.axial_stiffness[5], t928, actuator_force[5]);
+        let t1300 = mul_add(parameters.axial_damping[5], t240, t1299);
+        let t1301 = mul_add(
             parameters.upper_mass[5],
             parameters.gravity[0],
-            t502 * t1292,
+            t510 * t1300,
         );
-        let t1294 = parameters.upper_com_distance[5] * t1293;
-        let t1295 = mul_add(
+        let t1302 = parameters.upper_com_distance[5] * t1301;
+        let t1303 = mul_add(
             parameters.upper_mass[5],
             parameters.gravity[2],
-            t506 * t1292,
+            t514 * t1300,
         );
-        let t1296 = parameters.upper_com_distance[5] * t1295;
-        let t1297 = mul_add(
+        let t1304 = parameters.upper_com_distance[5] * t1303;
+        let t1305 = mul_add(
             parameters.upper_mass[5],
             parameters.gravity[1],
-            t504 * t1292,
+            t512 * t1300,
         );
-        let t1298 = parameters.upper_com_distance[5] * t1297;
-        let t1299 = mul_add(t506, t120 * t1296, t504 * (t120 * t1298));
-        let t1300 = mul_add(t502, t120 * t1294, t1299);
-        let t1301 = neg_mul_add(t120, t1294, t1293);
-        upper_active_force[5][0] = mul_add(t502, t1300, t1301);
-        let t1302 = neg_mul_add(t120, t1298, t1297);
-        upper_active_force[5][1] = mul_add(t504, t1300, t1302);
-        let t1303 = neg_mul_add(t120, t1296, t1295);
-        upper_active_force[5][2] = mul_add(t506, t1300, t1303);
+        let t1306 = parameters.upper_com_distance[5] * t1305;
+        let t1307 = mul_add(t514, t120 * t1304, t512 * (t120 * t1306));
+        let t1308 = mul_add(t510, t120 * t1302, t1307);
+        let t1309 = neg_mul_add(t120, t1302, t1301);
+        upper_active_force[5][0] = mul_add(t510, t1308, t1309);
+        let t1310 = neg_mul_add(t120, t1306, t1305);
+        upper_active_force[5][1] = mul_add(t512, t1308, t1310);
+        let t1311 = neg_mul_add(t120, t1304, t1303);
+        upper_active_force[5][2] = mul_add(t514, t1308, t1311);
         upper_active_force[5][3] = mul_add(
-            t912,
-            t1300,
-            mul_sub(t656, t1303, t659 * t1302),
+            t920,
+            t1308,
+            mul_sub(t664, t1311, t667 * t1310),
         );
         upper_active_force[5][4] = mul_add(
-            t659,
-            t1301,
-            mul_sub(t913, t1300, t653 * t1303),
+            t667,
+            t1309,
+            mul_sub(t921, t1308, t661 * t1311),
         );
         upper_active_force[5][5] = neg_mul_add(
-            t656,
-            t1301,
-            mul_add(t653, t1302, t914 * t1300),
+            t664,
+            t1309,
+            mul_add(t661, t1310, t922 * t1308),
         );
         // leg 6: generalised inertia force of the upper part
-        let t1304 = t120 * (parameters.upper_inertia[5] * t865);
-        let t1305 = t120 * (parameters.upper_inertia[5] * t866);
-        let t1306 = mul_sub(t506, t1304, t504 * t1305);
-        let t1307 = parameters.upper_com_distance[5] * (parameters.upper_mass[5] * t870);
-        let t1308 = t120 * t1307;
-        let t1309 = parameters.upper_com_distance[5] * (parameters.upper_mass[5] * t872);
-        let t1310 = t120 * t1309;
-        let t1311 = parameters.upper_com_distance[5] * (parameters.upper_mass[5] * t871);
-        let t1312 = t120 * t1311;
-        let t1313 = mul_add(t502, t1308, mul_add(t506, t1310, t504 * t1312));
-        let t1314 = mul_sub(parameters.upper_mass[5], t870, t1308);
-        upper_inertia_force[5][0] = t1306 + mul_add(t502, t1313, t1314);
-        let t1315 = t120 * (parameters.upper_inertia[5] * t856);
-        let t1316 = mul_sub(t502, t1305, t506 * t1315);
-        let t1317 = mul_sub(parameters.upper_mass[5], t871, t1312);
-        upper_inertia_force[5][1] = t1316 + mul_add(t504, t1313, t1317);
-        let t1318 = mul_sub(t504, t1315, t502 * t1304);
-        let t1319 = mul_sub(parameters.upper_mass[5], t872, t1310);
-        upper_inertia_force[5][2] = t1318 + mul_add(t506, t1313, t1319);
-        let t1320 = mul_add(t912, t1313, mul_sub(t656, t1319, t659 * t1317));
+        let t1312 = t120 * (parameters.upper_inertia[5] * t873);
+        let t1313 = t120 * (parameters.upper_inertia[5] * t874);
+        let t1314 = mul_sub(t514, t1312, t512 * t1313);
+        let t1315 = parameters.upper_com_distance[5] * (parameters.upper_mass[5] * t878);
+        let t1316 = t120 * t1315;
+        let t1317 = parameters.upper_com_distance[5] * (parameters.upper_mass[5] * t880);
+        let t1318 = t120 * t1317;
+        let t1319 = parameters.upper_com_distance[5] * (parameters.upper_mass[5] * t879);
+        let t1320 = t120 * t1319;
+        let t1321 = mul_add(t510, t1316, mul_add(t514, t1318, t512 * t1320));
+        let t1322 = mul_sub(parameters.upper_mass[5], t878, t1316);
+        upper_inertia_force[5][0] = t1314 + mul_add(t510, t1321, t1322);
+        let t1323 = t120 * (parameters.upper_inertia[5] * t864);
+        let t1324 = mul_sub(t510, t1313, t514 * t1323);
+        let t1325 = mul_sub(parameters.upper_mass[5], t879, t1320);
+        upper_inertia_force[5][1] = t1324 + mul_add(t512, t1321, t1325);
+        let t1326 = mul_sub(t512, t1323, t510 * t1312);
+        let t1327 = mul_sub(parameters.upper_mass[5], t880, t1318);
+        upper_inertia_force[5][2] = t1326 + mul_add(t514, t1321, t1327);
+        let t1328 = mul_add(t920, t1321, mul_sub(t664, t1327, t667 * t1325));
         upper_inertia_force[5][3] = neg_mul_add(
-            t659,
-            t1316,
-            mul_add(t656, t1318, t1320),
+            t667,
+            t1324,
+            mul_add(t664, t1326, t1328),
         );
-        let t1321 = mul_add(t659, t1314, mul_sub(t913, t1313, t653 * t1319));
+        let t1329 = mul_add(t667, t1322, mul_sub(t921, t1321, t661 * t1327));
         upper_inertia_force[5][4] = neg_mul_add(
-            t653,
-            t1318,
-            mul_add(t659, t1306, t1321),
+            t661,
+            t1326,
+            mul_add(t667, t1314, t1329),
         );
-        let t1322 = mul_sub(t656, t1314, mul_add(t653, t1317, t914 * t1313));
+        let t1330 = mul_sub(t664, t1322, mul_add(t661, t1325, t922 * t1321));
         upper_inertia_force[5][5] = neg_mul_add(
-            t656,
-            t1306,
-            mul_sub(t653, t1316, t1322),
+            t664,
+            t1314,
+            mul_sub(t661, t1324, t1330),
         );
     }
 }
@@ -12066,21 +12104,21 @@ pub fn coriolis_matrices<T: Scalar>(
         t751,
         t752,
         t753,
+        t754,
+        t755,
+        t756,
         t757,
         t758,
         t759,
+        t760,
+        t761,
+        t762,
         t763,
         t764,
         t765,
-        t769,
-        t770,
-        t771,
-        t775,
-        t776,
-        t777,
-        t781,
-        t782,
-        t783,
+        t766,
+        t767,
+        t768,
         t784,
         t785,
         t786,
@@ -13259,50 +13297,50 @@ pub fn coriolis_matrices<T: Scalar>(
         let t751 = mul_sub(platform_velocity[4], t147, platform_velocity[5] * t144);
         let t752 = mul_sub(platform_velocity[5], t141, platform_velocity[3] * t147);
         let t753 = mul_sub(platform_velocity[3], t144, platform_velocity[4] * t141);
-        // leg 1: velocity of the platform joint less that of the base origin
-        let t754 = t598 - t751;
-        let t755 = t599 - t752;
-        let t756 = t600 - t753;
         // leg 2: rate of the platform lever
-        let t757 = mul_sub(platform_velocity[4], t162, platform_velocity[5] * t159);
-        let t758 = mul_sub(platform_velocity[5], t156, platform_velocity[3] * t162);
-        let t759 = mul_sub(platform_velocity[3], t159, platform_velocity[4] * t156);
-        // leg 2: velocity of the platform joint less that of the base origin
-        let t760 = t598 - t757;
-        let t761 = t599 - t758;
-        let t762 = t600 - t759;
+        let t754 = mul_sub(platform_velocity[4], t162, platform_velocity[5] * t159);
+        let t755 = mul_sub(platform_velocity[5], t156, platform_velocity[3] * t162);
+        let t756 = mul_sub(platform_velocity[3], t159, platform_velocity[4] * t156);
         // leg 3: rate of the platform lever
-        let t763 = mul_sub(platform_velocity[4], t177, platform_velocity[5] * t174);
-        let t764 = mul_sub(platform_velocity[5], t171, platform_velocity[3] * t177);
-        let t765 = mul_sub(platform_velocity[3], t174, platform_velocity[4] * t171);
-        // leg 3: velocity of the platform joint less that of the base origin
-        let t766 = t598 - t763;
-        let t767 = t599 - t764;
-        let t768 = t600 - t765;
+        let t757 = mul_sub(platform_velocity[4], t177, platform_velocity[5] * t174);
+        let t758 = mul_sub(platform_velocity[5], t171, platform_velocity[3] * t177);
+        let t759 = mul_sub(platform_velocity[3], t174, platform_velocity[4] * t171);
         // leg 4: rate of the platform lever
-        let t769 = mul_sub(platform_velocity[4], t192, platform_velocity[5] * t189);
-        let t770 = mul_sub(platform_velocity[5], t186, platform_velocity[3] * t192);
-        let t771 = mul_sub(platform_velocity[3], t189, platform_velocity[4] * t186);
-        // leg 4: velocity of the platform joint less that of the base origin
-        let t772 = t598 - t769;
-        let t773 = t599 - t770;
-        let t774 = t600 - t771;
+        let t760 = mul_sub(platform_velocity[4], t192, platform_velocity[5] * t189);
+        let t761 = mul_sub(platform_velocity[5], t186, platform_velocity[3] * t192);
+        let t762 = mul_sub(platform_velocity[3], t189, platform_velocity[4] * t186);
         // leg 5: rate of the platform lever
-        let t775 = mul_sub(platform_velocity[4], t207, platform_velocity[5] * t204);
-        let t776 = mul_sub(platform_velocity[5], t201, platform_velocity[3] * t207);
-        let t777 = mul_sub(platform_velocity[3], t204, platform_velocity[4] * t201);
-        // leg 5: velocity of the platform joint less that of the base origin
-        let t778 = t598 - t775;
-        let t779 = t599 - t776;
-        let t780 = t600 - t777;
+        let t763 = mul_sub(platform_velocity[4], t207, platform_velocity[5] * t204);
+        let t764 = mul_sub(platform_velocity[5], t201, platform_velocity[3] * t207);
+        let t765 = mul_sub(platform_velocity[3], t204, platform_velocity[4] * t201);
         // leg 6: rate of the platform lever
-        let t781 = mul_sub(platform_velocity[4], t222, platform_velocity[5] * t219);
-        let t782 = mul_sub(platform_velocity[5], t216, platform_velocity[3] * t222);
-        let t783 = mul_sub(platform_velocity[3], t219, platform_velocity[4] * t216);
+        let t766 = mul_sub(platform_velocity[4], t222, platform_velocity[5] * t219);
+        let t767 = mul_sub(platform_velocity[5], t216, platform_velocity[3] * t222);
+        let t768 = mul_sub(platform_velocity[3], t219, platform_velocity[4] * t216);
+        // leg 1: velocity of the platform joint less that of the base origin
+        let t769 = t598 - t751;
+        let t770 = t599 - t752;
+        let t771 = t600 - t753;
+        // leg 2: velocity of the platform joint less that of the base origin
+        let t772 = t598 - t754;
+        let t773 = t599 - t755;
+        let t774 = t600 - t756;
+        // leg 3: velocity of the platform joint less that of the base origin
+        let t775 = t598 - t757;
+        let t776 = t599 - t758;
+        let t777 = t600 - t759;
+        // leg 4: velocity of the platform joint less that of the base origin
+        let t778 = t598 - t760;
+        let t779 = t599 - t761;
+        let t780 = t600 - t762;
+        // leg 5: velocity of the platform joint less that of the base origin
+        let t781 = t598 - t763;
+        let t782 = t599 - t764;
+        let t783 = t600 - t765;
         // leg 6: velocity of the platform joint less that of the base origin
-        let t784 = t598 - t781;
-        let t785 = t599 - t782;
-        let t786 = t600 - t783;
+        let t784 = t598 - t766;
+        let t785 = t599 - t767;
+        let t786 = t600 - t768;
         // leg 1: Coriolis matrix of the leg in the speeds of its joint
         let t787 = t110 * (t110 * t673);
         let t788 = mul_sub(t233, t110 * t787, t230 * t787);
@@ -13323,13 +13361,13 @@ pub fn coriolis_matrices<T: Scalar>(
         let t803 = mul_sub(t153, t800, mul_add(t690, t799, t788));
         // leg 1: Coriolis matrix between joint and base angular velocity
         let t804 = t384 * mul_sub(base_velocity[5], t394, base_velocity[3] * t391);
-        let t805 = mul_sub(t388, t688, mul_add(t370, t755, t804));
+        let t805 = mul_sub(t388, t688, mul_add(t370, t770, t804));
         let t806 = t384 * mul_sub(base_velocity[3], t387, base_velocity[4] * t394);
-        let t807 = mul_sub(t388, t690, mul_add(t370, t756, t806));
+        let t807 = mul_sub(t388, t690, mul_add(t370, t771, t806));
         let t808 = mul_sub(t153, t805, t151 * t807);
         let t809 = t149 * t808;
         let t810 = t384 * mul_sub(base_velocity[4], t391, base_velocity[5] * t387);
-        let t811 = mul_sub(t388, t686, mul_add(t370, t754, t810));
+        let t811 = mul_sub(t388, t686, mul_add(t370, t769, t810));
         let t812 = mul_sub(t149, t807, t153 * t811);
         let t813 = neg_mul_add(t230, t690, t807);
         let t814 = mul_sub(t149, t812, t813);
@@ -13363,13 +13401,13 @@ pub fn coriolis_matrices<T: Scalar>(
         let t841 = mul_sub(t168, t838, mul_add(t702, t837, t826));
         // leg 2: Coriolis matrix between joint and base angular velocity
         let t842 = t409 * mul_sub(base_velocity[5], t419, base_velocity[3] * t416);
-        let t843 = mul_sub(t413, t700, mul_add(t395, t761, t842));
+        let t843 = mul_sub(t413, t700, mul_add(t395, t773, t842));
         let t844 = t409 * mul_sub(base_velocity[3], t412, base_velocity[4] * t419);
-        let t845 = mul_sub(t413, t702, mul_add(t395, t762, t844));
+        let t845 = mul_sub(t413, t702, mul_add(t395, t774, t844));
         let t846 = mul_sub(t168, t843, t166 * t845);
         let t847 = t164 * t846;
         let t848 = t409 * mul_sub(base_velocity[4], t416, base_velocity[5] * t412);
-        let t849 = mul_sub(t413, t698, mul_add(t395, t760, t848));
+        let t849 = mul_sub(t413, t698, mul_add(t395, t772, t848));
         let t850 = mul_sub(t164, t845, t168 * t849);
         let t851 = neg_mul_add(t235, t702, t845);
         let t852 = mul_sub(t164, t850, t851);
@@ -13403,13 +13441,13 @@ pub fn coriolis_matrices<T: Scalar>(
         let t879 = mul_sub(t183, t876, mul_add(t714, t875, t864));
         // leg 3: Coriolis matrix between joint and base angular velocity
         let t880 = t434 * mul_sub(base_velocity[5], t444, base_velocity[3] * t441);
-        let t881 = mul_sub(t438, t712, mul_add(t420, t767, t880));
+        let t881 = mul_sub(t438, t712, mul_add(t420, t776, t880));
         let t882 = t434 * mul_sub(base_velocity[3], t437, base_velocity[4] * t444);
-        let t883 = mul_sub(t438, t714, mul_add(t420, t768, t882));
+        let t883 = mul_sub(t438, t714, mul_add(t420, t777, t882));
         let t884 = mul_sub(t183, t881, t181 * t883);
         let t885 = t179 * t884;
         let t886 = t434 * mul_sub(base_velocity[4], t441, base_velocity[5] * t437);
-        let t887 = mul_sub(t438, t710, mul_add(t420, t766, t886));
+        let t887 = mul_sub(t438, t710, mul_add(t420, t775, t886));
         let t888 = mul_sub(t179, t883, t183 * t887);
         let t889 = neg_mul_add(t240, t714, t883);
         let t890 = mul_sub(t179, t888, t889);
@@ -13443,13 +13481,13 @@ pub fn coriolis_matrices<T: Scalar>(
         let t917 = mul_sub(t198, t914, mul_add(t726, t913, t902));
         // leg 4: Coriolis matrix between joint and base angular velocity
         let t918 = t459 * mul_sub(base_velocity[5], t469, base_velocity[3] * t466);
-        let t919 = mul_sub(t463, t724, mul_add(t445, t773, t918));
+        let t919 = mul_sub(t463, t724, mul_add(t445, t779, t918));
         let t920 = t459 * mul_sub(base_velocity[3], t462, base_velocity[4] * t469);
-        let t921 = mul_sub(t463, t726, mul_add(t445, t774, t920));
+        let t921 = mul_sub(t463, t726, mul_add(t445, t780, t920));
         let t922 = mul_sub(t198, t919, t196 * t921);
         let t923 = t194 * t922;
         let t924 = t459 * mul_sub(base_velocity[4], t466, base_velocity[5] * t462);
-        let t925 = mul_sub(t463, t722, mul_add(t445, t772, t924));
+        let t925 = mul_sub(t463, t722, mul_add(t445, t778, t924));
         let t926 = mul_sub(t194, t921, t198 * t925);
         let t927 = neg_mul_add(t245, t726, t921);
         let t928 = mul_sub(t194, t926, t927);
@@ -13483,13 +13521,13 @@ pub fn coriolis_matrices<T: Scalar>(
         let t955 = mul_sub(t213, t952, mul_add(t738, t951, t940));
         // leg 5: Coriolis matrix between joint and base angular velocity
         let t956 = t484 * mul_sub(base_velocity[5], t494, base_velocity[3] * t491);
-        let t957 = mul_sub(t488, t736, mul_add(t470, t779, t956));
+        let t957 = mul_sub(t488, t736, mul_add(t470, t782, t956));
         let t958 = t484 * mul_sub(base_velocity[3], t487, base_velocity[4] * t494);
-        let t959 = mul_sub(t488, t738, mul_add(t470, t780, t958));
+        let t959 = mul_sub(t488, t738, mul_add(t470, t783, t958));
         let t960 = mul_sub(t213, t957, t211 * t959);
         let t961 = t209 * t960;
         let t962 = t484 * mul_sub(base_velocity[4], t491, base_velocity[5] * t487);
-        let t963 = mul_sub(t488, t734, mul_add(t470, t778, t962));
+        let t963 = mul_sub(t488, t734, mul_add(t470, t781, t962));
         let t964 = mul_sub(t209, t959, t213 * t963);
         let t965 = neg_mul_add(t250, t738, t959);
         let t966 = mul_sub(t209, t964, t965);
@@ -13635,21 +13673,21 @@ pub fn coriolis_matrices<T: Scalar>(
             t751,
             t752,
             t753,
+            t754,
+            t755,
+            t756,
             t757,
             t758,
             t759,
+            t760,
+            t761,
+            t762,
             t763,
             t764,
             t765,
-            t769,
-            t770,
-            t771,
-            t775,
-            t776,
-            t777,
-            t781,
-            t782,
-            t783,
+            t766,
+            t767,
+            t768,
             t784,
             t785,
             t786,
@@ -13795,140 +13833,140 @@ pub fn coriolis_matrices<T: Scalar>(
         coriolis_matrix_b[0][0] = t1015;
         let t1016 = t982 + (t944 + (t906 + (t868 + (t792 + t830))));
         let t1017 = t983 + (t945 + (t907 + (t869 + (t793 + t831))));
-        let t1018 = mul_sub(t503, t783, mul_sub(t222, t982, t219 * t983));
-        let t1019 = mul_sub(t504, t782, t1018);
-        let t1020 = mul_sub(t478, t777, mul_sub(t207, t944, t204 * t945));
-        let t1021 = mul_sub(t479, t776, t1020);
-        let t1022 = mul_sub(t453, t771, mul_sub(t192, t906, t189 * t907));
-        let t1023 = mul_sub(t454, t770, t1022);
-        let t1024 = mul_sub(t428, t765, mul_sub(t177, t868, t174 * t869));
-        let t1025 = mul_sub(t429, t764, t1024);
+        let t1018 = mul_sub(t503, t768, mul_sub(t222, t982, t219 * t983));
+        let t1019 = mul_sub(t504, t767, t1018);
+        let t1020 = mul_sub(t478, t765, mul_sub(t207, t944, t204 * t945));
+        let t1021 = mul_sub(t479, t764, t1020);
+        let t1022 = mul_sub(t453, t762, mul_sub(t192, t906, t189 * t907));
+        let t1023 = mul_sub(t454, t761, t1022);
+        let t1024 = mul_sub(t428, t759, mul_sub(t177, t868, t174 * t869));
+        let t1025 = mul_sub(t429, t758, t1024);
         let t1026 = t144 * t793;
         let t1027 = mul_sub(t378, t753, mul_sub(t147, t792, t1026));
         let t1028 = mul_sub(t379, t752, t1027);
         let t1029 = t162 * t830;
-        let t1030 = mul_sub(t403, t759, neg_mul_add(t159, t831, t1029));
-        let t1031 = mul_sub(t404, t758, t1030);
+        let t1030 = mul_sub(t403, t756, neg_mul_add(t159, t831, t1029));
+        let t1031 = mul_sub(t404, t755, t1030);
         let t1032 = t1019 + (t1021 + (t1023 + (t1025 + (t1028 + t1031))));
         coriolis_matrix_p[0][3] = t1032;
-        let t1033 = mul_sub(t504, t781, mul_add(t216, t983, t222 * t981));
-        let t1034 = mul_sub(t502, t783, t1033);
-        let t1035 = mul_sub(t479, t775, mul_add(t201, t945, t207 * t943));
-        let t1036 = mul_sub(t477, t777, t1035);
-        let t1037 = mul_sub(t454, t769, mul_add(t186, t907, t192 * t905));
-        let t1038 = mul_sub(t452, t771, t1037);
-        let t1039 = mul_sub(t429, t763, mul_add(t171, t869, t177 * t867));
-        let t1040 = mul_sub(t427, t765, t1039);
+        let t1033 = mul_sub(t504, t766, mul_add(t216, t983, t222 * t981));
+        let t1034 = mul_sub(t502, t768, t1033);
+        let t1035 = mul_sub(t479, t763, mul_add(t201, t945, t207 * t943));
+        let t1036 = mul_sub(t477, t765, t1035);
+        let t1037 = mul_sub(t454, t760, mul_add(t186, t907, t192 * t905));
+        let t1038 = mul_sub(t452, t762, t1037);
+        let t1039 = mul_sub(t429, t757, mul_add(t171, t869, t177 * t867));
+        let t1040 = mul_sub(t427, t759, t1039);
         let t1041 = mul_sub(t379, t751, mul_add(t141, t793, t147 * t791));
         let t1042 = mul_sub(t377, t753, t1041);
         let t1043 = t162 * t829;
-        let t1044 = mul_sub(t404, t757, mul_add(t156, t831, t1043));
-        let t1045 = mul_sub(t402, t759, t1044);
+        let t1044 = mul_sub(t404, t754, mul_add(t156, t831, t1043));
+        let t1045 = mul_sub(t402, t756, t1044);
         let t1046 = t1034 + (t1036 + (t1038 + (t1040 + (t1042 + t1045))));
-        let t1047 = mul_add(t502, t782, mul_add(t216, t982, t219 * t981));
-        let t1048 = mul_sub(t503, t781, t1047);
-        let t1049 = mul_add(t477, t776, mul_add(t201, t944, t204 * t943));
-        let t1050 = mul_sub(t478, t775, t1049);
-        let t1051 = mul_add(t452, t770, mul_add(t186, t906, t189 * t905));
-        let t1052 = mul_sub(t453, t769, t1051);
-        let t1053 = mul_add(t427, t764, mul_add(t171, t868, t174 * t867));
-        let t1054 = mul_sub(t428, t763, t1053);
+        let t1047 = mul_add(t502, t767, mul_add(t216, t982, t219 * t981));
+        let t1048 = mul_sub(t503, t766, t1047);
+        let t1049 = mul_add(t477, t764, mul_add(t201, t944, t204 * t943));
+        let t1050 = mul_sub(t478, t763, t1049);
+        let t1051 = mul_add(t452, t761, mul_add(t186, t906, t189 * t905));
+        let t1052 = mul_sub(t453, t760, t1051);
+        let t1053 = mul_add(t427, t758, mul_add(t171, t868, t174 * t867));
+        let t1054 = mul_sub(t428, t757, t1053);
         let t1055 = mul_add(t377, t752, mul_add(t141, t792, t144 * t791));
         let t1056 = mul_sub(t378, t751, t1055);
         let t1057 = t159 * t829;
-        let t1058 = mul_add(t402, t758, mul_add(t156, t830, t1057));
-        let t1059 = mul_sub(t403, t757, t1058);
+        let t1058 = mul_add(t402, t755, mul_add(t156, t830, t1057));
+        let t1059 = mul_sub(t403, t754, t1058);
         let t1060 = t1048 + (t1050 + (t1052 + (t1054 + (t1056 + t1059))));
         let t1061 = t986 + (t948 + (t910 + (t872 + (t796 + t834))));
         let t1062 = t987 + (t949 + (t911 + (t873 + (t797 + t835))));
         coriolis_matrix_p[1][1] = t1062;
         coriolis_matrix_b[1][1] = t1062;
         let t1063 = t988 + (t950 + (t912 + (t874 + (t798 + t836))));
-        let t1064 = mul_add(t506, t783, mul_add(t219, t988, t222 * t987));
-        let t1065 = mul_sub(t507, t782, t1064);
-        let t1066 = mul_add(t481, t777, mul_add(t204, t950, t207 * t949));
-        let t1067 = mul_sub(t482, t776, t1066);
-        let t1068 = mul_add(t456, t771, mul_add(t189, t912, t192 * t911));
-        let t1069 = mul_sub(t457, t770, t1068);
-        let t1070 = mul_add(t431, t765, mul_add(t174, t874, t177 * t873));
-        let t1071 = mul_sub(t432, t764, t1070);
+        let t1064 = mul_add(t506, t768, mul_add(t219, t988, t222 * t987));
+        let t1065 = mul_sub(t507, t767, t1064);
+        let t1066 = mul_add(t481, t765, mul_add(t204, t950, t207 * t949));
+        let t1067 = mul_sub(t482, t764, t1066);
+        let t1068 = mul_add(t456, t762, mul_add(t189, t912, t192 * t911));
+        let t1069 = mul_sub(t457, t761, t1068);
+        let t1070 = mul_add(t431, t759, mul_add(t174, t874, t177 * t873));
+        let t1071 = mul_sub(t432, t758, t1070);
         let t1072 = mul_add(t381, t753, mul_add(t144, t798, t147 * t797));
         let t1073 = mul_sub(t382, t752, t1072);
         let t1074 = t162 * t835;
-        let t1075 = mul_add(t406, t759, mul_add(t159, t836, t1074));
-        let t1076 = mul_sub(t407, t758, t1075);
+        let t1075 = mul_add(t406, t756, mul_add(t159, t836, t1074));
+        let t1076 = mul_sub(t407, t755, t1075);
         let t1077 = t1065 + (t1067 + (t1069 + (t1071 + (t1073 + t1076))));
-        let t1078 = mul_sub(t222, t986, mul_add(t503, t783, t216 * t988));
-        let t1079 = mul_add(t507, t781, t1078);
-        let t1080 = mul_sub(t207, t948, mul_add(t478, t777, t201 * t950));
-        let t1081 = mul_add(t482, t775, t1080);
-        let t1082 = mul_sub(t192, t910, mul_add(t453, t771, t186 * t912));
-        let t1083 = mul_add(t457, t769, t1082);
-        let t1084 = mul_sub(t177, t872, mul_add(t428, t765, t171 * t874));
-        let t1085 = mul_add(t432, t763, t1084);
+        let t1078 = mul_sub(t222, t986, mul_add(t503, t768, t216 * t988));
+        let t1079 = mul_add(t507, t766, t1078);
+        let t1080 = mul_sub(t207, t948, mul_add(t478, t765, t201 * t950));
+        let t1081 = mul_add(t482, t763, t1080);
+        let t1082 = mul_sub(t192, t910, mul_add(t453, t762, t186 * t912));
+        let t1083 = mul_add(t457, t760, t1082);
+        let t1084 = mul_sub(t177, t872, mul_add(t428, t759, t171 * t874));
+        let t1085 = mul_add(t432, t757, t1084);
         let t1086 = mul_sub(t147, t796, mul_add(t378, t753, t141 * t798));
         let t1087 = mul_add(t382, t751, t1086);
-        let t1088 = mul_sub(t162, t834, mul_add(t403, t759, t156 * t836));
-        let t1089 = mul_add(t407, t757, t1088);
+        let t1088 = mul_sub(t162, t834, mul_add(t403, t756, t156 * t836));
+        let t1089 = mul_add(t407, t754, t1088);
         let t1090 = t1079 + (t1081 + (t1083 + (t1085 + (t1087 + t1089))));
-        let t1091 = mul_sub(t503, t782, mul_add(t219, t986, t216 * t987));
-        let t1092 = mul_sub(t506, t781, t1091);
-        let t1093 = mul_sub(t478, t776, mul_add(t204, t948, t201 * t949));
-        let t1094 = mul_sub(t481, t775, t1093);
-        let t1095 = mul_sub(t453, t770, mul_add(t189, t910, t186 * t911));
-        let t1096 = mul_sub(t456, t769, t1095);
-        let t1097 = mul_sub(t428, t764, mul_add(t174, t872, t171 * t873));
-        let t1098 = mul_sub(t431, t763, t1097);
+        let t1091 = mul_sub(t503, t767, mul_add(t219, t986, t216 * t987));
+        let t1092 = mul_sub(t506, t766, t1091);
+        let t1093 = mul_sub(t478, t764, mul_add(t204, t948, t201 * t949));
+        let t1094 = mul_sub(t481, t763, t1093);
+        let t1095 = mul_sub(t453, t761, mul_add(t189, t910, t186 * t911));
+        let t1096 = mul_sub(t456, t760, t1095);
+        let t1097 = mul_sub(t428, t758, mul_add(t174, t872, t171 * t873));
+        let t1098 = mul_sub(t431, t757, t1097);
         let t1099 = mul_sub(t378, t752, mul_add(t144, t796, t141 * t797));
         let t1100 = mul_sub(t381, t751, t1099);
         let t1101 = t156 * t835;
-        let t1102 = mul_sub(t403, t758, mul_add(t159, t834, t1101));
-        let t1103 = mul_sub(t406, t757, t1102);
+        let t1102 = mul_sub(t403, t755, mul_add(t159, t834, t1101));
+        let t1103 = mul_sub(t406, t754, t1102);
         let t1104 = t1092 + (t1094 + (t1096 + (t1098 + (t1100 + t1103))));
         let t1105 = t991 + (t953 + (t915 + (t877 + (t801 + t839))));
         let t1106 = t992 + (t954 + (t916 + (t878 + (t802 + t840))));
         let t1107 = t993 + (t955 + (t917 + (t879 + (t803 + t841))));
         coriolis_matrix_p[2][2] = t1107;
         coriolis_matrix_b[2][2] = t1107;
-        let t1108 = mul_sub(t507, t783, mul_add(t222, t992, t219 * t993));
-        let t1109 = mul_sub(t508, t782, t1108);
-        let t1110 = mul_sub(t482, t777, mul_add(t207, t954, t204 * t955));
-        let t1111 = mul_sub(t483, t776, t1110);
-        let t1112 = mul_sub(t457, t771, mul_add(t192, t916, t189 * t917));
-        let t1113 = mul_sub(t458, t770, t1112);
-        let t1114 = mul_sub(t432, t765, mul_add(t177, t878, t174 * t879));
-        let t1115 = mul_sub(t433, t764, t1114);
+        let t1108 = mul_sub(t507, t768, mul_add(t222, t992, t219 * t993));
+        let t1109 = mul_sub(t508, t767, t1108);
+        let t1110 = mul_sub(t482, t765, mul_add(t207, t954, t204 * t955));
+        let t1111 = mul_sub(t483, t764, t1110);
+        let t1112 = mul_sub(t457, t762, mul_add(t192, t916, t189 * t917));
+        let t1113 = mul_sub(t458, t761, t1112);
+        let t1114 = mul_sub(t432, t759, mul_add(t177, t878, t174 * t879));
+        let t1115 = mul_sub(t433, t758, t1114);
         let t1116 = mul_sub(t382, t753, mul_add(t147, t802, t144 * t803));
         let t1117 = mul_sub(t383, t752, t1116);
         let t1118 = t159 * t841;
-        let t1119 = mul_sub(t407, t759, mul_add(t162, t840, t1118));
-        let t1120 = mul_sub(t408, t758, t1119);
+        let t1119 = mul_sub(t407, t756, mul_add(t162, t840, t1118));
+        let t1120 = mul_sub(t408, t755, t1119);
         let t1121 = t1109 + (t1111 + (t1113 + (t1115 + (t1117 + t1120))));
-        let t1122 = mul_add(t508, t781, mul_add(t222, t991, t216 * t993));
-        let t1123 = mul_sub(t504, t783, t1122);
-        let t1124 = mul_add(t483, t775, mul_add(t207, t953, t201 * t955));
-        let t1125 = mul_sub(t479, t777, t1124);
-        let t1126 = mul_add(t458, t769, mul_add(t192, t915, t186 * t917));
-        let t1127 = mul_sub(t454, t771, t1126);
-        let t1128 = mul_add(t433, t763, mul_add(t177, t877, t171 * t879));
-        let t1129 = mul_sub(t429, t765, t1128);
+        let t1122 = mul_add(t508, t766, mul_add(t222, t991, t216 * t993));
+        let t1123 = mul_sub(t504, t768, t1122);
+        let t1124 = mul_add(t483, t763, mul_add(t207, t953, t201 * t955));
+        let t1125 = mul_sub(t479, t765, t1124);
+        let t1126 = mul_add(t458, t760, mul_add(t192, t915, t186 * t917));
+        let t1127 = mul_sub(t454, t762, t1126);
+        let t1128 = mul_add(t433, t757, mul_add(t177, t877, t171 * t879));
+        let t1129 = mul_sub(t429, t759, t1128);
         let t1130 = mul_add(t383, t751, mul_add(t147, t801, t141 * t803));
         let t1131 = mul_sub(t379, t753, t1130);
         let t1132 = t156 * t841;
-        let t1133 = mul_add(t408, t757, mul_add(t162, t839, t1132));
-        let t1134 = mul_sub(t404, t759, t1133);
+        let t1133 = mul_add(t408, t754, mul_add(t162, t839, t1132));
+        let t1134 = mul_sub(t404, t756, t1133);
         let t1135 = t1123 + (t1125 + (t1127 + (t1129 + (t1131 + t1134))));
-        let t1136 = mul_sub(t219, t991, mul_sub(t504, t782, t507 * t781));
+        let t1136 = mul_sub(t219, t991, mul_sub(t504, t767, t507 * t766));
         let t1137 = mul_sub(t216, t992, t1136);
-        let t1138 = mul_sub(t204, t953, mul_sub(t479, t776, t482 * t775));
+        let t1138 = mul_sub(t204, t953, mul_sub(t479, t764, t482 * t763));
         let t1139 = mul_sub(t201, t954, t1138);
-        let t1140 = mul_sub(t189, t915, mul_sub(t454, t770, t457 * t769));
+        let t1140 = mul_sub(t189, t915, mul_sub(t454, t761, t457 * t760));
         let t1141 = mul_sub(t186, t916, t1140);
-        let t1142 = mul_sub(t174, t877, mul_sub(t429, t764, t432 * t763));
+        let t1142 = mul_sub(t174, t877, mul_sub(t429, t758, t432 * t757));
         let t1143 = mul_sub(t171, t878, t1142);
         let t1144 = mul_sub(t144, t801, mul_sub(t379, t752, t382 * t751));
         let t1145 = mul_sub(t141, t802, t1144);
-        let t1146 = mul_sub(t159, t839, mul_sub(t404, t758, t407 * t757));
+        let t1146 = mul_sub(t159, t839, mul_sub(t404, t755, t407 * t754));
         let t1147 = mul_sub(t156, t840, t1146);
         let t1148 = t1137 + (t1139 + (t1141 + (t1143 + (t1145 + t1147))));
         let t1149 = mul_add(t177, t872, mul_add(t147, t796, t162 * t834));
@@ -14082,243 +14120,243 @@ pub fn coriolis_matrices<T: Scalar>(
         let t1267 = -t1238;
         coriolis_matrix_p[5][2] = t1267;
         coriolis_matrix_b[5][2] = t1267;
+        // Coriolis matrix C_b, natural factorisation
+        let t1268 = mul_add(t179, t884, mul_add(t149, t808, t847));
+        let t1269 = mul_add(t209, t960, mul_add(t194, t922, t1268));
+        let t1270 = mul_sub(t30, t1016, t1032 - mul_add(t224, t998, t1269));
+        let t1271 = mul_add(t523, t600, mul_sub(t29, t1017, t1270));
+        coriolis_matrix_b[0][3] = neg_mul_add(t526, t599, t1271);
+        let t1272 = t1046 - (t1004 + (t966 + (t928 + (t890 + (t814 + t852)))));
+        let t1273 = mul_add(t30, t1015, mul_sub(t28, t1017, t1272));
+        coriolis_matrix_b[0][4] = neg_mul_add(t520, t600, mul_sub(t526, t598, t1273));
+        let t1274 = t1060 - (t1007 + (t969 + (t931 + (t893 + (t817 + t855)))));
+        let t1275 = mul_add(t28, t1016, mul_add(t29, t1015, t1274));
+        coriolis_matrix_b[0][5] = neg_mul_add(t523, t598, mul_add(t520, t599, t1275));
+        let t1276 = t1077 - (t1008 + (t970 + (t932 + (t894 + (t818 + t856)))));
+        let t1277 = mul_add(t29, t1063, mul_add(t30, t1062, t1276));
+        coriolis_matrix_b[1][3] = neg_mul_add(t549, t599, mul_add(t546, t600, t1277));
+        let t1278 = mul_add(t181, t888, mul_add(t151, t812, t857));
+        let t1279 = mul_add(t211, t964, mul_add(t196, t926, t1278));
+        let t1280 = mul_add(t523, t600, t1090 + mul_add(t226, t1002, t1279));
+        let t1281 = mul_sub(t30, t1061, mul_add(t28, t1063, t1280));
+        coriolis_matrix_b[1][4] = mul_add(t549, t598, t1281);
+        let t1282 = t1104 - (t1011 + (t973 + (t935 + (t897 + (t821 + t859)))));
+        let t1283 = mul_add(t28, t1062, mul_sub(t29, t1061, t1282));
+        coriolis_matrix_b[1][5] = neg_mul_add(t546, t598, mul_sub(t523, t599, t1283));
+        let t1284 = t1121 + (t1012 + (t974 + (t936 + (t898 + (t822 + t860)))));
+        let t1285 = mul_add(t29, t1107, mul_sub(t30, t1106, t1284));
+        coriolis_matrix_b[2][3] = neg_mul_add(t566, t599, mul_sub(t549, t600, t1285));
+        let t1286 = t1135 - (t1013 + (t975 + (t937 + (t899 + (t823 + t861)))));
+        let t1287 = mul_add(t30, t1105, mul_add(t28, t1107, t1286));
+        coriolis_matrix_b[2][4] = neg_mul_add(t526, t600, mul_add(t566, t598, t1287));
+        let t1288 = mul_add(t183, t891, mul_add(t153, t815, t862));
+        let t1289 = mul_add(t213, t967, mul_add(t198, t929, t1288));
+        let t1290 = mul_sub(t526, t599, t1148 + mul_add(t228, t1005, t1289));
+        let t1291 = mul_add(t29, t1105, mul_sub(t549, t598, t1290));
+        coriolis_matrix_b[2][5] = mul_sub(t28, t1106, t1291);
+        let t1292 = mul_sub(t29, t1166, neg_mul_add(t30, t1160, t1172));
+        let t1293 = mul_sub(t572, t599, mul_sub(t555, t600, t1292));
+        let t1294 = mul_add(t147, t818, mul_sub(t144, t822, t1293));
+        let t1295 = mul_add(t162, t856, mul_add(t159, t860, t1294));
+        let t1296 = mul_add(t177, t894, mul_add(t174, t898, t1295));
+        let t1297 = mul_add(t192, t932, mul_add(t189, t936, t1296));
+        let t1298 = mul_add(t207, t970, mul_add(t204, t974, t1297));
+        coriolis_matrix_b[3][3] = mul_add(t222, t1008, mul_add(t219, t1012, t1298));
+        let t1299 = mul_add(t30, t1154, mul_add(t28, t1166, t1178));
+        let t1300 = mul_add(t533, t600, mul_add(t572, t598, t1299));
+        let t1301 = mul_sub(t147, t819, mul_sub(t144, t823, t1300));
+        let t1302 = mul_sub(t162, t857, mul_sub(t159, t861, t1301));
+        let t1303 = mul_sub(t177, t895, mul_sub(t174, t899, t1302));
+        let t1304 = mul_sub(t192, t933, mul_sub(t189, t937, t1303));
+        let t1305 = mul_sub(t207, t971, mul_sub(t204, t975, t1304));
+        coriolis_matrix_b[3][4] = mul_sub(t222, t1009, mul_sub(t219, t1013, t1305));
+        let t1306 = mul_sub(t28, t1160, mul_add(t29, t1154, t1184));
+        let t1307 = mul_add(t555, t598, mul_sub(t533, t599, t1306));
+        let t1308 = mul_sub(t147, t821, mul_add(t144, t824, t1307));
+        let t1309 = mul_sub(t162, t859, mul_sub(t159, t862, t1308));
+        let t1310 = mul_sub(t177, t897, mul_sub(t174, t900, t1309));
+        let t1311 = mul_sub(t192, t935, mul_sub(t189, t938, t1310));
+        let t1312 = mul_sub(t207, t973, mul_sub(t204, t976, t1311));
+        coriolis_matrix_b[3][5] = mul_sub(t222, t1011, mul_sub(t219, t1014, t1312));
+        let t1313 = mul_add(t29, t1202, mul_add(t30, t1196, t1208));
+        let t1314 = neg_mul_add(t578, t599, mul_add(t559, t600, t1313));
+        let t1315 = neg_mul_add(t141, t822, neg_mul_add(t147, t809, t1314));
+        let t1316 = neg_mul_add(t156, t860, neg_mul_add(t162, t847, t1315));
+        let t1317 = neg_mul_add(t171, t898, neg_mul_add(t177, t885, t1316));
+        let t1318 = neg_mul_add(t186, t936, neg_mul_add(t192, t923, t1317));
+        let t1319 = neg_mul_add(t201, t974, neg_mul_add(t207, t961, t1318));
+        coriolis_matrix_b[4][3] = neg_mul_add(
+            t216,
+            t1012,
+            neg_mul_add(t222, t999, t1319),
+        );
+        let t1320 = mul_sub(t30, t1190, neg_mul_add(t28, t1202, t1214));
+        let t1321 = mul_sub(t539, t600, mul_sub(t578, t598, t1320));
+        let t1322 = mul_sub(t141, t823, mul_add(t147, t814, t1321));
+        let t1323 = mul_sub(t156, t861, mul_sub(t162, t852, t1322));
+        let t1324 = mul_sub(t171, t899, mul_sub(t177, t890, t1323));
+        let t1325 = mul_sub(t186, t937, mul_sub(t192, t928, t1324));
+        let t1326 = mul_sub(t201, t975, mul_sub(t207, t966, t1325));
+        coriolis_matrix_b[4][4] = mul_sub(t216, t1013, mul_sub(t222, t1004, t1326));
+        let t1327 = mul_sub(t28, t1196, mul_add(t29, t1190, t1220));
+        let t1328 = mul_sub(t559, t598, mul_sub(t539, t599, t1327));
+        let t1329 = mul_sub(t141, t824, mul_add(t147, t817, t1328));
+        let t1330 = mul_sub(t156, t862, mul_sub(t162, t855, t1329));
+        let t1331 = mul_sub(t171, t900, mul_sub(t177, t893, t1330));
+        let t1332 = mul_sub(t186, t938, mul_sub(t192, t931, t1331));
+        let t1333 = mul_sub(t201, t976, mul_sub(t207, t969, t1332));
+        coriolis_matrix_b[4][5] = mul_sub(t216, t1014, mul_sub(t222, t1007, t1333));
+        let t1334 = mul_add(t29, t1238, mul_add(t30, t1232, t1244));
+        let t1335 = mul_add(t579, t599, mul_add(t565, t600, t1334));
+        let t1336 = mul_sub(t144, t809, mul_sub(t141, t818, t1335));
+        let t1337 = mul_sub(t159, t847, mul_sub(t156, t856, t1336));
+        let t1338 = mul_sub(t174, t885, mul_sub(t171, t894, t1337));
+        let t1339 = mul_sub(t189, t923, mul_sub(t186, t932, t1338));
+        let t1340 = mul_sub(t204, t961, mul_sub(t201, t970, t1339));
+        coriolis_matrix_b[5][3] = mul_sub(t219, t999, mul_sub(t216, t1008, t1340));
+        let t1341 = mul_sub(t30, t1226, mul_add(t28, t1238, t1250));
+        let t1342 = mul_add(t545, t600, mul_sub(t579, t598, t1341));
+        let t1343 = mul_sub(t144, t814, mul_add(t141, t819, t1342));
+        let t1344 = mul_sub(t159, t852, mul_sub(t156, t857, t1343));
+        let t1345 = mul_sub(t174, t890, mul_sub(t171, t895, t1344));
+        let t1346 = mul_sub(t189, t928, mul_sub(t186, t933, t1345));
+        let t1347 = mul_sub(t204, t966, mul_sub(t201, t971, t1346));
+        coriolis_matrix_b[5][4] = mul_sub(t219, t1004, mul_sub(t216, t1009, t1347));
+        let t1348 = mul_sub(t28, t1232, neg_mul_add(t29, t1226, t1256));
+        let t1349 = mul_sub(t565, t598, mul_sub(t545, t599, t1348));
+        let t1350 = mul_sub(t144, t817, mul_add(t141, t821, t1349));
+        let t1351 = mul_sub(t159, t855, mul_sub(t156, t859, t1350));
+        let t1352 = mul_sub(t174, t893, mul_sub(t171, t897, t1351));
+        let t1353 = mul_sub(t189, t931, mul_sub(t186, t935, t1352));
+        let t1354 = mul_sub(t204, t969, mul_sub(t201, t973, t1353));
+        coriolis_matrix_b[5][5] = mul_sub(t219, t1007, mul_sub(t216, t1011, t1354));
         // Coriolis matrix C_p, natural factorisation
-        let t1268 = mul_add(
+        let t1355 = mul_add(
             platform_rotation[1][0],
             t265,
             platform_rotation[1][1] * t272,
         );
-        let t1269 = mul_add(platform_rotation[1][2], t279, t1268);
-        let t1270 = mul_add(
+        let t1356 = mul_add(platform_rotation[1][2], t279, t1355);
+        let t1357 = mul_add(
             platform_rotation[0][0],
             t265,
             platform_rotation[0][1] * t272,
         );
-        let t1271 = mul_add(platform_rotation[0][2], t279, t1270);
-        let t1272 = mul_sub(platform_velocity[3], t1269, platform_velocity[4] * t1271);
-        coriolis_matrix_p[0][4] = t1046 + t1272;
-        let t1273 = mul_add(
+        let t1358 = mul_add(platform_rotation[0][2], t279, t1357);
+        let t1359 = mul_sub(platform_velocity[3], t1356, platform_velocity[4] * t1358);
+        coriolis_matrix_p[0][4] = t1046 + t1359;
+        let t1360 = mul_add(
             platform_rotation[2][0],
             t265,
             platform_rotation[2][1] * t272,
         );
-        let t1274 = mul_add(platform_rotation[2][2], t279, t1273);
-        let t1275 = mul_sub(platform_velocity[5], t1271, platform_velocity[3] * t1274);
-        coriolis_matrix_p[0][5] = t1060 - t1275;
-        coriolis_matrix_p[1][3] = t1077 - t1272;
-        let t1276 = mul_sub(platform_velocity[4], t1274, platform_velocity[5] * t1269);
-        coriolis_matrix_p[1][5] = t1104 + t1276;
-        coriolis_matrix_p[2][3] = t1121 + t1275;
-        coriolis_matrix_p[2][4] = t1135 - t1276;
-        let t1277 = mul_add(
+        let t1361 = mul_add(platform_rotation[2][2], t279, t1360);
+        let t1362 = mul_sub(platform_velocity[5], t1358, platform_velocity[3] * t1361);
+        coriolis_matrix_p[0][5] = t1060 - t1362;
+        coriolis_matrix_p[1][3] = t1077 - t1359;
+        let t1363 = mul_sub(platform_velocity[4], t1361, platform_velocity[5] * t1356);
+        coriolis_matrix_p[1][5] = t1104 + t1363;
+        coriolis_matrix_p[2][3] = t1121 + t1362;
+        coriolis_matrix_p[2][4] = t1135 - t1363;
+        let t1364 = mul_add(
             platform_rotation[0][0],
             t325,
             platform_rotation[0][1] * t354,
         );
-        let t1278 = mul_add(platform_rotation[0][2], t369, t1277);
-        let t1279 = mul_add(
+        let t1365 = mul_add(platform_rotation[0][2], t369, t1364);
+        let t1366 = mul_add(
             platform_rotation[0][0],
             t297,
             platform_rotation[0][1] * t311,
         );
-        let t1280 = mul_add(platform_rotation[0][2], t325, t1279);
-        let t1281 = mul_add(
+        let t1367 = mul_add(platform_rotation[0][2], t325, t1366);
+        let t1368 = mul_add(
             platform_rotation[0][0],
             t311,
             platform_rotation[0][1] * t340,
         );
-        let t1282 = mul_add(platform_rotation[0][2], t354, t1281);
-        let t1283 = mul_add(
+        let t1369 = mul_add(platform_rotation[0][2], t354, t1368);
+        let t1370 = mul_add(
             platform_rotation[2][0],
-            t1280,
-            platform_rotation[2][1] * t1282,
+            t1367,
+            platform_rotation[2][1] * t1369,
         );
-        let t1284 = mul_add(platform_rotation[2][2], t1278, t1283);
-        let t1285 = mul_add(
+        let t1371 = mul_add(platform_rotation[2][2], t1365, t1370);
+        let t1372 = mul_add(
             platform_rotation[1][0],
-            t1280,
-            platform_rotation[1][1] * t1282,
+            t1367,
+            platform_rotation[1][1] * t1369,
         );
-        let t1286 = mul_add(platform_rotation[1][2], t1278, t1285);
-        let t1287 = mul_add(platform_velocity[5], t1286, t1172);
-        coriolis_matrix_p[3][3] = neg_mul_add(platform_velocity[4], t1284, t1287);
-        let t1288 = mul_add(
+        let t1373 = mul_add(platform_rotation[1][2], t1365, t1372);
+        let t1374 = mul_add(platform_velocity[5], t1373, t1172);
+        coriolis_matrix_p[3][3] = neg_mul_add(platform_velocity[4], t1371, t1374);
+        let t1375 = mul_add(
             platform_rotation[1][0],
             t325,
             platform_rotation[1][1] * t354,
         );
-        let t1289 = mul_add(platform_rotation[1][2], t369, t1288);
-        let t1290 = mul_add(
+        let t1376 = mul_add(platform_rotation[1][2], t369, t1375);
+        let t1377 = mul_add(
             platform_rotation[1][0],
             t297,
             platform_rotation[1][1] * t311,
         );
-        let t1291 = mul_add(platform_rotation[1][2], t325, t1290);
-        let t1292 = mul_add(
+        let t1378 = mul_add(platform_rotation[1][2], t325, t1377);
+        let t1379 = mul_add(
             platform_rotation[1][0],
             t311,
             platform_rotation[1][1] * t340,
         );
-        let t1293 = mul_add(platform_rotation[1][2], t354, t1292);
-        let t1294 = mul_add(
+        let t1380 = mul_add(platform_rotation[1][2], t354, t1379);
+        let t1381 = mul_add(
             platform_rotation[2][0],
-            t1291,
-            platform_rotation[2][1] * t1293,
+            t1378,
+            platform_rotation[2][1] * t1380,
         );
-        let t1295 = mul_add(platform_rotation[2][2], t1289, t1294);
-        let t1296 = neg_mul_add(platform_rotation[1][0], t1291, t282);
-        let t1297 = mul_sub(platform_rotation[1][1], t1293, t1296);
-        let t1298 = mul_add(platform_rotation[1][2], t1289, t1297);
-        let t1299 = mul_add(platform_velocity[5], t1298, t1178);
-        coriolis_matrix_p[3][4] = neg_mul_add(platform_velocity[4], t1295, t1299);
-        let t1300 = mul_add(
+        let t1382 = mul_add(platform_rotation[2][2], t1376, t1381);
+        let t1383 = neg_mul_add(platform_rotation[1][0], t1378, t282);
+        let t1384 = mul_sub(platform_rotation[1][1], t1380, t1383);
+        let t1385 = mul_add(platform_rotation[1][2], t1376, t1384);
+        let t1386 = mul_add(platform_velocity[5], t1385, t1178);
+        coriolis_matrix_p[3][4] = neg_mul_add(platform_velocity[4], t1382, t1386);
+        let t1387 = mul_add(
             platform_rotation[2][0],
             t325,
             platform_rotation[2][1] * t354,
         );
-        let t1301 = mul_add(platform_rotation[2][2], t369, t1300);
-        let t1302 = mul_add(
+        let t1388 = mul_add(platform_rotation[2][2], t369, t1387);
+        let t1389 = mul_add(
             platform_rotation[2][0],
             t311,
             platform_rotation[2][1] * t340,
         );
-        let t1303 = mul_add(platform_rotation[2][2], t354, t1302);
-        let t1304 = mul_add(
+        let t1390 = mul_add(platform_rotation[2][2], t354, t1389);
+        let t1391 = mul_add(
             platform_rotation[2][0],
             t297,
             platform_rotation[2][1] * t311,
         );
-        let t1305 = mul_add(platform_rotation[2][2], t325, t1304);
-        let t1306 = neg_mul_add(platform_rotation[2][0], t1305, t282);
-        let t1307 = mul_sub(platform_rotation[2][1], t1303, t1306);
-        let t1308 = mul_add(platform_rotation[2][2], t1301, t1307);
-        let t1309 = mul_sub(platform_velocity[5], t1295, t1184);
-        coriolis_matrix_p[3][5] = neg_mul_add(platform_velocity[4], t1308, t1309);
-        let t1310 = neg_mul_add(platform_rotation[0][0], t1280, t282);
-        let t1311 = mul_sub(platform_rotation[0][1], t1282, t1310);
-        let t1312 = mul_add(platform_rotation[0][2], t1278, t1311);
-        let t1313 = neg_mul_add(platform_velocity[5], t1312, t1208);
-        coriolis_matrix_p[4][3] = mul_add(platform_velocity[3], t1284, t1313);
-        let t1314 = neg_mul_add(platform_velocity[5], t1286, t1214);
-        coriolis_matrix_p[4][4] = mul_add(platform_velocity[3], t1295, t1314);
-        let t1315 = neg_mul_add(platform_velocity[5], t1284, t1220);
-        coriolis_matrix_p[4][5] = mul_add(platform_velocity[3], t1308, t1315);
-        let t1316 = mul_add(platform_velocity[4], t1312, t1244);
-        coriolis_matrix_p[5][3] = neg_mul_add(platform_velocity[3], t1286, t1316);
-        let t1317 = mul_sub(platform_velocity[4], t1286, t1250);
-        coriolis_matrix_p[5][4] = neg_mul_add(platform_velocity[3], t1298, t1317);
-        let t1318 = mul_add(platform_velocity[4], t1284, t1256);
-        coriolis_matrix_p[5][5] = neg_mul_add(platform_velocity[3], t1295, t1318);
-        // Coriolis matrix C_b, natural factorisation
-        let t1319 = mul_add(t179, t884, mul_add(t149, t808, t847));
-        let t1320 = mul_add(t209, t960, mul_add(t194, t922, t1319));
-        let t1321 = mul_sub(t30, t1016, t1032 - mul_add(t224, t998, t1320));
-        let t1322 = mul_add(t523, t600, mul_sub(t29, t1017, t1321));
-        coriolis_matrix_b[0][3] = neg_mul_add(t526, t599, t1322);
-        let t1323 = t1046 - (t1004 + (t966 + (t928 + (t890 + (t814 + t852)))));
-        let t1324 = mul_add(t30, t1015, mul_sub(t28, t1017, t1323));
-        coriolis_matrix_b[0][4] = neg_mul_add(t520, t600, mul_sub(t526, t598, t1324));
-        let t1325 = t1060 - (t1007 + (t969 + (t931 + (t893 + (t817 + t855)))));
-        let t1326 = mul_add(t28, t1016, mul_add(t29, t1015, t1325));
-        coriolis_matrix_b[0][5] = neg_mul_add(t523, t598, mul_add(t520, t599, t1326));
-        let t1327 = t1077 - (t1008 + (t970 + (t932 + (t894 + (t818 + t856)))));
-        let t1328 = mul_add(t29, t1063, mul_add(t30, t1062, t1327));
-        coriolis_matrix_b[1][3] = neg_mul_add(t549, t599, mul_add(t546, t600, t1328));
-        let t1329 = mul_add(t181, t888, mul_add(t151, t812, t857));
-        let t1330 = mul_add(t211, t964, mul_add(t196, t926, t1329));
-        let t1331 = mul_add(t523, t600, t1090 + mul_add(t226, t1002, t1330));
-        let t1332 = mul_sub(t30, t1061, mul_add(t28, t1063, t1331));
-        coriolis_matrix_b[1][4] = mul_add(t549, t598, t1332);
-        let t1333 = t1104 - (t1011 + (t973 + (t935 + (t897 + (t821 + t859)))));
-        let t1334 = mul_add(t28, t1062, mul_sub(t29, t1061, t1333));
-        coriolis_matrix_b[1][5] = neg_mul_add(t546, t598, mul_sub(t523, t599, t1334));
-        let t1335 = t1121 + (t1012 + (t974 + (t936 + (t898 + (t822 + t860)))));
-        let t1336 = mul_add(t29, t1107, mul_sub(t30, t1106, t1335));
-        coriolis_matrix_b[2][3] = neg_mul_add(t566, t599, mul_sub(t549, t600, t1336));
-        let t1337 = t1135 - (t1013 + (t975 + (t937 + (t899 + (t823 + t861)))));
-        let t1338 = mul_add(t30, t1105, mul_add(t28, t1107, t1337));
-        coriolis_matrix_b[2][4] = neg_mul_add(t526, t600, mul_add(t566, t598, t1338));
-        let t1339 = mul_add(t183, t891, mul_add(t153, t815, t862));
-        let t1340 = mul_add(t213, t967, mul_add(t198, t929, t1339));
-        let t1341 = mul_sub(t526, t599, t1148 + mul_add(t228, t1005, t1340));
-        let t1342 = mul_add(t29, t1105, mul_sub(t549, t598, t1341));
-        coriolis_matrix_b[2][5] = mul_sub(t28, t1106, t1342);
-        let t1343 = mul_sub(t29, t1166, neg_mul_add(t30, t1160, t1172));
-        let t1344 = mul_sub(t572, t599, mul_sub(t555, t600, t1343));
-        let t1345 = mul_add(t147, t818, mul_sub(t144, t822, t1344));
-        let t1346 = mul_add(t162, t856, mul_add(t159, t860, t1345));
-        let t1347 = mul_add(t177, t894, mul_add(t174, t898, t1346));
-        let t1348 = mul_add(t192, t932, mul_add(t189, t936, t1347));
-        let t1349 = mul_add(t207, t970, mul_add(t204, t974, t1348));
-        coriolis_matrix_b[3][3] = mul_add(t222, t1008, mul_add(t219, t1012, t1349));
-        let t1350 = mul_add(t30, t1154, mul_add(t28, t1166, t1178));
-        let t1351 = mul_add(t533, t600, mul_add(t572, t598, t1350));
-        let t1352 = mul_sub(t147, t819, mul_sub(t144, t823, t1351));
-        let t1353 = mul_sub(t162, t857, mul_sub(t159, t861, t1352));
-        let t1354 = mul_sub(t177, t895, mul_sub(t174, t899, t1353));
-        let t1355 = mul_sub(t192, t933, mul_sub(t189, t937, t1354));
-        let t1356 = mul_sub(t207, t971, mul_sub(t204, t975, t1355));
-        coriolis_matrix_b[3][4] = mul_sub(t222, t1009, mul_sub(t219, t1013, t1356));
-        let t1357 = mul_sub(t28, t1160, mul_add(t29, t1154, t1184));
-        let t1358 = mul_add(t555, t598, mul_sub(t533, t599, t1357));
-        let t1359 = mul_sub(t147, t821, mul_add(t144, t824, t1358));
-        let t1360 = mul_sub(t162, t859, mul_sub(t159, t862, t1359));
-        let t1361 = mul_sub(t177, t897, mul_sub(t174, t900, t1360));
-        let t1362 = mul_sub(t192, t935, mul_sub(t189, t938, t1361));
-        let t1363 = mul_sub(t207, t973, mul_sub(t204, t976, t1362));
-        coriolis_matrix_b[3][5] = mul_sub(t222, t1011, mul_sub(t219, t1014, t1363));
-        let t1364 = mul_add(t29, t1202, mul_add(t30, t1196, t1208));
-        let t1365 = neg_mul_add(t578, t599, mul_add(t559, t600, t1364));
-        let t1366 = neg_mul_add(t141, t822, neg_mul_add(t147, t809, t1365));
-        let t1367 = neg_mul_add(t156, t860, neg_mul_add(t162, t847, t1366));
-        let t1368 = neg_mul_add(t171, t898, neg_mul_add(t177, t885, t1367));
-        let t1369 = neg_mul_add(t186, t936, neg_mul_add(t192, t923, t1368));
-        let t1370 = neg_mul_add(t201, t974, neg_mul_add(t207, t961, t1369));
-        coriolis_matrix_b[4][3] = neg_mul_add(
-            t216,
-            t1012,
-            neg_mul_add(t222, t999, t1370),
-        );
-        let t1371 = mul_sub(t30, t1190, neg_mul_add(t28, t1202, t1214));
-        let t1372 = mul_sub(t539, t600, mul_sub(t578, t598, t1371));
-        let t1373 = mul_sub(t141, t823, mul_add(t147, t814, t1372));
-        let t1374 = mul_sub(t156, t861, mul_sub(t162, t852, t1373));
-        let t1375 = mul_sub(t171, t899, mul_sub(t177, t890, t1374));
-        let t1376 = mul_sub(t186, t937, mul_sub(t192, t928, t1375));
-        let t1377 = mul_sub(t201, t975, mul_sub(t207, t966, t1376));
-        coriolis_matrix_b[4][4] = mul_sub(t216, t1013, mul_sub(t222, t1004, t1377));
-        let t1378 = mul_sub(t28, t1196, mul_add(t29, t1190, t1220));
-        let t1379 = mul_sub(t559, t598, mul_sub(t539, t599, t1378));
-        let t1380 = mul_sub(t141, t824, mul_add(t147, t817, t1379));
-        let t1381 = mul_sub(t156, t862, mul_sub(t162, t855, t1380));
-        let t1382 = mul_sub(t171, t900, mul_sub(t177, t893, t1381));
-        let t1383 = mul_sub(t186, t938, mul_sub(t192, t931, t1382));
-        let t1384 = mul_sub(t201, t976, mul_sub(t207, t969, t1383));
-        coriolis_matrix_b[4][5] = mul_sub(t216, t1014, mul_sub(t222, t1007, t1384));
-        let t1385 = mul_add(t29, t1238, mul_add(t30, t1232, t1244));
-        let t1386 = mul_add(t579, t599, mul_add(t565, t600, t1385));
-        let t1387 = mul_sub(t144, t809, mul_sub(t141, t818, t1386));
-        let t1388 = mul_sub(t159, t847, mul_sub(t156, t856, t1387));
-        let t1389 = mul_sub(t174, t885, mul_sub(t171, t894, t1388));
-        let t1390 = mul_sub(t189, t923, mul_sub(t186, t932, t1389));
-        let t1391 = mul_sub(t204, t961, mul_sub(t201, t970, t1390));
-        coriolis_matrix_b[5][3] = mul_sub(t219, t999, mul_sub(t216, t1008, t1391));
-        let t1392 = mul_sub(t30, t1226, mul_add(t28, t1238, t1250));
-        let t1393 = mul_add(t545, t600, mul_sub(t579, t598, t1392));
-        let t1394 = mul_sub(t144, t814, mul_add(t141, t819, t1393));
-        let t1395 = mul_sub(t159, t852, mul_sub(t156, t857, t1394));
-        let t1396 = mul_sub(t174, t890, mul_sub(t171, t895, t1395));
-        let t1397 = mul_sub(t189, t928, mul_sub(t186, t933, t1396));
-        let t1398 = mul_sub(t204, t966, mul_sub(t201, t971, t1397));
-        coriolis_matrix_b[5][4] = mul_sub(t219, t1004, mul_sub(t216, t1009, t1398));
-        let t1399 = mul_sub(t28, t1232, neg_mul_add(t29, t1226, t1256));
-        let t1400 = mul_sub(t565, t598, mul_sub(t545, t599, t1399));
-        let t1401 = mul_sub(t144, t817, mul_add(t141, t821, t1400));
-        let t1402 = mul_sub(t159, t855, mul_sub(t156, t859, t1401));
-        let t1403 = mul_sub(t174, t893, mul_sub(t171, t897, t1402));
-        let t1404 = mul_sub(t189, t931, mul_sub(t186, t935, t1403));
-        let t1405 = mul_sub(t204, t969, mul_sub(t201, t973, t1404));
-        coriolis_matrix_b[5][5] = mul_sub(t219, t1007, mul_sub(t216, t1011, t1405));
+        let t1392 = mul_add(platform_rotation[2][2], t325, t1391);
+        let t1393 = neg_mul_add(platform_rotation[2][0], t1392, t282);
+        let t1394 = mul_sub(platform_rotation[2][1], t1390, t1393);
+        let t1395 = mul_add(platform_rotation[2][2], t1388, t1394);
+        let t1396 = mul_sub(platform_velocity[5], t1382, t1184);
+        coriolis_matrix_p[3][5] = neg_mul_add(platform_velocity[4], t1395, t1396);
+        let t1397 = neg_mul_add(platform_rotation[0][0], t1367, t282);
+        let t1398 = mul_sub(platform_rotation[0][1], t1369, t1397);
+        let t1399 = mul_add(platform_rotation[0][2], t1365, t1398);
+        let t1400 = neg_mul_add(platform_velocity[5], t1399, t1208);
+        coriolis_matrix_p[4][3] = mul_add(platform_velocity[3], t1371, t1400);
+        let t1401 = neg_mul_add(platform_velocity[5], t1373, t1214);
+        coriolis_matrix_p[4][4] = mul_add(platform_velocity[3], t1382, t1401);
+        let t1402 = neg_mul_add(platform_velocity[5], t1371, t1220);
+        coriolis_matrix_p[4][5] = mul_add(platform_velocity[3], t1395, t1402);
+        let t1403 = mul_add(platform_velocity[4], t1399, t1244);
+        coriolis_matrix_p[5][3] = neg_mul_add(platform_velocity[3], t1373, t1403);
+        let t1404 = mul_sub(platform_velocity[4], t1373, t1250);
+        coriolis_matrix_p[5][4] = neg_mul_add(platform_velocity[3], t1385, t1404);
+        let t1405 = mul_add(platform_velocity[4], t1371, t1256);
+        coriolis_matrix_p[5][5] = neg_mul_add(platform_velocity[3], t1382, t1405);
     }
 }
 
@@ -17043,111 +17081,18 @@ pub fn matrices<T: Scalar>(
         )
     };
     let (
-        t1034,
-        t1035,
-        t1036,
-        t1244,
-        t1245,
-        t1248,
-        t1250,
-        t1251,
-        t1253,
-        t1254,
-        t1255,
-        t1257,
-        t1258,
-        t1259,
-        t1260,
-        t1283,
-        t1288,
-        t1291,
-        t1292,
-        t1293,
-        t1295,
-        t1296,
-        t1297,
-        t1298,
-        t1320,
-        t1321,
-        t1324,
-        t1326,
-        t1327,
-        t1329,
-        t1330,
-        t1331,
-        t1333,
-        t1334,
-        t1335,
-        t1336,
-        t1358,
-        t1359,
-        t1362,
-        t1364,
-        t1365,
-        t1367,
-        t1368,
-        t1369,
-        t1371,
-        t1372,
-        t1373,
-        t1374,
-        t1396,
-        t1397,
-        t1400,
-        t1402,
-        t1403,
-        t1405,
-        t1406,
-        t1407,
-        t1409,
-        t1410,
-        t1411,
-        t1412,
-        t1434,
-        t1435,
-        t1438,
-        t1440,
-        t1441,
-        t1443,
-        t1444,
-        t1445,
-        t1447,
-        t1448,
-        t1449,
-        t1450,
-        t1451,
-        t1452,
-        t1453,
-        t1468,
         t1482,
         t1496,
-        t1497,
-        t1498,
-        t1499,
         t1513,
-        t1526,
         t1540,
-        t1541,
-        t1542,
-        t1543,
         t1557,
         t1571,
-        t1584,
-        t1590,
-        t1596,
-        t1602,
         t1608,
         t1614,
         t1620,
-        t1626,
-        t1632,
-        t1638,
         t1644,
         t1650,
         t1656,
-        t1662,
-        t1668,
-        t1674,
         t1680,
         t1686,
         t1692,
@@ -17512,50 +17457,50 @@ pub fn matrices<T: Scalar>(
         let t1187 = mul_sub(platform_velocity[4], t147, platform_velocity[5] * t144);
         let t1188 = mul_sub(platform_velocity[5], t141, platform_velocity[3] * t147);
         let t1189 = mul_sub(platform_velocity[3], t144, platform_velocity[4] * t141);
-        // leg 1: velocity of the platform joint less that of the base origin
-        let t1190 = t1034 - t1187;
-        let t1191 = t1035 - t1188;
-        let t1192 = t1036 - t1189;
         // leg 2: rate of the platform lever
-        let t1193 = mul_sub(platform_velocity[4], t165, platform_velocity[5] * t162);
-        let t1194 = mul_sub(platform_velocity[5], t159, platform_velocity[3] * t165);
-        let t1195 = mul_sub(platform_velocity[3], t162, platform_velocity[4] * t159);
-        // leg 2: velocity of the platform joint less that of the base origin
-        let t1196 = t1034 - t1193;
-        let t1197 = t1035 - t1194;
-        let t1198 = t1036 - t1195;
+        let t1190 = mul_sub(platform_velocity[4], t165, platform_velocity[5] * t162);
+        let t1191 = mul_sub(platform_velocity[5], t159, platform_velocity[3] * t165);
+        let t1192 = mul_sub(platform_velocity[3], t162, platform_velocity[4] * t159);
         // leg 3: rate of the platform lever
-        let t1199 = mul_sub(platform_velocity[4], t183, platform_velocity[5] * t180);
-        let t1200 = mul_sub(platform_velocity[5], t177, platform_velocity[3] * t183);
-        let t1201 = mul_sub(platform_velocity[3], t180, platform_velocity[4] * t177);
-        // leg 3: velocity of the platform joint less that of the base origin
-        let t1202 = t1034 - t1199;
-        let t1203 = t1035 - t1200;
-        let t1204 = t1036 - t1201;
+        let t1193 = mul_sub(platform_velocity[4], t183, platform_velocity[5] * t180);
+        let t1194 = mul_sub(platform_velocity[5], t177, platform_velocity[3] * t183);
+        let t1195 = mul_sub(platform_velocity[3], t180, platform_velocity[4] * t177);
         // leg 4: rate of the platform lever
-        let t1205 = mul_sub(platform_velocity[4], t201, platform_velocity[5] * t198);
-        let t1206 = mul_sub(platform_velocity[5], t195, platform_velocity[3] * t201);
-        let t1207 = mul_sub(platform_velocity[3], t198, platform_velocity[4] * t195);
-        // leg 4: velocity of the platform joint less that of the base origin
-        let t1208 = t1034 - t1205;
-        let t1209 = t1035 - t1206;
-        let t1210 = t1036 - t1207;
+        let t1196 = mul_sub(platform_velocity[4], t201, platform_velocity[5] * t198);
+        let t1197 = mul_sub(platform_velocity[5], t195, platform_velocity[3] * t201);
+        let t1198 = mul_sub(platform_velocity[3], t198, platform_velocity[4] * t195);
         // leg 5: rate of the platform lever
-        let t1211 = mul_sub(platform_velocity[4], t219, platform_velocity[5] * t216);
-        let t1212 = mul_sub(platform_velocity[5], t213, platform_velocity[3] * t219);
-        let t1213 = mul_sub(platform_velocity[3], t216, platform_velocity[4] * t213);
-        // leg 5: velocity of the platform joint less that of the base origin
-        let t1214 = t1034 - t1211;
-        let t1215 = t1035 - t1212;
-        let t1216 = t1036 - t1213;
+        let t1199 = mul_sub(platform_velocity[4], t219, platform_velocity[5] * t216);
+        let t1200 = mul_sub(platform_velocity[5], t213, platform_velocity[3] * t219);
+        let t1201 = mul_sub(platform_velocity[3], t216, platform_velocity[4] * t213);
         // leg 6: rate of the platform lever
-        let t1217 = mul_sub(platform_velocity[4], t237, platform_velocity[5] * t234);
-        let t1218 = mul_sub(platform_velocity[5], t231, platform_velocity[3] * t237);
-        let t1219 = mul_sub(platform_velocity[3], t234, platform_velocity[4] * t231);
+        let t1202 = mul_sub(platform_velocity[4], t237, platform_velocity[5] * t234);
+        let t1203 = mul_sub(platform_velocity[5], t231, platform_velocity[3] * t237);
+        let t1204 = mul_sub(platform_velocity[3], t234, platform_velocity[4] * t231);
+        // leg 1: velocity of the platform joint less that of the base origin
+        let t1205 = t1034 - t1187;
+        let t1206 = t1035 - t1188;
+        let t1207 = t1036 - t1189;
+        // leg 2: velocity of the platform joint less that of the base origin
+        let t1208 = t1034 - t1190;
+        let t1209 = t1035 - t1191;
+        let t1210 = t1036 - t1192;
+        // leg 3: velocity of the platform joint less that of the base origin
+        let t1211 = t1034 - t1193;
+        let t1212 = t1035 - t1194;
+        let t1213 = t1036 - t1195;
+        // leg 4: velocity of the platform joint less that of the base origin
+        let t1214 = t1034 - t1196;
+        let t1215 = t1035 - t1197;
+        let t1216 = t1036 - t1198;
+        // leg 5: velocity of the platform joint less that of the base origin
+        let t1217 = t1034 - t1199;
+        let t1218 = t1035 - t1200;
+        let t1219 = t1036 - t1201;
         // leg 6: velocity of the platform joint less that of the base origin
-        let t1220 = t1034 - t1217;
-        let t1221 = t1035 - t1218;
-        let t1222 = t1036 - t1219;
+        let t1220 = t1034 - t1202;
+        let t1221 = t1035 - t1203;
+        let t1222 = t1036 - t1204;
         // leg 1: Coriolis matrix of the leg in the speeds of its joint
         let t1223 = t110 * (t110 * t1109);
         let t1224 = mul_sub(t251, t110 * t1223, t248 * t1223);
@@ -17576,13 +17521,13 @@ pub fn matrices<T: Scalar>(
         let t1239 = mul_sub(t156, t1236, mul_add(t1126, t1235, t1224));
         // leg 1: Coriolis matrix between joint and base angular velocity
         let t1240 = t405 * mul_sub(base_velocity[5], t426, base_velocity[3] * t419);
-        let t1241 = mul_sub(t416, t1124, mul_add(t391, t1191, t1240));
+        let t1241 = mul_sub(t416, t1124, mul_add(t391, t1206, t1240));
         let t1242 = t405 * mul_sub(base_velocity[3], t415, base_velocity[4] * t426);
-        let t1243 = mul_sub(t416, t1126, mul_add(t391, t1192, t1242));
+        let t1243 = mul_sub(t416, t1126, mul_add(t391, t1207, t1242));
         let t1244 = mul_sub(t156, t1241, t154 * t1243);
         let t1245 = t152 * t1244;
         let t1246 = t405 * mul_sub(base_velocity[4], t419, base_velocity[5] * t415);
-        let t1247 = mul_sub(t416, t1122, mul_add(t391, t1190, t1246));
+        let t1247 = mul_sub(t416, t1122, mul_add(t391, t1205, t1246));
         let t1248 = mul_sub(t152, t1243, t156 * t1247);
         let t1249 = neg_mul_add(t248, t1126, t1243);
         let t1250 = mul_sub(t152, t1248, t1249);
@@ -17616,13 +17561,13 @@ pub fn matrices<T: Scalar>(
         let t1277 = mul_sub(t174, t1274, mul_add(t1138, t1273, t1262));
         // leg 2: Coriolis matrix between joint and base angular velocity
         let t1278 = t461 * mul_sub(base_velocity[5], t482, base_velocity[3] * t475);
-        let t1279 = mul_sub(t472, t1136, mul_add(t447, t1197, t1278));
+        let t1279 = mul_sub(t472, t1136, mul_add(t447, t1209, t1278));
         let t1280 = t461 * mul_sub(base_velocity[3], t471, base_velocity[4] * t482);
-        let t1281 = mul_sub(t472, t1138, mul_add(t447, t1198, t1280));
+        let t1281 = mul_sub(t472, t1138, mul_add(t447, t1210, t1280));
         let t1282 = mul_sub(t174, t1279, t172 * t1281);
         let t1283 = t170 * t1282;
         let t1284 = t461 * mul_sub(base_velocity[4], t475, base_velocity[5] * t471);
-        let t1285 = mul_sub(t472, t1134, mul_add(t447, t1196, t1284));
+        let t1285 = mul_sub(t472, t1134, mul_add(t447, t1208, t1284));
         let t1286 = mul_sub(t170, t1281, t174 * t1285);
         let t1287 = neg_mul_add(t253, t1138, t1281);
         let t1288 = mul_sub(t170, t1286, t1287);
@@ -17656,13 +17601,13 @@ pub fn matrices<T: Scalar>(
         let t1315 = mul_sub(t192, t1312, mul_add(t1150, t1311, t1300));
         // leg 3: Coriolis matrix between joint and base angular velocity
         let t1316 = t517 * mul_sub(base_velocity[5], t538, base_velocity[3] * t531);
-        let t1317 = mul_sub(t528, t1148, mul_add(t503, t1203, t1316));
+        let t1317 = mul_sub(t528, t1148, mul_add(t503, t1212, t1316));
         let t1318 = t517 * mul_sub(base_velocity[3], t527, base_velocity[4] * t538);
-        let t1319 = mul_sub(t528, t1150, mul_add(t503, t1204, t1318));
+        let t1319 = mul_sub(t528, t1150, mul_add(t503, t1213, t1318));
         let t1320 = mul_sub(t192, t1317, t190 * t1319);
         let t1321 = t188 * t1320;
         let t1322 = t517 * mul_sub(base_velocity[4], t531, base_velocity[5] * t527);
-        let t1323 = mul_sub(t528, t1146, mul_add(t503, t1202, t1322));
+        let t1323 = mul_sub(t528, t1146, mul_add(t503, t1211, t1322));
         let t1324 = mul_sub(t188, t1319, t192 * t1323);
         let t1325 = neg_mul_add(t258, t1150, t1319);
         let t1326 = mul_sub(t188, t1324, t1325);
@@ -17696,13 +17641,13 @@ pub fn matrices<T: Scalar>(
         let t1353 = mul_sub(t210, t1350, mul_add(t1162, t1349, t1338));
         // leg 4: Coriolis matrix between joint and base angular velocity
         let t1354 = t573 * mul_sub(base_velocity[5], t594, base_velocity[3] * t587);
-        let t1355 = mul_sub(t584, t1160, mul_add(t559, t1209, t1354));
+        let t1355 = mul_sub(t584, t1160, mul_add(t559, t1215, t1354));
         let t1356 = t573 * mul_sub(base_velocity[3], t583, base_velocity[4] * t594);
-        let t1357 = mul_sub(t584, t1162, mul_add(t559, t1210, t1356));
+        let t1357 = mul_sub(t584, t1162, mul_add(t559, t1216, t1356));
         let t1358 = mul_sub(t210, t1355, t208 * t1357);
         let t1359 = t206 * t1358;
         let t1360 = t573 * mul_sub(base_velocity[4], t587, base_velocity[5] * t583);
-        let t1361 = mul_sub(t584, t1158, mul_add(t559, t1208, t1360));
+        let t1361 = mul_sub(t584, t1158, mul_add(t559, t1214, t1360));
         let t1362 = mul_sub(t206, t1357, t210 * t1361);
         let t1363 = neg_mul_add(t263, t1162, t1357);
         let t1364 = mul_sub(t206, t1362, t1363);
@@ -17736,13 +17681,13 @@ pub fn matrices<T: Scalar>(
         let t1391 = mul_sub(t228, t1388, mul_add(t1174, t1387, t1376));
         // leg 5: Coriolis matrix between joint and base angular velocity
         let t1392 = t629 * mul_sub(base_velocity[5], t650, base_velocity[3] * t643);
-        let t1393 = mul_sub(t640, t1172, mul_add(t615, t1215, t1392));
+        let t1393 = mul_sub(t640, t1172, mul_add(t615, t1218, t1392));
         let t1394 = t629 * mul_sub(base_velocity[3], t639, base_velocity[4] * t650);
-        let t1395 = mul_sub(t640, t1174, mul_add(t615, t1216, t1394));
+        let t1395 = mul_sub(t640, t1174, mul_add(t615, t1219, t1394));
         let t1396 = mul_sub(t228, t1393, t226 * t1395);
         let t1397 = t224 * t1396;
         let t1398 = t629 * mul_sub(base_velocity[4], t643, base_velocity[5] * t639);
-        let t1399 = mul_sub(t640, t1170, mul_add(t615, t1214, t1398));
+        let t1399 = mul_sub(t640, t1170, mul_add(t615, t1217, t1398));
         let t1400 = mul_sub(t224, t1395, t228 * t1399);
         let t1401 = neg_mul_add(t268, t1174, t1395);
         let t1402 = mul_sub(t224, t1400, t1401);
@@ -17802,140 +17747,140 @@ pub fn matrices<T: Scalar>(
         coriolis_matrix_b[0][0] = t1451;
         let t1452 = t1418 + (t1380 + (t1342 + (t1304 + (t1228 + t1266))));
         let t1453 = t1419 + (t1381 + (t1343 + (t1305 + (t1229 + t1267))));
-        let t1454 = mul_sub(t679, t1219, mul_sub(t237, t1418, t234 * t1419));
-        let t1455 = mul_sub(t680, t1218, t1454);
-        let t1456 = mul_sub(t623, t1213, mul_sub(t219, t1380, t216 * t1381));
-        let t1457 = mul_sub(t624, t1212, t1456);
-        let t1458 = mul_sub(t567, t1207, mul_sub(t201, t1342, t198 * t1343));
-        let t1459 = mul_sub(t568, t1206, t1458);
-        let t1460 = mul_sub(t511, t1201, mul_sub(t183, t1304, t180 * t1305));
-        let t1461 = mul_sub(t512, t1200, t1460);
+        let t1454 = mul_sub(t679, t1204, mul_sub(t237, t1418, t234 * t1419));
+        let t1455 = mul_sub(t680, t1203, t1454);
+        let t1456 = mul_sub(t623, t1201, mul_sub(t219, t1380, t216 * t1381));
+        let t1457 = mul_sub(t624, t1200, t1456);
+        let t1458 = mul_sub(t567, t1198, mul_sub(t201, t1342, t198 * t1343));
+        let t1459 = mul_sub(t568, t1197, t1458);
+        let t1460 = mul_sub(t511, t1195, mul_sub(t183, t1304, t180 * t1305));
+        let t1461 = mul_sub(t512, t1194, t1460);
         let t1462 = t144 * t1229;
         let t1463 = mul_sub(t399, t1189, mul_sub(t147, t1228, t1462));
         let t1464 = mul_sub(t400, t1188, t1463);
         let t1465 = t165 * t1266;
-        let t1466 = mul_sub(t455, t1195, neg_mul_add(t162, t1267, t1465));
-        let t1467 = mul_sub(t456, t1194, t1466);
+        let t1466 = mul_sub(t455, t1192, neg_mul_add(t162, t1267, t1465));
+        let t1467 = mul_sub(t456, t1191, t1466);
         let t1468 = t1455 + (t1457 + (t1459 + (t1461 + (t1464 + t1467))));
         coriolis_matrix_p[0][3] = t1468;
-        let t1469 = mul_sub(t680, t1217, mul_add(t231, t1419, t237 * t1417));
-        let t1470 = mul_sub(t678, t1219, t1469);
-        let t1471 = mul_sub(t624, t1211, mul_add(t213, t1381, t219 * t1379));
-        let t1472 = mul_sub(t622, t1213, t1471);
-        let t1473 = mul_sub(t568, t1205, mul_add(t195, t1343, t201 * t1341));
-        let t1474 = mul_sub(t566, t1207, t1473);
-        let t1475 = mul_sub(t512, t1199, mul_add(t177, t1305, t183 * t1303));
-        let t1476 = mul_sub(t510, t1201, t1475);
+        let t1469 = mul_sub(t680, t1202, mul_add(t231, t1419, t237 * t1417));
+        let t1470 = mul_sub(t678, t1204, t1469);
+        let t1471 = mul_sub(t624, t1199, mul_add(t213, t1381, t219 * t1379));
+        let t1472 = mul_sub(t622, t1201, t1471);
+        let t1473 = mul_sub(t568, t1196, mul_add(t195, t1343, t201 * t1341));
+        let t1474 = mul_sub(t566, t1198, t1473);
+        let t1475 = mul_sub(t512, t1193, mul_add(t177, t1305, t183 * t1303));
+        let t1476 = mul_sub(t510, t1195, t1475);
         let t1477 = mul_sub(t400, t1187, mul_add(t141, t1229, t147 * t1227));
         let t1478 = mul_sub(t398, t1189, t1477);
         let t1479 = t165 * t1265;
-        let t1480 = mul_sub(t456, t1193, mul_add(t159, t1267, t1479));
-        let t1481 = mul_sub(t454, t1195, t1480);
+        let t1480 = mul_sub(t456, t1190, mul_add(t159, t1267, t1479));
+        let t1481 = mul_sub(t454, t1192, t1480);
         let t1482 = t1470 + (t1472 + (t1474 + (t1476 + (t1478 + t1481))));
-        let t1483 = mul_add(t678, t1218, mul_add(t231, t1418, t234 * t1417));
-        let t1484 = mul_sub(t679, t1217, t1483);
-        let t1485 = mul_add(t622, t1212, mul_add(t213, t1380, t216 * t1379));
-        let t1486 = mul_sub(t623, t1211, t1485);
-        let t1487 = mul_add(t566, t1206, mul_add(t195, t1342, t198 * t1341));
-        let t1488 = mul_sub(t567, t1205, t1487);
-        let t1489 = mul_add(t510, t1200, mul_add(t177, t1304, t180 * t1303));
-        let t1490 = mul_sub(t511, t1199, t1489);
+        let t1483 = mul_add(t678, t1203, mul_add(t231, t1418, t234 * t1417));
+        let t1484 = mul_sub(t679, t1202, t1483);
+        let t1485 = mul_add(t622, t1200, mul_add(t213, t1380, t216 * t1379));
+        let t1486 = mul_sub(t623, t1199, t1485);
+        let t1487 = mul_add(t566, t1197, mul_add(t195, t1342, t198 * t1341));
+        let t1488 = mul_sub(t567, t1196, t1487);
+        let t1489 = mul_add(t510, t1194, mul_add(t177, t1304, t180 * t1303));
+        let t1490 = mul_sub(t511, t1193, t1489);
         let t1491 = mul_add(t398, t1188, mul_add(t141, t1228, t144 * t1227));
         let t1492 = mul_sub(t399, t1187, t1491);
         let t1493 = t162 * t1265;
-        let t1494 = mul_add(t454, t1194, mul_add(t159, t1266, t1493));
-        let t1495 = mul_sub(t455, t1193, t1494);
+        let t1494 = mul_add(t454, t1191, mul_add(t159, t1266, t1493));
+        let t1495 = mul_sub(t455, t1190, t1494);
         let t1496 = t1484 + (t1486 + (t1488 + (t1490 + (t1492 + t1495))));
         let t1497 = t1422 + (t1384 + (t1346 + (t1308 + (t1232 + t1270))));
         let t1498 = t1423 + (t1385 + (t1347 + (t1309 + (t1233 + t1271))));
         coriolis_matrix_p[1][1] = t1498;
         coriolis_matrix_b[1][1] = t1498;
         let t1499 = t1424 + (t1386 + (t1348 + (t1310 + (t1234 + t1272))));
-        let t1500 = mul_add(t682, t1219, mul_add(t234, t1424, t237 * t1423));
-        let t1501 = mul_sub(t683, t1218, t1500);
-        let t1502 = mul_add(t626, t1213, mul_add(t216, t1386, t219 * t1385));
-        let t1503 = mul_sub(t627, t1212, t1502);
-        let t1504 = mul_add(t570, t1207, mul_add(t198, t1348, t201 * t1347));
-        let t1505 = mul_sub(t571, t1206, t1504);
-        let t1506 = mul_add(t514, t1201, mul_add(t180, t1310, t183 * t1309));
-        let t1507 = mul_sub(t515, t1200, t1506);
+        let t1500 = mul_add(t682, t1204, mul_add(t234, t1424, t237 * t1423));
+        let t1501 = mul_sub(t683, t1203, t1500);
+        let t1502 = mul_add(t626, t1201, mul_add(t216, t1386, t219 * t1385));
+        let t1503 = mul_sub(t627, t1200, t1502);
+        let t1504 = mul_add(t570, t1198, mul_add(t198, t1348, t201 * t1347));
+        let t1505 = mul_sub(t571, t1197, t1504);
+        let t1506 = mul_add(t514, t1195, mul_add(t180, t1310, t183 * t1309));
+        let t1507 = mul_sub(t515, t1194, t1506);
         let t1508 = mul_add(t402, t1189, mul_add(t144, t1234, t147 * t1233));
         let t1509 = mul_sub(t403, t1188, t1508);
         let t1510 = t165 * t1271;
-        let t1511 = mul_add(t458, t1195, mul_add(t162, t1272, t1510));
-        let t1512 = mul_sub(t459, t1194, t1511);
+        let t1511 = mul_add(t458, t1192, mul_add(t162, t1272, t1510));
+        let t1512 = mul_sub(t459, t1191, t1511);
         let t1513 = t1501 + (t1503 + (t1505 + (t1507 + (t1509 + t1512))));
-        let t1514 = mul_sub(t237, t1422, mul_add(t679, t1219, t231 * t1424));
-        let t1515 = mul_add(t683, t1217, t1514);
-        let t1516 = mul_sub(t219, t1384, mul_add(t623, t1213, t213 * t1386));
-        let t1517 = mul_add(t627, t1211, t1516);
-        let t1518 = mul_sub(t201, t1346, mul_add(t567, t1207, t195 * t1348));
-        let t1519 = mul_add(t571, t1205, t1518);
-        let t1520 = mul_sub(t183, t1308, mul_add(t511, t1201, t177 * t1310));
-        let t1521 = mul_add(t515, t1199, t1520);
+        let t1514 = mul_sub(t237, t1422, mul_add(t679, t1204, t231 * t1424));
+        let t1515 = mul_add(t683, t1202, t1514);
+        let t1516 = mul_sub(t219, t1384, mul_add(t623, t1201, t213 * t1386));
+        let t1517 = mul_add(t627, t1199, t1516);
+        let t1518 = mul_sub(t201, t1346, mul_add(t567, t1198, t195 * t1348));
+        let t1519 = mul_add(t571, t1196, t1518);
+        let t1520 = mul_sub(t183, t1308, mul_add(t511, t1195, t177 * t1310));
+        let t1521 = mul_add(t515, t1193, t1520);
         let t1522 = mul_sub(t147, t1232, mul_add(t399, t1189, t141 * t1234));
         let t1523 = mul_add(t403, t1187, t1522);
-        let t1524 = mul_sub(t165, t1270, mul_add(t455, t1195, t159 * t1272));
-        let t1525 = mul_add(t459, t1193, t1524);
+        let t1524 = mul_sub(t165, t1270, mul_add(t455, t1192, t159 * t1272));
+        let t1525 = mul_add(t459, t1190, t1524);
         let t1526 = t1515 + (t1517 + (t1519 + (t1521 + (t1523 + t1525))));
-        let t1527 = mul_sub(t679, t1218, mul_add(t234, t1422, t231 * t1423));
-        let t1528 = mul_sub(t682, t1217, t1527);
-        let t1529 = mul_sub(t623, t1212, mul_add(t216, t1384, t213 * t1385));
-        let t1530 = mul_sub(t626, t1211, t1529);
-        let t1531 = mul_sub(t567, t1206, mul_add(t198, t1346, t195 * t1347));
-        let t1532 = mul_sub(t570, t1205, t1531);
-        let t1533 = mul_sub(t511, t1200, mul_add(t180, t1308, t177 * t1309));
-        let t1534 = mul_sub(t514, t1199, t1533);
+        let t1527 = mul_sub(t679, t1203, mul_add(t234, t1422, t231 * t1423));
+        let t1528 = mul_sub(t682, t1202, t1527);
+        let t1529 = mul_sub(t623, t1200, mul_add(t216, t1384, t213 * t1385));
+        let t1530 = mul_sub(t626, t1199, t1529);
+        let t1531 = mul_sub(t567, t1197, mul_add(t198, t1346, t195 * t1347));
+        let t1532 = mul_sub(t570, t1196, t1531);
+        let t1533 = mul_sub(t511, t1194, mul_add(t180, t1308, t177 * t1309));
+        let t1534 = mul_sub(t514, t1193, t1533);
         let t1535 = mul_sub(t399, t1188, mul_add(t144, t1232, t141 * t1233));
         let t1536 = mul_sub(t402, t1187, t1535);
         let t1537 = t159 * t1271;
-        let t1538 = mul_sub(t455, t1194, mul_add(t162, t1270, t1537));
-        let t1539 = mul_sub(t458, t1193, t1538);
+        let t1538 = mul_sub(t455, t1191, mul_add(t162, t1270, t1537));
+        let t1539 = mul_sub(t458, t1190, t1538);
         let t1540 = t1528 + (t1530 + (t1532 + (t1534 + (t1536 + t1539))));
         let t1541 = t1427 + (t1389 + (t1351 + (t1313 + (t1237 + t1275))));
         let t1542 = t1428 + (t1390 + (t1352 + (t1314 + (t1238 + t1276))));
         let t1543 = t1429 + (t1391 + (t1353 + (t1315 + (t1239 + t1277))));
         coriolis_matrix_p[2][2] = t1543;
         coriolis_matrix_b[2][2] = t1543;
-        let t1544 = mul_sub(t683, t1219, mul_add(t237, t1428, t234 * t1429));
-        let t1545 = mul_sub(t684, t1218, t1544);
-        let t1546 = mul_sub(t627, t1213, mul_add(t219, t1390, t216 * t1391));
-        let t1547 = mul_sub(t628, t1212, t1546);
-        let t1548 = mul_sub(t571, t1207, mul_add(t201, t1352, t198 * t1353));
-        let t1549 = mul_sub(t572, t1206, t1548);
-        let t1550 = mul_sub(t515, t1201, mul_add(t183, t1314, t180 * t1315));
-        let t1551 = mul_sub(t516, t1200, t1550);
+        let t1544 = mul_sub(t683, t1204, mul_add(t237, t1428, t234 * t1429));
+        let t1545 = mul_sub(t684, t1203, t1544);
+        let t1546 = mul_sub(t627, t1201, mul_add(t219, t1390, t216 * t1391));
+        let t1547 = mul_sub(t628, t1200, t1546);
+        let t1548 = mul_sub(t571, t1198, mul_add(t201, t1352, t198 * t1353));
+        let t1549 = mul_sub(t572, t1197, t1548);
+        let t1550 = mul_sub(t515, t1195, mul_add(t183, t1314, t180 * t1315));
+        let t1551 = mul_sub(t516, t1194, t1550);
         let t1552 = mul_sub(t403, t1189, mul_add(t147, t1238, t144 * t1239));
         let t1553 = mul_sub(t404, t1188, t1552);
         let t1554 = t162 * t1277;
-        let t1555 = mul_sub(t459, t1195, mul_add(t165, t1276, t1554));
-        let t1556 = mul_sub(t460, t1194, t1555);
+        let t1555 = mul_sub(t459, t1192, mul_add(t165, t1276, t1554));
+        let t1556 = mul_sub(t460, t1191, t1555);
         let t1557 = t1545 + (t1547 + (t1549 + (t1551 + (t1553 + t1556))));
-        let t1558 = mul_add(t684, t1217, mul_add(t237, t1427, t231 * t1429));
-        let t1559 = mul_sub(t680, t1219, t1558);
-        let t1560 = mul_add(t628, t1211, mul_add(t219, t1389, t213 * t1391));
-        let t1561 = mul_sub(t624, t1213, t1560);
-        let t1562 = mul_add(t572, t1205, mul_add(t201, t1351, t195 * t1353));
-        let t1563 = mul_sub(t568, t1207, t1562);
-        let t1564 = mul_add(t516, t1199, mul_add(t183, t1313, t177 * t1315));
-        let t1565 = mul_sub(t512, t1201, t1564);
+        let t1558 = mul_add(t684, t1202, mul_add(t237, t1427, t231 * t1429));
+        let t1559 = mul_sub(t680, t1204, t1558);
+        let t1560 = mul_add(t628, t1199, mul_add(t219, t1389, t213 * t1391));
+        let t1561 = mul_sub(t624, t1201, t1560);
+        let t1562 = mul_add(t572, t1196, mul_add(t201, t1351, t195 * t1353));
+        let t1563 = mul_sub(t568, t1198, t1562);
+        let t1564 = mul_add(t516, t1193, mul_add(t183, t1313, t177 * t1315));
+        let t1565 = mul_sub(t512, t1195, t1564);
         let t1566 = mul_add(t404, t1187, mul_add(t147, t1237, t141 * t1239));
         let t1567 = mul_sub(t400, t1189, t1566);
         let t1568 = t159 * t1277;
-        let t1569 = mul_add(t460, t1193, mul_add(t165, t1275, t1568));
-        let t1570 = mul_sub(t456, t1195, t1569);
+        let t1569 = mul_add(t460, t1190, mul_add(t165, t1275, t1568));
+        let t1570 = mul_sub(t456, t1192, t1569);
         let t1571 = t1559 + (t1561 + (t1563 + (t1565 + (t1567 + t1570))));
-        let t1572 = mul_sub(t234, t1427, mul_sub(t680, t1218, t683 * t1217));
+        let t1572 = mul_sub(t234, t1427, mul_sub(t680, t1203, t683 * t1202));
         let t1573 = mul_sub(t231, t1428, t1572);
-        let t1574 = mul_sub(t216, t1389, mul_sub(t624, t1212, t627 * t1211));
+        let t1574 = mul_sub(t216, t1389, mul_sub(t624, t1200, t627 * t1199));
         let t1575 = mul_sub(t213, t1390, t1574);
-        let t1576 = mul_sub(t198, t1351, mul_sub(t568, t1206, t571 * t1205));
+        let t1576 = mul_sub(t198, t1351, mul_sub(t568, t1197, t571 * t1196));
         let t1577 = mul_sub(t195, t1352, t1576);
-        let t1578 = mul_sub(t180, t1313, mul_sub(t512, t1200, t515 * t1199));
+        let t1578 = mul_sub(t180, t1313, mul_sub(t512, t1194, t515 * t1193));
         let t1579 = mul_sub(t177, t1314, t1578);
         let t1580 = mul_sub(t144, t1237, mul_sub(t400, t1188, t403 * t1187));
         let t1581 = mul_sub(t141, t1238, t1580);
-        let t1582 = mul_sub(t162, t1275, mul_sub(t456, t1194, t459 * t1193));
+        let t1582 = mul_sub(t162, t1275, mul_sub(t456, t1191, t459 * t1190));
         let t1583 = mul_sub(t159, t1276, t1582);
         let t1584 = t1573 + (t1575 + (t1577 + (t1579 + (t1581 + t1583))));
         let t1585 = mul_add(t183, t1308, mul_add(t147, t1232, t165 * t1270));
@@ -18089,259 +18034,166 @@ pub fn matrices<T: Scalar>(
         let t1703 = -t1674;
         coriolis_matrix_p[5][2] = t1703;
         coriolis_matrix_b[5][2] = t1703;
-        // Coriolis matrix C_p, natural factorisation
-        let t1704 = mul_sub(platform_velocity[3], t847, platform_velocity[4] * t849);
-        coriolis_matrix_p[0][4] = t1482 + t1704;
-        let t1705 = mul_sub(platform_velocity[5], t849, platform_velocity[3] * t845);
-        coriolis_matrix_p[0][5] = t1496 - t1705;
-        coriolis_matrix_p[1][3] = t1513 - t1704;
-        let t1706 = mul_sub(platform_velocity[4], t845, platform_velocity[5] * t847);
-        coriolis_matrix_p[1][5] = t1540 + t1706;
-        coriolis_matrix_p[2][3] = t1557 + t1705;
-        coriolis_matrix_p[2][4] = t1571 - t1706;
-        let t1707 = mul_add(platform_velocity[5], t859, t1608);
-        coriolis_matrix_p[3][3] = neg_mul_add(platform_velocity[4], t861, t1707);
-        let t1708 = mul_sub(c(0.5), t303, t869);
-        let t1709 = neg_mul_add(platform_velocity[5], t1708, t1614);
-        coriolis_matrix_p[3][4] = neg_mul_add(platform_velocity[4], t871, t1709);
-        let t1710 = mul_sub(c(0.5), t303, t879);
-        let t1711 = neg_mul_add(platform_velocity[5], t871, t1620);
-        coriolis_matrix_p[3][5] = mul_sub(platform_velocity[4], t1710, t1711);
-        let t1712 = mul_sub(c(0.5), t303, t857);
-        let t1713 = mul_add(platform_velocity[5], t1712, t1644);
-        coriolis_matrix_p[4][3] = mul_add(platform_velocity[3], t861, t1713);
-        let t1714 = neg_mul_add(platform_velocity[5], t859, t1650);
-        coriolis_matrix_p[4][4] = mul_add(platform_velocity[3], t871, t1714);
-        let t1715 = neg_mul_add(platform_velocity[5], t861, t1656);
-        coriolis_matrix_p[4][5] = neg_mul_add(platform_velocity[3], t1710, t1715);
-        let t1716 = neg_mul_add(platform_velocity[4], t1712, t1680);
-        coriolis_matrix_p[5][3] = neg_mul_add(platform_velocity[3], t859, t1716);
-        let t1717 = neg_mul_add(platform_velocity[4], t859, t1686);
-        coriolis_matrix_p[5][4] = mul_sub(platform_velocity[3], t1708, t1717);
-        let t1718 = mul_add(platform_velocity[4], t861, t1692);
-        coriolis_matrix_p[5][5] = neg_mul_add(platform_velocity[3], t871, t1718);
-        (
-            t1034,
-            t1035,
-            t1036,
-            t1244,
-            t1245,
-            t1248,
-            t1250,
-            t1251,
-            t1253,
-            t1254,
-            t1255,
-            t1257,
-            t1258,
-            t1259,
-            t1260,
-            t1283,
-            t1288,
-            t1291,
-            t1292,
-            t1293,
-            t1295,
-            t1296,
-            t1297,
-            t1298,
-            t1320,
-            t1321,
-            t1324,
-            t1326,
-            t1327,
-            t1329,
-            t1330,
-            t1331,
-            t1333,
-            t1334,
-            t1335,
-            t1336,
-            t1358,
-            t1359,
-            t1362,
-            t1364,
-            t1365,
-            t1367,
-            t1368,
-            t1369,
-            t1371,
-            t1372,
-            t1373,
-            t1374,
-            t1396,
-            t1397,
-            t1400,
-            t1402,
-            t1403,
-            t1405,
-            t1406,
-            t1407,
-            t1409,
-            t1410,
-            t1411,
-            t1412,
-            t1434,
-            t1435,
-            t1438,
-            t1440,
-            t1441,
-            t1443,
-            t1444,
-            t1445,
-            t1447,
+        // Coriolis matrix C_b, natural factorisation
+        let t1704 = mul_add(t188, t1320, mul_add(t152, t1244, t1283));
+        let t1705 = mul_add(t224, t1396, mul_add(t206, t1358, t1704));
+        let t1706 = mul_sub(t30, t1452, t1468 - mul_add(t242, t1434, t1705));
+        let t1707 = mul_add(t730, t1036, mul_sub(t29, t1453, t1706));
+        coriolis_matrix_b[0][3] = neg_mul_add(t733, t1035, t1707);
+        let t1708 = t1482 - (t1440 + (t1402 + (t1364 + (t1326 + (t1250 + t1288)))));
+        let t1709 = mul_add(t30, t1451, mul_sub(t28, t1453, t1708));
+        coriolis_matrix_b[0][4] = neg_mul_add(t727, t1036, mul_sub(t733, t1034, t1709));
+        let t1710 = t1496 - (t1443 + (t1405 + (t1367 + (t1329 + (t1253 + t1291)))));
+        let t1711 = mul_add(t28, t1452, mul_add(t29, t1451, t1710));
+        coriolis_matrix_b[0][5] = neg_mul_add(t730, t1034, mul_add(t727, t1035, t1711));
+        let t1712 = t1513 - (t1444 + (t1406 + (t1368 + (t1330 + (t1254 + t1292)))));
+        let t1713 = mul_add(t29, t1499, mul_add(t30, t1498, t1712));
+        coriolis_matrix_b[1][3] = neg_mul_add(t757, t1035, mul_add(t754, t1036, t1713));
+        let t1714 = mul_add(t190, t1324, mul_add(t154, t1248, t1293));
+        let t1715 = mul_add(t226, t1400, mul_add(t208, t1362, t1714));
+        let t1716 = mul_add(t730, t1036, t1526 + mul_add(t244, t1438, t1715));
+        let t1717 = mul_sub(t30, t1497, mul_add(t28, t1499, t1716));
+        coriolis_matrix_b[1][4] = mul_add(t757, t1034, t1717);
+        let t1718 = t1540 - (t1447 + (t1409 + (t1371 + (t1333 + (t1257 + t1295)))));
+        let t1719 = mul_add(t28, t1498, mul_sub(t29, t1497, t1718));
+        coriolis_matrix_b[1][5] = neg_mul_add(t754, t1034, mul_sub(t730, t1035, t1719));
+        let t1720 = t1557 + (t1448 + (t1410 + (t1372 + (t1334 + (t1258 + t1296)))));
+        let t1721 = mul_add(t29, t1543, mul_sub(t30, t1542, t1720));
+        coriolis_matrix_b[2][3] = neg_mul_add(t785, t1035, mul_sub(t757, t1036, t1721));
+        let t1722 = t1571 - (t1449 + (t1411 + (t1373 + (t1335 + (t1259 + t1297)))));
+        let t1723 = mul_add(t30, t1541, mul_add(t28, t1543, t1722));
+        coriolis_matrix_b[2][4] = neg_mul_add(t733, t1036, mul_add(t785, t1034, t1723));
+        let t1724 = mul_add(t192, t1327, mul_add(t156, t1251, t1298));
+        let t1725 = mul_add(t228, t1403, mul_add(t210, t1365, t1724));
+        let t1726 = mul_sub(t733, t1035, t1584 + mul_add(t246, t1441, t1725));
+        let t1727 = mul_add(t29, t1541, mul_sub(t757, t1034, t1726));
+        coriolis_matrix_b[2][5] = mul_sub(t28, t1542, t1727);
+        let t1728 = mul_sub(t29, t1602, neg_mul_add(t30, t1596, t1608));
+        let t1729 = mul_sub(t792, t1035, mul_add(t764, t1036, t1728));
+        let t1730 = mul_add(t147, t1254, mul_add(t144, t1258, t1729));
+        let t1731 = mul_add(t165, t1292, mul_add(t162, t1296, t1730));
+        let t1732 = mul_add(t183, t1330, mul_add(t180, t1334, t1731));
+        let t1733 = mul_add(t201, t1368, mul_add(t198, t1372, t1732));
+        let t1734 = mul_add(t219, t1406, mul_add(t216, t1410, t1733));
+        coriolis_matrix_b[3][3] = mul_add(t237, t1444, mul_add(t234, t1448, t1734));
+        let t1735 = mul_add(t30, t1590, mul_add(t28, t1602, t1614));
+        let t1736 = mul_add(t739, t1036, mul_sub(t792, t1034, t1735));
+        let t1737 = mul_sub(t147, t1255, mul_add(t144, t1259, t1736));
+        let t1738 = mul_sub(t165, t1293, mul_sub(t162, t1297, t1737));
+        let t1739 = mul_sub(t183, t1331, mul_sub(t180, t1335, t1738));
+        let t1740 = mul_sub(t201, t1369, mul_sub(t198, t1373, t1739));
+        let t1741 = mul_sub(t219, t1407, mul_sub(t216, t1411, t1740));
+        coriolis_matrix_b[3][4] = mul_sub(t237, t1445, mul_sub(t234, t1449, t1741));
+        let t1742 = mul_sub(t28, t1596, mul_add(t29, t1590, t1620));
+        let t1743 = mul_add(t764, t1034, mul_add(t739, t1035, t1742));
+        let t1744 = mul_sub(t147, t1257, mul_sub(t144, t1260, t1743));
+        let t1745 = mul_sub(t165, t1295, mul_sub(t162, t1298, t1744));
+        let t1746 = mul_sub(t183, t1333, mul_sub(t180, t1336, t1745));
+        let t1747 = mul_sub(t201, t1371, mul_sub(t198, t1374, t1746));
+        let t1748 = mul_sub(t219, t1409, mul_sub(t216, t1412, t1747));
+        coriolis_matrix_b[3][5] = mul_sub(t237, t1447, mul_sub(t234, t1450, t1748));
+        let t1749 = mul_add(t29, t1638, mul_add(t30, t1632, t1644));
+        let t1750 = mul_add(t799, t1035, mul_add(t777, t1036, t1749));
+        let t1751 = neg_mul_add(t141, t1258, neg_mul_add(t147, t1245, t1750));
+        let t1752 = neg_mul_add(t159, t1296, neg_mul_add(t165, t1283, t1751));
+        let t1753 = neg_mul_add(t177, t1334, neg_mul_add(t183, t1321, t1752));
+        let t1754 = neg_mul_add(t195, t1372, neg_mul_add(t201, t1359, t1753));
+        let t1755 = neg_mul_add(t213, t1410, neg_mul_add(t219, t1397, t1754));
+        coriolis_matrix_b[4][3] = neg_mul_add(
+            t231,
             t1448,
-            t1449,
-            t1450,
-            t1451,
-            t1452,
-            t1453,
-            t1468,
+            neg_mul_add(t237, t1435, t1755),
+        );
+        let t1756 = mul_sub(t30, t1626, neg_mul_add(t28, t1638, t1650));
+        let t1757 = mul_sub(t746, t1036, mul_add(t799, t1034, t1756));
+        let t1758 = mul_sub(t141, t1259, mul_sub(t147, t1250, t1757));
+        let t1759 = mul_sub(t159, t1297, mul_sub(t165, t1288, t1758));
+        let t1760 = mul_sub(t177, t1335, mul_sub(t183, t1326, t1759));
+        let t1761 = mul_sub(t195, t1373, mul_sub(t201, t1364, t1760));
+        let t1762 = mul_sub(t213, t1411, mul_sub(t219, t1402, t1761));
+        coriolis_matrix_b[4][4] = mul_sub(t231, t1449, mul_sub(t237, t1440, t1762));
+        let t1763 = mul_sub(t28, t1632, mul_add(t29, t1626, t1656));
+        let t1764 = mul_add(t777, t1034, mul_add(t746, t1035, t1763));
+        let t1765 = mul_sub(t141, t1260, mul_add(t147, t1253, t1764));
+        let t1766 = mul_sub(t159, t1298, mul_sub(t165, t1291, t1765));
+        let t1767 = mul_sub(t177, t1336, mul_sub(t183, t1329, t1766));
+        let t1768 = mul_sub(t195, t1374, mul_sub(t201, t1367, t1767));
+        let t1769 = mul_sub(t213, t1412, mul_sub(t219, t1405, t1768));
+        coriolis_matrix_b[4][5] = mul_sub(t231, t1450, mul_sub(t237, t1443, t1769));
+        let t1770 = mul_add(t29, t1674, mul_add(t30, t1668, t1680));
+        let t1771 = mul_sub(t806, t1035, mul_sub(t784, t1036, t1770));
+        let t1772 = mul_sub(t144, t1245, mul_sub(t141, t1254, t1771));
+        let t1773 = mul_sub(t162, t1283, mul_sub(t159, t1292, t1772));
+        let t1774 = mul_sub(t180, t1321, mul_sub(t177, t1330, t1773));
+        let t1775 = mul_sub(t198, t1359, mul_sub(t195, t1368, t1774));
+        let t1776 = mul_sub(t216, t1397, mul_sub(t213, t1406, t1775));
+        coriolis_matrix_b[5][3] = mul_sub(t234, t1435, mul_sub(t231, t1444, t1776));
+        let t1777 = mul_sub(t30, t1662, mul_add(t28, t1674, t1686));
+        let t1778 = mul_sub(t753, t1036, mul_sub(t806, t1034, t1777));
+        let t1779 = mul_sub(t144, t1250, mul_sub(t141, t1255, t1778));
+        let t1780 = mul_sub(t162, t1288, mul_sub(t159, t1293, t1779));
+        let t1781 = mul_sub(t180, t1326, mul_sub(t177, t1331, t1780));
+        let t1782 = mul_sub(t198, t1364, mul_sub(t195, t1369, t1781));
+        let t1783 = mul_sub(t216, t1402, mul_sub(t213, t1407, t1782));
+        coriolis_matrix_b[5][4] = mul_sub(t234, t1440, mul_sub(t231, t1445, t1783));
+        let t1784 = mul_sub(t28, t1668, neg_mul_add(t29, t1662, t1692));
+        let t1785 = mul_sub(t784, t1034, mul_add(t753, t1035, t1784));
+        let t1786 = mul_sub(t144, t1253, mul_sub(t141, t1257, t1785));
+        let t1787 = mul_sub(t162, t1291, mul_sub(t159, t1295, t1786));
+        let t1788 = mul_sub(t180, t1329, mul_sub(t177, t1333, t1787));
+        let t1789 = mul_sub(t198, t1367, mul_sub(t195, t1371, t1788));
+        let t1790 = mul_sub(t216, t1405, mul_sub(t213, t1409, t1789));
+        coriolis_matrix_b[5][5] = mul_sub(t234, t1443, mul_sub(t231, t1447, t1790));
+        (
             t1482,
             t1496,
-            t1497,
-            t1498,
-            t1499,
             t1513,
-            t1526,
             t1540,
-            t1541,
-            t1542,
-            t1543,
             t1557,
             t1571,
-            t1584,
-            t1590,
-            t1596,
-            t1602,
             t1608,
             t1614,
             t1620,
-            t1626,
-            t1632,
-            t1638,
             t1644,
             t1650,
             t1656,
-            t1662,
-            t1668,
-            t1674,
             t1680,
             t1686,
             t1692,
         )
     };
     {
-        // Coriolis matrix C_b, natural factorisation
-        let t1719 = mul_add(t188, t1320, mul_add(t152, t1244, t1283));
-        let t1720 = mul_add(t224, t1396, mul_add(t206, t1358, t1719));
-        let t1721 = mul_sub(t30, t1452, t1468 - mul_add(t242, t1434, t1720));
-        let t1722 = mul_add(t730, t1036, mul_sub(t29, t1453, t1721));
-        coriolis_matrix_b[0][3] = neg_mul_add(t733, t1035, t1722);
-        let t1723 = t1482 - (t1440 + (t1402 + (t1364 + (t1326 + (t1250 + t1288)))));
-        let t1724 = mul_add(t30, t1451, mul_sub(t28, t1453, t1723));
-        coriolis_matrix_b[0][4] = neg_mul_add(t727, t1036, mul_sub(t733, t1034, t1724));
-        let t1725 = t1496 - (t1443 + (t1405 + (t1367 + (t1329 + (t1253 + t1291)))));
-        let t1726 = mul_add(t28, t1452, mul_add(t29, t1451, t1725));
-        coriolis_matrix_b[0][5] = neg_mul_add(t730, t1034, mul_add(t727, t1035, t1726));
-        let t1727 = t1513 - (t1444 + (t1406 + (t1368 + (t1330 + (t1254 + t1292)))));
-        let t1728 = mul_add(t29, t1499, mul_add(t30, t1498, t1727));
-        coriolis_matrix_b[1][3] = neg_mul_add(t757, t1035, mul_add(t754, t1036, t1728));
-        let t1729 = mul_add(t190, t1324, mul_add(t154, t1248, t1293));
-        let t1730 = mul_add(t226, t1400, mul_add(t208, t1362, t1729));
-        let t1731 = mul_add(t730, t1036, t1526 + mul_add(t244, t1438, t1730));
-        let t1732 = mul_sub(t30, t1497, mul_add(t28, t1499, t1731));
-        coriolis_matrix_b[1][4] = mul_add(t757, t1034, t1732);
-        let t1733 = t1540 - (t1447 + (t1409 + (t1371 + (t1333 + (t1257 + t1295)))));
-        let t1734 = mul_add(t28, t1498, mul_sub(t29, t1497, t1733));
-        coriolis_matrix_b[1][5] = neg_mul_add(t754, t1034, mul_sub(t730, t1035, t1734));
-        let t1735 = t1557 + (t1448 + (t1410 + (t1372 + (t1334 + (t1258 + t1296)))));
-        let t1736 = mul_add(t29, t1543, mul_sub(t30, t1542, t1735));
-        coriolis_matrix_b[2][3] = neg_mul_add(t785, t1035, mul_sub(t757, t1036, t1736));
-        let t1737 = t1571 - (t1449 + (t1411 + (t1373 + (t1335 + (t1259 + t1297)))));
-        let t1738 = mul_add(t30, t1541, mul_add(t28, t1543, t1737));
-        coriolis_matrix_b[2][4] = neg_mul_add(t733, t1036, mul_add(t785, t1034, t1738));
-        let t1739 = mul_add(t192, t1327, mul_add(t156, t1251, t1298));
-        let t1740 = mul_add(t228, t1403, mul_add(t210, t1365, t1739));
-        let t1741 = mul_sub(t733, t1035, t1584 + mul_add(t246, t1441, t1740));
-        let t1742 = mul_add(t29, t1541, mul_sub(t757, t1034, t1741));
-        coriolis_matrix_b[2][5] = mul_sub(t28, t1542, t1742);
-        let t1743 = mul_sub(t29, t1602, neg_mul_add(t30, t1596, t1608));
-        let t1744 = mul_sub(t792, t1035, mul_add(t764, t1036, t1743));
-        let t1745 = mul_add(t147, t1254, mul_add(t144, t1258, t1744));
-        let t1746 = mul_add(t165, t1292, mul_add(t162, t1296, t1745));
-        let t1747 = mul_add(t183, t1330, mul_add(t180, t1334, t1746));
-        let t1748 = mul_add(t201, t1368, mul_add(t198, t1372, t1747));
-        let t1749 = mul_add(t219, t1406, mul_add(t216, t1410, t1748));
-        coriolis_matrix_b[3][3] = mul_add(t237, t1444, mul_add(t234, t1448, t1749));
-        let t1750 = mul_add(t30, t1590, mul_add(t28, t1602, t1614));
-        let t1751 = mul_add(t739, t1036, mul_sub(t792, t1034, t1750));
-        let t1752 = mul_sub(t147, t1255, mul_add(t144, t1259, t1751));
-        let t1753 = mul_sub(t165, t1293, mul_sub(t162, t1297, t1752));
-        let t1754 = mul_sub(t183, t1331, mul_sub(t180, t1335, t1753));
-        let t1755 = mul_sub(t201, t1369, mul_sub(t198, t1373, t1754));
-        let t1756 = mul_sub(t219, t1407, mul_sub(t216, t1411, t1755));
-        coriolis_matrix_b[3][4] = mul_sub(t237, t1445, mul_sub(t234, t1449, t1756));
-        let t1757 = mul_sub(t28, t1596, mul_add(t29, t1590, t1620));
-        let t1758 = mul_add(t764, t1034, mul_add(t739, t1035, t1757));
-        let t1759 = mul_sub(t147, t1257, mul_sub(t144, t1260, t1758));
-        let t1760 = mul_sub(t165, t1295, mul_sub(t162, t1298, t1759));
-        let t1761 = mul_sub(t183, t1333, mul_sub(t180, t1336, t1760));
-        let t1762 = mul_sub(t201, t1371, mul_sub(t198, t1374, t1761));
-        let t1763 = mul_sub(t219, t1409, mul_sub(t216, t1412, t1762));
-        coriolis_matrix_b[3][5] = mul_sub(t237, t1447, mul_sub(t234, t1450, t1763));
-        let t1764 = mul_add(t29, t1638, mul_add(t30, t1632, t1644));
-        let t1765 = mul_add(t799, t1035, mul_add(t777, t1036, t1764));
-        let t1766 = neg_mul_add(t141, t1258, neg_mul_add(t147, t1245, t1765));
-        let t1767 = neg_mul_add(t159, t1296, neg_mul_add(t165, t1283, t1766));
-        let t1768 = neg_mul_add(t177, t1334, neg_mul_add(t183, t1321, t1767));
-        let t1769 = neg_mul_add(t195, t1372, neg_mul_add(t201, t1359, t1768));
-        let t1770 = neg_mul_add(t213, t1410, neg_mul_add(t219, t1397, t1769));
-        coriolis_matrix_b[4][3] = neg_mul_add(
-            t231,
-            t1448,
-            neg_mul_add(t237, t1435, t1770),
-        );
-        let t1771 = mul_sub(t30, t1626, neg_mul_add(t28, t1638, t1650));
-        let t1772 = mul_sub(t746, t1036, mul_add(t799, t1034, t1771));
-        let t1773 = mul_sub(t141, t1259, mul_sub(t147, t1250, t1772));
-        let t1774 = mul_sub(t159, t1297, mul_sub(t165, t1288, t1773));
-        let t1775 = mul_sub(t177, t1335, mul_sub(t183, t1326, t1774));
-        let t1776 = mul_sub(t195, t1373, mul_sub(t201, t1364, t1775));
-        let t1777 = mul_sub(t213, t1411, mul_sub(t219, t1402, t1776));
-        coriolis_matrix_b[4][4] = mul_sub(t231, t1449, mul_sub(t237, t1440, t1777));
-        let t1778 = mul_sub(t28, t1632, mul_add(t29, t1626, t1656));
-        let t1779 = mul_add(t777, t1034, mul_add(t746, t1035, t1778));
-        let t1780 = mul_sub(t141, t1260, mul_add(t147, t1253, t1779));
-        let t1781 = mul_sub(t159, t1298, mul_sub(t165, t1291, t1780));
-        let t1782 = mul_sub(t177, t1336, mul_sub(t183, t1329, t1781));
-        let t1783 = mul_sub(t195, t1374, mul_sub(t201, t1367, t1782));
-        let t1784 = mul_sub(t213, t1412, mul_sub(t219, t1405, t1783));
-        coriolis_matrix_b[4][5] = mul_sub(t231, t1450, mul_sub(t237, t1443, t1784));
-        let t1785 = mul_add(t29, t1674, mul_add(t30, t1668, t1680));
-        let t1786 = mul_sub(t806, t1035, mul_sub(t784, t1036, t1785));
-        let t1787 = mul_sub(t144, t1245, mul_sub(t141, t1254, t1786));
-        let t1788 = mul_sub(t162, t1283, mul_sub(t159, t1292, t1787));
-        let t1789 = mul_sub(t180, t1321, mul_sub(t177, t1330, t1788));
-        let t1790 = mul_sub(t198, t1359, mul_sub(t195, t1368, t1789));
-        let t1791 = mul_sub(t216, t1397, mul_sub(t213, t1406, t1790));
-        coriolis_matrix_b[5][3] = mul_sub(t234, t1435, mul_sub(t231, t1444, t1791));
-        let t1792 = mul_sub(t30, t1662, mul_add(t28, t1674, t1686));
-        let t1793 = mul_sub(t753, t1036, mul_sub(t806, t1034, t1792));
-        let t1794 = mul_sub(t144, t1250, mul_sub(t141, t1255, t1793));
-        let t1795 = mul_sub(t162, t1288, mul_sub(t159, t1293, t1794));
-        let t1796 = mul_sub(t180, t1326, mul_sub(t177, t1331, t1795));
-        let t1797 = mul_sub(t198, t1364, mul_sub(t195, t1369, t1796));
-        let t1798 = mul_sub(t216, t1402, mul_sub(t213, t1407, t1797));
-        coriolis_matrix_b[5][4] = mul_sub(t234, t1440, mul_sub(t231, t1445, t1798));
-        let t1799 = mul_sub(t28, t1668, neg_mul_add(t29, t1662, t1692));
-        let t1800 = mul_sub(t784, t1034, mul_add(t753, t1035, t1799));
-        let t1801 = mul_sub(t144, t1253, mul_sub(t141, t1257, t1800));
-        let t1802 = mul_sub(t162, t1291, mul_sub(t159, t1295, t1801));
-        let t1803 = mul_sub(t180, t1329, mul_sub(t177, t1333, t1802));
-        let t1804 = mul_sub(t198, t1367, mul_sub(t195, t1371, t1803));
-        let t1805 = mul_sub(t216, t1405, mul_sub(t213, t1409, t1804));
-        coriolis_matrix_b[5][5] = mul_sub(t234, t1443, mul_sub(t231, t1447, t1805));
+        // Coriolis matrix C_p, natural factorisation
+        let t1791 = mul_sub(platform_velocity[3], t847, platform_velocity[4] * t849);
+        coriolis_matrix_p[0][4] = t1482 + t1791;
+        let t1792 = mul_sub(platform_velocity[5], t849, platform_velocity[3] * t845);
+        coriolis_matrix_p[0][5] = t1496 - t1792;
+        coriolis_matrix_p[1][3] = t1513 - t1791;
+        let t1793 = mul_sub(platform_velocity[4], t845, platform_velocity[5] * t847);
+        coriolis_matrix_p[1][5] = t1540 + t1793;
+        coriolis_matrix_p[2][3] = t1557 + t1792;
+        coriolis_matrix_p[2][4] = t1571 - t1793;
+        let t1794 = mul_add(platform_velocity[5], t859, t1608);
+        coriolis_matrix_p[3][3] = neg_mul_add(platform_velocity[4], t861, t1794);
+        let t1795 = mul_sub(c(0.5), t303, t869);
+        let t1796 = neg_mul_add(platform_velocity[5], t1795, t1614);
+        coriolis_matrix_p[3][4] = neg_mul_add(platform_velocity[4], t871, t1796);
+        let t1797 = mul_sub(c(0.5), t303, t879);
+        let t1798 = neg_mul_add(platform_velocity[5], t871, t1620);
+        coriolis_matrix_p[3][5] = mul_sub(platform_velocity[4], t1797, t1798);
+        let t1799 = mul_sub(c(0.5), t303, t857);
+        let t1800 = mul_add(platform_velocity[5], t1799, t1644);
+        coriolis_matrix_p[4][3] = mul_add(platform_velocity[3], t861, t1800);
+        let t1801 = neg_mul_add(platform_velocity[5], t859, t1650);
+        coriolis_matrix_p[4][4] = mul_add(platform_velocity[3], t871, t1801);
+        let t1802 = neg_mul_add(platform_velocity[5], t861, t1656);
+        coriolis_matrix_p[4][5] = neg_mul_add(platform_velocity[3], t1797, t1802);
+        let t1803 = neg_mul_add(platform_velocity[4], t1799, t1680);
+        coriolis_matrix_p[5][3] = neg_mul_add(platform_velocity[3], t859, t1803);
+        let t1804 = neg_mul_add(platform_velocity[4], t859, t1686);
+        coriolis_matrix_p[5][4] = mul_sub(platform_velocity[3], t1795, t1804);
+        let t1805 = mul_add(platform_velocity[4], t861, t1692);
+        coriolis_matrix_p[5][5] = neg_mul_add(platform_velocity[3], t871, t1805);
         // leg 1: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
         jacobian_dp[0][3] = mul_sub(t144, t156, t147 * t154);
         jacobian_dp[0][4] = mul_sub(t147, t152, t141 * t156);
@@ -19572,450 +19424,452 @@ pub fn bias<T: Scalar>(
     let t435 = t288 * t291;
     let t436 = mul_add(t288, t288, t433);
     // acceleration per platform coordinate of points of the platform
-    let t437 = t294 * t300;
-    let t438 = t294 * t297;
-    let t439 = mul_add(t297, t297, t300 * t300);
-    let t440 = mul_add(t21, t437, mul_sub(t12, t438, t3 * t439));
-    let t441 = mul_add(t24, t437, mul_sub(t15, t438, t6 * t439));
-    let t442 = mul_add(t27, t437, mul_sub(t18, t438, t9 * t439));
-    let t443 = t297 * t300;
-    let t444 = t294 * t294;
-    let t445 = mul_add(t300, t300, t444);
-    let t446 = mul_add(t21, t443, mul_sub(t3, t438, t12 * t445));
-    let t447 = mul_add(t24, t443, mul_sub(t6, t438, t15 * t445));
-    let t448 = mul_add(t27, t443, mul_sub(t9, t438, t18 * t445));
-    let t449 = mul_add(t297, t297, t444);
-    let t450 = mul_sub(t21, t449, mul_add(t3, t437, t12 * t443));
-    let t451 = mul_sub(t24, t449, mul_add(t6, t437, t15 * t443));
-    let t452 = mul_sub(t27, t449, mul_add(t9, t437, t18 * t443));
+    let t437 = mul_sub(t12, t294, t3 * t297);
+    let t438 = mul_sub(t3, t300, t21 * t294);
+    let t439 = mul_sub(t297, t437, t300 * t438);
+    let t440 = mul_sub(t15, t294, t6 * t297);
+    let t441 = mul_sub(t6, t300, t24 * t294);
+    let t442 = mul_sub(t297, t440, t300 * t441);
+    let t443 = mul_sub(t18, t294, t9 * t297);
+    let t444 = mul_sub(t9, t300, t27 * t294);
+    let t445 = mul_sub(t297, t443, t300 * t444);
+    let t446 = mul_sub(t21, t297, t12 * t300);
+    let t447 = mul_sub(t300, t446, t294 * t437);
+    let t448 = mul_sub(t24, t297, t15 * t300);
+    let t449 = mul_sub(t300, t448, t294 * t440);
+    let t450 = mul_sub(t27, t297, t18 * t300);
+    let t451 = mul_sub(t300, t450, t294 * t443);
+    let t452 = mul_sub(t294, t438, t297 * t446);
+    let t453 = mul_sub(t294, t441, t297 * t448);
+    let t454 = mul_sub(t294, t444, t297 * t450);
     // leg 1: actuator acceleration d''
-    let t453 = neg_mul_add(parameters.platform_point[0][0], t440, t423);
-    let t454 = mul_sub(parameters.platform_point[0][1], t441, t453);
-    let t455 = mul_add(parameters.platform_point[0][2], t442, t454);
-    let t456 = mul_add(parameters.base_point[0][0], t430, t423);
-    let t457 = mul_sub(parameters.base_point[0][1], t431, t456);
-    let t458 = mul_add(parameters.base_point[0][2], t432, t457);
-    let t459 = t455 - t458;
-    let t460 = neg_mul_add(parameters.platform_point[0][0], t446, t426);
-    let t461 = mul_sub(parameters.platform_point[0][1], t447, t460);
-    let t462 = mul_add(parameters.platform_point[0][2], t448, t461);
-    let t463 = neg_mul_add(parameters.base_point[0][0], t431, t426);
-    let t464 = mul_add(parameters.base_point[0][1], t434, t463);
-    let t465 = mul_sub(parameters.base_point[0][2], t435, t464);
-    let t466 = t462 - t465;
-    let t467 = mul_add(parameters.platform_point[0][0], t450, t429);
-    let t468 = mul_add(parameters.platform_point[0][1], t451, t467);
-    let t469 = mul_add(parameters.platform_point[0][2], t452, t468);
-    let t470 = neg_mul_add(parameters.base_point[0][0], t432, t429);
-    let t471 = mul_sub(parameters.base_point[0][1], t435, t470);
-    let t472 = mul_sub(parameters.base_point[0][2], t436, t471);
-    let t473 = t469 - t472;
-    let t474 = mul_add(t390, t390, mul_add(t386, t386, t388 * t388));
-    let t475 = mul_sub(t123, t473, mul_add(t121, t459, t122 * t466));
-    let t476 = mul_sub(t109, t474, t475);
+    let t455 = neg_mul_add(parameters.platform_point[0][0], t439, t423);
+    let t456 = mul_sub(parameters.platform_point[0][1], t442, t455);
+    let t457 = mul_add(parameters.platform_point[0][2], t445, t456);
+    let t458 = mul_add(parameters.base_point[0][0], t430, t423);
+    let t459 = mul_sub(parameters.base_point[0][1], t431, t458);
+    let t460 = mul_add(parameters.base_point[0][2], t432, t459);
+    let t461 = t457 - t460;
+    let t462 = neg_mul_add(parameters.platform_point[0][0], t447, t426);
+    let t463 = mul_sub(parameters.platform_point[0][1], t449, t462);
+    let t464 = mul_add(parameters.platform_point[0][2], t451, t463);
+    let t465 = neg_mul_add(parameters.base_point[0][0], t431, t426);
+    let t466 = mul_add(parameters.base_point[0][1], t434, t465);
+    let t467 = mul_sub(parameters.base_point[0][2], t435, t466);
+    let t468 = t464 - t467;
+    let t469 = neg_mul_add(parameters.platform_point[0][0], t452, t429);
+    let t470 = mul_sub(parameters.platform_point[0][1], t453, t469);
+    let t471 = mul_add(parameters.platform_point[0][2], t454, t470);
+    let t472 = neg_mul_add(parameters.base_point[0][0], t432, t429);
+    let t473 = mul_sub(parameters.base_point[0][1], t435, t472);
+    let t474 = mul_sub(parameters.base_point[0][2], t436, t473);
+    let t475 = t471 + t474;
+    let t476 = mul_add(t390, t390, mul_add(t386, t386, t388 * t388));
+    let t477 = mul_add(t123, t475, mul_add(t121, t461, t122 * t468));
+    let t478 = mul_add(t109, t476, t477);
     // leg 2: actuator acceleration d''
-    let t477 = neg_mul_add(parameters.platform_point[1][0], t440, t423);
-    let t478 = mul_sub(parameters.platform_point[1][1], t441, t477);
-    let t479 = mul_add(parameters.platform_point[1][2], t442, t478);
-    let t480 = mul_add(parameters.base_point[1][0], t430, t423);
-    let t481 = mul_sub(parameters.base_point[1][1], t431, t480);
-    let t482 = mul_add(parameters.base_point[1][2], t432, t481);
-    let t483 = t479 - t482;
-    let t484 = neg_mul_add(parameters.platform_point[1][0], t446, t426);
-    let t485 = mul_sub(parameters.platform_point[1][1], t447, t484);
-    let t486 = mul_add(parameters.platform_point[1][2], t448, t485);
-    let t487 = neg_mul_add(parameters.base_point[1][0], t431, t426);
-    let t488 = mul_add(parameters.base_point[1][1], t434, t487);
-    let t489 = mul_sub(parameters.base_point[1][2], t435, t488);
-    let t490 = t486 - t489;
-    let t491 = mul_add(parameters.platform_point[1][0], t450, t429);
-    let t492 = mul_add(parameters.platform_point[1][1], t451, t491);
-    let t493 = mul_add(parameters.platform_point[1][2], t452, t492);
-    let t494 = neg_mul_add(parameters.base_point[1][0], t432, t429);
-    let t495 = mul_sub(parameters.base_point[1][1], t435, t494);
-    let t496 = mul_sub(parameters.base_point[1][2], t436, t495);
-    let t497 = t493 - t496;
-    let t498 = mul_add(t396, t396, mul_add(t392, t392, t394 * t394));
-    let t499 = mul_sub(t126, t497, mul_add(t124, t483, t125 * t490));
-    let t500 = mul_sub(t111, t498, t499);
+    let t479 = neg_mul_add(parameters.platform_point[1][0], t439, t423);
+    let t480 = mul_sub(parameters.platform_point[1][1], t442, t479);
+    let t481 = mul_add(parameters.platform_point[1][2], t445, t480);
+    let t482 = mul_add(parameters.base_point[1][0], t430, t423);
+    let t483 = mul_sub(parameters.base_point[1][1], t431, t482);
+    let t484 = mul_add(parameters.base_point[1][2], t432, t483);
+    let t485 = t481 - t484;
+    let t486 = neg_mul_add(parameters.platform_point[1][0], t447, t426);
+    let t487 = mul_sub(parameters.platform_point[1][1], t449, t486);
+    let t488 = mul_add(parameters.platform_point[1][2], t451, t487);
+    let t489 = neg_mul_add(parameters.base_point[1][0], t431, t426);
+    let t490 = mul_add(parameters.base_point[1][1], t434, t489);
+    let t491 = mul_sub(parameters.base_point[1][2], t435, t490);
+    let t492 = t488 - t491;
+    let t493 = neg_mul_add(parameters.platform_point[1][0], t452, t429);
+    let t494 = mul_sub(parameters.platform_point[1][1], t453, t493);
+    let t495 = mul_add(parameters.platform_point[1][2], t454, t494);
+    let t496 = neg_mul_add(parameters.base_point[1][0], t432, t429);
+    let t497 = mul_sub(parameters.base_point[1][1], t435, t496);
+    let t498 = mul_sub(parameters.base_point[1][2], t436, t497);
+    let t499 = t495 + t498;
+    let t500 = mul_add(t396, t396, mul_add(t392, t392, t394 * t394));
+    let t501 = mul_add(t126, t499, mul_add(t124, t485, t125 * t492));
+    let t502 = mul_add(t111, t500, t501);
     // leg 3: actuator acceleration d''
-    let t501 = neg_mul_add(parameters.platform_point[2][0], t440, t423);
-    let t502 = mul_sub(parameters.platform_point[2][1], t441, t501);
-    let t503 = mul_add(parameters.platform_point[2][2], t442, t502);
-    let t504 = mul_add(parameters.base_point[2][0], t430, t423);
-    let t505 = mul_sub(parameters.base_point[2][1], t431, t504);
-    let t506 = mul_add(parameters.base_point[2][2], t432, t505);
-    let t507 = t503 - t506;
-    let t508 = neg_mul_add(parameters.platform_point[2][0], t446, t426);
-    let t509 = mul_sub(parameters.platform_point[2][1], t447, t508);
-    let t510 = mul_add(parameters.platform_point[2][2], t448, t509);
-    let t511 = neg_mul_add(parameters.base_point[2][0], t431, t426);
-    let t512 = mul_add(parameters.base_point[2][1], t434, t511);
-    let t513 = mul_sub(parameters.base_point[2][2], t435, t512);
-    let t514 = t510 - t513;
-    let t515 = mul_add(parameters.platform_point[2][0], t450, t429);
-    let t516 = mul_add(parameters.platform_point[2][1], t451, t515);
-    let t517 = mul_add(parameters.platform_point[2][2], t452, t516);
-    let t518 = neg_mul_add(parameters.base_point[2][0], t432, t429);
-    let t519 = mul_sub(parameters.base_point[2][1], t435, t518);
-    let t520 = mul_sub(parameters.base_point[2][2], t436, t519);
-    let t521 = t517 - t520;
-    let t522 = mul_add(t402, t402, mul_add(t398, t398, t400 * t400));
-    let t523 = mul_sub(t129, t521, mul_add(t127, t507, t128 * t514));
-    let t524 = mul_sub(t113, t522, t523);
+    let t503 = neg_mul_add(parameters.platform_point[2][0], t439, t423);
+    let t504 = mul_sub(parameters.platform_point[2][1], t442, t503);
+    let t505 = mul_add(parameters.platform_point[2][2], t445, t504);
+    let t506 = mul_add(parameters.base_point[2][0], t430, t423);
+    let t507 = mul_sub(parameters.base_point[2][1], t431, t506);
+    let t508 = mul_add(parameters.base_point[2][2], t432, t507);
+    let t509 = t505 - t508;
+    let t510 = neg_mul_add(parameters.platform_point[2][0], t447, t426);
+    let t511 = mul_sub(parameters.platform_point[2][1], t449, t510);
+    let t512 = mul_add(parameters.platform_point[2][2], t451, t511);
+    let t513 = neg_mul_add(parameters.base_point[2][0], t431, t426);
+    let t514 = mul_add(parameters.base_point[2][1], t434, t513);
+    let t515 = mul_sub(parameters.base_point[2][2], t435, t514);
+    let t516 = t512 - t515;
+    let t517 = neg_mul_add(parameters.platform_point[2][0], t452, t429);
+    let t518 = mul_sub(parameters.platform_point[2][1], t453, t517);
+    let t519 = mul_add(parameters.platform_point[2][2], t454, t518);
+    let t520 = neg_mul_add(parameters.base_point[2][0], t432, t429);
+    let t521 = mul_sub(parameters.base_point[2][1], t435, t520);
+    let t522 = mul_sub(parameters.base_point[2][2], t436, t521);
+    let t523 = t519 + t522;
+    let t524 = mul_add(t402, t402, mul_add(t398, t398, t400 * t400));
+    let t525 = mul_add(t129, t523, mul_add(t127, t509, t128 * t516));
+    let t526 = mul_add(t113, t524, t525);
     // leg 4: actuator acceleration d''
-    let t525 = neg_mul_add(parameters.platform_point[3][0], t440, t423);
-    let t526 = mul_sub(parameters.platform_point[3][1], t441, t525);
-    let t527 = mul_add(parameters.platform_point[3][2], t442, t526);
-    let t528 = mul_add(parameters.base_point[3][0], t430, t423);
-    let t529 = mul_sub(parameters.base_point[3][1], t431, t528);
-    let t530 = mul_add(parameters.base_point[3][2], t432, t529);
-    let t531 = t527 - t530;
-    let t532 = neg_mul_add(parameters.platform_point[3][0], t446, t426);
-    let t533 = mul_sub(parameters.platform_point[3][1], t447, t532);
-    let t534 = mul_add(parameters.platform_point[3][2], t448, t533);
-    let t535 = neg_mul_add(parameters.base_point[3][0], t431, t426);
-    let t536 = mul_add(parameters.base_point[3][1], t434, t535);
-    let t537 = mul_sub(parameters.base_point[3][2], t435, t536);
-    let t538 = t534 - t537;
-    let t539 = mul_add(parameters.platform_point[3][0], t450, t429);
-    let t540 = mul_add(parameters.platform_point[3][1], t451, t539);
-    let t541 = mul_add(parameters.platform_point[3][2], t452, t540);
-    let t542 = neg_mul_add(parameters.base_point[3][0], t432, t429);
-    let t543 = mul_sub(parameters.base_point[3][1], t435, t542);
-    let t544 = mul_sub(parameters.base_point[3][2], t436, t543);
-    let t545 = t541 - t544;
-    let t546 = mul_add(t408, t408, mul_add(t404, t404, t406 * t406));
-    let t547 = mul_sub(t132, t545, mul_add(t130, t531, t131 * t538));
-    let t548 = mul_sub(t115, t546, t547);
+    let t527 = neg_mul_add(parameters.platform_point[3][0], t439, t423);
+    let t528 = mul_sub(parameters.platform_point[3][1], t442, t527);
+    let t529 = mul_add(parameters.platform_point[3][2], t445, t528);
+    let t530 = mul_add(parameters.base_point[3][0], t430, t423);
+    let t531 = mul_sub(parameters.base_point[3][1], t431, t530);
+    let t532 = mul_add(parameters.base_point[3][2], t432, t531);
+    let t533 = t529 - t532;
+    let t534 = neg_mul_add(parameters.platform_point[3][0], t447, t426);
+    let t535 = mul_sub(parameters.platform_point[3][1], t449, t534);
+    let t536 = mul_add(parameters.platform_point[3][2], t451, t535);
+    let t537 = neg_mul_add(parameters.base_point[3][0], t431, t426);
+    let t538 = mul_add(parameters.base_point[3][1], t434, t537);
+    let t539 = mul_sub(parameters.base_point[3][2], t435, t538);
+    let t540 = t536 - t539;
+    let t541 = neg_mul_add(parameters.platform_point[3][0], t452, t429);
+    let t542 = mul_sub(parameters.platform_point[3][1], t453, t541);
+    let t543 = mul_add(parameters.platform_point[3][2], t454, t542);
+    let t544 = neg_mul_add(parameters.base_point[3][0], t432, t429);
+    let t545 = mul_sub(parameters.base_point[3][1], t435, t544);
+    let t546 = mul_sub(parameters.base_point[3][2], t436, t545);
+    let t547 = t543 + t546;
+    let t548 = mul_add(t408, t408, mul_add(t404, t404, t406 * t406));
+    let t549 = mul_add(t132, t547, mul_add(t130, t533, t131 * t540));
+    let t550 = mul_add(t115, t548, t549);
     // leg 5: actuator acceleration d''
-    let t549 = neg_mul_add(parameters.platform_point[4][0], t440, t423);
-    let t550 = mul_sub(parameters.platform_point[4][1], t441, t549);
-    let t551 = mul_add(parameters.platform_point[4][2], t442, t550);
-    let t552 = mul_add(parameters.base_point[4][0], t430, t423);
-    let t553 = mul_sub(parameters.base_point[4][1], t431, t552);
-    let t554 = mul_add(parameters.base_point[4][2], t432, t553);
-    let t555 = t551 - t554;
-    let t556 = neg_mul_add(parameters.platform_point[4][0], t446, t426);
-    let t557 = mul_sub(parameters.platform_point[4][1], t447, t556);
-    let t558 = mul_add(parameters.platform_point[4][2], t448, t557);
-    let t559 = neg_mul_add(parameters.base_point[4][0], t431, t426);
-    let t560 = mul_add(parameters.base_point[4][1], t434, t559);
-    let t561 = mul_sub(parameters.base_point[4][2], t435, t560);
-    let t562 = t558 - t561;
-    let t563 = mul_add(parameters.platform_point[4][0], t450, t429);
-    let t564 = mul_add(parameters.platform_point[4][1], t451, t563);
-    let t565 = mul_add(parameters.platform_point[4][2], t452, t564);
-    let t566 = neg_mul_add(parameters.base_point[4][0], t432, t429);
-    let t567 = mul_sub(parameters.base_point[4][1], t435, t566);
-    let t568 = mul_sub(parameters.base_point[4][2], t436, t567);
-    let t569 = t565 - t568;
-    let t570 = mul_add(t414, t414, mul_add(t410, t410, t412 * t412));
-    let t571 = mul_sub(t135, t569, mul_add(t133, t555, t134 * t562));
-    let t572 = mul_sub(t117, t570, t571);
+    let t551 = neg_mul_add(parameters.platform_point[4][0], t439, t423);
+    let t552 = mul_sub(parameters.platform_point[4][1], t442, t551);
+    let t553 = mul_add(parameters.platform_point[4][2], t445, t552);
+    let t554 = mul_add(parameters.base_point[4][0], t430, t423);
+    let t555 = mul_sub(parameters.base_point[4][1], t431, t554);
+    let t556 = mul_add(parameters.base_point[4][2], t432, t555);
+    let t557 = t553 - t556;
+    let t558 = neg_mul_add(parameters.platform_point[4][0], t447, t426);
+    let t559 = mul_sub(parameters.platform_point[4][1], t449, t558);
+    let t560 = mul_add(parameters.platform_point[4][2], t451, t559);
+    let t561 = neg_mul_add(parameters.base_point[4][0], t431, t426);
+    let t562 = mul_add(parameters.base_point[4][1], t434, t561);
+    let t563 = mul_sub(parameters.base_point[4][2], t435, t562);
+    let t564 = t560 - t563;
+    let t565 = neg_mul_add(parameters.platform_point[4][0], t452, t429);
+    let t566 = mul_sub(parameters.platform_point[4][1], t453, t565);
+    let t567 = mul_add(parameters.platform_point[4][2], t454, t566);
+    let t568 = neg_mul_add(parameters.base_point[4][0], t432, t429);
+    let t569 = mul_sub(parameters.base_point[4][1], t435, t568);
+    let t570 = mul_sub(parameters.base_point[4][2], t436, t569);
+    let t571 = t567 + t570;
+    let t572 = mul_add(t414, t414, mul_add(t410, t410, t412 * t412));
+    let t573 = mul_add(t135, t571, mul_add(t133, t557, t134 * t564));
+    let t574 = mul_add(t117, t572, t573);
     // leg 6: actuator acceleration d''
-    let t573 = neg_mul_add(parameters.platform_point[5][0], t440, t423);
-    let t574 = mul_sub(parameters.platform_point[5][1], t441, t573);
-    let t575 = mul_add(parameters.platform_point[5][2], t442, t574);
-    let t576 = mul_add(parameters.base_point[5][0], t430, t423);
-    let t577 = mul_sub(parameters.base_point[5][1], t431, t576);
-    let t578 = mul_add(parameters.base_point[5][2], t432, t577);
-    let t579 = t575 - t578;
-    let t580 = neg_mul_add(parameters.platform_point[5][0], t446, t426);
-    let t581 = mul_sub(parameters.platform_point[5][1], t447, t580);
-    let t582 = mul_add(parameters.platform_point[5][2], t448, t581);
-    let t583 = neg_mul_add(parameters.base_point[5][0], t431, t426);
-    let t584 = mul_add(parameters.base_point[5][1], t434, t583);
-    let t585 = mul_sub(parameters.base_point[5][2], t435, t584);
-    let t586 = t582 - t585;
-    let t587 = mul_add(parameters.platform_point[5][0], t450, t429);
-    let t588 = mul_add(parameters.platform_point[5][1], t451, t587);
-    let t589 = mul_add(parameters.platform_point[5][2], t452, t588);
-    let t590 = neg_mul_add(parameters.base_point[5][0], t432, t429);
-    let t591 = mul_sub(parameters.base_point[5][1], t435, t590);
-    let t592 = mul_sub(parameters.base_point[5][2], t436, t591);
-    let t593 = t589 - t592;
-    let t594 = mul_add(t420, t420, mul_add(t416, t416, t418 * t418));
-    let t595 = mul_sub(t138, t593, mul_add(t136, t579, t137 * t586));
-    let t596 = mul_sub(t119, t594, t595);
+    let t575 = neg_mul_add(parameters.platform_point[5][0], t439, t423);
+    let t576 = mul_sub(parameters.platform_point[5][1], t442, t575);
+    let t577 = mul_add(parameters.platform_point[5][2], t445, t576);
+    let t578 = mul_add(parameters.base_point[5][0], t430, t423);
+    let t579 = mul_sub(parameters.base_point[5][1], t431, t578);
+    let t580 = mul_add(parameters.base_point[5][2], t432, t579);
+    let t581 = t577 - t580;
+    let t582 = neg_mul_add(parameters.platform_point[5][0], t447, t426);
+    let t583 = mul_sub(parameters.platform_point[5][1], t449, t582);
+    let t584 = mul_add(parameters.platform_point[5][2], t451, t583);
+    let t585 = neg_mul_add(parameters.base_point[5][0], t431, t426);
+    let t586 = mul_add(parameters.base_point[5][1], t434, t585);
+    let t587 = mul_sub(parameters.base_point[5][2], t435, t586);
+    let t588 = t584 - t587;
+    let t589 = neg_mul_add(parameters.platform_point[5][0], t452, t429);
+    let t590 = mul_sub(parameters.platform_point[5][1], t453, t589);
+    let t591 = mul_add(parameters.platform_point[5][2], t454, t590);
+    let t592 = neg_mul_add(parameters.base_point[5][0], t432, t429);
+    let t593 = mul_sub(parameters.base_point[5][1], t435, t592);
+    let t594 = mul_sub(parameters.base_point[5][2], t436, t593);
+    let t595 = t591 + t594;
+    let t596 = mul_add(t420, t420, mul_add(t416, t416, t418 * t418));
+    let t597 = mul_add(t138, t595, mul_add(t136, t581, t137 * t588));
+    let t598 = mul_add(t119, t596, t597);
     // leg 1: leg inertia less weight along the actuator
-    let t597 = c(2.0) * t379;
-    let t598 = t110 * mul_add(t386, t597, neg_mul_add(t121, t476, t459));
-    let t599 = t110 * t143;
-    let t600 = t110 * t140;
-    let t601 = t110 * t139;
-    let t602 = mul_sub(t599, t598, mul_sub(t455, t600, t458 * t601));
-    let t603 = t110 * mul_add(t388, t597, neg_mul_add(t122, t476, t466));
-    let t604 = mul_sub(t599, t603, mul_sub(t462, t600, t465 * t601));
-    let t605 = t122 * t604;
-    let t606 = t110 * mul_sub(t390, t597, mul_add(t123, t476, t473));
-    let t607 = mul_add(t599, t606, mul_sub(t469, t600, t472 * t601));
+    let t599 = c(2.0) * t379;
+    let t600 = t110 * mul_add(t386, t599, neg_mul_add(t121, t478, t461));
+    let t601 = t110 * t143;
+    let t602 = t110 * t140;
+    let t603 = t110 * t139;
+    let t604 = mul_sub(t601, t600, mul_sub(t457, t602, t460 * t603));
+    let t605 = t110 * mul_add(t388, t599, neg_mul_add(t122, t478, t468));
+    let t606 = mul_sub(t601, t605, mul_sub(t464, t602, t467 * t603));
+    let t607 = t122 * t606;
+    let t608 = t110 * mul_add(t390, t599, neg_mul_add(t123, t478, t475));
+    let t609 = mul_sub(t601, t608, mul_add(t471, t602, t474 * t603));
     // leg 1: remaining leg inertia less weight at the platform joint
-    let t608 = neg_mul_add(t140, t598, t602);
-    let t609 = neg_mul_add(t140, t603, t604);
-    let t610 = neg_mul_add(t140, t606, t607);
+    let t610 = neg_mul_add(t140, t600, t604);
+    let t611 = neg_mul_add(t140, t605, t606);
+    let t612 = neg_mul_add(t140, t608, t609);
     // leg 2: leg inertia less weight along the actuator
-    let t611 = c(2.0) * t380;
-    let t612 = t112 * mul_add(t392, t611, neg_mul_add(t124, t500, t483));
-    let t613 = t112 * t148;
-    let t614 = t112 * t145;
-    let t615 = t112 * t144;
-    let t616 = mul_sub(t613, t612, mul_sub(t479, t614, t482 * t615));
-    let t617 = t112 * mul_add(t394, t611, neg_mul_add(t125, t500, t490));
-    let t618 = mul_sub(t613, t617, mul_sub(t486, t614, t489 * t615));
-    let t619 = t125 * t618;
-    let t620 = t112 * mul_sub(t396, t611, mul_add(t126, t500, t497));
-    let t621 = mul_add(t613, t620, mul_sub(t493, t614, t496 * t615));
+    let t613 = c(2.0) * t380;
+    let t614 = t112 * mul_add(t392, t613, neg_mul_add(t124, t502, t485));
+    let t615 = t112 * t148;
+    let t616 = t112 * t145;
+    let t617 = t112 * t144;
+    let t618 = mul_sub(t615, t614, mul_sub(t481, t616, t484 * t617));
+    let t619 = t112 * mul_add(t394, t613, neg_mul_add(t125, t502, t492));
+    let t620 = mul_sub(t615, t619, mul_sub(t488, t616, t491 * t617));
+    let t621 = t125 * t620;
+    let t622 = t112 * mul_add(t396, t613, neg_mul_add(t126, t502, t499));
+    let t623 = mul_sub(t615, t622, mul_add(t495, t616, t498 * t617));
     // leg 2: remaining leg inertia less weight at the platform joint
-    let t622 = neg_mul_add(t145, t612, t616);
-    let t623 = neg_mul_add(t145, t617, t618);
-    let t624 = neg_mul_add(t145, t620, t621);
+    let t624 = neg_mul_add(t145, t614, t618);
+    let t625 = neg_mul_add(t145, t619, t620);
+    let t626 = neg_mul_add(t145, t622, t623);
     // leg 3: leg inertia less weight along the actuator
-    let t625 = c(2.0) * t381;
-    let t626 = t114 * mul_add(t398, t625, neg_mul_add(t127, t524, t507));
-    let t627 = t114 * t153;
-    let t628 = t114 * t150;
-    let t629 = t114 * t149;
-    let t630 = mul_sub(t627, t626, mul_sub(t503, t628, t506 * t629));
-    let t631 = t114 * mul_add(t400, t625, neg_mul_add(t128, t524, t514));
-    let t632 = mul_sub(t627, t631, mul_sub(t510, t628, t513 * t629));
-    let t633 = t128 * t632;
-    let t634 = t114 * mul_sub(t402, t625, mul_add(t129, t524, t521));
-    let t635 = mul_add(t627, t634, mul_sub(t517, t628, t520 * t629));
+    let t627 = c(2.0) * t381;
+    let t628 = t114 * mul_add(t398, t627, neg_mul_add(t127, t526, t509));
+    let t629 = t114 * t153;
+    let t630 = t114 * t150;
+    let t631 = t114 * t149;
+    let t632 = mul_sub(t629, t628, mul_sub(t505, t630, t508 * t631));
+    let t633 = t114 * mul_add(t400, t627, neg_mul_add(t128, t526, t516));
+    let t634 = mul_sub(t629, t633, mul_sub(t512, t630, t515 * t631));
+    let t635 = t128 * t634;
+    let t636 = t114 * mul_add(t402, t627, neg_mul_add(t129, t526, t523));
+    let t637 = mul_sub(t629, t636, mul_add(t519, t630, t522 * t631));
     // leg 3: remaining leg inertia less weight at the platform joint
-    let t636 = neg_mul_add(t150, t626, t630);
-    let t637 = neg_mul_add(t150, t631, t632);
-    let t638 = neg_mul_add(t150, t634, t635);
+    let t638 = neg_mul_add(t150, t628, t632);
+    let t639 = neg_mul_add(t150, t633, t634);
+    let t640 = neg_mul_add(t150, t636, t637);
     // leg 4: leg inertia less weight along the actuator
-    let t639 = c(2.0) * t382;
-    let t640 = t116 * mul_add(t404, t639, neg_mul_add(t130, t548, t531));
-    let t641 = t116 * t158;
-    let t642 = t116 * t155;
-    let t643 = t116 * t154;
-    let t644 = mul_sub(t641, t640, mul_sub(t527, t642, t530 * t643));
-    let t645 = t116 * mul_add(t406, t639, neg_mul_add(t131, t548, t538));
-    let t646 = mul_sub(t641, t645, mul_sub(t534, t642, t537 * t643));
-    let t647 = t131 * t646;
-    let t648 = t116 * mul_sub(t408, t639, mul_add(t132, t548, t545));
-    let t649 = mul_add(t641, t648, mul_sub(t541, t642, t544 * t643));
+    let t641 = c(2.0) * t382;
+    let t642 = t116 * mul_add(t404, t641, neg_mul_add(t130, t550, t533));
+    let t643 = t116 * t158;
+    let t644 = t116 * t155;
+    let t645 = t116 * t154;
+    let t646 = mul_sub(t643, t642, mul_sub(t529, t644, t532 * t645));
+    let t647 = t116 * mul_add(t406, t641, neg_mul_add(t131, t550, t540));
+    let t648 = mul_sub(t643, t647, mul_sub(t536, t644, t539 * t645));
+    let t649 = t131 * t648;
+    let t650 = t116 * mul_add(t408, t641, neg_mul_add(t132, t550, t547));
+    let t651 = mul_sub(t643, t650, mul_add(t543, t644, t546 * t645));
     // leg 4: remaining leg inertia less weight at the platform joint
-    let t650 = neg_mul_add(t155, t640, t644);
-    let t651 = neg_mul_add(t155, t645, t646);
-    let t652 = neg_mul_add(t155, t648, t649);
+    let t652 = neg_mul_add(t155, t642, t646);
+    let t653 = neg_mul_add(t155, t647, t648);
+    let t654 = neg_mul_add(t155, t650, t651);
     // leg 5: leg inertia less weight along the actuator
-    let t653 = c(2.0) * t383;
-    let t654 = t118 * mul_add(t410, t653, neg_mul_add(t133, t572, t555));
-    let t655 = t118 * t163;
-    let t656 = t118 * t160;
-    let t657 = t118 * t159;
-    let t658 = mul_sub(t655, t654, mul_sub(t551, t656, t554 * t657));
-    let t659 = t118 * mul_add(t412, t653, neg_mul_add(t134, t572, t562));
-    let t660 = mul_sub(t655, t659, mul_sub(t558, t656, t561 * t657));
-    let t661 = t134 * t660;
-    let t662 = t118 * mul_sub(t414, t653, mul_add(t135, t572, t569));
-    let t663 = mul_add(t655, t662, mul_sub(t565, t656, t568 * t657));
+    let t655 = c(2.0) * t383;
+    let t656 = t118 * mul_add(t410, t655, neg_mul_add(t133, t574, t557));
+    let t657 = t118 * t163;
+    let t658 = t118 * t160;
+    let t659 = t118 * t159;
+    let t660 = mul_sub(t657, t656, mul_sub(t553, t658, t556 * t659));
+    let t661 = t118 * mul_add(t412, t655, neg_mul_add(t134, t574, t564));
+    let t662 = mul_sub(t657, t661, mul_sub(t560, t658, t563 * t659));
+    let t663 = t134 * t662;
+    let t664 = t118 * mul_add(t414, t655, neg_mul_add(t135, t574, t571));
+    let t665 = mul_sub(t657, t664, mul_add(t567, t658, t570 * t659));
     // leg 5: remaining leg inertia less weight at the platform joint
-    let t664 = neg_mul_add(t160, t654, t658);
-    let t665 = neg_mul_add(t160, t659, t660);
-    let t666 = neg_mul_add(t160, t662, t663);
+    let t666 = neg_mul_add(t160, t656, t660);
+    let t667 = neg_mul_add(t160, t661, t662);
+    let t668 = neg_mul_add(t160, t664, t665);
     // leg 6: leg inertia less weight along the actuator
-    let t667 = c(2.0) * t384;
-    let t668 = t120 * mul_add(t416, t667, neg_mul_add(t136, t596, t579));
-    let t669 = t120 * t168;
-    let t670 = t120 * t165;
-    let t671 = t120 * t164;
-    let t672 = mul_sub(t669, t668, mul_sub(t575, t670, t578 * t671));
-    let t673 = t120 * mul_add(t418, t667, neg_mul_add(t137, t596, t586));
-    let t674 = mul_sub(t669, t673, mul_sub(t582, t670, t585 * t671));
-    let t675 = t137 * t674;
-    let t676 = t120 * mul_sub(t420, t667, mul_add(t138, t596, t593));
-    let t677 = mul_add(t669, t676, mul_sub(t589, t670, t592 * t671));
+    let t669 = c(2.0) * t384;
+    let t670 = t120 * mul_add(t416, t669, neg_mul_add(t136, t598, t581));
+    let t671 = t120 * t168;
+    let t672 = t120 * t165;
+    let t673 = t120 * t164;
+    let t674 = mul_sub(t671, t670, mul_sub(t577, t672, t580 * t673));
+    let t675 = t120 * mul_add(t418, t669, neg_mul_add(t137, t598, t588));
+    let t676 = mul_sub(t671, t675, mul_sub(t584, t672, t587 * t673));
+    let t677 = t137 * t676;
+    let t678 = t120 * mul_add(t420, t669, neg_mul_add(t138, t598, t595));
+    let t679 = mul_sub(t671, t678, mul_add(t591, t672, t594 * t673));
     // leg 6: remaining leg inertia less weight at the platform joint
-    let t678 = neg_mul_add(t165, t668, t672);
-    let t679 = neg_mul_add(t165, t673, t674);
-    let t680 = neg_mul_add(t165, t676, t677);
+    let t680 = neg_mul_add(t165, t670, t674);
+    let t681 = neg_mul_add(t165, t675, t676);
+    let t682 = neg_mul_add(t165, t678, t679);
     // leg 1: spring and damper force along the actuator
-    let t681 = parameters.rest_length[0] - t109;
+    let t683 = parameters.rest_length[0] - t109;
     // leg 2: spring and damper force along the actuator
-    let t682 = parameters.rest_length[1] - t111;
+    let t684 = parameters.rest_length[1] - t111;
     // leg 3: spring and damper force along the actuator
-    let t683 = parameters.rest_length[2] - t113;
+    let t685 = parameters.rest_length[2] - t113;
     // leg 4: spring and damper force along the actuator
-    let t684 = parameters.rest_length[3] - t115;
+    let t686 = parameters.rest_length[3] - t115;
     // leg 5: spring and damper force along the actuator
-    let t685 = parameters.rest_length[4] - t117;
+    let t687 = parameters.rest_length[4] - t117;
     // leg 6: spring and damper force along the actuator
-    let t686 = parameters.rest_length[5] - t119;
+    let t688 = parameters.rest_length[5] - t119;
     // leg 1: row of the actuator Jacobian in base coordinates
-    let t687 = mul_sub(t42, t123, t45 * t122);
-    let t688 = mul_sub(t45, t121, t39 * t123);
-    let t689 = mul_sub(t39, t122, t42 * t121);
+    let t689 = mul_sub(t42, t123, t45 * t122);
+    let t690 = mul_sub(t45, t121, t39 * t123);
+    let t691 = mul_sub(t39, t122, t42 * t121);
     // leg 2: row of the actuator Jacobian in base coordinates
-    let t690 = mul_sub(t54, t126, t57 * t125);
-    let t691 = mul_sub(t57, t124, t51 * t126);
-    let t692 = mul_sub(t51, t125, t54 * t124);
+    let t692 = mul_sub(t54, t126, t57 * t125);
+    let t693 = mul_sub(t57, t124, t51 * t126);
+    let t694 = mul_sub(t51, t125, t54 * t124);
     // leg 3: row of the actuator Jacobian in base coordinates
-    let t693 = mul_sub(t66, t129, t69 * t128);
-    let t694 = mul_sub(t69, t127, t63 * t129);
-    let t695 = mul_sub(t63, t128, t66 * t127);
+    let t695 = mul_sub(t66, t129, t69 * t128);
+    let t696 = mul_sub(t69, t127, t63 * t129);
+    let t697 = mul_sub(t63, t128, t66 * t127);
     // leg 4: row of the actuator Jacobian in base coordinates
-    let t696 = mul_sub(t78, t132, t81 * t131);
-    let t697 = mul_sub(t81, t130, t75 * t132);
-    let t698 = mul_sub(t75, t131, t78 * t130);
+    let t698 = mul_sub(t78, t132, t81 * t131);
+    let t699 = mul_sub(t81, t130, t75 * t132);
+    let t700 = mul_sub(t75, t131, t78 * t130);
     // leg 5: row of the actuator Jacobian in base coordinates
-    let t699 = mul_sub(t90, t135, t93 * t134);
-    let t700 = mul_sub(t93, t133, t87 * t135);
-    let t701 = mul_sub(t87, t134, t90 * t133);
+    let t701 = mul_sub(t90, t135, t93 * t134);
+    let t702 = mul_sub(t93, t133, t87 * t135);
+    let t703 = mul_sub(t87, t134, t90 * t133);
     // leg 6: row of the actuator Jacobian in base coordinates
-    let t702 = mul_sub(t102, t138, t105 * t137);
-    let t703 = mul_sub(t105, t136, t99 * t138);
-    let t704 = mul_sub(t99, t137, t102 * t136);
+    let t704 = mul_sub(t102, t138, t105 * t137);
+    let t705 = mul_sub(t105, t136, t99 * t138);
+    let t706 = mul_sub(t99, t137, t102 * t136);
     // its first moments by platform coordinate
-    let t705 = mul_sub(t224, t441, mul_sub(t179, t423, t210 * t440));
-    let t706 = mul_add(t238, t442, t705);
-    let t707 = mul_add(parameters.platform_point[0][0], t608, t706);
-    let t708 = mul_add(parameters.platform_point[1][0], t622, t707);
-    let t709 = mul_add(parameters.platform_point[2][0], t636, t708);
-    let t710 = mul_add(parameters.platform_point[3][0], t650, t709);
-    let t711 = mul_add(parameters.platform_point[4][0], t664, t710);
-    let t712 = mul_add(parameters.platform_point[5][0], t678, t711);
-    let t713 = mul_sub(t253, t441, mul_sub(t186, t423, t224 * t440));
-    let t714 = mul_add(t267, t442, t713);
-    let t715 = mul_add(parameters.platform_point[0][1], t608, t714);
-    let t716 = mul_add(parameters.platform_point[1][1], t622, t715);
-    let t717 = mul_add(parameters.platform_point[2][1], t636, t716);
-    let t718 = mul_add(parameters.platform_point[3][1], t650, t717);
-    let t719 = mul_add(parameters.platform_point[4][1], t664, t718);
-    let t720 = mul_add(parameters.platform_point[5][1], t678, t719);
-    let t721 = mul_sub(t267, t441, mul_sub(t193, t423, t238 * t440));
-    let t722 = mul_add(t282, t442, t721);
-    let t723 = mul_add(parameters.platform_point[0][2], t608, t722);
-    let t724 = mul_add(parameters.platform_point[1][2], t622, t723);
-    let t725 = mul_add(parameters.platform_point[2][2], t636, t724);
-    let t726 = mul_add(parameters.platform_point[3][2], t650, t725);
-    let t727 = mul_add(parameters.platform_point[4][2], t664, t726);
-    let t728 = mul_add(parameters.platform_point[5][2], t678, t727);
-    let t729 = mul_sub(t224, t447, mul_sub(t179, t426, t210 * t446));
-    let t730 = mul_add(t238, t448, t729);
-    let t731 = mul_add(parameters.platform_point[0][0], t609, t730);
-    let t732 = mul_add(parameters.platform_point[1][0], t623, t731);
-    let t733 = mul_add(parameters.platform_point[2][0], t637, t732);
-    let t734 = mul_add(parameters.platform_point[3][0], t651, t733);
-    let t735 = mul_add(parameters.platform_point[4][0], t665, t734);
-    let t736 = mul_add(parameters.platform_point[5][0], t679, t735);
-    let t737 = mul_sub(t253, t447, mul_sub(t186, t426, t224 * t446));
-    let t738 = mul_add(t267, t448, t737);
-    let t739 = mul_add(parameters.platform_point[0][1], t609, t738);
-    let t740 = mul_add(parameters.platform_point[1][1], t623, t739);
-    let t741 = mul_add(parameters.platform_point[2][1], t637, t740);
-    let t742 = mul_add(parameters.platform_point[3][1], t651, t741);
-    let t743 = mul_add(parameters.platform_point[4][1], t665, t742);
-    let t744 = mul_add(parameters.platform_point[5][1], t679, t743);
-    let t745 = mul_sub(t267, t447, mul_sub(t193, t426, t238 * t446));
-    let t746 = mul_add(t282, t448, t745);
-    let t747 = mul_add(parameters.platform_point[0][2], t609, t746);
-    let t748 = mul_add(parameters.platform_point[1][2], t623, t747);
-    let t749 = mul_add(parameters.platform_point[2][2], t637, t748);
-    let t750 = mul_add(parameters.platform_point[3][2], t651, t749);
-    let t751 = mul_add(parameters.platform_point[4][2], t665, t750);
-    let t752 = mul_add(parameters.platform_point[5][2], t679, t751);
-    let t753 = mul_add(t224, t451, mul_add(t179, t429, t210 * t450));
-    let t754 = mul_add(t238, t452, t753);
-    let t755 = mul_sub(parameters.platform_point[0][0], t610, t754);
-    let t756 = mul_add(parameters.platform_point[1][0], t624, t755);
-    let t757 = mul_add(parameters.platform_point[2][0], t638, t756);
-    let t758 = mul_add(parameters.platform_point[3][0], t652, t757);
-    let t759 = mul_add(parameters.platform_point[4][0], t666, t758);
-    let t760 = mul_add(parameters.platform_point[5][0], t680, t759);
-    let t761 = mul_add(t253, t451, mul_add(t186, t429, t224 * t450));
-    let t762 = mul_add(t267, t452, t761);
-    let t763 = mul_sub(parameters.platform_point[0][1], t610, t762);
-    let t764 = mul_add(parameters.platform_point[1][1], t624, t763);
-    let t765 = mul_add(parameters.platform_point[2][1], t638, t764);
-    let t766 = mul_add(parameters.platform_point[3][1], t652, t765);
-    let t767 = mul_add(parameters.platform_point[4][1], t666, t766);
-    let t768 = mul_add(parameters.platform_point[5][1], t680, t767);
-    let t769 = mul_add(t267, t451, mul_add(t193, t429, t238 * t450));
-    let t770 = mul_add(t282, t452, t769);
-    let t771 = mul_sub(parameters.platform_point[0][2], t610, t770);
-    let t772 = mul_add(parameters.platform_point[1][2], t624, t771);
-    let t773 = mul_add(parameters.platform_point[2][2], t638, t772);
-    let t774 = mul_add(parameters.platform_point[3][2], t652, t773);
-    let t775 = mul_add(parameters.platform_point[4][2], t666, t774);
-    let t776 = mul_add(parameters.platform_point[5][2], t680, t775);
+    let t707 = mul_sub(t224, t442, mul_sub(t179, t423, t210 * t439));
+    let t708 = mul_add(t238, t445, t707);
+    let t709 = mul_add(parameters.platform_point[0][0], t610, t708);
+    let t710 = mul_add(parameters.platform_point[1][0], t624, t709);
+    let t711 = mul_add(parameters.platform_point[2][0], t638, t710);
+    let t712 = mul_add(parameters.platform_point[3][0], t652, t711);
+    let t713 = mul_add(parameters.platform_point[4][0], t666, t712);
+    let t714 = mul_add(parameters.platform_point[5][0], t680, t713);
+    let t715 = mul_sub(t253, t442, mul_sub(t186, t423, t224 * t439));
+    let t716 = mul_add(t267, t445, t715);
+    let t717 = mul_add(parameters.platform_point[0][1], t610, t716);
+    let t718 = mul_add(parameters.platform_point[1][1], t624, t717);
+    let t719 = mul_add(parameters.platform_point[2][1], t638, t718);
+    let t720 = mul_add(parameters.platform_point[3][1], t652, t719);
+    let t721 = mul_add(parameters.platform_point[4][1], t666, t720);
+    let t722 = mul_add(parameters.platform_point[5][1], t680, t721);
+    let t723 = mul_sub(t267, t442, mul_sub(t193, t423, t238 * t439));
+    let t724 = mul_add(t282, t445, t723);
+    let t725 = mul_add(parameters.platform_point[0][2], t610, t724);
+    let t726 = mul_add(parameters.platform_point[1][2], t624, t725);
+    let t727 = mul_add(parameters.platform_point[2][2], t638, t726);
+    let t728 = mul_add(parameters.platform_point[3][2], t652, t727);
+    let t729 = mul_add(parameters.platform_point[4][2], t666, t728);
+    let t730 = mul_add(parameters.platform_point[5][2], t680, t729);
+    let t731 = mul_sub(t224, t449, mul_sub(t179, t426, t210 * t447));
+    let t732 = mul_add(t238, t451, t731);
+    let t733 = mul_add(parameters.platform_point[0][0], t611, t732);
+    let t734 = mul_add(parameters.platform_point[1][0], t625, t733);
+    let t735 = mul_add(parameters.platform_point[2][0], t639, t734);
+    let t736 = mul_add(parameters.platform_point[3][0], t653, t735);
+    let t737 = mul_add(parameters.platform_point[4][0], t667, t736);
+    let t738 = mul_add(parameters.platform_point[5][0], t681, t737);
+    let t739 = mul_sub(t253, t449, mul_sub(t186, t426, t224 * t447));
+    let t740 = mul_add(t267, t451, t739);
+    let t741 = mul_add(parameters.platform_point[0][1], t611, t740);
+    let t742 = mul_add(parameters.platform_point[1][1], t625, t741);
+    let t743 = mul_add(parameters.platform_point[2][1], t639, t742);
+    let t744 = mul_add(parameters.platform_point[3][1], t653, t743);
+    let t745 = mul_add(parameters.platform_point[4][1], t667, t744);
+    let t746 = mul_add(parameters.platform_point[5][1], t681, t745);
+    let t747 = mul_sub(t267, t449, mul_sub(t193, t426, t238 * t447));
+    let t748 = mul_add(t282, t451, t747);
+    let t749 = mul_add(parameters.platform_point[0][2], t611, t748);
+    let t750 = mul_add(parameters.platform_point[1][2], t625, t749);
+    let t751 = mul_add(parameters.platform_point[2][2], t639, t750);
+    let t752 = mul_add(parameters.platform_point[3][2], t653, t751);
+    let t753 = mul_add(parameters.platform_point[4][2], t667, t752);
+    let t754 = mul_add(parameters.platform_point[5][2], t681, t753);
+    let t755 = mul_sub(t224, t453, mul_sub(t179, t429, t210 * t452));
+    let t756 = mul_add(t238, t454, t755);
+    let t757 = mul_add(parameters.platform_point[0][0], t612, t756);
+    let t758 = mul_add(parameters.platform_point[1][0], t626, t757);
+    let t759 = mul_add(parameters.platform_point[2][0], t640, t758);
+    let t760 = mul_add(parameters.platform_point[3][0], t654, t759);
+    let t761 = mul_add(parameters.platform_point[4][0], t668, t760);
+    let t762 = mul_add(parameters.platform_point[5][0], t682, t761);
+    let t763 = mul_sub(t253, t453, mul_sub(t186, t429, t224 * t452));
+    let t764 = mul_add(t267, t454, t763);
+    let t765 = mul_add(parameters.platform_point[0][1], t612, t764);
+    let t766 = mul_add(parameters.platform_point[1][1], t626, t765);
+    let t767 = mul_add(parameters.platform_point[2][1], t640, t766);
+    let t768 = mul_add(parameters.platform_point[3][1], t654, t767);
+    let t769 = mul_add(parameters.platform_point[4][1], t668, t768);
+    let t770 = mul_add(parameters.platform_point[5][1], t682, t769);
+    let t771 = mul_sub(t267, t453, mul_sub(t193, t429, t238 * t452));
+    let t772 = mul_add(t282, t454, t771);
+    let t773 = mul_add(parameters.platform_point[0][2], t612, t772);
+    let t774 = mul_add(parameters.platform_point[1][2], t626, t773);
+    let t775 = mul_add(parameters.platform_point[2][2], t640, t774);
+    let t776 = mul_add(parameters.platform_point[3][2], t654, t775);
+    let t777 = mul_add(parameters.platform_point[4][2], t668, t776);
+    let t778 = mul_add(parameters.platform_point[5][2], t682, t777);
     // leg 1: force along the actuator that reaches the platform
-    let t777 = mul_add(t123, t607, mul_add(t121, t602, t605));
-    let t778 = mul_add(parameters.axial_stiffness[0], t681, t777);
-    let t779 = mul_add(parameters.axial_damping[0], t379, t778);
+    let t779 = mul_add(t123, t609, mul_add(t121, t604, t607));
+    let t780 = mul_add(parameters.axial_stiffness[0], t683, t779);
+    let t781 = mul_add(parameters.axial_damping[0], t379, t780);
     // leg 2: force along the actuator that reaches the platform
-    let t780 = mul_add(t126, t621, mul_add(t124, t616, t619));
-    let t781 = mul_add(parameters.axial_stiffness[1], t682, t780);
-    let t782 = mul_add(parameters.axial_damping[1], t380, t781);
+    let t782 = mul_add(t126, t623, mul_add(t124, t618, t621));
+    let t783 = mul_add(parameters.axial_stiffness[1], t684, t782);
+    let t784 = mul_add(parameters.axial_damping[1], t380, t783);
     // leg 3: force along the actuator that reaches the platform
-    let t783 = mul_add(t129, t635, mul_add(t127, t630, t633));
-    let t784 = mul_add(parameters.axial_stiffness[2], t683, t783);
-    let t785 = mul_add(parameters.axial_damping[2], t381, t784);
+    let t785 = mul_add(t129, t637, mul_add(t127, t632, t635));
+    let t786 = mul_add(parameters.axial_stiffness[2], t685, t785);
+    let t787 = mul_add(parameters.axial_damping[2], t381, t786);
     // leg 4: force along the actuator that reaches the platform
-    let t786 = mul_add(t132, t649, mul_add(t130, t644, t647));
-    let t787 = mul_add(parameters.axial_stiffness[3], t684, t786);
-    let t788 = mul_add(parameters.axial_damping[3], t382, t787);
+    let t788 = mul_add(t132, t651, mul_add(t130, t646, t649));
+    let t789 = mul_add(parameters.axial_stiffness[3], t686, t788);
+    let t790 = mul_add(parameters.axial_damping[3], t382, t789);
     // leg 5: force along the actuator that reaches the platform
-    let t789 = mul_add(t135, t663, mul_add(t133, t658, t661));
-    let t790 = mul_add(parameters.axial_stiffness[4], t685, t789);
-    let t791 = mul_add(parameters.axial_damping[4], t383, t790);
+    let t791 = mul_add(t135, t665, mul_add(t133, t660, t663));
+    let t792 = mul_add(parameters.axial_stiffness[4], t687, t791);
+    let t793 = mul_add(parameters.axial_damping[4], t383, t792);
     // leg 6: force along the actuator that reaches the platform
-    let t792 = mul_add(t138, t677, mul_add(t136, t672, t675));
-    let t793 = mul_add(parameters.axial_stiffness[5], t686, t792);
-    let t794 = mul_add(parameters.axial_damping[5], t384, t793);
+    let t794 = mul_add(t138, t679, mul_add(t136, t674, t677));
+    let t795 = mul_add(parameters.axial_stiffness[5], t688, t794);
+    let t796 = mul_add(parameters.axial_damping[5], t384, t795);
     // C_p v_p - C_b v_b + gravity, spring and damping force
-    let t795 = t680 + (t666 + (t652 + (t638 + (t610 + t624))));
-    let t796 = mul_add(t179, t450, mul_sub(t172, t429, t795));
-    let t797 = mul_add(t193, t452, mul_add(t186, t451, t796));
-    let t798 = mul_add(t126, t782, mul_add(t123, t779, t797));
-    let t799 = mul_add(t132, t788, mul_add(t129, t785, t798));
-    let t800 = mul_add(t138, t794, mul_add(t135, t791, t799));
-    let t801 = t678 + (t664 + (t650 + (t636 + (t608 + t622))));
-    let t802 = mul_sub(t179, t440, mul_sub(t172, t423, t801));
-    let t803 = mul_add(t193, t442, mul_add(t186, t441, t802));
-    let t804 = mul_add(t124, t782, mul_sub(t121, t779, t803));
-    let t805 = mul_add(t130, t788, mul_add(t127, t785, t804));
-    let t806 = mul_add(t136, t794, mul_add(t133, t791, t805));
-    let t807 = t679 + (t665 + (t651 + (t637 + (t609 + t623))));
-    let t808 = mul_sub(t179, t446, mul_sub(t172, t426, t807));
-    let t809 = mul_add(t193, t448, mul_add(t186, t447, t808));
-    let t810 = mul_add(t125, t782, mul_sub(t122, t779, t809));
-    let t811 = mul_add(t131, t788, mul_add(t128, t785, t810));
-    let t812 = mul_add(t137, t794, mul_add(t134, t791, t811));
-    let t813 = mul_add(base_rotation[0][0], t806, base_rotation[0][1] * t812);
-    bias[0] = -mul_add(base_rotation[0][2], t800, t813);
-    let t814 = mul_add(base_rotation[1][0], t806, base_rotation[1][1] * t812);
-    bias[1] = -mul_add(base_rotation[1][2], t800, t814);
-    let t815 = mul_add(base_rotation[2][0], t806, base_rotation[2][1] * t812);
-    bias[2] = -mul_add(base_rotation[2][2], t800, t815);
-    let t816 = mul_add(t6, t744, mul_sub(t3, t736, t12 * t712));
-    let t817 = mul_sub(t9, t752, mul_sub(t15, t720, t816));
-    let t818 = mul_add(t689, t779, mul_sub(t18, t728, t817));
-    let t819 = mul_add(t695, t785, mul_add(t692, t782, t818));
-    let t820 = mul_add(t701, t791, mul_add(t698, t788, t819));
-    let t821 = mul_add(t704, t794, t820);
-    let t822 = mul_add(t15, t768, mul_sub(t12, t760, t21 * t736));
-    let t823 = mul_sub(t18, t776, mul_sub(t24, t744, t822));
-    let t824 = mul_add(t687, t779, mul_sub(t27, t752, t823));
-    let t825 = mul_add(t693, t785, mul_add(t690, t782, t824));
-    let t826 = mul_add(t699, t791, mul_add(t696, t788, t825));
-    let t827 = mul_add(t702, t794, t826);
-    let t828 = mul_add(t24, t720, mul_sub(t21, t712, t3 * t760));
-    let t829 = mul_sub(t27, t728, mul_sub(t6, t768, t828));
-    let t830 = mul_add(t688, t779, mul_sub(t9, t776, t829));
-    let t831 = mul_add(t694, t785, mul_add(t691, t782, t830));
-    let t832 = mul_add(t700, t791, mul_add(t697, t788, t831));
-    let t833 = mul_add(t703, t794, t832);
-    let t834 = mul_add(base_rotation[0][0], t827, base_rotation[0][1] * t833);
-    bias[3] = -mul_add(base_rotation[0][2], t821, t834);
-    let t835 = mul_add(base_rotation[1][0], t827, base_rotation[1][1] * t833);
-    bias[4] = -mul_add(base_rotation[1][2], t821, t835);
-    let t836 = mul_add(base_rotation[2][0], t827, base_rotation[2][1] * t833);
-    bias[5] = -mul_add(base_rotation[2][2], t821, t836);
+    let t797 = t682 + (t668 + (t654 + (t640 + (t612 + t626))));
+    let t798 = mul_sub(t179, t452, mul_sub(t172, t429, t797));
+    let t799 = mul_add(t193, t454, mul_add(t186, t453, t798));
+    let t800 = mul_add(t126, t784, mul_sub(t123, t781, t799));
+    let t801 = mul_add(t132, t790, mul_add(t129, t787, t800));
+    let t802 = mul_add(t138, t796, mul_add(t135, t793, t801));
+    let t803 = t680 + (t666 + (t652 + (t638 + (t610 + t624))));
+    let t804 = mul_sub(t179, t439, mul_sub(t172, t423, t803));
+    let t805 = mul_add(t193, t445, mul_add(t186, t442, t804));
+    let t806 = mul_add(t124, t784, mul_sub(t121, t781, t805));
+    let t807 = mul_add(t130, t790, mul_add(t127, t787, t806));
+    let t808 = mul_add(t136, t796, mul_add(t133, t793, t807));
+    let t809 = t681 + (t667 + (t653 + (t639 + (t611 + t625))));
+    let t810 = mul_sub(t179, t447, mul_sub(t172, t426, t809));
+    let t811 = mul_add(t193, t451, mul_add(t186, t449, t810));
+    let t812 = mul_add(t125, t784, mul_sub(t122, t781, t811));
+    let t813 = mul_add(t131, t790, mul_add(t128, t787, t812));
+    let t814 = mul_add(t137, t796, mul_add(t134, t793, t813));
+    let t815 = mul_add(base_rotation[0][0], t808, base_rotation[0][1] * t814);
+    bias[0] = -mul_add(base_rotation[0][2], t802, t815);
+    let t816 = mul_add(base_rotation[1][0], t808, base_rotation[1][1] * t814);
+    bias[1] = -mul_add(base_rotation[1][2], t802, t816);
+    let t817 = mul_add(base_rotation[2][0], t808, base_rotation[2][1] * t814);
+    bias[2] = -mul_add(base_rotation[2][2], t802, t817);
+    let t818 = mul_add(t6, t746, mul_sub(t3, t738, t12 * t714));
+    let t819 = mul_sub(t9, t754, mul_sub(t15, t722, t818));
+    let t820 = mul_add(t691, t781, mul_sub(t18, t730, t819));
+    let t821 = mul_add(t697, t787, mul_add(t694, t784, t820));
+    let t822 = mul_add(t703, t793, mul_add(t700, t790, t821));
+    let t823 = mul_add(t706, t796, t822);
+    let t824 = mul_add(t15, t770, mul_sub(t12, t762, t21 * t738));
+    let t825 = mul_sub(t18, t778, mul_sub(t24, t746, t824));
+    let t826 = mul_add(t689, t781, mul_sub(t27, t754, t825));
+    let t827 = mul_add(t695, t787, mul_add(t692, t784, t826));
+    let t828 = mul_add(t701, t793, mul_add(t698, t790, t827));
+    let t829 = mul_add(t704, t796, t828);
+    let t830 = mul_add(t24, t722, mul_sub(t21, t714, t3 * t762));
+    let t831 = mul_sub(t27, t730, mul_sub(t6, t770, t830));
+    let t832 = mul_add(t690, t781, mul_sub(t9, t778, t831));
+    let t833 = mul_add(t696, t787, mul_add(t693, t784, t832));
+    let t834 = mul_add(t702, t793, mul_add(t699, t790, t833));
+    let t835 = mul_add(t705, t796, t834);
+    let t836 = mul_add(base_rotation[0][0], t829, base_rotation[0][1] * t835);
+    bias[3] = -mul_add(base_rotation[0][2], t823, t836);
+    let t837 = mul_add(base_rotation[1][0], t829, base_rotation[1][1] * t835);
+    bias[4] = -mul_add(base_rotation[1][2], t823, t837);
+    let t838 = mul_add(base_rotation[2][0], t829, base_rotation[2][1] * t835);
+    bias[5] = -mul_add(base_rotation[2][2], t823, t838);
 }
 
 /// The whole of (49) in one call, equation (49).
@@ -22756,50 +22610,50 @@ pub fn equation_of_motion<T: Scalar>(
         let t1223 = mul_sub(platform_velocity[4], t147, platform_velocity[5] * t144);
         let t1224 = mul_sub(platform_velocity[5], t141, platform_velocity[3] * t147);
         let t1225 = mul_sub(platform_velocity[3], t144, platform_velocity[4] * t141);
-        // leg 1: velocity of the platform joint less that of the base origin
-        let t1226 = t1070 - t1223;
-        let t1227 = t1071 - t1224;
-        let t1228 = t1072 - t1225;
         // leg 2: rate of the platform lever
-        let t1229 = mul_sub(platform_velocity[4], t165, platform_velocity[5] * t162);
-        let t1230 = mul_sub(platform_velocity[5], t159, platform_velocity[3] * t165);
-        let t1231 = mul_sub(platform_velocity[3], t162, platform_velocity[4] * t159);
-        // leg 2: velocity of the platform joint less that of the base origin
-        let t1232 = t1070 - t1229;
-        let t1233 = t1071 - t1230;
-        let t1234 = t1072 - t1231;
+        let t1226 = mul_sub(platform_velocity[4], t165, platform_velocity[5] * t162);
+        let t1227 = mul_sub(platform_velocity[5], t159, platform_velocity[3] * t165);
+        let t1228 = mul_sub(platform_velocity[3], t162, platform_velocity[4] * t159);
         // leg 3: rate of the platform lever
-        let t1235 = mul_sub(platform_velocity[4], t183, platform_velocity[5] * t180);
-        let t1236 = mul_sub(platform_velocity[5], t177, platform_velocity[3] * t183);
-        let t1237 = mul_sub(platform_velocity[3], t180, platform_velocity[4] * t177);
-        // leg 3: velocity of the platform joint less that of the base origin
-        let t1238 = t1070 - t1235;
-        let t1239 = t1071 - t1236;
-        let t1240 = t1072 - t1237;
+        let t1229 = mul_sub(platform_velocity[4], t183, platform_velocity[5] * t180);
+        let t1230 = mul_sub(platform_velocity[5], t177, platform_velocity[3] * t183);
+        let t1231 = mul_sub(platform_velocity[3], t180, platform_velocity[4] * t177);
         // leg 4: rate of the platform lever
-        let t1241 = mul_sub(platform_velocity[4], t201, platform_velocity[5] * t198);
-        let t1242 = mul_sub(platform_velocity[5], t195, platform_velocity[3] * t201);
-        let t1243 = mul_sub(platform_velocity[3], t198, platform_velocity[4] * t195);
-        // leg 4: velocity of the platform joint less that of the base origin
-        let t1244 = t1070 - t1241;
-        let t1245 = t1071 - t1242;
-        let t1246 = t1072 - t1243;
+        let t1232 = mul_sub(platform_velocity[4], t201, platform_velocity[5] * t198);
+        let t1233 = mul_sub(platform_velocity[5], t195, platform_velocity[3] * t201);
+        let t1234 = mul_sub(platform_velocity[3], t198, platform_velocity[4] * t195);
         // leg 5: rate of the platform lever
-        let t1247 = mul_sub(platform_velocity[4], t219, platform_velocity[5] * t216);
-        let t1248 = mul_sub(platform_velocity[5], t213, platform_velocity[3] * t219);
-        let t1249 = mul_sub(platform_velocity[3], t216, platform_velocity[4] * t213);
-        // leg 5: velocity of the platform joint less that of the base origin
-        let t1250 = t1070 - t1247;
-        let t1251 = t1071 - t1248;
-        let t1252 = t1072 - t1249;
+        let t1235 = mul_sub(platform_velocity[4], t219, platform_velocity[5] * t216);
+        let t1236 = mul_sub(platform_velocity[5], t213, platform_velocity[3] * t219);
+        let t1237 = mul_sub(platform_velocity[3], t216, platform_velocity[4] * t213);
         // leg 6: rate of the platform lever
-        let t1253 = mul_sub(platform_velocity[4], t237, platform_velocity[5] * t234);
-        let t1254 = mul_sub(platform_velocity[5], t231, platform_velocity[3] * t237);
-        let t1255 = mul_sub(platform_velocity[3], t234, platform_velocity[4] * t231);
+        let t1238 = mul_sub(platform_velocity[4], t237, platform_velocity[5] * t234);
+        let t1239 = mul_sub(platform_velocity[5], t231, platform_velocity[3] * t237);
+        let t1240 = mul_sub(platform_velocity[3], t234, platform_velocity[4] * t231);
+        // leg 1: velocity of the platform joint less that of the base origin
+        let t1241 = t1070 - t1223;
+        let t1242 = t1071 - t1224;
+        let t1243 = t1072 - t1225;
+        // leg 2: velocity of the platform joint less that of the base origin
+        let t1244 = t1070 - t1226;
+        let t1245 = t1071 - t1227;
+        let t1246 = t1072 - t1228;
+        // leg 3: velocity of the platform joint less that of the base origin
+        let t1247 = t1070 - t1229;
+        let t1248 = t1071 - t1230;
+        let t1249 = t1072 - t1231;
+        // leg 4: velocity of the platform joint less that of the base origin
+        let t1250 = t1070 - t1232;
+        let t1251 = t1071 - t1233;
+        let t1252 = t1072 - t1234;
+        // leg 5: velocity of the platform joint less that of the base origin
+        let t1253 = t1070 - t1235;
+        let t1254 = t1071 - t1236;
+        let t1255 = t1072 - t1237;
         // leg 6: velocity of the platform joint less that of the base origin
-        let t1256 = t1070 - t1253;
-        let t1257 = t1071 - t1254;
-        let t1258 = t1072 - t1255;
+        let t1256 = t1070 - t1238;
+        let t1257 = t1071 - t1239;
+        let t1258 = t1072 - t1240;
         // leg 1: Coriolis matrix of the leg in the speeds of its joint
         let t1259 = t110 * (t110 * t1145);
         let t1260 = mul_sub(t287, t110 * t1259, t284 * t1259);
@@ -22820,13 +22674,13 @@ pub fn equation_of_motion<T: Scalar>(
         let t1275 = mul_sub(t156, t1272, mul_add(t1162, t1271, t1260));
         // leg 1: Coriolis matrix between joint and base angular velocity
         let t1276 = t441 * mul_sub(base_velocity[5], t462, base_velocity[3] * t455);
-        let t1277 = mul_sub(t452, t1160, mul_add(t427, t1227, t1276));
+        let t1277 = mul_sub(t452, t1160, mul_add(t427, t1242, t1276));
         let t1278 = t441 * mul_sub(base_velocity[3], t451, base_velocity[4] * t462);
-        let t1279 = mul_sub(t452, t1162, mul_add(t427, t1228, t1278));
+        let t1279 = mul_sub(t452, t1162, mul_add(t427, t1243, t1278));
         let t1280 = mul_sub(t156, t1277, t154 * t1279);
         let t1281 = t152 * t1280;
         let t1282 = t441 * mul_sub(base_velocity[4], t455, base_velocity[5] * t451);
-        let t1283 = mul_sub(t452, t1158, mul_add(t427, t1226, t1282));
+        let t1283 = mul_sub(t452, t1158, mul_add(t427, t1241, t1282));
         let t1284 = mul_sub(t152, t1279, t156 * t1283);
         let t1285 = neg_mul_add(t284, t1162, t1279);
         let t1286 = mul_sub(t152, t1284, t1285);
@@ -22860,13 +22714,13 @@ pub fn equation_of_motion<T: Scalar>(
         let t1313 = mul_sub(t174, t1310, mul_add(t1174, t1309, t1298));
         // leg 2: Coriolis matrix between joint and base angular velocity
         let t1314 = t497 * mul_sub(base_velocity[5], t518, base_velocity[3] * t511);
-        let t1315 = mul_sub(t508, t1172, mul_add(t483, t1233, t1314));
+        let t1315 = mul_sub(t508, t1172, mul_add(t483, t1245, t1314));
         let t1316 = t497 * mul_sub(base_velocity[3], t507, base_velocity[4] * t518);
-        let t1317 = mul_sub(t508, t1174, mul_add(t483, t1234, t1316));
+        let t1317 = mul_sub(t508, t1174, mul_add(t483, t1246, t1316));
         let t1318 = mul_sub(t174, t1315, t172 * t1317);
         let t1319 = t170 * t1318;
         let t1320 = t497 * mul_sub(base_velocity[4], t511, base_velocity[5] * t507);
-        let t1321 = mul_sub(t508, t1170, mul_add(t483, t1232, t1320));
+        let t1321 = mul_sub(t508, t1170, mul_add(t483, t1244, t1320));
         let t1322 = mul_sub(t170, t1317, t174 * t1321);
         let t1323 = neg_mul_add(t289, t1174, t1317);
         let t1324 = mul_sub(t170, t1322, t1323);
@@ -22900,13 +22754,13 @@ pub fn equation_of_motion<T: Scalar>(
         let t1351 = mul_sub(t192, t1348, mul_add(t1186, t1347, t1336));
         // leg 3: Coriolis matrix between joint and base angular velocity
         let t1352 = t553 * mul_sub(base_velocity[5], t574, base_velocity[3] * t567);
-        let t1353 = mul_sub(t564, t1184, mul_add(t539, t1239, t1352));
+        let t1353 = mul_sub(t564, t1184, mul_add(t539, t1248, t1352));
         let t1354 = t553 * mul_sub(base_velocity[3], t563, base_velocity[4] * t574);
-        let t1355 = mul_sub(t564, t1186, mul_add(t539, t1240, t1354));
+        let t1355 = mul_sub(t564, t1186, mul_add(t539, t1249, t1354));
         let t1356 = mul_sub(t192, t1353, t190 * t1355);
         let t1357 = t188 * t1356;
         let t1358 = t553 * mul_sub(base_velocity[4], t567, base_velocity[5] * t563);
-        let t1359 = mul_sub(t564, t1182, mul_add(t539, t1238, t1358));
+        let t1359 = mul_sub(t564, t1182, mul_add(t539, t1247, t1358));
         let t1360 = mul_sub(t188, t1355, t192 * t1359);
         let t1361 = neg_mul_add(t294, t1186, t1355);
         let t1362 = mul_sub(t188, t1360, t1361);
@@ -22940,13 +22794,13 @@ pub fn equation_of_motion<T: Scalar>(
         let t1389 = mul_sub(t210, t1386, mul_add(t1198, t1385, t1374));
         // leg 4: Coriolis matrix between joint and base angular velocity
         let t1390 = t609 * mul_sub(base_velocity[5], t630, base_velocity[3] * t623);
-        let t1391 = mul_sub(t620, t1196, mul_add(t595, t1245, t1390));
+        let t1391 = mul_sub(t620, t1196, mul_add(t595, t1251, t1390));
         let t1392 = t609 * mul_sub(base_velocity[3], t619, base_velocity[4] * t630);
-        let t1393 = mul_sub(t620, t1198, mul_add(t595, t1246, t1392));
+        let t1393 = mul_sub(t620, t1198, mul_add(t595, t1252, t1392));
         let t1394 = mul_sub(t210, t1391, t208 * t1393);
         let t1395 = t206 * t1394;
         let t1396 = t609 * mul_sub(base_velocity[4], t623, base_velocity[5] * t619);
-        let t1397 = mul_sub(t620, t1194, mul_add(t595, t1244, t1396));
+        let t1397 = mul_sub(t620, t1194, mul_add(t595, t1250, t1396));
         let t1398 = mul_sub(t206, t1393, t210 * t1397);
         let t1399 = neg_mul_add(t299, t1198, t1393);
         let t1400 = mul_sub(t206, t1398, t1399);
@@ -22980,13 +22834,13 @@ pub fn equation_of_motion<T: Scalar>(
         let t1427 = mul_sub(t228, t1424, mul_add(t1210, t1423, t1412));
         // leg 5: Coriolis matrix between joint and base angular velocity
         let t1428 = t665 * mul_sub(base_velocity[5], t686, base_velocity[3] * t679);
-        let t1429 = mul_sub(t676, t1208, mul_add(t651, t1251, t1428));
+        let t1429 = mul_sub(t676, t1208, mul_add(t651, t1254, t1428));
         let t1430 = t665 * mul_sub(base_velocity[3], t675, base_velocity[4] * t686);
-        let t1431 = mul_sub(t676, t1210, mul_add(t651, t1252, t1430));
+        let t1431 = mul_sub(t676, t1210, mul_add(t651, t1255, t1430));
         let t1432 = mul_sub(t228, t1429, t226 * t1431);
         let t1433 = t224 * t1432;
         let t1434 = t665 * mul_sub(base_velocity[4], t679, base_velocity[5] * t675);
-        let t1435 = mul_sub(t676, t1206, mul_add(t651, t1250, t1434));
+        let t1435 = mul_sub(t676, t1206, mul_add(t651, t1253, t1434));
         let t1436 = mul_sub(t224, t1431, t228 * t1435);
         let t1437 = neg_mul_add(t304, t1210, t1431);
         let t1438 = mul_sub(t224, t1436, t1437);
@@ -23046,140 +22900,140 @@ pub fn equation_of_motion<T: Scalar>(
         coriolis_matrix_b[0][0] = t1487;
         let t1488 = t1454 + (t1416 + (t1378 + (t1340 + (t1264 + t1302))));
         let t1489 = t1455 + (t1417 + (t1379 + (t1341 + (t1265 + t1303))));
-        let t1490 = mul_sub(t715, t1255, mul_sub(t237, t1454, t234 * t1455));
-        let t1491 = mul_sub(t716, t1254, t1490);
-        let t1492 = mul_sub(t659, t1249, mul_sub(t219, t1416, t216 * t1417));
-        let t1493 = mul_sub(t660, t1248, t1492);
-        let t1494 = mul_sub(t603, t1243, mul_sub(t201, t1378, t198 * t1379));
-        let t1495 = mul_sub(t604, t1242, t1494);
-        let t1496 = mul_sub(t547, t1237, mul_sub(t183, t1340, t180 * t1341));
-        let t1497 = mul_sub(t548, t1236, t1496);
+        let t1490 = mul_sub(t715, t1240, mul_sub(t237, t1454, t234 * t1455));
+        let t1491 = mul_sub(t716, t1239, t1490);
+        let t1492 = mul_sub(t659, t1237, mul_sub(t219, t1416, t216 * t1417));
+        let t1493 = mul_sub(t660, t1236, t1492);
+        let t1494 = mul_sub(t603, t1234, mul_sub(t201, t1378, t198 * t1379));
+        let t1495 = mul_sub(t604, t1233, t1494);
+        let t1496 = mul_sub(t547, t1231, mul_sub(t183, t1340, t180 * t1341));
+        let t1497 = mul_sub(t548, t1230, t1496);
         let t1498 = t144 * t1265;
         let t1499 = mul_sub(t435, t1225, mul_sub(t147, t1264, t1498));
         let t1500 = mul_sub(t436, t1224, t1499);
         let t1501 = t165 * t1302;
-        let t1502 = mul_sub(t491, t1231, neg_mul_add(t162, t1303, t1501));
-        let t1503 = mul_sub(t492, t1230, t1502);
+        let t1502 = mul_sub(t491, t1228, neg_mul_add(t162, t1303, t1501));
+        let t1503 = mul_sub(t492, t1227, t1502);
         let t1504 = t1491 + (t1493 + (t1495 + (t1497 + (t1500 + t1503))));
         coriolis_matrix_p[0][3] = t1504;
-        let t1505 = mul_sub(t716, t1253, mul_add(t231, t1455, t237 * t1453));
-        let t1506 = mul_sub(t714, t1255, t1505);
-        let t1507 = mul_sub(t660, t1247, mul_add(t213, t1417, t219 * t1415));
-        let t1508 = mul_sub(t658, t1249, t1507);
-        let t1509 = mul_sub(t604, t1241, mul_add(t195, t1379, t201 * t1377));
-        let t1510 = mul_sub(t602, t1243, t1509);
-        let t1511 = mul_sub(t548, t1235, mul_add(t177, t1341, t183 * t1339));
-        let t1512 = mul_sub(t546, t1237, t1511);
+        let t1505 = mul_sub(t716, t1238, mul_add(t231, t1455, t237 * t1453));
+        let t1506 = mul_sub(t714, t1240, t1505);
+        let t1507 = mul_sub(t660, t1235, mul_add(t213, t1417, t219 * t1415));
+        let t1508 = mul_sub(t658, t1237, t1507);
+        let t1509 = mul_sub(t604, t1232, mul_add(t195, t1379, t201 * t1377));
+        let t1510 = mul_sub(t602, t1234, t1509);
+        let t1511 = mul_sub(t548, t1229, mul_add(t177, t1341, t183 * t1339));
+        let t1512 = mul_sub(t546, t1231, t1511);
         let t1513 = mul_sub(t436, t1223, mul_add(t141, t1265, t147 * t1263));
         let t1514 = mul_sub(t434, t1225, t1513);
         let t1515 = t165 * t1301;
-        let t1516 = mul_sub(t492, t1229, mul_add(t159, t1303, t1515));
-        let t1517 = mul_sub(t490, t1231, t1516);
+        let t1516 = mul_sub(t492, t1226, mul_add(t159, t1303, t1515));
+        let t1517 = mul_sub(t490, t1228, t1516);
         let t1518 = t1506 + (t1508 + (t1510 + (t1512 + (t1514 + t1517))));
-        let t1519 = mul_add(t714, t1254, mul_add(t231, t1454, t234 * t1453));
-        let t1520 = mul_sub(t715, t1253, t1519);
-        let t1521 = mul_add(t658, t1248, mul_add(t213, t1416, t216 * t1415));
-        let t1522 = mul_sub(t659, t1247, t1521);
-        let t1523 = mul_add(t602, t1242, mul_add(t195, t1378, t198 * t1377));
-        let t1524 = mul_sub(t603, t1241, t1523);
-        let t1525 = mul_add(t546, t1236, mul_add(t177, t1340, t180 * t1339));
-        let t1526 = mul_sub(t547, t1235, t1525);
+        let t1519 = mul_add(t714, t1239, mul_add(t231, t1454, t234 * t1453));
+        let t1520 = mul_sub(t715, t1238, t1519);
+        let t1521 = mul_add(t658, t1236, mul_add(t213, t1416, t216 * t1415));
+        let t1522 = mul_sub(t659, t1235, t1521);
+        let t1523 = mul_add(t602, t1233, mul_add(t195, t1378, t198 * t1377));
+        let t1524 = mul_sub(t603, t1232, t1523);
+        let t1525 = mul_add(t546, t1230, mul_add(t177, t1340, t180 * t1339));
+        let t1526 = mul_sub(t547, t1229, t1525);
         let t1527 = mul_add(t434, t1224, mul_add(t141, t1264, t144 * t1263));
         let t1528 = mul_sub(t435, t1223, t1527);
         let t1529 = t162 * t1301;
-        let t1530 = mul_add(t490, t1230, mul_add(t159, t1302, t1529));
-        let t1531 = mul_sub(t491, t1229, t1530);
+        let t1530 = mul_add(t490, t1227, mul_add(t159, t1302, t1529));
+        let t1531 = mul_sub(t491, t1226, t1530);
         let t1532 = t1520 + (t1522 + (t1524 + (t1526 + (t1528 + t1531))));
         let t1533 = t1458 + (t1420 + (t1382 + (t1344 + (t1268 + t1306))));
         let t1534 = t1459 + (t1421 + (t1383 + (t1345 + (t1269 + t1307))));
         coriolis_matrix_p[1][1] = t1534;
         coriolis_matrix_b[1][1] = t1534;
         let t1535 = t1460 + (t1422 + (t1384 + (t1346 + (t1270 + t1308))));
-        let t1536 = mul_add(t718, t1255, mul_add(t234, t1460, t237 * t1459));
-        let t1537 = mul_sub(t719, t1254, t1536);
-        let t1538 = mul_add(t662, t1249, mul_add(t216, t1422, t219 * t1421));
-        let t1539 = mul_sub(t663, t1248, t1538);
-        let t1540 = mul_add(t606, t1243, mul_add(t198, t1384, t201 * t1383));
-        let t1541 = mul_sub(t607, t1242, t1540);
-        let t1542 = mul_add(t550, t1237, mul_add(t180, t1346, t183 * t1345));
-        let t1543 = mul_sub(t551, t1236, t1542);
+        let t1536 = mul_add(t718, t1240, mul_add(t234, t1460, t237 * t1459));
+        let t1537 = mul_sub(t719, t1239, t1536);
+        let t1538 = mul_add(t662, t1237, mul_add(t216, t1422, t219 * t1421));
+        let t1539 = mul_sub(t663, t1236, t1538);
+        let t1540 = mul_add(t606, t1234, mul_add(t198, t1384, t201 * t1383));
+        let t1541 = mul_sub(t607, t1233, t1540);
+        let t1542 = mul_add(t550, t1231, mul_add(t180, t1346, t183 * t1345));
+        let t1543 = mul_sub(t551, t1230, t1542);
         let t1544 = mul_add(t438, t1225, mul_add(t144, t1270, t147 * t1269));
         let t1545 = mul_sub(t439, t1224, t1544);
         let t1546 = t165 * t1307;
-        let t1547 = mul_add(t494, t1231, mul_add(t162, t1308, t1546));
-        let t1548 = mul_sub(t495, t1230, t1547);
+        let t1547 = mul_add(t494, t1228, mul_add(t162, t1308, t1546));
+        let t1548 = mul_sub(t495, t1227, t1547);
         let t1549 = t1537 + (t1539 + (t1541 + (t1543 + (t1545 + t1548))));
-        let t1550 = mul_sub(t237, t1458, mul_add(t715, t1255, t231 * t1460));
-        let t1551 = mul_add(t719, t1253, t1550);
-        let t1552 = mul_sub(t219, t1420, mul_add(t659, t1249, t213 * t1422));
-        let t1553 = mul_add(t663, t1247, t1552);
-        let t1554 = mul_sub(t201, t1382, mul_add(t603, t1243, t195 * t1384));
-        let t1555 = mul_add(t607, t1241, t1554);
-        let t1556 = mul_sub(t183, t1344, mul_add(t547, t1237, t177 * t1346));
-        let t1557 = mul_add(t551, t1235, t1556);
+        let t1550 = mul_sub(t237, t1458, mul_add(t715, t1240, t231 * t1460));
+        let t1551 = mul_add(t719, t1238, t1550);
+        let t1552 = mul_sub(t219, t1420, mul_add(t659, t1237, t213 * t1422));
+        let t1553 = mul_add(t663, t1235, t1552);
+        let t1554 = mul_sub(t201, t1382, mul_add(t603, t1234, t195 * t1384));
+        let t1555 = mul_add(t607, t1232, t1554);
+        let t1556 = mul_sub(t183, t1344, mul_add(t547, t1231, t177 * t1346));
+        let t1557 = mul_add(t551, t1229, t1556);
         let t1558 = mul_sub(t147, t1268, mul_add(t435, t1225, t141 * t1270));
         let t1559 = mul_add(t439, t1223, t1558);
-        let t1560 = mul_sub(t165, t1306, mul_add(t491, t1231, t159 * t1308));
-        let t1561 = mul_add(t495, t1229, t1560);
+        let t1560 = mul_sub(t165, t1306, mul_add(t491, t1228, t159 * t1308));
+        let t1561 = mul_add(t495, t1226, t1560);
         let t1562 = t1551 + (t1553 + (t1555 + (t1557 + (t1559 + t1561))));
-        let t1563 = mul_sub(t715, t1254, mul_add(t234, t1458, t231 * t1459));
-        let t1564 = mul_sub(t718, t1253, t1563);
-        let t1565 = mul_sub(t659, t1248, mul_add(t216, t1420, t213 * t1421));
-        let t1566 = mul_sub(t662, t1247, t1565);
-        let t1567 = mul_sub(t603, t1242, mul_add(t198, t1382, t195 * t1383));
-        let t1568 = mul_sub(t606, t1241, t1567);
-        let t1569 = mul_sub(t547, t1236, mul_add(t180, t1344, t177 * t1345));
-        let t1570 = mul_sub(t550, t1235, t1569);
+        let t1563 = mul_sub(t715, t1239, mul_add(t234, t1458, t231 * t1459));
+        let t1564 = mul_sub(t718, t1238, t1563);
+        let t1565 = mul_sub(t659, t1236, mul_add(t216, t1420, t213 * t1421));
+        let t1566 = mul_sub(t662, t1235, t1565);
+        let t1567 = mul_sub(t603, t1233, mul_add(t198, t1382, t195 * t1383));
+        let t1568 = mul_sub(t606, t1232, t1567);
+        let t1569 = mul_sub(t547, t1230, mul_add(t180, t1344, t177 * t1345));
+        let t1570 = mul_sub(t550, t1229, t1569);
         let t1571 = mul_sub(t435, t1224, mul_add(t144, t1268, t141 * t1269));
         let t1572 = mul_sub(t438, t1223, t1571);
         let t1573 = t159 * t1307;
-        let t1574 = mul_sub(t491, t1230, mul_add(t162, t1306, t1573));
-        let t1575 = mul_sub(t494, t1229, t1574);
+        let t1574 = mul_sub(t491, t1227, mul_add(t162, t1306, t1573));
+        let t1575 = mul_sub(t494, t1226, t1574);
         let t1576 = t1564 + (t1566 + (t1568 + (t1570 + (t1572 + t1575))));
         let t1577 = t1463 + (t1425 + (t1387 + (t1349 + (t1273 + t1311))));
         let t1578 = t1464 + (t1426 + (t1388 + (t1350 + (t1274 + t1312))));
         let t1579 = t1465 + (t1427 + (t1389 + (t1351 + (t1275 + t1313))));
         coriolis_matrix_p[2][2] = t1579;
         coriolis_matrix_b[2][2] = t1579;
-        let t1580 = mul_sub(t719, t1255, mul_add(t237, t1464, t234 * t1465));
-        let t1581 = mul_sub(t720, t1254, t1580);
-        let t1582 = mul_sub(t663, t1249, mul_add(t219, t1426, t216 * t1427));
-        let t1583 = mul_sub(t664, t1248, t1582);
-        let t1584 = mul_sub(t607, t1243, mul_add(t201, t1388, t198 * t1389));
-        let t1585 = mul_sub(t608, t1242, t1584);
-        let t1586 = mul_sub(t551, t1237, mul_add(t183, t1350, t180 * t1351));
-        let t1587 = mul_sub(t552, t1236, t1586);
+        let t1580 = mul_sub(t719, t1240, mul_add(t237, t1464, t234 * t1465));
+        let t1581 = mul_sub(t720, t1239, t1580);
+        let t1582 = mul_sub(t663, t1237, mul_add(t219, t1426, t216 * t1427));
+        let t1583 = mul_sub(t664, t1236, t1582);
+        let t1584 = mul_sub(t607, t1234, mul_add(t201, t1388, t198 * t1389));
+        let t1585 = mul_sub(t608, t1233, t1584);
+        let t1586 = mul_sub(t551, t1231, mul_add(t183, t1350, t180 * t1351));
+        let t1587 = mul_sub(t552, t1230, t1586);
         let t1588 = mul_sub(t439, t1225, mul_add(t147, t1274, t144 * t1275));
         let t1589 = mul_sub(t440, t1224, t1588);
         let t1590 = t162 * t1313;
-        let t1591 = mul_sub(t495, t1231, mul_add(t165, t1312, t1590));
-        let t1592 = mul_sub(t496, t1230, t1591);
+        let t1591 = mul_sub(t495, t1228, mul_add(t165, t1312, t1590));
+        let t1592 = mul_sub(t496, t1227, t1591);
         let t1593 = t1581 + (t1583 + (t1585 + (t1587 + (t1589 + t1592))));
-        let t1594 = mul_add(t720, t1253, mul_add(t237, t1463, t231 * t1465));
-        let t1595 = mul_sub(t716, t1255, t1594);
-        let t1596 = mul_add(t664, t1247, mul_add(t219, t1425, t213 * t1427));
-        let t1597 = mul_sub(t660, t1249, t1596);
-        let t1598 = mul_add(t608, t1241, mul_add(t201, t1387, t195 * t1389));
-        let t1599 = mul_sub(t604, t1243, t1598);
-        let t1600 = mul_add(t552, t1235, mul_add(t183, t1349, t177 * t1351));
-        let t1601 = mul_sub(t548, t1237, t1600);
+        let t1594 = mul_add(t720, t1238, mul_add(t237, t1463, t231 * t1465));
+        let t1595 = mul_sub(t716, t1240, t1594);
+        let t1596 = mul_add(t664, t1235, mul_add(t219, t1425, t213 * t1427));
+        let t1597 = mul_sub(t660, t1237, t1596);
+        let t1598 = mul_add(t608, t1232, mul_add(t201, t1387, t195 * t1389));
+        let t1599 = mul_sub(t604, t1234, t1598);
+        let t1600 = mul_add(t552, t1229, mul_add(t183, t1349, t177 * t1351));
+        let t1601 = mul_sub(t548, t1231, t1600);
         let t1602 = mul_add(t440, t1223, mul_add(t147, t1273, t141 * t1275));
         let t1603 = mul_sub(t436, t1225, t1602);
         let t1604 = t159 * t1313;
-        let t1605 = mul_add(t496, t1229, mul_add(t165, t1311, t1604));
-        let t1606 = mul_sub(t492, t1231, t1605);
+        let t1605 = mul_add(t496, t1226, mul_add(t165, t1311, t1604));
+        let t1606 = mul_sub(t492, t1228, t1605);
         let t1607 = t1595 + (t1597 + (t1599 + (t1601 + (t1603 + t1606))));
-        let t1608 = mul_sub(t234, t1463, mul_sub(t716, t1254, t719 * t1253));
+        let t1608 = mul_sub(t234, t1463, mul_sub(t716, t1239, t719 * t1238));
         let t1609 = mul_sub(t231, t1464, t1608);
-        let t1610 = mul_sub(t216, t1425, mul_sub(t660, t1248, t663 * t1247));
+        let t1610 = mul_sub(t216, t1425, mul_sub(t660, t1236, t663 * t1235));
         let t1611 = mul_sub(t213, t1426, t1610);
-        let t1612 = mul_sub(t198, t1387, mul_sub(t604, t1242, t607 * t1241));
+        let t1612 = mul_sub(t198, t1387, mul_sub(t604, t1233, t607 * t1232));
         let t1613 = mul_sub(t195, t1388, t1612);
-        let t1614 = mul_sub(t180, t1349, mul_sub(t548, t1236, t551 * t1235));
+        let t1614 = mul_sub(t180, t1349, mul_sub(t548, t1230, t551 * t1229));
         let t1615 = mul_sub(t177, t1350, t1614);
         let t1616 = mul_sub(t144, t1273, mul_sub(t436, t1224, t439 * t1223));
         let t1617 = mul_sub(t141, t1274, t1616);
-        let t1618 = mul_sub(t162, t1311, mul_sub(t492, t1230, t495 * t1229));
+        let t1618 = mul_sub(t162, t1311, mul_sub(t492, t1227, t495 * t1226));
         let t1619 = mul_sub(t159, t1312, t1618);
         let t1620 = t1609 + (t1611 + (t1613 + (t1615 + (t1617 + t1619))));
         let t1621 = mul_add(t183, t1344, mul_add(t147, t1268, t165 * t1306));
@@ -23460,176 +23314,176 @@ pub fn equation_of_motion<T: Scalar>(
         )
     };
     {
-        // Coriolis matrix C_p, natural factorisation
-        let t1740 = mul_sub(platform_velocity[3], t883, platform_velocity[4] * t885);
-        let t1741 = t1518 + t1740;
-        coriolis_matrix_p[0][4] = t1741;
-        let t1742 = mul_sub(platform_velocity[5], t885, platform_velocity[3] * t881);
-        let t1743 = t1532 - t1742;
-        coriolis_matrix_p[0][5] = t1743;
-        let t1744 = t1549 - t1740;
-        coriolis_matrix_p[1][3] = t1744;
-        let t1745 = mul_sub(platform_velocity[4], t881, platform_velocity[5] * t883);
-        let t1746 = t1576 + t1745;
-        coriolis_matrix_p[1][5] = t1746;
-        let t1747 = t1593 + t1742;
-        coriolis_matrix_p[2][3] = t1747;
-        let t1748 = t1607 - t1745;
-        coriolis_matrix_p[2][4] = t1748;
-        let t1749 = mul_add(platform_velocity[5], t895, t1644);
-        let t1750 = mul_sub(platform_velocity[4], t897, t1749);
-        let t1751 = mul_sub(c(0.5), t339, t905);
-        let t1752 = neg_mul_add(platform_velocity[5], t1751, t1650);
-        let t1753 = mul_sub(platform_velocity[4], t907, t1752);
-        let t1754 = mul_sub(c(0.5), t339, t915);
-        let t1755 = neg_mul_add(platform_velocity[5], t907, t1656);
-        let t1756 = mul_sub(platform_velocity[4], t1754, t1755);
-        coriolis_matrix_p[3][5] = t1756;
-        let t1757 = mul_sub(c(0.5), t339, t893);
-        let t1758 = mul_add(platform_velocity[5], t1757, t1680);
-        let t1759 = mul_add(platform_velocity[3], t897, t1758);
-        coriolis_matrix_p[4][3] = t1759;
-        let t1760 = neg_mul_add(platform_velocity[5], t895, t1686);
-        let t1761 = mul_add(platform_velocity[3], t907, t1760);
-        coriolis_matrix_p[4][4] = t1761;
-        let t1762 = neg_mul_add(platform_velocity[5], t897, t1692);
-        let t1763 = mul_sub(platform_velocity[3], t1754, t1762);
-        let t1764 = neg_mul_add(platform_velocity[4], t1757, t1716);
-        let t1765 = mul_sub(platform_velocity[3], t895, t1764);
-        let t1766 = neg_mul_add(platform_velocity[4], t895, t1722);
-        let t1767 = mul_sub(platform_velocity[3], t1751, t1766);
-        coriolis_matrix_p[5][4] = t1767;
-        let t1768 = mul_add(platform_velocity[4], t897, t1728);
-        let t1769 = mul_sub(platform_velocity[3], t907, t1768);
-        coriolis_matrix_p[3][3] = -t1750;
-        coriolis_matrix_p[3][4] = -t1753;
-        coriolis_matrix_p[4][5] = -t1763;
-        coriolis_matrix_p[5][3] = -t1765;
-        coriolis_matrix_p[5][5] = -t1769;
         // Coriolis matrix C_b, natural factorisation
-        let t1770 = mul_add(t188, t1356, mul_add(t152, t1280, t1319));
-        let t1771 = mul_add(t224, t1432, mul_add(t206, t1394, t1770));
-        let t1772 = mul_sub(t30, t1488, t1504 - mul_add(t242, t1470, t1771));
-        let t1773 = mul_add(t766, t1072, mul_sub(t29, t1489, t1772));
-        let t1774 = mul_sub(t769, t1071, t1773);
-        let t1775 = t1518 - (t1476 + (t1438 + (t1400 + (t1362 + (t1286 + t1324)))));
-        let t1776 = mul_add(t30, t1487, mul_sub(t28, t1489, t1775));
-        let t1777 = mul_sub(t763, t1072, mul_sub(t769, t1070, t1776));
-        let t1778 = t1532 - (t1479 + (t1441 + (t1403 + (t1365 + (t1289 + t1327)))));
-        let t1779 = mul_add(t28, t1488, mul_add(t29, t1487, t1778));
-        let t1780 = mul_sub(t766, t1070, mul_add(t763, t1071, t1779));
-        let t1781 = t1549 - (t1480 + (t1442 + (t1404 + (t1366 + (t1290 + t1328)))));
-        let t1782 = mul_add(t29, t1535, mul_add(t30, t1534, t1781));
-        let t1783 = mul_sub(t793, t1071, mul_add(t790, t1072, t1782));
-        let t1784 = mul_add(t190, t1360, mul_add(t154, t1284, t1329));
-        let t1785 = mul_add(t226, t1436, mul_add(t208, t1398, t1784));
-        let t1786 = mul_add(t766, t1072, t1562 + mul_add(t244, t1474, t1785));
-        let t1787 = mul_sub(t30, t1533, mul_add(t28, t1535, t1786));
-        let t1788 = mul_add(t793, t1070, t1787);
-        coriolis_matrix_b[1][4] = t1788;
-        let t1789 = t1576 - (t1483 + (t1445 + (t1407 + (t1369 + (t1293 + t1331)))));
-        let t1790 = mul_add(t28, t1534, mul_sub(t29, t1533, t1789));
-        let t1791 = mul_sub(t790, t1070, mul_sub(t766, t1071, t1790));
-        let t1792 = t1593 + (t1484 + (t1446 + (t1408 + (t1370 + (t1294 + t1332)))));
-        let t1793 = mul_add(t29, t1579, mul_sub(t30, t1578, t1792));
-        let t1794 = mul_sub(t821, t1071, mul_sub(t793, t1072, t1793));
-        let t1795 = t1607 - (t1485 + (t1447 + (t1409 + (t1371 + (t1295 + t1333)))));
-        let t1796 = mul_add(t30, t1577, mul_add(t28, t1579, t1795));
-        let t1797 = mul_sub(t769, t1072, mul_add(t821, t1070, t1796));
-        let t1798 = mul_add(t192, t1363, mul_add(t156, t1287, t1334));
-        let t1799 = mul_add(t228, t1439, mul_add(t210, t1401, t1798));
-        let t1800 = mul_sub(t769, t1071, t1620 + mul_add(t246, t1477, t1799));
-        let t1801 = mul_add(t29, t1577, mul_sub(t793, t1070, t1800));
-        let t1802 = mul_sub(t28, t1578, t1801);
-        coriolis_matrix_b[2][5] = t1802;
-        let t1803 = mul_sub(t29, t1638, neg_mul_add(t30, t1632, t1644));
-        let t1804 = mul_sub(t828, t1071, mul_add(t800, t1072, t1803));
-        let t1805 = mul_add(t147, t1290, mul_add(t144, t1294, t1804));
-        let t1806 = mul_add(t165, t1328, mul_add(t162, t1332, t1805));
-        let t1807 = mul_add(t183, t1366, mul_add(t180, t1370, t1806));
-        let t1808 = mul_add(t201, t1404, mul_add(t198, t1408, t1807));
-        let t1809 = mul_add(t219, t1442, mul_add(t216, t1446, t1808));
-        let t1810 = mul_add(t237, t1480, mul_add(t234, t1484, t1809));
-        coriolis_matrix_b[3][3] = t1810;
-        let t1811 = mul_add(t30, t1626, mul_add(t28, t1638, t1650));
-        let t1812 = mul_add(t775, t1072, mul_sub(t828, t1070, t1811));
-        let t1813 = mul_sub(t147, t1291, mul_add(t144, t1295, t1812));
-        let t1814 = mul_sub(t165, t1329, mul_sub(t162, t1333, t1813));
-        let t1815 = mul_sub(t183, t1367, mul_sub(t180, t1371, t1814));
-        let t1816 = mul_sub(t201, t1405, mul_sub(t198, t1409, t1815));
-        let t1817 = mul_sub(t219, t1443, mul_sub(t216, t1447, t1816));
-        let t1818 = mul_sub(t237, t1481, mul_sub(t234, t1485, t1817));
-        coriolis_matrix_b[3][4] = t1818;
-        let t1819 = mul_sub(t28, t1632, mul_add(t29, t1626, t1656));
-        let t1820 = mul_add(t800, t1070, mul_add(t775, t1071, t1819));
-        let t1821 = mul_sub(t147, t1293, mul_sub(t144, t1296, t1820));
-        let t1822 = mul_sub(t165, t1331, mul_sub(t162, t1334, t1821));
-        let t1823 = mul_sub(t183, t1369, mul_sub(t180, t1372, t1822));
-        let t1824 = mul_sub(t201, t1407, mul_sub(t198, t1410, t1823));
-        let t1825 = mul_sub(t219, t1445, mul_sub(t216, t1448, t1824));
-        let t1826 = mul_sub(t237, t1483, mul_sub(t234, t1486, t1825));
-        coriolis_matrix_b[3][5] = t1826;
-        let t1827 = mul_add(t29, t1674, mul_add(t30, t1668, t1680));
-        let t1828 = mul_add(t835, t1071, mul_add(t813, t1072, t1827));
-        let t1829 = mul_add(t141, t1294, mul_sub(t147, t1281, t1828));
-        let t1830 = mul_add(t159, t1332, mul_add(t165, t1319, t1829));
-        let t1831 = mul_add(t177, t1370, mul_add(t183, t1357, t1830));
-        let t1832 = mul_add(t195, t1408, mul_add(t201, t1395, t1831));
-        let t1833 = mul_add(t213, t1446, mul_add(t219, t1433, t1832));
-        let t1834 = mul_add(t231, t1484, mul_add(t237, t1471, t1833));
-        let t1835 = mul_sub(t30, t1662, neg_mul_add(t28, t1674, t1686));
-        let t1836 = mul_sub(t782, t1072, mul_add(t835, t1070, t1835));
-        let t1837 = mul_sub(t141, t1295, mul_sub(t147, t1286, t1836));
-        let t1838 = mul_sub(t159, t1333, mul_sub(t165, t1324, t1837));
-        let t1839 = mul_sub(t177, t1371, mul_sub(t183, t1362, t1838));
-        let t1840 = mul_sub(t195, t1409, mul_sub(t201, t1400, t1839));
-        let t1841 = mul_sub(t213, t1447, mul_sub(t219, t1438, t1840));
-        let t1842 = mul_sub(t231, t1485, mul_sub(t237, t1476, t1841));
-        coriolis_matrix_b[4][4] = t1842;
-        let t1843 = mul_sub(t28, t1668, mul_add(t29, t1662, t1692));
-        let t1844 = mul_add(t813, t1070, mul_add(t782, t1071, t1843));
-        let t1845 = mul_sub(t141, t1296, mul_add(t147, t1289, t1844));
-        let t1846 = mul_sub(t159, t1334, mul_sub(t165, t1327, t1845));
-        let t1847 = mul_sub(t177, t1372, mul_sub(t183, t1365, t1846));
-        let t1848 = mul_sub(t195, t1410, mul_sub(t201, t1403, t1847));
-        let t1849 = mul_sub(t213, t1448, mul_sub(t219, t1441, t1848));
-        let t1850 = mul_sub(t231, t1486, mul_sub(t237, t1479, t1849));
-        coriolis_matrix_b[4][5] = t1850;
-        let t1851 = mul_add(t29, t1710, mul_add(t30, t1704, t1716));
-        let t1852 = mul_sub(t842, t1071, mul_sub(t820, t1072, t1851));
-        let t1853 = mul_sub(t144, t1281, mul_sub(t141, t1290, t1852));
-        let t1854 = mul_sub(t162, t1319, mul_sub(t159, t1328, t1853));
-        let t1855 = mul_sub(t180, t1357, mul_sub(t177, t1366, t1854));
-        let t1856 = mul_sub(t198, t1395, mul_sub(t195, t1404, t1855));
-        let t1857 = mul_sub(t216, t1433, mul_sub(t213, t1442, t1856));
-        let t1858 = mul_sub(t234, t1471, mul_sub(t231, t1480, t1857));
-        coriolis_matrix_b[5][3] = t1858;
-        let t1859 = mul_sub(t30, t1698, mul_add(t28, t1710, t1722));
-        let t1860 = mul_sub(t789, t1072, mul_sub(t842, t1070, t1859));
-        let t1861 = mul_sub(t144, t1286, mul_sub(t141, t1291, t1860));
-        let t1862 = mul_sub(t162, t1324, mul_sub(t159, t1329, t1861));
-        let t1863 = mul_sub(t180, t1362, mul_sub(t177, t1367, t1862));
-        let t1864 = mul_sub(t198, t1400, mul_sub(t195, t1405, t1863));
-        let t1865 = mul_sub(t216, t1438, mul_sub(t213, t1443, t1864));
-        let t1866 = mul_sub(t234, t1476, mul_sub(t231, t1481, t1865));
-        coriolis_matrix_b[5][4] = t1866;
-        let t1867 = mul_sub(t28, t1704, neg_mul_add(t29, t1698, t1728));
-        let t1868 = mul_sub(t820, t1070, mul_add(t789, t1071, t1867));
-        let t1869 = mul_sub(t144, t1289, mul_sub(t141, t1293, t1868));
-        let t1870 = mul_sub(t162, t1327, mul_sub(t159, t1331, t1869));
-        let t1871 = mul_sub(t180, t1365, mul_sub(t177, t1369, t1870));
-        let t1872 = mul_sub(t198, t1403, mul_sub(t195, t1407, t1871));
-        let t1873 = mul_sub(t216, t1441, mul_sub(t213, t1445, t1872));
-        let t1874 = mul_sub(t234, t1479, mul_sub(t231, t1483, t1873));
-        coriolis_matrix_b[5][5] = t1874;
-        coriolis_matrix_b[0][3] = -t1774;
-        coriolis_matrix_b[0][4] = -t1777;
-        coriolis_matrix_b[0][5] = -t1780;
-        coriolis_matrix_b[1][3] = -t1783;
-        coriolis_matrix_b[1][5] = -t1791;
-        coriolis_matrix_b[2][3] = -t1794;
-        coriolis_matrix_b[2][4] = -t1797;
-        coriolis_matrix_b[4][3] = -t1834;
+        let t1740 = mul_add(t188, t1356, mul_add(t152, t1280, t1319));
+        let t1741 = mul_add(t224, t1432, mul_add(t206, t1394, t1740));
+        let t1742 = mul_sub(t30, t1488, t1504 - mul_add(t242, t1470, t1741));
+        let t1743 = mul_add(t766, t1072, mul_sub(t29, t1489, t1742));
+        let t1744 = mul_sub(t769, t1071, t1743);
+        let t1745 = t1518 - (t1476 + (t1438 + (t1400 + (t1362 + (t1286 + t1324)))));
+        let t1746 = mul_add(t30, t1487, mul_sub(t28, t1489, t1745));
+        let t1747 = mul_sub(t763, t1072, mul_sub(t769, t1070, t1746));
+        let t1748 = t1532 - (t1479 + (t1441 + (t1403 + (t1365 + (t1289 + t1327)))));
+        let t1749 = mul_add(t28, t1488, mul_add(t29, t1487, t1748));
+        let t1750 = mul_sub(t766, t1070, mul_add(t763, t1071, t1749));
+        let t1751 = t1549 - (t1480 + (t1442 + (t1404 + (t1366 + (t1290 + t1328)))));
+        let t1752 = mul_add(t29, t1535, mul_add(t30, t1534, t1751));
+        let t1753 = mul_sub(t793, t1071, mul_add(t790, t1072, t1752));
+        let t1754 = mul_add(t190, t1360, mul_add(t154, t1284, t1329));
+        let t1755 = mul_add(t226, t1436, mul_add(t208, t1398, t1754));
+        let t1756 = mul_add(t766, t1072, t1562 + mul_add(t244, t1474, t1755));
+        let t1757 = mul_sub(t30, t1533, mul_add(t28, t1535, t1756));
+        let t1758 = mul_add(t793, t1070, t1757);
+        coriolis_matrix_b[1][4] = t1758;
+        let t1759 = t1576 - (t1483 + (t1445 + (t1407 + (t1369 + (t1293 + t1331)))));
+        let t1760 = mul_add(t28, t1534, mul_sub(t29, t1533, t1759));
+        let t1761 = mul_sub(t790, t1070, mul_sub(t766, t1071, t1760));
+        let t1762 = t1593 + (t1484 + (t1446 + (t1408 + (t1370 + (t1294 + t1332)))));
+        let t1763 = mul_add(t29, t1579, mul_sub(t30, t1578, t1762));
+        let t1764 = mul_sub(t821, t1071, mul_sub(t793, t1072, t1763));
+        let t1765 = t1607 - (t1485 + (t1447 + (t1409 + (t1371 + (t1295 + t1333)))));
+        let t1766 = mul_add(t30, t1577, mul_add(t28, t1579, t1765));
+        let t1767 = mul_sub(t769, t1072, mul_add(t821, t1070, t1766));
+        let t1768 = mul_add(t192, t1363, mul_add(t156, t1287, t1334));
+        let t1769 = mul_add(t228, t1439, mul_add(t210, t1401, t1768));
+        let t1770 = mul_sub(t769, t1071, t1620 + mul_add(t246, t1477, t1769));
+        let t1771 = mul_add(t29, t1577, mul_sub(t793, t1070, t1770));
+        let t1772 = mul_sub(t28, t1578, t1771);
+        coriolis_matrix_b[2][5] = t1772;
+        let t1773 = mul_sub(t29, t1638, neg_mul_add(t30, t1632, t1644));
+        let t1774 = mul_sub(t828, t1071, mul_add(t800, t1072, t1773));
+        let t1775 = mul_add(t147, t1290, mul_add(t144, t1294, t1774));
+        let t1776 = mul_add(t165, t1328, mul_add(t162, t1332, t1775));
+        let t1777 = mul_add(t183, t1366, mul_add(t180, t1370, t1776));
+        let t1778 = mul_add(t201, t1404, mul_add(t198, t1408, t1777));
+        let t1779 = mul_add(t219, t1442, mul_add(t216, t1446, t1778));
+        let t1780 = mul_add(t237, t1480, mul_add(t234, t1484, t1779));
+        coriolis_matrix_b[3][3] = t1780;
+        let t1781 = mul_add(t30, t1626, mul_add(t28, t1638, t1650));
+        let t1782 = mul_add(t775, t1072, mul_sub(t828, t1070, t1781));
+        let t1783 = mul_sub(t147, t1291, mul_add(t144, t1295, t1782));
+        let t1784 = mul_sub(t165, t1329, mul_sub(t162, t1333, t1783));
+        let t1785 = mul_sub(t183, t1367, mul_sub(t180, t1371, t1784));
+        let t1786 = mul_sub(t201, t1405, mul_sub(t198, t1409, t1785));
+        let t1787 = mul_sub(t219, t1443, mul_sub(t216, t1447, t1786));
+        let t1788 = mul_sub(t237, t1481, mul_sub(t234, t1485, t1787));
+        coriolis_matrix_b[3][4] = t1788;
+        let t1789 = mul_sub(t28, t1632, mul_add(t29, t1626, t1656));
+        let t1790 = mul_add(t800, t1070, mul_add(t775, t1071, t1789));
+        let t1791 = mul_sub(t147, t1293, mul_sub(t144, t1296, t1790));
+        let t1792 = mul_sub(t165, t1331, mul_sub(t162, t1334, t1791));
+        let t1793 = mul_sub(t183, t1369, mul_sub(t180, t1372, t1792));
+        let t1794 = mul_sub(t201, t1407, mul_sub(t198, t1410, t1793));
+        let t1795 = mul_sub(t219, t1445, mul_sub(t216, t1448, t1794));
+        let t1796 = mul_sub(t237, t1483, mul_sub(t234, t1486, t1795));
+        coriolis_matrix_b[3][5] = t1796;
+        let t1797 = mul_add(t29, t1674, mul_add(t30, t1668, t1680));
+        let t1798 = mul_add(t835, t1071, mul_add(t813, t1072, t1797));
+        let t1799 = mul_add(t141, t1294, mul_sub(t147, t1281, t1798));
+        let t1800 = mul_add(t159, t1332, mul_add(t165, t1319, t1799));
+        let t1801 = mul_add(t177, t1370, mul_add(t183, t1357, t1800));
+        let t1802 = mul_add(t195, t1408, mul_add(t201, t1395, t1801));
+        let t1803 = mul_add(t213, t1446, mul_add(t219, t1433, t1802));
+        let t1804 = mul_add(t231, t1484, mul_add(t237, t1471, t1803));
+        let t1805 = mul_sub(t30, t1662, neg_mul_add(t28, t1674, t1686));
+        let t1806 = mul_sub(t782, t1072, mul_add(t835, t1070, t1805));
+        let t1807 = mul_sub(t141, t1295, mul_sub(t147, t1286, t1806));
+        let t1808 = mul_sub(t159, t1333, mul_sub(t165, t1324, t1807));
+        let t1809 = mul_sub(t177, t1371, mul_sub(t183, t1362, t1808));
+        let t1810 = mul_sub(t195, t1409, mul_sub(t201, t1400, t1809));
+        let t1811 = mul_sub(t213, t1447, mul_sub(t219, t1438, t1810));
+        let t1812 = mul_sub(t231, t1485, mul_sub(t237, t1476, t1811));
+        coriolis_matrix_b[4][4] = t1812;
+        let t1813 = mul_sub(t28, t1668, mul_add(t29, t1662, t1692));
+        let t1814 = mul_add(t813, t1070, mul_add(t782, t1071, t1813));
+        let t1815 = mul_sub(t141, t1296, mul_add(t147, t1289, t1814));
+        let t1816 = mul_sub(t159, t1334, mul_sub(t165, t1327, t1815));
+        let t1817 = mul_sub(t177, t1372, mul_sub(t183, t1365, t1816));
+        let t1818 = mul_sub(t195, t1410, mul_sub(t201, t1403, t1817));
+        let t1819 = mul_sub(t213, t1448, mul_sub(t219, t1441, t1818));
+        let t1820 = mul_sub(t231, t1486, mul_sub(t237, t1479, t1819));
+        coriolis_matrix_b[4][5] = t1820;
+        let t1821 = mul_add(t29, t1710, mul_add(t30, t1704, t1716));
+        let t1822 = mul_sub(t842, t1071, mul_sub(t820, t1072, t1821));
+        let t1823 = mul_sub(t144, t1281, mul_sub(t141, t1290, t1822));
+        let t1824 = mul_sub(t162, t1319, mul_sub(t159, t1328, t1823));
+        let t1825 = mul_sub(t180, t1357, mul_sub(t177, t1366, t1824));
+        let t1826 = mul_sub(t198, t1395, mul_sub(t195, t1404, t1825));
+        let t1827 = mul_sub(t216, t1433, mul_sub(t213, t1442, t1826));
+        let t1828 = mul_sub(t234, t1471, mul_sub(t231, t1480, t1827));
+        coriolis_matrix_b[5][3] = t1828;
+        let t1829 = mul_sub(t30, t1698, mul_add(t28, t1710, t1722));
+        let t1830 = mul_sub(t789, t1072, mul_sub(t842, t1070, t1829));
+        let t1831 = mul_sub(t144, t1286, mul_sub(t141, t1291, t1830));
+        let t1832 = mul_sub(t162, t1324, mul_sub(t159, t1329, t1831));
+        let t1833 = mul_sub(t180, t1362, mul_sub(t177, t1367, t1832));
+        let t1834 = mul_sub(t198, t1400, mul_sub(t195, t1405, t1833));
+        let t1835 = mul_sub(t216, t1438, mul_sub(t213, t1443, t1834));
+        let t1836 = mul_sub(t234, t1476, mul_sub(t231, t1481, t1835));
+        coriolis_matrix_b[5][4] = t1836;
+        let t1837 = mul_sub(t28, t1704, neg_mul_add(t29, t1698, t1728));
+        let t1838 = mul_sub(t820, t1070, mul_add(t789, t1071, t1837));
+        let t1839 = mul_sub(t144, t1289, mul_sub(t141, t1293, t1838));
+        let t1840 = mul_sub(t162, t1327, mul_sub(t159, t1331, t1839));
+        let t1841 = mul_sub(t180, t1365, mul_sub(t177, t1369, t1840));
+        let t1842 = mul_sub(t198, t1403, mul_sub(t195, t1407, t1841));
+        let t1843 = mul_sub(t216, t1441, mul_sub(t213, t1445, t1842));
+        let t1844 = mul_sub(t234, t1479, mul_sub(t231, t1483, t1843));
+        coriolis_matrix_b[5][5] = t1844;
+        coriolis_matrix_b[0][3] = -t1744;
+        coriolis_matrix_b[0][4] = -t1747;
+        coriolis_matrix_b[0][5] = -t1750;
+        coriolis_matrix_b[1][3] = -t1753;
+        coriolis_matrix_b[1][5] = -t1761;
+        coriolis_matrix_b[2][3] = -t1764;
+        coriolis_matrix_b[2][4] = -t1767;
+        coriolis_matrix_b[4][3] = -t1804;
+        // Coriolis matrix C_p, natural factorisation
+        let t1845 = mul_sub(platform_velocity[3], t883, platform_velocity[4] * t885);
+        let t1846 = t1518 + t1845;
+        coriolis_matrix_p[0][4] = t1846;
+        let t1847 = mul_sub(platform_velocity[5], t885, platform_velocity[3] * t881);
+        let t1848 = t1532 - t1847;
+        coriolis_matrix_p[0][5] = t1848;
+        let t1849 = t1549 - t1845;
+        coriolis_matrix_p[1][3] = t1849;
+        let t1850 = mul_sub(platform_velocity[4], t881, platform_velocity[5] * t883);
+        let t1851 = t1576 + t1850;
+        coriolis_matrix_p[1][5] = t1851;
+        let t1852 = t1593 + t1847;
+        coriolis_matrix_p[2][3] = t1852;
+        let t1853 = t1607 - t1850;
+        coriolis_matrix_p[2][4] = t1853;
+        let t1854 = mul_add(platform_velocity[5], t895, t1644);
+        let t1855 = mul_sub(platform_velocity[4], t897, t1854);
+        let t1856 = mul_sub(c(0.5), t339, t905);
+        let t1857 = neg_mul_add(platform_velocity[5], t1856, t1650);
+        let t1858 = mul_sub(platform_velocity[4], t907, t1857);
+        let t1859 = mul_sub(c(0.5), t339, t915);
+        let t1860 = neg_mul_add(platform_velocity[5], t907, t1656);
+        let t1861 = mul_sub(platform_velocity[4], t1859, t1860);
+        coriolis_matrix_p[3][5] = t1861;
+        let t1862 = mul_sub(c(0.5), t339, t893);
+        let t1863 = mul_add(platform_velocity[5], t1862, t1680);
+        let t1864 = mul_add(platform_velocity[3], t897, t1863);
+        coriolis_matrix_p[4][3] = t1864;
+        let t1865 = neg_mul_add(platform_velocity[5], t895, t1686);
+        let t1866 = mul_add(platform_velocity[3], t907, t1865);
+        coriolis_matrix_p[4][4] = t1866;
+        let t1867 = neg_mul_add(platform_velocity[5], t897, t1692);
+        let t1868 = mul_sub(platform_velocity[3], t1859, t1867);
+        let t1869 = neg_mul_add(platform_velocity[4], t1862, t1716);
+        let t1870 = mul_sub(platform_velocity[3], t895, t1869);
+        let t1871 = neg_mul_add(platform_velocity[4], t895, t1722);
+        let t1872 = mul_sub(platform_velocity[3], t1856, t1871);
+        coriolis_matrix_p[5][4] = t1872;
+        let t1873 = mul_add(platform_velocity[4], t897, t1728);
+        let t1874 = mul_sub(platform_velocity[3], t907, t1873);
+        coriolis_matrix_p[3][3] = -t1855;
+        coriolis_matrix_p[3][4] = -t1858;
+        coriolis_matrix_p[4][5] = -t1868;
+        coriolis_matrix_p[5][3] = -t1870;
+        coriolis_matrix_p[5][5] = -t1874;
         // linearised stiffness K_p = J_dp^T k_e J_dp
         let t1875 = parameters.axial_stiffness[0] * t152;
         let t1876 = parameters.axial_stiffness[1] * t170;
@@ -24099,8 +23953,8 @@ pub fn equation_of_motion<T: Scalar>(
         let t2209 = mul_sub(platform_velocity[1], t1488, t2208);
         let t2210 = mul_add(platform_velocity[2], t1489, t2209);
         let t2211 = mul_sub(platform_velocity[3], t1504, t2210);
-        let t2212 = mul_add(platform_velocity[4], t1741, t2211);
-        let t2213 = mul_add(platform_velocity[5], t1743, t2212);
+        let t2212 = mul_add(platform_velocity[4], t1846, t2211);
+        let t2213 = mul_add(platform_velocity[5], t1848, t2212);
         let t2214 = mul_sub(
             base_velocity[1],
             t1488,
@@ -24108,20 +23962,20 @@ pub fn equation_of_motion<T: Scalar>(
         );
         let t2215 = mul_add(
             base_velocity[3],
-            t1774,
+            t1744,
             mul_add(base_velocity[2], t1489, t2214),
         );
         bias[0] = mul_add(
             base_velocity[5],
-            t1780,
-            mul_add(base_velocity[4], t1777, t2215),
+            t1750,
+            mul_add(base_velocity[4], t1747, t2215),
         );
         let t2216 = mul_sub(platform_velocity[0], t1533, t2156 - (t2102 - t2126));
         let t2217 = mul_sub(platform_velocity[1], t1534, t2216);
         let t2218 = mul_sub(platform_velocity[2], t1535, t2217);
-        let t2219 = mul_sub(platform_velocity[3], t1744, t2218);
+        let t2219 = mul_sub(platform_velocity[3], t1849, t2218);
         let t2220 = mul_sub(platform_velocity[4], t1562, t2219);
-        let t2221 = mul_sub(platform_velocity[5], t1746, t2220);
+        let t2221 = mul_sub(platform_velocity[5], t1851, t2220);
         let t2222 = mul_sub(
             base_velocity[1],
             t1534,
@@ -24129,19 +23983,19 @@ pub fn equation_of_motion<T: Scalar>(
         );
         let t2223 = mul_add(
             base_velocity[3],
-            t1783,
+            t1753,
             mul_sub(base_velocity[2], t1535, t2222),
         );
         bias[1] = mul_sub(
             base_velocity[5],
-            t1791,
-            mul_sub(base_velocity[4], t1788, t2223),
+            t1761,
+            mul_sub(base_velocity[4], t1758, t2223),
         );
         let t2224 = mul_sub(platform_velocity[0], t1577, t2165 - (t2105 - t2129));
         let t2225 = mul_add(platform_velocity[1], t1578, t2224);
         let t2226 = mul_sub(platform_velocity[2], t1579, t2225);
-        let t2227 = mul_add(platform_velocity[3], t1747, t2226);
-        let t2228 = mul_add(platform_velocity[4], t1748, t2227);
+        let t2227 = mul_add(platform_velocity[3], t1852, t2226);
+        let t2228 = mul_add(platform_velocity[4], t1853, t2227);
         let t2229 = mul_sub(platform_velocity[5], t1620, t2228);
         let t2230 = mul_add(
             base_velocity[1],
@@ -24150,32 +24004,32 @@ pub fn equation_of_motion<T: Scalar>(
         );
         let t2231 = mul_sub(
             base_velocity[3],
-            t1794,
+            t1764,
             mul_sub(base_velocity[2], t1579, t2230),
         );
-        let t2232 = mul_add(base_velocity[4], t1797, t2231);
-        bias[2] = neg_mul_add(base_velocity[5], t1802, t2232);
+        let t2232 = mul_add(base_velocity[4], t1767, t2231);
+        bias[2] = neg_mul_add(base_velocity[5], t1772, t2232);
         let t2233 = mul_sub(platform_velocity[0], t1626, t2183 - (t2108 - t2132));
         let t2234 = mul_add(platform_velocity[1], t1632, t2233);
         let t2235 = mul_sub(platform_velocity[2], t1638, t2234);
-        let t2236 = mul_sub(platform_velocity[3], t1750, t2235);
-        let t2237 = mul_add(platform_velocity[4], t1753, t2236);
-        let t2238 = mul_sub(platform_velocity[5], t1756, t2237);
+        let t2236 = mul_sub(platform_velocity[3], t1855, t2235);
+        let t2237 = mul_add(platform_velocity[4], t1858, t2236);
+        let t2238 = mul_sub(platform_velocity[5], t1861, t2237);
         let t2239 = mul_add(
             base_velocity[1],
             t1632,
             mul_add(base_velocity[0], t1626, t2238),
         );
         let t2240 = neg_mul_add(base_velocity[2], t1638, t2239);
-        let t2241 = neg_mul_add(base_velocity[3], t1810, t2240);
-        let t2242 = neg_mul_add(base_velocity[4], t1818, t2241);
-        bias[3] = neg_mul_add(base_velocity[5], t1826, t2242);
+        let t2241 = neg_mul_add(base_velocity[3], t1780, t2240);
+        let t2242 = neg_mul_add(base_velocity[4], t1788, t2241);
+        bias[3] = neg_mul_add(base_velocity[5], t1796, t2242);
         let t2243 = mul_add(platform_velocity[0], t1662, t2197 - (t2111 - t2135));
         let t2244 = mul_add(platform_velocity[1], t1668, t2243);
         let t2245 = mul_sub(platform_velocity[2], t1674, t2244);
-        let t2246 = mul_sub(platform_velocity[3], t1759, t2245);
-        let t2247 = mul_add(platform_velocity[4], t1761, t2246);
-        let t2248 = mul_sub(platform_velocity[5], t1763, t2247);
+        let t2246 = mul_sub(platform_velocity[3], t1864, t2245);
+        let t2247 = mul_add(platform_velocity[4], t1866, t2246);
+        let t2248 = mul_sub(platform_velocity[5], t1868, t2247);
         let t2249 = mul_add(
             base_velocity[1],
             t1668,
@@ -24183,26 +24037,26 @@ pub fn equation_of_motion<T: Scalar>(
         );
         let t2250 = mul_add(
             base_velocity[3],
-            t1834,
+            t1804,
             mul_sub(base_velocity[2], t1674, t2249),
         );
-        let t2251 = neg_mul_add(base_velocity[4], t1842, t2250);
-        bias[4] = neg_mul_add(base_velocity[5], t1850, t2251);
+        let t2251 = neg_mul_add(base_velocity[4], t1812, t2250);
+        bias[4] = neg_mul_add(base_velocity[5], t1820, t2251);
         let t2252 = mul_sub(platform_velocity[0], t1698, t2207 - (t2114 - t2138));
         let t2253 = mul_sub(platform_velocity[1], t1704, t2252);
         let t2254 = mul_sub(platform_velocity[2], t1710, t2253);
-        let t2255 = mul_add(platform_velocity[3], t1765, t2254);
-        let t2256 = mul_sub(platform_velocity[4], t1767, t2255);
-        let t2257 = mul_sub(platform_velocity[5], t1769, t2256);
+        let t2255 = mul_add(platform_velocity[3], t1870, t2254);
+        let t2256 = mul_sub(platform_velocity[4], t1872, t2255);
+        let t2257 = mul_sub(platform_velocity[5], t1874, t2256);
         let t2258 = mul_sub(
             base_velocity[1],
             t1704,
             mul_sub(base_velocity[0], t1698, t2257),
         );
         let t2259 = mul_sub(base_velocity[2], t1710, t2258);
-        let t2260 = neg_mul_add(base_velocity[3], t1858, t2259);
-        let t2261 = neg_mul_add(base_velocity[4], t1866, t2260);
-        bias[5] = neg_mul_add(base_velocity[5], t1874, t2261);
+        let t2260 = neg_mul_add(base_velocity[3], t1828, t2259);
+        let t2261 = neg_mul_add(base_velocity[4], t1836, t2260);
+        bias[5] = neg_mul_add(base_velocity[5], t1844, t2261);
     }
 }
 
@@ -24799,477 +24653,485 @@ pub fn inverse_dynamics<T: Scalar>(
     let t465 = mul_add(base_rotation[0][2], platform_acceleration[3], t464);
     let t466 = mul_add(base_rotation[2][2], platform_acceleration[5], t465);
     // acceleration per platform coordinate of points of the platform
-    let t467 = mul_add(t294, t300, t463);
-    let t468 = neg_mul_add(t294, t297, t466);
-    let t469 = mul_add(t297, t297, t300 * t300);
-    let t470 = mul_sub(t21, t467, mul_add(t12, t468, t3 * t469));
-    let t471 = mul_sub(t24, t467, mul_add(t15, t468, t6 * t469));
-    let t472 = mul_sub(t27, t467, mul_add(t18, t468, t9 * t469));
-    let t473 = neg_mul_add(t297, t300, t460);
-    let t474 = mul_add(t294, t297, t466);
-    let t475 = t294 * t294;
-    let t476 = mul_add(t300, t300, t475);
-    let t477 = mul_sub(t21, t473, mul_sub(t3, t474, t12 * t476));
-    let t478 = mul_sub(t24, t473, mul_sub(t6, t474, t15 * t476));
-    let t479 = mul_sub(t27, t473, mul_sub(t9, t474, t18 * t476));
-    let t480 = mul_add(t297, t297, t475);
-    let t481 = neg_mul_add(t294, t300, t463);
-    let t482 = mul_add(t297, t300, t460);
-    let t483 = mul_add(t21, t480, mul_sub(t3, t481, t12 * t482));
-    let t484 = mul_add(t24, t480, mul_sub(t6, t481, t15 * t482));
-    let t485 = mul_add(t27, t480, mul_sub(t9, t481, t18 * t482));
+    let t467 = mul_sub(t3, t300, t21 * t294);
+    let t468 = mul_sub(t12, t294, t3 * t297);
+    let t469 = mul_add(t297, t468, mul_sub(t21, t463, t12 * t466));
+    let t470 = mul_sub(t300, t467, t469);
+    let t471 = mul_sub(t6, t300, t24 * t294);
+    let t472 = mul_sub(t15, t294, t6 * t297);
+    let t473 = mul_add(t297, t472, mul_sub(t24, t463, t15 * t466));
+    let t474 = mul_sub(t300, t471, t473);
+    let t475 = mul_sub(t9, t300, t27 * t294);
+    let t476 = mul_sub(t18, t294, t9 * t297);
+    let t477 = mul_add(t297, t476, mul_sub(t27, t463, t18 * t466));
+    let t478 = mul_sub(t300, t475, t477);
+    let t479 = mul_sub(t21, t297, t12 * t300);
+    let t480 = mul_add(t300, t479, mul_sub(t3, t466, t21 * t460));
+    let t481 = mul_sub(t294, t468, t480);
+    let t482 = mul_sub(t24, t297, t15 * t300);
+    let t483 = mul_add(t300, t482, mul_sub(t6, t466, t24 * t460));
+    let t484 = mul_sub(t294, t472, t483);
+    let t485 = mul_sub(t27, t297, t18 * t300);
+    let t486 = mul_add(t300, t485, mul_sub(t9, t466, t27 * t460));
+    let t487 = mul_sub(t294, t476, t486);
+    let t488 = mul_add(t294, t467, mul_sub(t12, t460, t3 * t463));
+    let t489 = mul_sub(t297, t479, t488);
+    let t490 = mul_add(t294, t471, mul_sub(t15, t460, t6 * t463));
+    let t491 = mul_sub(t297, t482, t490);
+    let t492 = mul_add(t294, t475, mul_sub(t18, t460, t9 * t463));
+    let t493 = mul_sub(t297, t485, t492);
     // leg 1: actuator acceleration d''
-    let t486 = mul_add(parameters.platform_point[0][0], t470, t453);
-    let t487 = mul_add(parameters.platform_point[0][1], t471, t486);
-    let t488 = mul_add(parameters.platform_point[0][2], t472, t487);
-    let t489 = neg_mul_add(parameters.base_point[0][0], t439, t425);
-    let t490 = mul_sub(parameters.base_point[0][1], t440, t489);
-    let t491 = mul_sub(parameters.base_point[0][2], t441, t490);
-    let t492 = t488 - t491;
-    let t493 = neg_mul_add(parameters.platform_point[0][0], t477, t455);
-    let t494 = mul_sub(parameters.platform_point[0][1], t478, t493);
-    let t495 = mul_add(parameters.platform_point[0][2], t479, t494);
-    let t496 = mul_add(parameters.base_point[0][0], t442, t427);
-    let t497 = mul_sub(parameters.base_point[0][1], t444, t496);
-    let t498 = mul_add(parameters.base_point[0][2], t445, t497);
-    let t499 = t495 - t498;
-    let t500 = neg_mul_add(parameters.platform_point[0][0], t483, t457);
-    let t501 = mul_sub(parameters.platform_point[0][1], t484, t500);
-    let t502 = mul_add(parameters.platform_point[0][2], t485, t501);
-    let t503 = neg_mul_add(parameters.base_point[0][0], t446, t429);
-    let t504 = mul_add(parameters.base_point[0][1], t447, t503);
-    let t505 = mul_sub(parameters.base_point[0][2], t448, t504);
-    let t506 = t502 - t505;
-    let t507 = mul_add(t390, t390, mul_add(t386, t386, t388 * t388));
-    let t508 = mul_sub(t123, t506, mul_sub(t121, t492, t122 * t499));
-    let t509 = mul_sub(t109, t507, t508);
+    let t494 = neg_mul_add(parameters.platform_point[0][0], t470, t453);
+    let t495 = mul_sub(parameters.platform_point[0][1], t474, t494);
+    let t496 = mul_add(parameters.platform_point[0][2], t478, t495);
+    let t497 = neg_mul_add(parameters.base_point[0][0], t439, t425);
+    let t498 = mul_sub(parameters.base_point[0][1], t440, t497);
+    let t499 = mul_sub(parameters.base_point[0][2], t441, t498);
+    let t500 = t496 + t499;
+    let t501 = neg_mul_add(parameters.platform_point[0][0], t481, t455);
+    let t502 = mul_sub(parameters.platform_point[0][1], t484, t501);
+    let t503 = mul_add(parameters.platform_point[0][2], t487, t502);
+    let t504 = mul_add(parameters.base_point[0][0], t442, t427);
+    let t505 = mul_sub(parameters.base_point[0][1], t444, t504);
+    let t506 = mul_add(parameters.base_point[0][2], t445, t505);
+    let t507 = t503 - t506;
+    let t508 = neg_mul_add(parameters.platform_point[0][0], t489, t457);
+    let t509 = mul_sub(parameters.platform_point[0][1], t491, t508);
+    let t510 = mul_add(parameters.platform_point[0][2], t493, t509);
+    let t511 = neg_mul_add(parameters.base_point[0][0], t446, t429);
+    let t512 = mul_add(parameters.base_point[0][1], t447, t511);
+    let t513 = mul_sub(parameters.base_point[0][2], t448, t512);
+    let t514 = t510 - t513;
+    let t515 = mul_add(t390, t390, mul_add(t386, t386, t388 * t388));
+    let t516 = mul_add(t123, t514, mul_add(t121, t500, t122 * t507));
+    let t517 = mul_sub(t109, t515, t516);
     // leg 2: actuator acceleration d''
-    let t510 = mul_add(parameters.platform_point[1][0], t470, t453);
-    let t511 = mul_add(parameters.platform_point[1][1], t471, t510);
-    let t512 = mul_add(parameters.platform_point[1][2], t472, t511);
-    let t513 = neg_mul_add(parameters.base_point[1][0], t439, t425);
-    let t514 = mul_sub(parameters.base_point[1][1], t440, t513);
-    let t515 = mul_sub(parameters.base_point[1][2], t441, t514);
-    let t516 = t512 - t515;
-    let t517 = neg_mul_add(parameters.platform_point[1][0], t477, t455);
-    let t518 = mul_sub(parameters.platform_point[1][1], t478, t517);
-    let t519 = mul_add(parameters.platform_point[1][2], t479, t518);
-    let t520 = mul_add(parameters.base_point[1][0], t442, t427);
-    let t521 = mul_sub(parameters.base_point[1][1], t444, t520);
-    let t522 = mul_add(parameters.base_point[1][2], t445, t521);
-    let t523 = t519 - t522;
-    let t524 = neg_mul_add(parameters.platform_point[1][0], t483, t457);
-    let t525 = mul_sub(parameters.platform_point[1][1], t484, t524);
-    let t526 = mul_add(parameters.platform_point[1][2], t485, t525);
-    let t527 = neg_mul_add(parameters.base_point[1][0], t446, t429);
-    let t528 = mul_add(parameters.base_point[1][1], t447, t527);
-    let t529 = mul_sub(parameters.base_point[1][2], t448, t528);
-    let t530 = t526 - t529;
-    let t531 = mul_add(t396, t396, mul_add(t392, t392, t394 * t394));
-    let t532 = mul_sub(t126, t530, mul_sub(t124, t516, t125 * t523));
-    let t533 = mul_sub(t111, t531, t532);
+    let t518 = neg_mul_add(parameters.platform_point[1][0], t470, t453);
+    let t519 = mul_sub(parameters.platform_point[1][1], t474, t518);
+    let t520 = mul_add(parameters.platform_point[1][2], t478, t519);
+    let t521 = neg_mul_add(parameters.base_point[1][0], t439, t425);
+    let t522 = mul_sub(parameters.base_point[1][1], t440, t521);
+    let t523 = mul_sub(parameters.base_point[1][2], t441, t522);
+    let t524 = t520 + t523;
+    let t525 = neg_mul_add(parameters.platform_point[1][0], t481, t455);
+    let t526 = mul_sub(parameters.platform_point[1][1], t484, t525);
+    let t527 = mul_add(parameters.platform_point[1][2], t487, t526);
+    let t528 = mul_add(parameters.base_point[1][0], t442, t427);
+    let t529 = mul_sub(parameters.base_point[1][1], t444, t528);
+    let t530 = mul_add(parameters.base_point[1][2], t445, t529);
+    let t531 = t527 - t530;
+    let t532 = neg_mul_add(parameters.platform_point[1][0], t489, t457);
+    let t533 = mul_sub(parameters.platform_point[1][1], t491, t532);
+    let t534 = mul_add(parameters.platform_point[1][2], t493, t533);
+    let t535 = neg_mul_add(parameters.base_point[1][0], t446, t429);
+    let t536 = mul_add(parameters.base_point[1][1], t447, t535);
+    let t537 = mul_sub(parameters.base_point[1][2], t448, t536);
+    let t538 = t534 - t537;
+    let t539 = mul_add(t396, t396, mul_add(t392, t392, t394 * t394));
+    let t540 = mul_add(t126, t538, mul_add(t124, t524, t125 * t531));
+    let t541 = mul_sub(t111, t539, t540);
     // leg 3: actuator acceleration d''
-    let t534 = mul_add(parameters.platform_point[2][0], t470, t453);
-    let t535 = mul_add(parameters.platform_point[2][1], t471, t534);
-    let t536 = mul_add(parameters.platform_point[2][2], t472, t535);
-    let t537 = neg_mul_add(parameters.base_point[2][0], t439, t425);
-    let t538 = mul_sub(parameters.base_point[2][1], t440, t537);
-    let t539 = mul_sub(parameters.base_point[2][2], t441, t538);
-    let t540 = t536 - t539;
-    let t541 = neg_mul_add(parameters.platform_point[2][0], t477, t455);
-    let t542 = mul_sub(parameters.platform_point[2][1], t478, t541);
-    let t543 = mul_add(parameters.platform_point[2][2], t479, t542);
-    let t544 = mul_add(parameters.base_point[2][0], t442, t427);
-    let t545 = mul_sub(parameters.base_point[2][1], t444, t544);
-    let t546 = mul_add(parameters.base_point[2][2], t445, t545);
-    let t547 = t543 - t546;
-    let t548 = neg_mul_add(parameters.platform_point[2][0], t483, t457);
-    let t549 = mul_sub(parameters.platform_point[2][1], t484, t548);
-    let t550 = mul_add(parameters.platform_point[2][2], t485, t549);
-    let t551 = neg_mul_add(parameters.base_point[2][0], t446, t429);
-    let t552 = mul_add(parameters.base_point[2][1], t447, t551);
-    let t553 = mul_sub(parameters.base_point[2][2], t448, t552);
-    let t554 = t550 - t553;
-    let t555 = mul_add(t402, t402, mul_add(t398, t398, t400 * t400));
-    let t556 = mul_sub(t129, t554, mul_sub(t127, t540, t128 * t547));
-    let t557 = mul_sub(t113, t555, t556);
+    let t542 = neg_mul_add(parameters.platform_point[2][0], t470, t453);
+    let t543 = mul_sub(parameters.platform_point[2][1], t474, t542);
+    let t544 = mul_add(parameters.platform_point[2][2], t478, t543);
+    let t545 = neg_mul_add(parameters.base_point[2][0], t439, t425);
+    let t546 = mul_sub(parameters.base_point[2][1], t440, t545);
+    let t547 = mul_sub(parameters.base_point[2][2], t441, t546);
+    let t548 = t544 + t547;
+    let t549 = neg_mul_add(parameters.platform_point[2][0], t481, t455);
+    let t550 = mul_sub(parameters.platform_point[2][1], t484, t549);
+    let t551 = mul_add(parameters.platform_point[2][2], t487, t550);
+    let t552 = mul_add(parameters.base_point[2][0], t442, t427);
+    let t553 = mul_sub(parameters.base_point[2][1], t444, t552);
+    let t554 = mul_add(parameters.base_point[2][2], t445, t553);
+    let t555 = t551 - t554;
+    let t556 = neg_mul_add(parameters.platform_point[2][0], t489, t457);
+    let t557 = mul_sub(parameters.platform_point[2][1], t491, t556);
+    let t558 = mul_add(parameters.platform_point[2][2], t493, t557);
+    let t559 = neg_mul_add(parameters.base_point[2][0], t446, t429);
+    let t560 = mul_add(parameters.base_point[2][1], t447, t559);
+    let t561 = mul_sub(parameters.base_point[2][2], t448, t560);
+    let t562 = t558 - t561;
+    let t563 = mul_add(t402, t402, mul_add(t398, t398, t400 * t400));
+    let t564 = mul_add(t129, t562, mul_add(t127, t548, t128 * t555));
+    let t565 = mul_sub(t113, t563, t564);
     // leg 4: actuator acceleration d''
-    let t558 = mul_add(parameters.platform_point[3][0], t470, t453);
-    let t559 = mul_add(parameters.platform_point[3][1], t471, t558);
-    let t560 = mul_add(parameters.platform_point[3][2], t472, t559);
-    let t561 = neg_mul_add(parameters.base_point[3][0], t439, t425);
-    let t562 = mul_sub(parameters.base_point[3][1], t440, t561);
-    let t563 = mul_sub(parameters.base_point[3][2], t441, t562);
-    let t564 = t560 - t563;
-    let t565 = neg_mul_add(parameters.platform_point[3][0], t477, t455);
-    let t566 = mul_sub(parameters.platform_point[3][1], t478, t565);
-    let t567 = mul_add(parameters.platform_point[3][2], t479, t566);
-    let t568 = mul_add(parameters.base_point[3][0], t442, t427);
-    let t569 = mul_sub(parameters.base_point[3][1], t444, t568);
-    let t570 = mul_add(parameters.base_point[3][2], t445, t569);
-    let t571 = t567 - t570;
-    let t572 = neg_mul_add(parameters.platform_point[3][0], t483, t457);
-    let t573 = mul_sub(parameters.platform_point[3][1], t484, t572);
-    let t574 = mul_add(parameters.platform_point[3][2], t485, t573);
-    let t575 = neg_mul_add(parameters.base_point[3][0], t446, t429);
-    let t576 = mul_add(parameters.base_point[3][1], t447, t575);
-    let t577 = mul_sub(parameters.base_point[3][2], t448, t576);
-    let t578 = t574 - t577;
-    let t579 = mul_add(t408, t408, mul_add(t404, t404, t406 * t406));
-    let t580 = mul_sub(t132, t578, mul_sub(t130, t564, t131 * t571));
-    let t581 = mul_sub(t115, t579, t580);
+    let t566 = neg_mul_add(parameters.platform_point[3][0], t470, t453);
+    let t567 = mul_sub(parameters.platform_point[3][1], t474, t566);
+    let t568 = mul_add(parameters.platform_point[3][2], t478, t567);
+    let t569 = neg_mul_add(parameters.base_point[3][0], t439, t425);
+    let t570 = mul_sub(parameters.base_point[3][1], t440, t569);
+    let t571 = mul_sub(parameters.base_point[3][2], t441, t570);
+    let t572 = t568 + t571;
+    let t573 = neg_mul_add(parameters.platform_point[3][0], t481, t455);
+    let t574 = mul_sub(parameters.platform_point[3][1], t484, t573);
+    let t575 = mul_add(parameters.platform_point[3][2], t487, t574);
+    let t576 = mul_add(parameters.base_point[3][0], t442, t427);
+    let t577 = mul_sub(parameters.base_point[3][1], t444, t576);
+    let t578 = mul_add(parameters.base_point[3][2], t445, t577);
+    let t579 = t575 - t578;
+    let t580 = neg_mul_add(parameters.platform_point[3][0], t489, t457);
+    let t581 = mul_sub(parameters.platform_point[3][1], t491, t580);
+    let t582 = mul_add(parameters.platform_point[3][2], t493, t581);
+    let t583 = neg_mul_add(parameters.base_point[3][0], t446, t429);
+    let t584 = mul_add(parameters.base_point[3][1], t447, t583);
+    let t585 = mul_sub(parameters.base_point[3][2], t448, t584);
+    let t586 = t582 - t585;
+    let t587 = mul_add(t408, t408, mul_add(t404, t404, t406 * t406));
+    let t588 = mul_add(t132, t586, mul_add(t130, t572, t131 * t579));
+    let t589 = mul_sub(t115, t587, t588);
     // leg 5: actuator acceleration d''
-    let t582 = mul_add(parameters.platform_point[4][0], t470, t453);
-    let t583 = mul_add(parameters.platform_point[4][1], t471, t582);
-    let t584 = mul_add(parameters.platform_point[4][2], t472, t583);
-    let t585 = neg_mul_add(parameters.base_point[4][0], t439, t425);
-    let t586 = mul_sub(parameters.base_point[4][1], t440, t585);
-    let t587 = mul_sub(parameters.base_point[4][2], t441, t586);
-    let t588 = t584 - t587;
-    let t589 = neg_mul_add(parameters.platform_point[4][0], t477, t455);
-    let t590 = mul_sub(parameters.platform_point[4][1], t478, t589);
-    let t591 = mul_add(parameters.platform_point[4][2], t479, t590);
-    let t592 = mul_add(parameters.base_point[4][0], t442, t427);
-    let t593 = mul_sub(parameters.base_point[4][1], t444, t592);
-    let t594 = mul_add(parameters.base_point[4][2], t445, t593);
-    let t595 = t591 - t594;
-    let t596 = neg_mul_add(parameters.platform_point[4][0], t483, t457);
-    let t597 = mul_sub(parameters.platform_point[4][1], t484, t596);
-    let t598 = mul_add(parameters.platform_point[4][2], t485, t597);
-    let t599 = neg_mul_add(parameters.base_point[4][0], t446, t429);
-    let t600 = mul_add(parameters.base_point[4][1], t447, t599);
-    let t601 = mul_sub(parameters.base_point[4][2], t448, t600);
-    let t602 = t598 - t601;
-    let t603 = mul_add(t414, t414, mul_add(t410, t410, t412 * t412));
-    let t604 = mul_sub(t135, t602, mul_sub(t133, t588, t134 * t595));
-    let t605 = mul_sub(t117, t603, t604);
+    let t590 = neg_mul_add(parameters.platform_point[4][0], t470, t453);
+    let t591 = mul_sub(parameters.platform_point[4][1], t474, t590);
+    let t592 = mul_add(parameters.platform_point[4][2], t478, t591);
+    let t593 = neg_mul_add(parameters.base_point[4][0], t439, t425);
+    let t594 = mul_sub(parameters.base_point[4][1], t440, t593);
+    let t595 = mul_sub(parameters.base_point[4][2], t441, t594);
+    let t596 = t592 + t595;
+    let t597 = neg_mul_add(parameters.platform_point[4][0], t481, t455);
+    let t598 = mul_sub(parameters.platform_point[4][1], t484, t597);
+    let t599 = mul_add(parameters.platform_point[4][2], t487, t598);
+    let t600 = mul_add(parameters.base_point[4][0], t442, t427);
+    let t601 = mul_sub(parameters.base_point[4][1], t444, t600);
+    let t602 = mul_add(parameters.base_point[4][2], t445, t601);
+    let t603 = t599 - t602;
+    let t604 = neg_mul_add(parameters.platform_point[4][0], t489, t457);
+    let t605 = mul_sub(parameters.platform_point[4][1], t491, t604);
+    let t606 = mul_add(parameters.platform_point[4][2], t493, t605);
+    let t607 = neg_mul_add(parameters.base_point[4][0], t446, t429);
+    let t608 = mul_add(parameters.base_point[4][1], t447, t607);
+    let t609 = mul_sub(parameters.base_point[4][2], t448, t608);
+    let t610 = t606 - t609;
+    let t611 = mul_add(t414, t414, mul_add(t410, t410, t412 * t412));
+    let t612 = mul_add(t135, t610, mul_add(t133, t596, t134 * t603));
+    let t613 = mul_sub(t117, t611, t612);
     // leg 6: actuator acceleration d''
-    let t606 = mul_add(parameters.platform_point[5][0], t470, t453);
-    let t607 = mul_add(parameters.platform_point[5][1], t471, t606);
-    let t608 = mul_add(parameters.platform_point[5][2], t472, t607);
-    let t609 = neg_mul_add(parameters.base_point[5][0], t439, t425);
-    let t610 = mul_sub(parameters.base_point[5][1], t440, t609);
-    let t611 = mul_sub(parameters.base_point[5][2], t441, t610);
-    let t612 = t608 - t611;
-    let t613 = neg_mul_add(parameters.platform_point[5][0], t477, t455);
-    let t614 = mul_sub(parameters.platform_point[5][1], t478, t613);
-    let t615 = mul_add(parameters.platform_point[5][2], t479, t614);
-    let t616 = mul_add(parameters.base_point[5][0], t442, t427);
-    let t617 = mul_sub(parameters.base_point[5][1], t444, t616);
-    let t618 = mul_add(parameters.base_point[5][2], t445, t617);
-    let t619 = t615 - t618;
-    let t620 = neg_mul_add(parameters.platform_point[5][0], t483, t457);
-    let t621 = mul_sub(parameters.platform_point[5][1], t484, t620);
-    let t622 = mul_add(parameters.platform_point[5][2], t485, t621);
-    let t623 = neg_mul_add(parameters.base_point[5][0], t446, t429);
-    let t624 = mul_add(parameters.base_point[5][1], t447, t623);
-    let t625 = mul_sub(parameters.base_point[5][2], t448, t624);
-    let t626 = t622 - t625;
-    let t627 = mul_add(t420, t420, mul_add(t416, t416, t418 * t418));
-    let t628 = mul_sub(t138, t626, mul_sub(t136, t612, t137 * t619));
-    let t629 = mul_sub(t119, t627, t628);
+    let t614 = neg_mul_add(parameters.platform_point[5][0], t470, t453);
+    let t615 = mul_sub(parameters.platform_point[5][1], t474, t614);
+    let t616 = mul_add(parameters.platform_point[5][2], t478, t615);
+    let t617 = neg_mul_add(parameters.base_point[5][0], t439, t425);
+    let t618 = mul_sub(parameters.base_point[5][1], t440, t617);
+    let t619 = mul_sub(parameters.base_point[5][2], t441, t618);
+    let t620 = t616 + t619;
+    let t621 = neg_mul_add(parameters.platform_point[5][0], t481, t455);
+    let t622 = mul_sub(parameters.platform_point[5][1], t484, t621);
+    let t623 = mul_add(parameters.platform_point[5][2], t487, t622);
+    let t624 = mul_add(parameters.base_point[5][0], t442, t427);
+    let t625 = mul_sub(parameters.base_point[5][1], t444, t624);
+    let t626 = mul_add(parameters.base_point[5][2], t445, t625);
+    let t627 = t623 - t626;
+    let t628 = neg_mul_add(parameters.platform_point[5][0], t489, t457);
+    let t629 = mul_sub(parameters.platform_point[5][1], t491, t628);
+    let t630 = mul_add(parameters.platform_point[5][2], t493, t629);
+    let t631 = neg_mul_add(parameters.base_point[5][0], t446, t429);
+    let t632 = mul_add(parameters.base_point[5][1], t447, t631);
+    let t633 = mul_sub(parameters.base_point[5][2], t448, t632);
+    let t634 = t630 - t633;
+    let t635 = mul_add(t420, t420, mul_add(t416, t416, t418 * t418));
+    let t636 = mul_add(t138, t634, mul_add(t136, t620, t137 * t627));
+    let t637 = mul_sub(t119, t635, t636);
     // leg 1: leg inertia less weight along the actuator
-    let t630 = c(2.0) * t379;
-    let t631 = t110 * mul_add(t386, t630, neg_mul_add(t121, t509, t492));
-    let t632 = t110 * t143;
-    let t633 = t110 * t140;
-    let t634 = t110 * t139;
-    let t635 = mul_sub(t632, t631, mul_sub(t488, t633, t491 * t634));
-    let t636 = t110 * mul_sub(t388, t630, mul_add(t122, t509, t499));
-    let t637 = mul_add(t632, t636, mul_sub(t495, t633, t498 * t634));
-    let t638 = t122 * t637;
-    let t639 = t110 * mul_sub(t390, t630, mul_add(t123, t509, t506));
-    let t640 = mul_add(t632, t639, mul_sub(t502, t633, t505 * t634));
+    let t638 = c(2.0) * t379;
+    let t639 = t110 * mul_sub(t386, t638, mul_add(t121, t517, t500));
+    let t640 = t110 * t143;
+    let t641 = t110 * t140;
+    let t642 = t110 * t139;
+    let t643 = mul_add(t640, t639, mul_add(t496, t641, t499 * t642));
+    let t644 = t110 * mul_sub(t388, t638, mul_add(t122, t517, t507));
+    let t645 = mul_add(t640, t644, mul_sub(t503, t641, t506 * t642));
+    let t646 = t122 * t645;
+    let t647 = t110 * mul_sub(t390, t638, mul_add(t123, t517, t514));
+    let t648 = mul_add(t640, t647, mul_sub(t510, t641, t513 * t642));
     // leg 1: remaining leg inertia less weight at the platform joint
-    let t641 = neg_mul_add(t140, t631, t635);
-    let t642 = neg_mul_add(t140, t636, t637);
-    let t643 = neg_mul_add(t140, t639, t640);
+    let t649 = neg_mul_add(t140, t639, t643);
+    let t650 = neg_mul_add(t140, t644, t645);
+    let t651 = neg_mul_add(t140, t647, t648);
     // leg 2: leg inertia less weight along the actuator
-    let t644 = c(2.0) * t380;
-    let t645 = t112 * mul_add(t392, t644, neg_mul_add(t124, t533, t516));
-    let t646 = t112 * t148;
-    let t647 = t112 * t145;
-    let t648 = t112 * t144;
-    let t649 = mul_sub(t646, t645, mul_sub(t512, t647, t515 * t648));
-    let t650 = t112 * mul_sub(t394, t644, mul_add(t125, t533, t523));
-    let t651 = mul_add(t646, t650, mul_sub(t519, t647, t522 * t648));
-    let t652 = t125 * t651;
-    let t653 = t112 * mul_sub(t396, t644, mul_add(t126, t533, t530));
-    let t654 = mul_add(t646, t653, mul_sub(t526, t647, t529 * t648));
+    let t652 = c(2.0) * t380;
+    let t653 = t112 * mul_sub(t392, t652, mul_add(t124, t541, t524));
+    let t654 = t112 * t148;
+    let t655 = t112 * t145;
+    let t656 = t112 * t144;
+    let t657 = mul_add(t654, t653, mul_add(t520, t655, t523 * t656));
+    let t658 = t112 * mul_sub(t394, t652, mul_add(t125, t541, t531));
+    let t659 = mul_add(t654, t658, mul_sub(t527, t655, t530 * t656));
+    let t660 = t125 * t659;
+    let t661 = t112 * mul_sub(t396, t652, mul_add(t126, t541, t538));
+    let t662 = mul_add(t654, t661, mul_sub(t534, t655, t537 * t656));
     // leg 2: remaining leg inertia less weight at the platform joint
-    let t655 = neg_mul_add(t145, t645, t649);
-    let t656 = neg_mul_add(t145, t650, t651);
-    let t657 = neg_mul_add(t145, t653, t654);
+    let t663 = neg_mul_add(t145, t653, t657);
+    let t664 = neg_mul_add(t145, t658, t659);
+    let t665 = neg_mul_add(t145, t661, t662);
     // leg 3: leg inertia less weight along the actuator
-    let t658 = c(2.0) * t381;
-    let t659 = t114 * mul_add(t398, t658, neg_mul_add(t127, t557, t540));
-    let t660 = t114 * t153;
-    let t661 = t114 * t150;
-    let t662 = t114 * t149;
-    let t663 = mul_sub(t660, t659, mul_sub(t536, t661, t539 * t662));
-    let t664 = t114 * mul_sub(t400, t658, mul_add(t128, t557, t547));
-    let t665 = mul_add(t660, t664, mul_sub(t543, t661, t546 * t662));
-    let t666 = t128 * t665;
-    let t667 = t114 * mul_sub(t402, t658, mul_add(t129, t557, t554));
-    let t668 = mul_add(t660, t667, mul_sub(t550, t661, t553 * t662));
+    let t666 = c(2.0) * t381;
+    let t667 = t114 * mul_sub(t398, t666, mul_add(t127, t565, t548));
+    let t668 = t114 * t153;
+    let t669 = t114 * t150;
+    let t670 = t114 * t149;
+    let t671 = mul_add(t668, t667, mul_add(t544, t669, t547 * t670));
+    let t672 = t114 * mul_sub(t400, t666, mul_add(t128, t565, t555));
+    let t673 = mul_add(t668, t672, mul_sub(t551, t669, t554 * t670));
+    let t674 = t128 * t673;
+    let t675 = t114 * mul_sub(t402, t666, mul_add(t129, t565, t562));
+    let t676 = mul_add(t668, t675, mul_sub(t558, t669, t561 * t670));
     // leg 3: remaining leg inertia less weight at the platform joint
-    let t669 = neg_mul_add(t150, t659, t663);
-    let t670 = neg_mul_add(t150, t664, t665);
-    let t671 = neg_mul_add(t150, t667, t668);
+    let t677 = neg_mul_add(t150, t667, t671);
+    let t678 = neg_mul_add(t150, t672, t673);
+    let t679 = neg_mul_add(t150, t675, t676);
     // leg 4: leg inertia less weight along the actuator
-    let t672 = c(2.0) * t382;
-    let t673 = t116 * mul_add(t404, t672, neg_mul_add(t130, t581, t564));
-    let t674 = t116 * t158;
-    let t675 = t116 * t155;
-    let t676 = t116 * t154;
-    let t677 = mul_sub(t674, t673, mul_sub(t560, t675, t563 * t676));
-    let t678 = t116 * mul_sub(t406, t672, mul_add(t131, t581, t571));
-    let t679 = mul_add(t674, t678, mul_sub(t567, t675, t570 * t676));
-    let t680 = t131 * t679;
-    let t681 = t116 * mul_sub(t408, t672, mul_add(t132, t581, t578));
-    let t682 = mul_add(t674, t681, mul_sub(t574, t675, t577 * t676));
+    let t680 = c(2.0) * t382;
+    let t681 = t116 * mul_sub(t404, t680, mul_add(t130, t589, t572));
+    let t682 = t116 * t158;
+    let t683 = t116 * t155;
+    let t684 = t116 * t154;
+    let t685 = mul_add(t682, t681, mul_add(t568, t683, t571 * t684));
+    let t686 = t116 * mul_sub(t406, t680, mul_add(t131, t589, t579));
+    let t687 = mul_add(t682, t686, mul_sub(t575, t683, t578 * t684));
+    let t688 = t131 * t687;
+    let t689 = t116 * mul_sub(t408, t680, mul_add(t132, t589, t586));
+    let t690 = mul_add(t682, t689, mul_sub(t582, t683, t585 * t684));
     // leg 4: remaining leg inertia less weight at the platform joint
-    let t683 = neg_mul_add(t155, t673, t677);
-    let t684 = neg_mul_add(t155, t678, t679);
-    let t685 = neg_mul_add(t155, t681, t682);
+    let t691 = neg_mul_add(t155, t681, t685);
+    let t692 = neg_mul_add(t155, t686, t687);
+    let t693 = neg_mul_add(t155, t689, t690);
     // leg 5: leg inertia less weight along the actuator
-    let t686 = c(2.0) * t383;
-    let t687 = t118 * mul_add(t410, t686, neg_mul_add(t133, t605, t588));
-    let t688 = t118 * t163;
-    let t689 = t118 * t160;
-    let t690 = t118 * t159;
-    let t691 = mul_sub(t688, t687, mul_sub(t584, t689, t587 * t690));
-    let t692 = t118 * mul_sub(t412, t686, mul_add(t134, t605, t595));
-    let t693 = mul_add(t688, t692, mul_sub(t591, t689, t594 * t690));
-    let t694 = t134 * t693;
-    let t695 = t118 * mul_sub(t414, t686, mul_add(t135, t605, t602));
-    let t696 = mul_add(t688, t695, mul_sub(t598, t689, t601 * t690));
+    let t694 = c(2.0) * t383;
+    let t695 = t118 * mul_sub(t410, t694, mul_add(t133, t613, t596));
+    let t696 = t118 * t163;
+    let t697 = t118 * t160;
+    let t698 = t118 * t159;
+    let t699 = mul_add(t696, t695, mul_add(t592, t697, t595 * t698));
+    let t700 = t118 * mul_sub(t412, t694, mul_add(t134, t613, t603));
+    let t701 = mul_add(t696, t700, mul_sub(t599, t697, t602 * t698));
+    let t702 = t134 * t701;
+    let t703 = t118 * mul_sub(t414, t694, mul_add(t135, t613, t610));
+    let t704 = mul_add(t696, t703, mul_sub(t606, t697, t609 * t698));
     // leg 5: remaining leg inertia less weight at the platform joint
-    let t697 = neg_mul_add(t160, t687, t691);
-    let t698 = neg_mul_add(t160, t692, t693);
-    let t699 = neg_mul_add(t160, t695, t696);
+    let t705 = neg_mul_add(t160, t695, t699);
+    let t706 = neg_mul_add(t160, t700, t701);
+    let t707 = neg_mul_add(t160, t703, t704);
     // leg 6: leg inertia less weight along the actuator
-    let t700 = c(2.0) * t384;
-    let t701 = t120 * mul_add(t416, t700, neg_mul_add(t136, t629, t612));
-    let t702 = t120 * t168;
-    let t703 = t120 * t165;
-    let t704 = t120 * t164;
-    let t705 = mul_sub(t702, t701, mul_sub(t608, t703, t611 * t704));
-    let t706 = t120 * mul_sub(t418, t700, mul_add(t137, t629, t619));
-    let t707 = mul_add(t702, t706, mul_sub(t615, t703, t618 * t704));
-    let t708 = t137 * t707;
-    let t709 = t120 * mul_sub(t420, t700, mul_add(t138, t629, t626));
-    let t710 = mul_add(t702, t709, mul_sub(t622, t703, t625 * t704));
+    let t708 = c(2.0) * t384;
+    let t709 = t120 * mul_sub(t416, t708, mul_add(t136, t637, t620));
+    let t710 = t120 * t168;
+    let t711 = t120 * t165;
+    let t712 = t120 * t164;
+    let t713 = mul_add(t710, t709, mul_add(t616, t711, t619 * t712));
+    let t714 = t120 * mul_sub(t418, t708, mul_add(t137, t637, t627));
+    let t715 = mul_add(t710, t714, mul_sub(t623, t711, t626 * t712));
+    let t716 = t137 * t715;
+    let t717 = t120 * mul_sub(t420, t708, mul_add(t138, t637, t634));
+    let t718 = mul_add(t710, t717, mul_sub(t630, t711, t633 * t712));
     // leg 6: remaining leg inertia less weight at the platform joint
-    let t711 = neg_mul_add(t165, t701, t705);
-    let t712 = neg_mul_add(t165, t706, t707);
-    let t713 = neg_mul_add(t165, t709, t710);
+    let t719 = neg_mul_add(t165, t709, t713);
+    let t720 = neg_mul_add(t165, t714, t715);
+    let t721 = neg_mul_add(t165, t717, t718);
     // leg 1: spring and damper force along the actuator
-    let t714 = parameters.rest_length[0] - t109;
+    let t722 = parameters.rest_length[0] - t109;
     // leg 2: spring and damper force along the actuator
-    let t715 = parameters.rest_length[1] - t111;
+    let t723 = parameters.rest_length[1] - t111;
     // leg 3: spring and damper force along the actuator
-    let t716 = parameters.rest_length[2] - t113;
+    let t724 = parameters.rest_length[2] - t113;
     // leg 4: spring and damper force along the actuator
-    let t717 = parameters.rest_length[3] - t115;
+    let t725 = parameters.rest_length[3] - t115;
     // leg 5: spring and damper force along the actuator
-    let t718 = parameters.rest_length[4] - t117;
+    let t726 = parameters.rest_length[4] - t117;
     // leg 6: spring and damper force along the actuator
-    let t719 = parameters.rest_length[5] - t119;
+    let t727 = parameters.rest_length[5] - t119;
     // leg 1: row of the actuator Jacobian in base coordinates
-    let t720 = mul_sub(t42, t123, t45 * t122);
-    let t721 = mul_sub(t45, t121, t39 * t123);
-    let t722 = mul_sub(t39, t122, t42 * t121);
+    let t728 = mul_sub(t42, t123, t45 * t122);
+    let t729 = mul_sub(t45, t121, t39 * t123);
+    let t730 = mul_sub(t39, t122, t42 * t121);
     // leg 2: row of the actuator Jacobian in base coordinates
-    let t723 = mul_sub(t54, t126, t57 * t125);
-    let t724 = mul_sub(t57, t124, t51 * t126);
-    let t725 = mul_sub(t51, t125, t54 * t124);
+    let t731 = mul_sub(t54, t126, t57 * t125);
+    let t732 = mul_sub(t57, t124, t51 * t126);
+    let t733 = mul_sub(t51, t125, t54 * t124);
     // leg 3: row of the actuator Jacobian in base coordinates
-    let t726 = mul_sub(t66, t129, t69 * t128);
-    let t727 = mul_sub(t69, t127, t63 * t129);
-    let t728 = mul_sub(t63, t128, t66 * t127);
+    let t734 = mul_sub(t66, t129, t69 * t128);
+    let t735 = mul_sub(t69, t127, t63 * t129);
+    let t736 = mul_sub(t63, t128, t66 * t127);
     // leg 4: row of the actuator Jacobian in base coordinates
-    let t729 = mul_sub(t78, t132, t81 * t131);
-    let t730 = mul_sub(t81, t130, t75 * t132);
-    let t731 = mul_sub(t75, t131, t78 * t130);
+    let t737 = mul_sub(t78, t132, t81 * t131);
+    let t738 = mul_sub(t81, t130, t75 * t132);
+    let t739 = mul_sub(t75, t131, t78 * t130);
     // leg 5: row of the actuator Jacobian in base coordinates
-    let t732 = mul_sub(t90, t135, t93 * t134);
-    let t733 = mul_sub(t93, t133, t87 * t135);
-    let t734 = mul_sub(t87, t134, t90 * t133);
+    let t740 = mul_sub(t90, t135, t93 * t134);
+    let t741 = mul_sub(t93, t133, t87 * t135);
+    let t742 = mul_sub(t87, t134, t90 * t133);
     // leg 6: row of the actuator Jacobian in base coordinates
-    let t735 = mul_sub(t102, t138, t105 * t137);
-    let t736 = mul_sub(t105, t136, t99 * t138);
-    let t737 = mul_sub(t99, t137, t102 * t136);
+    let t743 = mul_sub(t102, t138, t105 * t137);
+    let t744 = mul_sub(t105, t136, t99 * t138);
+    let t745 = mul_sub(t99, t137, t102 * t136);
     // its first moments by platform coordinate
-    let t738 = t210 * t470;
-    let t739 = t224 * t470;
-    let t740 = t238 * t470;
-    let t741 = t210 * t477;
-    let t742 = t224 * t477;
-    let t743 = t238 * t477;
-    let t744 = t210 * t483;
-    let t745 = t224 * t483;
-    let t746 = t238 * t483;
+    let t746 = t210 * t470;
+    let t747 = t224 * t470;
+    let t748 = t238 * t470;
+    let t749 = t210 * t481;
+    let t750 = t224 * t481;
+    let t751 = t238 * t481;
+    let t752 = t210 * t489;
+    let t753 = t224 * t489;
+    let t754 = t238 * t489;
     // inertia less external wrench that the actuators must balance
-    let t747 = t711 + (t697 + (t683 + (t669 + (t641 + t655))));
-    let t748 = mul_add(t179, t470, mul_add(t172, t453, t747));
-    let t749 = base_rotation[1][0] * external_wrench[1];
-    let t750 = mul_add(base_rotation[0][0], external_wrench[0], t749);
-    let t751 = mul_add(base_rotation[2][0], external_wrench[2], t750);
-    let t752 = mul_add(t193, t472, mul_add(t186, t471, t748)) - t751;
-    let t753 = t712 + (t698 + (t684 + (t670 + (t642 + t656))));
-    let t754 = neg_mul_add(t179, t477, mul_add(t172, t455, t753));
-    let t755 = base_rotation[1][1] * external_wrench[1];
-    let t756 = mul_add(base_rotation[0][1], external_wrench[0], t755);
-    let t757 = mul_add(base_rotation[2][1], external_wrench[2], t756);
-    let t758 = neg_mul_add(t193, t479, neg_mul_add(t186, t478, t754)) - t757;
-    let t759 = t713 + (t699 + (t685 + (t671 + (t643 + t657))));
-    let t760 = neg_mul_add(t179, t483, mul_add(t172, t457, t759));
-    let t761 = base_rotation[1][2] * external_wrench[1];
-    let t762 = mul_add(base_rotation[0][2], external_wrench[0], t761);
-    let t763 = mul_add(base_rotation[2][2], external_wrench[2], t762);
-    let t764 = neg_mul_add(t193, t485, neg_mul_add(t186, t484, t760)) - t763;
-    let t765 = mul_sub(t267, t478, mul_sub(t193, t455, t743));
-    let t766 = mul_add(t282, t479, t765);
-    let t767 = mul_sub(parameters.platform_point[0][2], t642, t766);
-    let t768 = mul_add(parameters.platform_point[1][2], t656, t767);
-    let t769 = mul_add(parameters.platform_point[2][2], t670, t768);
-    let t770 = mul_add(parameters.platform_point[3][2], t684, t769);
-    let t771 = mul_add(parameters.platform_point[4][2], t698, t770);
-    let t772 = mul_add(parameters.platform_point[5][2], t712, t771);
-    let t773 = mul_sub(parameters.payload_com[2], t757, t772);
-    let t774 = mul_sub(t267, t484, mul_sub(t193, t457, t746));
-    let t775 = mul_add(t282, t485, t774);
-    let t776 = mul_sub(parameters.platform_point[0][2], t643, t775);
-    let t777 = mul_add(parameters.platform_point[1][2], t657, t776);
-    let t778 = mul_add(parameters.platform_point[2][2], t671, t777);
-    let t779 = mul_add(parameters.platform_point[3][2], t685, t778);
-    let t780 = mul_add(parameters.platform_point[4][2], t699, t779);
-    let t781 = mul_add(parameters.platform_point[5][2], t713, t780);
-    let t782 = mul_sub(parameters.payload_com[2], t763, t781);
-    let t783 = mul_sub(t253, t478, mul_sub(t186, t455, t742));
-    let t784 = mul_add(t267, t479, t783);
-    let t785 = mul_sub(parameters.platform_point[0][1], t642, t784);
-    let t786 = mul_add(parameters.platform_point[1][1], t656, t785);
-    let t787 = mul_add(parameters.platform_point[2][1], t670, t786);
-    let t788 = mul_add(parameters.platform_point[3][1], t684, t787);
-    let t789 = mul_add(parameters.platform_point[4][1], t698, t788);
-    let t790 = mul_add(parameters.platform_point[5][1], t712, t789);
-    let t791 = mul_sub(parameters.payload_com[1], t757, t790);
-    let t792 = mul_sub(t253, t484, mul_sub(t186, t457, t745));
-    let t793 = mul_add(t267, t485, t792);
-    let t794 = mul_sub(parameters.platform_point[0][1], t643, t793);
-    let t795 = mul_add(parameters.platform_point[1][1], t657, t794);
-    let t796 = mul_add(parameters.platform_point[2][1], t671, t795);
-    let t797 = mul_add(parameters.platform_point[3][1], t685, t796);
-    let t798 = mul_add(parameters.platform_point[4][1], t699, t797);
-    let t799 = mul_add(parameters.platform_point[5][1], t713, t798);
-    let t800 = mul_sub(parameters.payload_com[1], t763, t799);
-    let t801 = mul_sub(t224, t484, mul_sub(t179, t457, t744));
-    let t802 = mul_add(t238, t485, t801);
-    let t803 = mul_sub(parameters.platform_point[0][0], t643, t802);
-    let t804 = mul_add(parameters.platform_point[1][0], t657, t803);
-    let t805 = mul_add(parameters.platform_point[2][0], t671, t804);
-    let t806 = mul_add(parameters.platform_point[3][0], t685, t805);
-    let t807 = mul_add(parameters.platform_point[4][0], t699, t806);
-    let t808 = mul_add(parameters.platform_point[5][0], t713, t807);
-    let t809 = mul_sub(parameters.payload_com[0], t763, t808);
-    let t810 = mul_sub(t224, t478, mul_sub(t179, t455, t741));
-    let t811 = mul_add(t238, t479, t810);
-    let t812 = mul_sub(parameters.platform_point[0][0], t642, t811);
-    let t813 = mul_add(parameters.platform_point[1][0], t656, t812);
-    let t814 = mul_add(parameters.platform_point[2][0], t670, t813);
-    let t815 = mul_add(parameters.platform_point[3][0], t684, t814);
-    let t816 = mul_add(parameters.platform_point[4][0], t698, t815);
-    let t817 = mul_add(parameters.platform_point[5][0], t712, t816);
-    let t818 = mul_sub(parameters.payload_com[0], t757, t817);
-    let t819 = mul_add(t15, t800, mul_sub(t12, t809, t21 * t818));
-    let t820 = mul_sub(t18, t782, mul_sub(t24, t791, t819));
-    let t821 = mul_sub(t27, t773, t820);
-    let t822 = neg_mul_add(base_rotation[0][0], external_wrench[3], t821);
-    let t823 = neg_mul_add(base_rotation[1][0], external_wrench[4], t822);
-    let t824 = neg_mul_add(base_rotation[2][0], external_wrench[5], t823);
-    let t825 = mul_add(t267, t471, mul_add(t193, t453, t740));
-    let t826 = mul_add(t282, t472, t825);
-    let t827 = mul_add(parameters.platform_point[0][2], t641, t826);
-    let t828 = mul_add(parameters.platform_point[1][2], t655, t827);
-    let t829 = mul_add(parameters.platform_point[2][2], t669, t828);
-    let t830 = mul_add(parameters.platform_point[3][2], t683, t829);
-    let t831 = mul_add(parameters.platform_point[4][2], t697, t830);
-    let t832 = mul_add(parameters.platform_point[5][2], t711, t831);
-    let t833 = mul_sub(parameters.payload_com[2], t751, t832);
-    let t834 = mul_add(t253, t471, mul_add(t186, t453, t739));
-    let t835 = mul_add(t267, t472, t834);
-    let t836 = mul_add(parameters.platform_point[0][1], t641, t835);
-    let t837 = mul_add(parameters.platform_point[1][1], t655, t836);
-    let t838 = mul_add(parameters.platform_point[2][1], t669, t837);
-    let t839 = mul_add(parameters.platform_point[3][1], t683, t838);
-    let t840 = mul_add(parameters.platform_point[4][1], t697, t839);
-    let t841 = mul_add(parameters.platform_point[5][1], t711, t840);
-    let t842 = mul_sub(parameters.payload_com[1], t751, t841);
-    let t843 = mul_add(t224, t471, mul_add(t179, t453, t738));
-    let t844 = mul_add(t238, t472, t843);
-    let t845 = mul_add(parameters.platform_point[0][0], t641, t844);
-    let t846 = mul_add(parameters.platform_point[1][0], t655, t845);
-    let t847 = mul_add(parameters.platform_point[2][0], t669, t846);
-    let t848 = mul_add(parameters.platform_point[3][0], t683, t847);
-    let t849 = mul_add(parameters.platform_point[4][0], t697, t848);
-    let t850 = mul_add(parameters.platform_point[5][0], t711, t849);
-    let t851 = mul_sub(parameters.payload_com[0], t751, t850);
-    let t852 = mul_add(t24, t842, mul_sub(t21, t851, t3 * t809));
-    let t853 = mul_sub(t27, t833, mul_sub(t6, t800, t852));
-    let t854 = mul_sub(t9, t782, t853);
-    let t855 = neg_mul_add(base_rotation[0][1], external_wrench[3], t854);
-    let t856 = neg_mul_add(base_rotation[1][1], external_wrench[4], t855);
-    let t857 = neg_mul_add(base_rotation[2][1], external_wrench[5], t856);
-    let t858 = mul_add(t6, t791, mul_sub(t3, t818, t12 * t851));
-    let t859 = mul_sub(t9, t773, mul_sub(t15, t842, t858));
-    let t860 = mul_sub(t18, t833, t859);
-    let t861 = neg_mul_add(base_rotation[0][2], external_wrench[3], t860);
-    let t862 = neg_mul_add(base_rotation[1][2], external_wrench[4], t861);
-    let t863 = neg_mul_add(base_rotation[2][2], external_wrench[5], t862);
+    let t755 = t719 + (t705 + (t691 + (t677 + (t649 + t663))));
+    let t756 = neg_mul_add(t179, t470, mul_add(t172, t453, t755));
+    let t757 = base_rotation[1][0] * external_wrench[1];
+    let t758 = mul_add(base_rotation[0][0], external_wrench[0], t757);
+    let t759 = mul_add(base_rotation[2][0], external_wrench[2], t758);
+    let t760 = neg_mul_add(t193, t478, neg_mul_add(t186, t474, t756)) - t759;
+    let t761 = t720 + (t706 + (t692 + (t678 + (t650 + t664))));
+    let t762 = neg_mul_add(t179, t481, mul_add(t172, t455, t761));
+    let t763 = base_rotation[1][1] * external_wrench[1];
+    let t764 = mul_add(base_rotation[0][1], external_wrench[0], t763);
+    let t765 = mul_add(base_rotation[2][1], external_wrench[2], t764);
+    let t766 = neg_mul_add(t193, t487, neg_mul_add(t186, t484, t762)) - t765;
+    let t767 = t721 + (t707 + (t693 + (t679 + (t651 + t665))));
+    let t768 = neg_mul_add(t179, t489, mul_add(t172, t457, t767));
+    let t769 = base_rotation[1][2] * external_wrench[1];
+    let t770 = mul_add(base_rotation[0][2], external_wrench[0], t769);
+    let t771 = mul_add(base_rotation[2][2], external_wrench[2], t770);
+    let t772 = neg_mul_add(t193, t493, neg_mul_add(t186, t491, t768)) - t771;
+    let t773 = mul_sub(t267, t484, mul_sub(t193, t455, t751));
+    let t774 = mul_add(t282, t487, t773);
+    let t775 = mul_sub(parameters.platform_point[0][2], t650, t774);
+    let t776 = mul_add(parameters.platform_point[1][2], t664, t775);
+    let t777 = mul_add(parameters.platform_point[2][2], t678, t776);
+    let t778 = mul_add(parameters.platform_point[3][2], t692, t777);
+    let t779 = mul_add(parameters.platform_point[4][2], t706, t778);
+    let t780 = mul_add(parameters.platform_point[5][2], t720, t779);
+    let t781 = mul_sub(parameters.payload_com[2], t765, t780);
+    let t782 = mul_sub(t267, t491, mul_sub(t193, t457, t754));
+    let t783 = mul_add(t282, t493, t782);
+    let t784 = mul_sub(parameters.platform_point[0][2], t651, t783);
+    let t785 = mul_add(parameters.platform_point[1][2], t665, t784);
+    let t786 = mul_add(parameters.platform_point[2][2], t679, t785);
+    let t787 = mul_add(parameters.platform_point[3][2], t693, t786);
+    let t788 = mul_add(parameters.platform_point[4][2], t707, t787);
+    let t789 = mul_add(parameters.platform_point[5][2], t721, t788);
+    let t790 = mul_sub(parameters.payload_com[2], t771, t789);
+    let t791 = mul_sub(t253, t484, mul_sub(t186, t455, t750));
+    let t792 = mul_add(t267, t487, t791);
+    let t793 = mul_sub(parameters.platform_point[0][1], t650, t792);
+    let t794 = mul_add(parameters.platform_point[1][1], t664, t793);
+    let t795 = mul_add(parameters.platform_point[2][1], t678, t794);
+    let t796 = mul_add(parameters.platform_point[3][1], t692, t795);
+    let t797 = mul_add(parameters.platform_point[4][1], t706, t796);
+    let t798 = mul_add(parameters.platform_point[5][1], t720, t797);
+    let t799 = mul_sub(parameters.payload_com[1], t765, t798);
+    let t800 = mul_sub(t253, t491, mul_sub(t186, t457, t753));
+    let t801 = mul_add(t267, t493, t800);
+    let t802 = mul_sub(parameters.platform_point[0][1], t651, t801);
+    let t803 = mul_add(parameters.platform_point[1][1], t665, t802);
+    let t804 = mul_add(parameters.platform_point[2][1], t679, t803);
+    let t805 = mul_add(parameters.platform_point[3][1], t693, t804);
+    let t806 = mul_add(parameters.platform_point[4][1], t707, t805);
+    let t807 = mul_add(parameters.platform_point[5][1], t721, t806);
+    let t808 = mul_sub(parameters.payload_com[1], t771, t807);
+    let t809 = mul_sub(t224, t491, mul_sub(t179, t457, t752));
+    let t810 = mul_add(t238, t493, t809);
+    let t811 = mul_sub(parameters.platform_point[0][0], t651, t810);
+    let t812 = mul_add(parameters.platform_point[1][0], t665, t811);
+    let t813 = mul_add(parameters.platform_point[2][0], t679, t812);
+    let t814 = mul_add(parameters.platform_point[3][0], t693, t813);
+    let t815 = mul_add(parameters.platform_point[4][0], t707, t814);
+    let t816 = mul_add(parameters.platform_point[5][0], t721, t815);
+    let t817 = mul_sub(parameters.payload_com[0], t771, t816);
+    let t818 = mul_sub(t224, t484, mul_sub(t179, t455, t749));
+    let t819 = mul_add(t238, t487, t818);
+    let t820 = mul_sub(parameters.platform_point[0][0], t650, t819);
+    let t821 = mul_add(parameters.platform_point[1][0], t664, t820);
+    let t822 = mul_add(parameters.platform_point[2][0], t678, t821);
+    let t823 = mul_add(parameters.platform_point[3][0], t692, t822);
+    let t824 = mul_add(parameters.platform_point[4][0], t706, t823);
+    let t825 = mul_add(parameters.platform_point[5][0], t720, t824);
+    let t826 = mul_sub(parameters.payload_com[0], t765, t825);
+    let t827 = mul_add(t15, t808, mul_sub(t12, t817, t21 * t826));
+    let t828 = mul_sub(t18, t790, mul_sub(t24, t799, t827));
+    let t829 = mul_sub(t27, t781, t828);
+    let t830 = neg_mul_add(base_rotation[0][0], external_wrench[3], t829);
+    let t831 = neg_mul_add(base_rotation[1][0], external_wrench[4], t830);
+    let t832 = neg_mul_add(base_rotation[2][0], external_wrench[5], t831);
+    let t833 = mul_sub(t267, t474, mul_sub(t193, t453, t748));
+    let t834 = mul_add(t282, t478, t833);
+    let t835 = mul_sub(parameters.platform_point[0][2], t649, t834);
+    let t836 = mul_add(parameters.platform_point[1][2], t663, t835);
+    let t837 = mul_add(parameters.platform_point[2][2], t677, t836);
+    let t838 = mul_add(parameters.platform_point[3][2], t691, t837);
+    let t839 = mul_add(parameters.platform_point[4][2], t705, t838);
+    let t840 = mul_add(parameters.platform_point[5][2], t719, t839);
+    let t841 = mul_sub(parameters.payload_com[2], t759, t840);
+    let t842 = mul_sub(t253, t474, mul_sub(t186, t453, t747));
+    let t843 = mul_add(t267, t478, t842);
+    let t844 = mul_sub(parameters.platform_point[0][1], t649, t843);
+    let t845 = mul_add(parameters.platform_point[1][1], t663, t844);
+    let t846 = mul_add(parameters.platform_point[2][1], t677, t845);
+    let t847 = mul_add(parameters.platform_point[3][1], t691, t846);
+    let t848 = mul_add(parameters.platform_point[4][1], t705, t847);
+    let t849 = mul_add(parameters.platform_point[5][1], t719, t848);
+    let t850 = mul_sub(parameters.payload_com[1], t759, t849);
+    let t851 = mul_sub(t224, t474, mul_sub(t179, t453, t746));
+    let t852 = mul_add(t238, t478, t851);
+    let t853 = mul_sub(parameters.platform_point[0][0], t649, t852);
+    let t854 = mul_add(parameters.platform_point[1][0], t663, t853);
+    let t855 = mul_add(parameters.platform_point[2][0], t677, t854);
+    let t856 = mul_add(parameters.platform_point[3][0], t691, t855);
+    let t857 = mul_add(parameters.platform_point[4][0], t705, t856);
+    let t858 = mul_add(parameters.platform_point[5][0], t719, t857);
+    let t859 = mul_sub(parameters.payload_com[0], t759, t858);
+    let t860 = mul_add(t24, t850, mul_sub(t21, t859, t3 * t817));
+    let t861 = mul_sub(t27, t841, mul_sub(t6, t808, t860));
+    let t862 = mul_sub(t9, t790, t861);
+    let t863 = neg_mul_add(base_rotation[0][1], external_wrench[3], t862);
+    let t864 = neg_mul_add(base_rotation[1][1], external_wrench[4], t863);
+    let t865 = neg_mul_add(base_rotation[2][1], external_wrench[5], t864);
+    let t866 = mul_add(t6, t799, mul_sub(t3, t826, t12 * t859));
+    let t867 = mul_sub(t9, t781, mul_sub(t15, t850, t866));
+    let t868 = mul_sub(t18, t841, t867);
+    let t869 = neg_mul_add(base_rotation[0][2], external_wrench[3], t868);
+    let t870 = neg_mul_add(base_rotation[1][2], external_wrench[4], t869);
+    let t871 = neg_mul_add(base_rotation[2][2], external_wrench[5], t870);
     // force along the actuator that balances the remaining wrench
     let axial_reaction = solve_general(
         &[
             [t121, t124, t127, t130, t133, t136],
             [t122, t125, t128, t131, t134, t137],
             [t123, t126, t129, t132, t135, t138],
-            [t720, t723, t726, t729, t732, t735],
-            [t721, t724, t727, t730, t733, t736],
-            [t722, t725, t728, t731, t734, t737],
+            [t728, t731, t734, t737, t740, t743],
+            [t729, t732, t735, t738, t741, t744],
+            [t730, t733, t736, t739, t742, t745],
         ],
-        &[t752, t758, t764, t824, t857, t863],
+        &[t760, t766, t772, t832, t865, t871],
     );
     // leg 1: actuator forces F
-    let t864 = mul_add(t123, t640, mul_add(t121, t635, t638));
-    let t865 = mul_add(parameters.axial_stiffness[0], t714, t864);
+    let t872 = mul_add(t123, t648, mul_add(t121, t643, t646));
+    let t873 = mul_add(parameters.axial_stiffness[0], t722, t872);
     inverse_dynamics[0] = axial_reaction[0]
-        - mul_add(parameters.axial_damping[0], t379, t865);
+        - mul_add(parameters.axial_damping[0], t379, t873);
     // leg 2: actuator forces F
-    let t866 = mul_add(t126, t654, mul_add(t124, t649, t652));
-    let t867 = mul_add(parameters.axial_stiffness[1], t715, t866);
+    let t874 = mul_add(t126, t662, mul_add(t124, t657, t660));
+    let t875 = mul_add(parameters.axial_stiffness[1], t723, t874);
     inverse_dynamics[1] = axial_reaction[1]
-        - mul_add(parameters.axial_damping[1], t380, t867);
+        - mul_add(parameters.axial_damping[1], t380, t875);
     // leg 3: actuator forces F
-    let t868 = mul_add(t129, t668, mul_add(t127, t663, t666));
-    let t869 = mul_add(parameters.axial_stiffness[2], t716, t868);
+    let t876 = mul_add(t129, t676, mul_add(t127, t671, t674));
+    let t877 = mul_add(parameters.axial_stiffness[2], t724, t876);
     inverse_dynamics[2] = axial_reaction[2]
-        - mul_add(parameters.axial_damping[2], t381, t869);
+        - mul_add(parameters.axial_damping[2], t381, t877);
     // leg 4: actuator forces F
-    let t870 = mul_add(t132, t682, mul_add(t130, t677, t680));
-    let t871 = mul_add(parameters.axial_stiffness[3], t717, t870);
+    let t878 = mul_add(t132, t690, mul_add(t130, t685, t688));
+    let t879 = mul_add(parameters.axial_stiffness[3], t725, t878);
     inverse_dynamics[3] = axial_reaction[3]
-        - mul_add(parameters.axial_damping[3], t382, t871);
+        - mul_add(parameters.axial_damping[3], t382, t879);
     // leg 5: actuator forces F
-    let t872 = mul_add(t135, t696, mul_add(t133, t691, t694));
-    let t873 = mul_add(parameters.axial_stiffness[4], t718, t872);
+    let t880 = mul_add(t135, t704, mul_add(t133, t699, t702));
+    let t881 = mul_add(parameters.axial_stiffness[4], t726, t880);
     inverse_dynamics[4] = axial_reaction[4]
-        - mul_add(parameters.axial_damping[4], t383, t873);
+        - mul_add(parameters.axial_damping[4], t383, t881);
     // leg 6: actuator forces F
-    let t874 = mul_add(t138, t710, mul_add(t136, t705, t708));
-    let t875 = mul_add(parameters.axial_stiffness[5], t719, t874);
+    let t882 = mul_add(t138, t718, mul_add(t136, t713, t716));
+    let t883 = mul_add(parameters.axial_stiffness[5], t727, t882);
     inverse_dynamics[5] = axial_reaction[5]
-        - mul_add(parameters.axial_damping[5], t384, t875);
+        - mul_add(parameters.axial_damping[5], t384, t883);
 }
 
 /// Actuator lengths with their gradients, for forward kinematics, equation (18), (32).
@@ -25834,45 +25696,45 @@ pub fn control<T: Scalar>(
         t804,
         t807,
         t810,
-        t814,
-        t815,
+        t813,
         t816,
-        t820,
+        t819,
         t821,
-        t822,
-        t824,
+        t823,
         t825,
         t826,
-        t829,
-        t832,
-        t833,
-        t836,
-        t839,
-        t840,
-        t843,
-        t846,
-        t847,
-        t850,
-        t853,
-        t856,
-        t857,
-        t860,
-        t863,
-        t864,
-        t867,
-        t870,
-        t871,
-        t874,
-        t877,
-        t880,
-        t881,
-        t884,
-        t887,
-        t888,
-        t891,
-        t894,
-        t895,
-        t898,
+        t827,
+        t828,
+        t831,
+        t834,
+        t835,
+        t838,
+        t841,
+        t842,
+        t845,
+        t848,
+        t849,
+        t852,
+        t855,
+        t858,
+        t859,
+        t862,
+        t865,
+        t866,
+        t869,
+        t872,
+        t873,
+        t876,
+        t879,
+        t882,
+        t883,
+        t886,
+        t889,
+        t890,
+        t893,
+        t896,
+        t897,
+        t900,
     ) = {
         // rotation of the platform seen from the base
         let t1 = base_rotation[1][0] * platform_rotation[1][0];
@@ -27139,97 +27001,99 @@ pub fn control<T: Scalar>(
         let t809 = mul_add(base_rotation[0][2], parameters.gravity[0], t808);
         let t810 = mul_add(base_rotation[2][2], parameters.gravity[2], t809);
         // acceleration per platform coordinate of points of the platform
-        let t811 = t647 * t653;
-        let t812 = t647 * t650;
-        let t813 = mul_add(t650, t650, t653 * t653);
-        let t814 = mul_add(t21, t811, mul_sub(t12, t812, t3 * t813));
-        let t815 = mul_add(t24, t811, mul_sub(t15, t812, t6 * t813));
-        let t816 = mul_add(t27, t811, mul_sub(t18, t812, t9 * t813));
-        let t817 = t650 * t653;
-        let t818 = t647 * t647;
-        let t819 = mul_add(t653, t653, t818);
-        let t820 = mul_add(t21, t817, mul_sub(t3, t812, t12 * t819));
-        let t821 = mul_add(t24, t817, mul_sub(t6, t812, t15 * t819));
-        let t822 = mul_add(t27, t817, mul_sub(t9, t812, t18 * t819));
-        let t823 = mul_add(t650, t650, t818);
-        let t824 = mul_sub(t21, t823, mul_add(t3, t811, t12 * t817));
-        let t825 = mul_sub(t24, t823, mul_add(t6, t811, t15 * t817));
-        let t826 = mul_sub(t27, t823, mul_add(t9, t811, t18 * t817));
+        let t811 = mul_sub(t12, t647, t3 * t650);
+        let t812 = mul_sub(t3, t653, t21 * t647);
+        let t813 = mul_sub(t650, t811, t653 * t812);
+        let t814 = mul_sub(t15, t647, t6 * t650);
+        let t815 = mul_sub(t6, t653, t24 * t647);
+        let t816 = mul_sub(t650, t814, t653 * t815);
+        let t817 = mul_sub(t18, t647, t9 * t650);
+        let t818 = mul_sub(t9, t653, t27 * t647);
+        let t819 = mul_sub(t650, t817, t653 * t818);
+        let t820 = mul_sub(t21, t650, t12 * t653);
+        let t821 = mul_sub(t653, t820, t647 * t811);
+        let t822 = mul_sub(t24, t650, t15 * t653);
+        let t823 = mul_sub(t653, t822, t647 * t814);
+        let t824 = mul_sub(t27, t650, t18 * t653);
+        let t825 = mul_sub(t653, t824, t647 * t817);
+        let t826 = mul_sub(t647, t812, t650 * t820);
+        let t827 = mul_sub(t647, t815, t650 * t822);
+        let t828 = mul_sub(t647, t818, t650 * t824);
         // leg 1: actuator acceleration d''
-        let t827 = neg_mul_add(parameters.platform_point[0][0], t814, t804);
-        let t828 = mul_sub(parameters.platform_point[0][1], t815, t827);
-        let t829 = mul_add(parameters.platform_point[0][2], t816, t828);
-        let t830 = neg_mul_add(parameters.base_point[0][0], t792, t778);
-        let t831 = mul_sub(parameters.base_point[0][1], t793, t830);
-        let t832 = mul_sub(parameters.base_point[0][2], t794, t831);
-        let t833 = t829 - t832;
-        let t834 = neg_mul_add(parameters.platform_point[0][0], t820, t807);
-        let t835 = mul_sub(parameters.platform_point[0][1], t821, t834);
-        let t836 = mul_add(parameters.platform_point[0][2], t822, t835);
-        let t837 = mul_add(parameters.base_point[0][0], t795, t780);
-        let t838 = mul_sub(parameters.base_point[0][1], t797, t837);
-        let t839 = mul_add(parameters.base_point[0][2], t798, t838);
-        let t840 = t836 + t839;
-        let t841 = mul_add(parameters.platform_point[0][0], t824, t810);
-        let t842 = mul_add(parameters.platform_point[0][1], t825, t841);
-        let t843 = mul_add(parameters.platform_point[0][2], t826, t842);
-        let t844 = neg_mul_add(parameters.base_point[0][0], t799, t782);
-        let t845 = mul_add(parameters.base_point[0][1], t800, t844);
-        let t846 = mul_sub(parameters.base_point[0][2], t801, t845);
-        let t847 = t843 - t846;
-        let t848 = mul_add(t743, t743, mul_add(t739, t739, t741 * t741));
-        let t849 = mul_sub(t123, t847, mul_add(t121, t833, t122 * t840));
-        let t850 = mul_sub(t109, t848, t849);
+        let t829 = neg_mul_add(parameters.platform_point[0][0], t813, t804);
+        let t830 = mul_sub(parameters.platform_point[0][1], t816, t829);
+        let t831 = mul_add(parameters.platform_point[0][2], t819, t830);
+        let t832 = neg_mul_add(parameters.base_point[0][0], t792, t778);
+        let t833 = mul_sub(parameters.base_point[0][1], t793, t832);
+        let t834 = mul_sub(parameters.base_point[0][2], t794, t833);
+        let t835 = t831 - t834;
+        let t836 = neg_mul_add(parameters.platform_point[0][0], t821, t807);
+        let t837 = mul_sub(parameters.platform_point[0][1], t823, t836);
+        let t838 = mul_add(parameters.platform_point[0][2], t825, t837);
+        let t839 = mul_add(parameters.base_point[0][0], t795, t780);
+        let t840 = mul_sub(parameters.base_point[0][1], t797, t839);
+        let t841 = mul_add(parameters.base_point[0][2], t798, t840);
+        let t842 = t838 + t841;
+        let t843 = neg_mul_add(parameters.platform_point[0][0], t826, t810);
+        let t844 = mul_sub(parameters.platform_point[0][1], t827, t843);
+        let t845 = mul_add(parameters.platform_point[0][2], t828, t844);
+        let t846 = neg_mul_add(parameters.base_point[0][0], t799, t782);
+        let t847 = mul_add(parameters.base_point[0][1], t800, t846);
+        let t848 = mul_sub(parameters.base_point[0][2], t801, t847);
+        let t849 = t845 + t848;
+        let t850 = mul_add(t743, t743, mul_add(t739, t739, t741 * t741));
+        let t851 = mul_add(t123, t849, mul_add(t121, t835, t122 * t842));
+        let t852 = mul_add(t109, t850, t851);
         // leg 2: actuator acceleration d''
-        let t851 = neg_mul_add(parameters.platform_point[1][0], t814, t804);
-        let t852 = mul_sub(parameters.platform_point[1][1], t815, t851);
-        let t853 = mul_add(parameters.platform_point[1][2], t816, t852);
-        let t854 = neg_mul_add(parameters.base_point[1][0], t792, t778);
-        let t855 = mul_sub(parameters.base_point[1][1], t793, t854);
-        let t856 = mul_sub(parameters.base_point[1][2], t794, t855);
-        let t857 = t853 - t856;
-        let t858 = neg_mul_add(parameters.platform_point[1][0], t820, t807);
-        let t859 = mul_sub(parameters.platform_point[1][1], t821, t858);
-        let t860 = mul_add(parameters.platform_point[1][2], t822, t859);
-        let t861 = mul_add(parameters.base_point[1][0], t795, t780);
-        let t862 = mul_sub(parameters.base_point[1][1], t797, t861);
-        let t863 = mul_add(parameters.base_point[1][2], t798, t862);
-        let t864 = t860 + t863;
-        let t865 = mul_add(parameters.platform_point[1][0], t824, t810);
-        let t866 = mul_add(parameters.platform_point[1][1], t825, t865);
-        let t867 = mul_add(parameters.platform_point[1][2], t826, t866);
-        let t868 = neg_mul_add(parameters.base_point[1][0], t799, t782);
-        let t869 = mul_add(parameters.base_point[1][1], t800, t868);
-        let t870 = mul_sub(parameters.base_point[1][2], t801, t869);
-        let t871 = t867 - t870;
-        let t872 = mul_add(t749, t749, mul_add(t745, t745, t747 * t747));
-        let t873 = mul_sub(t126, t871, mul_add(t124, t857, t125 * t864));
-        let t874 = mul_sub(t111, t872, t873);
+        let t853 = neg_mul_add(parameters.platform_point[1][0], t813, t804);
+        let t854 = mul_sub(parameters.platform_point[1][1], t816, t853);
+        let t855 = mul_add(parameters.platform_point[1][2], t819, t854);
+        let t856 = neg_mul_add(parameters.base_point[1][0], t792, t778);
+        let t857 = mul_sub(parameters.base_point[1][1], t793, t856);
+        let t858 = mul_sub(parameters.base_point[1][2], t794, t857);
+        let t859 = t855 - t858;
+        let t860 = neg_mul_add(parameters.platform_point[1][0], t821, t807);
+        let t861 = mul_sub(parameters.platform_point[1][1], t823, t860);
+        let t862 = mul_add(parameters.platform_point[1][2], t825, t861);
+        let t863 = mul_add(parameters.base_point[1][0], t795, t780);
+        let t864 = mul_sub(parameters.base_point[1][1], t797, t863);
+        let t865 = mul_add(parameters.base_point[1][2], t798, t864);
+        let t866 = t862 + t865;
+        let t867 = neg_mul_add(parameters.platform_point[1][0], t826, t810);
+        let t868 = mul_sub(parameters.platform_point[1][1], t827, t867);
+        let t869 = mul_add(parameters.platform_point[1][2], t828, t868);
+        let t870 = neg_mul_add(parameters.base_point[1][0], t799, t782);
+        let t871 = mul_add(parameters.base_point[1][1], t800, t870);
+        let t872 = mul_sub(parameters.base_point[1][2], t801, t871);
+        let t873 = t869 + t872;
+        let t874 = mul_add(t749, t749, mul_add(t745, t745, t747 * t747));
+        let t875 = mul_add(t126, t873, mul_add(t124, t859, t125 * t866));
+        let t876 = mul_add(t111, t874, t875);
         // leg 3: actuator acceleration d''
-        let t875 = neg_mul_add(parameters.platform_point[2][0], t814, t804);
-        let t876 = mul_sub(parameters.platform_point[2][1], t815, t875);
-        let t877 = mul_add(parameters.platform_point[2][2], t816, t876);
-        let t878 = neg_mul_add(parameters.base_point[2][0], t792, t778);
-        let t879 = mul_sub(parameters.base_point[2][1], t793, t878);
-        let t880 = mul_sub(parameters.base_point[2][2], t794, t879);
-        let t881 = t877 - t880;
-        let t882 = neg_mul_add(parameters.platform_point[2][0], t820, t807);
-        let t883 = mul_sub(parameters.platform_point[2][1], t821, t882);
-        let t884 = mul_add(parameters.platform_point[2][2], t822, t883);
-        let t885 = mul_add(parameters.base_point[2][0], t795, t780);
-        let t886 = mul_sub(parameters.base_point[2][1], t797, t885);
-        let t887 = mul_add(parameters.base_point[2][2], t798, t886);
-        let t888 = t884 + t887;
-        let t889 = mul_add(parameters.platform_point[2][0], t824, t810);
-        let t890 = mul_add(parameters.platform_point[2][1], t825, t889);
-        let t891 = mul_add(parameters.platform_point[2][2], t826, t890);
-        let t892 = neg_mul_add(parameters.base_point[2][0], t799, t782);
-        let t893 = mul_add(parameters.base_point[2][1], t800, t892);
-        let t894 = mul_sub(parameters.base_point[2][2], t801, t893);
-        let t895 = t891 - t894;
-        let t896 = mul_add(t755, t755, mul_add(t751, t751, t753 * t753));
-        let t897 = mul_sub(t129, t895, mul_add(t127, t881, t128 * t888));
-        let t898 = mul_sub(t113, t896, t897);
+        let t877 = neg_mul_add(parameters.platform_point[2][0], t813, t804);
+        let t878 = mul_sub(parameters.platform_point[2][1], t816, t877);
+        let t879 = mul_add(parameters.platform_point[2][2], t819, t878);
+        let t880 = neg_mul_add(parameters.base_point[2][0], t792, t778);
+        let t881 = mul_sub(parameters.base_point[2][1], t793, t880);
+        let t882 = mul_sub(parameters.base_point[2][2], t794, t881);
+        let t883 = t879 - t882;
+        let t884 = neg_mul_add(parameters.platform_point[2][0], t821, t807);
+        let t885 = mul_sub(parameters.platform_point[2][1], t823, t884);
+        let t886 = mul_add(parameters.platform_point[2][2], t825, t885);
+        let t887 = mul_add(parameters.base_point[2][0], t795, t780);
+        let t888 = mul_sub(parameters.base_point[2][1], t797, t887);
+        let t889 = mul_add(parameters.base_point[2][2], t798, t888);
+        let t890 = t886 + t889;
+        let t891 = neg_mul_add(parameters.platform_point[2][0], t826, t810);
+        let t892 = mul_sub(parameters.platform_point[2][1], t827, t891);
+        let t893 = mul_add(parameters.platform_point[2][2], t828, t892);
+        let t894 = neg_mul_add(parameters.base_point[2][0], t799, t782);
+        let t895 = mul_add(parameters.base_point[2][1], t800, t894);
+        let t896 = mul_sub(parameters.base_point[2][2], t801, t895);
+        let t897 = t893 + t896;
+        let t898 = mul_add(t755, t755, mul_add(t751, t751, t753 * t753));
+        let t899 = mul_add(t129, t897, mul_add(t127, t883, t128 * t890));
+        let t900 = mul_add(t113, t898, t899);
         (
             t3,
             t6,
@@ -27400,418 +27264,418 @@ pub fn control<T: Scalar>(
             t804,
             t807,
             t810,
-            t814,
-            t815,
+            t813,
             t816,
-            t820,
+            t819,
             t821,
-            t822,
-            t824,
+            t823,
             t825,
             t826,
-            t829,
-            t832,
-            t833,
-            t836,
-            t839,
-            t840,
-            t843,
-            t846,
-            t847,
-            t850,
-            t853,
-            t856,
-            t857,
-            t860,
-            t863,
-            t864,
-            t867,
-            t870,
-            t871,
-            t874,
-            t877,
-            t880,
-            t881,
-            t884,
-            t887,
-            t888,
-            t891,
-            t894,
-            t895,
-            t898,
+            t827,
+            t828,
+            t831,
+            t834,
+            t835,
+            t838,
+            t841,
+            t842,
+            t845,
+            t848,
+            t849,
+            t852,
+            t855,
+            t858,
+            t859,
+            t862,
+            t865,
+            t866,
+            t869,
+            t872,
+            t873,
+            t876,
+            t879,
+            t882,
+            t883,
+            t886,
+            t889,
+            t890,
+            t893,
+            t896,
+            t897,
+            t900,
         )
     };
     {
         // leg 4: actuator acceleration d''
-        let t899 = neg_mul_add(parameters.platform_point[3][0], t814, t804);
-        let t900 = mul_sub(parameters.platform_point[3][1], t815, t899);
-        let t901 = mul_add(parameters.platform_point[3][2], t816, t900);
-        let t902 = neg_mul_add(parameters.base_point[3][0], t792, t778);
-        let t903 = mul_sub(parameters.base_point[3][1], t793, t902);
-        let t904 = mul_sub(parameters.base_point[3][2], t794, t903);
-        let t905 = t901 - t904;
-        let t906 = neg_mul_add(parameters.platform_point[3][0], t820, t807);
-        let t907 = mul_sub(parameters.platform_point[3][1], t821, t906);
-        let t908 = mul_add(parameters.platform_point[3][2], t822, t907);
-        let t909 = mul_add(parameters.base_point[3][0], t795, t780);
-        let t910 = mul_sub(parameters.base_point[3][1], t797, t909);
-        let t911 = mul_add(parameters.base_point[3][2], t798, t910);
-        let t912 = t908 + t911;
-        let t913 = mul_add(parameters.platform_point[3][0], t824, t810);
-        let t914 = mul_add(parameters.platform_point[3][1], t825, t913);
-        let t915 = mul_add(parameters.platform_point[3][2], t826, t914);
-        let t916 = neg_mul_add(parameters.base_point[3][0], t799, t782);
-        let t917 = mul_add(parameters.base_point[3][1], t800, t916);
-        let t918 = mul_sub(parameters.base_point[3][2], t801, t917);
-        let t919 = t915 - t918;
-        let t920 = mul_add(t761, t761, mul_add(t757, t757, t759 * t759));
-        let t921 = mul_sub(t132, t919, mul_add(t130, t905, t131 * t912));
-        let t922 = mul_sub(t115, t920, t921);
+        let t901 = neg_mul_add(parameters.platform_point[3][0], t813, t804);
+        let t902 = mul_sub(parameters.platform_point[3][1], t816, t901);
+        let t903 = mul_add(parameters.platform_point[3][2], t819, t902);
+        let t904 = neg_mul_add(parameters.base_point[3][0], t792, t778);
+        let t905 = mul_sub(parameters.base_point[3][1], t793, t904);
+        let t906 = mul_sub(parameters.base_point[3][2], t794, t905);
+        let t907 = t903 - t906;
+        let t908 = neg_mul_add(parameters.platform_point[3][0], t821, t807);
+        let t909 = mul_sub(parameters.platform_point[3][1], t823, t908);
+        let t910 = mul_add(parameters.platform_point[3][2], t825, t909);
+        let t911 = mul_add(parameters.base_point[3][0], t795, t780);
+        let t912 = mul_sub(parameters.base_point[3][1], t797, t911);
+        let t913 = mul_add(parameters.base_point[3][2], t798, t912);
+        let t914 = t910 + t913;
+        let t915 = neg_mul_add(parameters.platform_point[3][0], t826, t810);
+        let t916 = mul_sub(parameters.platform_point[3][1], t827, t915);
+        let t917 = mul_add(parameters.platform_point[3][2], t828, t916);
+        let t918 = neg_mul_add(parameters.base_point[3][0], t799, t782);
+        let t919 = mul_add(parameters.base_point[3][1], t800, t918);
+        let t920 = mul_sub(parameters.base_point[3][2], t801, t919);
+        let t921 = t917 + t920;
+        let t922 = mul_add(t761, t761, mul_add(t757, t757, t759 * t759));
+        let t923 = mul_add(t132, t921, mul_add(t130, t907, t131 * t914));
+        let t924 = mul_add(t115, t922, t923);
         // leg 5: actuator acceleration d''
-        let t923 = neg_mul_add(parameters.platform_point[4][0], t814, t804);
-        let t924 = mul_sub(parameters.platform_point[4][1], t815, t923);
-        let t925 = mul_add(parameters.platform_point[4][2], t816, t924);
-        let t926 = neg_mul_add(parameters.base_point[4][0], t792, t778);
-        let t927 = mul_sub(parameters.base_point[4][1], t793, t926);
-        let t928 = mul_sub(parameters.base_point[4][2], t794, t927);
-        let t929 = t925 - t928;
-        let t930 = neg_mul_add(parameters.platform_point[4][0], t820, t807);
-        let t931 = mul_sub(parameters.platform_point[4][1], t821, t930);
-        let t932 = mul_add(parameters.platform_point[4][2], t822, t931);
-        let t933 = mul_add(parameters.base_point[4][0], t795, t780);
-        let t934 = mul_sub(parameters.base_point[4][1], t797, t933);
-        let t935 = mul_add(parameters.base_point[4][2], t798, t934);
-        let t936 = t932 + t935;
-        let t937 = mul_add(parameters.platform_point[4][0], t824, t810);
-        let t938 = mul_add(parameters.platform_point[4][1], t825, t937);
-        let t939 = mul_add(parameters.platform_point[4][2], t826, t938);
-        let t940 = neg_mul_add(parameters.base_point[4][0], t799, t782);
-        let t941 = mul_add(parameters.base_point[4][1], t800, t940);
-        let t942 = mul_sub(parameters.base_point[4][2], t801, t941);
-        let t943 = t939 - t942;
-        let t944 = mul_add(t767, t767, mul_add(t763, t763, t765 * t765));
-        let t945 = mul_sub(t135, t943, mul_add(t133, t929, t134 * t936));
-        let t946 = mul_sub(t117, t944, t945);
+        let t925 = neg_mul_add(parameters.platform_point[4][0], t813, t804);
+        let t926 = mul_sub(parameters.platform_point[4][1], t816, t925);
+        let t927 = mul_add(parameters.platform_point[4][2], t819, t926);
+        let t928 = neg_mul_add(parameters.base_point[4][0], t792, t778);
+        let t929 = mul_sub(parameters.base_point[4][1], t793, t928);
+        let t930 = mul_sub(parameters.base_point[4][2], t794, t929);
+        let t931 = t927 - t930;
+        let t932 = neg_mul_add(parameters.platform_point[4][0], t821, t807);
+        let t933 = mul_sub(parameters.platform_point[4][1], t823, t932);
+        let t934 = mul_add(parameters.platform_point[4][2], t825, t933);
+        let t935 = mul_add(parameters.base_point[4][0], t795, t780);
+        let t936 = mul_sub(parameters.base_point[4][1], t797, t935);
+        let t937 = mul_add(parameters.base_point[4][2], t798, t936);
+        let t938 = t934 + t937;
+        let t939 = neg_mul_add(parameters.platform_point[4][0], t826, t810);
+        let t940 = mul_sub(parameters.platform_point[4][1], t827, t939);
+        let t941 = mul_add(parameters.platform_point[4][2], t828, t940);
+        let t942 = neg_mul_add(parameters.base_point[4][0], t799, t782);
+        let t943 = mul_add(parameters.base_point[4][1], t800, t942);
+        let t944 = mul_sub(parameters.base_point[4][2], t801, t943);
+        let t945 = t941 + t944;
+        let t946 = mul_add(t767, t767, mul_add(t763, t763, t765 * t765));
+        let t947 = mul_add(t135, t945, mul_add(t133, t931, t134 * t938));
+        let t948 = mul_add(t117, t946, t947);
         // leg 6: actuator acceleration d''
-        let t947 = neg_mul_add(parameters.platform_point[5][0], t814, t804);
-        let t948 = mul_sub(parameters.platform_point[5][1], t815, t947);
-        let t949 = mul_add(parameters.platform_point[5][2], t816, t948);
-        let t950 = neg_mul_add(parameters.base_point[5][0], t792, t778);
-        let t951 = mul_sub(parameters.base_point[5][1], t793, t950);
-        let t952 = mul_sub(parameters.base_point[5][2], t794, t951);
-        let t953 = t949 - t952;
-        let t954 = neg_mul_add(parameters.platform_point[5][0], t820, t807);
-        let t955 = mul_sub(parameters.platform_point[5][1], t821, t954);
-        let t956 = mul_add(parameters.platform_point[5][2], t822, t955);
-        let t957 = mul_add(parameters.base_point[5][0], t795, t780);
-        let t958 = mul_sub(parameters.base_point[5][1], t797, t957);
-        let t959 = mul_add(parameters.base_point[5][2], t798, t958);
-        let t960 = t956 + t959;
-        let t961 = mul_add(parameters.platform_point[5][0], t824, t810);
-        let t962 = mul_add(parameters.platform_point[5][1], t825, t961);
-        let t963 = mul_add(parameters.platform_point[5][2], t826, t962);
-        let t964 = neg_mul_add(parameters.base_point[5][0], t799, t782);
-        let t965 = mul_add(parameters.base_point[5][1], t800, t964);
-        let t966 = mul_sub(parameters.base_point[5][2], t801, t965);
-        let t967 = t963 - t966;
-        let t968 = mul_add(t773, t773, mul_add(t769, t769, t771 * t771));
-        let t969 = mul_sub(t138, t967, mul_add(t136, t953, t137 * t960));
-        let t970 = mul_sub(t119, t968, t969);
+        let t949 = neg_mul_add(parameters.platform_point[5][0], t813, t804);
+        let t950 = mul_sub(parameters.platform_point[5][1], t816, t949);
+        let t951 = mul_add(parameters.platform_point[5][2], t819, t950);
+        let t952 = neg_mul_add(parameters.base_point[5][0], t792, t778);
+        let t953 = mul_sub(parameters.base_point[5][1], t793, t952);
+        let t954 = mul_sub(parameters.base_point[5][2], t794, t953);
+        let t955 = t951 - t954;
+        let t956 = neg_mul_add(parameters.platform_point[5][0], t821, t807);
+        let t957 = mul_sub(parameters.platform_point[5][1], t823, t956);
+        let t958 = mul_add(parameters.platform_point[5][2], t825, t957);
+        let t959 = mul_add(parameters.base_point[5][0], t795, t780);
+        let t960 = mul_sub(parameters.base_point[5][1], t797, t959);
+        let t961 = mul_add(parameters.base_point[5][2], t798, t960);
+        let t962 = t958 + t961;
+        let t963 = neg_mul_add(parameters.platform_point[5][0], t826, t810);
+        let t964 = mul_sub(parameters.platform_point[5][1], t827, t963);
+        let t965 = mul_add(parameters.platform_point[5][2], t828, t964);
+        let t966 = neg_mul_add(parameters.base_point[5][0], t799, t782);
+        let t967 = mul_add(parameters.base_point[5][1], t800, t966);
+        let t968 = mul_sub(parameters.base_point[5][2], t801, t967);
+        let t969 = t965 + t968;
+        let t970 = mul_add(t773, t773, mul_add(t769, t769, t771 * t771));
+        let t971 = mul_add(t138, t969, mul_add(t136, t955, t137 * t962));
+        let t972 = mul_add(t119, t970, t971);
         // leg 1: leg inertia less weight along the actuator
-        let t971 = c(2.0) * t732;
-        let t972 = t110 * mul_add(t739, t971, neg_mul_add(t121, t850, t833));
-        let t973 = mul_sub(t402, t972, mul_sub(t391, t829, t401 * t832));
-        let t974 = t110 * mul_add(t741, t971, neg_mul_add(t122, t850, t840));
-        let t975 = mul_sub(t402, t974, mul_add(t391, t836, t401 * t839));
-        let t976 = t122 * t975;
-        let t977 = t110 * mul_sub(t743, t971, mul_add(t123, t850, t847));
-        let t978 = mul_add(t402, t977, mul_sub(t391, t843, t401 * t846));
+        let t973 = c(2.0) * t732;
+        let t974 = t110 * mul_add(t739, t973, neg_mul_add(t121, t852, t835));
+        let t975 = mul_sub(t402, t974, mul_sub(t391, t831, t401 * t834));
+        let t976 = t110 * mul_add(t741, t973, neg_mul_add(t122, t852, t842));
+        let t977 = mul_sub(t402, t976, mul_add(t391, t838, t401 * t841));
+        let t978 = t122 * t977;
+        let t979 = t110 * mul_add(t743, t973, neg_mul_add(t123, t852, t849));
+        let t980 = mul_sub(t402, t979, mul_add(t391, t845, t401 * t848));
         // leg 1: remaining leg inertia less weight at the platform joint
-        let t979 = neg_mul_add(t248, t972, t973);
-        let t980 = neg_mul_add(t248, t974, t975);
-        let t981 = neg_mul_add(t248, t977, t978);
+        let t981 = neg_mul_add(t248, t974, t975);
+        let t982 = neg_mul_add(t248, t976, t977);
+        let t983 = neg_mul_add(t248, t979, t980);
         // leg 2: leg inertia less weight along the actuator
-        let t982 = c(2.0) * t733;
-        let t983 = t112 * mul_add(t745, t982, neg_mul_add(t124, t874, t857));
-        let t984 = mul_sub(t414, t983, mul_sub(t403, t853, t413 * t856));
-        let t985 = t112 * mul_add(t747, t982, neg_mul_add(t125, t874, t864));
-        let t986 = mul_sub(t414, t985, mul_add(t403, t860, t413 * t863));
-        let t987 = t125 * t986;
-        let t988 = t112 * mul_sub(t749, t982, mul_add(t126, t874, t871));
-        let t989 = mul_add(t414, t988, mul_sub(t403, t867, t413 * t870));
+        let t984 = c(2.0) * t733;
+        let t985 = t112 * mul_add(t745, t984, neg_mul_add(t124, t876, t859));
+        let t986 = mul_sub(t414, t985, mul_sub(t403, t855, t413 * t858));
+        let t987 = t112 * mul_add(t747, t984, neg_mul_add(t125, t876, t866));
+        let t988 = mul_sub(t414, t987, mul_add(t403, t862, t413 * t865));
+        let t989 = t125 * t988;
+        let t990 = t112 * mul_add(t749, t984, neg_mul_add(t126, t876, t873));
+        let t991 = mul_sub(t414, t990, mul_add(t403, t869, t413 * t872));
         // leg 2: remaining leg inertia less weight at the platform joint
-        let t990 = neg_mul_add(t253, t983, t984);
-        let t991 = neg_mul_add(t253, t985, t986);
-        let t992 = neg_mul_add(t253, t988, t989);
+        let t992 = neg_mul_add(t253, t985, t986);
+        let t993 = neg_mul_add(t253, t987, t988);
+        let t994 = neg_mul_add(t253, t990, t991);
         // leg 3: leg inertia less weight along the actuator
-        let t993 = c(2.0) * t734;
-        let t994 = t114 * mul_add(t751, t993, neg_mul_add(t127, t898, t881));
-        let t995 = mul_sub(t426, t994, mul_sub(t415, t877, t425 * t880));
-        let t996 = t114 * mul_add(t753, t993, neg_mul_add(t128, t898, t888));
-        let t997 = mul_sub(t426, t996, mul_add(t415, t884, t425 * t887));
-        let t998 = t128 * t997;
-        let t999 = t114 * mul_sub(t755, t993, mul_add(t129, t898, t895));
-        let t1000 = mul_add(t426, t999, mul_sub(t415, t891, t425 * t894));
+        let t995 = c(2.0) * t734;
+        let t996 = t114 * mul_add(t751, t995, neg_mul_add(t127, t900, t883));
+        let t997 = mul_sub(t426, t996, mul_sub(t415, t879, t425 * t882));
+        let t998 = t114 * mul_add(t753, t995, neg_mul_add(t128, t900, t890));
+        let t999 = mul_sub(t426, t998, mul_add(t415, t886, t425 * t889));
+        let t1000 = t128 * t999;
+        let t1001 = t114 * mul_add(t755, t995, neg_mul_add(t129, t900, t897));
+        let t1002 = mul_sub(t426, t1001, mul_add(t415, t893, t425 * t896));
         // leg 3: remaining leg inertia less weight at the platform joint
-        let t1001 = neg_mul_add(t258, t994, t995);
-        let t1002 = neg_mul_add(t258, t996, t997);
-        let t1003 = neg_mul_add(t258, t999, t1000);
+        let t1003 = neg_mul_add(t258, t996, t997);
+        let t1004 = neg_mul_add(t258, t998, t999);
+        let t1005 = neg_mul_add(t258, t1001, t1002);
         // leg 4: leg inertia less weight along the actuator
-        let t1004 = c(2.0) * t735;
-        let t1005 = t116 * mul_add(t757, t1004, neg_mul_add(t130, t922, t905));
-        let t1006 = mul_sub(t438, t1005, mul_sub(t427, t901, t437 * t904));
-        let t1007 = t116 * mul_add(t759, t1004, neg_mul_add(t131, t922, t912));
-        let t1008 = mul_sub(t438, t1007, mul_add(t427, t908, t437 * t911));
-        let t1009 = t131 * t1008;
-        let t1010 = t116 * mul_sub(t761, t1004, mul_add(t132, t922, t919));
-        let t1011 = mul_add(t438, t1010, mul_sub(t427, t915, t437 * t918));
+        let t1006 = c(2.0) * t735;
+        let t1007 = t116 * mul_add(t757, t1006, neg_mul_add(t130, t924, t907));
+        let t1008 = mul_sub(t438, t1007, mul_sub(t427, t903, t437 * t906));
+        let t1009 = t116 * mul_add(t759, t1006, neg_mul_add(t131, t924, t914));
+        let t1010 = mul_sub(t438, t1009, mul_add(t427, t910, t437 * t913));
+        let t1011 = t131 * t1010;
+        let t1012 = t116 * mul_add(t761, t1006, neg_mul_add(t132, t924, t921));
+        let t1013 = mul_sub(t438, t1012, mul_add(t427, t917, t437 * t920));
         // leg 4: remaining leg inertia less weight at the platform joint
-        let t1012 = neg_mul_add(t263, t1005, t1006);
-        let t1013 = neg_mul_add(t263, t1007, t1008);
-        let t1014 = neg_mul_add(t263, t1010, t1011);
+        let t1014 = neg_mul_add(t263, t1007, t1008);
+        let t1015 = neg_mul_add(t263, t1009, t1010);
+        let t1016 = neg_mul_add(t263, t1012, t1013);
         // leg 5: leg inertia less weight along the actuator
-        let t1015 = c(2.0) * t736;
-        let t1016 = t118 * mul_add(t763, t1015, neg_mul_add(t133, t946, t929));
-        let t1017 = mul_sub(t450, t1016, mul_sub(t439, t925, t449 * t928));
-        let t1018 = t118 * mul_add(t765, t1015, neg_mul_add(t134, t946, t936));
-        let t1019 = mul_sub(t450, t1018, mul_add(t439, t932, t449 * t935));
-        let t1020 = t134 * t1019;
-        let t1021 = t118 * mul_sub(t767, t1015, mul_add(t135, t946, t943));
-        let t1022 = mul_add(t450, t1021, mul_sub(t439, t939, t449 * t942));
+        let t1017 = c(2.0) * t736;
+        let t1018 = t118 * mul_add(t763, t1017, neg_mul_add(t133, t948, t931));
+        let t1019 = mul_sub(t450, t1018, mul_sub(t439, t927, t449 * t930));
+        let t1020 = t118 * mul_add(t765, t1017, neg_mul_add(t134, t948, t938));
+        let t1021 = mul_sub(t450, t1020, mul_add(t439, t934, t449 * t937));
+        let t1022 = t134 * t1021;
+        let t1023 = t118 * mul_add(t767, t1017, neg_mul_add(t135, t948, t945));
+        let t1024 = mul_sub(t450, t1023, mul_add(t439, t941, t449 * t944));
         // leg 5: remaining leg inertia less weight at the platform joint
-        let t1023 = neg_mul_add(t268, t1016, t1017);
-        let t1024 = neg_mul_add(t268, t1018, t1019);
-        let t1025 = neg_mul_add(t268, t1021, t1022);
+        let t1025 = neg_mul_add(t268, t1018, t1019);
+        let t1026 = neg_mul_add(t268, t1020, t1021);
+        let t1027 = neg_mul_add(t268, t1023, t1024);
         // leg 6: leg inertia less weight along the actuator
-        let t1026 = c(2.0) * t737;
-        let t1027 = t120 * mul_add(t769, t1026, neg_mul_add(t136, t970, t953));
-        let t1028 = mul_sub(t462, t1027, mul_sub(t451, t949, t461 * t952));
-        let t1029 = t120 * mul_add(t771, t1026, neg_mul_add(t137, t970, t960));
-        let t1030 = mul_sub(t462, t1029, mul_add(t451, t956, t461 * t959));
-        let t1031 = t137 * t1030;
-        let t1032 = t120 * mul_sub(t773, t1026, mul_add(t138, t970, t967));
-        let t1033 = mul_add(t462, t1032, mul_sub(t451, t963, t461 * t966));
+        let t1028 = c(2.0) * t737;
+        let t1029 = t120 * mul_add(t769, t1028, neg_mul_add(t136, t972, t955));
+        let t1030 = mul_sub(t462, t1029, mul_sub(t451, t951, t461 * t954));
+        let t1031 = t120 * mul_add(t771, t1028, neg_mul_add(t137, t972, t962));
+        let t1032 = mul_sub(t462, t1031, mul_add(t451, t958, t461 * t961));
+        let t1033 = t137 * t1032;
+        let t1034 = t120 * mul_add(t773, t1028, neg_mul_add(t138, t972, t969));
+        let t1035 = mul_sub(t462, t1034, mul_add(t451, t965, t461 * t968));
         // leg 6: remaining leg inertia less weight at the platform joint
-        let t1034 = neg_mul_add(t273, t1027, t1028);
-        let t1035 = neg_mul_add(t273, t1029, t1030);
-        let t1036 = neg_mul_add(t273, t1032, t1033);
+        let t1036 = neg_mul_add(t273, t1029, t1030);
+        let t1037 = neg_mul_add(t273, t1031, t1032);
+        let t1038 = neg_mul_add(t273, t1034, t1035);
         // leg 1: spring and damper force along the actuator
-        let t1037 = parameters.rest_length[0] - t109;
+        let t1039 = parameters.rest_length[0] - t109;
         // leg 2: spring and damper force along the actuator
-        let t1038 = parameters.rest_length[1] - t111;
+        let t1040 = parameters.rest_length[1] - t111;
         // leg 3: spring and damper force along the actuator
-        let t1039 = parameters.rest_length[2] - t113;
+        let t1041 = parameters.rest_length[2] - t113;
         // leg 4: spring and damper force along the actuator
-        let t1040 = parameters.rest_length[3] - t115;
+        let t1042 = parameters.rest_length[3] - t115;
         // leg 5: spring and damper force along the actuator
-        let t1041 = parameters.rest_length[4] - t117;
+        let t1043 = parameters.rest_length[4] - t117;
         // leg 6: spring and damper force along the actuator
-        let t1042 = parameters.rest_length[5] - t119;
+        let t1044 = parameters.rest_length[5] - t119;
         // inertia force less weight, without the actuators' own shares
-        let t1043 = t1034 + (t1023 + (t1012 + (t1001 + (t979 + t990))));
-        let t1044 = mul_sub(t287, t814, mul_sub(t280, t804, t1043));
-        let t1045 = mul_add(t301, t816, mul_add(t294, t815, t1044));
-        let t1046 = t1035 + (t1024 + (t1013 + (t1002 + (t980 + t991))));
-        let t1047 = mul_sub(t287, t820, mul_sub(t280, t807, t1046));
-        let t1048 = mul_add(t301, t822, mul_add(t294, t821, t1047));
-        let t1049 = t1036 + (t1025 + (t1014 + (t1003 + (t981 + t992))));
-        let t1050 = mul_add(t287, t824, mul_sub(t280, t810, t1049));
-        let t1051 = mul_add(t301, t826, mul_add(t294, t825, t1050));
+        let t1045 = t1036 + (t1025 + (t1014 + (t1003 + (t981 + t992))));
+        let t1046 = mul_sub(t287, t813, mul_sub(t280, t804, t1045));
+        let t1047 = mul_add(t301, t819, mul_add(t294, t816, t1046));
+        let t1048 = t1037 + (t1026 + (t1015 + (t1004 + (t982 + t993))));
+        let t1049 = mul_sub(t287, t821, mul_sub(t280, t807, t1048));
+        let t1050 = mul_add(t301, t825, mul_add(t294, t823, t1049));
+        let t1051 = t1038 + (t1027 + (t1016 + (t1005 + (t983 + t994))));
+        let t1052 = mul_sub(t287, t826, mul_sub(t280, t810, t1051));
+        let t1053 = mul_add(t301, t828, mul_add(t294, t827, t1052));
         // its first moments by platform coordinate
-        let t1052 = mul_sub(t332, t815, mul_sub(t287, t804, t318 * t814));
-        let t1053 = mul_add(t346, t816, t1052);
-        let t1054 = mul_add(parameters.platform_point[0][0], t979, t1053);
-        let t1055 = mul_add(parameters.platform_point[1][0], t990, t1054);
-        let t1056 = mul_add(parameters.platform_point[2][0], t1001, t1055);
-        let t1057 = mul_add(parameters.platform_point[3][0], t1012, t1056);
-        let t1058 = mul_add(parameters.platform_point[4][0], t1023, t1057);
-        let t1059 = mul_add(parameters.platform_point[5][0], t1034, t1058);
-        let t1060 = mul_sub(t361, t815, mul_sub(t294, t804, t332 * t814));
-        let t1061 = mul_add(t375, t816, t1060);
-        let t1062 = mul_add(parameters.platform_point[0][1], t979, t1061);
-        let t1063 = mul_add(parameters.platform_point[1][1], t990, t1062);
-        let t1064 = mul_add(parameters.platform_point[2][1], t1001, t1063);
-        let t1065 = mul_add(parameters.platform_point[3][1], t1012, t1064);
-        let t1066 = mul_add(parameters.platform_point[4][1], t1023, t1065);
-        let t1067 = mul_add(parameters.platform_point[5][1], t1034, t1066);
-        let t1068 = mul_sub(t375, t815, mul_sub(t301, t804, t346 * t814));
-        let t1069 = mul_add(t390, t816, t1068);
-        let t1070 = mul_add(parameters.platform_point[0][2], t979, t1069);
-        let t1071 = mul_add(parameters.platform_point[1][2], t990, t1070);
-        let t1072 = mul_add(parameters.platform_point[2][2], t1001, t1071);
-        let t1073 = mul_add(parameters.platform_point[3][2], t1012, t1072);
-        let t1074 = mul_add(parameters.platform_point[4][2], t1023, t1073);
-        let t1075 = mul_add(parameters.platform_point[5][2], t1034, t1074);
-        let t1076 = mul_sub(t332, t821, mul_sub(t287, t807, t318 * t820));
-        let t1077 = mul_add(t346, t822, t1076);
-        let t1078 = mul_add(parameters.platform_point[0][0], t980, t1077);
-        let t1079 = mul_add(parameters.platform_point[1][0], t991, t1078);
-        let t1080 = mul_add(parameters.platform_point[2][0], t1002, t1079);
-        let t1081 = mul_add(parameters.platform_point[3][0], t1013, t1080);
-        let t1082 = mul_add(parameters.platform_point[4][0], t1024, t1081);
-        let t1083 = mul_add(parameters.platform_point[5][0], t1035, t1082);
-        let t1084 = mul_sub(t361, t821, mul_sub(t294, t807, t332 * t820));
-        let t1085 = mul_add(t375, t822, t1084);
-        let t1086 = mul_add(parameters.platform_point[0][1], t980, t1085);
-        let t1087 = mul_add(parameters.platform_point[1][1], t991, t1086);
-        let t1088 = mul_add(parameters.platform_point[2][1], t1002, t1087);
-        let t1089 = mul_add(parameters.platform_point[3][1], t1013, t1088);
-        let t1090 = mul_add(parameters.platform_point[4][1], t1024, t1089);
-        let t1091 = mul_add(parameters.platform_point[5][1], t1035, t1090);
-        let t1092 = mul_sub(t375, t821, mul_sub(t301, t807, t346 * t820));
-        let t1093 = mul_add(t390, t822, t1092);
-        let t1094 = mul_add(parameters.platform_point[0][2], t980, t1093);
-        let t1095 = mul_add(parameters.platform_point[1][2], t991, t1094);
-        let t1096 = mul_add(parameters.platform_point[2][2], t1002, t1095);
-        let t1097 = mul_add(parameters.platform_point[3][2], t1013, t1096);
-        let t1098 = mul_add(parameters.platform_point[4][2], t1024, t1097);
-        let t1099 = mul_add(parameters.platform_point[5][2], t1035, t1098);
-        let t1100 = mul_add(t332, t825, mul_add(t287, t810, t318 * t824));
-        let t1101 = mul_add(t346, t826, t1100);
-        let t1102 = mul_sub(parameters.platform_point[0][0], t981, t1101);
-        let t1103 = mul_add(parameters.platform_point[1][0], t992, t1102);
-        let t1104 = mul_add(parameters.platform_point[2][0], t1003, t1103);
-        let t1105 = mul_add(parameters.platform_point[3][0], t1014, t1104);
-        let t1106 = mul_add(parameters.platform_point[4][0], t1025, t1105);
-        let t1107 = mul_add(parameters.platform_point[5][0], t1036, t1106);
-        let t1108 = mul_add(t361, t825, mul_add(t294, t810, t332 * t824));
-        let t1109 = mul_add(t375, t826, t1108);
-        let t1110 = mul_sub(parameters.platform_point[0][1], t981, t1109);
-        let t1111 = mul_add(parameters.platform_point[1][1], t992, t1110);
-        let t1112 = mul_add(parameters.platform_point[2][1], t1003, t1111);
-        let t1113 = mul_add(parameters.platform_point[3][1], t1014, t1112);
-        let t1114 = mul_add(parameters.platform_point[4][1], t1025, t1113);
-        let t1115 = mul_add(parameters.platform_point[5][1], t1036, t1114);
-        let t1116 = mul_add(t375, t825, mul_add(t301, t810, t346 * t824));
-        let t1117 = mul_add(t390, t826, t1116);
-        let t1118 = mul_sub(parameters.platform_point[0][2], t981, t1117);
-        let t1119 = mul_add(parameters.platform_point[1][2], t992, t1118);
-        let t1120 = mul_add(parameters.platform_point[2][2], t1003, t1119);
-        let t1121 = mul_add(parameters.platform_point[3][2], t1014, t1120);
-        let t1122 = mul_add(parameters.platform_point[4][2], t1025, t1121);
-        let t1123 = mul_add(parameters.platform_point[5][2], t1036, t1122);
+        let t1054 = mul_sub(t332, t816, mul_sub(t287, t804, t318 * t813));
+        let t1055 = mul_add(t346, t819, t1054);
+        let t1056 = mul_add(parameters.platform_point[0][0], t981, t1055);
+        let t1057 = mul_add(parameters.platform_point[1][0], t992, t1056);
+        let t1058 = mul_add(parameters.platform_point[2][0], t1003, t1057);
+        let t1059 = mul_add(parameters.platform_point[3][0], t1014, t1058);
+        let t1060 = mul_add(parameters.platform_point[4][0], t1025, t1059);
+        let t1061 = mul_add(parameters.platform_point[5][0], t1036, t1060);
+        let t1062 = mul_sub(t361, t816, mul_sub(t294, t804, t332 * t813));
+        let t1063 = mul_add(t375, t819, t1062);
+        let t1064 = mul_add(parameters.platform_point[0][1], t981, t1063);
+        let t1065 = mul_add(parameters.platform_point[1][1], t992, t1064);
+        let t1066 = mul_add(parameters.platform_point[2][1], t1003, t1065);
+        let t1067 = mul_add(parameters.platform_point[3][1], t1014, t1066);
+        let t1068 = mul_add(parameters.platform_point[4][1], t1025, t1067);
+        let t1069 = mul_add(parameters.platform_point[5][1], t1036, t1068);
+        let t1070 = mul_sub(t375, t816, mul_sub(t301, t804, t346 * t813));
+        let t1071 = mul_add(t390, t819, t1070);
+        let t1072 = mul_add(parameters.platform_point[0][2], t981, t1071);
+        let t1073 = mul_add(parameters.platform_point[1][2], t992, t1072);
+        let t1074 = mul_add(parameters.platform_point[2][2], t1003, t1073);
+        let t1075 = mul_add(parameters.platform_point[3][2], t1014, t1074);
+        let t1076 = mul_add(parameters.platform_point[4][2], t1025, t1075);
+        let t1077 = mul_add(parameters.platform_point[5][2], t1036, t1076);
+        let t1078 = mul_sub(t332, t823, mul_sub(t287, t807, t318 * t821));
+        let t1079 = mul_add(t346, t825, t1078);
+        let t1080 = mul_add(parameters.platform_point[0][0], t982, t1079);
+        let t1081 = mul_add(parameters.platform_point[1][0], t993, t1080);
+        let t1082 = mul_add(parameters.platform_point[2][0], t1004, t1081);
+        let t1083 = mul_add(parameters.platform_point[3][0], t1015, t1082);
+        let t1084 = mul_add(parameters.platform_point[4][0], t1026, t1083);
+        let t1085 = mul_add(parameters.platform_point[5][0], t1037, t1084);
+        let t1086 = mul_sub(t361, t823, mul_sub(t294, t807, t332 * t821));
+        let t1087 = mul_add(t375, t825, t1086);
+        let t1088 = mul_add(parameters.platform_point[0][1], t982, t1087);
+        let t1089 = mul_add(parameters.platform_point[1][1], t993, t1088);
+        let t1090 = mul_add(parameters.platform_point[2][1], t1004, t1089);
+        let t1091 = mul_add(parameters.platform_point[3][1], t1015, t1090);
+        let t1092 = mul_add(parameters.platform_point[4][1], t1026, t1091);
+        let t1093 = mul_add(parameters.platform_point[5][1], t1037, t1092);
+        let t1094 = mul_sub(t375, t823, mul_sub(t301, t807, t346 * t821));
+        let t1095 = mul_add(t390, t825, t1094);
+        let t1096 = mul_add(parameters.platform_point[0][2], t982, t1095);
+        let t1097 = mul_add(parameters.platform_point[1][2], t993, t1096);
+        let t1098 = mul_add(parameters.platform_point[2][2], t1004, t1097);
+        let t1099 = mul_add(parameters.platform_point[3][2], t1015, t1098);
+        let t1100 = mul_add(parameters.platform_point[4][2], t1026, t1099);
+        let t1101 = mul_add(parameters.platform_point[5][2], t1037, t1100);
+        let t1102 = mul_sub(t332, t827, mul_sub(t287, t810, t318 * t826));
+        let t1103 = mul_add(t346, t828, t1102);
+        let t1104 = mul_add(parameters.platform_point[0][0], t983, t1103);
+        let t1105 = mul_add(parameters.platform_point[1][0], t994, t1104);
+        let t1106 = mul_add(parameters.platform_point[2][0], t1005, t1105);
+        let t1107 = mul_add(parameters.platform_point[3][0], t1016, t1106);
+        let t1108 = mul_add(parameters.platform_point[4][0], t1027, t1107);
+        let t1109 = mul_add(parameters.platform_point[5][0], t1038, t1108);
+        let t1110 = mul_sub(t361, t827, mul_sub(t294, t810, t332 * t826));
+        let t1111 = mul_add(t375, t828, t1110);
+        let t1112 = mul_add(parameters.platform_point[0][1], t983, t1111);
+        let t1113 = mul_add(parameters.platform_point[1][1], t994, t1112);
+        let t1114 = mul_add(parameters.platform_point[2][1], t1005, t1113);
+        let t1115 = mul_add(parameters.platform_point[3][1], t1016, t1114);
+        let t1116 = mul_add(parameters.platform_point[4][1], t1027, t1115);
+        let t1117 = mul_add(parameters.platform_point[5][1], t1038, t1116);
+        let t1118 = mul_sub(t375, t827, mul_sub(t301, t810, t346 * t826));
+        let t1119 = mul_add(t390, t828, t1118);
+        let t1120 = mul_add(parameters.platform_point[0][2], t983, t1119);
+        let t1121 = mul_add(parameters.platform_point[1][2], t994, t1120);
+        let t1122 = mul_add(parameters.platform_point[2][2], t1005, t1121);
+        let t1123 = mul_add(parameters.platform_point[3][2], t1016, t1122);
+        let t1124 = mul_add(parameters.platform_point[4][2], t1027, t1123);
+        let t1125 = mul_add(parameters.platform_point[5][2], t1038, t1124);
         // leg 1: force along the actuator that reaches the platform
-        let t1124 = mul_add(t123, t978, mul_add(t121, t973, t976));
-        let t1125 = mul_add(parameters.axial_stiffness[0], t1037, t1124);
-        let t1126 = mul_add(parameters.axial_damping[0], t732, t1125);
+        let t1126 = mul_add(t123, t980, mul_add(t121, t975, t978));
+        let t1127 = mul_add(parameters.axial_stiffness[0], t1039, t1126);
+        let t1128 = mul_add(parameters.axial_damping[0], t732, t1127);
         // leg 2: force along the actuator that reaches the platform
-        let t1127 = mul_add(t126, t989, mul_add(t124, t984, t987));
-        let t1128 = mul_add(parameters.axial_stiffness[1], t1038, t1127);
-        let t1129 = mul_add(parameters.axial_damping[1], t733, t1128);
+        let t1129 = mul_add(t126, t991, mul_add(t124, t986, t989));
+        let t1130 = mul_add(parameters.axial_stiffness[1], t1040, t1129);
+        let t1131 = mul_add(parameters.axial_damping[1], t733, t1130);
         // leg 3: force along the actuator that reaches the platform
-        let t1130 = mul_add(t129, t1000, mul_add(t127, t995, t998));
-        let t1131 = mul_add(parameters.axial_stiffness[2], t1039, t1130);
-        let t1132 = mul_add(parameters.axial_damping[2], t734, t1131);
+        let t1132 = mul_add(t129, t1002, mul_add(t127, t997, t1000));
+        let t1133 = mul_add(parameters.axial_stiffness[2], t1041, t1132);
+        let t1134 = mul_add(parameters.axial_damping[2], t734, t1133);
         // leg 4: force along the actuator that reaches the platform
-        let t1133 = mul_add(t132, t1011, mul_add(t130, t1006, t1009));
-        let t1134 = mul_add(parameters.axial_stiffness[3], t1040, t1133);
-        let t1135 = mul_add(parameters.axial_damping[3], t735, t1134);
+        let t1135 = mul_add(t132, t1013, mul_add(t130, t1008, t1011));
+        let t1136 = mul_add(parameters.axial_stiffness[3], t1042, t1135);
+        let t1137 = mul_add(parameters.axial_damping[3], t735, t1136);
         // leg 5: force along the actuator that reaches the platform
-        let t1136 = mul_add(t135, t1022, mul_add(t133, t1017, t1020));
-        let t1137 = mul_add(parameters.axial_stiffness[4], t1041, t1136);
-        let t1138 = mul_add(parameters.axial_damping[4], t736, t1137);
+        let t1138 = mul_add(t135, t1024, mul_add(t133, t1019, t1022));
+        let t1139 = mul_add(parameters.axial_stiffness[4], t1043, t1138);
+        let t1140 = mul_add(parameters.axial_damping[4], t736, t1139);
         // leg 6: force along the actuator that reaches the platform
-        let t1139 = mul_add(t138, t1033, mul_add(t136, t1028, t1031));
-        let t1140 = mul_add(parameters.axial_stiffness[5], t1042, t1139);
-        let t1141 = mul_add(parameters.axial_damping[5], t737, t1140);
+        let t1141 = mul_add(t138, t1035, mul_add(t136, t1030, t1033));
+        let t1142 = mul_add(parameters.axial_stiffness[5], t1044, t1141);
+        let t1143 = mul_add(parameters.axial_damping[5], t737, t1142);
         // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
-        let t1142 = mul_add(base_rotation[0][0], t1045, base_rotation[0][1] * t1048);
-        let t1143 = mul_add(t149, t1126, mul_sub(base_rotation[0][2], t1051, t1142));
-        let t1144 = mul_add(t179, t1132, mul_add(t164, t1129, t1143));
-        let t1145 = mul_add(t209, t1138, mul_add(t194, t1135, t1144));
-        let t1146 = mul_add(t224, t1141, t1145);
-        let t1147 = mul_add(base_rotation[1][0], t1045, base_rotation[1][1] * t1048);
-        let t1148 = mul_add(t151, t1126, mul_sub(base_rotation[1][2], t1051, t1147));
-        let t1149 = mul_add(t181, t1132, mul_add(t166, t1129, t1148));
-        let t1150 = mul_add(t211, t1138, mul_add(t196, t1135, t1149));
-        let t1151 = mul_add(t226, t1141, t1150);
-        let t1152 = mul_add(base_rotation[2][0], t1045, base_rotation[2][1] * t1048);
-        let t1153 = mul_add(t153, t1126, mul_sub(base_rotation[2][2], t1051, t1152));
-        let t1154 = mul_add(t183, t1132, mul_add(t168, t1129, t1153));
-        let t1155 = mul_add(t213, t1138, mul_add(t198, t1135, t1154));
-        let t1156 = mul_add(t228, t1141, t1155);
-        let t1157 = mul_add(t6, t1091, mul_sub(t3, t1083, t12 * t1059));
-        let t1158 = mul_sub(t9, t1099, mul_sub(t15, t1067, t1157));
-        let t1159 = mul_sub(t18, t1075, t1158);
-        let t1160 = mul_add(t15, t1115, mul_sub(t12, t1107, t21 * t1083));
-        let t1161 = mul_sub(t18, t1123, mul_sub(t24, t1091, t1160));
-        let t1162 = mul_sub(t27, t1099, t1161);
-        let t1163 = mul_add(t24, t1067, mul_sub(t21, t1059, t3 * t1107));
-        let t1164 = mul_sub(t27, t1075, mul_sub(t6, t1115, t1163));
-        let t1165 = mul_sub(t9, t1123, t1164);
-        let t1166 = mul_add(base_rotation[0][0], t1162, base_rotation[0][1] * t1165);
-        let t1167 = mul_add(t229, t1126, mul_add(base_rotation[0][2], t1159, t1166));
-        let t1168 = mul_add(t235, t1132, mul_add(t232, t1129, t1167));
-        let t1169 = mul_add(t241, t1138, mul_add(t238, t1135, t1168));
-        let t1170 = mul_add(t244, t1141, t1169);
-        let t1171 = mul_add(base_rotation[1][0], t1162, base_rotation[1][1] * t1165);
-        let t1172 = mul_add(t230, t1126, mul_add(base_rotation[1][2], t1159, t1171));
-        let t1173 = mul_add(t236, t1132, mul_add(t233, t1129, t1172));
-        let t1174 = mul_add(t242, t1138, mul_add(t239, t1135, t1173));
-        let t1175 = mul_add(t245, t1141, t1174);
-        let t1176 = mul_add(base_rotation[2][0], t1162, base_rotation[2][1] * t1165);
-        let t1177 = mul_add(t231, t1126, mul_add(base_rotation[2][2], t1159, t1176));
-        let t1178 = mul_add(t237, t1132, mul_add(t234, t1129, t1177));
-        let t1179 = mul_add(t243, t1138, mul_add(t240, t1135, t1178));
-        let t1180 = mul_add(t246, t1141, t1179);
-        total_bias[0] = -t1146;
-        total_bias[1] = -t1151;
-        total_bias[2] = -t1156;
-        total_bias[3] = -t1170;
-        total_bias[4] = -t1175;
-        total_bias[5] = -t1180;
+        let t1144 = mul_add(base_rotation[0][0], t1047, base_rotation[0][1] * t1050);
+        let t1145 = mul_sub(t149, t1128, mul_add(base_rotation[0][2], t1053, t1144));
+        let t1146 = mul_add(t179, t1134, mul_add(t164, t1131, t1145));
+        let t1147 = mul_add(t209, t1140, mul_add(t194, t1137, t1146));
+        let t1148 = mul_add(t224, t1143, t1147);
+        let t1149 = mul_add(base_rotation[1][0], t1047, base_rotation[1][1] * t1050);
+        let t1150 = mul_sub(t151, t1128, mul_add(base_rotation[1][2], t1053, t1149));
+        let t1151 = mul_add(t181, t1134, mul_add(t166, t1131, t1150));
+        let t1152 = mul_add(t211, t1140, mul_add(t196, t1137, t1151));
+        let t1153 = mul_add(t226, t1143, t1152);
+        let t1154 = mul_add(base_rotation[2][0], t1047, base_rotation[2][1] * t1050);
+        let t1155 = mul_sub(t153, t1128, mul_add(base_rotation[2][2], t1053, t1154));
+        let t1156 = mul_add(t183, t1134, mul_add(t168, t1131, t1155));
+        let t1157 = mul_add(t213, t1140, mul_add(t198, t1137, t1156));
+        let t1158 = mul_add(t228, t1143, t1157);
+        let t1159 = mul_add(t6, t1093, mul_sub(t3, t1085, t12 * t1061));
+        let t1160 = mul_sub(t9, t1101, mul_sub(t15, t1069, t1159));
+        let t1161 = mul_sub(t18, t1077, t1160);
+        let t1162 = mul_add(t15, t1117, mul_sub(t12, t1109, t21 * t1085));
+        let t1163 = mul_sub(t18, t1125, mul_sub(t24, t1093, t1162));
+        let t1164 = mul_sub(t27, t1101, t1163);
+        let t1165 = mul_add(t24, t1069, mul_sub(t21, t1061, t3 * t1109));
+        let t1166 = mul_sub(t27, t1077, mul_sub(t6, t1117, t1165));
+        let t1167 = mul_sub(t9, t1125, t1166);
+        let t1168 = mul_add(base_rotation[0][0], t1164, base_rotation[0][1] * t1167);
+        let t1169 = mul_add(t229, t1128, mul_add(base_rotation[0][2], t1161, t1168));
+        let t1170 = mul_add(t235, t1134, mul_add(t232, t1131, t1169));
+        let t1171 = mul_add(t241, t1140, mul_add(t238, t1137, t1170));
+        let t1172 = mul_add(t244, t1143, t1171);
+        let t1173 = mul_add(base_rotation[1][0], t1164, base_rotation[1][1] * t1167);
+        let t1174 = mul_add(t230, t1128, mul_add(base_rotation[1][2], t1161, t1173));
+        let t1175 = mul_add(t236, t1134, mul_add(t233, t1131, t1174));
+        let t1176 = mul_add(t242, t1140, mul_add(t239, t1137, t1175));
+        let t1177 = mul_add(t245, t1143, t1176);
+        let t1178 = mul_add(base_rotation[2][0], t1164, base_rotation[2][1] * t1167);
+        let t1179 = mul_add(t231, t1128, mul_add(base_rotation[2][2], t1161, t1178));
+        let t1180 = mul_add(t237, t1134, mul_add(t234, t1131, t1179));
+        let t1181 = mul_add(t243, t1140, mul_add(t240, t1137, t1180));
+        let t1182 = mul_add(t246, t1143, t1181);
+        total_bias[0] = -t1148;
+        total_bias[1] = -t1153;
+        total_bias[2] = -t1158;
+        total_bias[3] = -t1172;
+        total_bias[4] = -t1177;
+        total_bias[5] = -t1182;
         // inertia less external wrench that the actuators must balance
-        let t1181 = mul_sub(platform_acceleration[0], t545, external_wrench[0] + t1146);
-        let t1182 = mul_sub(platform_acceleration[1], t465, t1181);
-        let t1183 = mul_add(platform_acceleration[2], t468, t1182);
-        let t1184 = mul_add(platform_acceleration[3], t474, t1183);
-        let t1185 = mul_sub(platform_acceleration[4], t548, t1184);
-        let t1186 = neg_mul_add(platform_acceleration[5], t551, t1185);
-        let t1187 = mul_add(platform_acceleration[0], t465, external_wrench[1] + t1151);
-        let t1188 = mul_sub(platform_acceleration[1], t552, t1187);
-        let t1189 = mul_sub(platform_acceleration[2], t489, t1188);
-        let t1190 = mul_add(platform_acceleration[3], t553, t1189);
-        let t1191 = mul_add(platform_acceleration[4], t508, t1190);
-        let t1192 = mul_sub(platform_acceleration[5], t556, t1191);
-        let t1193 = mul_add(platform_acceleration[0], t468, external_wrench[2] + t1156);
-        let t1194 = mul_add(platform_acceleration[1], t489, t1193);
-        let t1195 = mul_sub(platform_acceleration[2], t557, t1194);
-        let t1196 = mul_add(platform_acceleration[3], t558, t1195);
-        let t1197 = mul_sub(platform_acceleration[4], t559, t1196);
-        let t1198 = mul_sub(platform_acceleration[5], t533, t1197);
-        let t1199 = platform_rotation[2][1] * parameters.payload_com[1];
-        let t1200 = mul_add(platform_rotation[2][0], parameters.payload_com[0], t1199);
-        let t1201 = mul_add(platform_rotation[2][2], parameters.payload_com[2], t1200);
-        let t1202 = platform_rotation[1][1] * parameters.payload_com[1];
-        let t1203 = mul_add(platform_rotation[1][0], parameters.payload_com[0], t1202);
-        let t1204 = mul_add(platform_rotation[1][2], parameters.payload_com[2], t1203);
-        let t1205 = mul_add(platform_acceleration[0], t474, external_wrench[3] + t1170);
-        let t1206 = mul_add(platform_acceleration[1], t553, t1205);
-        let t1207 = mul_sub(platform_acceleration[2], t558, t1206);
-        let t1208 = mul_sub(platform_acceleration[3], t575, t1207);
-        let t1209 = mul_add(platform_acceleration[4], t583, t1208);
-        let t1210 = mul_add(platform_acceleration[5], t591, t1209);
-        let t1211 = mul_add(external_wrench[2], t1204, t1210);
-        let t1212 = mul_sub(external_wrench[1], t1201, t1211);
-        let t1213 = platform_rotation[0][1] * parameters.payload_com[1];
-        let t1214 = mul_add(platform_rotation[0][0], parameters.payload_com[0], t1213);
-        let t1215 = mul_add(platform_rotation[0][2], parameters.payload_com[2], t1214);
-        let t1216 = mul_sub(platform_acceleration[0], t548, external_wrench[4] + t1175);
-        let t1217 = mul_sub(platform_acceleration[1], t508, t1216);
-        let t1218 = mul_add(platform_acceleration[2], t559, t1217);
-        let t1219 = mul_add(platform_acceleration[3], t583, t1218);
-        let t1220 = mul_add(platform_acceleration[4], t606, t1219);
-        let t1221 = mul_add(platform_acceleration[5], t614, t1220);
-        let t1222 = mul_add(external_wrench[0], t1201, t1221);
-        let t1223 = mul_sub(external_wrench[2], t1215, t1222);
-        let t1224 = mul_add(platform_acceleration[0], t551, external_wrench[5] + t1180);
-        let t1225 = mul_sub(platform_acceleration[1], t556, t1224);
-        let t1226 = mul_add(platform_acceleration[2], t533, t1225);
-        let t1227 = mul_sub(platform_acceleration[3], t591, t1226);
-        let t1228 = mul_add(platform_acceleration[4], t614, t1227);
-        let t1229 = mul_add(platform_acceleration[5], t629, t1228);
-        let t1230 = mul_add(external_wrench[1], t1215, t1229);
-        let t1231 = mul_sub(external_wrench[0], t1204, t1230);
+        let t1183 = mul_sub(platform_acceleration[0], t545, external_wrench[0] + t1148);
+        let t1184 = mul_sub(platform_acceleration[1], t465, t1183);
+        let t1185 = mul_add(platform_acceleration[2], t468, t1184);
+        let t1186 = mul_add(platform_acceleration[3], t474, t1185);
+        let t1187 = mul_sub(platform_acceleration[4], t548, t1186);
+        let t1188 = neg_mul_add(platform_acceleration[5], t551, t1187);
+        let t1189 = mul_add(platform_acceleration[0], t465, external_wrench[1] + t1153);
+        let t1190 = mul_sub(platform_acceleration[1], t552, t1189);
+        let t1191 = mul_sub(platform_acceleration[2], t489, t1190);
+        let t1192 = mul_add(platform_acceleration[3], t553, t1191);
+        let t1193 = mul_add(platform_acceleration[4], t508, t1192);
+        let t1194 = mul_sub(platform_acceleration[5], t556, t1193);
+        let t1195 = mul_add(platform_acceleration[0], t468, external_wrench[2] + t1158);
+        let t1196 = mul_add(platform_acceleration[1], t489, t1195);
+        let t1197 = mul_sub(platform_acceleration[2], t557, t1196);
+        let t1198 = mul_add(platform_acceleration[3], t558, t1197);
+        let t1199 = mul_sub(platform_acceleration[4], t559, t1198);
+        let t1200 = mul_sub(platform_acceleration[5], t533, t1199);
+        let t1201 = platform_rotation[2][1] * parameters.payload_com[1];
+        let t1202 = mul_add(platform_rotation[2][0], parameters.payload_com[0], t1201);
+        let t1203 = mul_add(platform_rotation[2][2], parameters.payload_com[2], t1202);
+        let t1204 = platform_rotation[1][1] * parameters.payload_com[1];
+        let t1205 = mul_add(platform_rotation[1][0], parameters.payload_com[0], t1204);
+        let t1206 = mul_add(platform_rotation[1][2], parameters.payload_com[2], t1205);
+        let t1207 = mul_add(platform_acceleration[0], t474, external_wrench[3] + t1172);
+        let t1208 = mul_add(platform_acceleration[1], t553, t1207);
+        let t1209 = mul_sub(platform_acceleration[2], t558, t1208);
+        let t1210 = mul_sub(platform_acceleration[3], t575, t1209);
+        let t1211 = mul_add(platform_acceleration[4], t583, t1210);
+        let t1212 = mul_add(platform_acceleration[5], t591, t1211);
+        let t1213 = mul_add(external_wrench[2], t1206, t1212);
+        let t1214 = mul_sub(external_wrench[1], t1203, t1213);
+        let t1215 = platform_rotation[0][1] * parameters.payload_com[1];
+        let t1216 = mul_add(platform_rotation[0][0], parameters.payload_com[0], t1215);
+        let t1217 = mul_add(platform_rotation[0][2], parameters.payload_com[2], t1216);
+        let t1218 = mul_sub(platform_acceleration[0], t548, external_wrench[4] + t1177);
+        let t1219 = mul_sub(platform_acceleration[1], t508, t1218);
+        let t1220 = mul_add(platform_acceleration[2], t559, t1219);
+        let t1221 = mul_add(platform_acceleration[3], t583, t1220);
+        let t1222 = mul_add(platform_acceleration[4], t606, t1221);
+        let t1223 = mul_add(platform_acceleration[5], t614, t1222);
+        let t1224 = mul_add(external_wrench[0], t1203, t1223);
+        let t1225 = mul_sub(external_wrench[2], t1217, t1224);
+        let t1226 = mul_add(platform_acceleration[0], t551, external_wrench[5] + t1182);
+        let t1227 = mul_sub(platform_acceleration[1], t556, t1226);
+        let t1228 = mul_add(platform_acceleration[2], t533, t1227);
+        let t1229 = mul_sub(platform_acceleration[3], t591, t1228);
+        let t1230 = mul_add(platform_acceleration[4], t614, t1229);
+        let t1231 = mul_add(platform_acceleration[5], t629, t1230);
+        let t1232 = mul_add(external_wrench[1], t1217, t1231);
+        let t1233 = mul_sub(external_wrench[0], t1206, t1232);
         // force along the actuator that balances the remaining wrench
         let axial_reaction = solve_general(
             &[
@@ -27822,7 +27686,7 @@ pub fn control<T: Scalar>(
                 [t230, t233, t236, t239, t242, t245],
                 [t231, t234, t237, t240, t243, t246],
             ],
-            &[t1186, t1192, t1198, t1212, t1223, t1231],
+            &[t1188, t1194, t1200, t1214, t1225, t1233],
         );
         inverse_dynamics[0] = axial_reaction[0];
         inverse_dynamics[1] = axial_reaction[1];
@@ -27919,68 +27783,60 @@ pub fn passive_inverse_dynamics<T: Scalar>(
         t456,
         t458,
         t471,
-        t472,
-        t473,
-        t478,
+        t475,
         t479,
-        t480,
-        t484,
+        t482,
         t485,
-        t486,
-        t646,
-        t648,
-        t652,
-        t653,
+        t488,
+        t490,
+        t492,
+        t494,
         t654,
-        t655,
-        t659,
+        t656,
         t660,
         t661,
         t662,
         t663,
-        t665,
-        t666,
         t667,
-        t693,
-        t698,
-        t702,
-        t703,
-        t704,
-        t705,
-        t731,
-        t736,
-        t740,
-        t741,
-        t742,
-        t743,
-        t769,
-        t774,
-        t778,
-        t779,
-        t780,
-        t781,
-        t807,
-        t812,
-        t816,
-        t817,
-        t818,
-        t819,
-        t845,
-        t850,
-        t854,
-        t855,
-        t856,
-        t857,
-        t883,
-        t888,
-        t892,
-        t893,
-        t894,
-        t895,
+        t668,
+        t669,
+        t670,
+        t671,
+        t673,
+        t674,
+        t675,
+        t701,
+        t706,
+        t710,
+        t711,
+        t712,
+        t713,
+        t739,
+        t744,
+        t748,
+        t749,
+        t750,
+        t751,
+        t777,
+        t782,
+        t786,
+        t787,
+        t788,
+        t789,
+        t815,
+        t820,
+        t824,
+        t825,
+        t826,
+        t827,
+        t853,
+        t858,
+        t862,
+        t863,
+        t864,
+        t865,
+        t891,
         t896,
-        t897,
-        t898,
-        t899,
         t900,
         t901,
         t902,
@@ -28010,6 +27866,14 @@ pub fn passive_inverse_dynamics<T: Scalar>(
         t926,
         t927,
         t928,
+        t929,
+        t930,
+        t931,
+        t932,
+        t933,
+        t934,
+        t935,
+        t936,
     ) = {
         // rotation of the platform seen from the base
         let t1 = base_rotation[1][0] * platform_rotation[1][0];
@@ -28632,501 +28496,509 @@ pub fn passive_inverse_dynamics<T: Scalar>(
         let t466 = mul_add(base_rotation[0][2], platform_acceleration[3], t465);
         let t467 = mul_add(base_rotation[2][2], platform_acceleration[5], t466);
         // acceleration per platform coordinate of points of the platform
-        let t468 = mul_add(t295, t301, t464);
-        let t469 = neg_mul_add(t295, t298, t467);
-        let t470 = mul_add(t298, t298, t301 * t301);
-        let t471 = mul_sub(t21, t468, mul_add(t12, t469, t3 * t470));
-        let t472 = mul_sub(t24, t468, mul_add(t15, t469, t6 * t470));
-        let t473 = mul_sub(t27, t468, mul_add(t18, t469, t9 * t470));
-        let t474 = neg_mul_add(t298, t301, t461);
-        let t475 = mul_add(t295, t298, t467);
-        let t476 = t295 * t295;
-        let t477 = mul_add(t301, t301, t476);
-        let t478 = mul_sub(t21, t474, mul_sub(t3, t475, t12 * t477));
-        let t479 = mul_sub(t24, t474, mul_sub(t6, t475, t15 * t477));
-        let t480 = mul_sub(t27, t474, mul_sub(t9, t475, t18 * t477));
-        let t481 = mul_add(t298, t298, t476);
-        let t482 = neg_mul_add(t295, t301, t464);
-        let t483 = mul_add(t298, t301, t461);
-        let t484 = mul_add(t21, t481, mul_sub(t3, t482, t12 * t483));
-        let t485 = mul_add(t24, t481, mul_sub(t6, t482, t15 * t483));
-        let t486 = mul_add(t27, t481, mul_sub(t9, t482, t18 * t483));
+        let t468 = mul_sub(t3, t301, t21 * t295);
+        let t469 = mul_sub(t12, t295, t3 * t298);
+        let t470 = mul_add(t298, t469, mul_sub(t21, t464, t12 * t467));
+        let t471 = mul_sub(t301, t468, t470);
+        let t472 = mul_sub(t6, t301, t24 * t295);
+        let t473 = mul_sub(t15, t295, t6 * t298);
+        let t474 = mul_add(t298, t473, mul_sub(t24, t464, t15 * t467));
+        let t475 = mul_sub(t301, t472, t474);
+        let t476 = mul_sub(t9, t301, t27 * t295);
+        let t477 = mul_sub(t18, t295, t9 * t298);
+        let t478 = mul_add(t298, t477, mul_sub(t27, t464, t18 * t467));
+        let t479 = mul_sub(t301, t476, t478);
+        let t480 = mul_sub(t21, t298, t12 * t301);
+        let t481 = mul_add(t301, t480, mul_sub(t3, t467, t21 * t461));
+        let t482 = mul_sub(t295, t469, t481);
+        let t483 = mul_sub(t24, t298, t15 * t301);
+        let t484 = mul_add(t301, t483, mul_sub(t6, t467, t24 * t461));
+        let t485 = mul_sub(t295, t473, t484);
+        let t486 = mul_sub(t27, t298, t18 * t301);
+        let t487 = mul_add(t301, t486, mul_sub(t9, t467, t27 * t461));
+        let t488 = mul_sub(t295, t477, t487);
+        let t489 = mul_add(t295, t468, mul_sub(t12, t461, t3 * t464));
+        let t490 = mul_sub(t298, t480, t489);
+        let t491 = mul_add(t295, t472, mul_sub(t15, t461, t6 * t464));
+        let t492 = mul_sub(t298, t483, t491);
+        let t493 = mul_add(t295, t476, mul_sub(t18, t461, t9 * t464));
+        let t494 = mul_sub(t298, t486, t493);
         // leg 1: actuator acceleration d''
-        let t487 = mul_add(parameters.platform_point[0][0], t471, t454);
-        let t488 = mul_add(parameters.platform_point[0][1], t472, t487);
-        let t489 = mul_add(parameters.platform_point[0][2], t473, t488);
-        let t490 = neg_mul_add(parameters.base_point[0][0], t440, t426);
-        let t491 = mul_sub(parameters.base_point[0][1], t441, t490);
-        let t492 = mul_sub(parameters.base_point[0][2], t442, t491);
-        let t493 = t489 - t492;
-        let t494 = neg_mul_add(parameters.platform_point[0][0], t478, t456);
-        let t495 = mul_sub(parameters.platform_point[0][1], t479, t494);
-        let t496 = mul_add(parameters.platform_point[0][2], t480, t495);
-        let t497 = mul_add(parameters.base_point[0][0], t443, t428);
-        let t498 = mul_sub(parameters.base_point[0][1], t445, t497);
-        let t499 = mul_add(parameters.base_point[0][2], t446, t498);
-        let t500 = t496 - t499;
-        let t501 = neg_mul_add(parameters.platform_point[0][0], t484, t458);
-        let t502 = mul_sub(parameters.platform_point[0][1], t485, t501);
-        let t503 = mul_add(parameters.platform_point[0][2], t486, t502);
-        let t504 = neg_mul_add(parameters.base_point[0][0], t447, t430);
-        let t505 = mul_add(parameters.base_point[0][1], t448, t504);
-        let t506 = mul_sub(parameters.base_point[0][2], t449, t505);
-        let t507 = t503 - t506;
-        let t508 = mul_add(t391, t391, mul_add(t387, t387, t389 * t389));
-        let t509 = mul_sub(t123, t507, mul_sub(t121, t493, t122 * t500));
-        let t510 = mul_sub(t109, t508, t509);
+        let t495 = neg_mul_add(parameters.platform_point[0][0], t471, t454);
+        let t496 = mul_sub(parameters.platform_point[0][1], t475, t495);
+        let t497 = mul_add(parameters.platform_point[0][2], t479, t496);
+        let t498 = neg_mul_add(parameters.base_point[0][0], t440, t426);
+        let t499 = mul_sub(parameters.base_point[0][1], t441, t498);
+        let t500 = mul_sub(parameters.base_point[0][2], t442, t499);
+        let t501 = t497 + t500;
+        let t502 = neg_mul_add(parameters.platform_point[0][0], t482, t456);
+        let t503 = mul_sub(parameters.platform_point[0][1], t485, t502);
+        let t504 = mul_add(parameters.platform_point[0][2], t488, t503);
+        let t505 = mul_add(parameters.base_point[0][0], t443, t428);
+        let t506 = mul_sub(parameters.base_point[0][1], t445, t505);
+        let t507 = mul_add(parameters.base_point[0][2], t446, t506);
+        let t508 = t504 - t507;
+        let t509 = neg_mul_add(parameters.platform_point[0][0], t490, t458);
+        let t510 = mul_sub(parameters.platform_point[0][1], t492, t509);
+        let t511 = mul_add(parameters.platform_point[0][2], t494, t510);
+        let t512 = neg_mul_add(parameters.base_point[0][0], t447, t430);
+        let t513 = mul_add(parameters.base_point[0][1], t448, t512);
+        let t514 = mul_sub(parameters.base_point[0][2], t449, t513);
+        let t515 = t511 - t514;
+        let t516 = mul_add(t391, t391, mul_add(t387, t387, t389 * t389));
+        let t517 = mul_add(t123, t515, mul_add(t121, t501, t122 * t508));
+        let t518 = mul_sub(t109, t516, t517);
         // leg 2: actuator acceleration d''
-        let t511 = mul_add(parameters.platform_point[1][0], t471, t454);
-        let t512 = mul_add(parameters.platform_point[1][1], t472, t511);
-        let t513 = mul_add(parameters.platform_point[1][2], t473, t512);
-        let t514 = neg_mul_add(parameters.base_point[1][0], t440, t426);
-        let t515 = mul_sub(parameters.base_point[1][1], t441, t514);
-        let t516 = mul_sub(parameters.base_point[1][2], t442, t515);
-        let t517 = t513 - t516;
-        let t518 = neg_mul_add(parameters.platform_point[1][0], t478, t456);
-        let t519 = mul_sub(parameters.platform_point[1][1], t479, t518);
-        let t520 = mul_add(parameters.platform_point[1][2], t480, t519);
-        let t521 = mul_add(parameters.base_point[1][0], t443, t428);
-        let t522 = mul_sub(parameters.base_point[1][1], t445, t521);
-        let t523 = mul_add(parameters.base_point[1][2], t446, t522);
-        let t524 = t520 - t523;
-        let t525 = neg_mul_add(parameters.platform_point[1][0], t484, t458);
-        let t526 = mul_sub(parameters.platform_point[1][1], t485, t525);
-        let t527 = mul_add(parameters.platform_point[1][2], t486, t526);
-        let t528 = neg_mul_add(parameters.base_point[1][0], t447, t430);
-        let t529 = mul_add(parameters.base_point[1][1], t448, t528);
-        let t530 = mul_sub(parameters.base_point[1][2], t449, t529);
-        let t531 = t527 - t530;
-        let t532 = mul_add(t397, t397, mul_add(t393, t393, t395 * t395));
-        let t533 = mul_sub(t126, t531, mul_sub(t124, t517, t125 * t524));
-        let t534 = mul_sub(t111, t532, t533);
+        let t519 = neg_mul_add(parameters.platform_point[1][0], t471, t454);
+        let t520 = mul_sub(parameters.platform_point[1][1], t475, t519);
+        let t521 = mul_add(parameters.platform_point[1][2], t479, t520);
+        let t522 = neg_mul_add(parameters.base_point[1][0], t440, t426);
+        let t523 = mul_sub(parameters.base_point[1][1], t441, t522);
+        let t524 = mul_sub(parameters.base_point[1][2], t442, t523);
+        let t525 = t521 + t524;
+        let t526 = neg_mul_add(parameters.platform_point[1][0], t482, t456);
+        let t527 = mul_sub(parameters.platform_point[1][1], t485, t526);
+        let t528 = mul_add(parameters.platform_point[1][2], t488, t527);
+        let t529 = mul_add(parameters.base_point[1][0], t443, t428);
+        let t530 = mul_sub(parameters.base_point[1][1], t445, t529);
+        let t531 = mul_add(parameters.base_point[1][2], t446, t530);
+        let t532 = t528 - t531;
+        let t533 = neg_mul_add(parameters.platform_point[1][0], t490, t458);
+        let t534 = mul_sub(parameters.platform_point[1][1], t492, t533);
+        let t535 = mul_add(parameters.platform_point[1][2], t494, t534);
+        let t536 = neg_mul_add(parameters.base_point[1][0], t447, t430);
+        let t537 = mul_add(parameters.base_point[1][1], t448, t536);
+        let t538 = mul_sub(parameters.base_point[1][2], t449, t537);
+        let t539 = t535 - t538;
+        let t540 = mul_add(t397, t397, mul_add(t393, t393, t395 * t395));
+        let t541 = mul_add(t126, t539, mul_add(t124, t525, t125 * t532));
+        let t542 = mul_sub(t111, t540, t541);
         // leg 3: actuator acceleration d''
-        let t535 = mul_add(parameters.platform_point[2][0], t471, t454);
-        let t536 = mul_add(parameters.platform_point[2][1], t472, t535);
-        let t537 = mul_add(parameters.platform_point[2][2], t473, t536);
-        let t538 = neg_mul_add(parameters.base_point[2][0], t440, t426);
-        let t539 = mul_sub(parameters.base_point[2][1], t441, t538);
-        let t540 = mul_sub(parameters.base_point[2][2], t442, t539);
-        let t541 = t537 - t540;
-        let t542 = neg_mul_add(parameters.platform_point[2][0], t478, t456);
-        let t543 = mul_sub(parameters.platform_point[2][1], t479, t542);
-        let t544 = mul_add(parameters.platform_point[2][2], t480, t543);
-        let t545 = mul_add(parameters.base_point[2][0], t443, t428);
-        let t546 = mul_sub(parameters.base_point[2][1], t445, t545);
-        let t547 = mul_add(parameters.base_point[2][2], t446, t546);
-        let t548 = t544 - t547;
-        let t549 = neg_mul_add(parameters.platform_point[2][0], t484, t458);
-        let t550 = mul_sub(parameters.platform_point[2][1], t485, t549);
-        let t551 = mul_add(parameters.platform_point[2][2], t486, t550);
-        let t552 = neg_mul_add(parameters.base_point[2][0], t447, t430);
-        let t553 = mul_add(parameters.base_point[2][1], t448, t552);
-        let t554 = mul_sub(parameters.base_point[2][2], t449, t553);
-        let t555 = t551 - t554;
-        let t556 = mul_add(t403, t403, mul_add(t399, t399, t401 * t401));
-        let t557 = mul_sub(t129, t555, mul_sub(t127, t541, t128 * t548));
-        let t558 = mul_sub(t113, t556, t557);
+        let t543 = neg_mul_add(parameters.platform_point[2][0], t471, t454);
+        let t544 = mul_sub(parameters.platform_point[2][1], t475, t543);
+        let t545 = mul_add(parameters.platform_point[2][2], t479, t544);
+        let t546 = neg_mul_add(parameters.base_point[2][0], t440, t426);
+        let t547 = mul_sub(parameters.base_point[2][1], t441, t546);
+        let t548 = mul_sub(parameters.base_point[2][2], t442, t547);
+        let t549 = t545 + t548;
+        let t550 = neg_mul_add(parameters.platform_point[2][0], t482, t456);
+        let t551 = mul_sub(parameters.platform_point[2][1], t485, t550);
+        let t552 = mul_add(parameters.platform_point[2][2], t488, t551);
+        let t553 = mul_add(parameters.base_point[2][0], t443, t428);
+        let t554 = mul_sub(parameters.base_point[2][1], t445, t553);
+        let t555 = mul_add(parameters.base_point[2][2], t446, t554);
+        let t556 = t552 - t555;
+        let t557 = neg_mul_add(parameters.platform_point[2][0], t490, t458);
+        let t558 = mul_sub(parameters.platform_point[2][1], t492, t557);
+        let t559 = mul_add(parameters.platform_point[2][2], t494, t558);
+        let t560 = neg_mul_add(parameters.base_point[2][0], t447, t430);
+        let t561 = mul_add(parameters.base_point[2][1], t448, t560);
+        let t562 = mul_sub(parameters.base_point[2][2], t449, t561);
+        let t563 = t559 - t562;
+        let t564 = mul_add(t403, t403, mul_add(t399, t399, t401 * t401));
+        let t565 = mul_add(t129, t563, mul_add(t127, t549, t128 * t556));
+        let t566 = mul_sub(t113, t564, t565);
         // leg 4: actuator acceleration d''
-        let t559 = mul_add(parameters.platform_point[3][0], t471, t454);
-        let t560 = mul_add(parameters.platform_point[3][1], t472, t559);
-        let t561 = mul_add(parameters.platform_point[3][2], t473, t560);
-        let t562 = neg_mul_add(parameters.base_point[3][0], t440, t426);
-        let t563 = mul_sub(parameters.base_point[3][1], t441, t562);
-        let t564 = mul_sub(parameters.base_point[3][2], t442, t563);
-        let t565 = t561 - t564;
-        let t566 = neg_mul_add(parameters.platform_point[3][0], t478, t456);
-        let t567 = mul_sub(parameters.platform_point[3][1], t479, t566);
-        let t568 = mul_add(parameters.platform_point[3][2], t480, t567);
-        let t569 = mul_add(parameters.base_point[3][0], t443, t428);
-        let t570 = mul_sub(parameters.base_point[3][1], t445, t569);
-        let t571 = mul_add(parameters.base_point[3][2], t446, t570);
-        let t572 = t568 - t571;
-        let t573 = neg_mul_add(parameters.platform_point[3][0], t484, t458);
-        let t574 = mul_sub(parameters.platform_point[3][1], t485, t573);
-        let t575 = mul_add(parameters.platform_point[3][2], t486, t574);
-        let t576 = neg_mul_add(parameters.base_point[3][0], t447, t430);
-        let t577 = mul_add(parameters.base_point[3][1], t448, t576);
-        let t578 = mul_sub(parameters.base_point[3][2], t449, t577);
-        let t579 = t575 - t578;
-        let t580 = mul_add(t409, t409, mul_add(t405, t405, t407 * t407));
-        let t581 = mul_sub(t132, t579, mul_sub(t130, t565, t131 * t572));
-        let t582 = mul_sub(t115, t580, t581);
+        let t567 = neg_mul_add(parameters.platform_point[3][0], t471, t454);
+        let t568 = mul_sub(parameters.platform_point[3][1], t475, t567);
+        let t569 = mul_add(parameters.platform_point[3][2], t479, t568);
+        let t570 = neg_mul_add(parameters.base_point[3][0], t440, t426);
+        let t571 = mul_sub(parameters.base_point[3][1], t441, t570);
+        let t572 = mul_sub(parameters.base_point[3][2], t442, t571);
+        let t573 = t569 + t572;
+        let t574 = neg_mul_add(parameters.platform_point[3][0], t482, t456);
+        let t575 = mul_sub(parameters.platform_point[3][1], t485, t574);
+        let t576 = mul_add(parameters.platform_point[3][2], t488, t575);
+        let t577 = mul_add(parameters.base_point[3][0], t443, t428);
+        let t578 = mul_sub(parameters.base_point[3][1], t445, t577);
+        let t579 = mul_add(parameters.base_point[3][2], t446, t578);
+        let t580 = t576 - t579;
+        let t581 = neg_mul_add(parameters.platform_point[3][0], t490, t458);
+        let t582 = mul_sub(parameters.platform_point[3][1], t492, t581);
+        let t583 = mul_add(parameters.platform_point[3][2], t494, t582);
+        let t584 = neg_mul_add(parameters.base_point[3][0], t447, t430);
+        let t585 = mul_add(parameters.base_point[3][1], t448, t584);
+        let t586 = mul_sub(parameters.base_point[3][2], t449, t585);
+        let t587 = t583 - t586;
+        let t588 = mul_add(t409, t409, mul_add(t405, t405, t407 * t407));
+        let t589 = mul_add(t132, t587, mul_add(t130, t573, t131 * t580));
+        let t590 = mul_sub(t115, t588, t589);
         // leg 5: actuator acceleration d''
-        let t583 = mul_add(parameters.platform_point[4][0], t471, t454);
-        let t584 = mul_add(parameters.platform_point[4][1], t472, t583);
-        let t585 = mul_add(parameters.platform_point[4][2], t473, t584);
-        let t586 = neg_mul_add(parameters.base_point[4][0], t440, t426);
-        let t587 = mul_sub(parameters.base_point[4][1], t441, t586);
-        let t588 = mul_sub(parameters.base_point[4][2], t442, t587);
-        let t589 = t585 - t588;
-        let t590 = neg_mul_add(parameters.platform_point[4][0], t478, t456);
-        let t591 = mul_sub(parameters.platform_point[4][1], t479, t590);
-        let t592 = mul_add(parameters.platform_point[4][2], t480, t591);
-        let t593 = mul_add(parameters.base_point[4][0], t443, t428);
-        let t594 = mul_sub(parameters.base_point[4][1], t445, t593);
-        let t595 = mul_add(parameters.base_point[4][2], t446, t594);
-        let t596 = t592 - t595;
-        let t597 = neg_mul_add(parameters.platform_point[4][0], t484, t458);
-        let t598 = mul_sub(parameters.platform_point[4][1], t485, t597);
-        let t599 = mul_add(parameters.platform_point[4][2], t486, t598);
-        let t600 = neg_mul_add(parameters.base_point[4][0], t447, t430);
-        let t601 = mul_add(parameters.base_point[4][1], t448, t600);
-        let t602 = mul_sub(parameters.base_point[4][2], t449, t601);
-        let t603 = t599 - t602;
-        let t604 = mul_add(t415, t415, mul_add(t411, t411, t413 * t413));
-        let t605 = mul_sub(t135, t603, mul_sub(t133, t589, t134 * t596));
-        let t606 = mul_sub(t117, t604, t605);
+        let t591 = neg_mul_add(parameters.platform_point[4][0], t471, t454);
+        let t592 = mul_sub(parameters.platform_point[4][1], t475, t591);
+        let t593 = mul_add(parameters.platform_point[4][2], t479, t592);
+        let t594 = neg_mul_add(parameters.base_point[4][0], t440, t426);
+        let t595 = mul_sub(parameters.base_point[4][1], t441, t594);
+        let t596 = mul_sub(parameters.base_point[4][2], t442, t595);
+        let t597 = t593 + t596;
+        let t598 = neg_mul_add(parameters.platform_point[4][0], t482, t456);
+        let t599 = mul_sub(parameters.platform_point[4][1], t485, t598);
+        let t600 = mul_add(parameters.platform_point[4][2], t488, t599);
+        let t601 = mul_add(parameters.base_point[4][0], t443, t428);
+        let t602 = mul_sub(parameters.base_point[4][1], t445, t601);
+        let t603 = mul_add(parameters.base_point[4][2], t446, t602);
+        let t604 = t600 - t603;
+        let t605 = neg_mul_add(parameters.platform_point[4][0], t490, t458);
+        let t606 = mul_sub(parameters.platform_point[4][1], t492, t605);
+        let t607 = mul_add(parameters.platform_point[4][2], t494, t606);
+        let t608 = neg_mul_add(parameters.base_point[4][0], t447, t430);
+        let t609 = mul_add(parameters.base_point[4][1], t448, t608);
+        let t610 = mul_sub(parameters.base_point[4][2], t449, t609);
+        let t611 = t607 - t610;
+        let t612 = mul_add(t415, t415, mul_add(t411, t411, t413 * t413));
+        let t613 = mul_add(t135, t611, mul_add(t133, t597, t134 * t604));
+        let t614 = mul_sub(t117, t612, t613);
         // leg 6: actuator acceleration d''
-        let t607 = mul_add(parameters.platform_point[5][0], t471, t454);
-        let t608 = mul_add(parameters.platform_point[5][1], t472, t607);
-        let t609 = mul_add(parameters.platform_point[5][2], t473, t608);
-        let t610 = neg_mul_add(parameters.base_point[5][0], t440, t426);
-        let t611 = mul_sub(parameters.base_point[5][1], t441, t610);
-        let t612 = mul_sub(parameters.base_point[5][2], t442, t611);
-        let t613 = t609 - t612;
-        let t614 = neg_mul_add(parameters.platform_point[5][0], t478, t456);
-        let t615 = mul_sub(parameters.platform_point[5][1], t479, t614);
-        let t616 = mul_add(parameters.platform_point[5][2], t480, t615);
-        let t617 = mul_add(parameters.base_point[5][0], t443, t428);
-        let t618 = mul_sub(parameters.base_point[5][1], t445, t617);
-        let t619 = mul_add(parameters.base_point[5][2], t446, t618);
-        let t620 = t616 - t619;
-        let t621 = neg_mul_add(parameters.platform_point[5][0], t484, t458);
-        let t622 = mul_sub(parameters.platform_point[5][1], t485, t621);
-        let t623 = mul_add(parameters.platform_point[5][2], t486, t622);
-        let t624 = neg_mul_add(parameters.base_point[5][0], t447, t430);
-        let t625 = mul_add(parameters.base_point[5][1], t448, t624);
-        let t626 = mul_sub(parameters.base_point[5][2], t449, t625);
-        let t627 = t623 - t626;
-        let t628 = mul_add(t421, t421, mul_add(t417, t417, t419 * t419));
-        let t629 = mul_sub(t138, t627, mul_sub(t136, t613, t137 * t620));
-        let t630 = mul_sub(t119, t628, t629);
+        let t615 = neg_mul_add(parameters.platform_point[5][0], t471, t454);
+        let t616 = mul_sub(parameters.platform_point[5][1], t475, t615);
+        let t617 = mul_add(parameters.platform_point[5][2], t479, t616);
+        let t618 = neg_mul_add(parameters.base_point[5][0], t440, t426);
+        let t619 = mul_sub(parameters.base_point[5][1], t441, t618);
+        let t620 = mul_sub(parameters.base_point[5][2], t442, t619);
+        let t621 = t617 + t620;
+        let t622 = neg_mul_add(parameters.platform_point[5][0], t482, t456);
+        let t623 = mul_sub(parameters.platform_point[5][1], t485, t622);
+        let t624 = mul_add(parameters.platform_point[5][2], t488, t623);
+        let t625 = mul_add(parameters.base_point[5][0], t443, t428);
+        let t626 = mul_sub(parameters.base_point[5][1], t445, t625);
+        let t627 = mul_add(parameters.base_point[5][2], t446, t626);
+        let t628 = t624 - t627;
+        let t629 = neg_mul_add(parameters.platform_point[5][0], t490, t458);
+        let t630 = mul_sub(parameters.platform_point[5][1], t492, t629);
+        let t631 = mul_add(parameters.platform_point[5][2], t494, t630);
+        let t632 = neg_mul_add(parameters.base_point[5][0], t447, t430);
+        let t633 = mul_add(parameters.base_point[5][1], t448, t632);
+        let t634 = mul_sub(parameters.base_point[5][2], t449, t633);
+        let t635 = t631 - t634;
+        let t636 = mul_add(t421, t421, mul_add(t417, t417, t419 * t419));
+        let t637 = mul_add(t138, t635, mul_add(t136, t621, t137 * t628));
+        let t638 = mul_sub(t119, t636, t637);
         // reference less actual velocity of the platform origin
-        let t631 = platform_velocity[2] - reference_velocity[2];
-        let t632 = platform_velocity[0] - reference_velocity[0];
-        let t633 = platform_velocity[1] - reference_velocity[1];
-        let t634 = mul_add(base_rotation[0][0], t632, base_rotation[1][0] * t633);
-        let t635 = mul_add(base_rotation[2][0], t631, t634);
-        let t636 = mul_add(base_rotation[0][1], t632, base_rotation[1][1] * t633);
-        let t637 = mul_add(base_rotation[2][1], t631, t636);
-        let t638 = mul_add(base_rotation[0][2], t632, base_rotation[1][2] * t633);
-        let t639 = mul_add(base_rotation[2][2], t631, t638);
+        let t639 = platform_velocity[2] - reference_velocity[2];
+        let t640 = platform_velocity[0] - reference_velocity[0];
+        let t641 = platform_velocity[1] - reference_velocity[1];
+        let t642 = mul_add(base_rotation[0][0], t640, base_rotation[1][0] * t641);
+        let t643 = mul_add(base_rotation[2][0], t639, t642);
+        let t644 = mul_add(base_rotation[0][1], t640, base_rotation[1][1] * t641);
+        let t645 = mul_add(base_rotation[2][1], t639, t644);
+        let t646 = mul_add(base_rotation[0][2], t640, base_rotation[1][2] * t641);
+        let t647 = mul_add(base_rotation[2][2], t639, t646);
         // reference less actual angular velocity of the platform
-        let t640 = platform_velocity[5] - reference_velocity[5];
-        let t641 = platform_velocity[3] - reference_velocity[3];
-        let t642 = platform_velocity[4] - reference_velocity[4];
-        let t643 = mul_add(base_rotation[0][0], t641, base_rotation[1][0] * t642);
-        let t644 = mul_add(base_rotation[2][0], t640, t643);
-        let t645 = mul_add(base_rotation[0][1], t641, base_rotation[1][1] * t642);
-        let t646 = mul_add(base_rotation[2][1], t640, t645);
-        let t647 = mul_add(base_rotation[0][2], t641, base_rotation[1][2] * t642);
-        let t648 = mul_add(base_rotation[2][2], t640, t647);
+        let t648 = platform_velocity[5] - reference_velocity[5];
+        let t649 = platform_velocity[3] - reference_velocity[3];
+        let t650 = platform_velocity[4] - reference_velocity[4];
+        let t651 = mul_add(base_rotation[0][0], t649, base_rotation[1][0] * t650);
+        let t652 = mul_add(base_rotation[2][0], t648, t651);
+        let t653 = mul_add(base_rotation[0][1], t649, base_rotation[1][1] * t650);
+        let t654 = mul_add(base_rotation[2][1], t648, t653);
+        let t655 = mul_add(base_rotation[0][2], t649, base_rotation[1][2] * t650);
+        let t656 = mul_add(base_rotation[2][2], t648, t655);
         // what that adds to the acceleration per platform coordinate
-        let t649 = t295 * t648;
-        let t650 = t295 * t646;
-        let t651 = mul_add(t301, t648, t298 * t646);
-        let t652 = mul_add(t21, t649, mul_sub(t12, t650, t3 * t651));
-        let t653 = mul_add(t24, t649, mul_sub(t15, t650, t6 * t651));
-        let t654 = mul_add(t27, t649, mul_sub(t18, t650, t9 * t651));
-        let t655 = t298 * t644;
-        let t656 = t298 * t648;
-        let t657 = t295 * t644;
-        let t658 = mul_add(t301, t648, t657);
-        let t659 = mul_add(t21, t656, mul_sub(t3, t655, t12 * t658));
-        let t660 = mul_add(t24, t656, mul_sub(t6, t655, t15 * t658));
-        let t661 = mul_add(t27, t656, mul_sub(t9, t655, t18 * t658));
-        let t662 = t301 * t644;
-        let t663 = t301 * t646;
-        let t664 = mul_add(t298, t646, t657);
-        let t665 = mul_sub(t21, t664, mul_add(t3, t662, t12 * t663));
-        let t666 = mul_sub(t24, t664, mul_add(t6, t662, t15 * t663));
-        let t667 = mul_sub(t27, t664, mul_add(t9, t662, t18 * t663));
+        let t657 = t295 * t656;
+        let t658 = t295 * t654;
+        let t659 = mul_add(t301, t656, t298 * t654);
+        let t660 = mul_add(t21, t657, mul_sub(t12, t658, t3 * t659));
+        let t661 = mul_add(t24, t657, mul_sub(t15, t658, t6 * t659));
+        let t662 = mul_add(t27, t657, mul_sub(t18, t658, t9 * t659));
+        let t663 = t298 * t652;
+        let t664 = t298 * t656;
+        let t665 = t295 * t652;
+        let t666 = mul_add(t301, t656, t665);
+        let t667 = mul_add(t21, t664, mul_sub(t3, t663, t12 * t666));
+        let t668 = mul_add(t24, t664, mul_sub(t6, t663, t15 * t666));
+        let t669 = mul_add(t27, t664, mul_sub(t9, t663, t18 * t666));
+        let t670 = t301 * t652;
+        let t671 = t301 * t654;
+        let t672 = mul_add(t298, t654, t665);
+        let t673 = mul_sub(t21, t672, mul_add(t3, t670, t12 * t671));
+        let t674 = mul_sub(t24, t672, mul_add(t6, t670, t15 * t671));
+        let t675 = mul_sub(t27, t672, mul_add(t9, t670, t18 * t671));
         // leg 1: leg inertia less weight along the actuator
-        let t668 = parameters.platform_point[0][1] * t653;
-        let t669 = mul_add(parameters.platform_point[0][0], t652, t668);
-        let t670 = mul_add(parameters.platform_point[0][2], t654, t669);
-        let t671 = t110 * (t110 * t380);
-        let t672 = mul_sub(t42, t648, mul_add(t45, t646, t635));
-        let t673 = mul_sub(t39, t646, mul_add(t42, t644, t639));
-        let t674 = mul_sub(t45, t644, mul_add(t39, t648, t637));
-        let t675 = mul_add(t123, t673, mul_add(t121, t672, t122 * t674));
-        let t676 = t110 * t675;
-        let t677 = c(2.0) * t380;
-        let t678 = mul_add(t387, t677, neg_mul_add(t121, t510, t493));
-        let t679 = parameters.platform_point[0][1] * t666;
-        let t680 = mul_add(parameters.platform_point[0][0], t665, t679);
-        let t681 = mul_add(parameters.platform_point[0][2], t667, t680);
-        let t682 = parameters.platform_point[0][1] * t660;
-        let t683 = mul_add(parameters.platform_point[0][0], t659, t682);
-        let t684 = mul_add(parameters.platform_point[0][2], t661, t683);
-        let t685 = mul_add(t391, t673, mul_add(t387, t672, t389 * t674));
-        let t686 = mul_add(t122, t684, mul_sub(t121, t670, t685));
-        let t687 = mul_add(t671, t675, t110 * mul_sub(t123, t681, t686));
-        let t688 = mul_sub(t387, t676, mul_sub(t110, t678, t121 * t687));
-        let t689 = mul_sub(t110, t670, mul_sub(t671, t672, t688));
-        let t690 = t110 * t143;
-        let t691 = t110 * t140;
-        let t692 = t110 * t139;
-        let t693 = mul_add(t690, t689, mul_sub(t691, t489 - t670, t492 * t692));
-        let t694 = mul_sub(t389, t677, mul_add(t122, t510, t500));
-        let t695 = mul_sub(t389, t676, mul_sub(t110, t694, t122 * t687));
-        let t696 = mul_sub(t110, t684, mul_sub(t671, t674, t695));
-        let t697 = mul_sub(t690, t696, mul_sub(t691, t496 + t684, t499 * t692));
-        let t698 = t122 * t697;
-        let t699 = mul_sub(t391, t677, mul_add(t123, t510, t507));
-        let t700 = mul_sub(t391, t676, mul_sub(t110, t699, t123 * t687));
-        let t701 = mul_add(t110, t681, mul_sub(t671, t673, t700));
-        let t702 = mul_add(t690, t701, mul_sub(t691, t503 - t681, t506 * t692));
+        let t676 = parameters.platform_point[0][1] * t661;
+        let t677 = mul_add(parameters.platform_point[0][0], t660, t676);
+        let t678 = mul_add(parameters.platform_point[0][2], t662, t677);
+        let t679 = t110 * (t110 * t380);
+        let t680 = mul_sub(t42, t656, mul_add(t45, t654, t643));
+        let t681 = mul_sub(t39, t654, mul_add(t42, t652, t647));
+        let t682 = mul_sub(t45, t652, mul_add(t39, t656, t645));
+        let t683 = mul_add(t123, t681, mul_add(t121, t680, t122 * t682));
+        let t684 = t110 * t683;
+        let t685 = c(2.0) * t380;
+        let t686 = mul_sub(t387, t685, mul_add(t121, t518, t501));
+        let t687 = parameters.platform_point[0][1] * t674;
+        let t688 = mul_add(parameters.platform_point[0][0], t673, t687);
+        let t689 = mul_add(parameters.platform_point[0][2], t675, t688);
+        let t690 = parameters.platform_point[0][1] * t668;
+        let t691 = mul_add(parameters.platform_point[0][0], t667, t690);
+        let t692 = mul_add(parameters.platform_point[0][2], t669, t691);
+        let t693 = mul_add(t391, t681, mul_add(t387, t680, t389 * t682));
+        let t694 = mul_add(t122, t692, mul_sub(t121, t678, t693));
+        let t695 = mul_add(t679, t683, t110 * mul_sub(t123, t689, t694));
+        let t696 = mul_sub(t387, t684, mul_sub(t110, t686, t121 * t695));
+        let t697 = mul_sub(t110, t678, mul_sub(t679, t680, t696));
+        let t698 = t110 * t143;
+        let t699 = t110 * t140;
+        let t700 = t110 * t139;
+        let t701 = mul_sub(t698, t697, mul_add(t699, t497 + t678, t500 * t700));
+        let t702 = mul_sub(t389, t685, mul_add(t122, t518, t508));
+        let t703 = mul_sub(t389, t684, mul_sub(t110, t702, t122 * t695));
+        let t704 = mul_sub(t110, t692, mul_sub(t679, t682, t703));
+        let t705 = mul_sub(t698, t704, mul_sub(t699, t504 + t692, t507 * t700));
+        let t706 = t122 * t705;
+        let t707 = mul_sub(t391, t685, mul_add(t123, t518, t515));
+        let t708 = mul_sub(t391, t684, mul_sub(t110, t707, t123 * t695));
+        let t709 = mul_add(t110, t689, mul_sub(t679, t681, t708));
+        let t710 = mul_add(t698, t709, mul_sub(t699, t511 - t689, t514 * t700));
         // leg 1: remaining leg inertia less weight at the platform joint
-        let t703 = neg_mul_add(t140, t689, t693);
-        let t704 = neg_mul_add(t140, t696, t697);
-        let t705 = neg_mul_add(t140, t701, t702);
+        let t711 = neg_mul_add(t140, t697, t701);
+        let t712 = neg_mul_add(t140, t704, t705);
+        let t713 = neg_mul_add(t140, t709, t710);
         // leg 2: leg inertia less weight along the actuator
-        let t706 = parameters.platform_point[1][1] * t653;
-        let t707 = mul_add(parameters.platform_point[1][0], t652, t706);
-        let t708 = mul_add(parameters.platform_point[1][2], t654, t707);
-        let t709 = t112 * (t112 * t381);
-        let t710 = mul_sub(t54, t648, mul_add(t57, t646, t635));
-        let t711 = mul_sub(t51, t646, mul_add(t54, t644, t639));
-        let t712 = mul_sub(t57, t644, mul_add(t51, t648, t637));
-        let t713 = mul_add(t126, t711, mul_add(t124, t710, t125 * t712));
-        let t714 = t112 * t713;
-        let t715 = c(2.0) * t381;
-        let t716 = mul_add(t393, t715, neg_mul_add(t124, t534, t517));
-        let t717 = parameters.platform_point[1][1] * t666;
-        let t718 = mul_add(parameters.platform_point[1][0], t665, t717);
-        let t719 = mul_add(parameters.platform_point[1][2], t667, t718);
-        let t720 = parameters.platform_point[1][1] * t660;
-        let t721 = mul_add(parameters.platform_point[1][0], t659, t720);
-        let t722 = mul_add(parameters.platform_point[1][2], t661, t721);
-        let t723 = mul_add(t397, t711, mul_add(t393, t710, t395 * t712));
-        let t724 = mul_add(t125, t722, mul_sub(t124, t708, t723));
-        let t725 = mul_add(t709, t713, t112 * mul_sub(t126, t719, t724));
-        let t726 = mul_sub(t393, t714, mul_sub(t112, t716, t124 * t725));
-        let t727 = mul_sub(t112, t708, mul_sub(t709, t710, t726));
-        let t728 = t112 * t148;
-        let t729 = t112 * t145;
-        let t730 = t112 * t144;
-        let t731 = mul_add(t728, t727, mul_sub(t729, t513 - t708, t516 * t730));
-        let t732 = mul_sub(t395, t715, mul_add(t125, t534, t524));
-        let t733 = mul_sub(t395, t714, mul_sub(t112, t732, t125 * t725));
-        let t734 = mul_sub(t112, t722, mul_sub(t709, t712, t733));
-        let t735 = mul_sub(t728, t734, mul_sub(t729, t520 + t722, t523 * t730));
-        let t736 = t125 * t735;
-        let t737 = mul_sub(t397, t715, mul_add(t126, t534, t531));
-        let t738 = mul_sub(t397, t714, mul_sub(t112, t737, t126 * t725));
-        let t739 = mul_add(t112, t719, mul_sub(t709, t711, t738));
-        let t740 = mul_add(t728, t739, mul_sub(t729, t527 - t719, t530 * t730));
+        let t714 = parameters.platform_point[1][1] * t661;
+        let t715 = mul_add(parameters.platform_point[1][0], t660, t714);
+        let t716 = mul_add(parameters.platform_point[1][2], t662, t715);
+        let t717 = t112 * (t112 * t381);
+        let t718 = mul_sub(t54, t656, mul_add(t57, t654, t643));
+        let t719 = mul_sub(t51, t654, mul_add(t54, t652, t647));
+        let t720 = mul_sub(t57, t652, mul_add(t51, t656, t645));
+        let t721 = mul_add(t126, t719, mul_add(t124, t718, t125 * t720));
+        let t722 = t112 * t721;
+        let t723 = c(2.0) * t381;
+        let t724 = mul_sub(t393, t723, mul_add(t124, t542, t525));
+        let t725 = parameters.platform_point[1][1] * t674;
+        let t726 = mul_add(parameters.platform_point[1][0], t673, t725);
+        let t727 = mul_add(parameters.platform_point[1][2], t675, t726);
+        let t728 = parameters.platform_point[1][1] * t668;
+        let t729 = mul_add(parameters.platform_point[1][0], t667, t728);
+        let t730 = mul_add(parameters.platform_point[1][2], t669, t729);
+        let t731 = mul_add(t397, t719, mul_add(t393, t718, t395 * t720));
+        let t732 = mul_add(t125, t730, mul_sub(t124, t716, t731));
+        let t733 = mul_add(t717, t721, t112 * mul_sub(t126, t727, t732));
+        let t734 = mul_sub(t393, t722, mul_sub(t112, t724, t124 * t733));
+        let t735 = mul_sub(t112, t716, mul_sub(t717, t718, t734));
+        let t736 = t112 * t148;
+        let t737 = t112 * t145;
+        let t738 = t112 * t144;
+        let t739 = mul_sub(t736, t735, mul_add(t737, t521 + t716, t524 * t738));
+        let t740 = mul_sub(t395, t723, mul_add(t125, t542, t532));
+        let t741 = mul_sub(t395, t722, mul_sub(t112, t740, t125 * t733));
+        let t742 = mul_sub(t112, t730, mul_sub(t717, t720, t741));
+        let t743 = mul_sub(t736, t742, mul_sub(t737, t528 + t730, t531 * t738));
+        let t744 = t125 * t743;
+        let t745 = mul_sub(t397, t723, mul_add(t126, t542, t539));
+        let t746 = mul_sub(t397, t722, mul_sub(t112, t745, t126 * t733));
+        let t747 = mul_add(t112, t727, mul_sub(t717, t719, t746));
+        let t748 = mul_add(t736, t747, mul_sub(t737, t535 - t727, t538 * t738));
         // leg 2: remaining leg inertia less weight at the platform joint
-        let t741 = neg_mul_add(t145, t727, t731);
-        let t742 = neg_mul_add(t145, t734, t735);
-        let t743 = neg_mul_add(t145, t739, t740);
+        let t749 = neg_mul_add(t145, t735, t739);
+        let t750 = neg_mul_add(t145, t742, t743);
+        let t751 = neg_mul_add(t145, t747, t748);
         // leg 3: leg inertia less weight along the actuator
-        let t744 = parameters.platform_point[2][1] * t653;
-        let t745 = mul_add(parameters.platform_point[2][0], t652, t744);
-        let t746 = mul_add(parameters.platform_point[2][2], t654, t745);
-        let t747 = t114 * (t114 * t382);
-        let t748 = mul_sub(t66, t648, mul_add(t69, t646, t635));
-        let t749 = mul_sub(t63, t646, mul_add(t66, t644, t639));
-        let t750 = mul_sub(t69, t644, mul_add(t63, t648, t637));
-        let t751 = mul_add(t129, t749, mul_add(t127, t748, t128 * t750));
-        let t752 = t114 * t751;
-        let t753 = c(2.0) * t382;
-        let t754 = mul_add(t399, t753, neg_mul_add(t127, t558, t541));
-        let t755 = parameters.platform_point[2][1] * t666;
-        let t756 = mul_add(parameters.platform_point[2][0], t665, t755);
-        let t757 = mul_add(parameters.platform_point[2][2], t667, t756);
-        let t758 = parameters.platform_point[2][1] * t660;
-        let t759 = mul_add(parameters.platform_point[2][0], t659, t758);
-        let t760 = mul_add(parameters.platform_point[2][2], t661, t759);
-        let t761 = mul_add(t403, t749, mul_add(t399, t748, t401 * t750));
-        let t762 = mul_add(t128, t760, mul_sub(t127, t746, t761));
-        let t763 = mul_add(t747, t751, t114 * mul_sub(t129, t757, t762));
-        let t764 = mul_sub(t399, t752, mul_sub(t114, t754, t127 * t763));
-        let t765 = mul_sub(t114, t746, mul_sub(t747, t748, t764));
-        let t766 = t114 * t153;
-        let t767 = t114 * t150;
-        let t768 = t114 * t149;
-        let t769 = mul_add(t766, t765, mul_sub(t767, t537 - t746, t540 * t768));
-        let t770 = mul_sub(t401, t753, mul_add(t128, t558, t548));
-        let t771 = mul_sub(t401, t752, mul_sub(t114, t770, t128 * t763));
-        let t772 = mul_sub(t114, t760, mul_sub(t747, t750, t771));
-        let t773 = mul_sub(t766, t772, mul_sub(t767, t544 + t760, t547 * t768));
-        let t774 = t128 * t773;
-        let t775 = mul_sub(t403, t753, mul_add(t129, t558, t555));
-        let t776 = mul_sub(t403, t752, mul_sub(t114, t775, t129 * t763));
-        let t777 = mul_add(t114, t757, mul_sub(t747, t749, t776));
-        let t778 = mul_add(t766, t777, mul_sub(t767, t551 - t757, t554 * t768));
+        let t752 = parameters.platform_point[2][1] * t661;
+        let t753 = mul_add(parameters.platform_point[2][0], t660, t752);
+        let t754 = mul_add(parameters.platform_point[2][2], t662, t753);
+        let t755 = t114 * (t114 * t382);
+        let t756 = mul_sub(t66, t656, mul_add(t69, t654, t643));
+        let t757 = mul_sub(t63, t654, mul_add(t66, t652, t647));
+        let t758 = mul_sub(t69, t652, mul_add(t63, t656, t645));
+        let t759 = mul_add(t129, t757, mul_add(t127, t756, t128 * t758));
+        let t760 = t114 * t759;
+        let t761 = c(2.0) * t382;
+        let t762 = mul_sub(t399, t761, mul_add(t127, t566, t549));
+        let t763 = parameters.platform_point[2][1] * t674;
+        let t764 = mul_add(parameters.platform_point[2][0], t673, t763);
+        let t765 = mul_add(parameters.platform_point[2][2], t675, t764);
+        let t766 = parameters.platform_point[2][1] * t668;
+        let t767 = mul_add(parameters.platform_point[2][0], t667, t766);
+        let t768 = mul_add(parameters.platform_point[2][2], t669, t767);
+        let t769 = mul_add(t403, t757, mul_add(t399, t756, t401 * t758));
+        let t770 = mul_add(t128, t768, mul_sub(t127, t754, t769));
+        let t771 = mul_add(t755, t759, t114 * mul_sub(t129, t765, t770));
+        let t772 = mul_sub(t399, t760, mul_sub(t114, t762, t127 * t771));
+        let t773 = mul_sub(t114, t754, mul_sub(t755, t756, t772));
+        let t774 = t114 * t153;
+        let t775 = t114 * t150;
+        let t776 = t114 * t149;
+        let t777 = mul_sub(t774, t773, mul_add(t775, t545 + t754, t548 * t776));
+        let t778 = mul_sub(t401, t761, mul_add(t128, t566, t556));
+        let t779 = mul_sub(t401, t760, mul_sub(t114, t778, t128 * t771));
+        let t780 = mul_sub(t114, t768, mul_sub(t755, t758, t779));
+        let t781 = mul_sub(t774, t780, mul_sub(t775, t552 + t768, t555 * t776));
+        let t782 = t128 * t781;
+        let t783 = mul_sub(t403, t761, mul_add(t129, t566, t563));
+        let t784 = mul_sub(t403, t760, mul_sub(t114, t783, t129 * t771));
+        let t785 = mul_add(t114, t765, mul_sub(t755, t757, t784));
+        let t786 = mul_add(t774, t785, mul_sub(t775, t559 - t765, t562 * t776));
         // leg 3: remaining leg inertia less weight at the platform joint
-        let t779 = neg_mul_add(t150, t765, t769);
-        let t780 = neg_mul_add(t150, t772, t773);
-        let t781 = neg_mul_add(t150, t777, t778);
+        let t787 = neg_mul_add(t150, t773, t777);
+        let t788 = neg_mul_add(t150, t780, t781);
+        let t789 = neg_mul_add(t150, t785, t786);
         // leg 4: leg inertia less weight along the actuator
-        let t782 = parameters.platform_point[3][1] * t653;
-        let t783 = mul_add(parameters.platform_point[3][0], t652, t782);
-        let t784 = mul_add(parameters.platform_point[3][2], t654, t783);
-        let t785 = t116 * (t116 * t383);
-        let t786 = mul_sub(t78, t648, mul_add(t81, t646, t635));
-        let t787 = mul_sub(t75, t646, mul_add(t78, t644, t639));
-        let t788 = mul_sub(t81, t644, mul_add(t75, t648, t637));
-        let t789 = mul_add(t132, t787, mul_add(t130, t786, t131 * t788));
-        let t790 = t116 * t789;
-        let t791 = c(2.0) * t383;
-        let t792 = mul_add(t405, t791, neg_mul_add(t130, t582, t565));
-        let t793 = parameters.platform_point[3][1] * t666;
-        let t794 = mul_add(parameters.platform_point[3][0], t665, t793);
-        let t795 = mul_add(parameters.platform_point[3][2], t667, t794);
-        let t796 = parameters.platform_point[3][1] * t660;
-        let t797 = mul_add(parameters.platform_point[3][0], t659, t796);
-        let t798 = mul_add(parameters.platform_point[3][2], t661, t797);
-        let t799 = mul_add(t409, t787, mul_add(t405, t786, t407 * t788));
-        let t800 = mul_add(t131, t798, mul_sub(t130, t784, t799));
-        let t801 = mul_add(t785, t789, t116 * mul_sub(t132, t795, t800));
-        let t802 = mul_sub(t405, t790, mul_sub(t116, t792, t130 * t801));
-        let t803 = mul_sub(t116, t784, mul_sub(t785, t786, t802));
-        let t804 = t116 * t158;
-        let t805 = t116 * t155;
-        let t806 = t116 * t154;
-        let t807 = mul_add(t804, t803, mul_sub(t805, t561 - t784, t564 * t806));
-        let t808 = mul_sub(t407, t791, mul_add(t131, t582, t572));
-        let t809 = mul_sub(t407, t790, mul_sub(t116, t808, t131 * t801));
-        let t810 = mul_sub(t116, t798, mul_sub(t785, t788, t809));
-        let t811 = mul_sub(t804, t810, mul_sub(t805, t568 + t798, t571 * t806));
-        let t812 = t131 * t811;
-        let t813 = mul_sub(t409, t791, mul_add(t132, t582, t579));
-        let t814 = mul_sub(t409, t790, mul_sub(t116, t813, t132 * t801));
-        let t815 = mul_add(t116, t795, mul_sub(t785, t787, t814));
-        let t816 = mul_add(t804, t815, mul_sub(t805, t575 - t795, t578 * t806));
+        let t790 = parameters.platform_point[3][1] * t661;
+        let t791 = mul_add(parameters.platform_point[3][0], t660, t790);
+        let t792 = mul_add(parameters.platform_point[3][2], t662, t791);
+        let t793 = t116 * (t116 * t383);
+        let t794 = mul_sub(t78, t656, mul_add(t81, t654, t643));
+        let t795 = mul_sub(t75, t654, mul_add(t78, t652, t647));
+        let t796 = mul_sub(t81, t652, mul_add(t75, t656, t645));
+        let t797 = mul_add(t132, t795, mul_add(t130, t794, t131 * t796));
+        let t798 = t116 * t797;
+        let t799 = c(2.0) * t383;
+        let t800 = mul_sub(t405, t799, mul_add(t130, t590, t573));
+        let t801 = parameters.platform_point[3][1] * t674;
+        let t802 = mul_add(parameters.platform_point[3][0], t673, t801);
+        let t803 = mul_add(parameters.platform_point[3][2], t675, t802);
+        let t804 = parameters.platform_point[3][1] * t668;
+        let t805 = mul_add(parameters.platform_point[3][0], t667, t804);
+        let t806 = mul_add(parameters.platform_point[3][2], t669, t805);
+        let t807 = mul_add(t409, t795, mul_add(t405, t794, t407 * t796));
+        let t808 = mul_add(t131, t806, mul_sub(t130, t792, t807));
+        let t809 = mul_add(t793, t797, t116 * mul_sub(t132, t803, t808));
+        let t810 = mul_sub(t405, t798, mul_sub(t116, t800, t130 * t809));
+        let t811 = mul_sub(t116, t792, mul_sub(t793, t794, t810));
+        let t812 = t116 * t158;
+        let t813 = t116 * t155;
+        let t814 = t116 * t154;
+        let t815 = mul_sub(t812, t811, mul_add(t813, t569 + t792, t572 * t814));
+        let t816 = mul_sub(t407, t799, mul_add(t131, t590, t580));
+        let t817 = mul_sub(t407, t798, mul_sub(t116, t816, t131 * t809));
+        let t818 = mul_sub(t116, t806, mul_sub(t793, t796, t817));
+        let t819 = mul_sub(t812, t818, mul_sub(t813, t576 + t806, t579 * t814));
+        let t820 = t131 * t819;
+        let t821 = mul_sub(t409, t799, mul_add(t132, t590, t587));
+        let t822 = mul_sub(t409, t798, mul_sub(t116, t821, t132 * t809));
+        let t823 = mul_add(t116, t803, mul_sub(t793, t795, t822));
+        let t824 = mul_add(t812, t823, mul_sub(t813, t583 - t803, t586 * t814));
         // leg 4: remaining leg inertia less weight at the platform joint
-        let t817 = neg_mul_add(t155, t803, t807);
-        let t818 = neg_mul_add(t155, t810, t811);
-        let t819 = neg_mul_add(t155, t815, t816);
+        let t825 = neg_mul_add(t155, t811, t815);
+        let t826 = neg_mul_add(t155, t818, t819);
+        let t827 = neg_mul_add(t155, t823, t824);
         // leg 5: leg inertia less weight along the actuator
-        let t820 = parameters.platform_point[4][1] * t653;
-        let t821 = mul_add(parameters.platform_point[4][0], t652, t820);
-        let t822 = mul_add(parameters.platform_point[4][2], t654, t821);
-        let t823 = t118 * (t118 * t384);
-        let t824 = mul_sub(t90, t648, mul_add(t93, t646, t635));
-        let t825 = mul_sub(t87, t646, mul_add(t90, t644, t639));
-        let t826 = mul_sub(t93, t644, mul_add(t87, t648, t637));
-        let t827 = mul_add(t135, t825, mul_add(t133, t824, t134 * t826));
-        let t828 = t118 * t827;
-        let t829 = c(2.0) * t384;
-        let t830 = mul_add(t411, t829, neg_mul_add(t133, t606, t589));
-        let t831 = parameters.platform_point[4][1] * t666;
-        let t832 = mul_add(parameters.platform_point[4][0], t665, t831);
-        let t833 = mul_add(parameters.platform_point[4][2], t667, t832);
-        let t834 = parameters.platform_point[4][1] * t660;
-        let t835 = mul_add(parameters.platform_point[4][0], t659, t834);
-        let t836 = mul_add(parameters.platform_point[4][2], t661, t835);
-        let t837 = mul_add(t415, t825, mul_add(t411, t824, t413 * t826));
-        let t838 = mul_add(t134, t836, mul_sub(t133, t822, t837));
-        let t839 = mul_add(t823, t827, t118 * mul_sub(t135, t833, t838));
-        let t840 = mul_sub(t411, t828, mul_sub(t118, t830, t133 * t839));
-        let t841 = mul_sub(t118, t822, mul_sub(t823, t824, t840));
-        let t842 = t118 * t163;
-        let t843 = t118 * t160;
-        let t844 = t118 * t159;
-        let t845 = mul_add(t842, t841, mul_sub(t843, t585 - t822, t588 * t844));
-        let t846 = mul_sub(t413, t829, mul_add(t134, t606, t596));
-        let t847 = mul_sub(t413, t828, mul_sub(t118, t846, t134 * t839));
-        let t848 = mul_sub(t118, t836, mul_sub(t823, t826, t847));
-        let t849 = mul_sub(t842, t848, mul_sub(t843, t592 + t836, t595 * t844));
-        let t850 = t134 * t849;
-        let t851 = mul_sub(t415, t829, mul_add(t135, t606, t603));
-        let t852 = mul_sub(t415, t828, mul_sub(t118, t851, t135 * t839));
-        let t853 = mul_add(t118, t833, mul_sub(t823, t825, t852));
-        let t854 = mul_add(t842, t853, mul_sub(t843, t599 - t833, t602 * t844));
+        let t828 = parameters.platform_point[4][1] * t661;
+        let t829 = mul_add(parameters.platform_point[4][0], t660, t828);
+        let t830 = mul_add(parameters.platform_point[4][2], t662, t829);
+        let t831 = t118 * (t118 * t384);
+        let t832 = mul_sub(t90, t656, mul_add(t93, t654, t643));
+        let t833 = mul_sub(t87, t654, mul_add(t90, t652, t647));
+        let t834 = mul_sub(t93, t652, mul_add(t87, t656, t645));
+        let t835 = mul_add(t135, t833, mul_add(t133, t832, t134 * t834));
+        let t836 = t118 * t835;
+        let t837 = c(2.0) * t384;
+        let t838 = mul_sub(t411, t837, mul_add(t133, t614, t597));
+        let t839 = parameters.platform_point[4][1] * t674;
+        let t840 = mul_add(parameters.platform_point[4][0], t673, t839);
+        let t841 = mul_add(parameters.platform_point[4][2], t675, t840);
+        let t842 = parameters.platform_point[4][1] * t668;
+        let t843 = mul_add(parameters.platform_point[4][0], t667, t842);
+        let t844 = mul_add(parameters.platform_point[4][2], t669, t843);
+        let t845 = mul_add(t415, t833, mul_add(t411, t832, t413 * t834));
+        let t846 = mul_add(t134, t844, mul_sub(t133, t830, t845));
+        let t847 = mul_add(t831, t835, t118 * mul_sub(t135, t841, t846));
+        let t848 = mul_sub(t411, t836, mul_sub(t118, t838, t133 * t847));
+        let t849 = mul_sub(t118, t830, mul_sub(t831, t832, t848));
+        let t850 = t118 * t163;
+        let t851 = t118 * t160;
+        let t852 = t118 * t159;
+        let t853 = mul_sub(t850, t849, mul_add(t851, t593 + t830, t596 * t852));
+        let t854 = mul_sub(t413, t837, mul_add(t134, t614, t604));
+        let t855 = mul_sub(t413, t836, mul_sub(t118, t854, t134 * t847));
+        let t856 = mul_sub(t118, t844, mul_sub(t831, t834, t855));
+        let t857 = mul_sub(t850, t856, mul_sub(t851, t600 + t844, t603 * t852));
+        let t858 = t134 * t857;
+        let t859 = mul_sub(t415, t837, mul_add(t135, t614, t611));
+        let t860 = mul_sub(t415, t836, mul_sub(t118, t859, t135 * t847));
+        let t861 = mul_add(t118, t841, mul_sub(t831, t833, t860));
+        let t862 = mul_add(t850, t861, mul_sub(t851, t607 - t841, t610 * t852));
         // leg 5: remaining leg inertia less weight at the platform joint
-        let t855 = neg_mul_add(t160, t841, t845);
-        let t856 = neg_mul_add(t160, t848, t849);
-        let t857 = neg_mul_add(t160, t853, t854);
+        let t863 = neg_mul_add(t160, t849, t853);
+        let t864 = neg_mul_add(t160, t856, t857);
+        let t865 = neg_mul_add(t160, t861, t862);
         // leg 6: leg inertia less weight along the actuator
-        let t858 = parameters.platform_point[5][1] * t653;
-        let t859 = mul_add(parameters.platform_point[5][0], t652, t858);
-        let t860 = mul_add(parameters.platform_point[5][2], t654, t859);
-        let t861 = t120 * (t120 * t385);
-        let t862 = mul_sub(t102, t648, mul_add(t105, t646, t635));
-        let t863 = mul_sub(t99, t646, mul_add(t102, t644, t639));
-        let t864 = mul_sub(t105, t644, mul_add(t99, t648, t637));
-        let t865 = mul_add(t138, t863, mul_add(t136, t862, t137 * t864));
-        let t866 = t120 * t865;
-        let t867 = c(2.0) * t385;
-        let t868 = mul_add(t417, t867, neg_mul_add(t136, t630, t613));
-        let t869 = parameters.platform_point[5][1] * t666;
-        let t870 = mul_add(parameters.platform_point[5][0], t665, t869);
-        let t871 = mul_add(parameters.platform_point[5][2], t667, t870);
-        let t872 = parameters.platform_point[5][1] * t660;
-        let t873 = mul_add(parameters.platform_point[5][0], t659, t872);
-        let t874 = mul_add(parameters.platform_point[5][2], t661, t873);
-        let t875 = mul_add(t421, t863, mul_add(t417, t862, t419 * t864));
-        let t876 = mul_add(t137, t874, mul_sub(t136, t860, t875));
-        let t877 = mul_add(t861, t865, t120 * mul_sub(t138, t871, t876));
-        let t878 = mul_sub(t417, t866, mul_sub(t120, t868, t136 * t877));
-        let t879 = mul_sub(t120, t860, mul_sub(t861, t862, t878));
-        let t880 = t120 * t168;
-        let t881 = t120 * t165;
-        let t882 = t120 * t164;
-        let t883 = mul_add(t880, t879, mul_sub(t881, t609 - t860, t612 * t882));
-        let t884 = mul_sub(t419, t867, mul_add(t137, t630, t620));
-        let t885 = mul_sub(t419, t866, mul_sub(t120, t884, t137 * t877));
-        let t886 = mul_sub(t120, t874, mul_sub(t861, t864, t885));
-        let t887 = mul_sub(t880, t886, mul_sub(t881, t616 + t874, t619 * t882));
-        let t888 = t137 * t887;
-        let t889 = mul_sub(t421, t867, mul_add(t138, t630, t627));
-        let t890 = mul_sub(t421, t866, mul_sub(t120, t889, t138 * t877));
-        let t891 = mul_add(t120, t871, mul_sub(t861, t863, t890));
-        let t892 = mul_add(t880, t891, mul_sub(t881, t623 - t871, t626 * t882));
+        let t866 = parameters.platform_point[5][1] * t661;
+        let t867 = mul_add(parameters.platform_point[5][0], t660, t866);
+        let t868 = mul_add(parameters.platform_point[5][2], t662, t867);
+        let t869 = t120 * (t120 * t385);
+        let t870 = mul_sub(t102, t656, mul_add(t105, t654, t643));
+        let t871 = mul_sub(t99, t654, mul_add(t102, t652, t647));
+        let t872 = mul_sub(t105, t652, mul_add(t99, t656, t645));
+        let t873 = mul_add(t138, t871, mul_add(t136, t870, t137 * t872));
+        let t874 = t120 * t873;
+        let t875 = c(2.0) * t385;
+        let t876 = mul_sub(t417, t875, mul_add(t136, t638, t621));
+        let t877 = parameters.platform_point[5][1] * t674;
+        let t878 = mul_add(parameters.platform_point[5][0], t673, t877);
+        let t879 = mul_add(parameters.platform_point[5][2], t675, t878);
+        let t880 = parameters.platform_point[5][1] * t668;
+        let t881 = mul_add(parameters.platform_point[5][0], t667, t880);
+        let t882 = mul_add(parameters.platform_point[5][2], t669, t881);
+        let t883 = mul_add(t421, t871, mul_add(t417, t870, t419 * t872));
+        let t884 = mul_add(t137, t882, mul_sub(t136, t868, t883));
+        let t885 = mul_add(t869, t873, t120 * mul_sub(t138, t879, t884));
+        let t886 = mul_sub(t417, t874, mul_sub(t120, t876, t136 * t885));
+        let t887 = mul_sub(t120, t868, mul_sub(t869, t870, t886));
+        let t888 = t120 * t168;
+        let t889 = t120 * t165;
+        let t890 = t120 * t164;
+        let t891 = mul_sub(t888, t887, mul_add(t889, t617 + t868, t620 * t890));
+        let t892 = mul_sub(t419, t875, mul_add(t137, t638, t628));
+        let t893 = mul_sub(t419, t874, mul_sub(t120, t892, t137 * t885));
+        let t894 = mul_sub(t120, t882, mul_sub(t869, t872, t893));
+        let t895 = mul_sub(t888, t894, mul_sub(t889, t624 + t882, t627 * t890));
+        let t896 = t137 * t895;
+        let t897 = mul_sub(t421, t875, mul_add(t138, t638, t635));
+        let t898 = mul_sub(t421, t874, mul_sub(t120, t897, t138 * t885));
+        let t899 = mul_add(t120, t879, mul_sub(t869, t871, t898));
+        let t900 = mul_add(t888, t899, mul_sub(t889, t631 - t879, t634 * t890));
         // leg 6: remaining leg inertia less weight at the platform joint
-        let t893 = neg_mul_add(t165, t879, t883);
-        let t894 = neg_mul_add(t165, t886, t887);
-        let t895 = neg_mul_add(t165, t891, t892);
+        let t901 = neg_mul_add(t165, t887, t891);
+        let t902 = neg_mul_add(t165, t894, t895);
+        let t903 = neg_mul_add(t165, t899, t900);
         // leg 1: spring and damper force along the actuator
-        let t896 = parameters.rest_length[0] - t109;
+        let t904 = parameters.rest_length[0] - t109;
         // leg 2: spring and damper force along the actuator
-        let t897 = parameters.rest_length[1] - t111;
+        let t905 = parameters.rest_length[1] - t111;
         // leg 3: spring and damper force along the actuator
-        let t898 = parameters.rest_length[2] - t113;
+        let t906 = parameters.rest_length[2] - t113;
         // leg 4: spring and damper force along the actuator
-        let t899 = parameters.rest_length[3] - t115;
+        let t907 = parameters.rest_length[3] - t115;
         // leg 5: spring and damper force along the actuator
-        let t900 = parameters.rest_length[4] - t117;
+        let t908 = parameters.rest_length[4] - t117;
         // leg 6: spring and damper force along the actuator
-        let t901 = parameters.rest_length[5] - t119;
+        let t909 = parameters.rest_length[5] - t119;
         // leg 1: row of the actuator Jacobian in base coordinates
-        let t902 = mul_sub(t42, t123, t45 * t122);
-        let t903 = mul_sub(t45, t121, t39 * t123);
-        let t904 = mul_sub(t39, t122, t42 * t121);
+        let t910 = mul_sub(t42, t123, t45 * t122);
+        let t911 = mul_sub(t45, t121, t39 * t123);
+        let t912 = mul_sub(t39, t122, t42 * t121);
         // leg 2: row of the actuator Jacobian in base coordinates
-        let t905 = mul_sub(t54, t126, t57 * t125);
-        let t906 = mul_sub(t57, t124, t51 * t126);
-        let t907 = mul_sub(t51, t125, t54 * t124);
+        let t913 = mul_sub(t54, t126, t57 * t125);
+        let t914 = mul_sub(t57, t124, t51 * t126);
+        let t915 = mul_sub(t51, t125, t54 * t124);
         // leg 3: row of the actuator Jacobian in base coordinates
-        let t908 = mul_sub(t66, t129, t69 * t128);
-        let t909 = mul_sub(t69, t127, t63 * t129);
-        let t910 = mul_sub(t63, t128, t66 * t127);
+        let t916 = mul_sub(t66, t129, t69 * t128);
+        let t917 = mul_sub(t69, t127, t63 * t129);
+        let t918 = mul_sub(t63, t128, t66 * t127);
         // leg 4: row of the actuator Jacobian in base coordinates
-        let t911 = mul_sub(t78, t132, t81 * t131);
-        let t912 = mul_sub(t81, t130, t75 * t132);
-        let t913 = mul_sub(t75, t131, t78 * t130);
+        let t919 = mul_sub(t78, t132, t81 * t131);
+        let t920 = mul_sub(t81, t130, t75 * t132);
+        let t921 = mul_sub(t75, t131, t78 * t130);
         // leg 5: row of the actuator Jacobian in base coordinates
-        let t914 = mul_sub(t90, t135, t93 * t134);
-        let t915 = mul_sub(t93, t133, t87 * t135);
-        let t916 = mul_sub(t87, t134, t90 * t133);
+        let t922 = mul_sub(t90, t135, t93 * t134);
+        let t923 = mul_sub(t93, t133, t87 * t135);
+        let t924 = mul_sub(t87, t134, t90 * t133);
         // leg 6: row of the actuator Jacobian in base coordinates
-        let t917 = mul_sub(t102, t138, t105 * t137);
-        let t918 = mul_sub(t105, t136, t99 * t138);
-        let t919 = mul_sub(t99, t137, t102 * t136);
+        let t925 = mul_sub(t102, t138, t105 * t137);
+        let t926 = mul_sub(t105, t136, t99 * t138);
+        let t927 = mul_sub(t99, t137, t102 * t136);
         // its first moments by platform coordinate
-        let t920 = t211 * t471;
-        let t921 = t225 * t471;
-        let t922 = t239 * t471;
-        let t923 = t211 * t478;
-        let t924 = t225 * t478;
-        let t925 = t239 * t478;
-        let t926 = t211 * t484;
-        let t927 = t225 * t484;
-        let t928 = t239 * t484;
+        let t928 = t211 * t471;
+        let t929 = t225 * t471;
+        let t930 = t239 * t471;
+        let t931 = t211 * t482;
+        let t932 = t225 * t482;
+        let t933 = t239 * t482;
+        let t934 = t211 * t490;
+        let t935 = t225 * t490;
+        let t936 = t239 * t490;
         (
             t3,
             t6,
@@ -29178,68 +29050,60 @@ pub fn passive_inverse_dynamics<T: Scalar>(
             t456,
             t458,
             t471,
-            t472,
-            t473,
-            t478,
+            t475,
             t479,
-            t480,
-            t484,
+            t482,
             t485,
-            t486,
-            t646,
-            t648,
-            t652,
-            t653,
+            t488,
+            t490,
+            t492,
+            t494,
             t654,
-            t655,
-            t659,
+            t656,
             t660,
             t661,
             t662,
             t663,
-            t665,
-            t666,
             t667,
-            t693,
-            t698,
-            t702,
-            t703,
-            t704,
-            t705,
-            t731,
-            t736,
-            t740,
-            t741,
-            t742,
-            t743,
-            t769,
-            t774,
-            t778,
-            t779,
-            t780,
-            t781,
-            t807,
-            t812,
-            t816,
-            t817,
-            t818,
-            t819,
-            t845,
-            t850,
-            t854,
-            t855,
-            t856,
-            t857,
-            t883,
-            t888,
-            t892,
-            t893,
-            t894,
-            t895,
+            t668,
+            t669,
+            t670,
+            t671,
+            t673,
+            t674,
+            t675,
+            t701,
+            t706,
+            t710,
+            t711,
+            t712,
+            t713,
+            t739,
+            t744,
+            t748,
+            t749,
+            t750,
+            t751,
+            t777,
+            t782,
+            t786,
+            t787,
+            t788,
+            t789,
+            t815,
+            t820,
+            t824,
+            t825,
+            t826,
+            t827,
+            t853,
+            t858,
+            t862,
+            t863,
+            t864,
+            t865,
+            t891,
             t896,
-            t897,
-            t898,
-            t899,
             t900,
             t901,
             t902,
@@ -29269,187 +29133,195 @@ pub fn passive_inverse_dynamics<T: Scalar>(
             t926,
             t927,
             t928,
+            t929,
+            t930,
+            t931,
+            t932,
+            t933,
+            t934,
+            t935,
+            t936,
         )
     };
     {
         // inertia less external wrench that the actuators must balance
-        let t929 = t893 + (t855 + (t817 + (t779 + (t703 + t741))));
-        let t930 = mul_add(t179, t471, mul_sub(t172, t454, t929));
-        let t931 = mul_add(t193, t473, mul_add(t186, t472, t930));
-        let t932 = neg_mul_add(t186, t653, neg_mul_add(t179, t652, t931));
-        let t933 = base_rotation[1][0] * external_wrench[1];
-        let t934 = mul_add(base_rotation[0][0], external_wrench[0], t933);
-        let t935 = mul_add(base_rotation[2][0], external_wrench[2], t934);
-        let t936 = neg_mul_add(t193, t654, t932) - t935;
-        let t937 = t894 + (t856 + (t818 + (t780 + (t704 + t742))));
-        let t938 = neg_mul_add(t179, t478, mul_sub(t172, t456, t937));
-        let t939 = neg_mul_add(t193, t480, neg_mul_add(t186, t479, t938));
-        let t940 = neg_mul_add(t186, t660, neg_mul_add(t179, t659, t939));
-        let t941 = base_rotation[1][1] * external_wrench[1];
-        let t942 = mul_add(base_rotation[0][1], external_wrench[0], t941);
-        let t943 = mul_add(base_rotation[2][1], external_wrench[2], t942);
-        let t944 = neg_mul_add(t193, t661, t940) - t943;
-        let t945 = t895 + (t857 + (t819 + (t781 + (t705 + t743))));
-        let t946 = mul_sub(t179, t484, mul_add(t172, t458, t945));
-        let t947 = mul_add(t193, t486, mul_add(t186, t485, t946));
-        let t948 = mul_add(t186, t666, mul_sub(t179, t665, t947));
-        let t949 = base_rotation[1][2] * external_wrench[1];
-        let t950 = mul_add(base_rotation[0][2], external_wrench[0], t949);
-        let t951 = mul_add(base_rotation[2][2], external_wrench[2], t950);
-        let t952 = mul_add(t193, t667, t948) - t951;
-        let t953 = mul_sub(t268, t479, mul_sub(t193, t456, t925));
-        let t954 = mul_add(t283, t480, t953);
-        let t955 = mul_add(parameters.platform_point[0][2], t704, t954);
-        let t956 = mul_add(parameters.platform_point[1][2], t742, t955);
-        let t957 = mul_add(parameters.platform_point[2][2], t780, t956);
-        let t958 = mul_add(parameters.platform_point[3][2], t818, t957);
-        let t959 = mul_add(parameters.platform_point[4][2], t856, t958);
-        let t960 = mul_add(parameters.platform_point[5][2], t894, t959);
-        let t961 = mul_add(t268, t660, mul_add(t239, t659, t960));
-        let t962 = mul_add(parameters.payload_com[2], t943, mul_add(t283, t661, t961));
-        let t963 = mul_sub(t268, t485, mul_sub(t193, t458, t928));
-        let t964 = mul_add(t283, t486, t963);
-        let t965 = mul_sub(parameters.platform_point[0][2], t705, t964);
-        let t966 = mul_add(parameters.platform_point[1][2], t743, t965);
-        let t967 = mul_add(parameters.platform_point[2][2], t781, t966);
-        let t968 = mul_add(parameters.platform_point[3][2], t819, t967);
-        let t969 = mul_add(parameters.platform_point[4][2], t857, t968);
-        let t970 = mul_add(parameters.platform_point[5][2], t895, t969);
-        let t971 = mul_add(t268, t666, mul_add(t239, t665, t970));
-        let t972 = mul_sub(parameters.payload_com[2], t951, mul_add(t283, t667, t971));
-        let t973 = mul_sub(t254, t479, mul_sub(t186, t456, t924));
-        let t974 = mul_add(t268, t480, t973);
-        let t975 = mul_add(parameters.platform_point[0][1], t704, t974);
-        let t976 = mul_add(parameters.platform_point[1][1], t742, t975);
-        let t977 = mul_add(parameters.platform_point[2][1], t780, t976);
-        let t978 = mul_add(parameters.platform_point[3][1], t818, t977);
-        let t979 = mul_add(parameters.platform_point[4][1], t856, t978);
-        let t980 = mul_add(parameters.platform_point[5][1], t894, t979);
-        let t981 = mul_add(t254, t660, mul_add(t225, t659, t980));
-        let t982 = mul_add(parameters.payload_com[1], t943, mul_add(t268, t661, t981));
-        let t983 = mul_sub(t254, t485, mul_sub(t186, t458, t927));
-        let t984 = mul_add(t268, t486, t983);
-        let t985 = mul_sub(parameters.platform_point[0][1], t705, t984);
-        let t986 = mul_add(parameters.platform_point[1][1], t743, t985);
-        let t987 = mul_add(parameters.platform_point[2][1], t781, t986);
-        let t988 = mul_add(parameters.platform_point[3][1], t819, t987);
-        let t989 = mul_add(parameters.platform_point[4][1], t857, t988);
-        let t990 = mul_add(parameters.platform_point[5][1], t895, t989);
-        let t991 = mul_add(t254, t666, mul_add(t225, t665, t990));
-        let t992 = mul_sub(parameters.payload_com[1], t951, mul_add(t268, t667, t991));
-        let t993 = mul_sub(t225, t485, mul_sub(t179, t458, t926));
-        let t994 = mul_add(t239, t486, t993);
-        let t995 = mul_sub(parameters.platform_point[0][0], t705, t994);
-        let t996 = mul_add(parameters.platform_point[1][0], t743, t995);
-        let t997 = mul_add(parameters.platform_point[2][0], t781, t996);
-        let t998 = mul_add(parameters.platform_point[3][0], t819, t997);
-        let t999 = mul_add(parameters.platform_point[4][0], t857, t998);
-        let t1000 = mul_add(parameters.platform_point[5][0], t895, t999);
-        let t1001 = mul_add(t225, t666, mul_add(t211, t665, t1000));
-        let t1002 = mul_sub(parameters.payload_com[0], t951, mul_add(t239, t667, t1001));
-        let t1003 = mul_sub(t225, t479, mul_sub(t179, t456, t923));
-        let t1004 = mul_add(t239, t480, t1003);
-        let t1005 = mul_add(parameters.platform_point[0][0], t704, t1004);
-        let t1006 = mul_add(parameters.platform_point[1][0], t742, t1005);
-        let t1007 = mul_add(parameters.platform_point[2][0], t780, t1006);
-        let t1008 = mul_add(parameters.platform_point[3][0], t818, t1007);
-        let t1009 = mul_add(parameters.platform_point[4][0], t856, t1008);
-        let t1010 = mul_add(parameters.platform_point[5][0], t894, t1009);
-        let t1011 = mul_add(t225, t660, mul_add(t211, t659, t1010));
-        let t1012 = mul_add(parameters.payload_com[0], t943, mul_add(t239, t661, t1011));
-        let t1013 = mul_add(t15, t992, mul_sub(t12, t1002, t21 * t1012));
-        let t1014 = mul_sub(t18, t972, mul_sub(t24, t982, t1013));
-        let t1015 = mul_sub(t27, t962, t1014);
-        let t1016 = neg_mul_add(t196, mul_sub(t298, t648, t663), t1015);
-        let t1017 = neg_mul_add(base_rotation[0][0], external_wrench[3], t1016);
-        let t1018 = neg_mul_add(base_rotation[1][0], external_wrench[4], t1017);
-        let t1019 = neg_mul_add(base_rotation[2][0], external_wrench[5], t1018);
-        let t1020 = mul_add(t268, t472, mul_add(t193, t454, t922));
-        let t1021 = mul_add(t283, t473, t1020);
-        let t1022 = mul_sub(parameters.platform_point[0][2], t703, t1021);
-        let t1023 = mul_add(parameters.platform_point[1][2], t741, t1022);
-        let t1024 = mul_add(parameters.platform_point[2][2], t779, t1023);
-        let t1025 = mul_add(parameters.platform_point[3][2], t817, t1024);
-        let t1026 = mul_add(parameters.platform_point[4][2], t855, t1025);
-        let t1027 = mul_add(parameters.platform_point[5][2], t893, t1026);
-        let t1028 = mul_add(t268, t653, mul_add(t239, t652, t1027));
-        let t1029 = mul_add(parameters.payload_com[2], t935, mul_add(t283, t654, t1028));
-        let t1030 = mul_add(t254, t472, mul_add(t186, t454, t921));
-        let t1031 = mul_add(t268, t473, t1030);
-        let t1032 = mul_sub(parameters.platform_point[0][1], t703, t1031);
-        let t1033 = mul_add(parameters.platform_point[1][1], t741, t1032);
-        let t1034 = mul_add(parameters.platform_point[2][1], t779, t1033);
-        let t1035 = mul_add(parameters.platform_point[3][1], t817, t1034);
-        let t1036 = mul_add(parameters.platform_point[4][1], t855, t1035);
-        let t1037 = mul_add(parameters.platform_point[5][1], t893, t1036);
-        let t1038 = mul_add(t254, t653, mul_add(t225, t652, t1037));
-        let t1039 = mul_add(parameters.payload_com[1], t935, mul_add(t268, t654, t1038));
-        let t1040 = mul_add(t225, t472, mul_add(t179, t454, t920));
-        let t1041 = mul_add(t239, t473, t1040);
-        let t1042 = mul_sub(parameters.platform_point[0][0], t703, t1041);
-        let t1043 = mul_add(parameters.platform_point[1][0], t741, t1042);
-        let t1044 = mul_add(parameters.platform_point[2][0], t779, t1043);
-        let t1045 = mul_add(parameters.platform_point[3][0], t817, t1044);
-        let t1046 = mul_add(parameters.platform_point[4][0], t855, t1045);
-        let t1047 = mul_add(parameters.platform_point[5][0], t893, t1046);
-        let t1048 = mul_add(t225, t653, mul_add(t211, t652, t1047));
-        let t1049 = mul_add(parameters.payload_com[0], t935, mul_add(t239, t654, t1048));
-        let t1050 = mul_add(t24, t1039, mul_sub(t21, t1049, t3 * t1002));
-        let t1051 = mul_sub(t27, t1029, mul_sub(t6, t992, t1050));
-        let t1052 = mul_sub(t9, t972, t1051);
-        let t1053 = mul_add(t196, mul_sub(t295, t648, t662), t1052);
-        let t1054 = neg_mul_add(base_rotation[0][1], external_wrench[3], t1053);
-        let t1055 = neg_mul_add(base_rotation[1][1], external_wrench[4], t1054);
-        let t1056 = neg_mul_add(base_rotation[2][1], external_wrench[5], t1055);
-        let t1057 = mul_add(t6, t982, mul_sub(t3, t1012, t12 * t1049));
-        let t1058 = mul_sub(t9, t962, mul_sub(t15, t1039, t1057));
-        let t1059 = mul_sub(t18, t1029, t1058);
-        let t1060 = neg_mul_add(t196, mul_sub(t295, t646, t655), t1059);
-        let t1061 = neg_mul_add(base_rotation[0][2], external_wrench[3], t1060);
-        let t1062 = neg_mul_add(base_rotation[1][2], external_wrench[4], t1061);
-        let t1063 = neg_mul_add(base_rotation[2][2], external_wrench[5], t1062);
+        let t937 = t901 + (t863 + (t825 + (t787 + (t711 + t749))));
+        let t938 = neg_mul_add(t179, t471, mul_sub(t172, t454, t937));
+        let t939 = neg_mul_add(t193, t479, neg_mul_add(t186, t475, t938));
+        let t940 = neg_mul_add(t186, t661, neg_mul_add(t179, t660, t939));
+        let t941 = base_rotation[1][0] * external_wrench[1];
+        let t942 = mul_add(base_rotation[0][0], external_wrench[0], t941);
+        let t943 = mul_add(base_rotation[2][0], external_wrench[2], t942);
+        let t944 = neg_mul_add(t193, t662, t940) - t943;
+        let t945 = t902 + (t864 + (t826 + (t788 + (t712 + t750))));
+        let t946 = neg_mul_add(t179, t482, mul_sub(t172, t456, t945));
+        let t947 = neg_mul_add(t193, t488, neg_mul_add(t186, t485, t946));
+        let t948 = neg_mul_add(t186, t668, neg_mul_add(t179, t667, t947));
+        let t949 = base_rotation[1][1] * external_wrench[1];
+        let t950 = mul_add(base_rotation[0][1], external_wrench[0], t949);
+        let t951 = mul_add(base_rotation[2][1], external_wrench[2], t950);
+        let t952 = neg_mul_add(t193, t669, t948) - t951;
+        let t953 = t903 + (t865 + (t827 + (t789 + (t713 + t751))));
+        let t954 = mul_sub(t179, t490, mul_add(t172, t458, t953));
+        let t955 = mul_add(t193, t494, mul_add(t186, t492, t954));
+        let t956 = mul_add(t186, t674, mul_sub(t179, t673, t955));
+        let t957 = base_rotation[1][2] * external_wrench[1];
+        let t958 = mul_add(base_rotation[0][2], external_wrench[0], t957);
+        let t959 = mul_add(base_rotation[2][2], external_wrench[2], t958);
+        let t960 = mul_add(t193, t675, t956) - t959;
+        let t961 = mul_sub(t268, t485, mul_sub(t193, t456, t933));
+        let t962 = mul_add(t283, t488, t961);
+        let t963 = mul_add(parameters.platform_point[0][2], t712, t962);
+        let t964 = mul_add(parameters.platform_point[1][2], t750, t963);
+        let t965 = mul_add(parameters.platform_point[2][2], t788, t964);
+        let t966 = mul_add(parameters.platform_point[3][2], t826, t965);
+        let t967 = mul_add(parameters.platform_point[4][2], t864, t966);
+        let t968 = mul_add(parameters.platform_point[5][2], t902, t967);
+        let t969 = mul_add(t268, t668, mul_add(t239, t667, t968));
+        let t970 = mul_add(parameters.payload_com[2], t951, mul_add(t283, t669, t969));
+        let t971 = mul_sub(t268, t492, mul_sub(t193, t458, t936));
+        let t972 = mul_add(t283, t494, t971);
+        let t973 = mul_sub(parameters.platform_point[0][2], t713, t972);
+        let t974 = mul_add(parameters.platform_point[1][2], t751, t973);
+        let t975 = mul_add(parameters.platform_point[2][2], t789, t974);
+        let t976 = mul_add(parameters.platform_point[3][2], t827, t975);
+        let t977 = mul_add(parameters.platform_point[4][2], t865, t976);
+        let t978 = mul_add(parameters.platform_point[5][2], t903, t977);
+        let t979 = mul_add(t268, t674, mul_add(t239, t673, t978));
+        let t980 = mul_sub(parameters.payload_com[2], t959, mul_add(t283, t675, t979));
+        let t981 = mul_sub(t254, t485, mul_sub(t186, t456, t932));
+        let t982 = mul_add(t268, t488, t981);
+        let t983 = mul_add(parameters.platform_point[0][1], t712, t982);
+        let t984 = mul_add(parameters.platform_point[1][1], t750, t983);
+        let t985 = mul_add(parameters.platform_point[2][1], t788, t984);
+        let t986 = mul_add(parameters.platform_point[3][1], t826, t985);
+        let t987 = mul_add(parameters.platform_point[4][1], t864, t986);
+        let t988 = mul_add(parameters.platform_point[5][1], t902, t987);
+        let t989 = mul_add(t254, t668, mul_add(t225, t667, t988));
+        let t990 = mul_add(parameters.payload_com[1], t951, mul_add(t268, t669, t989));
+        let t991 = mul_sub(t254, t492, mul_sub(t186, t458, t935));
+        let t992 = mul_add(t268, t494, t991);
+        let t993 = mul_sub(parameters.platform_point[0][1], t713, t992);
+        let t994 = mul_add(parameters.platform_point[1][1], t751, t993);
+        let t995 = mul_add(parameters.platform_point[2][1], t789, t994);
+        let t996 = mul_add(parameters.platform_point[3][1], t827, t995);
+        let t997 = mul_add(parameters.platform_point[4][1], t865, t996);
+        let t998 = mul_add(parameters.platform_point[5][1], t903, t997);
+        let t999 = mul_add(t254, t674, mul_add(t225, t673, t998));
+        let t1000 = mul_sub(parameters.payload_com[1], t959, mul_add(t268, t675, t999));
+        let t1001 = mul_sub(t225, t492, mul_sub(t179, t458, t934));
+        let t1002 = mul_add(t239, t494, t1001);
+        let t1003 = mul_sub(parameters.platform_point[0][0], t713, t1002);
+        let t1004 = mul_add(parameters.platform_point[1][0], t751, t1003);
+        let t1005 = mul_add(parameters.platform_point[2][0], t789, t1004);
+        let t1006 = mul_add(parameters.platform_point[3][0], t827, t1005);
+        let t1007 = mul_add(parameters.platform_point[4][0], t865, t1006);
+        let t1008 = mul_add(parameters.platform_point[5][0], t903, t1007);
+        let t1009 = mul_add(t225, t674, mul_add(t211, t673, t1008));
+        let t1010 = mul_sub(parameters.payload_com[0], t959, mul_add(t239, t675, t1009));
+        let t1011 = mul_sub(t225, t485, mul_sub(t179, t456, t931));
+        let t1012 = mul_add(t239, t488, t1011);
+        let t1013 = mul_add(parameters.platform_point[0][0], t712, t1012);
+        let t1014 = mul_add(parameters.platform_point[1][0], t750, t1013);
+        let t1015 = mul_add(parameters.platform_point[2][0], t788, t1014);
+        let t1016 = mul_add(parameters.platform_point[3][0], t826, t1015);
+        let t1017 = mul_add(parameters.platform_point[4][0], t864, t1016);
+        let t1018 = mul_add(parameters.platform_point[5][0], t902, t1017);
+        let t1019 = mul_add(t225, t668, mul_add(t211, t667, t1018));
+        let t1020 = mul_add(parameters.payload_com[0], t951, mul_add(t239, t669, t1019));
+        let t1021 = mul_add(t15, t1000, mul_sub(t12, t1010, t21 * t1020));
+        let t1022 = mul_sub(t18, t980, mul_sub(t24, t990, t1021));
+        let t1023 = mul_sub(t27, t970, t1022);
+        let t1024 = neg_mul_add(t196, mul_sub(t298, t656, t671), t1023);
+        let t1025 = neg_mul_add(base_rotation[0][0], external_wrench[3], t1024);
+        let t1026 = neg_mul_add(base_rotation[1][0], external_wrench[4], t1025);
+        let t1027 = neg_mul_add(base_rotation[2][0], external_wrench[5], t1026);
+        let t1028 = mul_sub(t268, t475, mul_sub(t193, t454, t930));
+        let t1029 = mul_add(t283, t479, t1028);
+        let t1030 = mul_add(parameters.platform_point[0][2], t711, t1029);
+        let t1031 = mul_add(parameters.platform_point[1][2], t749, t1030);
+        let t1032 = mul_add(parameters.platform_point[2][2], t787, t1031);
+        let t1033 = mul_add(parameters.platform_point[3][2], t825, t1032);
+        let t1034 = mul_add(parameters.platform_point[4][2], t863, t1033);
+        let t1035 = mul_add(parameters.platform_point[5][2], t901, t1034);
+        let t1036 = mul_add(t268, t661, mul_add(t239, t660, t1035));
+        let t1037 = mul_add(parameters.payload_com[2], t943, mul_add(t283, t662, t1036));
+        let t1038 = mul_sub(t254, t475, mul_sub(t186, t454, t929));
+        let t1039 = mul_add(t268, t479, t1038);
+        let t1040 = mul_add(parameters.platform_point[0][1], t711, t1039);
+        let t1041 = mul_add(parameters.platform_point[1][1], t749, t1040);
+        let t1042 = mul_add(parameters.platform_point[2][1], t787, t1041);
+        let t1043 = mul_add(parameters.platform_point[3][1], t825, t1042);
+        let t1044 = mul_add(parameters.platform_point[4][1], t863, t1043);
+        let t1045 = mul_add(parameters.platform_point[5][1], t901, t1044);
+        let t1046 = mul_add(t254, t661, mul_add(t225, t660, t1045));
+        let t1047 = mul_add(parameters.payload_com[1], t943, mul_add(t268, t662, t1046));
+        let t1048 = mul_sub(t225, t475, mul_sub(t179, t454, t928));
+        let t1049 = mul_add(t239, t479, t1048);
+        let t1050 = mul_add(parameters.platform_point[0][0], t711, t1049);
+        let t1051 = mul_add(parameters.platform_point[1][0], t749, t1050);
+        let t1052 = mul_add(parameters.platform_point[2][0], t787, t1051);
+        let t1053 = mul_add(parameters.platform_point[3][0], t825, t1052);
+        let t1054 = mul_add(parameters.platform_point[4][0], t863, t1053);
+        let t1055 = mul_add(parameters.platform_point[5][0], t901, t1054);
+        let t1056 = mul_add(t225, t661, mul_add(t211, t660, t1055));
+        let t1057 = mul_add(parameters.payload_com[0], t943, mul_add(t239, t662, t1056));
+        let t1058 = mul_add(t24, t1047, mul_sub(t21, t1057, t3 * t1010));
+        let t1059 = mul_sub(t27, t1037, mul_sub(t6, t1000, t1058));
+        let t1060 = mul_sub(t9, t980, t1059);
+        let t1061 = mul_add(t196, mul_sub(t295, t656, t670), t1060);
+        let t1062 = neg_mul_add(base_rotation[0][1], external_wrench[3], t1061);
+        let t1063 = neg_mul_add(base_rotation[1][1], external_wrench[4], t1062);
+        let t1064 = neg_mul_add(base_rotation[2][1], external_wrench[5], t1063);
+        let t1065 = mul_add(t6, t990, mul_sub(t3, t1020, t12 * t1057));
+        let t1066 = mul_sub(t9, t970, mul_sub(t15, t1047, t1065));
+        let t1067 = mul_sub(t18, t1037, t1066);
+        let t1068 = neg_mul_add(t196, mul_sub(t295, t654, t663), t1067);
+        let t1069 = neg_mul_add(base_rotation[0][2], external_wrench[3], t1068);
+        let t1070 = neg_mul_add(base_rotation[1][2], external_wrench[4], t1069);
+        let t1071 = neg_mul_add(base_rotation[2][2], external_wrench[5], t1070);
         // force along the actuator that balances the remaining wrench
         let axial_reaction = solve_general(
             &[
                 [t121, t124, t127, t130, t133, t136],
                 [t122, t125, t128, t131, t134, t137],
                 [t123, t126, t129, t132, t135, t138],
-                [t902, t905, t908, t911, t914, t917],
-                [t903, t906, t909, t912, t915, t918],
-                [t904, t907, t910, t913, t916, t919],
+                [t910, t913, t916, t919, t922, t925],
+                [t911, t914, t917, t920, t923, t926],
+                [t912, t915, t918, t921, t924, t927],
             ],
-            &[t936, t944, t952, t1019, t1056, t1063],
+            &[t944, t952, t960, t1027, t1064, t1071],
         );
         // leg 1: actuator forces F at reference speeds
-        let t1064 = mul_sub(t123, t702, mul_add(t121, t693, t698));
-        let t1065 = mul_add(parameters.axial_stiffness[0], t896, t1064);
+        let t1072 = mul_sub(t123, t710, mul_add(t121, t701, t706));
+        let t1073 = mul_add(parameters.axial_stiffness[0], t904, t1072);
         passive_inverse_dynamics[0] = axial_reaction[0]
-            - mul_add(parameters.axial_damping[0], t380, t1065);
+            - mul_add(parameters.axial_damping[0], t380, t1073);
         // leg 2: actuator forces F at reference speeds
-        let t1066 = mul_sub(t126, t740, mul_add(t124, t731, t736));
-        let t1067 = mul_add(parameters.axial_stiffness[1], t897, t1066);
+        let t1074 = mul_sub(t126, t748, mul_add(t124, t739, t744));
+        let t1075 = mul_add(parameters.axial_stiffness[1], t905, t1074);
         passive_inverse_dynamics[1] = axial_reaction[1]
-            - mul_add(parameters.axial_damping[1], t381, t1067);
+            - mul_add(parameters.axial_damping[1], t381, t1075);
         // leg 3: actuator forces F at reference speeds
-        let t1068 = mul_sub(t129, t778, mul_add(t127, t769, t774));
-        let t1069 = mul_add(parameters.axial_stiffness[2], t898, t1068);
+        let t1076 = mul_sub(t129, t786, mul_add(t127, t777, t782));
+        let t1077 = mul_add(parameters.axial_stiffness[2], t906, t1076);
         passive_inverse_dynamics[2] = axial_reaction[2]
-            - mul_add(parameters.axial_damping[2], t382, t1069);
+            - mul_add(parameters.axial_damping[2], t382, t1077);
         // leg 4: actuator forces F at reference speeds
-        let t1070 = mul_sub(t132, t816, mul_add(t130, t807, t812));
-        let t1071 = mul_add(parameters.axial_stiffness[3], t899, t1070);
+        let t1078 = mul_sub(t132, t824, mul_add(t130, t815, t820));
+        let t1079 = mul_add(parameters.axial_stiffness[3], t907, t1078);
         passive_inverse_dynamics[3] = axial_reaction[3]
-            - mul_add(parameters.axial_damping[3], t383, t1071);
+            - mul_add(parameters.axial_damping[3], t383, t1079);
         // leg 5: actuator forces F at reference speeds
-        let t1072 = mul_sub(t135, t854, mul_add(t133, t845, t850));
-        let t1073 = mul_add(parameters.axial_stiffness[4], t900, t1072);
+        let t1080 = mul_sub(t135, t862, mul_add(t133, t853, t858));
+        let t1081 = mul_add(parameters.axial_stiffness[4], t908, t1080);
         passive_inverse_dynamics[4] = axial_reaction[4]
-            - mul_add(parameters.axial_damping[4], t384, t1073);
+            - mul_add(parameters.axial_damping[4], t384, t1081);
         // leg 6: actuator forces F at reference speeds
-        let t1074 = mul_sub(t138, t892, mul_add(t136, t883, t888));
-        let t1075 = mul_add(parameters.axial_stiffness[5], t901, t1074);
+        let t1082 = mul_sub(t138, t900, mul_add(t136, t891, t896));
+        let t1083 = mul_add(parameters.axial_stiffness[5], t909, t1082);
         passive_inverse_dynamics[5] = axial_reaction[5]
-            - mul_add(parameters.axial_damping[5], t385, t1075);
+            - mul_add(parameters.axial_damping[5], t385, t1083);
     }
 }
 
@@ -30070,455 +29942,463 @@ pub fn base_reaction<T: Scalar>(
     let t465 = mul_add(base_rotation[0][2], platform_acceleration[3], t464);
     let t466 = mul_add(base_rotation[2][2], platform_acceleration[5], t465);
     // acceleration per platform coordinate of points of the platform
-    let t467 = mul_add(t294, t300, t463);
-    let t468 = neg_mul_add(t294, t297, t466);
-    let t469 = mul_add(t297, t297, t300 * t300);
-    let t470 = neg_mul_add(t21, t467, mul_add(t12, t468, t3 * t469));
-    let t471 = neg_mul_add(t24, t467, mul_add(t15, t468, t6 * t469));
-    let t472 = neg_mul_add(t27, t467, mul_add(t18, t468, t9 * t469));
-    let t473 = neg_mul_add(t297, t300, t460);
-    let t474 = mul_add(t294, t297, t466);
-    let t475 = t294 * t294;
-    let t476 = mul_add(t300, t300, t475);
-    let t477 = neg_mul_add(t21, t473, mul_sub(t3, t474, t12 * t476));
-    let t478 = neg_mul_add(t24, t473, mul_sub(t6, t474, t15 * t476));
-    let t479 = neg_mul_add(t27, t473, mul_sub(t9, t474, t18 * t476));
-    let t480 = mul_add(t297, t297, t475);
-    let t481 = neg_mul_add(t294, t300, t463);
-    let t482 = mul_add(t297, t300, t460);
-    let t483 = mul_add(t21, t480, mul_sub(t3, t481, t12 * t482));
-    let t484 = mul_add(t24, t480, mul_sub(t6, t481, t15 * t482));
-    let t485 = mul_add(t27, t480, mul_sub(t9, t481, t18 * t482));
+    let t467 = mul_sub(t12, t294, t3 * t297);
+    let t468 = mul_sub(t3, t300, t21 * t294);
+    let t469 = mul_sub(t297, t467, t300 * t468);
+    let t470 = mul_sub(t21, t463, t12 * t466) + t469;
+    let t471 = mul_sub(t15, t294, t6 * t297);
+    let t472 = mul_sub(t6, t300, t24 * t294);
+    let t473 = mul_sub(t297, t471, t300 * t472);
+    let t474 = mul_sub(t24, t463, t15 * t466) + t473;
+    let t475 = mul_sub(t18, t294, t9 * t297);
+    let t476 = mul_sub(t9, t300, t27 * t294);
+    let t477 = mul_sub(t297, t475, t300 * t476);
+    let t478 = mul_sub(t27, t463, t18 * t466) + t477;
+    let t479 = mul_sub(t21, t297, t12 * t300);
+    let t480 = mul_sub(t300, t479, t294 * t467);
+    let t481 = mul_sub(t3, t466, t21 * t460) + t480;
+    let t482 = mul_sub(t24, t297, t15 * t300);
+    let t483 = mul_sub(t300, t482, t294 * t471);
+    let t484 = mul_sub(t6, t466, t24 * t460) + t483;
+    let t485 = mul_sub(t27, t297, t18 * t300);
+    let t486 = mul_sub(t300, t485, t294 * t475);
+    let t487 = mul_sub(t9, t466, t27 * t460) + t486;
+    let t488 = mul_sub(t294, t468, t297 * t479);
+    let t489 = mul_sub(t12, t460, t3 * t463) + t488;
+    let t490 = mul_sub(t294, t472, t297 * t482);
+    let t491 = mul_sub(t15, t460, t6 * t463) + t490;
+    let t492 = mul_sub(t294, t476, t297 * t485);
+    let t493 = mul_sub(t18, t460, t9 * t463) + t492;
     // leg 1: actuator acceleration d''
-    let t486 = parameters.platform_point[0][1] * t471;
-    let t487 = mul_add(parameters.platform_point[0][0], t470, t486);
-    let t488 = t453 - mul_add(parameters.platform_point[0][2], t472, t487);
-    let t489 = parameters.base_point[0][1] * t440;
-    let t490 = mul_add(parameters.base_point[0][0], t439, t489);
-    let t491 = t425 - neg_mul_add(parameters.base_point[0][2], t441, t490);
-    let t492 = t488 - t491;
-    let t493 = parameters.platform_point[0][1] * t478;
-    let t494 = mul_add(parameters.platform_point[0][0], t477, t493);
-    let t495 = t455 + mul_add(parameters.platform_point[0][2], t479, t494);
-    let t496 = parameters.base_point[0][1] * t444;
-    let t497 = mul_sub(parameters.base_point[0][0], t442, t496);
-    let t498 = t427 + neg_mul_add(parameters.base_point[0][2], t445, t497);
-    let t499 = t495 - t498;
-    let t500 = parameters.platform_point[0][1] * t484;
-    let t501 = mul_add(parameters.platform_point[0][0], t483, t500);
-    let t502 = t457 - mul_add(parameters.platform_point[0][2], t485, t501);
-    let t503 = parameters.base_point[0][1] * t447;
-    let t504 = mul_sub(parameters.base_point[0][0], t446, t503);
-    let t505 = t429 - mul_add(parameters.base_point[0][2], t448, t504);
-    let t506 = t502 - t505;
-    let t507 = mul_add(t390, t390, mul_add(t386, t386, t388 * t388));
-    let t508 = mul_add(t123, t506, mul_add(t121, t492, t122 * t499));
-    let t509 = neg_mul_add(t109, t507, t508);
+    let t494 = parameters.platform_point[0][1] * t474;
+    let t495 = mul_add(parameters.platform_point[0][0], t470, t494);
+    let t496 = t453 + mul_add(parameters.platform_point[0][2], t478, t495);
+    let t497 = parameters.base_point[0][1] * t440;
+    let t498 = mul_add(parameters.base_point[0][0], t439, t497);
+    let t499 = t425 - neg_mul_add(parameters.base_point[0][2], t441, t498);
+    let t500 = t496 - t499;
+    let t501 = parameters.platform_point[0][1] * t484;
+    let t502 = mul_add(parameters.platform_point[0][0], t481, t501);
+    let t503 = t455 + mul_add(parameters.platform_point[0][2], t487, t502);
+    let t504 = parameters.base_point[0][1] * t444;
+    let t505 = mul_sub(parameters.base_point[0][0], t442, t504);
+    let t506 = t427 + neg_mul_add(parameters.base_point[0][2], t445, t505);
+    let t507 = t503 - t506;
+    let t508 = parameters.platform_point[0][1] * t491;
+    let t509 = mul_add(parameters.platform_point[0][0], t489, t508);
+    let t510 = t457 + mul_add(parameters.platform_point[0][2], t493, t509);
+    let t511 = parameters.base_point[0][1] * t447;
+    let t512 = mul_sub(parameters.base_point[0][0], t446, t511);
+    let t513 = t429 - mul_add(parameters.base_point[0][2], t448, t512);
+    let t514 = t510 - t513;
+    let t515 = mul_add(t390, t390, mul_add(t386, t386, t388 * t388));
+    let t516 = mul_add(t123, t514, mul_add(t121, t500, t122 * t507));
+    let t517 = neg_mul_add(t109, t515, t516);
     // leg 2: actuator acceleration d''
-    let t510 = parameters.platform_point[1][1] * t471;
-    let t511 = mul_add(parameters.platform_point[1][0], t470, t510);
-    let t512 = t453 - mul_add(parameters.platform_point[1][2], t472, t511);
-    let t513 = parameters.base_point[1][1] * t440;
-    let t514 = mul_add(parameters.base_point[1][0], t439, t513);
-    let t515 = t425 - neg_mul_add(parameters.base_point[1][2], t441, t514);
-    let t516 = t512 - t515;
-    let t517 = parameters.platform_point[1][1] * t478;
-    let t518 = mul_add(parameters.platform_point[1][0], t477, t517);
-    let t519 = t455 + mul_add(parameters.platform_point[1][2], t479, t518);
-    let t520 = parameters.base_point[1][1] * t444;
-    let t521 = mul_sub(parameters.base_point[1][0], t442, t520);
-    let t522 = t427 + neg_mul_add(parameters.base_point[1][2], t445, t521);
-    let t523 = t519 - t522;
-    let t524 = parameters.platform_point[1][1] * t484;
-    let t525 = mul_add(parameters.platform_point[1][0], t483, t524);
-    let t526 = t457 - mul_add(parameters.platform_point[1][2], t485, t525);
-    let t527 = parameters.base_point[1][1] * t447;
-    let t528 = mul_sub(parameters.base_point[1][0], t446, t527);
-    let t529 = t429 - mul_add(parameters.base_point[1][2], t448, t528);
-    let t530 = t526 - t529;
-    let t531 = mul_add(t396, t396, mul_add(t392, t392, t394 * t394));
-    let t532 = mul_add(t126, t530, mul_add(t124, t516, t125 * t523));
-    let t533 = neg_mul_add(t111, t531, t532);
+    let t518 = parameters.platform_point[1][1] * t474;
+    let t519 = mul_add(parameters.platform_point[1][0], t470, t518);
+    let t520 = t453 + mul_add(parameters.platform_point[1][2], t478, t519);
+    let t521 = parameters.base_point[1][1] * t440;
+    let t522 = mul_add(parameters.base_point[1][0], t439, t521);
+    let t523 = t425 - neg_mul_add(parameters.base_point[1][2], t441, t522);
+    let t524 = t520 - t523;
+    let t525 = parameters.platform_point[1][1] * t484;
+    let t526 = mul_add(parameters.platform_point[1][0], t481, t525);
+    let t527 = t455 + mul_add(parameters.platform_point[1][2], t487, t526);
+    let t528 = parameters.base_point[1][1] * t444;
+    let t529 = mul_sub(parameters.base_point[1][0], t442, t528);
+    let t530 = t427 + neg_mul_add(parameters.base_point[1][2], t445, t529);
+    let t531 = t527 - t530;
+    let t532 = parameters.platform_point[1][1] * t491;
+    let t533 = mul_add(parameters.platform_point[1][0], t489, t532);
+    let t534 = t457 + mul_add(parameters.platform_point[1][2], t493, t533);
+    let t535 = parameters.base_point[1][1] * t447;
+    let t536 = mul_sub(parameters.base_point[1][0], t446, t535);
+    let t537 = t429 - mul_add(parameters.base_point[1][2], t448, t536);
+    let t538 = t534 - t537;
+    let t539 = mul_add(t396, t396, mul_add(t392, t392, t394 * t394));
+    let t540 = mul_add(t126, t538, mul_add(t124, t524, t125 * t531));
+    let t541 = neg_mul_add(t111, t539, t540);
     // leg 3: actuator acceleration d''
-    let t534 = parameters.platform_point[2][1] * t471;
-    let t535 = mul_add(parameters.platform_point[2][0], t470, t534);
-    let t536 = t453 - mul_add(parameters.platform_point[2][2], t472, t535);
-    let t537 = parameters.base_point[2][1] * t440;
-    let t538 = mul_add(parameters.base_point[2][0], t439, t537);
-    let t539 = t425 - neg_mul_add(parameters.base_point[2][2], t441, t538);
-    let t540 = t536 - t539;
-    let t541 = parameters.platform_point[2][1] * t478;
-    let t542 = mul_add(parameters.platform_point[2][0], t477, t541);
-    let t543 = t455 + mul_add(parameters.platform_point[2][2], t479, t542);
-    let t544 = parameters.base_point[2][1] * t444;
-    let t545 = mul_sub(parameters.base_point[2][0], t442, t544);
-    let t546 = t427 + neg_mul_add(parameters.base_point[2][2], t445, t545);
-    let t547 = t543 - t546;
-    let t548 = parameters.platform_point[2][1] * t484;
-    let t549 = mul_add(parameters.platform_point[2][0], t483, t548);
-    let t550 = t457 - mul_add(parameters.platform_point[2][2], t485, t549);
-    let t551 = parameters.base_point[2][1] * t447;
-    let t552 = mul_sub(parameters.base_point[2][0], t446, t551);
-    let t553 = t429 - mul_add(parameters.base_point[2][2], t448, t552);
-    let t554 = t550 - t553;
-    let t555 = mul_add(t402, t402, mul_add(t398, t398, t400 * t400));
-    let t556 = mul_add(t129, t554, mul_add(t127, t540, t128 * t547));
-    let t557 = neg_mul_add(t113, t555, t556);
+    let t542 = parameters.platform_point[2][1] * t474;
+    let t543 = mul_add(parameters.platform_point[2][0], t470, t542);
+    let t544 = t453 + mul_add(parameters.platform_point[2][2], t478, t543);
+    let t545 = parameters.base_point[2][1] * t440;
+    let t546 = mul_add(parameters.base_point[2][0], t439, t545);
+    let t547 = t425 - neg_mul_add(parameters.base_point[2][2], t441, t546);
+    let t548 = t544 - t547;
+    let t549 = parameters.platform_point[2][1] * t484;
+    let t550 = mul_add(parameters.platform_point[2][0], t481, t549);
+    let t551 = t455 + mul_add(parameters.platform_point[2][2], t487, t550);
+    let t552 = parameters.base_point[2][1] * t444;
+    let t553 = mul_sub(parameters.base_point[2][0], t442, t552);
+    let t554 = t427 + neg_mul_add(parameters.base_point[2][2], t445, t553);
+    let t555 = t551 - t554;
+    let t556 = parameters.platform_point[2][1] * t491;
+    let t557 = mul_add(parameters.platform_point[2][0], t489, t556);
+    let t558 = t457 + mul_add(parameters.platform_point[2][2], t493, t557);
+    let t559 = parameters.base_point[2][1] * t447;
+    let t560 = mul_sub(parameters.base_point[2][0], t446, t559);
+    let t561 = t429 - mul_add(parameters.base_point[2][2], t448, t560);
+    let t562 = t558 - t561;
+    let t563 = mul_add(t402, t402, mul_add(t398, t398, t400 * t400));
+    let t564 = mul_add(t129, t562, mul_add(t127, t548, t128 * t555));
+    let t565 = neg_mul_add(t113, t563, t564);
     // leg 4: actuator acceleration d''
-    let t558 = parameters.platform_point[3][1] * t471;
-    let t559 = mul_add(parameters.platform_point[3][0], t470, t558);
-    let t560 = t453 - mul_add(parameters.platform_point[3][2], t472, t559);
-    let t561 = parameters.base_point[3][1] * t440;
-    let t562 = mul_add(parameters.base_point[3][0], t439, t561);
-    let t563 = t425 - neg_mul_add(parameters.base_point[3][2], t441, t562);
-    let t564 = t560 - t563;
-    let t565 = parameters.platform_point[3][1] * t478;
-    let t566 = mul_add(parameters.platform_point[3][0], t477, t565);
-    let t567 = t455 + mul_add(parameters.platform_point[3][2], t479, t566);
-    let t568 = parameters.base_point[3][1] * t444;
-    let t569 = mul_sub(parameters.base_point[3][0], t442, t568);
-    let t570 = t427 + neg_mul_add(parameters.base_point[3][2], t445, t569);
-    let t571 = t567 - t570;
-    let t572 = parameters.platform_point[3][1] * t484;
-    let t573 = mul_add(parameters.platform_point[3][0], t483, t572);
-    let t574 = t457 - mul_add(parameters.platform_point[3][2], t485, t573);
-    let t575 = parameters.base_point[3][1] * t447;
-    let t576 = mul_sub(parameters.base_point[3][0], t446, t575);
-    let t577 = t429 - mul_add(parameters.base_point[3][2], t448, t576);
-    let t578 = t574 - t577;
-    let t579 = mul_add(t408, t408, mul_add(t404, t404, t406 * t406));
-    let t580 = mul_add(t132, t578, mul_add(t130, t564, t131 * t571));
-    let t581 = neg_mul_add(t115, t579, t580);
+    let t566 = parameters.platform_point[3][1] * t474;
+    let t567 = mul_add(parameters.platform_point[3][0], t470, t566);
+    let t568 = t453 + mul_add(parameters.platform_point[3][2], t478, t567);
+    let t569 = parameters.base_point[3][1] * t440;
+    let t570 = mul_add(parameters.base_point[3][0], t439, t569);
+    let t571 = t425 - neg_mul_add(parameters.base_point[3][2], t441, t570);
+    let t572 = t568 - t571;
+    let t573 = parameters.platform_point[3][1] * t484;
+    let t574 = mul_add(parameters.platform_point[3][0], t481, t573);
+    let t575 = t455 + mul_add(parameters.platform_point[3][2], t487, t574);
+    let t576 = parameters.base_point[3][1] * t444;
+    let t577 = mul_sub(parameters.base_point[3][0], t442, t576);
+    let t578 = t427 + neg_mul_add(parameters.base_point[3][2], t445, t577);
+    let t579 = t575 - t578;
+    let t580 = parameters.platform_point[3][1] * t491;
+    let t581 = mul_add(parameters.platform_point[3][0], t489, t580);
+    let t582 = t457 + mul_add(parameters.platform_point[3][2], t493, t581);
+    let t583 = parameters.base_point[3][1] * t447;
+    let t584 = mul_sub(parameters.base_point[3][0], t446, t583);
+    let t585 = t429 - mul_add(parameters.base_point[3][2], t448, t584);
+    let t586 = t582 - t585;
+    let t587 = mul_add(t408, t408, mul_add(t404, t404, t406 * t406));
+    let t588 = mul_add(t132, t586, mul_add(t130, t572, t131 * t579));
+    let t589 = neg_mul_add(t115, t587, t588);
     // leg 5: actuator acceleration d''
-    let t582 = parameters.platform_point[4][1] * t471;
-    let t583 = mul_add(parameters.platform_point[4][0], t470, t582);
-    let t584 = t453 - mul_add(parameters.platform_point[4][2], t472, t583);
-    let t585 = parameters.base_point[4][1] * t440;
-    let t586 = mul_add(parameters.base_point[4][0], t439, t585);
-    let t587 = t425 - neg_mul_add(parameters.base_point[4][2], t441, t586);
-    let t588 = t584 - t587;
-    let t589 = parameters.platform_point[4][1] * t478;
-    let t590 = mul_add(parameters.platform_point[4][0], t477, t589);
-    let t591 = t455 + mul_add(parameters.platform_point[4][2], t479, t590);
-    let t592 = parameters.base_point[4][1] * t444;
-    let t593 = mul_sub(parameters.base_point[4][0], t442, t592);
-    let t594 = t427 + neg_mul_add(parameters.base_point[4][2], t445, t593);
-    let t595 = t591 - t594;
-    let t596 = parameters.platform_point[4][1] * t484;
-    let t597 = mul_add(parameters.platform_point[4][0], t483, t596);
-    let t598 = t457 - mul_add(parameters.platform_point[4][2], t485, t597);
-    let t599 = parameters.base_point[4][1] * t447;
-    let t600 = mul_sub(parameters.base_point[4][0], t446, t599);
-    let t601 = t429 - mul_add(parameters.base_point[4][2], t448, t600);
-    let t602 = t598 - t601;
-    let t603 = mul_add(t414, t414, mul_add(t410, t410, t412 * t412));
-    let t604 = mul_add(t135, t602, mul_add(t133, t588, t134 * t595));
-    let t605 = neg_mul_add(t117, t603, t604);
+    let t590 = parameters.platform_point[4][1] * t474;
+    let t591 = mul_add(parameters.platform_point[4][0], t470, t590);
+    let t592 = t453 + mul_add(parameters.platform_point[4][2], t478, t591);
+    let t593 = parameters.base_point[4][1] * t440;
+    let t594 = mul_add(parameters.base_point[4][0], t439, t593);
+    let t595 = t425 - neg_mul_add(parameters.base_point[4][2], t441, t594);
+    let t596 = t592 - t595;
+    let t597 = parameters.platform_point[4][1] * t484;
+    let t598 = mul_add(parameters.platform_point[4][0], t481, t597);
+    let t599 = t455 + mul_add(parameters.platform_point[4][2], t487, t598);
+    let t600 = parameters.base_point[4][1] * t444;
+    let t601 = mul_sub(parameters.base_point[4][0], t442, t600);
+    let t602 = t427 + neg_mul_add(parameters.base_point[4][2], t445, t601);
+    let t603 = t599 - t602;
+    let t604 = parameters.platform_point[4][1] * t491;
+    let t605 = mul_add(parameters.platform_point[4][0], t489, t604);
+    let t606 = t457 + mul_add(parameters.platform_point[4][2], t493, t605);
+    let t607 = parameters.base_point[4][1] * t447;
+    let t608 = mul_sub(parameters.base_point[4][0], t446, t607);
+    let t609 = t429 - mul_add(parameters.base_point[4][2], t448, t608);
+    let t610 = t606 - t609;
+    let t611 = mul_add(t414, t414, mul_add(t410, t410, t412 * t412));
+    let t612 = mul_add(t135, t610, mul_add(t133, t596, t134 * t603));
+    let t613 = neg_mul_add(t117, t611, t612);
     // leg 6: actuator acceleration d''
-    let t606 = parameters.platform_point[5][1] * t471;
-    let t607 = mul_add(parameters.platform_point[5][0], t470, t606);
-    let t608 = t453 - mul_add(parameters.platform_point[5][2], t472, t607);
-    let t609 = parameters.base_point[5][1] * t440;
-    let t610 = mul_add(parameters.base_point[5][0], t439, t609);
-    let t611 = t425 - neg_mul_add(parameters.base_point[5][2], t441, t610);
-    let t612 = t608 - t611;
-    let t613 = parameters.platform_point[5][1] * t478;
-    let t614 = mul_add(parameters.platform_point[5][0], t477, t613);
-    let t615 = t455 + mul_add(parameters.platform_point[5][2], t479, t614);
-    let t616 = parameters.base_point[5][1] * t444;
-    let t617 = mul_sub(parameters.base_point[5][0], t442, t616);
-    let t618 = t427 + neg_mul_add(parameters.base_point[5][2], t445, t617);
-    let t619 = t615 - t618;
-    let t620 = parameters.platform_point[5][1] * t484;
-    let t621 = mul_add(parameters.platform_point[5][0], t483, t620);
-    let t622 = t457 - mul_add(parameters.platform_point[5][2], t485, t621);
-    let t623 = parameters.base_point[5][1] * t447;
-    let t624 = mul_sub(parameters.base_point[5][0], t446, t623);
-    let t625 = t429 - mul_add(parameters.base_point[5][2], t448, t624);
-    let t626 = t622 - t625;
-    let t627 = mul_add(t420, t420, mul_add(t416, t416, t418 * t418));
-    let t628 = mul_add(t138, t626, mul_add(t136, t612, t137 * t619));
-    let t629 = neg_mul_add(t119, t627, t628);
+    let t614 = parameters.platform_point[5][1] * t474;
+    let t615 = mul_add(parameters.platform_point[5][0], t470, t614);
+    let t616 = t453 + mul_add(parameters.platform_point[5][2], t478, t615);
+    let t617 = parameters.base_point[5][1] * t440;
+    let t618 = mul_add(parameters.base_point[5][0], t439, t617);
+    let t619 = t425 - neg_mul_add(parameters.base_point[5][2], t441, t618);
+    let t620 = t616 - t619;
+    let t621 = parameters.platform_point[5][1] * t484;
+    let t622 = mul_add(parameters.platform_point[5][0], t481, t621);
+    let t623 = t455 + mul_add(parameters.platform_point[5][2], t487, t622);
+    let t624 = parameters.base_point[5][1] * t444;
+    let t625 = mul_sub(parameters.base_point[5][0], t442, t624);
+    let t626 = t427 + neg_mul_add(parameters.base_point[5][2], t445, t625);
+    let t627 = t623 - t626;
+    let t628 = parameters.platform_point[5][1] * t491;
+    let t629 = mul_add(parameters.platform_point[5][0], t489, t628);
+    let t630 = t457 + mul_add(parameters.platform_point[5][2], t493, t629);
+    let t631 = parameters.base_point[5][1] * t447;
+    let t632 = mul_sub(parameters.base_point[5][0], t446, t631);
+    let t633 = t429 - mul_add(parameters.base_point[5][2], t448, t632);
+    let t634 = t630 - t633;
+    let t635 = mul_add(t420, t420, mul_add(t416, t416, t418 * t418));
+    let t636 = mul_add(t138, t634, mul_add(t136, t620, t137 * t627));
+    let t637 = neg_mul_add(t119, t635, t636);
     // leg 1: inertia less weight of the whole leg
-    let t630 = c(2.0) * t379;
-    let t631 = t110 * mul_add(t386, t630, neg_mul_add(t121, t509, t492));
-    let t632 = mul_add(t139, t631, parameters.lower_mass[0] * t491);
-    let t633 = t140 * t631;
-    let t634 = neg_mul_add(t140, t631, t632);
-    let t635 = t110 * mul_add(t388, t630, neg_mul_add(t122, t509, t499));
-    let t636 = mul_add(t139, t635, parameters.lower_mass[0] * t498);
-    let t637 = t140 * t635;
-    let t638 = neg_mul_add(t140, t635, t636);
-    let t639 = t110 * mul_add(t390, t630, neg_mul_add(t123, t509, t506));
-    let t640 = mul_add(t139, t639, parameters.lower_mass[0] * t505);
+    let t638 = c(2.0) * t379;
+    let t639 = t110 * mul_add(t386, t638, neg_mul_add(t121, t517, t500));
+    let t640 = mul_add(t139, t639, parameters.lower_mass[0] * t499);
     let t641 = t140 * t639;
     let t642 = neg_mul_add(t140, t639, t640);
+    let t643 = t110 * mul_add(t388, t638, neg_mul_add(t122, t517, t507));
+    let t644 = mul_add(t139, t643, parameters.lower_mass[0] * t506);
+    let t645 = t140 * t643;
+    let t646 = neg_mul_add(t140, t643, t644);
+    let t647 = t110 * mul_add(t390, t638, neg_mul_add(t123, t517, t514));
+    let t648 = mul_add(t139, t647, parameters.lower_mass[0] * t513);
+    let t649 = t140 * t647;
+    let t650 = neg_mul_add(t140, t647, t648);
     // leg 1: its moment about the base origin
-    let t643 = parameters.base_point[0][2] * t636;
-    let t644 = mul_sub(parameters.base_point[0][1], t640, t643);
-    let t645 = parameters.base_point[0][2] - t48;
-    let t646 = parameters.base_point[0][1] - t47;
-    let t647 = t644 + mul_sub(t637, t645, t641 * t646);
-    let t648 = mul_add(t143, t639, mul_sub(t139, t505, t140 * t502));
-    let t649 = mul_add(t143, t635, mul_sub(t139, t498, t140 * t495));
-    let t650 = t647 - mul_sub(t122, t648, t123 * t649);
-    let t651 = parameters.base_point[0][0] * t640;
-    let t652 = mul_sub(parameters.base_point[0][2], t632, t651);
-    let t653 = parameters.base_point[0][0] - t46;
-    let t654 = t652 + mul_sub(t641, t653, t633 * t645);
-    let t655 = mul_add(t143, t631, mul_sub(t139, t491, t140 * t488));
-    let t656 = t654 - mul_sub(t123, t655, t121 * t648);
-    let t657 = parameters.base_point[0][1] * t632;
-    let t658 = mul_sub(parameters.base_point[0][0], t636, t657);
-    let t659 = t658 + mul_sub(t633, t646, t637 * t653);
-    let t660 = t659 - mul_sub(t121, t649, t122 * t655);
+    let t651 = parameters.base_point[0][2] * t644;
+    let t652 = mul_sub(parameters.base_point[0][1], t648, t651);
+    let t653 = parameters.base_point[0][2] - t48;
+    let t654 = parameters.base_point[0][1] - t47;
+    let t655 = t652 + mul_sub(t645, t653, t649 * t654);
+    let t656 = mul_add(t143, t647, mul_sub(t139, t513, t140 * t510));
+    let t657 = mul_add(t143, t643, mul_sub(t139, t506, t140 * t503));
+    let t658 = t655 - mul_sub(t122, t656, t123 * t657);
+    let t659 = parameters.base_point[0][0] * t648;
+    let t660 = mul_sub(parameters.base_point[0][2], t640, t659);
+    let t661 = parameters.base_point[0][0] - t46;
+    let t662 = t660 + mul_sub(t649, t661, t641 * t653);
+    let t663 = mul_add(t143, t639, mul_sub(t139, t499, t140 * t496));
+    let t664 = t662 - mul_sub(t123, t663, t121 * t656);
+    let t665 = parameters.base_point[0][1] * t640;
+    let t666 = mul_sub(parameters.base_point[0][0], t644, t665);
+    let t667 = t666 + mul_sub(t641, t654, t645 * t661);
+    let t668 = t667 - mul_sub(t121, t657, t122 * t663);
     // leg 2: inertia less weight of the whole leg
-    let t661 = c(2.0) * t380;
-    let t662 = t112 * mul_add(t392, t661, neg_mul_add(t124, t533, t516));
-    let t663 = mul_add(t144, t662, parameters.lower_mass[1] * t515);
-    let t664 = t145 * t662;
-    let t665 = neg_mul_add(t145, t662, t663);
-    let t666 = t112 * mul_add(t394, t661, neg_mul_add(t125, t533, t523));
-    let t667 = mul_add(t144, t666, parameters.lower_mass[1] * t522);
-    let t668 = t145 * t666;
-    let t669 = neg_mul_add(t145, t666, t667);
-    let t670 = t112 * mul_add(t396, t661, neg_mul_add(t126, t533, t530));
-    let t671 = mul_add(t144, t670, parameters.lower_mass[1] * t529);
+    let t669 = c(2.0) * t380;
+    let t670 = t112 * mul_add(t392, t669, neg_mul_add(t124, t541, t524));
+    let t671 = mul_add(t144, t670, parameters.lower_mass[1] * t523);
     let t672 = t145 * t670;
     let t673 = neg_mul_add(t145, t670, t671);
+    let t674 = t112 * mul_add(t394, t669, neg_mul_add(t125, t541, t531));
+    let t675 = mul_add(t144, t674, parameters.lower_mass[1] * t530);
+    let t676 = t145 * t674;
+    let t677 = neg_mul_add(t145, t674, t675);
+    let t678 = t112 * mul_add(t396, t669, neg_mul_add(t126, t541, t538));
+    let t679 = mul_add(t144, t678, parameters.lower_mass[1] * t537);
+    let t680 = t145 * t678;
+    let t681 = neg_mul_add(t145, t678, t679);
     // leg 2: its moment about the base origin
-    let t674 = parameters.base_point[1][2] * t667;
-    let t675 = mul_sub(parameters.base_point[1][1], t671, t674);
-    let t676 = parameters.base_point[1][2] - t60;
-    let t677 = parameters.base_point[1][1] - t59;
-    let t678 = t675 + mul_sub(t668, t676, t672 * t677);
-    let t679 = mul_add(t148, t670, mul_sub(t144, t529, t145 * t526));
-    let t680 = mul_add(t148, t666, mul_sub(t144, t522, t145 * t519));
-    let t681 = t678 - mul_sub(t125, t679, t126 * t680);
-    let t682 = parameters.base_point[1][0] * t671;
-    let t683 = mul_sub(parameters.base_point[1][2], t663, t682);
-    let t684 = parameters.base_point[1][0] - t58;
-    let t685 = t683 + mul_sub(t672, t684, t664 * t676);
-    let t686 = mul_add(t148, t662, mul_sub(t144, t515, t145 * t512));
-    let t687 = t685 - mul_sub(t126, t686, t124 * t679);
-    let t688 = parameters.base_point[1][1] * t663;
-    let t689 = mul_sub(parameters.base_point[1][0], t667, t688);
-    let t690 = t689 + mul_sub(t664, t677, t668 * t684);
-    let t691 = t690 - mul_sub(t124, t680, t125 * t686);
+    let t682 = parameters.base_point[1][2] * t675;
+    let t683 = mul_sub(parameters.base_point[1][1], t679, t682);
+    let t684 = parameters.base_point[1][2] - t60;
+    let t685 = parameters.base_point[1][1] - t59;
+    let t686 = t683 + mul_sub(t676, t684, t680 * t685);
+    let t687 = mul_add(t148, t678, mul_sub(t144, t537, t145 * t534));
+    let t688 = mul_add(t148, t674, mul_sub(t144, t530, t145 * t527));
+    let t689 = t686 - mul_sub(t125, t687, t126 * t688);
+    let t690 = parameters.base_point[1][0] * t679;
+    let t691 = mul_sub(parameters.base_point[1][2], t671, t690);
+    let t692 = parameters.base_point[1][0] - t58;
+    let t693 = t691 + mul_sub(t680, t692, t672 * t684);
+    let t694 = mul_add(t148, t670, mul_sub(t144, t523, t145 * t520));
+    let t695 = t693 - mul_sub(t126, t694, t124 * t687);
+    let t696 = parameters.base_point[1][1] * t671;
+    let t697 = mul_sub(parameters.base_point[1][0], t675, t696);
+    let t698 = t697 + mul_sub(t672, t685, t676 * t692);
+    let t699 = t698 - mul_sub(t124, t688, t125 * t694);
     // leg 3: inertia less weight of the whole leg
-    let t692 = c(2.0) * t381;
-    let t693 = t114 * mul_add(t398, t692, neg_mul_add(t127, t557, t540));
-    let t694 = mul_add(t149, t693, parameters.lower_mass[2] * t539);
-    let t695 = t150 * t693;
-    let t696 = neg_mul_add(t150, t693, t694);
-    let t697 = t114 * mul_add(t400, t692, neg_mul_add(t128, t557, t547));
-    let t698 = mul_add(t149, t697, parameters.lower_mass[2] * t546);
-    let t699 = t150 * t697;
-    let t700 = neg_mul_add(t150, t697, t698);
-    let t701 = t114 * mul_add(t402, t692, neg_mul_add(t129, t557, t554));
-    let t702 = mul_add(t149, t701, parameters.lower_mass[2] * t553);
+    let t700 = c(2.0) * t381;
+    let t701 = t114 * mul_add(t398, t700, neg_mul_add(t127, t565, t548));
+    let t702 = mul_add(t149, t701, parameters.lower_mass[2] * t547);
     let t703 = t150 * t701;
     let t704 = neg_mul_add(t150, t701, t702);
+    let t705 = t114 * mul_add(t400, t700, neg_mul_add(t128, t565, t555));
+    let t706 = mul_add(t149, t705, parameters.lower_mass[2] * t554);
+    let t707 = t150 * t705;
+    let t708 = neg_mul_add(t150, t705, t706);
+    let t709 = t114 * mul_add(t402, t700, neg_mul_add(t129, t565, t562));
+    let t710 = mul_add(t149, t709, parameters.lower_mass[2] * t561);
+    let t711 = t150 * t709;
+    let t712 = neg_mul_add(t150, t709, t710);
     // leg 3: its moment about the base origin
-    let t705 = parameters.base_point[2][2] * t698;
-    let t706 = mul_sub(parameters.base_point[2][1], t702, t705);
-    let t707 = parameters.base_point[2][2] - t72;
-    let t708 = parameters.base_point[2][1] - t71;
-    let t709 = t706 + mul_sub(t699, t707, t703 * t708);
-    let t710 = mul_add(t153, t701, mul_sub(t149, t553, t150 * t550));
-    let t711 = mul_add(t153, t697, mul_sub(t149, t546, t150 * t543));
-    let t712 = t709 - mul_sub(t128, t710, t129 * t711);
-    let t713 = parameters.base_point[2][0] * t702;
-    let t714 = mul_sub(parameters.base_point[2][2], t694, t713);
-    let t715 = parameters.base_point[2][0] - t70;
-    let t716 = t714 + mul_sub(t703, t715, t695 * t707);
-    let t717 = mul_add(t153, t693, mul_sub(t149, t539, t150 * t536));
-    let t718 = t716 - mul_sub(t129, t717, t127 * t710);
-    let t719 = parameters.base_point[2][1] * t694;
-    let t720 = mul_sub(parameters.base_point[2][0], t698, t719);
-    let t721 = t720 + mul_sub(t695, t708, t699 * t715);
-    let t722 = t721 - mul_sub(t127, t711, t128 * t717);
+    let t713 = parameters.base_point[2][2] * t706;
+    let t714 = mul_sub(parameters.base_point[2][1], t710, t713);
+    let t715 = parameters.base_point[2][2] - t72;
+    let t716 = parameters.base_point[2][1] - t71;
+    let t717 = t714 + mul_sub(t707, t715, t711 * t716);
+    let t718 = mul_add(t153, t709, mul_sub(t149, t561, t150 * t558));
+    let t719 = mul_add(t153, t705, mul_sub(t149, t554, t150 * t551));
+    let t720 = t717 - mul_sub(t128, t718, t129 * t719);
+    let t721 = parameters.base_point[2][0] * t710;
+    let t722 = mul_sub(parameters.base_point[2][2], t702, t721);
+    let t723 = parameters.base_point[2][0] - t70;
+    let t724 = t722 + mul_sub(t711, t723, t703 * t715);
+    let t725 = mul_add(t153, t701, mul_sub(t149, t547, t150 * t544));
+    let t726 = t724 - mul_sub(t129, t725, t127 * t718);
+    let t727 = parameters.base_point[2][1] * t702;
+    let t728 = mul_sub(parameters.base_point[2][0], t706, t727);
+    let t729 = t728 + mul_sub(t703, t716, t707 * t723);
+    let t730 = t729 - mul_sub(t127, t719, t128 * t725);
     // leg 4: inertia less weight of the whole leg
-    let t723 = c(2.0) * t382;
-    let t724 = t116 * mul_add(t404, t723, neg_mul_add(t130, t581, t564));
-    let t725 = mul_add(t154, t724, parameters.lower_mass[3] * t563);
-    let t726 = t155 * t724;
-    let t727 = neg_mul_add(t155, t724, t725);
-    let t728 = t116 * mul_add(t406, t723, neg_mul_add(t131, t581, t571));
-    let t729 = mul_add(t154, t728, parameters.lower_mass[3] * t570);
-    let t730 = t155 * t728;
-    let t731 = neg_mul_add(t155, t728, t729);
-    let t732 = t116 * mul_add(t408, t723, neg_mul_add(t132, t581, t578));
-    let t733 = mul_add(t154, t732, parameters.lower_mass[3] * t577);
+    let t731 = c(2.0) * t382;
+    let t732 = t116 * mul_add(t404, t731, neg_mul_add(t130, t589, t572));
+    let t733 = mul_add(t154, t732, parameters.lower_mass[3] * t571);
     let t734 = t155 * t732;
     let t735 = neg_mul_add(t155, t732, t733);
+    let t736 = t116 * mul_add(t406, t731, neg_mul_add(t131, t589, t579));
+    let t737 = mul_add(t154, t736, parameters.lower_mass[3] * t578);
+    let t738 = t155 * t736;
+    let t739 = neg_mul_add(t155, t736, t737);
+    let t740 = t116 * mul_add(t408, t731, neg_mul_add(t132, t589, t586));
+    let t741 = mul_add(t154, t740, parameters.lower_mass[3] * t585);
+    let t742 = t155 * t740;
+    let t743 = neg_mul_add(t155, t740, t741);
     // leg 4: its moment about the base origin
-    let t736 = parameters.base_point[3][2] * t729;
-    let t737 = mul_sub(parameters.base_point[3][1], t733, t736);
-    let t738 = parameters.base_point[3][2] - t84;
-    let t739 = parameters.base_point[3][1] - t83;
-    let t740 = t737 + mul_sub(t730, t738, t734 * t739);
-    let t741 = mul_add(t158, t732, mul_sub(t154, t577, t155 * t574));
-    let t742 = mul_add(t158, t728, mul_sub(t154, t570, t155 * t567));
-    let t743 = t740 - mul_sub(t131, t741, t132 * t742);
-    let t744 = parameters.base_point[3][0] * t733;
-    let t745 = mul_sub(parameters.base_point[3][2], t725, t744);
-    let t746 = parameters.base_point[3][0] - t82;
-    let t747 = t745 + mul_sub(t734, t746, t726 * t738);
-    let t748 = mul_add(t158, t724, mul_sub(t154, t563, t155 * t560));
-    let t749 = t747 - mul_sub(t132, t748, t130 * t741);
-    let t750 = parameters.base_point[3][1] * t725;
-    let t751 = mul_sub(parameters.base_point[3][0], t729, t750);
-    let t752 = t751 + mul_sub(t726, t739, t730 * t746);
-    let t753 = t752 - mul_sub(t130, t742, t131 * t748);
+    let t744 = parameters.base_point[3][2] * t737;
+    let t745 = mul_sub(parameters.base_point[3][1], t741, t744);
+    let t746 = parameters.base_point[3][2] - t84;
+    let t747 = parameters.base_point[3][1] - t83;
+    let t748 = t745 + mul_sub(t738, t746, t742 * t747);
+    let t749 = mul_add(t158, t740, mul_sub(t154, t585, t155 * t582));
+    let t750 = mul_add(t158, t736, mul_sub(t154, t578, t155 * t575));
+    let t751 = t748 - mul_sub(t131, t749, t132 * t750);
+    let t752 = parameters.base_point[3][0] * t741;
+    let t753 = mul_sub(parameters.base_point[3][2], t733, t752);
+    let t754 = parameters.base_point[3][0] - t82;
+    let t755 = t753 + mul_sub(t742, t754, t734 * t746);
+    let t756 = mul_add(t158, t732, mul_sub(t154, t571, t155 * t568));
+    let t757 = t755 - mul_sub(t132, t756, t130 * t749);
+    let t758 = parameters.base_point[3][1] * t733;
+    let t759 = mul_sub(parameters.base_point[3][0], t737, t758);
+    let t760 = t759 + mul_sub(t734, t747, t738 * t754);
+    let t761 = t760 - mul_sub(t130, t750, t131 * t756);
     // leg 5: inertia less weight of the whole leg
-    let t754 = c(2.0) * t383;
-    let t755 = t118 * mul_add(t410, t754, neg_mul_add(t133, t605, t588));
-    let t756 = mul_add(t159, t755, parameters.lower_mass[4] * t587);
-    let t757 = t160 * t755;
-    let t758 = neg_mul_add(t160, t755, t756);
-    let t759 = t118 * mul_add(t412, t754, neg_mul_add(t134, t605, t595));
-    let t760 = mul_add(t159, t759, parameters.lower_mass[4] * t594);
-    let t761 = t160 * t759;
-    let t762 = neg_mul_add(t160, t759, t760);
-    let t763 = t118 * mul_add(t414, t754, neg_mul_add(t135, t605, t602));
-    let t764 = mul_add(t159, t763, parameters.lower_mass[4] * t601);
+    let t762 = c(2.0) * t383;
+    let t763 = t118 * mul_add(t410, t762, neg_mul_add(t133, t613, t596));
+    let t764 = mul_add(t159, t763, parameters.lower_mass[4] * t595);
     let t765 = t160 * t763;
     let t766 = neg_mul_add(t160, t763, t764);
+    let t767 = t118 * mul_add(t412, t762, neg_mul_add(t134, t613, t603));
+    let t768 = mul_add(t159, t767, parameters.lower_mass[4] * t602);
+    let t769 = t160 * t767;
+    let t770 = neg_mul_add(t160, t767, t768);
+    let t771 = t118 * mul_add(t414, t762, neg_mul_add(t135, t613, t610));
+    let t772 = mul_add(t159, t771, parameters.lower_mass[4] * t609);
+    let t773 = t160 * t771;
+    let t774 = neg_mul_add(t160, t771, t772);
     // leg 5: its moment about the base origin
-    let t767 = parameters.base_point[4][2] * t760;
-    let t768 = mul_sub(parameters.base_point[4][1], t764, t767);
-    let t769 = parameters.base_point[4][2] - t96;
-    let t770 = parameters.base_point[4][1] - t95;
-    let t771 = t768 + mul_sub(t761, t769, t765 * t770);
-    let t772 = mul_add(t163, t763, mul_sub(t159, t601, t160 * t598));
-    let t773 = mul_add(t163, t759, mul_sub(t159, t594, t160 * t591));
-    let t774 = t771 - mul_sub(t134, t772, t135 * t773);
-    let t775 = parameters.base_point[4][0] * t764;
-    let t776 = mul_sub(parameters.base_point[4][2], t756, t775);
-    let t777 = parameters.base_point[4][0] - t94;
-    let t778 = t776 + mul_sub(t765, t777, t757 * t769);
-    let t779 = mul_add(t163, t755, mul_sub(t159, t587, t160 * t584));
-    let t780 = t778 - mul_sub(t135, t779, t133 * t772);
-    let t781 = parameters.base_point[4][1] * t756;
-    let t782 = mul_sub(parameters.base_point[4][0], t760, t781);
-    let t783 = t782 + mul_sub(t757, t770, t761 * t777);
-    let t784 = t783 - mul_sub(t133, t773, t134 * t779);
+    let t775 = parameters.base_point[4][2] * t768;
+    let t776 = mul_sub(parameters.base_point[4][1], t772, t775);
+    let t777 = parameters.base_point[4][2] - t96;
+    let t778 = parameters.base_point[4][1] - t95;
+    let t779 = t776 + mul_sub(t769, t777, t773 * t778);
+    let t780 = mul_add(t163, t771, mul_sub(t159, t609, t160 * t606));
+    let t781 = mul_add(t163, t767, mul_sub(t159, t602, t160 * t599));
+    let t782 = t779 - mul_sub(t134, t780, t135 * t781);
+    let t783 = parameters.base_point[4][0] * t772;
+    let t784 = mul_sub(parameters.base_point[4][2], t764, t783);
+    let t785 = parameters.base_point[4][0] - t94;
+    let t786 = t784 + mul_sub(t773, t785, t765 * t777);
+    let t787 = mul_add(t163, t763, mul_sub(t159, t595, t160 * t592));
+    let t788 = t786 - mul_sub(t135, t787, t133 * t780);
+    let t789 = parameters.base_point[4][1] * t764;
+    let t790 = mul_sub(parameters.base_point[4][0], t768, t789);
+    let t791 = t790 + mul_sub(t765, t778, t769 * t785);
+    let t792 = t791 - mul_sub(t133, t781, t134 * t787);
     // leg 6: inertia less weight of the whole leg
-    let t785 = c(2.0) * t384;
-    let t786 = t120 * mul_add(t416, t785, neg_mul_add(t136, t629, t612));
-    let t787 = mul_add(t164, t786, parameters.lower_mass[5] * t611);
-    let t788 = t165 * t786;
-    let t789 = neg_mul_add(t165, t786, t787);
-    let t790 = t120 * mul_add(t418, t785, neg_mul_add(t137, t629, t619));
-    let t791 = mul_add(t164, t790, parameters.lower_mass[5] * t618);
-    let t792 = t165 * t790;
-    let t793 = neg_mul_add(t165, t790, t791);
-    let t794 = t120 * mul_add(t420, t785, neg_mul_add(t138, t629, t626));
-    let t795 = mul_add(t164, t794, parameters.lower_mass[5] * t625);
+    let t793 = c(2.0) * t384;
+    let t794 = t120 * mul_add(t416, t793, neg_mul_add(t136, t637, t620));
+    let t795 = mul_add(t164, t794, parameters.lower_mass[5] * t619);
     let t796 = t165 * t794;
     let t797 = neg_mul_add(t165, t794, t795);
+    let t798 = t120 * mul_add(t418, t793, neg_mul_add(t137, t637, t627));
+    let t799 = mul_add(t164, t798, parameters.lower_mass[5] * t626);
+    let t800 = t165 * t798;
+    let t801 = neg_mul_add(t165, t798, t799);
+    let t802 = t120 * mul_add(t420, t793, neg_mul_add(t138, t637, t634));
+    let t803 = mul_add(t164, t802, parameters.lower_mass[5] * t633);
+    let t804 = t165 * t802;
+    let t805 = neg_mul_add(t165, t802, t803);
     // leg 6: its moment about the base origin
-    let t798 = parameters.base_point[5][2] * t791;
-    let t799 = mul_sub(parameters.base_point[5][1], t795, t798);
-    let t800 = parameters.base_point[5][2] - t108;
-    let t801 = parameters.base_point[5][1] - t107;
-    let t802 = t799 + mul_sub(t792, t800, t796 * t801);
-    let t803 = mul_add(t168, t794, mul_sub(t164, t625, t165 * t622));
-    let t804 = mul_add(t168, t790, mul_sub(t164, t618, t165 * t615));
-    let t805 = t802 - mul_sub(t137, t803, t138 * t804);
-    let t806 = parameters.base_point[5][0] * t795;
-    let t807 = mul_sub(parameters.base_point[5][2], t787, t806);
-    let t808 = parameters.base_point[5][0] - t106;
-    let t809 = t807 + mul_sub(t796, t808, t788 * t800);
-    let t810 = mul_add(t168, t786, mul_sub(t164, t611, t165 * t608));
-    let t811 = t809 - mul_sub(t138, t810, t136 * t803);
-    let t812 = parameters.base_point[5][1] * t787;
-    let t813 = mul_sub(parameters.base_point[5][0], t791, t812);
-    let t814 = t813 + mul_sub(t788, t801, t792 * t808);
-    let t815 = t814 - mul_sub(t136, t804, t137 * t810);
+    let t806 = parameters.base_point[5][2] * t799;
+    let t807 = mul_sub(parameters.base_point[5][1], t803, t806);
+    let t808 = parameters.base_point[5][2] - t108;
+    let t809 = parameters.base_point[5][1] - t107;
+    let t810 = t807 + mul_sub(t800, t808, t804 * t809);
+    let t811 = mul_add(t168, t802, mul_sub(t164, t633, t165 * t630));
+    let t812 = mul_add(t168, t798, mul_sub(t164, t626, t165 * t623));
+    let t813 = t810 - mul_sub(t137, t811, t138 * t812);
+    let t814 = parameters.base_point[5][0] * t803;
+    let t815 = mul_sub(parameters.base_point[5][2], t795, t814);
+    let t816 = parameters.base_point[5][0] - t106;
+    let t817 = t815 + mul_sub(t804, t816, t796 * t808);
+    let t818 = mul_add(t168, t794, mul_sub(t164, t619, t165 * t616));
+    let t819 = t817 - mul_sub(t138, t818, t136 * t811);
+    let t820 = parameters.base_point[5][1] * t795;
+    let t821 = mul_sub(parameters.base_point[5][0], t799, t820);
+    let t822 = t821 + mul_sub(t796, t809, t800 * t816);
+    let t823 = t822 - mul_sub(t136, t812, t137 * t818);
     // wrench of the base on the mechanism, moments about the base origin
-    let t816 = mul_add(t193, t485, mul_add(t179, t483, t186 * t484));
-    let t817 = base_rotation[1][2] * external_wrench[1];
-    let t818 = mul_add(base_rotation[0][2], external_wrench[0], t817);
-    let t819 = mul_add(base_rotation[2][2], external_wrench[2], t818);
-    let t820 = mul_sub(t172, t457, t816) - t819;
-    let t821 = t797 + (t766 + (t735 + (t704 + (t673 + (t642 + t820)))));
-    let t822 = mul_add(t193, t472, mul_add(t179, t470, t186 * t471));
-    let t823 = base_rotation[1][0] * external_wrench[1];
-    let t824 = mul_add(base_rotation[0][0], external_wrench[0], t823);
-    let t825 = mul_add(base_rotation[2][0], external_wrench[2], t824);
-    let t826 = mul_sub(t172, t453, t822) - t825;
-    let t827 = t789 + (t758 + (t727 + (t696 + (t665 + (t634 + t826)))));
-    let t828 = mul_add(t193, t479, mul_add(t179, t477, t186 * t478));
-    let t829 = base_rotation[1][1] * external_wrench[1];
-    let t830 = mul_add(base_rotation[0][1], external_wrench[0], t829);
-    let t831 = mul_add(base_rotation[2][1], external_wrench[2], t830);
-    let t832 = mul_add(t172, t455, t828) - t831;
-    let t833 = t793 + (t762 + (t731 + (t700 + (t669 + (t638 + t832)))));
-    let t834 = mul_add(base_rotation[0][0], t827, base_rotation[0][1] * t833);
-    base_wrench[0] = mul_add(base_rotation[0][2], t821, t834);
-    let t835 = mul_add(base_rotation[1][0], t827, base_rotation[1][1] * t833);
-    base_wrench[1] = mul_add(base_rotation[1][2], t821, t835);
-    let t836 = mul_add(base_rotation[2][0], t827, base_rotation[2][1] * t833);
-    base_wrench[2] = mul_add(base_rotation[2][2], t821, t836);
-    let t837 = mul_add(t238, t479, mul_add(t210, t477, t224 * t478));
-    let t838 = mul_sub(t179, t455, t837);
-    let t839 = neg_mul_add(parameters.payload_com[0], t831, t838);
-    let t840 = mul_add(t238, t472, mul_add(t210, t470, t224 * t471));
-    let t841 = mul_add(t179, t453, t840);
-    let t842 = neg_mul_add(parameters.payload_com[0], t825, t841);
-    let t843 = mul_add(t267, t479, mul_add(t224, t477, t253 * t478));
-    let t844 = mul_sub(t186, t455, t843);
-    let t845 = neg_mul_add(parameters.payload_com[1], t831, t844);
-    let t846 = mul_add(t267, t472, mul_add(t224, t470, t253 * t471));
-    let t847 = mul_add(t186, t453, t846);
-    let t848 = neg_mul_add(parameters.payload_com[1], t825, t847);
-    let t849 = mul_sub(t6, t845, t15 * t848);
-    let t850 = mul_sub(t3, t839, t12 * t842) + t849;
-    let t851 = mul_add(t282, t479, mul_add(t238, t477, t267 * t478));
-    let t852 = mul_sub(t193, t455, t851);
-    let t853 = neg_mul_add(parameters.payload_com[2], t831, t852);
-    let t854 = mul_add(t282, t472, mul_add(t238, t470, t267 * t471));
-    let t855 = mul_add(t193, t453, t854);
-    let t856 = neg_mul_add(parameters.payload_com[2], t825, t855);
-    let t857 = t850 + mul_sub(t9, t853, t18 * t856);
-    let t858 = base_rotation[1][2] * external_wrench[4];
-    let t859 = mul_add(base_rotation[0][2], external_wrench[3], t858);
-    let t860 = mul_add(base_rotation[2][2], external_wrench[5], t859);
-    let t861 = t660 + (t857 - mul_sub(t32, t832, t34 * t826) - t860);
-    let t862 = t815 + (t784 + (t753 + (t722 + (t691 + t861))));
-    let t863 = mul_add(t238, t485, mul_add(t210, t483, t224 * t484));
-    let t864 = mul_add(t179, t457, t863);
-    let t865 = neg_mul_add(parameters.payload_com[0], t819, t864);
-    let t866 = mul_add(t267, t485, mul_add(t224, t483, t253 * t484));
-    let t867 = mul_add(t186, t457, t866);
-    let t868 = neg_mul_add(parameters.payload_com[1], t819, t867);
-    let t869 = mul_sub(t15, t868, t24 * t845);
-    let t870 = mul_sub(t12, t865, t21 * t839) + t869;
-    let t871 = mul_add(t282, t485, mul_add(t238, t483, t267 * t484));
-    let t872 = mul_add(t193, t457, t871);
-    let t873 = neg_mul_add(parameters.payload_com[2], t819, t872);
-    let t874 = t870 + mul_sub(t18, t873, t27 * t853);
-    let t875 = base_rotation[1][0] * external_wrench[4];
-    let t876 = mul_add(base_rotation[0][0], external_wrench[3], t875);
-    let t877 = mul_add(base_rotation[2][0], external_wrench[5], t876);
-    let t878 = t650 + (t874 - mul_sub(t34, t820, t36 * t832) - t877);
-    let t879 = t805 + (t774 + (t743 + (t712 + (t681 + t878))));
-    let t880 = mul_sub(t24, t848, t6 * t868);
-    let t881 = mul_sub(t21, t842, t3 * t865) + t880;
-    let t882 = t881 + mul_sub(t27, t856, t9 * t873);
-    let t883 = base_rotation[1][1] * external_wrench[4];
-    let t884 = mul_add(base_rotation[0][1], external_wrench[3], t883);
-    let t885 = mul_add(base_rotation[2][1], external_wrench[5], t884);
-    let t886 = t656 + (t882 - mul_sub(t36, t826, t32 * t820) - t885);
-    let t887 = t811 + (t780 + (t749 + (t718 + (t687 + t886))));
-    let t888 = mul_add(base_rotation[0][0], t879, base_rotation[0][1] * t887);
-    base_wrench[3] = mul_add(base_rotation[0][2], t862, t888);
-    let t889 = mul_add(base_rotation[1][0], t879, base_rotation[1][1] * t887);
-    base_wrench[4] = mul_add(base_rotation[1][2], t862, t889);
-    let t890 = mul_add(base_rotation[2][0], t879, base_rotation[2][1] * t887);
-    base_wrench[5] = mul_add(base_rotation[2][2], t862, t890);
+    let t824 = mul_add(t193, t493, mul_add(t179, t489, t186 * t491));
+    let t825 = base_rotation[1][2] * external_wrench[1];
+    let t826 = mul_add(base_rotation[0][2], external_wrench[0], t825);
+    let t827 = mul_add(base_rotation[2][2], external_wrench[2], t826);
+    let t828 = mul_add(t172, t457, t824) - t827;
+    let t829 = t805 + (t774 + (t743 + (t712 + (t681 + (t650 + t828)))));
+    let t830 = mul_add(t193, t478, mul_add(t179, t470, t186 * t474));
+    let t831 = base_rotation[1][0] * external_wrench[1];
+    let t832 = mul_add(base_rotation[0][0], external_wrench[0], t831);
+    let t833 = mul_add(base_rotation[2][0], external_wrench[2], t832);
+    let t834 = mul_add(t172, t453, t830) - t833;
+    let t835 = t797 + (t766 + (t735 + (t704 + (t673 + (t642 + t834)))));
+    let t836 = mul_add(t193, t487, mul_add(t179, t481, t186 * t484));
+    let t837 = base_rotation[1][1] * external_wrench[1];
+    let t838 = mul_add(base_rotation[0][1], external_wrench[0], t837);
+    let t839 = mul_add(base_rotation[2][1], external_wrench[2], t838);
+    let t840 = mul_add(t172, t455, t836) - t839;
+    let t841 = t801 + (t770 + (t739 + (t708 + (t677 + (t646 + t840)))));
+    let t842 = mul_add(base_rotation[0][0], t835, base_rotation[0][1] * t841);
+    base_wrench[0] = mul_add(base_rotation[0][2], t829, t842);
+    let t843 = mul_add(base_rotation[1][0], t835, base_rotation[1][1] * t841);
+    base_wrench[1] = mul_add(base_rotation[1][2], t829, t843);
+    let t844 = mul_add(base_rotation[2][0], t835, base_rotation[2][1] * t841);
+    base_wrench[2] = mul_add(base_rotation[2][2], t829, t844);
+    let t845 = mul_add(t238, t487, mul_add(t210, t481, t224 * t484));
+    let t846 = mul_sub(t179, t455, t845);
+    let t847 = neg_mul_add(parameters.payload_com[0], t839, t846);
+    let t848 = mul_add(t238, t478, mul_add(t210, t470, t224 * t474));
+    let t849 = mul_sub(t179, t453, t848);
+    let t850 = neg_mul_add(parameters.payload_com[0], t833, t849);
+    let t851 = mul_add(t267, t487, mul_add(t224, t481, t253 * t484));
+    let t852 = mul_sub(t186, t455, t851);
+    let t853 = neg_mul_add(parameters.payload_com[1], t839, t852);
+    let t854 = mul_add(t267, t478, mul_add(t224, t470, t253 * t474));
+    let t855 = mul_sub(t186, t453, t854);
+    let t856 = neg_mul_add(parameters.payload_com[1], t833, t855);
+    let t857 = mul_sub(t6, t853, t15 * t856);
+    let t858 = mul_sub(t3, t847, t12 * t850) + t857;
+    let t859 = mul_add(t282, t487, mul_add(t238, t481, t267 * t484));
+    let t860 = mul_sub(t193, t455, t859);
+    let t861 = neg_mul_add(parameters.payload_com[2], t839, t860);
+    let t862 = mul_add(t282, t478, mul_add(t238, t470, t267 * t474));
+    let t863 = mul_sub(t193, t453, t862);
+    let t864 = neg_mul_add(parameters.payload_com[2], t833, t863);
+    let t865 = t858 + mul_sub(t9, t861, t18 * t864);
+    let t866 = base_rotation[1][2] * external_wrench[4];
+    let t867 = mul_add(base_rotation[0][2], external_wrench[3], t866);
+    let t868 = mul_add(base_rotation[2][2], external_wrench[5], t867);
+    let t869 = t668 + (t865 - mul_sub(t32, t840, t34 * t834) - t868);
+    let t870 = t823 + (t792 + (t761 + (t730 + (t699 + t869))));
+    let t871 = mul_add(t238, t493, mul_add(t210, t489, t224 * t491));
+    let t872 = mul_sub(t179, t457, t871);
+    let t873 = neg_mul_add(parameters.payload_com[0], t827, t872);
+    let t874 = mul_add(t267, t493, mul_add(t224, t489, t253 * t491));
+    let t875 = mul_sub(t186, t457, t874);
+    let t876 = neg_mul_add(parameters.payload_com[1], t827, t875);
+    let t877 = mul_sub(t15, t876, t24 * t853);
+    let t878 = mul_sub(t12, t873, t21 * t847) + t877;
+    let t879 = mul_add(t282, t493, mul_add(t238, t489, t267 * t491));
+    let t880 = mul_sub(t193, t457, t879);
+    let t881 = neg_mul_add(parameters.payload_com[2], t827, t880);
+    let t882 = t878 + mul_sub(t18, t881, t27 * t861);
+    let t883 = base_rotation[1][0] * external_wrench[4];
+    let t884 = mul_add(base_rotation[0][0], external_wrench[3], t883);
+    let t885 = mul_add(base_rotation[2][0], external_wrench[5], t884);
+    let t886 = t658 + (t882 - mul_sub(t34, t828, t36 * t840) - t885);
+    let t887 = t813 + (t782 + (t751 + (t720 + (t689 + t886))));
+    let t888 = mul_sub(t24, t856, t6 * t876);
+    let t889 = mul_sub(t21, t850, t3 * t873) + t888;
+    let t890 = t889 + mul_sub(t27, t864, t9 * t881);
+    let t891 = base_rotation[1][1] * external_wrench[4];
+    let t892 = mul_add(base_rotation[0][1], external_wrench[3], t891);
+    let t893 = mul_add(base_rotation[2][1], external_wrench[5], t892);
+    let t894 = t664 + (t890 - mul_sub(t36, t834, t32 * t828) - t893);
+    let t895 = t819 + (t788 + (t757 + (t726 + (t695 + t894))));
+    let t896 = mul_add(base_rotation[0][0], t887, base_rotation[0][1] * t895);
+    base_wrench[3] = mul_add(base_rotation[0][2], t870, t896);
+    let t897 = mul_add(base_rotation[1][0], t887, base_rotation[1][1] * t895);
+    base_wrench[4] = mul_add(base_rotation[1][2], t870, t897);
+    let t898 = mul_add(base_rotation[2][0], t887, base_rotation[2][1] * t895);
+    base_wrench[5] = mul_add(base_rotation[2][2], t870, t898);
 }
 
 /// Platform acceleration for given actuator forces, equation (49).
@@ -30579,26 +30459,24 @@ pub fn forward_dynamics<T: Scalar>(
         t175,
         t182,
         t189,
-        t454,
         t455,
-        t456,
-        t458,
+        t457,
         t459,
         t460,
-        t616,
-        t617,
-        t629,
-        t630,
-        t642,
-        t643,
-        t655,
-        t656,
-        t668,
-        t669,
-        t681,
-        t682,
-        t689,
-        t690,
+        t461,
+        t462,
+        t618,
+        t619,
+        t631,
+        t632,
+        t644,
+        t645,
+        t657,
+        t658,
+        t670,
+        t671,
+        t683,
+        t684,
         t691,
         t692,
         t693,
@@ -30615,74 +30493,74 @@ pub fn forward_dynamics<T: Scalar>(
         t704,
         t705,
         t706,
-        t721,
-        t724,
-        t732,
-        t740,
-        t741,
-        t749,
-        t757,
-        t765,
-        t773,
-        t781,
-        t782,
-        t790,
-        t798,
-        t799,
-        t803,
-        t807,
-        t811,
-        t815,
-        t819,
-        t823,
-        t829,
-        t840,
-        t844,
-        t845,
+        t707,
+        t708,
+        t723,
+        t726,
+        t734,
+        t742,
+        t743,
+        t751,
+        t759,
+        t767,
+        t775,
+        t783,
+        t784,
+        t792,
+        t800,
+        t801,
+        t805,
+        t809,
+        t813,
+        t817,
+        t821,
+        t825,
+        t831,
+        t842,
         t846,
         t847,
         t848,
         t849,
         t850,
-        t853,
-        t854,
+        t851,
+        t852,
         t855,
         t856,
         t857,
         t858,
         t859,
-        t862,
-        t863,
+        t860,
+        t861,
         t864,
         t865,
         t866,
         t867,
         t868,
-        t871,
-        t890,
-        t891,
+        t869,
+        t870,
+        t873,
         t892,
         t893,
         t894,
         t895,
         t896,
-        t899,
-        t900,
+        t897,
+        t898,
         t901,
         t902,
         t903,
         t904,
         t905,
         t906,
-        t909,
-        t910,
+        t907,
+        t908,
         t911,
         t912,
         t913,
-        t923,
-        t930,
-        t934,
-        t935,
+        t914,
+        t915,
+        t925,
+        t932,
         t936,
         t937,
         t938,
@@ -30692,6 +30570,8 @@ pub fn forward_dynamics<T: Scalar>(
         t942,
         t943,
         t944,
+        t945,
+        t946,
     ) = {
         // rotation of the platform seen from the base
         let t1 = base_rotation[1][0] * platform_rotation[1][0];
@@ -31288,552 +31168,554 @@ pub fn forward_dynamics<T: Scalar>(
         let t443 = mul_add(t284, t287, t428);
         let t444 = mul_add(t284, t284, t439);
         // acceleration per platform coordinate of points of the platform
-        let t445 = t290 * t296;
-        let t446 = t290 * t293;
-        let t447 = mul_add(t293, t293, t296 * t296);
-        let t448 = mul_add(t21, t445, mul_sub(t12, t446, t3 * t447));
-        let t449 = mul_add(t24, t445, mul_sub(t15, t446, t6 * t447));
-        let t450 = mul_add(t27, t445, mul_sub(t18, t446, t9 * t447));
-        let t451 = t293 * t296;
-        let t452 = t290 * t290;
-        let t453 = mul_add(t296, t296, t452);
-        let t454 = mul_add(t21, t451, mul_sub(t3, t446, t12 * t453));
-        let t455 = mul_add(t24, t451, mul_sub(t6, t446, t15 * t453));
-        let t456 = mul_add(t27, t451, mul_sub(t9, t446, t18 * t453));
-        let t457 = mul_add(t293, t293, t452);
-        let t458 = mul_sub(t21, t457, mul_add(t3, t445, t12 * t451));
-        let t459 = mul_sub(t24, t457, mul_add(t6, t445, t15 * t451));
-        let t460 = mul_sub(t27, t457, mul_add(t9, t445, t18 * t451));
+        let t445 = mul_sub(t12, t290, t3 * t293);
+        let t446 = mul_sub(t3, t296, t21 * t290);
+        let t447 = mul_sub(t293, t445, t296 * t446);
+        let t448 = mul_sub(t15, t290, t6 * t293);
+        let t449 = mul_sub(t6, t296, t24 * t290);
+        let t450 = mul_sub(t293, t448, t296 * t449);
+        let t451 = mul_sub(t18, t290, t9 * t293);
+        let t452 = mul_sub(t9, t296, t27 * t290);
+        let t453 = mul_sub(t293, t451, t296 * t452);
+        let t454 = mul_sub(t21, t293, t12 * t296);
+        let t455 = mul_sub(t296, t454, t290 * t445);
+        let t456 = mul_sub(t24, t293, t15 * t296);
+        let t457 = mul_sub(t296, t456, t290 * t448);
+        let t458 = mul_sub(t27, t293, t18 * t296);
+        let t459 = mul_sub(t296, t458, t290 * t451);
+        let t460 = mul_sub(t290, t446, t293 * t454);
+        let t461 = mul_sub(t290, t449, t293 * t456);
+        let t462 = mul_sub(t290, t452, t293 * t458);
         // leg 1: actuator acceleration d''
-        let t461 = parameters.platform_point[0][1] * t449;
-        let t462 = mul_add(parameters.platform_point[0][0], t448, t461);
-        let t463 = mul_add(parameters.platform_point[0][2], t450, t462);
-        let t464 = neg_mul_add(parameters.base_point[0][0], t435, t421);
-        let t465 = mul_sub(parameters.base_point[0][1], t436, t464);
-        let t466 = mul_sub(parameters.base_point[0][2], t437, t465);
-        let t467 = t463 - t466;
-        let t468 = parameters.platform_point[0][1] * t455;
-        let t469 = mul_add(parameters.platform_point[0][0], t454, t468);
-        let t470 = mul_add(parameters.platform_point[0][2], t456, t469);
-        let t471 = mul_add(parameters.base_point[0][0], t438, t423);
-        let t472 = mul_sub(parameters.base_point[0][1], t440, t471);
-        let t473 = mul_add(parameters.base_point[0][2], t441, t472);
-        let t474 = t470 + t473;
-        let t475 = parameters.platform_point[0][1] * t459;
-        let t476 = mul_add(parameters.platform_point[0][0], t458, t475);
-        let t477 = mul_add(parameters.platform_point[0][2], t460, t476);
-        let t478 = neg_mul_add(parameters.base_point[0][0], t442, t425);
-        let t479 = mul_add(parameters.base_point[0][1], t443, t478);
-        let t480 = mul_sub(parameters.base_point[0][2], t444, t479);
-        let t481 = t477 - t480;
-        let t482 = mul_add(t386, t386, mul_add(t382, t382, t384 * t384));
-        let t483 = mul_sub(t123, t481, mul_add(t121, t467, t122 * t474));
-        let t484 = mul_sub(t109, t482, t483);
+        let t463 = parameters.platform_point[0][1] * t450;
+        let t464 = mul_add(parameters.platform_point[0][0], t447, t463);
+        let t465 = mul_add(parameters.platform_point[0][2], t453, t464);
+        let t466 = neg_mul_add(parameters.base_point[0][0], t435, t421);
+        let t467 = mul_sub(parameters.base_point[0][1], t436, t466);
+        let t468 = mul_sub(parameters.base_point[0][2], t437, t467);
+        let t469 = t465 - t468;
+        let t470 = parameters.platform_point[0][1] * t457;
+        let t471 = mul_add(parameters.platform_point[0][0], t455, t470);
+        let t472 = mul_add(parameters.platform_point[0][2], t459, t471);
+        let t473 = mul_add(parameters.base_point[0][0], t438, t423);
+        let t474 = mul_sub(parameters.base_point[0][1], t440, t473);
+        let t475 = mul_add(parameters.base_point[0][2], t441, t474);
+        let t476 = t472 + t475;
+        let t477 = parameters.platform_point[0][1] * t461;
+        let t478 = mul_add(parameters.platform_point[0][0], t460, t477);
+        let t479 = mul_add(parameters.platform_point[0][2], t462, t478);
+        let t480 = neg_mul_add(parameters.base_point[0][0], t442, t425);
+        let t481 = mul_add(parameters.base_point[0][1], t443, t480);
+        let t482 = mul_sub(parameters.base_point[0][2], t444, t481);
+        let t483 = t479 + t482;
+        let t484 = mul_add(t386, t386, mul_add(t382, t382, t384 * t384));
+        let t485 = mul_add(t123, t483, mul_add(t121, t469, t122 * t476));
+        let t486 = mul_add(t109, t484, t485);
         // leg 2: actuator acceleration d''
-        let t485 = parameters.platform_point[1][1] * t449;
-        let t486 = mul_add(parameters.platform_point[1][0], t448, t485);
-        let t487 = mul_add(parameters.platform_point[1][2], t450, t486);
-        let t488 = neg_mul_add(parameters.base_point[1][0], t435, t421);
-        let t489 = mul_sub(parameters.base_point[1][1], t436, t488);
-        let t490 = mul_sub(parameters.base_point[1][2], t437, t489);
-        let t491 = t487 - t490;
-        let t492 = parameters.platform_point[1][1] * t455;
-        let t493 = mul_add(parameters.platform_point[1][0], t454, t492);
-        let t494 = mul_add(parameters.platform_point[1][2], t456, t493);
-        let t495 = mul_add(parameters.base_point[1][0], t438, t423);
-        let t496 = mul_sub(parameters.base_point[1][1], t440, t495);
-        let t497 = mul_add(parameters.base_point[1][2], t441, t496);
-        let t498 = t494 + t497;
-        let t499 = parameters.platform_point[1][1] * t459;
-        let t500 = mul_add(parameters.platform_point[1][0], t458, t499);
-        let t501 = mul_add(parameters.platform_point[1][2], t460, t500);
-        let t502 = neg_mul_add(parameters.base_point[1][0], t442, t425);
-        let t503 = mul_add(parameters.base_point[1][1], t443, t502);
-        let t504 = mul_sub(parameters.base_point[1][2], t444, t503);
-        let t505 = t501 - t504;
-        let t506 = mul_add(t392, t392, mul_add(t388, t388, t390 * t390));
-        let t507 = mul_sub(t126, t505, mul_add(t124, t491, t125 * t498));
-        let t508 = mul_sub(t111, t506, t507);
+        let t487 = parameters.platform_point[1][1] * t450;
+        let t488 = mul_add(parameters.platform_point[1][0], t447, t487);
+        let t489 = mul_add(parameters.platform_point[1][2], t453, t488);
+        let t490 = neg_mul_add(parameters.base_point[1][0], t435, t421);
+        let t491 = mul_sub(parameters.base_point[1][1], t436, t490);
+        let t492 = mul_sub(parameters.base_point[1][2], t437, t491);
+        let t493 = t489 - t492;
+        let t494 = parameters.platform_point[1][1] * t457;
+        let t495 = mul_add(parameters.platform_point[1][0], t455, t494);
+        let t496 = mul_add(parameters.platform_point[1][2], t459, t495);
+        let t497 = mul_add(parameters.base_point[1][0], t438, t423);
+        let t498 = mul_sub(parameters.base_point[1][1], t440, t497);
+        let t499 = mul_add(parameters.base_point[1][2], t441, t498);
+        let t500 = t496 + t499;
+        let t501 = parameters.platform_point[1][1] * t461;
+        let t502 = mul_add(parameters.platform_point[1][0], t460, t501);
+        let t503 = mul_add(parameters.platform_point[1][2], t462, t502);
+        let t504 = neg_mul_add(parameters.base_point[1][0], t442, t425);
+        let t505 = mul_add(parameters.base_point[1][1], t443, t504);
+        let t506 = mul_sub(parameters.base_point[1][2], t444, t505);
+        let t507 = t503 + t506;
+        let t508 = mul_add(t392, t392, mul_add(t388, t388, t390 * t390));
+        let t509 = mul_add(t126, t507, mul_add(t124, t493, t125 * t500));
+        let t510 = mul_add(t111, t508, t509);
         // leg 3: actuator acceleration d''
-        let t509 = parameters.platform_point[2][1] * t449;
-        let t510 = mul_add(parameters.platform_point[2][0], t448, t509);
-        let t511 = mul_add(parameters.platform_point[2][2], t450, t510);
-        let t512 = neg_mul_add(parameters.base_point[2][0], t435, t421);
-        let t513 = mul_sub(parameters.base_point[2][1], t436, t512);
-        let t514 = mul_sub(parameters.base_point[2][2], t437, t513);
-        let t515 = t511 - t514;
-        let t516 = parameters.platform_point[2][1] * t455;
-        let t517 = mul_add(parameters.platform_point[2][0], t454, t516);
-        let t518 = mul_add(parameters.platform_point[2][2], t456, t517);
-        let t519 = mul_add(parameters.base_point[2][0], t438, t423);
-        let t520 = mul_sub(parameters.base_point[2][1], t440, t519);
-        let t521 = mul_add(parameters.base_point[2][2], t441, t520);
-        let t522 = t518 + t521;
-        let t523 = parameters.platform_point[2][1] * t459;
-        let t524 = mul_add(parameters.platform_point[2][0], t458, t523);
-        let t525 = mul_add(parameters.platform_point[2][2], t460, t524);
-        let t526 = neg_mul_add(parameters.base_point[2][0], t442, t425);
-        let t527 = mul_add(parameters.base_point[2][1], t443, t526);
-        let t528 = mul_sub(parameters.base_point[2][2], t444, t527);
-        let t529 = t525 - t528;
-        let t530 = mul_add(t398, t398, mul_add(t394, t394, t396 * t396));
-        let t531 = mul_sub(t129, t529, mul_add(t127, t515, t128 * t522));
-        let t532 = mul_sub(t113, t530, t531);
+        let t511 = parameters.platform_point[2][1] * t450;
+        let t512 = mul_add(parameters.platform_point[2][0], t447, t511);
+        let t513 = mul_add(parameters.platform_point[2][2], t453, t512);
+        let t514 = neg_mul_add(parameters.base_point[2][0], t435, t421);
+        let t515 = mul_sub(parameters.base_point[2][1], t436, t514);
+        let t516 = mul_sub(parameters.base_point[2][2], t437, t515);
+        let t517 = t513 - t516;
+        let t518 = parameters.platform_point[2][1] * t457;
+        let t519 = mul_add(parameters.platform_point[2][0], t455, t518);
+        let t520 = mul_add(parameters.platform_point[2][2], t459, t519);
+        let t521 = mul_add(parameters.base_point[2][0], t438, t423);
+        let t522 = mul_sub(parameters.base_point[2][1], t440, t521);
+        let t523 = mul_add(parameters.base_point[2][2], t441, t522);
+        let t524 = t520 + t523;
+        let t525 = parameters.platform_point[2][1] * t461;
+        let t526 = mul_add(parameters.platform_point[2][0], t460, t525);
+        let t527 = mul_add(parameters.platform_point[2][2], t462, t526);
+        let t528 = neg_mul_add(parameters.base_point[2][0], t442, t425);
+        let t529 = mul_add(parameters.base_point[2][1], t443, t528);
+        let t530 = mul_sub(parameters.base_point[2][2], t444, t529);
+        let t531 = t527 + t530;
+        let t532 = mul_add(t398, t398, mul_add(t394, t394, t396 * t396));
+        let t533 = mul_add(t129, t531, mul_add(t127, t517, t128 * t524));
+        let t534 = mul_add(t113, t532, t533);
         // leg 4: actuator acceleration d''
-        let t533 = parameters.platform_point[3][1] * t449;
-        let t534 = mul_add(parameters.platform_point[3][0], t448, t533);
-        let t535 = mul_add(parameters.platform_point[3][2], t450, t534);
-        let t536 = neg_mul_add(parameters.base_point[3][0], t435, t421);
-        let t537 = mul_sub(parameters.base_point[3][1], t436, t536);
-        let t538 = mul_sub(parameters.base_point[3][2], t437, t537);
-        let t539 = t535 - t538;
-        let t540 = parameters.platform_point[3][1] * t455;
-        let t541 = mul_add(parameters.platform_point[3][0], t454, t540);
-        let t542 = mul_add(parameters.platform_point[3][2], t456, t541);
-        let t543 = mul_add(parameters.base_point[3][0], t438, t423);
-        let t544 = mul_sub(parameters.base_point[3][1], t440, t543);
-        let t545 = mul_add(parameters.base_point[3][2], t441, t544);
-        let t546 = t542 + t545;
-        let t547 = parameters.platform_point[3][1] * t459;
-        let t548 = mul_add(parameters.platform_point[3][0], t458, t547);
-        let t549 = mul_add(parameters.platform_point[3][2], t460, t548);
-        let t550 = neg_mul_add(parameters.base_point[3][0], t442, t425);
-        let t551 = mul_add(parameters.base_point[3][1], t443, t550);
-        let t552 = mul_sub(parameters.base_point[3][2], t444, t551);
-        let t553 = t549 - t552;
-        let t554 = mul_add(t404, t404, mul_add(t400, t400, t402 * t402));
-        let t555 = mul_sub(t132, t553, mul_add(t130, t539, t131 * t546));
-        let t556 = mul_sub(t115, t554, t555);
+        let t535 = parameters.platform_point[3][1] * t450;
+        let t536 = mul_add(parameters.platform_point[3][0], t447, t535);
+        let t537 = mul_add(parameters.platform_point[3][2], t453, t536);
+        let t538 = neg_mul_add(parameters.base_point[3][0], t435, t421);
+        let t539 = mul_sub(parameters.base_point[3][1], t436, t538);
+        let t540 = mul_sub(parameters.base_point[3][2], t437, t539);
+        let t541 = t537 - t540;
+        let t542 = parameters.platform_point[3][1] * t457;
+        let t543 = mul_add(parameters.platform_point[3][0], t455, t542);
+        let t544 = mul_add(parameters.platform_point[3][2], t459, t543);
+        let t545 = mul_add(parameters.base_point[3][0], t438, t423);
+        let t546 = mul_sub(parameters.base_point[3][1], t440, t545);
+        let t547 = mul_add(parameters.base_point[3][2], t441, t546);
+        let t548 = t544 + t547;
+        let t549 = parameters.platform_point[3][1] * t461;
+        let t550 = mul_add(parameters.platform_point[3][0], t460, t549);
+        let t551 = mul_add(parameters.platform_point[3][2], t462, t550);
+        let t552 = neg_mul_add(parameters.base_point[3][0], t442, t425);
+        let t553 = mul_add(parameters.base_point[3][1], t443, t552);
+        let t554 = mul_sub(parameters.base_point[3][2], t444, t553);
+        let t555 = t551 + t554;
+        let t556 = mul_add(t404, t404, mul_add(t400, t400, t402 * t402));
+        let t557 = mul_add(t132, t555, mul_add(t130, t541, t131 * t548));
+        let t558 = mul_add(t115, t556, t557);
         // leg 5: actuator acceleration d''
-        let t557 = parameters.platform_point[4][1] * t449;
-        let t558 = mul_add(parameters.platform_point[4][0], t448, t557);
-        let t559 = mul_add(parameters.platform_point[4][2], t450, t558);
-        let t560 = neg_mul_add(parameters.base_point[4][0], t435, t421);
-        let t561 = mul_sub(parameters.base_point[4][1], t436, t560);
-        let t562 = mul_sub(parameters.base_point[4][2], t437, t561);
-        let t563 = t559 - t562;
-        let t564 = parameters.platform_point[4][1] * t455;
-        let t565 = mul_add(parameters.platform_point[4][0], t454, t564);
-        let t566 = mul_add(parameters.platform_point[4][2], t456, t565);
-        let t567 = mul_add(parameters.base_point[4][0], t438, t423);
-        let t568 = mul_sub(parameters.base_point[4][1], t440, t567);
-        let t569 = mul_add(parameters.base_point[4][2], t441, t568);
-        let t570 = t566 + t569;
-        let t571 = parameters.platform_point[4][1] * t459;
-        let t572 = mul_add(parameters.platform_point[4][0], t458, t571);
-        let t573 = mul_add(parameters.platform_point[4][2], t460, t572);
-        let t574 = neg_mul_add(parameters.base_point[4][0], t442, t425);
-        let t575 = mul_add(parameters.base_point[4][1], t443, t574);
-        let t576 = mul_sub(parameters.base_point[4][2], t444, t575);
-        let t577 = t573 - t576;
-        let t578 = mul_add(t410, t410, mul_add(t406, t406, t408 * t408));
-        let t579 = mul_sub(t135, t577, mul_add(t133, t563, t134 * t570));
-        let t580 = mul_sub(t117, t578, t579);
+        let t559 = parameters.platform_point[4][1] * t450;
+        let t560 = mul_add(parameters.platform_point[4][0], t447, t559);
+        let t561 = mul_add(parameters.platform_point[4][2], t453, t560);
+        let t562 = neg_mul_add(parameters.base_point[4][0], t435, t421);
+        let t563 = mul_sub(parameters.base_point[4][1], t436, t562);
+        let t564 = mul_sub(parameters.base_point[4][2], t437, t563);
+        let t565 = t561 - t564;
+        let t566 = parameters.platform_point[4][1] * t457;
+        let t567 = mul_add(parameters.platform_point[4][0], t455, t566);
+        let t568 = mul_add(parameters.platform_point[4][2], t459, t567);
+        let t569 = mul_add(parameters.base_point[4][0], t438, t423);
+        let t570 = mul_sub(parameters.base_point[4][1], t440, t569);
+        let t571 = mul_add(parameters.base_point[4][2], t441, t570);
+        let t572 = t568 + t571;
+        let t573 = parameters.platform_point[4][1] * t461;
+        let t574 = mul_add(parameters.platform_point[4][0], t460, t573);
+        let t575 = mul_add(parameters.platform_point[4][2], t462, t574);
+        let t576 = neg_mul_add(parameters.base_point[4][0], t442, t425);
+        let t577 = mul_add(parameters.base_point[4][1], t443, t576);
+        let t578 = mul_sub(parameters.base_point[4][2], t444, t577);
+        let t579 = t575 + t578;
+        let t580 = mul_add(t410, t410, mul_add(t406, t406, t408 * t408));
+        let t581 = mul_add(t135, t579, mul_add(t133, t565, t134 * t572));
+        let t582 = mul_add(t117, t580, t581);
         // leg 6: actuator acceleration d''
-        let t581 = parameters.platform_point[5][1] * t449;
-        let t582 = mul_add(parameters.platform_point[5][0], t448, t581);
-        let t583 = mul_add(parameters.platform_point[5][2], t450, t582);
-        let t584 = neg_mul_add(parameters.base_point[5][0], t435, t421);
-        let t585 = mul_sub(parameters.base_point[5][1], t436, t584);
-        let t586 = mul_sub(parameters.base_point[5][2], t437, t585);
-        let t587 = t583 - t586;
-        let t588 = parameters.platform_point[5][1] * t455;
-        let t589 = mul_add(parameters.platform_point[5][0], t454, t588);
-        let t590 = mul_add(parameters.platform_point[5][2], t456, t589);
-        let t591 = mul_add(parameters.base_point[5][0], t438, t423);
-        let t592 = mul_sub(parameters.base_point[5][1], t440, t591);
-        let t593 = mul_add(parameters.base_point[5][2], t441, t592);
-        let t594 = t590 + t593;
-        let t595 = parameters.platform_point[5][1] * t459;
-        let t596 = mul_add(parameters.platform_point[5][0], t458, t595);
-        let t597 = mul_add(parameters.platform_point[5][2], t460, t596);
-        let t598 = neg_mul_add(parameters.base_point[5][0], t442, t425);
-        let t599 = mul_add(parameters.base_point[5][1], t443, t598);
-        let t600 = mul_sub(parameters.base_point[5][2], t444, t599);
-        let t601 = t597 - t600;
-        let t602 = mul_add(t416, t416, mul_add(t412, t412, t414 * t414));
-        let t603 = mul_sub(t138, t601, mul_add(t136, t587, t137 * t594));
-        let t604 = mul_sub(t119, t602, t603);
+        let t583 = parameters.platform_point[5][1] * t450;
+        let t584 = mul_add(parameters.platform_point[5][0], t447, t583);
+        let t585 = mul_add(parameters.platform_point[5][2], t453, t584);
+        let t586 = neg_mul_add(parameters.base_point[5][0], t435, t421);
+        let t587 = mul_sub(parameters.base_point[5][1], t436, t586);
+        let t588 = mul_sub(parameters.base_point[5][2], t437, t587);
+        let t589 = t585 - t588;
+        let t590 = parameters.platform_point[5][1] * t457;
+        let t591 = mul_add(parameters.platform_point[5][0], t455, t590);
+        let t592 = mul_add(parameters.platform_point[5][2], t459, t591);
+        let t593 = mul_add(parameters.base_point[5][0], t438, t423);
+        let t594 = mul_sub(parameters.base_point[5][1], t440, t593);
+        let t595 = mul_add(parameters.base_point[5][2], t441, t594);
+        let t596 = t592 + t595;
+        let t597 = parameters.platform_point[5][1] * t461;
+        let t598 = mul_add(parameters.platform_point[5][0], t460, t597);
+        let t599 = mul_add(parameters.platform_point[5][2], t462, t598);
+        let t600 = neg_mul_add(parameters.base_point[5][0], t442, t425);
+        let t601 = mul_add(parameters.base_point[5][1], t443, t600);
+        let t602 = mul_sub(parameters.base_point[5][2], t444, t601);
+        let t603 = t599 + t602;
+        let t604 = mul_add(t416, t416, mul_add(t412, t412, t414 * t414));
+        let t605 = mul_add(t138, t603, mul_add(t136, t589, t137 * t596));
+        let t606 = mul_add(t119, t604, t605);
         // leg 1: leg inertia less weight along the actuator
-        let t605 = t110 * t140;
-        let t606 = c(2.0) * t375;
-        let t607 = t110 * mul_add(t382, t606, neg_mul_add(t121, t484, t467));
-        let t608 = t110 * t143;
-        let t609 = t110 * t139;
-        let t610 = mul_sub(t608, t607, mul_sub(t463, t605, t466 * t609));
-        let t611 = t110 * mul_add(t384, t606, neg_mul_add(t122, t484, t474));
-        let t612 = mul_sub(t608, t611, mul_add(t470, t605, t473 * t609));
-        let t613 = t110 * mul_sub(t386, t606, mul_add(t123, t484, t481));
-        let t614 = mul_add(t608, t613, mul_sub(t477, t605, t480 * t609));
+        let t607 = t110 * t140;
+        let t608 = c(2.0) * t375;
+        let t609 = t110 * mul_add(t382, t608, neg_mul_add(t121, t486, t469));
+        let t610 = t110 * t143;
+        let t611 = t110 * t139;
+        let t612 = mul_sub(t610, t609, mul_sub(t465, t607, t468 * t611));
+        let t613 = t110 * mul_add(t384, t608, neg_mul_add(t122, t486, t476));
+        let t614 = mul_sub(t610, t613, mul_add(t472, t607, t475 * t611));
+        let t615 = t110 * mul_add(t386, t608, neg_mul_add(t123, t486, t483));
+        let t616 = mul_sub(t610, t615, mul_add(t479, t607, t482 * t611));
         // leg 1: remaining leg inertia less weight at the platform joint
-        let t615 = neg_mul_add(t140, t607, t610);
-        let t616 = neg_mul_add(t140, t611, t612);
-        let t617 = neg_mul_add(t140, t613, t614);
+        let t617 = neg_mul_add(t140, t609, t612);
+        let t618 = neg_mul_add(t140, t613, t614);
+        let t619 = neg_mul_add(t140, t615, t616);
         // leg 2: leg inertia less weight along the actuator
-        let t618 = t112 * t145;
-        let t619 = c(2.0) * t376;
-        let t620 = t112 * mul_add(t388, t619, neg_mul_add(t124, t508, t491));
-        let t621 = t112 * t148;
-        let t622 = t112 * t144;
-        let t623 = mul_sub(t621, t620, mul_sub(t487, t618, t490 * t622));
-        let t624 = t112 * mul_add(t390, t619, neg_mul_add(t125, t508, t498));
-        let t625 = mul_sub(t621, t624, mul_add(t494, t618, t497 * t622));
-        let t626 = t112 * mul_sub(t392, t619, mul_add(t126, t508, t505));
-        let t627 = mul_add(t621, t626, mul_sub(t501, t618, t504 * t622));
+        let t620 = t112 * t145;
+        let t621 = c(2.0) * t376;
+        let t622 = t112 * mul_add(t388, t621, neg_mul_add(t124, t510, t493));
+        let t623 = t112 * t148;
+        let t624 = t112 * t144;
+        let t625 = mul_sub(t623, t622, mul_sub(t489, t620, t492 * t624));
+        let t626 = t112 * mul_add(t390, t621, neg_mul_add(t125, t510, t500));
+        let t627 = mul_sub(t623, t626, mul_add(t496, t620, t499 * t624));
+        let t628 = t112 * mul_add(t392, t621, neg_mul_add(t126, t510, t507));
+        let t629 = mul_sub(t623, t628, mul_add(t503, t620, t506 * t624));
         // leg 2: remaining leg inertia less weight at the platform joint
-        let t628 = neg_mul_add(t145, t620, t623);
-        let t629 = neg_mul_add(t145, t624, t625);
-        let t630 = neg_mul_add(t145, t626, t627);
+        let t630 = neg_mul_add(t145, t622, t625);
+        let t631 = neg_mul_add(t145, t626, t627);
+        let t632 = neg_mul_add(t145, t628, t629);
         // leg 3: leg inertia less weight along the actuator
-        let t631 = t114 * t150;
-        let t632 = c(2.0) * t377;
-        let t633 = t114 * mul_add(t394, t632, neg_mul_add(t127, t532, t515));
-        let t634 = t114 * t153;
-        let t635 = t114 * t149;
-        let t636 = mul_sub(t634, t633, mul_sub(t511, t631, t514 * t635));
-        let t637 = t114 * mul_add(t396, t632, neg_mul_add(t128, t532, t522));
-        let t638 = mul_sub(t634, t637, mul_add(t518, t631, t521 * t635));
-        let t639 = t114 * mul_sub(t398, t632, mul_add(t129, t532, t529));
-        let t640 = mul_add(t634, t639, mul_sub(t525, t631, t528 * t635));
+        let t633 = t114 * t150;
+        let t634 = c(2.0) * t377;
+        let t635 = t114 * mul_add(t394, t634, neg_mul_add(t127, t534, t517));
+        let t636 = t114 * t153;
+        let t637 = t114 * t149;
+        let t638 = mul_sub(t636, t635, mul_sub(t513, t633, t516 * t637));
+        let t639 = t114 * mul_add(t396, t634, neg_mul_add(t128, t534, t524));
+        let t640 = mul_sub(t636, t639, mul_add(t520, t633, t523 * t637));
+        let t641 = t114 * mul_add(t398, t634, neg_mul_add(t129, t534, t531));
+        let t642 = mul_sub(t636, t641, mul_add(t527, t633, t530 * t637));
         // leg 3: remaining leg inertia less weight at the platform joint
-        let t641 = neg_mul_add(t150, t633, t636);
-        let t642 = neg_mul_add(t150, t637, t638);
-        let t643 = neg_mul_add(t150, t639, t640);
+        let t643 = neg_mul_add(t150, t635, t638);
+        let t644 = neg_mul_add(t150, t639, t640);
+        let t645 = neg_mul_add(t150, t641, t642);
         // leg 4: leg inertia less weight along the actuator
-        let t644 = t116 * t155;
-        let t645 = c(2.0) * t378;
-        let t646 = t116 * mul_add(t400, t645, neg_mul_add(t130, t556, t539));
-        let t647 = t116 * t158;
-        let t648 = t116 * t154;
-        let t649 = mul_sub(t647, t646, mul_sub(t535, t644, t538 * t648));
-        let t650 = t116 * mul_add(t402, t645, neg_mul_add(t131, t556, t546));
-        let t651 = mul_sub(t647, t650, mul_add(t542, t644, t545 * t648));
-        let t652 = t116 * mul_sub(t404, t645, mul_add(t132, t556, t553));
-        let t653 = mul_add(t647, t652, mul_sub(t549, t644, t552 * t648));
+        let t646 = t116 * t155;
+        let t647 = c(2.0) * t378;
+        let t648 = t116 * mul_add(t400, t647, neg_mul_add(t130, t558, t541));
+        let t649 = t116 * t158;
+        let t650 = t116 * t154;
+        let t651 = mul_sub(t649, t648, mul_sub(t537, t646, t540 * t650));
+        let t652 = t116 * mul_add(t402, t647, neg_mul_add(t131, t558, t548));
+        let t653 = mul_sub(t649, t652, mul_add(t544, t646, t547 * t650));
+        let t654 = t116 * mul_add(t404, t647, neg_mul_add(t132, t558, t555));
+        let t655 = mul_sub(t649, t654, mul_add(t551, t646, t554 * t650));
         // leg 4: remaining leg inertia less weight at the platform joint
-        let t654 = neg_mul_add(t155, t646, t649);
-        let t655 = neg_mul_add(t155, t650, t651);
-        let t656 = neg_mul_add(t155, t652, t653);
+        let t656 = neg_mul_add(t155, t648, t651);
+        let t657 = neg_mul_add(t155, t652, t653);
+        let t658 = neg_mul_add(t155, t654, t655);
         // leg 5: leg inertia less weight along the actuator
-        let t657 = t118 * t160;
-        let t658 = c(2.0) * t379;
-        let t659 = t118 * mul_add(t406, t658, neg_mul_add(t133, t580, t563));
-        let t660 = t118 * t163;
-        let t661 = t118 * t159;
-        let t662 = mul_sub(t660, t659, mul_sub(t559, t657, t562 * t661));
-        let t663 = t118 * mul_add(t408, t658, neg_mul_add(t134, t580, t570));
-        let t664 = mul_sub(t660, t663, mul_add(t566, t657, t569 * t661));
-        let t665 = t118 * mul_sub(t410, t658, mul_add(t135, t580, t577));
-        let t666 = mul_add(t660, t665, mul_sub(t573, t657, t576 * t661));
+        let t659 = t118 * t160;
+        let t660 = c(2.0) * t379;
+        let t661 = t118 * mul_add(t406, t660, neg_mul_add(t133, t582, t565));
+        let t662 = t118 * t163;
+        let t663 = t118 * t159;
+        let t664 = mul_sub(t662, t661, mul_sub(t561, t659, t564 * t663));
+        let t665 = t118 * mul_add(t408, t660, neg_mul_add(t134, t582, t572));
+        let t666 = mul_sub(t662, t665, mul_add(t568, t659, t571 * t663));
+        let t667 = t118 * mul_add(t410, t660, neg_mul_add(t135, t582, t579));
+        let t668 = mul_sub(t662, t667, mul_add(t575, t659, t578 * t663));
         // leg 5: remaining leg inertia less weight at the platform joint
-        let t667 = neg_mul_add(t160, t659, t662);
-        let t668 = neg_mul_add(t160, t663, t664);
-        let t669 = neg_mul_add(t160, t665, t666);
+        let t669 = neg_mul_add(t160, t661, t664);
+        let t670 = neg_mul_add(t160, t665, t666);
+        let t671 = neg_mul_add(t160, t667, t668);
         // leg 6: leg inertia less weight along the actuator
-        let t670 = t120 * t165;
-        let t671 = c(2.0) * t380;
-        let t672 = t120 * mul_add(t412, t671, neg_mul_add(t136, t604, t587));
-        let t673 = t120 * t168;
-        let t674 = t120 * t164;
-        let t675 = mul_sub(t673, t672, mul_sub(t583, t670, t586 * t674));
-        let t676 = t120 * mul_add(t414, t671, neg_mul_add(t137, t604, t594));
-        let t677 = mul_sub(t673, t676, mul_add(t590, t670, t593 * t674));
-        let t678 = t120 * mul_sub(t416, t671, mul_add(t138, t604, t601));
-        let t679 = mul_add(t673, t678, mul_sub(t597, t670, t600 * t674));
+        let t672 = t120 * t165;
+        let t673 = c(2.0) * t380;
+        let t674 = t120 * mul_add(t412, t673, neg_mul_add(t136, t606, t589));
+        let t675 = t120 * t168;
+        let t676 = t120 * t164;
+        let t677 = mul_sub(t675, t674, mul_sub(t585, t672, t588 * t676));
+        let t678 = t120 * mul_add(t414, t673, neg_mul_add(t137, t606, t596));
+        let t679 = mul_sub(t675, t678, mul_add(t592, t672, t595 * t676));
+        let t680 = t120 * mul_add(t416, t673, neg_mul_add(t138, t606, t603));
+        let t681 = mul_sub(t675, t680, mul_add(t599, t672, t602 * t676));
         // leg 6: remaining leg inertia less weight at the platform joint
-        let t680 = neg_mul_add(t165, t672, t675);
-        let t681 = neg_mul_add(t165, t676, t677);
-        let t682 = neg_mul_add(t165, t678, t679);
+        let t682 = neg_mul_add(t165, t674, t677);
+        let t683 = neg_mul_add(t165, t678, t679);
+        let t684 = neg_mul_add(t165, t680, t681);
         // leg 1: spring and damper force along the actuator
-        let t683 = parameters.rest_length[0] - t109;
+        let t685 = parameters.rest_length[0] - t109;
         // leg 2: spring and damper force along the actuator
-        let t684 = parameters.rest_length[1] - t111;
+        let t686 = parameters.rest_length[1] - t111;
         // leg 3: spring and damper force along the actuator
-        let t685 = parameters.rest_length[2] - t113;
+        let t687 = parameters.rest_length[2] - t113;
         // leg 4: spring and damper force along the actuator
-        let t686 = parameters.rest_length[3] - t115;
+        let t688 = parameters.rest_length[3] - t115;
         // leg 5: spring and damper force along the actuator
-        let t687 = parameters.rest_length[4] - t117;
+        let t689 = parameters.rest_length[4] - t117;
         // leg 6: spring and damper force along the actuator
-        let t688 = parameters.rest_length[5] - t119;
+        let t690 = parameters.rest_length[5] - t119;
         // leg 1: row of the actuator Jacobian in base coordinates
-        let t689 = mul_sub(t42, t123, t45 * t122);
-        let t690 = mul_sub(t45, t121, t39 * t123);
-        let t691 = mul_sub(t39, t122, t42 * t121);
+        let t691 = mul_sub(t42, t123, t45 * t122);
+        let t692 = mul_sub(t45, t121, t39 * t123);
+        let t693 = mul_sub(t39, t122, t42 * t121);
         // leg 2: row of the actuator Jacobian in base coordinates
-        let t692 = mul_sub(t54, t126, t57 * t125);
-        let t693 = mul_sub(t57, t124, t51 * t126);
-        let t694 = mul_sub(t51, t125, t54 * t124);
+        let t694 = mul_sub(t54, t126, t57 * t125);
+        let t695 = mul_sub(t57, t124, t51 * t126);
+        let t696 = mul_sub(t51, t125, t54 * t124);
         // leg 3: row of the actuator Jacobian in base coordinates
-        let t695 = mul_sub(t66, t129, t69 * t128);
-        let t696 = mul_sub(t69, t127, t63 * t129);
-        let t697 = mul_sub(t63, t128, t66 * t127);
+        let t697 = mul_sub(t66, t129, t69 * t128);
+        let t698 = mul_sub(t69, t127, t63 * t129);
+        let t699 = mul_sub(t63, t128, t66 * t127);
         // leg 4: row of the actuator Jacobian in base coordinates
-        let t698 = mul_sub(t78, t132, t81 * t131);
-        let t699 = mul_sub(t81, t130, t75 * t132);
-        let t700 = mul_sub(t75, t131, t78 * t130);
+        let t700 = mul_sub(t78, t132, t81 * t131);
+        let t701 = mul_sub(t81, t130, t75 * t132);
+        let t702 = mul_sub(t75, t131, t78 * t130);
         // leg 5: row of the actuator Jacobian in base coordinates
-        let t701 = mul_sub(t90, t135, t93 * t134);
-        let t702 = mul_sub(t93, t133, t87 * t135);
-        let t703 = mul_sub(t87, t134, t90 * t133);
+        let t703 = mul_sub(t90, t135, t93 * t134);
+        let t704 = mul_sub(t93, t133, t87 * t135);
+        let t705 = mul_sub(t87, t134, t90 * t133);
         // leg 6: row of the actuator Jacobian in base coordinates
-        let t704 = mul_sub(t102, t138, t105 * t137);
-        let t705 = mul_sub(t105, t136, t99 * t138);
-        let t706 = mul_sub(t99, t137, t102 * t136);
+        let t706 = mul_sub(t102, t138, t105 * t137);
+        let t707 = mul_sub(t105, t136, t99 * t138);
+        let t708 = mul_sub(t99, t137, t102 * t136);
         // its first moments by platform coordinate
-        let t707 = t220 * t449;
-        let t708 = t249 * t449;
-        let t709 = t263 * t449;
-        let t710 = t220 * t455;
-        let t711 = t249 * t455;
-        let t712 = t263 * t455;
-        let t713 = t220 * t459;
-        let t714 = t249 * t459;
-        let t715 = t263 * t459;
+        let t709 = t220 * t450;
+        let t710 = t249 * t450;
+        let t711 = t263 * t450;
+        let t712 = t220 * t457;
+        let t713 = t249 * t457;
+        let t714 = t263 * t457;
+        let t715 = t220 * t461;
+        let t716 = t249 * t461;
+        let t717 = t263 * t461;
         // inertia less external wrench that the actuators must balance
-        let t716 = base_rotation[1][0] * external_wrench[1];
-        let t717 = mul_add(base_rotation[0][0], external_wrench[0], t716);
-        let t718 = mul_add(base_rotation[2][0], external_wrench[2], t717);
-        let t719 = base_rotation[1][1] * external_wrench[1];
-        let t720 = mul_add(base_rotation[0][1], external_wrench[0], t719);
-        let t721 = mul_add(base_rotation[2][1], external_wrench[2], t720);
-        let t722 = base_rotation[1][2] * external_wrench[1];
-        let t723 = mul_add(base_rotation[0][2], external_wrench[0], t722);
-        let t724 = mul_add(base_rotation[2][2], external_wrench[2], t723);
-        let t725 = mul_add(t234, t460, mul_add(t206, t458, t713));
-        let t726 = mul_sub(parameters.platform_point[0][0], t617, t725);
-        let t727 = mul_add(parameters.platform_point[1][0], t630, t726);
-        let t728 = mul_add(parameters.platform_point[2][0], t643, t727);
-        let t729 = mul_add(parameters.platform_point[3][0], t656, t728);
-        let t730 = mul_add(parameters.platform_point[4][0], t669, t729);
-        let t731 = mul_add(parameters.platform_point[5][0], t682, t730);
-        let t732 = mul_sub(parameters.payload_com[0], t724, t731);
-        let t733 = mul_add(t234, t456, mul_add(t206, t454, t710));
-        let t734 = mul_add(parameters.platform_point[0][0], t616, t733);
-        let t735 = mul_add(parameters.platform_point[1][0], t629, t734);
-        let t736 = mul_add(parameters.platform_point[2][0], t642, t735);
-        let t737 = mul_add(parameters.platform_point[3][0], t655, t736);
-        let t738 = mul_add(parameters.platform_point[4][0], t668, t737);
-        let t739 = mul_add(parameters.platform_point[5][0], t681, t738);
-        let t740 = mul_sub(parameters.payload_com[0], t721, t739);
-        let t741 = t21 * t740;
-        let t742 = mul_add(t263, t460, mul_add(t220, t458, t714));
-        let t743 = mul_sub(parameters.platform_point[0][1], t617, t742);
-        let t744 = mul_add(parameters.platform_point[1][1], t630, t743);
-        let t745 = mul_add(parameters.platform_point[2][1], t643, t744);
-        let t746 = mul_add(parameters.platform_point[3][1], t656, t745);
-        let t747 = mul_add(parameters.platform_point[4][1], t669, t746);
-        let t748 = mul_add(parameters.platform_point[5][1], t682, t747);
-        let t749 = mul_sub(parameters.payload_com[1], t724, t748);
-        let t750 = mul_add(t263, t456, mul_add(t220, t454, t711));
-        let t751 = mul_add(parameters.platform_point[0][1], t616, t750);
-        let t752 = mul_add(parameters.platform_point[1][1], t629, t751);
-        let t753 = mul_add(parameters.platform_point[2][1], t642, t752);
-        let t754 = mul_add(parameters.platform_point[3][1], t655, t753);
-        let t755 = mul_add(parameters.platform_point[4][1], t668, t754);
-        let t756 = mul_add(parameters.platform_point[5][1], t681, t755);
-        let t757 = mul_sub(parameters.payload_com[1], t721, t756);
-        let t758 = mul_add(t278, t460, mul_add(t234, t458, t715));
-        let t759 = mul_sub(parameters.platform_point[0][2], t617, t758);
-        let t760 = mul_add(parameters.platform_point[1][2], t630, t759);
-        let t761 = mul_add(parameters.platform_point[2][2], t643, t760);
-        let t762 = mul_add(parameters.platform_point[3][2], t656, t761);
-        let t763 = mul_add(parameters.platform_point[4][2], t669, t762);
-        let t764 = mul_add(parameters.platform_point[5][2], t682, t763);
-        let t765 = mul_sub(parameters.payload_com[2], t724, t764);
-        let t766 = mul_add(t278, t456, mul_add(t234, t454, t712));
-        let t767 = mul_add(parameters.platform_point[0][2], t616, t766);
-        let t768 = mul_add(parameters.platform_point[1][2], t629, t767);
-        let t769 = mul_add(parameters.platform_point[2][2], t642, t768);
-        let t770 = mul_add(parameters.platform_point[3][2], t655, t769);
-        let t771 = mul_add(parameters.platform_point[4][2], t668, t770);
-        let t772 = mul_add(parameters.platform_point[5][2], t681, t771);
-        let t773 = mul_sub(parameters.payload_com[2], t721, t772);
-        let t774 = mul_add(t234, t450, mul_add(t206, t448, t707));
-        let t775 = mul_add(parameters.platform_point[0][0], t615, t774);
-        let t776 = mul_add(parameters.platform_point[1][0], t628, t775);
-        let t777 = mul_add(parameters.platform_point[2][0], t641, t776);
-        let t778 = mul_add(parameters.platform_point[3][0], t654, t777);
-        let t779 = mul_add(parameters.platform_point[4][0], t667, t778);
-        let t780 = mul_add(parameters.platform_point[5][0], t680, t779);
-        let t781 = mul_sub(parameters.payload_com[0], t718, t780);
-        let t782 = t3 * t732;
-        let t783 = mul_add(t263, t450, mul_add(t220, t448, t708));
-        let t784 = mul_add(parameters.platform_point[0][1], t615, t783);
-        let t785 = mul_add(parameters.platform_point[1][1], t628, t784);
-        let t786 = mul_add(parameters.platform_point[2][1], t641, t785);
-        let t787 = mul_add(parameters.platform_point[3][1], t654, t786);
-        let t788 = mul_add(parameters.platform_point[4][1], t667, t787);
-        let t789 = mul_add(parameters.platform_point[5][1], t680, t788);
-        let t790 = mul_sub(parameters.payload_com[1], t718, t789);
-        let t791 = mul_add(t278, t450, mul_add(t234, t448, t709));
-        let t792 = mul_add(parameters.platform_point[0][2], t615, t791);
-        let t793 = mul_add(parameters.platform_point[1][2], t628, t792);
-        let t794 = mul_add(parameters.platform_point[2][2], t641, t793);
-        let t795 = mul_add(parameters.platform_point[3][2], t654, t794);
-        let t796 = mul_add(parameters.platform_point[4][2], t667, t795);
-        let t797 = mul_add(parameters.platform_point[5][2], t680, t796);
-        let t798 = mul_sub(parameters.payload_com[2], t718, t797);
-        let t799 = t12 * t781;
+        let t718 = base_rotation[1][0] * external_wrench[1];
+        let t719 = mul_add(base_rotation[0][0], external_wrench[0], t718);
+        let t720 = mul_add(base_rotation[2][0], external_wrench[2], t719);
+        let t721 = base_rotation[1][1] * external_wrench[1];
+        let t722 = mul_add(base_rotation[0][1], external_wrench[0], t721);
+        let t723 = mul_add(base_rotation[2][1], external_wrench[2], t722);
+        let t724 = base_rotation[1][2] * external_wrench[1];
+        let t725 = mul_add(base_rotation[0][2], external_wrench[0], t724);
+        let t726 = mul_add(base_rotation[2][2], external_wrench[2], t725);
+        let t727 = mul_add(t234, t462, mul_add(t206, t460, t715));
+        let t728 = mul_add(parameters.platform_point[0][0], t619, t727);
+        let t729 = mul_add(parameters.platform_point[1][0], t632, t728);
+        let t730 = mul_add(parameters.platform_point[2][0], t645, t729);
+        let t731 = mul_add(parameters.platform_point[3][0], t658, t730);
+        let t732 = mul_add(parameters.platform_point[4][0], t671, t731);
+        let t733 = mul_add(parameters.platform_point[5][0], t684, t732);
+        let t734 = mul_sub(parameters.payload_com[0], t726, t733);
+        let t735 = mul_add(t234, t459, mul_add(t206, t455, t712));
+        let t736 = mul_add(parameters.platform_point[0][0], t618, t735);
+        let t737 = mul_add(parameters.platform_point[1][0], t631, t736);
+        let t738 = mul_add(parameters.platform_point[2][0], t644, t737);
+        let t739 = mul_add(parameters.platform_point[3][0], t657, t738);
+        let t740 = mul_add(parameters.platform_point[4][0], t670, t739);
+        let t741 = mul_add(parameters.platform_point[5][0], t683, t740);
+        let t742 = mul_sub(parameters.payload_com[0], t723, t741);
+        let t743 = t21 * t742;
+        let t744 = mul_add(t263, t462, mul_add(t220, t460, t716));
+        let t745 = mul_add(parameters.platform_point[0][1], t619, t744);
+        let t746 = mul_add(parameters.platform_point[1][1], t632, t745);
+        let t747 = mul_add(parameters.platform_point[2][1], t645, t746);
+        let t748 = mul_add(parameters.platform_point[3][1], t658, t747);
+        let t749 = mul_add(parameters.platform_point[4][1], t671, t748);
+        let t750 = mul_add(parameters.platform_point[5][1], t684, t749);
+        let t751 = mul_sub(parameters.payload_com[1], t726, t750);
+        let t752 = mul_add(t263, t459, mul_add(t220, t455, t713));
+        let t753 = mul_add(parameters.platform_point[0][1], t618, t752);
+        let t754 = mul_add(parameters.platform_point[1][1], t631, t753);
+        let t755 = mul_add(parameters.platform_point[2][1], t644, t754);
+        let t756 = mul_add(parameters.platform_point[3][1], t657, t755);
+        let t757 = mul_add(parameters.platform_point[4][1], t670, t756);
+        let t758 = mul_add(parameters.platform_point[5][1], t683, t757);
+        let t759 = mul_sub(parameters.payload_com[1], t723, t758);
+        let t760 = mul_add(t278, t462, mul_add(t234, t460, t717));
+        let t761 = mul_add(parameters.platform_point[0][2], t619, t760);
+        let t762 = mul_add(parameters.platform_point[1][2], t632, t761);
+        let t763 = mul_add(parameters.platform_point[2][2], t645, t762);
+        let t764 = mul_add(parameters.platform_point[3][2], t658, t763);
+        let t765 = mul_add(parameters.platform_point[4][2], t671, t764);
+        let t766 = mul_add(parameters.platform_point[5][2], t684, t765);
+        let t767 = mul_sub(parameters.payload_com[2], t726, t766);
+        let t768 = mul_add(t278, t459, mul_add(t234, t455, t714));
+        let t769 = mul_add(parameters.platform_point[0][2], t618, t768);
+        let t770 = mul_add(parameters.platform_point[1][2], t631, t769);
+        let t771 = mul_add(parameters.platform_point[2][2], t644, t770);
+        let t772 = mul_add(parameters.platform_point[3][2], t657, t771);
+        let t773 = mul_add(parameters.platform_point[4][2], t670, t772);
+        let t774 = mul_add(parameters.platform_point[5][2], t683, t773);
+        let t775 = mul_sub(parameters.payload_com[2], t723, t774);
+        let t776 = mul_add(t234, t453, mul_add(t206, t447, t709));
+        let t777 = mul_add(parameters.platform_point[0][0], t617, t776);
+        let t778 = mul_add(parameters.platform_point[1][0], t630, t777);
+        let t779 = mul_add(parameters.platform_point[2][0], t643, t778);
+        let t780 = mul_add(parameters.platform_point[3][0], t656, t779);
+        let t781 = mul_add(parameters.platform_point[4][0], t669, t780);
+        let t782 = mul_add(parameters.platform_point[5][0], t682, t781);
+        let t783 = mul_sub(parameters.payload_com[0], t720, t782);
+        let t784 = t3 * t734;
+        let t785 = mul_add(t263, t453, mul_add(t220, t447, t710));
+        let t786 = mul_add(parameters.platform_point[0][1], t617, t785);
+        let t787 = mul_add(parameters.platform_point[1][1], t630, t786);
+        let t788 = mul_add(parameters.platform_point[2][1], t643, t787);
+        let t789 = mul_add(parameters.platform_point[3][1], t656, t788);
+        let t790 = mul_add(parameters.platform_point[4][1], t669, t789);
+        let t791 = mul_add(parameters.platform_point[5][1], t682, t790);
+        let t792 = mul_sub(parameters.payload_com[1], t720, t791);
+        let t793 = mul_add(t278, t453, mul_add(t234, t447, t711));
+        let t794 = mul_add(parameters.platform_point[0][2], t617, t793);
+        let t795 = mul_add(parameters.platform_point[1][2], t630, t794);
+        let t796 = mul_add(parameters.platform_point[2][2], t643, t795);
+        let t797 = mul_add(parameters.platform_point[3][2], t656, t796);
+        let t798 = mul_add(parameters.platform_point[4][2], t669, t797);
+        let t799 = mul_add(parameters.platform_point[5][2], t682, t798);
+        let t800 = mul_sub(parameters.payload_com[2], t720, t799);
+        let t801 = t12 * t783;
         // leg 1: force along the actuator that reaches the platform
-        let t800 = mul_add(t122, t612, mul_add(t121, t610, actuator_force[0]));
-        let t801 = mul_add(t123, t614, t800);
-        let t802 = mul_add(parameters.axial_stiffness[0], t683, t801);
-        let t803 = mul_add(parameters.axial_damping[0], t375, t802);
+        let t802 = mul_add(t122, t614, mul_add(t121, t612, actuator_force[0]));
+        let t803 = mul_add(t123, t616, t802);
+        let t804 = mul_add(parameters.axial_stiffness[0], t685, t803);
+        let t805 = mul_add(parameters.axial_damping[0], t375, t804);
         // leg 2: force along the actuator that reaches the platform
-        let t804 = mul_add(t125, t625, mul_add(t124, t623, actuator_force[1]));
-        let t805 = mul_add(t126, t627, t804);
-        let t806 = mul_add(parameters.axial_stiffness[1], t684, t805);
-        let t807 = mul_add(parameters.axial_damping[1], t376, t806);
+        let t806 = mul_add(t125, t627, mul_add(t124, t625, actuator_force[1]));
+        let t807 = mul_add(t126, t629, t806);
+        let t808 = mul_add(parameters.axial_stiffness[1], t686, t807);
+        let t809 = mul_add(parameters.axial_damping[1], t376, t808);
         // leg 3: force along the actuator that reaches the platform
-        let t808 = mul_add(t128, t638, mul_add(t127, t636, actuator_force[2]));
-        let t809 = mul_add(t129, t640, t808);
-        let t810 = mul_add(parameters.axial_stiffness[2], t685, t809);
-        let t811 = mul_add(parameters.axial_damping[2], t377, t810);
+        let t810 = mul_add(t128, t640, mul_add(t127, t638, actuator_force[2]));
+        let t811 = mul_add(t129, t642, t810);
+        let t812 = mul_add(parameters.axial_stiffness[2], t687, t811);
+        let t813 = mul_add(parameters.axial_damping[2], t377, t812);
         // leg 4: force along the actuator that reaches the platform
-        let t812 = mul_add(t131, t651, mul_add(t130, t649, actuator_force[3]));
-        let t813 = mul_add(t132, t653, t812);
-        let t814 = mul_add(parameters.axial_stiffness[3], t686, t813);
-        let t815 = mul_add(parameters.axial_damping[3], t378, t814);
+        let t814 = mul_add(t131, t653, mul_add(t130, t651, actuator_force[3]));
+        let t815 = mul_add(t132, t655, t814);
+        let t816 = mul_add(parameters.axial_stiffness[3], t688, t815);
+        let t817 = mul_add(parameters.axial_damping[3], t378, t816);
         // leg 5: force along the actuator that reaches the platform
-        let t816 = mul_add(t134, t664, mul_add(t133, t662, actuator_force[4]));
-        let t817 = mul_add(t135, t666, t816);
-        let t818 = mul_add(parameters.axial_stiffness[4], t687, t817);
-        let t819 = mul_add(parameters.axial_damping[4], t379, t818);
+        let t818 = mul_add(t134, t666, mul_add(t133, t664, actuator_force[4]));
+        let t819 = mul_add(t135, t668, t818);
+        let t820 = mul_add(parameters.axial_stiffness[4], t689, t819);
+        let t821 = mul_add(parameters.axial_damping[4], t379, t820);
         // leg 6: force along the actuator that reaches the platform
-        let t820 = mul_add(t137, t677, mul_add(t136, t675, actuator_force[5]));
-        let t821 = mul_add(t138, t679, t820);
-        let t822 = mul_add(parameters.axial_stiffness[5], t688, t821);
-        let t823 = mul_add(parameters.axial_damping[5], t380, t822);
+        let t822 = mul_add(t137, t679, mul_add(t136, t677, actuator_force[5]));
+        let t823 = mul_add(t138, t681, t822);
+        let t824 = mul_add(parameters.axial_stiffness[5], t690, t823);
+        let t825 = mul_add(parameters.axial_damping[5], t380, t824);
         // wrench left at the trial acceleration
-        let t824 = t680 + (t667 + (t654 + (t641 + (t615 + t628))));
-        let t825 = mul_add(t182, t449, mul_add(t175, t448, t824));
-        let t826 = mul_add(t121, t803, t718 - mul_add(t189, t450, t825));
-        let t827 = mul_add(t127, t811, mul_add(t124, t807, t826));
-        let t828 = mul_add(t133, t819, mul_add(t130, t815, t827));
-        let t829 = mul_add(t136, t823, t828);
+        let t826 = t682 + (t669 + (t656 + (t643 + (t617 + t630))));
+        let t827 = mul_add(t182, t450, mul_add(t175, t447, t826));
+        let t828 = mul_add(t121, t805, t720 - mul_add(t189, t453, t827));
+        let t829 = mul_add(t127, t813, mul_add(t124, t809, t828));
+        let t830 = mul_add(t133, t821, mul_add(t130, t817, t829));
+        let t831 = mul_add(t136, t825, t830);
         // leg 1: weight of the square in the leg's mass matrix
-        let t830 = mul_sub(t143, t110 * t110, c(2.0) * t605);
+        let t832 = mul_sub(t143, t110 * t110, c(2.0) * t607);
         // leg 2: weight of the square in the leg's mass matrix
-        let t831 = mul_sub(t148, t112 * t112, c(2.0) * t618);
+        let t833 = mul_sub(t148, t112 * t112, c(2.0) * t620);
         // leg 3: weight of the square in the leg's mass matrix
-        let t832 = mul_sub(t153, t114 * t114, c(2.0) * t631);
+        let t834 = mul_sub(t153, t114 * t114, c(2.0) * t633);
         // leg 4: weight of the square in the leg's mass matrix
-        let t833 = mul_sub(t158, t116 * t116, c(2.0) * t644);
+        let t835 = mul_sub(t158, t116 * t116, c(2.0) * t646);
         // leg 5: weight of the square in the leg's mass matrix
-        let t834 = mul_sub(t163, t118 * t118, c(2.0) * t657);
+        let t836 = mul_sub(t163, t118 * t118, c(2.0) * t659);
         // leg 6: weight of the square in the leg's mass matrix
-        let t835 = mul_sub(t168, t120 * t120, c(2.0) * t670);
+        let t837 = mul_sub(t168, t120 * t120, c(2.0) * t672);
         // mass matrix in base coordinates
-        let t836 = parameters.upper_mass[0] + parameters.upper_mass[1];
-        let t837 = parameters.upper_mass[3] + (parameters.upper_mass[2] + t836);
-        let t838 = parameters.upper_mass[5] + (parameters.upper_mass[4] + t837);
-        let t839 = t833 + (t832 + (t831 + (t830 + (parameters.payload_mass + t838))));
-        let t840 = t835 + (t834 + t839);
-        let t841 = neg_mul_add(t121, t121 * t830, t840);
-        let t842 = mul_add(t127, t127 * t832, mul_sub(t124, t124 * t831, t841));
-        let t843 = mul_add(t133, t133 * t834, mul_add(t130, t130 * t833, t842));
-        let t844 = mul_add(t136, t136 * t835, t843);
-        let t845 = t122 * t830;
-        let t846 = t125 * t831;
-        let t847 = t128 * t832;
-        let t848 = t131 * t833;
-        let t849 = t134 * t834;
-        let t850 = t137 * t835;
-        let t851 = mul_add(t127, t847, mul_add(t121, t845, t124 * t846));
-        let t852 = mul_add(t133, t849, mul_add(t130, t848, t851));
-        let t853 = mul_add(t136, t850, t852);
-        let t854 = t123 * t830;
-        let t855 = t126 * t831;
-        let t856 = t129 * t832;
-        let t857 = t132 * t833;
-        let t858 = t135 * t834;
-        let t859 = t138 * t835;
-        let t860 = mul_add(t127, t856, mul_add(t121, t854, t124 * t855));
-        let t861 = mul_add(t133, t858, mul_add(t130, t857, t860));
-        let t862 = mul_add(t136, t859, t861);
-        let t863 = t689 * t830;
-        let t864 = t692 * t831;
-        let t865 = t695 * t832;
-        let t866 = t698 * t833;
-        let t867 = t701 * t834;
-        let t868 = t704 * t835;
-        let t869 = mul_add(t127, t865, mul_add(t121, t863, t124 * t864));
-        let t870 = mul_add(t133, t867, mul_add(t130, t866, t869));
-        let t871 = mul_add(t136, t868, t870);
-        let t872 = mul_add(parameters.platform_point[0][2], t830, t189);
-        let t873 = mul_add(parameters.platform_point[1][2], t831, t872);
-        let t874 = mul_add(parameters.platform_point[2][2], t832, t873);
-        let t875 = mul_add(parameters.platform_point[3][2], t833, t874);
-        let t876 = mul_add(parameters.platform_point[4][2], t834, t875);
-        let t877 = mul_add(parameters.platform_point[5][2], t835, t876);
-        let t878 = mul_add(parameters.platform_point[0][0], t830, t175);
-        let t879 = mul_add(parameters.platform_point[1][0], t831, t878);
-        let t880 = mul_add(parameters.platform_point[2][0], t832, t879);
-        let t881 = mul_add(parameters.platform_point[3][0], t833, t880);
-        let t882 = mul_add(parameters.platform_point[4][0], t834, t881);
-        let t883 = mul_add(parameters.platform_point[5][0], t835, t882);
-        let t884 = mul_add(parameters.platform_point[0][1], t830, t182);
-        let t885 = mul_add(parameters.platform_point[1][1], t831, t884);
-        let t886 = mul_add(parameters.platform_point[2][1], t832, t885);
-        let t887 = mul_add(parameters.platform_point[3][1], t833, t886);
-        let t888 = mul_add(parameters.platform_point[4][1], t834, t887);
-        let t889 = mul_add(parameters.platform_point[5][1], t835, t888);
-        let t890 = mul_add(t27, t877, mul_add(t21, t883, t24 * t889));
-        let t891 = t690 * t830;
-        let t892 = t693 * t831;
-        let t893 = t696 * t832;
-        let t894 = t699 * t833;
-        let t895 = t702 * t834;
-        let t896 = t705 * t835;
-        let t897 = mul_sub(t124, t892, neg_mul_add(t121, t891, t890));
-        let t898 = mul_add(t130, t894, mul_add(t127, t893, t897));
-        let t899 = mul_add(t136, t896, mul_add(t133, t895, t898));
-        let t900 = t691 * t830;
-        let t901 = mul_add(t18, t877, mul_add(t12, t883, t15 * t889));
-        let t902 = t694 * t831;
-        let t903 = t697 * t832;
-        let t904 = t700 * t833;
-        let t905 = t703 * t834;
-        let t906 = t706 * t835;
-        let t907 = mul_add(t124, t902, mul_add(t121, t900, t901));
-        let t908 = mul_add(t130, t904, mul_add(t127, t903, t907));
-        let t909 = mul_add(t136, t906, mul_add(t133, t905, t908));
-        let t910 = t125 * t855;
-        let t911 = t125 * t892;
-        let t912 = mul_add(t9, t877, mul_add(t3, t883, t6 * t889));
-        let t913 = t126 * t902;
-        let t914 = mul_add(t265, t831, mul_add(t264, t830, t278));
-        let t915 = mul_add(t267, t833, mul_add(t266, t832, t914));
-        let t916 = mul_add(t269, t835, mul_add(t268, t834, t915));
-        let t917 = mul_add(t191, t831, mul_add(t190, t830, t206));
-        let t918 = mul_add(t193, t833, mul_add(t192, t832, t917));
-        let t919 = mul_add(t195, t835, mul_add(t194, t834, t918));
-        let t920 = mul_add(t236, t831, mul_add(t235, t830, t249));
-        let t921 = mul_add(t238, t833, mul_add(t237, t832, t920));
-        let t922 = mul_add(t240, t835, mul_add(t239, t834, t921));
-        let t923 = t916 + (t919 + t922);
-        let t924 = mul_add(t222, t831, mul_add(t221, t830, t234));
-        let t925 = mul_add(t224, t833, mul_add(t223, t832, t924));
-        let t926 = mul_add(t226, t835, mul_add(t225, t834, t925));
-        let t927 = mul_add(t208, t831, mul_add(t207, t830, t220));
-        let t928 = mul_add(t210, t833, mul_add(t209, t832, t927));
-        let t929 = mul_add(t212, t835, mul_add(t211, t834, t928));
-        let t930 = mul_add(t9, t926, mul_add(t3, t919, t6 * t929));
-        let t931 = mul_add(t251, t831, mul_add(t250, t830, t263));
-        let t932 = mul_add(t253, t833, mul_add(t252, t832, t931));
-        let t933 = mul_add(t255, t835, mul_add(t254, t834, t932));
-        let t934 = mul_add(t9, t933, mul_add(t3, t929, t6 * t922));
-        let t935 = mul_add(t9, t916, mul_add(t3, t926, t6 * t933));
-        let t936 = t12 * t930;
-        let t937 = t21 * t930;
-        let t938 = mul_add(t18, t926, mul_add(t12, t919, t15 * t929));
-        let t939 = mul_add(t18, t933, mul_add(t12, t929, t15 * t922));
-        let t940 = mul_add(t18, t916, mul_add(t12, t926, t15 * t933));
-        let t941 = t21 * t938;
-        let t942 = mul_add(t27, t926, mul_add(t21, t919, t24 * t929));
-        let t943 = mul_add(t27, t933, mul_add(t21, t929, t24 * t922));
-        let t944 = mul_add(t27, t916, mul_add(t21, t926, t24 * t933));
+        let t838 = parameters.upper_mass[0] + parameters.upper_mass[1];
+        let t839 = parameters.upper_mass[3] + (parameters.upper_mass[2] + t838);
+        let t840 = parameters.upper_mass[5] + (parameters.upper_mass[4] + t839);
+        let t841 = t835 + (t834 + (t833 + (t832 + (parameters.payload_mass + t840))));
+        let t842 = t837 + (t836 + t841);
+        let t843 = neg_mul_add(t121, t121 * t832, t842);
+        let t844 = mul_add(t127, t127 * t834, mul_sub(t124, t124 * t833, t843));
+        let t845 = mul_add(t133, t133 * t836, mul_add(t130, t130 * t835, t844));
+        let t846 = mul_add(t136, t136 * t837, t845);
+        let t847 = t122 * t832;
+        let t848 = t125 * t833;
+        let t849 = t128 * t834;
+        let t850 = t131 * t835;
+        let t851 = t134 * t836;
+        let t852 = t137 * t837;
+        let t853 = mul_add(t127, t849, mul_add(t121, t847, t124 * t848));
+        let t854 = mul_add(t133, t851, mul_add(t130, t850, t853));
+        let t855 = mul_add(t136, t852, t854);
+        let t856 = t123 * t832;
+        let t857 = t126 * t833;
+        let t858 = t129 * t834;
+        let t859 = t132 * t835;
+        let t860 = t135 * t836;
+        let t861 = t138 * t837;
+        let t862 = mul_add(t127, t858, mul_add(t121, t856, t124 * t857));
+        let t863 = mul_add(t133, t860, mul_add(t130, t859, t862));
+        let t864 = mul_add(t136, t861, t863);
+        let t865 = t691 * t832;
+        let t866 = t694 * t833;
+        let t867 = t697 * t834;
+        let t868 = t700 * t835;
+        let t869 = t703 * t836;
+        let t870 = t706 * t837;
+        let t871 = mul_add(t127, t867, mul_add(t121, t865, t124 * t866));
+        let t872 = mul_add(t133, t869, mul_add(t130, t868, t871));
+        let t873 = mul_add(t136, t870, t872);
+        let t874 = mul_add(parameters.platform_point[0][2], t832, t189);
+        let t875 = mul_add(parameters.platform_point[1][2], t833, t874);
+        let t876 = mul_add(parameters.platform_point[2][2], t834, t875);
+        let t877 = mul_add(parameters.platform_point[3][2], t835, t876);
+        let t878 = mul_add(parameters.platform_point[4][2], t836, t877);
+        let t879 = mul_add(parameters.platform_point[5][2], t837, t878);
+        let t880 = mul_add(parameters.platform_point[0][0], t832, t175);
+        let t881 = mul_add(parameters.platform_point[1][0], t833, t880);
+        let t882 = mul_add(parameters.platform_point[2][0], t834, t881);
+        let t883 = mul_add(parameters.platform_point[3][0], t835, t882);
+        let t884 = mul_add(parameters.platform_point[4][0], t836, t883);
+        let t885 = mul_add(parameters.platform_point[5][0], t837, t884);
+        let t886 = mul_add(parameters.platform_point[0][1], t832, t182);
+        let t887 = mul_add(parameters.platform_point[1][1], t833, t886);
+        let t888 = mul_add(parameters.platform_point[2][1], t834, t887);
+        let t889 = mul_add(parameters.platform_point[3][1], t835, t888);
+        let t890 = mul_add(parameters.platform_point[4][1], t836, t889);
+        let t891 = mul_add(parameters.platform_point[5][1], t837, t890);
+        let t892 = mul_add(t27, t879, mul_add(t21, t885, t24 * t891));
+        let t893 = t692 * t832;
+        let t894 = t695 * t833;
+        let t895 = t698 * t834;
+        let t896 = t701 * t835;
+        let t897 = t704 * t836;
+        let t898 = t707 * t837;
+        let t899 = mul_sub(t124, t894, neg_mul_add(t121, t893, t892));
+        let t900 = mul_add(t130, t896, mul_add(t127, t895, t899));
+        let t901 = mul_add(t136, t898, mul_add(t133, t897, t900));
+        let t902 = t693 * t832;
+        let t903 = mul_add(t18, t879, mul_add(t12, t885, t15 * t891));
+        let t904 = t696 * t833;
+        let t905 = t699 * t834;
+        let t906 = t702 * t835;
+        let t907 = t705 * t836;
+        let t908 = t708 * t837;
+        let t909 = mul_add(t124, t904, mul_add(t121, t902, t903));
+        let t910 = mul_add(t130, t906, mul_add(t127, t905, t909));
+        let t911 = mul_add(t136, t908, mul_add(t133, t907, t910));
+        let t912 = t125 * t857;
+        let t913 = t125 * t894;
+        let t914 = mul_add(t9, t879, mul_add(t3, t885, t6 * t891));
+        let t915 = t126 * t904;
+        let t916 = mul_add(t265, t833, mul_add(t264, t832, t278));
+        let t917 = mul_add(t267, t835, mul_add(t266, t834, t916));
+        let t918 = mul_add(t269, t837, mul_add(t268, t836, t917));
+        let t919 = mul_add(t191, t833, mul_add(t190, t832, t206));
+        let t920 = mul_add(t193, t835, mul_add(t192, t834, t919));
+        let t921 = mul_add(t195, t837, mul_add(t194, t836, t920));
+        let t922 = mul_add(t236, t833, mul_add(t235, t832, t249));
+        let t923 = mul_add(t238, t835, mul_add(t237, t834, t922));
+        let t924 = mul_add(t240, t837, mul_add(t239, t836, t923));
+        let t925 = t918 + (t921 + t924);
+        let t926 = mul_add(t222, t833, mul_add(t221, t832, t234));
+        let t927 = mul_add(t224, t835, mul_add(t223, t834, t926));
+        let t928 = mul_add(t226, t837, mul_add(t225, t836, t927));
+        let t929 = mul_add(t208, t833, mul_add(t207, t832, t220));
+        let t930 = mul_add(t210, t835, mul_add(t209, t834, t929));
+        let t931 = mul_add(t212, t837, mul_add(t211, t836, t930));
+        let t932 = mul_add(t9, t928, mul_add(t3, t921, t6 * t931));
+        let t933 = mul_add(t251, t833, mul_add(t250, t832, t263));
+        let t934 = mul_add(t253, t835, mul_add(t252, t834, t933));
+        let t935 = mul_add(t255, t837, mul_add(t254, t836, t934));
+        let t936 = mul_add(t9, t935, mul_add(t3, t931, t6 * t924));
+        let t937 = mul_add(t9, t918, mul_add(t3, t928, t6 * t935));
+        let t938 = t12 * t932;
+        let t939 = t21 * t932;
+        let t940 = mul_add(t18, t928, mul_add(t12, t921, t15 * t931));
+        let t941 = mul_add(t18, t935, mul_add(t12, t931, t15 * t924));
+        let t942 = mul_add(t18, t918, mul_add(t12, t928, t15 * t935));
+        let t943 = t21 * t940;
+        let t944 = mul_add(t27, t928, mul_add(t21, t921, t24 * t931));
+        let t945 = mul_add(t27, t935, mul_add(t21, t931, t24 * t924));
+        let t946 = mul_add(t27, t918, mul_add(t21, t928, t24 * t935));
         (
             t3,
             t6,
@@ -31859,26 +31741,24 @@ pub fn forward_dynamics<T: Scalar>(
             t175,
             t182,
             t189,
-            t454,
             t455,
-            t456,
-            t458,
+            t457,
             t459,
             t460,
-            t616,
-            t617,
-            t629,
-            t630,
-            t642,
-            t643,
-            t655,
-            t656,
-            t668,
-            t669,
-            t681,
-            t682,
-            t689,
-            t690,
+            t461,
+            t462,
+            t618,
+            t619,
+            t631,
+            t632,
+            t644,
+            t645,
+            t657,
+            t658,
+            t670,
+            t671,
+            t683,
+            t684,
             t691,
             t692,
             t693,
@@ -31895,74 +31775,74 @@ pub fn forward_dynamics<T: Scalar>(
             t704,
             t705,
             t706,
-            t721,
-            t724,
-            t732,
-            t740,
-            t741,
-            t749,
-            t757,
-            t765,
-            t773,
-            t781,
-            t782,
-            t790,
-            t798,
-            t799,
-            t803,
-            t807,
-            t811,
-            t815,
-            t819,
-            t823,
-            t829,
-            t840,
-            t844,
-            t845,
+            t707,
+            t708,
+            t723,
+            t726,
+            t734,
+            t742,
+            t743,
+            t751,
+            t759,
+            t767,
+            t775,
+            t783,
+            t784,
+            t792,
+            t800,
+            t801,
+            t805,
+            t809,
+            t813,
+            t817,
+            t821,
+            t825,
+            t831,
+            t842,
             t846,
             t847,
             t848,
             t849,
             t850,
-            t853,
-            t854,
+            t851,
+            t852,
             t855,
             t856,
             t857,
             t858,
             t859,
-            t862,
-            t863,
+            t860,
+            t861,
             t864,
             t865,
             t866,
             t867,
             t868,
-            t871,
-            t890,
-            t891,
+            t869,
+            t870,
+            t873,
             t892,
             t893,
             t894,
             t895,
             t896,
-            t899,
-            t900,
+            t897,
+            t898,
             t901,
             t902,
             t903,
             t904,
             t905,
             t906,
-            t909,
-            t910,
+            t907,
+            t908,
             t911,
             t912,
             t913,
-            t923,
-            t930,
-            t934,
-            t935,
+            t914,
+            t915,
+            t925,
+            t932,
             t936,
             t937,
             t938,
@@ -31972,170 +31852,172 @@ pub fn forward_dynamics<T: Scalar>(
             t942,
             t943,
             t944,
+            t945,
+            t946,
         )
     };
     {
         // acceleration that removes the residual wrench
-        let t945 = c(1.0) / t844;
-        let t946 = t853 * t945;
-        let t947 = t681 + (t668 + (t655 + (t642 + (t616 + t629))));
-        let t948 = mul_add(t182, t455, mul_add(t175, t454, t947));
-        let t949 = mul_add(t122, t803, t721 - mul_add(t189, t456, t948));
-        let t950 = mul_add(t128, t811, mul_add(t125, t807, t949));
-        let t951 = mul_add(t134, t819, mul_add(t131, t815, t950));
-        let t952 = mul_sub(t829, t946, mul_add(t137, t823, t951));
-        let t953 = t862 * t945;
-        let t954 = mul_add(t128, t856, mul_add(t122, t854, t910));
-        let t955 = mul_add(t134, t858, mul_add(t131, t857, t954));
-        let t956 = mul_sub(t853, t953, mul_add(t137, t859, t955));
-        let t957 = mul_sub(t125, t846, neg_mul_add(t122, t845, t840));
-        let t958 = mul_add(t131, t848, mul_add(t128, t847, t957));
-        let t959 = mul_add(t137, t850, mul_add(t134, t849, t958));
-        let t960 = c(1.0) / mul_sub(t853, t946, t959);
-        let t961 = t956 * t960;
-        let t962 = t682 + (t669 + (t656 + (t643 + (t617 + t630))));
-        let t963 = mul_add(t182, t459, mul_sub(t175, t458, t962));
-        let t964 = mul_add(t123, t803, t724 + mul_add(t189, t460, t963));
-        let t965 = mul_add(t129, t811, mul_add(t126, t807, t964));
-        let t966 = mul_add(t135, t819, mul_add(t132, t815, t965));
-        let t967 = mul_sub(t829, t953, mul_add(t138, t823, t966));
-        let t968 = mul_sub(t952, t961, t967);
-        let t969 = t871 * t945;
-        let t970 = mul_add(t125, t864, mul_add(t122, t863, t890));
-        let t971 = mul_add(t131, t866, mul_add(t128, t865, t970));
-        let t972 = mul_add(t137, t868, mul_add(t134, t867, t971));
-        let t973 = mul_sub(t853, t969, t972);
-        let t974 = t973 * t960;
-        let t975 = mul_sub(t126, t864, neg_mul_add(t123, t863, t901));
-        let t976 = mul_add(t132, t866, mul_add(t129, t865, t975));
-        let t977 = mul_add(t138, t868, mul_add(t135, t867, t976));
-        let t978 = mul_sub(t956, t974, mul_sub(t862, t969, t977));
-        let t979 = mul_sub(t126, t855, neg_mul_add(t123, t854, t840));
-        let t980 = mul_add(t132, t857, mul_add(t129, t856, t979));
-        let t981 = mul_add(t138, t859, mul_add(t135, t858, t980));
-        let t982 = c(1.0) / mul_sub(t956, t961, mul_sub(t862, t953, t981));
-        let t983 = t978 * t982;
-        let t984 = mul_add(t15, t749, mul_sub(t12, t732, t741));
-        let t985 = mul_sub(t18, t765, mul_sub(t24, t757, t984));
-        let t986 = mul_sub(t27, t773, t985);
-        let t987 = mul_sub(base_rotation[0][0], external_wrench[3], t986);
-        let t988 = mul_add(base_rotation[1][0], external_wrench[4], t987);
-        let t989 = mul_add(base_rotation[2][0], external_wrench[5], t988);
-        let t990 = mul_add(t692, t807, mul_add(t689, t803, t989));
-        let t991 = mul_add(t698, t815, mul_add(t695, t811, t990));
-        let t992 = mul_add(t704, t823, mul_add(t701, t819, t991));
-        let t993 = mul_sub(t952, t974, mul_sub(t829, t969, t992));
-        let t994 = mul_sub(t968, t983, t993);
-        let t995 = t899 * t945;
-        let t996 = mul_add(t128, t893, mul_add(t122, t891, t911));
-        let t997 = mul_add(t134, t895, mul_add(t131, t894, t996));
-        let t998 = mul_sub(t853, t995, mul_add(t137, t896, t997));
-        let t999 = t998 * t960;
-        let t1000 = mul_add(t126, t892, mul_add(t123, t891, t912));
-        let t1001 = mul_add(t132, t894, mul_add(t129, t893, t1000));
-        let t1002 = mul_add(t138, t896, mul_add(t135, t895, t1001));
-        let t1003 = mul_sub(t956, t999, mul_sub(t862, t995, t1002));
-        let t1004 = t1003 * t982;
-        let t1005 = mul_add(t15, t934, mul_add(t689, t891, t936));
-        let t1006 = mul_add(t692, t892, mul_add(t18, t935, t1005));
-        let t1007 = mul_add(t698, t894, mul_add(t695, t893, t1006));
-        let t1008 = mul_add(t704, t896, mul_add(t701, t895, t1007));
-        let t1009 = mul_sub(t973, t999, mul_sub(t871, t995, t1008));
-        let t1010 = mul_sub(t978, t1004, t1009);
-        let t1011 = mul_sub(t6, t934, neg_mul_add(t3, t930, t923));
-        let t1012 = mul_add(t689, t863, mul_add(t9, t935, t1011));
-        let t1013 = mul_add(t695, t865, mul_add(t692, t864, t1012));
-        let t1014 = mul_add(t701, t867, mul_add(t698, t866, t1013));
-        let t1015 = mul_sub(t871, t969, mul_add(t704, t868, t1014));
-        let t1016 = c(1.0) / mul_sub(t978, t983, mul_sub(t973, t974, t1015));
-        let t1017 = t1010 * t1016;
-        let t1018 = mul_add(t24, t790, mul_sub(t21, t781, t782));
-        let t1019 = mul_sub(t27, t798, mul_sub(t6, t749, t1018));
-        let t1020 = mul_sub(t9, t765, t1019);
-        let t1021 = mul_sub(base_rotation[0][1], external_wrench[3], t1020);
-        let t1022 = mul_add(base_rotation[1][1], external_wrench[4], t1021);
-        let t1023 = mul_add(base_rotation[2][1], external_wrench[5], t1022);
-        let t1024 = mul_add(t693, t807, mul_add(t690, t803, t1023));
-        let t1025 = mul_add(t699, t815, mul_add(t696, t811, t1024));
-        let t1026 = mul_add(t705, t823, mul_add(t702, t819, t1025));
-        let t1027 = mul_sub(t952, t999, mul_sub(t829, t995, t1026));
-        let t1028 = mul_sub(t994, t1017, mul_sub(t968, t1004, t1027));
-        let t1029 = t909 * t945;
-        let t1030 = mul_sub(t125, t902, neg_mul_add(t122, t900, t912));
-        let t1031 = mul_add(t131, t904, mul_add(t128, t903, t1030));
-        let t1032 = mul_add(t137, t906, mul_add(t134, t905, t1031));
-        let t1033 = mul_sub(t853, t1029, t1032);
-        let t1034 = t1033 * t960;
-        let t1035 = mul_add(t129, t903, mul_add(t123, t900, t913));
-        let t1036 = mul_add(t135, t905, mul_add(t132, t904, t1035));
-        let t1037 = mul_sub(t862, t1029, mul_add(t138, t906, t1036));
-        let t1038 = mul_sub(t956, t1034, t1037);
-        let t1039 = t1038 * t982;
-        let t1040 = mul_add(t24, t934, mul_add(t689, t900, t937));
-        let t1041 = mul_add(t692, t902, mul_add(t27, t935, t1040));
-        let t1042 = mul_add(t698, t904, mul_add(t695, t903, t1041));
-        let t1043 = mul_add(t704, t906, mul_add(t701, t905, t1042));
-        let t1044 = mul_sub(t973, t1034, mul_sub(t871, t1029, t1043));
-        let t1045 = mul_sub(t978, t1039, t1044);
-        let t1046 = t1045 * t1016;
-        let t1047 = mul_add(t24, t939, mul_add(t690, t900, t941));
-        let t1048 = mul_add(t693, t902, mul_add(t27, t940, t1047));
-        let t1049 = mul_add(t699, t904, mul_add(t696, t903, t1048));
-        let t1050 = mul_add(t705, t906, mul_add(t702, t905, t1049));
-        let t1051 = mul_sub(t998, t1034, mul_sub(t899, t1029, t1050));
-        let t1052 = mul_sub(t1010, t1046, mul_sub(t1003, t1039, t1051));
-        let t1053 = mul_sub(t15, t939, neg_mul_add(t12, t938, t923));
-        let t1054 = mul_add(t690, t891, mul_add(t18, t940, t1053));
-        let t1055 = mul_add(t696, t893, mul_add(t693, t892, t1054));
-        let t1056 = mul_add(t702, t895, mul_add(t699, t894, t1055));
-        let t1057 = mul_sub(t899, t995, mul_add(t705, t896, t1056));
-        let t1058 = mul_sub(t1003, t1004, mul_sub(t998, t999, t1057));
-        let t1059 = c(1.0) / mul_sub(t1010, t1017, t1058);
-        let t1060 = t1052 * t1059;
-        let t1061 = mul_add(t6, t757, mul_sub(t3, t740, t799));
-        let t1062 = mul_sub(t9, t773, mul_sub(t15, t790, t1061));
-        let t1063 = mul_sub(t18, t798, t1062);
-        let t1064 = mul_sub(base_rotation[0][2], external_wrench[3], t1063);
-        let t1065 = mul_add(base_rotation[1][2], external_wrench[4], t1064);
-        let t1066 = mul_add(base_rotation[2][2], external_wrench[5], t1065);
-        let t1067 = mul_add(t694, t807, mul_add(t691, t803, t1066));
-        let t1068 = mul_add(t700, t815, mul_add(t697, t811, t1067));
-        let t1069 = mul_add(t706, t823, mul_add(t703, t819, t1068));
-        let t1070 = mul_sub(t952, t1034, mul_sub(t829, t1029, t1069));
-        let t1071 = mul_sub(t994, t1046, mul_sub(t968, t1039, t1070));
-        let t1072 = mul_sub(t24, t943, neg_mul_add(t21, t942, t923));
-        let t1073 = mul_add(t691, t900, mul_add(t27, t944, t1072));
-        let t1074 = mul_add(t697, t903, mul_add(t694, t902, t1073));
-        let t1075 = mul_add(t703, t905, mul_add(t700, t904, t1074));
-        let t1076 = mul_sub(t909, t1029, mul_add(t706, t906, t1075));
-        let t1077 = mul_sub(t1038, t1039, mul_sub(t1033, t1034, t1076));
-        let t1078 = c(1.0) / mul_sub(t1052, t1060, mul_sub(t1045, t1046, t1077));
-        let t1079 = mul_sub(t1028, t1060, t1071) * t1078;
-        let t1080 = mul_sub(t1028, t1059, t1060 * t1079);
-        let t1081 = mul_sub(t1046, t1079, mul_sub(t994, t1016, t1017 * t1080));
-        let t1082 = mul_sub(t1004, t1080, mul_add(t968, t982, t983 * t1081));
-        let t1083 = mul_add(t1039, t1079, t1082);
-        let t1084 = mul_add(t974, t1081, mul_add(t952, t960, t961 * t1083));
-        let t1085 = mul_add(t1034, t1079, mul_sub(t999, t1080, t1084));
-        let t1086 = mul_add(t953, t1083, mul_add(t829, t945, t946 * t1085));
-        let t1087 = mul_sub(t995, t1080, mul_add(t969, t1081, t1086));
-        let t1088 = mul_add(t1029, t1079, t1087);
+        let t947 = c(1.0) / t846;
+        let t948 = t855 * t947;
+        let t949 = t683 + (t670 + (t657 + (t644 + (t618 + t631))));
+        let t950 = mul_add(t182, t457, mul_add(t175, t455, t949));
+        let t951 = mul_add(t122, t805, t723 - mul_add(t189, t459, t950));
+        let t952 = mul_add(t128, t813, mul_add(t125, t809, t951));
+        let t953 = mul_add(t134, t821, mul_add(t131, t817, t952));
+        let t954 = mul_sub(t831, t948, mul_add(t137, t825, t953));
+        let t955 = t864 * t947;
+        let t956 = mul_add(t128, t858, mul_add(t122, t856, t912));
+        let t957 = mul_add(t134, t860, mul_add(t131, t859, t956));
+        let t958 = mul_sub(t855, t955, mul_add(t137, t861, t957));
+        let t959 = mul_sub(t125, t848, neg_mul_add(t122, t847, t842));
+        let t960 = mul_add(t131, t850, mul_add(t128, t849, t959));
+        let t961 = mul_add(t137, t852, mul_add(t134, t851, t960));
+        let t962 = c(1.0) / mul_sub(t855, t948, t961);
+        let t963 = t958 * t962;
+        let t964 = t684 + (t671 + (t658 + (t645 + (t619 + t632))));
+        let t965 = mul_add(t182, t461, mul_add(t175, t460, t964));
+        let t966 = mul_add(t123, t805, t726 - mul_add(t189, t462, t965));
+        let t967 = mul_add(t129, t813, mul_add(t126, t809, t966));
+        let t968 = mul_add(t135, t821, mul_add(t132, t817, t967));
+        let t969 = mul_sub(t831, t955, mul_add(t138, t825, t968));
+        let t970 = mul_sub(t954, t963, t969);
+        let t971 = t873 * t947;
+        let t972 = mul_add(t125, t866, mul_add(t122, t865, t892));
+        let t973 = mul_add(t131, t868, mul_add(t128, t867, t972));
+        let t974 = mul_add(t137, t870, mul_add(t134, t869, t973));
+        let t975 = mul_sub(t855, t971, t974);
+        let t976 = t975 * t962;
+        let t977 = mul_sub(t126, t866, neg_mul_add(t123, t865, t903));
+        let t978 = mul_add(t132, t868, mul_add(t129, t867, t977));
+        let t979 = mul_add(t138, t870, mul_add(t135, t869, t978));
+        let t980 = mul_sub(t958, t976, mul_sub(t864, t971, t979));
+        let t981 = mul_sub(t126, t857, neg_mul_add(t123, t856, t842));
+        let t982 = mul_add(t132, t859, mul_add(t129, t858, t981));
+        let t983 = mul_add(t138, t861, mul_add(t135, t860, t982));
+        let t984 = c(1.0) / mul_sub(t958, t963, mul_sub(t864, t955, t983));
+        let t985 = t980 * t984;
+        let t986 = mul_add(t15, t751, mul_sub(t12, t734, t743));
+        let t987 = mul_sub(t18, t767, mul_sub(t24, t759, t986));
+        let t988 = mul_sub(t27, t775, t987);
+        let t989 = mul_sub(base_rotation[0][0], external_wrench[3], t988);
+        let t990 = mul_add(base_rotation[1][0], external_wrench[4], t989);
+        let t991 = mul_add(base_rotation[2][0], external_wrench[5], t990);
+        let t992 = mul_add(t694, t809, mul_add(t691, t805, t991));
+        let t993 = mul_add(t700, t817, mul_add(t697, t813, t992));
+        let t994 = mul_add(t706, t825, mul_add(t703, t821, t993));
+        let t995 = mul_sub(t954, t976, mul_sub(t831, t971, t994));
+        let t996 = mul_sub(t970, t985, t995);
+        let t997 = t901 * t947;
+        let t998 = mul_add(t128, t895, mul_add(t122, t893, t913));
+        let t999 = mul_add(t134, t897, mul_add(t131, t896, t998));
+        let t1000 = mul_sub(t855, t997, mul_add(t137, t898, t999));
+        let t1001 = t1000 * t962;
+        let t1002 = mul_add(t126, t894, mul_add(t123, t893, t914));
+        let t1003 = mul_add(t132, t896, mul_add(t129, t895, t1002));
+        let t1004 = mul_add(t138, t898, mul_add(t135, t897, t1003));
+        let t1005 = mul_sub(t958, t1001, mul_sub(t864, t997, t1004));
+        let t1006 = t1005 * t984;
+        let t1007 = mul_add(t15, t936, mul_add(t691, t893, t938));
+        let t1008 = mul_add(t694, t894, mul_add(t18, t937, t1007));
+        let t1009 = mul_add(t700, t896, mul_add(t697, t895, t1008));
+        let t1010 = mul_add(t706, t898, mul_add(t703, t897, t1009));
+        let t1011 = mul_sub(t975, t1001, mul_sub(t873, t997, t1010));
+        let t1012 = mul_sub(t980, t1006, t1011);
+        let t1013 = mul_sub(t6, t936, neg_mul_add(t3, t932, t925));
+        let t1014 = mul_add(t691, t865, mul_add(t9, t937, t1013));
+        let t1015 = mul_add(t697, t867, mul_add(t694, t866, t1014));
+        let t1016 = mul_add(t703, t869, mul_add(t700, t868, t1015));
+        let t1017 = mul_sub(t873, t971, mul_add(t706, t870, t1016));
+        let t1018 = c(1.0) / mul_sub(t980, t985, mul_sub(t975, t976, t1017));
+        let t1019 = t1012 * t1018;
+        let t1020 = mul_add(t24, t792, mul_sub(t21, t783, t784));
+        let t1021 = mul_sub(t27, t800, mul_sub(t6, t751, t1020));
+        let t1022 = mul_sub(t9, t767, t1021);
+        let t1023 = mul_sub(base_rotation[0][1], external_wrench[3], t1022);
+        let t1024 = mul_add(base_rotation[1][1], external_wrench[4], t1023);
+        let t1025 = mul_add(base_rotation[2][1], external_wrench[5], t1024);
+        let t1026 = mul_add(t695, t809, mul_add(t692, t805, t1025));
+        let t1027 = mul_add(t701, t817, mul_add(t698, t813, t1026));
+        let t1028 = mul_add(t707, t825, mul_add(t704, t821, t1027));
+        let t1029 = mul_sub(t954, t1001, mul_sub(t831, t997, t1028));
+        let t1030 = mul_sub(t996, t1019, mul_sub(t970, t1006, t1029));
+        let t1031 = t911 * t947;
+        let t1032 = mul_sub(t125, t904, neg_mul_add(t122, t902, t914));
+        let t1033 = mul_add(t131, t906, mul_add(t128, t905, t1032));
+        let t1034 = mul_add(t137, t908, mul_add(t134, t907, t1033));
+        let t1035 = mul_sub(t855, t1031, t1034);
+        let t1036 = t1035 * t962;
+        let t1037 = mul_add(t129, t905, mul_add(t123, t902, t915));
+        let t1038 = mul_add(t135, t907, mul_add(t132, t906, t1037));
+        let t1039 = mul_sub(t864, t1031, mul_add(t138, t908, t1038));
+        let t1040 = mul_sub(t958, t1036, t1039);
+        let t1041 = t1040 * t984;
+        let t1042 = mul_add(t24, t936, mul_add(t691, t902, t939));
+        let t1043 = mul_add(t694, t904, mul_add(t27, t937, t1042));
+        let t1044 = mul_add(t700, t906, mul_add(t697, t905, t1043));
+        let t1045 = mul_add(t706, t908, mul_add(t703, t907, t1044));
+        let t1046 = mul_sub(t975, t1036, mul_sub(t873, t1031, t1045));
+        let t1047 = mul_sub(t980, t1041, t1046);
+        let t1048 = t1047 * t1018;
+        let t1049 = mul_add(t24, t941, mul_add(t692, t902, t943));
+        let t1050 = mul_add(t695, t904, mul_add(t27, t942, t1049));
+        let t1051 = mul_add(t701, t906, mul_add(t698, t905, t1050));
+        let t1052 = mul_add(t707, t908, mul_add(t704, t907, t1051));
+        let t1053 = mul_sub(t1000, t1036, mul_sub(t901, t1031, t1052));
+        let t1054 = mul_sub(t1012, t1048, mul_sub(t1005, t1041, t1053));
+        let t1055 = mul_sub(t15, t941, neg_mul_add(t12, t940, t925));
+        let t1056 = mul_add(t692, t893, mul_add(t18, t942, t1055));
+        let t1057 = mul_add(t698, t895, mul_add(t695, t894, t1056));
+        let t1058 = mul_add(t704, t897, mul_add(t701, t896, t1057));
+        let t1059 = mul_sub(t901, t997, mul_add(t707, t898, t1058));
+        let t1060 = mul_sub(t1005, t1006, mul_sub(t1000, t1001, t1059));
+        let t1061 = c(1.0) / mul_sub(t1012, t1019, t1060);
+        let t1062 = t1054 * t1061;
+        let t1063 = mul_add(t6, t759, mul_sub(t3, t742, t801));
+        let t1064 = mul_sub(t9, t775, mul_sub(t15, t792, t1063));
+        let t1065 = mul_sub(t18, t800, t1064);
+        let t1066 = mul_sub(base_rotation[0][2], external_wrench[3], t1065);
+        let t1067 = mul_add(base_rotation[1][2], external_wrench[4], t1066);
+        let t1068 = mul_add(base_rotation[2][2], external_wrench[5], t1067);
+        let t1069 = mul_add(t696, t809, mul_add(t693, t805, t1068));
+        let t1070 = mul_add(t702, t817, mul_add(t699, t813, t1069));
+        let t1071 = mul_add(t708, t825, mul_add(t705, t821, t1070));
+        let t1072 = mul_sub(t954, t1036, mul_sub(t831, t1031, t1071));
+        let t1073 = mul_sub(t996, t1048, mul_sub(t970, t1041, t1072));
+        let t1074 = mul_sub(t24, t945, neg_mul_add(t21, t944, t925));
+        let t1075 = mul_add(t693, t902, mul_add(t27, t946, t1074));
+        let t1076 = mul_add(t699, t905, mul_add(t696, t904, t1075));
+        let t1077 = mul_add(t705, t907, mul_add(t702, t906, t1076));
+        let t1078 = mul_sub(t911, t1031, mul_add(t708, t908, t1077));
+        let t1079 = mul_sub(t1040, t1041, mul_sub(t1035, t1036, t1078));
+        let t1080 = c(1.0) / mul_sub(t1054, t1062, mul_sub(t1047, t1048, t1079));
+        let t1081 = mul_sub(t1030, t1062, t1073) * t1080;
+        let t1082 = mul_sub(t1030, t1061, t1062 * t1081);
+        let t1083 = mul_sub(t1048, t1081, mul_sub(t996, t1018, t1019 * t1082));
+        let t1084 = mul_sub(t1006, t1082, mul_add(t970, t984, t985 * t1083));
+        let t1085 = mul_add(t1041, t1081, t1084);
+        let t1086 = mul_add(t976, t1083, mul_add(t954, t962, t963 * t1085));
+        let t1087 = mul_add(t1036, t1081, mul_sub(t1001, t1082, t1086));
+        let t1088 = mul_add(t955, t1085, mul_add(t831, t947, t948 * t1087));
+        let t1089 = mul_sub(t997, t1082, mul_add(t971, t1083, t1088));
+        let t1090 = mul_add(t1031, t1081, t1089);
         // platform acceleration v_p'
-        let t1089 = mul_add(base_rotation[0][0], t1088, parameters.gravity[0]);
-        let t1090 = mul_add(base_rotation[0][1], t1085, t1089);
-        forward_dynamics[0] = mul_add(base_rotation[0][2], t1083, t1090);
-        let t1091 = mul_add(base_rotation[1][0], t1088, parameters.gravity[1]);
-        let t1092 = mul_add(base_rotation[1][1], t1085, t1091);
-        forward_dynamics[1] = mul_add(base_rotation[1][2], t1083, t1092);
-        let t1093 = mul_add(base_rotation[2][0], t1088, parameters.gravity[2]);
-        let t1094 = mul_add(base_rotation[2][1], t1085, t1093);
-        forward_dynamics[2] = mul_add(base_rotation[2][2], t1083, t1094);
-        let t1095 = mul_sub(base_rotation[0][0], t1081, base_rotation[0][1] * t1080);
-        forward_dynamics[3] = neg_mul_add(base_rotation[0][2], t1079, t1095);
-        let t1096 = mul_sub(base_rotation[1][0], t1081, base_rotation[1][1] * t1080);
-        forward_dynamics[4] = neg_mul_add(base_rotation[1][2], t1079, t1096);
-        let t1097 = mul_sub(base_rotation[2][0], t1081, base_rotation[2][1] * t1080);
-        forward_dynamics[5] = neg_mul_add(base_rotation[2][2], t1079, t1097);
+        let t1091 = mul_add(base_rotation[0][0], t1090, parameters.gravity[0]);
+        let t1092 = mul_add(base_rotation[0][1], t1087, t1091);
+        forward_dynamics[0] = mul_add(base_rotation[0][2], t1085, t1092);
+        let t1093 = mul_add(base_rotation[1][0], t1090, parameters.gravity[1]);
+        let t1094 = mul_add(base_rotation[1][1], t1087, t1093);
+        forward_dynamics[1] = mul_add(base_rotation[1][2], t1085, t1094);
+        let t1095 = mul_add(base_rotation[2][0], t1090, parameters.gravity[2]);
+        let t1096 = mul_add(base_rotation[2][1], t1087, t1095);
+        forward_dynamics[2] = mul_add(base_rotation[2][2], t1085, t1096);
+        let t1097 = mul_sub(base_rotation[0][0], t1083, base_rotation[0][1] * t1082);
+        forward_dynamics[3] = neg_mul_add(base_rotation[0][2], t1081, t1097);
+        let t1098 = mul_sub(base_rotation[1][0], t1083, base_rotation[1][1] * t1082);
+        forward_dynamics[4] = neg_mul_add(base_rotation[1][2], t1081, t1098);
+        let t1099 = mul_sub(base_rotation[2][0], t1083, base_rotation[2][1] * t1082);
+        forward_dynamics[5] = neg_mul_add(base_rotation[2][2], t1081, t1099);
     }
 }
 

@@ -25,7 +25,7 @@ pub(super) fn page(outcome: &Outcome, platform: &Svg, figures: &[Drawn], files: 
         opening(outcome),
         result(outcome),
         platform_section(outcome, platform),
-        curves(figures),
+        curves(outcome, figures),
         amplitudes(&outcome.amplitude_tables),
         procedure(outcome),
         reproduction(outcome),
@@ -174,8 +174,12 @@ fn platform_section(outcome: &Outcome, drawing: &Svg) -> String {
     html
 }
 
-fn curves(figures: &[Drawn]) -> String {
+fn curves(outcome: &Outcome, figures: &[Drawn]) -> String {
     let mut html = "<h2>Curves and spectra</h2>\n".to_owned();
+    if outcome.amplitude_tables.iter().any(|table| table.paper_percent.is_some()) {
+        html += "<p>The base\u{2019}s disturbance, the platform\u{2019}s acceleration and its spectra are what the paper \
+                 shows of this experiment in its Figures 7 to 9.</p>\n";
+    }
     for (Drawn { figure, svg }, number) in figures.iter().zip(1..) {
         put!(
             html,

@@ -8,8 +8,9 @@ use toml::Spanned;
 use super::motions::Reader;
 use super::schema::{File, Limits, Spectrum};
 use super::{Scenario, SpectrumRequest, Steering, VERSION};
-use crate::simulate::{Grid, Stroke};
+use crate::simulate::Grid;
 use crate::spectrum::Window;
+use crate::stop::Stroke;
 
 /// More steps fill the memory: each keeps about 500 bytes.
 const MOST_STEPS: f64 = 2e6;

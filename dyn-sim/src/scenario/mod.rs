@@ -20,8 +20,9 @@ pub use error::ScenarioError;
 pub use schema::{Integrator, Outputs};
 
 use crate::motion::Motion;
-use crate::simulate::{Grid, Stroke};
+use crate::simulate::Grid;
 use crate::spectrum::Window;
+use crate::stop::Stroke;
 
 /// Version of the scenario file format.
 pub const VERSION: i64 = 1;

@@ -3,7 +3,7 @@
 //
 // Dynamics of the platform `my_platform`, every number baked in.
 //
-// graph     uhp.json, sha256 681cf4434cab11670af96653d8c96f220cec2462c26e5b794f5948e0a98ffee3
+// graph     uhp.json, sha256 9db36ee49fe28b6c0a6e83ba1480d822588bc2a842fed7e4e4db5293dd101808
 //           derived by CasADi 3.8.2
 // platform  my_platform, sha256 of its resolved numbers 886f7852017ac711714d460253875c97521dd7a6f031f093de91b55faddbe2d3
 //
@@ -11,7 +11,7 @@
 // function          as derived  as printed
 // rod_alignment            303          63
 // jacobian_dp              579         180
-// inverse_dynamics        2409         794
+// inverse_dynamics        2442         807
 //
 // linear systems: growth of rounding errors in a fixed order of pivots, at the worst state
 // inverse_dynamics, axial_reaction: 10.7 (51 states sampled)
@@ -24,6 +24,8 @@
 use ::dyn_runtime::float::{Scalar, mul_add, mul_sub, neg_mul_add, sqrt};
 #[allow(unused_imports)]
 use ::dyn_runtime::solve::solve_general;
+#[allow(unused_imports)]
+use ::dyn_runtime::triple::Triple;
 
 /// The platform `my_platform`, every number baked in.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -84,17 +86,12 @@ impl ::dyn_runtime::kernels::InverseDynamics for MyPlatform {
         external_wrench: &[f64; 6],
         inverse_dynamics: &mut [f64; 6],
     ) {
-        self::inverse_dynamics(
-            base_position,
-            base_rotation,
-            base_velocity,
-            base_acceleration,
-            platform_position,
-            platform_rotation,
-            platform_velocity,
-            platform_acceleration,
-            external_wrench,
-            inverse_dynamics,
+        ::dyn_runtime::single_state!(
+            inverse_dynamics_in_lanes, inverse_dynamics; base_position : [f64; 3],
+            base_rotation : [[f64; 3]; 3], base_velocity : [f64; 6], base_acceleration :
+            [f64; 6], platform_position : [f64; 3], platform_rotation : [[f64; 3]; 3],
+            platform_velocity : [f64; 6], platform_acceleration : [f64; 6],
+            external_wrench : [f64; 6]; inverse_dynamics : [f64; 6]
         );
     }
 }
@@ -855,349 +852,938 @@ pub fn inverse_dynamics<T: Scalar>(
     let t221 = mul_add(base_rotation[0][2], platform_acceleration[3], t220);
     let t222 = mul_add(base_rotation[2][2], platform_acceleration[5], t221);
     // acceleration per platform coordinate of points of the platform
-    let t223 = neg_mul_add(t126, t129, t222);
-    let t224 = mul_add(t126, t132, t219);
-    let t225 = mul_add(t129, t129, t132 * t132);
-    let t226 = mul_sub(t21, t224, mul_add(t12, t223, t3 * t225));
-    let t227 = t6 * t225;
-    let t228 = mul_sub(t27, t224, mul_add(t18, t223, t9 * t225));
-    let t229 = mul_add(t126, t129, t222);
-    let t230 = neg_mul_add(t129, t132, t216);
-    let t231 = t126 * t126;
-    let t232 = mul_add(t132, t132, t231);
-    let t233 = mul_sub(t21, t230, mul_sub(t3, t229, t12 * t232));
-    let t234 = t15 * t232;
-    let t235 = mul_sub(t27, t230, mul_sub(t9, t229, t18 * t232));
-    let t236 = mul_add(t129, t129, t231);
-    let t237 = neg_mul_add(t126, t132, t219);
-    let t238 = mul_add(t129, t132, t216);
-    let t239 = mul_add(t21, t236, mul_sub(t3, t237, t12 * t238));
-    let t240 = mul_add(t24, t236, mul_sub(t6, t237, t15 * t238));
-    let t241 = mul_add(t27, t236, mul_sub(t9, t237, t18 * t238));
+    let t223 = mul_sub(t3, t132, t21 * t126);
+    let t224 = mul_sub(t12, t126, t3 * t129);
+    let t225 = mul_add(t129, t224, mul_sub(t21, t219, t12 * t222));
+    let t226 = mul_sub(t132, t223, t225);
+    let t227 = t15 * t222;
+    let t228 = mul_sub(t15, t126, t6 * t129);
+    let t229 = mul_sub(t6, t132, t24 * t126);
+    let t230 = t132 * t229;
+    let t231 = mul_sub(t9, t132, t27 * t126);
+    let t232 = mul_sub(t18, t126, t9 * t129);
+    let t233 = mul_add(t129, t232, mul_sub(t27, t219, t18 * t222));
+    let t234 = mul_sub(t132, t231, t233);
+    let t235 = mul_sub(t21, t129, t12 * t132);
+    let t236 = mul_add(t132, t235, mul_sub(t3, t222, t21 * t216));
+    let t237 = mul_sub(t126, t224, t236);
+    let t238 = t24 * t216;
+    let t239 = mul_sub(t24, t129, t15 * t132);
+    let t240 = t126 * t228;
+    let t241 = mul_sub(t27, t129, t18 * t132);
+    let t242 = mul_add(t132, t241, mul_sub(t9, t222, t27 * t216));
+    let t243 = mul_sub(t126, t232, t242);
+    let t244 = mul_add(t126, t223, mul_sub(t12, t216, t3 * t219));
+    let t245 = mul_sub(t129, t235, t244);
+    let t246 = mul_add(t126, t229, mul_sub(t15, t216, t6 * t219));
+    let t247 = mul_sub(t129, t239, t246);
+    let t248 = mul_add(t126, t231, mul_sub(t18, t216, t9 * t219));
+    let t249 = mul_sub(t129, t241, t248);
     // acceleration of the platform origin relative to the base
-    let t242 = mul_sub(t120, t147, t123 * t144);
-    let t243 = mul_add(t34, t195, mul_add(t32, t194, t181 - t207));
-    let t244 = mul_add(c(2.0), t242, mul_sub(t36, t196, t243));
-    let t245 = mul_sub(t123, t141, t117 * t147);
-    let t246 = mul_sub(t34, t199, mul_sub(t32, t197, t184 - t210));
-    let t247 = neg_mul_add(c(2.0), t245, mul_add(t36, t200, t246));
-    let t248 = t120 * t141;
+    let t250 = mul_sub(t120, t147, t123 * t144);
+    let t251 = mul_add(t34, t195, mul_add(t32, t194, t181 - t207));
+    let t252 = mul_add(c(2.0), t250, mul_sub(t36, t196, t251));
+    let t253 = mul_sub(t123, t141, t117 * t147);
+    let t254 = mul_sub(t34, t199, mul_sub(t32, t197, t184 - t210));
+    let t255 = neg_mul_add(c(2.0), t253, mul_add(t36, t200, t254));
+    let t256 = t120 * t141;
     // second derivative of the relative rotation
-    let t249 = mul_sub(t117, t135, mul_sub(t123, t133, t190 - t219));
-    let t250 = mul_sub(t133, t135, t249);
-    let t251 = mul_sub(t120, t133, mul_sub(t117, t134, t193 - t222));
-    let t252 = mul_add(t133, t134, t251);
-    let t253 = mul_add(t134, t134, t135 * t135);
-    let t254 = mul_add(t21, t250, mul_sub(t12, t252, t3 * t253));
-    let t255 = mul_add(t24, t250, mul_sub(t15, t252, t6 * t253));
-    let t256 = mul_sub(t123, t134, mul_sub(t120, t135, t187 - t216));
-    let t257 = mul_add(t134, t135, t256);
-    let t258 = mul_sub(t133, t134, t251);
-    let t259 = t133 * t133;
-    let t260 = mul_add(t135, t135, t259);
-    let t261 = mul_add(t21, t257, mul_sub(t3, t258, t12 * t260));
-    let t262 = mul_add(t24, t257, mul_sub(t6, t258, t15 * t260));
-    let t263 = mul_add(t134, t134, t259);
-    let t264 = mul_add(t133, t135, t249);
-    let t265 = mul_sub(t134, t135, t256);
-    let t266 = mul_sub(t21, t263, mul_add(t3, t264, t12 * t265));
-    let t267 = mul_sub(t24, t263, mul_add(t6, t264, t15 * t265));
+    let t257 = mul_sub(t117, t135, mul_sub(t123, t133, t190 - t219));
+    let t258 = mul_sub(t120, t133, mul_sub(t117, t134, t193 - t222));
+    let t259 = mul_sub(t134, t152, mul_sub(t21, t257, t12 * t258));
+    let t260 = mul_sub(t135, t150, t259);
+    let t261 = mul_sub(t134, t153, mul_sub(t24, t257, t15 * t258));
+    let t262 = mul_sub(t135, t151, t261);
+    let t263 = mul_sub(t123, t134, mul_sub(t120, t135, t187 - t216));
+    let t264 = mul_sub(t135, t148, mul_sub(t3, t258, t21 * t263));
+    let t265 = mul_sub(t133, t152, t264);
+    let t266 = mul_sub(t135, t149, mul_sub(t6, t258, t24 * t263));
+    let t267 = mul_sub(t133, t153, t266);
+    let t268 = mul_sub(t133, t150, mul_sub(t12, t263, t3 * t257));
+    let t269 = mul_sub(t134, t148, t268);
+    let t270 = mul_sub(t133, t151, mul_sub(t15, t263, t6 * t257));
+    let t271 = mul_sub(t134, t149, t270);
     // leg 1: acceleration of the platform joint relative to the base
-    let t268 = mul_add(c(0.115911), t254, t244);
-    let t269 = neg_mul_add(c(0.031058), t255, t268);
-    let t270 = neg_mul_add(c(0.115911), t261, t247);
-    let t271 = mul_add(c(0.031058), t262, t270);
+    let t272 = neg_mul_add(c(0.115911), t260, t252);
+    let t273 = mul_add(c(0.031058), t262, t272);
+    let t274 = mul_add(c(0.115911), t265, t255);
+    let t275 = neg_mul_add(c(0.031058), t267, t274);
     // leg 2: acceleration of the platform joint relative to the base
-    let t272 = mul_add(c(0.031058), t255, t268);
-    let t273 = neg_mul_add(c(0.031058), t262, t270);
+    let t276 = neg_mul_add(c(0.031058), t262, t272);
+    let t277 = mul_add(c(0.031058), t267, t274);
     // leg 3: acceleration of the platform joint relative to the base
-    let t274 = neg_mul_add(c(0.031058), t254, t244);
-    let t275 = mul_add(c(0.115911), t255, t274);
-    let t276 = mul_add(c(0.031058), t261, t247);
-    let t277 = neg_mul_add(c(0.115911), t262, t276);
+    let t278 = mul_add(c(0.031058), t260, t252);
+    let t279 = neg_mul_add(c(0.115911), t262, t278);
+    let t280 = neg_mul_add(c(0.031058), t265, t255);
+    let t281 = mul_add(c(0.115911), t267, t280);
     // leg 4: acceleration of the platform joint relative to the base
-    let t278 = neg_mul_add(c(0.084853), t254, t244);
-    let t279 = mul_add(c(0.084853), t255, t278);
-    let t280 = mul_add(c(0.084853), t261, t247);
-    let t281 = neg_mul_add(c(0.084853), t262, t280);
+    let t282 = mul_add(c(0.084853), t260, t252);
+    let t283 = neg_mul_add(c(0.084853), t262, t282);
+    let t284 = neg_mul_add(c(0.084853), t265, t255);
+    let t285 = mul_add(c(0.084853), t267, t284);
     // leg 5: acceleration of the platform joint relative to the base
-    let t282 = neg_mul_add(c(0.084853), t255, t278);
-    let t283 = mul_add(c(0.084853), t262, t280);
+    let t286 = mul_add(c(0.084853), t262, t282);
+    let t287 = neg_mul_add(c(0.084853), t267, t284);
     // leg 6: acceleration of the platform joint relative to the base
-    let t284 = neg_mul_add(c(0.115911), t255, t274);
-    let t285 = mul_add(c(0.115911), t262, t276);
+    let t288 = mul_add(c(0.115911), t262, t278);
+    let t289 = neg_mul_add(c(0.115911), t267, t280);
     // leg 1: actuator acceleration d''
-    let t286 = mul_add(t44, t269, mul_add(t155, t155, t157 * t157));
-    let t287 = mul_sub(t172, t172, mul_sub(t45, t271, t286));
+    let t290 = mul_add(t44, t273, mul_add(t155, t155, t157 * t157));
+    let t291 = mul_sub(t172, t172, mul_sub(t45, t275, t290));
     // leg 2: actuator acceleration d''
-    let t288 = mul_sub(t49, t272, mul_add(t158, t158, t159 * t159));
-    let t289 = mul_sub(t173, t173, mul_add(t50, t273, t288));
+    let t292 = mul_sub(t49, t276, mul_add(t158, t158, t159 * t159));
+    let t293 = mul_sub(t173, t173, mul_add(t50, t277, t292));
     // leg 3: actuator acceleration d''
-    let t290 = mul_sub(t58, t275, mul_add(t161, t161, t163 * t163));
-    let t291 = mul_add(t174, t174, mul_sub(t59, t277, t290));
+    let t294 = mul_sub(t58, t279, mul_add(t161, t161, t163 * t163));
+    let t295 = mul_add(t174, t174, mul_sub(t59, t281, t294));
     // leg 4: actuator acceleration d''
-    let t292 = mul_sub(t67, t279, mul_add(t165, t165, t167 * t167));
-    let t293 = mul_add(t175, t175, mul_sub(t68, t281, t292));
+    let t296 = mul_sub(t67, t283, mul_add(t165, t165, t167 * t167));
+    let t297 = mul_add(t175, t175, mul_sub(t68, t285, t296));
     // leg 5: actuator acceleration d''
-    let t294 = mul_sub(t72, t282, mul_add(t168, t168, t169 * t169));
-    let t295 = mul_add(t176, t176, mul_sub(t73, t283, t294));
+    let t298 = mul_sub(t72, t286, mul_add(t168, t168, t169 * t169));
+    let t299 = mul_add(t176, t176, mul_sub(t73, t287, t298));
     // leg 6: actuator acceleration d''
-    let t296 = mul_sub(t77, t284, mul_add(t170, t170, t171 * t171));
-    let t297 = mul_add(t177, t177, mul_sub(t78, t285, t296));
+    let t300 = mul_sub(t77, t288, mul_add(t170, t170, t171 * t171));
+    let t301 = mul_add(t177, t177, mul_sub(t78, t289, t300));
     // leg 1: leg inertia less weight along the actuator
-    let t298 = c(2.0) * t147;
-    let t299 = mul_add(t152, c(0.231822), t298);
-    let t300 = t153 * c(0.062116);
-    let t301 = t299 - neg_mul_add(c(2.0), t172, t300);
-    let t302 = t120 * t301;
-    let t303 = t117 * t301;
-    let t304 = mul_add(t34, t202, neg_mul_add(t32, t201, t213));
-    let t305 = mul_sub(t36, t203, t304);
-    let t306 = neg_mul_add(c(2.0), mul_sub(t117, t144, t248), t305);
-    let t307 = mul_sub(c(0.12276), t202, c(0.031058) * t267);
-    let t308 = t306 + mul_add(c(0.131644), t201, c(0.115911) * t266);
-    let t309 = t308 + (t307 - mul_add(t81, t287, t82 * t203));
+    let t302 = c(2.0) * t147;
+    let t303 = mul_add(t152, c(0.231822), t302);
+    let t304 = t153 * c(0.062116);
+    let t305 = t303 - neg_mul_add(c(2.0), t172, t304);
+    let t306 = t120 * t305;
+    let t307 = t117 * t305;
+    let t308 = mul_add(t34, t202, neg_mul_add(t32, t201, t213));
+    let t309 = mul_sub(t36, t203, t308);
+    let t310 = neg_mul_add(c(2.0), mul_sub(t117, t144, t256), t309);
+    let t311 = mul_sub(c(0.12276), t202, c(0.031058) * t271);
+    let t312 = t310 + mul_add(c(0.131644), t201, c(0.115911) * t269);
+    let t313 = t312 + (t311 - mul_add(t81, t291, t82 * t203));
     // leg 1: remaining leg inertia less weight at the platform joint
-    let t310 = c(0.17066666666666666) * t181;
-    let t311 = neg_mul_add(t194, c(0.022467242666666668), t310);
-    let t312 = mul_add(t195, c(0.020951039999999997), t311);
-    let t313 = neg_mul_add(c(0.17066666666666666), mul_add(t82, t196, t302), t312);
-    let t314 = c(0.17066666666666666) * t184;
-    let t315 = mul_add(t197, c(0.022467242666666668), t314);
-    let t316 = mul_add(t199, c(0.020951039999999997), t315);
-    let t317 = mul_add(c(0.17066666666666666), mul_add(t82, t200, t303), t316);
+    let t314 = c(0.17066666666666666) * t181;
+    let t315 = neg_mul_add(t194, c(0.022467242666666668), t314);
+    let t316 = mul_add(t195, c(0.020951039999999997), t315);
+    let t317 = neg_mul_add(c(0.17066666666666666), mul_add(t82, t196, t306), t316);
+    let t318 = c(0.17066666666666666) * t184;
+    let t319 = mul_add(t197, c(0.022467242666666668), t318);
+    let t320 = mul_add(t199, c(0.020951039999999997), t319);
+    let t321 = mul_add(c(0.17066666666666666), mul_add(t82, t200, t307), t320);
     // leg 2: leg inertia less weight along the actuator
-    let t318 = t299 + neg_mul_add(c(2.0), t173, t300);
-    let t319 = t120 * t318;
-    let t320 = t117 * t318;
-    let t321 = mul_sub(t86, t203, t308 - mul_add(t85, t289, t307));
+    let t322 = t303 + neg_mul_add(c(2.0), t173, t304);
+    let t323 = t120 * t322;
+    let t324 = t117 * t322;
+    let t325 = mul_sub(t86, t203, t312 - mul_add(t85, t293, t311));
     // leg 2: remaining leg inertia less weight at the platform joint
-    let t322 = neg_mul_add(t195, c(0.020951039999999997), t311);
-    let t323 = neg_mul_add(c(0.17066666666666666), mul_add(t86, t196, t319), t322);
-    let t324 = neg_mul_add(t199, c(0.020951039999999997), t315);
-    let t325 = mul_add(c(0.17066666666666666), mul_add(t86, t200, t320), t324);
+    let t326 = neg_mul_add(t195, c(0.020951039999999997), t315);
+    let t327 = neg_mul_add(c(0.17066666666666666), mul_add(t86, t196, t323), t326);
+    let t328 = neg_mul_add(t199, c(0.020951039999999997), t319);
+    let t329 = mul_add(c(0.17066666666666666), mul_add(t86, t200, t324), t328);
     // leg 3: leg inertia less weight along the actuator
-    let t326 = neg_mul_add(t152, c(0.062116), t298);
-    let t327 = t153 * c(0.231822);
-    let t328 = t326 + neg_mul_add(c(2.0), t174, t327);
-    let t329 = t120 * t328;
-    let t330 = t117 * t328;
-    let t331 = mul_sub(c(0.175387), t202, c(0.115911) * t267);
-    let t332 = t306 + mul_sub(c(0.040491), t201, c(0.031058) * t266);
-    let t333 = t332 - (t331 + mul_add(t89, t291, t90 * t203));
+    let t330 = neg_mul_add(t152, c(0.062116), t302);
+    let t331 = t153 * c(0.231822);
+    let t332 = t330 + neg_mul_add(c(2.0), t174, t331);
+    let t333 = t120 * t332;
+    let t334 = t117 * t332;
+    let t335 = mul_sub(c(0.175387), t202, c(0.115911) * t271);
+    let t336 = t310 + mul_sub(c(0.040491), t201, c(0.031058) * t269);
+    let t337 = t336 - (t335 + mul_add(t89, t295, t90 * t203));
     // leg 3: remaining leg inertia less weight at the platform joint
-    let t334 = neg_mul_add(t194, c(0.006910464), t310);
-    let t335 = neg_mul_add(t195, c(0.029932714666666662), t334);
-    let t336 = neg_mul_add(c(0.17066666666666666), mul_add(t90, t196, t329), t335);
-    let t337 = mul_add(t197, c(0.006910464), t314);
-    let t338 = neg_mul_add(t199, c(0.029932714666666662), t337);
-    let t339 = mul_add(c(0.17066666666666666), mul_add(t90, t200, t330), t338);
+    let t338 = neg_mul_add(t194, c(0.006910464), t314);
+    let t339 = neg_mul_add(t195, c(0.029932714666666662), t338);
+    let t340 = neg_mul_add(c(0.17066666666666666), mul_add(t90, t196, t333), t339);
+    let t341 = mul_add(t197, c(0.006910464), t318);
+    let t342 = neg_mul_add(t199, c(0.029932714666666662), t341);
+    let t343 = mul_add(c(0.17066666666666666), mul_add(t90, t200, t334), t342);
     // leg 4: leg inertia less weight along the actuator
-    let t340 = neg_mul_add(t152, c(0.169706), t298);
-    let t341 = t153 * c(0.169706);
-    let t342 = t340 + neg_mul_add(c(2.0), t175, t341);
-    let t343 = t120 * t342;
-    let t344 = t117 * t342;
-    let t345 = mul_sub(c(0.052627), t202, c(0.084853) * t267);
-    let t346 = t306 - mul_add(c(0.172135), t201, c(0.084853) * t266);
-    let t347 = t346 - (t345 + mul_add(t93, t293, t94 * t203));
+    let t344 = neg_mul_add(t152, c(0.169706), t302);
+    let t345 = t153 * c(0.169706);
+    let t346 = t344 + neg_mul_add(c(2.0), t175, t345);
+    let t347 = t120 * t346;
+    let t348 = t117 * t346;
+    let t349 = mul_sub(c(0.052627), t202, c(0.084853) * t271);
+    let t350 = t310 - mul_add(c(0.172135), t201, c(0.084853) * t269);
+    let t351 = t350 - (t349 + mul_add(t93, t297, t94 * t203));
     // leg 4: remaining leg inertia less weight at the platform joint
-    let t348 = mul_add(t194, c(0.029377706666666666), t310);
-    let t349 = neg_mul_add(t195, c(0.008981674666666667), t348);
-    let t350 = neg_mul_add(c(0.17066666666666666), mul_add(t94, t196, t343), t349);
-    let t351 = neg_mul_add(t197, c(0.029377706666666666), t314);
-    let t352 = neg_mul_add(t199, c(0.008981674666666667), t351);
-    let t353 = mul_add(c(0.17066666666666666), mul_add(t94, t200, t344), t352);
+    let t352 = mul_add(t194, c(0.029377706666666666), t314);
+    let t353 = neg_mul_add(t195, c(0.008981674666666667), t352);
+    let t354 = neg_mul_add(c(0.17066666666666666), mul_add(t94, t196, t347), t353);
+    let t355 = neg_mul_add(t197, c(0.029377706666666666), t318);
+    let t356 = neg_mul_add(t199, c(0.008981674666666667), t355);
+    let t357 = mul_add(c(0.17066666666666666), mul_add(t94, t200, t348), t356);
     // leg 5: leg inertia less weight along the actuator
-    let t354 = t340 - mul_add(c(2.0), t176, t341);
-    let t355 = t120 * t354;
-    let t356 = t117 * t354;
-    let t357 = mul_sub(t98, t203, t346 - mul_sub(t97, t295, t345));
+    let t358 = t344 - mul_add(c(2.0), t176, t345);
+    let t359 = t120 * t358;
+    let t360 = t117 * t358;
+    let t361 = mul_sub(t98, t203, t350 - mul_sub(t97, t299, t349));
     // leg 5: remaining leg inertia less weight at the platform joint
-    let t358 = mul_add(t195, c(0.008981674666666667), t348);
-    let t359 = neg_mul_add(c(0.17066666666666666), mul_add(t98, t196, t355), t358);
-    let t360 = mul_add(t199, c(0.008981674666666667), t351);
-    let t361 = mul_add(c(0.17066666666666666), mul_add(t98, t200, t356), t360);
+    let t362 = mul_add(t195, c(0.008981674666666667), t352);
+    let t363 = neg_mul_add(c(0.17066666666666666), mul_add(t98, t196, t359), t362);
+    let t364 = mul_add(t199, c(0.008981674666666667), t355);
+    let t365 = mul_add(c(0.17066666666666666), mul_add(t98, t200, t360), t364);
     // leg 6: leg inertia less weight along the actuator
-    let t362 = t326 - mul_add(c(2.0), t177, t327);
-    let t363 = t120 * t362;
-    let t364 = t117 * t362;
-    let t365 = mul_sub(t102, t203, t332 - mul_sub(t101, t297, t331));
+    let t366 = t330 - mul_add(c(2.0), t177, t331);
+    let t367 = t120 * t366;
+    let t368 = t117 * t366;
+    let t369 = mul_sub(t102, t203, t336 - mul_sub(t101, t301, t335));
     // leg 6: remaining leg inertia less weight at the platform joint
-    let t366 = mul_add(t195, c(0.029932714666666662), t334);
-    let t367 = neg_mul_add(c(0.17066666666666666), mul_add(t102, t196, t363), t366);
-    let t368 = mul_add(t199, c(0.029932714666666662), t337);
-    let t369 = mul_add(c(0.17066666666666666), mul_add(t102, t200, t364), t368);
+    let t370 = mul_add(t195, c(0.029932714666666662), t338);
+    let t371 = neg_mul_add(c(0.17066666666666666), mul_add(t102, t196, t367), t370);
+    let t372 = mul_add(t199, c(0.029932714666666662), t341);
+    let t373 = mul_add(c(0.17066666666666666), mul_add(t102, t200, t368), t372);
     // leg 1: row of the actuator Jacobian in base coordinates
-    let t370 = t40 * t103;
+    let t374 = t40 * t103;
     // leg 2: row of the actuator Jacobian in base coordinates
-    let t371 = t47 * t105;
+    let t375 = t47 * t105;
     // leg 3: row of the actuator Jacobian in base coordinates
-    let t372 = t54 * t107;
+    let t376 = t54 * t107;
     // leg 4: row of the actuator Jacobian in base coordinates
-    let t373 = mul_add(t65, t110, t63);
-    let t374 = mul_add(t65, t109, t61);
-    let t375 = mul_sub(t61, t110, t63 * t109);
+    let t377 = mul_add(t65, t110, t63);
+    let t378 = mul_add(t65, t109, t61);
+    let t379 = mul_sub(t61, t110, t63 * t109);
     // its first moments by platform coordinate
-    let t376 = t313 + t323;
-    let t377 = t336 + t367;
-    let t378 = mul_sub(t207, c(1.734723475976807e-18), c(0.03224559378363733) * t226);
-    let t379 = mul_add(c(0.084853), t359, mul_add(c(0.084853), t350, t378));
-    let t380 = mul_add(c(0.031058), t377, neg_mul_add(c(0.115911), t376, t379));
-    let t381 = mul_sub(t24, t224, mul_add(t15, t223, t227));
-    let t382 = mul_sub(c(0.084853), t350, c(0.084853) * t359);
-    let t383 = neg_mul_add(c(0.031058), t313 - t323, t382);
-    let t384 = mul_add(c(0.115911), t336 - t367, t383);
-    let t385 = mul_add(c(0.03224559378363734), t381, t384);
-    let t386 = t317 + t325;
-    let t387 = t339 + t369;
-    let t388 = mul_add(t210, c(1.734723475976807e-18), c(0.03224559378363733) * t233);
-    let t389 = mul_add(c(0.084853), t361, mul_add(c(0.084853), t353, t388));
-    let t390 = mul_add(c(0.031058), t387, neg_mul_add(c(0.115911), t386, t389));
-    let t391 = mul_sub(t24, t230, mul_sub(t6, t229, t234));
-    let t392 = mul_sub(c(0.084853), t353, c(0.084853) * t361);
-    let t393 = neg_mul_add(c(0.031058), t317 - t325, t392);
-    let t394 = mul_add(c(0.115911), t339 - t369, t393);
-    let t395 = neg_mul_add(c(0.03224559378363734), t391, t394);
-    let t396 = t309 - t321;
-    let t397 = t333 - t365;
-    let t398 = t347 - t357;
-    let t399 = mul_add(t213, c(1.734723475976807e-18), c(0.03224559378363733) * t239);
-    let t400 = mul_add(t396, c(0.019782143999999998), t399);
-    let t401 = neg_mul_add(t397, c(0.005300565333333333), t400);
-    let t402 = neg_mul_add(t398, c(0.014481578666666666), t401);
-    let t403 = c(0.005300565333333333) * (t309 + t321);
-    let t404 = mul_sub(c(0.03224559378363734), t240, t403);
-    let t405 = mul_add(c(0.019782143999999998), t333 + t365, t404);
-    let t406 = mul_add(c(0.014481578666666666), t347 + t357, t405);
+    let t380 = t317 + t327;
+    let t381 = t340 + t371;
+    let t382 = mul_add(t207, c(1.734723475976807e-18), c(0.03224559378363733) * t226);
+    let t383 = mul_add(c(0.084853), t363, mul_add(c(0.084853), t354, t382));
+    let t384 = mul_add(c(0.031058), t381, neg_mul_add(c(0.115911), t380, t383));
+    let t385 = mul_sub(t24, t219, t227) + mul_sub(t129, t228, t230);
+    let t386 = mul_sub(c(0.084853), t354, c(0.084853) * t363);
+    let t387 = neg_mul_add(c(0.031058), t317 - t327, t386);
+    let t388 = mul_add(c(0.115911), t340 - t371, t387);
+    let t389 = mul_add(c(0.03224559378363734), t385, t388);
+    let t390 = t321 + t329;
+    let t391 = t343 + t373;
+    let t392 = mul_add(t210, c(1.734723475976807e-18), c(0.03224559378363733) * t237);
+    let t393 = mul_add(c(0.084853), t365, mul_add(c(0.084853), t357, t392));
+    let t394 = mul_add(c(0.031058), t391, neg_mul_add(c(0.115911), t390, t393));
+    let t395 = mul_sub(t6, t222, t238) + mul_sub(t132, t239, t240);
+    let t396 = mul_sub(c(0.084853), t357, c(0.084853) * t365);
+    let t397 = neg_mul_add(c(0.031058), t321 - t329, t396);
+    let t398 = mul_add(c(0.115911), t343 - t373, t397);
+    let t399 = mul_add(c(0.03224559378363734), t395, t398);
+    let t400 = t313 - t325;
+    let t401 = t337 - t369;
+    let t402 = t351 - t361;
+    let t403 = mul_add(t213, c(1.734723475976807e-18), c(0.03224559378363733) * t245);
+    let t404 = mul_add(t400, c(0.019782143999999998), t403);
+    let t405 = neg_mul_add(t401, c(0.005300565333333333), t404);
+    let t406 = neg_mul_add(t402, c(0.014481578666666666), t405);
+    let t407 = c(0.005300565333333333) * (t313 + t325);
+    let t408 = mul_sub(c(0.03224559378363734), t247, t407);
+    let t409 = mul_add(c(0.019782143999999998), t337 + t369, t408);
+    let t410 = mul_add(c(0.014481578666666666), t351 + t361, t409);
     // inertia less external wrench that the actuators must balance
-    let t407 = base_rotation[1][0] * external_wrench[1];
-    let t408 = mul_add(base_rotation[0][0], external_wrench[0], t407);
-    let t409 = mul_add(base_rotation[2][0], external_wrench[2], t408);
-    let t410 = base_rotation[1][1] * external_wrench[1];
-    let t411 = mul_add(base_rotation[0][1], external_wrench[0], t410);
-    let t412 = mul_add(base_rotation[2][1], external_wrench[2], t411);
-    let t413 = base_rotation[1][2] * external_wrench[1];
-    let t414 = mul_add(base_rotation[0][2], external_wrench[0], t413);
-    let t415 = mul_add(base_rotation[2][2], external_wrench[2], t414);
-    let t416 = mul_add(c(8.139999999999999), t213, t239 * c(1.734723475976807e-18));
-    let t417 = t415 - neg_mul_add(c(0.188852), t241, t416);
-    let t418 = mul_add(c(0.17066666666666666), t398 + (t396 + t397), t417);
-    let t419 = t21 * t390;
-    let t420 = mul_sub(c(0.188852), t213, c(0.013354412) * t241);
-    let t421 = neg_mul_add(c(0.031), t415, t420);
-    let t422 = mul_sub(c(0.188852), t210, c(0.013354412) * t235);
-    let t423 = neg_mul_add(c(0.031), t412, t422);
-    let t424 = t3 * t402;
-    let t425 = mul_add(c(0.188852), t207, c(0.013354412) * t228);
-    let t426 = neg_mul_add(c(0.031), t409, t425);
-    let t427 = t12 * t380;
+    let t411 = base_rotation[1][0] * external_wrench[1];
+    let t412 = mul_add(base_rotation[0][0], external_wrench[0], t411);
+    let t413 = mul_add(base_rotation[2][0], external_wrench[2], t412);
+    let t414 = base_rotation[1][1] * external_wrench[1];
+    let t415 = mul_add(base_rotation[0][1], external_wrench[0], t414);
+    let t416 = mul_add(base_rotation[2][1], external_wrench[2], t415);
+    let t417 = base_rotation[1][2] * external_wrench[1];
+    let t418 = mul_add(base_rotation[0][2], external_wrench[0], t417);
+    let t419 = mul_add(base_rotation[2][2], external_wrench[2], t418);
+    let t420 = mul_add(c(8.139999999999999), t213, t245 * c(1.734723475976807e-18));
+    let t421 = t419 - neg_mul_add(c(0.188852), t249, t420);
+    let t422 = mul_add(c(0.17066666666666666), t402 + (t400 + t401), t421);
+    let t423 = t21 * t394;
+    let t424 = mul_sub(c(0.188852), t213, c(0.013354412) * t249);
+    let t425 = neg_mul_add(c(0.031), t419, t424);
+    let t426 = mul_sub(c(0.188852), t210, c(0.013354412) * t243);
+    let t427 = neg_mul_add(c(0.031), t416, t426);
+    let t428 = t3 * t406;
+    let t429 = mul_sub(c(0.188852), t207, c(0.013354412) * t234);
+    let t430 = neg_mul_add(c(0.031), t413, t429);
+    let t431 = t12 * t384;
     // force along the actuator that balances the remaining wrench
-    let t428 = c(1.0) / (t374 + mul_add(t48, t105, t46));
-    let t429 = t374 + neg_mul_add(t42, t103, t38);
-    let t430 = (t373 + neg_mul_add(t48, t106, t47)) * t428;
-    let t431 = mul_sub(t429, t430, t373 + neg_mul_add(t42, t104, t40));
-    let t432 = mul_add(t71, t111, t69 - t374);
-    let t433 = mul_add(t50, t85, t110) * t428;
-    let t434 = c(1.0) / mul_sub(t432, t430, mul_add(t71, t112, t70 - t373));
-    let t435 = mul_add(t432, t433, neg_mul_add(t73, t97, t110)) * t434;
-    let t436 = mul_sub(t429, t433, mul_add(t45, t81, t110));
-    let t437 = c(1.0) / mul_sub(t431, t435, t436);
-    let t438 = mul_add(t76, t113, t74 - t374);
-    let t439 = mul_sub(t438, t430, mul_add(t76, t114, t75 - t373));
-    let t440 = mul_add(t438, t433, neg_mul_add(t78, t101, t110));
-    let t441 = mul_sub(t439, t435, t440);
-    let t442 = (t375 - mul_add(t46, t106, t371)) * t428;
-    let t443 = mul_add(t70, t111, neg_mul_add(t69, t112, t375));
-    let t444 = mul_add(t432, t442, t443) * t434;
-    let t445 = mul_sub(t429, t442, t375 - mul_sub(t38, t104, t370));
-    let t446 = mul_sub(t431, t444, t445) * t437;
-    let t447 = mul_add(t75, t113, neg_mul_add(t74, t114, t375));
-    let t448 = mul_sub(t439, t444, mul_add(t438, t442, t447));
-    let t449 = c(1.0) / mul_sub(t441, t446, t448);
-    let t450 = mul_sub(t24, t385, mul_sub(t21, t380, t424));
-    let t451 = mul_add(t27, t426, mul_add(t6, t406, t450));
-    let t452 = mul_sub(t9, t421, t451);
-    let t453 = mul_add(base_rotation[0][1], external_wrench[3], t452);
-    let t454 = mul_add(base_rotation[1][1], external_wrench[4], t453);
-    let t455 = mul_add(base_rotation[2][1], external_wrench[5], t454);
-    let t456 = mul_sub(t374, t418, t455);
-    let t457 = mul_add(t15, t406, mul_sub(t12, t402, t419));
-    let t458 = mul_sub(t18, t421, mul_add(t24, t395, t457));
-    let t459 = mul_sub(t27, t423, t458);
-    let t460 = mul_add(base_rotation[0][0], external_wrench[3], t459);
-    let t461 = mul_add(base_rotation[1][0], external_wrench[4], t460);
-    let t462 = mul_add(base_rotation[2][0], external_wrench[5], t461);
-    let t463 = mul_sub(t456, t430, mul_add(t373, t418, t462));
-    let t464 = mul_add(c(8.139999999999999), t210, t233 * c(1.734723475976807e-18));
-    let t465 = t386 + (t361 + (t353 + neg_mul_add(c(0.188852), t235, t464)));
-    let t466 = mul_sub(t456, t433, mul_add(t110, t418, t412 - (t387 + t465)));
-    let t467 = mul_sub(t463, t435, t466);
-    let t468 = mul_sub(t6, t395, mul_sub(t3, t390, t427));
-    let t469 = mul_sub(t9, t423, mul_sub(t15, t385, t468));
-    let t470 = mul_sub(t18, t426, t469);
-    let t471 = mul_add(base_rotation[0][2], external_wrench[3], t470);
-    let t472 = mul_add(base_rotation[1][2], external_wrench[4], t471);
-    let t473 = mul_add(base_rotation[2][2], external_wrench[5], t472);
-    let t474 = mul_sub(t456, t442, mul_sub(t375, t418, t473));
-    let t475 = mul_sub(t467, t446, mul_sub(t463, t444, t474));
-    let t476 = mul_sub(t49, t85, t109) * t428;
-    let t477 = mul_sub(t432, t476, neg_mul_add(t72, t97, t109)) * t434;
-    let t478 = mul_add(t429, t476, mul_add(t44, t81, t109));
-    let t479 = mul_sub(t431, t477, t478) * t437;
-    let t480 = mul_sub(t438, t476, neg_mul_add(t77, t101, t109));
-    let t481 = mul_sub(t441, t479, mul_sub(t439, t477, t480)) * t449;
-    let t482 = mul_sub(c(8.139999999999999), t207, t226 * c(1.734723475976807e-18));
-    let t483 = t377 + (t376 + (t359 + (t350 + mul_add(c(0.188852), t228, t482))));
-    let t484 = mul_add(t456, t476, mul_add(t109, t418, t409 - t483));
-    let t485 = mul_sub(t467, t479, mul_sub(t463, t477, t484));
-    let t486 = mul_sub(t475, t481, t485);
-    let t487 = t374 - mul_add(t56, t107, t52);
-    let t488 = mul_sub(t487, t430, t373 - mul_add(t56, t108, t54));
-    let t489 = mul_add(t487, t433, mul_sub(t59, t89, t110));
-    let t490 = mul_sub(t488, t435, t489);
-    let t491 = mul_sub(t487, t442, t375 - mul_sub(t52, t108, t372));
-    let t492 = mul_sub(t490, t446, mul_sub(t488, t444, t491));
-    let t493 = mul_sub(t487, t476, mul_sub(t58, t89, t109));
-    let t494 = mul_sub(t490, t479, mul_sub(t488, t477, t493));
-    let t495 = c(1.0) / mul_sub(t492, t481, t494);
-    let t496 = t486 * t495;
-    let t497 = neg_mul_add(t492, t496, t475);
-    let t498 = t449 * t497;
-    let t499 = mul_sub(t490, t496, neg_mul_add(t441, t498, t467));
-    let t500 = t437 * t499;
-    let t501 = mul_sub(t439, t498, mul_add(t431, t500, t463));
-    let t502 = t434 * mul_add(t488, t496, t501);
-    let t503 = mul_add(t429, t500, mul_add(t432, t502, t456));
-    let t504 = mul_add(t487, t496, mul_sub(t438, t498, t503));
+    let t432 = c(1.0) / (t378 + mul_add(t48, t105, t46));
+    let t433 = t378 + neg_mul_add(t42, t103, t38);
+    let t434 = (t377 + neg_mul_add(t48, t106, t47)) * t432;
+    let t435 = mul_sub(t433, t434, t377 + neg_mul_add(t42, t104, t40));
+    let t436 = mul_add(t71, t111, t69 - t378);
+    let t437 = mul_add(t50, t85, t110) * t432;
+    let t438 = c(1.0) / mul_sub(t436, t434, mul_add(t71, t112, t70 - t377));
+    let t439 = mul_add(t436, t437, neg_mul_add(t73, t97, t110)) * t438;
+    let t440 = mul_sub(t433, t437, mul_add(t45, t81, t110));
+    let t441 = c(1.0) / mul_sub(t435, t439, t440);
+    let t442 = mul_add(t76, t113, t74 - t378);
+    let t443 = mul_sub(t442, t434, mul_add(t76, t114, t75 - t377));
+    let t444 = mul_add(t442, t437, neg_mul_add(t78, t101, t110));
+    let t445 = mul_sub(t443, t439, t444);
+    let t446 = (t379 - mul_add(t46, t106, t375)) * t432;
+    let t447 = mul_add(t70, t111, neg_mul_add(t69, t112, t379));
+    let t448 = mul_add(t436, t446, t447) * t438;
+    let t449 = mul_sub(t433, t446, t379 - mul_sub(t38, t104, t374));
+    let t450 = mul_sub(t435, t448, t449) * t441;
+    let t451 = mul_add(t75, t113, neg_mul_add(t74, t114, t379));
+    let t452 = mul_sub(t443, t448, mul_add(t442, t446, t451));
+    let t453 = c(1.0) / mul_sub(t445, t450, t452);
+    let t454 = mul_sub(t24, t389, mul_sub(t21, t384, t428));
+    let t455 = mul_add(t27, t430, mul_add(t6, t410, t454));
+    let t456 = mul_sub(t9, t425, t455);
+    let t457 = mul_add(base_rotation[0][1], external_wrench[3], t456);
+    let t458 = mul_add(base_rotation[1][1], external_wrench[4], t457);
+    let t459 = mul_add(base_rotation[2][1], external_wrench[5], t458);
+    let t460 = mul_sub(t378, t422, t459);
+    let t461 = mul_add(t15, t410, mul_sub(t12, t406, t423));
+    let t462 = mul_sub(t18, t425, mul_add(t24, t399, t461));
+    let t463 = mul_sub(t27, t427, t462);
+    let t464 = mul_add(base_rotation[0][0], external_wrench[3], t463);
+    let t465 = mul_add(base_rotation[1][0], external_wrench[4], t464);
+    let t466 = mul_add(base_rotation[2][0], external_wrench[5], t465);
+    let t467 = mul_sub(t460, t434, mul_add(t377, t422, t466));
+    let t468 = mul_add(c(8.139999999999999), t210, t237 * c(1.734723475976807e-18));
+    let t469 = t390 + (t365 + (t357 + neg_mul_add(c(0.188852), t243, t468)));
+    let t470 = mul_sub(t460, t437, mul_add(t110, t422, t416 - (t391 + t469)));
+    let t471 = mul_sub(t467, t439, t470);
+    let t472 = mul_sub(t6, t399, mul_sub(t3, t394, t431));
+    let t473 = mul_sub(t9, t427, mul_sub(t15, t389, t472));
+    let t474 = mul_sub(t18, t430, t473);
+    let t475 = mul_add(base_rotation[0][2], external_wrench[3], t474);
+    let t476 = mul_add(base_rotation[1][2], external_wrench[4], t475);
+    let t477 = mul_add(base_rotation[2][2], external_wrench[5], t476);
+    let t478 = mul_sub(t460, t446, mul_sub(t379, t422, t477));
+    let t479 = mul_sub(t471, t450, mul_sub(t467, t448, t478));
+    let t480 = mul_sub(t49, t85, t109) * t432;
+    let t481 = mul_sub(t436, t480, neg_mul_add(t72, t97, t109)) * t438;
+    let t482 = mul_add(t433, t480, mul_add(t44, t81, t109));
+    let t483 = mul_sub(t435, t481, t482) * t441;
+    let t484 = mul_sub(t442, t480, neg_mul_add(t77, t101, t109));
+    let t485 = mul_sub(t445, t483, mul_sub(t443, t481, t484)) * t453;
+    let t486 = mul_add(c(8.139999999999999), t207, t226 * c(1.734723475976807e-18));
+    let t487 = t380 + (t363 + (t354 + neg_mul_add(c(0.188852), t234, t486)));
+    let t488 = mul_add(t460, t480, mul_add(t109, t422, t413 - (t381 + t487)));
+    let t489 = mul_sub(t471, t483, mul_sub(t467, t481, t488));
+    let t490 = mul_sub(t479, t485, t489);
+    let t491 = t378 - mul_add(t56, t107, t52);
+    let t492 = mul_sub(t491, t434, t377 - mul_add(t56, t108, t54));
+    let t493 = mul_add(t491, t437, mul_sub(t59, t89, t110));
+    let t494 = mul_sub(t492, t439, t493);
+    let t495 = mul_sub(t491, t446, t379 - mul_sub(t52, t108, t376));
+    let t496 = mul_sub(t494, t450, mul_sub(t492, t448, t495));
+    let t497 = mul_sub(t491, t480, mul_sub(t58, t89, t109));
+    let t498 = mul_sub(t494, t483, mul_sub(t492, t481, t497));
+    let t499 = c(1.0) / mul_sub(t496, t485, t498);
+    let t500 = t490 * t499;
+    let t501 = neg_mul_add(t496, t500, t479);
+    let t502 = t453 * t501;
+    let t503 = mul_sub(t494, t500, neg_mul_add(t445, t502, t471));
+    let t504 = t441 * t503;
+    let t505 = mul_sub(t443, t502, mul_add(t435, t504, t467));
+    let t506 = t438 * mul_add(t492, t500, t505);
+    let t507 = mul_add(t433, t504, mul_add(t436, t506, t460));
+    let t508 = mul_add(t491, t500, mul_sub(t442, t502, t507));
     // leg 1: actuator forces F
-    let t505 = neg_mul_add(t203, c(0.03055), c(4268.068200000001));
-    let t506 = neg_mul_add(c(0.17066666666666666), t213, t505);
-    let t507 = mul_add(t239, c(0.019782143999999998), t506);
-    let t508 = t240 * c(0.005300565333333333);
-    let t509 = mul_add(t309, c(0.9523333333333334), mul_sub(c(21555.9), t82, t508));
-    inverse_dynamics[0] = mul_sub(t437, t499, t509) - t507;
+    let t509 = neg_mul_add(t203, c(0.03055), c(4268.068200000001));
+    let t510 = neg_mul_add(c(0.17066666666666666), t213, t509);
+    let t511 = mul_add(t245, c(0.019782143999999998), t510);
+    let t512 = t247 * c(0.005300565333333333);
+    let t513 = mul_add(t313, c(0.9523333333333334), mul_sub(c(21555.9), t82, t512));
+    inverse_dynamics[0] = mul_sub(t441, t503, t513) - t511;
     // leg 2: actuator forces F
-    let t510 = mul_add(c(21555.9), t86, t508);
-    let t511 = mul_sub(t428, t504, neg_mul_add(t321, c(0.9523333333333334), t510));
-    inverse_dynamics[1] = t511 - t507;
+    let t514 = mul_add(c(21555.9), t86, t512);
+    let t515 = mul_sub(t432, t508, neg_mul_add(t325, c(0.9523333333333334), t514));
+    inverse_dynamics[1] = t515 - t511;
     // leg 3: actuator forces F
-    let t512 = neg_mul_add(t239, c(0.005300565333333333), t506);
-    let t513 = t240 * c(0.019782143999999998);
-    let t514 = mul_sub(t90, c(-21555.9), t513);
-    let t515 = neg_mul_add(t333, c(0.9523333333333334), t514);
-    inverse_dynamics[2] = neg_mul_add(t486, t495, t515) - t512;
+    let t516 = neg_mul_add(t245, c(0.005300565333333333), t510);
+    let t517 = t247 * c(0.019782143999999998);
+    let t518 = mul_sub(t90, c(-21555.9), t517);
+    let t519 = neg_mul_add(t337, c(0.9523333333333334), t518);
+    inverse_dynamics[2] = neg_mul_add(t490, t499, t519) - t516;
     // leg 4: actuator forces F
-    let t516 = neg_mul_add(t240, c(0.014481578666666666), t502);
-    let t517 = neg_mul_add(t239, c(0.014481578666666666), t506);
-    let t518 = t418 + mul_add(c(21555.9), t94, t347 * c(0.9523333333333334));
-    let t519 = mul_sub(t449, t497, mul_sub(t486, t495, t518));
-    inverse_dynamics[3] = t516 - mul_add(t428, t504, mul_add(t437, t499, t519)) - t517;
+    let t520 = neg_mul_add(t247, c(0.014481578666666666), t506);
+    let t521 = neg_mul_add(t245, c(0.014481578666666666), t510);
+    let t522 = t422 + mul_add(c(21555.9), t94, t351 * c(0.9523333333333334));
+    let t523 = mul_sub(t453, t501, mul_sub(t490, t499, t522));
+    inverse_dynamics[3] = t520 - mul_add(t432, t508, mul_add(t441, t503, t523)) - t521;
     // leg 5: actuator forces F
-    let t520 = neg_mul_add(c(21555.9), t98, t357 * c(0.9523333333333334)) - t516;
-    inverse_dynamics[4] = t520 - t517;
+    let t524 = neg_mul_add(c(21555.9), t98, t361 * c(0.9523333333333334)) - t520;
+    inverse_dynamics[4] = t524 - t521;
     // leg 6: actuator forces F
-    let t521 = neg_mul_add(c(21555.9), t102, t513);
-    let t522 = mul_add(t449, t497, mul_add(t365, c(0.9523333333333334), t521));
-    inverse_dynamics[5] = t522 - t512;
+    let t525 = neg_mul_add(c(21555.9), t102, t517);
+    let t526 = mul_add(t453, t501, mul_add(t369, c(0.9523333333333334), t525));
+    inverse_dynamics[5] = t526 - t516;
+}
+
+/// Actuator forces for a given platform acceleration, equation (49).
+///
+/// Inputs:
+///
+/// - `base_position`: 3, m, frame O: origin of the base frame.
+/// - `base_rotation`: 3x3, dimensionless, frame B -> O: rotation of the base, equation (2).
+/// - `base_velocity`: 6, m/s, rad/s, frame O: base velocity \[r_b'; w_b\], w_b the angular velocity.
+/// - `base_acceleration`: 6, m/s^2, rad/s^2, frame O: base acceleration \[r_b''; w_b'\].
+/// - `platform_position`: 3, m, frame O: centre of the platform's joint circle.
+/// - `platform_rotation`: 3x3, dimensionless, frame P -> O: rotation of the platform, equation (2).
+/// - `platform_velocity`: 6, m/s, rad/s, frame O: platform velocity \[r_p'; w_p\], the generalised speeds.
+/// - `platform_acceleration`: 6, m/s^2, rad/s^2, frame O: platform acceleration \[r_p''; w_p'\].
+/// - `external_wrench`: 6, N, N m, frame O: external force and moment \[F_D; M_D\] at the payload's centre of mass.
+///
+/// Outputs:
+///
+/// - `inverse_dynamics`: 6, N: actuator forces F, equation (49).
+#[allow(clippy::all, clippy::pedantic, unused_variables)]
+#[inline(always)]
+pub fn inverse_dynamics_in_lanes<P: Triple>(
+    base_position: &[P::Lane; 3],
+    base_rotation: &[[P::Lane; 3]; 3],
+    base_velocity: &[P::Lane; 6],
+    base_acceleration: &[P::Lane; 6],
+    platform_position: &[P::Lane; 3],
+    platform_rotation: &[[P::Lane; 3]; 3],
+    platform_velocity: &[P::Lane; 6],
+    platform_acceleration: &[P::Lane; 6],
+    external_wrench: &[P::Lane; 6],
+    inverse_dynamics: &mut [P::Lane; 6],
+) {
+    let c = <P::Lane as Scalar>::constant;
+    let w = <P as Scalar>::constant;
+    // constant and copied elements
+    let t1 = P::triple([base_rotation[1][0], base_rotation[1][1], base_rotation[1][2]]);
+    let t2 = P::triple([base_rotation[0][0], base_rotation[0][1], base_rotation[0][2]]);
+    let t3 = P::triple([base_rotation[2][0], base_rotation[2][1], base_rotation[2][2]]);
+    // rotation of the platform seen from the base
+    let t4 = mul_add(
+        t2,
+        P::splat(platform_rotation[0][1]),
+        t1 * P::splat(platform_rotation[1][1]),
+    );
+    let t5 = mul_add(
+        t2,
+        P::splat(platform_rotation[0][0]),
+        t1 * P::splat(platform_rotation[1][0]),
+    );
+    // platform origin seen from the base
+    let t6 = t1 * P::splat(platform_position[1] - base_position[1]);
+    // constant and copied elements
+    let t7 = P::triple([c(0.115911), c(-0.084853), c(-0.031058)]);
+    // rotation of the platform seen from the base
+    let t8 = mul_add(t3, P::splat(platform_rotation[2][1]), t4);
+    let t9 = mul_add(t3, P::splat(platform_rotation[2][0]), t5);
+    // platform origin seen from the base
+    let t10 = mul_add(t2, P::splat(platform_position[0] - base_position[0]), t6);
+    // constant and copied elements
+    let t11 = P::triple([c(-0.031058), c(0.115911), c(0.084853)]);
+    let t12 = P::triple([c(0.031058), c(-0.084853), c(-0.115911)]);
+    let t13 = P::triple([c(0.115911), c(-0.031058), c(-0.084853)]);
+    // rotation of the platform seen from the base
+    let t14 = mul_add(
+        t2,
+        P::splat(platform_rotation[0][2]),
+        t1 * P::splat(platform_rotation[1][2]),
+    );
+    // platform origin seen from the base
+    let t15 = mul_add(t3, P::splat(platform_position[2] - base_position[2]), t10);
+    // rotation of the platform seen from the base
+    let t16 = mul_add(t3, P::splat(platform_rotation[2][2]), t14);
+    // legs 1, 3, 4: platform joint from the platform origin
+    let t17 = mul_add(t13, P::splat(P::lane(t9, 0)), t11 * P::splat(P::lane(t8, 0)));
+    // legs 2, 5, 6: platform joint from the platform origin
+    let t18 = mul_add(t7, P::splat(P::lane(t9, 0)), t12 * P::splat(P::lane(t8, 0)));
+    // legs 2, 5, 6: platform joint from the base point
+    let t19 = P::triple([c(-0.131644), c(0.172135), c(-0.040491)]);
+    // constant and copied elements
+    let t20 = P::triple([c(0.131644), c(-0.172135), c(0.040491)]);
+    // legs 1, 3, 4: platform joint from the platform origin
+    let t21 = mul_add(t13, P::splat(P::lane(t9, 1)), t11 * P::splat(P::lane(t8, 1)));
+    // legs 2, 5, 6: platform joint from the platform origin
+    let t22 = mul_add(t7, P::splat(P::lane(t9, 1)), t12 * P::splat(P::lane(t8, 1)));
+    // legs 1, 3, 4: platform joint from the platform origin
+    let t23 = mul_add(t13, P::splat(P::lane(t9, 2)), t11 * P::splat(P::lane(t8, 2)));
+    // legs 2, 5, 6: platform joint from the platform origin
+    let t24 = mul_add(t7, P::splat(P::lane(t9, 2)), t12 * P::splat(P::lane(t8, 2)));
+    // legs 1, 3, 4: platform joint from the base point
+    let t25 = P::triple([c(0.12276), c(-0.175387), c(-0.052627)]);
+    let t26 = P::triple([c(-0.131644), c(-0.040491), c(0.172135)]);
+    // legs 2, 5, 6: platform joint from the base point
+    let t27 = t19 + (P::splat(P::lane(t15, 0)) + t18);
+    // constant and copied elements
+    let t28 = P::triple([c(-0.12276), c(0.175387), c(0.052627)]);
+    // legs 1, 3, 4: platform joint from the base point
+    let t29 = t17 + P::splat(P::lane(t15, 0)) + t26;
+    // constant and copied elements
+    let t30 = P::triple([c(0.131644), c(0.040491), c(-0.172135)]);
+    let t31 = P::triple([c(0.12276), c(-0.052627), c(-0.175387)]);
+    // legs 1, 3, 4: platform joint from the base point
+    let t32 = t23 + P::splat(P::lane(t15, 2));
+    let t33 = t25 + (t21 + P::splat(P::lane(t15, 1)));
+    // legs 2, 5, 6: platform joint from the base point
+    let t34 = P::triple([c(-0.12276), c(0.052627), c(0.175387)])
+        + (t22 + P::splat(P::lane(t15, 1)));
+    let t35 = t24 + P::splat(P::lane(t15, 2));
+    // angular velocity of the base
+    let t36 = mul_add(t2, P::splat(base_velocity[3]), t1 * P::splat(base_velocity[4]));
+    // angular velocity of the platform
+    let t37 = mul_add(
+        t2,
+        P::splat(platform_velocity[3]),
+        t1 * P::splat(platform_velocity[4]),
+    );
+    // angular velocity of the base
+    let t38 = mul_add(t3, P::splat(base_velocity[5]), t36);
+    // legs 1, 3, 4: extent of the rod along the actuator axis
+    let t39 = sqrt(w(0.042435999999999995) - mul_add(t29, t29, t33 * t33));
+    // legs 2, 5, 6: extent of the rod along the actuator axis
+    let t40 = sqrt(w(0.042435999999999995) - mul_add(t27, t27, t34 * t34));
+    // angular velocity of the platform
+    let t41 = mul_add(t3, P::splat(platform_velocity[5]), t37);
+    // angular velocity of the platform relative to the base
+    let t42 = t38 - t41;
+    // legs 1, 3, 4: reciprocal of that extent
+    let t43 = w(1.0) / t39;
+    // legs 2, 5, 6: reciprocal of that extent
+    let t44 = w(1.0) / t40;
+    // legs 1, 3, 4: actuator length d
+    let t45 = t32 - t39;
+    // legs 2, 5, 6: actuator length d
+    let t46 = t35 - t40;
+    // velocity of the platform origin relative to the base
+    let t47 = t1 * P::splat(platform_velocity[1] - base_velocity[1]);
+    // legs 1, 3, 4: gradient of the actuator length by the platform joint
+    let t48 = t33 * t43;
+    // legs 2, 5, 6: gradient of the actuator length by the platform joint
+    let t49 = t27 * t44;
+    // velocity of the platform origin relative to the base
+    let t50 = mul_add(t2, P::splat(platform_velocity[0] - base_velocity[0]), t47);
+    // legs 2, 5, 6: gradient of the actuator length by the platform joint
+    let t51 = t34 * t44;
+    // legs 1, 3, 4: gradient of the actuator length by the platform joint
+    let t52 = t29 * t43;
+    // rotation of the platform seen from the base
+    let t53 = P::triple([P::lane(t8, 1), P::lane(t8, 2), P::lane(t8, 0)]);
+    // platform origin seen from the base
+    let t54 = P::triple([P::lane(t15, 1), P::lane(t15, 2), P::lane(t15, 0)]);
+    // rotation of the platform seen from the base
+    let t55 = P::triple([P::lane(t9, 1), P::lane(t9, 2), P::lane(t9, 0)]);
+    // angular velocity of the base
+    let t56 = P::triple([P::lane(t38, 2), P::lane(t38, 0), P::lane(t38, 1)]);
+    // rotation of the platform seen from the base
+    let t57 = P::triple([P::lane(t8, 2), P::lane(t8, 0), P::lane(t8, 1)]);
+    // angular velocity of the platform relative to the base
+    let t58 = P::triple([P::lane(t42, 2), P::lane(t42, 0), P::lane(t42, 1)]);
+    let t59 = P::triple([P::lane(t42, 1), P::lane(t42, 2), P::lane(t42, 0)]);
+    // platform origin seen from the base
+    let t60 = P::triple([P::lane(t15, 2), P::lane(t15, 0), P::lane(t15, 1)]);
+    // angular velocity of the base
+    let t61 = P::triple([P::lane(t38, 1), P::lane(t38, 2), P::lane(t38, 0)]);
+    // rotation of the platform seen from the base
+    let t62 = P::triple([P::lane(t9, 2), P::lane(t9, 0), P::lane(t9, 1)]);
+    // rate of the relative rotation
+    let t63 = mul_sub(t57, t59, t53 * t58);
+    // velocity of the platform origin relative to the base
+    let t64 = mul_add(t3, P::splat(platform_velocity[2] - base_velocity[2]), t50);
+    // rate of the relative rotation
+    let t65 = mul_sub(t59, t62, t55 * t58);
+    // rotation of the platform seen from the base
+    let t66 = P::triple([P::lane(t16, 1), P::lane(t16, 2), P::lane(t16, 0)]);
+    let t67 = P::triple([P::lane(t16, 2), P::lane(t16, 0), P::lane(t16, 1)]);
+    // velocity of the platform origin relative to the base
+    let t68 = t64 - mul_sub(t60, t61, t54 * t56);
+    // legs 1, 3, 4: velocity of the platform joint relative to the base
+    let t69 = P::splat(P::lane(t68, 0))
+        - mul_add(t13, P::splat(P::lane(t65, 0)), t11 * P::splat(P::lane(t63, 0)));
+    let t70 = P::splat(P::lane(t68, 1))
+        - mul_add(t13, P::splat(P::lane(t65, 1)), t11 * P::splat(P::lane(t63, 1)));
+    // legs 2, 5, 6: velocity of the platform joint relative to the base
+    let t71 = P::splat(P::lane(t68, 1))
+        - mul_add(t7, P::splat(P::lane(t65, 1)), t12 * P::splat(P::lane(t63, 1)));
+    let t72 = P::splat(P::lane(t68, 0))
+        - mul_add(t7, P::splat(P::lane(t65, 0)), t12 * P::splat(P::lane(t63, 0)));
+    // angular velocity of the base
+    let t73 = P::triple([P::lane(t38, 2), P::lane(t38, 2), P::lane(t38, 0)]);
+    let t74 = P::triple([P::lane(t38, 1), P::lane(t38, 0), P::lane(t38, 1)]);
+    // angular acceleration of the base
+    let t75 = mul_add(
+        t2,
+        P::splat(base_acceleration[3]),
+        t1 * P::splat(base_acceleration[4]),
+    );
+    // acceleration per base coordinate of points that move with the base
+    let t76 = mul_add(t74, t74, t73 * t73);
+    // acceleration of the base origin less gravity
+    let t77 = mul_add(
+        t2,
+        P::splat(base_acceleration[0]),
+        t1 * P::splat(base_acceleration[1]),
+    );
+    // legs 1, 3, 4: velocity of the platform joint relative to the base
+    let t78 = P::splat(P::lane(t68, 2))
+        - mul_add(t13, P::splat(P::lane(t65, 2)), t11 * P::splat(P::lane(t63, 2)));
+    // legs 2, 5, 6: velocity of the platform joint relative to the base
+    let t79 = P::splat(P::lane(t68, 2))
+        - mul_add(t7, P::splat(P::lane(t65, 2)), t12 * P::splat(P::lane(t63, 2)));
+    // angular velocity of the base
+    let t80 = P::triple([P::lane(t38, 0), P::lane(t38, 2), P::lane(t38, 0)]);
+    // angular acceleration of the base
+    let t81 = mul_add(t3, P::splat(base_acceleration[5]), t75);
+    // angular velocity of the base
+    let t82 = P::triple([P::lane(t38, 1), P::lane(t38, 1), P::lane(t38, 2)]);
+    // legs 1, 3, 4: rate of the rod's extent along the actuator axis
+    let t83 = mul_add(t29, t69, t33 * t70);
+    // acceleration per base coordinate of points that move with the base
+    let t84 = t80 * t82;
+    // acceleration of the base origin less gravity
+    let t85 = mul_add(t3, P::splat(base_acceleration[2] + c(9.81)), t77);
+    // legs 2, 5, 6: rate of the rod's extent along the actuator axis
+    let t86 = mul_add(t27, t72, t34 * t71);
+    // legs 1, 3, 4: rate of the rod's extent along the actuator axis
+    let t87 = t43 * t83;
+    // legs 1, 3, 4: actuator velocity d'
+    let t88 = mul_add(t43, t83, t78);
+    // legs 2, 5, 6: rate of the rod's extent along the actuator axis
+    let t89 = t44 * t86;
+    // legs 2, 5, 6: actuator velocity d'
+    let t90 = mul_add(t44, t86, t79);
+    // angular acceleration of the base
+    let t91 = P::triple([P::lane(t81, 1), P::lane(t81, 2), P::lane(t81, 0)]);
+    let t92 = P::triple([P::lane(t81, 2), P::lane(t81, 0), P::lane(t81, 1)]);
+    // angular acceleration of the platform
+    let t93 = mul_add(
+        t2,
+        P::splat(platform_acceleration[3]),
+        t1 * P::splat(platform_acceleration[4]),
+    );
+    // acceleration per base coordinate of points that move with the base
+    let t94 = mul_sub(t80, t82, t92);
+    let t95 = t91 + P::triple([P::lane(t84, 2), P::lane(t84, 0), P::lane(t84, 1)]);
+    // acceleration of the platform origin less gravity
+    let t96 = mul_add(
+        t2,
+        P::splat(platform_acceleration[0]),
+        t1 * P::splat(platform_acceleration[1]),
+    );
+    // angular acceleration of the platform
+    let t97 = mul_add(t3, P::splat(platform_acceleration[5]), t93);
+    // acceleration of the platform origin less gravity
+    let t98 = mul_add(t3, P::splat(c(9.81) + platform_acceleration[2]), t96);
+    // angular velocity of the platform
+    let t99 = P::triple([P::lane(t41, 1), P::lane(t41, 2), P::lane(t41, 0)]);
+    let t100 = P::triple([P::lane(t41, 2), P::lane(t41, 0), P::lane(t41, 1)]);
+    // angular acceleration of the platform
+    let t101 = P::triple([P::lane(t97, 1), P::lane(t97, 2), P::lane(t97, 0)]);
+    // acceleration per platform coordinate of points of the platform
+    let t102 = mul_sub(t41, t55, t9 * t99);
+    let t103 = mul_sub(t41, t53, t8 * t99);
+    // angular acceleration of the platform
+    let t104 = P::triple([P::lane(t97, 2), P::lane(t97, 0), P::lane(t97, 1)]);
+    // acceleration per platform coordinate of points of the platform
+    let t105 = mul_sub(t41, t66, t16 * t99);
+    let t106 = t100 * P::triple([P::lane(t102, 2), P::lane(t102, 0), P::lane(t102, 1)]);
+    let t107 = t100 * P::triple([P::lane(t105, 2), P::lane(t105, 0), P::lane(t105, 1)]);
+    // acceleration per base coordinate of points that move with the base
+    let t108 = P::triple([-P::lane(t76, 0), P::lane(t95, 1), P::lane(t94, 2)]);
+    // acceleration per platform coordinate of points of the platform
+    let t109 = t100 * P::triple([P::lane(t103, 2), P::lane(t103, 0), P::lane(t103, 1)]);
+    let t110 = mul_sub(t62, t101, t55 * t104) + mul_sub(t99, t102, t106);
+    let t111 = mul_sub(t67, t101, t66 * t104) + mul_sub(t99, t105, t107);
+    // acceleration per base coordinate of points that move with the base
+    let t112 = P::triple([P::lane(t94, 0), -P::lane(t76, 1), P::lane(t95, 2)]);
+    let t113 = P::triple([P::lane(t95, 0), P::lane(t94, 1), -P::lane(t76, 2)]);
+    // acceleration per platform coordinate of points of the platform
+    let t114 = mul_sub(t57, t101, t53 * t104) + mul_sub(t99, t103, t109);
+    // rate of the relative rotation
+    let t115 = P::triple([P::lane(t65, 1), P::lane(t65, 2), P::lane(t65, 0)]);
+    // acceleration of the platform origin relative to the base
+    let t116 = mul_add(
+        P::splat(P::lane(t15, 0)),
+        t108,
+        P::splat(P::lane(t15, 1)) * t112,
+    );
+    // rate of the relative rotation
+    let t117 = P::triple([P::lane(t63, 1), P::lane(t63, 2), P::lane(t63, 0)]);
+    let t118 = P::triple([P::lane(t63, 2), P::lane(t63, 0), P::lane(t63, 1)]);
+    // velocity of the platform origin relative to the base
+    let t119 = P::triple([P::lane(t68, 1), P::lane(t68, 2), P::lane(t68, 0)]);
+    // rate of the relative rotation
+    let t120 = P::triple([P::lane(t65, 2), P::lane(t65, 0), P::lane(t65, 1)]);
+    // second derivative of the relative rotation
+    let t121 = mul_sub(t59, t118, t58 * t117);
+    let t122 = t91 - t101 - mul_sub(t42, t56, t38 * t58);
+    let t123 = mul_sub(t59, t120, t58 * t115);
+    // velocity of the platform origin relative to the base
+    let t124 = P::triple([P::lane(t68, 2), P::lane(t68, 0), P::lane(t68, 1)]);
+    // acceleration of the platform origin relative to the base
+    let t125 = t85 - t98 + mul_add(P::splat(P::lane(t15, 2)), t113, t116);
+    let t126 = mul_add(w(2.0), mul_sub(t61, t124, t56 * t119), t125);
+    // second derivative of the relative rotation
+    let t127 = P::triple([P::lane(t122, 1), P::lane(t122, 2), P::lane(t122, 0)]);
+    let t128 = mul_sub(t57, t122, t53 * t127) - t121;
+    let t129 = mul_sub(t62, t122, t55 * t127) - t123;
+    // legs 1, 3, 4: acceleration of the platform joint relative to the base
+    let t130 = P::splat(P::lane(t126, 0))
+        + mul_add(t13, P::splat(P::lane(t129, 0)), t11 * P::splat(P::lane(t128, 0)));
+    // legs 2, 5, 6: acceleration of the platform joint relative to the base
+    let t131 = P::splat(P::lane(t126, 0))
+        + mul_add(t7, P::splat(P::lane(t129, 0)), t12 * P::splat(P::lane(t128, 0)));
+    // legs 1, 3, 4: acceleration of the platform joint relative to the base
+    let t132 = P::splat(P::lane(t126, 1))
+        + mul_add(t13, P::splat(P::lane(t129, 1)), t11 * P::splat(P::lane(t128, 1)));
+    // legs 2, 5, 6: acceleration of the platform joint relative to the base
+    let t133 = P::splat(P::lane(t126, 1))
+        + mul_add(t7, P::splat(P::lane(t129, 1)), t12 * P::splat(P::lane(t128, 1)));
+    // legs 2, 5, 6: leg inertia less weight along the actuator
+    let t134 = mul_sub(t20, P::splat(P::lane(t76, 0)), t31 * P::splat(P::lane(t94, 0)));
+    let t135 = mul_sub(t20, P::splat(P::lane(t95, 1)), t31 * P::splat(P::lane(t76, 1)));
+    // legs 1, 3, 4: actuator acceleration d''
+    let t136 = mul_add(t29, t130, t33 * t132);
+    // legs 2, 5, 6: actuator acceleration d''
+    let t137 = mul_add(t27, t131, t34 * t133);
+    // legs 1, 3, 4: acceleration of the platform joint relative to the base
+    let t138 = P::splat(P::lane(t126, 2))
+        + mul_add(t13, P::splat(P::lane(t129, 2)), t11 * P::splat(P::lane(t128, 2)));
+    // legs 2, 5, 6: acceleration of the platform joint relative to the base
+    let t139 = P::splat(P::lane(t126, 2))
+        + mul_add(t7, P::splat(P::lane(t129, 2)), t12 * P::splat(P::lane(t128, 2)));
+    // legs 2, 5, 6: leg inertia less weight along the actuator
+    let t140 = mul_add(t20, P::splat(P::lane(t94, 2)), t31 * P::splat(P::lane(t95, 2)));
+    let t141 = t90 * w(2.0);
+    // legs 1, 3, 4: actuator acceleration d''
+    let t142 = mul_add(t87, t87, mul_add(t69, t69, t70 * t70) - t136);
+    // legs 2, 5, 6: actuator acceleration d''
+    let t143 = mul_add(t89, t89, mul_add(t72, t72, t71 * t71) - t137);
+    // legs 2, 5, 6: leg inertia less weight along the actuator
+    let t144 = P::splat(P::lane(t85, 0))
+        - neg_mul_add(t46, P::splat(P::lane(t95, 0)), t134);
+    let t145 = P::splat(P::lane(t85, 1)) + mul_add(t46, P::splat(P::lane(t94, 1)), t135);
+    // legs 1, 3, 4: actuator acceleration d''
+    let t146 = neg_mul_add(t43, t142, t138);
+    // legs 2, 5, 6: actuator acceleration d''
+    let t147 = neg_mul_add(t44, t143, t139);
+    // legs 1, 3, 4: leg inertia less weight along the actuator
+    let t148 = t88 * w(2.0);
+    // legs 2, 5, 6: leg inertia less weight along the actuator
+    let t149 = mul_add(P::splat(P::lane(t38, 1)), t141, t144);
+    // legs 1, 3, 4: leg inertia less weight along the actuator
+    let t150 = mul_sub(t30, P::splat(P::lane(t76, 0)), t28 * P::splat(P::lane(t94, 0)));
+    // legs 2, 5, 6: leg inertia less weight along the actuator
+    let t151 = neg_mul_add(P::splat(P::lane(t38, 0)), t141, t145);
+    // legs 1, 3, 4: leg inertia less weight along the actuator
+    let t152 = mul_sub(t30, P::splat(P::lane(t95, 1)), t28 * P::splat(P::lane(t76, 1)));
+    let t153 = mul_add(t30, P::splat(P::lane(t94, 2)), t28 * P::splat(P::lane(t95, 2)));
+    // legs 2, 5, 6: leg inertia less weight along the actuator
+    let t154 = t147
+        - (P::splat(P::lane(t85, 2))
+            + neg_mul_add(t46, P::splat(P::lane(t76, 2)), t140));
+    // legs 2, 5, 6: remaining leg inertia less weight at the platform joint
+    let t155 = w(0.17066666666666666) * t149;
+    // legs 1, 3, 4: leg inertia less weight along the actuator
+    let t156 = P::splat(P::lane(t85, 0))
+        - neg_mul_add(t45, P::splat(P::lane(t95, 0)), t150);
+    let t157 = P::splat(P::lane(t85, 1)) + mul_add(t45, P::splat(P::lane(t94, 1)), t152);
+    let t158 = mul_add(P::splat(P::lane(t38, 1)), t148, t156);
+    let t159 = neg_mul_add(P::splat(P::lane(t38, 0)), t148, t157);
+    let t160 = t146
+        - (P::splat(P::lane(t85, 2))
+            + neg_mul_add(t45, P::splat(P::lane(t76, 2)), t153));
+    // legs 2, 5, 6: leg inertia less weight along the actuator
+    let t161 = P::splat(P::lane(t98, 2))
+        + mul_add(t7, P::splat(P::lane(t110, 2)), t12 * P::splat(P::lane(t114, 2)));
+    // legs 2, 5, 6: remaining leg inertia less weight at the platform joint
+    let t162 = w(0.17066666666666666) * t151;
+    // legs 1, 3, 4: leg inertia less weight along the actuator
+    let t163 = P::splat(P::lane(t98, 2))
+        + mul_add(t13, P::splat(P::lane(t110, 2)), t11 * P::splat(P::lane(t114, 2)));
+    // legs 1, 3, 4: remaining leg inertia less weight at the platform joint
+    let t164 = w(0.17066666666666666) * t158;
+    let t165 = w(0.17066666666666666) * t159;
+    // legs 2, 5, 6: leg inertia less weight along the actuator
+    let t166 = mul_sub(w(0.3413333333333334), t154, w(0.17066666666666666) * t161);
+    // legs 1, 3, 4: remaining leg inertia less weight at the platform joint
+    let t167 = w(0.17066666666666666) * t160;
+    // legs 2, 5, 6: remaining leg inertia less weight at the platform joint
+    let t168 = w(0.17066666666666666) * t154;
+    // legs 1, 3, 4: leg inertia less weight along the actuator
+    let t169 = mul_sub(w(0.3413333333333334), t160, w(0.17066666666666666) * t163);
+    // legs 2, 5, 6: leg inertia less weight along the actuator
+    let t170 = mul_add(
+        w(0.611),
+        neg_mul_add(P::splat(P::lane(t76, 2)), w(0.05), t154),
+        t166,
+    );
+    // inertia force less weight, without the actuators' own shares
+    let t171 = mul_add(w(0.17066666666666666), t154, t167);
+    let t172 = mul_add(w(0.17066666666666666), t149, t164);
+    let t173 = mul_add(w(0.17066666666666666), t151, t165);
+    // legs 2, 5, 6: row of the actuator Jacobian in base coordinates
+    let t174 = neg_mul_add(t24, t49, t18);
+    // legs 1, 3, 4: row of the actuator Jacobian in base coordinates
+    let t175 = neg_mul_add(t23, t52, t17);
+    // legs 2, 5, 6: row of the actuator Jacobian in base coordinates
+    let t176 = neg_mul_add(t24, t51, t22);
+    let t177 = mul_sub(t18, t51, t22 * t49);
+    // legs 1, 3, 4: row of the actuator Jacobian in base coordinates
+    let t178 = mul_sub(t17, t48, t21 * t52);
+    let t179 = neg_mul_add(t23, t48, t21);
+    // legs 1, 3, 4: leg inertia less weight along the actuator
+    let t180 = neg_mul_add(
+        w(0.611),
+        mul_sub(P::splat(P::lane(t76, 2)), w(0.05), t160),
+        t169,
+    );
+    // legs 2, 5, 6: spring and damper force along the actuator
+    let t181 = t46 - w(0.198);
+    // legs 1, 3, 4: spring and damper force along the actuator
+    let t182 = t45 - w(0.198);
+    // its first moments by platform coordinate
+    let t183 = mul_add(t13, t167, t7 * t168);
+    let t184 = mul_add(t13, t164, t7 * t155);
+    let t185 = mul_add(t13, t165, t7 * t162);
+    // inertia force less weight, without the actuators' own shares
+    let t186 = P::triple([P::lane(t172, 1), P::lane(t173, 1), -P::lane(t171, 1)]);
+    // its first moments by platform coordinate
+    let t187 = mul_add(t11, t167, t12 * t168);
+    // inertia force less weight, without the actuators' own shares
+    let t188 = P::triple([P::lane(t172, 0), P::lane(t173, 0), -P::lane(t171, 0)]) + t186;
+    // its first moments by platform coordinate
+    let t189 = mul_add(t11, t164, t12 * t155);
+    let t190 = mul_add(t11, t165, t12 * t162);
+    // inertia force less weight, without the actuators' own shares
+    let t191 = P::triple([P::lane(t172, 2), P::lane(t173, 2), -P::lane(t171, 2)]) + t188;
+    let t192 = mul_add(t98, w(8.139999999999999), t191);
+    // its first moments by platform coordinate
+    let t193 = P::triple([P::lane(t184, 1), P::lane(t185, 1), -P::lane(t183, 1)]);
+    let t194 = P::triple([P::lane(t184, 0), P::lane(t185, 0), -P::lane(t183, 0)]) + t193;
+    // inertia force less weight, without the actuators' own shares
+    let t195 = mul_sub(t110, w(1.734723475976807e-18), t192);
+    // its first moments by platform coordinate
+    let t196 = P::triple([P::lane(t184, 2), P::lane(t185, 2), -P::lane(t183, 2)]) + t194;
+    // inertia force less weight, without the actuators' own shares
+    let t197 = mul_sub(w(0.188852), t111, t195);
+    // inertia less external wrench that the actuators must balance
+    let t198 = mul_add(
+        t2,
+        P::splat(external_wrench[0]),
+        t1 * P::splat(external_wrench[1]),
+    );
+    // its first moments by platform coordinate
+    let t199 = P::triple([P::lane(t189, 1), P::lane(t190, 1), -P::lane(t187, 1)]);
+    let t200 = mul_add(w(0.013354412), t111, w(0.188852) * t98);
+    let t201 = P::triple([P::lane(t189, 0), P::lane(t190, 0), -P::lane(t187, 0)]) + t199;
+    // inertia less external wrench that the actuators must balance
+    let t202 = mul_add(t3, P::splat(external_wrench[2]), t198);
+    // its first moments by platform coordinate
+    let t203 = neg_mul_add(t98, w(1.734723475976807e-18), t196);
+    let t204 = t201 + P::triple([P::lane(t189, 2), P::lane(t190, 2), -P::lane(t187, 2)]);
+    let t205 = mul_add(w(0.03224559378363733), t110, t203);
+    let t206 = mul_add(w(0.03224559378363734), t114, t204);
+    // inertia less external wrench that the actuators must balance
+    let t207 = t197 - t202;
+    let t208 = P::triple([P::lane(t202, 2), P::lane(t202, 0), P::lane(t202, 1)]);
+    // its first moments by platform coordinate
+    let t209 = P::triple([P::lane(t200, 2), P::lane(t200, 0), P::lane(t200, 1)]);
+    // inertia less external wrench that the actuators must balance
+    let t210 = neg_mul_add(w(0.031), t208, t209);
+    // its first moments by platform coordinate
+    let t211 = P::triple([P::lane(t205, 2), P::lane(t205, 0), P::lane(t205, 1)]);
+    // inertia less external wrench that the actuators must balance
+    let t212 = t62 * P::triple([P::lane(t205, 1), P::lane(t205, 2), P::lane(t205, 0)]);
+    let t213 = t57 * P::triple([P::lane(t206, 1), P::lane(t206, 2), P::lane(t206, 0)]);
+    // its first moments by platform coordinate
+    let t214 = P::triple([P::lane(t206, 2), P::lane(t206, 0), P::lane(t206, 1)]);
+    // inertia less external wrench that the actuators must balance
+    let t215 = t67 * P::triple([P::lane(t210, 2), P::lane(t210, 0), P::lane(t210, 1)]);
+    let t216 = mul_add(
+        t2,
+        P::splat(external_wrench[3]),
+        t1 * P::splat(external_wrench[4]),
+    );
+    let t217 = mul_sub(t55, t211, t212) + mul_sub(t53, t214, t213);
+    // legs 5, 6, 2: gradient of the actuator length by the platform joint
+    let t218 = P::triple([P::lane(t51, 1), P::lane(t51, 2), P::lane(t51, 0)]);
+    // legs 6, 2, 5: gradient of the actuator length by the platform joint
+    let t219 = P::triple([P::lane(t51, 2), P::lane(t51, 0), P::lane(t51, 1)]);
+    let t220 = P::triple([P::lane(t49, 2), P::lane(t49, 0), P::lane(t49, 1)]);
+    // force along the actuator that balances the remaining wrench
+    let t221 = t218 - t219;
+    // inertia less external wrench that the actuators must balance
+    let t222 = mul_add(t3, P::splat(external_wrench[5]), t216);
+    // legs 5, 6, 2: gradient of the actuator length by the platform joint
+    let t223 = P::triple([P::lane(t49, 1), P::lane(t49, 2), P::lane(t49, 0)]);
+    // force along the actuator that balances the remaining wrench
+    let t224 = t220 - t223;
+    // inertia less external wrench that the actuators must balance
+    let t225 = mul_sub(t66, t210, t215) + t217 - t222;
+    // force along the actuator that balances the remaining wrench
+    let t226 = mul_sub(t219, t223, t218 * t220);
+    let t227 = P::mul_add(
+        P::lane(t49, 0),
+        P::lane(t221, 0),
+        P::lane(t49, 1) * P::lane(t221, 1),
+    );
+    let t228 = P::splat(P::lane(t226, 0))
+        + mul_add(t52, P::splat(P::lane(t221, 0)), t48 * P::splat(P::lane(t224, 0)));
+    let t229 = P::mul_add(P::lane(t49, 2), P::lane(t221, 2), t227);
+    let t230 = mul_add(
+        t221,
+        P::splat(P::lane(t207, 0)),
+        t224 * P::splat(P::lane(t207, 1)),
+    );
+    let t231 = P::splat(P::lane(t226, 1))
+        + mul_add(t52, P::splat(P::lane(t221, 1)), t48 * P::splat(P::lane(t224, 1)));
+    let t232 = P::splat(P::lane(t226, 2))
+        + mul_add(t52, P::splat(P::lane(t221, 2)), t48 * P::splat(P::lane(t224, 2)));
+    // leg 2: row of the actuator Jacobian in base coordinates
+    let t233 = P::triple([P::lane(t176, 0), -P::lane(t174, 0), P::lane(t177, 0)]);
+    // force along the actuator that balances the remaining wrench
+    let t234 = mul_sub(t175, P::splat(t229), P::splat(P::lane(t174, 0)) * t228);
+    let t235 = mul_sub(t178, P::splat(t229), P::splat(P::lane(t177, 0)) * t228);
+    let t236 = mul_add(t226, P::splat(P::lane(t207, 2)), t230);
+    let t237 = mul_sub(t179, P::splat(t229), P::splat(P::lane(t176, 0)) * t228);
+    // leg 5: row of the actuator Jacobian in base coordinates
+    let t238 = P::triple([P::lane(t176, 1), -P::lane(t174, 1), P::lane(t177, 1)]);
+    // leg 6: row of the actuator Jacobian in base coordinates
+    let t239 = P::triple([P::lane(t176, 2), -P::lane(t174, 2), P::lane(t177, 2)]);
+    // force along the actuator that balances the remaining wrench
+    let t240 = neg_mul_add(P::splat(P::lane(t174, 1)), t231, t234);
+    let t241 = neg_mul_add(P::splat(P::lane(t177, 1)), t231, t235);
+    let t242 = neg_mul_add(P::splat(P::lane(t176, 1)), t231, t237);
+    let t243 = neg_mul_add(P::splat(P::lane(t174, 2)), t232, t240);
+    let t244 = neg_mul_add(P::splat(P::lane(t177, 2)), t232, t241);
+    let t245 = neg_mul_add(P::splat(P::lane(t176, 2)), t232, t242);
+    let t246 = mul_sub(t225, P::splat(t229), t233 * P::splat(P::lane(t236, 0)));
+    let t247 = neg_mul_add(t238, P::splat(P::lane(t236, 1)), t246);
+    let t248 = P::triple([P::lane(t243, 2), P::lane(t243, 0), P::lane(t243, 1)]);
+    let t249 = P::triple([P::lane(t243, 1), P::lane(t243, 2), P::lane(t243, 0)]);
+    let t250 = P::triple([P::lane(t244, 1), P::lane(t244, 2), P::lane(t244, 0)]);
+    let t251 = P::triple([P::lane(t244, 2), P::lane(t244, 0), P::lane(t244, 1)]);
+    let t252 = neg_mul_add(t239, P::splat(P::lane(t236, 2)), t247);
+    let t253 = P::triple([P::lane(t245, 1), P::lane(t245, 2), P::lane(t245, 0)]);
+    let t254 = mul_sub(t249, t251, t248 * t250);
+    let t255 = P::triple([P::lane(t245, 2), P::lane(t245, 0), P::lane(t245, 1)]);
+    let t256 = mul_sub(t248, t253, t249 * t255);
+    let t257 = c(1.0) / t229;
+    let t258 = P::triple([P::lane(t228, 0), P::lane(t231, 0), P::lane(t232, 0)]);
+    let t259 = P::splat(P::lane(t252, 1)) * mul_sub(t250, t255, t251 * t253);
+    let t260 = P::mul_add(
+        P::lane(t245, 0),
+        P::lane(t254, 0),
+        P::lane(t245, 1) * P::lane(t254, 1),
+    );
+    let t261 = P::triple([P::lane(t228, 1), P::lane(t231, 1), P::lane(t232, 1)]);
+    let t262 = mul_add(
+        t256,
+        P::splat(P::lane(t252, 2)),
+        mul_sub(t254, P::splat(P::lane(t252, 0)), t259),
+    );
+    let t263 = P::triple([P::lane(t228, 2), P::lane(t231, 2), P::lane(t232, 2)]);
+    let t264 = c(1.0) / P::mul_add(P::lane(t245, 2), P::lane(t254, 2), t260);
+    let t265 = t262 * P::splat(t264);
+    // legs 1, 3, 4: actuator forces F
+    let t266 = mul_sub(t262, P::splat(t264), neg_mul_add(t182, w(21555.9), t180));
+    // force along the actuator that balances the remaining wrench
+    let t267 = neg_mul_add(t258, P::splat(P::lane(t265, 0)), t236);
+    let t268 = neg_mul_add(t261, P::splat(P::lane(t265, 1)), t267);
+    let t269 = neg_mul_add(t263, P::splat(P::lane(t265, 2)), t268);
+    // legs 2, 5, 6: actuator forces F
+    let t270 = mul_sub(P::splat(t257), t269, neg_mul_add(t181, w(21555.9), t170));
+    // leg 1: actuator forces F
+    inverse_dynamics[0] = P::lane(t266, 0);
+    // leg 2: actuator forces F
+    inverse_dynamics[1] = P::lane(t270, 0);
+    // leg 3: actuator forces F
+    inverse_dynamics[2] = P::lane(t266, 1);
+    // leg 4: actuator forces F
+    inverse_dynamics[3] = P::lane(t266, 2);
+    // leg 5: actuator forces F
+    inverse_dynamics[4] = P::lane(t270, 1);
+    // leg 6: actuator forces F
+    inverse_dynamics[5] = P::lane(t270, 2);
 }

@@ -1,0 +1,189 @@
+//! Linear systems of six equations, written out in 3 x 3 blocks.
+//!
+//! With the matrix [A B; C D], the right-hand side [f; m], adj(A) = det(A) A^-1 and the unknowns [x; y]:
+//!
+//!     K = adj(A) B           q = adj(A) f
+//!     S = det(A) D - C K     g = det(A) m - C q          so that S y = g
+//!     y = adj(S) g / det(S)  x = (q - K y) / det(A)
+//!
+//! Two divisions, of which only one waits for everything else. Rows of blocks, and rows of adjugates as cross products of
+//! them, stand in lanes by column.
+
+use super::mapped;
+use super::partition::Partition;
+use crate::graph::{Builder, Graph, Group, Node, NodeId, Op, Solve, SolveKind};
+use crate::passes::Images;
+
+type Three = [NodeId; 3];
+
+/// Writes every system of six equations out, general ones with the columns of the partition.
+///
+/// General systems are left for pivoting at run time if nothing was known to choose the partition by.
+pub fn expand(graph: &Graph, groups: Vec<Group>, partition: &Partition) -> (Graph, Vec<Group>) {
+    let mut builder = Builder::with_sections_of(graph);
+    let mut images = Images::new(graph);
+    let mut solutions: Vec<Option<(Vec<NodeId>, Vec<Group>)>> = vec![None; graph.solves.len()];
+    let mut order = Vec::new();
+    for (index, live) in graph.live().into_iter().enumerate() {
+        if !live {
+            continue;
+        }
+        builder.enter_section_index(graph.section_of[index]);
+        let node = graph.nodes[index];
+        let image = match node {
+            Node::Solution { solve, element } if expandable(&graph.solves[solve as usize], partition) => {
+                let system = images.solve(&graph.solves[solve as usize]);
+                let solution = solutions[solve as usize].get_or_insert_with(|| {
+                    order.push(solve as usize);
+                    written_out(&mut builder, &system, partition)
+                });
+                solution.0[element as usize]
+            }
+            node => {
+                let node = images.node(graph, &mut builder, node);
+                builder.insert(node)
+            }
+        };
+        images.set(index, image);
+    }
+    let outputs = images.outputs(graph);
+    // A system's own groups come right before the first group that reads its solution: in the order of their nodes.
+    let mut groups = mapped(groups, |node| images.get(node));
+    for solve in order {
+        let (solution, own) =
+            solutions[solve].take().expect("it was put in the order when it was written out");
+        let first = solution.iter().min().copied();
+        let place = groups
+            .iter()
+            .position(|group| group.nodes().iter().max().copied() >= first)
+            .unwrap_or(groups.len());
+        groups.splice(place..place, own);
+    }
+    (builder.finish(graph, outputs), groups)
+}
+
+fn expandable(solve: &Solve, partition: &Partition) -> bool {
+    solve.right_hand_side.len() == 6
+        && (solve.kind == SolveKind::SymmetricPositiveDefinite || partition.states > 0)
+}
+
+struct Blocks<'a> {
+    builder: &'a mut Builder,
+    groups: Vec<Group>,
+}
+
+impl Blocks<'_> {
+    fn mul(&mut self, a: NodeId, b: NodeId) -> NodeId {
+        self.builder.binary(Op::Mul, a, b)
+    }
+
+    fn sub(&mut self, a: NodeId, b: NodeId) -> NodeId {
+        self.builder.binary(Op::Sub, a, b)
+    }
+
+    fn dot(&mut self, a: Three, b: Three) -> NodeId {
+        let first = self.mul(a[0], b[0]);
+        (1..3).fold(first, |sum, k| {
+            let product = self.mul(a[k], b[k]);
+            self.builder.binary(Op::Add, sum, product)
+        })
+    }
+
+    /// `start - a . b`
+    fn less(&mut self, start: NodeId, a: Three, b: Three) -> NodeId {
+        (0..3).fold(start, |sum, k| {
+            let product = self.mul(a[k], b[k]);
+            self.sub(sum, product)
+        })
+    }
+
+    fn group(&mut self, nodes: Three) -> Three {
+        self.groups.push(Group::Array { shape: vec![3], nodes: nodes.to_vec() });
+        nodes
+    }
+
+    fn cross(&mut self, a: Three, b: Three) -> Three {
+        let entry = |blocks: &mut Self, i: usize| {
+            let (plus, minus) =
+                (blocks.mul(a[(i + 1) % 3], b[(i + 2) % 3]), blocks.mul(a[(i + 2) % 3], b[(i + 1) % 3]));
+            blocks.sub(plus, minus)
+        };
+        let product = [entry(self, 0), entry(self, 1), entry(self, 2)];
+        self.group(product)
+    }
+
+    /// Columns of the adjugate, and the determinant.
+    fn adjugate(&mut self, rows: [Three; 3]) -> ([Three; 3], NodeId) {
+        let columns = [0, 1, 2].map(|i| self.cross(rows[(i + 1) % 3], rows[(i + 2) % 3]));
+        let determinant = self.dot(rows[0], columns[0]);
+        (columns, determinant)
+    }
+}
+
+fn transposed(rows: [Three; 3]) -> [Three; 3] {
+    [0, 1, 2].map(|i| [0, 1, 2].map(|j: usize| rows[j][i]))
+}
+
+fn written_out(builder: &mut Builder, system: &Solve, partition: &Partition) -> (Vec<NodeId>, Vec<Group>) {
+    let order: Vec<usize> = match system.kind {
+        SolveKind::General => partition.legs.clone(),
+        SolveKind::SymmetricPositiveDefinite => (0..6).collect(),
+    };
+    let symmetric = system.kind == SolveKind::SymmetricPositiveDefinite;
+    let at = |row: usize, column: usize| match symmetric && row < column {
+        true => system.matrix[6 * column + row],
+        false => system.matrix[6 * row + column],
+    };
+    let block = |row: usize, column: usize| {
+        [0, 1, 2].map(|i| [0, 1, 2].map(|j: usize| at(row + i, order[column + j])))
+    };
+    let (a, b, c, d) = (block(0, 0), block(0, 3), block(3, 0), block(3, 3));
+    let right = |row: usize| [0, 1, 2].map(|i: usize| system.right_hand_side[row + i]);
+    let (f, m) = (right(0), right(3));
+
+    let mut blocks = Blocks { builder, groups: Vec::new() };
+    for rows in [a, b, c, d] {
+        for row in rows {
+            blocks.group(row);
+        }
+    }
+    let (adjugate, determinant) = blocks.adjugate(a);
+    let adjugate_rows = transposed(adjugate);
+    let b_columns = transposed(b);
+    let k = adjugate_rows.map(|row| {
+        let entries = b_columns.map(|column| blocks.dot(row, column));
+        blocks.group(entries)
+    });
+    let q = adjugate_rows.map(|row| blocks.dot(row, f));
+    blocks.group(q);
+    let k_columns = transposed(k);
+    let s = [0, 1, 2].map(|i: usize| {
+        let entries = [0, 1, 2].map(|j: usize| {
+            let scaled = blocks.mul(determinant, d[i][j]);
+            blocks.less(scaled, c[i], k_columns[j])
+        });
+        blocks.group(entries)
+    });
+    let g = [0, 1, 2].map(|i: usize| {
+        let scaled = blocks.mul(determinant, m[i]);
+        blocks.less(scaled, c[i], q)
+    });
+    blocks.group(g);
+    let (s_adjugate, s_determinant) = blocks.adjugate(s);
+    let one = blocks.builder.constant(1.0);
+    let reciprocal = blocks.builder.binary(Op::Div, one, determinant);
+    let s_reciprocal = blocks.builder.binary(Op::Div, one, s_determinant);
+    let y = transposed(s_adjugate).map(|row| {
+        let scaled = blocks.dot(row, g);
+        blocks.mul(scaled, s_reciprocal)
+    });
+    blocks.group(y);
+    let x = [0, 1, 2].map(|i: usize| {
+        let rest = blocks.less(q[i], k[i], y);
+        blocks.mul(rest, reciprocal)
+    });
+    blocks.group(x);
+    let mut solution = vec![one; 6];
+    x.into_iter().chain(y).zip(order).for_each(|(value, place)| solution[place] = value);
+    (solution, blocks.groups)
+}

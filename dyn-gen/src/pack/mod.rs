@@ -1,0 +1,59 @@
+//! One call, several lanes: a function's graph with three numbers in each operation wherever three are computed alike.
+//!
+//! Alike are the components of a vector, the entries of a row, and legs: the derivation writes one leg and maps it over
+//! six, so legs 1 to 6 stand in two times three lanes. Nothing here knows mechanics or Rust; what is alike is read off the
+//! graph, starting from the arrays that the steps of the function hand on.
+//!
+//! | file | does |
+//! |-|-|
+//! | `partition` | says which legs stand side by side |
+//! | `blocks` | writes linear systems out in 3 x 3 blocks, which suit lanes and need two divisions one after the other |
+//! | `sums` | sums over legs: first lane by lane, then across lanes |
+//! | `superword` | finds three alike from their results back to their operands |
+//! | `order` | puts operations in the order in which a processor can begin them |
+//! | `unpack` | the same graph without lanes, for evaluation |
+
+mod blocks;
+mod order;
+mod partition;
+mod sums;
+mod superword;
+mod unpack;
+
+pub use partition::Partition;
+pub use unpack::unpack;
+
+use crate::graph::{Function, Graph, Group, NodeId, Program};
+use crate::passes::{Context, run_passes_in_lanes};
+
+/// A function in lanes.
+#[derive(Clone, Debug)]
+pub struct Packed {
+    /// The graph, ready to be printed in the order of its nodes.
+    pub graph: Graph,
+    /// Which legs stand side by side.
+    pub partition: Partition,
+}
+
+/// `function` in lanes, its parameters baked as `context` says.
+pub fn pack(program: &Program, function: &Function, context: &Context) -> Packed {
+    let (graph, groups) = program.flatten_with_groups(function);
+    let partition = partition::choose(&graph, context, program.leg_count);
+    let (graph, groups) = blocks::expand(&graph, groups, &partition);
+    let (graph, groups) = sums::regroup(&graph, groups, context, &partition);
+    let graph = superword::superword(&graph, &groups, context, &partition);
+    let graph = order::order(&run_passes_in_lanes(&graph, context));
+    Packed { graph, partition }
+}
+
+/// The groups with their nodes replaced; those with a node that is no longer there are dropped.
+fn mapped(groups: Vec<Group>, image: impl Fn(NodeId) -> Option<NodeId>) -> Vec<Group> {
+    let of = |nodes: Vec<NodeId>| nodes.into_iter().map(&image).collect::<Option<Vec<_>>>();
+    groups
+        .into_iter()
+        .filter_map(|group| match group {
+            Group::Array { shape, nodes } => of(nodes).map(|nodes| Group::Array { shape, nodes }),
+            Group::Legs(nodes) => of(nodes).map(Group::Legs),
+        })
+        .collect()
+}

@@ -1,0 +1,134 @@
+//! `contract`: what a machine without operating system gets. Builds `contract/`, a program of every call, optimised across crates so that
+//! what is left can be reached, and looks at the symbols and the machine code. Besides, compares debug with release.
+
+mod machine_code;
+
+use std::path::Path;
+use std::process::Command;
+
+use self::machine_code::MachineCode;
+use crate::runner::Failure;
+use crate::workspace::{cargo, root};
+
+/// The step of `cargo xtask test`.
+pub fn if_possible() -> Result<String, Failure> {
+    same_bits()?;
+    let tools = ["ar", "objdump"];
+    match tools.into_iter().find(|tool| Command::new(tool).arg("--version").output().is_err()) {
+        Some(tool) => Ok(format!("symbols not looked at: no {tool} here (package binutils)")),
+        None => no_panic().map(|()| String::new()),
+    }
+}
+
+/// Panics, code and stack, bits.
+pub fn check() -> Result<(), Failure> {
+    no_panic()?;
+    same_bits()
+}
+
+/// Name, bytes of code and bytes of its own frame of every function of an object, archive or program.
+pub fn sizes(object: &Path) -> Result<Vec<(String, u64, u64)>, Failure> {
+    let listing =
+        run(Command::new("objdump").args(["--disassemble", "--demangle", "--no-show-raw-insn"]).arg(object))?;
+    let code = MachineCode::read(&listing);
+    Ok(code.sizes().map(|(name, size, frame)| (name.to_owned(), size, frame)).collect())
+}
+
+/// Every call of the C library for every test vector, by all its models, gives the same bits whether it is compiled for debugging or for
+/// release.
+fn same_bits() -> Result<(), Failure> {
+    let outputs = |profile: &[&str]| {
+        run(cargo()
+            .args(["run", "--quiet", "--package", "dyn-capi", "--example", "native_outputs"])
+            .args(profile))
+    };
+    let (debug, release) = (outputs(&[])?, outputs(&["--release"])?);
+    if debug != release {
+        return Err(Failure::new(
+            "debug and release give different numbers",
+            "compare `cargo run -p dyn-capi --example native_outputs` with and without --release",
+        ));
+    }
+    println!("the same {} bytes of outputs in debug and release", debug.len());
+    Ok(())
+}
+
+/// Nothing may reach a panic or itself but a control case, and that must be seen to.
+fn no_panic() -> Result<(), Failure> {
+    let object = build()?;
+    let listing =
+        run(Command::new("objdump").args(["--disassemble", "--reloc", "--no-show-raw-insn"]).arg(&object))?;
+    let code = MachineCode::read(&listing);
+    let control: Vec<String> = ways_to_panic(&code, CONTROL_CASE);
+    if control.is_empty() {
+        return Err(Failure::new(
+            "a function that can panic passed as one that cannot",
+            "look at `ways_to_panic`",
+        ));
+    }
+    println!("{:<36} {:>10} {:>12} {:>14}", "call", "code bytes", "stack bytes", "instructions");
+    let exported = code.names().filter(|name| !name.starts_with('_') && *name != CONTROL_CASE);
+    for name in exported {
+        let found = ways_to_panic(&code, name);
+        if !found.is_empty() {
+            return Err(Failure::new(
+                format!("{name} can reach a panic: {}", found.join(", ")),
+                "look for what indexes or unwraps",
+            ));
+        }
+        let Some(worst) = code.worst(name) else {
+            return Err(Failure::new(format!("{name} can call itself"), "make it a loop with a bound"));
+        };
+        println!("{name:<36} {:>10} {:>12} {:>14}", worst.code, worst.stack, worst.instructions);
+    }
+    println!("\nno way to panic; the control case has {}", control.join(", "));
+    Ok(())
+}
+
+/// The function of `contract/` that can panic.
+const CONTROL_CASE: &str = "can_panic";
+
+/// What a panic would call.
+const HANDLER: &str = "rust_begin_unwind";
+
+/// Functions that only a panic calls, of those that `function` reaches.
+fn ways_to_panic(code: &MachineCode, function: &str) -> Vec<String> {
+    let is_panic = |name: &String| {
+        ["panicking", "panic_fmt", "panic_bounds_check", "unwrap_failed", HANDLER]
+            .iter()
+            .any(|sign| name.contains(sign))
+    };
+    let reached = code.reached(function).into_iter().filter(is_panic);
+    reached.map(|name| format!("{:#}", rustc_demangle::demangle(&name))).collect()
+}
+
+/// The object of the program alone, taken out of the library.
+fn build() -> Result<std::path::PathBuf, Failure> {
+    let folder = dyn_python::target_directory(&root()).join("contract");
+    let manifest = root().join("contract/Cargo.toml");
+    run(cargo()
+        .args(["build", "--release", "--quiet", "--manifest-path"])
+        .arg(&manifest)
+        .env("CARGO_TARGET_DIR", &folder))?;
+    let library = folder.join("release/libcontract.a");
+    let members = run(Command::new("ar").arg("t").arg(&library))?;
+    let member = members
+        .lines()
+        .find(|member| member.starts_with("contract-"))
+        .ok_or_else(|| Failure::new("the library has no object of the program", "build contract/ by hand"))?;
+    run(Command::new("ar").arg("x").arg(&library).arg(member).current_dir(&folder))?;
+    Ok(folder.join(member))
+}
+
+/// Standard output of a command that succeeds.
+fn run(command: &mut Command) -> Result<String, Failure> {
+    let program = command.get_program().to_string_lossy().into_owned();
+    let output = command.output().map_err(|error| {
+        Failure::new(format!("cannot start `{program}`: {error}"), "install the package binutils")
+    })?;
+    if !output.status.success() {
+        let said = String::from_utf8_lossy(&output.stderr).into_owned();
+        return Err(Failure::new(format!("`{program}` failed: {said}"), "see its message"));
+    }
+    Ok(String::from_utf8_lossy(&output.stdout).into_owned())
+}
