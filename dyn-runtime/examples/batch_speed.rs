@@ -235,7 +235,7 @@ fn numbers_of_a_platform() -> Vec<(&'static str, Vec<f64>)> {
     let circle = |radius: f64, half_angle: f64| {
         let point = move |leg: u32| {
             let centre = f64::from(leg / 2) * 120.0;
-            let sign = if leg % 2 == 0 { 1.0 } else { -1.0 };
+            let sign = if leg.is_multiple_of(2) { 1.0 } else { -1.0 };
             let angle = (centre + sign * half_angle).to_radians();
             [radius * angle.cos(), radius * angle.sin(), 0.0]
         };

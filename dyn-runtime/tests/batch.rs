@@ -223,7 +223,7 @@ fn platforms(count: usize) -> Vec<Uhp> {
     let mut random = Pcg64::seed_from_u64(3);
     let circle = |radius: f64, half_angle: f64| {
         std::array::from_fn(|leg: usize| {
-            let sign = if leg % 2 == 0 { 1.0 } else { -1.0 };
+            let sign = if leg.is_multiple_of(2) { 1.0 } else { -1.0 };
             let angle = ((leg / 2) as f64 * 120.0 + sign * half_angle).to_radians();
             [radius * angle.cos(), radius * angle.sin(), 0.0]
         })

@@ -55,7 +55,14 @@ impl<'a, S: Number, const N: usize> Column<'a, S, N> {
     #[inline(always)]
     pub(super) fn load<T: Lanes<Number = S>>(&self, first: usize) -> [T; N] {
         match &self.0 {
-            Layout::Same(numbers) => numbers.map(T::splat),
+            Layout::Same(numbers) => {
+                // No `map`: it is not always inlined, and then not compiled for the lanes.
+                let mut lanes = [T::constant(0.0); N];
+                for (lanes, number) in lanes.iter_mut().zip(numbers) {
+                    *lanes = T::splat(*number);
+                }
+                lanes
+            }
             Layout::Components(numbers) => numbers.load(first),
             Layout::States(states) => match states.get(first..first + T::COUNT) {
                 Some(states) => array::from_fn(|k| T::from_fn(|lane| states[lane][k])),

@@ -1,5 +1,5 @@
 //! Rotations within a step, for any number of lanes, without a branch; the formulas are those of rotation vectors,
-//! `R = exp([phi]x)`.
+//! `R = exp([phi]x)`. Loops, not closures: those are not always inlined, and then not compiled for the lanes.
 
 use crate::float::{Scalar, mul_add};
 
@@ -51,12 +51,26 @@ fn cross<T: Scalar>([ax, ay, az]: [T; 3], [bx, by, bz]: [T; 3]) -> [T; 3] {
     [ay * bz - az * by, az * bx - ax * bz, ax * by - ay * bx]
 }
 
+/// `v a`
+#[inline(always)]
+fn scaled<T: Scalar>([x, y, z]: [T; 3], a: T) -> [T; 3] {
+    [x * a, y * a, z * a]
+}
+
+#[inline(always)]
+fn transposed<T: Scalar>(a: &[[T; 3]; 3]) -> [[T; 3]; 3] {
+    [[a[0][0], a[1][0], a[2][0]], [a[0][1], a[1][1], a[2][1]], [a[0][2], a[1][2], a[2][2]]]
+}
+
 /// Product of two matrices.
 #[inline(always)]
 fn product<T: Scalar>(a: &[[T; 3]; 3], b: &[[T; 3]; 3]) -> [[T; 3]; 3] {
-    let column = |k: usize| [b[0][k], b[1][k], b[2][k]];
-    let columns = [column(0), column(1), column(2)];
-    a.map(|row| columns.map(|column| dot(row, column)))
+    let [x, y, z] = transposed(b);
+    [
+        [dot(a[0], x), dot(a[0], y), dot(a[0], z)],
+        [dot(a[1], x), dot(a[1], y), dot(a[1], z)],
+        [dot(a[2], x), dot(a[2], y), dot(a[2], z)],
+    ]
 }
 
 /// `exp([phi]x) R` for `|phi|` up to [`MAX_TURN_RAD`].
@@ -66,8 +80,8 @@ pub(super) fn turned<T: Scalar>(phi: [T; 3], rotation: &[[T; 3]; 3]) -> [[T; 3];
     let (sinc, a) = (polynomial(&SINC, square), polynomial(&A, square));
     let one = T::constant(1.0);
     let [x, y, z] = phi;
-    let [sx, sy, sz] = phi.map(|number| sinc * number);
-    let [ax, ay, az] = phi.map(|number| a * number);
+    let [sx, sy, sz] = scaled(phi, sinc);
+    let [ax, ay, az] = scaled(phi, a);
     let (axy, axz, ayz) = (ax * y, ax * z, ay * z);
     let (axx, ayy, azz) = (ax * x, ay * y, az * z);
     let turn = [
@@ -85,17 +99,24 @@ pub(super) fn rotation_vector_rate<T: Scalar>(phi: [T; 3], w: [T; 3]) -> [T; 3] 
     let once = cross(phi, w);
     let twice = cross(phi, once);
     let (half, twelfth) = (T::constant(-0.5), T::constant(1.0 / 12.0));
-    [0, 1, 2].map(|k| mul_add(twice[k], twelfth, mul_add(once[k], half, w[k])))
+    let mut rate = w;
+    for k in 0..3 {
+        rate[k] = mul_add(twice[k], twelfth, mul_add(once[k], half, rate[k]));
+    }
+    rate
 }
 
 /// The rotation nearest to a product of rotations, for errors of rounding: `R (3 - R^T R)/2`, one step of Newton's
 /// iteration.
 #[inline(always)]
 pub(super) fn orthonormalised<T: Scalar>(rotation: &[[T; 3]; 3]) -> [[T; 3]; 3] {
-    let column = |k: usize| [rotation[0][k], rotation[1][k], rotation[2][k]];
-    let columns = [column(0), column(1), column(2)];
-    let square = columns.map(|row| columns.map(|column| dot(row, column)));
     let (three_halves, half) = (T::constant(1.5), T::constant(0.5));
-    let correction = product(rotation, &square);
-    [0, 1, 2].map(|i| [0, 1, 2].map(|k| rotation[i][k] * three_halves - correction[i][k] * half))
+    let correction = product(rotation, &product(&transposed(rotation), rotation));
+    let mut nearest = *rotation;
+    for i in 0..3 {
+        for k in 0..3 {
+            nearest[i][k] = nearest[i][k] * three_halves - correction[i][k] * half;
+        }
+    }
+    nearest
 }

@@ -3,7 +3,7 @@
 use super::column::all_lanes;
 use super::models::Models;
 use super::states::{PlatformLanes, finite, flat, reached, rows};
-use super::step::{Load, step};
+use super::step::step;
 use super::{BaseColumns, Column, ColumnMut, LengthError, PlatformColumns, States, Status};
 use crate::error::{Error, Input};
 use crate::float::{Scalar, mul_add};
@@ -43,15 +43,6 @@ impl<S: Number> Instant<'_, S> {
         self.base.check(states)?;
         self.actuator_force.check("actuator_force", states)?;
         self.external_wrench.check("external_wrench", states)
-    }
-
-    #[inline(always)]
-    fn load<T: Lanes<Number = S>>(&self, first: usize) -> Load<T> {
-        Load {
-            base: self.base.load(first),
-            actuator_force: self.actuator_force.load(first),
-            external_wrench: self.external_wrench.load(first),
-        }
     }
 }
 
@@ -144,10 +135,10 @@ where
                 peaks: [zero; 6],
             };
             for instants in instants.windows(3).step_by(2) {
-                let load = |stage: usize| instants[[0, 1, 1, 2][stage]].load::<T>(input);
-                let reached = reached::<M, T>(&parameters, &load(0).base, &group.platform);
+                let base = instants[0].base.load::<T>(input);
+                let reached = reached::<M, T>(&parameters, &base, &group.platform);
                 let (end, acceleration, sound) =
-                    step::<M, T>(&parameters, &group.platform, T::splat(step_s), load);
+                    step::<M, T>(&parameters, &group.platform, T::splat(step_s), instants, input);
                 let sound = sound & reached & finite(&acceleration);
                 group.advance(&end, &acceleration, sound);
             }
@@ -157,7 +148,11 @@ where
             simulated.velocity.store(first, &group.platform.velocity, all);
             if let Some(column) = &mut simulated.rms_acceleration {
                 let count = T::select(group.steps.less_than(one), one, group.steps);
-                column.store(first, &group.squares.map(|square| (square / count).square_root()), all);
+                let mut rms = group.squares;
+                for square in &mut rms {
+                    *square = (*square / count).square_root();
+                }
+                column.store(first, &rms, all);
             }
             if let Some(column) = &mut simulated.peak_acceleration {
                 column.store(first, &group.peaks, all);
@@ -192,11 +187,16 @@ impl<T: Lanes> Group<T> {
             self.moving = T::select(half.less_than(sound), self.moving, zero);
         }
         let moving = half.less_than(self.moving);
-        let choose = |new: &T, old: &mut T| *old = T::select(moving, *new, *old);
-        end.position.iter().zip(&mut self.platform.position).for_each(|(new, old)| choose(new, old));
-        end.velocity.iter().zip(&mut self.platform.velocity).for_each(|(new, old)| choose(new, old));
-        let rotation = self.platform.rotation.as_flattened_mut();
-        end.rotation.as_flattened().iter().zip(rotation).for_each(|(new, old)| choose(new, old));
+        for k in 0..3 {
+            self.platform.position[k] = T::select(moving, end.position[k], self.platform.position[k]);
+            for j in 0..3 {
+                self.platform.rotation[k][j] =
+                    T::select(moving, end.rotation[k][j], self.platform.rotation[k][j]);
+            }
+        }
+        for k in 0..6 {
+            self.platform.velocity[k] = T::select(moving, end.velocity[k], self.platform.velocity[k]);
+        }
         self.steps = self.steps + self.moving;
         for (k, component) in acceleration.iter().enumerate() {
             let size = T::select(moving, component.absolute(), zero);

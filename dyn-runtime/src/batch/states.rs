@@ -181,7 +181,10 @@ pub(super) fn flat<T: Copy>(rows: [[T; 3]; 3]) -> [T; 9] {
 /// The lanes in which every number is finite; some others, of huge numbers, may be missing.
 #[inline(always)]
 pub(super) fn finite<T: Lanes>(numbers: &[T]) -> u32 {
-    let sum = numbers.iter().copied().reduce(|sum, number| sum + number).unwrap_or(T::constant(0.0));
+    let mut sum = T::constant(0.0);
+    for number in numbers {
+        sum = sum + *number;
+    }
     T::bits(sum.absolute().less_than(T::constant(f64::INFINITY)))
 }
 
@@ -206,7 +209,11 @@ where
         &mut alignment,
     );
     let least = T::splat(T::Number::MIN_ROD_ALIGNMENT);
-    alignment.into_iter().fold(all_lanes::<T>(), |lanes, leg| lanes & T::bits(least.less_than(leg)))
+    let mut lanes = all_lanes::<T>();
+    for leg in &alignment {
+        lanes &= T::bits(least.less_than(*leg));
+    }
+    lanes
 }
 
 /// Writes the status of the states of a group; gives the lanes whose results are to be kept. `sound` are those in

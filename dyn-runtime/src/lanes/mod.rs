@@ -108,7 +108,8 @@ pub trait Kernel<S: Number> {
     type Output;
 
     /// The computation. To be marked `#[inline(always)]`, and all that it calls with lanes as well: what is inlined is
-    /// compiled for the processor's instructions, what is not is slow.
+    /// compiled for the processor's instructions, what is not is slow. Closures, and hence `array::map`, are not always
+    /// inlined: loops are safer.
     fn run<T: Lanes<Number = S>>(self) -> Self::Output;
 }
 

@@ -61,17 +61,20 @@ fn exchange_for_largest<T: Lanes, const N: usize>(
     }
     for below in column + 1..N {
         let here = (chosen - T::constant(below as f64)).absolute().less_than(T::constant(0.5));
-        let exchange = |a: &mut T, b: &mut T| {
-            (*a, *b) = (T::select(here, *b, *a), T::select(here, *a, *b));
-        };
         let (above, from_below) = rows.split_at_mut(below);
         let (pivot, row) = (&mut above[column], &mut from_below[0]);
         for k in column..N {
-            exchange(&mut pivot[k], &mut row[k]);
+            exchange(here, &mut pivot[k], &mut row[k]);
         }
         let (above, from_below) = right.split_at_mut(below);
-        exchange(&mut above[column], &mut from_below[0]);
+        exchange(here, &mut above[column], &mut from_below[0]);
         let (above, from_below) = scales.split_at_mut(below);
-        exchange(&mut above[column], &mut from_below[0]);
+        exchange(here, &mut above[column], &mut from_below[0]);
     }
+}
+
+/// Exchanges two numbers where the mask is true.
+#[inline(always)]
+fn exchange<T: Lanes>(here: T::Mask, a: &mut T, b: &mut T) {
+    (*a, *b) = (T::select(here, *b, *a), T::select(here, *a, *b));
 }
