@@ -164,8 +164,9 @@ mod tests {
             let mut rows = matrix(&mut random);
             // The sixth leg as the fifth but for ever less.
             let share = 10.0_f64.powi(-(k % 9));
-            for column in 0..6 {
-                rows[5][column] = rows[4][column] + share * rows[5][column];
+            let fifth = rows[4];
+            for (sixth, fifth) in rows[5].iter_mut().zip(fifth) {
+                *sixth = fifth + share * *sixth;
             }
             let Some(blocks) = Blocks::of(&rows) else { continue };
             let condition = jacobian_reciprocal_condition(&rows);
@@ -182,8 +183,9 @@ mod tests {
         let mut random = Pcg64::seed_from_u64(2);
         for _ in 0..200 {
             let mut rows = matrix(&mut random);
-            for column in 0..3 {
-                rows[4][column] = rows[0][column] - rows[2][column];
+            let [first, _, third, ..] = rows;
+            for (fifth, (first, third)) in rows[4].iter_mut().zip(first.iter().zip(third)).take(3) {
+                *fifth = first - third;
             }
             assert!(Blocks::of(&rows).is_none());
             let condition = jacobian_reciprocal_condition(&rows);

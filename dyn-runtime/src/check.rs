@@ -179,8 +179,7 @@ pub(crate) fn in_reach<T: Real>(
     base_position: &[T; 3],
     platform_position: &[T; 3],
 ) -> Result<(), Error> {
-    let stands =
-        |alignment: &T| (*alignment >= T::MIN_ROD_ALIGNMENT) & (*alignment - *alignment == T::zero());
+    let stands = |alignment: &T| (*alignment >= T::MIN_ROD_ALIGNMENT) & (alignment.vanishing() == T::zero());
     if rod_alignment.iter().fold(true, |all, alignment| all & stands(alignment)) {
         return Ok(());
     }

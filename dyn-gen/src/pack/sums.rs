@@ -219,6 +219,6 @@ fn write(builder: &mut Builder, images: &Images, sum: &SumOverLegs, partition: &
     });
     let first = builder.binary(Op::Add, lanes[0], lanes[1]);
     let of_legs = builder.binary(Op::Add, first, lanes[2]);
-    let total = sum.common.iter().fold(Some(of_legs), |total, term| Some(extended(builder, total, *term)));
-    Written { total: total.unwrap_or(of_legs), of_legs, lanes }
+    let total = sum.common.iter().fold(of_legs, |total, term| extended(builder, Some(total), *term));
+    Written { total, of_legs, lanes }
 }

@@ -19,12 +19,12 @@ macro_rules! has {
 
 /// Whether [`run_avx2`] may be called.
 pub(super) fn has_avx2() -> bool {
-    has!("avx2") && has!("fma")
+    [has!("avx2"), has!("fma")] == [true; 2]
 }
 
 /// Whether [`run_avx512`] may be called.
 pub(super) fn has_avx512() -> bool {
-    has_avx2() && has!("avx512f") && has!("avx512vl") && has!("avx512dq")
+    [has_avx2(), has!("avx512f"), has!("avx512vl"), has!("avx512dq")] == [true; 4]
 }
 
 /// Runs a kernel with lanes of AVX2 and FMA.
