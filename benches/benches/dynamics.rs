@@ -1,7 +1,7 @@
 //! Times of generated code beside everything it is compared with: ids `FUNCTION/IMPLEMENTATION/{throughput,latency}`.
 
 use std::path::Path;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use criterion::measurement::WallTime;
 use criterion::{BenchmarkGroup, BenchmarkId, Criterion};
@@ -11,7 +11,7 @@ use dyn_benches::cases::{Case, FUNCTIONS, IMPLEMENTATIONS, Visitor, all, check_a
 use dyn_benches::results::{SINGLE_CALLS, VARIANTS, results_folder, write_own};
 use dyn_benches::selection::Selection;
 use dyn_benches::states::{COUNT, States, platform, sampled};
-use dyn_benches::{CODEGEN, tail};
+use dyn_benches::{CODEGEN, batch, tail};
 
 fn main() {
     println!("compiled by {CODEGEN}");
@@ -19,7 +19,8 @@ fn main() {
     let states = States::new(&sampled(&platform));
     check_agreement(&platform, &states);
     let cases = all(&platform, &states);
-    let absent = |name: &&&str| cases.iter().all(|case| case.implementation != **name);
+    let absent =
+        |name: &&&str| **name != "generated_batch" && cases.iter().all(|case| case.implementation != **name);
     for name in IMPLEMENTATIONS.iter().filter(absent) {
         println!("absent: {name}");
     }
@@ -39,6 +40,7 @@ fn main() {
     for function in FUNCTIONS {
         let mut timer = Timer { group: criterion.benchmark_group(function), selection: &selection };
         visit(function, &platform, &states, &mut timer);
+        batch::visit(function, &states, |run| timer.batch(run));
         timer.group.finish();
     }
     criterion.final_summary();
@@ -54,6 +56,21 @@ fn main() {
 struct Timer<'a> {
     group: BenchmarkGroup<'a, WallTime>,
     selection: &'a Selection,
+}
+
+impl Timer<'_> {
+    /// A run computes a whole batch; the time is that of one state.
+    fn batch(&mut self, run: &mut dyn FnMut()) {
+        let id = BenchmarkId::new("generated_batch", "throughput");
+        self.group.bench_function(id, |bencher| {
+            bencher.iter_custom(|states| {
+                let runs = states.div_ceil(batch::STATES as u64);
+                let start = Instant::now();
+                (0..runs).for_each(|_| run());
+                start.elapsed().mul_f64(states as f64 / (runs * batch::STATES as u64) as f64)
+            });
+        });
+    }
 }
 
 impl Visitor for Timer<'_> {

@@ -24,6 +24,7 @@
 
 pub mod accuracy;
 pub mod angles;
+pub mod batch;
 pub mod budget;
 pub mod bundle;
 pub mod call;
