@@ -96,12 +96,13 @@ where
 fn moved<T: Lanes>(start: &PlatformLanes<T>, rates: &[T; 12], h: T) -> (PlatformLanes<T>, [T; 3]) {
     let phi = [rates[3] * h, rates[4] * h, rates[5] * h];
     let mut moved = *start;
-    for k in 0..3 {
-        moved.position[k] = mul_add(rates[k], h, start.position[k]);
-    }
-    for k in 0..6 {
-        moved.velocity[k] = mul_add(rates[6 + k], h, start.velocity[k]);
-    }
+    let (linear, accelerations) = (&rates[..3], &rates[6..]);
+    moved
+        .position
+        .iter_mut()
+        .zip(linear)
+        .for_each(|(position, rate)| *position = mul_add(*rate, h, *position));
+    moved.velocity.iter_mut().zip(accelerations).for_each(|(speed, rate)| *speed = mul_add(*rate, h, *speed));
     moved.rotation = turned(phi, &start.rotation);
     (moved, phi)
 }
