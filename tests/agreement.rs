@@ -125,40 +125,31 @@ fn functions_without_registers_give_the_interpreter_s_bits() {
     let packed = functions[0].in_lanes.as_ref().expect("inverse dynamics is generated in lanes");
     let in_arrays = unpack(&packed.graph);
     for (kind, state) in platforms::states(&file, &platform, 5) {
-        let bits = |function: fn(
-            &[f64; 3],
-            &[[f64; 3]; 3],
-            &[f64; 6],
-            &[f64; 6],
-            &[f64; 3],
-            &[[f64; 3]; 3],
-            &[f64; 6],
-            &[f64; 6],
-            &[f64; 6],
-            &mut [f64; 6],
-        )| {
-            let mut forces = [f64::NAN; 6];
-            function(
-                &array(&state["base_position"]),
-                &array(&state["base_rotation"]),
-                &array(&state["base_velocity"]),
-                &array(&state["base_acceleration"]),
-                &array(&state["platform_position"]),
-                &array(&state["platform_rotation"]),
-                &array(&state["platform_velocity"]),
-                &array(&state["platform_acceleration"]),
-                &array(&state["external_wrench"]),
-                &mut forces,
-            );
-            forces.map(f64::to_bits).to_vec()
-        };
+        macro_rules! bits {
+            ($function:expr) => {{
+                let mut forces = [f64::NAN; 6];
+                $function(
+                    &array(&state["base_position"]),
+                    &array(&state["base_rotation"]),
+                    &array(&state["base_velocity"]),
+                    &array(&state["base_acceleration"]),
+                    &array(&state["platform_position"]),
+                    &array(&state["platform_rotation"]),
+                    &array(&state["platform_velocity"]),
+                    &array(&state["platform_acceleration"]),
+                    &array(&state["external_wrench"]),
+                    &mut forces,
+                );
+                forces.map(f64::to_bits).to_vec()
+            }};
+        }
         let interpreted = |graph: &Graph| -> Vec<u64> {
             let outputs = graph.evaluate_with(AS_COMPILED, &state).unwrap();
             outputs["inverse_dynamics"].iter().map(|x| x.to_bits()).collect()
         };
-        let in_lanes = bits(uhp_2016::inverse_dynamics_in_lanes::<Portable<f64>>);
+        let in_lanes = bits!(uhp_2016::inverse_dynamics_in_lanes::<Portable<f64>>);
         assert_eq!(in_lanes, interpreted(&in_arrays), "{kind:?}, in lanes");
-        assert_eq!(bits(uhp_2016::inverse_dynamics::<f64>), interpreted(&functions[0].graph), "{kind:?}");
+        assert_eq!(bits!(uhp_2016::inverse_dynamics::<f64>), interpreted(&functions[0].graph), "{kind:?}");
     }
 }
 
