@@ -167,12 +167,14 @@ mod tests {
 
     #[test]
     fn rehearsals_repeat_the_cycle_before_and_are_not_measured() {
+        // Enough of them that a busy machine leaves time to some.
+        const CYCLES: usize = 2000;
         let mut cycles = Vec::new();
-        let run = run(3 * PERIOD, Waiting::Rehearsing, |cycle| cycles.push(cycle)).unwrap();
-        assert_eq!(run.model.len(), 3);
-        assert!(cycles.is_sorted() && cycles.len() > 3, "{cycles:?}");
+        let run = run(CYCLES as u32 * PERIOD, Waiting::Rehearsing, |cycle| cycles.push(cycle)).unwrap();
+        assert_eq!(run.model.len() as usize, CYCLES);
+        assert!(cycles.is_sorted() && cycles.len() > CYCLES);
         cycles.dedup();
-        assert_eq!(cycles, [0, 1, 2]);
+        assert!(cycles.into_iter().eq(0..CYCLES));
     }
 
     #[test]

@@ -38,9 +38,9 @@ fn functions_in_lanes_are_the_functions_as_derived() {
                     for (name, values) in &expected {
                         let scale = values.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
                         for (x, y) in values.iter().zip(&found[name]) {
-                            let error = (x - y).abs() / scale;
+                            let error = (x - y).abs();
                             let place = format!("{}: {}, {name}", platform.name, function.graph.name);
-                            assert!(error <= 1e-11, "{place}: {error:e}");
+                            assert!(error <= 1e-11 * scale, "{place}: {error:e}");
                         }
                     }
                 }
@@ -62,9 +62,9 @@ fn instructions(graph: &Graph) -> usize {
 fn most_operations_are_three_at_a_time_for_any_platform() {
     // Tilted axes cost more, as they do without lanes: fewer constants are zero.
     let limits = [
-        ("uhp_2016", [400, 540, 1250, 740]),
-        ("tilted_axes", [520, 720, 1650, 1000]),
-        ("ups_regular", [470, 640, 1300, 800]),
+        ("uhp_2016", [400, 540, 1400, 740]),
+        ("tilted_axes", [520, 720, 1900, 1000]),
+        ("ups_regular", [470, 640, 1400, 800]),
     ];
     for (name, limits) in limits {
         let platform = platforms().into_iter().find(|platform| platform.name == name).unwrap();
