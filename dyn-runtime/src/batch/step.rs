@@ -96,11 +96,11 @@ where
 fn moved<T: Lanes>(start: &PlatformLanes<T>, rates: &[T; 12], h: T) -> (PlatformLanes<T>, [T; 3]) {
     let phi = [rates[3] * h, rates[4] * h, rates[5] * h];
     let mut moved = *start;
-    for k in 0..3 {
-        moved.position[k] = mul_add(rates[k], h, start.position[k]);
+    for (position, rate) in moved.position.iter_mut().zip(rates) {
+        *position = mul_add(*rate, h, *position);
     }
-    for k in 0..6 {
-        moved.velocity[k] = mul_add(rates[6 + k], h, start.velocity[k]);
+    for (velocity, rate) in moved.velocity.iter_mut().zip(&rates[6..]) {
+        *velocity = mul_add(*rate, h, *velocity);
     }
     moved.rotation = turned(phi, &start.rotation);
     (moved, phi)
