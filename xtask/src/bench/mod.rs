@@ -61,6 +61,8 @@ pub fn bench(options: &Options) -> Result<(), Failure> {
     say(
         "measuring: figures of one run compare with each other, not with another run's; close other programs",
     );
+    // What an earlier run left would stand for what is absent now.
+    let _ = fs::remove_dir_all(bench.results());
     let mut measure = bench.cargo("native");
     measure.args(["bench", "--package", "dyn-benches", "--features", "peers", "--bench", "dynamics"]);
     measure.env("DYN_PEERS", &linked).env("CRITERION_HOME", bench.results());
