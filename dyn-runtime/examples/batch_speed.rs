@@ -46,9 +46,9 @@ impl<S: Number> Inputs<S> {
             let rows: [[S; 3]; 3] = pose.rotation.matrix().transpose().into();
             (pose.position_m.into(), rows.as_flattened().try_into().expect("nine"))
         };
-        let bodies: [(Vec<[S; 3]>, Vec<[S; 9]>); 2] =
-            [0.0, 0.382].map(|height| (0..STATES).map(|_| pose(height)).unzip());
-        let [(base_positions, base_rotations), (platform_positions, platform_rotations)] = bodies;
+        let mut body = |height| (0..STATES).map(|_| pose(height)).unzip();
+        let (base_positions, base_rotations): (Vec<_>, Vec<_>) = body(0.0);
+        let (platform_positions, platform_rotations): (Vec<_>, Vec<_>) = body(0.382);
         let sixes = [1.0, 5.0, 1.0, 5.0, 10.0]
             .map(|size| (0..STATES).map(|_| std::array::from_fn(|_| numbers(size))).collect::<Vec<_>>());
         let (positions, rotations) =

@@ -96,13 +96,12 @@ where
 fn moved<T: Lanes>(start: &PlatformLanes<T>, rates: &[T; 12], h: T) -> (PlatformLanes<T>, [T; 3]) {
     let phi = [rates[3] * h, rates[4] * h, rates[5] * h];
     let mut moved = *start;
-    let (linear, accelerations) = (&rates[..3], &rates[6..]);
-    moved
-        .position
-        .iter_mut()
-        .zip(linear)
-        .for_each(|(position, rate)| *position = mul_add(*rate, h, *position));
-    moved.velocity.iter_mut().zip(accelerations).for_each(|(speed, rate)| *speed = mul_add(*rate, h, *speed));
+    for (position, rate) in moved.position.iter_mut().zip(rates) {
+        *position = mul_add(*rate, h, *position);
+    }
+    for (velocity, rate) in moved.velocity.iter_mut().zip(&rates[6..]) {
+        *velocity = mul_add(*rate, h, *velocity);
+    }
     moved.rotation = turned(phi, &start.rotation);
     (moved, phi)
 }
