@@ -123,7 +123,9 @@ pub fn generate(
         .chain(in_lanes.map(|packed| &packed.graph))
         .collect();
     let print = |graph: &&Graph| emit::function(graph, !parameters.is_empty());
-    let sources = parallel::map(&graphs, print).into_iter().collect::<Result<Vec<_>, _>>()?;
+    let sources = parallel::map_largest_first(&graphs, |graph| graph.nodes.len(), print)
+        .into_iter()
+        .collect::<Result<Vec<_>, _>>()?;
     let with_lanes = functions.iter().filter(|function| function.in_lanes.is_some());
     let in_lanes: Vec<String> = with_lanes.map(|function| function.graph.name.clone()).collect();
     // A trait promises all outputs: a function with some of them is a free function only.
@@ -180,12 +182,14 @@ pub fn optimise(
     let chosen = choose(program, names)?;
     let context = context(program, numbers)?;
     let baked = numbers.platform().is_some() && numbers.run_time_parameters(program)?.is_empty();
-    let functions = parallel::map(&chosen, |function| {
+    // Twice the work for functions in lanes; the number of steps is as good a guess as any before they are flattened.
+    let in_lanes = |function: &Function| baked && IN_LANES.contains(&function.name.as_str());
+    let size = |function: &Function| function.steps.len() * (1 + usize::from(in_lanes(function)));
+    let functions = parallel::map_largest_first(&chosen, size, |function| {
         let graph = program.flatten(function);
         let before = graph.operation_count();
         let (graph, passes) = run_passes(&graph, &context);
-        let in_lanes =
-            (baked && IN_LANES.contains(&function.name.as_str())).then(|| pack(program, function, &context));
+        let in_lanes = in_lanes(function).then(|| pack(program, function, &context));
         GeneratedFunction { before, passes, graph, in_lanes }
     });
     functions.iter().try_for_each(GeneratedFunction::check_growth)?;

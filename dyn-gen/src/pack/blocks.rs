@@ -2,9 +2,11 @@
 //!
 //! With the matrix [A B; C D], the right-hand side [f; m], adj(A) = det(A) A^-1 and the unknowns [x; y]:
 //!
-//!     K = adj(A) B           q = adj(A) f
-//!     S = det(A) D - C K     g = det(A) m - C q          so that S y = g
-//!     y = adj(S) g / det(S)  x = (q - K y) / det(A)
+//! ```text
+//! K = adj(A) B           q = adj(A) f
+//! S = det(A) D - C K     g = det(A) m - C q          so that S y = g
+//! y = adj(S) g / det(S)  x = (q - K y) / det(A)
+//! ```
 //!
 //! Two divisions, of which only one waits for everything else. Rows of blocks, and rows of adjugates as cross products of
 //! them, stand in lanes by column.

@@ -15,8 +15,25 @@
 //! or make one, except a call that [`run`] gives it to, and `run` does so only on a processor that has them.
 
 mod portable;
-#[cfg(target_arch = "x86_64")]
+#[cfg(all(
+    target_arch = "x86_64",
+    any(feature = "std", all(target_feature = "avx2", target_feature = "fma"))
+))]
 mod x86;
+#[cfg(not(all(
+    target_arch = "x86_64",
+    any(feature = "std", all(target_feature = "avx2", target_feature = "fma"))
+)))]
+mod x86 {
+    /// Without `std` a processor cannot be asked, and code in registers is not made.
+    pub(super) fn available() -> bool {
+        false
+    }
+
+    pub(super) fn run<C: super::Call<f64>>(call: C) {
+        call.flat();
+    }
+}
 
 pub use portable::Portable;
 
@@ -68,20 +85,12 @@ pub trait Call<T> {
 /// Makes the call in the registers that suit three numbers, if the processor has such.
 #[inline(always)]
 pub fn run<C: Call<f64>>(call: C) {
-    #[cfg(target_arch = "x86_64")]
-    if x86::available() {
-        x86::run(call);
-        return;
-    }
-    call.flat();
+    if x86::available() { x86::run(call) } else { call.flat() }
 }
 
 /// Whether [`run`] uses registers, whose multiply-adds are rounded once.
 pub fn in_registers() -> bool {
-    #[cfg(target_arch = "x86_64")]
-    return x86::available();
-    #[cfg(not(target_arch = "x86_64"))]
-    false
+    x86::available()
 }
 
 /// The body of a model's method: a call of the function named first in lanes, or of the second one without.

@@ -20,10 +20,8 @@ use crate::float::Scalar;
 pub(super) fn available() -> bool {
     #[cfg(all(target_feature = "avx2", target_feature = "fma"))]
     return true;
-    #[cfg(all(feature = "std", not(all(target_feature = "avx2", target_feature = "fma"))))]
+    #[cfg(not(all(target_feature = "avx2", target_feature = "fma")))]
     return std::is_x86_feature_detected!("avx2") && std::is_x86_feature_detected!("fma");
-    #[cfg(not(any(feature = "std", all(target_feature = "avx2", target_feature = "fma"))))]
-    false
 }
 
 /// Makes the call in registers.
