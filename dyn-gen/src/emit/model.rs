@@ -52,8 +52,8 @@ pub struct Model<'a> {
     pub runtime: &'a RuntimePath,
     /// What stays a run-time number, in the order of the fields.
     pub parameters: &'a [Symbol],
-    /// The types of number for which the model implements the kernel traits; its functions take any. Code for the first
-    /// is made in the crate that the file belongs to, once; for the others where a function is called.
+    /// The types of number for which the model implements the kernel traits; its functions take any. Code is made where a
+    /// function is called; inside the runtime crate, for the first type, with the crate.
     pub scalars: &'a [Scalar],
     /// Their values until others are given, flat, in the same order; none for a model of any platform.
     pub defaults: Option<&'a [Vec<f64>]>,
@@ -125,7 +125,8 @@ fn items(model: &Model) -> Result<Vec<TokenStream>, EmitError> {
         if model.scalars[..place].contains(&scalar) {
             continue;
         }
-        let inline = (place > 0).then(|| quote!(#[inline]));
+        // A model inside the runtime crate is compiled there, once; of any other, what a program calls.
+        let inline = (place > 0 || *model.runtime != RuntimePath::inside()).then(|| quote!(#[inline]));
         for signature in model.signatures {
             items.push(implementation(model, signature, scalar, &inline)?);
         }

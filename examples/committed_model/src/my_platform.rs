@@ -33,6 +33,7 @@ pub struct MyPlatform;
 
 #[allow(clippy::all, clippy::pedantic, unused_qualifications)]
 impl ::dyn_runtime::kernels::RodAlignment for MyPlatform {
+    #[inline]
     fn rod_alignment(
         &self,
         base_position: &[f64; 3],
@@ -53,6 +54,7 @@ impl ::dyn_runtime::kernels::RodAlignment for MyPlatform {
 
 #[allow(clippy::all, clippy::pedantic, unused_qualifications)]
 impl ::dyn_runtime::kernels::JacobianDp for MyPlatform {
+    #[inline]
     fn jacobian_dp(
         &self,
         base_position: &[f64; 3],
@@ -73,6 +75,7 @@ impl ::dyn_runtime::kernels::JacobianDp for MyPlatform {
 
 #[allow(clippy::all, clippy::pedantic, unused_qualifications)]
 impl ::dyn_runtime::kernels::InverseDynamics for MyPlatform {
+    #[inline]
     fn inverse_dynamics(
         &self,
         base_position: &[f64; 3],
