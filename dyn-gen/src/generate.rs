@@ -24,7 +24,8 @@ const PIVOT_SEED: u64 = 1;
 pub const MOST_GROWTH: f64 = 1e4;
 
 /// Functions that are also printed in lanes: those that a control loop or a simulation waits for.
-pub const IN_LANES: [&str; 4] = ["inverse_dynamics", "forward_dynamics", "matrices", "control"];
+pub const IN_LANES: [&str; 5] =
+    ["inverse_dynamics", "forward_dynamics", "matrices", "control", "actuator_geometry"];
 
 /// What to generate.
 #[derive(Clone, PartialEq, Eq, Debug)]

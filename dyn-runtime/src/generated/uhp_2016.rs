@@ -529,14 +529,11 @@ impl crate::kernels::ActuatorGeometry for Uhp2016 {
         actuator_length: &mut [f64; 6],
         jacobian_dp: &mut [[f64; 6]; 6],
     ) {
-        self::actuator_geometry(
-            base_position,
-            base_rotation,
-            platform_position,
-            platform_rotation,
-            rod_alignment,
-            actuator_length,
-            jacobian_dp,
+        crate::single_state!(
+            actuator_geometry_in_lanes, actuator_geometry; base_position : [f64; 3],
+            base_rotation : [[f64; 3]; 3], platform_position : [f64; 3],
+            platform_rotation : [[f64; 3]; 3]; rod_alignment : [f64; 6], actuator_length
+            : [f64; 6], jacobian_dp : [[f64; 6]; 6]
         );
     }
 }
@@ -24238,6 +24235,322 @@ pub fn inverse_dynamics_in_lanes<P: Triple>(
     inverse_dynamics[4] = P::lane(t273, 2);
     // leg 6: actuator forces F
     inverse_dynamics[5] = P::lane(t269, 2);
+}
+
+/// Actuator lengths with their gradients, for forward kinematics, equation (18), (32).
+///
+/// Inputs:
+///
+/// - `base_position`: 3, m, frame O: origin of the base frame.
+/// - `base_rotation`: 3x3, dimensionless, frame B -> O: rotation of the base, equation (2).
+/// - `platform_position`: 3, m, frame O: centre of the platform's joint circle.
+/// - `platform_rotation`: 3x3, dimensionless, frame P -> O: rotation of the platform, equation (2).
+///
+/// Outputs:
+///
+/// - `rod_alignment`: 6, dimensionless: squared cosine between rod and line of the actuator's force; negative out of reach, equation (18).
+/// - `actuator_length`: 6, m: actuator length d, equation (18).
+/// - `jacobian_dp`: 6x6, 1, m, frame O: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b, equation (32).
+#[allow(clippy::all, clippy::pedantic, unused_variables)]
+#[inline(always)]
+pub fn actuator_geometry_in_lanes<P: Triple>(
+    base_position: &[P::Lane; 3],
+    base_rotation: &[[P::Lane; 3]; 3],
+    platform_position: &[P::Lane; 3],
+    platform_rotation: &[[P::Lane; 3]; 3],
+    rod_alignment: &mut [P::Lane; 6],
+    actuator_length: &mut [P::Lane; 6],
+    jacobian_dp: &mut [[P::Lane; 6]; 6],
+) {
+    let c = <P::Lane as Scalar>::constant;
+    let w = <P as Scalar>::constant;
+    // constant and copied elements
+    let t1 = P::triple([base_rotation[1][0], base_rotation[1][1], base_rotation[1][2]]);
+    let t2 = P::triple([base_rotation[0][0], base_rotation[0][1], base_rotation[0][2]]);
+    let t3 = P::triple([base_rotation[2][0], base_rotation[2][1], base_rotation[2][2]]);
+    // rotation of the platform seen from the base
+    let t4 = mul_add(
+        t2,
+        P::splat(platform_rotation[0][1]),
+        t1 * P::splat(platform_rotation[1][1]),
+    );
+    let t5 = mul_add(
+        t2,
+        P::splat(platform_rotation[0][0]),
+        t1 * P::splat(platform_rotation[1][0]),
+    );
+    // platform origin seen from the base
+    let t6 = t1 * P::splat(platform_position[1] - base_position[1]);
+    // constant and copied elements
+    let t7 = P::triple([
+        c(-0.03105828541230249),
+        c(0.03105828541230249),
+        c(0.1159110991546882),
+    ]);
+    let t8 = P::triple([
+        c(0.1159110991546882),
+        c(0.1159110991546882),
+        c(-0.031058285412302475),
+    ]);
+    // rotation of the platform seen from the base
+    let t9 = mul_add(t3, P::splat(platform_rotation[2][1]), t4);
+    let t10 = mul_add(t3, P::splat(platform_rotation[2][0]), t5);
+    // platform origin seen from the base
+    let t11 = mul_add(t2, P::splat(platform_position[0] - base_position[0]), t6);
+    // constant and copied elements
+    let t12 = P::triple([
+        c(0.08485281374238571),
+        c(-0.08485281374238571),
+        c(-0.1159110991546882),
+    ]);
+    let t13 = P::triple([
+        c(-0.0848528137423857),
+        c(-0.0848528137423857),
+        c(-0.031058285412302475),
+    ]);
+    // platform origin seen from the base
+    let t14 = mul_add(t3, P::splat(platform_position[2] - base_position[2]), t11);
+    // legs 1, 2, 3: platform joint from the base point
+    let t15 = P::triple([
+        c(-0.1316436662914507),
+        c(-0.1316436662914507),
+        c(-0.040491189781895726),
+    ]);
+    // legs 4, 5, 6: platform joint from the base point
+    let t16 = P::triple([
+        c(0.17213485607334636),
+        c(0.17213485607334636),
+        c(-0.040491189781895726),
+    ]);
+    // legs 1, 2, 3: platform joint from the platform origin
+    let t17 = mul_add(t8, P::splat(P::lane(t10, 0)), t7 * P::splat(P::lane(t9, 0)));
+    let t18 = mul_add(t8, P::splat(P::lane(t10, 1)), t7 * P::splat(P::lane(t9, 1)));
+    // legs 4, 5, 6: platform joint from the platform origin
+    let t19 = mul_add(t13, P::splat(P::lane(t10, 1)), t12 * P::splat(P::lane(t9, 1)));
+    let t20 = mul_add(t13, P::splat(P::lane(t10, 0)), t12 * P::splat(P::lane(t9, 0)));
+    // legs 1, 2, 3: platform joint from the base point
+    let t21 = P::triple([
+        c(0.12275970481124972),
+        c(-0.12275970481124972),
+        c(-0.17538661166134234),
+    ]);
+    // legs 4, 5, 6: platform joint from the base point
+    let t22 = P::triple([
+        c(-0.052626906850092664),
+        c(0.052626906850092664),
+        c(0.17538661166134234),
+    ]);
+    // legs 1, 2, 3: platform joint from the base point
+    let t23 = t15 + (P::splat(P::lane(t14, 0)) + t17);
+    // legs 1, 2, 3: platform joint from the platform origin
+    let t24 = mul_add(t8, P::splat(P::lane(t10, 2)), t7 * P::splat(P::lane(t9, 2)));
+    // legs 4, 5, 6: platform joint from the platform origin
+    let t25 = mul_add(t13, P::splat(P::lane(t10, 2)), t12 * P::splat(P::lane(t9, 2)));
+    // legs 1, 2, 3: platform joint from the base point
+    let t26 = t21 + (t18 + P::splat(P::lane(t14, 1)));
+    // legs 4, 5, 6: platform joint from the base point
+    let t27 = t22 + (t19 + P::splat(P::lane(t14, 1)));
+    let t28 = t16 + (P::splat(P::lane(t14, 0)) + t20);
+    // legs 1, 2, 3: platform joint from the platform origin
+    let t29 = mul_add(
+        P::splat(platform_rotation[0][0]),
+        t8,
+        P::splat(platform_rotation[0][1]) * t7,
+    );
+    // legs 4, 5, 6: platform joint from the platform origin
+    let t30 = mul_add(
+        P::splat(platform_rotation[0][0]),
+        t13,
+        P::splat(platform_rotation[0][1]) * t12,
+    );
+    // legs 1, 2, 3: platform joint from the platform origin
+    let t31 = mul_add(
+        P::splat(platform_rotation[1][0]),
+        t8,
+        P::splat(platform_rotation[1][1]) * t7,
+    );
+    // legs 1, 2, 3: platform joint from the base point
+    let t32 = t24 + P::splat(P::lane(t14, 2));
+    // legs 4, 5, 6: platform joint from the platform origin
+    let t33 = mul_add(
+        P::splat(platform_rotation[1][0]),
+        t13,
+        P::splat(platform_rotation[1][1]) * t12,
+    );
+    // legs 4, 5, 6: platform joint from the base point
+    let t34 = t25 + P::splat(P::lane(t14, 2));
+    // legs 1, 2, 3: extent of the rod along the actuator axis
+    let t35 = w(0.042435999999999995) - mul_add(t23, t23, t26 * t26);
+    // legs 4, 5, 6: extent of the rod along the actuator axis
+    let t36 = w(0.042435999999999995) - mul_add(t28, t28, t27 * t27);
+    // legs 1, 2, 3: platform joint from the platform origin
+    let t37 = mul_add(
+        P::splat(platform_rotation[2][0]),
+        t8,
+        P::splat(platform_rotation[2][1]) * t7,
+    );
+    // legs 1, 2, 3: extent of the rod along the actuator axis
+    let t38 = sqrt(t35);
+    // legs 4, 5, 6: extent of the rod along the actuator axis
+    let t39 = sqrt(t36);
+    // legs 4, 5, 6: platform joint from the platform origin
+    let t40 = mul_add(
+        P::splat(platform_rotation[2][0]),
+        t13,
+        P::splat(platform_rotation[2][1]) * t12,
+    );
+    // legs 1, 2, 3: squared cosine between rod and line of the actuator's force; negative out of reach
+    let t41 = w(23.564897728343862) * t35;
+    // legs 4, 5, 6: squared cosine between rod and line of the actuator's force; negative out of reach
+    let t42 = w(23.564897728343862) * t36;
+    // legs 1, 2, 3: reciprocal of that extent
+    let t43 = w(1.0) / t38;
+    // legs 4, 5, 6: reciprocal of that extent
+    let t44 = w(1.0) / t39;
+    // legs 1, 2, 3: actuator length d
+    let t45 = t32 - t38;
+    // legs 4, 5, 6: actuator length d
+    let t46 = t34 - t39;
+    // legs 1, 2, 3: gradient of the actuator length by the platform joint
+    let t47 = t26 * t43;
+    // legs 4, 5, 6: gradient of the actuator length by the platform joint
+    let t48 = t27 * t44;
+    // legs 1, 2, 3: gradient of the actuator length by the platform joint
+    let t49 = t23 * t43;
+    // legs 4, 5, 6: gradient of the actuator length by the platform joint
+    let t50 = t28 * t44;
+    // legs 1, 2, 3: gradient of the actuator length
+    let t51 = mul_add(
+        P::splat(base_rotation[0][0]),
+        t49,
+        P::splat(base_rotation[0][1]) * t47,
+    );
+    // legs 4, 5, 6: gradient of the actuator length
+    let t52 = mul_add(
+        P::splat(base_rotation[0][0]),
+        t50,
+        P::splat(base_rotation[0][1]) * t48,
+    );
+    // legs 1, 2, 3: gradient of the actuator length
+    let t53 = mul_add(
+        P::splat(base_rotation[1][0]),
+        t49,
+        P::splat(base_rotation[1][1]) * t47,
+    );
+    // legs 4, 5, 6: gradient of the actuator length
+    let t54 = mul_add(
+        P::splat(base_rotation[1][0]),
+        t50,
+        P::splat(base_rotation[1][1]) * t48,
+    );
+    // legs 1, 2, 3: gradient of the actuator length
+    let t55 = mul_add(
+        P::splat(base_rotation[2][0]),
+        t49,
+        P::splat(base_rotation[2][1]) * t47,
+    );
+    // legs 4, 5, 6: gradient of the actuator length
+    let t56 = mul_add(
+        P::splat(base_rotation[2][0]),
+        t50,
+        P::splat(base_rotation[2][1]) * t48,
+    );
+    // legs 1, 2, 3: gradient of the actuator length
+    let t57 = P::splat(base_rotation[0][2]) + t51;
+    // legs 4, 5, 6: gradient of the actuator length
+    let t58 = P::splat(base_rotation[0][2]) + t52;
+    // legs 1, 2, 3: gradient of the actuator length
+    let t59 = P::splat(base_rotation[1][2]) + t53;
+    // legs 4, 5, 6: gradient of the actuator length
+    let t60 = P::splat(base_rotation[1][2]) + t54;
+    // legs 1, 2, 3: gradient of the actuator length
+    let t61 = P::splat(base_rotation[2][2]) + t55;
+    // legs 4, 5, 6: gradient of the actuator length
+    let t62 = P::splat(base_rotation[2][2]) + t56;
+    // legs 1, 2, 3: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+    let t63 = mul_sub(t29, t59, t31 * t57);
+    // legs 4, 5, 6: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+    let t64 = mul_sub(t30, t60, t33 * t58);
+    // legs 1, 2, 3: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+    let t65 = mul_sub(t31, t61, t37 * t59);
+    // legs 4, 5, 6: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+    let t66 = mul_sub(t33, t62, t40 * t60);
+    // legs 1, 2, 3: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+    let t67 = mul_sub(t37, t57, t29 * t61);
+    // legs 4, 5, 6: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+    let t68 = mul_sub(t40, t58, t30 * t62);
+    // leg 1: squared cosine between rod and line of the actuator's force; negative out of reach
+    rod_alignment[0] = P::lane(t41, 0);
+    // leg 2: squared cosine between rod and line of the actuator's force; negative out of reach
+    rod_alignment[1] = P::lane(t41, 1);
+    // leg 3: squared cosine between rod and line of the actuator's force; negative out of reach
+    rod_alignment[2] = P::lane(t41, 2);
+    // leg 4: squared cosine between rod and line of the actuator's force; negative out of reach
+    rod_alignment[3] = P::lane(t42, 0);
+    // leg 5: squared cosine between rod and line of the actuator's force; negative out of reach
+    rod_alignment[4] = P::lane(t42, 1);
+    // leg 6: squared cosine between rod and line of the actuator's force; negative out of reach
+    rod_alignment[5] = P::lane(t42, 2);
+    // leg 1: actuator length d
+    actuator_length[0] = P::lane(t45, 0);
+    // leg 2: actuator length d
+    actuator_length[1] = P::lane(t45, 1);
+    // leg 3: actuator length d
+    actuator_length[2] = P::lane(t45, 2);
+    // leg 4: actuator length d
+    actuator_length[3] = P::lane(t46, 0);
+    // leg 5: actuator length d
+    actuator_length[4] = P::lane(t46, 1);
+    // leg 6: actuator length d
+    actuator_length[5] = P::lane(t46, 2);
+    // leg 1: gradient of the actuator length
+    jacobian_dp[0][0] = P::lane(t57, 0);
+    jacobian_dp[0][1] = P::lane(t59, 0);
+    jacobian_dp[0][2] = P::lane(t61, 0);
+    // leg 1: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+    jacobian_dp[0][3] = P::lane(t65, 0);
+    jacobian_dp[0][4] = P::lane(t67, 0);
+    jacobian_dp[0][5] = P::lane(t63, 0);
+    // leg 2: gradient of the actuator length
+    jacobian_dp[1][0] = P::lane(t57, 1);
+    jacobian_dp[1][1] = P::lane(t59, 1);
+    jacobian_dp[1][2] = P::lane(t61, 1);
+    // leg 2: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+    jacobian_dp[1][3] = P::lane(t65, 1);
+    jacobian_dp[1][4] = P::lane(t67, 1);
+    jacobian_dp[1][5] = P::lane(t63, 1);
+    // leg 3: gradient of the actuator length
+    jacobian_dp[2][0] = P::lane(t57, 2);
+    jacobian_dp[2][1] = P::lane(t59, 2);
+    jacobian_dp[2][2] = P::lane(t61, 2);
+    // leg 3: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+    jacobian_dp[2][3] = P::lane(t65, 2);
+    jacobian_dp[2][4] = P::lane(t67, 2);
+    jacobian_dp[2][5] = P::lane(t63, 2);
+    // leg 4: gradient of the actuator length
+    jacobian_dp[3][0] = P::lane(t58, 0);
+    jacobian_dp[3][1] = P::lane(t60, 0);
+    jacobian_dp[3][2] = P::lane(t62, 0);
+    // leg 4: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+    jacobian_dp[3][3] = P::lane(t66, 0);
+    jacobian_dp[3][4] = P::lane(t68, 0);
+    jacobian_dp[3][5] = P::lane(t64, 0);
+    // leg 5: gradient of the actuator length
+    jacobian_dp[4][0] = P::lane(t58, 1);
+    jacobian_dp[4][1] = P::lane(t60, 1);
+    jacobian_dp[4][2] = P::lane(t62, 1);
+    // leg 5: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+    jacobian_dp[4][3] = P::lane(t66, 1);
+    jacobian_dp[4][4] = P::lane(t68, 1);
+    jacobian_dp[4][5] = P::lane(t64, 1);
+    // leg 6: gradient of the actuator length
+    jacobian_dp[5][0] = P::lane(t58, 2);
+    jacobian_dp[5][1] = P::lane(t60, 2);
+    jacobian_dp[5][2] = P::lane(t62, 2);
+    // leg 6: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+    jacobian_dp[5][3] = P::lane(t66, 2);
+    jacobian_dp[5][4] = P::lane(t68, 2);
+    jacobian_dp[5][5] = P::lane(t64, 2);
 }
 
 /// What a controller by inverse dynamics needs, in one call, equation (18), (30), (32), (49).
