@@ -28,9 +28,9 @@ pub enum CountError {
 /// What the program that counts runs under valgrind.
 #[derive(Clone, Debug)]
 pub struct Workload<'a> {
-    /// One of [`FUNCTIONS`].
+    /// One of [`FUNCTIONS`](crate::cases::FUNCTIONS).
     pub function: &'a str,
-    /// One of [`IMPLEMENTATIONS`].
+    /// One of [`IMPLEMENTATIONS`](crate::cases::IMPLEMENTATIONS).
     pub implementation: &'a str,
     /// Which of its variants; empty where there is one.
     pub variant: &'a str,

@@ -84,8 +84,8 @@
 //!
 //! # Features
 //!
-//! Off by default. `std`: square roots come from `std` instead of libm, results keep their bits; batches ask the processor for
-//! its instructions. `rayon`: batches in several threads.
+//! Off by default. `std`: square roots come from `std` instead of libm, results keep their bits; batches and single
+//! calls ask the processor for its instructions, see [`triple`]. `rayon`: batches in several threads.
 
 #![no_std]
 // Lanes are made of intrinsics: two modules allow them and say why. Generated code forbids it.

@@ -9,6 +9,9 @@ use crate::graph::{Builder, Environment, Evaluator, Graph, Node, NodeId, Solve, 
 /// Expands symmetric positive definite solves, stable in any order, and general ones whose matrix depends on no parameter, in
 /// the pivot order of least growth over `context.states`. Any other general solve is left for pivoting at run time.
 pub fn expand(graph: &Graph, context: &Context, orders: &mut Vec<PivotOrder>) -> Graph {
+    if graph.solves.is_empty() {
+        return graph.clone();
+    }
     let mut builder = Builder::with_sections_of(graph);
     let mut images = Images::new(graph);
     let mut solutions: Vec<Option<Vec<NodeId>>> = vec![None; graph.solves.len()];

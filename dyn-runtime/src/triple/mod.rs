@@ -107,6 +107,8 @@ macro_rules! single_state {
             fn in_lanes<P: $crate::triple::Triple<Lane = f64>>(self) {
                 self::$in_lanes::<P>($(self.$input,)* $(self.$output),*);
             }
+            // Where it is called, like the method: a library that nobody calls it in need not compile it.
+            #[inline]
             fn flat(self) {
                 self::$flat($(self.$input,)* $(self.$output),*);
             }
