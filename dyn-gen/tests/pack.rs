@@ -62,9 +62,9 @@ fn instructions(graph: &Graph) -> usize {
 fn most_operations_are_three_at_a_time_for_any_platform() {
     // Tilted axes cost more, as they do without lanes: fewer constants are zero.
     let limits = [
-        ("uhp_2016", [400, 540, 1400, 740, 90]),
-        ("tilted_axes", [520, 720, 1900, 1000, 130]),
-        ("ups_regular", [470, 640, 1400, 800, 110]),
+        ("uhp_2016", [400, 540, 1400, 740, 105]),
+        ("tilted_axes", [520, 720, 1900, 1000, 150]),
+        ("ups_regular", [470, 640, 1400, 800, 130]),
     ];
     for (name, limits) in limits {
         let platform = platforms().into_iter().find(|platform| platform.name == name).unwrap();
