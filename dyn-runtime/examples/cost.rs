@@ -160,6 +160,25 @@ fn main() -> Result<(), Error> {
                 black_box(hexapod.forward_kinematics(black_box(&base.pose), &legs.actuator_length_m, &near));
         }),
     );
+    let (at, angles, quaternion) = (base.pose.position_m, [0.02, -0.01, 1.3], [0.5, -0.5, 0.5, 0.5]);
+    row(
+        "Pose::from_paper_angles",
+        time(|| {
+            black_box(Pose::from_paper_angles(black_box(at), black_box(angles)));
+        }),
+    );
+    row(
+        "sines and cosines of its angles, by std",
+        time(|| {
+            black_box(black_box(angles).map(f64::sin_cos));
+        }),
+    );
+    row(
+        "Pose::from_quaternion",
+        time(|| {
+            let _ = black_box(Pose::from_quaternion(black_box(at), black_box(quaternion)));
+        }),
+    );
     Ok(())
 }
 

@@ -17,7 +17,7 @@ pub const MIN_COS_C2: f64 = <f64 as Real>::MIN_COS_C2;
 /// `R = Rz(c3) Ry(c2) Rx(c1)` (2): body coordinates to coordinates in the frame that the angles refer to, O
 /// for base and platform.
 pub fn rotation<T: Real>(angles: [T; 3]) -> Rotation3<T> {
-    let [(s1, c1), (s2, c2), (s3, c3)] = angles.map(sin_cos);
+    let [(s1, c1), (s2, c2), (s3, c3)] = T::sine_cosines(angles);
     #[rustfmt::skip]
     let matrix = Matrix3::new(
         c3 * c2, c3 * s2 * s1 - s3 * c1, c3 * s2 * c1 + s3 * s1,
@@ -77,7 +77,7 @@ pub fn angular_acceleration<T: Real>(
     second_derivatives: [T; 3],
 ) -> Vector3<T> {
     let zero = T::zero();
-    let [_, (s2, c2), (s3, c3)] = angles.map(sin_cos);
+    let [_, (s2, c2), (s3, c3)] = T::sine_cosines(angles);
     let [_, r2, r3] = rates;
     #[rustfmt::skip]
     let rate_matrix_derivative = Matrix3::new(
@@ -104,7 +104,7 @@ pub fn angle_rates<T: Real>(
     angles: [T; 3],
     angular_velocity_rad_s: Vector3<T>,
 ) -> Result<[T; 3], GimbalLock> {
-    let [_, (s2, c2), (s3, c3)] = angles.map(sin_cos);
+    let [_, (s2, c2), (s3, c3)] = T::sine_cosines(angles);
     if !c2.is_finite() || c2.abs() < T::MIN_COS_C2 {
         return Err(GimbalLock { cos_c2: c2.to_f64() });
     }
@@ -115,7 +115,7 @@ pub fn angle_rates<T: Real>(
 
 /// The matrix of [`angular_velocity`].
 fn rate_matrix<T: Real>(angles: [T; 3]) -> Matrix3<T> {
-    let [_, (s2, c2), (s3, c3)] = angles.map(sin_cos);
+    let [_, (s2, c2), (s3, c3)] = T::sine_cosines(angles);
     let (zero, one) = (T::zero(), T::one());
     #[rustfmt::skip]
     let matrix = Matrix3::new(

@@ -107,6 +107,13 @@ pub struct NotARotation {
     pub determinant: f64,
 }
 
+/// A quaternion whose norm is not 1.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct NotAUnitQuaternion {
+    /// `|q|^2`, 1 for a rotation; NaN if a component is not finite.
+    pub norm_squared: f64,
+}
+
 /// Angles too near `c2 = +-pi/2`, where the paper's angles have no rates.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct GimbalLock {
@@ -206,6 +213,16 @@ impl fmt::Display for NotARotation {
     }
 }
 
+impl fmt::Display for NotAUnitQuaternion {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(
+            f,
+            "not a unit quaternion: its norm squared is {}; divide it by its norm, and check that it has arrived whole",
+            self.norm_squared
+        )
+    }
+}
+
 impl fmt::Display for GimbalLock {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(
@@ -218,6 +235,8 @@ impl fmt::Display for GimbalLock {
 }
 
 impl error::Error for NotARotation {}
+
+impl error::Error for NotAUnitQuaternion {}
 
 impl error::Error for GimbalLock {}
 

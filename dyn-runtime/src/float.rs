@@ -1,8 +1,8 @@
 //! The numbers that generated functions compute with, and the elementary functions that `core` lacks.
 //!
 //! A square root is correctly rounded everywhere, so the fastest one at hand is used. Trigonometric functions
-//! differ by one unit in the last place between C libraries: they come from libm on every host, so that a
-//! pose made from angles, or angles from a pose, have the same bits everywhere.
+//! differ by one unit in the last place between C libraries: sine and cosine are this crate's own, the arc tangent comes
+//! from libm on every host, so that a pose made from angles, or angles from a pose, have the same bits everywhere.
 
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
@@ -114,7 +114,8 @@ pub fn neg_mul_add<T: Scalar>(a: T, b: T, c: T) -> T {
     (-a).multiply_add(b, c)
 }
 
-/// Sine and cosine of an angle in radians, in this order.
+/// Sine and cosine of an angle in radians, in this order, see [`Real::sine_cosine`].
+#[inline]
 pub fn sin_cos<T: Real>(angle: T) -> (T, T) {
     angle.sine_cosine()
 }

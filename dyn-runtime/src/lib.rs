@@ -117,6 +117,7 @@ mod matrices;
 mod monitor;
 mod real;
 mod state;
+mod trigonometry;
 
 pub mod angles;
 pub mod batch;
@@ -136,7 +137,7 @@ pub use check::{
 pub use control::Control;
 pub use energy::Energy;
 pub use equation_of_motion::EquationOfMotion;
-pub use error::{Error, GimbalLock, Input, NotARotation};
+pub use error::{Error, GimbalLock, Input, NotARotation, NotAUnitQuaternion};
 pub use forces::{GeneralisedForces, PassiveForces};
 pub use forward_kinematics::ForwardKinematics;
 pub use generated::kernels;

@@ -3,6 +3,7 @@
 use nalgebra::RealField;
 
 use crate::float::Scalar;
+use crate::trigonometry;
 
 /// The number type of [`Hexapod`](crate::Hexapod) and its states: `f64` or `f32`.
 ///
@@ -51,8 +52,12 @@ pub trait Real: RealField + Scalar + Copy + Default + sealed::Sealed {
     /// locked, and `c3` for 0: a few units in the last place of 1.
     const LOCKED_COS_C2: Self;
 
-    /// Sine and cosine of an angle in radians, in this order; libm's on every host.
+    /// Sine and cosine of an angle in radians, in this order; NaN where it is not finite. Within 0.85 units in the last place,
+    /// and the same bits on every host and in every build. Sine is exactly odd, cosine exactly even.
     fn sine_cosine(self) -> (Self, Self);
+
+    /// [`sine_cosine`](Self::sine_cosine) of three angles: the same bits, on processors with AVX2 in one go.
+    fn sine_cosines(angles: [Self; 3]) -> [(Self, Self); 3];
 
     /// Angle of the point (x, self) in radians, `-pi` to `pi`; 0 for 0 and x = 0; libm's on every host.
     fn arc_tangent(self, x: Self) -> Self;
@@ -78,8 +83,14 @@ impl Real for f64 {
     const MIN_COS_C2: Self = 1e-6;
     const LOCKED_COS_C2: Self = 1e-15;
 
+    #[inline]
     fn sine_cosine(self) -> (Self, Self) {
-        libm::sincos(self)
+        trigonometry::of_one(self)
+    }
+
+    #[inline]
+    fn sine_cosines(angles: [Self; 3]) -> [(Self, Self); 3] {
+        trigonometry::of_three(&angles)
     }
 
     fn arc_tangent(self, x: Self) -> Self {
@@ -100,8 +111,14 @@ impl Real for f32 {
     const MIN_COS_C2: Self = 1e-4;
     const LOCKED_COS_C2: Self = 5e-7;
 
+    #[inline]
     fn sine_cosine(self) -> (Self, Self) {
-        libm::sincosf(self)
+        trigonometry::of_one(self)
+    }
+
+    #[inline]
+    fn sine_cosines(angles: [Self; 3]) -> [(Self, Self); 3] {
+        trigonometry::of_three(&angles)
     }
 
     fn arc_tangent(self, x: Self) -> Self {

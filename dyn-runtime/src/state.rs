@@ -8,7 +8,7 @@ use nalgebra::{Matrix3, Rotation3, UnitQuaternion, Vector3, Vector6};
 use crate::angles;
 use crate::arrays::{self, FromRows};
 use crate::check::rotation_defect;
-use crate::error::NotARotation;
+use crate::error::{NotARotation, NotAUnitQuaternion};
 use crate::real::Real;
 
 /// Position and orientation of a body frame, B or P, in O.
@@ -92,7 +92,45 @@ impl<T: Real> Pose<T> {
         Self { position_m, rotation: angles::rotation(angles_rad) }
     }
 
-    /// From a position (m, O) and the unit quaternion that rotates the body frame's coordinates into O.
+    /// From a position (m, O) and the four numbers of a unit quaternion, as an inertial measurement unit gives them: **`[w, x,
+    /// y, z]`, the real part first**, turning coordinates in the body frame into coordinates in O. Where the device puts w
+    /// last, or turns O into the body, reorder or negate x, y and z before. `q` and `-q` are the same rotation.
+    ///
+    /// What rounding left of the norm (single precision is good enough) is divided out.
+    ///
+    /// ```
+    /// use dyn_runtime::{Pose, nalgebra::Vector3};
+    ///
+    /// // A quarter turn about z: the body's x axis points along O's y axis.
+    /// let half = std::f64::consts::FRAC_PI_4;
+    /// let pose = Pose::from_quaternion(Vector3::zeros(), [half.cos(), 0.0, 0.0, half.sin()])?;
+    /// assert!((pose.rotation * Vector3::x() - Vector3::y()).norm() < 1e-15);
+    /// # Ok::<(), dyn_runtime::NotAUnitQuaternion>(())
+    /// ```
+    ///
+    /// # Errors
+    /// If `|q|^2` differs from 1 by more than [`Real::MAX_ROTATION_DEVIATION`], or is not finite.
+    pub fn from_quaternion(position_m: Vector3<T>, [w, x, y, z]: [T; 4]) -> Result<Self, NotAUnitQuaternion> {
+        let (one, two) = (T::one(), T::constant(2.0));
+        let norm_squared = (w * w + x * x) + (y * y + z * z);
+        let deviation = (norm_squared - one).abs();
+        // NaN as well.
+        if !(deviation <= T::MAX_ROTATION_DEVIATION) {
+            return Err(NotAUnitQuaternion { norm_squared: norm_squared.to_f64() });
+        }
+        let scale = two / norm_squared;
+        let (sx, sy, sz) = (scale * x, scale * y, scale * z);
+        #[rustfmt::skip]
+        let matrix = Matrix3::new(
+            one - (sy * y + sz * z), sx * y - sz * w,         sx * z + sy * w,
+            sx * y + sz * w,         one - (sx * x + sz * z), sy * z - sx * w,
+            sx * z - sy * w,         sy * z + sx * w,         one - (sx * x + sy * y),
+        );
+        Ok(Self { position_m, rotation: Rotation3::from_matrix_unchecked(matrix) })
+    }
+
+    /// From a position (m, O) and nalgebra's unit quaternion that rotates the body frame's coordinates into O; the caller
+    /// knows its norm, see [`from_quaternion`](Self::from_quaternion).
     pub fn from_unit_quaternion(position_m: Vector3<T>, quaternion: &UnitQuaternion<T>) -> Self {
         Self { position_m, rotation: quaternion.to_rotation_matrix() }
     }

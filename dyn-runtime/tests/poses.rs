@@ -36,6 +36,38 @@ fn three_representations_give_one_pose() {
 }
 
 #[test]
+fn a_quaternion_has_its_real_part_first_and_needs_norm_one() {
+    let mut random = Pcg64::seed_from_u64(11);
+    let position = Vector3::new(0.1, -0.2, 0.3);
+    for _ in 0..1_000 {
+        let quaternion = UnitQuaternion::new(Vector3::from_fn(|_, _| random.random_range(-3.0..3.0)));
+        let [x, y, z, w]: [f64; 4] = quaternion.coords.into();
+        let expected = quaternion.to_rotation_matrix();
+        for [w, x, y, z] in [[w, x, y, z], [-w, -x, -y, -z]] {
+            let pose = Pose::from_quaternion(position, [w, x, y, z]).expect("norm 1");
+            assert_eq!(pose.position_m, position);
+            assert!((pose.rotation.matrix() - expected.matrix()).amax() < 1e-15);
+            // Single precision passes, and a rotation is left.
+            let single = [w, x, y, z].map(|number| f64::from(number as f32));
+            let rotation =
+                Pose::from_quaternion(position, single).expect("norm 1 in single precision").rotation;
+            assert!((rotation.matrix() - expected.matrix()).amax() < 5e-7);
+            assert!((rotation.matrix().transpose() * rotation.matrix() - Matrix3::identity()).amax() < 2e-15);
+        }
+    }
+    let scaled = |norm_squared: f64| {
+        Pose::from_quaternion(position, [0.5, -0.5, 0.5, 0.5].map(|number| number * norm_squared.sqrt()))
+    };
+    assert!(scaled(1.0 + 0.999 * MAX_ROTATION_DEVIATION).is_ok());
+    assert!(scaled(1.0 - 0.999 * MAX_ROTATION_DEVIATION).is_ok());
+    assert!(scaled(1.0 + 1.001 * MAX_ROTATION_DEVIATION).is_err());
+    let refused = scaled(4.0).expect_err("norm 2");
+    assert_eq!(refused.norm_squared, 4.0);
+    assert!(refused.to_string().contains("its norm squared is 4"), "{refused}");
+    assert!(scaled(f64::NAN).is_err() && scaled(f64::INFINITY).is_err() && scaled(0.0).is_err());
+}
+
+#[test]
 fn composing_poses_transforms_points() {
     let base = Pose::from_paper_angles(Vector3::new(1.0, 2.0, 3.0), [0.3, -0.4, 0.5]);
     let home = Pose::from_paper_angles(Vector3::new(0.0, 0.1, 0.4), [-0.1, 0.2, 0.7]);

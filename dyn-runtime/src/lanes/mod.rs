@@ -62,6 +62,7 @@ pub use model::{Generic, InLanes};
 
 use crate::float::Scalar;
 use crate::real::Real;
+use crate::trigonometry;
 
 /// Several numbers side by side.
 ///
@@ -100,6 +101,17 @@ pub trait Lanes: Scalar + 'static {
 
     /// Bit k is lane k.
     fn bits(mask: Self::Mask) -> u32;
+
+    /// Sine and cosine of `angle`, from those of a rest and a number whose last bits say by how many quarter turns the
+    /// magnitude of the angle is larger.
+    #[doc(hidden)]
+    fn turned(sine: Self, cosine: Self, quarter_turns: Self, angle: Self) -> (Self, Self);
+}
+
+/// Sine and cosine of angles in radians, in this order; in every lane the bits of [`float::sin_cos`](crate::float::sin_cos).
+#[inline(always)]
+pub fn sin_cos<T: Lanes>(angle: T) -> (T, T) {
+    trigonometry::sine_cosine(angle)
 }
 
 /// A computation that is generic in the lanes.
@@ -118,6 +130,12 @@ pub trait Number: Real {
     /// [`Instructions::run`].
     #[doc(hidden)]
     fn run_with<K: Kernel<Self>>(instructions: Instructions, kernel: K) -> K::Output;
+
+    #[doc(hidden)]
+    const SINE_COSINE: &'static trigonometry::Constants;
+
+    #[doc(hidden)]
+    fn sine_cosine_of_libm(self) -> (Self, Self);
 }
 
 /// Instructions that this processor has.
@@ -161,6 +179,16 @@ impl Instructions {
         Self::available().next().unwrap_or(Self(Set::Portable))
     }
 
+    /// For a few numbers of one state: the widest registers would slow down all that follows.
+    #[inline]
+    pub(crate) fn of_single_states() -> Self {
+        #[cfg(target_arch = "x86_64")]
+        if x86::has_avx2() {
+            return Self(Set::Avx2);
+        }
+        Self(Set::Portable)
+    }
+
     /// All that this processor has, the widest first.
     pub fn available() -> impl Iterator<Item = Self> {
         Set::ALL.iter().copied().filter(|set| set.available()).map(Self)
@@ -200,8 +228,14 @@ pub fn run<S: Number, K: Kernel<S>>(kernel: K) -> K::Output {
 }
 
 macro_rules! number {
-    ($number:ident, $avx2:ident, $avx512:ident) => {
+    ($number:ident, $avx2:ident, $avx512:ident, $constants:ident, $libm:ident) => {
         impl Number for $number {
+            const SINE_COSINE: &'static trigonometry::Constants = &trigonometry::$constants;
+
+            fn sine_cosine_of_libm(self) -> (Self, Self) {
+                libm::$libm(self)
+            }
+
             #[inline]
             fn run_with<K: Kernel<Self>>(instructions: Instructions, kernel: K) -> K::Output {
                 match instructions.0 {
@@ -217,8 +251,8 @@ macro_rules! number {
         }
     };
 }
-number!(f64, F64x4, F64x8);
-number!(f32, F32x8, F32x16);
+number!(f64, F64x4, F64x8, OF_F64, sincos);
+number!(f32, F32x8, F32x16, OF_F32, sincosf);
 
 /// The first numbers of a slice that is shorter than there are lanes.
 #[cfg(target_arch = "x86_64")]

@@ -4,7 +4,7 @@
 use super::Lanes;
 
 macro_rules! single {
-    ($number:ident) => {
+    ($number:ident, $bits:ident) => {
         impl Lanes for $number {
             type Number = Self;
             type Mask = bool;
@@ -56,8 +56,22 @@ macro_rules! single {
             fn bits(mask: bool) -> u32 {
                 mask.into()
             }
+
+            #[inline(always)]
+            fn turned(sine: Self, cosine: Self, quarter_turns: Self, angle: Self) -> (Self, Self) {
+                const SIGN: $bits = 1 << ($bits::BITS - 1);
+                let (sine, cosine) = (sine.to_bits(), cosine.to_bits());
+                let quarter_turns = quarter_turns.to_bits();
+                let exchange = (sine ^ cosine) & (quarter_turns & 1).wrapping_neg();
+                let sine_sign = ((quarter_turns << ($bits::BITS - 2)) ^ angle.to_bits()) & SIGN;
+                let cosine_sign = (quarter_turns.wrapping_add(1) << ($bits::BITS - 2)) & SIGN;
+                (
+                    Self::from_bits(sine ^ exchange ^ sine_sign),
+                    Self::from_bits(cosine ^ exchange ^ cosine_sign),
+                )
+            }
         }
     };
 }
-single!(f64);
-single!(f32);
+single!(f64, u64);
+single!(f32, u32);

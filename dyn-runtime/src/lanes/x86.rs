@@ -53,7 +53,9 @@ macro_rules! lanes {
         absolute |$absolute_of:ident| $absolute:expr,
         less_than |$less:ident, $greater:ident| $less_than:expr,
         select |$mask_value:ident, $chosen:ident, $other:ident| $select:expr,
-        bits |$bits_of:ident| $bits:expr
+        bits |$bits_of:ident| $bits:expr,
+        integers $to_integers:ident $from_integers:ident $set1_integer:ident $add_integers:ident $and:ident $shift:ident, last $last:literal,
+        odd |$odd_of:ident| $odd:expr
     ) => {
         $(#[$doc])*
         #[derive(Clone, Copy)]
@@ -169,6 +171,22 @@ macro_rules! lanes {
                 let $bits_of = mask;
                 $bits
             }
+
+            #[inline(always)]
+            fn turned(sine: Self, cosine: Self, quarter_turns: Self, angle: Self) -> (Self, Self) {
+                // SAFETY: a value of this type exists only where its instructions do.
+                let (odd, sine_sign, cosine_sign) = unsafe {
+                    let turns = $to_integers(quarter_turns.0);
+                    let next = $add_integers(turns, $set1_integer(1));
+                    let sign = |turns| $from_integers($shift::<{ $last - 1 }>(turns));
+                    let minus = $set1(-0.0);
+                    let $odd_of = $shift::<$last>(turns);
+                    ($odd, $and($xor(sign(turns), angle.0), minus), $and(sign(next), minus))
+                };
+                let (new_sine, new_cosine) = (Self::select(odd, cosine, sine), Self::select(odd, sine, cosine));
+                // SAFETY: the same.
+                unsafe { (Self($xor(new_sine.0, sine_sign)), Self($xor(new_cosine.0, cosine_sign))) }
+            }
         }
 
         impl $name {
@@ -203,7 +221,10 @@ lanes! {
     less_than |a, b| _mm256_cmp_pd::<_CMP_LT_OQ>(a, b),
     select |mask, a, b| _mm256_blendv_pd(b, a, mask),
     // SAFETY: masks come from `less_than`.
-    bits |mask| unsafe { _mm256_movemask_pd(mask) } as u32
+    bits |mask| unsafe { _mm256_movemask_pd(mask) } as u32,
+    integers _mm256_castpd_si256 _mm256_castsi256_pd _mm256_set1_epi64x _mm256_add_epi64 _mm256_and_pd _mm256_slli_epi64, last 63,
+    // The mask of a selection is the sign bit.
+    odd |last| _mm256_castsi256_pd(last)
 }
 
 lanes! {
@@ -215,7 +236,9 @@ lanes! {
     less_than |a, b| _mm256_cmp_ps::<_CMP_LT_OQ>(a, b),
     select |mask, a, b| _mm256_blendv_ps(b, a, mask),
     // SAFETY: masks come from `less_than`.
-    bits |mask| unsafe { _mm256_movemask_ps(mask) } as u32
+    bits |mask| unsafe { _mm256_movemask_ps(mask) } as u32,
+    integers _mm256_castps_si256 _mm256_castsi256_ps _mm256_set1_epi32 _mm256_add_epi32 _mm256_and_ps _mm256_slli_epi32, last 31,
+    odd |last| _mm256_castsi256_ps(last)
 }
 
 lanes! {
@@ -226,7 +249,9 @@ lanes! {
     absolute |a| _mm512_abs_pd(a),
     less_than |a, b| _mm512_cmp_pd_mask::<_CMP_LT_OQ>(a, b),
     select |mask, a, b| _mm512_mask_blend_pd(mask, b, a),
-    bits |mask| u32::from(mask)
+    bits |mask| u32::from(mask),
+    integers _mm512_castpd_si512 _mm512_castsi512_pd _mm512_set1_epi64 _mm512_add_epi64 _mm512_and_pd _mm512_slli_epi64, last 63,
+    odd |last| _mm512_movepi64_mask(last)
 }
 
 lanes! {
@@ -237,5 +262,7 @@ lanes! {
     absolute |a| _mm512_abs_ps(a),
     less_than |a, b| _mm512_cmp_ps_mask::<_CMP_LT_OQ>(a, b),
     select |mask, a, b| _mm512_mask_blend_ps(mask, b, a),
-    bits |mask| u32::from(mask)
+    bits |mask| u32::from(mask),
+    integers _mm512_castps_si512 _mm512_castsi512_ps _mm512_set1_epi32 _mm512_add_epi32 _mm512_and_ps _mm512_slli_epi32, last 31,
+    odd |last| _mm512_movepi32_mask(last)
 }
