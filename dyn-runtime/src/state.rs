@@ -114,7 +114,7 @@ impl<T: Real> Pose<T> {
         let (one, two) = (T::one(), T::constant(2.0));
         let norm_squared = (w * w + x * x) + (y * y + z * z);
         let deviation = (norm_squared - one).abs();
-        if deviation.is_nan() || deviation > T::MAX_ROTATION_DEVIATION {
+        if !deviation.is_finite() || deviation > T::MAX_ROTATION_DEVIATION {
             return Err(NotAUnitQuaternion { norm_squared: norm_squared.to_f64() });
         }
         let scale = two / norm_squared;
