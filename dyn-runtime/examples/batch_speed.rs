@@ -172,7 +172,7 @@ fn matrices(instructions: Instructions) {
 /// A step of a simulation in which the base and the forces are the same for all platforms.
 fn steps<M>(model: &M, name: &str, instructions: Instructions)
 where
-    M: InLanes<f64> + RodAlignment + generic::RodAlignment + generic::ForwardDynamics + Sync,
+    M: InLanes<f64> + RodAlignment + generic::ActuatorGeometry + generic::ForwardDynamics + Sync,
 {
     const STEPS: usize = 10;
     let inputs = Inputs::<f64>::new();
@@ -197,6 +197,8 @@ where
                 velocity: ColumnMut::states(&mut velocity),
                 rms_acceleration: None,
                 peak_acceleration: None,
+                shortest_length: None,
+                longest_length: None,
                 steps: &mut made,
             };
             black_box(&batch).simulate(1e-4, &instants, simulated, &mut status).expect("lengths");

@@ -265,6 +265,8 @@ impl<'a, M> Batch<'a, M> {
     ///     velocity: ColumnMut::states(&mut velocity),
     ///     rms_acceleration: Some(ColumnMut::states(&mut rms)),
     ///     peak_acceleration: None,
+    ///     shortest_length: None,
+    ///     longest_length: None,
     ///     steps: &mut steps,
     /// };
     /// Batch::new(&Uhp2016).simulate(1e-4, &[instant; 201], simulated, &mut status)?;
@@ -285,7 +287,7 @@ impl<'a, M> Batch<'a, M> {
         status: &mut [Status],
     ) -> Result<(), LengthError>
     where
-        M: InLanes<S> + RodAlignment<S> + generic::RodAlignment + generic::ForwardDynamics + Sync,
+        M: InLanes<S> + RodAlignment<S> + generic::ActuatorGeometry + generic::ForwardDynamics + Sync,
     {
         let count = status.len();
         self.check_models(count)?;

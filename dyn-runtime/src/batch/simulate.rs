@@ -2,7 +2,7 @@
 
 use super::column::all_lanes;
 use super::models::Models;
-use super::states::{PlatformLanes, finite, flat, reached, rows};
+use super::states::{PlatformLanes, finite, flat, lengths, rows};
 use super::step::step;
 use super::{BaseColumns, Column, ColumnMut, LengthError, PlatformColumns, States, Status};
 use crate::error::{Error, Input};
@@ -34,6 +34,10 @@ pub struct Simulated<'a, S> {
     pub rms_acceleration: Option<ColumnMut<'a, S, 6>>,
     /// Largest magnitude of each component of v_p' at these times, m/s^2 and rad/s^2.
     pub peak_acceleration: Option<ColumnMut<'a, S, 6>>,
+    /// Least length of each actuator at these times, m; infinite if no step was made.
+    pub shortest_length: Option<ColumnMut<'a, S, 6>>,
+    /// Largest length of each actuator at these times, m; minus infinity if no step was made.
+    pub longest_length: Option<ColumnMut<'a, S, 6>>,
     /// How many steps were made.
     pub steps: &'a mut [usize],
 }
@@ -46,16 +50,20 @@ impl<S: Number> Instant<'_, S> {
     }
 }
 
-impl<S: Number> Simulated<'_, S> {
+impl<'a, S: Number> Simulated<'a, S> {
     pub(super) fn check(&self, states: usize) -> Result<(), LengthError> {
         self.position.check("position", states)?;
         self.rotation.check("rotation", states)?;
         self.velocity.check("velocity", states)?;
-        if let Some(column) = &self.rms_acceleration {
-            column.check("rms_acceleration", states)?;
-        }
-        if let Some(column) = &self.peak_acceleration {
-            column.check("peak_acceleration", states)?;
+        for (argument, column) in [
+            ("rms_acceleration", &self.rms_acceleration),
+            ("peak_acceleration", &self.peak_acceleration),
+            ("shortest_length", &self.shortest_length),
+            ("longest_length", &self.longest_length),
+        ] {
+            if let Some(column) = column {
+                column.check(argument, states)?;
+            }
         }
         match self.steps.len() {
             found if found != states => Err(LengthError { argument: "steps", expected: states, found }),
@@ -68,18 +76,31 @@ impl<S: Number> Simulated<'_, S> {
         let (position, position_after) = self.position.split(state);
         let (rotation, rotation_after) = self.rotation.split(state);
         let (velocity, velocity_after) = self.velocity.split(state);
-        let (rms_acceleration, rms_after) = self.rms_acceleration.map(|column| column.split(state)).unzip();
-        let (peak_acceleration, peak_after) =
-            self.peak_acceleration.map(|column| column.split(state)).unzip();
+        let split = |column: Option<ColumnMut<'a, S, 6>>| column.map(|column| column.split(state)).unzip();
+        let (rms_acceleration, rms_after) = split(self.rms_acceleration);
+        let (peak_acceleration, peak_after) = split(self.peak_acceleration);
+        let (shortest_length, shortest_after) = split(self.shortest_length);
+        let (longest_length, longest_after) = split(self.longest_length);
         let (steps, steps_after) = self.steps.split_at_mut(state);
         (
-            Self { position, rotation, velocity, rms_acceleration, peak_acceleration, steps },
+            Self {
+                position,
+                rotation,
+                velocity,
+                rms_acceleration,
+                peak_acceleration,
+                shortest_length,
+                longest_length,
+                steps,
+            },
             Self {
                 position: position_after,
                 rotation: rotation_after,
                 velocity: velocity_after,
                 rms_acceleration: rms_after,
                 peak_acceleration: peak_after,
+                shortest_length: shortest_after,
+                longest_length: longest_after,
                 steps: steps_after,
             },
         )
@@ -104,11 +125,13 @@ struct Group<T> {
     steps: T,
     squares: [T; 6],
     peaks: [T; 6],
+    shortest: [T; 6],
+    longest: [T; 6],
 }
 
 impl<M, S: Number> Kernel<S> for Simulation<'_, M, S>
 where
-    M: InLanes<S> + RodAlignment<S> + generic::RodAlignment + generic::ForwardDynamics,
+    M: InLanes<S> + RodAlignment<S> + generic::ActuatorGeometry + generic::ForwardDynamics,
 {
     type Output = ();
 
@@ -133,14 +156,16 @@ where
                 steps: zero,
                 squares: [zero; 6],
                 peaks: [zero; 6],
+                shortest: [T::constant(f64::INFINITY); 6],
+                longest: [T::constant(f64::NEG_INFINITY); 6],
             };
             for instants in instants.windows(3).step_by(2) {
                 let base = instants[0].base.load::<T>(input);
-                let reached = reached::<M, T>(&parameters, &base, &group.platform);
+                let (lengths, reached) = lengths::<M, T>(&parameters, &base, &group.platform);
                 let (end, acceleration, sound) =
                     step::<M, T>(&parameters, &group.platform, T::splat(step_s), instants, input);
                 let sound = sound & reached & finite(&acceleration);
-                group.advance(&end, &acceleration, sound);
+                group.advance(&end, &acceleration, &lengths, sound);
             }
             let all = all_lanes::<T>();
             simulated.position.store(first, &group.platform.position, all);
@@ -154,8 +179,14 @@ where
                 }
                 column.store(first, &rms, all);
             }
-            if let Some(column) = &mut simulated.peak_acceleration {
-                column.store(first, &group.peaks, all);
+            for (column, numbers) in [
+                (&mut simulated.peak_acceleration, &group.peaks),
+                (&mut simulated.shortest_length, &group.shortest),
+                (&mut simulated.longest_length, &group.longest),
+            ] {
+                if let Some(column) = column {
+                    column.store(first, numbers, all);
+                }
             }
             let steps = &mut simulated.steps[first..];
             group.steps.for_each(|lane, made| {
@@ -179,7 +210,7 @@ where
 impl<T: Lanes> Group<T> {
     /// The lanes in which the step was sound go on to `end`, the others stay.
     #[inline(always)]
-    fn advance(&mut self, end: &PlatformLanes<T>, acceleration: &[T; 6], sound: u32) {
+    fn advance(&mut self, end: &PlatformLanes<T>, acceleration: &[T; 6], lengths: &[T; 6], sound: u32) {
         let (zero, half) = (T::constant(0.0), T::constant(0.5));
         if sound != all_lanes::<T>() {
             let sound =
@@ -202,6 +233,12 @@ impl<T: Lanes> Group<T> {
             let size = T::select(moving, component.absolute(), zero);
             self.squares[k] = mul_add(size, size, self.squares[k]);
             self.peaks[k] = T::select(self.peaks[k].less_than(size), size, self.peaks[k]);
+        }
+        for (k, length) in lengths.iter().enumerate() {
+            let shortest = T::select(moving, *length, self.shortest[k]);
+            let longest = T::select(moving, *length, self.longest[k]);
+            self.shortest[k] = T::select(shortest.less_than(self.shortest[k]), shortest, self.shortest[k]);
+            self.longest[k] = T::select(self.longest[k].less_than(longest), longest, self.longest[k]);
         }
     }
 }
@@ -235,7 +272,7 @@ fn why_stopped<M: RodAlignment<S>, S: Number>(
 #[cfg(feature = "rayon")]
 impl<M, S: Number> super::Job<S> for Simulation<'_, M, S>
 where
-    M: InLanes<S> + RodAlignment<S> + generic::RodAlignment + generic::ForwardDynamics + Sync,
+    M: InLanes<S> + RodAlignment<S> + generic::ActuatorGeometry + generic::ForwardDynamics + Sync,
 {
     fn count(&self) -> usize {
         self.status.len()

@@ -208,9 +208,41 @@ where
         &platform.rotation,
         &mut alignment,
     );
+    aligned(&alignment)
+}
+
+/// Lengths of the actuators, m, and the same lanes as [`reached`].
+#[inline(always)]
+pub(super) fn lengths<M, T>(
+    parameters: &M::Parameters<T>,
+    base: &BaseLanes<T>,
+    platform: &PlatformLanes<T>,
+) -> ([T; 6], u32)
+where
+    M: InLanes<T::Number> + generic::ActuatorGeometry,
+    T: Lanes,
+{
+    let zeros = [T::constant(0.0); 6];
+    let (mut alignment, mut lengths, mut jacobian) = (zeros, zeros, [zeros; 6]);
+    M::actuator_geometry(
+        parameters,
+        &base.position,
+        &base.rotation,
+        &platform.position,
+        &platform.rotation,
+        &mut alignment,
+        &mut lengths,
+        &mut jacobian,
+    );
+    (lengths, aligned(&alignment))
+}
+
+/// The lanes in which no `(u.a)^2` is too small.
+#[inline(always)]
+fn aligned<T: Lanes>(alignment: &[T; 6]) -> u32 {
     let least = T::splat(T::Number::MIN_ROD_ALIGNMENT);
     let mut lanes = all_lanes::<T>();
-    for leg in &alignment {
+    for leg in alignment {
         lanes &= T::bits(least.less_than(*leg));
     }
     lanes
