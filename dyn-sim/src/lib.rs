@@ -28,6 +28,7 @@
 //! | [`prototype`] | the same by an independent multibody engine |
 //! | [`spectrum`], [`compare`] | complex amplitudes, errors |
 //! | [`experiment`], [`outcome`] | all of it in order, and what it leaves |
+//! | [`sweep`] | many designs or starts at once |
 //! | [`report`] | tables, curves and figures on disk |
 
 pub mod adaptive;
@@ -47,3 +48,4 @@ pub mod scenario;
 pub mod simulate;
 pub mod spectrum;
 pub mod stop;
+pub mod sweep;

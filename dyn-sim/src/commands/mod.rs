@@ -2,6 +2,7 @@
 
 mod progress;
 mod run;
+mod sweep;
 
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -45,8 +46,30 @@ Examples:
   dyn-sim reproduce --scenario large     the same where every term of the equations counts
   dyn-sim run my_experiment.toml         your own scenario; scenarios/README.md describes the file
   dyn-sim check my_experiment.toml       only look for mistakes in it
+  dyn-sim sweep my_sweep.toml            the scenario for thousands of designs or starts at once
 
 Exit codes: 0 done, 1 refused or failed, 2 wrong usage, 3 the motion ended early and what came before was kept.";
+
+const SWEEP_EXAMPLES: &str = "\
+A sweep file, complete:
+  version = 1
+  name = \"payload_and_springs\"
+  scenario = \"my_experiment.toml\"
+  [[vary]]
+  platform = \"payload.mass_kg\"                        # a number of the platform file
+  from = 5.0
+  to = 7.0
+  steps = 21
+  [[vary]]
+  platform = \"legs.axial_stiffness_n_per_m\"
+  values = [15000.0, 20000.0, 25000.0]
+
+Examples:
+  dyn-sim sweep my_sweep.toml                 63 designs: table, figures, page
+  dyn-sim sweep my_sweep.toml --threads 1     leave the other processors to others
+  dyn-sim sweep my_sweep.toml --json          every design, for other programs
+
+scenarios/README.md describes the file: random tolerances, starts, held platforms.";
 
 #[derive(Subcommand)]
 enum Command {
@@ -64,6 +87,14 @@ enum Command {
         file: PathBuf,
         #[command(flatten)]
         options: Options,
+    },
+    /// Compute a scenario for many designs of the platform, or from many starts
+    #[command(after_help = SWEEP_EXAMPLES)]
+    Sweep {
+        /// The sweep file: a scenario, and what varies
+        file: PathBuf,
+        #[command(flatten)]
+        options: sweep::Options,
     },
     /// Check a scenario file and run nothing
     Check {
@@ -85,6 +116,10 @@ pub fn run(arguments: Arguments) -> miette::Result<Ending> {
         Command::Run { file, options } => {
             let command = format!("{TOOL} run {}", file.display());
             run::run(&file, &options, &command)
+        }
+        Command::Sweep { file, options } => {
+            let command = format!("{TOOL} sweep {}", file.display());
+            sweep::run(&file, &options, &command)
         }
         Command::Check { file } => run::check(&file),
     }

@@ -50,7 +50,7 @@ pub fn scenario_file(scenario: &str) -> Result<PathBuf> {
 }
 
 /// The root of the repository, searched upwards from the current folder and then from where this tool was built.
-fn repository() -> Option<PathBuf> {
+pub fn repository() -> Option<PathBuf> {
     let current = std::env::current_dir().unwrap_or_default();
     let built_in = Path::new(env!("CARGO_MANIFEST_DIR"));
     let mut folders = current.ancestors().chain(built_in.ancestors());
@@ -142,14 +142,14 @@ fn times(outcome: &Outcome, writing_s: f64) -> String {
 }
 
 /// Prints to standard output; a reader that has heard enough (`| head`) is no error.
-fn print(text: &str) -> Result<()> {
+pub fn print(text: &str) -> Result<()> {
     match std::io::stdout().write_all(text.as_bytes()) {
         Err(error) if error.kind() == ErrorKind::BrokenPipe => Ok(()),
         result => result.into_diagnostic().wrap_err("cannot print"),
     }
 }
 
-fn default_folder(root: Option<&Path>, name: &str) -> PathBuf {
+pub fn default_folder(root: Option<&Path>, name: &str) -> PathBuf {
     match root {
         Some(root) => target_directory(root).join("dyn-sim").join(name),
         None => format!("dyn-sim-{name}").into(),

@@ -11,6 +11,8 @@ pub(super) struct Curve {
     /// Ascending.
     pub(super) x: Vec<f64>,
     pub(super) y: Vec<f64>,
+    /// Points by themselves instead of a line through them; all are drawn.
+    pub(super) dots: bool,
 }
 
 /// One frame with its curves.
@@ -44,7 +46,7 @@ pub(super) struct Figure {
     pub(super) title: String,
     /// What to see in it, in a sentence or two.
     pub(super) caption: String,
-    pub(super) x_label: &'static str,
+    pub(super) x_label: String,
     /// What of the horizontal axis is shown.
     pub(super) x_range: [f64; 2],
     pub(super) scale: Scale,
@@ -188,6 +190,11 @@ impl Figure {
             svg.line([across, top], [across, top + height], GRID);
         }
         for curve in &panel.curves {
+            if curve.dots {
+                let points = curve.x.iter().zip(&curve.y).map(|(x, y)| [frame.across(*x), frame.down(*y)]);
+                svg.dots(points, self.legend[curve.entry].1);
+                continue;
+            }
             let kept = decimate(&curve.x, &curve.y, frame.x, width as usize);
             let points = kept.into_iter().map(|i| [frame.across(curve.x[i]), frame.down(curve.y[i])]);
             svg.curve(points, self.legend[curve.entry].1);
@@ -221,7 +228,7 @@ impl Figure {
             svg.text(at, &fixed(tick, decimals), Font { anchor: "middle", ..TICK });
         }
         let middle = frame.left + frame.width / 2.0;
-        svg.text([middle, below + 35.0], self.x_label, Font { anchor: "middle", ..TEXT });
+        svg.text([middle, below + 35.0], &self.x_label, Font { anchor: "middle", ..TEXT });
     }
 }
 
@@ -232,7 +239,7 @@ mod tests {
 
     #[test]
     fn a_figure_of_two_panels() {
-        let curve = |y: [f64; 3]| Curve { entry: 0, x: vec![0.0, 0.5, 1.0], y: y.into() };
+        let curve = |y: [f64; 3]| Curve { entry: 0, x: vec![0.0, 0.5, 1.0], y: y.into(), dots: false };
         let column = |heading, y| Column {
             heading,
             unit: "N",
@@ -242,7 +249,7 @@ mod tests {
             name: "force".into(),
             title: "Forces".into(),
             caption: String::new(),
-            x_label: "time, s",
+            x_label: "time, s".into(),
             x_range: [0.0, 1.0],
             scale: Scale::Linear,
             columns: vec![column("left", [0.0, 2e-3, -2e-3]), column("right", [1.0, f64::NAN, 1.0])],

@@ -66,7 +66,7 @@ impl Line<'_> {
     fn curve(&self, i: usize) -> Curve {
         let count = self.x.len().min(self.samples.len());
         let y = self.samples[..count].iter().map(|sample| sample[i]).collect();
-        Curve { entry: self.entry, x: self.x[..count].to_vec(), y }
+        Curve { entry: self.entry, x: self.x[..count].to_vec(), y, dots: false }
     }
 }
 
@@ -88,7 +88,7 @@ fn base(outcome: &Outcome, analysis: &Analysis) -> Figure {
         name: "base_acceleration".into(),
         title: "Base disturbance".into(),
         caption: format!("Acceleration of the base, inertial axes. {}", window_words(outcome, window)),
-        x_label: "time, s",
+        x_label: "time, s".into(),
         x_range: window,
         scale: Scale::Linear,
         columns: acceleration_columns(&[Line {
@@ -119,7 +119,7 @@ fn platform(outcome: &Outcome, analysis: &Analysis) -> Figure {
             "Acceleration of the platform (centre of its joint circle), inertial axes. {}",
             window_words(outcome, window)
         ),
-        x_label: "time, s",
+        x_label: "time, s".into(),
         x_range: window,
         scale: Scale::Linear,
         columns: acceleration_columns(&lines),
@@ -137,7 +137,7 @@ fn difference(outcome: &Outcome, analysis: &Analysis, index: usize) -> Figure {
         caption: format!(
             "Acceleration of the platform by {label} minus the wanted one, over the whole run; mind the units."
         ),
-        x_label: "time, s",
+        x_label: "time, s".into(),
         x_range: whole_run(outcome),
         scale: Scale::Linear,
         columns: acceleration_columns(&[Line {
@@ -180,7 +180,7 @@ fn actuator_forces(outcome: &Outcome, analysis: &Analysis) -> Option<Figure> {
             "Force of each actuator on its mover, positive away from the base. {}",
             window_words(outcome, window)
         ),
-        x_label: "time, s",
+        x_label: "time, s".into(),
         x_range: window,
         scale: Scale::Linear,
         columns: leg_columns(&outcome.base.time_s, forces, "force", "N", &|leg| format!("leg {}", leg + 1)),
@@ -207,7 +207,7 @@ fn actuator_lengths(outcome: &Outcome, analysis: &Analysis) -> Option<Figure> {
             "Length of each actuator less its mean, which stands above the curve. {}",
             window_words(outcome, window)
         ),
-        x_label: "time, s",
+        x_label: "time, s".into(),
         x_range: window,
         scale: Scale::Linear,
         columns: leg_columns(&outcome.base.time_s, &about_mean, "length less mean", "m", &label),
@@ -268,7 +268,7 @@ fn spectra(analysis: &Analysis) -> Option<Figure> {
         name: "spectra".into(),
         title: "Amplitude spectra of the platform\u{2019}s acceleration".into(),
         caption,
-        x_label: "frequency, Hz",
+        x_label: "frequency, Hz".into(),
         x_range: [0.0, highest],
         scale: Scale::Logarithmic { floor: SPECTRUM_FLOOR },
         columns: acceleration_columns(&lines),

@@ -11,6 +11,7 @@
 //! | `axis`, `decimate`, `svg` | ticks and labels, thinning, shapes |
 //! | `drawing` | the platform |
 //! | `page` | the HTML |
+//! | `sweep` | table, figures and page of a sweep |
 //! | `folder`, `error` | all or nothing on disk |
 
 use std::path::{Path, PathBuf};
@@ -31,10 +32,12 @@ mod folder;
 mod json;
 mod page;
 mod svg;
+mod sweep;
 mod table;
 
 pub use error::ReportError;
 pub use json::tables_json;
+pub use sweep::{sweep_json, sweep_summary, write_sweep};
 pub use table::terminal_table;
 
 /// Where everything went.

@@ -81,6 +81,18 @@ impl Svg {
         }
     }
 
+    /// Points by themselves, as thick as the stroke is wide; non-finite ones are left out.
+    pub(super) fn dots(&mut self, points: impl Iterator<Item = [f64; 2]>, stroke: Stroke) {
+        let mut path = String::new();
+        for point in points.filter(|point| point.iter().all(|coordinate| coordinate.is_finite())) {
+            let _ = write!(path, "M{} {}h0", px(point[0]), px(point[1]));
+        }
+        if !path.is_empty() {
+            let pen = pen(stroke);
+            self.element(format_args!("<path d=\"{path}\" fill=\"none\" stroke-linecap=\"round\"{pen}/>"));
+        }
+    }
+
     /// A closed outline; `fill` may be translucent.
     pub(super) fn polygon(&mut self, points: &[[f64; 2]], fill: &str, opacity: f64, stroke: Stroke) {
         let mut list = String::new();
@@ -192,6 +204,7 @@ mod tests {
             [[0.0, 1.0], [1.0, 2.26], [f64::NAN, 0.0], [3.0, 4.0]].into_iter(),
             Stroke::solid("#000", 1.0),
         );
+        svg.dots([[1.0, 2.0], [f64::INFINITY, 0.0], [3.0, 4.0]].into_iter(), Stroke::solid("#000", 3.0));
         svg.circle([5.0, 6.0], 2.5, "none", Stroke::solid("#000", 1.0));
         svg.polygon(&[[0.0, 0.0], [1.0, 0.0], [0.0, -0.04]], "#eee", 0.5, NO_STROKE);
         svg.text([4.0, 12.0], "R_b & \"s\"", Font::new(11.0, "#000", "middle").bold());
@@ -201,6 +214,7 @@ mod tests {
             <rect x="0" y="0" width="80" height="40" fill="#fff"/>
             <line x1="0" y1="20" x2="80" y2="20" stroke="#999" stroke-width="0.5" stroke-dasharray="3 2"/>
             <path d="M0 1L1 2.3M3 4" fill="none" stroke-linejoin="round" stroke="#000" stroke-width="1"/>
+            <path d="M1 2h0M3 4h0" fill="none" stroke-linecap="round" stroke="#000" stroke-width="3"/>
             <circle cx="5" cy="6" r="2.5" fill="none" stroke="#000" stroke-width="1"/>
             <polygon points="0,0 1,0 0,0" fill="#eee" fill-opacity="0.5"/>
             <text x="4" y="12" font-size="11" fill="#000" text-anchor="middle" font-weight="600">R_b &amp; &quot;s&quot;</text>

@@ -80,7 +80,7 @@ pub(super) fn scenario(
 }
 
 /// Names become folders.
-fn name(name: &Spanned<String>, refusals: &mut Vec<Refusal>) {
+pub(crate) fn name(name: &Spanned<String>, refusals: &mut Vec<Refusal>) {
     let written = name.get_ref();
     let allowed = |c: char| c.is_ascii_alphanumeric() || c == '_' || c == '-';
     if written.is_empty() || !written.chars().all(allowed) {

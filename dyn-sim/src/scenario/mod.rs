@@ -8,14 +8,15 @@ mod csv;
 mod error;
 mod motions;
 mod schema;
-mod syntax;
+pub(crate) mod syntax;
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use dyn_platform::{FileError, LegType, Platform, Refusal, read_text};
 use dyn_runtime::PlatformState;
 use dyn_runtime::nalgebra::Vector6;
 
+pub(crate) use checks::name as check_name;
 pub use error::ScenarioError;
 pub use schema::{Integrator, Outputs};
 
@@ -103,23 +104,40 @@ impl Scenario {
     /// # Errors
     /// As [`Scenario::from_file`].
     pub fn from_toml(source_name: &str, text: &str, folder: &Path) -> Result<Self, ScenarioError> {
-        let refused = |refusals| ScenarioError::File(FileError::new(source_name, text, refusals));
-        let file: schema::File =
-            toml::from_str(text).map_err(|error| refused(vec![syntax::refusal(&error, text)]))?;
-        let mut refusals = Vec::new();
-        checks::version(&file, &mut refusals);
-        if !refusals.is_empty() {
-            // Another version may mean other things: say nothing about them.
-            return Err(refused(refusals));
-        }
+        let file = parsed(source_name, text)?;
         let platform_path = folder.join(file.platform.get_ref());
         if !platform_path.is_file() {
             let what = format!("there is no platform file {}", platform_path.display());
             let help = "give its path, counted from the folder of the scenario file";
-            refusals.push(Refusal::new(file.platform.span(), "no such file", what, help));
-            return Err(refused(refusals));
+            let refusal = Refusal::new(file.platform.span(), "no such file", what, help);
+            return Err(ScenarioError::File(FileError::new(source_name, text, vec![refusal])));
         }
         let platform = Platform::from_file(&platform_path).map_err(ScenarioError::Platform)?;
+        Self::checked(source_name, text, folder, file, platform)
+    }
+
+    /// The same with another platform than that of the file.
+    ///
+    /// # Errors
+    /// As [`Scenario::from_file`].
+    pub fn with_platform(
+        source_name: &str,
+        text: &str,
+        folder: &Path,
+        platform: Platform,
+    ) -> Result<Self, ScenarioError> {
+        Self::checked(source_name, text, folder, parsed(source_name, text)?, platform)
+    }
+
+    fn checked(
+        source_name: &str,
+        text: &str,
+        folder: &Path,
+        file: schema::File,
+        platform: Platform,
+    ) -> Result<Self, ScenarioError> {
+        let refused = |refusals| ScenarioError::File(FileError::new(source_name, text, refusals));
+        let mut refusals = Vec::new();
         if platform.leg_type != LegType::Uhp {
             let what = format!("a platform with legs {:?} cannot be simulated", platform.leg_type.name());
             let help = format!("give a platform with legs {:?}", LegType::Uhp.name());
@@ -131,4 +149,20 @@ impl Scenario {
             _ => Err(refused(refusals)),
         }
     }
+}
+
+/// The keys of a scenario file of this version.
+fn parsed(source_name: &str, text: &str) -> Result<schema::File, ScenarioError> {
+    let refused = |refusals| ScenarioError::File(FileError::new(source_name, text, refusals));
+    let file: schema::File =
+        toml::from_str(text).map_err(|error| refused(vec![syntax::refusal(&error, text)]))?;
+    let mut refusals = Vec::new();
+    checks::version(&file, &mut refusals);
+    // Another version may mean other things: say nothing about them.
+    if refusals.is_empty() { Ok(file) } else { Err(refused(refusals)) }
+}
+
+/// The path of the platform file in the text of a sound scenario file.
+pub(crate) fn platform_of(source_name: &str, text: &str, folder: &Path) -> Result<PathBuf, ScenarioError> {
+    Ok(folder.join(parsed(source_name, text)?.platform.get_ref()))
 }

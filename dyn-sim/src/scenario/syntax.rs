@@ -29,7 +29,7 @@ const EXAMPLES: &[(&str, &str)] = &[
 const DESCRIBED: &str = "scenarios/README.md lists every key";
 
 /// What serde's error becomes.
-pub(super) fn refusal(error: &toml::de::Error, text: &str) -> Refusal {
+pub(crate) fn refusal(error: &toml::de::Error, text: &str) -> Refusal {
     let at = error.span().unwrap_or_else(|| first_line(text));
     let message = error.message();
     let quoted: Vec<&str> = message.split('`').skip(1).step_by(2).collect();
