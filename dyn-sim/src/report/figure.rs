@@ -84,6 +84,11 @@ impl Frame {
         self.left + self.width * (x - self.x[0]) / (self.x[1] - self.x[0])
     }
 
+    /// About how many ticks have room for their labels.
+    fn ticks_across(&self) -> usize {
+        if self.width < 350.0 { 2 } else { 5 }
+    }
+
     fn down(&self, y: f64) -> f64 {
         let share = if self.logarithmic {
             // Values below the floor, zero included, run along the lower edge.
@@ -185,7 +190,7 @@ impl Figure {
                 level(svg, tick * factor, &fixed(tick, decimals));
             }
         }
-        for tick in linear_ticks(frame.x, 5).0 {
+        for tick in linear_ticks(frame.x, frame.ticks_across()).0 {
             let across = frame.across(tick);
             svg.line([across, top], [across, top + height], GRID);
         }
@@ -222,7 +227,7 @@ impl Figure {
 
     fn draw_x_axis(&self, svg: &mut Svg, frame: &Frame) {
         let below = frame.top + frame.height;
-        let (ticks, decimals) = linear_ticks(frame.x, 5);
+        let (ticks, decimals) = linear_ticks(frame.x, frame.ticks_across());
         for tick in ticks {
             let at = [frame.across(tick), below + 16.0];
             svg.text(at, &fixed(tick, decimals), Font { anchor: "middle", ..TICK });

@@ -191,16 +191,17 @@ pub fn sweep_summary(sweep: &Sweep, swept: &Swept, threads: usize) -> String {
 }
 
 fn heading(measure: &Measure) -> String {
-    match measure.unit {
-        "" => measure.heading.to_owned(),
-        unit => format!("{}, {unit}", measure.heading),
-    }
+    format!("{}, {}", measure.heading, measure.unit)
 }
 
 /// What is drawn: where there is anything.
 fn drawn(sweep: &Sweep, swept: &Swept) -> Vec<Measure> {
     let mut measures = measures(&sweep.nominal.steering);
     measures.retain(|measure| measure.drawn && !sorted(swept, measure).is_empty());
+    // Where the base moves, what counts is the share of that.
+    if measures.iter().any(|measure| measure.unit == "%") {
+        measures.retain(|measure| measure.name != "rms_linear_m_per_s2");
+    }
     measures
 }
 

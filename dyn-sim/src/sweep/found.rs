@@ -75,28 +75,24 @@ const OF_ALL: [Measure; 4] = [
         &found.shortest_m.map(|x| -x)
     )),
     measure!("longest_length_m", "longest actuator", "m", false, |found| largest(&found.longest_m)),
-    measure!("travel_m", "longest travel of an actuator", "m", true, |found| {
+    measure!("travel_m", "travel of an actuator", "m", true, |found| {
         (0..6).map(|leg| found.longest_m[leg] - found.shortest_m[leg]).fold(f64::NEG_INFINITY, f64::max)
     }),
 ];
 
 const OF_FREE: [Measure; 16] = [
-    measure!("rms_linear_m_per_s2", "platform acceleration, rms", "m/s²", true, |found| norm(
+    measure!("rms_linear_m_per_s2", "acceleration, rms", "m/s²", true, |found| norm(
         &found.rms_acceleration[..3]
     )),
     measure!("rms_angular_rad_per_s2", "angular acceleration, rms", "rad/s²", false, |found| norm(
         &found.rms_acceleration[3..]
     )),
-    measure!("transmissibility", "rms acceleration, platform over base", "", true, |found| {
-        norm(&found.rms_acceleration[..3]) / norm(&found.base_rms_acceleration[..3])
+    measure!("transmissibility_percent", "platform over base, rms", "%", true, |found| {
+        100.0 * norm(&found.rms_acceleration[..3]) / norm(&found.base_rms_acceleration[..3])
     }),
-    measure!(
-        "angular_transmissibility",
-        "rms angular acceleration, platform over base",
-        "",
-        false,
-        |found| { norm(&found.rms_acceleration[3..]) / norm(&found.base_rms_acceleration[3..]) }
-    ),
+    measure!("angular_transmissibility_percent", "platform over base, angular, rms", "%", false, |found| {
+        100.0 * norm(&found.rms_acceleration[3..]) / norm(&found.base_rms_acceleration[3..])
+    }),
     measure!("rms_x_m_per_s2", "rms, x", "m/s²", false, |found| found.rms_acceleration[0]),
     measure!("rms_y_m_per_s2", "rms, y", "m/s²", false, |found| found.rms_acceleration[1]),
     measure!("rms_z_m_per_s2", "rms, z", "m/s²", false, |found| found.rms_acceleration[2]),
