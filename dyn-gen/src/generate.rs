@@ -187,10 +187,10 @@ pub fn optimise(
     let in_lanes = |function: &Function| baked && IN_LANES.contains(&function.name.as_str());
     let size = |function: &Function| function.steps.len() * (1 + usize::from(in_lanes(function)));
     let functions = parallel::map_largest_first(&chosen, size, |function| {
-        let graph = program.flatten(function);
-        let before = graph.operation_count();
-        let (graph, passes) = run_passes(&graph, &context);
-        let in_lanes = in_lanes(function).then(|| pack(program, function, &context));
+        let (flat, groups) = program.flatten_with_groups(function);
+        let before = flat.operation_count();
+        let (graph, passes) = run_passes(&flat, &context);
+        let in_lanes = in_lanes(function).then(|| pack(&flat, groups, program.leg_count, &context));
         GeneratedFunction { before, passes, graph, in_lanes }
     });
     functions.iter().try_for_each(GeneratedFunction::check_growth)?;

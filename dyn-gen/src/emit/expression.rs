@@ -1,34 +1,37 @@
-//! Values of a graph as expressions.
+//! Values of a graph as text.
 
-use std::collections::HashMap;
-
-use proc_macro2::Ident;
-use quote::format_ident;
-use syn::{BinOp, Expr};
+use std::fmt::Write;
 
 use super::EmitError;
 use super::names::{
-    CONSTANT, CONSTANT_IN_LANES, LANE, PARAMETERS, SCALARS_IN_LANES, SPLAT, SQRT, TRIPLE, identifier,
-    temporary,
+    CONSTANT, CONSTANT_IN_LANES, LANE, PARAMETERS, SCALARS_IN_LANES, SOLVE_GENERAL, SPLAT, SQRT, TRIPLE,
+    identifier,
 };
 use super::placement::Place;
 use super::schedule::{Statement, Step, Value};
 use super::signature::Signature;
-use super::tree;
-use crate::graph::{Graph, Node, NodeId, Op, Symbol};
+use crate::graph::{Graph, Node, NodeId, Op, SolveKind, Symbol};
 
 /// Writes the values of one graph.
 pub struct Expressions<'a> {
     graph: &'a Graph,
     places: &'a [Place],
-    inputs: Vec<Ident>,
-    parameters: Ident,
-    outputs: Vec<Ident>,
-    names: HashMap<Value, Ident>,
-    constant: Ident,
-    sqrt: Ident,
+    inputs: Vec<String>,
+    outputs: Vec<String>,
+    /// For each node the number of its temporary, if it is one.
+    temporaries: Vec<u32>,
+    solutions: Vec<String>,
     in_lanes: Vec<bool>,
     graph_has_lanes: bool,
+}
+
+/// How tightly an expression is held together; whatever is looser than its place needs parentheses.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+enum Binding {
+    Sum,
+    Product,
+    Negative,
+    Whole,
 }
 
 impl<'a> Expressions<'a> {
@@ -39,161 +42,248 @@ impl<'a> Expressions<'a> {
         statements: &[Statement],
     ) -> Result<Expressions<'a>, EmitError> {
         let signature = Signature::of(graph);
-        let mut arguments = signature.argument_names()?;
-        let outputs = arguments.split_off(signature.inputs.len());
-        let name = |symbol: &Symbol| identifier(&graph.name, &symbol.name);
-        let inputs = graph.inputs.iter().map(name).collect::<Result<_, _>>()?;
-        let mut names: HashMap<Value, Ident> = HashMap::new();
-        let mut temporaries = 0;
-        for statement in statements {
-            let Step::Define(value) = statement.step else { continue };
-            let name = match value {
-                Value::Temporary(_) => {
-                    temporaries += 1;
-                    temporary(temporaries)
-                }
-                Value::Solution(solve) => {
-                    // The derivation's name, unless an argument or another solution has it already.
-                    let mut name = identifier(&graph.name, &graph.solves[solve].name)?;
-                    while arguments.iter().chain(&outputs).chain(names.values()).any(|taken| *taken == name) {
-                        name = format_ident!("{name}_solution");
-                    }
-                    name
-                }
-            };
-            names.insert(value, name);
+        let arguments: Vec<String> = signature.argument_names()?.iter().map(ToString::to_string).collect();
+        let outputs = arguments[signature.inputs.len()..].to_vec();
+        let input = |symbol: &Symbol| {
+            let name = identifier(&graph.name, &symbol.name)?;
+            Ok(if symbol.parameter { format!("{PARAMETERS}.{name}") } else { name.to_string() })
+        };
+        let inputs = graph.inputs.iter().map(input).collect::<Result<_, EmitError>>()?;
+        let mut solutions: Vec<String> = Vec::with_capacity(graph.solves.len());
+        for solve in &graph.solves {
+            // The derivation's name, unless an argument or another solution has it already.
+            let mut name = identifier(&graph.name, &solve.name)?.to_string();
+            while arguments.iter().chain(&solutions).any(|taken| *taken == name) {
+                name.push_str("_solution");
+            }
+            solutions.push(name);
         }
-        let [parameters, constant, sqrt] = [PARAMETERS, CONSTANT, SQRT].map(|name| format_ident!("{name}"));
+        let mut temporaries = vec![0; graph.nodes.len()];
+        let mut last = 0;
+        for statement in statements {
+            if let Step::Define(Value::Temporary(id)) = statement.step {
+                last += 1;
+                temporaries[id.index()] = last;
+            }
+        }
         let in_lanes = graph.in_lanes();
         let graph_has_lanes = graph.has_lanes();
-        Ok(Expressions {
-            in_lanes,
-            graph_has_lanes,
-            graph,
-            places,
-            inputs,
-            parameters,
-            outputs,
-            names,
-            constant,
-            sqrt,
-        })
+        Ok(Expressions { graph, places, inputs, outputs, temporaries, solutions, in_lanes, graph_has_lanes })
     }
 
     /// The name of a value that has one.
-    pub fn name(&self, value: &Value) -> &Ident {
-        &self.names[value]
+    pub fn name(&self, value: Value) -> String {
+        match value {
+            Value::Temporary(id) => format!("t{}", self.temporaries[id.index()]),
+            Value::Solution(solve) => self.solutions[solve].clone(),
+        }
     }
 
     /// An element of an output, to be written.
-    pub fn target(&self, output: usize, element: usize) -> Expr {
-        let array = tree::path(&self.outputs[output]);
-        let shape = &self.graph.outputs[output].symbol.shape;
-        if shape.is_empty() { tree::dereferenced(array) } else { element_of(array, shape, element) }
+    pub fn target(&self, output: usize, element: usize) -> String {
+        let (name, shape) = (&self.outputs[output], &self.graph.outputs[output].symbol.shape);
+        let mut text = if shape.is_empty() { format!("*{name}") } else { name.clone() };
+        write_indices(&mut text, shape, element);
+        text
+    }
+
+    /// The expression of a value that has a name, as it stands behind the name.
+    pub fn definition(&self, value: Value) -> Result<String, EmitError> {
+        let mut text = String::with_capacity(80);
+        match value {
+            Value::Temporary(id) => self.write_definition(&mut text, id, Binding::Sum)?,
+            Value::Solution(solve) => self.write_solution(&mut text, solve)?,
+        }
+        Ok(text)
     }
 
     /// `id` where it is used: its name, or its expression where it has none.
-    pub fn value(&self, id: NodeId) -> Result<Expr, EmitError> {
-        match self.places[id.index()] {
-            Place::Temporary => Ok(tree::path(self.name(&Value::Temporary(id)))),
-            _ => self.definition(id),
-        }
+    pub fn value(&self, id: NodeId) -> Result<String, EmitError> {
+        let mut text = String::with_capacity(80);
+        self.write_value(&mut text, id, Binding::Sum)?;
+        Ok(text)
     }
 
-    /// A function of the type in lanes.
-    fn of_lanes(&self, function: &str) -> Expr {
-        tree::associated(&format_ident!("{SCALARS_IN_LANES}"), &format_ident!("{function}"))
+    fn write_value(&self, text: &mut String, id: NodeId, place: Binding) -> Result<(), EmitError> {
+        match self.places[id.index()] {
+            Place::Temporary => {
+                put(text, format_args!("t{}", self.temporaries[id.index()]));
+                Ok(())
+            }
+            _ => self.write_definition(text, id, place),
+        }
     }
 
     /// `operand` where `user` reads it: in lanes if `user` is.
-    fn operand(&self, user: NodeId, operand: NodeId) -> Result<Expr, EmitError> {
+    fn write_operand(
+        &self,
+        text: &mut String,
+        user: NodeId,
+        operand: NodeId,
+        place: Binding,
+    ) -> Result<(), EmitError> {
         if !self.in_lanes[user.index()] || self.in_lanes[operand.index()] {
-            return self.value(operand);
+            return self.write_value(text, operand, place);
         }
         match self.graph.nodes[operand.index()] {
             Node::Constant(value) if value.is_finite() => {
-                Ok(tree::call(&format_ident!("{CONSTANT_IN_LANES}"), [tree::number(value)]))
+                put(text, format_args!("{CONSTANT_IN_LANES}({value:?})"))
             }
-            _ => Ok(tree::call_value(self.of_lanes(SPLAT), [self.value(operand)?])),
+            _ => {
+                put(text, format_args!("{SCALARS_IN_LANES}::{SPLAT}("));
+                self.write_value(text, operand, Binding::Sum)?;
+                text.push(')');
+            }
         }
+        Ok(())
     }
 
-    /// The expression that computes `id`. It is the tree of the graph; the layout adds the parentheses that keep it, as in
+    /// The expression that computes `id`: the tree of the graph, with the parentheses that keep it, as in
     /// `a - (b - c)` and `a + (b + c)`.
-    pub fn definition(&self, id: NodeId) -> Result<Expr, EmitError> {
-        Ok(match self.graph.nodes[id.index()] {
+    fn write_definition(&self, text: &mut String, id: NodeId, place: Binding) -> Result<(), EmitError> {
+        match self.graph.nodes[id.index()] {
             Node::Constant(value) if !value.is_finite() => {
                 let function = self.graph.name.clone();
                 return Err(EmitError::NonFiniteConstant { function, node: id.0, value });
             }
-            Node::Constant(value) => tree::call(&self.constant, [tree::number(value)]),
+            // The fewest digits that read back as the same number.
+            Node::Constant(value) => put(text, format_args!("{CONSTANT}({value:?})")),
             Node::Input { input, element } => {
-                let name = &self.inputs[input as usize];
-                let symbol = &self.graph.inputs[input as usize];
-                let array = match symbol.parameter {
-                    true => tree::field(tree::path(&self.parameters), name),
-                    false => tree::path(name),
-                };
-                element_of(array, &symbol.shape, element as usize)
+                text.push_str(&self.inputs[input as usize]);
+                write_indices(text, &self.graph.inputs[input as usize].shape, element as usize);
             }
             Node::Solution { solve, element } => {
-                tree::index(tree::path(self.name(&Value::Solution(solve as usize))), element as usize)
+                put(text, format_args!("{}[{element}]", self.solutions[solve as usize]));
             }
-            Node::Unary(Op::Sqrt, a) => tree::call(&self.sqrt, [self.operand(id, a)?]),
-            Node::Unary(_, a) => tree::negative(self.operand(id, a)?),
+            Node::Unary(Op::Sqrt, a) => {
+                put(text, format_args!("{SQRT}("));
+                self.write_operand(text, id, a, Binding::Sum)?;
+                text.push(')');
+            }
+            Node::Unary(_, a) => self.in_parentheses(text, Binding::Negative < place, |text| {
+                text.push('-');
+                // `-(-x)`: `--` looks like an operator of other languages and rustc warns of it.
+                self.write_operand(text, id, a, Binding::Whole)
+            })?,
             Node::Binary(op, a, b) => {
-                let operator = match op {
-                    Op::Mul => BinOp::Mul(Default::default()),
-                    Op::Div => BinOp::Div(Default::default()),
-                    Op::Sub => BinOp::Sub(Default::default()),
-                    _ => BinOp::Add(Default::default()),
+                let (operator, own, right) = match op {
+                    Op::Mul => (" * ", Binding::Product, Binding::Negative),
+                    Op::Div => (" / ", Binding::Product, Binding::Negative),
+                    Op::Sub => (" - ", Binding::Sum, Binding::Product),
+                    _ => (" + ", Binding::Sum, Binding::Product),
                 };
-                tree::binary(operator, self.operand(id, a)?, self.operand(id, b)?)
+                self.in_parentheses(text, own < place, |text| {
+                    self.write_operand(text, id, a, own)?;
+                    text.push_str(operator);
+                    self.write_operand(text, id, b, right)
+                })?;
             }
             Node::Lanes(lanes) => {
-                let lanes = lanes.iter().map(|lane| self.value(*lane)).collect::<Result<Vec<_>, _>>()?;
-                tree::call_value(self.of_lanes(TRIPLE), [tree::array(lanes)])
+                put(text, format_args!("{SCALARS_IN_LANES}::{TRIPLE}(["));
+                self.write_list(text, &lanes, |text, lane| self.write_value(text, lane, Binding::Sum))?;
+                text.push_str("])");
             }
             Node::Lane(a, lane) => {
-                tree::call_value(self.of_lanes(LANE), [self.value(a)?, tree::integer(lane.into())])
+                put(text, format_args!("{SCALARS_IN_LANES}::{LANE}("));
+                self.write_value(text, a, Binding::Sum)?;
+                put(text, format_args!(", {lane})"));
             }
             Node::Ternary(op, a, b, c) => {
                 // Of single numbers in a function in lanes it is the lanes' type that knows how to.
-                let function = match self.graph_has_lanes && !self.in_lanes[id.index()] {
-                    true => self.of_lanes(op.info().name),
-                    false => tree::path(&format_ident!("{}", op.info().name)),
-                };
-                tree::call_value(function, [self.operand(id, a)?, self.operand(id, b)?, self.operand(id, c)?])
+                if self.graph_has_lanes && !self.in_lanes[id.index()] {
+                    put(text, format_args!("{SCALARS_IN_LANES}::"));
+                }
+                put(text, format_args!("{}(", op.info().name));
+                let operand =
+                    |text: &mut String, operand| self.write_operand(text, id, operand, Binding::Sum);
+                self.write_list(text, &[a, b, c], operand)?;
+                text.push(')');
             }
-        })
+        }
+        Ok(())
+    }
+
+    /// `solve_general(&[[...], ...], &[...])`, a row of the matrix on a line.
+    fn write_solution(&self, text: &mut String, solve: usize) -> Result<(), EmitError> {
+        let system = &self.graph.solves[solve];
+        if system.kind == SolveKind::SymmetricPositiveDefinite {
+            let (function, solve) = (self.graph.name.clone(), system.name.clone());
+            return Err(EmitError::SymmetricSolve { function, solve });
+        }
+        let value = |text: &mut String, id| self.write_value(text, id, Binding::Sum);
+        put(text, format_args!("{SOLVE_GENERAL}(\n    &[\n"));
+        for row in system.matrix.chunks(system.right_hand_side.len()) {
+            text.push_str("        [");
+            self.write_list(text, row, value)?;
+            text.push_str("],\n");
+        }
+        text.push_str("    ],\n    &[");
+        self.write_list(text, &system.right_hand_side, value)?;
+        text.push_str("],\n)");
+        Ok(())
+    }
+
+    fn write_list(
+        &self,
+        text: &mut String,
+        ids: &[NodeId],
+        write: impl Fn(&mut String, NodeId) -> Result<(), EmitError>,
+    ) -> Result<(), EmitError> {
+        for (place, id) in ids.iter().enumerate() {
+            if place > 0 {
+                text.push_str(", ");
+            }
+            write(text, *id)?;
+        }
+        Ok(())
+    }
+
+    fn in_parentheses(
+        &self,
+        text: &mut String,
+        parentheses: bool,
+        write: impl FnOnce(&mut String) -> Result<(), EmitError>,
+    ) -> Result<(), EmitError> {
+        if parentheses {
+            text.push('(');
+        }
+        write(text)?;
+        if parentheses {
+            text.push(')');
+        }
+        Ok(())
     }
 }
 
-/// `array[0][2]` for the flat row-major `element` of an array with this shape; the array itself if it is a scalar.
-fn element_of(array: Expr, shape: &[usize], element: usize) -> Expr {
+/// Writes to a string, which cannot fail.
+fn put(text: &mut String, arguments: std::fmt::Arguments) {
+    let _ = text.write_fmt(arguments);
+}
+
+/// `[0][2]` for the flat row-major `element` of an array with this shape; nothing for a scalar.
+fn write_indices(text: &mut String, shape: &[usize], element: usize) {
     let mut stride: usize = shape.iter().product();
     let mut rest = element;
-    shape.iter().fold(array, |array, &length| {
+    for length in shape {
         stride /= length;
-        let index = rest / stride;
+        put(text, format_args!("[{}]", rest / stride));
         rest %= stride;
-        tree::index(array, index)
-    })
+    }
 }
 
 #[cfg(test)]
 mod tests {
-    use quote::{ToTokens, format_ident, quote};
-
     use super::*;
 
     #[test]
     fn elements_are_row_major() {
         let text = |shape: &[usize], element| {
-            element_of(tree::path(&format_ident!("a")), shape, element).into_token_stream().to_string()
+            let mut text = String::from("a");
+            write_indices(&mut text, shape, element);
+            text
         };
-        assert_eq!(text(&[2, 3, 4], 23), quote!(a[1][2][3]).to_string());
-        assert_eq!(text(&[3, 3], 5), quote!(a[1][2]).to_string());
+        assert_eq!(text(&[2, 3, 4], 23), "a[1][2][3]");
+        assert_eq!(text(&[3, 3], 5), "a[1][2]");
         assert_eq!(text(&[], 0), "a");
     }
 }

@@ -4,9 +4,9 @@ use proc_macro2::{Ident, TokenStream};
 use quote::{format_ident, quote};
 
 use super::EmitError;
-use super::body::{Body, body};
+use super::body::body;
 use super::names::{CONSTANT, CONSTANT_IN_LANES, PARAMETERS, SCALAR, SCALARS_IN_LANES};
-use super::print::{parse, source_with_comments};
+use super::print::source;
 use super::signature::Signature;
 use crate::graph::{Graph, Node};
 
@@ -42,7 +42,7 @@ pub fn function(graph: &Graph, with_parameters: bool) -> Result<String, EmitErro
     });
     // Every model has the same signatures: what its numbers make unnecessary stays an argument.
     let allow = allow(quote!(unused_variables));
-    let mut item: syn::ItemFn = parse(
+    let empty = source(
         &graph.name,
         quote! {
             #documentation
@@ -53,9 +53,8 @@ pub fn function(graph: &Graph, with_parameters: bool) -> Result<String, EmitErro
             }
         },
     )?;
-    let Body { statements, comments } = body(graph)?;
-    item.block.stmts.extend(statements);
-    Ok(source_with_comments(item, &comments))
+    let head = empty.trim_end().trim_end_matches('}').trim_end();
+    Ok([head, "\n", &body(graph)?, "}\n"].concat())
 }
 
 /// Name of the function in lanes.

@@ -9,7 +9,7 @@
 //! | `function`, `model`, `kernels`, `header` | a free function; the files and their first lines |
 //! | `generic` | a model's functions for any type of number, its parameters in lanes |
 //! | `setters` | checked access to the parameters of a model |
-//! | `names`, `tree`, `print` | identifiers; pieces of syntax; syntax to text |
+//! | `names`, `print` | identifiers; items to text |
 
 mod blocks;
 mod body;
@@ -26,7 +26,6 @@ mod print;
 mod schedule;
 mod setters;
 mod signature;
-mod tree;
 
 pub use error::EmitError;
 pub use function::function;

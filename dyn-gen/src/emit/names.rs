@@ -3,7 +3,6 @@
 use std::collections::BTreeSet;
 
 use proc_macro2::{Ident, Span};
-use quote::format_ident;
 
 use super::EmitError;
 
@@ -45,11 +44,6 @@ pub fn identifier(function: &str, name: &str) -> Result<Ident, EmitError> {
         return refuse("names like `t12` are temporaries");
     }
     Ok(Ident::new(name, Span::call_site()))
-}
-
-/// Name of the temporary with this number.
-pub fn temporary(number: u32) -> Ident {
-    format_ident!("t{number}")
 }
 
 fn is_temporary(name: &str) -> bool {

@@ -19,6 +19,8 @@ pub enum Place {
 const WIDTH: u32 = 76;
 /// Characters of a temporary such as `t1234`.
 const TEMPORARY: u32 = 5;
+/// Characters of `P::splat()` around a number that stands in all lanes.
+const SPLAT: u32 = 10;
 
 /// The place of every node. Inlining never crosses a section, so section comments stay true, and never changes the
 /// tree of an expression, so results stay bit-identical.
@@ -26,6 +28,8 @@ pub fn place(graph: &Graph) -> Vec<Place> {
     let uses = uses(graph);
     let mut width = vec![0; graph.nodes.len()];
     let mut places = vec![Place::Unused; graph.nodes.len()];
+    let mut narrowest_first = Vec::with_capacity(3);
+    let in_lanes = graph.in_lanes();
     for (index, node) in graph.nodes.iter().enumerate() {
         if uses[index].count == 0 {
             continue;
@@ -36,14 +40,21 @@ pub fn place(graph: &Graph) -> Vec<Place> {
             Node::Constant(_) | Node::Input { .. } | Node::Solution { .. } | Node::Lane(..) => Place::Leaf,
             Node::Unary(..) | Node::Binary(..) | Node::Ternary(..) | Node::Lanes(_) => Place::Temporary,
         };
-        let mut operands = operands(node);
-        operands.sort_by_key(|operand| width[operand.0 as usize]);
+        narrowest_first.clear();
+        narrowest_first.extend(operands(node));
+        narrowest_first.sort_by_key(|operand| width[operand.index()]);
         // Until it is inlined, an operand counts as the temporary it otherwise is.
         let is_leaf = |operand: &NodeId| places[operand.0 as usize] == Place::Leaf;
         let as_leaf = |operand: &NodeId| if is_leaf(operand) { width[operand.0 as usize] } else { TEMPORARY };
-        total += operands.iter().map(as_leaf).sum::<u32>();
-        let candidates: Vec<usize> = operands.iter().filter(|o| !is_leaf(o)).map(|o| o.0 as usize).collect();
-        for operand in candidates {
+        if in_lanes[index] && !matches!(node, Node::Lanes(_)) {
+            total +=
+                SPLAT * narrowest_first.iter().filter(|operand| !in_lanes[operand.index()]).count() as u32;
+        }
+        total += narrowest_first.iter().map(as_leaf).sum::<u32>();
+        for operand in narrowest_first.iter().map(|operand| operand.index()) {
+            if places[operand] == Place::Leaf {
+                continue;
+            }
             let wider = total - TEMPORARY + width[operand] + 2;
             if uses[operand].inlinable && graph.section_of[operand] == section && wider <= WIDTH {
                 places[operand] = Place::Inline;
@@ -62,14 +73,15 @@ pub fn place(graph: &Graph) -> Vec<Place> {
 }
 
 /// Operands of a node, in order; a square appears twice.
-pub fn operands(node: &Node) -> Vec<NodeId> {
-    match *node {
-        Node::Constant(_) | Node::Input { .. } | Node::Solution { .. } => Vec::new(),
-        Node::Unary(_, a) | Node::Lane(a, _) => vec![a],
-        Node::Lanes(lanes) => lanes.to_vec(),
-        Node::Binary(_, a, b) => vec![a, b],
-        Node::Ternary(_, a, b, c) => vec![a, b, c],
-    }
+pub fn operands(node: &Node) -> impl Iterator<Item = NodeId> + use<> {
+    let three = match *node {
+        Node::Constant(_) | Node::Input { .. } | Node::Solution { .. } => [None; 3],
+        Node::Unary(_, a) | Node::Lane(a, _) => [Some(a), None, None],
+        Node::Lanes(lanes) => lanes.map(Some),
+        Node::Binary(_, a, b) => [Some(a), Some(b), None],
+        Node::Ternary(_, a, b, c) => [Some(a), Some(b), Some(c)],
+    };
+    three.into_iter().flatten()
 }
 
 #[derive(Clone, Copy, Default)]
@@ -121,8 +133,8 @@ fn own_width(graph: &Graph, node: &Node) -> u32 {
                 + if symbol.parameter { "parameters.".len() } else { 0 }
         }
         Node::Solution { solve, .. } => graph.solves[solve as usize].name.len() + 3,
-        Node::Lanes(_) => "triple([, , ])".len(),
-        Node::Lane(..) => "lane(, 0)".len(),
+        Node::Lanes(_) => "P::triple([, , ])".len(),
+        Node::Lane(..) => "P::lane(, 0)".len(),
         Node::Unary(Op::Sqrt, _) => "sqrt()".len(),
         Node::Unary(..) => "-".len(),
         Node::Binary(..) => " + ".len(),

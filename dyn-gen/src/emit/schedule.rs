@@ -87,7 +87,7 @@ impl Units {
             let section = graph.section_of[index];
             if places[index] == Place::Temporary {
                 let mut reads = Vec::new();
-                operands(node).into_iter().for_each(|operand| values_of(graph, places, operand, &mut reads));
+                operands(node).for_each(|operand| values_of(graph, places, operand, &mut reads));
                 unit_of_node[index] = statements.len();
                 statements.push(Statement { step: Step::Define(Value::Temporary(id)), section, reads });
             }
@@ -195,7 +195,7 @@ fn values_of(graph: &Graph, places: &[Place], id: NodeId, values: &mut Vec<Value
         (Place::Temporary, _) => Value::Temporary(id),
         (_, Node::Solution { solve, .. }) => Value::Solution(*solve as usize),
         _ => {
-            return operands(node).into_iter().for_each(|operand| values_of(graph, places, operand, values));
+            return operands(node).for_each(|operand| values_of(graph, places, operand, values));
         }
     };
     if !values.contains(&value) {

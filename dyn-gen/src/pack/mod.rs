@@ -23,7 +23,7 @@ mod unpack;
 pub use partition::Partition;
 pub use unpack::unpack;
 
-use crate::graph::{Function, Graph, Group, NodeId, Program};
+use crate::graph::{Graph, Group, NodeId};
 use crate::passes::{Context, run_passes_in_lanes};
 
 /// A function in lanes.
@@ -35,11 +35,11 @@ pub struct Packed {
     pub partition: Partition,
 }
 
-/// `function` in lanes, its parameters baked as `context` says.
-pub fn pack(program: &Program, function: &Function, context: &Context) -> Packed {
-    let (graph, groups) = program.flatten_with_groups(function);
-    let partition = partition::choose(&graph, context, program.leg_count);
-    let (graph, groups) = blocks::expand(&graph, groups, &partition);
+/// A flattened function of `leg_count` legs in lanes, its parameters baked as `context` says; `groups` as
+/// [`Program::flatten_with_groups`](crate::graph::Program::flatten_with_groups) gives them.
+pub fn pack(graph: &Graph, groups: Vec<Group>, leg_count: usize, context: &Context) -> Packed {
+    let partition = partition::choose(graph, context, leg_count);
+    let (graph, groups) = blocks::expand(graph, groups, &partition);
     let (graph, groups) = sums::regroup(&graph, groups, context, &partition);
     let graph = superword::superword(&graph, &groups, context, &partition);
     let graph = order::order(&run_passes_in_lanes(&graph, context));

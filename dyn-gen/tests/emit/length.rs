@@ -43,7 +43,7 @@ fn no_block_has_more_than_a_thousand_statements() {
     let mut blocks = 0;
     for line in source.lines() {
         if line.starts_with("    let (")
-            || line.starts_with("    } = {")
+            || line.starts_with("    ) = {")
             || line == "    };"
             || line == "    {"
         {

@@ -3953,188 +3953,19 @@ pub fn body_kinematics<T: Scalar>(
 ) {
     let c = T::constant;
     let (
-        t128,
-        t138,
-        t148,
-        t158,
-        t168,
-        t282,
-        t291,
-        t300,
-        t309,
-        t318,
-        t460,
-        t466,
-        t472,
-        t478,
-        t484,
-        t495,
-        t500,
-        t502,
-        t504,
-        t505,
-        t510,
-        t512,
-        t514,
-        t515,
-        t520,
-        t522,
-        t524,
-        t525,
-        t530,
-        t532,
-        t534,
-        t535,
-        t540,
-        t542,
-        t544,
-        t550,
-        t552,
-        t558,
-        t560,
-        t566,
-        t568,
-        t582,
-        t584,
-        t586,
-        t588,
-        t590,
-        t592,
-        t598,
-        t601,
-        t603,
-        t606,
-        t609,
-        t611,
-        t614,
-        t617,
-        t619,
-        t622,
-        t626,
-        t630,
-        t633,
-        t635,
-        t637,
-        t638,
-        t639,
-        t640,
-        t641,
-        t642,
-        t643,
-        t649,
-        t652,
-        t654,
-        t657,
-        t660,
-        t662,
-        t665,
-        t668,
-        t670,
-        t673,
-        t677,
-        t681,
-        t684,
-        t686,
-        t688,
-        t689,
-        t690,
-        t691,
-        t692,
-        t693,
-        t694,
-        t700,
-        t703,
-        t705,
-        t708,
-        t711,
-        t713,
-        t716,
-        t719,
-        t721,
-        t724,
-        t728,
-        t732,
-        t735,
-        t737,
-        t739,
-        t740,
-        t741,
-        t742,
-        t743,
-        t744,
-        t745,
-        t751,
-        t754,
-        t756,
-        t759,
-        t762,
-        t764,
-        t767,
-        t770,
-        t772,
-        t775,
-        t779,
-        t783,
-        t786,
-        t788,
-        t790,
-        t791,
-        t792,
-        t793,
-        t794,
-        t795,
-        t796,
-        t802,
-        t805,
-        t807,
-        t810,
-        t813,
-        t815,
-        t818,
-        t821,
-        t823,
-        t826,
-        t830,
-        t834,
-        t837,
-        t839,
-        t841,
-        t842,
-        t843,
-        t844,
-        t845,
-        t846,
-        t847,
-        t851,
-        t855,
-        t856,
-        t857,
-        t858,
-        t859,
-        t860,
-        t861,
-        t862,
-        t863,
-        t864,
-        t865,
-        t866,
-        t867,
-        t868,
-        t869,
-        t870,
-        t871,
-        t872,
-        t873,
-        t874,
-        t877,
-        t879,
-        t886,
-        t889,
-        t891,
-        t896,
-        t899,
-        t901,
-        t905,
+        t128, t138, t148, t158, t168, t282, t291, t300, t309, t318, t460, t466, t472, t478, t484,
+        t495, t500, t502, t504, t505, t510, t512, t514, t515, t520, t522, t524, t525, t530, t532,
+        t534, t535, t540, t542, t544, t550, t552, t558, t560, t566, t568, t582, t584, t586, t588,
+        t590, t592, t598, t601, t603, t606, t609, t611, t614, t617, t619, t622, t626, t630, t633,
+        t635, t637, t638, t639, t640, t641, t642, t643, t649, t652, t654, t657, t660, t662, t665,
+        t668, t670, t673, t677, t681, t684, t686, t688, t689, t690, t691, t692, t693, t694, t700,
+        t703, t705, t708, t711, t713, t716, t719, t721, t724, t728, t732, t735, t737, t739, t740,
+        t741, t742, t743, t744, t745, t751, t754, t756, t759, t762, t764, t767, t770, t772, t775,
+        t779, t783, t786, t788, t790, t791, t792, t793, t794, t795, t796, t802, t805, t807, t810,
+        t813, t815, t818, t821, t823, t826, t830, t834, t837, t839, t841, t842, t843, t844, t845,
+        t846, t847, t851, t855, t856, t857, t858, t859, t860, t861, t862, t863, t864, t865, t866,
+        t867, t868, t869, t870, t871, t872, t873, t874, t877, t879, t886, t889, t891, t896, t899,
+        t901, t905,
     ) = {
         // rotation of the platform seen from the base
         let t1 = base_rotation[1][0] * platform_rotation[1][0];
@@ -4267,9 +4098,7 @@ pub fn body_kinematics<T: Scalar>(
         let t114 = neg_mul_add(parameters.actuator_axis[0][2], t111, t48);
         // leg 1: extent of the rod along the actuator axis
         let t115 = mul_add(t114, t114, mul_add(t112, t112, t113 * t113));
-        let t116 = sqrt(
-            mul_sub(parameters.rod_length[0], parameters.rod_length[0], t115),
-        );
+        let t116 = sqrt(mul_sub(parameters.rod_length[0], parameters.rod_length[0], t115));
         // leg 1: reciprocal of that extent
         let t117 = c(1.0) / t116;
         // leg 1: actuator length d
@@ -4283,9 +4112,7 @@ pub fn body_kinematics<T: Scalar>(
         let t124 = neg_mul_add(parameters.actuator_axis[1][2], t121, t60);
         // leg 2: extent of the rod along the actuator axis
         let t125 = mul_add(t124, t124, mul_add(t122, t122, t123 * t123));
-        let t126 = sqrt(
-            mul_sub(parameters.rod_length[1], parameters.rod_length[1], t125),
-        );
+        let t126 = sqrt(mul_sub(parameters.rod_length[1], parameters.rod_length[1], t125));
         // leg 2: reciprocal of that extent
         let t127 = c(1.0) / t126;
         // leg 2: actuator length d
@@ -4299,9 +4126,7 @@ pub fn body_kinematics<T: Scalar>(
         let t134 = neg_mul_add(parameters.actuator_axis[2][2], t131, t72);
         // leg 3: extent of the rod along the actuator axis
         let t135 = mul_add(t134, t134, mul_add(t132, t132, t133 * t133));
-        let t136 = sqrt(
-            mul_sub(parameters.rod_length[2], parameters.rod_length[2], t135),
-        );
+        let t136 = sqrt(mul_sub(parameters.rod_length[2], parameters.rod_length[2], t135));
         // leg 3: reciprocal of that extent
         let t137 = c(1.0) / t136;
         // leg 3: actuator length d
@@ -4315,9 +4140,7 @@ pub fn body_kinematics<T: Scalar>(
         let t144 = neg_mul_add(parameters.actuator_axis[3][2], t141, t84);
         // leg 4: extent of the rod along the actuator axis
         let t145 = mul_add(t144, t144, mul_add(t142, t142, t143 * t143));
-        let t146 = sqrt(
-            mul_sub(parameters.rod_length[3], parameters.rod_length[3], t145),
-        );
+        let t146 = sqrt(mul_sub(parameters.rod_length[3], parameters.rod_length[3], t145));
         // leg 4: reciprocal of that extent
         let t147 = c(1.0) / t146;
         // leg 4: actuator length d
@@ -4331,9 +4154,7 @@ pub fn body_kinematics<T: Scalar>(
         let t154 = neg_mul_add(parameters.actuator_axis[4][2], t151, t96);
         // leg 5: extent of the rod along the actuator axis
         let t155 = mul_add(t154, t154, mul_add(t152, t152, t153 * t153));
-        let t156 = sqrt(
-            mul_sub(parameters.rod_length[4], parameters.rod_length[4], t155),
-        );
+        let t156 = sqrt(mul_sub(parameters.rod_length[4], parameters.rod_length[4], t155));
         // leg 5: reciprocal of that extent
         let t157 = c(1.0) / t156;
         // leg 5: actuator length d
@@ -4347,9 +4168,7 @@ pub fn body_kinematics<T: Scalar>(
         let t164 = neg_mul_add(parameters.actuator_axis[5][2], t161, t108);
         // leg 6: extent of the rod along the actuator axis
         let t165 = mul_add(t164, t164, mul_add(t162, t162, t163 * t163));
-        let t166 = sqrt(
-            mul_sub(parameters.rod_length[5], parameters.rod_length[5], t165),
-        );
+        let t166 = sqrt(mul_sub(parameters.rod_length[5], parameters.rod_length[5], t165));
         // leg 6: reciprocal of that extent
         let t167 = c(1.0) / t166;
         // leg 6: actuator length d
@@ -4811,40 +4630,16 @@ pub fn body_kinematics<T: Scalar>(
         let t568 = base_position[2] + t567;
         // leg 1: platform joint
         let t569 = platform_rotation[0][1] * parameters.platform_point[0][1];
-        let t570 = mul_add(
-            platform_rotation[0][0],
-            parameters.platform_point[0][0],
-            t569,
-        );
-        let t571 = mul_add(
-            platform_rotation[0][2],
-            parameters.platform_point[0][2],
-            t570,
-        );
+        let t570 = mul_add(platform_rotation[0][0], parameters.platform_point[0][0], t569);
+        let t571 = mul_add(platform_rotation[0][2], parameters.platform_point[0][2], t570);
         let t572 = platform_position[0] + t571;
         let t573 = platform_rotation[1][1] * parameters.platform_point[0][1];
-        let t574 = mul_add(
-            platform_rotation[1][0],
-            parameters.platform_point[0][0],
-            t573,
-        );
-        let t575 = mul_add(
-            platform_rotation[1][2],
-            parameters.platform_point[0][2],
-            t574,
-        );
+        let t574 = mul_add(platform_rotation[1][0], parameters.platform_point[0][0], t573);
+        let t575 = mul_add(platform_rotation[1][2], parameters.platform_point[0][2], t574);
         let t576 = platform_position[1] + t575;
         let t577 = platform_rotation[2][1] * parameters.platform_point[0][1];
-        let t578 = mul_add(
-            platform_rotation[2][0],
-            parameters.platform_point[0][0],
-            t577,
-        );
-        let t579 = mul_add(
-            platform_rotation[2][2],
-            parameters.platform_point[0][2],
-            t578,
-        );
+        let t578 = mul_add(platform_rotation[2][0], parameters.platform_point[0][0], t577);
+        let t579 = mul_add(platform_rotation[2][2], parameters.platform_point[0][2], t578);
         let t580 = platform_position[2] + t579;
         // leg 1: velocity of the Hooke joint
         let t581 = mul_sub(base_velocity[4], t567, base_velocity[5] * t559);
@@ -4894,40 +4689,16 @@ pub fn body_kinematics<T: Scalar>(
         let t619 = base_position[2] + t618;
         // leg 2: platform joint
         let t620 = platform_rotation[0][1] * parameters.platform_point[1][1];
-        let t621 = mul_add(
-            platform_rotation[0][0],
-            parameters.platform_point[1][0],
-            t620,
-        );
-        let t622 = mul_add(
-            platform_rotation[0][2],
-            parameters.platform_point[1][2],
-            t621,
-        );
+        let t621 = mul_add(platform_rotation[0][0], parameters.platform_point[1][0], t620);
+        let t622 = mul_add(platform_rotation[0][2], parameters.platform_point[1][2], t621);
         let t623 = platform_position[0] + t622;
         let t624 = platform_rotation[1][1] * parameters.platform_point[1][1];
-        let t625 = mul_add(
-            platform_rotation[1][0],
-            parameters.platform_point[1][0],
-            t624,
-        );
-        let t626 = mul_add(
-            platform_rotation[1][2],
-            parameters.platform_point[1][2],
-            t625,
-        );
+        let t625 = mul_add(platform_rotation[1][0], parameters.platform_point[1][0], t624);
+        let t626 = mul_add(platform_rotation[1][2], parameters.platform_point[1][2], t625);
         let t627 = platform_position[1] + t626;
         let t628 = platform_rotation[2][1] * parameters.platform_point[1][1];
-        let t629 = mul_add(
-            platform_rotation[2][0],
-            parameters.platform_point[1][0],
-            t628,
-        );
-        let t630 = mul_add(
-            platform_rotation[2][2],
-            parameters.platform_point[1][2],
-            t629,
-        );
+        let t629 = mul_add(platform_rotation[2][0], parameters.platform_point[1][0], t628);
+        let t630 = mul_add(platform_rotation[2][2], parameters.platform_point[1][2], t629);
         let t631 = platform_position[2] + t630;
         // leg 2: velocity of the Hooke joint
         let t632 = mul_sub(base_velocity[4], t618, base_velocity[5] * t610);
@@ -4977,40 +4748,16 @@ pub fn body_kinematics<T: Scalar>(
         let t670 = base_position[2] + t669;
         // leg 3: platform joint
         let t671 = platform_rotation[0][1] * parameters.platform_point[2][1];
-        let t672 = mul_add(
-            platform_rotation[0][0],
-            parameters.platform_point[2][0],
-            t671,
-        );
-        let t673 = mul_add(
-            platform_rotation[0][2],
-            parameters.platform_point[2][2],
-            t672,
-        );
+        let t672 = mul_add(platform_rotation[0][0], parameters.platform_point[2][0], t671);
+        let t673 = mul_add(platform_rotation[0][2], parameters.platform_point[2][2], t672);
         let t674 = platform_position[0] + t673;
         let t675 = platform_rotation[1][1] * parameters.platform_point[2][1];
-        let t676 = mul_add(
-            platform_rotation[1][0],
-            parameters.platform_point[2][0],
-            t675,
-        );
-        let t677 = mul_add(
-            platform_rotation[1][2],
-            parameters.platform_point[2][2],
-            t676,
-        );
+        let t676 = mul_add(platform_rotation[1][0], parameters.platform_point[2][0], t675);
+        let t677 = mul_add(platform_rotation[1][2], parameters.platform_point[2][2], t676);
         let t678 = platform_position[1] + t677;
         let t679 = platform_rotation[2][1] * parameters.platform_point[2][1];
-        let t680 = mul_add(
-            platform_rotation[2][0],
-            parameters.platform_point[2][0],
-            t679,
-        );
-        let t681 = mul_add(
-            platform_rotation[2][2],
-            parameters.platform_point[2][2],
-            t680,
-        );
+        let t680 = mul_add(platform_rotation[2][0], parameters.platform_point[2][0], t679);
+        let t681 = mul_add(platform_rotation[2][2], parameters.platform_point[2][2], t680);
         let t682 = platform_position[2] + t681;
         // leg 3: velocity of the Hooke joint
         let t683 = mul_sub(base_velocity[4], t669, base_velocity[5] * t661);
@@ -5060,40 +4807,16 @@ pub fn body_kinematics<T: Scalar>(
         let t721 = base_position[2] + t720;
         // leg 4: platform joint
         let t722 = platform_rotation[0][1] * parameters.platform_point[3][1];
-        let t723 = mul_add(
-            platform_rotation[0][0],
-            parameters.platform_point[3][0],
-            t722,
-        );
-        let t724 = mul_add(
-            platform_rotation[0][2],
-            parameters.platform_point[3][2],
-            t723,
-        );
+        let t723 = mul_add(platform_rotation[0][0], parameters.platform_point[3][0], t722);
+        let t724 = mul_add(platform_rotation[0][2], parameters.platform_point[3][2], t723);
         let t725 = platform_position[0] + t724;
         let t726 = platform_rotation[1][1] * parameters.platform_point[3][1];
-        let t727 = mul_add(
-            platform_rotation[1][0],
-            parameters.platform_point[3][0],
-            t726,
-        );
-        let t728 = mul_add(
-            platform_rotation[1][2],
-            parameters.platform_point[3][2],
-            t727,
-        );
+        let t727 = mul_add(platform_rotation[1][0], parameters.platform_point[3][0], t726);
+        let t728 = mul_add(platform_rotation[1][2], parameters.platform_point[3][2], t727);
         let t729 = platform_position[1] + t728;
         let t730 = platform_rotation[2][1] * parameters.platform_point[3][1];
-        let t731 = mul_add(
-            platform_rotation[2][0],
-            parameters.platform_point[3][0],
-            t730,
-        );
-        let t732 = mul_add(
-            platform_rotation[2][2],
-            parameters.platform_point[3][2],
-            t731,
-        );
+        let t731 = mul_add(platform_rotation[2][0], parameters.platform_point[3][0], t730);
+        let t732 = mul_add(platform_rotation[2][2], parameters.platform_point[3][2], t731);
         let t733 = platform_position[2] + t732;
         // leg 4: velocity of the Hooke joint
         let t734 = mul_sub(base_velocity[4], t720, base_velocity[5] * t712);
@@ -5143,40 +4866,16 @@ pub fn body_kinematics<T: Scalar>(
         let t772 = base_position[2] + t771;
         // leg 5: platform joint
         let t773 = platform_rotation[0][1] * parameters.platform_point[4][1];
-        let t774 = mul_add(
-            platform_rotation[0][0],
-            parameters.platform_point[4][0],
-            t773,
-        );
-        let t775 = mul_add(
-            platform_rotation[0][2],
-            parameters.platform_point[4][2],
-            t774,
-        );
+        let t774 = mul_add(platform_rotation[0][0], parameters.platform_point[4][0], t773);
+        let t775 = mul_add(platform_rotation[0][2], parameters.platform_point[4][2], t774);
         let t776 = platform_position[0] + t775;
         let t777 = platform_rotation[1][1] * parameters.platform_point[4][1];
-        let t778 = mul_add(
-            platform_rotation[1][0],
-            parameters.platform_point[4][0],
-            t777,
-        );
-        let t779 = mul_add(
-            platform_rotation[1][2],
-            parameters.platform_point[4][2],
-            t778,
-        );
+        let t778 = mul_add(platform_rotation[1][0], parameters.platform_point[4][0], t777);
+        let t779 = mul_add(platform_rotation[1][2], parameters.platform_point[4][2], t778);
         let t780 = platform_position[1] + t779;
         let t781 = platform_rotation[2][1] * parameters.platform_point[4][1];
-        let t782 = mul_add(
-            platform_rotation[2][0],
-            parameters.platform_point[4][0],
-            t781,
-        );
-        let t783 = mul_add(
-            platform_rotation[2][2],
-            parameters.platform_point[4][2],
-            t782,
-        );
+        let t782 = mul_add(platform_rotation[2][0], parameters.platform_point[4][0], t781);
+        let t783 = mul_add(platform_rotation[2][2], parameters.platform_point[4][2], t782);
         let t784 = platform_position[2] + t783;
         // leg 5: velocity of the Hooke joint
         let t785 = mul_sub(base_velocity[4], t771, base_velocity[5] * t763);
@@ -5226,40 +4925,16 @@ pub fn body_kinematics<T: Scalar>(
         let t823 = base_position[2] + t822;
         // leg 6: platform joint
         let t824 = platform_rotation[0][1] * parameters.platform_point[5][1];
-        let t825 = mul_add(
-            platform_rotation[0][0],
-            parameters.platform_point[5][0],
-            t824,
-        );
-        let t826 = mul_add(
-            platform_rotation[0][2],
-            parameters.platform_point[5][2],
-            t825,
-        );
+        let t825 = mul_add(platform_rotation[0][0], parameters.platform_point[5][0], t824);
+        let t826 = mul_add(platform_rotation[0][2], parameters.platform_point[5][2], t825);
         let t827 = platform_position[0] + t826;
         let t828 = platform_rotation[1][1] * parameters.platform_point[5][1];
-        let t829 = mul_add(
-            platform_rotation[1][0],
-            parameters.platform_point[5][0],
-            t828,
-        );
-        let t830 = mul_add(
-            platform_rotation[1][2],
-            parameters.platform_point[5][2],
-            t829,
-        );
+        let t829 = mul_add(platform_rotation[1][0], parameters.platform_point[5][0], t828);
+        let t830 = mul_add(platform_rotation[1][2], parameters.platform_point[5][2], t829);
         let t831 = platform_position[1] + t830;
         let t832 = platform_rotation[2][1] * parameters.platform_point[5][1];
-        let t833 = mul_add(
-            platform_rotation[2][0],
-            parameters.platform_point[5][0],
-            t832,
-        );
-        let t834 = mul_add(
-            platform_rotation[2][2],
-            parameters.platform_point[5][2],
-            t833,
-        );
+        let t833 = mul_add(platform_rotation[2][0], parameters.platform_point[5][0], t832);
+        let t834 = mul_add(platform_rotation[2][2], parameters.platform_point[5][2], t833);
         let t835 = platform_position[2] + t834;
         // leg 6: velocity of the Hooke joint
         let t836 = mul_sub(base_velocity[4], t822, base_velocity[5] * t814);
@@ -5284,21 +4959,9 @@ pub fn body_kinematics<T: Scalar>(
         rod_angular_velocity[5][2] = t535 * mul_sub(t540, t849, t542 * t850);
         // leg 1: centre of mass of the rod
         let t851 = parameters.rod_com_fraction[0] - c(1.0);
-        rod_com_position[0][0] = neg_mul_add(
-            t552,
-            t851,
-            parameters.rod_com_fraction[0] * t572,
-        );
-        rod_com_position[0][1] = neg_mul_add(
-            t560,
-            t851,
-            parameters.rod_com_fraction[0] * t576,
-        );
-        rod_com_position[0][2] = neg_mul_add(
-            t568,
-            t851,
-            parameters.rod_com_fraction[0] * t580,
-        );
+        rod_com_position[0][0] = neg_mul_add(t552, t851, parameters.rod_com_fraction[0] * t572);
+        rod_com_position[0][1] = neg_mul_add(t560, t851, parameters.rod_com_fraction[0] * t576);
+        rod_com_position[0][2] = neg_mul_add(t568, t851, parameters.rod_com_fraction[0] * t580);
         // leg 1: velocity of the mover
         let t852 = mul_sub(base_velocity[4], t566, base_velocity[5] * t558);
         let t853 = mul_sub(base_velocity[5], t550, base_velocity[3] * t566);
@@ -5308,21 +4971,9 @@ pub fn body_kinematics<T: Scalar>(
         mover_velocity[0][2] = neg_mul_add(parameters.mover_offset[0], t854, t586);
         // leg 2: centre of mass of the rod
         let t855 = parameters.rod_com_fraction[1] - c(1.0);
-        rod_com_position[1][0] = neg_mul_add(
-            t603,
-            t855,
-            parameters.rod_com_fraction[1] * t623,
-        );
-        rod_com_position[1][1] = neg_mul_add(
-            t611,
-            t855,
-            parameters.rod_com_fraction[1] * t627,
-        );
-        rod_com_position[1][2] = neg_mul_add(
-            t619,
-            t855,
-            parameters.rod_com_fraction[1] * t631,
-        );
+        rod_com_position[1][0] = neg_mul_add(t603, t855, parameters.rod_com_fraction[1] * t623);
+        rod_com_position[1][1] = neg_mul_add(t611, t855, parameters.rod_com_fraction[1] * t627);
+        rod_com_position[1][2] = neg_mul_add(t619, t855, parameters.rod_com_fraction[1] * t631);
         // leg 2: velocity of the mover
         let t856 = mul_sub(base_velocity[4], t617, base_velocity[5] * t609);
         let t857 = mul_sub(base_velocity[5], t601, base_velocity[3] * t617);
@@ -5332,21 +4983,9 @@ pub fn body_kinematics<T: Scalar>(
         mover_velocity[1][2] = neg_mul_add(parameters.mover_offset[1], t858, t637);
         // leg 3: centre of mass of the rod
         let t859 = parameters.rod_com_fraction[2] - c(1.0);
-        rod_com_position[2][0] = neg_mul_add(
-            t654,
-            t859,
-            parameters.rod_com_fraction[2] * t674,
-        );
-        rod_com_position[2][1] = neg_mul_add(
-            t662,
-            t859,
-            parameters.rod_com_fraction[2] * t678,
-        );
-        rod_com_position[2][2] = neg_mul_add(
-            t670,
-            t859,
-            parameters.rod_com_fraction[2] * t682,
-        );
+        rod_com_position[2][0] = neg_mul_add(t654, t859, parameters.rod_com_fraction[2] * t674);
+        rod_com_position[2][1] = neg_mul_add(t662, t859, parameters.rod_com_fraction[2] * t678);
+        rod_com_position[2][2] = neg_mul_add(t670, t859, parameters.rod_com_fraction[2] * t682);
         // leg 3: velocity of the mover
         let t860 = mul_sub(base_velocity[4], t668, base_velocity[5] * t660);
         let t861 = mul_sub(base_velocity[5], t652, base_velocity[3] * t668);
@@ -5356,21 +4995,9 @@ pub fn body_kinematics<T: Scalar>(
         mover_velocity[2][2] = neg_mul_add(parameters.mover_offset[2], t862, t688);
         // leg 4: centre of mass of the rod
         let t863 = parameters.rod_com_fraction[3] - c(1.0);
-        rod_com_position[3][0] = neg_mul_add(
-            t705,
-            t863,
-            parameters.rod_com_fraction[3] * t725,
-        );
-        rod_com_position[3][1] = neg_mul_add(
-            t713,
-            t863,
-            parameters.rod_com_fraction[3] * t729,
-        );
-        rod_com_position[3][2] = neg_mul_add(
-            t721,
-            t863,
-            parameters.rod_com_fraction[3] * t733,
-        );
+        rod_com_position[3][0] = neg_mul_add(t705, t863, parameters.rod_com_fraction[3] * t725);
+        rod_com_position[3][1] = neg_mul_add(t713, t863, parameters.rod_com_fraction[3] * t729);
+        rod_com_position[3][2] = neg_mul_add(t721, t863, parameters.rod_com_fraction[3] * t733);
         // leg 4: velocity of the mover
         let t864 = mul_sub(base_velocity[4], t719, base_velocity[5] * t711);
         let t865 = mul_sub(base_velocity[5], t703, base_velocity[3] * t719);
@@ -5380,21 +5007,9 @@ pub fn body_kinematics<T: Scalar>(
         mover_velocity[3][2] = neg_mul_add(parameters.mover_offset[3], t866, t739);
         // leg 5: centre of mass of the rod
         let t867 = parameters.rod_com_fraction[4] - c(1.0);
-        rod_com_position[4][0] = neg_mul_add(
-            t756,
-            t867,
-            parameters.rod_com_fraction[4] * t776,
-        );
-        rod_com_position[4][1] = neg_mul_add(
-            t764,
-            t867,
-            parameters.rod_com_fraction[4] * t780,
-        );
-        rod_com_position[4][2] = neg_mul_add(
-            t772,
-            t867,
-            parameters.rod_com_fraction[4] * t784,
-        );
+        rod_com_position[4][0] = neg_mul_add(t756, t867, parameters.rod_com_fraction[4] * t776);
+        rod_com_position[4][1] = neg_mul_add(t764, t867, parameters.rod_com_fraction[4] * t780);
+        rod_com_position[4][2] = neg_mul_add(t772, t867, parameters.rod_com_fraction[4] * t784);
         // leg 5: velocity of the mover
         let t868 = mul_sub(base_velocity[4], t770, base_velocity[5] * t762);
         let t869 = mul_sub(base_velocity[5], t754, base_velocity[3] * t770);
@@ -5404,21 +5019,9 @@ pub fn body_kinematics<T: Scalar>(
         mover_velocity[4][2] = neg_mul_add(parameters.mover_offset[4], t870, t790);
         // leg 6: centre of mass of the rod
         let t871 = parameters.rod_com_fraction[5] - c(1.0);
-        rod_com_position[5][0] = neg_mul_add(
-            t807,
-            t871,
-            parameters.rod_com_fraction[5] * t827,
-        );
-        rod_com_position[5][1] = neg_mul_add(
-            t815,
-            t871,
-            parameters.rod_com_fraction[5] * t831,
-        );
-        rod_com_position[5][2] = neg_mul_add(
-            t823,
-            t871,
-            parameters.rod_com_fraction[5] * t835,
-        );
+        rod_com_position[5][0] = neg_mul_add(t807, t871, parameters.rod_com_fraction[5] * t827);
+        rod_com_position[5][1] = neg_mul_add(t815, t871, parameters.rod_com_fraction[5] * t831);
+        rod_com_position[5][2] = neg_mul_add(t823, t871, parameters.rod_com_fraction[5] * t835);
         // leg 6: velocity of the mover
         let t872 = mul_sub(base_velocity[4], t821, base_velocity[5] * t813);
         let t873 = mul_sub(base_velocity[5], t805, base_velocity[3] * t821);
@@ -5427,11 +5030,7 @@ pub fn body_kinematics<T: Scalar>(
         mover_velocity[5][1] = neg_mul_add(parameters.mover_offset[5], t873, t839);
         mover_velocity[5][2] = neg_mul_add(parameters.mover_offset[5], t874, t841);
         // leg 1: angular acceleration of the rod
-        let t875 = mul_sub(
-            platform_acceleration[3],
-            t575,
-            platform_acceleration[4] * t571,
-        );
+        let t875 = mul_sub(platform_acceleration[3], t575, platform_acceleration[4] * t571);
         let t876 = mul_sub(platform_velocity[3], t589, platform_velocity[4] * t587);
         let t877 = platform_acceleration[2] + t875 + t876;
         let t878 = mul_sub(base_acceleration[3], t558, base_acceleration[4] * t550);
@@ -5443,11 +5042,7 @@ pub fn body_kinematics<T: Scalar>(
         let t884 = mul_sub(base_velocity[3], t882, base_velocity[4] * t883);
         let t885 = neg_mul_add(t118, t879, base_acceleration[2] + t881 + t884);
         let t886 = neg_mul_add(t454, t566, neg_mul_add(t854, t880, t885));
-        let t887 = mul_sub(
-            platform_acceleration[5],
-            t571,
-            platform_acceleration[3] * t579,
-        );
+        let t887 = mul_sub(platform_acceleration[5], t571, platform_acceleration[3] * t579);
         let t888 = mul_sub(platform_velocity[5], t587, platform_velocity[3] * t591);
         let t889 = platform_acceleration[1] + t887 + t888;
         let t890 = mul_sub(base_acceleration[5], t550, base_acceleration[3] * t566);
@@ -5457,11 +5052,7 @@ pub fn body_kinematics<T: Scalar>(
         let t894 = mul_sub(base_velocity[5], t883, base_velocity[3] * t893);
         let t895 = neg_mul_add(t118, t891, base_acceleration[1] + t892 + t894);
         let t896 = neg_mul_add(t454, t558, neg_mul_add(t853, t880, t895));
-        let t897 = mul_sub(
-            platform_acceleration[4],
-            t579,
-            platform_acceleration[5] * t575,
-        );
+        let t897 = mul_sub(platform_acceleration[4], t579, platform_acceleration[5] * t575);
         let t898 = mul_sub(platform_velocity[4], t591, platform_velocity[5] * t589);
         let t899 = platform_acceleration[0] + t897 + t898;
         let t900 = mul_sub(base_acceleration[4], t566, base_acceleration[5] * t558);
@@ -5477,197 +5068,24 @@ pub fn body_kinematics<T: Scalar>(
         rod_angular_acceleration[0][1] = t485 * neg_mul_add(t494, t908, t490 * t906);
         rod_angular_acceleration[0][2] = t485 * neg_mul_add(t490, t907, t492 * t908);
         (
-            t128,
-            t138,
-            t148,
-            t158,
-            t168,
-            t282,
-            t291,
-            t300,
-            t309,
-            t318,
-            t460,
-            t466,
-            t472,
-            t478,
-            t484,
-            t495,
-            t500,
-            t502,
-            t504,
-            t505,
-            t510,
-            t512,
-            t514,
-            t515,
-            t520,
-            t522,
-            t524,
-            t525,
-            t530,
-            t532,
-            t534,
-            t535,
-            t540,
-            t542,
-            t544,
-            t550,
-            t552,
-            t558,
-            t560,
-            t566,
-            t568,
-            t582,
-            t584,
-            t586,
-            t588,
-            t590,
-            t592,
-            t598,
-            t601,
-            t603,
-            t606,
-            t609,
-            t611,
-            t614,
-            t617,
-            t619,
-            t622,
-            t626,
-            t630,
-            t633,
-            t635,
-            t637,
-            t638,
-            t639,
-            t640,
-            t641,
-            t642,
-            t643,
-            t649,
-            t652,
-            t654,
-            t657,
-            t660,
-            t662,
-            t665,
-            t668,
-            t670,
-            t673,
-            t677,
-            t681,
-            t684,
-            t686,
-            t688,
-            t689,
-            t690,
-            t691,
-            t692,
-            t693,
-            t694,
-            t700,
-            t703,
-            t705,
-            t708,
-            t711,
-            t713,
-            t716,
-            t719,
-            t721,
-            t724,
-            t728,
-            t732,
-            t735,
-            t737,
-            t739,
-            t740,
-            t741,
-            t742,
-            t743,
-            t744,
-            t745,
-            t751,
-            t754,
-            t756,
-            t759,
-            t762,
-            t764,
-            t767,
-            t770,
-            t772,
-            t775,
-            t779,
-            t783,
-            t786,
-            t788,
-            t790,
-            t791,
-            t792,
-            t793,
-            t794,
-            t795,
-            t796,
-            t802,
-            t805,
-            t807,
-            t810,
-            t813,
-            t815,
-            t818,
-            t821,
-            t823,
-            t826,
-            t830,
-            t834,
-            t837,
-            t839,
-            t841,
-            t842,
-            t843,
-            t844,
-            t845,
-            t846,
-            t847,
-            t851,
-            t855,
-            t856,
-            t857,
-            t858,
-            t859,
-            t860,
-            t861,
-            t862,
-            t863,
-            t864,
-            t865,
-            t866,
-            t867,
-            t868,
-            t869,
-            t870,
-            t871,
-            t872,
-            t873,
-            t874,
-            t877,
-            t879,
-            t886,
-            t889,
-            t891,
-            t896,
-            t899,
-            t901,
-            t905,
+            t128, t138, t148, t158, t168, t282, t291, t300, t309, t318, t460, t466, t472, t478,
+            t484, t495, t500, t502, t504, t505, t510, t512, t514, t515, t520, t522, t524, t525,
+            t530, t532, t534, t535, t540, t542, t544, t550, t552, t558, t560, t566, t568, t582,
+            t584, t586, t588, t590, t592, t598, t601, t603, t606, t609, t611, t614, t617, t619,
+            t622, t626, t630, t633, t635, t637, t638, t639, t640, t641, t642, t643, t649, t652,
+            t654, t657, t660, t662, t665, t668, t670, t673, t677, t681, t684, t686, t688, t689,
+            t690, t691, t692, t693, t694, t700, t703, t705, t708, t711, t713, t716, t719, t721,
+            t724, t728, t732, t735, t737, t739, t740, t741, t742, t743, t744, t745, t751, t754,
+            t756, t759, t762, t764, t767, t770, t772, t775, t779, t783, t786, t788, t790, t791,
+            t792, t793, t794, t795, t796, t802, t805, t807, t810, t813, t815, t818, t821, t823,
+            t826, t830, t834, t837, t839, t841, t842, t843, t844, t845, t846, t847, t851, t855,
+            t856, t857, t858, t859, t860, t861, t862, t863, t864, t865, t866, t867, t868, t869,
+            t870, t871, t872, t873, t874, t877, t879, t886, t889, t891, t896, t899, t901, t905,
         )
     };
     {
         // leg 2: angular acceleration of the rod
-        let t909 = mul_sub(
-            platform_acceleration[3],
-            t626,
-            platform_acceleration[4] * t622,
-        );
+        let t909 = mul_sub(platform_acceleration[3], t626, platform_acceleration[4] * t622);
         let t910 = mul_sub(platform_velocity[3], t640, platform_velocity[4] * t638);
         let t911 = platform_acceleration[2] + t909 + t910;
         let t912 = mul_sub(base_acceleration[3], t609, base_acceleration[4] * t601);
@@ -5679,11 +5097,7 @@ pub fn body_kinematics<T: Scalar>(
         let t918 = mul_sub(base_velocity[3], t916, base_velocity[4] * t917);
         let t919 = neg_mul_add(t128, t913, base_acceleration[2] + t915 + t918);
         let t920 = neg_mul_add(t460, t617, neg_mul_add(t858, t914, t919));
-        let t921 = mul_sub(
-            platform_acceleration[5],
-            t622,
-            platform_acceleration[3] * t630,
-        );
+        let t921 = mul_sub(platform_acceleration[5], t622, platform_acceleration[3] * t630);
         let t922 = mul_sub(platform_velocity[5], t638, platform_velocity[3] * t642);
         let t923 = platform_acceleration[1] + t921 + t922;
         let t924 = mul_sub(base_acceleration[5], t601, base_acceleration[3] * t617);
@@ -5693,11 +5107,7 @@ pub fn body_kinematics<T: Scalar>(
         let t928 = mul_sub(base_velocity[5], t917, base_velocity[3] * t927);
         let t929 = neg_mul_add(t128, t925, base_acceleration[1] + t926 + t928);
         let t930 = neg_mul_add(t460, t609, neg_mul_add(t857, t914, t929));
-        let t931 = mul_sub(
-            platform_acceleration[4],
-            t630,
-            platform_acceleration[5] * t626,
-        );
+        let t931 = mul_sub(platform_acceleration[4], t630, platform_acceleration[5] * t626);
         let t932 = mul_sub(platform_velocity[4], t642, platform_velocity[5] * t640);
         let t933 = platform_acceleration[0] + t931 + t932;
         let t934 = mul_sub(base_acceleration[4], t617, base_acceleration[5] * t609);
@@ -5713,11 +5123,7 @@ pub fn body_kinematics<T: Scalar>(
         rod_angular_acceleration[1][1] = t495 * neg_mul_add(t504, t942, t500 * t940);
         rod_angular_acceleration[1][2] = t495 * neg_mul_add(t500, t941, t502 * t942);
         // leg 3: angular acceleration of the rod
-        let t943 = mul_sub(
-            platform_acceleration[3],
-            t677,
-            platform_acceleration[4] * t673,
-        );
+        let t943 = mul_sub(platform_acceleration[3], t677, platform_acceleration[4] * t673);
         let t944 = mul_sub(platform_velocity[3], t691, platform_velocity[4] * t689);
         let t945 = platform_acceleration[2] + t943 + t944;
         let t946 = mul_sub(base_acceleration[3], t660, base_acceleration[4] * t652);
@@ -5729,11 +5135,7 @@ pub fn body_kinematics<T: Scalar>(
         let t952 = mul_sub(base_velocity[3], t950, base_velocity[4] * t951);
         let t953 = neg_mul_add(t138, t947, base_acceleration[2] + t949 + t952);
         let t954 = neg_mul_add(t466, t668, neg_mul_add(t862, t948, t953));
-        let t955 = mul_sub(
-            platform_acceleration[5],
-            t673,
-            platform_acceleration[3] * t681,
-        );
+        let t955 = mul_sub(platform_acceleration[5], t673, platform_acceleration[3] * t681);
         let t956 = mul_sub(platform_velocity[5], t689, platform_velocity[3] * t693);
         let t957 = platform_acceleration[1] + t955 + t956;
         let t958 = mul_sub(base_acceleration[5], t652, base_acceleration[3] * t668);
@@ -5743,11 +5145,7 @@ pub fn body_kinematics<T: Scalar>(
         let t962 = mul_sub(base_velocity[5], t951, base_velocity[3] * t961);
         let t963 = neg_mul_add(t138, t959, base_acceleration[1] + t960 + t962);
         let t964 = neg_mul_add(t466, t660, neg_mul_add(t861, t948, t963));
-        let t965 = mul_sub(
-            platform_acceleration[4],
-            t681,
-            platform_acceleration[5] * t677,
-        );
+        let t965 = mul_sub(platform_acceleration[4], t681, platform_acceleration[5] * t677);
         let t966 = mul_sub(platform_velocity[4], t693, platform_velocity[5] * t691);
         let t967 = platform_acceleration[0] + t965 + t966;
         let t968 = mul_sub(base_acceleration[4], t668, base_acceleration[5] * t660);
@@ -5763,11 +5161,7 @@ pub fn body_kinematics<T: Scalar>(
         rod_angular_acceleration[2][1] = t505 * neg_mul_add(t514, t976, t510 * t974);
         rod_angular_acceleration[2][2] = t505 * neg_mul_add(t510, t975, t512 * t976);
         // leg 4: angular acceleration of the rod
-        let t977 = mul_sub(
-            platform_acceleration[3],
-            t728,
-            platform_acceleration[4] * t724,
-        );
+        let t977 = mul_sub(platform_acceleration[3], t728, platform_acceleration[4] * t724);
         let t978 = mul_sub(platform_velocity[3], t742, platform_velocity[4] * t740);
         let t979 = platform_acceleration[2] + t977 + t978;
         let t980 = mul_sub(base_acceleration[3], t711, base_acceleration[4] * t703);
@@ -5779,11 +5173,7 @@ pub fn body_kinematics<T: Scalar>(
         let t986 = mul_sub(base_velocity[3], t984, base_velocity[4] * t985);
         let t987 = neg_mul_add(t148, t981, base_acceleration[2] + t983 + t986);
         let t988 = neg_mul_add(t472, t719, neg_mul_add(t866, t982, t987));
-        let t989 = mul_sub(
-            platform_acceleration[5],
-            t724,
-            platform_acceleration[3] * t732,
-        );
+        let t989 = mul_sub(platform_acceleration[5], t724, platform_acceleration[3] * t732);
         let t990 = mul_sub(platform_velocity[5], t740, platform_velocity[3] * t744);
         let t991 = platform_acceleration[1] + t989 + t990;
         let t992 = mul_sub(base_acceleration[5], t703, base_acceleration[3] * t719);
@@ -5793,11 +5183,7 @@ pub fn body_kinematics<T: Scalar>(
         let t996 = mul_sub(base_velocity[5], t985, base_velocity[3] * t995);
         let t997 = neg_mul_add(t148, t993, base_acceleration[1] + t994 + t996);
         let t998 = neg_mul_add(t472, t711, neg_mul_add(t865, t982, t997));
-        let t999 = mul_sub(
-            platform_acceleration[4],
-            t732,
-            platform_acceleration[5] * t728,
-        );
+        let t999 = mul_sub(platform_acceleration[4], t732, platform_acceleration[5] * t728);
         let t1000 = mul_sub(platform_velocity[4], t744, platform_velocity[5] * t742);
         let t1001 = platform_acceleration[0] + t999 + t1000;
         let t1002 = mul_sub(base_acceleration[4], t719, base_acceleration[5] * t711);
@@ -5813,11 +5199,7 @@ pub fn body_kinematics<T: Scalar>(
         rod_angular_acceleration[3][1] = t515 * neg_mul_add(t524, t1010, t520 * t1008);
         rod_angular_acceleration[3][2] = t515 * neg_mul_add(t520, t1009, t522 * t1010);
         // leg 5: angular acceleration of the rod
-        let t1011 = mul_sub(
-            platform_acceleration[3],
-            t779,
-            platform_acceleration[4] * t775,
-        );
+        let t1011 = mul_sub(platform_acceleration[3], t779, platform_acceleration[4] * t775);
         let t1012 = mul_sub(platform_velocity[3], t793, platform_velocity[4] * t791);
         let t1013 = platform_acceleration[2] + t1011 + t1012;
         let t1014 = mul_sub(base_acceleration[3], t762, base_acceleration[4] * t754);
@@ -5829,11 +5211,7 @@ pub fn body_kinematics<T: Scalar>(
         let t1020 = mul_sub(base_velocity[3], t1018, base_velocity[4] * t1019);
         let t1021 = neg_mul_add(t158, t1015, base_acceleration[2] + t1017 + t1020);
         let t1022 = neg_mul_add(t478, t770, neg_mul_add(t870, t1016, t1021));
-        let t1023 = mul_sub(
-            platform_acceleration[5],
-            t775,
-            platform_acceleration[3] * t783,
-        );
+        let t1023 = mul_sub(platform_acceleration[5], t775, platform_acceleration[3] * t783);
         let t1024 = mul_sub(platform_velocity[5], t791, platform_velocity[3] * t795);
         let t1025 = platform_acceleration[1] + t1023 + t1024;
         let t1026 = mul_sub(base_acceleration[5], t754, base_acceleration[3] * t770);
@@ -5843,11 +5221,7 @@ pub fn body_kinematics<T: Scalar>(
         let t1030 = mul_sub(base_velocity[5], t1019, base_velocity[3] * t1029);
         let t1031 = neg_mul_add(t158, t1027, base_acceleration[1] + t1028 + t1030);
         let t1032 = neg_mul_add(t478, t762, neg_mul_add(t869, t1016, t1031));
-        let t1033 = mul_sub(
-            platform_acceleration[4],
-            t783,
-            platform_acceleration[5] * t779,
-        );
+        let t1033 = mul_sub(platform_acceleration[4], t783, platform_acceleration[5] * t779);
         let t1034 = mul_sub(platform_velocity[4], t795, platform_velocity[5] * t793);
         let t1035 = platform_acceleration[0] + t1033 + t1034;
         let t1036 = mul_sub(base_acceleration[4], t770, base_acceleration[5] * t762);
@@ -5863,11 +5237,7 @@ pub fn body_kinematics<T: Scalar>(
         rod_angular_acceleration[4][1] = t525 * neg_mul_add(t534, t1044, t530 * t1042);
         rod_angular_acceleration[4][2] = t525 * neg_mul_add(t530, t1043, t532 * t1044);
         // leg 6: angular acceleration of the rod
-        let t1045 = mul_sub(
-            platform_acceleration[3],
-            t830,
-            platform_acceleration[4] * t826,
-        );
+        let t1045 = mul_sub(platform_acceleration[3], t830, platform_acceleration[4] * t826);
         let t1046 = mul_sub(platform_velocity[3], t844, platform_velocity[4] * t842);
         let t1047 = platform_acceleration[2] + t1045 + t1046;
         let t1048 = mul_sub(base_acceleration[3], t813, base_acceleration[4] * t805);
@@ -5879,11 +5249,7 @@ pub fn body_kinematics<T: Scalar>(
         let t1054 = mul_sub(base_velocity[3], t1052, base_velocity[4] * t1053);
         let t1055 = neg_mul_add(t168, t1049, base_acceleration[2] + t1051 + t1054);
         let t1056 = neg_mul_add(t484, t821, neg_mul_add(t874, t1050, t1055));
-        let t1057 = mul_sub(
-            platform_acceleration[5],
-            t826,
-            platform_acceleration[3] * t834,
-        );
+        let t1057 = mul_sub(platform_acceleration[5], t826, platform_acceleration[3] * t834);
         let t1058 = mul_sub(platform_velocity[5], t842, platform_velocity[3] * t846);
         let t1059 = platform_acceleration[1] + t1057 + t1058;
         let t1060 = mul_sub(base_acceleration[5], t805, base_acceleration[3] * t821);
@@ -5893,11 +5259,7 @@ pub fn body_kinematics<T: Scalar>(
         let t1064 = mul_sub(base_velocity[5], t1053, base_velocity[3] * t1063);
         let t1065 = neg_mul_add(t168, t1061, base_acceleration[1] + t1062 + t1064);
         let t1066 = neg_mul_add(t484, t813, neg_mul_add(t873, t1050, t1065));
-        let t1067 = mul_sub(
-            platform_acceleration[4],
-            t834,
-            platform_acceleration[5] * t830,
-        );
+        let t1067 = mul_sub(platform_acceleration[4], t834, platform_acceleration[5] * t830);
         let t1068 = mul_sub(platform_velocity[4], t846, platform_velocity[5] * t844);
         let t1069 = platform_acceleration[0] + t1067 + t1068;
         let t1070 = mul_sub(base_acceleration[4], t821, base_acceleration[5] * t813);
@@ -5933,219 +5295,70 @@ pub fn body_kinematics<T: Scalar>(
         payload_com_velocity[1] = platform_velocity[1] + t1089;
         payload_com_velocity[2] = platform_velocity[2] + t1090;
         // acceleration of the payload's centre of mass
-        let t1091 = mul_sub(
-            platform_acceleration[4],
-            t1087,
-            platform_acceleration[5] * t1084,
-        );
+        let t1091 = mul_sub(platform_acceleration[4], t1087, platform_acceleration[5] * t1084);
         let t1092 = mul_sub(platform_velocity[4], t1090, platform_velocity[5] * t1089);
         payload_com_acceleration[0] = platform_acceleration[0] + t1091 + t1092;
-        let t1093 = mul_sub(
-            platform_acceleration[5],
-            t1081,
-            platform_acceleration[3] * t1087,
-        );
+        let t1093 = mul_sub(platform_acceleration[5], t1081, platform_acceleration[3] * t1087);
         let t1094 = mul_sub(platform_velocity[5], t1088, platform_velocity[3] * t1090);
         payload_com_acceleration[1] = platform_acceleration[1] + t1093 + t1094;
-        let t1095 = mul_sub(
-            platform_acceleration[3],
-            t1084,
-            platform_acceleration[4] * t1081,
-        );
+        let t1095 = mul_sub(platform_acceleration[3], t1084, platform_acceleration[4] * t1081);
         let t1096 = mul_sub(platform_velocity[3], t1089, platform_velocity[4] * t1088);
         payload_com_acceleration[2] = platform_acceleration[2] + t1095 + t1096;
         // leg 1: velocity of the rod's centre of mass
-        rod_com_velocity[0][0] = neg_mul_add(
-            t582,
-            t851,
-            parameters.rod_com_fraction[0] * t588,
-        );
-        rod_com_velocity[0][1] = neg_mul_add(
-            t584,
-            t851,
-            parameters.rod_com_fraction[0] * t590,
-        );
-        rod_com_velocity[0][2] = neg_mul_add(
-            t586,
-            t851,
-            parameters.rod_com_fraction[0] * t592,
-        );
+        rod_com_velocity[0][0] = neg_mul_add(t582, t851, parameters.rod_com_fraction[0] * t588);
+        rod_com_velocity[0][1] = neg_mul_add(t584, t851, parameters.rod_com_fraction[0] * t590);
+        rod_com_velocity[0][2] = neg_mul_add(t586, t851, parameters.rod_com_fraction[0] * t592);
         // leg 2: velocity of the rod's centre of mass
-        rod_com_velocity[1][0] = neg_mul_add(
-            t633,
-            t855,
-            parameters.rod_com_fraction[1] * t639,
-        );
-        rod_com_velocity[1][1] = neg_mul_add(
-            t635,
-            t855,
-            parameters.rod_com_fraction[1] * t641,
-        );
-        rod_com_velocity[1][2] = neg_mul_add(
-            t637,
-            t855,
-            parameters.rod_com_fraction[1] * t643,
-        );
+        rod_com_velocity[1][0] = neg_mul_add(t633, t855, parameters.rod_com_fraction[1] * t639);
+        rod_com_velocity[1][1] = neg_mul_add(t635, t855, parameters.rod_com_fraction[1] * t641);
+        rod_com_velocity[1][2] = neg_mul_add(t637, t855, parameters.rod_com_fraction[1] * t643);
         // leg 3: velocity of the rod's centre of mass
-        rod_com_velocity[2][0] = neg_mul_add(
-            t684,
-            t859,
-            parameters.rod_com_fraction[2] * t690,
-        );
-        rod_com_velocity[2][1] = neg_mul_add(
-            t686,
-            t859,
-            parameters.rod_com_fraction[2] * t692,
-        );
-        rod_com_velocity[2][2] = neg_mul_add(
-            t688,
-            t859,
-            parameters.rod_com_fraction[2] * t694,
-        );
+        rod_com_velocity[2][0] = neg_mul_add(t684, t859, parameters.rod_com_fraction[2] * t690);
+        rod_com_velocity[2][1] = neg_mul_add(t686, t859, parameters.rod_com_fraction[2] * t692);
+        rod_com_velocity[2][2] = neg_mul_add(t688, t859, parameters.rod_com_fraction[2] * t694);
         // leg 4: velocity of the rod's centre of mass
-        rod_com_velocity[3][0] = neg_mul_add(
-            t735,
-            t863,
-            parameters.rod_com_fraction[3] * t741,
-        );
-        rod_com_velocity[3][1] = neg_mul_add(
-            t737,
-            t863,
-            parameters.rod_com_fraction[3] * t743,
-        );
-        rod_com_velocity[3][2] = neg_mul_add(
-            t739,
-            t863,
-            parameters.rod_com_fraction[3] * t745,
-        );
+        rod_com_velocity[3][0] = neg_mul_add(t735, t863, parameters.rod_com_fraction[3] * t741);
+        rod_com_velocity[3][1] = neg_mul_add(t737, t863, parameters.rod_com_fraction[3] * t743);
+        rod_com_velocity[3][2] = neg_mul_add(t739, t863, parameters.rod_com_fraction[3] * t745);
         // leg 5: velocity of the rod's centre of mass
-        rod_com_velocity[4][0] = neg_mul_add(
-            t786,
-            t867,
-            parameters.rod_com_fraction[4] * t792,
-        );
-        rod_com_velocity[4][1] = neg_mul_add(
-            t788,
-            t867,
-            parameters.rod_com_fraction[4] * t794,
-        );
-        rod_com_velocity[4][2] = neg_mul_add(
-            t790,
-            t867,
-            parameters.rod_com_fraction[4] * t796,
-        );
+        rod_com_velocity[4][0] = neg_mul_add(t786, t867, parameters.rod_com_fraction[4] * t792);
+        rod_com_velocity[4][1] = neg_mul_add(t788, t867, parameters.rod_com_fraction[4] * t794);
+        rod_com_velocity[4][2] = neg_mul_add(t790, t867, parameters.rod_com_fraction[4] * t796);
         // leg 6: velocity of the rod's centre of mass
-        rod_com_velocity[5][0] = neg_mul_add(
-            t837,
-            t871,
-            parameters.rod_com_fraction[5] * t843,
-        );
-        rod_com_velocity[5][1] = neg_mul_add(
-            t839,
-            t871,
-            parameters.rod_com_fraction[5] * t845,
-        );
-        rod_com_velocity[5][2] = neg_mul_add(
-            t841,
-            t871,
-            parameters.rod_com_fraction[5] * t847,
-        );
+        rod_com_velocity[5][0] = neg_mul_add(t837, t871, parameters.rod_com_fraction[5] * t843);
+        rod_com_velocity[5][1] = neg_mul_add(t839, t871, parameters.rod_com_fraction[5] * t845);
+        rod_com_velocity[5][2] = neg_mul_add(t841, t871, parameters.rod_com_fraction[5] * t847);
         // leg 1: acceleration of the rod's centre of mass
-        rod_com_acceleration[0][0] = neg_mul_add(
-            t851,
-            t905,
-            parameters.rod_com_fraction[0] * t899,
-        );
-        rod_com_acceleration[0][1] = neg_mul_add(
-            t851,
-            t896,
-            parameters.rod_com_fraction[0] * t889,
-        );
-        rod_com_acceleration[0][2] = neg_mul_add(
-            t851,
-            t886,
-            parameters.rod_com_fraction[0] * t877,
-        );
+        rod_com_acceleration[0][0] = neg_mul_add(t851, t905, parameters.rod_com_fraction[0] * t899);
+        rod_com_acceleration[0][1] = neg_mul_add(t851, t896, parameters.rod_com_fraction[0] * t889);
+        rod_com_acceleration[0][2] = neg_mul_add(t851, t886, parameters.rod_com_fraction[0] * t877);
         // leg 2: acceleration of the rod's centre of mass
-        rod_com_acceleration[1][0] = neg_mul_add(
-            t855,
-            t939,
-            parameters.rod_com_fraction[1] * t933,
-        );
-        rod_com_acceleration[1][1] = neg_mul_add(
-            t855,
-            t930,
-            parameters.rod_com_fraction[1] * t923,
-        );
-        rod_com_acceleration[1][2] = neg_mul_add(
-            t855,
-            t920,
-            parameters.rod_com_fraction[1] * t911,
-        );
+        rod_com_acceleration[1][0] = neg_mul_add(t855, t939, parameters.rod_com_fraction[1] * t933);
+        rod_com_acceleration[1][1] = neg_mul_add(t855, t930, parameters.rod_com_fraction[1] * t923);
+        rod_com_acceleration[1][2] = neg_mul_add(t855, t920, parameters.rod_com_fraction[1] * t911);
         // leg 3: acceleration of the rod's centre of mass
-        rod_com_acceleration[2][0] = neg_mul_add(
-            t859,
-            t973,
-            parameters.rod_com_fraction[2] * t967,
-        );
-        rod_com_acceleration[2][1] = neg_mul_add(
-            t859,
-            t964,
-            parameters.rod_com_fraction[2] * t957,
-        );
-        rod_com_acceleration[2][2] = neg_mul_add(
-            t859,
-            t954,
-            parameters.rod_com_fraction[2] * t945,
-        );
+        rod_com_acceleration[2][0] = neg_mul_add(t859, t973, parameters.rod_com_fraction[2] * t967);
+        rod_com_acceleration[2][1] = neg_mul_add(t859, t964, parameters.rod_com_fraction[2] * t957);
+        rod_com_acceleration[2][2] = neg_mul_add(t859, t954, parameters.rod_com_fraction[2] * t945);
         // leg 4: acceleration of the rod's centre of mass
-        rod_com_acceleration[3][0] = neg_mul_add(
-            t863,
-            t1007,
-            parameters.rod_com_fraction[3] * t1001,
-        );
-        rod_com_acceleration[3][1] = neg_mul_add(
-            t863,
-            t998,
-            parameters.rod_com_fraction[3] * t991,
-        );
-        rod_com_acceleration[3][2] = neg_mul_add(
-            t863,
-            t988,
-            parameters.rod_com_fraction[3] * t979,
-        );
+        rod_com_acceleration[3][0] =
+            neg_mul_add(t863, t1007, parameters.rod_com_fraction[3] * t1001);
+        rod_com_acceleration[3][1] = neg_mul_add(t863, t998, parameters.rod_com_fraction[3] * t991);
+        rod_com_acceleration[3][2] = neg_mul_add(t863, t988, parameters.rod_com_fraction[3] * t979);
         // leg 5: acceleration of the rod's centre of mass
-        rod_com_acceleration[4][0] = neg_mul_add(
-            t867,
-            t1041,
-            parameters.rod_com_fraction[4] * t1035,
-        );
-        rod_com_acceleration[4][1] = neg_mul_add(
-            t867,
-            t1032,
-            parameters.rod_com_fraction[4] * t1025,
-        );
-        rod_com_acceleration[4][2] = neg_mul_add(
-            t867,
-            t1022,
-            parameters.rod_com_fraction[4] * t1013,
-        );
+        rod_com_acceleration[4][0] =
+            neg_mul_add(t867, t1041, parameters.rod_com_fraction[4] * t1035);
+        rod_com_acceleration[4][1] =
+            neg_mul_add(t867, t1032, parameters.rod_com_fraction[4] * t1025);
+        rod_com_acceleration[4][2] =
+            neg_mul_add(t867, t1022, parameters.rod_com_fraction[4] * t1013);
         // leg 6: acceleration of the rod's centre of mass
-        rod_com_acceleration[5][0] = neg_mul_add(
-            t871,
-            t1075,
-            parameters.rod_com_fraction[5] * t1069,
-        );
-        rod_com_acceleration[5][1] = neg_mul_add(
-            t871,
-            t1066,
-            parameters.rod_com_fraction[5] * t1059,
-        );
-        rod_com_acceleration[5][2] = neg_mul_add(
-            t871,
-            t1056,
-            parameters.rod_com_fraction[5] * t1047,
-        );
+        rod_com_acceleration[5][0] =
+            neg_mul_add(t871, t1075, parameters.rod_com_fraction[5] * t1069);
+        rod_com_acceleration[5][1] =
+            neg_mul_add(t871, t1066, parameters.rod_com_fraction[5] * t1059);
+        rod_com_acceleration[5][2] =
+            neg_mul_add(t871, t1056, parameters.rod_com_fraction[5] * t1047);
         // leg 1: centre of mass of the mover
         mover_position[0][0] = neg_mul_add(parameters.mover_offset[0], t550, t552);
         mover_position[0][1] = neg_mul_add(parameters.mover_offset[0], t558, t560);
@@ -6663,11 +5876,7 @@ pub fn partial_velocities<T: Scalar>(
     let t367 = parameters.rod_com_fraction[0] - c(1.0);
     let t368 = t236 * t351;
     mover_partial_velocity[0][0][0] = t368;
-    rod_partial_velocity[0][0][0] = neg_mul_add(
-        t367,
-        t368,
-        parameters.rod_com_fraction[0],
-    );
+    rod_partial_velocity[0][0][0] = neg_mul_add(t367, t368, parameters.rod_com_fraction[0]);
     rod_partial_velocity[0][0][1] = -(t367 * t352);
     rod_partial_velocity[0][0][2] = -(t367 * t353);
     rod_partial_velocity[0][0][3] = -(t367 * t354);
@@ -6682,11 +5891,7 @@ pub fn partial_velocities<T: Scalar>(
     rod_partial_velocity[0][1][0] = -(t367 * t358);
     let t373 = t238 * t357;
     mover_partial_velocity[0][1][1] = t373;
-    rod_partial_velocity[0][1][1] = neg_mul_add(
-        t367,
-        t373,
-        parameters.rod_com_fraction[0],
-    );
+    rod_partial_velocity[0][1][1] = neg_mul_add(t367, t373, parameters.rod_com_fraction[0]);
     rod_partial_velocity[0][1][2] = -(t367 * t359);
     let t374 = t271 * t357;
     mover_partial_velocity[0][1][3] = t374;
@@ -6700,11 +5905,7 @@ pub fn partial_velocities<T: Scalar>(
     rod_partial_velocity[0][2][1] = -(t367 * t365);
     let t377 = t240 * t363;
     mover_partial_velocity[0][2][2] = t377;
-    rod_partial_velocity[0][2][2] = neg_mul_add(
-        t367,
-        t377,
-        parameters.rod_com_fraction[0],
-    );
+    rod_partial_velocity[0][2][2] = neg_mul_add(t367, t377, parameters.rod_com_fraction[0]);
     let t378 = t271 * t363;
     mover_partial_velocity[0][2][3] = t378;
     rod_partial_velocity[0][2][3] = neg_mul_add(t367, t378, t372);
@@ -6771,11 +5972,7 @@ pub fn partial_velocities<T: Scalar>(
     let t407 = parameters.rod_com_fraction[1] - c(1.0);
     let t408 = t242 * t391;
     mover_partial_velocity[1][0][0] = t408;
-    rod_partial_velocity[1][0][0] = neg_mul_add(
-        t407,
-        t408,
-        parameters.rod_com_fraction[1],
-    );
+    rod_partial_velocity[1][0][0] = neg_mul_add(t407, t408, parameters.rod_com_fraction[1]);
     rod_partial_velocity[1][0][1] = -(t407 * t392);
     rod_partial_velocity[1][0][2] = -(t407 * t393);
     rod_partial_velocity[1][0][3] = -(t407 * t394);
@@ -6790,11 +5987,7 @@ pub fn partial_velocities<T: Scalar>(
     rod_partial_velocity[1][1][0] = -(t407 * t398);
     let t413 = t244 * t397;
     mover_partial_velocity[1][1][1] = t413;
-    rod_partial_velocity[1][1][1] = neg_mul_add(
-        t407,
-        t413,
-        parameters.rod_com_fraction[1],
-    );
+    rod_partial_velocity[1][1][1] = neg_mul_add(t407, t413, parameters.rod_com_fraction[1]);
     rod_partial_velocity[1][1][2] = -(t407 * t399);
     let t414 = t274 * t397;
     mover_partial_velocity[1][1][3] = t414;
@@ -6808,11 +6001,7 @@ pub fn partial_velocities<T: Scalar>(
     rod_partial_velocity[1][2][1] = -(t407 * t405);
     let t417 = t246 * t403;
     mover_partial_velocity[1][2][2] = t417;
-    rod_partial_velocity[1][2][2] = neg_mul_add(
-        t407,
-        t417,
-        parameters.rod_com_fraction[1],
-    );
+    rod_partial_velocity[1][2][2] = neg_mul_add(t407, t417, parameters.rod_com_fraction[1]);
     let t418 = t274 * t403;
     mover_partial_velocity[1][2][3] = t418;
     rod_partial_velocity[1][2][3] = neg_mul_add(t407, t418, t412);
@@ -6879,11 +6068,7 @@ pub fn partial_velocities<T: Scalar>(
     let t447 = parameters.rod_com_fraction[2] - c(1.0);
     let t448 = t248 * t431;
     mover_partial_velocity[2][0][0] = t448;
-    rod_partial_velocity[2][0][0] = neg_mul_add(
-        t447,
-        t448,
-        parameters.rod_com_fraction[2],
-    );
+    rod_partial_velocity[2][0][0] = neg_mul_add(t447, t448, parameters.rod_com_fraction[2]);
     rod_partial_velocity[2][0][1] = -(t447 * t432);
     rod_partial_velocity[2][0][2] = -(t447 * t433);
     rod_partial_velocity[2][0][3] = -(t447 * t434);
@@ -6898,11 +6083,7 @@ pub fn partial_velocities<T: Scalar>(
     rod_partial_velocity[2][1][0] = -(t447 * t438);
     let t453 = t250 * t437;
     mover_partial_velocity[2][1][1] = t453;
-    rod_partial_velocity[2][1][1] = neg_mul_add(
-        t447,
-        t453,
-        parameters.rod_com_fraction[2],
-    );
+    rod_partial_velocity[2][1][1] = neg_mul_add(t447, t453, parameters.rod_com_fraction[2]);
     rod_partial_velocity[2][1][2] = -(t447 * t439);
     let t454 = t277 * t437;
     mover_partial_velocity[2][1][3] = t454;
@@ -6916,11 +6097,7 @@ pub fn partial_velocities<T: Scalar>(
     rod_partial_velocity[2][2][1] = -(t447 * t445);
     let t457 = t252 * t443;
     mover_partial_velocity[2][2][2] = t457;
-    rod_partial_velocity[2][2][2] = neg_mul_add(
-        t447,
-        t457,
-        parameters.rod_com_fraction[2],
-    );
+    rod_partial_velocity[2][2][2] = neg_mul_add(t447, t457, parameters.rod_com_fraction[2]);
     let t458 = t277 * t443;
     mover_partial_velocity[2][2][3] = t458;
     rod_partial_velocity[2][2][3] = neg_mul_add(t447, t458, t452);
@@ -6987,11 +6164,7 @@ pub fn partial_velocities<T: Scalar>(
     let t487 = parameters.rod_com_fraction[3] - c(1.0);
     let t488 = t254 * t471;
     mover_partial_velocity[3][0][0] = t488;
-    rod_partial_velocity[3][0][0] = neg_mul_add(
-        t487,
-        t488,
-        parameters.rod_com_fraction[3],
-    );
+    rod_partial_velocity[3][0][0] = neg_mul_add(t487, t488, parameters.rod_com_fraction[3]);
     rod_partial_velocity[3][0][1] = -(t487 * t472);
     rod_partial_velocity[3][0][2] = -(t487 * t473);
     rod_partial_velocity[3][0][3] = -(t487 * t474);
@@ -7006,11 +6179,7 @@ pub fn partial_velocities<T: Scalar>(
     rod_partial_velocity[3][1][0] = -(t487 * t478);
     let t493 = t256 * t477;
     mover_partial_velocity[3][1][1] = t493;
-    rod_partial_velocity[3][1][1] = neg_mul_add(
-        t487,
-        t493,
-        parameters.rod_com_fraction[3],
-    );
+    rod_partial_velocity[3][1][1] = neg_mul_add(t487, t493, parameters.rod_com_fraction[3]);
     rod_partial_velocity[3][1][2] = -(t487 * t479);
     let t494 = t280 * t477;
     mover_partial_velocity[3][1][3] = t494;
@@ -7024,11 +6193,7 @@ pub fn partial_velocities<T: Scalar>(
     rod_partial_velocity[3][2][1] = -(t487 * t485);
     let t497 = t258 * t483;
     mover_partial_velocity[3][2][2] = t497;
-    rod_partial_velocity[3][2][2] = neg_mul_add(
-        t487,
-        t497,
-        parameters.rod_com_fraction[3],
-    );
+    rod_partial_velocity[3][2][2] = neg_mul_add(t487, t497, parameters.rod_com_fraction[3]);
     let t498 = t280 * t483;
     mover_partial_velocity[3][2][3] = t498;
     rod_partial_velocity[3][2][3] = neg_mul_add(t487, t498, t492);
@@ -7095,11 +6260,7 @@ pub fn partial_velocities<T: Scalar>(
     let t527 = parameters.rod_com_fraction[4] - c(1.0);
     let t528 = t260 * t511;
     mover_partial_velocity[4][0][0] = t528;
-    rod_partial_velocity[4][0][0] = neg_mul_add(
-        t527,
-        t528,
-        parameters.rod_com_fraction[4],
-    );
+    rod_partial_velocity[4][0][0] = neg_mul_add(t527, t528, parameters.rod_com_fraction[4]);
     rod_partial_velocity[4][0][1] = -(t527 * t512);
     rod_partial_velocity[4][0][2] = -(t527 * t513);
     rod_partial_velocity[4][0][3] = -(t527 * t514);
@@ -7114,11 +6275,7 @@ pub fn partial_velocities<T: Scalar>(
     rod_partial_velocity[4][1][0] = -(t527 * t518);
     let t533 = t262 * t517;
     mover_partial_velocity[4][1][1] = t533;
-    rod_partial_velocity[4][1][1] = neg_mul_add(
-        t527,
-        t533,
-        parameters.rod_com_fraction[4],
-    );
+    rod_partial_velocity[4][1][1] = neg_mul_add(t527, t533, parameters.rod_com_fraction[4]);
     rod_partial_velocity[4][1][2] = -(t527 * t519);
     let t534 = t283 * t517;
     mover_partial_velocity[4][1][3] = t534;
@@ -7132,11 +6289,7 @@ pub fn partial_velocities<T: Scalar>(
     rod_partial_velocity[4][2][1] = -(t527 * t525);
     let t537 = t264 * t523;
     mover_partial_velocity[4][2][2] = t537;
-    rod_partial_velocity[4][2][2] = neg_mul_add(
-        t527,
-        t537,
-        parameters.rod_com_fraction[4],
-    );
+    rod_partial_velocity[4][2][2] = neg_mul_add(t527, t537, parameters.rod_com_fraction[4]);
     let t538 = t283 * t523;
     mover_partial_velocity[4][2][3] = t538;
     rod_partial_velocity[4][2][3] = neg_mul_add(t527, t538, t532);
@@ -7203,11 +6356,7 @@ pub fn partial_velocities<T: Scalar>(
     let t567 = parameters.rod_com_fraction[5] - c(1.0);
     let t568 = t266 * t551;
     mover_partial_velocity[5][0][0] = t568;
-    rod_partial_velocity[5][0][0] = neg_mul_add(
-        t567,
-        t568,
-        parameters.rod_com_fraction[5],
-    );
+    rod_partial_velocity[5][0][0] = neg_mul_add(t567, t568, parameters.rod_com_fraction[5]);
     rod_partial_velocity[5][0][1] = -(t567 * t552);
     rod_partial_velocity[5][0][2] = -(t567 * t553);
     rod_partial_velocity[5][0][3] = -(t567 * t554);
@@ -7222,11 +6371,7 @@ pub fn partial_velocities<T: Scalar>(
     rod_partial_velocity[5][1][0] = -(t567 * t558);
     let t573 = t268 * t557;
     mover_partial_velocity[5][1][1] = t573;
-    rod_partial_velocity[5][1][1] = neg_mul_add(
-        t567,
-        t573,
-        parameters.rod_com_fraction[5],
-    );
+    rod_partial_velocity[5][1][1] = neg_mul_add(t567, t573, parameters.rod_com_fraction[5]);
     rod_partial_velocity[5][1][2] = -(t567 * t559);
     let t574 = t286 * t557;
     mover_partial_velocity[5][1][3] = t574;
@@ -7240,11 +6385,7 @@ pub fn partial_velocities<T: Scalar>(
     rod_partial_velocity[5][2][1] = -(t567 * t565);
     let t577 = t270 * t563;
     mover_partial_velocity[5][2][2] = t577;
-    rod_partial_velocity[5][2][2] = neg_mul_add(
-        t567,
-        t577,
-        parameters.rod_com_fraction[5],
-    );
+    rod_partial_velocity[5][2][2] = neg_mul_add(t567, t577, parameters.rod_com_fraction[5]);
     let t578 = t286 * t563;
     mover_partial_velocity[5][2][3] = t578;
     rod_partial_velocity[5][2][3] = neg_mul_add(t567, t578, t572);
@@ -7375,153 +6516,16 @@ pub fn generalised_forces<T: Scalar>(
 ) {
     let c = T::constant;
     let (
-        t118,
-        t128,
-        t138,
-        t148,
-        t158,
-        t168,
-        t169,
-        t170,
-        t171,
-        t172,
-        t173,
-        t174,
-        t175,
-        t176,
-        t177,
-        t178,
-        t179,
-        t180,
-        t181,
-        t182,
-        t183,
-        t184,
-        t185,
-        t186,
-        t291,
-        t300,
-        t309,
-        t318,
-        t327,
-        t336,
-        t502,
-        t503,
-        t508,
-        t510,
-        t512,
-        t513,
-        t518,
-        t520,
-        t522,
-        t523,
-        t528,
-        t530,
-        t532,
-        t533,
-        t538,
-        t540,
-        t542,
-        t543,
-        t548,
-        t550,
-        t552,
-        t553,
-        t558,
-        t560,
-        t562,
-        t568,
-        t574,
-        t580,
-        t583,
-        t586,
-        t589,
-        t598,
-        t604,
-        t610,
-        t613,
-        t616,
-        t619,
-        t628,
-        t634,
-        t640,
-        t643,
-        t646,
-        t649,
-        t658,
-        t664,
-        t670,
-        t673,
-        t676,
-        t679,
-        t688,
-        t694,
-        t700,
-        t703,
-        t706,
-        t709,
-        t715,
-        t718,
-        t721,
-        t724,
-        t727,
-        t730,
-        t733,
-        t736,
-        t739,
-        t740,
-        t741,
-        t742,
-        t770,
-        t781,
-        t782,
-        t783,
-        t784,
-        t785,
-        t786,
-        t787,
-        t788,
-        t789,
-        t817,
-        t828,
-        t829,
-        t830,
-        t831,
-        t832,
-        t833,
-        t834,
-        t835,
-        t836,
-        t864,
-        t875,
-        t876,
-        t877,
-        t878,
-        t879,
-        t880,
-        t881,
-        t882,
-        t883,
-        t911,
-        t922,
-        t923,
-        t924,
-        t925,
-        t926,
-        t927,
-        t928,
-        t929,
-        t930,
-        t958,
-        t969,
-        t970,
-        t971,
-        t972,
-        t973,
-        t974,
-        t975,
-        t976,
-        t977,
+        t118, t128, t138, t148, t158, t168, t169, t170, t171, t172, t173, t174, t175, t176, t177,
+        t178, t179, t180, t181, t182, t183, t184, t185, t186, t291, t300, t309, t318, t327, t336,
+        t502, t503, t508, t510, t512, t513, t518, t520, t522, t523, t528, t530, t532, t533, t538,
+        t540, t542, t543, t548, t550, t552, t553, t558, t560, t562, t568, t574, t580, t583, t586,
+        t589, t598, t604, t610, t613, t616, t619, t628, t634, t640, t643, t646, t649, t658, t664,
+        t670, t673, t676, t679, t688, t694, t700, t703, t706, t709, t715, t718, t721, t724, t727,
+        t730, t733, t736, t739, t740, t741, t742, t770, t781, t782, t783, t784, t785, t786, t787,
+        t788, t789, t817, t828, t829, t830, t831, t832, t833, t834, t835, t836, t864, t875, t876,
+        t877, t878, t879, t880, t881, t882, t883, t911, t922, t923, t924, t925, t926, t927, t928,
+        t929, t930, t958, t969, t970, t971, t972, t973, t974, t975, t976, t977,
     ) = {
         // rotation of the platform seen from the base
         let t1 = base_rotation[1][0] * platform_rotation[1][0];
@@ -7654,9 +6658,7 @@ pub fn generalised_forces<T: Scalar>(
         let t114 = neg_mul_add(parameters.actuator_axis[0][2], t111, t48);
         // leg 1: extent of the rod along the actuator axis
         let t115 = mul_add(t114, t114, mul_add(t112, t112, t113 * t113));
-        let t116 = sqrt(
-            mul_sub(parameters.rod_length[0], parameters.rod_length[0], t115),
-        );
+        let t116 = sqrt(mul_sub(parameters.rod_length[0], parameters.rod_length[0], t115));
         // leg 1: reciprocal of that extent
         let t117 = c(1.0) / t116;
         // leg 1: actuator length d
@@ -7670,9 +6672,7 @@ pub fn generalised_forces<T: Scalar>(
         let t124 = neg_mul_add(parameters.actuator_axis[1][2], t121, t60);
         // leg 2: extent of the rod along the actuator axis
         let t125 = mul_add(t124, t124, mul_add(t122, t122, t123 * t123));
-        let t126 = sqrt(
-            mul_sub(parameters.rod_length[1], parameters.rod_length[1], t125),
-        );
+        let t126 = sqrt(mul_sub(parameters.rod_length[1], parameters.rod_length[1], t125));
         // leg 2: reciprocal of that extent
         let t127 = c(1.0) / t126;
         // leg 2: actuator length d
@@ -7686,9 +6686,7 @@ pub fn generalised_forces<T: Scalar>(
         let t134 = neg_mul_add(parameters.actuator_axis[2][2], t131, t72);
         // leg 3: extent of the rod along the actuator axis
         let t135 = mul_add(t134, t134, mul_add(t132, t132, t133 * t133));
-        let t136 = sqrt(
-            mul_sub(parameters.rod_length[2], parameters.rod_length[2], t135),
-        );
+        let t136 = sqrt(mul_sub(parameters.rod_length[2], parameters.rod_length[2], t135));
         // leg 3: reciprocal of that extent
         let t137 = c(1.0) / t136;
         // leg 3: actuator length d
@@ -7702,9 +6700,7 @@ pub fn generalised_forces<T: Scalar>(
         let t144 = neg_mul_add(parameters.actuator_axis[3][2], t141, t84);
         // leg 4: extent of the rod along the actuator axis
         let t145 = mul_add(t144, t144, mul_add(t142, t142, t143 * t143));
-        let t146 = sqrt(
-            mul_sub(parameters.rod_length[3], parameters.rod_length[3], t145),
-        );
+        let t146 = sqrt(mul_sub(parameters.rod_length[3], parameters.rod_length[3], t145));
         // leg 4: reciprocal of that extent
         let t147 = c(1.0) / t146;
         // leg 4: actuator length d
@@ -7718,9 +6714,7 @@ pub fn generalised_forces<T: Scalar>(
         let t154 = neg_mul_add(parameters.actuator_axis[4][2], t151, t96);
         // leg 5: extent of the rod along the actuator axis
         let t155 = mul_add(t154, t154, mul_add(t152, t152, t153 * t153));
-        let t156 = sqrt(
-            mul_sub(parameters.rod_length[4], parameters.rod_length[4], t155),
-        );
+        let t156 = sqrt(mul_sub(parameters.rod_length[4], parameters.rod_length[4], t155));
         // leg 5: reciprocal of that extent
         let t157 = c(1.0) / t156;
         // leg 5: actuator length d
@@ -7734,9 +6728,7 @@ pub fn generalised_forces<T: Scalar>(
         let t164 = neg_mul_add(parameters.actuator_axis[5][2], t161, t108);
         // leg 6: extent of the rod along the actuator axis
         let t165 = mul_add(t164, t164, mul_add(t162, t162, t163 * t163));
-        let t166 = sqrt(
-            mul_sub(parameters.rod_length[5], parameters.rod_length[5], t165),
-        );
+        let t166 = sqrt(mul_sub(parameters.rod_length[5], parameters.rod_length[5], t165));
         // leg 6: reciprocal of that extent
         let t167 = c(1.0) / t166;
         // leg 6: actuator length d
@@ -8216,38 +7208,14 @@ pub fn generalised_forces<T: Scalar>(
         let t580 = mul_add(base_rotation[2][2], parameters.actuator_axis[0][2], t579);
         // leg 1: platform joint
         let t581 = platform_rotation[0][1] * parameters.platform_point[0][1];
-        let t582 = mul_add(
-            platform_rotation[0][0],
-            parameters.platform_point[0][0],
-            t581,
-        );
-        let t583 = mul_add(
-            platform_rotation[0][2],
-            parameters.platform_point[0][2],
-            t582,
-        );
+        let t582 = mul_add(platform_rotation[0][0], parameters.platform_point[0][0], t581);
+        let t583 = mul_add(platform_rotation[0][2], parameters.platform_point[0][2], t582);
         let t584 = platform_rotation[1][1] * parameters.platform_point[0][1];
-        let t585 = mul_add(
-            platform_rotation[1][0],
-            parameters.platform_point[0][0],
-            t584,
-        );
-        let t586 = mul_add(
-            platform_rotation[1][2],
-            parameters.platform_point[0][2],
-            t585,
-        );
+        let t585 = mul_add(platform_rotation[1][0], parameters.platform_point[0][0], t584);
+        let t586 = mul_add(platform_rotation[1][2], parameters.platform_point[0][2], t585);
         let t587 = platform_rotation[2][1] * parameters.platform_point[0][1];
-        let t588 = mul_add(
-            platform_rotation[2][0],
-            parameters.platform_point[0][0],
-            t587,
-        );
-        let t589 = mul_add(
-            platform_rotation[2][2],
-            parameters.platform_point[0][2],
-            t588,
-        );
+        let t588 = mul_add(platform_rotation[2][0], parameters.platform_point[0][0], t587);
+        let t589 = mul_add(platform_rotation[2][2], parameters.platform_point[0][2], t588);
         // leg 1: velocity of the platform joint
         let t590 = mul_sub(platform_velocity[4], t589, platform_velocity[5] * t586);
         let t591 = mul_sub(platform_velocity[5], t583, platform_velocity[3] * t589);
@@ -8273,38 +7241,14 @@ pub fn generalised_forces<T: Scalar>(
         let t610 = mul_add(base_rotation[2][2], parameters.actuator_axis[1][2], t609);
         // leg 2: platform joint
         let t611 = platform_rotation[0][1] * parameters.platform_point[1][1];
-        let t612 = mul_add(
-            platform_rotation[0][0],
-            parameters.platform_point[1][0],
-            t611,
-        );
-        let t613 = mul_add(
-            platform_rotation[0][2],
-            parameters.platform_point[1][2],
-            t612,
-        );
+        let t612 = mul_add(platform_rotation[0][0], parameters.platform_point[1][0], t611);
+        let t613 = mul_add(platform_rotation[0][2], parameters.platform_point[1][2], t612);
         let t614 = platform_rotation[1][1] * parameters.platform_point[1][1];
-        let t615 = mul_add(
-            platform_rotation[1][0],
-            parameters.platform_point[1][0],
-            t614,
-        );
-        let t616 = mul_add(
-            platform_rotation[1][2],
-            parameters.platform_point[1][2],
-            t615,
-        );
+        let t615 = mul_add(platform_rotation[1][0], parameters.platform_point[1][0], t614);
+        let t616 = mul_add(platform_rotation[1][2], parameters.platform_point[1][2], t615);
         let t617 = platform_rotation[2][1] * parameters.platform_point[1][1];
-        let t618 = mul_add(
-            platform_rotation[2][0],
-            parameters.platform_point[1][0],
-            t617,
-        );
-        let t619 = mul_add(
-            platform_rotation[2][2],
-            parameters.platform_point[1][2],
-            t618,
-        );
+        let t618 = mul_add(platform_rotation[2][0], parameters.platform_point[1][0], t617);
+        let t619 = mul_add(platform_rotation[2][2], parameters.platform_point[1][2], t618);
         // leg 2: velocity of the platform joint
         let t620 = mul_sub(platform_velocity[4], t619, platform_velocity[5] * t616);
         let t621 = mul_sub(platform_velocity[5], t613, platform_velocity[3] * t619);
@@ -8330,38 +7274,14 @@ pub fn generalised_forces<T: Scalar>(
         let t640 = mul_add(base_rotation[2][2], parameters.actuator_axis[2][2], t639);
         // leg 3: platform joint
         let t641 = platform_rotation[0][1] * parameters.platform_point[2][1];
-        let t642 = mul_add(
-            platform_rotation[0][0],
-            parameters.platform_point[2][0],
-            t641,
-        );
-        let t643 = mul_add(
-            platform_rotation[0][2],
-            parameters.platform_point[2][2],
-            t642,
-        );
+        let t642 = mul_add(platform_rotation[0][0], parameters.platform_point[2][0], t641);
+        let t643 = mul_add(platform_rotation[0][2], parameters.platform_point[2][2], t642);
         let t644 = platform_rotation[1][1] * parameters.platform_point[2][1];
-        let t645 = mul_add(
-            platform_rotation[1][0],
-            parameters.platform_point[2][0],
-            t644,
-        );
-        let t646 = mul_add(
-            platform_rotation[1][2],
-            parameters.platform_point[2][2],
-            t645,
-        );
+        let t645 = mul_add(platform_rotation[1][0], parameters.platform_point[2][0], t644);
+        let t646 = mul_add(platform_rotation[1][2], parameters.platform_point[2][2], t645);
         let t647 = platform_rotation[2][1] * parameters.platform_point[2][1];
-        let t648 = mul_add(
-            platform_rotation[2][0],
-            parameters.platform_point[2][0],
-            t647,
-        );
-        let t649 = mul_add(
-            platform_rotation[2][2],
-            parameters.platform_point[2][2],
-            t648,
-        );
+        let t648 = mul_add(platform_rotation[2][0], parameters.platform_point[2][0], t647);
+        let t649 = mul_add(platform_rotation[2][2], parameters.platform_point[2][2], t648);
         // leg 3: velocity of the platform joint
         let t650 = mul_sub(platform_velocity[4], t649, platform_velocity[5] * t646);
         let t651 = mul_sub(platform_velocity[5], t643, platform_velocity[3] * t649);
@@ -8387,38 +7307,14 @@ pub fn generalised_forces<T: Scalar>(
         let t670 = mul_add(base_rotation[2][2], parameters.actuator_axis[3][2], t669);
         // leg 4: platform joint
         let t671 = platform_rotation[0][1] * parameters.platform_point[3][1];
-        let t672 = mul_add(
-            platform_rotation[0][0],
-            parameters.platform_point[3][0],
-            t671,
-        );
-        let t673 = mul_add(
-            platform_rotation[0][2],
-            parameters.platform_point[3][2],
-            t672,
-        );
+        let t672 = mul_add(platform_rotation[0][0], parameters.platform_point[3][0], t671);
+        let t673 = mul_add(platform_rotation[0][2], parameters.platform_point[3][2], t672);
         let t674 = platform_rotation[1][1] * parameters.platform_point[3][1];
-        let t675 = mul_add(
-            platform_rotation[1][0],
-            parameters.platform_point[3][0],
-            t674,
-        );
-        let t676 = mul_add(
-            platform_rotation[1][2],
-            parameters.platform_point[3][2],
-            t675,
-        );
+        let t675 = mul_add(platform_rotation[1][0], parameters.platform_point[3][0], t674);
+        let t676 = mul_add(platform_rotation[1][2], parameters.platform_point[3][2], t675);
         let t677 = platform_rotation[2][1] * parameters.platform_point[3][1];
-        let t678 = mul_add(
-            platform_rotation[2][0],
-            parameters.platform_point[3][0],
-            t677,
-        );
-        let t679 = mul_add(
-            platform_rotation[2][2],
-            parameters.platform_point[3][2],
-            t678,
-        );
+        let t678 = mul_add(platform_rotation[2][0], parameters.platform_point[3][0], t677);
+        let t679 = mul_add(platform_rotation[2][2], parameters.platform_point[3][2], t678);
         // leg 4: velocity of the platform joint
         let t680 = mul_sub(platform_velocity[4], t679, platform_velocity[5] * t676);
         let t681 = mul_sub(platform_velocity[5], t673, platform_velocity[3] * t679);
@@ -8444,38 +7340,14 @@ pub fn generalised_forces<T: Scalar>(
         let t700 = mul_add(base_rotation[2][2], parameters.actuator_axis[4][2], t699);
         // leg 5: platform joint
         let t701 = platform_rotation[0][1] * parameters.platform_point[4][1];
-        let t702 = mul_add(
-            platform_rotation[0][0],
-            parameters.platform_point[4][0],
-            t701,
-        );
-        let t703 = mul_add(
-            platform_rotation[0][2],
-            parameters.platform_point[4][2],
-            t702,
-        );
+        let t702 = mul_add(platform_rotation[0][0], parameters.platform_point[4][0], t701);
+        let t703 = mul_add(platform_rotation[0][2], parameters.platform_point[4][2], t702);
         let t704 = platform_rotation[1][1] * parameters.platform_point[4][1];
-        let t705 = mul_add(
-            platform_rotation[1][0],
-            parameters.platform_point[4][0],
-            t704,
-        );
-        let t706 = mul_add(
-            platform_rotation[1][2],
-            parameters.platform_point[4][2],
-            t705,
-        );
+        let t705 = mul_add(platform_rotation[1][0], parameters.platform_point[4][0], t704);
+        let t706 = mul_add(platform_rotation[1][2], parameters.platform_point[4][2], t705);
         let t707 = platform_rotation[2][1] * parameters.platform_point[4][1];
-        let t708 = mul_add(
-            platform_rotation[2][0],
-            parameters.platform_point[4][0],
-            t707,
-        );
-        let t709 = mul_add(
-            platform_rotation[2][2],
-            parameters.platform_point[4][2],
-            t708,
-        );
+        let t708 = mul_add(platform_rotation[2][0], parameters.platform_point[4][0], t707);
+        let t709 = mul_add(platform_rotation[2][2], parameters.platform_point[4][2], t708);
         // leg 5: velocity of the platform joint
         let t710 = mul_sub(platform_velocity[4], t709, platform_velocity[5] * t706);
         let t711 = mul_sub(platform_velocity[5], t703, platform_velocity[3] * t709);
@@ -8501,48 +7373,20 @@ pub fn generalised_forces<T: Scalar>(
         let t730 = mul_add(base_rotation[2][2], parameters.actuator_axis[5][2], t729);
         // leg 6: platform joint
         let t731 = platform_rotation[0][1] * parameters.platform_point[5][1];
-        let t732 = mul_add(
-            platform_rotation[0][0],
-            parameters.platform_point[5][0],
-            t731,
-        );
-        let t733 = mul_add(
-            platform_rotation[0][2],
-            parameters.platform_point[5][2],
-            t732,
-        );
+        let t732 = mul_add(platform_rotation[0][0], parameters.platform_point[5][0], t731);
+        let t733 = mul_add(platform_rotation[0][2], parameters.platform_point[5][2], t732);
         let t734 = platform_rotation[1][1] * parameters.platform_point[5][1];
-        let t735 = mul_add(
-            platform_rotation[1][0],
-            parameters.platform_point[5][0],
-            t734,
-        );
-        let t736 = mul_add(
-            platform_rotation[1][2],
-            parameters.platform_point[5][2],
-            t735,
-        );
+        let t735 = mul_add(platform_rotation[1][0], parameters.platform_point[5][0], t734);
+        let t736 = mul_add(platform_rotation[1][2], parameters.platform_point[5][2], t735);
         let t737 = platform_rotation[2][1] * parameters.platform_point[5][1];
-        let t738 = mul_add(
-            platform_rotation[2][0],
-            parameters.platform_point[5][0],
-            t737,
-        );
-        let t739 = mul_add(
-            platform_rotation[2][2],
-            parameters.platform_point[5][2],
-            t738,
-        );
+        let t738 = mul_add(platform_rotation[2][0], parameters.platform_point[5][0], t737);
+        let t739 = mul_add(platform_rotation[2][2], parameters.platform_point[5][2], t738);
         // leg 6: velocity of the platform joint
         let t740 = mul_sub(platform_velocity[4], t739, platform_velocity[5] * t736);
         let t741 = mul_sub(platform_velocity[5], t733, platform_velocity[3] * t739);
         let t742 = mul_sub(platform_velocity[3], t736, platform_velocity[4] * t733);
         // leg 1: angular acceleration of the rod
-        let t743 = mul_sub(
-            platform_acceleration[3],
-            t586,
-            platform_acceleration[4] * t583,
-        );
+        let t743 = mul_sub(platform_acceleration[3], t586, platform_acceleration[4] * t583);
         let t744 = mul_sub(platform_velocity[3], t591, platform_velocity[4] * t590);
         let t745 = platform_acceleration[2] + t743 + t744;
         let t746 = mul_sub(base_acceleration[3], t574, base_acceleration[4] * t568);
@@ -8557,11 +7401,7 @@ pub fn generalised_forces<T: Scalar>(
         let t755 = mul_sub(base_velocity[3], t753, base_velocity[4] * t754);
         let t756 = neg_mul_add(t118, t749, base_acceleration[2] + t752 + t755);
         let t757 = neg_mul_add(t472, t580, neg_mul_add(t750, t751, t756));
-        let t758 = mul_sub(
-            platform_acceleration[5],
-            t583,
-            platform_acceleration[3] * t589,
-        );
+        let t758 = mul_sub(platform_acceleration[5], t583, platform_acceleration[3] * t589);
         let t759 = mul_sub(platform_velocity[5], t590, platform_velocity[3] * t592);
         let t760 = platform_acceleration[1] + t758 + t759;
         let t761 = mul_sub(base_acceleration[5], t568, base_acceleration[3] * t580);
@@ -8574,11 +7414,7 @@ pub fn generalised_forces<T: Scalar>(
         let t768 = t745 - t757;
         let t769 = t760 - t767;
         let t770 = t503 * mul_sub(t510, t768, t512 * t769);
-        let t771 = mul_sub(
-            platform_acceleration[4],
-            t589,
-            platform_acceleration[5] * t586,
-        );
+        let t771 = mul_sub(platform_acceleration[4], t589, platform_acceleration[5] * t586);
         let t772 = mul_sub(platform_velocity[4], t592, platform_velocity[5] * t591);
         let t773 = platform_acceleration[0] + t771 + t772;
         let t774 = mul_sub(base_acceleration[4], t580, base_acceleration[5] * t574);
@@ -8600,11 +7436,7 @@ pub fn generalised_forces<T: Scalar>(
         let t788 = neg_mul_add(parameters.mover_offset[0], t762, t767);
         let t789 = neg_mul_add(parameters.mover_offset[0], t749, t757);
         // leg 2: angular acceleration of the rod
-        let t790 = mul_sub(
-            platform_acceleration[3],
-            t616,
-            platform_acceleration[4] * t613,
-        );
+        let t790 = mul_sub(platform_acceleration[3], t616, platform_acceleration[4] * t613);
         let t791 = mul_sub(platform_velocity[3], t621, platform_velocity[4] * t620);
         let t792 = platform_acceleration[2] + t790 + t791;
         let t793 = mul_sub(base_acceleration[3], t604, base_acceleration[4] * t598);
@@ -8619,11 +7451,7 @@ pub fn generalised_forces<T: Scalar>(
         let t802 = mul_sub(base_velocity[3], t800, base_velocity[4] * t801);
         let t803 = neg_mul_add(t128, t796, base_acceleration[2] + t799 + t802);
         let t804 = neg_mul_add(t478, t610, neg_mul_add(t797, t798, t803));
-        let t805 = mul_sub(
-            platform_acceleration[5],
-            t613,
-            platform_acceleration[3] * t619,
-        );
+        let t805 = mul_sub(platform_acceleration[5], t613, platform_acceleration[3] * t619);
         let t806 = mul_sub(platform_velocity[5], t620, platform_velocity[3] * t622);
         let t807 = platform_acceleration[1] + t805 + t806;
         let t808 = mul_sub(base_acceleration[5], t598, base_acceleration[3] * t610);
@@ -8636,11 +7464,7 @@ pub fn generalised_forces<T: Scalar>(
         let t815 = t792 - t804;
         let t816 = t807 - t814;
         let t817 = t513 * mul_sub(t520, t815, t522 * t816);
-        let t818 = mul_sub(
-            platform_acceleration[4],
-            t619,
-            platform_acceleration[5] * t616,
-        );
+        let t818 = mul_sub(platform_acceleration[4], t619, platform_acceleration[5] * t616);
         let t819 = mul_sub(platform_velocity[4], t622, platform_velocity[5] * t621);
         let t820 = platform_acceleration[0] + t818 + t819;
         let t821 = mul_sub(base_acceleration[4], t610, base_acceleration[5] * t604);
@@ -8662,11 +7486,7 @@ pub fn generalised_forces<T: Scalar>(
         let t835 = neg_mul_add(parameters.mover_offset[1], t809, t814);
         let t836 = neg_mul_add(parameters.mover_offset[1], t796, t804);
         // leg 3: angular acceleration of the rod
-        let t837 = mul_sub(
-            platform_acceleration[3],
-            t646,
-            platform_acceleration[4] * t643,
-        );
+        let t837 = mul_sub(platform_acceleration[3], t646, platform_acceleration[4] * t643);
         let t838 = mul_sub(platform_velocity[3], t651, platform_velocity[4] * t650);
         let t839 = platform_acceleration[2] + t837 + t838;
         let t840 = mul_sub(base_acceleration[3], t634, base_acceleration[4] * t628);
@@ -8681,11 +7501,7 @@ pub fn generalised_forces<T: Scalar>(
         let t849 = mul_sub(base_velocity[3], t847, base_velocity[4] * t848);
         let t850 = neg_mul_add(t138, t843, base_acceleration[2] + t846 + t849);
         let t851 = neg_mul_add(t484, t640, neg_mul_add(t844, t845, t850));
-        let t852 = mul_sub(
-            platform_acceleration[5],
-            t643,
-            platform_acceleration[3] * t649,
-        );
+        let t852 = mul_sub(platform_acceleration[5], t643, platform_acceleration[3] * t649);
         let t853 = mul_sub(platform_velocity[5], t650, platform_velocity[3] * t652);
         let t854 = platform_acceleration[1] + t852 + t853;
         let t855 = mul_sub(base_acceleration[5], t628, base_acceleration[3] * t640);
@@ -8698,11 +7514,7 @@ pub fn generalised_forces<T: Scalar>(
         let t862 = t839 - t851;
         let t863 = t854 - t861;
         let t864 = t523 * mul_sub(t530, t862, t532 * t863);
-        let t865 = mul_sub(
-            platform_acceleration[4],
-            t649,
-            platform_acceleration[5] * t646,
-        );
+        let t865 = mul_sub(platform_acceleration[4], t649, platform_acceleration[5] * t646);
         let t866 = mul_sub(platform_velocity[4], t652, platform_velocity[5] * t651);
         let t867 = platform_acceleration[0] + t865 + t866;
         let t868 = mul_sub(base_acceleration[4], t640, base_acceleration[5] * t634);
@@ -8724,11 +7536,7 @@ pub fn generalised_forces<T: Scalar>(
         let t882 = neg_mul_add(parameters.mover_offset[2], t856, t861);
         let t883 = neg_mul_add(parameters.mover_offset[2], t843, t851);
         // leg 4: angular acceleration of the rod
-        let t884 = mul_sub(
-            platform_acceleration[3],
-            t676,
-            platform_acceleration[4] * t673,
-        );
+        let t884 = mul_sub(platform_acceleration[3], t676, platform_acceleration[4] * t673);
         let t885 = mul_sub(platform_velocity[3], t681, platform_velocity[4] * t680);
         let t886 = platform_acceleration[2] + t884 + t885;
         let t887 = mul_sub(base_acceleration[3], t664, base_acceleration[4] * t658);
@@ -8743,11 +7551,7 @@ pub fn generalised_forces<T: Scalar>(
         let t896 = mul_sub(base_velocity[3], t894, base_velocity[4] * t895);
         let t897 = neg_mul_add(t148, t890, base_acceleration[2] + t893 + t896);
         let t898 = neg_mul_add(t490, t670, neg_mul_add(t891, t892, t897));
-        let t899 = mul_sub(
-            platform_acceleration[5],
-            t673,
-            platform_acceleration[3] * t679,
-        );
+        let t899 = mul_sub(platform_acceleration[5], t673, platform_acceleration[3] * t679);
         let t900 = mul_sub(platform_velocity[5], t680, platform_velocity[3] * t682);
         let t901 = platform_acceleration[1] + t899 + t900;
         let t902 = mul_sub(base_acceleration[5], t658, base_acceleration[3] * t670);
@@ -8760,11 +7564,7 @@ pub fn generalised_forces<T: Scalar>(
         let t909 = t886 - t898;
         let t910 = t901 - t908;
         let t911 = t533 * mul_sub(t540, t909, t542 * t910);
-        let t912 = mul_sub(
-            platform_acceleration[4],
-            t679,
-            platform_acceleration[5] * t676,
-        );
+        let t912 = mul_sub(platform_acceleration[4], t679, platform_acceleration[5] * t676);
         let t913 = mul_sub(platform_velocity[4], t682, platform_velocity[5] * t681);
         let t914 = platform_acceleration[0] + t912 + t913;
         let t915 = mul_sub(base_acceleration[4], t670, base_acceleration[5] * t664);
@@ -8786,11 +7586,7 @@ pub fn generalised_forces<T: Scalar>(
         let t929 = neg_mul_add(parameters.mover_offset[3], t903, t908);
         let t930 = neg_mul_add(parameters.mover_offset[3], t890, t898);
         // leg 5: angular acceleration of the rod
-        let t931 = mul_sub(
-            platform_acceleration[3],
-            t706,
-            platform_acceleration[4] * t703,
-        );
+        let t931 = mul_sub(platform_acceleration[3], t706, platform_acceleration[4] * t703);
         let t932 = mul_sub(platform_velocity[3], t711, platform_velocity[4] * t710);
         let t933 = platform_acceleration[2] + t931 + t932;
         let t934 = mul_sub(base_acceleration[3], t694, base_acceleration[4] * t688);
@@ -8805,11 +7601,7 @@ pub fn generalised_forces<T: Scalar>(
         let t943 = mul_sub(base_velocity[3], t941, base_velocity[4] * t942);
         let t944 = neg_mul_add(t158, t937, base_acceleration[2] + t940 + t943);
         let t945 = neg_mul_add(t496, t700, neg_mul_add(t938, t939, t944));
-        let t946 = mul_sub(
-            platform_acceleration[5],
-            t703,
-            platform_acceleration[3] * t709,
-        );
+        let t946 = mul_sub(platform_acceleration[5], t703, platform_acceleration[3] * t709);
         let t947 = mul_sub(platform_velocity[5], t710, platform_velocity[3] * t712);
         let t948 = platform_acceleration[1] + t946 + t947;
         let t949 = mul_sub(base_acceleration[5], t688, base_acceleration[3] * t700);
@@ -8822,11 +7614,7 @@ pub fn generalised_forces<T: Scalar>(
         let t956 = t933 - t945;
         let t957 = t948 - t955;
         let t958 = t543 * mul_sub(t550, t956, t552 * t957);
-        let t959 = mul_sub(
-            platform_acceleration[4],
-            t709,
-            platform_acceleration[5] * t706,
-        );
+        let t959 = mul_sub(platform_acceleration[4], t709, platform_acceleration[5] * t706);
         let t960 = mul_sub(platform_velocity[4], t712, platform_velocity[5] * t711);
         let t961 = platform_acceleration[0] + t959 + t960;
         let t962 = mul_sub(base_acceleration[4], t700, base_acceleration[5] * t694);
@@ -8848,162 +7636,22 @@ pub fn generalised_forces<T: Scalar>(
         let t976 = neg_mul_add(parameters.mover_offset[4], t950, t955);
         let t977 = neg_mul_add(parameters.mover_offset[4], t937, t945);
         (
-            t118,
-            t128,
-            t138,
-            t148,
-            t158,
-            t168,
-            t169,
-            t170,
-            t171,
-            t172,
-            t173,
-            t174,
-            t175,
-            t176,
-            t177,
-            t178,
-            t179,
-            t180,
-            t181,
-            t182,
-            t183,
-            t184,
-            t185,
-            t186,
-            t291,
-            t300,
-            t309,
-            t318,
-            t327,
-            t336,
-            t502,
-            t503,
-            t508,
-            t510,
-            t512,
-            t513,
-            t518,
-            t520,
-            t522,
-            t523,
-            t528,
-            t530,
-            t532,
-            t533,
-            t538,
-            t540,
-            t542,
-            t543,
-            t548,
-            t550,
-            t552,
-            t553,
-            t558,
-            t560,
-            t562,
-            t568,
-            t574,
-            t580,
-            t583,
-            t586,
-            t589,
-            t598,
-            t604,
-            t610,
-            t613,
-            t616,
-            t619,
-            t628,
-            t634,
-            t640,
-            t643,
-            t646,
-            t649,
-            t658,
-            t664,
-            t670,
-            t673,
-            t676,
-            t679,
-            t688,
-            t694,
-            t700,
-            t703,
-            t706,
-            t709,
-            t715,
-            t718,
-            t721,
-            t724,
-            t727,
-            t730,
-            t733,
-            t736,
-            t739,
-            t740,
-            t741,
-            t742,
-            t770,
-            t781,
-            t782,
-            t783,
-            t784,
-            t785,
-            t786,
-            t787,
-            t788,
-            t789,
-            t817,
-            t828,
-            t829,
-            t830,
-            t831,
-            t832,
-            t833,
-            t834,
-            t835,
-            t836,
-            t864,
-            t875,
-            t876,
-            t877,
-            t878,
-            t879,
-            t880,
-            t881,
-            t882,
-            t883,
-            t911,
-            t922,
-            t923,
-            t924,
-            t925,
-            t926,
-            t927,
-            t928,
-            t929,
-            t930,
-            t958,
-            t969,
-            t970,
-            t971,
-            t972,
-            t973,
-            t974,
-            t975,
-            t976,
-            t977,
+            t118, t128, t138, t148, t158, t168, t169, t170, t171, t172, t173, t174, t175, t176,
+            t177, t178, t179, t180, t181, t182, t183, t184, t185, t186, t291, t300, t309, t318,
+            t327, t336, t502, t503, t508, t510, t512, t513, t518, t520, t522, t523, t528, t530,
+            t532, t533, t538, t540, t542, t543, t548, t550, t552, t553, t558, t560, t562, t568,
+            t574, t580, t583, t586, t589, t598, t604, t610, t613, t616, t619, t628, t634, t640,
+            t643, t646, t649, t658, t664, t670, t673, t676, t679, t688, t694, t700, t703, t706,
+            t709, t715, t718, t721, t724, t727, t730, t733, t736, t739, t740, t741, t742, t770,
+            t781, t782, t783, t784, t785, t786, t787, t788, t789, t817, t828, t829, t830, t831,
+            t832, t833, t834, t835, t836, t864, t875, t876, t877, t878, t879, t880, t881, t882,
+            t883, t911, t922, t923, t924, t925, t926, t927, t928, t929, t930, t958, t969, t970,
+            t971, t972, t973, t974, t975, t976, t977,
         )
     };
     {
         // leg 6: angular acceleration of the rod
-        let t978 = mul_sub(
-            platform_acceleration[3],
-            t736,
-            platform_acceleration[4] * t733,
-        );
+        let t978 = mul_sub(platform_acceleration[3], t736, platform_acceleration[4] * t733);
         let t979 = mul_sub(platform_velocity[3], t741, platform_velocity[4] * t740);
         let t980 = platform_acceleration[2] + t978 + t979;
         let t981 = mul_sub(base_acceleration[3], t724, base_acceleration[4] * t718);
@@ -9018,11 +7666,7 @@ pub fn generalised_forces<T: Scalar>(
         let t990 = mul_sub(base_velocity[3], t988, base_velocity[4] * t989);
         let t991 = neg_mul_add(t168, t984, base_acceleration[2] + t987 + t990);
         let t992 = neg_mul_add(t502, t730, neg_mul_add(t985, t986, t991));
-        let t993 = mul_sub(
-            platform_acceleration[5],
-            t733,
-            platform_acceleration[3] * t739,
-        );
+        let t993 = mul_sub(platform_acceleration[5], t733, platform_acceleration[3] * t739);
         let t994 = mul_sub(platform_velocity[5], t740, platform_velocity[3] * t742);
         let t995 = platform_acceleration[1] + t993 + t994;
         let t996 = mul_sub(base_acceleration[5], t718, base_acceleration[3] * t730);
@@ -9035,11 +7679,7 @@ pub fn generalised_forces<T: Scalar>(
         let t1003 = t980 - t992;
         let t1004 = t995 - t1002;
         let t1005 = t553 * mul_sub(t560, t1003, t562 * t1004);
-        let t1006 = mul_sub(
-            platform_acceleration[4],
-            t739,
-            platform_acceleration[5] * t736,
-        );
+        let t1006 = mul_sub(platform_acceleration[4], t739, platform_acceleration[5] * t736);
         let t1007 = mul_sub(platform_velocity[4], t742, platform_velocity[5] * t741);
         let t1008 = platform_acceleration[0] + t1006 + t1007;
         let t1009 = mul_sub(base_acceleration[4], t730, base_acceleration[5] * t724);
@@ -9075,25 +7715,13 @@ pub fn generalised_forces<T: Scalar>(
         let t1035 = mul_sub(platform_velocity[5], t1027, platform_velocity[3] * t1033);
         let t1036 = mul_sub(platform_velocity[3], t1030, platform_velocity[4] * t1027);
         // acceleration of the payload's centre of mass
-        let t1037 = mul_sub(
-            platform_acceleration[4],
-            t1033,
-            platform_acceleration[5] * t1030,
-        );
+        let t1037 = mul_sub(platform_acceleration[4], t1033, platform_acceleration[5] * t1030);
         let t1038 = mul_sub(platform_velocity[4], t1036, platform_velocity[5] * t1035);
         let t1039 = platform_acceleration[0] + t1037 + t1038;
-        let t1040 = mul_sub(
-            platform_acceleration[5],
-            t1027,
-            platform_acceleration[3] * t1033,
-        );
+        let t1040 = mul_sub(platform_acceleration[5], t1027, platform_acceleration[3] * t1033);
         let t1041 = mul_sub(platform_velocity[5], t1034, platform_velocity[3] * t1036);
         let t1042 = platform_acceleration[1] + t1040 + t1041;
-        let t1043 = mul_sub(
-            platform_acceleration[3],
-            t1030,
-            platform_acceleration[4] * t1027,
-        );
+        let t1043 = mul_sub(platform_acceleration[3], t1030, platform_acceleration[4] * t1027);
         let t1044 = mul_sub(platform_velocity[3], t1035, platform_velocity[4] * t1034);
         let t1045 = platform_acceleration[2] + t1043 + t1044;
         // leg 1: gradient of the actuator length
@@ -9187,30 +7815,15 @@ pub fn generalised_forces<T: Scalar>(
         let t1116 = parameters.axial_damping[5] * t336;
         let t1117 = mul_add(parameters.axial_stiffness[5], t1115, t1116);
         // generalised active force of the payload: gravity, external wrench
-        let t1118 = mul_add(
-            parameters.payload_mass,
-            parameters.gravity[0],
-            external_wrench[0],
-        );
+        let t1118 = mul_add(parameters.payload_mass, parameters.gravity[0], external_wrench[0]);
         payload_active_force[0] = t1118;
-        let t1119 = mul_add(
-            parameters.payload_mass,
-            parameters.gravity[1],
-            external_wrench[1],
-        );
+        let t1119 = mul_add(parameters.payload_mass, parameters.gravity[1], external_wrench[1]);
         payload_active_force[1] = t1119;
-        let t1120 = mul_add(
-            parameters.payload_mass,
-            parameters.gravity[2],
-            external_wrench[2],
-        );
+        let t1120 = mul_add(parameters.payload_mass, parameters.gravity[2], external_wrench[2]);
         payload_active_force[2] = t1120;
-        payload_active_force[3] = external_wrench[3]
-            + mul_sub(t1030, t1120, t1033 * t1119);
-        payload_active_force[4] = external_wrench[4]
-            + mul_sub(t1033, t1118, t1027 * t1120);
-        payload_active_force[5] = external_wrench[5]
-            + mul_sub(t1027, t1119, t1030 * t1118);
+        payload_active_force[3] = external_wrench[3] + mul_sub(t1030, t1120, t1033 * t1119);
+        payload_active_force[4] = external_wrench[4] + mul_sub(t1033, t1118, t1027 * t1120);
+        payload_active_force[5] = external_wrench[5] + mul_sub(t1027, t1119, t1030 * t1118);
         // generalised inertia force of the payload
         let t1121 = parameters.payload_mass * t1039;
         payload_inertia_force[0] = -t1121;
@@ -9219,185 +7832,65 @@ pub fn generalised_forces<T: Scalar>(
         let t1123 = parameters.payload_mass * t1045;
         payload_inertia_force[2] = -t1123;
         let t1124 = platform_rotation[0][1] * parameters.payload_inertia[1][2];
-        let t1125 = mul_add(
-            platform_rotation[0][0],
-            parameters.payload_inertia[0][2],
-            t1124,
-        );
-        let t1126 = mul_add(
-            platform_rotation[0][2],
-            parameters.payload_inertia[2][2],
-            t1125,
-        );
+        let t1125 = mul_add(platform_rotation[0][0], parameters.payload_inertia[0][2], t1124);
+        let t1126 = mul_add(platform_rotation[0][2], parameters.payload_inertia[2][2], t1125);
         let t1127 = platform_rotation[0][1] * parameters.payload_inertia[0][1];
-        let t1128 = mul_add(
-            platform_rotation[0][0],
-            parameters.payload_inertia[0][0],
-            t1127,
-        );
-        let t1129 = mul_add(
-            platform_rotation[0][2],
-            parameters.payload_inertia[0][2],
-            t1128,
-        );
+        let t1128 = mul_add(platform_rotation[0][0], parameters.payload_inertia[0][0], t1127);
+        let t1129 = mul_add(platform_rotation[0][2], parameters.payload_inertia[0][2], t1128);
         let t1130 = platform_rotation[0][1] * parameters.payload_inertia[1][1];
-        let t1131 = mul_add(
-            platform_rotation[0][0],
-            parameters.payload_inertia[0][1],
-            t1130,
-        );
-        let t1132 = mul_add(
-            platform_rotation[0][2],
-            parameters.payload_inertia[1][2],
-            t1131,
-        );
-        let t1133 = mul_add(
-            platform_rotation[2][0],
-            t1129,
-            platform_rotation[2][1] * t1132,
-        );
+        let t1131 = mul_add(platform_rotation[0][0], parameters.payload_inertia[0][1], t1130);
+        let t1132 = mul_add(platform_rotation[0][2], parameters.payload_inertia[1][2], t1131);
+        let t1133 = mul_add(platform_rotation[2][0], t1129, platform_rotation[2][1] * t1132);
         let t1134 = mul_add(platform_rotation[2][2], t1126, t1133);
-        let t1135 = mul_add(
-            platform_rotation[0][0],
-            t1129,
-            platform_rotation[0][1] * t1132,
-        );
+        let t1135 = mul_add(platform_rotation[0][0], t1129, platform_rotation[0][1] * t1132);
         let t1136 = mul_add(platform_rotation[0][2], t1126, t1135);
-        let t1137 = mul_add(
-            platform_rotation[1][0],
-            t1129,
-            platform_rotation[1][1] * t1132,
-        );
+        let t1137 = mul_add(platform_rotation[1][0], t1129, platform_rotation[1][1] * t1132);
         let t1138 = mul_add(platform_rotation[1][2], t1126, t1137);
-        let t1139 = mul_add(
-            platform_acceleration[3],
-            t1136,
-            platform_acceleration[4] * t1138,
-        );
+        let t1139 = mul_add(platform_acceleration[3], t1136, platform_acceleration[4] * t1138);
         let t1140 = platform_rotation[2][1] * parameters.payload_inertia[1][2];
-        let t1141 = mul_add(
-            platform_rotation[2][0],
-            parameters.payload_inertia[0][2],
-            t1140,
-        );
-        let t1142 = mul_add(
-            platform_rotation[2][2],
-            parameters.payload_inertia[2][2],
-            t1141,
-        );
+        let t1141 = mul_add(platform_rotation[2][0], parameters.payload_inertia[0][2], t1140);
+        let t1142 = mul_add(platform_rotation[2][2], parameters.payload_inertia[2][2], t1141);
         let t1143 = platform_rotation[2][1] * parameters.payload_inertia[0][1];
-        let t1144 = mul_add(
-            platform_rotation[2][0],
-            parameters.payload_inertia[0][0],
-            t1143,
-        );
-        let t1145 = mul_add(
-            platform_rotation[2][2],
-            parameters.payload_inertia[0][2],
-            t1144,
-        );
+        let t1144 = mul_add(platform_rotation[2][0], parameters.payload_inertia[0][0], t1143);
+        let t1145 = mul_add(platform_rotation[2][2], parameters.payload_inertia[0][2], t1144);
         let t1146 = platform_rotation[2][1] * parameters.payload_inertia[1][1];
-        let t1147 = mul_add(
-            platform_rotation[2][0],
-            parameters.payload_inertia[0][1],
-            t1146,
-        );
-        let t1148 = mul_add(
-            platform_rotation[2][2],
-            parameters.payload_inertia[1][2],
-            t1147,
-        );
-        let t1149 = mul_add(
-            platform_rotation[2][0],
-            t1145,
-            platform_rotation[2][1] * t1148,
-        );
+        let t1147 = mul_add(platform_rotation[2][0], parameters.payload_inertia[0][1], t1146);
+        let t1148 = mul_add(platform_rotation[2][2], parameters.payload_inertia[1][2], t1147);
+        let t1149 = mul_add(platform_rotation[2][0], t1145, platform_rotation[2][1] * t1148);
         let t1150 = mul_add(platform_rotation[2][2], t1142, t1149);
-        let t1151 = mul_add(
-            platform_rotation[0][0],
-            t1145,
-            platform_rotation[0][1] * t1148,
-        );
+        let t1151 = mul_add(platform_rotation[0][0], t1145, platform_rotation[0][1] * t1148);
         let t1152 = mul_add(platform_rotation[0][2], t1142, t1151);
-        let t1153 = mul_add(
-            platform_rotation[1][0],
-            t1145,
-            platform_rotation[1][1] * t1148,
-        );
+        let t1153 = mul_add(platform_rotation[1][0], t1145, platform_rotation[1][1] * t1148);
         let t1154 = mul_add(platform_rotation[1][2], t1142, t1153);
         let t1155 = mul_add(platform_velocity[3], t1152, platform_velocity[4] * t1154);
         let t1156 = mul_add(platform_velocity[5], t1150, t1155);
         let t1157 = platform_rotation[1][1] * parameters.payload_inertia[1][2];
-        let t1158 = mul_add(
-            platform_rotation[1][0],
-            parameters.payload_inertia[0][2],
-            t1157,
-        );
-        let t1159 = mul_add(
-            platform_rotation[1][2],
-            parameters.payload_inertia[2][2],
-            t1158,
-        );
+        let t1158 = mul_add(platform_rotation[1][0], parameters.payload_inertia[0][2], t1157);
+        let t1159 = mul_add(platform_rotation[1][2], parameters.payload_inertia[2][2], t1158);
         let t1160 = platform_rotation[1][1] * parameters.payload_inertia[0][1];
-        let t1161 = mul_add(
-            platform_rotation[1][0],
-            parameters.payload_inertia[0][0],
-            t1160,
-        );
-        let t1162 = mul_add(
-            platform_rotation[1][2],
-            parameters.payload_inertia[0][2],
-            t1161,
-        );
+        let t1161 = mul_add(platform_rotation[1][0], parameters.payload_inertia[0][0], t1160);
+        let t1162 = mul_add(platform_rotation[1][2], parameters.payload_inertia[0][2], t1161);
         let t1163 = platform_rotation[1][1] * parameters.payload_inertia[1][1];
-        let t1164 = mul_add(
-            platform_rotation[1][0],
-            parameters.payload_inertia[0][1],
-            t1163,
-        );
-        let t1165 = mul_add(
-            platform_rotation[1][2],
-            parameters.payload_inertia[1][2],
-            t1164,
-        );
-        let t1166 = mul_add(
-            platform_rotation[2][0],
-            t1162,
-            platform_rotation[2][1] * t1165,
-        );
+        let t1164 = mul_add(platform_rotation[1][0], parameters.payload_inertia[0][1], t1163);
+        let t1165 = mul_add(platform_rotation[1][2], parameters.payload_inertia[1][2], t1164);
+        let t1166 = mul_add(platform_rotation[2][0], t1162, platform_rotation[2][1] * t1165);
         let t1167 = mul_add(platform_rotation[2][2], t1159, t1166);
-        let t1168 = mul_add(
-            platform_rotation[0][0],
-            t1162,
-            platform_rotation[0][1] * t1165,
-        );
+        let t1168 = mul_add(platform_rotation[0][0], t1162, platform_rotation[0][1] * t1165);
         let t1169 = mul_add(platform_rotation[0][2], t1159, t1168);
-        let t1170 = mul_add(
-            platform_rotation[1][0],
-            t1162,
-            platform_rotation[1][1] * t1165,
-        );
+        let t1170 = mul_add(platform_rotation[1][0], t1162, platform_rotation[1][1] * t1165);
         let t1171 = mul_add(platform_rotation[1][2], t1159, t1170);
         let t1172 = mul_add(platform_velocity[3], t1169, platform_velocity[4] * t1171);
         let t1173 = mul_add(platform_velocity[5], t1167, t1172);
         let t1174 = mul_sub(platform_velocity[4], t1156, platform_velocity[5] * t1173);
         let t1175 = mul_add(platform_acceleration[5], t1134, t1139) + t1174;
         payload_inertia_force[3] = neg_mul_add(t1030, t1123, t1033 * t1122) - t1175;
-        let t1176 = mul_add(
-            platform_acceleration[3],
-            t1169,
-            platform_acceleration[4] * t1171,
-        );
+        let t1176 = mul_add(platform_acceleration[3], t1169, platform_acceleration[4] * t1171);
         let t1177 = mul_add(platform_velocity[3], t1136, platform_velocity[4] * t1138);
         let t1178 = mul_add(platform_velocity[5], t1134, t1177);
         let t1179 = mul_sub(platform_velocity[5], t1178, platform_velocity[3] * t1156);
         let t1180 = mul_add(platform_acceleration[5], t1167, t1176) + t1179;
         payload_inertia_force[4] = neg_mul_add(t1033, t1121, t1027 * t1123) - t1180;
-        let t1181 = mul_add(
-            platform_acceleration[3],
-            t1152,
-            platform_acceleration[4] * t1154,
-        );
+        let t1181 = mul_add(platform_acceleration[3], t1152, platform_acceleration[4] * t1154);
         let t1182 = mul_sub(platform_velocity[3], t1173, platform_velocity[4] * t1178);
         let t1183 = mul_add(platform_acceleration[5], t1150, t1181) + t1182;
         payload_inertia_force[5] = neg_mul_add(t1027, t1122, t1030 * t1121) - t1183;
@@ -9413,21 +7906,9 @@ pub fn generalised_forces<T: Scalar>(
         rod_active_force[0][1] = neg_mul_add(t1049, t1188, t1190);
         let t1191 = parameters.rod_com_fraction[0] * t1185;
         rod_active_force[0][2] = neg_mul_add(t1051, t1188, t1191);
-        rod_active_force[0][3] = neg_mul_add(
-            t1082,
-            t1188,
-            mul_sub(t586, t1191, t589 * t1190),
-        );
-        rod_active_force[0][4] = neg_mul_add(
-            t1083,
-            t1188,
-            mul_sub(t589, t1189, t583 * t1191),
-        );
-        rod_active_force[0][5] = neg_mul_add(
-            t1084,
-            t1188,
-            mul_sub(t583, t1190, t586 * t1189),
-        );
+        rod_active_force[0][3] = neg_mul_add(t1082, t1188, mul_sub(t586, t1191, t589 * t1190));
+        rod_active_force[0][4] = neg_mul_add(t1083, t1188, mul_sub(t589, t1189, t583 * t1191));
+        rod_active_force[0][5] = neg_mul_add(t1084, t1188, mul_sub(t583, t1190, t586 * t1189));
         // leg 1: generalised inertia force of the rod
         let t1192 = parameters.rod_mass[0] * t784;
         let t1193 = parameters.rod_mass[0] * t786;
@@ -9442,17 +7923,16 @@ pub fn generalised_forces<T: Scalar>(
         let t1202 = mul_sub(t512, t1199, t510 * t1201);
         let t1203 = mul_sub(t508, t1201, t512 * t1198);
         let t1204 = mul_add(t580, t1200, mul_add(t568, t1202, t574 * t1203));
-        rod_inertia_force[0][0] = neg_mul_add(t1047, t1196, t1197)
-            - neg_mul_add(t1047, t1204, t1202);
+        rod_inertia_force[0][0] =
+            neg_mul_add(t1047, t1196, t1197) - neg_mul_add(t1047, t1204, t1202);
         let t1205 = parameters.rod_com_fraction[0] * t1194;
-        rod_inertia_force[0][1] = neg_mul_add(t1049, t1196, t1205)
-            - neg_mul_add(t1049, t1204, t1203);
+        rod_inertia_force[0][1] =
+            neg_mul_add(t1049, t1196, t1205) - neg_mul_add(t1049, t1204, t1203);
         let t1206 = parameters.rod_com_fraction[0] * t1193;
-        rod_inertia_force[0][2] = neg_mul_add(t1051, t1196, t1206)
-            - neg_mul_add(t1051, t1204, t1200);
+        rod_inertia_force[0][2] =
+            neg_mul_add(t1051, t1196, t1206) - neg_mul_add(t1051, t1204, t1200);
         let t1207 = neg_mul_add(t1082, t1196, mul_sub(t586, t1206, t589 * t1205));
-        rod_inertia_force[0][3] = t1207
-            - mul_sub(t586, t1200, mul_add(t589, t1203, t1082 * t1204));
+        rod_inertia_force[0][3] = t1207 - mul_sub(t586, t1200, mul_add(t589, t1203, t1082 * t1204));
         let t1208 = neg_mul_add(t1083, t1196, mul_sub(t589, t1197, t583 * t1206));
         let t1209 = neg_mul_add(t583, t1200, mul_sub(t589, t1202, t1083 * t1204));
         rod_inertia_force[0][4] = t1208 - t1209;
@@ -9461,21 +7941,9 @@ pub fn generalised_forces<T: Scalar>(
         rod_inertia_force[0][5] = t1210 - t1211;
         // leg 1: generalised active force of the mover: gravity, actuator, spring, damper
         let t1212 = actuator_force[0] + t1102;
-        let t1213 = mul_add(
-            parameters.mover_mass[0],
-            parameters.gravity[0],
-            t568 * t1212,
-        );
-        let t1214 = mul_add(
-            parameters.mover_mass[0],
-            parameters.gravity[2],
-            t580 * t1212,
-        );
-        let t1215 = mul_add(
-            parameters.mover_mass[0],
-            parameters.gravity[1],
-            t574 * t1212,
-        );
+        let t1213 = mul_add(parameters.mover_mass[0], parameters.gravity[0], t568 * t1212);
+        let t1214 = mul_add(parameters.mover_mass[0], parameters.gravity[2], t580 * t1212);
+        let t1215 = mul_add(parameters.mover_mass[0], parameters.gravity[1], t574 * t1212);
         let t1216 = mul_add(t568, t1213, mul_add(t580, t1214, t574 * t1215));
         mover_active_force[0][0] = t1047 * t1216;
         mover_active_force[0][1] = t1049 * t1216;
@@ -9505,21 +7973,9 @@ pub fn generalised_forces<T: Scalar>(
         rod_active_force[1][1] = neg_mul_add(t1055, t1224, t1226);
         let t1227 = parameters.rod_com_fraction[1] * t1221;
         rod_active_force[1][2] = neg_mul_add(t1057, t1224, t1227);
-        rod_active_force[1][3] = neg_mul_add(
-            t1085,
-            t1224,
-            mul_sub(t616, t1227, t619 * t1226),
-        );
-        rod_active_force[1][4] = neg_mul_add(
-            t1086,
-            t1224,
-            mul_sub(t619, t1225, t613 * t1227),
-        );
-        rod_active_force[1][5] = neg_mul_add(
-            t1087,
-            t1224,
-            mul_sub(t613, t1226, t616 * t1225),
-        );
+        rod_active_force[1][3] = neg_mul_add(t1085, t1224, mul_sub(t616, t1227, t619 * t1226));
+        rod_active_force[1][4] = neg_mul_add(t1086, t1224, mul_sub(t619, t1225, t613 * t1227));
+        rod_active_force[1][5] = neg_mul_add(t1087, t1224, mul_sub(t613, t1226, t616 * t1225));
         // leg 2: generalised inertia force of the rod
         let t1228 = parameters.rod_mass[1] * t831;
         let t1229 = parameters.rod_mass[1] * t833;
@@ -9534,17 +7990,16 @@ pub fn generalised_forces<T: Scalar>(
         let t1238 = mul_sub(t522, t1235, t520 * t1237);
         let t1239 = mul_sub(t518, t1237, t522 * t1234);
         let t1240 = mul_add(t610, t1236, mul_add(t598, t1238, t604 * t1239));
-        rod_inertia_force[1][0] = neg_mul_add(t1053, t1232, t1233)
-            - neg_mul_add(t1053, t1240, t1238);
+        rod_inertia_force[1][0] =
+            neg_mul_add(t1053, t1232, t1233) - neg_mul_add(t1053, t1240, t1238);
         let t1241 = parameters.rod_com_fraction[1] * t1230;
-        rod_inertia_force[1][1] = neg_mul_add(t1055, t1232, t1241)
-            - neg_mul_add(t1055, t1240, t1239);
+        rod_inertia_force[1][1] =
+            neg_mul_add(t1055, t1232, t1241) - neg_mul_add(t1055, t1240, t1239);
         let t1242 = parameters.rod_com_fraction[1] * t1229;
-        rod_inertia_force[1][2] = neg_mul_add(t1057, t1232, t1242)
-            - neg_mul_add(t1057, t1240, t1236);
+        rod_inertia_force[1][2] =
+            neg_mul_add(t1057, t1232, t1242) - neg_mul_add(t1057, t1240, t1236);
         let t1243 = neg_mul_add(t1085, t1232, mul_sub(t616, t1242, t619 * t1241));
-        rod_inertia_force[1][3] = t1243
-            - mul_sub(t616, t1236, mul_add(t619, t1239, t1085 * t1240));
+        rod_inertia_force[1][3] = t1243 - mul_sub(t616, t1236, mul_add(t619, t1239, t1085 * t1240));
         let t1244 = neg_mul_add(t1086, t1232, mul_sub(t619, t1233, t613 * t1242));
         let t1245 = neg_mul_add(t613, t1236, mul_sub(t619, t1238, t1086 * t1240));
         rod_inertia_force[1][4] = t1244 - t1245;
@@ -9553,21 +8008,9 @@ pub fn generalised_forces<T: Scalar>(
         rod_inertia_force[1][5] = t1246 - t1247;
         // leg 2: generalised active force of the mover: gravity, actuator, spring, damper
         let t1248 = actuator_force[1] + t1105;
-        let t1249 = mul_add(
-            parameters.mover_mass[1],
-            parameters.gravity[0],
-            t598 * t1248,
-        );
-        let t1250 = mul_add(
-            parameters.mover_mass[1],
-            parameters.gravity[2],
-            t610 * t1248,
-        );
-        let t1251 = mul_add(
-            parameters.mover_mass[1],
-            parameters.gravity[1],
-            t604 * t1248,
-        );
+        let t1249 = mul_add(parameters.mover_mass[1], parameters.gravity[0], t598 * t1248);
+        let t1250 = mul_add(parameters.mover_mass[1], parameters.gravity[2], t610 * t1248);
+        let t1251 = mul_add(parameters.mover_mass[1], parameters.gravity[1], t604 * t1248);
         let t1252 = mul_add(t598, t1249, mul_add(t610, t1250, t604 * t1251));
         mover_active_force[1][0] = t1053 * t1252;
         mover_active_force[1][1] = t1055 * t1252;
@@ -9597,21 +8040,9 @@ pub fn generalised_forces<T: Scalar>(
         rod_active_force[2][1] = neg_mul_add(t1061, t1260, t1262);
         let t1263 = parameters.rod_com_fraction[2] * t1257;
         rod_active_force[2][2] = neg_mul_add(t1063, t1260, t1263);
-        rod_active_force[2][3] = neg_mul_add(
-            t1088,
-            t1260,
-            mul_sub(t646, t1263, t649 * t1262),
-        );
-        rod_active_force[2][4] = neg_mul_add(
-            t1089,
-            t1260,
-            mul_sub(t649, t1261, t643 * t1263),
-        );
-        rod_active_force[2][5] = neg_mul_add(
-            t1090,
-            t1260,
-            mul_sub(t643, t1262, t646 * t1261),
-        );
+        rod_active_force[2][3] = neg_mul_add(t1088, t1260, mul_sub(t646, t1263, t649 * t1262));
+        rod_active_force[2][4] = neg_mul_add(t1089, t1260, mul_sub(t649, t1261, t643 * t1263));
+        rod_active_force[2][5] = neg_mul_add(t1090, t1260, mul_sub(t643, t1262, t646 * t1261));
         // leg 3: generalised inertia force of the rod
         let t1264 = parameters.rod_mass[2] * t878;
         let t1265 = parameters.rod_mass[2] * t880;
@@ -9626,17 +8057,16 @@ pub fn generalised_forces<T: Scalar>(
         let t1274 = mul_sub(t532, t1271, t530 * t1273);
         let t1275 = mul_sub(t528, t1273, t532 * t1270);
         let t1276 = mul_add(t640, t1272, mul_add(t628, t1274, t634 * t1275));
-        rod_inertia_force[2][0] = neg_mul_add(t1059, t1268, t1269)
-            - neg_mul_add(t1059, t1276, t1274);
+        rod_inertia_force[2][0] =
+            neg_mul_add(t1059, t1268, t1269) - neg_mul_add(t1059, t1276, t1274);
         let t1277 = parameters.rod_com_fraction[2] * t1266;
-        rod_inertia_force[2][1] = neg_mul_add(t1061, t1268, t1277)
-            - neg_mul_add(t1061, t1276, t1275);
+        rod_inertia_force[2][1] =
+            neg_mul_add(t1061, t1268, t1277) - neg_mul_add(t1061, t1276, t1275);
         let t1278 = parameters.rod_com_fraction[2] * t1265;
-        rod_inertia_force[2][2] = neg_mul_add(t1063, t1268, t1278)
-            - neg_mul_add(t1063, t1276, t1272);
+        rod_inertia_force[2][2] =
+            neg_mul_add(t1063, t1268, t1278) - neg_mul_add(t1063, t1276, t1272);
         let t1279 = neg_mul_add(t1088, t1268, mul_sub(t646, t1278, t649 * t1277));
-        rod_inertia_force[2][3] = t1279
-            - mul_sub(t646, t1272, mul_add(t649, t1275, t1088 * t1276));
+        rod_inertia_force[2][3] = t1279 - mul_sub(t646, t1272, mul_add(t649, t1275, t1088 * t1276));
         let t1280 = neg_mul_add(t1089, t1268, mul_sub(t649, t1269, t643 * t1278));
         let t1281 = neg_mul_add(t643, t1272, mul_sub(t649, t1274, t1089 * t1276));
         rod_inertia_force[2][4] = t1280 - t1281;
@@ -9645,21 +8075,9 @@ pub fn generalised_forces<T: Scalar>(
         rod_inertia_force[2][5] = t1282 - t1283;
         // leg 3: generalised active force of the mover: gravity, actuator, spring, damper
         let t1284 = actuator_force[2] + t1108;
-        let t1285 = mul_add(
-            parameters.mover_mass[2],
-            parameters.gravity[0],
-            t628 * t1284,
-        );
-        let t1286 = mul_add(
-            parameters.mover_mass[2],
-            parameters.gravity[2],
-            t640 * t1284,
-        );
-        let t1287 = mul_add(
-            parameters.mover_mass[2],
-            parameters.gravity[1],
-            t634 * t1284,
-        );
+        let t1285 = mul_add(parameters.mover_mass[2], parameters.gravity[0], t628 * t1284);
+        let t1286 = mul_add(parameters.mover_mass[2], parameters.gravity[2], t640 * t1284);
+        let t1287 = mul_add(parameters.mover_mass[2], parameters.gravity[1], t634 * t1284);
         let t1288 = mul_add(t628, t1285, mul_add(t640, t1286, t634 * t1287));
         mover_active_force[2][0] = t1059 * t1288;
         mover_active_force[2][1] = t1061 * t1288;
@@ -9689,21 +8107,9 @@ pub fn generalised_forces<T: Scalar>(
         rod_active_force[3][1] = neg_mul_add(t1067, t1296, t1298);
         let t1299 = parameters.rod_com_fraction[3] * t1293;
         rod_active_force[3][2] = neg_mul_add(t1069, t1296, t1299);
-        rod_active_force[3][3] = neg_mul_add(
-            t1091,
-            t1296,
-            mul_sub(t676, t1299, t679 * t1298),
-        );
-        rod_active_force[3][4] = neg_mul_add(
-            t1092,
-            t1296,
-            mul_sub(t679, t1297, t673 * t1299),
-        );
-        rod_active_force[3][5] = neg_mul_add(
-            t1093,
-            t1296,
-            mul_sub(t673, t1298, t676 * t1297),
-        );
+        rod_active_force[3][3] = neg_mul_add(t1091, t1296, mul_sub(t676, t1299, t679 * t1298));
+        rod_active_force[3][4] = neg_mul_add(t1092, t1296, mul_sub(t679, t1297, t673 * t1299));
+        rod_active_force[3][5] = neg_mul_add(t1093, t1296, mul_sub(t673, t1298, t676 * t1297));
         // leg 4: generalised inertia force of the rod
         let t1300 = parameters.rod_mass[3] * t925;
         let t1301 = parameters.rod_mass[3] * t927;
@@ -9718,17 +8124,16 @@ pub fn generalised_forces<T: Scalar>(
         let t1310 = mul_sub(t542, t1307, t540 * t1309);
         let t1311 = mul_sub(t538, t1309, t542 * t1306);
         let t1312 = mul_add(t670, t1308, mul_add(t658, t1310, t664 * t1311));
-        rod_inertia_force[3][0] = neg_mul_add(t1065, t1304, t1305)
-            - neg_mul_add(t1065, t1312, t1310);
+        rod_inertia_force[3][0] =
+            neg_mul_add(t1065, t1304, t1305) - neg_mul_add(t1065, t1312, t1310);
         let t1313 = parameters.rod_com_fraction[3] * t1302;
-        rod_inertia_force[3][1] = neg_mul_add(t1067, t1304, t1313)
-            - neg_mul_add(t1067, t1312, t1311);
+        rod_inertia_force[3][1] =
+            neg_mul_add(t1067, t1304, t1313) - neg_mul_add(t1067, t1312, t1311);
         let t1314 = parameters.rod_com_fraction[3] * t1301;
-        rod_inertia_force[3][2] = neg_mul_add(t1069, t1304, t1314)
-            - neg_mul_add(t1069, t1312, t1308);
+        rod_inertia_force[3][2] =
+            neg_mul_add(t1069, t1304, t1314) - neg_mul_add(t1069, t1312, t1308);
         let t1315 = neg_mul_add(t1091, t1304, mul_sub(t676, t1314, t679 * t1313));
-        rod_inertia_force[3][3] = t1315
-            - mul_sub(t676, t1308, mul_add(t679, t1311, t1091 * t1312));
+        rod_inertia_force[3][3] = t1315 - mul_sub(t676, t1308, mul_add(t679, t1311, t1091 * t1312));
         let t1316 = neg_mul_add(t1092, t1304, mul_sub(t679, t1305, t673 * t1314));
         let t1317 = neg_mul_add(t673, t1308, mul_sub(t679, t1310, t1092 * t1312));
         rod_inertia_force[3][4] = t1316 - t1317;
@@ -9737,21 +8142,9 @@ pub fn generalised_forces<T: Scalar>(
         rod_inertia_force[3][5] = t1318 - t1319;
         // leg 4: generalised active force of the mover: gravity, actuator, spring, damper
         let t1320 = actuator_force[3] + t1111;
-        let t1321 = mul_add(
-            parameters.mover_mass[3],
-            parameters.gravity[0],
-            t658 * t1320,
-        );
-        let t1322 = mul_add(
-            parameters.mover_mass[3],
-            parameters.gravity[2],
-            t670 * t1320,
-        );
-        let t1323 = mul_add(
-            parameters.mover_mass[3],
-            parameters.gravity[1],
-            t664 * t1320,
-        );
+        let t1321 = mul_add(parameters.mover_mass[3], parameters.gravity[0], t658 * t1320);
+        let t1322 = mul_add(parameters.mover_mass[3], parameters.gravity[2], t670 * t1320);
+        let t1323 = mul_add(parameters.mover_mass[3], parameters.gravity[1], t664 * t1320);
         let t1324 = mul_add(t658, t1321, mul_add(t670, t1322, t664 * t1323));
         mover_active_force[3][0] = t1065 * t1324;
         mover_active_force[3][1] = t1067 * t1324;
@@ -9781,21 +8174,9 @@ pub fn generalised_forces<T: Scalar>(
         rod_active_force[4][1] = neg_mul_add(t1073, t1332, t1334);
         let t1335 = parameters.rod_com_fraction[4] * t1329;
         rod_active_force[4][2] = neg_mul_add(t1075, t1332, t1335);
-        rod_active_force[4][3] = neg_mul_add(
-            t1094,
-            t1332,
-            mul_sub(t706, t1335, t709 * t1334),
-        );
-        rod_active_force[4][4] = neg_mul_add(
-            t1095,
-            t1332,
-            mul_sub(t709, t1333, t703 * t1335),
-        );
-        rod_active_force[4][5] = neg_mul_add(
-            t1096,
-            t1332,
-            mul_sub(t703, t1334, t706 * t1333),
-        );
+        rod_active_force[4][3] = neg_mul_add(t1094, t1332, mul_sub(t706, t1335, t709 * t1334));
+        rod_active_force[4][4] = neg_mul_add(t1095, t1332, mul_sub(t709, t1333, t703 * t1335));
+        rod_active_force[4][5] = neg_mul_add(t1096, t1332, mul_sub(t703, t1334, t706 * t1333));
         // leg 5: generalised inertia force of the rod
         let t1336 = parameters.rod_mass[4] * t972;
         let t1337 = parameters.rod_mass[4] * t974;
@@ -9810,17 +8191,16 @@ pub fn generalised_forces<T: Scalar>(
         let t1346 = mul_sub(t552, t1343, t550 * t1345);
         let t1347 = mul_sub(t548, t1345, t552 * t1342);
         let t1348 = mul_add(t700, t1344, mul_add(t688, t1346, t694 * t1347));
-        rod_inertia_force[4][0] = neg_mul_add(t1071, t1340, t1341)
-            - neg_mul_add(t1071, t1348, t1346);
+        rod_inertia_force[4][0] =
+            neg_mul_add(t1071, t1340, t1341) - neg_mul_add(t1071, t1348, t1346);
         let t1349 = parameters.rod_com_fraction[4] * t1338;
-        rod_inertia_force[4][1] = neg_mul_add(t1073, t1340, t1349)
-            - neg_mul_add(t1073, t1348, t1347);
+        rod_inertia_force[4][1] =
+            neg_mul_add(t1073, t1340, t1349) - neg_mul_add(t1073, t1348, t1347);
         let t1350 = parameters.rod_com_fraction[4] * t1337;
-        rod_inertia_force[4][2] = neg_mul_add(t1075, t1340, t1350)
-            - neg_mul_add(t1075, t1348, t1344);
+        rod_inertia_force[4][2] =
+            neg_mul_add(t1075, t1340, t1350) - neg_mul_add(t1075, t1348, t1344);
         let t1351 = neg_mul_add(t1094, t1340, mul_sub(t706, t1350, t709 * t1349));
-        rod_inertia_force[4][3] = t1351
-            - mul_sub(t706, t1344, mul_add(t709, t1347, t1094 * t1348));
+        rod_inertia_force[4][3] = t1351 - mul_sub(t706, t1344, mul_add(t709, t1347, t1094 * t1348));
         let t1352 = neg_mul_add(t1095, t1340, mul_sub(t709, t1341, t703 * t1350));
         let t1353 = neg_mul_add(t703, t1344, mul_sub(t709, t1346, t1095 * t1348));
         rod_inertia_force[4][4] = t1352 - t1353;
@@ -9829,21 +8209,9 @@ pub fn generalised_forces<T: Scalar>(
         rod_inertia_force[4][5] = t1354 - t1355;
         // leg 5: generalised active force of the mover: gravity, actuator, spring, damper
         let t1356 = actuator_force[4] + t1114;
-        let t1357 = mul_add(
-            parameters.mover_mass[4],
-            parameters.gravity[0],
-            t688 * t1356,
-        );
-        let t1358 = mul_add(
-            parameters.mover_mass[4],
-            parameters.gravity[2],
-            t700 * t1356,
-        );
-        let t1359 = mul_add(
-            parameters.mover_mass[4],
-            parameters.gravity[1],
-            t694 * t1356,
-        );
+        let t1357 = mul_add(parameters.mover_mass[4], parameters.gravity[0], t688 * t1356);
+        let t1358 = mul_add(parameters.mover_mass[4], parameters.gravity[2], t700 * t1356);
+        let t1359 = mul_add(parameters.mover_mass[4], parameters.gravity[1], t694 * t1356);
         let t1360 = mul_add(t688, t1357, mul_add(t700, t1358, t694 * t1359));
         mover_active_force[4][0] = t1071 * t1360;
         mover_active_force[4][1] = t1073 * t1360;
@@ -9873,21 +8241,9 @@ pub fn generalised_forces<T: Scalar>(
         rod_active_force[5][1] = neg_mul_add(t1079, t1368, t1370);
         let t1371 = parameters.rod_com_fraction[5] * t1365;
         rod_active_force[5][2] = neg_mul_add(t1081, t1368, t1371);
-        rod_active_force[5][3] = neg_mul_add(
-            t1097,
-            t1368,
-            mul_sub(t736, t1371, t739 * t1370),
-        );
-        rod_active_force[5][4] = neg_mul_add(
-            t1098,
-            t1368,
-            mul_sub(t739, t1369, t733 * t1371),
-        );
-        rod_active_force[5][5] = neg_mul_add(
-            t1099,
-            t1368,
-            mul_sub(t733, t1370, t736 * t1369),
-        );
+        rod_active_force[5][3] = neg_mul_add(t1097, t1368, mul_sub(t736, t1371, t739 * t1370));
+        rod_active_force[5][4] = neg_mul_add(t1098, t1368, mul_sub(t739, t1369, t733 * t1371));
+        rod_active_force[5][5] = neg_mul_add(t1099, t1368, mul_sub(t733, t1370, t736 * t1369));
         // leg 6: generalised inertia force of the rod
         let t1372 = parameters.rod_mass[5] * t1019;
         let t1373 = parameters.rod_mass[5] * t1021;
@@ -9902,17 +8258,16 @@ pub fn generalised_forces<T: Scalar>(
         let t1382 = mul_sub(t562, t1379, t560 * t1381);
         let t1383 = mul_sub(t558, t1381, t562 * t1378);
         let t1384 = mul_add(t730, t1380, mul_add(t718, t1382, t724 * t1383));
-        rod_inertia_force[5][0] = neg_mul_add(t1077, t1376, t1377)
-            - neg_mul_add(t1077, t1384, t1382);
+        rod_inertia_force[5][0] =
+            neg_mul_add(t1077, t1376, t1377) - neg_mul_add(t1077, t1384, t1382);
         let t1385 = parameters.rod_com_fraction[5] * t1374;
-        rod_inertia_force[5][1] = neg_mul_add(t1079, t1376, t1385)
-            - neg_mul_add(t1079, t1384, t1383);
+        rod_inertia_force[5][1] =
+            neg_mul_add(t1079, t1376, t1385) - neg_mul_add(t1079, t1384, t1383);
         let t1386 = parameters.rod_com_fraction[5] * t1373;
-        rod_inertia_force[5][2] = neg_mul_add(t1081, t1376, t1386)
-            - neg_mul_add(t1081, t1384, t1380);
+        rod_inertia_force[5][2] =
+            neg_mul_add(t1081, t1376, t1386) - neg_mul_add(t1081, t1384, t1380);
         let t1387 = neg_mul_add(t1097, t1376, mul_sub(t736, t1386, t739 * t1385));
-        rod_inertia_force[5][3] = t1387
-            - mul_sub(t736, t1380, mul_add(t739, t1383, t1097 * t1384));
+        rod_inertia_force[5][3] = t1387 - mul_sub(t736, t1380, mul_add(t739, t1383, t1097 * t1384));
         let t1388 = neg_mul_add(t1098, t1376, mul_sub(t739, t1377, t733 * t1386));
         let t1389 = neg_mul_add(t733, t1380, mul_sub(t739, t1382, t1098 * t1384));
         rod_inertia_force[5][4] = t1388 - t1389;
@@ -9921,21 +8276,9 @@ pub fn generalised_forces<T: Scalar>(
         rod_inertia_force[5][5] = t1390 - t1391;
         // leg 6: generalised active force of the mover: gravity, actuator, spring, damper
         let t1392 = actuator_force[5] + t1117;
-        let t1393 = mul_add(
-            parameters.mover_mass[5],
-            parameters.gravity[0],
-            t718 * t1392,
-        );
-        let t1394 = mul_add(
-            parameters.mover_mass[5],
-            parameters.gravity[2],
-            t730 * t1392,
-        );
-        let t1395 = mul_add(
-            parameters.mover_mass[5],
-            parameters.gravity[1],
-            t724 * t1392,
-        );
+        let t1393 = mul_add(parameters.mover_mass[5], parameters.gravity[0], t718 * t1392);
+        let t1394 = mul_add(parameters.mover_mass[5], parameters.gravity[2], t730 * t1392);
+        let t1395 = mul_add(parameters.mover_mass[5], parameters.gravity[1], t724 * t1392);
         let t1396 = mul_add(t718, t1393, mul_add(t730, t1394, t724 * t1395));
         mover_active_force[5][0] = t1077 * t1396;
         mover_active_force[5][1] = t1079 * t1396;
@@ -11198,11 +9541,7 @@ pub fn mass_matrix_p<T: Scalar>(
     let t360 = parameters.platform_point[1][0] * parameters.platform_point[1][1];
     let t361 = parameters.platform_point[0][0] * parameters.platform_point[0][1];
     let t362 = parameters.payload_com[0] * parameters.payload_com[1];
-    let t363 = neg_mul_add(
-        parameters.payload_mass,
-        t362,
-        parameters.payload_inertia[0][1],
-    );
+    let t363 = neg_mul_add(parameters.payload_mass, t362, parameters.payload_inertia[0][1]);
     let t364 = neg_mul_add(t288, t360, neg_mul_add(t281, t361, t363));
     let t365 = neg_mul_add(t302, t358, neg_mul_add(t295, t359, t364));
     let t366 = neg_mul_add(t316, t356, neg_mul_add(t309, t357, t365));
@@ -11213,11 +9552,7 @@ pub fn mass_matrix_p<T: Scalar>(
     let t371 = parameters.platform_point[1][0] * parameters.platform_point[1][2];
     let t372 = parameters.platform_point[0][0] * parameters.platform_point[0][2];
     let t373 = parameters.payload_com[0] * parameters.payload_com[2];
-    let t374 = neg_mul_add(
-        parameters.payload_mass,
-        t373,
-        parameters.payload_inertia[0][2],
-    );
+    let t374 = neg_mul_add(parameters.payload_mass, t373, parameters.payload_inertia[0][2]);
     let t375 = neg_mul_add(t288, t371, neg_mul_add(t281, t372, t374));
     let t376 = neg_mul_add(t302, t369, neg_mul_add(t295, t370, t375));
     let t377 = neg_mul_add(t316, t367, neg_mul_add(t309, t368, t376));
@@ -11240,11 +9575,7 @@ pub fn mass_matrix_p<T: Scalar>(
     let t394 = parameters.platform_point[1][1] * parameters.platform_point[1][2];
     let t395 = parameters.platform_point[0][1] * parameters.platform_point[0][2];
     let t396 = parameters.payload_com[1] * parameters.payload_com[2];
-    let t397 = neg_mul_add(
-        parameters.payload_mass,
-        t396,
-        parameters.payload_inertia[1][2],
-    );
+    let t397 = neg_mul_add(parameters.payload_mass, t396, parameters.payload_inertia[1][2]);
     let t398 = neg_mul_add(t288, t394, neg_mul_add(t281, t395, t397));
     let t399 = neg_mul_add(t302, t392, neg_mul_add(t295, t393, t398));
     let t400 = neg_mul_add(t316, t390, neg_mul_add(t309, t391, t399));
@@ -11615,108 +9946,13 @@ pub fn mass_matrix_b<T: Scalar>(
 ) {
     let c = T::constant;
     let (
-        t28,
-        t29,
-        t30,
-        t248,
-        t250,
-        t252,
-        t254,
-        t256,
-        t258,
-        t260,
-        t262,
-        t264,
-        t266,
-        t268,
-        t270,
-        t272,
-        t274,
-        t276,
-        t278,
-        t280,
-        t282,
-        t283,
-        t284,
-        t285,
-        t286,
-        t287,
-        t288,
-        t289,
-        t290,
-        t291,
-        t292,
-        t293,
-        t294,
-        t295,
-        t296,
-        t297,
-        t298,
-        t299,
-        t300,
-        t305,
-        t306,
-        t311,
-        t312,
-        t317,
-        t318,
-        t323,
-        t324,
-        t329,
-        t330,
-        t335,
-        t336,
-        t464,
-        t478,
-        t492,
-        t506,
-        t520,
-        t534,
-        t536,
-        t547,
-        t552,
-        t557,
-        t562,
-        t567,
-        t569,
-        t571,
-        t582,
-        t587,
-        t592,
-        t597,
-        t600,
-        t603,
-        t606,
-        t617,
-        t623,
-        t629,
-        t632,
-        t635,
-        t638,
-        t641,
-        t652,
-        t658,
-        t661,
-        t664,
-        t667,
-        t670,
-        t673,
-        t679,
-        t708,
-        t710,
-        t712,
-        t713,
-        t714,
-        t715,
-        t765,
-        t773,
-        t781,
-        t783,
-        t785,
-        t787,
-        t789,
-        t791,
-        t793,
+        t28, t29, t30, t248, t250, t252, t254, t256, t258, t260, t262, t264, t266, t268, t270,
+        t272, t274, t276, t278, t280, t282, t283, t284, t285, t286, t287, t288, t289, t290, t291,
+        t292, t293, t294, t295, t296, t297, t298, t299, t300, t305, t306, t311, t312, t317, t318,
+        t323, t324, t329, t330, t335, t336, t464, t478, t492, t506, t520, t534, t536, t547, t552,
+        t557, t562, t567, t569, t571, t582, t587, t592, t597, t600, t603, t606, t617, t623, t629,
+        t632, t635, t638, t641, t652, t658, t661, t664, t667, t670, t673, t679, t708, t710, t712,
+        t713, t714, t715, t765, t773, t781, t783, t785, t787, t789, t791, t793,
     ) = {
         // rotation of the platform seen from the base
         let t1 = base_rotation[1][0] * platform_rotation[1][0];
@@ -11836,38 +10072,14 @@ pub fn mass_matrix_b<T: Scalar>(
         let t107 = mul_add(parameters.platform_point[3][0], t21, t106);
         let t108 = mul_add(parameters.platform_point[3][2], t27, t107);
         let t109 = platform_rotation[0][1] * parameters.platform_point[3][1];
-        let t110 = mul_add(
-            platform_rotation[0][0],
-            parameters.platform_point[3][0],
-            t109,
-        );
-        let t111 = mul_add(
-            platform_rotation[0][2],
-            parameters.platform_point[3][2],
-            t110,
-        );
+        let t110 = mul_add(platform_rotation[0][0], parameters.platform_point[3][0], t109);
+        let t111 = mul_add(platform_rotation[0][2], parameters.platform_point[3][2], t110);
         let t112 = platform_rotation[1][1] * parameters.platform_point[3][1];
-        let t113 = mul_add(
-            platform_rotation[1][0],
-            parameters.platform_point[3][0],
-            t112,
-        );
-        let t114 = mul_add(
-            platform_rotation[1][2],
-            parameters.platform_point[3][2],
-            t113,
-        );
+        let t113 = mul_add(platform_rotation[1][0], parameters.platform_point[3][0], t112);
+        let t114 = mul_add(platform_rotation[1][2], parameters.platform_point[3][2], t113);
         let t115 = platform_rotation[2][1] * parameters.platform_point[3][1];
-        let t116 = mul_add(
-            platform_rotation[2][0],
-            parameters.platform_point[3][0],
-            t115,
-        );
-        let t117 = mul_add(
-            platform_rotation[2][2],
-            parameters.platform_point[3][2],
-            t116,
-        );
+        let t116 = mul_add(platform_rotation[2][0], parameters.platform_point[3][0], t115);
+        let t117 = mul_add(platform_rotation[2][2], parameters.platform_point[3][2], t116);
         // leg 4: platform joint from the base point
         let t118 = parameters.base_point[3][0] + (t32 - t102);
         let t119 = parameters.base_point[3][1] + (t34 - t105);
@@ -11883,38 +10095,14 @@ pub fn mass_matrix_b<T: Scalar>(
         let t128 = mul_add(parameters.platform_point[4][0], t21, t127);
         let t129 = mul_add(parameters.platform_point[4][2], t27, t128);
         let t130 = platform_rotation[0][1] * parameters.platform_point[4][1];
-        let t131 = mul_add(
-            platform_rotation[0][0],
-            parameters.platform_point[4][0],
-            t130,
-        );
-        let t132 = mul_add(
-            platform_rotation[0][2],
-            parameters.platform_point[4][2],
-            t131,
-        );
+        let t131 = mul_add(platform_rotation[0][0], parameters.platform_point[4][0], t130);
+        let t132 = mul_add(platform_rotation[0][2], parameters.platform_point[4][2], t131);
         let t133 = platform_rotation[1][1] * parameters.platform_point[4][1];
-        let t134 = mul_add(
-            platform_rotation[1][0],
-            parameters.platform_point[4][0],
-            t133,
-        );
-        let t135 = mul_add(
-            platform_rotation[1][2],
-            parameters.platform_point[4][2],
-            t134,
-        );
+        let t134 = mul_add(platform_rotation[1][0], parameters.platform_point[4][0], t133);
+        let t135 = mul_add(platform_rotation[1][2], parameters.platform_point[4][2], t134);
         let t136 = platform_rotation[2][1] * parameters.platform_point[4][1];
-        let t137 = mul_add(
-            platform_rotation[2][0],
-            parameters.platform_point[4][0],
-            t136,
-        );
-        let t138 = mul_add(
-            platform_rotation[2][2],
-            parameters.platform_point[4][2],
-            t137,
-        );
+        let t137 = mul_add(platform_rotation[2][0], parameters.platform_point[4][0], t136);
+        let t138 = mul_add(platform_rotation[2][2], parameters.platform_point[4][2], t137);
         // leg 5: platform joint from the base point
         let t139 = parameters.base_point[4][0] + (t32 - t123);
         let t140 = parameters.base_point[4][1] + (t34 - t126);
@@ -11930,38 +10118,14 @@ pub fn mass_matrix_b<T: Scalar>(
         let t149 = mul_add(parameters.platform_point[5][0], t21, t148);
         let t150 = mul_add(parameters.platform_point[5][2], t27, t149);
         let t151 = platform_rotation[0][1] * parameters.platform_point[5][1];
-        let t152 = mul_add(
-            platform_rotation[0][0],
-            parameters.platform_point[5][0],
-            t151,
-        );
-        let t153 = mul_add(
-            platform_rotation[0][2],
-            parameters.platform_point[5][2],
-            t152,
-        );
+        let t152 = mul_add(platform_rotation[0][0], parameters.platform_point[5][0], t151);
+        let t153 = mul_add(platform_rotation[0][2], parameters.platform_point[5][2], t152);
         let t154 = platform_rotation[1][1] * parameters.platform_point[5][1];
-        let t155 = mul_add(
-            platform_rotation[1][0],
-            parameters.platform_point[5][0],
-            t154,
-        );
-        let t156 = mul_add(
-            platform_rotation[1][2],
-            parameters.platform_point[5][2],
-            t155,
-        );
+        let t155 = mul_add(platform_rotation[1][0], parameters.platform_point[5][0], t154);
+        let t156 = mul_add(platform_rotation[1][2], parameters.platform_point[5][2], t155);
         let t157 = platform_rotation[2][1] * parameters.platform_point[5][1];
-        let t158 = mul_add(
-            platform_rotation[2][0],
-            parameters.platform_point[5][0],
-            t157,
-        );
-        let t159 = mul_add(
-            platform_rotation[2][2],
-            parameters.platform_point[5][2],
-            t158,
-        );
+        let t158 = mul_add(platform_rotation[2][0], parameters.platform_point[5][0], t157);
+        let t159 = mul_add(platform_rotation[2][2], parameters.platform_point[5][2], t158);
         // leg 6: platform joint from the base point
         let t160 = parameters.base_point[5][0] + (t32 - t144);
         let t161 = parameters.base_point[5][1] + (t34 - t147);
@@ -11976,9 +10140,7 @@ pub fn mass_matrix_b<T: Scalar>(
         // leg 1: extent of the rod along the actuator axis
         let t169 = parameters.rod_length[0] * parameters.rod_length[0];
         let t170 = mul_add(t168, t168, mul_add(t166, t166, t167 * t167));
-        let t171 = sqrt(
-            mul_sub(parameters.rod_length[0], parameters.rod_length[0], t170),
-        );
+        let t171 = sqrt(mul_sub(parameters.rod_length[0], parameters.rod_length[0], t170));
         // leg 1: reciprocal of that extent
         let t172 = c(1.0) / t171;
         // leg 1: actuator length d
@@ -11993,9 +10155,7 @@ pub fn mass_matrix_b<T: Scalar>(
         // leg 2: extent of the rod along the actuator axis
         let t180 = parameters.rod_length[1] * parameters.rod_length[1];
         let t181 = mul_add(t179, t179, mul_add(t177, t177, t178 * t178));
-        let t182 = sqrt(
-            mul_sub(parameters.rod_length[1], parameters.rod_length[1], t181),
-        );
+        let t182 = sqrt(mul_sub(parameters.rod_length[1], parameters.rod_length[1], t181));
         // leg 2: reciprocal of that extent
         let t183 = c(1.0) / t182;
         // leg 2: actuator length d
@@ -12010,9 +10170,7 @@ pub fn mass_matrix_b<T: Scalar>(
         // leg 3: extent of the rod along the actuator axis
         let t191 = parameters.rod_length[2] * parameters.rod_length[2];
         let t192 = mul_add(t190, t190, mul_add(t188, t188, t189 * t189));
-        let t193 = sqrt(
-            mul_sub(parameters.rod_length[2], parameters.rod_length[2], t192),
-        );
+        let t193 = sqrt(mul_sub(parameters.rod_length[2], parameters.rod_length[2], t192));
         // leg 3: reciprocal of that extent
         let t194 = c(1.0) / t193;
         // leg 3: actuator length d
@@ -12027,9 +10185,7 @@ pub fn mass_matrix_b<T: Scalar>(
         // leg 4: extent of the rod along the actuator axis
         let t202 = parameters.rod_length[3] * parameters.rod_length[3];
         let t203 = mul_add(t201, t201, mul_add(t199, t199, t200 * t200));
-        let t204 = sqrt(
-            mul_sub(parameters.rod_length[3], parameters.rod_length[3], t203),
-        );
+        let t204 = sqrt(mul_sub(parameters.rod_length[3], parameters.rod_length[3], t203));
         // leg 4: reciprocal of that extent
         let t205 = c(1.0) / t204;
         // leg 4: actuator length d
@@ -12044,9 +10200,7 @@ pub fn mass_matrix_b<T: Scalar>(
         // leg 5: extent of the rod along the actuator axis
         let t213 = parameters.rod_length[4] * parameters.rod_length[4];
         let t214 = mul_add(t212, t212, mul_add(t210, t210, t211 * t211));
-        let t215 = sqrt(
-            mul_sub(parameters.rod_length[4], parameters.rod_length[4], t214),
-        );
+        let t215 = sqrt(mul_sub(parameters.rod_length[4], parameters.rod_length[4], t214));
         // leg 5: reciprocal of that extent
         let t216 = c(1.0) / t215;
         // leg 5: actuator length d
@@ -12061,9 +10215,7 @@ pub fn mass_matrix_b<T: Scalar>(
         // leg 6: extent of the rod along the actuator axis
         let t224 = parameters.rod_length[5] * parameters.rod_length[5];
         let t225 = mul_add(t223, t223, mul_add(t221, t221, t222 * t222));
-        let t226 = sqrt(
-            mul_sub(parameters.rod_length[5], parameters.rod_length[5], t225),
-        );
+        let t226 = sqrt(mul_sub(parameters.rod_length[5], parameters.rod_length[5], t225));
         // leg 6: reciprocal of that extent
         let t227 = c(1.0) / t226;
         // leg 6: actuator length d
@@ -12575,96 +10727,24 @@ pub fn mass_matrix_b<T: Scalar>(
         let t678 = mul_add(t297, t411, mul_add(t294, t396, t677));
         let t679 = t676 - mul_add(t300, t426, t678);
         // first moment of the rods' couplings by the Hooke joint
-        let t680 = neg_mul_add(
-            parameters.actuator_axis[0][0],
-            t173,
-            parameters.base_point[0][0],
-        );
-        let t681 = neg_mul_add(
-            parameters.actuator_axis[1][0],
-            t184,
-            parameters.base_point[1][0],
-        );
-        let t682 = neg_mul_add(
-            parameters.actuator_axis[2][0],
-            t195,
-            parameters.base_point[2][0],
-        );
-        let t683 = neg_mul_add(
-            parameters.actuator_axis[3][0],
-            t206,
-            parameters.base_point[3][0],
-        );
-        let t684 = neg_mul_add(
-            parameters.actuator_axis[4][0],
-            t217,
-            parameters.base_point[4][0],
-        );
-        let t685 = neg_mul_add(
-            parameters.actuator_axis[5][0],
-            t228,
-            parameters.base_point[5][0],
-        );
-        let t686 = neg_mul_add(
-            parameters.actuator_axis[0][1],
-            t173,
-            parameters.base_point[0][1],
-        );
-        let t687 = neg_mul_add(
-            parameters.actuator_axis[1][1],
-            t184,
-            parameters.base_point[1][1],
-        );
-        let t688 = neg_mul_add(
-            parameters.actuator_axis[2][1],
-            t195,
-            parameters.base_point[2][1],
-        );
-        let t689 = neg_mul_add(
-            parameters.actuator_axis[3][1],
-            t206,
-            parameters.base_point[3][1],
-        );
-        let t690 = neg_mul_add(
-            parameters.actuator_axis[4][1],
-            t217,
-            parameters.base_point[4][1],
-        );
-        let t691 = neg_mul_add(
-            parameters.actuator_axis[5][1],
-            t228,
-            parameters.base_point[5][1],
-        );
-        let t692 = neg_mul_add(
-            parameters.actuator_axis[0][2],
-            t173,
-            parameters.base_point[0][2],
-        );
-        let t693 = neg_mul_add(
-            parameters.actuator_axis[1][2],
-            t184,
-            parameters.base_point[1][2],
-        );
-        let t694 = neg_mul_add(
-            parameters.actuator_axis[2][2],
-            t195,
-            parameters.base_point[2][2],
-        );
-        let t695 = neg_mul_add(
-            parameters.actuator_axis[3][2],
-            t206,
-            parameters.base_point[3][2],
-        );
-        let t696 = neg_mul_add(
-            parameters.actuator_axis[4][2],
-            t217,
-            parameters.base_point[4][2],
-        );
-        let t697 = neg_mul_add(
-            parameters.actuator_axis[5][2],
-            t228,
-            parameters.base_point[5][2],
-        );
+        let t680 = neg_mul_add(parameters.actuator_axis[0][0], t173, parameters.base_point[0][0]);
+        let t681 = neg_mul_add(parameters.actuator_axis[1][0], t184, parameters.base_point[1][0]);
+        let t682 = neg_mul_add(parameters.actuator_axis[2][0], t195, parameters.base_point[2][0]);
+        let t683 = neg_mul_add(parameters.actuator_axis[3][0], t206, parameters.base_point[3][0]);
+        let t684 = neg_mul_add(parameters.actuator_axis[4][0], t217, parameters.base_point[4][0]);
+        let t685 = neg_mul_add(parameters.actuator_axis[5][0], t228, parameters.base_point[5][0]);
+        let t686 = neg_mul_add(parameters.actuator_axis[0][1], t173, parameters.base_point[0][1]);
+        let t687 = neg_mul_add(parameters.actuator_axis[1][1], t184, parameters.base_point[1][1]);
+        let t688 = neg_mul_add(parameters.actuator_axis[2][1], t195, parameters.base_point[2][1]);
+        let t689 = neg_mul_add(parameters.actuator_axis[3][1], t206, parameters.base_point[3][1]);
+        let t690 = neg_mul_add(parameters.actuator_axis[4][1], t217, parameters.base_point[4][1]);
+        let t691 = neg_mul_add(parameters.actuator_axis[5][1], t228, parameters.base_point[5][1]);
+        let t692 = neg_mul_add(parameters.actuator_axis[0][2], t173, parameters.base_point[0][2]);
+        let t693 = neg_mul_add(parameters.actuator_axis[1][2], t184, parameters.base_point[1][2]);
+        let t694 = neg_mul_add(parameters.actuator_axis[2][2], t195, parameters.base_point[2][2]);
+        let t695 = neg_mul_add(parameters.actuator_axis[3][2], t206, parameters.base_point[3][2]);
+        let t696 = neg_mul_add(parameters.actuator_axis[4][2], t217, parameters.base_point[4][2]);
+        let t697 = neg_mul_add(parameters.actuator_axis[5][2], t228, parameters.base_point[5][2]);
         let t698 = mul_add(t317, t694, mul_add(t305, t692, t311 * t693));
         let t699 = mul_add(t329, t696, mul_add(t323, t695, t698));
         let t700 = mul_add(t335, t697, t699);
@@ -12732,11 +10812,7 @@ pub fn mass_matrix_b<T: Scalar>(
         let t761 = mul_add(t691, t748, t760);
         let t762 = mul_add(base_rotation[0][0], t758, base_rotation[0][1] * t761);
         let t763 = mul_add(base_rotation[0][2], t755, t762);
-        let t764 = mul_add(
-            platform_rotation[0][0],
-            t747,
-            platform_rotation[0][1] * t763,
-        );
+        let t764 = mul_add(platform_rotation[0][0], t747, platform_rotation[0][1] * t763);
         let t765 = mul_add(platform_rotation[0][2], t731, t764);
         let t766 = mul_add(base_rotation[1][0], t726, base_rotation[1][1] * t729);
         let t767 = mul_add(base_rotation[1][2], t723, t766);
@@ -12744,11 +10820,7 @@ pub fn mass_matrix_b<T: Scalar>(
         let t769 = mul_add(base_rotation[1][2], t739, t768);
         let t770 = mul_add(base_rotation[1][0], t758, base_rotation[1][1] * t761);
         let t771 = mul_add(base_rotation[1][2], t755, t770);
-        let t772 = mul_add(
-            platform_rotation[0][0],
-            t769,
-            platform_rotation[0][1] * t771,
-        );
+        let t772 = mul_add(platform_rotation[0][0], t769, platform_rotation[0][1] * t771);
         let t773 = mul_add(platform_rotation[0][2], t767, t772);
         let t774 = mul_add(base_rotation[2][0], t726, base_rotation[2][1] * t729);
         let t775 = mul_add(base_rotation[2][2], t723, t774);
@@ -12756,151 +10828,29 @@ pub fn mass_matrix_b<T: Scalar>(
         let t777 = mul_add(base_rotation[2][2], t739, t776);
         let t778 = mul_add(base_rotation[2][0], t758, base_rotation[2][1] * t761);
         let t779 = mul_add(base_rotation[2][2], t755, t778);
-        let t780 = mul_add(
-            platform_rotation[0][0],
-            t777,
-            platform_rotation[0][1] * t779,
-        );
+        let t780 = mul_add(platform_rotation[0][0], t777, platform_rotation[0][1] * t779);
         let t781 = mul_add(platform_rotation[0][2], t775, t780);
-        let t782 = mul_add(
-            platform_rotation[1][0],
-            t747,
-            platform_rotation[1][1] * t763,
-        );
+        let t782 = mul_add(platform_rotation[1][0], t747, platform_rotation[1][1] * t763);
         let t783 = mul_add(platform_rotation[1][2], t731, t782);
-        let t784 = mul_add(
-            platform_rotation[1][0],
-            t769,
-            platform_rotation[1][1] * t771,
-        );
+        let t784 = mul_add(platform_rotation[1][0], t769, platform_rotation[1][1] * t771);
         let t785 = mul_add(platform_rotation[1][2], t767, t784);
-        let t786 = mul_add(
-            platform_rotation[1][0],
-            t777,
-            platform_rotation[1][1] * t779,
-        );
+        let t786 = mul_add(platform_rotation[1][0], t777, platform_rotation[1][1] * t779);
         let t787 = mul_add(platform_rotation[1][2], t775, t786);
-        let t788 = mul_add(
-            platform_rotation[2][0],
-            t747,
-            platform_rotation[2][1] * t763,
-        );
+        let t788 = mul_add(platform_rotation[2][0], t747, platform_rotation[2][1] * t763);
         let t789 = mul_add(platform_rotation[2][2], t731, t788);
-        let t790 = mul_add(
-            platform_rotation[2][0],
-            t769,
-            platform_rotation[2][1] * t771,
-        );
+        let t790 = mul_add(platform_rotation[2][0], t769, platform_rotation[2][1] * t771);
         let t791 = mul_add(platform_rotation[2][2], t767, t790);
-        let t792 = mul_add(
-            platform_rotation[2][0],
-            t777,
-            platform_rotation[2][1] * t779,
-        );
+        let t792 = mul_add(platform_rotation[2][0], t777, platform_rotation[2][1] * t779);
         let t793 = mul_add(platform_rotation[2][2], t775, t792);
         (
-            t28,
-            t29,
-            t30,
-            t248,
-            t250,
-            t252,
-            t254,
-            t256,
-            t258,
-            t260,
-            t262,
-            t264,
-            t266,
-            t268,
-            t270,
-            t272,
-            t274,
-            t276,
-            t278,
-            t280,
-            t282,
-            t283,
-            t284,
-            t285,
-            t286,
-            t287,
-            t288,
-            t289,
-            t290,
-            t291,
-            t292,
-            t293,
-            t294,
-            t295,
-            t296,
-            t297,
-            t298,
-            t299,
-            t300,
-            t305,
-            t306,
-            t311,
-            t312,
-            t317,
-            t318,
-            t323,
-            t324,
-            t329,
-            t330,
-            t335,
-            t336,
-            t464,
-            t478,
-            t492,
-            t506,
-            t520,
-            t534,
-            t536,
-            t547,
-            t552,
-            t557,
-            t562,
-            t567,
-            t569,
-            t571,
-            t582,
-            t587,
-            t592,
-            t597,
-            t600,
-            t603,
-            t606,
-            t617,
-            t623,
-            t629,
-            t632,
-            t635,
-            t638,
-            t641,
-            t652,
-            t658,
-            t661,
-            t664,
-            t667,
-            t670,
-            t673,
-            t679,
-            t708,
-            t710,
-            t712,
-            t713,
-            t714,
-            t715,
-            t765,
-            t773,
-            t781,
-            t783,
-            t785,
-            t787,
-            t789,
-            t791,
-            t793,
+            t28, t29, t30, t248, t250, t252, t254, t256, t258, t260, t262, t264, t266, t268, t270,
+            t272, t274, t276, t278, t280, t282, t283, t284, t285, t286, t287, t288, t289, t290,
+            t291, t292, t293, t294, t295, t296, t297, t298, t299, t300, t305, t306, t311, t312,
+            t317, t318, t323, t324, t329, t330, t335, t336, t464, t478, t492, t506, t520, t534,
+            t536, t547, t552, t557, t562, t567, t569, t571, t582, t587, t592, t597, t600, t603,
+            t606, t617, t623, t629, t632, t635, t638, t641, t652, t658, t661, t664, t667, t670,
+            t673, t679, t708, t710, t712, t713, t714, t715, t765, t773, t781, t783, t785, t787,
+            t789, t791, t793,
         )
     };
     {
@@ -13086,19 +11036,11 @@ pub fn mass_matrix_b<T: Scalar>(
         let t953 = mul_add(parameters.platform_point[3][1], t323, t952);
         let t954 = mul_add(parameters.platform_point[4][1], t329, t953);
         let t955 = mul_add(parameters.platform_point[5][1], t335, t954);
-        let t956 = mul_add(
-            platform_rotation[2][0],
-            t950,
-            platform_rotation[2][1] * t955,
-        );
+        let t956 = mul_add(platform_rotation[2][0], t950, platform_rotation[2][1] * t955);
         let t957 = mul_add(platform_rotation[2][2], t945, t956);
         mass_matrix_b[3][1] = t603 - mul_add(base_rotation[1][2], t932, t940) - t957;
         let t958 = mul_add(base_rotation[2][0], t935, base_rotation[2][1] * t938);
-        let t959 = mul_add(
-            platform_rotation[1][0],
-            t950,
-            platform_rotation[1][1] * t955,
-        );
+        let t959 = mul_add(platform_rotation[1][0], t950, platform_rotation[1][1] * t955);
         let t960 = mul_add(platform_rotation[1][2], t945, t959);
         mass_matrix_b[3][2] = t606 - mul_add(base_rotation[2][2], t932, t958) + t960;
         let t961 = t617 + mul_sub(t30, t603, t29 * t606);
@@ -13114,8 +11056,7 @@ pub fn mass_matrix_b<T: Scalar>(
         let t971 = mul_add(base_rotation[0][0], t967, base_rotation[0][1] * t970);
         let t972 = t765 + t785;
         let t973 = t793 + t972;
-        mass_matrix_b[3][3] = t961 - mul_add(base_rotation[0][2], t964, t971)
-            - (t765 - t973);
+        mass_matrix_b[3][3] = t961 - mul_add(base_rotation[0][2], t964, t971) - (t765 - t973);
         let t974 = t623 + mul_sub(t28, t606, t30 * t600);
         let t975 = mul_add(base_rotation[1][0], t967, base_rotation[1][1] * t970);
         mass_matrix_b[3][4] = t974 - mul_add(base_rotation[1][2], t964, t975) - t783;
@@ -13136,11 +11077,7 @@ pub fn mass_matrix_b<T: Scalar>(
         let t988 = mul_add(base_rotation[1][0], t983, base_rotation[1][1] * t986);
         mass_matrix_b[4][1] = t635 - mul_add(base_rotation[1][2], t980, t988);
         let t989 = mul_add(base_rotation[2][0], t983, base_rotation[2][1] * t986);
-        let t990 = mul_add(
-            platform_rotation[0][0],
-            t950,
-            platform_rotation[0][1] * t955,
-        );
+        let t990 = mul_add(platform_rotation[0][0], t950, platform_rotation[0][1] * t955);
         let t991 = mul_add(platform_rotation[0][2], t945, t990);
         mass_matrix_b[4][2] = t638 - mul_add(base_rotation[2][2], t980, t989) - t991;
         let t992 = t641 + mul_sub(t30, t635, t29 * t638);
@@ -13157,8 +11094,7 @@ pub fn mass_matrix_b<T: Scalar>(
         mass_matrix_b[4][3] = t992 - mul_add(base_rotation[0][2], t995, t1002) - t773;
         let t1003 = t652 + mul_sub(t28, t638, t30 * t632);
         let t1004 = mul_add(base_rotation[1][0], t998, base_rotation[1][1] * t1001);
-        mass_matrix_b[4][4] = t1003 - mul_add(base_rotation[1][2], t995, t1004)
-            - (t785 - t973);
+        mass_matrix_b[4][4] = t1003 - mul_add(base_rotation[1][2], t995, t1004) - (t785 - t973);
         let t1005 = t658 + mul_sub(t29, t632, t28 * t635);
         let t1006 = mul_add(base_rotation[2][0], t998, base_rotation[2][1] * t1001);
         mass_matrix_b[4][5] = t1005 - mul_add(base_rotation[2][2], t995, t1006) - t791;
@@ -13194,8 +11130,7 @@ pub fn mass_matrix_b<T: Scalar>(
         mass_matrix_b[5][4] = t1030 - mul_add(base_rotation[1][2], t1022, t1031) - t787;
         let t1032 = t679 + mul_sub(t29, t661, t28 * t664);
         let t1033 = mul_add(base_rotation[2][0], t1025, base_rotation[2][1] * t1028);
-        mass_matrix_b[5][5] = t972
-            + (t1032 - mul_add(base_rotation[2][2], t1022, t1033));
+        mass_matrix_b[5][5] = t972 + (t1032 - mul_add(base_rotation[2][2], t1022, t1033));
     }
 }
 
@@ -13229,256 +11164,23 @@ pub fn coriolis_matrices<T: Scalar>(
 ) {
     let c = T::constant;
     let (
-        t28,
-        t29,
-        t30,
-        t48,
-        t51,
-        t54,
-        t69,
-        t72,
-        t75,
-        t90,
-        t93,
-        t96,
-        t111,
-        t114,
-        t117,
-        t132,
-        t135,
-        t138,
-        t153,
-        t156,
-        t159,
-        t173,
-        t184,
-        t195,
-        t206,
-        t217,
-        t228,
-        t266,
-        t268,
-        t270,
-        t272,
-        t274,
-        t276,
-        t278,
-        t280,
-        t282,
-        t284,
-        t286,
-        t288,
-        t290,
-        t292,
-        t294,
-        t296,
-        t298,
-        t300,
-        t301,
-        t302,
-        t303,
-        t304,
-        t305,
-        t306,
-        t307,
-        t308,
-        t309,
-        t310,
-        t311,
-        t312,
-        t313,
-        t314,
-        t315,
-        t316,
-        t317,
-        t318,
-        t324,
-        t325,
-        t331,
-        t332,
-        t338,
-        t339,
-        t345,
-        t346,
-        t352,
-        t353,
-        t359,
-        t360,
-        t367,
-        t374,
-        t381,
-        t383,
-        t395,
-        t406,
-        t417,
-        t429,
-        t440,
-        t452,
-        t456,
-        t460,
-        t464,
-        t465,
-        t466,
-        t467,
-        t471,
-        t475,
-        t479,
-        t480,
-        t481,
-        t482,
-        t486,
-        t490,
-        t494,
-        t495,
-        t496,
-        t497,
-        t501,
-        t505,
-        t509,
-        t510,
-        t511,
-        t512,
-        t516,
-        t520,
-        t524,
-        t525,
-        t526,
-        t527,
-        t531,
-        t535,
-        t539,
-        t540,
-        t541,
-        t542,
-        t543,
-        t544,
-        t545,
-        t546,
-        t547,
-        t548,
-        t549,
-        t550,
-        t551,
-        t552,
-        t553,
-        t554,
-        t555,
-        t556,
-        t557,
-        t558,
-        t559,
-        t560,
-        t561,
-        t562,
-        t563,
-        t564,
-        t565,
-        t566,
-        t577,
-        t580,
-        t591,
-        t595,
-        t606,
-        t610,
-        t621,
-        t632,
-        t643,
-        t645,
-        t646,
-        t647,
-        t648,
-        t649,
-        t650,
-        t651,
-        t652,
-        t654,
-        t657,
-        t659,
-        t663,
-        t665,
-        t667,
-        t669,
-        t671,
-        t672,
-        t674,
-        t675,
-        t676,
-        t677,
-        t678,
-        t679,
-        t680,
-        t681,
-        t683,
-        t686,
-        t688,
-        t690,
-        t692,
-        t697,
-        t702,
-        t707,
-        t712,
-        t717,
-        t722,
-        t727,
-        t732,
-        t737,
-        t740,
-        t743,
-        t746,
-        t759,
-        t760,
-        t761,
-        t842,
-        t851,
-        t860,
-        t869,
-        t878,
-        t887,
-        t895,
-        t897,
-        t899,
-        t907,
-        t909,
-        t911,
-        t919,
-        t921,
-        t923,
-        t931,
-        t933,
-        t935,
-        t943,
-        t945,
-        t947,
-        t955,
-        t957,
-        t959,
-        t960,
-        t961,
-        t962,
-        t963,
-        t964,
-        t965,
-        t966,
-        t967,
-        t968,
-        t969,
-        t970,
-        t971,
-        t972,
-        t973,
-        t974,
-        t975,
-        t976,
-        t977,
-        t979,
-        t981,
-        t983,
-        t985,
-        t987,
-        t989,
-        t991,
-        t993,
-        t995,
+        t28, t29, t30, t48, t51, t54, t69, t72, t75, t90, t93, t96, t111, t114, t117, t132, t135,
+        t138, t153, t156, t159, t173, t184, t195, t206, t217, t228, t266, t268, t270, t272, t274,
+        t276, t278, t280, t282, t284, t286, t288, t290, t292, t294, t296, t298, t300, t301, t302,
+        t303, t304, t305, t306, t307, t308, t309, t310, t311, t312, t313, t314, t315, t316, t317,
+        t318, t324, t325, t331, t332, t338, t339, t345, t346, t352, t353, t359, t360, t367, t374,
+        t381, t383, t395, t406, t417, t429, t440, t452, t456, t460, t464, t465, t466, t467, t471,
+        t475, t479, t480, t481, t482, t486, t490, t494, t495, t496, t497, t501, t505, t509, t510,
+        t511, t512, t516, t520, t524, t525, t526, t527, t531, t535, t539, t540, t541, t542, t543,
+        t544, t545, t546, t547, t548, t549, t550, t551, t552, t553, t554, t555, t556, t557, t558,
+        t559, t560, t561, t562, t563, t564, t565, t566, t577, t580, t591, t595, t606, t610, t621,
+        t632, t643, t645, t646, t647, t648, t649, t650, t651, t652, t654, t657, t659, t663, t665,
+        t667, t669, t671, t672, t674, t675, t676, t677, t678, t679, t680, t681, t683, t686, t688,
+        t690, t692, t697, t702, t707, t712, t717, t722, t727, t732, t737, t740, t743, t746, t759,
+        t760, t761, t842, t851, t860, t869, t878, t887, t895, t897, t899, t907, t909, t911, t919,
+        t921, t923, t931, t933, t935, t943, t945, t947, t955, t957, t959, t960, t961, t962, t963,
+        t964, t965, t966, t967, t968, t969, t970, t971, t972, t973, t974, t975, t976, t977, t979,
+        t981, t983, t985, t987, t989, t991, t993, t995,
     ) = {
         // rotation of the platform seen from the base
         let t1 = base_rotation[1][0] * platform_rotation[1][0];
@@ -13598,38 +11300,14 @@ pub fn coriolis_matrices<T: Scalar>(
         let t107 = mul_add(parameters.platform_point[3][0], t21, t106);
         let t108 = mul_add(parameters.platform_point[3][2], t27, t107);
         let t109 = platform_rotation[0][1] * parameters.platform_point[3][1];
-        let t110 = mul_add(
-            platform_rotation[0][0],
-            parameters.platform_point[3][0],
-            t109,
-        );
-        let t111 = mul_add(
-            platform_rotation[0][2],
-            parameters.platform_point[3][2],
-            t110,
-        );
+        let t110 = mul_add(platform_rotation[0][0], parameters.platform_point[3][0], t109);
+        let t111 = mul_add(platform_rotation[0][2], parameters.platform_point[3][2], t110);
         let t112 = platform_rotation[1][1] * parameters.platform_point[3][1];
-        let t113 = mul_add(
-            platform_rotation[1][0],
-            parameters.platform_point[3][0],
-            t112,
-        );
-        let t114 = mul_add(
-            platform_rotation[1][2],
-            parameters.platform_point[3][2],
-            t113,
-        );
+        let t113 = mul_add(platform_rotation[1][0], parameters.platform_point[3][0], t112);
+        let t114 = mul_add(platform_rotation[1][2], parameters.platform_point[3][2], t113);
         let t115 = platform_rotation[2][1] * parameters.platform_point[3][1];
-        let t116 = mul_add(
-            platform_rotation[2][0],
-            parameters.platform_point[3][0],
-            t115,
-        );
-        let t117 = mul_add(
-            platform_rotation[2][2],
-            parameters.platform_point[3][2],
-            t116,
-        );
+        let t116 = mul_add(platform_rotation[2][0], parameters.platform_point[3][0], t115);
+        let t117 = mul_add(platform_rotation[2][2], parameters.platform_point[3][2], t116);
         // leg 4: platform joint from the base point
         let t118 = parameters.base_point[3][0] + (t32 - t102);
         let t119 = parameters.base_point[3][1] + (t34 - t105);
@@ -13645,38 +11323,14 @@ pub fn coriolis_matrices<T: Scalar>(
         let t128 = mul_add(parameters.platform_point[4][0], t21, t127);
         let t129 = mul_add(parameters.platform_point[4][2], t27, t128);
         let t130 = platform_rotation[0][1] * parameters.platform_point[4][1];
-        let t131 = mul_add(
-            platform_rotation[0][0],
-            parameters.platform_point[4][0],
-            t130,
-        );
-        let t132 = mul_add(
-            platform_rotation[0][2],
-            parameters.platform_point[4][2],
-            t131,
-        );
+        let t131 = mul_add(platform_rotation[0][0], parameters.platform_point[4][0], t130);
+        let t132 = mul_add(platform_rotation[0][2], parameters.platform_point[4][2], t131);
         let t133 = platform_rotation[1][1] * parameters.platform_point[4][1];
-        let t134 = mul_add(
-            platform_rotation[1][0],
-            parameters.platform_point[4][0],
-            t133,
-        );
-        let t135 = mul_add(
-            platform_rotation[1][2],
-            parameters.platform_point[4][2],
-            t134,
-        );
+        let t134 = mul_add(platform_rotation[1][0], parameters.platform_point[4][0], t133);
+        let t135 = mul_add(platform_rotation[1][2], parameters.platform_point[4][2], t134);
         let t136 = platform_rotation[2][1] * parameters.platform_point[4][1];
-        let t137 = mul_add(
-            platform_rotation[2][0],
-            parameters.platform_point[4][0],
-            t136,
-        );
-        let t138 = mul_add(
-            platform_rotation[2][2],
-            parameters.platform_point[4][2],
-            t137,
-        );
+        let t137 = mul_add(platform_rotation[2][0], parameters.platform_point[4][0], t136);
+        let t138 = mul_add(platform_rotation[2][2], parameters.platform_point[4][2], t137);
         // leg 5: platform joint from the base point
         let t139 = parameters.base_point[4][0] + (t32 - t123);
         let t140 = parameters.base_point[4][1] + (t34 - t126);
@@ -13692,38 +11346,14 @@ pub fn coriolis_matrices<T: Scalar>(
         let t149 = mul_add(parameters.platform_point[5][0], t21, t148);
         let t150 = mul_add(parameters.platform_point[5][2], t27, t149);
         let t151 = platform_rotation[0][1] * parameters.platform_point[5][1];
-        let t152 = mul_add(
-            platform_rotation[0][0],
-            parameters.platform_point[5][0],
-            t151,
-        );
-        let t153 = mul_add(
-            platform_rotation[0][2],
-            parameters.platform_point[5][2],
-            t152,
-        );
+        let t152 = mul_add(platform_rotation[0][0], parameters.platform_point[5][0], t151);
+        let t153 = mul_add(platform_rotation[0][2], parameters.platform_point[5][2], t152);
         let t154 = platform_rotation[1][1] * parameters.platform_point[5][1];
-        let t155 = mul_add(
-            platform_rotation[1][0],
-            parameters.platform_point[5][0],
-            t154,
-        );
-        let t156 = mul_add(
-            platform_rotation[1][2],
-            parameters.platform_point[5][2],
-            t155,
-        );
+        let t155 = mul_add(platform_rotation[1][0], parameters.platform_point[5][0], t154);
+        let t156 = mul_add(platform_rotation[1][2], parameters.platform_point[5][2], t155);
         let t157 = platform_rotation[2][1] * parameters.platform_point[5][1];
-        let t158 = mul_add(
-            platform_rotation[2][0],
-            parameters.platform_point[5][0],
-            t157,
-        );
-        let t159 = mul_add(
-            platform_rotation[2][2],
-            parameters.platform_point[5][2],
-            t158,
-        );
+        let t158 = mul_add(platform_rotation[2][0], parameters.platform_point[5][0], t157);
+        let t159 = mul_add(platform_rotation[2][2], parameters.platform_point[5][2], t158);
         // leg 6: platform joint from the base point
         let t160 = parameters.base_point[5][0] + (t32 - t144);
         let t161 = parameters.base_point[5][1] + (t34 - t147);
@@ -13738,9 +11368,7 @@ pub fn coriolis_matrices<T: Scalar>(
         // leg 1: extent of the rod along the actuator axis
         let t169 = parameters.rod_length[0] * parameters.rod_length[0];
         let t170 = mul_add(t168, t168, mul_add(t166, t166, t167 * t167));
-        let t171 = sqrt(
-            mul_sub(parameters.rod_length[0], parameters.rod_length[0], t170),
-        );
+        let t171 = sqrt(mul_sub(parameters.rod_length[0], parameters.rod_length[0], t170));
         // leg 1: reciprocal of that extent
         let t172 = c(1.0) / t171;
         // leg 1: actuator length d
@@ -13755,9 +11383,7 @@ pub fn coriolis_matrices<T: Scalar>(
         // leg 2: extent of the rod along the actuator axis
         let t180 = parameters.rod_length[1] * parameters.rod_length[1];
         let t181 = mul_add(t179, t179, mul_add(t177, t177, t178 * t178));
-        let t182 = sqrt(
-            mul_sub(parameters.rod_length[1], parameters.rod_length[1], t181),
-        );
+        let t182 = sqrt(mul_sub(parameters.rod_length[1], parameters.rod_length[1], t181));
         // leg 2: reciprocal of that extent
         let t183 = c(1.0) / t182;
         // leg 2: actuator length d
@@ -13772,9 +11398,7 @@ pub fn coriolis_matrices<T: Scalar>(
         // leg 3: extent of the rod along the actuator axis
         let t191 = parameters.rod_length[2] * parameters.rod_length[2];
         let t192 = mul_add(t190, t190, mul_add(t188, t188, t189 * t189));
-        let t193 = sqrt(
-            mul_sub(parameters.rod_length[2], parameters.rod_length[2], t192),
-        );
+        let t193 = sqrt(mul_sub(parameters.rod_length[2], parameters.rod_length[2], t192));
         // leg 3: reciprocal of that extent
         let t194 = c(1.0) / t193;
         // leg 3: actuator length d
@@ -13789,9 +11413,7 @@ pub fn coriolis_matrices<T: Scalar>(
         // leg 4: extent of the rod along the actuator axis
         let t202 = parameters.rod_length[3] * parameters.rod_length[3];
         let t203 = mul_add(t201, t201, mul_add(t199, t199, t200 * t200));
-        let t204 = sqrt(
-            mul_sub(parameters.rod_length[3], parameters.rod_length[3], t203),
-        );
+        let t204 = sqrt(mul_sub(parameters.rod_length[3], parameters.rod_length[3], t203));
         // leg 4: reciprocal of that extent
         let t205 = c(1.0) / t204;
         // leg 4: actuator length d
@@ -13806,9 +11428,7 @@ pub fn coriolis_matrices<T: Scalar>(
         // leg 5: extent of the rod along the actuator axis
         let t213 = parameters.rod_length[4] * parameters.rod_length[4];
         let t214 = mul_add(t212, t212, mul_add(t210, t210, t211 * t211));
-        let t215 = sqrt(
-            mul_sub(parameters.rod_length[4], parameters.rod_length[4], t214),
-        );
+        let t215 = sqrt(mul_sub(parameters.rod_length[4], parameters.rod_length[4], t214));
         // leg 5: reciprocal of that extent
         let t216 = c(1.0) / t215;
         // leg 5: actuator length d
@@ -13823,9 +11443,7 @@ pub fn coriolis_matrices<T: Scalar>(
         // leg 6: extent of the rod along the actuator axis
         let t224 = parameters.rod_length[5] * parameters.rod_length[5];
         let t225 = mul_add(t223, t223, mul_add(t221, t221, t222 * t222));
-        let t226 = sqrt(
-            mul_sub(parameters.rod_length[5], parameters.rod_length[5], t225),
-        );
+        let t226 = sqrt(mul_sub(parameters.rod_length[5], parameters.rod_length[5], t225));
         // leg 6: reciprocal of that extent
         let t227 = c(1.0) / t226;
         // leg 6: actuator length d
@@ -14048,11 +11666,7 @@ pub fn coriolis_matrices<T: Scalar>(
         let t400 = parameters.platform_point[1][0] * parameters.platform_point[1][1];
         let t401 = parameters.platform_point[0][0] * parameters.platform_point[0][1];
         let t402 = parameters.payload_com[0] * parameters.payload_com[1];
-        let t403 = neg_mul_add(
-            parameters.payload_mass,
-            t402,
-            parameters.payload_inertia[0][1],
-        );
+        let t403 = neg_mul_add(parameters.payload_mass, t402, parameters.payload_inertia[0][1]);
         let t404 = neg_mul_add(t330, t400, neg_mul_add(t323, t401, t403));
         let t405 = neg_mul_add(t344, t398, neg_mul_add(t337, t399, t404));
         let t406 = neg_mul_add(t358, t396, neg_mul_add(t351, t397, t405));
@@ -14063,11 +11677,7 @@ pub fn coriolis_matrices<T: Scalar>(
         let t411 = parameters.platform_point[1][0] * parameters.platform_point[1][2];
         let t412 = parameters.platform_point[0][0] * parameters.platform_point[0][2];
         let t413 = parameters.payload_com[0] * parameters.payload_com[2];
-        let t414 = neg_mul_add(
-            parameters.payload_mass,
-            t413,
-            parameters.payload_inertia[0][2],
-        );
+        let t414 = neg_mul_add(parameters.payload_mass, t413, parameters.payload_inertia[0][2]);
         let t415 = neg_mul_add(t330, t411, neg_mul_add(t323, t412, t414));
         let t416 = neg_mul_add(t344, t409, neg_mul_add(t337, t410, t415));
         let t417 = neg_mul_add(t358, t407, neg_mul_add(t351, t408, t416));
@@ -14090,11 +11700,7 @@ pub fn coriolis_matrices<T: Scalar>(
         let t434 = parameters.platform_point[1][1] * parameters.platform_point[1][2];
         let t435 = parameters.platform_point[0][1] * parameters.platform_point[0][2];
         let t436 = parameters.payload_com[1] * parameters.payload_com[2];
-        let t437 = neg_mul_add(
-            parameters.payload_mass,
-            t436,
-            parameters.payload_inertia[1][2],
-        );
+        let t437 = neg_mul_add(parameters.payload_mass, t436, parameters.payload_inertia[1][2]);
         let t438 = neg_mul_add(t330, t434, neg_mul_add(t323, t435, t437));
         let t439 = neg_mul_add(t344, t432, neg_mul_add(t337, t433, t438));
         let t440 = neg_mul_add(t358, t430, neg_mul_add(t351, t431, t439));
@@ -14711,256 +12317,24 @@ pub fn coriolis_matrices<T: Scalar>(
         let t994 = mul_sub(t90, t921, t93 * t919);
         let t995 = mul_sub(t280, t966, t278 * t967) - t994;
         (
-            t28,
-            t29,
-            t30,
-            t48,
-            t51,
-            t54,
-            t69,
-            t72,
-            t75,
-            t90,
-            t93,
-            t96,
-            t111,
-            t114,
-            t117,
-            t132,
-            t135,
-            t138,
-            t153,
-            t156,
-            t159,
-            t173,
-            t184,
-            t195,
-            t206,
-            t217,
-            t228,
-            t266,
-            t268,
-            t270,
-            t272,
-            t274,
-            t276,
-            t278,
-            t280,
-            t282,
-            t284,
-            t286,
-            t288,
-            t290,
-            t292,
-            t294,
-            t296,
-            t298,
-            t300,
-            t301,
-            t302,
-            t303,
-            t304,
-            t305,
-            t306,
-            t307,
-            t308,
-            t309,
-            t310,
-            t311,
-            t312,
-            t313,
-            t314,
-            t315,
-            t316,
-            t317,
-            t318,
-            t324,
-            t325,
-            t331,
-            t332,
-            t338,
-            t339,
-            t345,
-            t346,
-            t352,
-            t353,
-            t359,
-            t360,
-            t367,
-            t374,
-            t381,
-            t383,
-            t395,
-            t406,
-            t417,
-            t429,
-            t440,
-            t452,
-            t456,
-            t460,
-            t464,
-            t465,
-            t466,
-            t467,
-            t471,
-            t475,
-            t479,
-            t480,
-            t481,
-            t482,
-            t486,
-            t490,
-            t494,
-            t495,
-            t496,
-            t497,
-            t501,
-            t505,
-            t509,
-            t510,
-            t511,
-            t512,
-            t516,
-            t520,
-            t524,
-            t525,
-            t526,
-            t527,
-            t531,
-            t535,
-            t539,
-            t540,
-            t541,
-            t542,
-            t543,
-            t544,
-            t545,
-            t546,
-            t547,
-            t548,
-            t549,
-            t550,
-            t551,
-            t552,
-            t553,
-            t554,
-            t555,
-            t556,
-            t557,
-            t558,
-            t559,
-            t560,
-            t561,
-            t562,
-            t563,
-            t564,
-            t565,
-            t566,
-            t577,
-            t580,
-            t591,
-            t595,
-            t606,
-            t610,
-            t621,
-            t632,
-            t643,
-            t645,
-            t646,
-            t647,
-            t648,
-            t649,
-            t650,
-            t651,
-            t652,
-            t654,
-            t657,
-            t659,
-            t663,
-            t665,
-            t667,
-            t669,
-            t671,
-            t672,
-            t674,
-            t675,
-            t676,
-            t677,
-            t678,
-            t679,
-            t680,
-            t681,
-            t683,
-            t686,
-            t688,
-            t690,
-            t692,
-            t697,
-            t702,
-            t707,
-            t712,
-            t717,
-            t722,
-            t727,
-            t732,
-            t737,
-            t740,
-            t743,
-            t746,
-            t759,
-            t760,
-            t761,
-            t842,
-            t851,
-            t860,
-            t869,
-            t878,
-            t887,
-            t895,
-            t897,
-            t899,
-            t907,
-            t909,
-            t911,
-            t919,
-            t921,
-            t923,
-            t931,
-            t933,
-            t935,
-            t943,
-            t945,
-            t947,
-            t955,
-            t957,
-            t959,
-            t960,
-            t961,
-            t962,
-            t963,
-            t964,
-            t965,
-            t966,
-            t967,
-            t968,
-            t969,
-            t970,
-            t971,
-            t972,
-            t973,
-            t974,
-            t975,
-            t976,
-            t977,
-            t979,
-            t981,
-            t983,
-            t985,
-            t987,
-            t989,
-            t991,
-            t993,
-            t995,
+            t28, t29, t30, t48, t51, t54, t69, t72, t75, t90, t93, t96, t111, t114, t117, t132,
+            t135, t138, t153, t156, t159, t173, t184, t195, t206, t217, t228, t266, t268, t270,
+            t272, t274, t276, t278, t280, t282, t284, t286, t288, t290, t292, t294, t296, t298,
+            t300, t301, t302, t303, t304, t305, t306, t307, t308, t309, t310, t311, t312, t313,
+            t314, t315, t316, t317, t318, t324, t325, t331, t332, t338, t339, t345, t346, t352,
+            t353, t359, t360, t367, t374, t381, t383, t395, t406, t417, t429, t440, t452, t456,
+            t460, t464, t465, t466, t467, t471, t475, t479, t480, t481, t482, t486, t490, t494,
+            t495, t496, t497, t501, t505, t509, t510, t511, t512, t516, t520, t524, t525, t526,
+            t527, t531, t535, t539, t540, t541, t542, t543, t544, t545, t546, t547, t548, t549,
+            t550, t551, t552, t553, t554, t555, t556, t557, t558, t559, t560, t561, t562, t563,
+            t564, t565, t566, t577, t580, t591, t595, t606, t610, t621, t632, t643, t645, t646,
+            t647, t648, t649, t650, t651, t652, t654, t657, t659, t663, t665, t667, t669, t671,
+            t672, t674, t675, t676, t677, t678, t679, t680, t681, t683, t686, t688, t690, t692,
+            t697, t702, t707, t712, t717, t722, t727, t732, t737, t740, t743, t746, t759, t760,
+            t761, t842, t851, t860, t869, t878, t887, t895, t897, t899, t907, t909, t911, t919,
+            t921, t923, t931, t933, t935, t943, t945, t947, t955, t957, t959, t960, t961, t962,
+            t963, t964, t965, t966, t967, t968, t969, t970, t971, t972, t973, t974, t975, t976,
+            t977, t979, t981, t983, t985, t987, t989, t991, t993, t995,
         )
     };
     {
@@ -15429,96 +12803,24 @@ pub fn coriolis_matrices<T: Scalar>(
         let t1397 = mul_add(t294, t1070, mul_add(t288, t1058, t1396));
         coriolis_matrix_p[2][5] = t1247 - mul_add(t300, t1082, t1397);
         // first moment of the rods' couplings by the Hooke joint
-        let t1398 = neg_mul_add(
-            parameters.actuator_axis[0][0],
-            t173,
-            parameters.base_point[0][0],
-        );
-        let t1399 = neg_mul_add(
-            parameters.actuator_axis[1][0],
-            t184,
-            parameters.base_point[1][0],
-        );
-        let t1400 = neg_mul_add(
-            parameters.actuator_axis[2][0],
-            t195,
-            parameters.base_point[2][0],
-        );
-        let t1401 = neg_mul_add(
-            parameters.actuator_axis[3][0],
-            t206,
-            parameters.base_point[3][0],
-        );
-        let t1402 = neg_mul_add(
-            parameters.actuator_axis[4][0],
-            t217,
-            parameters.base_point[4][0],
-        );
-        let t1403 = neg_mul_add(
-            parameters.actuator_axis[5][0],
-            t228,
-            parameters.base_point[5][0],
-        );
-        let t1404 = neg_mul_add(
-            parameters.actuator_axis[0][1],
-            t173,
-            parameters.base_point[0][1],
-        );
-        let t1405 = neg_mul_add(
-            parameters.actuator_axis[1][1],
-            t184,
-            parameters.base_point[1][1],
-        );
-        let t1406 = neg_mul_add(
-            parameters.actuator_axis[2][1],
-            t195,
-            parameters.base_point[2][1],
-        );
-        let t1407 = neg_mul_add(
-            parameters.actuator_axis[3][1],
-            t206,
-            parameters.base_point[3][1],
-        );
-        let t1408 = neg_mul_add(
-            parameters.actuator_axis[4][1],
-            t217,
-            parameters.base_point[4][1],
-        );
-        let t1409 = neg_mul_add(
-            parameters.actuator_axis[5][1],
-            t228,
-            parameters.base_point[5][1],
-        );
-        let t1410 = neg_mul_add(
-            parameters.actuator_axis[0][2],
-            t173,
-            parameters.base_point[0][2],
-        );
-        let t1411 = neg_mul_add(
-            parameters.actuator_axis[1][2],
-            t184,
-            parameters.base_point[1][2],
-        );
-        let t1412 = neg_mul_add(
-            parameters.actuator_axis[2][2],
-            t195,
-            parameters.base_point[2][2],
-        );
-        let t1413 = neg_mul_add(
-            parameters.actuator_axis[3][2],
-            t206,
-            parameters.base_point[3][2],
-        );
-        let t1414 = neg_mul_add(
-            parameters.actuator_axis[4][2],
-            t217,
-            parameters.base_point[4][2],
-        );
-        let t1415 = neg_mul_add(
-            parameters.actuator_axis[5][2],
-            t228,
-            parameters.base_point[5][2],
-        );
+        let t1398 = neg_mul_add(parameters.actuator_axis[0][0], t173, parameters.base_point[0][0]);
+        let t1399 = neg_mul_add(parameters.actuator_axis[1][0], t184, parameters.base_point[1][0]);
+        let t1400 = neg_mul_add(parameters.actuator_axis[2][0], t195, parameters.base_point[2][0]);
+        let t1401 = neg_mul_add(parameters.actuator_axis[3][0], t206, parameters.base_point[3][0]);
+        let t1402 = neg_mul_add(parameters.actuator_axis[4][0], t217, parameters.base_point[4][0]);
+        let t1403 = neg_mul_add(parameters.actuator_axis[5][0], t228, parameters.base_point[5][0]);
+        let t1404 = neg_mul_add(parameters.actuator_axis[0][1], t173, parameters.base_point[0][1]);
+        let t1405 = neg_mul_add(parameters.actuator_axis[1][1], t184, parameters.base_point[1][1]);
+        let t1406 = neg_mul_add(parameters.actuator_axis[2][1], t195, parameters.base_point[2][1]);
+        let t1407 = neg_mul_add(parameters.actuator_axis[3][1], t206, parameters.base_point[3][1]);
+        let t1408 = neg_mul_add(parameters.actuator_axis[4][1], t217, parameters.base_point[4][1]);
+        let t1409 = neg_mul_add(parameters.actuator_axis[5][1], t228, parameters.base_point[5][1]);
+        let t1410 = neg_mul_add(parameters.actuator_axis[0][2], t173, parameters.base_point[0][2]);
+        let t1411 = neg_mul_add(parameters.actuator_axis[1][2], t184, parameters.base_point[1][2]);
+        let t1412 = neg_mul_add(parameters.actuator_axis[2][2], t195, parameters.base_point[2][2]);
+        let t1413 = neg_mul_add(parameters.actuator_axis[3][2], t206, parameters.base_point[3][2]);
+        let t1414 = neg_mul_add(parameters.actuator_axis[4][2], t217, parameters.base_point[4][2]);
+        let t1415 = neg_mul_add(parameters.actuator_axis[5][2], t228, parameters.base_point[5][2]);
         let t1416 = mul_add(t338, t1412, mul_add(t324, t1410, t331 * t1411));
         let t1417 = mul_add(t352, t1414, mul_add(t345, t1413, t1416));
         let t1418 = mul_add(t359, t1415, t1417);
@@ -15586,11 +12888,7 @@ pub fn coriolis_matrices<T: Scalar>(
         let t1479 = mul_add(t1409, t1442, t1478);
         let t1480 = mul_add(base_rotation[0][0], t1476, base_rotation[0][1] * t1479);
         let t1481 = mul_add(base_rotation[0][2], t1473, t1480);
-        let t1482 = mul_add(
-            platform_rotation[0][0],
-            t1470,
-            platform_rotation[0][1] * t1481,
-        );
+        let t1482 = mul_add(platform_rotation[0][0], t1470, platform_rotation[0][1] * t1481);
         let t1483 = mul_add(platform_rotation[0][2], t1459, t1482);
         let t1484 = mul_add(base_rotation[1][0], t1454, base_rotation[1][1] * t1457);
         let t1485 = mul_add(base_rotation[1][2], t1451, t1484);
@@ -15598,11 +12896,7 @@ pub fn coriolis_matrices<T: Scalar>(
         let t1487 = mul_add(base_rotation[1][2], t1462, t1486);
         let t1488 = mul_add(base_rotation[1][0], t1476, base_rotation[1][1] * t1479);
         let t1489 = mul_add(base_rotation[1][2], t1473, t1488);
-        let t1490 = mul_add(
-            platform_rotation[0][0],
-            t1487,
-            platform_rotation[0][1] * t1489,
-        );
+        let t1490 = mul_add(platform_rotation[0][0], t1487, platform_rotation[0][1] * t1489);
         let t1491 = mul_add(platform_rotation[0][2], t1485, t1490);
         let t1492 = mul_add(base_rotation[2][0], t1454, base_rotation[2][1] * t1457);
         let t1493 = mul_add(base_rotation[2][2], t1451, t1492);
@@ -15610,47 +12904,19 @@ pub fn coriolis_matrices<T: Scalar>(
         let t1495 = mul_add(base_rotation[2][2], t1462, t1494);
         let t1496 = mul_add(base_rotation[2][0], t1476, base_rotation[2][1] * t1479);
         let t1497 = mul_add(base_rotation[2][2], t1473, t1496);
-        let t1498 = mul_add(
-            platform_rotation[0][0],
-            t1495,
-            platform_rotation[0][1] * t1497,
-        );
+        let t1498 = mul_add(platform_rotation[0][0], t1495, platform_rotation[0][1] * t1497);
         let t1499 = mul_add(platform_rotation[0][2], t1493, t1498);
-        let t1500 = mul_add(
-            platform_rotation[1][0],
-            t1470,
-            platform_rotation[1][1] * t1481,
-        );
+        let t1500 = mul_add(platform_rotation[1][0], t1470, platform_rotation[1][1] * t1481);
         let t1501 = mul_add(platform_rotation[1][2], t1459, t1500);
-        let t1502 = mul_add(
-            platform_rotation[1][0],
-            t1487,
-            platform_rotation[1][1] * t1489,
-        );
+        let t1502 = mul_add(platform_rotation[1][0], t1487, platform_rotation[1][1] * t1489);
         let t1503 = mul_add(platform_rotation[1][2], t1485, t1502);
-        let t1504 = mul_add(
-            platform_rotation[1][0],
-            t1495,
-            platform_rotation[1][1] * t1497,
-        );
+        let t1504 = mul_add(platform_rotation[1][0], t1495, platform_rotation[1][1] * t1497);
         let t1505 = mul_add(platform_rotation[1][2], t1493, t1504);
-        let t1506 = mul_add(
-            platform_rotation[2][0],
-            t1470,
-            platform_rotation[2][1] * t1481,
-        );
+        let t1506 = mul_add(platform_rotation[2][0], t1470, platform_rotation[2][1] * t1481);
         let t1507 = mul_add(platform_rotation[2][2], t1459, t1506);
-        let t1508 = mul_add(
-            platform_rotation[2][0],
-            t1487,
-            platform_rotation[2][1] * t1489,
-        );
+        let t1508 = mul_add(platform_rotation[2][0], t1487, platform_rotation[2][1] * t1489);
         let t1509 = mul_add(platform_rotation[2][2], t1485, t1508);
-        let t1510 = mul_add(
-            platform_rotation[2][0],
-            t1495,
-            platform_rotation[2][1] * t1497,
-        );
+        let t1510 = mul_add(platform_rotation[2][0], t1495, platform_rotation[2][1] * t1497);
         let t1511 = mul_add(platform_rotation[2][2], t1493, t1510);
         // leg 1: rate of the sliding masses' first moment, its moment about the axis
         let t1512 = parameters.mover_mass[0] * parameters.mover_offset[0];
@@ -15871,11 +13137,7 @@ pub fn coriolis_matrices<T: Scalar>(
         let t1712 = mul_add(t869, parameters.actuator_axis[3][2] * t1440, t1711);
         let t1713 = mul_add(t878, parameters.actuator_axis[4][2] * t1441, t1712);
         let t1714 = mul_add(t887, parameters.actuator_axis[5][2] * t1442, t1713);
-        let t1715 = mul_add(
-            platform_rotation[0][0],
-            t1708,
-            platform_rotation[0][1] * t1714,
-        );
+        let t1715 = mul_add(platform_rotation[0][0], t1708, platform_rotation[0][1] * t1714);
         let t1716 = mul_add(platform_rotation[0][2], t1702, t1715);
         let t1717 = t851 * (parameters.actuator_axis[1][0] * t1444);
         let t1718 = mul_add(t842, parameters.actuator_axis[0][0] * t1443, t1717);
@@ -15895,11 +13157,7 @@ pub fn coriolis_matrices<T: Scalar>(
         let t1732 = mul_add(t869, parameters.actuator_axis[3][0] * t1440, t1731);
         let t1733 = mul_add(t878, parameters.actuator_axis[4][0] * t1441, t1732);
         let t1734 = mul_add(t887, parameters.actuator_axis[5][0] * t1442, t1733);
-        let t1735 = mul_add(
-            platform_rotation[0][0],
-            t1728,
-            platform_rotation[0][1] * t1734,
-        );
+        let t1735 = mul_add(platform_rotation[0][0], t1728, platform_rotation[0][1] * t1734);
         let t1736 = mul_add(platform_rotation[0][2], t1722, t1735);
         let t1737 = t851 * (parameters.actuator_axis[1][1] * t1444);
         let t1738 = mul_add(t842, parameters.actuator_axis[0][1] * t1443, t1737);
@@ -15919,54 +13177,26 @@ pub fn coriolis_matrices<T: Scalar>(
         let t1752 = mul_add(t869, parameters.actuator_axis[3][1] * t1440, t1751);
         let t1753 = mul_add(t878, parameters.actuator_axis[4][1] * t1441, t1752);
         let t1754 = mul_add(t887, parameters.actuator_axis[5][1] * t1442, t1753);
-        let t1755 = mul_add(
-            platform_rotation[0][0],
-            t1748,
-            platform_rotation[0][1] * t1754,
-        );
+        let t1755 = mul_add(platform_rotation[0][0], t1748, platform_rotation[0][1] * t1754);
         let t1756 = mul_add(platform_rotation[0][2], t1742, t1755);
         let t1757 = mul_add(base_rotation[0][0], t1736, base_rotation[0][1] * t1756);
         let t1758 = mul_sub(base_velocity[5], t1491, base_velocity[4] * t1499);
         let t1759 = mul_add(base_rotation[0][2], t1716, t1757) + t1758;
-        let t1760 = mul_add(
-            platform_rotation[1][0],
-            t1708,
-            platform_rotation[1][1] * t1714,
-        );
+        let t1760 = mul_add(platform_rotation[1][0], t1708, platform_rotation[1][1] * t1714);
         let t1761 = mul_add(platform_rotation[1][2], t1702, t1760);
-        let t1762 = mul_add(
-            platform_rotation[1][0],
-            t1728,
-            platform_rotation[1][1] * t1734,
-        );
+        let t1762 = mul_add(platform_rotation[1][0], t1728, platform_rotation[1][1] * t1734);
         let t1763 = mul_add(platform_rotation[1][2], t1722, t1762);
-        let t1764 = mul_add(
-            platform_rotation[1][0],
-            t1748,
-            platform_rotation[1][1] * t1754,
-        );
+        let t1764 = mul_add(platform_rotation[1][0], t1748, platform_rotation[1][1] * t1754);
         let t1765 = mul_add(platform_rotation[1][2], t1742, t1764);
         let t1766 = mul_add(base_rotation[1][0], t1763, base_rotation[1][1] * t1765);
         let t1767 = mul_sub(base_velocity[3], t1505, base_velocity[5] * t1501);
         let t1768 = mul_add(base_rotation[1][2], t1761, t1766) + t1767;
         let t1769 = t1759 + t1768;
-        let t1770 = mul_add(
-            platform_rotation[2][0],
-            t1708,
-            platform_rotation[2][1] * t1714,
-        );
+        let t1770 = mul_add(platform_rotation[2][0], t1708, platform_rotation[2][1] * t1714);
         let t1771 = mul_add(platform_rotation[2][2], t1702, t1770);
-        let t1772 = mul_add(
-            platform_rotation[2][0],
-            t1728,
-            platform_rotation[2][1] * t1734,
-        );
+        let t1772 = mul_add(platform_rotation[2][0], t1728, platform_rotation[2][1] * t1734);
         let t1773 = mul_add(platform_rotation[2][2], t1722, t1772);
-        let t1774 = mul_add(
-            platform_rotation[2][0],
-            t1748,
-            platform_rotation[2][1] * t1754,
-        );
+        let t1774 = mul_add(platform_rotation[2][0], t1748, platform_rotation[2][1] * t1754);
         let t1775 = mul_add(platform_rotation[2][2], t1742, t1774);
         let t1776 = mul_add(base_rotation[2][0], t1773, base_rotation[2][1] * t1775);
         let t1777 = mul_sub(base_velocity[4], t1507, base_velocity[3] * t1509);
@@ -16042,25 +13272,13 @@ pub fn coriolis_matrices<T: Scalar>(
         let t1839 = t1769 + (t1838 - mul_sub(t727, t760, t732 * t759));
         coriolis_matrix_b[5][5] = mul_sub(t29, t1312, t28 * t1317) - t1337 - t1839;
         // Coriolis matrix C_p, natural factorisation
-        let t1840 = mul_add(
-            platform_rotation[1][0],
-            t367,
-            platform_rotation[1][1] * t374,
-        );
+        let t1840 = mul_add(platform_rotation[1][0], t367, platform_rotation[1][1] * t374);
         let t1841 = mul_add(platform_rotation[1][2], t381, t1840);
-        let t1842 = mul_add(
-            platform_rotation[0][0],
-            t367,
-            platform_rotation[0][1] * t374,
-        );
+        let t1842 = mul_add(platform_rotation[0][0], t367, platform_rotation[0][1] * t374);
         let t1843 = mul_add(platform_rotation[0][2], t381, t1842);
         let t1844 = mul_sub(platform_velocity[3], t1841, platform_velocity[4] * t1843);
         coriolis_matrix_p[0][4] = t1349 + t1844;
-        let t1845 = mul_add(
-            platform_rotation[2][0],
-            t367,
-            platform_rotation[2][1] * t374,
-        );
+        let t1845 = mul_add(platform_rotation[2][0], t367, platform_rotation[2][1] * t374);
         let t1846 = mul_add(platform_rotation[2][2], t381, t1845);
         let t1847 = mul_sub(platform_velocity[5], t1843, platform_velocity[3] * t1846);
         coriolis_matrix_p[0][5] = t1352 - t1847;
@@ -16069,143 +13287,53 @@ pub fn coriolis_matrices<T: Scalar>(
         coriolis_matrix_p[1][5] = t1358 + t1848;
         coriolis_matrix_p[2][3] = t1361 + t1847;
         coriolis_matrix_p[2][4] = t1364 - t1848;
-        let t1849 = mul_add(
-            platform_rotation[0][0],
-            t417,
-            platform_rotation[0][1] * t440,
-        );
+        let t1849 = mul_add(platform_rotation[0][0], t417, platform_rotation[0][1] * t440);
         let t1850 = mul_add(platform_rotation[0][2], t452, t1849);
-        let t1851 = mul_add(
-            platform_rotation[0][0],
-            t395,
-            platform_rotation[0][1] * t406,
-        );
+        let t1851 = mul_add(platform_rotation[0][0], t395, platform_rotation[0][1] * t406);
         let t1852 = mul_add(platform_rotation[0][2], t417, t1851);
-        let t1853 = mul_add(
-            platform_rotation[0][0],
-            t406,
-            platform_rotation[0][1] * t429,
-        );
+        let t1853 = mul_add(platform_rotation[0][0], t406, platform_rotation[0][1] * t429);
         let t1854 = mul_add(platform_rotation[0][2], t440, t1853);
-        let t1855 = mul_add(
-            platform_rotation[1][0],
-            t1852,
-            platform_rotation[1][1] * t1854,
-        );
+        let t1855 = mul_add(platform_rotation[1][0], t1852, platform_rotation[1][1] * t1854);
         let t1856 = mul_add(platform_rotation[1][2], t1850, t1855);
-        let t1857 = mul_add(
-            platform_rotation[2][0],
-            t1852,
-            platform_rotation[2][1] * t1854,
-        );
+        let t1857 = mul_add(platform_rotation[2][0], t1852, platform_rotation[2][1] * t1854);
         let t1858 = mul_add(platform_rotation[2][2], t1850, t1857);
-        let t1859 = neg_mul_add(
-            platform_velocity[5],
-            t1856,
-            platform_velocity[4] * t1858,
-        );
+        let t1859 = neg_mul_add(platform_velocity[5], t1856, platform_velocity[4] * t1858);
         coriolis_matrix_p[3][3] = t1859 - t1367;
-        let t1860 = mul_add(
-            platform_rotation[1][0],
-            t417,
-            platform_rotation[1][1] * t440,
-        );
+        let t1860 = mul_add(platform_rotation[1][0], t417, platform_rotation[1][1] * t440);
         let t1861 = mul_add(platform_rotation[1][2], t452, t1860);
-        let t1862 = mul_add(
-            platform_rotation[1][0],
-            t395,
-            platform_rotation[1][1] * t406,
-        );
+        let t1862 = mul_add(platform_rotation[1][0], t395, platform_rotation[1][1] * t406);
         let t1863 = mul_add(platform_rotation[1][2], t417, t1862);
-        let t1864 = mul_add(
-            platform_rotation[1][0],
-            t406,
-            platform_rotation[1][1] * t429,
-        );
+        let t1864 = mul_add(platform_rotation[1][0], t406, platform_rotation[1][1] * t429);
         let t1865 = mul_add(platform_rotation[1][2], t440, t1864);
-        let t1866 = mul_add(
-            platform_rotation[1][0],
-            t1863,
-            platform_rotation[1][1] * t1865,
-        );
-        let t1867 = mul_add(
-            t383,
-            c(0.5),
-            mul_add(platform_rotation[1][2], t1861, t1866),
-        );
-        let t1868 = mul_add(
-            platform_rotation[2][0],
-            t1863,
-            platform_rotation[2][1] * t1865,
-        );
+        let t1866 = mul_add(platform_rotation[1][0], t1863, platform_rotation[1][1] * t1865);
+        let t1867 = mul_add(t383, c(0.5), mul_add(platform_rotation[1][2], t1861, t1866));
+        let t1868 = mul_add(platform_rotation[2][0], t1863, platform_rotation[2][1] * t1865);
         let t1869 = mul_add(platform_rotation[2][2], t1861, t1868);
-        let t1870 = neg_mul_add(
-            platform_velocity[5],
-            t1867,
-            platform_velocity[4] * t1869,
-        );
+        let t1870 = neg_mul_add(platform_velocity[5], t1867, platform_velocity[4] * t1869);
         coriolis_matrix_p[3][4] = t1870 - t1370;
-        let t1871 = mul_add(
-            platform_rotation[2][0],
-            t417,
-            platform_rotation[2][1] * t440,
-        );
+        let t1871 = mul_add(platform_rotation[2][0], t417, platform_rotation[2][1] * t440);
         let t1872 = mul_add(platform_rotation[2][2], t452, t1871);
-        let t1873 = mul_add(
-            platform_rotation[2][0],
-            t395,
-            platform_rotation[2][1] * t406,
-        );
+        let t1873 = mul_add(platform_rotation[2][0], t395, platform_rotation[2][1] * t406);
         let t1874 = mul_add(platform_rotation[2][2], t417, t1873);
-        let t1875 = mul_add(
-            platform_rotation[2][0],
-            t406,
-            platform_rotation[2][1] * t429,
-        );
-        let t1876 = platform_rotation[2][1]
-            * mul_add(platform_rotation[2][2], t440, t1875);
+        let t1875 = mul_add(platform_rotation[2][0], t406, platform_rotation[2][1] * t429);
+        let t1876 = platform_rotation[2][1] * mul_add(platform_rotation[2][2], t440, t1875);
         let t1877 = mul_add(platform_rotation[2][0], t1874, t1876);
-        let t1878 = mul_add(
-            t383,
-            c(0.5),
-            mul_add(platform_rotation[2][2], t1872, t1877),
-        );
-        let t1879 = neg_mul_add(
-            platform_velocity[5],
-            t1869,
-            platform_velocity[4] * t1878,
-        );
+        let t1878 = mul_add(t383, c(0.5), mul_add(platform_rotation[2][2], t1872, t1877));
+        let t1879 = neg_mul_add(platform_velocity[5], t1869, platform_velocity[4] * t1878);
         coriolis_matrix_p[3][5] = t1879 - t1373;
-        let t1880 = mul_add(
-            platform_rotation[0][0],
-            t1852,
-            platform_rotation[0][1] * t1854,
-        );
-        let t1881 = mul_add(
-            t383,
-            c(0.5),
-            mul_add(platform_rotation[0][2], t1850, t1880),
-        );
+        let t1880 = mul_add(platform_rotation[0][0], t1852, platform_rotation[0][1] * t1854);
+        let t1881 = mul_add(t383, c(0.5), mul_add(platform_rotation[0][2], t1850, t1880));
         let t1882 = mul_sub(platform_velocity[5], t1881, platform_velocity[3] * t1858);
         coriolis_matrix_p[4][3] = t1882 - t1376;
         let t1883 = platform_velocity[3] * t1869;
         coriolis_matrix_p[4][4] = mul_sub(platform_velocity[5], t1856, t1883) - t1379;
         let t1884 = mul_sub(platform_velocity[5], t1858, platform_velocity[3] * t1878);
         coriolis_matrix_p[4][5] = t1884 - t1382;
-        let t1885 = neg_mul_add(
-            platform_velocity[4],
-            t1881,
-            platform_velocity[3] * t1856,
-        );
+        let t1885 = neg_mul_add(platform_velocity[4], t1881, platform_velocity[3] * t1856);
         coriolis_matrix_p[5][3] = t1885 - t1385;
-        let t1886 = neg_mul_add(
-            platform_velocity[4],
-            t1856,
-            platform_velocity[3] * t1867,
-        );
+        let t1886 = neg_mul_add(platform_velocity[4], t1856, platform_velocity[3] * t1867);
         coriolis_matrix_p[5][4] = t1886 - t1388;
-        coriolis_matrix_p[5][5] = neg_mul_add(platform_velocity[4], t1858, t1883)
-            - t1391;
+        coriolis_matrix_p[5][5] = neg_mul_add(platform_velocity[4], t1858, t1883) - t1391;
     }
 }
 
@@ -16908,307 +14036,26 @@ pub fn matrices<T: Scalar>(
 ) {
     let c = T::constant;
     let (
-        t3,
-        t6,
-        t9,
-        t12,
-        t15,
-        t18,
-        t21,
-        t24,
-        t27,
-        t28,
-        t29,
-        t30,
-        t32,
-        t34,
-        t36,
-        t48,
-        t51,
-        t54,
-        t69,
-        t72,
-        t75,
-        t90,
-        t93,
-        t96,
-        t111,
-        t114,
-        t117,
-        t132,
-        t135,
-        t138,
-        t153,
-        t156,
-        t159,
-        t166,
-        t167,
-        t168,
-        t172,
-        t173,
-        t177,
-        t178,
-        t179,
-        t183,
-        t184,
-        t188,
-        t189,
-        t190,
-        t194,
-        t195,
-        t199,
-        t200,
-        t201,
-        t205,
-        t206,
-        t210,
-        t211,
-        t212,
-        t216,
-        t217,
-        t221,
-        t222,
-        t223,
-        t227,
-        t228,
-        t229,
-        t230,
-        t231,
-        t232,
-        t233,
-        t234,
-        t235,
-        t236,
-        t237,
-        t238,
-        t239,
-        t240,
-        t241,
-        t242,
-        t243,
-        t244,
-        t245,
-        t246,
-        t247,
-        t248,
-        t249,
-        t250,
-        t251,
-        t252,
-        t253,
-        t254,
-        t255,
-        t256,
-        t257,
-        t258,
-        t259,
-        t260,
-        t261,
-        t262,
-        t263,
-        t264,
-        t265,
-        t266,
-        t267,
-        t269,
-        t271,
-        t273,
-        t274,
-        t275,
-        t276,
-        t278,
-        t280,
-        t282,
-        t283,
-        t284,
-        t285,
-        t287,
-        t289,
-        t291,
-        t292,
-        t293,
-        t294,
-        t296,
-        t298,
-        t300,
-        t301,
-        t302,
-        t303,
-        t305,
-        t307,
-        t309,
-        t310,
-        t311,
-        t312,
-        t314,
-        t316,
-        t318,
-        t319,
-        t320,
-        t321,
-        t322,
-        t323,
-        t324,
-        t325,
-        t326,
-        t327,
-        t328,
-        t329,
-        t330,
-        t331,
-        t332,
-        t333,
-        t334,
-        t335,
-        t336,
-        t342,
-        t343,
-        t349,
-        t350,
-        t356,
-        t357,
-        t363,
-        t364,
-        t370,
-        t371,
-        t377,
-        t378,
-        t403,
-        t476,
-        t480,
-        t484,
-        t485,
-        t486,
-        t487,
-        t491,
-        t495,
-        t499,
-        t500,
-        t501,
-        t502,
-        t506,
-        t510,
-        t514,
-        t515,
-        t516,
-        t517,
-        t521,
-        t525,
-        t529,
-        t530,
-        t531,
-        t532,
-        t536,
-        t540,
-        t544,
-        t545,
-        t546,
-        t547,
-        t551,
-        t555,
-        t559,
-        t560,
-        t561,
-        t562,
-        t563,
-        t564,
-        t565,
-        t566,
-        t567,
-        t568,
-        t569,
-        t570,
-        t571,
-        t572,
-        t573,
-        t574,
-        t575,
-        t576,
-        t577,
-        t578,
-        t579,
-        t580,
-        t581,
-        t582,
-        t583,
-        t584,
-        t585,
-        t586,
-        t597,
-        t600,
-        t611,
-        t615,
-        t626,
-        t630,
-        t641,
-        t645,
-        t656,
-        t660,
-        t671,
-        t675,
-        t677,
-        t678,
-        t679,
-        t680,
-        t681,
-        t682,
-        t683,
-        t684,
-        t686,
-        t689,
-        t691,
-        t695,
-        t697,
-        t701,
-        t703,
-        t707,
-        t709,
-        t713,
-        t715,
-        t716,
-        t718,
-        t719,
-        t720,
-        t721,
-        t722,
-        t723,
-        t724,
-        t725,
-        t727,
-        t730,
-        t732,
-        t736,
-        t738,
-        t742,
-        t744,
-        t748,
-        t752,
-        t756,
-        t760,
-        t772,
-        t778,
-        t784,
-        t788,
-        t792,
-        t796,
-        t800,
-        t812,
-        t818,
-        t822,
-        t826,
-        t830,
-        t834,
-        t838,
-        t845,
-        t865,
-        t867,
-        t869,
-        t877,
-        t879,
-        t881,
-        t889,
-        t891,
-        t899,
+        t3, t6, t9, t12, t15, t18, t21, t24, t27, t28, t29, t30, t32, t34, t36, t48, t51, t54, t69,
+        t72, t75, t90, t93, t96, t111, t114, t117, t132, t135, t138, t153, t156, t159, t166, t167,
+        t168, t172, t173, t177, t178, t179, t183, t184, t188, t189, t190, t194, t195, t199, t200,
+        t201, t205, t206, t210, t211, t212, t216, t217, t221, t222, t223, t227, t228, t229, t230,
+        t231, t232, t233, t234, t235, t236, t237, t238, t239, t240, t241, t242, t243, t244, t245,
+        t246, t247, t248, t249, t250, t251, t252, t253, t254, t255, t256, t257, t258, t259, t260,
+        t261, t262, t263, t264, t265, t266, t267, t269, t271, t273, t274, t275, t276, t278, t280,
+        t282, t283, t284, t285, t287, t289, t291, t292, t293, t294, t296, t298, t300, t301, t302,
+        t303, t305, t307, t309, t310, t311, t312, t314, t316, t318, t319, t320, t321, t322, t323,
+        t324, t325, t326, t327, t328, t329, t330, t331, t332, t333, t334, t335, t336, t342, t343,
+        t349, t350, t356, t357, t363, t364, t370, t371, t377, t378, t403, t476, t480, t484, t485,
+        t486, t487, t491, t495, t499, t500, t501, t502, t506, t510, t514, t515, t516, t517, t521,
+        t525, t529, t530, t531, t532, t536, t540, t544, t545, t546, t547, t551, t555, t559, t560,
+        t561, t562, t563, t564, t565, t566, t567, t568, t569, t570, t571, t572, t573, t574, t575,
+        t576, t577, t578, t579, t580, t581, t582, t583, t584, t585, t586, t597, t600, t611, t615,
+        t626, t630, t641, t645, t656, t660, t671, t675, t677, t678, t679, t680, t681, t682, t683,
+        t684, t686, t689, t691, t695, t697, t701, t703, t707, t709, t713, t715, t716, t718, t719,
+        t720, t721, t722, t723, t724, t725, t727, t730, t732, t736, t738, t742, t744, t748, t752,
+        t756, t760, t772, t778, t784, t788, t792, t796, t800, t812, t818, t822, t826, t830, t834,
+        t838, t845, t865, t867, t869, t877, t879, t881, t889, t891, t899,
     ) = {
         // rotation of the platform seen from the base
         let t1 = base_rotation[1][0] * platform_rotation[1][0];
@@ -17328,38 +14175,14 @@ pub fn matrices<T: Scalar>(
         let t107 = mul_add(parameters.platform_point[3][0], t21, t106);
         let t108 = mul_add(parameters.platform_point[3][2], t27, t107);
         let t109 = platform_rotation[0][1] * parameters.platform_point[3][1];
-        let t110 = mul_add(
-            platform_rotation[0][0],
-            parameters.platform_point[3][0],
-            t109,
-        );
-        let t111 = mul_add(
-            platform_rotation[0][2],
-            parameters.platform_point[3][2],
-            t110,
-        );
+        let t110 = mul_add(platform_rotation[0][0], parameters.platform_point[3][0], t109);
+        let t111 = mul_add(platform_rotation[0][2], parameters.platform_point[3][2], t110);
         let t112 = platform_rotation[1][1] * parameters.platform_point[3][1];
-        let t113 = mul_add(
-            platform_rotation[1][0],
-            parameters.platform_point[3][0],
-            t112,
-        );
-        let t114 = mul_add(
-            platform_rotation[1][2],
-            parameters.platform_point[3][2],
-            t113,
-        );
+        let t113 = mul_add(platform_rotation[1][0], parameters.platform_point[3][0], t112);
+        let t114 = mul_add(platform_rotation[1][2], parameters.platform_point[3][2], t113);
         let t115 = platform_rotation[2][1] * parameters.platform_point[3][1];
-        let t116 = mul_add(
-            platform_rotation[2][0],
-            parameters.platform_point[3][0],
-            t115,
-        );
-        let t117 = mul_add(
-            platform_rotation[2][2],
-            parameters.platform_point[3][2],
-            t116,
-        );
+        let t116 = mul_add(platform_rotation[2][0], parameters.platform_point[3][0], t115);
+        let t117 = mul_add(platform_rotation[2][2], parameters.platform_point[3][2], t116);
         // leg 4: platform joint from the base point
         let t118 = parameters.base_point[3][0] + (t32 - t102);
         let t119 = parameters.base_point[3][1] + (t34 - t105);
@@ -17375,38 +14198,14 @@ pub fn matrices<T: Scalar>(
         let t128 = mul_add(parameters.platform_point[4][0], t21, t127);
         let t129 = mul_add(parameters.platform_point[4][2], t27, t128);
         let t130 = platform_rotation[0][1] * parameters.platform_point[4][1];
-        let t131 = mul_add(
-            platform_rotation[0][0],
-            parameters.platform_point[4][0],
-            t130,
-        );
-        let t132 = mul_add(
-            platform_rotation[0][2],
-            parameters.platform_point[4][2],
-            t131,
-        );
+        let t131 = mul_add(platform_rotation[0][0], parameters.platform_point[4][0], t130);
+        let t132 = mul_add(platform_rotation[0][2], parameters.platform_point[4][2], t131);
         let t133 = platform_rotation[1][1] * parameters.platform_point[4][1];
-        let t134 = mul_add(
-            platform_rotation[1][0],
-            parameters.platform_point[4][0],
-            t133,
-        );
-        let t135 = mul_add(
-            platform_rotation[1][2],
-            parameters.platform_point[4][2],
-            t134,
-        );
+        let t134 = mul_add(platform_rotation[1][0], parameters.platform_point[4][0], t133);
+        let t135 = mul_add(platform_rotation[1][2], parameters.platform_point[4][2], t134);
         let t136 = platform_rotation[2][1] * parameters.platform_point[4][1];
-        let t137 = mul_add(
-            platform_rotation[2][0],
-            parameters.platform_point[4][0],
-            t136,
-        );
-        let t138 = mul_add(
-            platform_rotation[2][2],
-            parameters.platform_point[4][2],
-            t137,
-        );
+        let t137 = mul_add(platform_rotation[2][0], parameters.platform_point[4][0], t136);
+        let t138 = mul_add(platform_rotation[2][2], parameters.platform_point[4][2], t137);
         // leg 5: platform joint from the base point
         let t139 = parameters.base_point[4][0] + (t32 - t123);
         let t140 = parameters.base_point[4][1] + (t34 - t126);
@@ -17422,38 +14221,14 @@ pub fn matrices<T: Scalar>(
         let t149 = mul_add(parameters.platform_point[5][0], t21, t148);
         let t150 = mul_add(parameters.platform_point[5][2], t27, t149);
         let t151 = platform_rotation[0][1] * parameters.platform_point[5][1];
-        let t152 = mul_add(
-            platform_rotation[0][0],
-            parameters.platform_point[5][0],
-            t151,
-        );
-        let t153 = mul_add(
-            platform_rotation[0][2],
-            parameters.platform_point[5][2],
-            t152,
-        );
+        let t152 = mul_add(platform_rotation[0][0], parameters.platform_point[5][0], t151);
+        let t153 = mul_add(platform_rotation[0][2], parameters.platform_point[5][2], t152);
         let t154 = platform_rotation[1][1] * parameters.platform_point[5][1];
-        let t155 = mul_add(
-            platform_rotation[1][0],
-            parameters.platform_point[5][0],
-            t154,
-        );
-        let t156 = mul_add(
-            platform_rotation[1][2],
-            parameters.platform_point[5][2],
-            t155,
-        );
+        let t155 = mul_add(platform_rotation[1][0], parameters.platform_point[5][0], t154);
+        let t156 = mul_add(platform_rotation[1][2], parameters.platform_point[5][2], t155);
         let t157 = platform_rotation[2][1] * parameters.platform_point[5][1];
-        let t158 = mul_add(
-            platform_rotation[2][0],
-            parameters.platform_point[5][0],
-            t157,
-        );
-        let t159 = mul_add(
-            platform_rotation[2][2],
-            parameters.platform_point[5][2],
-            t158,
-        );
+        let t158 = mul_add(platform_rotation[2][0], parameters.platform_point[5][0], t157);
+        let t159 = mul_add(platform_rotation[2][2], parameters.platform_point[5][2], t158);
         // leg 6: platform joint from the base point
         let t160 = parameters.base_point[5][0] + (t32 - t144);
         let t161 = parameters.base_point[5][1] + (t34 - t147);
@@ -17468,9 +14243,7 @@ pub fn matrices<T: Scalar>(
         // leg 1: extent of the rod along the actuator axis
         let t169 = parameters.rod_length[0] * parameters.rod_length[0];
         let t170 = mul_add(t168, t168, mul_add(t166, t166, t167 * t167));
-        let t171 = sqrt(
-            mul_sub(parameters.rod_length[0], parameters.rod_length[0], t170),
-        );
+        let t171 = sqrt(mul_sub(parameters.rod_length[0], parameters.rod_length[0], t170));
         // leg 1: reciprocal of that extent
         let t172 = c(1.0) / t171;
         // leg 1: actuator length d
@@ -17485,9 +14258,7 @@ pub fn matrices<T: Scalar>(
         // leg 2: extent of the rod along the actuator axis
         let t180 = parameters.rod_length[1] * parameters.rod_length[1];
         let t181 = mul_add(t179, t179, mul_add(t177, t177, t178 * t178));
-        let t182 = sqrt(
-            mul_sub(parameters.rod_length[1], parameters.rod_length[1], t181),
-        );
+        let t182 = sqrt(mul_sub(parameters.rod_length[1], parameters.rod_length[1], t181));
         // leg 2: reciprocal of that extent
         let t183 = c(1.0) / t182;
         // leg 2: actuator length d
@@ -17502,9 +14273,7 @@ pub fn matrices<T: Scalar>(
         // leg 3: extent of the rod along the actuator axis
         let t191 = parameters.rod_length[2] * parameters.rod_length[2];
         let t192 = mul_add(t190, t190, mul_add(t188, t188, t189 * t189));
-        let t193 = sqrt(
-            mul_sub(parameters.rod_length[2], parameters.rod_length[2], t192),
-        );
+        let t193 = sqrt(mul_sub(parameters.rod_length[2], parameters.rod_length[2], t192));
         // leg 3: reciprocal of that extent
         let t194 = c(1.0) / t193;
         // leg 3: actuator length d
@@ -17519,9 +14288,7 @@ pub fn matrices<T: Scalar>(
         // leg 4: extent of the rod along the actuator axis
         let t202 = parameters.rod_length[3] * parameters.rod_length[3];
         let t203 = mul_add(t201, t201, mul_add(t199, t199, t200 * t200));
-        let t204 = sqrt(
-            mul_sub(parameters.rod_length[3], parameters.rod_length[3], t203),
-        );
+        let t204 = sqrt(mul_sub(parameters.rod_length[3], parameters.rod_length[3], t203));
         // leg 4: reciprocal of that extent
         let t205 = c(1.0) / t204;
         // leg 4: actuator length d
@@ -17536,9 +14303,7 @@ pub fn matrices<T: Scalar>(
         // leg 5: extent of the rod along the actuator axis
         let t213 = parameters.rod_length[4] * parameters.rod_length[4];
         let t214 = mul_add(t212, t212, mul_add(t210, t210, t211 * t211));
-        let t215 = sqrt(
-            mul_sub(parameters.rod_length[4], parameters.rod_length[4], t214),
-        );
+        let t215 = sqrt(mul_sub(parameters.rod_length[4], parameters.rod_length[4], t214));
         // leg 5: reciprocal of that extent
         let t216 = c(1.0) / t215;
         // leg 5: actuator length d
@@ -17553,9 +14318,7 @@ pub fn matrices<T: Scalar>(
         // leg 6: extent of the rod along the actuator axis
         let t224 = parameters.rod_length[5] * parameters.rod_length[5];
         let t225 = mul_add(t223, t223, mul_add(t221, t221, t222 * t222));
-        let t226 = sqrt(
-            mul_sub(parameters.rod_length[5], parameters.rod_length[5], t225),
-        );
+        let t226 = sqrt(mul_sub(parameters.rod_length[5], parameters.rod_length[5], t225));
         // leg 6: reciprocal of that extent
         let t227 = c(1.0) / t226;
         // leg 6: actuator length d
@@ -17859,11 +14622,7 @@ pub fn matrices<T: Scalar>(
         let t420 = parameters.platform_point[1][0] * parameters.platform_point[1][1];
         let t421 = parameters.platform_point[0][0] * parameters.platform_point[0][1];
         let t422 = parameters.payload_com[0] * parameters.payload_com[1];
-        let t423 = neg_mul_add(
-            parameters.payload_mass,
-            t422,
-            parameters.payload_inertia[0][1],
-        );
+        let t423 = neg_mul_add(parameters.payload_mass, t422, parameters.payload_inertia[0][1]);
         let t424 = neg_mul_add(t348, t420, neg_mul_add(t341, t421, t423));
         let t425 = neg_mul_add(t362, t418, neg_mul_add(t355, t419, t424));
         let t426 = neg_mul_add(t376, t416, neg_mul_add(t369, t417, t425));
@@ -17874,11 +14633,7 @@ pub fn matrices<T: Scalar>(
         let t431 = parameters.platform_point[1][0] * parameters.platform_point[1][2];
         let t432 = parameters.platform_point[0][0] * parameters.platform_point[0][2];
         let t433 = parameters.payload_com[0] * parameters.payload_com[2];
-        let t434 = neg_mul_add(
-            parameters.payload_mass,
-            t433,
-            parameters.payload_inertia[0][2],
-        );
+        let t434 = neg_mul_add(parameters.payload_mass, t433, parameters.payload_inertia[0][2]);
         let t435 = neg_mul_add(t348, t431, neg_mul_add(t341, t432, t434));
         let t436 = neg_mul_add(t362, t429, neg_mul_add(t355, t430, t435));
         let t437 = neg_mul_add(t376, t427, neg_mul_add(t369, t428, t436));
@@ -17901,11 +14656,7 @@ pub fn matrices<T: Scalar>(
         let t454 = parameters.platform_point[1][1] * parameters.platform_point[1][2];
         let t455 = parameters.platform_point[0][1] * parameters.platform_point[0][2];
         let t456 = parameters.payload_com[1] * parameters.payload_com[2];
-        let t457 = neg_mul_add(
-            parameters.payload_mass,
-            t456,
-            parameters.payload_inertia[1][2],
-        );
+        let t457 = neg_mul_add(parameters.payload_mass, t456, parameters.payload_inertia[1][2]);
         let t458 = neg_mul_add(t348, t454, neg_mul_add(t341, t455, t457));
         let t459 = neg_mul_add(t362, t452, neg_mul_add(t355, t453, t458));
         let t460 = neg_mul_add(t376, t450, neg_mul_add(t369, t451, t459));
@@ -18339,109 +15090,40 @@ pub fn matrices<T: Scalar>(
         mass_matrix_p[2][5] = t863;
         mass_matrix_p[5][2] = t863;
         // mass matrix M_p of the platform
-        let t864 = mul_add(
-            platform_rotation[2][0],
-            t387,
-            platform_rotation[2][1] * t394,
-        );
+        let t864 = mul_add(platform_rotation[2][0], t387, platform_rotation[2][1] * t394);
         let t865 = mul_add(platform_rotation[2][2], t401, t864);
-        let t866 = mul_add(
-            platform_rotation[1][0],
-            t387,
-            platform_rotation[1][1] * t394,
-        );
+        let t866 = mul_add(platform_rotation[1][0], t387, platform_rotation[1][1] * t394);
         let t867 = mul_add(platform_rotation[1][2], t401, t866);
-        let t868 = mul_add(
-            platform_rotation[0][0],
-            t387,
-            platform_rotation[0][1] * t394,
-        );
+        let t868 = mul_add(platform_rotation[0][0], t387, platform_rotation[0][1] * t394);
         let t869 = mul_add(platform_rotation[0][2], t401, t868);
-        let t870 = mul_add(
-            platform_rotation[0][0],
-            t437,
-            platform_rotation[0][1] * t460,
-        );
+        let t870 = mul_add(platform_rotation[0][0], t437, platform_rotation[0][1] * t460);
         let t871 = mul_add(platform_rotation[0][2], t472, t870);
-        let t872 = mul_add(
-            platform_rotation[0][0],
-            t415,
-            platform_rotation[0][1] * t426,
-        );
+        let t872 = mul_add(platform_rotation[0][0], t415, platform_rotation[0][1] * t426);
         let t873 = mul_add(platform_rotation[0][2], t437, t872);
-        let t874 = mul_add(
-            platform_rotation[0][0],
-            t426,
-            platform_rotation[0][1] * t449,
-        );
+        let t874 = mul_add(platform_rotation[0][0], t426, platform_rotation[0][1] * t449);
         let t875 = mul_add(platform_rotation[0][2], t460, t874);
-        let t876 = mul_add(
-            platform_rotation[0][0],
-            t873,
-            platform_rotation[0][1] * t875,
-        );
+        let t876 = mul_add(platform_rotation[0][0], t873, platform_rotation[0][1] * t875);
         let t877 = mul_add(platform_rotation[0][2], t871, t876);
-        let t878 = mul_add(
-            platform_rotation[1][0],
-            t873,
-            platform_rotation[1][1] * t875,
-        );
+        let t878 = mul_add(platform_rotation[1][0], t873, platform_rotation[1][1] * t875);
         let t879 = mul_add(platform_rotation[1][2], t871, t878);
-        let t880 = mul_add(
-            platform_rotation[2][0],
-            t873,
-            platform_rotation[2][1] * t875,
-        );
+        let t880 = mul_add(platform_rotation[2][0], t873, platform_rotation[2][1] * t875);
         let t881 = mul_add(platform_rotation[2][2], t871, t880);
-        let t882 = mul_add(
-            platform_rotation[1][0],
-            t437,
-            platform_rotation[1][1] * t460,
-        );
+        let t882 = mul_add(platform_rotation[1][0], t437, platform_rotation[1][1] * t460);
         let t883 = mul_add(platform_rotation[1][2], t472, t882);
-        let t884 = mul_add(
-            platform_rotation[1][0],
-            t415,
-            platform_rotation[1][1] * t426,
-        );
+        let t884 = mul_add(platform_rotation[1][0], t415, platform_rotation[1][1] * t426);
         let t885 = mul_add(platform_rotation[1][2], t437, t884);
-        let t886 = mul_add(
-            platform_rotation[1][0],
-            t426,
-            platform_rotation[1][1] * t449,
-        );
+        let t886 = mul_add(platform_rotation[1][0], t426, platform_rotation[1][1] * t449);
         let t887 = mul_add(platform_rotation[1][2], t460, t886);
-        let t888 = mul_add(
-            platform_rotation[1][0],
-            t885,
-            platform_rotation[1][1] * t887,
-        );
+        let t888 = mul_add(platform_rotation[1][0], t885, platform_rotation[1][1] * t887);
         let t889 = mul_add(platform_rotation[1][2], t883, t888);
-        let t890 = mul_add(
-            platform_rotation[2][0],
-            t885,
-            platform_rotation[2][1] * t887,
-        );
+        let t890 = mul_add(platform_rotation[2][0], t885, platform_rotation[2][1] * t887);
         let t891 = mul_add(platform_rotation[2][2], t883, t890);
-        let t892 = mul_add(
-            platform_rotation[2][0],
-            t437,
-            platform_rotation[2][1] * t460,
-        );
+        let t892 = mul_add(platform_rotation[2][0], t437, platform_rotation[2][1] * t460);
         let t893 = mul_add(platform_rotation[2][2], t472, t892);
-        let t894 = mul_add(
-            platform_rotation[2][0],
-            t415,
-            platform_rotation[2][1] * t426,
-        );
+        let t894 = mul_add(platform_rotation[2][0], t415, platform_rotation[2][1] * t426);
         let t895 = mul_add(platform_rotation[2][2], t437, t894);
-        let t896 = mul_add(
-            platform_rotation[2][0],
-            t426,
-            platform_rotation[2][1] * t449,
-        );
-        let t897 = platform_rotation[2][1]
-            * mul_add(platform_rotation[2][2], t460, t896);
+        let t896 = mul_add(platform_rotation[2][0], t426, platform_rotation[2][1] * t449);
+        let t897 = platform_rotation[2][1] * mul_add(platform_rotation[2][2], t460, t896);
         let t898 = mul_add(platform_rotation[2][0], t895, t897);
         let t899 = mul_add(platform_rotation[2][2], t893, t898);
         mass_matrix_p[0][0] = t380 - t846;
@@ -18479,534 +15161,61 @@ pub fn matrices<T: Scalar>(
         mass_matrix_p[5][4] = t909;
         mass_matrix_p[5][5] = t845 - t841 - (t906 - t899);
         (
-            t3,
-            t6,
-            t9,
-            t12,
-            t15,
-            t18,
-            t21,
-            t24,
-            t27,
-            t28,
-            t29,
-            t30,
-            t32,
-            t34,
-            t36,
-            t48,
-            t51,
-            t54,
-            t69,
-            t72,
-            t75,
-            t90,
-            t93,
-            t96,
-            t111,
-            t114,
-            t117,
-            t132,
-            t135,
-            t138,
-            t153,
-            t156,
-            t159,
-            t166,
-            t167,
-            t168,
-            t172,
-            t173,
-            t177,
-            t178,
-            t179,
-            t183,
-            t184,
-            t188,
-            t189,
-            t190,
-            t194,
-            t195,
-            t199,
-            t200,
-            t201,
-            t205,
-            t206,
-            t210,
-            t211,
-            t212,
-            t216,
-            t217,
-            t221,
-            t222,
-            t223,
-            t227,
-            t228,
-            t229,
-            t230,
-            t231,
-            t232,
-            t233,
-            t234,
-            t235,
-            t236,
-            t237,
-            t238,
-            t239,
-            t240,
-            t241,
-            t242,
-            t243,
-            t244,
-            t245,
-            t246,
-            t247,
-            t248,
-            t249,
-            t250,
-            t251,
-            t252,
-            t253,
-            t254,
-            t255,
-            t256,
-            t257,
-            t258,
-            t259,
-            t260,
-            t261,
-            t262,
-            t263,
-            t264,
-            t265,
-            t266,
-            t267,
-            t269,
-            t271,
-            t273,
-            t274,
-            t275,
-            t276,
-            t278,
-            t280,
-            t282,
-            t283,
-            t284,
-            t285,
-            t287,
-            t289,
-            t291,
-            t292,
-            t293,
-            t294,
-            t296,
-            t298,
-            t300,
-            t301,
-            t302,
-            t303,
-            t305,
-            t307,
-            t309,
-            t310,
-            t311,
-            t312,
-            t314,
-            t316,
-            t318,
-            t319,
-            t320,
-            t321,
-            t322,
-            t323,
-            t324,
-            t325,
-            t326,
-            t327,
-            t328,
-            t329,
-            t330,
-            t331,
-            t332,
-            t333,
-            t334,
-            t335,
-            t336,
-            t342,
-            t343,
-            t349,
-            t350,
-            t356,
-            t357,
-            t363,
-            t364,
-            t370,
-            t371,
-            t377,
-            t378,
-            t403,
-            t476,
-            t480,
-            t484,
-            t485,
-            t486,
-            t487,
-            t491,
-            t495,
-            t499,
-            t500,
-            t501,
-            t502,
-            t506,
-            t510,
-            t514,
-            t515,
-            t516,
-            t517,
-            t521,
-            t525,
-            t529,
-            t530,
-            t531,
-            t532,
-            t536,
-            t540,
-            t544,
-            t545,
-            t546,
-            t547,
-            t551,
-            t555,
-            t559,
-            t560,
-            t561,
-            t562,
-            t563,
-            t564,
-            t565,
-            t566,
-            t567,
-            t568,
-            t569,
-            t570,
-            t571,
-            t572,
-            t573,
-            t574,
-            t575,
-            t576,
-            t577,
-            t578,
-            t579,
-            t580,
-            t581,
-            t582,
-            t583,
-            t584,
-            t585,
-            t586,
-            t597,
-            t600,
-            t611,
-            t615,
-            t626,
-            t630,
-            t641,
-            t645,
-            t656,
-            t660,
-            t671,
-            t675,
-            t677,
-            t678,
-            t679,
-            t680,
-            t681,
-            t682,
-            t683,
-            t684,
-            t686,
-            t689,
-            t691,
-            t695,
-            t697,
-            t701,
-            t703,
-            t707,
-            t709,
-            t713,
-            t715,
-            t716,
-            t718,
-            t719,
-            t720,
-            t721,
-            t722,
-            t723,
-            t724,
-            t725,
-            t727,
-            t730,
-            t732,
-            t736,
-            t738,
-            t742,
-            t744,
-            t748,
-            t752,
-            t756,
-            t760,
-            t772,
-            t778,
-            t784,
-            t788,
-            t792,
-            t796,
-            t800,
-            t812,
-            t818,
-            t822,
-            t826,
-            t830,
-            t834,
-            t838,
-            t845,
-            t865,
-            t867,
-            t869,
-            t877,
-            t879,
-            t881,
-            t889,
-            t891,
-            t899,
+            t3, t6, t9, t12, t15, t18, t21, t24, t27, t28, t29, t30, t32, t34, t36, t48, t51, t54,
+            t69, t72, t75, t90, t93, t96, t111, t114, t117, t132, t135, t138, t153, t156, t159,
+            t166, t167, t168, t172, t173, t177, t178, t179, t183, t184, t188, t189, t190, t194,
+            t195, t199, t200, t201, t205, t206, t210, t211, t212, t216, t217, t221, t222, t223,
+            t227, t228, t229, t230, t231, t232, t233, t234, t235, t236, t237, t238, t239, t240,
+            t241, t242, t243, t244, t245, t246, t247, t248, t249, t250, t251, t252, t253, t254,
+            t255, t256, t257, t258, t259, t260, t261, t262, t263, t264, t265, t266, t267, t269,
+            t271, t273, t274, t275, t276, t278, t280, t282, t283, t284, t285, t287, t289, t291,
+            t292, t293, t294, t296, t298, t300, t301, t302, t303, t305, t307, t309, t310, t311,
+            t312, t314, t316, t318, t319, t320, t321, t322, t323, t324, t325, t326, t327, t328,
+            t329, t330, t331, t332, t333, t334, t335, t336, t342, t343, t349, t350, t356, t357,
+            t363, t364, t370, t371, t377, t378, t403, t476, t480, t484, t485, t486, t487, t491,
+            t495, t499, t500, t501, t502, t506, t510, t514, t515, t516, t517, t521, t525, t529,
+            t530, t531, t532, t536, t540, t544, t545, t546, t547, t551, t555, t559, t560, t561,
+            t562, t563, t564, t565, t566, t567, t568, t569, t570, t571, t572, t573, t574, t575,
+            t576, t577, t578, t579, t580, t581, t582, t583, t584, t585, t586, t597, t600, t611,
+            t615, t626, t630, t641, t645, t656, t660, t671, t675, t677, t678, t679, t680, t681,
+            t682, t683, t684, t686, t689, t691, t695, t697, t701, t703, t707, t709, t713, t715,
+            t716, t718, t719, t720, t721, t722, t723, t724, t725, t727, t730, t732, t736, t738,
+            t742, t744, t748, t752, t756, t760, t772, t778, t784, t788, t792, t796, t800, t812,
+            t818, t822, t826, t830, t834, t838, t845, t865, t867, t869, t877, t879, t881, t889,
+            t891, t899,
         )
     };
     let (
-        t938,
-        t940,
-        t942,
-        t943,
-        t944,
-        t945,
-        t946,
-        t947,
-        t948,
-        t949,
-        t950,
-        t951,
-        t952,
-        t953,
-        t954,
-        t955,
-        t956,
-        t957,
-        t958,
-        t959,
-        t960,
-        t995,
-        t1003,
-        t1011,
-        t1013,
-        t1015,
-        t1017,
-        t1019,
-        t1021,
-        t1023,
-        t1266,
-        t1269,
-        t1272,
-        t1285,
-        t1286,
-        t1287,
-        t1368,
-        t1377,
-        t1386,
-        t1395,
-        t1404,
-        t1413,
-        t1421,
-        t1423,
-        t1425,
-        t1433,
-        t1435,
-        t1437,
-        t1445,
-        t1447,
-        t1449,
-        t1457,
-        t1459,
-        t1461,
-        t1469,
-        t1471,
-        t1473,
-        t1481,
-        t1483,
-        t1485,
-        t1505,
-        t1507,
-        t1509,
-        t1511,
-        t1513,
-        t1515,
-        t1517,
-        t1519,
-        t1521,
-        t1523,
-        t1525,
-        t1527,
-        t1529,
-        t1531,
-        t1533,
-        t1535,
-        t1537,
-        t1539,
-        t1542,
-        t1544,
-        t1545,
-        t1546,
-        t1547,
-        t1548,
-        t1549,
-        t1550,
-        t1551,
-        t1554,
-        t1556,
-        t1557,
-        t1558,
-        t1559,
-        t1560,
-        t1561,
-        t1562,
-        t1563,
-        t1566,
-        t1568,
-        t1569,
-        t1570,
-        t1571,
-        t1572,
-        t1573,
-        t1574,
-        t1575,
-        t1578,
-        t1580,
-        t1581,
-        t1582,
-        t1583,
-        t1584,
-        t1585,
-        t1586,
-        t1587,
-        t1590,
-        t1592,
-        t1593,
-        t1594,
-        t1595,
-        t1596,
-        t1597,
-        t1598,
-        t1599,
-        t1602,
-        t1604,
-        t1605,
-        t1606,
-        t1607,
-        t1608,
-        t1609,
-        t1610,
-        t1611,
+        t938, t940, t942, t943, t944, t945, t946, t947, t948, t949, t950, t951, t952, t953, t954,
+        t955, t956, t957, t958, t959, t960, t995, t1003, t1011, t1013, t1015, t1017, t1019, t1021,
+        t1023, t1266, t1269, t1272, t1285, t1286, t1287, t1368, t1377, t1386, t1395, t1404, t1413,
+        t1421, t1423, t1425, t1433, t1435, t1437, t1445, t1447, t1449, t1457, t1459, t1461, t1469,
+        t1471, t1473, t1481, t1483, t1485, t1505, t1507, t1509, t1511, t1513, t1515, t1517, t1519,
+        t1521, t1523, t1525, t1527, t1529, t1531, t1533, t1535, t1537, t1539, t1542, t1544, t1545,
+        t1546, t1547, t1548, t1549, t1550, t1551, t1554, t1556, t1557, t1558, t1559, t1560, t1561,
+        t1562, t1563, t1566, t1568, t1569, t1570, t1571, t1572, t1573, t1574, t1575, t1578, t1580,
+        t1581, t1582, t1583, t1584, t1585, t1586, t1587, t1590, t1592, t1593, t1594, t1595, t1596,
+        t1597, t1598, t1599, t1602, t1604, t1605, t1606, t1607, t1608, t1609, t1610, t1611,
     ) = {
         // first moment of the rods' couplings by the Hooke joint
-        let t910 = neg_mul_add(
-            parameters.actuator_axis[0][0],
-            t173,
-            parameters.base_point[0][0],
-        );
-        let t911 = neg_mul_add(
-            parameters.actuator_axis[1][0],
-            t184,
-            parameters.base_point[1][0],
-        );
-        let t912 = neg_mul_add(
-            parameters.actuator_axis[2][0],
-            t195,
-            parameters.base_point[2][0],
-        );
-        let t913 = neg_mul_add(
-            parameters.actuator_axis[3][0],
-            t206,
-            parameters.base_point[3][0],
-        );
-        let t914 = neg_mul_add(
-            parameters.actuator_axis[4][0],
-            t217,
-            parameters.base_point[4][0],
-        );
-        let t915 = neg_mul_add(
-            parameters.actuator_axis[5][0],
-            t228,
-            parameters.base_point[5][0],
-        );
-        let t916 = neg_mul_add(
-            parameters.actuator_axis[0][1],
-            t173,
-            parameters.base_point[0][1],
-        );
-        let t917 = neg_mul_add(
-            parameters.actuator_axis[1][1],
-            t184,
-            parameters.base_point[1][1],
-        );
-        let t918 = neg_mul_add(
-            parameters.actuator_axis[2][1],
-            t195,
-            parameters.base_point[2][1],
-        );
-        let t919 = neg_mul_add(
-            parameters.actuator_axis[3][1],
-            t206,
-            parameters.base_point[3][1],
-        );
-        let t920 = neg_mul_add(
-            parameters.actuator_axis[4][1],
-            t217,
-            parameters.base_point[4][1],
-        );
-        let t921 = neg_mul_add(
-            parameters.actuator_axis[5][1],
-            t228,
-            parameters.base_point[5][1],
-        );
-        let t922 = neg_mul_add(
-            parameters.actuator_axis[0][2],
-            t173,
-            parameters.base_point[0][2],
-        );
-        let t923 = neg_mul_add(
-            parameters.actuator_axis[1][2],
-            t184,
-            parameters.base_point[1][2],
-        );
-        let t924 = neg_mul_add(
-            parameters.actuator_axis[2][2],
-            t195,
-            parameters.base_point[2][2],
-        );
-        let t925 = neg_mul_add(
-            parameters.actuator_axis[3][2],
-            t206,
-            parameters.base_point[3][2],
-        );
-        let t926 = neg_mul_add(
-            parameters.actuator_axis[4][2],
-            t217,
-            parameters.base_point[4][2],
-        );
-        let t927 = neg_mul_add(
-            parameters.actuator_axis[5][2],
-            t228,
-            parameters.base_point[5][2],
-        );
+        let t910 = neg_mul_add(parameters.actuator_axis[0][0], t173, parameters.base_point[0][0]);
+        let t911 = neg_mul_add(parameters.actuator_axis[1][0], t184, parameters.base_point[1][0]);
+        let t912 = neg_mul_add(parameters.actuator_axis[2][0], t195, parameters.base_point[2][0]);
+        let t913 = neg_mul_add(parameters.actuator_axis[3][0], t206, parameters.base_point[3][0]);
+        let t914 = neg_mul_add(parameters.actuator_axis[4][0], t217, parameters.base_point[4][0]);
+        let t915 = neg_mul_add(parameters.actuator_axis[5][0], t228, parameters.base_point[5][0]);
+        let t916 = neg_mul_add(parameters.actuator_axis[0][1], t173, parameters.base_point[0][1]);
+        let t917 = neg_mul_add(parameters.actuator_axis[1][1], t184, parameters.base_point[1][1]);
+        let t918 = neg_mul_add(parameters.actuator_axis[2][1], t195, parameters.base_point[2][1]);
+        let t919 = neg_mul_add(parameters.actuator_axis[3][1], t206, parameters.base_point[3][1]);
+        let t920 = neg_mul_add(parameters.actuator_axis[4][1], t217, parameters.base_point[4][1]);
+        let t921 = neg_mul_add(parameters.actuator_axis[5][1], t228, parameters.base_point[5][1]);
+        let t922 = neg_mul_add(parameters.actuator_axis[0][2], t173, parameters.base_point[0][2]);
+        let t923 = neg_mul_add(parameters.actuator_axis[1][2], t184, parameters.base_point[1][2]);
+        let t924 = neg_mul_add(parameters.actuator_axis[2][2], t195, parameters.base_point[2][2]);
+        let t925 = neg_mul_add(parameters.actuator_axis[3][2], t206, parameters.base_point[3][2]);
+        let t926 = neg_mul_add(parameters.actuator_axis[4][2], t217, parameters.base_point[4][2]);
+        let t927 = neg_mul_add(parameters.actuator_axis[5][2], t228, parameters.base_point[5][2]);
         let t928 = mul_add(t356, t924, mul_add(t342, t922, t349 * t923));
         let t929 = mul_add(t370, t926, mul_add(t363, t925, t928));
         let t930 = mul_add(t377, t927, t929);
@@ -19074,11 +15283,7 @@ pub fn matrices<T: Scalar>(
         let t991 = mul_add(t921, t954, t990);
         let t992 = mul_add(base_rotation[0][0], t988, base_rotation[0][1] * t991);
         let t993 = mul_add(base_rotation[0][2], t985, t992);
-        let t994 = mul_add(
-            platform_rotation[0][0],
-            t982,
-            platform_rotation[0][1] * t993,
-        );
+        let t994 = mul_add(platform_rotation[0][0], t982, platform_rotation[0][1] * t993);
         let t995 = mul_add(platform_rotation[0][2], t971, t994);
         let t996 = mul_add(base_rotation[1][0], t966, base_rotation[1][1] * t969);
         let t997 = mul_add(base_rotation[1][2], t963, t996);
@@ -19086,11 +15291,7 @@ pub fn matrices<T: Scalar>(
         let t999 = mul_add(base_rotation[1][2], t974, t998);
         let t1000 = mul_add(base_rotation[1][0], t988, base_rotation[1][1] * t991);
         let t1001 = mul_add(base_rotation[1][2], t985, t1000);
-        let t1002 = mul_add(
-            platform_rotation[0][0],
-            t999,
-            platform_rotation[0][1] * t1001,
-        );
+        let t1002 = mul_add(platform_rotation[0][0], t999, platform_rotation[0][1] * t1001);
         let t1003 = mul_add(platform_rotation[0][2], t997, t1002);
         let t1004 = mul_add(base_rotation[2][0], t966, base_rotation[2][1] * t969);
         let t1005 = mul_add(base_rotation[2][2], t963, t1004);
@@ -19098,47 +15299,19 @@ pub fn matrices<T: Scalar>(
         let t1007 = mul_add(base_rotation[2][2], t974, t1006);
         let t1008 = mul_add(base_rotation[2][0], t988, base_rotation[2][1] * t991);
         let t1009 = mul_add(base_rotation[2][2], t985, t1008);
-        let t1010 = mul_add(
-            platform_rotation[0][0],
-            t1007,
-            platform_rotation[0][1] * t1009,
-        );
+        let t1010 = mul_add(platform_rotation[0][0], t1007, platform_rotation[0][1] * t1009);
         let t1011 = mul_add(platform_rotation[0][2], t1005, t1010);
-        let t1012 = mul_add(
-            platform_rotation[1][0],
-            t982,
-            platform_rotation[1][1] * t993,
-        );
+        let t1012 = mul_add(platform_rotation[1][0], t982, platform_rotation[1][1] * t993);
         let t1013 = mul_add(platform_rotation[1][2], t971, t1012);
-        let t1014 = mul_add(
-            platform_rotation[1][0],
-            t999,
-            platform_rotation[1][1] * t1001,
-        );
+        let t1014 = mul_add(platform_rotation[1][0], t999, platform_rotation[1][1] * t1001);
         let t1015 = mul_add(platform_rotation[1][2], t997, t1014);
-        let t1016 = mul_add(
-            platform_rotation[1][0],
-            t1007,
-            platform_rotation[1][1] * t1009,
-        );
+        let t1016 = mul_add(platform_rotation[1][0], t1007, platform_rotation[1][1] * t1009);
         let t1017 = mul_add(platform_rotation[1][2], t1005, t1016);
-        let t1018 = mul_add(
-            platform_rotation[2][0],
-            t982,
-            platform_rotation[2][1] * t993,
-        );
+        let t1018 = mul_add(platform_rotation[2][0], t982, platform_rotation[2][1] * t993);
         let t1019 = mul_add(platform_rotation[2][2], t971, t1018);
-        let t1020 = mul_add(
-            platform_rotation[2][0],
-            t999,
-            platform_rotation[2][1] * t1001,
-        );
+        let t1020 = mul_add(platform_rotation[2][0], t999, platform_rotation[2][1] * t1001);
         let t1021 = mul_add(platform_rotation[2][2], t997, t1020);
-        let t1022 = mul_add(
-            platform_rotation[2][0],
-            t1007,
-            platform_rotation[2][1] * t1009,
-        );
+        let t1022 = mul_add(platform_rotation[2][0], t1007, platform_rotation[2][1] * t1009);
         let t1023 = mul_add(platform_rotation[2][2], t1005, t1022);
         // mass matrix M_b that couples the base acceleration
         let t1024 = parameters.actuator_axis[5][2] * t378;
@@ -19225,8 +15398,7 @@ pub fn matrices<T: Scalar>(
         mass_matrix_b[0][3] = t1055 - mul_add(base_rotation[0][2], t1070, t1101);
         let t1102 = t660 + mul_sub(t28, t630, t30 * t600);
         let t1103 = mul_add(base_rotation[1][0], t1085, base_rotation[1][1] * t1100);
-        mass_matrix_b[0][4] = t942
-            + (t1102 - mul_add(base_rotation[1][2], t1070, t1103));
+        mass_matrix_b[0][4] = t942 + (t1102 - mul_add(base_rotation[1][2], t1070, t1103));
         let t1104 = t675 + mul_sub(t29, t600, t28 * t615);
         let t1105 = mul_add(base_rotation[2][0], t1085, base_rotation[2][1] * t1100);
         mass_matrix_b[0][5] = t1104 - mul_add(base_rotation[2][2], t1070, t1105) - t940;
@@ -19242,8 +15414,7 @@ pub fn matrices<T: Scalar>(
         let t1115 = mul_add(base_rotation[0][0], t1111, base_rotation[0][1] * t1114);
         mass_matrix_b[1][0] = t678 - mul_add(base_rotation[0][2], t1108, t1115);
         let t1116 = mul_add(base_rotation[1][0], t1111, base_rotation[1][1] * t1114);
-        mass_matrix_b[1][1] = t1052
-            + (t689 - mul_add(base_rotation[1][2], t1108, t1116));
+        mass_matrix_b[1][1] = t1052 + (t689 - mul_add(base_rotation[1][2], t1108, t1116));
         let t1117 = mul_add(base_rotation[2][0], t1111, base_rotation[2][1] * t1114);
         mass_matrix_b[1][2] = t695 - mul_add(base_rotation[2][2], t1108, t1117);
         let t1118 = t701 + mul_sub(t30, t689, t29 * t695);
@@ -19263,8 +15434,7 @@ pub fn matrices<T: Scalar>(
         mass_matrix_b[1][4] = t1129 - mul_add(base_rotation[1][2], t1121, t1130);
         let t1131 = t713 + mul_sub(t29, t678, t28 * t689);
         let t1132 = mul_add(base_rotation[2][0], t1124, base_rotation[2][1] * t1127);
-        mass_matrix_b[1][5] = t938
-            + (t1131 - mul_add(base_rotation[2][2], t1121, t1132));
+        mass_matrix_b[1][5] = t938 + (t1131 - mul_add(base_rotation[2][2], t1121, t1132));
         let t1133 = mul_add(t291, t1027, mul_add(t273, t1028, t282 * t1029));
         let t1134 = mul_add(t309, t1025, mul_add(t300, t1026, t1133));
         let t1135 = mul_add(t318, t1024, t1134);
@@ -19279,8 +15449,7 @@ pub fn matrices<T: Scalar>(
         let t1143 = mul_add(base_rotation[1][0], t1138, base_rotation[1][1] * t1141);
         mass_matrix_b[2][1] = t719 - mul_add(base_rotation[1][2], t1135, t1143);
         let t1144 = mul_add(base_rotation[2][0], t1138, base_rotation[2][1] * t1141);
-        mass_matrix_b[2][2] = t1052
-            + (t730 - mul_add(base_rotation[2][2], t1135, t1144));
+        mass_matrix_b[2][2] = t1052 + (t730 - mul_add(base_rotation[2][2], t1135, t1144));
         let t1145 = t736 + mul_sub(t30, t719, t29 * t730);
         let t1146 = mul_add(t291, t1063, mul_add(t273, t1065, t282 * t1067));
         let t1147 = mul_add(t309, t1059, mul_add(t300, t1061, t1146));
@@ -19292,8 +15461,7 @@ pub fn matrices<T: Scalar>(
         let t1153 = mul_add(t309, t1089, mul_add(t300, t1091, t1152));
         let t1154 = mul_add(t318, t1087, t1153);
         let t1155 = mul_add(base_rotation[0][0], t1151, base_rotation[0][1] * t1154);
-        mass_matrix_b[2][3] = t940
-            + (t1145 - mul_add(base_rotation[0][2], t1148, t1155));
+        mass_matrix_b[2][3] = t940 + (t1145 - mul_add(base_rotation[0][2], t1148, t1155));
         let t1156 = t742 + mul_sub(t28, t730, t30 * t716);
         let t1157 = mul_add(base_rotation[1][0], t1151, base_rotation[1][1] * t1154);
         mass_matrix_b[2][4] = t1156 - mul_add(base_rotation[1][2], t1148, t1157) - t938;
@@ -19327,19 +15495,11 @@ pub fn matrices<T: Scalar>(
         let t1183 = mul_add(parameters.platform_point[3][1], t363, t1182);
         let t1184 = mul_add(parameters.platform_point[4][1], t370, t1183);
         let t1185 = mul_add(parameters.platform_point[5][1], t377, t1184);
-        let t1186 = mul_add(
-            platform_rotation[2][0],
-            t1180,
-            platform_rotation[2][1] * t1185,
-        );
+        let t1186 = mul_add(platform_rotation[2][0], t1180, platform_rotation[2][1] * t1185);
         let t1187 = mul_add(platform_rotation[2][2], t1175, t1186);
         mass_matrix_b[3][1] = t756 - mul_add(base_rotation[1][2], t1162, t1170) - t1187;
         let t1188 = mul_add(base_rotation[2][0], t1165, base_rotation[2][1] * t1168);
-        let t1189 = mul_add(
-            platform_rotation[1][0],
-            t1180,
-            platform_rotation[1][1] * t1185,
-        );
+        let t1189 = mul_add(platform_rotation[1][0], t1180, platform_rotation[1][1] * t1185);
         let t1190 = mul_add(platform_rotation[1][2], t1175, t1189);
         mass_matrix_b[3][2] = t760 - mul_add(base_rotation[2][2], t1162, t1188) + t1190;
         let t1191 = t772 + mul_sub(t30, t756, t29 * t760);
@@ -19355,8 +15515,7 @@ pub fn matrices<T: Scalar>(
         let t1201 = mul_add(base_rotation[0][0], t1197, base_rotation[0][1] * t1200);
         let t1202 = t995 + t1015;
         let t1203 = t1023 + t1202;
-        mass_matrix_b[3][3] = t1191 - mul_add(base_rotation[0][2], t1194, t1201)
-            - (t995 - t1203);
+        mass_matrix_b[3][3] = t1191 - mul_add(base_rotation[0][2], t1194, t1201) - (t995 - t1203);
         let t1204 = t778 + mul_sub(t28, t760, t30 * t752);
         let t1205 = mul_add(base_rotation[1][0], t1197, base_rotation[1][1] * t1200);
         mass_matrix_b[3][4] = t1204 - mul_add(base_rotation[1][2], t1194, t1205) - t1013;
@@ -19373,16 +15532,11 @@ pub fn matrices<T: Scalar>(
         let t1215 = mul_add(t332, t1043, mul_add(t329, t1044, t1214));
         let t1216 = mul_add(t335, t1042, t1215);
         let t1217 = mul_add(base_rotation[0][0], t1213, base_rotation[0][1] * t1216);
-        mass_matrix_b[4][0] = t1187
-            + (t788 - mul_add(base_rotation[0][2], t1210, t1217));
+        mass_matrix_b[4][0] = t1187 + (t788 - mul_add(base_rotation[0][2], t1210, t1217));
         let t1218 = mul_add(base_rotation[1][0], t1213, base_rotation[1][1] * t1216);
         mass_matrix_b[4][1] = t792 - mul_add(base_rotation[1][2], t1210, t1218);
         let t1219 = mul_add(base_rotation[2][0], t1213, base_rotation[2][1] * t1216);
-        let t1220 = mul_add(
-            platform_rotation[0][0],
-            t1180,
-            platform_rotation[0][1] * t1185,
-        );
+        let t1220 = mul_add(platform_rotation[0][0], t1180, platform_rotation[0][1] * t1185);
         let t1221 = mul_add(platform_rotation[0][2], t1175, t1220);
         mass_matrix_b[4][2] = t796 - mul_add(base_rotation[2][2], t1210, t1219) - t1221;
         let t1222 = t800 + mul_sub(t30, t792, t29 * t796);
@@ -19399,8 +15553,7 @@ pub fn matrices<T: Scalar>(
         mass_matrix_b[4][3] = t1222 - mul_add(base_rotation[0][2], t1225, t1232) - t1003;
         let t1233 = t812 + mul_sub(t28, t796, t30 * t788);
         let t1234 = mul_add(base_rotation[1][0], t1228, base_rotation[1][1] * t1231);
-        mass_matrix_b[4][4] = t1233 - mul_add(base_rotation[1][2], t1225, t1234)
-            - (t1015 - t1203);
+        mass_matrix_b[4][4] = t1233 - mul_add(base_rotation[1][2], t1225, t1234) - (t1015 - t1203);
         let t1235 = t818 + mul_sub(t29, t788, t28 * t792);
         let t1236 = mul_add(base_rotation[2][0], t1228, base_rotation[2][1] * t1231);
         mass_matrix_b[4][5] = t1235 - mul_add(base_rotation[2][2], t1225, t1236) - t1021;
@@ -19416,8 +15569,7 @@ pub fn matrices<T: Scalar>(
         let t1246 = mul_add(base_rotation[0][0], t1242, base_rotation[0][1] * t1245);
         mass_matrix_b[5][0] = t822 - mul_add(base_rotation[0][2], t1239, t1246) - t1190;
         let t1247 = mul_add(base_rotation[1][0], t1242, base_rotation[1][1] * t1245);
-        mass_matrix_b[5][1] = t1221
-            + (t826 - mul_add(base_rotation[1][2], t1239, t1247));
+        mass_matrix_b[5][1] = t1221 + (t826 - mul_add(base_rotation[1][2], t1239, t1247));
         let t1248 = mul_add(base_rotation[2][0], t1242, base_rotation[2][1] * t1245);
         mass_matrix_b[5][2] = t830 - mul_add(base_rotation[2][2], t1239, t1248);
         let t1249 = t834 + mul_sub(t30, t826, t29 * t830);
@@ -19437,8 +15589,7 @@ pub fn matrices<T: Scalar>(
         mass_matrix_b[5][4] = t1260 - mul_add(base_rotation[1][2], t1252, t1261) - t1017;
         let t1262 = t845 + mul_sub(t29, t822, t28 * t826);
         let t1263 = mul_add(base_rotation[2][0], t1255, base_rotation[2][1] * t1258);
-        mass_matrix_b[5][5] = t1202
-            + (t1262 - mul_add(base_rotation[2][2], t1252, t1263));
+        mass_matrix_b[5][5] = t1202 + (t1262 - mul_add(base_rotation[2][2], t1252, t1263));
         // angular velocity of the base
         let t1264 = base_rotation[1][0] * base_velocity[4];
         let t1265 = mul_add(base_rotation[0][0], base_velocity[3], t1264);
@@ -19853,138 +16004,17 @@ pub fn matrices<T: Scalar>(
         let t1610 = neg_mul_add(t335, t378, t561);
         let t1611 = neg_mul_add(t336, t378, t562);
         (
-            t938,
-            t940,
-            t942,
-            t943,
-            t944,
-            t945,
-            t946,
-            t947,
-            t948,
-            t949,
-            t950,
-            t951,
-            t952,
-            t953,
-            t954,
-            t955,
-            t956,
-            t957,
-            t958,
-            t959,
-            t960,
-            t995,
-            t1003,
-            t1011,
-            t1013,
-            t1015,
-            t1017,
-            t1019,
-            t1021,
-            t1023,
-            t1266,
-            t1269,
-            t1272,
-            t1285,
-            t1286,
-            t1287,
-            t1368,
-            t1377,
-            t1386,
-            t1395,
-            t1404,
-            t1413,
-            t1421,
-            t1423,
-            t1425,
-            t1433,
-            t1435,
-            t1437,
-            t1445,
-            t1447,
-            t1449,
-            t1457,
-            t1459,
-            t1461,
-            t1469,
-            t1471,
-            t1473,
-            t1481,
-            t1483,
-            t1485,
-            t1505,
-            t1507,
-            t1509,
-            t1511,
-            t1513,
-            t1515,
-            t1517,
-            t1519,
-            t1521,
-            t1523,
-            t1525,
-            t1527,
-            t1529,
-            t1531,
-            t1533,
-            t1535,
-            t1537,
-            t1539,
-            t1542,
-            t1544,
-            t1545,
-            t1546,
-            t1547,
-            t1548,
-            t1549,
-            t1550,
-            t1551,
-            t1554,
-            t1556,
-            t1557,
-            t1558,
-            t1559,
-            t1560,
-            t1561,
-            t1562,
-            t1563,
-            t1566,
-            t1568,
-            t1569,
-            t1570,
-            t1571,
-            t1572,
-            t1573,
-            t1574,
-            t1575,
-            t1578,
-            t1580,
-            t1581,
-            t1582,
-            t1583,
-            t1584,
-            t1585,
-            t1586,
-            t1587,
-            t1590,
-            t1592,
-            t1593,
-            t1594,
-            t1595,
-            t1596,
-            t1597,
-            t1598,
-            t1599,
-            t1602,
-            t1604,
-            t1605,
-            t1606,
-            t1607,
-            t1608,
-            t1609,
-            t1610,
-            t1611,
+            t938, t940, t942, t943, t944, t945, t946, t947, t948, t949, t950, t951, t952, t953,
+            t954, t955, t956, t957, t958, t959, t960, t995, t1003, t1011, t1013, t1015, t1017,
+            t1019, t1021, t1023, t1266, t1269, t1272, t1285, t1286, t1287, t1368, t1377, t1386,
+            t1395, t1404, t1413, t1421, t1423, t1425, t1433, t1435, t1437, t1445, t1447, t1449,
+            t1457, t1459, t1461, t1469, t1471, t1473, t1481, t1483, t1485, t1505, t1507, t1509,
+            t1511, t1513, t1515, t1517, t1519, t1521, t1523, t1525, t1527, t1529, t1531, t1533,
+            t1535, t1537, t1539, t1542, t1544, t1545, t1546, t1547, t1548, t1549, t1550, t1551,
+            t1554, t1556, t1557, t1558, t1559, t1560, t1561, t1562, t1563, t1566, t1568, t1569,
+            t1570, t1571, t1572, t1573, t1574, t1575, t1578, t1580, t1581, t1582, t1583, t1584,
+            t1585, t1586, t1587, t1590, t1592, t1593, t1594, t1595, t1596, t1597, t1598, t1599,
+            t1602, t1604, t1605, t1606, t1607, t1608, t1609, t1610, t1611,
         )
     };
     {
@@ -20560,11 +16590,7 @@ pub fn matrices<T: Scalar>(
         let t2124 = mul_add(t1395, parameters.actuator_axis[3][2] * t952, t2123);
         let t2125 = mul_add(t1404, parameters.actuator_axis[4][2] * t953, t2124);
         let t2126 = mul_add(t1413, parameters.actuator_axis[5][2] * t954, t2125);
-        let t2127 = mul_add(
-            platform_rotation[0][0],
-            t2120,
-            platform_rotation[0][1] * t2126,
-        );
+        let t2127 = mul_add(platform_rotation[0][0], t2120, platform_rotation[0][1] * t2126);
         let t2128 = mul_add(platform_rotation[0][2], t2114, t2127);
         let t2129 = t1377 * (parameters.actuator_axis[1][0] * t956);
         let t2130 = mul_add(t1368, parameters.actuator_axis[0][0] * t955, t2129);
@@ -20584,11 +16610,7 @@ pub fn matrices<T: Scalar>(
         let t2144 = mul_add(t1395, parameters.actuator_axis[3][0] * t952, t2143);
         let t2145 = mul_add(t1404, parameters.actuator_axis[4][0] * t953, t2144);
         let t2146 = mul_add(t1413, parameters.actuator_axis[5][0] * t954, t2145);
-        let t2147 = mul_add(
-            platform_rotation[0][0],
-            t2140,
-            platform_rotation[0][1] * t2146,
-        );
+        let t2147 = mul_add(platform_rotation[0][0], t2140, platform_rotation[0][1] * t2146);
         let t2148 = mul_add(platform_rotation[0][2], t2134, t2147);
         let t2149 = t1377 * (parameters.actuator_axis[1][1] * t956);
         let t2150 = mul_add(t1368, parameters.actuator_axis[0][1] * t955, t2149);
@@ -20608,54 +16630,26 @@ pub fn matrices<T: Scalar>(
         let t2164 = mul_add(t1395, parameters.actuator_axis[3][1] * t952, t2163);
         let t2165 = mul_add(t1404, parameters.actuator_axis[4][1] * t953, t2164);
         let t2166 = mul_add(t1413, parameters.actuator_axis[5][1] * t954, t2165);
-        let t2167 = mul_add(
-            platform_rotation[0][0],
-            t2160,
-            platform_rotation[0][1] * t2166,
-        );
+        let t2167 = mul_add(platform_rotation[0][0], t2160, platform_rotation[0][1] * t2166);
         let t2168 = mul_add(platform_rotation[0][2], t2154, t2167);
         let t2169 = mul_add(base_rotation[0][0], t2148, base_rotation[0][1] * t2168);
         let t2170 = mul_sub(base_velocity[5], t1003, base_velocity[4] * t1011);
         let t2171 = mul_add(base_rotation[0][2], t2128, t2169) + t2170;
-        let t2172 = mul_add(
-            platform_rotation[1][0],
-            t2120,
-            platform_rotation[1][1] * t2126,
-        );
+        let t2172 = mul_add(platform_rotation[1][0], t2120, platform_rotation[1][1] * t2126);
         let t2173 = mul_add(platform_rotation[1][2], t2114, t2172);
-        let t2174 = mul_add(
-            platform_rotation[1][0],
-            t2140,
-            platform_rotation[1][1] * t2146,
-        );
+        let t2174 = mul_add(platform_rotation[1][0], t2140, platform_rotation[1][1] * t2146);
         let t2175 = mul_add(platform_rotation[1][2], t2134, t2174);
-        let t2176 = mul_add(
-            platform_rotation[1][0],
-            t2160,
-            platform_rotation[1][1] * t2166,
-        );
+        let t2176 = mul_add(platform_rotation[1][0], t2160, platform_rotation[1][1] * t2166);
         let t2177 = mul_add(platform_rotation[1][2], t2154, t2176);
         let t2178 = mul_add(base_rotation[1][0], t2175, base_rotation[1][1] * t2177);
         let t2179 = mul_sub(base_velocity[3], t1017, base_velocity[5] * t1013);
         let t2180 = mul_add(base_rotation[1][2], t2173, t2178) + t2179;
         let t2181 = t2171 + t2180;
-        let t2182 = mul_add(
-            platform_rotation[2][0],
-            t2120,
-            platform_rotation[2][1] * t2126,
-        );
+        let t2182 = mul_add(platform_rotation[2][0], t2120, platform_rotation[2][1] * t2126);
         let t2183 = mul_add(platform_rotation[2][2], t2114, t2182);
-        let t2184 = mul_add(
-            platform_rotation[2][0],
-            t2140,
-            platform_rotation[2][1] * t2146,
-        );
+        let t2184 = mul_add(platform_rotation[2][0], t2140, platform_rotation[2][1] * t2146);
         let t2185 = mul_add(platform_rotation[2][2], t2134, t2184);
-        let t2186 = mul_add(
-            platform_rotation[2][0],
-            t2160,
-            platform_rotation[2][1] * t2166,
-        );
+        let t2186 = mul_add(platform_rotation[2][0], t2160, platform_rotation[2][1] * t2166);
         let t2187 = mul_add(platform_rotation[2][2], t2154, t2186);
         let t2188 = mul_add(base_rotation[2][0], t2185, base_rotation[2][1] * t2187);
         let t2189 = mul_sub(base_velocity[4], t1019, base_velocity[3] * t1021);
@@ -20743,18 +16737,10 @@ pub fn matrices<T: Scalar>(
         let t2255 = neg_mul_add(platform_velocity[5], t879, platform_velocity[4] * t881);
         coriolis_matrix_p[3][3] = t2255 - t1893;
         let t2256 = mul_add(t403, c(0.5), t889);
-        let t2257 = neg_mul_add(
-            platform_velocity[5],
-            t2256,
-            platform_velocity[4] * t891,
-        );
+        let t2257 = neg_mul_add(platform_velocity[5], t2256, platform_velocity[4] * t891);
         coriolis_matrix_p[3][4] = t2257 - t1896;
         let t2258 = mul_add(t403, c(0.5), t899);
-        let t2259 = neg_mul_add(
-            platform_velocity[5],
-            t891,
-            platform_velocity[4] * t2258,
-        );
+        let t2259 = neg_mul_add(platform_velocity[5], t891, platform_velocity[4] * t2258);
         coriolis_matrix_p[3][5] = t2259 - t1899;
         let t2260 = mul_add(t403, c(0.5), t877);
         let t2261 = mul_sub(platform_velocity[5], t2260, platform_velocity[3] * t881);
@@ -20763,17 +16749,9 @@ pub fn matrices<T: Scalar>(
         coriolis_matrix_p[4][4] = mul_sub(platform_velocity[5], t879, t2262) - t1905;
         let t2263 = mul_sub(platform_velocity[5], t881, platform_velocity[3] * t2258);
         coriolis_matrix_p[4][5] = t2263 - t1908;
-        let t2264 = neg_mul_add(
-            platform_velocity[4],
-            t2260,
-            platform_velocity[3] * t879,
-        );
+        let t2264 = neg_mul_add(platform_velocity[4], t2260, platform_velocity[3] * t879);
         coriolis_matrix_p[5][3] = t2264 - t1911;
-        let t2265 = neg_mul_add(
-            platform_velocity[4],
-            t879,
-            platform_velocity[3] * t2256,
-        );
+        let t2265 = neg_mul_add(platform_velocity[4], t879, platform_velocity[3] * t2256);
         coriolis_matrix_p[5][4] = t2265 - t1914;
         coriolis_matrix_p[5][5] = neg_mul_add(platform_velocity[4], t881, t2262) - t1917;
         // leg 1: actuator Jacobian of the base
@@ -21621,105 +17599,13 @@ pub fn bias<T: Scalar>(
 ) {
     let c = T::constant;
     let (
-        t3,
-        t6,
-        t9,
-        t12,
-        t15,
-        t18,
-        t21,
-        t24,
-        t27,
-        t175,
-        t176,
-        t177,
-        t178,
-        t179,
-        t180,
-        t181,
-        t182,
-        t183,
-        t184,
-        t185,
-        t186,
-        t187,
-        t188,
-        t189,
-        t190,
-        t191,
-        t192,
-        t237,
-        t244,
-        t251,
-        t265,
-        t276,
-        t287,
-        t299,
-        t310,
-        t322,
-        t475,
-        t478,
-        t481,
-        t491,
-        t494,
-        t497,
-        t499,
-        t501,
-        t503,
-        t504,
-        t505,
-        t506,
-        t669,
-        t670,
-        t671,
-        t672,
-        t718,
-        t719,
-        t720,
-        t721,
-        t767,
-        t768,
-        t769,
-        t770,
-        t816,
-        t817,
-        t818,
-        t819,
-        t865,
-        t866,
-        t867,
-        t868,
-        t914,
-        t915,
-        t916,
-        t917,
-        t920,
-        t923,
-        t926,
-        t929,
-        t932,
-        t935,
-        t936,
-        t937,
-        t938,
-        t939,
-        t940,
-        t941,
-        t942,
-        t943,
-        t944,
-        t945,
-        t946,
-        t947,
-        t948,
-        t949,
-        t950,
-        t951,
-        t952,
-        t953,
-        t958,
-        t963,
-        t968,
+        t3, t6, t9, t12, t15, t18, t21, t24, t27, t175, t176, t177, t178, t179, t180, t181, t182,
+        t183, t184, t185, t186, t187, t188, t189, t190, t191, t192, t237, t244, t251, t265, t276,
+        t287, t299, t310, t322, t475, t478, t481, t491, t494, t497, t499, t501, t503, t504, t505,
+        t506, t669, t670, t671, t672, t718, t719, t720, t721, t767, t768, t769, t770, t816, t817,
+        t818, t819, t865, t866, t867, t868, t914, t915, t916, t917, t920, t923, t926, t929, t932,
+        t935, t936, t937, t938, t939, t940, t941, t942, t943, t944, t945, t946, t947, t948, t949,
+        t950, t951, t952, t953, t958, t963, t968,
     ) = {
         // rotation of the platform seen from the base
         let t1 = base_rotation[1][0] * platform_rotation[1][0];
@@ -21853,9 +17739,7 @@ pub fn bias<T: Scalar>(
         // leg 1: extent of the rod along the actuator axis
         let t115 = parameters.rod_length[0] * parameters.rod_length[0];
         let t116 = mul_add(t114, t114, mul_add(t112, t112, t113 * t113));
-        let t117 = sqrt(
-            mul_sub(parameters.rod_length[0], parameters.rod_length[0], t116),
-        );
+        let t117 = sqrt(mul_sub(parameters.rod_length[0], parameters.rod_length[0], t116));
         // leg 1: reciprocal of that extent
         let t118 = c(1.0) / t117;
         // leg 1: actuator length d
@@ -21870,9 +17754,7 @@ pub fn bias<T: Scalar>(
         // leg 2: extent of the rod along the actuator axis
         let t126 = parameters.rod_length[1] * parameters.rod_length[1];
         let t127 = mul_add(t125, t125, mul_add(t123, t123, t124 * t124));
-        let t128 = sqrt(
-            mul_sub(parameters.rod_length[1], parameters.rod_length[1], t127),
-        );
+        let t128 = sqrt(mul_sub(parameters.rod_length[1], parameters.rod_length[1], t127));
         // leg 2: reciprocal of that extent
         let t129 = c(1.0) / t128;
         // leg 2: actuator length d
@@ -21887,9 +17769,7 @@ pub fn bias<T: Scalar>(
         // leg 3: extent of the rod along the actuator axis
         let t137 = parameters.rod_length[2] * parameters.rod_length[2];
         let t138 = mul_add(t136, t136, mul_add(t134, t134, t135 * t135));
-        let t139 = sqrt(
-            mul_sub(parameters.rod_length[2], parameters.rod_length[2], t138),
-        );
+        let t139 = sqrt(mul_sub(parameters.rod_length[2], parameters.rod_length[2], t138));
         // leg 3: reciprocal of that extent
         let t140 = c(1.0) / t139;
         // leg 3: actuator length d
@@ -21904,9 +17784,7 @@ pub fn bias<T: Scalar>(
         // leg 4: extent of the rod along the actuator axis
         let t148 = parameters.rod_length[3] * parameters.rod_length[3];
         let t149 = mul_add(t147, t147, mul_add(t145, t145, t146 * t146));
-        let t150 = sqrt(
-            mul_sub(parameters.rod_length[3], parameters.rod_length[3], t149),
-        );
+        let t150 = sqrt(mul_sub(parameters.rod_length[3], parameters.rod_length[3], t149));
         // leg 4: reciprocal of that extent
         let t151 = c(1.0) / t150;
         // leg 4: actuator length d
@@ -21921,9 +17799,7 @@ pub fn bias<T: Scalar>(
         // leg 5: extent of the rod along the actuator axis
         let t159 = parameters.rod_length[4] * parameters.rod_length[4];
         let t160 = mul_add(t158, t158, mul_add(t156, t156, t157 * t157));
-        let t161 = sqrt(
-            mul_sub(parameters.rod_length[4], parameters.rod_length[4], t160),
-        );
+        let t161 = sqrt(mul_sub(parameters.rod_length[4], parameters.rod_length[4], t160));
         // leg 5: reciprocal of that extent
         let t162 = c(1.0) / t161;
         // leg 5: actuator length d
@@ -21938,9 +17814,7 @@ pub fn bias<T: Scalar>(
         // leg 6: extent of the rod along the actuator axis
         let t170 = parameters.rod_length[5] * parameters.rod_length[5];
         let t171 = mul_add(t169, t169, mul_add(t167, t167, t168 * t168));
-        let t172 = sqrt(
-            mul_sub(parameters.rod_length[5], parameters.rod_length[5], t171),
-        );
+        let t172 = sqrt(mul_sub(parameters.rod_length[5], parameters.rod_length[5], t171));
         // leg 6: reciprocal of that extent
         let t173 = c(1.0) / t172;
         // leg 6: actuator length d
@@ -22070,11 +17944,7 @@ pub fn bias<T: Scalar>(
         let t270 = parameters.platform_point[1][0] * parameters.platform_point[1][1];
         let t271 = parameters.platform_point[0][0] * parameters.platform_point[0][1];
         let t272 = parameters.payload_com[0] * parameters.payload_com[1];
-        let t273 = neg_mul_add(
-            parameters.payload_mass,
-            t272,
-            parameters.payload_inertia[0][1],
-        );
+        let t273 = neg_mul_add(parameters.payload_mass, t272, parameters.payload_inertia[0][1]);
         let t274 = neg_mul_add(t203, t270, neg_mul_add(t197, t271, t273));
         let t275 = neg_mul_add(t215, t268, neg_mul_add(t209, t269, t274));
         let t276 = neg_mul_add(t227, t266, neg_mul_add(t221, t267, t275));
@@ -22085,11 +17955,7 @@ pub fn bias<T: Scalar>(
         let t281 = parameters.platform_point[1][0] * parameters.platform_point[1][2];
         let t282 = parameters.platform_point[0][0] * parameters.platform_point[0][2];
         let t283 = parameters.payload_com[0] * parameters.payload_com[2];
-        let t284 = neg_mul_add(
-            parameters.payload_mass,
-            t283,
-            parameters.payload_inertia[0][2],
-        );
+        let t284 = neg_mul_add(parameters.payload_mass, t283, parameters.payload_inertia[0][2]);
         let t285 = neg_mul_add(t203, t281, neg_mul_add(t197, t282, t284));
         let t286 = neg_mul_add(t215, t279, neg_mul_add(t209, t280, t285));
         let t287 = neg_mul_add(t227, t277, neg_mul_add(t221, t278, t286));
@@ -22112,11 +17978,7 @@ pub fn bias<T: Scalar>(
         let t304 = parameters.platform_point[1][1] * parameters.platform_point[1][2];
         let t305 = parameters.platform_point[0][1] * parameters.platform_point[0][2];
         let t306 = parameters.payload_com[1] * parameters.payload_com[2];
-        let t307 = neg_mul_add(
-            parameters.payload_mass,
-            t306,
-            parameters.payload_inertia[1][2],
-        );
+        let t307 = neg_mul_add(parameters.payload_mass, t306, parameters.payload_inertia[1][2]);
         let t308 = neg_mul_add(t203, t304, neg_mul_add(t197, t305, t307));
         let t309 = neg_mul_add(t215, t302, neg_mul_add(t209, t303, t308));
         let t310 = neg_mul_add(t227, t300, neg_mul_add(t221, t301, t309));
@@ -22483,21 +18345,9 @@ pub fn bias<T: Scalar>(
         let t624 = c(2.0) * t427;
         let t625 = parameters.actuator_axis[0][1] * t331;
         let t626 = mul_sub(parameters.actuator_axis[0][2], t328, t625);
-        let t627 = neg_mul_add(
-            parameters.actuator_axis[0][2],
-            t119,
-            parameters.base_point[0][2],
-        );
-        let t628 = neg_mul_add(
-            parameters.actuator_axis[0][0],
-            t119,
-            parameters.base_point[0][0],
-        );
-        let t629 = neg_mul_add(
-            parameters.actuator_axis[0][1],
-            t119,
-            parameters.base_point[0][1],
-        );
+        let t627 = neg_mul_add(parameters.actuator_axis[0][2], t119, parameters.base_point[0][2]);
+        let t628 = neg_mul_add(parameters.actuator_axis[0][0], t119, parameters.base_point[0][0]);
+        let t629 = neg_mul_add(parameters.actuator_axis[0][1], t119, parameters.base_point[0][1]);
         let t630 = neg_mul_add(t484, t627, mul_sub(t482, t628, t483 * t629));
         let t631 = mul_add(t624, t626, t475 + t630);
         let t632 = mul_add(parameters.actuator_axis[0][0], t593, t631);
@@ -22546,21 +18396,9 @@ pub fn bias<T: Scalar>(
         let t673 = c(2.0) * t436;
         let t674 = parameters.actuator_axis[1][1] * t331;
         let t675 = mul_sub(parameters.actuator_axis[1][2], t328, t674);
-        let t676 = neg_mul_add(
-            parameters.actuator_axis[1][2],
-            t130,
-            parameters.base_point[1][2],
-        );
-        let t677 = neg_mul_add(
-            parameters.actuator_axis[1][0],
-            t130,
-            parameters.base_point[1][0],
-        );
-        let t678 = neg_mul_add(
-            parameters.actuator_axis[1][1],
-            t130,
-            parameters.base_point[1][1],
-        );
+        let t676 = neg_mul_add(parameters.actuator_axis[1][2], t130, parameters.base_point[1][2]);
+        let t677 = neg_mul_add(parameters.actuator_axis[1][0], t130, parameters.base_point[1][0]);
+        let t678 = neg_mul_add(parameters.actuator_axis[1][1], t130, parameters.base_point[1][1]);
         let t679 = neg_mul_add(t484, t676, mul_sub(t482, t677, t483 * t678));
         let t680 = mul_add(t673, t675, t475 + t679);
         let t681 = mul_add(parameters.actuator_axis[1][0], t599, t680);
@@ -22609,21 +18447,9 @@ pub fn bias<T: Scalar>(
         let t722 = c(2.0) * t445;
         let t723 = parameters.actuator_axis[2][1] * t331;
         let t724 = mul_sub(parameters.actuator_axis[2][2], t328, t723);
-        let t725 = neg_mul_add(
-            parameters.actuator_axis[2][2],
-            t141,
-            parameters.base_point[2][2],
-        );
-        let t726 = neg_mul_add(
-            parameters.actuator_axis[2][0],
-            t141,
-            parameters.base_point[2][0],
-        );
-        let t727 = neg_mul_add(
-            parameters.actuator_axis[2][1],
-            t141,
-            parameters.base_point[2][1],
-        );
+        let t725 = neg_mul_add(parameters.actuator_axis[2][2], t141, parameters.base_point[2][2]);
+        let t726 = neg_mul_add(parameters.actuator_axis[2][0], t141, parameters.base_point[2][0]);
+        let t727 = neg_mul_add(parameters.actuator_axis[2][1], t141, parameters.base_point[2][1]);
         let t728 = neg_mul_add(t484, t725, mul_sub(t482, t726, t483 * t727));
         let t729 = mul_add(t722, t724, t475 + t728);
         let t730 = mul_add(parameters.actuator_axis[2][0], t605, t729);
@@ -22672,21 +18498,9 @@ pub fn bias<T: Scalar>(
         let t771 = c(2.0) * t454;
         let t772 = parameters.actuator_axis[3][1] * t331;
         let t773 = mul_sub(parameters.actuator_axis[3][2], t328, t772);
-        let t774 = neg_mul_add(
-            parameters.actuator_axis[3][2],
-            t152,
-            parameters.base_point[3][2],
-        );
-        let t775 = neg_mul_add(
-            parameters.actuator_axis[3][0],
-            t152,
-            parameters.base_point[3][0],
-        );
-        let t776 = neg_mul_add(
-            parameters.actuator_axis[3][1],
-            t152,
-            parameters.base_point[3][1],
-        );
+        let t774 = neg_mul_add(parameters.actuator_axis[3][2], t152, parameters.base_point[3][2]);
+        let t775 = neg_mul_add(parameters.actuator_axis[3][0], t152, parameters.base_point[3][0]);
+        let t776 = neg_mul_add(parameters.actuator_axis[3][1], t152, parameters.base_point[3][1]);
         let t777 = neg_mul_add(t484, t774, mul_sub(t482, t775, t483 * t776));
         let t778 = mul_add(t771, t773, t475 + t777);
         let t779 = mul_add(parameters.actuator_axis[3][0], t611, t778);
@@ -22735,21 +18549,9 @@ pub fn bias<T: Scalar>(
         let t820 = c(2.0) * t463;
         let t821 = parameters.actuator_axis[4][1] * t331;
         let t822 = mul_sub(parameters.actuator_axis[4][2], t328, t821);
-        let t823 = neg_mul_add(
-            parameters.actuator_axis[4][2],
-            t163,
-            parameters.base_point[4][2],
-        );
-        let t824 = neg_mul_add(
-            parameters.actuator_axis[4][0],
-            t163,
-            parameters.base_point[4][0],
-        );
-        let t825 = neg_mul_add(
-            parameters.actuator_axis[4][1],
-            t163,
-            parameters.base_point[4][1],
-        );
+        let t823 = neg_mul_add(parameters.actuator_axis[4][2], t163, parameters.base_point[4][2]);
+        let t824 = neg_mul_add(parameters.actuator_axis[4][0], t163, parameters.base_point[4][0]);
+        let t825 = neg_mul_add(parameters.actuator_axis[4][1], t163, parameters.base_point[4][1]);
         let t826 = neg_mul_add(t484, t823, mul_sub(t482, t824, t483 * t825));
         let t827 = mul_add(t820, t822, t475 + t826);
         let t828 = mul_add(parameters.actuator_axis[4][0], t617, t827);
@@ -22798,21 +18600,9 @@ pub fn bias<T: Scalar>(
         let t869 = c(2.0) * t472;
         let t870 = parameters.actuator_axis[5][1] * t331;
         let t871 = mul_sub(parameters.actuator_axis[5][2], t328, t870);
-        let t872 = neg_mul_add(
-            parameters.actuator_axis[5][2],
-            t174,
-            parameters.base_point[5][2],
-        );
-        let t873 = neg_mul_add(
-            parameters.actuator_axis[5][0],
-            t174,
-            parameters.base_point[5][0],
-        );
-        let t874 = neg_mul_add(
-            parameters.actuator_axis[5][1],
-            t174,
-            parameters.base_point[5][1],
-        );
+        let t872 = neg_mul_add(parameters.actuator_axis[5][2], t174, parameters.base_point[5][2]);
+        let t873 = neg_mul_add(parameters.actuator_axis[5][0], t174, parameters.base_point[5][0]);
+        let t874 = neg_mul_add(parameters.actuator_axis[5][1], t174, parameters.base_point[5][1]);
         let t875 = neg_mul_add(t484, t872, mul_sub(t482, t873, t483 * t874));
         let t876 = mul_add(t869, t871, t475 + t875);
         let t877 = mul_add(parameters.actuator_axis[5][0], t623, t876);
@@ -22922,105 +18712,13 @@ pub fn bias<T: Scalar>(
         let t967 = mul_add(t222, t838, mul_add(t216, t789, t966));
         let t968 = mul_add(t228, t887, t967);
         (
-            t3,
-            t6,
-            t9,
-            t12,
-            t15,
-            t18,
-            t21,
-            t24,
-            t27,
-            t175,
-            t176,
-            t177,
-            t178,
-            t179,
-            t180,
-            t181,
-            t182,
-            t183,
-            t184,
-            t185,
-            t186,
-            t187,
-            t188,
-            t189,
-            t190,
-            t191,
-            t192,
-            t237,
-            t244,
-            t251,
-            t265,
-            t276,
-            t287,
-            t299,
-            t310,
-            t322,
-            t475,
-            t478,
-            t481,
-            t491,
-            t494,
-            t497,
-            t499,
-            t501,
-            t503,
-            t504,
-            t505,
-            t506,
-            t669,
-            t670,
-            t671,
-            t672,
-            t718,
-            t719,
-            t720,
-            t721,
-            t767,
-            t768,
-            t769,
-            t770,
-            t816,
-            t817,
-            t818,
-            t819,
-            t865,
-            t866,
-            t867,
-            t868,
-            t914,
-            t915,
-            t916,
-            t917,
-            t920,
-            t923,
-            t926,
-            t929,
-            t932,
-            t935,
-            t936,
-            t937,
-            t938,
-            t939,
-            t940,
-            t941,
-            t942,
-            t943,
-            t944,
-            t945,
-            t946,
-            t947,
-            t948,
-            t949,
-            t950,
-            t951,
-            t952,
-            t953,
-            t958,
-            t963,
-            t968,
+            t3, t6, t9, t12, t15, t18, t21, t24, t27, t175, t176, t177, t178, t179, t180, t181,
+            t182, t183, t184, t185, t186, t187, t188, t189, t190, t191, t192, t237, t244, t251,
+            t265, t276, t287, t299, t310, t322, t475, t478, t481, t491, t494, t497, t499, t501,
+            t503, t504, t505, t506, t669, t670, t671, t672, t718, t719, t720, t721, t767, t768,
+            t769, t770, t816, t817, t818, t819, t865, t866, t867, t868, t914, t915, t916, t917,
+            t920, t923, t926, t929, t932, t935, t936, t937, t938, t939, t940, t941, t942, t943,
+            t944, t945, t946, t947, t948, t949, t950, t951, t952, t953, t958, t963, t968,
         )
     };
     {
@@ -23202,353 +18900,29 @@ pub fn equation_of_motion<T: Scalar>(
 ) {
     let c = T::constant;
     let (
-        t3,
-        t6,
-        t9,
-        t12,
-        t15,
-        t18,
-        t21,
-        t24,
-        t27,
-        t28,
-        t29,
-        t30,
-        t32,
-        t34,
-        t36,
-        t48,
-        t51,
-        t54,
-        t69,
-        t72,
-        t75,
-        t90,
-        t93,
-        t96,
-        t111,
-        t114,
-        t117,
-        t132,
-        t135,
-        t138,
-        t153,
-        t156,
-        t159,
-        t166,
-        t167,
-        t168,
-        t172,
-        t173,
-        t177,
-        t178,
-        t179,
-        t183,
-        t184,
-        t188,
-        t189,
-        t190,
-        t194,
-        t195,
-        t199,
-        t200,
-        t201,
-        t205,
-        t206,
-        t210,
-        t211,
-        t212,
-        t216,
-        t217,
-        t221,
-        t222,
-        t223,
-        t227,
-        t228,
-        t229,
-        t230,
-        t231,
-        t232,
-        t233,
-        t234,
-        t235,
-        t236,
-        t237,
-        t238,
-        t239,
-        t240,
-        t241,
-        t242,
-        t243,
-        t244,
-        t245,
-        t246,
-        t247,
-        t248,
-        t249,
-        t250,
-        t251,
-        t252,
-        t253,
-        t254,
-        t255,
-        t256,
-        t257,
-        t258,
-        t259,
-        t260,
-        t261,
-        t262,
-        t263,
-        t264,
-        t269,
-        t271,
-        t273,
-        t278,
-        t280,
-        t282,
-        t287,
-        t289,
-        t291,
-        t296,
-        t298,
-        t300,
-        t305,
-        t307,
-        t309,
-        t314,
-        t316,
-        t318,
-        t319,
-        t320,
-        t321,
-        t322,
-        t323,
-        t324,
-        t325,
-        t326,
-        t327,
-        t328,
-        t329,
-        t330,
-        t331,
-        t332,
-        t333,
-        t334,
-        t335,
-        t336,
-        t337,
-        t338,
-        t339,
-        t340,
-        t341,
-        t342,
-        t343,
-        t344,
-        t345,
-        t346,
-        t347,
-        t348,
-        t349,
-        t350,
-        t351,
-        t352,
-        t353,
-        t354,
-        t355,
-        t358,
-        t360,
-        t361,
-        t362,
-        t365,
-        t367,
-        t368,
-        t369,
-        t372,
-        t374,
-        t375,
-        t376,
-        t379,
-        t381,
-        t382,
-        t383,
-        t386,
-        t388,
-        t389,
-        t390,
-        t393,
-        t395,
-        t396,
-        t398,
-        t405,
-        t412,
-        t419,
-        t421,
-        t433,
-        t444,
-        t455,
-        t467,
-        t478,
-        t490,
-        t493,
-        t494,
-        t497,
-        t498,
-        t501,
-        t502,
-        t503,
-        t504,
-        t505,
-        t508,
-        t509,
-        t512,
-        t513,
-        t516,
-        t517,
-        t518,
-        t519,
-        t520,
-        t523,
-        t524,
-        t527,
-        t528,
-        t531,
-        t532,
-        t533,
-        t534,
-        t535,
-        t538,
-        t539,
-        t542,
-        t543,
-        t546,
-        t547,
-        t548,
-        t549,
-        t550,
-        t553,
-        t554,
-        t557,
-        t558,
-        t561,
-        t562,
-        t563,
-        t564,
-        t565,
-        t568,
-        t569,
-        t572,
-        t573,
-        t576,
-        t577,
-        t578,
-        t579,
-        t580,
-        t581,
-        t582,
-        t583,
-        t584,
-        t585,
-        t586,
-        t587,
-        t588,
-        t589,
-        t590,
-        t591,
-        t592,
-        t593,
-        t594,
-        t595,
-        t596,
-        t597,
-        t598,
-        t599,
-        t600,
-        t601,
-        t602,
-        t603,
-        t604,
-        t615,
-        t618,
-        t629,
-        t633,
-        t644,
-        t648,
-        t659,
-        t663,
-        t674,
-        t678,
-        t689,
-        t693,
-        t695,
-        t696,
-        t697,
-        t698,
-        t699,
-        t700,
-        t701,
-        t702,
-        t704,
-        t707,
-        t709,
-        t713,
-        t715,
-        t719,
-        t721,
-        t725,
-        t727,
-        t731,
-        t733,
-        t734,
-        t736,
-        t737,
-        t738,
-        t739,
-        t740,
-        t741,
-        t742,
-        t743,
-        t745,
-        t748,
-        t750,
-        t754,
-        t756,
-        t760,
-        t762,
-        t766,
-        t770,
-        t774,
-        t778,
-        t781,
-        t790,
-        t796,
-        t802,
-        t806,
-        t810,
-        t814,
-        t818,
-        t821,
-        t830,
-        t836,
-        t840,
-        t844,
-        t848,
-        t852,
-        t856,
-        t859,
-        t863,
-        t864,
-        t865,
-        t866,
-        t867,
-        t868,
-        t869,
-        t870,
-        t871,
-        t872,
-        t873,
-        t874,
-        t875,
+        t3, t6, t9, t12, t15, t18, t21, t24, t27, t28, t29, t30, t32, t34, t36, t48, t51, t54, t69,
+        t72, t75, t90, t93, t96, t111, t114, t117, t132, t135, t138, t153, t156, t159, t166, t167,
+        t168, t172, t173, t177, t178, t179, t183, t184, t188, t189, t190, t194, t195, t199, t200,
+        t201, t205, t206, t210, t211, t212, t216, t217, t221, t222, t223, t227, t228, t229, t230,
+        t231, t232, t233, t234, t235, t236, t237, t238, t239, t240, t241, t242, t243, t244, t245,
+        t246, t247, t248, t249, t250, t251, t252, t253, t254, t255, t256, t257, t258, t259, t260,
+        t261, t262, t263, t264, t269, t271, t273, t278, t280, t282, t287, t289, t291, t296, t298,
+        t300, t305, t307, t309, t314, t316, t318, t319, t320, t321, t322, t323, t324, t325, t326,
+        t327, t328, t329, t330, t331, t332, t333, t334, t335, t336, t337, t338, t339, t340, t341,
+        t342, t343, t344, t345, t346, t347, t348, t349, t350, t351, t352, t353, t354, t355, t358,
+        t360, t361, t362, t365, t367, t368, t369, t372, t374, t375, t376, t379, t381, t382, t383,
+        t386, t388, t389, t390, t393, t395, t396, t398, t405, t412, t419, t421, t433, t444, t455,
+        t467, t478, t490, t493, t494, t497, t498, t501, t502, t503, t504, t505, t508, t509, t512,
+        t513, t516, t517, t518, t519, t520, t523, t524, t527, t528, t531, t532, t533, t534, t535,
+        t538, t539, t542, t543, t546, t547, t548, t549, t550, t553, t554, t557, t558, t561, t562,
+        t563, t564, t565, t568, t569, t572, t573, t576, t577, t578, t579, t580, t581, t582, t583,
+        t584, t585, t586, t587, t588, t589, t590, t591, t592, t593, t594, t595, t596, t597, t598,
+        t599, t600, t601, t602, t603, t604, t615, t618, t629, t633, t644, t648, t659, t663, t674,
+        t678, t689, t693, t695, t696, t697, t698, t699, t700, t701, t702, t704, t707, t709, t713,
+        t715, t719, t721, t725, t727, t731, t733, t734, t736, t737, t738, t739, t740, t741, t742,
+        t743, t745, t748, t750, t754, t756, t760, t762, t766, t770, t774, t778, t781, t790, t796,
+        t802, t806, t810, t814, t818, t821, t830, t836, t840, t844, t848, t852, t856, t859, t863,
+        t864, t865, t866, t867, t868, t869, t870, t871, t872, t873, t874, t875,
     ) = {
         // rotation of the platform seen from the base
         let t1 = base_rotation[1][0] * platform_rotation[1][0];
@@ -23668,38 +19042,14 @@ pub fn equation_of_motion<T: Scalar>(
         let t107 = mul_add(parameters.platform_point[3][0], t21, t106);
         let t108 = mul_add(parameters.platform_point[3][2], t27, t107);
         let t109 = platform_rotation[0][1] * parameters.platform_point[3][1];
-        let t110 = mul_add(
-            platform_rotation[0][0],
-            parameters.platform_point[3][0],
-            t109,
-        );
-        let t111 = mul_add(
-            platform_rotation[0][2],
-            parameters.platform_point[3][2],
-            t110,
-        );
+        let t110 = mul_add(platform_rotation[0][0], parameters.platform_point[3][0], t109);
+        let t111 = mul_add(platform_rotation[0][2], parameters.platform_point[3][2], t110);
         let t112 = platform_rotation[1][1] * parameters.platform_point[3][1];
-        let t113 = mul_add(
-            platform_rotation[1][0],
-            parameters.platform_point[3][0],
-            t112,
-        );
-        let t114 = mul_add(
-            platform_rotation[1][2],
-            parameters.platform_point[3][2],
-            t113,
-        );
+        let t113 = mul_add(platform_rotation[1][0], parameters.platform_point[3][0], t112);
+        let t114 = mul_add(platform_rotation[1][2], parameters.platform_point[3][2], t113);
         let t115 = platform_rotation[2][1] * parameters.platform_point[3][1];
-        let t116 = mul_add(
-            platform_rotation[2][0],
-            parameters.platform_point[3][0],
-            t115,
-        );
-        let t117 = mul_add(
-            platform_rotation[2][2],
-            parameters.platform_point[3][2],
-            t116,
-        );
+        let t116 = mul_add(platform_rotation[2][0], parameters.platform_point[3][0], t115);
+        let t117 = mul_add(platform_rotation[2][2], parameters.platform_point[3][2], t116);
         // leg 4: platform joint from the base point
         let t118 = parameters.base_point[3][0] + (t32 - t102);
         let t119 = parameters.base_point[3][1] + (t34 - t105);
@@ -23715,38 +19065,14 @@ pub fn equation_of_motion<T: Scalar>(
         let t128 = mul_add(parameters.platform_point[4][0], t21, t127);
         let t129 = mul_add(parameters.platform_point[4][2], t27, t128);
         let t130 = platform_rotation[0][1] * parameters.platform_point[4][1];
-        let t131 = mul_add(
-            platform_rotation[0][0],
-            parameters.platform_point[4][0],
-            t130,
-        );
-        let t132 = mul_add(
-            platform_rotation[0][2],
-            parameters.platform_point[4][2],
-            t131,
-        );
+        let t131 = mul_add(platform_rotation[0][0], parameters.platform_point[4][0], t130);
+        let t132 = mul_add(platform_rotation[0][2], parameters.platform_point[4][2], t131);
         let t133 = platform_rotation[1][1] * parameters.platform_point[4][1];
-        let t134 = mul_add(
-            platform_rotation[1][0],
-            parameters.platform_point[4][0],
-            t133,
-        );
-        let t135 = mul_add(
-            platform_rotation[1][2],
-            parameters.platform_point[4][2],
-            t134,
-        );
+        let t134 = mul_add(platform_rotation[1][0], parameters.platform_point[4][0], t133);
+        let t135 = mul_add(platform_rotation[1][2], parameters.platform_point[4][2], t134);
         let t136 = platform_rotation[2][1] * parameters.platform_point[4][1];
-        let t137 = mul_add(
-            platform_rotation[2][0],
-            parameters.platform_point[4][0],
-            t136,
-        );
-        let t138 = mul_add(
-            platform_rotation[2][2],
-            parameters.platform_point[4][2],
-            t137,
-        );
+        let t137 = mul_add(platform_rotation[2][0], parameters.platform_point[4][0], t136);
+        let t138 = mul_add(platform_rotation[2][2], parameters.platform_point[4][2], t137);
         // leg 5: platform joint from the base point
         let t139 = parameters.base_point[4][0] + (t32 - t123);
         let t140 = parameters.base_point[4][1] + (t34 - t126);
@@ -23762,38 +19088,14 @@ pub fn equation_of_motion<T: Scalar>(
         let t149 = mul_add(parameters.platform_point[5][0], t21, t148);
         let t150 = mul_add(parameters.platform_point[5][2], t27, t149);
         let t151 = platform_rotation[0][1] * parameters.platform_point[5][1];
-        let t152 = mul_add(
-            platform_rotation[0][0],
-            parameters.platform_point[5][0],
-            t151,
-        );
-        let t153 = mul_add(
-            platform_rotation[0][2],
-            parameters.platform_point[5][2],
-            t152,
-        );
+        let t152 = mul_add(platform_rotation[0][0], parameters.platform_point[5][0], t151);
+        let t153 = mul_add(platform_rotation[0][2], parameters.platform_point[5][2], t152);
         let t154 = platform_rotation[1][1] * parameters.platform_point[5][1];
-        let t155 = mul_add(
-            platform_rotation[1][0],
-            parameters.platform_point[5][0],
-            t154,
-        );
-        let t156 = mul_add(
-            platform_rotation[1][2],
-            parameters.platform_point[5][2],
-            t155,
-        );
+        let t155 = mul_add(platform_rotation[1][0], parameters.platform_point[5][0], t154);
+        let t156 = mul_add(platform_rotation[1][2], parameters.platform_point[5][2], t155);
         let t157 = platform_rotation[2][1] * parameters.platform_point[5][1];
-        let t158 = mul_add(
-            platform_rotation[2][0],
-            parameters.platform_point[5][0],
-            t157,
-        );
-        let t159 = mul_add(
-            platform_rotation[2][2],
-            parameters.platform_point[5][2],
-            t158,
-        );
+        let t158 = mul_add(platform_rotation[2][0], parameters.platform_point[5][0], t157);
+        let t159 = mul_add(platform_rotation[2][2], parameters.platform_point[5][2], t158);
         // leg 6: platform joint from the base point
         let t160 = parameters.base_point[5][0] + (t32 - t144);
         let t161 = parameters.base_point[5][1] + (t34 - t147);
@@ -23808,9 +19110,7 @@ pub fn equation_of_motion<T: Scalar>(
         // leg 1: extent of the rod along the actuator axis
         let t169 = parameters.rod_length[0] * parameters.rod_length[0];
         let t170 = mul_add(t168, t168, mul_add(t166, t166, t167 * t167));
-        let t171 = sqrt(
-            mul_sub(parameters.rod_length[0], parameters.rod_length[0], t170),
-        );
+        let t171 = sqrt(mul_sub(parameters.rod_length[0], parameters.rod_length[0], t170));
         // leg 1: reciprocal of that extent
         let t172 = c(1.0) / t171;
         // leg 1: actuator length d
@@ -23825,9 +19125,7 @@ pub fn equation_of_motion<T: Scalar>(
         // leg 2: extent of the rod along the actuator axis
         let t180 = parameters.rod_length[1] * parameters.rod_length[1];
         let t181 = mul_add(t179, t179, mul_add(t177, t177, t178 * t178));
-        let t182 = sqrt(
-            mul_sub(parameters.rod_length[1], parameters.rod_length[1], t181),
-        );
+        let t182 = sqrt(mul_sub(parameters.rod_length[1], parameters.rod_length[1], t181));
         // leg 2: reciprocal of that extent
         let t183 = c(1.0) / t182;
         // leg 2: actuator length d
@@ -23842,9 +19140,7 @@ pub fn equation_of_motion<T: Scalar>(
         // leg 3: extent of the rod along the actuator axis
         let t191 = parameters.rod_length[2] * parameters.rod_length[2];
         let t192 = mul_add(t190, t190, mul_add(t188, t188, t189 * t189));
-        let t193 = sqrt(
-            mul_sub(parameters.rod_length[2], parameters.rod_length[2], t192),
-        );
+        let t193 = sqrt(mul_sub(parameters.rod_length[2], parameters.rod_length[2], t192));
         // leg 3: reciprocal of that extent
         let t194 = c(1.0) / t193;
         // leg 3: actuator length d
@@ -23859,9 +19155,7 @@ pub fn equation_of_motion<T: Scalar>(
         // leg 4: extent of the rod along the actuator axis
         let t202 = parameters.rod_length[3] * parameters.rod_length[3];
         let t203 = mul_add(t201, t201, mul_add(t199, t199, t200 * t200));
-        let t204 = sqrt(
-            mul_sub(parameters.rod_length[3], parameters.rod_length[3], t203),
-        );
+        let t204 = sqrt(mul_sub(parameters.rod_length[3], parameters.rod_length[3], t203));
         // leg 4: reciprocal of that extent
         let t205 = c(1.0) / t204;
         // leg 4: actuator length d
@@ -23876,9 +19170,7 @@ pub fn equation_of_motion<T: Scalar>(
         // leg 5: extent of the rod along the actuator axis
         let t213 = parameters.rod_length[4] * parameters.rod_length[4];
         let t214 = mul_add(t212, t212, mul_add(t210, t210, t211 * t211));
-        let t215 = sqrt(
-            mul_sub(parameters.rod_length[4], parameters.rod_length[4], t214),
-        );
+        let t215 = sqrt(mul_sub(parameters.rod_length[4], parameters.rod_length[4], t214));
         // leg 5: reciprocal of that extent
         let t216 = c(1.0) / t215;
         // leg 5: actuator length d
@@ -23893,9 +19185,7 @@ pub fn equation_of_motion<T: Scalar>(
         // leg 6: extent of the rod along the actuator axis
         let t224 = parameters.rod_length[5] * parameters.rod_length[5];
         let t225 = mul_add(t223, t223, mul_add(t221, t221, t222 * t222));
-        let t226 = sqrt(
-            mul_sub(parameters.rod_length[5], parameters.rod_length[5], t225),
-        );
+        let t226 = sqrt(mul_sub(parameters.rod_length[5], parameters.rod_length[5], t225));
         // leg 6: reciprocal of that extent
         let t227 = c(1.0) / t226;
         // leg 6: actuator length d
@@ -24241,11 +19531,7 @@ pub fn equation_of_motion<T: Scalar>(
         let t438 = parameters.platform_point[1][0] * parameters.platform_point[1][1];
         let t439 = parameters.platform_point[0][0] * parameters.platform_point[0][1];
         let t440 = parameters.payload_com[0] * parameters.payload_com[1];
-        let t441 = neg_mul_add(
-            parameters.payload_mass,
-            t440,
-            parameters.payload_inertia[0][1],
-        );
+        let t441 = neg_mul_add(parameters.payload_mass, t440, parameters.payload_inertia[0][1]);
         let t442 = neg_mul_add(t366, t438, neg_mul_add(t359, t439, t441));
         let t443 = neg_mul_add(t380, t436, neg_mul_add(t373, t437, t442));
         let t444 = neg_mul_add(t394, t434, neg_mul_add(t387, t435, t443));
@@ -24256,11 +19542,7 @@ pub fn equation_of_motion<T: Scalar>(
         let t449 = parameters.platform_point[1][0] * parameters.platform_point[1][2];
         let t450 = parameters.platform_point[0][0] * parameters.platform_point[0][2];
         let t451 = parameters.payload_com[0] * parameters.payload_com[2];
-        let t452 = neg_mul_add(
-            parameters.payload_mass,
-            t451,
-            parameters.payload_inertia[0][2],
-        );
+        let t452 = neg_mul_add(parameters.payload_mass, t451, parameters.payload_inertia[0][2]);
         let t453 = neg_mul_add(t366, t449, neg_mul_add(t359, t450, t452));
         let t454 = neg_mul_add(t380, t447, neg_mul_add(t373, t448, t453));
         let t455 = neg_mul_add(t394, t445, neg_mul_add(t387, t446, t454));
@@ -24283,11 +19565,7 @@ pub fn equation_of_motion<T: Scalar>(
         let t472 = parameters.platform_point[1][1] * parameters.platform_point[1][2];
         let t473 = parameters.platform_point[0][1] * parameters.platform_point[0][2];
         let t474 = parameters.payload_com[1] * parameters.payload_com[2];
-        let t475 = neg_mul_add(
-            parameters.payload_mass,
-            t474,
-            parameters.payload_inertia[1][2],
-        );
+        let t475 = neg_mul_add(parameters.payload_mass, t474, parameters.payload_inertia[1][2]);
         let t476 = neg_mul_add(t366, t472, neg_mul_add(t359, t473, t475));
         let t477 = neg_mul_add(t380, t470, neg_mul_add(t373, t471, t476));
         let t478 = neg_mul_add(t394, t468, neg_mul_add(t387, t469, t477));
@@ -24721,602 +19999,81 @@ pub fn equation_of_motion<T: Scalar>(
         mass_matrix_p[2][5] = t881;
         mass_matrix_p[5][2] = t881;
         (
-            t3,
-            t6,
-            t9,
-            t12,
-            t15,
-            t18,
-            t21,
-            t24,
-            t27,
-            t28,
-            t29,
-            t30,
-            t32,
-            t34,
-            t36,
-            t48,
-            t51,
-            t54,
-            t69,
-            t72,
-            t75,
-            t90,
-            t93,
-            t96,
-            t111,
-            t114,
-            t117,
-            t132,
-            t135,
-            t138,
-            t153,
-            t156,
-            t159,
-            t166,
-            t167,
-            t168,
-            t172,
-            t173,
-            t177,
-            t178,
-            t179,
-            t183,
-            t184,
-            t188,
-            t189,
-            t190,
-            t194,
-            t195,
-            t199,
-            t200,
-            t201,
-            t205,
-            t206,
-            t210,
-            t211,
-            t212,
-            t216,
-            t217,
-            t221,
-            t222,
-            t223,
-            t227,
-            t228,
-            t229,
-            t230,
-            t231,
-            t232,
-            t233,
-            t234,
-            t235,
-            t236,
-            t237,
-            t238,
-            t239,
-            t240,
-            t241,
-            t242,
-            t243,
-            t244,
-            t245,
-            t246,
-            t247,
-            t248,
-            t249,
-            t250,
-            t251,
-            t252,
-            t253,
-            t254,
-            t255,
-            t256,
-            t257,
-            t258,
-            t259,
-            t260,
-            t261,
-            t262,
-            t263,
-            t264,
-            t269,
-            t271,
-            t273,
-            t278,
-            t280,
-            t282,
-            t287,
-            t289,
-            t291,
-            t296,
-            t298,
-            t300,
-            t305,
-            t307,
-            t309,
-            t314,
-            t316,
-            t318,
-            t319,
-            t320,
-            t321,
-            t322,
-            t323,
-            t324,
-            t325,
-            t326,
-            t327,
-            t328,
-            t329,
-            t330,
-            t331,
-            t332,
-            t333,
-            t334,
-            t335,
-            t336,
-            t337,
-            t338,
-            t339,
-            t340,
-            t341,
-            t342,
-            t343,
-            t344,
-            t345,
-            t346,
-            t347,
-            t348,
-            t349,
-            t350,
-            t351,
-            t352,
-            t353,
-            t354,
-            t355,
-            t358,
-            t360,
-            t361,
-            t362,
-            t365,
-            t367,
-            t368,
-            t369,
-            t372,
-            t374,
-            t375,
-            t376,
-            t379,
-            t381,
-            t382,
-            t383,
-            t386,
-            t388,
-            t389,
-            t390,
-            t393,
-            t395,
-            t396,
-            t398,
-            t405,
-            t412,
-            t419,
-            t421,
-            t433,
-            t444,
-            t455,
-            t467,
-            t478,
-            t490,
-            t493,
-            t494,
-            t497,
-            t498,
-            t501,
-            t502,
-            t503,
-            t504,
-            t505,
-            t508,
-            t509,
-            t512,
-            t513,
-            t516,
-            t517,
-            t518,
-            t519,
-            t520,
-            t523,
-            t524,
-            t527,
-            t528,
-            t531,
-            t532,
-            t533,
-            t534,
-            t535,
-            t538,
-            t539,
-            t542,
-            t543,
-            t546,
-            t547,
-            t548,
-            t549,
-            t550,
-            t553,
-            t554,
-            t557,
-            t558,
-            t561,
-            t562,
-            t563,
-            t564,
-            t565,
-            t568,
-            t569,
-            t572,
-            t573,
-            t576,
-            t577,
-            t578,
-            t579,
-            t580,
-            t581,
-            t582,
-            t583,
-            t584,
-            t585,
-            t586,
-            t587,
-            t588,
-            t589,
-            t590,
-            t591,
-            t592,
-            t593,
-            t594,
-            t595,
-            t596,
-            t597,
-            t598,
-            t599,
-            t600,
-            t601,
-            t602,
-            t603,
-            t604,
-            t615,
-            t618,
-            t629,
-            t633,
-            t644,
-            t648,
-            t659,
-            t663,
-            t674,
-            t678,
-            t689,
-            t693,
-            t695,
-            t696,
-            t697,
-            t698,
-            t699,
-            t700,
-            t701,
-            t702,
-            t704,
-            t707,
-            t709,
-            t713,
-            t715,
-            t719,
-            t721,
-            t725,
-            t727,
-            t731,
-            t733,
-            t734,
-            t736,
-            t737,
-            t738,
-            t739,
-            t740,
-            t741,
-            t742,
-            t743,
-            t745,
-            t748,
-            t750,
-            t754,
-            t756,
-            t760,
-            t762,
-            t766,
-            t770,
-            t774,
-            t778,
-            t781,
-            t790,
-            t796,
-            t802,
-            t806,
-            t810,
-            t814,
-            t818,
-            t821,
-            t830,
-            t836,
-            t840,
-            t844,
-            t848,
-            t852,
-            t856,
-            t859,
-            t863,
-            t864,
-            t865,
-            t866,
-            t867,
-            t868,
-            t869,
-            t870,
-            t871,
-            t872,
-            t873,
-            t874,
-            t875,
+            t3, t6, t9, t12, t15, t18, t21, t24, t27, t28, t29, t30, t32, t34, t36, t48, t51, t54,
+            t69, t72, t75, t90, t93, t96, t111, t114, t117, t132, t135, t138, t153, t156, t159,
+            t166, t167, t168, t172, t173, t177, t178, t179, t183, t184, t188, t189, t190, t194,
+            t195, t199, t200, t201, t205, t206, t210, t211, t212, t216, t217, t221, t222, t223,
+            t227, t228, t229, t230, t231, t232, t233, t234, t235, t236, t237, t238, t239, t240,
+            t241, t242, t243, t244, t245, t246, t247, t248, t249, t250, t251, t252, t253, t254,
+            t255, t256, t257, t258, t259, t260, t261, t262, t263, t264, t269, t271, t273, t278,
+            t280, t282, t287, t289, t291, t296, t298, t300, t305, t307, t309, t314, t316, t318,
+            t319, t320, t321, t322, t323, t324, t325, t326, t327, t328, t329, t330, t331, t332,
+            t333, t334, t335, t336, t337, t338, t339, t340, t341, t342, t343, t344, t345, t346,
+            t347, t348, t349, t350, t351, t352, t353, t354, t355, t358, t360, t361, t362, t365,
+            t367, t368, t369, t372, t374, t375, t376, t379, t381, t382, t383, t386, t388, t389,
+            t390, t393, t395, t396, t398, t405, t412, t419, t421, t433, t444, t455, t467, t478,
+            t490, t493, t494, t497, t498, t501, t502, t503, t504, t505, t508, t509, t512, t513,
+            t516, t517, t518, t519, t520, t523, t524, t527, t528, t531, t532, t533, t534, t535,
+            t538, t539, t542, t543, t546, t547, t548, t549, t550, t553, t554, t557, t558, t561,
+            t562, t563, t564, t565, t568, t569, t572, t573, t576, t577, t578, t579, t580, t581,
+            t582, t583, t584, t585, t586, t587, t588, t589, t590, t591, t592, t593, t594, t595,
+            t596, t597, t598, t599, t600, t601, t602, t603, t604, t615, t618, t629, t633, t644,
+            t648, t659, t663, t674, t678, t689, t693, t695, t696, t697, t698, t699, t700, t701,
+            t702, t704, t707, t709, t713, t715, t719, t721, t725, t727, t731, t733, t734, t736,
+            t737, t738, t739, t740, t741, t742, t743, t745, t748, t750, t754, t756, t760, t762,
+            t766, t770, t774, t778, t781, t790, t796, t802, t806, t810, t814, t818, t821, t830,
+            t836, t840, t844, t848, t852, t856, t859, t863, t864, t865, t866, t867, t868, t869,
+            t870, t871, t872, t873, t874, t875,
         )
     };
     let (
-        t883,
-        t885,
-        t887,
-        t895,
-        t897,
-        t899,
-        t907,
-        t909,
-        t917,
-        t956,
-        t958,
-        t960,
-        t961,
-        t962,
-        t963,
-        t964,
-        t965,
-        t966,
-        t967,
-        t968,
-        t969,
-        t970,
-        t971,
-        t972,
-        t973,
-        t974,
-        t975,
-        t976,
-        t977,
-        t978,
-        t1013,
-        t1021,
-        t1029,
-        t1031,
-        t1033,
-        t1035,
-        t1037,
-        t1039,
-        t1041,
-        t1284,
-        t1287,
-        t1290,
-        t1303,
-        t1304,
-        t1305,
-        t1386,
-        t1395,
-        t1404,
-        t1413,
-        t1422,
-        t1431,
-        t1439,
-        t1441,
-        t1443,
-        t1451,
-        t1453,
-        t1455,
-        t1463,
-        t1465,
-        t1467,
-        t1475,
-        t1477,
-        t1479,
-        t1487,
-        t1489,
-        t1491,
-        t1499,
-        t1501,
-        t1503,
-        t1523,
-        t1525,
-        t1527,
-        t1529,
-        t1531,
-        t1533,
-        t1535,
-        t1537,
-        t1539,
-        t1541,
-        t1543,
-        t1545,
-        t1547,
-        t1549,
-        t1551,
-        t1553,
-        t1555,
-        t1557,
-        t1560,
-        t1562,
-        t1563,
-        t1564,
-        t1565,
-        t1566,
-        t1567,
-        t1568,
-        t1569,
-        t1572,
-        t1574,
-        t1575,
-        t1576,
-        t1577,
-        t1578,
-        t1579,
-        t1580,
-        t1581,
-        t1584,
-        t1586,
-        t1587,
-        t1588,
-        t1589,
-        t1590,
-        t1591,
-        t1592,
-        t1593,
-        t1596,
-        t1598,
-        t1599,
-        t1600,
-        t1601,
-        t1602,
-        t1603,
-        t1604,
-        t1605,
-        t1608,
-        t1610,
-        t1611,
-        t1612,
-        t1613,
-        t1614,
-        t1615,
-        t1616,
-        t1617,
-        t1620,
-        t1622,
-        t1623,
-        t1624,
-        t1625,
-        t1626,
-        t1627,
-        t1628,
-        t1629,
+        t883, t885, t887, t895, t897, t899, t907, t909, t917, t956, t958, t960, t961, t962, t963,
+        t964, t965, t966, t967, t968, t969, t970, t971, t972, t973, t974, t975, t976, t977, t978,
+        t1013, t1021, t1029, t1031, t1033, t1035, t1037, t1039, t1041, t1284, t1287, t1290, t1303,
+        t1304, t1305, t1386, t1395, t1404, t1413, t1422, t1431, t1439, t1441, t1443, t1451, t1453,
+        t1455, t1463, t1465, t1467, t1475, t1477, t1479, t1487, t1489, t1491, t1499, t1501, t1503,
+        t1523, t1525, t1527, t1529, t1531, t1533, t1535, t1537, t1539, t1541, t1543, t1545, t1547,
+        t1549, t1551, t1553, t1555, t1557, t1560, t1562, t1563, t1564, t1565, t1566, t1567, t1568,
+        t1569, t1572, t1574, t1575, t1576, t1577, t1578, t1579, t1580, t1581, t1584, t1586, t1587,
+        t1588, t1589, t1590, t1591, t1592, t1593, t1596, t1598, t1599, t1600, t1601, t1602, t1603,
+        t1604, t1605, t1608, t1610, t1611, t1612, t1613, t1614, t1615, t1616, t1617, t1620, t1622,
+        t1623, t1624, t1625, t1626, t1627, t1628, t1629,
     ) = {
         // mass matrix M_p of the platform
-        let t882 = mul_add(
-            platform_rotation[2][0],
-            t405,
-            platform_rotation[2][1] * t412,
-        );
+        let t882 = mul_add(platform_rotation[2][0], t405, platform_rotation[2][1] * t412);
         let t883 = mul_add(platform_rotation[2][2], t419, t882);
-        let t884 = mul_add(
-            platform_rotation[1][0],
-            t405,
-            platform_rotation[1][1] * t412,
-        );
+        let t884 = mul_add(platform_rotation[1][0], t405, platform_rotation[1][1] * t412);
         let t885 = mul_add(platform_rotation[1][2], t419, t884);
-        let t886 = mul_add(
-            platform_rotation[0][0],
-            t405,
-            platform_rotation[0][1] * t412,
-        );
+        let t886 = mul_add(platform_rotation[0][0], t405, platform_rotation[0][1] * t412);
         let t887 = mul_add(platform_rotation[0][2], t419, t886);
-        let t888 = mul_add(
-            platform_rotation[0][0],
-            t455,
-            platform_rotation[0][1] * t478,
-        );
+        let t888 = mul_add(platform_rotation[0][0], t455, platform_rotation[0][1] * t478);
         let t889 = mul_add(platform_rotation[0][2], t490, t888);
-        let t890 = mul_add(
-            platform_rotation[0][0],
-            t433,
-            platform_rotation[0][1] * t444,
-        );
+        let t890 = mul_add(platform_rotation[0][0], t433, platform_rotation[0][1] * t444);
         let t891 = mul_add(platform_rotation[0][2], t455, t890);
-        let t892 = mul_add(
-            platform_rotation[0][0],
-            t444,
-            platform_rotation[0][1] * t467,
-        );
+        let t892 = mul_add(platform_rotation[0][0], t444, platform_rotation[0][1] * t467);
         let t893 = mul_add(platform_rotation[0][2], t478, t892);
-        let t894 = mul_add(
-            platform_rotation[0][0],
-            t891,
-            platform_rotation[0][1] * t893,
-        );
+        let t894 = mul_add(platform_rotation[0][0], t891, platform_rotation[0][1] * t893);
         let t895 = mul_add(platform_rotation[0][2], t889, t894);
-        let t896 = mul_add(
-            platform_rotation[1][0],
-            t891,
-            platform_rotation[1][1] * t893,
-        );
+        let t896 = mul_add(platform_rotation[1][0], t891, platform_rotation[1][1] * t893);
         let t897 = mul_add(platform_rotation[1][2], t889, t896);
-        let t898 = mul_add(
-            platform_rotation[2][0],
-            t891,
-            platform_rotation[2][1] * t893,
-        );
+        let t898 = mul_add(platform_rotation[2][0], t891, platform_rotation[2][1] * t893);
         let t899 = mul_add(platform_rotation[2][2], t889, t898);
-        let t900 = mul_add(
-            platform_rotation[1][0],
-            t455,
-            platform_rotation[1][1] * t478,
-        );
+        let t900 = mul_add(platform_rotation[1][0], t455, platform_rotation[1][1] * t478);
         let t901 = mul_add(platform_rotation[1][2], t490, t900);
-        let t902 = mul_add(
-            platform_rotation[1][0],
-            t433,
-            platform_rotation[1][1] * t444,
-        );
+        let t902 = mul_add(platform_rotation[1][0], t433, platform_rotation[1][1] * t444);
         let t903 = mul_add(platform_rotation[1][2], t455, t902);
-        let t904 = mul_add(
-            platform_rotation[1][0],
-            t444,
-            platform_rotation[1][1] * t467,
-        );
+        let t904 = mul_add(platform_rotation[1][0], t444, platform_rotation[1][1] * t467);
         let t905 = mul_add(platform_rotation[1][2], t478, t904);
-        let t906 = mul_add(
-            platform_rotation[1][0],
-            t903,
-            platform_rotation[1][1] * t905,
-        );
+        let t906 = mul_add(platform_rotation[1][0], t903, platform_rotation[1][1] * t905);
         let t907 = mul_add(platform_rotation[1][2], t901, t906);
-        let t908 = mul_add(
-            platform_rotation[2][0],
-            t903,
-            platform_rotation[2][1] * t905,
-        );
+        let t908 = mul_add(platform_rotation[2][0], t903, platform_rotation[2][1] * t905);
         let t909 = mul_add(platform_rotation[2][2], t901, t908);
-        let t910 = mul_add(
-            platform_rotation[2][0],
-            t455,
-            platform_rotation[2][1] * t478,
-        );
+        let t910 = mul_add(platform_rotation[2][0], t455, platform_rotation[2][1] * t478);
         let t911 = mul_add(platform_rotation[2][2], t490, t910);
-        let t912 = mul_add(
-            platform_rotation[2][0],
-            t433,
-            platform_rotation[2][1] * t444,
-        );
+        let t912 = mul_add(platform_rotation[2][0], t433, platform_rotation[2][1] * t444);
         let t913 = mul_add(platform_rotation[2][2], t455, t912);
-        let t914 = mul_add(
-            platform_rotation[2][0],
-            t444,
-            platform_rotation[2][1] * t467,
-        );
-        let t915 = platform_rotation[2][1]
-            * mul_add(platform_rotation[2][2], t478, t914);
+        let t914 = mul_add(platform_rotation[2][0], t444, platform_rotation[2][1] * t467);
+        let t915 = platform_rotation[2][1] * mul_add(platform_rotation[2][2], t478, t914);
         let t916 = mul_add(platform_rotation[2][0], t913, t915);
         let t917 = mul_add(platform_rotation[2][2], t911, t916);
         mass_matrix_p[0][0] = t398 - t864;
@@ -25354,96 +20111,24 @@ pub fn equation_of_motion<T: Scalar>(
         mass_matrix_p[5][4] = t927;
         mass_matrix_p[5][5] = t863 - t859 - (t924 - t917);
         // first moment of the rods' couplings by the Hooke joint
-        let t928 = neg_mul_add(
-            parameters.actuator_axis[0][0],
-            t173,
-            parameters.base_point[0][0],
-        );
-        let t929 = neg_mul_add(
-            parameters.actuator_axis[1][0],
-            t184,
-            parameters.base_point[1][0],
-        );
-        let t930 = neg_mul_add(
-            parameters.actuator_axis[2][0],
-            t195,
-            parameters.base_point[2][0],
-        );
-        let t931 = neg_mul_add(
-            parameters.actuator_axis[3][0],
-            t206,
-            parameters.base_point[3][0],
-        );
-        let t932 = neg_mul_add(
-            parameters.actuator_axis[4][0],
-            t217,
-            parameters.base_point[4][0],
-        );
-        let t933 = neg_mul_add(
-            parameters.actuator_axis[5][0],
-            t228,
-            parameters.base_point[5][0],
-        );
-        let t934 = neg_mul_add(
-            parameters.actuator_axis[0][1],
-            t173,
-            parameters.base_point[0][1],
-        );
-        let t935 = neg_mul_add(
-            parameters.actuator_axis[1][1],
-            t184,
-            parameters.base_point[1][1],
-        );
-        let t936 = neg_mul_add(
-            parameters.actuator_axis[2][1],
-            t195,
-            parameters.base_point[2][1],
-        );
-        let t937 = neg_mul_add(
-            parameters.actuator_axis[3][1],
-            t206,
-            parameters.base_point[3][1],
-        );
-        let t938 = neg_mul_add(
-            parameters.actuator_axis[4][1],
-            t217,
-            parameters.base_point[4][1],
-        );
-        let t939 = neg_mul_add(
-            parameters.actuator_axis[5][1],
-            t228,
-            parameters.base_point[5][1],
-        );
-        let t940 = neg_mul_add(
-            parameters.actuator_axis[0][2],
-            t173,
-            parameters.base_point[0][2],
-        );
-        let t941 = neg_mul_add(
-            parameters.actuator_axis[1][2],
-            t184,
-            parameters.base_point[1][2],
-        );
-        let t942 = neg_mul_add(
-            parameters.actuator_axis[2][2],
-            t195,
-            parameters.base_point[2][2],
-        );
-        let t943 = neg_mul_add(
-            parameters.actuator_axis[3][2],
-            t206,
-            parameters.base_point[3][2],
-        );
-        let t944 = neg_mul_add(
-            parameters.actuator_axis[4][2],
-            t217,
-            parameters.base_point[4][2],
-        );
-        let t945 = neg_mul_add(
-            parameters.actuator_axis[5][2],
-            t228,
-            parameters.base_point[5][2],
-        );
+        let t928 = neg_mul_add(parameters.actuator_axis[0][0], t173, parameters.base_point[0][0]);
+        let t929 = neg_mul_add(parameters.actuator_axis[1][0], t184, parameters.base_point[1][0]);
+        let t930 = neg_mul_add(parameters.actuator_axis[2][0], t195, parameters.base_point[2][0]);
+        let t931 = neg_mul_add(parameters.actuator_axis[3][0], t206, parameters.base_point[3][0]);
+        let t932 = neg_mul_add(parameters.actuator_axis[4][0], t217, parameters.base_point[4][0]);
+        let t933 = neg_mul_add(parameters.actuator_axis[5][0], t228, parameters.base_point[5][0]);
+        let t934 = neg_mul_add(parameters.actuator_axis[0][1], t173, parameters.base_point[0][1]);
+        let t935 = neg_mul_add(parameters.actuator_axis[1][1], t184, parameters.base_point[1][1]);
+        let t936 = neg_mul_add(parameters.actuator_axis[2][1], t195, parameters.base_point[2][1]);
+        let t937 = neg_mul_add(parameters.actuator_axis[3][1], t206, parameters.base_point[3][1]);
+        let t938 = neg_mul_add(parameters.actuator_axis[4][1], t217, parameters.base_point[4][1]);
+        let t939 = neg_mul_add(parameters.actuator_axis[5][1], t228, parameters.base_point[5][1]);
+        let t940 = neg_mul_add(parameters.actuator_axis[0][2], t173, parameters.base_point[0][2]);
+        let t941 = neg_mul_add(parameters.actuator_axis[1][2], t184, parameters.base_point[1][2]);
+        let t942 = neg_mul_add(parameters.actuator_axis[2][2], t195, parameters.base_point[2][2]);
+        let t943 = neg_mul_add(parameters.actuator_axis[3][2], t206, parameters.base_point[3][2]);
+        let t944 = neg_mul_add(parameters.actuator_axis[4][2], t217, parameters.base_point[4][2]);
+        let t945 = neg_mul_add(parameters.actuator_axis[5][2], t228, parameters.base_point[5][2]);
         let t946 = mul_add(t374, t942, mul_add(t360, t940, t367 * t941));
         let t947 = mul_add(t388, t944, mul_add(t381, t943, t946));
         let t948 = mul_add(t395, t945, t947);
@@ -25511,11 +20196,7 @@ pub fn equation_of_motion<T: Scalar>(
         let t1009 = mul_add(t939, t972, t1008);
         let t1010 = mul_add(base_rotation[0][0], t1006, base_rotation[0][1] * t1009);
         let t1011 = mul_add(base_rotation[0][2], t1003, t1010);
-        let t1012 = mul_add(
-            platform_rotation[0][0],
-            t1000,
-            platform_rotation[0][1] * t1011,
-        );
+        let t1012 = mul_add(platform_rotation[0][0], t1000, platform_rotation[0][1] * t1011);
         let t1013 = mul_add(platform_rotation[0][2], t989, t1012);
         let t1014 = mul_add(base_rotation[1][0], t984, base_rotation[1][1] * t987);
         let t1015 = mul_add(base_rotation[1][2], t981, t1014);
@@ -25523,11 +20204,7 @@ pub fn equation_of_motion<T: Scalar>(
         let t1017 = mul_add(base_rotation[1][2], t992, t1016);
         let t1018 = mul_add(base_rotation[1][0], t1006, base_rotation[1][1] * t1009);
         let t1019 = mul_add(base_rotation[1][2], t1003, t1018);
-        let t1020 = mul_add(
-            platform_rotation[0][0],
-            t1017,
-            platform_rotation[0][1] * t1019,
-        );
+        let t1020 = mul_add(platform_rotation[0][0], t1017, platform_rotation[0][1] * t1019);
         let t1021 = mul_add(platform_rotation[0][2], t1015, t1020);
         let t1022 = mul_add(base_rotation[2][0], t984, base_rotation[2][1] * t987);
         let t1023 = mul_add(base_rotation[2][2], t981, t1022);
@@ -25535,47 +20212,19 @@ pub fn equation_of_motion<T: Scalar>(
         let t1025 = mul_add(base_rotation[2][2], t992, t1024);
         let t1026 = mul_add(base_rotation[2][0], t1006, base_rotation[2][1] * t1009);
         let t1027 = mul_add(base_rotation[2][2], t1003, t1026);
-        let t1028 = mul_add(
-            platform_rotation[0][0],
-            t1025,
-            platform_rotation[0][1] * t1027,
-        );
+        let t1028 = mul_add(platform_rotation[0][0], t1025, platform_rotation[0][1] * t1027);
         let t1029 = mul_add(platform_rotation[0][2], t1023, t1028);
-        let t1030 = mul_add(
-            platform_rotation[1][0],
-            t1000,
-            platform_rotation[1][1] * t1011,
-        );
+        let t1030 = mul_add(platform_rotation[1][0], t1000, platform_rotation[1][1] * t1011);
         let t1031 = mul_add(platform_rotation[1][2], t989, t1030);
-        let t1032 = mul_add(
-            platform_rotation[1][0],
-            t1017,
-            platform_rotation[1][1] * t1019,
-        );
+        let t1032 = mul_add(platform_rotation[1][0], t1017, platform_rotation[1][1] * t1019);
         let t1033 = mul_add(platform_rotation[1][2], t1015, t1032);
-        let t1034 = mul_add(
-            platform_rotation[1][0],
-            t1025,
-            platform_rotation[1][1] * t1027,
-        );
+        let t1034 = mul_add(platform_rotation[1][0], t1025, platform_rotation[1][1] * t1027);
         let t1035 = mul_add(platform_rotation[1][2], t1023, t1034);
-        let t1036 = mul_add(
-            platform_rotation[2][0],
-            t1000,
-            platform_rotation[2][1] * t1011,
-        );
+        let t1036 = mul_add(platform_rotation[2][0], t1000, platform_rotation[2][1] * t1011);
         let t1037 = mul_add(platform_rotation[2][2], t989, t1036);
-        let t1038 = mul_add(
-            platform_rotation[2][0],
-            t1017,
-            platform_rotation[2][1] * t1019,
-        );
+        let t1038 = mul_add(platform_rotation[2][0], t1017, platform_rotation[2][1] * t1019);
         let t1039 = mul_add(platform_rotation[2][2], t1015, t1038);
-        let t1040 = mul_add(
-            platform_rotation[2][0],
-            t1025,
-            platform_rotation[2][1] * t1027,
-        );
+        let t1040 = mul_add(platform_rotation[2][0], t1025, platform_rotation[2][1] * t1027);
         let t1041 = mul_add(platform_rotation[2][2], t1023, t1040);
         // mass matrix M_b that couples the base acceleration
         let t1042 = parameters.actuator_axis[5][2] * t396;
@@ -25662,8 +20311,7 @@ pub fn equation_of_motion<T: Scalar>(
         mass_matrix_b[0][3] = t1073 - mul_add(base_rotation[0][2], t1088, t1119);
         let t1120 = t678 + mul_sub(t28, t648, t30 * t618);
         let t1121 = mul_add(base_rotation[1][0], t1103, base_rotation[1][1] * t1118);
-        mass_matrix_b[0][4] = t960
-            + (t1120 - mul_add(base_rotation[1][2], t1088, t1121));
+        mass_matrix_b[0][4] = t960 + (t1120 - mul_add(base_rotation[1][2], t1088, t1121));
         let t1122 = t693 + mul_sub(t29, t618, t28 * t633);
         let t1123 = mul_add(base_rotation[2][0], t1103, base_rotation[2][1] * t1118);
         mass_matrix_b[0][5] = t1122 - mul_add(base_rotation[2][2], t1088, t1123) - t958;
@@ -25679,8 +20327,7 @@ pub fn equation_of_motion<T: Scalar>(
         let t1133 = mul_add(base_rotation[0][0], t1129, base_rotation[0][1] * t1132);
         mass_matrix_b[1][0] = t696 - mul_add(base_rotation[0][2], t1126, t1133);
         let t1134 = mul_add(base_rotation[1][0], t1129, base_rotation[1][1] * t1132);
-        mass_matrix_b[1][1] = t1070
-            + (t707 - mul_add(base_rotation[1][2], t1126, t1134));
+        mass_matrix_b[1][1] = t1070 + (t707 - mul_add(base_rotation[1][2], t1126, t1134));
         let t1135 = mul_add(base_rotation[2][0], t1129, base_rotation[2][1] * t1132);
         mass_matrix_b[1][2] = t713 - mul_add(base_rotation[2][2], t1126, t1135);
         let t1136 = t719 + mul_sub(t30, t707, t29 * t713);
@@ -25700,8 +20347,7 @@ pub fn equation_of_motion<T: Scalar>(
         mass_matrix_b[1][4] = t1147 - mul_add(base_rotation[1][2], t1139, t1148);
         let t1149 = t731 + mul_sub(t29, t696, t28 * t707);
         let t1150 = mul_add(base_rotation[2][0], t1142, base_rotation[2][1] * t1145);
-        mass_matrix_b[1][5] = t956
-            + (t1149 - mul_add(base_rotation[2][2], t1139, t1150));
+        mass_matrix_b[1][5] = t956 + (t1149 - mul_add(base_rotation[2][2], t1139, t1150));
         let t1151 = mul_add(t291, t1045, mul_add(t273, t1046, t282 * t1047));
         let t1152 = mul_add(t309, t1043, mul_add(t300, t1044, t1151));
         let t1153 = mul_add(t318, t1042, t1152);
@@ -25716,8 +20362,7 @@ pub fn equation_of_motion<T: Scalar>(
         let t1161 = mul_add(base_rotation[1][0], t1156, base_rotation[1][1] * t1159);
         mass_matrix_b[2][1] = t737 - mul_add(base_rotation[1][2], t1153, t1161);
         let t1162 = mul_add(base_rotation[2][0], t1156, base_rotation[2][1] * t1159);
-        mass_matrix_b[2][2] = t1070
-            + (t748 - mul_add(base_rotation[2][2], t1153, t1162));
+        mass_matrix_b[2][2] = t1070 + (t748 - mul_add(base_rotation[2][2], t1153, t1162));
         let t1163 = t754 + mul_sub(t30, t737, t29 * t748);
         let t1164 = mul_add(t291, t1081, mul_add(t273, t1083, t282 * t1085));
         let t1165 = mul_add(t309, t1077, mul_add(t300, t1079, t1164));
@@ -25729,8 +20374,7 @@ pub fn equation_of_motion<T: Scalar>(
         let t1171 = mul_add(t309, t1107, mul_add(t300, t1109, t1170));
         let t1172 = mul_add(t318, t1105, t1171);
         let t1173 = mul_add(base_rotation[0][0], t1169, base_rotation[0][1] * t1172);
-        mass_matrix_b[2][3] = t958
-            + (t1163 - mul_add(base_rotation[0][2], t1166, t1173));
+        mass_matrix_b[2][3] = t958 + (t1163 - mul_add(base_rotation[0][2], t1166, t1173));
         let t1174 = t760 + mul_sub(t28, t748, t30 * t734);
         let t1175 = mul_add(base_rotation[1][0], t1169, base_rotation[1][1] * t1172);
         mass_matrix_b[2][4] = t1174 - mul_add(base_rotation[1][2], t1166, t1175) - t956;
@@ -25764,19 +20408,11 @@ pub fn equation_of_motion<T: Scalar>(
         let t1201 = mul_add(parameters.platform_point[3][1], t381, t1200);
         let t1202 = mul_add(parameters.platform_point[4][1], t388, t1201);
         let t1203 = mul_add(parameters.platform_point[5][1], t395, t1202);
-        let t1204 = mul_add(
-            platform_rotation[2][0],
-            t1198,
-            platform_rotation[2][1] * t1203,
-        );
+        let t1204 = mul_add(platform_rotation[2][0], t1198, platform_rotation[2][1] * t1203);
         let t1205 = mul_add(platform_rotation[2][2], t1193, t1204);
         mass_matrix_b[3][1] = t774 - mul_add(base_rotation[1][2], t1180, t1188) - t1205;
         let t1206 = mul_add(base_rotation[2][0], t1183, base_rotation[2][1] * t1186);
-        let t1207 = mul_add(
-            platform_rotation[1][0],
-            t1198,
-            platform_rotation[1][1] * t1203,
-        );
+        let t1207 = mul_add(platform_rotation[1][0], t1198, platform_rotation[1][1] * t1203);
         let t1208 = mul_add(platform_rotation[1][2], t1193, t1207);
         mass_matrix_b[3][2] = t778 - mul_add(base_rotation[2][2], t1180, t1206) + t1208;
         let t1209 = t790 + mul_sub(t30, t774, t29 * t778);
@@ -25792,8 +20428,7 @@ pub fn equation_of_motion<T: Scalar>(
         let t1219 = mul_add(base_rotation[0][0], t1215, base_rotation[0][1] * t1218);
         let t1220 = t1013 + t1033;
         let t1221 = t1041 + t1220;
-        mass_matrix_b[3][3] = t1209 - mul_add(base_rotation[0][2], t1212, t1219)
-            - (t1013 - t1221);
+        mass_matrix_b[3][3] = t1209 - mul_add(base_rotation[0][2], t1212, t1219) - (t1013 - t1221);
         let t1222 = t796 + mul_sub(t28, t778, t30 * t770);
         let t1223 = mul_add(base_rotation[1][0], t1215, base_rotation[1][1] * t1218);
         mass_matrix_b[3][4] = t1222 - mul_add(base_rotation[1][2], t1212, t1223) - t1031;
@@ -25810,16 +20445,11 @@ pub fn equation_of_motion<T: Scalar>(
         let t1233 = mul_add(t344, t1061, mul_add(t338, t1062, t1232));
         let t1234 = mul_add(t350, t1060, t1233);
         let t1235 = mul_add(base_rotation[0][0], t1231, base_rotation[0][1] * t1234);
-        mass_matrix_b[4][0] = t1205
-            + (t806 - mul_add(base_rotation[0][2], t1228, t1235));
+        mass_matrix_b[4][0] = t1205 + (t806 - mul_add(base_rotation[0][2], t1228, t1235));
         let t1236 = mul_add(base_rotation[1][0], t1231, base_rotation[1][1] * t1234);
         mass_matrix_b[4][1] = t810 - mul_add(base_rotation[1][2], t1228, t1236);
         let t1237 = mul_add(base_rotation[2][0], t1231, base_rotation[2][1] * t1234);
-        let t1238 = mul_add(
-            platform_rotation[0][0],
-            t1198,
-            platform_rotation[0][1] * t1203,
-        );
+        let t1238 = mul_add(platform_rotation[0][0], t1198, platform_rotation[0][1] * t1203);
         let t1239 = mul_add(platform_rotation[0][2], t1193, t1238);
         mass_matrix_b[4][2] = t814 - mul_add(base_rotation[2][2], t1228, t1237) - t1239;
         let t1240 = t818 + mul_sub(t30, t810, t29 * t814);
@@ -25836,8 +20466,7 @@ pub fn equation_of_motion<T: Scalar>(
         mass_matrix_b[4][3] = t1240 - mul_add(base_rotation[0][2], t1243, t1250) - t1021;
         let t1251 = t830 + mul_sub(t28, t814, t30 * t806);
         let t1252 = mul_add(base_rotation[1][0], t1246, base_rotation[1][1] * t1249);
-        mass_matrix_b[4][4] = t1251 - mul_add(base_rotation[1][2], t1243, t1252)
-            - (t1033 - t1221);
+        mass_matrix_b[4][4] = t1251 - mul_add(base_rotation[1][2], t1243, t1252) - (t1033 - t1221);
         let t1253 = t836 + mul_sub(t29, t806, t28 * t810);
         let t1254 = mul_add(base_rotation[2][0], t1246, base_rotation[2][1] * t1249);
         mass_matrix_b[4][5] = t1253 - mul_add(base_rotation[2][2], t1243, t1254) - t1039;
@@ -25853,8 +20482,7 @@ pub fn equation_of_motion<T: Scalar>(
         let t1264 = mul_add(base_rotation[0][0], t1260, base_rotation[0][1] * t1263);
         mass_matrix_b[5][0] = t840 - mul_add(base_rotation[0][2], t1257, t1264) - t1208;
         let t1265 = mul_add(base_rotation[1][0], t1260, base_rotation[1][1] * t1263);
-        mass_matrix_b[5][1] = t1239
-            + (t844 - mul_add(base_rotation[1][2], t1257, t1265));
+        mass_matrix_b[5][1] = t1239 + (t844 - mul_add(base_rotation[1][2], t1257, t1265));
         let t1266 = mul_add(base_rotation[2][0], t1260, base_rotation[2][1] * t1263);
         mass_matrix_b[5][2] = t848 - mul_add(base_rotation[2][2], t1257, t1266);
         let t1267 = t852 + mul_sub(t30, t844, t29 * t848);
@@ -25874,8 +20502,7 @@ pub fn equation_of_motion<T: Scalar>(
         mass_matrix_b[5][4] = t1278 - mul_add(base_rotation[1][2], t1270, t1279) - t1035;
         let t1280 = t863 + mul_sub(t29, t840, t28 * t844);
         let t1281 = mul_add(base_rotation[2][0], t1273, base_rotation[2][1] * t1276);
-        mass_matrix_b[5][5] = t1220
-            + (t1280 - mul_add(base_rotation[2][2], t1270, t1281));
+        mass_matrix_b[5][5] = t1220 + (t1280 - mul_add(base_rotation[2][2], t1270, t1281));
         // angular velocity of the base
         let t1282 = base_rotation[1][0] * base_velocity[4];
         let t1283 = mul_add(base_rotation[0][0], base_velocity[3], t1282);
@@ -26290,222 +20917,27 @@ pub fn equation_of_motion<T: Scalar>(
         let t1628 = neg_mul_add(t350, t396, t579);
         let t1629 = neg_mul_add(t351, t396, t580);
         (
-            t883,
-            t885,
-            t887,
-            t895,
-            t897,
-            t899,
-            t907,
-            t909,
-            t917,
-            t956,
-            t958,
-            t960,
-            t961,
-            t962,
-            t963,
-            t964,
-            t965,
-            t966,
-            t967,
-            t968,
-            t969,
-            t970,
-            t971,
-            t972,
-            t973,
-            t974,
-            t975,
-            t976,
-            t977,
-            t978,
-            t1013,
-            t1021,
-            t1029,
-            t1031,
-            t1033,
-            t1035,
-            t1037,
-            t1039,
-            t1041,
-            t1284,
-            t1287,
-            t1290,
-            t1303,
-            t1304,
-            t1305,
-            t1386,
-            t1395,
-            t1404,
-            t1413,
-            t1422,
-            t1431,
-            t1439,
-            t1441,
-            t1443,
-            t1451,
-            t1453,
-            t1455,
-            t1463,
-            t1465,
-            t1467,
-            t1475,
-            t1477,
-            t1479,
-            t1487,
-            t1489,
-            t1491,
-            t1499,
-            t1501,
-            t1503,
-            t1523,
-            t1525,
-            t1527,
-            t1529,
-            t1531,
-            t1533,
-            t1535,
-            t1537,
-            t1539,
-            t1541,
-            t1543,
-            t1545,
-            t1547,
-            t1549,
-            t1551,
-            t1553,
-            t1555,
-            t1557,
-            t1560,
-            t1562,
-            t1563,
-            t1564,
-            t1565,
-            t1566,
-            t1567,
-            t1568,
-            t1569,
-            t1572,
-            t1574,
-            t1575,
-            t1576,
-            t1577,
-            t1578,
-            t1579,
-            t1580,
-            t1581,
-            t1584,
-            t1586,
-            t1587,
-            t1588,
-            t1589,
-            t1590,
-            t1591,
-            t1592,
-            t1593,
-            t1596,
-            t1598,
-            t1599,
-            t1600,
-            t1601,
-            t1602,
-            t1603,
-            t1604,
-            t1605,
-            t1608,
-            t1610,
-            t1611,
-            t1612,
-            t1613,
-            t1614,
-            t1615,
-            t1616,
-            t1617,
-            t1620,
-            t1622,
-            t1623,
-            t1624,
-            t1625,
-            t1626,
-            t1627,
-            t1628,
-            t1629,
+            t883, t885, t887, t895, t897, t899, t907, t909, t917, t956, t958, t960, t961, t962,
+            t963, t964, t965, t966, t967, t968, t969, t970, t971, t972, t973, t974, t975, t976,
+            t977, t978, t1013, t1021, t1029, t1031, t1033, t1035, t1037, t1039, t1041, t1284,
+            t1287, t1290, t1303, t1304, t1305, t1386, t1395, t1404, t1413, t1422, t1431, t1439,
+            t1441, t1443, t1451, t1453, t1455, t1463, t1465, t1467, t1475, t1477, t1479, t1487,
+            t1489, t1491, t1499, t1501, t1503, t1523, t1525, t1527, t1529, t1531, t1533, t1535,
+            t1537, t1539, t1541, t1543, t1545, t1547, t1549, t1551, t1553, t1555, t1557, t1560,
+            t1562, t1563, t1564, t1565, t1566, t1567, t1568, t1569, t1572, t1574, t1575, t1576,
+            t1577, t1578, t1579, t1580, t1581, t1584, t1586, t1587, t1588, t1589, t1590, t1591,
+            t1592, t1593, t1596, t1598, t1599, t1600, t1601, t1602, t1603, t1604, t1605, t1608,
+            t1610, t1611, t1612, t1613, t1614, t1615, t1616, t1617, t1620, t1622, t1623, t1624,
+            t1625, t1626, t1627, t1628, t1629,
         )
     };
     let (
-        t1644,
-        t1659,
-        t1674,
-        t1725,
-        t1731,
-        t1737,
-        t1761,
-        t1767,
-        t1773,
-        t1796,
-        t1801,
-        t1806,
-        t1826,
-        t1831,
-        t1836,
-        t1856,
-        t1861,
-        t1866,
-        t1893,
-        t1905,
-        t1917,
-        t2059,
-        t2075,
-        t2082,
-        t2095,
-        t2099,
-        t2106,
-        t2119,
-        t2123,
-        t2127,
-        t2222,
-        t2229,
-        t2236,
-        t2252,
-        t2256,
-        t2263,
-        t2279,
-        t2286,
-        t2290,
-        t2292,
-        t2294,
-        t2295,
-        t2297,
-        t2298,
-        t2299,
-        t2301,
-        t2304,
-        t2307,
-        t2310,
-        t2312,
-        t2314,
-        t2316,
-        t2318,
-        t2319,
-        t2320,
-        t2321,
-        t2322,
-        t2323,
-        t2324,
-        t2325,
-        t2326,
-        t2327,
-        t2328,
-        t2329,
-        t2330,
-        t2331,
-        t2332,
-        t2333,
-        t2334,
-        t2335,
-        t2336,
-        t2337,
+        t1644, t1659, t1674, t1725, t1731, t1737, t1761, t1767, t1773, t1796, t1801, t1806, t1826,
+        t1831, t1836, t1856, t1861, t1866, t1893, t1905, t1917, t2059, t2075, t2082, t2095, t2099,
+        t2106, t2119, t2123, t2127, t2222, t2229, t2236, t2252, t2256, t2263, t2279, t2286, t2290,
+        t2292, t2294, t2295, t2297, t2298, t2299, t2301, t2304, t2307, t2310, t2312, t2314, t2316,
+        t2318, t2319, t2320, t2321, t2322, t2323, t2324, t2325, t2326, t2327, t2328, t2329, t2330,
+        t2331, t2332, t2333, t2334, t2335, t2336, t2337,
     ) = {
         // part of the legs' Coriolis matrix on the side of the axes
         let t1630 = mul_add(t583, t1463, mul_add(t581, t1439, t582 * t1451));
@@ -27091,11 +21523,7 @@ pub fn equation_of_motion<T: Scalar>(
         let t2154 = mul_add(t1413, parameters.actuator_axis[3][2] * t970, t2153);
         let t2155 = mul_add(t1422, parameters.actuator_axis[4][2] * t971, t2154);
         let t2156 = mul_add(t1431, parameters.actuator_axis[5][2] * t972, t2155);
-        let t2157 = mul_add(
-            platform_rotation[0][0],
-            t2150,
-            platform_rotation[0][1] * t2156,
-        );
+        let t2157 = mul_add(platform_rotation[0][0], t2150, platform_rotation[0][1] * t2156);
         let t2158 = mul_add(platform_rotation[0][2], t2144, t2157);
         let t2159 = t1395 * (parameters.actuator_axis[1][0] * t974);
         let t2160 = mul_add(t1386, parameters.actuator_axis[0][0] * t973, t2159);
@@ -27115,11 +21543,7 @@ pub fn equation_of_motion<T: Scalar>(
         let t2174 = mul_add(t1413, parameters.actuator_axis[3][0] * t970, t2173);
         let t2175 = mul_add(t1422, parameters.actuator_axis[4][0] * t971, t2174);
         let t2176 = mul_add(t1431, parameters.actuator_axis[5][0] * t972, t2175);
-        let t2177 = mul_add(
-            platform_rotation[0][0],
-            t2170,
-            platform_rotation[0][1] * t2176,
-        );
+        let t2177 = mul_add(platform_rotation[0][0], t2170, platform_rotation[0][1] * t2176);
         let t2178 = mul_add(platform_rotation[0][2], t2164, t2177);
         let t2179 = t1395 * (parameters.actuator_axis[1][1] * t974);
         let t2180 = mul_add(t1386, parameters.actuator_axis[0][1] * t973, t2179);
@@ -27139,54 +21563,26 @@ pub fn equation_of_motion<T: Scalar>(
         let t2194 = mul_add(t1413, parameters.actuator_axis[3][1] * t970, t2193);
         let t2195 = mul_add(t1422, parameters.actuator_axis[4][1] * t971, t2194);
         let t2196 = mul_add(t1431, parameters.actuator_axis[5][1] * t972, t2195);
-        let t2197 = mul_add(
-            platform_rotation[0][0],
-            t2190,
-            platform_rotation[0][1] * t2196,
-        );
+        let t2197 = mul_add(platform_rotation[0][0], t2190, platform_rotation[0][1] * t2196);
         let t2198 = mul_add(platform_rotation[0][2], t2184, t2197);
         let t2199 = mul_add(base_rotation[0][0], t2178, base_rotation[0][1] * t2198);
         let t2200 = mul_sub(base_velocity[5], t1021, base_velocity[4] * t1029);
         let t2201 = mul_add(base_rotation[0][2], t2158, t2199) + t2200;
-        let t2202 = mul_add(
-            platform_rotation[1][0],
-            t2150,
-            platform_rotation[1][1] * t2156,
-        );
+        let t2202 = mul_add(platform_rotation[1][0], t2150, platform_rotation[1][1] * t2156);
         let t2203 = mul_add(platform_rotation[1][2], t2144, t2202);
-        let t2204 = mul_add(
-            platform_rotation[1][0],
-            t2170,
-            platform_rotation[1][1] * t2176,
-        );
+        let t2204 = mul_add(platform_rotation[1][0], t2170, platform_rotation[1][1] * t2176);
         let t2205 = mul_add(platform_rotation[1][2], t2164, t2204);
-        let t2206 = mul_add(
-            platform_rotation[1][0],
-            t2190,
-            platform_rotation[1][1] * t2196,
-        );
+        let t2206 = mul_add(platform_rotation[1][0], t2190, platform_rotation[1][1] * t2196);
         let t2207 = mul_add(platform_rotation[1][2], t2184, t2206);
         let t2208 = mul_add(base_rotation[1][0], t2205, base_rotation[1][1] * t2207);
         let t2209 = mul_sub(base_velocity[3], t1035, base_velocity[5] * t1031);
         let t2210 = mul_add(base_rotation[1][2], t2203, t2208) + t2209;
         let t2211 = t2201 + t2210;
-        let t2212 = mul_add(
-            platform_rotation[2][0],
-            t2150,
-            platform_rotation[2][1] * t2156,
-        );
+        let t2212 = mul_add(platform_rotation[2][0], t2150, platform_rotation[2][1] * t2156);
         let t2213 = mul_add(platform_rotation[2][2], t2144, t2212);
-        let t2214 = mul_add(
-            platform_rotation[2][0],
-            t2170,
-            platform_rotation[2][1] * t2176,
-        );
+        let t2214 = mul_add(platform_rotation[2][0], t2170, platform_rotation[2][1] * t2176);
         let t2215 = mul_add(platform_rotation[2][2], t2164, t2214);
-        let t2216 = mul_add(
-            platform_rotation[2][0],
-            t2190,
-            platform_rotation[2][1] * t2196,
-        );
+        let t2216 = mul_add(platform_rotation[2][0], t2190, platform_rotation[2][1] * t2196);
         let t2217 = mul_add(platform_rotation[2][2], t2184, t2216);
         let t2218 = mul_add(base_rotation[2][0], t2215, base_rotation[2][1] * t2217);
         let t2219 = mul_sub(base_velocity[4], t1037, base_velocity[3] * t1039);
@@ -27455,78 +21851,12 @@ pub fn equation_of_motion<T: Scalar>(
         let t2415 = mul_add(t345, t2366, mul_add(t339, t2367, t2414));
         stiffness_matrix_p[5][5] = mul_add(t351, t2365, t2415);
         (
-            t1644,
-            t1659,
-            t1674,
-            t1725,
-            t1731,
-            t1737,
-            t1761,
-            t1767,
-            t1773,
-            t1796,
-            t1801,
-            t1806,
-            t1826,
-            t1831,
-            t1836,
-            t1856,
-            t1861,
-            t1866,
-            t1893,
-            t1905,
-            t1917,
-            t2059,
-            t2075,
-            t2082,
-            t2095,
-            t2099,
-            t2106,
-            t2119,
-            t2123,
-            t2127,
-            t2222,
-            t2229,
-            t2236,
-            t2252,
-            t2256,
-            t2263,
-            t2279,
-            t2286,
-            t2290,
-            t2292,
-            t2294,
-            t2295,
-            t2297,
-            t2298,
-            t2299,
-            t2301,
-            t2304,
-            t2307,
-            t2310,
-            t2312,
-            t2314,
-            t2316,
-            t2318,
-            t2319,
-            t2320,
-            t2321,
-            t2322,
-            t2323,
-            t2324,
-            t2325,
-            t2326,
-            t2327,
-            t2328,
-            t2329,
-            t2330,
-            t2331,
-            t2332,
-            t2333,
-            t2334,
-            t2335,
-            t2336,
-            t2337,
+            t1644, t1659, t1674, t1725, t1731, t1737, t1761, t1767, t1773, t1796, t1801, t1806,
+            t1826, t1831, t1836, t1856, t1861, t1866, t1893, t1905, t1917, t2059, t2075, t2082,
+            t2095, t2099, t2106, t2119, t2123, t2127, t2222, t2229, t2236, t2252, t2256, t2263,
+            t2279, t2286, t2290, t2292, t2294, t2295, t2297, t2298, t2299, t2301, t2304, t2307,
+            t2310, t2312, t2314, t2316, t2318, t2319, t2320, t2321, t2322, t2323, t2324, t2325,
+            t2326, t2327, t2328, t2329, t2330, t2331, t2332, t2333, t2334, t2335, t2336, t2337,
         )
     };
     {
@@ -27926,127 +22256,14 @@ pub fn inverse_dynamics<T: Scalar>(
 ) {
     let c = T::constant;
     let (
-        t3,
-        t6,
-        t9,
-        t12,
-        t15,
-        t18,
-        t21,
-        t24,
-        t27,
-        t175,
-        t176,
-        t177,
-        t178,
-        t179,
-        t180,
-        t181,
-        t182,
-        t183,
-        t184,
-        t185,
-        t186,
-        t187,
-        t188,
-        t189,
-        t190,
-        t191,
-        t192,
-        t198,
-        t204,
-        t210,
-        t216,
-        t222,
-        t228,
-        t230,
-        t237,
-        t244,
-        t251,
-        t265,
-        t276,
-        t287,
-        t299,
-        t310,
-        t322,
-        t505,
-        t507,
-        t509,
-        t522,
-        t526,
-        t530,
-        t533,
-        t536,
-        t539,
-        t541,
-        t543,
-        t545,
-        t674,
-        t679,
-        t684,
-        t711,
-        t712,
-        t713,
-        t714,
-        t723,
-        t728,
-        t733,
-        t760,
-        t761,
-        t762,
-        t763,
-        t772,
-        t777,
-        t782,
-        t809,
-        t810,
-        t811,
-        t812,
-        t821,
-        t826,
-        t831,
-        t858,
-        t859,
-        t860,
-        t861,
-        t870,
-        t875,
-        t880,
-        t907,
-        t908,
-        t909,
-        t910,
-        t919,
-        t924,
-        t929,
-        t956,
-        t957,
-        t958,
-        t959,
-        t962,
-        t965,
-        t968,
-        t971,
-        t974,
-        t977,
-        t978,
-        t979,
-        t980,
-        t981,
-        t982,
-        t983,
-        t984,
-        t985,
-        t986,
-        t987,
-        t988,
-        t989,
-        t990,
-        t991,
-        t992,
-        t993,
-        t994,
-        t995,
+        t3, t6, t9, t12, t15, t18, t21, t24, t27, t175, t176, t177, t178, t179, t180, t181, t182,
+        t183, t184, t185, t186, t187, t188, t189, t190, t191, t192, t198, t204, t210, t216, t222,
+        t228, t230, t237, t244, t251, t265, t276, t287, t299, t310, t322, t505, t507, t509, t522,
+        t526, t530, t533, t536, t539, t541, t543, t545, t674, t679, t684, t711, t712, t713, t714,
+        t723, t728, t733, t760, t761, t762, t763, t772, t777, t782, t809, t810, t811, t812, t821,
+        t826, t831, t858, t859, t860, t861, t870, t875, t880, t907, t908, t909, t910, t919, t924,
+        t929, t956, t957, t958, t959, t962, t965, t968, t971, t974, t977, t978, t979, t980, t981,
+        t982, t983, t984, t985, t986, t987, t988, t989, t990, t991, t992, t993, t994, t995,
     ) = {
         // rotation of the platform seen from the base
         let t1 = base_rotation[1][0] * platform_rotation[1][0];
@@ -28180,9 +22397,7 @@ pub fn inverse_dynamics<T: Scalar>(
         // leg 1: extent of the rod along the actuator axis
         let t115 = parameters.rod_length[0] * parameters.rod_length[0];
         let t116 = mul_add(t114, t114, mul_add(t112, t112, t113 * t113));
-        let t117 = sqrt(
-            mul_sub(parameters.rod_length[0], parameters.rod_length[0], t116),
-        );
+        let t117 = sqrt(mul_sub(parameters.rod_length[0], parameters.rod_length[0], t116));
         // leg 1: reciprocal of that extent
         let t118 = c(1.0) / t117;
         // leg 1: actuator length d
@@ -28197,9 +22412,7 @@ pub fn inverse_dynamics<T: Scalar>(
         // leg 2: extent of the rod along the actuator axis
         let t126 = parameters.rod_length[1] * parameters.rod_length[1];
         let t127 = mul_add(t125, t125, mul_add(t123, t123, t124 * t124));
-        let t128 = sqrt(
-            mul_sub(parameters.rod_length[1], parameters.rod_length[1], t127),
-        );
+        let t128 = sqrt(mul_sub(parameters.rod_length[1], parameters.rod_length[1], t127));
         // leg 2: reciprocal of that extent
         let t129 = c(1.0) / t128;
         // leg 2: actuator length d
@@ -28214,9 +22427,7 @@ pub fn inverse_dynamics<T: Scalar>(
         // leg 3: extent of the rod along the actuator axis
         let t137 = parameters.rod_length[2] * parameters.rod_length[2];
         let t138 = mul_add(t136, t136, mul_add(t134, t134, t135 * t135));
-        let t139 = sqrt(
-            mul_sub(parameters.rod_length[2], parameters.rod_length[2], t138),
-        );
+        let t139 = sqrt(mul_sub(parameters.rod_length[2], parameters.rod_length[2], t138));
         // leg 3: reciprocal of that extent
         let t140 = c(1.0) / t139;
         // leg 3: actuator length d
@@ -28231,9 +22442,7 @@ pub fn inverse_dynamics<T: Scalar>(
         // leg 4: extent of the rod along the actuator axis
         let t148 = parameters.rod_length[3] * parameters.rod_length[3];
         let t149 = mul_add(t147, t147, mul_add(t145, t145, t146 * t146));
-        let t150 = sqrt(
-            mul_sub(parameters.rod_length[3], parameters.rod_length[3], t149),
-        );
+        let t150 = sqrt(mul_sub(parameters.rod_length[3], parameters.rod_length[3], t149));
         // leg 4: reciprocal of that extent
         let t151 = c(1.0) / t150;
         // leg 4: actuator length d
@@ -28248,9 +22457,7 @@ pub fn inverse_dynamics<T: Scalar>(
         // leg 5: extent of the rod along the actuator axis
         let t159 = parameters.rod_length[4] * parameters.rod_length[4];
         let t160 = mul_add(t158, t158, mul_add(t156, t156, t157 * t157));
-        let t161 = sqrt(
-            mul_sub(parameters.rod_length[4], parameters.rod_length[4], t160),
-        );
+        let t161 = sqrt(mul_sub(parameters.rod_length[4], parameters.rod_length[4], t160));
         // leg 5: reciprocal of that extent
         let t162 = c(1.0) / t161;
         // leg 5: actuator length d
@@ -28265,9 +22472,7 @@ pub fn inverse_dynamics<T: Scalar>(
         // leg 6: extent of the rod along the actuator axis
         let t170 = parameters.rod_length[5] * parameters.rod_length[5];
         let t171 = mul_add(t169, t169, mul_add(t167, t167, t168 * t168));
-        let t172 = sqrt(
-            mul_sub(parameters.rod_length[5], parameters.rod_length[5], t171),
-        );
+        let t172 = sqrt(mul_sub(parameters.rod_length[5], parameters.rod_length[5], t171));
         // leg 6: reciprocal of that extent
         let t173 = c(1.0) / t172;
         // leg 6: actuator length d
@@ -28397,11 +22602,7 @@ pub fn inverse_dynamics<T: Scalar>(
         let t270 = parameters.platform_point[1][0] * parameters.platform_point[1][1];
         let t271 = parameters.platform_point[0][0] * parameters.platform_point[0][1];
         let t272 = parameters.payload_com[0] * parameters.payload_com[1];
-        let t273 = neg_mul_add(
-            parameters.payload_mass,
-            t272,
-            parameters.payload_inertia[0][1],
-        );
+        let t273 = neg_mul_add(parameters.payload_mass, t272, parameters.payload_inertia[0][1]);
         let t274 = neg_mul_add(t203, t270, neg_mul_add(t197, t271, t273));
         let t275 = neg_mul_add(t215, t268, neg_mul_add(t209, t269, t274));
         let t276 = neg_mul_add(t227, t266, neg_mul_add(t221, t267, t275));
@@ -28412,11 +22613,7 @@ pub fn inverse_dynamics<T: Scalar>(
         let t281 = parameters.platform_point[1][0] * parameters.platform_point[1][2];
         let t282 = parameters.platform_point[0][0] * parameters.platform_point[0][2];
         let t283 = parameters.payload_com[0] * parameters.payload_com[2];
-        let t284 = neg_mul_add(
-            parameters.payload_mass,
-            t283,
-            parameters.payload_inertia[0][2],
-        );
+        let t284 = neg_mul_add(parameters.payload_mass, t283, parameters.payload_inertia[0][2]);
         let t285 = neg_mul_add(t203, t281, neg_mul_add(t197, t282, t284));
         let t286 = neg_mul_add(t215, t279, neg_mul_add(t209, t280, t285));
         let t287 = neg_mul_add(t227, t277, neg_mul_add(t221, t278, t286));
@@ -28439,11 +22636,7 @@ pub fn inverse_dynamics<T: Scalar>(
         let t304 = parameters.platform_point[1][1] * parameters.platform_point[1][2];
         let t305 = parameters.platform_point[0][1] * parameters.platform_point[0][2];
         let t306 = parameters.payload_com[1] * parameters.payload_com[2];
-        let t307 = neg_mul_add(
-            parameters.payload_mass,
-            t306,
-            parameters.payload_inertia[1][2],
-        );
+        let t307 = neg_mul_add(parameters.payload_mass, t306, parameters.payload_inertia[1][2]);
         let t308 = neg_mul_add(t203, t304, neg_mul_add(t197, t305, t307));
         let t309 = neg_mul_add(t215, t302, neg_mul_add(t209, t303, t308));
         let t310 = neg_mul_add(t227, t300, neg_mul_add(t221, t301, t309));
@@ -28855,21 +23048,9 @@ pub fn inverse_dynamics<T: Scalar>(
         let t666 = c(2.0) * t427;
         let t667 = parameters.actuator_axis[0][1] * t331;
         let t668 = mul_sub(parameters.actuator_axis[0][2], t328, t667);
-        let t669 = neg_mul_add(
-            parameters.actuator_axis[0][2],
-            t119,
-            parameters.base_point[0][2],
-        );
-        let t670 = neg_mul_add(
-            parameters.actuator_axis[0][0],
-            t119,
-            parameters.base_point[0][0],
-        );
-        let t671 = neg_mul_add(
-            parameters.actuator_axis[0][1],
-            t119,
-            parameters.base_point[0][1],
-        );
+        let t669 = neg_mul_add(parameters.actuator_axis[0][2], t119, parameters.base_point[0][2]);
+        let t670 = neg_mul_add(parameters.actuator_axis[0][0], t119, parameters.base_point[0][0]);
+        let t671 = neg_mul_add(parameters.actuator_axis[0][1], t119, parameters.base_point[0][1]);
         let t672 = neg_mul_add(t493, t669, mul_add(t491, t670, t492 * t671));
         let t673 = neg_mul_add(t666, t668, t477 - t672);
         let t674 = neg_mul_add(parameters.actuator_axis[0][0], t635, t673);
@@ -28918,21 +23099,9 @@ pub fn inverse_dynamics<T: Scalar>(
         let t715 = c(2.0) * t436;
         let t716 = parameters.actuator_axis[1][1] * t331;
         let t717 = mul_sub(parameters.actuator_axis[1][2], t328, t716);
-        let t718 = neg_mul_add(
-            parameters.actuator_axis[1][2],
-            t130,
-            parameters.base_point[1][2],
-        );
-        let t719 = neg_mul_add(
-            parameters.actuator_axis[1][0],
-            t130,
-            parameters.base_point[1][0],
-        );
-        let t720 = neg_mul_add(
-            parameters.actuator_axis[1][1],
-            t130,
-            parameters.base_point[1][1],
-        );
+        let t718 = neg_mul_add(parameters.actuator_axis[1][2], t130, parameters.base_point[1][2]);
+        let t719 = neg_mul_add(parameters.actuator_axis[1][0], t130, parameters.base_point[1][0]);
+        let t720 = neg_mul_add(parameters.actuator_axis[1][1], t130, parameters.base_point[1][1]);
         let t721 = neg_mul_add(t493, t718, mul_add(t491, t719, t492 * t720));
         let t722 = neg_mul_add(t715, t717, t477 - t721);
         let t723 = neg_mul_add(parameters.actuator_axis[1][0], t641, t722);
@@ -28981,21 +23150,9 @@ pub fn inverse_dynamics<T: Scalar>(
         let t764 = c(2.0) * t445;
         let t765 = parameters.actuator_axis[2][1] * t331;
         let t766 = mul_sub(parameters.actuator_axis[2][2], t328, t765);
-        let t767 = neg_mul_add(
-            parameters.actuator_axis[2][2],
-            t141,
-            parameters.base_point[2][2],
-        );
-        let t768 = neg_mul_add(
-            parameters.actuator_axis[2][0],
-            t141,
-            parameters.base_point[2][0],
-        );
-        let t769 = neg_mul_add(
-            parameters.actuator_axis[2][1],
-            t141,
-            parameters.base_point[2][1],
-        );
+        let t767 = neg_mul_add(parameters.actuator_axis[2][2], t141, parameters.base_point[2][2]);
+        let t768 = neg_mul_add(parameters.actuator_axis[2][0], t141, parameters.base_point[2][0]);
+        let t769 = neg_mul_add(parameters.actuator_axis[2][1], t141, parameters.base_point[2][1]);
         let t770 = neg_mul_add(t493, t767, mul_add(t491, t768, t492 * t769));
         let t771 = neg_mul_add(t764, t766, t477 - t770);
         let t772 = neg_mul_add(parameters.actuator_axis[2][0], t647, t771);
@@ -29044,21 +23201,9 @@ pub fn inverse_dynamics<T: Scalar>(
         let t813 = c(2.0) * t454;
         let t814 = parameters.actuator_axis[3][1] * t331;
         let t815 = mul_sub(parameters.actuator_axis[3][2], t328, t814);
-        let t816 = neg_mul_add(
-            parameters.actuator_axis[3][2],
-            t152,
-            parameters.base_point[3][2],
-        );
-        let t817 = neg_mul_add(
-            parameters.actuator_axis[3][0],
-            t152,
-            parameters.base_point[3][0],
-        );
-        let t818 = neg_mul_add(
-            parameters.actuator_axis[3][1],
-            t152,
-            parameters.base_point[3][1],
-        );
+        let t816 = neg_mul_add(parameters.actuator_axis[3][2], t152, parameters.base_point[3][2]);
+        let t817 = neg_mul_add(parameters.actuator_axis[3][0], t152, parameters.base_point[3][0]);
+        let t818 = neg_mul_add(parameters.actuator_axis[3][1], t152, parameters.base_point[3][1]);
         let t819 = neg_mul_add(t493, t816, mul_add(t491, t817, t492 * t818));
         let t820 = neg_mul_add(t813, t815, t477 - t819);
         let t821 = neg_mul_add(parameters.actuator_axis[3][0], t653, t820);
@@ -29107,21 +23252,9 @@ pub fn inverse_dynamics<T: Scalar>(
         let t862 = c(2.0) * t463;
         let t863 = parameters.actuator_axis[4][1] * t331;
         let t864 = mul_sub(parameters.actuator_axis[4][2], t328, t863);
-        let t865 = neg_mul_add(
-            parameters.actuator_axis[4][2],
-            t163,
-            parameters.base_point[4][2],
-        );
-        let t866 = neg_mul_add(
-            parameters.actuator_axis[4][0],
-            t163,
-            parameters.base_point[4][0],
-        );
-        let t867 = neg_mul_add(
-            parameters.actuator_axis[4][1],
-            t163,
-            parameters.base_point[4][1],
-        );
+        let t865 = neg_mul_add(parameters.actuator_axis[4][2], t163, parameters.base_point[4][2]);
+        let t866 = neg_mul_add(parameters.actuator_axis[4][0], t163, parameters.base_point[4][0]);
+        let t867 = neg_mul_add(parameters.actuator_axis[4][1], t163, parameters.base_point[4][1]);
         let t868 = neg_mul_add(t493, t865, mul_add(t491, t866, t492 * t867));
         let t869 = neg_mul_add(t862, t864, t477 - t868);
         let t870 = neg_mul_add(parameters.actuator_axis[4][0], t659, t869);
@@ -29170,21 +23303,9 @@ pub fn inverse_dynamics<T: Scalar>(
         let t911 = c(2.0) * t472;
         let t912 = parameters.actuator_axis[5][1] * t331;
         let t913 = mul_sub(parameters.actuator_axis[5][2], t328, t912);
-        let t914 = neg_mul_add(
-            parameters.actuator_axis[5][2],
-            t174,
-            parameters.base_point[5][2],
-        );
-        let t915 = neg_mul_add(
-            parameters.actuator_axis[5][0],
-            t174,
-            parameters.base_point[5][0],
-        );
-        let t916 = neg_mul_add(
-            parameters.actuator_axis[5][1],
-            t174,
-            parameters.base_point[5][1],
-        );
+        let t914 = neg_mul_add(parameters.actuator_axis[5][2], t174, parameters.base_point[5][2]);
+        let t915 = neg_mul_add(parameters.actuator_axis[5][0], t174, parameters.base_point[5][0]);
+        let t916 = neg_mul_add(parameters.actuator_axis[5][1], t174, parameters.base_point[5][1]);
         let t917 = neg_mul_add(t493, t914, mul_add(t491, t915, t492 * t916));
         let t918 = neg_mul_add(t911, t913, t477 - t917);
         let t919 = neg_mul_add(parameters.actuator_axis[5][0], t665, t918);
@@ -29278,127 +23399,15 @@ pub fn inverse_dynamics<T: Scalar>(
         let t994 = mul_sub(t105, t190, t99 * t192);
         let t995 = mul_sub(t99, t191, t102 * t190);
         (
-            t3,
-            t6,
-            t9,
-            t12,
-            t15,
-            t18,
-            t21,
-            t24,
-            t27,
-            t175,
-            t176,
-            t177,
-            t178,
-            t179,
-            t180,
-            t181,
-            t182,
-            t183,
-            t184,
-            t185,
-            t186,
-            t187,
-            t188,
-            t189,
-            t190,
-            t191,
-            t192,
-            t198,
-            t204,
-            t210,
-            t216,
-            t222,
-            t228,
-            t230,
-            t237,
-            t244,
-            t251,
-            t265,
-            t276,
-            t287,
-            t299,
-            t310,
-            t322,
-            t505,
-            t507,
-            t509,
-            t522,
-            t526,
-            t530,
-            t533,
-            t536,
-            t539,
-            t541,
-            t543,
-            t545,
-            t674,
-            t679,
-            t684,
-            t711,
-            t712,
-            t713,
-            t714,
-            t723,
-            t728,
-            t733,
-            t760,
-            t761,
-            t762,
-            t763,
-            t772,
-            t777,
-            t782,
-            t809,
-            t810,
-            t811,
-            t812,
-            t821,
-            t826,
-            t831,
-            t858,
-            t859,
-            t860,
-            t861,
-            t870,
-            t875,
-            t880,
-            t907,
-            t908,
-            t909,
-            t910,
-            t919,
-            t924,
-            t929,
-            t956,
-            t957,
-            t958,
-            t959,
-            t962,
-            t965,
-            t968,
-            t971,
-            t974,
-            t977,
-            t978,
-            t979,
-            t980,
-            t981,
-            t982,
-            t983,
-            t984,
-            t985,
-            t986,
-            t987,
-            t988,
-            t989,
-            t990,
-            t991,
-            t992,
-            t993,
-            t994,
-            t995,
+            t3, t6, t9, t12, t15, t18, t21, t24, t27, t175, t176, t177, t178, t179, t180, t181,
+            t182, t183, t184, t185, t186, t187, t188, t189, t190, t191, t192, t198, t204, t210,
+            t216, t222, t228, t230, t237, t244, t251, t265, t276, t287, t299, t310, t322, t505,
+            t507, t509, t522, t526, t530, t533, t536, t539, t541, t543, t545, t674, t679, t684,
+            t711, t712, t713, t714, t723, t728, t733, t760, t761, t762, t763, t772, t777, t782,
+            t809, t810, t811, t812, t821, t826, t831, t858, t859, t860, t861, t870, t875, t880,
+            t907, t908, t909, t910, t919, t924, t929, t956, t957, t958, t959, t962, t965, t968,
+            t971, t974, t977, t978, t979, t980, t981, t982, t983, t984, t985, t986, t987, t988,
+            t989, t990, t991, t992, t993, t994, t995,
         )
     };
     {
@@ -30020,193 +24029,19 @@ pub fn control<T: Scalar>(
 ) {
     let c = T::constant;
     let (
-        t3,
-        t6,
-        t9,
-        t12,
-        t15,
-        t18,
-        t21,
-        t24,
-        t27,
-        t32,
-        t34,
-        t36,
-        t166,
-        t167,
-        t168,
-        t172,
-        t173,
-        t177,
-        t178,
-        t179,
-        t183,
-        t184,
-        t188,
-        t189,
-        t190,
-        t194,
-        t195,
-        t199,
-        t200,
-        t201,
-        t205,
-        t206,
-        t210,
-        t211,
-        t212,
-        t216,
-        t217,
-        t221,
-        t222,
-        t223,
-        t227,
-        t228,
-        t248,
-        t250,
-        t252,
-        t254,
-        t256,
-        t258,
-        t260,
-        t262,
-        t264,
-        t266,
-        t268,
-        t270,
-        t272,
-        t274,
-        t276,
-        t278,
-        t280,
-        t282,
-        t283,
-        t284,
-        t285,
-        t286,
-        t287,
-        t288,
-        t289,
-        t290,
-        t291,
-        t292,
-        t293,
-        t294,
-        t295,
-        t296,
-        t297,
-        t298,
-        t299,
-        t300,
-        t303,
-        t306,
-        t310,
-        t313,
-        t317,
-        t320,
-        t324,
-        t327,
-        t331,
-        t334,
-        t338,
-        t341,
-        t344,
-        t351,
-        t358,
-        t365,
-        t379,
-        t390,
-        t401,
-        t413,
-        t424,
-        t436,
-        t569,
-        t570,
-        t576,
-        t594,
-        t614,
-        t645,
-        t684,
-        t687,
-        t690,
-        t691,
-        t692,
-        t695,
-        t696,
-        t697,
-        t698,
-        t707,
-        t709,
-        t711,
-        t719,
-        t721,
-        t729,
-        t739,
-        t742,
-        t745,
-        t748,
-        t751,
-        t754,
-        t755,
-        t756,
-        t757,
-        t763,
-        t766,
-        t769,
-        t770,
-        t771,
-        t772,
-        t773,
-        t774,
-        t775,
-        t776,
-        t777,
-        t778,
-        t836,
-        t837,
-        t838,
-        t840,
-        t841,
-        t845,
-        t846,
-        t847,
-        t849,
-        t850,
-        t854,
-        t855,
-        t856,
-        t858,
-        t859,
-        t863,
-        t864,
-        t865,
-        t867,
-        t868,
-        t872,
-        t873,
-        t874,
-        t876,
-        t877,
-        t881,
-        t882,
-        t883,
-        t885,
-        t886,
-        t891,
-        t893,
-        t895,
-        t898,
-        t901,
-        t904,
-        t905,
-        t906,
-        t907,
-        t908,
-        t910,
-        t911,
-        t912,
-        t913,
-        t914,
+        t3, t6, t9, t12, t15, t18, t21, t24, t27, t32, t34, t36, t166, t167, t168, t172, t173,
+        t177, t178, t179, t183, t184, t188, t189, t190, t194, t195, t199, t200, t201, t205, t206,
+        t210, t211, t212, t216, t217, t221, t222, t223, t227, t228, t248, t250, t252, t254, t256,
+        t258, t260, t262, t264, t266, t268, t270, t272, t274, t276, t278, t280, t282, t283, t284,
+        t285, t286, t287, t288, t289, t290, t291, t292, t293, t294, t295, t296, t297, t298, t299,
+        t300, t303, t306, t310, t313, t317, t320, t324, t327, t331, t334, t338, t341, t344, t351,
+        t358, t365, t379, t390, t401, t413, t424, t436, t569, t570, t576, t594, t614, t645, t684,
+        t687, t690, t691, t692, t695, t696, t697, t698, t707, t709, t711, t719, t721, t729, t739,
+        t742, t745, t748, t751, t754, t755, t756, t757, t763, t766, t769, t770, t771, t772, t773,
+        t774, t775, t776, t777, t778, t836, t837, t838, t840, t841, t845, t846, t847, t849, t850,
+        t854, t855, t856, t858, t859, t863, t864, t865, t867, t868, t872, t873, t874, t876, t877,
+        t881, t882, t883, t885, t886, t891, t893, t895, t898, t901, t904, t905, t906, t907, t908,
+        t910, t911, t912, t913, t914,
     ) = {
         // rotation of the platform seen from the base
         let t1 = base_rotation[1][0] * platform_rotation[1][0];
@@ -30326,38 +24161,14 @@ pub fn control<T: Scalar>(
         let t107 = mul_add(parameters.platform_point[3][0], t21, t106);
         let t108 = mul_add(parameters.platform_point[3][2], t27, t107);
         let t109 = platform_rotation[0][1] * parameters.platform_point[3][1];
-        let t110 = mul_add(
-            platform_rotation[0][0],
-            parameters.platform_point[3][0],
-            t109,
-        );
-        let t111 = mul_add(
-            platform_rotation[0][2],
-            parameters.platform_point[3][2],
-            t110,
-        );
+        let t110 = mul_add(platform_rotation[0][0], parameters.platform_point[3][0], t109);
+        let t111 = mul_add(platform_rotation[0][2], parameters.platform_point[3][2], t110);
         let t112 = platform_rotation[1][1] * parameters.platform_point[3][1];
-        let t113 = mul_add(
-            platform_rotation[1][0],
-            parameters.platform_point[3][0],
-            t112,
-        );
-        let t114 = mul_add(
-            platform_rotation[1][2],
-            parameters.platform_point[3][2],
-            t113,
-        );
+        let t113 = mul_add(platform_rotation[1][0], parameters.platform_point[3][0], t112);
+        let t114 = mul_add(platform_rotation[1][2], parameters.platform_point[3][2], t113);
         let t115 = platform_rotation[2][1] * parameters.platform_point[3][1];
-        let t116 = mul_add(
-            platform_rotation[2][0],
-            parameters.platform_point[3][0],
-            t115,
-        );
-        let t117 = mul_add(
-            platform_rotation[2][2],
-            parameters.platform_point[3][2],
-            t116,
-        );
+        let t116 = mul_add(platform_rotation[2][0], parameters.platform_point[3][0], t115);
+        let t117 = mul_add(platform_rotation[2][2], parameters.platform_point[3][2], t116);
         // leg 4: platform joint from the base point
         let t118 = parameters.base_point[3][0] + (t32 - t102);
         let t119 = parameters.base_point[3][1] + (t34 - t105);
@@ -30373,38 +24184,14 @@ pub fn control<T: Scalar>(
         let t128 = mul_add(parameters.platform_point[4][0], t21, t127);
         let t129 = mul_add(parameters.platform_point[4][2], t27, t128);
         let t130 = platform_rotation[0][1] * parameters.platform_point[4][1];
-        let t131 = mul_add(
-            platform_rotation[0][0],
-            parameters.platform_point[4][0],
-            t130,
-        );
-        let t132 = mul_add(
-            platform_rotation[0][2],
-            parameters.platform_point[4][2],
-            t131,
-        );
+        let t131 = mul_add(platform_rotation[0][0], parameters.platform_point[4][0], t130);
+        let t132 = mul_add(platform_rotation[0][2], parameters.platform_point[4][2], t131);
         let t133 = platform_rotation[1][1] * parameters.platform_point[4][1];
-        let t134 = mul_add(
-            platform_rotation[1][0],
-            parameters.platform_point[4][0],
-            t133,
-        );
-        let t135 = mul_add(
-            platform_rotation[1][2],
-            parameters.platform_point[4][2],
-            t134,
-        );
+        let t134 = mul_add(platform_rotation[1][0], parameters.platform_point[4][0], t133);
+        let t135 = mul_add(platform_rotation[1][2], parameters.platform_point[4][2], t134);
         let t136 = platform_rotation[2][1] * parameters.platform_point[4][1];
-        let t137 = mul_add(
-            platform_rotation[2][0],
-            parameters.platform_point[4][0],
-            t136,
-        );
-        let t138 = mul_add(
-            platform_rotation[2][2],
-            parameters.platform_point[4][2],
-            t137,
-        );
+        let t137 = mul_add(platform_rotation[2][0], parameters.platform_point[4][0], t136);
+        let t138 = mul_add(platform_rotation[2][2], parameters.platform_point[4][2], t137);
         // leg 5: platform joint from the base point
         let t139 = parameters.base_point[4][0] + (t32 - t123);
         let t140 = parameters.base_point[4][1] + (t34 - t126);
@@ -30420,38 +24207,14 @@ pub fn control<T: Scalar>(
         let t149 = mul_add(parameters.platform_point[5][0], t21, t148);
         let t150 = mul_add(parameters.platform_point[5][2], t27, t149);
         let t151 = platform_rotation[0][1] * parameters.platform_point[5][1];
-        let t152 = mul_add(
-            platform_rotation[0][0],
-            parameters.platform_point[5][0],
-            t151,
-        );
-        let t153 = mul_add(
-            platform_rotation[0][2],
-            parameters.platform_point[5][2],
-            t152,
-        );
+        let t152 = mul_add(platform_rotation[0][0], parameters.platform_point[5][0], t151);
+        let t153 = mul_add(platform_rotation[0][2], parameters.platform_point[5][2], t152);
         let t154 = platform_rotation[1][1] * parameters.platform_point[5][1];
-        let t155 = mul_add(
-            platform_rotation[1][0],
-            parameters.platform_point[5][0],
-            t154,
-        );
-        let t156 = mul_add(
-            platform_rotation[1][2],
-            parameters.platform_point[5][2],
-            t155,
-        );
+        let t155 = mul_add(platform_rotation[1][0], parameters.platform_point[5][0], t154);
+        let t156 = mul_add(platform_rotation[1][2], parameters.platform_point[5][2], t155);
         let t157 = platform_rotation[2][1] * parameters.platform_point[5][1];
-        let t158 = mul_add(
-            platform_rotation[2][0],
-            parameters.platform_point[5][0],
-            t157,
-        );
-        let t159 = mul_add(
-            platform_rotation[2][2],
-            parameters.platform_point[5][2],
-            t158,
-        );
+        let t158 = mul_add(platform_rotation[2][0], parameters.platform_point[5][0], t157);
+        let t159 = mul_add(platform_rotation[2][2], parameters.platform_point[5][2], t158);
         // leg 6: platform joint from the base point
         let t160 = parameters.base_point[5][0] + (t32 - t144);
         let t161 = parameters.base_point[5][1] + (t34 - t147);
@@ -30466,9 +24229,7 @@ pub fn control<T: Scalar>(
         // leg 1: extent of the rod along the actuator axis
         let t169 = parameters.rod_length[0] * parameters.rod_length[0];
         let t170 = mul_add(t168, t168, mul_add(t166, t166, t167 * t167));
-        let t171 = sqrt(
-            mul_sub(parameters.rod_length[0], parameters.rod_length[0], t170),
-        );
+        let t171 = sqrt(mul_sub(parameters.rod_length[0], parameters.rod_length[0], t170));
         // leg 1: reciprocal of that extent
         let t172 = c(1.0) / t171;
         // leg 1: actuator length d
@@ -30484,9 +24245,7 @@ pub fn control<T: Scalar>(
         // leg 2: extent of the rod along the actuator axis
         let t180 = parameters.rod_length[1] * parameters.rod_length[1];
         let t181 = mul_add(t179, t179, mul_add(t177, t177, t178 * t178));
-        let t182 = sqrt(
-            mul_sub(parameters.rod_length[1], parameters.rod_length[1], t181),
-        );
+        let t182 = sqrt(mul_sub(parameters.rod_length[1], parameters.rod_length[1], t181));
         // leg 2: reciprocal of that extent
         let t183 = c(1.0) / t182;
         // leg 2: actuator length d
@@ -30502,9 +24261,7 @@ pub fn control<T: Scalar>(
         // leg 3: extent of the rod along the actuator axis
         let t191 = parameters.rod_length[2] * parameters.rod_length[2];
         let t192 = mul_add(t190, t190, mul_add(t188, t188, t189 * t189));
-        let t193 = sqrt(
-            mul_sub(parameters.rod_length[2], parameters.rod_length[2], t192),
-        );
+        let t193 = sqrt(mul_sub(parameters.rod_length[2], parameters.rod_length[2], t192));
         // leg 3: reciprocal of that extent
         let t194 = c(1.0) / t193;
         // leg 3: actuator length d
@@ -30520,9 +24277,7 @@ pub fn control<T: Scalar>(
         // leg 4: extent of the rod along the actuator axis
         let t202 = parameters.rod_length[3] * parameters.rod_length[3];
         let t203 = mul_add(t201, t201, mul_add(t199, t199, t200 * t200));
-        let t204 = sqrt(
-            mul_sub(parameters.rod_length[3], parameters.rod_length[3], t203),
-        );
+        let t204 = sqrt(mul_sub(parameters.rod_length[3], parameters.rod_length[3], t203));
         // leg 4: reciprocal of that extent
         let t205 = c(1.0) / t204;
         // leg 4: actuator length d
@@ -30538,9 +24293,7 @@ pub fn control<T: Scalar>(
         // leg 5: extent of the rod along the actuator axis
         let t213 = parameters.rod_length[4] * parameters.rod_length[4];
         let t214 = mul_add(t212, t212, mul_add(t210, t210, t211 * t211));
-        let t215 = sqrt(
-            mul_sub(parameters.rod_length[4], parameters.rod_length[4], t214),
-        );
+        let t215 = sqrt(mul_sub(parameters.rod_length[4], parameters.rod_length[4], t214));
         // leg 5: reciprocal of that extent
         let t216 = c(1.0) / t215;
         // leg 5: actuator length d
@@ -30556,9 +24309,7 @@ pub fn control<T: Scalar>(
         // leg 6: extent of the rod along the actuator axis
         let t224 = parameters.rod_length[5] * parameters.rod_length[5];
         let t225 = mul_add(t223, t223, mul_add(t221, t221, t222 * t222));
-        let t226 = sqrt(
-            mul_sub(parameters.rod_length[5], parameters.rod_length[5], t225),
-        );
+        let t226 = sqrt(mul_sub(parameters.rod_length[5], parameters.rod_length[5], t225));
         // leg 6: reciprocal of that extent
         let t227 = c(1.0) / t226;
         // leg 6: actuator length d
@@ -30803,11 +24554,7 @@ pub fn control<T: Scalar>(
         let t384 = parameters.platform_point[1][0] * parameters.platform_point[1][1];
         let t385 = parameters.platform_point[0][0] * parameters.platform_point[0][1];
         let t386 = parameters.payload_com[0] * parameters.payload_com[1];
-        let t387 = neg_mul_add(
-            parameters.payload_mass,
-            t386,
-            parameters.payload_inertia[0][1],
-        );
+        let t387 = neg_mul_add(parameters.payload_mass, t386, parameters.payload_inertia[0][1]);
         let t388 = neg_mul_add(t312, t384, neg_mul_add(t305, t385, t387));
         let t389 = neg_mul_add(t326, t382, neg_mul_add(t319, t383, t388));
         let t390 = neg_mul_add(t340, t380, neg_mul_add(t333, t381, t389));
@@ -30818,11 +24565,7 @@ pub fn control<T: Scalar>(
         let t395 = parameters.platform_point[1][0] * parameters.platform_point[1][2];
         let t396 = parameters.platform_point[0][0] * parameters.platform_point[0][2];
         let t397 = parameters.payload_com[0] * parameters.payload_com[2];
-        let t398 = neg_mul_add(
-            parameters.payload_mass,
-            t397,
-            parameters.payload_inertia[0][2],
-        );
+        let t398 = neg_mul_add(parameters.payload_mass, t397, parameters.payload_inertia[0][2]);
         let t399 = neg_mul_add(t312, t395, neg_mul_add(t305, t396, t398));
         let t400 = neg_mul_add(t326, t393, neg_mul_add(t319, t394, t399));
         let t401 = neg_mul_add(t340, t391, neg_mul_add(t333, t392, t400));
@@ -30845,11 +24588,7 @@ pub fn control<T: Scalar>(
         let t418 = parameters.platform_point[1][1] * parameters.platform_point[1][2];
         let t419 = parameters.platform_point[0][1] * parameters.platform_point[0][2];
         let t420 = parameters.payload_com[1] * parameters.payload_com[2];
-        let t421 = neg_mul_add(
-            parameters.payload_mass,
-            t420,
-            parameters.payload_inertia[1][2],
-        );
+        let t421 = neg_mul_add(parameters.payload_mass, t420, parameters.payload_inertia[1][2]);
         let t422 = neg_mul_add(t312, t418, neg_mul_add(t305, t419, t421));
         let t423 = neg_mul_add(t326, t416, neg_mul_add(t319, t417, t422));
         let t424 = neg_mul_add(t340, t414, neg_mul_add(t333, t415, t423));
@@ -31134,28 +24873,16 @@ pub fn control<T: Scalar>(
         // mass matrix M_p of the platform
         let t684 = t344 + t568;
         mass_matrix_p[0][0] = t684;
-        let t685 = mul_add(
-            platform_rotation[2][0],
-            t351,
-            platform_rotation[2][1] * t358,
-        );
+        let t685 = mul_add(platform_rotation[2][0], t351, platform_rotation[2][1] * t358);
         let t686 = mul_add(platform_rotation[2][2], t365, t685);
         let t687 = t583 - t686;
-        let t688 = mul_add(
-            platform_rotation[1][0],
-            t351,
-            platform_rotation[1][1] * t358,
-        );
+        let t688 = mul_add(platform_rotation[1][0], t351, platform_rotation[1][1] * t358);
         let t689 = mul_add(platform_rotation[1][2], t365, t688);
         let t690 = t590 + t689;
         let t691 = t344 + t593;
         mass_matrix_p[1][1] = t691;
         let t692 = t601 + t686;
-        let t693 = mul_add(
-            platform_rotation[0][0],
-            t351,
-            platform_rotation[0][1] * t358,
-        );
+        let t693 = mul_add(platform_rotation[0][0], t351, platform_rotation[0][1] * t358);
         let t694 = mul_add(platform_rotation[0][2], t365, t693);
         let t695 = t621 - t694;
         let t696 = t344 + t624;
@@ -31163,97 +24890,40 @@ pub fn control<T: Scalar>(
         let t697 = t631 - t689;
         let t698 = t638 + t694;
         let t699 = t436 + (t379 + t413);
-        let t700 = mul_add(
-            platform_rotation[0][0],
-            t401,
-            platform_rotation[0][1] * t424,
-        );
+        let t700 = mul_add(platform_rotation[0][0], t401, platform_rotation[0][1] * t424);
         let t701 = mul_add(platform_rotation[0][2], t436, t700);
-        let t702 = mul_add(
-            platform_rotation[0][0],
-            t379,
-            platform_rotation[0][1] * t390,
-        );
+        let t702 = mul_add(platform_rotation[0][0], t379, platform_rotation[0][1] * t390);
         let t703 = mul_add(platform_rotation[0][2], t401, t702);
-        let t704 = mul_add(
-            platform_rotation[0][0],
-            t390,
-            platform_rotation[0][1] * t413,
-        );
+        let t704 = mul_add(platform_rotation[0][0], t390, platform_rotation[0][1] * t413);
         let t705 = mul_add(platform_rotation[0][2], t424, t704);
-        let t706 = mul_add(
-            platform_rotation[0][0],
-            t703,
-            platform_rotation[0][1] * t705,
-        );
+        let t706 = mul_add(platform_rotation[0][0], t703, platform_rotation[0][1] * t705);
         let t707 = t651 - (t699 - mul_add(platform_rotation[0][2], t701, t706));
         mass_matrix_p[3][3] = t707;
-        let t708 = mul_add(
-            platform_rotation[1][0],
-            t703,
-            platform_rotation[1][1] * t705,
-        );
+        let t708 = mul_add(platform_rotation[1][0], t703, platform_rotation[1][1] * t705);
         let t709 = t657 - mul_add(platform_rotation[1][2], t701, t708);
-        let t710 = mul_add(
-            platform_rotation[2][0],
-            t703,
-            platform_rotation[2][1] * t705,
-        );
+        let t710 = mul_add(platform_rotation[2][0], t703, platform_rotation[2][1] * t705);
         let t711 = t663 + mul_add(platform_rotation[2][2], t701, t710);
         mass_matrix_p[3][5] = t711;
         mass_matrix_p[5][3] = t711;
-        let t712 = mul_add(
-            platform_rotation[1][0],
-            t401,
-            platform_rotation[1][1] * t424,
-        );
+        let t712 = mul_add(platform_rotation[1][0], t401, platform_rotation[1][1] * t424);
         let t713 = mul_add(platform_rotation[1][2], t436, t712);
-        let t714 = mul_add(
-            platform_rotation[1][0],
-            t379,
-            platform_rotation[1][1] * t390,
-        );
+        let t714 = mul_add(platform_rotation[1][0], t379, platform_rotation[1][1] * t390);
         let t715 = mul_add(platform_rotation[1][2], t401, t714);
-        let t716 = mul_add(
-            platform_rotation[1][0],
-            t390,
-            platform_rotation[1][1] * t413,
-        );
+        let t716 = mul_add(platform_rotation[1][0], t390, platform_rotation[1][1] * t413);
         let t717 = mul_add(platform_rotation[1][2], t424, t716);
-        let t718 = mul_add(
-            platform_rotation[1][0],
-            t715,
-            platform_rotation[1][1] * t717,
-        );
+        let t718 = mul_add(platform_rotation[1][0], t715, platform_rotation[1][1] * t717);
         let t719 = t669 - (t699 - mul_add(platform_rotation[1][2], t713, t718));
         mass_matrix_p[4][4] = t719;
-        let t720 = mul_add(
-            platform_rotation[2][0],
-            t715,
-            platform_rotation[2][1] * t717,
-        );
+        let t720 = mul_add(platform_rotation[2][0], t715, platform_rotation[2][1] * t717);
         let t721 = t675 + mul_add(platform_rotation[2][2], t713, t720);
         mass_matrix_p[4][5] = t721;
         mass_matrix_p[5][4] = t721;
-        let t722 = mul_add(
-            platform_rotation[2][0],
-            t401,
-            platform_rotation[2][1] * t424,
-        );
+        let t722 = mul_add(platform_rotation[2][0], t401, platform_rotation[2][1] * t424);
         let t723 = mul_add(platform_rotation[2][2], t436, t722);
-        let t724 = mul_add(
-            platform_rotation[2][0],
-            t379,
-            platform_rotation[2][1] * t390,
-        );
+        let t724 = mul_add(platform_rotation[2][0], t379, platform_rotation[2][1] * t390);
         let t725 = mul_add(platform_rotation[2][2], t401, t724);
-        let t726 = mul_add(
-            platform_rotation[2][0],
-            t390,
-            platform_rotation[2][1] * t413,
-        );
-        let t727 = platform_rotation[2][1]
-            * mul_add(platform_rotation[2][2], t424, t726);
+        let t726 = mul_add(platform_rotation[2][0], t390, platform_rotation[2][1] * t413);
+        let t727 = platform_rotation[2][1] * mul_add(platform_rotation[2][2], t424, t726);
         let t728 = mul_add(platform_rotation[2][0], t725, t727);
         let t729 = t681 - (t699 - mul_add(platform_rotation[2][2], t723, t728));
         mass_matrix_p[5][5] = t729;
@@ -31495,193 +25165,20 @@ pub fn control<T: Scalar>(
         let t913 = mul_add(t742, t745, t898);
         let t914 = mul_add(t742, t742, t909);
         (
-            t3,
-            t6,
-            t9,
-            t12,
-            t15,
-            t18,
-            t21,
-            t24,
-            t27,
-            t32,
-            t34,
-            t36,
-            t166,
-            t167,
-            t168,
-            t172,
-            t173,
-            t177,
-            t178,
-            t179,
-            t183,
-            t184,
-            t188,
-            t189,
-            t190,
-            t194,
-            t195,
-            t199,
-            t200,
-            t201,
-            t205,
-            t206,
-            t210,
-            t211,
-            t212,
-            t216,
-            t217,
-            t221,
-            t222,
-            t223,
-            t227,
-            t228,
-            t248,
-            t250,
-            t252,
-            t254,
-            t256,
-            t258,
-            t260,
-            t262,
-            t264,
-            t266,
-            t268,
-            t270,
-            t272,
-            t274,
-            t276,
-            t278,
-            t280,
-            t282,
-            t283,
-            t284,
-            t285,
-            t286,
-            t287,
-            t288,
-            t289,
-            t290,
-            t291,
-            t292,
-            t293,
-            t294,
-            t295,
-            t296,
-            t297,
-            t298,
-            t299,
-            t300,
-            t303,
-            t306,
-            t310,
-            t313,
-            t317,
-            t320,
-            t324,
-            t327,
-            t331,
-            t334,
-            t338,
-            t341,
-            t344,
-            t351,
-            t358,
-            t365,
-            t379,
-            t390,
-            t401,
-            t413,
-            t424,
-            t436,
-            t569,
-            t570,
-            t576,
-            t594,
-            t614,
-            t645,
-            t684,
-            t687,
-            t690,
-            t691,
-            t692,
-            t695,
-            t696,
-            t697,
-            t698,
-            t707,
-            t709,
-            t711,
-            t719,
-            t721,
-            t729,
-            t739,
-            t742,
-            t745,
-            t748,
-            t751,
-            t754,
-            t755,
-            t756,
-            t757,
-            t763,
-            t766,
-            t769,
-            t770,
-            t771,
-            t772,
-            t773,
-            t774,
-            t775,
-            t776,
-            t777,
-            t778,
-            t836,
-            t837,
-            t838,
-            t840,
-            t841,
-            t845,
-            t846,
-            t847,
-            t849,
-            t850,
-            t854,
-            t855,
-            t856,
-            t858,
-            t859,
-            t863,
-            t864,
-            t865,
-            t867,
-            t868,
-            t872,
-            t873,
-            t874,
-            t876,
-            t877,
-            t881,
-            t882,
-            t883,
-            t885,
-            t886,
-            t891,
-            t893,
-            t895,
-            t898,
-            t901,
-            t904,
-            t905,
-            t906,
-            t907,
-            t908,
-            t910,
-            t911,
-            t912,
-            t913,
-            t914,
+            t3, t6, t9, t12, t15, t18, t21, t24, t27, t32, t34, t36, t166, t167, t168, t172, t173,
+            t177, t178, t179, t183, t184, t188, t189, t190, t194, t195, t199, t200, t201, t205,
+            t206, t210, t211, t212, t216, t217, t221, t222, t223, t227, t228, t248, t250, t252,
+            t254, t256, t258, t260, t262, t264, t266, t268, t270, t272, t274, t276, t278, t280,
+            t282, t283, t284, t285, t286, t287, t288, t289, t290, t291, t292, t293, t294, t295,
+            t296, t297, t298, t299, t300, t303, t306, t310, t313, t317, t320, t324, t327, t331,
+            t334, t338, t341, t344, t351, t358, t365, t379, t390, t401, t413, t424, t436, t569,
+            t570, t576, t594, t614, t645, t684, t687, t690, t691, t692, t695, t696, t697, t698,
+            t707, t709, t711, t719, t721, t729, t739, t742, t745, t748, t751, t754, t755, t756,
+            t757, t763, t766, t769, t770, t771, t772, t773, t774, t775, t776, t777, t778, t836,
+            t837, t838, t840, t841, t845, t846, t847, t849, t850, t854, t855, t856, t858, t859,
+            t863, t864, t865, t867, t868, t872, t873, t874, t876, t877, t881, t882, t883, t885,
+            t886, t891, t893, t895, t898, t901, t904, t905, t906, t907, t908, t910, t911, t912,
+            t913, t914,
         )
     };
     {
@@ -31852,21 +25349,9 @@ pub fn control<T: Scalar>(
         let t1062 = c(2.0) * t841;
         let t1063 = parameters.actuator_axis[0][1] * t745;
         let t1064 = mul_sub(parameters.actuator_axis[0][2], t742, t1063);
-        let t1065 = neg_mul_add(
-            parameters.actuator_axis[0][2],
-            t173,
-            parameters.base_point[0][2],
-        );
-        let t1066 = neg_mul_add(
-            parameters.actuator_axis[0][0],
-            t173,
-            parameters.base_point[0][0],
-        );
-        let t1067 = neg_mul_add(
-            parameters.actuator_axis[0][1],
-            t173,
-            parameters.base_point[0][1],
-        );
+        let t1065 = neg_mul_add(parameters.actuator_axis[0][2], t173, parameters.base_point[0][2]);
+        let t1066 = neg_mul_add(parameters.actuator_axis[0][0], t173, parameters.base_point[0][0]);
+        let t1067 = neg_mul_add(parameters.actuator_axis[0][1], t173, parameters.base_point[0][1]);
         let t1068 = neg_mul_add(t907, t1065, mul_add(t905, t1066, t906 * t1067));
         let t1069 = neg_mul_add(t1062, t1064, t891 - t1068);
         let t1070 = neg_mul_add(parameters.actuator_axis[0][0], t1031, t1069);
@@ -31886,39 +25371,24 @@ pub fn control<T: Scalar>(
         let t1084 = mul_add(parameters.mover_offset[0], t1083, t1080);
         let t1085 = parameters.platform_point[0][1] * t940;
         let t1086 = mul_add(parameters.platform_point[0][0], t939, t1085);
-        let t1087 = t306
-            * (t923 - mul_add(parameters.platform_point[0][2], t941, t1086));
-        let t1088 = mul_add(
-            parameters.mover_mass[0],
-            t1084,
-            mul_add(t303, t1080, t1087),
-        );
+        let t1087 = t306 * (t923 - mul_add(parameters.platform_point[0][2], t941, t1086));
+        let t1088 = mul_add(parameters.mover_mass[0], t1084, mul_add(t303, t1080, t1087));
         let t1089 = parameters.actuator_axis[0][1] * t906;
         let t1090 = mul_add(parameters.actuator_axis[0][0], t905, t1089);
         let t1091 = neg_mul_add(parameters.actuator_axis[0][2], t907, t1090);
         let t1092 = mul_add(parameters.mover_offset[0], t1091, t1070);
         let t1093 = parameters.platform_point[0][1] * t929;
         let t1094 = mul_add(parameters.platform_point[0][0], t926, t1093);
-        let t1095 = t306
-            * (t917 - mul_add(parameters.platform_point[0][2], t932, t1094));
-        let t1096 = mul_add(
-            parameters.mover_mass[0],
-            t1092,
-            mul_add(t303, t1070, t1095),
-        );
+        let t1095 = t306 * (t917 - mul_add(parameters.platform_point[0][2], t932, t1094));
+        let t1096 = mul_add(parameters.mover_mass[0], t1092, mul_add(t303, t1070, t1095));
         let t1097 = parameters.actuator_axis[0][1] * t910;
         let t1098 = mul_sub(parameters.actuator_axis[0][0], t908, t1097);
         let t1099 = neg_mul_add(parameters.actuator_axis[0][2], t911, t1098);
         let t1100 = neg_mul_add(parameters.mover_offset[0], t1099, t1075);
         let t1101 = parameters.platform_point[0][1] * t936;
         let t1102 = mul_add(parameters.platform_point[0][0], t934, t1101);
-        let t1103 = t306
-            * (t920 - mul_add(parameters.platform_point[0][2], t938, t1102));
-        let t1104 = mul_add(
-            parameters.mover_mass[0],
-            t1100,
-            mul_add(t303, t1075, t1103),
-        );
+        let t1103 = t306 * (t920 - mul_add(parameters.platform_point[0][2], t938, t1102));
+        let t1104 = mul_add(parameters.mover_mass[0], t1100, mul_add(t303, t1075, t1103));
         let t1105 = parameters.actuator_axis[0][1] * t1104;
         let t1106 = mul_add(parameters.actuator_axis[0][0], t1096, t1105);
         let t1107 = mul_add(parameters.actuator_axis[0][2], t1088, t1106);
@@ -31930,21 +25400,9 @@ pub fn control<T: Scalar>(
         let t1111 = c(2.0) * t850;
         let t1112 = parameters.actuator_axis[1][1] * t745;
         let t1113 = mul_sub(parameters.actuator_axis[1][2], t742, t1112);
-        let t1114 = neg_mul_add(
-            parameters.actuator_axis[1][2],
-            t184,
-            parameters.base_point[1][2],
-        );
-        let t1115 = neg_mul_add(
-            parameters.actuator_axis[1][0],
-            t184,
-            parameters.base_point[1][0],
-        );
-        let t1116 = neg_mul_add(
-            parameters.actuator_axis[1][1],
-            t184,
-            parameters.base_point[1][1],
-        );
+        let t1114 = neg_mul_add(parameters.actuator_axis[1][2], t184, parameters.base_point[1][2]);
+        let t1115 = neg_mul_add(parameters.actuator_axis[1][0], t184, parameters.base_point[1][0]);
+        let t1116 = neg_mul_add(parameters.actuator_axis[1][1], t184, parameters.base_point[1][1]);
         let t1117 = neg_mul_add(t907, t1114, mul_add(t905, t1115, t906 * t1116));
         let t1118 = neg_mul_add(t1111, t1113, t891 - t1117);
         let t1119 = neg_mul_add(parameters.actuator_axis[1][0], t1037, t1118);
@@ -31964,39 +25422,24 @@ pub fn control<T: Scalar>(
         let t1133 = mul_add(parameters.mover_offset[1], t1132, t1129);
         let t1134 = parameters.platform_point[1][1] * t940;
         let t1135 = mul_add(parameters.platform_point[1][0], t939, t1134);
-        let t1136 = t313
-            * (t923 - mul_add(parameters.platform_point[1][2], t941, t1135));
-        let t1137 = mul_add(
-            parameters.mover_mass[1],
-            t1133,
-            mul_add(t310, t1129, t1136),
-        );
+        let t1136 = t313 * (t923 - mul_add(parameters.platform_point[1][2], t941, t1135));
+        let t1137 = mul_add(parameters.mover_mass[1], t1133, mul_add(t310, t1129, t1136));
         let t1138 = parameters.actuator_axis[1][1] * t906;
         let t1139 = mul_add(parameters.actuator_axis[1][0], t905, t1138);
         let t1140 = neg_mul_add(parameters.actuator_axis[1][2], t907, t1139);
         let t1141 = mul_add(parameters.mover_offset[1], t1140, t1119);
         let t1142 = parameters.platform_point[1][1] * t929;
         let t1143 = mul_add(parameters.platform_point[1][0], t926, t1142);
-        let t1144 = t313
-            * (t917 - mul_add(parameters.platform_point[1][2], t932, t1143));
-        let t1145 = mul_add(
-            parameters.mover_mass[1],
-            t1141,
-            mul_add(t310, t1119, t1144),
-        );
+        let t1144 = t313 * (t917 - mul_add(parameters.platform_point[1][2], t932, t1143));
+        let t1145 = mul_add(parameters.mover_mass[1], t1141, mul_add(t310, t1119, t1144));
         let t1146 = parameters.actuator_axis[1][1] * t910;
         let t1147 = mul_sub(parameters.actuator_axis[1][0], t908, t1146);
         let t1148 = neg_mul_add(parameters.actuator_axis[1][2], t911, t1147);
         let t1149 = neg_mul_add(parameters.mover_offset[1], t1148, t1124);
         let t1150 = parameters.platform_point[1][1] * t936;
         let t1151 = mul_add(parameters.platform_point[1][0], t934, t1150);
-        let t1152 = t313
-            * (t920 - mul_add(parameters.platform_point[1][2], t938, t1151));
-        let t1153 = mul_add(
-            parameters.mover_mass[1],
-            t1149,
-            mul_add(t310, t1124, t1152),
-        );
+        let t1152 = t313 * (t920 - mul_add(parameters.platform_point[1][2], t938, t1151));
+        let t1153 = mul_add(parameters.mover_mass[1], t1149, mul_add(t310, t1124, t1152));
         let t1154 = parameters.actuator_axis[1][1] * t1153;
         let t1155 = mul_add(parameters.actuator_axis[1][0], t1145, t1154);
         let t1156 = mul_add(parameters.actuator_axis[1][2], t1137, t1155);
@@ -32008,21 +25451,9 @@ pub fn control<T: Scalar>(
         let t1160 = c(2.0) * t859;
         let t1161 = parameters.actuator_axis[2][1] * t745;
         let t1162 = mul_sub(parameters.actuator_axis[2][2], t742, t1161);
-        let t1163 = neg_mul_add(
-            parameters.actuator_axis[2][2],
-            t195,
-            parameters.base_point[2][2],
-        );
-        let t1164 = neg_mul_add(
-            parameters.actuator_axis[2][0],
-            t195,
-            parameters.base_point[2][0],
-        );
-        let t1165 = neg_mul_add(
-            parameters.actuator_axis[2][1],
-            t195,
-            parameters.base_point[2][1],
-        );
+        let t1163 = neg_mul_add(parameters.actuator_axis[2][2], t195, parameters.base_point[2][2]);
+        let t1164 = neg_mul_add(parameters.actuator_axis[2][0], t195, parameters.base_point[2][0]);
+        let t1165 = neg_mul_add(parameters.actuator_axis[2][1], t195, parameters.base_point[2][1]);
         let t1166 = neg_mul_add(t907, t1163, mul_add(t905, t1164, t906 * t1165));
         let t1167 = neg_mul_add(t1160, t1162, t891 - t1166);
         let t1168 = neg_mul_add(parameters.actuator_axis[2][0], t1043, t1167);
@@ -32042,39 +25473,24 @@ pub fn control<T: Scalar>(
         let t1182 = mul_add(parameters.mover_offset[2], t1181, t1178);
         let t1183 = parameters.platform_point[2][1] * t940;
         let t1184 = mul_add(parameters.platform_point[2][0], t939, t1183);
-        let t1185 = t320
-            * (t923 - mul_add(parameters.platform_point[2][2], t941, t1184));
-        let t1186 = mul_add(
-            parameters.mover_mass[2],
-            t1182,
-            mul_add(t317, t1178, t1185),
-        );
+        let t1185 = t320 * (t923 - mul_add(parameters.platform_point[2][2], t941, t1184));
+        let t1186 = mul_add(parameters.mover_mass[2], t1182, mul_add(t317, t1178, t1185));
         let t1187 = parameters.actuator_axis[2][1] * t906;
         let t1188 = mul_add(parameters.actuator_axis[2][0], t905, t1187);
         let t1189 = neg_mul_add(parameters.actuator_axis[2][2], t907, t1188);
         let t1190 = mul_add(parameters.mover_offset[2], t1189, t1168);
         let t1191 = parameters.platform_point[2][1] * t929;
         let t1192 = mul_add(parameters.platform_point[2][0], t926, t1191);
-        let t1193 = t320
-            * (t917 - mul_add(parameters.platform_point[2][2], t932, t1192));
-        let t1194 = mul_add(
-            parameters.mover_mass[2],
-            t1190,
-            mul_add(t317, t1168, t1193),
-        );
+        let t1193 = t320 * (t917 - mul_add(parameters.platform_point[2][2], t932, t1192));
+        let t1194 = mul_add(parameters.mover_mass[2], t1190, mul_add(t317, t1168, t1193));
         let t1195 = parameters.actuator_axis[2][1] * t910;
         let t1196 = mul_sub(parameters.actuator_axis[2][0], t908, t1195);
         let t1197 = neg_mul_add(parameters.actuator_axis[2][2], t911, t1196);
         let t1198 = neg_mul_add(parameters.mover_offset[2], t1197, t1173);
         let t1199 = parameters.platform_point[2][1] * t936;
         let t1200 = mul_add(parameters.platform_point[2][0], t934, t1199);
-        let t1201 = t320
-            * (t920 - mul_add(parameters.platform_point[2][2], t938, t1200));
-        let t1202 = mul_add(
-            parameters.mover_mass[2],
-            t1198,
-            mul_add(t317, t1173, t1201),
-        );
+        let t1201 = t320 * (t920 - mul_add(parameters.platform_point[2][2], t938, t1200));
+        let t1202 = mul_add(parameters.mover_mass[2], t1198, mul_add(t317, t1173, t1201));
         let t1203 = parameters.actuator_axis[2][1] * t1202;
         let t1204 = mul_add(parameters.actuator_axis[2][0], t1194, t1203);
         let t1205 = mul_add(parameters.actuator_axis[2][2], t1186, t1204);
@@ -32086,21 +25502,9 @@ pub fn control<T: Scalar>(
         let t1209 = c(2.0) * t868;
         let t1210 = parameters.actuator_axis[3][1] * t745;
         let t1211 = mul_sub(parameters.actuator_axis[3][2], t742, t1210);
-        let t1212 = neg_mul_add(
-            parameters.actuator_axis[3][2],
-            t206,
-            parameters.base_point[3][2],
-        );
-        let t1213 = neg_mul_add(
-            parameters.actuator_axis[3][0],
-            t206,
-            parameters.base_point[3][0],
-        );
-        let t1214 = neg_mul_add(
-            parameters.actuator_axis[3][1],
-            t206,
-            parameters.base_point[3][1],
-        );
+        let t1212 = neg_mul_add(parameters.actuator_axis[3][2], t206, parameters.base_point[3][2]);
+        let t1213 = neg_mul_add(parameters.actuator_axis[3][0], t206, parameters.base_point[3][0]);
+        let t1214 = neg_mul_add(parameters.actuator_axis[3][1], t206, parameters.base_point[3][1]);
         let t1215 = neg_mul_add(t907, t1212, mul_add(t905, t1213, t906 * t1214));
         let t1216 = neg_mul_add(t1209, t1211, t891 - t1215);
         let t1217 = neg_mul_add(parameters.actuator_axis[3][0], t1049, t1216);
@@ -32120,39 +25524,24 @@ pub fn control<T: Scalar>(
         let t1231 = mul_add(parameters.mover_offset[3], t1230, t1227);
         let t1232 = parameters.platform_point[3][1] * t940;
         let t1233 = mul_add(parameters.platform_point[3][0], t939, t1232);
-        let t1234 = t327
-            * (t923 - mul_add(parameters.platform_point[3][2], t941, t1233));
-        let t1235 = mul_add(
-            parameters.mover_mass[3],
-            t1231,
-            mul_add(t324, t1227, t1234),
-        );
+        let t1234 = t327 * (t923 - mul_add(parameters.platform_point[3][2], t941, t1233));
+        let t1235 = mul_add(parameters.mover_mass[3], t1231, mul_add(t324, t1227, t1234));
         let t1236 = parameters.actuator_axis[3][1] * t906;
         let t1237 = mul_add(parameters.actuator_axis[3][0], t905, t1236);
         let t1238 = neg_mul_add(parameters.actuator_axis[3][2], t907, t1237);
         let t1239 = mul_add(parameters.mover_offset[3], t1238, t1217);
         let t1240 = parameters.platform_point[3][1] * t929;
         let t1241 = mul_add(parameters.platform_point[3][0], t926, t1240);
-        let t1242 = t327
-            * (t917 - mul_add(parameters.platform_point[3][2], t932, t1241));
-        let t1243 = mul_add(
-            parameters.mover_mass[3],
-            t1239,
-            mul_add(t324, t1217, t1242),
-        );
+        let t1242 = t327 * (t917 - mul_add(parameters.platform_point[3][2], t932, t1241));
+        let t1243 = mul_add(parameters.mover_mass[3], t1239, mul_add(t324, t1217, t1242));
         let t1244 = parameters.actuator_axis[3][1] * t910;
         let t1245 = mul_sub(parameters.actuator_axis[3][0], t908, t1244);
         let t1246 = neg_mul_add(parameters.actuator_axis[3][2], t911, t1245);
         let t1247 = neg_mul_add(parameters.mover_offset[3], t1246, t1222);
         let t1248 = parameters.platform_point[3][1] * t936;
         let t1249 = mul_add(parameters.platform_point[3][0], t934, t1248);
-        let t1250 = t327
-            * (t920 - mul_add(parameters.platform_point[3][2], t938, t1249));
-        let t1251 = mul_add(
-            parameters.mover_mass[3],
-            t1247,
-            mul_add(t324, t1222, t1250),
-        );
+        let t1250 = t327 * (t920 - mul_add(parameters.platform_point[3][2], t938, t1249));
+        let t1251 = mul_add(parameters.mover_mass[3], t1247, mul_add(t324, t1222, t1250));
         let t1252 = parameters.actuator_axis[3][1] * t1251;
         let t1253 = mul_add(parameters.actuator_axis[3][0], t1243, t1252);
         let t1254 = mul_add(parameters.actuator_axis[3][2], t1235, t1253);
@@ -32164,21 +25553,9 @@ pub fn control<T: Scalar>(
         let t1258 = c(2.0) * t877;
         let t1259 = parameters.actuator_axis[4][1] * t745;
         let t1260 = mul_sub(parameters.actuator_axis[4][2], t742, t1259);
-        let t1261 = neg_mul_add(
-            parameters.actuator_axis[4][2],
-            t217,
-            parameters.base_point[4][2],
-        );
-        let t1262 = neg_mul_add(
-            parameters.actuator_axis[4][0],
-            t217,
-            parameters.base_point[4][0],
-        );
-        let t1263 = neg_mul_add(
-            parameters.actuator_axis[4][1],
-            t217,
-            parameters.base_point[4][1],
-        );
+        let t1261 = neg_mul_add(parameters.actuator_axis[4][2], t217, parameters.base_point[4][2]);
+        let t1262 = neg_mul_add(parameters.actuator_axis[4][0], t217, parameters.base_point[4][0]);
+        let t1263 = neg_mul_add(parameters.actuator_axis[4][1], t217, parameters.base_point[4][1]);
         let t1264 = neg_mul_add(t907, t1261, mul_add(t905, t1262, t906 * t1263));
         let t1265 = neg_mul_add(t1258, t1260, t891 - t1264);
         let t1266 = neg_mul_add(parameters.actuator_axis[4][0], t1055, t1265);
@@ -32198,39 +25575,24 @@ pub fn control<T: Scalar>(
         let t1280 = mul_add(parameters.mover_offset[4], t1279, t1276);
         let t1281 = parameters.platform_point[4][1] * t940;
         let t1282 = mul_add(parameters.platform_point[4][0], t939, t1281);
-        let t1283 = t334
-            * (t923 - mul_add(parameters.platform_point[4][2], t941, t1282));
-        let t1284 = mul_add(
-            parameters.mover_mass[4],
-            t1280,
-            mul_add(t331, t1276, t1283),
-        );
+        let t1283 = t334 * (t923 - mul_add(parameters.platform_point[4][2], t941, t1282));
+        let t1284 = mul_add(parameters.mover_mass[4], t1280, mul_add(t331, t1276, t1283));
         let t1285 = parameters.actuator_axis[4][1] * t906;
         let t1286 = mul_add(parameters.actuator_axis[4][0], t905, t1285);
         let t1287 = neg_mul_add(parameters.actuator_axis[4][2], t907, t1286);
         let t1288 = mul_add(parameters.mover_offset[4], t1287, t1266);
         let t1289 = parameters.platform_point[4][1] * t929;
         let t1290 = mul_add(parameters.platform_point[4][0], t926, t1289);
-        let t1291 = t334
-            * (t917 - mul_add(parameters.platform_point[4][2], t932, t1290));
-        let t1292 = mul_add(
-            parameters.mover_mass[4],
-            t1288,
-            mul_add(t331, t1266, t1291),
-        );
+        let t1291 = t334 * (t917 - mul_add(parameters.platform_point[4][2], t932, t1290));
+        let t1292 = mul_add(parameters.mover_mass[4], t1288, mul_add(t331, t1266, t1291));
         let t1293 = parameters.actuator_axis[4][1] * t910;
         let t1294 = mul_sub(parameters.actuator_axis[4][0], t908, t1293);
         let t1295 = neg_mul_add(parameters.actuator_axis[4][2], t911, t1294);
         let t1296 = neg_mul_add(parameters.mover_offset[4], t1295, t1271);
         let t1297 = parameters.platform_point[4][1] * t936;
         let t1298 = mul_add(parameters.platform_point[4][0], t934, t1297);
-        let t1299 = t334
-            * (t920 - mul_add(parameters.platform_point[4][2], t938, t1298));
-        let t1300 = mul_add(
-            parameters.mover_mass[4],
-            t1296,
-            mul_add(t331, t1271, t1299),
-        );
+        let t1299 = t334 * (t920 - mul_add(parameters.platform_point[4][2], t938, t1298));
+        let t1300 = mul_add(parameters.mover_mass[4], t1296, mul_add(t331, t1271, t1299));
         let t1301 = parameters.actuator_axis[4][1] * t1300;
         let t1302 = mul_add(parameters.actuator_axis[4][0], t1292, t1301);
         let t1303 = mul_add(parameters.actuator_axis[4][2], t1284, t1302);
@@ -32242,21 +25604,9 @@ pub fn control<T: Scalar>(
         let t1307 = c(2.0) * t886;
         let t1308 = parameters.actuator_axis[5][1] * t745;
         let t1309 = mul_sub(parameters.actuator_axis[5][2], t742, t1308);
-        let t1310 = neg_mul_add(
-            parameters.actuator_axis[5][2],
-            t228,
-            parameters.base_point[5][2],
-        );
-        let t1311 = neg_mul_add(
-            parameters.actuator_axis[5][0],
-            t228,
-            parameters.base_point[5][0],
-        );
-        let t1312 = neg_mul_add(
-            parameters.actuator_axis[5][1],
-            t228,
-            parameters.base_point[5][1],
-        );
+        let t1310 = neg_mul_add(parameters.actuator_axis[5][2], t228, parameters.base_point[5][2]);
+        let t1311 = neg_mul_add(parameters.actuator_axis[5][0], t228, parameters.base_point[5][0]);
+        let t1312 = neg_mul_add(parameters.actuator_axis[5][1], t228, parameters.base_point[5][1]);
         let t1313 = neg_mul_add(t907, t1310, mul_add(t905, t1311, t906 * t1312));
         let t1314 = neg_mul_add(t1307, t1309, t891 - t1313);
         let t1315 = neg_mul_add(parameters.actuator_axis[5][0], t1061, t1314);
@@ -32276,39 +25626,24 @@ pub fn control<T: Scalar>(
         let t1329 = mul_add(parameters.mover_offset[5], t1328, t1325);
         let t1330 = parameters.platform_point[5][1] * t940;
         let t1331 = mul_add(parameters.platform_point[5][0], t939, t1330);
-        let t1332 = t341
-            * (t923 - mul_add(parameters.platform_point[5][2], t941, t1331));
-        let t1333 = mul_add(
-            parameters.mover_mass[5],
-            t1329,
-            mul_add(t338, t1325, t1332),
-        );
+        let t1332 = t341 * (t923 - mul_add(parameters.platform_point[5][2], t941, t1331));
+        let t1333 = mul_add(parameters.mover_mass[5], t1329, mul_add(t338, t1325, t1332));
         let t1334 = parameters.actuator_axis[5][1] * t906;
         let t1335 = mul_add(parameters.actuator_axis[5][0], t905, t1334);
         let t1336 = neg_mul_add(parameters.actuator_axis[5][2], t907, t1335);
         let t1337 = mul_add(parameters.mover_offset[5], t1336, t1315);
         let t1338 = parameters.platform_point[5][1] * t929;
         let t1339 = mul_add(parameters.platform_point[5][0], t926, t1338);
-        let t1340 = t341
-            * (t917 - mul_add(parameters.platform_point[5][2], t932, t1339));
-        let t1341 = mul_add(
-            parameters.mover_mass[5],
-            t1337,
-            mul_add(t338, t1315, t1340),
-        );
+        let t1340 = t341 * (t917 - mul_add(parameters.platform_point[5][2], t932, t1339));
+        let t1341 = mul_add(parameters.mover_mass[5], t1337, mul_add(t338, t1315, t1340));
         let t1342 = parameters.actuator_axis[5][1] * t910;
         let t1343 = mul_sub(parameters.actuator_axis[5][0], t908, t1342);
         let t1344 = neg_mul_add(parameters.actuator_axis[5][2], t911, t1343);
         let t1345 = neg_mul_add(parameters.mover_offset[5], t1344, t1320);
         let t1346 = parameters.platform_point[5][1] * t936;
         let t1347 = mul_add(parameters.platform_point[5][0], t934, t1346);
-        let t1348 = t341
-            * (t920 - mul_add(parameters.platform_point[5][2], t938, t1347));
-        let t1349 = mul_add(
-            parameters.mover_mass[5],
-            t1345,
-            mul_add(t338, t1320, t1348),
-        );
+        let t1348 = t341 * (t920 - mul_add(parameters.platform_point[5][2], t938, t1347));
+        let t1349 = mul_add(parameters.mover_mass[5], t1345, mul_add(t338, t1320, t1348));
         let t1350 = parameters.actuator_axis[5][1] * t1349;
         let t1351 = mul_add(parameters.actuator_axis[5][0], t1341, t1350);
         let t1352 = mul_add(parameters.actuator_axis[5][2], t1333, t1351);
@@ -32488,41 +25823,25 @@ pub fn control<T: Scalar>(
         total_bias[4] = -t1500;
         total_bias[5] = -t1505;
         // inertia less external wrench that the actuators must balance
-        let t1506 = mul_add(
-            platform_acceleration[0],
-            t684,
-            platform_acceleration[1] * t569,
-        );
+        let t1506 = mul_add(platform_acceleration[0], t684, platform_acceleration[1] * t569);
         let t1507 = mul_add(platform_acceleration[2], t570, t1506);
         let t1508 = neg_mul_add(platform_acceleration[3], t576, t1507);
         let t1509 = neg_mul_add(platform_acceleration[4], t687, t1508);
         let t1510 = neg_mul_add(platform_acceleration[5], t690, t1509) - t1471;
         let t1511 = t1510 - external_wrench[0];
-        let t1512 = mul_add(
-            platform_acceleration[0],
-            t569,
-            platform_acceleration[1] * t691,
-        );
+        let t1512 = mul_add(platform_acceleration[0], t569, platform_acceleration[1] * t691);
         let t1513 = mul_add(platform_acceleration[2], t594, t1512);
         let t1514 = neg_mul_add(platform_acceleration[3], t692, t1513);
         let t1515 = mul_add(platform_acceleration[4], t614, t1514);
         let t1516 = neg_mul_add(platform_acceleration[5], t695, t1515) - t1476;
         let t1517 = t1516 - external_wrench[1];
-        let t1518 = mul_add(
-            platform_acceleration[0],
-            t570,
-            platform_acceleration[1] * t594,
-        );
+        let t1518 = mul_add(platform_acceleration[0], t570, platform_acceleration[1] * t594);
         let t1519 = mul_add(platform_acceleration[2], t696, t1518);
         let t1520 = neg_mul_add(platform_acceleration[3], t697, t1519);
         let t1521 = neg_mul_add(platform_acceleration[4], t698, t1520);
         let t1522 = neg_mul_add(platform_acceleration[5], t645, t1521) - t1481;
         let t1523 = t1522 - external_wrench[2];
-        let t1524 = mul_add(
-            platform_acceleration[0],
-            t576,
-            platform_acceleration[1] * t692,
-        );
+        let t1524 = mul_add(platform_acceleration[0], t576, platform_acceleration[1] * t692);
         let t1525 = mul_add(platform_acceleration[2], t697, t1524);
         let t1526 = neg_mul_add(platform_acceleration[3], t707, t1525);
         let t1527 = mul_add(platform_acceleration[4], t709, t1526);
@@ -32535,11 +25854,7 @@ pub fn control<T: Scalar>(
         let t1534 = mul_add(platform_rotation[2][2], parameters.payload_com[2], t1533);
         let t1535 = mul_sub(external_wrench[2], t1531, external_wrench[1] * t1534);
         let t1536 = t1528 - (external_wrench[3] + t1535);
-        let t1537 = mul_sub(
-            platform_acceleration[0],
-            t687,
-            platform_acceleration[1] * t614,
-        );
+        let t1537 = mul_sub(platform_acceleration[0], t687, platform_acceleration[1] * t614);
         let t1538 = mul_add(platform_acceleration[2], t698, t1537);
         let t1539 = mul_add(platform_acceleration[3], t709, t1538);
         let t1540 = neg_mul_add(platform_acceleration[4], t719, t1539);
@@ -32549,11 +25864,7 @@ pub fn control<T: Scalar>(
         let t1544 = mul_add(platform_rotation[0][2], parameters.payload_com[2], t1543);
         let t1545 = mul_sub(external_wrench[0], t1534, external_wrench[2] * t1544);
         let t1546 = t1541 - (external_wrench[4] + t1545);
-        let t1547 = mul_add(
-            platform_acceleration[0],
-            t690,
-            platform_acceleration[1] * t695,
-        );
+        let t1547 = mul_add(platform_acceleration[0], t690, platform_acceleration[1] * t695);
         let t1548 = mul_add(platform_acceleration[2], t645, t1547);
         let t1549 = neg_mul_add(platform_acceleration[3], t711, t1548);
         let t1550 = neg_mul_add(platform_acceleration[4], t721, t1549);
@@ -32617,165 +25928,17 @@ pub fn passive_inverse_dynamics<T: Scalar>(
 ) {
     let c = T::constant;
     let (
-        t3,
-        t6,
-        t9,
-        t12,
-        t15,
-        t18,
-        t21,
-        t24,
-        t27,
-        t39,
-        t42,
-        t45,
-        t51,
-        t54,
-        t57,
-        t63,
-        t66,
-        t69,
-        t75,
-        t78,
-        t81,
-        t87,
-        t90,
-        t93,
-        t99,
-        t102,
-        t105,
-        t119,
-        t130,
-        t141,
-        t152,
-        t163,
-        t174,
-        t176,
-        t178,
-        t180,
-        t182,
-        t184,
-        t186,
-        t188,
-        t190,
-        t192,
-        t194,
-        t196,
-        t198,
-        t200,
-        t202,
-        t204,
-        t206,
-        t208,
-        t210,
-        t216,
-        t228,
-        t231,
-        t234,
-        t237,
-        t240,
-        t243,
-        t246,
-        t248,
-        t255,
-        t262,
-        t269,
-        t272,
-        t284,
-        t295,
-        t306,
-        t318,
-        t329,
-        t341,
-        t344,
-        t347,
-        t350,
-        t353,
-        t356,
-        t446,
-        t455,
-        t464,
-        t473,
-        t482,
-        t491,
-        t511,
-        t513,
-        t515,
-        t517,
-        t519,
-        t521,
-        t523,
-        t525,
-        t527,
-        t532,
-        t534,
-        t536,
-        t546,
-        t547,
-        t548,
-        t549,
-        t551,
-        t552,
-        t553,
-        t554,
-        t555,
-        t560,
-        t562,
-        t564,
-        t577,
-        t581,
-        t585,
-        t588,
-        t591,
-        t594,
-        t596,
-        t598,
-        t600,
-        t712,
-        t719,
-        t726,
-        t731,
-        t733,
-        t735,
-        t740,
-        t742,
-        t744,
-        t748,
-        t749,
-        t750,
-        t751,
-        t755,
-        t756,
-        t757,
-        t758,
-        t759,
-        t761,
-        t762,
-        t763,
-        t789,
-        t797,
-        t803,
-        t812,
-        t818,
-        t826,
-        t827,
-        t828,
-        t829,
-        t863,
-        t878,
-        t892,
-        t893,
-        t894,
-        t895,
-        t921,
-        t929,
-        t935,
-        t944,
-        t950,
-        t958,
-        t959,
-        t960,
-        t961,
+        t3, t6, t9, t12, t15, t18, t21, t24, t27, t39, t42, t45, t51, t54, t57, t63, t66, t69, t75,
+        t78, t81, t87, t90, t93, t99, t102, t105, t119, t130, t141, t152, t163, t174, t176, t178,
+        t180, t182, t184, t186, t188, t190, t192, t194, t196, t198, t200, t202, t204, t206, t208,
+        t210, t216, t228, t231, t234, t237, t240, t243, t246, t248, t255, t262, t269, t272, t284,
+        t295, t306, t318, t329, t341, t344, t347, t350, t353, t356, t446, t455, t464, t473, t482,
+        t491, t511, t513, t515, t517, t519, t521, t523, t525, t527, t532, t534, t536, t546, t547,
+        t548, t549, t551, t552, t553, t554, t555, t560, t562, t564, t577, t581, t585, t588, t591,
+        t594, t596, t598, t600, t712, t719, t726, t731, t733, t735, t740, t742, t744, t748, t749,
+        t750, t751, t755, t756, t757, t758, t759, t761, t762, t763, t789, t797, t803, t812, t818,
+        t826, t827, t828, t829, t863, t878, t892, t893, t894, t895, t921, t929, t935, t944, t950,
+        t958, t959, t960, t961,
     ) = {
         // rotation of the platform seen from the base
         let t1 = base_rotation[1][0] * platform_rotation[1][0];
@@ -33133,11 +26296,7 @@ pub fn passive_inverse_dynamics<T: Scalar>(
         let t289 = parameters.platform_point[1][0] * parameters.platform_point[1][1];
         let t290 = parameters.platform_point[0][0] * parameters.platform_point[0][1];
         let t291 = parameters.payload_com[0] * parameters.payload_com[1];
-        let t292 = neg_mul_add(
-            parameters.payload_mass,
-            t291,
-            parameters.payload_inertia[0][1],
-        );
+        let t292 = neg_mul_add(parameters.payload_mass, t291, parameters.payload_inertia[0][1]);
         let t293 = mul_add(t221, t289, mul_sub(t215, t290, t292));
         let t294 = mul_add(t233, t287, mul_add(t227, t288, t293));
         let t295 = mul_add(t245, t285, mul_add(t239, t286, t294));
@@ -33148,11 +26307,7 @@ pub fn passive_inverse_dynamics<T: Scalar>(
         let t300 = parameters.platform_point[1][0] * parameters.platform_point[1][2];
         let t301 = parameters.platform_point[0][0] * parameters.platform_point[0][2];
         let t302 = parameters.payload_com[0] * parameters.payload_com[2];
-        let t303 = neg_mul_add(
-            parameters.payload_mass,
-            t302,
-            parameters.payload_inertia[0][2],
-        );
+        let t303 = neg_mul_add(parameters.payload_mass, t302, parameters.payload_inertia[0][2]);
         let t304 = mul_add(t221, t300, mul_sub(t215, t301, t303));
         let t305 = mul_add(t233, t298, mul_add(t227, t299, t304));
         let t306 = mul_add(t245, t296, mul_add(t239, t297, t305));
@@ -33175,11 +26330,7 @@ pub fn passive_inverse_dynamics<T: Scalar>(
         let t323 = parameters.platform_point[1][1] * parameters.platform_point[1][2];
         let t324 = parameters.platform_point[0][1] * parameters.platform_point[0][2];
         let t325 = parameters.payload_com[1] * parameters.payload_com[2];
-        let t326 = neg_mul_add(
-            parameters.payload_mass,
-            t325,
-            parameters.payload_inertia[1][2],
-        );
+        let t326 = neg_mul_add(parameters.payload_mass, t325, parameters.payload_inertia[1][2]);
         let t327 = mul_add(t221, t323, mul_sub(t215, t324, t326));
         let t328 = mul_add(t233, t321, mul_add(t227, t322, t327));
         let t329 = mul_add(t245, t319, mul_add(t239, t320, t328));
@@ -33679,21 +26830,9 @@ pub fn passive_inverse_dynamics<T: Scalar>(
         let t764 = c(2.0) * t446;
         let t765 = parameters.actuator_axis[0][1] * t350;
         let t766 = mul_sub(parameters.actuator_axis[0][2], t347, t765);
-        let t767 = mul_add(
-            parameters.actuator_axis[0][2],
-            t119,
-            parameters.base_point[0][2],
-        );
-        let t768 = mul_add(
-            parameters.actuator_axis[0][1],
-            t119,
-            parameters.base_point[0][1],
-        );
-        let t769 = mul_add(
-            parameters.actuator_axis[0][0],
-            t119,
-            parameters.base_point[0][0],
-        );
+        let t767 = mul_add(parameters.actuator_axis[0][2], t119, parameters.base_point[0][2]);
+        let t768 = mul_add(parameters.actuator_axis[0][1], t119, parameters.base_point[0][1]);
+        let t769 = mul_add(parameters.actuator_axis[0][0], t119, parameters.base_point[0][0]);
         let t770 = mul_sub(t547, t768, neg_mul_add(t546, t769, t532));
         let t771 = mul_sub(t764, t766, mul_sub(t548, t767, t770));
         let t772 = parameters.platform_point[0][1] * t762;
@@ -33759,21 +26898,9 @@ pub fn passive_inverse_dynamics<T: Scalar>(
         let t830 = c(2.0) * t455;
         let t831 = parameters.actuator_axis[1][1] * t350;
         let t832 = mul_sub(parameters.actuator_axis[1][2], t347, t831);
-        let t833 = mul_add(
-            parameters.actuator_axis[1][2],
-            t130,
-            parameters.base_point[1][2],
-        );
-        let t834 = mul_add(
-            parameters.actuator_axis[1][1],
-            t130,
-            parameters.base_point[1][1],
-        );
-        let t835 = mul_add(
-            parameters.actuator_axis[1][0],
-            t130,
-            parameters.base_point[1][0],
-        );
+        let t833 = mul_add(parameters.actuator_axis[1][2], t130, parameters.base_point[1][2]);
+        let t834 = mul_add(parameters.actuator_axis[1][1], t130, parameters.base_point[1][1]);
+        let t835 = mul_add(parameters.actuator_axis[1][0], t130, parameters.base_point[1][0]);
         let t836 = mul_sub(t547, t834, neg_mul_add(t546, t835, t532));
         let t837 = mul_sub(t830, t832, mul_sub(t548, t833, t836));
         let t838 = parameters.platform_point[1][1] * t762;
@@ -33839,21 +26966,9 @@ pub fn passive_inverse_dynamics<T: Scalar>(
         let t896 = c(2.0) * t464;
         let t897 = parameters.actuator_axis[2][1] * t350;
         let t898 = mul_sub(parameters.actuator_axis[2][2], t347, t897);
-        let t899 = mul_add(
-            parameters.actuator_axis[2][2],
-            t141,
-            parameters.base_point[2][2],
-        );
-        let t900 = mul_add(
-            parameters.actuator_axis[2][1],
-            t141,
-            parameters.base_point[2][1],
-        );
-        let t901 = mul_add(
-            parameters.actuator_axis[2][0],
-            t141,
-            parameters.base_point[2][0],
-        );
+        let t899 = mul_add(parameters.actuator_axis[2][2], t141, parameters.base_point[2][2]);
+        let t900 = mul_add(parameters.actuator_axis[2][1], t141, parameters.base_point[2][1]);
+        let t901 = mul_add(parameters.actuator_axis[2][0], t141, parameters.base_point[2][0]);
         let t902 = mul_sub(t547, t900, neg_mul_add(t546, t901, t532));
         let t903 = mul_sub(t896, t898, mul_sub(t548, t899, t902));
         let t904 = parameters.platform_point[2][1] * t762;
@@ -33916,165 +27031,17 @@ pub fn passive_inverse_dynamics<T: Scalar>(
         let t960 = t228 * t935;
         let t961 = t228 * t950;
         (
-            t3,
-            t6,
-            t9,
-            t12,
-            t15,
-            t18,
-            t21,
-            t24,
-            t27,
-            t39,
-            t42,
-            t45,
-            t51,
-            t54,
-            t57,
-            t63,
-            t66,
-            t69,
-            t75,
-            t78,
-            t81,
-            t87,
-            t90,
-            t93,
-            t99,
-            t102,
-            t105,
-            t119,
-            t130,
-            t141,
-            t152,
-            t163,
-            t174,
-            t176,
-            t178,
-            t180,
-            t182,
-            t184,
-            t186,
-            t188,
-            t190,
-            t192,
-            t194,
-            t196,
-            t198,
-            t200,
-            t202,
-            t204,
-            t206,
-            t208,
-            t210,
-            t216,
-            t228,
-            t231,
-            t234,
-            t237,
-            t240,
-            t243,
-            t246,
-            t248,
-            t255,
-            t262,
-            t269,
-            t272,
-            t284,
-            t295,
-            t306,
-            t318,
-            t329,
-            t341,
-            t344,
-            t347,
-            t350,
-            t353,
-            t356,
-            t446,
-            t455,
-            t464,
-            t473,
-            t482,
-            t491,
-            t511,
-            t513,
-            t515,
-            t517,
-            t519,
-            t521,
-            t523,
-            t525,
-            t527,
-            t532,
-            t534,
-            t536,
-            t546,
-            t547,
-            t548,
-            t549,
-            t551,
-            t552,
-            t553,
-            t554,
-            t555,
-            t560,
-            t562,
-            t564,
-            t577,
-            t581,
-            t585,
-            t588,
-            t591,
-            t594,
-            t596,
-            t598,
-            t600,
-            t712,
-            t719,
-            t726,
-            t731,
-            t733,
-            t735,
-            t740,
-            t742,
-            t744,
-            t748,
-            t749,
-            t750,
-            t751,
-            t755,
-            t756,
-            t757,
-            t758,
-            t759,
-            t761,
-            t762,
-            t763,
-            t789,
-            t797,
-            t803,
-            t812,
-            t818,
-            t826,
-            t827,
-            t828,
-            t829,
-            t863,
-            t878,
-            t892,
-            t893,
-            t894,
-            t895,
-            t921,
-            t929,
-            t935,
-            t944,
-            t950,
-            t958,
-            t959,
-            t960,
-            t961,
+            t3, t6, t9, t12, t15, t18, t21, t24, t27, t39, t42, t45, t51, t54, t57, t63, t66, t69,
+            t75, t78, t81, t87, t90, t93, t99, t102, t105, t119, t130, t141, t152, t163, t174,
+            t176, t178, t180, t182, t184, t186, t188, t190, t192, t194, t196, t198, t200, t202,
+            t204, t206, t208, t210, t216, t228, t231, t234, t237, t240, t243, t246, t248, t255,
+            t262, t269, t272, t284, t295, t306, t318, t329, t341, t344, t347, t350, t353, t356,
+            t446, t455, t464, t473, t482, t491, t511, t513, t515, t517, t519, t521, t523, t525,
+            t527, t532, t534, t536, t546, t547, t548, t549, t551, t552, t553, t554, t555, t560,
+            t562, t564, t577, t581, t585, t588, t591, t594, t596, t598, t600, t712, t719, t726,
+            t731, t733, t735, t740, t742, t744, t748, t749, t750, t751, t755, t756, t757, t758,
+            t759, t761, t762, t763, t789, t797, t803, t812, t818, t826, t827, t828, t829, t863,
+            t878, t892, t893, t894, t895, t921, t929, t935, t944, t950, t958, t959, t960, t961,
         )
     };
     {
@@ -34082,21 +27049,9 @@ pub fn passive_inverse_dynamics<T: Scalar>(
         let t962 = c(2.0) * t473;
         let t963 = parameters.actuator_axis[3][1] * t350;
         let t964 = mul_sub(parameters.actuator_axis[3][2], t347, t963);
-        let t965 = mul_add(
-            parameters.actuator_axis[3][2],
-            t152,
-            parameters.base_point[3][2],
-        );
-        let t966 = mul_add(
-            parameters.actuator_axis[3][1],
-            t152,
-            parameters.base_point[3][1],
-        );
-        let t967 = mul_add(
-            parameters.actuator_axis[3][0],
-            t152,
-            parameters.base_point[3][0],
-        );
+        let t965 = mul_add(parameters.actuator_axis[3][2], t152, parameters.base_point[3][2]);
+        let t966 = mul_add(parameters.actuator_axis[3][1], t152, parameters.base_point[3][1]);
+        let t967 = mul_add(parameters.actuator_axis[3][0], t152, parameters.base_point[3][0]);
         let t968 = mul_sub(t547, t966, neg_mul_add(t546, t967, t532));
         let t969 = mul_sub(t962, t964, mul_sub(t548, t965, t968));
         let t970 = parameters.platform_point[3][1] * t762;
@@ -34138,11 +27093,7 @@ pub fn passive_inverse_dynamics<T: Scalar>(
         let t1006 = mul_sub(parameters.platform_point[3][0], t588, t562 - t975);
         let t1007 = mul_add(parameters.platform_point[3][1], t591, t1006);
         let t1008 = t234 * mul_add(parameters.platform_point[3][2], t594, t1007);
-        let t1009 = mul_add(
-            parameters.mover_mass[3],
-            t1005,
-            mul_add(t231, t1001, t1008),
-        );
+        let t1009 = mul_add(parameters.mover_mass[3], t1005, mul_add(t231, t1001, t1008));
         let t1010 = parameters.actuator_axis[3][1] * t1009;
         let t1011 = parameters.actuator_axis[3][0] * t347;
         let t1012 = mul_sub(parameters.actuator_axis[3][1], t344, t1011);
@@ -34157,11 +27108,7 @@ pub fn passive_inverse_dynamics<T: Scalar>(
         let t1021 = mul_sub(parameters.platform_point[3][0], t596, t564 + t972);
         let t1022 = mul_add(parameters.platform_point[3][1], t598, t1021);
         let t1023 = t234 * mul_add(parameters.platform_point[3][2], t600, t1022);
-        let t1024 = mul_add(
-            parameters.mover_mass[3],
-            t1020,
-            mul_add(t231, t1016, t1023),
-        );
+        let t1024 = mul_add(parameters.mover_mass[3], t1020, mul_add(t231, t1016, t1023));
         // leg 4: remaining leg inertia less weight at the platform joint
         let t1025 = t234 * t987;
         let t1026 = t234 * t1001;
@@ -34170,21 +27117,9 @@ pub fn passive_inverse_dynamics<T: Scalar>(
         let t1028 = c(2.0) * t482;
         let t1029 = parameters.actuator_axis[4][1] * t350;
         let t1030 = mul_sub(parameters.actuator_axis[4][2], t347, t1029);
-        let t1031 = mul_add(
-            parameters.actuator_axis[4][2],
-            t163,
-            parameters.base_point[4][2],
-        );
-        let t1032 = mul_add(
-            parameters.actuator_axis[4][1],
-            t163,
-            parameters.base_point[4][1],
-        );
-        let t1033 = mul_add(
-            parameters.actuator_axis[4][0],
-            t163,
-            parameters.base_point[4][0],
-        );
+        let t1031 = mul_add(parameters.actuator_axis[4][2], t163, parameters.base_point[4][2]);
+        let t1032 = mul_add(parameters.actuator_axis[4][1], t163, parameters.base_point[4][1]);
+        let t1033 = mul_add(parameters.actuator_axis[4][0], t163, parameters.base_point[4][0]);
         let t1034 = mul_sub(t547, t1032, neg_mul_add(t546, t1033, t532));
         let t1035 = mul_sub(t1028, t1030, mul_sub(t548, t1031, t1034));
         let t1036 = parameters.platform_point[4][1] * t762;
@@ -34212,11 +27147,7 @@ pub fn passive_inverse_dynamics<T: Scalar>(
         let t1058 = mul_sub(parameters.platform_point[4][0], t577, t560 - t1044);
         let t1059 = mul_add(parameters.platform_point[4][1], t581, t1058);
         let t1060 = t240 * mul_add(parameters.platform_point[4][2], t585, t1059);
-        let t1061 = mul_add(
-            parameters.mover_mass[4],
-            t1057,
-            mul_add(t237, t1053, t1060),
-        );
+        let t1061 = mul_add(parameters.mover_mass[4], t1057, mul_add(t237, t1053, t1060));
         let t1062 = parameters.actuator_axis[4][2] * t344;
         let t1063 = mul_sub(parameters.actuator_axis[4][0], t350, t1062);
         let t1064 = mul_sub(t551, t1032, mul_add(t549, t1033, t534));
@@ -34230,11 +27161,7 @@ pub fn passive_inverse_dynamics<T: Scalar>(
         let t1072 = mul_sub(parameters.platform_point[4][0], t588, t562 - t1041);
         let t1073 = mul_add(parameters.platform_point[4][1], t591, t1072);
         let t1074 = t240 * mul_add(parameters.platform_point[4][2], t594, t1073);
-        let t1075 = mul_add(
-            parameters.mover_mass[4],
-            t1071,
-            mul_add(t237, t1067, t1074),
-        );
+        let t1075 = mul_add(parameters.mover_mass[4], t1071, mul_add(t237, t1067, t1074));
         let t1076 = parameters.actuator_axis[4][1] * t1075;
         let t1077 = parameters.actuator_axis[4][0] * t347;
         let t1078 = mul_sub(parameters.actuator_axis[4][1], t344, t1077);
@@ -34249,11 +27176,7 @@ pub fn passive_inverse_dynamics<T: Scalar>(
         let t1087 = mul_sub(parameters.platform_point[4][0], t596, t564 + t1038);
         let t1088 = mul_add(parameters.platform_point[4][1], t598, t1087);
         let t1089 = t240 * mul_add(parameters.platform_point[4][2], t600, t1088);
-        let t1090 = mul_add(
-            parameters.mover_mass[4],
-            t1086,
-            mul_add(t237, t1082, t1089),
-        );
+        let t1090 = mul_add(parameters.mover_mass[4], t1086, mul_add(t237, t1082, t1089));
         // leg 5: remaining leg inertia less weight at the platform joint
         let t1091 = t240 * t1053;
         let t1092 = t240 * t1067;
@@ -34262,21 +27185,9 @@ pub fn passive_inverse_dynamics<T: Scalar>(
         let t1094 = c(2.0) * t491;
         let t1095 = parameters.actuator_axis[5][1] * t350;
         let t1096 = mul_sub(parameters.actuator_axis[5][2], t347, t1095);
-        let t1097 = mul_add(
-            parameters.actuator_axis[5][2],
-            t174,
-            parameters.base_point[5][2],
-        );
-        let t1098 = mul_add(
-            parameters.actuator_axis[5][1],
-            t174,
-            parameters.base_point[5][1],
-        );
-        let t1099 = mul_add(
-            parameters.actuator_axis[5][0],
-            t174,
-            parameters.base_point[5][0],
-        );
+        let t1097 = mul_add(parameters.actuator_axis[5][2], t174, parameters.base_point[5][2]);
+        let t1098 = mul_add(parameters.actuator_axis[5][1], t174, parameters.base_point[5][1]);
+        let t1099 = mul_add(parameters.actuator_axis[5][0], t174, parameters.base_point[5][0]);
         let t1100 = mul_sub(t547, t1098, neg_mul_add(t546, t1099, t532));
         let t1101 = mul_sub(t1094, t1096, mul_sub(t548, t1097, t1100));
         let t1102 = parameters.platform_point[5][1] * t762;
@@ -34304,11 +27215,7 @@ pub fn passive_inverse_dynamics<T: Scalar>(
         let t1124 = mul_sub(parameters.platform_point[5][0], t577, t560 - t1110);
         let t1125 = mul_add(parameters.platform_point[5][1], t581, t1124);
         let t1126 = t246 * mul_add(parameters.platform_point[5][2], t585, t1125);
-        let t1127 = mul_add(
-            parameters.mover_mass[5],
-            t1123,
-            mul_add(t243, t1119, t1126),
-        );
+        let t1127 = mul_add(parameters.mover_mass[5], t1123, mul_add(t243, t1119, t1126));
         let t1128 = parameters.actuator_axis[5][2] * t344;
         let t1129 = mul_sub(parameters.actuator_axis[5][0], t350, t1128);
         let t1130 = mul_sub(t551, t1098, mul_add(t549, t1099, t534));
@@ -34322,11 +27229,7 @@ pub fn passive_inverse_dynamics<T: Scalar>(
         let t1138 = mul_sub(parameters.platform_point[5][0], t588, t562 - t1107);
         let t1139 = mul_add(parameters.platform_point[5][1], t591, t1138);
         let t1140 = t246 * mul_add(parameters.platform_point[5][2], t594, t1139);
-        let t1141 = mul_add(
-            parameters.mover_mass[5],
-            t1137,
-            mul_add(t243, t1133, t1140),
-        );
+        let t1141 = mul_add(parameters.mover_mass[5], t1137, mul_add(t243, t1133, t1140));
         let t1142 = parameters.actuator_axis[5][1] * t1141;
         let t1143 = parameters.actuator_axis[5][0] * t347;
         let t1144 = mul_sub(parameters.actuator_axis[5][1], t344, t1143);
@@ -34341,11 +27244,7 @@ pub fn passive_inverse_dynamics<T: Scalar>(
         let t1153 = mul_sub(parameters.platform_point[5][0], t596, t564 + t1104);
         let t1154 = mul_add(parameters.platform_point[5][1], t598, t1153);
         let t1155 = t246 * mul_add(parameters.platform_point[5][2], t600, t1154);
-        let t1156 = mul_add(
-            parameters.mover_mass[5],
-            t1152,
-            mul_add(t243, t1148, t1155),
-        );
+        let t1156 = mul_add(parameters.mover_mass[5], t1152, mul_add(t243, t1148, t1155));
         // leg 6: remaining leg inertia less weight at the platform joint
         let t1157 = t246 * t1119;
         let t1158 = t246 * t1133;
@@ -34433,11 +27332,7 @@ pub fn passive_inverse_dynamics<T: Scalar>(
         let t1226 = mul_add(parameters.platform_point[4][2], t1092, t1225);
         let t1227 = mul_add(parameters.platform_point[5][2], t1158, t1226);
         let t1228 = mul_add(t329, t756, mul_add(t306, t755, t1227));
-        let t1229 = mul_add(
-            parameters.payload_com[2],
-            t1209,
-            mul_add(t341, t757, t1228),
-        );
+        let t1229 = mul_add(parameters.payload_com[2], t1209, mul_add(t341, t757, t1228));
         let t1230 = mul_sub(t329, t598, mul_sub(t269, t564, t1192));
         let t1231 = mul_add(t341, t600, t1230);
         let t1232 = mul_add(parameters.platform_point[0][2], t829, t1231);
@@ -34447,11 +27342,7 @@ pub fn passive_inverse_dynamics<T: Scalar>(
         let t1236 = mul_add(parameters.platform_point[4][2], t1093, t1235);
         let t1237 = mul_add(parameters.platform_point[5][2], t1159, t1236);
         let t1238 = mul_add(t329, t762, mul_sub(t306, t761, t1237));
-        let t1239 = mul_sub(
-            parameters.payload_com[2],
-            t1218,
-            mul_add(t341, t763, t1238),
-        );
+        let t1239 = mul_sub(parameters.payload_com[2], t1218, mul_add(t341, t763, t1238));
         let t1240 = mul_sub(t318, t591, mul_sub(t262, t562, t1188));
         let t1241 = mul_add(t329, t594, t1240);
         let t1242 = mul_add(parameters.platform_point[0][1], t828, t1241);
@@ -34461,11 +27352,7 @@ pub fn passive_inverse_dynamics<T: Scalar>(
         let t1246 = mul_add(parameters.platform_point[4][1], t1092, t1245);
         let t1247 = mul_add(parameters.platform_point[5][1], t1158, t1246);
         let t1248 = mul_add(t318, t756, mul_add(t295, t755, t1247));
-        let t1249 = mul_add(
-            parameters.payload_com[1],
-            t1209,
-            mul_add(t329, t757, t1248),
-        );
+        let t1249 = mul_add(parameters.payload_com[1], t1209, mul_add(t329, t757, t1248));
         let t1250 = mul_sub(t318, t598, mul_sub(t262, t564, t1191));
         let t1251 = mul_add(t329, t600, t1250);
         let t1252 = mul_add(parameters.platform_point[0][1], t829, t1251);
@@ -34475,11 +27362,7 @@ pub fn passive_inverse_dynamics<T: Scalar>(
         let t1256 = mul_add(parameters.platform_point[4][1], t1093, t1255);
         let t1257 = mul_add(parameters.platform_point[5][1], t1159, t1256);
         let t1258 = mul_add(t318, t762, mul_sub(t295, t761, t1257));
-        let t1259 = mul_sub(
-            parameters.payload_com[1],
-            t1218,
-            mul_add(t329, t763, t1258),
-        );
+        let t1259 = mul_sub(parameters.payload_com[1], t1218, mul_add(t329, t763, t1258));
         let t1260 = mul_sub(t295, t598, mul_sub(t255, t564, t1190));
         let t1261 = mul_add(t306, t600, t1260);
         let t1262 = mul_add(parameters.platform_point[0][0], t829, t1261);
@@ -34489,11 +27372,7 @@ pub fn passive_inverse_dynamics<T: Scalar>(
         let t1266 = mul_add(parameters.platform_point[4][0], t1093, t1265);
         let t1267 = mul_add(parameters.platform_point[5][0], t1159, t1266);
         let t1268 = mul_add(t295, t762, mul_sub(t284, t761, t1267));
-        let t1269 = mul_sub(
-            parameters.payload_com[0],
-            t1218,
-            mul_add(t306, t763, t1268),
-        );
+        let t1269 = mul_sub(parameters.payload_com[0], t1218, mul_add(t306, t763, t1268));
         let t1270 = mul_sub(t295, t591, mul_sub(t255, t562, t1187));
         let t1271 = mul_add(t306, t594, t1270);
         let t1272 = mul_add(parameters.platform_point[0][0], t828, t1271);
@@ -34503,11 +27382,7 @@ pub fn passive_inverse_dynamics<T: Scalar>(
         let t1276 = mul_add(parameters.platform_point[4][0], t1092, t1275);
         let t1277 = mul_add(parameters.platform_point[5][0], t1158, t1276);
         let t1278 = mul_add(t295, t756, mul_add(t284, t755, t1277));
-        let t1279 = mul_add(
-            parameters.payload_com[0],
-            t1209,
-            mul_add(t306, t757, t1278),
-        );
+        let t1279 = mul_add(parameters.payload_com[0], t1209, mul_add(t306, t757, t1278));
         let t1280 = mul_add(t15, t1259, mul_sub(t12, t1269, t21 * t1279));
         let t1281 = mul_sub(t18, t1239, mul_sub(t24, t1249, t1280));
         let t1282 = mul_sub(t27, t1229, t1281);
@@ -34524,11 +27399,7 @@ pub fn passive_inverse_dynamics<T: Scalar>(
         let t1293 = mul_add(parameters.platform_point[4][2], t1091, t1292);
         let t1294 = mul_add(parameters.platform_point[5][2], t1157, t1293);
         let t1295 = mul_add(t329, t749, mul_add(t306, t748, t1294));
-        let t1296 = mul_add(
-            parameters.payload_com[2],
-            t1200,
-            mul_add(t341, t750, t1295),
-        );
+        let t1296 = mul_add(parameters.payload_com[2], t1200, mul_add(t341, t750, t1295));
         let t1297 = mul_sub(t318, t581, mul_sub(t262, t560, t1185));
         let t1298 = mul_add(t329, t585, t1297);
         let t1299 = mul_add(parameters.platform_point[0][1], t827, t1298);
@@ -34538,11 +27409,7 @@ pub fn passive_inverse_dynamics<T: Scalar>(
         let t1303 = mul_add(parameters.platform_point[4][1], t1091, t1302);
         let t1304 = mul_add(parameters.platform_point[5][1], t1157, t1303);
         let t1305 = mul_add(t318, t749, mul_add(t295, t748, t1304));
-        let t1306 = mul_add(
-            parameters.payload_com[1],
-            t1200,
-            mul_add(t329, t750, t1305),
-        );
+        let t1306 = mul_add(parameters.payload_com[1], t1200, mul_add(t329, t750, t1305));
         let t1307 = mul_sub(t295, t581, mul_sub(t255, t560, t1184));
         let t1308 = mul_add(t306, t585, t1307);
         let t1309 = mul_add(parameters.platform_point[0][0], t827, t1308);
@@ -34552,11 +27419,7 @@ pub fn passive_inverse_dynamics<T: Scalar>(
         let t1313 = mul_add(parameters.platform_point[4][0], t1091, t1312);
         let t1314 = mul_add(parameters.platform_point[5][0], t1157, t1313);
         let t1315 = mul_add(t295, t749, mul_add(t284, t748, t1314));
-        let t1316 = mul_add(
-            parameters.payload_com[0],
-            t1200,
-            mul_add(t306, t750, t1315),
-        );
+        let t1316 = mul_add(parameters.payload_com[0], t1200, mul_add(t306, t750, t1315));
         let t1317 = mul_add(t24, t1306, mul_sub(t21, t1316, t3 * t1269));
         let t1318 = mul_sub(t27, t1296, mul_sub(t6, t1259, t1317));
         let t1319 = mul_sub(t9, t1239, t1318);
@@ -34587,38 +27450,38 @@ pub fn passive_inverse_dynamics<T: Scalar>(
         let t1331 = mul_add(parameters.actuator_axis[0][0], t797, t812);
         let t1332 = mul_add(parameters.actuator_axis[0][2], t826, t1331);
         let t1333 = mul_sub(parameters.axial_stiffness[0], t1160, t1332);
-        passive_inverse_dynamics[0] = axial_reaction[0]
-            - mul_add(parameters.axial_damping[0], t446, t1333);
+        passive_inverse_dynamics[0] =
+            axial_reaction[0] - mul_add(parameters.axial_damping[0], t446, t1333);
         // leg 2: actuator forces F at reference speeds
         let t1334 = mul_add(parameters.actuator_axis[1][0], t863, t878);
         let t1335 = mul_add(parameters.actuator_axis[1][2], t892, t1334);
         let t1336 = mul_sub(parameters.axial_stiffness[1], t1161, t1335);
-        passive_inverse_dynamics[1] = axial_reaction[1]
-            - mul_add(parameters.axial_damping[1], t455, t1336);
+        passive_inverse_dynamics[1] =
+            axial_reaction[1] - mul_add(parameters.axial_damping[1], t455, t1336);
         // leg 3: actuator forces F at reference speeds
         let t1337 = mul_add(parameters.actuator_axis[2][0], t929, t944);
         let t1338 = mul_add(parameters.actuator_axis[2][2], t958, t1337);
         let t1339 = mul_sub(parameters.axial_stiffness[2], t1162, t1338);
-        passive_inverse_dynamics[2] = axial_reaction[2]
-            - mul_add(parameters.axial_damping[2], t464, t1339);
+        passive_inverse_dynamics[2] =
+            axial_reaction[2] - mul_add(parameters.axial_damping[2], t464, t1339);
         // leg 4: actuator forces F at reference speeds
         let t1340 = mul_add(parameters.actuator_axis[3][0], t995, t1010);
         let t1341 = mul_add(parameters.actuator_axis[3][2], t1024, t1340);
         let t1342 = mul_sub(parameters.axial_stiffness[3], t1163, t1341);
-        passive_inverse_dynamics[3] = axial_reaction[3]
-            - mul_add(parameters.axial_damping[3], t473, t1342);
+        passive_inverse_dynamics[3] =
+            axial_reaction[3] - mul_add(parameters.axial_damping[3], t473, t1342);
         // leg 5: actuator forces F at reference speeds
         let t1343 = mul_add(parameters.actuator_axis[4][0], t1061, t1076);
         let t1344 = mul_add(parameters.actuator_axis[4][2], t1090, t1343);
         let t1345 = mul_sub(parameters.axial_stiffness[4], t1164, t1344);
-        passive_inverse_dynamics[4] = axial_reaction[4]
-            - mul_add(parameters.axial_damping[4], t482, t1345);
+        passive_inverse_dynamics[4] =
+            axial_reaction[4] - mul_add(parameters.axial_damping[4], t482, t1345);
         // leg 6: actuator forces F at reference speeds
         let t1346 = mul_add(parameters.actuator_axis[5][0], t1127, t1142);
         let t1347 = mul_add(parameters.actuator_axis[5][2], t1156, t1346);
         let t1348 = mul_sub(parameters.axial_stiffness[5], t1165, t1347);
-        passive_inverse_dynamics[5] = axial_reaction[5]
-            - mul_add(parameters.axial_damping[5], t491, t1348);
+        passive_inverse_dynamics[5] =
+            axial_reaction[5] - mul_add(parameters.axial_damping[5], t491, t1348);
     }
 }
 
@@ -34656,93 +27519,12 @@ pub fn base_reaction<T: Scalar>(
 ) {
     let c = T::constant;
     let (
-        t3,
-        t6,
-        t9,
-        t12,
-        t15,
-        t18,
-        t21,
-        t24,
-        t27,
-        t32,
-        t34,
-        t36,
-        t106,
-        t107,
-        t108,
-        t174,
-        t207,
-        t210,
-        t212,
-        t219,
-        t226,
-        t233,
-        t247,
-        t258,
-        t269,
-        t281,
-        t292,
-        t304,
-        t307,
-        t310,
-        t313,
-        t454,
-        t459,
-        t461,
-        t463,
-        t473,
-        t474,
-        t475,
-        t476,
-        t478,
-        t479,
-        t480,
-        t481,
-        t482,
-        t487,
-        t489,
-        t491,
-        t504,
-        t508,
-        t512,
-        t515,
-        t518,
-        t521,
-        t523,
-        t525,
-        t527,
-        t647,
-        t667,
-        t683,
-        t699,
-        t706,
-        t711,
-        t714,
-        t734,
-        t750,
-        t766,
-        t773,
-        t778,
-        t781,
-        t801,
-        t817,
-        t833,
-        t840,
-        t845,
-        t848,
-        t868,
-        t884,
-        t900,
-        t907,
-        t912,
-        t915,
-        t935,
-        t951,
-        t967,
-        t974,
-        t979,
-        t982,
+        t3, t6, t9, t12, t15, t18, t21, t24, t27, t32, t34, t36, t106, t107, t108, t174, t207,
+        t210, t212, t219, t226, t233, t247, t258, t269, t281, t292, t304, t307, t310, t313, t454,
+        t459, t461, t463, t473, t474, t475, t476, t478, t479, t480, t481, t482, t487, t489, t491,
+        t504, t508, t512, t515, t518, t521, t523, t525, t527, t647, t667, t683, t699, t706, t711,
+        t714, t734, t750, t766, t773, t778, t781, t801, t817, t833, t840, t845, t848, t868, t884,
+        t900, t907, t912, t915, t935, t951, t967, t974, t979, t982,
     ) = {
         // rotation of the platform seen from the base
         let t1 = base_rotation[1][0] * platform_rotation[1][0];
@@ -34876,9 +27658,7 @@ pub fn base_reaction<T: Scalar>(
         // leg 1: extent of the rod along the actuator axis
         let t115 = parameters.rod_length[0] * parameters.rod_length[0];
         let t116 = mul_add(t114, t114, mul_add(t112, t112, t113 * t113));
-        let t117 = sqrt(
-            mul_sub(parameters.rod_length[0], parameters.rod_length[0], t116),
-        );
+        let t117 = sqrt(mul_sub(parameters.rod_length[0], parameters.rod_length[0], t116));
         // leg 1: reciprocal of that extent
         let t118 = c(1.0) / t117;
         // leg 1: actuator length d
@@ -34893,9 +27673,7 @@ pub fn base_reaction<T: Scalar>(
         // leg 2: extent of the rod along the actuator axis
         let t126 = parameters.rod_length[1] * parameters.rod_length[1];
         let t127 = mul_add(t125, t125, mul_add(t123, t123, t124 * t124));
-        let t128 = sqrt(
-            mul_sub(parameters.rod_length[1], parameters.rod_length[1], t127),
-        );
+        let t128 = sqrt(mul_sub(parameters.rod_length[1], parameters.rod_length[1], t127));
         // leg 2: reciprocal of that extent
         let t129 = c(1.0) / t128;
         // leg 2: actuator length d
@@ -34910,9 +27688,7 @@ pub fn base_reaction<T: Scalar>(
         // leg 3: extent of the rod along the actuator axis
         let t137 = parameters.rod_length[2] * parameters.rod_length[2];
         let t138 = mul_add(t136, t136, mul_add(t134, t134, t135 * t135));
-        let t139 = sqrt(
-            mul_sub(parameters.rod_length[2], parameters.rod_length[2], t138),
-        );
+        let t139 = sqrt(mul_sub(parameters.rod_length[2], parameters.rod_length[2], t138));
         // leg 3: reciprocal of that extent
         let t140 = c(1.0) / t139;
         // leg 3: actuator length d
@@ -34927,9 +27703,7 @@ pub fn base_reaction<T: Scalar>(
         // leg 4: extent of the rod along the actuator axis
         let t148 = parameters.rod_length[3] * parameters.rod_length[3];
         let t149 = mul_add(t147, t147, mul_add(t145, t145, t146 * t146));
-        let t150 = sqrt(
-            mul_sub(parameters.rod_length[3], parameters.rod_length[3], t149),
-        );
+        let t150 = sqrt(mul_sub(parameters.rod_length[3], parameters.rod_length[3], t149));
         // leg 4: reciprocal of that extent
         let t151 = c(1.0) / t150;
         // leg 4: actuator length d
@@ -34944,9 +27718,7 @@ pub fn base_reaction<T: Scalar>(
         // leg 5: extent of the rod along the actuator axis
         let t159 = parameters.rod_length[4] * parameters.rod_length[4];
         let t160 = mul_add(t158, t158, mul_add(t156, t156, t157 * t157));
-        let t161 = sqrt(
-            mul_sub(parameters.rod_length[4], parameters.rod_length[4], t160),
-        );
+        let t161 = sqrt(mul_sub(parameters.rod_length[4], parameters.rod_length[4], t160));
         // leg 5: reciprocal of that extent
         let t162 = c(1.0) / t161;
         // leg 5: actuator length d
@@ -34961,9 +27733,7 @@ pub fn base_reaction<T: Scalar>(
         // leg 6: extent of the rod along the actuator axis
         let t170 = parameters.rod_length[5] * parameters.rod_length[5];
         let t171 = mul_add(t169, t169, mul_add(t167, t167, t168 * t168));
-        let t172 = sqrt(
-            mul_sub(parameters.rod_length[5], parameters.rod_length[5], t171),
-        );
+        let t172 = sqrt(mul_sub(parameters.rod_length[5], parameters.rod_length[5], t171));
         // leg 6: reciprocal of that extent
         let t173 = c(1.0) / t172;
         // leg 6: actuator length d
@@ -35069,11 +27839,7 @@ pub fn base_reaction<T: Scalar>(
         let t252 = parameters.platform_point[1][0] * parameters.platform_point[1][1];
         let t253 = parameters.platform_point[0][0] * parameters.platform_point[0][1];
         let t254 = parameters.payload_com[0] * parameters.payload_com[1];
-        let t255 = neg_mul_add(
-            parameters.payload_mass,
-            t254,
-            parameters.payload_inertia[0][1],
-        );
+        let t255 = neg_mul_add(parameters.payload_mass, t254, parameters.payload_inertia[0][1]);
         let t256 = neg_mul_add(t185, t252, neg_mul_add(t179, t253, t255));
         let t257 = neg_mul_add(t197, t250, neg_mul_add(t191, t251, t256));
         let t258 = neg_mul_add(t209, t248, neg_mul_add(t203, t249, t257));
@@ -35084,11 +27850,7 @@ pub fn base_reaction<T: Scalar>(
         let t263 = parameters.platform_point[1][0] * parameters.platform_point[1][2];
         let t264 = parameters.platform_point[0][0] * parameters.platform_point[0][2];
         let t265 = parameters.payload_com[0] * parameters.payload_com[2];
-        let t266 = neg_mul_add(
-            parameters.payload_mass,
-            t265,
-            parameters.payload_inertia[0][2],
-        );
+        let t266 = neg_mul_add(parameters.payload_mass, t265, parameters.payload_inertia[0][2]);
         let t267 = neg_mul_add(t185, t263, neg_mul_add(t179, t264, t266));
         let t268 = neg_mul_add(t197, t261, neg_mul_add(t191, t262, t267));
         let t269 = neg_mul_add(t209, t259, neg_mul_add(t203, t260, t268));
@@ -35111,11 +27873,7 @@ pub fn base_reaction<T: Scalar>(
         let t286 = parameters.platform_point[1][1] * parameters.platform_point[1][2];
         let t287 = parameters.platform_point[0][1] * parameters.platform_point[0][2];
         let t288 = parameters.payload_com[1] * parameters.payload_com[2];
-        let t289 = neg_mul_add(
-            parameters.payload_mass,
-            t288,
-            parameters.payload_inertia[1][2],
-        );
+        let t289 = neg_mul_add(parameters.payload_mass, t288, parameters.payload_inertia[1][2]);
         let t290 = neg_mul_add(t185, t286, neg_mul_add(t179, t287, t289));
         let t291 = neg_mul_add(t197, t284, neg_mul_add(t191, t285, t290));
         let t292 = neg_mul_add(t209, t282, neg_mul_add(t203, t283, t291));
@@ -35524,21 +28282,9 @@ pub fn base_reaction<T: Scalar>(
         let t646 = mul_add(parameters.actuator_axis[5][2], t611, t645);
         let t647 = neg_mul_add(t173, mul_add(t453, t453, t643), t646);
         // leg 1: inertia less weight of the whole leg
-        let t648 = neg_mul_add(
-            parameters.actuator_axis[0][0],
-            t119,
-            parameters.base_point[0][0],
-        );
-        let t649 = neg_mul_add(
-            parameters.actuator_axis[0][1],
-            t119,
-            parameters.base_point[0][1],
-        );
-        let t650 = neg_mul_add(
-            parameters.actuator_axis[0][2],
-            t119,
-            parameters.base_point[0][2],
-        );
+        let t648 = neg_mul_add(parameters.actuator_axis[0][0], t119, parameters.base_point[0][0]);
+        let t649 = neg_mul_add(parameters.actuator_axis[0][1], t119, parameters.base_point[0][1]);
+        let t650 = neg_mul_add(parameters.actuator_axis[0][2], t119, parameters.base_point[0][2]);
         let t651 = c(2.0) * t409;
         let t652 = parameters.actuator_axis[0][1] * t313;
         let t653 = mul_sub(parameters.actuator_axis[0][2], t310, t652);
@@ -35555,11 +28301,7 @@ pub fn base_reaction<T: Scalar>(
         let t664 = neg_mul_add(parameters.actuator_axis[0][2], t475, t663);
         let t665 = mul_add(parameters.mover_offset[0], t664, t656);
         let t666 = parameters.mover_mass[0] * t665;
-        let t667 = mul_add(
-            parameters.mover_mass[0],
-            t665,
-            neg_mul_add(t180, t656, t660),
-        );
+        let t667 = mul_add(parameters.mover_mass[0], t665, neg_mul_add(t180, t656, t660));
         let t668 = parameters.actuator_axis[0][2] * t307;
         let t669 = mul_sub(parameters.actuator_axis[0][0], t313, t668);
         let t670 = neg_mul_add(t479, t650, mul_sub(t476, t648, t478 * t649));
@@ -35575,11 +28317,7 @@ pub fn base_reaction<T: Scalar>(
         let t680 = neg_mul_add(parameters.actuator_axis[0][2], t479, t679);
         let t681 = neg_mul_add(parameters.mover_offset[0], t680, t672);
         let t682 = parameters.mover_mass[0] * t681;
-        let t683 = mul_add(
-            parameters.mover_mass[0],
-            t681,
-            neg_mul_add(t180, t672, t676),
-        );
+        let t683 = mul_add(parameters.mover_mass[0], t681, neg_mul_add(t180, t672, t676));
         let t684 = parameters.actuator_axis[0][0] * t310;
         let t685 = mul_sub(parameters.actuator_axis[0][1], t307, t684);
         let t686 = t463 - mul_add(t482, t650, mul_sub(t480, t648, t481 * t649));
@@ -35595,55 +28333,27 @@ pub fn base_reaction<T: Scalar>(
         let t696 = mul_add(parameters.actuator_axis[0][2], t482, t695);
         let t697 = mul_add(parameters.mover_offset[0], t696, t688);
         let t698 = parameters.mover_mass[0] * t697;
-        let t699 = mul_add(
-            parameters.mover_mass[0],
-            t697,
-            neg_mul_add(t180, t688, t692),
-        );
+        let t699 = mul_add(parameters.mover_mass[0], t697, neg_mul_add(t180, t688, t692));
         // leg 1: its moment about the base origin
         let t700 = parameters.base_point[0][1] - t47;
         let t701 = parameters.base_point[0][2] - t48;
         let t702 = mul_sub(t693, t700, t677 * t701);
         let t703 = mul_sub(t649, t692, t650 * t676) - t702;
-        let t704 = neg_mul_add(
-            parameters.actuator_axis[0][1],
-            parameters.mover_offset[0],
-            t649,
-        );
-        let t705 = neg_mul_add(
-            parameters.actuator_axis[0][2],
-            parameters.mover_offset[0],
-            t650,
-        );
+        let t704 = neg_mul_add(parameters.actuator_axis[0][1], parameters.mover_offset[0], t649);
+        let t705 = neg_mul_add(parameters.actuator_axis[0][2], parameters.mover_offset[0], t650);
         let t706 = t703 + mul_sub(t698, t704, t682 * t705);
         let t707 = parameters.base_point[0][0] - t46;
         let t708 = mul_sub(t661, t701, t693 * t707);
         let t709 = mul_sub(t650, t660, t648 * t692) - t708;
-        let t710 = neg_mul_add(
-            parameters.actuator_axis[0][0],
-            parameters.mover_offset[0],
-            t648,
-        );
+        let t710 = neg_mul_add(parameters.actuator_axis[0][0], parameters.mover_offset[0], t648);
         let t711 = t709 + mul_sub(t666, t705, t698 * t710);
         let t712 = mul_sub(t677, t707, t661 * t700);
         let t713 = mul_sub(t648, t676, t649 * t660) - t712;
         let t714 = t713 + mul_sub(t682, t710, t666 * t704);
         // leg 2: inertia less weight of the whole leg
-        let t715 = neg_mul_add(
-            parameters.actuator_axis[1][0],
-            t130,
-            parameters.base_point[1][0],
-        );
-        let t716 = neg_mul_add(
-            parameters.actuator_axis[1][1],
-            t130,
-            parameters.base_point[1][1],
-        );
-        let t717 = neg_mul_add(
-            parameters.actuator_axis[1][2],
-            t130,
-            parameters.base_point[1][2],
-        );
+        let t715 = neg_mul_add(parameters.actuator_axis[1][0], t130, parameters.base_point[1][0]);
+        let t716 = neg_mul_add(parameters.actuator_axis[1][1], t130, parameters.base_point[1][1]);
+        let t717 = neg_mul_add(parameters.actuator_axis[1][2], t130, parameters.base_point[1][2]);
         let t718 = c(2.0) * t418;
         let t719 = parameters.actuator_axis[1][1] * t313;
         let t720 = mul_sub(parameters.actuator_axis[1][2], t310, t719);
@@ -35660,11 +28370,7 @@ pub fn base_reaction<T: Scalar>(
         let t731 = neg_mul_add(parameters.actuator_axis[1][2], t475, t730);
         let t732 = mul_add(parameters.mover_offset[1], t731, t723);
         let t733 = parameters.mover_mass[1] * t732;
-        let t734 = mul_add(
-            parameters.mover_mass[1],
-            t732,
-            neg_mul_add(t186, t723, t727),
-        );
+        let t734 = mul_add(parameters.mover_mass[1], t732, neg_mul_add(t186, t723, t727));
         let t735 = parameters.actuator_axis[1][2] * t307;
         let t736 = mul_sub(parameters.actuator_axis[1][0], t313, t735);
         let t737 = neg_mul_add(t479, t717, mul_sub(t476, t715, t478 * t716));
@@ -35680,11 +28386,7 @@ pub fn base_reaction<T: Scalar>(
         let t747 = neg_mul_add(parameters.actuator_axis[1][2], t479, t746);
         let t748 = neg_mul_add(parameters.mover_offset[1], t747, t739);
         let t749 = parameters.mover_mass[1] * t748;
-        let t750 = mul_add(
-            parameters.mover_mass[1],
-            t748,
-            neg_mul_add(t186, t739, t743),
-        );
+        let t750 = mul_add(parameters.mover_mass[1], t748, neg_mul_add(t186, t739, t743));
         let t751 = parameters.actuator_axis[1][0] * t310;
         let t752 = mul_sub(parameters.actuator_axis[1][1], t307, t751);
         let t753 = t463 - mul_add(t482, t717, mul_sub(t480, t715, t481 * t716));
@@ -35700,55 +28402,27 @@ pub fn base_reaction<T: Scalar>(
         let t763 = mul_add(parameters.actuator_axis[1][2], t482, t762);
         let t764 = mul_add(parameters.mover_offset[1], t763, t755);
         let t765 = parameters.mover_mass[1] * t764;
-        let t766 = mul_add(
-            parameters.mover_mass[1],
-            t764,
-            neg_mul_add(t186, t755, t759),
-        );
+        let t766 = mul_add(parameters.mover_mass[1], t764, neg_mul_add(t186, t755, t759));
         // leg 2: its moment about the base origin
         let t767 = parameters.base_point[1][1] - t59;
         let t768 = parameters.base_point[1][2] - t60;
         let t769 = mul_sub(t760, t767, t744 * t768);
         let t770 = mul_sub(t716, t759, t717 * t743) - t769;
-        let t771 = neg_mul_add(
-            parameters.actuator_axis[1][1],
-            parameters.mover_offset[1],
-            t716,
-        );
-        let t772 = neg_mul_add(
-            parameters.actuator_axis[1][2],
-            parameters.mover_offset[1],
-            t717,
-        );
+        let t771 = neg_mul_add(parameters.actuator_axis[1][1], parameters.mover_offset[1], t716);
+        let t772 = neg_mul_add(parameters.actuator_axis[1][2], parameters.mover_offset[1], t717);
         let t773 = t770 + mul_sub(t765, t771, t749 * t772);
         let t774 = parameters.base_point[1][0] - t58;
         let t775 = mul_sub(t728, t768, t760 * t774);
         let t776 = mul_sub(t717, t727, t715 * t759) - t775;
-        let t777 = neg_mul_add(
-            parameters.actuator_axis[1][0],
-            parameters.mover_offset[1],
-            t715,
-        );
+        let t777 = neg_mul_add(parameters.actuator_axis[1][0], parameters.mover_offset[1], t715);
         let t778 = t776 + mul_sub(t733, t772, t765 * t777);
         let t779 = mul_sub(t744, t774, t728 * t767);
         let t780 = mul_sub(t715, t743, t716 * t727) - t779;
         let t781 = t780 + mul_sub(t749, t777, t733 * t771);
         // leg 3: inertia less weight of the whole leg
-        let t782 = neg_mul_add(
-            parameters.actuator_axis[2][0],
-            t141,
-            parameters.base_point[2][0],
-        );
-        let t783 = neg_mul_add(
-            parameters.actuator_axis[2][1],
-            t141,
-            parameters.base_point[2][1],
-        );
-        let t784 = neg_mul_add(
-            parameters.actuator_axis[2][2],
-            t141,
-            parameters.base_point[2][2],
-        );
+        let t782 = neg_mul_add(parameters.actuator_axis[2][0], t141, parameters.base_point[2][0]);
+        let t783 = neg_mul_add(parameters.actuator_axis[2][1], t141, parameters.base_point[2][1]);
+        let t784 = neg_mul_add(parameters.actuator_axis[2][2], t141, parameters.base_point[2][2]);
         let t785 = c(2.0) * t427;
         let t786 = parameters.actuator_axis[2][1] * t313;
         let t787 = mul_sub(parameters.actuator_axis[2][2], t310, t786);
@@ -35765,11 +28439,7 @@ pub fn base_reaction<T: Scalar>(
         let t798 = neg_mul_add(parameters.actuator_axis[2][2], t475, t797);
         let t799 = mul_add(parameters.mover_offset[2], t798, t790);
         let t800 = parameters.mover_mass[2] * t799;
-        let t801 = mul_add(
-            parameters.mover_mass[2],
-            t799,
-            neg_mul_add(t192, t790, t794),
-        );
+        let t801 = mul_add(parameters.mover_mass[2], t799, neg_mul_add(t192, t790, t794));
         let t802 = parameters.actuator_axis[2][2] * t307;
         let t803 = mul_sub(parameters.actuator_axis[2][0], t313, t802);
         let t804 = neg_mul_add(t479, t784, mul_sub(t476, t782, t478 * t783));
@@ -35785,11 +28455,7 @@ pub fn base_reaction<T: Scalar>(
         let t814 = neg_mul_add(parameters.actuator_axis[2][2], t479, t813);
         let t815 = neg_mul_add(parameters.mover_offset[2], t814, t806);
         let t816 = parameters.mover_mass[2] * t815;
-        let t817 = mul_add(
-            parameters.mover_mass[2],
-            t815,
-            neg_mul_add(t192, t806, t810),
-        );
+        let t817 = mul_add(parameters.mover_mass[2], t815, neg_mul_add(t192, t806, t810));
         let t818 = parameters.actuator_axis[2][0] * t310;
         let t819 = mul_sub(parameters.actuator_axis[2][1], t307, t818);
         let t820 = t463 - mul_add(t482, t784, mul_sub(t480, t782, t481 * t783));
@@ -35805,55 +28471,27 @@ pub fn base_reaction<T: Scalar>(
         let t830 = mul_add(parameters.actuator_axis[2][2], t482, t829);
         let t831 = mul_add(parameters.mover_offset[2], t830, t822);
         let t832 = parameters.mover_mass[2] * t831;
-        let t833 = mul_add(
-            parameters.mover_mass[2],
-            t831,
-            neg_mul_add(t192, t822, t826),
-        );
+        let t833 = mul_add(parameters.mover_mass[2], t831, neg_mul_add(t192, t822, t826));
         // leg 3: its moment about the base origin
         let t834 = parameters.base_point[2][1] - t71;
         let t835 = parameters.base_point[2][2] - t72;
         let t836 = mul_sub(t827, t834, t811 * t835);
         let t837 = mul_sub(t783, t826, t784 * t810) - t836;
-        let t838 = neg_mul_add(
-            parameters.actuator_axis[2][1],
-            parameters.mover_offset[2],
-            t783,
-        );
-        let t839 = neg_mul_add(
-            parameters.actuator_axis[2][2],
-            parameters.mover_offset[2],
-            t784,
-        );
+        let t838 = neg_mul_add(parameters.actuator_axis[2][1], parameters.mover_offset[2], t783);
+        let t839 = neg_mul_add(parameters.actuator_axis[2][2], parameters.mover_offset[2], t784);
         let t840 = t837 + mul_sub(t832, t838, t816 * t839);
         let t841 = parameters.base_point[2][0] - t70;
         let t842 = mul_sub(t795, t835, t827 * t841);
         let t843 = mul_sub(t784, t794, t782 * t826) - t842;
-        let t844 = neg_mul_add(
-            parameters.actuator_axis[2][0],
-            parameters.mover_offset[2],
-            t782,
-        );
+        let t844 = neg_mul_add(parameters.actuator_axis[2][0], parameters.mover_offset[2], t782);
         let t845 = t843 + mul_sub(t800, t839, t832 * t844);
         let t846 = mul_sub(t811, t841, t795 * t834);
         let t847 = mul_sub(t782, t810, t783 * t794) - t846;
         let t848 = t847 + mul_sub(t816, t844, t800 * t838);
         // leg 4: inertia less weight of the whole leg
-        let t849 = neg_mul_add(
-            parameters.actuator_axis[3][0],
-            t152,
-            parameters.base_point[3][0],
-        );
-        let t850 = neg_mul_add(
-            parameters.actuator_axis[3][1],
-            t152,
-            parameters.base_point[3][1],
-        );
-        let t851 = neg_mul_add(
-            parameters.actuator_axis[3][2],
-            t152,
-            parameters.base_point[3][2],
-        );
+        let t849 = neg_mul_add(parameters.actuator_axis[3][0], t152, parameters.base_point[3][0]);
+        let t850 = neg_mul_add(parameters.actuator_axis[3][1], t152, parameters.base_point[3][1]);
+        let t851 = neg_mul_add(parameters.actuator_axis[3][2], t152, parameters.base_point[3][2]);
         let t852 = c(2.0) * t436;
         let t853 = parameters.actuator_axis[3][1] * t313;
         let t854 = mul_sub(parameters.actuator_axis[3][2], t310, t853);
@@ -35870,11 +28508,7 @@ pub fn base_reaction<T: Scalar>(
         let t865 = neg_mul_add(parameters.actuator_axis[3][2], t475, t864);
         let t866 = mul_add(parameters.mover_offset[3], t865, t857);
         let t867 = parameters.mover_mass[3] * t866;
-        let t868 = mul_add(
-            parameters.mover_mass[3],
-            t866,
-            neg_mul_add(t198, t857, t861),
-        );
+        let t868 = mul_add(parameters.mover_mass[3], t866, neg_mul_add(t198, t857, t861));
         let t869 = parameters.actuator_axis[3][2] * t307;
         let t870 = mul_sub(parameters.actuator_axis[3][0], t313, t869);
         let t871 = neg_mul_add(t479, t851, mul_sub(t476, t849, t478 * t850));
@@ -35890,11 +28524,7 @@ pub fn base_reaction<T: Scalar>(
         let t881 = neg_mul_add(parameters.actuator_axis[3][2], t479, t880);
         let t882 = neg_mul_add(parameters.mover_offset[3], t881, t873);
         let t883 = parameters.mover_mass[3] * t882;
-        let t884 = mul_add(
-            parameters.mover_mass[3],
-            t882,
-            neg_mul_add(t198, t873, t877),
-        );
+        let t884 = mul_add(parameters.mover_mass[3], t882, neg_mul_add(t198, t873, t877));
         let t885 = parameters.actuator_axis[3][0] * t310;
         let t886 = mul_sub(parameters.actuator_axis[3][1], t307, t885);
         let t887 = t463 - mul_add(t482, t851, mul_sub(t480, t849, t481 * t850));
@@ -35910,55 +28540,27 @@ pub fn base_reaction<T: Scalar>(
         let t897 = mul_add(parameters.actuator_axis[3][2], t482, t896);
         let t898 = mul_add(parameters.mover_offset[3], t897, t889);
         let t899 = parameters.mover_mass[3] * t898;
-        let t900 = mul_add(
-            parameters.mover_mass[3],
-            t898,
-            neg_mul_add(t198, t889, t893),
-        );
+        let t900 = mul_add(parameters.mover_mass[3], t898, neg_mul_add(t198, t889, t893));
         // leg 4: its moment about the base origin
         let t901 = parameters.base_point[3][1] - t83;
         let t902 = parameters.base_point[3][2] - t84;
         let t903 = mul_sub(t894, t901, t878 * t902);
         let t904 = mul_sub(t850, t893, t851 * t877) - t903;
-        let t905 = neg_mul_add(
-            parameters.actuator_axis[3][1],
-            parameters.mover_offset[3],
-            t850,
-        );
-        let t906 = neg_mul_add(
-            parameters.actuator_axis[3][2],
-            parameters.mover_offset[3],
-            t851,
-        );
+        let t905 = neg_mul_add(parameters.actuator_axis[3][1], parameters.mover_offset[3], t850);
+        let t906 = neg_mul_add(parameters.actuator_axis[3][2], parameters.mover_offset[3], t851);
         let t907 = t904 + mul_sub(t899, t905, t883 * t906);
         let t908 = parameters.base_point[3][0] - t82;
         let t909 = mul_sub(t862, t902, t894 * t908);
         let t910 = mul_sub(t851, t861, t849 * t893) - t909;
-        let t911 = neg_mul_add(
-            parameters.actuator_axis[3][0],
-            parameters.mover_offset[3],
-            t849,
-        );
+        let t911 = neg_mul_add(parameters.actuator_axis[3][0], parameters.mover_offset[3], t849);
         let t912 = t910 + mul_sub(t867, t906, t899 * t911);
         let t913 = mul_sub(t878, t908, t862 * t901);
         let t914 = mul_sub(t849, t877, t850 * t861) - t913;
         let t915 = t914 + mul_sub(t883, t911, t867 * t905);
         // leg 5: inertia less weight of the whole leg
-        let t916 = neg_mul_add(
-            parameters.actuator_axis[4][0],
-            t163,
-            parameters.base_point[4][0],
-        );
-        let t917 = neg_mul_add(
-            parameters.actuator_axis[4][1],
-            t163,
-            parameters.base_point[4][1],
-        );
-        let t918 = neg_mul_add(
-            parameters.actuator_axis[4][2],
-            t163,
-            parameters.base_point[4][2],
-        );
+        let t916 = neg_mul_add(parameters.actuator_axis[4][0], t163, parameters.base_point[4][0]);
+        let t917 = neg_mul_add(parameters.actuator_axis[4][1], t163, parameters.base_point[4][1]);
+        let t918 = neg_mul_add(parameters.actuator_axis[4][2], t163, parameters.base_point[4][2]);
         let t919 = c(2.0) * t445;
         let t920 = parameters.actuator_axis[4][1] * t313;
         let t921 = mul_sub(parameters.actuator_axis[4][2], t310, t920);
@@ -35975,11 +28577,7 @@ pub fn base_reaction<T: Scalar>(
         let t932 = neg_mul_add(parameters.actuator_axis[4][2], t475, t931);
         let t933 = mul_add(parameters.mover_offset[4], t932, t924);
         let t934 = parameters.mover_mass[4] * t933;
-        let t935 = mul_add(
-            parameters.mover_mass[4],
-            t933,
-            neg_mul_add(t204, t924, t928),
-        );
+        let t935 = mul_add(parameters.mover_mass[4], t933, neg_mul_add(t204, t924, t928));
         let t936 = parameters.actuator_axis[4][2] * t307;
         let t937 = mul_sub(parameters.actuator_axis[4][0], t313, t936);
         let t938 = neg_mul_add(t479, t918, mul_sub(t476, t916, t478 * t917));
@@ -35995,11 +28593,7 @@ pub fn base_reaction<T: Scalar>(
         let t948 = neg_mul_add(parameters.actuator_axis[4][2], t479, t947);
         let t949 = neg_mul_add(parameters.mover_offset[4], t948, t940);
         let t950 = parameters.mover_mass[4] * t949;
-        let t951 = mul_add(
-            parameters.mover_mass[4],
-            t949,
-            neg_mul_add(t204, t940, t944),
-        );
+        let t951 = mul_add(parameters.mover_mass[4], t949, neg_mul_add(t204, t940, t944));
         let t952 = parameters.actuator_axis[4][0] * t310;
         let t953 = mul_sub(parameters.actuator_axis[4][1], t307, t952);
         let t954 = t463 - mul_add(t482, t918, mul_sub(t480, t916, t481 * t917));
@@ -36015,146 +28609,37 @@ pub fn base_reaction<T: Scalar>(
         let t964 = mul_add(parameters.actuator_axis[4][2], t482, t963);
         let t965 = mul_add(parameters.mover_offset[4], t964, t956);
         let t966 = parameters.mover_mass[4] * t965;
-        let t967 = mul_add(
-            parameters.mover_mass[4],
-            t965,
-            neg_mul_add(t204, t956, t960),
-        );
+        let t967 = mul_add(parameters.mover_mass[4], t965, neg_mul_add(t204, t956, t960));
         // leg 5: its moment about the base origin
         let t968 = parameters.base_point[4][1] - t95;
         let t969 = parameters.base_point[4][2] - t96;
         let t970 = mul_sub(t961, t968, t945 * t969);
         let t971 = mul_sub(t917, t960, t918 * t944) - t970;
-        let t972 = neg_mul_add(
-            parameters.actuator_axis[4][1],
-            parameters.mover_offset[4],
-            t917,
-        );
-        let t973 = neg_mul_add(
-            parameters.actuator_axis[4][2],
-            parameters.mover_offset[4],
-            t918,
-        );
+        let t972 = neg_mul_add(parameters.actuator_axis[4][1], parameters.mover_offset[4], t917);
+        let t973 = neg_mul_add(parameters.actuator_axis[4][2], parameters.mover_offset[4], t918);
         let t974 = t971 + mul_sub(t966, t972, t950 * t973);
         let t975 = parameters.base_point[4][0] - t94;
         let t976 = mul_sub(t929, t969, t961 * t975);
         let t977 = mul_sub(t918, t928, t916 * t960) - t976;
-        let t978 = neg_mul_add(
-            parameters.actuator_axis[4][0],
-            parameters.mover_offset[4],
-            t916,
-        );
+        let t978 = neg_mul_add(parameters.actuator_axis[4][0], parameters.mover_offset[4], t916);
         let t979 = t977 + mul_sub(t934, t973, t966 * t978);
         let t980 = mul_sub(t945, t975, t929 * t968);
         let t981 = mul_sub(t916, t944, t917 * t928) - t980;
         let t982 = t981 + mul_sub(t950, t978, t934 * t972);
         (
-            t3,
-            t6,
-            t9,
-            t12,
-            t15,
-            t18,
-            t21,
-            t24,
-            t27,
-            t32,
-            t34,
-            t36,
-            t106,
-            t107,
-            t108,
-            t174,
-            t207,
-            t210,
-            t212,
-            t219,
-            t226,
-            t233,
-            t247,
-            t258,
-            t269,
-            t281,
-            t292,
-            t304,
-            t307,
-            t310,
-            t313,
-            t454,
-            t459,
-            t461,
-            t463,
-            t473,
-            t474,
-            t475,
-            t476,
-            t478,
-            t479,
-            t480,
-            t481,
-            t482,
-            t487,
-            t489,
-            t491,
-            t504,
-            t508,
-            t512,
-            t515,
-            t518,
-            t521,
-            t523,
-            t525,
-            t527,
-            t647,
-            t667,
-            t683,
-            t699,
-            t706,
-            t711,
-            t714,
-            t734,
-            t750,
-            t766,
-            t773,
-            t778,
-            t781,
-            t801,
-            t817,
-            t833,
-            t840,
-            t845,
-            t848,
-            t868,
-            t884,
-            t900,
-            t907,
-            t912,
-            t915,
-            t935,
-            t951,
-            t967,
-            t974,
-            t979,
-            t982,
+            t3, t6, t9, t12, t15, t18, t21, t24, t27, t32, t34, t36, t106, t107, t108, t174, t207,
+            t210, t212, t219, t226, t233, t247, t258, t269, t281, t292, t304, t307, t310, t313,
+            t454, t459, t461, t463, t473, t474, t475, t476, t478, t479, t480, t481, t482, t487,
+            t489, t491, t504, t508, t512, t515, t518, t521, t523, t525, t527, t647, t667, t683,
+            t699, t706, t711, t714, t734, t750, t766, t773, t778, t781, t801, t817, t833, t840,
+            t845, t848, t868, t884, t900, t907, t912, t915, t935, t951, t967, t974, t979, t982,
         )
     };
     {
         // leg 6: inertia less weight of the whole leg
-        let t983 = neg_mul_add(
-            parameters.actuator_axis[5][0],
-            t174,
-            parameters.base_point[5][0],
-        );
-        let t984 = neg_mul_add(
-            parameters.actuator_axis[5][1],
-            t174,
-            parameters.base_point[5][1],
-        );
-        let t985 = neg_mul_add(
-            parameters.actuator_axis[5][2],
-            t174,
-            parameters.base_point[5][2],
-        );
+        let t983 = neg_mul_add(parameters.actuator_axis[5][0], t174, parameters.base_point[5][0]);
+        let t984 = neg_mul_add(parameters.actuator_axis[5][1], t174, parameters.base_point[5][1]);
+        let t985 = neg_mul_add(parameters.actuator_axis[5][2], t174, parameters.base_point[5][2]);
         let t986 = c(2.0) * t454;
         let t987 = parameters.actuator_axis[5][1] * t313;
         let t988 = mul_sub(parameters.actuator_axis[5][2], t310, t987);
@@ -36171,11 +28656,7 @@ pub fn base_reaction<T: Scalar>(
         let t999 = neg_mul_add(parameters.actuator_axis[5][2], t475, t998);
         let t1000 = mul_add(parameters.mover_offset[5], t999, t991);
         let t1001 = parameters.mover_mass[5] * t1000;
-        let t1002 = mul_add(
-            parameters.mover_mass[5],
-            t1000,
-            neg_mul_add(t210, t991, t995),
-        );
+        let t1002 = mul_add(parameters.mover_mass[5], t1000, neg_mul_add(t210, t991, t995));
         let t1003 = parameters.actuator_axis[5][2] * t307;
         let t1004 = mul_sub(parameters.actuator_axis[5][0], t313, t1003);
         let t1005 = neg_mul_add(t479, t985, mul_sub(t476, t983, t478 * t984));
@@ -36183,8 +28664,7 @@ pub fn base_reaction<T: Scalar>(
         let t1007 = neg_mul_add(parameters.actuator_axis[5][1], t647, t1006);
         let t1008 = parameters.platform_point[5][1] * t518;
         let t1009 = mul_add(parameters.platform_point[5][0], t515, t1008);
-        let t1010 = t210
-            * (t489 + mul_add(parameters.platform_point[5][2], t521, t1009));
+        let t1010 = t210 * (t489 + mul_add(parameters.platform_point[5][2], t521, t1009));
         let t1011 = mul_sub(t207, t1007, t1010);
         let t1012 = t210 * t1007;
         let t1013 = parameters.actuator_axis[5][1] * t478;
@@ -36192,11 +28672,7 @@ pub fn base_reaction<T: Scalar>(
         let t1015 = neg_mul_add(parameters.actuator_axis[5][2], t479, t1014);
         let t1016 = neg_mul_add(parameters.mover_offset[5], t1015, t1007);
         let t1017 = parameters.mover_mass[5] * t1016;
-        let t1018 = mul_add(
-            parameters.mover_mass[5],
-            t1016,
-            neg_mul_add(t210, t1007, t1011),
-        );
+        let t1018 = mul_add(parameters.mover_mass[5], t1016, neg_mul_add(t210, t1007, t1011));
         let t1019 = parameters.actuator_axis[5][0] * t310;
         let t1020 = mul_sub(parameters.actuator_axis[5][1], t307, t1019);
         let t1021 = t463 - mul_add(t482, t985, mul_sub(t480, t983, t481 * t984));
@@ -36204,8 +28680,7 @@ pub fn base_reaction<T: Scalar>(
         let t1023 = neg_mul_add(parameters.actuator_axis[5][2], t647, t1022);
         let t1024 = parameters.platform_point[5][1] * t525;
         let t1025 = mul_add(parameters.platform_point[5][0], t523, t1024);
-        let t1026 = t210
-            * (t491 + mul_add(parameters.platform_point[5][2], t527, t1025));
+        let t1026 = t210 * (t491 + mul_add(parameters.platform_point[5][2], t527, t1025));
         let t1027 = mul_sub(t207, t1023, t1026);
         let t1028 = t210 * t1023;
         let t1029 = parameters.actuator_axis[5][1] * t481;
@@ -36213,35 +28688,19 @@ pub fn base_reaction<T: Scalar>(
         let t1031 = mul_add(parameters.actuator_axis[5][2], t482, t1030);
         let t1032 = mul_add(parameters.mover_offset[5], t1031, t1023);
         let t1033 = parameters.mover_mass[5] * t1032;
-        let t1034 = mul_add(
-            parameters.mover_mass[5],
-            t1032,
-            neg_mul_add(t210, t1023, t1027),
-        );
+        let t1034 = mul_add(parameters.mover_mass[5], t1032, neg_mul_add(t210, t1023, t1027));
         // leg 6: its moment about the base origin
         let t1035 = parameters.base_point[5][1] - t107;
         let t1036 = parameters.base_point[5][2] - t108;
         let t1037 = mul_sub(t1028, t1035, t1012 * t1036);
         let t1038 = mul_sub(t984, t1027, t985 * t1011) - t1037;
-        let t1039 = neg_mul_add(
-            parameters.actuator_axis[5][1],
-            parameters.mover_offset[5],
-            t984,
-        );
-        let t1040 = neg_mul_add(
-            parameters.actuator_axis[5][2],
-            parameters.mover_offset[5],
-            t985,
-        );
+        let t1039 = neg_mul_add(parameters.actuator_axis[5][1], parameters.mover_offset[5], t984);
+        let t1040 = neg_mul_add(parameters.actuator_axis[5][2], parameters.mover_offset[5], t985);
         let t1041 = t1038 + mul_sub(t1033, t1039, t1017 * t1040);
         let t1042 = parameters.base_point[5][0] - t106;
         let t1043 = mul_sub(t996, t1036, t1028 * t1042);
         let t1044 = mul_sub(t985, t995, t983 * t1027) - t1043;
-        let t1045 = neg_mul_add(
-            parameters.actuator_axis[5][0],
-            parameters.mover_offset[5],
-            t983,
-        );
+        let t1045 = neg_mul_add(parameters.actuator_axis[5][0], parameters.mover_offset[5], t983);
         let t1046 = t1044 + mul_sub(t1001, t1040, t1033 * t1045);
         let t1047 = mul_sub(t1012, t1042, t996 * t1035);
         let t1048 = mul_sub(t983, t1011, t984 * t995) - t1047;
@@ -36365,133 +28824,15 @@ pub fn forward_dynamics<T: Scalar>(
 ) {
     let c = T::constant;
     let (
-        t3,
-        t6,
-        t9,
-        t12,
-        t15,
-        t18,
-        t21,
-        t24,
-        t27,
-        t39,
-        t42,
-        t45,
-        t51,
-        t54,
-        t57,
-        t63,
-        t66,
-        t69,
-        t75,
-        t78,
-        t81,
-        t87,
-        t90,
-        t93,
-        t99,
-        t102,
-        t105,
-        t175,
-        t176,
-        t177,
-        t178,
-        t179,
-        t180,
-        t181,
-        t182,
-        t183,
-        t184,
-        t185,
-        t186,
-        t187,
-        t188,
-        t189,
-        t190,
-        t191,
-        t192,
-        t198,
-        t199,
-        t205,
-        t206,
-        t212,
-        t213,
-        t219,
-        t220,
-        t226,
-        t227,
-        t233,
-        t234,
-        t236,
-        t243,
-        t250,
-        t257,
-        t271,
-        t282,
-        t293,
-        t305,
-        t316,
-        t328,
-        t509,
-        t512,
-        t515,
-        t517,
-        t519,
-        t521,
-        t522,
-        t523,
-        t524,
-        t689,
-        t690,
-        t691,
-        t692,
-        t738,
-        t739,
-        t740,
-        t741,
-        t787,
-        t788,
-        t789,
-        t790,
-        t836,
-        t837,
-        t838,
-        t839,
-        t885,
-        t886,
-        t887,
-        t888,
-        t934,
-        t935,
-        t936,
-        t937,
-        t940,
-        t943,
-        t946,
-        t949,
-        t952,
-        t955,
-        t956,
-        t957,
-        t958,
-        t959,
-        t960,
-        t961,
-        t962,
-        t963,
-        t964,
-        t965,
-        t966,
-        t967,
-        t968,
-        t969,
-        t970,
-        t971,
-        t972,
-        t973,
-        t977,
-        t981,
-        t985,
+        t3, t6, t9, t12, t15, t18, t21, t24, t27, t39, t42, t45, t51, t54, t57, t63, t66, t69, t75,
+        t78, t81, t87, t90, t93, t99, t102, t105, t175, t176, t177, t178, t179, t180, t181, t182,
+        t183, t184, t185, t186, t187, t188, t189, t190, t191, t192, t198, t199, t205, t206, t212,
+        t213, t219, t220, t226, t227, t233, t234, t236, t243, t250, t257, t271, t282, t293, t305,
+        t316, t328, t509, t512, t515, t517, t519, t521, t522, t523, t524, t689, t690, t691, t692,
+        t738, t739, t740, t741, t787, t788, t789, t790, t836, t837, t838, t839, t885, t886, t887,
+        t888, t934, t935, t936, t937, t940, t943, t946, t949, t952, t955, t956, t957, t958, t959,
+        t960, t961, t962, t963, t964, t965, t966, t967, t968, t969, t970, t971, t972, t973, t977,
+        t981, t985,
     ) = {
         // rotation of the platform seen from the base
         let t1 = base_rotation[1][0] * platform_rotation[1][0];
@@ -36625,9 +28966,7 @@ pub fn forward_dynamics<T: Scalar>(
         // leg 1: extent of the rod along the actuator axis
         let t115 = parameters.rod_length[0] * parameters.rod_length[0];
         let t116 = mul_add(t114, t114, mul_add(t112, t112, t113 * t113));
-        let t117 = sqrt(
-            mul_sub(parameters.rod_length[0], parameters.rod_length[0], t116),
-        );
+        let t117 = sqrt(mul_sub(parameters.rod_length[0], parameters.rod_length[0], t116));
         // leg 1: reciprocal of that extent
         let t118 = c(1.0) / t117;
         // leg 1: actuator length d
@@ -36642,9 +28981,7 @@ pub fn forward_dynamics<T: Scalar>(
         // leg 2: extent of the rod along the actuator axis
         let t126 = parameters.rod_length[1] * parameters.rod_length[1];
         let t127 = mul_add(t125, t125, mul_add(t123, t123, t124 * t124));
-        let t128 = sqrt(
-            mul_sub(parameters.rod_length[1], parameters.rod_length[1], t127),
-        );
+        let t128 = sqrt(mul_sub(parameters.rod_length[1], parameters.rod_length[1], t127));
         // leg 2: reciprocal of that extent
         let t129 = c(1.0) / t128;
         // leg 2: actuator length d
@@ -36659,9 +28996,7 @@ pub fn forward_dynamics<T: Scalar>(
         // leg 3: extent of the rod along the actuator axis
         let t137 = parameters.rod_length[2] * parameters.rod_length[2];
         let t138 = mul_add(t136, t136, mul_add(t134, t134, t135 * t135));
-        let t139 = sqrt(
-            mul_sub(parameters.rod_length[2], parameters.rod_length[2], t138),
-        );
+        let t139 = sqrt(mul_sub(parameters.rod_length[2], parameters.rod_length[2], t138));
         // leg 3: reciprocal of that extent
         let t140 = c(1.0) / t139;
         // leg 3: actuator length d
@@ -36676,9 +29011,7 @@ pub fn forward_dynamics<T: Scalar>(
         // leg 4: extent of the rod along the actuator axis
         let t148 = parameters.rod_length[3] * parameters.rod_length[3];
         let t149 = mul_add(t147, t147, mul_add(t145, t145, t146 * t146));
-        let t150 = sqrt(
-            mul_sub(parameters.rod_length[3], parameters.rod_length[3], t149),
-        );
+        let t150 = sqrt(mul_sub(parameters.rod_length[3], parameters.rod_length[3], t149));
         // leg 4: reciprocal of that extent
         let t151 = c(1.0) / t150;
         // leg 4: actuator length d
@@ -36693,9 +29026,7 @@ pub fn forward_dynamics<T: Scalar>(
         // leg 5: extent of the rod along the actuator axis
         let t159 = parameters.rod_length[4] * parameters.rod_length[4];
         let t160 = mul_add(t158, t158, mul_add(t156, t156, t157 * t157));
-        let t161 = sqrt(
-            mul_sub(parameters.rod_length[4], parameters.rod_length[4], t160),
-        );
+        let t161 = sqrt(mul_sub(parameters.rod_length[4], parameters.rod_length[4], t160));
         // leg 5: reciprocal of that extent
         let t162 = c(1.0) / t161;
         // leg 5: actuator length d
@@ -36710,9 +29041,7 @@ pub fn forward_dynamics<T: Scalar>(
         // leg 6: extent of the rod along the actuator axis
         let t170 = parameters.rod_length[5] * parameters.rod_length[5];
         let t171 = mul_add(t169, t169, mul_add(t167, t167, t168 * t168));
-        let t172 = sqrt(
-            mul_sub(parameters.rod_length[5], parameters.rod_length[5], t171),
-        );
+        let t172 = sqrt(mul_sub(parameters.rod_length[5], parameters.rod_length[5], t171));
         // leg 6: reciprocal of that extent
         let t173 = c(1.0) / t172;
         // leg 6: actuator length d
@@ -36854,11 +29183,7 @@ pub fn forward_dynamics<T: Scalar>(
         let t276 = parameters.platform_point[1][0] * parameters.platform_point[1][1];
         let t277 = parameters.platform_point[0][0] * parameters.platform_point[0][1];
         let t278 = parameters.payload_com[0] * parameters.payload_com[1];
-        let t279 = neg_mul_add(
-            parameters.payload_mass,
-            t278,
-            parameters.payload_inertia[0][1],
-        );
+        let t279 = neg_mul_add(parameters.payload_mass, t278, parameters.payload_inertia[0][1]);
         let t280 = neg_mul_add(t204, t276, neg_mul_add(t197, t277, t279));
         let t281 = neg_mul_add(t218, t274, neg_mul_add(t211, t275, t280));
         let t282 = neg_mul_add(t232, t272, neg_mul_add(t225, t273, t281));
@@ -36869,11 +29194,7 @@ pub fn forward_dynamics<T: Scalar>(
         let t287 = parameters.platform_point[1][0] * parameters.platform_point[1][2];
         let t288 = parameters.platform_point[0][0] * parameters.platform_point[0][2];
         let t289 = parameters.payload_com[0] * parameters.payload_com[2];
-        let t290 = neg_mul_add(
-            parameters.payload_mass,
-            t289,
-            parameters.payload_inertia[0][2],
-        );
+        let t290 = neg_mul_add(parameters.payload_mass, t289, parameters.payload_inertia[0][2]);
         let t291 = neg_mul_add(t204, t287, neg_mul_add(t197, t288, t290));
         let t292 = neg_mul_add(t218, t285, neg_mul_add(t211, t286, t291));
         let t293 = neg_mul_add(t232, t283, neg_mul_add(t225, t284, t292));
@@ -36896,11 +29217,7 @@ pub fn forward_dynamics<T: Scalar>(
         let t310 = parameters.platform_point[1][1] * parameters.platform_point[1][2];
         let t311 = parameters.platform_point[0][1] * parameters.platform_point[0][2];
         let t312 = parameters.payload_com[1] * parameters.payload_com[2];
-        let t313 = neg_mul_add(
-            parameters.payload_mass,
-            t312,
-            parameters.payload_inertia[1][2],
-        );
+        let t313 = neg_mul_add(parameters.payload_mass, t312, parameters.payload_inertia[1][2]);
         let t314 = neg_mul_add(t204, t310, neg_mul_add(t197, t311, t313));
         let t315 = neg_mul_add(t218, t308, neg_mul_add(t211, t309, t314));
         let t316 = neg_mul_add(t232, t306, neg_mul_add(t225, t307, t315));
@@ -37282,21 +29599,9 @@ pub fn forward_dynamics<T: Scalar>(
         let t644 = c(2.0) * t433;
         let t645 = parameters.actuator_axis[0][1] * t337;
         let t646 = mul_sub(parameters.actuator_axis[0][2], t334, t645);
-        let t647 = neg_mul_add(
-            parameters.actuator_axis[0][2],
-            t119,
-            parameters.base_point[0][2],
-        );
-        let t648 = neg_mul_add(
-            parameters.actuator_axis[0][0],
-            t119,
-            parameters.base_point[0][0],
-        );
-        let t649 = neg_mul_add(
-            parameters.actuator_axis[0][1],
-            t119,
-            parameters.base_point[0][1],
-        );
+        let t647 = neg_mul_add(parameters.actuator_axis[0][2], t119, parameters.base_point[0][2]);
+        let t648 = neg_mul_add(parameters.actuator_axis[0][0], t119, parameters.base_point[0][0]);
+        let t649 = neg_mul_add(parameters.actuator_axis[0][1], t119, parameters.base_point[0][1]);
         let t650 = neg_mul_add(t499, t647, mul_add(t497, t648, t498 * t649));
         let t651 = neg_mul_add(t644, t646, t483 - t650);
         let t652 = neg_mul_add(parameters.actuator_axis[0][0], t613, t651);
@@ -37345,21 +29650,9 @@ pub fn forward_dynamics<T: Scalar>(
         let t693 = c(2.0) * t442;
         let t694 = parameters.actuator_axis[1][1] * t337;
         let t695 = mul_sub(parameters.actuator_axis[1][2], t334, t694);
-        let t696 = neg_mul_add(
-            parameters.actuator_axis[1][2],
-            t130,
-            parameters.base_point[1][2],
-        );
-        let t697 = neg_mul_add(
-            parameters.actuator_axis[1][0],
-            t130,
-            parameters.base_point[1][0],
-        );
-        let t698 = neg_mul_add(
-            parameters.actuator_axis[1][1],
-            t130,
-            parameters.base_point[1][1],
-        );
+        let t696 = neg_mul_add(parameters.actuator_axis[1][2], t130, parameters.base_point[1][2]);
+        let t697 = neg_mul_add(parameters.actuator_axis[1][0], t130, parameters.base_point[1][0]);
+        let t698 = neg_mul_add(parameters.actuator_axis[1][1], t130, parameters.base_point[1][1]);
         let t699 = neg_mul_add(t499, t696, mul_add(t497, t697, t498 * t698));
         let t700 = neg_mul_add(t693, t695, t483 - t699);
         let t701 = neg_mul_add(parameters.actuator_axis[1][0], t619, t700);
@@ -37408,21 +29701,9 @@ pub fn forward_dynamics<T: Scalar>(
         let t742 = c(2.0) * t451;
         let t743 = parameters.actuator_axis[2][1] * t337;
         let t744 = mul_sub(parameters.actuator_axis[2][2], t334, t743);
-        let t745 = neg_mul_add(
-            parameters.actuator_axis[2][2],
-            t141,
-            parameters.base_point[2][2],
-        );
-        let t746 = neg_mul_add(
-            parameters.actuator_axis[2][0],
-            t141,
-            parameters.base_point[2][0],
-        );
-        let t747 = neg_mul_add(
-            parameters.actuator_axis[2][1],
-            t141,
-            parameters.base_point[2][1],
-        );
+        let t745 = neg_mul_add(parameters.actuator_axis[2][2], t141, parameters.base_point[2][2]);
+        let t746 = neg_mul_add(parameters.actuator_axis[2][0], t141, parameters.base_point[2][0]);
+        let t747 = neg_mul_add(parameters.actuator_axis[2][1], t141, parameters.base_point[2][1]);
         let t748 = neg_mul_add(t499, t745, mul_add(t497, t746, t498 * t747));
         let t749 = neg_mul_add(t742, t744, t483 - t748);
         let t750 = neg_mul_add(parameters.actuator_axis[2][0], t625, t749);
@@ -37471,21 +29752,9 @@ pub fn forward_dynamics<T: Scalar>(
         let t791 = c(2.0) * t460;
         let t792 = parameters.actuator_axis[3][1] * t337;
         let t793 = mul_sub(parameters.actuator_axis[3][2], t334, t792);
-        let t794 = neg_mul_add(
-            parameters.actuator_axis[3][2],
-            t152,
-            parameters.base_point[3][2],
-        );
-        let t795 = neg_mul_add(
-            parameters.actuator_axis[3][0],
-            t152,
-            parameters.base_point[3][0],
-        );
-        let t796 = neg_mul_add(
-            parameters.actuator_axis[3][1],
-            t152,
-            parameters.base_point[3][1],
-        );
+        let t794 = neg_mul_add(parameters.actuator_axis[3][2], t152, parameters.base_point[3][2]);
+        let t795 = neg_mul_add(parameters.actuator_axis[3][0], t152, parameters.base_point[3][0]);
+        let t796 = neg_mul_add(parameters.actuator_axis[3][1], t152, parameters.base_point[3][1]);
         let t797 = neg_mul_add(t499, t794, mul_add(t497, t795, t498 * t796));
         let t798 = neg_mul_add(t791, t793, t483 - t797);
         let t799 = neg_mul_add(parameters.actuator_axis[3][0], t631, t798);
@@ -37534,21 +29803,9 @@ pub fn forward_dynamics<T: Scalar>(
         let t840 = c(2.0) * t469;
         let t841 = parameters.actuator_axis[4][1] * t337;
         let t842 = mul_sub(parameters.actuator_axis[4][2], t334, t841);
-        let t843 = neg_mul_add(
-            parameters.actuator_axis[4][2],
-            t163,
-            parameters.base_point[4][2],
-        );
-        let t844 = neg_mul_add(
-            parameters.actuator_axis[4][0],
-            t163,
-            parameters.base_point[4][0],
-        );
-        let t845 = neg_mul_add(
-            parameters.actuator_axis[4][1],
-            t163,
-            parameters.base_point[4][1],
-        );
+        let t843 = neg_mul_add(parameters.actuator_axis[4][2], t163, parameters.base_point[4][2]);
+        let t844 = neg_mul_add(parameters.actuator_axis[4][0], t163, parameters.base_point[4][0]);
+        let t845 = neg_mul_add(parameters.actuator_axis[4][1], t163, parameters.base_point[4][1]);
         let t846 = neg_mul_add(t499, t843, mul_add(t497, t844, t498 * t845));
         let t847 = neg_mul_add(t840, t842, t483 - t846);
         let t848 = neg_mul_add(parameters.actuator_axis[4][0], t637, t847);
@@ -37597,21 +29854,9 @@ pub fn forward_dynamics<T: Scalar>(
         let t889 = c(2.0) * t478;
         let t890 = parameters.actuator_axis[5][1] * t337;
         let t891 = mul_sub(parameters.actuator_axis[5][2], t334, t890);
-        let t892 = neg_mul_add(
-            parameters.actuator_axis[5][2],
-            t174,
-            parameters.base_point[5][2],
-        );
-        let t893 = neg_mul_add(
-            parameters.actuator_axis[5][0],
-            t174,
-            parameters.base_point[5][0],
-        );
-        let t894 = neg_mul_add(
-            parameters.actuator_axis[5][1],
-            t174,
-            parameters.base_point[5][1],
-        );
+        let t892 = neg_mul_add(parameters.actuator_axis[5][2], t174, parameters.base_point[5][2]);
+        let t893 = neg_mul_add(parameters.actuator_axis[5][0], t174, parameters.base_point[5][0]);
+        let t894 = neg_mul_add(parameters.actuator_axis[5][1], t174, parameters.base_point[5][1]);
         let t895 = neg_mul_add(t499, t892, mul_add(t497, t893, t498 * t894));
         let t896 = neg_mul_add(t889, t891, t483 - t895);
         let t897 = neg_mul_add(parameters.actuator_axis[5][0], t643, t896);
@@ -37718,133 +29963,15 @@ pub fn forward_dynamics<T: Scalar>(
         let t984 = mul_add(t219, t809, mul_add(t212, t760, t983));
         let t985 = mul_add(t233, t907, mul_add(t226, t858, t984));
         (
-            t3,
-            t6,
-            t9,
-            t12,
-            t15,
-            t18,
-            t21,
-            t24,
-            t27,
-            t39,
-            t42,
-            t45,
-            t51,
-            t54,
-            t57,
-            t63,
-            t66,
-            t69,
-            t75,
-            t78,
-            t81,
-            t87,
-            t90,
-            t93,
-            t99,
-            t102,
-            t105,
-            t175,
-            t176,
-            t177,
-            t178,
-            t179,
-            t180,
-            t181,
-            t182,
-            t183,
-            t184,
-            t185,
-            t186,
-            t187,
-            t188,
-            t189,
-            t190,
-            t191,
-            t192,
-            t198,
-            t199,
-            t205,
-            t206,
-            t212,
-            t213,
-            t219,
-            t220,
-            t226,
-            t227,
-            t233,
-            t234,
-            t236,
-            t243,
-            t250,
-            t257,
-            t271,
-            t282,
-            t293,
-            t305,
-            t316,
-            t328,
-            t509,
-            t512,
-            t515,
-            t517,
-            t519,
-            t521,
-            t522,
-            t523,
-            t524,
-            t689,
-            t690,
-            t691,
-            t692,
-            t738,
-            t739,
-            t740,
-            t741,
-            t787,
-            t788,
-            t789,
-            t790,
-            t836,
-            t837,
-            t838,
-            t839,
-            t885,
-            t886,
-            t887,
-            t888,
-            t934,
-            t935,
-            t936,
-            t937,
-            t940,
-            t943,
-            t946,
-            t949,
-            t952,
-            t955,
-            t956,
-            t957,
-            t958,
-            t959,
-            t960,
-            t961,
-            t962,
-            t963,
-            t964,
-            t965,
-            t966,
-            t967,
-            t968,
-            t969,
-            t970,
-            t971,
-            t972,
-            t973,
-            t977,
-            t981,
-            t985,
+            t3, t6, t9, t12, t15, t18, t21, t24, t27, t39, t42, t45, t51, t54, t57, t63, t66, t69,
+            t75, t78, t81, t87, t90, t93, t99, t102, t105, t175, t176, t177, t178, t179, t180,
+            t181, t182, t183, t184, t185, t186, t187, t188, t189, t190, t191, t192, t198, t199,
+            t205, t206, t212, t213, t219, t220, t226, t227, t233, t234, t236, t243, t250, t257,
+            t271, t282, t293, t305, t316, t328, t509, t512, t515, t517, t519, t521, t522, t523,
+            t524, t689, t690, t691, t692, t738, t739, t740, t741, t787, t788, t789, t790, t836,
+            t837, t838, t839, t885, t886, t887, t888, t934, t935, t936, t937, t940, t943, t946,
+            t949, t952, t955, t956, t957, t958, t959, t960, t961, t962, t963, t964, t965, t966,
+            t967, t968, t969, t970, t971, t972, t973, t977, t981, t985,
         )
     };
     {
@@ -38440,14 +30567,11 @@ pub fn forward_dynamics<T: Scalar>(
         let t1552 = mul_add(t1525, t1543, t1551);
         // platform acceleration v_p'
         let t1553 = mul_add(base_rotation[0][0], t1552, base_rotation[0][1] * t1549);
-        forward_dynamics[0] = parameters.gravity[0]
-            + mul_add(base_rotation[0][2], t1547, t1553);
+        forward_dynamics[0] = parameters.gravity[0] + mul_add(base_rotation[0][2], t1547, t1553);
         let t1554 = mul_add(base_rotation[1][0], t1552, base_rotation[1][1] * t1549);
-        forward_dynamics[1] = parameters.gravity[1]
-            + mul_add(base_rotation[1][2], t1547, t1554);
+        forward_dynamics[1] = parameters.gravity[1] + mul_add(base_rotation[1][2], t1547, t1554);
         let t1555 = mul_add(base_rotation[2][0], t1552, base_rotation[2][1] * t1549);
-        forward_dynamics[2] = parameters.gravity[2]
-            + mul_add(base_rotation[2][2], t1547, t1555);
+        forward_dynamics[2] = parameters.gravity[2] + mul_add(base_rotation[2][2], t1547, t1555);
         let t1556 = mul_add(base_rotation[0][0], t1545, base_rotation[0][1] * t1544);
         forward_dynamics[3] = -mul_add(base_rotation[0][2], t1543, t1556);
         let t1557 = mul_add(base_rotation[1][0], t1545, base_rotation[1][1] * t1544);

@@ -2119,41 +2119,17 @@ pub fn rod_alignment<T: Scalar>(
     // leg 6: extent of the rod along the actuator axis
     let t46 = t40 * t40;
     // leg 1: squared cosine between rod and line of the actuator's force; negative out of reach
-    rod_alignment[0] = neg_mul_add(
-        c(23.564897728343862),
-        mul_add(t21, t21, t41),
-        c(1.0),
-    );
+    rod_alignment[0] = neg_mul_add(c(23.564897728343862), mul_add(t21, t21, t41), c(1.0));
     // leg 2: squared cosine between rod and line of the actuator's force; negative out of reach
-    rod_alignment[1] = neg_mul_add(
-        c(23.564897728343862),
-        mul_add(t25, t25, t42),
-        c(1.0),
-    );
+    rod_alignment[1] = neg_mul_add(c(23.564897728343862), mul_add(t25, t25, t42), c(1.0));
     // leg 3: squared cosine between rod and line of the actuator's force; negative out of reach
-    rod_alignment[2] = neg_mul_add(
-        c(23.564897728343862),
-        mul_add(t28, t28, t43),
-        c(1.0),
-    );
+    rod_alignment[2] = neg_mul_add(c(23.564897728343862), mul_add(t28, t28, t43), c(1.0));
     // leg 4: squared cosine between rod and line of the actuator's force; negative out of reach
-    rod_alignment[3] = neg_mul_add(
-        c(23.564897728343862),
-        mul_add(t33, t33, t44),
-        c(1.0),
-    );
+    rod_alignment[3] = neg_mul_add(c(23.564897728343862), mul_add(t33, t33, t44), c(1.0));
     // leg 5: squared cosine between rod and line of the actuator's force; negative out of reach
-    rod_alignment[4] = neg_mul_add(
-        c(23.564897728343862),
-        mul_add(t37, t37, t45),
-        c(1.0),
-    );
+    rod_alignment[4] = neg_mul_add(c(23.564897728343862), mul_add(t37, t37, t45), c(1.0));
     // leg 6: squared cosine between rod and line of the actuator's force; negative out of reach
-    rod_alignment[5] = neg_mul_add(
-        c(23.564897728343862),
-        mul_add(t39, t39, t46),
-        c(1.0),
-    );
+    rod_alignment[5] = neg_mul_add(c(23.564897728343862), mul_add(t39, t39, t46), c(1.0));
 }
 
 /// Actuator lengths, rates and accelerations, rods and joints, equation (14)-(18), (22), (23), (30).
@@ -2654,23 +2630,11 @@ pub fn leg_kinematics<T: Scalar>(
     let t336 = t256 * t334;
     // leg 1: platform's angular velocity relative to the rod, w_p - w_s
     let t337 = mul_sub(t256, t325, t330);
-    platform_joint_rate[0][0] = mul_add(
-        c(4.8543689320388355),
-        t337,
-        platform_velocity[3],
-    );
+    platform_joint_rate[0][0] = mul_add(c(4.8543689320388355), t337, platform_velocity[3]);
     let t338 = mul_sub(t258, t334, t335);
-    platform_joint_rate[0][1] = mul_add(
-        c(4.8543689320388355),
-        t338,
-        platform_velocity[4],
-    );
+    platform_joint_rate[0][1] = mul_add(c(4.8543689320388355), t338, platform_velocity[4]);
     let t339 = mul_sub(t254, t329, t336);
-    platform_joint_rate[0][2] = mul_add(
-        c(4.8543689320388355),
-        t339,
-        platform_velocity[5],
-    );
+    platform_joint_rate[0][2] = mul_add(c(4.8543689320388355), t339, platform_velocity[5]);
     // leg 2: Hooke joint
     let t340 = mul_add(base_rotation[0][0], c(0.1316436662914507), t304);
     let t341 = mul_sub(base_rotation[0][2], t57, t340);
@@ -2710,23 +2674,11 @@ pub fn leg_kinematics<T: Scalar>(
     let t366 = t265 * t364;
     // leg 2: platform's angular velocity relative to the rod, w_p - w_s
     let t367 = mul_sub(t265, t355, t360);
-    platform_joint_rate[1][0] = mul_add(
-        c(4.8543689320388355),
-        t367,
-        platform_velocity[3],
-    );
+    platform_joint_rate[1][0] = mul_add(c(4.8543689320388355), t367, platform_velocity[3]);
     let t368 = mul_sub(t267, t364, t365);
-    platform_joint_rate[1][1] = mul_add(
-        c(4.8543689320388355),
-        t368,
-        platform_velocity[4],
-    );
+    platform_joint_rate[1][1] = mul_add(c(4.8543689320388355), t368, platform_velocity[4]);
     let t369 = mul_sub(t263, t359, t366);
-    platform_joint_rate[1][2] = mul_add(
-        c(4.8543689320388355),
-        t369,
-        platform_velocity[5],
-    );
+    platform_joint_rate[1][2] = mul_add(c(4.8543689320388355), t369, platform_velocity[5]);
     // leg 3: Hooke joint
     let t370 = base_rotation[0][1] * c(0.17538661166134234);
     let t371 = mul_add(base_rotation[0][0], c(0.040491189781895726), t370);
@@ -2772,23 +2724,11 @@ pub fn leg_kinematics<T: Scalar>(
     let t402 = t274 * t400;
     // leg 3: platform's angular velocity relative to the rod, w_p - w_s
     let t403 = mul_sub(t274, t391, t396);
-    platform_joint_rate[2][0] = mul_add(
-        c(4.8543689320388355),
-        t403,
-        platform_velocity[3],
-    );
+    platform_joint_rate[2][0] = mul_add(c(4.8543689320388355), t403, platform_velocity[3]);
     let t404 = mul_sub(t276, t400, t401);
-    platform_joint_rate[2][1] = mul_add(
-        c(4.8543689320388355),
-        t404,
-        platform_velocity[4],
-    );
+    platform_joint_rate[2][1] = mul_add(c(4.8543689320388355), t404, platform_velocity[4]);
     let t405 = mul_sub(t272, t395, t402);
-    platform_joint_rate[2][2] = mul_add(
-        c(4.8543689320388355),
-        t405,
-        platform_velocity[5],
-    );
+    platform_joint_rate[2][2] = mul_add(c(4.8543689320388355), t405, platform_velocity[5]);
     // leg 4: Hooke joint
     let t406 = base_rotation[0][1] * c(0.052626906850092664);
     let t407 = mul_sub(base_rotation[0][0], c(0.17213485607334636), t406);
@@ -2834,23 +2774,11 @@ pub fn leg_kinematics<T: Scalar>(
     let t438 = t283 * t436;
     // leg 4: platform's angular velocity relative to the rod, w_p - w_s
     let t439 = mul_sub(t283, t427, t432);
-    platform_joint_rate[3][0] = mul_add(
-        c(4.8543689320388355),
-        t439,
-        platform_velocity[3],
-    );
+    platform_joint_rate[3][0] = mul_add(c(4.8543689320388355), t439, platform_velocity[3]);
     let t440 = mul_sub(t285, t436, t437);
-    platform_joint_rate[3][1] = mul_add(
-        c(4.8543689320388355),
-        t440,
-        platform_velocity[4],
-    );
+    platform_joint_rate[3][1] = mul_add(c(4.8543689320388355), t440, platform_velocity[4]);
     let t441 = mul_sub(t281, t431, t438);
-    platform_joint_rate[3][2] = mul_add(
-        c(4.8543689320388355),
-        t441,
-        platform_velocity[5],
-    );
+    platform_joint_rate[3][2] = mul_add(c(4.8543689320388355), t441, platform_velocity[5]);
     // leg 5: Hooke joint
     let t442 = mul_add(base_rotation[0][0], c(0.17213485607334636), t406);
     let t443 = mul_add(base_rotation[0][2], t71, t442);
@@ -2890,23 +2818,11 @@ pub fn leg_kinematics<T: Scalar>(
     let t468 = t292 * t466;
     // leg 5: platform's angular velocity relative to the rod, w_p - w_s
     let t469 = mul_sub(t292, t457, t462);
-    platform_joint_rate[4][0] = mul_add(
-        c(4.8543689320388355),
-        t469,
-        platform_velocity[3],
-    );
+    platform_joint_rate[4][0] = mul_add(c(4.8543689320388355), t469, platform_velocity[3]);
     let t470 = mul_sub(t294, t466, t467);
-    platform_joint_rate[4][1] = mul_add(
-        c(4.8543689320388355),
-        t470,
-        platform_velocity[4],
-    );
+    platform_joint_rate[4][1] = mul_add(c(4.8543689320388355), t470, platform_velocity[4]);
     let t471 = mul_sub(t290, t461, t468);
-    platform_joint_rate[4][2] = mul_add(
-        c(4.8543689320388355),
-        t471,
-        platform_velocity[5],
-    );
+    platform_joint_rate[4][2] = mul_add(c(4.8543689320388355), t471, platform_velocity[5]);
     // leg 6: Hooke joint
     let t472 = mul_sub(base_rotation[0][0], c(0.040491189781895726), t370);
     let t473 = mul_sub(base_rotation[0][2], t75, t472);
@@ -2946,23 +2862,11 @@ pub fn leg_kinematics<T: Scalar>(
     let t498 = t301 * t496;
     // leg 6: platform's angular velocity relative to the rod, w_p - w_s
     let t499 = mul_sub(t301, t487, t492);
-    platform_joint_rate[5][0] = mul_add(
-        c(4.8543689320388355),
-        t499,
-        platform_velocity[3],
-    );
+    platform_joint_rate[5][0] = mul_add(c(4.8543689320388355), t499, platform_velocity[3]);
     let t500 = mul_sub(t303, t496, t497);
-    platform_joint_rate[5][1] = mul_add(
-        c(4.8543689320388355),
-        t500,
-        platform_velocity[4],
-    );
+    platform_joint_rate[5][1] = mul_add(c(4.8543689320388355), t500, platform_velocity[4]);
     let t501 = mul_sub(t299, t491, t498);
-    platform_joint_rate[5][2] = mul_add(
-        c(4.8543689320388355),
-        t501,
-        platform_velocity[5],
-    );
+    platform_joint_rate[5][2] = mul_add(c(4.8543689320388355), t501, platform_velocity[5]);
 }
 
 /// Position, velocity and acceleration of every body, equation (11)-(13), (22), (24)-(29).
@@ -3436,13 +3340,10 @@ pub fn body_kinematics<T: Scalar>(
     // leg 1: angular velocity w_s of the rod, without spin
     let t343 = t336 + t342;
     let t344 = t333 + t340;
-    rod_angular_velocity[0][0] = c(4.8543689320388355)
-        * mul_sub(t262, t343, t264 * t344);
+    rod_angular_velocity[0][0] = c(4.8543689320388355) * mul_sub(t262, t343, t264 * t344);
     let t345 = t330 + t338;
-    rod_angular_velocity[0][1] = c(4.8543689320388355)
-        * mul_sub(t264, t345, t260 * t343);
-    rod_angular_velocity[0][2] = c(4.8543689320388355)
-        * mul_sub(t260, t344, t262 * t345);
+    rod_angular_velocity[0][1] = c(4.8543689320388355) * mul_sub(t264, t345, t260 * t343);
+    rod_angular_velocity[0][2] = c(4.8543689320388355) * mul_sub(t260, t344, t262 * t345);
     // leg 2: Hooke joint
     let t346 = mul_add(base_rotation[0][0], c(0.1316436662914507), t310);
     let t347 = neg_mul_add(base_rotation[0][2], t57, t346);
@@ -3477,13 +3378,10 @@ pub fn body_kinematics<T: Scalar>(
     // leg 2: angular velocity w_s of the rod, without spin
     let t373 = t366 + t372;
     let t374 = t363 + t370;
-    rod_angular_velocity[1][0] = c(4.8543689320388355)
-        * mul_sub(t271, t373, t273 * t374);
+    rod_angular_velocity[1][0] = c(4.8543689320388355) * mul_sub(t271, t373, t273 * t374);
     let t375 = t360 + t368;
-    rod_angular_velocity[1][1] = c(4.8543689320388355)
-        * mul_sub(t273, t375, t269 * t373);
-    rod_angular_velocity[1][2] = c(4.8543689320388355)
-        * mul_sub(t269, t374, t271 * t375);
+    rod_angular_velocity[1][1] = c(4.8543689320388355) * mul_sub(t273, t375, t269 * t373);
+    rod_angular_velocity[1][2] = c(4.8543689320388355) * mul_sub(t269, t374, t271 * t375);
     // leg 3: Hooke joint
     let t376 = base_rotation[0][1] * c(0.17538661166134234);
     let t377 = mul_add(base_rotation[0][0], c(0.040491189781895726), t376);
@@ -3524,13 +3422,10 @@ pub fn body_kinematics<T: Scalar>(
     // leg 3: angular velocity w_s of the rod, without spin
     let t409 = t402 + t408;
     let t410 = t399 + t406;
-    rod_angular_velocity[2][0] = c(4.8543689320388355)
-        * mul_sub(t280, t409, t282 * t410);
+    rod_angular_velocity[2][0] = c(4.8543689320388355) * mul_sub(t280, t409, t282 * t410);
     let t411 = t396 + t404;
-    rod_angular_velocity[2][1] = c(4.8543689320388355)
-        * mul_sub(t282, t411, t278 * t409);
-    rod_angular_velocity[2][2] = c(4.8543689320388355)
-        * mul_sub(t278, t410, t280 * t411);
+    rod_angular_velocity[2][1] = c(4.8543689320388355) * mul_sub(t282, t411, t278 * t409);
+    rod_angular_velocity[2][2] = c(4.8543689320388355) * mul_sub(t278, t410, t280 * t411);
     // leg 4: Hooke joint
     let t412 = base_rotation[0][1] * c(0.052626906850092664);
     let t413 = mul_sub(base_rotation[0][0], c(0.17213485607334636), t412);
@@ -3571,13 +3466,10 @@ pub fn body_kinematics<T: Scalar>(
     // leg 4: angular velocity w_s of the rod, without spin
     let t445 = t438 + t444;
     let t446 = t435 + t442;
-    rod_angular_velocity[3][0] = c(4.8543689320388355)
-        * mul_sub(t289, t445, t291 * t446);
+    rod_angular_velocity[3][0] = c(4.8543689320388355) * mul_sub(t289, t445, t291 * t446);
     let t447 = t432 + t440;
-    rod_angular_velocity[3][1] = c(4.8543689320388355)
-        * mul_sub(t291, t447, t287 * t445);
-    rod_angular_velocity[3][2] = c(4.8543689320388355)
-        * mul_sub(t287, t446, t289 * t447);
+    rod_angular_velocity[3][1] = c(4.8543689320388355) * mul_sub(t291, t447, t287 * t445);
+    rod_angular_velocity[3][2] = c(4.8543689320388355) * mul_sub(t287, t446, t289 * t447);
     // leg 5: Hooke joint
     let t448 = mul_add(base_rotation[0][0], c(0.17213485607334636), t412);
     let t449 = mul_add(base_rotation[0][2], t71, t448);
@@ -3612,13 +3504,10 @@ pub fn body_kinematics<T: Scalar>(
     // leg 5: angular velocity w_s of the rod, without spin
     let t475 = t468 + t474;
     let t476 = t465 + t472;
-    rod_angular_velocity[4][0] = c(4.8543689320388355)
-        * mul_sub(t298, t475, t300 * t476);
+    rod_angular_velocity[4][0] = c(4.8543689320388355) * mul_sub(t298, t475, t300 * t476);
     let t477 = t462 + t470;
-    rod_angular_velocity[4][1] = c(4.8543689320388355)
-        * mul_sub(t300, t477, t296 * t475);
-    rod_angular_velocity[4][2] = c(4.8543689320388355)
-        * mul_sub(t296, t476, t298 * t477);
+    rod_angular_velocity[4][1] = c(4.8543689320388355) * mul_sub(t300, t477, t296 * t475);
+    rod_angular_velocity[4][2] = c(4.8543689320388355) * mul_sub(t296, t476, t298 * t477);
     // leg 6: Hooke joint
     let t478 = mul_sub(base_rotation[0][0], c(0.040491189781895726), t376);
     let t479 = neg_mul_add(base_rotation[0][2], t75, t478);
@@ -3653,13 +3542,10 @@ pub fn body_kinematics<T: Scalar>(
     // leg 6: angular velocity w_s of the rod, without spin
     let t505 = t498 + t504;
     let t506 = t495 + t502;
-    rod_angular_velocity[5][0] = c(4.8543689320388355)
-        * mul_sub(t307, t505, t309 * t506);
+    rod_angular_velocity[5][0] = c(4.8543689320388355) * mul_sub(t307, t505, t309 * t506);
     let t507 = t492 + t500;
-    rod_angular_velocity[5][1] = c(4.8543689320388355)
-        * mul_sub(t309, t507, t305 * t505);
-    rod_angular_velocity[5][2] = c(4.8543689320388355)
-        * mul_sub(t305, t506, t307 * t507);
+    rod_angular_velocity[5][1] = c(4.8543689320388355) * mul_sub(t309, t507, t305 * t505);
+    rod_angular_velocity[5][2] = c(4.8543689320388355) * mul_sub(t305, t506, t307 * t507);
     // leg 1: centre of mass of the rod
     let t508 = platform_position[0] * c(0.5);
     let t509 = platform_position[1] * c(0.5);
@@ -3720,13 +3606,10 @@ pub fn body_kinematics<T: Scalar>(
     let t556 = mul_add(base_rotation[0][2], t236, t555);
     let t557 = t520 - t531;
     let t558 = t535 - t544;
-    rod_angular_acceleration[0][0] = mul_sub(t262, t557, t264 * t558)
-        * c(-4.8543689320388355);
+    rod_angular_acceleration[0][0] = mul_sub(t262, t557, t264 * t558) * c(-4.8543689320388355);
     let t559 = t548 - t556;
-    rod_angular_acceleration[0][1] = c(-4.8543689320388355)
-        * mul_sub(t264, t559, t260 * t557);
-    rod_angular_acceleration[0][2] = c(-4.8543689320388355)
-        * mul_sub(t260, t558, t262 * t559);
+    rod_angular_acceleration[0][1] = c(-4.8543689320388355) * mul_sub(t264, t559, t260 * t557);
+    rod_angular_acceleration[0][2] = c(-4.8543689320388355) * mul_sub(t260, t558, t262 * t559);
     // leg 2: angular acceleration of the rod
     let t560 = mul_add(platform_acceleration[3], t356, platform_acceleration[2]);
     let t561 = mul_sub(platform_acceleration[4], t355, t560);
@@ -3761,13 +3644,10 @@ pub fn body_kinematics<T: Scalar>(
     let t590 = mul_add(base_rotation[0][2], t239, t589);
     let t591 = t563 - t571;
     let t592 = t575 - t581;
-    rod_angular_acceleration[1][0] = c(-4.8543689320388355)
-        * mul_sub(t271, t591, t273 * t592);
+    rod_angular_acceleration[1][0] = c(-4.8543689320388355) * mul_sub(t271, t591, t273 * t592);
     let t593 = t585 - t590;
-    rod_angular_acceleration[1][1] = c(-4.8543689320388355)
-        * mul_sub(t273, t593, t269 * t591);
-    rod_angular_acceleration[1][2] = c(-4.8543689320388355)
-        * mul_sub(t269, t592, t271 * t593);
+    rod_angular_acceleration[1][1] = c(-4.8543689320388355) * mul_sub(t273, t593, t269 * t591);
+    rod_angular_acceleration[1][2] = c(-4.8543689320388355) * mul_sub(t269, t592, t271 * t593);
     // leg 3: angular acceleration of the rod
     let t594 = neg_mul_add(platform_acceleration[3], t391, platform_acceleration[2]);
     let t595 = mul_add(platform_acceleration[4], t389, t594);
@@ -3802,13 +3682,10 @@ pub fn body_kinematics<T: Scalar>(
     let t624 = mul_add(base_rotation[0][2], t244, t623);
     let t625 = t597 + t605;
     let t626 = t609 + t615;
-    rod_angular_acceleration[2][0] = c(4.8543689320388355)
-        * mul_sub(t280, t625, t282 * t626);
+    rod_angular_acceleration[2][0] = c(4.8543689320388355) * mul_sub(t280, t625, t282 * t626);
     let t627 = t619 + t624;
-    rod_angular_acceleration[2][1] = c(4.8543689320388355)
-        * mul_sub(t282, t627, t278 * t625);
-    rod_angular_acceleration[2][2] = c(4.8543689320388355)
-        * mul_sub(t278, t626, t280 * t627);
+    rod_angular_acceleration[2][1] = c(4.8543689320388355) * mul_sub(t282, t627, t278 * t625);
+    rod_angular_acceleration[2][2] = c(4.8543689320388355) * mul_sub(t278, t626, t280 * t627);
     // leg 4: angular acceleration of the rod
     let t628 = neg_mul_add(platform_acceleration[3], t427, platform_acceleration[2]);
     let t629 = mul_add(platform_acceleration[4], t425, t628);
@@ -3843,13 +3720,10 @@ pub fn body_kinematics<T: Scalar>(
     let t658 = mul_add(base_rotation[0][2], t249, t657);
     let t659 = t631 + t639;
     let t660 = t643 + t649;
-    rod_angular_acceleration[3][0] = c(4.8543689320388355)
-        * mul_sub(t289, t659, t291 * t660);
+    rod_angular_acceleration[3][0] = c(4.8543689320388355) * mul_sub(t289, t659, t291 * t660);
     let t661 = t653 + t658;
-    rod_angular_acceleration[3][1] = c(4.8543689320388355)
-        * mul_sub(t291, t661, t287 * t659);
-    rod_angular_acceleration[3][2] = c(4.8543689320388355)
-        * mul_sub(t287, t660, t289 * t661);
+    rod_angular_acceleration[3][1] = c(4.8543689320388355) * mul_sub(t291, t661, t287 * t659);
+    rod_angular_acceleration[3][2] = c(4.8543689320388355) * mul_sub(t287, t660, t289 * t661);
     // leg 5: angular acceleration of the rod
     let t662 = neg_mul_add(platform_acceleration[3], t458, platform_acceleration[2]);
     let t663 = mul_add(platform_acceleration[4], t457, t662);
@@ -3884,13 +3758,10 @@ pub fn body_kinematics<T: Scalar>(
     let t692 = mul_add(base_rotation[0][2], t252, t691);
     let t693 = t665 + t673;
     let t694 = t677 + t683;
-    rod_angular_acceleration[4][0] = c(4.8543689320388355)
-        * mul_sub(t298, t693, t300 * t694);
+    rod_angular_acceleration[4][0] = c(4.8543689320388355) * mul_sub(t298, t693, t300 * t694);
     let t695 = t687 + t692;
-    rod_angular_acceleration[4][1] = c(4.8543689320388355)
-        * mul_sub(t300, t695, t296 * t693);
-    rod_angular_acceleration[4][2] = c(4.8543689320388355)
-        * mul_sub(t296, t694, t298 * t695);
+    rod_angular_acceleration[4][1] = c(4.8543689320388355) * mul_sub(t300, t695, t296 * t693);
+    rod_angular_acceleration[4][2] = c(4.8543689320388355) * mul_sub(t296, t694, t298 * t695);
     // leg 6: angular acceleration of the rod
     let t696 = neg_mul_add(platform_acceleration[3], t488, platform_acceleration[2]);
     let t697 = mul_add(platform_acceleration[4], t487, t696);
@@ -3925,32 +3796,17 @@ pub fn body_kinematics<T: Scalar>(
     let t726 = mul_add(base_rotation[0][2], t255, t725);
     let t727 = t699 + t707;
     let t728 = t711 + t717;
-    rod_angular_acceleration[5][0] = c(4.8543689320388355)
-        * mul_sub(t307, t727, t309 * t728);
+    rod_angular_acceleration[5][0] = c(4.8543689320388355) * mul_sub(t307, t727, t309 * t728);
     let t729 = t721 + t726;
-    rod_angular_acceleration[5][1] = c(4.8543689320388355)
-        * mul_sub(t309, t729, t305 * t727);
-    rod_angular_acceleration[5][2] = c(4.8543689320388355)
-        * mul_sub(t305, t728, t307 * t729);
+    rod_angular_acceleration[5][1] = c(4.8543689320388355) * mul_sub(t309, t729, t305 * t727);
+    rod_angular_acceleration[5][2] = c(4.8543689320388355) * mul_sub(t305, t728, t307 * t729);
     // centre of mass of the payload
     let t730 = platform_rotation[0][2] * c(0.031);
     let t731 = platform_rotation[1][2] * c(0.031);
     let t732 = platform_rotation[2][2] * c(0.031);
-    payload_com_position[0] = mul_add(
-        platform_rotation[0][2],
-        c(0.031),
-        platform_position[0],
-    );
-    payload_com_position[1] = mul_add(
-        platform_rotation[1][2],
-        c(0.031),
-        platform_position[1],
-    );
-    payload_com_position[2] = mul_add(
-        platform_rotation[2][2],
-        c(0.031),
-        platform_position[2],
-    );
+    payload_com_position[0] = mul_add(platform_rotation[0][2], c(0.031), platform_position[0]);
+    payload_com_position[1] = mul_add(platform_rotation[1][2], c(0.031), platform_position[1]);
+    payload_com_position[2] = mul_add(platform_rotation[2][2], c(0.031), platform_position[2]);
     // velocity of the payload's centre of mass
     let t733 = mul_sub(platform_velocity[4], t732, platform_velocity[5] * t731);
     let t734 = mul_sub(platform_velocity[5], t730, platform_velocity[3] * t732);
@@ -4453,51 +4309,51 @@ pub fn partial_velocities<T: Scalar>(
     rod_partial_velocity[0][2][4] = mul_sub(c(0.5), t226, t223);
     rod_partial_velocity[0][2][5] = c(0.5) * t214;
     // leg 1: partial angular velocities of the rod
-    rod_partial_angular_velocity[0][0][0] = c(4.8543689320388355)
-        * mul_sub(t160, t209, t158 * t212);
+    rod_partial_angular_velocity[0][0][0] =
+        c(4.8543689320388355) * mul_sub(t160, t209, t158 * t212);
     let t227 = neg_mul_add(base_rotation[1][2], t80, c(1.0));
-    rod_partial_angular_velocity[0][0][1] = mul_add(t158, t213, t160 * t227)
-        * c(-4.8543689320388355);
+    rod_partial_angular_velocity[0][0][1] =
+        mul_add(t158, t213, t160 * t227) * c(-4.8543689320388355);
     let t228 = neg_mul_add(base_rotation[2][2], t82, c(1.0));
-    rod_partial_angular_velocity[0][0][2] = c(4.8543689320388355)
-        * mul_add(t158, t228, t160 * t210);
+    rod_partial_angular_velocity[0][0][2] =
+        c(4.8543689320388355) * mul_add(t158, t228, t160 * t210);
     let t229 = neg_mul_add(base_rotation[2][2], t134, t74);
     let t230 = mul_add(base_rotation[1][2], t134, t76);
-    rod_partial_angular_velocity[0][0][3] = c(4.8543689320388355)
-        * mul_add(t158, t229, t160 * t230);
+    rod_partial_angular_velocity[0][0][3] =
+        c(4.8543689320388355) * mul_add(t158, t229, t160 * t230);
     let t231 = mul_add(base_rotation[2][2], t135, t72);
-    rod_partial_angular_velocity[0][0][4] = c(4.8543689320388355)
-        * mul_sub(t160, t211, t158 * t231);
+    rod_partial_angular_velocity[0][0][4] =
+        c(4.8543689320388355) * mul_sub(t160, t211, t158 * t231);
     let t232 = neg_mul_add(base_rotation[1][2], t136, t72);
-    rod_partial_angular_velocity[0][0][5] = c(-4.8543689320388355)
-        * mul_add(t158, t214, t160 * t232);
+    rod_partial_angular_velocity[0][0][5] =
+        c(-4.8543689320388355) * mul_add(t158, t214, t160 * t232);
     let t233 = neg_mul_add(base_rotation[0][2], t78, c(1.0));
-    rod_partial_angular_velocity[0][1][0] = c(4.8543689320388355)
-        * mul_add(t160, t233, t156 * t212);
-    rod_partial_angular_velocity[0][1][1] = c(4.8543689320388355)
-        * mul_sub(t156, t213, t160 * t206);
-    rod_partial_angular_velocity[0][1][2] = c(-4.8543689320388355)
-        * mul_add(t160, t207, t156 * t228);
-    rod_partial_angular_velocity[0][1][3] = c(-4.8543689320388355)
-        * mul_add(t160, t208, t156 * t229);
+    rod_partial_angular_velocity[0][1][0] =
+        c(4.8543689320388355) * mul_add(t160, t233, t156 * t212);
+    rod_partial_angular_velocity[0][1][1] =
+        c(4.8543689320388355) * mul_sub(t156, t213, t160 * t206);
+    rod_partial_angular_velocity[0][1][2] =
+        c(-4.8543689320388355) * mul_add(t160, t207, t156 * t228);
+    rod_partial_angular_velocity[0][1][3] =
+        c(-4.8543689320388355) * mul_add(t160, t208, t156 * t229);
     let t234 = neg_mul_add(base_rotation[0][2], t135, t76);
-    rod_partial_angular_velocity[0][1][4] = c(4.8543689320388355)
-        * mul_add(t160, t234, t156 * t231);
+    rod_partial_angular_velocity[0][1][4] =
+        c(4.8543689320388355) * mul_add(t160, t234, t156 * t231);
     let t235 = mul_add(base_rotation[0][2], t136, t74);
-    rod_partial_angular_velocity[0][1][5] = c(4.8543689320388355)
-        * mul_sub(t156, t214, t160 * t235);
-    rod_partial_angular_velocity[0][2][0] = c(-4.8543689320388355)
-        * mul_add(t156, t209, t158 * t233);
-    rod_partial_angular_velocity[0][2][1] = c(4.8543689320388355)
-        * mul_add(t156, t227, t158 * t206);
-    rod_partial_angular_velocity[0][2][2] = c(4.8543689320388355)
-        * mul_sub(t158, t207, t156 * t210);
-    rod_partial_angular_velocity[0][2][3] = c(4.8543689320388355)
-        * mul_sub(t158, t208, t156 * t230);
-    rod_partial_angular_velocity[0][2][4] = c(-4.8543689320388355)
-        * mul_add(t156, t211, t158 * t234);
-    rod_partial_angular_velocity[0][2][5] = c(4.8543689320388355)
-        * mul_add(t156, t232, t158 * t235);
+    rod_partial_angular_velocity[0][1][5] =
+        c(4.8543689320388355) * mul_sub(t156, t214, t160 * t235);
+    rod_partial_angular_velocity[0][2][0] =
+        c(-4.8543689320388355) * mul_add(t156, t209, t158 * t233);
+    rod_partial_angular_velocity[0][2][1] =
+        c(4.8543689320388355) * mul_add(t156, t227, t158 * t206);
+    rod_partial_angular_velocity[0][2][2] =
+        c(4.8543689320388355) * mul_sub(t158, t207, t156 * t210);
+    rod_partial_angular_velocity[0][2][3] =
+        c(4.8543689320388355) * mul_sub(t158, t208, t156 * t230);
+    rod_partial_angular_velocity[0][2][4] =
+        c(-4.8543689320388355) * mul_add(t156, t211, t158 * t234);
+    rod_partial_angular_velocity[0][2][5] =
+        c(4.8543689320388355) * mul_add(t156, t232, t158 * t235);
     // leg 2: partial velocities of the rod's centre of mass
     let t236 = base_rotation[0][2] * t89;
     let t237 = base_rotation[0][2] * t91;
@@ -4557,51 +4413,51 @@ pub fn partial_velocities<T: Scalar>(
     mover_partial_velocity[1][2][4] = -t256;
     mover_partial_velocity[1][2][5] = -t244;
     // leg 2: partial angular velocities of the rod
-    rod_partial_angular_velocity[1][0][0] = c(-4.8543689320388355)
-        * mul_sub(t169, t239, t167 * t242);
+    rod_partial_angular_velocity[1][0][0] =
+        c(-4.8543689320388355) * mul_sub(t169, t239, t167 * t242);
     let t257 = mul_add(base_rotation[1][2], t89, c(1.0));
-    rod_partial_angular_velocity[1][0][1] = c(4.8543689320388355)
-        * mul_sub(t167, t243, t169 * t257);
+    rod_partial_angular_velocity[1][0][1] =
+        c(4.8543689320388355) * mul_sub(t167, t243, t169 * t257);
     let t258 = mul_add(base_rotation[2][2], t91, c(1.0));
-    rod_partial_angular_velocity[1][0][2] = c(4.8543689320388355)
-        * mul_sub(t167, t258, t169 * t240);
+    rod_partial_angular_velocity[1][0][2] =
+        c(4.8543689320388355) * mul_sub(t167, t258, t169 * t240);
     let t259 = mul_add(base_rotation[2][2], t137, t84);
     let t260 = neg_mul_add(base_rotation[1][2], t137, t85);
-    rod_partial_angular_velocity[1][0][3] = c(4.8543689320388355)
-        * mul_add(t167, t259, t169 * t260);
+    rod_partial_angular_velocity[1][0][3] =
+        c(4.8543689320388355) * mul_add(t167, t259, t169 * t260);
     let t261 = neg_mul_add(base_rotation[2][2], t138, t83);
-    rod_partial_angular_velocity[1][0][4] = c(-4.8543689320388355)
-        * mul_add(t169, t241, t167 * t261);
+    rod_partial_angular_velocity[1][0][4] =
+        c(-4.8543689320388355) * mul_add(t169, t241, t167 * t261);
     let t262 = mul_add(base_rotation[1][2], t139, t83);
-    rod_partial_angular_velocity[1][0][5] = c(4.8543689320388355)
-        * mul_sub(t167, t244, t169 * t262);
+    rod_partial_angular_velocity[1][0][5] =
+        c(4.8543689320388355) * mul_sub(t167, t244, t169 * t262);
     let t263 = mul_add(base_rotation[0][2], t87, c(1.0));
-    rod_partial_angular_velocity[1][1][0] = c(4.8543689320388355)
-        * mul_sub(t169, t263, t165 * t242);
-    rod_partial_angular_velocity[1][1][1] = c(-4.8543689320388355)
-        * mul_sub(t165, t243, t169 * t236);
-    rod_partial_angular_velocity[1][1][2] = c(4.8543689320388355)
-        * mul_sub(t169, t237, t165 * t258);
-    rod_partial_angular_velocity[1][1][3] = c(4.8543689320388355)
-        * mul_sub(t169, t238, t165 * t259);
+    rod_partial_angular_velocity[1][1][0] =
+        c(4.8543689320388355) * mul_sub(t169, t263, t165 * t242);
+    rod_partial_angular_velocity[1][1][1] =
+        c(-4.8543689320388355) * mul_sub(t165, t243, t169 * t236);
+    rod_partial_angular_velocity[1][1][2] =
+        c(4.8543689320388355) * mul_sub(t169, t237, t165 * t258);
+    rod_partial_angular_velocity[1][1][3] =
+        c(4.8543689320388355) * mul_sub(t169, t238, t165 * t259);
     let t264 = mul_add(base_rotation[0][2], t138, t85);
-    rod_partial_angular_velocity[1][1][4] = c(4.8543689320388355)
-        * mul_add(t169, t264, t165 * t261);
+    rod_partial_angular_velocity[1][1][4] =
+        c(4.8543689320388355) * mul_add(t169, t264, t165 * t261);
     let t265 = neg_mul_add(base_rotation[0][2], t139, t84);
-    rod_partial_angular_velocity[1][1][5] = c(-4.8543689320388355)
-        * mul_add(t165, t244, t169 * t265);
-    rod_partial_angular_velocity[1][2][0] = c(4.8543689320388355)
-        * mul_sub(t165, t239, t167 * t263);
-    rod_partial_angular_velocity[1][2][1] = c(4.8543689320388355)
-        * mul_sub(t165, t257, t167 * t236);
-    rod_partial_angular_velocity[1][2][2] = c(-4.8543689320388355)
-        * mul_sub(t167, t237, t165 * t240);
-    rod_partial_angular_velocity[1][2][3] = c(-4.8543689320388355)
-        * mul_add(t167, t238, t165 * t260);
-    rod_partial_angular_velocity[1][2][4] = c(4.8543689320388355)
-        * mul_sub(t165, t241, t167 * t264);
-    rod_partial_angular_velocity[1][2][5] = c(4.8543689320388355)
-        * mul_add(t165, t262, t167 * t265);
+    rod_partial_angular_velocity[1][1][5] =
+        c(-4.8543689320388355) * mul_add(t165, t244, t169 * t265);
+    rod_partial_angular_velocity[1][2][0] =
+        c(4.8543689320388355) * mul_sub(t165, t239, t167 * t263);
+    rod_partial_angular_velocity[1][2][1] =
+        c(4.8543689320388355) * mul_sub(t165, t257, t167 * t236);
+    rod_partial_angular_velocity[1][2][2] =
+        c(-4.8543689320388355) * mul_sub(t167, t237, t165 * t240);
+    rod_partial_angular_velocity[1][2][3] =
+        c(-4.8543689320388355) * mul_add(t167, t238, t165 * t260);
+    rod_partial_angular_velocity[1][2][4] =
+        c(4.8543689320388355) * mul_sub(t165, t241, t167 * t264);
+    rod_partial_angular_velocity[1][2][5] =
+        c(4.8543689320388355) * mul_add(t165, t262, t167 * t265);
     // leg 3: partial velocities of the rod's centre of mass
     let t266 = base_rotation[0][2] * t101;
     let t267 = base_rotation[0][2] * t103;
@@ -4661,51 +4517,51 @@ pub fn partial_velocities<T: Scalar>(
     mover_partial_velocity[2][2][1] = -t273;
     mover_partial_velocity[2][2][2] = -t284;
     // leg 3: partial angular velocities of the rod
-    rod_partial_angular_velocity[2][0][0] = c(-4.8543689320388355)
-        * mul_sub(t178, t269, t176 * t272);
+    rod_partial_angular_velocity[2][0][0] =
+        c(-4.8543689320388355) * mul_sub(t178, t269, t176 * t272);
     let t287 = mul_add(base_rotation[1][2], t101, c(1.0));
-    rod_partial_angular_velocity[2][0][1] = c(4.8543689320388355)
-        * mul_sub(t176, t273, t178 * t287);
+    rod_partial_angular_velocity[2][0][1] =
+        c(4.8543689320388355) * mul_sub(t176, t273, t178 * t287);
     let t288 = mul_add(base_rotation[2][2], t103, c(1.0));
-    rod_partial_angular_velocity[2][0][2] = c(4.8543689320388355)
-        * mul_sub(t176, t288, t178 * t270);
+    rod_partial_angular_velocity[2][0][2] =
+        c(4.8543689320388355) * mul_sub(t176, t288, t178 * t270);
     let t289 = mul_add(base_rotation[2][2], t140, t95);
     let t290 = neg_mul_add(base_rotation[1][2], t140, t97);
-    rod_partial_angular_velocity[2][0][3] = c(-4.8543689320388355)
-        * mul_add(t176, t289, t178 * t290);
+    rod_partial_angular_velocity[2][0][3] =
+        c(-4.8543689320388355) * mul_add(t176, t289, t178 * t290);
     let t291 = neg_mul_add(base_rotation[2][2], t141, t93);
-    rod_partial_angular_velocity[2][0][4] = c(4.8543689320388355)
-        * mul_add(t178, t271, t176 * t291);
+    rod_partial_angular_velocity[2][0][4] =
+        c(4.8543689320388355) * mul_add(t178, t271, t176 * t291);
     let t292 = mul_add(base_rotation[1][2], t142, t93);
-    rod_partial_angular_velocity[2][0][5] = c(-4.8543689320388355)
-        * mul_sub(t176, t274, t178 * t292);
+    rod_partial_angular_velocity[2][0][5] =
+        c(-4.8543689320388355) * mul_sub(t176, t274, t178 * t292);
     let t293 = mul_add(base_rotation[0][2], t99, c(1.0));
-    rod_partial_angular_velocity[2][1][0] = c(4.8543689320388355)
-        * mul_sub(t178, t293, t174 * t272);
-    rod_partial_angular_velocity[2][1][1] = c(-4.8543689320388355)
-        * mul_sub(t174, t273, t178 * t266);
-    rod_partial_angular_velocity[2][1][2] = c(4.8543689320388355)
-        * mul_sub(t178, t267, t174 * t288);
-    rod_partial_angular_velocity[2][1][3] = c(-4.8543689320388355)
-        * mul_sub(t178, t268, t174 * t289);
+    rod_partial_angular_velocity[2][1][0] =
+        c(4.8543689320388355) * mul_sub(t178, t293, t174 * t272);
+    rod_partial_angular_velocity[2][1][1] =
+        c(-4.8543689320388355) * mul_sub(t174, t273, t178 * t266);
+    rod_partial_angular_velocity[2][1][2] =
+        c(4.8543689320388355) * mul_sub(t178, t267, t174 * t288);
+    rod_partial_angular_velocity[2][1][3] =
+        c(-4.8543689320388355) * mul_sub(t178, t268, t174 * t289);
     let t294 = mul_add(base_rotation[0][2], t141, t97);
-    rod_partial_angular_velocity[2][1][4] = c(-4.8543689320388355)
-        * mul_add(t178, t294, t174 * t291);
+    rod_partial_angular_velocity[2][1][4] =
+        c(-4.8543689320388355) * mul_add(t178, t294, t174 * t291);
     let t295 = neg_mul_add(base_rotation[0][2], t142, t95);
-    rod_partial_angular_velocity[2][1][5] = c(4.8543689320388355)
-        * mul_add(t174, t274, t178 * t295);
-    rod_partial_angular_velocity[2][2][0] = c(4.8543689320388355)
-        * mul_sub(t174, t269, t176 * t293);
-    rod_partial_angular_velocity[2][2][1] = c(4.8543689320388355)
-        * mul_sub(t174, t287, t176 * t266);
-    rod_partial_angular_velocity[2][2][2] = c(-4.8543689320388355)
-        * mul_sub(t176, t267, t174 * t270);
-    rod_partial_angular_velocity[2][2][3] = c(4.8543689320388355)
-        * mul_add(t176, t268, t174 * t290);
-    rod_partial_angular_velocity[2][2][4] = c(-4.8543689320388355)
-        * mul_sub(t174, t271, t176 * t294);
-    rod_partial_angular_velocity[2][2][5] = c(-4.8543689320388355)
-        * mul_add(t174, t292, t176 * t295);
+    rod_partial_angular_velocity[2][1][5] =
+        c(4.8543689320388355) * mul_add(t174, t274, t178 * t295);
+    rod_partial_angular_velocity[2][2][0] =
+        c(4.8543689320388355) * mul_sub(t174, t269, t176 * t293);
+    rod_partial_angular_velocity[2][2][1] =
+        c(4.8543689320388355) * mul_sub(t174, t287, t176 * t266);
+    rod_partial_angular_velocity[2][2][2] =
+        c(-4.8543689320388355) * mul_sub(t176, t267, t174 * t270);
+    rod_partial_angular_velocity[2][2][3] =
+        c(4.8543689320388355) * mul_add(t176, t268, t174 * t290);
+    rod_partial_angular_velocity[2][2][4] =
+        c(-4.8543689320388355) * mul_sub(t174, t271, t176 * t294);
+    rod_partial_angular_velocity[2][2][5] =
+        c(-4.8543689320388355) * mul_add(t174, t292, t176 * t295);
     // leg 4: partial velocities of the rod's centre of mass
     let t296 = base_rotation[0][2] * t113;
     let t297 = base_rotation[0][2] * t115;
@@ -4765,51 +4621,51 @@ pub fn partial_velocities<T: Scalar>(
     mover_partial_velocity[3][2][1] = -t303;
     mover_partial_velocity[3][2][2] = -t314;
     // leg 4: partial angular velocities of the rod
-    rod_partial_angular_velocity[3][0][0] = c(-4.8543689320388355)
-        * mul_sub(t187, t299, t185 * t302);
+    rod_partial_angular_velocity[3][0][0] =
+        c(-4.8543689320388355) * mul_sub(t187, t299, t185 * t302);
     let t317 = mul_add(base_rotation[1][2], t113, c(1.0));
-    rod_partial_angular_velocity[3][0][1] = c(4.8543689320388355)
-        * mul_sub(t185, t303, t187 * t317);
+    rod_partial_angular_velocity[3][0][1] =
+        c(4.8543689320388355) * mul_sub(t185, t303, t187 * t317);
     let t318 = mul_add(base_rotation[2][2], t115, c(1.0));
-    rod_partial_angular_velocity[3][0][2] = c(4.8543689320388355)
-        * mul_sub(t185, t318, t187 * t300);
+    rod_partial_angular_velocity[3][0][2] =
+        c(4.8543689320388355) * mul_sub(t185, t318, t187 * t300);
     let t319 = mul_add(base_rotation[2][2], t143, t107);
     let t320 = neg_mul_add(base_rotation[1][2], t143, t109);
-    rod_partial_angular_velocity[3][0][3] = c(-4.8543689320388355)
-        * mul_add(t185, t319, t187 * t320);
+    rod_partial_angular_velocity[3][0][3] =
+        c(-4.8543689320388355) * mul_add(t185, t319, t187 * t320);
     let t321 = neg_mul_add(base_rotation[2][2], t144, t105);
-    rod_partial_angular_velocity[3][0][4] = c(4.8543689320388355)
-        * mul_add(t187, t301, t185 * t321);
+    rod_partial_angular_velocity[3][0][4] =
+        c(4.8543689320388355) * mul_add(t187, t301, t185 * t321);
     let t322 = mul_add(base_rotation[1][2], t145, t105);
-    rod_partial_angular_velocity[3][0][5] = c(-4.8543689320388355)
-        * mul_sub(t185, t304, t187 * t322);
+    rod_partial_angular_velocity[3][0][5] =
+        c(-4.8543689320388355) * mul_sub(t185, t304, t187 * t322);
     let t323 = mul_add(base_rotation[0][2], t111, c(1.0));
-    rod_partial_angular_velocity[3][1][0] = c(4.8543689320388355)
-        * mul_sub(t187, t323, t183 * t302);
-    rod_partial_angular_velocity[3][1][1] = c(-4.8543689320388355)
-        * mul_sub(t183, t303, t187 * t296);
-    rod_partial_angular_velocity[3][1][2] = c(4.8543689320388355)
-        * mul_sub(t187, t297, t183 * t318);
-    rod_partial_angular_velocity[3][1][3] = c(-4.8543689320388355)
-        * mul_sub(t187, t298, t183 * t319);
+    rod_partial_angular_velocity[3][1][0] =
+        c(4.8543689320388355) * mul_sub(t187, t323, t183 * t302);
+    rod_partial_angular_velocity[3][1][1] =
+        c(-4.8543689320388355) * mul_sub(t183, t303, t187 * t296);
+    rod_partial_angular_velocity[3][1][2] =
+        c(4.8543689320388355) * mul_sub(t187, t297, t183 * t318);
+    rod_partial_angular_velocity[3][1][3] =
+        c(-4.8543689320388355) * mul_sub(t187, t298, t183 * t319);
     let t324 = mul_add(base_rotation[0][2], t144, t109);
-    rod_partial_angular_velocity[3][1][4] = c(-4.8543689320388355)
-        * mul_add(t187, t324, t183 * t321);
+    rod_partial_angular_velocity[3][1][4] =
+        c(-4.8543689320388355) * mul_add(t187, t324, t183 * t321);
     let t325 = neg_mul_add(base_rotation[0][2], t145, t107);
-    rod_partial_angular_velocity[3][1][5] = c(4.8543689320388355)
-        * mul_add(t183, t304, t187 * t325);
-    rod_partial_angular_velocity[3][2][0] = c(4.8543689320388355)
-        * mul_sub(t183, t299, t185 * t323);
-    rod_partial_angular_velocity[3][2][1] = c(4.8543689320388355)
-        * mul_sub(t183, t317, t185 * t296);
-    rod_partial_angular_velocity[3][2][2] = c(-4.8543689320388355)
-        * mul_sub(t185, t297, t183 * t300);
-    rod_partial_angular_velocity[3][2][3] = c(4.8543689320388355)
-        * mul_add(t185, t298, t183 * t320);
-    rod_partial_angular_velocity[3][2][4] = c(-4.8543689320388355)
-        * mul_sub(t183, t301, t185 * t324);
-    rod_partial_angular_velocity[3][2][5] = c(-4.8543689320388355)
-        * mul_add(t183, t322, t185 * t325);
+    rod_partial_angular_velocity[3][1][5] =
+        c(4.8543689320388355) * mul_add(t183, t304, t187 * t325);
+    rod_partial_angular_velocity[3][2][0] =
+        c(4.8543689320388355) * mul_sub(t183, t299, t185 * t323);
+    rod_partial_angular_velocity[3][2][1] =
+        c(4.8543689320388355) * mul_sub(t183, t317, t185 * t296);
+    rod_partial_angular_velocity[3][2][2] =
+        c(-4.8543689320388355) * mul_sub(t185, t297, t183 * t300);
+    rod_partial_angular_velocity[3][2][3] =
+        c(4.8543689320388355) * mul_add(t185, t298, t183 * t320);
+    rod_partial_angular_velocity[3][2][4] =
+        c(-4.8543689320388355) * mul_sub(t183, t301, t185 * t324);
+    rod_partial_angular_velocity[3][2][5] =
+        c(-4.8543689320388355) * mul_add(t183, t322, t185 * t325);
     // leg 5: partial velocities of the rod's centre of mass
     let t326 = base_rotation[0][2] * t122;
     mover_partial_velocity[4][0][1] = t326;
@@ -4869,51 +4725,51 @@ pub fn partial_velocities<T: Scalar>(
     mover_partial_velocity[4][2][4] = -t346;
     mover_partial_velocity[4][2][5] = -t334;
     // leg 5: partial angular velocities of the rod
-    rod_partial_angular_velocity[4][0][0] = c(4.8543689320388355)
-        * mul_sub(t196, t329, t194 * t332);
+    rod_partial_angular_velocity[4][0][0] =
+        c(4.8543689320388355) * mul_sub(t196, t329, t194 * t332);
     let t347 = neg_mul_add(base_rotation[1][2], t122, c(1.0));
-    rod_partial_angular_velocity[4][0][1] = c(-4.8543689320388355)
-        * mul_add(t194, t333, t196 * t347);
+    rod_partial_angular_velocity[4][0][1] =
+        c(-4.8543689320388355) * mul_add(t194, t333, t196 * t347);
     let t348 = neg_mul_add(base_rotation[2][2], t124, c(1.0));
-    rod_partial_angular_velocity[4][0][2] = c(4.8543689320388355)
-        * mul_add(t194, t348, t196 * t330);
+    rod_partial_angular_velocity[4][0][2] =
+        c(4.8543689320388355) * mul_add(t194, t348, t196 * t330);
     let t349 = neg_mul_add(base_rotation[2][2], t146, t117);
     let t350 = mul_add(base_rotation[1][2], t146, t118);
-    rod_partial_angular_velocity[4][0][3] = c(-4.8543689320388355)
-        * mul_add(t194, t349, t196 * t350);
+    rod_partial_angular_velocity[4][0][3] =
+        c(-4.8543689320388355) * mul_add(t194, t349, t196 * t350);
     let t351 = mul_add(base_rotation[2][2], t147, t116);
-    rod_partial_angular_velocity[4][0][4] = c(-4.8543689320388355)
-        * mul_sub(t196, t331, t194 * t351);
+    rod_partial_angular_velocity[4][0][4] =
+        c(-4.8543689320388355) * mul_sub(t196, t331, t194 * t351);
     let t352 = neg_mul_add(base_rotation[1][2], t148, t116);
-    rod_partial_angular_velocity[4][0][5] = c(4.8543689320388355)
-        * mul_add(t194, t334, t196 * t352);
+    rod_partial_angular_velocity[4][0][5] =
+        c(4.8543689320388355) * mul_add(t194, t334, t196 * t352);
     let t353 = neg_mul_add(base_rotation[0][2], t120, c(1.0));
-    rod_partial_angular_velocity[4][1][0] = c(4.8543689320388355)
-        * mul_add(t196, t353, t192 * t332);
-    rod_partial_angular_velocity[4][1][1] = c(4.8543689320388355)
-        * mul_sub(t192, t333, t196 * t326);
-    rod_partial_angular_velocity[4][1][2] = c(-4.8543689320388355)
-        * mul_add(t196, t327, t192 * t348);
-    rod_partial_angular_velocity[4][1][3] = c(4.8543689320388355)
-        * mul_add(t196, t328, t192 * t349);
+    rod_partial_angular_velocity[4][1][0] =
+        c(4.8543689320388355) * mul_add(t196, t353, t192 * t332);
+    rod_partial_angular_velocity[4][1][1] =
+        c(4.8543689320388355) * mul_sub(t192, t333, t196 * t326);
+    rod_partial_angular_velocity[4][1][2] =
+        c(-4.8543689320388355) * mul_add(t196, t327, t192 * t348);
+    rod_partial_angular_velocity[4][1][3] =
+        c(4.8543689320388355) * mul_add(t196, t328, t192 * t349);
     let t354 = neg_mul_add(base_rotation[0][2], t147, t118);
-    rod_partial_angular_velocity[4][1][4] = c(-4.8543689320388355)
-        * mul_add(t196, t354, t192 * t351);
+    rod_partial_angular_velocity[4][1][4] =
+        c(-4.8543689320388355) * mul_add(t196, t354, t192 * t351);
     let t355 = mul_add(base_rotation[0][2], t148, t117);
-    rod_partial_angular_velocity[4][1][5] = c(-4.8543689320388355)
-        * mul_sub(t192, t334, t196 * t355);
-    rod_partial_angular_velocity[4][2][0] = c(-4.8543689320388355)
-        * mul_add(t192, t329, t194 * t353);
-    rod_partial_angular_velocity[4][2][1] = c(4.8543689320388355)
-        * mul_add(t192, t347, t194 * t326);
-    rod_partial_angular_velocity[4][2][2] = c(4.8543689320388355)
-        * mul_sub(t194, t327, t192 * t330);
-    rod_partial_angular_velocity[4][2][3] = c(-4.8543689320388355)
-        * mul_sub(t194, t328, t192 * t350);
-    rod_partial_angular_velocity[4][2][4] = c(4.8543689320388355)
-        * mul_add(t192, t331, t194 * t354);
-    rod_partial_angular_velocity[4][2][5] = c(-4.8543689320388355)
-        * mul_add(t192, t352, t194 * t355);
+    rod_partial_angular_velocity[4][1][5] =
+        c(-4.8543689320388355) * mul_sub(t192, t334, t196 * t355);
+    rod_partial_angular_velocity[4][2][0] =
+        c(-4.8543689320388355) * mul_add(t192, t329, t194 * t353);
+    rod_partial_angular_velocity[4][2][1] =
+        c(4.8543689320388355) * mul_add(t192, t347, t194 * t326);
+    rod_partial_angular_velocity[4][2][2] =
+        c(4.8543689320388355) * mul_sub(t194, t327, t192 * t330);
+    rod_partial_angular_velocity[4][2][3] =
+        c(-4.8543689320388355) * mul_sub(t194, t328, t192 * t350);
+    rod_partial_angular_velocity[4][2][4] =
+        c(4.8543689320388355) * mul_add(t192, t331, t194 * t354);
+    rod_partial_angular_velocity[4][2][5] =
+        c(-4.8543689320388355) * mul_add(t192, t352, t194 * t355);
     // leg 6: partial velocities of the rod's centre of mass
     let t356 = base_rotation[0][2] * t131;
     mover_partial_velocity[5][0][1] = t356;
@@ -4973,51 +4829,51 @@ pub fn partial_velocities<T: Scalar>(
     mover_partial_velocity[5][2][4] = -t376;
     mover_partial_velocity[5][2][5] = -t364;
     // leg 6: partial angular velocities of the rod
-    rod_partial_angular_velocity[5][0][0] = c(4.8543689320388355)
-        * mul_sub(t205, t359, t203 * t362);
+    rod_partial_angular_velocity[5][0][0] =
+        c(4.8543689320388355) * mul_sub(t205, t359, t203 * t362);
     let t377 = neg_mul_add(base_rotation[1][2], t131, c(1.0));
-    rod_partial_angular_velocity[5][0][1] = c(-4.8543689320388355)
-        * mul_add(t203, t363, t205 * t377);
+    rod_partial_angular_velocity[5][0][1] =
+        c(-4.8543689320388355) * mul_add(t203, t363, t205 * t377);
     let t378 = neg_mul_add(base_rotation[2][2], t133, c(1.0));
-    rod_partial_angular_velocity[5][0][2] = c(4.8543689320388355)
-        * mul_add(t203, t378, t205 * t360);
+    rod_partial_angular_velocity[5][0][2] =
+        c(4.8543689320388355) * mul_add(t203, t378, t205 * t360);
     let t379 = neg_mul_add(base_rotation[2][2], t149, t126);
     let t380 = mul_add(base_rotation[1][2], t149, t127);
-    rod_partial_angular_velocity[5][0][3] = c(-4.8543689320388355)
-        * mul_add(t203, t379, t205 * t380);
+    rod_partial_angular_velocity[5][0][3] =
+        c(-4.8543689320388355) * mul_add(t203, t379, t205 * t380);
     let t381 = mul_add(base_rotation[2][2], t150, t125);
-    rod_partial_angular_velocity[5][0][4] = c(-4.8543689320388355)
-        * mul_sub(t205, t361, t203 * t381);
+    rod_partial_angular_velocity[5][0][4] =
+        c(-4.8543689320388355) * mul_sub(t205, t361, t203 * t381);
     let t382 = neg_mul_add(base_rotation[1][2], t151, t125);
-    rod_partial_angular_velocity[5][0][5] = c(4.8543689320388355)
-        * mul_add(t203, t364, t205 * t382);
+    rod_partial_angular_velocity[5][0][5] =
+        c(4.8543689320388355) * mul_add(t203, t364, t205 * t382);
     let t383 = neg_mul_add(base_rotation[0][2], t129, c(1.0));
-    rod_partial_angular_velocity[5][1][0] = c(4.8543689320388355)
-        * mul_add(t205, t383, t201 * t362);
-    rod_partial_angular_velocity[5][1][1] = c(4.8543689320388355)
-        * mul_sub(t201, t363, t205 * t356);
-    rod_partial_angular_velocity[5][1][2] = c(-4.8543689320388355)
-        * mul_add(t205, t357, t201 * t378);
-    rod_partial_angular_velocity[5][1][3] = c(4.8543689320388355)
-        * mul_add(t205, t358, t201 * t379);
+    rod_partial_angular_velocity[5][1][0] =
+        c(4.8543689320388355) * mul_add(t205, t383, t201 * t362);
+    rod_partial_angular_velocity[5][1][1] =
+        c(4.8543689320388355) * mul_sub(t201, t363, t205 * t356);
+    rod_partial_angular_velocity[5][1][2] =
+        c(-4.8543689320388355) * mul_add(t205, t357, t201 * t378);
+    rod_partial_angular_velocity[5][1][3] =
+        c(4.8543689320388355) * mul_add(t205, t358, t201 * t379);
     let t384 = neg_mul_add(base_rotation[0][2], t150, t127);
-    rod_partial_angular_velocity[5][1][4] = c(-4.8543689320388355)
-        * mul_add(t205, t384, t201 * t381);
+    rod_partial_angular_velocity[5][1][4] =
+        c(-4.8543689320388355) * mul_add(t205, t384, t201 * t381);
     let t385 = mul_add(base_rotation[0][2], t151, t126);
-    rod_partial_angular_velocity[5][1][5] = c(-4.8543689320388355)
-        * mul_sub(t201, t364, t205 * t385);
-    rod_partial_angular_velocity[5][2][0] = c(-4.8543689320388355)
-        * mul_add(t201, t359, t203 * t383);
-    rod_partial_angular_velocity[5][2][1] = c(4.8543689320388355)
-        * mul_add(t201, t377, t203 * t356);
-    rod_partial_angular_velocity[5][2][2] = c(4.8543689320388355)
-        * mul_sub(t203, t357, t201 * t360);
-    rod_partial_angular_velocity[5][2][3] = c(-4.8543689320388355)
-        * mul_sub(t203, t358, t201 * t380);
-    rod_partial_angular_velocity[5][2][4] = c(4.8543689320388355)
-        * mul_add(t201, t361, t203 * t384);
-    rod_partial_angular_velocity[5][2][5] = c(-4.8543689320388355)
-        * mul_add(t201, t382, t203 * t385);
+    rod_partial_angular_velocity[5][1][5] =
+        c(-4.8543689320388355) * mul_sub(t201, t364, t205 * t385);
+    rod_partial_angular_velocity[5][2][0] =
+        c(-4.8543689320388355) * mul_add(t201, t359, t203 * t383);
+    rod_partial_angular_velocity[5][2][1] =
+        c(4.8543689320388355) * mul_add(t201, t377, t203 * t356);
+    rod_partial_angular_velocity[5][2][2] =
+        c(4.8543689320388355) * mul_sub(t203, t357, t201 * t360);
+    rod_partial_angular_velocity[5][2][3] =
+        c(-4.8543689320388355) * mul_sub(t203, t358, t201 * t380);
+    rod_partial_angular_velocity[5][2][4] =
+        c(4.8543689320388355) * mul_add(t201, t361, t203 * t384);
+    rod_partial_angular_velocity[5][2][5] =
+        c(-4.8543689320388355) * mul_add(t201, t382, t203 * t385);
     // partial velocities of the payload's centre of mass
     let t386 = platform_rotation[2][2] * c(0.031);
     payload_partial_velocity[0][4] = t386;
@@ -5106,71 +4962,11 @@ pub fn generalised_forces<T: Scalar>(
 ) {
     let c = T::constant;
     let (
-        t71,
-        t75,
-        t308,
-        t310,
-        t312,
-        t331,
-        t332,
-        t344,
-        t346,
-        t359,
-        t361,
-        t370,
-        t371,
-        t379,
-        t380,
-        t381,
-        t566,
-        t577,
-        t588,
-        t595,
-        t603,
-        t604,
-        t608,
-        t614,
-        t615,
-        t616,
-        t620,
-        t625,
-        t626,
-        t627,
-        t628,
-        t645,
-        t647,
-        t649,
-        t651,
-        t653,
-        t655,
-        t657,
-        t659,
-        t661,
-        t663,
-        t665,
-        t667,
-        t669,
-        t671,
-        t673,
-        t677,
-        t678,
-        t679,
-        t680,
-        t681,
-        t682,
-        t683,
-        t684,
-        t685,
-        t686,
-        t687,
-        t688,
-        t689,
-        t690,
-        t691,
-        t753,
-        t782,
-        t783,
-        t784,
+        t71, t75, t308, t310, t312, t331, t332, t344, t346, t359, t361, t370, t371, t379, t380,
+        t381, t566, t577, t588, t595, t603, t604, t608, t614, t615, t616, t620, t625, t626, t627,
+        t628, t645, t647, t649, t651, t653, t655, t657, t659, t661, t663, t665, t667, t669, t671,
+        t673, t677, t678, t679, t680, t681, t682, t683, t684, t685, t686, t687, t688, t689, t690,
+        t691, t753, t782, t783, t784,
     ) = {
         // rotation of the platform seen from the base
         let t1 = base_rotation[1][0] * platform_rotation[1][0];
@@ -5657,11 +5453,7 @@ pub fn generalised_forces<T: Scalar>(
         let t392 = mul_sub(base_rotation[2][2], base_velocity[4], t391);
         let t393 = base_rotation[0][2] * base_acceleration[4];
         let t394 = mul_sub(base_rotation[1][2], base_acceleration[3], t393);
-        let t395 = mul_sub(
-            base_velocity[4],
-            t392,
-            mul_add(base_velocity[3], t390, t394),
-        );
+        let t395 = mul_sub(base_velocity[4], t392, mul_add(base_velocity[3], t390, t394));
         let t396 = t117 * c(2.0);
         let t397 = neg_mul_add(t122, c(0.2318221983093764), t396);
         let t398 = t123 * c(0.06211657082460498);
@@ -5672,11 +5464,7 @@ pub fn generalised_forces<T: Scalar>(
         let t403 = mul_sub(base_velocity[5], t314, base_velocity[3] * t318);
         let t404 = mul_add(base_acceleration[3], t316, base_acceleration[2]);
         let t405 = mul_sub(base_acceleration[4], t314, t404);
-        let t406 = mul_sub(
-            base_velocity[4],
-            t402,
-            mul_sub(base_velocity[3], t403, t405),
-        );
+        let t406 = mul_sub(base_velocity[4], t402, mul_sub(base_velocity[3], t403, t405));
         let t407 = mul_sub(t401, t400, mul_sub(t53, t395, t406));
         let t408 = mul_add(base_rotation[2][2], t239, t407);
         let t409 = t388 - t408;
@@ -5686,19 +5474,11 @@ pub fn generalised_forces<T: Scalar>(
         let t413 = mul_sub(platform_velocity[3], t327, t412);
         let t414 = base_rotation[2][2] * base_acceleration[3];
         let t415 = mul_sub(base_rotation[0][2], base_acceleration[5], t414);
-        let t416 = mul_sub(
-            base_velocity[3],
-            t400,
-            mul_add(base_velocity[5], t392, t415),
-        );
+        let t416 = mul_sub(base_velocity[3], t400, mul_add(base_velocity[5], t392, t415));
         let t417 = mul_sub(base_velocity[3], t316, base_velocity[4] * t314);
         let t418 = mul_add(base_acceleration[5], t314, base_acceleration[1]);
         let t419 = mul_sub(base_acceleration[3], t318, t418);
-        let t420 = mul_sub(
-            base_velocity[3],
-            t417,
-            mul_sub(base_velocity[5], t402, t419),
-        );
+        let t420 = mul_sub(base_velocity[3], t417, mul_sub(base_velocity[5], t402, t419));
         let t421 = mul_sub(t390, t401, mul_sub(t53, t416, t420));
         let t422 = mul_add(base_rotation[1][2], t239, t421);
         let t423 = t413 - t422;
@@ -5709,18 +5489,10 @@ pub fn generalised_forces<T: Scalar>(
         let t428 = mul_sub(platform_velocity[5], t326, t427);
         let t429 = base_rotation[1][2] * base_acceleration[5];
         let t430 = mul_sub(base_rotation[2][2], base_acceleration[4], t429);
-        let t431 = mul_sub(
-            base_velocity[5],
-            t390,
-            mul_add(base_velocity[4], t400, t430),
-        );
+        let t431 = mul_sub(base_velocity[5], t390, mul_add(base_velocity[4], t400, t430));
         let t432 = mul_add(base_acceleration[4], t318, base_acceleration[0]);
         let t433 = mul_sub(base_acceleration[5], t316, t432);
-        let t434 = mul_sub(
-            base_velocity[5],
-            t403,
-            mul_sub(base_velocity[4], t417, t433),
-        );
+        let t434 = mul_sub(base_velocity[5], t403, mul_sub(base_velocity[4], t417, t433));
         let t435 = mul_sub(t392, t401, mul_sub(t53, t431, t434));
         let t436 = mul_add(base_rotation[0][2], t239, t435);
         let t437 = t428 - t436;
@@ -5736,11 +5508,7 @@ pub fn generalised_forces<T: Scalar>(
         let t446 = mul_sub(base_velocity[5], t328, base_velocity[3] * t330);
         let t447 = mul_add(base_acceleration[3], t329, base_acceleration[2]);
         let t448 = mul_sub(base_acceleration[4], t328, t447);
-        let t449 = mul_sub(
-            base_velocity[4],
-            t445,
-            mul_sub(base_velocity[3], t446, t448),
-        );
+        let t449 = mul_sub(base_velocity[4], t445, mul_sub(base_velocity[3], t446, t448));
         let t450 = mul_sub(t400, t444, mul_sub(t57, t395, t449));
         let t451 = mul_add(base_rotation[2][2], t242, t450);
         let t452 = t443 - t451;
@@ -5751,11 +5519,7 @@ pub fn generalised_forces<T: Scalar>(
         let t457 = mul_sub(base_velocity[3], t329, base_velocity[4] * t328);
         let t458 = mul_add(base_acceleration[5], t328, base_acceleration[1]);
         let t459 = mul_sub(base_acceleration[3], t330, t458);
-        let t460 = mul_sub(
-            base_velocity[3],
-            t457,
-            mul_sub(base_velocity[5], t445, t459),
-        );
+        let t460 = mul_sub(base_velocity[3], t457, mul_sub(base_velocity[5], t445, t459));
         let t461 = mul_sub(t390, t444, mul_sub(t57, t416, t460));
         let t462 = mul_add(base_rotation[1][2], t242, t461);
         let t463 = t456 - t462;
@@ -5766,11 +5530,7 @@ pub fn generalised_forces<T: Scalar>(
         let t468 = mul_sub(platform_velocity[5], t335, t467);
         let t469 = mul_add(base_acceleration[4], t330, base_acceleration[0]);
         let t470 = mul_sub(base_acceleration[5], t329, t469);
-        let t471 = mul_sub(
-            base_velocity[5],
-            t446,
-            mul_sub(base_velocity[4], t457, t470),
-        );
+        let t471 = mul_sub(base_velocity[5], t446, mul_sub(base_velocity[4], t457, t470));
         let t472 = mul_sub(t392, t444, mul_sub(t57, t431, t471));
         let t473 = mul_add(base_rotation[0][2], t242, t472);
         let t474 = t468 - t473;
@@ -5788,11 +5548,7 @@ pub fn generalised_forces<T: Scalar>(
         let t485 = mul_sub(base_velocity[5], t338, base_velocity[3] * t342);
         let t486 = mul_add(base_acceleration[3], t340, base_acceleration[2]);
         let t487 = mul_sub(base_acceleration[4], t338, t486);
-        let t488 = mul_sub(
-            base_velocity[4],
-            t484,
-            mul_sub(base_velocity[3], t485, t487),
-        );
+        let t488 = mul_sub(base_velocity[4], t484, mul_sub(base_velocity[3], t485, t487));
         let t489 = mul_sub(t400, t483, mul_sub(t62, t395, t488));
         let t490 = mul_add(base_rotation[2][2], t247, t489);
         let t491 = t480 + t490;
@@ -5803,11 +5559,7 @@ pub fn generalised_forces<T: Scalar>(
         let t496 = mul_sub(base_velocity[3], t340, base_velocity[4] * t338);
         let t497 = mul_add(base_acceleration[5], t338, base_acceleration[1]);
         let t498 = mul_sub(base_acceleration[3], t342, t497);
-        let t499 = mul_sub(
-            base_velocity[3],
-            t496,
-            mul_sub(base_velocity[5], t484, t498),
-        );
+        let t499 = mul_sub(base_velocity[3], t496, mul_sub(base_velocity[5], t484, t498));
         let t500 = mul_sub(t390, t483, mul_sub(t62, t416, t499));
         let t501 = mul_add(base_rotation[1][2], t247, t500);
         let t502 = t495 + t501;
@@ -5818,11 +5570,7 @@ pub fn generalised_forces<T: Scalar>(
         let t507 = mul_sub(platform_velocity[5], t350, t506);
         let t508 = mul_add(base_acceleration[4], t342, base_acceleration[0]);
         let t509 = mul_sub(base_acceleration[5], t340, t508);
-        let t510 = mul_sub(
-            base_velocity[5],
-            t485,
-            mul_sub(base_velocity[4], t496, t509),
-        );
+        let t510 = mul_sub(base_velocity[5], t485, mul_sub(base_velocity[4], t496, t509));
         let t511 = mul_sub(t392, t483, mul_sub(t62, t431, t510));
         let t512 = mul_add(base_rotation[0][2], t247, t511);
         let t513 = t507 + t512;
@@ -5840,11 +5588,7 @@ pub fn generalised_forces<T: Scalar>(
         let t524 = mul_sub(base_velocity[5], t353, base_velocity[3] * t357);
         let t525 = neg_mul_add(base_acceleration[3], t355, base_acceleration[2]);
         let t526 = mul_add(base_acceleration[4], t353, t525);
-        let t527 = mul_sub(
-            base_velocity[4],
-            t523,
-            mul_sub(base_velocity[3], t524, t526),
-        );
+        let t527 = mul_sub(base_velocity[4], t523, mul_sub(base_velocity[3], t524, t526));
         let t528 = mul_sub(t400, t522, mul_add(t67, t395, t527));
         let t529 = mul_add(base_rotation[2][2], t252, t528);
         let t530 = t519 + t529;
@@ -5855,11 +5599,7 @@ pub fn generalised_forces<T: Scalar>(
         let t535 = mul_sub(base_velocity[3], t355, base_velocity[4] * t353);
         let t536 = neg_mul_add(base_acceleration[5], t353, base_acceleration[1]);
         let t537 = mul_add(base_acceleration[3], t357, t536);
-        let t538 = mul_sub(
-            base_velocity[3],
-            t535,
-            mul_sub(base_velocity[5], t523, t537),
-        );
+        let t538 = mul_sub(base_velocity[3], t535, mul_sub(base_velocity[5], t523, t537));
         let t539 = mul_sub(t390, t522, mul_add(t67, t416, t538));
         let t540 = mul_add(base_rotation[1][2], t252, t539);
         let t541 = t534 + t540;
@@ -5870,11 +5610,7 @@ pub fn generalised_forces<T: Scalar>(
         let t546 = mul_sub(platform_velocity[5], t365, t545);
         let t547 = neg_mul_add(base_acceleration[4], t357, base_acceleration[0]);
         let t548 = mul_add(base_acceleration[5], t355, t547);
-        let t549 = mul_sub(
-            base_velocity[5],
-            t524,
-            mul_sub(base_velocity[4], t535, t548),
-        );
+        let t549 = mul_sub(base_velocity[5], t524, mul_sub(base_velocity[4], t535, t548));
         let t550 = mul_sub(t392, t522, mul_add(t67, t431, t549));
         let t551 = mul_add(base_rotation[0][2], t252, t550);
         let t552 = t546 + t551;
@@ -5890,11 +5626,7 @@ pub fn generalised_forces<T: Scalar>(
         let t561 = mul_sub(base_velocity[5], t367, base_velocity[3] * t369);
         let t562 = neg_mul_add(base_acceleration[3], t368, base_acceleration[2]);
         let t563 = mul_add(base_acceleration[4], t367, t562);
-        let t564 = mul_sub(
-            base_velocity[4],
-            t560,
-            mul_sub(base_velocity[3], t561, t563),
-        );
+        let t564 = mul_sub(base_velocity[4], t560, mul_sub(base_velocity[3], t561, t563));
         let t565 = mul_sub(t400, t559, mul_add(t71, t395, t564));
         let t566 = mul_add(base_rotation[2][2], t255, t565);
         let t567 = t558 + t566;
@@ -5905,11 +5637,7 @@ pub fn generalised_forces<T: Scalar>(
         let t572 = mul_sub(base_velocity[3], t368, base_velocity[4] * t367);
         let t573 = neg_mul_add(base_acceleration[5], t367, base_acceleration[1]);
         let t574 = mul_add(base_acceleration[3], t369, t573);
-        let t575 = mul_sub(
-            base_velocity[3],
-            t572,
-            mul_sub(base_velocity[5], t560, t574),
-        );
+        let t575 = mul_sub(base_velocity[3], t572, mul_sub(base_velocity[5], t560, t574));
         let t576 = mul_sub(t390, t559, mul_add(t71, t416, t575));
         let t577 = mul_add(base_rotation[1][2], t255, t576);
         let t578 = t571 + t577;
@@ -5920,11 +5648,7 @@ pub fn generalised_forces<T: Scalar>(
         let t583 = mul_sub(platform_velocity[5], t374, t582);
         let t584 = neg_mul_add(base_acceleration[4], t369, base_acceleration[0]);
         let t585 = mul_add(base_acceleration[5], t368, t584);
-        let t586 = mul_sub(
-            base_velocity[5],
-            t561,
-            mul_sub(base_velocity[4], t572, t585),
-        );
+        let t586 = mul_sub(base_velocity[5], t561, mul_sub(base_velocity[4], t572, t585));
         let t587 = mul_sub(t392, t559, mul_add(t71, t431, t586));
         let t588 = mul_add(base_rotation[0][2], t255, t587);
         let t589 = t583 + t588;
@@ -5940,11 +5664,7 @@ pub fn generalised_forces<T: Scalar>(
         let t598 = mul_sub(base_velocity[5], t376, base_velocity[3] * t378);
         let t599 = mul_add(base_acceleration[3], t377, base_acceleration[2]);
         let t600 = mul_sub(base_acceleration[4], t376, t599);
-        let t601 = mul_sub(
-            base_velocity[4],
-            t597,
-            mul_sub(base_velocity[3], t598, t600),
-        );
+        let t601 = mul_sub(base_velocity[4], t597, mul_sub(base_velocity[3], t598, t600));
         let t602 = mul_sub(t400, t596, mul_sub(t75, t395, t601));
         let t603 = mul_add(base_rotation[2][2], t258, t602);
         let t604 = t595 + t603;
@@ -5955,11 +5675,7 @@ pub fn generalised_forces<T: Scalar>(
         let t609 = mul_sub(base_velocity[3], t377, base_velocity[4] * t376);
         let t610 = mul_add(base_acceleration[5], t376, base_acceleration[1]);
         let t611 = mul_sub(base_acceleration[3], t378, t610);
-        let t612 = mul_sub(
-            base_velocity[3],
-            t609,
-            mul_sub(base_velocity[5], t597, t611),
-        );
+        let t612 = mul_sub(base_velocity[3], t609, mul_sub(base_velocity[5], t597, t611));
         let t613 = mul_sub(t390, t596, mul_sub(t75, t416, t612));
         let t614 = mul_add(base_rotation[1][2], t258, t613);
         let t615 = t608 + t614;
@@ -5970,11 +5686,7 @@ pub fn generalised_forces<T: Scalar>(
         let t620 = mul_sub(platform_velocity[5], t383, t619);
         let t621 = mul_add(base_acceleration[4], t378, base_acceleration[0]);
         let t622 = mul_sub(base_acceleration[5], t377, t621);
-        let t623 = mul_sub(
-            base_velocity[5],
-            t598,
-            mul_sub(base_velocity[4], t609, t622),
-        );
+        let t623 = mul_sub(base_velocity[5], t598, mul_sub(base_velocity[4], t609, t622));
         let t624 = mul_sub(t392, t596, mul_sub(t75, t431, t623));
         let t625 = mul_add(base_rotation[0][2], t258, t624);
         let t626 = t620 + t625;
@@ -6083,69 +5795,33 @@ pub fn generalised_forces<T: Scalar>(
         let t705 = platform_rotation[1][2] * c(0.035);
         let t706 = platform_rotation[1][0] * c(0.025);
         let t707 = platform_rotation[1][1] * c(0.025);
-        let t708 = mul_add(
-            platform_rotation[2][0],
-            t706,
-            platform_rotation[2][1] * t707,
-        );
+        let t708 = mul_add(platform_rotation[2][0], t706, platform_rotation[2][1] * t707);
         let t709 = mul_add(platform_rotation[2][2], t705, t708);
-        let t710 = mul_add(
-            platform_rotation[0][0],
-            t706,
-            platform_rotation[0][1] * t707,
-        );
+        let t710 = mul_add(platform_rotation[0][0], t706, platform_rotation[0][1] * t707);
         let t711 = mul_add(platform_rotation[0][2], t705, t710);
-        let t712 = mul_add(
-            platform_rotation[1][0],
-            t706,
-            platform_rotation[1][1] * t707,
-        );
+        let t712 = mul_add(platform_rotation[1][0], t706, platform_rotation[1][1] * t707);
         let t713 = mul_add(platform_rotation[1][2], t705, t712);
         let t714 = mul_add(platform_velocity[3], t711, platform_velocity[4] * t713);
         let t715 = mul_add(platform_velocity[5], t709, t714);
         let t716 = platform_rotation[2][2] * c(0.035);
         let t717 = platform_rotation[2][0] * c(0.025);
         let t718 = platform_rotation[2][1] * c(0.025);
-        let t719 = mul_add(
-            platform_rotation[2][0],
-            t717,
-            platform_rotation[2][1] * t718,
-        );
+        let t719 = mul_add(platform_rotation[2][0], t717, platform_rotation[2][1] * t718);
         let t720 = mul_add(platform_rotation[2][2], t716, t719);
-        let t721 = mul_add(
-            platform_rotation[0][0],
-            t717,
-            platform_rotation[0][1] * t718,
-        );
+        let t721 = mul_add(platform_rotation[0][0], t717, platform_rotation[0][1] * t718);
         let t722 = mul_add(platform_rotation[0][2], t716, t721);
-        let t723 = mul_add(
-            platform_rotation[1][0],
-            t717,
-            platform_rotation[1][1] * t718,
-        );
+        let t723 = mul_add(platform_rotation[1][0], t717, platform_rotation[1][1] * t718);
         let t724 = mul_add(platform_rotation[1][2], t716, t723);
         let t725 = mul_add(platform_velocity[3], t722, platform_velocity[4] * t724);
         let t726 = mul_add(platform_velocity[5], t720, t725);
         let t727 = platform_rotation[0][2] * c(0.035);
         let t728 = platform_rotation[0][0] * c(0.025);
         let t729 = platform_rotation[0][1] * c(0.025);
-        let t730 = mul_add(
-            platform_rotation[2][0],
-            t728,
-            platform_rotation[2][1] * t729,
-        );
+        let t730 = mul_add(platform_rotation[2][0], t728, platform_rotation[2][1] * t729);
         let t731 = mul_add(platform_rotation[2][2], t727, t730);
-        let t732 = mul_add(
-            platform_rotation[1][0],
-            t728,
-            platform_rotation[1][1] * t729,
-        );
+        let t732 = mul_add(platform_rotation[1][0], t728, platform_rotation[1][1] * t729);
         let t733 = mul_add(platform_rotation[1][2], t727, t732);
-        let t734 = mul_add(
-            platform_rotation[0][0],
-            t728,
-            platform_rotation[0][1] * t729,
-        );
+        let t734 = mul_add(platform_rotation[0][0], t728, platform_rotation[0][1] * t729);
         let t735 = mul_add(platform_rotation[0][2], t727, t734);
         let t736 = mul_sub(t630, t704, t631 * t701);
         let t737 = mul_sub(platform_acceleration[3], t735, t736);
@@ -6191,11 +5867,7 @@ pub fn generalised_forces<T: Scalar>(
         let t766 = c(0.256) * t765;
         let t767 = mul_add(base_rotation[2][2], t764, base_rotation[1][2] * t766);
         let t768 = mul_add(base_rotation[0][2], t762, t767);
-        rod_inertia_force[0][0] = neg_mul_add(
-            t639,
-            t761,
-            t758 + mul_add(t639, t768, t762),
-        );
+        rod_inertia_force[0][0] = neg_mul_add(t639, t761, t758 + mul_add(t639, t768, t762));
         let t769 = mul_add(t641, t768, mul_add(c(0.256), t765, t759));
         rod_inertia_force[0][1] = neg_mul_add(t641, t761, t769);
         let t770 = mul_add(t643, t768, mul_add(c(0.256), t763, t756));
@@ -6250,11 +5922,7 @@ pub fn generalised_forces<T: Scalar>(
         let t800 = c(0.256) * t799;
         let t801 = mul_add(base_rotation[2][2], t798, base_rotation[1][2] * t800);
         let t802 = mul_add(base_rotation[0][2], t796, t801);
-        rod_inertia_force[1][0] = mul_add(
-            t645,
-            t795,
-            t792 + neg_mul_add(t645, t802, t796),
-        );
+        rod_inertia_force[1][0] = mul_add(t645, t795, t792 + neg_mul_add(t645, t802, t796));
         let t803 = mul_sub(t647, t802, mul_add(c(0.256), t799, t793));
         rod_inertia_force[1][1] = mul_sub(t647, t795, t803);
         let t804 = mul_sub(t649, t802, mul_add(c(0.256), t797, t790));
@@ -6306,11 +5974,7 @@ pub fn generalised_forces<T: Scalar>(
         let t831 = c(0.256) * t830;
         let t832 = mul_add(base_rotation[2][2], t829, base_rotation[1][2] * t831);
         let t833 = mul_add(base_rotation[0][2], t827, t832);
-        rod_inertia_force[2][0] = neg_mul_add(
-            t651,
-            t826,
-            mul_sub(t651, t833, t827) - t823,
-        );
+        rod_inertia_force[2][0] = neg_mul_add(t651, t826, mul_sub(t651, t833, t827) - t823);
         let t834 = mul_sub(t653, t833, mul_add(c(0.256), t830, t824));
         rod_inertia_force[2][1] = neg_mul_add(t653, t826, t834);
         let t835 = mul_sub(t655, t833, mul_add(c(0.256), t828, t821));
@@ -6362,11 +6026,7 @@ pub fn generalised_forces<T: Scalar>(
         let t862 = c(0.256) * t861;
         let t863 = mul_add(base_rotation[2][2], t860, base_rotation[1][2] * t862);
         let t864 = mul_add(base_rotation[0][2], t858, t863);
-        rod_inertia_force[3][0] = neg_mul_add(
-            t657,
-            t857,
-            mul_sub(t657, t864, t858) - t854,
-        );
+        rod_inertia_force[3][0] = neg_mul_add(t657, t857, mul_sub(t657, t864, t858) - t854);
         let t865 = mul_sub(t659, t864, mul_add(c(0.256), t861, t855));
         rod_inertia_force[3][1] = neg_mul_add(t659, t857, t865);
         let t866 = mul_sub(t661, t864, mul_add(c(0.256), t859, t852));
@@ -6433,71 +6093,11 @@ pub fn generalised_forces<T: Scalar>(
         let t903 = neg_mul_add(t371, t885, mul_add(t370, t886, t902));
         rod_inertia_force[4][5] = neg_mul_add(t688, t888, t903);
         (
-            t71,
-            t75,
-            t308,
-            t310,
-            t312,
-            t331,
-            t332,
-            t344,
-            t346,
-            t359,
-            t361,
-            t370,
-            t371,
-            t379,
-            t380,
-            t381,
-            t566,
-            t577,
-            t588,
-            t595,
-            t603,
-            t604,
-            t608,
-            t614,
-            t615,
-            t616,
-            t620,
-            t625,
-            t626,
-            t627,
-            t628,
-            t645,
-            t647,
-            t649,
-            t651,
-            t653,
-            t655,
-            t657,
-            t659,
-            t661,
-            t663,
-            t665,
-            t667,
-            t669,
-            t671,
-            t673,
-            t677,
-            t678,
-            t679,
-            t680,
-            t681,
-            t682,
-            t683,
-            t684,
-            t685,
-            t686,
-            t687,
-            t688,
-            t689,
-            t690,
-            t691,
-            t753,
-            t782,
-            t783,
-            t784,
+            t71, t75, t308, t310, t312, t331, t332, t344, t346, t359, t361, t370, t371, t379, t380,
+            t381, t566, t577, t588, t595, t603, t604, t608, t614, t615, t616, t620, t625, t626,
+            t627, t628, t645, t647, t649, t651, t653, t655, t657, t659, t661, t663, t665, t667,
+            t669, t671, t673, t677, t678, t679, t680, t681, t682, t683, t684, t685, t686, t687,
+            t688, t689, t690, t691, t753, t782, t783, t784,
         )
     };
     {
@@ -8202,150 +7802,16 @@ pub fn coriolis_matrices<T: Scalar>(
 ) {
     let c = T::constant;
     let (
-        t19,
-        t20,
-        t21,
-        t95,
-        t97,
-        t99,
-        t104,
-        t106,
-        t108,
-        t116,
-        t118,
-        t120,
-        t128,
-        t130,
-        t132,
-        t137,
-        t139,
-        t141,
-        t146,
-        t148,
-        t150,
-        t151,
-        t152,
-        t153,
-        t154,
-        t155,
-        t156,
-        t157,
-        t158,
-        t159,
-        t160,
-        t161,
-        t162,
-        t163,
-        t164,
-        t165,
-        t166,
-        t167,
-        t168,
-        t201,
-        t208,
-        t215,
-        t226,
-        t236,
-        t241,
-        t246,
-        t248,
-        t258,
-        t267,
-        t273,
-        t279,
-        t285,
-        t291,
-        t297,
-        t303,
-        t309,
-        t315,
-        t334,
-        t335,
-        t336,
-        t372,
-        t374,
-        t377,
-        t380,
-        t382,
-        t384,
-        t511,
-        t512,
-        t513,
-        t520,
-        t521,
-        t522,
-        t529,
-        t530,
-        t531,
-        t538,
-        t539,
-        t540,
-        t547,
-        t548,
-        t549,
-        t556,
-        t557,
-        t558,
-        t567,
-        t573,
-        t579,
-        t585,
-        t591,
-        t597,
-        t601,
-        t605,
-        t609,
-        t613,
-        t617,
-        t621,
-        t625,
-        t629,
-        t633,
-        t637,
-        t641,
-        t645,
-        t651,
-        t657,
-        t663,
-        t669,
-        t675,
-        t681,
-        t687,
-        t693,
-        t699,
-        t705,
-        t711,
-        t717,
-        t723,
-        t729,
-        t735,
-        t741,
-        t747,
-        t753,
-        t783,
-        t785,
-        t787,
-        t797,
-        t802,
-        t807,
-        t808,
-        t809,
-        t810,
-        t811,
-        t812,
-        t813,
-        t816,
-        t818,
-        t820,
-        t821,
-        t824,
-        t826,
-        t829,
-        t831,
-        t833,
-        t834,
-        t836,
-        t837,
+        t19, t20, t21, t95, t97, t99, t104, t106, t108, t116, t118, t120, t128, t130, t132, t137,
+        t139, t141, t146, t148, t150, t151, t152, t153, t154, t155, t156, t157, t158, t159, t160,
+        t161, t162, t163, t164, t165, t166, t167, t168, t201, t208, t215, t226, t236, t241, t246,
+        t248, t258, t267, t273, t279, t285, t291, t297, t303, t309, t315, t334, t335, t336, t372,
+        t374, t377, t380, t382, t384, t511, t512, t513, t520, t521, t522, t529, t530, t531, t538,
+        t539, t540, t547, t548, t549, t556, t557, t558, t567, t573, t579, t585, t591, t597, t601,
+        t605, t609, t613, t617, t621, t625, t629, t633, t637, t641, t645, t651, t657, t663, t669,
+        t675, t681, t687, t693, t699, t705, t711, t717, t723, t729, t735, t741, t747, t753, t783,
+        t785, t787, t797, t802, t807, t808, t809, t810, t811, t812, t813, t816, t818, t820, t821,
+        t824, t826, t829, t831, t833, t834, t836, t837,
     ) = {
         // rotation of the platform seen from the base
         let t1 = base_rotation[1][0] * platform_rotation[1][0];
@@ -9030,157 +8496,85 @@ pub fn coriolis_matrices<T: Scalar>(
         let t564 = mul_add(t192, t413, mul_add(t190, t391, t191 * t402));
         let t565 = mul_add(t194, t435, mul_add(t193, t424, t564));
         let t566 = mul_add(base_rotation[0][2], t563, mul_add(t195, t446, t565));
-        let t567 = mul_sub(
-            base_velocity[5],
-            t225,
-            mul_add(base_velocity[4], t245, t566),
-        );
+        let t567 = mul_sub(base_velocity[5], t225, mul_add(base_velocity[4], t245, t566));
         let t568 = t437 + t448 + (t393 - t404 - (t415 + t426));
         let t569 = c(0.17066666666666666) * t568;
         let t570 = mul_add(t192, t415, mul_add(t190, t393, t191 * t404));
         let t571 = mul_add(t194, t437, mul_add(t193, t426, t570));
         let t572 = mul_add(base_rotation[0][2], t569, mul_add(t195, t448, t571));
-        let t573 = mul_sub(
-            base_velocity[5],
-            t233,
-            mul_add(base_velocity[4], t247, t572),
-        );
+        let t573 = mul_sub(base_velocity[5], t233, mul_add(base_velocity[4], t247, t572));
         let t574 = t439 + t450 + (t395 - t406 - (t417 + t428));
         let t575 = c(0.17066666666666666) * t574;
         let t576 = mul_add(t192, t417, mul_add(t190, t395, t191 * t406));
         let t577 = mul_add(t194, t439, mul_add(t193, t428, t576));
         let t578 = mul_add(base_rotation[0][2], t575, mul_add(t195, t450, t577));
-        let t579 = mul_sub(
-            base_velocity[5],
-            t237,
-            mul_add(base_velocity[4], t255, t578),
-        );
+        let t579 = mul_sub(base_velocity[5], t237, mul_add(base_velocity[4], t255, t578));
         let t580 = t494 + t500 - (t470 - t476 + (t482 + t488));
         let t581 = c(0.17066666666666666) * t580;
         let t582 = mul_sub(t192, t482, mul_add(t190, t470, t191 * t476));
         let t583 = mul_add(t194, t494, mul_add(t193, t488, t582));
         let t584 = mul_add(base_rotation[0][2], t581, mul_add(t195, t500, t583));
-        let t585 = mul_sub(
-            base_velocity[5],
-            t242,
-            mul_sub(base_velocity[4], t259, t584),
-        );
+        let t585 = mul_sub(base_velocity[5], t242, mul_sub(base_velocity[4], t259, t584));
         let t586 = t496 + t502 - (t472 - t478 + (t484 + t490));
         let t587 = c(0.17066666666666666) * t586;
         let t588 = mul_sub(t192, t484, mul_add(t190, t472, t191 * t478));
         let t589 = mul_add(t194, t496, mul_add(t193, t490, t588));
         let t590 = mul_add(base_rotation[0][2], t587, mul_add(t195, t502, t589));
-        let t591 = mul_sub(
-            base_velocity[5],
-            t243,
-            mul_sub(base_velocity[4], t260, t590),
-        );
+        let t591 = mul_sub(base_velocity[5], t243, mul_sub(base_velocity[4], t260, t590));
         let t592 = t498 + t504 - (t474 - t480 + (t486 + t492));
         let t593 = c(0.17066666666666666) * t592;
         let t594 = mul_sub(t192, t486, mul_add(t190, t474, t191 * t480));
         let t595 = mul_add(t194, t498, mul_add(t193, t492, t594));
         let t596 = mul_add(base_rotation[0][2], t593, mul_add(t195, t504, t595));
-        let t597 = mul_sub(
-            base_velocity[5],
-            t244,
-            mul_sub(base_velocity[4], t261, t596),
-        );
+        let t597 = mul_sub(base_velocity[5], t244, mul_sub(base_velocity[4], t261, t596));
         let t598 = mul_add(t229, t413, mul_add(t227, t391, t228 * t402));
         let t599 = mul_add(t231, t435, mul_add(t230, t424, t598));
         let t600 = mul_add(base_rotation[1][2], t563, mul_add(t232, t446, t599));
-        let t601 = mul_sub(
-            base_velocity[3],
-            t245,
-            mul_add(base_velocity[5], t198, t600),
-        );
+        let t601 = mul_sub(base_velocity[3], t245, mul_add(base_velocity[5], t198, t600));
         let t602 = mul_add(t229, t415, mul_add(t227, t393, t228 * t404));
         let t603 = mul_add(t231, t437, mul_add(t230, t426, t602));
         let t604 = mul_add(base_rotation[1][2], t569, mul_add(t232, t448, t603));
-        let t605 = mul_sub(
-            base_velocity[3],
-            t247,
-            mul_add(base_velocity[5], t204, t604),
-        );
+        let t605 = mul_sub(base_velocity[3], t247, mul_add(base_velocity[5], t204, t604));
         let t606 = mul_add(t229, t417, mul_add(t227, t395, t228 * t406));
         let t607 = mul_add(t231, t439, mul_add(t230, t428, t606));
         let t608 = mul_add(base_rotation[1][2], t575, mul_add(t232, t450, t607));
-        let t609 = mul_sub(
-            base_velocity[3],
-            t255,
-            mul_add(base_velocity[5], t211, t608),
-        );
+        let t609 = mul_sub(base_velocity[3], t255, mul_add(base_velocity[5], t211, t608));
         let t610 = mul_sub(t229, t482, mul_add(t227, t470, t228 * t476));
         let t611 = mul_add(t231, t494, mul_add(t230, t488, t610));
         let t612 = mul_add(base_rotation[1][2], t581, mul_add(t232, t500, t611));
-        let t613 = mul_sub(
-            base_velocity[3],
-            t259,
-            mul_sub(base_velocity[5], t218, t612),
-        );
+        let t613 = mul_sub(base_velocity[3], t259, mul_sub(base_velocity[5], t218, t612));
         let t614 = mul_sub(t229, t484, mul_add(t227, t472, t228 * t478));
         let t615 = mul_add(t231, t496, mul_add(t230, t490, t614));
         let t616 = mul_add(base_rotation[1][2], t587, mul_add(t232, t502, t615));
-        let t617 = mul_sub(
-            base_velocity[3],
-            t260,
-            mul_sub(base_velocity[5], t221, t616),
-        );
+        let t617 = mul_sub(base_velocity[3], t260, mul_sub(base_velocity[5], t221, t616));
         let t618 = mul_sub(t229, t486, mul_add(t227, t474, t228 * t480));
         let t619 = mul_add(t231, t498, mul_add(t230, t492, t618));
         let t620 = mul_add(base_rotation[1][2], t593, mul_add(t232, t504, t619));
-        let t621 = mul_sub(
-            base_velocity[3],
-            t261,
-            mul_sub(base_velocity[5], t224, t620),
-        );
+        let t621 = mul_sub(base_velocity[3], t261, mul_sub(base_velocity[5], t224, t620));
         let t622 = mul_add(t251, t413, mul_add(t249, t391, t250 * t402));
         let t623 = mul_add(t253, t435, mul_add(t252, t424, t622));
         let t624 = mul_add(base_rotation[2][2], t563, mul_add(t254, t446, t623));
-        let t625 = mul_sub(
-            base_velocity[4],
-            t198,
-            mul_add(base_velocity[3], t225, t624),
-        );
+        let t625 = mul_sub(base_velocity[4], t198, mul_add(base_velocity[3], t225, t624));
         let t626 = mul_add(t251, t415, mul_add(t249, t393, t250 * t404));
         let t627 = mul_add(t253, t437, mul_add(t252, t426, t626));
         let t628 = mul_add(base_rotation[2][2], t569, mul_add(t254, t448, t627));
-        let t629 = mul_sub(
-            base_velocity[4],
-            t204,
-            mul_add(base_velocity[3], t233, t628),
-        );
+        let t629 = mul_sub(base_velocity[4], t204, mul_add(base_velocity[3], t233, t628));
         let t630 = mul_add(t251, t417, mul_add(t249, t395, t250 * t406));
         let t631 = mul_add(t253, t439, mul_add(t252, t428, t630));
         let t632 = mul_add(base_rotation[2][2], t575, mul_add(t254, t450, t631));
-        let t633 = mul_sub(
-            base_velocity[4],
-            t211,
-            mul_add(base_velocity[3], t237, t632),
-        );
+        let t633 = mul_sub(base_velocity[4], t211, mul_add(base_velocity[3], t237, t632));
         let t634 = mul_sub(t251, t482, mul_add(t249, t470, t250 * t476));
         let t635 = mul_add(t253, t494, mul_add(t252, t488, t634));
         let t636 = mul_add(base_rotation[2][2], t581, mul_add(t254, t500, t635));
-        let t637 = mul_sub(
-            base_velocity[4],
-            t218,
-            mul_sub(base_velocity[3], t242, t636),
-        );
+        let t637 = mul_sub(base_velocity[4], t218, mul_sub(base_velocity[3], t242, t636));
         let t638 = mul_sub(t251, t484, mul_add(t249, t472, t250 * t478));
         let t639 = mul_add(t253, t496, mul_add(t252, t490, t638));
         let t640 = mul_add(base_rotation[2][2], t587, mul_add(t254, t502, t639));
-        let t641 = mul_sub(
-            base_velocity[4],
-            t221,
-            mul_sub(base_velocity[3], t243, t640),
-        );
+        let t641 = mul_sub(base_velocity[4], t221, mul_sub(base_velocity[3], t243, t640));
         let t642 = mul_sub(t251, t486, mul_add(t249, t474, t250 * t480));
         let t643 = mul_add(t253, t498, mul_add(t252, t492, t642));
         let t644 = mul_add(base_rotation[2][2], t593, mul_add(t254, t504, t643));
-        let t645 = mul_sub(
-            base_velocity[4],
-            t224,
-            mul_sub(base_velocity[3], t244, t644),
-        );
+        let t645 = mul_sub(base_velocity[4], t224, mul_sub(base_velocity[3], t244, t644));
         let t646 = mul_add(t413, t532, mul_sub(t391, t514, t402 * t523));
         let t647 = mul_sub(t435, t550, mul_add(t424, t541, t646));
         let t648 = mul_sub(t95, t507, mul_add(t446, t559, t647));
@@ -9365,11 +8759,7 @@ pub fn coriolis_matrices<T: Scalar>(
         let t786 = base_rotation[2][0] * c(1.5612511283791264e-17);
         let t787 = mul_sub(base_rotation[2][2], t781, t786);
         // their moment by platform joint and Hooke joint
-        let t788 = mul_sub(
-            t778,
-            c(0.019782160922400118),
-            t779 * c(0.005300614043699622),
-        );
+        let t788 = mul_sub(t778, c(0.019782160922400118), t779 * c(0.005300614043699622));
         let t789 = neg_mul_add(t780, c(0.01448154687870049), t788);
         let t790 = base_rotation[0][0] * c(0.009764694018945443);
         let t791 = mul_sub(base_rotation[0][2], t789, t790);
@@ -9378,59 +8768,23 @@ pub fn coriolis_matrices<T: Scalar>(
         let t794 = neg_mul_add(c(0.014481546878700494), t67 - t71, t793);
         let t795 = base_rotation[0][1] * c(0.009764694018945445);
         let t796 = mul_add(base_rotation[0][2], t794, t795);
-        let t797 = mul_sub(
-            platform_rotation[0][0],
-            t791,
-            platform_rotation[0][1] * t796,
-        );
+        let t797 = mul_sub(platform_rotation[0][0], t791, platform_rotation[0][1] * t796);
         let t798 = base_rotation[1][0] * c(0.009764694018945443);
         let t799 = mul_sub(base_rotation[1][2], t789, t798);
         let t800 = base_rotation[1][1] * c(0.009764694018945445);
         let t801 = mul_add(base_rotation[1][2], t794, t800);
-        let t802 = mul_sub(
-            platform_rotation[0][0],
-            t799,
-            platform_rotation[0][1] * t801,
-        );
+        let t802 = mul_sub(platform_rotation[0][0], t799, platform_rotation[0][1] * t801);
         let t803 = base_rotation[2][0] * c(0.009764694018945443);
         let t804 = mul_sub(base_rotation[2][2], t789, t803);
         let t805 = base_rotation[2][1] * c(0.009764694018945445);
         let t806 = mul_add(base_rotation[2][2], t794, t805);
-        let t807 = mul_sub(
-            platform_rotation[0][0],
-            t804,
-            platform_rotation[0][1] * t806,
-        );
-        let t808 = mul_sub(
-            platform_rotation[1][0],
-            t791,
-            platform_rotation[1][1] * t796,
-        );
-        let t809 = mul_sub(
-            platform_rotation[1][0],
-            t799,
-            platform_rotation[1][1] * t801,
-        );
-        let t810 = mul_sub(
-            platform_rotation[1][0],
-            t804,
-            platform_rotation[1][1] * t806,
-        );
-        let t811 = mul_sub(
-            platform_rotation[2][0],
-            t791,
-            platform_rotation[2][1] * t796,
-        );
-        let t812 = mul_sub(
-            platform_rotation[2][0],
-            t799,
-            platform_rotation[2][1] * t801,
-        );
-        let t813 = mul_sub(
-            platform_rotation[2][0],
-            t804,
-            platform_rotation[2][1] * t806,
-        );
+        let t807 = mul_sub(platform_rotation[0][0], t804, platform_rotation[0][1] * t806);
+        let t808 = mul_sub(platform_rotation[1][0], t791, platform_rotation[1][1] * t796);
+        let t809 = mul_sub(platform_rotation[1][0], t799, platform_rotation[1][1] * t801);
+        let t810 = mul_sub(platform_rotation[1][0], t804, platform_rotation[1][1] * t806);
+        let t811 = mul_sub(platform_rotation[2][0], t791, platform_rotation[2][1] * t796);
+        let t812 = mul_sub(platform_rotation[2][0], t799, platform_rotation[2][1] * t801);
+        let t813 = mul_sub(platform_rotation[2][0], t804, platform_rotation[2][1] * t806);
         // leg 1: rate of the sliding masses' first moment, its moment about the axis
         let t814 = t324 * c(0.1253686515315582);
         let t815 = mul_add(t53, c(0.9523333333333334), c(0.03055));
@@ -9462,150 +8816,17 @@ pub fn coriolis_matrices<T: Scalar>(
         let t836 = mul_add(t318, t835, t822);
         let t837 = neg_mul_add(t321, t835, t825);
         (
-            t19,
-            t20,
-            t21,
-            t95,
-            t97,
-            t99,
-            t104,
-            t106,
-            t108,
-            t116,
-            t118,
-            t120,
-            t128,
-            t130,
-            t132,
-            t137,
-            t139,
-            t141,
-            t146,
-            t148,
-            t150,
-            t151,
-            t152,
-            t153,
-            t154,
-            t155,
-            t156,
-            t157,
-            t158,
-            t159,
-            t160,
-            t161,
-            t162,
-            t163,
-            t164,
-            t165,
-            t166,
-            t167,
-            t168,
-            t201,
-            t208,
-            t215,
-            t226,
-            t236,
-            t241,
-            t246,
-            t248,
-            t258,
-            t267,
-            t273,
-            t279,
-            t285,
-            t291,
-            t297,
-            t303,
-            t309,
-            t315,
-            t334,
-            t335,
-            t336,
-            t372,
-            t374,
-            t377,
-            t380,
-            t382,
-            t384,
-            t511,
-            t512,
-            t513,
-            t520,
-            t521,
-            t522,
-            t529,
-            t530,
-            t531,
-            t538,
-            t539,
-            t540,
-            t547,
-            t548,
-            t549,
-            t556,
-            t557,
-            t558,
-            t567,
-            t573,
-            t579,
-            t585,
-            t591,
-            t597,
-            t601,
-            t605,
-            t609,
-            t613,
-            t617,
-            t621,
-            t625,
-            t629,
-            t633,
-            t637,
-            t641,
-            t645,
-            t651,
-            t657,
-            t663,
-            t669,
-            t675,
-            t681,
-            t687,
-            t693,
-            t699,
-            t705,
-            t711,
-            t717,
-            t723,
-            t729,
-            t735,
-            t741,
-            t747,
-            t753,
-            t783,
-            t785,
-            t787,
-            t797,
-            t802,
-            t807,
-            t808,
-            t809,
-            t810,
-            t811,
-            t812,
-            t813,
-            t816,
-            t818,
-            t820,
-            t821,
-            t824,
-            t826,
-            t829,
-            t831,
-            t833,
-            t834,
-            t836,
-            t837,
+            t19, t20, t21, t95, t97, t99, t104, t106, t108, t116, t118, t120, t128, t130, t132,
+            t137, t139, t141, t146, t148, t150, t151, t152, t153, t154, t155, t156, t157, t158,
+            t159, t160, t161, t162, t163, t164, t165, t166, t167, t168, t201, t208, t215, t226,
+            t236, t241, t246, t248, t258, t267, t273, t279, t285, t291, t297, t303, t309, t315,
+            t334, t335, t336, t372, t374, t377, t380, t382, t384, t511, t512, t513, t520, t521,
+            t522, t529, t530, t531, t538, t539, t540, t547, t548, t549, t556, t557, t558, t567,
+            t573, t579, t585, t591, t597, t601, t605, t609, t613, t617, t621, t625, t629, t633,
+            t637, t641, t645, t651, t657, t663, t669, t675, t681, t687, t693, t699, t705, t711,
+            t717, t723, t729, t735, t741, t747, t753, t783, t785, t787, t797, t802, t807, t808,
+            t809, t810, t811, t812, t813, t816, t818, t820, t821, t824, t826, t829, t831, t833,
+            t834, t836, t837,
         )
     };
     {
@@ -9674,41 +8895,21 @@ pub fn coriolis_matrices<T: Scalar>(
         let t891 = mul_sub(base_rotation[2][0], t883, t890);
         let t892 = mul_add(t246, t335, mul_sub(base_rotation[2][1], t880, t891));
         coriolis_matrix_b[2][5] = neg_mul_add(t248, t334, t892);
-        let t893 = mul_sub(
-            c(0.019782160922400118),
-            t848,
-            c(0.005300614043699622) * t849,
-        );
+        let t893 = mul_sub(c(0.019782160922400118), t848, c(0.005300614043699622) * t849);
         let t894 = neg_mul_add(c(0.01448154687870049), t847, t893);
         let t895 = c(0.019782160922400118) * (t377 - t384);
         let t896 = mul_sub(c(0.005300614043699624), t372 - t374, t895);
         let t897 = neg_mul_add(c(0.014481546878700494), t380 - t382, t896);
-        let t898 = mul_sub(
-            platform_rotation[2][0],
-            t894,
-            platform_rotation[2][1] * t897,
-        );
-        let t899 = mul_sub(
-            platform_rotation[0][0],
-            t894,
-            platform_rotation[0][1] * t897,
-        );
+        let t898 = mul_sub(platform_rotation[2][0], t894, platform_rotation[2][1] * t897);
+        let t899 = mul_sub(platform_rotation[0][0], t894, platform_rotation[0][1] * t897);
         let t900 = mul_sub(base_rotation[0][2], t899, base_velocity[5] * t802);
         let t901 = mul_add(base_velocity[4], t807, t900);
-        let t902 = mul_sub(
-            platform_rotation[1][0],
-            t894,
-            platform_rotation[1][1] * t897,
-        );
+        let t902 = mul_sub(platform_rotation[1][0], t894, platform_rotation[1][1] * t897);
         let t903 = mul_sub(base_rotation[1][2], t902, base_velocity[3] * t810);
         let t904 = mul_add(base_velocity[5], t808, t903);
         let t905 = t901 + t904;
         let t906 = mul_add(base_rotation[2][2], t898, t905);
-        let t907 = mul_sub(
-            base_velocity[3],
-            t812,
-            mul_sub(base_velocity[4], t811, t906),
-        );
+        let t907 = mul_sub(base_velocity[3], t812, mul_sub(base_velocity[4], t811, t906));
         let t908 = mul_add(t157, t826, mul_sub(t151, t818, t154 * t821));
         let t909 = mul_add(t163, t834, mul_add(t160, t831, t908));
         let t910 = mul_add(t166, t837, t909);
@@ -9792,12 +8993,10 @@ pub fn coriolis_matrices<T: Scalar>(
         let t977 = mul_add(platform_rotation[2][0], c(2.2551405187698492e-17), t976);
         let t978 = mul_add(platform_rotation[2][2], c(0.188852), t977);
         let t979 = mul_sub(platform_velocity[5], t970, platform_velocity[3] * t978);
-        coriolis_matrix_p[0][5] = neg_mul_add(t146, t558, neg_mul_add(t137, t549, t975))
-            - t979;
+        coriolis_matrix_p[0][5] = neg_mul_add(t146, t558, neg_mul_add(t137, t549, t975)) - t979;
         let t980 = mul_sub(t106, t520, mul_add(t97, t511, t613));
         let t981 = mul_add(t130, t538, mul_sub(t118, t529, t980));
-        coriolis_matrix_p[1][3] = neg_mul_add(t148, t556, neg_mul_add(t139, t547, t981))
-            - t971;
+        coriolis_matrix_p[1][3] = neg_mul_add(t148, t556, neg_mul_add(t139, t547, t981)) - t971;
         let t982 = mul_sub(platform_velocity[4], t978, platform_velocity[5] * t967);
         let t983 = mul_sub(t106, t522, mul_add(t97, t513, t621));
         let t984 = mul_add(t130, t540, mul_sub(t118, t531, t983));
@@ -9807,22 +9006,13 @@ pub fn coriolis_matrices<T: Scalar>(
         coriolis_matrix_p[2][3] = t979 - mul_add(t150, t556, mul_sub(t141, t547, t986));
         let t987 = mul_sub(t108, t521, mul_add(t99, t512, t641));
         let t988 = mul_add(t132, t539, mul_sub(t120, t530, t987));
-        coriolis_matrix_p[2][4] = neg_mul_add(t150, t557, neg_mul_add(t141, t548, t988))
-            - t982;
+        coriolis_matrix_p[2][4] = neg_mul_add(t150, t557, neg_mul_add(t141, t548, t988)) - t982;
         let t989 = platform_rotation[0][2] * c(0.013354412);
         let t990 = platform_rotation[0][0] * c(0.032245600000000006);
         let t991 = platform_rotation[0][1] * c(0.032245600000000006);
-        let t992 = mul_add(
-            platform_rotation[2][0],
-            t990,
-            platform_rotation[2][1] * t991,
-        );
+        let t992 = mul_add(platform_rotation[2][0], t990, platform_rotation[2][1] * t991);
         let t993 = mul_add(platform_rotation[2][2], t989, t992);
-        let t994 = mul_add(
-            platform_rotation[1][0],
-            t990,
-            platform_rotation[1][1] * t991,
-        );
+        let t994 = mul_add(platform_rotation[1][0], t990, platform_rotation[1][1] * t991);
         let t995 = mul_add(platform_rotation[1][2], t989, t994);
         let t996 = mul_sub(t154, t520, mul_add(t151, t511, t669));
         let t997 = mul_add(t160, t538, mul_add(t157, t529, t996));
@@ -9832,11 +9022,7 @@ pub fn coriolis_matrices<T: Scalar>(
         let t1000 = platform_rotation[1][2] * c(0.013354412);
         let t1001 = platform_rotation[1][0] * c(0.032245600000000006);
         let t1002 = platform_rotation[1][1] * c(0.032245600000000006);
-        let t1003 = mul_add(
-            platform_rotation[2][0],
-            t1001,
-            platform_rotation[2][1] * t1002,
-        );
+        let t1003 = mul_add(platform_rotation[2][0], t1001, platform_rotation[2][1] * t1002);
         let t1004 = mul_add(platform_rotation[2][2], t1000, t1003);
         let t1005 = neg_mul_add(platform_rotation[1][0], t1001, c(0.0425));
         let t1006 = mul_sub(platform_rotation[1][1], t1002, t1005);
@@ -10447,246 +9633,22 @@ pub fn matrices<T: Scalar>(
 ) {
     let c = T::constant;
     let (
-        t19,
-        t20,
-        t21,
-        t53,
-        t57,
-        t62,
-        t67,
-        t71,
-        t75,
-        t94,
-        t95,
-        t96,
-        t98,
-        t100,
-        t102,
-        t106,
-        t107,
-        t108,
-        t110,
-        t112,
-        t114,
-        t124,
-        t125,
-        t126,
-        t128,
-        t130,
-        t132,
-        t142,
-        t143,
-        t144,
-        t146,
-        t148,
-        t150,
-        t157,
-        t158,
-        t159,
-        t161,
-        t163,
-        t165,
-        t169,
-        t170,
-        t171,
-        t173,
-        t175,
-        t177,
-        t178,
-        t179,
-        t180,
-        t181,
-        t182,
-        t183,
-        t184,
-        t185,
-        t186,
-        t187,
-        t188,
-        t189,
-        t190,
-        t191,
-        t192,
-        t193,
-        t194,
-        t195,
-        t217,
-        t218,
-        t219,
-        t220,
-        t221,
-        t222,
-        t228,
-        t231,
-        t237,
-        t241,
-        t247,
-        t251,
-        t257,
-        t267,
-        t277,
-        t282,
-        t283,
-        t284,
-        t285,
-        t286,
-        t287,
-        t288,
-        t289,
-        t290,
-        t293,
-        t294,
-        t298,
-        t299,
-        t304,
-        t309,
-        t314,
-        t315,
-        t316,
-        t317,
-        t318,
-        t319,
-        t320,
-        t321,
-        t322,
-        t323,
-        t324,
-        t327,
-        t328,
-        t333,
-        t338,
-        t346,
-        t350,
-        t354,
-        t382,
-        t386,
-        t390,
-        t415,
-        t419,
-        t423,
-        t447,
-        t450,
-        t453,
-        t458,
-        t460,
-        t462,
-        t467,
-        t469,
-        t474,
-        t489,
-        t491,
-        t493,
-        t503,
-        t508,
-        t513,
-        t514,
-        t515,
-        t516,
-        t517,
-        t518,
-        t519,
-        t602,
-        t605,
-        t608,
-        t618,
-        t619,
-        t620,
-        t656,
-        t658,
-        t661,
-        t664,
-        t666,
-        t668,
-        t675,
-        t677,
-        t679,
-        t686,
-        t688,
-        t690,
-        t697,
-        t699,
-        t701,
-        t708,
-        t710,
-        t712,
-        t719,
-        t721,
-        t723,
-        t730,
-        t732,
-        t734,
-        t754,
-        t756,
-        t758,
-        t760,
-        t762,
-        t764,
-        t766,
-        t768,
-        t770,
-        t772,
-        t774,
-        t776,
-        t778,
-        t780,
-        t782,
-        t784,
-        t786,
-        t788,
-        t791,
-        t793,
-        t794,
-        t795,
-        t796,
-        t797,
-        t798,
-        t799,
-        t800,
-        t801,
-        t802,
-        t803,
-        t804,
-        t805,
-        t806,
-        t807,
-        t808,
-        t809,
-        t810,
-        t811,
-        t812,
-        t813,
-        t814,
-        t815,
-        t816,
-        t817,
-        t818,
-        t819,
-        t820,
-        t821,
-        t822,
-        t823,
-        t824,
-        t825,
-        t826,
-        t827,
-        t828,
-        t829,
-        t830,
-        t831,
-        t832,
-        t833,
-        t834,
-        t835,
-        t836,
-        t837,
-        t838,
-        t839,
-        t840,
-        t841,
-        t842,
-        t843,
-        t844,
-        t845,
+        t19, t20, t21, t53, t57, t62, t67, t71, t75, t94, t95, t96, t98, t100, t102, t106, t107,
+        t108, t110, t112, t114, t124, t125, t126, t128, t130, t132, t142, t143, t144, t146, t148,
+        t150, t157, t158, t159, t161, t163, t165, t169, t170, t171, t173, t175, t177, t178, t179,
+        t180, t181, t182, t183, t184, t185, t186, t187, t188, t189, t190, t191, t192, t193, t194,
+        t195, t217, t218, t219, t220, t221, t222, t228, t231, t237, t241, t247, t251, t257, t267,
+        t277, t282, t283, t284, t285, t286, t287, t288, t289, t290, t293, t294, t298, t299, t304,
+        t309, t314, t315, t316, t317, t318, t319, t320, t321, t322, t323, t324, t327, t328, t333,
+        t338, t346, t350, t354, t382, t386, t390, t415, t419, t423, t447, t450, t453, t458, t460,
+        t462, t467, t469, t474, t489, t491, t493, t503, t508, t513, t514, t515, t516, t517, t518,
+        t519, t602, t605, t608, t618, t619, t620, t656, t658, t661, t664, t666, t668, t675, t677,
+        t679, t686, t688, t690, t697, t699, t701, t708, t710, t712, t719, t721, t723, t730, t732,
+        t734, t754, t756, t758, t760, t762, t764, t766, t768, t770, t772, t774, t776, t778, t780,
+        t782, t784, t786, t788, t791, t793, t794, t795, t796, t797, t798, t799, t800, t801, t802,
+        t803, t804, t805, t806, t807, t808, t809, t810, t811, t812, t813, t814, t815, t816, t817,
+        t818, t819, t820, t821, t822, t823, t824, t825, t826, t827, t828, t829, t830, t831, t832,
+        t833, t834, t835, t836, t837, t838, t839, t840, t841, t842, t843, t844, t845,
     ) = {
         // rotation of the platform seen from the base
         let t1 = base_rotation[1][0] * platform_rotation[1][0];
@@ -11276,75 +10238,39 @@ pub fn matrices<T: Scalar>(
         let t454 = platform_rotation[0][2] * c(0.013354412);
         let t455 = platform_rotation[0][0] * c(0.032245600000000006);
         let t456 = platform_rotation[0][1] * c(0.032245600000000006);
-        let t457 = mul_add(
-            platform_rotation[0][0],
-            t455,
-            platform_rotation[0][1] * t456,
-        );
+        let t457 = mul_add(platform_rotation[0][0], t455, platform_rotation[0][1] * t456);
         let t458 = mul_add(platform_rotation[0][2], t454, t457);
-        let t459 = mul_add(
-            platform_rotation[1][0],
-            t455,
-            platform_rotation[1][1] * t456,
-        );
+        let t459 = mul_add(platform_rotation[1][0], t455, platform_rotation[1][1] * t456);
         let t460 = mul_add(platform_rotation[1][2], t454, t459);
-        let t461 = mul_add(
-            platform_rotation[2][0],
-            t455,
-            platform_rotation[2][1] * t456,
-        );
+        let t461 = mul_add(platform_rotation[2][0], t455, platform_rotation[2][1] * t456);
         let t462 = mul_add(platform_rotation[2][2], t454, t461);
         let t463 = platform_rotation[1][2] * c(0.013354412);
         let t464 = platform_rotation[1][0] * c(0.032245600000000006);
         let t465 = platform_rotation[1][1] * c(0.032245600000000006);
-        let t466 = mul_add(
-            platform_rotation[1][0],
-            t464,
-            platform_rotation[1][1] * t465,
-        );
+        let t466 = mul_add(platform_rotation[1][0], t464, platform_rotation[1][1] * t465);
         let t467 = mul_add(platform_rotation[1][2], t463, t466);
-        let t468 = mul_add(
-            platform_rotation[2][0],
-            t464,
-            platform_rotation[2][1] * t465,
-        );
+        let t468 = mul_add(platform_rotation[2][0], t464, platform_rotation[2][1] * t465);
         let t469 = mul_add(platform_rotation[2][2], t463, t468);
         let t470 = platform_rotation[2][2] * c(0.013354412);
         let t471 = platform_rotation[2][0] * c(0.032245600000000006);
         let t472 = platform_rotation[2][1] * c(0.032245600000000006);
-        let t473 = mul_add(
-            platform_rotation[2][0],
-            t471,
-            platform_rotation[2][1] * t472,
-        );
+        let t473 = mul_add(platform_rotation[2][0], t471, platform_rotation[2][1] * t472);
         let t474 = mul_add(platform_rotation[2][2], t470, t473);
-        mass_matrix_p[0][0] = neg_mul_add(
-            base_rotation[0][2],
-            t227,
-            c(8.139999999999999),
-        ) - t231;
+        mass_matrix_p[0][0] = neg_mul_add(base_rotation[0][2], t227, c(8.139999999999999)) - t231;
         let t475 = t447 - (t271 + t381);
         mass_matrix_p[0][4] = t475;
         mass_matrix_p[4][0] = t475;
         let t476 = -(t450 + (t281 + t414));
         mass_matrix_p[0][5] = t476;
         mass_matrix_p[5][0] = t476;
-        mass_matrix_p[1][1] = neg_mul_add(
-            base_rotation[1][2],
-            t236,
-            c(8.139999999999999),
-        ) - t293;
+        mass_matrix_p[1][1] = neg_mul_add(base_rotation[1][2], t236, c(8.139999999999999)) - t293;
         let t477 = -(t447 + (t303 + t349));
         mass_matrix_p[1][3] = t477;
         mass_matrix_p[3][1] = t477;
         let t478 = t453 - (t313 + t418);
         mass_matrix_p[1][5] = t478;
         mass_matrix_p[5][1] = t478;
-        mass_matrix_p[2][2] = neg_mul_add(
-            base_rotation[2][2],
-            t246,
-            c(8.139999999999999),
-        ) - t327;
+        mass_matrix_p[2][2] = neg_mul_add(base_rotation[2][2], t246, c(8.139999999999999)) - t327;
         let t479 = t450 - (t332 + t353);
         mass_matrix_p[2][3] = t479;
         mass_matrix_p[3][2] = t479;
@@ -11375,11 +10301,7 @@ pub fn matrices<T: Scalar>(
         let t492 = base_rotation[2][0] * c(1.5612511283791264e-17);
         let t493 = mul_sub(base_rotation[2][2], t487, t492);
         // their moment by platform joint and Hooke joint
-        let t494 = mul_sub(
-            t484,
-            c(0.019782160922400118),
-            t485 * c(0.005300614043699622),
-        );
+        let t494 = mul_sub(t484, c(0.019782160922400118), t485 * c(0.005300614043699622));
         let t495 = neg_mul_add(t486, c(0.01448154687870049), t494);
         let t496 = base_rotation[0][0] * c(0.009764694018945443);
         let t497 = mul_sub(base_rotation[0][2], t495, t496);
@@ -11388,59 +10310,23 @@ pub fn matrices<T: Scalar>(
         let t500 = neg_mul_add(c(0.014481546878700494), t67 - t71, t499);
         let t501 = base_rotation[0][1] * c(0.009764694018945445);
         let t502 = mul_add(base_rotation[0][2], t500, t501);
-        let t503 = mul_sub(
-            platform_rotation[0][0],
-            t497,
-            platform_rotation[0][1] * t502,
-        );
+        let t503 = mul_sub(platform_rotation[0][0], t497, platform_rotation[0][1] * t502);
         let t504 = base_rotation[1][0] * c(0.009764694018945443);
         let t505 = mul_sub(base_rotation[1][2], t495, t504);
         let t506 = base_rotation[1][1] * c(0.009764694018945445);
         let t507 = mul_add(base_rotation[1][2], t500, t506);
-        let t508 = mul_sub(
-            platform_rotation[0][0],
-            t505,
-            platform_rotation[0][1] * t507,
-        );
+        let t508 = mul_sub(platform_rotation[0][0], t505, platform_rotation[0][1] * t507);
         let t509 = base_rotation[2][0] * c(0.009764694018945443);
         let t510 = mul_sub(base_rotation[2][2], t495, t509);
         let t511 = base_rotation[2][1] * c(0.009764694018945445);
         let t512 = mul_add(base_rotation[2][2], t500, t511);
-        let t513 = mul_sub(
-            platform_rotation[0][0],
-            t510,
-            platform_rotation[0][1] * t512,
-        );
-        let t514 = mul_sub(
-            platform_rotation[1][0],
-            t497,
-            platform_rotation[1][1] * t502,
-        );
-        let t515 = mul_sub(
-            platform_rotation[1][0],
-            t505,
-            platform_rotation[1][1] * t507,
-        );
-        let t516 = mul_sub(
-            platform_rotation[1][0],
-            t510,
-            platform_rotation[1][1] * t512,
-        );
-        let t517 = mul_sub(
-            platform_rotation[2][0],
-            t497,
-            platform_rotation[2][1] * t502,
-        );
-        let t518 = mul_sub(
-            platform_rotation[2][0],
-            t505,
-            platform_rotation[2][1] * t507,
-        );
-        let t519 = mul_sub(
-            platform_rotation[2][0],
-            t510,
-            platform_rotation[2][1] * t512,
-        );
+        let t513 = mul_sub(platform_rotation[0][0], t510, platform_rotation[0][1] * t512);
+        let t514 = mul_sub(platform_rotation[1][0], t497, platform_rotation[1][1] * t502);
+        let t515 = mul_sub(platform_rotation[1][0], t505, platform_rotation[1][1] * t507);
+        let t516 = mul_sub(platform_rotation[1][0], t510, platform_rotation[1][1] * t512);
+        let t517 = mul_sub(platform_rotation[2][0], t497, platform_rotation[2][1] * t502);
+        let t518 = mul_sub(platform_rotation[2][0], t505, platform_rotation[2][1] * t507);
+        let t519 = mul_sub(platform_rotation[2][0], t510, platform_rotation[2][1] * t512);
         // mass matrix M_b that couples the base acceleration
         let t520 = c(0.9523333333333334) * t226;
         mass_matrix_b[0][0] = mul_sub(base_rotation[0][2], t520, c(1.024) + t231);
@@ -11863,246 +10749,23 @@ pub fn matrices<T: Scalar>(
         let t844 = mul_add(t194, c(0.9523333333333334), t215);
         let t845 = mul_add(t195, c(0.9523333333333334), t216);
         (
-            t19,
-            t20,
-            t21,
-            t53,
-            t57,
-            t62,
-            t67,
-            t71,
-            t75,
-            t94,
-            t95,
-            t96,
-            t98,
-            t100,
-            t102,
-            t106,
-            t107,
-            t108,
-            t110,
-            t112,
-            t114,
-            t124,
-            t125,
-            t126,
-            t128,
-            t130,
-            t132,
-            t142,
-            t143,
-            t144,
-            t146,
-            t148,
-            t150,
-            t157,
-            t158,
-            t159,
-            t161,
-            t163,
-            t165,
-            t169,
-            t170,
-            t171,
-            t173,
-            t175,
-            t177,
-            t178,
-            t179,
-            t180,
-            t181,
-            t182,
-            t183,
-            t184,
-            t185,
-            t186,
-            t187,
-            t188,
-            t189,
-            t190,
-            t191,
-            t192,
-            t193,
-            t194,
-            t195,
-            t217,
-            t218,
-            t219,
-            t220,
-            t221,
-            t222,
-            t228,
-            t231,
-            t237,
-            t241,
-            t247,
-            t251,
-            t257,
-            t267,
-            t277,
-            t282,
-            t283,
-            t284,
-            t285,
-            t286,
-            t287,
-            t288,
-            t289,
-            t290,
-            t293,
-            t294,
-            t298,
-            t299,
-            t304,
-            t309,
-            t314,
-            t315,
-            t316,
-            t317,
-            t318,
-            t319,
-            t320,
-            t321,
-            t322,
-            t323,
-            t324,
-            t327,
-            t328,
-            t333,
-            t338,
-            t346,
-            t350,
-            t354,
-            t382,
-            t386,
-            t390,
-            t415,
-            t419,
-            t423,
-            t447,
-            t450,
-            t453,
-            t458,
-            t460,
-            t462,
-            t467,
-            t469,
-            t474,
-            t489,
-            t491,
-            t493,
-            t503,
-            t508,
-            t513,
-            t514,
-            t515,
-            t516,
-            t517,
-            t518,
-            t519,
-            t602,
-            t605,
-            t608,
-            t618,
-            t619,
-            t620,
-            t656,
-            t658,
-            t661,
-            t664,
-            t666,
-            t668,
-            t675,
-            t677,
-            t679,
-            t686,
-            t688,
-            t690,
-            t697,
-            t699,
-            t701,
-            t708,
-            t710,
-            t712,
-            t719,
-            t721,
-            t723,
-            t730,
-            t732,
-            t734,
-            t754,
-            t756,
-            t758,
-            t760,
-            t762,
-            t764,
-            t766,
-            t768,
-            t770,
-            t772,
-            t774,
-            t776,
-            t778,
-            t780,
-            t782,
-            t784,
-            t786,
-            t788,
-            t791,
-            t793,
-            t794,
-            t795,
-            t796,
-            t797,
-            t798,
-            t799,
-            t800,
-            t801,
-            t802,
-            t803,
-            t804,
-            t805,
-            t806,
-            t807,
-            t808,
-            t809,
-            t810,
-            t811,
-            t812,
-            t813,
-            t814,
-            t815,
-            t816,
-            t817,
-            t818,
-            t819,
-            t820,
-            t821,
-            t822,
-            t823,
-            t824,
-            t825,
-            t826,
-            t827,
-            t828,
-            t829,
-            t830,
-            t831,
-            t832,
-            t833,
-            t834,
-            t835,
-            t836,
-            t837,
-            t838,
-            t839,
-            t840,
-            t841,
-            t842,
-            t843,
-            t844,
-            t845,
+            t19, t20, t21, t53, t57, t62, t67, t71, t75, t94, t95, t96, t98, t100, t102, t106,
+            t107, t108, t110, t112, t114, t124, t125, t126, t128, t130, t132, t142, t143, t144,
+            t146, t148, t150, t157, t158, t159, t161, t163, t165, t169, t170, t171, t173, t175,
+            t177, t178, t179, t180, t181, t182, t183, t184, t185, t186, t187, t188, t189, t190,
+            t191, t192, t193, t194, t195, t217, t218, t219, t220, t221, t222, t228, t231, t237,
+            t241, t247, t251, t257, t267, t277, t282, t283, t284, t285, t286, t287, t288, t289,
+            t290, t293, t294, t298, t299, t304, t309, t314, t315, t316, t317, t318, t319, t320,
+            t321, t322, t323, t324, t327, t328, t333, t338, t346, t350, t354, t382, t386, t390,
+            t415, t419, t423, t447, t450, t453, t458, t460, t462, t467, t469, t474, t489, t491,
+            t493, t503, t508, t513, t514, t515, t516, t517, t518, t519, t602, t605, t608, t618,
+            t619, t620, t656, t658, t661, t664, t666, t668, t675, t677, t679, t686, t688, t690,
+            t697, t699, t701, t708, t710, t712, t719, t721, t723, t730, t732, t734, t754, t756,
+            t758, t760, t762, t764, t766, t768, t770, t772, t774, t776, t778, t780, t782, t784,
+            t786, t788, t791, t793, t794, t795, t796, t797, t798, t799, t800, t801, t802, t803,
+            t804, t805, t806, t807, t808, t809, t810, t811, t812, t813, t814, t815, t816, t817,
+            t818, t819, t820, t821, t822, t823, t824, t825, t826, t827, t828, t829, t830, t831,
+            t832, t833, t834, t835, t836, t837, t838, t839, t840, t841, t842, t843, t844, t845,
         )
     };
     {
@@ -12112,11 +10775,7 @@ pub fn matrices<T: Scalar>(
         let t848 = mul_add(t219, t697, mul_add(t217, t675, t218 * t686));
         let t849 = mul_add(t221, t719, mul_add(t220, t708, t848));
         let t850 = mul_add(base_rotation[0][2], t847, mul_add(t222, t730, t849));
-        let t851 = mul_sub(
-            base_velocity[5],
-            t282,
-            mul_sub(base_velocity[4], t314, t850),
-        );
+        let t851 = mul_sub(base_velocity[5], t282, mul_sub(base_velocity[4], t314, t850));
         coriolis_matrix_p[0][0] = t851;
         coriolis_matrix_b[0][0] = t851;
         let t852 = t721 + t732 + (t677 - t688 - (t699 + t710));
@@ -12124,11 +10783,7 @@ pub fn matrices<T: Scalar>(
         let t854 = mul_add(t219, t699, mul_add(t217, t677, t218 * t688));
         let t855 = mul_add(t221, t721, mul_add(t220, t710, t854));
         let t856 = mul_add(base_rotation[0][2], t853, mul_add(t222, t732, t855));
-        let t857 = mul_sub(
-            base_velocity[5],
-            t290,
-            mul_sub(base_velocity[4], t316, t856),
-        );
+        let t857 = mul_sub(base_velocity[5], t290, mul_sub(base_velocity[4], t316, t856));
         coriolis_matrix_p[0][1] = t857;
         coriolis_matrix_b[0][1] = t857;
         let t858 = t723 + t734 + (t679 - t690 - (t701 + t712));
@@ -12136,11 +10791,7 @@ pub fn matrices<T: Scalar>(
         let t860 = mul_add(t219, t701, mul_add(t217, t679, t218 * t690));
         let t861 = mul_add(t221, t723, mul_add(t220, t712, t860));
         let t862 = mul_add(base_rotation[0][2], t859, mul_add(t222, t734, t861));
-        let t863 = mul_sub(
-            base_velocity[5],
-            t294,
-            mul_sub(base_velocity[4], t324, t862),
-        );
+        let t863 = mul_sub(base_velocity[5], t294, mul_sub(base_velocity[4], t324, t862));
         coriolis_matrix_p[0][2] = t863;
         coriolis_matrix_b[0][2] = t863;
         let t864 = t778 + t784 - (t754 - t760 + (t766 + t772));
@@ -12148,139 +10799,79 @@ pub fn matrices<T: Scalar>(
         let t866 = mul_sub(t219, t766, mul_add(t217, t754, t218 * t760));
         let t867 = mul_add(t221, t778, mul_add(t220, t772, t866));
         let t868 = mul_add(base_rotation[0][2], t865, mul_add(t222, t784, t867));
-        let t869 = mul_sub(
-            base_velocity[5],
-            t299,
-            mul_add(base_velocity[4], t328, t868),
-        );
+        let t869 = mul_sub(base_velocity[5], t299, mul_add(base_velocity[4], t328, t868));
         let t870 = t780 + t786 - (t756 - t762 + (t768 + t774));
         let t871 = c(0.17066666666666666) * t870;
         let t872 = mul_sub(t219, t768, mul_add(t217, t756, t218 * t762));
         let t873 = mul_add(t221, t780, mul_add(t220, t774, t872));
         let t874 = mul_add(base_rotation[0][2], t871, mul_add(t222, t786, t873));
-        let t875 = mul_sub(
-            base_velocity[5],
-            t304,
-            mul_add(base_velocity[4], t333, t874),
-        );
+        let t875 = mul_sub(base_velocity[5], t304, mul_add(base_velocity[4], t333, t874));
         let t876 = t782 + t788 - (t758 - t764 + (t770 + t776));
         let t877 = c(0.17066666666666666) * t876;
         let t878 = mul_sub(t219, t770, mul_add(t217, t758, t218 * t764));
         let t879 = mul_add(t221, t782, mul_add(t220, t776, t878));
         let t880 = mul_add(base_rotation[0][2], t877, mul_add(t222, t788, t879));
-        let t881 = mul_sub(
-            base_velocity[5],
-            t309,
-            mul_add(base_velocity[4], t338, t880),
-        );
+        let t881 = mul_sub(base_velocity[5], t309, mul_add(base_velocity[4], t338, t880));
         let t882 = mul_add(t286, t697, mul_add(t284, t675, t285 * t686));
         let t883 = mul_add(t288, t719, mul_add(t287, t708, t882));
         let t884 = mul_add(base_rotation[1][2], t847, mul_add(t289, t730, t883));
-        let t885 = mul_sub(
-            base_velocity[3],
-            t314,
-            mul_sub(base_velocity[5], t228, t884),
-        );
+        let t885 = mul_sub(base_velocity[3], t314, mul_sub(base_velocity[5], t228, t884));
         coriolis_matrix_p[1][0] = t885;
         coriolis_matrix_b[1][0] = t885;
         let t886 = mul_add(t286, t699, mul_add(t284, t677, t285 * t688));
         let t887 = mul_add(t288, t721, mul_add(t287, t710, t886));
         let t888 = mul_add(base_rotation[1][2], t853, mul_add(t289, t732, t887));
-        let t889 = mul_sub(
-            base_velocity[3],
-            t316,
-            mul_sub(base_velocity[5], t237, t888),
-        );
+        let t889 = mul_sub(base_velocity[3], t316, mul_sub(base_velocity[5], t237, t888));
         coriolis_matrix_p[1][1] = t889;
         coriolis_matrix_b[1][1] = t889;
         let t890 = mul_add(t286, t701, mul_add(t284, t679, t285 * t690));
         let t891 = mul_add(t288, t723, mul_add(t287, t712, t890));
         let t892 = mul_add(base_rotation[1][2], t859, mul_add(t289, t734, t891));
-        let t893 = mul_sub(
-            base_velocity[3],
-            t324,
-            mul_sub(base_velocity[5], t247, t892),
-        );
+        let t893 = mul_sub(base_velocity[3], t324, mul_sub(base_velocity[5], t247, t892));
         coriolis_matrix_p[1][2] = t893;
         coriolis_matrix_b[1][2] = t893;
         let t894 = mul_sub(t286, t766, mul_add(t284, t754, t285 * t760));
         let t895 = mul_add(t288, t778, mul_add(t287, t772, t894));
         let t896 = mul_add(base_rotation[1][2], t865, mul_add(t289, t784, t895));
-        let t897 = mul_sub(
-            base_velocity[3],
-            t328,
-            mul_add(base_velocity[5], t257, t896),
-        );
+        let t897 = mul_sub(base_velocity[3], t328, mul_add(base_velocity[5], t257, t896));
         let t898 = mul_sub(t286, t768, mul_add(t284, t756, t285 * t762));
         let t899 = mul_add(t288, t780, mul_add(t287, t774, t898));
         let t900 = mul_add(base_rotation[1][2], t871, mul_add(t289, t786, t899));
-        let t901 = mul_sub(
-            base_velocity[3],
-            t333,
-            mul_add(base_velocity[5], t267, t900),
-        );
+        let t901 = mul_sub(base_velocity[3], t333, mul_add(base_velocity[5], t267, t900));
         let t902 = mul_sub(t286, t770, mul_add(t284, t758, t285 * t764));
         let t903 = mul_add(t288, t782, mul_add(t287, t776, t902));
         let t904 = mul_add(base_rotation[1][2], t877, mul_add(t289, t788, t903));
-        let t905 = mul_sub(
-            base_velocity[3],
-            t338,
-            mul_add(base_velocity[5], t277, t904),
-        );
+        let t905 = mul_sub(base_velocity[3], t338, mul_add(base_velocity[5], t277, t904));
         let t906 = mul_add(t320, t697, mul_add(t318, t675, t319 * t686));
         let t907 = mul_add(t322, t719, mul_add(t321, t708, t906));
         let t908 = mul_add(base_rotation[2][2], t847, mul_add(t323, t730, t907));
-        let t909 = mul_sub(
-            base_velocity[4],
-            t228,
-            mul_sub(base_velocity[3], t282, t908),
-        );
+        let t909 = mul_sub(base_velocity[4], t228, mul_sub(base_velocity[3], t282, t908));
         coriolis_matrix_p[2][0] = t909;
         coriolis_matrix_b[2][0] = t909;
         let t910 = mul_add(t320, t699, mul_add(t318, t677, t319 * t688));
         let t911 = mul_add(t322, t721, mul_add(t321, t710, t910));
         let t912 = mul_add(base_rotation[2][2], t853, mul_add(t323, t732, t911));
-        let t913 = mul_sub(
-            base_velocity[4],
-            t237,
-            mul_sub(base_velocity[3], t290, t912),
-        );
+        let t913 = mul_sub(base_velocity[4], t237, mul_sub(base_velocity[3], t290, t912));
         coriolis_matrix_p[2][1] = t913;
         coriolis_matrix_b[2][1] = t913;
         let t914 = mul_add(t320, t701, mul_add(t318, t679, t319 * t690));
         let t915 = mul_add(t322, t723, mul_add(t321, t712, t914));
         let t916 = mul_add(base_rotation[2][2], t859, mul_add(t323, t734, t915));
-        let t917 = mul_sub(
-            base_velocity[4],
-            t247,
-            mul_sub(base_velocity[3], t294, t916),
-        );
+        let t917 = mul_sub(base_velocity[4], t247, mul_sub(base_velocity[3], t294, t916));
         coriolis_matrix_p[2][2] = t917;
         coriolis_matrix_b[2][2] = t917;
         let t918 = mul_sub(t320, t766, mul_add(t318, t754, t319 * t760));
         let t919 = mul_add(t322, t778, mul_add(t321, t772, t918));
         let t920 = mul_add(base_rotation[2][2], t865, mul_add(t323, t784, t919));
-        let t921 = mul_sub(
-            base_velocity[4],
-            t257,
-            mul_add(base_velocity[3], t299, t920),
-        );
+        let t921 = mul_sub(base_velocity[4], t257, mul_add(base_velocity[3], t299, t920));
         let t922 = mul_sub(t320, t768, mul_add(t318, t756, t319 * t762));
         let t923 = mul_add(t322, t780, mul_add(t321, t774, t922));
         let t924 = mul_add(base_rotation[2][2], t871, mul_add(t323, t786, t923));
-        let t925 = mul_sub(
-            base_velocity[4],
-            t267,
-            mul_add(base_velocity[3], t304, t924),
-        );
+        let t925 = mul_sub(base_velocity[4], t267, mul_add(base_velocity[3], t304, t924));
         let t926 = mul_sub(t320, t770, mul_add(t318, t758, t319 * t764));
         let t927 = mul_add(t322, t782, mul_add(t321, t776, t926));
         let t928 = mul_add(base_rotation[2][2], t877, mul_add(t323, t788, t927));
-        let t929 = mul_sub(
-            base_velocity[4],
-            t277,
-            mul_add(base_velocity[3], t309, t928),
-        );
+        let t929 = mul_sub(base_velocity[4], t277, mul_add(base_velocity[3], t309, t928));
         let t930 = mul_add(t697, t816, mul_sub(t675, t798, t686 * t807));
         let t931 = mul_sub(t719, t834, mul_add(t708, t825, t930));
         let t932 = mul_sub(t98, t791, mul_add(t730, t843, t931));
@@ -12419,25 +11010,13 @@ pub fn matrices<T: Scalar>(
         // Coriolis matrix of the legs
         let t1047 = mul_add(t110, t804, neg_mul_add(t98, t795, t869));
         let t1048 = mul_add(t146, t822, mul_sub(t128, t813, t1047));
-        coriolis_matrix_p[0][3] = neg_mul_add(
-            t173,
-            t840,
-            neg_mul_add(t161, t831, t1048),
-        );
+        coriolis_matrix_p[0][3] = neg_mul_add(t173, t840, neg_mul_add(t161, t831, t1048));
         let t1049 = mul_add(t112, t805, neg_mul_add(t100, t796, t901));
         let t1050 = mul_add(t148, t823, mul_sub(t130, t814, t1049));
-        coriolis_matrix_p[1][4] = neg_mul_add(
-            t175,
-            t841,
-            neg_mul_add(t163, t832, t1050),
-        );
+        coriolis_matrix_p[1][4] = neg_mul_add(t175, t841, neg_mul_add(t163, t832, t1050));
         let t1051 = mul_add(t114, t806, neg_mul_add(t102, t797, t929));
         let t1052 = mul_add(t150, t824, mul_sub(t132, t815, t1051));
-        coriolis_matrix_p[2][5] = neg_mul_add(
-            t177,
-            t842,
-            neg_mul_add(t165, t833, t1052),
-        );
+        coriolis_matrix_p[2][5] = neg_mul_add(t177, t842, neg_mul_add(t165, t833, t1052));
         // leg 1: rate of the sliding masses' first moment, its moment about the axis
         let t1053 = c(0.1253686515315582) * t608;
         let t1054 = mul_add(t53, c(0.9523333333333334), c(0.03055));
@@ -12533,41 +11112,21 @@ pub fn matrices<T: Scalar>(
         let t1130 = mul_add(base_rotation[2][0], t1122, t1129);
         let t1131 = mul_add(t315, t619, mul_sub(base_rotation[2][1], t1119, t1130));
         coriolis_matrix_b[2][5] = neg_mul_add(t317, t618, t1131);
-        let t1132 = mul_sub(
-            c(0.019782160922400118),
-            t1087,
-            c(0.005300614043699622) * t1088,
-        );
+        let t1132 = mul_sub(c(0.019782160922400118), t1087, c(0.005300614043699622) * t1088);
         let t1133 = neg_mul_add(c(0.01448154687870049), t1086, t1132);
         let t1134 = c(0.019782160922400118) * (t661 - t668);
         let t1135 = mul_sub(c(0.005300614043699624), t656 - t658, t1134);
         let t1136 = neg_mul_add(c(0.014481546878700494), t664 - t666, t1135);
-        let t1137 = mul_sub(
-            platform_rotation[2][0],
-            t1133,
-            platform_rotation[2][1] * t1136,
-        );
-        let t1138 = mul_sub(
-            platform_rotation[0][0],
-            t1133,
-            platform_rotation[0][1] * t1136,
-        );
+        let t1137 = mul_sub(platform_rotation[2][0], t1133, platform_rotation[2][1] * t1136);
+        let t1138 = mul_sub(platform_rotation[0][0], t1133, platform_rotation[0][1] * t1136);
         let t1139 = mul_sub(base_rotation[0][2], t1138, base_velocity[5] * t508);
         let t1140 = mul_add(base_velocity[4], t513, t1139);
-        let t1141 = mul_sub(
-            platform_rotation[1][0],
-            t1133,
-            platform_rotation[1][1] * t1136,
-        );
+        let t1141 = mul_sub(platform_rotation[1][0], t1133, platform_rotation[1][1] * t1136);
         let t1142 = mul_sub(base_rotation[1][2], t1141, base_velocity[3] * t516);
         let t1143 = mul_add(base_velocity[5], t514, t1142);
         let t1144 = t1140 + t1143;
         let t1145 = mul_add(base_rotation[2][2], t1137, t1144);
-        let t1146 = mul_sub(
-            base_velocity[3],
-            t518,
-            mul_sub(base_velocity[4], t517, t1145),
-        );
+        let t1146 = mul_sub(base_velocity[3], t518, mul_sub(base_velocity[4], t517, t1145));
         let t1147 = mul_add(t184, t1065, mul_sub(t178, t1057, t181 * t1060));
         let t1148 = mul_add(t190, t1073, mul_add(t187, t1070, t1147));
         let t1149 = mul_add(t193, t1076, t1148);
@@ -12638,30 +11197,24 @@ pub fn matrices<T: Scalar>(
         let t1204 = mul_sub(platform_velocity[3], t450, platform_velocity[4] * t453);
         let t1205 = mul_add(t110, t805, neg_mul_add(t98, t796, t875));
         let t1206 = mul_add(t146, t823, mul_sub(t128, t814, t1205));
-        coriolis_matrix_p[0][4] = t1204
-            - mul_add(t173, t841, mul_sub(t161, t832, t1206));
+        coriolis_matrix_p[0][4] = t1204 - mul_add(t173, t841, mul_sub(t161, t832, t1206));
         let t1207 = mul_add(t110, t806, neg_mul_add(t98, t797, t881));
         let t1208 = mul_add(t146, t824, mul_sub(t128, t815, t1207));
         let t1209 = mul_sub(platform_velocity[5], t453, platform_velocity[3] * t447);
-        coriolis_matrix_p[0][5] = neg_mul_add(t173, t842, neg_mul_add(t161, t833, t1208))
-            - t1209;
+        coriolis_matrix_p[0][5] = neg_mul_add(t173, t842, neg_mul_add(t161, t833, t1208)) - t1209;
         let t1210 = mul_add(t112, t804, neg_mul_add(t100, t795, t897));
         let t1211 = mul_add(t148, t822, mul_sub(t130, t813, t1210));
-        coriolis_matrix_p[1][3] = neg_mul_add(t175, t840, neg_mul_add(t163, t831, t1211))
-            - t1204;
+        coriolis_matrix_p[1][3] = neg_mul_add(t175, t840, neg_mul_add(t163, t831, t1211)) - t1204;
         let t1212 = mul_sub(platform_velocity[4], t447, platform_velocity[5] * t450);
         let t1213 = mul_add(t112, t806, neg_mul_add(t100, t797, t905));
         let t1214 = mul_add(t148, t824, mul_sub(t130, t815, t1213));
-        coriolis_matrix_p[1][5] = t1212
-            - mul_add(t175, t842, mul_sub(t163, t833, t1214));
+        coriolis_matrix_p[1][5] = t1212 - mul_add(t175, t842, mul_sub(t163, t833, t1214));
         let t1215 = mul_add(t114, t804, neg_mul_add(t102, t795, t921));
         let t1216 = mul_add(t150, t822, mul_sub(t132, t813, t1215));
-        coriolis_matrix_p[2][3] = t1209
-            - mul_add(t177, t840, mul_sub(t165, t831, t1216));
+        coriolis_matrix_p[2][3] = t1209 - mul_add(t177, t840, mul_sub(t165, t831, t1216));
         let t1217 = mul_add(t114, t805, neg_mul_add(t102, t796, t925));
         let t1218 = mul_add(t150, t823, mul_sub(t132, t814, t1217));
-        coriolis_matrix_p[2][4] = neg_mul_add(t177, t841, neg_mul_add(t165, t832, t1218))
-            - t1212;
+        coriolis_matrix_p[2][4] = neg_mul_add(t177, t841, neg_mul_add(t165, t832, t1218)) - t1212;
         let t1219 = mul_sub(t181, t804, mul_add(t178, t795, t953));
         let t1220 = mul_add(t187, t822, mul_add(t184, t813, t1219));
         let t1221 = mul_add(t193, t840, mul_sub(t190, t831, t1220));
@@ -13668,262 +12221,23 @@ pub fn equation_of_motion<T: Scalar>(
 ) {
     let c = T::constant;
     let (
-        t19,
-        t20,
-        t21,
-        t53,
-        t57,
-        t62,
-        t67,
-        t71,
-        t75,
-        t89,
-        t91,
-        t98,
-        t100,
-        t102,
-        t103,
-        t104,
-        t110,
-        t112,
-        t114,
-        t119,
-        t121,
-        t128,
-        t130,
-        t132,
-        t137,
-        t139,
-        t146,
-        t148,
-        t150,
-        t154,
-        t155,
-        t161,
-        t163,
-        t165,
-        t166,
-        t167,
-        t168,
-        t173,
-        t175,
-        t177,
-        t178,
-        t179,
-        t180,
-        t181,
-        t182,
-        t183,
-        t184,
-        t185,
-        t186,
-        t187,
-        t188,
-        t189,
-        t190,
-        t191,
-        t192,
-        t193,
-        t194,
-        t195,
-        t196,
-        t197,
-        t198,
-        t199,
-        t200,
-        t201,
-        t202,
-        t203,
-        t204,
-        t205,
-        t206,
-        t207,
-        t208,
-        t209,
-        t210,
-        t211,
-        t212,
-        t213,
-        t214,
-        t215,
-        t216,
-        t232,
-        t233,
-        t234,
-        t235,
-        t236,
-        t237,
-        t238,
-        t239,
-        t240,
-        t246,
-        t249,
-        t255,
-        t259,
-        t265,
-        t269,
-        t275,
-        t285,
-        t295,
-        t300,
-        t301,
-        t302,
-        t303,
-        t304,
-        t305,
-        t306,
-        t307,
-        t308,
-        t311,
-        t312,
-        t316,
-        t317,
-        t322,
-        t327,
-        t332,
-        t333,
-        t334,
-        t335,
-        t336,
-        t337,
-        t338,
-        t339,
-        t340,
-        t341,
-        t342,
-        t345,
-        t346,
-        t351,
-        t356,
-        t364,
-        t368,
-        t372,
-        t400,
-        t404,
-        t408,
-        t433,
-        t437,
-        t441,
-        t465,
-        t468,
-        t471,
-        t476,
-        t478,
-        t480,
-        t485,
-        t487,
-        t492,
-        t507,
-        t509,
-        t511,
-        t521,
-        t526,
-        t531,
-        t532,
-        t533,
-        t534,
-        t535,
-        t536,
-        t537,
-        t620,
-        t623,
-        t626,
-        t636,
-        t637,
-        t638,
-        t674,
-        t676,
-        t679,
-        t682,
-        t684,
-        t686,
-        t693,
-        t695,
-        t697,
-        t704,
-        t706,
-        t708,
-        t715,
-        t717,
-        t719,
-        t726,
-        t728,
-        t730,
-        t737,
-        t739,
-        t741,
-        t748,
-        t750,
-        t752,
-        t768,
-        t769,
-        t770,
-        t772,
-        t774,
-        t776,
-        t778,
-        t780,
-        t782,
-        t784,
-        t786,
-        t788,
-        t790,
-        t792,
-        t794,
-        t796,
-        t798,
-        t800,
-        t802,
-        t804,
-        t806,
-        t807,
-        t808,
-        t809,
-        t810,
-        t811,
-        t812,
-        t813,
-        t814,
-        t815,
-        t816,
-        t817,
-        t818,
-        t819,
-        t820,
-        t821,
-        t822,
-        t823,
-        t824,
-        t825,
-        t826,
-        t827,
-        t828,
-        t829,
-        t830,
-        t831,
-        t832,
-        t833,
-        t834,
-        t835,
-        t836,
-        t837,
-        t838,
-        t839,
-        t840,
-        t841,
-        t842,
-        t843,
-        t844,
-        t845,
-        t846,
-        t847,
-        t848,
-        t849,
-        t850,
-        t851,
-        t852,
-        t853,
-        t854,
+        t19, t20, t21, t53, t57, t62, t67, t71, t75, t89, t91, t98, t100, t102, t103, t104, t110,
+        t112, t114, t119, t121, t128, t130, t132, t137, t139, t146, t148, t150, t154, t155, t161,
+        t163, t165, t166, t167, t168, t173, t175, t177, t178, t179, t180, t181, t182, t183, t184,
+        t185, t186, t187, t188, t189, t190, t191, t192, t193, t194, t195, t196, t197, t198, t199,
+        t200, t201, t202, t203, t204, t205, t206, t207, t208, t209, t210, t211, t212, t213, t214,
+        t215, t216, t232, t233, t234, t235, t236, t237, t238, t239, t240, t246, t249, t255, t259,
+        t265, t269, t275, t285, t295, t300, t301, t302, t303, t304, t305, t306, t307, t308, t311,
+        t312, t316, t317, t322, t327, t332, t333, t334, t335, t336, t337, t338, t339, t340, t341,
+        t342, t345, t346, t351, t356, t364, t368, t372, t400, t404, t408, t433, t437, t441, t465,
+        t468, t471, t476, t478, t480, t485, t487, t492, t507, t509, t511, t521, t526, t531, t532,
+        t533, t534, t535, t536, t537, t620, t623, t626, t636, t637, t638, t674, t676, t679, t682,
+        t684, t686, t693, t695, t697, t704, t706, t708, t715, t717, t719, t726, t728, t730, t737,
+        t739, t741, t748, t750, t752, t768, t769, t770, t772, t774, t776, t778, t780, t782, t784,
+        t786, t788, t790, t792, t794, t796, t798, t800, t802, t804, t806, t807, t808, t809, t810,
+        t811, t812, t813, t814, t815, t816, t817, t818, t819, t820, t821, t822, t823, t824, t825,
+        t826, t827, t828, t829, t830, t831, t832, t833, t834, t835, t836, t837, t838, t839, t840,
+        t841, t842, t843, t844, t845, t846, t847, t848, t849, t850, t851, t852, t853, t854,
     ) = {
         // rotation of the platform seen from the base
         let t1 = base_rotation[1][0] * platform_rotation[1][0];
@@ -14555,75 +12869,39 @@ pub fn equation_of_motion<T: Scalar>(
         let t472 = platform_rotation[0][2] * c(0.013354412);
         let t473 = platform_rotation[0][0] * c(0.032245600000000006);
         let t474 = platform_rotation[0][1] * c(0.032245600000000006);
-        let t475 = mul_add(
-            platform_rotation[0][0],
-            t473,
-            platform_rotation[0][1] * t474,
-        );
+        let t475 = mul_add(platform_rotation[0][0], t473, platform_rotation[0][1] * t474);
         let t476 = mul_add(platform_rotation[0][2], t472, t475);
-        let t477 = mul_add(
-            platform_rotation[1][0],
-            t473,
-            platform_rotation[1][1] * t474,
-        );
+        let t477 = mul_add(platform_rotation[1][0], t473, platform_rotation[1][1] * t474);
         let t478 = mul_add(platform_rotation[1][2], t472, t477);
-        let t479 = mul_add(
-            platform_rotation[2][0],
-            t473,
-            platform_rotation[2][1] * t474,
-        );
+        let t479 = mul_add(platform_rotation[2][0], t473, platform_rotation[2][1] * t474);
         let t480 = mul_add(platform_rotation[2][2], t472, t479);
         let t481 = platform_rotation[1][2] * c(0.013354412);
         let t482 = platform_rotation[1][0] * c(0.032245600000000006);
         let t483 = platform_rotation[1][1] * c(0.032245600000000006);
-        let t484 = mul_add(
-            platform_rotation[1][0],
-            t482,
-            platform_rotation[1][1] * t483,
-        );
+        let t484 = mul_add(platform_rotation[1][0], t482, platform_rotation[1][1] * t483);
         let t485 = mul_add(platform_rotation[1][2], t481, t484);
-        let t486 = mul_add(
-            platform_rotation[2][0],
-            t482,
-            platform_rotation[2][1] * t483,
-        );
+        let t486 = mul_add(platform_rotation[2][0], t482, platform_rotation[2][1] * t483);
         let t487 = mul_add(platform_rotation[2][2], t481, t486);
         let t488 = platform_rotation[2][2] * c(0.013354412);
         let t489 = platform_rotation[2][0] * c(0.032245600000000006);
         let t490 = platform_rotation[2][1] * c(0.032245600000000006);
-        let t491 = mul_add(
-            platform_rotation[2][0],
-            t489,
-            platform_rotation[2][1] * t490,
-        );
+        let t491 = mul_add(platform_rotation[2][0], t489, platform_rotation[2][1] * t490);
         let t492 = mul_add(platform_rotation[2][2], t488, t491);
-        mass_matrix_p[0][0] = neg_mul_add(
-            base_rotation[0][2],
-            t245,
-            c(8.139999999999999),
-        ) - t249;
+        mass_matrix_p[0][0] = neg_mul_add(base_rotation[0][2], t245, c(8.139999999999999)) - t249;
         let t493 = t465 - (t289 + t399);
         mass_matrix_p[0][4] = t493;
         mass_matrix_p[4][0] = t493;
         let t494 = -(t468 + (t299 + t432));
         mass_matrix_p[0][5] = t494;
         mass_matrix_p[5][0] = t494;
-        mass_matrix_p[1][1] = neg_mul_add(
-            base_rotation[1][2],
-            t254,
-            c(8.139999999999999),
-        ) - t311;
+        mass_matrix_p[1][1] = neg_mul_add(base_rotation[1][2], t254, c(8.139999999999999)) - t311;
         let t495 = -(t465 + (t321 + t367));
         mass_matrix_p[1][3] = t495;
         mass_matrix_p[3][1] = t495;
         let t496 = t471 - (t331 + t436);
         mass_matrix_p[1][5] = t496;
         mass_matrix_p[5][1] = t496;
-        mass_matrix_p[2][2] = neg_mul_add(
-            base_rotation[2][2],
-            t264,
-            c(8.139999999999999),
-        ) - t345;
+        mass_matrix_p[2][2] = neg_mul_add(base_rotation[2][2], t264, c(8.139999999999999)) - t345;
         let t497 = t468 - (t350 + t371);
         mass_matrix_p[2][3] = t497;
         mass_matrix_p[3][2] = t497;
@@ -14654,11 +12932,7 @@ pub fn equation_of_motion<T: Scalar>(
         let t510 = base_rotation[2][0] * c(1.5612511283791264e-17);
         let t511 = mul_sub(base_rotation[2][2], t505, t510);
         // their moment by platform joint and Hooke joint
-        let t512 = mul_sub(
-            t502,
-            c(0.019782160922400118),
-            t503 * c(0.005300614043699622),
-        );
+        let t512 = mul_sub(t502, c(0.019782160922400118), t503 * c(0.005300614043699622));
         let t513 = neg_mul_add(t504, c(0.01448154687870049), t512);
         let t514 = base_rotation[0][0] * c(0.009764694018945443);
         let t515 = mul_sub(base_rotation[0][2], t513, t514);
@@ -14667,59 +12941,23 @@ pub fn equation_of_motion<T: Scalar>(
         let t518 = neg_mul_add(c(0.014481546878700494), t67 - t71, t517);
         let t519 = base_rotation[0][1] * c(0.009764694018945445);
         let t520 = mul_add(base_rotation[0][2], t518, t519);
-        let t521 = mul_sub(
-            platform_rotation[0][0],
-            t515,
-            platform_rotation[0][1] * t520,
-        );
+        let t521 = mul_sub(platform_rotation[0][0], t515, platform_rotation[0][1] * t520);
         let t522 = base_rotation[1][0] * c(0.009764694018945443);
         let t523 = mul_sub(base_rotation[1][2], t513, t522);
         let t524 = base_rotation[1][1] * c(0.009764694018945445);
         let t525 = mul_add(base_rotation[1][2], t518, t524);
-        let t526 = mul_sub(
-            platform_rotation[0][0],
-            t523,
-            platform_rotation[0][1] * t525,
-        );
+        let t526 = mul_sub(platform_rotation[0][0], t523, platform_rotation[0][1] * t525);
         let t527 = base_rotation[2][0] * c(0.009764694018945443);
         let t528 = mul_sub(base_rotation[2][2], t513, t527);
         let t529 = base_rotation[2][1] * c(0.009764694018945445);
         let t530 = mul_add(base_rotation[2][2], t518, t529);
-        let t531 = mul_sub(
-            platform_rotation[0][0],
-            t528,
-            platform_rotation[0][1] * t530,
-        );
-        let t532 = mul_sub(
-            platform_rotation[1][0],
-            t515,
-            platform_rotation[1][1] * t520,
-        );
-        let t533 = mul_sub(
-            platform_rotation[1][0],
-            t523,
-            platform_rotation[1][1] * t525,
-        );
-        let t534 = mul_sub(
-            platform_rotation[1][0],
-            t528,
-            platform_rotation[1][1] * t530,
-        );
-        let t535 = mul_sub(
-            platform_rotation[2][0],
-            t515,
-            platform_rotation[2][1] * t520,
-        );
-        let t536 = mul_sub(
-            platform_rotation[2][0],
-            t523,
-            platform_rotation[2][1] * t525,
-        );
-        let t537 = mul_sub(
-            platform_rotation[2][0],
-            t528,
-            platform_rotation[2][1] * t530,
-        );
+        let t531 = mul_sub(platform_rotation[0][0], t528, platform_rotation[0][1] * t530);
+        let t532 = mul_sub(platform_rotation[1][0], t515, platform_rotation[1][1] * t520);
+        let t533 = mul_sub(platform_rotation[1][0], t523, platform_rotation[1][1] * t525);
+        let t534 = mul_sub(platform_rotation[1][0], t528, platform_rotation[1][1] * t530);
+        let t535 = mul_sub(platform_rotation[2][0], t515, platform_rotation[2][1] * t520);
+        let t536 = mul_sub(platform_rotation[2][0], t523, platform_rotation[2][1] * t525);
+        let t537 = mul_sub(platform_rotation[2][0], t528, platform_rotation[2][1] * t530);
         // mass matrix M_b that couples the base acceleration
         let t538 = c(0.9523333333333334) * t244;
         mass_matrix_b[0][0] = mul_sub(base_rotation[0][2], t538, c(1.024) + t249);
@@ -15130,262 +13368,25 @@ pub fn equation_of_motion<T: Scalar>(
         let t853 = mul_add(t203, c(0.9523333333333334), t230);
         let t854 = mul_add(t204, c(0.9523333333333334), t231);
         (
-            t19,
-            t20,
-            t21,
-            t53,
-            t57,
-            t62,
-            t67,
-            t71,
-            t75,
-            t89,
-            t91,
-            t98,
-            t100,
-            t102,
-            t103,
-            t104,
-            t110,
-            t112,
-            t114,
-            t119,
-            t121,
-            t128,
-            t130,
-            t132,
-            t137,
-            t139,
-            t146,
-            t148,
-            t150,
-            t154,
-            t155,
-            t161,
-            t163,
-            t165,
-            t166,
-            t167,
-            t168,
-            t173,
-            t175,
-            t177,
-            t178,
-            t179,
-            t180,
-            t181,
-            t182,
-            t183,
-            t184,
-            t185,
-            t186,
-            t187,
-            t188,
-            t189,
-            t190,
-            t191,
-            t192,
-            t193,
-            t194,
-            t195,
-            t196,
-            t197,
-            t198,
-            t199,
-            t200,
-            t201,
-            t202,
-            t203,
-            t204,
-            t205,
-            t206,
-            t207,
-            t208,
-            t209,
-            t210,
-            t211,
-            t212,
-            t213,
-            t214,
-            t215,
-            t216,
-            t232,
-            t233,
-            t234,
-            t235,
-            t236,
-            t237,
-            t238,
-            t239,
-            t240,
-            t246,
-            t249,
-            t255,
-            t259,
-            t265,
-            t269,
-            t275,
-            t285,
-            t295,
-            t300,
-            t301,
-            t302,
-            t303,
-            t304,
-            t305,
-            t306,
-            t307,
-            t308,
-            t311,
-            t312,
-            t316,
-            t317,
-            t322,
-            t327,
-            t332,
-            t333,
-            t334,
-            t335,
-            t336,
-            t337,
-            t338,
-            t339,
-            t340,
-            t341,
-            t342,
-            t345,
-            t346,
-            t351,
-            t356,
-            t364,
-            t368,
-            t372,
-            t400,
-            t404,
-            t408,
-            t433,
-            t437,
-            t441,
-            t465,
-            t468,
-            t471,
-            t476,
-            t478,
-            t480,
-            t485,
-            t487,
-            t492,
-            t507,
-            t509,
-            t511,
-            t521,
-            t526,
-            t531,
-            t532,
-            t533,
-            t534,
-            t535,
-            t536,
-            t537,
-            t620,
-            t623,
-            t626,
-            t636,
-            t637,
-            t638,
-            t674,
-            t676,
-            t679,
-            t682,
-            t684,
-            t686,
-            t693,
-            t695,
-            t697,
-            t704,
-            t706,
-            t708,
-            t715,
-            t717,
-            t719,
-            t726,
-            t728,
-            t730,
-            t737,
-            t739,
-            t741,
-            t748,
-            t750,
-            t752,
-            t768,
-            t769,
-            t770,
-            t772,
-            t774,
-            t776,
-            t778,
-            t780,
-            t782,
-            t784,
-            t786,
-            t788,
-            t790,
-            t792,
-            t794,
-            t796,
-            t798,
-            t800,
-            t802,
-            t804,
-            t806,
-            t807,
-            t808,
-            t809,
-            t810,
-            t811,
-            t812,
-            t813,
-            t814,
-            t815,
-            t816,
-            t817,
-            t818,
-            t819,
-            t820,
-            t821,
-            t822,
-            t823,
-            t824,
-            t825,
-            t826,
-            t827,
-            t828,
-            t829,
-            t830,
-            t831,
-            t832,
-            t833,
-            t834,
-            t835,
-            t836,
-            t837,
-            t838,
-            t839,
-            t840,
-            t841,
-            t842,
-            t843,
-            t844,
-            t845,
-            t846,
-            t847,
-            t848,
-            t849,
-            t850,
-            t851,
-            t852,
-            t853,
-            t854,
+            t19, t20, t21, t53, t57, t62, t67, t71, t75, t89, t91, t98, t100, t102, t103, t104,
+            t110, t112, t114, t119, t121, t128, t130, t132, t137, t139, t146, t148, t150, t154,
+            t155, t161, t163, t165, t166, t167, t168, t173, t175, t177, t178, t179, t180, t181,
+            t182, t183, t184, t185, t186, t187, t188, t189, t190, t191, t192, t193, t194, t195,
+            t196, t197, t198, t199, t200, t201, t202, t203, t204, t205, t206, t207, t208, t209,
+            t210, t211, t212, t213, t214, t215, t216, t232, t233, t234, t235, t236, t237, t238,
+            t239, t240, t246, t249, t255, t259, t265, t269, t275, t285, t295, t300, t301, t302,
+            t303, t304, t305, t306, t307, t308, t311, t312, t316, t317, t322, t327, t332, t333,
+            t334, t335, t336, t337, t338, t339, t340, t341, t342, t345, t346, t351, t356, t364,
+            t368, t372, t400, t404, t408, t433, t437, t441, t465, t468, t471, t476, t478, t480,
+            t485, t487, t492, t507, t509, t511, t521, t526, t531, t532, t533, t534, t535, t536,
+            t537, t620, t623, t626, t636, t637, t638, t674, t676, t679, t682, t684, t686, t693,
+            t695, t697, t704, t706, t708, t715, t717, t719, t726, t728, t730, t737, t739, t741,
+            t748, t750, t752, t768, t769, t770, t772, t774, t776, t778, t780, t782, t784, t786,
+            t788, t790, t792, t794, t796, t798, t800, t802, t804, t806, t807, t808, t809, t810,
+            t811, t812, t813, t814, t815, t816, t817, t818, t819, t820, t821, t822, t823, t824,
+            t825, t826, t827, t828, t829, t830, t831, t832, t833, t834, t835, t836, t837, t838,
+            t839, t840, t841, t842, t843, t844, t845, t846, t847, t848, t849, t850, t851, t852,
+            t853, t854,
         )
     };
     {
@@ -15407,11 +13408,7 @@ pub fn equation_of_motion<T: Scalar>(
         let t866 = mul_add(t237, t715, mul_add(t235, t693, t236 * t704));
         let t867 = mul_add(t239, t737, mul_add(t238, t726, t866));
         let t868 = mul_add(base_rotation[0][2], t865, mul_add(t240, t748, t867));
-        let t869 = mul_sub(
-            base_velocity[5],
-            t300,
-            mul_sub(base_velocity[4], t332, t868),
-        );
+        let t869 = mul_sub(base_velocity[5], t300, mul_sub(base_velocity[4], t332, t868));
         coriolis_matrix_p[0][0] = t869;
         coriolis_matrix_b[0][0] = t869;
         let t870 = t739 + t750 + (t695 - t706 - (t717 + t728));
@@ -15419,11 +13416,7 @@ pub fn equation_of_motion<T: Scalar>(
         let t872 = mul_add(t237, t717, mul_add(t235, t695, t236 * t706));
         let t873 = mul_add(t239, t739, mul_add(t238, t728, t872));
         let t874 = mul_add(base_rotation[0][2], t871, mul_add(t240, t750, t873));
-        let t875 = mul_sub(
-            base_velocity[5],
-            t308,
-            mul_sub(base_velocity[4], t334, t874),
-        );
+        let t875 = mul_sub(base_velocity[5], t308, mul_sub(base_velocity[4], t334, t874));
         coriolis_matrix_p[0][1] = t875;
         coriolis_matrix_b[0][1] = t875;
         let t876 = t741 + t752 + (t697 - t708 - (t719 + t730));
@@ -15431,11 +13424,7 @@ pub fn equation_of_motion<T: Scalar>(
         let t878 = mul_add(t237, t719, mul_add(t235, t697, t236 * t708));
         let t879 = mul_add(t239, t741, mul_add(t238, t730, t878));
         let t880 = mul_add(base_rotation[0][2], t877, mul_add(t240, t752, t879));
-        let t881 = mul_sub(
-            base_velocity[5],
-            t312,
-            mul_sub(base_velocity[4], t342, t880),
-        );
+        let t881 = mul_sub(base_velocity[5], t312, mul_sub(base_velocity[4], t342, t880));
         coriolis_matrix_p[0][2] = t881;
         coriolis_matrix_b[0][2] = t881;
         let t882 = t796 + t802 - (t772 - t778 + (t784 + t790));
@@ -15443,139 +13432,79 @@ pub fn equation_of_motion<T: Scalar>(
         let t884 = mul_sub(t237, t784, mul_add(t235, t772, t236 * t778));
         let t885 = mul_add(t239, t796, mul_add(t238, t790, t884));
         let t886 = mul_add(base_rotation[0][2], t883, mul_add(t240, t802, t885));
-        let t887 = mul_sub(
-            base_velocity[5],
-            t317,
-            mul_add(base_velocity[4], t346, t886),
-        );
+        let t887 = mul_sub(base_velocity[5], t317, mul_add(base_velocity[4], t346, t886));
         let t888 = t798 + t804 - (t774 - t780 + (t786 + t792));
         let t889 = c(0.17066666666666666) * t888;
         let t890 = mul_sub(t237, t786, mul_add(t235, t774, t236 * t780));
         let t891 = mul_add(t239, t798, mul_add(t238, t792, t890));
         let t892 = mul_add(base_rotation[0][2], t889, mul_add(t240, t804, t891));
-        let t893 = mul_sub(
-            base_velocity[5],
-            t322,
-            mul_add(base_velocity[4], t351, t892),
-        );
+        let t893 = mul_sub(base_velocity[5], t322, mul_add(base_velocity[4], t351, t892));
         let t894 = t800 + t806 - (t776 - t782 + (t788 + t794));
         let t895 = c(0.17066666666666666) * t894;
         let t896 = mul_sub(t237, t788, mul_add(t235, t776, t236 * t782));
         let t897 = mul_add(t239, t800, mul_add(t238, t794, t896));
         let t898 = mul_add(base_rotation[0][2], t895, mul_add(t240, t806, t897));
-        let t899 = mul_sub(
-            base_velocity[5],
-            t327,
-            mul_add(base_velocity[4], t356, t898),
-        );
+        let t899 = mul_sub(base_velocity[5], t327, mul_add(base_velocity[4], t356, t898));
         let t900 = mul_add(t304, t715, mul_add(t302, t693, t303 * t704));
         let t901 = mul_add(t306, t737, mul_add(t305, t726, t900));
         let t902 = mul_add(base_rotation[1][2], t865, mul_add(t307, t748, t901));
-        let t903 = mul_sub(
-            base_velocity[3],
-            t332,
-            mul_sub(base_velocity[5], t246, t902),
-        );
+        let t903 = mul_sub(base_velocity[3], t332, mul_sub(base_velocity[5], t246, t902));
         coriolis_matrix_p[1][0] = t903;
         coriolis_matrix_b[1][0] = t903;
         let t904 = mul_add(t304, t717, mul_add(t302, t695, t303 * t706));
         let t905 = mul_add(t306, t739, mul_add(t305, t728, t904));
         let t906 = mul_add(base_rotation[1][2], t871, mul_add(t307, t750, t905));
-        let t907 = mul_sub(
-            base_velocity[3],
-            t334,
-            mul_sub(base_velocity[5], t255, t906),
-        );
+        let t907 = mul_sub(base_velocity[3], t334, mul_sub(base_velocity[5], t255, t906));
         coriolis_matrix_p[1][1] = t907;
         coriolis_matrix_b[1][1] = t907;
         let t908 = mul_add(t304, t719, mul_add(t302, t697, t303 * t708));
         let t909 = mul_add(t306, t741, mul_add(t305, t730, t908));
         let t910 = mul_add(base_rotation[1][2], t877, mul_add(t307, t752, t909));
-        let t911 = mul_sub(
-            base_velocity[3],
-            t342,
-            mul_sub(base_velocity[5], t265, t910),
-        );
+        let t911 = mul_sub(base_velocity[3], t342, mul_sub(base_velocity[5], t265, t910));
         coriolis_matrix_p[1][2] = t911;
         coriolis_matrix_b[1][2] = t911;
         let t912 = mul_sub(t304, t784, mul_add(t302, t772, t303 * t778));
         let t913 = mul_add(t306, t796, mul_add(t305, t790, t912));
         let t914 = mul_add(base_rotation[1][2], t883, mul_add(t307, t802, t913));
-        let t915 = mul_sub(
-            base_velocity[3],
-            t346,
-            mul_add(base_velocity[5], t275, t914),
-        );
+        let t915 = mul_sub(base_velocity[3], t346, mul_add(base_velocity[5], t275, t914));
         let t916 = mul_sub(t304, t786, mul_add(t302, t774, t303 * t780));
         let t917 = mul_add(t306, t798, mul_add(t305, t792, t916));
         let t918 = mul_add(base_rotation[1][2], t889, mul_add(t307, t804, t917));
-        let t919 = mul_sub(
-            base_velocity[3],
-            t351,
-            mul_add(base_velocity[5], t285, t918),
-        );
+        let t919 = mul_sub(base_velocity[3], t351, mul_add(base_velocity[5], t285, t918));
         let t920 = mul_sub(t304, t788, mul_add(t302, t776, t303 * t782));
         let t921 = mul_add(t306, t800, mul_add(t305, t794, t920));
         let t922 = mul_add(base_rotation[1][2], t895, mul_add(t307, t806, t921));
-        let t923 = mul_sub(
-            base_velocity[3],
-            t356,
-            mul_add(base_velocity[5], t295, t922),
-        );
+        let t923 = mul_sub(base_velocity[3], t356, mul_add(base_velocity[5], t295, t922));
         let t924 = mul_add(t338, t715, mul_add(t336, t693, t337 * t704));
         let t925 = mul_add(t340, t737, mul_add(t339, t726, t924));
         let t926 = mul_add(base_rotation[2][2], t865, mul_add(t341, t748, t925));
-        let t927 = mul_sub(
-            base_velocity[4],
-            t246,
-            mul_sub(base_velocity[3], t300, t926),
-        );
+        let t927 = mul_sub(base_velocity[4], t246, mul_sub(base_velocity[3], t300, t926));
         coriolis_matrix_p[2][0] = t927;
         coriolis_matrix_b[2][0] = t927;
         let t928 = mul_add(t338, t717, mul_add(t336, t695, t337 * t706));
         let t929 = mul_add(t340, t739, mul_add(t339, t728, t928));
         let t930 = mul_add(base_rotation[2][2], t871, mul_add(t341, t750, t929));
-        let t931 = mul_sub(
-            base_velocity[4],
-            t255,
-            mul_sub(base_velocity[3], t308, t930),
-        );
+        let t931 = mul_sub(base_velocity[4], t255, mul_sub(base_velocity[3], t308, t930));
         coriolis_matrix_p[2][1] = t931;
         coriolis_matrix_b[2][1] = t931;
         let t932 = mul_add(t338, t719, mul_add(t336, t697, t337 * t708));
         let t933 = mul_add(t340, t741, mul_add(t339, t730, t932));
         let t934 = mul_add(base_rotation[2][2], t877, mul_add(t341, t752, t933));
-        let t935 = mul_sub(
-            base_velocity[4],
-            t265,
-            mul_sub(base_velocity[3], t312, t934),
-        );
+        let t935 = mul_sub(base_velocity[4], t265, mul_sub(base_velocity[3], t312, t934));
         coriolis_matrix_p[2][2] = t935;
         coriolis_matrix_b[2][2] = t935;
         let t936 = mul_sub(t338, t784, mul_add(t336, t772, t337 * t778));
         let t937 = mul_add(t340, t796, mul_add(t339, t790, t936));
         let t938 = mul_add(base_rotation[2][2], t883, mul_add(t341, t802, t937));
-        let t939 = mul_sub(
-            base_velocity[4],
-            t275,
-            mul_add(base_velocity[3], t317, t938),
-        );
+        let t939 = mul_sub(base_velocity[4], t275, mul_add(base_velocity[3], t317, t938));
         let t940 = mul_sub(t338, t786, mul_add(t336, t774, t337 * t780));
         let t941 = mul_add(t340, t798, mul_add(t339, t792, t940));
         let t942 = mul_add(base_rotation[2][2], t889, mul_add(t341, t804, t941));
-        let t943 = mul_sub(
-            base_velocity[4],
-            t285,
-            mul_add(base_velocity[3], t322, t942),
-        );
+        let t943 = mul_sub(base_velocity[4], t285, mul_add(base_velocity[3], t322, t942));
         let t944 = mul_sub(t338, t788, mul_add(t336, t776, t337 * t782));
         let t945 = mul_add(t340, t800, mul_add(t339, t794, t944));
         let t946 = mul_add(base_rotation[2][2], t895, mul_add(t341, t806, t945));
-        let t947 = mul_sub(
-            base_velocity[4],
-            t295,
-            mul_add(base_velocity[3], t327, t946),
-        );
+        let t947 = mul_sub(base_velocity[4], t295, mul_add(base_velocity[3], t327, t946));
         let t948 = mul_add(t715, t834, mul_sub(t693, t816, t704 * t825));
         let t949 = mul_sub(t737, t852, mul_add(t726, t843, t948));
         let t950 = mul_sub(t98, t809, mul_add(t748, t861, t949));
@@ -15822,41 +13751,21 @@ pub fn equation_of_motion<T: Scalar>(
         let t1159 = mul_add(base_rotation[2][0], t1149, t1158);
         let t1160 = mul_add(t333, t637, mul_sub(base_rotation[2][1], t1146, t1159));
         let t1161 = mul_sub(t335, t636, t1160);
-        let t1162 = mul_sub(
-            c(0.019782160922400118),
-            t1109,
-            c(0.005300614043699622) * t1110,
-        );
+        let t1162 = mul_sub(c(0.019782160922400118), t1109, c(0.005300614043699622) * t1110);
         let t1163 = neg_mul_add(c(0.01448154687870049), t1108, t1162);
         let t1164 = c(0.019782160922400118) * (t679 - t686);
         let t1165 = mul_sub(c(0.005300614043699624), t674 - t676, t1164);
         let t1166 = neg_mul_add(c(0.014481546878700494), t682 - t684, t1165);
-        let t1167 = mul_sub(
-            platform_rotation[2][0],
-            t1163,
-            platform_rotation[2][1] * t1166,
-        );
-        let t1168 = mul_sub(
-            platform_rotation[0][0],
-            t1163,
-            platform_rotation[0][1] * t1166,
-        );
+        let t1167 = mul_sub(platform_rotation[2][0], t1163, platform_rotation[2][1] * t1166);
+        let t1168 = mul_sub(platform_rotation[0][0], t1163, platform_rotation[0][1] * t1166);
         let t1169 = mul_sub(base_rotation[0][2], t1168, base_velocity[5] * t526);
         let t1170 = mul_add(base_velocity[4], t531, t1169);
-        let t1171 = mul_sub(
-            platform_rotation[1][0],
-            t1163,
-            platform_rotation[1][1] * t1166,
-        );
+        let t1171 = mul_sub(platform_rotation[1][0], t1163, platform_rotation[1][1] * t1166);
         let t1172 = mul_sub(base_rotation[1][2], t1171, base_velocity[3] * t534);
         let t1173 = mul_add(base_velocity[5], t532, t1172);
         let t1174 = t1170 + t1173;
         let t1175 = mul_add(base_rotation[2][2], t1167, t1174);
-        let t1176 = mul_sub(
-            base_velocity[3],
-            t536,
-            mul_sub(base_velocity[4], t535, t1175),
-        );
+        let t1176 = mul_sub(base_velocity[3], t536, mul_sub(base_velocity[4], t535, t1175));
         let t1177 = mul_add(t190, t1086, mul_sub(t178, t1078, t184 * t1081));
         let t1178 = mul_add(t202, t1094, mul_add(t196, t1091, t1177));
         let t1179 = mul_add(t208, t1097, t1178);
@@ -15872,20 +13781,12 @@ pub fn equation_of_motion<T: Scalar>(
         let t1188 = mul_add(base_rotation[1][0], t1182, t1187);
         let t1189 = mul_add(t372, t636, mul_sub(base_rotation[1][1], t1179, t1188));
         let t1190 = mul_sub(base_rotation[0][2], t1171, mul_sub(t364, t638, t1189));
-        let t1191 = mul_sub(
-            base_velocity[4],
-            t534,
-            mul_sub(base_velocity[5], t533, t1190),
-        );
+        let t1191 = mul_sub(base_velocity[4], t534, mul_sub(base_velocity[5], t533, t1190));
         let t1192 = mul_add(t19, t959, neg_mul_add(t20, t953, t983));
         let t1193 = mul_add(base_rotation[2][0], t1182, t1192);
         let t1194 = mul_add(t364, t637, mul_sub(base_rotation[2][1], t1179, t1193));
         let t1195 = mul_sub(base_rotation[0][2], t1167, mul_sub(t368, t636, t1194));
-        let t1196 = mul_sub(
-            base_velocity[4],
-            t537,
-            mul_sub(base_velocity[5], t536, t1195),
-        );
+        let t1196 = mul_sub(base_velocity[4], t537, mul_sub(base_velocity[5], t536, t1195));
         let t1197 = mul_add(t191, t1086, mul_sub(t179, t1078, t185 * t1081));
         let t1198 = mul_add(t203, t1094, mul_add(t197, t1091, t1197));
         let t1199 = mul_add(t209, t1097, t1198);
@@ -15896,11 +13797,7 @@ pub fn equation_of_motion<T: Scalar>(
         let t1204 = mul_add(base_rotation[0][0], t1202, t1203);
         let t1205 = mul_add(t404, t638, mul_sub(base_rotation[0][1], t1199, t1204));
         let t1206 = mul_sub(base_rotation[1][2], t1168, mul_sub(t408, t637, t1205));
-        let t1207 = mul_sub(
-            base_velocity[5],
-            t521,
-            mul_sub(base_velocity[3], t531, t1206),
-        );
+        let t1207 = mul_sub(base_velocity[5], t521, mul_sub(base_velocity[3], t531, t1206));
         let t1208 = mul_sub(t21, t989, mul_sub(t19, t1001, t1176 + (t1013 - t1173)));
         let t1209 = mul_add(base_rotation[1][0], t1202, t1208);
         let t1210 = mul_add(t408, t636, mul_sub(base_rotation[1][1], t1199, t1209));
@@ -15910,11 +13807,7 @@ pub fn equation_of_motion<T: Scalar>(
         let t1213 = mul_add(base_rotation[2][0], t1202, t1212);
         let t1214 = mul_add(t400, t637, mul_sub(base_rotation[2][1], t1199, t1213));
         let t1215 = mul_sub(base_rotation[1][2], t1167, mul_sub(t404, t636, t1214));
-        let t1216 = mul_sub(
-            base_velocity[5],
-            t535,
-            mul_sub(base_velocity[3], t537, t1215),
-        );
+        let t1216 = mul_sub(base_velocity[5], t535, mul_sub(base_velocity[3], t537, t1215));
         let t1217 = mul_add(t192, t1086, mul_sub(t180, t1078, t186 * t1081));
         let t1218 = mul_add(t204, t1094, mul_add(t198, t1091, t1217));
         let t1219 = mul_add(t210, t1097, t1218);
@@ -15925,20 +13818,12 @@ pub fn equation_of_motion<T: Scalar>(
         let t1224 = mul_add(base_rotation[0][0], t1222, t1223);
         let t1225 = mul_add(t437, t638, mul_sub(base_rotation[0][1], t1219, t1224));
         let t1226 = mul_sub(base_rotation[2][2], t1168, mul_sub(t441, t637, t1225));
-        let t1227 = mul_sub(
-            base_velocity[3],
-            t526,
-            mul_sub(base_velocity[4], t521, t1226),
-        );
+        let t1227 = mul_sub(base_velocity[3], t526, mul_sub(base_velocity[4], t521, t1226));
         let t1228 = mul_add(t21, t1025, neg_mul_add(t19, t1037, t1049));
         let t1229 = mul_add(base_rotation[1][0], t1222, t1228);
         let t1230 = mul_add(t441, t636, mul_sub(base_rotation[1][1], t1219, t1229));
         let t1231 = mul_sub(base_rotation[2][2], t1171, mul_sub(t433, t638, t1230));
-        let t1232 = mul_sub(
-            base_velocity[3],
-            t533,
-            mul_sub(base_velocity[4], t532, t1231),
-        );
+        let t1232 = mul_sub(base_velocity[3], t533, mul_sub(base_velocity[4], t532, t1231));
         let t1233 = mul_sub(t19, t1031, mul_sub(t20, t1025, t1055 + t1174));
         let t1234 = mul_add(base_rotation[2][0], t1222, t1233);
         let t1235 = mul_add(t433, t637, mul_sub(base_rotation[2][1], t1219, t1234));
@@ -16344,11 +14229,7 @@ pub fn equation_of_motion<T: Scalar>(
         let t1520 = mul_sub(t179, t1480, platform_rotation[0][2] * c(1.85263812));
         let t1521 = mul_sub(t191, t1480, mul_sub(t185, t1480, t1520));
         let t1522 = mul_sub(t203, t1480, mul_add(t197, t1480, t1521));
-        let t1523 = neg_mul_add(
-            c(5.0227200000000005),
-            t1519,
-            mul_add(t209, t1480, t1522),
-        );
+        let t1523 = neg_mul_add(c(5.0227200000000005), t1519, mul_add(t209, t1480, t1522));
         let t1524 = mul_add(t192, t1480, mul_sub(t180, t1480, t186 * t1480));
         let t1525 = mul_sub(t204, t1480, mul_add(t198, t1480, t1524));
         let t1526 = mul_add(t210, t1480, t1525);
@@ -16362,37 +14243,17 @@ pub fn equation_of_motion<T: Scalar>(
         let t1530 = mul_sub(platform_velocity[3], t1067, t1529);
         let t1531 = mul_sub(platform_velocity[4], t1240, t1530);
         let t1532 = mul_sub(platform_velocity[5], t1244, t1531);
-        let t1533 = mul_add(
-            base_velocity[1],
-            t875,
-            mul_add(base_velocity[0], t869, t1532),
-        );
-        let t1534 = mul_sub(
-            base_velocity[3],
-            t1107,
-            mul_add(base_velocity[2], t881, t1533),
-        );
-        bias[0] = mul_sub(
-            base_velocity[5],
-            t1123,
-            mul_sub(base_velocity[4], t1117, t1534),
-        );
+        let t1533 = mul_add(base_velocity[1], t875, mul_add(base_velocity[0], t869, t1532));
+        let t1534 = mul_sub(base_velocity[3], t1107, mul_add(base_velocity[2], t881, t1533));
+        bias[0] = mul_sub(base_velocity[5], t1123, mul_sub(base_velocity[4], t1117, t1534));
         let t1535 = mul_sub(platform_velocity[0], t903, t1492 - t1510);
         let t1536 = mul_add(platform_velocity[1], t907, t1535);
         let t1537 = mul_add(platform_velocity[2], t911, t1536);
         let t1538 = mul_sub(platform_velocity[3], t1247, t1537);
         let t1539 = mul_add(platform_velocity[4], t1070, t1538);
         let t1540 = mul_sub(platform_velocity[5], t1251, t1539);
-        let t1541 = mul_add(
-            base_velocity[1],
-            t907,
-            mul_sub(base_velocity[0], t903, t1540),
-        );
-        let t1542 = mul_sub(
-            base_velocity[3],
-            t1133,
-            mul_add(base_velocity[2], t911, t1541),
-        );
+        let t1541 = mul_add(base_velocity[1], t907, mul_sub(base_velocity[0], t903, t1540));
+        let t1542 = mul_sub(base_velocity[3], t1133, mul_add(base_velocity[2], t911, t1541));
         let t1543 = mul_add(base_velocity[4], t1137, t1542);
         bias[1] = neg_mul_add(base_velocity[5], t1143, t1543);
         let t1544 = mul_sub(platform_velocity[0], t927, t1495 - t1513);
@@ -16401,79 +14262,35 @@ pub fn equation_of_motion<T: Scalar>(
         let t1547 = mul_add(platform_velocity[3], t1254, t1546);
         let t1548 = mul_sub(platform_velocity[4], t1257, t1547);
         let t1549 = mul_add(platform_velocity[5], t1073, t1548);
-        let t1550 = mul_add(
-            base_velocity[1],
-            t931,
-            mul_add(base_velocity[0], t927, t1549),
-        );
-        let t1551 = mul_add(
-            base_velocity[3],
-            t1153,
-            mul_add(base_velocity[2], t935, t1550),
-        );
-        bias[2] = mul_add(
-            base_velocity[5],
-            t1161,
-            mul_sub(base_velocity[4], t1157, t1551),
-        );
+        let t1550 = mul_add(base_velocity[1], t931, mul_add(base_velocity[0], t927, t1549));
+        let t1551 = mul_add(base_velocity[3], t1153, mul_add(base_velocity[2], t935, t1550));
+        bias[2] = mul_add(base_velocity[5], t1161, mul_sub(base_velocity[4], t1157, t1551));
         let t1552 = mul_sub(platform_velocity[0], t953, t1498 - t1518);
         let t1553 = mul_add(platform_velocity[1], t959, t1552);
         let t1554 = mul_add(platform_velocity[2], t965, t1553);
         let t1555 = mul_add(platform_velocity[3], t1262, t1554);
         let t1556 = mul_add(platform_velocity[4], t1268, t1555);
         let t1557 = mul_sub(platform_velocity[5], t1274, t1556);
-        let t1558 = mul_add(
-            base_velocity[1],
-            t959,
-            mul_add(base_velocity[0], t953, t1557),
-        );
-        let t1559 = mul_sub(
-            base_velocity[3],
-            t1186,
-            mul_add(base_velocity[2], t965, t1558),
-        );
-        bias[3] = mul_add(
-            base_velocity[5],
-            t1196,
-            mul_sub(base_velocity[4], t1191, t1559),
-        );
+        let t1558 = mul_add(base_velocity[1], t959, mul_add(base_velocity[0], t953, t1557));
+        let t1559 = mul_sub(base_velocity[3], t1186, mul_add(base_velocity[2], t965, t1558));
+        bias[3] = mul_add(base_velocity[5], t1196, mul_sub(base_velocity[4], t1191, t1559));
         let t1560 = mul_sub(platform_velocity[0], t989, t1501 - t1523);
         let t1561 = mul_add(platform_velocity[1], t995, t1560);
         let t1562 = mul_add(platform_velocity[2], t1001, t1561);
         let t1563 = mul_sub(platform_velocity[3], t1280, t1562);
         let t1564 = mul_add(platform_velocity[4], t1285, t1563);
         let t1565 = mul_sub(platform_velocity[5], t1290, t1564);
-        let t1566 = mul_add(
-            base_velocity[1],
-            t995,
-            mul_sub(base_velocity[0], t989, t1565),
-        );
-        let t1567 = mul_add(
-            base_velocity[3],
-            t1207,
-            mul_add(base_velocity[2], t1001, t1566),
-        );
-        bias[4] = mul_sub(
-            base_velocity[5],
-            t1216,
-            mul_sub(base_velocity[4], t1211, t1567),
-        );
+        let t1566 = mul_add(base_velocity[1], t995, mul_sub(base_velocity[0], t989, t1565));
+        let t1567 = mul_add(base_velocity[3], t1207, mul_add(base_velocity[2], t1001, t1566));
+        bias[4] = mul_sub(base_velocity[5], t1216, mul_sub(base_velocity[4], t1211, t1567));
         let t1568 = mul_sub(platform_velocity[0], t1025, t1504 - t1526);
         let t1569 = mul_add(platform_velocity[1], t1031, t1568);
         let t1570 = mul_add(platform_velocity[2], t1037, t1569);
         let t1571 = mul_add(platform_velocity[3], t1295, t1570);
         let t1572 = mul_sub(platform_velocity[4], t1300, t1571);
         let t1573 = mul_sub(platform_velocity[5], t1305, t1572);
-        let t1574 = mul_add(
-            base_velocity[1],
-            t1031,
-            mul_sub(base_velocity[0], t1025, t1573),
-        );
-        let t1575 = mul_add(
-            base_velocity[3],
-            t1227,
-            mul_add(base_velocity[2], t1037, t1574),
-        );
+        let t1574 = mul_add(base_velocity[1], t1031, mul_sub(base_velocity[0], t1025, t1573));
+        let t1575 = mul_add(base_velocity[3], t1227, mul_add(base_velocity[2], t1037, t1574));
         let t1576 = mul_add(base_velocity[4], t1232, t1575);
         bias[5] = neg_mul_add(base_velocity[5], t1236, t1576);
         // constant and copied elements
@@ -19397,12 +17214,10 @@ pub fn passive_inverse_dynamics<T: Scalar>(
     let t689 = mul_add(c(21555.9), t94, c(0.17066666666666666) * t449);
     let t690 = t536 + mul_add(t462, c(0.9523333333333334), t689);
     let t691 = mul_sub(t611, t664, mul_sub(t653, t662, t690));
-    passive_inverse_dynamics[3] = t687 - mul_add(t590, t671, mul_add(t599, t666, t691))
-        - t688;
+    passive_inverse_dynamics[3] = t687 - mul_add(t590, t671, mul_add(t599, t666, t691)) - t688;
     // leg 5: actuator forces F at reference speeds
     let t692 = mul_add(c(21555.9), t98, c(0.17066666666666666) * t473);
-    passive_inverse_dynamics[4] = mul_sub(t483, c(0.9523333333333334), t692) - t687
-        - t688;
+    passive_inverse_dynamics[4] = mul_sub(t483, c(0.9523333333333334), t692) - t687 - t688;
     // leg 6: actuator forces F at reference speeds
     let t693 = neg_mul_add(c(21555.9), t102, t683);
     let t694 = neg_mul_add(c(0.17066666666666666), t492, t693);
@@ -21441,11 +19256,7 @@ pub fn energy<T: Scalar>(
     let t419 = c(0.5) * mul_add(t411, c(0.035) * t411, t418);
     let t420 = mul_add(c(3.046), t408, t419);
     let t421 = neg_mul_add(c(0.17066666666666666), t398, t420);
-    *kinetic_energy = mul_add(
-        c(0.1706666666666667),
-        t388,
-        mul_add(c(0.3055), t393, t421),
-    );
+    *kinetic_energy = mul_add(c(0.1706666666666667), t388, mul_add(c(0.3055), t393, t421));
     // potential energy of gravity and springs
     let t422 = mul_add(t189, t190, t226) + mul_add(t265, t266, t308);
     let t423 = t325 + t359 - (t165 + t207 - (t247 + t287));
@@ -21497,2105 +19308,1625 @@ pub fn matrices_in_lanes<P: Triple>(
     let c = <P::Lane as Scalar>::constant;
     let w = <P as Scalar>::constant;
     let (
-        t60,
-        t61,
-        t62,
-        t63,
-        t64,
-        t65,
-        t79,
-        t81,
-        t83,
-        t86,
-        t87,
-        t88,
-        t188,
-        t197,
-        t205,
-        t253,
-        t287,
-        t322,
-        t323,
-        t326,
-        t334,
-        t344,
-        t368,
-        t536,
-        t539,
-        t545,
-        t563,
-        t564,
-        t565,
-        t664,
-        t677,
-        t691,
-        t732,
-        t749,
-        t772,
-        t818,
-        t820,
-        t821,
-        t822,
-        t823,
-        t824,
-        t825,
-        t827,
-        t829,
-        t830,
-        t831,
-        t832,
-        t833,
-        t834,
-        t836,
-        t838,
-        t839,
-        t840,
-        t841,
-        t842,
-        t843,
-        t845,
-        t846,
-        t849,
-        t850,
-        t851,
-        t852,
-        t854,
-        t856,
-        t857,
-        t858,
-        t859,
-        t860,
-        t861,
+        t5, t7, t8, t83, t84, t85, t86, t87, t88, t89, t90, t91, t92, t93, t97, t102, t104, t106,
+        t109, t111, t112, t185, t192, t201, t211, t213, t217, t228, t241, t251, t255, t258, t260,
+        t263, t265, t268, t270, t272, t281, t285, t286, t287, t304, t330, t341, t342, t347, t348,
+        t350, t352, t353, t354, t357, t358, t359, t360, t361, t362, t363, t376, t377, t381, t390,
+        t400, t429, t630, t634, t643, t664, t665, t666, t732, t733, t734, t775, t788, t804, t847,
+        t865, t888, t899, t900, t901, t911, t913, t916, t917, t918, t920, t921, t922, t923, t924,
+        t926, t927, t928, t929, t930, t931, t932,
     ) = {
         // constant and copied elements
-        let t1 = P::triple([
-            base_rotation[1][0],
-            base_rotation[1][1],
-            base_rotation[1][2],
-        ]);
-        let t2 = P::triple([
-            base_rotation[0][0],
-            base_rotation[0][1],
-            base_rotation[0][2],
-        ]);
-        // platform origin seen from the base
-        let t3 = platform_position[1] - base_position[1];
-        // constant and copied elements
-        let t4 = P::triple([
-            base_rotation[2][0],
-            base_rotation[2][1],
-            base_rotation[2][2],
-        ]);
-        // platform origin seen from the base
-        let t5 = platform_position[0] - base_position[0];
-        let t6 = platform_position[2] - base_position[2];
+        let t1 = P::triple([base_rotation[1][0], base_rotation[1][1], base_rotation[1][2]]);
+        let t2 = P::triple([base_rotation[0][0], base_rotation[0][1], base_rotation[0][2]]);
         // rotation of the platform seen from the base
-        let t7 = mul_add(
-            t2,
-            P::splat(platform_rotation[0][1]),
-            t1 * P::splat(platform_rotation[1][1]),
-        );
-        let t8 = mul_add(
-            t2,
-            P::splat(platform_rotation[0][0]),
-            t1 * P::splat(platform_rotation[1][0]),
-        );
-        // constant and copied elements
-        let t9 = P::triple([
-            c(-0.03105828541230249),
-            c(0.03105828541230249),
-            c(0.1159110991546882),
-        ]);
-        let t10 = P::triple([
-            c(0.1159110991546882),
-            c(0.1159110991546882),
-            c(-0.031058285412302475),
-        ]);
-        // rotation of the platform seen from the base
-        let t11 = mul_add(t4, P::splat(platform_rotation[2][1]), t7);
-        let t12 = mul_add(t4, P::splat(platform_rotation[2][0]), t8);
-        // constant and copied elements
-        let t13 = P::triple([
-            c(0.08485281374238571),
-            c(-0.08485281374238571),
-            c(-0.1159110991546882),
-        ]);
-        let t14 = P::triple([
-            c(-0.0848528137423857),
-            c(-0.0848528137423857),
-            c(-0.031058285412302475),
-        ]);
+        let t3 = t1 * P::splat(platform_rotation[1][1]);
+        let t4 = t1 * P::splat(platform_rotation[1][0]);
         // platform origin seen from the base
-        let t15 = mul_add(
-            t4,
-            P::splat(t6),
-            mul_add(t2, P::splat(t5), t1 * P::splat(t3)),
-        );
+        let t5 = platform_position[1] - base_position[1];
+        // constant and copied elements
+        let t6 = P::triple([base_rotation[2][0], base_rotation[2][1], base_rotation[2][2]]);
+        // platform origin seen from the base
+        let t7 = platform_position[0] - base_position[0];
+        let t8 = platform_position[2] - base_position[2];
+        // rotation of the platform seen from the base
+        let t9 = mul_add(t2, P::splat(platform_rotation[0][1]), t3);
+        let t10 = mul_add(t2, P::splat(platform_rotation[0][0]), t4);
+        // constant and copied elements
+        let t11 =
+            P::triple([c(-0.03105828541230249), c(0.03105828541230249), c(0.1159110991546882)]);
+        let t12 =
+            P::triple([c(0.1159110991546882), c(0.1159110991546882), c(-0.031058285412302475)]);
+        // rotation of the platform seen from the base
+        let t13 = mul_add(t6, P::splat(platform_rotation[2][1]), t9);
+        let t14 = mul_add(t6, P::splat(platform_rotation[2][0]), t10);
+        // platform origin seen from the base
+        let t15 = mul_add(t2, P::splat(t7), t1 * P::splat(t5));
+        // constant and copied elements
+        let t16 =
+            P::triple([c(0.08485281374238571), c(-0.08485281374238571), c(-0.1159110991546882)]);
+        let t17 =
+            P::triple([c(-0.0848528137423857), c(-0.0848528137423857), c(-0.031058285412302475)]);
+        // platform origin seen from the base
+        let t18 = mul_add(t6, P::splat(t8), t15);
         // legs 1, 2, 3: platform joint from the base point
-        let t16 = P::triple([
-            c(-0.1316436662914507),
-            c(-0.1316436662914507),
-            c(-0.040491189781895726),
-        ]);
+        let t19 =
+            P::triple([c(-0.1316436662914507), c(-0.1316436662914507), c(-0.040491189781895726)]);
         // legs 4, 5, 6: platform joint from the platform origin
-        let t17 = mul_add(
-            t14,
-            P::splat(P::lane(t12, 0)),
-            t13 * P::splat(P::lane(t11, 0)),
-        );
-        let t18 = mul_add(
-            t14,
-            P::splat(P::lane(t12, 1)),
-            t13 * P::splat(P::lane(t11, 1)),
-        );
+        let t20 = t16 * P::splat(P::lane(t13, 0));
+        let t21 = t16 * P::splat(P::lane(t13, 1));
         // legs 1, 2, 3: platform joint from the platform origin
-        let t19 = mul_add(
-            t10,
-            P::splat(P::lane(t12, 1)),
-            t9 * P::splat(P::lane(t11, 1)),
-        );
-        let t20 = mul_add(
-            t10,
-            P::splat(P::lane(t12, 0)),
-            t9 * P::splat(P::lane(t11, 0)),
-        );
-        // legs 4, 5, 6: platform joint from the base point
-        let t21 = P::triple([
-            c(-0.052626906850092664),
-            c(0.052626906850092664),
-            c(0.17538661166134234),
-        ]);
-        let t22 = P::triple([
-            c(0.17213485607334636),
-            c(0.17213485607334636),
-            c(-0.040491189781895726),
-        ]);
-        // legs 1, 2, 3: platform joint from the base point
-        let t23 = P::triple([
-            c(0.12275970481124972),
-            c(-0.12275970481124972),
-            c(-0.17538661166134234),
-        ]);
-        // legs 4, 5, 6: platform joint from the base point
-        let t24 = t22 + (P::splat(P::lane(t15, 0)) + t17);
+        let t22 = t11 * P::splat(P::lane(t13, 1));
+        let t23 = t11 * P::splat(P::lane(t13, 0));
         // legs 4, 5, 6: platform joint from the platform origin
-        let t25 = mul_add(
-            t14,
-            P::splat(P::lane(t12, 2)),
-            t13 * P::splat(P::lane(t11, 2)),
-        );
-        // legs 1, 2, 3: platform joint from the base point
-        let t26 = t16 + (P::splat(P::lane(t15, 0)) + t20);
+        let t24 = mul_add(t17, P::splat(P::lane(t14, 0)), t20);
+        let t25 = mul_add(t17, P::splat(P::lane(t14, 1)), t21);
+        // legs 1, 2, 3: platform joint from the platform origin
+        let t26 = mul_add(t12, P::splat(P::lane(t14, 1)), t22);
+        let t27 = mul_add(t12, P::splat(P::lane(t14, 0)), t23);
         // legs 4, 5, 6: platform joint from the base point
-        let t27 = t21 + (t18 + P::splat(P::lane(t15, 1)));
+        let t28 =
+            P::triple([c(-0.052626906850092664), c(0.052626906850092664), c(0.17538661166134234)]);
+        let t29 =
+            P::triple([c(0.17213485607334636), c(0.17213485607334636), c(-0.040491189781895726)]);
         // legs 1, 2, 3: platform joint from the base point
-        let t28 = t23 + (t19 + P::splat(P::lane(t15, 1)));
-        // legs 1, 2, 3: platform joint from the platform origin
-        let t29 = mul_add(
-            t10,
-            P::splat(P::lane(t12, 2)),
-            t9 * P::splat(P::lane(t11, 2)),
-        );
+        let t30 =
+            P::triple([c(0.12275970481124972), c(-0.12275970481124972), c(-0.17538661166134234)]);
+        // legs 4, 5, 6: platform joint from the platform origin
+        let t31 = t16 * P::splat(P::lane(t13, 2));
         // legs 4, 5, 6: platform joint from the base point
-        let t30 = P::splat(P::lane(t15, 2)) + t25;
+        let t32 = t29 + (P::splat(P::lane(t18, 0)) + t24);
+        // legs 1, 2, 3: platform joint from the platform origin
+        let t33 = t11 * P::splat(P::lane(t13, 2));
+        // legs 4, 5, 6: platform joint from the platform origin
+        let t34 = mul_add(t17, P::splat(P::lane(t14, 2)), t31);
         // legs 1, 2, 3: platform joint from the base point
-        let t31 = P::splat(P::lane(t15, 2)) + t29;
-        // legs 4, 5, 6: platform joint from the platform origin
-        let t32 = mul_add(
-            P::splat(platform_rotation[0][0]),
-            t14,
-            P::splat(platform_rotation[0][1]) * t13,
-        );
-        let t33 = mul_add(
-            P::splat(platform_rotation[1][0]),
-            t14,
-            P::splat(platform_rotation[1][1]) * t13,
-        );
+        let t35 = t19 + (P::splat(P::lane(t18, 0)) + t27);
+        // legs 4, 5, 6: platform joint from the base point
+        let t36 = t28 + (t25 + P::splat(P::lane(t18, 1)));
+        // legs 1, 2, 3: platform joint from the base point
+        let t37 = t30 + (t26 + P::splat(P::lane(t18, 1)));
         // legs 1, 2, 3: platform joint from the platform origin
-        let t34 = mul_add(
-            P::splat(platform_rotation[2][0]),
-            t10,
-            P::splat(platform_rotation[2][1]) * t9,
-        );
-        let t35 = mul_add(
-            P::splat(platform_rotation[0][0]),
-            t10,
-            P::splat(platform_rotation[0][1]) * t9,
-        );
+        let t38 = mul_add(t12, P::splat(P::lane(t14, 2)), t33);
         // legs 4, 5, 6: platform joint from the platform origin
-        let t36 = mul_add(
-            P::splat(platform_rotation[2][0]),
-            t14,
-            P::splat(platform_rotation[2][1]) * t13,
-        );
+        let t39 = P::splat(platform_rotation[0][1]) * t16;
+        let t40 = P::splat(platform_rotation[1][1]) * t16;
+        // legs 4, 5, 6: platform joint from the base point
+        let t41 = P::splat(P::lane(t18, 2)) + t34;
         // legs 1, 2, 3: platform joint from the platform origin
-        let t37 = mul_add(
-            P::splat(platform_rotation[1][0]),
-            t10,
-            P::splat(platform_rotation[1][1]) * t9,
-        );
-        // legs 4, 5, 6: platform joint from the base origin
-        let t38 = P::splat(t5) + t32;
-        let t39 = P::splat(t3) + t33;
+        let t42 = P::splat(platform_rotation[2][1]) * t11;
+        let t43 = P::splat(platform_rotation[0][1]) * t11;
+        // legs 1, 2, 3: platform joint from the base point
+        let t44 = P::splat(P::lane(t18, 2)) + t38;
+        // legs 4, 5, 6: platform joint from the platform origin
+        let t45 = P::splat(platform_rotation[2][1]) * t16;
+        let t46 = mul_add(P::splat(platform_rotation[0][0]), t17, t39);
+        // legs 1, 2, 3: platform joint from the platform origin
+        let t47 = P::splat(platform_rotation[1][1]) * t11;
+        // legs 4, 5, 6: platform joint from the platform origin
+        let t48 = mul_add(P::splat(platform_rotation[1][0]), t17, t40);
+        // legs 1, 2, 3: platform joint from the platform origin
+        let t49 = mul_add(P::splat(platform_rotation[2][0]), t12, t42);
+        let t50 = mul_add(P::splat(platform_rotation[0][0]), t12, t43);
         // legs 4, 5, 6: extent of the rod along the actuator axis
-        let t40 = sqrt(w(0.042435999999999995) - mul_add(t24, t24, t27 * t27));
+        let t51 = w(0.042435999999999995) - mul_add(t32, t32, t36 * t36);
         // legs 1, 2, 3: extent of the rod along the actuator axis
-        let t41 = sqrt(w(0.042435999999999995) - mul_add(t26, t26, t28 * t28));
-        // legs 1, 2, 3: platform joint from the base origin
-        let t42 = P::splat(t5) + t35;
-        let t43 = P::splat(t6) + t34;
+        let t52 = w(0.042435999999999995) - mul_add(t35, t35, t37 * t37);
+        // legs 4, 5, 6: platform joint from the platform origin
+        let t53 = mul_add(P::splat(platform_rotation[2][0]), t17, t45);
+        // legs 1, 2, 3: platform joint from the platform origin
+        let t54 = mul_add(P::splat(platform_rotation[1][0]), t12, t47);
         // legs 4, 5, 6: platform joint from the base origin
-        let t44 = P::splat(t6) + t36;
+        let t55 = P::splat(t7) + t46;
+        let t56 = P::splat(t5) + t48;
+        // legs 4, 5, 6: extent of the rod along the actuator axis
+        let t57 = sqrt(t51);
+        // legs 1, 2, 3: extent of the rod along the actuator axis
+        let t58 = sqrt(t52);
         // legs 1, 2, 3: platform joint from the base origin
-        let t45 = P::splat(t3) + t37;
+        let t59 = P::splat(t7) + t50;
+        let t60 = P::splat(t8) + t49;
+        // legs 4, 5, 6: platform joint from the base origin
+        let t61 = P::splat(t8) + t53;
+        // legs 1, 2, 3: platform joint from the base origin
+        let t62 = P::splat(t5) + t54;
         // legs 4, 5, 6: reciprocal of that extent
-        let t46 = w(1.0) / t40;
+        let t63 = w(1.0) / t57;
         // legs 1, 2, 3: reciprocal of that extent
-        let t47 = w(1.0) / t41;
+        let t64 = w(1.0) / t58;
         // legs 4, 5, 6: actuator length d
-        let t48 = t30 - t40;
+        let t65 = t41 - t57;
         // legs 1, 2, 3: actuator length d
-        let t49 = t31 - t41;
+        let t66 = t44 - t58;
         // legs 4, 5, 6: gradient of the actuator length by the platform joint
-        let t50 = t27 * t46;
-        let t51 = t24 * t46;
+        let t67 = t36 * t63;
+        let t68 = t32 * t63;
         // legs 1, 2, 3: gradient of the actuator length by the platform joint
-        let t52 = t28 * t47;
-        let t53 = t26 * t47;
+        let t69 = t37 * t64;
+        let t70 = t35 * t64;
         // legs 4, 5, 6: gradient of the actuator length
-        let t54 = mul_add(
-            P::splat(base_rotation[0][0]),
-            t51,
-            P::splat(base_rotation[0][1]) * t50,
-        );
-        let t55 = mul_add(
-            P::splat(base_rotation[1][0]),
-            t51,
-            P::splat(base_rotation[1][1]) * t50,
-        );
+        let t71 = P::splat(base_rotation[0][1]) * t67;
+        let t72 = P::splat(base_rotation[1][1]) * t67;
         // legs 1, 2, 3: gradient of the actuator length
-        let t56 = mul_add(
-            P::splat(base_rotation[0][0]),
-            t53,
-            P::splat(base_rotation[0][1]) * t52,
-        );
+        let t73 = P::splat(base_rotation[0][1]) * t69;
         // legs 4, 5, 6: gradient of the actuator length
-        let t57 = mul_add(
-            P::splat(base_rotation[2][0]),
-            t51,
-            P::splat(base_rotation[2][1]) * t50,
-        );
+        let t74 = P::splat(base_rotation[2][1]) * t67;
         // legs 1, 2, 3: gradient of the actuator length
-        let t58 = mul_add(
-            P::splat(base_rotation[1][0]),
-            t53,
-            P::splat(base_rotation[1][1]) * t52,
-        );
-        let t59 = mul_add(
-            P::splat(base_rotation[2][0]),
-            t53,
-            P::splat(base_rotation[2][1]) * t52,
-        );
+        let t75 = P::splat(base_rotation[1][1]) * t69;
+        let t76 = P::splat(base_rotation[2][1]) * t69;
         // legs 4, 5, 6: gradient of the actuator length
-        let t60 = P::splat(base_rotation[0][2]) + t54;
-        let t61 = P::splat(base_rotation[1][2]) + t55;
+        let t77 = mul_add(P::splat(base_rotation[0][0]), t68, t71);
+        let t78 = mul_add(P::splat(base_rotation[1][0]), t68, t72);
         // legs 1, 2, 3: gradient of the actuator length
-        let t62 = P::splat(base_rotation[0][2]) + t56;
+        let t79 = mul_add(P::splat(base_rotation[0][0]), t70, t73);
         // legs 4, 5, 6: gradient of the actuator length
-        let t63 = P::splat(base_rotation[2][2]) + t57;
+        let t80 = mul_add(P::splat(base_rotation[2][0]), t68, t74);
         // legs 1, 2, 3: gradient of the actuator length
-        let t64 = P::splat(base_rotation[1][2]) + t58;
-        let t65 = P::splat(base_rotation[2][2]) + t59;
+        let t81 = mul_add(P::splat(base_rotation[1][0]), t70, t75);
+        let t82 = mul_add(P::splat(base_rotation[2][0]), t70, t76);
+        // legs 4, 5, 6: gradient of the actuator length
+        let t83 = P::splat(base_rotation[0][2]) + t77;
+        let t84 = P::splat(base_rotation[1][2]) + t78;
+        // legs 1, 2, 3: gradient of the actuator length
+        let t85 = P::splat(base_rotation[0][2]) + t79;
+        // legs 4, 5, 6: gradient of the actuator length
+        let t86 = P::splat(base_rotation[2][2]) + t80;
+        // legs 1, 2, 3: gradient of the actuator length
+        let t87 = P::splat(base_rotation[1][2]) + t81;
+        let t88 = P::splat(base_rotation[2][2]) + t82;
         // legs 4, 5, 6: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
-        let t66 = mul_sub(t32, t61, t33 * t60);
-        let t67 = mul_sub(t33, t63, t36 * t61);
+        let t89 = mul_sub(t46, t84, t48 * t83);
+        let t90 = mul_sub(t48, t86, t53 * t84);
         // legs 1, 2, 3: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
-        let t68 = mul_sub(t35, t64, t37 * t62);
+        let t91 = mul_sub(t50, t87, t54 * t85);
         // legs 4, 5, 6: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
-        let t69 = mul_sub(t36, t60, t32 * t63);
+        let t92 = mul_sub(t53, t83, t46 * t86);
         // legs 1, 2, 3: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
-        let t70 = mul_sub(t37, t65, t34 * t64);
+        let t93 = mul_sub(t54, t88, t49 * t87);
         // legs 1, 2, 3: rod's coupling times axis, a force at the platform joint
-        let t71 = base_rotation[0][2] * c(0.17066666666666666);
-        let t72 = base_rotation[1][2] * c(0.17066666666666666);
-        let t73 = base_rotation[2][2] * c(0.17066666666666666);
+        let t94 = base_rotation[0][2] * c(0.17066666666666666);
+        let t95 = base_rotation[1][2] * c(0.17066666666666666);
+        let t96 = base_rotation[2][2] * c(0.17066666666666666);
         // legs 1, 2, 3: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
-        let t74 = mul_sub(t34, t62, t35 * t65);
+        let t97 = mul_sub(t49, t85, t50 * t88);
         // legs 1, 2, 3: moment of that force
-        let t75 = mul_sub(t37, P::splat(t73), t34 * P::splat(t72));
-        let t76 = mul_sub(t34, P::splat(t71), t35 * P::splat(t73));
+        let t98 = mul_sub(t54, P::splat(t96), t49 * P::splat(t95));
+        let t99 = mul_sub(t49, P::splat(t94), t50 * P::splat(t96));
         // legs 4, 5, 6: moment of that force
-        let t77 = mul_sub(t33, P::splat(t73), t36 * P::splat(t72));
-        let t78 = mul_sub(t36, P::splat(t71), t32 * P::splat(t73));
+        let t100 = mul_sub(t48, P::splat(t96), t53 * P::splat(t95));
+        let t101 = mul_sub(t53, P::splat(t94), t46 * P::splat(t96));
         // legs 1, 2, 3: actuator Jacobian of the base
-        let t79 = mul_sub(t45, t65, t43 * t64);
+        let t102 = mul_sub(t62, t88, t60 * t87);
         // legs 1, 2, 3: moment of that force
-        let t80 = mul_sub(t35, P::splat(t72), t37 * P::splat(t71));
+        let t103 = mul_sub(t50, P::splat(t95), t54 * P::splat(t94));
         // legs 4, 5, 6: actuator Jacobian of the base
-        let t81 = mul_sub(t39, t63, t44 * t61);
+        let t104 = mul_sub(t56, t86, t61 * t84);
         // part of the legs' mass matrix on the side of the axes
-        let t82 = t62 * w(0.9523333333333334);
+        let t105 = t85 * w(0.9523333333333334);
         // legs 1, 2, 3: actuator Jacobian of the base
-        let t83 = mul_sub(t43, t62, t42 * t65);
+        let t106 = mul_sub(t60, t85, t59 * t88);
         // part of the legs' mass matrix on the side of the axes
-        let t84 = t60 * w(0.9523333333333334);
+        let t107 = t83 * w(0.9523333333333334);
         // legs 4, 5, 6: moment of that force
-        let t85 = mul_sub(t32, P::splat(t72), t33 * P::splat(t71));
+        let t108 = mul_sub(t46, P::splat(t95), t48 * P::splat(t94));
         // legs 4, 5, 6: actuator Jacobian of the base
-        let t86 = mul_sub(t44, t60, t38 * t63);
+        let t109 = mul_sub(t61, t83, t55 * t86);
+        // part of the legs' mass matrix on the side of the axes
+        let t110 = t83 * w(0.17066666666666666);
         // legs 1, 2, 3: actuator Jacobian of the base
-        let t87 = mul_sub(t42, t64, t45 * t62);
+        let t111 = mul_sub(t59, t87, t62 * t85);
         // legs 4, 5, 6: actuator Jacobian of the base
-        let t88 = mul_sub(t38, t61, t39 * t60);
+        let t112 = mul_sub(t55, t84, t56 * t83);
         // part of the legs' mass matrix on the side of the axes
-        let t89 = t61 * w(0.9523333333333334);
-        let t90 = t64 * w(0.9523333333333334);
-        let t91 = mul_add(t62, t82, t60 * t84);
-        let t92 = mul_add(t64, t82, t61 * t84);
-        let t93 = mul_add(t65, t82, t63 * t84);
-        let t94 = mul_add(t64, t90, t61 * t89);
-        let t95 = mul_add(t65, t90, t63 * t89);
-        let t96 = mul_add(t62, w(0.17066666666666666), t60 * w(0.17066666666666666));
-        let t97 = w(0.9523333333333334) * t65;
-        let t98 = mul_add(t64, w(0.17066666666666666), t61 * w(0.17066666666666666));
-        let t99 = t63 * w(0.9523333333333334);
-        let t100 = mul_add(w(0.17066666666666666), t65, t63 * w(0.17066666666666666));
-        let t101 = mul_add(t70, t82, t67 * t84);
-        let t102 = mul_add(t74, t82, t69 * t84);
-        let t103 = mul_add(t68, t82, t66 * t84);
-        let t104 = mul_add(t70, t90, t67 * t89);
-        let t105 = mul_add(t74, t90, t69 * t89);
-        let t106 = mul_add(t68, t90, t66 * t89);
-        let t107 = mul_add(t70, t97, t67 * t99);
-        let t108 = mul_add(t74, t97, t69 * t99);
-        let t109 = mul_add(t65, t97, t63 * t99);
-        let t110 = mul_add(w(0.17066666666666666), t70, w(0.17066666666666666) * t67);
-        let t111 = mul_add(t68, t97, t66 * t99);
-        let t112 = mul_add(w(0.17066666666666666), t74, w(0.17066666666666666) * t69);
-        let t113 = w(0.9523333333333334) * t70;
-        let t114 = mul_add(w(0.17066666666666666), t68, w(0.17066666666666666) * t66);
-        let t115 = w(0.9523333333333334) * t67;
-        let t116 = w(0.9523333333333334) * t69;
-        let t117 = mul_add(t70, t113, t67 * t115);
-        let t118 = mul_add(t74, t113, t69 * t115);
-        let t119 = mul_add(t68, t113, t66 * t115);
-        let t120 = mul_add(t70, t75, t67 * t77);
-        let t121 = mul_add(t74, t75, t69 * t77);
-        let t122 = mul_add(t68, t75, t66 * t77);
-        let t123 = mul_add(t70, t76, t67 * t78);
-        let t124 = w(0.9523333333333334) * t74;
-        let t125 = mul_add(t62, t75, t60 * t77);
-        let t126 = mul_add(t64, t75, t61 * t77);
-        let t127 = mul_add(t65, t75, t63 * t77);
-        let t128 = mul_add(t74, t76, t69 * t78);
-        let t129 = mul_add(t68, t76, t66 * t78);
-        let t130 = mul_add(t70, t80, t67 * t85);
-        let t131 = mul_add(t74, t80, t69 * t85);
-        let t132 = mul_add(t62, t76, t60 * t78);
-        let t133 = mul_add(t64, t76, t61 * t78);
-        let t134 = mul_add(t65, t76, t63 * t78);
-        let t135 = mul_add(t68, t80, t66 * t85);
-        let t136 = mul_add(t62, t80, t60 * t85);
-        let t137 = mul_add(t64, t80, t61 * t85);
-        let t138 = mul_add(t65, t80, t63 * t85);
-        let t139 = mul_add(t74, t124, t69 * t116);
-        let t140 = mul_add(t68, t124, t66 * t116);
-        let t141 = P::triple([P::lane(t91, 1), P::lane(t92, 1), P::lane(t93, 1)]);
-        let t142 = P::triple([P::lane(t91, 0), P::lane(t92, 0), P::lane(t93, 0)]) + t141;
-        let t143 = w(0.9523333333333334) * t66;
-        let t144 = P::triple([P::lane(t91, 2), P::lane(t92, 2), P::lane(t93, 2)]) + t142;
-        let t145 = P::triple([P::lane(t96, 1), P::lane(t98, 1), P::lane(t100, 1)]);
-        let t146 = P::triple([P::lane(t96, 0), P::lane(t98, 0), P::lane(t100, 0)])
-            + t145;
-        let t147 = mul_add(t68, w(0.9523333333333334) * t68, t66 * t143);
-        let t148 = P::triple([P::lane(t101, 1), P::lane(t102, 1), P::lane(t103, 1)]);
-        let t149 = P::triple([P::lane(t96, 2), P::lane(t98, 2), P::lane(t100, 2)])
-            + t146;
-        let t150 = P::triple([P::lane(t101, 0), P::lane(t102, 0), P::lane(t103, 0)])
-            + t148;
-        let t151 = P::splat(base_rotation[0][2]) * t149;
-        let t152 = t150
-            + P::triple([P::lane(t101, 2), P::lane(t102, 2), P::lane(t103, 2)]);
-        let t153 = mul_add(P::splat(base_rotation[0][2]), t149, t144);
-        let t154 = P::splat(base_rotation[1][2]) * t149;
-        let t155 = P::lane(t95, 1) + P::lane(t95, 0);
-        let t156 = P::triple([c(0.0), P::lane(t94, 1) + P::lane(t94, 0), t155]);
-        let t157 = P::triple([P::lane(t144, 1), P::lane(t94, 2), P::lane(t95, 2)])
-            + t156;
-        let t158 = mul_add(P::splat(base_rotation[1][2]), t149, t157);
-        let t159 = P::triple([P::lane(t110, 1), P::lane(t112, 1), P::lane(t114, 1)]);
-        let t160 = P::triple([P::lane(t110, 0), P::lane(t112, 0), P::lane(t114, 0)])
-            + t159;
-        let t161 = t160
-            + P::triple([P::lane(t110, 2), P::lane(t112, 2), P::lane(t114, 2)]);
-        let t162 = P::triple([P::lane(t104, 1), P::lane(t105, 1), P::lane(t106, 1)]);
-        let t163 = P::triple([P::lane(t104, 0), P::lane(t105, 0), P::lane(t106, 0)])
-            + t162;
-        let t164 = P::splat(base_rotation[0][2]) * t161;
-        let t165 = P::splat(base_rotation[1][2]) * t161;
-        let t166 = mul_add(P::splat(base_rotation[0][2]), t161, t152);
-        let t167 = P::triple([P::lane(t107, 1), P::lane(t108, 1), P::lane(t111, 1)]);
-        let t168 = P::triple([P::lane(t107, 0), P::lane(t108, 0), P::lane(t111, 0)])
-            + t167;
-        let t169 = P::triple([P::lane(t104, 2), P::lane(t105, 2), P::lane(t106, 2)])
-            + t163;
-        let t170 = t168
-            + P::triple([P::lane(t107, 2), P::lane(t108, 2), P::lane(t111, 2)]);
-        let t171 = P::splat(base_rotation[2][2]) * t149;
-        let t172 = P::splat(base_rotation[2][2]) * t161;
-        let t173 = P::triple([c(0.0), c(0.0), P::lane(t109, 1) + P::lane(t109, 0)]);
-        let t174 = P::triple([P::lane(t144, 2), P::lane(t157, 2), P::lane(t109, 2)])
-            + t173;
-        let t175 = mul_add(P::splat(base_rotation[1][2]), t161, t169);
-        let t176 = mul_add(P::splat(base_rotation[2][2]), t149, t174);
-        let t177 = mul_add(P::splat(base_rotation[2][2]), t161, t170);
-        let t178 = P::triple([P::lane(t117, 1), P::lane(t118, 1), P::lane(t119, 1)]);
-        let t179 = P::triple([P::lane(t117, 0), P::lane(t118, 0), P::lane(t119, 0)])
-            + t178;
-        let t180 = P::triple([P::lane(t120, 1), P::lane(t121, 1), P::lane(t122, 1)]);
-        let t181 = P::triple([P::lane(t125, 1), P::lane(t126, 1), P::lane(t127, 1)]);
-        let t182 = P::triple([P::lane(t117, 2), P::lane(t118, 2), P::lane(t119, 2)])
-            + t179;
-        let t183 = P::triple([P::lane(t120, 0), P::lane(t121, 0), P::lane(t122, 0)])
-            + t180;
-        let t184 = P::triple([P::lane(t125, 0), P::lane(t126, 0), P::lane(t127, 0)])
-            + t181;
-        let t185 = t183
-            + P::triple([P::lane(t120, 2), P::lane(t121, 2), P::lane(t122, 2)]);
-        let t186 = P::triple([P::lane(t125, 2), P::lane(t126, 2), P::lane(t127, 2)])
-            + t184;
-        let t187 = t182 + t185;
-        let t188 = P::triple([P::lane(t152, 0), P::lane(t169, 0), P::lane(t170, 0)])
-            + t186;
-        let t189 = P::triple([P::lane(t132, 1), P::lane(t133, 1), P::lane(t134, 1)]);
-        let t190 = P::triple([P::lane(t132, 0), P::lane(t133, 0), P::lane(t134, 0)])
-            + t189;
-        let t191 = P::lane(t140, 1) + P::lane(t140, 0);
-        let t192 = t190
-            + P::triple([P::lane(t132, 2), P::lane(t133, 2), P::lane(t134, 2)]);
-        let t193 = P::triple([P::lane(t123, 1), P::lane(t128, 1), P::lane(t129, 1)]);
-        let t194 = P::triple([c(0.0), P::lane(t139, 1) + P::lane(t139, 0), t191]);
-        let t195 = P::triple([P::lane(t123, 0), P::lane(t128, 0), P::lane(t129, 0)])
-            + t193;
-        let t196 = P::triple([P::lane(t182, 1), P::lane(t139, 2), P::lane(t140, 2)])
-            + t194;
-        let t197 = t192
-            + P::triple([P::lane(t152, 1), P::lane(t169, 1), P::lane(t170, 1)]);
-        let t198 = P::triple([P::lane(t136, 1), P::lane(t137, 1), P::lane(t138, 1)]);
-        let t199 = P::triple([P::lane(t136, 0), P::lane(t137, 0), P::lane(t138, 0)])
-            + t198;
-        let t200 = t195
-            + P::triple([P::lane(t123, 2), P::lane(t128, 2), P::lane(t129, 2)]);
-        let t201 = t199
-            + P::triple([P::lane(t136, 2), P::lane(t137, 2), P::lane(t138, 2)]);
-        let t202 = t196 + t200;
-        let t203 = P::triple([P::lane(t130, 1), P::lane(t131, 1), P::lane(t135, 1)]);
-        let t204 = P::triple([P::lane(t130, 0), P::lane(t131, 0), P::lane(t135, 0)])
-            + t203;
-        let t205 = t201
-            + P::triple([P::lane(t152, 2), P::lane(t169, 2), P::lane(t170, 2)]);
-        let t206 = P::triple([P::lane(t151, 0), P::lane(t154, 0), P::lane(t171, 0)]);
-        let t207 = t204
-            + P::triple([P::lane(t130, 2), P::lane(t131, 2), P::lane(t135, 2)]);
+        let t113 = t84 * w(0.9523333333333334);
+        let t114 = t87 * w(0.9523333333333334);
+        let t115 = t84 * w(0.17066666666666666);
+        let t116 = mul_add(t85, t105, t83 * t107);
+        let t117 = mul_add(t87, t105, t84 * t107);
+        let t118 = mul_add(t88, t105, t86 * t107);
+        let t119 = t86 * w(0.17066666666666666);
+        let t120 = mul_add(t87, t114, t84 * t113);
+        let t121 = mul_add(t88, t114, t86 * t113);
+        let t122 = mul_add(t85, w(0.17066666666666666), t110);
+        let t123 = w(0.9523333333333334) * t88;
+        let t124 = mul_add(t87, w(0.17066666666666666), t115);
+        let t125 = t86 * w(0.9523333333333334);
+        let t126 = mul_add(w(0.17066666666666666), t88, t119);
+        let t127 = mul_add(t93, t105, t90 * t107);
+        let t128 = mul_add(t97, t105, t92 * t107);
+        let t129 = mul_add(t91, t105, t89 * t107);
+        let t130 = mul_add(t93, t114, t90 * t113);
+        let t131 = mul_add(t97, t114, t92 * t113);
+        let t132 = mul_add(t91, t114, t89 * t113);
+        let t133 = w(0.17066666666666666) * t90;
+        let t134 = mul_add(t93, t123, t90 * t125);
+        let t135 = mul_add(t97, t123, t92 * t125);
+        let t136 = w(0.17066666666666666) * t92;
+        let t137 = mul_add(t88, t123, t86 * t125);
+        let t138 = w(0.17066666666666666) * t89;
+        let t139 = mul_add(w(0.17066666666666666), t93, t133);
+        let t140 = mul_add(t91, t123, t89 * t125);
+        let t141 = mul_add(w(0.17066666666666666), t97, t136);
+        let t142 = w(0.9523333333333334) * t93;
+        let t143 = mul_add(w(0.17066666666666666), t91, t138);
+        let t144 = w(0.9523333333333334) * t90;
+        let t145 = w(0.9523333333333334) * t92;
+        let t146 = mul_add(t93, t142, t90 * t144);
+        let t147 = mul_add(t97, t142, t92 * t144);
+        let t148 = mul_add(t91, t142, t89 * t144);
+        let t149 = mul_add(t93, t98, t90 * t100);
+        let t150 = mul_add(t97, t98, t92 * t100);
+        let t151 = mul_add(t91, t98, t89 * t100);
+        let t152 = mul_add(t93, t99, t90 * t101);
+        let t153 = w(0.9523333333333334) * t97;
+        let t154 = mul_add(t85, t98, t83 * t100);
+        let t155 = mul_add(t87, t98, t84 * t100);
+        let t156 = mul_add(t88, t98, t86 * t100);
+        let t157 = mul_add(t97, t99, t92 * t101);
+        let t158 = mul_add(t91, t99, t89 * t101);
+        let t159 = mul_add(t93, t103, t90 * t108);
+        let t160 = mul_add(t97, t103, t92 * t108);
+        let t161 = mul_add(t85, t99, t83 * t101);
+        let t162 = mul_add(t87, t99, t84 * t101);
+        let t163 = mul_add(t88, t99, t86 * t101);
+        let t164 = mul_add(t91, t103, t89 * t108);
+        let t165 = mul_add(t85, t103, t83 * t108);
+        let t166 = mul_add(t87, t103, t84 * t108);
+        let t167 = mul_add(t88, t103, t86 * t108);
+        let t168 = mul_add(t97, t153, t92 * t145);
+        let t169 = P::triple([P::lane(t116, 0), P::lane(t117, 0), P::lane(t118, 0)]);
+        let t170 = P::triple([P::lane(t116, 2), P::lane(t117, 2), P::lane(t118, 2)]);
+        let t171 = mul_add(t91, t153, t89 * t145);
+        let t172 = P::triple([P::lane(t116, 1), P::lane(t117, 1), P::lane(t118, 1)]);
+        let t173 = P::triple([P::lane(t122, 0), P::lane(t124, 0), P::lane(t126, 0)]);
+        let t174 = w(0.9523333333333334) * t89;
+        let t175 = t170 + (t169 + t172);
+        let t176 = P::triple([P::lane(t122, 2), P::lane(t124, 2), P::lane(t126, 2)]);
+        let t177 = P::triple([P::lane(t122, 1), P::lane(t124, 1), P::lane(t126, 1)]);
+        let t178 = mul_add(t91, w(0.9523333333333334) * t91, t89 * t174);
+        let t179 = P::triple([P::lane(t127, 0), P::lane(t128, 0), P::lane(t129, 0)]);
+        let t180 = P::triple([P::lane(t127, 1), P::lane(t128, 1), P::lane(t129, 1)]);
+        let t181 = t176 + (t173 + t177);
+        let t182 = P::triple([P::lane(t127, 2), P::lane(t128, 2), P::lane(t129, 2)]);
+        let t183 = P::splat(base_rotation[0][2]) * t181;
+        let t184 = t179 + t180 + t182;
+        let t185 = mul_add(P::splat(base_rotation[0][2]), t181, t175);
+        let t186 = P::splat(base_rotation[1][2]) * t181;
+        let t187 = P::lane(t121, 1) + P::lane(t121, 0);
+        let t188 = P::triple([P::lane(t175, 1), P::lane(t120, 2), P::lane(t121, 2)]);
+        let t189 = P::triple([c(0.0), P::lane(t120, 1) + P::lane(t120, 0), t187]);
+        let t190 = t188 + t189;
+        let t191 = P::triple([P::lane(t139, 0), P::lane(t141, 0), P::lane(t143, 0)]);
+        let t192 = mul_add(P::splat(base_rotation[1][2]), t181, t190);
+        let t193 = P::triple([P::lane(t139, 1), P::lane(t141, 1), P::lane(t143, 1)]);
+        let t194 = P::triple([P::lane(t139, 2), P::lane(t141, 2), P::lane(t143, 2)]);
+        let t195 = P::triple([P::lane(t130, 2), P::lane(t131, 2), P::lane(t132, 2)]);
+        let t196 = t191 + t193 + t194;
+        let t197 = P::triple([P::lane(t130, 0), P::lane(t131, 0), P::lane(t132, 0)]);
+        let t198 = P::triple([P::lane(t130, 1), P::lane(t131, 1), P::lane(t132, 1)]);
+        let t199 = P::splat(base_rotation[0][2]) * t196;
+        let t200 = P::splat(base_rotation[1][2]) * t196;
+        let t201 = mul_add(P::splat(base_rotation[0][2]), t196, t184);
+        let t202 = P::triple([P::lane(t134, 0), P::lane(t135, 0), P::lane(t140, 0)]);
+        let t203 = P::triple([P::lane(t134, 1), P::lane(t135, 1), P::lane(t140, 1)]);
+        let t204 = P::triple([P::lane(t134, 2), P::lane(t135, 2), P::lane(t140, 2)]);
+        let t205 = t195 + (t197 + t198);
+        let t206 = t202 + t203 + t204;
+        let t207 = P::splat(base_rotation[2][2]) * t181;
+        let t208 = P::splat(base_rotation[2][2]) * t196;
+        let t209 = P::triple([P::lane(t175, 2), P::lane(t190, 2), P::lane(t137, 2)]);
+        let t210 = P::triple([c(0.0), c(0.0), P::lane(t137, 1) + P::lane(t137, 0)]);
+        let t211 = mul_add(P::splat(base_rotation[1][2]), t196, t205);
+        let t212 = P::triple([P::lane(t154, 0), P::lane(t155, 0), P::lane(t156, 0)]);
+        let t213 = mul_add(P::splat(base_rotation[2][2]), t181, t209 + t210);
+        let t214 = P::triple([P::lane(t146, 0), P::lane(t147, 0), P::lane(t148, 0)]);
+        let t215 = P::triple([P::lane(t154, 2), P::lane(t155, 2), P::lane(t156, 2)]);
+        let t216 = P::triple([P::lane(t184, 0), P::lane(t205, 0), P::lane(t206, 0)]);
+        let t217 = mul_add(P::splat(base_rotation[2][2]), t196, t206);
+        let t218 = P::triple([P::lane(t146, 2), P::lane(t147, 2), P::lane(t148, 2)]);
+        let t219 = P::triple([P::lane(t146, 1), P::lane(t147, 1), P::lane(t148, 1)]);
+        let t220 = P::triple([P::lane(t149, 0), P::lane(t150, 0), P::lane(t151, 0)]);
+        let t221 = P::triple([P::lane(t149, 1), P::lane(t150, 1), P::lane(t151, 1)]);
+        let t222 = P::triple([P::lane(t154, 1), P::lane(t155, 1), P::lane(t156, 1)]);
+        let t223 = t218 + (t214 + t219);
+        let t224 = P::triple([P::lane(t149, 2), P::lane(t150, 2), P::lane(t151, 2)]);
+        let t225 = t220 + t221 + t224;
+        let t226 = t215 + (t212 + t222);
+        let t227 = t223 + t225;
+        let t228 = t216 + t226;
+        let t229 = P::triple([P::lane(t161, 0), P::lane(t162, 0), P::lane(t163, 0)]);
+        let t230 = P::triple([P::lane(t161, 1), P::lane(t162, 1), P::lane(t163, 1)]);
+        let t231 = P::lane(t171, 1) + P::lane(t171, 0);
+        let t232 = P::triple([P::lane(t161, 2), P::lane(t162, 2), P::lane(t163, 2)]);
+        let t233 = P::triple([P::lane(t223, 1), P::lane(t168, 2), P::lane(t171, 2)]);
+        let t234 = t229 + t230 + t232;
+        let t235 = P::triple([P::lane(t184, 1), P::lane(t205, 1), P::lane(t206, 1)]);
+        let t236 = P::triple([P::lane(t152, 0), P::lane(t157, 0), P::lane(t158, 0)]);
+        let t237 = P::triple([P::lane(t152, 1), P::lane(t157, 1), P::lane(t158, 1)]);
+        let t238 = P::triple([c(0.0), P::lane(t168, 1) + P::lane(t168, 0), t231]);
+        let t239 = t233 + t238;
+        let t240 = P::triple([P::lane(t152, 2), P::lane(t157, 2), P::lane(t158, 2)]);
+        let t241 = t234 + t235;
+        let t242 = P::triple([P::lane(t165, 0), P::lane(t166, 0), P::lane(t167, 0)]);
+        let t243 = P::triple([P::lane(t165, 1), P::lane(t166, 1), P::lane(t167, 1)]);
+        let t244 = t236 + t237 + t240;
+        let t245 = P::triple([P::lane(t165, 2), P::lane(t166, 2), P::lane(t167, 2)]);
+        let t246 = t242 + t243 + t245;
+        let t247 = P::triple([P::lane(t184, 2), P::lane(t205, 2), P::lane(t206, 2)]);
+        let t248 = t239 + t244;
+        let t249 = P::triple([P::lane(t159, 0), P::lane(t160, 0), P::lane(t164, 0)]);
+        let t250 = P::triple([P::lane(t159, 1), P::lane(t160, 1), P::lane(t164, 1)]);
+        let t251 = t246 + t247;
+        let t252 = P::triple([P::lane(t159, 2), P::lane(t160, 2), P::lane(t164, 2)]);
+        let t253 = P::triple([P::lane(t183, 0), P::lane(t186, 0), P::lane(t207, 0)]);
+        let t254 = t249 + t250 + t252;
         // mass matrix of the legs
-        let t208 = t153 + t206;
+        let t255 = t185 + t253;
         // part of the legs' mass matrix on the side of the axes
-        let t209 = P::triple([c(0.0), c(0.0), P::lane(t147, 1) + P::lane(t147, 0)]);
-        let t210 = t207
-            + (P::triple([P::lane(t182, 2), P::lane(t196, 2), P::lane(t147, 2)]) + t209);
+        let t256 = P::triple([P::lane(t223, 2), P::lane(t239, 2), P::lane(t178, 2)]);
+        let t257 = P::triple([c(0.0), c(0.0), P::lane(t178, 1) + P::lane(t178, 0)]);
+        let t258 = t254 + (t256 + t257);
         // mass matrix of the legs
-        let t211 = P::triple([P::lane(t208, 1), P::lane(t154, 1), P::lane(t158, 2)]);
-        let t212 = P::triple([c(0.0), P::lane(t158, 1), P::lane(t171, 1)]) + t211;
+        let t259 = P::triple([P::lane(t255, 1), P::lane(t186, 1), P::lane(t192, 2)]);
+        let t260 = P::triple([c(0.0), P::lane(t192, 1), P::lane(t207, 1)]) + t259;
         // part of the legs' mass matrix on the side of the axes
-        let t213 = P::triple([P::lane(t186, 0), P::lane(t192, 0), P::lane(t201, 0)]);
-        let t214 = P::triple([P::lane(t186, 1), P::lane(t192, 1), P::lane(t201, 1)]);
+        let t261 = P::triple([P::lane(t226, 0), P::lane(t234, 0), P::lane(t246, 0)]);
+        let t262 = P::triple([P::lane(t226, 1), P::lane(t234, 1), P::lane(t246, 1)]);
         // mass matrix of the legs
-        let t215 = t166 + t213;
+        let t263 = t201 + t261;
         // part of the legs' mass matrix on the side of the axes
-        let t216 = P::triple([P::lane(t185, 0), P::lane(t200, 0), P::lane(t207, 0)]);
+        let t264 = P::triple([P::lane(t225, 0), P::lane(t244, 0), P::lane(t254, 0)]);
         // mass matrix of the legs
-        let t217 = t187 + t216;
-        let t218 = P::triple([P::lane(t208, 2), P::lane(t212, 2), P::lane(t171, 2)]);
+        let t265 = t227 + t264;
+        let t266 = P::triple([P::lane(t255, 2), P::lane(t260, 2), P::lane(t207, 2)]);
         // part of the legs' mass matrix on the side of the axes
-        let t219 = P::triple([P::lane(t186, 2), P::lane(t192, 2), P::lane(t201, 2)]);
+        let t267 = P::triple([P::lane(t226, 2), P::lane(t234, 2), P::lane(t246, 2)]);
         // mass matrix of the legs
-        let t220 = t175 + t214;
-        let t221 = P::triple([c(0.0), c(0.0), P::lane(t176, 2)]) + t218;
-        let t222 = t177 + t219;
-        let t223 = P::triple([P::lane(t217, 1), P::lane(t200, 1), P::lane(t202, 2)]);
-        let t224 = P::triple([c(0.0), P::lane(t202, 1), P::lane(t207, 1)]) + t223;
+        let t268 = t211 + t262;
+        let t269 = P::triple([c(0.0), c(0.0), P::lane(t213, 2)]) + t266;
+        let t270 = t217 + t267;
+        let t271 = P::triple([P::lane(t265, 1), P::lane(t244, 1), P::lane(t248, 2)]);
+        let t272 = P::triple([c(0.0), P::lane(t248, 1), P::lane(t254, 1)]) + t271;
         // first moment of the rods' couplings by the Hooke joint
-        let t225 = P::triple([
-            c(-0.02095098962111995),
-            c(0.02095098962111995),
-            c(0.029932648390202425),
-        ]);
-        let t226 = P::triple([
-            c(0.008981658769082482),
-            c(-0.008981658769082482),
-            c(-0.029932648390202425),
-        ]);
-        let t227 = P::triple([
-            c(0.022467185713740918),
-            c(0.022467185713740918),
-            c(0.006910496389443537),
-        ]);
-        let t228 = t225 + t226;
-        let t229 = P::triple([
-            c(-0.029377682103184446),
-            c(-0.029377682103184446),
-            c(0.006910496389443537),
-        ]);
-        let t230 = t227 + t229;
+        let t273 =
+            P::triple([c(-0.02095098962111995), c(0.02095098962111995), c(0.029932648390202425)]);
+        let t274 =
+            P::triple([c(0.008981658769082482), c(-0.008981658769082482), c(-0.029932648390202425)]);
+        let t275 =
+            P::triple([c(0.022467185713740918), c(0.022467185713740918), c(0.006910496389443537)]);
+        let t276 = t273 + t274;
+        let t277 =
+            P::triple([c(-0.029377682103184446), c(-0.029377682103184446), c(0.006910496389443537)]);
+        let t278 = t65 * w(0.17066666666666666);
+        let t279 = t275 + t277;
         // constant and copied elements
-        let t231 = P::triple([
-            base_rotation[0][0],
-            base_rotation[1][0],
-            base_rotation[2][0],
-        ]);
+        let t280 = P::triple([base_rotation[0][0], base_rotation[1][0], base_rotation[2][0]]);
         // mass matrix of the legs
-        let t232 = P::triple([P::lane(t217, 2), P::lane(t224, 2), P::lane(t207, 2)]);
+        let t281 = P::triple([P::lane(t265, 2), P::lane(t272, 2), P::lane(t254, 2)]);
         // mass matrix M_p of the platform
-        let t233 = P::triple([c(0.0), c(8.139999999999999), c(0.0)]);
+        let t282 = P::triple([c(0.0), c(8.139999999999999), c(0.0)]);
         // first moment of the rods' couplings by the Hooke joint
-        let t234 = mul_add(t49, w(0.17066666666666666), t48 * w(0.17066666666666666));
+        let t283 = mul_add(t66, w(0.17066666666666666), t278);
         // constant and copied elements
-        let t235 = P::triple([
-            base_rotation[0][1],
-            base_rotation[1][1],
-            base_rotation[2][1],
-        ]);
+        let t284 = P::triple([base_rotation[0][1], base_rotation[1][1], base_rotation[2][1]]);
         // mass matrix of the legs
-        let t236 = t212 + t233;
-        let t237 = t221 + P::triple([c(0.0), c(0.0), c(8.139999999999999)]);
+        let t285 = t260 + t282;
+        let t286 = t269 + P::triple([c(0.0), c(0.0), c(8.139999999999999)]);
         // mass of payload and platform-side leg ends
-        let t238 = P::triple([c(8.139999999999999), c(0.0), c(0.0)]);
+        let t287 = P::triple([c(8.139999999999999), c(0.0), c(0.0)]);
         // their moment by platform joint and Hooke joint
-        let t239 = P::triple([
-            c(0.0026041961909922173),
-            c(0.0026041961909922173),
-            c(-0.00021462816920402313),
-        ]);
-        let t240 = P::triple([
-            c(-0.01448154687870049),
-            c(-0.01448154687870049),
-            c(-0.005300614043699622),
-        ]);
-        let t241 = P::triple([
-            c(0.0024927789876845272),
-            c(0.0024927789876845272),
-            c(-0.00021462816920402313),
-        ]);
-        let t242 = P::triple([
-            c(0.019782160922400118),
-            c(0.019782160922400118),
-            c(-0.005300614043699622),
-        ]);
-        let t243 = t239 + t241;
-        let t244 = P::triple([
-            c(-0.002428452235362478),
-            c(0.002428452235362478),
-            c(-0.0009296567368490032),
-        ]);
-        let t245 = P::triple([
-            c(-0.0007621190186306209),
-            c(0.0007621190186306209),
-            c(0.0009296567368490032),
-        ]);
-        let t246 = t244 + t245;
-        // constant and copied elements
-        let t247 = P::triple([
-            base_rotation[0][2],
-            base_rotation[1][2],
-            base_rotation[2][2],
-        ]);
+        let t288 =
+            P::triple([c(0.0026041961909922173), c(0.0026041961909922173), c(-0.00021462816920402313)]);
+        let t289 =
+            P::triple([c(-0.01448154687870049), c(-0.01448154687870049), c(-0.005300614043699622)]);
+        let t290 =
+            P::triple([c(0.0024927789876845272), c(0.0024927789876845272), c(-0.00021462816920402313)]);
+        let t291 =
+            P::triple([c(0.019782160922400118), c(0.019782160922400118), c(-0.005300614043699622)]);
+        let t292 = t288 + t290;
         // first moment of the rods' couplings by the Hooke joint
-        let t248 = t235
-            * P::splat(P::lane(t228, 2) + (P::lane(t228, 1) + P::lane(t228, 0)));
+        let t293 = P::lane(t279, 2) + (P::lane(t279, 1) + P::lane(t279, 0));
         // their moment by platform joint and Hooke joint
-        let t249 = mul_add(t49, t242, t48 * t240);
-        // first moment of the rods' couplings by the Hooke joint
-        let t250 = mul_add(
-            t231,
-            P::splat(P::lane(t230, 2) + (P::lane(t230, 1) + P::lane(t230, 0))),
-            t248,
-        );
-        // their moment by platform joint and Hooke joint
-        let t251 = P::triple([
-            c(-0.0006977922663085704),
-            c(0.0006977922663085704),
-            c(0.0008010032322049046),
-        ]);
-        let t252 = P::triple([
-            c(-0.005300614043699624),
-            c(0.005300614043699624),
-            c(0.019782160922400118),
-        ]);
-        // first moment of the rods' couplings by the Hooke joint
-        let t253 = mul_add(
-            t247,
-            P::splat(P::lane(t234, 2) + (P::lane(t234, 1) + P::lane(t234, 0))),
-            t250,
-        );
-        // their moment by platform joint and Hooke joint
-        let t254 = P::triple([
-            c(0.0006507018153229305),
-            c(0.0006507018153229305),
-            c(0.0034695261755191714),
-        ]);
-        let t255 = P::triple([
-            c(0.000762119018630621),
-            c(0.000762119018630621),
-            c(0.0034695261755191714),
-        ]);
-        let t256 = P::triple([
-            c(0.014481546878700494),
-            c(-0.014481546878700494),
-            c(-0.019782160922400118),
-        ]);
-        let t257 = t254 + t255;
-        let t258 = P::triple([
-            c(-0.0024927789876845277),
-            c(0.0024927789876845277),
-            c(-0.0008010032322049046),
-        ]);
-        let t259 = t251 + t258;
-        let t260 = mul_add(t49, t252, t48 * t256);
-        let t261 = P::lane(t257, 2) + (P::lane(t257, 1) + P::lane(t257, 0));
-        let t262 = P::lane(t246, 2) + (P::lane(t246, 1) + P::lane(t246, 0));
-        let t263 = P::lane(t259, 2) + (P::lane(t259, 1) + P::lane(t259, 0));
+        let t294 =
+            P::triple([c(-0.002428452235362478), c(0.002428452235362478), c(-0.0009296567368490032)]);
+        let t295 =
+            P::triple([c(-0.0007621190186306209), c(0.0007621190186306209), c(0.0009296567368490032)]);
+        let t296 = t294 + t295;
         // constant and copied elements
-        let t264 = P::triple([
-            platform_rotation[0][1],
-            platform_rotation[1][1],
-            platform_rotation[2][1],
-        ]);
+        let t297 = P::triple([base_rotation[0][2], base_rotation[1][2], base_rotation[2][2]]);
+        // first moment of the rods' couplings by the Hooke joint
+        let t298 = P::lane(t276, 2) + (P::lane(t276, 1) + P::lane(t276, 0));
+        let t299 = P::lane(t283, 2) + (P::lane(t283, 1) + P::lane(t283, 0));
         // their moment by platform joint and Hooke joint
-        let t265 = P::lane(t243, 2) + (P::lane(t243, 1) + P::lane(t243, 0));
+        let t300 = mul_add(t66, t291, t65 * t289);
+        // first moment of the rods' couplings by the Hooke joint
+        let t301 = mul_add(t280, P::splat(t293), t284 * P::splat(t298));
+        // their moment by platform joint and Hooke joint
+        let t302 =
+            P::triple([c(-0.0006977922663085704), c(0.0006977922663085704), c(0.0008010032322049046)]);
+        let t303 =
+            P::triple([c(-0.005300614043699624), c(0.005300614043699624), c(0.019782160922400118)]);
+        // first moment of the rods' couplings by the Hooke joint
+        let t304 = mul_add(t297, P::splat(t299), t301);
+        // their moment by platform joint and Hooke joint
+        let t305 =
+            P::triple([c(0.0006507018153229305), c(0.0006507018153229305), c(0.0034695261755191714)]);
+        let t306 =
+            P::triple([c(0.000762119018630621), c(0.000762119018630621), c(0.0034695261755191714)]);
+        let t307 =
+            P::triple([c(0.014481546878700494), c(-0.014481546878700494), c(-0.019782160922400118)]);
+        let t308 = t305 + t306;
+        let t309 =
+            P::triple([c(-0.0024927789876845277), c(0.0024927789876845277), c(-0.0008010032322049046)]);
+        let t310 = t302 + t309;
+        let t311 = mul_add(t66, t303, t65 * t307);
+        let t312 = P::lane(t308, 2) + (P::lane(t308, 1) + P::lane(t308, 0));
+        let t313 = P::lane(t296, 2) + (P::lane(t296, 1) + P::lane(t296, 0));
+        let t314 = P::lane(t310, 2) + (P::lane(t310, 1) + P::lane(t310, 0));
         // constant and copied elements
-        let t266 = P::triple([
-            platform_rotation[0][0],
-            platform_rotation[1][0],
-            platform_rotation[2][0],
-        ]);
+        let t315 =
+            P::triple([platform_rotation[0][1], platform_rotation[1][1], platform_rotation[2][1]]);
         // their moment by platform joint and Hooke joint
-        let t267 = P::mul_add(base_rotation[0][0], t265, base_rotation[0][1] * t262);
-        let t268 = P::lane(t249, 2) + (P::lane(t249, 1) + P::lane(t249, 0));
-        let t269 = P::mul_add(base_rotation[0][0], t263, base_rotation[0][1] * t261);
-        let t270 = P::mul_add(base_rotation[1][0], t263, base_rotation[1][1] * t261);
-        let t271 = P::mul_add(base_rotation[1][0], t265, base_rotation[1][1] * t262);
-        let t272 = P::lane(t260, 2) + (P::lane(t260, 1) + P::lane(t260, 0));
-        // mass matrix M_b that couples the base acceleration
-        let t273 = P::triple([
-            c(0.05011835762357158),
-            c(-0.05011835762357158),
-            c(-0.16702651650548503),
-        ]);
-        let t274 = P::triple([
-            c(-0.11690815888191348),
-            c(0.11690815888191348),
-            c(0.16702651650548503),
-        ]);
+        let t316 = P::lane(t292, 2) + (P::lane(t292, 1) + P::lane(t292, 0));
+        // constant and copied elements
+        let t317 =
+            P::triple([platform_rotation[0][0], platform_rotation[1][0], platform_rotation[2][0]]);
         // their moment by platform joint and Hooke joint
-        let t275 = P::mul_add(base_rotation[2][0], t263, base_rotation[2][1] * t261);
-        let t276 = P::mul_add(base_rotation[2][0], t265, base_rotation[2][1] * t262);
+        let t318 = P::mul_add(base_rotation[0][0], t316, base_rotation[0][1] * t313);
+        let t319 = P::lane(t300, 2) + (P::lane(t300, 1) + P::lane(t300, 0));
+        let t320 = P::mul_add(base_rotation[0][0], t314, base_rotation[0][1] * t312);
+        let t321 = P::mul_add(base_rotation[1][0], t314, base_rotation[1][1] * t312);
+        let t322 = P::mul_add(base_rotation[1][0], t316, base_rotation[1][1] * t313);
+        let t323 = P::mul_add(base_rotation[0][2], t319, t318);
+        let t324 = P::lane(t311, 2) + (P::lane(t311, 1) + P::lane(t311, 0));
         // mass matrix M_b that couples the base acceleration
-        let t277 = mul_add(t62, t274, t60 * t273);
-        let t278 = mul_add(t62, w(0.9523333333333334), t84);
+        let t325 =
+            P::triple([c(0.05011835762357158), c(-0.05011835762357158), c(-0.16702651650548503)]);
+        let t326 =
+            P::triple([c(-0.11690815888191348), c(0.11690815888191348), c(0.16702651650548503)]);
         // their moment by platform joint and Hooke joint
-        let t279 = t264 * P::splat(P::mul_add(base_rotation[0][2], t272, t269));
-        let t280 = t264 * P::splat(P::mul_add(base_rotation[1][2], t272, t270));
-        let t281 = mul_add(
-            t266,
-            P::splat(P::mul_add(base_rotation[0][2], t268, t267)),
-            t279,
-        );
+        let t327 = P::mul_add(base_rotation[2][0], t314, base_rotation[2][1] * t312);
+        let t328 = P::mul_add(base_rotation[2][0], t316, base_rotation[2][1] * t313);
+        let t329 = P::mul_add(base_rotation[1][2], t319, t322);
         // mass matrix M_b that couples the base acceleration
-        let t282 = P::triple([c(-0.0), c(0.0), c(0.0)]);
-        let t283 = P::triple([
-            c(0.16392976126718353),
-            c(0.16392976126718353),
-            c(-0.03856110973562536),
-        ]);
+        let t330 = mul_add(t85, t326, t83 * t325);
+        let t331 = mul_add(t85, w(0.9523333333333334), t107);
         // their moment by platform joint and Hooke joint
-        let t284 = t264 * P::splat(P::mul_add(base_rotation[2][2], t272, t275));
+        let t332 = t315 * P::splat(P::mul_add(base_rotation[0][2], t324, t320));
+        let t333 = P::mul_add(base_rotation[2][2], t319, t328);
+        let t334 = t315 * P::splat(P::mul_add(base_rotation[1][2], t324, t321));
+        let t335 = mul_add(t317, P::splat(t323), t332);
         // mass matrix M_b that couples the base acceleration
-        let t285 = P::triple([
-            c(-0.1253686515315582),
-            c(-0.1253686515315582),
-            c(-0.03856110973562536),
-        ]);
+        let t336 = P::triple([c(-0.0), c(0.0), c(0.0)]);
+        let t337 =
+            P::triple([c(0.16392976126718353), c(0.16392976126718353), c(-0.03856110973562536)]);
         // their moment by platform joint and Hooke joint
-        let t286 = mul_add(
-            t266,
-            P::splat(P::mul_add(base_rotation[1][2], t268, t271)),
-            t280,
-        );
-        let t287 = mul_add(
-            t266,
-            P::splat(P::mul_add(base_rotation[2][2], t268, t276)),
-            t284,
-        );
+        let t338 = t315 * P::splat(P::mul_add(base_rotation[2][2], t324, t327));
         // mass matrix M_b that couples the base acceleration
-        let t288 = mul_add(t62, t285, t60 * t283);
-        let t289 = mul_add(t70, t285, t67 * t283);
-        let t290 = mul_add(t74, t285, t69 * t283);
-        let t291 = mul_add(t70, t274, t67 * t273);
-        let t292 = mul_add(t74, t274, t69 * t273);
-        let t293 = mul_add(t64, t285, t61 * t283);
-        let t294 = mul_add(t65, t285, t63 * t283);
-        let t295 = t67 * t282;
-        let t296 = mul_add(t68, t285, t66 * t283);
-        let t297 = t69 * t282;
-        let t298 = mul_add(t64, t274, t61 * t273);
-        let t299 = mul_add(t65, t274, t63 * t273);
-        let t300 = mul_add(t68, t274, t66 * t273);
-        let t301 = mul_add(t64, w(0.9523333333333334), t89);
-        let t302 = mul_add(w(0.9523333333333334), t65, t99);
-        let t303 = t60 * t282;
-        let t304 = t61 * t282;
-        let t305 = t63 * t282;
-        let t306 = t66 * t282;
-        let t307 = mul_add(w(0.9523333333333334), t70, t115);
-        let t308 = mul_add(w(0.9523333333333334), t74, t116);
-        let t309 = mul_add(w(0.9523333333333334), t68, t143);
-        let t310 = P::lane(t278, 2) + (P::lane(t278, 1) + P::lane(t278, 0));
-        let t311 = P::lane(t301, 2) + (P::lane(t301, 1) + P::lane(t301, 0));
-        let t312 = P::lane(t302, 2) + (P::lane(t302, 0) + P::lane(t302, 1));
-        let t313 = P::neg_mul_add(base_rotation[0][2], t310, P::lane(t153, 0));
-        let t314 = P::neg_mul_add(base_rotation[1][2], t311, P::lane(t158, 1));
-        let t315 = base_rotation[2][2] * t310;
-        let t316 = P::neg_mul_add(base_rotation[2][2], t312, P::lane(t176, 2));
-        let t317 = base_rotation[2][2] * t311;
-        let t318 = base_rotation[1][2] * t312;
-        let t319 = P::triple([c(1.024), base_rotation[1][2] * t310, t315]);
+        let t339 =
+            P::triple([c(-0.1253686515315582), c(-0.1253686515315582), c(-0.03856110973562536)]);
+        // their moment by platform joint and Hooke joint
+        let t340 = mul_add(t317, P::splat(t329), t334);
+        let t341 = mul_add(t317, P::splat(t333), t338);
+        // mass matrix M_b that couples the base acceleration
+        let t342 = mul_add(t85, t339, t83 * t337);
+        let t343 = mul_add(t93, t339, t90 * t337);
+        let t344 = mul_add(t97, t339, t92 * t337);
+        let t345 = mul_add(t93, t326, t90 * t325);
+        let t346 = mul_add(t97, t326, t92 * t325);
+        let t347 = mul_add(t87, t339, t84 * t337);
+        let t348 = mul_add(t88, t339, t86 * t337);
+        let t349 = t90 * t336;
+        let t350 = mul_add(t91, t339, t89 * t337);
+        let t351 = t92 * t336;
+        let t352 = mul_add(t87, t326, t84 * t325);
+        let t353 = mul_add(t88, t326, t86 * t325);
+        let t354 = mul_add(t91, t326, t89 * t325);
+        let t355 = mul_add(t87, w(0.9523333333333334), t113);
+        let t356 = mul_add(w(0.9523333333333334), t88, t125);
+        let t357 = t83 * t336;
+        let t358 = t84 * t336;
+        let t359 = t86 * t336;
+        let t360 = t89 * t336;
+        let t361 = mul_add(w(0.9523333333333334), t93, t144);
+        let t362 = mul_add(w(0.9523333333333334), t97, t145);
+        let t363 = mul_add(w(0.9523333333333334), t91, t174);
+        let t364 = P::lane(t331, 2) + (P::lane(t331, 1) + P::lane(t331, 0));
+        let t365 = P::lane(t355, 2) + (P::lane(t355, 1) + P::lane(t355, 0));
+        let t366 = P::lane(t356, 2) + (P::lane(t356, 0) + P::lane(t356, 1));
+        let t367 = P::neg_mul_add(base_rotation[0][2], t364, P::lane(t185, 0));
+        let t368 = P::neg_mul_add(base_rotation[1][2], t365, P::lane(t192, 1));
+        let t369 = base_rotation[2][2] * t364;
+        let t370 = P::neg_mul_add(base_rotation[2][2], t366, P::lane(t213, 2));
+        let t371 = base_rotation[2][2] * t365;
+        let t372 = base_rotation[1][2] * t366;
+        let t373 = P::triple([c(1.024), base_rotation[1][2] * t364, t369]);
         // part of the legs' mass matrix on the side of the axes
-        let t320 = P::triple([P::lane(t158, 0), t314, P::lane(t158, 2)]);
-        let t321 = P::triple([P::lane(t176, 0), P::lane(t176, 1), t316]);
+        let t374 = P::triple([P::lane(t192, 0), t368, P::lane(t192, 2)]);
+        let t375 = P::triple([P::lane(t213, 0), P::lane(t213, 1), t370]);
         // mass matrix M_b that couples the base acceleration
-        let t322 = P::triple([t313, P::lane(t153, 1), P::lane(t153, 2)]) - t319;
-        let t323 = t320 - P::triple([base_rotation[0][2] * t311, c(1.024), t317]);
-        let t324 = P::lane(t289, 2) + (P::lane(t289, 1) + P::lane(t289, 0));
-        let t325 = P::lane(t291, 2) + (P::lane(t291, 1) + P::lane(t291, 0));
-        let t326 = t321 - P::triple([base_rotation[0][2] * t312, t318, c(1.024)]);
-        let t327 = P::lane(t295, 2) + (P::lane(t295, 1) + P::lane(t295, 0));
-        let t328 = P::lane(t187, 0)
-            - P::mul_sub(t6, P::lane(t188, 1), t3 * P::lane(t188, 2));
-        let t329 = base_rotation[1][0] * t325;
-        let t330 = base_rotation[2][0] * t325;
-        let t331 = P::mul_add(base_rotation[0][0], t325, base_rotation[0][1] * t324);
+        let t376 = P::triple([t367, P::lane(t185, 1), P::lane(t185, 2)]) - t373;
+        let t377 = t374 - P::triple([base_rotation[0][2] * t365, c(1.024), t371]);
+        let t378 = P::lane(t343, 2) + (P::lane(t343, 1) + P::lane(t343, 0));
+        let t379 = P::lane(t345, 2) + (P::lane(t345, 1) + P::lane(t345, 0));
+        let t380 = P::mul_sub(t8, P::lane(t228, 1), t5 * P::lane(t228, 2));
+        let t381 = t375 - P::triple([base_rotation[0][2] * t366, t372, c(1.024)]);
+        let t382 = P::lane(t349, 2) + (P::lane(t349, 1) + P::lane(t349, 0));
+        let t383 = base_rotation[1][0] * t379;
+        let t384 = base_rotation[2][0] * t379;
+        let t385 = P::mul_add(base_rotation[0][0], t379, base_rotation[0][1] * t378);
+        let t386 = P::mul_sub(t7, P::lane(t228, 2), t8 * P::lane(t228, 0));
         // constant and copied elements
-        let t332 = P::triple([
-            platform_rotation[2][2],
-            base_rotation[1][1],
-            base_rotation[2][1],
-        ]);
-        // their moment by platform joint and Hooke joint
-        let t333 = P::triple([P::lane(t287, 2), t329, t330]);
+        let t387 = P::triple([platform_rotation[2][2], base_rotation[1][1], base_rotation[2][1]]);
         // mass matrix M_b that couples the base acceleration
-        let t334 = P::lane(t281, 0) + P::lane(t286, 1);
+        let t388 = P::mul_sub(t5, P::lane(t228, 0), t7 * P::lane(t228, 1));
         // their moment by platform joint and Hooke joint
-        let t335 = mul_add(t332, P::triple([c(0.0), t324, t324]), t333);
+        let t389 = P::triple([P::lane(t341, 2), t383, t384]);
         // mass matrix M_b that couples the base acceleration
-        let t336 = base_rotation[2][2] * t327;
-        let t337 = P::lane(t187, 1)
-            - P::mul_sub(t5, P::lane(t188, 2), t6 * P::lane(t188, 0));
-        let t338 = P::lane(t187, 2)
-            - P::mul_sub(t3, P::lane(t188, 0), t5 * P::lane(t188, 1));
-        let t339 = t328 - P::mul_add(base_rotation[0][2], t327, t331);
+        let t390 = P::lane(t335, 0) + P::lane(t340, 1);
         // their moment by platform joint and Hooke joint
-        let t340 = P::triple([P::lane(t281, 0), t337, t338]);
+        let t391 = mul_add(t387, P::triple([c(0.0), t378, t378]), t389);
         // mass matrix M_b that couples the base acceleration
-        let t341 = t340 - (t335 + P::triple([t334, base_rotation[1][2] * t327, t336]));
-        let t342 = P::lane(t290, 1) + P::lane(t290, 0);
-        let t343 = P::lane(t292, 2) + (P::lane(t292, 1) + P::lane(t292, 0));
-        let t344 = t341 + P::triple([t339, P::lane(t281, 1), P::lane(t281, 2)]);
-        let t345 = base_rotation[1][1] * (P::lane(t290, 2) + t342);
-        let t346 = P::lane(t297, 2) + (P::lane(t297, 1) + P::lane(t297, 0));
-        let t347 = P::mul_add(base_rotation[1][0], t343, t345);
-        let t348 = P::lane(t202, 1)
-            - P::mul_sub(t5, P::lane(t197, 2), t6 * P::lane(t197, 0));
-        let t349 = base_rotation[2][0] * t343;
-        let t350 = P::triple([P::lane(t290, 2), c(0.0), P::lane(t290, 2)]);
+        let t392 = base_rotation[2][2] * t382;
+        let t393 = P::lane(t227, 1) - t386;
+        let t394 = P::lane(t227, 2) - t388;
+        let t395 = P::lane(t227, 0) - t380 - P::mul_add(base_rotation[0][2], t382, t385);
+        // their moment by platform joint and Hooke joint
+        let t396 = P::triple([P::lane(t335, 0), t393, t394]);
+        // mass matrix M_b that couples the base acceleration
+        let t397 = t396 - (t391 + P::triple([t390, base_rotation[1][2] * t382, t392]));
+        let t398 = P::lane(t344, 1) + P::lane(t344, 0);
+        let t399 = P::lane(t346, 2) + (P::lane(t346, 1) + P::lane(t346, 0));
+        let t400 = t397 + P::triple([t395, P::lane(t335, 1), P::lane(t335, 2)]);
+        let t401 = base_rotation[1][1] * (P::lane(t344, 2) + t398);
+        let t402 = P::lane(t351, 2) + (P::lane(t351, 1) + P::lane(t351, 0));
+        let t403 = P::mul_sub(t7, P::lane(t241, 2), t8 * P::lane(t241, 0));
+        let t404 = P::mul_sub(t8, P::lane(t241, 1), t5 * P::lane(t241, 2));
+        let t405 = P::mul_add(base_rotation[1][0], t399, t401);
+        let t406 = P::mul_sub(t5, P::lane(t241, 0), t7 * P::lane(t241, 1));
+        // angular velocity of the base
+        let t407 = t1 * P::splat(base_velocity[4]);
+        // mass matrix M_b that couples the base acceleration
+        let t408 = base_rotation[2][0] * t399;
+        let t409 = P::triple([P::lane(t344, 2), c(0.0), P::lane(t344, 2)]);
         // constant and copied elements
-        let t351 = P::triple([
-            base_rotation[0][1],
-            platform_rotation[2][2],
-            base_rotation[2][1],
-        ]);
+        let t410 = P::triple([base_rotation[0][1], platform_rotation[2][2], base_rotation[2][1]]);
         // mass matrix M_b that couples the base acceleration
-        let t352 = P::triple([base_rotation[0][0] * t343, P::lane(t287, 2), t349]);
-        let t353 = base_rotation[2][2] * t346;
+        let t411 = P::triple([base_rotation[0][0] * t399, P::lane(t341, 2), t408]);
+        let t412 = base_rotation[2][2] * t402;
         // angular velocity of the base
-        let t354 = mul_add(
-            t2,
-            P::splat(base_velocity[3]),
-            t1 * P::splat(base_velocity[4]),
-        );
+        let t413 = mul_add(t2, P::splat(base_velocity[3]), t407);
         // mass matrix M_b that couples the base acceleration
-        let t355 = mul_add(t351, t350 + P::triple([t342, c(0.0), t342]), t352);
-        let t356 = P::lane(t202, 0)
-            - P::mul_sub(t6, P::lane(t197, 1), t3 * P::lane(t197, 2));
-        let t357 = P::lane(t202, 2)
-            - P::mul_sub(t3, P::lane(t197, 0), t5 * P::lane(t197, 1));
-        let t358 = t348 - P::mul_add(base_rotation[1][2], t346, t347);
+        let t414 = mul_add(t410, t409 + P::triple([t398, c(0.0), t398]), t411);
+        let t415 = P::lane(t248, 2) - t406;
+        let t416 = P::lane(t248, 1) - t403 - P::mul_add(base_rotation[1][2], t402, t405);
         // angular velocity of the base
-        let t359 = mul_add(t4, P::splat(base_velocity[5]), t354);
+        let t417 = mul_add(t6, P::splat(base_velocity[5]), t413);
         // mass matrix M_b that couples the base acceleration
-        let t360 = t355 + P::triple([base_rotation[0][2] * t346, t334, t353]);
+        let t418 = t414 + P::triple([base_rotation[0][2] * t402, t390, t412]);
         // their moment by platform joint and Hooke joint
-        let t361 = P::triple([P::lane(t286, 0), t358, P::lane(t286, 2)]);
+        let t419 = P::triple([P::lane(t340, 0), t416, P::lane(t340, 2)]);
+        // angular velocity of the platform
+        let t420 = t1 * P::splat(platform_velocity[4]);
         // velocity of the platform origin relative to the base
-        let t362 = platform_velocity[1] - base_velocity[1];
-        let t363 = platform_velocity[0] - base_velocity[0];
-        let t364 = platform_velocity[2] - base_velocity[2];
+        let t421 = platform_velocity[1] - base_velocity[1];
+        let t422 = platform_velocity[0] - base_velocity[0];
+        let t423 = platform_velocity[2] - base_velocity[2];
         // angular velocity of the platform
-        let t365 = mul_add(
-            t2,
-            P::splat(platform_velocity[3]),
-            t1 * P::splat(platform_velocity[4]),
-        );
+        let t424 = mul_add(t2, P::splat(platform_velocity[3]), t420);
         // platform origin seen from the base
-        let t366 = P::triple([P::lane(t15, 2), P::lane(t15, 0), P::lane(t15, 1)]);
-        // angular velocity of the platform
-        let t367 = mul_add(t4, P::splat(platform_velocity[5]), t365);
+        let t425 = P::triple([P::lane(t18, 2), P::lane(t18, 0), P::lane(t18, 1)]);
         // mass matrix M_b that couples the base acceleration
-        let t368 = t361 + (P::triple([t356, P::lane(t286, 1), t357]) - t360);
-        // rotation of the platform seen from the base
-        let t369 = P::triple([P::lane(t12, 1), P::lane(t12, 2), P::lane(t12, 0)]);
-        // platform origin seen from the base
-        let t370 = P::triple([P::lane(t15, 1), P::lane(t15, 2), P::lane(t15, 0)]);
-        // angular velocity of the base
-        let t371 = P::triple([P::lane(t359, 2), P::lane(t359, 0), P::lane(t359, 1)]);
-        // rotation of the platform seen from the base
-        let t372 = P::triple([P::lane(t12, 2), P::lane(t12, 0), P::lane(t12, 1)]);
-        // angular velocity of the base
-        let t373 = P::triple([P::lane(t359, 1), P::lane(t359, 2), P::lane(t359, 0)]);
-        // angular velocity of the platform relative to the base
-        let t374 = t359 - t367;
-        // rotation of the platform seen from the base
-        let t375 = P::triple([P::lane(t11, 1), P::lane(t11, 2), P::lane(t11, 0)]);
-        let t376 = P::triple([P::lane(t11, 2), P::lane(t11, 0), P::lane(t11, 1)]);
+        let t426 = P::triple([P::lane(t248, 0) - t404, P::lane(t340, 1), t415]) - t418;
         // velocity of the platform origin relative to the base
-        let t377 = mul_add(
-            t4,
-            P::splat(t364),
-            mul_add(t2, P::splat(t363), t1 * P::splat(t362)),
-        );
-        let t378 = t377 - mul_sub(t366, t373, t370 * t371);
+        let t427 = mul_add(t2, P::splat(t422), t1 * P::splat(t421));
+        // angular velocity of the platform
+        let t428 = mul_add(t6, P::splat(platform_velocity[5]), t424);
+        // mass matrix M_b that couples the base acceleration
+        let t429 = t419 + t426;
+        // rotation of the platform seen from the base
+        let t430 = P::triple([P::lane(t14, 1), P::lane(t14, 2), P::lane(t14, 0)]);
+        // platform origin seen from the base
+        let t431 = P::triple([P::lane(t18, 1), P::lane(t18, 2), P::lane(t18, 0)]);
+        // angular velocity of the base
+        let t432 = P::triple([P::lane(t417, 2), P::lane(t417, 0), P::lane(t417, 1)]);
+        // rotation of the platform seen from the base
+        let t433 = P::triple([P::lane(t14, 2), P::lane(t14, 0), P::lane(t14, 1)]);
+        // angular velocity of the base
+        let t434 = P::triple([P::lane(t417, 1), P::lane(t417, 2), P::lane(t417, 0)]);
         // angular velocity of the platform relative to the base
-        let t379 = P::triple([P::lane(t374, 2), P::lane(t374, 0), P::lane(t374, 1)]);
-        let t380 = P::triple([P::lane(t374, 1), P::lane(t374, 2), P::lane(t374, 0)]);
+        let t435 = t417 - t428;
+        // rotation of the platform seen from the base
+        let t436 = P::triple([P::lane(t13, 1), P::lane(t13, 2), P::lane(t13, 0)]);
+        let t437 = P::triple([P::lane(t13, 2), P::lane(t13, 0), P::lane(t13, 1)]);
+        // velocity of the platform origin relative to the base
+        let t438 = mul_sub(t425, t434, t431 * t432);
+        let t439 = mul_add(t6, P::splat(t423), t427) - t438;
+        // angular velocity of the platform relative to the base
+        let t440 = P::triple([P::lane(t435, 2), P::lane(t435, 0), P::lane(t435, 1)]);
+        let t441 = P::triple([P::lane(t435, 1), P::lane(t435, 2), P::lane(t435, 0)]);
         // rate of the relative rotation
-        let t381 = mul_sub(t376, t380, t375 * t379);
-        let t382 = mul_sub(t372, t380, t369 * t379);
+        let t442 = mul_sub(t437, t441, t436 * t440);
+        let t443 = mul_sub(t433, t441, t430 * t440);
         // legs 4, 5, 6: velocity of the platform joint relative to the base
-        let t383 = P::splat(P::lane(t378, 0))
-            - mul_add(t14, P::splat(P::lane(t382, 0)), t13 * P::splat(P::lane(t381, 0)));
+        let t444 = t16 * P::splat(P::lane(t442, 0));
         // legs 1, 2, 3: velocity of the platform joint relative to the base
-        let t384 = P::splat(P::lane(t378, 0))
-            - mul_add(t10, P::splat(P::lane(t382, 0)), t9 * P::splat(P::lane(t381, 0)));
+        let t445 = t11 * P::splat(P::lane(t442, 0));
         // legs 4, 5, 6: velocity of the platform joint relative to the base
-        let t385 = P::splat(P::lane(t378, 1))
-            - mul_add(t14, P::splat(P::lane(t382, 1)), t13 * P::splat(P::lane(t381, 1)));
+        let t446 = t16 * P::splat(P::lane(t442, 1));
         // legs 1, 2, 3: velocity of the platform joint relative to the base
-        let t386 = P::splat(P::lane(t378, 1))
-            - mul_add(t10, P::splat(P::lane(t382, 1)), t9 * P::splat(P::lane(t381, 1)));
+        let t447 = t11 * P::splat(P::lane(t442, 1));
+        // legs 4, 5, 6: velocity of the platform joint relative to the base
+        let t448 = mul_add(t17, P::splat(P::lane(t443, 0)), t444);
+        // legs 1, 2, 3: velocity of the platform joint relative to the base
+        let t449 = mul_add(t12, P::splat(P::lane(t443, 0)), t445);
+        // legs 4, 5, 6: velocity of the platform joint relative to the base
+        let t450 = mul_add(t17, P::splat(P::lane(t443, 1)), t446);
+        // legs 1, 2, 3: velocity of the platform joint relative to the base
+        let t451 = mul_add(t12, P::splat(P::lane(t443, 1)), t447);
+        // legs 4, 5, 6: velocity of the platform joint relative to the base
+        let t452 = t16 * P::splat(P::lane(t442, 2));
+        // legs 1, 2, 3: velocity of the platform joint relative to the base
+        let t453 = t11 * P::splat(P::lane(t442, 2));
+        // legs 4, 5, 6: velocity of the platform joint relative to the base
+        let t454 = P::splat(P::lane(t439, 0)) - t448;
+        // legs 1, 2, 3: velocity of the platform joint relative to the base
+        let t455 = P::splat(P::lane(t439, 0)) - t449;
+        // legs 4, 5, 6: velocity of the platform joint relative to the base
+        let t456 = P::splat(P::lane(t439, 1)) - t450;
+        // legs 1, 2, 3: velocity of the platform joint relative to the base
+        let t457 = P::splat(P::lane(t439, 1)) - t451;
         // legs 4, 5, 6: inertial rate of that gradient
-        let t387 = neg_mul_add(
-            t51,
-            P::splat(P::lane(t359, 2)),
-            P::splat(P::lane(t359, 0)),
-        );
-        let t388 = neg_mul_add(
-            t50,
-            P::splat(P::lane(t359, 2)),
-            P::splat(P::lane(t359, 1)),
-        );
-        // legs 1, 2, 3: inertial rate of that gradient
-        let t389 = neg_mul_add(
-            t53,
-            P::splat(P::lane(t359, 2)),
-            P::splat(P::lane(t359, 0)),
-        );
-        let t390 = neg_mul_add(
-            t52,
-            P::splat(P::lane(t359, 2)),
-            P::splat(P::lane(t359, 1)),
-        );
+        let t458 = neg_mul_add(t68, P::splat(P::lane(t417, 2)), P::splat(P::lane(t417, 0)));
         // legs 4, 5, 6: velocity of the platform joint relative to the base
-        let t391 = P::splat(P::lane(t378, 2))
-            - mul_add(t14, P::splat(P::lane(t382, 2)), t13 * P::splat(P::lane(t381, 2)));
+        let t459 = mul_add(t17, P::splat(P::lane(t443, 2)), t452);
+        // legs 4, 5, 6: inertial rate of that gradient
+        let t460 = neg_mul_add(t67, P::splat(P::lane(t417, 2)), P::splat(P::lane(t417, 1)));
+        // legs 1, 2, 3: inertial rate of that gradient
+        let t461 = neg_mul_add(t70, P::splat(P::lane(t417, 2)), P::splat(P::lane(t417, 0)));
+        // legs 1, 2, 3: velocity of the platform joint relative to the base
+        let t462 = mul_add(t12, P::splat(P::lane(t443, 2)), t453);
+        // legs 1, 2, 3: inertial rate of that gradient
+        let t463 = neg_mul_add(t69, P::splat(P::lane(t417, 2)), P::splat(P::lane(t417, 1)));
+        // legs 4, 5, 6: inertial rate of that gradient
+        let t464 = t68 * P::splat(P::lane(t417, 1));
+        // legs 4, 5, 6: velocity of the platform joint relative to the base
+        let t465 = P::splat(P::lane(t439, 2)) - t459;
         // legs 4, 5, 6: rate of the rod's extent along the actuator axis
-        let t392 = mul_add(t24, t383, t27 * t385);
+        let t466 = mul_add(t32, t454, t36 * t456);
         // legs 1, 2, 3: rate of the rod's extent along the actuator axis
-        let t393 = mul_add(t26, t384, t28 * t386);
-        // legs 1, 2, 3: velocity of the platform joint relative to the base
-        let t394 = P::splat(P::lane(t378, 2))
-            - mul_add(t10, P::splat(P::lane(t382, 2)), t9 * P::splat(P::lane(t381, 2)));
-        // legs 4, 5, 6: inertial rate of that gradient
-        let t395 = mul_sub(
-            t50,
-            P::splat(P::lane(t359, 0)),
-            t51 * P::splat(P::lane(t359, 1)),
-        );
-        // legs 4, 5, 6: rate of the rod's extent along the actuator axis
-        let t396 = t46 * t392;
-        // legs 1, 2, 3: rate of the rod's extent along the actuator axis
-        let t397 = t47 * t393;
-        // legs 4, 5, 6: actuator velocity d'
-        let t398 = mul_add(t46, t392, t391);
-        // legs 1, 2, 3: actuator velocity d'
-        let t399 = mul_add(t47, t393, t394);
+        let t467 = mul_add(t35, t455, t37 * t457);
         // legs 1, 2, 3: inertial rate of that gradient
-        let t400 = mul_sub(
-            t52,
-            P::splat(P::lane(t359, 0)),
-            t53 * P::splat(P::lane(t359, 1)),
-        );
-        // legs 4, 5, 6: rate of the platform lever
-        let t401 = mul_sub(
-            t36,
-            P::splat(platform_velocity[4]),
-            t33 * P::splat(platform_velocity[5]),
-        );
-        let t402 = mul_sub(
-            t32,
-            P::splat(platform_velocity[5]),
-            t36 * P::splat(platform_velocity[3]),
-        );
-        // legs 4, 5, 6: inertial rate of that gradient
-        let t403 = mul_sub(t46, mul_add(t50, t396, t385), t387);
-        let t404 = mul_add(t46, mul_add(t51, t396, t383), t388);
-        // legs 1, 2, 3: inertial rate of that gradient
-        let t405 = mul_sub(t47, mul_add(t52, t397, t386), t389);
-        let t406 = mul_add(t47, mul_add(t53, t397, t384), t390);
-        // legs 4, 5, 6: rate of the platform lever
-        let t407 = mul_sub(
-            t33,
-            P::splat(platform_velocity[3]),
-            t32 * P::splat(platform_velocity[4]),
-        );
+        let t468 = t70 * P::splat(P::lane(t417, 1));
         // legs 1, 2, 3: rate of the platform lever
-        let t408 = mul_sub(
-            t34,
-            P::splat(platform_velocity[4]),
-            t37 * P::splat(platform_velocity[5]),
-        );
-        let t409 = mul_sub(
-            t35,
-            P::splat(platform_velocity[5]),
-            t34 * P::splat(platform_velocity[3]),
-        );
-        let t410 = mul_sub(
-            t37,
-            P::splat(platform_velocity[3]),
-            t35 * P::splat(platform_velocity[4]),
-        );
+        let t469 = t54 * P::splat(platform_velocity[5]);
+        // legs 1, 2, 3: velocity of the platform joint relative to the base
+        let t470 = P::splat(P::lane(t439, 2)) - t462;
         // legs 4, 5, 6: inertial rate of that gradient
-        let t411 = mul_add(
-            P::splat(base_rotation[0][0]),
-            t404,
-            P::splat(base_rotation[0][1]) * t403,
-        );
-        let t412 = mul_add(
-            P::splat(base_rotation[1][0]),
-            t404,
-            P::splat(base_rotation[1][1]) * t403,
-        );
-        let t413 = mul_add(
-            P::splat(base_rotation[2][0]),
-            t404,
-            P::splat(base_rotation[2][1]) * t403,
-        );
+        let t471 = mul_sub(t67, P::splat(P::lane(t417, 0)), t464);
+        // legs 4, 5, 6: rate of the platform lever
+        let t472 = t48 * P::splat(platform_velocity[5]);
+        let t473 = t53 * P::splat(platform_velocity[3]);
+        // legs 4, 5, 6: rate of the rod's extent along the actuator axis
+        let t474 = t63 * t466;
+        // legs 1, 2, 3: rate of the rod's extent along the actuator axis
+        let t475 = t64 * t467;
+        // legs 4, 5, 6: actuator velocity d'
+        let t476 = mul_add(t63, t466, t465);
+        // legs 1, 2, 3: actuator velocity d'
+        let t477 = mul_add(t64, t467, t470);
         // legs 1, 2, 3: inertial rate of that gradient
-        let t414 = mul_add(
-            P::splat(base_rotation[0][0]),
-            t406,
-            P::splat(base_rotation[0][1]) * t405,
-        );
-        let t415 = mul_add(
-            P::splat(base_rotation[1][0]),
-            t406,
-            P::splat(base_rotation[1][1]) * t405,
-        );
-        let t416 = mul_add(
-            P::splat(base_rotation[2][0]),
-            t406,
-            P::splat(base_rotation[2][1]) * t405,
-        );
+        let t478 = mul_sub(t69, P::splat(P::lane(t417, 0)), t468);
+        // legs 4, 5, 6: rate of the platform lever
+        let t479 = t46 * P::splat(platform_velocity[4]);
+        // legs 1, 2, 3: rate of the platform lever
+        let t480 = t49 * P::splat(platform_velocity[3]);
+        let t481 = t50 * P::splat(platform_velocity[4]);
+        // legs 4, 5, 6: rate of the platform lever
+        let t482 = mul_sub(t53, P::splat(platform_velocity[4]), t472);
+        let t483 = mul_sub(t46, P::splat(platform_velocity[5]), t473);
         // legs 4, 5, 6: inertial rate of that gradient
-        let t417 = mul_add(P::splat(base_rotation[0][2]), t395, t411);
-        let t418 = mul_add(P::splat(base_rotation[1][2]), t395, t412);
-        let t419 = mul_add(P::splat(base_rotation[2][2]), t395, t413);
+        let t484 = mul_sub(t63, mul_add(t67, t474, t456), t458);
+        let t485 = mul_add(t63, mul_add(t68, t474, t454), t460);
         // legs 1, 2, 3: inertial rate of that gradient
-        let t420 = mul_add(P::splat(base_rotation[0][2]), t400, t414);
-        let t421 = mul_add(P::splat(base_rotation[1][2]), t400, t415);
-        let t422 = mul_add(P::splat(base_rotation[2][2]), t400, t416);
+        let t486 = mul_sub(t64, mul_add(t69, t475, t457), t461);
+        let t487 = mul_add(t64, mul_add(t70, t475, t455), t463);
+        // legs 4, 5, 6: rate of the platform lever
+        let t488 = mul_sub(t48, P::splat(platform_velocity[3]), t479);
+        // legs 1, 2, 3: rate of the platform lever
+        let t489 = mul_sub(t49, P::splat(platform_velocity[4]), t469);
+        let t490 = mul_sub(t50, P::splat(platform_velocity[5]), t480);
+        let t491 = mul_sub(t54, P::splat(platform_velocity[3]), t481);
+        // legs 4, 5, 6: inertial rate of that gradient
+        let t492 = P::splat(base_rotation[0][1]) * t484;
+        let t493 = P::splat(base_rotation[1][1]) * t484;
+        let t494 = P::splat(base_rotation[2][1]) * t484;
+        // legs 1, 2, 3: inertial rate of that gradient
+        let t495 = P::splat(base_rotation[0][1]) * t486;
+        let t496 = P::splat(base_rotation[1][1]) * t486;
+        let t497 = P::splat(base_rotation[2][1]) * t486;
+        // legs 4, 5, 6: inertial rate of that gradient
+        let t498 = mul_add(P::splat(base_rotation[0][0]), t485, t492);
+        let t499 = mul_add(P::splat(base_rotation[1][0]), t485, t493);
+        let t500 = mul_add(P::splat(base_rotation[2][0]), t485, t494);
+        // legs 1, 2, 3: inertial rate of that gradient
+        let t501 = mul_add(P::splat(base_rotation[0][0]), t487, t495);
+        let t502 = mul_add(P::splat(base_rotation[1][0]), t487, t496);
+        let t503 = mul_add(P::splat(base_rotation[2][0]), t487, t497);
+        // legs 4, 5, 6: inertial rate of that gradient
+        let t504 = mul_add(P::splat(base_rotation[0][2]), t471, t498);
+        let t505 = mul_add(P::splat(base_rotation[1][2]), t471, t499);
+        let t506 = mul_add(P::splat(base_rotation[2][2]), t471, t500);
+        // legs 1, 2, 3: inertial rate of that gradient
+        let t507 = mul_add(P::splat(base_rotation[0][2]), t478, t501);
+        let t508 = mul_add(P::splat(base_rotation[1][2]), t478, t502);
+        let t509 = mul_add(P::splat(base_rotation[2][2]), t478, t503);
         // legs 4, 5, 6: inertial rate of the row of the actuator Jacobian
-        let t423 = mul_sub(t33, t419, t36 * t418);
-        let t424 = mul_sub(t36, t417, t32 * t419);
-        let t425 = mul_sub(t32, t418, t33 * t417);
+        let t510 = mul_sub(t48, t506, t53 * t505);
+        let t511 = mul_sub(t53, t504, t46 * t506);
+        let t512 = mul_sub(t46, t505, t48 * t504);
         // legs 1, 2, 3: moment of that force's rate
-        let t426 = P::mul_sub(t72, base_velocity[3], t71 * base_velocity[4]);
+        let t513 = P::mul_sub(t95, base_velocity[3], t94 * base_velocity[4]);
         // legs 1, 2, 3: inertial rate of the row of the actuator Jacobian
-        let t427 = mul_sub(t37, t422, t34 * t421);
-        let t428 = mul_sub(t34, t420, t35 * t422);
+        let t514 = mul_sub(t54, t509, t49 * t508);
+        let t515 = mul_sub(t49, t507, t50 * t509);
         // legs 1, 2, 3: moment of that force's rate
-        let t429 = P::mul_sub(t71, base_velocity[5], t73 * base_velocity[3]);
+        let t516 = P::mul_sub(t94, base_velocity[5], t96 * base_velocity[3]);
         // legs 1, 2, 3: inertial rate of the row of the actuator Jacobian
-        let t430 = mul_sub(t35, t421, t37 * t420);
+        let t517 = mul_sub(t50, t508, t54 * t507);
         // legs 4, 5, 6: inertial rate of the row of the actuator Jacobian
-        let t431 = mul_sub(t63, t402, t61 * t407) + t423;
-        let t432 = mul_sub(t60, t407, t63 * t401) + t424;
-        let t433 = mul_sub(t61, t401, t60 * t402) + t425;
+        let t518 = mul_sub(t86, t483, t84 * t488) + t510;
+        let t519 = mul_sub(t83, t488, t86 * t482) + t511;
+        let t520 = mul_sub(t84, t482, t83 * t483) + t512;
         // legs 1, 2, 3: inertial rate of the row of the actuator Jacobian
-        let t434 = mul_sub(t65, t409, t64 * t410) + t427;
-        let t435 = mul_sub(t62, t410, t65 * t408) + t428;
+        let t521 = mul_sub(t88, t490, t87 * t491) + t514;
+        let t522 = mul_sub(t85, t491, t88 * t489) + t515;
         // legs 1, 2, 3: moment of that force's rate
-        let t436 = P::mul_sub(t73, base_velocity[4], t72 * base_velocity[5]);
+        let t523 = P::mul_sub(t96, base_velocity[4], t95 * base_velocity[5]);
         // legs 1, 2, 3: inertial rate of the row of the actuator Jacobian
-        let t437 = mul_sub(t64, t408, t62 * t409) + t430;
+        let t524 = mul_sub(t87, t489, t85 * t490) + t517;
         // legs 1, 2, 3: moment of that force's rate
-        let t438 = mul_sub(t37, P::splat(t426), t34 * P::splat(t429));
+        let t525 = mul_sub(t54, P::splat(t513), t49 * P::splat(t516));
         // legs 1, 2, 3: moment of the force along the axis that an acceleration of the actuator takes
-        let t439 = mul_add(w(0.9523333333333334), t70, t75);
-        let t440 = mul_add(w(0.9523333333333334), t74, t76);
-        let t441 = mul_add(w(0.9523333333333334), t68, t80);
+        let t526 = mul_add(w(0.9523333333333334), t93, t98);
+        let t527 = mul_add(w(0.9523333333333334), t97, t99);
+        let t528 = mul_add(w(0.9523333333333334), t91, t103);
         // legs 4, 5, 6: moment of the force along the axis that an acceleration of the actuator takes
-        let t442 = mul_add(w(0.9523333333333334), t67, t77);
+        let t529 = mul_add(w(0.9523333333333334), t90, t100);
         // legs 1, 2, 3: moment of that force's rate
-        let t443 = mul_sub(t34, P::splat(t436), t35 * P::splat(t426));
+        let t530 = mul_sub(t49, P::splat(t523), t50 * P::splat(t513));
         // legs 4, 5, 6: moment of the force along the axis that an acceleration of the actuator takes
-        let t444 = mul_add(w(0.9523333333333334), t69, t78);
-        let t445 = mul_add(w(0.9523333333333334), t66, t85);
+        let t531 = mul_add(w(0.9523333333333334), t92, t101);
+        let t532 = mul_add(w(0.9523333333333334), t89, t108);
         // legs 4, 5, 6: moment of that force's rate
-        let t446 = mul_sub(t33, P::splat(t426), t36 * P::splat(t429));
+        let t533 = mul_sub(t48, P::splat(t513), t53 * P::splat(t516));
         // legs 1, 2, 3: moment of that force's rate
-        let t447 = mul_sub(t35, P::splat(t429), t37 * P::splat(t436));
+        let t534 = mul_sub(t50, P::splat(t516), t54 * P::splat(t523));
         // part of the legs' Coriolis matrix on the side of the axes
-        let t448 = mul_add(t82, t420, t84 * t417);
+        let t535 = w(0.17066666666666666) * t504;
+        let t536 = w(0.17066666666666666) * t505;
+        let t537 = mul_add(t105, t507, t107 * t504);
         // legs 4, 5, 6: moment of that force's rate
-        let t449 = mul_sub(t36, P::splat(t436), t32 * P::splat(t426));
+        let t538 = mul_sub(t53, P::splat(t523), t46 * P::splat(t513));
         // part of the legs' Coriolis matrix on the side of the axes
-        let t450 = mul_add(w(0.17066666666666666), t420, w(0.17066666666666666) * t417);
-        let t451 = mul_add(t82, t421, t84 * t418);
-        let t452 = mul_add(w(0.17066666666666666), t421, w(0.17066666666666666) * t418);
+        let t539 = w(0.17066666666666666) * t506;
+        let t540 = mul_add(w(0.17066666666666666), t507, t535);
+        let t541 = mul_add(t105, t508, t107 * t505);
+        let t542 = mul_add(w(0.17066666666666666), t508, t536);
         // legs 4, 5, 6: moment of that force's rate
-        let t453 = mul_sub(t32, P::splat(t429), t33 * P::splat(t436));
+        let t543 = mul_sub(t46, P::splat(t516), t48 * P::splat(t523));
         // part of the legs' Coriolis matrix on the side of the axes
-        let t454 = mul_add(t82, t422, t84 * t419);
-        let t455 = mul_add(w(0.17066666666666666), t422, w(0.17066666666666666) * t419);
+        let t544 = mul_add(t105, t509, t107 * t506);
+        let t545 = mul_add(w(0.17066666666666666), t509, t539);
         // legs 4, 5, 6: moment of that force by the rate of the lever
-        let t456 = mul_sub(P::splat(t73), t402, P::splat(t72) * t407);
-        let t457 = mul_sub(P::splat(t71), t407, P::splat(t73) * t401);
-        let t458 = mul_sub(P::splat(t72), t401, P::splat(t71) * t402);
+        let t546 = mul_sub(P::splat(t96), t483, P::splat(t95) * t488);
+        let t547 = mul_sub(P::splat(t94), t488, P::splat(t96) * t482);
+        let t548 = mul_sub(P::splat(t95), t482, P::splat(t94) * t483);
         // legs 1, 2, 3: moment of that force by the rate of the lever
-        let t459 = mul_sub(P::splat(t73), t409, P::splat(t72) * t410);
+        let t549 = mul_sub(P::splat(t96), t490, P::splat(t95) * t491);
         // part of the legs' Coriolis matrix on the side of the axes
-        let t460 = mul_add(t82, t434, t84 * t431);
+        let t550 = w(0.17066666666666666) * t518;
+        let t551 = mul_add(t105, t521, t107 * t518);
         // legs 1, 2, 3: moment of that force by the rate of the lever
-        let t461 = mul_sub(P::splat(t71), t410, P::splat(t73) * t408);
+        let t552 = mul_sub(P::splat(t94), t491, P::splat(t96) * t489);
         // part of the legs' Coriolis matrix on the side of the axes
-        let t462 = mul_add(w(0.17066666666666666), t434, w(0.17066666666666666) * t431);
-        let t463 = mul_add(t82, t435, t84 * t432);
+        let t553 = w(0.17066666666666666) * t519;
+        let t554 = mul_add(w(0.17066666666666666), t521, t550);
+        let t555 = mul_add(t105, t522, t107 * t519);
         // legs 1, 2, 3: moment of that force by the rate of the lever
-        let t464 = mul_sub(P::splat(t72), t408, P::splat(t71) * t409);
+        let t556 = mul_sub(P::splat(t95), t489, P::splat(t94) * t490);
         // part of the legs' Coriolis matrix on the side of the axes
-        let t465 = mul_add(t90, t420, t89 * t417);
-        let t466 = mul_add(t90, t421, t89 * t418);
-        let t467 = mul_add(t90, t422, t89 * t419);
-        let t468 = mul_add(t97, t420, t99 * t417);
-        let t469 = mul_add(t97, t421, t99 * t418);
-        let t470 = mul_add(t97, t422, t99 * t419);
-        let t471 = mul_add(w(0.17066666666666666), t435, w(0.17066666666666666) * t432);
-        let t472 = mul_add(t82, t437, t84 * t433);
-        let t473 = mul_add(w(0.17066666666666666), t437, w(0.17066666666666666) * t433);
-        let t474 = mul_add(t90, t434, t89 * t431);
-        let t475 = mul_add(t90, t435, t89 * t432);
-        let t476 = mul_add(t417, t442, mul_add(t420, t439, t62 * t438));
-        let t477 = mul_add(t90, t437, t89 * t433);
-        let t478 = mul_add(t418, t442, mul_add(t421, t439, t64 * t438));
-        let t479 = mul_add(t419, t442, mul_add(t422, t439, t65 * t438));
-        let t480 = mul_add(t97, t434, t99 * t431);
-        let t481 = mul_add(t97, t435, t99 * t432);
-        let t482 = mul_add(t97, t437, t99 * t433);
-        let t483 = mul_add(t60, t446, t476);
-        let t484 = mul_add(t417, t444, mul_add(t420, t440, t62 * t443));
-        let t485 = mul_add(t61, t446, t478);
-        let t486 = mul_add(t63, t446, t479);
-        let t487 = mul_add(t431, t442, mul_add(t434, t439, t70 * t438));
-        let t488 = mul_add(t418, t444, mul_add(t421, t440, t64 * t443));
-        let t489 = mul_add(t419, t444, mul_add(t422, t440, t65 * t443));
-        let t490 = mul_add(t60, t449, t484);
-        let t491 = mul_add(t432, t442, mul_add(t435, t439, t74 * t438));
-        let t492 = mul_add(t433, t442, mul_add(t437, t439, t68 * t438));
-        let t493 = mul_add(t431, t444, mul_add(t434, t440, t70 * t443));
-        let t494 = mul_add(t67, t446, t487);
-        let t495 = mul_add(t61, t449, t488);
-        let t496 = mul_add(t63, t449, t489);
-        let t497 = mul_add(t432, t444, mul_add(t435, t440, t74 * t443));
-        let t498 = mul_add(t69, t446, t491);
-        let t499 = mul_add(t66, t446, t492);
-        let t500 = mul_add(t433, t444, mul_add(t437, t440, t68 * t443));
-        let t501 = mul_add(t417, t445, mul_add(t420, t441, t62 * t447));
-        let t502 = mul_add(t67, t449, t493);
-        let t503 = mul_add(t418, t445, mul_add(t421, t441, t64 * t447));
-        let t504 = mul_add(t419, t445, mul_add(t422, t441, t65 * t447));
-        let t505 = mul_add(t60, t453, t501);
-        let t506 = mul_add(t431, t445, mul_add(t434, t441, t70 * t447));
-        let t507 = mul_add(t432, t445, mul_add(t435, t441, t74 * t447));
-        let t508 = mul_add(t69, t449, t497);
-        let t509 = mul_add(t61, t453, t503);
-        let t510 = mul_add(t63, t453, t504);
-        let t511 = mul_add(t433, t445, mul_add(t437, t441, t68 * t447));
-        let t512 = mul_add(t66, t449, t500);
-        let t513 = P::triple([P::lane(t448, 1), P::lane(t451, 1), P::lane(t454, 1)]);
-        let t514 = mul_add(t67, t453, t506);
-        let t515 = P::triple([P::lane(t448, 0), P::lane(t451, 0), P::lane(t454, 0)])
-            + t513;
-        let t516 = mul_add(t69, t453, t507);
-        let t517 = P::triple([P::lane(t448, 2), P::lane(t451, 2), P::lane(t454, 2)])
-            + t515;
-        let t518 = mul_add(t66, t453, t511);
-        let t519 = P::triple([P::lane(t465, 1), P::lane(t466, 1), P::lane(t467, 1)]);
-        let t520 = P::triple([P::lane(t465, 0), P::lane(t466, 0), P::lane(t467, 0)])
-            + t519;
-        let t521 = t520
-            + P::triple([P::lane(t465, 2), P::lane(t466, 2), P::lane(t467, 2)]);
-        let t522 = P::triple([P::lane(t460, 1), P::lane(t463, 1), P::lane(t472, 1)]);
-        let t523 = P::triple([P::lane(t460, 0), P::lane(t463, 0), P::lane(t472, 0)])
-            + t522;
-        let t524 = P::triple([P::lane(t474, 1), P::lane(t475, 1), P::lane(t477, 1)]);
-        let t525 = P::triple([P::lane(t460, 2), P::lane(t463, 2), P::lane(t472, 2)])
-            + t523;
-        let t526 = P::triple([P::lane(t468, 1), P::lane(t469, 1), P::lane(t470, 1)]);
-        let t527 = P::triple([P::lane(t468, 0), P::lane(t469, 0), P::lane(t470, 0)])
-            + t526;
-        let t528 = t527
-            + P::triple([P::lane(t468, 2), P::lane(t469, 2), P::lane(t470, 2)]);
-        let t529 = P::triple([P::lane(t480, 1), P::lane(t481, 1), P::lane(t482, 1)]);
-        let t530 = P::triple([P::lane(t474, 0), P::lane(t475, 0), P::lane(t477, 0)])
-            + t524;
-        let t531 = P::triple([P::lane(t480, 0), P::lane(t481, 0), P::lane(t482, 0)])
-            + t529;
-        let t532 = P::triple([P::lane(t474, 2), P::lane(t475, 2), P::lane(t477, 2)])
-            + t530;
-        let t533 = P::triple([P::lane(t483, 1), P::lane(t485, 1), P::lane(t486, 1)]);
-        let t534 = P::triple([P::lane(t483, 0), P::lane(t485, 0), P::lane(t486, 0)])
-            + t533;
-        let t535 = t531
-            + P::triple([P::lane(t480, 2), P::lane(t481, 2), P::lane(t482, 2)]);
-        let t536 = t534
-            + P::triple([P::lane(t483, 2), P::lane(t485, 2), P::lane(t486, 2)]);
-        let t537 = P::triple([P::lane(t490, 1), P::lane(t495, 1), P::lane(t496, 1)]);
-        let t538 = P::triple([P::lane(t490, 0), P::lane(t495, 0), P::lane(t496, 0)])
-            + t537;
-        let t539 = t538
-            + P::triple([P::lane(t490, 2), P::lane(t495, 2), P::lane(t496, 2)]);
-        let t540 = P::triple([P::lane(t494, 1), P::lane(t498, 1), P::lane(t499, 1)]);
-        let t541 = P::triple([P::lane(t494, 0), P::lane(t498, 0), P::lane(t499, 0)])
-            + t540;
-        let t542 = t541
-            + P::triple([P::lane(t494, 2), P::lane(t498, 2), P::lane(t499, 2)]);
-        let t543 = P::triple([P::lane(t505, 1), P::lane(t509, 1), P::lane(t510, 1)]);
-        let t544 = P::triple([P::lane(t505, 0), P::lane(t509, 0), P::lane(t510, 0)])
-            + t543;
-        let t545 = t544
-            + P::triple([P::lane(t505, 2), P::lane(t509, 2), P::lane(t510, 2)]);
-        let t546 = P::triple([P::lane(t502, 1), P::lane(t508, 1), P::lane(t512, 1)]);
-        let t547 = P::triple([P::lane(t502, 0), P::lane(t508, 0), P::lane(t512, 0)])
-            + t546;
-        let t548 = P::triple([P::lane(t514, 1), P::lane(t516, 1), P::lane(t518, 1)]);
-        let t549 = P::triple([P::lane(t502, 2), P::lane(t508, 2), P::lane(t512, 2)])
-            + t547;
-        let t550 = P::triple([P::lane(t450, 1), P::lane(t452, 1), P::lane(t455, 1)]);
-        let t551 = P::triple([P::lane(t450, 0), P::lane(t452, 0), P::lane(t455, 0)])
-            + t550;
-        let t552 = t551
-            + P::triple([P::lane(t450, 2), P::lane(t452, 2), P::lane(t455, 2)]);
-        let t553 = P::triple([P::lane(t514, 0), P::lane(t516, 0), P::lane(t518, 0)])
-            + t548;
-        let t554 = mul_add(P::splat(base_rotation[0][2]), t552, t517);
-        let t555 = P::triple([P::lane(t462, 1), P::lane(t471, 1), P::lane(t473, 1)]);
-        let t556 = P::triple([P::lane(t514, 2), P::lane(t516, 2), P::lane(t518, 2)])
-            + t553;
-        let t557 = mul_add(P::splat(base_rotation[1][2]), t552, t521);
-        let t558 = mul_add(P::splat(base_rotation[2][2]), t552, t528);
-        let t559 = mul_add(t171, P::splat(base_velocity[4]), t554);
-        let t560 = P::triple([P::lane(t462, 0), P::lane(t471, 0), P::lane(t473, 0)])
-            + t555;
-        let t561 = mul_add(t151, P::splat(base_velocity[5]), t557);
-        let t562 = mul_add(t154, P::splat(base_velocity[3]), t558);
-        let t563 = neg_mul_add(t154, P::splat(base_velocity[5]), t559);
-        let t564 = neg_mul_add(t171, P::splat(base_velocity[3]), t561);
-        let t565 = neg_mul_add(t151, P::splat(base_velocity[4]), t562);
-        let t566 = P::triple([P::lane(t462, 2), P::lane(t471, 2), P::lane(t473, 2)])
-            + t560;
+        let t557 = mul_add(t114, t507, t113 * t504);
+        let t558 = mul_add(t114, t508, t113 * t505);
+        let t559 = mul_add(t114, t509, t113 * t506);
+        let t560 = mul_add(t123, t507, t125 * t504);
+        let t561 = mul_add(t123, t508, t125 * t505);
+        let t562 = mul_add(t123, t509, t125 * t506);
+        let t563 = w(0.17066666666666666) * t520;
+        let t564 = mul_add(w(0.17066666666666666), t522, t553);
+        let t565 = mul_add(t105, t524, t107 * t520);
+        let t566 = mul_add(w(0.17066666666666666), t524, t563);
+        let t567 = mul_add(t114, t521, t113 * t518);
+        let t568 = mul_add(t114, t522, t113 * t519);
+        let t569 = mul_add(t504, t529, mul_add(t507, t526, t85 * t525));
+        let t570 = mul_add(t114, t524, t113 * t520);
+        let t571 = mul_add(t505, t529, mul_add(t508, t526, t87 * t525));
+        let t572 = mul_add(t506, t529, mul_add(t509, t526, t88 * t525));
+        let t573 = mul_add(t123, t521, t125 * t518);
+        let t574 = mul_add(t123, t522, t125 * t519);
+        let t575 = mul_add(t123, t524, t125 * t520);
+        let t576 = mul_add(t83, t533, t569);
+        let t577 = mul_add(t504, t531, mul_add(t507, t527, t85 * t530));
+        let t578 = mul_add(t84, t533, t571);
+        let t579 = mul_add(t86, t533, t572);
+        let t580 = mul_add(t518, t529, mul_add(t521, t526, t93 * t525));
+        let t581 = mul_add(t505, t531, mul_add(t508, t527, t87 * t530));
+        let t582 = mul_add(t506, t531, mul_add(t509, t527, t88 * t530));
+        let t583 = mul_add(t83, t538, t577);
+        let t584 = mul_add(t519, t529, mul_add(t522, t526, t97 * t525));
+        let t585 = mul_add(t520, t529, mul_add(t524, t526, t91 * t525));
+        let t586 = mul_add(t518, t531, mul_add(t521, t527, t93 * t530));
+        let t587 = mul_add(t90, t533, t580);
+        let t588 = mul_add(t84, t538, t581);
+        let t589 = mul_add(t86, t538, t582);
+        let t590 = mul_add(t519, t531, mul_add(t522, t527, t97 * t530));
+        let t591 = mul_add(t92, t533, t584);
+        let t592 = mul_add(t89, t533, t585);
+        let t593 = mul_add(t520, t531, mul_add(t524, t527, t91 * t530));
+        let t594 = mul_add(t504, t532, mul_add(t507, t528, t85 * t534));
+        let t595 = mul_add(t90, t538, t586);
+        let t596 = mul_add(t505, t532, mul_add(t508, t528, t87 * t534));
+        let t597 = mul_add(t506, t532, mul_add(t509, t528, t88 * t534));
+        let t598 = mul_add(t83, t543, t594);
+        let t599 = mul_add(t518, t532, mul_add(t521, t528, t93 * t534));
+        let t600 = mul_add(t519, t532, mul_add(t522, t528, t97 * t534));
+        let t601 = mul_add(t92, t538, t590);
+        let t602 = mul_add(t84, t543, t596);
+        let t603 = mul_add(t86, t543, t597);
+        let t604 = mul_add(t520, t532, mul_add(t524, t528, t91 * t534));
+        let t605 = mul_add(t89, t538, t593);
+        let t606 = P::triple([P::lane(t537, 2), P::lane(t541, 2), P::lane(t544, 2)]);
+        let t607 = P::triple([P::lane(t537, 0), P::lane(t541, 0), P::lane(t544, 0)]);
+        let t608 = P::triple([P::lane(t537, 1), P::lane(t541, 1), P::lane(t544, 1)]);
+        let t609 = mul_add(t90, t543, t599);
+        let t610 = mul_add(t92, t543, t600);
+        let t611 = mul_add(t89, t543, t604);
+        let t612 = P::triple([P::lane(t557, 0), P::lane(t558, 0), P::lane(t559, 0)]);
+        let t613 = P::triple([P::lane(t557, 1), P::lane(t558, 1), P::lane(t559, 1)]);
+        let t614 = P::triple([P::lane(t557, 2), P::lane(t558, 2), P::lane(t559, 2)]);
+        let t615 = P::triple([P::lane(t551, 0), P::lane(t555, 0), P::lane(t565, 0)]);
+        let t616 = P::triple([P::lane(t551, 1), P::lane(t555, 1), P::lane(t565, 1)]);
+        let t617 = P::triple([P::lane(t551, 2), P::lane(t555, 2), P::lane(t565, 2)]);
+        let t618 = P::triple([P::lane(t567, 2), P::lane(t568, 2), P::lane(t570, 2)]);
+        let t619 = P::triple([P::lane(t567, 0), P::lane(t568, 0), P::lane(t570, 0)]);
+        let t620 = P::triple([P::lane(t567, 1), P::lane(t568, 1), P::lane(t570, 1)]);
+        let t621 = P::triple([P::lane(t560, 0), P::lane(t561, 0), P::lane(t562, 0)]);
+        let t622 = P::triple([P::lane(t560, 1), P::lane(t561, 1), P::lane(t562, 1)]);
+        let t623 = P::triple([P::lane(t560, 2), P::lane(t561, 2), P::lane(t562, 2)]);
+        let t624 = P::triple([P::lane(t573, 0), P::lane(t574, 0), P::lane(t575, 0)]);
+        let t625 = P::triple([P::lane(t573, 1), P::lane(t574, 1), P::lane(t575, 1)]);
+        let t626 = P::triple([P::lane(t573, 2), P::lane(t574, 2), P::lane(t575, 2)]);
+        let t627 = P::triple([P::lane(t576, 0), P::lane(t578, 0), P::lane(t579, 0)]);
+        let t628 = P::triple([P::lane(t576, 1), P::lane(t578, 1), P::lane(t579, 1)]);
+        let t629 = P::triple([P::lane(t576, 2), P::lane(t578, 2), P::lane(t579, 2)]);
+        let t630 = t627 + t628 + t629;
+        let t631 = P::triple([P::lane(t583, 0), P::lane(t588, 0), P::lane(t589, 0)]);
+        let t632 = P::triple([P::lane(t583, 1), P::lane(t588, 1), P::lane(t589, 1)]);
+        let t633 = P::triple([P::lane(t583, 2), P::lane(t588, 2), P::lane(t589, 2)]);
+        let t634 = t631 + t632 + t633;
+        let t635 = P::triple([P::lane(t587, 0), P::lane(t591, 0), P::lane(t592, 0)]);
+        let t636 = P::triple([P::lane(t587, 1), P::lane(t591, 1), P::lane(t592, 1)]);
+        let t637 = P::triple([P::lane(t587, 2), P::lane(t591, 2), P::lane(t592, 2)]);
+        let t638 = P::triple([P::lane(t595, 2), P::lane(t601, 2), P::lane(t605, 2)]);
+        let t639 = t635 + t636 + t637;
+        let t640 = P::triple([P::lane(t598, 0), P::lane(t602, 0), P::lane(t603, 0)]);
+        let t641 = P::triple([P::lane(t598, 1), P::lane(t602, 1), P::lane(t603, 1)]);
+        let t642 = P::triple([P::lane(t598, 2), P::lane(t602, 2), P::lane(t603, 2)]);
+        let t643 = t640 + t641 + t642;
+        let t644 = P::triple([P::lane(t595, 0), P::lane(t601, 0), P::lane(t605, 0)]);
+        let t645 = P::triple([P::lane(t595, 1), P::lane(t601, 1), P::lane(t605, 1)]);
+        let t646 = P::triple([P::lane(t609, 0), P::lane(t610, 0), P::lane(t611, 0)]);
+        let t647 = P::triple([P::lane(t609, 2), P::lane(t610, 2), P::lane(t611, 2)]);
+        let t648 = P::triple([P::lane(t609, 1), P::lane(t610, 1), P::lane(t611, 1)]);
+        let t649 = t638 + (t644 + t645);
+        let t650 = P::triple([P::lane(t540, 0), P::lane(t542, 0), P::lane(t545, 0)]);
+        let t651 = P::triple([P::lane(t540, 1), P::lane(t542, 1), P::lane(t545, 1)]);
+        let t652 = P::triple([P::lane(t540, 2), P::lane(t542, 2), P::lane(t545, 2)]);
+        let t653 = t650 + t651 + t652;
+        let t654 = P::triple([P::lane(t554, 0), P::lane(t564, 0), P::lane(t566, 0)]);
+        let t655 = mul_add(P::splat(base_rotation[0][2]), t653, t606 + (t607 + t608));
+        let t656 = P::triple([P::lane(t554, 1), P::lane(t564, 1), P::lane(t566, 1)]);
+        let t657 = P::triple([P::lane(t554, 2), P::lane(t564, 2), P::lane(t566, 2)]);
+        let t658 = t647 + (t646 + t648);
+        let t659 = mul_add(P::splat(base_rotation[1][2]), t653, t612 + t613 + t614);
+        let t660 = mul_add(P::splat(base_rotation[2][2]), t653, t621 + t622 + t623);
+        let t661 = mul_add(t207, P::splat(base_velocity[4]), t655);
+        let t662 = mul_add(t183, P::splat(base_velocity[5]), t659);
+        let t663 = mul_add(t186, P::splat(base_velocity[3]), t660);
+        let t664 = neg_mul_add(t186, P::splat(base_velocity[5]), t661);
+        let t665 = neg_mul_add(t207, P::splat(base_velocity[3]), t662);
+        let t666 = neg_mul_add(t183, P::splat(base_velocity[4]), t663);
+        let t667 = t657 + (t654 + t656);
         // Coriolis matrix of the legs
-        let t567 = mul_add(t62, t459, t60 * t456);
-        let t568 = mul_add(t62, t461, t60 * t457);
-        let t569 = mul_add(t62, t464, t60 * t458);
-        let t570 = mul_add(t64, t459, t61 * t456);
-        let t571 = mul_add(t64, t461, t61 * t457);
-        let t572 = mul_add(t64, t464, t61 * t458);
-        let t573 = mul_add(t65, t459, t63 * t456);
+        let t668 = mul_add(t85, t549, t83 * t546);
+        let t669 = mul_add(t85, t552, t83 * t547);
+        let t670 = mul_add(t85, t556, t83 * t548);
+        let t671 = mul_add(t87, t549, t84 * t546);
+        let t672 = mul_add(t87, t552, t84 * t547);
+        let t673 = mul_add(t87, t556, t84 * t548);
+        let t674 = mul_add(t88, t549, t86 * t546);
         // part of the legs' Coriolis matrix on the side of the axes
-        let t574 = mul_add(P::splat(base_rotation[0][2]), t566, t525);
+        let t675 = mul_add(P::splat(base_rotation[0][2]), t667, t617 + (t615 + t616));
         // Coriolis matrix of the legs
-        let t575 = mul_add(t65, t461, t63 * t457);
+        let t676 = mul_add(t88, t552, t86 * t547);
         // part of the legs' Coriolis matrix on the side of the axes
-        let t576 = mul_add(P::splat(base_rotation[1][2]), t566, t532);
-        let t577 = mul_add(P::splat(base_rotation[2][2]), t566, t535);
-        let t578 = mul_add(t172, P::splat(base_velocity[4]), t574);
-        let t579 = mul_add(t164, P::splat(base_velocity[5]), t576);
-        let t580 = mul_add(t165, P::splat(base_velocity[3]), t577);
-        let t581 = neg_mul_add(t165, P::splat(base_velocity[5]), t578);
+        let t677 = mul_add(P::splat(base_rotation[1][2]), t667, t618 + (t619 + t620));
+        let t678 = mul_add(P::splat(base_rotation[2][2]), t667, t624 + t625 + t626);
+        let t679 = mul_add(t208, P::splat(base_velocity[4]), t675);
+        let t680 = mul_add(t199, P::splat(base_velocity[5]), t677);
+        let t681 = mul_add(t200, P::splat(base_velocity[3]), t678);
+        let t682 = neg_mul_add(t200, P::splat(base_velocity[5]), t679);
         // Coriolis matrix of the legs
-        let t582 = mul_add(t65, t464, t63 * t458);
+        let t683 = mul_add(t88, t556, t86 * t548);
         // part of the legs' Coriolis matrix on the side of the axes
-        let t583 = neg_mul_add(t172, P::splat(base_velocity[3]), t579);
+        let t684 = neg_mul_add(t208, P::splat(base_velocity[3]), t680);
         // Coriolis matrix of the legs
-        let t584 = mul_add(t70, t459, t67 * t456);
-        let t585 = mul_add(t70, t461, t67 * t457);
-        let t586 = mul_add(t70, t464, t67 * t458);
-        let t587 = mul_add(t74, t459, t69 * t456);
-        let t588 = mul_add(t74, t461, t69 * t457);
+        let t685 = mul_add(t93, t549, t90 * t546);
+        let t686 = mul_add(t93, t552, t90 * t547);
+        let t687 = mul_add(t93, t556, t90 * t548);
+        let t688 = mul_add(t97, t549, t92 * t546);
+        let t689 = mul_add(t97, t552, t92 * t547);
         // part of the legs' Coriolis matrix on the side of the axes
-        let t589 = neg_mul_add(t164, P::splat(base_velocity[4]), t580);
+        let t690 = neg_mul_add(t199, P::splat(base_velocity[4]), t681);
         // Coriolis matrix of the legs
-        let t590 = mul_add(t74, t464, t69 * t458);
-        let t591 = mul_add(t68, t459, t66 * t456);
-        let t592 = mul_add(t68, t461, t66 * t457);
-        let t593 = mul_add(t68, t464, t66 * t458);
-        let t594 = P::triple([P::lane(t567, 1), P::lane(t568, 1), P::lane(t569, 1)]);
-        let t595 = P::triple([P::lane(t570, 1), P::lane(t571, 1), P::lane(t572, 1)]);
-        let t596 = P::triple([P::lane(t567, 0), P::lane(t568, 0), P::lane(t569, 0)])
-            + t594;
-        let t597 = P::triple([P::lane(t570, 0), P::lane(t571, 0), P::lane(t572, 0)])
-            + t595;
-        let t598 = P::triple([P::lane(t584, 1), P::lane(t585, 1), P::lane(t586, 1)]);
-        let t599 = P::triple([P::lane(t584, 0), P::lane(t585, 0), P::lane(t586, 0)])
-            + t598;
-        let t600 = P::triple([P::lane(t573, 1), P::lane(t575, 1), P::lane(t582, 1)]);
-        let t601 = P::triple([P::lane(t587, 1), P::lane(t588, 1), P::lane(t590, 1)]);
-        let t602 = P::triple([P::lane(t587, 0), P::lane(t588, 0), P::lane(t590, 0)])
-            + t601;
-        let t603 = P::triple([P::lane(t573, 0), P::lane(t575, 0), P::lane(t582, 0)])
-            + t600;
+        let t691 = mul_add(t97, t556, t92 * t548);
+        let t692 = mul_add(t91, t549, t89 * t546);
+        let t693 = mul_add(t91, t552, t89 * t547);
+        let t694 = mul_add(t91, t556, t89 * t548);
+        let t695 = P::triple([P::lane(t668, 0), P::lane(t669, 0), P::lane(t670, 0)]);
+        let t696 = P::triple([P::lane(t668, 1), P::lane(t669, 1), P::lane(t670, 1)]);
+        let t697 = P::triple([P::lane(t671, 0), P::lane(t672, 0), P::lane(t673, 0)]);
+        let t698 = P::triple([P::lane(t671, 1), P::lane(t672, 1), P::lane(t673, 1)]);
+        let t699 = P::triple([P::lane(t668, 2), P::lane(t669, 2), P::lane(t670, 2)]);
+        let t700 = P::triple([P::lane(t671, 2), P::lane(t672, 2), P::lane(t673, 2)]);
+        let t701 = P::triple([P::lane(t674, 2), P::lane(t676, 2), P::lane(t683, 2)]);
+        let t702 = P::triple([P::lane(t685, 0), P::lane(t686, 0), P::lane(t687, 0)]);
+        let t703 = P::triple([P::lane(t685, 1), P::lane(t686, 1), P::lane(t687, 1)]);
+        let t704 = P::triple([P::lane(t674, 0), P::lane(t676, 0), P::lane(t683, 0)]);
+        let t705 = P::triple([P::lane(t674, 1), P::lane(t676, 1), P::lane(t683, 1)]);
+        let t706 = P::triple([P::lane(t685, 2), P::lane(t686, 2), P::lane(t687, 2)]);
+        let t707 = P::triple([P::lane(t688, 0), P::lane(t689, 0), P::lane(t691, 0)]);
+        let t708 = P::triple([P::lane(t688, 1), P::lane(t689, 1), P::lane(t691, 1)]);
+        let t709 = P::triple([P::lane(t688, 2), P::lane(t689, 2), P::lane(t691, 2)]);
         // legs 4, 5, 6: rate of the sliding masses' first moment, its moment about the axis
-        let t604 = neg_mul_add(t48, w(0.9523333333333334), w(0.03055));
+        let t710 = neg_mul_add(t65, w(0.9523333333333334), w(0.03055));
         // legs 1, 2, 3: rate of the sliding masses' first moment, its moment about the axis
-        let t605 = mul_sub(t49, w(0.9523333333333334), w(0.03055));
+        let t711 = mul_sub(t66, w(0.9523333333333334), w(0.03055));
         // legs 4, 5, 6: rate of the sliding masses' first moment, its moment about the axis
-        let t606 = P::triple([
-            c(-0.16392976126718353),
-            c(-0.16392976126718353),
-            c(0.03856110973562536),
-        ]);
+        let t712 =
+            P::triple([c(-0.16392976126718353), c(-0.16392976126718353), c(0.03856110973562536)]);
         // legs 1, 2, 3: rate of the sliding masses' first moment, its moment about the axis
-        let t607 = P::triple([
-            c(0.1253686515315582),
-            c(0.1253686515315582),
-            c(0.03856110973562536),
-        ]);
+        let t713 =
+            P::triple([c(0.1253686515315582), c(0.1253686515315582), c(0.03856110973562536)]);
         // legs 4, 5, 6: rate of the sliding masses' first moment, its moment about the axis
-        let t608 = mul_add(
-            P::splat(P::lane(t359, 2)),
-            t606,
-            P::splat(P::lane(t359, 0)) * t604,
-        );
+        let t714 = P::splat(P::lane(t417, 0)) * t710;
         // legs 1, 2, 3: rate of the sliding masses' first moment, its moment about the axis
-        let t609 = mul_sub(
-            P::splat(P::lane(t359, 2)),
-            t607,
-            P::splat(P::lane(t359, 0)) * t605,
-        );
+        let t715 = P::splat(P::lane(t417, 0)) * t711;
+        let t716 = t326 * P::splat(P::lane(t417, 2));
+        // legs 4, 5, 6: rate of the sliding masses' first moment, its moment about the axis
+        let t717 = mul_add(P::splat(P::lane(t417, 2)), t712, t714);
+        // legs 1, 2, 3: rate of the sliding masses' first moment, its moment about the axis
+        let t718 = mul_sub(P::splat(P::lane(t417, 2)), t713, t715);
         // Coriolis matrix of the legs
-        let t610 = P::triple([P::lane(t591, 1), P::lane(t592, 1), P::lane(t593, 1)]);
-        let t611 = t542
-            + (t599 + P::triple([P::lane(t584, 2), P::lane(t585, 2), P::lane(t586, 2)]));
-        let t612 = P::triple([P::lane(t591, 0), P::lane(t592, 0), P::lane(t593, 0)])
-            + t610;
-        // legs 1, 2, 3: rate of the sliding masses' first moment, its moment about the axis
-        let t613 = mul_sub(
-            P::splat(P::lane(t359, 1)),
-            t605,
-            t274 * P::splat(P::lane(t359, 2)),
-        );
+        let t719 = P::triple([P::lane(t692, 0), P::lane(t693, 0), P::lane(t694, 0)]);
+        let t720 = P::triple([P::lane(t692, 1), P::lane(t693, 1), P::lane(t694, 1)]);
+        let t721 = t639 + (t702 + t703 + t706);
+        let t722 = P::triple([P::lane(t692, 2), P::lane(t693, 2), P::lane(t694, 2)]);
         // legs 4, 5, 6: rate of the sliding masses' first moment, its moment about the axis
-        let t614 = mul_add(
-            P::splat(P::lane(t359, 1)),
-            t604,
-            t273 * P::splat(P::lane(t359, 2)),
-        );
-        // Coriolis matrix of the legs
-        let t615 = t549
-            + (t602 + P::triple([P::lane(t587, 2), P::lane(t588, 2), P::lane(t590, 2)]));
+        let t723 = t325 * P::splat(P::lane(t417, 2));
+        // legs 1, 2, 3: rate of the sliding masses' first moment, its moment about the axis
+        let t724 = mul_sub(P::splat(P::lane(t417, 1)), t711, t716);
         // Coriolis matrix C_b, natural factorisation
-        let t616 = mul_add(t62, t609, t60 * t608);
-        let t617 = mul_add(t64, t609, t61 * t608);
-        let t618 = mul_add(w(0.17066666666666666), t399, w(0.17066666666666666) * t398);
+        let t725 = w(0.17066666666666666) * t476;
+        // legs 4, 5, 6: rate of the sliding masses' first moment, its moment about the axis
+        let t726 = mul_add(P::splat(P::lane(t417, 1)), t710, t723);
         // Coriolis matrix of the legs
-        let t619 = t556
-            + (t612 + P::triple([P::lane(t591, 2), P::lane(t592, 2), P::lane(t593, 2)]));
-        let t620 = t581
-            + (t596 + P::triple([P::lane(t567, 2), P::lane(t568, 2), P::lane(t569, 2)]));
-        let t621 = t583
-            + (t597 + P::triple([P::lane(t570, 2), P::lane(t571, 2), P::lane(t572, 2)]));
-        let t622 = t589
-            + (P::triple([P::lane(t573, 2), P::lane(t575, 2), P::lane(t582, 2)]) + t603);
+        let t727 = t649 + (t707 + t708 + t709);
         // Coriolis matrix C_b, natural factorisation
-        let t623 = t399 * P::triple([c(0.0), c(0.0), c(-0.0)]);
-        let t624 = mul_add(t282, t399, t398 * P::triple([c(0.0), c(-0.0), c(-0.0)]));
-        let t625 = mul_add(t252, t399, t256 * t398);
-        let t626 = mul_add(t242, t399, t240 * t398);
-        let t627 = mul_sub(t62, t613, t60 * t614);
-        let t628 = mul_sub(t64, t613, t61 * t614);
-        let t629 = mul_sub(t65, t613, t63 * t614);
-        let t630 = mul_sub(t68, t613, t66 * t614);
-        let t631 = mul_sub(t70, t613, t67 * t614);
-        let t632 = mul_sub(t74, t613, t69 * t614);
-        let t633 = mul_add(t65, t609, t63 * t608);
-        let t634 = mul_add(t68, t609, t66 * t608);
-        let t635 = mul_add(t70, t609, t67 * t608);
-        let t636 = mul_add(t74, t609, t69 * t608);
+        let t728 = mul_add(t85, t718, t83 * t717);
+        let t729 = mul_add(t87, t718, t84 * t717);
+        let t730 = mul_add(w(0.17066666666666666), t477, t725);
+        // Coriolis matrix of the legs
+        let t731 = t658 + (t719 + t720 + t722);
+        let t732 = t682 + (t695 + t696 + t699);
+        let t733 = t684 + (t697 + t698 + t700);
+        let t734 = t690 + (t701 + (t704 + t705));
+        // Coriolis matrix C_b, natural factorisation
+        let t735 = t477 * P::triple([c(0.0), c(0.0), c(-0.0)]);
+        let t736 = mul_add(t336, t477, t476 * P::triple([c(0.0), c(-0.0), c(-0.0)]));
+        let t737 = mul_add(t303, t477, t307 * t476);
+        let t738 = mul_add(t291, t477, t289 * t476);
+        let t739 = mul_sub(t85, t724, t83 * t726);
+        let t740 = mul_sub(t87, t724, t84 * t726);
+        let t741 = mul_sub(t88, t724, t86 * t726);
+        let t742 = mul_sub(t91, t724, t89 * t726);
+        let t743 = mul_sub(t93, t724, t90 * t726);
+        let t744 = mul_sub(t97, t724, t92 * t726);
+        let t745 = mul_add(t88, t718, t86 * t717);
+        let t746 = mul_add(t91, t718, t89 * t717);
+        let t747 = mul_add(t93, t718, t90 * t717);
+        let t748 = mul_add(t97, t718, t92 * t717);
         // platform origin seen from the base
-        let t637 = P::triple([t3, t6, t5]);
+        let t749 = P::triple([t5, t8, t7]);
         // Coriolis matrix C_b, natural factorisation
-        let t638 = P::lane(t627, 2) + (P::lane(t627, 1) + P::lane(t627, 0));
-        let t639 = P::lane(t616, 2) + (P::lane(t616, 1) + P::lane(t616, 0));
+        let t750 = P::lane(t739, 2) + (P::lane(t739, 1) + P::lane(t739, 0));
+        let t751 = P::lane(t728, 2) + (P::lane(t728, 1) + P::lane(t728, 0));
         // part of the legs' Coriolis matrix on the side of the axes
-        let t640 = P::triple([P::lane(t563, 2), P::lane(t563, 0), P::lane(t563, 1)]);
+        let t752 = P::triple([P::lane(t664, 2), P::lane(t664, 0), P::lane(t664, 1)]);
         // platform origin seen from the base
-        let t641 = P::triple([t6, t5, t3]);
+        let t753 = P::triple([t8, t7, t5]);
         // Coriolis matrix C_b, natural factorisation
-        let t642 = base_velocity[4] * P::lane(t253, 0);
+        let t754 = base_velocity[4] * P::lane(t304, 0);
         // part of the legs' Coriolis matrix on the side of the axes
-        let t643 = P::triple([P::lane(t563, 1), P::lane(t563, 2), P::lane(t563, 0)]);
+        let t755 = P::triple([P::lane(t664, 1), P::lane(t664, 2), P::lane(t664, 0)]);
         // Coriolis matrix C_b, natural factorisation
-        let t644 = P::mul_sub(base_rotation[1][0], t639, base_rotation[1][1] * t638);
-        let t645 = P::mul_sub(base_velocity[3], P::lane(t253, 1), t642);
-        let t646 = P::mul_sub(base_rotation[0][0], t639, base_rotation[0][1] * t638);
-        let t647 = P::lane(t618, 2) + (P::lane(t618, 1) + P::lane(t618, 0));
-        let t648 = t646 + P::mul_sub(P::lane(t153, 1), t364, P::lane(t153, 2) * t362);
-        let t649 = t581 - mul_sub(t641, t643, t637 * t640);
-        let t650 = base_velocity[3] * P::lane(t253, 2);
-        let t651 = P::mul_add(base_rotation[2][2], t647, t645);
-        let t652 = P::lane(t617, 2) + (P::lane(t617, 1) + P::lane(t617, 0));
-        let t653 = P::mul_sub(base_rotation[2][0], t639, base_rotation[2][1] * t638);
-        let t654 = P::mul_sub(base_velocity[5], P::lane(t253, 0), t650);
+        let t756 = P::mul_sub(base_rotation[1][0], t751, base_rotation[1][1] * t750);
+        let t757 = P::mul_sub(base_velocity[3], P::lane(t304, 1), t754);
+        let t758 = P::mul_sub(base_rotation[0][0], t751, base_rotation[0][1] * t750);
+        let t759 = P::mul_sub(P::lane(t185, 2), t422, P::lane(t185, 0) * t423) + t756;
+        let t760 = P::lane(t730, 2) + (P::lane(t730, 1) + P::lane(t730, 0));
+        let t761 = t758 + P::mul_sub(P::lane(t185, 1), t423, P::lane(t185, 2) * t421);
+        let t762 = base_velocity[3] * P::lane(t304, 2);
+        let t763 = P::mul_add(base_rotation[2][2], t760, t757);
+        let t764 = P::lane(t729, 2) + (P::lane(t729, 1) + P::lane(t729, 0));
+        let t765 = P::mul_sub(base_rotation[2][0], t751, base_rotation[2][1] * t750);
+        let t766 = P::mul_sub(base_velocity[5], P::lane(t304, 0), t762);
         // part of the legs' Coriolis matrix on the side of the axes
-        let t655 = P::triple([P::lane(t564, 2), P::lane(t564, 0), P::lane(t564, 1)]);
-        let t656 = P::triple([P::lane(t564, 1), P::lane(t564, 2), P::lane(t564, 0)]);
+        let t767 = P::triple([P::lane(t665, 2), P::lane(t665, 0), P::lane(t665, 1)]);
+        let t768 = P::triple([P::lane(t665, 1), P::lane(t665, 2), P::lane(t665, 0)]);
         // Coriolis matrix C_b, natural factorisation
-        let t657 = P::mul_sub(P::lane(t153, 2), t363, P::lane(t153, 0) * t364) + t644
-            + t651;
-        let t658 = P::lane(t628, 2) + (P::lane(t628, 1) + P::lane(t628, 0));
-        let t659 = P::mul_add(base_rotation[1][2], t647, t654);
-        let t660 = t653 + P::mul_sub(P::lane(t153, 0), t362, P::lane(t153, 1) * t363)
-            - t659;
-        let t661 = P::mul_sub(base_rotation[0][0], t652, base_rotation[0][1] * t658);
-        let t662 = t583 - mul_sub(t641, t656, t637 * t655);
-        let t663 = P::mul_sub(base_rotation[1][0], t652, base_rotation[1][1] * t658);
-        let t664 = t649 - P::triple([t648, t657, t660]);
-        let t665 = base_velocity[5] * P::lane(t253, 1);
-        let t666 = P::mul_sub(base_velocity[4], P::lane(t253, 2), t665);
-        let t667 = P::mul_sub(base_rotation[2][0], t652, base_rotation[2][1] * t658);
-        let t668 = P::lane(t633, 2) + (P::lane(t633, 1) + P::lane(t633, 0));
+        let t769 = P::lane(t740, 2) + (P::lane(t740, 1) + P::lane(t740, 0));
+        let t770 = P::mul_add(base_rotation[1][2], t760, t766);
+        let t771 = t765 + P::mul_sub(P::lane(t185, 0), t421, P::lane(t185, 1) * t422);
+        let t772 = P::mul_sub(base_rotation[0][0], t764, base_rotation[0][1] * t769);
+        let t773 = P::mul_sub(base_rotation[1][0], t764, base_rotation[1][1] * t769);
+        let t774 = P::triple([t761, t759 + t763, t771 - t770]);
+        let t775 = t682 - mul_sub(t753, t755, t749 * t752) - t774;
+        let t776 = base_velocity[5] * P::lane(t304, 1);
+        let t777 = P::mul_sub(base_velocity[4], P::lane(t304, 2), t776);
+        let t778 = P::mul_sub(P::lane(t192, 1), t423, P::lane(t192, 2) * t421) + t772;
+        let t779 = P::mul_sub(base_rotation[2][0], t764, base_rotation[2][1] * t769);
+        let t780 = P::lane(t745, 2) + (P::lane(t745, 1) + P::lane(t745, 0));
         // part of the legs' Coriolis matrix on the side of the axes
-        let t669 = P::triple([P::lane(t565, 2), P::lane(t565, 0), P::lane(t565, 1)]);
-        let t670 = P::triple([P::lane(t565, 1), P::lane(t565, 2), P::lane(t565, 0)]);
+        let t781 = P::triple([P::lane(t666, 2), P::lane(t666, 0), P::lane(t666, 1)]);
+        let t782 = P::triple([P::lane(t666, 1), P::lane(t666, 2), P::lane(t666, 0)]);
         // Coriolis matrix C_b, natural factorisation
-        let t671 = P::mul_add(base_rotation[0][2], t647, t666);
-        let t672 = P::mul_sub(P::lane(t158, 1), t364, P::lane(t158, 2) * t362) + t661
-            - t651;
-        let t673 = P::mul_sub(P::lane(t158, 2), t363, P::lane(t158, 0) * t364) + t663;
-        let t674 = t671
-            + (t667 + P::mul_sub(P::lane(t158, 0), t362, P::lane(t158, 1) * t363));
-        let t675 = P::lane(t629, 2) + (P::lane(t629, 1) + P::lane(t629, 0));
-        let t676 = t589 - mul_sub(t641, t670, t637 * t669);
-        let t677 = t662 - P::triple([t672, t673, t674]);
-        let t678 = P::mul_sub(base_rotation[0][0], t668, base_rotation[0][1] * t675);
-        let t679 = P::mul_sub(base_rotation[1][0], t668, base_rotation[1][1] * t675);
+        let t783 = P::mul_add(base_rotation[0][2], t760, t777);
+        let t784 = t779 + P::mul_sub(P::lane(t192, 0), t421, P::lane(t192, 1) * t422);
+        let t785 = P::mul_sub(P::lane(t192, 2), t422, P::lane(t192, 0) * t423) + t773;
+        let t786 = P::lane(t741, 2) + (P::lane(t741, 1) + P::lane(t741, 0));
+        let t787 = P::triple([t778 - t763, t785, t783 + t784]);
+        let t788 = t684 - mul_sub(t753, t768, t749 * t767) - t787;
+        let t789 = P::mul_sub(base_rotation[0][0], t780, base_rotation[0][1] * t786);
+        let t790 = P::lane(t747, 2) + (P::lane(t747, 1) + P::lane(t747, 0));
+        let t791 = P::mul_sub(base_rotation[1][0], t780, base_rotation[1][1] * t786);
         // part of the legs' Coriolis matrix on the side of the axes
-        let t680 = P::triple([P::lane(t536, 2), P::lane(t536, 0), P::lane(t536, 1)]);
+        let t792 = P::triple([P::lane(t630, 2), P::lane(t630, 0), P::lane(t630, 1)]);
         // Coriolis matrix C_b, natural factorisation
-        let t681 = P::mul_sub(base_rotation[2][0], t668, base_rotation[2][1] * t675);
+        let t793 = P::mul_sub(base_rotation[2][0], t780, base_rotation[2][1] * t786);
         // part of the legs' Coriolis matrix on the side of the axes
-        let t682 = P::triple([P::lane(t536, 1), P::lane(t536, 2), P::lane(t536, 0)]);
+        let t794 = P::triple([P::lane(t630, 1), P::lane(t630, 2), P::lane(t630, 0)]);
         // Coriolis matrix C_b, natural factorisation
-        let t683 = t659
-            + (P::mul_sub(P::lane(t176, 1), t364, P::lane(t176, 2) * t362) + t678);
+        let t795 = P::mul_sub(P::lane(t213, 1), t423, P::lane(t213, 2) * t421) + t789;
+        let t796 = P::mul_sub(P::lane(t213, 2), t422, P::lane(t213, 0) * t423) + t791;
         // part of the legs' mass matrix on the side of the axes
-        let t684 = P::triple([P::lane(t188, 1), P::lane(t188, 2), P::lane(t188, 0)]);
+        let t797 = P::triple([P::lane(t228, 1), P::lane(t228, 2), P::lane(t228, 0)]);
         // velocity of the platform origin relative to the base
-        let t685 = P::triple([t364, t363, t362]);
-        // Coriolis matrix C_b, natural factorisation
-        let t686 = P::mul_sub(P::lane(t176, 2), t363, P::lane(t176, 0) * t364) + t679
-            - t671;
+        let t798 = P::triple([t423, t422, t421]);
         // part of the legs' mass matrix on the side of the axes
-        let t687 = P::triple([P::lane(t188, 2), P::lane(t188, 0), P::lane(t188, 1)]);
+        let t799 = P::triple([P::lane(t228, 2), P::lane(t228, 0), P::lane(t228, 1)]);
         // velocity of the platform origin relative to the base
-        let t688 = P::triple([t362, t364, t363]);
+        let t800 = P::triple([t421, t423, t422]);
         // Coriolis matrix C_b, natural factorisation
-        let t689 = t681 + P::mul_sub(P::lane(t176, 0), t362, P::lane(t176, 1) * t363);
-        let t690 = t235
-            * P::splat(P::lane(t631, 2) + (P::lane(t631, 0) + P::lane(t631, 1)));
-        let t691 = t676 - P::triple([t683, t686, t689]);
-        let t692 = mul_sub(
-            t231,
-            P::splat(P::lane(t635, 2) + (P::lane(t635, 1) + P::lane(t635, 0))),
-            t690,
-        );
-        let t693 = P::lane(t624, 2) + (P::lane(t624, 1) + P::lane(t624, 0));
-        let t694 = P::lane(t623, 2) + (P::lane(t623, 0) + P::lane(t623, 1));
-        let t695 = P::lane(t625, 2) + (P::lane(t625, 1) + P::lane(t625, 0));
-        let t696 = P::lane(t626, 2) + (P::lane(t626, 1) + P::lane(t626, 0));
-        let t697 = base_velocity[4] * P::lane(t287, 0);
-        let t698 = P::mul_add(
-            platform_rotation[0][0],
-            t694,
-            platform_rotation[0][1] * t693,
-        );
-        let t699 = P::mul_sub(P::lane(t286, 0), base_velocity[5], t697);
-        let t700 = P::mul_add(
-            platform_rotation[1][0],
-            t694,
-            platform_rotation[1][1] * t693,
-        );
-        let t701 = P::mul_add(
-            platform_rotation[2][0],
-            t694,
-            platform_rotation[2][1] * t693,
-        );
-        let t702 = P::mul_add(
-            platform_rotation[0][0],
-            t696,
-            platform_rotation[0][1] * t695,
-        );
-        let t703 = P::mul_add(
-            platform_rotation[1][0],
-            t696,
-            platform_rotation[1][1] * t695,
-        );
-        let t704 = P::mul_add(base_rotation[0][0], t698, base_rotation[0][1] * t698);
-        let t705 = P::lane(t281, 1) * base_velocity[5];
-        let t706 = P::mul_add(
-            platform_rotation[2][0],
-            t696,
-            platform_rotation[2][1] * t695,
-        );
-        let t707 = P::mul_add(base_rotation[0][0], t700, base_rotation[0][1] * t700);
-        let t708 = P::mul_add(base_rotation[1][0], t700, base_rotation[1][1] * t700);
-        let t709 = P::mul_add(base_rotation[2][0], t701, base_rotation[2][1] * t701);
-        let t710 = P::mul_sub(base_velocity[3], P::lane(t287, 1), t705);
-        let t711 = P::lane(t286, 2) * base_velocity[3];
-        let t712 = P::mul_add(base_rotation[0][0], t701, base_rotation[0][1] * t701);
-        let t713 = P::mul_add(base_rotation[0][2], t702, t704) - t699;
-        let t714 = P::mul_sub(P::lane(t281, 2), base_velocity[4], t711);
-        let t715 = base_velocity[4] * P::lane(t287, 1);
-        let t716 = P::lane(t287, 2) * base_velocity[4];
-        let t717 = P::mul_add(base_rotation[1][2], t703, t708) - t710;
-        let t718 = P::mul_add(base_rotation[0][2], t706, t712);
-        let t719 = P::mul_sub(P::lane(t286, 2), base_velocity[5], t716);
-        let t720 = t713 + t717;
+        let t801 = t793 + P::mul_sub(P::lane(t213, 0), t421, P::lane(t213, 1) * t422);
+        let t802 = P::lane(t743, 2) + (P::lane(t743, 0) + P::lane(t743, 1));
+        let t803 = P::triple([t770 + t795, t796 - t783, t801]);
+        let t804 = t690 - mul_sub(t753, t782, t749 * t781) - t803;
+        let t805 = mul_sub(t280, P::splat(t790), t284 * P::splat(t802));
+        let t806 = P::lane(t736, 2) + (P::lane(t736, 1) + P::lane(t736, 0));
+        let t807 = P::lane(t735, 2) + (P::lane(t735, 0) + P::lane(t735, 1));
+        let t808 = P::lane(t737, 2) + (P::lane(t737, 1) + P::lane(t737, 0));
+        let t809 = P::lane(t738, 2) + (P::lane(t738, 1) + P::lane(t738, 0));
+        let t810 = base_velocity[4] * P::lane(t341, 0);
+        let t811 = mul_sub(t797, t798, t799 * t800) + t805;
+        let t812 = P::mul_add(platform_rotation[0][0], t807, platform_rotation[0][1] * t806);
+        let t813 = P::mul_sub(P::lane(t340, 0), base_velocity[5], t810);
+        let t814 = P::mul_add(platform_rotation[1][0], t807, platform_rotation[1][1] * t806);
+        let t815 = P::mul_add(platform_rotation[2][0], t807, platform_rotation[2][1] * t806);
+        let t816 = P::mul_add(platform_rotation[0][0], t809, platform_rotation[0][1] * t808);
+        let t817 = P::mul_add(platform_rotation[1][0], t809, platform_rotation[1][1] * t808);
+        let t818 = P::mul_add(base_rotation[0][0], t812, base_rotation[0][1] * t812);
+        let t819 = P::lane(t335, 1) * base_velocity[5];
+        let t820 = P::mul_add(platform_rotation[2][0], t809, platform_rotation[2][1] * t808);
+        let t821 = P::mul_add(base_rotation[0][0], t814, base_rotation[0][1] * t814);
+        let t822 = P::mul_add(base_rotation[1][0], t814, base_rotation[1][1] * t814);
+        let t823 = P::mul_add(base_rotation[2][0], t815, base_rotation[2][1] * t815);
+        let t824 = P::mul_sub(base_velocity[3], P::lane(t341, 1), t819);
+        let t825 = P::lane(t340, 2) * base_velocity[3];
+        let t826 = P::mul_add(base_rotation[0][0], t815, base_rotation[0][1] * t815);
+        let t827 = P::mul_add(base_rotation[0][2], t816, t818) - t813;
+        let t828 = P::mul_sub(P::lane(t335, 2), base_velocity[4], t825);
+        let t829 = base_velocity[4] * P::lane(t341, 1);
+        let t830 = P::lane(t341, 2) * base_velocity[4];
+        let t831 = P::mul_add(base_rotation[1][2], t817, t822) - t824;
+        let t832 = P::mul_add(base_rotation[0][2], t820, t826);
+        let t833 = P::mul_sub(P::lane(t340, 1), base_velocity[5], t829);
+        let t834 = P::mul_sub(P::lane(t340, 2), base_velocity[5], t830);
+        let t835 = t827 + t831;
         // part of the legs' Coriolis matrix on the side of the axes
-        let t721 = P::triple([P::lane(t539, 2), P::lane(t539, 0), P::lane(t539, 1)]);
-        let t722 = P::triple([P::lane(t539, 1), P::lane(t539, 2), P::lane(t539, 0)]);
+        let t836 = P::triple([P::lane(t634, 2), P::lane(t634, 0), P::lane(t634, 1)]);
+        let t837 = P::triple([P::lane(t634, 1), P::lane(t634, 2), P::lane(t634, 0)]);
         // Coriolis matrix C_b, natural factorisation
-        let t723 = P::triple([t713, P::mul_add(base_rotation[0][2], t703, t707), t718]);
+        let t838 = P::triple([t827, P::mul_add(base_rotation[0][2], t817, t821), t832]);
         // part of the legs' mass matrix on the side of the axes
-        let t724 = P::triple([P::lane(t197, 1), P::lane(t197, 2), P::lane(t197, 0)]);
+        let t839 = P::triple([P::lane(t241, 1), P::lane(t241, 2), P::lane(t241, 0)]);
         // Coriolis matrix C_b, natural factorisation
-        let t725 = P::mul_add(base_rotation[2][2], t706, t709) - t714 + t720;
+        let t840 = P::mul_add(base_rotation[2][2], t820, t823) - t828 + t835;
         // part of the legs' mass matrix on the side of the axes
-        let t726 = P::triple([P::lane(t197, 2), P::lane(t197, 0), P::lane(t197, 1)]);
+        let t841 = P::triple([P::lane(t241, 2), P::lane(t241, 0), P::lane(t241, 1)]);
         // Coriolis matrix C_b, natural factorisation
-        let t727 = P::triple([
-            t725,
-            P::mul_sub(P::lane(t286, 1), base_velocity[5], t715),
-            t719,
-        ]);
-        let t728 = P::mul_add(base_rotation[1][0], t698, base_rotation[1][1] * t698);
-        let t729 = t235
-            * P::splat(P::lane(t632, 2) + (P::lane(t632, 1) + P::lane(t632, 0)));
-        let t730 = mul_sub(t684, t685, t687 * t688) + t692 - (t723 - t727);
-        let t731 = mul_sub(
-            t231,
-            P::splat(P::lane(t636, 2) + (P::lane(t636, 1) + P::lane(t636, 0))),
-            t729,
-        );
-        let t732 = t542 - mul_sub(t641, t682, t637 * t680) - t730;
-        let t733 = P::mul_add(base_rotation[1][0], t701, base_rotation[1][1] * t701);
-        let t734 = P::lane(t281, 0) * base_velocity[5];
-        let t735 = P::lane(t281, 2) * base_velocity[5];
-        let t736 = P::lane(t634, 2) + (P::lane(t634, 1) + P::lane(t634, 0));
-        let t737 = P::mul_add(base_rotation[1][2], t706, t733);
-        let t738 = P::mul_sub(P::lane(t287, 2), base_velocity[3], t735);
+        let t842 = P::lane(t744, 2) + (P::lane(t744, 1) + P::lane(t744, 0));
+        let t843 = P::mul_add(base_rotation[1][0], t812, base_rotation[1][1] * t812);
+        let t844 = P::lane(t748, 2) + (P::lane(t748, 1) + P::lane(t748, 0));
+        let t845 = t811 - (t838 - P::triple([t840, t833, t834]));
+        let t846 = mul_sub(t280, P::splat(t844), t284 * P::splat(t842));
+        let t847 = t639 - mul_sub(t753, t794, t749 * t792) - t845;
+        let t848 = P::mul_add(base_rotation[1][0], t815, base_rotation[1][1] * t815);
+        let t849 = P::lane(t335, 0) * base_velocity[5];
+        let t850 = P::lane(t335, 2) * base_velocity[5];
+        let t851 = mul_sub(t798, t839, t800 * t841) + t846;
+        let t852 = P::lane(t746, 2) + (P::lane(t746, 1) + P::lane(t746, 0));
+        let t853 = P::mul_add(base_rotation[1][2], t820, t848);
+        let t854 = P::mul_sub(base_velocity[3], P::lane(t341, 0), t849);
+        let t855 = P::mul_sub(P::lane(t341, 2), base_velocity[3], t850);
         // part of the legs' Coriolis matrix on the side of the axes
-        let t739 = P::triple([P::lane(t545, 2), P::lane(t545, 0), P::lane(t545, 1)]);
-        let t740 = P::triple([P::lane(t545, 1), P::lane(t545, 2), P::lane(t545, 0)]);
+        let t856 = P::triple([P::lane(t643, 2), P::lane(t643, 0), P::lane(t643, 1)]);
+        let t857 = P::triple([P::lane(t643, 1), P::lane(t643, 2), P::lane(t643, 0)]);
         // Coriolis matrix C_b, natural factorisation
-        let t741 = P::triple([P::mul_add(base_rotation[1][2], t702, t728), t717, t737]);
-        let t742 = P::lane(t630, 2) + (P::lane(t630, 1) + P::lane(t630, 0));
-        let t743 = P::triple([
-            P::mul_sub(base_velocity[3], P::lane(t287, 0), t734),
-            t725,
-            t738,
-        ]);
-        let t744 = P::mul_add(base_rotation[2][0], t698, base_rotation[2][1] * t698);
-        let t745 = mul_sub(t685, t724, t688 * t726) + t731 - (t741 - t743);
-        let t746 = P::lane(t286, 0) * base_velocity[3];
-        let t747 = t556 - mul_sub(t641, t740, t637 * t739);
-        let t748 = P::mul_sub(base_rotation[0][0], t736, base_rotation[0][1] * t742);
-        let t749 = t549 - mul_sub(t641, t722, t637 * t721) - t745;
-        let t750 = P::lane(t286, 1) * base_velocity[3];
-        let t751 = P::mul_add(base_rotation[2][0], t700, base_rotation[2][1] * t700);
-        let t752 = P::mul_sub(P::lane(t281, 0), base_velocity[4], t746);
-        let t753 = P::mul_sub(base_rotation[1][0], t736, base_rotation[1][1] * t742);
-        let t754 = P::mul_sub(P::lane(t281, 1), base_velocity[4], t750);
-        let t755 = P::mul_sub(base_rotation[2][0], t736, base_rotation[2][1] * t742);
-        let t756 = t748 + P::mul_sub(t364, P::lane(t205, 1), t362 * P::lane(t205, 2));
+        let t858 = P::triple([P::mul_add(base_rotation[1][2], t816, t843), t831, t853]);
+        let t859 = P::lane(t742, 2) + (P::lane(t742, 1) + P::lane(t742, 0));
+        let t860 = P::mul_add(base_rotation[2][0], t812, base_rotation[2][1] * t812);
+        let t861 = t851 - (t858 - P::triple([t854, t840, t855]));
+        let t862 = P::lane(t340, 0) * base_velocity[3];
+        let t863 = t658 - mul_sub(t753, t857, t749 * t856);
+        let t864 = P::mul_sub(base_rotation[0][0], t852, base_rotation[0][1] * t859);
+        let t865 = t649 - mul_sub(t753, t837, t749 * t836) - t861;
+        let t866 = P::lane(t340, 1) * base_velocity[3];
+        let t867 = P::mul_add(base_rotation[2][0], t814, base_rotation[2][1] * t814);
+        let t868 = P::mul_sub(P::lane(t335, 0), base_velocity[4], t862);
+        let t869 = P::mul_sub(base_rotation[1][0], t852, base_rotation[1][1] * t859);
+        let t870 = P::mul_sub(P::lane(t335, 1), base_velocity[4], t866);
+        let t871 = P::mul_sub(base_rotation[2][0], t852, base_rotation[2][1] * t859);
+        let t872 = t864 + P::mul_sub(t423, P::lane(t251, 1), t421 * P::lane(t251, 2));
         // mass matrix M_p of the platform
-        let t757 = platform_rotation[2][1] * c(6.938893903907228e-18);
-        let t758 = platform_rotation[1][1] * c(6.938893903907228e-18);
+        let t873 = platform_rotation[2][1] * c(6.938893903907228e-18);
+        let t874 = platform_rotation[1][1] * c(6.938893903907228e-18);
         // Coriolis matrix C_b, natural factorisation
-        let t759 = t753 + P::mul_sub(t363, P::lane(t205, 2), t364 * P::lane(t205, 0));
+        let t875 = t869 + P::mul_sub(t422, P::lane(t251, 2), t423 * P::lane(t251, 0));
+        let t876 = t871 + P::mul_sub(t421, P::lane(t251, 0), t422 * P::lane(t251, 1));
         // mass matrix M_p of the platform
-        let t760 = P::mul_add(platform_rotation[2][0], c(2.2551405187698492e-17), t757);
-        let t761 = P::mul_add(platform_rotation[1][0], c(2.2551405187698492e-17), t758);
+        let t877 = P::mul_add(platform_rotation[2][0], c(2.2551405187698492e-17), t873);
+        let t878 = P::mul_add(platform_rotation[1][0], c(2.2551405187698492e-17), t874);
         // Coriolis matrix C_b, natural factorisation
-        let t762 = t756 - (P::mul_add(base_rotation[2][2], t702, t744) - t752);
+        let t879 = t872 - (P::mul_add(base_rotation[2][2], t816, t860) - t868);
         // mass matrix M_p of the platform
-        let t763 = platform_rotation[0][0] * c(0.032245600000000006);
-        let t764 = platform_rotation[0][1] * c(6.938893903907228e-18);
+        let t880 = platform_rotation[0][0] * c(0.032245600000000006);
+        let t881 = platform_rotation[0][1] * c(6.938893903907228e-18);
+        let t882 = P::mul_add(platform_rotation[2][2], c(0.188852), t877);
+        let t883 = P::mul_add(platform_rotation[1][2], c(0.188852), t878);
         // Coriolis matrix C_b, natural factorisation
-        let t765 = t720
-            + (t755 + P::mul_sub(t362, P::lane(t205, 0), t363 * P::lane(t205, 1)));
+        let t884 = t875 - (P::mul_add(base_rotation[2][2], t817, t867) - t870);
         // mass matrix M_p of the platform
-        let t766 = P::mul_add(platform_rotation[2][2], c(0.188852), t760);
-        let t767 = P::mul_add(platform_rotation[1][2], c(0.188852), t761);
+        let t885 = platform_rotation[0][1] * c(0.032245600000000006);
+        let t886 = P::mul_add(platform_rotation[0][0], c(2.2551405187698492e-17), t881);
+        let t887 = platform_rotation[0][2] * c(0.013354412);
         // Coriolis matrix C_b, natural factorisation
-        let t768 = t759 - (P::mul_add(base_rotation[2][2], t703, t751) - t754);
+        let t888 = t863 - P::triple([t879, t884, t835 + t876]);
         // mass matrix M_p of the platform
-        let t769 = platform_rotation[0][1] * c(0.032245600000000006);
-        let t770 = P::mul_add(platform_rotation[0][0], c(2.2551405187698492e-17), t764);
-        let t771 = platform_rotation[0][2] * c(0.013354412);
-        // Coriolis matrix C_b, natural factorisation
-        let t772 = t747 - P::triple([t762, t768, t765]);
+        let t889 = P::mul_add(platform_rotation[0][2], c(0.188852), t886);
+        let t890 = P::lane(t263, 1) + t882;
+        mass_matrix_p[0][4] = t890;
+        mass_matrix_p[4][0] = t890;
+        let t891 = platform_rotation[1][0] * c(0.032245600000000006);
+        let t892 = P::mul_add(platform_rotation[0][0], t880, platform_rotation[0][1] * t885);
+        let t893 = P::mul_add(platform_rotation[1][0], t880, platform_rotation[1][1] * t885);
+        let t894 = P::mul_add(platform_rotation[2][0], t880, platform_rotation[2][1] * t885);
+        let t895 = P::lane(t263, 2) - t883;
+        mass_matrix_p[0][5] = t895;
+        mass_matrix_p[5][0] = t895;
+        let t896 = platform_rotation[1][1] * c(0.032245600000000006);
+        let t897 = P::lane(t268, 0) - t882;
+        mass_matrix_p[1][3] = t897;
+        mass_matrix_p[3][1] = t897;
+        let t898 = platform_rotation[1][2] * c(0.013354412);
+        let t899 = P::mul_add(platform_rotation[0][2], t887, t892);
+        let t900 = P::mul_add(platform_rotation[1][2], t887, t893);
+        let t901 = P::mul_add(platform_rotation[2][2], t887, t894);
+        let t902 = P::lane(t268, 2) + t889;
+        mass_matrix_p[1][5] = t902;
+        mass_matrix_p[5][1] = t902;
+        let t903 = P::lane(t270, 0) + t883;
+        mass_matrix_p[2][3] = t903;
+        mass_matrix_p[3][2] = t903;
+        let t904 = P::lane(t270, 1) - t889;
+        mass_matrix_p[2][4] = t904;
+        mass_matrix_p[4][2] = t904;
+        let t905 = platform_rotation[2][1] * c(0.032245600000000006);
+        let t906 = P::mul_add(platform_rotation[1][0], t891, platform_rotation[1][1] * t896);
+        let t907 = platform_rotation[2][0] * c(0.032245600000000006);
+        let t908 = P::mul_add(platform_rotation[2][0], t891, platform_rotation[2][1] * t896);
+        let t909 = platform_rotation[2][2] * c(0.013354412);
+        let t910 = P::lane(t265, 1) - t900;
+        mass_matrix_p[3][4] = t910;
+        mass_matrix_p[4][3] = t910;
+        let t911 = P::mul_add(platform_rotation[1][2], t898, t906);
+        let t912 = P::lane(t265, 2) - t901;
+        mass_matrix_p[3][5] = t912;
+        mass_matrix_p[5][3] = t912;
+        let t913 = P::mul_add(platform_rotation[2][2], t898, t908);
+        let t914 = P::mul_add(platform_rotation[2][0], t907, platform_rotation[2][1] * t905);
+        let t915 = P::mul_add(platform_rotation[2][2], t909, t914);
+        // Coriolis matrix C_p, natural factorisation
+        let t916 = P::mul_sub(platform_velocity[3], t883, platform_velocity[4] * t889);
+        let t917 = P::mul_sub(platform_velocity[5], t889, platform_velocity[3] * t882);
+        let t918 = P::mul_sub(platform_velocity[4], t882, platform_velocity[5] * t883);
         // mass matrix M_p of the platform
-        let t773 = P::mul_add(platform_rotation[0][2], c(0.188852), t770);
-        let t774 = P::lane(t215, 1) + t766;
-        mass_matrix_p[0][4] = t774;
-        mass_matrix_p[4][0] = t774;
-        let t775 = platform_rotation[1][0] * c(0.032245600000000006);
-        let t776 = P::mul_add(
-            platform_rotation[0][0],
-            t763,
-            platform_rotation[0][1] * t769,
-        );
-        let t777 = P::mul_add(
-            platform_rotation[1][0],
-            t763,
-            platform_rotation[1][1] * t769,
-        );
-        let t778 = P::mul_add(
-            platform_rotation[2][0],
-            t763,
-            platform_rotation[2][1] * t769,
-        );
-        let t779 = P::lane(t215, 2) - t767;
-        mass_matrix_p[0][5] = t779;
-        mass_matrix_p[5][0] = t779;
-        let t780 = platform_rotation[1][1] * c(0.032245600000000006);
-        let t781 = P::lane(t220, 0) - t766;
-        mass_matrix_p[1][3] = t781;
-        mass_matrix_p[3][1] = t781;
-        let t782 = platform_rotation[1][2] * c(0.013354412);
-        let t783 = P::mul_add(platform_rotation[0][2], t771, t776);
-        let t784 = P::mul_add(platform_rotation[1][2], t771, t777);
-        let t785 = P::mul_add(platform_rotation[2][2], t771, t778);
-        let t786 = P::lane(t220, 2) + t773;
-        mass_matrix_p[1][5] = t786;
-        mass_matrix_p[5][1] = t786;
-        let t787 = P::lane(t222, 0) + t767;
-        mass_matrix_p[2][3] = t787;
-        mass_matrix_p[3][2] = t787;
-        let t788 = P::lane(t222, 1) - t773;
-        mass_matrix_p[2][4] = t788;
-        mass_matrix_p[4][2] = t788;
-        let t789 = platform_rotation[2][1] * c(0.032245600000000006);
-        let t790 = P::mul_add(
-            platform_rotation[1][0],
-            t775,
-            platform_rotation[1][1] * t780,
-        );
-        let t791 = platform_rotation[2][0] * c(0.032245600000000006);
-        let t792 = P::mul_add(
-            platform_rotation[2][0],
-            t775,
-            platform_rotation[2][1] * t780,
-        );
-        let t793 = platform_rotation[2][2] * c(0.013354412);
-        let t794 = P::lane(t217, 1) - t784;
-        mass_matrix_p[3][4] = t794;
-        mass_matrix_p[4][3] = t794;
-        let t795 = P::mul_add(platform_rotation[1][2], t782, t790);
-        let t796 = P::lane(t217, 2) - t785;
-        mass_matrix_p[3][5] = t796;
-        mass_matrix_p[5][3] = t796;
-        let t797 = P::mul_add(platform_rotation[2][2], t782, t792);
-        let t798 = P::mul_add(
-            platform_rotation[2][0],
-            t791,
-            platform_rotation[2][1] * t789,
-        );
-        let t799 = P::mul_add(platform_rotation[2][2], t793, t798);
+        let t919 = P::lane(t272, 2) - t913;
+        mass_matrix_p[4][5] = t919;
+        mass_matrix_p[5][4] = t919;
+        let t920 = c(0.07784561200000001) - t915;
         // Coriolis matrix C_p, natural factorisation
-        let t800 = P::mul_sub(platform_velocity[3], t767, platform_velocity[4] * t773);
-        let t801 = P::mul_sub(platform_velocity[5], t773, platform_velocity[3] * t766);
-        let t802 = P::mul_sub(platform_velocity[4], t766, platform_velocity[5] * t767);
-        // mass matrix M_p of the platform
-        let t803 = P::lane(t224, 2) - t797;
-        mass_matrix_p[4][5] = t803;
-        mass_matrix_p[5][4] = t803;
-        let t804 = c(0.07784561200000001) - t799;
-        // Coriolis matrix C_p, natural factorisation
-        let t805 = t795 - c(0.0425);
-        let t806 = P::mul_add(platform_velocity[5], t784, P::lane(t611, 0));
-        let t807 = P::mul_add(platform_velocity[5], t805, P::lane(t611, 1));
-        let t808 = t799 - c(0.0425);
-        let t809 = t783 - c(0.0425);
-        let t810 = P::mul_add(platform_velocity[5], t797, P::lane(t611, 2));
-        let t811 = P::mul_add(platform_velocity[3], t797, P::lane(t615, 1));
-        let t812 = P::neg_mul_add(platform_velocity[5], t785, P::lane(t615, 2));
-        let t813 = P::neg_mul_add(platform_velocity[5], t809, P::lane(t615, 0));
-        let t814 = P::mul_add(platform_velocity[4], t809, P::lane(t619, 0));
-        let t815 = P::mul_add(platform_velocity[4], t784, P::lane(t619, 1));
-        let t816 = P::mul_add(platform_velocity[4], t785, P::lane(t619, 2));
-        // mass matrix M_b that couples the base acceleration
-        let t817 = P::lane(t277, 2) + (P::lane(t277, 1) + P::lane(t277, 0));
-        let t818 = P::lane(t166, 0)
-            - P::mul_sub(t6, P::lane(t153, 1), t3 * P::lane(t153, 2));
-        let t819 = P::lane(t288, 2) + (P::lane(t288, 0) + P::lane(t288, 1));
-        let t820 = P::lane(t303, 2) + (P::lane(t303, 1) + P::lane(t303, 0));
-        let t821 = P::lane(t166, 1)
-            - P::mul_sub(t5, P::lane(t153, 2), t6 * P::lane(t153, 0));
-        let t822 = P::mul_add(base_rotation[1][0], t817, base_rotation[1][1] * t819);
-        let t823 = P::mul_add(base_rotation[2][0], t817, base_rotation[2][1] * t819);
-        let t824 = P::mul_add(base_rotation[0][0], t817, base_rotation[0][1] * t819);
-        let t825 = P::lane(t166, 2)
-            - P::mul_sub(t3, P::lane(t153, 0), t5 * P::lane(t153, 1));
-        let t826 = P::lane(t298, 2) + (P::lane(t298, 1) + P::lane(t298, 0));
-        let t827 = P::lane(t175, 0)
-            - P::mul_sub(t6, P::lane(t158, 1), t3 * P::lane(t158, 2));
-        let t828 = P::lane(t293, 2) + (P::lane(t293, 1) + P::lane(t293, 0));
-        let t829 = P::lane(t304, 2) + (P::lane(t304, 1) + P::lane(t304, 0));
-        let t830 = P::lane(t175, 1)
-            - P::mul_sub(t5, P::lane(t158, 2), t6 * P::lane(t158, 0));
-        let t831 = P::mul_add(base_rotation[0][0], t826, base_rotation[0][1] * t828);
-        let t832 = P::mul_add(base_rotation[2][0], t826, base_rotation[2][1] * t828);
-        let t833 = P::mul_add(base_rotation[1][0], t826, base_rotation[1][1] * t828);
-        let t834 = P::lane(t175, 2)
-            - P::mul_sub(t3, P::lane(t158, 0), t5 * P::lane(t158, 1));
-        let t835 = P::lane(t299, 2) + (P::lane(t299, 1) + P::lane(t299, 0));
-        let t836 = P::lane(t177, 0)
-            - P::mul_sub(t6, P::lane(t176, 1), t3 * P::lane(t176, 2));
-        let t837 = P::lane(t294, 2) + (P::lane(t294, 1) + P::lane(t294, 0));
-        let t838 = P::lane(t305, 2) + (P::lane(t305, 1) + P::lane(t305, 0));
-        let t839 = P::lane(t177, 1)
-            - P::mul_sub(t5, P::lane(t176, 2), t6 * P::lane(t176, 0));
-        let t840 = P::mul_add(base_rotation[0][0], t835, base_rotation[0][1] * t837);
-        let t841 = P::mul_add(base_rotation[1][0], t835, base_rotation[1][1] * t837);
-        let t842 = P::mul_add(base_rotation[2][0], t835, base_rotation[2][1] * t837);
-        let t843 = P::lane(t307, 2) + (P::lane(t307, 0) + P::lane(t307, 1));
-        let t844 = platform_rotation[2][1] * c(3.469446951953614e-18);
-        let t845 = P::lane(t177, 2)
-            - P::mul_sub(t3, P::lane(t176, 0), t5 * P::lane(t176, 1));
-        let t846 = P::mul_add(platform_rotation[2][0], c(8.673617379884035e-18), t844);
-        let t847 = platform_rotation[1][1] * c(3.469446951953614e-18);
-        let t848 = platform_rotation[0][1] * c(3.469446951953614e-18);
-        let t849 = P::mul_add(platform_rotation[1][0], c(8.673617379884035e-18), t847);
-        let t850 = P::mul_add(platform_rotation[0][0], c(8.673617379884035e-18), t848);
-        let t851 = P::lane(t308, 2) + (P::lane(t308, 0) + P::lane(t308, 1));
-        let t852 = P::lane(t309, 2) + (P::lane(t309, 1) + P::lane(t309, 0));
-        let t853 = P::lane(t300, 2) + (P::lane(t300, 1) + P::lane(t300, 0));
-        let t854 = P::lane(t210, 0)
-            - P::mul_sub(t6, P::lane(t205, 1), t3 * P::lane(t205, 2));
-        let t855 = P::lane(t296, 2) + (P::lane(t296, 0) + P::lane(t296, 1));
-        let t856 = P::lane(t306, 2) + (P::lane(t306, 1) + P::lane(t306, 0));
-        let t857 = P::lane(t210, 1)
-            - P::mul_sub(t5, P::lane(t205, 2), t6 * P::lane(t205, 0));
-        let t858 = P::lane(t210, 2)
-            - P::mul_sub(t3, P::lane(t205, 0), t5 * P::lane(t205, 1));
-        let t859 = P::mul_add(base_rotation[0][0], t853, base_rotation[0][1] * t855);
-        let t860 = P::mul_add(base_rotation[1][0], t853, base_rotation[1][1] * t855);
-        let t861 = P::mul_add(base_rotation[2][0], t853, base_rotation[2][1] * t855);
-        // mass matrix M_p of the platform
-        mass_matrix_p[0][0] = P::lane(t208 + t238, 0);
-        // mass matrix of the legs
-        mass_matrix_p[0][1] = P::lane(t208, 1);
-        mass_matrix_p[0][2] = P::lane(t208, 2);
-        mass_matrix_p[0][3] = P::lane(t215, 0);
-        mass_matrix_p[1][0] = P::lane(t208, 1);
-        // mass matrix M_p of the platform
-        mass_matrix_p[1][1] = P::lane(t236, 1);
-        // mass matrix of the legs
-        mass_matrix_p[1][2] = P::lane(t212, 2);
-        mass_matrix_p[1][4] = P::lane(t220, 1);
-        mass_matrix_p[2][0] = P::lane(t208, 2);
-        mass_matrix_p[2][1] = P::lane(t212, 2);
-        // mass matrix M_p of the platform
-        mass_matrix_p[2][2] = P::lane(t237, 2);
-        // mass matrix of the legs
-        mass_matrix_p[2][5] = P::lane(t222, 2);
-        mass_matrix_p[3][0] = P::lane(t215, 0);
-        // mass matrix M_p of the platform
-        mass_matrix_p[3][3] = P::lane(t217, 0) + (c(0.07784561200000001) - t783);
-        // mass matrix of the legs
-        mass_matrix_p[4][1] = P::lane(t220, 1);
-        // mass matrix M_p of the platform
-        mass_matrix_p[4][4] = P::lane(t224, 1) + (c(0.07784561200000001) - t795);
-        // mass matrix of the legs
-        mass_matrix_p[5][2] = P::lane(t222, 2);
-        // mass matrix M_p of the platform
-        mass_matrix_p[5][5] = P::lane(
-            P::triple([c(0.0), c(0.0), P::lane(t210, 2)]) + t232,
-            2,
-        ) + t804;
-        // part of the legs' Coriolis matrix on the side of the axes
-        coriolis_matrix_p[0][0] = P::lane(t563, 0);
-        coriolis_matrix_p[0][1] = P::lane(t563, 1);
-        coriolis_matrix_p[0][2] = P::lane(t563, 2);
-        // Coriolis matrix of the legs
-        coriolis_matrix_p[0][3] = P::lane(t620, 0);
-        // Coriolis matrix C_p, natural factorisation
-        coriolis_matrix_p[0][4] = P::lane(t620, 1) + t800;
-        coriolis_matrix_p[0][5] = P::lane(t620, 2) - t801;
-        // part of the legs' Coriolis matrix on the side of the axes
-        coriolis_matrix_p[1][0] = P::lane(t564, 0);
-        coriolis_matrix_p[1][1] = P::lane(t564, 1);
-        coriolis_matrix_p[1][2] = P::lane(t564, 2);
-        // Coriolis matrix C_p, natural factorisation
-        coriolis_matrix_p[1][3] = P::lane(t621, 0) - t800;
-        // Coriolis matrix of the legs
-        coriolis_matrix_p[1][4] = P::lane(t621, 1);
-        // Coriolis matrix C_p, natural factorisation
-        coriolis_matrix_p[1][5] = P::lane(t621, 2) + t802;
-        // part of the legs' Coriolis matrix on the side of the axes
-        coriolis_matrix_p[2][0] = P::lane(t565, 0);
-        coriolis_matrix_p[2][1] = P::lane(t565, 1);
-        coriolis_matrix_p[2][2] = P::lane(t565, 2);
-        // Coriolis matrix C_p, natural factorisation
-        coriolis_matrix_p[2][3] = t801 + P::lane(t622, 0);
-        coriolis_matrix_p[2][4] = P::lane(t622, 1) - t802;
-        // Coriolis matrix of the legs
-        coriolis_matrix_p[2][5] = P::lane(t622, 2);
-        // part of the legs' Coriolis matrix on the side of the axes
-        coriolis_matrix_p[3][0] = P::lane(t536, 0);
-        coriolis_matrix_p[3][1] = P::lane(t536, 1);
-        coriolis_matrix_p[3][2] = P::lane(t536, 2);
-        // Coriolis matrix C_p, natural factorisation
-        coriolis_matrix_p[3][3] = P::neg_mul_add(platform_velocity[4], t785, t806);
-        coriolis_matrix_p[3][4] = P::neg_mul_add(platform_velocity[4], t797, t807);
-        coriolis_matrix_p[3][5] = P::neg_mul_add(platform_velocity[4], t808, t810);
-        // part of the legs' Coriolis matrix on the side of the axes
-        coriolis_matrix_p[4][0] = P::lane(t539, 0);
-        coriolis_matrix_p[4][1] = P::lane(t539, 1);
-        coriolis_matrix_p[4][2] = P::lane(t539, 2);
-        // Coriolis matrix C_p, natural factorisation
-        coriolis_matrix_p[4][3] = P::mul_add(platform_velocity[3], t785, t813);
-        coriolis_matrix_p[4][4] = P::neg_mul_add(platform_velocity[5], t784, t811);
-        coriolis_matrix_p[4][5] = P::mul_add(platform_velocity[3], t808, t812);
-        // part of the legs' Coriolis matrix on the side of the axes
-        coriolis_matrix_p[5][0] = P::lane(t545, 0);
-        coriolis_matrix_p[5][1] = P::lane(t545, 1);
-        coriolis_matrix_p[5][2] = P::lane(t545, 2);
-        // Coriolis matrix C_p, natural factorisation
-        coriolis_matrix_p[5][3] = P::neg_mul_add(platform_velocity[3], t784, t814);
-        coriolis_matrix_p[5][4] = P::neg_mul_add(platform_velocity[3], t805, t815);
-        coriolis_matrix_p[5][5] = P::neg_mul_add(platform_velocity[3], t797, t816);
-        // leg 1: gradient of the actuator length
-        jacobian_dp[0][0] = P::lane(t62, 0);
-        jacobian_dp[0][1] = P::lane(t64, 0);
-        jacobian_dp[0][2] = P::lane(t65, 0);
-        // leg 1: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
-        jacobian_dp[0][3] = P::lane(t70, 0);
-        jacobian_dp[0][4] = P::lane(t74, 0);
-        jacobian_dp[0][5] = P::lane(t68, 0);
-        // leg 2: gradient of the actuator length
-        jacobian_dp[1][0] = P::lane(t62, 1);
-        jacobian_dp[1][1] = P::lane(t64, 1);
-        jacobian_dp[1][2] = P::lane(t65, 1);
-        // leg 2: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
-        jacobian_dp[1][3] = P::lane(t70, 1);
-        jacobian_dp[1][4] = P::lane(t74, 1);
-        jacobian_dp[1][5] = P::lane(t68, 1);
-        // leg 3: gradient of the actuator length
-        jacobian_dp[2][0] = P::lane(t62, 2);
-        jacobian_dp[2][1] = P::lane(t64, 2);
-        jacobian_dp[2][2] = P::lane(t65, 2);
-        // leg 3: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
-        jacobian_dp[2][3] = P::lane(t70, 2);
-        jacobian_dp[2][4] = P::lane(t74, 2);
-        jacobian_dp[2][5] = P::lane(t68, 2);
-        // leg 4: gradient of the actuator length
-        jacobian_dp[3][0] = P::lane(t60, 0);
-        jacobian_dp[3][1] = P::lane(t61, 0);
-        jacobian_dp[3][2] = P::lane(t63, 0);
-        // leg 4: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
-        jacobian_dp[3][3] = P::lane(t67, 0);
-        jacobian_dp[3][4] = P::lane(t69, 0);
-        jacobian_dp[3][5] = P::lane(t66, 0);
-        // leg 5: gradient of the actuator length
-        jacobian_dp[4][0] = P::lane(t60, 1);
-        jacobian_dp[4][1] = P::lane(t61, 1);
-        jacobian_dp[4][2] = P::lane(t63, 1);
-        // leg 5: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
-        jacobian_dp[4][3] = P::lane(t67, 1);
-        jacobian_dp[4][4] = P::lane(t69, 1);
-        jacobian_dp[4][5] = P::lane(t66, 1);
-        // leg 6: gradient of the actuator length
-        jacobian_dp[5][0] = P::lane(t60, 2);
-        jacobian_dp[5][1] = P::lane(t61, 2);
-        jacobian_dp[5][2] = P::lane(t63, 2);
-        // leg 6: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
-        jacobian_dp[5][3] = P::lane(t67, 2);
-        jacobian_dp[5][4] = P::lane(t69, 2);
-        jacobian_dp[5][5] = P::lane(t66, 2);
+        let t921 = t911 - c(0.0425);
+        let t922 = P::mul_add(platform_velocity[5], t900, P::lane(t721, 0));
+        let t923 = P::mul_add(platform_velocity[5], t921, P::lane(t721, 1));
+        let t924 = t915 - c(0.0425);
+        let t925 = t899 - c(0.0425);
+        let t926 = P::mul_add(platform_velocity[5], t913, P::lane(t721, 2));
+        let t927 = P::mul_add(platform_velocity[3], t913, P::lane(t727, 1));
+        let t928 = P::neg_mul_add(platform_velocity[5], t901, P::lane(t727, 2));
+        let t929 = P::neg_mul_add(platform_velocity[5], t925, P::lane(t727, 0));
+        let t930 = P::mul_add(platform_velocity[4], t925, P::lane(t731, 0));
+        let t931 = P::mul_add(platform_velocity[4], t900, P::lane(t731, 1));
+        let t932 = P::mul_add(platform_velocity[4], t901, P::lane(t731, 2));
         (
-            t60,
-            t61,
-            t62,
-            t63,
-            t64,
-            t65,
-            t79,
-            t81,
-            t83,
-            t86,
-            t87,
-            t88,
-            t188,
-            t197,
-            t205,
-            t253,
-            t287,
-            t322,
-            t323,
-            t326,
-            t334,
-            t344,
-            t368,
-            t536,
-            t539,
-            t545,
-            t563,
-            t564,
-            t565,
-            t664,
-            t677,
-            t691,
-            t732,
-            t749,
-            t772,
-            t818,
-            t820,
-            t821,
-            t822,
-            t823,
-            t824,
-            t825,
-            t827,
-            t829,
-            t830,
-            t831,
-            t832,
-            t833,
-            t834,
-            t836,
-            t838,
-            t839,
-            t840,
-            t841,
-            t842,
-            t843,
-            t845,
-            t846,
-            t849,
-            t850,
-            t851,
-            t852,
-            t854,
-            t856,
-            t857,
-            t858,
-            t859,
-            t860,
-            t861,
+            t5, t7, t8, t83, t84, t85, t86, t87, t88, t89, t90, t91, t92, t93, t97, t102, t104,
+            t106, t109, t111, t112, t185, t192, t201, t211, t213, t217, t228, t241, t251, t255,
+            t258, t260, t263, t265, t268, t270, t272, t281, t285, t286, t287, t304, t330, t341,
+            t342, t347, t348, t350, t352, t353, t354, t357, t358, t359, t360, t361, t362, t363,
+            t376, t377, t381, t390, t400, t429, t630, t634, t643, t664, t665, t666, t732, t733,
+            t734, t775, t788, t804, t847, t865, t888, t899, t900, t901, t911, t913, t916, t917,
+            t918, t920, t921, t922, t923, t924, t926, t927, t928, t929, t930, t931, t932,
         )
     };
     {
         // mass matrix M_b that couples the base acceleration
-        mass_matrix_b[0][0] = P::lane(t322, 0);
-        mass_matrix_b[0][1] = P::lane(t322, 1);
-        mass_matrix_b[0][2] = P::lane(t322, 2);
-        mass_matrix_b[0][3] = t818 - P::mul_add(base_rotation[0][2], t820, t824);
-        mass_matrix_b[0][4] = t821 - P::mul_add(base_rotation[1][2], t820, t822)
-            - P::lane(t253, 2);
-        mass_matrix_b[0][5] = P::lane(t253, 1)
-            + (t825 - P::mul_add(base_rotation[2][2], t820, t823));
-        mass_matrix_b[1][0] = P::lane(t323, 0);
-        mass_matrix_b[1][1] = P::lane(t323, 1);
-        mass_matrix_b[1][2] = P::lane(t323, 2);
-        mass_matrix_b[1][3] = P::lane(t253, 2)
-            + (t827 - P::mul_add(base_rotation[0][2], t829, t831));
-        mass_matrix_b[1][4] = t830 - P::mul_add(base_rotation[1][2], t829, t833);
-        mass_matrix_b[1][5] = t834 - P::mul_add(base_rotation[2][2], t829, t832)
-            - P::lane(t253, 0);
-        mass_matrix_b[2][0] = P::lane(t326, 0);
-        mass_matrix_b[2][1] = P::lane(t326, 1);
-        mass_matrix_b[2][2] = P::lane(t326, 2);
-        mass_matrix_b[2][3] = t836 - P::mul_add(base_rotation[0][2], t838, t840)
-            - P::lane(t253, 1);
-        mass_matrix_b[2][4] = P::lane(t253, 0)
-            + (t839 - P::mul_add(base_rotation[1][2], t838, t841));
-        mass_matrix_b[2][5] = t845 - P::mul_add(base_rotation[2][2], t838, t842);
-        mass_matrix_b[3][0] = P::neg_mul_add(
-            base_rotation[0][2],
-            t843,
-            P::lane(t188, 0),
-        );
-        mass_matrix_b[3][1] = P::neg_mul_add(base_rotation[1][2], t843, P::lane(t188, 1))
-            + t846;
-        mass_matrix_b[3][2] = P::neg_mul_add(base_rotation[2][2], t843, P::lane(t188, 2))
-            - t849;
-        mass_matrix_b[3][3] = P::lane(t344, 0);
-        mass_matrix_b[3][4] = P::lane(t344, 1);
-        mass_matrix_b[3][5] = P::lane(t344, 2);
-        mass_matrix_b[4][0] = P::neg_mul_add(base_rotation[0][2], t851, P::lane(t197, 0))
-            - t846;
-        mass_matrix_b[4][1] = P::neg_mul_add(
-            base_rotation[1][2],
-            t851,
-            P::lane(t197, 1),
-        );
-        mass_matrix_b[4][2] = t850
-            + P::neg_mul_add(base_rotation[2][2], t851, P::lane(t197, 2));
-        mass_matrix_b[4][3] = P::lane(t368, 0);
-        mass_matrix_b[4][4] = P::lane(t368, 1);
-        mass_matrix_b[4][5] = P::lane(t368, 2);
-        mass_matrix_b[5][0] = t849
-            + P::neg_mul_add(base_rotation[0][2], t852, P::lane(t205, 0));
-        mass_matrix_b[5][1] = P::neg_mul_add(base_rotation[1][2], t852, P::lane(t205, 1))
-            - t850;
-        mass_matrix_b[5][2] = P::neg_mul_add(
-            base_rotation[2][2],
-            t852,
-            P::lane(t205, 2),
-        );
-        mass_matrix_b[5][3] = P::lane(t287, 0)
-            + (t854 - P::mul_add(base_rotation[0][2], t856, t859));
-        mass_matrix_b[5][4] = P::lane(t287, 1)
-            + (t857 - P::mul_add(base_rotation[1][2], t856, t860));
-        mass_matrix_b[5][5] = t858 - P::mul_add(base_rotation[2][2], t856, t861) - t334;
+        let t933 = P::mul_sub(t8, P::lane(t185, 1), t5 * P::lane(t185, 2));
+        let t934 = P::lane(t330, 2) + (P::lane(t330, 1) + P::lane(t330, 0));
+        let t935 = P::lane(t342, 2) + (P::lane(t342, 0) + P::lane(t342, 1));
+        let t936 = P::mul_sub(t7, P::lane(t185, 2), t8 * P::lane(t185, 0));
+        let t937 = P::mul_sub(t5, P::lane(t185, 0), t7 * P::lane(t185, 1));
+        let t938 = P::lane(t357, 2) + (P::lane(t357, 1) + P::lane(t357, 0));
+        let t939 = P::mul_add(base_rotation[1][0], t934, base_rotation[1][1] * t935);
+        let t940 = P::mul_add(base_rotation[2][0], t934, base_rotation[2][1] * t935);
+        let t941 = P::mul_add(base_rotation[0][0], t934, base_rotation[0][1] * t935);
+        let t942 = P::mul_sub(t8, P::lane(t192, 1), t5 * P::lane(t192, 2));
+        let t943 = P::lane(t201, 1) - t936 - P::mul_add(base_rotation[1][2], t938, t939);
+        let t944 = P::lane(t201, 2) - t937 - P::mul_add(base_rotation[2][2], t938, t940);
+        let t945 = P::lane(t352, 2) + (P::lane(t352, 1) + P::lane(t352, 0));
+        let t946 = P::lane(t347, 2) + (P::lane(t347, 1) + P::lane(t347, 0));
+        let t947 = P::mul_sub(t7, P::lane(t192, 2), t8 * P::lane(t192, 0));
+        let t948 = P::mul_sub(t5, P::lane(t192, 0), t7 * P::lane(t192, 1));
+        let t949 = P::lane(t358, 2) + (P::lane(t358, 1) + P::lane(t358, 0));
+        let t950 = P::mul_add(base_rotation[0][0], t945, base_rotation[0][1] * t946);
+        let t951 = P::mul_add(base_rotation[2][0], t945, base_rotation[2][1] * t946);
+        let t952 = P::mul_add(base_rotation[1][0], t945, base_rotation[1][1] * t946);
+        let t953 = P::mul_sub(t8, P::lane(t213, 1), t5 * P::lane(t213, 2));
+        let t954 = P::lane(t211, 0) - t942 - P::mul_add(base_rotation[0][2], t949, t950);
+        let t955 = P::lane(t353, 2) + (P::lane(t353, 1) + P::lane(t353, 0));
+        let t956 = P::lane(t211, 2) - t948 - P::mul_add(base_rotation[2][2], t949, t951);
+        let t957 = P::lane(t348, 2) + (P::lane(t348, 1) + P::lane(t348, 0));
+        let t958 = P::mul_sub(t7, P::lane(t213, 2), t8 * P::lane(t213, 0));
+        let t959 = P::lane(t359, 2) + (P::lane(t359, 1) + P::lane(t359, 0));
+        let t960 = P::mul_sub(t5, P::lane(t213, 0), t7 * P::lane(t213, 1));
+        let t961 = P::mul_add(base_rotation[0][0], t955, base_rotation[0][1] * t957);
+        let t962 = P::mul_add(base_rotation[1][0], t955, base_rotation[1][1] * t957);
+        let t963 = P::mul_add(base_rotation[2][0], t955, base_rotation[2][1] * t957);
+        let t964 = P::lane(t361, 2) + (P::lane(t361, 0) + P::lane(t361, 1));
+        let t965 = platform_rotation[2][1] * c(3.469446951953614e-18);
+        let t966 = P::mul_add(platform_rotation[2][0], c(8.673617379884035e-18), t965);
+        let t967 = P::lane(t217, 0) - t953 - P::mul_add(base_rotation[0][2], t959, t961);
+        let t968 = P::lane(t217, 1) - t958 - P::mul_add(base_rotation[1][2], t959, t962);
+        let t969 = platform_rotation[1][1] * c(3.469446951953614e-18);
+        let t970 = platform_rotation[0][1] * c(3.469446951953614e-18);
+        let t971 = P::mul_add(platform_rotation[1][0], c(8.673617379884035e-18), t969);
+        let t972 = P::mul_add(platform_rotation[0][0], c(8.673617379884035e-18), t970);
+        let t973 = P::lane(t362, 2) + (P::lane(t362, 0) + P::lane(t362, 1));
+        let t974 = P::lane(t363, 2) + (P::lane(t363, 1) + P::lane(t363, 0));
+        let t975 = P::mul_sub(t8, P::lane(t251, 1), t5 * P::lane(t251, 2));
+        let t976 = P::lane(t354, 2) + (P::lane(t354, 1) + P::lane(t354, 0));
+        let t977 = P::mul_sub(t7, P::lane(t251, 2), t8 * P::lane(t251, 0));
+        let t978 = P::lane(t350, 2) + (P::lane(t350, 0) + P::lane(t350, 1));
+        let t979 = P::lane(t360, 2) + (P::lane(t360, 1) + P::lane(t360, 0));
+        let t980 = P::mul_sub(t5, P::lane(t251, 0), t7 * P::lane(t251, 1));
+        let t981 = P::mul_add(base_rotation[0][0], t976, base_rotation[0][1] * t978);
+        let t982 = P::mul_add(base_rotation[1][0], t976, base_rotation[1][1] * t978);
+        let t983 = P::mul_add(base_rotation[2][0], t976, base_rotation[2][1] * t978);
+        let t984 = P::lane(t258, 0) - t975 - P::mul_add(base_rotation[0][2], t979, t981);
+        let t985 = P::lane(t258, 1) - t977 - P::mul_add(base_rotation[1][2], t979, t982);
+        let t986 = P::lane(t258, 2) - t980 - P::mul_add(base_rotation[2][2], t979, t983);
+        // mass matrix M_p of the platform
+        mass_matrix_p[0][0] = P::lane(t255 + t287, 0);
+        // mass matrix of the legs
+        mass_matrix_p[0][1] = P::lane(t255, 1);
+        mass_matrix_p[0][2] = P::lane(t255, 2);
+        mass_matrix_p[0][3] = P::lane(t263, 0);
+        mass_matrix_p[1][0] = P::lane(t255, 1);
+        // mass matrix M_p of the platform
+        mass_matrix_p[1][1] = P::lane(t285, 1);
+        // mass matrix of the legs
+        mass_matrix_p[1][2] = P::lane(t260, 2);
+        mass_matrix_p[1][4] = P::lane(t268, 1);
+        mass_matrix_p[2][0] = P::lane(t255, 2);
+        mass_matrix_p[2][1] = P::lane(t260, 2);
+        // mass matrix M_p of the platform
+        mass_matrix_p[2][2] = P::lane(t286, 2);
+        // mass matrix of the legs
+        mass_matrix_p[2][5] = P::lane(t270, 2);
+        mass_matrix_p[3][0] = P::lane(t263, 0);
+        // mass matrix M_p of the platform
+        mass_matrix_p[3][3] = P::lane(t265, 0) + (c(0.07784561200000001) - t899);
+        // mass matrix of the legs
+        mass_matrix_p[4][1] = P::lane(t268, 1);
+        // mass matrix M_p of the platform
+        mass_matrix_p[4][4] = P::lane(t272, 1) + (c(0.07784561200000001) - t911);
+        // mass matrix of the legs
+        mass_matrix_p[5][2] = P::lane(t270, 2);
+        // mass matrix M_p of the platform
+        mass_matrix_p[5][5] =
+            P::lane(P::triple([c(0.0), c(0.0), P::lane(t258, 2)]) + t281, 2) + t920;
         // part of the legs' Coriolis matrix on the side of the axes
-        coriolis_matrix_b[0][0] = P::lane(t563, 0);
-        coriolis_matrix_b[0][1] = P::lane(t563, 1);
-        coriolis_matrix_b[0][2] = P::lane(t563, 2);
-        // Coriolis matrix C_b, natural factorisation
-        coriolis_matrix_b[0][3] = P::lane(t664, 0);
-        coriolis_matrix_b[0][4] = P::lane(t664, 1);
-        coriolis_matrix_b[0][5] = P::lane(t664, 2);
+        coriolis_matrix_p[0][0] = P::lane(t664, 0);
+        coriolis_matrix_p[0][1] = P::lane(t664, 1);
+        coriolis_matrix_p[0][2] = P::lane(t664, 2);
+        // Coriolis matrix of the legs
+        coriolis_matrix_p[0][3] = P::lane(t732, 0);
+        // Coriolis matrix C_p, natural factorisation
+        coriolis_matrix_p[0][4] = P::lane(t732, 1) + t916;
+        coriolis_matrix_p[0][5] = P::lane(t732, 2) - t917;
         // part of the legs' Coriolis matrix on the side of the axes
-        coriolis_matrix_b[1][0] = P::lane(t564, 0);
-        coriolis_matrix_b[1][1] = P::lane(t564, 1);
-        coriolis_matrix_b[1][2] = P::lane(t564, 2);
-        // Coriolis matrix C_b, natural factorisation
-        coriolis_matrix_b[1][3] = P::lane(t677, 0);
-        coriolis_matrix_b[1][4] = P::lane(t677, 1);
-        coriolis_matrix_b[1][5] = P::lane(t677, 2);
+        coriolis_matrix_p[1][0] = P::lane(t665, 0);
+        coriolis_matrix_p[1][1] = P::lane(t665, 1);
+        coriolis_matrix_p[1][2] = P::lane(t665, 2);
+        // Coriolis matrix C_p, natural factorisation
+        coriolis_matrix_p[1][3] = P::lane(t733, 0) - t916;
+        // Coriolis matrix of the legs
+        coriolis_matrix_p[1][4] = P::lane(t733, 1);
+        // Coriolis matrix C_p, natural factorisation
+        coriolis_matrix_p[1][5] = P::lane(t733, 2) + t918;
         // part of the legs' Coriolis matrix on the side of the axes
-        coriolis_matrix_b[2][0] = P::lane(t565, 0);
-        coriolis_matrix_b[2][1] = P::lane(t565, 1);
-        coriolis_matrix_b[2][2] = P::lane(t565, 2);
-        // Coriolis matrix C_b, natural factorisation
-        coriolis_matrix_b[2][3] = P::lane(t691, 0);
-        coriolis_matrix_b[2][4] = P::lane(t691, 1);
-        coriolis_matrix_b[2][5] = P::lane(t691, 2);
+        coriolis_matrix_p[2][0] = P::lane(t666, 0);
+        coriolis_matrix_p[2][1] = P::lane(t666, 1);
+        coriolis_matrix_p[2][2] = P::lane(t666, 2);
+        // Coriolis matrix C_p, natural factorisation
+        coriolis_matrix_p[2][3] = t917 + P::lane(t734, 0);
+        coriolis_matrix_p[2][4] = P::lane(t734, 1) - t918;
+        // Coriolis matrix of the legs
+        coriolis_matrix_p[2][5] = P::lane(t734, 2);
         // part of the legs' Coriolis matrix on the side of the axes
-        coriolis_matrix_b[3][0] = P::lane(t536, 0);
-        coriolis_matrix_b[3][1] = P::lane(t536, 1);
-        coriolis_matrix_b[3][2] = P::lane(t536, 2);
-        // Coriolis matrix C_b, natural factorisation
-        coriolis_matrix_b[3][3] = P::lane(t732, 0);
-        coriolis_matrix_b[3][4] = P::lane(t732, 1);
-        coriolis_matrix_b[3][5] = P::lane(t732, 2);
+        coriolis_matrix_p[3][0] = P::lane(t630, 0);
+        coriolis_matrix_p[3][1] = P::lane(t630, 1);
+        coriolis_matrix_p[3][2] = P::lane(t630, 2);
+        // Coriolis matrix C_p, natural factorisation
+        coriolis_matrix_p[3][3] = P::neg_mul_add(platform_velocity[4], t901, t922);
+        coriolis_matrix_p[3][4] = P::neg_mul_add(platform_velocity[4], t913, t923);
+        coriolis_matrix_p[3][5] = P::neg_mul_add(platform_velocity[4], t924, t926);
         // part of the legs' Coriolis matrix on the side of the axes
-        coriolis_matrix_b[4][0] = P::lane(t539, 0);
-        coriolis_matrix_b[4][1] = P::lane(t539, 1);
-        coriolis_matrix_b[4][2] = P::lane(t539, 2);
-        // Coriolis matrix C_b, natural factorisation
-        coriolis_matrix_b[4][3] = P::lane(t749, 0);
-        coriolis_matrix_b[4][4] = P::lane(t749, 1);
-        coriolis_matrix_b[4][5] = P::lane(t749, 2);
+        coriolis_matrix_p[4][0] = P::lane(t634, 0);
+        coriolis_matrix_p[4][1] = P::lane(t634, 1);
+        coriolis_matrix_p[4][2] = P::lane(t634, 2);
+        // Coriolis matrix C_p, natural factorisation
+        coriolis_matrix_p[4][3] = P::mul_add(platform_velocity[3], t901, t929);
+        coriolis_matrix_p[4][4] = P::neg_mul_add(platform_velocity[5], t900, t927);
+        coriolis_matrix_p[4][5] = P::mul_add(platform_velocity[3], t924, t928);
         // part of the legs' Coriolis matrix on the side of the axes
-        coriolis_matrix_b[5][0] = P::lane(t545, 0);
-        coriolis_matrix_b[5][1] = P::lane(t545, 1);
-        coriolis_matrix_b[5][2] = P::lane(t545, 2);
-        // Coriolis matrix C_b, natural factorisation
-        coriolis_matrix_b[5][3] = P::lane(t772, 0);
-        coriolis_matrix_b[5][4] = P::lane(t772, 1);
-        coriolis_matrix_b[5][5] = P::lane(t772, 2);
+        coriolis_matrix_p[5][0] = P::lane(t643, 0);
+        coriolis_matrix_p[5][1] = P::lane(t643, 1);
+        coriolis_matrix_p[5][2] = P::lane(t643, 2);
+        // Coriolis matrix C_p, natural factorisation
+        coriolis_matrix_p[5][3] = P::neg_mul_add(platform_velocity[3], t900, t930);
+        coriolis_matrix_p[5][4] = P::neg_mul_add(platform_velocity[3], t921, t931);
+        coriolis_matrix_p[5][5] = P::neg_mul_add(platform_velocity[3], t913, t932);
         // leg 1: gradient of the actuator length
-        jacobian_db[0][0] = P::lane(t62, 0);
-        jacobian_db[0][1] = P::lane(t64, 0);
-        jacobian_db[0][2] = P::lane(t65, 0);
-        // leg 1: actuator Jacobian of the base
-        jacobian_db[0][3] = P::lane(t79, 0);
-        jacobian_db[0][4] = P::lane(t83, 0);
-        jacobian_db[0][5] = P::lane(t87, 0);
+        jacobian_dp[0][0] = P::lane(t85, 0);
+        jacobian_dp[0][1] = P::lane(t87, 0);
+        jacobian_dp[0][2] = P::lane(t88, 0);
+        // leg 1: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+        jacobian_dp[0][3] = P::lane(t93, 0);
+        jacobian_dp[0][4] = P::lane(t97, 0);
+        jacobian_dp[0][5] = P::lane(t91, 0);
         // leg 2: gradient of the actuator length
-        jacobian_db[1][0] = P::lane(t62, 1);
-        jacobian_db[1][1] = P::lane(t64, 1);
-        jacobian_db[1][2] = P::lane(t65, 1);
-        // leg 2: actuator Jacobian of the base
-        jacobian_db[1][3] = P::lane(t79, 1);
-        jacobian_db[1][4] = P::lane(t83, 1);
-        jacobian_db[1][5] = P::lane(t87, 1);
+        jacobian_dp[1][0] = P::lane(t85, 1);
+        jacobian_dp[1][1] = P::lane(t87, 1);
+        jacobian_dp[1][2] = P::lane(t88, 1);
+        // leg 2: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+        jacobian_dp[1][3] = P::lane(t93, 1);
+        jacobian_dp[1][4] = P::lane(t97, 1);
+        jacobian_dp[1][5] = P::lane(t91, 1);
         // leg 3: gradient of the actuator length
-        jacobian_db[2][0] = P::lane(t62, 2);
-        jacobian_db[2][1] = P::lane(t64, 2);
-        jacobian_db[2][2] = P::lane(t65, 2);
-        // leg 3: actuator Jacobian of the base
-        jacobian_db[2][3] = P::lane(t79, 2);
-        jacobian_db[2][4] = P::lane(t83, 2);
-        jacobian_db[2][5] = P::lane(t87, 2);
+        jacobian_dp[2][0] = P::lane(t85, 2);
+        jacobian_dp[2][1] = P::lane(t87, 2);
+        jacobian_dp[2][2] = P::lane(t88, 2);
+        // leg 3: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+        jacobian_dp[2][3] = P::lane(t93, 2);
+        jacobian_dp[2][4] = P::lane(t97, 2);
+        jacobian_dp[2][5] = P::lane(t91, 2);
         // leg 4: gradient of the actuator length
-        jacobian_db[3][0] = P::lane(t60, 0);
-        jacobian_db[3][1] = P::lane(t61, 0);
-        jacobian_db[3][2] = P::lane(t63, 0);
-        // leg 4: actuator Jacobian of the base
-        jacobian_db[3][3] = P::lane(t81, 0);
-        jacobian_db[3][4] = P::lane(t86, 0);
-        jacobian_db[3][5] = P::lane(t88, 0);
+        jacobian_dp[3][0] = P::lane(t83, 0);
+        jacobian_dp[3][1] = P::lane(t84, 0);
+        jacobian_dp[3][2] = P::lane(t86, 0);
+        // leg 4: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+        jacobian_dp[3][3] = P::lane(t90, 0);
+        jacobian_dp[3][4] = P::lane(t92, 0);
+        jacobian_dp[3][5] = P::lane(t89, 0);
         // leg 5: gradient of the actuator length
-        jacobian_db[4][0] = P::lane(t60, 1);
-        jacobian_db[4][1] = P::lane(t61, 1);
-        jacobian_db[4][2] = P::lane(t63, 1);
-        // leg 5: actuator Jacobian of the base
-        jacobian_db[4][3] = P::lane(t81, 1);
-        jacobian_db[4][4] = P::lane(t86, 1);
-        jacobian_db[4][5] = P::lane(t88, 1);
+        jacobian_dp[4][0] = P::lane(t83, 1);
+        jacobian_dp[4][1] = P::lane(t84, 1);
+        jacobian_dp[4][2] = P::lane(t86, 1);
+        // leg 5: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+        jacobian_dp[4][3] = P::lane(t90, 1);
+        jacobian_dp[4][4] = P::lane(t92, 1);
+        jacobian_dp[4][5] = P::lane(t89, 1);
         // leg 6: gradient of the actuator length
-        jacobian_db[5][0] = P::lane(t60, 2);
-        jacobian_db[5][1] = P::lane(t61, 2);
-        jacobian_db[5][2] = P::lane(t63, 2);
+        jacobian_dp[5][0] = P::lane(t83, 2);
+        jacobian_dp[5][1] = P::lane(t84, 2);
+        jacobian_dp[5][2] = P::lane(t86, 2);
+        // leg 6: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
+        jacobian_dp[5][3] = P::lane(t90, 2);
+        jacobian_dp[5][4] = P::lane(t92, 2);
+        jacobian_dp[5][5] = P::lane(t89, 2);
+        // mass matrix M_b that couples the base acceleration
+        mass_matrix_b[0][0] = P::lane(t376, 0);
+        mass_matrix_b[0][1] = P::lane(t376, 1);
+        mass_matrix_b[0][2] = P::lane(t376, 2);
+        mass_matrix_b[0][3] = P::lane(t201, 0) - t933 - P::mul_add(base_rotation[0][2], t938, t941);
+        mass_matrix_b[0][4] = t943 - P::lane(t304, 2);
+        mass_matrix_b[0][5] = P::lane(t304, 1) + t944;
+        mass_matrix_b[1][0] = P::lane(t377, 0);
+        mass_matrix_b[1][1] = P::lane(t377, 1);
+        mass_matrix_b[1][2] = P::lane(t377, 2);
+        mass_matrix_b[1][3] = P::lane(t304, 2) + t954;
+        mass_matrix_b[1][4] = P::lane(t211, 1) - t947 - P::mul_add(base_rotation[1][2], t949, t952);
+        mass_matrix_b[1][5] = t956 - P::lane(t304, 0);
+        mass_matrix_b[2][0] = P::lane(t381, 0);
+        mass_matrix_b[2][1] = P::lane(t381, 1);
+        mass_matrix_b[2][2] = P::lane(t381, 2);
+        mass_matrix_b[2][3] = t967 - P::lane(t304, 1);
+        mass_matrix_b[2][4] = P::lane(t304, 0) + t968;
+        mass_matrix_b[2][5] = P::lane(t217, 2) - t960 - P::mul_add(base_rotation[2][2], t959, t963);
+        mass_matrix_b[3][0] = P::neg_mul_add(base_rotation[0][2], t964, P::lane(t228, 0));
+        mass_matrix_b[3][1] = P::neg_mul_add(base_rotation[1][2], t964, P::lane(t228, 1)) + t966;
+        mass_matrix_b[3][2] = P::neg_mul_add(base_rotation[2][2], t964, P::lane(t228, 2)) - t971;
+        mass_matrix_b[3][3] = P::lane(t400, 0);
+        mass_matrix_b[3][4] = P::lane(t400, 1);
+        mass_matrix_b[3][5] = P::lane(t400, 2);
+        mass_matrix_b[4][0] = P::neg_mul_add(base_rotation[0][2], t973, P::lane(t241, 0)) - t966;
+        mass_matrix_b[4][1] = P::neg_mul_add(base_rotation[1][2], t973, P::lane(t241, 1));
+        mass_matrix_b[4][2] = t972 + P::neg_mul_add(base_rotation[2][2], t973, P::lane(t241, 2));
+        mass_matrix_b[4][3] = P::lane(t429, 0);
+        mass_matrix_b[4][4] = P::lane(t429, 1);
+        mass_matrix_b[4][5] = P::lane(t429, 2);
+        mass_matrix_b[5][0] = t971 + P::neg_mul_add(base_rotation[0][2], t974, P::lane(t251, 0));
+        mass_matrix_b[5][1] = P::neg_mul_add(base_rotation[1][2], t974, P::lane(t251, 1)) - t972;
+        mass_matrix_b[5][2] = P::neg_mul_add(base_rotation[2][2], t974, P::lane(t251, 2));
+        mass_matrix_b[5][3] = P::lane(t341, 0) + t984;
+        mass_matrix_b[5][4] = P::lane(t341, 1) + t985;
+        mass_matrix_b[5][5] = t986 - t390;
+        // part of the legs' Coriolis matrix on the side of the axes
+        coriolis_matrix_b[0][0] = P::lane(t664, 0);
+        coriolis_matrix_b[0][1] = P::lane(t664, 1);
+        coriolis_matrix_b[0][2] = P::lane(t664, 2);
+        // Coriolis matrix C_b, natural factorisation
+        coriolis_matrix_b[0][3] = P::lane(t775, 0);
+        coriolis_matrix_b[0][4] = P::lane(t775, 1);
+        coriolis_matrix_b[0][5] = P::lane(t775, 2);
+        // part of the legs' Coriolis matrix on the side of the axes
+        coriolis_matrix_b[1][0] = P::lane(t665, 0);
+        coriolis_matrix_b[1][1] = P::lane(t665, 1);
+        coriolis_matrix_b[1][2] = P::lane(t665, 2);
+        // Coriolis matrix C_b, natural factorisation
+        coriolis_matrix_b[1][3] = P::lane(t788, 0);
+        coriolis_matrix_b[1][4] = P::lane(t788, 1);
+        coriolis_matrix_b[1][5] = P::lane(t788, 2);
+        // part of the legs' Coriolis matrix on the side of the axes
+        coriolis_matrix_b[2][0] = P::lane(t666, 0);
+        coriolis_matrix_b[2][1] = P::lane(t666, 1);
+        coriolis_matrix_b[2][2] = P::lane(t666, 2);
+        // Coriolis matrix C_b, natural factorisation
+        coriolis_matrix_b[2][3] = P::lane(t804, 0);
+        coriolis_matrix_b[2][4] = P::lane(t804, 1);
+        coriolis_matrix_b[2][5] = P::lane(t804, 2);
+        // part of the legs' Coriolis matrix on the side of the axes
+        coriolis_matrix_b[3][0] = P::lane(t630, 0);
+        coriolis_matrix_b[3][1] = P::lane(t630, 1);
+        coriolis_matrix_b[3][2] = P::lane(t630, 2);
+        // Coriolis matrix C_b, natural factorisation
+        coriolis_matrix_b[3][3] = P::lane(t847, 0);
+        coriolis_matrix_b[3][4] = P::lane(t847, 1);
+        coriolis_matrix_b[3][5] = P::lane(t847, 2);
+        // part of the legs' Coriolis matrix on the side of the axes
+        coriolis_matrix_b[4][0] = P::lane(t634, 0);
+        coriolis_matrix_b[4][1] = P::lane(t634, 1);
+        coriolis_matrix_b[4][2] = P::lane(t634, 2);
+        // Coriolis matrix C_b, natural factorisation
+        coriolis_matrix_b[4][3] = P::lane(t865, 0);
+        coriolis_matrix_b[4][4] = P::lane(t865, 1);
+        coriolis_matrix_b[4][5] = P::lane(t865, 2);
+        // part of the legs' Coriolis matrix on the side of the axes
+        coriolis_matrix_b[5][0] = P::lane(t643, 0);
+        coriolis_matrix_b[5][1] = P::lane(t643, 1);
+        coriolis_matrix_b[5][2] = P::lane(t643, 2);
+        // Coriolis matrix C_b, natural factorisation
+        coriolis_matrix_b[5][3] = P::lane(t888, 0);
+        coriolis_matrix_b[5][4] = P::lane(t888, 1);
+        coriolis_matrix_b[5][5] = P::lane(t888, 2);
+        // leg 1: gradient of the actuator length
+        jacobian_db[0][0] = P::lane(t85, 0);
+        jacobian_db[0][1] = P::lane(t87, 0);
+        jacobian_db[0][2] = P::lane(t88, 0);
+        // leg 1: actuator Jacobian of the base
+        jacobian_db[0][3] = P::lane(t102, 0);
+        jacobian_db[0][4] = P::lane(t106, 0);
+        jacobian_db[0][5] = P::lane(t111, 0);
+        // leg 2: gradient of the actuator length
+        jacobian_db[1][0] = P::lane(t85, 1);
+        jacobian_db[1][1] = P::lane(t87, 1);
+        jacobian_db[1][2] = P::lane(t88, 1);
+        // leg 2: actuator Jacobian of the base
+        jacobian_db[1][3] = P::lane(t102, 1);
+        jacobian_db[1][4] = P::lane(t106, 1);
+        jacobian_db[1][5] = P::lane(t111, 1);
+        // leg 3: gradient of the actuator length
+        jacobian_db[2][0] = P::lane(t85, 2);
+        jacobian_db[2][1] = P::lane(t87, 2);
+        jacobian_db[2][2] = P::lane(t88, 2);
+        // leg 3: actuator Jacobian of the base
+        jacobian_db[2][3] = P::lane(t102, 2);
+        jacobian_db[2][4] = P::lane(t106, 2);
+        jacobian_db[2][5] = P::lane(t111, 2);
+        // leg 4: gradient of the actuator length
+        jacobian_db[3][0] = P::lane(t83, 0);
+        jacobian_db[3][1] = P::lane(t84, 0);
+        jacobian_db[3][2] = P::lane(t86, 0);
+        // leg 4: actuator Jacobian of the base
+        jacobian_db[3][3] = P::lane(t104, 0);
+        jacobian_db[3][4] = P::lane(t109, 0);
+        jacobian_db[3][5] = P::lane(t112, 0);
+        // leg 5: gradient of the actuator length
+        jacobian_db[4][0] = P::lane(t83, 1);
+        jacobian_db[4][1] = P::lane(t84, 1);
+        jacobian_db[4][2] = P::lane(t86, 1);
+        // leg 5: actuator Jacobian of the base
+        jacobian_db[4][3] = P::lane(t104, 1);
+        jacobian_db[4][4] = P::lane(t109, 1);
+        jacobian_db[4][5] = P::lane(t112, 1);
+        // leg 6: gradient of the actuator length
+        jacobian_db[5][0] = P::lane(t83, 2);
+        jacobian_db[5][1] = P::lane(t84, 2);
+        jacobian_db[5][2] = P::lane(t86, 2);
         // leg 6: actuator Jacobian of the base
-        jacobian_db[5][3] = P::lane(t81, 2);
-        jacobian_db[5][4] = P::lane(t86, 2);
-        jacobian_db[5][5] = P::lane(t88, 2);
+        jacobian_db[5][3] = P::lane(t104, 2);
+        jacobian_db[5][4] = P::lane(t109, 2);
+        jacobian_db[5][5] = P::lane(t112, 2);
     }
 }
 
@@ -23635,606 +20966,604 @@ pub fn inverse_dynamics_in_lanes<P: Triple>(
     // constant and copied elements
     let t1 = P::triple([base_rotation[1][0], base_rotation[1][1], base_rotation[1][2]]);
     let t2 = P::triple([base_rotation[0][0], base_rotation[0][1], base_rotation[0][2]]);
-    let t3 = P::triple([base_rotation[2][0], base_rotation[2][1], base_rotation[2][2]]);
     // rotation of the platform seen from the base
-    let t4 = mul_add(
-        t2,
-        P::splat(platform_rotation[0][1]),
-        t1 * P::splat(platform_rotation[1][1]),
-    );
-    let t5 = mul_add(
-        t2,
-        P::splat(platform_rotation[0][0]),
-        t1 * P::splat(platform_rotation[1][0]),
-    );
-    // platform origin seen from the base
-    let t6 = t1 * P::splat(platform_position[1] - base_position[1]);
+    let t3 = t1 * P::splat(platform_rotation[1][1]);
+    let t4 = t1 * P::splat(platform_rotation[1][0]);
     // constant and copied elements
-    let t7 = P::triple([
-        c(0.1159110991546882),
-        c(-0.031058285412302475),
-        c(-0.0848528137423857),
-    ]);
+    let t5 = P::triple([base_rotation[2][0], base_rotation[2][1], base_rotation[2][2]]);
     // rotation of the platform seen from the base
-    let t8 = mul_add(t3, P::splat(platform_rotation[2][1]), t4);
-    let t9 = mul_add(t3, P::splat(platform_rotation[2][0]), t5);
+    let t6 = mul_add(t2, P::splat(platform_rotation[0][1]), t3);
+    let t7 = mul_add(t2, P::splat(platform_rotation[0][0]), t4);
     // platform origin seen from the base
-    let t10 = mul_add(t2, P::splat(platform_position[0] - base_position[0]), t6);
+    let t8 = t1 * P::splat(platform_position[1] - base_position[1]);
     // constant and copied elements
-    let t11 = P::triple([
-        c(-0.03105828541230249),
-        c(0.1159110991546882),
-        c(-0.08485281374238571),
-    ]);
-    let t12 = P::triple([
-        c(0.1159110991546882),
-        c(-0.0848528137423857),
-        c(-0.031058285412302475),
-    ]);
+    let t9 = P::triple([c(0.1159110991546882), c(-0.031058285412302475), c(-0.0848528137423857)]);
     // rotation of the platform seen from the base
-    let t13 = mul_add(
-        t2,
-        P::splat(platform_rotation[0][2]),
-        t1 * P::splat(platform_rotation[1][2]),
-    );
-    // constant and copied elements
-    let t14 = P::triple([
-        c(0.03105828541230249),
-        c(0.08485281374238571),
-        c(-0.1159110991546882),
-    ]);
+    let t10 = t1 * P::splat(platform_rotation[1][2]);
+    let t11 = mul_add(t5, P::splat(platform_rotation[2][1]), t6);
+    let t12 = mul_add(t5, P::splat(platform_rotation[2][0]), t7);
     // platform origin seen from the base
-    let t15 = mul_add(t3, P::splat(platform_position[2] - base_position[2]), t10);
+    let t13 = mul_add(t2, P::splat(platform_position[0] - base_position[0]), t8);
+    // constant and copied elements
+    let t14 = P::triple([c(-0.03105828541230249), c(0.1159110991546882), c(-0.08485281374238571)]);
+    let t15 = P::triple([c(0.1159110991546882), c(-0.0848528137423857), c(-0.031058285412302475)]);
     // rotation of the platform seen from the base
-    let t16 = mul_add(t3, P::splat(platform_rotation[2][2]), t13);
+    let t16 = mul_add(t2, P::splat(platform_rotation[0][2]), t10);
+    // constant and copied elements
+    let t17 = P::triple([c(0.03105828541230249), c(0.08485281374238571), c(-0.1159110991546882)]);
+    // platform origin seen from the base
+    let t18 = mul_add(t5, P::splat(platform_position[2] - base_position[2]), t13);
     // legs 1, 3, 5: platform joint from the platform origin
-    let t17 = mul_add(t7, P::splat(P::lane(t9, 0)), t11 * P::splat(P::lane(t8, 0)));
-    // constant and copied elements
-    let t18 = P::triple([
-        c(0.1316436662914507),
-        c(0.040491189781895726),
-        c(-0.17213485607334636),
-    ]);
+    let t19 = t14 * P::splat(P::lane(t11, 0));
+    // rotation of the platform seen from the base
+    let t20 = mul_add(t5, P::splat(platform_rotation[2][2]), t16);
     // legs 2, 4, 6: platform joint from the platform origin
-    let t19 = mul_add(t12, P::splat(P::lane(t9, 0)), t14 * P::splat(P::lane(t8, 0)));
-    let t20 = mul_add(t12, P::splat(P::lane(t9, 1)), t14 * P::splat(P::lane(t8, 1)));
+    let t21 = t17 * P::splat(P::lane(t11, 0));
     // legs 1, 3, 5: platform joint from the platform origin
-    let t21 = mul_add(t7, P::splat(P::lane(t9, 1)), t11 * P::splat(P::lane(t8, 1)));
+    let t22 = mul_add(t9, P::splat(P::lane(t12, 0)), t19);
+    // constant and copied elements
+    let t23 = P::triple([c(0.1316436662914507), c(0.040491189781895726), c(-0.17213485607334636)]);
     // legs 2, 4, 6: platform joint from the platform origin
-    let t22 = mul_add(t12, P::splat(P::lane(t9, 2)), t14 * P::splat(P::lane(t8, 2)));
+    let t24 = t17 * P::splat(P::lane(t11, 1));
     // legs 1, 3, 5: platform joint from the platform origin
-    let t23 = mul_add(t7, P::splat(P::lane(t9, 2)), t11 * P::splat(P::lane(t8, 2)));
+    let t25 = t14 * P::splat(P::lane(t11, 1));
+    // legs 2, 4, 6: platform joint from the platform origin
+    let t26 = mul_add(t15, P::splat(P::lane(t12, 0)), t21);
+    let t27 = t17 * P::splat(P::lane(t11, 2));
+    // legs 1, 3, 5: platform joint from the platform origin
+    let t28 = t14 * P::splat(P::lane(t11, 2));
+    // legs 2, 4, 6: platform joint from the platform origin
+    let t29 = mul_add(t15, P::splat(P::lane(t12, 1)), t24);
+    // legs 1, 3, 5: platform joint from the platform origin
+    let t30 = mul_add(t9, P::splat(P::lane(t12, 1)), t25);
+    // legs 2, 4, 6: platform joint from the platform origin
+    let t31 = mul_add(t15, P::splat(P::lane(t12, 2)), t27);
+    // legs 1, 3, 5: platform joint from the platform origin
+    let t32 = mul_add(t9, P::splat(P::lane(t12, 2)), t28);
     // legs 2, 4, 6: platform joint from the base point
-    let t24 = P::triple([
-        c(-0.12275970481124972),
-        c(-0.052626906850092664),
-        c(0.17538661166134234),
-    ]);
-    let t25 = P::triple([
-        c(-0.1316436662914507),
-        c(0.17213485607334636),
-        c(-0.040491189781895726),
-    ]);
+    let t33 =
+        P::triple([c(-0.12275970481124972), c(-0.052626906850092664), c(0.17538661166134234)]);
+    let t34 = P::triple([c(-0.1316436662914507), c(0.17213485607334636), c(-0.040491189781895726)]);
     // legs 1, 3, 5: platform joint from the base point
-    let t26 = P::triple([
-        c(0.12275970481124972),
-        c(-0.17538661166134234),
-        c(0.052626906850092664),
-    ]);
-    let t27 = P::triple([
-        c(-0.1316436662914507),
-        c(-0.040491189781895726),
-        c(0.17213485607334636),
-    ]);
+    let t35 = P::triple([c(0.12275970481124972), c(-0.17538661166134234), c(0.052626906850092664)]);
+    let t36 = P::triple([c(-0.1316436662914507), c(-0.040491189781895726), c(0.17213485607334636)]);
     // constant and copied elements
-    let t28 = P::triple([
-        c(0.12275970481124972),
-        c(0.052626906850092664),
-        c(-0.17538661166134234),
-    ]);
+    let t37 = P::triple([c(0.12275970481124972), c(0.052626906850092664), c(-0.17538661166134234)]);
     // legs 2, 4, 6: platform joint from the base point
-    let t29 = P::splat(P::lane(t15, 0)) + t19 + t25;
+    let t38 = P::splat(P::lane(t18, 0)) + t26 + t34;
     // legs 1, 3, 5: platform joint from the base point
-    let t30 = P::splat(P::lane(t15, 0)) + t17 + t27;
+    let t39 = P::splat(P::lane(t18, 0)) + t22 + t36;
     // constant and copied elements
-    let t31 = P::triple([
-        c(0.1316436662914507),
-        c(-0.17213485607334636),
-        c(0.040491189781895726),
-    ]);
+    let t40 = P::triple([c(0.1316436662914507), c(-0.17213485607334636), c(0.040491189781895726)]);
     // legs 2, 4, 6: platform joint from the base point
-    let t32 = t22 + P::splat(P::lane(t15, 2));
-    let t33 = t24 + (t20 + P::splat(P::lane(t15, 1)));
+    let t41 = t31 + P::splat(P::lane(t18, 2));
+    let t42 = t33 + (t29 + P::splat(P::lane(t18, 1)));
     // legs 1, 3, 5: platform joint from the base point
-    let t34 = t26 + (t21 + P::splat(P::lane(t15, 1)));
+    let t43 = t35 + (t30 + P::splat(P::lane(t18, 1)));
     // constant and copied elements
-    let t35 = P::triple([
-        c(-0.12275970481124972),
-        c(0.17538661166134234),
-        c(-0.052626906850092664),
-    ]);
-    // legs 1, 3, 5: platform joint from the base point
-    let t36 = t23 + P::splat(P::lane(t15, 2));
+    let t44 =
+        P::triple([c(-0.12275970481124972), c(0.17538661166134234), c(-0.052626906850092664)]);
     // angular velocity of the base
-    let t37 = mul_add(t2, P::splat(base_velocity[3]), t1 * P::splat(base_velocity[4]));
-    let t38 = mul_add(t3, P::splat(base_velocity[5]), t37);
+    let t45 = t1 * P::splat(base_velocity[4]);
+    // legs 1, 3, 5: platform joint from the base point
+    let t46 = t32 + P::splat(P::lane(t18, 2));
+    // angular velocity of the base
+    let t47 = mul_add(t2, P::splat(base_velocity[3]), t45);
     // angular velocity of the platform
-    let t39 = mul_add(
-        t2,
-        P::splat(platform_velocity[3]),
-        t1 * P::splat(platform_velocity[4]),
-    );
+    let t48 = t1 * P::splat(platform_velocity[4]);
+    // angular velocity of the base
+    let t49 = mul_add(t5, P::splat(base_velocity[5]), t47);
     // legs 2, 4, 6: extent of the rod along the actuator axis
-    let t40 = sqrt(w(0.042435999999999995) - mul_add(t29, t29, t33 * t33));
+    let t50 = w(0.042435999999999995) - mul_add(t38, t38, t42 * t42);
     // legs 1, 3, 5: extent of the rod along the actuator axis
-    let t41 = sqrt(w(0.042435999999999995) - mul_add(t30, t30, t34 * t34));
+    let t51 = w(0.042435999999999995) - mul_add(t39, t39, t43 * t43);
     // angular velocity of the platform
-    let t42 = mul_add(t3, P::splat(platform_velocity[5]), t39);
+    let t52 = mul_add(t2, P::splat(platform_velocity[3]), t48);
+    // legs 2, 4, 6: extent of the rod along the actuator axis
+    let t53 = sqrt(t50);
+    // legs 1, 3, 5: extent of the rod along the actuator axis
+    let t54 = sqrt(t51);
+    // angular velocity of the platform
+    let t55 = mul_add(t5, P::splat(platform_velocity[5]), t52);
     // angular velocity of the platform relative to the base
-    let t43 = t38 - t42;
+    let t56 = t49 - t55;
     // legs 2, 4, 6: reciprocal of that extent
-    let t44 = w(1.0) / t40;
+    let t57 = w(1.0) / t53;
     // legs 1, 3, 5: reciprocal of that extent
-    let t45 = w(1.0) / t41;
+    let t58 = w(1.0) / t54;
     // legs 2, 4, 6: actuator length d
-    let t46 = t32 - t40;
+    let t59 = t41 - t53;
     // legs 1, 3, 5: actuator length d
-    let t47 = t36 - t41;
+    let t60 = t46 - t54;
     // legs 2, 4, 6: gradient of the actuator length by the platform joint
-    let t48 = t33 * t44;
+    let t61 = t42 * t57;
     // legs 1, 3, 5: gradient of the actuator length by the platform joint
-    let t49 = t30 * t45;
+    let t62 = t39 * t58;
     // velocity of the platform origin relative to the base
-    let t50 = t1 * P::splat(platform_velocity[1] - base_velocity[1]);
+    let t63 = t1 * P::splat(platform_velocity[1] - base_velocity[1]);
     // legs 1, 3, 5: gradient of the actuator length by the platform joint
-    let t51 = t34 * t45;
+    let t64 = t43 * t58;
     // legs 2, 4, 6: gradient of the actuator length by the platform joint
-    let t52 = t29 * t44;
+    let t65 = t38 * t57;
     // rotation of the platform seen from the base
-    let t53 = P::triple([P::lane(t8, 1), P::lane(t8, 2), P::lane(t8, 0)]);
+    let t66 = P::triple([P::lane(t11, 1), P::lane(t11, 2), P::lane(t11, 0)]);
     // velocity of the platform origin relative to the base
-    let t54 = mul_add(t2, P::splat(platform_velocity[0] - base_velocity[0]), t50);
+    let t67 = mul_add(t2, P::splat(platform_velocity[0] - base_velocity[0]), t63);
     // platform origin seen from the base
-    let t55 = P::triple([P::lane(t15, 1), P::lane(t15, 2), P::lane(t15, 0)]);
+    let t68 = P::triple([P::lane(t18, 1), P::lane(t18, 2), P::lane(t18, 0)]);
     // angular velocity of the base
-    let t56 = P::triple([P::lane(t38, 2), P::lane(t38, 0), P::lane(t38, 1)]);
+    let t69 = P::triple([P::lane(t49, 2), P::lane(t49, 0), P::lane(t49, 1)]);
     // rotation of the platform seen from the base
-    let t57 = P::triple([P::lane(t9, 1), P::lane(t9, 2), P::lane(t9, 0)]);
-    let t58 = P::triple([P::lane(t8, 2), P::lane(t8, 0), P::lane(t8, 1)]);
+    let t70 = P::triple([P::lane(t12, 1), P::lane(t12, 2), P::lane(t12, 0)]);
+    let t71 = P::triple([P::lane(t11, 2), P::lane(t11, 0), P::lane(t11, 1)]);
     // angular velocity of the platform relative to the base
-    let t59 = P::triple([P::lane(t43, 2), P::lane(t43, 0), P::lane(t43, 1)]);
-    let t60 = P::triple([P::lane(t43, 1), P::lane(t43, 2), P::lane(t43, 0)]);
+    let t72 = P::triple([P::lane(t56, 2), P::lane(t56, 0), P::lane(t56, 1)]);
+    let t73 = P::triple([P::lane(t56, 1), P::lane(t56, 2), P::lane(t56, 0)]);
     // platform origin seen from the base
-    let t61 = P::triple([P::lane(t15, 2), P::lane(t15, 0), P::lane(t15, 1)]);
+    let t74 = P::triple([P::lane(t18, 2), P::lane(t18, 0), P::lane(t18, 1)]);
     // angular velocity of the base
-    let t62 = P::triple([P::lane(t38, 1), P::lane(t38, 2), P::lane(t38, 0)]);
+    let t75 = P::triple([P::lane(t49, 1), P::lane(t49, 2), P::lane(t49, 0)]);
     // rate of the relative rotation
-    let t63 = mul_sub(t58, t60, t53 * t59);
+    let t76 = mul_sub(t71, t73, t66 * t72);
     // rotation of the platform seen from the base
-    let t64 = P::triple([P::lane(t9, 2), P::lane(t9, 0), P::lane(t9, 1)]);
+    let t77 = P::triple([P::lane(t12, 2), P::lane(t12, 0), P::lane(t12, 1)]);
     // velocity of the platform origin relative to the base
-    let t65 = mul_add(t3, P::splat(platform_velocity[2] - base_velocity[2]), t54);
+    let t78 = mul_add(t5, P::splat(platform_velocity[2] - base_velocity[2]), t67);
     // rate of the relative rotation
-    let t66 = mul_sub(t60, t64, t57 * t59);
+    let t79 = mul_sub(t73, t77, t70 * t72);
     // rotation of the platform seen from the base
-    let t67 = P::triple([P::lane(t16, 1), P::lane(t16, 2), P::lane(t16, 0)]);
-    let t68 = P::triple([P::lane(t16, 2), P::lane(t16, 0), P::lane(t16, 1)]);
+    let t80 = P::triple([P::lane(t20, 1), P::lane(t20, 2), P::lane(t20, 0)]);
+    let t81 = P::triple([P::lane(t20, 2), P::lane(t20, 0), P::lane(t20, 1)]);
     // velocity of the platform origin relative to the base
-    let t69 = t65 - mul_sub(t61, t62, t55 * t56);
+    let t82 = t78 - mul_sub(t74, t75, t68 * t69);
     // legs 2, 4, 6: velocity of the platform joint relative to the base
-    let t70 = P::splat(P::lane(t69, 1))
-        - mul_add(t12, P::splat(P::lane(t66, 1)), t14 * P::splat(P::lane(t63, 1)));
-    let t71 = P::splat(P::lane(t69, 0))
-        - mul_add(t12, P::splat(P::lane(t66, 0)), t14 * P::splat(P::lane(t63, 0)));
+    let t83 = t17 * P::splat(P::lane(t76, 1));
+    let t84 = t17 * P::splat(P::lane(t76, 0));
     // legs 1, 3, 5: velocity of the platform joint relative to the base
-    let t72 = P::splat(P::lane(t69, 1))
-        - mul_add(t7, P::splat(P::lane(t66, 1)), t11 * P::splat(P::lane(t63, 1)));
-    let t73 = P::splat(P::lane(t69, 0))
-        - mul_add(t7, P::splat(P::lane(t66, 0)), t11 * P::splat(P::lane(t63, 0)));
-    // angular velocity of the base
-    let t74 = P::triple([P::lane(t38, 2), P::lane(t38, 2), P::lane(t38, 0)]);
-    let t75 = P::triple([P::lane(t38, 1), P::lane(t38, 0), P::lane(t38, 1)]);
+    let t85 = t14 * P::splat(P::lane(t76, 1));
+    // legs 2, 4, 6: velocity of the platform joint relative to the base
+    let t86 = mul_add(t15, P::splat(P::lane(t79, 1)), t83);
+    // legs 1, 3, 5: velocity of the platform joint relative to the base
+    let t87 = t14 * P::splat(P::lane(t76, 0));
+    // legs 2, 4, 6: velocity of the platform joint relative to the base
+    let t88 = t17 * P::splat(P::lane(t76, 2));
+    // legs 1, 3, 5: velocity of the platform joint relative to the base
+    let t89 = t14 * P::splat(P::lane(t76, 2));
+    // legs 2, 4, 6: velocity of the platform joint relative to the base
+    let t90 = mul_add(t15, P::splat(P::lane(t79, 0)), t84);
+    // legs 1, 3, 5: velocity of the platform joint relative to the base
+    let t91 = mul_add(t9, P::splat(P::lane(t79, 1)), t85);
+    let t92 = mul_add(t9, P::splat(P::lane(t79, 0)), t87);
+    // legs 2, 4, 6: velocity of the platform joint relative to the base
+    let t93 = P::splat(P::lane(t82, 1)) - t86;
+    let t94 = mul_add(t15, P::splat(P::lane(t79, 2)), t88);
+    // legs 1, 3, 5: velocity of the platform joint relative to the base
+    let t95 = mul_add(t9, P::splat(P::lane(t79, 2)), t89);
+    // legs 2, 4, 6: velocity of the platform joint relative to the base
+    let t96 = P::splat(P::lane(t82, 0)) - t90;
+    // legs 1, 3, 5: velocity of the platform joint relative to the base
+    let t97 = P::splat(P::lane(t82, 1)) - t91;
+    let t98 = P::splat(P::lane(t82, 0)) - t92;
     // angular acceleration of the base
-    let t76 = mul_add(
-        t2,
-        P::splat(base_acceleration[3]),
-        t1 * P::splat(base_acceleration[4]),
-    );
-    // legs 2, 4, 6: rate of the rod's extent along the actuator axis
-    let t77 = mul_add(t29, t71, t33 * t70);
-    // acceleration per base coordinate of points that move with the base
-    let t78 = mul_add(t75, t75, t74 * t74);
+    let t99 = t1 * P::splat(base_acceleration[4]);
+    // angular velocity of the base
+    let t100 = P::triple([P::lane(t49, 2), P::lane(t49, 2), P::lane(t49, 0)]);
+    let t101 = P::triple([P::lane(t49, 1), P::lane(t49, 0), P::lane(t49, 1)]);
     // acceleration of the base origin less gravity
-    let t79 = mul_add(
-        t2,
-        P::splat(base_acceleration[0]),
-        t1 * P::splat(base_acceleration[1]),
-    );
-    // legs 2, 4, 6: velocity of the platform joint relative to the base
-    let t80 = P::splat(P::lane(t69, 2))
-        - mul_add(t12, P::splat(P::lane(t66, 2)), t14 * P::splat(P::lane(t63, 2)));
-    // legs 1, 3, 5: velocity of the platform joint relative to the base
-    let t81 = P::splat(P::lane(t69, 2))
-        - mul_add(t7, P::splat(P::lane(t66, 2)), t11 * P::splat(P::lane(t63, 2)));
-    // angular velocity of the base
-    let t82 = P::triple([P::lane(t38, 0), P::lane(t38, 2), P::lane(t38, 0)]);
+    let t102 = t1 * P::splat(base_acceleration[1]);
     // angular acceleration of the base
-    let t83 = mul_add(t3, P::splat(base_acceleration[5]), t76);
+    let t103 = mul_add(t2, P::splat(base_acceleration[3]), t99);
+    // legs 2, 4, 6: rate of the rod's extent along the actuator axis
+    let t104 = mul_add(t38, t96, t42 * t93);
+    // acceleration per base coordinate of points that move with the base
+    let t105 = mul_add(t101, t101, t100 * t100);
+    // acceleration of the base origin less gravity
+    let t106 = mul_add(t2, P::splat(base_acceleration[0]), t102);
+    // legs 2, 4, 6: velocity of the platform joint relative to the base
+    let t107 = P::splat(P::lane(t82, 2)) - t94;
+    // legs 1, 3, 5: velocity of the platform joint relative to the base
+    let t108 = P::splat(P::lane(t82, 2)) - t95;
     // angular velocity of the base
-    let t84 = P::triple([P::lane(t38, 1), P::lane(t38, 1), P::lane(t38, 2)]);
+    let t109 = P::triple([P::lane(t49, 0), P::lane(t49, 2), P::lane(t49, 0)]);
+    // angular acceleration of the base
+    let t110 = mul_add(t5, P::splat(base_acceleration[5]), t103);
+    // angular velocity of the base
+    let t111 = P::triple([P::lane(t49, 1), P::lane(t49, 1), P::lane(t49, 2)]);
     // legs 1, 3, 5: rate of the rod's extent along the actuator axis
-    let t85 = mul_add(t30, t73, t34 * t72);
+    let t112 = mul_add(t39, t98, t43 * t97);
     // acceleration per base coordinate of points that move with the base
-    let t86 = t82 * t84;
+    let t113 = t109 * t111;
     // acceleration of the base origin less gravity
-    let t87 = mul_add(t3, P::splat(base_acceleration[2] + c(9.81)), t79);
+    let t114 = mul_add(t5, P::splat(base_acceleration[2] + c(9.81)), t106);
     // legs 2, 4, 6: rate of the rod's extent along the actuator axis
-    let t88 = t44 * t77;
+    let t115 = t57 * t104;
     // legs 2, 4, 6: actuator velocity d'
-    let t89 = mul_add(t44, t77, t80);
+    let t116 = mul_add(t57, t104, t107);
     // legs 1, 3, 5: rate of the rod's extent along the actuator axis
-    let t90 = t45 * t85;
+    let t117 = t58 * t112;
     // legs 1, 3, 5: actuator velocity d'
-    let t91 = mul_add(t45, t85, t81);
+    let t118 = mul_add(t58, t112, t108);
+    // angular acceleration of the platform
+    let t119 = t1 * P::splat(platform_acceleration[4]);
     // angular acceleration of the base
-    let t92 = P::triple([P::lane(t83, 1), P::lane(t83, 2), P::lane(t83, 0)]);
-    let t93 = P::triple([P::lane(t83, 2), P::lane(t83, 0), P::lane(t83, 1)]);
+    let t120 = P::triple([P::lane(t110, 1), P::lane(t110, 2), P::lane(t110, 0)]);
+    let t121 = P::triple([P::lane(t110, 2), P::lane(t110, 0), P::lane(t110, 1)]);
+    // acceleration of the platform origin less gravity
+    let t122 = t1 * P::splat(platform_acceleration[1]);
     // angular acceleration of the platform
-    let t94 = mul_add(
-        t2,
-        P::splat(platform_acceleration[3]),
-        t1 * P::splat(platform_acceleration[4]),
-    );
+    let t123 = mul_add(t2, P::splat(platform_acceleration[3]), t119);
     // acceleration per base coordinate of points that move with the base
-    let t95 = mul_sub(t82, t84, t93);
-    let t96 = t92 + P::triple([P::lane(t86, 2), P::lane(t86, 0), P::lane(t86, 1)]);
+    let t124 = mul_sub(t109, t111, t121);
+    let t125 = P::triple([P::lane(t113, 2), P::lane(t113, 0), P::lane(t113, 1)]);
+    let t126 = t120 + t125;
     // acceleration of the platform origin less gravity
-    let t97 = mul_add(
-        t2,
-        P::splat(platform_acceleration[0]),
-        t1 * P::splat(platform_acceleration[1]),
-    );
+    let t127 = mul_add(t2, P::splat(platform_acceleration[0]), t122);
     // angular acceleration of the platform
-    let t98 = mul_add(t3, P::splat(platform_acceleration[5]), t94);
+    let t128 = mul_add(t5, P::splat(platform_acceleration[5]), t123);
     // acceleration of the platform origin less gravity
-    let t99 = mul_add(t3, P::splat(c(9.81) + platform_acceleration[2]), t97);
+    let t129 = mul_add(t5, P::splat(c(9.81) + platform_acceleration[2]), t127);
     // angular velocity of the platform
-    let t100 = P::triple([P::lane(t42, 1), P::lane(t42, 2), P::lane(t42, 0)]);
-    let t101 = P::triple([P::lane(t42, 2), P::lane(t42, 0), P::lane(t42, 1)]);
+    let t130 = P::triple([P::lane(t55, 1), P::lane(t55, 2), P::lane(t55, 0)]);
+    let t131 = P::triple([P::lane(t55, 2), P::lane(t55, 0), P::lane(t55, 1)]);
     // angular acceleration of the platform
-    let t102 = P::triple([P::lane(t98, 1), P::lane(t98, 2), P::lane(t98, 0)]);
+    let t132 = P::triple([P::lane(t128, 1), P::lane(t128, 2), P::lane(t128, 0)]);
     // acceleration per platform coordinate of points of the platform
-    let t103 = mul_sub(t42, t57, t9 * t100);
-    let t104 = mul_sub(t42, t53, t8 * t100);
+    let t133 = mul_sub(t55, t70, t12 * t130);
+    let t134 = mul_sub(t55, t66, t11 * t130);
     // angular acceleration of the platform
-    let t105 = P::triple([P::lane(t98, 2), P::lane(t98, 0), P::lane(t98, 1)]);
+    let t135 = P::triple([P::lane(t128, 2), P::lane(t128, 0), P::lane(t128, 1)]);
     // acceleration per platform coordinate of points of the platform
-    let t106 = mul_sub(t42, t67, t16 * t100);
-    let t107 = t101 * P::triple([P::lane(t103, 2), P::lane(t103, 0), P::lane(t103, 1)]);
+    let t136 = mul_sub(t55, t80, t20 * t130);
+    let t137 = P::triple([P::lane(t133, 2), P::lane(t133, 0), P::lane(t133, 1)]);
+    let t138 = P::triple([P::lane(t134, 2), P::lane(t134, 0), P::lane(t134, 1)]);
     // acceleration per base coordinate of points that move with the base
-    let t108 = P::triple([-P::lane(t78, 0), P::lane(t96, 1), P::lane(t95, 2)]);
+    let t139 = P::triple([-P::lane(t105, 0), P::lane(t126, 1), P::lane(t124, 2)]);
     // acceleration per platform coordinate of points of the platform
-    let t109 = t101 * P::triple([P::lane(t104, 2), P::lane(t104, 0), P::lane(t104, 1)]);
-    let t110 = t101 * P::triple([P::lane(t106, 2), P::lane(t106, 0), P::lane(t106, 1)]);
-    let t111 = mul_sub(t64, t102, t57 * t105) + mul_sub(t100, t103, t107);
-    let t112 = mul_sub(t58, t102, t53 * t105) + mul_sub(t100, t104, t109);
+    let t140 = mul_sub(t130, t133, t131 * t137);
+    let t141 = P::triple([P::lane(t136, 2), P::lane(t136, 0), P::lane(t136, 1)]);
+    let t142 = mul_sub(t130, t134, t131 * t138);
+    let t143 = mul_sub(t77, t132, t70 * t135) + t140;
+    let t144 = mul_sub(t130, t136, t131 * t141);
+    let t145 = mul_sub(t71, t132, t66 * t135) + t142;
     // acceleration per base coordinate of points that move with the base
-    let t113 = P::triple([P::lane(t95, 0), -P::lane(t78, 1), P::lane(t96, 2)]);
-    let t114 = P::triple([P::lane(t96, 0), P::lane(t95, 1), -P::lane(t78, 2)]);
+    let t146 = P::triple([P::lane(t124, 0), -P::lane(t105, 1), P::lane(t126, 2)]);
+    let t147 = P::triple([P::lane(t126, 0), P::lane(t124, 1), -P::lane(t105, 2)]);
+    // acceleration of the platform origin relative to the base
+    let t148 = P::splat(P::lane(t18, 1)) * t146;
     // velocity of the platform origin relative to the base
-    let t115 = P::triple([P::lane(t69, 1), P::lane(t69, 2), P::lane(t69, 0)]);
-    let t116 = P::triple([P::lane(t69, 2), P::lane(t69, 0), P::lane(t69, 1)]);
+    let t149 = P::triple([P::lane(t82, 1), P::lane(t82, 2), P::lane(t82, 0)]);
+    let t150 = P::triple([P::lane(t82, 2), P::lane(t82, 0), P::lane(t82, 1)]);
     // acceleration per platform coordinate of points of the platform
-    let t117 = mul_sub(t68, t102, t67 * t105) + mul_sub(t100, t106, t110);
+    let t151 = mul_sub(t81, t132, t80 * t135) + t144;
     // rate of the relative rotation
-    let t118 = P::triple([P::lane(t66, 1), P::lane(t66, 2), P::lane(t66, 0)]);
+    let t152 = P::triple([P::lane(t79, 1), P::lane(t79, 2), P::lane(t79, 0)]);
     // acceleration of the platform origin relative to the base
-    let t119 = mul_add(
-        P::splat(P::lane(t15, 0)),
-        t108,
-        P::splat(P::lane(t15, 1)) * t113,
-    );
+    let t153 = mul_add(P::splat(P::lane(t18, 0)), t139, t148);
     // second derivative of the relative rotation
-    let t120 = t92 - t102 - mul_sub(t43, t56, t38 * t59);
+    let t154 = t120 - t132 - mul_sub(t56, t69, t49 * t72);
     // rate of the relative rotation
-    let t121 = P::triple([P::lane(t63, 1), P::lane(t63, 2), P::lane(t63, 0)]);
-    let t122 = P::triple([P::lane(t63, 2), P::lane(t63, 0), P::lane(t63, 1)]);
-    let t123 = P::triple([P::lane(t66, 2), P::lane(t66, 0), P::lane(t66, 1)]);
+    let t155 = P::triple([P::lane(t76, 1), P::lane(t76, 2), P::lane(t76, 0)]);
+    let t156 = P::triple([P::lane(t76, 2), P::lane(t76, 0), P::lane(t76, 1)]);
+    let t157 = P::triple([P::lane(t79, 2), P::lane(t79, 0), P::lane(t79, 1)]);
     // second derivative of the relative rotation
-    let t124 = mul_sub(t60, t122, t59 * t121);
-    let t125 = mul_sub(t60, t123, t59 * t118);
-    let t126 = P::triple([P::lane(t120, 1), P::lane(t120, 2), P::lane(t120, 0)]);
+    let t158 = mul_sub(t73, t156, t72 * t155);
+    let t159 = mul_sub(t73, t157, t72 * t152);
+    let t160 = P::triple([P::lane(t154, 1), P::lane(t154, 2), P::lane(t154, 0)]);
     // acceleration of the platform origin relative to the base
-    let t127 = t87 - t99 + mul_add(P::splat(P::lane(t15, 2)), t114, t119);
-    let t128 = mul_add(w(2.0), mul_sub(t62, t116, t56 * t115), t127);
+    let t161 = t114 - t129 + mul_add(P::splat(P::lane(t18, 2)), t147, t153);
+    let t162 = mul_add(w(2.0), mul_sub(t75, t150, t69 * t149), t161);
     // second derivative of the relative rotation
-    let t129 = mul_sub(t58, t120, t53 * t126) - t124;
-    let t130 = mul_sub(t64, t120, t57 * t126) - t125;
+    let t163 = mul_sub(t71, t154, t66 * t160) - t158;
+    let t164 = mul_sub(t77, t154, t70 * t160) - t159;
     // legs 2, 4, 6: acceleration of the platform joint relative to the base
-    let t131 = P::splat(P::lane(t128, 0))
-        + mul_add(t12, P::splat(P::lane(t130, 0)), t14 * P::splat(P::lane(t129, 0)));
+    let t165 = t17 * P::splat(P::lane(t163, 0));
     // legs 1, 3, 5: acceleration of the platform joint relative to the base
-    let t132 = P::splat(P::lane(t128, 0))
-        + mul_add(t7, P::splat(P::lane(t130, 0)), t11 * P::splat(P::lane(t129, 0)));
+    let t166 = t14 * P::splat(P::lane(t163, 0));
     // legs 2, 4, 6: acceleration of the platform joint relative to the base
-    let t133 = P::splat(P::lane(t128, 1))
-        + mul_add(t12, P::splat(P::lane(t130, 1)), t14 * P::splat(P::lane(t129, 1)));
+    let t167 = t17 * P::splat(P::lane(t163, 1));
     // legs 1, 3, 5: acceleration of the platform joint relative to the base
-    let t134 = P::splat(P::lane(t128, 1))
-        + mul_add(t7, P::splat(P::lane(t130, 1)), t11 * P::splat(P::lane(t129, 1)));
-    // legs 1, 3, 5: leg inertia less weight along the actuator
-    let t135 = mul_sub(t18, P::splat(P::lane(t78, 0)), t35 * P::splat(P::lane(t95, 0)));
-    let t136 = mul_sub(t18, P::splat(P::lane(t96, 1)), t35 * P::splat(P::lane(t78, 1)));
-    // legs 2, 4, 6: actuator acceleration d''
-    let t137 = mul_add(t29, t131, t33 * t133);
-    // legs 1, 3, 5: actuator acceleration d''
-    let t138 = mul_add(t30, t132, t34 * t134);
+    let t168 = t14 * P::splat(P::lane(t163, 1));
     // legs 2, 4, 6: acceleration of the platform joint relative to the base
-    let t139 = P::splat(P::lane(t128, 2))
-        + mul_add(t12, P::splat(P::lane(t130, 2)), t14 * P::splat(P::lane(t129, 2)));
+    let t169 = mul_add(t15, P::splat(P::lane(t164, 0)), t165);
     // legs 1, 3, 5: acceleration of the platform joint relative to the base
-    let t140 = P::splat(P::lane(t128, 2))
-        + mul_add(t7, P::splat(P::lane(t130, 2)), t11 * P::splat(P::lane(t129, 2)));
+    let t170 = mul_add(t9, P::splat(P::lane(t164, 0)), t166);
+    // legs 2, 4, 6: acceleration of the platform joint relative to the base
+    let t171 = mul_add(t15, P::splat(P::lane(t164, 1)), t167);
+    // legs 1, 3, 5: acceleration of the platform joint relative to the base
+    let t172 = mul_add(t9, P::splat(P::lane(t164, 1)), t168);
+    // legs 2, 4, 6: acceleration of the platform joint relative to the base
+    let t173 = t17 * P::splat(P::lane(t163, 2));
+    // legs 1, 3, 5: acceleration of the platform joint relative to the base
+    let t174 = t14 * P::splat(P::lane(t163, 2));
+    // legs 2, 4, 6: acceleration of the platform joint relative to the base
+    let t175 = P::splat(P::lane(t162, 0)) + t169;
+    // legs 1, 3, 5: acceleration of the platform joint relative to the base
+    let t176 = P::splat(P::lane(t162, 0)) + t170;
+    // legs 2, 4, 6: acceleration of the platform joint relative to the base
+    let t177 = P::splat(P::lane(t162, 1)) + t171;
+    // legs 1, 3, 5: acceleration of the platform joint relative to the base
+    let t178 = P::splat(P::lane(t162, 1)) + t172;
+    // legs 2, 4, 6: acceleration of the platform joint relative to the base
+    let t179 = mul_add(t15, P::splat(P::lane(t164, 2)), t173);
     // legs 1, 3, 5: leg inertia less weight along the actuator
-    let t141 = mul_add(t18, P::splat(P::lane(t95, 2)), t35 * P::splat(P::lane(t96, 2)));
-    let t142 = t91 * w(2.0);
+    let t180 = t44 * P::splat(P::lane(t124, 0));
+    let t181 = t44 * P::splat(P::lane(t105, 1));
+    // legs 1, 3, 5: acceleration of the platform joint relative to the base
+    let t182 = mul_add(t9, P::splat(P::lane(t164, 2)), t174);
+    // legs 1, 3, 5: leg inertia less weight along the actuator
+    let t183 = mul_sub(t23, P::splat(P::lane(t105, 0)), t180);
+    let t184 = mul_sub(t23, P::splat(P::lane(t126, 1)), t181);
     // legs 2, 4, 6: actuator acceleration d''
-    let t143 = mul_add(t88, t88, mul_add(t71, t71, t70 * t70) - t137);
+    let t185 = mul_add(t38, t175, t42 * t177);
     // legs 1, 3, 5: actuator acceleration d''
-    let t144 = mul_add(t90, t90, mul_add(t73, t73, t72 * t72) - t138);
+    let t186 = mul_add(t39, t176, t43 * t178);
+    // legs 2, 4, 6: acceleration of the platform joint relative to the base
+    let t187 = P::splat(P::lane(t162, 2)) + t179;
+    // legs 1, 3, 5: acceleration of the platform joint relative to the base
+    let t188 = P::splat(P::lane(t162, 2)) + t182;
     // legs 1, 3, 5: leg inertia less weight along the actuator
-    let t145 = P::splat(P::lane(t87, 0))
-        - neg_mul_add(t47, P::splat(P::lane(t96, 0)), t135);
-    let t146 = P::splat(P::lane(t87, 1)) + mul_add(t47, P::splat(P::lane(t95, 1)), t136);
+    let t189 = t44 * P::splat(P::lane(t126, 2));
+    let t190 = neg_mul_add(t60, P::splat(P::lane(t126, 0)), t183);
+    let t191 = mul_add(t60, P::splat(P::lane(t124, 1)), t184);
+    let t192 = mul_add(t23, P::splat(P::lane(t124, 2)), t189);
+    let t193 = t118 * w(2.0);
     // legs 2, 4, 6: actuator acceleration d''
-    let t147 = neg_mul_add(t44, t143, t139);
+    let t194 = mul_add(t115, t115, mul_add(t96, t96, t93 * t93) - t185);
     // legs 1, 3, 5: actuator acceleration d''
-    let t148 = neg_mul_add(t45, t144, t140);
-    // legs 2, 4, 6: leg inertia less weight along the actuator
-    let t149 = t89 * w(2.0);
+    let t195 = mul_add(t117, t117, mul_add(t98, t98, t97 * t97) - t186);
     // legs 1, 3, 5: leg inertia less weight along the actuator
-    let t150 = mul_add(P::splat(P::lane(t38, 1)), t142, t145);
+    let t196 = P::splat(P::lane(t114, 0)) - t190;
+    let t197 = P::splat(P::lane(t114, 1)) + t191;
+    let t198 = neg_mul_add(t60, P::splat(P::lane(t105, 2)), t192);
+    // legs 2, 4, 6: actuator acceleration d''
+    let t199 = neg_mul_add(t57, t194, t187);
+    // legs 1, 3, 5: actuator acceleration d''
+    let t200 = neg_mul_add(t58, t195, t188);
     // legs 2, 4, 6: leg inertia less weight along the actuator
-    let t151 = mul_sub(t31, P::splat(P::lane(t78, 0)), t28 * P::splat(P::lane(t95, 0)));
+    let t201 = t37 * P::splat(P::lane(t124, 0));
+    let t202 = t116 * w(2.0);
     // legs 1, 3, 5: leg inertia less weight along the actuator
-    let t152 = neg_mul_add(P::splat(P::lane(t38, 0)), t142, t146);
+    let t203 = mul_add(P::splat(P::lane(t49, 1)), t193, t196);
     // legs 2, 4, 6: leg inertia less weight along the actuator
-    let t153 = mul_sub(t31, P::splat(P::lane(t96, 1)), t28 * P::splat(P::lane(t78, 1)));
-    let t154 = mul_add(t31, P::splat(P::lane(t95, 2)), t28 * P::splat(P::lane(t96, 2)));
+    let t204 = t37 * P::splat(P::lane(t105, 1));
+    let t205 = t37 * P::splat(P::lane(t126, 2));
+    let t206 = mul_sub(t40, P::splat(P::lane(t105, 0)), t201);
     // legs 1, 3, 5: leg inertia less weight along the actuator
-    let t155 = t148
-        - (P::splat(P::lane(t87, 2))
-            + neg_mul_add(t47, P::splat(P::lane(t78, 2)), t141));
+    let t207 = neg_mul_add(P::splat(P::lane(t49, 0)), t193, t197);
+    // legs 2, 4, 6: leg inertia less weight along the actuator
+    let t208 = mul_sub(t40, P::splat(P::lane(t126, 1)), t204);
+    let t209 = mul_add(t40, P::splat(P::lane(t124, 2)), t205);
+    // legs 1, 3, 5: leg inertia less weight along the actuator
+    let t210 = t200 - (P::splat(P::lane(t114, 2)) + t198);
+    // legs 2, 4, 6: leg inertia less weight along the actuator
+    let t211 = neg_mul_add(t59, P::splat(P::lane(t126, 0)), t206);
+    // legs 1, 3, 5: leg inertia less weight along the actuator
+    let t212 = t14 * P::splat(P::lane(t145, 2));
+    // legs 2, 4, 6: leg inertia less weight along the actuator
+    let t213 = mul_add(t59, P::splat(P::lane(t124, 1)), t208);
+    let t214 = neg_mul_add(t59, P::splat(P::lane(t105, 2)), t209);
     // legs 1, 3, 5: remaining leg inertia less weight at the platform joint
-    let t156 = w(0.17066666666666666) * t150;
+    let t215 = w(0.17066666666666666) * t203;
     // legs 2, 4, 6: leg inertia less weight along the actuator
-    let t157 = P::splat(P::lane(t87, 0))
-        - neg_mul_add(t46, P::splat(P::lane(t96, 0)), t151);
-    let t158 = P::splat(P::lane(t87, 1)) + mul_add(t46, P::splat(P::lane(t95, 1)), t153);
-    let t159 = mul_add(P::splat(P::lane(t38, 1)), t149, t157);
-    let t160 = neg_mul_add(P::splat(P::lane(t38, 0)), t149, t158);
-    let t161 = t147
-        - (P::splat(P::lane(t87, 2))
-            + neg_mul_add(t46, P::splat(P::lane(t78, 2)), t154));
+    let t216 = t17 * P::splat(P::lane(t145, 2));
     // legs 1, 3, 5: leg inertia less weight along the actuator
-    let t162 = P::splat(P::lane(t99, 2))
-        + mul_add(t7, P::splat(P::lane(t111, 2)), t11 * P::splat(P::lane(t112, 2)));
-    // legs 1, 3, 5: remaining leg inertia less weight at the platform joint
-    let t163 = w(0.17066666666666666) * t152;
+    let t217 = neg_mul_add(P::splat(P::lane(t105, 2)), w(0.05), t210);
     // legs 2, 4, 6: leg inertia less weight along the actuator
-    let t164 = P::splat(P::lane(t99, 2))
-        + mul_add(t12, P::splat(P::lane(t111, 2)), t14 * P::splat(P::lane(t112, 2)));
+    let t218 = P::splat(P::lane(t114, 0)) - t211;
+    // legs 1, 3, 5: leg inertia less weight along the actuator
+    let t219 = mul_add(t9, P::splat(P::lane(t143, 2)), t212);
+    // legs 2, 4, 6: leg inertia less weight along the actuator
+    let t220 = P::splat(P::lane(t114, 1)) + t213;
+    let t221 = mul_add(t15, P::splat(P::lane(t143, 2)), t216);
+    let t222 = mul_add(P::splat(P::lane(t49, 1)), t202, t218);
+    let t223 = neg_mul_add(P::splat(P::lane(t49, 0)), t202, t220);
+    let t224 = t199 - (P::splat(P::lane(t114, 2)) + t214);
+    // legs 1, 3, 5: remaining leg inertia less weight at the platform joint
+    let t225 = w(0.17066666666666666) * t207;
     // legs 2, 4, 6: remaining leg inertia less weight at the platform joint
-    let t165 = w(0.17066666666666666) * t159;
-    let t166 = w(0.17066666666666666) * t160;
-    // legs 1, 3, 5: leg inertia less weight along the actuator
-    let t167 = mul_sub(w(0.3413333333333334), t155, w(0.17066666666666666) * t162);
-    // legs 2, 4, 6: remaining leg inertia less weight at the platform joint
-    let t168 = w(0.17066666666666666) * t161;
-    // legs 1, 3, 5: remaining leg inertia less weight at the platform joint
-    let t169 = w(0.17066666666666666) * t155;
+    let t226 = w(0.17066666666666666) * t222;
     // legs 2, 4, 6: leg inertia less weight along the actuator
-    let t170 = mul_sub(w(0.3413333333333334), t161, w(0.17066666666666666) * t164);
+    let t227 = mul_sub(P::splat(P::lane(t105, 2)), w(0.05), t224);
     // legs 1, 3, 5: leg inertia less weight along the actuator
-    let t171 = mul_add(
-        w(0.611),
-        neg_mul_add(P::splat(P::lane(t78, 2)), w(0.05), t155),
-        t167,
-    );
+    let t228 = w(0.17066666666666666) * (P::splat(P::lane(t129, 2)) + t219);
+    // legs 2, 4, 6: remaining leg inertia less weight at the platform joint
+    let t229 = w(0.17066666666666666) * t223;
+    // legs 2, 4, 6: leg inertia less weight along the actuator
+    let t230 = w(0.17066666666666666) * (P::splat(P::lane(t129, 2)) + t221);
+    // legs 1, 3, 5: leg inertia less weight along the actuator
+    let t231 = mul_sub(w(0.3413333333333334), t210, t228);
+    // legs 2, 4, 6: remaining leg inertia less weight at the platform joint
+    let t232 = w(0.17066666666666666) * t224;
+    // legs 1, 3, 5: remaining leg inertia less weight at the platform joint
+    let t233 = w(0.17066666666666666) * t210;
+    // legs 2, 4, 6: leg inertia less weight along the actuator
+    let t234 = mul_sub(w(0.3413333333333334), t224, t230);
+    // legs 1, 3, 5: leg inertia less weight along the actuator
+    let t235 = mul_add(w(0.611), t217, t231);
     // inertia force less weight, without the actuators' own shares
-    let t172 = mul_add(w(0.17066666666666666), t155, t168);
-    let t173 = mul_add(w(0.17066666666666666), t150, t165);
-    let t174 = mul_add(w(0.17066666666666666), t152, t166);
+    let t236 = mul_add(w(0.17066666666666666), t210, t232);
+    let t237 = mul_add(w(0.17066666666666666), t203, t226);
+    let t238 = mul_add(w(0.17066666666666666), t207, t229);
     // legs 1, 3, 5: row of the actuator Jacobian in base coordinates
-    let t175 = neg_mul_add(t23, t49, t17);
+    let t239 = neg_mul_add(t32, t62, t22);
     // legs 2, 4, 6: row of the actuator Jacobian in base coordinates
-    let t176 = neg_mul_add(t22, t52, t19);
+    let t240 = neg_mul_add(t31, t65, t26);
     // legs 1, 3, 5: row of the actuator Jacobian in base coordinates
-    let t177 = neg_mul_add(t23, t51, t21);
-    let t178 = mul_sub(t17, t51, t21 * t49);
+    let t241 = neg_mul_add(t32, t64, t30);
+    let t242 = mul_sub(t22, t64, t30 * t62);
     // legs 2, 4, 6: row of the actuator Jacobian in base coordinates
-    let t179 = mul_sub(t19, t48, t20 * t52);
-    let t180 = neg_mul_add(t22, t48, t20);
+    let t243 = mul_sub(t26, t61, t29 * t65);
+    let t244 = neg_mul_add(t31, t61, t29);
     // legs 2, 4, 6: leg inertia less weight along the actuator
-    let t181 = neg_mul_add(
-        w(0.611),
-        mul_sub(P::splat(P::lane(t78, 2)), w(0.05), t161),
-        t170,
-    );
+    let t245 = neg_mul_add(w(0.611), t227, t234);
+    // inertia force less weight, without the actuators' own shares
+    let t246 = P::triple([P::lane(t237, 2), P::lane(t238, 2), -P::lane(t236, 2)]);
+    let t247 = P::triple([P::lane(t237, 0), P::lane(t238, 0), -P::lane(t236, 0)]);
     // legs 1, 3, 5: spring and damper force along the actuator
-    let t182 = t47 - w(0.198);
+    let t248 = t60 - w(0.198);
     // legs 2, 4, 6: spring and damper force along the actuator
-    let t183 = t46 - w(0.198);
+    let t249 = t59 - w(0.198);
     // inertia force less weight, without the actuators' own shares
-    let t184 = P::triple([P::lane(t173, 1), P::lane(t174, 1), -P::lane(t172, 1)]);
+    let t250 = P::triple([P::lane(t237, 1), P::lane(t238, 1), -P::lane(t236, 1)]);
     // its first moments by platform coordinate
-    let t185 = mul_add(t7, t169, t12 * t168);
+    let t251 = mul_add(t9, t233, t15 * t232);
+    let t252 = mul_add(t14, t233, t17 * t232);
+    let t253 = mul_add(t9, t215, t15 * t226);
+    let t254 = mul_add(t14, t215, t17 * t226);
+    let t255 = mul_add(t9, t225, t15 * t229);
+    let t256 = mul_add(t14, t225, t17 * t229);
     // inertia force less weight, without the actuators' own shares
-    let t186 = P::triple([P::lane(t173, 0), P::lane(t174, 0), -P::lane(t172, 0)]) + t184;
+    let t257 = mul_add(t129, w(8.139999999999999), t246 + (t247 + t250));
     // its first moments by platform coordinate
-    let t187 = mul_add(t11, t169, t14 * t168);
-    let t188 = mul_add(t7, t156, t12 * t165);
-    let t189 = mul_add(t11, t156, t14 * t165);
-    let t190 = mul_add(t7, t163, t12 * t166);
-    let t191 = mul_add(t11, t163, t14 * t166);
+    let t258 = P::triple([P::lane(t253, 0), P::lane(t255, 0), -P::lane(t251, 0)]);
+    let t259 = P::triple([P::lane(t253, 1), P::lane(t255, 1), -P::lane(t251, 1)]);
     // inertia force less weight, without the actuators' own shares
-    let t192 = P::triple([P::lane(t173, 2), P::lane(t174, 2), -P::lane(t172, 2)]) + t186;
-    let t193 = mul_add(t99, w(8.139999999999999), t192);
+    let t260 = mul_add(w(2.2551405187698492e-17), t143, t257);
     // its first moments by platform coordinate
-    let t194 = P::triple([P::lane(t188, 1), P::lane(t190, 1), -P::lane(t185, 1)]);
+    let t261 = P::triple([P::lane(t253, 2), P::lane(t255, 2), -P::lane(t251, 2)]);
     // inertia force less weight, without the actuators' own shares
-    let t195 = mul_add(w(2.2551405187698492e-17), t111, t193);
+    let t262 = mul_add(w(6.938893903907228e-18), t145, t260);
     // its first moments by platform coordinate
-    let t196 = P::triple([P::lane(t188, 0), P::lane(t190, 0), -P::lane(t185, 0)]) + t194;
+    let t263 = t258 + t259 + t261;
     // inertia force less weight, without the actuators' own shares
-    let t197 = mul_add(w(6.938893903907228e-18), t112, t195);
-    // its first moments by platform coordinate
-    let t198 = t196 + P::triple([P::lane(t188, 2), P::lane(t190, 2), -P::lane(t185, 2)]);
-    // inertia force less weight, without the actuators' own shares
-    let t199 = mul_add(w(0.188852), t117, t197);
-    // its first moments by platform coordinate
-    let t200 = P::triple([P::lane(t189, 1), P::lane(t191, 1), -P::lane(t187, 1)]);
+    let t264 = mul_add(w(0.188852), t151, t262);
     // inertia less external wrench that the actuators must balance
-    let t201 = mul_add(
-        t2,
-        P::splat(external_wrench[0]),
-        t1 * P::splat(external_wrench[1]),
-    );
+    let t265 = t1 * P::splat(external_wrench[1]);
     // its first moments by platform coordinate
-    let t202 = P::triple([P::lane(t189, 0), P::lane(t191, 0), -P::lane(t187, 0)]) + t200;
-    let t203 = mul_add(w(2.2551405187698492e-17), t99, t198);
-    let t204 = t202 + P::triple([P::lane(t189, 2), P::lane(t191, 2), -P::lane(t187, 2)]);
+    let t266 = P::triple([P::lane(t254, 0), P::lane(t256, 0), -P::lane(t252, 0)]);
+    let t267 = P::triple([P::lane(t254, 1), P::lane(t256, 1), -P::lane(t252, 1)]);
     // inertia less external wrench that the actuators must balance
-    let t205 = mul_add(t3, P::splat(external_wrench[2]), t201);
+    let t268 = mul_add(t2, P::splat(external_wrench[0]), t265);
     // its first moments by platform coordinate
-    let t206 = mul_add(w(0.013354412), t117, w(0.188852) * t99);
-    let t207 = mul_add(w(6.938893903907228e-18), t99, t204);
-    let t208 = mul_add(w(0.032245600000000006), t111, t203);
+    let t269 = P::triple([P::lane(t254, 2), P::lane(t256, 2), -P::lane(t252, 2)]);
+    let t270 = mul_add(w(2.2551405187698492e-17), t129, t263);
+    let t271 = t266 + t267 + t269;
     // inertia less external wrench that the actuators must balance
-    let t209 = t199 - t205;
+    let t272 = mul_add(t5, P::splat(external_wrench[2]), t268);
     // its first moments by platform coordinate
-    let t210 = mul_add(w(0.032245600000000006), t112, t207);
+    let t273 = mul_add(w(0.013354412), t151, w(0.188852) * t129);
+    let t274 = mul_add(w(6.938893903907228e-18), t129, t271);
+    let t275 = mul_add(w(0.032245600000000006), t143, t270);
     // inertia less external wrench that the actuators must balance
-    let t211 = P::triple([P::lane(t205, 2), P::lane(t205, 0), P::lane(t205, 1)]);
+    let t276 = t264 - t272;
     // its first moments by platform coordinate
-    let t212 = P::triple([P::lane(t206, 2), P::lane(t206, 0), P::lane(t206, 1)]);
+    let t277 = mul_add(w(0.032245600000000006), t145, t274);
     // inertia less external wrench that the actuators must balance
-    let t213 = neg_mul_add(w(0.031), t211, t212);
+    let t278 = P::triple([P::lane(t272, 2), P::lane(t272, 0), P::lane(t272, 1)]);
     // its first moments by platform coordinate
-    let t214 = P::triple([P::lane(t208, 2), P::lane(t208, 0), P::lane(t208, 1)]);
+    let t279 = P::triple([P::lane(t273, 2), P::lane(t273, 0), P::lane(t273, 1)]);
     // inertia less external wrench that the actuators must balance
-    let t215 = t64 * P::triple([P::lane(t208, 1), P::lane(t208, 2), P::lane(t208, 0)]);
-    let t216 = t58 * P::triple([P::lane(t210, 1), P::lane(t210, 2), P::lane(t210, 0)]);
+    let t280 = neg_mul_add(w(0.031), t278, t279);
+    let t281 = P::triple([P::lane(t275, 1), P::lane(t275, 2), P::lane(t275, 0)]);
     // its first moments by platform coordinate
-    let t217 = P::triple([P::lane(t210, 2), P::lane(t210, 0), P::lane(t210, 1)]);
+    let t282 = P::triple([P::lane(t275, 2), P::lane(t275, 0), P::lane(t275, 1)]);
     // inertia less external wrench that the actuators must balance
-    let t218 = t68 * P::triple([P::lane(t213, 2), P::lane(t213, 0), P::lane(t213, 1)]);
-    let t219 = mul_add(
-        t2,
-        P::splat(external_wrench[3]),
-        t1 * P::splat(external_wrench[4]),
-    );
-    let t220 = mul_sub(t57, t214, t215) + mul_sub(t53, t217, t216);
+    let t283 = t1 * P::splat(external_wrench[4]);
+    let t284 = P::triple([P::lane(t277, 1), P::lane(t277, 2), P::lane(t277, 0)]);
+    // its first moments by platform coordinate
+    let t285 = P::triple([P::lane(t277, 2), P::lane(t277, 0), P::lane(t277, 1)]);
+    // inertia less external wrench that the actuators must balance
+    let t286 = P::triple([P::lane(t280, 2), P::lane(t280, 0), P::lane(t280, 1)]);
+    let t287 = mul_sub(t66, t285, t71 * t284);
+    let t288 = mul_add(t2, P::splat(external_wrench[3]), t283);
+    let t289 = mul_sub(t70, t282, t77 * t281) + t287;
     // legs 3, 5, 1: gradient of the actuator length by the platform joint
-    let t221 = P::triple([P::lane(t51, 1), P::lane(t51, 2), P::lane(t51, 0)]);
+    let t290 = P::triple([P::lane(t64, 1), P::lane(t64, 2), P::lane(t64, 0)]);
     // legs 5, 1, 3: gradient of the actuator length by the platform joint
-    let t222 = P::triple([P::lane(t51, 2), P::lane(t51, 0), P::lane(t51, 1)]);
-    let t223 = P::triple([P::lane(t49, 2), P::lane(t49, 0), P::lane(t49, 1)]);
+    let t291 = P::triple([P::lane(t64, 2), P::lane(t64, 0), P::lane(t64, 1)]);
+    let t292 = P::triple([P::lane(t62, 2), P::lane(t62, 0), P::lane(t62, 1)]);
     // force along the actuator that balances the remaining wrench
-    let t224 = t221 - t222;
+    let t293 = t290 - t291;
     // inertia less external wrench that the actuators must balance
-    let t225 = mul_add(t3, P::splat(external_wrench[5]), t219);
+    let t294 = mul_add(t5, P::splat(external_wrench[5]), t288);
     // legs 3, 5, 1: gradient of the actuator length by the platform joint
-    let t226 = P::triple([P::lane(t49, 1), P::lane(t49, 2), P::lane(t49, 0)]);
+    let t295 = P::triple([P::lane(t62, 1), P::lane(t62, 2), P::lane(t62, 0)]);
     // force along the actuator that balances the remaining wrench
-    let t227 = t223 - t226;
+    let t296 = t292 - t295;
     // inertia less external wrench that the actuators must balance
-    let t228 = mul_sub(t67, t213, t218) + t220 - t225;
+    let t297 = mul_sub(t80, t280, t81 * t286) + t289 - t294;
     // force along the actuator that balances the remaining wrench
-    let t229 = mul_sub(t222, t226, t221 * t223);
-    let t230 = P::mul_add(
-        P::lane(t49, 0),
-        P::lane(t224, 0),
-        P::lane(t49, 1) * P::lane(t224, 1),
-    );
-    let t231 = P::splat(P::lane(t229, 0))
-        + mul_add(t52, P::splat(P::lane(t224, 0)), t48 * P::splat(P::lane(t227, 0)));
-    let t232 = P::mul_add(P::lane(t49, 2), P::lane(t224, 2), t230);
-    let t233 = mul_add(
-        t224,
-        P::splat(P::lane(t209, 0)),
-        t227 * P::splat(P::lane(t209, 1)),
-    );
-    let t234 = P::splat(P::lane(t229, 1))
-        + mul_add(t52, P::splat(P::lane(t224, 1)), t48 * P::splat(P::lane(t227, 1)));
-    let t235 = P::splat(P::lane(t229, 2))
-        + mul_add(t52, P::splat(P::lane(t224, 2)), t48 * P::splat(P::lane(t227, 2)));
+    let t298 = mul_sub(t291, t295, t290 * t292);
+    let t299 = t61 * P::splat(P::lane(t296, 0));
+    let t300 = P::lane(t62, 1) * P::lane(t293, 1);
+    let t301 = mul_add(t65, P::splat(P::lane(t293, 0)), t299);
+    let t302 = t61 * P::splat(P::lane(t296, 1));
+    let t303 = P::mul_add(P::lane(t62, 0), P::lane(t293, 0), t300);
+    let t304 = t61 * P::splat(P::lane(t296, 2));
+    let t305 = t296 * P::splat(P::lane(t276, 1));
+    let t306 = mul_add(t65, P::splat(P::lane(t293, 1)), t302);
+    let t307 = P::splat(P::lane(t298, 0)) + t301;
+    let t308 = mul_add(t65, P::splat(P::lane(t293, 2)), t304);
+    let t309 = P::mul_add(P::lane(t62, 2), P::lane(t293, 2), t303);
+    let t310 = mul_add(t293, P::splat(P::lane(t276, 0)), t305);
+    let t311 = P::splat(P::lane(t298, 1)) + t306;
+    let t312 = P::splat(P::lane(t298, 2)) + t308;
     // leg 1: row of the actuator Jacobian in base coordinates
-    let t236 = P::triple([P::lane(t177, 0), -P::lane(t175, 0), P::lane(t178, 0)]);
+    let t313 = P::triple([P::lane(t241, 0), -P::lane(t239, 0), P::lane(t242, 0)]);
     // force along the actuator that balances the remaining wrench
-    let t237 = mul_sub(t176, P::splat(t232), P::splat(P::lane(t175, 0)) * t231);
-    let t238 = mul_sub(t179, P::splat(t232), P::splat(P::lane(t178, 0)) * t231);
-    let t239 = mul_add(t229, P::splat(P::lane(t209, 2)), t233);
-    let t240 = mul_sub(t180, P::splat(t232), P::splat(P::lane(t177, 0)) * t231);
+    let t314 = mul_sub(t240, P::splat(t309), P::splat(P::lane(t239, 0)) * t307);
+    let t315 = mul_sub(t243, P::splat(t309), P::splat(P::lane(t242, 0)) * t307);
+    let t316 = mul_add(t298, P::splat(P::lane(t276, 2)), t310);
+    let t317 = mul_sub(t244, P::splat(t309), P::splat(P::lane(t241, 0)) * t307);
     // leg 3: row of the actuator Jacobian in base coordinates
-    let t241 = P::triple([P::lane(t177, 1), -P::lane(t175, 1), P::lane(t178, 1)]);
+    let t318 = P::triple([P::lane(t241, 1), -P::lane(t239, 1), P::lane(t242, 1)]);
     // leg 5: row of the actuator Jacobian in base coordinates
-    let t242 = P::triple([P::lane(t177, 2), -P::lane(t175, 2), P::lane(t178, 2)]);
+    let t319 = P::triple([P::lane(t241, 2), -P::lane(t239, 2), P::lane(t242, 2)]);
     // force along the actuator that balances the remaining wrench
-    let t243 = neg_mul_add(P::splat(P::lane(t175, 1)), t234, t237);
-    let t244 = neg_mul_add(P::splat(P::lane(t178, 1)), t234, t238);
-    let t245 = neg_mul_add(P::splat(P::lane(t177, 1)), t234, t240);
-    let t246 = neg_mul_add(P::splat(P::lane(t175, 2)), t235, t243);
-    let t247 = neg_mul_add(P::splat(P::lane(t178, 2)), t235, t244);
-    let t248 = neg_mul_add(P::splat(P::lane(t177, 2)), t235, t245);
-    let t249 = mul_sub(t228, P::splat(t232), t236 * P::splat(P::lane(t239, 0)));
-    let t250 = neg_mul_add(t241, P::splat(P::lane(t239, 1)), t249);
-    let t251 = P::triple([P::lane(t246, 2), P::lane(t246, 0), P::lane(t246, 1)]);
-    let t252 = P::triple([P::lane(t246, 1), P::lane(t246, 2), P::lane(t246, 0)]);
-    let t253 = P::triple([P::lane(t247, 1), P::lane(t247, 2), P::lane(t247, 0)]);
-    let t254 = P::triple([P::lane(t247, 2), P::lane(t247, 0), P::lane(t247, 1)]);
-    let t255 = neg_mul_add(t242, P::splat(P::lane(t239, 2)), t250);
-    let t256 = P::triple([P::lane(t248, 1), P::lane(t248, 2), P::lane(t248, 0)]);
-    let t257 = mul_sub(t252, t254, t251 * t253);
-    let t258 = P::triple([P::lane(t248, 2), P::lane(t248, 0), P::lane(t248, 1)]);
-    let t259 = mul_sub(t251, t256, t252 * t258);
-    let t260 = c(1.0) / t232;
-    let t261 = P::triple([P::lane(t231, 0), P::lane(t234, 0), P::lane(t235, 0)]);
-    let t262 = P::splat(P::lane(t255, 1)) * mul_sub(t253, t258, t254 * t256);
-    let t263 = P::mul_add(
-        P::lane(t248, 0),
-        P::lane(t257, 0),
-        P::lane(t248, 1) * P::lane(t257, 1),
-    );
-    let t264 = P::triple([P::lane(t231, 1), P::lane(t234, 1), P::lane(t235, 1)]);
-    let t265 = mul_add(
-        t259,
-        P::splat(P::lane(t255, 2)),
-        mul_sub(t257, P::splat(P::lane(t255, 0)), t262),
-    );
-    let t266 = P::triple([P::lane(t231, 2), P::lane(t234, 2), P::lane(t235, 2)]);
-    let t267 = c(1.0) / P::mul_add(P::lane(t248, 2), P::lane(t257, 2), t263);
-    let t268 = t265 * P::splat(t267);
-    // legs 2, 4, 6: actuator forces F
-    let t269 = mul_sub(t265, P::splat(t267), neg_mul_add(t183, w(21555.9), t181));
-    // force along the actuator that balances the remaining wrench
-    let t270 = neg_mul_add(t261, P::splat(P::lane(t268, 0)), t239);
-    let t271 = neg_mul_add(t264, P::splat(P::lane(t268, 1)), t270);
-    let t272 = neg_mul_add(t266, P::splat(P::lane(t268, 2)), t271);
+    let t320 = neg_mul_add(P::splat(P::lane(t239, 1)), t311, t314);
+    let t321 = neg_mul_add(P::splat(P::lane(t242, 1)), t311, t315);
+    let t322 = neg_mul_add(P::splat(P::lane(t241, 1)), t311, t317);
+    let t323 = neg_mul_add(P::splat(P::lane(t239, 2)), t312, t320);
+    let t324 = neg_mul_add(P::splat(P::lane(t242, 2)), t312, t321);
+    let t325 = neg_mul_add(P::splat(P::lane(t241, 2)), t312, t322);
+    let t326 = mul_sub(t297, P::splat(t309), t313 * P::splat(P::lane(t316, 0)));
+    let t327 = neg_mul_add(t318, P::splat(P::lane(t316, 1)), t326);
+    let t328 = P::triple([P::lane(t323, 2), P::lane(t323, 0), P::lane(t323, 1)]);
+    let t329 = P::triple([P::lane(t323, 1), P::lane(t323, 2), P::lane(t323, 0)]);
+    let t330 = P::triple([P::lane(t324, 1), P::lane(t324, 2), P::lane(t324, 0)]);
+    let t331 = P::triple([P::lane(t324, 2), P::lane(t324, 0), P::lane(t324, 1)]);
+    let t332 = neg_mul_add(t319, P::splat(P::lane(t316, 2)), t327);
+    let t333 = P::triple([P::lane(t325, 1), P::lane(t325, 2), P::lane(t325, 0)]);
+    let t334 = mul_sub(t329, t331, t328 * t330);
+    let t335 = P::triple([P::lane(t325, 2), P::lane(t325, 0), P::lane(t325, 1)]);
+    let t336 = mul_sub(t328, t333, t329 * t335);
+    let t337 = c(1.0) / t309;
+    let t338 = P::triple([P::lane(t307, 0), P::lane(t311, 0), P::lane(t312, 0)]);
+    let t339 = P::splat(P::lane(t332, 1)) * mul_sub(t330, t335, t331 * t333);
+    let t340 = P::lane(t325, 1) * P::lane(t334, 1);
+    let t341 = mul_sub(t334, P::splat(P::lane(t332, 0)), t339);
+    let t342 = P::mul_add(P::lane(t325, 0), P::lane(t334, 0), t340);
     // legs 1, 3, 5: actuator forces F
-    let t273 = mul_sub(P::splat(t260), t272, neg_mul_add(t182, w(21555.9), t171));
+    let t343 = neg_mul_add(t248, w(21555.9), t235);
+    // force along the actuator that balances the remaining wrench
+    let t344 = P::triple([P::lane(t307, 1), P::lane(t311, 1), P::lane(t312, 1)]);
+    let t345 = mul_add(t336, P::splat(P::lane(t332, 2)), t341);
+    // legs 2, 4, 6: actuator forces F
+    let t346 = neg_mul_add(t249, w(21555.9), t245);
+    // force along the actuator that balances the remaining wrench
+    let t347 = P::triple([P::lane(t307, 2), P::lane(t311, 2), P::lane(t312, 2)]);
+    let t348 = c(1.0) / P::mul_add(P::lane(t325, 2), P::lane(t334, 2), t342);
+    let t349 = t345 * P::splat(t348);
+    // legs 2, 4, 6: actuator forces F
+    let t350 = mul_sub(t345, P::splat(t348), t346);
+    // force along the actuator that balances the remaining wrench
+    let t351 = neg_mul_add(t338, P::splat(P::lane(t349, 0)), t316);
+    let t352 = neg_mul_add(t344, P::splat(P::lane(t349, 1)), t351);
+    let t353 = neg_mul_add(t347, P::splat(P::lane(t349, 2)), t352);
+    // legs 1, 3, 5: actuator forces F
+    let t354 = mul_sub(P::splat(t337), t353, t343);
     // leg 1: actuator forces F
-    inverse_dynamics[0] = P::lane(t273, 0);
+    inverse_dynamics[0] = P::lane(t354, 0);
     // leg 2: actuator forces F
-    inverse_dynamics[1] = P::lane(t269, 0);
+    inverse_dynamics[1] = P::lane(t350, 0);
     // leg 3: actuator forces F
-    inverse_dynamics[2] = P::lane(t273, 1);
+    inverse_dynamics[2] = P::lane(t354, 1);
     // leg 4: actuator forces F
-    inverse_dynamics[3] = P::lane(t269, 1);
+    inverse_dynamics[3] = P::lane(t350, 1);
     // leg 5: actuator forces F
-    inverse_dynamics[4] = P::lane(t273, 2);
+    inverse_dynamics[4] = P::lane(t354, 2);
     // leg 6: actuator forces F
-    inverse_dynamics[5] = P::lane(t269, 2);
+    inverse_dynamics[5] = P::lane(t350, 2);
 }
 
 /// Actuator lengths with their gradients, for forward kinematics, equation (18), (32).
@@ -24267,290 +21596,241 @@ pub fn actuator_geometry_in_lanes<P: Triple>(
     // constant and copied elements
     let t1 = P::triple([base_rotation[1][0], base_rotation[1][1], base_rotation[1][2]]);
     let t2 = P::triple([base_rotation[0][0], base_rotation[0][1], base_rotation[0][2]]);
-    let t3 = P::triple([base_rotation[2][0], base_rotation[2][1], base_rotation[2][2]]);
     // rotation of the platform seen from the base
-    let t4 = mul_add(
-        t2,
-        P::splat(platform_rotation[0][1]),
-        t1 * P::splat(platform_rotation[1][1]),
-    );
-    let t5 = mul_add(
-        t2,
-        P::splat(platform_rotation[0][0]),
-        t1 * P::splat(platform_rotation[1][0]),
-    );
-    // platform origin seen from the base
-    let t6 = t1 * P::splat(platform_position[1] - base_position[1]);
+    let t3 = t1 * P::splat(platform_rotation[1][1]);
+    let t4 = t1 * P::splat(platform_rotation[1][0]);
     // constant and copied elements
-    let t7 = P::triple([
-        c(-0.03105828541230249),
-        c(0.03105828541230249),
-        c(0.1159110991546882),
-    ]);
-    let t8 = P::triple([
-        c(0.1159110991546882),
-        c(0.1159110991546882),
-        c(-0.031058285412302475),
-    ]);
+    let t5 = P::triple([base_rotation[2][0], base_rotation[2][1], base_rotation[2][2]]);
     // rotation of the platform seen from the base
-    let t9 = mul_add(t3, P::splat(platform_rotation[2][1]), t4);
-    let t10 = mul_add(t3, P::splat(platform_rotation[2][0]), t5);
+    let t6 = mul_add(t2, P::splat(platform_rotation[0][1]), t3);
+    let t7 = mul_add(t2, P::splat(platform_rotation[0][0]), t4);
     // platform origin seen from the base
-    let t11 = mul_add(t2, P::splat(platform_position[0] - base_position[0]), t6);
+    let t8 = t1 * P::splat(platform_position[1] - base_position[1]);
     // constant and copied elements
-    let t12 = P::triple([
-        c(0.08485281374238571),
-        c(-0.08485281374238571),
-        c(-0.1159110991546882),
-    ]);
-    let t13 = P::triple([
-        c(-0.0848528137423857),
-        c(-0.0848528137423857),
-        c(-0.031058285412302475),
-    ]);
+    let t9 = P::triple([c(-0.03105828541230249), c(0.03105828541230249), c(0.1159110991546882)]);
+    let t10 = P::triple([c(0.1159110991546882), c(0.1159110991546882), c(-0.031058285412302475)]);
+    // rotation of the platform seen from the base
+    let t11 = mul_add(t5, P::splat(platform_rotation[2][1]), t6);
+    let t12 = mul_add(t5, P::splat(platform_rotation[2][0]), t7);
     // platform origin seen from the base
-    let t14 = mul_add(t3, P::splat(platform_position[2] - base_position[2]), t11);
+    let t13 = mul_add(t2, P::splat(platform_position[0] - base_position[0]), t8);
+    // constant and copied elements
+    let t14 = P::triple([c(0.08485281374238571), c(-0.08485281374238571), c(-0.1159110991546882)]);
+    let t15 = P::triple([c(-0.0848528137423857), c(-0.0848528137423857), c(-0.031058285412302475)]);
+    // platform origin seen from the base
+    let t16 = mul_add(t5, P::splat(platform_position[2] - base_position[2]), t13);
     // legs 1, 2, 3: platform joint from the base point
-    let t15 = P::triple([
-        c(-0.1316436662914507),
-        c(-0.1316436662914507),
-        c(-0.040491189781895726),
-    ]);
-    // legs 4, 5, 6: platform joint from the base point
-    let t16 = P::triple([
-        c(0.17213485607334636),
-        c(0.17213485607334636),
-        c(-0.040491189781895726),
-    ]);
+    let t17 = P::triple([c(-0.1316436662914507), c(-0.1316436662914507), c(-0.040491189781895726)]);
     // legs 1, 2, 3: platform joint from the platform origin
-    let t17 = mul_add(t8, P::splat(P::lane(t10, 0)), t7 * P::splat(P::lane(t9, 0)));
-    let t18 = mul_add(t8, P::splat(P::lane(t10, 1)), t7 * P::splat(P::lane(t9, 1)));
+    let t18 = t9 * P::splat(P::lane(t11, 0));
+    let t19 = t9 * P::splat(P::lane(t11, 1));
     // legs 4, 5, 6: platform joint from the platform origin
-    let t19 = mul_add(t13, P::splat(P::lane(t10, 1)), t12 * P::splat(P::lane(t9, 1)));
-    let t20 = mul_add(t13, P::splat(P::lane(t10, 0)), t12 * P::splat(P::lane(t9, 0)));
-    // legs 1, 2, 3: platform joint from the base point
-    let t21 = P::triple([
-        c(0.12275970481124972),
-        c(-0.12275970481124972),
-        c(-0.17538661166134234),
-    ]);
+    let t20 = t14 * P::splat(P::lane(t11, 1));
+    let t21 = t14 * P::splat(P::lane(t11, 0));
     // legs 4, 5, 6: platform joint from the base point
-    let t22 = P::triple([
-        c(-0.052626906850092664),
-        c(0.052626906850092664),
-        c(0.17538661166134234),
-    ]);
-    // legs 1, 2, 3: platform joint from the base point
-    let t23 = t15 + (P::splat(P::lane(t14, 0)) + t17);
+    let t22 = P::triple([c(0.17213485607334636), c(0.17213485607334636), c(-0.040491189781895726)]);
     // legs 1, 2, 3: platform joint from the platform origin
-    let t24 = mul_add(t8, P::splat(P::lane(t10, 2)), t7 * P::splat(P::lane(t9, 2)));
+    let t23 = mul_add(t10, P::splat(P::lane(t12, 0)), t18);
+    let t24 = mul_add(t10, P::splat(P::lane(t12, 1)), t19);
     // legs 4, 5, 6: platform joint from the platform origin
-    let t25 = mul_add(t13, P::splat(P::lane(t10, 2)), t12 * P::splat(P::lane(t9, 2)));
+    let t25 = mul_add(t15, P::splat(P::lane(t12, 1)), t20);
+    let t26 = mul_add(t15, P::splat(P::lane(t12, 0)), t21);
     // legs 1, 2, 3: platform joint from the base point
-    let t26 = t21 + (t18 + P::splat(P::lane(t14, 1)));
+    let t27 = P::triple([c(0.12275970481124972), c(-0.12275970481124972), c(-0.17538661166134234)]);
     // legs 4, 5, 6: platform joint from the base point
-    let t27 = t22 + (t19 + P::splat(P::lane(t14, 1)));
-    let t28 = t16 + (P::splat(P::lane(t14, 0)) + t20);
+    let t28 =
+        P::triple([c(-0.052626906850092664), c(0.052626906850092664), c(0.17538661166134234)]);
     // legs 1, 2, 3: platform joint from the platform origin
-    let t29 = mul_add(
-        P::splat(platform_rotation[0][0]),
-        t8,
-        P::splat(platform_rotation[0][1]) * t7,
-    );
+    let t29 = t9 * P::splat(P::lane(t11, 2));
     // legs 4, 5, 6: platform joint from the platform origin
-    let t30 = mul_add(
-        P::splat(platform_rotation[0][0]),
-        t13,
-        P::splat(platform_rotation[0][1]) * t12,
-    );
-    // legs 1, 2, 3: platform joint from the platform origin
-    let t31 = mul_add(
-        P::splat(platform_rotation[1][0]),
-        t8,
-        P::splat(platform_rotation[1][1]) * t7,
-    );
+    let t30 = t14 * P::splat(P::lane(t11, 2));
     // legs 1, 2, 3: platform joint from the base point
-    let t32 = t24 + P::splat(P::lane(t14, 2));
+    let t31 = t17 + (P::splat(P::lane(t16, 0)) + t23);
+    // legs 1, 2, 3: platform joint from the platform origin
+    let t32 = mul_add(t10, P::splat(P::lane(t12, 2)), t29);
     // legs 4, 5, 6: platform joint from the platform origin
-    let t33 = mul_add(
-        P::splat(platform_rotation[1][0]),
-        t13,
-        P::splat(platform_rotation[1][1]) * t12,
-    );
+    let t33 = mul_add(t15, P::splat(P::lane(t12, 2)), t30);
+    // legs 1, 2, 3: platform joint from the base point
+    let t34 = t27 + (t24 + P::splat(P::lane(t16, 1)));
     // legs 4, 5, 6: platform joint from the base point
-    let t34 = t25 + P::splat(P::lane(t14, 2));
+    let t35 = t28 + (t25 + P::splat(P::lane(t16, 1)));
+    let t36 = t22 + (P::splat(P::lane(t16, 0)) + t26);
+    // legs 1, 2, 3: platform joint from the platform origin
+    let t37 = P::splat(platform_rotation[0][1]) * t9;
+    // legs 4, 5, 6: platform joint from the platform origin
+    let t38 = P::splat(platform_rotation[0][1]) * t14;
+    // legs 1, 2, 3: platform joint from the platform origin
+    let t39 = P::splat(platform_rotation[1][1]) * t9;
+    // legs 4, 5, 6: platform joint from the platform origin
+    let t40 = P::splat(platform_rotation[1][1]) * t14;
+    // legs 1, 2, 3: platform joint from the platform origin
+    let t41 = mul_add(P::splat(platform_rotation[0][0]), t10, t37);
+    // legs 4, 5, 6: platform joint from the platform origin
+    let t42 = mul_add(P::splat(platform_rotation[0][0]), t15, t38);
+    // legs 1, 2, 3: platform joint from the platform origin
+    let t43 = mul_add(P::splat(platform_rotation[1][0]), t10, t39);
+    // legs 1, 2, 3: platform joint from the base point
+    let t44 = t32 + P::splat(P::lane(t16, 2));
+    // legs 4, 5, 6: platform joint from the platform origin
+    let t45 = mul_add(P::splat(platform_rotation[1][0]), t15, t40);
+    // legs 4, 5, 6: platform joint from the base point
+    let t46 = t33 + P::splat(P::lane(t16, 2));
+    // legs 1, 2, 3: platform joint from the platform origin
+    let t47 = P::splat(platform_rotation[2][1]) * t9;
     // legs 1, 2, 3: extent of the rod along the actuator axis
-    let t35 = w(0.042435999999999995) - mul_add(t23, t23, t26 * t26);
+    let t48 = w(0.042435999999999995) - mul_add(t31, t31, t34 * t34);
     // legs 4, 5, 6: extent of the rod along the actuator axis
-    let t36 = w(0.042435999999999995) - mul_add(t28, t28, t27 * t27);
-    // legs 1, 2, 3: platform joint from the platform origin
-    let t37 = mul_add(
-        P::splat(platform_rotation[2][0]),
-        t8,
-        P::splat(platform_rotation[2][1]) * t7,
-    );
-    // legs 1, 2, 3: extent of the rod along the actuator axis
-    let t38 = sqrt(t35);
-    // legs 4, 5, 6: extent of the rod along the actuator axis
-    let t39 = sqrt(t36);
+    let t49 = w(0.042435999999999995) - mul_add(t36, t36, t35 * t35);
     // legs 4, 5, 6: platform joint from the platform origin
-    let t40 = mul_add(
-        P::splat(platform_rotation[2][0]),
-        t13,
-        P::splat(platform_rotation[2][1]) * t12,
-    );
+    let t50 = P::splat(platform_rotation[2][1]) * t14;
+    // legs 1, 2, 3: platform joint from the platform origin
+    let t51 = mul_add(P::splat(platform_rotation[2][0]), t10, t47);
+    // legs 1, 2, 3: extent of the rod along the actuator axis
+    let t52 = sqrt(t48);
+    // legs 4, 5, 6: extent of the rod along the actuator axis
+    let t53 = sqrt(t49);
+    // legs 4, 5, 6: platform joint from the platform origin
+    let t54 = mul_add(P::splat(platform_rotation[2][0]), t15, t50);
     // legs 1, 2, 3: squared cosine between rod and line of the actuator's force; negative out of reach
-    let t41 = w(23.564897728343862) * t35;
+    let t55 = w(23.564897728343862) * t48;
     // legs 4, 5, 6: squared cosine between rod and line of the actuator's force; negative out of reach
-    let t42 = w(23.564897728343862) * t36;
+    let t56 = w(23.564897728343862) * t49;
     // legs 1, 2, 3: reciprocal of that extent
-    let t43 = w(1.0) / t38;
+    let t57 = w(1.0) / t52;
     // legs 4, 5, 6: reciprocal of that extent
-    let t44 = w(1.0) / t39;
+    let t58 = w(1.0) / t53;
     // legs 1, 2, 3: actuator length d
-    let t45 = t32 - t38;
+    let t59 = t44 - t52;
     // legs 4, 5, 6: actuator length d
-    let t46 = t34 - t39;
+    let t60 = t46 - t53;
     // legs 1, 2, 3: gradient of the actuator length by the platform joint
-    let t47 = t26 * t43;
+    let t61 = t34 * t57;
     // legs 4, 5, 6: gradient of the actuator length by the platform joint
-    let t48 = t27 * t44;
+    let t62 = t35 * t58;
     // legs 1, 2, 3: gradient of the actuator length by the platform joint
-    let t49 = t23 * t43;
+    let t63 = t31 * t57;
     // legs 4, 5, 6: gradient of the actuator length by the platform joint
-    let t50 = t28 * t44;
+    let t64 = t36 * t58;
     // legs 1, 2, 3: gradient of the actuator length
-    let t51 = mul_add(
-        P::splat(base_rotation[0][0]),
-        t49,
-        P::splat(base_rotation[0][1]) * t47,
-    );
+    let t65 = P::splat(base_rotation[0][1]) * t61;
     // legs 4, 5, 6: gradient of the actuator length
-    let t52 = mul_add(
-        P::splat(base_rotation[0][0]),
-        t50,
-        P::splat(base_rotation[0][1]) * t48,
-    );
+    let t66 = P::splat(base_rotation[0][1]) * t62;
     // legs 1, 2, 3: gradient of the actuator length
-    let t53 = mul_add(
-        P::splat(base_rotation[1][0]),
-        t49,
-        P::splat(base_rotation[1][1]) * t47,
-    );
+    let t67 = P::splat(base_rotation[1][1]) * t61;
     // legs 4, 5, 6: gradient of the actuator length
-    let t54 = mul_add(
-        P::splat(base_rotation[1][0]),
-        t50,
-        P::splat(base_rotation[1][1]) * t48,
-    );
+    let t68 = P::splat(base_rotation[1][1]) * t62;
     // legs 1, 2, 3: gradient of the actuator length
-    let t55 = mul_add(
-        P::splat(base_rotation[2][0]),
-        t49,
-        P::splat(base_rotation[2][1]) * t47,
-    );
+    let t69 = P::splat(base_rotation[2][1]) * t61;
     // legs 4, 5, 6: gradient of the actuator length
-    let t56 = mul_add(
-        P::splat(base_rotation[2][0]),
-        t50,
-        P::splat(base_rotation[2][1]) * t48,
-    );
+    let t70 = P::splat(base_rotation[2][1]) * t62;
     // legs 1, 2, 3: gradient of the actuator length
-    let t57 = P::splat(base_rotation[0][2]) + t51;
+    let t71 = mul_add(P::splat(base_rotation[0][0]), t63, t65);
     // legs 4, 5, 6: gradient of the actuator length
-    let t58 = P::splat(base_rotation[0][2]) + t52;
+    let t72 = mul_add(P::splat(base_rotation[0][0]), t64, t66);
     // legs 1, 2, 3: gradient of the actuator length
-    let t59 = P::splat(base_rotation[1][2]) + t53;
+    let t73 = mul_add(P::splat(base_rotation[1][0]), t63, t67);
     // legs 4, 5, 6: gradient of the actuator length
-    let t60 = P::splat(base_rotation[1][2]) + t54;
+    let t74 = mul_add(P::splat(base_rotation[1][0]), t64, t68);
     // legs 1, 2, 3: gradient of the actuator length
-    let t61 = P::splat(base_rotation[2][2]) + t55;
+    let t75 = mul_add(P::splat(base_rotation[2][0]), t63, t69);
     // legs 4, 5, 6: gradient of the actuator length
-    let t62 = P::splat(base_rotation[2][2]) + t56;
+    let t76 = mul_add(P::splat(base_rotation[2][0]), t64, t70);
+    // legs 1, 2, 3: gradient of the actuator length
+    let t77 = P::splat(base_rotation[0][2]) + t71;
+    // legs 4, 5, 6: gradient of the actuator length
+    let t78 = P::splat(base_rotation[0][2]) + t72;
+    // legs 1, 2, 3: gradient of the actuator length
+    let t79 = P::splat(base_rotation[1][2]) + t73;
+    // legs 4, 5, 6: gradient of the actuator length
+    let t80 = P::splat(base_rotation[1][2]) + t74;
+    // legs 1, 2, 3: gradient of the actuator length
+    let t81 = P::splat(base_rotation[2][2]) + t75;
+    // legs 4, 5, 6: gradient of the actuator length
+    let t82 = P::splat(base_rotation[2][2]) + t76;
     // legs 1, 2, 3: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
-    let t63 = mul_sub(t29, t59, t31 * t57);
+    let t83 = mul_sub(t41, t79, t43 * t77);
     // legs 4, 5, 6: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
-    let t64 = mul_sub(t30, t60, t33 * t58);
+    let t84 = mul_sub(t42, t80, t45 * t78);
     // legs 1, 2, 3: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
-    let t65 = mul_sub(t31, t61, t37 * t59);
+    let t85 = mul_sub(t43, t81, t51 * t79);
     // legs 4, 5, 6: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
-    let t66 = mul_sub(t33, t62, t40 * t60);
+    let t86 = mul_sub(t45, t82, t54 * t80);
     // legs 1, 2, 3: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
-    let t67 = mul_sub(t37, t57, t29 * t61);
+    let t87 = mul_sub(t51, t77, t41 * t81);
     // legs 4, 5, 6: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
-    let t68 = mul_sub(t40, t58, t30 * t62);
+    let t88 = mul_sub(t54, t78, t42 * t82);
     // leg 1: squared cosine between rod and line of the actuator's force; negative out of reach
-    rod_alignment[0] = P::lane(t41, 0);
+    rod_alignment[0] = P::lane(t55, 0);
     // leg 2: squared cosine between rod and line of the actuator's force; negative out of reach
-    rod_alignment[1] = P::lane(t41, 1);
+    rod_alignment[1] = P::lane(t55, 1);
     // leg 3: squared cosine between rod and line of the actuator's force; negative out of reach
-    rod_alignment[2] = P::lane(t41, 2);
+    rod_alignment[2] = P::lane(t55, 2);
     // leg 4: squared cosine between rod and line of the actuator's force; negative out of reach
-    rod_alignment[3] = P::lane(t42, 0);
+    rod_alignment[3] = P::lane(t56, 0);
     // leg 5: squared cosine between rod and line of the actuator's force; negative out of reach
-    rod_alignment[4] = P::lane(t42, 1);
+    rod_alignment[4] = P::lane(t56, 1);
     // leg 6: squared cosine between rod and line of the actuator's force; negative out of reach
-    rod_alignment[5] = P::lane(t42, 2);
+    rod_alignment[5] = P::lane(t56, 2);
     // leg 1: actuator length d
-    actuator_length[0] = P::lane(t45, 0);
+    actuator_length[0] = P::lane(t59, 0);
     // leg 2: actuator length d
-    actuator_length[1] = P::lane(t45, 1);
+    actuator_length[1] = P::lane(t59, 1);
     // leg 3: actuator length d
-    actuator_length[2] = P::lane(t45, 2);
+    actuator_length[2] = P::lane(t59, 2);
     // leg 4: actuator length d
-    actuator_length[3] = P::lane(t46, 0);
+    actuator_length[3] = P::lane(t60, 0);
     // leg 5: actuator length d
-    actuator_length[4] = P::lane(t46, 1);
+    actuator_length[4] = P::lane(t60, 1);
     // leg 6: actuator length d
-    actuator_length[5] = P::lane(t46, 2);
+    actuator_length[5] = P::lane(t60, 2);
     // leg 1: gradient of the actuator length
-    jacobian_dp[0][0] = P::lane(t57, 0);
-    jacobian_dp[0][1] = P::lane(t59, 0);
-    jacobian_dp[0][2] = P::lane(t61, 0);
+    jacobian_dp[0][0] = P::lane(t77, 0);
+    jacobian_dp[0][1] = P::lane(t79, 0);
+    jacobian_dp[0][2] = P::lane(t81, 0);
     // leg 1: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
-    jacobian_dp[0][3] = P::lane(t65, 0);
-    jacobian_dp[0][4] = P::lane(t67, 0);
-    jacobian_dp[0][5] = P::lane(t63, 0);
+    jacobian_dp[0][3] = P::lane(t85, 0);
+    jacobian_dp[0][4] = P::lane(t87, 0);
+    jacobian_dp[0][5] = P::lane(t83, 0);
     // leg 2: gradient of the actuator length
-    jacobian_dp[1][0] = P::lane(t57, 1);
-    jacobian_dp[1][1] = P::lane(t59, 1);
-    jacobian_dp[1][2] = P::lane(t61, 1);
+    jacobian_dp[1][0] = P::lane(t77, 1);
+    jacobian_dp[1][1] = P::lane(t79, 1);
+    jacobian_dp[1][2] = P::lane(t81, 1);
     // leg 2: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
-    jacobian_dp[1][3] = P::lane(t65, 1);
-    jacobian_dp[1][4] = P::lane(t67, 1);
-    jacobian_dp[1][5] = P::lane(t63, 1);
+    jacobian_dp[1][3] = P::lane(t85, 1);
+    jacobian_dp[1][4] = P::lane(t87, 1);
+    jacobian_dp[1][5] = P::lane(t83, 1);
     // leg 3: gradient of the actuator length
-    jacobian_dp[2][0] = P::lane(t57, 2);
-    jacobian_dp[2][1] = P::lane(t59, 2);
-    jacobian_dp[2][2] = P::lane(t61, 2);
+    jacobian_dp[2][0] = P::lane(t77, 2);
+    jacobian_dp[2][1] = P::lane(t79, 2);
+    jacobian_dp[2][2] = P::lane(t81, 2);
     // leg 3: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
-    jacobian_dp[2][3] = P::lane(t65, 2);
-    jacobian_dp[2][4] = P::lane(t67, 2);
-    jacobian_dp[2][5] = P::lane(t63, 2);
+    jacobian_dp[2][3] = P::lane(t85, 2);
+    jacobian_dp[2][4] = P::lane(t87, 2);
+    jacobian_dp[2][5] = P::lane(t83, 2);
     // leg 4: gradient of the actuator length
-    jacobian_dp[3][0] = P::lane(t58, 0);
-    jacobian_dp[3][1] = P::lane(t60, 0);
-    jacobian_dp[3][2] = P::lane(t62, 0);
+    jacobian_dp[3][0] = P::lane(t78, 0);
+    jacobian_dp[3][1] = P::lane(t80, 0);
+    jacobian_dp[3][2] = P::lane(t82, 0);
     // leg 4: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
-    jacobian_dp[3][3] = P::lane(t66, 0);
-    jacobian_dp[3][4] = P::lane(t68, 0);
-    jacobian_dp[3][5] = P::lane(t64, 0);
+    jacobian_dp[3][3] = P::lane(t86, 0);
+    jacobian_dp[3][4] = P::lane(t88, 0);
+    jacobian_dp[3][5] = P::lane(t84, 0);
     // leg 5: gradient of the actuator length
-    jacobian_dp[4][0] = P::lane(t58, 1);
-    jacobian_dp[4][1] = P::lane(t60, 1);
-    jacobian_dp[4][2] = P::lane(t62, 1);
+    jacobian_dp[4][0] = P::lane(t78, 1);
+    jacobian_dp[4][1] = P::lane(t80, 1);
+    jacobian_dp[4][2] = P::lane(t82, 1);
     // leg 5: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
-    jacobian_dp[4][3] = P::lane(t66, 1);
-    jacobian_dp[4][4] = P::lane(t68, 1);
-    jacobian_dp[4][5] = P::lane(t64, 1);
+    jacobian_dp[4][3] = P::lane(t86, 1);
+    jacobian_dp[4][4] = P::lane(t88, 1);
+    jacobian_dp[4][5] = P::lane(t84, 1);
     // leg 6: gradient of the actuator length
-    jacobian_dp[5][0] = P::lane(t58, 2);
-    jacobian_dp[5][1] = P::lane(t60, 2);
-    jacobian_dp[5][2] = P::lane(t62, 2);
+    jacobian_dp[5][0] = P::lane(t78, 2);
+    jacobian_dp[5][1] = P::lane(t80, 2);
+    jacobian_dp[5][2] = P::lane(t82, 2);
     // leg 6: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
-    jacobian_dp[5][3] = P::lane(t66, 2);
-    jacobian_dp[5][4] = P::lane(t68, 2);
-    jacobian_dp[5][5] = P::lane(t64, 2);
+    jacobian_dp[5][3] = P::lane(t86, 2);
+    jacobian_dp[5][4] = P::lane(t88, 2);
+    jacobian_dp[5][5] = P::lane(t84, 2);
 }
 
 /// What a controller by inverse dynamics needs, in one call, equation (18), (30), (32), (49).
@@ -24599,1168 +21879,1016 @@ pub fn control_in_lanes<P: Triple>(
     // constant and copied elements
     let t1 = P::triple([base_rotation[1][0], base_rotation[1][1], base_rotation[1][2]]);
     let t2 = P::triple([base_rotation[0][0], base_rotation[0][1], base_rotation[0][2]]);
-    let t3 = P::triple([base_rotation[2][0], base_rotation[2][1], base_rotation[2][2]]);
     // rotation of the platform seen from the base
-    let t4 = mul_add(
-        t2,
-        P::splat(platform_rotation[0][1]),
-        t1 * P::splat(platform_rotation[1][1]),
-    );
-    let t5 = mul_add(
-        t2,
-        P::splat(platform_rotation[0][0]),
-        t1 * P::splat(platform_rotation[1][0]),
-    );
+    let t3 = t1 * P::splat(platform_rotation[1][1]);
+    let t4 = t1 * P::splat(platform_rotation[1][0]);
+    // constant and copied elements
+    let t5 = P::triple([base_rotation[2][0], base_rotation[2][1], base_rotation[2][2]]);
+    // rotation of the platform seen from the base
+    let t6 = mul_add(t2, P::splat(platform_rotation[0][1]), t3);
+    let t7 = mul_add(t2, P::splat(platform_rotation[0][0]), t4);
     // platform origin seen from the base
-    let t6 = t1 * P::splat(platform_position[1] - base_position[1]);
+    let t8 = t1 * P::splat(platform_position[1] - base_position[1]);
     // constant and copied elements
-    let t7 = P::triple([
-        c(0.1159110991546882),
-        c(-0.0848528137423857),
-        c(-0.031058285412302475),
-    ]);
+    let t9 = P::triple([c(0.1159110991546882), c(-0.0848528137423857), c(-0.031058285412302475)]);
     // rotation of the platform seen from the base
-    let t8 = mul_add(t3, P::splat(platform_rotation[2][1]), t4);
-    let t9 = mul_add(t3, P::splat(platform_rotation[2][0]), t5);
+    let t10 = t1 * P::splat(platform_rotation[1][2]);
+    let t11 = mul_add(t5, P::splat(platform_rotation[2][1]), t6);
+    let t12 = mul_add(t5, P::splat(platform_rotation[2][0]), t7);
     // platform origin seen from the base
-    let t10 = mul_add(t2, P::splat(platform_position[0] - base_position[0]), t6);
+    let t13 = mul_add(t2, P::splat(platform_position[0] - base_position[0]), t8);
     // constant and copied elements
-    let t11 = P::triple([
-        c(0.03105828541230249),
-        c(-0.08485281374238571),
-        c(-0.1159110991546882),
-    ]);
-    let t12 = P::triple([
-        c(0.1159110991546882),
-        c(-0.031058285412302475),
-        c(-0.0848528137423857),
-    ]);
+    let t14 = P::triple([c(0.03105828541230249), c(-0.08485281374238571), c(-0.1159110991546882)]);
+    let t15 = P::triple([c(0.1159110991546882), c(-0.031058285412302475), c(-0.0848528137423857)]);
     // rotation of the platform seen from the base
-    let t13 = mul_add(
-        t2,
-        P::splat(platform_rotation[0][2]),
-        t1 * P::splat(platform_rotation[1][2]),
-    );
+    let t16 = mul_add(t2, P::splat(platform_rotation[0][2]), t10);
     // platform origin seen from the base
-    let t14 = mul_add(t3, P::splat(platform_position[2] - base_position[2]), t10);
+    let t17 = mul_add(t5, P::splat(platform_position[2] - base_position[2]), t13);
+    // legs 2, 5, 6: platform joint from the platform origin
+    let t18 = t14 * P::splat(P::lane(t11, 0));
     // rotation of the platform seen from the base
-    let t15 = mul_add(t3, P::splat(platform_rotation[2][2]), t13);
+    let t19 = mul_add(t5, P::splat(platform_rotation[2][2]), t16);
     // constant and copied elements
-    let t16 = P::triple([
-        c(-0.03105828541230249),
-        c(0.1159110991546882),
-        c(0.08485281374238571),
-    ]);
-    // legs 2, 5, 6: platform joint from the platform origin
-    let t17 = mul_add(t7, P::splat(P::lane(t9, 0)), t11 * P::splat(P::lane(t8, 0)));
+    let t20 = P::triple([c(-0.03105828541230249), c(0.1159110991546882), c(0.08485281374238571)]);
     // legs 1, 3, 4: platform joint from the platform origin
-    let t18 = mul_add(t12, P::splat(P::lane(t9, 0)), P::splat(P::lane(t8, 0)) * t16);
+    let t21 = P::splat(P::lane(t11, 0)) * t20;
+    // legs 2, 5, 6: platform joint from the platform origin
+    let t22 = mul_add(t9, P::splat(P::lane(t12, 0)), t18);
+    let t23 = t14 * P::splat(P::lane(t11, 1));
+    // legs 1, 3, 4: platform joint from the platform origin
+    let t24 = P::splat(P::lane(t11, 1)) * t20;
+    let t25 = mul_add(t15, P::splat(P::lane(t12, 0)), t21);
     // constant and copied elements
-    let t19 = P::triple([
-        c(0.1316436662914507),
-        c(-0.17213485607334636),
-        c(0.040491189781895726),
-    ]);
+    let t26 = P::triple([c(0.1316436662914507), c(-0.17213485607334636), c(0.040491189781895726)]);
     // legs 2, 5, 6: platform joint from the platform origin
-    let t20 = mul_add(t7, P::splat(P::lane(t9, 1)), t11 * P::splat(P::lane(t8, 1)));
+    let t27 = mul_add(t9, P::splat(P::lane(t12, 1)), t23);
     // legs 1, 3, 4: platform joint from the platform origin
-    let t21 = mul_add(t12, P::splat(P::lane(t9, 1)), P::splat(P::lane(t8, 1)) * t16);
-    // legs 2, 5, 6: platform joint from the base point
-    let t22 = P::triple([
-        c(-0.12275970481124972),
-        c(0.052626906850092664),
-        c(0.17538661166134234),
-    ]);
-    let t23 = P::triple([
-        c(-0.1316436662914507),
-        c(0.17213485607334636),
-        c(-0.040491189781895726),
-    ]);
-    // legs 1, 3, 4: platform joint from the base point
-    let t24 = P::triple([
-        c(-0.1316436662914507),
-        c(-0.040491189781895726),
-        c(0.17213485607334636),
-    ]);
-    // legs 2, 5, 6: platform joint from the base point
-    let t25 = t17 + P::splat(P::lane(t14, 0)) + t23;
-    // legs 1, 3, 4: platform joint from the platform origin
-    let t26 = mul_add(t12, P::splat(P::lane(t9, 2)), t16 * P::splat(P::lane(t8, 2)));
+    let t28 = mul_add(t15, P::splat(P::lane(t12, 1)), t24);
+    let t29 = t20 * P::splat(P::lane(t11, 2));
     // legs 2, 5, 6: platform joint from the platform origin
-    let t27 = mul_add(t7, P::splat(P::lane(t9, 2)), t11 * P::splat(P::lane(t8, 2)));
+    let t30 = t14 * P::splat(P::lane(t11, 2));
+    // legs 2, 5, 6: platform joint from the base point
+    let t31 = P::triple([c(-0.12275970481124972), c(0.052626906850092664), c(0.17538661166134234)]);
+    let t32 = P::triple([c(-0.1316436662914507), c(0.17213485607334636), c(-0.040491189781895726)]);
     // legs 1, 3, 4: platform joint from the base point
-    let t28 = P::triple([
-        c(0.12275970481124972),
-        c(-0.17538661166134234),
-        c(-0.052626906850092664),
-    ]);
-    let t29 = P::splat(P::lane(t14, 0)) + t18 + t24;
+    let t33 = P::triple([c(-0.1316436662914507), c(-0.040491189781895726), c(0.17213485607334636)]);
+    // legs 2, 5, 6: platform joint from the base point
+    let t34 = t22 + P::splat(P::lane(t17, 0)) + t32;
+    // legs 1, 3, 4: platform joint from the platform origin
+    let t35 = mul_add(t15, P::splat(P::lane(t12, 2)), t29);
+    // legs 2, 5, 6: platform joint from the platform origin
+    let t36 = mul_add(t9, P::splat(P::lane(t12, 2)), t30);
+    // legs 1, 3, 4: platform joint from the base point
+    let t37 =
+        P::triple([c(0.12275970481124972), c(-0.17538661166134234), c(-0.052626906850092664)]);
+    let t38 = P::splat(P::lane(t17, 0)) + t25 + t33;
     // constant and copied elements
-    let t30 = P::triple([
-        c(-0.12275970481124972),
-        c(0.17538661166134234),
-        c(0.052626906850092664),
-    ]);
+    let t39 = P::triple([c(-0.12275970481124972), c(0.17538661166134234), c(0.052626906850092664)]);
     // legs 2, 5, 6: platform joint from the base point
-    let t31 = t22 + (t20 + P::splat(P::lane(t14, 1)));
+    let t40 = t31 + (t27 + P::splat(P::lane(t17, 1)));
     // legs 1, 3, 4: platform joint from the base point
-    let t32 = t21 + P::splat(P::lane(t14, 1)) + t28;
+    let t41 = t28 + P::splat(P::lane(t17, 1)) + t37;
     // constant and copied elements
-    let t33 = P::triple([
-        c(0.1316436662914507),
-        c(0.040491189781895726),
-        c(-0.17213485607334636),
-    ]);
-    let t34 = P::triple([
-        c(0.12275970481124972),
-        c(-0.052626906850092664),
-        c(-0.17538661166134234),
-    ]);
-    // legs 1, 3, 4: platform joint from the base point
-    let t35 = t26 + P::splat(P::lane(t14, 2));
-    // legs 2, 5, 6: platform joint from the base point
-    let t36 = t27 + P::splat(P::lane(t14, 2));
+    let t42 = P::triple([c(0.1316436662914507), c(0.040491189781895726), c(-0.17213485607334636)]);
+    let t43 =
+        P::triple([c(0.12275970481124972), c(-0.052626906850092664), c(-0.17538661166134234)]);
     // legs 2, 5, 6: platform joint from the platform origin
-    let t37 = mul_add(
-        P::splat(platform_rotation[2][0]),
-        t7,
-        P::splat(platform_rotation[2][1]) * t11,
-    );
-    let t38 = mul_add(
-        P::splat(platform_rotation[0][0]),
-        t7,
-        P::splat(platform_rotation[0][1]) * t11,
-    );
-    let t39 = mul_add(
-        P::splat(platform_rotation[1][0]),
-        t7,
-        P::splat(platform_rotation[1][1]) * t11,
-    );
+    let t44 = P::splat(platform_rotation[2][1]) * t14;
+    let t45 = P::splat(platform_rotation[0][1]) * t14;
+    // legs 1, 3, 4: platform joint from the base point
+    let t46 = t35 + P::splat(P::lane(t17, 2));
+    // legs 2, 5, 6: platform joint from the base point
+    let t47 = t36 + P::splat(P::lane(t17, 2));
+    // legs 2, 5, 6: platform joint from the platform origin
+    let t48 = P::splat(platform_rotation[1][1]) * t14;
+    let t49 = mul_add(P::splat(platform_rotation[2][0]), t9, t44);
+    let t50 = mul_add(P::splat(platform_rotation[0][0]), t9, t45);
     // legs 1, 3, 4: platform joint from the platform origin
-    let t40 = mul_add(
-        P::splat(platform_rotation[0][0]),
-        t12,
-        P::splat(platform_rotation[0][1]) * t16,
-    );
-    let t41 = mul_add(
-        P::splat(platform_rotation[1][0]),
-        t12,
-        P::splat(platform_rotation[1][1]) * t16,
-    );
-    let t42 = mul_add(
-        P::splat(platform_rotation[2][0]),
-        t12,
-        P::splat(platform_rotation[2][1]) * t16,
-    );
+    let t51 = P::splat(platform_rotation[0][1]) * t20;
+    // legs 2, 5, 6: platform joint from the platform origin
+    let t52 = mul_add(P::splat(platform_rotation[1][0]), t9, t48);
+    // legs 1, 3, 4: platform joint from the platform origin
+    let t53 = P::splat(platform_rotation[1][1]) * t20;
+    let t54 = P::splat(platform_rotation[2][1]) * t20;
     // legs 2, 5, 6: extent of the rod along the actuator axis
-    let t43 = sqrt(w(0.042435999999999995) - mul_add(t25, t25, t31 * t31));
+    let t55 = w(0.042435999999999995) - mul_add(t34, t34, t40 * t40);
     // legs 1, 3, 4: extent of the rod along the actuator axis
-    let t44 = sqrt(w(0.042435999999999995) - mul_add(t29, t29, t32 * t32));
+    let t56 = w(0.042435999999999995) - mul_add(t38, t38, t41 * t41);
+    // legs 1, 3, 4: platform joint from the platform origin
+    let t57 = mul_add(P::splat(platform_rotation[0][0]), t15, t51);
+    let t58 = mul_add(P::splat(platform_rotation[1][0]), t15, t53);
+    let t59 = mul_add(P::splat(platform_rotation[2][0]), t15, t54);
+    // legs 2, 5, 6: extent of the rod along the actuator axis
+    let t60 = sqrt(t55);
+    // legs 1, 3, 4: extent of the rod along the actuator axis
+    let t61 = sqrt(t56);
     // legs 2, 5, 6: reciprocal of that extent
-    let t45 = w(1.0) / t43;
+    let t62 = w(1.0) / t60;
     // legs 1, 3, 4: reciprocal of that extent
-    let t46 = w(1.0) / t44;
+    let t63 = w(1.0) / t61;
     // legs 1, 3, 4: actuator length d
-    let t47 = t35 - t44;
+    let t64 = t46 - t61;
     // legs 2, 5, 6: actuator length d
-    let t48 = t36 - t43;
+    let t65 = t47 - t60;
     // legs 2, 5, 6: gradient of the actuator length by the platform joint
-    let t49 = t31 * t45;
+    let t66 = t40 * t62;
     // legs 1, 3, 4: gradient of the actuator length by the platform joint
-    let t50 = t32 * t46;
+    let t67 = t41 * t63;
     // legs 2, 5, 6: gradient of the actuator length by the platform joint
-    let t51 = t25 * t45;
+    let t68 = t34 * t62;
     // legs 1, 3, 4: gradient of the actuator length by the platform joint
-    let t52 = t29 * t46;
+    let t69 = t38 * t63;
     // legs 2, 5, 6: gradient of the actuator length
-    let t53 = mul_add(
-        P::splat(base_rotation[0][0]),
-        t51,
-        P::splat(base_rotation[0][1]) * t49,
-    );
+    let t70 = P::splat(base_rotation[0][1]) * t66;
     // legs 1, 3, 4: gradient of the actuator length
-    let t54 = mul_add(
-        P::splat(base_rotation[0][0]),
-        t52,
-        P::splat(base_rotation[0][1]) * t50,
-    );
+    let t71 = P::splat(base_rotation[0][1]) * t67;
     // legs 2, 5, 6: gradient of the actuator length
-    let t55 = mul_add(
-        P::splat(base_rotation[1][0]),
-        t51,
-        P::splat(base_rotation[1][1]) * t49,
-    );
-    let t56 = mul_add(
-        P::splat(base_rotation[2][0]),
-        t51,
-        P::splat(base_rotation[2][1]) * t49,
-    );
+    let t72 = P::splat(base_rotation[1][1]) * t66;
+    let t73 = P::splat(base_rotation[2][1]) * t66;
     // legs 1, 3, 4: gradient of the actuator length
-    let t57 = mul_add(
-        P::splat(base_rotation[1][0]),
-        t52,
-        P::splat(base_rotation[1][1]) * t50,
-    );
-    let t58 = mul_add(
-        P::splat(base_rotation[2][0]),
-        t52,
-        P::splat(base_rotation[2][1]) * t50,
-    );
+    let t74 = P::splat(base_rotation[1][1]) * t67;
+    let t75 = P::splat(base_rotation[2][1]) * t67;
     // legs 2, 5, 6: gradient of the actuator length
-    let t59 = P::splat(base_rotation[0][2]) + t53;
+    let t76 = mul_add(P::splat(base_rotation[0][0]), t68, t70);
     // legs 1, 3, 4: gradient of the actuator length
-    let t60 = P::splat(base_rotation[0][2]) + t54;
+    let t77 = mul_add(P::splat(base_rotation[0][0]), t69, t71);
     // legs 2, 5, 6: gradient of the actuator length
-    let t61 = P::splat(base_rotation[1][2]) + t55;
+    let t78 = mul_add(P::splat(base_rotation[1][0]), t68, t72);
+    let t79 = mul_add(P::splat(base_rotation[2][0]), t68, t73);
+    // legs 1, 3, 4: gradient of the actuator length
+    let t80 = mul_add(P::splat(base_rotation[1][0]), t69, t74);
+    let t81 = mul_add(P::splat(base_rotation[2][0]), t69, t75);
+    // legs 2, 5, 6: gradient of the actuator length
+    let t82 = P::splat(base_rotation[0][2]) + t76;
+    // legs 1, 3, 4: gradient of the actuator length
+    let t83 = P::splat(base_rotation[0][2]) + t77;
+    // legs 2, 5, 6: gradient of the actuator length
+    let t84 = P::splat(base_rotation[1][2]) + t78;
     // legs 2, 5, 6: mass matrix of the leg in the speeds of its joint
-    let t62 = base_rotation[0][2] * c(0.17066666666666666);
+    let t85 = base_rotation[0][2] * c(0.17066666666666666);
     // legs 2, 5, 6: gradient of the actuator length
-    let t63 = P::splat(base_rotation[2][2]) + t56;
+    let t86 = P::splat(base_rotation[2][2]) + t79;
     // legs 1, 3, 4: gradient of the actuator length
-    let t64 = P::splat(base_rotation[1][2]) + t57;
+    let t87 = P::splat(base_rotation[1][2]) + t80;
     // legs 2, 5, 6: mass matrix of the leg in the speeds of its joint
-    let t65 = base_rotation[1][2] * c(0.17066666666666666);
+    let t88 = base_rotation[1][2] * c(0.17066666666666666);
     // legs 1, 3, 4: gradient of the actuator length
-    let t66 = P::splat(base_rotation[2][2]) + t58;
+    let t89 = P::splat(base_rotation[2][2]) + t81;
     // legs 2, 5, 6: mass matrix of the leg in the speeds of its joint
-    let t67 = mul_add(t59, w(0.4761666666666667), P::splat(t62));
+    let t90 = mul_add(t82, w(0.4761666666666667), P::splat(t85));
     // legs 1, 3, 4: mass matrix of the leg in the speeds of its joint
-    let t68 = mul_add(t60, w(0.4761666666666667), P::splat(t62));
+    let t91 = mul_add(t83, w(0.4761666666666667), P::splat(t85));
     // legs 2, 5, 6: mass matrix of the leg in the speeds of its joint
-    let t69 = mul_add(t61, w(0.4761666666666667), P::splat(t65));
-    let t70 = t59 * t67;
+    let t92 = mul_add(t84, w(0.4761666666666667), P::splat(t88));
+    let t93 = t82 * t90;
     // legs 1, 3, 4: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
-    let t71 = mul_sub(t41, t66, t42 * t64);
-    let t72 = mul_sub(t42, t60, t40 * t66);
-    let t73 = mul_sub(t40, t64, t41 * t60);
+    let t94 = mul_sub(t58, t89, t59 * t87);
+    let t95 = mul_sub(t59, t83, t57 * t89);
+    let t96 = mul_sub(t57, t87, t58 * t83);
     // legs 2, 5, 6: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
-    let t74 = mul_sub(t39, t63, t37 * t61);
+    let t97 = mul_sub(t52, t86, t49 * t84);
     // legs 1, 3, 4: mass matrix of the leg in the speeds of its joint
-    let t75 = mul_add(t64, w(0.4761666666666667), P::splat(t65));
-    let t76 = w(2.0) * (t60 * t68);
+    let t98 = mul_add(t87, w(0.4761666666666667), P::splat(t88));
+    let t99 = w(2.0) * (t83 * t91);
     // legs 2, 5, 6: mass matrix of the leg in the speeds of its joint
-    let t77 = mul_add(t59, t69, t61 * t67);
-    let t78 = w(2.0) * t70;
+    let t100 = mul_add(t82, t92, t84 * t90);
+    let t101 = w(2.0) * t93;
     // legs 2, 5, 6: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
-    let t79 = mul_sub(t37, t59, t38 * t63);
+    let t102 = mul_sub(t49, t82, t50 * t86);
     // legs 2, 5, 6: mass matrix of the leg in the speeds of its joint
-    let t80 = base_rotation[2][2] * c(0.17066666666666666);
+    let t103 = base_rotation[2][2] * c(0.17066666666666666);
     // legs 1, 3, 4: mass matrix of the leg in the speeds of its joint
-    let t81 = mul_add(t60, t75, t64 * t68);
+    let t104 = mul_add(t83, t98, t87 * t91);
     // legs 2, 5, 6: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
-    let t82 = mul_sub(t38, t61, t39 * t59);
+    let t105 = mul_sub(t50, t84, t52 * t82);
     // legs 2, 5, 6: mass matrix of the leg in the speeds of its joint
-    let t83 = mul_add(t63, w(0.4761666666666667), P::splat(t80));
+    let t106 = mul_add(t86, w(0.4761666666666667), P::splat(t103));
     // legs 1, 3, 4: mass matrix of the leg in the speeds of its joint
-    let t84 = mul_add(t66, w(0.4761666666666667), P::splat(t80));
+    let t107 = mul_add(t89, w(0.4761666666666667), P::splat(t103));
     // legs 2, 5, 6: mass matrix of the leg in the speeds of its joint
-    let t85 = t61 * t69;
+    let t108 = t84 * t92;
     // mass matrix of the legs
-    let t86 = mul_add(w(2.0), t70, t76);
-    let t87 = t77 + t81;
+    let t109 = mul_add(w(2.0), t93, t99);
+    let t110 = t100 + t104;
     // legs 2, 5, 6: mass matrix of the leg in the speeds of its joint
-    let t88 = t63 * t83;
-    let t89 = mul_add(t59, t83, t63 * t67);
+    let t111 = t86 * t106;
+    let t112 = mul_add(t82, t106, t86 * t90);
     // legs 1, 3, 4: mass matrix of the leg in the speeds of its joint
-    let t90 = mul_add(t60, t84, t66 * t68);
+    let t113 = mul_add(t83, t107, t89 * t91);
     // legs 2, 5, 6: mass matrix of the leg in the speeds of its joint
-    let t91 = mul_add(t61, t83, t63 * t69);
-    let t92 = w(2.0) * t85;
+    let t114 = mul_add(t84, t106, t86 * t92);
+    let t115 = w(2.0) * t108;
     // legs 1, 3, 4: mass matrix of the leg in the speeds of its joint
-    let t93 = mul_add(t64, t84, t66 * t75);
+    let t116 = mul_add(t87, t107, t89 * t98);
     // legs 2, 5, 6: mass matrix of the leg in the speeds of its joint
-    let t94 = w(2.0) * t88;
+    let t117 = w(2.0) * t111;
     // legs 1, 3, 4: mass matrix of the leg in the speeds of its joint
-    let t95 = w(2.0) * (t64 * t75);
+    let t118 = w(2.0) * (t87 * t98);
     // mass matrix of the legs
-    let t96 = t89 + t90;
-    let t97 = t38 * t91;
-    let t98 = mul_add(w(2.0), t85, t95);
-    let t99 = t40 * t93;
-    let t100 = t91 + t93;
-    let t101 = mul_sub(t39, t89, t97);
-    let t102 = mul_sub(t37, t91, t39 * t94);
-    let t103 = mul_sub(t37, t77, t97);
-    let t104 = mul_sub(t37, t92, t39 * t91);
+    let t119 = t112 + t113;
+    let t120 = t50 * t114;
+    let t121 = mul_add(w(2.0), t108, t118);
+    let t122 = t57 * t116;
+    let t123 = t114 + t116;
+    let t124 = mul_sub(t52, t112, t120);
+    let t125 = mul_sub(t49, t114, t52 * t117);
+    let t126 = mul_sub(t49, t100, t120);
+    let t127 = mul_sub(t49, t115, t52 * t114);
     // legs 1, 3, 4: mass matrix of the leg in the speeds of its joint
-    let t105 = w(2.0) * (t66 * t84);
+    let t128 = w(2.0) * (t89 * t107);
     // mass matrix of the legs
-    let t106 = mul_sub(t42, t81, t99);
-    let t107 = mul_sub(t42, t95, t41 * t93);
-    let t108 = mul_sub(t38, t94, t37 * t89);
-    let t109 = mul_add(w(2.0), t88, t105);
-    let t110 = mul_sub(t41, t90, t99);
-    let t111 = mul_add(t42, t81, mul_sub(t37, t77, t39 * t89));
-    let t112 = mul_sub(t42, t93, t41 * t105);
-    let t113 = t103 + t106;
-    let t114 = t101 + t110;
-    let t115 = mul_add(t42, t107, mul_sub(t37, t104, t39 * t102));
-    let t116 = neg_mul_add(t41, t90, t111);
-    let t117 = mul_sub(t39, t77, t38 * t92);
-    let t118 = mul_sub(t41, t81, t40 * t95);
-    let t119 = mul_sub(t40, t105, t42 * t90);
-    let t120 = mul_sub(t38, t89, t37 * t78);
-    let t121 = mul_sub(t39, t78, t38 * t77);
-    let t122 = neg_mul_add(t41, t112, t115);
-    let t123 = mul_add(t42, t106, mul_add(t37, t103, t39 * t108));
-    let t124 = mul_sub(t40, t90, t42 * t76);
-    let t125 = mul_add(t41, t119, t123);
-    let t126 = mul_add(t42, t118, mul_sub(t37, t117, t39 * t101));
-    let t127 = mul_sub(t41, t76, t40 * t81);
-    let t128 = neg_mul_add(t41, t110, t126);
-    let t129 = mul_add(t40, t119, mul_sub(t38, t108, t37 * t120));
-    let t130 = mul_add(t40, t110, mul_sub(t38, t101, t37 * t121));
-    let t131 = mul_add(t41, t127, mul_sub(t39, t121, t38 * t117));
-    let t132 = P::triple([P::lane(t86, 1), P::lane(t87, 1), P::lane(t96, 1)]);
-    let t133 = neg_mul_add(t42, t124, t129);
-    let t134 = P::triple([P::lane(t86, 0), P::lane(t87, 0), P::lane(t96, 0)]) + t132;
-    let t135 = P::triple([P::lane(t86, 2), P::lane(t87, 2), P::lane(t96, 2)]) + t134;
-    let t136 = neg_mul_add(t42, t127, t130);
-    let t137 = P::lane(t100, 1) + P::lane(t100, 0);
-    let t138 = neg_mul_add(t40, t118, t131);
-    let t139 = P::triple([c(0.0), P::lane(t98, 1) + P::lane(t98, 0), t137]);
-    let t140 = t139 + P::triple([P::lane(t135, 1), P::lane(t98, 2), P::lane(t100, 2)]);
-    let t141 = P::triple([c(0.0), c(0.0), P::lane(t109, 1) + P::lane(t109, 0)]);
-    let t142 = P::triple([P::lane(t122, 1), -P::lane(t125, 1), P::lane(t128, 1)]);
-    let t143 = P::triple([P::lane(t122, 0), -P::lane(t125, 0), P::lane(t128, 0)]) + t142;
-    let t144 = t141 + P::triple([P::lane(t135, 2), P::lane(t140, 2), P::lane(t109, 2)]);
+    let t129 = mul_sub(t59, t104, t122);
+    let t130 = mul_sub(t59, t118, t58 * t116);
+    let t131 = mul_sub(t50, t117, t49 * t112);
+    let t132 = mul_add(w(2.0), t111, t128);
+    let t133 = mul_sub(t58, t113, t122);
+    let t134 = mul_add(t59, t104, mul_sub(t49, t100, t52 * t112));
+    let t135 = mul_sub(t59, t116, t58 * t128);
+    let t136 = t126 + t129;
+    let t137 = t124 + t133;
+    let t138 = mul_add(t59, t130, mul_sub(t49, t127, t52 * t125));
+    let t139 = neg_mul_add(t58, t113, t134);
+    let t140 = mul_sub(t52, t100, t50 * t115);
+    let t141 = mul_sub(t58, t104, t57 * t118);
+    let t142 = mul_sub(t57, t128, t59 * t113);
+    let t143 = mul_sub(t50, t112, t49 * t101);
+    let t144 = mul_sub(t52, t101, t50 * t100);
+    let t145 = neg_mul_add(t58, t135, t138);
+    let t146 = mul_add(t59, t129, mul_add(t49, t126, t52 * t131));
+    let t147 = mul_sub(t57, t113, t59 * t99);
+    let t148 = mul_add(t58, t142, t146);
+    let t149 = mul_add(t59, t141, mul_sub(t49, t140, t52 * t124));
+    let t150 = P::triple([P::lane(t109, 0), P::lane(t110, 0), P::lane(t119, 0)]);
+    let t151 = mul_sub(t58, t99, t57 * t104);
+    let t152 = P::triple([P::lane(t109, 2), P::lane(t110, 2), P::lane(t119, 2)]);
+    let t153 = neg_mul_add(t58, t133, t149);
+    let t154 = mul_add(t57, t142, mul_sub(t50, t131, t49 * t143));
+    let t155 = mul_add(t57, t133, mul_sub(t50, t124, t49 * t144));
+    let t156 = mul_add(t58, t151, mul_sub(t52, t144, t50 * t140));
+    let t157 = P::triple([P::lane(t109, 1), P::lane(t110, 1), P::lane(t119, 1)]);
+    let t158 = neg_mul_add(t59, t147, t154);
+    let t159 = t152 + (t150 + t157);
+    let t160 = neg_mul_add(t59, t151, t155);
+    let t161 = P::lane(t123, 1) + P::lane(t123, 0);
+    let t162 = neg_mul_add(t57, t141, t156);
+    let t163 = P::triple([c(0.0), P::lane(t121, 1) + P::lane(t121, 0), t161]);
+    let t164 = P::triple([P::lane(t159, 1), P::lane(t121, 2), P::lane(t123, 2)]);
+    let t165 = t163 + t164;
+    let t166 = P::triple([c(0.0), c(0.0), P::lane(t132, 1) + P::lane(t132, 0)]);
+    let t167 = P::triple([P::lane(t145, 0), -P::lane(t148, 0), P::lane(t153, 0)]);
+    let t168 = P::triple([P::lane(t145, 1), -P::lane(t148, 1), P::lane(t153, 1)]);
+    let t169 = P::triple([P::lane(t159, 2), P::lane(t165, 2), P::lane(t132, 2)]);
+    let t170 = P::triple([P::lane(t145, 2), -P::lane(t148, 2), P::lane(t153, 2)]);
     // mass matrix M_p of the platform
-    let t145 = t104 + t107;
-    let t146 = t102 + t112;
-    let t147 = t108 + t119;
-    let t148 = t120 + t124;
+    let t171 = t127 + t130;
+    let t172 = t125 + t135;
+    let t173 = t131 + t142;
+    let t174 = t143 + t147;
     // mass of payload and platform-side leg ends
-    let t149 = P::triple([c(8.139999999999999), c(0.0), c(0.0)]);
+    let t175 = P::triple([c(8.139999999999999), c(0.0), c(0.0)]);
     // mass matrix M_p of the platform
-    let t150 = t121 + t127;
-    let t151 = t117 + t118;
+    let t176 = t144 + t151;
+    let t177 = t140 + t141;
     // mass matrix of the legs
-    let t152 = t143 + P::triple([P::lane(t122, 2), -P::lane(t125, 2), P::lane(t128, 2)]);
+    let t178 = t167 + t168 + t170;
     // mass matrix M_p of the platform
-    let t153 = t135 + t149;
-    let t154 = P::triple([c(0.0), c(8.139999999999999), c(0.0)]);
+    let t179 = t159 + t175;
+    let t180 = P::triple([c(0.0), c(8.139999999999999), c(0.0)]);
     // mass matrix of the legs
-    let t155 = t140 + t154;
-    let t156 = P::lane(t136, 1) + P::lane(t136, 0);
-    let t157 = t144 + P::triple([c(0.0), c(0.0), c(8.139999999999999)]);
-    let t158 = P::triple([c(0.0), P::lane(t133, 1) + P::lane(t133, 0), t156]);
-    let t159 = P::triple([P::lane(t152, 1), P::lane(t133, 2), P::lane(t136, 2)]) + t158;
+    let t181 = t165 + t180;
+    let t182 = P::lane(t160, 1) + P::lane(t160, 0);
+    let t183 = t166 + t169 + P::triple([c(0.0), c(0.0), c(8.139999999999999)]);
+    let t184 = P::triple([P::lane(t178, 1), P::lane(t158, 2), P::lane(t160, 2)]);
+    let t185 = P::triple([c(0.0), P::lane(t158, 1) + P::lane(t158, 0), t182]);
+    let t186 = t184 + t185;
     // mass matrix M_p of the platform
-    let t160 = t152 + P::triple([c(0.07784561200000001), c(0.0), c(0.0)]);
-    let t161 = platform_rotation[0][0] * c(0.032245600000000006);
+    let t187 = t178 + P::triple([c(0.07784561200000001), c(0.0), c(0.0)]);
+    let t188 = platform_rotation[0][0] * c(0.032245600000000006);
     // constant and copied elements
-    let t162 = P::triple([
-        platform_rotation[0][0],
-        platform_rotation[1][0],
-        platform_rotation[2][0],
-    ]);
+    let t189 =
+        P::triple([platform_rotation[0][0], platform_rotation[1][0], platform_rotation[2][0]]);
     // mass matrix M_p of the platform
-    let t163 = P::triple([c(0.0), c(0.07784561200000001), c(0.0)]);
-    let t164 = platform_rotation[0][1] * c(0.032245600000000006);
+    let t190 = P::triple([c(0.0), c(0.07784561200000001), c(0.0)]);
+    let t191 = platform_rotation[0][1] * c(0.032245600000000006);
+    let t192 = neg_mul_add(P::splat(t188), t189, t187);
     // mass matrix of the legs
-    let t165 = P::triple([c(0.0), c(0.0), P::lane(t138, 1) + P::lane(t138, 0)]);
-    let t166 = t159 + t163;
+    let t193 = P::triple([c(0.0), c(0.0), P::lane(t162, 1) + P::lane(t162, 0)]);
+    let t194 = t186 + t190;
     // constant and copied elements
-    let t167 = P::triple([
-        platform_rotation[0][1],
-        platform_rotation[1][1],
-        platform_rotation[2][1],
-    ]);
-    let t168 = P::triple([
-        platform_rotation[0][0],
-        platform_rotation[1][0],
-        platform_rotation[1][0],
-    ]);
-    let t169 = P::triple([
-        platform_rotation[1][0],
-        platform_rotation[1][0],
-        platform_rotation[2][0],
-    ]);
+    let t195 =
+        P::triple([platform_rotation[0][1], platform_rotation[1][1], platform_rotation[2][1]]);
     // mass matrix M_p of the platform
-    let t170 = neg_mul_add(
-        P::splat(t164),
-        t167,
-        neg_mul_add(P::splat(t161), t162, t160),
-    );
+    let t196 = platform_rotation[0][2] * c(0.013354412);
+    // mass matrix of the legs
+    let t197 = P::triple([P::lane(t178, 2), P::lane(t186, 2), P::lane(t162, 2)]);
     // constant and copied elements
-    let t171 = P::triple([
-        platform_rotation[0][1],
-        platform_rotation[1][1],
-        platform_rotation[1][1],
-    ]);
-    // mass matrix M_p of the platform
-    let t172 = P::triple([c(0.0), c(0.0), c(0.07784561200000001)]);
+    let t198 =
+        P::triple([platform_rotation[0][0], platform_rotation[1][0], platform_rotation[1][0]]);
     // angular velocity of the base
-    let t173 = mul_add(t2, P::splat(base_velocity[3]), t1 * P::splat(base_velocity[4]));
-    // mass matrix M_p of the platform
-    let t174 = neg_mul_add(w(0.032245600000000006) * t168, t169, t166);
-    // mass matrix of the legs
-    let t175 = t165 + P::triple([P::lane(t152, 2), P::lane(t159, 2), P::lane(t138, 2)])
-        + t172;
-    // mass matrix M_p of the platform
-    let t176 = w(0.032245600000000006) * t162;
+    let t199 = t1 * P::splat(base_velocity[4]);
     // constant and copied elements
-    let t177 = P::triple([
-        platform_rotation[0][2],
-        platform_rotation[1][2],
-        platform_rotation[2][2],
-    ]);
-    let t178 = P::triple([
-        platform_rotation[1][1],
-        platform_rotation[1][1],
-        platform_rotation[2][1],
-    ]);
+    let t200 =
+        P::triple([platform_rotation[1][0], platform_rotation[1][0], platform_rotation[2][0]]);
     // mass matrix M_p of the platform
-    let t179 = neg_mul_add(
-        P::splat(platform_rotation[0][2] * c(0.013354412)),
-        t177,
-        t170,
-    );
+    let t201 = neg_mul_add(P::splat(t191), t195, t192);
+    // constant and copied elements
+    let t202 =
+        P::triple([platform_rotation[0][1], platform_rotation[1][1], platform_rotation[1][1]]);
+    // mass matrix M_p of the platform
+    let t203 = P::triple([c(0.0), c(0.0), c(0.07784561200000001)]);
     // angular velocity of the base
-    let t180 = mul_add(t3, P::splat(base_velocity[5]), t173);
-    // constant and copied elements
-    let t181 = P::triple([
-        platform_rotation[0][2],
-        platform_rotation[1][2],
-        platform_rotation[1][2],
-    ]);
+    let t204 = mul_add(t2, P::splat(base_velocity[3]), t199);
     // mass matrix M_p of the platform
-    let t182 = neg_mul_add(w(0.032245600000000006) * t171, t178, t174);
+    let t205 = neg_mul_add(w(0.032245600000000006) * t198, t200, t194);
+    // mass matrix of the legs
+    let t206 = t193 + t197 + t203;
+    // mass matrix M_p of the platform
+    let t207 = w(0.032245600000000006) * t189;
+    // constant and copied elements
+    let t208 =
+        P::triple([platform_rotation[0][2], platform_rotation[1][2], platform_rotation[2][2]]);
+    let t209 =
+        P::triple([platform_rotation[1][1], platform_rotation[1][1], platform_rotation[2][1]]);
+    // mass matrix M_p of the platform
+    let t210 = neg_mul_add(P::splat(t196), t208, t201);
     // angular velocity of the platform
-    let t183 = mul_add(
-        t2,
-        P::splat(platform_velocity[3]),
-        t1 * P::splat(platform_velocity[4]),
-    );
-    // mass matrix M_p of the platform
-    let t184 = neg_mul_add(P::splat(platform_rotation[2][0]), t176, t175);
-    let t185 = w(0.032245600000000006) * t167;
+    let t211 = t1 * P::splat(platform_velocity[4]);
+    // angular velocity of the base
+    let t212 = mul_add(t5, P::splat(base_velocity[5]), t204);
     // constant and copied elements
-    let t186 = P::triple([
-        platform_rotation[1][2],
-        platform_rotation[1][2],
-        platform_rotation[2][2],
-    ]);
-    // velocity of the platform origin relative to the base
-    let t187 = t1 * P::splat(platform_velocity[1] - base_velocity[1]);
+    let t213 =
+        P::triple([platform_rotation[0][2], platform_rotation[1][2], platform_rotation[1][2]]);
+    // mass matrix M_p of the platform
+    let t214 = neg_mul_add(w(0.032245600000000006) * t202, t209, t205);
     // angular velocity of the platform
-    let t188 = mul_add(t3, P::splat(platform_velocity[5]), t183);
+    let t215 = mul_add(t2, P::splat(platform_velocity[3]), t211);
     // mass matrix M_p of the platform
-    let t189 = neg_mul_add(w(0.013354412) * t181, t186, t182);
+    let t216 = neg_mul_add(P::splat(platform_rotation[2][0]), t207, t206);
+    let t217 = w(0.032245600000000006) * t195;
+    // constant and copied elements
+    let t218 =
+        P::triple([platform_rotation[1][2], platform_rotation[1][2], platform_rotation[2][2]]);
     // velocity of the platform origin relative to the base
-    let t190 = mul_add(t2, P::splat(platform_velocity[0] - base_velocity[0]), t187);
-    // platform origin seen from the base
-    let t191 = P::triple([P::lane(t14, 2), P::lane(t14, 0), P::lane(t14, 1)]);
+    let t219 = t1 * P::splat(platform_velocity[1] - base_velocity[1]);
     // mass matrix M_p of the platform
-    let t192 = neg_mul_add(P::splat(platform_rotation[2][1]), t185, t184);
-    // angular velocity of the platform relative to the base
-    let t193 = t180 - t188;
+    let t220 = w(0.013354412) * t208;
+    // angular velocity of the platform
+    let t221 = mul_add(t5, P::splat(platform_velocity[5]), t215);
+    // mass matrix M_p of the platform
+    let t222 = neg_mul_add(w(0.013354412) * t213, t218, t214);
     // velocity of the platform origin relative to the base
-    let t194 = mul_add(t3, P::splat(platform_velocity[2] - base_velocity[2]), t190);
-    // mass matrix M_p of the platform
-    let t195 = neg_mul_add(
-        P::splat(platform_rotation[2][2]),
-        w(0.013354412) * t177,
-        t192,
-    );
-    // angular velocity of the base
-    let t196 = P::triple([P::lane(t180, 2), P::lane(t180, 0), P::lane(t180, 1)]);
-    // rotation of the platform seen from the base
-    let t197 = P::triple([P::lane(t8, 1), P::lane(t8, 2), P::lane(t8, 0)]);
+    let t223 = mul_add(t2, P::splat(platform_velocity[0] - base_velocity[0]), t219);
     // platform origin seen from the base
-    let t198 = P::triple([P::lane(t14, 1), P::lane(t14, 2), P::lane(t14, 0)]);
-    // rotation of the platform seen from the base
-    let t199 = P::triple([P::lane(t9, 1), P::lane(t9, 2), P::lane(t9, 0)]);
-    let t200 = P::triple([P::lane(t8, 2), P::lane(t8, 0), P::lane(t8, 1)]);
+    let t224 = P::triple([P::lane(t17, 2), P::lane(t17, 0), P::lane(t17, 1)]);
+    // mass matrix M_p of the platform
+    let t225 = neg_mul_add(P::splat(platform_rotation[2][1]), t217, t216);
     // angular velocity of the platform relative to the base
-    let t201 = P::triple([P::lane(t193, 2), P::lane(t193, 0), P::lane(t193, 1)]);
-    let t202 = P::triple([P::lane(t193, 1), P::lane(t193, 2), P::lane(t193, 0)]);
+    let t226 = t212 - t221;
+    // velocity of the platform origin relative to the base
+    let t227 = mul_add(t5, P::splat(platform_velocity[2] - base_velocity[2]), t223);
+    // mass matrix M_p of the platform
+    let t228 = neg_mul_add(P::splat(platform_rotation[2][2]), t220, t225);
     // angular velocity of the base
-    let t203 = P::triple([P::lane(t180, 1), P::lane(t180, 2), P::lane(t180, 0)]);
+    let t229 = P::triple([P::lane(t212, 2), P::lane(t212, 0), P::lane(t212, 1)]);
     // rotation of the platform seen from the base
-    let t204 = P::triple([P::lane(t9, 2), P::lane(t9, 0), P::lane(t9, 1)]);
-    let t205 = P::triple([P::lane(t15, 1), P::lane(t15, 2), P::lane(t15, 0)]);
+    let t230 = P::triple([P::lane(t11, 1), P::lane(t11, 2), P::lane(t11, 0)]);
+    // platform origin seen from the base
+    let t231 = P::triple([P::lane(t17, 1), P::lane(t17, 2), P::lane(t17, 0)]);
+    // rotation of the platform seen from the base
+    let t232 = P::triple([P::lane(t12, 1), P::lane(t12, 2), P::lane(t12, 0)]);
+    let t233 = P::triple([P::lane(t11, 2), P::lane(t11, 0), P::lane(t11, 1)]);
+    // angular velocity of the platform relative to the base
+    let t234 = P::triple([P::lane(t226, 2), P::lane(t226, 0), P::lane(t226, 1)]);
+    let t235 = P::triple([P::lane(t226, 1), P::lane(t226, 2), P::lane(t226, 0)]);
+    // angular velocity of the base
+    let t236 = P::triple([P::lane(t212, 1), P::lane(t212, 2), P::lane(t212, 0)]);
+    // rotation of the platform seen from the base
+    let t237 = P::triple([P::lane(t12, 2), P::lane(t12, 0), P::lane(t12, 1)]);
+    let t238 = P::triple([P::lane(t19, 1), P::lane(t19, 2), P::lane(t19, 0)]);
     // rate of the relative rotation
-    let t206 = mul_sub(t200, t202, t197 * t201);
-    let t207 = mul_sub(t202, t204, t199 * t201);
+    let t239 = mul_sub(t233, t235, t230 * t234);
+    let t240 = mul_sub(t235, t237, t232 * t234);
     // velocity of the platform origin relative to the base
-    let t208 = t194 - mul_sub(t191, t203, t196 * t198);
+    let t241 = t227 - mul_sub(t224, t236, t229 * t231);
     // legs 1, 3, 4: velocity of the platform joint relative to the base
-    let t209 = P::splat(P::lane(t208, 1))
-        - mul_add(t12, P::splat(P::lane(t207, 1)), t16 * P::splat(P::lane(t206, 1)));
-    let t210 = P::splat(P::lane(t208, 0))
-        - mul_add(t12, P::splat(P::lane(t207, 0)), t16 * P::splat(P::lane(t206, 0)));
+    let t242 = t20 * P::splat(P::lane(t239, 1));
+    let t243 = t20 * P::splat(P::lane(t239, 0));
     // legs 2, 5, 6: velocity of the platform joint relative to the base
-    let t211 = P::splat(P::lane(t208, 1))
-        - mul_add(t7, P::splat(P::lane(t207, 1)), t11 * P::splat(P::lane(t206, 1)));
-    let t212 = P::splat(P::lane(t208, 0))
-        - mul_add(t7, P::splat(P::lane(t207, 0)), t11 * P::splat(P::lane(t206, 0)));
-    // angular velocity of the base
-    let t213 = P::triple([P::lane(t180, 2), P::lane(t180, 2), P::lane(t180, 0)]);
-    let t214 = P::triple([P::lane(t180, 1), P::lane(t180, 0), P::lane(t180, 1)]);
+    let t244 = t14 * P::splat(P::lane(t239, 1));
+    let t245 = t14 * P::splat(P::lane(t239, 0));
+    // legs 1, 3, 4: velocity of the platform joint relative to the base
+    let t246 = t20 * P::splat(P::lane(t239, 2));
+    // legs 2, 5, 6: velocity of the platform joint relative to the base
+    let t247 = t14 * P::splat(P::lane(t239, 2));
+    // legs 1, 3, 4: velocity of the platform joint relative to the base
+    let t248 = mul_add(t15, P::splat(P::lane(t240, 1)), t242);
+    let t249 = mul_add(t15, P::splat(P::lane(t240, 0)), t243);
+    // legs 2, 5, 6: velocity of the platform joint relative to the base
+    let t250 = mul_add(t9, P::splat(P::lane(t240, 1)), t244);
+    let t251 = mul_add(t9, P::splat(P::lane(t240, 0)), t245);
+    // legs 1, 3, 4: velocity of the platform joint relative to the base
+    let t252 = mul_add(t15, P::splat(P::lane(t240, 2)), t246);
+    // legs 2, 5, 6: velocity of the platform joint relative to the base
+    let t253 = mul_add(t9, P::splat(P::lane(t240, 2)), t247);
+    // legs 1, 3, 4: velocity of the platform joint relative to the base
+    let t254 = P::splat(P::lane(t241, 1)) - t248;
+    let t255 = P::splat(P::lane(t241, 0)) - t249;
+    // legs 2, 5, 6: velocity of the platform joint relative to the base
+    let t256 = P::splat(P::lane(t241, 1)) - t250;
+    let t257 = P::splat(P::lane(t241, 0)) - t251;
     // angular acceleration of the base
-    let t215 = mul_add(
-        t2,
-        P::splat(base_acceleration[3]),
-        t1 * P::splat(base_acceleration[4]),
-    );
-    // acceleration per base coordinate of points that move with the base
-    let t216 = mul_add(t214, t214, t213 * t213);
+    let t258 = t1 * P::splat(base_acceleration[4]);
+    // angular velocity of the base
+    let t259 = P::triple([P::lane(t212, 2), P::lane(t212, 2), P::lane(t212, 0)]);
+    let t260 = P::triple([P::lane(t212, 1), P::lane(t212, 0), P::lane(t212, 1)]);
     // acceleration of the base origin less gravity
-    let t217 = mul_add(
-        t2,
-        P::splat(base_acceleration[0]),
-        t1 * P::splat(base_acceleration[1]),
-    );
-    // legs 1, 3, 4: velocity of the platform joint relative to the base
-    let t218 = P::splat(P::lane(t208, 2))
-        - mul_add(t12, P::splat(P::lane(t207, 2)), t16 * P::splat(P::lane(t206, 2)));
-    // legs 2, 5, 6: velocity of the platform joint relative to the base
-    let t219 = P::splat(P::lane(t208, 2))
-        - mul_add(t7, P::splat(P::lane(t207, 2)), t11 * P::splat(P::lane(t206, 2)));
-    // angular velocity of the base
-    let t220 = P::triple([P::lane(t180, 0), P::lane(t180, 2), P::lane(t180, 0)]);
+    let t261 = t1 * P::splat(base_acceleration[1]);
     // angular acceleration of the base
-    let t221 = mul_add(t3, P::splat(base_acceleration[5]), t215);
+    let t262 = mul_add(t2, P::splat(base_acceleration[3]), t258);
+    // acceleration per base coordinate of points that move with the base
+    let t263 = mul_add(t260, t260, t259 * t259);
+    // acceleration of the base origin less gravity
+    let t264 = mul_add(t2, P::splat(base_acceleration[0]), t261);
+    // legs 1, 3, 4: velocity of the platform joint relative to the base
+    let t265 = P::splat(P::lane(t241, 2)) - t252;
+    // legs 2, 5, 6: velocity of the platform joint relative to the base
+    let t266 = P::splat(P::lane(t241, 2)) - t253;
     // angular velocity of the base
-    let t222 = P::triple([P::lane(t180, 1), P::lane(t180, 1), P::lane(t180, 2)]);
+    let t267 = P::triple([P::lane(t212, 0), P::lane(t212, 2), P::lane(t212, 0)]);
+    // angular acceleration of the base
+    let t268 = mul_add(t5, P::splat(base_acceleration[5]), t262);
+    // angular velocity of the base
+    let t269 = P::triple([P::lane(t212, 1), P::lane(t212, 1), P::lane(t212, 2)]);
     // legs 1, 3, 4: rate of the rod's extent along the actuator axis
-    let t223 = mul_add(t29, t210, t32 * t209);
+    let t270 = mul_add(t38, t255, t41 * t254);
     // acceleration per base coordinate of points that move with the base
-    let t224 = t220 * t222;
+    let t271 = t267 * t269;
     // acceleration of the base origin less gravity
-    let t225 = mul_add(t3, P::splat(base_acceleration[2] + c(9.81)), t217);
+    let t272 = mul_add(t5, P::splat(base_acceleration[2] + c(9.81)), t264);
     // legs 2, 5, 6: rate of the rod's extent along the actuator axis
-    let t226 = mul_add(t25, t212, t31 * t211);
+    let t273 = mul_add(t34, t257, t40 * t256);
     // legs 1, 3, 4: rate of the rod's extent along the actuator axis
-    let t227 = t46 * t223;
+    let t274 = t63 * t270;
     // legs 1, 3, 4: actuator velocity d'
-    let t228 = mul_add(t46, t223, t218);
+    let t275 = mul_add(t63, t270, t265);
     // legs 2, 5, 6: rate of the rod's extent along the actuator axis
-    let t229 = t45 * t226;
+    let t276 = t62 * t273;
     // legs 2, 5, 6: actuator velocity d'
-    let t230 = mul_add(t45, t226, t219);
+    let t277 = mul_add(t62, t273, t266);
     // angular acceleration of the base
-    let t231 = P::triple([P::lane(t221, 1), P::lane(t221, 2), P::lane(t221, 0)]);
-    let t232 = P::triple([P::lane(t221, 2), P::lane(t221, 0), P::lane(t221, 1)]);
+    let t278 = P::triple([P::lane(t268, 1), P::lane(t268, 2), P::lane(t268, 0)]);
+    let t279 = P::triple([P::lane(t268, 2), P::lane(t268, 0), P::lane(t268, 1)]);
     // acceleration per base coordinate of points that move with the base
-    let t233 = mul_sub(t220, t222, t232);
+    let t280 = mul_sub(t267, t269, t279);
+    let t281 = P::triple([P::lane(t271, 2), P::lane(t271, 0), P::lane(t271, 1)]);
     // acceleration of the platform origin less gravity
-    let t234 = t3 * w(9.81);
+    let t282 = t5 * w(9.81);
     // acceleration per base coordinate of points that move with the base
-    let t235 = t231 + P::triple([P::lane(t224, 2), P::lane(t224, 0), P::lane(t224, 1)]);
+    let t283 = t278 + t281;
     // angular velocity of the platform
-    let t236 = P::triple([P::lane(t188, 1), P::lane(t188, 2), P::lane(t188, 0)]);
-    let t237 = P::triple([P::lane(t188, 2), P::lane(t188, 0), P::lane(t188, 1)]);
+    let t284 = P::triple([P::lane(t221, 1), P::lane(t221, 2), P::lane(t221, 0)]);
+    let t285 = P::triple([P::lane(t221, 2), P::lane(t221, 0), P::lane(t221, 1)]);
     // acceleration per base coordinate of points that move with the base
-    let t238 = P::triple([-P::lane(t216, 0), P::lane(t235, 1), P::lane(t233, 2)]);
+    let t286 = P::triple([-P::lane(t263, 0), P::lane(t283, 1), P::lane(t280, 2)]);
     // acceleration per platform coordinate of points of the platform
-    let t239 = mul_sub(t188, t197, t8 * t236);
-    let t240 = mul_sub(t188, t199, t9 * t236);
-    let t241 = mul_sub(t188, t205, t15 * t236);
-    let t242 = t237 * P::triple([P::lane(t239, 2), P::lane(t239, 0), P::lane(t239, 1)]);
+    let t287 = mul_sub(t221, t230, t11 * t284);
+    let t288 = mul_sub(t221, t232, t12 * t284);
+    let t289 = mul_sub(t221, t238, t19 * t284);
+    let t290 = P::triple([P::lane(t287, 2), P::lane(t287, 0), P::lane(t287, 1)]);
+    let t291 = P::triple([P::lane(t288, 2), P::lane(t288, 0), P::lane(t288, 1)]);
     // acceleration per base coordinate of points that move with the base
-    let t243 = P::triple([P::lane(t233, 0), -P::lane(t216, 1), P::lane(t235, 2)]);
-    // acceleration per platform coordinate of points of the platform
-    let t244 = t237 * P::triple([P::lane(t240, 2), P::lane(t240, 0), P::lane(t240, 1)]);
-    let t245 = mul_sub(t236, t239, t242);
-    let t246 = t237 * P::triple([P::lane(t241, 2), P::lane(t241, 0), P::lane(t241, 1)]);
-    let t247 = mul_sub(t236, t240, t244);
+    let t292 = P::triple([P::lane(t280, 0), -P::lane(t263, 1), P::lane(t283, 2)]);
     // acceleration of the platform origin relative to the base
-    let t248 = mul_add(
-        P::splat(P::lane(t14, 0)),
-        t238,
-        P::splat(P::lane(t14, 1)) * t243,
-    );
+    let t293 = P::splat(P::lane(t17, 1)) * t292;
+    // acceleration per platform coordinate of points of the platform
+    let t294 = mul_sub(t284, t287, t285 * t290);
+    let t295 = P::triple([P::lane(t289, 2), P::lane(t289, 0), P::lane(t289, 1)]);
+    let t296 = mul_sub(t284, t288, t285 * t291);
+    // acceleration of the platform origin relative to the base
+    let t297 = mul_add(P::splat(P::lane(t17, 0)), t286, t293);
     // velocity of the platform origin relative to the base
-    let t249 = P::triple([P::lane(t208, 1), P::lane(t208, 2), P::lane(t208, 0)]);
-    let t250 = P::triple([P::lane(t208, 2), P::lane(t208, 0), P::lane(t208, 1)]);
+    let t298 = P::triple([P::lane(t241, 1), P::lane(t241, 2), P::lane(t241, 0)]);
+    let t299 = P::triple([P::lane(t241, 2), P::lane(t241, 0), P::lane(t241, 1)]);
     // acceleration per platform coordinate of points of the platform
-    let t251 = mul_sub(t236, t241, t246);
+    let t300 = mul_sub(t284, t289, t285 * t295);
     // rate of the relative rotation
-    let t252 = P::triple([P::lane(t206, 1), P::lane(t206, 2), P::lane(t206, 0)]);
-    let t253 = P::triple([P::lane(t207, 1), P::lane(t207, 2), P::lane(t207, 0)]);
+    let t301 = P::triple([P::lane(t239, 1), P::lane(t239, 2), P::lane(t239, 0)]);
+    let t302 = P::triple([P::lane(t240, 1), P::lane(t240, 2), P::lane(t240, 0)]);
     // second derivative of the relative rotation
-    let t254 = t231 - mul_sub(t193, t196, t180 * t201);
+    let t303 = t278 - mul_sub(t226, t229, t212 * t234);
     // rate of the relative rotation
-    let t255 = P::triple([P::lane(t206, 2), P::lane(t206, 0), P::lane(t206, 1)]);
+    let t304 = P::triple([P::lane(t239, 2), P::lane(t239, 0), P::lane(t239, 1)]);
     // acceleration per base coordinate of points that move with the base
-    let t256 = P::triple([P::lane(t235, 0), P::lane(t233, 1), -P::lane(t216, 2)]);
+    let t305 = P::triple([P::lane(t283, 0), P::lane(t280, 1), -P::lane(t263, 2)]);
     // rate of the relative rotation
-    let t257 = P::triple([P::lane(t207, 2), P::lane(t207, 0), P::lane(t207, 1)]);
+    let t306 = P::triple([P::lane(t240, 2), P::lane(t240, 0), P::lane(t240, 1)]);
     // second derivative of the relative rotation
-    let t258 = mul_sub(t202, t255, t201 * t252);
+    let t307 = mul_sub(t235, t304, t234 * t301);
     // acceleration of the platform origin relative to the base
-    let t259 = mul_add(P::splat(P::lane(t14, 2)), t256, t248);
+    let t308 = mul_add(P::splat(P::lane(t17, 2)), t305, t297);
     // second derivative of the relative rotation
-    let t260 = mul_sub(t202, t257, t201 * t253);
-    let t261 = P::triple([P::lane(t254, 1), P::lane(t254, 2), P::lane(t254, 0)]);
+    let t309 = mul_sub(t235, t306, t234 * t302);
+    let t310 = P::triple([P::lane(t303, 1), P::lane(t303, 2), P::lane(t303, 0)]);
     // acceleration of the platform origin relative to the base
-    let t262 = neg_mul_add(t3, w(9.81), t225) + t259;
-    let t263 = mul_add(w(2.0), mul_sub(t203, t250, t196 * t249), t262);
+    let t311 = neg_mul_add(t5, w(9.81), t272) + t308;
+    let t312 = mul_add(w(2.0), mul_sub(t236, t299, t229 * t298), t311);
     // second derivative of the relative rotation
-    let t264 = mul_sub(t200, t254, t197 * t261) - t258;
-    let t265 = mul_sub(t204, t254, t199 * t261) - t260;
+    let t313 = mul_sub(t233, t303, t230 * t310) - t307;
+    let t314 = mul_sub(t237, t303, t232 * t310) - t309;
     // legs 1, 3, 4: acceleration of the platform joint relative to the base
-    let t266 = P::splat(P::lane(t263, 0))
-        + mul_add(t12, P::splat(P::lane(t265, 0)), t16 * P::splat(P::lane(t264, 0)));
+    let t315 = t20 * P::splat(P::lane(t313, 0));
     // legs 2, 5, 6: acceleration of the platform joint relative to the base
-    let t267 = P::splat(P::lane(t263, 0))
-        + mul_add(t7, P::splat(P::lane(t265, 0)), t11 * P::splat(P::lane(t264, 0)));
+    let t316 = t14 * P::splat(P::lane(t313, 0));
     // legs 1, 3, 4: acceleration of the platform joint relative to the base
-    let t268 = P::splat(P::lane(t263, 1))
-        + mul_add(t12, P::splat(P::lane(t265, 1)), t16 * P::splat(P::lane(t264, 1)));
+    let t317 = t20 * P::splat(P::lane(t313, 1));
     // legs 2, 5, 6: acceleration of the platform joint relative to the base
-    let t269 = P::splat(P::lane(t263, 1))
-        + mul_add(t7, P::splat(P::lane(t265, 1)), t11 * P::splat(P::lane(t264, 1)));
-    // legs 2, 5, 6: leg inertia less weight along the actuator
-    let t270 = mul_sub(
-        t19,
-        P::splat(P::lane(t216, 0)),
-        t34 * P::splat(P::lane(t233, 0)),
-    );
-    let t271 = mul_sub(
-        t19,
-        P::splat(P::lane(t235, 1)),
-        t34 * P::splat(P::lane(t216, 1)),
-    );
-    // legs 1, 3, 4: actuator acceleration d''
-    let t272 = mul_add(t29, t266, t32 * t268);
-    // legs 2, 5, 6: actuator acceleration d''
-    let t273 = mul_add(t25, t267, t31 * t269);
+    let t318 = t14 * P::splat(P::lane(t313, 1));
     // legs 1, 3, 4: acceleration of the platform joint relative to the base
-    let t274 = P::splat(P::lane(t263, 2))
-        + mul_add(t12, P::splat(P::lane(t265, 2)), t16 * P::splat(P::lane(t264, 2)));
+    let t319 = mul_add(t15, P::splat(P::lane(t314, 0)), t315);
     // legs 2, 5, 6: acceleration of the platform joint relative to the base
-    let t275 = P::splat(P::lane(t263, 2))
-        + mul_add(t7, P::splat(P::lane(t265, 2)), t11 * P::splat(P::lane(t264, 2)));
+    let t320 = mul_add(t9, P::splat(P::lane(t314, 0)), t316);
+    // legs 1, 3, 4: acceleration of the platform joint relative to the base
+    let t321 = mul_add(t15, P::splat(P::lane(t314, 1)), t317);
+    // legs 2, 5, 6: acceleration of the platform joint relative to the base
+    let t322 = mul_add(t9, P::splat(P::lane(t314, 1)), t318);
+    // legs 1, 3, 4: acceleration of the platform joint relative to the base
+    let t323 = t20 * P::splat(P::lane(t313, 2));
+    // legs 2, 5, 6: acceleration of the platform joint relative to the base
+    let t324 = t14 * P::splat(P::lane(t313, 2));
+    // legs 1, 3, 4: acceleration of the platform joint relative to the base
+    let t325 = P::splat(P::lane(t312, 0)) + t319;
+    // legs 2, 5, 6: acceleration of the platform joint relative to the base
+    let t326 = P::splat(P::lane(t312, 0)) + t320;
+    // legs 1, 3, 4: acceleration of the platform joint relative to the base
+    let t327 = P::splat(P::lane(t312, 1)) + t321;
+    // legs 2, 5, 6: acceleration of the platform joint relative to the base
+    let t328 = P::splat(P::lane(t312, 1)) + t322;
+    // legs 1, 3, 4: acceleration of the platform joint relative to the base
+    let t329 = mul_add(t15, P::splat(P::lane(t314, 2)), t323);
     // legs 2, 5, 6: leg inertia less weight along the actuator
-    let t276 = mul_add(
-        t19,
-        P::splat(P::lane(t233, 2)),
-        t34 * P::splat(P::lane(t235, 2)),
-    );
-    let t277 = w(2.0) * t230;
+    let t330 = t43 * P::splat(P::lane(t280, 0));
+    let t331 = t43 * P::splat(P::lane(t263, 1));
+    // legs 2, 5, 6: acceleration of the platform joint relative to the base
+    let t332 = mul_add(t9, P::splat(P::lane(t314, 2)), t324);
+    // legs 2, 5, 6: leg inertia less weight along the actuator
+    let t333 = mul_sub(t26, P::splat(P::lane(t263, 0)), t330);
+    let t334 = mul_sub(t26, P::splat(P::lane(t283, 1)), t331);
     // legs 1, 3, 4: actuator acceleration d''
-    let t278 = mul_add(t227, t227, mul_add(t210, t210, t209 * t209) - t272);
+    let t335 = mul_add(t38, t325, t41 * t327);
     // legs 2, 5, 6: actuator acceleration d''
-    let t279 = mul_add(t229, t229, mul_add(t212, t212, t211 * t211) - t273);
+    let t336 = mul_add(t34, t326, t40 * t328);
+    // legs 1, 3, 4: acceleration of the platform joint relative to the base
+    let t337 = P::splat(P::lane(t312, 2)) + t329;
+    // legs 2, 5, 6: acceleration of the platform joint relative to the base
+    let t338 = P::splat(P::lane(t312, 2)) + t332;
     // legs 2, 5, 6: leg inertia less weight along the actuator
-    let t280 = P::splat(P::lane(t225, 0))
-        - neg_mul_add(t48, P::splat(P::lane(t235, 0)), t270);
-    let t281 = P::splat(P::lane(t225, 1))
-        + mul_add(t48, P::splat(P::lane(t233, 1)), t271);
+    let t339 = t43 * P::splat(P::lane(t283, 2));
+    let t340 = neg_mul_add(t65, P::splat(P::lane(t283, 0)), t333);
+    let t341 = mul_add(t65, P::splat(P::lane(t280, 1)), t334);
+    let t342 = mul_add(t26, P::splat(P::lane(t280, 2)), t339);
+    let t343 = w(2.0) * t277;
     // legs 1, 3, 4: actuator acceleration d''
-    let t282 = neg_mul_add(t46, t278, t274);
+    let t344 = mul_add(t274, t274, mul_add(t255, t255, t254 * t254) - t335);
     // legs 2, 5, 6: actuator acceleration d''
-    let t283 = neg_mul_add(t45, t279, t275);
-    // legs 1, 3, 4: leg inertia less weight along the actuator
-    let t284 = w(2.0) * t228;
+    let t345 = mul_add(t276, t276, mul_add(t257, t257, t256 * t256) - t336);
     // legs 2, 5, 6: leg inertia less weight along the actuator
-    let t285 = mul_add(P::splat(P::lane(t180, 1)), t277, t280);
+    let t346 = P::splat(P::lane(t272, 0)) - t340;
+    let t347 = P::splat(P::lane(t272, 1)) + t341;
+    let t348 = neg_mul_add(t65, P::splat(P::lane(t263, 2)), t342);
+    // legs 1, 3, 4: actuator acceleration d''
+    let t349 = neg_mul_add(t63, t344, t337);
+    // legs 2, 5, 6: actuator acceleration d''
+    let t350 = neg_mul_add(t62, t345, t338);
     // legs 1, 3, 4: leg inertia less weight along the actuator
-    let t286 = mul_sub(
-        t33,
-        P::splat(P::lane(t216, 0)),
-        t30 * P::splat(P::lane(t233, 0)),
-    );
+    let t351 = t39 * P::splat(P::lane(t280, 0));
+    let t352 = w(2.0) * t275;
     // legs 2, 5, 6: leg inertia less weight along the actuator
-    let t287 = neg_mul_add(P::splat(P::lane(t180, 0)), t277, t281);
+    let t353 = mul_add(P::splat(P::lane(t212, 1)), t343, t346);
     // legs 1, 3, 4: leg inertia less weight along the actuator
-    let t288 = mul_sub(
-        t33,
-        P::splat(P::lane(t235, 1)),
-        t30 * P::splat(P::lane(t216, 1)),
-    );
-    let t289 = mul_add(
-        t33,
-        P::splat(P::lane(t233, 2)),
-        t30 * P::splat(P::lane(t235, 2)),
-    );
+    let t354 = t39 * P::splat(P::lane(t263, 1));
+    let t355 = t39 * P::splat(P::lane(t283, 2));
+    let t356 = mul_sub(t42, P::splat(P::lane(t263, 0)), t351);
     // legs 2, 5, 6: leg inertia less weight along the actuator
-    let t290 = t283
-        - (P::splat(P::lane(t225, 2))
-            + neg_mul_add(t48, P::splat(P::lane(t216, 2)), t276));
+    let t357 = t14 * P::splat(P::lane(t294, 2));
+    let t358 = neg_mul_add(P::splat(P::lane(t212, 0)), t343, t347);
+    // legs 1, 3, 4: leg inertia less weight along the actuator
+    let t359 = t20 * P::splat(P::lane(t294, 2));
+    let t360 = mul_sub(t42, P::splat(P::lane(t283, 1)), t354);
+    let t361 = mul_add(t42, P::splat(P::lane(t280, 2)), t355);
+    // legs 2, 5, 6: leg inertia less weight along the actuator
+    let t362 = t350 - (P::splat(P::lane(t272, 2)) + t348);
+    let t363 = mul_add(t9, P::splat(P::lane(t296, 2)), t357);
+    // legs 1, 3, 4: leg inertia less weight along the actuator
+    let t364 = neg_mul_add(t64, P::splat(P::lane(t283, 0)), t356);
+    let t365 = mul_add(t15, P::splat(P::lane(t296, 2)), t359);
     // legs 2, 5, 6: remaining leg inertia less weight at the platform joint
-    let t291 = w(0.17066666666666666) * t285;
+    let t366 = w(0.17066666666666666) * t353;
+    // legs 1, 3, 4: leg inertia less weight along the actuator
+    let t367 = mul_add(t64, P::splat(P::lane(t280, 1)), t360);
+    let t368 = neg_mul_add(t64, P::splat(P::lane(t263, 2)), t361);
     // legs 2, 5, 6: leg inertia less weight along the actuator
-    let t292 = P::splat(P::lane(t234, 2))
-        + mul_add(t7, P::splat(P::lane(t247, 2)), t11 * P::splat(P::lane(t245, 2)));
+    let t369 = neg_mul_add(P::splat(P::lane(t263, 2)), w(0.05), t362);
     // legs 1, 3, 4: leg inertia less weight along the actuator
-    let t293 = P::splat(P::lane(t225, 0))
-        - neg_mul_add(t47, P::splat(P::lane(t235, 0)), t286);
-    let t294 = P::splat(P::lane(t234, 2))
-        + mul_add(t12, P::splat(P::lane(t247, 2)), t16 * P::splat(P::lane(t245, 2)));
+    let t370 = P::splat(P::lane(t272, 0)) - t364;
     // legs 2, 5, 6: remaining leg inertia less weight at the platform joint
-    let t295 = w(0.17066666666666666) * t287;
+    let t371 = w(0.17066666666666666) * t358;
     // legs 1, 3, 4: leg inertia less weight along the actuator
-    let t296 = P::splat(P::lane(t225, 1))
-        + mul_add(t47, P::splat(P::lane(t233, 1)), t288);
-    let t297 = mul_add(P::splat(P::lane(t180, 1)), t284, t293);
-    let t298 = neg_mul_add(P::splat(P::lane(t180, 0)), t284, t296);
-    let t299 = t282
-        - (P::splat(P::lane(t225, 2))
-            + neg_mul_add(t47, P::splat(P::lane(t216, 2)), t289));
+    let t372 = P::splat(P::lane(t272, 1)) + t367;
+    let t373 = mul_add(P::splat(P::lane(t212, 1)), t352, t370);
+    let t374 = w(0.17066666666666666) * (P::splat(P::lane(t282, 2)) + t365);
+    // legs 2, 5, 6: leg inertia less weight along the actuator
+    let t375 = w(0.17066666666666666) * (P::splat(P::lane(t282, 2)) + t363);
+    // legs 1, 3, 4: leg inertia less weight along the actuator
+    let t376 = neg_mul_add(P::splat(P::lane(t212, 0)), t352, t372);
+    let t377 = t349 - (P::splat(P::lane(t272, 2)) + t368);
     // legs 1, 3, 4: remaining leg inertia less weight at the platform joint
-    let t300 = w(0.17066666666666666) * t297;
+    let t378 = w(0.17066666666666666) * t373;
     // legs 2, 5, 6: leg inertia less weight along the actuator
-    let t301 = mul_sub(w(0.3413333333333334), t290, w(0.17066666666666666) * t292);
+    let t379 = mul_sub(w(0.3413333333333334), t362, t375);
     // legs 2, 5, 6: remaining leg inertia less weight at the platform joint
-    let t302 = w(0.17066666666666666) * t290;
+    let t380 = w(0.17066666666666666) * t362;
     // legs 1, 3, 4: remaining leg inertia less weight at the platform joint
-    let t303 = w(0.17066666666666666) * t299;
-    let t304 = w(0.17066666666666666) * t298;
+    let t381 = w(0.17066666666666666) * t377;
+    let t382 = w(0.17066666666666666) * t376;
     // legs 1, 3, 4: leg inertia less weight along the actuator
-    let t305 = mul_sub(w(0.3413333333333334), t299, w(0.17066666666666666) * t294);
+    let t383 = mul_sub(w(0.3413333333333334), t377, t374);
+    let t384 = mul_sub(P::splat(P::lane(t263, 2)), w(0.05), t377);
     // legs 2, 5, 6: leg inertia less weight along the actuator
-    let t306 = mul_add(
-        w(0.611),
-        neg_mul_add(P::splat(P::lane(t216, 2)), w(0.05), t290),
-        t301,
-    );
+    let t385 = mul_add(w(0.611), t369, t379);
     // inertia force less weight, without the actuators' own shares
-    let t307 = mul_add(w(0.17066666666666666), t290, t303);
-    let t308 = mul_add(w(0.17066666666666666), t285, t300);
-    let t309 = mul_add(w(0.17066666666666666), t287, t304);
+    let t386 = mul_add(w(0.17066666666666666), t362, t381);
+    let t387 = mul_add(w(0.17066666666666666), t353, t378);
+    let t388 = mul_add(w(0.17066666666666666), t358, t382);
     // legs 1, 3, 4: spring and damper force along the actuator
-    let t310 = t47 - w(0.198);
+    let t389 = t64 - w(0.198);
     // legs 1, 3, 4: leg inertia less weight along the actuator
-    let t311 = neg_mul_add(
-        w(0.611),
-        mul_sub(P::splat(P::lane(t216, 2)), w(0.05), t299),
-        t305,
-    );
+    let t390 = neg_mul_add(w(0.611), t384, t383);
     // legs 2, 5, 6: spring and damper force along the actuator
-    let t312 = t48 - w(0.198);
+    let t391 = t65 - w(0.198);
     // inertia force less weight, without the actuators' own shares
-    let t313 = P::triple([P::lane(t308, 1), P::lane(t309, 1), -P::lane(t307, 1)]);
-    let t314 = P::triple([P::lane(t308, 0), P::lane(t309, 0), -P::lane(t307, 0)]) + t313;
+    let t392 = P::triple([P::lane(t387, 0), P::lane(t388, 0), -P::lane(t386, 0)]);
+    let t393 = P::triple([P::lane(t387, 1), P::lane(t388, 1), -P::lane(t386, 1)]);
+    let t394 = P::triple([P::lane(t387, 2), P::lane(t388, 2), -P::lane(t386, 2)]);
     // its first moments by platform coordinate
-    let t315 = mul_add(t12, t303, t7 * t302);
+    let t395 = mul_add(t15, t381, t9 * t380);
+    let t396 = mul_add(t20, t381, t14 * t380);
+    let t397 = mul_add(t15, t378, t9 * t366);
+    let t398 = mul_add(t20, t378, t14 * t366);
+    let t399 = mul_add(t15, t382, t9 * t371);
+    let t400 = mul_add(t20, t382, t14 * t371);
     // inertia force less weight, without the actuators' own shares
-    let t316 = t314 + P::triple([P::lane(t308, 2), P::lane(t309, 2), -P::lane(t307, 2)]);
+    let t401 = mul_add(w(8.139999999999999), t282, t392 + t393 + t394);
+    let t402 = mul_add(w(2.2551405187698492e-17), t296, t401);
     // its first moments by platform coordinate
-    let t317 = mul_add(t16, t303, t11 * t302);
-    let t318 = mul_add(t12, t300, t7 * t291);
-    let t319 = mul_add(t16, t300, t11 * t291);
-    let t320 = mul_add(t12, t304, t7 * t295);
-    let t321 = mul_add(t16, t304, t11 * t295);
+    let t403 = P::triple([P::lane(t397, 0), P::lane(t399, 0), -P::lane(t395, 0)]);
+    let t404 = P::triple([P::lane(t397, 1), P::lane(t399, 1), -P::lane(t395, 1)]);
     // inertia force less weight, without the actuators' own shares
-    let t322 = mul_add(w(8.139999999999999), t234, t316);
-    let t323 = mul_add(w(2.2551405187698492e-17), t247, t322);
+    let t405 = mul_add(w(6.938893903907228e-18), t294, t402);
     // its first moments by platform coordinate
-    let t324 = P::triple([P::lane(t318, 1), P::lane(t320, 1), -P::lane(t315, 1)]);
-    let t325 = P::triple([P::lane(t318, 0), P::lane(t320, 0), -P::lane(t315, 0)]) + t324;
+    let t406 = P::triple([P::lane(t397, 2), P::lane(t399, 2), -P::lane(t395, 2)]);
+    let t407 = t403 + t404 + t406;
     // inertia force less weight, without the actuators' own shares
-    let t326 = mul_add(w(6.938893903907228e-18), t245, t323);
-    // its first moments by platform coordinate
-    let t327 = t325 + P::triple([P::lane(t318, 2), P::lane(t320, 2), -P::lane(t315, 2)]);
-    // inertia force less weight, without the actuators' own shares
-    let t328 = mul_add(w(0.188852), t251, t326);
+    let t408 = mul_add(w(0.188852), t300, t405);
     // legs 1, 3, 4: force along the actuator that reaches the platform
-    let t329 = neg_mul_add(t310, w(21555.9), t311);
+    let t409 = neg_mul_add(t389, w(21555.9), t390);
     // legs 2, 5, 6: force along the actuator that reaches the platform
-    let t330 = neg_mul_add(w(21555.9), t312, t306);
+    let t410 = neg_mul_add(w(21555.9), t391, t385);
     // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
-    let t331 = mul_add(t59, t330, t60 * t329);
-    let t332 = mul_add(t61, t330, t64 * t329);
-    let t333 = mul_add(t63, t330, t66 * t329);
+    let t411 = mul_add(t82, t410, t83 * t409);
+    let t412 = mul_add(t84, t410, t87 * t409);
+    let t413 = mul_add(t86, t410, t89 * t409);
     // its first moments by platform coordinate
-    let t334 = P::triple([P::lane(t319, 1), P::lane(t321, 1), -P::lane(t317, 1)]);
-    let t335 = P::triple([P::lane(t319, 0), P::lane(t321, 0), -P::lane(t317, 0)]) + t334;
-    let t336 = t335 + P::triple([P::lane(t319, 2), P::lane(t321, 2), -P::lane(t317, 2)]);
-    let t337 = mul_add(w(2.2551405187698492e-17), t234, t327);
-    let t338 = mul_add(w(6.938893903907228e-18), t234, t336);
-    let t339 = mul_add(w(0.032245600000000006), t247, t337);
+    let t414 = P::triple([P::lane(t398, 0), P::lane(t400, 0), -P::lane(t396, 0)]);
+    let t415 = P::triple([P::lane(t398, 1), P::lane(t400, 1), -P::lane(t396, 1)]);
+    let t416 = P::triple([P::lane(t398, 2), P::lane(t400, 2), -P::lane(t396, 2)]);
+    let t417 = t414 + t415 + t416;
     // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
-    let t340 = P::triple([P::lane(t331, 1), P::lane(t332, 1), P::lane(t333, 1)]);
+    let t418 = P::triple([P::lane(t411, 0), P::lane(t412, 0), P::lane(t413, 0)]);
     // its first moments by platform coordinate
-    let t341 = mul_add(w(0.032245600000000006), t245, t338);
+    let t419 = mul_add(w(2.2551405187698492e-17), t282, t407);
+    let t420 = mul_add(w(6.938893903907228e-18), t282, t417);
     // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
-    let t342 = P::triple([P::lane(t331, 0), P::lane(t332, 0), P::lane(t333, 0)]) + t340;
+    let t421 = P::triple([P::lane(t411, 2), P::lane(t412, 2), P::lane(t413, 2)]);
     // its first moments by platform coordinate
-    let t343 = mul_add(w(0.013354412), t251, w(0.188852) * t234);
+    let t422 = mul_add(w(0.032245600000000006), t296, t419);
     // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
-    let t344 = mul_add(t74, t330, t71 * t329);
-    let t345 = mul_add(t79, t330, t72 * t329);
-    let t346 = mul_add(t82, t330, t73 * t329);
-    let t347 = P::triple([P::lane(t331, 2), P::lane(t332, 2), P::lane(t333, 2)]) + t342;
-    // constant and copied elements
-    let t348 = P::triple([
-        base_rotation[0][0],
-        base_rotation[1][0],
-        base_rotation[2][0],
-    ]);
-    let t349 = P::triple([
-        base_rotation[0][1],
-        base_rotation[1][1],
-        base_rotation[2][1],
-    ]);
-    let t350 = P::triple([
-        base_rotation[0][2],
-        base_rotation[1][2],
-        base_rotation[2][2],
-    ]);
+    let t423 = P::triple([P::lane(t411, 1), P::lane(t412, 1), P::lane(t413, 1)]);
+    // its first moments by platform coordinate
+    let t424 = mul_add(w(0.032245600000000006), t294, t420);
+    let t425 = mul_add(w(0.013354412), t300, w(0.188852) * t282);
     // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
-    let t351 = mul_sub(
-        P::splat(P::lane(t328, 1)),
-        t349,
-        neg_mul_add(P::splat(P::lane(t328, 0)), t348, t347),
-    );
-    let t352 = mul_add(P::splat(P::lane(t328, 2)), t350, t351);
-    let t353 = P::triple([P::lane(t344, 1), P::lane(t345, 1), P::lane(t346, 1)]);
-    let t354 = P::triple([P::lane(t344, 0), P::lane(t345, 0), P::lane(t346, 0)]) + t353;
-    let t355 = t354 + P::triple([P::lane(t344, 2), P::lane(t345, 2), P::lane(t346, 2)]);
-    let t356 = P::mul_sub(
-        P::lane(t9, 1),
-        P::lane(t339, 2),
-        P::lane(t9, 2) * P::lane(t339, 1),
-    );
-    let t357 = P::mul_sub(
-        P::lane(t8, 1),
-        P::lane(t341, 2),
-        P::lane(t8, 2) * P::lane(t341, 1),
-    );
-    let t358 = P::mul_sub(
-        P::lane(t9, 0),
-        P::lane(t339, 1),
-        P::lane(t9, 1) * P::lane(t339, 0),
-    );
-    let t359 = P::mul_sub(
-        P::lane(t8, 0),
-        P::lane(t341, 1),
-        P::lane(t8, 1) * P::lane(t341, 0),
-    );
-    let t360 = P::mul_sub(
-        P::lane(t15, 1),
-        P::lane(t343, 2),
-        P::lane(t15, 2) * P::lane(t343, 1),
-    );
-    let t361 = P::mul_sub(
-        P::lane(t9, 2),
-        P::lane(t339, 0),
-        P::lane(t9, 0) * P::lane(t339, 2),
-    );
-    let t362 = P::mul_sub(
-        P::lane(t8, 2),
-        P::lane(t341, 0),
-        P::lane(t8, 0) * P::lane(t341, 2),
-    );
-    let t363 = P::mul_sub(
-        P::lane(t15, 2),
-        P::lane(t343, 0),
-        P::lane(t15, 0) * P::lane(t343, 2),
-    );
-    let t364 = P::mul_sub(
-        P::lane(t15, 0),
-        P::lane(t343, 1),
-        P::lane(t15, 1) * P::lane(t343, 0),
-    );
-    // inertia less external wrench that the actuators must balance
-    let t365 = mul_add(
-        t153,
-        P::splat(platform_acceleration[0]),
-        t155 * P::splat(platform_acceleration[1]),
-    );
+    let t426 = mul_add(t97, t410, t94 * t409);
+    let t427 = mul_add(t102, t410, t95 * t409);
+    let t428 = mul_add(t105, t410, t96 * t409);
+    // constant and copied elements
+    let t429 = P::triple([base_rotation[0][0], base_rotation[1][0], base_rotation[2][0]]);
+    let t430 = P::triple([base_rotation[0][1], base_rotation[1][1], base_rotation[2][1]]);
     // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
-    let t366 = neg_mul_add(t348, P::splat(t360 + (t356 + t357)), t355);
-    // mass matrix M_p of the platform
-    let t367 = platform_rotation[2][1] * c(6.938893903907228e-18);
-    let t368 = platform_rotation[1][1] * c(6.938893903907228e-18);
-    let t369 = P::mul_add(platform_rotation[2][0], c(2.2551405187698492e-17), t367);
-    let t370 = P::mul_add(platform_rotation[1][0], c(2.2551405187698492e-17), t368);
-    // inertia less external wrench that the actuators must balance
-    let t371 = mul_add(t157, P::splat(platform_acceleration[2]), t365);
-    // mass matrix M_p of the platform
-    let t372 = P::mul_add(platform_rotation[2][2], c(0.188852), t369);
-    let t373 = P::mul_add(platform_rotation[1][2], c(0.188852), t370);
+    let t431 = neg_mul_add(P::splat(P::lane(t408, 0)), t429, t421 + (t418 + t423));
+    // constant and copied elements
+    let t432 = P::triple([base_rotation[0][2], base_rotation[1][2], base_rotation[2][2]]);
     // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
-    let t374 = mul_sub(t349, P::splat(t363 + (t361 + t362)), t366);
-    let t375 = mul_add(t350, P::splat(t358 + t359 + t364), t374);
+    let t433 = mul_sub(P::splat(P::lane(t408, 1)), t430, t431);
+    let t434 = mul_add(P::splat(P::lane(t408, 2)), t432, t433);
+    let t435 = P::triple([P::lane(t426, 0), P::lane(t427, 0), P::lane(t428, 0)]);
+    let t436 = P::triple([P::lane(t426, 1), P::lane(t427, 1), P::lane(t428, 1)]);
+    let t437 = P::lane(t12, 1) * P::lane(t422, 0);
+    let t438 = P::lane(t11, 1) * P::lane(t424, 0);
+    let t439 = P::triple([P::lane(t426, 2), P::lane(t427, 2), P::lane(t428, 2)]);
+    let t440 = P::lane(t12, 2) * P::lane(t422, 1);
+    let t441 = P::lane(t11, 2) * P::lane(t424, 1);
+    let t442 = P::lane(t19, 2) * P::lane(t425, 1);
+    let t443 = P::lane(t12, 0) * P::lane(t422, 2);
+    let t444 = P::lane(t11, 0) * P::lane(t424, 2);
+    let t445 = P::mul_sub(P::lane(t11, 1), P::lane(t424, 2), t441);
+    let t446 = P::mul_sub(P::lane(t11, 0), P::lane(t424, 1), t438);
+    let t447 = P::mul_sub(P::lane(t11, 2), P::lane(t424, 0), t444);
+    let t448 = P::lane(t19, 0) * P::lane(t425, 2);
+    let t449 = P::lane(t19, 1) * P::lane(t425, 0);
+    let t450 = P::mul_sub(P::lane(t12, 1), P::lane(t422, 2), t440) + t445;
+    let t451 = P::mul_sub(P::lane(t12, 0), P::lane(t422, 1), t437) + t446;
+    // inertia less external wrench that the actuators must balance
+    let t452 = t181 * P::splat(platform_acceleration[1]);
+    // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
+    let t453 = P::mul_sub(P::lane(t12, 2), P::lane(t422, 0), t443) + t447;
+    let t454 = P::mul_sub(P::lane(t19, 1), P::lane(t425, 2), t442) + t450;
+    // inertia less external wrench that the actuators must balance
+    let t455 = mul_add(t179, P::splat(platform_acceleration[0]), t452);
+    // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
+    let t456 = neg_mul_add(t429, P::splat(t454), t435 + t436 + t439);
+    let t457 = P::mul_sub(P::lane(t19, 2), P::lane(t425, 0), t448) + t453;
+    let t458 = t451 + P::mul_sub(P::lane(t19, 0), P::lane(t425, 1), t449);
+    // mass matrix M_p of the platform
+    let t459 = platform_rotation[2][1] * c(6.938893903907228e-18);
+    let t460 = platform_rotation[1][1] * c(6.938893903907228e-18);
+    let t461 = P::mul_add(platform_rotation[2][0], c(2.2551405187698492e-17), t459);
+    let t462 = P::mul_add(platform_rotation[1][0], c(2.2551405187698492e-17), t460);
+    // inertia less external wrench that the actuators must balance
+    let t463 = mul_add(t183, P::splat(platform_acceleration[2]), t455);
+    // mass matrix M_p of the platform
+    let t464 = P::mul_add(platform_rotation[2][2], c(0.188852), t461);
+    let t465 = P::mul_add(platform_rotation[1][2], c(0.188852), t462);
+    // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
+    let t466 = mul_add(t432, P::splat(t458), mul_sub(t430, P::splat(t457), t456));
     // mass matrix of the legs
-    let t376 = -(P::lane(t116, 2) + (P::lane(t116, 1) + P::lane(t116, 0)));
-    mass_matrix_p[0][3] = t376;
-    mass_matrix_p[3][0] = t376;
+    let t467 = -(P::lane(t139, 2) + (P::lane(t139, 1) + P::lane(t139, 0)));
+    mass_matrix_p[0][3] = t467;
+    mass_matrix_p[3][0] = t467;
     // mass matrix M_p of the platform
-    let t377 = platform_rotation[0][1] * c(6.938893903907228e-18);
-    let t378 = -(t372 + (P::lane(t145, 2) + (P::lane(t145, 1) + P::lane(t145, 0))));
-    mass_matrix_p[1][3] = t378;
-    mass_matrix_p[3][1] = t378;
-    let t379 = P::mul_add(platform_rotation[0][0], c(2.2551405187698492e-17), t377);
-    let t380 = t373 - (P::lane(t146, 2) + (P::lane(t146, 0) + P::lane(t146, 1)));
-    mass_matrix_p[2][3] = t380;
-    mass_matrix_p[3][2] = t380;
-    let t381 = P::mul_add(platform_rotation[0][2], c(0.188852), t379);
+    let t468 = platform_rotation[0][1] * c(6.938893903907228e-18);
+    let t469 = -(t464 + (P::lane(t171, 2) + (P::lane(t171, 1) + P::lane(t171, 0))));
+    mass_matrix_p[1][3] = t469;
+    mass_matrix_p[3][1] = t469;
+    let t470 = P::mul_add(platform_rotation[0][0], c(2.2551405187698492e-17), t468);
+    let t471 = t465 - (P::lane(t172, 2) + (P::lane(t172, 0) + P::lane(t172, 1)));
+    mass_matrix_p[2][3] = t471;
+    mass_matrix_p[3][2] = t471;
+    let t472 = P::mul_add(platform_rotation[0][2], c(0.188852), t470);
     // mass matrix of the legs
-    let t382 = P::triple([t376, t378, t380]);
+    let t473 = P::triple([t467, t469, t471]);
     // inertia less external wrench that the actuators must balance
-    let t383 = mul_add(P::splat(platform_acceleration[3]), t382, t371);
+    let t474 = mul_add(P::splat(platform_acceleration[3]), t473, t463);
     // mass matrix M_p of the platform
-    let t384 = t372 - (P::lane(t148, 2) + (P::lane(t148, 1) + P::lane(t148, 0)));
-    mass_matrix_p[0][4] = t384;
-    mass_matrix_p[4][0] = t384;
+    let t475 = t464 - (P::lane(t174, 2) + (P::lane(t174, 1) + P::lane(t174, 0)));
+    mass_matrix_p[0][4] = t475;
+    mass_matrix_p[4][0] = t475;
     // mass matrix of the legs
-    let t385 = P::lane(t113, 2) + (P::lane(t113, 1) + P::lane(t113, 0));
-    mass_matrix_p[1][4] = t385;
-    mass_matrix_p[4][1] = t385;
+    let t476 = P::lane(t136, 2) + (P::lane(t136, 1) + P::lane(t136, 0));
+    mass_matrix_p[1][4] = t476;
+    mass_matrix_p[4][1] = t476;
     // mass matrix M_p of the platform
-    let t386 = -(P::lane(t147, 2) + (P::lane(t147, 1) + P::lane(t147, 0)) + t381);
-    mass_matrix_p[2][4] = t386;
-    mass_matrix_p[4][2] = t386;
+    let t477 = -(P::lane(t173, 2) + (P::lane(t173, 1) + P::lane(t173, 0)) + t472);
+    mass_matrix_p[2][4] = t477;
+    mass_matrix_p[4][2] = t477;
     // constant and copied elements
-    let t387 = P::triple([external_wrench[0], external_wrench[1], external_wrench[2]]);
+    let t478 = P::triple([external_wrench[0], external_wrench[1], external_wrench[2]]);
     // mass matrix M_p of the platform
-    let t388 = P::triple([t384, t385, t386]);
+    let t479 = P::triple([t475, t476, t477]);
     // inertia less external wrench that the actuators must balance
-    let t389 = mul_add(P::splat(platform_acceleration[4]), t388, t383);
+    let t480 = mul_add(P::splat(platform_acceleration[4]), t479, t474);
     // mass matrix M_p of the platform
-    let t390 = t381 - (P::lane(t151, 2) + (P::lane(t151, 1) + P::lane(t151, 0)));
-    mass_matrix_p[1][5] = t390;
-    mass_matrix_p[5][1] = t390;
-    let t391 = -(t373 + (P::lane(t150, 2) + (P::lane(t150, 0) + P::lane(t150, 1))));
-    mass_matrix_p[0][5] = t391;
-    mass_matrix_p[5][0] = t391;
+    let t481 = t472 - (P::lane(t177, 2) + (P::lane(t177, 1) + P::lane(t177, 0)));
+    mass_matrix_p[1][5] = t481;
+    mass_matrix_p[5][1] = t481;
+    let t482 = -(t465 + (P::lane(t176, 2) + (P::lane(t176, 0) + P::lane(t176, 1))));
+    mass_matrix_p[0][5] = t482;
+    mass_matrix_p[5][0] = t482;
     // constant and copied elements
-    let t392 = P::triple([
-        platform_rotation[1][2],
-        platform_rotation[2][2],
-        platform_rotation[0][2],
-    ]);
+    let t483 =
+        P::triple([platform_rotation[1][2], platform_rotation[2][2], platform_rotation[0][2]]);
     // mass matrix of the legs
-    let t393 = P::triple([t376, t384, t391]);
-    let t394 = -(P::lane(t114, 2) + (P::lane(t114, 1) + P::lane(t114, 0)));
-    mass_matrix_p[2][5] = t394;
-    mass_matrix_p[5][2] = t394;
+    let t484 = P::triple([t467, t475, t482]);
+    let t485 = -(P::lane(t137, 2) + (P::lane(t137, 1) + P::lane(t137, 0)));
+    mass_matrix_p[2][5] = t485;
+    mass_matrix_p[5][2] = t485;
     // mass matrix M_p of the platform
-    let t395 = P::triple([t378, t385, t390]);
-    let t396 = P::triple([t391, t390, t394]);
-    let t397 = P::triple([t380, t386, t394]);
+    let t486 = P::triple([t469, t476, t481]);
+    let t487 = P::triple([t482, t481, t485]);
     // inertia less external wrench that the actuators must balance
-    let t398 = t392 * w(0.031);
+    let t488 = P::splat(platform_acceleration[1]) * t486;
+    // mass matrix M_p of the platform
+    let t489 = P::triple([t471, t477, t485]);
+    // inertia less external wrench that the actuators must balance
+    let t490 = t483 * w(0.031);
     // constant and copied elements
-    let t399 = P::triple([external_wrench[1], external_wrench[2], external_wrench[0]]);
-    let t400 = P::triple([external_wrench[2], external_wrench[0], external_wrench[1]]);
+    let t491 = P::triple([external_wrench[1], external_wrench[2], external_wrench[0]]);
+    let t492 = P::triple([external_wrench[2], external_wrench[0], external_wrench[1]]);
     // inertia less external wrench that the actuators must balance
-    let t401 = mul_add(
-        P::splat(platform_acceleration[0]),
-        t393,
-        P::splat(platform_acceleration[1]) * t395,
-    );
+    let t493 = mul_add(P::splat(platform_acceleration[0]), t484, t488);
     // constant and copied elements
-    let t402 = P::triple([external_wrench[3], external_wrench[4], external_wrench[5]]);
+    let t494 = P::triple([external_wrench[3], external_wrench[4], external_wrench[5]]);
     // inertia less external wrench that the actuators must balance
-    let t403 = mul_add(P::splat(platform_acceleration[2]), t397, t401);
-    let t404 = t352 + mul_add(P::splat(platform_acceleration[5]), t396, t389) - t387;
-    let t405 = mul_add(t179, P::splat(platform_acceleration[3]), t403);
-    let t406 = t399 * P::triple([P::lane(t398, 1), P::lane(t398, 2), P::lane(t398, 0)]);
-    let t407 = mul_add(t189, P::splat(platform_acceleration[4]), t405);
-    let t408 = t375 + mul_add(t195, P::splat(platform_acceleration[5]), t407);
-    let t409 = t408 - (t402 + mul_sub(t398, t400, t406));
+    let t495 = t434 + mul_add(P::splat(platform_acceleration[5]), t487, t480);
+    let t496 = mul_add(P::splat(platform_acceleration[2]), t489, t493);
+    let t497 = t495 - t478;
+    let t498 = P::triple([P::lane(t490, 1), P::lane(t490, 2), P::lane(t490, 0)]);
+    let t499 = mul_add(t210, P::splat(platform_acceleration[3]), t496);
+    let t500 = mul_add(t222, P::splat(platform_acceleration[4]), t499);
+    let t501 = t466 + mul_add(t228, P::splat(platform_acceleration[5]), t500);
+    let t502 = t501 - (t494 + mul_sub(t490, t492, t491 * t498));
     // legs 6, 2, 5: gradient of the actuator length
-    let t410 = P::triple([P::lane(t63, 2), P::lane(t63, 0), P::lane(t63, 1)]);
+    let t503 = P::triple([P::lane(t86, 2), P::lane(t86, 0), P::lane(t86, 1)]);
     // legs 5, 6, 2: gradient of the actuator length
-    let t411 = P::triple([P::lane(t63, 1), P::lane(t63, 2), P::lane(t63, 0)]);
+    let t504 = P::triple([P::lane(t86, 1), P::lane(t86, 2), P::lane(t86, 0)]);
     // legs 6, 2, 5: gradient of the actuator length
-    let t412 = P::triple([P::lane(t61, 2), P::lane(t61, 0), P::lane(t61, 1)]);
+    let t505 = P::triple([P::lane(t84, 2), P::lane(t84, 0), P::lane(t84, 1)]);
     // legs 5, 6, 2: gradient of the actuator length
-    let t413 = P::triple([P::lane(t61, 1), P::lane(t61, 2), P::lane(t61, 0)]);
+    let t506 = P::triple([P::lane(t84, 1), P::lane(t84, 2), P::lane(t84, 0)]);
     // force along the actuator that balances the remaining wrench
-    let t414 = mul_sub(t410, t413, t411 * t412);
+    let t507 = mul_sub(t503, t506, t504 * t505);
     // legs 5, 6, 2: gradient of the actuator length
-    let t415 = P::triple([P::lane(t59, 1), P::lane(t59, 2), P::lane(t59, 0)]);
+    let t508 = P::triple([P::lane(t82, 1), P::lane(t82, 2), P::lane(t82, 0)]);
     // legs 6, 2, 5: gradient of the actuator length
-    let t416 = P::triple([P::lane(t59, 2), P::lane(t59, 0), P::lane(t59, 1)]);
+    let t509 = P::triple([P::lane(t82, 2), P::lane(t82, 0), P::lane(t82, 1)]);
     // force along the actuator that balances the remaining wrench
-    let t417 = mul_sub(t411, t416, t410 * t415);
-    let t418 = mul_sub(t412, t415, t413 * t416);
-    let t419 = P::mul_add(
-        P::lane(t59, 0),
-        P::lane(t414, 0),
-        P::lane(t59, 1) * P::lane(t414, 1),
-    );
-    let t420 = mul_add(
-        t60,
-        P::splat(P::lane(t414, 0)),
-        t64 * P::splat(P::lane(t417, 0)),
-    );
-    let t421 = P::mul_add(P::lane(t59, 2), P::lane(t414, 2), t419);
-    let t422 = mul_add(
-        t414,
-        P::splat(P::lane(t404, 0)),
-        t417 * P::splat(P::lane(t404, 1)),
-    );
-    let t423 = mul_add(
-        t60,
-        P::splat(P::lane(t414, 1)),
-        t64 * P::splat(P::lane(t417, 1)),
-    );
-    let t424 = mul_add(
-        t60,
-        P::splat(P::lane(t414, 2)),
-        t64 * P::splat(P::lane(t417, 2)),
-    );
-    let t425 = mul_add(t66, P::splat(P::lane(t418, 0)), t420);
+    let t510 = mul_sub(t504, t509, t503 * t508);
+    let t511 = mul_sub(t505, t508, t506 * t509);
+    let t512 = P::lane(t82, 1) * P::lane(t507, 1);
+    let t513 = t87 * P::splat(P::lane(t510, 0));
+    let t514 = P::mul_add(P::lane(t82, 0), P::lane(t507, 0), t512);
+    let t515 = t510 * P::splat(P::lane(t497, 1));
+    let t516 = t87 * P::splat(P::lane(t510, 1));
+    let t517 = mul_add(t83, P::splat(P::lane(t507, 0)), t513);
+    let t518 = t87 * P::splat(P::lane(t510, 2));
+    let t519 = P::mul_add(P::lane(t82, 2), P::lane(t507, 2), t514);
+    let t520 = mul_add(t507, P::splat(P::lane(t497, 0)), t515);
+    let t521 = mul_add(t83, P::splat(P::lane(t507, 1)), t516);
+    let t522 = mul_add(t83, P::splat(P::lane(t507, 2)), t518);
+    let t523 = mul_add(t89, P::splat(P::lane(t511, 0)), t517);
     // leg 2: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
-    let t426 = P::triple([P::lane(t74, 0), P::lane(t79, 0), P::lane(t82, 0)]);
+    let t524 = P::triple([P::lane(t97, 0), P::lane(t102, 0), P::lane(t105, 0)]);
     // force along the actuator that balances the remaining wrench
-    let t427 = mul_add(t418, P::splat(P::lane(t404, 2)), t422);
-    let t428 = mul_add(t66, P::splat(P::lane(t418, 1)), t423);
+    let t525 = mul_add(t511, P::splat(P::lane(t497, 2)), t520);
+    let t526 = mul_add(t89, P::splat(P::lane(t511, 1)), t521);
     // leg 5: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
-    let t429 = P::triple([P::lane(t74, 1), P::lane(t79, 1), P::lane(t82, 1)]);
+    let t527 = P::triple([P::lane(t97, 1), P::lane(t102, 1), P::lane(t105, 1)]);
     // force along the actuator that balances the remaining wrench
-    let t430 = mul_add(t66, P::splat(P::lane(t418, 2)), t424);
+    let t528 = mul_add(t89, P::splat(P::lane(t511, 2)), t522);
     // leg 6: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
-    let t431 = P::triple([P::lane(t74, 2), P::lane(t79, 2), P::lane(t82, 2)]);
+    let t529 = P::triple([P::lane(t97, 2), P::lane(t102, 2), P::lane(t105, 2)]);
     // force along the actuator that balances the remaining wrench
-    let t432 = mul_sub(t72, P::splat(t421), P::splat(P::lane(t79, 0)) * t425);
-    let t433 = mul_sub(t73, P::splat(t421), P::splat(P::lane(t82, 0)) * t425);
-    let t434 = mul_sub(t71, P::splat(t421), P::splat(P::lane(t74, 0)) * t425);
-    let t435 = neg_mul_add(P::splat(P::lane(t79, 1)), t428, t432);
-    let t436 = neg_mul_add(P::splat(P::lane(t82, 1)), t428, t433);
-    let t437 = neg_mul_add(P::splat(P::lane(t74, 1)), t428, t434);
-    let t438 = mul_sub(t409, P::splat(t421), t426 * P::splat(P::lane(t427, 0)));
-    let t439 = neg_mul_add(P::splat(P::lane(t79, 2)), t430, t435);
-    let t440 = neg_mul_add(P::splat(P::lane(t82, 2)), t430, t436);
-    let t441 = neg_mul_add(P::splat(P::lane(t74, 2)), t430, t437);
-    let t442 = neg_mul_add(t429, P::splat(P::lane(t427, 1)), t438);
-    let t443 = P::triple([P::lane(t439, 2), P::lane(t439, 0), P::lane(t439, 1)]);
-    let t444 = P::triple([P::lane(t439, 1), P::lane(t439, 2), P::lane(t439, 0)]);
-    let t445 = P::triple([P::lane(t440, 1), P::lane(t440, 2), P::lane(t440, 0)]);
-    let t446 = P::triple([P::lane(t440, 2), P::lane(t440, 0), P::lane(t440, 1)]);
-    let t447 = neg_mul_add(t431, P::splat(P::lane(t427, 2)), t442);
-    let t448 = P::triple([P::lane(t441, 1), P::lane(t441, 2), P::lane(t441, 0)]);
-    let t449 = P::triple([P::lane(t441, 2), P::lane(t441, 0), P::lane(t441, 1)]);
-    let t450 = mul_sub(t444, t446, t443 * t445);
-    let t451 = mul_sub(t443, t448, t444 * t449);
-    let t452 = P::splat(P::lane(t447, 1)) * mul_sub(t445, t449, t446 * t448);
-    let t453 = P::triple([P::lane(t425, 0), P::lane(t428, 0), P::lane(t430, 0)]);
-    let t454 = P::mul_add(
-        P::lane(t441, 0),
-        P::lane(t450, 0),
-        P::lane(t441, 1) * P::lane(t450, 1),
-    );
-    let t455 = mul_add(
-        t451,
-        P::splat(P::lane(t447, 2)),
-        mul_add(t450, P::splat(P::lane(t447, 0)), t452),
-    );
-    let t456 = P::triple([P::lane(t425, 1), P::lane(t428, 1), P::lane(t430, 1)]);
-    let t457 = P::triple([P::lane(t425, 2), P::lane(t428, 2), P::lane(t430, 2)]);
-    let t458 = t455
-        * P::splat(c(1.0) / P::mul_add(P::lane(t441, 2), P::lane(t450, 2), t454));
-    let t459 = neg_mul_add(t453, P::splat(P::lane(t458, 0)), t427);
-    let t460 = neg_mul_add(t456, P::splat(P::lane(t458, 1)), t459);
-    let t461 = P::splat(c(1.0) / t421)
-        * neg_mul_add(t457, P::splat(P::lane(t458, 2)), t460);
+    let t530 = mul_sub(t95, P::splat(t519), P::splat(P::lane(t102, 0)) * t523);
+    let t531 = mul_sub(t96, P::splat(t519), P::splat(P::lane(t105, 0)) * t523);
+    let t532 = mul_sub(t94, P::splat(t519), P::splat(P::lane(t97, 0)) * t523);
+    let t533 = neg_mul_add(P::splat(P::lane(t102, 1)), t526, t530);
+    let t534 = neg_mul_add(P::splat(P::lane(t105, 1)), t526, t531);
+    let t535 = neg_mul_add(P::splat(P::lane(t97, 1)), t526, t532);
+    let t536 = mul_sub(t502, P::splat(t519), t524 * P::splat(P::lane(t525, 0)));
+    let t537 = neg_mul_add(P::splat(P::lane(t102, 2)), t528, t533);
+    let t538 = neg_mul_add(P::splat(P::lane(t105, 2)), t528, t534);
+    let t539 = neg_mul_add(P::splat(P::lane(t97, 2)), t528, t535);
+    let t540 = neg_mul_add(t527, P::splat(P::lane(t525, 1)), t536);
+    let t541 = P::triple([P::lane(t537, 2), P::lane(t537, 0), P::lane(t537, 1)]);
+    let t542 = P::triple([P::lane(t537, 1), P::lane(t537, 2), P::lane(t537, 0)]);
+    let t543 = P::triple([P::lane(t538, 1), P::lane(t538, 2), P::lane(t538, 0)]);
+    let t544 = P::triple([P::lane(t538, 2), P::lane(t538, 0), P::lane(t538, 1)]);
+    let t545 = neg_mul_add(t529, P::splat(P::lane(t525, 2)), t540);
+    let t546 = P::triple([P::lane(t539, 1), P::lane(t539, 2), P::lane(t539, 0)]);
+    let t547 = P::triple([P::lane(t539, 2), P::lane(t539, 0), P::lane(t539, 1)]);
+    let t548 = mul_sub(t542, t544, t541 * t543);
+    let t549 = mul_sub(t541, t546, t542 * t547);
+    let t550 = P::splat(P::lane(t545, 1)) * mul_sub(t543, t547, t544 * t546);
+    let t551 = P::triple([P::lane(t523, 0), P::lane(t526, 0), P::lane(t528, 0)]);
+    let t552 = P::lane(t539, 1) * P::lane(t548, 1);
+    let t553 = mul_add(t548, P::splat(P::lane(t545, 0)), t550);
+    let t554 = P::mul_add(P::lane(t539, 0), P::lane(t548, 0), t552);
+    let t555 = P::triple([P::lane(t523, 1), P::lane(t526, 1), P::lane(t528, 1)]);
+    let t556 = P::triple([P::lane(t523, 2), P::lane(t526, 2), P::lane(t528, 2)]);
+    let t557 = c(1.0) / P::mul_add(P::lane(t539, 2), P::lane(t548, 2), t554);
+    let t558 = mul_add(t549, P::splat(P::lane(t545, 2)), t553) * P::splat(t557);
+    let t559 = neg_mul_add(t551, P::splat(P::lane(t558, 0)), t525);
+    let t560 = neg_mul_add(t555, P::splat(P::lane(t558, 1)), t559);
+    let t561 = neg_mul_add(t556, P::splat(P::lane(t558, 2)), t560);
+    let t562 = P::splat(c(1.0) / t519) * t561;
     // leg 1: actuator length d
-    actuator_length[0] = P::lane(t47, 0);
+    actuator_length[0] = P::lane(t64, 0);
     // leg 2: actuator length d
-    actuator_length[1] = P::lane(t48, 0);
+    actuator_length[1] = P::lane(t65, 0);
     // leg 3: actuator length d
-    actuator_length[2] = P::lane(t47, 1);
+    actuator_length[2] = P::lane(t64, 1);
     // leg 4: actuator length d
-    actuator_length[3] = P::lane(t47, 2);
+    actuator_length[3] = P::lane(t64, 2);
     // leg 5: actuator length d
-    actuator_length[4] = P::lane(t48, 1);
+    actuator_length[4] = P::lane(t65, 1);
     // leg 6: actuator length d
-    actuator_length[5] = P::lane(t48, 2);
+    actuator_length[5] = P::lane(t65, 2);
     // leg 1: actuator velocity d'
-    actuator_velocity[0] = P::lane(t228, 0);
+    actuator_velocity[0] = P::lane(t275, 0);
     // leg 2: actuator velocity d'
-    actuator_velocity[1] = P::lane(t230, 0);
+    actuator_velocity[1] = P::lane(t277, 0);
     // leg 3: actuator velocity d'
-    actuator_velocity[2] = P::lane(t228, 1);
+    actuator_velocity[2] = P::lane(t275, 1);
     // leg 4: actuator velocity d'
-    actuator_velocity[3] = P::lane(t228, 2);
+    actuator_velocity[3] = P::lane(t275, 2);
     // leg 5: actuator velocity d'
-    actuator_velocity[4] = P::lane(t230, 1);
+    actuator_velocity[4] = P::lane(t277, 1);
     // leg 6: actuator velocity d'
-    actuator_velocity[5] = P::lane(t230, 2);
+    actuator_velocity[5] = P::lane(t277, 2);
     // leg 1: gradient of the actuator length
-    jacobian_dp[0][0] = P::lane(t60, 0);
-    jacobian_dp[0][1] = P::lane(t64, 0);
-    jacobian_dp[0][2] = P::lane(t66, 0);
+    jacobian_dp[0][0] = P::lane(t83, 0);
+    jacobian_dp[0][1] = P::lane(t87, 0);
+    jacobian_dp[0][2] = P::lane(t89, 0);
     // leg 1: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
-    jacobian_dp[0][3] = P::lane(t71, 0);
-    jacobian_dp[0][4] = P::lane(t72, 0);
-    jacobian_dp[0][5] = P::lane(t73, 0);
+    jacobian_dp[0][3] = P::lane(t94, 0);
+    jacobian_dp[0][4] = P::lane(t95, 0);
+    jacobian_dp[0][5] = P::lane(t96, 0);
     // leg 2: gradient of the actuator length
-    jacobian_dp[1][0] = P::lane(t59, 0);
-    jacobian_dp[1][1] = P::lane(t61, 0);
-    jacobian_dp[1][2] = P::lane(t63, 0);
+    jacobian_dp[1][0] = P::lane(t82, 0);
+    jacobian_dp[1][1] = P::lane(t84, 0);
+    jacobian_dp[1][2] = P::lane(t86, 0);
     // leg 2: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
-    jacobian_dp[1][3] = P::lane(t74, 0);
-    jacobian_dp[1][4] = P::lane(t79, 0);
-    jacobian_dp[1][5] = P::lane(t82, 0);
+    jacobian_dp[1][3] = P::lane(t97, 0);
+    jacobian_dp[1][4] = P::lane(t102, 0);
+    jacobian_dp[1][5] = P::lane(t105, 0);
     // leg 3: gradient of the actuator length
-    jacobian_dp[2][0] = P::lane(t60, 1);
-    jacobian_dp[2][1] = P::lane(t64, 1);
-    jacobian_dp[2][2] = P::lane(t66, 1);
+    jacobian_dp[2][0] = P::lane(t83, 1);
+    jacobian_dp[2][1] = P::lane(t87, 1);
+    jacobian_dp[2][2] = P::lane(t89, 1);
     // leg 3: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
-    jacobian_dp[2][3] = P::lane(t71, 1);
-    jacobian_dp[2][4] = P::lane(t72, 1);
-    jacobian_dp[2][5] = P::lane(t73, 1);
+    jacobian_dp[2][3] = P::lane(t94, 1);
+    jacobian_dp[2][4] = P::lane(t95, 1);
+    jacobian_dp[2][5] = P::lane(t96, 1);
     // leg 4: gradient of the actuator length
-    jacobian_dp[3][0] = P::lane(t60, 2);
-    jacobian_dp[3][1] = P::lane(t64, 2);
-    jacobian_dp[3][2] = P::lane(t66, 2);
+    jacobian_dp[3][0] = P::lane(t83, 2);
+    jacobian_dp[3][1] = P::lane(t87, 2);
+    jacobian_dp[3][2] = P::lane(t89, 2);
     // leg 4: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
-    jacobian_dp[3][3] = P::lane(t71, 2);
-    jacobian_dp[3][4] = P::lane(t72, 2);
-    jacobian_dp[3][5] = P::lane(t73, 2);
+    jacobian_dp[3][3] = P::lane(t94, 2);
+    jacobian_dp[3][4] = P::lane(t95, 2);
+    jacobian_dp[3][5] = P::lane(t96, 2);
     // leg 5: gradient of the actuator length
-    jacobian_dp[4][0] = P::lane(t59, 1);
-    jacobian_dp[4][1] = P::lane(t61, 1);
-    jacobian_dp[4][2] = P::lane(t63, 1);
+    jacobian_dp[4][0] = P::lane(t82, 1);
+    jacobian_dp[4][1] = P::lane(t84, 1);
+    jacobian_dp[4][2] = P::lane(t86, 1);
     // leg 5: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
-    jacobian_dp[4][3] = P::lane(t74, 1);
-    jacobian_dp[4][4] = P::lane(t79, 1);
-    jacobian_dp[4][5] = P::lane(t82, 1);
+    jacobian_dp[4][3] = P::lane(t97, 1);
+    jacobian_dp[4][4] = P::lane(t102, 1);
+    jacobian_dp[4][5] = P::lane(t105, 1);
     // leg 6: gradient of the actuator length
-    jacobian_dp[5][0] = P::lane(t59, 2);
-    jacobian_dp[5][1] = P::lane(t61, 2);
-    jacobian_dp[5][2] = P::lane(t63, 2);
+    jacobian_dp[5][0] = P::lane(t82, 2);
+    jacobian_dp[5][1] = P::lane(t84, 2);
+    jacobian_dp[5][2] = P::lane(t86, 2);
     // leg 6: actuator Jacobian of the platform, d' = J_dp v_p - J_db v_b
-    jacobian_dp[5][3] = P::lane(t74, 2);
-    jacobian_dp[5][4] = P::lane(t79, 2);
-    jacobian_dp[5][5] = P::lane(t82, 2);
+    jacobian_dp[5][3] = P::lane(t97, 2);
+    jacobian_dp[5][4] = P::lane(t102, 2);
+    jacobian_dp[5][5] = P::lane(t105, 2);
     // mass matrix M_p of the platform
-    mass_matrix_p[0][0] = P::lane(t153, 0);
+    mass_matrix_p[0][0] = P::lane(t179, 0);
     // mass matrix of the legs
-    mass_matrix_p[0][1] = P::lane(t135, 1);
-    mass_matrix_p[0][2] = P::lane(t135, 2);
-    mass_matrix_p[1][0] = P::lane(t135, 1);
+    mass_matrix_p[0][1] = P::lane(t159, 1);
+    mass_matrix_p[0][2] = P::lane(t159, 2);
+    mass_matrix_p[1][0] = P::lane(t159, 1);
     // mass matrix M_p of the platform
-    mass_matrix_p[1][1] = P::lane(t155, 1);
+    mass_matrix_p[1][1] = P::lane(t181, 1);
     // mass matrix of the legs
-    mass_matrix_p[1][2] = P::lane(t140, 2);
-    mass_matrix_p[2][0] = P::lane(t135, 2);
-    mass_matrix_p[2][1] = P::lane(t140, 2);
+    mass_matrix_p[1][2] = P::lane(t165, 2);
+    mass_matrix_p[2][0] = P::lane(t159, 2);
+    mass_matrix_p[2][1] = P::lane(t165, 2);
     // mass matrix M_p of the platform
-    mass_matrix_p[2][2] = P::lane(t157, 2);
-    mass_matrix_p[3][3] = P::lane(t179, 0);
-    mass_matrix_p[3][4] = P::lane(t179, 1);
-    mass_matrix_p[3][5] = P::lane(t179, 2);
-    mass_matrix_p[4][3] = P::lane(t179, 1);
-    mass_matrix_p[4][4] = P::lane(t189, 1);
-    mass_matrix_p[4][5] = P::lane(t189, 2);
-    mass_matrix_p[5][3] = P::lane(t179, 2);
-    mass_matrix_p[5][4] = P::lane(t189, 2);
-    mass_matrix_p[5][5] = P::lane(t195, 2);
+    mass_matrix_p[2][2] = P::lane(t183, 2);
+    mass_matrix_p[3][3] = P::lane(t210, 0);
+    mass_matrix_p[3][4] = P::lane(t210, 1);
+    mass_matrix_p[3][5] = P::lane(t210, 2);
+    mass_matrix_p[4][3] = P::lane(t210, 1);
+    mass_matrix_p[4][4] = P::lane(t222, 1);
+    mass_matrix_p[4][5] = P::lane(t222, 2);
+    mass_matrix_p[5][3] = P::lane(t210, 2);
+    mass_matrix_p[5][4] = P::lane(t222, 2);
+    mass_matrix_p[5][5] = P::lane(t228, 2);
     // bias - M_b v_b', so that M_p v_p' + total_bias = J_dp^T F + W_ext
-    total_bias[0] = P::lane(t352, 0);
-    total_bias[1] = P::lane(t352, 1);
-    total_bias[2] = P::lane(t352, 2);
-    total_bias[3] = P::lane(t375, 0);
-    total_bias[4] = P::lane(t375, 1);
-    total_bias[5] = P::lane(t375, 2);
+    total_bias[0] = P::lane(t434, 0);
+    total_bias[1] = P::lane(t434, 1);
+    total_bias[2] = P::lane(t434, 2);
+    total_bias[3] = P::lane(t466, 0);
+    total_bias[4] = P::lane(t466, 1);
+    total_bias[5] = P::lane(t466, 2);
     // force along the actuator that balances the remaining wrench
-    inverse_dynamics[0] = P::lane(t458, 0);
-    inverse_dynamics[1] = P::lane(t461, 0);
-    inverse_dynamics[2] = P::lane(t458, 1);
-    inverse_dynamics[3] = P::lane(t458, 2);
-    inverse_dynamics[4] = P::lane(t461, 1);
-    inverse_dynamics[5] = P::lane(t461, 2);
+    inverse_dynamics[0] = P::lane(t558, 0);
+    inverse_dynamics[1] = P::lane(t562, 0);
+    inverse_dynamics[2] = P::lane(t558, 1);
+    inverse_dynamics[3] = P::lane(t558, 2);
+    inverse_dynamics[4] = P::lane(t562, 1);
+    inverse_dynamics[5] = P::lane(t562, 2);
 }
 
 /// Platform acceleration for given actuator forces, equation (49).
@@ -25799,791 +22927,741 @@ pub fn forward_dynamics_in_lanes<P: Triple>(
     // constant and copied elements
     let t1 = P::triple([base_rotation[1][0], base_rotation[1][1], base_rotation[1][2]]);
     let t2 = P::triple([base_rotation[0][0], base_rotation[0][1], base_rotation[0][2]]);
-    let t3 = P::triple([base_rotation[2][0], base_rotation[2][1], base_rotation[2][2]]);
     // rotation of the platform seen from the base
-    let t4 = mul_add(
-        t2,
-        P::splat(platform_rotation[0][1]),
-        t1 * P::splat(platform_rotation[1][1]),
-    );
-    let t5 = mul_add(
-        t2,
-        P::splat(platform_rotation[0][0]),
-        t1 * P::splat(platform_rotation[1][0]),
-    );
+    let t3 = t1 * P::splat(platform_rotation[1][1]);
+    let t4 = t1 * P::splat(platform_rotation[1][0]);
+    // constant and copied elements
+    let t5 = P::triple([base_rotation[2][0], base_rotation[2][1], base_rotation[2][2]]);
+    // rotation of the platform seen from the base
+    let t6 = mul_add(t2, P::splat(platform_rotation[0][1]), t3);
+    let t7 = mul_add(t2, P::splat(platform_rotation[0][0]), t4);
     // platform origin seen from the base
-    let t6 = t1 * P::splat(platform_position[1] - base_position[1]);
+    let t8 = t1 * P::splat(platform_position[1] - base_position[1]);
     // constant and copied elements
-    let t7 = P::triple([
-        c(0.1159110991546882),
-        c(0.1159110991546882),
-        c(-0.031058285412302475),
-    ]);
+    let t9 = P::triple([c(0.1159110991546882), c(0.1159110991546882), c(-0.031058285412302475)]);
     // rotation of the platform seen from the base
-    let t8 = mul_add(t3, P::splat(platform_rotation[2][1]), t4);
-    let t9 = mul_add(t3, P::splat(platform_rotation[2][0]), t5);
+    let t10 = t1 * P::splat(platform_rotation[1][2]);
+    let t11 = mul_add(t5, P::splat(platform_rotation[2][1]), t6);
+    let t12 = mul_add(t5, P::splat(platform_rotation[2][0]), t7);
     // platform origin seen from the base
-    let t10 = mul_add(t2, P::splat(platform_position[0] - base_position[0]), t6);
+    let t13 = mul_add(t2, P::splat(platform_position[0] - base_position[0]), t8);
     // constant and copied elements
-    let t11 = P::triple([
-        c(-0.03105828541230249),
-        c(0.03105828541230249),
-        c(0.1159110991546882),
-    ]);
-    let t12 = P::triple([
-        c(-0.0848528137423857),
-        c(-0.0848528137423857),
-        c(-0.031058285412302475),
-    ]);
+    let t14 = P::triple([c(-0.03105828541230249), c(0.03105828541230249), c(0.1159110991546882)]);
+    let t15 = P::triple([c(-0.0848528137423857), c(-0.0848528137423857), c(-0.031058285412302475)]);
     // rotation of the platform seen from the base
-    let t13 = mul_add(
-        t2,
-        P::splat(platform_rotation[0][2]),
-        t1 * P::splat(platform_rotation[1][2]),
-    );
+    let t16 = mul_add(t2, P::splat(platform_rotation[0][2]), t10);
     // platform origin seen from the base
-    let t14 = mul_add(t3, P::splat(platform_position[2] - base_position[2]), t10);
+    let t17 = mul_add(t5, P::splat(platform_position[2] - base_position[2]), t13);
+    // legs 1, 2, 3: platform joint from the platform origin
+    let t18 = t14 * P::splat(P::lane(t11, 0));
     // rotation of the platform seen from the base
-    let t15 = mul_add(t3, P::splat(platform_rotation[2][2]), t13);
+    let t19 = mul_add(t5, P::splat(platform_rotation[2][2]), t16);
     // constant and copied elements
-    let t16 = P::triple([
-        c(0.08485281374238571),
-        c(-0.08485281374238571),
-        c(-0.1159110991546882),
-    ]);
-    // legs 1, 2, 3: platform joint from the platform origin
-    let t17 = mul_add(t7, P::splat(P::lane(t9, 0)), t11 * P::splat(P::lane(t8, 0)));
+    let t20 = P::triple([c(0.08485281374238571), c(-0.08485281374238571), c(-0.1159110991546882)]);
     // legs 4, 5, 6: platform joint from the platform origin
-    let t18 = mul_add(t12, P::splat(P::lane(t9, 0)), P::splat(P::lane(t8, 0)) * t16);
-    // constant and copied elements
-    let t19 = P::triple([
-        c(0.1316436662914507),
-        c(0.1316436662914507),
-        c(0.040491189781895726),
-    ]);
+    let t21 = P::splat(P::lane(t11, 0)) * t20;
     // legs 1, 2, 3: platform joint from the platform origin
-    let t20 = mul_add(t7, P::splat(P::lane(t9, 1)), t11 * P::splat(P::lane(t8, 1)));
+    let t22 = mul_add(t9, P::splat(P::lane(t12, 0)), t18);
+    let t23 = t14 * P::splat(P::lane(t11, 1));
     // legs 4, 5, 6: platform joint from the platform origin
-    let t21 = mul_add(t12, P::splat(P::lane(t9, 1)), P::splat(P::lane(t8, 1)) * t16);
-    // legs 1, 2, 3: platform joint from the base point
-    let t22 = P::triple([
-        c(0.12275970481124972),
-        c(-0.12275970481124972),
-        c(-0.17538661166134234),
-    ]);
-    let t23 = P::triple([
-        c(-0.1316436662914507),
-        c(-0.1316436662914507),
-        c(-0.040491189781895726),
-    ]);
-    // legs 4, 5, 6: platform joint from the base point
-    let t24 = P::triple([
-        c(0.17213485607334636),
-        c(0.17213485607334636),
-        c(-0.040491189781895726),
-    ]);
-    // legs 1, 2, 3: platform joint from the base point
-    let t25 = t17 + P::splat(P::lane(t14, 0)) + t23;
+    let t24 = P::splat(P::lane(t11, 1)) * t20;
+    let t25 = mul_add(t15, P::splat(P::lane(t12, 0)), t21);
+    // constant and copied elements
+    let t26 = P::triple([c(0.1316436662914507), c(0.1316436662914507), c(0.040491189781895726)]);
     // legs 1, 2, 3: platform joint from the platform origin
-    let t26 = mul_add(t7, P::splat(P::lane(t9, 2)), t11 * P::splat(P::lane(t8, 2)));
-    // legs 4, 5, 6: platform joint from the base point
-    let t27 = P::triple([
-        c(-0.052626906850092664),
-        c(0.052626906850092664),
-        c(0.17538661166134234),
-    ]);
-    let t28 = P::splat(P::lane(t14, 0)) + t18 + t24;
-    // constant and copied elements
-    let t29 = P::triple([
-        c(-0.12275970481124972),
-        c(0.12275970481124972),
-        c(0.17538661166134234),
-    ]);
+    let t27 = mul_add(t9, P::splat(P::lane(t12, 1)), t23);
     // legs 4, 5, 6: platform joint from the platform origin
-    let t30 = mul_add(t12, P::splat(P::lane(t9, 2)), t16 * P::splat(P::lane(t8, 2)));
+    let t28 = mul_add(t15, P::splat(P::lane(t12, 1)), t24);
+    // legs 1, 2, 3: platform joint from the platform origin
+    let t29 = t14 * P::splat(P::lane(t11, 2));
+    // legs 4, 5, 6: platform joint from the platform origin
+    let t30 = t20 * P::splat(P::lane(t11, 2));
     // legs 1, 2, 3: platform joint from the base point
-    let t31 = t22 + (t20 + P::splat(P::lane(t14, 1)));
+    let t31 = P::triple([c(0.12275970481124972), c(-0.12275970481124972), c(-0.17538661166134234)]);
+    let t32 = P::triple([c(-0.1316436662914507), c(-0.1316436662914507), c(-0.040491189781895726)]);
     // legs 4, 5, 6: platform joint from the base point
-    let t32 = t27 + (t21 + P::splat(P::lane(t14, 1)));
+    let t33 = P::triple([c(0.17213485607334636), c(0.17213485607334636), c(-0.040491189781895726)]);
+    // legs 1, 2, 3: platform joint from the base point
+    let t34 = t22 + P::splat(P::lane(t17, 0)) + t32;
+    // legs 1, 2, 3: platform joint from the platform origin
+    let t35 = mul_add(t9, P::splat(P::lane(t12, 2)), t29);
+    // legs 4, 5, 6: platform joint from the base point
+    let t36 =
+        P::triple([c(-0.052626906850092664), c(0.052626906850092664), c(0.17538661166134234)]);
+    let t37 = P::splat(P::lane(t17, 0)) + t25 + t33;
     // constant and copied elements
-    let t33 = P::triple([
-        c(0.052626906850092664),
-        c(-0.052626906850092664),
-        c(-0.17538661166134234),
-    ]);
-    let t34 = P::triple([
-        c(-0.17213485607334636),
-        c(-0.17213485607334636),
-        c(0.040491189781895726),
-    ]);
+    let t38 = P::triple([c(-0.12275970481124972), c(0.12275970481124972), c(0.17538661166134234)]);
+    // legs 4, 5, 6: platform joint from the platform origin
+    let t39 = mul_add(t15, P::splat(P::lane(t12, 2)), t30);
     // legs 1, 2, 3: platform joint from the base point
-    let t35 = t26 + P::splat(P::lane(t14, 2));
+    let t40 = t31 + (t27 + P::splat(P::lane(t17, 1)));
     // legs 4, 5, 6: platform joint from the base point
-    let t36 = t30 + P::splat(P::lane(t14, 2));
+    let t41 = t36 + (t28 + P::splat(P::lane(t17, 1)));
+    // constant and copied elements
+    let t42 =
+        P::triple([c(0.052626906850092664), c(-0.052626906850092664), c(-0.17538661166134234)]);
+    let t43 =
+        P::triple([c(-0.17213485607334636), c(-0.17213485607334636), c(0.040491189781895726)]);
+    // legs 1, 2, 3: platform joint from the base point
+    let t44 = t35 + P::splat(P::lane(t17, 2));
     // angular velocity of the base
-    let t37 = mul_add(t2, P::splat(base_velocity[3]), t1 * P::splat(base_velocity[4]));
-    let t38 = mul_add(t3, P::splat(base_velocity[5]), t37);
+    let t45 = t1 * P::splat(base_velocity[4]);
+    // legs 4, 5, 6: platform joint from the base point
+    let t46 = t39 + P::splat(P::lane(t17, 2));
+    // angular velocity of the base
+    let t47 = mul_add(t2, P::splat(base_velocity[3]), t45);
     // legs 1, 2, 3: extent of the rod along the actuator axis
-    let t39 = sqrt(w(0.042435999999999995) - mul_add(t25, t25, t31 * t31));
+    let t48 = w(0.042435999999999995) - mul_add(t34, t34, t40 * t40);
     // angular velocity of the platform
-    let t40 = mul_add(
-        t2,
-        P::splat(platform_velocity[3]),
-        t1 * P::splat(platform_velocity[4]),
-    );
+    let t49 = t1 * P::splat(platform_velocity[4]);
     // legs 4, 5, 6: extent of the rod along the actuator axis
-    let t41 = sqrt(w(0.042435999999999995) - mul_add(t28, t28, t32 * t32));
+    let t50 = w(0.042435999999999995) - mul_add(t37, t37, t41 * t41);
+    // angular velocity of the base
+    let t51 = mul_add(t5, P::splat(base_velocity[5]), t47);
+    // legs 1, 2, 3: extent of the rod along the actuator axis
+    let t52 = sqrt(t48);
     // angular velocity of the platform
-    let t42 = mul_add(t3, P::splat(platform_velocity[5]), t40);
+    let t53 = mul_add(t2, P::splat(platform_velocity[3]), t49);
+    // legs 4, 5, 6: extent of the rod along the actuator axis
+    let t54 = sqrt(t50);
+    // angular velocity of the platform
+    let t55 = mul_add(t5, P::splat(platform_velocity[5]), t53);
     // angular velocity of the platform relative to the base
-    let t43 = t38 - t42;
+    let t56 = t51 - t55;
     // legs 1, 2, 3: reciprocal of that extent
-    let t44 = w(1.0) / t39;
+    let t57 = w(1.0) / t52;
     // legs 1, 2, 3: actuator length d
-    let t45 = t35 - t39;
+    let t58 = t44 - t52;
     // legs 4, 5, 6: reciprocal of that extent
-    let t46 = w(1.0) / t41;
+    let t59 = w(1.0) / t54;
     // legs 4, 5, 6: actuator length d
-    let t47 = t36 - t41;
+    let t60 = t46 - t54;
     // legs 1, 2, 3: gradient of the actuator length by the platform joint
-    let t48 = t25 * t44;
+    let t61 = t34 * t57;
     // legs 4, 5, 6: gradient of the actuator length by the platform joint
-    let t49 = t32 * t46;
-    let t50 = t28 * t46;
+    let t62 = t41 * t59;
+    let t63 = t37 * t59;
     // legs 1, 2, 3: gradient of the actuator length by the platform joint
-    let t51 = t31 * t44;
+    let t64 = t40 * t57;
     // velocity of the platform origin relative to the base
-    let t52 = t1 * P::splat(platform_velocity[1] - base_velocity[1]);
+    let t65 = t1 * P::splat(platform_velocity[1] - base_velocity[1]);
     // rotation of the platform seen from the base
-    let t53 = P::triple([P::lane(t8, 1), P::lane(t8, 2), P::lane(t8, 0)]);
+    let t66 = P::triple([P::lane(t11, 1), P::lane(t11, 2), P::lane(t11, 0)]);
     // platform origin seen from the base
-    let t54 = P::triple([P::lane(t14, 1), P::lane(t14, 2), P::lane(t14, 0)]);
+    let t67 = P::triple([P::lane(t17, 1), P::lane(t17, 2), P::lane(t17, 0)]);
     // angular velocity of the base
-    let t55 = P::triple([P::lane(t38, 2), P::lane(t38, 0), P::lane(t38, 1)]);
+    let t68 = P::triple([P::lane(t51, 2), P::lane(t51, 0), P::lane(t51, 1)]);
     // rotation of the platform seen from the base
-    let t56 = P::triple([P::lane(t9, 1), P::lane(t9, 2), P::lane(t9, 0)]);
-    let t57 = P::triple([P::lane(t8, 2), P::lane(t8, 0), P::lane(t8, 1)]);
+    let t69 = P::triple([P::lane(t12, 1), P::lane(t12, 2), P::lane(t12, 0)]);
+    let t70 = P::triple([P::lane(t11, 2), P::lane(t11, 0), P::lane(t11, 1)]);
     // angular velocity of the platform relative to the base
-    let t58 = P::triple([P::lane(t43, 2), P::lane(t43, 0), P::lane(t43, 1)]);
+    let t71 = P::triple([P::lane(t56, 2), P::lane(t56, 0), P::lane(t56, 1)]);
     // velocity of the platform origin relative to the base
-    let t59 = mul_add(t2, P::splat(platform_velocity[0] - base_velocity[0]), t52);
+    let t72 = mul_add(t2, P::splat(platform_velocity[0] - base_velocity[0]), t65);
     // angular velocity of the platform relative to the base
-    let t60 = P::triple([P::lane(t43, 1), P::lane(t43, 2), P::lane(t43, 0)]);
+    let t73 = P::triple([P::lane(t56, 1), P::lane(t56, 2), P::lane(t56, 0)]);
     // platform origin seen from the base
-    let t61 = P::triple([P::lane(t14, 2), P::lane(t14, 0), P::lane(t14, 1)]);
+    let t74 = P::triple([P::lane(t17, 2), P::lane(t17, 0), P::lane(t17, 1)]);
     // rate of the relative rotation
-    let t62 = mul_sub(t57, t60, t53 * t58);
+    let t75 = mul_sub(t70, t73, t66 * t71);
     // angular velocity of the base
-    let t63 = P::triple([P::lane(t38, 1), P::lane(t38, 2), P::lane(t38, 0)]);
+    let t76 = P::triple([P::lane(t51, 1), P::lane(t51, 2), P::lane(t51, 0)]);
     // rotation of the platform seen from the base
-    let t64 = P::triple([P::lane(t9, 2), P::lane(t9, 0), P::lane(t9, 1)]);
+    let t77 = P::triple([P::lane(t12, 2), P::lane(t12, 0), P::lane(t12, 1)]);
     // velocity of the platform origin relative to the base
-    let t65 = mul_add(t3, P::splat(platform_velocity[2] - base_velocity[2]), t59);
+    let t78 = mul_add(t5, P::splat(platform_velocity[2] - base_velocity[2]), t72);
     // rate of the relative rotation
-    let t66 = mul_sub(t60, t64, t56 * t58);
+    let t79 = mul_sub(t73, t77, t69 * t71);
     // rotation of the platform seen from the base
-    let t67 = P::triple([P::lane(t15, 1), P::lane(t15, 2), P::lane(t15, 0)]);
-    let t68 = P::triple([P::lane(t15, 2), P::lane(t15, 0), P::lane(t15, 1)]);
+    let t80 = P::triple([P::lane(t19, 1), P::lane(t19, 2), P::lane(t19, 0)]);
+    let t81 = P::triple([P::lane(t19, 2), P::lane(t19, 0), P::lane(t19, 1)]);
     // velocity of the platform origin relative to the base
-    let t69 = t65 - mul_sub(t61, t63, t54 * t55);
+    let t82 = t78 - mul_sub(t74, t76, t67 * t68);
     // legs 1, 2, 3: velocity of the platform joint relative to the base
-    let t70 = P::splat(P::lane(t69, 1))
-        - mul_add(t7, P::splat(P::lane(t66, 1)), t11 * P::splat(P::lane(t62, 1)));
-    let t71 = P::splat(P::lane(t69, 0))
-        - mul_add(t7, P::splat(P::lane(t66, 0)), t11 * P::splat(P::lane(t62, 0)));
+    let t83 = t14 * P::splat(P::lane(t75, 1));
+    let t84 = t14 * P::splat(P::lane(t75, 0));
     // legs 4, 5, 6: velocity of the platform joint relative to the base
-    let t72 = P::splat(P::lane(t69, 1))
-        - mul_add(t12, P::splat(P::lane(t66, 1)), t16 * P::splat(P::lane(t62, 1)));
-    let t73 = P::splat(P::lane(t69, 0))
-        - mul_add(t12, P::splat(P::lane(t66, 0)), t16 * P::splat(P::lane(t62, 0)));
-    // angular velocity of the base
-    let t74 = P::triple([P::lane(t38, 2), P::lane(t38, 2), P::lane(t38, 0)]);
-    let t75 = P::triple([P::lane(t38, 1), P::lane(t38, 0), P::lane(t38, 1)]);
-    // acceleration of the base origin less gravity
-    let t76 = mul_add(
-        t2,
-        P::splat(base_acceleration[0]),
-        t1 * P::splat(base_acceleration[1]),
-    );
-    // angular acceleration of the base
-    let t77 = mul_add(
-        t2,
-        P::splat(base_acceleration[3]),
-        t1 * P::splat(base_acceleration[4]),
-    );
-    // legs 1, 2, 3: rate of the rod's extent along the actuator axis
-    let t78 = mul_add(t25, t71, t31 * t70);
-    // legs 4, 5, 6: velocity of the platform joint relative to the base
-    let t79 = P::splat(P::lane(t69, 2))
-        - mul_add(t12, P::splat(P::lane(t66, 2)), t16 * P::splat(P::lane(t62, 2)));
+    let t85 = t20 * P::splat(P::lane(t75, 1));
     // legs 1, 2, 3: velocity of the platform joint relative to the base
-    let t80 = P::splat(P::lane(t69, 2))
-        - mul_add(t7, P::splat(P::lane(t66, 2)), t11 * P::splat(P::lane(t62, 2)));
-    // angular velocity of the base
-    let t81 = P::triple([P::lane(t38, 0), P::lane(t38, 2), P::lane(t38, 0)]);
-    let t82 = P::triple([P::lane(t38, 1), P::lane(t38, 1), P::lane(t38, 2)]);
-    // acceleration per base coordinate of points that move with the base
-    let t83 = mul_add(t75, t75, t74 * t74);
-    // angular acceleration of the base
-    let t84 = mul_add(t3, P::splat(base_acceleration[5]), t77);
-    // acceleration per base coordinate of points that move with the base
-    let t85 = t81 * t82;
+    let t86 = mul_add(t9, P::splat(P::lane(t79, 1)), t83);
+    // legs 4, 5, 6: velocity of the platform joint relative to the base
+    let t87 = t20 * P::splat(P::lane(t75, 0));
+    let t88 = t20 * P::splat(P::lane(t75, 2));
+    // legs 1, 2, 3: velocity of the platform joint relative to the base
+    let t89 = t14 * P::splat(P::lane(t75, 2));
+    let t90 = mul_add(t9, P::splat(P::lane(t79, 0)), t84);
+    // legs 4, 5, 6: velocity of the platform joint relative to the base
+    let t91 = mul_add(t15, P::splat(P::lane(t79, 1)), t85);
+    let t92 = mul_add(t15, P::splat(P::lane(t79, 0)), t87);
+    // legs 1, 2, 3: velocity of the platform joint relative to the base
+    let t93 = P::splat(P::lane(t82, 1)) - t86;
+    // legs 4, 5, 6: velocity of the platform joint relative to the base
+    let t94 = mul_add(t15, P::splat(P::lane(t79, 2)), t88);
+    // legs 1, 2, 3: velocity of the platform joint relative to the base
+    let t95 = mul_add(t9, P::splat(P::lane(t79, 2)), t89);
+    let t96 = P::splat(P::lane(t82, 0)) - t90;
     // acceleration of the base origin less gravity
-    let t86 = mul_add(t3, P::splat(base_acceleration[2] + c(9.81)), t76);
+    let t97 = t1 * P::splat(base_acceleration[1]);
+    // legs 4, 5, 6: velocity of the platform joint relative to the base
+    let t98 = P::splat(P::lane(t82, 1)) - t91;
+    let t99 = P::splat(P::lane(t82, 0)) - t92;
+    // angular acceleration of the base
+    let t100 = t1 * P::splat(base_acceleration[4]);
+    // angular velocity of the base
+    let t101 = P::triple([P::lane(t51, 2), P::lane(t51, 2), P::lane(t51, 0)]);
+    let t102 = P::triple([P::lane(t51, 1), P::lane(t51, 0), P::lane(t51, 1)]);
+    // acceleration of the base origin less gravity
+    let t103 = mul_add(t2, P::splat(base_acceleration[0]), t97);
+    // angular acceleration of the base
+    let t104 = mul_add(t2, P::splat(base_acceleration[3]), t100);
     // legs 1, 2, 3: rate of the rod's extent along the actuator axis
-    let t87 = t44 * t78;
+    let t105 = mul_add(t34, t96, t40 * t93);
+    // legs 4, 5, 6: velocity of the platform joint relative to the base
+    let t106 = P::splat(P::lane(t82, 2)) - t94;
+    // legs 1, 2, 3: velocity of the platform joint relative to the base
+    let t107 = P::splat(P::lane(t82, 2)) - t95;
+    // angular velocity of the base
+    let t108 = P::triple([P::lane(t51, 0), P::lane(t51, 2), P::lane(t51, 0)]);
+    let t109 = P::triple([P::lane(t51, 1), P::lane(t51, 1), P::lane(t51, 2)]);
+    // acceleration per base coordinate of points that move with the base
+    let t110 = mul_add(t102, t102, t101 * t101);
+    // angular acceleration of the base
+    let t111 = mul_add(t5, P::splat(base_acceleration[5]), t104);
+    // acceleration per base coordinate of points that move with the base
+    let t112 = t108 * t109;
+    // acceleration of the base origin less gravity
+    let t113 = mul_add(t5, P::splat(base_acceleration[2] + c(9.81)), t103);
+    // legs 1, 2, 3: rate of the rod's extent along the actuator axis
+    let t114 = t57 * t105;
     // legs 4, 5, 6: rate of the rod's extent along the actuator axis
-    let t88 = mul_add(t28, t73, t32 * t72);
+    let t115 = mul_add(t37, t99, t41 * t98);
     // legs 1, 2, 3: actuator velocity d'
-    let t89 = mul_add(t44, t78, t80);
+    let t116 = mul_add(t57, t105, t107);
     // legs 4, 5, 6: rate of the rod's extent along the actuator axis
-    let t90 = t46 * t88;
+    let t117 = t59 * t115;
     // legs 4, 5, 6: actuator velocity d'
-    let t91 = mul_add(t46, t88, t79);
+    let t118 = mul_add(t59, t115, t106);
     // angular acceleration of the base
-    let t92 = P::triple([P::lane(t84, 1), P::lane(t84, 2), P::lane(t84, 0)]);
-    let t93 = P::triple([P::lane(t84, 2), P::lane(t84, 0), P::lane(t84, 1)]);
+    let t119 = P::triple([P::lane(t111, 1), P::lane(t111, 2), P::lane(t111, 0)]);
+    let t120 = P::triple([P::lane(t111, 2), P::lane(t111, 0), P::lane(t111, 1)]);
     // acceleration per base coordinate of points that move with the base
-    let t94 = mul_sub(t81, t82, t93);
-    let t95 = t92 + P::triple([P::lane(t85, 2), P::lane(t85, 0), P::lane(t85, 1)]);
+    let t121 = mul_sub(t108, t109, t120);
+    let t122 = P::triple([P::lane(t112, 2), P::lane(t112, 0), P::lane(t112, 1)]);
+    let t123 = t119 + t122;
     // angular velocity of the platform
-    let t96 = P::triple([P::lane(t42, 1), P::lane(t42, 2), P::lane(t42, 0)]);
-    let t97 = P::triple([P::lane(t42, 2), P::lane(t42, 0), P::lane(t42, 1)]);
+    let t124 = P::triple([P::lane(t55, 1), P::lane(t55, 2), P::lane(t55, 0)]);
+    let t125 = P::triple([P::lane(t55, 2), P::lane(t55, 0), P::lane(t55, 1)]);
     // acceleration per platform coordinate of points of the platform
-    let t98 = mul_sub(t42, t53, t8 * t96);
+    let t126 = mul_sub(t55, t66, t11 * t124);
     // acceleration per base coordinate of points that move with the base
-    let t99 = P::triple([-P::lane(t83, 0), P::lane(t95, 1), P::lane(t94, 2)]);
+    let t127 = P::triple([-P::lane(t110, 0), P::lane(t123, 1), P::lane(t121, 2)]);
     // acceleration per platform coordinate of points of the platform
-    let t100 = mul_sub(t42, t56, t9 * t96);
-    let t101 = mul_sub(t42, t67, t15 * t96);
-    let t102 = t97 * P::triple([P::lane(t98, 2), P::lane(t98, 0), P::lane(t98, 1)]);
+    let t128 = mul_sub(t55, t69, t12 * t124);
+    let t129 = mul_sub(t55, t80, t19 * t124);
+    let t130 = P::triple([P::lane(t126, 2), P::lane(t126, 0), P::lane(t126, 1)]);
     // acceleration per base coordinate of points that move with the base
-    let t103 = P::triple([P::lane(t94, 0), -P::lane(t83, 1), P::lane(t95, 2)]);
+    let t131 = P::triple([P::lane(t121, 0), -P::lane(t110, 1), P::lane(t123, 2)]);
     // acceleration per platform coordinate of points of the platform
-    let t104 = t97 * P::triple([P::lane(t100, 2), P::lane(t100, 0), P::lane(t100, 1)]);
-    let t105 = mul_sub(t96, t98, t102);
+    let t132 = P::triple([P::lane(t128, 2), P::lane(t128, 0), P::lane(t128, 1)]);
     // acceleration of the platform origin relative to the base
-    let t106 = mul_add(P::splat(P::lane(t14, 0)), t99, P::splat(P::lane(t14, 1)) * t103);
+    let t133 = P::splat(P::lane(t17, 1)) * t131;
     // acceleration per platform coordinate of points of the platform
-    let t107 = mul_sub(t96, t100, t104);
+    let t134 = mul_sub(t124, t126, t125 * t130);
+    let t135 = P::triple([P::lane(t129, 2), P::lane(t129, 0), P::lane(t129, 1)]);
+    // acceleration of the platform origin relative to the base
+    let t136 = mul_add(P::splat(P::lane(t17, 0)), t127, t133);
+    // acceleration per platform coordinate of points of the platform
+    let t137 = mul_sub(t124, t128, t125 * t132);
     // velocity of the platform origin relative to the base
-    let t108 = P::triple([P::lane(t69, 1), P::lane(t69, 2), P::lane(t69, 0)]);
-    let t109 = P::triple([P::lane(t69, 2), P::lane(t69, 0), P::lane(t69, 1)]);
-    // acceleration per platform coordinate of points of the platform
-    let t110 = t97 * P::triple([P::lane(t101, 2), P::lane(t101, 0), P::lane(t101, 1)]);
+    let t138 = P::triple([P::lane(t82, 1), P::lane(t82, 2), P::lane(t82, 0)]);
+    let t139 = P::triple([P::lane(t82, 2), P::lane(t82, 0), P::lane(t82, 1)]);
     // acceleration per base coordinate of points that move with the base
-    let t111 = P::triple([P::lane(t95, 0), P::lane(t94, 1), -P::lane(t83, 2)]);
+    let t140 = P::triple([P::lane(t123, 0), P::lane(t121, 1), -P::lane(t110, 2)]);
     // second derivative of the relative rotation
-    let t112 = t92 - mul_sub(t43, t55, t38 * t58);
+    let t141 = t119 - mul_sub(t56, t68, t51 * t71);
     // acceleration per platform coordinate of points of the platform
-    let t113 = mul_sub(t96, t101, t110);
+    let t142 = mul_sub(t124, t129, t125 * t135);
     // rate of the relative rotation
-    let t114 = P::triple([P::lane(t62, 1), P::lane(t62, 2), P::lane(t62, 0)]);
-    let t115 = P::triple([P::lane(t66, 1), P::lane(t66, 2), P::lane(t66, 0)]);
-    let t116 = P::triple([P::lane(t62, 2), P::lane(t62, 0), P::lane(t62, 1)]);
+    let t143 = P::triple([P::lane(t75, 1), P::lane(t75, 2), P::lane(t75, 0)]);
+    let t144 = P::triple([P::lane(t79, 1), P::lane(t79, 2), P::lane(t79, 0)]);
+    let t145 = P::triple([P::lane(t75, 2), P::lane(t75, 0), P::lane(t75, 1)]);
     // second derivative of the relative rotation
-    let t117 = mul_sub(t60, t116, t58 * t114);
+    let t146 = mul_sub(t73, t145, t71 * t143);
     // rate of the relative rotation
-    let t118 = P::triple([P::lane(t66, 2), P::lane(t66, 0), P::lane(t66, 1)]);
+    let t147 = P::triple([P::lane(t79, 2), P::lane(t79, 0), P::lane(t79, 1)]);
     // acceleration of the platform origin relative to the base
-    let t119 = t86 + mul_add(P::splat(P::lane(t14, 2)), t111, t106);
+    let t148 = t113 + mul_add(P::splat(P::lane(t17, 2)), t140, t136);
     // second derivative of the relative rotation
-    let t120 = P::triple([P::lane(t112, 1), P::lane(t112, 2), P::lane(t112, 0)]);
-    let t121 = mul_sub(t60, t118, t58 * t115);
+    let t149 = P::triple([P::lane(t141, 1), P::lane(t141, 2), P::lane(t141, 0)]);
+    let t150 = mul_sub(t73, t147, t71 * t144);
     // acceleration of the platform origin relative to the base
-    let t122 = mul_add(w(2.0), mul_sub(t63, t109, t55 * t108), t119);
+    let t151 = mul_add(w(2.0), mul_sub(t76, t139, t68 * t138), t148);
     // second derivative of the relative rotation
-    let t123 = mul_sub(t57, t112, t53 * t120) - t117;
-    let t124 = mul_sub(t64, t112, t56 * t120) - t121;
+    let t152 = mul_sub(t70, t141, t66 * t149) - t146;
+    let t153 = mul_sub(t77, t141, t69 * t149) - t150;
     // legs 1, 2, 3: acceleration of the platform joint relative to the base
-    let t125 = P::splat(P::lane(t122, 0))
-        + mul_add(t7, P::splat(P::lane(t124, 0)), t11 * P::splat(P::lane(t123, 0)));
+    let t154 = t14 * P::splat(P::lane(t152, 0));
     // legs 4, 5, 6: acceleration of the platform joint relative to the base
-    let t126 = P::splat(P::lane(t122, 0))
-        + mul_add(t12, P::splat(P::lane(t124, 0)), t16 * P::splat(P::lane(t123, 0)));
+    let t155 = t20 * P::splat(P::lane(t152, 0));
     // legs 1, 2, 3: acceleration of the platform joint relative to the base
-    let t127 = P::splat(P::lane(t122, 1))
-        + mul_add(t7, P::splat(P::lane(t124, 1)), t11 * P::splat(P::lane(t123, 1)));
+    let t156 = t14 * P::splat(P::lane(t152, 1));
     // legs 4, 5, 6: acceleration of the platform joint relative to the base
-    let t128 = P::splat(P::lane(t122, 1))
-        + mul_add(t12, P::splat(P::lane(t124, 1)), t16 * P::splat(P::lane(t123, 1)));
+    let t157 = t20 * P::splat(P::lane(t152, 1));
     // legs 1, 2, 3: acceleration of the platform joint relative to the base
-    let t129 = P::splat(P::lane(t122, 2))
-        + mul_add(t7, P::splat(P::lane(t124, 2)), t11 * P::splat(P::lane(t123, 2)));
-    // legs 1, 2, 3: leg inertia less weight along the actuator
-    let t130 = mul_sub(t19, P::splat(P::lane(t83, 0)), t29 * P::splat(P::lane(t94, 0)));
-    // legs 1, 2, 3: actuator acceleration d''
-    let t131 = mul_add(t25, t125, t31 * t127);
-    // legs 4, 5, 6: actuator acceleration d''
-    let t132 = mul_add(t28, t126, t32 * t128);
+    let t158 = mul_add(t9, P::splat(P::lane(t153, 0)), t154);
     // legs 4, 5, 6: acceleration of the platform joint relative to the base
-    let t133 = P::splat(P::lane(t122, 2))
-        + mul_add(t12, P::splat(P::lane(t124, 2)), t16 * P::splat(P::lane(t123, 2)));
+    let t159 = mul_add(t15, P::splat(P::lane(t153, 0)), t155);
+    // legs 1, 2, 3: acceleration of the platform joint relative to the base
+    let t160 = mul_add(t9, P::splat(P::lane(t153, 1)), t156);
+    // legs 4, 5, 6: acceleration of the platform joint relative to the base
+    let t161 = mul_add(t15, P::splat(P::lane(t153, 1)), t157);
+    // legs 1, 2, 3: acceleration of the platform joint relative to the base
+    let t162 = t14 * P::splat(P::lane(t152, 2));
+    // legs 4, 5, 6: acceleration of the platform joint relative to the base
+    let t163 = t20 * P::splat(P::lane(t152, 2));
+    // legs 1, 2, 3: acceleration of the platform joint relative to the base
+    let t164 = P::splat(P::lane(t151, 0)) + t158;
+    // legs 4, 5, 6: acceleration of the platform joint relative to the base
+    let t165 = P::splat(P::lane(t151, 0)) + t159;
+    // legs 1, 2, 3: acceleration of the platform joint relative to the base
+    let t166 = P::splat(P::lane(t151, 1)) + t160;
+    // legs 4, 5, 6: acceleration of the platform joint relative to the base
+    let t167 = P::splat(P::lane(t151, 1)) + t161;
+    // legs 1, 2, 3: acceleration of the platform joint relative to the base
+    let t168 = mul_add(t9, P::splat(P::lane(t153, 2)), t162);
+    // legs 4, 5, 6: acceleration of the platform joint relative to the base
+    let t169 = mul_add(t15, P::splat(P::lane(t153, 2)), t163);
     // legs 1, 2, 3: leg inertia less weight along the actuator
-    let t134 = mul_sub(t19, P::splat(P::lane(t95, 1)), t29 * P::splat(P::lane(t83, 1)));
-    let t135 = mul_add(t19, P::splat(P::lane(t94, 2)), t29 * P::splat(P::lane(t95, 2)));
-    let t136 = t89 * w(2.0);
+    let t170 = t38 * P::splat(P::lane(t121, 0));
+    let t171 = t38 * P::splat(P::lane(t110, 1));
+    // legs 1, 2, 3: acceleration of the platform joint relative to the base
+    let t172 = P::splat(P::lane(t151, 2)) + t168;
+    // legs 1, 2, 3: leg inertia less weight along the actuator
+    let t173 = mul_sub(t26, P::splat(P::lane(t110, 0)), t170);
     // legs 1, 2, 3: actuator acceleration d''
-    let t137 = mul_add(t87, t87, mul_add(t71, t71, t70 * t70) - t131);
+    let t174 = mul_add(t34, t164, t40 * t166);
     // legs 4, 5, 6: actuator acceleration d''
-    let t138 = mul_add(t90, t90, mul_add(t73, t73, t72 * t72) - t132);
+    let t175 = mul_add(t37, t165, t41 * t167);
+    // legs 4, 5, 6: acceleration of the platform joint relative to the base
+    let t176 = P::splat(P::lane(t151, 2)) + t169;
     // legs 1, 2, 3: leg inertia less weight along the actuator
-    let t139 = P::splat(P::lane(t86, 0))
-        - neg_mul_add(t45, P::splat(P::lane(t95, 0)), t130);
-    let t140 = P::splat(P::lane(t86, 1)) + mul_add(t45, P::splat(P::lane(t94, 1)), t134);
+    let t177 = t38 * P::splat(P::lane(t123, 2));
+    let t178 = mul_sub(t26, P::splat(P::lane(t123, 1)), t171);
+    let t179 = neg_mul_add(t58, P::splat(P::lane(t123, 0)), t173);
+    let t180 = mul_add(t26, P::splat(P::lane(t121, 2)), t177);
+    let t181 = t116 * w(2.0);
+    let t182 = mul_add(t58, P::splat(P::lane(t121, 1)), t178);
     // legs 1, 2, 3: actuator acceleration d''
-    let t141 = neg_mul_add(t44, t137, t129);
+    let t183 = mul_add(t114, t114, mul_add(t96, t96, t93 * t93) - t174);
     // legs 4, 5, 6: actuator acceleration d''
-    let t142 = neg_mul_add(t46, t138, t133);
-    // legs 4, 5, 6: leg inertia less weight along the actuator
-    let t143 = t91 * w(2.0);
+    let t184 = mul_add(t117, t117, mul_add(t99, t99, t98 * t98) - t175);
     // legs 1, 2, 3: leg inertia less weight along the actuator
-    let t144 = mul_add(P::splat(P::lane(t38, 1)), t136, t139);
+    let t185 = neg_mul_add(t58, P::splat(P::lane(t110, 2)), t180);
+    let t186 = P::splat(P::lane(t113, 0)) - t179;
+    let t187 = P::splat(P::lane(t113, 1)) + t182;
+    // legs 1, 2, 3: actuator acceleration d''
+    let t188 = neg_mul_add(t57, t183, t172);
+    // legs 4, 5, 6: actuator acceleration d''
+    let t189 = neg_mul_add(t59, t184, t176);
     // legs 4, 5, 6: leg inertia less weight along the actuator
-    let t145 = mul_sub(t34, P::splat(P::lane(t83, 0)), t33 * P::splat(P::lane(t94, 0)));
-    let t146 = mul_sub(t34, P::splat(P::lane(t95, 1)), t33 * P::splat(P::lane(t83, 1)));
+    let t190 = t42 * P::splat(P::lane(t121, 0));
+    let t191 = t42 * P::splat(P::lane(t110, 1));
+    let t192 = t118 * w(2.0);
     // legs 1, 2, 3: leg inertia less weight along the actuator
-    let t147 = t141
-        - (P::splat(P::lane(t86, 2))
-            + neg_mul_add(t45, P::splat(P::lane(t83, 2)), t135));
-    let t148 = neg_mul_add(P::splat(P::lane(t38, 0)), t136, t140);
+    let t193 = mul_add(P::splat(P::lane(t51, 1)), t181, t186);
     // legs 4, 5, 6: leg inertia less weight along the actuator
-    let t149 = mul_add(t34, P::splat(P::lane(t94, 2)), t33 * P::splat(P::lane(t95, 2)));
+    let t194 = t42 * P::splat(P::lane(t123, 2));
     // legs 1, 2, 3: leg inertia less weight along the actuator
-    let t150 = mul_add(t7, P::splat(P::lane(t107, 2)), t11 * P::splat(P::lane(t105, 2)));
+    let t195 = t14 * P::splat(P::lane(t134, 2));
+    // legs 4, 5, 6: leg inertia less weight along the actuator
+    let t196 = mul_sub(t43, P::splat(P::lane(t110, 0)), t190);
+    let t197 = mul_sub(t43, P::splat(P::lane(t123, 1)), t191);
+    // legs 1, 2, 3: leg inertia less weight along the actuator
+    let t198 = t188 - (P::splat(P::lane(t113, 2)) + t185);
+    let t199 = neg_mul_add(P::splat(P::lane(t51, 0)), t181, t187);
+    // legs 4, 5, 6: leg inertia less weight along the actuator
+    let t200 = mul_add(t43, P::splat(P::lane(t121, 2)), t194);
+    // legs 1, 2, 3: leg inertia less weight along the actuator
+    let t201 = mul_add(t9, P::splat(P::lane(t137, 2)), t195);
+    // legs 4, 5, 6: leg inertia less weight along the actuator
+    let t202 = t20 * P::splat(P::lane(t134, 2));
     // legs 1, 2, 3: remaining leg inertia less weight at the platform joint
-    let t151 = w(0.17066666666666666) * t144;
-    let t152 = w(0.17066666666666666) * t148;
+    let t203 = w(0.17066666666666666) * t193;
     // legs 4, 5, 6: leg inertia less weight along the actuator
-    let t153 = mul_add(
-        t12,
-        P::splat(P::lane(t107, 2)),
-        t16 * P::splat(P::lane(t105, 2)),
-    );
+    let t204 = neg_mul_add(t60, P::splat(P::lane(t123, 0)), t196);
+    let t205 = mul_add(t60, P::splat(P::lane(t121, 1)), t197);
+    // legs 1, 2, 3: leg inertia less weight along the actuator
+    let t206 = neg_mul_add(P::splat(P::lane(t110, 2)), w(0.05), t198);
     // legs 1, 2, 3: remaining leg inertia less weight at the platform joint
-    let t154 = w(0.17066666666666666) * t147;
+    let t207 = w(0.17066666666666666) * t199;
     // legs 4, 5, 6: leg inertia less weight along the actuator
-    let t155 = P::splat(P::lane(t86, 0))
-        - neg_mul_add(t47, P::splat(P::lane(t95, 0)), t145);
-    let t156 = P::splat(P::lane(t86, 1)) + mul_add(t47, P::splat(P::lane(t94, 1)), t146);
+    let t208 = neg_mul_add(t60, P::splat(P::lane(t110, 2)), t200);
     // legs 1, 2, 3: leg inertia less weight along the actuator
-    let t157 = mul_sub(w(0.3413333333333334), t147, w(0.17066666666666666) * t150);
+    let t209 = w(0.17066666666666666) * t201;
     // legs 4, 5, 6: leg inertia less weight along the actuator
-    let t158 = mul_add(P::splat(P::lane(t38, 1)), t143, t155);
-    let t159 = neg_mul_add(P::splat(P::lane(t38, 0)), t143, t156);
-    let t160 = t142
-        - (P::splat(P::lane(t86, 2))
-            + neg_mul_add(t47, P::splat(P::lane(t83, 2)), t149));
+    let t210 = mul_add(t15, P::splat(P::lane(t137, 2)), t202);
+    // legs 1, 2, 3: remaining leg inertia less weight at the platform joint
+    let t211 = w(0.17066666666666666) * t198;
+    // legs 4, 5, 6: leg inertia less weight along the actuator
+    let t212 = P::splat(P::lane(t113, 0)) - t204;
+    let t213 = P::splat(P::lane(t113, 1)) + t205;
     // legs 1, 2, 3: leg inertia less weight along the actuator
-    let t161 = mul_add(
-        w(0.611),
-        neg_mul_add(P::splat(P::lane(t83, 2)), w(0.05), t147),
-        t157,
-    );
+    let t214 = mul_sub(w(0.3413333333333334), t198, t209);
+    // legs 4, 5, 6: leg inertia less weight along the actuator
+    let t215 = w(0.17066666666666666) * t210;
+    let t216 = mul_add(P::splat(P::lane(t51, 1)), t192, t212);
+    let t217 = neg_mul_add(P::splat(P::lane(t51, 0)), t192, t213);
+    let t218 = t189 - (P::splat(P::lane(t113, 2)) + t208);
+    // legs 1, 2, 3: leg inertia less weight along the actuator
+    let t219 = mul_add(w(0.611), t206, t214);
     // legs 1, 2, 3: row of the actuator Jacobian in base coordinates
-    let t162 = neg_mul_add(t26, t51, t20);
-    let t163 = neg_mul_add(t26, t48, t17);
+    let t220 = neg_mul_add(t35, t64, t27);
+    let t221 = neg_mul_add(t35, t61, t22);
     // legs 4, 5, 6: row of the actuator Jacobian in base coordinates
-    let t164 = neg_mul_add(t30, t49, t21);
-    let t165 = neg_mul_add(t30, t50, t18);
+    let t222 = neg_mul_add(t39, t62, t28);
+    let t223 = neg_mul_add(t39, t63, t25);
     // legs 4, 5, 6: leg inertia less weight along the actuator
-    let t166 = mul_sub(w(0.3413333333333334), t160, w(0.17066666666666666) * t153);
+    let t224 = mul_sub(w(0.3413333333333334), t218, t215);
+    let t225 = mul_sub(P::splat(P::lane(t110, 2)), w(0.05), t218);
     // legs 1, 2, 3: spring and damper force along the actuator
-    let t167 = t45 - w(0.198);
+    let t226 = t58 - w(0.198);
     // legs 4, 5, 6: remaining leg inertia less weight at the platform joint
-    let t168 = w(0.17066666666666666) * t160;
+    let t227 = w(0.17066666666666666) * t218;
     // legs 1, 2, 3: row of the actuator Jacobian in base coordinates
-    let t169 = mul_sub(t17, t51, t20 * t48);
+    let t228 = mul_sub(t22, t64, t27 * t61);
     // legs 4, 5, 6: row of the actuator Jacobian in base coordinates
-    let t170 = mul_sub(t18, t49, t21 * t50);
+    let t229 = mul_sub(t25, t62, t28 * t63);
     // legs 4, 5, 6: remaining leg inertia less weight at the platform joint
-    let t171 = w(0.17066666666666666) * t158;
-    let t172 = w(0.17066666666666666) * t159;
+    let t230 = w(0.17066666666666666) * t216;
+    let t231 = w(0.17066666666666666) * t217;
     // legs 4, 5, 6: spring and damper force along the actuator
-    let t173 = t47 - w(0.198);
+    let t232 = t60 - w(0.198);
     // legs 4, 5, 6: leg inertia less weight along the actuator
-    let t174 = neg_mul_add(
-        w(0.611),
-        mul_sub(P::splat(P::lane(t83, 2)), w(0.05), t160),
-        t166,
-    );
+    let t233 = neg_mul_add(w(0.611), t225, t224);
     // its first moments by platform coordinate
-    let t175 = mul_add(t7, t154, t12 * t168);
-    let t176 = mul_add(t11, t154, t16 * t168);
-    let t177 = mul_add(t7, t151, t12 * t171);
-    let t178 = mul_add(t7, t152, t12 * t172);
-    let t179 = mul_add(t11, t151, t16 * t171);
-    let t180 = mul_add(t11, t152, t16 * t172);
-    let t181 = P::triple([P::lane(t177, 1), P::lane(t178, 1), -P::lane(t175, 1)]);
-    let t182 = P::triple([P::lane(t177, 0), P::lane(t178, 0), -P::lane(t175, 0)]) + t181;
+    let t234 = mul_add(t9, t211, t15 * t227);
+    let t235 = mul_add(t14, t211, t20 * t227);
+    let t236 = mul_add(t9, t203, t15 * t230);
+    let t237 = mul_add(t9, t207, t15 * t231);
+    let t238 = mul_add(t14, t203, t20 * t230);
+    let t239 = mul_add(t14, t207, t20 * t231);
+    let t240 = P::triple([P::lane(t236, 0), P::lane(t237, 0), -P::lane(t234, 0)]);
+    let t241 = P::triple([P::lane(t236, 1), P::lane(t237, 1), -P::lane(t234, 1)]);
+    let t242 = P::triple([P::lane(t236, 2), P::lane(t237, 2), -P::lane(t234, 2)]);
     // constant and copied elements
-    let t183 = P::triple([actuator_force[0], actuator_force[1], actuator_force[2]]);
-    // its first moments by platform coordinate
-    let t184 = t182 + P::triple([P::lane(t177, 2), P::lane(t178, 2), -P::lane(t175, 2)]);
-    // constant and copied elements
-    let t185 = P::triple([actuator_force[3], actuator_force[4], actuator_force[5]]);
+    let t243 = P::triple([actuator_force[0], actuator_force[1], actuator_force[2]]);
+    let t244 = P::triple([actuator_force[3], actuator_force[4], actuator_force[5]]);
     // legs 1, 2, 3: force along the actuator that reaches the platform
-    let t186 = neg_mul_add(w(21555.9), t167, t161) + t183;
+    let t245 = neg_mul_add(w(21555.9), t226, t219) + t243;
     // its first moments by platform coordinate
-    let t187 = mul_add(w(0.032245600000000006), t107, t184);
-    let t188 = P::triple([P::lane(t179, 1), P::lane(t180, 1), -P::lane(t176, 1)]);
+    let t246 = mul_add(w(0.032245600000000006), t137, t240 + t241 + t242);
+    let t247 = P::triple([P::lane(t238, 0), P::lane(t239, 0), -P::lane(t235, 0)]);
+    let t248 = P::triple([P::lane(t238, 1), P::lane(t239, 1), -P::lane(t235, 1)]);
     // legs 4, 5, 6: force along the actuator that reaches the platform
-    let t189 = t185 + neg_mul_add(w(21555.9), t173, t174);
+    let t249 = t244 + neg_mul_add(w(21555.9), t232, t233);
     // its first moments by platform coordinate
-    let t190 = P::triple([P::lane(t179, 0), P::lane(t180, 0), -P::lane(t176, 0)]) + t188;
-    let t191 = w(0.013354412) * t113;
+    let t250 = w(0.013354412) * t142;
+    let t251 = P::triple([P::lane(t238, 2), P::lane(t239, 2), -P::lane(t235, 2)]);
     // wrench left at the trial acceleration
-    let t192 = mul_sub(t50, t189, neg_mul_add(t48, t186, t151));
+    let t252 = mul_sub(t63, t249, neg_mul_add(t61, t245, t203));
+    let t253 = mul_sub(t62, t249, neg_mul_add(t64, t245, t207));
+    let t254 = t249 + mul_add(w(0.17066666666666666), t198, t245);
+    let t255 = mul_add(t221, t245, t223 * t249);
+    let t256 = mul_sub(w(0.17066666666666666), t216, t252);
+    let t257 = mul_add(t220, t245, t222 * t249);
+    let t258 = mul_add(t228, t245, t229 * t249);
     // its first moments by platform coordinate
-    let t193 = t190 + P::triple([P::lane(t179, 2), P::lane(t180, 2), -P::lane(t176, 2)]);
+    let t259 = mul_add(w(0.032245600000000006), t134, t247 + t248 + t251);
     // wrench left at the trial acceleration
-    let t194 = mul_sub(t49, t189, neg_mul_add(t51, t186, t152));
-    let t195 = t189 + mul_add(w(0.17066666666666666), t147, t186);
-    let t196 = mul_add(t163, t186, t165 * t189);
-    let t197 = mul_sub(w(0.17066666666666666), t158, t192);
-    let t198 = mul_add(t162, t186, t164 * t189);
-    let t199 = mul_add(t169, t186, t170 * t189);
-    // its first moments by platform coordinate
-    let t200 = mul_add(w(0.032245600000000006), t105, t193);
-    // wrench left at the trial acceleration
-    let t201 = mul_add(w(0.17066666666666666), t160, t195);
-    let t202 = mul_sub(w(0.17066666666666666), t159, t194);
-    let t203 = P::triple([-P::lane(t197, 1), -P::lane(t202, 1), P::lane(t201, 1)]);
-    let t204 = P::triple([-P::lane(t197, 0), -P::lane(t202, 0), P::lane(t201, 0)])
-        + t203;
-    let t205 = t204
-        + P::triple([-P::lane(t197, 2), -P::lane(t202, 2), P::lane(t201, 2)]);
-    let t206 = P::triple([P::lane(t198, 1), -P::lane(t196, 1), P::lane(t199, 1)]);
+    let t260 = mul_add(w(0.17066666666666666), t218, t254);
+    let t261 = mul_sub(w(0.17066666666666666), t217, t253);
+    let t262 = P::triple([P::lane(t257, 0), -P::lane(t255, 0), P::lane(t258, 0)]);
+    let t263 = P::triple([-P::lane(t256, 0), -P::lane(t261, 0), P::lane(t260, 0)]);
+    let t264 = P::triple([-P::lane(t256, 1), -P::lane(t261, 1), P::lane(t260, 1)]);
+    let t265 = P::triple([P::lane(t257, 2), -P::lane(t255, 2), P::lane(t258, 2)]);
+    let t266 = P::triple([-P::lane(t256, 2), -P::lane(t261, 2), P::lane(t260, 2)]);
     // inertia less external wrench that the actuators must balance
-    let t207 = mul_add(
-        t2,
-        P::splat(external_wrench[0]),
-        t1 * P::splat(external_wrench[1]),
-    );
+    let t267 = t1 * P::splat(external_wrench[1]);
     // wrench left at the trial acceleration
-    let t208 = P::triple([P::lane(t198, 0), -P::lane(t196, 0), P::lane(t199, 0)]) + t206;
-    let t209 = neg_mul_add(w(2.2551405187698492e-17), t107, t205);
-    let t210 = P::triple([P::lane(t198, 2), -P::lane(t196, 2), P::lane(t199, 2)]) + t208;
+    let t268 = t263 + t264 + t266;
+    let t269 = P::triple([P::lane(t257, 1), -P::lane(t255, 1), P::lane(t258, 1)]);
     // inertia less external wrench that the actuators must balance
-    let t211 = mul_add(t3, P::splat(external_wrench[2]), t207);
-    let t212 = P::triple([P::lane(t187, 2), P::lane(t187, 0), P::lane(t187, 1)]);
-    // its first moments by platform coordinate
-    let t213 = P::triple([P::lane(t187, 1), P::lane(t187, 2), P::lane(t187, 0)]);
+    let t270 = mul_add(t2, P::splat(external_wrench[0]), t267);
     // wrench left at the trial acceleration
-    let t214 = neg_mul_add(w(6.938893903907228e-18), t105, t209);
-    // its first moments by platform coordinate
-    let t215 = P::triple([P::lane(t191, 1), P::lane(t191, 2), P::lane(t191, 0)]);
+    let t271 = neg_mul_add(w(2.2551405187698492e-17), t137, t268);
     // inertia less external wrench that the actuators must balance
-    let t216 = P::triple([P::lane(t200, 2), P::lane(t200, 0), P::lane(t200, 1)]);
+    let t272 = mul_add(t5, P::splat(external_wrench[2]), t270);
+    let t273 = P::triple([P::lane(t246, 2), P::lane(t246, 0), P::lane(t246, 1)]);
     // its first moments by platform coordinate
-    let t217 = P::triple([P::lane(t200, 1), P::lane(t200, 2), P::lane(t200, 0)]);
+    let t274 = P::triple([P::lane(t246, 1), P::lane(t246, 2), P::lane(t246, 0)]);
     // wrench left at the trial acceleration
-    let t218 = mul_add(t64, t213, neg_mul_add(t56, t212, t210));
+    let t275 = neg_mul_add(t69, t273, t265 + (t262 + t269));
+    let t276 = neg_mul_add(w(6.938893903907228e-18), t134, t271);
+    // its first moments by platform coordinate
+    let t277 = P::triple([P::lane(t250, 1), P::lane(t250, 2), P::lane(t250, 0)]);
     // inertia less external wrench that the actuators must balance
-    let t219 = P::triple([P::lane(t211, 1), P::lane(t211, 2), P::lane(t211, 0)]);
-    let t220 = neg_mul_add(w(0.031), t219, t215);
+    let t278 = P::triple([P::lane(t259, 2), P::lane(t259, 0), P::lane(t259, 1)]);
+    // its first moments by platform coordinate
+    let t279 = P::triple([P::lane(t259, 1), P::lane(t259, 2), P::lane(t259, 0)]);
+    // inertia less external wrench that the actuators must balance
+    let t280 = P::triple([P::lane(t272, 1), P::lane(t272, 2), P::lane(t272, 0)]);
+    let t281 = neg_mul_add(w(0.031), t280, t277);
     // wrench left at the trial acceleration
-    let t221 = t211 + neg_mul_add(w(0.188852), t113, t214);
+    let t282 = neg_mul_add(t66, t278, mul_add(t77, t274, t275));
+    let t283 = t272 + neg_mul_add(w(0.188852), t142, t276);
     // mass matrix in base coordinates
-    let t222 = w(0.9523333333333334) * t49;
-    let t223 = w(0.9523333333333334) * t51;
+    let t284 = w(0.9523333333333334) * t62;
+    let t285 = w(0.9523333333333334) * t64;
+    let t286 = t63 * w(1.1230000000000002);
     // legs 1, 2, 3: the vectors that are squared, in the platform speeds
-    let t224 = mul_add(t20, w(0.1792089604480224), t162);
+    let t287 = mul_add(t27, w(0.1792089604480224), t220);
     // mass matrix in base coordinates
-    let t225 = t48 * (w(0.9523333333333334) * t48);
+    let t288 = t61 * (w(0.9523333333333334) * t61);
     // legs 1, 2, 3: the vectors that are squared, in the platform speeds
-    let t226 = mul_add(t17, w(0.1792089604480224), t163);
+    let t289 = mul_add(t22, w(0.1792089604480224), t221);
     // legs 4, 5, 6: the vectors that are squared, in the platform speeds
-    let t227 = mul_add(t21, w(0.1792089604480224), t164);
+    let t290 = mul_add(t28, w(0.1792089604480224), t222);
     // mass matrix in base coordinates
-    let t228 = mul_add(t48, w(1.1230000000000002), t50 * w(1.1230000000000002));
+    let t291 = mul_add(t61, w(1.1230000000000002), t286);
     // legs 4, 5, 6: the vectors that are squared, in the platform speeds
-    let t229 = mul_add(t18, w(0.1792089604480224), t165);
+    let t292 = mul_add(t25, w(0.1792089604480224), t223);
     // mass matrix in base coordinates
-    let t230 = mul_add(t50, w(0.9523333333333334) * t50, t225);
-    let t231 = mul_add(t48, t223, t50 * t222);
-    let t232 = w(0.9523333333333334) * t224;
-    // wrench left at the trial acceleration
-    let t233 = mul_add(t57, t217, neg_mul_add(t53, t216, t218));
-    // mass matrix in base coordinates
-    let t234 = t20 * w(0.03058499591646249);
-    let t235 = w(0.9523333333333334) * t227;
+    let t293 = mul_add(t63, w(0.9523333333333334) * t63, t288);
+    let t294 = mul_add(t61, t285, t63 * t284);
+    let t295 = w(0.9523333333333334) * t287;
+    let t296 = t27 * w(0.03058499591646249);
+    let t297 = w(0.9523333333333334) * t290;
     // inertia less external wrench that the actuators must balance
-    let t236 = P::triple([P::lane(t220, 1), P::lane(t220, 2), P::lane(t220, 0)]);
+    let t298 = P::triple([P::lane(t281, 1), P::lane(t281, 2), P::lane(t281, 0)]);
     // mass matrix in base coordinates
-    let t237 = t18 * w(0.03058499591646249);
-    let t238 = w(0.9523333333333334) * t229;
-    let t239 = mul_add(t48, t232, t50 * t235);
+    let t299 = t25 * w(0.03058499591646249);
     // wrench left at the trial acceleration
-    let t240 = mul_add(t68, t220, neg_mul_add(t67, t236, t233));
+    let t300 = neg_mul_add(t80, t298, mul_add(t70, t279, t282));
     // mass matrix in base coordinates
-    let t241 = w(0.9523333333333334) * t226;
+    let t301 = w(0.9523333333333334) * t292;
+    let t302 = mul_add(t61, t295, t63 * t297);
+    let t303 = w(0.9523333333333334) * t289;
     // wrench left at the trial acceleration
-    let t242 = mul_add(t2, P::splat(external_wrench[3]), t240);
-    let t243 = mul_add(t1, P::splat(external_wrench[4]), t242);
+    let t304 = mul_add(t2, P::splat(external_wrench[3]), mul_add(t81, t281, t300));
+    let t305 = mul_add(t1, P::splat(external_wrench[4]), t304);
     // mass matrix in base coordinates
-    let t244 = t17 * w(0.03058499591646249);
+    let t306 = t22 * w(0.03058499591646249);
     // wrench left at the trial acceleration
-    let t245 = mul_add(t3, P::splat(external_wrench[5]), t243);
+    let t307 = mul_add(t5, P::splat(external_wrench[5]), t305);
     // mass matrix in base coordinates
-    let t246 = w(0.9523333333333334) * t169;
-    let t247 = w(0.9523333333333334) * t170;
-    let t248 = mul_add(t49, t222, t51 * t223);
-    let t249 = mul_add(t51, w(1.1230000000000002), t49 * w(1.1230000000000002));
-    let t250 = neg_mul_add(t232, w(1.1792089604480225), t234);
-    let t251 = neg_mul_add(w(1.1792089604480225), t241, t244);
-    let t252 = mul_add(t227, t235, mul_sub(t224, t232, t20 * t234));
-    let t253 = mul_add(t51, t241, t49 * t238);
-    let t254 = mul_add(t49, t235, t51 * t232);
-    let t255 = mul_add(t49, t247, t51 * t246);
-    let t256 = mul_add(t50, t238, t48 * t241);
-    let t257 = mul_add(t227, t238, mul_sub(t224, t241, t20 * t244));
-    let t258 = mul_sub(w(1.1792089604480225), t235, t250);
-    let t259 = mul_sub(t21, t21 * w(0.03058499591646249), t252);
-    let t260 = mul_add(t50, t247, t48 * t246);
-    let t261 = mul_sub(t21, t237, t257);
-    let t262 = mul_add(t227, t247, t224 * t246);
-    let t263 = mul_sub(w(1.1792089604480225), t238, t251);
-    let t264 = mul_add(t229, t247, t226 * t246);
-    let t265 = mul_sub(t21, w(0.03058499591646249), t258);
-    let t266 = mul_sub(t18, w(0.03058499591646249), t263);
-    let t267 = mul_add(t229, t238, mul_sub(t226, t241, t17 * t244));
-    let t268 = mul_add(w(1.1792089604480225), t246, w(1.1792089604480225) * t247);
-    let t269 = mul_add(t170, t247, t169 * t246);
-    let t270 = P::triple([P::lane(t230, 1), P::lane(t231, 1), P::lane(t228, 1)]);
-    let t271 = P::triple([P::lane(t230, 0), P::lane(t231, 0), P::lane(t228, 0)]) + t270;
-    let t272 = mul_sub(t18, t237, t267);
-    let t273 = P::triple([P::lane(t230, 2), P::lane(t231, 2), P::lane(t228, 2)]) + t271;
-    let t274 = P::lane(t249, 1) + P::lane(t249, 0);
-    let t275 = P::triple([c(0.0), P::lane(t248, 1) + P::lane(t248, 0), t274]);
-    let t276 = t275 + P::triple([P::lane(t273, 1), P::lane(t248, 2), P::lane(t249, 2)]);
-    let t277 = P::triple([P::lane(t239, 1), -P::lane(t256, 1), P::lane(t260, 1)]);
-    let t278 = P::triple([P::lane(t239, 0), -P::lane(t256, 0), P::lane(t260, 0)]) + t277;
-    let t279 = P::triple([P::lane(t254, 1), -P::lane(t253, 1), P::lane(t255, 1)]);
-    let t280 = t278 + P::triple([P::lane(t239, 2), -P::lane(t256, 2), P::lane(t260, 2)]);
-    let t281 = P::triple([P::lane(t254, 0), -P::lane(t253, 0), P::lane(t255, 0)]) + t279;
-    let t282 = P::triple([P::lane(t273, 2), P::lane(t276, 2), c(2.5873333333333344)]);
-    let t283 = P::triple([c(0.0), c(0.0), c(5.174666666666669)]) + t282;
-    let t284 = P::triple([P::lane(t254, 2), -P::lane(t253, 2), P::lane(t255, 2)]) + t281;
-    let t285 = P::triple([-P::lane(t265, 1), P::lane(t266, 1), P::lane(t268, 1)]);
-    let t286 = P::triple([-P::lane(t265, 0), P::lane(t266, 0), P::lane(t268, 0)]) + t285;
-    let t287 = P::triple([-P::lane(t259, 1), P::lane(t261, 1), P::lane(t262, 1)]);
-    let t288 = P::triple([-P::lane(t259, 0), P::lane(t261, 0), P::lane(t262, 0)]) + t287;
-    let t289 = t286 + P::triple([-P::lane(t265, 2), P::lane(t266, 2), P::lane(t268, 2)]);
-    let t290 = P::triple([-P::lane(t259, 2), P::lane(t261, 2), P::lane(t262, 2)]) + t288;
-    let t291 = -(P::lane(t264, 1) + P::lane(t264, 0));
+    let t308 = t62 * w(1.1230000000000002);
+    let t309 = w(0.9523333333333334) * t228;
+    let t310 = w(0.9523333333333334) * t229;
+    let t311 = mul_add(t62, t284, t64 * t285);
+    let t312 = mul_add(t64, w(1.1230000000000002), t308);
+    let t313 = neg_mul_add(t295, w(1.1792089604480225), t296);
+    let t314 = neg_mul_add(w(1.1792089604480225), t303, t306);
+    let t315 = mul_add(t290, t297, mul_sub(t287, t295, t27 * t296));
+    let t316 = mul_add(t64, t303, t62 * t301);
+    let t317 = mul_add(t62, t297, t64 * t295);
+    let t318 = mul_add(t62, t310, t64 * t309);
+    let t319 = mul_add(t63, t301, t61 * t303);
+    let t320 = mul_add(t290, t301, mul_sub(t287, t303, t27 * t306));
+    let t321 = mul_sub(w(1.1792089604480225), t297, t313);
+    let t322 = mul_sub(t28, t28 * w(0.03058499591646249), t315);
+    let t323 = mul_add(t63, t310, t61 * t309);
+    let t324 = mul_sub(t28, t299, t320);
+    let t325 = mul_add(t290, t310, t287 * t309);
+    let t326 = mul_sub(w(1.1792089604480225), t301, t314);
+    let t327 = w(1.1792089604480225) * t310;
+    let t328 = P::triple([P::lane(t293, 2), P::lane(t294, 2), P::lane(t291, 2)]);
+    let t329 = mul_add(t292, t310, t289 * t309);
+    let t330 = mul_sub(t28, w(0.03058499591646249), t321);
+    let t331 = mul_sub(t25, w(0.03058499591646249), t326);
+    let t332 = P::triple([P::lane(t293, 0), P::lane(t294, 0), P::lane(t291, 0)]);
+    let t333 = mul_add(t292, t301, mul_sub(t289, t303, t22 * t306));
+    let t334 = mul_add(w(1.1792089604480225), t309, t327);
+    let t335 = mul_add(t229, t310, t228 * t309);
+    let t336 = P::triple([P::lane(t293, 1), P::lane(t294, 1), P::lane(t291, 1)]);
+    let t337 = mul_sub(t25, t299, t333);
+    let t338 = t328 + (t332 + t336);
+    let t339 = P::lane(t312, 1) + P::lane(t312, 0);
+    let t340 = P::triple([c(0.0), P::lane(t311, 1) + P::lane(t311, 0), t339]);
+    let t341 = P::triple([P::lane(t338, 1), P::lane(t311, 2), P::lane(t312, 2)]);
+    let t342 = t340 + t341;
+    let t343 = P::triple([P::lane(t302, 0), -P::lane(t319, 0), P::lane(t323, 0)]);
+    let t344 = P::triple([P::lane(t302, 1), -P::lane(t319, 1), P::lane(t323, 1)]);
+    let t345 = P::triple([P::lane(t302, 2), -P::lane(t319, 2), P::lane(t323, 2)]);
+    let t346 = P::triple([P::lane(t317, 2), -P::lane(t316, 2), P::lane(t318, 2)]);
+    let t347 = P::triple([P::lane(t317, 0), -P::lane(t316, 0), P::lane(t318, 0)]);
+    let t348 = P::triple([P::lane(t317, 1), -P::lane(t316, 1), P::lane(t318, 1)]);
+    let t349 = t343 + t344 + t345;
+    let t350 = P::triple([P::lane(t338, 2), P::lane(t342, 2), c(2.5873333333333344)]);
+    let t351 = P::triple([c(0.0), c(0.0), c(5.174666666666669)]) + t350;
+    let t352 = t346 + (t347 + t348);
+    let t353 = P::triple([-P::lane(t322, 0), P::lane(t324, 0), P::lane(t325, 0)]);
+    let t354 = P::triple([-P::lane(t322, 2), P::lane(t324, 2), P::lane(t325, 2)]);
+    let t355 = P::triple([-P::lane(t330, 0), P::lane(t331, 0), P::lane(t334, 0)]);
+    let t356 = P::triple([-P::lane(t330, 1), P::lane(t331, 1), P::lane(t334, 1)]);
+    let t357 = P::triple([-P::lane(t330, 2), P::lane(t331, 2), P::lane(t334, 2)]);
+    let t358 = P::triple([-P::lane(t322, 1), P::lane(t324, 1), P::lane(t325, 1)]);
+    let t359 = t355 + t356 + t357;
+    let t360 = t354 + (t353 + t358);
+    let t361 = -(P::lane(t329, 1) + P::lane(t329, 0));
+    let t362 = P::triple([c(0.0), -(P::lane(t337, 1) + P::lane(t337, 0)), t361]);
     // mass of payload and platform-side leg ends
-    let t292 = P::triple([c(8.139999999999999), c(0.0), c(0.0)]);
+    let t363 = P::triple([c(8.139999999999999), c(0.0), c(0.0)]);
     // mass matrix in base coordinates
-    let t293 = P::triple([P::lane(t290, 1), -P::lane(t272, 2), -P::lane(t264, 2)]);
-    let t294 = P::triple([c(0.0), -(P::lane(t272, 1) + P::lane(t272, 0)), t291]) + t293;
+    let t364 = P::triple([P::lane(t360, 1), -P::lane(t337, 2), -P::lane(t329, 2)]);
+    let t365 = t362 + t364;
     // rotation of the platform seen from the base
-    let t295 = P::triple([P::lane(t9, 0), P::lane(t9, 1), P::lane(t9, 1)]);
-    let t296 = P::triple([P::lane(t9, 1), P::lane(t9, 1), P::lane(t9, 2)]);
+    let t366 = P::triple([P::lane(t12, 0), P::lane(t12, 1), P::lane(t12, 1)]);
+    let t367 = P::triple([P::lane(t12, 1), P::lane(t12, 1), P::lane(t12, 2)]);
     // mass matrix in base coordinates
-    let t297 = P::triple([c(0.0), c(0.0), P::lane(t269, 1) + P::lane(t269, 0)]);
-    let t298 = t294 + P::triple([c(0.0), c(0.07784561200000001), c(0.0)]);
+    let t368 = P::triple([c(0.0), c(0.0), P::lane(t335, 1) + P::lane(t335, 0)]);
+    let t369 = t365 + P::triple([c(0.0), c(0.07784561200000001), c(0.0)]);
     // rotation of the platform seen from the base
-    let t299 = P::triple([P::lane(t8, 0), P::lane(t8, 1), P::lane(t8, 1)]);
-    let t300 = P::triple([P::lane(t8, 1), P::lane(t8, 1), P::lane(t8, 2)]);
-    let t301 = P::triple([P::lane(t15, 0), P::lane(t15, 1), P::lane(t15, 1)]);
+    let t370 = P::triple([P::lane(t11, 0), P::lane(t11, 1), P::lane(t11, 1)]);
+    let t371 = P::triple([P::lane(t11, 1), P::lane(t11, 1), P::lane(t11, 2)]);
     // mass matrix in base coordinates
-    let t302 = t297 + P::triple([P::lane(t290, 2), P::lane(t294, 2), P::lane(t269, 2)]);
-    let t303 = neg_mul_add(t296, w(0.032245600000000006) * t295, t298);
-    let t304 = t302 + P::triple([c(0.0), c(0.0), c(0.07784561200000001)]);
+    let t372 = P::triple([P::lane(t360, 2), P::lane(t365, 2), P::lane(t335, 2)]);
     // rotation of the platform seen from the base
-    let t305 = P::triple([P::lane(t15, 1), P::lane(t15, 1), P::lane(t15, 2)]);
+    let t373 = P::triple([P::lane(t19, 0), P::lane(t19, 1), P::lane(t19, 1)]);
     // mass matrix in base coordinates
-    let t306 = neg_mul_add(t300, w(0.032245600000000006) * t299, t303);
-    let t307 = neg_mul_add(P::splat(P::lane(t9, 2)), t9 * w(0.032245600000000006), t304);
-    let t308 = t290 + P::triple([c(0.07784561200000001), c(0.0), c(0.0)]);
-    let t309 = P::triple([
-        P::lane(t276 + P::triple([c(0.0), c(8.139999999999999), c(0.0)]), 1),
-        P::lane(t273, 2),
-        P::lane(t273, 1),
-    ]);
-    let t310 = neg_mul_add(w(0.013354412) * t301, t305, t306);
-    let t311 = neg_mul_add(P::splat(P::lane(t8, 2)), t8 * w(0.032245600000000006), t307);
-    let t312 = neg_mul_add(t9, P::splat(P::lane(t9, 0) * c(0.032245600000000006)), t308);
-    let t313 = P::triple([P::lane(t276, 2), P::lane(t273, 1), P::lane(t273, 2)]);
-    let t314 = P::triple([
-        P::lane(t283 + P::triple([c(0.0), c(0.0), c(8.139999999999999)]), 2),
-        P::lane(t276, 2),
-        P::lane(t276, 2),
-    ]);
-    let t315 = neg_mul_add(P::splat(P::lane(t15, 2)), t15 * w(0.013354412), t311);
-    let t316 = neg_mul_add(t8, P::splat(P::lane(t8, 0) * c(0.032245600000000006)), t312);
-    let t317 = P::triple([
-        P::lane(t276, 2),
-        P::lane(t283 + P::triple([c(0.0), c(0.0), c(8.139999999999999)]), 2),
-        P::lane(t276 + P::triple([c(0.0), c(8.139999999999999), c(0.0)]), 1),
-    ]);
-    let t318 = neg_mul_add(t15, P::splat(P::lane(t15, 0) * c(0.013354412)), t316);
-    let t319 = P::lane(t8, 2) * c(6.938893903907228e-18);
-    let t320 = P::lane(t8, 0) * c(6.938893903907228e-18);
-    let t321 = P::lane(t8, 1) * c(6.938893903907228e-18);
-    // acceleration that removes the residual wrench
-    let t322 = mul_sub(t309, t314, t313 * t317);
+    let t374 = t12 * w(0.032245600000000006);
+    let t375 = neg_mul_add(t367, w(0.032245600000000006) * t366, t369);
+    let t376 = t11 * w(0.032245600000000006);
+    let t377 = t368 + t372 + P::triple([c(0.0), c(0.0), c(0.07784561200000001)]);
+    let t378 = t19 * w(0.013354412);
+    // rotation of the platform seen from the base
+    let t379 = P::triple([P::lane(t19, 1), P::lane(t19, 1), P::lane(t19, 2)]);
     // mass matrix in base coordinates
-    let t323 = P::triple([
-        P::lane(t283 + P::triple([c(0.0), c(0.0), c(8.139999999999999)]), 2),
-        P::lane(t273, 2),
-        P::lane(t276, 2),
-    ]);
-    let t324 = P::mul_add(P::lane(t9, 2), c(2.2551405187698492e-17), t319);
-    let t325 = P::mul_add(P::lane(t9, 0), c(2.2551405187698492e-17), t320);
-    let t326 = P::mul_add(P::lane(t9, 1), c(2.2551405187698492e-17), t321);
-    let t327 = P::triple([P::lane(t273, 1), P::lane(t273, 2), P::lane(t273 + t292, 0)]);
-    let t328 = P::triple([P::lane(t273, 2), P::lane(t273 + t292, 0), P::lane(t273, 2)]);
-    let t329 = P::triple([
-        P::lane(t276, 2),
-        P::lane(t283 + P::triple([c(0.0), c(0.0), c(8.139999999999999)]), 2),
-        P::lane(t273, 1),
-    ]);
-    let t330 = P::mul_add(P::lane(t15, 2), c(0.188852), t324);
-    let t331 = P::mul_add(P::lane(t15, 0), c(0.188852), t325);
-    let t332 = P::mul_add(P::lane(t15, 1), c(0.188852), t326);
+    let t380 = neg_mul_add(t371, w(0.032245600000000006) * t370, t375);
+    let t381 = neg_mul_add(P::splat(P::lane(t12, 2)), t374, t377);
+    let t382 = t360 + P::triple([c(0.07784561200000001), c(0.0), c(0.0)]);
+    let t383 = P::lane(t12, 0) * c(0.032245600000000006);
+    let t384 = P::lane(t11, 0) * c(0.032245600000000006);
+    let t385 =
+        P::triple([P::lane(t342 + P::triple([c(0.0), c(8.139999999999999), c(0.0)]), 1), P::lane(t338, 2), P::lane(t338, 1)]);
+    let t386 = neg_mul_add(w(0.013354412) * t373, t379, t380);
+    let t387 = neg_mul_add(P::splat(P::lane(t11, 2)), t376, t381);
+    let t388 = neg_mul_add(t12, P::splat(t383), t382);
+    let t389 = P::triple([P::lane(t342, 2), P::lane(t338, 1), P::lane(t338, 2)]);
+    let t390 =
+        P::triple([P::lane(t351 + P::triple([c(0.0), c(0.0), c(8.139999999999999)]), 2), P::lane(t342, 2), P::lane(t342, 2)]);
+    let t391 = neg_mul_add(P::splat(P::lane(t19, 2)), t378, t387);
+    let t392 = neg_mul_add(t11, P::splat(t384), t388);
+    let t393 =
+        P::triple([P::lane(t342, 2), P::lane(t351 + P::triple([c(0.0), c(0.0), c(8.139999999999999)]), 2), P::lane(t342 + P::triple([c(0.0), c(8.139999999999999), c(0.0)]), 1)]);
+    let t394 = neg_mul_add(t19, P::splat(P::lane(t19, 0) * c(0.013354412)), t392);
+    let t395 = P::lane(t11, 2) * c(6.938893903907228e-18);
+    let t396 = P::lane(t11, 0) * c(6.938893903907228e-18);
+    let t397 = P::lane(t11, 1) * c(6.938893903907228e-18);
     // acceleration that removes the residual wrench
-    let t333 = mul_sub(t328, t329, t323 * t327);
+    let t398 = mul_sub(t385, t390, t389 * t393);
     // mass matrix in base coordinates
-    let t334 = P::triple([P::lane(t273, 2), P::lane(t273 + t292, 0), P::lane(t273, 1)]);
-    let t335 = P::triple([
-        P::lane(t276 + P::triple([c(0.0), c(8.139999999999999), c(0.0)]), 1),
-        P::lane(t276, 2),
-        P::lane(t273, 1),
-    ]);
-    let t336 = P::lane(t284, 0) - t330;
-    let t337 = P::lane(t284, 2) + t331;
-    let t338 = P::lane(t280, 1) + t330;
-    let t339 = P::lane(t280, 2) - t332;
-    let t340 = P::lane(t289, 0) + t332;
-    let t341 = P::lane(t289, 1) - t331;
-    let t342 = P::triple([t336, P::lane(t284, 1), t337]);
-    let t343 = P::triple([P::lane(t273, 1), P::lane(t273, 1), P::lane(t273 + t292, 0)]);
-    let t344 = P::triple([P::lane(t280, 0), t338, t339]);
-    let t345 = P::triple([t340, t341, P::lane(t289, 2)]);
-    let t346 = P::triple([
-        P::lane(t276, 2),
-        P::lane(t273, 2),
-        P::lane(t276 + P::triple([c(0.0), c(8.139999999999999), c(0.0)]), 1),
-    ]);
+    let t399 =
+        P::triple([P::lane(t351 + P::triple([c(0.0), c(0.0), c(8.139999999999999)]), 2), P::lane(t338, 2), P::lane(t342, 2)]);
+    let t400 = P::mul_add(P::lane(t12, 2), c(2.2551405187698492e-17), t395);
+    let t401 = P::mul_add(P::lane(t12, 0), c(2.2551405187698492e-17), t396);
+    let t402 = P::mul_add(P::lane(t12, 1), c(2.2551405187698492e-17), t397);
+    let t403 = P::triple([P::lane(t338, 1), P::lane(t338, 2), P::lane(t338 + t363, 0)]);
+    let t404 = P::triple([P::lane(t338, 2), P::lane(t338 + t363, 0), P::lane(t338, 2)]);
+    let t405 =
+        P::triple([P::lane(t342, 2), P::lane(t351 + P::triple([c(0.0), c(0.0), c(8.139999999999999)]), 2), P::lane(t338, 1)]);
+    let t406 = P::mul_add(P::lane(t19, 2), c(0.188852), t400);
+    let t407 = P::mul_add(P::lane(t19, 0), c(0.188852), t401);
+    let t408 = P::mul_add(P::lane(t19, 1), c(0.188852), t402);
     // acceleration that removes the residual wrench
-    let t347 = mul_add(
-        P::splat(P::lane(t322, 0)),
-        t344,
-        P::splat(P::lane(t322, 1)) * t342,
-    );
-    let t348 = mul_sub(t343, t346, t334 * t335);
-    let t349 = P::lane(t273, 1) * P::lane(t322, 1);
-    let t350 = P::mul_add(P::lane(t273 + t292, 0), P::lane(t322, 0), t349);
-    let t351 = mul_add(P::splat(P::lane(t322, 2)), t345, t347);
-    let t352 = mul_add(
-        P::splat(P::lane(t322, 1)),
-        t344,
-        t342 * P::splat(P::lane(t333, 1)),
-    );
-    let t353 = mul_add(
-        P::splat(P::lane(t322, 2)),
-        t344,
-        t342 * P::splat(P::lane(t333, 2)),
-    );
-    let t354 = P::mul_add(P::lane(t273, 2), P::lane(t322, 2), t350);
-    let t355 = mul_add(t345, P::splat(P::lane(t333, 2)), t352);
-    let t356 = mul_add(t345, P::splat(P::lane(t348, 2)), t353);
-    let t357 = mul_add(
-        t322,
-        P::splat(P::lane(t221, 0)),
-        t333 * P::splat(P::lane(t221, 1)),
-    );
-    let t358 = mul_add(t348, P::splat(P::lane(t221, 2)), t357);
-    let t359 = neg_mul_add(
-        P::splat(P::lane(t284, 1)),
-        t355,
-        mul_sub(t310, P::splat(t354), P::splat(t338) * t351),
-    );
-    let t360 = neg_mul_add(
-        P::splat(t337),
-        t355,
-        mul_sub(t315, P::splat(t354), P::splat(t339) * t351),
-    );
-    let t361 = neg_mul_add(
-        P::splat(t336),
-        t355,
-        mul_sub(t318, P::splat(t354), P::splat(P::lane(t280, 0)) * t351),
-    );
-    let t362 = neg_mul_add(P::splat(t341), t356, t359);
-    let t363 = neg_mul_add(P::splat(P::lane(t289, 2)), t356, t360);
-    let t364 = neg_mul_add(P::splat(t340), t356, t361);
-    let t365 = mul_sub(t245, P::splat(t354), t344 * P::splat(P::lane(t358, 0)));
-    let t366 = P::triple([P::lane(t362, 2), P::lane(t362, 0), P::lane(t362, 1)]);
-    let t367 = P::triple([P::lane(t362, 1), P::lane(t362, 2), P::lane(t362, 0)]);
-    let t368 = P::triple([P::lane(t363, 1), P::lane(t363, 2), P::lane(t363, 0)]);
-    let t369 = P::triple([P::lane(t363, 2), P::lane(t363, 0), P::lane(t363, 1)]);
-    let t370 = neg_mul_add(t342, P::splat(P::lane(t358, 1)), t365);
-    let t371 = P::triple([P::lane(t364, 1), P::lane(t364, 2), P::lane(t364, 0)]);
-    let t372 = mul_sub(t367, t369, t366 * t368);
-    let t373 = P::triple([P::lane(t364, 2), P::lane(t364, 0), P::lane(t364, 1)]);
-    let t374 = neg_mul_add(t345, P::splat(P::lane(t358, 2)), t370);
-    let t375 = mul_sub(t366, t371, t367 * t373);
-    let t376 = mul_sub(t368, t373, t369 * t371) * P::splat(P::lane(t374, 1));
-    let t377 = P::triple([P::lane(t351, 0), P::lane(t355, 0), P::lane(t356, 0)]);
-    let t378 = P::mul_add(
-        P::lane(t364, 0),
-        P::lane(t372, 0),
-        P::lane(t364, 1) * P::lane(t372, 1),
-    );
+    let t409 = mul_sub(t404, t405, t399 * t403);
+    // mass matrix in base coordinates
+    let t410 = P::triple([P::lane(t338, 2), P::lane(t338 + t363, 0), P::lane(t338, 1)]);
+    let t411 =
+        P::triple([P::lane(t342 + P::triple([c(0.0), c(8.139999999999999), c(0.0)]), 1), P::lane(t342, 2), P::lane(t338, 1)]);
+    let t412 = P::lane(t352, 0) - t406;
+    let t413 = P::lane(t352, 2) + t407;
+    let t414 = P::lane(t349, 1) + t406;
+    let t415 = P::lane(t349, 2) - t408;
+    let t416 = P::lane(t359, 0) + t408;
+    let t417 = P::lane(t359, 1) - t407;
+    let t418 = P::triple([t412, P::lane(t352, 1), t413]);
+    let t419 = P::triple([P::lane(t338, 1), P::lane(t338, 1), P::lane(t338 + t363, 0)]);
+    // acceleration that removes the residual wrench
+    let t420 = P::splat(P::lane(t398, 1)) * t418;
+    // mass matrix in base coordinates
+    let t421 = P::triple([P::lane(t349, 0), t414, t415]);
+    let t422 = P::triple([t416, t417, P::lane(t359, 2)]);
+    let t423 =
+        P::triple([P::lane(t342, 2), P::lane(t338, 2), P::lane(t342 + P::triple([c(0.0), c(8.139999999999999), c(0.0)]), 1)]);
+    // acceleration that removes the residual wrench
+    let t424 = mul_add(P::splat(P::lane(t398, 0)), t421, t420);
+    let t425 = mul_sub(t419, t423, t410 * t411);
+    let t426 = P::lane(t338, 1) * P::lane(t398, 1);
+    let t427 = t418 * P::splat(P::lane(t409, 1));
+    let t428 = t418 * P::splat(P::lane(t409, 2));
+    let t429 = P::mul_add(P::lane(t338 + t363, 0), P::lane(t398, 0), t426);
+    let t430 = mul_add(P::splat(P::lane(t398, 2)), t422, t424);
+    let t431 = mul_add(P::splat(P::lane(t398, 1)), t421, t427);
+    let t432 = t409 * P::splat(P::lane(t283, 1));
+    let t433 = mul_add(P::splat(P::lane(t398, 2)), t421, t428);
+    let t434 = P::mul_add(P::lane(t338, 2), P::lane(t398, 2), t429);
+    let t435 = mul_add(t422, P::splat(P::lane(t409, 2)), t431);
+    let t436 = mul_add(t422, P::splat(P::lane(t425, 2)), t433);
+    let t437 = mul_add(t398, P::splat(P::lane(t283, 0)), t432);
+    let t438 = mul_sub(t386, P::splat(t434), P::splat(t414) * t430);
+    let t439 = mul_sub(t391, P::splat(t434), P::splat(t415) * t430);
+    let t440 = mul_sub(t394, P::splat(t434), P::splat(P::lane(t349, 0)) * t430);
+    let t441 = mul_add(t425, P::splat(P::lane(t283, 2)), t437);
+    let t442 = neg_mul_add(P::splat(P::lane(t352, 1)), t435, t438);
+    let t443 = neg_mul_add(P::splat(t413), t435, t439);
+    let t444 = neg_mul_add(P::splat(t412), t435, t440);
+    let t445 = neg_mul_add(P::splat(t417), t436, t442);
+    let t446 = neg_mul_add(P::splat(P::lane(t359, 2)), t436, t443);
+    let t447 = neg_mul_add(P::splat(t416), t436, t444);
+    let t448 = mul_sub(t307, P::splat(t434), t421 * P::splat(P::lane(t441, 0)));
+    let t449 = P::triple([P::lane(t445, 2), P::lane(t445, 0), P::lane(t445, 1)]);
+    let t450 = P::triple([P::lane(t445, 1), P::lane(t445, 2), P::lane(t445, 0)]);
+    let t451 = P::triple([P::lane(t446, 1), P::lane(t446, 2), P::lane(t446, 0)]);
+    let t452 = P::triple([P::lane(t446, 2), P::lane(t446, 0), P::lane(t446, 1)]);
+    let t453 = neg_mul_add(t418, P::splat(P::lane(t441, 1)), t448);
+    let t454 = P::triple([P::lane(t447, 1), P::lane(t447, 2), P::lane(t447, 0)]);
+    let t455 = mul_sub(t450, t452, t449 * t451);
+    let t456 = P::triple([P::lane(t447, 2), P::lane(t447, 0), P::lane(t447, 1)]);
+    let t457 = neg_mul_add(t422, P::splat(P::lane(t441, 2)), t453);
+    let t458 = mul_sub(t449, t454, t450 * t456);
+    let t459 = P::lane(t447, 1) * P::lane(t455, 1);
+    let t460 = mul_sub(t451, t456, t452 * t454) * P::splat(P::lane(t457, 1));
+    let t461 = P::triple([P::lane(t430, 0), P::lane(t435, 0), P::lane(t436, 0)]);
+    let t462 = P::mul_add(P::lane(t447, 0), P::lane(t455, 0), t459);
+    let t463 = mul_add(t455, P::splat(P::lane(t457, 0)), t460);
     // constant and copied elements
-    let t379 = P::triple([c(0.0), c(0.0), c(-9.81)]);
-    let t380 = P::triple([
-        base_rotation[0][0],
-        base_rotation[1][0],
-        base_rotation[2][0],
-    ]);
+    let t464 = P::triple([c(0.0), c(0.0), c(-9.81)]);
+    let t465 = P::triple([base_rotation[0][0], base_rotation[1][0], base_rotation[2][0]]);
     // acceleration that removes the residual wrench
-    let t381 = P::triple([P::lane(t351, 1), P::lane(t355, 1), P::lane(t356, 1)]);
-    let t382 = mul_add(
-        t375,
-        P::splat(P::lane(t374, 2)),
-        mul_add(t372, P::splat(P::lane(t374, 0)), t376),
-    );
-    let t383 = P::triple([P::lane(t351, 2), P::lane(t355, 2), P::lane(t356, 2)]);
+    let t466 = P::triple([P::lane(t430, 1), P::lane(t435, 1), P::lane(t436, 1)]);
+    let t467 = P::triple([P::lane(t430, 2), P::lane(t435, 2), P::lane(t436, 2)]);
+    let t468 = c(1.0) / P::mul_add(P::lane(t447, 2), P::lane(t455, 2), t462);
     // constant and copied elements
-    let t384 = P::triple([
-        base_rotation[0][1],
-        base_rotation[1][1],
-        base_rotation[2][1],
-    ]);
-    let t385 = P::triple([
-        base_rotation[0][2],
-        base_rotation[1][2],
-        base_rotation[2][2],
-    ]);
+    let t469 = P::triple([base_rotation[0][1], base_rotation[1][1], base_rotation[2][1]]);
+    let t470 = P::triple([base_rotation[0][2], base_rotation[1][2], base_rotation[2][2]]);
     // acceleration that removes the residual wrench
-    let t386 = t382
-        * P::splat(c(1.0) / P::mul_add(P::lane(t364, 2), P::lane(t372, 2), t378));
-    let t387 = neg_mul_add(t377, P::splat(P::lane(t386, 0)), t358);
-    let t388 = neg_mul_add(t381, P::splat(P::lane(t386, 1)), t387);
+    let t471 = mul_add(t458, P::splat(P::lane(t457, 2)), t463) * P::splat(t468);
+    let t472 = neg_mul_add(t461, P::splat(P::lane(t471, 0)), t441);
     // platform acceleration v_p'
-    let t389 = mul_add(
-        t380,
-        P::splat(P::lane(t386, 0)),
-        t384 * P::splat(P::lane(t386, 1)),
-    );
-    let t390 = mul_add(t385, P::splat(P::lane(t386, 2)), t389);
+    let t473 = t469 * P::splat(P::lane(t471, 1));
     // acceleration that removes the residual wrench
-    let t391 = P::splat(c(1.0) / t354)
-        * neg_mul_add(t383, P::splat(P::lane(t386, 2)), t388);
+    let t474 = neg_mul_add(t466, P::splat(P::lane(t471, 1)), t472);
     // platform acceleration v_p'
-    let t392 = mul_add(
-        t380,
-        P::splat(P::lane(t391, 0)),
-        t384 * P::splat(P::lane(t391, 1)),
-    );
-    let t393 = t379 + mul_add(t385, P::splat(P::lane(t391, 2)), t392);
-    forward_dynamics[0] = P::lane(t393, 0);
-    forward_dynamics[1] = P::lane(t393, 1);
-    forward_dynamics[2] = P::lane(t393, 2);
-    forward_dynamics[3] = P::lane(t390, 0);
-    forward_dynamics[4] = P::lane(t390, 1);
-    forward_dynamics[5] = P::lane(t390, 2);
+    let t475 = mul_add(t465, P::splat(P::lane(t471, 0)), t473);
+    // acceleration that removes the residual wrench
+    let t476 = neg_mul_add(t467, P::splat(P::lane(t471, 2)), t474);
+    // platform acceleration v_p'
+    let t477 = mul_add(t470, P::splat(P::lane(t471, 2)), t475);
+    // acceleration that removes the residual wrench
+    let t478 = P::splat(c(1.0) / t434) * t476;
+    // platform acceleration v_p'
+    let t479 = t469 * P::splat(P::lane(t478, 1));
+    let t480 = mul_add(t465, P::splat(P::lane(t478, 0)), t479);
+    let t481 = t464 + mul_add(t470, P::splat(P::lane(t478, 2)), t480);
+    forward_dynamics[0] = P::lane(t481, 0);
+    forward_dynamics[1] = P::lane(t481, 1);
+    forward_dynamics[2] = P::lane(t481, 2);
+    forward_dynamics[3] = P::lane(t477, 0);
+    forward_dynamics[4] = P::lane(t477, 1);
+    forward_dynamics[5] = P::lane(t477, 2);
 }

@@ -3776,114 +3776,14 @@ pub fn body_kinematics<T: Scalar>(
 ) {
     let c = T::constant;
     let (
-        t534,
-        t536,
-        t538,
-        t540,
-        t542,
-        t544,
-        t546,
-        t548,
-        t550,
-        t570,
-        t572,
-        t574,
-        t576,
-        t578,
-        t580,
-        t582,
-        t584,
-        t586,
-        t606,
-        t608,
-        t610,
-        t612,
-        t614,
-        t616,
-        t618,
-        t620,
-        t622,
-        t642,
-        t644,
-        t646,
-        t648,
-        t650,
-        t652,
-        t654,
-        t656,
-        t658,
-        t678,
-        t680,
-        t682,
-        t684,
-        t686,
-        t688,
-        t690,
-        t692,
-        t694,
-        t714,
-        t716,
-        t718,
-        t720,
-        t722,
-        t724,
-        t726,
-        t728,
-        t730,
-        t752,
-        t755,
-        t757,
-        t761,
-        t764,
-        t765,
-        t769,
-        t772,
-        t773,
-        t777,
-        t780,
-        t782,
-        t786,
-        t789,
-        t790,
-        t794,
-        t797,
-        t798,
-        t802,
-        t805,
-        t807,
-        t811,
-        t814,
-        t815,
-        t819,
-        t822,
-        t823,
-        t827,
-        t830,
-        t832,
-        t836,
-        t839,
-        t840,
-        t844,
-        t847,
-        t848,
-        t852,
-        t855,
-        t857,
-        t861,
-        t864,
-        t865,
-        t869,
-        t872,
-        t873,
-        t877,
-        t880,
-        t882,
-        t886,
-        t889,
-        t890,
-        t894,
-        t897,
-        t898,
+        t534, t536, t538, t540, t542, t544, t546, t548, t550, t570, t572, t574, t576, t578, t580,
+        t582, t584, t586, t606, t608, t610, t612, t614, t616, t618, t620, t622, t642, t644, t646,
+        t648, t650, t652, t654, t656, t658, t678, t680, t682, t684, t686, t688, t690, t692, t694,
+        t714, t716, t718, t720, t722, t724, t726, t728, t730, t752, t755, t757, t761, t764, t765,
+        t769, t772, t773, t777, t780, t782, t786, t789, t790, t794, t797, t798, t802, t805, t807,
+        t811, t814, t815, t819, t822, t823, t827, t830, t832, t836, t839, t840, t844, t847, t848,
+        t852, t855, t857, t861, t864, t865, t869, t872, t873, t877, t880, t882, t886, t889, t890,
+        t894, t897, t898,
     ) = {
         // rotation of the platform seen from the base
         let t1 = base_rotation[1][0] * platform_rotation[1][0];
@@ -4478,38 +4378,14 @@ pub fn body_kinematics<T: Scalar>(
         let t523 = mul_add(base_rotation[2][2], parameters.base_point[0][2], t522);
         // leg 1: platform joint
         let t524 = platform_rotation[0][1] * parameters.platform_point[0][1];
-        let t525 = mul_add(
-            platform_rotation[0][0],
-            parameters.platform_point[0][0],
-            t524,
-        );
-        let t526 = mul_add(
-            platform_rotation[0][2],
-            parameters.platform_point[0][2],
-            t525,
-        );
+        let t525 = mul_add(platform_rotation[0][0], parameters.platform_point[0][0], t524);
+        let t526 = mul_add(platform_rotation[0][2], parameters.platform_point[0][2], t525);
         let t527 = platform_rotation[1][1] * parameters.platform_point[0][1];
-        let t528 = mul_add(
-            platform_rotation[1][0],
-            parameters.platform_point[0][0],
-            t527,
-        );
-        let t529 = mul_add(
-            platform_rotation[1][2],
-            parameters.platform_point[0][2],
-            t528,
-        );
+        let t528 = mul_add(platform_rotation[1][0], parameters.platform_point[0][0], t527);
+        let t529 = mul_add(platform_rotation[1][2], parameters.platform_point[0][2], t528);
         let t530 = platform_rotation[2][1] * parameters.platform_point[0][1];
-        let t531 = mul_add(
-            platform_rotation[2][0],
-            parameters.platform_point[0][0],
-            t530,
-        );
-        let t532 = mul_add(
-            platform_rotation[2][2],
-            parameters.platform_point[0][2],
-            t531,
-        );
+        let t531 = mul_add(platform_rotation[2][0], parameters.platform_point[0][0], t530);
+        let t532 = mul_add(platform_rotation[2][2], parameters.platform_point[0][2], t531);
         // leg 1: velocity of the base joint
         let t533 = mul_sub(base_velocity[4], t523, base_velocity[5] * t520);
         let t534 = base_velocity[0] + t533;
@@ -4543,38 +4419,14 @@ pub fn body_kinematics<T: Scalar>(
         let t559 = mul_add(base_rotation[2][2], parameters.base_point[1][2], t558);
         // leg 2: platform joint
         let t560 = platform_rotation[0][1] * parameters.platform_point[1][1];
-        let t561 = mul_add(
-            platform_rotation[0][0],
-            parameters.platform_point[1][0],
-            t560,
-        );
-        let t562 = mul_add(
-            platform_rotation[0][2],
-            parameters.platform_point[1][2],
-            t561,
-        );
+        let t561 = mul_add(platform_rotation[0][0], parameters.platform_point[1][0], t560);
+        let t562 = mul_add(platform_rotation[0][2], parameters.platform_point[1][2], t561);
         let t563 = platform_rotation[1][1] * parameters.platform_point[1][1];
-        let t564 = mul_add(
-            platform_rotation[1][0],
-            parameters.platform_point[1][0],
-            t563,
-        );
-        let t565 = mul_add(
-            platform_rotation[1][2],
-            parameters.platform_point[1][2],
-            t564,
-        );
+        let t564 = mul_add(platform_rotation[1][0], parameters.platform_point[1][0], t563);
+        let t565 = mul_add(platform_rotation[1][2], parameters.platform_point[1][2], t564);
         let t566 = platform_rotation[2][1] * parameters.platform_point[1][1];
-        let t567 = mul_add(
-            platform_rotation[2][0],
-            parameters.platform_point[1][0],
-            t566,
-        );
-        let t568 = mul_add(
-            platform_rotation[2][2],
-            parameters.platform_point[1][2],
-            t567,
-        );
+        let t567 = mul_add(platform_rotation[2][0], parameters.platform_point[1][0], t566);
+        let t568 = mul_add(platform_rotation[2][2], parameters.platform_point[1][2], t567);
         // leg 2: velocity of the base joint
         let t569 = mul_sub(base_velocity[4], t559, base_velocity[5] * t556);
         let t570 = base_velocity[0] + t569;
@@ -4608,38 +4460,14 @@ pub fn body_kinematics<T: Scalar>(
         let t595 = mul_add(base_rotation[2][2], parameters.base_point[2][2], t594);
         // leg 3: platform joint
         let t596 = platform_rotation[0][1] * parameters.platform_point[2][1];
-        let t597 = mul_add(
-            platform_rotation[0][0],
-            parameters.platform_point[2][0],
-            t596,
-        );
-        let t598 = mul_add(
-            platform_rotation[0][2],
-            parameters.platform_point[2][2],
-            t597,
-        );
+        let t597 = mul_add(platform_rotation[0][0], parameters.platform_point[2][0], t596);
+        let t598 = mul_add(platform_rotation[0][2], parameters.platform_point[2][2], t597);
         let t599 = platform_rotation[1][1] * parameters.platform_point[2][1];
-        let t600 = mul_add(
-            platform_rotation[1][0],
-            parameters.platform_point[2][0],
-            t599,
-        );
-        let t601 = mul_add(
-            platform_rotation[1][2],
-            parameters.platform_point[2][2],
-            t600,
-        );
+        let t600 = mul_add(platform_rotation[1][0], parameters.platform_point[2][0], t599);
+        let t601 = mul_add(platform_rotation[1][2], parameters.platform_point[2][2], t600);
         let t602 = platform_rotation[2][1] * parameters.platform_point[2][1];
-        let t603 = mul_add(
-            platform_rotation[2][0],
-            parameters.platform_point[2][0],
-            t602,
-        );
-        let t604 = mul_add(
-            platform_rotation[2][2],
-            parameters.platform_point[2][2],
-            t603,
-        );
+        let t603 = mul_add(platform_rotation[2][0], parameters.platform_point[2][0], t602);
+        let t604 = mul_add(platform_rotation[2][2], parameters.platform_point[2][2], t603);
         // leg 3: velocity of the base joint
         let t605 = mul_sub(base_velocity[4], t595, base_velocity[5] * t592);
         let t606 = base_velocity[0] + t605;
@@ -4673,38 +4501,14 @@ pub fn body_kinematics<T: Scalar>(
         let t631 = mul_add(base_rotation[2][2], parameters.base_point[3][2], t630);
         // leg 4: platform joint
         let t632 = platform_rotation[0][1] * parameters.platform_point[3][1];
-        let t633 = mul_add(
-            platform_rotation[0][0],
-            parameters.platform_point[3][0],
-            t632,
-        );
-        let t634 = mul_add(
-            platform_rotation[0][2],
-            parameters.platform_point[3][2],
-            t633,
-        );
+        let t633 = mul_add(platform_rotation[0][0], parameters.platform_point[3][0], t632);
+        let t634 = mul_add(platform_rotation[0][2], parameters.platform_point[3][2], t633);
         let t635 = platform_rotation[1][1] * parameters.platform_point[3][1];
-        let t636 = mul_add(
-            platform_rotation[1][0],
-            parameters.platform_point[3][0],
-            t635,
-        );
-        let t637 = mul_add(
-            platform_rotation[1][2],
-            parameters.platform_point[3][2],
-            t636,
-        );
+        let t636 = mul_add(platform_rotation[1][0], parameters.platform_point[3][0], t635);
+        let t637 = mul_add(platform_rotation[1][2], parameters.platform_point[3][2], t636);
         let t638 = platform_rotation[2][1] * parameters.platform_point[3][1];
-        let t639 = mul_add(
-            platform_rotation[2][0],
-            parameters.platform_point[3][0],
-            t638,
-        );
-        let t640 = mul_add(
-            platform_rotation[2][2],
-            parameters.platform_point[3][2],
-            t639,
-        );
+        let t639 = mul_add(platform_rotation[2][0], parameters.platform_point[3][0], t638);
+        let t640 = mul_add(platform_rotation[2][2], parameters.platform_point[3][2], t639);
         // leg 4: velocity of the base joint
         let t641 = mul_sub(base_velocity[4], t631, base_velocity[5] * t628);
         let t642 = base_velocity[0] + t641;
@@ -4738,38 +4542,14 @@ pub fn body_kinematics<T: Scalar>(
         let t667 = mul_add(base_rotation[2][2], parameters.base_point[4][2], t666);
         // leg 5: platform joint
         let t668 = platform_rotation[0][1] * parameters.platform_point[4][1];
-        let t669 = mul_add(
-            platform_rotation[0][0],
-            parameters.platform_point[4][0],
-            t668,
-        );
-        let t670 = mul_add(
-            platform_rotation[0][2],
-            parameters.platform_point[4][2],
-            t669,
-        );
+        let t669 = mul_add(platform_rotation[0][0], parameters.platform_point[4][0], t668);
+        let t670 = mul_add(platform_rotation[0][2], parameters.platform_point[4][2], t669);
         let t671 = platform_rotation[1][1] * parameters.platform_point[4][1];
-        let t672 = mul_add(
-            platform_rotation[1][0],
-            parameters.platform_point[4][0],
-            t671,
-        );
-        let t673 = mul_add(
-            platform_rotation[1][2],
-            parameters.platform_point[4][2],
-            t672,
-        );
+        let t672 = mul_add(platform_rotation[1][0], parameters.platform_point[4][0], t671);
+        let t673 = mul_add(platform_rotation[1][2], parameters.platform_point[4][2], t672);
         let t674 = platform_rotation[2][1] * parameters.platform_point[4][1];
-        let t675 = mul_add(
-            platform_rotation[2][0],
-            parameters.platform_point[4][0],
-            t674,
-        );
-        let t676 = mul_add(
-            platform_rotation[2][2],
-            parameters.platform_point[4][2],
-            t675,
-        );
+        let t675 = mul_add(platform_rotation[2][0], parameters.platform_point[4][0], t674);
+        let t676 = mul_add(platform_rotation[2][2], parameters.platform_point[4][2], t675);
         // leg 5: velocity of the base joint
         let t677 = mul_sub(base_velocity[4], t667, base_velocity[5] * t664);
         let t678 = base_velocity[0] + t677;
@@ -4803,38 +4583,14 @@ pub fn body_kinematics<T: Scalar>(
         let t703 = mul_add(base_rotation[2][2], parameters.base_point[5][2], t702);
         // leg 6: platform joint
         let t704 = platform_rotation[0][1] * parameters.platform_point[5][1];
-        let t705 = mul_add(
-            platform_rotation[0][0],
-            parameters.platform_point[5][0],
-            t704,
-        );
-        let t706 = mul_add(
-            platform_rotation[0][2],
-            parameters.platform_point[5][2],
-            t705,
-        );
+        let t705 = mul_add(platform_rotation[0][0], parameters.platform_point[5][0], t704);
+        let t706 = mul_add(platform_rotation[0][2], parameters.platform_point[5][2], t705);
         let t707 = platform_rotation[1][1] * parameters.platform_point[5][1];
-        let t708 = mul_add(
-            platform_rotation[1][0],
-            parameters.platform_point[5][0],
-            t707,
-        );
-        let t709 = mul_add(
-            platform_rotation[1][2],
-            parameters.platform_point[5][2],
-            t708,
-        );
+        let t708 = mul_add(platform_rotation[1][0], parameters.platform_point[5][0], t707);
+        let t709 = mul_add(platform_rotation[1][2], parameters.platform_point[5][2], t708);
         let t710 = platform_rotation[2][1] * parameters.platform_point[5][1];
-        let t711 = mul_add(
-            platform_rotation[2][0],
-            parameters.platform_point[5][0],
-            t710,
-        );
-        let t712 = mul_add(
-            platform_rotation[2][2],
-            parameters.platform_point[5][2],
-            t711,
-        );
+        let t711 = mul_add(platform_rotation[2][0], parameters.platform_point[5][0], t710);
+        let t712 = mul_add(platform_rotation[2][2], parameters.platform_point[5][2], t711);
         // leg 6: velocity of the base joint
         let t713 = mul_sub(base_velocity[4], t703, base_velocity[5] * t700);
         let t714 = base_velocity[0] + t713;
@@ -4858,118 +4614,46 @@ pub fn body_kinematics<T: Scalar>(
         let t730 = t120 * neg_mul_add(t240, t514, t729);
         // leg 1: centre of mass of the upper part
         let t731 = platform_position[0] + t526;
-        upper_com_position[0][0] = neg_mul_add(
-            parameters.upper_com_distance[0],
-            t480,
-            t731,
-        );
+        upper_com_position[0][0] = neg_mul_add(parameters.upper_com_distance[0], t480, t731);
         let t732 = platform_position[1] + t529;
-        upper_com_position[0][1] = neg_mul_add(
-            parameters.upper_com_distance[0],
-            t482,
-            t732,
-        );
+        upper_com_position[0][1] = neg_mul_add(parameters.upper_com_distance[0], t482, t732);
         let t733 = platform_position[2] + t532;
-        upper_com_position[0][2] = neg_mul_add(
-            parameters.upper_com_distance[0],
-            t484,
-            t733,
-        );
+        upper_com_position[0][2] = neg_mul_add(parameters.upper_com_distance[0], t484, t733);
         // leg 2: centre of mass of the upper part
         let t734 = platform_position[0] + t562;
-        upper_com_position[1][0] = neg_mul_add(
-            parameters.upper_com_distance[1],
-            t486,
-            t734,
-        );
+        upper_com_position[1][0] = neg_mul_add(parameters.upper_com_distance[1], t486, t734);
         let t735 = platform_position[1] + t565;
-        upper_com_position[1][1] = neg_mul_add(
-            parameters.upper_com_distance[1],
-            t488,
-            t735,
-        );
+        upper_com_position[1][1] = neg_mul_add(parameters.upper_com_distance[1], t488, t735);
         let t736 = platform_position[2] + t568;
-        upper_com_position[1][2] = neg_mul_add(
-            parameters.upper_com_distance[1],
-            t490,
-            t736,
-        );
+        upper_com_position[1][2] = neg_mul_add(parameters.upper_com_distance[1], t490, t736);
         // leg 3: centre of mass of the upper part
         let t737 = platform_position[0] + t598;
-        upper_com_position[2][0] = neg_mul_add(
-            parameters.upper_com_distance[2],
-            t492,
-            t737,
-        );
+        upper_com_position[2][0] = neg_mul_add(parameters.upper_com_distance[2], t492, t737);
         let t738 = platform_position[1] + t601;
-        upper_com_position[2][1] = neg_mul_add(
-            parameters.upper_com_distance[2],
-            t494,
-            t738,
-        );
+        upper_com_position[2][1] = neg_mul_add(parameters.upper_com_distance[2], t494, t738);
         let t739 = platform_position[2] + t604;
-        upper_com_position[2][2] = neg_mul_add(
-            parameters.upper_com_distance[2],
-            t496,
-            t739,
-        );
+        upper_com_position[2][2] = neg_mul_add(parameters.upper_com_distance[2], t496, t739);
         // leg 4: centre of mass of the upper part
         let t740 = platform_position[0] + t634;
-        upper_com_position[3][0] = neg_mul_add(
-            parameters.upper_com_distance[3],
-            t498,
-            t740,
-        );
+        upper_com_position[3][0] = neg_mul_add(parameters.upper_com_distance[3], t498, t740);
         let t741 = platform_position[1] + t637;
-        upper_com_position[3][1] = neg_mul_add(
-            parameters.upper_com_distance[3],
-            t500,
-            t741,
-        );
+        upper_com_position[3][1] = neg_mul_add(parameters.upper_com_distance[3], t500, t741);
         let t742 = platform_position[2] + t640;
-        upper_com_position[3][2] = neg_mul_add(
-            parameters.upper_com_distance[3],
-            t502,
-            t742,
-        );
+        upper_com_position[3][2] = neg_mul_add(parameters.upper_com_distance[3], t502, t742);
         // leg 5: centre of mass of the upper part
         let t743 = platform_position[0] + t670;
-        upper_com_position[4][0] = neg_mul_add(
-            parameters.upper_com_distance[4],
-            t504,
-            t743,
-        );
+        upper_com_position[4][0] = neg_mul_add(parameters.upper_com_distance[4], t504, t743);
         let t744 = platform_position[1] + t673;
-        upper_com_position[4][1] = neg_mul_add(
-            parameters.upper_com_distance[4],
-            t506,
-            t744,
-        );
+        upper_com_position[4][1] = neg_mul_add(parameters.upper_com_distance[4], t506, t744);
         let t745 = platform_position[2] + t676;
-        upper_com_position[4][2] = neg_mul_add(
-            parameters.upper_com_distance[4],
-            t508,
-            t745,
-        );
+        upper_com_position[4][2] = neg_mul_add(parameters.upper_com_distance[4], t508, t745);
         // leg 6: centre of mass of the upper part
         let t746 = platform_position[0] + t706;
-        upper_com_position[5][0] = neg_mul_add(
-            parameters.upper_com_distance[5],
-            t510,
-            t746,
-        );
+        upper_com_position[5][0] = neg_mul_add(parameters.upper_com_distance[5], t510, t746);
         let t747 = platform_position[1] + t709;
-        upper_com_position[5][1] = neg_mul_add(
-            parameters.upper_com_distance[5],
-            t512,
-            t747,
-        );
+        upper_com_position[5][1] = neg_mul_add(parameters.upper_com_distance[5], t512, t747);
         let t748 = platform_position[2] + t712;
-        upper_com_position[5][2] = neg_mul_add(
-            parameters.upper_com_distance[5],
-            t514,
-            t748,
-        );
+        upper_com_position[5][2] = neg_mul_add(parameters.upper_com_distance[5], t514, t748);
         // leg 1: angular acceleration of the leg
         let t749 = mul_add(platform_acceleration[3], t529, platform_acceleration[2]);
         let t750 = mul_sub(platform_acceleration[4], t526, t749);
@@ -4977,11 +4661,7 @@ pub fn body_kinematics<T: Scalar>(
         let t752 = mul_sub(platform_velocity[4], t539, t751);
         let t753 = mul_add(base_acceleration[3], t520, base_acceleration[2]);
         let t754 = mul_sub(base_acceleration[4], t517, t753);
-        let t755 = mul_sub(
-            base_velocity[4],
-            t533,
-            mul_sub(base_velocity[3], t535, t754),
-        );
+        let t755 = mul_sub(base_velocity[4], t533, mul_sub(base_velocity[3], t535, t754));
         let t756 = t235 * c(2.0);
         let t757 = t110 * mul_add(t550, t756, mul_add(t373, t484, t752 - t755));
         let t758 = mul_add(platform_acceleration[5], t526, platform_acceleration[1]);
@@ -4990,11 +4670,7 @@ pub fn body_kinematics<T: Scalar>(
         let t761 = mul_sub(platform_velocity[3], t543, t760);
         let t762 = mul_add(base_acceleration[5], t517, base_acceleration[1]);
         let t763 = mul_sub(base_acceleration[3], t523, t762);
-        let t764 = mul_sub(
-            base_velocity[3],
-            t537,
-            mul_sub(base_velocity[5], t533, t763),
-        );
+        let t764 = mul_sub(base_velocity[3], t537, mul_sub(base_velocity[5], t533, t763));
         let t765 = t110 * mul_add(t548, t756, mul_add(t373, t482, t761 - t764));
         let t766 = mul_add(platform_acceleration[4], t532, platform_acceleration[0]);
         let t767 = mul_sub(platform_acceleration[5], t529, t766);
@@ -5002,11 +4678,7 @@ pub fn body_kinematics<T: Scalar>(
         let t769 = mul_sub(platform_velocity[5], t541, t768);
         let t770 = mul_add(base_acceleration[4], t523, base_acceleration[0]);
         let t771 = mul_sub(base_acceleration[5], t520, t770);
-        let t772 = mul_sub(
-            base_velocity[5],
-            t535,
-            mul_sub(base_velocity[4], t537, t771),
-        );
+        let t772 = mul_sub(base_velocity[5], t535, mul_sub(base_velocity[4], t537, t771));
         let t773 = t110 * mul_add(t546, t756, mul_add(t373, t480, t769 - t772));
         leg_angular_acceleration[0][0] = neg_mul_add(t482, t757, t484 * t765);
         leg_angular_acceleration[0][1] = neg_mul_add(t484, t773, t480 * t757);
@@ -5018,11 +4690,7 @@ pub fn body_kinematics<T: Scalar>(
         let t777 = mul_sub(platform_velocity[4], t575, t776);
         let t778 = mul_add(base_acceleration[3], t556, base_acceleration[2]);
         let t779 = mul_sub(base_acceleration[4], t553, t778);
-        let t780 = mul_sub(
-            base_velocity[4],
-            t569,
-            mul_sub(base_velocity[3], t571, t779),
-        );
+        let t780 = mul_sub(base_velocity[4], t569, mul_sub(base_velocity[3], t571, t779));
         let t781 = t236 * c(2.0);
         let t782 = t112 * mul_add(t586, t781, mul_add(t394, t490, t777 - t780));
         let t783 = mul_add(platform_acceleration[5], t562, platform_acceleration[1]);
@@ -5031,11 +4699,7 @@ pub fn body_kinematics<T: Scalar>(
         let t786 = mul_sub(platform_velocity[3], t579, t785);
         let t787 = mul_add(base_acceleration[5], t553, base_acceleration[1]);
         let t788 = mul_sub(base_acceleration[3], t559, t787);
-        let t789 = mul_sub(
-            base_velocity[3],
-            t573,
-            mul_sub(base_velocity[5], t569, t788),
-        );
+        let t789 = mul_sub(base_velocity[3], t573, mul_sub(base_velocity[5], t569, t788));
         let t790 = t112 * mul_add(t584, t781, mul_add(t394, t488, t786 - t789));
         let t791 = mul_add(platform_acceleration[4], t568, platform_acceleration[0]);
         let t792 = mul_sub(platform_acceleration[5], t565, t791);
@@ -5043,11 +4707,7 @@ pub fn body_kinematics<T: Scalar>(
         let t794 = mul_sub(platform_velocity[5], t577, t793);
         let t795 = mul_add(base_acceleration[4], t559, base_acceleration[0]);
         let t796 = mul_sub(base_acceleration[5], t556, t795);
-        let t797 = mul_sub(
-            base_velocity[5],
-            t571,
-            mul_sub(base_velocity[4], t573, t796),
-        );
+        let t797 = mul_sub(base_velocity[5], t571, mul_sub(base_velocity[4], t573, t796));
         let t798 = t112 * mul_add(t582, t781, mul_add(t394, t486, t794 - t797));
         leg_angular_acceleration[1][0] = neg_mul_add(t488, t782, t490 * t790);
         leg_angular_acceleration[1][1] = neg_mul_add(t490, t798, t486 * t782);
@@ -5059,11 +4719,7 @@ pub fn body_kinematics<T: Scalar>(
         let t802 = mul_sub(platform_velocity[4], t611, t801);
         let t803 = mul_add(base_acceleration[3], t592, base_acceleration[2]);
         let t804 = mul_sub(base_acceleration[4], t589, t803);
-        let t805 = mul_sub(
-            base_velocity[4],
-            t605,
-            mul_sub(base_velocity[3], t607, t804),
-        );
+        let t805 = mul_sub(base_velocity[4], t605, mul_sub(base_velocity[3], t607, t804));
         let t806 = t237 * c(2.0);
         let t807 = t114 * mul_add(t622, t806, mul_add(t415, t496, t802 - t805));
         let t808 = mul_add(platform_acceleration[5], t598, platform_acceleration[1]);
@@ -5072,11 +4728,7 @@ pub fn body_kinematics<T: Scalar>(
         let t811 = mul_sub(platform_velocity[3], t615, t810);
         let t812 = mul_add(base_acceleration[5], t589, base_acceleration[1]);
         let t813 = mul_sub(base_acceleration[3], t595, t812);
-        let t814 = mul_sub(
-            base_velocity[3],
-            t609,
-            mul_sub(base_velocity[5], t605, t813),
-        );
+        let t814 = mul_sub(base_velocity[3], t609, mul_sub(base_velocity[5], t605, t813));
         let t815 = t114 * mul_add(t620, t806, mul_add(t415, t494, t811 - t814));
         let t816 = mul_add(platform_acceleration[4], t604, platform_acceleration[0]);
         let t817 = mul_sub(platform_acceleration[5], t601, t816);
@@ -5084,11 +4736,7 @@ pub fn body_kinematics<T: Scalar>(
         let t819 = mul_sub(platform_velocity[5], t613, t818);
         let t820 = mul_add(base_acceleration[4], t595, base_acceleration[0]);
         let t821 = mul_sub(base_acceleration[5], t592, t820);
-        let t822 = mul_sub(
-            base_velocity[5],
-            t607,
-            mul_sub(base_velocity[4], t609, t821),
-        );
+        let t822 = mul_sub(base_velocity[5], t607, mul_sub(base_velocity[4], t609, t821));
         let t823 = t114 * mul_add(t618, t806, mul_add(t415, t492, t819 - t822));
         leg_angular_acceleration[2][0] = neg_mul_add(t494, t807, t496 * t815);
         leg_angular_acceleration[2][1] = neg_mul_add(t496, t823, t492 * t807);
@@ -5100,11 +4748,7 @@ pub fn body_kinematics<T: Scalar>(
         let t827 = mul_sub(platform_velocity[4], t647, t826);
         let t828 = mul_add(base_acceleration[3], t628, base_acceleration[2]);
         let t829 = mul_sub(base_acceleration[4], t625, t828);
-        let t830 = mul_sub(
-            base_velocity[4],
-            t641,
-            mul_sub(base_velocity[3], t643, t829),
-        );
+        let t830 = mul_sub(base_velocity[4], t641, mul_sub(base_velocity[3], t643, t829));
         let t831 = t238 * c(2.0);
         let t832 = t116 * mul_add(t658, t831, mul_add(t436, t502, t827 - t830));
         let t833 = mul_add(platform_acceleration[5], t634, platform_acceleration[1]);
@@ -5113,11 +4757,7 @@ pub fn body_kinematics<T: Scalar>(
         let t836 = mul_sub(platform_velocity[3], t651, t835);
         let t837 = mul_add(base_acceleration[5], t625, base_acceleration[1]);
         let t838 = mul_sub(base_acceleration[3], t631, t837);
-        let t839 = mul_sub(
-            base_velocity[3],
-            t645,
-            mul_sub(base_velocity[5], t641, t838),
-        );
+        let t839 = mul_sub(base_velocity[3], t645, mul_sub(base_velocity[5], t641, t838));
         let t840 = t116 * mul_add(t656, t831, mul_add(t436, t500, t836 - t839));
         let t841 = mul_add(platform_acceleration[4], t640, platform_acceleration[0]);
         let t842 = mul_sub(platform_acceleration[5], t637, t841);
@@ -5125,11 +4765,7 @@ pub fn body_kinematics<T: Scalar>(
         let t844 = mul_sub(platform_velocity[5], t649, t843);
         let t845 = mul_add(base_acceleration[4], t631, base_acceleration[0]);
         let t846 = mul_sub(base_acceleration[5], t628, t845);
-        let t847 = mul_sub(
-            base_velocity[5],
-            t643,
-            mul_sub(base_velocity[4], t645, t846),
-        );
+        let t847 = mul_sub(base_velocity[5], t643, mul_sub(base_velocity[4], t645, t846));
         let t848 = t116 * mul_add(t654, t831, mul_add(t436, t498, t844 - t847));
         leg_angular_acceleration[3][0] = neg_mul_add(t500, t832, t502 * t840);
         leg_angular_acceleration[3][1] = neg_mul_add(t502, t848, t498 * t832);
@@ -5141,11 +4777,7 @@ pub fn body_kinematics<T: Scalar>(
         let t852 = mul_sub(platform_velocity[4], t683, t851);
         let t853 = mul_add(base_acceleration[3], t664, base_acceleration[2]);
         let t854 = mul_sub(base_acceleration[4], t661, t853);
-        let t855 = mul_sub(
-            base_velocity[4],
-            t677,
-            mul_sub(base_velocity[3], t679, t854),
-        );
+        let t855 = mul_sub(base_velocity[4], t677, mul_sub(base_velocity[3], t679, t854));
         let t856 = t239 * c(2.0);
         let t857 = t118 * mul_add(t694, t856, mul_add(t457, t508, t852 - t855));
         let t858 = mul_add(platform_acceleration[5], t670, platform_acceleration[1]);
@@ -5154,11 +4786,7 @@ pub fn body_kinematics<T: Scalar>(
         let t861 = mul_sub(platform_velocity[3], t687, t860);
         let t862 = mul_add(base_acceleration[5], t661, base_acceleration[1]);
         let t863 = mul_sub(base_acceleration[3], t667, t862);
-        let t864 = mul_sub(
-            base_velocity[3],
-            t681,
-            mul_sub(base_velocity[5], t677, t863),
-        );
+        let t864 = mul_sub(base_velocity[3], t681, mul_sub(base_velocity[5], t677, t863));
         let t865 = t118 * mul_add(t692, t856, mul_add(t457, t506, t861 - t864));
         let t866 = mul_add(platform_acceleration[4], t676, platform_acceleration[0]);
         let t867 = mul_sub(platform_acceleration[5], t673, t866);
@@ -5166,11 +4794,7 @@ pub fn body_kinematics<T: Scalar>(
         let t869 = mul_sub(platform_velocity[5], t685, t868);
         let t870 = mul_add(base_acceleration[4], t667, base_acceleration[0]);
         let t871 = mul_sub(base_acceleration[5], t664, t870);
-        let t872 = mul_sub(
-            base_velocity[5],
-            t679,
-            mul_sub(base_velocity[4], t681, t871),
-        );
+        let t872 = mul_sub(base_velocity[5], t679, mul_sub(base_velocity[4], t681, t871));
         let t873 = t118 * mul_add(t690, t856, mul_add(t457, t504, t869 - t872));
         leg_angular_acceleration[4][0] = neg_mul_add(t506, t857, t508 * t865);
         leg_angular_acceleration[4][1] = neg_mul_add(t508, t873, t504 * t857);
@@ -5182,11 +4806,7 @@ pub fn body_kinematics<T: Scalar>(
         let t877 = mul_sub(platform_velocity[4], t719, t876);
         let t878 = mul_add(base_acceleration[3], t700, base_acceleration[2]);
         let t879 = mul_sub(base_acceleration[4], t697, t878);
-        let t880 = mul_sub(
-            base_velocity[4],
-            t713,
-            mul_sub(base_velocity[3], t715, t879),
-        );
+        let t880 = mul_sub(base_velocity[4], t713, mul_sub(base_velocity[3], t715, t879));
         let t881 = t240 * c(2.0);
         let t882 = t120 * mul_add(t730, t881, mul_add(t478, t514, t877 - t880));
         let t883 = mul_add(platform_acceleration[5], t706, platform_acceleration[1]);
@@ -5195,11 +4815,7 @@ pub fn body_kinematics<T: Scalar>(
         let t886 = mul_sub(platform_velocity[3], t723, t885);
         let t887 = mul_add(base_acceleration[5], t697, base_acceleration[1]);
         let t888 = mul_sub(base_acceleration[3], t703, t887);
-        let t889 = mul_sub(
-            base_velocity[3],
-            t717,
-            mul_sub(base_velocity[5], t713, t888),
-        );
+        let t889 = mul_sub(base_velocity[3], t717, mul_sub(base_velocity[5], t713, t888));
         let t890 = t120 * mul_add(t728, t881, mul_add(t478, t512, t886 - t889));
         let t891 = mul_add(platform_acceleration[4], t712, platform_acceleration[0]);
         let t892 = mul_sub(platform_acceleration[5], t709, t891);
@@ -5207,11 +4823,7 @@ pub fn body_kinematics<T: Scalar>(
         let t894 = mul_sub(platform_velocity[5], t721, t893);
         let t895 = mul_add(base_acceleration[4], t703, base_acceleration[0]);
         let t896 = mul_sub(base_acceleration[5], t700, t895);
-        let t897 = mul_sub(
-            base_velocity[5],
-            t715,
-            mul_sub(base_velocity[4], t717, t896),
-        );
+        let t897 = mul_sub(base_velocity[5], t715, mul_sub(base_velocity[4], t717, t896));
         let t898 = t120 * mul_add(t726, t881, mul_add(t478, t510, t894 - t897));
         leg_angular_acceleration[5][0] = neg_mul_add(t512, t882, t514 * t890);
         leg_angular_acceleration[5][1] = neg_mul_add(t514, t898, t510 * t882);
@@ -5274,405 +4886,107 @@ pub fn body_kinematics<T: Scalar>(
         leg_angular_velocity[5][1] = t120 * neg_mul_add(t514, t725, t510 * t729);
         leg_angular_velocity[5][2] = t120 * neg_mul_add(t510, t727, t512 * t725);
         // leg 1: centre of mass of the lower part
-        lower_com_position[0][0] = mul_add(
-            parameters.lower_com_distance[0],
-            t480,
-            base_position[0] + t517,
-        );
-        lower_com_position[0][1] = mul_add(
-            parameters.lower_com_distance[0],
-            t482,
-            base_position[1] + t520,
-        );
-        lower_com_position[0][2] = mul_add(
-            parameters.lower_com_distance[0],
-            t484,
-            base_position[2] + t523,
-        );
+        lower_com_position[0][0] =
+            mul_add(parameters.lower_com_distance[0], t480, base_position[0] + t517);
+        lower_com_position[0][1] =
+            mul_add(parameters.lower_com_distance[0], t482, base_position[1] + t520);
+        lower_com_position[0][2] =
+            mul_add(parameters.lower_com_distance[0], t484, base_position[2] + t523);
         // leg 2: centre of mass of the lower part
-        lower_com_position[1][0] = mul_add(
-            parameters.lower_com_distance[1],
-            t486,
-            base_position[0] + t553,
-        );
-        lower_com_position[1][1] = mul_add(
-            parameters.lower_com_distance[1],
-            t488,
-            base_position[1] + t556,
-        );
-        lower_com_position[1][2] = mul_add(
-            parameters.lower_com_distance[1],
-            t490,
-            base_position[2] + t559,
-        );
+        lower_com_position[1][0] =
+            mul_add(parameters.lower_com_distance[1], t486, base_position[0] + t553);
+        lower_com_position[1][1] =
+            mul_add(parameters.lower_com_distance[1], t488, base_position[1] + t556);
+        lower_com_position[1][2] =
+            mul_add(parameters.lower_com_distance[1], t490, base_position[2] + t559);
         // leg 3: centre of mass of the lower part
-        lower_com_position[2][0] = mul_add(
-            parameters.lower_com_distance[2],
-            t492,
-            base_position[0] + t589,
-        );
-        lower_com_position[2][1] = mul_add(
-            parameters.lower_com_distance[2],
-            t494,
-            base_position[1] + t592,
-        );
-        lower_com_position[2][2] = mul_add(
-            parameters.lower_com_distance[2],
-            t496,
-            base_position[2] + t595,
-        );
+        lower_com_position[2][0] =
+            mul_add(parameters.lower_com_distance[2], t492, base_position[0] + t589);
+        lower_com_position[2][1] =
+            mul_add(parameters.lower_com_distance[2], t494, base_position[1] + t592);
+        lower_com_position[2][2] =
+            mul_add(parameters.lower_com_distance[2], t496, base_position[2] + t595);
         // leg 4: centre of mass of the lower part
-        lower_com_position[3][0] = mul_add(
-            parameters.lower_com_distance[3],
-            t498,
-            base_position[0] + t625,
-        );
-        lower_com_position[3][1] = mul_add(
-            parameters.lower_com_distance[3],
-            t500,
-            base_position[1] + t628,
-        );
-        lower_com_position[3][2] = mul_add(
-            parameters.lower_com_distance[3],
-            t502,
-            base_position[2] + t631,
-        );
+        lower_com_position[3][0] =
+            mul_add(parameters.lower_com_distance[3], t498, base_position[0] + t625);
+        lower_com_position[3][1] =
+            mul_add(parameters.lower_com_distance[3], t500, base_position[1] + t628);
+        lower_com_position[3][2] =
+            mul_add(parameters.lower_com_distance[3], t502, base_position[2] + t631);
         // leg 5: centre of mass of the lower part
-        lower_com_position[4][0] = mul_add(
-            parameters.lower_com_distance[4],
-            t504,
-            base_position[0] + t661,
-        );
-        lower_com_position[4][1] = mul_add(
-            parameters.lower_com_distance[4],
-            t506,
-            base_position[1] + t664,
-        );
-        lower_com_position[4][2] = mul_add(
-            parameters.lower_com_distance[4],
-            t508,
-            base_position[2] + t667,
-        );
+        lower_com_position[4][0] =
+            mul_add(parameters.lower_com_distance[4], t504, base_position[0] + t661);
+        lower_com_position[4][1] =
+            mul_add(parameters.lower_com_distance[4], t506, base_position[1] + t664);
+        lower_com_position[4][2] =
+            mul_add(parameters.lower_com_distance[4], t508, base_position[2] + t667);
         // leg 6: centre of mass of the lower part
-        lower_com_position[5][0] = mul_add(
-            parameters.lower_com_distance[5],
-            t510,
-            base_position[0] + t697,
-        );
-        lower_com_position[5][1] = mul_add(
-            parameters.lower_com_distance[5],
-            t512,
-            base_position[1] + t700,
-        );
-        lower_com_position[5][2] = mul_add(
-            parameters.lower_com_distance[5],
-            t514,
-            base_position[2] + t703,
-        );
+        lower_com_position[5][0] =
+            mul_add(parameters.lower_com_distance[5], t510, base_position[0] + t697);
+        lower_com_position[5][1] =
+            mul_add(parameters.lower_com_distance[5], t512, base_position[1] + t700);
+        lower_com_position[5][2] =
+            mul_add(parameters.lower_com_distance[5], t514, base_position[2] + t703);
         (
-            t534,
-            t536,
-            t538,
-            t540,
-            t542,
-            t544,
-            t546,
-            t548,
-            t550,
-            t570,
-            t572,
-            t574,
-            t576,
-            t578,
-            t580,
-            t582,
-            t584,
-            t586,
-            t606,
-            t608,
-            t610,
-            t612,
-            t614,
-            t616,
-            t618,
-            t620,
-            t622,
-            t642,
-            t644,
-            t646,
-            t648,
-            t650,
-            t652,
-            t654,
-            t656,
-            t658,
-            t678,
-            t680,
-            t682,
-            t684,
-            t686,
-            t688,
-            t690,
-            t692,
-            t694,
-            t714,
-            t716,
-            t718,
-            t720,
-            t722,
-            t724,
-            t726,
-            t728,
-            t730,
-            t752,
-            t755,
-            t757,
-            t761,
-            t764,
-            t765,
-            t769,
-            t772,
-            t773,
-            t777,
-            t780,
-            t782,
-            t786,
-            t789,
-            t790,
-            t794,
-            t797,
-            t798,
-            t802,
-            t805,
-            t807,
-            t811,
-            t814,
-            t815,
-            t819,
-            t822,
-            t823,
-            t827,
-            t830,
-            t832,
-            t836,
-            t839,
-            t840,
-            t844,
-            t847,
-            t848,
-            t852,
-            t855,
-            t857,
-            t861,
-            t864,
-            t865,
-            t869,
-            t872,
-            t873,
-            t877,
-            t880,
-            t882,
-            t886,
-            t889,
-            t890,
-            t894,
-            t897,
-            t898,
+            t534, t536, t538, t540, t542, t544, t546, t548, t550, t570, t572, t574, t576, t578,
+            t580, t582, t584, t586, t606, t608, t610, t612, t614, t616, t618, t620, t622, t642,
+            t644, t646, t648, t650, t652, t654, t656, t658, t678, t680, t682, t684, t686, t688,
+            t690, t692, t694, t714, t716, t718, t720, t722, t724, t726, t728, t730, t752, t755,
+            t757, t761, t764, t765, t769, t772, t773, t777, t780, t782, t786, t789, t790, t794,
+            t797, t798, t802, t805, t807, t811, t814, t815, t819, t822, t823, t827, t830, t832,
+            t836, t839, t840, t844, t847, t848, t852, t855, t857, t861, t864, t865, t869, t872,
+            t873, t877, t880, t882, t886, t889, t890, t894, t897, t898,
         )
     };
     {
         // leg 1: velocity of the lower part's centre of mass
-        lower_com_velocity[0][0] = neg_mul_add(
-            parameters.lower_com_distance[0],
-            t546,
-            t534,
-        );
-        lower_com_velocity[0][1] = neg_mul_add(
-            parameters.lower_com_distance[0],
-            t548,
-            t536,
-        );
-        lower_com_velocity[0][2] = neg_mul_add(
-            parameters.lower_com_distance[0],
-            t550,
-            t538,
-        );
+        lower_com_velocity[0][0] = neg_mul_add(parameters.lower_com_distance[0], t546, t534);
+        lower_com_velocity[0][1] = neg_mul_add(parameters.lower_com_distance[0], t548, t536);
+        lower_com_velocity[0][2] = neg_mul_add(parameters.lower_com_distance[0], t550, t538);
         // leg 2: velocity of the lower part's centre of mass
-        lower_com_velocity[1][0] = neg_mul_add(
-            parameters.lower_com_distance[1],
-            t582,
-            t570,
-        );
-        lower_com_velocity[1][1] = neg_mul_add(
-            parameters.lower_com_distance[1],
-            t584,
-            t572,
-        );
-        lower_com_velocity[1][2] = neg_mul_add(
-            parameters.lower_com_distance[1],
-            t586,
-            t574,
-        );
+        lower_com_velocity[1][0] = neg_mul_add(parameters.lower_com_distance[1], t582, t570);
+        lower_com_velocity[1][1] = neg_mul_add(parameters.lower_com_distance[1], t584, t572);
+        lower_com_velocity[1][2] = neg_mul_add(parameters.lower_com_distance[1], t586, t574);
         // leg 3: velocity of the lower part's centre of mass
-        lower_com_velocity[2][0] = neg_mul_add(
-            parameters.lower_com_distance[2],
-            t618,
-            t606,
-        );
-        lower_com_velocity[2][1] = neg_mul_add(
-            parameters.lower_com_distance[2],
-            t620,
-            t608,
-        );
-        lower_com_velocity[2][2] = neg_mul_add(
-            parameters.lower_com_distance[2],
-            t622,
-            t610,
-        );
+        lower_com_velocity[2][0] = neg_mul_add(parameters.lower_com_distance[2], t618, t606);
+        lower_com_velocity[2][1] = neg_mul_add(parameters.lower_com_distance[2], t620, t608);
+        lower_com_velocity[2][2] = neg_mul_add(parameters.lower_com_distance[2], t622, t610);
         // leg 4: velocity of the lower part's centre of mass
-        lower_com_velocity[3][0] = neg_mul_add(
-            parameters.lower_com_distance[3],
-            t654,
-            t642,
-        );
-        lower_com_velocity[3][1] = neg_mul_add(
-            parameters.lower_com_distance[3],
-            t656,
-            t644,
-        );
-        lower_com_velocity[3][2] = neg_mul_add(
-            parameters.lower_com_distance[3],
-            t658,
-            t646,
-        );
+        lower_com_velocity[3][0] = neg_mul_add(parameters.lower_com_distance[3], t654, t642);
+        lower_com_velocity[3][1] = neg_mul_add(parameters.lower_com_distance[3], t656, t644);
+        lower_com_velocity[3][2] = neg_mul_add(parameters.lower_com_distance[3], t658, t646);
         // leg 5: velocity of the lower part's centre of mass
-        lower_com_velocity[4][0] = neg_mul_add(
-            parameters.lower_com_distance[4],
-            t690,
-            t678,
-        );
-        lower_com_velocity[4][1] = neg_mul_add(
-            parameters.lower_com_distance[4],
-            t692,
-            t680,
-        );
-        lower_com_velocity[4][2] = neg_mul_add(
-            parameters.lower_com_distance[4],
-            t694,
-            t682,
-        );
+        lower_com_velocity[4][0] = neg_mul_add(parameters.lower_com_distance[4], t690, t678);
+        lower_com_velocity[4][1] = neg_mul_add(parameters.lower_com_distance[4], t692, t680);
+        lower_com_velocity[4][2] = neg_mul_add(parameters.lower_com_distance[4], t694, t682);
         // leg 6: velocity of the lower part's centre of mass
-        lower_com_velocity[5][0] = neg_mul_add(
-            parameters.lower_com_distance[5],
-            t726,
-            t714,
-        );
-        lower_com_velocity[5][1] = neg_mul_add(
-            parameters.lower_com_distance[5],
-            t728,
-            t716,
-        );
-        lower_com_velocity[5][2] = neg_mul_add(
-            parameters.lower_com_distance[5],
-            t730,
-            t718,
-        );
+        lower_com_velocity[5][0] = neg_mul_add(parameters.lower_com_distance[5], t726, t714);
+        lower_com_velocity[5][1] = neg_mul_add(parameters.lower_com_distance[5], t728, t716);
+        lower_com_velocity[5][2] = neg_mul_add(parameters.lower_com_distance[5], t730, t718);
         // leg 1: acceleration of the lower part's centre of mass
-        lower_com_acceleration[0][0] = -mul_add(
-            parameters.lower_com_distance[0],
-            t773,
-            t772,
-        );
-        lower_com_acceleration[0][1] = -mul_add(
-            parameters.lower_com_distance[0],
-            t765,
-            t764,
-        );
-        lower_com_acceleration[0][2] = -mul_add(
-            parameters.lower_com_distance[0],
-            t757,
-            t755,
-        );
+        lower_com_acceleration[0][0] = -mul_add(parameters.lower_com_distance[0], t773, t772);
+        lower_com_acceleration[0][1] = -mul_add(parameters.lower_com_distance[0], t765, t764);
+        lower_com_acceleration[0][2] = -mul_add(parameters.lower_com_distance[0], t757, t755);
         // leg 2: acceleration of the lower part's centre of mass
-        lower_com_acceleration[1][0] = -mul_add(
-            parameters.lower_com_distance[1],
-            t798,
-            t797,
-        );
-        lower_com_acceleration[1][1] = -mul_add(
-            parameters.lower_com_distance[1],
-            t790,
-            t789,
-        );
-        lower_com_acceleration[1][2] = -mul_add(
-            parameters.lower_com_distance[1],
-            t782,
-            t780,
-        );
+        lower_com_acceleration[1][0] = -mul_add(parameters.lower_com_distance[1], t798, t797);
+        lower_com_acceleration[1][1] = -mul_add(parameters.lower_com_distance[1], t790, t789);
+        lower_com_acceleration[1][2] = -mul_add(parameters.lower_com_distance[1], t782, t780);
         // leg 3: acceleration of the lower part's centre of mass
-        lower_com_acceleration[2][0] = -mul_add(
-            parameters.lower_com_distance[2],
-            t823,
-            t822,
-        );
-        lower_com_acceleration[2][1] = -mul_add(
-            parameters.lower_com_distance[2],
-            t815,
-            t814,
-        );
-        lower_com_acceleration[2][2] = -mul_add(
-            parameters.lower_com_distance[2],
-            t807,
-            t805,
-        );
+        lower_com_acceleration[2][0] = -mul_add(parameters.lower_com_distance[2], t823, t822);
+        lower_com_acceleration[2][1] = -mul_add(parameters.lower_com_distance[2], t815, t814);
+        lower_com_acceleration[2][2] = -mul_add(parameters.lower_com_distance[2], t807, t805);
         // leg 4: acceleration of the lower part's centre of mass
-        lower_com_acceleration[3][0] = -mul_add(
-            parameters.lower_com_distance[3],
-            t848,
-            t847,
-        );
-        lower_com_acceleration[3][1] = -mul_add(
-            parameters.lower_com_distance[3],
-            t840,
-            t839,
-        );
-        lower_com_acceleration[3][2] = -mul_add(
-            parameters.lower_com_distance[3],
-            t832,
-            t830,
-        );
+        lower_com_acceleration[3][0] = -mul_add(parameters.lower_com_distance[3], t848, t847);
+        lower_com_acceleration[3][1] = -mul_add(parameters.lower_com_distance[3], t840, t839);
+        lower_com_acceleration[3][2] = -mul_add(parameters.lower_com_distance[3], t832, t830);
         // leg 5: acceleration of the lower part's centre of mass
-        lower_com_acceleration[4][0] = -mul_add(
-            parameters.lower_com_distance[4],
-            t873,
-            t872,
-        );
-        lower_com_acceleration[4][1] = -mul_add(
-            parameters.lower_com_distance[4],
-            t865,
-            t864,
-        );
-        lower_com_acceleration[4][2] = -mul_add(
-            parameters.lower_com_distance[4],
-            t857,
-            t855,
-        );
+        lower_com_acceleration[4][0] = -mul_add(parameters.lower_com_distance[4], t873, t872);
+        lower_com_acceleration[4][1] = -mul_add(parameters.lower_com_distance[4], t865, t864);
+        lower_com_acceleration[4][2] = -mul_add(parameters.lower_com_distance[4], t857, t855);
         // leg 6: acceleration of the lower part's centre of mass
-        lower_com_acceleration[5][0] = -mul_add(
-            parameters.lower_com_distance[5],
-            t898,
-            t897,
-        );
-        lower_com_acceleration[5][1] = -mul_add(
-            parameters.lower_com_distance[5],
-            t890,
-            t889,
-        );
-        lower_com_acceleration[5][2] = -mul_add(
-            parameters.lower_com_distance[5],
-            t882,
-            t880,
-        );
+        lower_com_acceleration[5][0] = -mul_add(parameters.lower_com_distance[5], t898, t897);
+        lower_com_acceleration[5][1] = -mul_add(parameters.lower_com_distance[5], t890, t889);
+        lower_com_acceleration[5][2] = -mul_add(parameters.lower_com_distance[5], t882, t880);
         // leg 1: velocity of the upper part's centre of mass
         upper_com_velocity[0][0] = mul_add(parameters.upper_com_distance[0], t546, t540);
         upper_com_velocity[0][1] = mul_add(parameters.upper_com_distance[0], t548, t542);
@@ -5698,101 +5012,29 @@ pub fn body_kinematics<T: Scalar>(
         upper_com_velocity[5][1] = mul_add(parameters.upper_com_distance[5], t728, t722);
         upper_com_velocity[5][2] = mul_add(parameters.upper_com_distance[5], t730, t724);
         // leg 1: acceleration of the upper part's centre of mass
-        upper_com_acceleration[0][0] = mul_sub(
-            parameters.upper_com_distance[0],
-            t773,
-            t769,
-        );
-        upper_com_acceleration[0][1] = mul_sub(
-            parameters.upper_com_distance[0],
-            t765,
-            t761,
-        );
-        upper_com_acceleration[0][2] = mul_sub(
-            parameters.upper_com_distance[0],
-            t757,
-            t752,
-        );
+        upper_com_acceleration[0][0] = mul_sub(parameters.upper_com_distance[0], t773, t769);
+        upper_com_acceleration[0][1] = mul_sub(parameters.upper_com_distance[0], t765, t761);
+        upper_com_acceleration[0][2] = mul_sub(parameters.upper_com_distance[0], t757, t752);
         // leg 2: acceleration of the upper part's centre of mass
-        upper_com_acceleration[1][0] = mul_sub(
-            parameters.upper_com_distance[1],
-            t798,
-            t794,
-        );
-        upper_com_acceleration[1][1] = mul_sub(
-            parameters.upper_com_distance[1],
-            t790,
-            t786,
-        );
-        upper_com_acceleration[1][2] = mul_sub(
-            parameters.upper_com_distance[1],
-            t782,
-            t777,
-        );
+        upper_com_acceleration[1][0] = mul_sub(parameters.upper_com_distance[1], t798, t794);
+        upper_com_acceleration[1][1] = mul_sub(parameters.upper_com_distance[1], t790, t786);
+        upper_com_acceleration[1][2] = mul_sub(parameters.upper_com_distance[1], t782, t777);
         // leg 3: acceleration of the upper part's centre of mass
-        upper_com_acceleration[2][0] = mul_sub(
-            parameters.upper_com_distance[2],
-            t823,
-            t819,
-        );
-        upper_com_acceleration[2][1] = mul_sub(
-            parameters.upper_com_distance[2],
-            t815,
-            t811,
-        );
-        upper_com_acceleration[2][2] = mul_sub(
-            parameters.upper_com_distance[2],
-            t807,
-            t802,
-        );
+        upper_com_acceleration[2][0] = mul_sub(parameters.upper_com_distance[2], t823, t819);
+        upper_com_acceleration[2][1] = mul_sub(parameters.upper_com_distance[2], t815, t811);
+        upper_com_acceleration[2][2] = mul_sub(parameters.upper_com_distance[2], t807, t802);
         // leg 4: acceleration of the upper part's centre of mass
-        upper_com_acceleration[3][0] = mul_sub(
-            parameters.upper_com_distance[3],
-            t848,
-            t844,
-        );
-        upper_com_acceleration[3][1] = mul_sub(
-            parameters.upper_com_distance[3],
-            t840,
-            t836,
-        );
-        upper_com_acceleration[3][2] = mul_sub(
-            parameters.upper_com_distance[3],
-            t832,
-            t827,
-        );
+        upper_com_acceleration[3][0] = mul_sub(parameters.upper_com_distance[3], t848, t844);
+        upper_com_acceleration[3][1] = mul_sub(parameters.upper_com_distance[3], t840, t836);
+        upper_com_acceleration[3][2] = mul_sub(parameters.upper_com_distance[3], t832, t827);
         // leg 5: acceleration of the upper part's centre of mass
-        upper_com_acceleration[4][0] = mul_sub(
-            parameters.upper_com_distance[4],
-            t873,
-            t869,
-        );
-        upper_com_acceleration[4][1] = mul_sub(
-            parameters.upper_com_distance[4],
-            t865,
-            t861,
-        );
-        upper_com_acceleration[4][2] = mul_sub(
-            parameters.upper_com_distance[4],
-            t857,
-            t852,
-        );
+        upper_com_acceleration[4][0] = mul_sub(parameters.upper_com_distance[4], t873, t869);
+        upper_com_acceleration[4][1] = mul_sub(parameters.upper_com_distance[4], t865, t861);
+        upper_com_acceleration[4][2] = mul_sub(parameters.upper_com_distance[4], t857, t852);
         // leg 6: acceleration of the upper part's centre of mass
-        upper_com_acceleration[5][0] = mul_sub(
-            parameters.upper_com_distance[5],
-            t898,
-            t894,
-        );
-        upper_com_acceleration[5][1] = mul_sub(
-            parameters.upper_com_distance[5],
-            t890,
-            t886,
-        );
-        upper_com_acceleration[5][2] = mul_sub(
-            parameters.upper_com_distance[5],
-            t882,
-            t877,
-        );
+        upper_com_acceleration[5][0] = mul_sub(parameters.upper_com_distance[5], t898, t894);
+        upper_com_acceleration[5][1] = mul_sub(parameters.upper_com_distance[5], t890, t886);
+        upper_com_acceleration[5][2] = mul_sub(parameters.upper_com_distance[5], t882, t877);
     }
 }
 
@@ -6191,11 +5433,7 @@ pub fn partial_velocities<T: Scalar>(
     lower_partial_velocity[0][2][4] = -(parameters.lower_com_distance[0] * t296);
     lower_partial_velocity[0][2][5] = -(parameters.lower_com_distance[0] * t297);
     // leg 1: partial velocities of the upper part's centre of mass
-    upper_partial_velocity[0][0][0] = neg_mul_add(
-        parameters.upper_com_distance[0],
-        t283,
-        c(1.0),
-    );
+    upper_partial_velocity[0][0][0] = neg_mul_add(parameters.upper_com_distance[0], t283, c(1.0));
     let t301 = parameters.upper_com_distance[0] * t284;
     upper_partial_velocity[0][0][1] = t301;
     upper_partial_velocity[0][1][0] = t301;
@@ -6203,50 +5441,18 @@ pub fn partial_velocities<T: Scalar>(
     upper_partial_velocity[0][0][2] = t302;
     upper_partial_velocity[0][2][0] = t302;
     upper_partial_velocity[0][0][3] = parameters.upper_com_distance[0] * t286;
-    upper_partial_velocity[0][0][4] = neg_mul_add(
-        parameters.upper_com_distance[0],
-        t287,
-        t54,
-    );
-    upper_partial_velocity[0][0][5] = mul_sub(
-        parameters.upper_com_distance[0],
-        t288,
-        t51,
-    );
-    upper_partial_velocity[0][1][1] = neg_mul_add(
-        parameters.upper_com_distance[0],
-        t289,
-        c(1.0),
-    );
+    upper_partial_velocity[0][0][4] = neg_mul_add(parameters.upper_com_distance[0], t287, t54);
+    upper_partial_velocity[0][0][5] = mul_sub(parameters.upper_com_distance[0], t288, t51);
+    upper_partial_velocity[0][1][1] = neg_mul_add(parameters.upper_com_distance[0], t289, c(1.0));
     let t303 = parameters.upper_com_distance[0] * t290;
     upper_partial_velocity[0][1][2] = t303;
     upper_partial_velocity[0][2][1] = t303;
-    upper_partial_velocity[0][1][3] = mul_sub(
-        parameters.upper_com_distance[0],
-        t291,
-        t54,
-    );
+    upper_partial_velocity[0][1][3] = mul_sub(parameters.upper_com_distance[0], t291, t54);
     upper_partial_velocity[0][1][4] = parameters.upper_com_distance[0] * t292;
-    upper_partial_velocity[0][1][5] = neg_mul_add(
-        parameters.upper_com_distance[0],
-        t293,
-        t48,
-    );
-    upper_partial_velocity[0][2][2] = neg_mul_add(
-        parameters.upper_com_distance[0],
-        t294,
-        c(1.0),
-    );
-    upper_partial_velocity[0][2][3] = neg_mul_add(
-        parameters.upper_com_distance[0],
-        t295,
-        t51,
-    );
-    upper_partial_velocity[0][2][4] = mul_sub(
-        parameters.upper_com_distance[0],
-        t296,
-        t48,
-    );
+    upper_partial_velocity[0][1][5] = neg_mul_add(parameters.upper_com_distance[0], t293, t48);
+    upper_partial_velocity[0][2][2] = neg_mul_add(parameters.upper_com_distance[0], t294, c(1.0));
+    upper_partial_velocity[0][2][3] = neg_mul_add(parameters.upper_com_distance[0], t295, t51);
+    upper_partial_velocity[0][2][4] = mul_sub(parameters.upper_com_distance[0], t296, t48);
     upper_partial_velocity[0][2][5] = parameters.upper_com_distance[0] * t297;
     // leg 1: partial angular velocities of the leg
     let t304 = t164 * t198;
@@ -6306,11 +5512,7 @@ pub fn partial_velocities<T: Scalar>(
     lower_partial_velocity[1][2][4] = -(parameters.lower_com_distance[1] * t321);
     lower_partial_velocity[1][2][5] = -(parameters.lower_com_distance[1] * t322);
     // leg 2: partial velocities of the upper part's centre of mass
-    upper_partial_velocity[1][0][0] = neg_mul_add(
-        parameters.upper_com_distance[1],
-        t308,
-        c(1.0),
-    );
+    upper_partial_velocity[1][0][0] = neg_mul_add(parameters.upper_com_distance[1], t308, c(1.0));
     let t326 = parameters.upper_com_distance[1] * t309;
     upper_partial_velocity[1][0][1] = t326;
     upper_partial_velocity[1][1][0] = t326;
@@ -6318,50 +5520,18 @@ pub fn partial_velocities<T: Scalar>(
     upper_partial_velocity[1][0][2] = t327;
     upper_partial_velocity[1][2][0] = t327;
     upper_partial_velocity[1][0][3] = parameters.upper_com_distance[1] * t311;
-    upper_partial_velocity[1][0][4] = neg_mul_add(
-        parameters.upper_com_distance[1],
-        t312,
-        t75,
-    );
-    upper_partial_velocity[1][0][5] = mul_sub(
-        parameters.upper_com_distance[1],
-        t313,
-        t72,
-    );
-    upper_partial_velocity[1][1][1] = neg_mul_add(
-        parameters.upper_com_distance[1],
-        t314,
-        c(1.0),
-    );
+    upper_partial_velocity[1][0][4] = neg_mul_add(parameters.upper_com_distance[1], t312, t75);
+    upper_partial_velocity[1][0][5] = mul_sub(parameters.upper_com_distance[1], t313, t72);
+    upper_partial_velocity[1][1][1] = neg_mul_add(parameters.upper_com_distance[1], t314, c(1.0));
     let t328 = parameters.upper_com_distance[1] * t315;
     upper_partial_velocity[1][1][2] = t328;
     upper_partial_velocity[1][2][1] = t328;
-    upper_partial_velocity[1][1][3] = mul_sub(
-        parameters.upper_com_distance[1],
-        t316,
-        t75,
-    );
+    upper_partial_velocity[1][1][3] = mul_sub(parameters.upper_com_distance[1], t316, t75);
     upper_partial_velocity[1][1][4] = parameters.upper_com_distance[1] * t317;
-    upper_partial_velocity[1][1][5] = neg_mul_add(
-        parameters.upper_com_distance[1],
-        t318,
-        t69,
-    );
-    upper_partial_velocity[1][2][2] = neg_mul_add(
-        parameters.upper_com_distance[1],
-        t319,
-        c(1.0),
-    );
-    upper_partial_velocity[1][2][3] = neg_mul_add(
-        parameters.upper_com_distance[1],
-        t320,
-        t72,
-    );
-    upper_partial_velocity[1][2][4] = mul_sub(
-        parameters.upper_com_distance[1],
-        t321,
-        t69,
-    );
+    upper_partial_velocity[1][1][5] = neg_mul_add(parameters.upper_com_distance[1], t318, t69);
+    upper_partial_velocity[1][2][2] = neg_mul_add(parameters.upper_com_distance[1], t319, c(1.0));
+    upper_partial_velocity[1][2][3] = neg_mul_add(parameters.upper_com_distance[1], t320, t72);
+    upper_partial_velocity[1][2][4] = mul_sub(parameters.upper_com_distance[1], t321, t69);
     upper_partial_velocity[1][2][5] = parameters.upper_com_distance[1] * t322;
     // leg 2: partial angular velocities of the leg
     let t329 = t166 * t204;
@@ -6421,11 +5591,7 @@ pub fn partial_velocities<T: Scalar>(
     lower_partial_velocity[2][2][4] = -(parameters.lower_com_distance[2] * t346);
     lower_partial_velocity[2][2][5] = -(parameters.lower_com_distance[2] * t347);
     // leg 3: partial velocities of the upper part's centre of mass
-    upper_partial_velocity[2][0][0] = neg_mul_add(
-        parameters.upper_com_distance[2],
-        t333,
-        c(1.0),
-    );
+    upper_partial_velocity[2][0][0] = neg_mul_add(parameters.upper_com_distance[2], t333, c(1.0));
     let t351 = parameters.upper_com_distance[2] * t334;
     upper_partial_velocity[2][0][1] = t351;
     upper_partial_velocity[2][1][0] = t351;
@@ -6433,50 +5599,18 @@ pub fn partial_velocities<T: Scalar>(
     upper_partial_velocity[2][0][2] = t352;
     upper_partial_velocity[2][2][0] = t352;
     upper_partial_velocity[2][0][3] = parameters.upper_com_distance[2] * t336;
-    upper_partial_velocity[2][0][4] = neg_mul_add(
-        parameters.upper_com_distance[2],
-        t337,
-        t96,
-    );
-    upper_partial_velocity[2][0][5] = mul_sub(
-        parameters.upper_com_distance[2],
-        t338,
-        t93,
-    );
-    upper_partial_velocity[2][1][1] = neg_mul_add(
-        parameters.upper_com_distance[2],
-        t339,
-        c(1.0),
-    );
+    upper_partial_velocity[2][0][4] = neg_mul_add(parameters.upper_com_distance[2], t337, t96);
+    upper_partial_velocity[2][0][5] = mul_sub(parameters.upper_com_distance[2], t338, t93);
+    upper_partial_velocity[2][1][1] = neg_mul_add(parameters.upper_com_distance[2], t339, c(1.0));
     let t353 = parameters.upper_com_distance[2] * t340;
     upper_partial_velocity[2][1][2] = t353;
     upper_partial_velocity[2][2][1] = t353;
-    upper_partial_velocity[2][1][3] = mul_sub(
-        parameters.upper_com_distance[2],
-        t341,
-        t96,
-    );
+    upper_partial_velocity[2][1][3] = mul_sub(parameters.upper_com_distance[2], t341, t96);
     upper_partial_velocity[2][1][4] = parameters.upper_com_distance[2] * t342;
-    upper_partial_velocity[2][1][5] = neg_mul_add(
-        parameters.upper_com_distance[2],
-        t343,
-        t90,
-    );
-    upper_partial_velocity[2][2][2] = neg_mul_add(
-        parameters.upper_com_distance[2],
-        t344,
-        c(1.0),
-    );
-    upper_partial_velocity[2][2][3] = neg_mul_add(
-        parameters.upper_com_distance[2],
-        t345,
-        t93,
-    );
-    upper_partial_velocity[2][2][4] = mul_sub(
-        parameters.upper_com_distance[2],
-        t346,
-        t90,
-    );
+    upper_partial_velocity[2][1][5] = neg_mul_add(parameters.upper_com_distance[2], t343, t90);
+    upper_partial_velocity[2][2][2] = neg_mul_add(parameters.upper_com_distance[2], t344, c(1.0));
+    upper_partial_velocity[2][2][3] = neg_mul_add(parameters.upper_com_distance[2], t345, t93);
+    upper_partial_velocity[2][2][4] = mul_sub(parameters.upper_com_distance[2], t346, t90);
     upper_partial_velocity[2][2][5] = parameters.upper_com_distance[2] * t347;
     // leg 3: partial angular velocities of the leg
     let t354 = t168 * t210;
@@ -6536,11 +5670,7 @@ pub fn partial_velocities<T: Scalar>(
     lower_partial_velocity[3][2][4] = -(parameters.lower_com_distance[3] * t371);
     lower_partial_velocity[3][2][5] = -(parameters.lower_com_distance[3] * t372);
     // leg 4: partial velocities of the upper part's centre of mass
-    upper_partial_velocity[3][0][0] = neg_mul_add(
-        parameters.upper_com_distance[3],
-        t358,
-        c(1.0),
-    );
+    upper_partial_velocity[3][0][0] = neg_mul_add(parameters.upper_com_distance[3], t358, c(1.0));
     let t376 = parameters.upper_com_distance[3] * t359;
     upper_partial_velocity[3][0][1] = t376;
     upper_partial_velocity[3][1][0] = t376;
@@ -6548,50 +5678,18 @@ pub fn partial_velocities<T: Scalar>(
     upper_partial_velocity[3][0][2] = t377;
     upper_partial_velocity[3][2][0] = t377;
     upper_partial_velocity[3][0][3] = parameters.upper_com_distance[3] * t361;
-    upper_partial_velocity[3][0][4] = neg_mul_add(
-        parameters.upper_com_distance[3],
-        t362,
-        t117,
-    );
-    upper_partial_velocity[3][0][5] = mul_sub(
-        parameters.upper_com_distance[3],
-        t363,
-        t114,
-    );
-    upper_partial_velocity[3][1][1] = neg_mul_add(
-        parameters.upper_com_distance[3],
-        t364,
-        c(1.0),
-    );
+    upper_partial_velocity[3][0][4] = neg_mul_add(parameters.upper_com_distance[3], t362, t117);
+    upper_partial_velocity[3][0][5] = mul_sub(parameters.upper_com_distance[3], t363, t114);
+    upper_partial_velocity[3][1][1] = neg_mul_add(parameters.upper_com_distance[3], t364, c(1.0));
     let t378 = parameters.upper_com_distance[3] * t365;
     upper_partial_velocity[3][1][2] = t378;
     upper_partial_velocity[3][2][1] = t378;
-    upper_partial_velocity[3][1][3] = mul_sub(
-        parameters.upper_com_distance[3],
-        t366,
-        t117,
-    );
+    upper_partial_velocity[3][1][3] = mul_sub(parameters.upper_com_distance[3], t366, t117);
     upper_partial_velocity[3][1][4] = parameters.upper_com_distance[3] * t367;
-    upper_partial_velocity[3][1][5] = neg_mul_add(
-        parameters.upper_com_distance[3],
-        t368,
-        t111,
-    );
-    upper_partial_velocity[3][2][2] = neg_mul_add(
-        parameters.upper_com_distance[3],
-        t369,
-        c(1.0),
-    );
-    upper_partial_velocity[3][2][3] = neg_mul_add(
-        parameters.upper_com_distance[3],
-        t370,
-        t114,
-    );
-    upper_partial_velocity[3][2][4] = mul_sub(
-        parameters.upper_com_distance[3],
-        t371,
-        t111,
-    );
+    upper_partial_velocity[3][1][5] = neg_mul_add(parameters.upper_com_distance[3], t368, t111);
+    upper_partial_velocity[3][2][2] = neg_mul_add(parameters.upper_com_distance[3], t369, c(1.0));
+    upper_partial_velocity[3][2][3] = neg_mul_add(parameters.upper_com_distance[3], t370, t114);
+    upper_partial_velocity[3][2][4] = mul_sub(parameters.upper_com_distance[3], t371, t111);
     upper_partial_velocity[3][2][5] = parameters.upper_com_distance[3] * t372;
     // leg 4: partial angular velocities of the leg
     let t379 = t170 * t216;
@@ -6651,11 +5749,7 @@ pub fn partial_velocities<T: Scalar>(
     lower_partial_velocity[4][2][4] = -(parameters.lower_com_distance[4] * t396);
     lower_partial_velocity[4][2][5] = -(parameters.lower_com_distance[4] * t397);
     // leg 5: partial velocities of the upper part's centre of mass
-    upper_partial_velocity[4][0][0] = neg_mul_add(
-        parameters.upper_com_distance[4],
-        t383,
-        c(1.0),
-    );
+    upper_partial_velocity[4][0][0] = neg_mul_add(parameters.upper_com_distance[4], t383, c(1.0));
     let t401 = parameters.upper_com_distance[4] * t384;
     upper_partial_velocity[4][0][1] = t401;
     upper_partial_velocity[4][1][0] = t401;
@@ -6663,50 +5757,18 @@ pub fn partial_velocities<T: Scalar>(
     upper_partial_velocity[4][0][2] = t402;
     upper_partial_velocity[4][2][0] = t402;
     upper_partial_velocity[4][0][3] = parameters.upper_com_distance[4] * t386;
-    upper_partial_velocity[4][0][4] = neg_mul_add(
-        parameters.upper_com_distance[4],
-        t387,
-        t138,
-    );
-    upper_partial_velocity[4][0][5] = mul_sub(
-        parameters.upper_com_distance[4],
-        t388,
-        t135,
-    );
-    upper_partial_velocity[4][1][1] = neg_mul_add(
-        parameters.upper_com_distance[4],
-        t389,
-        c(1.0),
-    );
+    upper_partial_velocity[4][0][4] = neg_mul_add(parameters.upper_com_distance[4], t387, t138);
+    upper_partial_velocity[4][0][5] = mul_sub(parameters.upper_com_distance[4], t388, t135);
+    upper_partial_velocity[4][1][1] = neg_mul_add(parameters.upper_com_distance[4], t389, c(1.0));
     let t403 = parameters.upper_com_distance[4] * t390;
     upper_partial_velocity[4][1][2] = t403;
     upper_partial_velocity[4][2][1] = t403;
-    upper_partial_velocity[4][1][3] = mul_sub(
-        parameters.upper_com_distance[4],
-        t391,
-        t138,
-    );
+    upper_partial_velocity[4][1][3] = mul_sub(parameters.upper_com_distance[4], t391, t138);
     upper_partial_velocity[4][1][4] = parameters.upper_com_distance[4] * t392;
-    upper_partial_velocity[4][1][5] = neg_mul_add(
-        parameters.upper_com_distance[4],
-        t393,
-        t132,
-    );
-    upper_partial_velocity[4][2][2] = neg_mul_add(
-        parameters.upper_com_distance[4],
-        t394,
-        c(1.0),
-    );
-    upper_partial_velocity[4][2][3] = neg_mul_add(
-        parameters.upper_com_distance[4],
-        t395,
-        t135,
-    );
-    upper_partial_velocity[4][2][4] = mul_sub(
-        parameters.upper_com_distance[4],
-        t396,
-        t132,
-    );
+    upper_partial_velocity[4][1][5] = neg_mul_add(parameters.upper_com_distance[4], t393, t132);
+    upper_partial_velocity[4][2][2] = neg_mul_add(parameters.upper_com_distance[4], t394, c(1.0));
+    upper_partial_velocity[4][2][3] = neg_mul_add(parameters.upper_com_distance[4], t395, t135);
+    upper_partial_velocity[4][2][4] = mul_sub(parameters.upper_com_distance[4], t396, t132);
     upper_partial_velocity[4][2][5] = parameters.upper_com_distance[4] * t397;
     // leg 5: partial angular velocities of the leg
     let t404 = t172 * t222;
@@ -6766,11 +5828,7 @@ pub fn partial_velocities<T: Scalar>(
     lower_partial_velocity[5][2][4] = -(parameters.lower_com_distance[5] * t421);
     lower_partial_velocity[5][2][5] = -(parameters.lower_com_distance[5] * t422);
     // leg 6: partial velocities of the upper part's centre of mass
-    upper_partial_velocity[5][0][0] = neg_mul_add(
-        parameters.upper_com_distance[5],
-        t408,
-        c(1.0),
-    );
+    upper_partial_velocity[5][0][0] = neg_mul_add(parameters.upper_com_distance[5], t408, c(1.0));
     let t426 = parameters.upper_com_distance[5] * t409;
     upper_partial_velocity[5][0][1] = t426;
     upper_partial_velocity[5][1][0] = t426;
@@ -6778,50 +5836,18 @@ pub fn partial_velocities<T: Scalar>(
     upper_partial_velocity[5][0][2] = t427;
     upper_partial_velocity[5][2][0] = t427;
     upper_partial_velocity[5][0][3] = parameters.upper_com_distance[5] * t411;
-    upper_partial_velocity[5][0][4] = neg_mul_add(
-        parameters.upper_com_distance[5],
-        t412,
-        t159,
-    );
-    upper_partial_velocity[5][0][5] = mul_sub(
-        parameters.upper_com_distance[5],
-        t413,
-        t156,
-    );
-    upper_partial_velocity[5][1][1] = neg_mul_add(
-        parameters.upper_com_distance[5],
-        t414,
-        c(1.0),
-    );
+    upper_partial_velocity[5][0][4] = neg_mul_add(parameters.upper_com_distance[5], t412, t159);
+    upper_partial_velocity[5][0][5] = mul_sub(parameters.upper_com_distance[5], t413, t156);
+    upper_partial_velocity[5][1][1] = neg_mul_add(parameters.upper_com_distance[5], t414, c(1.0));
     let t428 = parameters.upper_com_distance[5] * t415;
     upper_partial_velocity[5][1][2] = t428;
     upper_partial_velocity[5][2][1] = t428;
-    upper_partial_velocity[5][1][3] = mul_sub(
-        parameters.upper_com_distance[5],
-        t416,
-        t159,
-    );
+    upper_partial_velocity[5][1][3] = mul_sub(parameters.upper_com_distance[5], t416, t159);
     upper_partial_velocity[5][1][4] = parameters.upper_com_distance[5] * t417;
-    upper_partial_velocity[5][1][5] = neg_mul_add(
-        parameters.upper_com_distance[5],
-        t418,
-        t153,
-    );
-    upper_partial_velocity[5][2][2] = neg_mul_add(
-        parameters.upper_com_distance[5],
-        t419,
-        c(1.0),
-    );
-    upper_partial_velocity[5][2][3] = neg_mul_add(
-        parameters.upper_com_distance[5],
-        t420,
-        t156,
-    );
-    upper_partial_velocity[5][2][4] = mul_sub(
-        parameters.upper_com_distance[5],
-        t421,
-        t153,
-    );
+    upper_partial_velocity[5][1][5] = neg_mul_add(parameters.upper_com_distance[5], t418, t153);
+    upper_partial_velocity[5][2][2] = neg_mul_add(parameters.upper_com_distance[5], t419, c(1.0));
+    upper_partial_velocity[5][2][3] = neg_mul_add(parameters.upper_com_distance[5], t420, t156);
+    upper_partial_velocity[5][2][4] = mul_sub(parameters.upper_com_distance[5], t421, t153);
     upper_partial_velocity[5][2][5] = parameters.upper_com_distance[5] * t422;
     // leg 6: partial angular velocities of the leg
     let t429 = t174 * t228;
@@ -6956,138 +5982,15 @@ pub fn generalised_forces<T: Scalar>(
 ) {
     let c = T::constant;
     let (
-        t110,
-        t112,
-        t114,
-        t116,
-        t118,
-        t120,
-        t235,
-        t236,
-        t237,
-        t238,
-        t239,
-        t240,
-        t480,
-        t482,
-        t484,
-        t486,
-        t488,
-        t490,
-        t492,
-        t494,
-        t496,
-        t498,
-        t500,
-        t502,
-        t504,
-        t506,
-        t508,
-        t510,
-        t512,
-        t514,
-        t526,
-        t529,
-        t532,
-        t553,
-        t556,
-        t559,
-        t580,
-        t583,
-        t586,
-        t607,
-        t610,
-        t613,
-        t634,
-        t637,
-        t640,
-        t661,
-        t664,
-        t667,
-        t694,
-        t703,
-        t704,
-        t705,
-        t706,
-        t707,
-        t708,
-        t709,
-        t710,
-        t728,
-        t737,
-        t738,
-        t739,
-        t740,
-        t741,
-        t742,
-        t743,
-        t744,
-        t762,
-        t771,
-        t772,
-        t773,
-        t774,
-        t775,
-        t776,
-        t777,
-        t778,
-        t796,
-        t805,
-        t806,
-        t807,
-        t808,
-        t809,
-        t810,
-        t811,
-        t812,
-        t830,
-        t839,
-        t840,
-        t841,
-        t842,
-        t843,
-        t844,
-        t845,
-        t846,
-        t864,
-        t873,
-        t874,
-        t875,
-        t876,
-        t877,
-        t878,
-        t879,
-        t880,
-        t883,
-        t886,
-        t889,
-        t896,
-        t900,
-        t904,
-        t905,
-        t906,
-        t907,
-        t908,
-        t909,
-        t910,
-        t911,
-        t912,
-        t913,
-        t914,
-        t915,
-        t916,
-        t917,
-        t918,
-        t919,
-        t920,
-        t921,
-        t922,
-        t923,
-        t924,
-        t925,
-        t926,
-        t927,
-        t928,
+        t110, t112, t114, t116, t118, t120, t235, t236, t237, t238, t239, t240, t480, t482, t484,
+        t486, t488, t490, t492, t494, t496, t498, t500, t502, t504, t506, t508, t510, t512, t514,
+        t526, t529, t532, t553, t556, t559, t580, t583, t586, t607, t610, t613, t634, t637, t640,
+        t661, t664, t667, t694, t703, t704, t705, t706, t707, t708, t709, t710, t728, t737, t738,
+        t739, t740, t741, t742, t743, t744, t762, t771, t772, t773, t774, t775, t776, t777, t778,
+        t796, t805, t806, t807, t808, t809, t810, t811, t812, t830, t839, t840, t841, t842, t843,
+        t844, t845, t846, t864, t873, t874, t875, t876, t877, t878, t879, t880, t883, t886, t889,
+        t896, t900, t904, t905, t906, t907, t908, t909, t910, t911, t912, t913, t914, t915, t916,
+        t917, t918, t919, t920, t921, t922, t923, t924, t925, t926, t927, t928,
     ) = {
         // rotation of the platform seen from the base
         let t1 = base_rotation[1][0] * platform_rotation[1][0];
@@ -7682,38 +6585,14 @@ pub fn generalised_forces<T: Scalar>(
         let t523 = mul_add(base_rotation[2][2], parameters.base_point[0][2], t522);
         // leg 1: platform joint
         let t524 = platform_rotation[0][1] * parameters.platform_point[0][1];
-        let t525 = mul_add(
-            platform_rotation[0][0],
-            parameters.platform_point[0][0],
-            t524,
-        );
-        let t526 = mul_add(
-            platform_rotation[0][2],
-            parameters.platform_point[0][2],
-            t525,
-        );
+        let t525 = mul_add(platform_rotation[0][0], parameters.platform_point[0][0], t524);
+        let t526 = mul_add(platform_rotation[0][2], parameters.platform_point[0][2], t525);
         let t527 = platform_rotation[1][1] * parameters.platform_point[0][1];
-        let t528 = mul_add(
-            platform_rotation[1][0],
-            parameters.platform_point[0][0],
-            t527,
-        );
-        let t529 = mul_add(
-            platform_rotation[1][2],
-            parameters.platform_point[0][2],
-            t528,
-        );
+        let t528 = mul_add(platform_rotation[1][0], parameters.platform_point[0][0], t527);
+        let t529 = mul_add(platform_rotation[1][2], parameters.platform_point[0][2], t528);
         let t530 = platform_rotation[2][1] * parameters.platform_point[0][1];
-        let t531 = mul_add(
-            platform_rotation[2][0],
-            parameters.platform_point[0][0],
-            t530,
-        );
-        let t532 = mul_add(
-            platform_rotation[2][2],
-            parameters.platform_point[0][2],
-            t531,
-        );
+        let t531 = mul_add(platform_rotation[2][0], parameters.platform_point[0][0], t530);
+        let t532 = mul_add(platform_rotation[2][2], parameters.platform_point[0][2], t531);
         // leg 1: velocity of the base joint
         let t533 = mul_sub(base_velocity[4], t523, base_velocity[5] * t520);
         let t534 = mul_sub(base_velocity[5], t517, base_velocity[3] * t523);
@@ -7738,38 +6617,14 @@ pub fn generalised_forces<T: Scalar>(
         let t550 = mul_add(base_rotation[2][2], parameters.base_point[1][2], t549);
         // leg 2: platform joint
         let t551 = platform_rotation[0][1] * parameters.platform_point[1][1];
-        let t552 = mul_add(
-            platform_rotation[0][0],
-            parameters.platform_point[1][0],
-            t551,
-        );
-        let t553 = mul_add(
-            platform_rotation[0][2],
-            parameters.platform_point[1][2],
-            t552,
-        );
+        let t552 = mul_add(platform_rotation[0][0], parameters.platform_point[1][0], t551);
+        let t553 = mul_add(platform_rotation[0][2], parameters.platform_point[1][2], t552);
         let t554 = platform_rotation[1][1] * parameters.platform_point[1][1];
-        let t555 = mul_add(
-            platform_rotation[1][0],
-            parameters.platform_point[1][0],
-            t554,
-        );
-        let t556 = mul_add(
-            platform_rotation[1][2],
-            parameters.platform_point[1][2],
-            t555,
-        );
+        let t555 = mul_add(platform_rotation[1][0], parameters.platform_point[1][0], t554);
+        let t556 = mul_add(platform_rotation[1][2], parameters.platform_point[1][2], t555);
         let t557 = platform_rotation[2][1] * parameters.platform_point[1][1];
-        let t558 = mul_add(
-            platform_rotation[2][0],
-            parameters.platform_point[1][0],
-            t557,
-        );
-        let t559 = mul_add(
-            platform_rotation[2][2],
-            parameters.platform_point[1][2],
-            t558,
-        );
+        let t558 = mul_add(platform_rotation[2][0], parameters.platform_point[1][0], t557);
+        let t559 = mul_add(platform_rotation[2][2], parameters.platform_point[1][2], t558);
         // leg 2: velocity of the base joint
         let t560 = mul_sub(base_velocity[4], t550, base_velocity[5] * t547);
         let t561 = mul_sub(base_velocity[5], t544, base_velocity[3] * t550);
@@ -7794,38 +6649,14 @@ pub fn generalised_forces<T: Scalar>(
         let t577 = mul_add(base_rotation[2][2], parameters.base_point[2][2], t576);
         // leg 3: platform joint
         let t578 = platform_rotation[0][1] * parameters.platform_point[2][1];
-        let t579 = mul_add(
-            platform_rotation[0][0],
-            parameters.platform_point[2][0],
-            t578,
-        );
-        let t580 = mul_add(
-            platform_rotation[0][2],
-            parameters.platform_point[2][2],
-            t579,
-        );
+        let t579 = mul_add(platform_rotation[0][0], parameters.platform_point[2][0], t578);
+        let t580 = mul_add(platform_rotation[0][2], parameters.platform_point[2][2], t579);
         let t581 = platform_rotation[1][1] * parameters.platform_point[2][1];
-        let t582 = mul_add(
-            platform_rotation[1][0],
-            parameters.platform_point[2][0],
-            t581,
-        );
-        let t583 = mul_add(
-            platform_rotation[1][2],
-            parameters.platform_point[2][2],
-            t582,
-        );
+        let t582 = mul_add(platform_rotation[1][0], parameters.platform_point[2][0], t581);
+        let t583 = mul_add(platform_rotation[1][2], parameters.platform_point[2][2], t582);
         let t584 = platform_rotation[2][1] * parameters.platform_point[2][1];
-        let t585 = mul_add(
-            platform_rotation[2][0],
-            parameters.platform_point[2][0],
-            t584,
-        );
-        let t586 = mul_add(
-            platform_rotation[2][2],
-            parameters.platform_point[2][2],
-            t585,
-        );
+        let t585 = mul_add(platform_rotation[2][0], parameters.platform_point[2][0], t584);
+        let t586 = mul_add(platform_rotation[2][2], parameters.platform_point[2][2], t585);
         // leg 3: velocity of the base joint
         let t587 = mul_sub(base_velocity[4], t577, base_velocity[5] * t574);
         let t588 = mul_sub(base_velocity[5], t571, base_velocity[3] * t577);
@@ -7850,38 +6681,14 @@ pub fn generalised_forces<T: Scalar>(
         let t604 = mul_add(base_rotation[2][2], parameters.base_point[3][2], t603);
         // leg 4: platform joint
         let t605 = platform_rotation[0][1] * parameters.platform_point[3][1];
-        let t606 = mul_add(
-            platform_rotation[0][0],
-            parameters.platform_point[3][0],
-            t605,
-        );
-        let t607 = mul_add(
-            platform_rotation[0][2],
-            parameters.platform_point[3][2],
-            t606,
-        );
+        let t606 = mul_add(platform_rotation[0][0], parameters.platform_point[3][0], t605);
+        let t607 = mul_add(platform_rotation[0][2], parameters.platform_point[3][2], t606);
         let t608 = platform_rotation[1][1] * parameters.platform_point[3][1];
-        let t609 = mul_add(
-            platform_rotation[1][0],
-            parameters.platform_point[3][0],
-            t608,
-        );
-        let t610 = mul_add(
-            platform_rotation[1][2],
-            parameters.platform_point[3][2],
-            t609,
-        );
+        let t609 = mul_add(platform_rotation[1][0], parameters.platform_point[3][0], t608);
+        let t610 = mul_add(platform_rotation[1][2], parameters.platform_point[3][2], t609);
         let t611 = platform_rotation[2][1] * parameters.platform_point[3][1];
-        let t612 = mul_add(
-            platform_rotation[2][0],
-            parameters.platform_point[3][0],
-            t611,
-        );
-        let t613 = mul_add(
-            platform_rotation[2][2],
-            parameters.platform_point[3][2],
-            t612,
-        );
+        let t612 = mul_add(platform_rotation[2][0], parameters.platform_point[3][0], t611);
+        let t613 = mul_add(platform_rotation[2][2], parameters.platform_point[3][2], t612);
         // leg 4: velocity of the base joint
         let t614 = mul_sub(base_velocity[4], t604, base_velocity[5] * t601);
         let t615 = mul_sub(base_velocity[5], t598, base_velocity[3] * t604);
@@ -7906,38 +6713,14 @@ pub fn generalised_forces<T: Scalar>(
         let t631 = mul_add(base_rotation[2][2], parameters.base_point[4][2], t630);
         // leg 5: platform joint
         let t632 = platform_rotation[0][1] * parameters.platform_point[4][1];
-        let t633 = mul_add(
-            platform_rotation[0][0],
-            parameters.platform_point[4][0],
-            t632,
-        );
-        let t634 = mul_add(
-            platform_rotation[0][2],
-            parameters.platform_point[4][2],
-            t633,
-        );
+        let t633 = mul_add(platform_rotation[0][0], parameters.platform_point[4][0], t632);
+        let t634 = mul_add(platform_rotation[0][2], parameters.platform_point[4][2], t633);
         let t635 = platform_rotation[1][1] * parameters.platform_point[4][1];
-        let t636 = mul_add(
-            platform_rotation[1][0],
-            parameters.platform_point[4][0],
-            t635,
-        );
-        let t637 = mul_add(
-            platform_rotation[1][2],
-            parameters.platform_point[4][2],
-            t636,
-        );
+        let t636 = mul_add(platform_rotation[1][0], parameters.platform_point[4][0], t635);
+        let t637 = mul_add(platform_rotation[1][2], parameters.platform_point[4][2], t636);
         let t638 = platform_rotation[2][1] * parameters.platform_point[4][1];
-        let t639 = mul_add(
-            platform_rotation[2][0],
-            parameters.platform_point[4][0],
-            t638,
-        );
-        let t640 = mul_add(
-            platform_rotation[2][2],
-            parameters.platform_point[4][2],
-            t639,
-        );
+        let t639 = mul_add(platform_rotation[2][0], parameters.platform_point[4][0], t638);
+        let t640 = mul_add(platform_rotation[2][2], parameters.platform_point[4][2], t639);
         // leg 5: velocity of the base joint
         let t641 = mul_sub(base_velocity[4], t631, base_velocity[5] * t628);
         let t642 = mul_sub(base_velocity[5], t625, base_velocity[3] * t631);
@@ -7962,38 +6745,14 @@ pub fn generalised_forces<T: Scalar>(
         let t658 = mul_add(base_rotation[2][2], parameters.base_point[5][2], t657);
         // leg 6: platform joint
         let t659 = platform_rotation[0][1] * parameters.platform_point[5][1];
-        let t660 = mul_add(
-            platform_rotation[0][0],
-            parameters.platform_point[5][0],
-            t659,
-        );
-        let t661 = mul_add(
-            platform_rotation[0][2],
-            parameters.platform_point[5][2],
-            t660,
-        );
+        let t660 = mul_add(platform_rotation[0][0], parameters.platform_point[5][0], t659);
+        let t661 = mul_add(platform_rotation[0][2], parameters.platform_point[5][2], t660);
         let t662 = platform_rotation[1][1] * parameters.platform_point[5][1];
-        let t663 = mul_add(
-            platform_rotation[1][0],
-            parameters.platform_point[5][0],
-            t662,
-        );
-        let t664 = mul_add(
-            platform_rotation[1][2],
-            parameters.platform_point[5][2],
-            t663,
-        );
+        let t663 = mul_add(platform_rotation[1][0], parameters.platform_point[5][0], t662);
+        let t664 = mul_add(platform_rotation[1][2], parameters.platform_point[5][2], t663);
         let t665 = platform_rotation[2][1] * parameters.platform_point[5][1];
-        let t666 = mul_add(
-            platform_rotation[2][0],
-            parameters.platform_point[5][0],
-            t665,
-        );
-        let t667 = mul_add(
-            platform_rotation[2][2],
-            parameters.platform_point[5][2],
-            t666,
-        );
+        let t666 = mul_add(platform_rotation[2][0], parameters.platform_point[5][0], t665);
+        let t667 = mul_add(platform_rotation[2][2], parameters.platform_point[5][2], t666);
         // leg 6: velocity of the base joint
         let t668 = mul_sub(base_velocity[4], t658, base_velocity[5] * t655);
         let t669 = mul_sub(base_velocity[5], t652, base_velocity[3] * t658);
@@ -8013,11 +6772,7 @@ pub fn generalised_forces<T: Scalar>(
         let t680 = mul_sub(platform_velocity[4], t536, t679);
         let t681 = mul_add(base_acceleration[3], t520, base_acceleration[2]);
         let t682 = mul_sub(base_acceleration[4], t517, t681);
-        let t683 = mul_sub(
-            base_velocity[4],
-            t533,
-            mul_sub(base_velocity[3], t534, t682),
-        );
+        let t683 = mul_sub(base_velocity[4], t533, mul_sub(base_velocity[3], t534, t682));
         let t684 = t235 * c(2.0);
         let t685 = t110 * mul_add(t541, t684, mul_add(t373, t484, t680 - t683));
         let t686 = mul_add(platform_acceleration[5], t526, platform_acceleration[1]);
@@ -8026,11 +6781,7 @@ pub fn generalised_forces<T: Scalar>(
         let t689 = mul_sub(platform_velocity[3], t538, t688);
         let t690 = mul_add(base_acceleration[5], t517, base_acceleration[1]);
         let t691 = mul_sub(base_acceleration[3], t523, t690);
-        let t692 = mul_sub(
-            base_velocity[3],
-            t535,
-            mul_sub(base_velocity[5], t533, t691),
-        );
+        let t692 = mul_sub(base_velocity[3], t535, mul_sub(base_velocity[5], t533, t691));
         let t693 = t110 * mul_add(t540, t684, mul_add(t373, t482, t689 - t692));
         let t694 = mul_sub(t482, t685, t484 * t693);
         let t695 = mul_add(platform_acceleration[4], t532, platform_acceleration[0]);
@@ -8039,11 +6790,7 @@ pub fn generalised_forces<T: Scalar>(
         let t698 = mul_sub(platform_velocity[5], t537, t697);
         let t699 = mul_add(base_acceleration[4], t523, base_acceleration[0]);
         let t700 = mul_sub(base_acceleration[5], t520, t699);
-        let t701 = mul_sub(
-            base_velocity[5],
-            t534,
-            mul_sub(base_velocity[4], t535, t700),
-        );
+        let t701 = mul_sub(base_velocity[5], t534, mul_sub(base_velocity[4], t535, t700));
         let t702 = t110 * mul_add(t539, t684, mul_add(t373, t480, t698 - t701));
         let t703 = mul_sub(t484, t702, t480 * t685);
         let t704 = mul_sub(t480, t693, t482 * t702);
@@ -8062,11 +6809,7 @@ pub fn generalised_forces<T: Scalar>(
         let t714 = mul_sub(platform_velocity[4], t563, t713);
         let t715 = mul_add(base_acceleration[3], t547, base_acceleration[2]);
         let t716 = mul_sub(base_acceleration[4], t544, t715);
-        let t717 = mul_sub(
-            base_velocity[4],
-            t560,
-            mul_sub(base_velocity[3], t561, t716),
-        );
+        let t717 = mul_sub(base_velocity[4], t560, mul_sub(base_velocity[3], t561, t716));
         let t718 = t236 * c(2.0);
         let t719 = t112 * mul_add(t568, t718, mul_add(t394, t490, t714 - t717));
         let t720 = mul_add(platform_acceleration[5], t553, platform_acceleration[1]);
@@ -8075,11 +6818,7 @@ pub fn generalised_forces<T: Scalar>(
         let t723 = mul_sub(platform_velocity[3], t565, t722);
         let t724 = mul_add(base_acceleration[5], t544, base_acceleration[1]);
         let t725 = mul_sub(base_acceleration[3], t550, t724);
-        let t726 = mul_sub(
-            base_velocity[3],
-            t562,
-            mul_sub(base_velocity[5], t560, t725),
-        );
+        let t726 = mul_sub(base_velocity[3], t562, mul_sub(base_velocity[5], t560, t725));
         let t727 = t112 * mul_add(t567, t718, mul_add(t394, t488, t723 - t726));
         let t728 = mul_sub(t488, t719, t490 * t727);
         let t729 = mul_add(platform_acceleration[4], t559, platform_acceleration[0]);
@@ -8088,11 +6827,7 @@ pub fn generalised_forces<T: Scalar>(
         let t732 = mul_sub(platform_velocity[5], t564, t731);
         let t733 = mul_add(base_acceleration[4], t550, base_acceleration[0]);
         let t734 = mul_sub(base_acceleration[5], t547, t733);
-        let t735 = mul_sub(
-            base_velocity[5],
-            t561,
-            mul_sub(base_velocity[4], t562, t734),
-        );
+        let t735 = mul_sub(base_velocity[5], t561, mul_sub(base_velocity[4], t562, t734));
         let t736 = t112 * mul_add(t566, t718, mul_add(t394, t486, t732 - t735));
         let t737 = mul_sub(t490, t736, t486 * t719);
         let t738 = mul_sub(t486, t727, t488 * t736);
@@ -8111,11 +6846,7 @@ pub fn generalised_forces<T: Scalar>(
         let t748 = mul_sub(platform_velocity[4], t590, t747);
         let t749 = mul_add(base_acceleration[3], t574, base_acceleration[2]);
         let t750 = mul_sub(base_acceleration[4], t571, t749);
-        let t751 = mul_sub(
-            base_velocity[4],
-            t587,
-            mul_sub(base_velocity[3], t588, t750),
-        );
+        let t751 = mul_sub(base_velocity[4], t587, mul_sub(base_velocity[3], t588, t750));
         let t752 = t237 * c(2.0);
         let t753 = t114 * mul_add(t595, t752, mul_add(t415, t496, t748 - t751));
         let t754 = mul_add(platform_acceleration[5], t580, platform_acceleration[1]);
@@ -8124,11 +6855,7 @@ pub fn generalised_forces<T: Scalar>(
         let t757 = mul_sub(platform_velocity[3], t592, t756);
         let t758 = mul_add(base_acceleration[5], t571, base_acceleration[1]);
         let t759 = mul_sub(base_acceleration[3], t577, t758);
-        let t760 = mul_sub(
-            base_velocity[3],
-            t589,
-            mul_sub(base_velocity[5], t587, t759),
-        );
+        let t760 = mul_sub(base_velocity[3], t589, mul_sub(base_velocity[5], t587, t759));
         let t761 = t114 * mul_add(t594, t752, mul_add(t415, t494, t757 - t760));
         let t762 = mul_sub(t494, t753, t496 * t761);
         let t763 = mul_add(platform_acceleration[4], t586, platform_acceleration[0]);
@@ -8137,11 +6864,7 @@ pub fn generalised_forces<T: Scalar>(
         let t766 = mul_sub(platform_velocity[5], t591, t765);
         let t767 = mul_add(base_acceleration[4], t577, base_acceleration[0]);
         let t768 = mul_sub(base_acceleration[5], t574, t767);
-        let t769 = mul_sub(
-            base_velocity[5],
-            t588,
-            mul_sub(base_velocity[4], t589, t768),
-        );
+        let t769 = mul_sub(base_velocity[5], t588, mul_sub(base_velocity[4], t589, t768));
         let t770 = t114 * mul_add(t593, t752, mul_add(t415, t492, t766 - t769));
         let t771 = mul_sub(t496, t770, t492 * t753);
         let t772 = mul_sub(t492, t761, t494 * t770);
@@ -8160,11 +6883,7 @@ pub fn generalised_forces<T: Scalar>(
         let t782 = mul_sub(platform_velocity[4], t617, t781);
         let t783 = mul_add(base_acceleration[3], t601, base_acceleration[2]);
         let t784 = mul_sub(base_acceleration[4], t598, t783);
-        let t785 = mul_sub(
-            base_velocity[4],
-            t614,
-            mul_sub(base_velocity[3], t615, t784),
-        );
+        let t785 = mul_sub(base_velocity[4], t614, mul_sub(base_velocity[3], t615, t784));
         let t786 = t238 * c(2.0);
         let t787 = t116 * mul_add(t622, t786, mul_add(t436, t502, t782 - t785));
         let t788 = mul_add(platform_acceleration[5], t607, platform_acceleration[1]);
@@ -8173,11 +6892,7 @@ pub fn generalised_forces<T: Scalar>(
         let t791 = mul_sub(platform_velocity[3], t619, t790);
         let t792 = mul_add(base_acceleration[5], t598, base_acceleration[1]);
         let t793 = mul_sub(base_acceleration[3], t604, t792);
-        let t794 = mul_sub(
-            base_velocity[3],
-            t616,
-            mul_sub(base_velocity[5], t614, t793),
-        );
+        let t794 = mul_sub(base_velocity[3], t616, mul_sub(base_velocity[5], t614, t793));
         let t795 = t116 * mul_add(t621, t786, mul_add(t436, t500, t791 - t794));
         let t796 = mul_sub(t500, t787, t502 * t795);
         let t797 = mul_add(platform_acceleration[4], t613, platform_acceleration[0]);
@@ -8186,11 +6901,7 @@ pub fn generalised_forces<T: Scalar>(
         let t800 = mul_sub(platform_velocity[5], t618, t799);
         let t801 = mul_add(base_acceleration[4], t604, base_acceleration[0]);
         let t802 = mul_sub(base_acceleration[5], t601, t801);
-        let t803 = mul_sub(
-            base_velocity[5],
-            t615,
-            mul_sub(base_velocity[4], t616, t802),
-        );
+        let t803 = mul_sub(base_velocity[5], t615, mul_sub(base_velocity[4], t616, t802));
         let t804 = t116 * mul_add(t620, t786, mul_add(t436, t498, t800 - t803));
         let t805 = mul_sub(t502, t804, t498 * t787);
         let t806 = mul_sub(t498, t795, t500 * t804);
@@ -8209,11 +6920,7 @@ pub fn generalised_forces<T: Scalar>(
         let t816 = mul_sub(platform_velocity[4], t644, t815);
         let t817 = mul_add(base_acceleration[3], t628, base_acceleration[2]);
         let t818 = mul_sub(base_acceleration[4], t625, t817);
-        let t819 = mul_sub(
-            base_velocity[4],
-            t641,
-            mul_sub(base_velocity[3], t642, t818),
-        );
+        let t819 = mul_sub(base_velocity[4], t641, mul_sub(base_velocity[3], t642, t818));
         let t820 = t239 * c(2.0);
         let t821 = t118 * mul_add(t649, t820, mul_add(t457, t508, t816 - t819));
         let t822 = mul_add(platform_acceleration[5], t634, platform_acceleration[1]);
@@ -8222,11 +6929,7 @@ pub fn generalised_forces<T: Scalar>(
         let t825 = mul_sub(platform_velocity[3], t646, t824);
         let t826 = mul_add(base_acceleration[5], t625, base_acceleration[1]);
         let t827 = mul_sub(base_acceleration[3], t631, t826);
-        let t828 = mul_sub(
-            base_velocity[3],
-            t643,
-            mul_sub(base_velocity[5], t641, t827),
-        );
+        let t828 = mul_sub(base_velocity[3], t643, mul_sub(base_velocity[5], t641, t827));
         let t829 = t118 * mul_add(t648, t820, mul_add(t457, t506, t825 - t828));
         let t830 = mul_sub(t506, t821, t508 * t829);
         let t831 = mul_add(platform_acceleration[4], t640, platform_acceleration[0]);
@@ -8235,11 +6938,7 @@ pub fn generalised_forces<T: Scalar>(
         let t834 = mul_sub(platform_velocity[5], t645, t833);
         let t835 = mul_add(base_acceleration[4], t631, base_acceleration[0]);
         let t836 = mul_sub(base_acceleration[5], t628, t835);
-        let t837 = mul_sub(
-            base_velocity[5],
-            t642,
-            mul_sub(base_velocity[4], t643, t836),
-        );
+        let t837 = mul_sub(base_velocity[5], t642, mul_sub(base_velocity[4], t643, t836));
         let t838 = t118 * mul_add(t647, t820, mul_add(t457, t504, t834 - t837));
         let t839 = mul_sub(t508, t838, t504 * t821);
         let t840 = mul_sub(t504, t829, t506 * t838);
@@ -8258,11 +6957,7 @@ pub fn generalised_forces<T: Scalar>(
         let t850 = mul_sub(platform_velocity[4], t671, t849);
         let t851 = mul_add(base_acceleration[3], t655, base_acceleration[2]);
         let t852 = mul_sub(base_acceleration[4], t652, t851);
-        let t853 = mul_sub(
-            base_velocity[4],
-            t668,
-            mul_sub(base_velocity[3], t669, t852),
-        );
+        let t853 = mul_sub(base_velocity[4], t668, mul_sub(base_velocity[3], t669, t852));
         let t854 = t240 * c(2.0);
         let t855 = t120 * mul_add(t676, t854, mul_add(t478, t514, t850 - t853));
         let t856 = mul_add(platform_acceleration[5], t661, platform_acceleration[1]);
@@ -8271,11 +6966,7 @@ pub fn generalised_forces<T: Scalar>(
         let t859 = mul_sub(platform_velocity[3], t673, t858);
         let t860 = mul_add(base_acceleration[5], t652, base_acceleration[1]);
         let t861 = mul_sub(base_acceleration[3], t658, t860);
-        let t862 = mul_sub(
-            base_velocity[3],
-            t670,
-            mul_sub(base_velocity[5], t668, t861),
-        );
+        let t862 = mul_sub(base_velocity[3], t670, mul_sub(base_velocity[5], t668, t861));
         let t863 = t120 * mul_add(t675, t854, mul_add(t478, t512, t859 - t862));
         let t864 = mul_sub(t512, t855, t514 * t863);
         let t865 = mul_add(platform_acceleration[4], t667, platform_acceleration[0]);
@@ -8284,11 +6975,7 @@ pub fn generalised_forces<T: Scalar>(
         let t868 = mul_sub(platform_velocity[5], t672, t867);
         let t869 = mul_add(base_acceleration[4], t658, base_acceleration[0]);
         let t870 = mul_sub(base_acceleration[5], t655, t869);
-        let t871 = mul_sub(
-            base_velocity[5],
-            t669,
-            mul_sub(base_velocity[4], t670, t870),
-        );
+        let t871 = mul_sub(base_velocity[5], t669, mul_sub(base_velocity[4], t670, t870));
         let t872 = t120 * mul_add(t674, t854, mul_add(t478, t510, t868 - t871));
         let t873 = mul_sub(t514, t872, t510 * t855);
         let t874 = mul_sub(t510, t863, t512 * t872);
@@ -8364,172 +7051,26 @@ pub fn generalised_forces<T: Scalar>(
         // leg 6: spring and damper force along the actuator
         let t928 = parameters.rest_length[5] - t119;
         // generalised active force of the payload: gravity, external wrench
-        let t929 = mul_add(
-            parameters.payload_mass,
-            parameters.gravity[0],
-            external_wrench[0],
-        );
+        let t929 = mul_add(parameters.payload_mass, parameters.gravity[0], external_wrench[0]);
         payload_active_force[0] = t929;
-        let t930 = mul_add(
-            parameters.payload_mass,
-            parameters.gravity[1],
-            external_wrench[1],
-        );
+        let t930 = mul_add(parameters.payload_mass, parameters.gravity[1], external_wrench[1]);
         payload_active_force[1] = t930;
-        let t931 = mul_add(
-            parameters.payload_mass,
-            parameters.gravity[2],
-            external_wrench[2],
-        );
+        let t931 = mul_add(parameters.payload_mass, parameters.gravity[2], external_wrench[2]);
         payload_active_force[2] = t931;
-        payload_active_force[3] = neg_mul_add(
-            t889,
-            t930,
-            mul_add(t886, t931, external_wrench[3]),
-        );
-        payload_active_force[4] = neg_mul_add(
-            t883,
-            t931,
-            mul_add(t889, t929, external_wrench[4]),
-        );
-        payload_active_force[5] = neg_mul_add(
-            t886,
-            t929,
-            mul_add(t883, t930, external_wrench[5]),
-        );
+        payload_active_force[3] = neg_mul_add(t889, t930, mul_add(t886, t931, external_wrench[3]));
+        payload_active_force[4] = neg_mul_add(t883, t931, mul_add(t889, t929, external_wrench[4]));
+        payload_active_force[5] = neg_mul_add(t886, t929, mul_add(t883, t930, external_wrench[5]));
         (
-            t110,
-            t112,
-            t114,
-            t116,
-            t118,
-            t120,
-            t235,
-            t236,
-            t237,
-            t238,
-            t239,
-            t240,
-            t480,
-            t482,
-            t484,
-            t486,
-            t488,
-            t490,
-            t492,
-            t494,
-            t496,
-            t498,
-            t500,
-            t502,
-            t504,
-            t506,
-            t508,
-            t510,
-            t512,
-            t514,
-            t526,
-            t529,
-            t532,
-            t553,
-            t556,
-            t559,
-            t580,
-            t583,
-            t586,
-            t607,
-            t610,
-            t613,
-            t634,
-            t637,
-            t640,
-            t661,
-            t664,
-            t667,
-            t694,
-            t703,
-            t704,
-            t705,
-            t706,
-            t707,
-            t708,
-            t709,
-            t710,
-            t728,
-            t737,
-            t738,
-            t739,
-            t740,
-            t741,
-            t742,
-            t743,
-            t744,
-            t762,
-            t771,
-            t772,
-            t773,
-            t774,
-            t775,
-            t776,
-            t777,
-            t778,
-            t796,
-            t805,
-            t806,
-            t807,
-            t808,
-            t809,
-            t810,
-            t811,
-            t812,
-            t830,
-            t839,
-            t840,
-            t841,
-            t842,
-            t843,
-            t844,
-            t845,
-            t846,
-            t864,
-            t873,
-            t874,
-            t875,
-            t876,
-            t877,
-            t878,
-            t879,
-            t880,
-            t883,
-            t886,
-            t889,
-            t896,
-            t900,
-            t904,
-            t905,
-            t906,
-            t907,
-            t908,
-            t909,
-            t910,
-            t911,
-            t912,
-            t913,
-            t914,
-            t915,
-            t916,
-            t917,
-            t918,
-            t919,
-            t920,
-            t921,
-            t922,
-            t923,
-            t924,
-            t925,
-            t926,
-            t927,
-            t928,
+            t110, t112, t114, t116, t118, t120, t235, t236, t237, t238, t239, t240, t480, t482,
+            t484, t486, t488, t490, t492, t494, t496, t498, t500, t502, t504, t506, t508, t510,
+            t512, t514, t526, t529, t532, t553, t556, t559, t580, t583, t586, t607, t610, t613,
+            t634, t637, t640, t661, t664, t667, t694, t703, t704, t705, t706, t707, t708, t709,
+            t710, t728, t737, t738, t739, t740, t741, t742, t743, t744, t762, t771, t772, t773,
+            t774, t775, t776, t777, t778, t796, t805, t806, t807, t808, t809, t810, t811, t812,
+            t830, t839, t840, t841, t842, t843, t844, t845, t846, t864, t873, t874, t875, t876,
+            t877, t878, t879, t880, t883, t886, t889, t896, t900, t904, t905, t906, t907, t908,
+            t909, t910, t911, t912, t913, t914, t915, t916, t917, t918, t919, t920, t921, t922,
+            t923, t924, t925, t926, t927, t928,
         )
     };
     {
@@ -8541,161 +7082,53 @@ pub fn generalised_forces<T: Scalar>(
         let t934 = parameters.payload_mass * t904;
         payload_inertia_force[2] = t934;
         let t935 = platform_rotation[1][1] * parameters.payload_inertia[1][2];
-        let t936 = mul_add(
-            platform_rotation[1][0],
-            parameters.payload_inertia[0][2],
-            t935,
-        );
-        let t937 = mul_add(
-            platform_rotation[1][2],
-            parameters.payload_inertia[2][2],
-            t936,
-        );
+        let t936 = mul_add(platform_rotation[1][0], parameters.payload_inertia[0][2], t935);
+        let t937 = mul_add(platform_rotation[1][2], parameters.payload_inertia[2][2], t936);
         let t938 = platform_rotation[1][1] * parameters.payload_inertia[0][1];
-        let t939 = mul_add(
-            platform_rotation[1][0],
-            parameters.payload_inertia[0][0],
-            t938,
-        );
-        let t940 = mul_add(
-            platform_rotation[1][2],
-            parameters.payload_inertia[0][2],
-            t939,
-        );
+        let t939 = mul_add(platform_rotation[1][0], parameters.payload_inertia[0][0], t938);
+        let t940 = mul_add(platform_rotation[1][2], parameters.payload_inertia[0][2], t939);
         let t941 = platform_rotation[1][1] * parameters.payload_inertia[1][1];
-        let t942 = mul_add(
-            platform_rotation[1][0],
-            parameters.payload_inertia[0][1],
-            t941,
-        );
-        let t943 = mul_add(
-            platform_rotation[1][2],
-            parameters.payload_inertia[1][2],
-            t942,
-        );
-        let t944 = mul_add(
-            platform_rotation[2][0],
-            t940,
-            platform_rotation[2][1] * t943,
-        );
+        let t942 = mul_add(platform_rotation[1][0], parameters.payload_inertia[0][1], t941);
+        let t943 = mul_add(platform_rotation[1][2], parameters.payload_inertia[1][2], t942);
+        let t944 = mul_add(platform_rotation[2][0], t940, platform_rotation[2][1] * t943);
         let t945 = mul_add(platform_rotation[2][2], t937, t944);
-        let t946 = mul_add(
-            platform_rotation[0][0],
-            t940,
-            platform_rotation[0][1] * t943,
-        );
+        let t946 = mul_add(platform_rotation[0][0], t940, platform_rotation[0][1] * t943);
         let t947 = mul_add(platform_rotation[0][2], t937, t946);
-        let t948 = mul_add(
-            platform_rotation[1][0],
-            t940,
-            platform_rotation[1][1] * t943,
-        );
+        let t948 = mul_add(platform_rotation[1][0], t940, platform_rotation[1][1] * t943);
         let t949 = mul_add(platform_rotation[1][2], t937, t948);
         let t950 = mul_add(platform_velocity[3], t947, platform_velocity[4] * t949);
         let t951 = mul_add(platform_velocity[5], t945, t950);
         let t952 = platform_rotation[2][1] * parameters.payload_inertia[1][2];
-        let t953 = mul_add(
-            platform_rotation[2][0],
-            parameters.payload_inertia[0][2],
-            t952,
-        );
-        let t954 = mul_add(
-            platform_rotation[2][2],
-            parameters.payload_inertia[2][2],
-            t953,
-        );
+        let t953 = mul_add(platform_rotation[2][0], parameters.payload_inertia[0][2], t952);
+        let t954 = mul_add(platform_rotation[2][2], parameters.payload_inertia[2][2], t953);
         let t955 = platform_rotation[2][1] * parameters.payload_inertia[0][1];
-        let t956 = mul_add(
-            platform_rotation[2][0],
-            parameters.payload_inertia[0][0],
-            t955,
-        );
-        let t957 = mul_add(
-            platform_rotation[2][2],
-            parameters.payload_inertia[0][2],
-            t956,
-        );
+        let t956 = mul_add(platform_rotation[2][0], parameters.payload_inertia[0][0], t955);
+        let t957 = mul_add(platform_rotation[2][2], parameters.payload_inertia[0][2], t956);
         let t958 = platform_rotation[2][1] * parameters.payload_inertia[1][1];
-        let t959 = mul_add(
-            platform_rotation[2][0],
-            parameters.payload_inertia[0][1],
-            t958,
-        );
-        let t960 = mul_add(
-            platform_rotation[2][2],
-            parameters.payload_inertia[1][2],
-            t959,
-        );
-        let t961 = mul_add(
-            platform_rotation[2][0],
-            t957,
-            platform_rotation[2][1] * t960,
-        );
+        let t959 = mul_add(platform_rotation[2][0], parameters.payload_inertia[0][1], t958);
+        let t960 = mul_add(platform_rotation[2][2], parameters.payload_inertia[1][2], t959);
+        let t961 = mul_add(platform_rotation[2][0], t957, platform_rotation[2][1] * t960);
         let t962 = mul_add(platform_rotation[2][2], t954, t961);
-        let t963 = mul_add(
-            platform_rotation[0][0],
-            t957,
-            platform_rotation[0][1] * t960,
-        );
+        let t963 = mul_add(platform_rotation[0][0], t957, platform_rotation[0][1] * t960);
         let t964 = mul_add(platform_rotation[0][2], t954, t963);
-        let t965 = mul_add(
-            platform_rotation[1][0],
-            t957,
-            platform_rotation[1][1] * t960,
-        );
+        let t965 = mul_add(platform_rotation[1][0], t957, platform_rotation[1][1] * t960);
         let t966 = mul_add(platform_rotation[1][2], t954, t965);
         let t967 = mul_add(platform_velocity[3], t964, platform_velocity[4] * t966);
         let t968 = mul_add(platform_velocity[5], t962, t967);
         let t969 = platform_rotation[0][1] * parameters.payload_inertia[1][2];
-        let t970 = mul_add(
-            platform_rotation[0][0],
-            parameters.payload_inertia[0][2],
-            t969,
-        );
-        let t971 = mul_add(
-            platform_rotation[0][2],
-            parameters.payload_inertia[2][2],
-            t970,
-        );
+        let t970 = mul_add(platform_rotation[0][0], parameters.payload_inertia[0][2], t969);
+        let t971 = mul_add(platform_rotation[0][2], parameters.payload_inertia[2][2], t970);
         let t972 = platform_rotation[0][1] * parameters.payload_inertia[0][1];
-        let t973 = mul_add(
-            platform_rotation[0][0],
-            parameters.payload_inertia[0][0],
-            t972,
-        );
-        let t974 = mul_add(
-            platform_rotation[0][2],
-            parameters.payload_inertia[0][2],
-            t973,
-        );
+        let t973 = mul_add(platform_rotation[0][0], parameters.payload_inertia[0][0], t972);
+        let t974 = mul_add(platform_rotation[0][2], parameters.payload_inertia[0][2], t973);
         let t975 = platform_rotation[0][1] * parameters.payload_inertia[1][1];
-        let t976 = mul_add(
-            platform_rotation[0][0],
-            parameters.payload_inertia[0][1],
-            t975,
-        );
-        let t977 = mul_add(
-            platform_rotation[0][2],
-            parameters.payload_inertia[1][2],
-            t976,
-        );
-        let t978 = mul_add(
-            platform_rotation[2][0],
-            t974,
-            platform_rotation[2][1] * t977,
-        );
+        let t976 = mul_add(platform_rotation[0][0], parameters.payload_inertia[0][1], t975);
+        let t977 = mul_add(platform_rotation[0][2], parameters.payload_inertia[1][2], t976);
+        let t978 = mul_add(platform_rotation[2][0], t974, platform_rotation[2][1] * t977);
         let t979 = mul_add(platform_rotation[2][2], t971, t978);
-        let t980 = mul_add(
-            platform_rotation[1][0],
-            t974,
-            platform_rotation[1][1] * t977,
-        );
+        let t980 = mul_add(platform_rotation[1][0], t974, platform_rotation[1][1] * t977);
         let t981 = mul_add(platform_rotation[1][2], t971, t980);
-        let t982 = mul_add(
-            platform_rotation[0][0],
-            t974,
-            platform_rotation[0][1] * t977,
-        );
+        let t982 = mul_add(platform_rotation[0][0], t974, platform_rotation[0][1] * t977);
         let t983 = mul_add(platform_rotation[0][2], t971, t982);
         let t984 = mul_sub(t886, t934, t889 * t933);
         let t985 = mul_sub(platform_acceleration[3], t983, t984);
@@ -8728,21 +7161,9 @@ pub fn generalised_forces<T: Scalar>(
         lower_active_force[0][0] = neg_mul_add(t480, t1007, t1002);
         lower_active_force[0][1] = neg_mul_add(t482, t1007, t1006);
         lower_active_force[0][2] = neg_mul_add(t484, t1007, t1004);
-        lower_active_force[0][3] = neg_mul_add(
-            t905,
-            t1007,
-            mul_sub(t529, t1004, t532 * t1006),
-        );
-        lower_active_force[0][4] = neg_mul_add(
-            t906,
-            t1007,
-            mul_sub(t532, t1002, t526 * t1004),
-        );
-        lower_active_force[0][5] = neg_mul_add(
-            t529,
-            t1002,
-            mul_sub(t526, t1006, t907 * t1007),
-        );
+        lower_active_force[0][3] = neg_mul_add(t905, t1007, mul_sub(t529, t1004, t532 * t1006));
+        lower_active_force[0][4] = neg_mul_add(t906, t1007, mul_sub(t532, t1002, t526 * t1004));
+        lower_active_force[0][5] = neg_mul_add(t529, t1002, mul_sub(t526, t1006, t907 * t1007));
         // leg 1: generalised inertia force of the lower part
         let t1008 = t110 * (parameters.lower_inertia[0] * t703);
         let t1009 = t110 * (parameters.lower_inertia[0] * t704);
@@ -8761,43 +7182,19 @@ pub fn generalised_forces<T: Scalar>(
         let t1020 = mul_sub(t482, t1018, t480 * t1008);
         lower_inertia_force[0][2] = t1020 + neg_mul_add(t484, t1017, t1014);
         let t1021 = mul_sub(t905, t1017, mul_sub(t529, t1014, t532 * t1016));
-        lower_inertia_force[0][3] = neg_mul_add(
-            t532,
-            t1019,
-            mul_sub(t529, t1020, t1021),
-        );
+        lower_inertia_force[0][3] = neg_mul_add(t532, t1019, mul_sub(t529, t1020, t1021));
         let t1022 = mul_sub(t906, t1017, mul_sub(t532, t1012, t526 * t1014));
-        lower_inertia_force[0][4] = neg_mul_add(
-            t526,
-            t1020,
-            mul_sub(t532, t1010, t1022),
-        );
+        lower_inertia_force[0][4] = neg_mul_add(t526, t1020, mul_sub(t532, t1010, t1022));
         let t1023 = mul_sub(t529, t1012, mul_sub(t526, t1016, t907 * t1017));
-        lower_inertia_force[0][5] = neg_mul_add(
-            t529,
-            t1010,
-            mul_sub(t526, t1019, t1023),
-        );
+        lower_inertia_force[0][5] = neg_mul_add(t529, t1010, mul_sub(t526, t1019, t1023));
         // leg 1: generalised active force of the upper part: gravity, actuator, spring, damper
         let t1024 = mul_add(parameters.axial_stiffness[0], t923, actuator_force[0]);
         let t1025 = mul_add(parameters.axial_damping[0], t235, t1024);
-        let t1026 = mul_add(
-            parameters.upper_mass[0],
-            parameters.gravity[0],
-            t480 * t1025,
-        );
+        let t1026 = mul_add(parameters.upper_mass[0], parameters.gravity[0], t480 * t1025);
         let t1027 = parameters.upper_com_distance[0] * t1026;
-        let t1028 = mul_add(
-            parameters.upper_mass[0],
-            parameters.gravity[2],
-            t484 * t1025,
-        );
+        let t1028 = mul_add(parameters.upper_mass[0], parameters.gravity[2], t484 * t1025);
         let t1029 = parameters.upper_com_distance[0] * t1028;
-        let t1030 = mul_add(
-            parameters.upper_mass[0],
-            parameters.gravity[1],
-            t482 * t1025,
-        );
+        let t1030 = mul_add(parameters.upper_mass[0], parameters.gravity[1], t482 * t1025);
         let t1031 = parameters.upper_com_distance[0] * t1030;
         let t1032 = mul_add(t484, t110 * t1029, t482 * (t110 * t1031));
         let t1033 = mul_add(t480, t110 * t1027, t1032);
@@ -8807,21 +7204,9 @@ pub fn generalised_forces<T: Scalar>(
         upper_active_force[0][1] = mul_add(t482, t1033, t1035);
         let t1036 = neg_mul_add(t110, t1029, t1028);
         upper_active_force[0][2] = mul_add(t484, t1033, t1036);
-        upper_active_force[0][3] = mul_add(
-            t905,
-            t1033,
-            mul_sub(t529, t1036, t532 * t1035),
-        );
-        upper_active_force[0][4] = mul_add(
-            t532,
-            t1034,
-            mul_sub(t906, t1033, t526 * t1036),
-        );
-        upper_active_force[0][5] = neg_mul_add(
-            t529,
-            t1034,
-            mul_add(t526, t1035, t907 * t1033),
-        );
+        upper_active_force[0][3] = mul_add(t905, t1033, mul_sub(t529, t1036, t532 * t1035));
+        upper_active_force[0][4] = mul_add(t532, t1034, mul_sub(t906, t1033, t526 * t1036));
+        upper_active_force[0][5] = neg_mul_add(t529, t1034, mul_add(t526, t1035, t907 * t1033));
         // leg 1: generalised inertia force of the upper part
         let t1037 = t110 * (parameters.upper_inertia[0] * t703);
         let t1038 = t110 * (parameters.upper_inertia[0] * t704);
@@ -8843,23 +7228,11 @@ pub fn generalised_forces<T: Scalar>(
         let t1052 = mul_sub(parameters.upper_mass[0], t710, t1043);
         upper_inertia_force[0][2] = t1051 + mul_add(t484, t1046, t1052);
         let t1053 = mul_add(t905, t1046, mul_sub(t529, t1052, t532 * t1050));
-        upper_inertia_force[0][3] = neg_mul_add(
-            t532,
-            t1049,
-            mul_add(t529, t1051, t1053),
-        );
+        upper_inertia_force[0][3] = neg_mul_add(t532, t1049, mul_add(t529, t1051, t1053));
         let t1054 = mul_add(t532, t1047, mul_sub(t906, t1046, t526 * t1052));
-        upper_inertia_force[0][4] = neg_mul_add(
-            t526,
-            t1051,
-            mul_add(t532, t1039, t1054),
-        );
+        upper_inertia_force[0][4] = neg_mul_add(t526, t1051, mul_add(t532, t1039, t1054));
         let t1055 = mul_sub(t529, t1047, mul_add(t526, t1050, t907 * t1046));
-        upper_inertia_force[0][5] = neg_mul_add(
-            t529,
-            t1039,
-            mul_sub(t526, t1049, t1055),
-        );
+        upper_inertia_force[0][5] = neg_mul_add(t529, t1039, mul_sub(t526, t1049, t1055));
         // leg 2: generalised active force of the lower part: gravity
         let t1056 = parameters.lower_mass[1] * parameters.gravity[0];
         let t1057 = t112 * (parameters.lower_com_distance[1] * t1056);
@@ -8871,21 +7244,9 @@ pub fn generalised_forces<T: Scalar>(
         lower_active_force[1][0] = neg_mul_add(t486, t1062, t1057);
         lower_active_force[1][1] = neg_mul_add(t488, t1062, t1061);
         lower_active_force[1][2] = neg_mul_add(t490, t1062, t1059);
-        lower_active_force[1][3] = neg_mul_add(
-            t908,
-            t1062,
-            mul_sub(t556, t1059, t559 * t1061),
-        );
-        lower_active_force[1][4] = neg_mul_add(
-            t909,
-            t1062,
-            mul_sub(t559, t1057, t553 * t1059),
-        );
-        lower_active_force[1][5] = neg_mul_add(
-            t556,
-            t1057,
-            mul_sub(t553, t1061, t910 * t1062),
-        );
+        lower_active_force[1][3] = neg_mul_add(t908, t1062, mul_sub(t556, t1059, t559 * t1061));
+        lower_active_force[1][4] = neg_mul_add(t909, t1062, mul_sub(t559, t1057, t553 * t1059));
+        lower_active_force[1][5] = neg_mul_add(t556, t1057, mul_sub(t553, t1061, t910 * t1062));
         // leg 2: generalised inertia force of the lower part
         let t1063 = t112 * (parameters.lower_inertia[1] * t737);
         let t1064 = t112 * (parameters.lower_inertia[1] * t738);
@@ -8904,43 +7265,19 @@ pub fn generalised_forces<T: Scalar>(
         let t1075 = mul_sub(t488, t1073, t486 * t1063);
         lower_inertia_force[1][2] = t1075 + neg_mul_add(t490, t1072, t1069);
         let t1076 = mul_sub(t908, t1072, mul_sub(t556, t1069, t559 * t1071));
-        lower_inertia_force[1][3] = neg_mul_add(
-            t559,
-            t1074,
-            mul_sub(t556, t1075, t1076),
-        );
+        lower_inertia_force[1][3] = neg_mul_add(t559, t1074, mul_sub(t556, t1075, t1076));
         let t1077 = mul_sub(t909, t1072, mul_sub(t559, t1067, t553 * t1069));
-        lower_inertia_force[1][4] = neg_mul_add(
-            t553,
-            t1075,
-            mul_sub(t559, t1065, t1077),
-        );
+        lower_inertia_force[1][4] = neg_mul_add(t553, t1075, mul_sub(t559, t1065, t1077));
         let t1078 = mul_sub(t556, t1067, mul_sub(t553, t1071, t910 * t1072));
-        lower_inertia_force[1][5] = neg_mul_add(
-            t556,
-            t1065,
-            mul_sub(t553, t1074, t1078),
-        );
+        lower_inertia_force[1][5] = neg_mul_add(t556, t1065, mul_sub(t553, t1074, t1078));
         // leg 2: generalised active force of the upper part: gravity, actuator, spring, damper
         let t1079 = mul_add(parameters.axial_stiffness[1], t924, actuator_force[1]);
         let t1080 = mul_add(parameters.axial_damping[1], t236, t1079);
-        let t1081 = mul_add(
-            parameters.upper_mass[1],
-            parameters.gravity[0],
-            t486 * t1080,
-        );
+        let t1081 = mul_add(parameters.upper_mass[1], parameters.gravity[0], t486 * t1080);
         let t1082 = parameters.upper_com_distance[1] * t1081;
-        let t1083 = mul_add(
-            parameters.upper_mass[1],
-            parameters.gravity[2],
-            t490 * t1080,
-        );
+        let t1083 = mul_add(parameters.upper_mass[1], parameters.gravity[2], t490 * t1080);
         let t1084 = parameters.upper_com_distance[1] * t1083;
-        let t1085 = mul_add(
-            parameters.upper_mass[1],
-            parameters.gravity[1],
-            t488 * t1080,
-        );
+        let t1085 = mul_add(parameters.upper_mass[1], parameters.gravity[1], t488 * t1080);
         let t1086 = parameters.upper_com_distance[1] * t1085;
         let t1087 = mul_add(t490, t112 * t1084, t488 * (t112 * t1086));
         let t1088 = mul_add(t486, t112 * t1082, t1087);
@@ -8950,21 +7287,9 @@ pub fn generalised_forces<T: Scalar>(
         upper_active_force[1][1] = mul_add(t488, t1088, t1090);
         let t1091 = neg_mul_add(t112, t1084, t1083);
         upper_active_force[1][2] = mul_add(t490, t1088, t1091);
-        upper_active_force[1][3] = mul_add(
-            t908,
-            t1088,
-            mul_sub(t556, t1091, t559 * t1090),
-        );
-        upper_active_force[1][4] = mul_add(
-            t559,
-            t1089,
-            mul_sub(t909, t1088, t553 * t1091),
-        );
-        upper_active_force[1][5] = neg_mul_add(
-            t556,
-            t1089,
-            mul_add(t553, t1090, t910 * t1088),
-        );
+        upper_active_force[1][3] = mul_add(t908, t1088, mul_sub(t556, t1091, t559 * t1090));
+        upper_active_force[1][4] = mul_add(t559, t1089, mul_sub(t909, t1088, t553 * t1091));
+        upper_active_force[1][5] = neg_mul_add(t556, t1089, mul_add(t553, t1090, t910 * t1088));
         // leg 2: generalised inertia force of the upper part
         let t1092 = t112 * (parameters.upper_inertia[1] * t737);
         let t1093 = t112 * (parameters.upper_inertia[1] * t738);
@@ -8986,23 +7311,11 @@ pub fn generalised_forces<T: Scalar>(
         let t1107 = mul_sub(parameters.upper_mass[1], t744, t1098);
         upper_inertia_force[1][2] = t1106 + mul_add(t490, t1101, t1107);
         let t1108 = mul_add(t908, t1101, mul_sub(t556, t1107, t559 * t1105));
-        upper_inertia_force[1][3] = neg_mul_add(
-            t559,
-            t1104,
-            mul_add(t556, t1106, t1108),
-        );
+        upper_inertia_force[1][3] = neg_mul_add(t559, t1104, mul_add(t556, t1106, t1108));
         let t1109 = mul_add(t559, t1102, mul_sub(t909, t1101, t553 * t1107));
-        upper_inertia_force[1][4] = neg_mul_add(
-            t553,
-            t1106,
-            mul_add(t559, t1094, t1109),
-        );
+        upper_inertia_force[1][4] = neg_mul_add(t553, t1106, mul_add(t559, t1094, t1109));
         let t1110 = mul_sub(t556, t1102, mul_add(t553, t1105, t910 * t1101));
-        upper_inertia_force[1][5] = neg_mul_add(
-            t556,
-            t1094,
-            mul_sub(t553, t1104, t1110),
-        );
+        upper_inertia_force[1][5] = neg_mul_add(t556, t1094, mul_sub(t553, t1104, t1110));
         // leg 3: generalised active force of the lower part: gravity
         let t1111 = parameters.lower_mass[2] * parameters.gravity[0];
         let t1112 = t114 * (parameters.lower_com_distance[2] * t1111);
@@ -9014,21 +7327,9 @@ pub fn generalised_forces<T: Scalar>(
         lower_active_force[2][0] = neg_mul_add(t492, t1117, t1112);
         lower_active_force[2][1] = neg_mul_add(t494, t1117, t1116);
         lower_active_force[2][2] = neg_mul_add(t496, t1117, t1114);
-        lower_active_force[2][3] = neg_mul_add(
-            t911,
-            t1117,
-            mul_sub(t583, t1114, t586 * t1116),
-        );
-        lower_active_force[2][4] = neg_mul_add(
-            t912,
-            t1117,
-            mul_sub(t586, t1112, t580 * t1114),
-        );
-        lower_active_force[2][5] = neg_mul_add(
-            t583,
-            t1112,
-            mul_sub(t580, t1116, t913 * t1117),
-        );
+        lower_active_force[2][3] = neg_mul_add(t911, t1117, mul_sub(t583, t1114, t586 * t1116));
+        lower_active_force[2][4] = neg_mul_add(t912, t1117, mul_sub(t586, t1112, t580 * t1114));
+        lower_active_force[2][5] = neg_mul_add(t583, t1112, mul_sub(t580, t1116, t913 * t1117));
         // leg 3: generalised inertia force of the lower part
         let t1118 = t114 * (parameters.lower_inertia[2] * t771);
         let t1119 = t114 * (parameters.lower_inertia[2] * t772);
@@ -9047,43 +7348,19 @@ pub fn generalised_forces<T: Scalar>(
         let t1130 = mul_sub(t494, t1128, t492 * t1118);
         lower_inertia_force[2][2] = t1130 + neg_mul_add(t496, t1127, t1124);
         let t1131 = mul_sub(t911, t1127, mul_sub(t583, t1124, t586 * t1126));
-        lower_inertia_force[2][3] = neg_mul_add(
-            t586,
-            t1129,
-            mul_sub(t583, t1130, t1131),
-        );
+        lower_inertia_force[2][3] = neg_mul_add(t586, t1129, mul_sub(t583, t1130, t1131));
         let t1132 = mul_sub(t912, t1127, mul_sub(t586, t1122, t580 * t1124));
-        lower_inertia_force[2][4] = neg_mul_add(
-            t580,
-            t1130,
-            mul_sub(t586, t1120, t1132),
-        );
+        lower_inertia_force[2][4] = neg_mul_add(t580, t1130, mul_sub(t586, t1120, t1132));
         let t1133 = mul_sub(t583, t1122, mul_sub(t580, t1126, t913 * t1127));
-        lower_inertia_force[2][5] = neg_mul_add(
-            t583,
-            t1120,
-            mul_sub(t580, t1129, t1133),
-        );
+        lower_inertia_force[2][5] = neg_mul_add(t583, t1120, mul_sub(t580, t1129, t1133));
         // leg 3: generalised active force of the upper part: gravity, actuator, spring, damper
         let t1134 = mul_add(parameters.axial_stiffness[2], t925, actuator_force[2]);
         let t1135 = mul_add(parameters.axial_damping[2], t237, t1134);
-        let t1136 = mul_add(
-            parameters.upper_mass[2],
-            parameters.gravity[0],
-            t492 * t1135,
-        );
+        let t1136 = mul_add(parameters.upper_mass[2], parameters.gravity[0], t492 * t1135);
         let t1137 = parameters.upper_com_distance[2] * t1136;
-        let t1138 = mul_add(
-            parameters.upper_mass[2],
-            parameters.gravity[2],
-            t496 * t1135,
-        );
+        let t1138 = mul_add(parameters.upper_mass[2], parameters.gravity[2], t496 * t1135);
         let t1139 = parameters.upper_com_distance[2] * t1138;
-        let t1140 = mul_add(
-            parameters.upper_mass[2],
-            parameters.gravity[1],
-            t494 * t1135,
-        );
+        let t1140 = mul_add(parameters.upper_mass[2], parameters.gravity[1], t494 * t1135);
         let t1141 = parameters.upper_com_distance[2] * t1140;
         let t1142 = mul_add(t496, t114 * t1139, t494 * (t114 * t1141));
         let t1143 = mul_add(t492, t114 * t1137, t1142);
@@ -9093,21 +7370,9 @@ pub fn generalised_forces<T: Scalar>(
         upper_active_force[2][1] = mul_add(t494, t1143, t1145);
         let t1146 = neg_mul_add(t114, t1139, t1138);
         upper_active_force[2][2] = mul_add(t496, t1143, t1146);
-        upper_active_force[2][3] = mul_add(
-            t911,
-            t1143,
-            mul_sub(t583, t1146, t586 * t1145),
-        );
-        upper_active_force[2][4] = mul_add(
-            t586,
-            t1144,
-            mul_sub(t912, t1143, t580 * t1146),
-        );
-        upper_active_force[2][5] = neg_mul_add(
-            t583,
-            t1144,
-            mul_add(t580, t1145, t913 * t1143),
-        );
+        upper_active_force[2][3] = mul_add(t911, t1143, mul_sub(t583, t1146, t586 * t1145));
+        upper_active_force[2][4] = mul_add(t586, t1144, mul_sub(t912, t1143, t580 * t1146));
+        upper_active_force[2][5] = neg_mul_add(t583, t1144, mul_add(t580, t1145, t913 * t1143));
         // leg 3: generalised inertia force of the upper part
         let t1147 = t114 * (parameters.upper_inertia[2] * t771);
         let t1148 = t114 * (parameters.upper_inertia[2] * t772);
@@ -9129,23 +7394,11 @@ pub fn generalised_forces<T: Scalar>(
         let t1162 = mul_sub(parameters.upper_mass[2], t778, t1153);
         upper_inertia_force[2][2] = t1161 + mul_add(t496, t1156, t1162);
         let t1163 = mul_add(t911, t1156, mul_sub(t583, t1162, t586 * t1160));
-        upper_inertia_force[2][3] = neg_mul_add(
-            t586,
-            t1159,
-            mul_add(t583, t1161, t1163),
-        );
+        upper_inertia_force[2][3] = neg_mul_add(t586, t1159, mul_add(t583, t1161, t1163));
         let t1164 = mul_add(t586, t1157, mul_sub(t912, t1156, t580 * t1162));
-        upper_inertia_force[2][4] = neg_mul_add(
-            t580,
-            t1161,
-            mul_add(t586, t1149, t1164),
-        );
+        upper_inertia_force[2][4] = neg_mul_add(t580, t1161, mul_add(t586, t1149, t1164));
         let t1165 = mul_sub(t583, t1157, mul_add(t580, t1160, t913 * t1156));
-        upper_inertia_force[2][5] = neg_mul_add(
-            t583,
-            t1149,
-            mul_sub(t580, t1159, t1165),
-        );
+        upper_inertia_force[2][5] = neg_mul_add(t583, t1149, mul_sub(t580, t1159, t1165));
         // leg 4: generalised active force of the lower part: gravity
         let t1166 = parameters.lower_mass[3] * parameters.gravity[0];
         let t1167 = t116 * (parameters.lower_com_distance[3] * t1166);
@@ -9157,21 +7410,9 @@ pub fn generalised_forces<T: Scalar>(
         lower_active_force[3][0] = neg_mul_add(t498, t1172, t1167);
         lower_active_force[3][1] = neg_mul_add(t500, t1172, t1171);
         lower_active_force[3][2] = neg_mul_add(t502, t1172, t1169);
-        lower_active_force[3][3] = neg_mul_add(
-            t914,
-            t1172,
-            mul_sub(t610, t1169, t613 * t1171),
-        );
-        lower_active_force[3][4] = neg_mul_add(
-            t915,
-            t1172,
-            mul_sub(t613, t1167, t607 * t1169),
-        );
-        lower_active_force[3][5] = neg_mul_add(
-            t610,
-            t1167,
-            mul_sub(t607, t1171, t916 * t1172),
-        );
+        lower_active_force[3][3] = neg_mul_add(t914, t1172, mul_sub(t610, t1169, t613 * t1171));
+        lower_active_force[3][4] = neg_mul_add(t915, t1172, mul_sub(t613, t1167, t607 * t1169));
+        lower_active_force[3][5] = neg_mul_add(t610, t1167, mul_sub(t607, t1171, t916 * t1172));
         // leg 4: generalised inertia force of the lower part
         let t1173 = t116 * (parameters.lower_inertia[3] * t805);
         let t1174 = t116 * (parameters.lower_inertia[3] * t806);
@@ -9190,43 +7431,19 @@ pub fn generalised_forces<T: Scalar>(
         let t1185 = mul_sub(t500, t1183, t498 * t1173);
         lower_inertia_force[3][2] = t1185 + neg_mul_add(t502, t1182, t1179);
         let t1186 = mul_sub(t914, t1182, mul_sub(t610, t1179, t613 * t1181));
-        lower_inertia_force[3][3] = neg_mul_add(
-            t613,
-            t1184,
-            mul_sub(t610, t1185, t1186),
-        );
+        lower_inertia_force[3][3] = neg_mul_add(t613, t1184, mul_sub(t610, t1185, t1186));
         let t1187 = mul_sub(t915, t1182, mul_sub(t613, t1177, t607 * t1179));
-        lower_inertia_force[3][4] = neg_mul_add(
-            t607,
-            t1185,
-            mul_sub(t613, t1175, t1187),
-        );
+        lower_inertia_force[3][4] = neg_mul_add(t607, t1185, mul_sub(t613, t1175, t1187));
         let t1188 = mul_sub(t610, t1177, mul_sub(t607, t1181, t916 * t1182));
-        lower_inertia_force[3][5] = neg_mul_add(
-            t610,
-            t1175,
-            mul_sub(t607, t1184, t1188),
-        );
+        lower_inertia_force[3][5] = neg_mul_add(t610, t1175, mul_sub(t607, t1184, t1188));
         // leg 4: generalised active force of the upper part: gravity, actuator, spring, damper
         let t1189 = mul_add(parameters.axial_stiffness[3], t926, actuator_force[3]);
         let t1190 = mul_add(parameters.axial_damping[3], t238, t1189);
-        let t1191 = mul_add(
-            parameters.upper_mass[3],
-            parameters.gravity[0],
-            t498 * t1190,
-        );
+        let t1191 = mul_add(parameters.upper_mass[3], parameters.gravity[0], t498 * t1190);
         let t1192 = parameters.upper_com_distance[3] * t1191;
-        let t1193 = mul_add(
-            parameters.upper_mass[3],
-            parameters.gravity[2],
-            t502 * t1190,
-        );
+        let t1193 = mul_add(parameters.upper_mass[3], parameters.gravity[2], t502 * t1190);
         let t1194 = parameters.upper_com_distance[3] * t1193;
-        let t1195 = mul_add(
-            parameters.upper_mass[3],
-            parameters.gravity[1],
-            t500 * t1190,
-        );
+        let t1195 = mul_add(parameters.upper_mass[3], parameters.gravity[1], t500 * t1190);
         let t1196 = parameters.upper_com_distance[3] * t1195;
         let t1197 = mul_add(t502, t116 * t1194, t500 * (t116 * t1196));
         let t1198 = mul_add(t498, t116 * t1192, t1197);
@@ -9236,21 +7453,9 @@ pub fn generalised_forces<T: Scalar>(
         upper_active_force[3][1] = mul_add(t500, t1198, t1200);
         let t1201 = neg_mul_add(t116, t1194, t1193);
         upper_active_force[3][2] = mul_add(t502, t1198, t1201);
-        upper_active_force[3][3] = mul_add(
-            t914,
-            t1198,
-            mul_sub(t610, t1201, t613 * t1200),
-        );
-        upper_active_force[3][4] = mul_add(
-            t613,
-            t1199,
-            mul_sub(t915, t1198, t607 * t1201),
-        );
-        upper_active_force[3][5] = neg_mul_add(
-            t610,
-            t1199,
-            mul_add(t607, t1200, t916 * t1198),
-        );
+        upper_active_force[3][3] = mul_add(t914, t1198, mul_sub(t610, t1201, t613 * t1200));
+        upper_active_force[3][4] = mul_add(t613, t1199, mul_sub(t915, t1198, t607 * t1201));
+        upper_active_force[3][5] = neg_mul_add(t610, t1199, mul_add(t607, t1200, t916 * t1198));
         // leg 4: generalised inertia force of the upper part
         let t1202 = t116 * (parameters.upper_inertia[3] * t805);
         let t1203 = t116 * (parameters.upper_inertia[3] * t806);
@@ -9272,23 +7477,11 @@ pub fn generalised_forces<T: Scalar>(
         let t1217 = mul_sub(parameters.upper_mass[3], t812, t1208);
         upper_inertia_force[3][2] = t1216 + mul_add(t502, t1211, t1217);
         let t1218 = mul_add(t914, t1211, mul_sub(t610, t1217, t613 * t1215));
-        upper_inertia_force[3][3] = neg_mul_add(
-            t613,
-            t1214,
-            mul_add(t610, t1216, t1218),
-        );
+        upper_inertia_force[3][3] = neg_mul_add(t613, t1214, mul_add(t610, t1216, t1218));
         let t1219 = mul_add(t613, t1212, mul_sub(t915, t1211, t607 * t1217));
-        upper_inertia_force[3][4] = neg_mul_add(
-            t607,
-            t1216,
-            mul_add(t613, t1204, t1219),
-        );
+        upper_inertia_force[3][4] = neg_mul_add(t607, t1216, mul_add(t613, t1204, t1219));
         let t1220 = mul_sub(t610, t1212, mul_add(t607, t1215, t916 * t1211));
-        upper_inertia_force[3][5] = neg_mul_add(
-            t610,
-            t1204,
-            mul_sub(t607, t1214, t1220),
-        );
+        upper_inertia_force[3][5] = neg_mul_add(t610, t1204, mul_sub(t607, t1214, t1220));
         // leg 5: generalised active force of the lower part: gravity
         let t1221 = parameters.lower_mass[4] * parameters.gravity[0];
         let t1222 = t118 * (parameters.lower_com_distance[4] * t1221);
@@ -9300,21 +7493,9 @@ pub fn generalised_forces<T: Scalar>(
         lower_active_force[4][0] = neg_mul_add(t504, t1227, t1222);
         lower_active_force[4][1] = neg_mul_add(t506, t1227, t1226);
         lower_active_force[4][2] = neg_mul_add(t508, t1227, t1224);
-        lower_active_force[4][3] = neg_mul_add(
-            t917,
-            t1227,
-            mul_sub(t637, t1224, t640 * t1226),
-        );
-        lower_active_force[4][4] = neg_mul_add(
-            t918,
-            t1227,
-            mul_sub(t640, t1222, t634 * t1224),
-        );
-        lower_active_force[4][5] = neg_mul_add(
-            t637,
-            t1222,
-            mul_sub(t634, t1226, t919 * t1227),
-        );
+        lower_active_force[4][3] = neg_mul_add(t917, t1227, mul_sub(t637, t1224, t640 * t1226));
+        lower_active_force[4][4] = neg_mul_add(t918, t1227, mul_sub(t640, t1222, t634 * t1224));
+        lower_active_force[4][5] = neg_mul_add(t637, t1222, mul_sub(t634, t1226, t919 * t1227));
         // leg 5: generalised inertia force of the lower part
         let t1228 = t118 * (parameters.lower_inertia[4] * t839);
         let t1229 = t118 * (parameters.lower_inertia[4] * t840);
@@ -9333,43 +7514,19 @@ pub fn generalised_forces<T: Scalar>(
         let t1240 = mul_sub(t506, t1238, t504 * t1228);
         lower_inertia_force[4][2] = t1240 + neg_mul_add(t508, t1237, t1234);
         let t1241 = mul_sub(t917, t1237, mul_sub(t637, t1234, t640 * t1236));
-        lower_inertia_force[4][3] = neg_mul_add(
-            t640,
-            t1239,
-            mul_sub(t637, t1240, t1241),
-        );
+        lower_inertia_force[4][3] = neg_mul_add(t640, t1239, mul_sub(t637, t1240, t1241));
         let t1242 = mul_sub(t918, t1237, mul_sub(t640, t1232, t634 * t1234));
-        lower_inertia_force[4][4] = neg_mul_add(
-            t634,
-            t1240,
-            mul_sub(t640, t1230, t1242),
-        );
+        lower_inertia_force[4][4] = neg_mul_add(t634, t1240, mul_sub(t640, t1230, t1242));
         let t1243 = mul_sub(t637, t1232, mul_sub(t634, t1236, t919 * t1237));
-        lower_inertia_force[4][5] = neg_mul_add(
-            t637,
-            t1230,
-            mul_sub(t634, t1239, t1243),
-        );
+        lower_inertia_force[4][5] = neg_mul_add(t637, t1230, mul_sub(t634, t1239, t1243));
         // leg 5: generalised active force of the upper part: gravity, actuator, spring, damper
         let t1244 = mul_add(parameters.axial_stiffness[4], t927, actuator_force[4]);
         let t1245 = mul_add(parameters.axial_damping[4], t239, t1244);
-        let t1246 = mul_add(
-            parameters.upper_mass[4],
-            parameters.gravity[0],
-            t504 * t1245,
-        );
+        let t1246 = mul_add(parameters.upper_mass[4], parameters.gravity[0], t504 * t1245);
         let t1247 = parameters.upper_com_distance[4] * t1246;
-        let t1248 = mul_add(
-            parameters.upper_mass[4],
-            parameters.gravity[2],
-            t508 * t1245,
-        );
+        let t1248 = mul_add(parameters.upper_mass[4], parameters.gravity[2], t508 * t1245);
         let t1249 = parameters.upper_com_distance[4] * t1248;
-        let t1250 = mul_add(
-            parameters.upper_mass[4],
-            parameters.gravity[1],
-            t506 * t1245,
-        );
+        let t1250 = mul_add(parameters.upper_mass[4], parameters.gravity[1], t506 * t1245);
         let t1251 = parameters.upper_com_distance[4] * t1250;
         let t1252 = mul_add(t508, t118 * t1249, t506 * (t118 * t1251));
         let t1253 = mul_add(t504, t118 * t1247, t1252);
@@ -9379,21 +7536,9 @@ pub fn generalised_forces<T: Scalar>(
         upper_active_force[4][1] = mul_add(t506, t1253, t1255);
         let t1256 = neg_mul_add(t118, t1249, t1248);
         upper_active_force[4][2] = mul_add(t508, t1253, t1256);
-        upper_active_force[4][3] = mul_add(
-            t917,
-            t1253,
-            mul_sub(t637, t1256, t640 * t1255),
-        );
-        upper_active_force[4][4] = mul_add(
-            t640,
-            t1254,
-            mul_sub(t918, t1253, t634 * t1256),
-        );
-        upper_active_force[4][5] = neg_mul_add(
-            t637,
-            t1254,
-            mul_add(t634, t1255, t919 * t1253),
-        );
+        upper_active_force[4][3] = mul_add(t917, t1253, mul_sub(t637, t1256, t640 * t1255));
+        upper_active_force[4][4] = mul_add(t640, t1254, mul_sub(t918, t1253, t634 * t1256));
+        upper_active_force[4][5] = neg_mul_add(t637, t1254, mul_add(t634, t1255, t919 * t1253));
         // leg 5: generalised inertia force of the upper part
         let t1257 = t118 * (parameters.upper_inertia[4] * t839);
         let t1258 = t118 * (parameters.upper_inertia[4] * t840);
@@ -9415,23 +7560,11 @@ pub fn generalised_forces<T: Scalar>(
         let t1272 = mul_sub(parameters.upper_mass[4], t846, t1263);
         upper_inertia_force[4][2] = t1271 + mul_add(t508, t1266, t1272);
         let t1273 = mul_add(t917, t1266, mul_sub(t637, t1272, t640 * t1270));
-        upper_inertia_force[4][3] = neg_mul_add(
-            t640,
-            t1269,
-            mul_add(t637, t1271, t1273),
-        );
+        upper_inertia_force[4][3] = neg_mul_add(t640, t1269, mul_add(t637, t1271, t1273));
         let t1274 = mul_add(t640, t1267, mul_sub(t918, t1266, t634 * t1272));
-        upper_inertia_force[4][4] = neg_mul_add(
-            t634,
-            t1271,
-            mul_add(t640, t1259, t1274),
-        );
+        upper_inertia_force[4][4] = neg_mul_add(t634, t1271, mul_add(t640, t1259, t1274));
         let t1275 = mul_sub(t637, t1267, mul_add(t634, t1270, t919 * t1266));
-        upper_inertia_force[4][5] = neg_mul_add(
-            t637,
-            t1259,
-            mul_sub(t634, t1269, t1275),
-        );
+        upper_inertia_force[4][5] = neg_mul_add(t637, t1259, mul_sub(t634, t1269, t1275));
         // leg 6: generalised active force of the lower part: gravity
         let t1276 = parameters.lower_mass[5] * parameters.gravity[0];
         let t1277 = t120 * (parameters.lower_com_distance[5] * t1276);
@@ -9443,21 +7576,9 @@ pub fn generalised_forces<T: Scalar>(
         lower_active_force[5][0] = neg_mul_add(t510, t1282, t1277);
         lower_active_force[5][1] = neg_mul_add(t512, t1282, t1281);
         lower_active_force[5][2] = neg_mul_add(t514, t1282, t1279);
-        lower_active_force[5][3] = neg_mul_add(
-            t920,
-            t1282,
-            mul_sub(t664, t1279, t667 * t1281),
-        );
-        lower_active_force[5][4] = neg_mul_add(
-            t921,
-            t1282,
-            mul_sub(t667, t1277, t661 * t1279),
-        );
-        lower_active_force[5][5] = neg_mul_add(
-            t664,
-            t1277,
-            mul_sub(t661, t1281, t922 * t1282),
-        );
+        lower_active_force[5][3] = neg_mul_add(t920, t1282, mul_sub(t664, t1279, t667 * t1281));
+        lower_active_force[5][4] = neg_mul_add(t921, t1282, mul_sub(t667, t1277, t661 * t1279));
+        lower_active_force[5][5] = neg_mul_add(t664, t1277, mul_sub(t661, t1281, t922 * t1282));
         // leg 6: generalised inertia force of the lower part
         let t1283 = t120 * (parameters.lower_inertia[5] * t873);
         let t1284 = t120 * (parameters.lower_inertia[5] * t874);
@@ -9476,43 +7597,19 @@ pub fn generalised_forces<T: Scalar>(
         let t1295 = mul_sub(t512, t1293, t510 * t1283);
         lower_inertia_force[5][2] = t1295 + neg_mul_add(t514, t1292, t1289);
         let t1296 = mul_sub(t920, t1292, mul_sub(t664, t1289, t667 * t1291));
-        lower_inertia_force[5][3] = neg_mul_add(
-            t667,
-            t1294,
-            mul_sub(t664, t1295, t1296),
-        );
+        lower_inertia_force[5][3] = neg_mul_add(t667, t1294, mul_sub(t664, t1295, t1296));
         let t1297 = mul_sub(t921, t1292, mul_sub(t667, t1287, t661 * t1289));
-        lower_inertia_force[5][4] = neg_mul_add(
-            t661,
-            t1295,
-            mul_sub(t667, t1285, t1297),
-        );
+        lower_inertia_force[5][4] = neg_mul_add(t661, t1295, mul_sub(t667, t1285, t1297));
         let t1298 = mul_sub(t664, t1287, mul_sub(t661, t1291, t922 * t1292));
-        lower_inertia_force[5][5] = neg_mul_add(
-            t664,
-            t1285,
-            mul_sub(t661, t1294, t1298),
-        );
+        lower_inertia_force[5][5] = neg_mul_add(t664, t1285, mul_sub(t661, t1294, t1298));
         // leg 6: generalised active force of the upper part: gravity, actuator, spring, damper
         let t1299 = mul_add(parameters.axial_stiffness[5], t928, actuator_force[5]);
         let t1300 = mul_add(parameters.axial_damping[5], t240, t1299);
-        let t1301 = mul_add(
-            parameters.upper_mass[5],
-            parameters.gravity[0],
-            t510 * t1300,
-        );
+        let t1301 = mul_add(parameters.upper_mass[5], parameters.gravity[0], t510 * t1300);
         let t1302 = parameters.upper_com_distance[5] * t1301;
-        let t1303 = mul_add(
-            parameters.upper_mass[5],
-            parameters.gravity[2],
-            t514 * t1300,
-        );
+        let t1303 = mul_add(parameters.upper_mass[5], parameters.gravity[2], t514 * t1300);
         let t1304 = parameters.upper_com_distance[5] * t1303;
-        let t1305 = mul_add(
-            parameters.upper_mass[5],
-            parameters.gravity[1],
-            t512 * t1300,
-        );
+        let t1305 = mul_add(parameters.upper_mass[5], parameters.gravity[1], t512 * t1300);
         let t1306 = parameters.upper_com_distance[5] * t1305;
         let t1307 = mul_add(t514, t120 * t1304, t512 * (t120 * t1306));
         let t1308 = mul_add(t510, t120 * t1302, t1307);
@@ -9522,21 +7619,9 @@ pub fn generalised_forces<T: Scalar>(
         upper_active_force[5][1] = mul_add(t512, t1308, t1310);
         let t1311 = neg_mul_add(t120, t1304, t1303);
         upper_active_force[5][2] = mul_add(t514, t1308, t1311);
-        upper_active_force[5][3] = mul_add(
-            t920,
-            t1308,
-            mul_sub(t664, t1311, t667 * t1310),
-        );
-        upper_active_force[5][4] = mul_add(
-            t667,
-            t1309,
-            mul_sub(t921, t1308, t661 * t1311),
-        );
-        upper_active_force[5][5] = neg_mul_add(
-            t664,
-            t1309,
-            mul_add(t661, t1310, t922 * t1308),
-        );
+        upper_active_force[5][3] = mul_add(t920, t1308, mul_sub(t664, t1311, t667 * t1310));
+        upper_active_force[5][4] = mul_add(t667, t1309, mul_sub(t921, t1308, t661 * t1311));
+        upper_active_force[5][5] = neg_mul_add(t664, t1309, mul_add(t661, t1310, t922 * t1308));
         // leg 6: generalised inertia force of the upper part
         let t1312 = t120 * (parameters.upper_inertia[5] * t873);
         let t1313 = t120 * (parameters.upper_inertia[5] * t874);
@@ -9558,23 +7643,11 @@ pub fn generalised_forces<T: Scalar>(
         let t1327 = mul_sub(parameters.upper_mass[5], t880, t1318);
         upper_inertia_force[5][2] = t1326 + mul_add(t514, t1321, t1327);
         let t1328 = mul_add(t920, t1321, mul_sub(t664, t1327, t667 * t1325));
-        upper_inertia_force[5][3] = neg_mul_add(
-            t667,
-            t1324,
-            mul_add(t664, t1326, t1328),
-        );
+        upper_inertia_force[5][3] = neg_mul_add(t667, t1324, mul_add(t664, t1326, t1328));
         let t1329 = mul_add(t667, t1322, mul_sub(t921, t1321, t661 * t1327));
-        upper_inertia_force[5][4] = neg_mul_add(
-            t661,
-            t1326,
-            mul_add(t667, t1314, t1329),
-        );
+        upper_inertia_force[5][4] = neg_mul_add(t661, t1326, mul_add(t667, t1314, t1329));
         let t1330 = mul_sub(t664, t1322, mul_add(t661, t1325, t922 * t1321));
-        upper_inertia_force[5][5] = neg_mul_add(
-            t664,
-            t1314,
-            mul_sub(t661, t1324, t1330),
-        );
+        upper_inertia_force[5][5] = neg_mul_add(t664, t1314, mul_sub(t661, t1324, t1330));
     }
 }
 
@@ -10657,11 +8730,7 @@ pub fn mass_matrix_p<T: Scalar>(
     let t305 = parameters.platform_point[1][0] * parameters.platform_point[1][1];
     let t306 = parameters.platform_point[0][0] * parameters.platform_point[0][1];
     let t307 = parameters.payload_com[0] * parameters.payload_com[1];
-    let t308 = neg_mul_add(
-        parameters.payload_mass,
-        t307,
-        parameters.payload_inertia[0][1],
-    );
+    let t308 = neg_mul_add(parameters.payload_mass, t307, parameters.payload_inertia[0][1]);
     let t309 = mul_sub(parameters.upper_mass[0], t306, t308);
     let t310 = mul_add(parameters.upper_mass[1], t305, t309);
     let t311 = mul_add(parameters.upper_mass[2], t304, t310);
@@ -10675,11 +8744,7 @@ pub fn mass_matrix_p<T: Scalar>(
     let t319 = parameters.platform_point[1][0] * parameters.platform_point[1][2];
     let t320 = parameters.platform_point[0][0] * parameters.platform_point[0][2];
     let t321 = parameters.payload_com[0] * parameters.payload_com[2];
-    let t322 = neg_mul_add(
-        parameters.payload_mass,
-        t321,
-        parameters.payload_inertia[0][2],
-    );
+    let t322 = neg_mul_add(parameters.payload_mass, t321, parameters.payload_inertia[0][2]);
     let t323 = mul_sub(parameters.upper_mass[0], t320, t322);
     let t324 = mul_add(parameters.upper_mass[1], t319, t323);
     let t325 = mul_add(parameters.upper_mass[2], t318, t324);
@@ -10708,11 +8773,7 @@ pub fn mass_matrix_p<T: Scalar>(
     let t348 = parameters.platform_point[1][1] * parameters.platform_point[1][2];
     let t349 = parameters.platform_point[0][1] * parameters.platform_point[0][2];
     let t350 = parameters.payload_com[1] * parameters.payload_com[2];
-    let t351 = neg_mul_add(
-        parameters.payload_mass,
-        t350,
-        parameters.payload_inertia[1][2],
-    );
+    let t351 = neg_mul_add(parameters.payload_mass, t350, parameters.payload_inertia[1][2]);
     let t352 = mul_sub(parameters.upper_mass[0], t349, t351);
     let t353 = mul_add(parameters.upper_mass[1], t348, t352);
     let t354 = mul_add(parameters.upper_mass[2], t347, t353);
@@ -11991,248 +10052,23 @@ pub fn coriolis_matrices<T: Scalar>(
 ) {
     let c = T::constant;
     let (
-        t28,
-        t29,
-        t30,
-        t141,
-        t144,
-        t147,
-        t149,
-        t151,
-        t153,
-        t156,
-        t159,
-        t162,
-        t171,
-        t174,
-        t177,
-        t179,
-        t181,
-        t183,
-        t186,
-        t189,
-        t192,
-        t194,
-        t196,
-        t198,
-        t201,
-        t204,
-        t207,
-        t209,
-        t211,
-        t213,
-        t216,
-        t219,
-        t222,
-        t224,
-        t226,
-        t228,
-        t255,
-        t265,
-        t272,
-        t279,
-        t282,
-        t297,
-        t311,
-        t325,
-        t340,
-        t354,
-        t369,
-        t377,
-        t378,
-        t379,
-        t381,
-        t382,
-        t383,
-        t402,
-        t403,
-        t404,
-        t406,
-        t407,
-        t408,
-        t427,
-        t428,
-        t429,
-        t431,
-        t432,
-        t433,
-        t452,
-        t453,
-        t454,
-        t456,
-        t457,
-        t458,
-        t477,
-        t478,
-        t479,
-        t481,
-        t482,
-        t483,
-        t495,
-        t502,
-        t503,
-        t504,
-        t506,
-        t507,
-        t508,
-        t509,
-        t512,
-        t513,
-        t516,
-        t519,
-        t520,
-        t523,
-        t526,
-        t533,
-        t539,
-        t545,
-        t546,
-        t549,
-        t555,
-        t559,
-        t565,
-        t566,
-        t572,
-        t578,
-        t579,
-        t598,
-        t599,
-        t600,
-        t746,
-        t748,
-        t750,
-        t751,
-        t752,
-        t753,
-        t754,
-        t755,
-        t756,
-        t757,
-        t758,
-        t759,
-        t760,
-        t761,
-        t762,
-        t763,
-        t764,
-        t765,
-        t766,
-        t767,
-        t768,
-        t784,
-        t785,
-        t786,
-        t791,
-        t792,
-        t793,
-        t796,
-        t797,
-        t798,
-        t801,
-        t802,
-        t803,
-        t808,
-        t809,
-        t812,
-        t814,
-        t815,
-        t817,
-        t818,
-        t819,
-        t821,
-        t822,
-        t823,
-        t824,
-        t829,
-        t830,
-        t831,
-        t834,
-        t835,
-        t836,
-        t839,
-        t840,
-        t841,
-        t847,
-        t852,
-        t855,
-        t856,
-        t857,
-        t859,
-        t860,
-        t861,
-        t862,
-        t867,
-        t868,
-        t869,
-        t872,
-        t873,
-        t874,
-        t877,
-        t878,
-        t879,
-        t884,
-        t885,
-        t888,
-        t890,
-        t891,
-        t893,
-        t894,
-        t895,
-        t897,
-        t898,
-        t899,
-        t900,
-        t905,
-        t906,
-        t907,
-        t910,
-        t911,
-        t912,
-        t915,
-        t916,
-        t917,
-        t922,
-        t923,
-        t926,
-        t928,
-        t929,
-        t931,
-        t932,
-        t933,
-        t935,
-        t936,
-        t937,
-        t938,
-        t943,
-        t944,
-        t945,
-        t948,
-        t949,
-        t950,
-        t953,
-        t954,
-        t955,
-        t960,
-        t961,
-        t964,
-        t966,
-        t967,
-        t969,
-        t970,
-        t971,
-        t973,
-        t974,
-        t975,
-        t976,
-        t981,
-        t982,
-        t983,
-        t986,
-        t987,
-        t988,
-        t991,
-        t992,
-        t993,
+        t28, t29, t30, t141, t144, t147, t149, t151, t153, t156, t159, t162, t171, t174, t177,
+        t179, t181, t183, t186, t189, t192, t194, t196, t198, t201, t204, t207, t209, t211, t213,
+        t216, t219, t222, t224, t226, t228, t255, t265, t272, t279, t282, t297, t311, t325, t340,
+        t354, t369, t377, t378, t379, t381, t382, t383, t402, t403, t404, t406, t407, t408, t427,
+        t428, t429, t431, t432, t433, t452, t453, t454, t456, t457, t458, t477, t478, t479, t481,
+        t482, t483, t495, t502, t503, t504, t506, t507, t508, t509, t512, t513, t516, t519, t520,
+        t523, t526, t533, t539, t545, t546, t549, t555, t559, t565, t566, t572, t578, t579, t598,
+        t599, t600, t746, t748, t750, t751, t752, t753, t754, t755, t756, t757, t758, t759, t760,
+        t761, t762, t763, t764, t765, t766, t767, t768, t784, t785, t786, t791, t792, t793, t796,
+        t797, t798, t801, t802, t803, t808, t809, t812, t814, t815, t817, t818, t819, t821, t822,
+        t823, t824, t829, t830, t831, t834, t835, t836, t839, t840, t841, t847, t852, t855, t856,
+        t857, t859, t860, t861, t862, t867, t868, t869, t872, t873, t874, t877, t878, t879, t884,
+        t885, t888, t890, t891, t893, t894, t895, t897, t898, t899, t900, t905, t906, t907, t910,
+        t911, t912, t915, t916, t917, t922, t923, t926, t928, t929, t931, t932, t933, t935, t936,
+        t937, t938, t943, t944, t945, t948, t949, t950, t953, t954, t955, t960, t961, t964, t966,
+        t967, t969, t970, t971, t973, t974, t975, t976, t981, t982, t983, t986, t987, t988, t991,
+        t992, t993,
     ) = {
         // rotation of the platform seen from the base
         let t1 = base_rotation[1][0] * platform_rotation[1][0];
@@ -12400,38 +10236,14 @@ pub fn coriolis_matrices<T: Scalar>(
         let t138 = t108 * t120;
         // leg 1: platform joint from the platform origin
         let t139 = platform_rotation[0][1] * parameters.platform_point[0][1];
-        let t140 = mul_add(
-            platform_rotation[0][0],
-            parameters.platform_point[0][0],
-            t139,
-        );
-        let t141 = mul_add(
-            platform_rotation[0][2],
-            parameters.platform_point[0][2],
-            t140,
-        );
+        let t140 = mul_add(platform_rotation[0][0], parameters.platform_point[0][0], t139);
+        let t141 = mul_add(platform_rotation[0][2], parameters.platform_point[0][2], t140);
         let t142 = platform_rotation[1][1] * parameters.platform_point[0][1];
-        let t143 = mul_add(
-            platform_rotation[1][0],
-            parameters.platform_point[0][0],
-            t142,
-        );
-        let t144 = mul_add(
-            platform_rotation[1][2],
-            parameters.platform_point[0][2],
-            t143,
-        );
+        let t143 = mul_add(platform_rotation[1][0], parameters.platform_point[0][0], t142);
+        let t144 = mul_add(platform_rotation[1][2], parameters.platform_point[0][2], t143);
         let t145 = platform_rotation[2][1] * parameters.platform_point[0][1];
-        let t146 = mul_add(
-            platform_rotation[2][0],
-            parameters.platform_point[0][0],
-            t145,
-        );
-        let t147 = mul_add(
-            platform_rotation[2][2],
-            parameters.platform_point[0][2],
-            t146,
-        );
+        let t146 = mul_add(platform_rotation[2][0], parameters.platform_point[0][0], t145);
+        let t147 = mul_add(platform_rotation[2][2], parameters.platform_point[0][2], t146);
         // leg 1: gradient of the actuator length
         let t148 = mul_add(base_rotation[0][0], t121, base_rotation[0][1] * t122);
         let t149 = mul_add(base_rotation[0][2], t123, t148);
@@ -12441,38 +10253,14 @@ pub fn coriolis_matrices<T: Scalar>(
         let t153 = mul_add(base_rotation[2][2], t123, t152);
         // leg 2: platform joint from the platform origin
         let t154 = platform_rotation[0][1] * parameters.platform_point[1][1];
-        let t155 = mul_add(
-            platform_rotation[0][0],
-            parameters.platform_point[1][0],
-            t154,
-        );
-        let t156 = mul_add(
-            platform_rotation[0][2],
-            parameters.platform_point[1][2],
-            t155,
-        );
+        let t155 = mul_add(platform_rotation[0][0], parameters.platform_point[1][0], t154);
+        let t156 = mul_add(platform_rotation[0][2], parameters.platform_point[1][2], t155);
         let t157 = platform_rotation[1][1] * parameters.platform_point[1][1];
-        let t158 = mul_add(
-            platform_rotation[1][0],
-            parameters.platform_point[1][0],
-            t157,
-        );
-        let t159 = mul_add(
-            platform_rotation[1][2],
-            parameters.platform_point[1][2],
-            t158,
-        );
+        let t158 = mul_add(platform_rotation[1][0], parameters.platform_point[1][0], t157);
+        let t159 = mul_add(platform_rotation[1][2], parameters.platform_point[1][2], t158);
         let t160 = platform_rotation[2][1] * parameters.platform_point[1][1];
-        let t161 = mul_add(
-            platform_rotation[2][0],
-            parameters.platform_point[1][0],
-            t160,
-        );
-        let t162 = mul_add(
-            platform_rotation[2][2],
-            parameters.platform_point[1][2],
-            t161,
-        );
+        let t161 = mul_add(platform_rotation[2][0], parameters.platform_point[1][0], t160);
+        let t162 = mul_add(platform_rotation[2][2], parameters.platform_point[1][2], t161);
         // leg 2: gradient of the actuator length
         let t163 = mul_add(base_rotation[0][0], t124, base_rotation[0][1] * t125);
         let t164 = mul_add(base_rotation[0][2], t126, t163);
@@ -12482,38 +10270,14 @@ pub fn coriolis_matrices<T: Scalar>(
         let t168 = mul_add(base_rotation[2][2], t126, t167);
         // leg 3: platform joint from the platform origin
         let t169 = platform_rotation[0][1] * parameters.platform_point[2][1];
-        let t170 = mul_add(
-            platform_rotation[0][0],
-            parameters.platform_point[2][0],
-            t169,
-        );
-        let t171 = mul_add(
-            platform_rotation[0][2],
-            parameters.platform_point[2][2],
-            t170,
-        );
+        let t170 = mul_add(platform_rotation[0][0], parameters.platform_point[2][0], t169);
+        let t171 = mul_add(platform_rotation[0][2], parameters.platform_point[2][2], t170);
         let t172 = platform_rotation[1][1] * parameters.platform_point[2][1];
-        let t173 = mul_add(
-            platform_rotation[1][0],
-            parameters.platform_point[2][0],
-            t172,
-        );
-        let t174 = mul_add(
-            platform_rotation[1][2],
-            parameters.platform_point[2][2],
-            t173,
-        );
+        let t173 = mul_add(platform_rotation[1][0], parameters.platform_point[2][0], t172);
+        let t174 = mul_add(platform_rotation[1][2], parameters.platform_point[2][2], t173);
         let t175 = platform_rotation[2][1] * parameters.platform_point[2][1];
-        let t176 = mul_add(
-            platform_rotation[2][0],
-            parameters.platform_point[2][0],
-            t175,
-        );
-        let t177 = mul_add(
-            platform_rotation[2][2],
-            parameters.platform_point[2][2],
-            t176,
-        );
+        let t176 = mul_add(platform_rotation[2][0], parameters.platform_point[2][0], t175);
+        let t177 = mul_add(platform_rotation[2][2], parameters.platform_point[2][2], t176);
         // leg 3: gradient of the actuator length
         let t178 = mul_add(base_rotation[0][0], t127, base_rotation[0][1] * t128);
         let t179 = mul_add(base_rotation[0][2], t129, t178);
@@ -12523,38 +10287,14 @@ pub fn coriolis_matrices<T: Scalar>(
         let t183 = mul_add(base_rotation[2][2], t129, t182);
         // leg 4: platform joint from the platform origin
         let t184 = platform_rotation[0][1] * parameters.platform_point[3][1];
-        let t185 = mul_add(
-            platform_rotation[0][0],
-            parameters.platform_point[3][0],
-            t184,
-        );
-        let t186 = mul_add(
-            platform_rotation[0][2],
-            parameters.platform_point[3][2],
-            t185,
-        );
+        let t185 = mul_add(platform_rotation[0][0], parameters.platform_point[3][0], t184);
+        let t186 = mul_add(platform_rotation[0][2], parameters.platform_point[3][2], t185);
         let t187 = platform_rotation[1][1] * parameters.platform_point[3][1];
-        let t188 = mul_add(
-            platform_rotation[1][0],
-            parameters.platform_point[3][0],
-            t187,
-        );
-        let t189 = mul_add(
-            platform_rotation[1][2],
-            parameters.platform_point[3][2],
-            t188,
-        );
+        let t188 = mul_add(platform_rotation[1][0], parameters.platform_point[3][0], t187);
+        let t189 = mul_add(platform_rotation[1][2], parameters.platform_point[3][2], t188);
         let t190 = platform_rotation[2][1] * parameters.platform_point[3][1];
-        let t191 = mul_add(
-            platform_rotation[2][0],
-            parameters.platform_point[3][0],
-            t190,
-        );
-        let t192 = mul_add(
-            platform_rotation[2][2],
-            parameters.platform_point[3][2],
-            t191,
-        );
+        let t191 = mul_add(platform_rotation[2][0], parameters.platform_point[3][0], t190);
+        let t192 = mul_add(platform_rotation[2][2], parameters.platform_point[3][2], t191);
         // leg 4: gradient of the actuator length
         let t193 = mul_add(base_rotation[0][0], t130, base_rotation[0][1] * t131);
         let t194 = mul_add(base_rotation[0][2], t132, t193);
@@ -12564,38 +10304,14 @@ pub fn coriolis_matrices<T: Scalar>(
         let t198 = mul_add(base_rotation[2][2], t132, t197);
         // leg 5: platform joint from the platform origin
         let t199 = platform_rotation[0][1] * parameters.platform_point[4][1];
-        let t200 = mul_add(
-            platform_rotation[0][0],
-            parameters.platform_point[4][0],
-            t199,
-        );
-        let t201 = mul_add(
-            platform_rotation[0][2],
-            parameters.platform_point[4][2],
-            t200,
-        );
+        let t200 = mul_add(platform_rotation[0][0], parameters.platform_point[4][0], t199);
+        let t201 = mul_add(platform_rotation[0][2], parameters.platform_point[4][2], t200);
         let t202 = platform_rotation[1][1] * parameters.platform_point[4][1];
-        let t203 = mul_add(
-            platform_rotation[1][0],
-            parameters.platform_point[4][0],
-            t202,
-        );
-        let t204 = mul_add(
-            platform_rotation[1][2],
-            parameters.platform_point[4][2],
-            t203,
-        );
+        let t203 = mul_add(platform_rotation[1][0], parameters.platform_point[4][0], t202);
+        let t204 = mul_add(platform_rotation[1][2], parameters.platform_point[4][2], t203);
         let t205 = platform_rotation[2][1] * parameters.platform_point[4][1];
-        let t206 = mul_add(
-            platform_rotation[2][0],
-            parameters.platform_point[4][0],
-            t205,
-        );
-        let t207 = mul_add(
-            platform_rotation[2][2],
-            parameters.platform_point[4][2],
-            t206,
-        );
+        let t206 = mul_add(platform_rotation[2][0], parameters.platform_point[4][0], t205);
+        let t207 = mul_add(platform_rotation[2][2], parameters.platform_point[4][2], t206);
         // leg 5: gradient of the actuator length
         let t208 = mul_add(base_rotation[0][0], t133, base_rotation[0][1] * t134);
         let t209 = mul_add(base_rotation[0][2], t135, t208);
@@ -12605,38 +10321,14 @@ pub fn coriolis_matrices<T: Scalar>(
         let t213 = mul_add(base_rotation[2][2], t135, t212);
         // leg 6: platform joint from the platform origin
         let t214 = platform_rotation[0][1] * parameters.platform_point[5][1];
-        let t215 = mul_add(
-            platform_rotation[0][0],
-            parameters.platform_point[5][0],
-            t214,
-        );
-        let t216 = mul_add(
-            platform_rotation[0][2],
-            parameters.platform_point[5][2],
-            t215,
-        );
+        let t215 = mul_add(platform_rotation[0][0], parameters.platform_point[5][0], t214);
+        let t216 = mul_add(platform_rotation[0][2], parameters.platform_point[5][2], t215);
         let t217 = platform_rotation[1][1] * parameters.platform_point[5][1];
-        let t218 = mul_add(
-            platform_rotation[1][0],
-            parameters.platform_point[5][0],
-            t217,
-        );
-        let t219 = mul_add(
-            platform_rotation[1][2],
-            parameters.platform_point[5][2],
-            t218,
-        );
+        let t218 = mul_add(platform_rotation[1][0], parameters.platform_point[5][0], t217);
+        let t219 = mul_add(platform_rotation[1][2], parameters.platform_point[5][2], t218);
         let t220 = platform_rotation[2][1] * parameters.platform_point[5][1];
-        let t221 = mul_add(
-            platform_rotation[2][0],
-            parameters.platform_point[5][0],
-            t220,
-        );
-        let t222 = mul_add(
-            platform_rotation[2][2],
-            parameters.platform_point[5][2],
-            t221,
-        );
+        let t221 = mul_add(platform_rotation[2][0], parameters.platform_point[5][0], t220);
+        let t222 = mul_add(platform_rotation[2][2], parameters.platform_point[5][2], t221);
         // leg 6: gradient of the actuator length
         let t223 = mul_add(base_rotation[0][0], t136, base_rotation[0][1] * t137);
         let t224 = mul_add(base_rotation[0][2], t138, t223);
@@ -12695,85 +10387,25 @@ pub fn coriolis_matrices<T: Scalar>(
         // first moment of payload and platform-side leg ends
         let t259 = parameters.platform_point[0][0] * parameters.upper_mass[0];
         let t260 = mul_add(parameters.payload_mass, parameters.payload_com[0], t259);
-        let t261 = mul_add(
-            parameters.platform_point[1][0],
-            parameters.upper_mass[1],
-            t260,
-        );
-        let t262 = mul_add(
-            parameters.platform_point[2][0],
-            parameters.upper_mass[2],
-            t261,
-        );
-        let t263 = mul_add(
-            parameters.platform_point[3][0],
-            parameters.upper_mass[3],
-            t262,
-        );
-        let t264 = mul_add(
-            parameters.platform_point[4][0],
-            parameters.upper_mass[4],
-            t263,
-        );
-        let t265 = mul_add(
-            parameters.platform_point[5][0],
-            parameters.upper_mass[5],
-            t264,
-        );
+        let t261 = mul_add(parameters.platform_point[1][0], parameters.upper_mass[1], t260);
+        let t262 = mul_add(parameters.platform_point[2][0], parameters.upper_mass[2], t261);
+        let t263 = mul_add(parameters.platform_point[3][0], parameters.upper_mass[3], t262);
+        let t264 = mul_add(parameters.platform_point[4][0], parameters.upper_mass[4], t263);
+        let t265 = mul_add(parameters.platform_point[5][0], parameters.upper_mass[5], t264);
         let t266 = parameters.platform_point[0][1] * parameters.upper_mass[0];
         let t267 = mul_add(parameters.payload_mass, parameters.payload_com[1], t266);
-        let t268 = mul_add(
-            parameters.platform_point[1][1],
-            parameters.upper_mass[1],
-            t267,
-        );
-        let t269 = mul_add(
-            parameters.platform_point[2][1],
-            parameters.upper_mass[2],
-            t268,
-        );
-        let t270 = mul_add(
-            parameters.platform_point[3][1],
-            parameters.upper_mass[3],
-            t269,
-        );
-        let t271 = mul_add(
-            parameters.platform_point[4][1],
-            parameters.upper_mass[4],
-            t270,
-        );
-        let t272 = mul_add(
-            parameters.platform_point[5][1],
-            parameters.upper_mass[5],
-            t271,
-        );
+        let t268 = mul_add(parameters.platform_point[1][1], parameters.upper_mass[1], t267);
+        let t269 = mul_add(parameters.platform_point[2][1], parameters.upper_mass[2], t268);
+        let t270 = mul_add(parameters.platform_point[3][1], parameters.upper_mass[3], t269);
+        let t271 = mul_add(parameters.platform_point[4][1], parameters.upper_mass[4], t270);
+        let t272 = mul_add(parameters.platform_point[5][1], parameters.upper_mass[5], t271);
         let t273 = parameters.platform_point[0][2] * parameters.upper_mass[0];
         let t274 = mul_add(parameters.payload_mass, parameters.payload_com[2], t273);
-        let t275 = mul_add(
-            parameters.platform_point[1][2],
-            parameters.upper_mass[1],
-            t274,
-        );
-        let t276 = mul_add(
-            parameters.platform_point[2][2],
-            parameters.upper_mass[2],
-            t275,
-        );
-        let t277 = mul_add(
-            parameters.platform_point[3][2],
-            parameters.upper_mass[3],
-            t276,
-        );
-        let t278 = mul_add(
-            parameters.platform_point[4][2],
-            parameters.upper_mass[4],
-            t277,
-        );
-        let t279 = mul_add(
-            parameters.platform_point[5][2],
-            parameters.upper_mass[5],
-            t278,
-        );
+        let t275 = mul_add(parameters.platform_point[1][2], parameters.upper_mass[1], t274);
+        let t276 = mul_add(parameters.platform_point[2][2], parameters.upper_mass[2], t275);
+        let t277 = mul_add(parameters.platform_point[3][2], parameters.upper_mass[3], t276);
+        let t278 = mul_add(parameters.platform_point[4][2], parameters.upper_mass[4], t277);
+        let t279 = mul_add(parameters.platform_point[5][2], parameters.upper_mass[5], t278);
         // second moment of payload and platform-side leg ends
         let t280 = parameters.payload_inertia[0][0] + parameters.payload_inertia[1][1];
         let t281 = parameters.payload_inertia[2][2] + t280;
@@ -12800,11 +10432,7 @@ pub fn coriolis_matrices<T: Scalar>(
         let t302 = parameters.platform_point[1][0] * parameters.platform_point[1][1];
         let t303 = parameters.platform_point[0][0] * parameters.platform_point[0][1];
         let t304 = parameters.payload_com[0] * parameters.payload_com[1];
-        let t305 = neg_mul_add(
-            parameters.payload_mass,
-            t304,
-            parameters.payload_inertia[0][1],
-        );
+        let t305 = neg_mul_add(parameters.payload_mass, t304, parameters.payload_inertia[0][1]);
         let t306 = mul_sub(parameters.upper_mass[0], t303, t305);
         let t307 = mul_add(parameters.upper_mass[1], t302, t306);
         let t308 = mul_add(parameters.upper_mass[2], t301, t307);
@@ -12818,11 +10446,7 @@ pub fn coriolis_matrices<T: Scalar>(
         let t316 = parameters.platform_point[1][0] * parameters.platform_point[1][2];
         let t317 = parameters.platform_point[0][0] * parameters.platform_point[0][2];
         let t318 = parameters.payload_com[0] * parameters.payload_com[2];
-        let t319 = neg_mul_add(
-            parameters.payload_mass,
-            t318,
-            parameters.payload_inertia[0][2],
-        );
+        let t319 = neg_mul_add(parameters.payload_mass, t318, parameters.payload_inertia[0][2]);
         let t320 = mul_sub(parameters.upper_mass[0], t317, t319);
         let t321 = mul_add(parameters.upper_mass[1], t316, t320);
         let t322 = mul_add(parameters.upper_mass[2], t315, t321);
@@ -12851,11 +10475,7 @@ pub fn coriolis_matrices<T: Scalar>(
         let t345 = parameters.platform_point[1][1] * parameters.platform_point[1][2];
         let t346 = parameters.platform_point[0][1] * parameters.platform_point[0][2];
         let t347 = parameters.payload_com[1] * parameters.payload_com[2];
-        let t348 = neg_mul_add(
-            parameters.payload_mass,
-            t347,
-            parameters.payload_inertia[1][2],
-        );
+        let t348 = neg_mul_add(parameters.payload_mass, t347, parameters.payload_inertia[1][2]);
         let t349 = mul_sub(parameters.upper_mass[0], t346, t348);
         let t350 = mul_add(parameters.upper_mass[1], t345, t349);
         let t351 = mul_add(parameters.upper_mass[2], t344, t350);
@@ -13560,248 +11180,24 @@ pub fn coriolis_matrices<T: Scalar>(
         let t992 = mul_sub(t748, t989, t226 * t990);
         let t993 = mul_sub(t228, t990, mul_add(t750, t989, t978));
         (
-            t28,
-            t29,
-            t30,
-            t141,
-            t144,
-            t147,
-            t149,
-            t151,
-            t153,
-            t156,
-            t159,
-            t162,
-            t171,
-            t174,
-            t177,
-            t179,
-            t181,
-            t183,
-            t186,
-            t189,
-            t192,
-            t194,
-            t196,
-            t198,
-            t201,
-            t204,
-            t207,
-            t209,
-            t211,
-            t213,
-            t216,
-            t219,
-            t222,
-            t224,
-            t226,
-            t228,
-            t255,
-            t265,
-            t272,
-            t279,
-            t282,
-            t297,
-            t311,
-            t325,
-            t340,
-            t354,
-            t369,
-            t377,
-            t378,
-            t379,
-            t381,
-            t382,
-            t383,
-            t402,
-            t403,
-            t404,
-            t406,
-            t407,
-            t408,
-            t427,
-            t428,
-            t429,
-            t431,
-            t432,
-            t433,
-            t452,
-            t453,
-            t454,
-            t456,
-            t457,
-            t458,
-            t477,
-            t478,
-            t479,
-            t481,
-            t482,
-            t483,
-            t495,
-            t502,
-            t503,
-            t504,
-            t506,
-            t507,
-            t508,
-            t509,
-            t512,
-            t513,
-            t516,
-            t519,
-            t520,
-            t523,
-            t526,
-            t533,
-            t539,
-            t545,
-            t546,
-            t549,
-            t555,
-            t559,
-            t565,
-            t566,
-            t572,
-            t578,
-            t579,
-            t598,
-            t599,
-            t600,
-            t746,
-            t748,
-            t750,
-            t751,
-            t752,
-            t753,
-            t754,
-            t755,
-            t756,
-            t757,
-            t758,
-            t759,
-            t760,
-            t761,
-            t762,
-            t763,
-            t764,
-            t765,
-            t766,
-            t767,
-            t768,
-            t784,
-            t785,
-            t786,
-            t791,
-            t792,
-            t793,
-            t796,
-            t797,
-            t798,
-            t801,
-            t802,
-            t803,
-            t808,
-            t809,
-            t812,
-            t814,
-            t815,
-            t817,
-            t818,
-            t819,
-            t821,
-            t822,
-            t823,
-            t824,
-            t829,
-            t830,
-            t831,
-            t834,
-            t835,
-            t836,
-            t839,
-            t840,
-            t841,
-            t847,
-            t852,
-            t855,
-            t856,
-            t857,
-            t859,
-            t860,
-            t861,
-            t862,
-            t867,
-            t868,
-            t869,
-            t872,
-            t873,
-            t874,
-            t877,
-            t878,
-            t879,
-            t884,
-            t885,
-            t888,
-            t890,
-            t891,
-            t893,
-            t894,
-            t895,
-            t897,
-            t898,
-            t899,
-            t900,
-            t905,
-            t906,
-            t907,
-            t910,
-            t911,
-            t912,
-            t915,
-            t916,
-            t917,
-            t922,
-            t923,
-            t926,
-            t928,
-            t929,
-            t931,
-            t932,
-            t933,
-            t935,
-            t936,
-            t937,
-            t938,
-            t943,
-            t944,
-            t945,
-            t948,
-            t949,
-            t950,
-            t953,
-            t954,
-            t955,
-            t960,
-            t961,
-            t964,
-            t966,
-            t967,
-            t969,
-            t970,
-            t971,
-            t973,
-            t974,
-            t975,
-            t976,
-            t981,
-            t982,
-            t983,
-            t986,
-            t987,
-            t988,
-            t991,
-            t992,
-            t993,
+            t28, t29, t30, t141, t144, t147, t149, t151, t153, t156, t159, t162, t171, t174, t177,
+            t179, t181, t183, t186, t189, t192, t194, t196, t198, t201, t204, t207, t209, t211,
+            t213, t216, t219, t222, t224, t226, t228, t255, t265, t272, t279, t282, t297, t311,
+            t325, t340, t354, t369, t377, t378, t379, t381, t382, t383, t402, t403, t404, t406,
+            t407, t408, t427, t428, t429, t431, t432, t433, t452, t453, t454, t456, t457, t458,
+            t477, t478, t479, t481, t482, t483, t495, t502, t503, t504, t506, t507, t508, t509,
+            t512, t513, t516, t519, t520, t523, t526, t533, t539, t545, t546, t549, t555, t559,
+            t565, t566, t572, t578, t579, t598, t599, t600, t746, t748, t750, t751, t752, t753,
+            t754, t755, t756, t757, t758, t759, t760, t761, t762, t763, t764, t765, t766, t767,
+            t768, t784, t785, t786, t791, t792, t793, t796, t797, t798, t801, t802, t803, t808,
+            t809, t812, t814, t815, t817, t818, t819, t821, t822, t823, t824, t829, t830, t831,
+            t834, t835, t836, t839, t840, t841, t847, t852, t855, t856, t857, t859, t860, t861,
+            t862, t867, t868, t869, t872, t873, t874, t877, t878, t879, t884, t885, t888, t890,
+            t891, t893, t894, t895, t897, t898, t899, t900, t905, t906, t907, t910, t911, t912,
+            t915, t916, t917, t922, t923, t926, t928, t929, t931, t932, t933, t935, t936, t937,
+            t938, t943, t944, t945, t948, t949, t950, t953, t954, t955, t960, t961, t964, t966,
+            t967, t969, t970, t971, t973, t974, t975, t976, t981, t982, t983, t986, t987, t988,
+            t991, t992, t993,
         )
     };
     {
@@ -14185,11 +11581,7 @@ pub fn coriolis_matrices<T: Scalar>(
         let t1317 = neg_mul_add(t171, t898, neg_mul_add(t177, t885, t1316));
         let t1318 = neg_mul_add(t186, t936, neg_mul_add(t192, t923, t1317));
         let t1319 = neg_mul_add(t201, t974, neg_mul_add(t207, t961, t1318));
-        coriolis_matrix_b[4][3] = neg_mul_add(
-            t216,
-            t1012,
-            neg_mul_add(t222, t999, t1319),
-        );
+        coriolis_matrix_b[4][3] = neg_mul_add(t216, t1012, neg_mul_add(t222, t999, t1319));
         let t1320 = mul_sub(t30, t1190, neg_mul_add(t28, t1202, t1214));
         let t1321 = mul_sub(t539, t600, mul_sub(t578, t598, t1320));
         let t1322 = mul_sub(t141, t823, mul_add(t147, t814, t1321));
@@ -14231,25 +11623,13 @@ pub fn coriolis_matrices<T: Scalar>(
         let t1354 = mul_sub(t204, t969, mul_sub(t201, t973, t1353));
         coriolis_matrix_b[5][5] = mul_sub(t219, t1007, mul_sub(t216, t1011, t1354));
         // Coriolis matrix C_p, natural factorisation
-        let t1355 = mul_add(
-            platform_rotation[1][0],
-            t265,
-            platform_rotation[1][1] * t272,
-        );
+        let t1355 = mul_add(platform_rotation[1][0], t265, platform_rotation[1][1] * t272);
         let t1356 = mul_add(platform_rotation[1][2], t279, t1355);
-        let t1357 = mul_add(
-            platform_rotation[0][0],
-            t265,
-            platform_rotation[0][1] * t272,
-        );
+        let t1357 = mul_add(platform_rotation[0][0], t265, platform_rotation[0][1] * t272);
         let t1358 = mul_add(platform_rotation[0][2], t279, t1357);
         let t1359 = mul_sub(platform_velocity[3], t1356, platform_velocity[4] * t1358);
         coriolis_matrix_p[0][4] = t1046 + t1359;
-        let t1360 = mul_add(
-            platform_rotation[2][0],
-            t265,
-            platform_rotation[2][1] * t272,
-        );
+        let t1360 = mul_add(platform_rotation[2][0], t265, platform_rotation[2][1] * t272);
         let t1361 = mul_add(platform_rotation[2][2], t279, t1360);
         let t1362 = mul_sub(platform_velocity[5], t1358, platform_velocity[3] * t1361);
         coriolis_matrix_p[0][5] = t1060 - t1362;
@@ -14258,84 +11638,36 @@ pub fn coriolis_matrices<T: Scalar>(
         coriolis_matrix_p[1][5] = t1104 + t1363;
         coriolis_matrix_p[2][3] = t1121 + t1362;
         coriolis_matrix_p[2][4] = t1135 - t1363;
-        let t1364 = mul_add(
-            platform_rotation[0][0],
-            t325,
-            platform_rotation[0][1] * t354,
-        );
+        let t1364 = mul_add(platform_rotation[0][0], t325, platform_rotation[0][1] * t354);
         let t1365 = mul_add(platform_rotation[0][2], t369, t1364);
-        let t1366 = mul_add(
-            platform_rotation[0][0],
-            t297,
-            platform_rotation[0][1] * t311,
-        );
+        let t1366 = mul_add(platform_rotation[0][0], t297, platform_rotation[0][1] * t311);
         let t1367 = mul_add(platform_rotation[0][2], t325, t1366);
-        let t1368 = mul_add(
-            platform_rotation[0][0],
-            t311,
-            platform_rotation[0][1] * t340,
-        );
+        let t1368 = mul_add(platform_rotation[0][0], t311, platform_rotation[0][1] * t340);
         let t1369 = mul_add(platform_rotation[0][2], t354, t1368);
-        let t1370 = mul_add(
-            platform_rotation[2][0],
-            t1367,
-            platform_rotation[2][1] * t1369,
-        );
+        let t1370 = mul_add(platform_rotation[2][0], t1367, platform_rotation[2][1] * t1369);
         let t1371 = mul_add(platform_rotation[2][2], t1365, t1370);
-        let t1372 = mul_add(
-            platform_rotation[1][0],
-            t1367,
-            platform_rotation[1][1] * t1369,
-        );
+        let t1372 = mul_add(platform_rotation[1][0], t1367, platform_rotation[1][1] * t1369);
         let t1373 = mul_add(platform_rotation[1][2], t1365, t1372);
         let t1374 = mul_add(platform_velocity[5], t1373, t1172);
         coriolis_matrix_p[3][3] = neg_mul_add(platform_velocity[4], t1371, t1374);
-        let t1375 = mul_add(
-            platform_rotation[1][0],
-            t325,
-            platform_rotation[1][1] * t354,
-        );
+        let t1375 = mul_add(platform_rotation[1][0], t325, platform_rotation[1][1] * t354);
         let t1376 = mul_add(platform_rotation[1][2], t369, t1375);
-        let t1377 = mul_add(
-            platform_rotation[1][0],
-            t297,
-            platform_rotation[1][1] * t311,
-        );
+        let t1377 = mul_add(platform_rotation[1][0], t297, platform_rotation[1][1] * t311);
         let t1378 = mul_add(platform_rotation[1][2], t325, t1377);
-        let t1379 = mul_add(
-            platform_rotation[1][0],
-            t311,
-            platform_rotation[1][1] * t340,
-        );
+        let t1379 = mul_add(platform_rotation[1][0], t311, platform_rotation[1][1] * t340);
         let t1380 = mul_add(platform_rotation[1][2], t354, t1379);
-        let t1381 = mul_add(
-            platform_rotation[2][0],
-            t1378,
-            platform_rotation[2][1] * t1380,
-        );
+        let t1381 = mul_add(platform_rotation[2][0], t1378, platform_rotation[2][1] * t1380);
         let t1382 = mul_add(platform_rotation[2][2], t1376, t1381);
         let t1383 = neg_mul_add(platform_rotation[1][0], t1378, t282);
         let t1384 = mul_sub(platform_rotation[1][1], t1380, t1383);
         let t1385 = mul_add(platform_rotation[1][2], t1376, t1384);
         let t1386 = mul_add(platform_velocity[5], t1385, t1178);
         coriolis_matrix_p[3][4] = neg_mul_add(platform_velocity[4], t1382, t1386);
-        let t1387 = mul_add(
-            platform_rotation[2][0],
-            t325,
-            platform_rotation[2][1] * t354,
-        );
+        let t1387 = mul_add(platform_rotation[2][0], t325, platform_rotation[2][1] * t354);
         let t1388 = mul_add(platform_rotation[2][2], t369, t1387);
-        let t1389 = mul_add(
-            platform_rotation[2][0],
-            t311,
-            platform_rotation[2][1] * t340,
-        );
+        let t1389 = mul_add(platform_rotation[2][0], t311, platform_rotation[2][1] * t340);
         let t1390 = mul_add(platform_rotation[2][2], t354, t1389);
-        let t1391 = mul_add(
-            platform_rotation[2][0],
-            t297,
-            platform_rotation[2][1] * t311,
-        );
+        let t1391 = mul_add(platform_rotation[2][0], t297, platform_rotation[2][1] * t311);
         let t1392 = mul_add(platform_rotation[2][2], t325, t1391);
         let t1393 = neg_mul_add(platform_rotation[2][0], t1392, t282);
         let t1394 = mul_sub(platform_rotation[2][1], t1390, t1393);
@@ -15011,376 +12343,31 @@ pub fn matrices<T: Scalar>(
 ) {
     let c = T::constant;
     let (
-        t3,
-        t6,
-        t9,
-        t12,
-        t15,
-        t18,
-        t21,
-        t24,
-        t27,
-        t28,
-        t29,
-        t30,
-        t32,
-        t34,
-        t36,
-        t40,
-        t44,
-        t48,
-        t52,
-        t56,
-        t60,
-        t64,
-        t68,
-        t72,
-        t76,
-        t80,
-        t84,
-        t88,
-        t92,
-        t96,
-        t100,
-        t104,
-        t108,
-        t110,
-        t112,
-        t114,
-        t116,
-        t118,
-        t120,
-        t121,
-        t122,
-        t123,
-        t124,
-        t125,
-        t126,
-        t127,
-        t128,
-        t129,
-        t130,
-        t131,
-        t132,
-        t133,
-        t134,
-        t135,
-        t136,
-        t137,
-        t138,
-        t141,
-        t144,
-        t147,
-        t148,
-        t149,
-        t150,
-        t152,
-        t154,
-        t156,
-        t159,
-        t162,
-        t165,
-        t166,
-        t167,
-        t168,
-        t170,
-        t172,
-        t174,
-        t177,
-        t180,
-        t183,
-        t184,
-        t185,
-        t186,
-        t188,
-        t190,
-        t192,
-        t195,
-        t198,
-        t201,
-        t202,
-        t203,
-        t204,
-        t206,
-        t208,
-        t210,
-        t213,
-        t216,
-        t219,
-        t220,
-        t221,
-        t222,
-        t224,
-        t226,
-        t228,
-        t231,
-        t234,
-        t237,
-        t238,
-        t239,
-        t240,
-        t242,
-        t244,
-        t246,
-        t248,
-        t251,
-        t253,
-        t256,
-        t258,
-        t261,
-        t263,
-        t266,
-        t268,
-        t271,
-        t273,
-        t276,
-        t303,
-        t391,
-        t393,
-        t398,
-        t399,
-        t400,
-        t402,
-        t403,
-        t404,
-        t405,
-        t407,
-        t408,
-        t409,
-        t410,
-        t411,
-        t412,
-        t415,
-        t416,
-        t419,
-        t422,
-        t423,
-        t426,
-        t428,
-        t430,
-        t431,
-        t433,
-        t434,
-        t435,
-        t436,
-        t437,
-        t438,
-        t440,
-        t441,
-        t442,
-        t443,
-        t444,
-        t445,
-        t446,
-        t447,
-        t449,
-        t454,
-        t455,
-        t456,
-        t458,
-        t459,
-        t460,
-        t461,
-        t464,
-        t466,
-        t468,
-        t471,
-        t472,
-        t475,
-        t479,
-        t482,
-        t486,
-        t489,
-        t490,
-        t491,
-        t492,
-        t493,
-        t494,
-        t496,
-        t497,
-        t498,
-        t499,
-        t500,
-        t501,
-        t502,
-        t503,
-        t505,
-        t510,
-        t511,
-        t512,
-        t514,
-        t515,
-        t516,
-        t517,
-        t519,
-        t520,
-        t521,
-        t522,
-        t523,
-        t524,
-        t527,
-        t528,
-        t531,
-        t534,
-        t535,
-        t538,
-        t540,
-        t542,
-        t543,
-        t545,
-        t546,
-        t547,
-        t548,
-        t549,
-        t550,
-        t552,
-        t553,
-        t554,
-        t555,
-        t556,
-        t557,
-        t558,
-        t559,
-        t561,
-        t566,
-        t567,
-        t568,
-        t570,
-        t571,
-        t572,
-        t573,
-        t575,
-        t576,
-        t577,
-        t578,
-        t579,
-        t580,
-        t583,
-        t584,
-        t587,
-        t590,
-        t591,
-        t594,
-        t596,
-        t598,
-        t599,
-        t601,
-        t602,
-        t603,
-        t604,
-        t605,
-        t606,
-        t608,
-        t609,
-        t610,
-        t611,
-        t612,
-        t613,
-        t614,
-        t615,
-        t617,
-        t622,
-        t623,
-        t624,
-        t626,
-        t627,
-        t628,
-        t629,
-        t631,
-        t632,
-        t633,
-        t634,
-        t635,
-        t636,
-        t639,
-        t640,
-        t643,
-        t646,
-        t647,
-        t650,
-        t652,
-        t654,
-        t655,
-        t657,
-        t658,
-        t659,
-        t660,
-        t661,
-        t662,
-        t664,
-        t665,
-        t666,
-        t667,
-        t668,
-        t669,
-        t670,
-        t671,
-        t673,
-        t678,
-        t679,
-        t680,
-        t682,
-        t683,
-        t684,
-        t685,
-        t687,
-        t688,
-        t689,
-        t690,
-        t691,
-        t692,
-        t695,
-        t696,
-        t699,
-        t702,
-        t703,
-        t706,
-        t708,
-        t710,
-        t711,
-        t713,
-        t714,
-        t715,
-        t716,
-        t717,
-        t718,
-        t720,
-        t721,
-        t722,
-        t723,
-        t724,
-        t725,
-        t726,
-        t727,
-        t730,
-        t733,
-        t739,
-        t746,
-        t753,
-        t754,
-        t757,
-        t764,
-        t777,
-        t784,
-        t785,
-        t792,
-        t799,
-        t806,
-        t812,
-        t818,
-        t824,
-        t830,
-        t836,
-        t842,
-        t845,
-        t847,
-        t849,
-        t857,
-        t859,
-        t861,
-        t869,
-        t871,
-        t879,
+        t3, t6, t9, t12, t15, t18, t21, t24, t27, t28, t29, t30, t32, t34, t36, t40, t44, t48, t52,
+        t56, t60, t64, t68, t72, t76, t80, t84, t88, t92, t96, t100, t104, t108, t110, t112, t114,
+        t116, t118, t120, t121, t122, t123, t124, t125, t126, t127, t128, t129, t130, t131, t132,
+        t133, t134, t135, t136, t137, t138, t141, t144, t147, t148, t149, t150, t152, t154, t156,
+        t159, t162, t165, t166, t167, t168, t170, t172, t174, t177, t180, t183, t184, t185, t186,
+        t188, t190, t192, t195, t198, t201, t202, t203, t204, t206, t208, t210, t213, t216, t219,
+        t220, t221, t222, t224, t226, t228, t231, t234, t237, t238, t239, t240, t242, t244, t246,
+        t248, t251, t253, t256, t258, t261, t263, t266, t268, t271, t273, t276, t303, t391, t393,
+        t398, t399, t400, t402, t403, t404, t405, t407, t408, t409, t410, t411, t412, t415, t416,
+        t419, t422, t423, t426, t428, t430, t431, t433, t434, t435, t436, t437, t438, t440, t441,
+        t442, t443, t444, t445, t446, t447, t449, t454, t455, t456, t458, t459, t460, t461, t464,
+        t466, t468, t471, t472, t475, t479, t482, t486, t489, t490, t491, t492, t493, t494, t496,
+        t497, t498, t499, t500, t501, t502, t503, t505, t510, t511, t512, t514, t515, t516, t517,
+        t519, t520, t521, t522, t523, t524, t527, t528, t531, t534, t535, t538, t540, t542, t543,
+        t545, t546, t547, t548, t549, t550, t552, t553, t554, t555, t556, t557, t558, t559, t561,
+        t566, t567, t568, t570, t571, t572, t573, t575, t576, t577, t578, t579, t580, t583, t584,
+        t587, t590, t591, t594, t596, t598, t599, t601, t602, t603, t604, t605, t606, t608, t609,
+        t610, t611, t612, t613, t614, t615, t617, t622, t623, t624, t626, t627, t628, t629, t631,
+        t632, t633, t634, t635, t636, t639, t640, t643, t646, t647, t650, t652, t654, t655, t657,
+        t658, t659, t660, t661, t662, t664, t665, t666, t667, t668, t669, t670, t671, t673, t678,
+        t679, t680, t682, t683, t684, t685, t687, t688, t689, t690, t691, t692, t695, t696, t699,
+        t702, t703, t706, t708, t710, t711, t713, t714, t715, t716, t717, t718, t720, t721, t722,
+        t723, t724, t725, t726, t727, t730, t733, t739, t746, t753, t754, t757, t764, t777, t784,
+        t785, t792, t799, t806, t812, t818, t824, t830, t836, t842, t845, t847, t849, t857, t859,
+        t861, t869, t871, t879,
     ) = {
         // rotation of the platform seen from the base
         let t1 = base_rotation[1][0] * platform_rotation[1][0];
@@ -15548,38 +12535,14 @@ pub fn matrices<T: Scalar>(
         let t138 = t108 * t120;
         // leg 1: platform joint from the platform origin
         let t139 = platform_rotation[0][1] * parameters.platform_point[0][1];
-        let t140 = mul_add(
-            platform_rotation[0][0],
-            parameters.platform_point[0][0],
-            t139,
-        );
-        let t141 = mul_add(
-            platform_rotation[0][2],
-            parameters.platform_point[0][2],
-            t140,
-        );
+        let t140 = mul_add(platform_rotation[0][0], parameters.platform_point[0][0], t139);
+        let t141 = mul_add(platform_rotation[0][2], parameters.platform_point[0][2], t140);
         let t142 = platform_rotation[1][1] * parameters.platform_point[0][1];
-        let t143 = mul_add(
-            platform_rotation[1][0],
-            parameters.platform_point[0][0],
-            t142,
-        );
-        let t144 = mul_add(
-            platform_rotation[1][2],
-            parameters.platform_point[0][2],
-            t143,
-        );
+        let t143 = mul_add(platform_rotation[1][0], parameters.platform_point[0][0], t142);
+        let t144 = mul_add(platform_rotation[1][2], parameters.platform_point[0][2], t143);
         let t145 = platform_rotation[2][1] * parameters.platform_point[0][1];
-        let t146 = mul_add(
-            platform_rotation[2][0],
-            parameters.platform_point[0][0],
-            t145,
-        );
-        let t147 = mul_add(
-            platform_rotation[2][2],
-            parameters.platform_point[0][2],
-            t146,
-        );
+        let t146 = mul_add(platform_rotation[2][0], parameters.platform_point[0][0], t145);
+        let t147 = mul_add(platform_rotation[2][2], parameters.platform_point[0][2], t146);
         // leg 1: platform joint from the base origin
         let t148 = t28 - t141;
         let t149 = t29 - t144;
@@ -15599,38 +12562,14 @@ pub fn matrices<T: Scalar>(
         jacobian_db[0][2] = t156;
         // leg 2: platform joint from the platform origin
         let t157 = platform_rotation[0][1] * parameters.platform_point[1][1];
-        let t158 = mul_add(
-            platform_rotation[0][0],
-            parameters.platform_point[1][0],
-            t157,
-        );
-        let t159 = mul_add(
-            platform_rotation[0][2],
-            parameters.platform_point[1][2],
-            t158,
-        );
+        let t158 = mul_add(platform_rotation[0][0], parameters.platform_point[1][0], t157);
+        let t159 = mul_add(platform_rotation[0][2], parameters.platform_point[1][2], t158);
         let t160 = platform_rotation[1][1] * parameters.platform_point[1][1];
-        let t161 = mul_add(
-            platform_rotation[1][0],
-            parameters.platform_point[1][0],
-            t160,
-        );
-        let t162 = mul_add(
-            platform_rotation[1][2],
-            parameters.platform_point[1][2],
-            t161,
-        );
+        let t161 = mul_add(platform_rotation[1][0], parameters.platform_point[1][0], t160);
+        let t162 = mul_add(platform_rotation[1][2], parameters.platform_point[1][2], t161);
         let t163 = platform_rotation[2][1] * parameters.platform_point[1][1];
-        let t164 = mul_add(
-            platform_rotation[2][0],
-            parameters.platform_point[1][0],
-            t163,
-        );
-        let t165 = mul_add(
-            platform_rotation[2][2],
-            parameters.platform_point[1][2],
-            t164,
-        );
+        let t164 = mul_add(platform_rotation[2][0], parameters.platform_point[1][0], t163);
+        let t165 = mul_add(platform_rotation[2][2], parameters.platform_point[1][2], t164);
         // leg 2: platform joint from the base origin
         let t166 = t28 - t159;
         let t167 = t29 - t162;
@@ -15650,38 +12589,14 @@ pub fn matrices<T: Scalar>(
         jacobian_db[1][2] = t174;
         // leg 3: platform joint from the platform origin
         let t175 = platform_rotation[0][1] * parameters.platform_point[2][1];
-        let t176 = mul_add(
-            platform_rotation[0][0],
-            parameters.platform_point[2][0],
-            t175,
-        );
-        let t177 = mul_add(
-            platform_rotation[0][2],
-            parameters.platform_point[2][2],
-            t176,
-        );
+        let t176 = mul_add(platform_rotation[0][0], parameters.platform_point[2][0], t175);
+        let t177 = mul_add(platform_rotation[0][2], parameters.platform_point[2][2], t176);
         let t178 = platform_rotation[1][1] * parameters.platform_point[2][1];
-        let t179 = mul_add(
-            platform_rotation[1][0],
-            parameters.platform_point[2][0],
-            t178,
-        );
-        let t180 = mul_add(
-            platform_rotation[1][2],
-            parameters.platform_point[2][2],
-            t179,
-        );
+        let t179 = mul_add(platform_rotation[1][0], parameters.platform_point[2][0], t178);
+        let t180 = mul_add(platform_rotation[1][2], parameters.platform_point[2][2], t179);
         let t181 = platform_rotation[2][1] * parameters.platform_point[2][1];
-        let t182 = mul_add(
-            platform_rotation[2][0],
-            parameters.platform_point[2][0],
-            t181,
-        );
-        let t183 = mul_add(
-            platform_rotation[2][2],
-            parameters.platform_point[2][2],
-            t182,
-        );
+        let t182 = mul_add(platform_rotation[2][0], parameters.platform_point[2][0], t181);
+        let t183 = mul_add(platform_rotation[2][2], parameters.platform_point[2][2], t182);
         // leg 3: platform joint from the base origin
         let t184 = t28 - t177;
         let t185 = t29 - t180;
@@ -15701,38 +12616,14 @@ pub fn matrices<T: Scalar>(
         jacobian_db[2][2] = t192;
         // leg 4: platform joint from the platform origin
         let t193 = platform_rotation[0][1] * parameters.platform_point[3][1];
-        let t194 = mul_add(
-            platform_rotation[0][0],
-            parameters.platform_point[3][0],
-            t193,
-        );
-        let t195 = mul_add(
-            platform_rotation[0][2],
-            parameters.platform_point[3][2],
-            t194,
-        );
+        let t194 = mul_add(platform_rotation[0][0], parameters.platform_point[3][0], t193);
+        let t195 = mul_add(platform_rotation[0][2], parameters.platform_point[3][2], t194);
         let t196 = platform_rotation[1][1] * parameters.platform_point[3][1];
-        let t197 = mul_add(
-            platform_rotation[1][0],
-            parameters.platform_point[3][0],
-            t196,
-        );
-        let t198 = mul_add(
-            platform_rotation[1][2],
-            parameters.platform_point[3][2],
-            t197,
-        );
+        let t197 = mul_add(platform_rotation[1][0], parameters.platform_point[3][0], t196);
+        let t198 = mul_add(platform_rotation[1][2], parameters.platform_point[3][2], t197);
         let t199 = platform_rotation[2][1] * parameters.platform_point[3][1];
-        let t200 = mul_add(
-            platform_rotation[2][0],
-            parameters.platform_point[3][0],
-            t199,
-        );
-        let t201 = mul_add(
-            platform_rotation[2][2],
-            parameters.platform_point[3][2],
-            t200,
-        );
+        let t200 = mul_add(platform_rotation[2][0], parameters.platform_point[3][0], t199);
+        let t201 = mul_add(platform_rotation[2][2], parameters.platform_point[3][2], t200);
         // leg 4: platform joint from the base origin
         let t202 = t28 - t195;
         let t203 = t29 - t198;
@@ -15752,38 +12643,14 @@ pub fn matrices<T: Scalar>(
         jacobian_db[3][2] = t210;
         // leg 5: platform joint from the platform origin
         let t211 = platform_rotation[0][1] * parameters.platform_point[4][1];
-        let t212 = mul_add(
-            platform_rotation[0][0],
-            parameters.platform_point[4][0],
-            t211,
-        );
-        let t213 = mul_add(
-            platform_rotation[0][2],
-            parameters.platform_point[4][2],
-            t212,
-        );
+        let t212 = mul_add(platform_rotation[0][0], parameters.platform_point[4][0], t211);
+        let t213 = mul_add(platform_rotation[0][2], parameters.platform_point[4][2], t212);
         let t214 = platform_rotation[1][1] * parameters.platform_point[4][1];
-        let t215 = mul_add(
-            platform_rotation[1][0],
-            parameters.platform_point[4][0],
-            t214,
-        );
-        let t216 = mul_add(
-            platform_rotation[1][2],
-            parameters.platform_point[4][2],
-            t215,
-        );
+        let t215 = mul_add(platform_rotation[1][0], parameters.platform_point[4][0], t214);
+        let t216 = mul_add(platform_rotation[1][2], parameters.platform_point[4][2], t215);
         let t217 = platform_rotation[2][1] * parameters.platform_point[4][1];
-        let t218 = mul_add(
-            platform_rotation[2][0],
-            parameters.platform_point[4][0],
-            t217,
-        );
-        let t219 = mul_add(
-            platform_rotation[2][2],
-            parameters.platform_point[4][2],
-            t218,
-        );
+        let t218 = mul_add(platform_rotation[2][0], parameters.platform_point[4][0], t217);
+        let t219 = mul_add(platform_rotation[2][2], parameters.platform_point[4][2], t218);
         // leg 5: platform joint from the base origin
         let t220 = t28 - t213;
         let t221 = t29 - t216;
@@ -15803,38 +12670,14 @@ pub fn matrices<T: Scalar>(
         jacobian_db[4][2] = t228;
         // leg 6: platform joint from the platform origin
         let t229 = platform_rotation[0][1] * parameters.platform_point[5][1];
-        let t230 = mul_add(
-            platform_rotation[0][0],
-            parameters.platform_point[5][0],
-            t229,
-        );
-        let t231 = mul_add(
-            platform_rotation[0][2],
-            parameters.platform_point[5][2],
-            t230,
-        );
+        let t230 = mul_add(platform_rotation[0][0], parameters.platform_point[5][0], t229);
+        let t231 = mul_add(platform_rotation[0][2], parameters.platform_point[5][2], t230);
         let t232 = platform_rotation[1][1] * parameters.platform_point[5][1];
-        let t233 = mul_add(
-            platform_rotation[1][0],
-            parameters.platform_point[5][0],
-            t232,
-        );
-        let t234 = mul_add(
-            platform_rotation[1][2],
-            parameters.platform_point[5][2],
-            t233,
-        );
+        let t233 = mul_add(platform_rotation[1][0], parameters.platform_point[5][0], t232);
+        let t234 = mul_add(platform_rotation[1][2], parameters.platform_point[5][2], t233);
         let t235 = platform_rotation[2][1] * parameters.platform_point[5][1];
-        let t236 = mul_add(
-            platform_rotation[2][0],
-            parameters.platform_point[5][0],
-            t235,
-        );
-        let t237 = mul_add(
-            platform_rotation[2][2],
-            parameters.platform_point[5][2],
-            t236,
-        );
+        let t236 = mul_add(platform_rotation[2][0], parameters.platform_point[5][0], t235);
+        let t237 = mul_add(platform_rotation[2][2], parameters.platform_point[5][2], t236);
         // leg 6: platform joint from the base origin
         let t238 = t28 - t231;
         let t239 = t29 - t234;
@@ -15908,85 +12751,25 @@ pub fn matrices<T: Scalar>(
         // first moment of payload and platform-side leg ends
         let t281 = parameters.platform_point[0][0] * parameters.upper_mass[0];
         let t282 = mul_add(parameters.payload_mass, parameters.payload_com[0], t281);
-        let t283 = mul_add(
-            parameters.platform_point[1][0],
-            parameters.upper_mass[1],
-            t282,
-        );
-        let t284 = mul_add(
-            parameters.platform_point[2][0],
-            parameters.upper_mass[2],
-            t283,
-        );
-        let t285 = mul_add(
-            parameters.platform_point[3][0],
-            parameters.upper_mass[3],
-            t284,
-        );
-        let t286 = mul_add(
-            parameters.platform_point[4][0],
-            parameters.upper_mass[4],
-            t285,
-        );
-        let t287 = mul_add(
-            parameters.platform_point[5][0],
-            parameters.upper_mass[5],
-            t286,
-        );
+        let t283 = mul_add(parameters.platform_point[1][0], parameters.upper_mass[1], t282);
+        let t284 = mul_add(parameters.platform_point[2][0], parameters.upper_mass[2], t283);
+        let t285 = mul_add(parameters.platform_point[3][0], parameters.upper_mass[3], t284);
+        let t286 = mul_add(parameters.platform_point[4][0], parameters.upper_mass[4], t285);
+        let t287 = mul_add(parameters.platform_point[5][0], parameters.upper_mass[5], t286);
         let t288 = parameters.platform_point[0][1] * parameters.upper_mass[0];
         let t289 = mul_add(parameters.payload_mass, parameters.payload_com[1], t288);
-        let t290 = mul_add(
-            parameters.platform_point[1][1],
-            parameters.upper_mass[1],
-            t289,
-        );
-        let t291 = mul_add(
-            parameters.platform_point[2][1],
-            parameters.upper_mass[2],
-            t290,
-        );
-        let t292 = mul_add(
-            parameters.platform_point[3][1],
-            parameters.upper_mass[3],
-            t291,
-        );
-        let t293 = mul_add(
-            parameters.platform_point[4][1],
-            parameters.upper_mass[4],
-            t292,
-        );
-        let t294 = mul_add(
-            parameters.platform_point[5][1],
-            parameters.upper_mass[5],
-            t293,
-        );
+        let t290 = mul_add(parameters.platform_point[1][1], parameters.upper_mass[1], t289);
+        let t291 = mul_add(parameters.platform_point[2][1], parameters.upper_mass[2], t290);
+        let t292 = mul_add(parameters.platform_point[3][1], parameters.upper_mass[3], t291);
+        let t293 = mul_add(parameters.platform_point[4][1], parameters.upper_mass[4], t292);
+        let t294 = mul_add(parameters.platform_point[5][1], parameters.upper_mass[5], t293);
         let t295 = parameters.platform_point[0][2] * parameters.upper_mass[0];
         let t296 = mul_add(parameters.payload_mass, parameters.payload_com[2], t295);
-        let t297 = mul_add(
-            parameters.platform_point[1][2],
-            parameters.upper_mass[1],
-            t296,
-        );
-        let t298 = mul_add(
-            parameters.platform_point[2][2],
-            parameters.upper_mass[2],
-            t297,
-        );
-        let t299 = mul_add(
-            parameters.platform_point[3][2],
-            parameters.upper_mass[3],
-            t298,
-        );
-        let t300 = mul_add(
-            parameters.platform_point[4][2],
-            parameters.upper_mass[4],
-            t299,
-        );
-        let t301 = mul_add(
-            parameters.platform_point[5][2],
-            parameters.upper_mass[5],
-            t300,
-        );
+        let t297 = mul_add(parameters.platform_point[1][2], parameters.upper_mass[1], t296);
+        let t298 = mul_add(parameters.platform_point[2][2], parameters.upper_mass[2], t297);
+        let t299 = mul_add(parameters.platform_point[3][2], parameters.upper_mass[3], t298);
+        let t300 = mul_add(parameters.platform_point[4][2], parameters.upper_mass[4], t299);
+        let t301 = mul_add(parameters.platform_point[5][2], parameters.upper_mass[5], t300);
         // second moment of payload and platform-side leg ends
         let t302 = parameters.payload_inertia[0][0] + parameters.payload_inertia[1][1];
         let t303 = parameters.payload_inertia[2][2] + t302;
@@ -16012,11 +12795,7 @@ pub fn matrices<T: Scalar>(
         let t323 = parameters.platform_point[1][0] * parameters.platform_point[1][1];
         let t324 = parameters.platform_point[0][0] * parameters.platform_point[0][1];
         let t325 = parameters.payload_com[0] * parameters.payload_com[1];
-        let t326 = neg_mul_add(
-            parameters.payload_mass,
-            t325,
-            parameters.payload_inertia[0][1],
-        );
+        let t326 = neg_mul_add(parameters.payload_mass, t325, parameters.payload_inertia[0][1]);
         let t327 = mul_sub(parameters.upper_mass[0], t324, t326);
         let t328 = mul_add(parameters.upper_mass[1], t323, t327);
         let t329 = mul_add(parameters.upper_mass[2], t322, t328);
@@ -16030,11 +12809,7 @@ pub fn matrices<T: Scalar>(
         let t337 = parameters.platform_point[1][0] * parameters.platform_point[1][2];
         let t338 = parameters.platform_point[0][0] * parameters.platform_point[0][2];
         let t339 = parameters.payload_com[0] * parameters.payload_com[2];
-        let t340 = neg_mul_add(
-            parameters.payload_mass,
-            t339,
-            parameters.payload_inertia[0][2],
-        );
+        let t340 = neg_mul_add(parameters.payload_mass, t339, parameters.payload_inertia[0][2]);
         let t341 = mul_sub(parameters.upper_mass[0], t338, t340);
         let t342 = mul_add(parameters.upper_mass[1], t337, t341);
         let t343 = mul_add(parameters.upper_mass[2], t336, t342);
@@ -16063,11 +12838,7 @@ pub fn matrices<T: Scalar>(
         let t366 = parameters.platform_point[1][1] * parameters.platform_point[1][2];
         let t367 = parameters.platform_point[0][1] * parameters.platform_point[0][2];
         let t368 = parameters.payload_com[1] * parameters.payload_com[2];
-        let t369 = neg_mul_add(
-            parameters.payload_mass,
-            t368,
-            parameters.payload_inertia[1][2],
-        );
+        let t369 = neg_mul_add(parameters.payload_mass, t368, parameters.payload_inertia[1][2]);
         let t370 = mul_sub(parameters.upper_mass[0], t367, t369);
         let t371 = mul_add(parameters.upper_mass[1], t366, t370);
         let t372 = mul_add(parameters.upper_mass[2], t365, t371);
@@ -16568,109 +13339,40 @@ pub fn matrices<T: Scalar>(
         mass_matrix_p[2][5] = t843;
         mass_matrix_p[5][2] = t843;
         // mass matrix M_p of the platform
-        let t844 = mul_add(
-            platform_rotation[2][0],
-            t287,
-            platform_rotation[2][1] * t294,
-        );
+        let t844 = mul_add(platform_rotation[2][0], t287, platform_rotation[2][1] * t294);
         let t845 = mul_add(platform_rotation[2][2], t301, t844);
-        let t846 = mul_add(
-            platform_rotation[1][0],
-            t287,
-            platform_rotation[1][1] * t294,
-        );
+        let t846 = mul_add(platform_rotation[1][0], t287, platform_rotation[1][1] * t294);
         let t847 = mul_add(platform_rotation[1][2], t301, t846);
-        let t848 = mul_add(
-            platform_rotation[0][0],
-            t287,
-            platform_rotation[0][1] * t294,
-        );
+        let t848 = mul_add(platform_rotation[0][0], t287, platform_rotation[0][1] * t294);
         let t849 = mul_add(platform_rotation[0][2], t301, t848);
-        let t850 = mul_add(
-            platform_rotation[0][0],
-            t346,
-            platform_rotation[0][1] * t375,
-        );
+        let t850 = mul_add(platform_rotation[0][0], t346, platform_rotation[0][1] * t375);
         let t851 = mul_add(platform_rotation[0][2], t390, t850);
-        let t852 = mul_add(
-            platform_rotation[0][0],
-            t318,
-            platform_rotation[0][1] * t332,
-        );
+        let t852 = mul_add(platform_rotation[0][0], t318, platform_rotation[0][1] * t332);
         let t853 = mul_add(platform_rotation[0][2], t346, t852);
-        let t854 = mul_add(
-            platform_rotation[0][0],
-            t332,
-            platform_rotation[0][1] * t361,
-        );
+        let t854 = mul_add(platform_rotation[0][0], t332, platform_rotation[0][1] * t361);
         let t855 = mul_add(platform_rotation[0][2], t375, t854);
-        let t856 = mul_add(
-            platform_rotation[0][0],
-            t853,
-            platform_rotation[0][1] * t855,
-        );
+        let t856 = mul_add(platform_rotation[0][0], t853, platform_rotation[0][1] * t855);
         let t857 = mul_add(platform_rotation[0][2], t851, t856);
-        let t858 = mul_add(
-            platform_rotation[1][0],
-            t853,
-            platform_rotation[1][1] * t855,
-        );
+        let t858 = mul_add(platform_rotation[1][0], t853, platform_rotation[1][1] * t855);
         let t859 = mul_add(platform_rotation[1][2], t851, t858);
-        let t860 = mul_add(
-            platform_rotation[2][0],
-            t853,
-            platform_rotation[2][1] * t855,
-        );
+        let t860 = mul_add(platform_rotation[2][0], t853, platform_rotation[2][1] * t855);
         let t861 = mul_add(platform_rotation[2][2], t851, t860);
-        let t862 = mul_add(
-            platform_rotation[1][0],
-            t346,
-            platform_rotation[1][1] * t375,
-        );
+        let t862 = mul_add(platform_rotation[1][0], t346, platform_rotation[1][1] * t375);
         let t863 = mul_add(platform_rotation[1][2], t390, t862);
-        let t864 = mul_add(
-            platform_rotation[1][0],
-            t318,
-            platform_rotation[1][1] * t332,
-        );
+        let t864 = mul_add(platform_rotation[1][0], t318, platform_rotation[1][1] * t332);
         let t865 = mul_add(platform_rotation[1][2], t346, t864);
-        let t866 = mul_add(
-            platform_rotation[1][0],
-            t332,
-            platform_rotation[1][1] * t361,
-        );
+        let t866 = mul_add(platform_rotation[1][0], t332, platform_rotation[1][1] * t361);
         let t867 = mul_add(platform_rotation[1][2], t375, t866);
-        let t868 = mul_add(
-            platform_rotation[1][0],
-            t865,
-            platform_rotation[1][1] * t867,
-        );
+        let t868 = mul_add(platform_rotation[1][0], t865, platform_rotation[1][1] * t867);
         let t869 = mul_add(platform_rotation[1][2], t863, t868);
-        let t870 = mul_add(
-            platform_rotation[2][0],
-            t865,
-            platform_rotation[2][1] * t867,
-        );
+        let t870 = mul_add(platform_rotation[2][0], t865, platform_rotation[2][1] * t867);
         let t871 = mul_add(platform_rotation[2][2], t863, t870);
-        let t872 = mul_add(
-            platform_rotation[2][0],
-            t346,
-            platform_rotation[2][1] * t375,
-        );
+        let t872 = mul_add(platform_rotation[2][0], t346, platform_rotation[2][1] * t375);
         let t873 = mul_add(platform_rotation[2][2], t390, t872);
-        let t874 = mul_add(
-            platform_rotation[2][0],
-            t318,
-            platform_rotation[2][1] * t332,
-        );
+        let t874 = mul_add(platform_rotation[2][0], t318, platform_rotation[2][1] * t332);
         let t875 = mul_add(platform_rotation[2][2], t346, t874);
-        let t876 = mul_add(
-            platform_rotation[2][0],
-            t332,
-            platform_rotation[2][1] * t361,
-        );
-        let t877 = platform_rotation[2][1]
-            * mul_add(platform_rotation[2][2], t375, t876);
+        let t876 = mul_add(platform_rotation[2][0], t332, platform_rotation[2][1] * t361);
+        let t877 = platform_rotation[2][1] * mul_add(platform_rotation[2][2], t375, t876);
         let t878 = mul_add(platform_rotation[2][0], t875, t877);
         let t879 = mul_add(platform_rotation[2][2], t873, t878);
         mass_matrix_p[0][0] = t280 + t727;
@@ -16708,394 +13410,37 @@ pub fn matrices<T: Scalar>(
         mass_matrix_p[5][4] = t889;
         mass_matrix_p[5][5] = t886 - t842 - t879;
         (
-            t3,
-            t6,
-            t9,
-            t12,
-            t15,
-            t18,
-            t21,
-            t24,
-            t27,
-            t28,
-            t29,
-            t30,
-            t32,
-            t34,
-            t36,
-            t40,
-            t44,
-            t48,
-            t52,
-            t56,
-            t60,
-            t64,
-            t68,
-            t72,
-            t76,
-            t80,
-            t84,
-            t88,
-            t92,
-            t96,
-            t100,
-            t104,
-            t108,
-            t110,
-            t112,
-            t114,
-            t116,
-            t118,
-            t120,
-            t121,
-            t122,
-            t123,
-            t124,
-            t125,
-            t126,
-            t127,
-            t128,
-            t129,
-            t130,
-            t131,
-            t132,
-            t133,
-            t134,
-            t135,
-            t136,
-            t137,
-            t138,
-            t141,
-            t144,
-            t147,
-            t148,
-            t149,
-            t150,
-            t152,
-            t154,
-            t156,
-            t159,
-            t162,
-            t165,
-            t166,
-            t167,
-            t168,
-            t170,
-            t172,
-            t174,
-            t177,
-            t180,
-            t183,
-            t184,
-            t185,
-            t186,
-            t188,
-            t190,
-            t192,
-            t195,
-            t198,
-            t201,
-            t202,
-            t203,
-            t204,
-            t206,
-            t208,
-            t210,
-            t213,
-            t216,
-            t219,
-            t220,
-            t221,
-            t222,
-            t224,
-            t226,
-            t228,
-            t231,
-            t234,
-            t237,
-            t238,
-            t239,
-            t240,
-            t242,
-            t244,
-            t246,
-            t248,
-            t251,
-            t253,
-            t256,
-            t258,
-            t261,
-            t263,
-            t266,
-            t268,
-            t271,
-            t273,
-            t276,
-            t303,
-            t391,
-            t393,
-            t398,
-            t399,
-            t400,
-            t402,
-            t403,
-            t404,
-            t405,
-            t407,
-            t408,
-            t409,
-            t410,
-            t411,
-            t412,
-            t415,
-            t416,
-            t419,
-            t422,
-            t423,
-            t426,
-            t428,
-            t430,
-            t431,
-            t433,
-            t434,
-            t435,
-            t436,
-            t437,
-            t438,
-            t440,
-            t441,
-            t442,
-            t443,
-            t444,
-            t445,
-            t446,
-            t447,
-            t449,
-            t454,
-            t455,
-            t456,
-            t458,
-            t459,
-            t460,
-            t461,
-            t464,
-            t466,
-            t468,
-            t471,
-            t472,
-            t475,
-            t479,
-            t482,
-            t486,
-            t489,
-            t490,
-            t491,
-            t492,
-            t493,
-            t494,
-            t496,
-            t497,
-            t498,
-            t499,
-            t500,
-            t501,
-            t502,
-            t503,
-            t505,
-            t510,
-            t511,
-            t512,
-            t514,
-            t515,
-            t516,
-            t517,
-            t519,
-            t520,
-            t521,
-            t522,
-            t523,
-            t524,
-            t527,
-            t528,
-            t531,
-            t534,
-            t535,
-            t538,
-            t540,
-            t542,
-            t543,
-            t545,
-            t546,
-            t547,
-            t548,
-            t549,
-            t550,
-            t552,
-            t553,
-            t554,
-            t555,
-            t556,
-            t557,
-            t558,
-            t559,
-            t561,
-            t566,
-            t567,
-            t568,
-            t570,
-            t571,
-            t572,
-            t573,
-            t575,
-            t576,
-            t577,
-            t578,
-            t579,
-            t580,
-            t583,
-            t584,
-            t587,
-            t590,
-            t591,
-            t594,
-            t596,
-            t598,
-            t599,
-            t601,
-            t602,
-            t603,
-            t604,
-            t605,
-            t606,
-            t608,
-            t609,
-            t610,
-            t611,
-            t612,
-            t613,
-            t614,
-            t615,
-            t617,
-            t622,
-            t623,
-            t624,
-            t626,
-            t627,
-            t628,
-            t629,
-            t631,
-            t632,
-            t633,
-            t634,
-            t635,
-            t636,
-            t639,
-            t640,
-            t643,
-            t646,
-            t647,
-            t650,
-            t652,
-            t654,
-            t655,
-            t657,
-            t658,
-            t659,
-            t660,
-            t661,
-            t662,
-            t664,
-            t665,
-            t666,
-            t667,
-            t668,
-            t669,
-            t670,
-            t671,
-            t673,
-            t678,
-            t679,
-            t680,
-            t682,
-            t683,
-            t684,
-            t685,
-            t687,
-            t688,
-            t689,
-            t690,
-            t691,
-            t692,
-            t695,
-            t696,
-            t699,
-            t702,
-            t703,
-            t706,
-            t708,
-            t710,
-            t711,
-            t713,
-            t714,
-            t715,
-            t716,
-            t717,
-            t718,
-            t720,
-            t721,
-            t722,
-            t723,
-            t724,
-            t725,
-            t726,
-            t727,
-            t730,
-            t733,
-            t739,
-            t746,
-            t753,
-            t754,
-            t757,
-            t764,
-            t777,
-            t784,
-            t785,
-            t792,
-            t799,
-            t806,
-            t812,
-            t818,
-            t824,
-            t830,
-            t836,
-            t842,
-            t845,
-            t847,
-            t849,
-            t857,
-            t859,
-            t861,
-            t869,
-            t871,
-            t879,
+            t3, t6, t9, t12, t15, t18, t21, t24, t27, t28, t29, t30, t32, t34, t36, t40, t44, t48,
+            t52, t56, t60, t64, t68, t72, t76, t80, t84, t88, t92, t96, t100, t104, t108, t110,
+            t112, t114, t116, t118, t120, t121, t122, t123, t124, t125, t126, t127, t128, t129,
+            t130, t131, t132, t133, t134, t135, t136, t137, t138, t141, t144, t147, t148, t149,
+            t150, t152, t154, t156, t159, t162, t165, t166, t167, t168, t170, t172, t174, t177,
+            t180, t183, t184, t185, t186, t188, t190, t192, t195, t198, t201, t202, t203, t204,
+            t206, t208, t210, t213, t216, t219, t220, t221, t222, t224, t226, t228, t231, t234,
+            t237, t238, t239, t240, t242, t244, t246, t248, t251, t253, t256, t258, t261, t263,
+            t266, t268, t271, t273, t276, t303, t391, t393, t398, t399, t400, t402, t403, t404,
+            t405, t407, t408, t409, t410, t411, t412, t415, t416, t419, t422, t423, t426, t428,
+            t430, t431, t433, t434, t435, t436, t437, t438, t440, t441, t442, t443, t444, t445,
+            t446, t447, t449, t454, t455, t456, t458, t459, t460, t461, t464, t466, t468, t471,
+            t472, t475, t479, t482, t486, t489, t490, t491, t492, t493, t494, t496, t497, t498,
+            t499, t500, t501, t502, t503, t505, t510, t511, t512, t514, t515, t516, t517, t519,
+            t520, t521, t522, t523, t524, t527, t528, t531, t534, t535, t538, t540, t542, t543,
+            t545, t546, t547, t548, t549, t550, t552, t553, t554, t555, t556, t557, t558, t559,
+            t561, t566, t567, t568, t570, t571, t572, t573, t575, t576, t577, t578, t579, t580,
+            t583, t584, t587, t590, t591, t594, t596, t598, t599, t601, t602, t603, t604, t605,
+            t606, t608, t609, t610, t611, t612, t613, t614, t615, t617, t622, t623, t624, t626,
+            t627, t628, t629, t631, t632, t633, t634, t635, t636, t639, t640, t643, t646, t647,
+            t650, t652, t654, t655, t657, t658, t659, t660, t661, t662, t664, t665, t666, t667,
+            t668, t669, t670, t671, t673, t678, t679, t680, t682, t683, t684, t685, t687, t688,
+            t689, t690, t691, t692, t695, t696, t699, t702, t703, t706, t708, t710, t711, t713,
+            t714, t715, t716, t717, t718, t720, t721, t722, t723, t724, t725, t726, t727, t730,
+            t733, t739, t746, t753, t754, t757, t764, t777, t784, t785, t792, t799, t806, t812,
+            t818, t824, t830, t836, t842, t845, t847, t849, t857, t859, t861, t869, t871, t879,
         )
     };
     let (
-        t1482,
-        t1496,
-        t1513,
-        t1540,
-        t1557,
-        t1571,
-        t1608,
-        t1614,
-        t1620,
-        t1644,
-        t1650,
-        t1656,
-        t1680,
-        t1686,
-        t1692,
+        t1482, t1496, t1513, t1540, t1557, t1571, t1608, t1614, t1620, t1644, t1650, t1656, t1680,
+        t1686, t1692,
     ) = {
         // mass matrix M_b that couples the base acceleration
         mass_matrix_b[0][0] = t727 + (t688 + (t632 + (t576 + (t520 + (t408 + t464)))));
@@ -18099,11 +14444,7 @@ pub fn matrices<T: Scalar>(
         let t1753 = neg_mul_add(t177, t1334, neg_mul_add(t183, t1321, t1752));
         let t1754 = neg_mul_add(t195, t1372, neg_mul_add(t201, t1359, t1753));
         let t1755 = neg_mul_add(t213, t1410, neg_mul_add(t219, t1397, t1754));
-        coriolis_matrix_b[4][3] = neg_mul_add(
-            t231,
-            t1448,
-            neg_mul_add(t237, t1435, t1755),
-        );
+        coriolis_matrix_b[4][3] = neg_mul_add(t231, t1448, neg_mul_add(t237, t1435, t1755));
         let t1756 = mul_sub(t30, t1626, neg_mul_add(t28, t1638, t1650));
         let t1757 = mul_sub(t746, t1036, mul_add(t799, t1034, t1756));
         let t1758 = mul_sub(t141, t1259, mul_sub(t147, t1250, t1757));
@@ -18145,21 +14486,8 @@ pub fn matrices<T: Scalar>(
         let t1790 = mul_sub(t216, t1405, mul_sub(t213, t1409, t1789));
         coriolis_matrix_b[5][5] = mul_sub(t234, t1443, mul_sub(t231, t1447, t1790));
         (
-            t1482,
-            t1496,
-            t1513,
-            t1540,
-            t1557,
-            t1571,
-            t1608,
-            t1614,
-            t1620,
-            t1644,
-            t1650,
-            t1656,
-            t1680,
-            t1686,
-            t1692,
+            t1482, t1496, t1513, t1540, t1557, t1571, t1608, t1614, t1620, t1644, t1650, t1656,
+            t1680, t1686, t1692,
         )
     };
     {
@@ -19167,11 +15495,7 @@ pub fn bias<T: Scalar>(
     let t215 = parameters.platform_point[1][0] * parameters.platform_point[1][1];
     let t216 = parameters.platform_point[0][0] * parameters.platform_point[0][1];
     let t217 = parameters.payload_com[0] * parameters.payload_com[1];
-    let t218 = neg_mul_add(
-        parameters.payload_mass,
-        t217,
-        parameters.payload_inertia[0][1],
-    );
+    let t218 = neg_mul_add(parameters.payload_mass, t217, parameters.payload_inertia[0][1]);
     let t219 = mul_sub(parameters.upper_mass[0], t216, t218);
     let t220 = mul_add(parameters.upper_mass[1], t215, t219);
     let t221 = mul_add(parameters.upper_mass[2], t214, t220);
@@ -19185,11 +15509,7 @@ pub fn bias<T: Scalar>(
     let t229 = parameters.platform_point[1][0] * parameters.platform_point[1][2];
     let t230 = parameters.platform_point[0][0] * parameters.platform_point[0][2];
     let t231 = parameters.payload_com[0] * parameters.payload_com[2];
-    let t232 = neg_mul_add(
-        parameters.payload_mass,
-        t231,
-        parameters.payload_inertia[0][2],
-    );
+    let t232 = neg_mul_add(parameters.payload_mass, t231, parameters.payload_inertia[0][2]);
     let t233 = mul_sub(parameters.upper_mass[0], t230, t232);
     let t234 = mul_add(parameters.upper_mass[1], t229, t233);
     let t235 = mul_add(parameters.upper_mass[2], t228, t234);
@@ -19218,11 +15538,7 @@ pub fn bias<T: Scalar>(
     let t258 = parameters.platform_point[1][1] * parameters.platform_point[1][2];
     let t259 = parameters.platform_point[0][1] * parameters.platform_point[0][2];
     let t260 = parameters.payload_com[1] * parameters.payload_com[2];
-    let t261 = neg_mul_add(
-        parameters.payload_mass,
-        t260,
-        parameters.payload_inertia[1][2],
-    );
+    let t261 = neg_mul_add(parameters.payload_mass, t260, parameters.payload_inertia[1][2]);
     let t262 = mul_sub(parameters.upper_mass[0], t259, t261);
     let t263 = mul_add(parameters.upper_mass[1], t258, t262);
     let t264 = mul_add(parameters.upper_mass[2], t257, t263);
@@ -19922,401 +16238,32 @@ pub fn equation_of_motion<T: Scalar>(
 ) {
     let c = T::constant;
     let (
-        t3,
-        t6,
-        t9,
-        t12,
-        t15,
-        t18,
-        t21,
-        t24,
-        t27,
-        t28,
-        t29,
-        t30,
-        t32,
-        t34,
-        t36,
-        t40,
-        t44,
-        t48,
-        t52,
-        t56,
-        t60,
-        t64,
-        t68,
-        t72,
-        t76,
-        t80,
-        t84,
-        t88,
-        t92,
-        t96,
-        t100,
-        t104,
-        t108,
-        t109,
-        t110,
-        t111,
-        t112,
-        t113,
-        t114,
-        t115,
-        t116,
-        t117,
-        t118,
-        t119,
-        t120,
-        t121,
-        t122,
-        t123,
-        t124,
-        t125,
-        t126,
-        t127,
-        t128,
-        t129,
-        t130,
-        t131,
-        t132,
-        t133,
-        t134,
-        t135,
-        t136,
-        t137,
-        t138,
-        t141,
-        t144,
-        t147,
-        t152,
-        t154,
-        t156,
-        t159,
-        t162,
-        t165,
-        t170,
-        t172,
-        t174,
-        t177,
-        t180,
-        t183,
-        t188,
-        t190,
-        t192,
-        t195,
-        t198,
-        t201,
-        t206,
-        t208,
-        t210,
-        t213,
-        t216,
-        t219,
-        t224,
-        t226,
-        t228,
-        t231,
-        t234,
-        t237,
-        t242,
-        t244,
-        t246,
-        t247,
-        t248,
-        t249,
-        t250,
-        t251,
-        t252,
-        t253,
-        t254,
-        t255,
-        t256,
-        t257,
-        t258,
-        t259,
-        t260,
-        t261,
-        t262,
-        t263,
-        t264,
-        t265,
-        t266,
-        t267,
-        t268,
-        t269,
-        t270,
-        t271,
-        t272,
-        t273,
-        t274,
-        t275,
-        t276,
-        t277,
-        t278,
-        t279,
-        t280,
-        t281,
-        t282,
-        t284,
-        t287,
-        t289,
-        t292,
-        t294,
-        t297,
-        t299,
-        t302,
-        t304,
-        t307,
-        t309,
-        t312,
-        t316,
-        t323,
-        t330,
-        t337,
-        t339,
-        t354,
-        t368,
-        t382,
-        t397,
-        t411,
-        t426,
-        t427,
-        t429,
-        t434,
-        t435,
-        t436,
-        t438,
-        t439,
-        t440,
-        t441,
-        t443,
-        t444,
-        t445,
-        t446,
-        t447,
-        t448,
-        t451,
-        t452,
-        t455,
-        t458,
-        t459,
-        t462,
-        t464,
-        t466,
-        t467,
-        t469,
-        t470,
-        t471,
-        t472,
-        t473,
-        t474,
-        t476,
-        t477,
-        t478,
-        t479,
-        t480,
-        t481,
-        t482,
-        t483,
-        t485,
-        t490,
-        t491,
-        t492,
-        t494,
-        t495,
-        t496,
-        t497,
-        t500,
-        t502,
-        t504,
-        t507,
-        t508,
-        t511,
-        t515,
-        t518,
-        t522,
-        t525,
-        t526,
-        t527,
-        t528,
-        t529,
-        t530,
-        t532,
-        t533,
-        t534,
-        t535,
-        t536,
-        t537,
-        t538,
-        t539,
-        t541,
-        t546,
-        t547,
-        t548,
-        t550,
-        t551,
-        t552,
-        t553,
-        t555,
-        t556,
-        t557,
-        t558,
-        t559,
-        t560,
-        t563,
-        t564,
-        t567,
-        t570,
-        t571,
-        t574,
-        t576,
-        t578,
-        t579,
-        t581,
-        t582,
-        t583,
-        t584,
-        t585,
-        t586,
-        t588,
-        t589,
-        t590,
-        t591,
-        t592,
-        t593,
-        t594,
-        t595,
-        t597,
-        t602,
-        t603,
-        t604,
-        t606,
-        t607,
-        t608,
-        t609,
-        t611,
-        t612,
-        t613,
-        t614,
-        t615,
-        t616,
-        t619,
-        t620,
-        t623,
-        t626,
-        t627,
-        t630,
-        t632,
-        t634,
-        t635,
-        t637,
-        t638,
-        t639,
-        t640,
-        t641,
-        t642,
-        t644,
-        t645,
-        t646,
-        t647,
-        t648,
-        t649,
-        t650,
-        t651,
-        t653,
-        t658,
-        t659,
-        t660,
-        t662,
-        t663,
-        t664,
-        t665,
-        t667,
-        t668,
-        t669,
-        t670,
-        t671,
-        t672,
-        t675,
-        t676,
-        t679,
-        t682,
-        t683,
-        t686,
-        t688,
-        t690,
-        t691,
-        t693,
-        t694,
-        t695,
-        t696,
-        t697,
-        t698,
-        t700,
-        t701,
-        t702,
-        t703,
-        t704,
-        t705,
-        t706,
-        t707,
-        t709,
-        t714,
-        t715,
-        t716,
-        t718,
-        t719,
-        t720,
-        t721,
-        t723,
-        t724,
-        t725,
-        t726,
-        t727,
-        t728,
-        t731,
-        t732,
-        t735,
-        t738,
-        t739,
-        t742,
-        t744,
-        t746,
-        t747,
-        t749,
-        t750,
-        t751,
-        t752,
-        t753,
-        t754,
-        t756,
-        t757,
-        t758,
-        t759,
-        t760,
-        t761,
-        t762,
-        t763,
-        t766,
-        t769,
-        t775,
-        t782,
-        t789,
-        t790,
-        t793,
-        t800,
-        t813,
-        t820,
-        t821,
-        t828,
-        t835,
-        t842,
-        t848,
-        t854,
-        t860,
-        t866,
-        t872,
-        t878,
+        t3, t6, t9, t12, t15, t18, t21, t24, t27, t28, t29, t30, t32, t34, t36, t40, t44, t48, t52,
+        t56, t60, t64, t68, t72, t76, t80, t84, t88, t92, t96, t100, t104, t108, t109, t110, t111,
+        t112, t113, t114, t115, t116, t117, t118, t119, t120, t121, t122, t123, t124, t125, t126,
+        t127, t128, t129, t130, t131, t132, t133, t134, t135, t136, t137, t138, t141, t144, t147,
+        t152, t154, t156, t159, t162, t165, t170, t172, t174, t177, t180, t183, t188, t190, t192,
+        t195, t198, t201, t206, t208, t210, t213, t216, t219, t224, t226, t228, t231, t234, t237,
+        t242, t244, t246, t247, t248, t249, t250, t251, t252, t253, t254, t255, t256, t257, t258,
+        t259, t260, t261, t262, t263, t264, t265, t266, t267, t268, t269, t270, t271, t272, t273,
+        t274, t275, t276, t277, t278, t279, t280, t281, t282, t284, t287, t289, t292, t294, t297,
+        t299, t302, t304, t307, t309, t312, t316, t323, t330, t337, t339, t354, t368, t382, t397,
+        t411, t426, t427, t429, t434, t435, t436, t438, t439, t440, t441, t443, t444, t445, t446,
+        t447, t448, t451, t452, t455, t458, t459, t462, t464, t466, t467, t469, t470, t471, t472,
+        t473, t474, t476, t477, t478, t479, t480, t481, t482, t483, t485, t490, t491, t492, t494,
+        t495, t496, t497, t500, t502, t504, t507, t508, t511, t515, t518, t522, t525, t526, t527,
+        t528, t529, t530, t532, t533, t534, t535, t536, t537, t538, t539, t541, t546, t547, t548,
+        t550, t551, t552, t553, t555, t556, t557, t558, t559, t560, t563, t564, t567, t570, t571,
+        t574, t576, t578, t579, t581, t582, t583, t584, t585, t586, t588, t589, t590, t591, t592,
+        t593, t594, t595, t597, t602, t603, t604, t606, t607, t608, t609, t611, t612, t613, t614,
+        t615, t616, t619, t620, t623, t626, t627, t630, t632, t634, t635, t637, t638, t639, t640,
+        t641, t642, t644, t645, t646, t647, t648, t649, t650, t651, t653, t658, t659, t660, t662,
+        t663, t664, t665, t667, t668, t669, t670, t671, t672, t675, t676, t679, t682, t683, t686,
+        t688, t690, t691, t693, t694, t695, t696, t697, t698, t700, t701, t702, t703, t704, t705,
+        t706, t707, t709, t714, t715, t716, t718, t719, t720, t721, t723, t724, t725, t726, t727,
+        t728, t731, t732, t735, t738, t739, t742, t744, t746, t747, t749, t750, t751, t752, t753,
+        t754, t756, t757, t758, t759, t760, t761, t762, t763, t766, t769, t775, t782, t789, t790,
+        t793, t800, t813, t820, t821, t828, t835, t842, t848, t854, t860, t866, t872, t878,
     ) = {
         // rotation of the platform seen from the base
         let t1 = base_rotation[1][0] * platform_rotation[1][0];
@@ -20484,38 +16431,14 @@ pub fn equation_of_motion<T: Scalar>(
         let t138 = t108 * t120;
         // leg 1: platform joint from the platform origin
         let t139 = platform_rotation[0][1] * parameters.platform_point[0][1];
-        let t140 = mul_add(
-            platform_rotation[0][0],
-            parameters.platform_point[0][0],
-            t139,
-        );
-        let t141 = mul_add(
-            platform_rotation[0][2],
-            parameters.platform_point[0][2],
-            t140,
-        );
+        let t140 = mul_add(platform_rotation[0][0], parameters.platform_point[0][0], t139);
+        let t141 = mul_add(platform_rotation[0][2], parameters.platform_point[0][2], t140);
         let t142 = platform_rotation[1][1] * parameters.platform_point[0][1];
-        let t143 = mul_add(
-            platform_rotation[1][0],
-            parameters.platform_point[0][0],
-            t142,
-        );
-        let t144 = mul_add(
-            platform_rotation[1][2],
-            parameters.platform_point[0][2],
-            t143,
-        );
+        let t143 = mul_add(platform_rotation[1][0], parameters.platform_point[0][0], t142);
+        let t144 = mul_add(platform_rotation[1][2], parameters.platform_point[0][2], t143);
         let t145 = platform_rotation[2][1] * parameters.platform_point[0][1];
-        let t146 = mul_add(
-            platform_rotation[2][0],
-            parameters.platform_point[0][0],
-            t145,
-        );
-        let t147 = mul_add(
-            platform_rotation[2][2],
-            parameters.platform_point[0][2],
-            t146,
-        );
+        let t146 = mul_add(platform_rotation[2][0], parameters.platform_point[0][0], t145);
+        let t147 = mul_add(platform_rotation[2][2], parameters.platform_point[0][2], t146);
         // leg 1: platform joint from the base origin
         let t148 = t28 - t141;
         let t149 = t29 - t144;
@@ -20535,38 +16458,14 @@ pub fn equation_of_motion<T: Scalar>(
         jacobian_db[0][2] = t156;
         // leg 2: platform joint from the platform origin
         let t157 = platform_rotation[0][1] * parameters.platform_point[1][1];
-        let t158 = mul_add(
-            platform_rotation[0][0],
-            parameters.platform_point[1][0],
-            t157,
-        );
-        let t159 = mul_add(
-            platform_rotation[0][2],
-            parameters.platform_point[1][2],
-            t158,
-        );
+        let t158 = mul_add(platform_rotation[0][0], parameters.platform_point[1][0], t157);
+        let t159 = mul_add(platform_rotation[0][2], parameters.platform_point[1][2], t158);
         let t160 = platform_rotation[1][1] * parameters.platform_point[1][1];
-        let t161 = mul_add(
-            platform_rotation[1][0],
-            parameters.platform_point[1][0],
-            t160,
-        );
-        let t162 = mul_add(
-            platform_rotation[1][2],
-            parameters.platform_point[1][2],
-            t161,
-        );
+        let t161 = mul_add(platform_rotation[1][0], parameters.platform_point[1][0], t160);
+        let t162 = mul_add(platform_rotation[1][2], parameters.platform_point[1][2], t161);
         let t163 = platform_rotation[2][1] * parameters.platform_point[1][1];
-        let t164 = mul_add(
-            platform_rotation[2][0],
-            parameters.platform_point[1][0],
-            t163,
-        );
-        let t165 = mul_add(
-            platform_rotation[2][2],
-            parameters.platform_point[1][2],
-            t164,
-        );
+        let t164 = mul_add(platform_rotation[2][0], parameters.platform_point[1][0], t163);
+        let t165 = mul_add(platform_rotation[2][2], parameters.platform_point[1][2], t164);
         // leg 2: platform joint from the base origin
         let t166 = t28 - t159;
         let t167 = t29 - t162;
@@ -20586,38 +16485,14 @@ pub fn equation_of_motion<T: Scalar>(
         jacobian_db[1][2] = t174;
         // leg 3: platform joint from the platform origin
         let t175 = platform_rotation[0][1] * parameters.platform_point[2][1];
-        let t176 = mul_add(
-            platform_rotation[0][0],
-            parameters.platform_point[2][0],
-            t175,
-        );
-        let t177 = mul_add(
-            platform_rotation[0][2],
-            parameters.platform_point[2][2],
-            t176,
-        );
+        let t176 = mul_add(platform_rotation[0][0], parameters.platform_point[2][0], t175);
+        let t177 = mul_add(platform_rotation[0][2], parameters.platform_point[2][2], t176);
         let t178 = platform_rotation[1][1] * parameters.platform_point[2][1];
-        let t179 = mul_add(
-            platform_rotation[1][0],
-            parameters.platform_point[2][0],
-            t178,
-        );
-        let t180 = mul_add(
-            platform_rotation[1][2],
-            parameters.platform_point[2][2],
-            t179,
-        );
+        let t179 = mul_add(platform_rotation[1][0], parameters.platform_point[2][0], t178);
+        let t180 = mul_add(platform_rotation[1][2], parameters.platform_point[2][2], t179);
         let t181 = platform_rotation[2][1] * parameters.platform_point[2][1];
-        let t182 = mul_add(
-            platform_rotation[2][0],
-            parameters.platform_point[2][0],
-            t181,
-        );
-        let t183 = mul_add(
-            platform_rotation[2][2],
-            parameters.platform_point[2][2],
-            t182,
-        );
+        let t182 = mul_add(platform_rotation[2][0], parameters.platform_point[2][0], t181);
+        let t183 = mul_add(platform_rotation[2][2], parameters.platform_point[2][2], t182);
         // leg 3: platform joint from the base origin
         let t184 = t28 - t177;
         let t185 = t29 - t180;
@@ -20637,38 +16512,14 @@ pub fn equation_of_motion<T: Scalar>(
         jacobian_db[2][2] = t192;
         // leg 4: platform joint from the platform origin
         let t193 = platform_rotation[0][1] * parameters.platform_point[3][1];
-        let t194 = mul_add(
-            platform_rotation[0][0],
-            parameters.platform_point[3][0],
-            t193,
-        );
-        let t195 = mul_add(
-            platform_rotation[0][2],
-            parameters.platform_point[3][2],
-            t194,
-        );
+        let t194 = mul_add(platform_rotation[0][0], parameters.platform_point[3][0], t193);
+        let t195 = mul_add(platform_rotation[0][2], parameters.platform_point[3][2], t194);
         let t196 = platform_rotation[1][1] * parameters.platform_point[3][1];
-        let t197 = mul_add(
-            platform_rotation[1][0],
-            parameters.platform_point[3][0],
-            t196,
-        );
-        let t198 = mul_add(
-            platform_rotation[1][2],
-            parameters.platform_point[3][2],
-            t197,
-        );
+        let t197 = mul_add(platform_rotation[1][0], parameters.platform_point[3][0], t196);
+        let t198 = mul_add(platform_rotation[1][2], parameters.platform_point[3][2], t197);
         let t199 = platform_rotation[2][1] * parameters.platform_point[3][1];
-        let t200 = mul_add(
-            platform_rotation[2][0],
-            parameters.platform_point[3][0],
-            t199,
-        );
-        let t201 = mul_add(
-            platform_rotation[2][2],
-            parameters.platform_point[3][2],
-            t200,
-        );
+        let t200 = mul_add(platform_rotation[2][0], parameters.platform_point[3][0], t199);
+        let t201 = mul_add(platform_rotation[2][2], parameters.platform_point[3][2], t200);
         // leg 4: platform joint from the base origin
         let t202 = t28 - t195;
         let t203 = t29 - t198;
@@ -20688,38 +16539,14 @@ pub fn equation_of_motion<T: Scalar>(
         jacobian_db[3][2] = t210;
         // leg 5: platform joint from the platform origin
         let t211 = platform_rotation[0][1] * parameters.platform_point[4][1];
-        let t212 = mul_add(
-            platform_rotation[0][0],
-            parameters.platform_point[4][0],
-            t211,
-        );
-        let t213 = mul_add(
-            platform_rotation[0][2],
-            parameters.platform_point[4][2],
-            t212,
-        );
+        let t212 = mul_add(platform_rotation[0][0], parameters.platform_point[4][0], t211);
+        let t213 = mul_add(platform_rotation[0][2], parameters.platform_point[4][2], t212);
         let t214 = platform_rotation[1][1] * parameters.platform_point[4][1];
-        let t215 = mul_add(
-            platform_rotation[1][0],
-            parameters.platform_point[4][0],
-            t214,
-        );
-        let t216 = mul_add(
-            platform_rotation[1][2],
-            parameters.platform_point[4][2],
-            t215,
-        );
+        let t215 = mul_add(platform_rotation[1][0], parameters.platform_point[4][0], t214);
+        let t216 = mul_add(platform_rotation[1][2], parameters.platform_point[4][2], t215);
         let t217 = platform_rotation[2][1] * parameters.platform_point[4][1];
-        let t218 = mul_add(
-            platform_rotation[2][0],
-            parameters.platform_point[4][0],
-            t217,
-        );
-        let t219 = mul_add(
-            platform_rotation[2][2],
-            parameters.platform_point[4][2],
-            t218,
-        );
+        let t218 = mul_add(platform_rotation[2][0], parameters.platform_point[4][0], t217);
+        let t219 = mul_add(platform_rotation[2][2], parameters.platform_point[4][2], t218);
         // leg 5: platform joint from the base origin
         let t220 = t28 - t213;
         let t221 = t29 - t216;
@@ -20739,38 +16566,14 @@ pub fn equation_of_motion<T: Scalar>(
         jacobian_db[4][2] = t228;
         // leg 6: platform joint from the platform origin
         let t229 = platform_rotation[0][1] * parameters.platform_point[5][1];
-        let t230 = mul_add(
-            platform_rotation[0][0],
-            parameters.platform_point[5][0],
-            t229,
-        );
-        let t231 = mul_add(
-            platform_rotation[0][2],
-            parameters.platform_point[5][2],
-            t230,
-        );
+        let t230 = mul_add(platform_rotation[0][0], parameters.platform_point[5][0], t229);
+        let t231 = mul_add(platform_rotation[0][2], parameters.platform_point[5][2], t230);
         let t232 = platform_rotation[1][1] * parameters.platform_point[5][1];
-        let t233 = mul_add(
-            platform_rotation[1][0],
-            parameters.platform_point[5][0],
-            t232,
-        );
-        let t234 = mul_add(
-            platform_rotation[1][2],
-            parameters.platform_point[5][2],
-            t233,
-        );
+        let t233 = mul_add(platform_rotation[1][0], parameters.platform_point[5][0], t232);
+        let t234 = mul_add(platform_rotation[1][2], parameters.platform_point[5][2], t233);
         let t235 = platform_rotation[2][1] * parameters.platform_point[5][1];
-        let t236 = mul_add(
-            platform_rotation[2][0],
-            parameters.platform_point[5][0],
-            t235,
-        );
-        let t237 = mul_add(
-            platform_rotation[2][2],
-            parameters.platform_point[5][2],
-            t236,
-        );
+        let t236 = mul_add(platform_rotation[2][0], parameters.platform_point[5][0], t235);
+        let t237 = mul_add(platform_rotation[2][2], parameters.platform_point[5][2], t236);
         // leg 6: platform joint from the base origin
         let t238 = t28 - t231;
         let t239 = t29 - t234;
@@ -20928,85 +16731,25 @@ pub fn equation_of_motion<T: Scalar>(
         // first moment of payload and platform-side leg ends
         let t317 = parameters.platform_point[0][0] * parameters.upper_mass[0];
         let t318 = mul_add(parameters.payload_mass, parameters.payload_com[0], t317);
-        let t319 = mul_add(
-            parameters.platform_point[1][0],
-            parameters.upper_mass[1],
-            t318,
-        );
-        let t320 = mul_add(
-            parameters.platform_point[2][0],
-            parameters.upper_mass[2],
-            t319,
-        );
-        let t321 = mul_add(
-            parameters.platform_point[3][0],
-            parameters.upper_mass[3],
-            t320,
-        );
-        let t322 = mul_add(
-            parameters.platform_point[4][0],
-            parameters.upper_mass[4],
-            t321,
-        );
-        let t323 = mul_add(
-            parameters.platform_point[5][0],
-            parameters.upper_mass[5],
-            t322,
-        );
+        let t319 = mul_add(parameters.platform_point[1][0], parameters.upper_mass[1], t318);
+        let t320 = mul_add(parameters.platform_point[2][0], parameters.upper_mass[2], t319);
+        let t321 = mul_add(parameters.platform_point[3][0], parameters.upper_mass[3], t320);
+        let t322 = mul_add(parameters.platform_point[4][0], parameters.upper_mass[4], t321);
+        let t323 = mul_add(parameters.platform_point[5][0], parameters.upper_mass[5], t322);
         let t324 = parameters.platform_point[0][1] * parameters.upper_mass[0];
         let t325 = mul_add(parameters.payload_mass, parameters.payload_com[1], t324);
-        let t326 = mul_add(
-            parameters.platform_point[1][1],
-            parameters.upper_mass[1],
-            t325,
-        );
-        let t327 = mul_add(
-            parameters.platform_point[2][1],
-            parameters.upper_mass[2],
-            t326,
-        );
-        let t328 = mul_add(
-            parameters.platform_point[3][1],
-            parameters.upper_mass[3],
-            t327,
-        );
-        let t329 = mul_add(
-            parameters.platform_point[4][1],
-            parameters.upper_mass[4],
-            t328,
-        );
-        let t330 = mul_add(
-            parameters.platform_point[5][1],
-            parameters.upper_mass[5],
-            t329,
-        );
+        let t326 = mul_add(parameters.platform_point[1][1], parameters.upper_mass[1], t325);
+        let t327 = mul_add(parameters.platform_point[2][1], parameters.upper_mass[2], t326);
+        let t328 = mul_add(parameters.platform_point[3][1], parameters.upper_mass[3], t327);
+        let t329 = mul_add(parameters.platform_point[4][1], parameters.upper_mass[4], t328);
+        let t330 = mul_add(parameters.platform_point[5][1], parameters.upper_mass[5], t329);
         let t331 = parameters.platform_point[0][2] * parameters.upper_mass[0];
         let t332 = mul_add(parameters.payload_mass, parameters.payload_com[2], t331);
-        let t333 = mul_add(
-            parameters.platform_point[1][2],
-            parameters.upper_mass[1],
-            t332,
-        );
-        let t334 = mul_add(
-            parameters.platform_point[2][2],
-            parameters.upper_mass[2],
-            t333,
-        );
-        let t335 = mul_add(
-            parameters.platform_point[3][2],
-            parameters.upper_mass[3],
-            t334,
-        );
-        let t336 = mul_add(
-            parameters.platform_point[4][2],
-            parameters.upper_mass[4],
-            t335,
-        );
-        let t337 = mul_add(
-            parameters.platform_point[5][2],
-            parameters.upper_mass[5],
-            t336,
-        );
+        let t333 = mul_add(parameters.platform_point[1][2], parameters.upper_mass[1], t332);
+        let t334 = mul_add(parameters.platform_point[2][2], parameters.upper_mass[2], t333);
+        let t335 = mul_add(parameters.platform_point[3][2], parameters.upper_mass[3], t334);
+        let t336 = mul_add(parameters.platform_point[4][2], parameters.upper_mass[4], t335);
+        let t337 = mul_add(parameters.platform_point[5][2], parameters.upper_mass[5], t336);
         // second moment of payload and platform-side leg ends
         let t338 = parameters.payload_inertia[0][0] + parameters.payload_inertia[1][1];
         let t339 = parameters.payload_inertia[2][2] + t338;
@@ -21032,11 +16775,7 @@ pub fn equation_of_motion<T: Scalar>(
         let t359 = parameters.platform_point[1][0] * parameters.platform_point[1][1];
         let t360 = parameters.platform_point[0][0] * parameters.platform_point[0][1];
         let t361 = parameters.payload_com[0] * parameters.payload_com[1];
-        let t362 = neg_mul_add(
-            parameters.payload_mass,
-            t361,
-            parameters.payload_inertia[0][1],
-        );
+        let t362 = neg_mul_add(parameters.payload_mass, t361, parameters.payload_inertia[0][1]);
         let t363 = mul_sub(parameters.upper_mass[0], t360, t362);
         let t364 = mul_add(parameters.upper_mass[1], t359, t363);
         let t365 = mul_add(parameters.upper_mass[2], t358, t364);
@@ -21050,11 +16789,7 @@ pub fn equation_of_motion<T: Scalar>(
         let t373 = parameters.platform_point[1][0] * parameters.platform_point[1][2];
         let t374 = parameters.platform_point[0][0] * parameters.platform_point[0][2];
         let t375 = parameters.payload_com[0] * parameters.payload_com[2];
-        let t376 = neg_mul_add(
-            parameters.payload_mass,
-            t375,
-            parameters.payload_inertia[0][2],
-        );
+        let t376 = neg_mul_add(parameters.payload_mass, t375, parameters.payload_inertia[0][2]);
         let t377 = mul_sub(parameters.upper_mass[0], t374, t376);
         let t378 = mul_add(parameters.upper_mass[1], t373, t377);
         let t379 = mul_add(parameters.upper_mass[2], t372, t378);
@@ -21083,11 +16818,7 @@ pub fn equation_of_motion<T: Scalar>(
         let t402 = parameters.platform_point[1][1] * parameters.platform_point[1][2];
         let t403 = parameters.platform_point[0][1] * parameters.platform_point[0][2];
         let t404 = parameters.payload_com[1] * parameters.payload_com[2];
-        let t405 = neg_mul_add(
-            parameters.payload_mass,
-            t404,
-            parameters.payload_inertia[1][2],
-        );
+        let t405 = neg_mul_add(parameters.payload_mass, t404, parameters.payload_inertia[1][2]);
         let t406 = mul_sub(parameters.upper_mass[0], t403, t405);
         let t407 = mul_add(parameters.upper_mass[1], t402, t406);
         let t408 = mul_add(parameters.upper_mass[2], t401, t407);
@@ -21588,632 +17319,83 @@ pub fn equation_of_motion<T: Scalar>(
         mass_matrix_p[2][5] = t879;
         mass_matrix_p[5][2] = t879;
         (
-            t3,
-            t6,
-            t9,
-            t12,
-            t15,
-            t18,
-            t21,
-            t24,
-            t27,
-            t28,
-            t29,
-            t30,
-            t32,
-            t34,
-            t36,
-            t40,
-            t44,
-            t48,
-            t52,
-            t56,
-            t60,
-            t64,
-            t68,
-            t72,
-            t76,
-            t80,
-            t84,
-            t88,
-            t92,
-            t96,
-            t100,
-            t104,
-            t108,
-            t109,
-            t110,
-            t111,
-            t112,
-            t113,
-            t114,
-            t115,
-            t116,
-            t117,
-            t118,
-            t119,
-            t120,
-            t121,
-            t122,
-            t123,
-            t124,
-            t125,
-            t126,
-            t127,
-            t128,
-            t129,
-            t130,
-            t131,
-            t132,
-            t133,
-            t134,
-            t135,
-            t136,
-            t137,
-            t138,
-            t141,
-            t144,
-            t147,
-            t152,
-            t154,
-            t156,
-            t159,
-            t162,
-            t165,
-            t170,
-            t172,
-            t174,
-            t177,
-            t180,
-            t183,
-            t188,
-            t190,
-            t192,
-            t195,
-            t198,
-            t201,
-            t206,
-            t208,
-            t210,
-            t213,
-            t216,
-            t219,
-            t224,
-            t226,
-            t228,
-            t231,
-            t234,
-            t237,
-            t242,
-            t244,
-            t246,
-            t247,
-            t248,
-            t249,
-            t250,
-            t251,
-            t252,
-            t253,
-            t254,
-            t255,
-            t256,
-            t257,
-            t258,
-            t259,
-            t260,
-            t261,
-            t262,
-            t263,
-            t264,
-            t265,
-            t266,
-            t267,
-            t268,
-            t269,
-            t270,
-            t271,
-            t272,
-            t273,
-            t274,
-            t275,
-            t276,
-            t277,
-            t278,
-            t279,
-            t280,
-            t281,
-            t282,
-            t284,
-            t287,
-            t289,
-            t292,
-            t294,
-            t297,
-            t299,
-            t302,
-            t304,
-            t307,
-            t309,
-            t312,
-            t316,
-            t323,
-            t330,
-            t337,
-            t339,
-            t354,
-            t368,
-            t382,
-            t397,
-            t411,
-            t426,
-            t427,
-            t429,
-            t434,
-            t435,
-            t436,
-            t438,
-            t439,
-            t440,
-            t441,
-            t443,
-            t444,
-            t445,
-            t446,
-            t447,
-            t448,
-            t451,
-            t452,
-            t455,
-            t458,
-            t459,
-            t462,
-            t464,
-            t466,
-            t467,
-            t469,
-            t470,
-            t471,
-            t472,
-            t473,
-            t474,
-            t476,
-            t477,
-            t478,
-            t479,
-            t480,
-            t481,
-            t482,
-            t483,
-            t485,
-            t490,
-            t491,
-            t492,
-            t494,
-            t495,
-            t496,
-            t497,
-            t500,
-            t502,
-            t504,
-            t507,
-            t508,
-            t511,
-            t515,
-            t518,
-            t522,
-            t525,
-            t526,
-            t527,
-            t528,
-            t529,
-            t530,
-            t532,
-            t533,
-            t534,
-            t535,
-            t536,
-            t537,
-            t538,
-            t539,
-            t541,
-            t546,
-            t547,
-            t548,
-            t550,
-            t551,
-            t552,
-            t553,
-            t555,
-            t556,
-            t557,
-            t558,
-            t559,
-            t560,
-            t563,
-            t564,
-            t567,
-            t570,
-            t571,
-            t574,
-            t576,
-            t578,
-            t579,
-            t581,
-            t582,
-            t583,
-            t584,
-            t585,
-            t586,
-            t588,
-            t589,
-            t590,
-            t591,
-            t592,
-            t593,
-            t594,
-            t595,
-            t597,
-            t602,
-            t603,
-            t604,
-            t606,
-            t607,
-            t608,
-            t609,
-            t611,
-            t612,
-            t613,
-            t614,
-            t615,
-            t616,
-            t619,
-            t620,
-            t623,
-            t626,
-            t627,
-            t630,
-            t632,
-            t634,
-            t635,
-            t637,
-            t638,
-            t639,
-            t640,
-            t641,
-            t642,
-            t644,
-            t645,
-            t646,
-            t647,
-            t648,
-            t649,
-            t650,
-            t651,
-            t653,
-            t658,
-            t659,
-            t660,
-            t662,
-            t663,
-            t664,
-            t665,
-            t667,
-            t668,
-            t669,
-            t670,
-            t671,
-            t672,
-            t675,
-            t676,
-            t679,
-            t682,
-            t683,
-            t686,
-            t688,
-            t690,
-            t691,
-            t693,
-            t694,
-            t695,
-            t696,
-            t697,
-            t698,
-            t700,
-            t701,
-            t702,
-            t703,
-            t704,
-            t705,
-            t706,
-            t707,
-            t709,
-            t714,
-            t715,
-            t716,
-            t718,
-            t719,
-            t720,
-            t721,
-            t723,
-            t724,
-            t725,
-            t726,
-            t727,
-            t728,
-            t731,
-            t732,
-            t735,
-            t738,
-            t739,
-            t742,
-            t744,
-            t746,
-            t747,
-            t749,
-            t750,
-            t751,
-            t752,
-            t753,
-            t754,
-            t756,
-            t757,
-            t758,
-            t759,
-            t760,
-            t761,
-            t762,
-            t763,
-            t766,
-            t769,
-            t775,
-            t782,
-            t789,
-            t790,
-            t793,
-            t800,
-            t813,
-            t820,
-            t821,
-            t828,
-            t835,
-            t842,
-            t848,
-            t854,
-            t860,
-            t866,
-            t872,
-            t878,
+            t3, t6, t9, t12, t15, t18, t21, t24, t27, t28, t29, t30, t32, t34, t36, t40, t44, t48,
+            t52, t56, t60, t64, t68, t72, t76, t80, t84, t88, t92, t96, t100, t104, t108, t109,
+            t110, t111, t112, t113, t114, t115, t116, t117, t118, t119, t120, t121, t122, t123,
+            t124, t125, t126, t127, t128, t129, t130, t131, t132, t133, t134, t135, t136, t137,
+            t138, t141, t144, t147, t152, t154, t156, t159, t162, t165, t170, t172, t174, t177,
+            t180, t183, t188, t190, t192, t195, t198, t201, t206, t208, t210, t213, t216, t219,
+            t224, t226, t228, t231, t234, t237, t242, t244, t246, t247, t248, t249, t250, t251,
+            t252, t253, t254, t255, t256, t257, t258, t259, t260, t261, t262, t263, t264, t265,
+            t266, t267, t268, t269, t270, t271, t272, t273, t274, t275, t276, t277, t278, t279,
+            t280, t281, t282, t284, t287, t289, t292, t294, t297, t299, t302, t304, t307, t309,
+            t312, t316, t323, t330, t337, t339, t354, t368, t382, t397, t411, t426, t427, t429,
+            t434, t435, t436, t438, t439, t440, t441, t443, t444, t445, t446, t447, t448, t451,
+            t452, t455, t458, t459, t462, t464, t466, t467, t469, t470, t471, t472, t473, t474,
+            t476, t477, t478, t479, t480, t481, t482, t483, t485, t490, t491, t492, t494, t495,
+            t496, t497, t500, t502, t504, t507, t508, t511, t515, t518, t522, t525, t526, t527,
+            t528, t529, t530, t532, t533, t534, t535, t536, t537, t538, t539, t541, t546, t547,
+            t548, t550, t551, t552, t553, t555, t556, t557, t558, t559, t560, t563, t564, t567,
+            t570, t571, t574, t576, t578, t579, t581, t582, t583, t584, t585, t586, t588, t589,
+            t590, t591, t592, t593, t594, t595, t597, t602, t603, t604, t606, t607, t608, t609,
+            t611, t612, t613, t614, t615, t616, t619, t620, t623, t626, t627, t630, t632, t634,
+            t635, t637, t638, t639, t640, t641, t642, t644, t645, t646, t647, t648, t649, t650,
+            t651, t653, t658, t659, t660, t662, t663, t664, t665, t667, t668, t669, t670, t671,
+            t672, t675, t676, t679, t682, t683, t686, t688, t690, t691, t693, t694, t695, t696,
+            t697, t698, t700, t701, t702, t703, t704, t705, t706, t707, t709, t714, t715, t716,
+            t718, t719, t720, t721, t723, t724, t725, t726, t727, t728, t731, t732, t735, t738,
+            t739, t742, t744, t746, t747, t749, t750, t751, t752, t753, t754, t756, t757, t758,
+            t759, t760, t761, t762, t763, t766, t769, t775, t782, t789, t790, t793, t800, t813,
+            t820, t821, t828, t835, t842, t848, t854, t860, t866, t872, t878,
         )
     };
     let (
-        t881,
-        t883,
-        t885,
-        t893,
-        t895,
-        t897,
-        t905,
-        t907,
-        t915,
-        t1070,
-        t1071,
-        t1072,
-        t1145,
-        t1146,
-        t1147,
-        t1148,
-        t1149,
-        t1150,
-        t1280,
-        t1281,
-        t1284,
-        t1286,
-        t1287,
-        t1289,
-        t1290,
-        t1291,
-        t1293,
-        t1294,
-        t1295,
-        t1296,
-        t1319,
-        t1324,
-        t1327,
-        t1328,
-        t1329,
-        t1331,
-        t1332,
-        t1333,
-        t1334,
-        t1356,
-        t1357,
-        t1360,
-        t1362,
-        t1363,
-        t1365,
-        t1366,
-        t1367,
-        t1369,
-        t1370,
-        t1371,
-        t1372,
-        t1394,
-        t1395,
-        t1398,
-        t1400,
-        t1401,
-        t1403,
-        t1404,
-        t1405,
-        t1407,
-        t1408,
-        t1409,
-        t1410,
-        t1432,
-        t1433,
-        t1436,
-        t1438,
-        t1439,
-        t1441,
-        t1442,
-        t1443,
-        t1445,
-        t1446,
-        t1447,
-        t1448,
-        t1470,
-        t1471,
-        t1474,
-        t1476,
-        t1477,
-        t1479,
-        t1480,
-        t1481,
-        t1483,
-        t1484,
-        t1485,
-        t1486,
-        t1487,
-        t1488,
-        t1489,
-        t1504,
-        t1518,
-        t1532,
-        t1533,
-        t1534,
-        t1535,
-        t1549,
-        t1562,
-        t1576,
-        t1577,
-        t1578,
-        t1579,
-        t1593,
-        t1607,
-        t1620,
-        t1626,
-        t1632,
-        t1638,
-        t1644,
-        t1650,
-        t1656,
-        t1662,
-        t1668,
-        t1674,
-        t1680,
-        t1686,
-        t1692,
-        t1698,
-        t1704,
-        t1710,
-        t1716,
-        t1722,
-        t1728,
+        t881, t883, t885, t893, t895, t897, t905, t907, t915, t1070, t1071, t1072, t1145, t1146,
+        t1147, t1148, t1149, t1150, t1280, t1281, t1284, t1286, t1287, t1289, t1290, t1291, t1293,
+        t1294, t1295, t1296, t1319, t1324, t1327, t1328, t1329, t1331, t1332, t1333, t1334, t1356,
+        t1357, t1360, t1362, t1363, t1365, t1366, t1367, t1369, t1370, t1371, t1372, t1394, t1395,
+        t1398, t1400, t1401, t1403, t1404, t1405, t1407, t1408, t1409, t1410, t1432, t1433, t1436,
+        t1438, t1439, t1441, t1442, t1443, t1445, t1446, t1447, t1448, t1470, t1471, t1474, t1476,
+        t1477, t1479, t1480, t1481, t1483, t1484, t1485, t1486, t1487, t1488, t1489, t1504, t1518,
+        t1532, t1533, t1534, t1535, t1549, t1562, t1576, t1577, t1578, t1579, t1593, t1607, t1620,
+        t1626, t1632, t1638, t1644, t1650, t1656, t1662, t1668, t1674, t1680, t1686, t1692, t1698,
+        t1704, t1710, t1716, t1722, t1728,
     ) = {
         // mass matrix M_p of the platform
-        let t880 = mul_add(
-            platform_rotation[2][0],
-            t323,
-            platform_rotation[2][1] * t330,
-        );
+        let t880 = mul_add(platform_rotation[2][0], t323, platform_rotation[2][1] * t330);
         let t881 = mul_add(platform_rotation[2][2], t337, t880);
-        let t882 = mul_add(
-            platform_rotation[1][0],
-            t323,
-            platform_rotation[1][1] * t330,
-        );
+        let t882 = mul_add(platform_rotation[1][0], t323, platform_rotation[1][1] * t330);
         let t883 = mul_add(platform_rotation[1][2], t337, t882);
-        let t884 = mul_add(
-            platform_rotation[0][0],
-            t323,
-            platform_rotation[0][1] * t330,
-        );
+        let t884 = mul_add(platform_rotation[0][0], t323, platform_rotation[0][1] * t330);
         let t885 = mul_add(platform_rotation[0][2], t337, t884);
-        let t886 = mul_add(
-            platform_rotation[0][0],
-            t382,
-            platform_rotation[0][1] * t411,
-        );
+        let t886 = mul_add(platform_rotation[0][0], t382, platform_rotation[0][1] * t411);
         let t887 = mul_add(platform_rotation[0][2], t426, t886);
-        let t888 = mul_add(
-            platform_rotation[0][0],
-            t354,
-            platform_rotation[0][1] * t368,
-        );
+        let t888 = mul_add(platform_rotation[0][0], t354, platform_rotation[0][1] * t368);
         let t889 = mul_add(platform_rotation[0][2], t382, t888);
-        let t890 = mul_add(
-            platform_rotation[0][0],
-            t368,
-            platform_rotation[0][1] * t397,
-        );
+        let t890 = mul_add(platform_rotation[0][0], t368, platform_rotation[0][1] * t397);
         let t891 = mul_add(platform_rotation[0][2], t411, t890);
-        let t892 = mul_add(
-            platform_rotation[0][0],
-            t889,
-            platform_rotation[0][1] * t891,
-        );
+        let t892 = mul_add(platform_rotation[0][0], t889, platform_rotation[0][1] * t891);
         let t893 = mul_add(platform_rotation[0][2], t887, t892);
-        let t894 = mul_add(
-            platform_rotation[1][0],
-            t889,
-            platform_rotation[1][1] * t891,
-        );
+        let t894 = mul_add(platform_rotation[1][0], t889, platform_rotation[1][1] * t891);
         let t895 = mul_add(platform_rotation[1][2], t887, t894);
-        let t896 = mul_add(
-            platform_rotation[2][0],
-            t889,
-            platform_rotation[2][1] * t891,
-        );
+        let t896 = mul_add(platform_rotation[2][0], t889, platform_rotation[2][1] * t891);
         let t897 = mul_add(platform_rotation[2][2], t887, t896);
-        let t898 = mul_add(
-            platform_rotation[1][0],
-            t382,
-            platform_rotation[1][1] * t411,
-        );
+        let t898 = mul_add(platform_rotation[1][0], t382, platform_rotation[1][1] * t411);
         let t899 = mul_add(platform_rotation[1][2], t426, t898);
-        let t900 = mul_add(
-            platform_rotation[1][0],
-            t354,
-            platform_rotation[1][1] * t368,
-        );
+        let t900 = mul_add(platform_rotation[1][0], t354, platform_rotation[1][1] * t368);
         let t901 = mul_add(platform_rotation[1][2], t382, t900);
-        let t902 = mul_add(
-            platform_rotation[1][0],
-            t368,
-            platform_rotation[1][1] * t397,
-        );
+        let t902 = mul_add(platform_rotation[1][0], t368, platform_rotation[1][1] * t397);
         let t903 = mul_add(platform_rotation[1][2], t411, t902);
-        let t904 = mul_add(
-            platform_rotation[1][0],
-            t901,
-            platform_rotation[1][1] * t903,
-        );
+        let t904 = mul_add(platform_rotation[1][0], t901, platform_rotation[1][1] * t903);
         let t905 = mul_add(platform_rotation[1][2], t899, t904);
-        let t906 = mul_add(
-            platform_rotation[2][0],
-            t901,
-            platform_rotation[2][1] * t903,
-        );
+        let t906 = mul_add(platform_rotation[2][0], t901, platform_rotation[2][1] * t903);
         let t907 = mul_add(platform_rotation[2][2], t899, t906);
-        let t908 = mul_add(
-            platform_rotation[2][0],
-            t382,
-            platform_rotation[2][1] * t411,
-        );
+        let t908 = mul_add(platform_rotation[2][0], t382, platform_rotation[2][1] * t411);
         let t909 = mul_add(platform_rotation[2][2], t426, t908);
-        let t910 = mul_add(
-            platform_rotation[2][0],
-            t354,
-            platform_rotation[2][1] * t368,
-        );
+        let t910 = mul_add(platform_rotation[2][0], t354, platform_rotation[2][1] * t368);
         let t911 = mul_add(platform_rotation[2][2], t382, t910);
-        let t912 = mul_add(
-            platform_rotation[2][0],
-            t368,
-            platform_rotation[2][1] * t397,
-        );
-        let t913 = platform_rotation[2][1]
-            * mul_add(platform_rotation[2][2], t411, t912);
+        let t912 = mul_add(platform_rotation[2][0], t368, platform_rotation[2][1] * t397);
+        let t913 = platform_rotation[2][1] * mul_add(platform_rotation[2][2], t411, t912);
         let t914 = mul_add(platform_rotation[2][0], t911, t913);
         let t915 = mul_add(platform_rotation[2][2], t909, t914);
         mass_matrix_p[0][0] = t316 + t763;
@@ -23188,129 +18370,17 @@ pub fn equation_of_motion<T: Scalar>(
         coriolis_matrix_p[5][2] = t1739;
         coriolis_matrix_b[5][2] = t1739;
         (
-            t881,
-            t883,
-            t885,
-            t893,
-            t895,
-            t897,
-            t905,
-            t907,
-            t915,
-            t1070,
-            t1071,
-            t1072,
-            t1145,
-            t1146,
-            t1147,
-            t1148,
-            t1149,
-            t1150,
-            t1280,
-            t1281,
-            t1284,
-            t1286,
-            t1287,
-            t1289,
-            t1290,
-            t1291,
-            t1293,
-            t1294,
-            t1295,
-            t1296,
-            t1319,
-            t1324,
-            t1327,
-            t1328,
-            t1329,
-            t1331,
-            t1332,
-            t1333,
-            t1334,
-            t1356,
-            t1357,
-            t1360,
-            t1362,
-            t1363,
-            t1365,
-            t1366,
-            t1367,
-            t1369,
-            t1370,
-            t1371,
-            t1372,
-            t1394,
-            t1395,
-            t1398,
-            t1400,
-            t1401,
-            t1403,
-            t1404,
-            t1405,
-            t1407,
-            t1408,
-            t1409,
-            t1410,
-            t1432,
-            t1433,
-            t1436,
-            t1438,
-            t1439,
-            t1441,
-            t1442,
-            t1443,
-            t1445,
-            t1446,
-            t1447,
-            t1448,
-            t1470,
-            t1471,
-            t1474,
-            t1476,
-            t1477,
-            t1479,
-            t1480,
-            t1481,
-            t1483,
-            t1484,
-            t1485,
-            t1486,
-            t1487,
-            t1488,
-            t1489,
-            t1504,
-            t1518,
-            t1532,
-            t1533,
-            t1534,
-            t1535,
-            t1549,
-            t1562,
-            t1576,
-            t1577,
-            t1578,
-            t1579,
-            t1593,
-            t1607,
-            t1620,
-            t1626,
-            t1632,
-            t1638,
-            t1644,
-            t1650,
-            t1656,
-            t1662,
-            t1668,
-            t1674,
-            t1680,
-            t1686,
-            t1692,
-            t1698,
-            t1704,
-            t1710,
-            t1716,
-            t1722,
-            t1728,
+            t881, t883, t885, t893, t895, t897, t905, t907, t915, t1070, t1071, t1072, t1145,
+            t1146, t1147, t1148, t1149, t1150, t1280, t1281, t1284, t1286, t1287, t1289, t1290,
+            t1291, t1293, t1294, t1295, t1296, t1319, t1324, t1327, t1328, t1329, t1331, t1332,
+            t1333, t1334, t1356, t1357, t1360, t1362, t1363, t1365, t1366, t1367, t1369, t1370,
+            t1371, t1372, t1394, t1395, t1398, t1400, t1401, t1403, t1404, t1405, t1407, t1408,
+            t1409, t1410, t1432, t1433, t1436, t1438, t1439, t1441, t1442, t1443, t1445, t1446,
+            t1447, t1448, t1470, t1471, t1474, t1476, t1477, t1479, t1480, t1481, t1483, t1484,
+            t1485, t1486, t1487, t1488, t1489, t1504, t1518, t1532, t1533, t1534, t1535, t1549,
+            t1562, t1576, t1577, t1578, t1579, t1593, t1607, t1620, t1626, t1632, t1638, t1644,
+            t1650, t1656, t1662, t1668, t1674, t1680, t1686, t1692, t1698, t1704, t1710, t1716,
+            t1722, t1728,
         )
     };
     {
@@ -23733,11 +18803,7 @@ pub fn equation_of_motion<T: Scalar>(
         let t2048 = mul_add(t273, t1988, mul_add(t267, t1989, t2047));
         stiffness_matrix_b[5][5] = -mul_add(t279, t1987, t2048);
         // leg 1: weight of the leg along the actuator
-        let t2049 = mul_sub(
-            parameters.lower_mass[0],
-            parameters.lower_com_distance[0],
-            t284,
-        );
+        let t2049 = mul_sub(parameters.lower_mass[0], parameters.lower_com_distance[0], t284);
         let t2050 = mul_add(parameters.gravity[0], t152, parameters.gravity[1] * t154);
         let t2051 = t110 * t2049 * mul_add(parameters.gravity[2], t156, t2050);
         // leg 1: remaining weight of the leg at the platform joint
@@ -23746,11 +18812,7 @@ pub fn equation_of_motion<T: Scalar>(
         let t2054 = parameters.gravity[1] * t2052;
         let t2055 = parameters.gravity[2] * t2052;
         // leg 2: weight of the leg along the actuator
-        let t2056 = mul_sub(
-            parameters.lower_mass[1],
-            parameters.lower_com_distance[1],
-            t289,
-        );
+        let t2056 = mul_sub(parameters.lower_mass[1], parameters.lower_com_distance[1], t289);
         let t2057 = mul_add(parameters.gravity[0], t170, parameters.gravity[1] * t172);
         let t2058 = t112 * t2056 * mul_add(parameters.gravity[2], t174, t2057);
         // leg 2: remaining weight of the leg at the platform joint
@@ -23759,11 +18821,7 @@ pub fn equation_of_motion<T: Scalar>(
         let t2061 = parameters.gravity[1] * t2059;
         let t2062 = parameters.gravity[2] * t2059;
         // leg 3: weight of the leg along the actuator
-        let t2063 = mul_sub(
-            parameters.lower_mass[2],
-            parameters.lower_com_distance[2],
-            t294,
-        );
+        let t2063 = mul_sub(parameters.lower_mass[2], parameters.lower_com_distance[2], t294);
         let t2064 = mul_add(parameters.gravity[0], t188, parameters.gravity[1] * t190);
         let t2065 = t114 * t2063 * mul_add(parameters.gravity[2], t192, t2064);
         // leg 3: remaining weight of the leg at the platform joint
@@ -23772,11 +18830,7 @@ pub fn equation_of_motion<T: Scalar>(
         let t2068 = parameters.gravity[1] * t2066;
         let t2069 = parameters.gravity[2] * t2066;
         // leg 4: weight of the leg along the actuator
-        let t2070 = mul_sub(
-            parameters.lower_mass[3],
-            parameters.lower_com_distance[3],
-            t299,
-        );
+        let t2070 = mul_sub(parameters.lower_mass[3], parameters.lower_com_distance[3], t299);
         let t2071 = mul_add(parameters.gravity[0], t206, parameters.gravity[1] * t208);
         let t2072 = t116 * t2070 * mul_add(parameters.gravity[2], t210, t2071);
         // leg 4: remaining weight of the leg at the platform joint
@@ -23785,11 +18839,7 @@ pub fn equation_of_motion<T: Scalar>(
         let t2075 = parameters.gravity[1] * t2073;
         let t2076 = parameters.gravity[2] * t2073;
         // leg 5: weight of the leg along the actuator
-        let t2077 = mul_sub(
-            parameters.lower_mass[4],
-            parameters.lower_com_distance[4],
-            t304,
-        );
+        let t2077 = mul_sub(parameters.lower_mass[4], parameters.lower_com_distance[4], t304);
         let t2078 = mul_add(parameters.gravity[0], t224, parameters.gravity[1] * t226);
         let t2079 = t118 * t2077 * mul_add(parameters.gravity[2], t228, t2078);
         // leg 5: remaining weight of the leg at the platform joint
@@ -23798,11 +18848,7 @@ pub fn equation_of_motion<T: Scalar>(
         let t2082 = parameters.gravity[1] * t2080;
         let t2083 = parameters.gravity[2] * t2080;
         // leg 6: weight of the leg along the actuator
-        let t2084 = mul_sub(
-            parameters.lower_mass[5],
-            parameters.lower_com_distance[5],
-            t309,
-        );
+        let t2084 = mul_sub(parameters.lower_mass[5], parameters.lower_com_distance[5], t309);
         let t2085 = mul_add(parameters.gravity[0], t242, parameters.gravity[1] * t244);
         let t2086 = t120 * t2084 * mul_add(parameters.gravity[2], t246, t2085);
         // leg 6: remaining weight of the leg at the platform joint
@@ -23955,58 +19001,26 @@ pub fn equation_of_motion<T: Scalar>(
         let t2211 = mul_sub(platform_velocity[3], t1504, t2210);
         let t2212 = mul_add(platform_velocity[4], t1846, t2211);
         let t2213 = mul_add(platform_velocity[5], t1848, t2212);
-        let t2214 = mul_sub(
-            base_velocity[1],
-            t1488,
-            mul_sub(base_velocity[0], t1487, t2213),
-        );
-        let t2215 = mul_add(
-            base_velocity[3],
-            t1744,
-            mul_add(base_velocity[2], t1489, t2214),
-        );
-        bias[0] = mul_add(
-            base_velocity[5],
-            t1750,
-            mul_add(base_velocity[4], t1747, t2215),
-        );
+        let t2214 = mul_sub(base_velocity[1], t1488, mul_sub(base_velocity[0], t1487, t2213));
+        let t2215 = mul_add(base_velocity[3], t1744, mul_add(base_velocity[2], t1489, t2214));
+        bias[0] = mul_add(base_velocity[5], t1750, mul_add(base_velocity[4], t1747, t2215));
         let t2216 = mul_sub(platform_velocity[0], t1533, t2156 - (t2102 - t2126));
         let t2217 = mul_sub(platform_velocity[1], t1534, t2216);
         let t2218 = mul_sub(platform_velocity[2], t1535, t2217);
         let t2219 = mul_sub(platform_velocity[3], t1849, t2218);
         let t2220 = mul_sub(platform_velocity[4], t1562, t2219);
         let t2221 = mul_sub(platform_velocity[5], t1851, t2220);
-        let t2222 = mul_sub(
-            base_velocity[1],
-            t1534,
-            mul_add(base_velocity[0], t1533, t2221),
-        );
-        let t2223 = mul_add(
-            base_velocity[3],
-            t1753,
-            mul_sub(base_velocity[2], t1535, t2222),
-        );
-        bias[1] = mul_sub(
-            base_velocity[5],
-            t1761,
-            mul_sub(base_velocity[4], t1758, t2223),
-        );
+        let t2222 = mul_sub(base_velocity[1], t1534, mul_add(base_velocity[0], t1533, t2221));
+        let t2223 = mul_add(base_velocity[3], t1753, mul_sub(base_velocity[2], t1535, t2222));
+        bias[1] = mul_sub(base_velocity[5], t1761, mul_sub(base_velocity[4], t1758, t2223));
         let t2224 = mul_sub(platform_velocity[0], t1577, t2165 - (t2105 - t2129));
         let t2225 = mul_add(platform_velocity[1], t1578, t2224);
         let t2226 = mul_sub(platform_velocity[2], t1579, t2225);
         let t2227 = mul_add(platform_velocity[3], t1852, t2226);
         let t2228 = mul_add(platform_velocity[4], t1853, t2227);
         let t2229 = mul_sub(platform_velocity[5], t1620, t2228);
-        let t2230 = mul_add(
-            base_velocity[1],
-            t1578,
-            mul_sub(base_velocity[0], t1577, t2229),
-        );
-        let t2231 = mul_sub(
-            base_velocity[3],
-            t1764,
-            mul_sub(base_velocity[2], t1579, t2230),
-        );
+        let t2230 = mul_add(base_velocity[1], t1578, mul_sub(base_velocity[0], t1577, t2229));
+        let t2231 = mul_sub(base_velocity[3], t1764, mul_sub(base_velocity[2], t1579, t2230));
         let t2232 = mul_add(base_velocity[4], t1767, t2231);
         bias[2] = neg_mul_add(base_velocity[5], t1772, t2232);
         let t2233 = mul_sub(platform_velocity[0], t1626, t2183 - (t2108 - t2132));
@@ -24015,11 +19029,7 @@ pub fn equation_of_motion<T: Scalar>(
         let t2236 = mul_sub(platform_velocity[3], t1855, t2235);
         let t2237 = mul_add(platform_velocity[4], t1858, t2236);
         let t2238 = mul_sub(platform_velocity[5], t1861, t2237);
-        let t2239 = mul_add(
-            base_velocity[1],
-            t1632,
-            mul_add(base_velocity[0], t1626, t2238),
-        );
+        let t2239 = mul_add(base_velocity[1], t1632, mul_add(base_velocity[0], t1626, t2238));
         let t2240 = neg_mul_add(base_velocity[2], t1638, t2239);
         let t2241 = neg_mul_add(base_velocity[3], t1780, t2240);
         let t2242 = neg_mul_add(base_velocity[4], t1788, t2241);
@@ -24030,16 +19040,8 @@ pub fn equation_of_motion<T: Scalar>(
         let t2246 = mul_sub(platform_velocity[3], t1864, t2245);
         let t2247 = mul_add(platform_velocity[4], t1866, t2246);
         let t2248 = mul_sub(platform_velocity[5], t1868, t2247);
-        let t2249 = mul_add(
-            base_velocity[1],
-            t1668,
-            mul_add(base_velocity[0], t1662, t2248),
-        );
-        let t2250 = mul_add(
-            base_velocity[3],
-            t1804,
-            mul_sub(base_velocity[2], t1674, t2249),
-        );
+        let t2249 = mul_add(base_velocity[1], t1668, mul_add(base_velocity[0], t1662, t2248));
+        let t2250 = mul_add(base_velocity[3], t1804, mul_sub(base_velocity[2], t1674, t2249));
         let t2251 = neg_mul_add(base_velocity[4], t1812, t2250);
         bias[4] = neg_mul_add(base_velocity[5], t1820, t2251);
         let t2252 = mul_sub(platform_velocity[0], t1698, t2207 - (t2114 - t2138));
@@ -24048,11 +19050,7 @@ pub fn equation_of_motion<T: Scalar>(
         let t2255 = mul_add(platform_velocity[3], t1870, t2254);
         let t2256 = mul_sub(platform_velocity[4], t1872, t2255);
         let t2257 = mul_sub(platform_velocity[5], t1874, t2256);
-        let t2258 = mul_sub(
-            base_velocity[1],
-            t1704,
-            mul_sub(base_velocity[0], t1698, t2257),
-        );
+        let t2258 = mul_sub(base_velocity[1], t1704, mul_sub(base_velocity[0], t1698, t2257));
         let t2259 = mul_sub(base_velocity[2], t1710, t2258);
         let t2260 = neg_mul_add(base_velocity[3], t1828, t2259);
         let t2261 = neg_mul_add(base_velocity[4], t1836, t2260);
@@ -24363,11 +19361,7 @@ pub fn inverse_dynamics<T: Scalar>(
     let t215 = parameters.platform_point[1][0] * parameters.platform_point[1][1];
     let t216 = parameters.platform_point[0][0] * parameters.platform_point[0][1];
     let t217 = parameters.payload_com[0] * parameters.payload_com[1];
-    let t218 = neg_mul_add(
-        parameters.payload_mass,
-        t217,
-        parameters.payload_inertia[0][1],
-    );
+    let t218 = neg_mul_add(parameters.payload_mass, t217, parameters.payload_inertia[0][1]);
     let t219 = mul_sub(parameters.upper_mass[0], t216, t218);
     let t220 = mul_add(parameters.upper_mass[1], t215, t219);
     let t221 = mul_add(parameters.upper_mass[2], t214, t220);
@@ -24381,11 +19375,7 @@ pub fn inverse_dynamics<T: Scalar>(
     let t229 = parameters.platform_point[1][0] * parameters.platform_point[1][2];
     let t230 = parameters.platform_point[0][0] * parameters.platform_point[0][2];
     let t231 = parameters.payload_com[0] * parameters.payload_com[2];
-    let t232 = neg_mul_add(
-        parameters.payload_mass,
-        t231,
-        parameters.payload_inertia[0][2],
-    );
+    let t232 = neg_mul_add(parameters.payload_mass, t231, parameters.payload_inertia[0][2]);
     let t233 = mul_sub(parameters.upper_mass[0], t230, t232);
     let t234 = mul_add(parameters.upper_mass[1], t229, t233);
     let t235 = mul_add(parameters.upper_mass[2], t228, t234);
@@ -24414,11 +19404,7 @@ pub fn inverse_dynamics<T: Scalar>(
     let t258 = parameters.platform_point[1][1] * parameters.platform_point[1][2];
     let t259 = parameters.platform_point[0][1] * parameters.platform_point[0][2];
     let t260 = parameters.payload_com[1] * parameters.payload_com[2];
-    let t261 = neg_mul_add(
-        parameters.payload_mass,
-        t260,
-        parameters.payload_inertia[1][2],
-    );
+    let t261 = neg_mul_add(parameters.payload_mass, t260, parameters.payload_inertia[1][2]);
     let t262 = mul_sub(parameters.upper_mass[0], t259, t261);
     let t263 = mul_add(parameters.upper_mass[1], t258, t262);
     let t264 = mul_add(parameters.upper_mass[2], t257, t263);
@@ -25105,33 +20091,27 @@ pub fn inverse_dynamics<T: Scalar>(
     // leg 1: actuator forces F
     let t872 = mul_add(t123, t648, mul_add(t121, t643, t646));
     let t873 = mul_add(parameters.axial_stiffness[0], t722, t872);
-    inverse_dynamics[0] = axial_reaction[0]
-        - mul_add(parameters.axial_damping[0], t379, t873);
+    inverse_dynamics[0] = axial_reaction[0] - mul_add(parameters.axial_damping[0], t379, t873);
     // leg 2: actuator forces F
     let t874 = mul_add(t126, t662, mul_add(t124, t657, t660));
     let t875 = mul_add(parameters.axial_stiffness[1], t723, t874);
-    inverse_dynamics[1] = axial_reaction[1]
-        - mul_add(parameters.axial_damping[1], t380, t875);
+    inverse_dynamics[1] = axial_reaction[1] - mul_add(parameters.axial_damping[1], t380, t875);
     // leg 3: actuator forces F
     let t876 = mul_add(t129, t676, mul_add(t127, t671, t674));
     let t877 = mul_add(parameters.axial_stiffness[2], t724, t876);
-    inverse_dynamics[2] = axial_reaction[2]
-        - mul_add(parameters.axial_damping[2], t381, t877);
+    inverse_dynamics[2] = axial_reaction[2] - mul_add(parameters.axial_damping[2], t381, t877);
     // leg 4: actuator forces F
     let t878 = mul_add(t132, t690, mul_add(t130, t685, t688));
     let t879 = mul_add(parameters.axial_stiffness[3], t725, t878);
-    inverse_dynamics[3] = axial_reaction[3]
-        - mul_add(parameters.axial_damping[3], t382, t879);
+    inverse_dynamics[3] = axial_reaction[3] - mul_add(parameters.axial_damping[3], t382, t879);
     // leg 5: actuator forces F
     let t880 = mul_add(t135, t704, mul_add(t133, t699, t702));
     let t881 = mul_add(parameters.axial_stiffness[4], t726, t880);
-    inverse_dynamics[4] = axial_reaction[4]
-        - mul_add(parameters.axial_damping[4], t383, t881);
+    inverse_dynamics[4] = axial_reaction[4] - mul_add(parameters.axial_damping[4], t383, t881);
     // leg 6: actuator forces F
     let t882 = mul_add(t138, t718, mul_add(t136, t713, t716));
     let t883 = mul_add(parameters.axial_stiffness[5], t727, t882);
-    inverse_dynamics[5] = axial_reaction[5]
-        - mul_add(parameters.axial_damping[5], t384, t883);
+    inverse_dynamics[5] = axial_reaction[5] - mul_add(parameters.axial_damping[5], t384, t883);
 }
 
 /// Actuator lengths with their gradients, for forward kinematics, equation (18), (32).
@@ -25527,214 +20507,20 @@ pub fn control<T: Scalar>(
 ) {
     let c = T::constant;
     let (
-        t3,
-        t6,
-        t9,
-        t12,
-        t15,
-        t18,
-        t21,
-        t24,
-        t27,
-        t109,
-        t110,
-        t111,
-        t112,
-        t113,
-        t114,
-        t115,
-        t116,
-        t117,
-        t118,
-        t119,
-        t120,
-        t121,
-        t122,
-        t123,
-        t124,
-        t125,
-        t126,
-        t127,
-        t128,
-        t129,
-        t130,
-        t131,
-        t132,
-        t133,
-        t134,
-        t135,
-        t136,
-        t137,
-        t138,
-        t149,
-        t151,
-        t153,
-        t164,
-        t166,
-        t168,
-        t179,
-        t181,
-        t183,
-        t194,
-        t196,
-        t198,
-        t209,
-        t211,
-        t213,
-        t224,
-        t226,
-        t228,
-        t229,
-        t230,
-        t231,
-        t232,
-        t233,
-        t234,
-        t235,
-        t236,
-        t237,
-        t238,
-        t239,
-        t240,
-        t241,
-        t242,
-        t243,
-        t244,
-        t245,
-        t246,
-        t248,
-        t253,
-        t258,
-        t263,
-        t268,
-        t273,
-        t280,
-        t287,
-        t294,
-        t301,
-        t318,
-        t332,
-        t346,
-        t361,
-        t375,
-        t390,
-        t391,
-        t401,
-        t402,
-        t403,
-        t413,
-        t414,
-        t415,
-        t425,
-        t426,
-        t427,
-        t437,
-        t438,
-        t439,
-        t449,
-        t450,
-        t451,
-        t461,
-        t462,
-        t465,
-        t468,
-        t474,
-        t489,
-        t508,
-        t533,
-        t545,
-        t548,
-        t551,
-        t552,
-        t553,
-        t556,
-        t557,
-        t558,
-        t559,
-        t575,
-        t583,
-        t591,
-        t606,
-        t614,
-        t629,
-        t732,
-        t733,
-        t734,
-        t735,
-        t736,
-        t737,
-        t739,
-        t741,
-        t743,
-        t745,
-        t747,
-        t749,
-        t751,
-        t753,
-        t755,
-        t757,
-        t759,
-        t761,
-        t763,
-        t765,
-        t767,
-        t769,
-        t771,
-        t773,
-        t778,
-        t780,
-        t782,
-        t792,
-        t793,
-        t794,
-        t795,
-        t797,
-        t798,
-        t799,
-        t800,
-        t801,
-        t804,
-        t807,
-        t810,
-        t813,
-        t816,
-        t819,
-        t821,
-        t823,
-        t825,
-        t826,
-        t827,
-        t828,
-        t831,
-        t834,
-        t835,
-        t838,
-        t841,
-        t842,
-        t845,
-        t848,
-        t849,
-        t852,
-        t855,
-        t858,
-        t859,
-        t862,
-        t865,
-        t866,
-        t869,
-        t872,
-        t873,
-        t876,
-        t879,
-        t882,
-        t883,
-        t886,
-        t889,
-        t890,
-        t893,
-        t896,
-        t897,
-        t900,
+        t3, t6, t9, t12, t15, t18, t21, t24, t27, t109, t110, t111, t112, t113, t114, t115, t116,
+        t117, t118, t119, t120, t121, t122, t123, t124, t125, t126, t127, t128, t129, t130, t131,
+        t132, t133, t134, t135, t136, t137, t138, t149, t151, t153, t164, t166, t168, t179, t181,
+        t183, t194, t196, t198, t209, t211, t213, t224, t226, t228, t229, t230, t231, t232, t233,
+        t234, t235, t236, t237, t238, t239, t240, t241, t242, t243, t244, t245, t246, t248, t253,
+        t258, t263, t268, t273, t280, t287, t294, t301, t318, t332, t346, t361, t375, t390, t391,
+        t401, t402, t403, t413, t414, t415, t425, t426, t427, t437, t438, t439, t449, t450, t451,
+        t461, t462, t465, t468, t474, t489, t508, t533, t545, t548, t551, t552, t553, t556, t557,
+        t558, t559, t575, t583, t591, t606, t614, t629, t732, t733, t734, t735, t736, t737, t739,
+        t741, t743, t745, t747, t749, t751, t753, t755, t757, t759, t761, t763, t765, t767, t769,
+        t771, t773, t778, t780, t782, t792, t793, t794, t795, t797, t798, t799, t800, t801, t804,
+        t807, t810, t813, t816, t819, t821, t823, t825, t826, t827, t828, t831, t834, t835, t838,
+        t841, t842, t845, t848, t849, t852, t855, t858, t859, t862, t865, t866, t869, t872, t873,
+        t876, t879, t882, t883, t886, t889, t890, t893, t896, t897, t900,
     ) = {
         // rotation of the platform seen from the base
         let t1 = base_rotation[1][0] * platform_rotation[1][0];
@@ -25908,38 +20694,14 @@ pub fn control<T: Scalar>(
         let t138 = t108 * t120;
         // leg 1: platform joint from the platform origin
         let t139 = platform_rotation[0][1] * parameters.platform_point[0][1];
-        let t140 = mul_add(
-            platform_rotation[0][0],
-            parameters.platform_point[0][0],
-            t139,
-        );
-        let t141 = mul_add(
-            platform_rotation[0][2],
-            parameters.platform_point[0][2],
-            t140,
-        );
+        let t140 = mul_add(platform_rotation[0][0], parameters.platform_point[0][0], t139);
+        let t141 = mul_add(platform_rotation[0][2], parameters.platform_point[0][2], t140);
         let t142 = platform_rotation[1][1] * parameters.platform_point[0][1];
-        let t143 = mul_add(
-            platform_rotation[1][0],
-            parameters.platform_point[0][0],
-            t142,
-        );
-        let t144 = mul_add(
-            platform_rotation[1][2],
-            parameters.platform_point[0][2],
-            t143,
-        );
+        let t143 = mul_add(platform_rotation[1][0], parameters.platform_point[0][0], t142);
+        let t144 = mul_add(platform_rotation[1][2], parameters.platform_point[0][2], t143);
         let t145 = platform_rotation[2][1] * parameters.platform_point[0][1];
-        let t146 = mul_add(
-            platform_rotation[2][0],
-            parameters.platform_point[0][0],
-            t145,
-        );
-        let t147 = mul_add(
-            platform_rotation[2][2],
-            parameters.platform_point[0][2],
-            t146,
-        );
+        let t146 = mul_add(platform_rotation[2][0], parameters.platform_point[0][0], t145);
+        let t147 = mul_add(platform_rotation[2][2], parameters.platform_point[0][2], t146);
         // leg 1: gradient of the actuator length
         let t148 = mul_add(base_rotation[0][0], t121, base_rotation[0][1] * t122);
         let t149 = mul_add(base_rotation[0][2], t123, t148);
@@ -25952,38 +20714,14 @@ pub fn control<T: Scalar>(
         jacobian_dp[0][2] = t153;
         // leg 2: platform joint from the platform origin
         let t154 = platform_rotation[0][1] * parameters.platform_point[1][1];
-        let t155 = mul_add(
-            platform_rotation[0][0],
-            parameters.platform_point[1][0],
-            t154,
-        );
-        let t156 = mul_add(
-            platform_rotation[0][2],
-            parameters.platform_point[1][2],
-            t155,
-        );
+        let t155 = mul_add(platform_rotation[0][0], parameters.platform_point[1][0], t154);
+        let t156 = mul_add(platform_rotation[0][2], parameters.platform_point[1][2], t155);
         let t157 = platform_rotation[1][1] * parameters.platform_point[1][1];
-        let t158 = mul_add(
-            platform_rotation[1][0],
-            parameters.platform_point[1][0],
-            t157,
-        );
-        let t159 = mul_add(
-            platform_rotation[1][2],
-            parameters.platform_point[1][2],
-            t158,
-        );
+        let t158 = mul_add(platform_rotation[1][0], parameters.platform_point[1][0], t157);
+        let t159 = mul_add(platform_rotation[1][2], parameters.platform_point[1][2], t158);
         let t160 = platform_rotation[2][1] * parameters.platform_point[1][1];
-        let t161 = mul_add(
-            platform_rotation[2][0],
-            parameters.platform_point[1][0],
-            t160,
-        );
-        let t162 = mul_add(
-            platform_rotation[2][2],
-            parameters.platform_point[1][2],
-            t161,
-        );
+        let t161 = mul_add(platform_rotation[2][0], parameters.platform_point[1][0], t160);
+        let t162 = mul_add(platform_rotation[2][2], parameters.platform_point[1][2], t161);
         // leg 2: gradient of the actuator length
         let t163 = mul_add(base_rotation[0][0], t124, base_rotation[0][1] * t125);
         let t164 = mul_add(base_rotation[0][2], t126, t163);
@@ -25996,38 +20734,14 @@ pub fn control<T: Scalar>(
         jacobian_dp[1][2] = t168;
         // leg 3: platform joint from the platform origin
         let t169 = platform_rotation[0][1] * parameters.platform_point[2][1];
-        let t170 = mul_add(
-            platform_rotation[0][0],
-            parameters.platform_point[2][0],
-            t169,
-        );
-        let t171 = mul_add(
-            platform_rotation[0][2],
-            parameters.platform_point[2][2],
-            t170,
-        );
+        let t170 = mul_add(platform_rotation[0][0], parameters.platform_point[2][0], t169);
+        let t171 = mul_add(platform_rotation[0][2], parameters.platform_point[2][2], t170);
         let t172 = platform_rotation[1][1] * parameters.platform_point[2][1];
-        let t173 = mul_add(
-            platform_rotation[1][0],
-            parameters.platform_point[2][0],
-            t172,
-        );
-        let t174 = mul_add(
-            platform_rotation[1][2],
-            parameters.platform_point[2][2],
-            t173,
-        );
+        let t173 = mul_add(platform_rotation[1][0], parameters.platform_point[2][0], t172);
+        let t174 = mul_add(platform_rotation[1][2], parameters.platform_point[2][2], t173);
         let t175 = platform_rotation[2][1] * parameters.platform_point[2][1];
-        let t176 = mul_add(
-            platform_rotation[2][0],
-            parameters.platform_point[2][0],
-            t175,
-        );
-        let t177 = mul_add(
-            platform_rotation[2][2],
-            parameters.platform_point[2][2],
-            t176,
-        );
+        let t176 = mul_add(platform_rotation[2][0], parameters.platform_point[2][0], t175);
+        let t177 = mul_add(platform_rotation[2][2], parameters.platform_point[2][2], t176);
         // leg 3: gradient of the actuator length
         let t178 = mul_add(base_rotation[0][0], t127, base_rotation[0][1] * t128);
         let t179 = mul_add(base_rotation[0][2], t129, t178);
@@ -26040,38 +20754,14 @@ pub fn control<T: Scalar>(
         jacobian_dp[2][2] = t183;
         // leg 4: platform joint from the platform origin
         let t184 = platform_rotation[0][1] * parameters.platform_point[3][1];
-        let t185 = mul_add(
-            platform_rotation[0][0],
-            parameters.platform_point[3][0],
-            t184,
-        );
-        let t186 = mul_add(
-            platform_rotation[0][2],
-            parameters.platform_point[3][2],
-            t185,
-        );
+        let t185 = mul_add(platform_rotation[0][0], parameters.platform_point[3][0], t184);
+        let t186 = mul_add(platform_rotation[0][2], parameters.platform_point[3][2], t185);
         let t187 = platform_rotation[1][1] * parameters.platform_point[3][1];
-        let t188 = mul_add(
-            platform_rotation[1][0],
-            parameters.platform_point[3][0],
-            t187,
-        );
-        let t189 = mul_add(
-            platform_rotation[1][2],
-            parameters.platform_point[3][2],
-            t188,
-        );
+        let t188 = mul_add(platform_rotation[1][0], parameters.platform_point[3][0], t187);
+        let t189 = mul_add(platform_rotation[1][2], parameters.platform_point[3][2], t188);
         let t190 = platform_rotation[2][1] * parameters.platform_point[3][1];
-        let t191 = mul_add(
-            platform_rotation[2][0],
-            parameters.platform_point[3][0],
-            t190,
-        );
-        let t192 = mul_add(
-            platform_rotation[2][2],
-            parameters.platform_point[3][2],
-            t191,
-        );
+        let t191 = mul_add(platform_rotation[2][0], parameters.platform_point[3][0], t190);
+        let t192 = mul_add(platform_rotation[2][2], parameters.platform_point[3][2], t191);
         // leg 4: gradient of the actuator length
         let t193 = mul_add(base_rotation[0][0], t130, base_rotation[0][1] * t131);
         let t194 = mul_add(base_rotation[0][2], t132, t193);
@@ -26084,38 +20774,14 @@ pub fn control<T: Scalar>(
         jacobian_dp[3][2] = t198;
         // leg 5: platform joint from the platform origin
         let t199 = platform_rotation[0][1] * parameters.platform_point[4][1];
-        let t200 = mul_add(
-            platform_rotation[0][0],
-            parameters.platform_point[4][0],
-            t199,
-        );
-        let t201 = mul_add(
-            platform_rotation[0][2],
-            parameters.platform_point[4][2],
-            t200,
-        );
+        let t200 = mul_add(platform_rotation[0][0], parameters.platform_point[4][0], t199);
+        let t201 = mul_add(platform_rotation[0][2], parameters.platform_point[4][2], t200);
         let t202 = platform_rotation[1][1] * parameters.platform_point[4][1];
-        let t203 = mul_add(
-            platform_rotation[1][0],
-            parameters.platform_point[4][0],
-            t202,
-        );
-        let t204 = mul_add(
-            platform_rotation[1][2],
-            parameters.platform_point[4][2],
-            t203,
-        );
+        let t203 = mul_add(platform_rotation[1][0], parameters.platform_point[4][0], t202);
+        let t204 = mul_add(platform_rotation[1][2], parameters.platform_point[4][2], t203);
         let t205 = platform_rotation[2][1] * parameters.platform_point[4][1];
-        let t206 = mul_add(
-            platform_rotation[2][0],
-            parameters.platform_point[4][0],
-            t205,
-        );
-        let t207 = mul_add(
-            platform_rotation[2][2],
-            parameters.platform_point[4][2],
-            t206,
-        );
+        let t206 = mul_add(platform_rotation[2][0], parameters.platform_point[4][0], t205);
+        let t207 = mul_add(platform_rotation[2][2], parameters.platform_point[4][2], t206);
         // leg 5: gradient of the actuator length
         let t208 = mul_add(base_rotation[0][0], t133, base_rotation[0][1] * t134);
         let t209 = mul_add(base_rotation[0][2], t135, t208);
@@ -26128,38 +20794,14 @@ pub fn control<T: Scalar>(
         jacobian_dp[4][2] = t213;
         // leg 6: platform joint from the platform origin
         let t214 = platform_rotation[0][1] * parameters.platform_point[5][1];
-        let t215 = mul_add(
-            platform_rotation[0][0],
-            parameters.platform_point[5][0],
-            t214,
-        );
-        let t216 = mul_add(
-            platform_rotation[0][2],
-            parameters.platform_point[5][2],
-            t215,
-        );
+        let t215 = mul_add(platform_rotation[0][0], parameters.platform_point[5][0], t214);
+        let t216 = mul_add(platform_rotation[0][2], parameters.platform_point[5][2], t215);
         let t217 = platform_rotation[1][1] * parameters.platform_point[5][1];
-        let t218 = mul_add(
-            platform_rotation[1][0],
-            parameters.platform_point[5][0],
-            t217,
-        );
-        let t219 = mul_add(
-            platform_rotation[1][2],
-            parameters.platform_point[5][2],
-            t218,
-        );
+        let t218 = mul_add(platform_rotation[1][0], parameters.platform_point[5][0], t217);
+        let t219 = mul_add(platform_rotation[1][2], parameters.platform_point[5][2], t218);
         let t220 = platform_rotation[2][1] * parameters.platform_point[5][1];
-        let t221 = mul_add(
-            platform_rotation[2][0],
-            parameters.platform_point[5][0],
-            t220,
-        );
-        let t222 = mul_add(
-            platform_rotation[2][2],
-            parameters.platform_point[5][2],
-            t221,
-        );
+        let t221 = mul_add(platform_rotation[2][0], parameters.platform_point[5][0], t220);
+        let t222 = mul_add(platform_rotation[2][2], parameters.platform_point[5][2], t221);
         // leg 6: gradient of the actuator length
         let t223 = mul_add(base_rotation[0][0], t136, base_rotation[0][1] * t137);
         let t224 = mul_add(base_rotation[0][2], t138, t223);
@@ -26268,85 +20910,25 @@ pub fn control<T: Scalar>(
         // first moment of payload and platform-side leg ends
         let t281 = parameters.platform_point[0][0] * parameters.upper_mass[0];
         let t282 = mul_add(parameters.payload_mass, parameters.payload_com[0], t281);
-        let t283 = mul_add(
-            parameters.platform_point[1][0],
-            parameters.upper_mass[1],
-            t282,
-        );
-        let t284 = mul_add(
-            parameters.platform_point[2][0],
-            parameters.upper_mass[2],
-            t283,
-        );
-        let t285 = mul_add(
-            parameters.platform_point[3][0],
-            parameters.upper_mass[3],
-            t284,
-        );
-        let t286 = mul_add(
-            parameters.platform_point[4][0],
-            parameters.upper_mass[4],
-            t285,
-        );
-        let t287 = mul_add(
-            parameters.platform_point[5][0],
-            parameters.upper_mass[5],
-            t286,
-        );
+        let t283 = mul_add(parameters.platform_point[1][0], parameters.upper_mass[1], t282);
+        let t284 = mul_add(parameters.platform_point[2][0], parameters.upper_mass[2], t283);
+        let t285 = mul_add(parameters.platform_point[3][0], parameters.upper_mass[3], t284);
+        let t286 = mul_add(parameters.platform_point[4][0], parameters.upper_mass[4], t285);
+        let t287 = mul_add(parameters.platform_point[5][0], parameters.upper_mass[5], t286);
         let t288 = parameters.platform_point[0][1] * parameters.upper_mass[0];
         let t289 = mul_add(parameters.payload_mass, parameters.payload_com[1], t288);
-        let t290 = mul_add(
-            parameters.platform_point[1][1],
-            parameters.upper_mass[1],
-            t289,
-        );
-        let t291 = mul_add(
-            parameters.platform_point[2][1],
-            parameters.upper_mass[2],
-            t290,
-        );
-        let t292 = mul_add(
-            parameters.platform_point[3][1],
-            parameters.upper_mass[3],
-            t291,
-        );
-        let t293 = mul_add(
-            parameters.platform_point[4][1],
-            parameters.upper_mass[4],
-            t292,
-        );
-        let t294 = mul_add(
-            parameters.platform_point[5][1],
-            parameters.upper_mass[5],
-            t293,
-        );
+        let t290 = mul_add(parameters.platform_point[1][1], parameters.upper_mass[1], t289);
+        let t291 = mul_add(parameters.platform_point[2][1], parameters.upper_mass[2], t290);
+        let t292 = mul_add(parameters.platform_point[3][1], parameters.upper_mass[3], t291);
+        let t293 = mul_add(parameters.platform_point[4][1], parameters.upper_mass[4], t292);
+        let t294 = mul_add(parameters.platform_point[5][1], parameters.upper_mass[5], t293);
         let t295 = parameters.platform_point[0][2] * parameters.upper_mass[0];
         let t296 = mul_add(parameters.payload_mass, parameters.payload_com[2], t295);
-        let t297 = mul_add(
-            parameters.platform_point[1][2],
-            parameters.upper_mass[1],
-            t296,
-        );
-        let t298 = mul_add(
-            parameters.platform_point[2][2],
-            parameters.upper_mass[2],
-            t297,
-        );
-        let t299 = mul_add(
-            parameters.platform_point[3][2],
-            parameters.upper_mass[3],
-            t298,
-        );
-        let t300 = mul_add(
-            parameters.platform_point[4][2],
-            parameters.upper_mass[4],
-            t299,
-        );
-        let t301 = mul_add(
-            parameters.platform_point[5][2],
-            parameters.upper_mass[5],
-            t300,
-        );
+        let t297 = mul_add(parameters.platform_point[1][2], parameters.upper_mass[1], t296);
+        let t298 = mul_add(parameters.platform_point[2][2], parameters.upper_mass[2], t297);
+        let t299 = mul_add(parameters.platform_point[3][2], parameters.upper_mass[3], t298);
+        let t300 = mul_add(parameters.platform_point[4][2], parameters.upper_mass[4], t299);
+        let t301 = mul_add(parameters.platform_point[5][2], parameters.upper_mass[5], t300);
         // second moment of payload and platform-side leg ends
         let t302 = parameters.platform_point[5][0] * parameters.platform_point[5][0];
         let t303 = parameters.platform_point[4][0] * parameters.platform_point[4][0];
@@ -26372,11 +20954,7 @@ pub fn control<T: Scalar>(
         let t323 = parameters.platform_point[1][0] * parameters.platform_point[1][1];
         let t324 = parameters.platform_point[0][0] * parameters.platform_point[0][1];
         let t325 = parameters.payload_com[0] * parameters.payload_com[1];
-        let t326 = neg_mul_add(
-            parameters.payload_mass,
-            t325,
-            parameters.payload_inertia[0][1],
-        );
+        let t326 = neg_mul_add(parameters.payload_mass, t325, parameters.payload_inertia[0][1]);
         let t327 = mul_sub(parameters.upper_mass[0], t324, t326);
         let t328 = mul_add(parameters.upper_mass[1], t323, t327);
         let t329 = mul_add(parameters.upper_mass[2], t322, t328);
@@ -26390,11 +20968,7 @@ pub fn control<T: Scalar>(
         let t337 = parameters.platform_point[1][0] * parameters.platform_point[1][2];
         let t338 = parameters.platform_point[0][0] * parameters.platform_point[0][2];
         let t339 = parameters.payload_com[0] * parameters.payload_com[2];
-        let t340 = neg_mul_add(
-            parameters.payload_mass,
-            t339,
-            parameters.payload_inertia[0][2],
-        );
+        let t340 = neg_mul_add(parameters.payload_mass, t339, parameters.payload_inertia[0][2]);
         let t341 = mul_sub(parameters.upper_mass[0], t338, t340);
         let t342 = mul_add(parameters.upper_mass[1], t337, t341);
         let t343 = mul_add(parameters.upper_mass[2], t336, t342);
@@ -26423,11 +20997,7 @@ pub fn control<T: Scalar>(
         let t366 = parameters.platform_point[1][1] * parameters.platform_point[1][2];
         let t367 = parameters.platform_point[0][1] * parameters.platform_point[0][2];
         let t368 = parameters.payload_com[1] * parameters.payload_com[2];
-        let t369 = neg_mul_add(
-            parameters.payload_mass,
-            t368,
-            parameters.payload_inertia[1][2],
-        );
+        let t369 = neg_mul_add(parameters.payload_mass, t368, parameters.payload_inertia[1][2]);
         let t370 = mul_sub(parameters.upper_mass[0], t367, t369);
         let t371 = mul_add(parameters.upper_mass[1], t366, t370);
         let t372 = mul_add(parameters.upper_mass[2], t365, t371);
@@ -26631,30 +21201,18 @@ pub fn control<T: Scalar>(
         // mass matrix M_p of the platform
         let t545 = t454 + (t442 + (t430 + (t418 + (t406 + (t280 + t394)))));
         mass_matrix_p[0][0] = t545;
-        let t546 = mul_add(
-            platform_rotation[2][0],
-            t287,
-            platform_rotation[2][1] * t294,
-        );
+        let t546 = mul_add(platform_rotation[2][0], t287, platform_rotation[2][1] * t294);
         let t547 = mul_add(platform_rotation[2][2], t301, t546);
         let t548 = t547 + (t480 + (t479 + (t478 + (t477 + (t475 + t476)))));
         mass_matrix_p[0][4] = t548;
         mass_matrix_p[4][0] = t548;
-        let t549 = mul_add(
-            platform_rotation[1][0],
-            t287,
-            platform_rotation[1][1] * t294,
-        );
+        let t549 = mul_add(platform_rotation[1][0], t287, platform_rotation[1][1] * t294);
         let t550 = mul_add(platform_rotation[1][2], t301, t549);
         let t551 = t550 + (t486 + (t485 + (t484 + (t483 + (t481 + t482)))));
         let t552 = t458 + (t446 + (t434 + (t422 + (t410 + (t280 + t398)))));
         mass_matrix_p[1][1] = t552;
         let t553 = t547 + (t495 + (t494 + (t493 + (t492 + (t490 + t491)))));
-        let t554 = mul_add(
-            platform_rotation[0][0],
-            t287,
-            platform_rotation[0][1] * t294,
-        );
+        let t554 = mul_add(platform_rotation[0][0], t287, platform_rotation[0][1] * t294);
         let t555 = mul_add(platform_rotation[0][2], t301, t554);
         let t556 = t555 + (t514 + (t513 + (t512 + (t511 + (t509 + t510)))));
         mass_matrix_p[1][5] = t556;
@@ -26665,23 +21223,11 @@ pub fn control<T: Scalar>(
         mass_matrix_p[2][3] = t558;
         mass_matrix_p[3][2] = t558;
         let t559 = t555 + (t526 + (t525 + (t524 + (t523 + (t521 + t522)))));
-        let t560 = mul_add(
-            platform_rotation[0][0],
-            t346,
-            platform_rotation[0][1] * t375,
-        );
+        let t560 = mul_add(platform_rotation[0][0], t346, platform_rotation[0][1] * t375);
         let t561 = mul_add(platform_rotation[0][2], t390, t560);
-        let t562 = mul_add(
-            platform_rotation[0][0],
-            t332,
-            platform_rotation[0][1] * t361,
-        );
+        let t562 = mul_add(platform_rotation[0][0], t332, platform_rotation[0][1] * t361);
         let t563 = mul_add(platform_rotation[0][2], t375, t562);
-        let t564 = mul_add(
-            platform_rotation[0][0],
-            t318,
-            platform_rotation[0][1] * t332,
-        );
+        let t564 = mul_add(platform_rotation[0][0], t318, platform_rotation[0][1] * t332);
         let t565 = mul_add(platform_rotation[0][2], t346, t564);
         let t566 = t390 + (t318 + t361);
         let t567 = mul_add(t162, t491, mul_add(t147, t490, t534));
@@ -26709,23 +21255,11 @@ pub fn control<T: Scalar>(
         let t589 = mul_sub(platform_rotation[2][0], t565, mul_sub(t219, t532, t588));
         let t590 = mul_add(platform_rotation[2][1], t563, t589);
         let t591 = mul_add(platform_rotation[2][2], t561, t590);
-        let t592 = mul_add(
-            platform_rotation[1][0],
-            t346,
-            platform_rotation[1][1] * t375,
-        );
+        let t592 = mul_add(platform_rotation[1][0], t346, platform_rotation[1][1] * t375);
         let t593 = mul_add(platform_rotation[1][2], t390, t592);
-        let t594 = mul_add(
-            platform_rotation[1][0],
-            t332,
-            platform_rotation[1][1] * t361,
-        );
+        let t594 = mul_add(platform_rotation[1][0], t332, platform_rotation[1][1] * t361);
         let t595 = mul_add(platform_rotation[1][2], t375, t594);
-        let t596 = mul_add(
-            platform_rotation[1][0],
-            t318,
-            platform_rotation[1][1] * t332,
-        );
+        let t596 = mul_add(platform_rotation[1][0], t318, platform_rotation[1][1] * t332);
         let t597 = mul_add(platform_rotation[1][2], t346, t596);
         let t598 = mul_add(t156, t522, mul_add(t141, t521, t537));
         let t599 = mul_add(t171, t523, mul_add(t162, t476, t598));
@@ -26744,23 +21278,11 @@ pub fn control<T: Scalar>(
         let t612 = mul_add(platform_rotation[2][0], t597, mul_add(t222, t486, t611));
         let t613 = mul_add(platform_rotation[2][1], t595, t612);
         let t614 = mul_add(platform_rotation[2][2], t593, t613);
-        let t615 = mul_add(
-            platform_rotation[2][0],
-            t346,
-            platform_rotation[2][1] * t375,
-        );
+        let t615 = mul_add(platform_rotation[2][0], t346, platform_rotation[2][1] * t375);
         let t616 = mul_add(platform_rotation[2][2], t390, t615);
-        let t617 = mul_add(
-            platform_rotation[2][0],
-            t332,
-            platform_rotation[2][1] * t361,
-        );
+        let t617 = mul_add(platform_rotation[2][0], t332, platform_rotation[2][1] * t361);
         let t618 = mul_add(platform_rotation[2][2], t375, t617);
-        let t619 = mul_add(
-            platform_rotation[2][0],
-            t318,
-            platform_rotation[2][1] * t332,
-        );
+        let t619 = mul_add(platform_rotation[2][0], t318, platform_rotation[2][1] * t332);
         let t620 = mul_add(platform_rotation[2][2], t346, t619);
         let t621 = mul_add(t159, t482, mul_add(t144, t481, t539));
         let t622 = mul_add(t174, t483, mul_add(t156, t510, t621));
@@ -27095,214 +21617,21 @@ pub fn control<T: Scalar>(
         let t899 = mul_add(t129, t897, mul_add(t127, t883, t128 * t890));
         let t900 = mul_add(t113, t898, t899);
         (
-            t3,
-            t6,
-            t9,
-            t12,
-            t15,
-            t18,
-            t21,
-            t24,
-            t27,
-            t109,
-            t110,
-            t111,
-            t112,
-            t113,
-            t114,
-            t115,
-            t116,
-            t117,
-            t118,
-            t119,
-            t120,
-            t121,
-            t122,
-            t123,
-            t124,
-            t125,
-            t126,
-            t127,
-            t128,
-            t129,
-            t130,
-            t131,
-            t132,
-            t133,
-            t134,
-            t135,
-            t136,
-            t137,
-            t138,
-            t149,
-            t151,
-            t153,
-            t164,
-            t166,
-            t168,
-            t179,
-            t181,
-            t183,
-            t194,
-            t196,
-            t198,
-            t209,
-            t211,
-            t213,
-            t224,
-            t226,
-            t228,
-            t229,
-            t230,
-            t231,
-            t232,
-            t233,
-            t234,
-            t235,
-            t236,
-            t237,
-            t238,
-            t239,
-            t240,
-            t241,
-            t242,
-            t243,
-            t244,
-            t245,
-            t246,
-            t248,
-            t253,
-            t258,
-            t263,
-            t268,
-            t273,
-            t280,
-            t287,
-            t294,
-            t301,
-            t318,
-            t332,
-            t346,
-            t361,
-            t375,
-            t390,
-            t391,
-            t401,
-            t402,
-            t403,
-            t413,
-            t414,
-            t415,
-            t425,
-            t426,
-            t427,
-            t437,
-            t438,
-            t439,
-            t449,
-            t450,
-            t451,
-            t461,
-            t462,
-            t465,
-            t468,
-            t474,
-            t489,
-            t508,
-            t533,
-            t545,
-            t548,
-            t551,
-            t552,
-            t553,
-            t556,
-            t557,
-            t558,
-            t559,
-            t575,
-            t583,
-            t591,
-            t606,
-            t614,
-            t629,
-            t732,
-            t733,
-            t734,
-            t735,
-            t736,
-            t737,
-            t739,
-            t741,
-            t743,
-            t745,
-            t747,
-            t749,
-            t751,
-            t753,
-            t755,
-            t757,
-            t759,
-            t761,
-            t763,
-            t765,
-            t767,
-            t769,
-            t771,
-            t773,
-            t778,
-            t780,
-            t782,
-            t792,
-            t793,
-            t794,
-            t795,
-            t797,
-            t798,
-            t799,
-            t800,
-            t801,
-            t804,
-            t807,
-            t810,
-            t813,
-            t816,
-            t819,
-            t821,
-            t823,
-            t825,
-            t826,
-            t827,
-            t828,
-            t831,
-            t834,
-            t835,
-            t838,
-            t841,
-            t842,
-            t845,
-            t848,
-            t849,
-            t852,
-            t855,
-            t858,
-            t859,
-            t862,
-            t865,
-            t866,
-            t869,
-            t872,
-            t873,
-            t876,
-            t879,
-            t882,
-            t883,
-            t886,
-            t889,
-            t890,
-            t893,
-            t896,
-            t897,
-            t900,
+            t3, t6, t9, t12, t15, t18, t21, t24, t27, t109, t110, t111, t112, t113, t114, t115,
+            t116, t117, t118, t119, t120, t121, t122, t123, t124, t125, t126, t127, t128, t129,
+            t130, t131, t132, t133, t134, t135, t136, t137, t138, t149, t151, t153, t164, t166,
+            t168, t179, t181, t183, t194, t196, t198, t209, t211, t213, t224, t226, t228, t229,
+            t230, t231, t232, t233, t234, t235, t236, t237, t238, t239, t240, t241, t242, t243,
+            t244, t245, t246, t248, t253, t258, t263, t268, t273, t280, t287, t294, t301, t318,
+            t332, t346, t361, t375, t390, t391, t401, t402, t403, t413, t414, t415, t425, t426,
+            t427, t437, t438, t439, t449, t450, t451, t461, t462, t465, t468, t474, t489, t508,
+            t533, t545, t548, t551, t552, t553, t556, t557, t558, t559, t575, t583, t591, t606,
+            t614, t629, t732, t733, t734, t735, t736, t737, t739, t741, t743, t745, t747, t749,
+            t751, t753, t755, t757, t759, t761, t763, t765, t767, t769, t771, t773, t778, t780,
+            t782, t792, t793, t794, t795, t797, t798, t799, t800, t801, t804, t807, t810, t813,
+            t816, t819, t821, t823, t825, t826, t827, t828, t831, t834, t835, t838, t841, t842,
+            t845, t848, t849, t852, t855, t858, t859, t862, t865, t866, t869, t872, t873, t876,
+            t879, t882, t883, t886, t889, t890, t893, t896, t897, t900,
         )
     };
     {
@@ -27733,147 +22062,16 @@ pub fn passive_inverse_dynamics<T: Scalar>(
 ) {
     let c = T::constant;
     let (
-        t3,
-        t6,
-        t9,
-        t12,
-        t15,
-        t18,
-        t21,
-        t24,
-        t27,
-        t121,
-        t122,
-        t123,
-        t124,
-        t125,
-        t126,
-        t127,
-        t128,
-        t129,
-        t130,
-        t131,
-        t132,
-        t133,
-        t134,
-        t135,
-        t136,
-        t137,
-        t138,
-        t172,
-        t179,
-        t186,
-        t193,
-        t196,
-        t211,
-        t225,
-        t239,
-        t254,
-        t268,
-        t283,
-        t295,
-        t298,
-        t380,
-        t381,
-        t382,
-        t383,
-        t384,
-        t385,
-        t454,
-        t456,
-        t458,
-        t471,
-        t475,
-        t479,
-        t482,
-        t485,
-        t488,
-        t490,
-        t492,
-        t494,
-        t654,
-        t656,
-        t660,
-        t661,
-        t662,
-        t663,
-        t667,
-        t668,
-        t669,
-        t670,
-        t671,
-        t673,
-        t674,
-        t675,
-        t701,
-        t706,
-        t710,
-        t711,
-        t712,
-        t713,
-        t739,
-        t744,
-        t748,
-        t749,
-        t750,
-        t751,
-        t777,
-        t782,
-        t786,
-        t787,
-        t788,
-        t789,
-        t815,
-        t820,
-        t824,
-        t825,
-        t826,
-        t827,
-        t853,
-        t858,
-        t862,
-        t863,
-        t864,
-        t865,
-        t891,
-        t896,
-        t900,
-        t901,
-        t902,
-        t903,
-        t904,
-        t905,
-        t906,
-        t907,
-        t908,
-        t909,
-        t910,
-        t911,
-        t912,
-        t913,
-        t914,
-        t915,
-        t916,
-        t917,
-        t918,
-        t919,
-        t920,
-        t921,
-        t922,
-        t923,
-        t924,
-        t925,
-        t926,
-        t927,
-        t928,
-        t929,
-        t930,
-        t931,
-        t932,
-        t933,
-        t934,
-        t935,
-        t936,
+        t3, t6, t9, t12, t15, t18, t21, t24, t27, t121, t122, t123, t124, t125, t126, t127, t128,
+        t129, t130, t131, t132, t133, t134, t135, t136, t137, t138, t172, t179, t186, t193, t196,
+        t211, t225, t239, t254, t268, t283, t295, t298, t380, t381, t382, t383, t384, t385, t454,
+        t456, t458, t471, t475, t479, t482, t485, t488, t490, t492, t494, t654, t656, t660, t661,
+        t662, t663, t667, t668, t669, t670, t671, t673, t674, t675, t701, t706, t710, t711, t712,
+        t713, t739, t744, t748, t749, t750, t751, t777, t782, t786, t787, t788, t789, t815, t820,
+        t824, t825, t826, t827, t853, t858, t862, t863, t864, t865, t891, t896, t900, t901, t902,
+        t903, t904, t905, t906, t907, t908, t909, t910, t911, t912, t913, t914, t915, t916, t917,
+        t918, t919, t920, t921, t922, t923, t924, t925, t926, t927, t928, t929, t930, t931, t932,
+        t933, t934, t935, t936,
     ) = {
         // rotation of the platform seen from the base
         let t1 = base_rotation[1][0] * platform_rotation[1][0];
@@ -28101,85 +22299,25 @@ pub fn passive_inverse_dynamics<T: Scalar>(
         // first moment of payload and platform-side leg ends
         let t173 = parameters.platform_point[0][0] * parameters.upper_mass[0];
         let t174 = mul_add(parameters.payload_mass, parameters.payload_com[0], t173);
-        let t175 = mul_add(
-            parameters.platform_point[1][0],
-            parameters.upper_mass[1],
-            t174,
-        );
-        let t176 = mul_add(
-            parameters.platform_point[2][0],
-            parameters.upper_mass[2],
-            t175,
-        );
-        let t177 = mul_add(
-            parameters.platform_point[3][0],
-            parameters.upper_mass[3],
-            t176,
-        );
-        let t178 = mul_add(
-            parameters.platform_point[4][0],
-            parameters.upper_mass[4],
-            t177,
-        );
-        let t179 = mul_add(
-            parameters.platform_point[5][0],
-            parameters.upper_mass[5],
-            t178,
-        );
+        let t175 = mul_add(parameters.platform_point[1][0], parameters.upper_mass[1], t174);
+        let t176 = mul_add(parameters.platform_point[2][0], parameters.upper_mass[2], t175);
+        let t177 = mul_add(parameters.platform_point[3][0], parameters.upper_mass[3], t176);
+        let t178 = mul_add(parameters.platform_point[4][0], parameters.upper_mass[4], t177);
+        let t179 = mul_add(parameters.platform_point[5][0], parameters.upper_mass[5], t178);
         let t180 = parameters.platform_point[0][1] * parameters.upper_mass[0];
         let t181 = mul_add(parameters.payload_mass, parameters.payload_com[1], t180);
-        let t182 = mul_add(
-            parameters.platform_point[1][1],
-            parameters.upper_mass[1],
-            t181,
-        );
-        let t183 = mul_add(
-            parameters.platform_point[2][1],
-            parameters.upper_mass[2],
-            t182,
-        );
-        let t184 = mul_add(
-            parameters.platform_point[3][1],
-            parameters.upper_mass[3],
-            t183,
-        );
-        let t185 = mul_add(
-            parameters.platform_point[4][1],
-            parameters.upper_mass[4],
-            t184,
-        );
-        let t186 = mul_add(
-            parameters.platform_point[5][1],
-            parameters.upper_mass[5],
-            t185,
-        );
+        let t182 = mul_add(parameters.platform_point[1][1], parameters.upper_mass[1], t181);
+        let t183 = mul_add(parameters.platform_point[2][1], parameters.upper_mass[2], t182);
+        let t184 = mul_add(parameters.platform_point[3][1], parameters.upper_mass[3], t183);
+        let t185 = mul_add(parameters.platform_point[4][1], parameters.upper_mass[4], t184);
+        let t186 = mul_add(parameters.platform_point[5][1], parameters.upper_mass[5], t185);
         let t187 = parameters.platform_point[0][2] * parameters.upper_mass[0];
         let t188 = mul_add(parameters.payload_mass, parameters.payload_com[2], t187);
-        let t189 = mul_add(
-            parameters.platform_point[1][2],
-            parameters.upper_mass[1],
-            t188,
-        );
-        let t190 = mul_add(
-            parameters.platform_point[2][2],
-            parameters.upper_mass[2],
-            t189,
-        );
-        let t191 = mul_add(
-            parameters.platform_point[3][2],
-            parameters.upper_mass[3],
-            t190,
-        );
-        let t192 = mul_add(
-            parameters.platform_point[4][2],
-            parameters.upper_mass[4],
-            t191,
-        );
-        let t193 = mul_add(
-            parameters.platform_point[5][2],
-            parameters.upper_mass[5],
-            t192,
-        );
+        let t189 = mul_add(parameters.platform_point[1][2], parameters.upper_mass[1], t188);
+        let t190 = mul_add(parameters.platform_point[2][2], parameters.upper_mass[2], t189);
+        let t191 = mul_add(parameters.platform_point[3][2], parameters.upper_mass[3], t190);
+        let t192 = mul_add(parameters.platform_point[4][2], parameters.upper_mass[4], t191);
+        let t193 = mul_add(parameters.platform_point[5][2], parameters.upper_mass[5], t192);
         // second moment of payload and platform-side leg ends
         let t194 = parameters.payload_inertia[0][0] + parameters.payload_inertia[1][1];
         let t195 = parameters.payload_inertia[2][2] + t194;
@@ -28206,11 +22344,7 @@ pub fn passive_inverse_dynamics<T: Scalar>(
         let t216 = parameters.platform_point[1][0] * parameters.platform_point[1][1];
         let t217 = parameters.platform_point[0][0] * parameters.platform_point[0][1];
         let t218 = parameters.payload_com[0] * parameters.payload_com[1];
-        let t219 = neg_mul_add(
-            parameters.payload_mass,
-            t218,
-            parameters.payload_inertia[0][1],
-        );
+        let t219 = neg_mul_add(parameters.payload_mass, t218, parameters.payload_inertia[0][1]);
         let t220 = mul_sub(parameters.upper_mass[0], t217, t219);
         let t221 = mul_add(parameters.upper_mass[1], t216, t220);
         let t222 = mul_add(parameters.upper_mass[2], t215, t221);
@@ -28224,11 +22358,7 @@ pub fn passive_inverse_dynamics<T: Scalar>(
         let t230 = parameters.platform_point[1][0] * parameters.platform_point[1][2];
         let t231 = parameters.platform_point[0][0] * parameters.platform_point[0][2];
         let t232 = parameters.payload_com[0] * parameters.payload_com[2];
-        let t233 = neg_mul_add(
-            parameters.payload_mass,
-            t232,
-            parameters.payload_inertia[0][2],
-        );
+        let t233 = neg_mul_add(parameters.payload_mass, t232, parameters.payload_inertia[0][2]);
         let t234 = mul_sub(parameters.upper_mass[0], t231, t233);
         let t235 = mul_add(parameters.upper_mass[1], t230, t234);
         let t236 = mul_add(parameters.upper_mass[2], t229, t235);
@@ -28257,11 +22387,7 @@ pub fn passive_inverse_dynamics<T: Scalar>(
         let t259 = parameters.platform_point[1][1] * parameters.platform_point[1][2];
         let t260 = parameters.platform_point[0][1] * parameters.platform_point[0][2];
         let t261 = parameters.payload_com[1] * parameters.payload_com[2];
-        let t262 = neg_mul_add(
-            parameters.payload_mass,
-            t261,
-            parameters.payload_inertia[1][2],
-        );
+        let t262 = neg_mul_add(parameters.payload_mass, t261, parameters.payload_inertia[1][2]);
         let t263 = mul_sub(parameters.upper_mass[0], t260, t262);
         let t264 = mul_add(parameters.upper_mass[1], t259, t263);
         let t265 = mul_add(parameters.upper_mass[2], t258, t264);
@@ -29000,147 +23126,16 @@ pub fn passive_inverse_dynamics<T: Scalar>(
         let t935 = t225 * t490;
         let t936 = t239 * t490;
         (
-            t3,
-            t6,
-            t9,
-            t12,
-            t15,
-            t18,
-            t21,
-            t24,
-            t27,
-            t121,
-            t122,
-            t123,
-            t124,
-            t125,
-            t126,
-            t127,
-            t128,
-            t129,
-            t130,
-            t131,
-            t132,
-            t133,
-            t134,
-            t135,
-            t136,
-            t137,
-            t138,
-            t172,
-            t179,
-            t186,
-            t193,
-            t196,
-            t211,
-            t225,
-            t239,
-            t254,
-            t268,
-            t283,
-            t295,
-            t298,
-            t380,
-            t381,
-            t382,
-            t383,
-            t384,
-            t385,
-            t454,
-            t456,
-            t458,
-            t471,
-            t475,
-            t479,
-            t482,
-            t485,
-            t488,
-            t490,
-            t492,
-            t494,
-            t654,
-            t656,
-            t660,
-            t661,
-            t662,
-            t663,
-            t667,
-            t668,
-            t669,
-            t670,
-            t671,
-            t673,
-            t674,
-            t675,
-            t701,
-            t706,
-            t710,
-            t711,
-            t712,
-            t713,
-            t739,
-            t744,
-            t748,
-            t749,
-            t750,
-            t751,
-            t777,
-            t782,
-            t786,
-            t787,
-            t788,
-            t789,
-            t815,
-            t820,
-            t824,
-            t825,
-            t826,
-            t827,
-            t853,
-            t858,
-            t862,
-            t863,
-            t864,
-            t865,
-            t891,
-            t896,
-            t900,
-            t901,
-            t902,
-            t903,
-            t904,
-            t905,
-            t906,
-            t907,
-            t908,
-            t909,
-            t910,
-            t911,
-            t912,
-            t913,
-            t914,
-            t915,
-            t916,
-            t917,
-            t918,
-            t919,
-            t920,
-            t921,
-            t922,
-            t923,
-            t924,
-            t925,
-            t926,
-            t927,
-            t928,
-            t929,
-            t930,
-            t931,
-            t932,
-            t933,
-            t934,
-            t935,
-            t936,
+            t3, t6, t9, t12, t15, t18, t21, t24, t27, t121, t122, t123, t124, t125, t126, t127,
+            t128, t129, t130, t131, t132, t133, t134, t135, t136, t137, t138, t172, t179, t186,
+            t193, t196, t211, t225, t239, t254, t268, t283, t295, t298, t380, t381, t382, t383,
+            t384, t385, t454, t456, t458, t471, t475, t479, t482, t485, t488, t490, t492, t494,
+            t654, t656, t660, t661, t662, t663, t667, t668, t669, t670, t671, t673, t674, t675,
+            t701, t706, t710, t711, t712, t713, t739, t744, t748, t749, t750, t751, t777, t782,
+            t786, t787, t788, t789, t815, t820, t824, t825, t826, t827, t853, t858, t862, t863,
+            t864, t865, t891, t896, t900, t901, t902, t903, t904, t905, t906, t907, t908, t909,
+            t910, t911, t912, t913, t914, t915, t916, t917, t918, t919, t920, t921, t922, t923,
+            t924, t925, t926, t927, t928, t929, t930, t931, t932, t933, t934, t935, t936,
         )
     };
     {
@@ -29295,33 +23290,33 @@ pub fn passive_inverse_dynamics<T: Scalar>(
         // leg 1: actuator forces F at reference speeds
         let t1072 = mul_sub(t123, t710, mul_add(t121, t701, t706));
         let t1073 = mul_add(parameters.axial_stiffness[0], t904, t1072);
-        passive_inverse_dynamics[0] = axial_reaction[0]
-            - mul_add(parameters.axial_damping[0], t380, t1073);
+        passive_inverse_dynamics[0] =
+            axial_reaction[0] - mul_add(parameters.axial_damping[0], t380, t1073);
         // leg 2: actuator forces F at reference speeds
         let t1074 = mul_sub(t126, t748, mul_add(t124, t739, t744));
         let t1075 = mul_add(parameters.axial_stiffness[1], t905, t1074);
-        passive_inverse_dynamics[1] = axial_reaction[1]
-            - mul_add(parameters.axial_damping[1], t381, t1075);
+        passive_inverse_dynamics[1] =
+            axial_reaction[1] - mul_add(parameters.axial_damping[1], t381, t1075);
         // leg 3: actuator forces F at reference speeds
         let t1076 = mul_sub(t129, t786, mul_add(t127, t777, t782));
         let t1077 = mul_add(parameters.axial_stiffness[2], t906, t1076);
-        passive_inverse_dynamics[2] = axial_reaction[2]
-            - mul_add(parameters.axial_damping[2], t382, t1077);
+        passive_inverse_dynamics[2] =
+            axial_reaction[2] - mul_add(parameters.axial_damping[2], t382, t1077);
         // leg 4: actuator forces F at reference speeds
         let t1078 = mul_sub(t132, t824, mul_add(t130, t815, t820));
         let t1079 = mul_add(parameters.axial_stiffness[3], t907, t1078);
-        passive_inverse_dynamics[3] = axial_reaction[3]
-            - mul_add(parameters.axial_damping[3], t383, t1079);
+        passive_inverse_dynamics[3] =
+            axial_reaction[3] - mul_add(parameters.axial_damping[3], t383, t1079);
         // leg 5: actuator forces F at reference speeds
         let t1080 = mul_sub(t135, t862, mul_add(t133, t853, t858));
         let t1081 = mul_add(parameters.axial_stiffness[4], t908, t1080);
-        passive_inverse_dynamics[4] = axial_reaction[4]
-            - mul_add(parameters.axial_damping[4], t384, t1081);
+        passive_inverse_dynamics[4] =
+            axial_reaction[4] - mul_add(parameters.axial_damping[4], t384, t1081);
         // leg 6: actuator forces F at reference speeds
         let t1082 = mul_sub(t138, t900, mul_add(t136, t891, t896));
         let t1083 = mul_add(parameters.axial_stiffness[5], t909, t1082);
-        passive_inverse_dynamics[5] = axial_reaction[5]
-            - mul_add(parameters.axial_damping[5], t385, t1083);
+        passive_inverse_dynamics[5] =
+            axial_reaction[5] - mul_add(parameters.axial_damping[5], t385, t1083);
     }
 }
 
@@ -29533,11 +23528,7 @@ pub fn base_reaction<T: Scalar>(
     // leg 1: first moment of the upper part about the platform joint
     let t140 = parameters.upper_mass[0] * parameters.upper_com_distance[0];
     // leg 1: inertia of both parts, each about its joint, that turns with the direction
-    let t141 = mul_add(
-        parameters.lower_com_distance[0],
-        t139,
-        parameters.lower_inertia[0],
-    );
+    let t141 = mul_add(parameters.lower_com_distance[0], t139, parameters.lower_inertia[0]);
     let t142 = parameters.upper_inertia[0] + t141;
     let t143 = mul_add(parameters.upper_com_distance[0], t140, t142);
     // leg 2: first moment of the lower part about the base joint
@@ -29545,11 +23536,7 @@ pub fn base_reaction<T: Scalar>(
     // leg 2: first moment of the upper part about the platform joint
     let t145 = parameters.upper_mass[1] * parameters.upper_com_distance[1];
     // leg 2: inertia of both parts, each about its joint, that turns with the direction
-    let t146 = mul_add(
-        parameters.lower_com_distance[1],
-        t144,
-        parameters.lower_inertia[1],
-    );
+    let t146 = mul_add(parameters.lower_com_distance[1], t144, parameters.lower_inertia[1]);
     let t147 = parameters.upper_inertia[1] + t146;
     let t148 = mul_add(parameters.upper_com_distance[1], t145, t147);
     // leg 3: first moment of the lower part about the base joint
@@ -29557,11 +23544,7 @@ pub fn base_reaction<T: Scalar>(
     // leg 3: first moment of the upper part about the platform joint
     let t150 = parameters.upper_mass[2] * parameters.upper_com_distance[2];
     // leg 3: inertia of both parts, each about its joint, that turns with the direction
-    let t151 = mul_add(
-        parameters.lower_com_distance[2],
-        t149,
-        parameters.lower_inertia[2],
-    );
+    let t151 = mul_add(parameters.lower_com_distance[2], t149, parameters.lower_inertia[2]);
     let t152 = parameters.upper_inertia[2] + t151;
     let t153 = mul_add(parameters.upper_com_distance[2], t150, t152);
     // leg 4: first moment of the lower part about the base joint
@@ -29569,11 +23552,7 @@ pub fn base_reaction<T: Scalar>(
     // leg 4: first moment of the upper part about the platform joint
     let t155 = parameters.upper_mass[3] * parameters.upper_com_distance[3];
     // leg 4: inertia of both parts, each about its joint, that turns with the direction
-    let t156 = mul_add(
-        parameters.lower_com_distance[3],
-        t154,
-        parameters.lower_inertia[3],
-    );
+    let t156 = mul_add(parameters.lower_com_distance[3], t154, parameters.lower_inertia[3]);
     let t157 = parameters.upper_inertia[3] + t156;
     let t158 = mul_add(parameters.upper_com_distance[3], t155, t157);
     // leg 5: first moment of the lower part about the base joint
@@ -29581,11 +23560,7 @@ pub fn base_reaction<T: Scalar>(
     // leg 5: first moment of the upper part about the platform joint
     let t160 = parameters.upper_mass[4] * parameters.upper_com_distance[4];
     // leg 5: inertia of both parts, each about its joint, that turns with the direction
-    let t161 = mul_add(
-        parameters.lower_com_distance[4],
-        t159,
-        parameters.lower_inertia[4],
-    );
+    let t161 = mul_add(parameters.lower_com_distance[4], t159, parameters.lower_inertia[4]);
     let t162 = parameters.upper_inertia[4] + t161;
     let t163 = mul_add(parameters.upper_com_distance[4], t160, t162);
     // leg 6: first moment of the lower part about the base joint
@@ -29593,11 +23568,7 @@ pub fn base_reaction<T: Scalar>(
     // leg 6: first moment of the upper part about the platform joint
     let t165 = parameters.upper_mass[5] * parameters.upper_com_distance[5];
     // leg 6: inertia of both parts, each about its joint, that turns with the direction
-    let t166 = mul_add(
-        parameters.lower_com_distance[5],
-        t164,
-        parameters.lower_inertia[5],
-    );
+    let t166 = mul_add(parameters.lower_com_distance[5], t164, parameters.lower_inertia[5]);
     let t167 = parameters.upper_inertia[5] + t166;
     let t168 = mul_add(parameters.upper_com_distance[5], t165, t167);
     // mass of payload and platform-side leg ends
@@ -29652,11 +23623,7 @@ pub fn base_reaction<T: Scalar>(
     let t215 = parameters.platform_point[1][0] * parameters.platform_point[1][1];
     let t216 = parameters.platform_point[0][0] * parameters.platform_point[0][1];
     let t217 = parameters.payload_com[0] * parameters.payload_com[1];
-    let t218 = neg_mul_add(
-        parameters.payload_mass,
-        t217,
-        parameters.payload_inertia[0][1],
-    );
+    let t218 = neg_mul_add(parameters.payload_mass, t217, parameters.payload_inertia[0][1]);
     let t219 = neg_mul_add(parameters.upper_mass[0], t216, t218);
     let t220 = neg_mul_add(parameters.upper_mass[1], t215, t219);
     let t221 = neg_mul_add(parameters.upper_mass[2], t214, t220);
@@ -29670,11 +23637,7 @@ pub fn base_reaction<T: Scalar>(
     let t229 = parameters.platform_point[1][0] * parameters.platform_point[1][2];
     let t230 = parameters.platform_point[0][0] * parameters.platform_point[0][2];
     let t231 = parameters.payload_com[0] * parameters.payload_com[2];
-    let t232 = neg_mul_add(
-        parameters.payload_mass,
-        t231,
-        parameters.payload_inertia[0][2],
-    );
+    let t232 = neg_mul_add(parameters.payload_mass, t231, parameters.payload_inertia[0][2]);
     let t233 = neg_mul_add(parameters.upper_mass[0], t230, t232);
     let t234 = neg_mul_add(parameters.upper_mass[1], t229, t233);
     let t235 = neg_mul_add(parameters.upper_mass[2], t228, t234);
@@ -29703,11 +23666,7 @@ pub fn base_reaction<T: Scalar>(
     let t258 = parameters.platform_point[1][1] * parameters.platform_point[1][2];
     let t259 = parameters.platform_point[0][1] * parameters.platform_point[0][2];
     let t260 = parameters.payload_com[1] * parameters.payload_com[2];
-    let t261 = neg_mul_add(
-        parameters.payload_mass,
-        t260,
-        parameters.payload_inertia[1][2],
-    );
+    let t261 = neg_mul_add(parameters.payload_mass, t260, parameters.payload_inertia[1][2]);
     let t262 = neg_mul_add(parameters.upper_mass[0], t259, t261);
     let t263 = neg_mul_add(parameters.upper_mass[1], t258, t262);
     let t264 = neg_mul_add(parameters.upper_mass[2], t257, t263);
@@ -30435,143 +24394,15 @@ pub fn forward_dynamics<T: Scalar>(
 ) {
     let c = T::constant;
     let (
-        t3,
-        t6,
-        t9,
-        t12,
-        t15,
-        t18,
-        t21,
-        t24,
-        t27,
-        t122,
-        t123,
-        t125,
-        t126,
-        t128,
-        t129,
-        t131,
-        t132,
-        t134,
-        t135,
-        t137,
-        t138,
-        t175,
-        t182,
-        t189,
-        t455,
-        t457,
-        t459,
-        t460,
-        t461,
-        t462,
-        t618,
-        t619,
-        t631,
-        t632,
-        t644,
-        t645,
-        t657,
-        t658,
-        t670,
-        t671,
-        t683,
-        t684,
-        t691,
-        t692,
-        t693,
-        t694,
-        t695,
-        t696,
-        t697,
-        t698,
-        t699,
-        t700,
-        t701,
-        t702,
-        t703,
-        t704,
-        t705,
-        t706,
-        t707,
-        t708,
-        t723,
-        t726,
-        t734,
-        t742,
-        t743,
-        t751,
-        t759,
-        t767,
-        t775,
-        t783,
-        t784,
-        t792,
-        t800,
-        t801,
-        t805,
-        t809,
-        t813,
-        t817,
-        t821,
-        t825,
-        t831,
-        t842,
-        t846,
-        t847,
-        t848,
-        t849,
-        t850,
-        t851,
-        t852,
-        t855,
-        t856,
-        t857,
-        t858,
-        t859,
-        t860,
-        t861,
-        t864,
-        t865,
-        t866,
-        t867,
-        t868,
-        t869,
-        t870,
-        t873,
-        t892,
-        t893,
-        t894,
-        t895,
-        t896,
-        t897,
-        t898,
-        t901,
-        t902,
-        t903,
-        t904,
-        t905,
-        t906,
-        t907,
-        t908,
-        t911,
-        t912,
-        t913,
-        t914,
-        t915,
-        t925,
-        t932,
-        t936,
-        t937,
-        t938,
-        t939,
-        t940,
-        t941,
-        t942,
-        t943,
-        t944,
-        t945,
-        t946,
+        t3, t6, t9, t12, t15, t18, t21, t24, t27, t122, t123, t125, t126, t128, t129, t131, t132,
+        t134, t135, t137, t138, t175, t182, t189, t455, t457, t459, t460, t461, t462, t618, t619,
+        t631, t632, t644, t645, t657, t658, t670, t671, t683, t684, t691, t692, t693, t694, t695,
+        t696, t697, t698, t699, t700, t701, t702, t703, t704, t705, t706, t707, t708, t723, t726,
+        t734, t742, t743, t751, t759, t767, t775, t783, t784, t792, t800, t801, t805, t809, t813,
+        t817, t821, t825, t831, t842, t846, t847, t848, t849, t850, t851, t852, t855, t856, t857,
+        t858, t859, t860, t861, t864, t865, t866, t867, t868, t869, t870, t873, t892, t893, t894,
+        t895, t896, t897, t898, t901, t902, t903, t904, t905, t906, t907, t908, t911, t912, t913,
+        t914, t915, t925, t932, t936, t937, t938, t939, t940, t941, t942, t943, t944, t945, t946,
     ) = {
         // rotation of the platform seen from the base
         let t1 = base_rotation[1][0] * platform_rotation[1][0];
@@ -30794,85 +24625,25 @@ pub fn forward_dynamics<T: Scalar>(
         // first moment of payload and platform-side leg ends
         let t169 = parameters.platform_point[0][0] * parameters.upper_mass[0];
         let t170 = mul_add(parameters.payload_mass, parameters.payload_com[0], t169);
-        let t171 = mul_add(
-            parameters.platform_point[1][0],
-            parameters.upper_mass[1],
-            t170,
-        );
-        let t172 = mul_add(
-            parameters.platform_point[2][0],
-            parameters.upper_mass[2],
-            t171,
-        );
-        let t173 = mul_add(
-            parameters.platform_point[3][0],
-            parameters.upper_mass[3],
-            t172,
-        );
-        let t174 = mul_add(
-            parameters.platform_point[4][0],
-            parameters.upper_mass[4],
-            t173,
-        );
-        let t175 = mul_add(
-            parameters.platform_point[5][0],
-            parameters.upper_mass[5],
-            t174,
-        );
+        let t171 = mul_add(parameters.platform_point[1][0], parameters.upper_mass[1], t170);
+        let t172 = mul_add(parameters.platform_point[2][0], parameters.upper_mass[2], t171);
+        let t173 = mul_add(parameters.platform_point[3][0], parameters.upper_mass[3], t172);
+        let t174 = mul_add(parameters.platform_point[4][0], parameters.upper_mass[4], t173);
+        let t175 = mul_add(parameters.platform_point[5][0], parameters.upper_mass[5], t174);
         let t176 = parameters.platform_point[0][1] * parameters.upper_mass[0];
         let t177 = mul_add(parameters.payload_mass, parameters.payload_com[1], t176);
-        let t178 = mul_add(
-            parameters.platform_point[1][1],
-            parameters.upper_mass[1],
-            t177,
-        );
-        let t179 = mul_add(
-            parameters.platform_point[2][1],
-            parameters.upper_mass[2],
-            t178,
-        );
-        let t180 = mul_add(
-            parameters.platform_point[3][1],
-            parameters.upper_mass[3],
-            t179,
-        );
-        let t181 = mul_add(
-            parameters.platform_point[4][1],
-            parameters.upper_mass[4],
-            t180,
-        );
-        let t182 = mul_add(
-            parameters.platform_point[5][1],
-            parameters.upper_mass[5],
-            t181,
-        );
+        let t178 = mul_add(parameters.platform_point[1][1], parameters.upper_mass[1], t177);
+        let t179 = mul_add(parameters.platform_point[2][1], parameters.upper_mass[2], t178);
+        let t180 = mul_add(parameters.platform_point[3][1], parameters.upper_mass[3], t179);
+        let t181 = mul_add(parameters.platform_point[4][1], parameters.upper_mass[4], t180);
+        let t182 = mul_add(parameters.platform_point[5][1], parameters.upper_mass[5], t181);
         let t183 = parameters.platform_point[0][2] * parameters.upper_mass[0];
         let t184 = mul_add(parameters.payload_mass, parameters.payload_com[2], t183);
-        let t185 = mul_add(
-            parameters.platform_point[1][2],
-            parameters.upper_mass[1],
-            t184,
-        );
-        let t186 = mul_add(
-            parameters.platform_point[2][2],
-            parameters.upper_mass[2],
-            t185,
-        );
-        let t187 = mul_add(
-            parameters.platform_point[3][2],
-            parameters.upper_mass[3],
-            t186,
-        );
-        let t188 = mul_add(
-            parameters.platform_point[4][2],
-            parameters.upper_mass[4],
-            t187,
-        );
-        let t189 = mul_add(
-            parameters.platform_point[5][2],
-            parameters.upper_mass[5],
-            t188,
-        );
+        let t185 = mul_add(parameters.platform_point[1][2], parameters.upper_mass[1], t184);
+        let t186 = mul_add(parameters.platform_point[2][2], parameters.upper_mass[2], t185);
+        let t187 = mul_add(parameters.platform_point[3][2], parameters.upper_mass[3], t186);
+        let t188 = mul_add(parameters.platform_point[4][2], parameters.upper_mass[4], t187);
+        let t189 = mul_add(parameters.platform_point[5][2], parameters.upper_mass[5], t188);
         // second moment of payload and platform-side leg ends
         let t190 = parameters.platform_point[0][0] * parameters.platform_point[0][0];
         let t191 = parameters.platform_point[1][0] * parameters.platform_point[1][0];
@@ -30898,11 +24669,7 @@ pub fn forward_dynamics<T: Scalar>(
         let t211 = parameters.platform_point[4][0] * parameters.platform_point[4][1];
         let t212 = parameters.platform_point[5][0] * parameters.platform_point[5][1];
         let t213 = parameters.payload_com[0] * parameters.payload_com[1];
-        let t214 = neg_mul_add(
-            parameters.payload_mass,
-            t213,
-            parameters.payload_inertia[0][1],
-        );
+        let t214 = neg_mul_add(parameters.payload_mass, t213, parameters.payload_inertia[0][1]);
         let t215 = mul_sub(parameters.upper_mass[0], t207, t214);
         let t216 = mul_add(parameters.upper_mass[1], t208, t215);
         let t217 = mul_add(parameters.upper_mass[2], t209, t216);
@@ -30916,11 +24683,7 @@ pub fn forward_dynamics<T: Scalar>(
         let t225 = parameters.platform_point[4][0] * parameters.platform_point[4][2];
         let t226 = parameters.platform_point[5][0] * parameters.platform_point[5][2];
         let t227 = parameters.payload_com[0] * parameters.payload_com[2];
-        let t228 = neg_mul_add(
-            parameters.payload_mass,
-            t227,
-            parameters.payload_inertia[0][2],
-        );
+        let t228 = neg_mul_add(parameters.payload_mass, t227, parameters.payload_inertia[0][2]);
         let t229 = mul_sub(parameters.upper_mass[0], t221, t228);
         let t230 = mul_add(parameters.upper_mass[1], t222, t229);
         let t231 = mul_add(parameters.upper_mass[2], t223, t230);
@@ -30949,11 +24712,7 @@ pub fn forward_dynamics<T: Scalar>(
         let t254 = parameters.platform_point[4][1] * parameters.platform_point[4][2];
         let t255 = parameters.platform_point[5][1] * parameters.platform_point[5][2];
         let t256 = parameters.payload_com[1] * parameters.payload_com[2];
-        let t257 = neg_mul_add(
-            parameters.payload_mass,
-            t256,
-            parameters.payload_inertia[1][2],
-        );
+        let t257 = neg_mul_add(parameters.payload_mass, t256, parameters.payload_inertia[1][2]);
         let t258 = mul_sub(parameters.upper_mass[0], t250, t257);
         let t259 = mul_add(parameters.upper_mass[1], t251, t258);
         let t260 = mul_add(parameters.upper_mass[2], t252, t259);
@@ -31717,143 +25476,16 @@ pub fn forward_dynamics<T: Scalar>(
         let t945 = mul_add(t27, t935, mul_add(t21, t931, t24 * t924));
         let t946 = mul_add(t27, t918, mul_add(t21, t928, t24 * t935));
         (
-            t3,
-            t6,
-            t9,
-            t12,
-            t15,
-            t18,
-            t21,
-            t24,
-            t27,
-            t122,
-            t123,
-            t125,
-            t126,
-            t128,
-            t129,
-            t131,
-            t132,
-            t134,
-            t135,
-            t137,
-            t138,
-            t175,
-            t182,
-            t189,
-            t455,
-            t457,
-            t459,
-            t460,
-            t461,
-            t462,
-            t618,
-            t619,
-            t631,
-            t632,
-            t644,
-            t645,
-            t657,
-            t658,
-            t670,
-            t671,
-            t683,
-            t684,
-            t691,
-            t692,
-            t693,
-            t694,
-            t695,
-            t696,
-            t697,
-            t698,
-            t699,
-            t700,
-            t701,
-            t702,
-            t703,
-            t704,
-            t705,
-            t706,
-            t707,
-            t708,
-            t723,
-            t726,
-            t734,
-            t742,
-            t743,
-            t751,
-            t759,
-            t767,
-            t775,
-            t783,
-            t784,
-            t792,
-            t800,
-            t801,
-            t805,
-            t809,
-            t813,
-            t817,
-            t821,
-            t825,
-            t831,
-            t842,
-            t846,
-            t847,
-            t848,
-            t849,
-            t850,
-            t851,
-            t852,
-            t855,
-            t856,
-            t857,
-            t858,
-            t859,
-            t860,
-            t861,
-            t864,
-            t865,
-            t866,
-            t867,
-            t868,
-            t869,
-            t870,
-            t873,
-            t892,
-            t893,
-            t894,
-            t895,
-            t896,
-            t897,
-            t898,
-            t901,
-            t902,
-            t903,
-            t904,
-            t905,
-            t906,
-            t907,
-            t908,
-            t911,
-            t912,
-            t913,
-            t914,
-            t915,
-            t925,
-            t932,
-            t936,
-            t937,
-            t938,
-            t939,
-            t940,
-            t941,
-            t942,
-            t943,
-            t944,
-            t945,
-            t946,
+            t3, t6, t9, t12, t15, t18, t21, t24, t27, t122, t123, t125, t126, t128, t129, t131,
+            t132, t134, t135, t137, t138, t175, t182, t189, t455, t457, t459, t460, t461, t462,
+            t618, t619, t631, t632, t644, t645, t657, t658, t670, t671, t683, t684, t691, t692,
+            t693, t694, t695, t696, t697, t698, t699, t700, t701, t702, t703, t704, t705, t706,
+            t707, t708, t723, t726, t734, t742, t743, t751, t759, t767, t775, t783, t784, t792,
+            t800, t801, t805, t809, t813, t817, t821, t825, t831, t842, t846, t847, t848, t849,
+            t850, t851, t852, t855, t856, t857, t858, t859, t860, t861, t864, t865, t866, t867,
+            t868, t869, t870, t873, t892, t893, t894, t895, t896, t897, t898, t901, t902, t903,
+            t904, t905, t906, t907, t908, t911, t912, t913, t914, t915, t925, t932, t936, t937,
+            t938, t939, t940, t941, t942, t943, t944, t945, t946,
         )
     };
     {

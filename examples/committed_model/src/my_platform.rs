@@ -266,41 +266,17 @@ pub fn rod_alignment<T: Scalar>(
     // leg 6: extent of the rod along the actuator axis
     let t46 = t40 * t40;
     // leg 1: squared cosine between rod and line of the actuator's force; negative out of reach
-    rod_alignment[0] = neg_mul_add(
-        c(23.564897728343862),
-        mul_add(t21, t21, t41),
-        c(1.0),
-    );
+    rod_alignment[0] = neg_mul_add(c(23.564897728343862), mul_add(t21, t21, t41), c(1.0));
     // leg 2: squared cosine between rod and line of the actuator's force; negative out of reach
-    rod_alignment[1] = neg_mul_add(
-        c(23.564897728343862),
-        mul_add(t25, t25, t42),
-        c(1.0),
-    );
+    rod_alignment[1] = neg_mul_add(c(23.564897728343862), mul_add(t25, t25, t42), c(1.0));
     // leg 3: squared cosine between rod and line of the actuator's force; negative out of reach
-    rod_alignment[2] = neg_mul_add(
-        c(23.564897728343862),
-        mul_add(t28, t28, t43),
-        c(1.0),
-    );
+    rod_alignment[2] = neg_mul_add(c(23.564897728343862), mul_add(t28, t28, t43), c(1.0));
     // leg 4: squared cosine between rod and line of the actuator's force; negative out of reach
-    rod_alignment[3] = neg_mul_add(
-        c(23.564897728343862),
-        mul_add(t33, t33, t44),
-        c(1.0),
-    );
+    rod_alignment[3] = neg_mul_add(c(23.564897728343862), mul_add(t33, t33, t44), c(1.0));
     // leg 5: squared cosine between rod and line of the actuator's force; negative out of reach
-    rod_alignment[4] = neg_mul_add(
-        c(23.564897728343862),
-        mul_add(t37, t37, t45),
-        c(1.0),
-    );
+    rod_alignment[4] = neg_mul_add(c(23.564897728343862), mul_add(t37, t37, t45), c(1.0));
     // leg 6: squared cosine between rod and line of the actuator's force; negative out of reach
-    rod_alignment[5] = neg_mul_add(
-        c(23.564897728343862),
-        mul_add(t39, t39, t46),
-        c(1.0),
-    );
+    rod_alignment[5] = neg_mul_add(c(23.564897728343862), mul_add(t39, t39, t46), c(1.0));
 }
 
 /// Actuator Jacobian of the platform, equation (32).
@@ -1242,551 +1218,592 @@ pub fn inverse_dynamics_in_lanes<P: Triple>(
     // constant and copied elements
     let t1 = P::triple([base_rotation[1][0], base_rotation[1][1], base_rotation[1][2]]);
     let t2 = P::triple([base_rotation[0][0], base_rotation[0][1], base_rotation[0][2]]);
-    let t3 = P::triple([base_rotation[2][0], base_rotation[2][1], base_rotation[2][2]]);
     // rotation of the platform seen from the base
-    let t4 = mul_add(
-        t2,
-        P::splat(platform_rotation[0][1]),
-        t1 * P::splat(platform_rotation[1][1]),
-    );
-    let t5 = mul_add(
-        t2,
-        P::splat(platform_rotation[0][0]),
-        t1 * P::splat(platform_rotation[1][0]),
-    );
+    let t3 = t1 * P::splat(platform_rotation[1][1]);
+    let t4 = t1 * P::splat(platform_rotation[1][0]);
+    // constant and copied elements
+    let t5 = P::triple([base_rotation[2][0], base_rotation[2][1], base_rotation[2][2]]);
+    // rotation of the platform seen from the base
+    let t6 = mul_add(t2, P::splat(platform_rotation[0][1]), t3);
+    let t7 = mul_add(t2, P::splat(platform_rotation[0][0]), t4);
     // platform origin seen from the base
-    let t6 = t1 * P::splat(platform_position[1] - base_position[1]);
+    let t8 = t1 * P::splat(platform_position[1] - base_position[1]);
     // constant and copied elements
-    let t7 = P::triple([c(0.115911), c(-0.084853), c(-0.031058)]);
+    let t9 = P::triple([c(0.115911), c(-0.084853), c(-0.031058)]);
     // rotation of the platform seen from the base
-    let t8 = mul_add(t3, P::splat(platform_rotation[2][1]), t4);
-    let t9 = mul_add(t3, P::splat(platform_rotation[2][0]), t5);
+    let t10 = t1 * P::splat(platform_rotation[1][2]);
+    let t11 = mul_add(t5, P::splat(platform_rotation[2][1]), t6);
+    let t12 = mul_add(t5, P::splat(platform_rotation[2][0]), t7);
     // platform origin seen from the base
-    let t10 = mul_add(t2, P::splat(platform_position[0] - base_position[0]), t6);
+    let t13 = mul_add(t2, P::splat(platform_position[0] - base_position[0]), t8);
     // constant and copied elements
-    let t11 = P::triple([c(-0.031058), c(0.115911), c(0.084853)]);
-    let t12 = P::triple([c(0.031058), c(-0.084853), c(-0.115911)]);
-    let t13 = P::triple([c(0.115911), c(-0.031058), c(-0.084853)]);
+    let t14 = P::triple([c(-0.031058), c(0.115911), c(0.084853)]);
+    let t15 = P::triple([c(0.031058), c(-0.084853), c(-0.115911)]);
+    let t16 = P::triple([c(0.115911), c(-0.031058), c(-0.084853)]);
     // rotation of the platform seen from the base
-    let t14 = mul_add(
-        t2,
-        P::splat(platform_rotation[0][2]),
-        t1 * P::splat(platform_rotation[1][2]),
-    );
+    let t17 = mul_add(t2, P::splat(platform_rotation[0][2]), t10);
     // platform origin seen from the base
-    let t15 = mul_add(t3, P::splat(platform_position[2] - base_position[2]), t10);
+    let t18 = mul_add(t5, P::splat(platform_position[2] - base_position[2]), t13);
+    // legs 1, 3, 4: platform joint from the platform origin
+    let t19 = t14 * P::splat(P::lane(t11, 0));
+    // legs 2, 5, 6: platform joint from the platform origin
+    let t20 = t15 * P::splat(P::lane(t11, 0));
     // rotation of the platform seen from the base
-    let t16 = mul_add(t3, P::splat(platform_rotation[2][2]), t14);
+    let t21 = mul_add(t5, P::splat(platform_rotation[2][2]), t17);
     // legs 1, 3, 4: platform joint from the platform origin
-    let t17 = mul_add(t13, P::splat(P::lane(t9, 0)), t11 * P::splat(P::lane(t8, 0)));
+    let t22 = mul_add(t16, P::splat(P::lane(t12, 0)), t19);
     // legs 2, 5, 6: platform joint from the platform origin
-    let t18 = mul_add(t7, P::splat(P::lane(t9, 0)), t12 * P::splat(P::lane(t8, 0)));
+    let t23 = mul_add(t9, P::splat(P::lane(t12, 0)), t20);
     // legs 2, 5, 6: platform joint from the base point
-    let t19 = P::triple([c(-0.131644), c(0.172135), c(-0.040491)]);
-    // constant and copied elements
-    let t20 = P::triple([c(0.131644), c(-0.172135), c(0.040491)]);
+    let t24 = P::triple([c(-0.131644), c(0.172135), c(-0.040491)]);
     // legs 1, 3, 4: platform joint from the platform origin
-    let t21 = mul_add(t13, P::splat(P::lane(t9, 1)), t11 * P::splat(P::lane(t8, 1)));
+    let t25 = t14 * P::splat(P::lane(t11, 1));
     // legs 2, 5, 6: platform joint from the platform origin
-    let t22 = mul_add(t7, P::splat(P::lane(t9, 1)), t12 * P::splat(P::lane(t8, 1)));
+    let t26 = t15 * P::splat(P::lane(t11, 1));
     // legs 1, 3, 4: platform joint from the platform origin
-    let t23 = mul_add(t13, P::splat(P::lane(t9, 2)), t11 * P::splat(P::lane(t8, 2)));
+    let t27 = t14 * P::splat(P::lane(t11, 2));
     // legs 2, 5, 6: platform joint from the platform origin
-    let t24 = mul_add(t7, P::splat(P::lane(t9, 2)), t12 * P::splat(P::lane(t8, 2)));
-    // legs 1, 3, 4: platform joint from the base point
-    let t25 = P::triple([c(0.12276), c(-0.175387), c(-0.052627)]);
-    let t26 = P::triple([c(-0.131644), c(-0.040491), c(0.172135)]);
-    // legs 2, 5, 6: platform joint from the base point
-    let t27 = t19 + (P::splat(P::lane(t15, 0)) + t18);
+    let t28 = t15 * P::splat(P::lane(t11, 2));
     // constant and copied elements
-    let t28 = P::triple([c(-0.12276), c(0.175387), c(0.052627)]);
+    let t29 = P::triple([c(0.131644), c(-0.172135), c(0.040491)]);
+    // legs 1, 3, 4: platform joint from the platform origin
+    let t30 = mul_add(t16, P::splat(P::lane(t12, 1)), t25);
+    // legs 2, 5, 6: platform joint from the platform origin
+    let t31 = mul_add(t9, P::splat(P::lane(t12, 1)), t26);
+    // legs 1, 3, 4: platform joint from the platform origin
+    let t32 = mul_add(t16, P::splat(P::lane(t12, 2)), t27);
+    // legs 2, 5, 6: platform joint from the platform origin
+    let t33 = mul_add(t9, P::splat(P::lane(t12, 2)), t28);
     // legs 1, 3, 4: platform joint from the base point
-    let t29 = t17 + P::splat(P::lane(t15, 0)) + t26;
-    // constant and copied elements
-    let t30 = P::triple([c(0.131644), c(0.040491), c(-0.172135)]);
-    let t31 = P::triple([c(0.12276), c(-0.052627), c(-0.175387)]);
-    // legs 1, 3, 4: platform joint from the base point
-    let t32 = t23 + P::splat(P::lane(t15, 2));
-    let t33 = t25 + (t21 + P::splat(P::lane(t15, 1)));
+    let t34 = P::triple([c(0.12276), c(-0.175387), c(-0.052627)]);
+    let t35 = P::triple([c(-0.131644), c(-0.040491), c(0.172135)]);
     // legs 2, 5, 6: platform joint from the base point
-    let t34 = P::triple([c(-0.12276), c(0.052627), c(0.175387)])
-        + (t22 + P::splat(P::lane(t15, 1)));
-    let t35 = t24 + P::splat(P::lane(t15, 2));
+    let t36 = P::triple([c(-0.12276), c(0.052627), c(0.175387)]);
+    let t37 = t24 + (P::splat(P::lane(t18, 0)) + t23);
+    // constant and copied elements
+    let t38 = P::triple([c(-0.12276), c(0.175387), c(0.052627)]);
+    // legs 1, 3, 4: platform joint from the base point
+    let t39 = t22 + P::splat(P::lane(t18, 0)) + t35;
+    // constant and copied elements
+    let t40 = P::triple([c(0.131644), c(0.040491), c(-0.172135)]);
+    let t41 = P::triple([c(0.12276), c(-0.052627), c(-0.175387)]);
+    // legs 1, 3, 4: platform joint from the base point
+    let t42 = t32 + P::splat(P::lane(t18, 2));
+    let t43 = t34 + (t30 + P::splat(P::lane(t18, 1)));
+    // legs 2, 5, 6: platform joint from the base point
+    let t44 = t36 + (t31 + P::splat(P::lane(t18, 1)));
     // angular velocity of the base
-    let t36 = mul_add(t2, P::splat(base_velocity[3]), t1 * P::splat(base_velocity[4]));
+    let t45 = t1 * P::splat(base_velocity[4]);
+    // legs 2, 5, 6: platform joint from the base point
+    let t46 = t33 + P::splat(P::lane(t18, 2));
     // angular velocity of the platform
-    let t37 = mul_add(
-        t2,
-        P::splat(platform_velocity[3]),
-        t1 * P::splat(platform_velocity[4]),
-    );
+    let t47 = t1 * P::splat(platform_velocity[4]);
     // angular velocity of the base
-    let t38 = mul_add(t3, P::splat(base_velocity[5]), t36);
+    let t48 = mul_add(t2, P::splat(base_velocity[3]), t45);
+    // angular velocity of the platform
+    let t49 = mul_add(t2, P::splat(platform_velocity[3]), t47);
+    // angular velocity of the base
+    let t50 = mul_add(t5, P::splat(base_velocity[5]), t48);
     // legs 1, 3, 4: extent of the rod along the actuator axis
-    let t39 = sqrt(w(0.042435999999999995) - mul_add(t29, t29, t33 * t33));
+    let t51 = w(0.042435999999999995) - mul_add(t39, t39, t43 * t43);
     // legs 2, 5, 6: extent of the rod along the actuator axis
-    let t40 = sqrt(w(0.042435999999999995) - mul_add(t27, t27, t34 * t34));
+    let t52 = w(0.042435999999999995) - mul_add(t37, t37, t44 * t44);
+    // legs 1, 3, 4: extent of the rod along the actuator axis
+    let t53 = sqrt(t51);
+    // legs 2, 5, 6: extent of the rod along the actuator axis
+    let t54 = sqrt(t52);
     // angular velocity of the platform
-    let t41 = mul_add(t3, P::splat(platform_velocity[5]), t37);
+    let t55 = mul_add(t5, P::splat(platform_velocity[5]), t49);
     // angular velocity of the platform relative to the base
-    let t42 = t38 - t41;
+    let t56 = t50 - t55;
     // legs 1, 3, 4: reciprocal of that extent
-    let t43 = w(1.0) / t39;
+    let t57 = w(1.0) / t53;
     // legs 2, 5, 6: reciprocal of that extent
-    let t44 = w(1.0) / t40;
+    let t58 = w(1.0) / t54;
     // legs 1, 3, 4: actuator length d
-    let t45 = t32 - t39;
+    let t59 = t42 - t53;
     // legs 2, 5, 6: actuator length d
-    let t46 = t35 - t40;
+    let t60 = t46 - t54;
     // velocity of the platform origin relative to the base
-    let t47 = t1 * P::splat(platform_velocity[1] - base_velocity[1]);
+    let t61 = t1 * P::splat(platform_velocity[1] - base_velocity[1]);
     // legs 1, 3, 4: gradient of the actuator length by the platform joint
-    let t48 = t33 * t43;
+    let t62 = t43 * t57;
     // legs 2, 5, 6: gradient of the actuator length by the platform joint
-    let t49 = t27 * t44;
+    let t63 = t37 * t58;
     // velocity of the platform origin relative to the base
-    let t50 = mul_add(t2, P::splat(platform_velocity[0] - base_velocity[0]), t47);
+    let t64 = mul_add(t2, P::splat(platform_velocity[0] - base_velocity[0]), t61);
     // legs 2, 5, 6: gradient of the actuator length by the platform joint
-    let t51 = t34 * t44;
+    let t65 = t44 * t58;
     // legs 1, 3, 4: gradient of the actuator length by the platform joint
-    let t52 = t29 * t43;
+    let t66 = t39 * t57;
     // rotation of the platform seen from the base
-    let t53 = P::triple([P::lane(t8, 1), P::lane(t8, 2), P::lane(t8, 0)]);
+    let t67 = P::triple([P::lane(t11, 1), P::lane(t11, 2), P::lane(t11, 0)]);
     // platform origin seen from the base
-    let t54 = P::triple([P::lane(t15, 1), P::lane(t15, 2), P::lane(t15, 0)]);
+    let t68 = P::triple([P::lane(t18, 1), P::lane(t18, 2), P::lane(t18, 0)]);
     // rotation of the platform seen from the base
-    let t55 = P::triple([P::lane(t9, 1), P::lane(t9, 2), P::lane(t9, 0)]);
+    let t69 = P::triple([P::lane(t12, 1), P::lane(t12, 2), P::lane(t12, 0)]);
     // angular velocity of the base
-    let t56 = P::triple([P::lane(t38, 2), P::lane(t38, 0), P::lane(t38, 1)]);
+    let t70 = P::triple([P::lane(t50, 2), P::lane(t50, 0), P::lane(t50, 1)]);
     // rotation of the platform seen from the base
-    let t57 = P::triple([P::lane(t8, 2), P::lane(t8, 0), P::lane(t8, 1)]);
+    let t71 = P::triple([P::lane(t11, 2), P::lane(t11, 0), P::lane(t11, 1)]);
     // angular velocity of the platform relative to the base
-    let t58 = P::triple([P::lane(t42, 2), P::lane(t42, 0), P::lane(t42, 1)]);
-    let t59 = P::triple([P::lane(t42, 1), P::lane(t42, 2), P::lane(t42, 0)]);
+    let t72 = P::triple([P::lane(t56, 2), P::lane(t56, 0), P::lane(t56, 1)]);
+    let t73 = P::triple([P::lane(t56, 1), P::lane(t56, 2), P::lane(t56, 0)]);
     // platform origin seen from the base
-    let t60 = P::triple([P::lane(t15, 2), P::lane(t15, 0), P::lane(t15, 1)]);
+    let t74 = P::triple([P::lane(t18, 2), P::lane(t18, 0), P::lane(t18, 1)]);
     // angular velocity of the base
-    let t61 = P::triple([P::lane(t38, 1), P::lane(t38, 2), P::lane(t38, 0)]);
+    let t75 = P::triple([P::lane(t50, 1), P::lane(t50, 2), P::lane(t50, 0)]);
     // rotation of the platform seen from the base
-    let t62 = P::triple([P::lane(t9, 2), P::lane(t9, 0), P::lane(t9, 1)]);
+    let t76 = P::triple([P::lane(t12, 2), P::lane(t12, 0), P::lane(t12, 1)]);
     // rate of the relative rotation
-    let t63 = mul_sub(t57, t59, t53 * t58);
+    let t77 = mul_sub(t71, t73, t67 * t72);
     // velocity of the platform origin relative to the base
-    let t64 = mul_add(t3, P::splat(platform_velocity[2] - base_velocity[2]), t50);
+    let t78 = mul_add(t5, P::splat(platform_velocity[2] - base_velocity[2]), t64);
     // rate of the relative rotation
-    let t65 = mul_sub(t59, t62, t55 * t58);
+    let t79 = mul_sub(t73, t76, t69 * t72);
     // rotation of the platform seen from the base
-    let t66 = P::triple([P::lane(t16, 1), P::lane(t16, 2), P::lane(t16, 0)]);
-    let t67 = P::triple([P::lane(t16, 2), P::lane(t16, 0), P::lane(t16, 1)]);
+    let t80 = P::triple([P::lane(t21, 1), P::lane(t21, 2), P::lane(t21, 0)]);
+    let t81 = P::triple([P::lane(t21, 2), P::lane(t21, 0), P::lane(t21, 1)]);
     // velocity of the platform origin relative to the base
-    let t68 = t64 - mul_sub(t60, t61, t54 * t56);
+    let t82 = t78 - mul_sub(t74, t75, t68 * t70);
     // legs 1, 3, 4: velocity of the platform joint relative to the base
-    let t69 = P::splat(P::lane(t68, 0))
-        - mul_add(t13, P::splat(P::lane(t65, 0)), t11 * P::splat(P::lane(t63, 0)));
-    let t70 = P::splat(P::lane(t68, 1))
-        - mul_add(t13, P::splat(P::lane(t65, 1)), t11 * P::splat(P::lane(t63, 1)));
+    let t83 = t14 * P::splat(P::lane(t77, 0));
+    let t84 = t14 * P::splat(P::lane(t77, 1));
     // legs 2, 5, 6: velocity of the platform joint relative to the base
-    let t71 = P::splat(P::lane(t68, 1))
-        - mul_add(t7, P::splat(P::lane(t65, 1)), t12 * P::splat(P::lane(t63, 1)));
-    let t72 = P::splat(P::lane(t68, 0))
-        - mul_add(t7, P::splat(P::lane(t65, 0)), t12 * P::splat(P::lane(t63, 0)));
-    // angular velocity of the base
-    let t73 = P::triple([P::lane(t38, 2), P::lane(t38, 2), P::lane(t38, 0)]);
-    let t74 = P::triple([P::lane(t38, 1), P::lane(t38, 0), P::lane(t38, 1)]);
+    let t85 = t15 * P::splat(P::lane(t77, 1));
+    let t86 = t15 * P::splat(P::lane(t77, 0));
+    // legs 1, 3, 4: velocity of the platform joint relative to the base
+    let t87 = mul_add(t16, P::splat(P::lane(t79, 0)), t83);
+    let t88 = t14 * P::splat(P::lane(t77, 2));
+    // legs 2, 5, 6: velocity of the platform joint relative to the base
+    let t89 = t15 * P::splat(P::lane(t77, 2));
+    // legs 1, 3, 4: velocity of the platform joint relative to the base
+    let t90 = mul_add(t16, P::splat(P::lane(t79, 1)), t84);
+    // legs 2, 5, 6: velocity of the platform joint relative to the base
+    let t91 = mul_add(t9, P::splat(P::lane(t79, 1)), t85);
+    let t92 = mul_add(t9, P::splat(P::lane(t79, 0)), t86);
+    // legs 1, 3, 4: velocity of the platform joint relative to the base
+    let t93 = mul_add(t16, P::splat(P::lane(t79, 2)), t88);
+    let t94 = P::splat(P::lane(t82, 0)) - t87;
+    // legs 2, 5, 6: velocity of the platform joint relative to the base
+    let t95 = mul_add(t9, P::splat(P::lane(t79, 2)), t89);
+    // legs 1, 3, 4: velocity of the platform joint relative to the base
+    let t96 = P::splat(P::lane(t82, 1)) - t90;
+    // legs 2, 5, 6: velocity of the platform joint relative to the base
+    let t97 = P::splat(P::lane(t82, 1)) - t91;
+    let t98 = P::splat(P::lane(t82, 0)) - t92;
     // angular acceleration of the base
-    let t75 = mul_add(
-        t2,
-        P::splat(base_acceleration[3]),
-        t1 * P::splat(base_acceleration[4]),
-    );
-    // acceleration per base coordinate of points that move with the base
-    let t76 = mul_add(t74, t74, t73 * t73);
+    let t99 = t1 * P::splat(base_acceleration[4]);
+    // angular velocity of the base
+    let t100 = P::triple([P::lane(t50, 2), P::lane(t50, 2), P::lane(t50, 0)]);
+    let t101 = P::triple([P::lane(t50, 1), P::lane(t50, 0), P::lane(t50, 1)]);
     // acceleration of the base origin less gravity
-    let t77 = mul_add(
-        t2,
-        P::splat(base_acceleration[0]),
-        t1 * P::splat(base_acceleration[1]),
-    );
-    // legs 1, 3, 4: velocity of the platform joint relative to the base
-    let t78 = P::splat(P::lane(t68, 2))
-        - mul_add(t13, P::splat(P::lane(t65, 2)), t11 * P::splat(P::lane(t63, 2)));
-    // legs 2, 5, 6: velocity of the platform joint relative to the base
-    let t79 = P::splat(P::lane(t68, 2))
-        - mul_add(t7, P::splat(P::lane(t65, 2)), t12 * P::splat(P::lane(t63, 2)));
-    // angular velocity of the base
-    let t80 = P::triple([P::lane(t38, 0), P::lane(t38, 2), P::lane(t38, 0)]);
+    let t102 = t1 * P::splat(base_acceleration[1]);
     // angular acceleration of the base
-    let t81 = mul_add(t3, P::splat(base_acceleration[5]), t75);
+    let t103 = mul_add(t2, P::splat(base_acceleration[3]), t99);
+    // acceleration per base coordinate of points that move with the base
+    let t104 = mul_add(t101, t101, t100 * t100);
+    // acceleration of the base origin less gravity
+    let t105 = mul_add(t2, P::splat(base_acceleration[0]), t102);
+    // legs 1, 3, 4: velocity of the platform joint relative to the base
+    let t106 = P::splat(P::lane(t82, 2)) - t93;
+    // legs 2, 5, 6: velocity of the platform joint relative to the base
+    let t107 = P::splat(P::lane(t82, 2)) - t95;
     // angular velocity of the base
-    let t82 = P::triple([P::lane(t38, 1), P::lane(t38, 1), P::lane(t38, 2)]);
+    let t108 = P::triple([P::lane(t50, 0), P::lane(t50, 2), P::lane(t50, 0)]);
+    // angular acceleration of the base
+    let t109 = mul_add(t5, P::splat(base_acceleration[5]), t103);
+    // angular velocity of the base
+    let t110 = P::triple([P::lane(t50, 1), P::lane(t50, 1), P::lane(t50, 2)]);
     // legs 1, 3, 4: rate of the rod's extent along the actuator axis
-    let t83 = mul_add(t29, t69, t33 * t70);
+    let t111 = mul_add(t39, t94, t43 * t96);
     // acceleration per base coordinate of points that move with the base
-    let t84 = t80 * t82;
+    let t112 = t108 * t110;
     // acceleration of the base origin less gravity
-    let t85 = mul_add(t3, P::splat(base_acceleration[2] + c(9.81)), t77);
+    let t113 = mul_add(t5, P::splat(base_acceleration[2] + c(9.81)), t105);
     // legs 2, 5, 6: rate of the rod's extent along the actuator axis
-    let t86 = mul_add(t27, t72, t34 * t71);
+    let t114 = mul_add(t37, t98, t44 * t97);
     // legs 1, 3, 4: rate of the rod's extent along the actuator axis
-    let t87 = t43 * t83;
+    let t115 = t57 * t111;
     // legs 1, 3, 4: actuator velocity d'
-    let t88 = mul_add(t43, t83, t78);
+    let t116 = mul_add(t57, t111, t106);
     // legs 2, 5, 6: rate of the rod's extent along the actuator axis
-    let t89 = t44 * t86;
+    let t117 = t58 * t114;
     // legs 2, 5, 6: actuator velocity d'
-    let t90 = mul_add(t44, t86, t79);
+    let t118 = mul_add(t58, t114, t107);
+    // angular acceleration of the platform
+    let t119 = t1 * P::splat(platform_acceleration[4]);
     // angular acceleration of the base
-    let t91 = P::triple([P::lane(t81, 1), P::lane(t81, 2), P::lane(t81, 0)]);
-    let t92 = P::triple([P::lane(t81, 2), P::lane(t81, 0), P::lane(t81, 1)]);
+    let t120 = P::triple([P::lane(t109, 1), P::lane(t109, 2), P::lane(t109, 0)]);
+    let t121 = P::triple([P::lane(t109, 2), P::lane(t109, 0), P::lane(t109, 1)]);
+    // acceleration of the platform origin less gravity
+    let t122 = t1 * P::splat(platform_acceleration[1]);
     // angular acceleration of the platform
-    let t93 = mul_add(
-        t2,
-        P::splat(platform_acceleration[3]),
-        t1 * P::splat(platform_acceleration[4]),
-    );
+    let t123 = mul_add(t2, P::splat(platform_acceleration[3]), t119);
     // acceleration per base coordinate of points that move with the base
-    let t94 = mul_sub(t80, t82, t92);
-    let t95 = t91 + P::triple([P::lane(t84, 2), P::lane(t84, 0), P::lane(t84, 1)]);
+    let t124 = mul_sub(t108, t110, t121);
+    let t125 = P::triple([P::lane(t112, 2), P::lane(t112, 0), P::lane(t112, 1)]);
+    let t126 = t120 + t125;
     // acceleration of the platform origin less gravity
-    let t96 = mul_add(
-        t2,
-        P::splat(platform_acceleration[0]),
-        t1 * P::splat(platform_acceleration[1]),
-    );
+    let t127 = mul_add(t2, P::splat(platform_acceleration[0]), t122);
     // angular acceleration of the platform
-    let t97 = mul_add(t3, P::splat(platform_acceleration[5]), t93);
+    let t128 = mul_add(t5, P::splat(platform_acceleration[5]), t123);
     // acceleration of the platform origin less gravity
-    let t98 = mul_add(t3, P::splat(c(9.81) + platform_acceleration[2]), t96);
+    let t129 = mul_add(t5, P::splat(c(9.81) + platform_acceleration[2]), t127);
     // angular velocity of the platform
-    let t99 = P::triple([P::lane(t41, 1), P::lane(t41, 2), P::lane(t41, 0)]);
-    let t100 = P::triple([P::lane(t41, 2), P::lane(t41, 0), P::lane(t41, 1)]);
+    let t130 = P::triple([P::lane(t55, 1), P::lane(t55, 2), P::lane(t55, 0)]);
+    let t131 = P::triple([P::lane(t55, 2), P::lane(t55, 0), P::lane(t55, 1)]);
     // angular acceleration of the platform
-    let t101 = P::triple([P::lane(t97, 1), P::lane(t97, 2), P::lane(t97, 0)]);
+    let t132 = P::triple([P::lane(t128, 1), P::lane(t128, 2), P::lane(t128, 0)]);
     // acceleration per platform coordinate of points of the platform
-    let t102 = mul_sub(t41, t55, t9 * t99);
-    let t103 = mul_sub(t41, t53, t8 * t99);
+    let t133 = mul_sub(t55, t69, t12 * t130);
+    let t134 = mul_sub(t55, t67, t11 * t130);
     // angular acceleration of the platform
-    let t104 = P::triple([P::lane(t97, 2), P::lane(t97, 0), P::lane(t97, 1)]);
+    let t135 = P::triple([P::lane(t128, 2), P::lane(t128, 0), P::lane(t128, 1)]);
     // acceleration per platform coordinate of points of the platform
-    let t105 = mul_sub(t41, t66, t16 * t99);
-    let t106 = t100 * P::triple([P::lane(t102, 2), P::lane(t102, 0), P::lane(t102, 1)]);
-    let t107 = t100 * P::triple([P::lane(t105, 2), P::lane(t105, 0), P::lane(t105, 1)]);
+    let t136 = mul_sub(t55, t80, t21 * t130);
+    let t137 = P::triple([P::lane(t133, 2), P::lane(t133, 0), P::lane(t133, 1)]);
+    let t138 = P::triple([P::lane(t136, 2), P::lane(t136, 0), P::lane(t136, 1)]);
+    let t139 = mul_sub(t130, t133, t131 * t137);
     // acceleration per base coordinate of points that move with the base
-    let t108 = P::triple([-P::lane(t76, 0), P::lane(t95, 1), P::lane(t94, 2)]);
+    let t140 = P::triple([-P::lane(t104, 0), P::lane(t126, 1), P::lane(t124, 2)]);
     // acceleration per platform coordinate of points of the platform
-    let t109 = t100 * P::triple([P::lane(t103, 2), P::lane(t103, 0), P::lane(t103, 1)]);
-    let t110 = mul_sub(t62, t101, t55 * t104) + mul_sub(t99, t102, t106);
-    let t111 = mul_sub(t67, t101, t66 * t104) + mul_sub(t99, t105, t107);
+    let t141 = P::triple([P::lane(t134, 2), P::lane(t134, 0), P::lane(t134, 1)]);
+    let t142 = mul_sub(t130, t136, t131 * t138);
+    let t143 = mul_sub(t76, t132, t69 * t135) + t139;
+    let t144 = mul_sub(t81, t132, t80 * t135) + t142;
+    let t145 = mul_sub(t130, t134, t131 * t141);
     // acceleration per base coordinate of points that move with the base
-    let t112 = P::triple([P::lane(t94, 0), -P::lane(t76, 1), P::lane(t95, 2)]);
-    let t113 = P::triple([P::lane(t95, 0), P::lane(t94, 1), -P::lane(t76, 2)]);
+    let t146 = P::triple([P::lane(t124, 0), -P::lane(t104, 1), P::lane(t126, 2)]);
+    // acceleration of the platform origin relative to the base
+    let t147 = P::splat(P::lane(t18, 1)) * t146;
+    // acceleration per base coordinate of points that move with the base
+    let t148 = P::triple([P::lane(t126, 0), P::lane(t124, 1), -P::lane(t104, 2)]);
     // acceleration per platform coordinate of points of the platform
-    let t114 = mul_sub(t57, t101, t53 * t104) + mul_sub(t99, t103, t109);
+    let t149 = mul_sub(t71, t132, t67 * t135) + t145;
     // rate of the relative rotation
-    let t115 = P::triple([P::lane(t65, 1), P::lane(t65, 2), P::lane(t65, 0)]);
+    let t150 = P::triple([P::lane(t79, 1), P::lane(t79, 2), P::lane(t79, 0)]);
     // acceleration of the platform origin relative to the base
-    let t116 = mul_add(
-        P::splat(P::lane(t15, 0)),
-        t108,
-        P::splat(P::lane(t15, 1)) * t112,
-    );
+    let t151 = mul_add(P::splat(P::lane(t18, 0)), t140, t147);
     // rate of the relative rotation
-    let t117 = P::triple([P::lane(t63, 1), P::lane(t63, 2), P::lane(t63, 0)]);
-    let t118 = P::triple([P::lane(t63, 2), P::lane(t63, 0), P::lane(t63, 1)]);
+    let t152 = P::triple([P::lane(t77, 1), P::lane(t77, 2), P::lane(t77, 0)]);
+    let t153 = P::triple([P::lane(t77, 2), P::lane(t77, 0), P::lane(t77, 1)]);
     // velocity of the platform origin relative to the base
-    let t119 = P::triple([P::lane(t68, 1), P::lane(t68, 2), P::lane(t68, 0)]);
+    let t154 = P::triple([P::lane(t82, 1), P::lane(t82, 2), P::lane(t82, 0)]);
     // rate of the relative rotation
-    let t120 = P::triple([P::lane(t65, 2), P::lane(t65, 0), P::lane(t65, 1)]);
+    let t155 = P::triple([P::lane(t79, 2), P::lane(t79, 0), P::lane(t79, 1)]);
     // second derivative of the relative rotation
-    let t121 = mul_sub(t59, t118, t58 * t117);
-    let t122 = t91 - t101 - mul_sub(t42, t56, t38 * t58);
-    let t123 = mul_sub(t59, t120, t58 * t115);
+    let t156 = mul_sub(t73, t153, t72 * t152);
+    let t157 = t120 - t132 - mul_sub(t56, t70, t50 * t72);
+    let t158 = mul_sub(t73, t155, t72 * t150);
     // velocity of the platform origin relative to the base
-    let t124 = P::triple([P::lane(t68, 2), P::lane(t68, 0), P::lane(t68, 1)]);
+    let t159 = P::triple([P::lane(t82, 2), P::lane(t82, 0), P::lane(t82, 1)]);
     // acceleration of the platform origin relative to the base
-    let t125 = t85 - t98 + mul_add(P::splat(P::lane(t15, 2)), t113, t116);
-    let t126 = mul_add(w(2.0), mul_sub(t61, t124, t56 * t119), t125);
+    let t160 = t113 - t129 + mul_add(P::splat(P::lane(t18, 2)), t148, t151);
+    let t161 = mul_add(w(2.0), mul_sub(t75, t159, t70 * t154), t160);
     // second derivative of the relative rotation
-    let t127 = P::triple([P::lane(t122, 1), P::lane(t122, 2), P::lane(t122, 0)]);
-    let t128 = mul_sub(t57, t122, t53 * t127) - t121;
-    let t129 = mul_sub(t62, t122, t55 * t127) - t123;
+    let t162 = P::triple([P::lane(t157, 1), P::lane(t157, 2), P::lane(t157, 0)]);
+    let t163 = mul_sub(t71, t157, t67 * t162) - t156;
+    let t164 = mul_sub(t76, t157, t69 * t162) - t158;
     // legs 1, 3, 4: acceleration of the platform joint relative to the base
-    let t130 = P::splat(P::lane(t126, 0))
-        + mul_add(t13, P::splat(P::lane(t129, 0)), t11 * P::splat(P::lane(t128, 0)));
+    let t165 = t14 * P::splat(P::lane(t163, 0));
     // legs 2, 5, 6: acceleration of the platform joint relative to the base
-    let t131 = P::splat(P::lane(t126, 0))
-        + mul_add(t7, P::splat(P::lane(t129, 0)), t12 * P::splat(P::lane(t128, 0)));
+    let t166 = t15 * P::splat(P::lane(t163, 0));
     // legs 1, 3, 4: acceleration of the platform joint relative to the base
-    let t132 = P::splat(P::lane(t126, 1))
-        + mul_add(t13, P::splat(P::lane(t129, 1)), t11 * P::splat(P::lane(t128, 1)));
+    let t167 = t14 * P::splat(P::lane(t163, 1));
     // legs 2, 5, 6: acceleration of the platform joint relative to the base
-    let t133 = P::splat(P::lane(t126, 1))
-        + mul_add(t7, P::splat(P::lane(t129, 1)), t12 * P::splat(P::lane(t128, 1)));
-    // legs 2, 5, 6: leg inertia less weight along the actuator
-    let t134 = mul_sub(t20, P::splat(P::lane(t76, 0)), t31 * P::splat(P::lane(t94, 0)));
-    let t135 = mul_sub(t20, P::splat(P::lane(t95, 1)), t31 * P::splat(P::lane(t76, 1)));
-    // legs 1, 3, 4: actuator acceleration d''
-    let t136 = mul_add(t29, t130, t33 * t132);
-    // legs 2, 5, 6: actuator acceleration d''
-    let t137 = mul_add(t27, t131, t34 * t133);
+    let t168 = t15 * P::splat(P::lane(t163, 1));
     // legs 1, 3, 4: acceleration of the platform joint relative to the base
-    let t138 = P::splat(P::lane(t126, 2))
-        + mul_add(t13, P::splat(P::lane(t129, 2)), t11 * P::splat(P::lane(t128, 2)));
+    let t169 = mul_add(t16, P::splat(P::lane(t164, 0)), t165);
     // legs 2, 5, 6: acceleration of the platform joint relative to the base
-    let t139 = P::splat(P::lane(t126, 2))
-        + mul_add(t7, P::splat(P::lane(t129, 2)), t12 * P::splat(P::lane(t128, 2)));
+    let t170 = mul_add(t9, P::splat(P::lane(t164, 0)), t166);
+    // legs 1, 3, 4: acceleration of the platform joint relative to the base
+    let t171 = mul_add(t16, P::splat(P::lane(t164, 1)), t167);
+    // legs 2, 5, 6: acceleration of the platform joint relative to the base
+    let t172 = mul_add(t9, P::splat(P::lane(t164, 1)), t168);
+    // legs 1, 3, 4: acceleration of the platform joint relative to the base
+    let t173 = t14 * P::splat(P::lane(t163, 2));
+    // legs 2, 5, 6: acceleration of the platform joint relative to the base
+    let t174 = t15 * P::splat(P::lane(t163, 2));
+    // legs 1, 3, 4: acceleration of the platform joint relative to the base
+    let t175 = P::splat(P::lane(t161, 0)) + t169;
+    // legs 2, 5, 6: acceleration of the platform joint relative to the base
+    let t176 = P::splat(P::lane(t161, 0)) + t170;
+    // legs 1, 3, 4: acceleration of the platform joint relative to the base
+    let t177 = P::splat(P::lane(t161, 1)) + t171;
+    // legs 2, 5, 6: acceleration of the platform joint relative to the base
+    let t178 = P::splat(P::lane(t161, 1)) + t172;
+    // legs 1, 3, 4: acceleration of the platform joint relative to the base
+    let t179 = mul_add(t16, P::splat(P::lane(t164, 2)), t173);
     // legs 2, 5, 6: leg inertia less weight along the actuator
-    let t140 = mul_add(t20, P::splat(P::lane(t94, 2)), t31 * P::splat(P::lane(t95, 2)));
-    let t141 = t90 * w(2.0);
+    let t180 = t41 * P::splat(P::lane(t124, 0));
+    let t181 = t41 * P::splat(P::lane(t104, 1));
+    // legs 2, 5, 6: acceleration of the platform joint relative to the base
+    let t182 = mul_add(t9, P::splat(P::lane(t164, 2)), t174);
+    // legs 2, 5, 6: leg inertia less weight along the actuator
+    let t183 = mul_sub(t29, P::splat(P::lane(t104, 0)), t180);
+    let t184 = mul_sub(t29, P::splat(P::lane(t126, 1)), t181);
     // legs 1, 3, 4: actuator acceleration d''
-    let t142 = mul_add(t87, t87, mul_add(t69, t69, t70 * t70) - t136);
+    let t185 = mul_add(t39, t175, t43 * t177);
     // legs 2, 5, 6: actuator acceleration d''
-    let t143 = mul_add(t89, t89, mul_add(t72, t72, t71 * t71) - t137);
+    let t186 = mul_add(t37, t176, t44 * t178);
+    // legs 1, 3, 4: acceleration of the platform joint relative to the base
+    let t187 = P::splat(P::lane(t161, 2)) + t179;
+    // legs 2, 5, 6: acceleration of the platform joint relative to the base
+    let t188 = P::splat(P::lane(t161, 2)) + t182;
     // legs 2, 5, 6: leg inertia less weight along the actuator
-    let t144 = P::splat(P::lane(t85, 0))
-        - neg_mul_add(t46, P::splat(P::lane(t95, 0)), t134);
-    let t145 = P::splat(P::lane(t85, 1)) + mul_add(t46, P::splat(P::lane(t94, 1)), t135);
+    let t189 = t41 * P::splat(P::lane(t126, 2));
+    let t190 = neg_mul_add(t60, P::splat(P::lane(t126, 0)), t183);
+    let t191 = mul_add(t60, P::splat(P::lane(t124, 1)), t184);
+    let t192 = mul_add(t29, P::splat(P::lane(t124, 2)), t189);
+    let t193 = t118 * w(2.0);
     // legs 1, 3, 4: actuator acceleration d''
-    let t146 = neg_mul_add(t43, t142, t138);
+    let t194 = mul_add(t115, t115, mul_add(t94, t94, t96 * t96) - t185);
     // legs 2, 5, 6: actuator acceleration d''
-    let t147 = neg_mul_add(t44, t143, t139);
-    // legs 1, 3, 4: leg inertia less weight along the actuator
-    let t148 = t88 * w(2.0);
+    let t195 = mul_add(t117, t117, mul_add(t98, t98, t97 * t97) - t186);
     // legs 2, 5, 6: leg inertia less weight along the actuator
-    let t149 = mul_add(P::splat(P::lane(t38, 1)), t141, t144);
+    let t196 = P::splat(P::lane(t113, 0)) - t190;
+    let t197 = P::splat(P::lane(t113, 1)) + t191;
+    let t198 = neg_mul_add(t60, P::splat(P::lane(t104, 2)), t192);
+    // legs 1, 3, 4: actuator acceleration d''
+    let t199 = neg_mul_add(t57, t194, t187);
+    // legs 2, 5, 6: actuator acceleration d''
+    let t200 = neg_mul_add(t58, t195, t188);
     // legs 1, 3, 4: leg inertia less weight along the actuator
-    let t150 = mul_sub(t30, P::splat(P::lane(t76, 0)), t28 * P::splat(P::lane(t94, 0)));
+    let t201 = t38 * P::splat(P::lane(t124, 0));
+    let t202 = t116 * w(2.0);
     // legs 2, 5, 6: leg inertia less weight along the actuator
-    let t151 = neg_mul_add(P::splat(P::lane(t38, 0)), t141, t145);
+    let t203 = mul_add(P::splat(P::lane(t50, 1)), t193, t196);
     // legs 1, 3, 4: leg inertia less weight along the actuator
-    let t152 = mul_sub(t30, P::splat(P::lane(t95, 1)), t28 * P::splat(P::lane(t76, 1)));
-    let t153 = mul_add(t30, P::splat(P::lane(t94, 2)), t28 * P::splat(P::lane(t95, 2)));
+    let t204 = t38 * P::splat(P::lane(t104, 1));
+    let t205 = t38 * P::splat(P::lane(t126, 2));
+    let t206 = mul_sub(t40, P::splat(P::lane(t104, 0)), t201);
     // legs 2, 5, 6: leg inertia less weight along the actuator
-    let t154 = t147
-        - (P::splat(P::lane(t85, 2))
-            + neg_mul_add(t46, P::splat(P::lane(t76, 2)), t140));
+    let t207 = neg_mul_add(P::splat(P::lane(t50, 0)), t193, t197);
+    // legs 1, 3, 4: leg inertia less weight along the actuator
+    let t208 = mul_sub(t40, P::splat(P::lane(t126, 1)), t204);
+    let t209 = mul_add(t40, P::splat(P::lane(t124, 2)), t205);
+    // legs 2, 5, 6: leg inertia less weight along the actuator
+    let t210 = t200 - (P::splat(P::lane(t113, 2)) + t198);
+    // legs 1, 3, 4: leg inertia less weight along the actuator
+    let t211 = neg_mul_add(t59, P::splat(P::lane(t126, 0)), t206);
+    // legs 2, 5, 6: leg inertia less weight along the actuator
+    let t212 = t15 * P::splat(P::lane(t149, 2));
+    // legs 1, 3, 4: leg inertia less weight along the actuator
+    let t213 = mul_add(t59, P::splat(P::lane(t124, 1)), t208);
+    let t214 = neg_mul_add(t59, P::splat(P::lane(t104, 2)), t209);
     // legs 2, 5, 6: remaining leg inertia less weight at the platform joint
-    let t155 = w(0.17066666666666666) * t149;
+    let t215 = w(0.17066666666666666) * t203;
     // legs 1, 3, 4: leg inertia less weight along the actuator
-    let t156 = P::splat(P::lane(t85, 0))
-        - neg_mul_add(t45, P::splat(P::lane(t95, 0)), t150);
-    let t157 = P::splat(P::lane(t85, 1)) + mul_add(t45, P::splat(P::lane(t94, 1)), t152);
-    let t158 = mul_add(P::splat(P::lane(t38, 1)), t148, t156);
-    let t159 = neg_mul_add(P::splat(P::lane(t38, 0)), t148, t157);
-    let t160 = t146
-        - (P::splat(P::lane(t85, 2))
-            + neg_mul_add(t45, P::splat(P::lane(t76, 2)), t153));
+    let t216 = t14 * P::splat(P::lane(t149, 2));
     // legs 2, 5, 6: leg inertia less weight along the actuator
-    let t161 = P::splat(P::lane(t98, 2))
-        + mul_add(t7, P::splat(P::lane(t110, 2)), t12 * P::splat(P::lane(t114, 2)));
-    // legs 2, 5, 6: remaining leg inertia less weight at the platform joint
-    let t162 = w(0.17066666666666666) * t151;
+    let t217 = neg_mul_add(P::splat(P::lane(t104, 2)), w(0.05), t210);
     // legs 1, 3, 4: leg inertia less weight along the actuator
-    let t163 = P::splat(P::lane(t98, 2))
-        + mul_add(t13, P::splat(P::lane(t110, 2)), t11 * P::splat(P::lane(t114, 2)));
+    let t218 = P::splat(P::lane(t113, 0)) - t211;
+    // legs 2, 5, 6: leg inertia less weight along the actuator
+    let t219 = mul_add(t9, P::splat(P::lane(t143, 2)), t212);
+    // legs 1, 3, 4: leg inertia less weight along the actuator
+    let t220 = P::splat(P::lane(t113, 1)) + t213;
+    let t221 = mul_add(t16, P::splat(P::lane(t143, 2)), t216);
+    let t222 = mul_add(P::splat(P::lane(t50, 1)), t202, t218);
+    let t223 = neg_mul_add(P::splat(P::lane(t50, 0)), t202, t220);
+    let t224 = t199 - (P::splat(P::lane(t113, 2)) + t214);
+    // legs 2, 5, 6: remaining leg inertia less weight at the platform joint
+    let t225 = w(0.17066666666666666) * t207;
     // legs 1, 3, 4: remaining leg inertia less weight at the platform joint
-    let t164 = w(0.17066666666666666) * t158;
-    let t165 = w(0.17066666666666666) * t159;
-    // legs 2, 5, 6: leg inertia less weight along the actuator
-    let t166 = mul_sub(w(0.3413333333333334), t154, w(0.17066666666666666) * t161);
-    // legs 1, 3, 4: remaining leg inertia less weight at the platform joint
-    let t167 = w(0.17066666666666666) * t160;
-    // legs 2, 5, 6: remaining leg inertia less weight at the platform joint
-    let t168 = w(0.17066666666666666) * t154;
+    let t226 = w(0.17066666666666666) * t222;
     // legs 1, 3, 4: leg inertia less weight along the actuator
-    let t169 = mul_sub(w(0.3413333333333334), t160, w(0.17066666666666666) * t163);
+    let t227 = mul_sub(P::splat(P::lane(t104, 2)), w(0.05), t224);
     // legs 2, 5, 6: leg inertia less weight along the actuator
-    let t170 = mul_add(
-        w(0.611),
-        neg_mul_add(P::splat(P::lane(t76, 2)), w(0.05), t154),
-        t166,
-    );
+    let t228 = w(0.17066666666666666) * (P::splat(P::lane(t129, 2)) + t219);
+    // legs 1, 3, 4: remaining leg inertia less weight at the platform joint
+    let t229 = w(0.17066666666666666) * t223;
+    // legs 1, 3, 4: leg inertia less weight along the actuator
+    let t230 = w(0.17066666666666666) * (P::splat(P::lane(t129, 2)) + t221);
+    // legs 2, 5, 6: leg inertia less weight along the actuator
+    let t231 = mul_sub(w(0.3413333333333334), t210, t228);
+    // legs 1, 3, 4: remaining leg inertia less weight at the platform joint
+    let t232 = w(0.17066666666666666) * t224;
+    // legs 2, 5, 6: remaining leg inertia less weight at the platform joint
+    let t233 = w(0.17066666666666666) * t210;
+    // legs 1, 3, 4: leg inertia less weight along the actuator
+    let t234 = mul_sub(w(0.3413333333333334), t224, t230);
+    // legs 2, 5, 6: leg inertia less weight along the actuator
+    let t235 = mul_add(w(0.611), t217, t231);
     // inertia force less weight, without the actuators' own shares
-    let t171 = mul_add(w(0.17066666666666666), t154, t167);
-    let t172 = mul_add(w(0.17066666666666666), t149, t164);
-    let t173 = mul_add(w(0.17066666666666666), t151, t165);
+    let t236 = mul_add(w(0.17066666666666666), t210, t232);
+    let t237 = mul_add(w(0.17066666666666666), t203, t226);
+    let t238 = mul_add(w(0.17066666666666666), t207, t229);
     // legs 2, 5, 6: row of the actuator Jacobian in base coordinates
-    let t174 = neg_mul_add(t24, t49, t18);
+    let t239 = neg_mul_add(t33, t63, t23);
     // legs 1, 3, 4: row of the actuator Jacobian in base coordinates
-    let t175 = neg_mul_add(t23, t52, t17);
+    let t240 = neg_mul_add(t32, t66, t22);
     // legs 2, 5, 6: row of the actuator Jacobian in base coordinates
-    let t176 = neg_mul_add(t24, t51, t22);
-    let t177 = mul_sub(t18, t51, t22 * t49);
+    let t241 = neg_mul_add(t33, t65, t31);
+    let t242 = mul_sub(t23, t65, t31 * t63);
     // legs 1, 3, 4: row of the actuator Jacobian in base coordinates
-    let t178 = mul_sub(t17, t48, t21 * t52);
-    let t179 = neg_mul_add(t23, t48, t21);
+    let t243 = mul_sub(t22, t62, t30 * t66);
+    let t244 = neg_mul_add(t32, t62, t30);
     // legs 1, 3, 4: leg inertia less weight along the actuator
-    let t180 = neg_mul_add(
-        w(0.611),
-        mul_sub(P::splat(P::lane(t76, 2)), w(0.05), t160),
-        t169,
-    );
+    let t245 = neg_mul_add(w(0.611), t227, t234);
+    // inertia force less weight, without the actuators' own shares
+    let t246 = P::triple([P::lane(t237, 2), P::lane(t238, 2), -P::lane(t236, 2)]);
+    let t247 = P::triple([P::lane(t237, 0), P::lane(t238, 0), -P::lane(t236, 0)]);
     // legs 2, 5, 6: spring and damper force along the actuator
-    let t181 = t46 - w(0.198);
+    let t248 = t60 - w(0.198);
     // legs 1, 3, 4: spring and damper force along the actuator
-    let t182 = t45 - w(0.198);
+    let t249 = t59 - w(0.198);
     // its first moments by platform coordinate
-    let t183 = mul_add(t13, t167, t7 * t168);
-    let t184 = mul_add(t13, t164, t7 * t155);
-    let t185 = mul_add(t13, t165, t7 * t162);
+    let t250 = mul_add(t16, t232, t9 * t233);
+    let t251 = mul_add(t16, t226, t9 * t215);
+    let t252 = mul_add(t16, t229, t9 * t225);
     // inertia force less weight, without the actuators' own shares
-    let t186 = P::triple([P::lane(t172, 1), P::lane(t173, 1), -P::lane(t171, 1)]);
+    let t253 = P::triple([P::lane(t237, 1), P::lane(t238, 1), -P::lane(t236, 1)]);
     // its first moments by platform coordinate
-    let t187 = mul_add(t11, t167, t12 * t168);
+    let t254 = mul_add(t14, t232, t15 * t233);
+    let t255 = mul_add(t14, t226, t15 * t215);
+    let t256 = mul_add(t14, t229, t15 * t225);
     // inertia force less weight, without the actuators' own shares
-    let t188 = P::triple([P::lane(t172, 0), P::lane(t173, 0), -P::lane(t171, 0)]) + t186;
+    let t257 = mul_add(t129, w(8.139999999999999), t246 + (t247 + t253));
     // its first moments by platform coordinate
-    let t189 = mul_add(t11, t164, t12 * t155);
-    let t190 = mul_add(t11, t165, t12 * t162);
+    let t258 = P::triple([P::lane(t251, 0), P::lane(t252, 0), -P::lane(t250, 0)]);
+    let t259 = P::triple([P::lane(t251, 1), P::lane(t252, 1), -P::lane(t250, 1)]);
+    let t260 = P::triple([P::lane(t251, 2), P::lane(t252, 2), -P::lane(t250, 2)]);
     // inertia force less weight, without the actuators' own shares
-    let t191 = P::triple([P::lane(t172, 2), P::lane(t173, 2), -P::lane(t171, 2)]) + t188;
-    let t192 = mul_add(t98, w(8.139999999999999), t191);
+    let t261 = mul_sub(t143, w(1.734723475976807e-18), t257);
     // its first moments by platform coordinate
-    let t193 = P::triple([P::lane(t184, 1), P::lane(t185, 1), -P::lane(t183, 1)]);
-    let t194 = P::triple([P::lane(t184, 0), P::lane(t185, 0), -P::lane(t183, 0)]) + t193;
+    let t262 = t260 + (t258 + t259);
     // inertia force less weight, without the actuators' own shares
-    let t195 = mul_sub(t110, w(1.734723475976807e-18), t192);
-    // its first moments by platform coordinate
-    let t196 = P::triple([P::lane(t184, 2), P::lane(t185, 2), -P::lane(t183, 2)]) + t194;
-    // inertia force less weight, without the actuators' own shares
-    let t197 = mul_sub(w(0.188852), t111, t195);
+    let t263 = mul_sub(w(0.188852), t144, t261);
     // inertia less external wrench that the actuators must balance
-    let t198 = mul_add(
-        t2,
-        P::splat(external_wrench[0]),
-        t1 * P::splat(external_wrench[1]),
-    );
+    let t264 = t1 * P::splat(external_wrench[1]);
+    let t265 = mul_add(t2, P::splat(external_wrench[0]), t264);
     // its first moments by platform coordinate
-    let t199 = P::triple([P::lane(t189, 1), P::lane(t190, 1), -P::lane(t187, 1)]);
-    let t200 = mul_add(w(0.013354412), t111, w(0.188852) * t98);
-    let t201 = P::triple([P::lane(t189, 0), P::lane(t190, 0), -P::lane(t187, 0)]) + t199;
+    let t266 = P::triple([P::lane(t255, 0), P::lane(t256, 0), -P::lane(t254, 0)]);
+    let t267 = P::triple([P::lane(t255, 1), P::lane(t256, 1), -P::lane(t254, 1)]);
+    let t268 = mul_add(w(0.013354412), t144, w(0.188852) * t129);
     // inertia less external wrench that the actuators must balance
-    let t202 = mul_add(t3, P::splat(external_wrench[2]), t198);
+    let t269 = mul_add(t5, P::splat(external_wrench[2]), t265);
     // its first moments by platform coordinate
-    let t203 = neg_mul_add(t98, w(1.734723475976807e-18), t196);
-    let t204 = t201 + P::triple([P::lane(t189, 2), P::lane(t190, 2), -P::lane(t187, 2)]);
-    let t205 = mul_add(w(0.03224559378363733), t110, t203);
-    let t206 = mul_add(w(0.03224559378363734), t114, t204);
+    let t270 = neg_mul_add(t129, w(1.734723475976807e-18), t262);
+    let t271 = P::triple([P::lane(t255, 2), P::lane(t256, 2), -P::lane(t254, 2)]);
+    let t272 = mul_add(w(0.03224559378363733), t143, t270);
+    let t273 = mul_add(w(0.03224559378363734), t149, t266 + t267 + t271);
     // inertia less external wrench that the actuators must balance
-    let t207 = t197 - t202;
-    let t208 = P::triple([P::lane(t202, 2), P::lane(t202, 0), P::lane(t202, 1)]);
+    let t274 = t263 - t269;
+    let t275 = P::triple([P::lane(t269, 2), P::lane(t269, 0), P::lane(t269, 1)]);
     // its first moments by platform coordinate
-    let t209 = P::triple([P::lane(t200, 2), P::lane(t200, 0), P::lane(t200, 1)]);
+    let t276 = P::triple([P::lane(t268, 2), P::lane(t268, 0), P::lane(t268, 1)]);
     // inertia less external wrench that the actuators must balance
-    let t210 = neg_mul_add(w(0.031), t208, t209);
+    let t277 = neg_mul_add(w(0.031), t275, t276);
+    let t278 = P::triple([P::lane(t272, 1), P::lane(t272, 2), P::lane(t272, 0)]);
     // its first moments by platform coordinate
-    let t211 = P::triple([P::lane(t205, 2), P::lane(t205, 0), P::lane(t205, 1)]);
+    let t279 = P::triple([P::lane(t272, 2), P::lane(t272, 0), P::lane(t272, 1)]);
     // inertia less external wrench that the actuators must balance
-    let t212 = t62 * P::triple([P::lane(t205, 1), P::lane(t205, 2), P::lane(t205, 0)]);
-    let t213 = t57 * P::triple([P::lane(t206, 1), P::lane(t206, 2), P::lane(t206, 0)]);
+    let t280 = P::triple([P::lane(t273, 1), P::lane(t273, 2), P::lane(t273, 0)]);
     // its first moments by platform coordinate
-    let t214 = P::triple([P::lane(t206, 2), P::lane(t206, 0), P::lane(t206, 1)]);
+    let t281 = P::triple([P::lane(t273, 2), P::lane(t273, 0), P::lane(t273, 1)]);
     // inertia less external wrench that the actuators must balance
-    let t215 = t67 * P::triple([P::lane(t210, 2), P::lane(t210, 0), P::lane(t210, 1)]);
-    let t216 = mul_add(
-        t2,
-        P::splat(external_wrench[3]),
-        t1 * P::splat(external_wrench[4]),
-    );
-    let t217 = mul_sub(t55, t211, t212) + mul_sub(t53, t214, t213);
+    let t282 = t1 * P::splat(external_wrench[4]);
+    let t283 = P::triple([P::lane(t277, 2), P::lane(t277, 0), P::lane(t277, 1)]);
+    let t284 = mul_sub(t67, t281, t71 * t280);
+    let t285 = mul_add(t2, P::splat(external_wrench[3]), t282);
+    let t286 = mul_sub(t69, t279, t76 * t278) + t284;
     // legs 5, 6, 2: gradient of the actuator length by the platform joint
-    let t218 = P::triple([P::lane(t51, 1), P::lane(t51, 2), P::lane(t51, 0)]);
+    let t287 = P::triple([P::lane(t65, 1), P::lane(t65, 2), P::lane(t65, 0)]);
     // legs 6, 2, 5: gradient of the actuator length by the platform joint
-    let t219 = P::triple([P::lane(t51, 2), P::lane(t51, 0), P::lane(t51, 1)]);
-    let t220 = P::triple([P::lane(t49, 2), P::lane(t49, 0), P::lane(t49, 1)]);
+    let t288 = P::triple([P::lane(t65, 2), P::lane(t65, 0), P::lane(t65, 1)]);
+    let t289 = P::triple([P::lane(t63, 2), P::lane(t63, 0), P::lane(t63, 1)]);
     // force along the actuator that balances the remaining wrench
-    let t221 = t218 - t219;
+    let t290 = t287 - t288;
     // inertia less external wrench that the actuators must balance
-    let t222 = mul_add(t3, P::splat(external_wrench[5]), t216);
+    let t291 = mul_add(t5, P::splat(external_wrench[5]), t285);
     // legs 5, 6, 2: gradient of the actuator length by the platform joint
-    let t223 = P::triple([P::lane(t49, 1), P::lane(t49, 2), P::lane(t49, 0)]);
+    let t292 = P::triple([P::lane(t63, 1), P::lane(t63, 2), P::lane(t63, 0)]);
     // force along the actuator that balances the remaining wrench
-    let t224 = t220 - t223;
+    let t293 = t289 - t292;
     // inertia less external wrench that the actuators must balance
-    let t225 = mul_sub(t66, t210, t215) + t217 - t222;
+    let t294 = mul_sub(t80, t277, t81 * t283) + t286 - t291;
     // force along the actuator that balances the remaining wrench
-    let t226 = mul_sub(t219, t223, t218 * t220);
-    let t227 = P::mul_add(
-        P::lane(t49, 0),
-        P::lane(t221, 0),
-        P::lane(t49, 1) * P::lane(t221, 1),
-    );
-    let t228 = P::splat(P::lane(t226, 0))
-        + mul_add(t52, P::splat(P::lane(t221, 0)), t48 * P::splat(P::lane(t224, 0)));
-    let t229 = P::mul_add(P::lane(t49, 2), P::lane(t221, 2), t227);
-    let t230 = mul_add(
-        t221,
-        P::splat(P::lane(t207, 0)),
-        t224 * P::splat(P::lane(t207, 1)),
-    );
-    let t231 = P::splat(P::lane(t226, 1))
-        + mul_add(t52, P::splat(P::lane(t221, 1)), t48 * P::splat(P::lane(t224, 1)));
-    let t232 = P::splat(P::lane(t226, 2))
-        + mul_add(t52, P::splat(P::lane(t221, 2)), t48 * P::splat(P::lane(t224, 2)));
+    let t295 = mul_sub(t288, t292, t287 * t289);
+    let t296 = t62 * P::splat(P::lane(t293, 0));
+    let t297 = P::lane(t63, 1) * P::lane(t290, 1);
+    let t298 = mul_add(t66, P::splat(P::lane(t290, 0)), t296);
+    let t299 = t62 * P::splat(P::lane(t293, 1));
+    let t300 = P::mul_add(P::lane(t63, 0), P::lane(t290, 0), t297);
+    let t301 = t62 * P::splat(P::lane(t293, 2));
+    let t302 = t293 * P::splat(P::lane(t274, 1));
+    let t303 = mul_add(t66, P::splat(P::lane(t290, 1)), t299);
+    let t304 = P::splat(P::lane(t295, 0)) + t298;
+    let t305 = mul_add(t66, P::splat(P::lane(t290, 2)), t301);
+    let t306 = P::mul_add(P::lane(t63, 2), P::lane(t290, 2), t300);
+    let t307 = mul_add(t290, P::splat(P::lane(t274, 0)), t302);
+    let t308 = P::splat(P::lane(t295, 1)) + t303;
+    let t309 = P::splat(P::lane(t295, 2)) + t305;
     // leg 2: row of the actuator Jacobian in base coordinates
-    let t233 = P::triple([P::lane(t176, 0), -P::lane(t174, 0), P::lane(t177, 0)]);
+    let t310 = P::triple([P::lane(t241, 0), -P::lane(t239, 0), P::lane(t242, 0)]);
     // force along the actuator that balances the remaining wrench
-    let t234 = mul_sub(t175, P::splat(t229), P::splat(P::lane(t174, 0)) * t228);
-    let t235 = mul_sub(t178, P::splat(t229), P::splat(P::lane(t177, 0)) * t228);
-    let t236 = mul_add(t226, P::splat(P::lane(t207, 2)), t230);
-    let t237 = mul_sub(t179, P::splat(t229), P::splat(P::lane(t176, 0)) * t228);
+    let t311 = mul_sub(t240, P::splat(t306), P::splat(P::lane(t239, 0)) * t304);
+    let t312 = mul_sub(t243, P::splat(t306), P::splat(P::lane(t242, 0)) * t304);
+    let t313 = mul_add(t295, P::splat(P::lane(t274, 2)), t307);
+    let t314 = mul_sub(t244, P::splat(t306), P::splat(P::lane(t241, 0)) * t304);
     // leg 5: row of the actuator Jacobian in base coordinates
-    let t238 = P::triple([P::lane(t176, 1), -P::lane(t174, 1), P::lane(t177, 1)]);
+    let t315 = P::triple([P::lane(t241, 1), -P::lane(t239, 1), P::lane(t242, 1)]);
     // leg 6: row of the actuator Jacobian in base coordinates
-    let t239 = P::triple([P::lane(t176, 2), -P::lane(t174, 2), P::lane(t177, 2)]);
+    let t316 = P::triple([P::lane(t241, 2), -P::lane(t239, 2), P::lane(t242, 2)]);
     // force along the actuator that balances the remaining wrench
-    let t240 = neg_mul_add(P::splat(P::lane(t174, 1)), t231, t234);
-    let t241 = neg_mul_add(P::splat(P::lane(t177, 1)), t231, t235);
-    let t242 = neg_mul_add(P::splat(P::lane(t176, 1)), t231, t237);
-    let t243 = neg_mul_add(P::splat(P::lane(t174, 2)), t232, t240);
-    let t244 = neg_mul_add(P::splat(P::lane(t177, 2)), t232, t241);
-    let t245 = neg_mul_add(P::splat(P::lane(t176, 2)), t232, t242);
-    let t246 = mul_sub(t225, P::splat(t229), t233 * P::splat(P::lane(t236, 0)));
-    let t247 = neg_mul_add(t238, P::splat(P::lane(t236, 1)), t246);
-    let t248 = P::triple([P::lane(t243, 2), P::lane(t243, 0), P::lane(t243, 1)]);
-    let t249 = P::triple([P::lane(t243, 1), P::lane(t243, 2), P::lane(t243, 0)]);
-    let t250 = P::triple([P::lane(t244, 1), P::lane(t244, 2), P::lane(t244, 0)]);
-    let t251 = P::triple([P::lane(t244, 2), P::lane(t244, 0), P::lane(t244, 1)]);
-    let t252 = neg_mul_add(t239, P::splat(P::lane(t236, 2)), t247);
-    let t253 = P::triple([P::lane(t245, 1), P::lane(t245, 2), P::lane(t245, 0)]);
-    let t254 = mul_sub(t249, t251, t248 * t250);
-    let t255 = P::triple([P::lane(t245, 2), P::lane(t245, 0), P::lane(t245, 1)]);
-    let t256 = mul_sub(t248, t253, t249 * t255);
-    let t257 = c(1.0) / t229;
-    let t258 = P::triple([P::lane(t228, 0), P::lane(t231, 0), P::lane(t232, 0)]);
-    let t259 = P::splat(P::lane(t252, 1)) * mul_sub(t250, t255, t251 * t253);
-    let t260 = P::mul_add(
-        P::lane(t245, 0),
-        P::lane(t254, 0),
-        P::lane(t245, 1) * P::lane(t254, 1),
-    );
-    let t261 = P::triple([P::lane(t228, 1), P::lane(t231, 1), P::lane(t232, 1)]);
-    let t262 = mul_add(
-        t256,
-        P::splat(P::lane(t252, 2)),
-        mul_sub(t254, P::splat(P::lane(t252, 0)), t259),
-    );
-    let t263 = P::triple([P::lane(t228, 2), P::lane(t231, 2), P::lane(t232, 2)]);
-    let t264 = c(1.0) / P::mul_add(P::lane(t245, 2), P::lane(t254, 2), t260);
-    let t265 = t262 * P::splat(t264);
-    // legs 1, 3, 4: actuator forces F
-    let t266 = mul_sub(t262, P::splat(t264), neg_mul_add(t182, w(21555.9), t180));
-    // force along the actuator that balances the remaining wrench
-    let t267 = neg_mul_add(t258, P::splat(P::lane(t265, 0)), t236);
-    let t268 = neg_mul_add(t261, P::splat(P::lane(t265, 1)), t267);
-    let t269 = neg_mul_add(t263, P::splat(P::lane(t265, 2)), t268);
+    let t317 = neg_mul_add(P::splat(P::lane(t239, 1)), t308, t311);
+    let t318 = neg_mul_add(P::splat(P::lane(t242, 1)), t308, t312);
+    let t319 = neg_mul_add(P::splat(P::lane(t241, 1)), t308, t314);
+    let t320 = neg_mul_add(P::splat(P::lane(t239, 2)), t309, t317);
+    let t321 = neg_mul_add(P::splat(P::lane(t242, 2)), t309, t318);
+    let t322 = neg_mul_add(P::splat(P::lane(t241, 2)), t309, t319);
+    let t323 = mul_sub(t294, P::splat(t306), t310 * P::splat(P::lane(t313, 0)));
+    let t324 = neg_mul_add(t315, P::splat(P::lane(t313, 1)), t323);
+    let t325 = P::triple([P::lane(t320, 2), P::lane(t320, 0), P::lane(t320, 1)]);
+    let t326 = P::triple([P::lane(t320, 1), P::lane(t320, 2), P::lane(t320, 0)]);
+    let t327 = P::triple([P::lane(t321, 1), P::lane(t321, 2), P::lane(t321, 0)]);
+    let t328 = P::triple([P::lane(t321, 2), P::lane(t321, 0), P::lane(t321, 1)]);
+    let t329 = neg_mul_add(t316, P::splat(P::lane(t313, 2)), t324);
+    let t330 = P::triple([P::lane(t322, 1), P::lane(t322, 2), P::lane(t322, 0)]);
+    let t331 = mul_sub(t326, t328, t325 * t327);
+    let t332 = P::triple([P::lane(t322, 2), P::lane(t322, 0), P::lane(t322, 1)]);
+    let t333 = mul_sub(t325, t330, t326 * t332);
+    let t334 = c(1.0) / t306;
+    let t335 = P::triple([P::lane(t304, 0), P::lane(t308, 0), P::lane(t309, 0)]);
+    let t336 = P::splat(P::lane(t329, 1)) * mul_sub(t327, t332, t328 * t330);
+    let t337 = P::lane(t322, 1) * P::lane(t331, 1);
+    let t338 = mul_sub(t331, P::splat(P::lane(t329, 0)), t336);
+    let t339 = P::mul_add(P::lane(t322, 0), P::lane(t331, 0), t337);
     // legs 2, 5, 6: actuator forces F
-    let t270 = mul_sub(P::splat(t257), t269, neg_mul_add(t181, w(21555.9), t170));
+    let t340 = neg_mul_add(t248, w(21555.9), t235);
+    // force along the actuator that balances the remaining wrench
+    let t341 = P::triple([P::lane(t304, 1), P::lane(t308, 1), P::lane(t309, 1)]);
+    let t342 = mul_add(t333, P::splat(P::lane(t329, 2)), t338);
+    // legs 1, 3, 4: actuator forces F
+    let t343 = neg_mul_add(t249, w(21555.9), t245);
+    // force along the actuator that balances the remaining wrench
+    let t344 = P::triple([P::lane(t304, 2), P::lane(t308, 2), P::lane(t309, 2)]);
+    let t345 = c(1.0) / P::mul_add(P::lane(t322, 2), P::lane(t331, 2), t339);
+    let t346 = t342 * P::splat(t345);
+    // legs 1, 3, 4: actuator forces F
+    let t347 = mul_sub(t342, P::splat(t345), t343);
+    // force along the actuator that balances the remaining wrench
+    let t348 = neg_mul_add(t335, P::splat(P::lane(t346, 0)), t313);
+    let t349 = neg_mul_add(t341, P::splat(P::lane(t346, 1)), t348);
+    let t350 = neg_mul_add(t344, P::splat(P::lane(t346, 2)), t349);
+    // legs 2, 5, 6: actuator forces F
+    let t351 = mul_sub(P::splat(t334), t350, t340);
     // leg 1: actuator forces F
-    inverse_dynamics[0] = P::lane(t266, 0);
+    inverse_dynamics[0] = P::lane(t347, 0);
     // leg 2: actuator forces F
-    inverse_dynamics[1] = P::lane(t270, 0);
+    inverse_dynamics[1] = P::lane(t351, 0);
     // leg 3: actuator forces F
-    inverse_dynamics[2] = P::lane(t266, 1);
+    inverse_dynamics[2] = P::lane(t347, 1);
     // leg 4: actuator forces F
-    inverse_dynamics[3] = P::lane(t266, 2);
+    inverse_dynamics[3] = P::lane(t347, 2);
     // leg 5: actuator forces F
-    inverse_dynamics[4] = P::lane(t270, 1);
+    inverse_dynamics[4] = P::lane(t351, 1);
     // leg 6: actuator forces F
-    inverse_dynamics[5] = P::lane(t270, 2);
+    inverse_dynamics[5] = P::lane(t351, 2);
 }
