@@ -177,8 +177,8 @@ impl Flight {
             self.peak[k] = self.peak[k].max(peak[k]);
         }
         for base in bases {
-            for k in 0..6 {
-                self.base_squares[k] += base[k] * base[k];
+            for (square, acceleration) in self.base_squares.iter_mut().zip(base) {
+                *square += acceleration * acceleration;
             }
         }
         self.steps += steps;
