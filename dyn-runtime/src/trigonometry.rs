@@ -153,7 +153,9 @@ const MOST_LANES: usize = 16;
 fn each_with_libm<S: Number>(angles: &[S; MOST_LANES]) -> ([S; MOST_LANES], [S; MOST_LANES]) {
     let mut found = (*angles, *angles);
     for ((sine, cosine), angle) in found.0.iter_mut().zip(&mut found.1).zip(angles) {
-        (*sine, *cosine) = angle.sine_cosine_of_libm();
+        // What is near keeps its bits beside what is far.
+        let near = angle.abs() < S::constant(S::SINE_COSINE.largest);
+        (*sine, *cosine) = if near { angle.sine_cosine() } else { angle.sine_cosine_of_libm() };
     }
     found
 }
