@@ -53,18 +53,15 @@ impl<T: Real> Blocks<T> {
 
         // As `check::jacobian_condition_bound`, squared, with the largest that the 1-norm of the scaled matrix can be,
         // sqrt(6) |A|_F = sqrt(72): (0.04575 / sqrt(72))^2 det^2 >= MIN^2, det being that of the scaled matrix.
-        let squares =
-            [first, second, third, fourth, fifth, sixth].map(|(direction, _)| dot(&direction, &direction));
-        let [s1, s2, s3, s4, s5, s6] = squares;
+        let square = |(direction, _): &(Vector<T>, Vector<T>)| dot(direction, direction);
+        let arm = |(_, moment): &(Vector<T>, Vector<T>)| dot(moment, moment);
+        let (s1, s3, s5) = (square(&first), square(&third), square(&fifth));
+        let (s2, s4, s6) = (square(&second), square(&fourth), square(&sixth));
         let (upper_squares, lower_squares) = (s1 * s3 * s5, s2 * s4 * s6);
-        let arm = |(_, moment): (Vector<T>, Vector<T>), square: T| dot(&moment, &moment) / square;
-        let arms = arm(first, s1)
-            + arm(second, s2)
-            + arm(third, s3)
-            + arm(fourth, s4)
-            + arm(fifth, s5)
-            + arm(sixth, s6);
-        let arm_squared = arms * T::constant(1.0 / 6.0);
+        // Of arms without their directions' lengths: one division instead of six, and no less for it.
+        let shortest = less(less(less(s1, s2), less(s3, s4)), less(s5, s6));
+        let arms = (arm(&first) + arm(&second)) + (arm(&third) + arm(&fourth)) + (arm(&fifth) + arm(&sixth));
+        let arm_squared = arms * T::constant(1.0 / 6.0) / shortest;
         let determinant = volume * rest;
         let least = T::MIN_RECIPROCAL_CONDITION * T::constant(185.5);
         let is_regular = determinant * determinant
@@ -98,12 +95,18 @@ fn dot<T: Real>(a: &Vector<T>, b: &Vector<T>) -> T {
 }
 
 #[inline(always)]
+fn less<T: Real>(a: T, b: T) -> T {
+    if a < b { a } else { b }
+}
+
+#[inline(always)]
 fn cross<T: Real>(a: &Vector<T>, b: &Vector<T>) -> Vector<T> {
     [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }
 
+/// `a - b`
 #[inline(always)]
-fn difference<T: Real>(a: &Vector<T>, b: &Vector<T>) -> Vector<T> {
+pub(crate) fn difference<T: Real>(a: &Vector<T>, b: &Vector<T>) -> Vector<T> {
     [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
 }
 
@@ -112,8 +115,9 @@ fn applied<T: Real>(matrix: &Matrix<T>, vector: &Vector<T>) -> Vector<T> {
     [dot(&matrix[0], vector), dot(&matrix[1], vector), dot(&matrix[2], vector)]
 }
 
+/// `left right`
 #[inline(always)]
-fn product<T: Real>(left: &Matrix<T>, right: &Matrix<T>) -> Matrix<T> {
+pub(crate) fn product<T: Real>(left: &Matrix<T>, right: &Matrix<T>) -> Matrix<T> {
     let row = |of: &Vector<T>| {
         let [x, y, z] = *of;
         let [a, b, c] = right;

@@ -109,26 +109,34 @@ impl<T: Real> Scaled<T> {
 /// `None` for a rotation.
 #[inline]
 pub(crate) fn rotation_defect<T: Real>(matrix: &Matrix3<T>) -> Option<NotARotation> {
-    if is_rotation(matrix) { None } else { Some(described(matrix)) }
+    if rotation_doubt(matrix) <= most_doubt() || is_rotation(matrix) { None } else { Some(described(matrix)) }
 }
 
+/// How far a matrix with columns x, y, z is from a right-handed rotation, as a sum of squares: of `x.x - 1`, `y.y - 1`, `x.y`
+/// and `z - x x y`. Up to [`most_doubt`] it is one for certain: `R^T R - 1` has no element beyond five times the root then.
 #[inline]
+pub(crate) fn rotation_doubt<T: Real>(matrix: &Matrix3<T>) -> T {
+    let [[a, b, c], [d, e, f], [g, h, i]]: [[T; 3]; 3] = (*matrix).into();
+    let one = T::one();
+    let (xx, yy, xy) = (a * a + b * b + c * c - one, d * d + e * e + f * f - one, a * d + b * e + c * f);
+    let (p, q, r) = (b * f - c * e - g, c * d - a * f - h, a * e - b * d - i);
+    xx * xx + yy * yy + xy * xy + p * p + q * q + r * r
+}
+
+/// Up to this [`rotation_doubt`] there is none.
+#[inline]
+pub(crate) fn most_doubt<T: Real>() -> T {
+    let root = T::MAX_ROTATION_DEVIATION * T::constant(0.2);
+    root * root
+}
+
+/// The exact answer, for matrices in doubt.
+#[cold]
 fn is_rotation<T: Real>(matrix: &Matrix3<T>) -> bool {
-    let [x, y, z]: [[T; 3]; 3] = (*matrix).into();
-    let dot = |a: &[T; 3], b: &[T; 3]| a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-    let (xx, yy, zz) = (dot(&x, &x) - T::one(), dot(&y, &y) - T::one(), dot(&z, &z) - T::one());
-    let (xy, yz, zx) = (dot(&x, &y), dot(&y, &z), dot(&z, &x));
-    let determinant =
-        dot(&x, &[y[1] * z[2] - y[2] * z[1], y[2] * z[0] - y[0] * z[2], y[0] * z[1] - y[1] * z[0]]);
-    let most = T::MAX_ROTATION_DEVIATION;
-    // No comparison holds for what is not a number; all at once, because one branch is faster than seven.
-    (xx.abs() <= most)
-        & (yy.abs() <= most)
-        & (zz.abs() <= most)
-        & (xy.abs() <= most)
-        & (yz.abs() <= most)
-        & (zx.abs() <= most)
-        & (determinant > T::zero())
+    let deviation = matrix.transpose() * matrix - Matrix3::identity();
+    // No comparison holds for what is not a number.
+    deviation.iter().all(|element| element.abs() <= T::MAX_ROTATION_DEVIATION)
+        & (matrix.determinant() > T::zero())
 }
 
 /// What keeps a matrix from being a rotation.
@@ -179,8 +187,8 @@ pub(crate) fn in_reach<T: Real>(
     base_position: &[T; 3],
     platform_position: &[T; 3],
 ) -> Result<(), Error> {
-    let stands = |alignment: &T| (*alignment >= T::MIN_ROD_ALIGNMENT) & (alignment.vanishing() == T::zero());
-    if rod_alignment.iter().fold(true, |all, alignment| all & stands(alignment)) {
+    let stand = rod_alignment.iter().fold(true, |all, alignment| all & (*alignment >= T::MIN_ROD_ALIGNMENT));
+    if stand & rod_alignment.all_finite() {
         return Ok(());
     }
     mechanism(rod_alignment, base_position, platform_position)?;

@@ -9,12 +9,12 @@
 
 use nalgebra::{Matrix3, Rotation3, Vector3, Vector6};
 
-use crate::arrays::{AllFinite, FromRows, halves, rotation_rows};
-use crate::blocks::Blocks;
+use crate::arrays::{AllFinite, FromRows};
+use crate::blocks::{Blocks, difference, product};
 use crate::check;
 use crate::error::{Error, Input};
 use crate::float::sqrt;
-use crate::hexapod::{Hexapod, PoseArrays, checked_pose};
+use crate::hexapod::{Hexapod, checked_poses};
 use crate::kernels;
 use crate::real::Real;
 use crate::state::{BaseMotion, PlatformState, Pose, Twist};
@@ -37,6 +37,9 @@ pub struct ForwardKinematics<T: Real = f64> {
     /// [`Real::LENGTH_RESIDUAL_M`].
     pub residual_m: T,
 }
+
+/// A rotation, row by row, as generated functions take it.
+type Rows<T> = [[T; 3]; 3];
 
 /// Actuators at a pose, seen from the lengths that are wanted.
 struct Actuators<T> {
@@ -101,33 +104,35 @@ impl<M: kernels::RodAlignment<T>, T: Real> Hexapod<M, T> {
         M: kernels::ActuatorGeometry<T>,
     {
         let lengths = check::finite(Input::ActuatorLength, (*actuator_length_m).into())?;
-        checked_pose(base, Input::BasePosition, Input::BaseRotation)?;
-        checked_pose(start, Input::PlatformPosition, Input::PlatformRotation)?;
-        // Lengths depend on the relative pose alone; a base far from O's origin costs no digits this way.
-        let to_base = base.rotation.transpose();
-        let mut pose = Pose {
-            position_m: to_base * (start.position_m - base.position_m),
-            rotation: to_base * start.rotation,
-        };
+        let (on_base, from) = checked_poses(base, start)?;
+        // Seen from the base's origin, in axes of O: a base far from O's origin costs no digits this way.
+        let mut position = difference(&from.position, &on_base.position);
+        let mut rotation = from.rotation;
         let mut actuators = Actuators::none();
-        self.actuators(&pose, &lengths, &mut actuators)?;
+        self.actuators(&on_base.rotation, &position, &rotation, &lengths, &mut actuators)?;
         let mut last = LastStep { blocks: None, residual: T::zero() };
         let mut iterations = 0;
         while actuators.residual > T::LENGTH_RESIDUAL_M {
             if iterations == MAX_ITERATIONS {
                 return Err(no_convergence(iterations, actuators.residual));
             }
-            self.step(&mut pose, &mut actuators, &lengths, &mut last, iterations)?;
+            let place = (&mut position, &mut rotation);
+            self.step(&on_base.rotation, place, &mut actuators, &lengths, &mut last, iterations)?;
             iterations += 1;
         }
-        pose.rotation = orthonormalised(&pose.rotation);
-        Ok(ForwardKinematics { pose: base.compose(&pose), iterations, residual_m: actuators.residual })
+        let pose = Pose {
+            position_m: base.position_m + Vector3::from(position),
+            rotation: orthonormalised(&rotation),
+        };
+        Ok(ForwardKinematics { pose, iterations, residual_m: actuators.residual })
     }
 
     /// One Newton step, halved until it leads to a better pose, with the actuators there.
+    #[inline]
     fn step(
         &self,
-        pose: &mut Pose<T>,
+        base_rotation: &Rows<T>,
+        (position, rotation): (&mut [T; 3], &mut Rows<T>),
         actuators: &mut Actuators<T>,
         lengths: &[T; 6],
         last: &mut LastStep<T>,
@@ -136,27 +141,25 @@ impl<M: kernels::RodAlignment<T>, T: Real> Hexapod<M, T> {
     where
         M: kernels::ActuatorGeometry<T>,
     {
-        let (from, residual) = (*pose, actuators.residual);
+        let (from, turned, residual) = (*position, *rotation, actuators.residual);
         // A step from r_0 to r_1 was wrong by r_1 = c r_0^2; with the same Jacobian the next is by 2 c r_0 r_1.
         let is_last = T::constant(4.0) * residual * residual < T::LENGTH_RESIDUAL_M * last.residual;
         if !is_last {
             last.blocks = Blocks::of(&actuators.jacobian_dp);
         }
         last.residual = residual;
-        let (linear, angular) = halves(&match &last.blocks {
+        let [x, y, z, wx, wy, wz] = match &last.blocks {
             Some(blocks) => blocks.solve(&actuators.missing),
             None => check::twist_of_rates(&actuators.jacobian_dp, &actuators.missing)?,
-        });
-        let turn_squared = angular.norm_squared();
+        };
+        let turn_squared = wx * wx + wy * wy + wz * wz;
         let most = T::constant(MAX_TURN_RAD);
         let mut share = if turn_squared > most * most { most / sqrt(turn_squared) } else { T::one() };
         let mut refusal = None;
         for _ in 0..=MAX_HALVINGS {
-            *pose = Pose {
-                position_m: from.position_m + linear * share,
-                rotation: cayley(&(angular * share)) * from.rotation,
-            };
-            match self.actuators(pose, lengths, actuators) {
+            *position = [from[0] + x * share, from[1] + y * share, from[2] + z * share];
+            *rotation = turned_by(&[wx * share, wy * share, wz * share], &turned);
+            match self.actuators(base_rotation, position, rotation, lengths, actuators) {
                 Ok(()) if actuators.residual < residual => return Ok(()),
                 Ok(()) => refusal = None,
                 Err(reason) => refusal = Some(reason),
@@ -166,41 +169,41 @@ impl<M: kernels::RodAlignment<T>, T: Real> Hexapod<M, T> {
         Err(refusal.unwrap_or(no_convergence(iterations, residual)))
     }
 
-    /// The actuators at a pose relative to the base.
+    /// The actuators at a pose seen from the base's origin.
+    #[inline]
     fn actuators(
         &self,
-        relative: &Pose<T>,
+        base_rotation: &Rows<T>,
+        position: &[T; 3],
+        rotation: &Rows<T>,
         lengths: &[T; 6],
         actuators: &mut Actuators<T>,
     ) -> Result<(), Error>
     where
         M: kernels::ActuatorGeometry<T>,
     {
-        let (zero, one) = (T::zero(), T::one());
-        let base = PoseArrays {
-            position: [zero; 3],
-            rotation: [[one, zero, zero], [zero, one, zero], [zero, zero, one]],
-        };
-        let position = relative.position_m.into();
-        let mut rod_alignment = [zero; 6];
+        let origin = [T::zero(); 3];
+        let mut rod_alignment = [T::zero(); 6];
         self.model.actuator_geometry(
-            &base.position,
-            &base.rotation,
-            &position,
-            &rotation_rows(&relative.rotation),
+            &origin,
+            base_rotation,
+            position,
+            rotation,
             &mut rod_alignment,
             &mut actuators.missing,
             &mut actuators.jacobian_dp,
         );
-        check::in_reach(&rod_alignment, &base.position, &position)?;
-        let (mut largest, mut sum) = (zero, zero);
+        check::in_reach(&rod_alignment, &origin, position)?;
+        let (mut largest, mut sum) = (T::zero(), T::zero());
         for (length, wanted) in actuators.missing.iter_mut().zip(lengths) {
             *length = *wanted - *length;
-            largest = largest.max(length.abs());
-            sum += length.abs();
+            let size = length.abs();
+            largest = if size > largest { size } else { largest };
+            sum += size;
         }
         actuators.residual = largest;
-        // `max` drops what is not a number, a sum does not. In reach J_dp is finite; were it not, no step would come of it.
+        // No comparison holds for what is not a number, but a sum is none then. In reach J_dp is finite; were it not, no step
+        // would come of it.
         if sum.is_finite() { Ok(()) } else { Err(Error::NonFiniteResult) }
     }
 
@@ -253,25 +256,33 @@ fn no_convergence<T: Real>(iterations: u32, residual: T) -> Error {
     Error::NoConvergence { iterations, residual_m: residual.to_f64() }
 }
 
-/// A rotation about `angle` (rad) that agrees with the exponential to third order: exactly orthonormal, and no
-/// trigonometry.
-fn cayley<T: Real>(angle: &Vector3<T>) -> Rotation3<T> {
-    let [x, y, z]: [T; 3] = (angle * T::constant(0.5)).into();
-    let (one, two) = (T::one(), T::constant(2.0));
+/// `rows`, turned by an angle (rad) about an axis through the origin: a rotation that agrees with the exponential to third
+/// order, exactly orthonormal, without trigonometry.
+#[inline]
+fn turned_by<T: Real>(angle: &[T; 3], rows: &Rows<T>) -> Rows<T> {
+    let (one, two, half) = (T::one(), T::constant(2.0), T::constant(0.5));
+    let [x, y, z] = [angle[0] * half, angle[1] * half, angle[2] * half];
     let s = two / (one + x * x + y * y + z * z);
     #[rustfmt::skip]
-    let matrix = Matrix3::new(
-        one - s * (y * y + z * z), s * (x * y - z),           s * (x * z + y),
-        s * (x * y + z),           one - s * (x * x + z * z), s * (y * z - x),
-        s * (x * z - y),           s * (y * z + x),           one - s * (x * x + y * y),
-    );
-    Rotation3::from_matrix_unchecked(matrix)
+    let cayley = [
+        [one - s * (y * y + z * z), s * (x * y - z),           s * (x * z + y)],
+        [s * (x * y + z),           one - s * (x * x + z * z), s * (y * z - x)],
+        [s * (x * z - y),           s * (y * z + x),           one - s * (x * x + y * y)],
+    ];
+    product(&cayley, rows)
 }
 
 /// One step of Newton's method towards the nearest rotation: takes out what rounding, and a start that was
 /// rounded itself, have put in, so that poses may be passed on from call to call for ever.
-fn orthonormalised<T: Real>(rotation: &Rotation3<T>) -> Rotation3<T> {
-    let r = rotation.matrix();
-    let correction = Matrix3::identity() * T::constant(1.5) - r.transpose() * r * T::constant(0.5);
-    Rotation3::from_matrix_unchecked(r * correction)
+#[inline]
+fn orthonormalised<T: Real>(rows: &Rows<T>) -> Rotation3<T> {
+    let [[a, b, c], [d, e, f], [g, h, i]] = *rows;
+    let (half, most) = (T::constant(0.5), T::constant(1.5));
+    // 3/2 - R^T R/2, symmetric
+    let (xx, yy, zz) = (a * a + d * d + g * g, b * b + e * e + h * h, c * c + f * f + i * i);
+    let (xy, yz, zx) = (a * b + d * e + g * h, b * c + e * f + h * i, c * a + f * d + i * g);
+    let (xx, yy, zz) = (most - half * xx, most - half * yy, most - half * zz);
+    let (xy, yz, zx) = (-half * xy, -half * yz, -half * zx);
+    let [[a, b, c], [d, e, f], [g, h, i]] = product(rows, &[[xx, xy, zx], [xy, yy, yz], [zx, yz, zz]]);
+    Rotation3::from_matrix_unchecked(Matrix3::new(a, b, c, d, e, f, g, h, i))
 }
