@@ -8,6 +8,7 @@ use crate::error::{Error, Input, NotARotation};
 use crate::float::sqrt;
 use crate::real::Real;
 use crate::solve::{one_norm, reciprocal_condition, solve_even_rows};
+use crate::triple::{Call, Portable, Triple};
 
 /// [`Real::MAX_ROTATION_DEVIATION`] of `f64`.
 pub const MAX_ROTATION_DEVIATION: f64 = <f64 as Real>::MAX_ROTATION_DEVIATION;
@@ -213,24 +214,40 @@ fn reach<T: Real>(rod_alignment: &[T; 6]) -> Result<(), Error> {
 /// J_dp can be inverted.
 #[inline]
 pub(crate) fn invertible<T: Real>(jacobian_dp: &[[T; 6]; 6]) -> Result<(), Error> {
-    if Blocks::of(jacobian_dp).is_some() {
-        Ok(())
-    } else {
-        judged_with_care(jacobian_dp, &[T::zero(); 6]).map(drop)
+    let mut certain = false;
+    T::run(Judge { jacobian_dp, certain: &mut certain });
+    if certain { Ok(()) } else { judged_with_care(jacobian_dp, &[T::zero(); 6]).map(drop) }
+}
+
+/// Whether [`Blocks`] are certain that J_dp can be inverted.
+struct Judge<'a, T> {
+    jacobian_dp: &'a [[T; 6]; 6],
+    certain: &'a mut bool,
+}
+
+impl<T: Real> Call<T> for Judge<'_, T> {
+    #[inline(always)]
+    fn in_lanes<P: Triple<Lane = T>>(self) {
+        *self.certain = Blocks::of::<P>(self.jacobian_dp).is_some();
+    }
+
+    #[inline]
+    fn flat(self) {
+        self.in_lanes::<Portable<T>>();
     }
 }
 
 /// The twist with `J_dp twist = rates`, or why there is none.
 pub(crate) fn twist_of_rates<T: Real>(jacobian_dp: &[[T; 6]; 6], rates: &[T; 6]) -> Result<[T; 6], Error> {
-    match Blocks::of(jacobian_dp) {
-        Some(blocks) => Ok(blocks.solve(rates)),
+    match Blocks::of::<Portable<T>>(jacobian_dp) {
+        Some(blocks) => Ok(blocks.solve::<Portable<T>>(rates)),
         None => judged_with_care(jacobian_dp, rates),
     }
 }
 
 /// [`twist_of_rates`] by elimination with pivots, for layouts and poses that are none for [`Blocks`].
 #[cold]
-fn judged_with_care<T: Real>(jacobian_dp: &[[T; 6]; 6], rates: &[T; 6]) -> Result<[T; 6], Error> {
+pub(crate) fn judged_with_care<T: Real>(jacobian_dp: &[[T; 6]; 6], rates: &[T; 6]) -> Result<[T; 6], Error> {
     let scaled = Scaled::of(jacobian_dp);
     let mut right = *rates;
     for (rate, factor) in right.iter_mut().zip(&scaled.row_factors) {
