@@ -48,31 +48,29 @@ impl<T: Real> Blocks<T> {
     /// Of `P` the arithmetic counts: how a product in a sum is rounded.
     #[inline(always)]
     pub fn of<P: Triple<Lane = T>>(jacobian_dp: &[[T; 6]; 6]) -> Option<Self> {
-        let [first, second, third, fourth, fifth, sixth] = jacobian_dp.each_ref().map(halves);
-        let right = [first.1, third.1, fifth.1];
-        let lower = [second.0, fourth.0, sixth.0];
-        let (adjugate, volume) = adjugated::<P>(&[first.0, third.0, fifth.0]);
+        // Neither `map` nor a loop: both are calls and copies here, which cost as much as the arithmetic.
+        let [first, second, third, fourth, fifth, sixth] = jacobian_dp;
+        let upper = [direction(first), direction(third), direction(fifth)];
+        let right = [moment(first), moment(third), moment(fifth)];
+        let lower = [direction(second), direction(fourth), direction(sixth)];
+        let lower_right = [moment(second), moment(fourth), moment(sixth)];
+        let (adjugate, volume) = adjugated::<P>(&upper);
         let below = product::<P>(&lower, &product::<P>(&adjugate, &right));
-        let complement = |moment: &Vector<T>, below: &Vector<T>| {
-            [0, 1, 2].map(|k| P::mul_sub(moment[k], volume, below[k]))
-        };
-        let (complement_adjugate, complement_volume) = adjugated::<P>(&[
-            complement(&second.1, &below[0]),
-            complement(&fourth.1, &below[1]),
-            complement(&sixth.1, &below[2]),
-        ]);
+        let complement = |k: usize| scaled_difference::<P>(&lower_right[k], volume, &below[k]);
+        let (complement_adjugate, complement_volume) =
+            adjugated::<P>(&[complement(0), complement(1), complement(2)]);
         let (inverse_volume, inverse_complement) = (T::one() / volume, T::one() / complement_volume);
 
         // As `check::jacobian_condition_bound`, squared, with the largest that the 1-norm of the scaled matrix can be,
         // sqrt(6) |A|_F = sqrt(72): (0.04575 / sqrt(72))^2 det^2 >= MIN^2, det being that of the scaled matrix.
-        let square = |(direction, _): &(Vector<T>, Vector<T>)| dot::<P>(direction, direction);
-        let arm = |(_, moment): &(Vector<T>, Vector<T>)| dot::<P>(moment, moment);
-        let (s1, s3, s5) = (square(&first), square(&third), square(&fifth));
-        let (s2, s4, s6) = (square(&second), square(&fourth), square(&sixth));
+        let square = |vector: &Vector<T>| dot::<P>(vector, vector);
+        let (s1, s3, s5) = (square(&upper[0]), square(&upper[1]), square(&upper[2]));
+        let (s2, s4, s6) = (square(&lower[0]), square(&lower[1]), square(&lower[2]));
         let (upper_squares, lower_squares) = (s1 * s3 * s5, s2 * s4 * s6);
         // Of arms without their directions' lengths: one division instead of six, and no less for it.
         let shortest = less(less(less(s1, s2), less(s3, s4)), less(s5, s6));
-        let arms = (arm(&first) + arm(&second)) + (arm(&third) + arm(&fourth)) + (arm(&fifth) + arm(&sixth));
+        let arms = (square(&right[0]) + square(&right[1]) + square(&right[2]))
+            + (square(&lower_right[0]) + square(&lower_right[1]) + square(&lower_right[2]));
         let arm_squared = arms * T::constant(1.0 / 6.0) / shortest;
         // det J_dp = det A det S, and det((det A) S) = (det A)^3 det S.
         let determinant = complement_volume * inverse_volume * inverse_volume;
@@ -92,11 +90,7 @@ impl<T: Real> Blocks<T> {
         let [r1, q1, r2, q2, r3, q3] = *rates;
         let upper = [r1, r2, r3];
         let alone = applied::<P>(&self.lower, &applied::<P>(&self.adjugate, &upper));
-        let rest = [
-            P::mul_sub(q1, self.volume, alone[0]),
-            P::mul_sub(q2, self.volume, alone[1]),
-            P::mul_sub(q3, self.volume, alone[2]),
-        ];
+        let rest = scaled_difference::<P>(&[q1, q2, q3], self.volume, &alone);
         let [wx, wy, wz] = scaled(&applied::<P>(&self.complement_adjugate, &rest), self.inverse_complement);
         let held = difference(&upper, &applied::<P>(&self.right, &[wx, wy, wz]));
         let [x, y, z] = scaled(&applied::<P>(&self.adjugate, &held), self.inverse_volume);
@@ -105,9 +99,13 @@ impl<T: Real> Blocks<T> {
 }
 
 #[inline(always)]
-fn halves<T: Real>(row: &[T; 6]) -> (Vector<T>, Vector<T>) {
-    let [a, b, c, d, e, f] = *row;
-    ([a, b, c], [d, e, f])
+fn direction<T: Real>(row: &[T; 6]) -> Vector<T> {
+    [row[0], row[1], row[2]]
+}
+
+#[inline(always)]
+fn moment<T: Real>(row: &[T; 6]) -> Vector<T> {
+    [row[3], row[4], row[5]]
 }
 
 #[inline(always)]
@@ -151,6 +149,16 @@ pub(crate) fn product<P: Triple>(left: &Matrix<P::Lane>, right: &Matrix<P::Lane>
 #[inline(always)]
 fn scaled<T: Real>(vector: &Vector<T>, factor: T) -> Vector<T> {
     [vector[0] * factor, vector[1] * factor, vector[2] * factor]
+}
+
+/// `factor a - b`
+#[inline(always)]
+fn scaled_difference<P: Triple>(
+    a: &Vector<P::Lane>,
+    factor: P::Lane,
+    b: &Vector<P::Lane>,
+) -> Vector<P::Lane> {
+    [P::mul_sub(a[0], factor, b[0]), P::mul_sub(a[1], factor, b[1]), P::mul_sub(a[2], factor, b[2])]
 }
 
 /// The determinant times the inverse, by cross products of the rows, and the determinant.
