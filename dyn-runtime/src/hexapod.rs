@@ -106,7 +106,7 @@ impl<M: RodAlignment<T>, T: Real> Hexapod<M, T> {
     }
 
     /// Finite poses of base and platform, in reach of every leg.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn poses(
         &self,
         base: &BaseMotion<T>,
@@ -122,7 +122,7 @@ impl<M: RodAlignment<T>, T: Real> Hexapod<M, T> {
     }
 
     /// Finite poses and velocities of base and platform, in reach of every leg.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn states(
         &self,
         base: &BaseMotion<T>,
@@ -135,7 +135,7 @@ impl<M: RodAlignment<T>, T: Real> Hexapod<M, T> {
     }
 
     /// [`states`](Self::states) in which J_dp can be inverted.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn determinate_states(
         &self,
         base: &BaseMotion<T>,
@@ -183,39 +183,45 @@ pub(crate) fn unjudged_alignment<M: RodAlignment<T>, T: Real>(
 }
 
 impl<T: Real> PoseArrays<T> {
-    #[inline]
+    #[inline(always)]
     pub fn of(pose: &Pose<T>) -> Self {
         Self { position: pose.position_m.into(), rotation: rotation_rows(&pose.rotation) }
     }
 
-    #[inline]
+    #[inline(always)]
     fn moving(self, velocity: [T; 6]) -> StateArrays<T> {
         StateArrays { position: self.position, rotation: self.rotation, velocity }
     }
 }
 
 /// Finite poses of base and platform, with rotations that are rotations; reach is not looked at.
-#[inline]
+#[inline(always)]
 pub(crate) fn checked_poses<T: Real>(
     base: &Pose<T>,
     platform: &Pose<T>,
 ) -> Result<(PoseArrays<T>, PoseArrays<T>), Error> {
-    let (b, p) = (PoseArrays::of(base), PoseArrays::of(platform));
+    check_poses(base, platform)?;
+    Ok((PoseArrays::of(base), PoseArrays::of(platform)))
+}
+
+/// Judges without copying: arrays that are handed from call to call cost more than the judgement.
+fn check_poses<T: Real>(base: &Pose<T>, platform: &Pose<T>) -> Result<(), Error> {
     // Both at once: one branch is faster than four. What is not finite is no number here, and no comparison holds for it.
+    let [[p, q, r]]: [[T; 3]; 1] = base.position_m.into();
+    let [[s, t, u]]: [[T; 3]; 1] = platform.position_m.into();
     let doubt = check::rotation_doubt(base.rotation.matrix())
         + check::rotation_doubt(platform.rotation.matrix())
-        + b.position.vanishing()
-        + p.position.vanishing();
-    if doubt > check::most_doubt() || doubt.partial_cmp(&doubt).is_none() {
-        examine(base, Input::BasePosition, Input::BaseRotation)?;
-        examine(platform, Input::PlatformPosition, Input::PlatformRotation)?;
+        + [p, q, r, s, t, u].vanishing();
+    if doubt <= check::most_doubt() {
+        return Ok(());
     }
-    Ok((b, p))
+    examine(base, Input::BasePosition, Input::BaseRotation)?;
+    examine(platform, Input::PlatformPosition, Input::PlatformRotation)
 }
 
 /// What is wrong with a pose, if anything is.
 #[cold]
-pub(crate) fn examine<T: Real>(pose: &Pose<T>, position: Input, rotation: Input) -> Result<(), Error> {
+fn examine<T: Real>(pose: &Pose<T>, position: Input, rotation: Input) -> Result<(), Error> {
     let arrays = PoseArrays::of(pose);
     check::finite(position, arrays.position)?;
     match check::rotation_defect(pose.rotation.matrix()) {
