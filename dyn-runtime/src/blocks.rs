@@ -32,8 +32,8 @@ pub(crate) struct Blocks<T> {
     volume: T,
     /// 1 / det A.
     inverse_volume: T,
-    /// B.
-    right: Matrix<T>,
+    /// (det A) A^-1 B.
+    coupling: Matrix<T>,
     /// C.
     lower: Matrix<T>,
     /// The adjugate of (det A) S.
@@ -55,7 +55,8 @@ impl<T: Real> Blocks<T> {
         let lower = [direction(second), direction(fourth), direction(sixth)];
         let lower_right = [moment(second), moment(fourth), moment(sixth)];
         let (adjugate, volume) = adjugated::<P>(&upper);
-        let below = product::<P>(&lower, &product::<P>(&adjugate, &right));
+        let coupling = product::<P>(&adjugate, &right);
+        let below = product::<P>(&lower, &coupling);
         let complement = |k: usize| scaled_difference::<P>(&lower_right[k], volume, &below[k]);
         let (complement_adjugate, complement_volume) =
             adjugated::<P>(&[complement(0), complement(1), complement(2)]);
@@ -79,8 +80,15 @@ impl<T: Real> Blocks<T> {
             > least * least * (upper_squares * lower_squares) * (arm_squared * arm_squared * arm_squared);
         let is_voluminous = volume * volume > T::constant(MIN_SQUARED_VOLUME) * upper_squares;
         // Not short of one another: what is not finite passes neither.
-        let blocks =
-            Self { adjugate, volume, inverse_volume, right, lower, complement_adjugate, inverse_complement };
+        let blocks = Self {
+            adjugate,
+            volume,
+            inverse_volume,
+            coupling,
+            lower,
+            complement_adjugate,
+            inverse_complement,
+        };
         (is_regular & is_voluminous).then_some(blocks)
     }
 
@@ -88,12 +96,14 @@ impl<T: Real> Blocks<T> {
     #[inline(always)]
     pub fn solve<P: Triple<Lane = T>>(&self, rates: &[T; 6]) -> [T; 6] {
         let [r1, q1, r2, q2, r3, q3] = *rates;
-        let upper = [r1, r2, r3];
-        let alone = applied::<P>(&self.lower, &applied::<P>(&self.adjugate, &upper));
-        let rest = scaled_difference::<P>(&[q1, q2, q3], self.volume, &alone);
+        let alone = applied::<P>(&self.adjugate, &[r1, r2, r3]);
+        let rest = scaled_difference::<P>(&[q1, q2, q3], self.volume, &applied::<P>(&self.lower, &alone));
         let [wx, wy, wz] = scaled(&applied::<P>(&self.complement_adjugate, &rest), self.inverse_complement);
-        let held = difference(&upper, &applied::<P>(&self.right, &[wx, wy, wz]));
-        let [x, y, z] = scaled(&applied::<P>(&self.adjugate, &held), self.inverse_volume);
+        let held = |k: usize| {
+            let [x, y, z] = self.coupling[k];
+            P::neg_mul_add(z, wz, P::neg_mul_add(y, wy, P::neg_mul_add(x, wx, alone[k])))
+        };
+        let [x, y, z] = scaled(&[held(0), held(1), held(2)], self.inverse_volume);
         [x, y, z, wx, wy, wz]
     }
 }
