@@ -15,7 +15,7 @@ use crate::check;
 use crate::error::{Error, Input};
 use crate::hexapod::{Hexapod, checked_poses};
 use crate::kernels;
-use crate::newton::{Found, Search, no_convergence};
+use crate::newton::{Found, Search};
 use crate::real::Real;
 use crate::state::{BaseMotion, PlatformState, Pose, Twist};
 
@@ -71,7 +71,7 @@ impl<M: kernels::RodAlignment<T>, T: Real> Hexapod<M, T> {
     {
         let lengths = check::finite(Input::ActuatorLength, (*actuator_length_m).into())?;
         let (on_base, from) = checked_poses(base, start)?;
-        let mut found = Err(no_convergence(0, T::zero()));
+        let mut found = Err(Error::NonFiniteResult);
         T::run(Search {
             model: &self.model,
             base_rotation: &on_base.rotation,

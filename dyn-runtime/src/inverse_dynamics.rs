@@ -17,7 +17,7 @@ impl<M: kernels::RodAlignment<T>, T: Real> Hexapod<M, T> {
     ///
     /// # Errors
     /// See [`Hexapod`]; besides, [`Error::SingularJacobian`]. That check evaluates J_dp and a
-    /// bound of its condition, which costs a third of the forces themselves; [`control`](Self::control) has J_dp anyway.
+    /// bound of its condition, which costs as much as the forces themselves; [`control`](Self::control) has J_dp anyway.
     ///
     /// ```
     /// use dyn_runtime::nalgebra::{Vector3, Vector6};

@@ -80,6 +80,8 @@ impl<M: kernels::ActuatorGeometry<T>, T: Real> Search<'_, M, T> {
     #[inline(always)]
     fn search<P: Triple<Lane = T>>(&mut self) -> Result<Found<T>, Error> {
         let zero = T::zero();
+        // Before any length is looked at, so that the residual is that of the pose which is returned.
+        self.rotation = orthonormalised::<P>(&self.rotation);
         let mut actuators = Actuators { jacobian_dp: [[zero; 6]; 6], missing: [zero; 6], residual: zero };
         self.actuators(&mut actuators)?;
         let mut last = LastStep { blocks: None, residual: zero };
@@ -91,8 +93,8 @@ impl<M: kernels::ActuatorGeometry<T>, T: Real> Search<'_, M, T> {
             self.step::<P>(&mut actuators, &mut last, iterations)?;
             iterations += 1;
         }
-        let rotation = orthonormalised::<P>(&self.rotation);
-        Ok(Found { position: self.position, rotation, iterations, residual: actuators.residual })
+        let (position, rotation) = (self.position, self.rotation);
+        Ok(Found { position, rotation, iterations, residual: actuators.residual })
     }
 
     /// One Newton step, halved until it leads to a better pose, with the actuators there.
@@ -166,7 +168,7 @@ impl<M: kernels::ActuatorGeometry<T>, T: Real> Search<'_, M, T> {
 }
 
 #[cold]
-pub(crate) fn no_convergence<T: Real>(iterations: u32, residual: T) -> Error {
+fn no_convergence<T: Real>(iterations: u32, residual: T) -> Error {
     Error::NoConvergence { iterations, residual_m: residual.to_f64() }
 }
 
@@ -194,7 +196,7 @@ fn turned_by<P: Triple>(angle: &[P::Lane; 3], rows: &Rows<P::Lane>) -> Rows<P::L
     [row(0), row(1), row(2)]
 }
 
-/// One step of Newton's method towards the nearest rotation: takes out what rounding, and a start that was
+/// One step of Newton's method towards the nearest rotation: takes out what rounding of earlier calls, and a start that was
 /// rounded itself, have put in, so that poses may be passed on from call to call for ever.
 #[inline(always)]
 fn orthonormalised<P: Triple>(rows: &Rows<P::Lane>) -> Rows<P::Lane> {
