@@ -14,6 +14,20 @@ use dyn_platform::{LegType, Platform};
 const BAKED: [&str; 6] =
     ["tilted_axes", "unequal_legs", "long_thin", "everything", "ups_regular", "ups_everything"];
 
+/// What the default platform may do in `limited`, the model that tests of limits take: all legs, and leg 3.
+const LIMITS: &str = "\
+[[leg]]
+number = 3
+maximum_force_n = 80.0
+maximum_length_m = 0.215
+
+[legs]
+minimum_length_m = 0.18
+maximum_force_n = 100.0
+force_constant_n_per_a = 40.0
+maximum_hooke_joint_angle_rad = 0.3
+";
+
 fn main() -> Result<(), Box<dyn Error>> {
     let folder = Path::new(&env::var("CARGO_MANIFEST_DIR")?).join("platforms");
     let out = PathBuf::from(env::var("OUT_DIR")?);
@@ -38,6 +52,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         writeln!(models, "#[path = {:?}]\n#[rustfmt::skip]\npub mod {name};", target)?;
         baked.push((platform.leg_type, name, format!("baked::{name}::{}", type_name(name))));
     }
+    models += &limited(&folder, &out)?;
     for leg_type in LegType::ALL {
         let program = GraphFile::of(leg_type)?.program;
         by_name += &call(&program)?;
@@ -51,6 +66,25 @@ fn main() -> Result<(), Box<dyn Error>> {
     fs::write(out.join("models.rs"), models)?;
     fs::write(out.join("by_name.rs"), by_name)?;
     Ok(())
+}
+
+/// The default platform with limits; its functions are in the runtime crate.
+fn limited(folder: &Path, out: &Path) -> Result<String, Box<dyn Error>> {
+    let path = folder.join("../../platforms/uhp_2016.toml");
+    println!("cargo::rerun-if-changed={}", path.display());
+    let text = fs::read_to_string(&path)?.replacen("[legs]", LIMITS, 1);
+    let platform = Platform::from_toml("limited", &text)?;
+    let options = Options {
+        model: "limited".into(),
+        runtime: RuntimePath::new("::dyn_runtime")?,
+        scalars: vec![Scalar::F64],
+        functions: Some(vec!["rod_alignment".into()]),
+        command: "cargo test -p dyn-tests".into(),
+        evidence: None,
+    };
+    let target = out.join("limited.rs");
+    fs::write(&target, generate(&GraphFile::uhp()?, &Numbers::baked(&platform), &options)?.source)?;
+    Ok(format!("#[path = {target:?}]\n#[rustfmt::skip]\npub mod limited;\n"))
 }
 
 /// A function that calls the functions of one leg type by name.

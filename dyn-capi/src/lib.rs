@@ -35,7 +35,7 @@
 // One contract for all calls; it stands above.
 #![allow(clippy::missing_safety_doc)]
 
-#[cfg(feature = "std")]
+#[cfg(feature = "hosted")]
 extern crate std;
 
 mod control;
@@ -43,7 +43,7 @@ mod dynamics;
 mod inputs;
 mod model;
 mod outputs;
-#[cfg(all(feature = "panic-handler", not(feature = "std")))]
+#[cfg(all(feature = "panic-handler", not(feature = "hosted")))]
 mod panic;
 mod parameters;
 mod pointers;

@@ -10,7 +10,7 @@ use crate::pack::{Packed, pack};
 use crate::passes::{Context, PassReport, PivotOrder, run_passes};
 use crate::sample::Kind;
 use crate::workspace::{parameters, sampled_states};
-use crate::{GraphFile, Numbers, parallel, sha256};
+use crate::{GraphFile, Numbers, limits, parallel, sha256};
 use dyn_platform::nearest;
 
 /// States over which pivot orders are chosen.
@@ -139,12 +139,14 @@ pub fn generate(
         .filter(has_all)
         .map(|function| Signature::of(&function.graph).within(program))
         .collect();
+    let limits = numbers.platform().and_then(|platform| limits::of_platform(program, platform));
     let model = Model {
         name: &options.model,
         runtime: &options.runtime,
         parameters: &parameters,
         scalars: &options.scalars,
         defaults: defaults.as_deref(),
+        limits: limits.as_ref(),
         signatures: &signatures,
         functions: &sources,
         in_lanes: &in_lanes,

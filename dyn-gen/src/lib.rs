@@ -24,6 +24,7 @@ pub mod explain;
 mod generate;
 pub mod graph;
 mod graph_file;
+mod limits;
 mod numbers;
 pub mod output;
 pub mod pack;

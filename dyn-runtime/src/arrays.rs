@@ -11,12 +11,14 @@ pub(crate) trait FromRows<Rows> {
 }
 
 impl<T: Real> FromRows<T> for T {
+    #[inline]
     fn from_rows(number: &T) -> Self {
         *number
     }
 }
 
 impl<T: Real, const N: usize> FromRows<[T; N]> for SVector<T, N> {
+    #[inline]
     fn from_rows(elements: &[T; N]) -> Self {
         Self::from(*elements)
     }
@@ -24,6 +26,7 @@ impl<T: Real, const N: usize> FromRows<[T; N]> for SVector<T, N> {
 
 /// Row-major rows to a matrix.
 impl<T: Real, const R: usize, const C: usize> FromRows<[[T; C]; R]> for SMatrix<T, R, C> {
+    #[inline]
     fn from_rows(rows: &[[T; C]; R]) -> Self {
         SMatrix::<T, C, R>::from(*rows).transpose()
     }
@@ -31,6 +34,7 @@ impl<T: Real, const R: usize, const C: usize> FromRows<[[T; C]; R]> for SMatrix<
 
 /// One for each leg.
 impl<Leg: FromRows<Rows>, Rows> FromRows<[Rows; 6]> for [Leg; 6] {
+    #[inline]
     fn from_rows(legs: &[Rows; 6]) -> Self {
         legs.each_ref().map(Leg::from_rows)
     }

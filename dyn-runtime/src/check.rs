@@ -8,6 +8,7 @@ use crate::error::{Error, Input, NotARotation};
 use crate::float::sqrt;
 use crate::real::Real;
 use crate::solve::{one_norm, reciprocal_condition, solve_even_rows};
+use crate::triple::{Call, Portable, Triple};
 
 /// [`Real::MAX_ROTATION_DEVIATION`] of `f64`.
 pub const MAX_ROTATION_DEVIATION: f64 = <f64 as Real>::MAX_ROTATION_DEVIATION;
@@ -109,26 +110,34 @@ impl<T: Real> Scaled<T> {
 /// `None` for a rotation.
 #[inline]
 pub(crate) fn rotation_defect<T: Real>(matrix: &Matrix3<T>) -> Option<NotARotation> {
-    if is_rotation(matrix) { None } else { Some(described(matrix)) }
+    if rotation_doubt(matrix) <= most_doubt() || is_rotation(matrix) { None } else { Some(described(matrix)) }
 }
 
+/// How far a matrix with columns x, y, z is from a right-handed rotation, as a sum of squares: of `x.x - 1`, `y.y - 1`, `x.y`
+/// and `z - x x y`. Up to [`most_doubt`] it is one for certain: `R^T R - 1` has no element beyond five times the root then.
 #[inline]
+pub(crate) fn rotation_doubt<T: Real>(matrix: &Matrix3<T>) -> T {
+    let [[a, b, c], [d, e, f], [g, h, i]]: [[T; 3]; 3] = (*matrix).into();
+    let one = T::one();
+    let (xx, yy, xy) = (a * a + b * b + c * c - one, d * d + e * e + f * f - one, a * d + b * e + c * f);
+    let (p, q, r) = (b * f - c * e - g, c * d - a * f - h, a * e - b * d - i);
+    xx * xx + yy * yy + xy * xy + p * p + q * q + r * r
+}
+
+/// Up to this [`rotation_doubt`] there is none.
+#[inline]
+pub(crate) fn most_doubt<T: Real>() -> T {
+    let root = T::MAX_ROTATION_DEVIATION * T::constant(0.2);
+    root * root
+}
+
+/// The exact answer, for matrices in doubt.
+#[cold]
 fn is_rotation<T: Real>(matrix: &Matrix3<T>) -> bool {
-    let [x, y, z]: [[T; 3]; 3] = (*matrix).into();
-    let dot = |a: &[T; 3], b: &[T; 3]| a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-    let (xx, yy, zz) = (dot(&x, &x) - T::one(), dot(&y, &y) - T::one(), dot(&z, &z) - T::one());
-    let (xy, yz, zx) = (dot(&x, &y), dot(&y, &z), dot(&z, &x));
-    let determinant =
-        dot(&x, &[y[1] * z[2] - y[2] * z[1], y[2] * z[0] - y[0] * z[2], y[0] * z[1] - y[1] * z[0]]);
-    let most = T::MAX_ROTATION_DEVIATION;
-    // No comparison holds for what is not a number; all at once, because one branch is faster than seven.
-    (xx.abs() <= most)
-        & (yy.abs() <= most)
-        & (zz.abs() <= most)
-        & (xy.abs() <= most)
-        & (yz.abs() <= most)
-        & (zx.abs() <= most)
-        & (determinant > T::zero())
+    let deviation = matrix.transpose() * matrix - Matrix3::identity();
+    // No comparison holds for what is not a number.
+    deviation.iter().all(|element| element.abs() <= T::MAX_ROTATION_DEVIATION)
+        & (matrix.determinant() > T::zero())
 }
 
 /// What keeps a matrix from being a rotation.
@@ -179,8 +188,8 @@ pub(crate) fn in_reach<T: Real>(
     base_position: &[T; 3],
     platform_position: &[T; 3],
 ) -> Result<(), Error> {
-    let stands = |alignment: &T| (*alignment >= T::MIN_ROD_ALIGNMENT) & (alignment.vanishing() == T::zero());
-    if rod_alignment.iter().fold(true, |all, alignment| all & stands(alignment)) {
+    let stand = rod_alignment.iter().fold(true, |all, alignment| all & (*alignment >= T::MIN_ROD_ALIGNMENT));
+    if stand & rod_alignment.all_finite() {
         return Ok(());
     }
     mechanism(rod_alignment, base_position, platform_position)?;
@@ -205,24 +214,40 @@ fn reach<T: Real>(rod_alignment: &[T; 6]) -> Result<(), Error> {
 /// J_dp can be inverted.
 #[inline]
 pub(crate) fn invertible<T: Real>(jacobian_dp: &[[T; 6]; 6]) -> Result<(), Error> {
-    if Blocks::of(jacobian_dp).is_some() {
-        Ok(())
-    } else {
-        judged_with_care(jacobian_dp, &[T::zero(); 6]).map(drop)
+    let mut certain = false;
+    T::run(Judge { jacobian_dp, certain: &mut certain });
+    if certain { Ok(()) } else { judged_with_care(jacobian_dp, &[T::zero(); 6]).map(drop) }
+}
+
+/// Whether [`Blocks`] are certain that J_dp can be inverted.
+struct Judge<'a, T> {
+    jacobian_dp: &'a [[T; 6]; 6],
+    certain: &'a mut bool,
+}
+
+impl<T: Real> Call<T> for Judge<'_, T> {
+    #[inline(always)]
+    fn in_lanes<P: Triple<Lane = T>>(self) {
+        *self.certain = Blocks::of::<P>(self.jacobian_dp).is_some();
+    }
+
+    #[inline]
+    fn flat(self) {
+        self.in_lanes::<Portable<T>>();
     }
 }
 
 /// The twist with `J_dp twist = rates`, or why there is none.
 pub(crate) fn twist_of_rates<T: Real>(jacobian_dp: &[[T; 6]; 6], rates: &[T; 6]) -> Result<[T; 6], Error> {
-    match Blocks::of(jacobian_dp) {
-        Some(blocks) => Ok(blocks.solve(rates)),
+    match Blocks::of::<Portable<T>>(jacobian_dp) {
+        Some(blocks) => Ok(blocks.solve::<Portable<T>>(rates)),
         None => judged_with_care(jacobian_dp, rates),
     }
 }
 
 /// [`twist_of_rates`] by elimination with pivots, for layouts and poses that are none for [`Blocks`].
 #[cold]
-fn judged_with_care<T: Real>(jacobian_dp: &[[T; 6]; 6], rates: &[T; 6]) -> Result<[T; 6], Error> {
+pub(crate) fn judged_with_care<T: Real>(jacobian_dp: &[[T; 6]; 6], rates: &[T; 6]) -> Result<[T; 6], Error> {
     let scaled = Scaled::of(jacobian_dp);
     let mut right = *rates;
     for (rate, factor) in right.iter_mut().zip(&scaled.row_factors) {

@@ -132,14 +132,13 @@ impl<M: kernels::RodAlignment<T>, T: Real> Hexapod<M, T> {
         external_wrench: &Wrench<T>,
     ) -> Result<Vector6<T>, Error>
     where
-        M: kernels::PassiveInverseDynamics<T> + kernels::JacobianDp<T>,
+        M: kernels::PassiveInverseDynamics<T> + kernels::ActuatorGeometry<T>,
     {
         let base_acceleration = finite(Input::BaseAcceleration, base.acceleration.to_array())?;
         let reference_velocity = finite(Input::ReferenceVelocity, reference_velocity.to_array())?;
         let acceleration = finite(Input::PlatformAcceleration, reference_acceleration.to_array())?;
         let external_wrench = finite(Input::ExternalWrench, external_wrench.to_array())?;
-        let (b, p) = self.states(base, platform)?;
-        self.check_jacobian(&b.position, &b.rotation, &p.position, &p.rotation)?;
+        let (b, p) = self.determinate_states(base, platform)?;
         evaluate!(self.model.passive_inverse_dynamics(
             b.position, b.rotation, b.velocity, base_acceleration,
             p.position, p.rotation, p.velocity, acceleration, reference_velocity,

@@ -2,10 +2,10 @@
 
 use core::marker::PhantomData;
 
-use crate::arrays::rotation_rows;
+use crate::arrays::{AllFinite, rotation_rows};
 use crate::check;
 use crate::error::{Error, Input};
-use crate::kernels::{JacobianDp, RodAlignment};
+use crate::kernels::{ActuatorGeometry, RodAlignment};
 use crate::real::Real;
 use crate::state::{BaseMotion, PlatformState, Pose};
 
@@ -34,7 +34,7 @@ use crate::state::{BaseMotion, PlatformState, Pose};
 /// A model may be generated with some of the functions only. Every call checks reach, so all methods need
 /// `rod_alignment` ([`RodAlignment`]). Each needs the function of its own name besides ([`bias`](Self::bias)
 /// needs [`Bias`](crate::kernels::Bias), and so on), and [`inverse_dynamics`](Self::inverse_dynamics) also
-/// `jacobian_dp`. So a controller by inverse dynamics takes `rod_alignment,jacobian_dp,inverse_dynamics`. A
+/// `actuator_geometry`. So a controller by inverse dynamics takes `rod_alignment,actuator_geometry,inverse_dynamics`. A
 /// function that is missing shows when compiling, as a trait that is not implemented.
 ///
 /// Unchecked, the same functions are the traits in [`kernels`](crate::kernels), on plain arrays: NaN or
@@ -105,35 +105,14 @@ impl<M: RodAlignment<T>, T: Real> Hexapod<M, T> {
         Ok(rod_alignment)
     }
 
-    /// J_dp can be inverted at these poses.
-    pub(crate) fn check_jacobian(
-        &self,
-        base_position: &[T; 3],
-        base_rotation: &[[T; 3]; 3],
-        platform_position: &[T; 3],
-        platform_rotation: &[[T; 3]; 3],
-    ) -> Result<(), Error>
-    where
-        M: JacobianDp<T>,
-    {
-        let mut jacobian_dp = [[T::zero(); 6]; 6];
-        self.model.jacobian_dp(
-            base_position,
-            base_rotation,
-            platform_position,
-            platform_rotation,
-            &mut jacobian_dp,
-        );
-        check::invertible(&jacobian_dp)
-    }
-
     /// Finite poses of base and platform, in reach of every leg.
+    #[inline(always)]
     pub(crate) fn poses(
         &self,
         base: &BaseMotion<T>,
         platform: &PlatformState<T>,
     ) -> Result<(PoseArrays<T>, PoseArrays<T>), Error> {
-        let (base, platform) = checked_poses(base, platform)?;
+        let (base, platform) = checked_poses(&base.pose, &platform.pose)?;
         check::in_reach(
             &unjudged_alignment(&self.model, &base, &platform),
             &base.position,
@@ -143,6 +122,7 @@ impl<M: RodAlignment<T>, T: Real> Hexapod<M, T> {
     }
 
     /// Finite poses and velocities of base and platform, in reach of every leg.
+    #[inline(always)]
     pub(crate) fn states(
         &self,
         base: &BaseMotion<T>,
@@ -153,9 +133,39 @@ impl<M: RodAlignment<T>, T: Real> Hexapod<M, T> {
         let (base, platform) = self.poses(base, platform)?;
         Ok((base.moving(base_velocity), platform.moving(platform_velocity)))
     }
+
+    /// [`states`](Self::states) in which J_dp can be inverted.
+    #[inline(always)]
+    pub(crate) fn determinate_states(
+        &self,
+        base: &BaseMotion<T>,
+        platform: &PlatformState<T>,
+    ) -> Result<(StateArrays<T>, StateArrays<T>), Error>
+    where
+        M: ActuatorGeometry<T>,
+    {
+        let base_velocity = check::finite(Input::BaseVelocity, base.velocity.to_array())?;
+        let platform_velocity = check::finite(Input::PlatformVelocity, platform.velocity.to_array())?;
+        let (base, platform) = checked_poses(&base.pose, &platform.pose)?;
+        let (mut rod_alignment, mut length) = ([T::zero(); 6], [T::zero(); 6]);
+        let mut jacobian_dp = [[T::zero(); 6]; 6];
+        self.model.actuator_geometry(
+            &base.position,
+            &base.rotation,
+            &platform.position,
+            &platform.rotation,
+            &mut rod_alignment,
+            &mut length,
+            &mut jacobian_dp,
+        );
+        check::in_reach(&rod_alignment, &base.position, &platform.position)?;
+        check::invertible(&jacobian_dp)?;
+        Ok((base.moving(base_velocity), platform.moving(platform_velocity)))
+    }
 }
 
 /// `(u.a)^2` of a model at these poses, whatever its value.
+#[inline]
 pub(crate) fn unjudged_alignment<M: RodAlignment<T>, T: Real>(
     model: &M,
     base: &PoseArrays<T>,
@@ -172,34 +182,50 @@ pub(crate) fn unjudged_alignment<M: RodAlignment<T>, T: Real>(
     rod_alignment
 }
 
-impl<T> PoseArrays<T> {
+impl<T: Real> PoseArrays<T> {
+    #[inline(always)]
+    pub fn of(pose: &Pose<T>) -> Self {
+        Self { position: pose.position_m.into(), rotation: rotation_rows(&pose.rotation) }
+    }
+
+    #[inline(always)]
     fn moving(self, velocity: [T; 6]) -> StateArrays<T> {
         StateArrays { position: self.position, rotation: self.rotation, velocity }
     }
 }
 
 /// Finite poses of base and platform, with rotations that are rotations; reach is not looked at.
+#[inline(always)]
 pub(crate) fn checked_poses<T: Real>(
-    base: &BaseMotion<T>,
-    platform: &PlatformState<T>,
+    base: &Pose<T>,
+    platform: &Pose<T>,
 ) -> Result<(PoseArrays<T>, PoseArrays<T>), Error> {
-    Ok((
-        checked_pose(&base.pose, Input::BasePosition, Input::BaseRotation)?,
-        checked_pose(&platform.pose, Input::PlatformPosition, Input::PlatformRotation)?,
-    ))
+    check_poses(base, platform)?;
+    Ok((PoseArrays::of(base), PoseArrays::of(platform)))
 }
 
-pub(crate) fn checked_pose<T: Real>(
-    pose: &Pose<T>,
-    position: Input,
-    rotation: Input,
-) -> Result<PoseArrays<T>, Error> {
-    let arrays = PoseArrays {
-        position: check::finite(position, pose.position_m.into())?,
-        rotation: rotation_rows(&pose.rotation),
-    };
+/// Judges without copying: arrays that are handed from call to call cost more than the judgement.
+fn check_poses<T: Real>(base: &Pose<T>, platform: &Pose<T>) -> Result<(), Error> {
+    // Both at once: one branch is faster than four. What is not finite is no number here, and no comparison holds for it.
+    let [[p, q, r]]: [[T; 3]; 1] = base.position_m.into();
+    let [[s, t, u]]: [[T; 3]; 1] = platform.position_m.into();
+    let doubt = check::rotation_doubt(base.rotation.matrix())
+        + check::rotation_doubt(platform.rotation.matrix())
+        + [p, q, r, s, t, u].vanishing();
+    if doubt <= check::most_doubt() {
+        return Ok(());
+    }
+    examine(base, Input::BasePosition, Input::BaseRotation)?;
+    examine(platform, Input::PlatformPosition, Input::PlatformRotation)
+}
+
+/// What is wrong with a pose, if anything is.
+#[cold]
+fn examine<T: Real>(pose: &Pose<T>, position: Input, rotation: Input) -> Result<(), Error> {
+    let arrays = PoseArrays::of(pose);
+    check::finite(position, arrays.position)?;
     match check::rotation_defect(pose.rotation.matrix()) {
-        None => Ok(arrays),
+        None => Ok(()),
         Some(defect) => {
             check::finite(rotation, arrays.rotation)?;
             Err(Error::NotARotation { input: rotation, defect })

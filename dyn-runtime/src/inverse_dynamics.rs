@@ -17,7 +17,7 @@ impl<M: kernels::RodAlignment<T>, T: Real> Hexapod<M, T> {
     ///
     /// # Errors
     /// See [`Hexapod`]; besides, [`Error::SingularJacobian`]. That check evaluates J_dp and a
-    /// bound of its condition, which costs a third of the forces themselves; [`control`](Self::control) has J_dp anyway.
+    /// bound of its condition, which costs as much as the forces themselves; [`control`](Self::control) has J_dp anyway.
     ///
     /// ```
     /// use dyn_runtime::nalgebra::{Vector3, Vector6};
@@ -42,14 +42,12 @@ impl<M: kernels::RodAlignment<T>, T: Real> Hexapod<M, T> {
         external_wrench: &Wrench<T>,
     ) -> Result<Vector6<T>, Error>
     where
-        M: kernels::InverseDynamics<T> + kernels::JacobianDp<T>,
+        M: kernels::InverseDynamics<T> + kernels::ActuatorGeometry<T>,
     {
         let base_acceleration = finite(Input::BaseAcceleration, base.acceleration.to_array())?;
         let platform_acceleration = finite(Input::PlatformAcceleration, platform_acceleration.to_array())?;
         let external_wrench = finite(Input::ExternalWrench, external_wrench.to_array())?;
-        let (b, p) = self.states(base, platform)?;
-
-        self.check_jacobian(&b.position, &b.rotation, &p.position, &p.rotation)?;
+        let (b, p) = self.determinate_states(base, platform)?;
         evaluate!(self.model.inverse_dynamics(
             b.position, b.rotation, b.velocity, base_acceleration,
             p.position, p.rotation, p.velocity, platform_acceleration,

@@ -85,7 +85,7 @@ impl<M: kernels::RodAlignment<T>, T: Real> Hexapod<M, T> {
         base: &BaseMotion<T>,
         platform: &PlatformState<T>,
     ) -> Result<Vector6<T>, Error> {
-        let (b, p) = checked_poses(base, platform)?;
+        let (b, p) = checked_poses(&base.pose, &platform.pose)?;
         let rod_alignment = self.alignment_at(&b, &p)?;
         finite_result(rod_alignment.all_finite())?;
         Ok(rod_alignment.into())

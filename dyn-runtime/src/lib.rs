@@ -115,6 +115,7 @@ mod inverse_dynamics;
 mod kinematics;
 mod matrices;
 mod monitor;
+mod newton;
 mod real;
 mod state;
 mod trigonometry;

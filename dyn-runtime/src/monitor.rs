@@ -28,7 +28,8 @@ pub enum Quantity {
     Conditioning,
 }
 
-/// What actuators and joints may do, the leg first. An infinite limit is none; [`none`](Self::none) has no other.
+/// What actuators and joints may do, the leg first. An infinite limit is none; [`none`](Self::none) has no other. A generated
+/// model gives those of its platform file: [`Uhp2016::limits`](crate::models::Uhp2016::limits).
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Limits<T = f64> {
     /// Shortest d, m.

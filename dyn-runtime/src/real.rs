@@ -4,6 +4,7 @@ use nalgebra::RealField;
 
 use crate::float::Scalar;
 use crate::trigonometry;
+use crate::triple::{self, Call};
 
 /// The number type of [`Hexapod`](crate::Hexapod) and its states: `f64` or `f32`.
 ///
@@ -62,6 +63,10 @@ pub trait Real: RealField + Scalar + Copy + Default + sealed::Sealed {
     /// Angle of the point (x, self) in radians, `-pi` to `pi`; 0 for 0 and x = 0; libm's on every host.
     fn arc_tangent(self, x: Self) -> Self;
 
+    /// Makes a call in the registers that suit three of these numbers, if the processor has such: [`triple::run`].
+    #[doc(hidden)]
+    fn run<C: Call<Self>>(call: C);
+
     /// The same number in double precision, as errors report it.
     fn to_f64(self) -> f64;
 }
@@ -97,6 +102,11 @@ impl Real for f64 {
         libm::atan2(self, x)
     }
 
+    #[inline(always)]
+    fn run<C: Call<Self>>(call: C) {
+        triple::run(call);
+    }
+
     fn to_f64(self) -> f64 {
         self
     }
@@ -123,6 +133,11 @@ impl Real for f32 {
 
     fn arc_tangent(self, x: Self) -> Self {
         libm::atan2f(self, x)
+    }
+
+    #[inline(always)]
+    fn run<C: Call<Self>>(call: C) {
+        call.flat();
     }
 
     fn to_f64(self) -> f64 {

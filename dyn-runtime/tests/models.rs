@@ -141,7 +141,10 @@ fn forces_and_acceleration<M>(
     wrench: &Wrench,
 ) -> Result<(Vector6<f64>, Acceleration), Error>
 where
-    M: kernels::RodAlignment + kernels::JacobianDp + kernels::InverseDynamics + kernels::ForwardDynamics,
+    M: kernels::RodAlignment
+        + kernels::ActuatorGeometry
+        + kernels::InverseDynamics
+        + kernels::ForwardDynamics,
 {
     let forces = hexapod.inverse_dynamics(base, platform, acceleration, wrench)?;
     Ok((forces, hexapod.forward_dynamics(base, platform, &forces, wrench)?))

@@ -78,6 +78,7 @@ pub trait Functions:
     kernels::RodAlignment
     + kernels::LegKinematics
     + kernels::JacobianDp
+    + kernels::ActuatorGeometry
     + kernels::InverseDynamics
     + kernels::ForwardDynamics
 {
@@ -87,6 +88,7 @@ impl<M> Functions for M where
     M: kernels::RodAlignment
         + kernels::LegKinematics
         + kernels::JacobianDp
+        + kernels::ActuatorGeometry
         + kernels::InverseDynamics
         + kernels::ForwardDynamics
 {

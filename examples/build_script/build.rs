@@ -3,6 +3,6 @@
 fn main() {
     dyn_gen::Build::new("my_platform.toml")
         .runtime(["payload"])
-        .functions(["rod_alignment", "jacobian_dp", "inverse_dynamics"])
+        .functions(["rod_alignment", "actuator_geometry", "inverse_dynamics"])
         .write_to_out_dir("model.rs");
 }

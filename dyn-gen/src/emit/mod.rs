@@ -9,6 +9,7 @@
 //! | `function`, `model`, `kernels`, `header` | a free function; the files and their first lines |
 //! | `generic` | a model's functions for any type of number, its parameters in lanes |
 //! | `setters` | checked access to the parameters of a model |
+//! | `limits` | what the platform's actuators and joints may do |
 //! | `names`, `print` | identifiers; items to text |
 
 mod blocks;
@@ -19,6 +20,7 @@ mod function;
 mod generic;
 mod header;
 mod kernels;
+mod limits;
 mod model;
 mod names;
 mod placement;
@@ -31,6 +33,7 @@ pub use error::EmitError;
 pub use function::function;
 pub use header::{CountRow, Elimination, Header, Source};
 pub use kernels::kernels_file;
+pub use limits::Limits;
 pub use model::{Model, Scalar, model_file};
 pub use names::type_name;
 pub use signature::Signature;

@@ -10,7 +10,7 @@ use super::names::{PARAMETERS, SCALAR, SCALARS_IN_LANES, check_type_names, ident
 use super::print::source;
 use super::signature::{Signature, array_type, documentation, symbol_line};
 use super::{EmitError, Header, RuntimePath};
-use super::{generic, setters};
+use super::{Limits, generic, limits, setters};
 use crate::graph::Symbol;
 
 /// A type of number that a model computes with.
@@ -57,6 +57,8 @@ pub struct Model<'a> {
     pub scalars: &'a [Scalar],
     /// Their values until others are given, flat, in the same order; none for a model of any platform.
     pub defaults: Option<&'a [Vec<f64>]>,
+    /// What actuators and joints may do; none for a model of any platform.
+    pub limits: Option<&'a Limits>,
     /// What callers see of each function.
     pub signatures: &'a [Signature],
     /// Source of each function, as printed by [`super::function`], without lanes and then in lanes.
@@ -121,6 +123,7 @@ fn items(model: &Model) -> Result<Vec<TokenStream>, EmitError> {
         });
         items.extend(setters::items(model)?);
     }
+    items.extend(limits::items(model)?);
     for (place, &scalar) in model.scalars.iter().enumerate() {
         if model.scalars[..place].contains(&scalar) {
             continue;

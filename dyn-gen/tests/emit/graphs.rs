@@ -64,6 +64,7 @@ pub fn model(graphs: &[Graph], parameters: &[Symbol]) -> String {
         parameters,
         scalars: &[Scalar::F64, Scalar::F32],
         defaults: None,
+        limits: None,
         signatures: &signatures,
         functions: &functions,
         in_lanes: &[],

@@ -6,7 +6,7 @@ use super::{Column, LengthError, Status};
 use crate::arrays::rotation_rows;
 use crate::check;
 use crate::error::{Error, Input};
-use crate::hexapod::{PoseArrays, checked_pose, unjudged_alignment};
+use crate::hexapod::{PoseArrays, checked_poses, unjudged_alignment};
 use crate::kernels::{JacobianDp, RodAlignment, generic};
 use crate::lanes::{InLanes, Lanes, Number};
 use crate::real::Real;
@@ -157,10 +157,7 @@ impl<S: Number> States<'_, S> {
         };
         let base = pose(&self.base.position, &self.base.rotation);
         let platform = pose(&self.platform.position, &self.platform.rotation);
-        Ok((
-            checked_pose(&base, Input::BasePosition, Input::BaseRotation)?,
-            checked_pose(&platform, Input::PlatformPosition, Input::PlatformRotation)?,
-        ))
+        checked_poses(&base, &platform)
     }
 }
 

@@ -60,6 +60,50 @@ use crate::triple::Triple;
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Uhp2016;
 
+#[allow(clippy::all, clippy::pedantic, dead_code, unused_qualifications)]
+impl Uhp2016 {
+    /// What actuators and joints may do by the platform file, and the directions of the rods at home; what it does not
+    /// limit is not limited. In single precision each number is the nearest one.
+    pub fn limits<T: crate::Real>() -> crate::Limits<T> {
+        let c = <T as Scalar>::constant;
+        crate::Limits {
+            home_direction_in_base: [
+                [c(-0.07637168512991502), c(0.44515252135411276), c(0.8921920188179746)],
+                [
+                    c(-0.07637168512991502),
+                    c(-0.44515252135411276),
+                    c(0.8921920188179746),
+                ],
+                [
+                    c(-0.34732754948639905),
+                    c(-0.28871608012938904),
+                    c(0.8921920188179746),
+                ],
+                [c(0.4236992346163139), c(0.15643644122472353), c(0.8921920188179747)],
+                [c(0.4236992346163139), c(-0.15643644122472353), c(0.8921920188179747)],
+                [c(-0.34732754948639905), c(0.28871608012938904), c(0.8921920188179746)],
+            ],
+            home_direction_in_platform: [
+                [c(-0.07637168512991502), c(0.44515252135411276), c(0.8921920188179746)],
+                [
+                    c(-0.07637168512991502),
+                    c(-0.44515252135411276),
+                    c(0.8921920188179746),
+                ],
+                [
+                    c(-0.34732754948639905),
+                    c(-0.28871608012938904),
+                    c(0.8921920188179746),
+                ],
+                [c(0.4236992346163139), c(0.15643644122472353), c(0.8921920188179747)],
+                [c(0.4236992346163139), c(-0.15643644122472353), c(0.8921920188179747)],
+                [c(-0.34732754948639905), c(0.28871608012938904), c(0.8921920188179746)],
+            ],
+            ..crate::Limits::none()
+        }
+    }
+}
+
 #[allow(clippy::all, clippy::pedantic, unused_qualifications)]
 impl crate::kernels::RodAlignment for Uhp2016 {
     fn rod_alignment(

@@ -53,6 +53,7 @@
 mod components;
 mod model;
 mod single;
+#[cfg(target_arch = "x86_64")]
 mod solve;
 #[cfg(target_arch = "x86_64")]
 mod x86;

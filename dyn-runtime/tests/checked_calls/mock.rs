@@ -98,6 +98,23 @@ impl kernels::JacobianDp for Mock {
     }
 }
 
+impl kernels::ActuatorGeometry for Mock {
+    fn actuator_geometry(
+        &self,
+        _: &V3,
+        _: &M3,
+        _: &V3,
+        _: &M3,
+        rod_alignment: &mut V6,
+        actuator_length: &mut V6,
+        jacobian_dp: &mut M6,
+    ) {
+        *rod_alignment = self.rod_alignment;
+        *actuator_length = [0.2; 6];
+        *jacobian_dp = self.jacobian_dp.unwrap_or([[1.0; 6]; 6]);
+    }
+}
+
 /// `Trait => function(inputs) -> (outputs)`; a digit keeps names apart.
 macro_rules! counting {
     ($($($kernel:ident)::+ => $function:ident($($input:ident: $in:ty),*) -> ($($output:ident: $out:ty),*);)*) => {$(

@@ -1,7 +1,7 @@
 //! Inverse dynamics of a platform of one's own. Its model, `my_platform.rs`, was written by
 //!
 //! ```text
-//! dyn-gen generate my_platform.toml -o src/my_platform.rs --functions rod_alignment,jacobian_dp,inverse_dynamics
+//! dyn-gen generate my_platform.toml -o src/my_platform.rs --functions rod_alignment,actuator_geometry,inverse_dynamics
 //! ```
 //!
 //! and is made again by the same command when `my_platform.toml` has changed; `dyn-gen check my_platform.toml
