@@ -7,6 +7,7 @@
 //! | [`output`] | results that differ in type, read alike |
 //! | [`call`] | one call of one function by one implementation; the loops around it |
 //! | [`cases`] | the table of functions and implementations |
+//! | [`flat`] | the baked model without lanes |
 //! | [`angles`] | rotations given by angles |
 //! | [`peers`] | other people's code for the same functions |
 //! | [`accuracy`] | rounding errors, against fifty digits |
@@ -31,6 +32,7 @@ pub mod call;
 pub mod cases;
 pub mod control_loop;
 pub mod counts;
+pub mod flat;
 pub mod loop_plot;
 pub mod machine;
 pub mod output;
