@@ -203,14 +203,14 @@ impl<V: Visitor> Cases<'_, V> {
     fn own<O: Output + Default, R: Output>(
         &mut self,
         function: &'static str,
-        flat: impl Fn(&Flat, &Inputs, &mut O),
+        flat: impl Fn(&Flat<Baked>, &Inputs, &mut O),
         method: impl Fn(&Baked, &Inputs, &mut O),
         runtime: impl Fn(&Uhp, &Inputs, &mut O),
         reference: impl Fn(&dyn_reference::Parameters, &dyn_reference::State) -> R,
     ) {
         let case = |implementation| Case { function, implementation, variant: "" };
         let states = self.states;
-        let flat = Generated { model: Flat, function: flat, output: O::default() };
+        let flat = Generated { model: Flat::default(), function: flat, output: O::default() };
         self.visitor.visit(case("generated"), &states.inputs, flat);
         if has_lanes(function) {
             let method = Generated { model: Baked, function: method, output: O::default() };
@@ -246,7 +246,7 @@ impl<V: Visitor> Cases<'_, V> {
         let case =
             |implementation| Case { function: "inverse_dynamics_from_angles", implementation, variant: "" };
         let states = angles::states(self.states);
-        let flat = angles::Generated { model: Flat, output: [0.0; 6] };
+        let flat = angles::Generated { model: Flat::<Baked>::default(), output: [0.0; 6] };
         self.visitor.visit(case("generated"), &states, flat);
         if has_lanes("inverse_dynamics") {
             let method = angles::Generated { model: Baked, output: [0.0; 6] };

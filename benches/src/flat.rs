@@ -1,20 +1,27 @@
-//! The baked model without lanes: flat code for one number per operation, as batches and processors without suitable registers
+//! A baked model without lanes: flat code for one number per operation, as batches and processors without suitable registers
 //! run it. The model's own methods take lanes where the processor has them.
 
+use std::marker::PhantomData;
+
 use dyn_runtime::kernels::{self, generic};
+use dyn_runtime::lanes::Generic;
 
-use crate::model::Baked;
+/// A baked model by its functions for any type of number, called with `f64`.
+pub struct Flat<M>(PhantomData<M>);
 
-/// [`Baked`] by its functions for any type of number, called with `f64`.
-pub struct Flat;
+impl<M> Default for Flat<M> {
+    fn default() -> Self {
+        Self(PhantomData)
+    }
+}
 
 /// Implements a kernel trait of [`Flat`] by the same function in [`generic`], as one function that is called.
 macro_rules! by_the_generic_function {
     ($kernel:ident, $function:ident; $($input:ident: $input_type:ty),*; $($output:ident: $output_type:ty),*) => {
-        impl kernels::$kernel for Flat {
+        impl<M: generic::$kernel + Generic<Parameters<f64> = ()>> kernels::$kernel for Flat<M> {
             #[inline(never)]
             fn $function(&self, $($input: &$input_type,)* $($output: &mut $output_type),*) {
-                <Baked as generic::$kernel>::$function(&(), $($input,)* $($output),*);
+                <M as generic::$kernel>::$function(&(), $($input,)* $($output),*);
             }
         }
     };

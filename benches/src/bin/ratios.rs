@@ -1,4 +1,4 @@
-//! Prints the times and ratios that a benchmark left behind, and writes them as JSON and as a plot.
+//! Prints the times and ratios that a benchmark left behind, and writes them as JSON, as a plot and in Markdown.
 
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -17,7 +17,7 @@ struct Arguments {
     /// Criterion's folder, if it is not in cargo's target folder
     #[arg(long, value_name = "FOLDER")]
     results: Option<PathBuf>,
-    /// Write `ratios.json` and `ratios.svg` into this folder too
+    /// Write `ratios.json`, `ratios.svg` and `table.md` into this folder too
     #[arg(long, value_name = "FOLDER")]
     write: Option<PathBuf>,
 }
@@ -40,11 +40,14 @@ fn run(arguments: &Arguments) -> Result<String, String> {
     let json = serde_json::to_string_pretty(&summary).map_err(|error| error.to_string())? + "\n";
     let mut text = if arguments.json { json.clone() } else { summary.text() };
     if let Some(folder) = &arguments.write {
-        let [data, plot] = ["ratios.json", "ratios.svg"].map(|name| folder.join(name));
+        let [data, plot, table] = ["ratios.json", "ratios.svg", "table.md"].map(|name| folder.join(name));
         std::fs::write(&data, json).map_err(|error| refusal(&data, &error))?;
+        std::fs::write(&table, summary.markdown()).map_err(|error| refusal(&table, &error))?;
         ratio_plot::write(&plot, &summary).map_err(|error| refusal(&plot, &*error))?;
         if !arguments.json {
-            text += &format!("\nwritten: {}\nwritten: {}\n", data.display(), plot.display());
+            for path in [&data, &plot, &table] {
+                text += &format!("written: {}\n", path.display());
+            }
         }
     }
     Ok(text)
