@@ -1,6 +1,9 @@
-//! Times and ratios as tables: text for a terminal, Markdown for a document.
+//! Times and ratios as tables: text for a terminal, Markdown for a document; all that is written of them.
+
+use std::path::Path;
 
 use crate::cases::{FUNCTIONS, IMPLEMENTATIONS};
+use crate::ratio_plot;
 use crate::ratios::{Ratio, Row, Summary};
 use crate::results::{MEASURES, Time};
 use crate::selection::Variant;
@@ -30,6 +33,26 @@ impl Summary {
             format!("{caption}:\n\n{}\n", table::markdown(&heading, &rows, left))
         });
         format!("{}\n\n{}{}", self.circumstances(), tables.collect::<String>(), self.warnings())
+    }
+
+    /// In JSON.
+    ///
+    /// # Errors
+    /// If it cannot be written so, in words.
+    pub fn json(&self) -> Result<String, String> {
+        serde_json::to_string_pretty(self).map(|json| json + "\n").map_err(|error| error.to_string())
+    }
+
+    /// Writes `ratios.json`, `ratios.svg` and `table.md` into a folder; says so, a line for each.
+    ///
+    /// # Errors
+    /// If one cannot be written, in words.
+    pub fn write(&self, folder: &Path) -> Result<String, String> {
+        let [data, plot, table] = ["ratios.json", "ratios.svg", "table.md"].map(|name| folder.join(name));
+        std::fs::write(&data, self.json()?).map_err(|error| refusal(&data, &error))?;
+        std::fs::write(&table, self.markdown()).map_err(|error| refusal(&table, &error))?;
+        ratio_plot::write(&plot, self).map_err(|error| refusal(&plot, &*error))?;
+        Ok([data, plot, table].map(|path| format!("written: {}\n", path.display())).concat())
     }
 
     /// Processor and load.
@@ -139,6 +162,10 @@ impl Summary {
             left: 3,
         }
     }
+}
+
+fn refusal(path: &Path, reason: &dyn std::error::Error) -> String {
+    format!("{}: {reason}", path.display())
 }
 
 /// The factor aimed at and what became of it.

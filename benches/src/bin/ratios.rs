@@ -1,10 +1,9 @@
 //! Prints the times and ratios that a benchmark left behind, and writes them as JSON, as a plot and in Markdown.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::Parser;
-use dyn_benches::ratio_plot;
 use dyn_benches::ratios::summarise;
 use dyn_benches::results::results_folder;
 
@@ -37,22 +36,6 @@ fn main() -> ExitCode {
 
 fn run(arguments: &Arguments) -> Result<String, String> {
     let summary = summarise(&arguments.results.clone().unwrap_or_else(results_folder))?;
-    let json = serde_json::to_string_pretty(&summary).map_err(|error| error.to_string())? + "\n";
-    let mut text = if arguments.json { json.clone() } else { summary.text() };
-    if let Some(folder) = &arguments.write {
-        let [data, plot, table] = ["ratios.json", "ratios.svg", "table.md"].map(|name| folder.join(name));
-        std::fs::write(&data, json).map_err(|error| refusal(&data, &error))?;
-        std::fs::write(&table, summary.markdown()).map_err(|error| refusal(&table, &error))?;
-        ratio_plot::write(&plot, &summary).map_err(|error| refusal(&plot, &*error))?;
-        if !arguments.json {
-            for path in [&data, &plot, &table] {
-                text += &format!("written: {}\n", path.display());
-            }
-        }
-    }
-    Ok(text)
-}
-
-fn refusal(path: &Path, reason: &dyn std::error::Error) -> String {
-    format!("{}: {reason}", path.display())
+    let written = arguments.write.as_deref().map(|folder| summary.write(folder)).transpose()?;
+    if arguments.json { summary.json() } else { Ok(summary.text() + &written.unwrap_or_default()) }
 }
