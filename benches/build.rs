@@ -65,7 +65,7 @@ fn peers() -> String {
     text
 }
 
-/// A module for each model in `DYN_BENCHES_VARIANTS`, and a function that shows them all by the macro of `src/bin/passes.rs`.
+/// A module for each model in `DYN_BENCHES_VARIANTS`, and a function that shows them all by the macro of `benches/passes.rs`.
 fn variants() -> String {
     let folder = given("DYN_BENCHES_VARIANTS").filter(|_| env::var_os("CARGO_FEATURE_VARIANTS").is_some());
     let entries = folder.into_iter().flat_map(|folder| fs::read_dir(folder).into_iter().flatten());

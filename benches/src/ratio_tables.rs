@@ -67,7 +67,7 @@ impl Summary {
         let mut times = self.rows.iter().flat_map(|row| row.nanoseconds.values());
         if times.any(Time::disturbed) {
             text +=
-                "* disturbed: the median is more than 10 % above the fastest sample. Close other programs.\n";
+                "* disturbed: a median is more than 10 % above the fastest sample. Close other programs.\n";
         }
         if !self.one_run {
             text +=
@@ -109,7 +109,8 @@ impl Summary {
 
     fn ratio_table(&self) -> Table {
         let cells = |row: &Ratio| {
-            let ratio = row.ratio.map_or_else(|| "absent".into(), |ratio| format!("{ratio:.2}"));
+            let mark = if row.disturbed { "*" } else { "" };
+            let ratio = row.ratio.map_or_else(|| "absent".into(), |ratio| format!("{ratio:.2}{mark}"));
             vec![
                 row.function.clone(),
                 row.measure.clone(),

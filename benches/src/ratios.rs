@@ -94,6 +94,8 @@ pub struct Ratio {
     pub against: String,
     /// Its median over ours; nothing where one of them was not measured.
     pub ratio: Option<f64>,
+    /// Whether something else kept the machine busy during one of the two, so that the ratio should not be quoted.
+    pub disturbed: bool,
     /// What it shall be.
     pub target: Option<f64>,
 }
@@ -164,12 +166,14 @@ fn ratios(rows: &[Row]) -> Vec<Ratio> {
         for (measure, ours, against, targets) in COMPARISONS {
             let target = aim.map(|index| targets[index]).filter(|&target| target > 0.0);
             let row = rows.iter().find(|row| row.function == function && row.measure == measure);
-            let time = |name: &str| Some(row?.nanoseconds.get(name)?.median);
+            let time = |name: &str| row?.nanoseconds.get(name).copied();
             let fastest = |ours: Ours| {
-                ours.implementations().iter().filter_map(|&name| time(name)).min_by(f64::total_cmp)
+                let times = ours.implementations().iter().filter_map(|&name| time(name));
+                times.min_by(|a, b| a.median.total_cmp(&b.median))
             };
             let other = if against == BAKED { fastest(Ours::SingleState) } else { time(against) };
-            let ratio = other.zip(fastest(ours)).map(|(other, ours)| other / ours);
+            let both = other.zip(fastest(ours));
+            let ratio = both.map(|(other, ours)| other.median / ours.median);
             if target.is_some() || ratio.is_some() {
                 ratios.push(Ratio {
                     function: function.to_owned(),
@@ -177,6 +181,7 @@ fn ratios(rows: &[Row]) -> Vec<Ratio> {
                     ours,
                     against: against.to_owned(),
                     ratio,
+                    disturbed: both.is_some_and(|(other, ours)| other.disturbed() || ours.disturbed()),
                     target,
                 });
             }
@@ -255,6 +260,9 @@ mod tests {
         fs::write(path, samples).unwrap();
         let text = summarise(folder.path()).unwrap().text();
         assert!(text.contains("1000.0*") && text.contains("* disturbed"), "{text}");
+        write(folder.path(), "matrices/generated/latency", 100.0);
+        let text = summarise(folder.path()).unwrap().text();
+        assert!(text.contains("10.00*"), "{text}");
     }
 
     #[test]

@@ -32,12 +32,12 @@ pub fn passes(options: &Options) -> Result<(), Failure> {
         let mut cargo = workspace::cargo();
         cargo.env("CARGO_TARGET_DIR", target.join("bench/native")).env("RUSTFLAGS", "-C target-cpu=native");
         cargo.env("DYN_BENCHES_PLATFORM", &file);
-        cargo.args(["run", "--release", "--package", "dyn-benches"]);
+        cargo.args(["bench", "--package", "dyn-benches"]);
         cargo
     };
-    succeed(cargo().args(["--bin", "pass_models", "--"]).arg(&models))?;
+    succeed(cargo().args(["--bench", "pass_models", "--"]).arg(&models))?;
     let mut measure = cargo();
-    measure.env("DYN_BENCHES_VARIANTS", &models).args(["--features", "variants", "--bin", "passes", "--"]);
+    measure.env("DYN_BENCHES_VARIANTS", &models).args(["--features", "variants", "--bench", "passes", "--"]);
     succeed(measure.arg("--write").arg(&folder))
 }
 

@@ -18,6 +18,8 @@ pub fn text(release: &Path, model: &Path, peers: &Path) -> Option<String> {
     let mut text = row(["function", "implementation", "code bytes", "stack bytes", "seconds to compile"]);
     let mut names: Vec<_> = code.names().filter_map(|name| Some((implementation(name)?, name))).collect();
     names.sort_unstable();
+    // Of several copies, made where rustc knew an argument, one stands for all.
+    names.dedup_by_key(|(implementation, _)| *implementation);
     for ((function, implementation), name) in names {
         text += &footprint(&code, name, [FUNCTIONS[function], implementation], "");
     }
@@ -54,7 +56,8 @@ fn footprint(code: &MachineCode, name: &str, [function, implementation]: [&str; 
         Some((code, stack)) => {
             row([function, implementation, &code.to_string(), &stack.to_string(), seconds])
         }
-        None => row([function, implementation, "calls itself", "", seconds]),
+        // What may call itself has no deepest chain.
+        None => row([function, implementation, "unbounded", "unbounded", seconds]),
     }
 }
 

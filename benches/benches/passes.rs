@@ -19,6 +19,9 @@ struct Arguments {
     /// Write `passes.md` and `passes.json` into this folder
     #[arg(long, value_name = "FOLDER")]
     write: PathBuf,
+    /// What cargo tells a benchmark
+    #[arg(long, hide = true)]
+    bench: bool,
 }
 
 /// Shows a visitor the functions of one variant's model.
