@@ -21,13 +21,15 @@ struct Table {
 impl Summary {
     /// The tables, and what one must know to read them.
     pub fn text(&self) -> String {
-        let tables = self.tables().into_iter().map(|Table { caption, heading, rows, left }| {
+        let variants = (!self.variants.is_empty()).then(|| self.variant_table());
+        let tables = self.tables().into_iter().chain(variants);
+        let tables = tables.map(|Table { caption, heading, rows, left }| {
             format!("{caption}\n{}\n", table::text(&heading, &rows, left))
         });
         format!("{}\n\n{}{}", self.circumstances(), tables.collect::<String>(), self.warnings())
     }
 
-    /// The same in Markdown.
+    /// The same in Markdown, without the variants of peers.
     pub fn markdown(&self) -> String {
         let tables = self.tables().into_iter().map(|Table { caption, heading, rows, left }| {
             format!("{caption}:\n\n{}\n", table::markdown(&heading, &rows, left))
@@ -76,14 +78,11 @@ impl Summary {
         text
     }
 
-    /// What there is to show.
+    /// Times, ratios, single calls.
     fn tables(&self) -> Vec<Table> {
         let mut tables = vec![self.times(), self.ratio_table()];
         if !self.single_calls.is_empty() {
             tables.push(self.tails());
-        }
-        if !self.variants.is_empty() {
-            tables.push(self.variant_table());
         }
         tables
     }

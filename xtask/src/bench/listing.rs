@@ -12,7 +12,7 @@ use crate::contract::{MachineCode, machine_code};
 const FUNCTIONS: [&str; 3] = ["inverse_dynamics", "forward_dynamics", "matrices"];
 
 /// A table of code and stack bytes, calls included, and what the compilers take; nothing where binutils are missing.
-pub fn text(release: &Path, model: &Path, peers: &Path) -> Option<String> {
+pub fn text(release: &Path, model: &Path, peers: &Path, pinocchio: &Path) -> Option<String> {
     let program = newest(&release.join("deps"), "dynamics-")?;
     let code = machine_code(&program).ok()?;
     let mut text = row(["function", "implementation", "code bytes", "stack bytes", "seconds to compile"]);
@@ -30,7 +30,7 @@ pub fn text(release: &Path, model: &Path, peers: &Path) -> Option<String> {
         let seconds = fs::read_to_string(seconds_of(&object)).unwrap_or_default();
         text += &footprint(&code, &symbol, [function, &implementation], &seconds);
     }
-    if let Ok(code) = machine_code(&peers.with_file_name("pinocchio_peer.o")) {
+    if let Ok(code) = machine_code(pinocchio) {
         text += &footprint(&code, "pinocchio_forward_dynamics", ["forward_dynamics", "pinocchio"], "");
     }
     text += "Code and stack are those of a function and of all that it calls by name, panics and the C library left out.\n";

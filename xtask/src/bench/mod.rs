@@ -75,7 +75,8 @@ pub fn bench(options: &Options) -> Result<(), Failure> {
     }
     succeed(&mut measure)?;
 
-    if let Some(listing) = listing::text(&bench.target.join("release"), &bench.model(), &linked) {
+    let pinocchio = bench.folder.with_file_name(peers::PINOCCHIO);
+    if let Some(listing) = listing::text(&bench.target.join("release"), &bench.model(), &linked, &pinocchio) {
         println!("\n{listing}");
     }
     if !options.no_counts {

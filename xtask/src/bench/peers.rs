@@ -28,6 +28,9 @@ const PINOCCHIO_MACROS: [&str; 5] = [
 /// Where Debian's package libeigen3-dev puts its headers.
 const EIGEN: &str = "/usr/include/eigen3";
 
+/// Pinocchio's object, beside the folders of the platforms.
+pub const PINOCCHIO: &str = "pinocchio_peer.o";
+
 /// A row of the index that `python -m peers` writes: function, implementation, way, symbol.
 struct Source {
     function: String,
@@ -46,7 +49,7 @@ pub fn prepare(inputs: &Path, folder: &Path, processor: &str) -> Result<PathBuf,
         Ok(sources) => table.peers = compile_casadi(inputs, folder, processor, &sources)?,
         Err(failure) => println!("absent: casadi_c_same, casadi_c_naive: {}", one_line(&failure)),
     }
-    match pinocchio(folder) {
+    match pinocchio(&inputs.with_file_name(PINOCCHIO)) {
         Ok(object) => table.pinocchio = Some(object),
         Err(reason) => println!("absent: pinocchio: {reason}"),
     }
@@ -186,14 +189,14 @@ fn job(
     Job { source: text, peer, command }
 }
 
-/// Pinocchio's part, compiled once: a minute or two, so an object younger than its source is kept. Or why there is none.
+/// Pinocchio's part, compiled once for all platforms: a minute or two, so an object younger than its source is kept. Or why
+/// there is none.
 ///
 /// From headers alone, for any x86-64: instructions of the very processor make it slower.
-fn pinocchio(folder: &Path) -> Result<PathBuf, String> {
+fn pinocchio(object: &Path) -> Result<PathBuf, String> {
     let source = workspace::root().join("benches/peers/pinocchio_peer.cpp");
-    let object = folder.with_file_name("pinocchio_peer.o");
-    if is_younger(&object, &source) {
-        return Ok(object);
+    if is_younger(object, &source) {
+        return Ok(object.to_owned());
     }
     let compilers = COMPILERS.iter().rev().map(|(_, compiler, _)| *compiler);
     let compiler = compilers.into_iter().find(|&compiler| is_installed(compiler)).ok_or("no C++ compiler")?;
@@ -206,9 +209,9 @@ fn pinocchio(folder: &Path) -> Result<PathBuf, String> {
     println!("compiling Pinocchio's constrained dynamics with {compiler} (a minute or two)");
     let mut compile = Command::new(compiler);
     compile.args(["-std=c++17", "-O3", "-w", "-c"]).args(PINOCCHIO_MACROS);
-    compile.arg("-I").arg(headers).args(["-I", EIGEN]).arg(source).arg("-o").arg(&object);
+    compile.arg("-I").arg(headers).args(["-I", EIGEN]).arg(source).arg("-o").arg(object);
     succeed(&mut compile).map_err(|failure| one_line(&failure))?;
-    Ok(object)
+    Ok(object.to_owned())
 }
 
 /// `lib/python3.*/site-packages/cmeel.prefix/include` of an environment.
