@@ -24,18 +24,25 @@ def jacobian_row(platform_lever, length_gradient):
     return {"jacobian_row": ca.vertcat(length_gradient, cross(platform_lever, length_gradient))}
 
 
+@leg_stage
+def joint_inertia_moment(platform_lever, joint_inertia_force):
+    """moment of the leg's inertia at the platform joint."""
+    return {"joint_inertia_moment": cross(platform_lever, joint_inertia_force)}
+
+
 @platform_stage
 def inertia_wrench(
-    relative_rotation, platform_origin_acceleration, platform_field, merged_mass, merged_moment, merged_second_moment,
-    platform_point, joint_inertia_force,
+    platform_origin_acceleration, platform_field, merged_mass, merged_moment, merged_second_moment,
+    joint_inertia_force, joint_inertia_moment,
 ):
     """inertia, less weight, of the payload and of the legs at their joints."""
     force = merged_mass * platform_origin_acceleration + platform_field @ merged_moment
     moments = platform_origin_acceleration @ merged_moment.T + platform_field @ merged_second_moment
-    for point, leg_force in zip(platform_point, joint_inertia_force, strict=True):
-        force += leg_force
-        moments += leg_force @ point.T
-    return {"inertia_force": force, "inertia_moments": moments}
+    return {
+        "inertia_force": sum(joint_inertia_force, force),
+        "inertia_moments": moments,
+        "joint_moment": sum(joint_inertia_moment, ca.SX.zeros(3)),
+    }
 
 
 @platform_stage
@@ -52,13 +59,13 @@ def reference_speeds(base_rotation, platform_velocity, reference_velocity, platf
 
 @platform_stage
 def remaining_reference_wrench(
-    relative_rotation, base_rotation, inertia_force, inertia_moments, external_wrench, payload_com, payload_inertia,
-    platform_rate, rate_error, error_field, merged_moment, merged_second_moment,
+    relative_rotation, base_rotation, inertia_force, inertia_moments, joint_moment, external_wrench, payload_com,
+    payload_inertia, platform_rate, rate_error, error_field, merged_moment, merged_second_moment,
 ):
     """inertia at reference speeds less external wrench about the platform origin."""
     external = base_rotation.T @ external_wrench[:3]
     moments = inertia_moments + error_field @ merged_second_moment
-    moment = levers_cross(relative_rotation, moments - external @ payload_com.T)
+    moment = levers_cross(relative_rotation, moments - external @ payload_com.T) + joint_moment
     # Points at reference speeds give -S(w) Sigma where the natural factorisation has S(w) I, about the payload's com.
     gyroscopic = (ca.trace(payload_inertia) / 2) * cross(platform_rate, rate_error)
     return {
@@ -89,10 +96,12 @@ def base_reaction(
 
 
 @platform_stage
-def remaining_wrench(relative_rotation, base_rotation, inertia_force, inertia_moments, external_wrench, payload_com):
+def remaining_wrench(
+    relative_rotation, base_rotation, inertia_force, inertia_moments, joint_moment, external_wrench, payload_com,
+):
     """inertia less external wrench about the platform origin."""
     external = base_rotation.T @ external_wrench[:3]
-    moment = levers_cross(relative_rotation, inertia_moments - external @ payload_com.T)
+    moment = levers_cross(relative_rotation, inertia_moments - external @ payload_com.T) + joint_moment
     return {
         "remaining_wrench": ca.vertcat(inertia_force - external, moment - base_rotation.T @ external_wrench[3:]),
     }
@@ -198,17 +207,21 @@ def commanded_forces(axial_reaction):
 
 
 @platform_stage
-def bias_from_wrench(base_rotation, relative_rotation, inertia_force, inertia_moments, jacobian_row, net_axial_force):
+def bias_from_wrench(
+    base_rotation, relative_rotation, inertia_force, inertia_moments, joint_moment, jacobian_row, net_axial_force,
+):
     """bias in O: the wrench that holds the platform at constant speeds."""
     reflected = sum((row * force for row, force in zip(jacobian_row, net_axial_force, strict=True)), ca.SX.zeros(6))
     force = inertia_force - reflected[:3]
-    moment = levers_cross(relative_rotation, inertia_moments) - reflected[3:]
+    moment = levers_cross(relative_rotation, inertia_moments) + joint_moment - reflected[3:]
     return {"bias": ca.vertcat(base_rotation @ force, base_rotation @ moment)}
 
 
 @platform_stage
-def total_bias(base_rotation, relative_rotation, inertia_force, inertia_moments, jacobian_dp, net_axial_force):
+def total_bias(
+    base_rotation, relative_rotation, inertia_force, inertia_moments, joint_moment, jacobian_dp, net_axial_force,
+):
     """bias in O on a base that accelerates."""
     reflected = sum((row * force for row, force in zip(jacobian_dp, net_axial_force, strict=True)), ca.SX.zeros(6))
-    moment = levers_cross(relative_rotation, inertia_moments)
+    moment = levers_cross(relative_rotation, inertia_moments) + joint_moment
     return {"total_bias": ca.vertcat(base_rotation @ inertia_force, base_rotation @ moment) - reflected}

@@ -48,7 +48,8 @@ def functions(leg) -> list[Function]:
     passive = (leg.leg_masses, leg.leg_weight, matrices.spring_and_damping_force, matrices.gravity_force)
 
     leg_forces = (*acceleration, leg.leg_inertia_forces, forces.passive_axial_force, forces.jacobian_row)
-    reaction = (forces.inertia_wrench, forces.remaining_wrench)
+    wrench = (forces.joint_inertia_moment, forces.inertia_wrench)
+    reaction = (*wrench, forces.remaining_wrench)
     mass_matrix = forces.platform_mass_matrix_with_joint_masses if leg.JOINT_MASS else forces.platform_mass_matrix
     bodies = (*gradient, *rates, *fields, *acceleration, *leg.BODY_KINEMATICS, payload.payload_kinematics)
     partials = (*leg.PARTIAL_VELOCITIES, payload.payload_partial_velocities)
@@ -106,7 +107,7 @@ def functions(leg) -> list[Function]:
             "bias", "velocity terms, gravity, springs and dampers without forming matrices", "(49)",
             ("bias",),
             (*gradient, *merged, *rates, motion.steady_base_field, motion.steady_platform_field, *leg_forces,
-             forces.inertia_wrench, forces.opposing_axial_force, forces.bias_from_wrench),
+             *wrench, forces.opposing_axial_force, forces.bias_from_wrench),
         ),
         Function(
             "equation_of_motion", "the whole of (49) in one call", "(49)",
@@ -130,14 +131,14 @@ def functions(leg) -> list[Function]:
             "control", "what a controller by inverse dynamics needs, in one call", "(18), (30), (32), (49)",
             ("actuator_length", "actuator_velocity", "jacobian_dp", "mass_matrix_p", "total_bias", "inverse_dynamics"),
             (*mass, matrices.mass_matrix_p, *rates, motion.base_acceleration_field, motion.steady_platform_field, *acceleration,
-             leg.leg_inertia_forces, forces.passive_axial_force, forces.inertia_wrench, forces.opposing_axial_force,
+             leg.leg_inertia_forces, forces.passive_axial_force, *wrench, forces.opposing_axial_force,
              forces.total_bias, forces.commanded_wrench, forces.wrench_map_in_o, AXIAL_REACTION, forces.commanded_forces),
         ),
         Function(
             "passive_inverse_dynamics", "actuator forces at reference speeds and accelerations, for passivity-based control",
             "(49)", ("passive_inverse_dynamics",),
             (*gradient, *merged, *rates, *fields, *acceleration, forces.reference_speeds,
-             leg.leg_reference_forces, forces.passive_axial_force, forces.jacobian_row, forces.inertia_wrench,
+             leg.leg_reference_forces, forces.passive_axial_force, forces.jacobian_row, *wrench,
              forces.remaining_reference_wrench, forces.wrench_map, AXIAL_REACTION, forces.reference_actuator_forces),
         ),
         Function(

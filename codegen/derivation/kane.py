@@ -54,15 +54,17 @@ class Leg:
         return sum((mass * weight(k, l) for k, l, _, mass in self.pairs()), ca.SX(0))
 
 
-def inertia_forces(leg: Leg, axis, accelerations):
+def inertia_forces(leg: Leg, accelerations, components):
     """Inertia force along the actuator coordinate, and the rest at the joint: f = g axial + joint (39)-(46).
 
-    `accelerations` holds the inertial acceleration of every point, less gravity: weight is included; of a direction, its
-    second inertial derivative.
+    `components` holds the inertial acceleration of every point along the axis, less gravity: weight is included; of a
+    direction, its second inertial derivative. `accelerations` holds them as vectors, of the points that share a mass with one
+    that moves across the axis too.
     """
-    along = sum((mass * k.along * accelerations[l] for k, _, l, mass in leg.pairs()), ca.SX.zeros(3))
-    across = sum((mass * k.across * accelerations[l] for k, _, l, mass in leg.pairs()), ca.SX.zeros(3))
-    return dot(axis, along), across
+    along = sum((mass * k.along * components[l] for k, _, l, mass in leg.pairs()), ca.SX(0))
+    beside = (pair for pair in leg.pairs() if not ca.SX(pair[0].across).is_zero())
+    across = sum((mass * k.across * accelerations[l] for k, _, l, mass in beside), ca.SX.zeros(3))
+    return along, across
 
 
 def inertia_wrench(leg: Leg, positions, accelerations):

@@ -6,7 +6,7 @@ relative to the base has inertial acceleration A_B + G_b y + 2 w_b x y' + y'', w
 
 import casadi as ca
 
-from .rotations import accelerated, acceleration_field, cross, skew
+from .rotations import accelerated, acceleration_field, cross
 from .stages import leg_stage, platform_stage
 
 
@@ -20,7 +20,7 @@ def relative_pose(base_position, base_rotation, platform_position, platform_rota
 
 
 @platform_stage
-def relative_motion(base_rotation, base_velocity, platform_velocity, relative_position, relative_rotation):
+def relative_motion(base_rotation, base_velocity, platform_velocity, relative_position):
     """velocity of the platform relative to the base."""
     base_rate = base_rotation.T @ base_velocity[3:]
     platform_rate = base_rotation.T @ platform_velocity[3:]
@@ -31,7 +31,6 @@ def relative_motion(base_rotation, base_velocity, platform_velocity, relative_po
         "platform_rate": platform_rate,
         "relative_rate": relative_rate,
         "relative_velocity": linear - cross(base_rate, relative_position),
-        "rotation_rate": skew(relative_rate) @ relative_rotation,
     }
 
 
@@ -92,16 +91,16 @@ def trial_platform_field(platform_rate, relative_rotation):
 
 @platform_stage
 def relative_acceleration(
-    relative_position, relative_velocity, relative_rotation, relative_rate, base_rate,
+    relative_position, relative_velocity, relative_rate, base_rate, platform_rate,
     base_origin_acceleration, base_rate_derivative, base_field, platform_origin_acceleration, platform_rate_derivative,
 ):
     """acceleration of the platform relative to the base."""
-    coriolis = 2 * cross(base_rate, relative_velocity)
-    rate_derivative = platform_rate_derivative - base_rate_derivative - cross(base_rate, relative_rate)
+    # 2 w_b x v, and w x v with the relative w: joints have w x v_joint instead of w x (w x lever).
+    turning = cross(base_rate + platform_rate, relative_velocity)
     return {
-        "relative_acceleration":
-            platform_origin_acceleration - base_origin_acceleration - base_field @ relative_position - coriolis,
-        "rotation_acceleration": accelerated(relative_rate, rate_derivative, relative_rotation),
+        "turning_center_acceleration":
+            platform_origin_acceleration - base_origin_acceleration - base_field @ relative_position - turning,
+        "relative_rate_derivative": platform_rate_derivative - base_rate_derivative - cross(base_rate, relative_rate),
     }
 
 
@@ -113,12 +112,15 @@ def joint_pose(relative_position, relative_rotation, platform_point, base_point)
 
 
 @leg_stage
-def joint_motion(relative_velocity, rotation_rate, platform_point):
+def joint_motion(relative_velocity, relative_rate, platform_lever):
     """velocity of the platform joint relative to the base."""
-    return {"joint_velocity": relative_velocity + rotation_rate @ platform_point}
+    return {"joint_velocity": relative_velocity + cross(relative_rate, platform_lever)}
 
 
 @leg_stage
-def joint_acceleration(relative_acceleration, rotation_acceleration, platform_point):
+def joint_acceleration(
+    turning_center_acceleration, relative_rate, relative_rate_derivative, platform_lever, joint_velocity,
+):
     """acceleration of the platform joint relative to the base."""
-    return {"joint_acceleration": relative_acceleration + rotation_acceleration @ platform_point}
+    turning = cross(relative_rate_derivative, platform_lever) + cross(relative_rate, joint_velocity)
+    return {"joint_acceleration": turning_center_acceleration + turning}

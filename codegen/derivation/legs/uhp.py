@@ -126,12 +126,15 @@ def length_gradient(radial_offset, axial_span_reciprocal, actuator_axis):
 
 
 @leg_stage
-def leg_rates(joint_velocity, radial_offset, axial_span_reciprocal, actuator_axis):
+def leg_rates(joint_velocity, length_gradient, actuator_axis):
     """actuator velocity."""
     axial = dot(actuator_axis, joint_velocity)
-    offset_rate = joint_velocity - axial * actuator_axis
-    span_rate = -dot(radial_offset, offset_rate) * axial_span_reciprocal
-    return {"radial_offset_rate": offset_rate, "axial_span_rate": span_rate, "actuator_velocity": axial - span_rate}
+    actuator_velocity = dot(length_gradient, joint_velocity)
+    return {
+        "radial_offset_rate": joint_velocity - axial * actuator_axis,
+        "axial_span_rate": axial - actuator_velocity,
+        "actuator_velocity": actuator_velocity,
+    }
 
 
 @leg_stage
@@ -146,31 +149,33 @@ def length_gradient_rate(
 
 @leg_stage
 def leg_accelerations(
-    joint_acceleration, radial_offset, radial_offset_rate, axial_span_rate, axial_span_reciprocal, actuator_axis,
+    joint_acceleration, length_gradient, radial_offset_rate, axial_span_rate, axial_span_reciprocal,
 ):
     """actuator acceleration."""
-    axial = dot(actuator_axis, joint_acceleration)
-    # The radial offset is perpendicular to the axis, so the joint's axial acceleration drops out of n . n''.
-    curvature = ca.sumsqr(radial_offset_rate) + dot(radial_offset, joint_acceleration) + axial_span_rate * axial_span_rate
-    return {"actuator_acceleration": axial + curvature * axial_span_reciprocal}
+    curvature = ca.sumsqr(radial_offset_rate) + axial_span_rate * axial_span_rate
+    return {"actuator_acceleration": dot(length_gradient, joint_acceleration) + curvature * axial_span_reciprocal}
 
 
-def _point_accelerations(
-    base_point, actuator_axis, platform_point, mover_offset, actuator_length, actuator_velocity, actuator_acceleration,
+def _joint_accelerations(
+    base_point, actuator_axis, platform_point, actuator_length, actuator_velocity, actuator_acceleration,
     base_origin_acceleration, base_field, base_rate, platform_origin_acceleration, platform_field,
 ):
-    """Inertial acceleration of every point, less gravity, B."""
+    """Inertial accelerations of the rod's joints, less gravity, B."""
     hooke = (
         base_origin_acceleration
         + base_field @ (base_point + actuator_length * actuator_axis)
         + (2 * actuator_velocity) * cross(base_rate, actuator_axis)
         + actuator_acceleration * actuator_axis
     )
-    return {
-        "hooke": hooke,
-        "joint": platform_origin_acceleration + platform_field @ platform_point,
-        "mover": hooke - mover_offset * (base_field @ actuator_axis),
-    }
+    return {"hooke": hooke, "joint": platform_origin_acceleration + platform_field @ platform_point}
+
+
+def _inertia_forces(leg, actuator_axis, mover_offset, base_rate, accelerations):
+    """Inertia less weight, along the actuator and at the joint."""
+    components = {name: dot(actuator_axis, acceleration) for name, acceleration in accelerations.items()}
+    # The mover is d* below the Hooke joint on an axis that turns: a . (w' x a + w x (w x a)) = -|w x a|^2.
+    components["mover"] = components["hooke"] + mover_offset * ca.sumsqr(cross(base_rate, actuator_axis))
+    return kane.inertia_forces(leg, accelerations, components)
 
 
 @leg_stage
@@ -180,11 +185,12 @@ def leg_inertia_forces(
     base_origin_acceleration, base_field, base_rate, platform_origin_acceleration, platform_field,
 ):
     """inertia of the leg, less weight, at the actuator and at the platform joint."""
-    accelerations = _point_accelerations(
-        base_point, actuator_axis, platform_point, mover_offset, actuator_length, actuator_velocity, actuator_acceleration,
+    accelerations = _joint_accelerations(
+        base_point, actuator_axis, platform_point, actuator_length, actuator_velocity, actuator_acceleration,
         base_origin_acceleration, base_field, base_rate, platform_origin_acceleration, platform_field,
     )
-    axial, joint = kane.inertia_forces(_leg(hooke_end_mass, rod_coupling, mover_mass), actuator_axis, accelerations)
+    leg = _leg(hooke_end_mass, rod_coupling, mover_mass)
+    axial, joint = _inertia_forces(leg, actuator_axis, mover_offset, base_rate, accelerations)
     return {"axial_inertia_force": axial, "joint_inertia_force": joint}
 
 
@@ -197,8 +203,8 @@ def leg_reference_forces(
 ):
     """inertia of the leg, less weight, at reference speeds: at the actuator and at the platform joint."""
     leg = _leg(hooke_end_mass, rod_coupling, mover_mass)
-    accelerations = _point_accelerations(
-        base_point, actuator_axis, platform_point, mover_offset, actuator_length, actuator_velocity, actuator_acceleration,
+    accelerations = _joint_accelerations(
+        base_point, actuator_axis, platform_point, actuator_length, actuator_velocity, actuator_acceleration,
         base_origin_acceleration, base_field, base_rate, platform_origin_acceleration, platform_field,
     )
     more = kane.bilinear_accelerations(
@@ -206,8 +212,9 @@ def leg_reference_forces(
         length_gradient, length_gradient_rate,
         velocity_error + cross(rate_error, platform_lever), error_field @ platform_point,
     )
+    # The mover's own share is the Hooke joint's: both slide along the axis.
     accelerations = {name: acceleration + more[name] for name, acceleration in accelerations.items()}
-    axial, joint = kane.inertia_forces(leg, actuator_axis, accelerations)
+    axial, joint = _inertia_forces(leg, actuator_axis, mover_offset, base_rate, accelerations)
     return {"axial_inertia_force": axial, "joint_inertia_force": joint}
 
 
@@ -218,10 +225,11 @@ def leg_inertia_wrench(
     base_origin_acceleration, base_field, base_rate, platform_origin_acceleration, platform_field,
 ):
     """inertia of the whole leg, less weight, about the base origin."""
-    accelerations = _point_accelerations(
-        base_point, actuator_axis, platform_point, mover_offset, actuator_length, actuator_velocity, actuator_acceleration,
+    accelerations = _joint_accelerations(
+        base_point, actuator_axis, platform_point, actuator_length, actuator_velocity, actuator_acceleration,
         base_origin_acceleration, base_field, base_rate, platform_origin_acceleration, platform_field,
     )
+    accelerations["mover"] = accelerations["hooke"] - mover_offset * (base_field @ actuator_axis)
     hooke = base_point + actuator_length * actuator_axis
     positions = {"hooke": hooke, "joint": base_point + joint_vector, "mover": hooke - mover_offset * actuator_axis}
     force, moment = kane.inertia_wrench(_leg(hooke_end_mass, rod_coupling, mover_mass), positions, accelerations)

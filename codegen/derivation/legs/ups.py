@@ -180,7 +180,8 @@ def leg_reference_forces(
         velocity_error + cross(rate_error, platform_lever), error_field @ platform_point,
     )
     accelerations = {name: acceleration + more[name] for name, acceleration in accelerations.items()}
-    axial, at_joint = kane.inertia_forces(leg, length_gradient, accelerations)
+    components = {name: dot(length_gradient, acceleration) for name, acceleration in accelerations.items()}
+    axial, at_joint = kane.inertia_forces(leg, accelerations, components)
     return {"axial_inertia_force": axial, "joint_inertia_force": at_joint}
 
 
@@ -214,7 +215,8 @@ def leg_inertia_forces(
         actuator_velocity, actuator_acceleration, length_gradient, length_gradient_rate, length_reciprocal,
     )
     leg = _leg(length_reciprocal, actuator_velocity, lower_moment, upper_moment, turning_inertia)
-    axial, at_joint = kane.inertia_forces(leg, length_gradient, accelerations)
+    components = {name: dot(length_gradient, acceleration) for name, acceleration in accelerations.items()}
+    axial, at_joint = kane.inertia_forces(leg, accelerations, components)
     return {"axial_inertia_force": axial, "joint_inertia_force": at_joint}
 
 

@@ -18,10 +18,12 @@ use crate::passes::Images;
 
 type Three = [NodeId; 3];
 
-/// Writes every system of six equations out, general ones with the columns of the partition.
+/// Writes every system of six equations out, general ones with the columns of the partition. The matrix of a symmetric one
+/// stands in lanes as its blocks do, not row by row.
 ///
 /// General systems are left for pivoting at run time if nothing was known to choose the partition by.
 pub fn expand(graph: &Graph, groups: Vec<Group>, partition: &Partition) -> (Graph, Vec<Group>) {
+    let groups = groups.into_iter().flat_map(|group| as_blocks(graph, group)).collect();
     let mut builder = Builder::with_sections_of(graph);
     let mut images = Images::new(graph);
     let mut solutions: Vec<Option<(Vec<NodeId>, Vec<Group>)>> = vec![None; graph.solves.len()];
@@ -62,6 +64,23 @@ pub fn expand(graph: &Graph, groups: Vec<Group>, partition: &Partition) -> (Grap
         groups.splice(place..place, own);
     }
     (builder.finish(graph, outputs), groups)
+}
+
+/// The group, or if it is the matrix of a symmetric system the triples that its blocks consist of.
+fn as_blocks(graph: &Graph, group: Group) -> Vec<Group> {
+    let is_matrix = |solve: &&Solve| {
+        solve.kind == SolveKind::SymmetricPositiveDefinite
+            && solve.right_hand_side.len() == 6
+            && solve.matrix == group.nodes()
+    };
+    match graph.solves.iter().find(is_matrix) {
+        None => vec![group],
+        Some(solve) => {
+            let (a, b, d) = symmetric_blocks(solve);
+            let triples = [a.diagonal, a.opposite, b[0], b[1], b[2], d.diagonal, d.opposite];
+            triples.map(|nodes| Group::Array { shape: vec![3], nodes: nodes.to_vec() }).into()
+        }
+    }
 }
 
 fn expandable(solve: &Solve, partition: &Partition) -> bool {
@@ -114,6 +133,44 @@ impl Blocks<'_> {
         self.group(product)
     }
 
+    fn reciprocal(&mut self, determinant: NodeId) -> NodeId {
+        let one = self.builder.constant(1.0);
+        self.builder.binary(Op::Div, one, determinant)
+    }
+
+    /// x = (q - K y) / det(A)
+    fn first_half(&mut self, q: Three, k: [Three; 3], y: Three, reciprocal: NodeId) -> Three {
+        let x = [0, 1, 2].map(|i| {
+            let rest = self.less(q[i], k[i], y);
+            self.mul(rest, reciprocal)
+        });
+        self.group(x)
+    }
+
+    /// Matrix times vector, beginning on the diagonal: so that each step of the sum takes one triple of the matrix.
+    fn symmetric_times(&mut self, matrix: Symmetric, vector: Three) -> Three {
+        [0, 1, 2].map(|i| {
+            let order = [i, (i + 1) % 3, (i + 2) % 3];
+            self.dot(order.map(|j| matrix.at(i, j)), order.map(|j| vector[j]))
+        })
+    }
+
+    /// The adjugate, and the determinant.
+    fn symmetric_adjugate(&mut self, matrix: Symmetric) -> (Symmetric, NodeId) {
+        let Symmetric { diagonal: d, opposite: o } = matrix;
+        let mut entries = |plus: [Three; 2], minus: [Three; 2]| {
+            let entries = [0, 1, 2].map(|k: usize| {
+                let (i, j) = ((k + 1) % 3, (k + 2) % 3);
+                let (plus, minus) = (self.mul(plus[0][i], plus[1][j]), self.mul(minus[0][k], minus[1][k]));
+                self.sub(plus, minus)
+            });
+            self.group(entries)
+        };
+        let adjugate = Symmetric { diagonal: entries([d, d], [o, o]), opposite: entries([o, o], [o, d]) };
+        let determinant = self.dot(matrix.row(0), adjugate.row(0));
+        (adjugate, determinant)
+    }
+
     /// Columns of the adjugate, and the determinant.
     fn adjugate(&mut self, rows: [Three; 3]) -> ([Three; 3], NodeId) {
         let columns = [0, 1, 2].map(|i| self.cross(rows[(i + 1) % 3], rows[(i + 2) % 3]));
@@ -127,23 +184,22 @@ fn transposed(rows: [Three; 3]) -> [Three; 3] {
 }
 
 fn written_out(builder: &mut Builder, system: &Solve, partition: &Partition) -> (Vec<NodeId>, Vec<Group>) {
-    let order: Vec<usize> = match system.kind {
-        SolveKind::General => partition.legs.clone(),
-        SolveKind::SymmetricPositiveDefinite => (0..6).collect(),
+    let mut blocks = Blocks { builder, groups: Vec::new() };
+    let solution = match system.kind {
+        SolveKind::General => general(&mut blocks, system, &partition.legs),
+        SolveKind::SymmetricPositiveDefinite => symmetric(&mut blocks, system),
     };
-    let symmetric = system.kind == SolveKind::SymmetricPositiveDefinite;
-    let at = |row: usize, column: usize| match symmetric && row < column {
-        true => system.matrix[6 * column + row],
-        false => system.matrix[6 * row + column],
-    };
+    (solution, blocks.groups)
+}
+
+/// The solution of a general system whose columns are taken in this order.
+fn general(blocks: &mut Blocks, system: &Solve, order: &[usize]) -> Vec<NodeId> {
     let block = |row: usize, column: usize| {
-        [0, 1, 2].map(|i| [0, 1, 2].map(|j: usize| at(row + i, order[column + j])))
+        [0, 1, 2].map(|i| [0, 1, 2].map(|j: usize| system.matrix[6 * (row + i) + order[column + j]]))
     };
     let (a, b, c, d) = (block(0, 0), block(0, 3), block(3, 0), block(3, 3));
     let right = |row: usize| [0, 1, 2].map(|i: usize| system.right_hand_side[row + i]);
     let (f, m) = (right(0), right(3));
-
-    let mut blocks = Blocks { builder, groups: Vec::new() };
     for rows in [a, b, c, d] {
         for row in rows {
             blocks.group(row);
@@ -172,20 +228,82 @@ fn written_out(builder: &mut Builder, system: &Solve, partition: &Partition) -> 
     });
     blocks.group(g);
     let (s_adjugate, s_determinant) = blocks.adjugate(s);
-    let one = blocks.builder.constant(1.0);
-    let reciprocal = blocks.builder.binary(Op::Div, one, determinant);
-    let s_reciprocal = blocks.builder.binary(Op::Div, one, s_determinant);
+    let [reciprocal, s_reciprocal] =
+        [determinant, s_determinant].map(|determinant| blocks.reciprocal(determinant));
     let y = transposed(s_adjugate).map(|row| {
         let scaled = blocks.dot(row, g);
         blocks.mul(scaled, s_reciprocal)
     });
     blocks.group(y);
-    let x = [0, 1, 2].map(|i: usize| {
-        let rest = blocks.less(q[i], k[i], y);
-        blocks.mul(rest, reciprocal)
+    let x = blocks.first_half(q, k, y, reciprocal);
+    let mut solution = system.right_hand_side.clone();
+    x.into_iter().chain(y).zip(order).for_each(|(value, place)| solution[*place] = value);
+    solution
+}
+
+/// A symmetric 3 x 3 matrix: its diagonal, and the entry off the diagonal in the other two rows and columns.
+#[derive(Clone, Copy)]
+struct Symmetric {
+    diagonal: Three,
+    opposite: Three,
+}
+
+impl Symmetric {
+    fn at(&self, row: usize, column: usize) -> NodeId {
+        if row == column { self.diagonal[row] } else { self.opposite[3 - row - column] }
+    }
+
+    fn row(&self, row: usize) -> Three {
+        [0, 1, 2].map(|column| self.at(row, column))
+    }
+}
+
+/// Diagonal and opposite entries by the function of row and column, the smaller one first.
+fn symmetric_by(mut entry: impl FnMut(usize, usize) -> NodeId) -> Symmetric {
+    Symmetric {
+        diagonal: [0, 1, 2].map(|k| entry(k, k)),
+        opposite: [(1, 2), (0, 2), (0, 1)].map(|(i, j)| entry(i, j)),
+    }
+}
+
+/// The triples in which a symmetric matrix of six rows enters: A and D, and the rows of B = C^T.
+fn symmetric_blocks(system: &Solve) -> (Symmetric, [Three; 3], Symmetric) {
+    // Of symmetric systems the lower triangle counts.
+    let at = |row: usize, column: usize| system.matrix[6 * row.max(column) + row.min(column)];
+    let half = |start: usize| symmetric_by(|i, j| at(start + i, start + j));
+    (half(0), [0, 1, 2].map(|i| [0, 1, 2].map(|j: usize| at(i, 3 + j))), half(3))
+}
+
+/// The solution of a symmetric system: A, S and their adjugates in two triples each.
+fn symmetric(blocks: &mut Blocks, system: &Solve) -> Vec<NodeId> {
+    let (a, b, d) = symmetric_blocks(system);
+    let right = |row: usize| [0, 1, 2].map(|i: usize| system.right_hand_side[row + i]);
+    let (f, m) = (right(0), right(3));
+    let (adjugate, determinant) = blocks.symmetric_adjugate(a);
+    let b_columns = transposed(b);
+    let k = [0, 1, 2].map(|i| {
+        let entries = b_columns.map(|column| blocks.dot(adjugate.row(i), column));
+        blocks.group(entries)
     });
-    blocks.group(x);
-    let mut solution = vec![one; 6];
-    x.into_iter().chain(y).zip(order).for_each(|(value, place)| solution[place] = value);
-    (solution, blocks.groups)
+    let q = blocks.symmetric_times(adjugate, f);
+    blocks.group(q);
+    let k_columns = transposed(k);
+    let s = symmetric_by(|i, j| {
+        let scaled = blocks.mul(determinant, d.at(i, j));
+        blocks.less(scaled, b_columns[i], k_columns[j])
+    });
+    blocks.group(s.diagonal);
+    blocks.group(s.opposite);
+    let g = [0, 1, 2].map(|i: usize| {
+        let scaled = blocks.mul(determinant, m[i]);
+        blocks.less(scaled, b_columns[i], q)
+    });
+    blocks.group(g);
+    let (s_adjugate, s_determinant) = blocks.symmetric_adjugate(s);
+    let [reciprocal, s_reciprocal] =
+        [determinant, s_determinant].map(|determinant| blocks.reciprocal(determinant));
+    let y = blocks.symmetric_times(s_adjugate, g).map(|scaled| blocks.mul(scaled, s_reciprocal));
+    blocks.group(y);
+    let x = blocks.first_half(q, k, y, reciprocal);
+    x.into_iter().chain(y).collect()
 }

@@ -8,7 +8,7 @@ use std::collections::{BTreeMap, HashMap};
 use super::mapped;
 use super::partition::Partition;
 use crate::graph::{Builder, Graph, Group, Node, NodeId, Op, Symbol};
-use crate::passes::{Context, Images};
+use crate::passes::{Context, Images, known_values};
 
 /// The leg that a value belongs to.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -38,28 +38,8 @@ impl Owner {
 /// Inputs of generated functions that hold a number per leg.
 const PER_LEG_INPUTS: [&str; 1] = ["actuator_force"];
 
-/// For each node whether it depends on nothing but parameters that are baked in.
-pub(super) fn constants(graph: &Graph, context: &Context) -> Vec<bool> {
-    let baked: Vec<bool> = graph
-        .inputs
-        .iter()
-        .map(|symbol| symbol.parameter && context.parameters.contains_key(&symbol.name))
-        .collect();
-    let mut constant = Vec::with_capacity(graph.nodes.len());
-    for node in &graph.nodes {
-        let mut all = match node {
-            Node::Input { input, .. } => baked[*input as usize],
-            Node::Solution { .. } => false,
-            _ => true,
-        };
-        graph.for_each_operand(*node, |operand| all &= constant[operand.index()]);
-        constant.push(all);
-    }
-    constant
-}
-
 /// The owner of each node: what a step gives for a leg is that leg's, and so are the numbers that a leg has.
-fn owners(graph: &Graph, groups: &[Group], constant: &[bool], legs: usize) -> Vec<Owner> {
+fn owners(graph: &Graph, groups: &[Group], known: &[Option<f64>], legs: usize) -> Vec<Owner> {
     let mut given: Vec<Option<usize>> = vec![None; graph.nodes.len()];
     for group in groups {
         let Group::Legs(nodes) = group else { continue };
@@ -86,7 +66,7 @@ fn owners(graph: &Graph, groups: &[Group], constant: &[bool], legs: usize) -> Ve
             owner = Owner::Leg(leg);
         }
         // A constant made of several legs' numbers is a constant like any other.
-        if constant[index] && owner == Owner::Several {
+        if known[index].is_some() && owner == Owner::Several {
             owner = Owner::Common;
         }
         owners.push(owner);
@@ -102,7 +82,7 @@ pub fn regroup(
     partition: &Partition,
 ) -> (Graph, Vec<Group>) {
     let legs = partition.legs.len();
-    let owners = owners(graph, &groups, &constants(graph, context), legs);
+    let owners = owners(graph, &groups, &known_values(graph, context), legs);
     let uses = graph.use_counts();
     let mut builder = Builder::with_sections_of(graph);
     let mut images = Images::new(graph);

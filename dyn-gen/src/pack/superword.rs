@@ -3,9 +3,8 @@
 use std::collections::HashMap;
 
 use super::partition::Partition;
-use super::sums::constants;
-use crate::graph::{Builder, Evaluator, Graph, Group, LANE_COUNT, Node, NodeId, Op, Output, Solve};
-use crate::passes::{Context, simplified};
+use crate::graph::{Builder, Graph, Group, LANE_COUNT, Node, NodeId, Op, Output, Solve};
+use crate::passes::{Context, known_values, simplified};
 
 /// Nodes of the graph without lanes that stand side by side.
 type Three = [NodeId; LANE_COUNT];
@@ -69,22 +68,10 @@ struct Words<'a> {
 
 impl<'a> Words<'a> {
     fn new(graph: &'a Graph, context: &Context) -> Words<'a> {
-        let zeros = graph.inputs.iter().map(|symbol| vec![0.0; symbol.len()]).collect::<Vec<_>>();
-        let inputs = graph.inputs.iter().zip(&zeros).map(|(symbol, zeros)| {
-            let baked = context.parameters.get(&symbol.name).filter(|_| symbol.parameter);
-            baked.unwrap_or(zeros).as_slice()
-        });
-        let mut evaluator = Evaluator::new();
-        let values = evaluator.run(graph, &inputs.collect::<Vec<_>>());
-        let constant = constants(graph, context);
         Words {
             graph,
             builder: Builder::with_sections_of(graph),
-            constant: constant
-                .iter()
-                .zip(values)
-                .map(|(constant, value)| constant.then_some(*value))
-                .collect(),
+            constant: known_values(graph, context),
             scalars: vec![None; graph.nodes.len()],
             wides: HashMap::new(),
             lane_of: vec![None; graph.nodes.len()],

@@ -11,6 +11,7 @@
 //! after adding `0.0`, which makes one zero of both.
 
 mod bake;
+mod chain;
 mod expand;
 mod fold;
 mod fuse;
@@ -26,6 +27,7 @@ mod simplify;
 
 use crate::graph::{Environment, Graph, OperationCount};
 
+pub(crate) use bake::known_values;
 pub use pivot::PivotOrder;
 pub(crate) use rewrite::Images;
 pub(crate) use simplify::simplified;
@@ -74,10 +76,10 @@ pub struct Pass {
 use Exactness::{Exact, Rounding};
 
 /// Every pass, in the order in which they run.
-pub const PASSES: [Pass; 9] = [
+pub const PASSES: [Pass; 10] = [
     Pass {
         name: "bake",
-        exactness: Exact,
+        exactness: Rounding,
         after: "no node reads a baked parameter; no operation has only constant operands, unless its value is not finite",
         in_lanes: false,
         run: |graph, context, _| bake::bake(graph, context),
@@ -123,6 +125,13 @@ pub const PASSES: [Pass; 9] = [
         after: "no negation is left that a difference or a constant used nowhere else could take up",
         in_lanes: true,
         run: |graph, _, _| settle::settle(graph),
+    },
+    Pass {
+        name: "chain",
+        exactness: Rounding,
+        after: "no term waits for a sum of products, read nowhere else, that it could begin with no later result",
+        in_lanes: true,
+        run: |graph, _, _| chain::chain(graph),
     },
     Pass {
         name: "fuse",

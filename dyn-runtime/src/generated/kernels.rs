@@ -3,8 +3,8 @@
 //
 // What models can compute: one trait per function.
 //
-// graph     uhp.json, sha256 9db36ee49fe28b6c0a6e83ba1480d822588bc2a842fed7e4e4db5293dd101808
-// graph     ups.json, sha256 1b52493f65aa14be0b4a913a41122d6ac8ede015ba2c7eef37b43f979dbbb2dc
+// graph     uhp.json, sha256 1087babaf0efcf9ec5ffec7d20a0775def57d891f82a73a39400231c1444de84
+// graph     ups.json, sha256 057ec0109c49a9a5d7588a1896139cdc8b92b6b4f0a15fa41a9183293bbe7885
 //           derived by CasADi 3.8.2
 
 /// A model that has `rod_alignment`.

@@ -3,7 +3,7 @@
 //
 // Dynamics of the platform `my_platform`, every number baked in.
 //
-// graph     uhp.json, sha256 9db36ee49fe28b6c0a6e83ba1480d822588bc2a842fed7e4e4db5293dd101808
+// graph     uhp.json, sha256 1087babaf0efcf9ec5ffec7d20a0775def57d891f82a73a39400231c1444de84
 //           derived by CasADi 3.8.2
 // platform  my_platform, sha256 of its resolved numbers 886f7852017ac711714d460253875c97521dd7a6f031f093de91b55faddbe2d3
 //
@@ -11,7 +11,7 @@
 // function          as derived  as printed
 // rod_alignment            303          63
 // jacobian_dp              579         180
-// inverse_dynamics        2442         807
+// inverse_dynamics        2160         819
 //
 // linear systems: growth of rounding errors in a fixed order of pivots, at the worst state
 // inverse_dynamics, axial_reaction: 10.7 (51 states sampled)
@@ -737,49 +737,48 @@ pub fn inverse_dynamics<T: Scalar>(
     let t145 = mul_add(base_rotation[0][2], t137, base_rotation[1][2] * t138);
     let t146 = mul_sub(t34, t117, mul_add(base_rotation[2][2], t136, t145));
     let t147 = mul_sub(t32, t120, t146);
-    // rate of the relative rotation
-    let t148 = mul_sub(t21, t134, t12 * t135);
-    let t149 = mul_sub(t24, t134, t15 * t135);
-    let t150 = mul_sub(t3, t135, t21 * t133);
-    let t151 = mul_sub(t6, t135, t24 * t133);
-    let t152 = mul_sub(t12, t133, t3 * t134);
-    let t153 = mul_sub(t15, t133, t6 * t134);
     // leg 1: velocity of the platform joint relative to the base
-    let t154 = mul_add(c(0.115911), t148, t141);
-    let t155 = neg_mul_add(c(0.031058), t149, t154);
-    let t156 = mul_add(c(0.115911), t150, t144);
-    let t157 = neg_mul_add(c(0.031058), t151, t156);
+    let t148 = mul_sub(t40, t135, mul_add(t42, t134, t141));
+    let t149 = mul_sub(t42, t133, mul_add(t38, t135, t144));
+    let t150 = mul_sub(t38, t134, mul_add(t40, t133, t147));
     // leg 2: velocity of the platform joint relative to the base
-    let t158 = mul_add(c(0.031058), t149, t154);
-    let t159 = mul_add(c(0.031058), t151, t156);
+    let t151 = mul_sub(t47, t135, mul_add(t48, t134, t141));
+    let t152 = mul_sub(t48, t133, mul_add(t46, t135, t144));
+    let t153 = mul_sub(t46, t134, mul_add(t47, t133, t147));
     // leg 3: velocity of the platform joint relative to the base
-    let t160 = neg_mul_add(c(0.031058), t148, t141);
-    let t161 = mul_add(c(0.115911), t149, t160);
-    let t162 = neg_mul_add(c(0.031058), t150, t144);
-    let t163 = mul_add(c(0.115911), t151, t162);
+    let t154 = mul_add(t54, t135, neg_mul_add(t56, t134, t141));
+    let t155 = mul_add(t56, t133, neg_mul_add(t52, t135, t144));
+    let t156 = mul_add(t52, t134, neg_mul_add(t54, t133, t147));
     // leg 4: velocity of the platform joint relative to the base
-    let t164 = neg_mul_add(c(0.084853), t148, t141);
-    let t165 = mul_add(c(0.084853), t149, t164);
-    let t166 = neg_mul_add(c(0.084853), t150, t144);
-    let t167 = mul_add(c(0.084853), t151, t166);
+    let t157 = mul_add(t63, t135, neg_mul_add(t65, t134, t141));
+    let t158 = mul_add(t65, t133, neg_mul_add(t61, t135, t144));
+    let t159 = mul_add(t61, t134, neg_mul_add(t63, t133, t147));
     // leg 5: velocity of the platform joint relative to the base
-    let t168 = neg_mul_add(c(0.084853), t149, t164);
-    let t169 = neg_mul_add(c(0.084853), t151, t166);
+    let t160 = mul_add(t70, t135, neg_mul_add(t71, t134, t141));
+    let t161 = mul_add(t71, t133, neg_mul_add(t69, t135, t144));
+    let t162 = mul_add(t69, t134, neg_mul_add(t70, t133, t147));
     // leg 6: velocity of the platform joint relative to the base
-    let t170 = neg_mul_add(c(0.115911), t149, t160);
-    let t171 = neg_mul_add(c(0.115911), t151, t162);
+    let t163 = mul_add(t75, t135, neg_mul_add(t76, t134, t141));
+    let t164 = mul_add(t76, t133, neg_mul_add(t74, t135, t144));
+    let t165 = mul_add(t74, t134, neg_mul_add(t75, t133, t147));
     // leg 1: rate of the rod's extent along the actuator axis
-    let t172 = t81 * mul_add(t44, t155, t45 * t157);
+    let t166 = mul_add(t104, t149, mul_add(t103, t148, t150));
+    let t167 = t150 - t166;
     // leg 2: rate of the rod's extent along the actuator axis
-    let t173 = t85 * mul_sub(t49, t158, t50 * t159);
+    let t168 = mul_add(t106, t152, neg_mul_add(t105, t151, t153));
+    let t169 = t153 - t168;
     // leg 3: rate of the rod's extent along the actuator axis
-    let t174 = t89 * mul_add(t58, t161, t59 * t163);
+    let t170 = mul_sub(t108, t155, neg_mul_add(t107, t154, t156));
+    let t171 = t156 + t170;
     // leg 4: rate of the rod's extent along the actuator axis
-    let t175 = t93 * mul_add(t67, t165, t68 * t167);
+    let t172 = mul_sub(t110, t158, neg_mul_add(t109, t157, t159));
+    let t173 = t159 + t172;
     // leg 5: rate of the rod's extent along the actuator axis
-    let t176 = t97 * mul_add(t72, t168, t73 * t169);
+    let t174 = mul_sub(t112, t161, neg_mul_add(t111, t160, t162));
+    let t175 = t162 + t174;
     // leg 6: rate of the rod's extent along the actuator axis
-    let t177 = t101 * mul_add(t77, t170, t78 * t171);
+    let t176 = mul_sub(t114, t164, neg_mul_add(t113, t163, t165));
+    let t177 = t165 + t176;
     // acceleration of the base origin less gravity
     let t178 = base_acceleration[2] + c(9.81);
     let t179 = base_rotation[1][0] * base_acceleration[1];
@@ -831,355 +830,361 @@ pub fn inverse_dynamics<T: Scalar>(
     let t221 = mul_add(base_rotation[0][2], platform_acceleration[3], t220);
     let t222 = mul_add(base_rotation[2][2], platform_acceleration[5], t221);
     // acceleration per platform coordinate of points of the platform
-    let t223 = mul_sub(t3, t132, t21 * t126);
+    let t223 = t12 * t222;
     let t224 = mul_sub(t12, t126, t3 * t129);
-    let t225 = mul_add(t129, t224, mul_sub(t21, t219, t12 * t222));
-    let t226 = mul_sub(t132, t223, t225);
-    let t227 = t15 * t222;
-    let t228 = mul_sub(t15, t126, t6 * t129);
-    let t229 = mul_sub(t6, t132, t24 * t126);
-    let t230 = t132 * t229;
-    let t231 = mul_sub(t9, t132, t27 * t126);
-    let t232 = mul_sub(t18, t126, t9 * t129);
-    let t233 = mul_add(t129, t232, mul_sub(t27, t219, t18 * t222));
-    let t234 = mul_sub(t132, t231, t233);
-    let t235 = mul_sub(t21, t129, t12 * t132);
-    let t236 = mul_add(t132, t235, mul_sub(t3, t222, t21 * t216));
-    let t237 = mul_sub(t126, t224, t236);
-    let t238 = t24 * t216;
-    let t239 = mul_sub(t24, t129, t15 * t132);
-    let t240 = t126 * t228;
-    let t241 = mul_sub(t27, t129, t18 * t132);
-    let t242 = mul_add(t132, t241, mul_sub(t9, t222, t27 * t216));
-    let t243 = mul_sub(t126, t232, t242);
-    let t244 = mul_add(t126, t223, mul_sub(t12, t216, t3 * t219));
-    let t245 = mul_sub(t129, t235, t244);
-    let t246 = mul_add(t126, t229, mul_sub(t15, t216, t6 * t219));
-    let t247 = mul_sub(t129, t239, t246);
-    let t248 = mul_add(t126, t231, mul_sub(t18, t216, t9 * t219));
-    let t249 = mul_sub(t129, t241, t248);
-    // acceleration of the platform origin relative to the base
-    let t250 = mul_sub(t120, t147, t123 * t144);
-    let t251 = mul_add(t34, t195, mul_add(t32, t194, t181 - t207));
-    let t252 = mul_add(c(2.0), t250, mul_sub(t36, t196, t251));
-    let t253 = mul_sub(t123, t141, t117 * t147);
-    let t254 = mul_sub(t34, t199, mul_sub(t32, t197, t184 - t210));
-    let t255 = neg_mul_add(c(2.0), t253, mul_add(t36, t200, t254));
-    let t256 = t120 * t141;
-    // second derivative of the relative rotation
-    let t257 = mul_sub(t117, t135, mul_sub(t123, t133, t190 - t219));
-    let t258 = mul_sub(t120, t133, mul_sub(t117, t134, t193 - t222));
-    let t259 = mul_sub(t134, t152, mul_sub(t21, t257, t12 * t258));
-    let t260 = mul_sub(t135, t150, t259);
-    let t261 = mul_sub(t134, t153, mul_sub(t24, t257, t15 * t258));
-    let t262 = mul_sub(t135, t151, t261);
-    let t263 = mul_sub(t123, t134, mul_sub(t120, t135, t187 - t216));
-    let t264 = mul_sub(t135, t148, mul_sub(t3, t258, t21 * t263));
-    let t265 = mul_sub(t133, t152, t264);
-    let t266 = mul_sub(t135, t149, mul_sub(t6, t258, t24 * t263));
-    let t267 = mul_sub(t133, t153, t266);
-    let t268 = mul_sub(t133, t150, mul_sub(t12, t263, t3 * t257));
-    let t269 = mul_sub(t134, t148, t268);
-    let t270 = mul_sub(t133, t151, mul_sub(t15, t263, t6 * t257));
-    let t271 = mul_sub(t134, t149, t270);
+    let t225 = mul_sub(t3, t132, t21 * t126);
+    let t226 = t15 * t222;
+    let t227 = mul_sub(t15, t126, t6 * t129);
+    let t228 = mul_sub(t6, t132, t24 * t126);
+    let t229 = mul_sub(t9, t132, t27 * t126);
+    let t230 = mul_sub(t18, t126, t9 * t129);
+    let t231 = mul_add(t129, t230, mul_sub(t27, t219, t18 * t222));
+    let t232 = mul_sub(t132, t229, t231);
+    let t233 = t21 * t216;
+    let t234 = mul_sub(t21, t129, t12 * t132);
+    let t235 = t24 * t216;
+    let t236 = mul_sub(t24, t129, t15 * t132);
+    let t237 = mul_sub(t27, t129, t18 * t132);
+    let t238 = mul_add(t132, t237, mul_sub(t9, t222, t27 * t216));
+    let t239 = mul_sub(t126, t230, t238);
+    let t240 = mul_add(t126, t225, mul_sub(t12, t216, t3 * t219));
+    let t241 = mul_sub(t129, t234, t240);
+    let t242 = mul_add(t126, t228, mul_sub(t15, t216, t6 * t219));
+    let t243 = mul_sub(t129, t236, t242);
+    let t244 = mul_add(t126, t229, mul_sub(t18, t216, t9 * t219));
+    let t245 = mul_sub(t129, t237, t244);
+    // acceleration of the platform origin relative to the base, less w x v
+    let t246 = t120 + t129;
+    let t247 = t123 + t132;
+    let t248 = mul_add(t34, t195, mul_add(t32, t194, t181 - t207));
+    let t249 = mul_add(t147, t246, mul_sub(t36, t196, t248));
+    let t250 = mul_sub(t144, t247, t249);
+    let t251 = t117 + t126;
+    let t252 = mul_sub(t34, t199, mul_sub(t32, t197, t184 - t210));
+    let t253 = mul_sub(t141, t247, mul_add(t36, t200, t252));
+    let t254 = mul_sub(t147, t251, t253);
+    // rate of that angular velocity
+    let t255 = mul_sub(t123, t134, mul_sub(t120, t135, t187 - t216));
+    let t256 = mul_sub(t117, t135, mul_sub(t123, t133, t190 - t219));
+    let t257 = mul_sub(t120, t133, mul_sub(t117, t134, t193 - t222));
     // leg 1: acceleration of the platform joint relative to the base
-    let t272 = neg_mul_add(c(0.115911), t260, t252);
-    let t273 = mul_add(c(0.031058), t262, t272);
-    let t274 = mul_add(c(0.115911), t265, t255);
-    let t275 = neg_mul_add(c(0.031058), t267, t274);
+    let t258 = mul_sub(t40, t257, mul_add(t42, t256, t250));
+    let t259 = mul_sub(t135, t149, mul_sub(t134, t150, t258));
+    let t260 = mul_sub(t42, t255, mul_add(t38, t257, t254));
+    let t261 = mul_sub(t133, t150, mul_sub(t135, t148, t260));
     // leg 2: acceleration of the platform joint relative to the base
-    let t276 = neg_mul_add(c(0.031058), t262, t272);
-    let t277 = mul_add(c(0.031058), t267, t274);
+    let t262 = mul_sub(t47, t257, mul_add(t48, t256, t250));
+    let t263 = mul_sub(t135, t152, mul_sub(t134, t153, t262));
+    let t264 = mul_sub(t48, t255, mul_add(t46, t257, t254));
+    let t265 = mul_sub(t133, t153, mul_sub(t135, t151, t264));
     // leg 3: acceleration of the platform joint relative to the base
-    let t278 = mul_add(c(0.031058), t260, t252);
-    let t279 = neg_mul_add(c(0.115911), t262, t278);
-    let t280 = neg_mul_add(c(0.031058), t265, t255);
-    let t281 = mul_add(c(0.115911), t267, t280);
+    let t266 = mul_add(t54, t257, neg_mul_add(t56, t256, t250));
+    let t267 = mul_sub(t135, t155, mul_sub(t134, t156, t266));
+    let t268 = mul_add(t56, t255, neg_mul_add(t52, t257, t254));
+    let t269 = mul_sub(t133, t156, mul_sub(t135, t154, t268));
     // leg 4: acceleration of the platform joint relative to the base
-    let t282 = mul_add(c(0.084853), t260, t252);
-    let t283 = neg_mul_add(c(0.084853), t262, t282);
-    let t284 = neg_mul_add(c(0.084853), t265, t255);
-    let t285 = mul_add(c(0.084853), t267, t284);
+    let t270 = mul_add(t63, t257, neg_mul_add(t65, t256, t250));
+    let t271 = mul_sub(t135, t158, mul_sub(t134, t159, t270));
+    let t272 = mul_add(t65, t255, neg_mul_add(t61, t257, t254));
+    let t273 = mul_sub(t133, t159, mul_sub(t135, t157, t272));
     // leg 5: acceleration of the platform joint relative to the base
-    let t286 = mul_add(c(0.084853), t262, t282);
-    let t287 = neg_mul_add(c(0.084853), t267, t284);
+    let t274 = mul_add(t70, t257, neg_mul_add(t71, t256, t250));
+    let t275 = mul_sub(t135, t161, mul_sub(t134, t162, t274));
+    let t276 = mul_add(t71, t255, neg_mul_add(t69, t257, t254));
+    let t277 = mul_sub(t133, t162, mul_sub(t135, t160, t276));
     // leg 6: acceleration of the platform joint relative to the base
-    let t288 = mul_add(c(0.115911), t262, t278);
-    let t289 = neg_mul_add(c(0.115911), t267, t280);
+    let t278 = mul_add(t75, t257, neg_mul_add(t76, t256, t250));
+    let t279 = mul_sub(t135, t164, mul_sub(t134, t165, t278));
+    let t280 = mul_add(t76, t255, neg_mul_add(t74, t257, t254));
+    let t281 = mul_sub(t133, t165, mul_sub(t135, t163, t280));
     // leg 1: actuator acceleration d''
-    let t290 = mul_add(t44, t273, mul_add(t155, t155, t157 * t157));
-    let t291 = mul_sub(t172, t172, mul_sub(t45, t275, t290));
+    let t282 = mul_add(t167, t167, mul_add(t148, t148, t149 * t149));
     // leg 2: actuator acceleration d''
-    let t292 = mul_sub(t49, t276, mul_add(t158, t158, t159 * t159));
-    let t293 = mul_sub(t173, t173, mul_add(t50, t277, t292));
+    let t283 = mul_add(t169, t169, mul_add(t151, t151, t152 * t152));
     // leg 3: actuator acceleration d''
-    let t294 = mul_sub(t58, t279, mul_add(t161, t161, t163 * t163));
-    let t295 = mul_add(t174, t174, mul_sub(t59, t281, t294));
+    let t284 = mul_add(t171, t171, mul_add(t154, t154, t155 * t155));
     // leg 4: actuator acceleration d''
-    let t296 = mul_sub(t67, t283, mul_add(t165, t165, t167 * t167));
-    let t297 = mul_add(t175, t175, mul_sub(t68, t285, t296));
+    let t285 = mul_add(t173, t173, mul_add(t157, t157, t158 * t158));
     // leg 5: actuator acceleration d''
-    let t298 = mul_sub(t72, t286, mul_add(t168, t168, t169 * t169));
-    let t299 = mul_add(t176, t176, mul_sub(t73, t287, t298));
+    let t286 = mul_add(t175, t175, mul_add(t160, t160, t161 * t161));
     // leg 6: actuator acceleration d''
-    let t300 = mul_sub(t77, t288, mul_add(t170, t170, t171 * t171));
-    let t301 = mul_add(t177, t177, mul_sub(t78, t289, t300));
+    let t287 = mul_add(t177, t177, mul_add(t163, t163, t164 * t164));
     // leg 1: leg inertia less weight along the actuator
-    let t302 = c(2.0) * t147;
-    let t303 = mul_add(t152, c(0.231822), t302);
-    let t304 = t153 * c(0.062116);
-    let t305 = t303 - neg_mul_add(c(2.0), t172, t304);
-    let t306 = t120 * t305;
-    let t307 = t117 * t305;
-    let t308 = mul_add(t34, t202, neg_mul_add(t32, t201, t213));
-    let t309 = mul_sub(t36, t203, t308);
-    let t310 = neg_mul_add(c(2.0), mul_sub(t117, t144, t256), t309);
-    let t311 = mul_sub(c(0.12276), t202, c(0.031058) * t271);
-    let t312 = t310 + mul_add(c(0.131644), t201, c(0.115911) * t269);
-    let t313 = t312 + (t311 - mul_add(t81, t291, t82 * t203));
+    let t288 = c(2.0) * t166;
+    let t289 = t120 * t288;
+    let t290 = t117 * t288;
+    let t291 = mul_add(t34, t202, neg_mul_add(t32, t201, t213));
+    let t292 = mul_sub(t144, t251, mul_sub(t36, t203, t291));
+    let t293 = mul_sub(t141, t246, t292);
+    let t294 = mul_add(c(0.131644), t201, t293);
+    let t295 = c(0.12276) * t202;
+    let t296 = mul_sub(t38, t256, mul_add(t40, t255, t295));
+    let t297 = mul_sub(t134, t148, mul_sub(t133, t149, t296));
+    let t298 = mul_add(t104, t261, mul_add(t103, t259, t297));
+    let t299 = t294 - mul_add(t82, t203, mul_add(t81, t282, t298));
     // leg 1: remaining leg inertia less weight at the platform joint
-    let t314 = c(0.17066666666666666) * t181;
-    let t315 = neg_mul_add(t194, c(0.022467242666666668), t314);
-    let t316 = mul_add(t195, c(0.020951039999999997), t315);
-    let t317 = neg_mul_add(c(0.17066666666666666), mul_add(t82, t196, t306), t316);
-    let t318 = c(0.17066666666666666) * t184;
-    let t319 = mul_add(t197, c(0.022467242666666668), t318);
-    let t320 = mul_add(t199, c(0.020951039999999997), t319);
-    let t321 = mul_add(c(0.17066666666666666), mul_add(t82, t200, t307), t320);
+    let t300 = c(0.17066666666666666) * t181;
+    let t301 = neg_mul_add(t194, c(0.022467242666666668), t300);
+    let t302 = mul_add(t195, c(0.020951039999999997), t301);
+    let t303 = neg_mul_add(c(0.17066666666666666), mul_sub(t82, t196, t289), t302);
+    let t304 = c(0.17066666666666666) * t184;
+    let t305 = mul_add(t197, c(0.022467242666666668), t304);
+    let t306 = mul_add(t199, c(0.020951039999999997), t305);
+    let t307 = mul_add(c(0.17066666666666666), mul_sub(t82, t200, t290), t306);
+    let t308 = c(0.17066666666666666) * t299;
     // leg 2: leg inertia less weight along the actuator
-    let t322 = t303 + neg_mul_add(c(2.0), t173, t304);
-    let t323 = t120 * t322;
-    let t324 = t117 * t322;
-    let t325 = mul_sub(t86, t203, t312 - mul_add(t85, t293, t311));
+    let t309 = c(2.0) * t168;
+    let t310 = t120 * t309;
+    let t311 = t117 * t309;
+    let t312 = mul_sub(t46, t256, mul_sub(t47, t255, t295));
+    let t313 = mul_sub(t134, t151, mul_sub(t133, t152, t312));
+    let t314 = mul_sub(t106, t265, mul_sub(t105, t263, t313));
+    let t315 = mul_sub(t86, t203, t294 - mul_add(t85, t283, t314));
     // leg 2: remaining leg inertia less weight at the platform joint
-    let t326 = neg_mul_add(t195, c(0.020951039999999997), t315);
-    let t327 = neg_mul_add(c(0.17066666666666666), mul_add(t86, t196, t323), t326);
-    let t328 = neg_mul_add(t199, c(0.020951039999999997), t319);
-    let t329 = mul_add(c(0.17066666666666666), mul_add(t86, t200, t324), t328);
+    let t316 = neg_mul_add(t195, c(0.020951039999999997), t301);
+    let t317 = neg_mul_add(c(0.17066666666666666), mul_sub(t86, t196, t310), t316);
+    let t318 = neg_mul_add(t199, c(0.020951039999999997), t305);
+    let t319 = mul_add(c(0.17066666666666666), mul_sub(t86, t200, t311), t318);
+    let t320 = c(0.17066666666666666) * t315;
     // leg 3: leg inertia less weight along the actuator
-    let t330 = neg_mul_add(t152, c(0.062116), t302);
-    let t331 = t153 * c(0.231822);
-    let t332 = t330 + neg_mul_add(c(2.0), t174, t331);
-    let t333 = t120 * t332;
-    let t334 = t117 * t332;
-    let t335 = mul_sub(c(0.175387), t202, c(0.115911) * t271);
-    let t336 = t310 + mul_sub(c(0.040491), t201, c(0.031058) * t269);
-    let t337 = t336 - (t335 + mul_add(t89, t295, t90 * t203));
+    let t321 = c(2.0) * t170;
+    let t322 = t120 * t321;
+    let t323 = t117 * t321;
+    let t324 = mul_add(c(0.040491), t201, t293);
+    let t325 = c(0.175387) * t202;
+    let t326 = mul_sub(t52, t256, mul_add(t54, t255, t325));
+    let t327 = mul_sub(t134, t154, mul_sub(t133, t155, t326));
+    let t328 = mul_add(t108, t269, mul_sub(t107, t267, t327));
+    let t329 = t324 - mul_add(t90, t203, mul_add(t89, t284, t328));
     // leg 3: remaining leg inertia less weight at the platform joint
-    let t338 = neg_mul_add(t194, c(0.006910464), t314);
-    let t339 = neg_mul_add(t195, c(0.029932714666666662), t338);
-    let t340 = neg_mul_add(c(0.17066666666666666), mul_add(t90, t196, t333), t339);
-    let t341 = mul_add(t197, c(0.006910464), t318);
-    let t342 = neg_mul_add(t199, c(0.029932714666666662), t341);
-    let t343 = mul_add(c(0.17066666666666666), mul_add(t90, t200, t334), t342);
+    let t330 = neg_mul_add(t194, c(0.006910464), t300);
+    let t331 = neg_mul_add(t195, c(0.029932714666666662), t330);
+    let t332 = neg_mul_add(c(0.17066666666666666), mul_sub(t90, t196, t322), t331);
+    let t333 = mul_add(t197, c(0.006910464), t304);
+    let t334 = neg_mul_add(t199, c(0.029932714666666662), t333);
+    let t335 = mul_add(c(0.17066666666666666), mul_sub(t90, t200, t323), t334);
+    let t336 = c(0.17066666666666666) * t329;
     // leg 4: leg inertia less weight along the actuator
-    let t344 = neg_mul_add(t152, c(0.169706), t302);
-    let t345 = t153 * c(0.169706);
-    let t346 = t344 + neg_mul_add(c(2.0), t175, t345);
-    let t347 = t120 * t346;
-    let t348 = t117 * t346;
-    let t349 = mul_sub(c(0.052627), t202, c(0.084853) * t271);
-    let t350 = t310 - mul_add(c(0.172135), t201, c(0.084853) * t269);
-    let t351 = t350 - (t349 + mul_add(t93, t297, t94 * t203));
+    let t337 = c(2.0) * t172;
+    let t338 = t120 * t337;
+    let t339 = t117 * t337;
+    let t340 = neg_mul_add(c(0.172135), t201, t293);
+    let t341 = c(0.052627) * t202;
+    let t342 = mul_sub(t61, t256, mul_add(t63, t255, t341));
+    let t343 = mul_sub(t134, t157, mul_sub(t133, t158, t342));
+    let t344 = mul_add(t110, t273, mul_sub(t109, t271, t343));
+    let t345 = t340 - mul_add(t94, t203, mul_add(t93, t285, t344));
     // leg 4: remaining leg inertia less weight at the platform joint
-    let t352 = mul_add(t194, c(0.029377706666666666), t314);
-    let t353 = neg_mul_add(t195, c(0.008981674666666667), t352);
-    let t354 = neg_mul_add(c(0.17066666666666666), mul_add(t94, t196, t347), t353);
-    let t355 = neg_mul_add(t197, c(0.029377706666666666), t318);
-    let t356 = neg_mul_add(t199, c(0.008981674666666667), t355);
-    let t357 = mul_add(c(0.17066666666666666), mul_add(t94, t200, t348), t356);
+    let t346 = mul_add(t194, c(0.029377706666666666), t300);
+    let t347 = neg_mul_add(t195, c(0.008981674666666667), t346);
+    let t348 = neg_mul_add(c(0.17066666666666666), mul_sub(t94, t196, t338), t347);
+    let t349 = neg_mul_add(t197, c(0.029377706666666666), t304);
+    let t350 = neg_mul_add(t199, c(0.008981674666666667), t349);
+    let t351 = mul_add(c(0.17066666666666666), mul_sub(t94, t200, t339), t350);
+    let t352 = c(0.17066666666666666) * t345;
     // leg 5: leg inertia less weight along the actuator
-    let t358 = t344 - mul_add(c(2.0), t176, t345);
-    let t359 = t120 * t358;
-    let t360 = t117 * t358;
-    let t361 = mul_sub(t98, t203, t350 - mul_sub(t97, t299, t349));
+    let t353 = c(2.0) * t174;
+    let t354 = t120 * t353;
+    let t355 = t117 * t353;
+    let t356 = mul_sub(t69, t256, mul_sub(t70, t255, t341));
+    let t357 = mul_sub(t134, t160, mul_sub(t133, t161, t356));
+    let t358 = mul_add(t112, t277, mul_sub(t111, t275, t357));
+    let t359 = mul_sub(t98, t203, t340 - mul_add(t97, t286, t358));
     // leg 5: remaining leg inertia less weight at the platform joint
-    let t362 = mul_add(t195, c(0.008981674666666667), t352);
-    let t363 = neg_mul_add(c(0.17066666666666666), mul_add(t98, t196, t359), t362);
-    let t364 = mul_add(t199, c(0.008981674666666667), t355);
-    let t365 = mul_add(c(0.17066666666666666), mul_add(t98, t200, t360), t364);
+    let t360 = mul_add(t195, c(0.008981674666666667), t346);
+    let t361 = neg_mul_add(c(0.17066666666666666), mul_sub(t98, t196, t354), t360);
+    let t362 = mul_add(t199, c(0.008981674666666667), t349);
+    let t363 = mul_add(c(0.17066666666666666), mul_sub(t98, t200, t355), t362);
+    let t364 = c(0.17066666666666666) * t359;
     // leg 6: leg inertia less weight along the actuator
-    let t366 = t330 - mul_add(c(2.0), t177, t331);
-    let t367 = t120 * t366;
-    let t368 = t117 * t366;
-    let t369 = mul_sub(t102, t203, t336 - mul_sub(t101, t301, t335));
+    let t365 = c(2.0) * t176;
+    let t366 = t120 * t365;
+    let t367 = t117 * t365;
+    let t368 = mul_sub(t74, t256, mul_sub(t75, t255, t325));
+    let t369 = mul_sub(t134, t163, mul_sub(t133, t164, t368));
+    let t370 = mul_add(t114, t281, mul_sub(t113, t279, t369));
+    let t371 = mul_sub(t102, t203, t324 - mul_add(t101, t287, t370));
     // leg 6: remaining leg inertia less weight at the platform joint
-    let t370 = mul_add(t195, c(0.029932714666666662), t338);
-    let t371 = neg_mul_add(c(0.17066666666666666), mul_add(t102, t196, t367), t370);
-    let t372 = mul_add(t199, c(0.029932714666666662), t341);
-    let t373 = mul_add(c(0.17066666666666666), mul_add(t102, t200, t368), t372);
+    let t372 = mul_add(t195, c(0.029932714666666662), t330);
+    let t373 = neg_mul_add(c(0.17066666666666666), mul_sub(t102, t196, t366), t372);
+    let t374 = mul_add(t199, c(0.029932714666666662), t333);
+    let t375 = mul_add(c(0.17066666666666666), mul_sub(t102, t200, t367), t374);
+    let t376 = c(0.17066666666666666) * t371;
     // leg 1: row of the actuator Jacobian in base coordinates
-    let t374 = t40 * t103;
+    let t377 = t40 * t103;
     // leg 2: row of the actuator Jacobian in base coordinates
-    let t375 = t47 * t105;
+    let t378 = t47 * t105;
     // leg 3: row of the actuator Jacobian in base coordinates
-    let t376 = t54 * t107;
+    let t379 = t54 * t107;
     // leg 4: row of the actuator Jacobian in base coordinates
-    let t377 = mul_add(t65, t110, t63);
-    let t378 = mul_add(t65, t109, t61);
-    let t379 = mul_sub(t61, t110, t63 * t109);
-    // its first moments by platform coordinate
-    let t380 = t317 + t327;
-    let t381 = t340 + t371;
-    let t382 = mul_add(t207, c(1.734723475976807e-18), c(0.03224559378363733) * t226);
-    let t383 = mul_add(c(0.084853), t363, mul_add(c(0.084853), t354, t382));
-    let t384 = mul_add(c(0.031058), t381, neg_mul_add(c(0.115911), t380, t383));
-    let t385 = mul_sub(t24, t219, t227) + mul_sub(t129, t228, t230);
-    let t386 = mul_sub(c(0.084853), t354, c(0.084853) * t363);
-    let t387 = neg_mul_add(c(0.031058), t317 - t327, t386);
-    let t388 = mul_add(c(0.115911), t340 - t371, t387);
-    let t389 = mul_add(c(0.03224559378363734), t385, t388);
-    let t390 = t321 + t329;
-    let t391 = t343 + t373;
-    let t392 = mul_add(t210, c(1.734723475976807e-18), c(0.03224559378363733) * t237);
-    let t393 = mul_add(c(0.084853), t365, mul_add(c(0.084853), t357, t392));
-    let t394 = mul_add(c(0.031058), t391, neg_mul_add(c(0.115911), t390, t393));
-    let t395 = mul_sub(t6, t222, t238) + mul_sub(t132, t239, t240);
-    let t396 = mul_sub(c(0.084853), t357, c(0.084853) * t365);
-    let t397 = neg_mul_add(c(0.031058), t321 - t329, t396);
-    let t398 = mul_add(c(0.115911), t343 - t373, t397);
-    let t399 = mul_add(c(0.03224559378363734), t395, t398);
-    let t400 = t313 - t325;
-    let t401 = t337 - t369;
-    let t402 = t351 - t361;
-    let t403 = mul_add(t213, c(1.734723475976807e-18), c(0.03224559378363733) * t245);
-    let t404 = mul_add(t400, c(0.019782143999999998), t403);
-    let t405 = neg_mul_add(t401, c(0.005300565333333333), t404);
-    let t406 = neg_mul_add(t402, c(0.014481578666666666), t405);
-    let t407 = c(0.005300565333333333) * (t313 + t325);
-    let t408 = mul_sub(c(0.03224559378363734), t247, t407);
-    let t409 = mul_add(c(0.019782143999999998), t337 + t369, t408);
-    let t410 = mul_add(c(0.014481578666666666), t351 + t361, t409);
+    let t380 = mul_add(t65, t110, t63);
+    let t381 = mul_add(t65, t109, t61);
+    let t382 = mul_sub(t61, t110, t63 * t109);
+    // leg 1: moment about the platform origin of the leg's inertia at its joint
+    let t383 = t42 * t307;
+    let t384 = t38 * t308;
+    let t385 = t40 * t303;
+    // first moments by platform coordinate of the payload's inertia force
+    let t386 = mul_add(t129, t224, mul_sub(t21, t219, t223));
+    let t387 = c(0.03224559378363733) * neg_mul_add(t132, t225, t386);
+    let t388 = mul_add(t129, t227, mul_sub(t24, t219, t226));
+    let t389 = c(0.03224559378363734) * neg_mul_add(t132, t228, t388);
+    let t390 = mul_add(t132, t234, mul_sub(t3, t222, t233));
+    let t391 = c(0.03224559378363733) * neg_mul_add(t126, t224, t390);
+    let t392 = mul_add(t132, t236, mul_sub(t6, t222, t235));
+    let t393 = c(0.03224559378363734) * neg_mul_add(t126, t227, t392);
+    let t394 = c(0.03224559378363733) * t241;
+    let t395 = c(0.03224559378363734) * t243;
     // inertia less external wrench that the actuators must balance
-    let t411 = base_rotation[1][0] * external_wrench[1];
-    let t412 = mul_add(base_rotation[0][0], external_wrench[0], t411);
-    let t413 = mul_add(base_rotation[2][0], external_wrench[2], t412);
-    let t414 = base_rotation[1][1] * external_wrench[1];
-    let t415 = mul_add(base_rotation[0][1], external_wrench[0], t414);
-    let t416 = mul_add(base_rotation[2][1], external_wrench[2], t415);
-    let t417 = base_rotation[1][2] * external_wrench[1];
-    let t418 = mul_add(base_rotation[0][2], external_wrench[0], t417);
-    let t419 = mul_add(base_rotation[2][2], external_wrench[2], t418);
-    let t420 = mul_add(c(8.139999999999999), t213, t245 * c(1.734723475976807e-18));
-    let t421 = t419 - neg_mul_add(c(0.188852), t249, t420);
-    let t422 = mul_add(c(0.17066666666666666), t402 + (t400 + t401), t421);
-    let t423 = t21 * t394;
-    let t424 = mul_sub(c(0.188852), t213, c(0.013354412) * t249);
-    let t425 = neg_mul_add(c(0.031), t419, t424);
-    let t426 = mul_sub(c(0.188852), t210, c(0.013354412) * t243);
-    let t427 = neg_mul_add(c(0.031), t416, t426);
-    let t428 = t3 * t406;
-    let t429 = mul_sub(c(0.188852), t207, c(0.013354412) * t234);
-    let t430 = neg_mul_add(c(0.031), t413, t429);
-    let t431 = t12 * t384;
+    let t396 = base_rotation[1][0] * external_wrench[1];
+    let t397 = mul_add(base_rotation[0][0], external_wrench[0], t396);
+    let t398 = mul_add(base_rotation[2][0], external_wrench[2], t397);
+    let t399 = base_rotation[1][1] * external_wrench[1];
+    let t400 = mul_add(base_rotation[0][1], external_wrench[0], t399);
+    let t401 = mul_add(base_rotation[2][1], external_wrench[2], t400);
+    let t402 = base_rotation[1][2] * external_wrench[1];
+    let t403 = mul_add(base_rotation[0][2], external_wrench[0], t402);
+    let t404 = mul_add(base_rotation[2][2], external_wrench[2], t403);
+    let t405 = neg_mul_add(c(8.139999999999999), t213, t404);
+    let t406 = mul_add(c(0.17066666666666666), t299, mul_add(c(0.188852), t245, t405));
+    let t407 = neg_mul_add(c(0.17066666666666666), t315, t406);
+    let t408 = mul_add(c(0.17066666666666666), t329, t407);
+    let t409 = mul_add(c(0.17066666666666666), t345, t408);
+    let t410 = neg_mul_add(c(0.17066666666666666), t359, t409);
+    let t411 = neg_mul_add(c(0.17066666666666666), t371, t410);
+    let t412 = mul_sub(c(0.188852), t213, c(0.013354412) * t245);
+    let t413 = neg_mul_add(c(0.031), t404, t412);
+    let t414 = mul_sub(c(0.188852), t210, c(0.013354412) * t239);
+    let t415 = neg_mul_add(c(0.031), t401, t414);
+    let t416 = mul_sub(c(0.188852), t207, c(0.013354412) * t232);
+    let t417 = neg_mul_add(c(0.031), t398, t416);
     // force along the actuator that balances the remaining wrench
-    let t432 = c(1.0) / (t378 + mul_add(t48, t105, t46));
-    let t433 = t378 + neg_mul_add(t42, t103, t38);
-    let t434 = (t377 + neg_mul_add(t48, t106, t47)) * t432;
-    let t435 = mul_sub(t433, t434, t377 + neg_mul_add(t42, t104, t40));
-    let t436 = mul_add(t71, t111, t69 - t378);
-    let t437 = mul_add(t50, t85, t110) * t432;
-    let t438 = c(1.0) / mul_sub(t436, t434, mul_add(t71, t112, t70 - t377));
-    let t439 = mul_add(t436, t437, neg_mul_add(t73, t97, t110)) * t438;
-    let t440 = mul_sub(t433, t437, mul_add(t45, t81, t110));
-    let t441 = c(1.0) / mul_sub(t435, t439, t440);
-    let t442 = mul_add(t76, t113, t74 - t378);
-    let t443 = mul_sub(t442, t434, mul_add(t76, t114, t75 - t377));
-    let t444 = mul_add(t442, t437, neg_mul_add(t78, t101, t110));
-    let t445 = mul_sub(t443, t439, t444);
-    let t446 = (t379 - mul_add(t46, t106, t375)) * t432;
-    let t447 = mul_add(t70, t111, neg_mul_add(t69, t112, t379));
-    let t448 = mul_add(t436, t446, t447) * t438;
-    let t449 = mul_sub(t433, t446, t379 - mul_sub(t38, t104, t374));
-    let t450 = mul_sub(t435, t448, t449) * t441;
-    let t451 = mul_add(t75, t113, neg_mul_add(t74, t114, t379));
-    let t452 = mul_sub(t443, t448, mul_add(t442, t446, t451));
-    let t453 = c(1.0) / mul_sub(t445, t450, t452);
-    let t454 = mul_sub(t24, t389, mul_sub(t21, t384, t428));
-    let t455 = mul_add(t27, t430, mul_add(t6, t410, t454));
-    let t456 = mul_sub(t9, t425, t455);
-    let t457 = mul_add(base_rotation[0][1], external_wrench[3], t456);
-    let t458 = mul_add(base_rotation[1][1], external_wrench[4], t457);
-    let t459 = mul_add(base_rotation[2][1], external_wrench[5], t458);
-    let t460 = mul_sub(t378, t422, t459);
-    let t461 = mul_add(t15, t410, mul_sub(t12, t406, t423));
-    let t462 = mul_sub(t18, t425, mul_add(t24, t399, t461));
-    let t463 = mul_sub(t27, t427, t462);
-    let t464 = mul_add(base_rotation[0][0], external_wrench[3], t463);
-    let t465 = mul_add(base_rotation[1][0], external_wrench[4], t464);
-    let t466 = mul_add(base_rotation[2][0], external_wrench[5], t465);
-    let t467 = mul_sub(t460, t434, mul_add(t377, t422, t466));
-    let t468 = mul_add(c(8.139999999999999), t210, t237 * c(1.734723475976807e-18));
-    let t469 = t390 + (t365 + (t357 + neg_mul_add(c(0.188852), t243, t468)));
-    let t470 = mul_sub(t460, t437, mul_add(t110, t422, t416 - (t391 + t469)));
-    let t471 = mul_sub(t467, t439, t470);
-    let t472 = mul_sub(t6, t399, mul_sub(t3, t394, t431));
-    let t473 = mul_sub(t9, t427, mul_sub(t15, t389, t472));
-    let t474 = mul_sub(t18, t430, t473);
-    let t475 = mul_add(base_rotation[0][2], external_wrench[3], t474);
-    let t476 = mul_add(base_rotation[1][2], external_wrench[4], t475);
-    let t477 = mul_add(base_rotation[2][2], external_wrench[5], t476);
-    let t478 = mul_sub(t460, t446, mul_sub(t379, t422, t477));
-    let t479 = mul_sub(t471, t450, mul_sub(t467, t448, t478));
-    let t480 = mul_sub(t49, t85, t109) * t432;
-    let t481 = mul_sub(t436, t480, neg_mul_add(t72, t97, t109)) * t438;
-    let t482 = mul_add(t433, t480, mul_add(t44, t81, t109));
-    let t483 = mul_sub(t435, t481, t482) * t441;
-    let t484 = mul_sub(t442, t480, neg_mul_add(t77, t101, t109));
-    let t485 = mul_sub(t445, t483, mul_sub(t443, t481, t484)) * t453;
-    let t486 = mul_add(c(8.139999999999999), t207, t226 * c(1.734723475976807e-18));
-    let t487 = t380 + (t363 + (t354 + neg_mul_add(c(0.188852), t234, t486)));
-    let t488 = mul_add(t460, t480, mul_add(t109, t422, t413 - (t381 + t487)));
-    let t489 = mul_sub(t471, t483, mul_sub(t467, t481, t488));
-    let t490 = mul_sub(t479, t485, t489);
-    let t491 = t378 - mul_add(t56, t107, t52);
-    let t492 = mul_sub(t491, t434, t377 - mul_add(t56, t108, t54));
-    let t493 = mul_add(t491, t437, mul_sub(t59, t89, t110));
-    let t494 = mul_sub(t492, t439, t493);
-    let t495 = mul_sub(t491, t446, t379 - mul_sub(t52, t108, t376));
-    let t496 = mul_sub(t494, t450, mul_sub(t492, t448, t495));
-    let t497 = mul_sub(t491, t480, mul_sub(t58, t89, t109));
-    let t498 = mul_sub(t494, t483, mul_sub(t492, t481, t497));
-    let t499 = c(1.0) / mul_sub(t496, t485, t498);
-    let t500 = t490 * t499;
-    let t501 = neg_mul_add(t496, t500, t479);
-    let t502 = t453 * t501;
-    let t503 = mul_sub(t494, t500, neg_mul_add(t445, t502, t471));
-    let t504 = t441 * t503;
-    let t505 = mul_sub(t443, t502, mul_add(t435, t504, t467));
-    let t506 = t438 * mul_add(t492, t500, t505);
-    let t507 = mul_add(t433, t504, mul_add(t436, t506, t460));
-    let t508 = mul_add(t491, t500, mul_sub(t442, t502, t507));
+    let t418 = c(1.0) / (t381 + mul_add(t48, t105, t46));
+    let t419 = t381 + neg_mul_add(t42, t103, t38);
+    let t420 = (t380 + neg_mul_add(t48, t106, t47)) * t418;
+    let t421 = mul_sub(t419, t420, t380 + neg_mul_add(t42, t104, t40));
+    let t422 = mul_add(t71, t111, t69 - t381);
+    let t423 = mul_add(t50, t85, t110) * t418;
+    let t424 = c(1.0) / mul_sub(t422, t420, mul_add(t71, t112, t70 - t380));
+    let t425 = mul_add(t422, t423, neg_mul_add(t73, t97, t110)) * t424;
+    let t426 = mul_sub(t419, t423, mul_add(t45, t81, t110));
+    let t427 = c(1.0) / mul_sub(t421, t425, t426);
+    let t428 = mul_add(t76, t113, t74 - t381);
+    let t429 = mul_sub(t428, t420, mul_add(t76, t114, t75 - t380));
+    let t430 = mul_add(t428, t423, neg_mul_add(t78, t101, t110));
+    let t431 = mul_sub(t429, t425, t430);
+    let t432 = (t382 - mul_add(t46, t106, t378)) * t418;
+    let t433 = mul_add(t70, t111, neg_mul_add(t69, t112, t382));
+    let t434 = mul_add(t422, t432, t433) * t424;
+    let t435 = mul_sub(t419, t432, t382 - mul_sub(t38, t104, t377));
+    let t436 = mul_sub(t421, t434, t435) * t427;
+    let t437 = mul_add(t75, t113, neg_mul_add(t74, t114, t382));
+    let t438 = mul_sub(t429, t434, mul_add(t428, t432, t437));
+    let t439 = c(1.0) / mul_sub(t431, t436, t438);
+    let t440 = mul_add(t48, t317, mul_add(t42, t303, t384));
+    let t441 = mul_add(t56, t332, mul_sub(t46, t320, t440));
+    let t442 = mul_add(t65, t348, mul_add(t52, t336, t441));
+    let t443 = mul_add(t71, t361, mul_add(t61, t352, t442));
+    let t444 = mul_sub(t76, t373, mul_sub(t69, t364, t443));
+    let t445 = mul_add(t21, t387, mul_sub(t74, t376, t444));
+    let t446 = mul_add(t24, t389, mul_add(t3, t394, t445));
+    let t447 = mul_add(t27, t417, mul_add(t6, t395, t446));
+    let t448 = mul_sub(t9, t413, t447);
+    let t449 = mul_add(base_rotation[0][1], external_wrench[3], t448);
+    let t450 = mul_add(base_rotation[1][1], external_wrench[4], t449);
+    let t451 = mul_add(base_rotation[2][1], external_wrench[5], t450);
+    let t452 = mul_sub(t381, t411, t451);
+    let t453 = mul_sub(t47, t320, mul_add(t40, t308, t383));
+    let t454 = mul_sub(t54, t336, mul_sub(t48, t319, t453));
+    let t455 = mul_add(t63, t352, mul_add(t56, t335, t454));
+    let t456 = mul_sub(t70, t364, mul_add(t65, t351, t455));
+    let t457 = mul_sub(t75, t376, mul_sub(t71, t363, t456));
+    let t458 = mul_sub(t12, t394, mul_sub(t76, t375, t457));
+    let t459 = mul_add(t15, t395, mul_add(t21, t391, t458));
+    let t460 = mul_sub(t18, t413, mul_add(t24, t393, t459));
+    let t461 = mul_sub(t27, t415, t460);
+    let t462 = mul_add(base_rotation[0][0], external_wrench[3], t461);
+    let t463 = mul_add(base_rotation[1][0], external_wrench[4], t462);
+    let t464 = mul_add(base_rotation[2][0], external_wrench[5], t463);
+    let t465 = mul_sub(t452, t420, mul_add(t380, t411, t464));
+    let t466 = neg_mul_add(c(8.139999999999999), t210, t401);
+    let t467 = mul_add(c(0.188852), t239, t466) - t307 - t319 - t335 - t351;
+    let t468 = mul_sub(t452, t423, mul_add(t110, t411, t467 - t363 - t375));
+    let t469 = mul_sub(t465, t425, t468);
+    let t470 = mul_add(t46, t319, mul_sub(t38, t307, t385));
+    let t471 = mul_add(t52, t335, mul_sub(t47, t317, t470));
+    let t472 = mul_sub(t61, t351, mul_sub(t54, t332, t471));
+    let t473 = mul_sub(t69, t363, mul_sub(t63, t348, t472));
+    let t474 = mul_sub(t74, t375, mul_sub(t70, t361, t473));
+    let t475 = mul_add(t3, t391, mul_sub(t75, t373, t474));
+    let t476 = mul_sub(t6, t393, mul_sub(t12, t387, t475));
+    let t477 = mul_sub(t9, t415, mul_sub(t15, t389, t476));
+    let t478 = mul_sub(t18, t417, t477);
+    let t479 = mul_add(base_rotation[0][2], external_wrench[3], t478);
+    let t480 = mul_add(base_rotation[1][2], external_wrench[4], t479);
+    let t481 = mul_add(base_rotation[2][2], external_wrench[5], t480);
+    let t482 = mul_sub(t452, t432, mul_sub(t382, t411, t481));
+    let t483 = mul_sub(t469, t436, mul_sub(t465, t434, t482));
+    let t484 = mul_sub(t49, t85, t109) * t418;
+    let t485 = mul_sub(t422, t484, neg_mul_add(t72, t97, t109)) * t424;
+    let t486 = mul_add(t419, t484, mul_add(t44, t81, t109));
+    let t487 = mul_sub(t421, t485, t486) * t427;
+    let t488 = mul_sub(t428, t484, neg_mul_add(t77, t101, t109));
+    let t489 = mul_sub(t431, t487, mul_sub(t429, t485, t488)) * t439;
+    let t490 = neg_mul_add(c(8.139999999999999), t207, t398);
+    let t491 = mul_add(c(0.188852), t232, t490) - t303 - t317 - t332 - t348;
+    let t492 = mul_add(t452, t484, mul_add(t109, t411, t491 - t361 - t373));
+    let t493 = mul_sub(t469, t487, mul_sub(t465, t485, t492));
+    let t494 = mul_sub(t483, t489, t493);
+    let t495 = t381 - mul_add(t56, t107, t52);
+    let t496 = mul_sub(t495, t420, t380 - mul_add(t56, t108, t54));
+    let t497 = mul_add(t495, t423, mul_sub(t59, t89, t110));
+    let t498 = mul_sub(t496, t425, t497);
+    let t499 = mul_sub(t495, t432, t382 - mul_sub(t52, t108, t379));
+    let t500 = mul_sub(t498, t436, mul_sub(t496, t434, t499));
+    let t501 = mul_sub(t495, t484, mul_sub(t58, t89, t109));
+    let t502 = mul_sub(t498, t487, mul_sub(t496, t485, t501));
+    let t503 = c(1.0) / mul_sub(t500, t489, t502);
+    let t504 = t494 * t503;
+    let t505 = neg_mul_add(t500, t504, t483);
+    let t506 = t439 * t505;
+    let t507 = mul_sub(t498, t504, neg_mul_add(t431, t506, t469));
+    let t508 = t427 * t507;
+    let t509 = mul_sub(t429, t506, mul_add(t421, t508, t465));
+    let t510 = t424 * mul_add(t496, t504, t509);
+    let t511 = mul_add(t419, t508, mul_add(t422, t510, t452));
+    let t512 = mul_add(t495, t504, mul_sub(t428, t506, t511));
     // leg 1: actuator forces F
-    let t509 = neg_mul_add(t203, c(0.03055), c(4268.068200000001));
-    let t510 = neg_mul_add(c(0.17066666666666666), t213, t509);
-    let t511 = mul_add(t245, c(0.019782143999999998), t510);
-    let t512 = t247 * c(0.005300565333333333);
-    let t513 = mul_add(t313, c(0.9523333333333334), mul_sub(c(21555.9), t82, t512));
-    inverse_dynamics[0] = mul_sub(t441, t503, t513) - t511;
+    let t513 = neg_mul_add(t203, c(0.03055), c(4268.068200000001));
+    let t514 = neg_mul_add(c(0.17066666666666666), t213, t513);
+    let t515 = mul_add(t241, c(0.019782143999999998), t514);
+    let t516 = t243 * c(0.005300565333333333);
+    let t517 = mul_add(t299, c(0.9523333333333334), mul_sub(c(21555.9), t82, t516));
+    inverse_dynamics[0] = mul_sub(t427, t507, t517) - t515;
     // leg 2: actuator forces F
-    let t514 = mul_add(c(21555.9), t86, t512);
-    let t515 = mul_sub(t432, t508, neg_mul_add(t325, c(0.9523333333333334), t514));
-    inverse_dynamics[1] = t515 - t511;
+    let t518 = mul_add(c(21555.9), t86, t516);
+    let t519 = mul_sub(t418, t512, neg_mul_add(t315, c(0.9523333333333334), t518));
+    inverse_dynamics[1] = t519 - t515;
     // leg 3: actuator forces F
-    let t516 = neg_mul_add(t245, c(0.005300565333333333), t510);
-    let t517 = t247 * c(0.019782143999999998);
-    let t518 = mul_sub(t90, c(-21555.9), t517);
-    let t519 = neg_mul_add(t337, c(0.9523333333333334), t518);
-    inverse_dynamics[2] = neg_mul_add(t490, t499, t519) - t516;
+    let t520 = neg_mul_add(t241, c(0.005300565333333333), t514);
+    let t521 = t243 * c(0.019782143999999998);
+    let t522 = mul_sub(t90, c(-21555.9), t521);
+    let t523 = neg_mul_add(t329, c(0.9523333333333334), t522);
+    inverse_dynamics[2] = neg_mul_add(t494, t503, t523) - t520;
     // leg 4: actuator forces F
-    let t520 = neg_mul_add(t247, c(0.014481578666666666), t506);
-    let t521 = neg_mul_add(t245, c(0.014481578666666666), t510);
-    let t522 = t422 + mul_add(c(21555.9), t94, t351 * c(0.9523333333333334));
-    let t523 = mul_sub(t453, t501, mul_sub(t490, t499, t522));
-    inverse_dynamics[3] = t520 - mul_add(t432, t508, mul_add(t441, t503, t523)) - t521;
+    let t524 = neg_mul_add(t243, c(0.014481578666666666), t510);
+    let t525 = neg_mul_add(t241, c(0.014481578666666666), t514);
+    let t526 = neg_mul_add(c(21555.9), t94, t524);
+    let t527 = neg_mul_add(t345, c(0.9523333333333334), t526) - t411;
+    let t528 = neg_mul_add(t439, t505, mul_add(t494, t503, t527));
+    inverse_dynamics[3] = neg_mul_add(t418, t512, neg_mul_add(t427, t507, t528)) - t525;
     // leg 5: actuator forces F
-    let t524 = neg_mul_add(c(21555.9), t98, t361 * c(0.9523333333333334)) - t520;
-    inverse_dynamics[4] = t524 - t521;
+    let t529 = neg_mul_add(c(21555.9), t98, t359 * c(0.9523333333333334)) - t524;
+    inverse_dynamics[4] = t529 - t525;
     // leg 6: actuator forces F
-    let t525 = neg_mul_add(c(21555.9), t102, t517);
-    let t526 = mul_add(t453, t501, mul_add(t369, c(0.9523333333333334), t525));
-    inverse_dynamics[5] = t526 - t516;
+    let t530 = neg_mul_add(c(21555.9), t102, t521);
+    let t531 = mul_add(t439, t505, mul_add(t371, c(0.9523333333333334), t530));
+    inverse_dynamics[5] = t531 - t520;
 }
 
 /// Actuator forces for a given platform acceleration, equation (49).
@@ -1229,581 +1234,602 @@ pub fn inverse_dynamics_in_lanes<P: Triple>(
     // platform origin seen from the base
     let t8 = t1 * P::splat(platform_position[1] - base_position[1]);
     // constant and copied elements
-    let t9 = P::triple([c(0.115911), c(-0.084853), c(-0.031058)]);
+    let t9 = P::triple([c(0.031058), c(-0.084853), c(-0.115911)]);
+    let t10 = P::triple([c(0.115911), c(-0.084853), c(-0.031058)]);
+    let t11 = P::triple([c(-0.031058), c(0.115911), c(0.084853)]);
+    let t12 = P::triple([c(0.115911), c(-0.031058), c(-0.084853)]);
+    // legs 2, 5, 6: platform joint from the base point
+    let t13 = P::triple([c(-0.131644), c(0.172135), c(-0.040491)]);
     // rotation of the platform seen from the base
-    let t10 = t1 * P::splat(platform_rotation[1][2]);
-    let t11 = mul_add(t5, P::splat(platform_rotation[2][1]), t6);
-    let t12 = mul_add(t5, P::splat(platform_rotation[2][0]), t7);
+    let t14 = mul_add(t5, P::splat(platform_rotation[2][1]), t6);
+    let t15 = mul_add(t5, P::splat(platform_rotation[2][0]), t7);
     // platform origin seen from the base
-    let t13 = mul_add(t2, P::splat(platform_position[0] - base_position[0]), t8);
-    // constant and copied elements
-    let t14 = P::triple([c(-0.031058), c(0.115911), c(0.084853)]);
-    let t15 = P::triple([c(0.031058), c(-0.084853), c(-0.115911)]);
-    let t16 = P::triple([c(0.115911), c(-0.031058), c(-0.084853)]);
-    // rotation of the platform seen from the base
-    let t17 = mul_add(t2, P::splat(platform_rotation[0][2]), t10);
+    let t16 = mul_add(t2, P::splat(platform_position[0] - base_position[0]), t8);
+    // angular velocity of the base
+    let t17 = t1 * P::splat(base_velocity[4]);
+    // legs 2, 5, 6: platform joint from the base point
+    let t18 = P::triple([c(-0.12276), c(0.052627), c(0.175387)]);
+    // legs 1, 3, 4: platform joint from the base point
+    let t19 = P::triple([c(-0.131644), c(-0.040491), c(0.172135)]);
+    // angular velocity of the platform
+    let t20 = t1 * P::splat(platform_velocity[4]);
+    // legs 1, 3, 4: platform joint from the base point
+    let t21 = P::triple([c(0.12276), c(-0.175387), c(-0.052627)]);
     // platform origin seen from the base
-    let t18 = mul_add(t5, P::splat(platform_position[2] - base_position[2]), t13);
-    // legs 1, 3, 4: platform joint from the platform origin
-    let t19 = t14 * P::splat(P::lane(t11, 0));
+    let t22 = mul_add(t5, P::splat(platform_position[2] - base_position[2]), t16);
     // legs 2, 5, 6: platform joint from the platform origin
-    let t20 = t15 * P::splat(P::lane(t11, 0));
-    // rotation of the platform seen from the base
-    let t21 = mul_add(t5, P::splat(platform_rotation[2][2]), t17);
+    let t23 = t9 * P::splat(P::lane(t14, 0));
     // legs 1, 3, 4: platform joint from the platform origin
-    let t22 = mul_add(t16, P::splat(P::lane(t12, 0)), t19);
-    // legs 2, 5, 6: platform joint from the platform origin
-    let t23 = mul_add(t9, P::splat(P::lane(t12, 0)), t20);
-    // legs 2, 5, 6: platform joint from the base point
-    let t24 = P::triple([c(-0.131644), c(0.172135), c(-0.040491)]);
-    // legs 1, 3, 4: platform joint from the platform origin
-    let t25 = t14 * P::splat(P::lane(t11, 1));
-    // legs 2, 5, 6: platform joint from the platform origin
-    let t26 = t15 * P::splat(P::lane(t11, 1));
-    // legs 1, 3, 4: platform joint from the platform origin
-    let t27 = t14 * P::splat(P::lane(t11, 2));
-    // legs 2, 5, 6: platform joint from the platform origin
-    let t28 = t15 * P::splat(P::lane(t11, 2));
-    // constant and copied elements
-    let t29 = P::triple([c(0.131644), c(-0.172135), c(0.040491)]);
-    // legs 1, 3, 4: platform joint from the platform origin
-    let t30 = mul_add(t16, P::splat(P::lane(t12, 1)), t25);
-    // legs 2, 5, 6: platform joint from the platform origin
-    let t31 = mul_add(t9, P::splat(P::lane(t12, 1)), t26);
-    // legs 1, 3, 4: platform joint from the platform origin
-    let t32 = mul_add(t16, P::splat(P::lane(t12, 2)), t27);
-    // legs 2, 5, 6: platform joint from the platform origin
-    let t33 = mul_add(t9, P::splat(P::lane(t12, 2)), t28);
-    // legs 1, 3, 4: platform joint from the base point
-    let t34 = P::triple([c(0.12276), c(-0.175387), c(-0.052627)]);
-    let t35 = P::triple([c(-0.131644), c(-0.040491), c(0.172135)]);
-    // legs 2, 5, 6: platform joint from the base point
-    let t36 = P::triple([c(-0.12276), c(0.052627), c(0.175387)]);
-    let t37 = t24 + (P::splat(P::lane(t18, 0)) + t23);
-    // constant and copied elements
-    let t38 = P::triple([c(-0.12276), c(0.175387), c(0.052627)]);
-    // legs 1, 3, 4: platform joint from the base point
-    let t39 = t22 + P::splat(P::lane(t18, 0)) + t35;
-    // constant and copied elements
-    let t40 = P::triple([c(0.131644), c(0.040491), c(-0.172135)]);
-    let t41 = P::triple([c(0.12276), c(-0.052627), c(-0.175387)]);
-    // legs 1, 3, 4: platform joint from the base point
-    let t42 = t32 + P::splat(P::lane(t18, 2));
-    let t43 = t34 + (t30 + P::splat(P::lane(t18, 1)));
-    // legs 2, 5, 6: platform joint from the base point
-    let t44 = t36 + (t31 + P::splat(P::lane(t18, 1)));
+    let t24 = t11 * P::splat(P::lane(t14, 0));
     // angular velocity of the base
-    let t45 = t1 * P::splat(base_velocity[4]);
-    // legs 2, 5, 6: platform joint from the base point
-    let t46 = t33 + P::splat(P::lane(t18, 2));
+    let t25 = mul_add(t2, P::splat(base_velocity[3]), t17);
     // angular velocity of the platform
-    let t47 = t1 * P::splat(platform_velocity[4]);
+    let t26 = mul_add(t2, P::splat(platform_velocity[3]), t20);
+    // legs 2, 5, 6: platform joint from the platform origin
+    let t27 = t9 * P::splat(P::lane(t14, 1));
+    let t28 = mul_add(t10, P::splat(P::lane(t15, 0)), t23);
+    // legs 1, 3, 4: platform joint from the platform origin
+    let t29 = mul_add(t12, P::splat(P::lane(t15, 0)), t24);
+    let t30 = t11 * P::splat(P::lane(t14, 1));
+    // legs 2, 5, 6: platform joint from the platform origin
+    let t31 = mul_add(t10, P::splat(P::lane(t15, 1)), t27);
     // angular velocity of the base
-    let t48 = mul_add(t2, P::splat(base_velocity[3]), t45);
-    // angular velocity of the platform
-    let t49 = mul_add(t2, P::splat(platform_velocity[3]), t47);
-    // angular velocity of the base
-    let t50 = mul_add(t5, P::splat(base_velocity[5]), t48);
-    // legs 1, 3, 4: extent of the rod along the actuator axis
-    let t51 = w(0.042435999999999995) - mul_add(t39, t39, t43 * t43);
+    let t32 = mul_add(t5, P::splat(base_velocity[5]), t25);
+    // angular acceleration of the base
+    let t33 = t1 * P::splat(base_acceleration[4]);
+    // legs 1, 3, 4: platform joint from the platform origin
+    let t34 = mul_add(t12, P::splat(P::lane(t15, 1)), t30);
+    // angular acceleration of the platform
+    let t35 = t1 * P::splat(platform_acceleration[4]);
+    // legs 2, 5, 6: platform joint from the base point
+    let t36 = t13 + (t28 + P::splat(P::lane(t22, 0)));
+    // velocity of the platform origin relative to the base
+    let t37 = t1 * P::splat(platform_velocity[1] - base_velocity[1]);
+    // legs 1, 3, 4: platform joint from the base point
+    let t38 = t19 + (P::splat(P::lane(t22, 0)) + t29);
+    // legs 2, 5, 6: platform joint from the base point
+    let t39 = t18 + (P::splat(P::lane(t22, 1)) + t31);
     // legs 2, 5, 6: extent of the rod along the actuator axis
-    let t52 = w(0.042435999999999995) - mul_add(t37, t37, t44 * t44);
+    let t40 = neg_mul_add(t36, t36, w(0.042435999999999995));
     // legs 1, 3, 4: extent of the rod along the actuator axis
-    let t53 = sqrt(t51);
-    // legs 2, 5, 6: extent of the rod along the actuator axis
-    let t54 = sqrt(t52);
+    let t41 = neg_mul_add(t38, t38, w(0.042435999999999995));
+    // legs 1, 3, 4: platform joint from the base point
+    let t42 = t21 + (P::splat(P::lane(t22, 1)) + t34);
+    // angular acceleration of the base
+    let t43 = mul_add(t2, P::splat(base_acceleration[3]), t33);
     // angular velocity of the platform
-    let t55 = mul_add(t5, P::splat(platform_velocity[5]), t49);
+    let t44 = mul_add(t5, P::splat(platform_velocity[5]), t26);
+    // angular acceleration of the platform
+    let t45 = mul_add(t2, P::splat(platform_acceleration[3]), t35);
+    // velocity of the platform origin relative to the base
+    let t46 = mul_add(t2, P::splat(platform_velocity[0] - base_velocity[0]), t37);
+    // angular acceleration of the base
+    let t47 = mul_add(t5, P::splat(base_acceleration[5]), t43);
+    // angular velocity of the base
+    let t48 = P::triple([P::lane(t32, 0), P::lane(t32, 2), P::lane(t32, 0)]);
+    let t49 = P::triple([P::lane(t32, 1), P::lane(t32, 1), P::lane(t32, 2)]);
+    // legs 2, 5, 6: extent of the rod along the actuator axis
+    let t50 = sqrt(neg_mul_add(t39, t39, t40));
     // angular velocity of the platform relative to the base
-    let t56 = t50 - t55;
-    // legs 1, 3, 4: reciprocal of that extent
-    let t57 = w(1.0) / t53;
+    let t51 = t32 - t44;
+    // acceleration per base coordinate of points that move with the base
+    let t52 = t48 * t49;
+    // legs 1, 3, 4: extent of the rod along the actuator axis
+    let t53 = sqrt(neg_mul_add(t42, t42, t41));
+    // angular acceleration of the platform
+    let t54 = mul_add(t5, P::splat(platform_acceleration[5]), t45);
+    // velocity of the platform origin relative to the base
+    let t55 = mul_add(t5, P::splat(platform_velocity[2] - base_velocity[2]), t46);
+    // acceleration of the base origin less gravity
+    let t56 = t1 * P::splat(base_acceleration[1]);
+    // angular velocity of the base
+    let t57 = P::triple([P::lane(t32, 2), P::lane(t32, 2), P::lane(t32, 0)]);
+    // platform origin seen from the base
+    let t58 = P::triple([P::lane(t22, 2), P::lane(t22, 0), P::lane(t22, 1)]);
+    // angular velocity of the base
+    let t59 = P::triple([P::lane(t32, 1), P::lane(t32, 2), P::lane(t32, 0)]);
+    // acceleration of the base origin less gravity
+    let t60 = mul_add(t2, P::splat(base_acceleration[0]), t56);
+    // angular velocity of the base
+    let t61 = P::triple([P::lane(t32, 1), P::lane(t32, 0), P::lane(t32, 1)]);
+    // acceleration of the platform origin less gravity
+    let t62 = t1 * P::splat(platform_acceleration[1]);
+    // acceleration per base coordinate of points that move with the base
+    let t63 = mul_add(t61, t61, t57 * t57);
+    // angular acceleration of the base
+    let t64 = P::triple([P::lane(t47, 1), P::lane(t47, 2), P::lane(t47, 0)]);
+    // acceleration per base coordinate of points that move with the base
+    let t65 = P::triple([P::lane(t52, 2), P::lane(t52, 0), P::lane(t52, 1)]);
+    // angular velocity of the platform relative to the base
+    let t66 = P::triple([P::lane(t51, 2), P::lane(t51, 0), P::lane(t51, 1)]);
+    // angular acceleration of the base
+    let t67 = P::triple([P::lane(t47, 2), P::lane(t47, 0), P::lane(t47, 1)]);
+    // acceleration per base coordinate of points that move with the base
+    let t68 = t64 + t65;
+    // acceleration of the platform origin less gravity
+    let t69 = mul_add(t2, P::splat(platform_acceleration[0]), t62);
+    // platform origin seen from the base
+    let t70 = P::triple([P::lane(t22, 1), P::lane(t22, 2), P::lane(t22, 0)]);
+    // angular velocity of the base
+    let t71 = P::triple([P::lane(t32, 2), P::lane(t32, 0), P::lane(t32, 1)]);
+    // acceleration of the base origin less gravity
+    let t72 = mul_add(t5, P::splat(base_acceleration[2] + c(9.81)), t60);
+    // acceleration per base coordinate of points that move with the base
+    let t73 = mul_sub(t48, t49, t67);
+    // velocity of the platform origin relative to the base
+    let t74 = mul_add(t70, t71, neg_mul_add(t58, t59, t55));
+    // angular velocity of the platform
+    let t75 = P::triple([P::lane(t44, 1), P::lane(t44, 2), P::lane(t44, 0)]);
+    // legs 2, 5, 6: platform joint from the platform origin
+    let t76 = t9 * P::splat(P::lane(t14, 2));
+    // acceleration of the platform origin relative to the base, less w x v
+    let t77 = t59 + t75;
+    // angular velocity of the platform relative to the base
+    let t78 = P::triple([P::lane(t51, 1), P::lane(t51, 2), P::lane(t51, 0)]);
+    // acceleration of the platform origin less gravity
+    let t79 = mul_add(t5, P::splat(c(9.81) + platform_acceleration[2]), t69);
+    // rate of that angular velocity
+    let t80 = mul_add(t71, t78, neg_mul_add(t59, t66, t47 - t54));
+    // legs 2, 5, 6: platform joint from the platform origin
+    let t81 = mul_add(t10, P::splat(P::lane(t15, 2)), t76);
     // legs 2, 5, 6: reciprocal of that extent
-    let t58 = w(1.0) / t54;
-    // legs 1, 3, 4: actuator length d
-    let t59 = t42 - t53;
+    let t82 = w(1.0) / t50;
+    // legs 2, 5, 6: velocity of the platform joint relative to the base
+    let t83 = t31 * P::splat(P::lane(t51, 2));
+    // acceleration per base coordinate of points that move with the base
+    let t84 = P::triple([P::lane(t73, 0), -P::lane(t63, 1), P::lane(t68, 2)]);
+    // constant and copied elements
+    let t85 = P::triple([c(0.131644), c(-0.172135), c(0.040491)]);
+    // acceleration of the platform origin relative to the base, less w x v
+    let t86 = P::splat(P::lane(t22, 1)) * t84;
+    // legs 1, 3, 4: platform joint from the platform origin
+    let t87 = t11 * P::splat(P::lane(t14, 2));
+    // legs 2, 5, 6: leg inertia less weight along the actuator
+    let t88 = mul_add(P::splat(P::lane(t73, 2)), t85, P::splat(P::lane(t72, 2)));
+    // legs 2, 5, 6: velocity of the platform joint relative to the base
+    let t89 = mul_sub(P::splat(P::lane(t51, 1)), t81, t83);
+    let t90 = t28 * P::splat(P::lane(t51, 1));
+    // acceleration per base coordinate of points that move with the base
+    let t91 = P::triple([-P::lane(t63, 0), P::lane(t68, 1), P::lane(t73, 2)]);
+    let t92 = P::triple([P::lane(t68, 0), P::lane(t73, 1), -P::lane(t63, 2)]);
+    // velocity of the platform origin relative to the base
+    let t93 = P::triple([P::lane(t74, 1), P::lane(t74, 2), P::lane(t74, 0)]);
+    // acceleration of the platform origin relative to the base, less w x v
+    let t94 = P::triple([P::lane(t77, 1), P::lane(t77, 2), P::lane(t77, 0)]);
+    // legs 2, 5, 6: acceleration of the platform joint relative to the base
+    let t95 = t81 * P::splat(P::lane(t80, 0));
+    // legs 2, 5, 6: platform joint from the base point
+    let t96 = P::splat(P::lane(t22, 2)) + t81;
+    // acceleration of the platform origin relative to the base, less w x v
+    let t97 = mul_add(P::splat(P::lane(t22, 2)), t92, t72 - t79);
+    // legs 1, 3, 4: platform joint from the platform origin
+    let t98 = mul_add(t12, P::splat(P::lane(t15, 2)), t87);
+    // constant and copied elements
+    let t99 = P::triple([c(0.12276), c(-0.052627), c(-0.175387)]);
+    // legs 1, 3, 4: reciprocal of that extent
+    let t100 = w(1.0) / t53;
+    // legs 1, 3, 4: velocity of the platform joint relative to the base
+    let t101 = t34 * P::splat(P::lane(t51, 2));
+    // legs 2, 5, 6: velocity of the platform joint relative to the base
+    let t102 = mul_sub(t31, P::splat(P::lane(t51, 0)), t90);
+    // velocity of the platform origin relative to the base
+    let t103 = P::triple([P::lane(t74, 2), P::lane(t74, 0), P::lane(t74, 1)]);
+    // legs 2, 5, 6: acceleration of the platform joint relative to the base
+    let t104 = t31 * P::splat(P::lane(t80, 2));
+    let t105 = mul_sub(t28, P::splat(P::lane(t80, 2)), t95);
+    // legs 2, 5, 6: leg inertia less weight along the actuator
+    let t106 = mul_add(P::splat(P::lane(t68, 2)), t99, t88);
+    // constant and copied elements
+    let t107 = P::triple([c(0.131644), c(0.040491), c(-0.172135)]);
     // legs 2, 5, 6: actuator length d
-    let t60 = t46 - t54;
-    // velocity of the platform origin relative to the base
-    let t61 = t1 * P::splat(platform_velocity[1] - base_velocity[1]);
-    // legs 1, 3, 4: gradient of the actuator length by the platform joint
-    let t62 = t43 * t57;
+    let t108 = t96 - t50;
+    // legs 2, 5, 6: velocity of the platform joint relative to the base
+    let t109 = P::splat(P::lane(t74, 0)) - t89;
+    let t110 = P::splat(P::lane(t51, 0)) * t81;
+    // acceleration of the platform origin relative to the base, less w x v
+    let t111 = mul_add(P::splat(P::lane(t22, 0)), t91, t86) + t97;
+    // legs 1, 3, 4: leg inertia less weight along the actuator
+    let t112 = mul_add(P::splat(P::lane(t73, 2)), t107, P::splat(P::lane(t72, 2)));
+    // legs 1, 3, 4: velocity of the platform joint relative to the base
+    let t113 = mul_sub(P::splat(P::lane(t51, 1)), t98, t101);
+    let t114 = t29 * P::splat(P::lane(t51, 1));
+    // legs 2, 5, 6: acceleration of the platform joint relative to the base
+    let t115 = mul_sub(t81, P::splat(P::lane(t80, 1)), t104);
+    // legs 1, 3, 4: acceleration of the platform joint relative to the base
+    let t116 = P::splat(P::lane(t80, 0)) * t98;
+    // legs 1, 3, 4: platform joint from the base point
+    let t117 = P::splat(P::lane(t22, 2)) + t98;
+    // legs 2, 5, 6: velocity of the platform joint relative to the base
+    let t118 = mul_sub(t28, P::splat(P::lane(t51, 2)), t110);
+    let t119 = P::splat(P::lane(t74, 2)) - t102;
+    // legs 2, 5, 6: acceleration of the platform joint relative to the base
+    let t120 = mul_add(P::splat(P::lane(t51, 2)), t109, t105);
+    // legs 2, 5, 6: leg inertia less weight along the actuator
+    let t121 = neg_mul_add(P::splat(P::lane(t63, 2)), t108, t106);
+    // constant and copied elements
+    let t122 = P::triple([c(-0.12276), c(0.175387), c(0.052627)]);
+    // acceleration of the platform origin relative to the base, less w x v
+    let t123 = mul_sub(t77, t103, t93 * t94) + t111;
+    // legs 1, 3, 4: velocity of the platform joint relative to the base
+    let t124 = mul_sub(t34, P::splat(P::lane(t51, 0)), t114);
+    // legs 1, 3, 4: acceleration of the platform joint relative to the base
+    let t125 = t34 * P::splat(P::lane(t80, 2));
+    let t126 = mul_sub(t29, P::splat(P::lane(t80, 2)), t116);
+    // legs 1, 3, 4: leg inertia less weight along the actuator
+    let t127 = mul_add(P::splat(P::lane(t68, 2)), t122, t112);
+    // legs 1, 3, 4: actuator length d
+    let t128 = t117 - t53;
     // legs 2, 5, 6: gradient of the actuator length by the platform joint
-    let t63 = t37 * t58;
-    // velocity of the platform origin relative to the base
-    let t64 = mul_add(t2, P::splat(platform_velocity[0] - base_velocity[0]), t61);
+    let t129 = t36 * t82;
+    // legs 1, 3, 4: velocity of the platform joint relative to the base
+    let t130 = P::splat(P::lane(t74, 0)) - t113;
+    let t131 = P::splat(P::lane(t51, 0)) * t98;
+    // legs 2, 5, 6: acceleration of the platform joint relative to the base
+    let t132 = mul_add(P::splat(P::lane(t51, 1)), t119, t115);
+    // legs 2, 5, 6: velocity of the platform joint relative to the base
+    let t133 = P::splat(P::lane(t74, 1)) - t118;
+    // legs 2, 5, 6: acceleration of the platform joint relative to the base
+    let t134 = neg_mul_add(P::splat(P::lane(t51, 0)), t119, t120);
+    // legs 2, 5, 6: leg inertia less weight along the actuator
+    let t135 = mul_sub(t31, P::splat(P::lane(t80, 0)), t121);
+    // legs 1, 3, 4: acceleration of the platform joint relative to the base
+    let t136 = mul_sub(t98, P::splat(P::lane(t80, 1)), t125);
+    // legs 2, 5, 6: acceleration of the platform joint relative to the base
+    let t137 = P::splat(P::lane(t51, 1)) * t109;
+    // legs 1, 3, 4: velocity of the platform joint relative to the base
+    let t138 = mul_sub(t29, P::splat(P::lane(t51, 2)), t131);
+    let t139 = P::splat(P::lane(t74, 2)) - t124;
+    // legs 1, 3, 4: acceleration of the platform joint relative to the base
+    let t140 = mul_add(P::splat(P::lane(t51, 2)), t130, t126);
+    // legs 1, 3, 4: leg inertia less weight along the actuator
+    let t141 = neg_mul_add(P::splat(P::lane(t63, 2)), t128, t127);
     // legs 2, 5, 6: gradient of the actuator length by the platform joint
-    let t65 = t44 * t58;
+    let t142 = t39 * t82;
+    // legs 2, 5, 6: acceleration of the platform joint relative to the base
+    let t143 = neg_mul_add(P::splat(P::lane(t51, 2)), t133, t132);
+    let t144 = P::splat(P::lane(t123, 1)) + t134;
+    let t145 = mul_sub(P::splat(P::lane(t51, 0)), t133, t137);
+    // legs 2, 5, 6: leg inertia less weight along the actuator
+    let t146 = mul_add(P::splat(P::lane(t68, 1)), t85, P::splat(P::lane(t72, 1)));
     // legs 1, 3, 4: gradient of the actuator length by the platform joint
-    let t66 = t39 * t57;
-    // rotation of the platform seen from the base
-    let t67 = P::triple([P::lane(t11, 1), P::lane(t11, 2), P::lane(t11, 0)]);
-    // platform origin seen from the base
-    let t68 = P::triple([P::lane(t18, 1), P::lane(t18, 2), P::lane(t18, 0)]);
-    // rotation of the platform seen from the base
-    let t69 = P::triple([P::lane(t12, 1), P::lane(t12, 2), P::lane(t12, 0)]);
-    // angular velocity of the base
-    let t70 = P::triple([P::lane(t50, 2), P::lane(t50, 0), P::lane(t50, 1)]);
-    // rotation of the platform seen from the base
-    let t71 = P::triple([P::lane(t11, 2), P::lane(t11, 0), P::lane(t11, 1)]);
-    // angular velocity of the platform relative to the base
-    let t72 = P::triple([P::lane(t56, 2), P::lane(t56, 0), P::lane(t56, 1)]);
-    let t73 = P::triple([P::lane(t56, 1), P::lane(t56, 2), P::lane(t56, 0)]);
-    // platform origin seen from the base
-    let t74 = P::triple([P::lane(t18, 2), P::lane(t18, 0), P::lane(t18, 1)]);
-    // angular velocity of the base
-    let t75 = P::triple([P::lane(t50, 1), P::lane(t50, 2), P::lane(t50, 0)]);
-    // rotation of the platform seen from the base
-    let t76 = P::triple([P::lane(t12, 2), P::lane(t12, 0), P::lane(t12, 1)]);
-    // rate of the relative rotation
-    let t77 = mul_sub(t71, t73, t67 * t72);
-    // velocity of the platform origin relative to the base
-    let t78 = mul_add(t5, P::splat(platform_velocity[2] - base_velocity[2]), t64);
-    // rate of the relative rotation
-    let t79 = mul_sub(t73, t76, t69 * t72);
-    // rotation of the platform seen from the base
-    let t80 = P::triple([P::lane(t21, 1), P::lane(t21, 2), P::lane(t21, 0)]);
-    let t81 = P::triple([P::lane(t21, 2), P::lane(t21, 0), P::lane(t21, 1)]);
-    // velocity of the platform origin relative to the base
-    let t82 = t78 - mul_sub(t74, t75, t68 * t70);
+    let t147 = t38 * t100;
+    // legs 1, 3, 4: acceleration of the platform joint relative to the base
+    let t148 = mul_add(P::splat(P::lane(t51, 1)), t139, t136);
+    // legs 2, 5, 6: leg inertia less weight along the actuator
+    let t149 = neg_mul_add(P::splat(P::lane(t63, 0)), t85, P::splat(P::lane(t72, 0)));
     // legs 1, 3, 4: velocity of the platform joint relative to the base
-    let t83 = t14 * P::splat(P::lane(t77, 0));
-    let t84 = t14 * P::splat(P::lane(t77, 1));
-    // legs 2, 5, 6: velocity of the platform joint relative to the base
-    let t85 = t15 * P::splat(P::lane(t77, 1));
-    let t86 = t15 * P::splat(P::lane(t77, 0));
-    // legs 1, 3, 4: velocity of the platform joint relative to the base
-    let t87 = mul_add(t16, P::splat(P::lane(t79, 0)), t83);
-    let t88 = t14 * P::splat(P::lane(t77, 2));
-    // legs 2, 5, 6: velocity of the platform joint relative to the base
-    let t89 = t15 * P::splat(P::lane(t77, 2));
-    // legs 1, 3, 4: velocity of the platform joint relative to the base
-    let t90 = mul_add(t16, P::splat(P::lane(t79, 1)), t84);
-    // legs 2, 5, 6: velocity of the platform joint relative to the base
-    let t91 = mul_add(t9, P::splat(P::lane(t79, 1)), t85);
-    let t92 = mul_add(t9, P::splat(P::lane(t79, 0)), t86);
-    // legs 1, 3, 4: velocity of the platform joint relative to the base
-    let t93 = mul_add(t16, P::splat(P::lane(t79, 2)), t88);
-    let t94 = P::splat(P::lane(t82, 0)) - t87;
-    // legs 2, 5, 6: velocity of the platform joint relative to the base
-    let t95 = mul_add(t9, P::splat(P::lane(t79, 2)), t89);
-    // legs 1, 3, 4: velocity of the platform joint relative to the base
-    let t96 = P::splat(P::lane(t82, 1)) - t90;
-    // legs 2, 5, 6: velocity of the platform joint relative to the base
-    let t97 = P::splat(P::lane(t82, 1)) - t91;
-    let t98 = P::splat(P::lane(t82, 0)) - t92;
-    // angular acceleration of the base
-    let t99 = t1 * P::splat(base_acceleration[4]);
-    // angular velocity of the base
-    let t100 = P::triple([P::lane(t50, 2), P::lane(t50, 2), P::lane(t50, 0)]);
-    let t101 = P::triple([P::lane(t50, 1), P::lane(t50, 0), P::lane(t50, 1)]);
-    // acceleration of the base origin less gravity
-    let t102 = t1 * P::splat(base_acceleration[1]);
-    // angular acceleration of the base
-    let t103 = mul_add(t2, P::splat(base_acceleration[3]), t99);
-    // acceleration per base coordinate of points that move with the base
-    let t104 = mul_add(t101, t101, t100 * t100);
-    // acceleration of the base origin less gravity
-    let t105 = mul_add(t2, P::splat(base_acceleration[0]), t102);
-    // legs 1, 3, 4: velocity of the platform joint relative to the base
-    let t106 = P::splat(P::lane(t82, 2)) - t93;
-    // legs 2, 5, 6: velocity of the platform joint relative to the base
-    let t107 = P::splat(P::lane(t82, 2)) - t95;
-    // angular velocity of the base
-    let t108 = P::triple([P::lane(t50, 0), P::lane(t50, 2), P::lane(t50, 0)]);
-    // angular acceleration of the base
-    let t109 = mul_add(t5, P::splat(base_acceleration[5]), t103);
-    // angular velocity of the base
-    let t110 = P::triple([P::lane(t50, 1), P::lane(t50, 1), P::lane(t50, 2)]);
-    // legs 1, 3, 4: rate of the rod's extent along the actuator axis
-    let t111 = mul_add(t39, t94, t43 * t96);
-    // acceleration per base coordinate of points that move with the base
-    let t112 = t108 * t110;
-    // acceleration of the base origin less gravity
-    let t113 = mul_add(t5, P::splat(base_acceleration[2] + c(9.81)), t105);
+    let t150 = P::splat(P::lane(t74, 1)) - t138;
     // legs 2, 5, 6: rate of the rod's extent along the actuator axis
-    let t114 = mul_add(t37, t98, t44 * t97);
-    // legs 1, 3, 4: rate of the rod's extent along the actuator axis
-    let t115 = t57 * t111;
-    // legs 1, 3, 4: actuator velocity d'
-    let t116 = mul_add(t57, t111, t106);
+    let t151 = mul_add(t133, t142, mul_add(t109, t129, t119));
+    // legs 1, 3, 4: acceleration of the platform joint relative to the base
+    let t152 = neg_mul_add(P::splat(P::lane(t51, 0)), t139, t140);
+    // legs 1, 3, 4: leg inertia less weight along the actuator
+    let t153 = mul_sub(t34, P::splat(P::lane(t80, 0)), t141);
+    // legs 2, 5, 6: acceleration of the platform joint relative to the base
+    let t154 = t143 + P::splat(P::lane(t123, 0));
+    // legs 1, 3, 4: acceleration of the platform joint relative to the base
+    let t155 = P::splat(P::lane(t51, 1)) * t130;
+    // legs 2, 5, 6: leg inertia less weight along the actuator
+    let t156 = neg_mul_add(P::splat(P::lane(t63, 1)), t99, t146);
+    let t157 = t145 + neg_mul_add(t28, P::splat(P::lane(t80, 1)), t135);
+    // legs 1, 3, 4: gradient of the actuator length by the platform joint
+    let t158 = t42 * t100;
+    // legs 1, 3, 4: acceleration of the platform joint relative to the base
+    let t159 = neg_mul_add(P::splat(P::lane(t51, 2)), t150, t148);
+    // legs 2, 5, 6: leg inertia less weight along the actuator
+    let t160 = mul_add(P::splat(P::lane(t73, 0)), t99, t149);
     // legs 2, 5, 6: rate of the rod's extent along the actuator axis
-    let t117 = t58 * t114;
-    // legs 2, 5, 6: actuator velocity d'
-    let t118 = mul_add(t58, t114, t107);
+    let t161 = t119 - t151;
+    // legs 1, 3, 4: acceleration of the platform joint relative to the base
+    let t162 = P::splat(P::lane(t123, 1)) + t152;
+    let t163 = mul_sub(P::splat(P::lane(t51, 0)), t150, t155);
+    // legs 2, 5, 6: actuator acceleration d''
+    let t164 = mul_add(t129, t154, t142 * t144);
+    // legs 1, 3, 4: rate of the rod's extent along the actuator axis
+    let t165 = mul_add(t150, t158, mul_add(t130, t147, t139));
+    // legs 2, 5, 6: leg inertia less weight along the actuator
+    let t166 = mul_add(P::splat(P::lane(t73, 1)), t108, t156);
+    // legs 1, 3, 4: leg inertia less weight along the actuator
+    let t167 = neg_mul_add(P::splat(P::lane(t63, 0)), t107, P::splat(P::lane(t72, 0)));
+    let t168 = mul_add(P::splat(P::lane(t68, 1)), t107, P::splat(P::lane(t72, 1)));
+    // legs 1, 3, 4: acceleration of the platform joint relative to the base
+    let t169 = P::splat(P::lane(t123, 0)) + t159;
+    // legs 2, 5, 6: actuator acceleration d''
+    let t170 = mul_add(t161, t161, mul_add(t109, t109, t133 * t133));
+    // legs 2, 5, 6: leg inertia less weight along the actuator
+    let t171 = mul_add(P::splat(P::lane(t68, 0)), t108, t160);
+    let t172 = t151 * w(2.0);
+    // legs 1, 3, 4: leg inertia less weight along the actuator
+    let t173 = t163 + neg_mul_add(t29, P::splat(P::lane(t80, 1)), t153);
+    // legs 1, 3, 4: rate of the rod's extent along the actuator axis
+    let t174 = t139 - t165;
+    // legs 1, 3, 4: actuator acceleration d''
+    let t175 = mul_add(t147, t169, t158 * t162);
+    // legs 2, 5, 6: leg inertia less weight along the actuator
+    let t176 = neg_mul_add(P::splat(P::lane(t32, 0)), t172, t166);
+    // legs 1, 3, 4: leg inertia less weight along the actuator
+    let t177 = mul_add(P::splat(P::lane(t73, 0)), t122, t167);
+    let t178 = neg_mul_add(P::splat(P::lane(t63, 1)), t122, t168);
+    // legs 2, 5, 6: leg inertia less weight along the actuator
+    let t179 = mul_add(P::splat(P::lane(t32, 1)), t172, t171);
+    let t180 = neg_mul_add(t82, t170, t164 + (P::splat(P::lane(t123, 2)) + t157));
+    // rotation of the platform seen from the base
+    let t181 = t1 * P::splat(platform_rotation[1][2]);
+    // legs 1, 3, 4: actuator acceleration d''
+    let t182 = mul_add(t174, t174, mul_add(t130, t130, t150 * t150));
+    // legs 2, 5, 6: remaining leg inertia less weight at the platform joint
+    let t183 = t176 * w(0.17066666666666666);
+    // legs 1, 3, 4: leg inertia less weight along the actuator
+    let t184 = mul_add(P::splat(P::lane(t68, 0)), t128, t177);
+    let t185 = mul_add(P::splat(P::lane(t73, 1)), t128, t178);
+    // rotation of the platform seen from the base
+    let t186 = mul_add(t2, P::splat(platform_rotation[0][2]), t181);
+    // legs 1, 3, 4: leg inertia less weight along the actuator
+    let t187 = t165 * w(2.0);
+    // legs 2, 5, 6: remaining leg inertia less weight at the platform joint
+    let t188 = t179 * w(0.17066666666666666);
+    let t189 = t180 * w(0.17066666666666666);
+    // legs 1, 3, 4: leg inertia less weight along the actuator
+    let t190 = neg_mul_add(t100, t182, t175 + (P::splat(P::lane(t123, 2)) + t173));
+    let t191 = mul_add(P::splat(P::lane(t32, 1)), t187, t184);
+    let t192 = neg_mul_add(P::splat(P::lane(t32, 0)), t187, t185);
+    // rotation of the platform seen from the base
+    let t193 = mul_add(t5, P::splat(platform_rotation[2][2]), t186);
+    let t194 = P::triple([P::lane(t15, 1), P::lane(t15, 2), P::lane(t15, 0)]);
     // angular acceleration of the platform
-    let t119 = t1 * P::splat(platform_acceleration[4]);
-    // angular acceleration of the base
-    let t120 = P::triple([P::lane(t109, 1), P::lane(t109, 2), P::lane(t109, 0)]);
-    let t121 = P::triple([P::lane(t109, 2), P::lane(t109, 0), P::lane(t109, 1)]);
-    // acceleration of the platform origin less gravity
-    let t122 = t1 * P::splat(platform_acceleration[1]);
+    let t195 = P::triple([P::lane(t54, 2), P::lane(t54, 0), P::lane(t54, 1)]);
+    // legs 2, 5, 6: moment about the platform origin of the leg's inertia at its joint
+    let t196 = mul_add(t31, t189, t81 * t183);
+    // legs 1, 3, 4: remaining leg inertia less weight at the platform joint
+    let t197 = w(0.17066666666666666) * t190;
+    // legs 2, 5, 6: moment about the platform origin of the leg's inertia at its joint
+    let t198 = mul_add(t81, t188, t28 * t189);
+    let t199 = mul_sub(t28, t183, t31 * t188);
+    // legs 1, 3, 4: remaining leg inertia less weight at the platform joint
+    let t200 = w(0.17066666666666666) * t191;
+    let t201 = w(0.17066666666666666) * t192;
+    // rotation of the platform seen from the base
+    let t202 = P::triple([P::lane(t15, 2), P::lane(t15, 0), P::lane(t15, 1)]);
     // angular acceleration of the platform
-    let t123 = mul_add(t2, P::splat(platform_acceleration[3]), t119);
-    // acceleration per base coordinate of points that move with the base
-    let t124 = mul_sub(t108, t110, t121);
-    let t125 = P::triple([P::lane(t112, 2), P::lane(t112, 0), P::lane(t112, 1)]);
-    let t126 = t120 + t125;
-    // acceleration of the platform origin less gravity
-    let t127 = mul_add(t2, P::splat(platform_acceleration[0]), t122);
-    // angular acceleration of the platform
-    let t128 = mul_add(t5, P::splat(platform_acceleration[5]), t123);
-    // acceleration of the platform origin less gravity
-    let t129 = mul_add(t5, P::splat(c(9.81) + platform_acceleration[2]), t127);
+    let t203 = P::triple([P::lane(t54, 1), P::lane(t54, 2), P::lane(t54, 0)]);
+    // acceleration per platform coordinate of points of the platform
+    let t204 = mul_sub(t44, t194, t15 * t75);
+    // rotation of the platform seen from the base
+    let t205 = P::triple([P::lane(t193, 1), P::lane(t193, 2), P::lane(t193, 0)]);
+    // acceleration per platform coordinate of points of the platform
+    let t206 = mul_add(t75, t204, mul_sub(t202, t203, t194 * t195));
+    // rotation of the platform seen from the base
+    let t207 = P::triple([P::lane(t14, 1), P::lane(t14, 2), P::lane(t14, 0)]);
+    // moment of the legs' inertia at their joints about the platform origin
+    let t208 = mul_add(t98, t201, mul_add(t34, t197, t196));
+    let t209 = mul_add(t29, t197, mul_add(t98, t200, t198));
+    let t210 = neg_mul_add(t34, t200, mul_add(t29, t201, t199));
+    // rotation of the platform seen from the base
+    let t211 = P::triple([P::lane(t193, 2), P::lane(t193, 0), P::lane(t193, 1)]);
+    // acceleration per platform coordinate of points of the platform
+    let t212 = mul_sub(t44, t205, t75 * t193);
     // angular velocity of the platform
-    let t130 = P::triple([P::lane(t55, 1), P::lane(t55, 2), P::lane(t55, 0)]);
-    let t131 = P::triple([P::lane(t55, 2), P::lane(t55, 0), P::lane(t55, 1)]);
-    // angular acceleration of the platform
-    let t132 = P::triple([P::lane(t128, 1), P::lane(t128, 2), P::lane(t128, 0)]);
+    let t213 = P::triple([P::lane(t44, 2), P::lane(t44, 0), P::lane(t44, 1)]);
     // acceleration per platform coordinate of points of the platform
-    let t133 = mul_sub(t55, t69, t12 * t130);
-    let t134 = mul_sub(t55, t67, t11 * t130);
-    // angular acceleration of the platform
-    let t135 = P::triple([P::lane(t128, 2), P::lane(t128, 0), P::lane(t128, 1)]);
+    let t214 = P::triple([P::lane(t204, 2), P::lane(t204, 0), P::lane(t204, 1)]);
+    // rotation of the platform seen from the base
+    let t215 = P::triple([P::lane(t14, 2), P::lane(t14, 0), P::lane(t14, 1)]);
     // acceleration per platform coordinate of points of the platform
-    let t136 = mul_sub(t55, t80, t21 * t130);
-    let t137 = P::triple([P::lane(t133, 2), P::lane(t133, 0), P::lane(t133, 1)]);
-    let t138 = P::triple([P::lane(t136, 2), P::lane(t136, 0), P::lane(t136, 1)]);
-    let t139 = mul_sub(t130, t133, t131 * t137);
-    // acceleration per base coordinate of points that move with the base
-    let t140 = P::triple([-P::lane(t104, 0), P::lane(t126, 1), P::lane(t124, 2)]);
-    // acceleration per platform coordinate of points of the platform
-    let t141 = P::triple([P::lane(t134, 2), P::lane(t134, 0), P::lane(t134, 1)]);
-    let t142 = mul_sub(t130, t136, t131 * t138);
-    let t143 = mul_sub(t76, t132, t69 * t135) + t139;
-    let t144 = mul_sub(t81, t132, t80 * t135) + t142;
-    let t145 = mul_sub(t130, t134, t131 * t141);
-    // acceleration per base coordinate of points that move with the base
-    let t146 = P::triple([P::lane(t124, 0), -P::lane(t104, 1), P::lane(t126, 2)]);
-    // acceleration of the platform origin relative to the base
-    let t147 = P::splat(P::lane(t18, 1)) * t146;
-    // acceleration per base coordinate of points that move with the base
-    let t148 = P::triple([P::lane(t126, 0), P::lane(t124, 1), -P::lane(t104, 2)]);
-    // acceleration per platform coordinate of points of the platform
-    let t149 = mul_sub(t71, t132, t67 * t135) + t145;
-    // rate of the relative rotation
-    let t150 = P::triple([P::lane(t79, 1), P::lane(t79, 2), P::lane(t79, 0)]);
-    // acceleration of the platform origin relative to the base
-    let t151 = mul_add(P::splat(P::lane(t18, 0)), t140, t147);
-    // rate of the relative rotation
-    let t152 = P::triple([P::lane(t77, 1), P::lane(t77, 2), P::lane(t77, 0)]);
-    let t153 = P::triple([P::lane(t77, 2), P::lane(t77, 0), P::lane(t77, 1)]);
-    // velocity of the platform origin relative to the base
-    let t154 = P::triple([P::lane(t82, 1), P::lane(t82, 2), P::lane(t82, 0)]);
-    // rate of the relative rotation
-    let t155 = P::triple([P::lane(t79, 2), P::lane(t79, 0), P::lane(t79, 1)]);
-    // second derivative of the relative rotation
-    let t156 = mul_sub(t73, t153, t72 * t152);
-    let t157 = t120 - t132 - mul_sub(t56, t70, t50 * t72);
-    let t158 = mul_sub(t73, t155, t72 * t150);
-    // velocity of the platform origin relative to the base
-    let t159 = P::triple([P::lane(t82, 2), P::lane(t82, 0), P::lane(t82, 1)]);
-    // acceleration of the platform origin relative to the base
-    let t160 = t113 - t129 + mul_add(P::splat(P::lane(t18, 2)), t148, t151);
-    let t161 = mul_add(w(2.0), mul_sub(t75, t159, t70 * t154), t160);
-    // second derivative of the relative rotation
-    let t162 = P::triple([P::lane(t157, 1), P::lane(t157, 2), P::lane(t157, 0)]);
-    let t163 = mul_sub(t71, t157, t67 * t162) - t156;
-    let t164 = mul_sub(t76, t157, t69 * t162) - t158;
-    // legs 1, 3, 4: acceleration of the platform joint relative to the base
-    let t165 = t14 * P::splat(P::lane(t163, 0));
-    // legs 2, 5, 6: acceleration of the platform joint relative to the base
-    let t166 = t15 * P::splat(P::lane(t163, 0));
-    // legs 1, 3, 4: acceleration of the platform joint relative to the base
-    let t167 = t14 * P::splat(P::lane(t163, 1));
-    // legs 2, 5, 6: acceleration of the platform joint relative to the base
-    let t168 = t15 * P::splat(P::lane(t163, 1));
-    // legs 1, 3, 4: acceleration of the platform joint relative to the base
-    let t169 = mul_add(t16, P::splat(P::lane(t164, 0)), t165);
-    // legs 2, 5, 6: acceleration of the platform joint relative to the base
-    let t170 = mul_add(t9, P::splat(P::lane(t164, 0)), t166);
-    // legs 1, 3, 4: acceleration of the platform joint relative to the base
-    let t171 = mul_add(t16, P::splat(P::lane(t164, 1)), t167);
-    // legs 2, 5, 6: acceleration of the platform joint relative to the base
-    let t172 = mul_add(t9, P::splat(P::lane(t164, 1)), t168);
-    // legs 1, 3, 4: acceleration of the platform joint relative to the base
-    let t173 = t14 * P::splat(P::lane(t163, 2));
-    // legs 2, 5, 6: acceleration of the platform joint relative to the base
-    let t174 = t15 * P::splat(P::lane(t163, 2));
-    // legs 1, 3, 4: acceleration of the platform joint relative to the base
-    let t175 = P::splat(P::lane(t161, 0)) + t169;
-    // legs 2, 5, 6: acceleration of the platform joint relative to the base
-    let t176 = P::splat(P::lane(t161, 0)) + t170;
-    // legs 1, 3, 4: acceleration of the platform joint relative to the base
-    let t177 = P::splat(P::lane(t161, 1)) + t171;
-    // legs 2, 5, 6: acceleration of the platform joint relative to the base
-    let t178 = P::splat(P::lane(t161, 1)) + t172;
-    // legs 1, 3, 4: acceleration of the platform joint relative to the base
-    let t179 = mul_add(t16, P::splat(P::lane(t164, 2)), t173);
-    // legs 2, 5, 6: leg inertia less weight along the actuator
-    let t180 = t41 * P::splat(P::lane(t124, 0));
-    let t181 = t41 * P::splat(P::lane(t104, 1));
-    // legs 2, 5, 6: acceleration of the platform joint relative to the base
-    let t182 = mul_add(t9, P::splat(P::lane(t164, 2)), t174);
-    // legs 2, 5, 6: leg inertia less weight along the actuator
-    let t183 = mul_sub(t29, P::splat(P::lane(t104, 0)), t180);
-    let t184 = mul_sub(t29, P::splat(P::lane(t126, 1)), t181);
-    // legs 1, 3, 4: actuator acceleration d''
-    let t185 = mul_add(t39, t175, t43 * t177);
-    // legs 2, 5, 6: actuator acceleration d''
-    let t186 = mul_add(t37, t176, t44 * t178);
-    // legs 1, 3, 4: acceleration of the platform joint relative to the base
-    let t187 = P::splat(P::lane(t161, 2)) + t179;
-    // legs 2, 5, 6: acceleration of the platform joint relative to the base
-    let t188 = P::splat(P::lane(t161, 2)) + t182;
-    // legs 2, 5, 6: leg inertia less weight along the actuator
-    let t189 = t41 * P::splat(P::lane(t126, 2));
-    let t190 = neg_mul_add(t60, P::splat(P::lane(t126, 0)), t183);
-    let t191 = mul_add(t60, P::splat(P::lane(t124, 1)), t184);
-    let t192 = mul_add(t29, P::splat(P::lane(t124, 2)), t189);
-    let t193 = t118 * w(2.0);
-    // legs 1, 3, 4: actuator acceleration d''
-    let t194 = mul_add(t115, t115, mul_add(t94, t94, t96 * t96) - t185);
-    // legs 2, 5, 6: actuator acceleration d''
-    let t195 = mul_add(t117, t117, mul_add(t98, t98, t97 * t97) - t186);
-    // legs 2, 5, 6: leg inertia less weight along the actuator
-    let t196 = P::splat(P::lane(t113, 0)) - t190;
-    let t197 = P::splat(P::lane(t113, 1)) + t191;
-    let t198 = neg_mul_add(t60, P::splat(P::lane(t104, 2)), t192);
-    // legs 1, 3, 4: actuator acceleration d''
-    let t199 = neg_mul_add(t57, t194, t187);
-    // legs 2, 5, 6: actuator acceleration d''
-    let t200 = neg_mul_add(t58, t195, t188);
-    // legs 1, 3, 4: leg inertia less weight along the actuator
-    let t201 = t38 * P::splat(P::lane(t124, 0));
-    let t202 = t116 * w(2.0);
-    // legs 2, 5, 6: leg inertia less weight along the actuator
-    let t203 = mul_add(P::splat(P::lane(t50, 1)), t193, t196);
-    // legs 1, 3, 4: leg inertia less weight along the actuator
-    let t204 = t38 * P::splat(P::lane(t104, 1));
-    let t205 = t38 * P::splat(P::lane(t126, 2));
-    let t206 = mul_sub(t40, P::splat(P::lane(t104, 0)), t201);
-    // legs 2, 5, 6: leg inertia less weight along the actuator
-    let t207 = neg_mul_add(P::splat(P::lane(t50, 0)), t193, t197);
-    // legs 1, 3, 4: leg inertia less weight along the actuator
-    let t208 = mul_sub(t40, P::splat(P::lane(t126, 1)), t204);
-    let t209 = mul_add(t40, P::splat(P::lane(t124, 2)), t205);
-    // legs 2, 5, 6: leg inertia less weight along the actuator
-    let t210 = t200 - (P::splat(P::lane(t113, 2)) + t198);
-    // legs 1, 3, 4: leg inertia less weight along the actuator
-    let t211 = neg_mul_add(t59, P::splat(P::lane(t126, 0)), t206);
-    // legs 2, 5, 6: leg inertia less weight along the actuator
-    let t212 = t15 * P::splat(P::lane(t149, 2));
-    // legs 1, 3, 4: leg inertia less weight along the actuator
-    let t213 = mul_add(t59, P::splat(P::lane(t124, 1)), t208);
-    let t214 = neg_mul_add(t59, P::splat(P::lane(t104, 2)), t209);
-    // legs 2, 5, 6: remaining leg inertia less weight at the platform joint
-    let t215 = w(0.17066666666666666) * t203;
-    // legs 1, 3, 4: leg inertia less weight along the actuator
-    let t216 = t14 * P::splat(P::lane(t149, 2));
-    // legs 2, 5, 6: leg inertia less weight along the actuator
-    let t217 = neg_mul_add(P::splat(P::lane(t104, 2)), w(0.05), t210);
-    // legs 1, 3, 4: leg inertia less weight along the actuator
-    let t218 = P::splat(P::lane(t113, 0)) - t211;
-    // legs 2, 5, 6: leg inertia less weight along the actuator
-    let t219 = mul_add(t9, P::splat(P::lane(t143, 2)), t212);
-    // legs 1, 3, 4: leg inertia less weight along the actuator
-    let t220 = P::splat(P::lane(t113, 1)) + t213;
-    let t221 = mul_add(t16, P::splat(P::lane(t143, 2)), t216);
-    let t222 = mul_add(P::splat(P::lane(t50, 1)), t202, t218);
-    let t223 = neg_mul_add(P::splat(P::lane(t50, 0)), t202, t220);
-    let t224 = t199 - (P::splat(P::lane(t113, 2)) + t214);
-    // legs 2, 5, 6: remaining leg inertia less weight at the platform joint
-    let t225 = w(0.17066666666666666) * t207;
-    // legs 1, 3, 4: remaining leg inertia less weight at the platform joint
-    let t226 = w(0.17066666666666666) * t222;
-    // legs 1, 3, 4: leg inertia less weight along the actuator
-    let t227 = mul_sub(P::splat(P::lane(t104, 2)), w(0.05), t224);
-    // legs 2, 5, 6: leg inertia less weight along the actuator
-    let t228 = w(0.17066666666666666) * (P::splat(P::lane(t129, 2)) + t219);
-    // legs 1, 3, 4: remaining leg inertia less weight at the platform joint
-    let t229 = w(0.17066666666666666) * t223;
-    // legs 1, 3, 4: leg inertia less weight along the actuator
-    let t230 = w(0.17066666666666666) * (P::splat(P::lane(t129, 2)) + t221);
-    // legs 2, 5, 6: leg inertia less weight along the actuator
-    let t231 = mul_sub(w(0.3413333333333334), t210, t228);
-    // legs 1, 3, 4: remaining leg inertia less weight at the platform joint
-    let t232 = w(0.17066666666666666) * t224;
-    // legs 2, 5, 6: remaining leg inertia less weight at the platform joint
-    let t233 = w(0.17066666666666666) * t210;
-    // legs 1, 3, 4: leg inertia less weight along the actuator
-    let t234 = mul_sub(w(0.3413333333333334), t224, t230);
-    // legs 2, 5, 6: leg inertia less weight along the actuator
-    let t235 = mul_add(w(0.611), t217, t231);
+    let t216 = mul_sub(t44, t207, t14 * t75);
+    let t217 = neg_mul_add(t213, t214, t206);
     // inertia force less weight, without the actuators' own shares
-    let t236 = mul_add(w(0.17066666666666666), t210, t232);
-    let t237 = mul_add(w(0.17066666666666666), t203, t226);
-    let t238 = mul_add(w(0.17066666666666666), t207, t229);
-    // legs 2, 5, 6: row of the actuator Jacobian in base coordinates
-    let t239 = neg_mul_add(t33, t63, t23);
-    // legs 1, 3, 4: row of the actuator Jacobian in base coordinates
-    let t240 = neg_mul_add(t32, t66, t22);
-    // legs 2, 5, 6: row of the actuator Jacobian in base coordinates
-    let t241 = neg_mul_add(t33, t65, t31);
-    let t242 = mul_sub(t23, t65, t31 * t63);
-    // legs 1, 3, 4: row of the actuator Jacobian in base coordinates
-    let t243 = mul_sub(t22, t62, t30 * t66);
-    let t244 = neg_mul_add(t32, t62, t30);
-    // legs 1, 3, 4: leg inertia less weight along the actuator
-    let t245 = neg_mul_add(w(0.611), t227, t234);
-    // inertia force less weight, without the actuators' own shares
-    let t246 = P::triple([P::lane(t237, 2), P::lane(t238, 2), -P::lane(t236, 2)]);
-    let t247 = P::triple([P::lane(t237, 0), P::lane(t238, 0), -P::lane(t236, 0)]);
-    // legs 2, 5, 6: spring and damper force along the actuator
-    let t248 = t60 - w(0.198);
-    // legs 1, 3, 4: spring and damper force along the actuator
-    let t249 = t59 - w(0.198);
-    // its first moments by platform coordinate
-    let t250 = mul_add(t16, t232, t9 * t233);
-    let t251 = mul_add(t16, t226, t9 * t215);
-    let t252 = mul_add(t16, t229, t9 * t225);
-    // inertia force less weight, without the actuators' own shares
-    let t253 = P::triple([P::lane(t237, 1), P::lane(t238, 1), -P::lane(t236, 1)]);
-    // its first moments by platform coordinate
-    let t254 = mul_add(t14, t232, t15 * t233);
-    let t255 = mul_add(t14, t226, t15 * t215);
-    let t256 = mul_add(t14, t229, t15 * t225);
-    // inertia force less weight, without the actuators' own shares
-    let t257 = mul_add(t129, w(8.139999999999999), t246 + (t247 + t253));
-    // its first moments by platform coordinate
-    let t258 = P::triple([P::lane(t251, 0), P::lane(t252, 0), -P::lane(t250, 0)]);
-    let t259 = P::triple([P::lane(t251, 1), P::lane(t252, 1), -P::lane(t250, 1)]);
-    let t260 = P::triple([P::lane(t251, 2), P::lane(t252, 2), -P::lane(t250, 2)]);
-    // inertia force less weight, without the actuators' own shares
-    let t261 = mul_sub(t143, w(1.734723475976807e-18), t257);
-    // its first moments by platform coordinate
-    let t262 = t260 + (t258 + t259);
-    // inertia force less weight, without the actuators' own shares
-    let t263 = mul_sub(w(0.188852), t144, t261);
-    // inertia less external wrench that the actuators must balance
-    let t264 = t1 * P::splat(external_wrench[1]);
-    let t265 = mul_add(t2, P::splat(external_wrench[0]), t264);
-    // its first moments by platform coordinate
-    let t266 = P::triple([P::lane(t255, 0), P::lane(t256, 0), -P::lane(t254, 0)]);
-    let t267 = P::triple([P::lane(t255, 1), P::lane(t256, 1), -P::lane(t254, 1)]);
-    let t268 = mul_add(w(0.013354412), t144, w(0.188852) * t129);
-    // inertia less external wrench that the actuators must balance
-    let t269 = mul_add(t5, P::splat(external_wrench[2]), t265);
-    // its first moments by platform coordinate
-    let t270 = neg_mul_add(t129, w(1.734723475976807e-18), t262);
-    let t271 = P::triple([P::lane(t255, 2), P::lane(t256, 2), -P::lane(t254, 2)]);
-    let t272 = mul_add(w(0.03224559378363733), t143, t270);
-    let t273 = mul_add(w(0.03224559378363734), t149, t266 + t267 + t271);
-    // inertia less external wrench that the actuators must balance
-    let t274 = t263 - t269;
-    let t275 = P::triple([P::lane(t269, 2), P::lane(t269, 0), P::lane(t269, 1)]);
-    // its first moments by platform coordinate
-    let t276 = P::triple([P::lane(t268, 2), P::lane(t268, 0), P::lane(t268, 1)]);
-    // inertia less external wrench that the actuators must balance
-    let t277 = neg_mul_add(w(0.031), t275, t276);
-    let t278 = P::triple([P::lane(t272, 1), P::lane(t272, 2), P::lane(t272, 0)]);
-    // its first moments by platform coordinate
-    let t279 = P::triple([P::lane(t272, 2), P::lane(t272, 0), P::lane(t272, 1)]);
-    // inertia less external wrench that the actuators must balance
-    let t280 = P::triple([P::lane(t273, 1), P::lane(t273, 2), P::lane(t273, 0)]);
-    // its first moments by platform coordinate
-    let t281 = P::triple([P::lane(t273, 2), P::lane(t273, 0), P::lane(t273, 1)]);
-    // inertia less external wrench that the actuators must balance
-    let t282 = t1 * P::splat(external_wrench[4]);
-    let t283 = P::triple([P::lane(t277, 2), P::lane(t277, 0), P::lane(t277, 1)]);
-    let t284 = mul_sub(t67, t281, t71 * t280);
-    let t285 = mul_add(t2, P::splat(external_wrench[3]), t282);
-    let t286 = mul_sub(t69, t279, t76 * t278) + t284;
+    let t218 = mul_add(t180, w(0.17066666666666666), t197);
+    let t219 = mul_add(t179, w(0.17066666666666666), t200);
+    let t220 = mul_add(t176, w(0.17066666666666666), t201);
     // legs 5, 6, 2: gradient of the actuator length by the platform joint
-    let t287 = P::triple([P::lane(t65, 1), P::lane(t65, 2), P::lane(t65, 0)]);
+    let t221 = P::triple([P::lane(t142, 1), P::lane(t142, 2), P::lane(t142, 0)]);
     // legs 6, 2, 5: gradient of the actuator length by the platform joint
-    let t288 = P::triple([P::lane(t65, 2), P::lane(t65, 0), P::lane(t65, 1)]);
-    let t289 = P::triple([P::lane(t63, 2), P::lane(t63, 0), P::lane(t63, 1)]);
+    let t222 = P::triple([P::lane(t129, 2), P::lane(t129, 0), P::lane(t129, 1)]);
+    // acceleration per platform coordinate of points of the platform
+    let t223 = mul_add(t75, t212, mul_sub(t203, t211, t195 * t205));
+    let t224 = mul_add(t75, t216, mul_sub(t203, t215, t195 * t207));
+    // first moments by platform coordinate of the payload's inertia force
+    let t225 = t217 * w(0.03224559378363733);
+    // legs 6, 2, 5: gradient of the actuator length by the platform joint
+    let t226 = P::triple([P::lane(t142, 2), P::lane(t142, 0), P::lane(t142, 1)]);
+    // moment of the legs' inertia at their joints about the platform origin
+    let t227 = P::triple([-P::lane(t208, 0), P::lane(t209, 0), P::lane(t210, 0)]);
+    let t228 = P::triple([-P::lane(t208, 1), P::lane(t209, 1), P::lane(t210, 1)]);
     // force along the actuator that balances the remaining wrench
-    let t290 = t287 - t288;
-    // inertia less external wrench that the actuators must balance
-    let t291 = mul_add(t5, P::splat(external_wrench[5]), t285);
+    let t229 = t221 - t226;
     // legs 5, 6, 2: gradient of the actuator length by the platform joint
-    let t292 = P::triple([P::lane(t63, 1), P::lane(t63, 2), P::lane(t63, 0)]);
+    let t230 = P::triple([P::lane(t129, 1), P::lane(t129, 2), P::lane(t129, 0)]);
+    // acceleration per platform coordinate of points of the platform
+    let t231 = P::triple([P::lane(t212, 2), P::lane(t212, 0), P::lane(t212, 1)]);
     // force along the actuator that balances the remaining wrench
-    let t293 = t289 - t292;
+    let t232 = mul_sub(t226, t230, t221 * t222);
+    // acceleration per platform coordinate of points of the platform
+    let t233 = P::triple([P::lane(t216, 2), P::lane(t216, 0), P::lane(t216, 1)]);
+    let t234 = neg_mul_add(t213, t231, t223);
     // inertia less external wrench that the actuators must balance
-    let t294 = mul_sub(t80, t277, t81 * t283) + t286 - t291;
+    let t235 = t1 * P::splat(external_wrench[1]);
+    // acceleration per platform coordinate of points of the platform
+    let t236 = neg_mul_add(t213, t233, t224);
+    // moment of the legs' inertia at their joints about the platform origin
+    let t237 = P::triple([-P::lane(t208, 2), P::lane(t209, 2), P::lane(t210, 2)]);
+    let t238 = t227 + t228 + t237;
+    // inertia force less weight, without the actuators' own shares
+    let t239 = P::triple([P::lane(t219, 0), P::lane(t220, 0), -P::lane(t218, 0)]);
+    let t240 = P::triple([P::lane(t219, 1), P::lane(t220, 1), -P::lane(t218, 1)]);
+    // inertia less external wrench that the actuators must balance
+    let t241 = mul_add(t2, P::splat(external_wrench[0]), t235);
+    // first moments by platform coordinate of the payload's inertia force
+    let t242 = P::triple([P::lane(t225, 2), P::lane(t225, 0), P::lane(t225, 1)]);
     // force along the actuator that balances the remaining wrench
-    let t295 = mul_sub(t288, t292, t287 * t289);
-    let t296 = t62 * P::splat(P::lane(t293, 0));
-    let t297 = P::lane(t63, 1) * P::lane(t290, 1);
-    let t298 = mul_add(t66, P::splat(P::lane(t290, 0)), t296);
-    let t299 = t62 * P::splat(P::lane(t293, 1));
-    let t300 = P::mul_add(P::lane(t63, 0), P::lane(t290, 0), t297);
-    let t301 = t62 * P::splat(P::lane(t293, 2));
-    let t302 = t293 * P::splat(P::lane(t274, 1));
-    let t303 = mul_add(t66, P::splat(P::lane(t290, 1)), t299);
-    let t304 = P::splat(P::lane(t295, 0)) + t298;
-    let t305 = mul_add(t66, P::splat(P::lane(t290, 2)), t301);
-    let t306 = P::mul_add(P::lane(t63, 2), P::lane(t290, 2), t300);
-    let t307 = mul_add(t290, P::splat(P::lane(t274, 0)), t302);
-    let t308 = P::splat(P::lane(t295, 1)) + t303;
-    let t309 = P::splat(P::lane(t295, 2)) + t305;
+    let t243 = t222 - t230;
+    // first moments by platform coordinate of the payload's inertia force
+    let t244 = t236 * w(0.03224559378363734);
+    // force along the actuator that balances the remaining wrench
+    let t245 = mul_add(t147, P::splat(P::lane(t229, 0)), P::splat(P::lane(t232, 0)));
+    let t246 = P::lane(t129, 1) * P::lane(t229, 1);
+    // inertia force less weight, without the actuators' own shares
+    let t247 = P::triple([P::lane(t219, 2), P::lane(t220, 2), -P::lane(t218, 2)]);
+    // legs 2, 5, 6: row of the actuator Jacobian in base coordinates
+    let t248 = neg_mul_add(t81, t129, t28);
+    let t249 = mul_sub(t28, t142, t31 * t129);
+    // first moments by platform coordinate of the payload's inertia force
+    let t250 = mul_add(t79, w(0.188852), t234 * w(0.013354412));
+    // inertia less external wrench that the actuators must balance
+    let t251 = mul_add(t5, P::splat(external_wrench[2]), t241);
+    let t252 = P::triple([P::lane(t225, 1), P::lane(t225, 2), P::lane(t225, 0)]);
+    // force along the actuator that balances the remaining wrench
+    let t253 = P::mul_add(P::lane(t129, 0), P::lane(t229, 0), t246);
+    // inertia less external wrench that the actuators must balance
+    let t254 = neg_mul_add(t202, t252, mul_add(t194, t242, t238));
+    // force along the actuator that balances the remaining wrench
+    let t255 = mul_add(t158, P::splat(P::lane(t243, 0)), t245);
+    // inertia force less weight, without the actuators' own shares
+    let t256 = mul_add(t79, w(8.139999999999999), t239 + t240 + t247);
+    // legs 1, 3, 4: row of the actuator Jacobian in base coordinates
+    let t257 = neg_mul_add(t98, t147, t29);
+    let t258 = mul_sub(t29, t158, t34 * t147);
+    // first moments by platform coordinate of the payload's inertia force
+    let t259 = P::triple([P::lane(t244, 2), P::lane(t244, 0), P::lane(t244, 1)]);
+    // force along the actuator that balances the remaining wrench
+    let t260 = mul_add(t147, P::splat(P::lane(t229, 1)), P::splat(P::lane(t232, 1)));
+    let t261 = P::mul_add(P::lane(t129, 2), P::lane(t229, 2), t253);
+    // inertia force less weight, without the actuators' own shares
+    let t262 = mul_add(t234, w(0.188852), t256);
+    // first moments by platform coordinate of the payload's inertia force
+    let t263 = P::triple([P::lane(t250, 2), P::lane(t250, 0), P::lane(t250, 1)]);
+    // inertia less external wrench that the actuators must balance
+    let t264 = P::triple([P::lane(t251, 2), P::lane(t251, 0), P::lane(t251, 1)]);
+    let t265 = P::triple([P::lane(t244, 1), P::lane(t244, 2), P::lane(t244, 0)]);
+    let t266 = neg_mul_add(t264, w(0.031), t263);
+    // force along the actuator that balances the remaining wrench
+    let t267 = mul_add(t158, P::splat(P::lane(t243, 1)), t260);
+    let t268 = mul_add(t147, P::splat(P::lane(t229, 2)), P::splat(P::lane(t232, 2)));
+    let t269 = mul_sub(t257, P::splat(t261), t255 * P::splat(P::lane(t248, 0)));
+    let t270 = mul_sub(t258, P::splat(t261), t255 * P::splat(P::lane(t249, 0)));
+    // inertia less external wrench that the actuators must balance
+    let t271 = neg_mul_add(t215, t265, mul_add(t207, t259, t254));
+    let t272 = t262 - t251;
+    // legs 2, 5, 6: row of the actuator Jacobian in base coordinates
+    let t273 = neg_mul_add(t81, t142, t31);
+    // force along the actuator that balances the remaining wrench
+    let t274 = mul_add(t158, P::splat(P::lane(t243, 2)), t268);
+    let t275 = neg_mul_add(P::splat(P::lane(t248, 1)), t267, t269);
+    let t276 = neg_mul_add(P::splat(P::lane(t249, 1)), t267, t270);
+    // legs 1, 3, 4: row of the actuator Jacobian in base coordinates
+    let t277 = neg_mul_add(t98, t158, t34);
+    // inertia less external wrench that the actuators must balance
+    let t278 = P::triple([P::lane(t266, 2), P::lane(t266, 0), P::lane(t266, 1)]);
+    // force along the actuator that balances the remaining wrench
+    let t279 = neg_mul_add(P::splat(P::lane(t248, 2)), t274, t275);
+    let t280 = neg_mul_add(P::splat(P::lane(t249, 2)), t274, t276);
+    // inertia less external wrench that the actuators must balance
+    let t281 = neg_mul_add(t211, t278, mul_add(t205, t266, t271));
+    // force along the actuator that balances the remaining wrench
+    let t282 = t243 * P::splat(P::lane(t272, 1));
+    let t283 = mul_add(t229, P::splat(P::lane(t272, 0)), t282);
+    let t284 = mul_sub(P::splat(t261), t277, t255 * P::splat(P::lane(t273, 0)));
+    // inertia less external wrench that the actuators must balance
+    let t285 = neg_mul_add(t2, P::splat(external_wrench[3]), t281);
+    // force along the actuator that balances the remaining wrench
+    let t286 = mul_add(t232, P::splat(P::lane(t272, 2)), t283);
+    let t287 = neg_mul_add(t267, P::splat(P::lane(t273, 1)), t284);
+    let t288 = P::triple([P::lane(t279, 2), P::lane(t279, 0), P::lane(t279, 1)]);
+    let t289 = P::triple([P::lane(t279, 1), P::lane(t279, 2), P::lane(t279, 0)]);
+    let t290 = P::triple([P::lane(t280, 1), P::lane(t280, 2), P::lane(t280, 0)]);
+    // inertia less external wrench that the actuators must balance
+    let t291 = neg_mul_add(t1, P::splat(external_wrench[4]), t285);
+    // force along the actuator that balances the remaining wrench
+    let t292 = P::triple([P::lane(t280, 2), P::lane(t280, 0), P::lane(t280, 1)]);
+    let t293 = neg_mul_add(t274, P::splat(P::lane(t273, 2)), t287);
     // leg 2: row of the actuator Jacobian in base coordinates
-    let t310 = P::triple([P::lane(t241, 0), -P::lane(t239, 0), P::lane(t242, 0)]);
+    let t294 = P::triple([P::lane(t273, 0), -P::lane(t248, 0), P::lane(t249, 0)]);
     // force along the actuator that balances the remaining wrench
-    let t311 = mul_sub(t240, P::splat(t306), P::splat(P::lane(t239, 0)) * t304);
-    let t312 = mul_sub(t243, P::splat(t306), P::splat(P::lane(t242, 0)) * t304);
-    let t313 = mul_add(t295, P::splat(P::lane(t274, 2)), t307);
-    let t314 = mul_sub(t244, P::splat(t306), P::splat(P::lane(t241, 0)) * t304);
+    let t295 = mul_sub(t289, t292, t288 * t290);
+    // inertia less external wrench that the actuators must balance
+    let t296 = neg_mul_add(t5, P::splat(external_wrench[5]), t291);
     // leg 5: row of the actuator Jacobian in base coordinates
-    let t315 = P::triple([P::lane(t241, 1), -P::lane(t239, 1), P::lane(t242, 1)]);
+    let t297 = P::triple([P::lane(t273, 1), -P::lane(t248, 1), P::lane(t249, 1)]);
+    // force along the actuator that balances the remaining wrench
+    let t298 = mul_sub(P::splat(t261), t296, P::splat(P::lane(t286, 0)) * t294);
     // leg 6: row of the actuator Jacobian in base coordinates
-    let t316 = P::triple([P::lane(t241, 2), -P::lane(t239, 2), P::lane(t242, 2)]);
+    let t299 = P::triple([P::lane(t273, 2), -P::lane(t248, 2), P::lane(t249, 2)]);
     // force along the actuator that balances the remaining wrench
-    let t317 = neg_mul_add(P::splat(P::lane(t239, 1)), t308, t311);
-    let t318 = neg_mul_add(P::splat(P::lane(t242, 1)), t308, t312);
-    let t319 = neg_mul_add(P::splat(P::lane(t241, 1)), t308, t314);
-    let t320 = neg_mul_add(P::splat(P::lane(t239, 2)), t309, t317);
-    let t321 = neg_mul_add(P::splat(P::lane(t242, 2)), t309, t318);
-    let t322 = neg_mul_add(P::splat(P::lane(t241, 2)), t309, t319);
-    let t323 = mul_sub(t294, P::splat(t306), t310 * P::splat(P::lane(t313, 0)));
-    let t324 = neg_mul_add(t315, P::splat(P::lane(t313, 1)), t323);
-    let t325 = P::triple([P::lane(t320, 2), P::lane(t320, 0), P::lane(t320, 1)]);
-    let t326 = P::triple([P::lane(t320, 1), P::lane(t320, 2), P::lane(t320, 0)]);
-    let t327 = P::triple([P::lane(t321, 1), P::lane(t321, 2), P::lane(t321, 0)]);
-    let t328 = P::triple([P::lane(t321, 2), P::lane(t321, 0), P::lane(t321, 1)]);
-    let t329 = neg_mul_add(t316, P::splat(P::lane(t313, 2)), t324);
-    let t330 = P::triple([P::lane(t322, 1), P::lane(t322, 2), P::lane(t322, 0)]);
-    let t331 = mul_sub(t326, t328, t325 * t327);
-    let t332 = P::triple([P::lane(t322, 2), P::lane(t322, 0), P::lane(t322, 1)]);
-    let t333 = mul_sub(t325, t330, t326 * t332);
-    let t334 = c(1.0) / t306;
-    let t335 = P::triple([P::lane(t304, 0), P::lane(t308, 0), P::lane(t309, 0)]);
-    let t336 = P::splat(P::lane(t329, 1)) * mul_sub(t327, t332, t328 * t330);
-    let t337 = P::lane(t322, 1) * P::lane(t331, 1);
-    let t338 = mul_sub(t331, P::splat(P::lane(t329, 0)), t336);
-    let t339 = P::mul_add(P::lane(t322, 0), P::lane(t331, 0), t337);
+    let t300 = P::lane(t293, 1) * P::lane(t295, 1);
+    let t301 = neg_mul_add(P::splat(P::lane(t286, 1)), t297, t298);
+    let t302 = P::triple([P::lane(t293, 1), P::lane(t293, 2), P::lane(t293, 0)]);
+    let t303 = P::triple([P::lane(t293, 2), P::lane(t293, 0), P::lane(t293, 1)]);
+    let t304 = P::mul_add(P::lane(t293, 0), P::lane(t295, 0), t300);
+    let t305 = neg_mul_add(P::splat(P::lane(t286, 2)), t299, t301);
+    let t306 = mul_sub(t288, t302, t289 * t303);
+    // legs 2, 5, 6: leg inertia less weight along the actuator
+    let t307 = P::lane(t32, 0) * P::lane(t32, 0);
+    let t308 = mul_add(t10, P::splat(P::lane(t217, 2)), P::splat(P::lane(t79, 2)));
+    // legs 1, 3, 4: leg inertia less weight along the actuator
+    let t309 = mul_add(t12, P::splat(P::lane(t217, 2)), P::splat(P::lane(t79, 2)));
+    // legs 2, 5, 6: leg inertia less weight along the actuator
+    let t310 = P::mul_add(P::lane(t32, 1), P::lane(t32, 1), t307);
+    // force along the actuator that balances the remaining wrench
+    let t311 = c(1.0) / P::mul_add(P::lane(t293, 2), P::lane(t295, 2), t304);
+    // legs 2, 5, 6: leg inertia less weight along the actuator
+    let t312 = mul_add(t9, P::splat(P::lane(t236, 2)), t308);
+    // force along the actuator that balances the remaining wrench
+    let t313 = mul_sub(t290, t303, t292 * t302) * P::splat(P::lane(t305, 1));
+    let t314 = c(1.0) / t261;
+    // legs 1, 3, 4: leg inertia less weight along the actuator
+    let t315 = mul_add(t11, P::splat(P::lane(t236, 2)), t309);
+    // force along the actuator that balances the remaining wrench
+    let t316 = P::triple([P::lane(t255, 0), P::lane(t267, 0), P::lane(t274, 0)]);
+    let t317 = mul_sub(t295, P::splat(P::lane(t305, 0)), t313);
+    // legs 2, 5, 6: leg inertia less weight along the actuator
+    let t318 = w(0.17066666666666666) * t312;
+    let t319 = neg_mul_add(P::splat(t310), w(0.05), t180);
+    // legs 1, 3, 4: leg inertia less weight along the actuator
+    let t320 = w(0.17066666666666666) * t315;
+    let t321 = mul_sub(P::splat(t310), w(0.05), t190);
+    // legs 2, 5, 6: leg inertia less weight along the actuator
+    let t322 = mul_sub(t180, w(0.3413333333333334), t318);
+    // force along the actuator that balances the remaining wrench
+    let t323 = mul_add(t306, P::splat(P::lane(t305, 2)), t317);
+    // legs 1, 3, 4: leg inertia less weight along the actuator
+    let t324 = mul_sub(t190, w(0.3413333333333334), t320);
+    // force along the actuator that balances the remaining wrench
+    let t325 = P::triple([P::lane(t255, 1), P::lane(t267, 1), P::lane(t274, 1)]);
+    // legs 2, 5, 6: spring and damper force along the actuator
+    let t326 = t108 - w(0.198);
+    // legs 2, 5, 6: leg inertia less weight along the actuator
+    let t327 = mul_add(t319, w(0.611), t322);
+    // legs 1, 3, 4: spring and damper force along the actuator
+    let t328 = t128 - w(0.198);
+    // force along the actuator that balances the remaining wrench
+    let t329 = P::splat(t311) * t323;
+    // legs 1, 3, 4: leg inertia less weight along the actuator
+    let t330 = neg_mul_add(t321, w(0.611), t324);
+    // force along the actuator that balances the remaining wrench
+    let t331 = P::triple([P::lane(t255, 2), P::lane(t267, 2), P::lane(t274, 2)]);
     // legs 2, 5, 6: actuator forces F
-    let t340 = neg_mul_add(t248, w(21555.9), t235);
+    let t332 = neg_mul_add(t326, w(21555.9), t327);
     // force along the actuator that balances the remaining wrench
-    let t341 = P::triple([P::lane(t304, 1), P::lane(t308, 1), P::lane(t309, 1)]);
-    let t342 = mul_add(t333, P::splat(P::lane(t329, 2)), t338);
+    let t333 = neg_mul_add(t316, P::splat(P::lane(t329, 0)), t286);
     // legs 1, 3, 4: actuator forces F
-    let t343 = neg_mul_add(t249, w(21555.9), t245);
+    let t334 = neg_mul_add(t328, w(21555.9), t330);
     // force along the actuator that balances the remaining wrench
-    let t344 = P::triple([P::lane(t304, 2), P::lane(t308, 2), P::lane(t309, 2)]);
-    let t345 = c(1.0) / P::mul_add(P::lane(t322, 2), P::lane(t331, 2), t339);
-    let t346 = t342 * P::splat(t345);
+    let t335 = neg_mul_add(t325, P::splat(P::lane(t329, 1)), t333);
     // legs 1, 3, 4: actuator forces F
-    let t347 = mul_sub(t342, P::splat(t345), t343);
+    let t336 = mul_sub(P::splat(t311), t323, t334);
     // force along the actuator that balances the remaining wrench
-    let t348 = neg_mul_add(t335, P::splat(P::lane(t346, 0)), t313);
-    let t349 = neg_mul_add(t341, P::splat(P::lane(t346, 1)), t348);
-    let t350 = neg_mul_add(t344, P::splat(P::lane(t346, 2)), t349);
+    let t337 = neg_mul_add(t331, P::splat(P::lane(t329, 2)), t335);
     // legs 2, 5, 6: actuator forces F
-    let t351 = mul_sub(P::splat(t334), t350, t340);
+    let t338 = mul_sub(P::splat(t314), t337, t332);
     // leg 1: actuator forces F
-    inverse_dynamics[0] = P::lane(t347, 0);
+    inverse_dynamics[0] = P::lane(t336, 0);
     // leg 2: actuator forces F
-    inverse_dynamics[1] = P::lane(t351, 0);
+    inverse_dynamics[1] = P::lane(t338, 0);
     // leg 3: actuator forces F
-    inverse_dynamics[2] = P::lane(t347, 1);
+    inverse_dynamics[2] = P::lane(t336, 1);
     // leg 4: actuator forces F
-    inverse_dynamics[3] = P::lane(t347, 2);
+    inverse_dynamics[3] = P::lane(t336, 2);
     // leg 5: actuator forces F
-    inverse_dynamics[4] = P::lane(t351, 1);
+    inverse_dynamics[4] = P::lane(t338, 1);
     // leg 6: actuator forces F
-    inverse_dynamics[5] = P::lane(t351, 2);
+    inverse_dynamics[5] = P::lane(t338, 2);
 }
