@@ -13,10 +13,13 @@ use dyn_platform::Platform;
 /// The functions that are looked at.
 pub const FUNCTIONS: [&str; 3] = ["inverse_dynamics", "forward_dynamics", "matrices"];
 
+/// Passes that a model cannot do without: it would have no numbers, and a system of equations that nothing solves.
+const NEEDED: [&str; 2] = ["bake", "expand"];
+
 /// A pipeline with passes missing.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Variant {
-    /// `all`, `without PASS`, `PASS alone` or `bake alone`.
+    /// `all`, `without PASS`, `PASS alone` or `none`.
     pub name: String,
     /// Names of the passes and steps that do not run.
     pub without: Vec<String>,
@@ -29,19 +32,20 @@ impl Variant {
     }
 }
 
-/// Every pass; each pass and each step of packing left out; each pass alone after `bake`, without which a model has no numbers.
+/// Every pass; each pass and each step of packing left out; each pass alone beside [`NEEDED`], and none beside them.
 pub fn variants() -> Vec<Variant> {
-    let names = || PASSES.iter().map(|pass| pass.name);
+    let names = || PASSES.iter().map(|pass| pass.name).filter(|name| !NEEDED.contains(name));
     let variant = |name: String, without: Vec<&str>| Variant {
         name,
         without: without.into_iter().map(str::to_owned).collect(),
     };
-    let left_out = names().skip(1).chain(STEPS).map(|name| variant(format!("without {name}"), vec![name]));
+    let left_out = names().chain(STEPS).map(|name| variant(format!("without {name}"), vec![name]));
     let alone = names().map(|name| {
-        let others = names().filter(|&other| other != name && other != "bake").collect();
+        let others = names().filter(|&other| other != name).collect();
         variant(format!("{name} alone"), others)
     });
-    std::iter::once(variant("all".into(), Vec::new())).chain(left_out).chain(alone).collect()
+    let none = variant("none".into(), names().collect());
+    std::iter::once(variant("all".into(), Vec::new())).chain(left_out).chain(alone).chain([none]).collect()
 }
 
 /// Writes the models of a platform, one file per variant.

@@ -44,7 +44,7 @@ pub struct Options {
     /// At which states the model is examined before it is printed; not at all when `None`.
     pub evidence: Option<Sampling>,
     /// Names of [`PASSES`](crate::passes::PASSES) and of [`STEPS`](crate::pack::STEPS) that do not run; none unless one wants to
-    /// see what they are worth. Without `bake` nothing is printed that could be compiled.
+    /// see what they are worth. Without `bake` or `expand` nothing is printed that could be compiled.
     pub without: Vec<String>,
 }
 

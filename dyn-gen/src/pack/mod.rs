@@ -36,7 +36,7 @@ pub struct Packed {
 }
 
 /// Steps of [`pack`] that a function in lanes can do without.
-pub const STEPS: [&str; 4] = ["partition", "blocks", "sums", "order"];
+pub const STEPS: [&str; 3] = ["partition", "sums", "order"];
 
 /// A flattened function of `leg_count` legs in lanes, its parameters baked as `context` says; `groups` as
 /// [`Program::flatten_with_groups`](crate::graph::Program::flatten_with_groups) gives them.
@@ -46,11 +46,7 @@ pub fn pack(graph: &Graph, groups: Vec<Group>, leg_count: usize, context: &Conte
     } else {
         Partition::in_order(leg_count)
     };
-    let (graph, groups) = if context.runs("blocks") {
-        blocks::expand(graph, groups, &partition)
-    } else {
-        (graph.clone(), groups)
-    };
+    let (graph, groups) = blocks::expand(graph, groups, &partition);
     let (graph, groups) = if context.runs("sums") {
         sums::regroup(&graph, groups, context, &partition)
     } else {
